@@ -1,0 +1,32 @@
+// Pixel grids on the CPU, row 0 at the top, and their files (PNG for 8 bits, PFM for floats).
+#pragma once
+
+#include <cstdint>
+#include <filesystem>
+#include <vector>
+
+#include "base/expected.h"
+
+namespace tenebra {
+
+/// `channels` interleaved values a pixel; pixels.size() == width * height * channels.
+template <class T>
+struct Image {
+  int width = 0;
+  int height = 0;
+  int channels = 1;
+  std::vector<T> pixels;
+
+  bool operator==(const Image&) const = default;
+};
+using Image8 = Image<std::uint8_t>;   ///< sRGB-encoded colour, or a mask (255 lit, 0 shadowed)
+using ImageF = Image<float>;          ///< linear values
+
+/// Writes an 8-bit PNG (1, 3 or 4 channels), whole or not at all (see write_file).
+Expected<void> write_png(const std::filesystem::path& path, const Image8& image);
+/// Reads an 8-bit PNG as stored (1 to 4 channels). Refuses what is not a PNG and more than 2^28 pixels.
+Expected<Image8> read_png(const std::filesystem::path& path);
+/// Writes a 32-bit little-endian PFM (1 or 3 channels), whole or not at all.
+Expected<void> write_pfm(const std::filesystem::path& path, const ImageF& image);
+
+}  // namespace tenebra

@@ -1,0 +1,75 @@
+// The whole frame: OpenGL passes and shadow masks in the order of the 2011 paper's section 3.1.
+#pragma once
+
+#include <cstdint>
+#include <memory>
+#include <string>
+#include <vector>
+
+#include "base/expected.h"
+#include "base/frame_timings.h"
+#include "base/image.h"
+#include "gl/context.h"
+#include "scene/frame_geometry.h"
+#include "scene/scene.h"
+#include "shadow/mask.h"
+
+namespace tenebra {
+
+enum class ShadowMode { none, hard };
+
+/// Where the shadow rays start: points computed from triangle ids (exact, no bias), or the paper's
+/// reconstruction from the depth buffer (for comparison; front-face culling instead of a bias).
+enum class SampleSource { ids, depth };
+
+struct RenderSettings {
+  int width = 800;
+  int height = 600;
+  ShadowMode shadows = ShadowMode::hard;
+  SampleSource samples = SampleSource::ids;
+  HardShadowConfig hard;
+  int light = -1;          ///< index into the frame's lights; -1: all
+  int threads = 0;         ///< 0: all cores
+  float exposure = 1.0f;   ///< factor of linear colour before it is clamped
+};
+
+/// What is drawn: one instant of a scene from one camera.
+struct FrameInput {
+  FrameGeometry geometry;
+  std::vector<WorldLight> lights;
+  ViewRays view;
+};
+
+struct LightMask {
+  int light = -1;   ///< index into FrameInput::lights
+  Image8 mask;      ///< 255 lit, 0 shadowed, facing away, out of reach or background
+};
+
+struct FrameResult {
+  Image8 image;                   ///< RGB, sRGB-encoded
+  std::vector<LightMask> masks;   ///< one a light drawn; empty without shadows
+  FrameTimings timings;
+  TraceStats stats;
+};
+
+/// Owns the OpenGL objects of one scene. Use it on the thread that created its context.
+class Renderer {
+ public:
+  /// Fails with a sentence if the context lacks OpenGL 4.5 core or a shader does not build.
+  static Expected<Renderer> create(gl::Context context, const Scene& scene);
+  Renderer(Renderer&&) noexcept;
+  Renderer& operator=(Renderer&&) noexcept;
+  ~Renderer();
+
+  /// One frame; `result` keeps its capacity. Fails on sizes OpenGL cannot draw or a lost context.
+  Expected<void> render_frame(const FrameInput& input, const RenderSettings& settings, FrameResult& result);
+
+  const std::string& gl_renderer() const;  ///< GL_RENDERER and GL_VERSION of the context
+
+ private:
+  struct State;
+  explicit Renderer(std::unique_ptr<State> state);
+  std::unique_ptr<State> state_;
+};
+
+}  // namespace tenebra
