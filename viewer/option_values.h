@@ -34,18 +34,20 @@ Expected<double> parse_time(const std::string& text);             ///< seconds, 
 Expected<int> parse_count(const std::string& text);               ///< whole, 0 to 1,000,000
 
 /// Adds an option whose value `parse` reads into `target`; its failure becomes "NAME: sentence".
-/// `target` must live as long as `command`.
+/// Given twice, the last counts. `target` must live as long as `command`.
 template <class Target, class Value>
 CLI::Option* add_value(CLI::App& command, const std::string& name, Target& target,
                        Expected<Value> (*parse)(const std::string&), const std::string& help) {
-  return command.add_option_function<std::string>(
-      name,
-      [&target, parse, name](const std::string& text) {
-        auto value = parse(text);
-        if (!value) throw CLI::ValidationError(name, value.error().message);
-        target = std::move(*value);
-      },
-      help);
+  return command
+      .add_option_function<std::string>(
+          name,
+          [&target, parse, name](const std::string& text) {
+            auto value = parse(text);
+            if (!value) throw CLI::ValidationError(name, value.error().message);
+            target = std::move(*value);
+          },
+          help)
+      ->take_last();
 }
 
 }  // namespace tenebra::viewer
