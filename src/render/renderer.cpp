@@ -49,14 +49,14 @@ struct Renderer::State {
   GBufferPass gbuffer_pass;
   LightPass light_pass;
   Compositor compositor;
-  GBuffer gbuffer;
-  LightBuffer light_buffer;
+  GBuffer gbuffer{};
+  LightBuffer light_buffer{};
 
-  std::vector<std::uint32_t> ids;
-  std::vector<float> depth;
-  VisiblePoints points;
-  ShadowTracer tracer;
-  ShadowMask mask;
+  std::vector<std::uint32_t> ids{};
+  std::vector<float> depth{};
+  VisiblePoints points{};
+  ShadowTracer tracer{};
+  ShadowMask mask{};
 
   Expected<std::vector<int>> chosen_lights(const FrameInput& input, const RenderSettings& settings) const;
   void read_samples(const FrameInput& input, const RenderSettings& settings, FrameTimings& timings);
