@@ -56,6 +56,23 @@ inline void add_triangle(FrameGeometry& g, glm::vec3 a, glm::vec3 b, glm::vec3 c
   g.casts_shadow.push_back(1);
 }
 
+inline Light make_light(LightType type, float intensity = 1.0f, Falloff falloff = Falloff::inverse_square) {
+  Light light;
+  light.type = type;
+  light.intensity = intensity;
+  light.falloff = falloff;
+  return light;
+}
+
+inline Material make_material(glm::vec3 base_color, glm::vec3 ambient = glm::vec3(-1.0f),
+                              glm::vec3 emissive = glm::vec3(0.0f)) {
+  Material material;
+  material.base_color = base_color;
+  material.ambient = ambient;
+  material.emissive = emissive;
+  return material;
+}
+
 /// Triangles of all sizes and directions in the cube of half side `size` around `centre`.
 inline FrameGeometry random_soup(int count, glm::vec3 centre, float size, unsigned seed) {
   std::mt19937 random(seed);
