@@ -1,8 +1,9 @@
 #include "shadow/mask.h"
 
-#include <chrono>
+#include <bit>
 #include <numeric>
 
+#include "base/stopwatch.h"
 #include "parallel/parallel.h"
 #include "shadow/cone_tree.h"
 #include "shadow/shadow_rays.h"
@@ -43,23 +44,9 @@ VariantParts parts_of(Variant variant) {
   return {};
 }
 
-/// Milliseconds since the last call.
-class Stopwatch {
- public:
-  double lap_ms() {
-    const auto now = std::chrono::steady_clock::now();
-    const double ms = std::chrono::duration<double, std::milli>(now - last_).count();
-    last_ = now;
-    return ms;
-  }
-
- private:
-  std::chrono::steady_clock::time_point last_ = std::chrono::steady_clock::now();
-};
-
 std::uint64_t live_rays(const ConeTree& tree) {
   std::uint64_t live = 0;
-  for (const RayPacket& packet : tree.packets) live += static_cast<std::uint64_t>(__builtin_popcount(packet.live));
+  for (const RayPacket& packet : tree.packets) live += static_cast<std::uint64_t>(std::popcount(packet.live));
   return live;
 }
 
