@@ -115,7 +115,7 @@ void add_time_options(CLI::App& command, RenderOptions& options) {
       ->type_name("S")
       ->excludes(frames);
   add_value(command, "--fps", options.fps, parse_positive,
-            "Frames a second where the scene does not state its frames (glTF) [30]")
+            "Frames a second where the scene does not state\nits frames (glTF) [30]")
       ->type_name("F");
   command.add_option("--clip", options.clip, "Animation, by name or number [the first]")->type_name("NAME|N");
 }
@@ -154,18 +154,18 @@ void add_shadow_options(CLI::App& command, RenderOptions& options) {
       ->type_name("V");
   add_value(
       command, "--samples", render.samples, parse_samples,
-      "Where shadow rays start: exact points from triangle ids, or the paper's from the depth buffer [ids]")
+      "Where shadow rays start: exact points from triangle\nids, or the paper's from the depth buffer [ids]")
       ->type_name("ids|depth");
-  add_value(
-      command, "--cull", options.cull_front, parse_cull,
-      "front: only faces turned away from the light cast; for closed meshes [none; front with depth samples]")
+  add_value(command, "--cull", options.cull_front, parse_cull,
+            "front: only faces turned away from the light cast;\nfor closed meshes [none; front with depth "
+            "samples]")
       ->type_name("front|none");
   add_value(command, "--light", render.light, parse_light, "One light, by number, or all [all]")
       ->type_name("N|all");
   add_value(command, "--threads", render.threads, parse_threads, "Threads of the shadow pass [0: all cores]")
       ->type_name("N");
   add_value(command, "--simd", render.hard.simd, parse_simd,
-            "Vector instructions: auto, scalar, sse4, avx2 or avx512; the same mask with each [auto]")
+            "Vector instructions: auto, scalar, sse4, avx2 or avx512;\nthe same mask with each [auto]")
       ->type_name("LEVEL");
   add_value(command, "--context", options.context, parse_context, "Offscreen OpenGL [auto: EGL, else OSMesa]")
       ->type_name("auto|egl|osmesa");
@@ -177,7 +177,7 @@ void add_output_options(CLI::App& command, RenderOptions& options) {
             "Pictures, %04d is the frame; none: no pictures [out/%04d.png]")
       ->type_name("FILE.png");
   add_value(command, "--mask", options.masks, OutputPattern::parse,
-            "Shadow masks: 255 lit, 0 shadowed, turned away or background; several lights add _L0, _L1, ...")
+            "Shadow masks: 255 lit, 0 shadowed, turned away or background;\nseveral lights add _L0, _L1, ...")
       ->type_name("FILE.png");
   command.add_option("--log", options.log, "Time and work of each frame")->type_name("FILE.csv");
   command.add_option("--trace", options.trace, "The same for Perfetto or chrome://tracing")

@@ -28,16 +28,16 @@ Expected<int> choose(const std::vector<Named>& list, const std::optional<std::st
 }  // namespace
 
 void print_warnings(const std::vector<std::string>& warnings) {
-  for (const std::string& warning : warnings) print_error("tenebra: warning: {}\n", warning);
+  for (const std::string& warning : warnings) print_error("warning: {}\n", warning);
 }
 
 Expected<int> choose_clip(const Scene& scene, const std::optional<std::string>& wanted) {
   if (scene.clips.empty() && !wanted) return -1;
-  return choose(scene.clips, wanted, "animation");
+  return choose(scene.clips, wanted, "--clip");
 }
 
 Expected<int> choose_camera(const Scene& scene, const std::optional<std::string>& wanted) {
-  return choose(scene.cameras, wanted, "camera");
+  return choose(scene.cameras, wanted, "--camera");
 }
 
 double time_of_frame(const Scene& scene, int clip, int frame, double fps) {

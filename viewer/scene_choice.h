@@ -11,7 +11,7 @@
 
 namespace tenebra::viewer {
 
-/// "tenebra: warning: ..." on standard error, one line each.
+/// "warning: ..." on standard error, one line each.
 void print_warnings(const std::vector<std::string>& warnings);
 
 /// Index of the clip called `wanted`, else numbered so; without `wanted` the first. -1: the scene has none.
