@@ -8,10 +8,40 @@
 
 #include <algorithm>
 
+#ifdef TENEBRA_THREAD_SANITIZER
+extern "C" void __tsan_acquire(void*);
+extern "C" void __tsan_release(void*);
+#else
+namespace {
+void __tsan_acquire(void*) {}
+void __tsan_release(void*) {}
+}  // namespace
+#endif
+
 namespace tenebra {
 
 namespace {
+
 constexpr unsigned ieee_defaults = 0x1f80;  // MXCSR: all exceptions masked, to nearest, no FTZ, no DAZ
+
+// What a loop is to the thread sanitizer: libtbb is not instrumented, nor is this file, so the order that they
+// keep (the caller before each body, each body before the caller goes on) has to be said.
+class Loop {
+ public:
+  Loop() { __tsan_release(this); }
+  ~Loop() { __tsan_acquire(this); }
+  Loop(const Loop&) = delete;
+  Loop& operator=(const Loop&) = delete;
+
+  template <class Body>
+  void run(const Body& body) {
+    __tsan_acquire(this);
+    const FloatEnvironment ieee;
+    body();
+    __tsan_release(this);
+  }
+};
+
 }  // namespace
 
 FloatEnvironment::FloatEnvironment() : saved_(_mm_getcsr()) { _mm_setcsr(ieee_defaults); }
@@ -32,17 +62,15 @@ int thread_count() { return tbb::this_task_arena::max_concurrency(); }
 void parallel_ranges(std::size_t count, std::size_t grain,
                      const std::function<void(std::size_t, std::size_t)>& body) {
   const std::size_t ranges = (count + grain - 1) / grain;
+  Loop loop;
   tbb::parallel_for(std::size_t{0}, ranges, [&](std::size_t i) {
-    const FloatEnvironment ieee;
-    body(i * grain, std::min(count, (i + 1) * grain));
+    loop.run([&] { body(i * grain, std::min(count, (i + 1) * grain)); });
   });
 }
 
 void parallel_tasks(int count, const std::function<void(int)>& body) {
-  tbb::parallel_for(0, count, [&](int i) {
-    const FloatEnvironment ieee;
-    body(i);
-  });
+  Loop loop;
+  tbb::parallel_for(0, count, [&](int i) { loop.run([&] { body(i); }); });
 }
 
 int thread_index() { return std::max(0, tbb::this_task_arena::current_thread_index()); }
