@@ -29,7 +29,7 @@ constexpr const char* first_steps =
     "A failure is one sentence on standard error and exit code 1.";
 
 int report(const std::string& sentence, int code) {
-  tenebra::viewer::print_error("tenebra: {}\n", sentence);
+  tenebra::viewer::print_error("tenebra: {}{}\n", sentence, sentence.ends_with('.') ? "" : ".");
   return code;
 }
 

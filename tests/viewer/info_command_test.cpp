@@ -24,7 +24,7 @@ void expect_moving_scene(const json& info) {
   ASSERT_EQ(info["lights"].size(), 2u);
   EXPECT_EQ(info["lights"][1]["type"], "point");
   EXPECT_EQ(info["lights"][1]["position_m"], json({1.0, 3.0, 0.0}));
-  EXPECT_EQ(info["lights"][1]["intensity"], 100.0);
+  EXPECT_EQ(info["lights"][1]["intensity"], 10.0);
   ASSERT_EQ(info["cameras"].size(), 1u);
   EXPECT_EQ(info["cameras"][0]["name"], "eye");
   EXPECT_NEAR(info["cameras"][0]["vertical_fov_deg"], 45.8366, 1e-3);

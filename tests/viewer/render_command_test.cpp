@@ -125,7 +125,8 @@ TEST(RenderCommand, LogsEveryFrameAndHowItWasMade) {
     EXPECT_NE(log.find(setting), std::string::npos) << setting << "\n" << log;
   }
   int frames = 0;
-  for (const json& event : json::parse(read_text(folder / "trace.json"))["traceEvents"]) {
+  const json trace = json::parse(read_text(folder / "trace.json"));
+  for (const json& event : trace["traceEvents"]) {
     frames += event["name"].get<std::string>().starts_with("frame ") ? 1 : 0;
   }
   EXPECT_EQ(frames, 21);

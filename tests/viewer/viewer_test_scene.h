@@ -35,7 +35,7 @@ inline std::filesystem::path write_moving_scene(const TemporaryFolder& folder, i
   std::string roots = "0,1,2";
   for (int i = 0; i < lights; ++i) {
     const std::string number = std::to_string(i);
-    light_list.append(i == 0 ? "" : ",").append(R"({"type":"point","intensity":100})");
+    light_list.append(i == 0 ? "" : ",").append(R"({"type":"point","intensity":10})");
     light_nodes.append(R"(,{"translation":[)").append(number);
     light_nodes.append(R"(,3,0],"extensions":{"KHR_lights_punctual":{"light":)").append(number).append("}}}");
     roots.append(",").append(std::to_string(3 + i));
