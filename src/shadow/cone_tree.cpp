@@ -6,6 +6,7 @@
 #include <limits>
 
 #include "parallel/parallel.h"
+#include "shadow/ray_kernels.h"
 
 namespace tenebra {
 
@@ -20,18 +21,11 @@ constexpr float infinity = std::numeric_limits<float>::infinity();
 float round_up(double x) { return std::nextafter(static_cast<float>(x), infinity); }
 float round_down(double x) { return std::nextafter(static_cast<float>(x), -infinity); }
 
-struct Node {
-  vec3 w{0.0f};
-  float c = -1;
-  float near = infinity;
-  float far = -infinity;
-};
-
-Node node_at(const NodeBlock& block, int lane) {
+ConeNode node_at(const NodeBlock& block, int lane) {
   return {{block.wx[lane], block.wy[lane], block.wz[lane]}, block.c[lane], block.near[lane], block.far[lane]};
 }
 
-void set_node(NodeBlock& block, int lane, const Node& node) {
+void set_node(NodeBlock& block, int lane, const ConeNode& node) {
   block.wx[lane] = node.w.x;
   block.wy[lane] = node.w.y;
   block.wz[lane] = node.w.z;
@@ -74,8 +68,8 @@ float leaf_slack(const RaySource& source, float size, float radius, double near)
 }
 constexpr float widest_chord = 4;  // more than any chord of the unit sphere: bounds nothing, but is finite
 
-Node leaf_node(const RayPacket& packet, const RaySource& source) {
-  Node node;
+ConeNode leaf_node(const RayPacket& packet, const RaySource& source) {
+  ConeNode node;
   RaySpan spans[packet_size];
   vec3 low(infinity), high(-infinity);
   float size = 0;
@@ -105,12 +99,12 @@ Node leaf_node(const RayPacket& packet, const RaySource& source) {
   return node;
 }
 
-Node parent_of(const NodeBlock& children, const RaySource& source) {
-  Node node;
+ConeNode parent_of(const NodeBlock& children, const RaySource& source) {
+  ConeNode node;
   vec3 low(infinity), high(-infinity);
   for (int lane = 0; lane < branching; ++lane) {
     if (children.c[lane] < 0) continue;
-    const Node child = node_at(children, lane);
+    const ConeNode child = node_at(children, lane);
     low = glm::min(low, child.w - child.c);
     high = glm::max(high, child.w + child.c);
     node.near = std::min(node.near, child.near);
@@ -121,7 +115,7 @@ Node parent_of(const NodeBlock& children, const RaySource& source) {
   node.w = source.directional ? centre : unit_or_x(centre);
   for (int lane = 0; lane < branching; ++lane) {
     if (children.c[lane] < 0) continue;
-    const Node child = node_at(children, lane);
+    const ConeNode child = node_at(children, lane);
     node.c = std::max(node.c, distance(child.w, node.w) + child.c);
   }
   node.c = (1 + 8 * u) * node.c + (source.directional ? 1e-36f : 2 * u);
@@ -156,27 +150,32 @@ void fill_packet(std::span<const std::uint32_t> pixels, std::span<const dvec3> p
   packet.live = count == packet_size ? 0xffffu : (1u << count) - 1u;
 }
 
-void build_levels(const RaySource& source, ConeTree& tree) {
-  std::size_t nodes = tree.packets.size();
-  std::size_t level = 0;
-  for (;; ++level) {
-    if (tree.levels.size() <= level) tree.levels.emplace_back();
-    std::vector<NodeBlock>& blocks = tree.levels[level];
-    blocks.resize((nodes + branching - 1) / branching);
-    parallel_ranges(blocks.size(), 256, [&](std::size_t first, std::size_t last) {
-      for (std::size_t b = first; b < last; ++b) {
-        for (int lane = 0; lane < branching; ++lane) {
-          const std::size_t i = b * branching + lane;
-          Node node;
-          if (i < nodes) node = level == 0 ? leaf_node(tree.packets[i], source) : parent_of(tree.levels[level - 1][i], source);
-          set_node(blocks[b], lane, node);
-        }
+// Fills the blocks of one level; node_of(i) makes node i of `nodes`.
+template <class NodeOf>
+void build_level(std::size_t nodes, std::vector<NodeBlock>& blocks, const NodeOf& node_of) {
+  blocks.resize((nodes + branching - 1) / branching);
+  parallel_ranges(blocks.size(), 64, [&](std::size_t first, std::size_t last) {
+    for (std::size_t b = first; b < last; ++b) {
+      for (int lane = 0; lane < branching; ++lane) {
+        const std::size_t i = b * branching + static_cast<std::size_t>(lane);
+        set_node(blocks[b], lane, i < nodes ? node_of(i) : ConeNode{});
       }
-    });
-    if (nodes <= 1) break;
-    nodes = blocks.size();
+    }
+  });
+}
+
+template <class LeafOf>
+void build_levels(const RaySource& source, ConeTree& tree, const LeafOf& leaf_of) {
+  std::size_t nodes = tree.packets.size();
+  std::size_t depth = 1;
+  for (std::size_t n = nodes; n > 1; n = (n + branching - 1) / branching) ++depth;
+  tree.levels.resize(depth);
+  build_level(nodes, tree.levels[0], leaf_of);
+  for (std::size_t level = 1; level < depth; ++level) {
+    const std::vector<NodeBlock>& children = tree.levels[level - 1];
+    nodes = children.size();
+    build_level(nodes, tree.levels[level], [&](std::size_t i) { return parent_of(children[i], source); });
   }
-  tree.levels.resize(level + 1);
 }
 
 }  // namespace
@@ -192,21 +191,25 @@ std::array<std::size_t, 2> ConeTree::packet_range(std::size_t level, std::size_t
   return {std::min(packets.size(), node * width), std::min(packets.size(), (node + 1) * width)};
 }
 
-void build_cone_tree(const ShadowRays& rays, std::span<const dvec3> positions, const RaySource& source, ConeTree& out) {
+void build_cone_tree(const ShadowRays& rays, std::span<const dvec3> positions, const RaySource& source, SimdLevel simd,
+                     ConeTree& out) {
+  const RayKernels kernels = ray_kernels(simd);
   out.directional = source.directional;
   out.packets.resize((rays.pixels.size() + packet_size - 1) / packet_size);
   const std::span<const std::uint32_t> pixels(rays.pixels);
-  parallel_ranges(out.packets.size(), 256, [&](std::size_t first, std::size_t last) {
-    for (std::size_t i = first; i < last; ++i) {
-      const std::size_t begin = i * packet_size;
-      const std::size_t count = std::min<std::size_t>(packet_size, pixels.size() - begin);
-      fill_packet(pixels.subspan(begin, count), positions, source.origin, out.packets[i]);
-    }
+  build_levels(source, out, [&](std::size_t i) {
+    RayPacket& packet = out.packets[i];
+    const std::size_t begin = i * packet_size;
+    const std::size_t count = std::min<std::size_t>(packet_size, pixels.size() - begin);
+    fill_packet(pixels.subspan(begin, count), positions, source.origin, packet);
+    const bool ordinary = !source.directional && packet.reach > 1e-15f && packet.reach < 1e15f;
+    return ordinary ? kernels.cone_around(packet) : leaf_node(packet, source);
   });
-  build_levels(source, out);
 }
 
-void update_cone_tree(const RaySource& source, ConeTree& tree) { build_levels(source, tree); }
+void update_cone_tree(const RaySource& source, ConeTree& tree) {
+  build_levels(source, tree, [&](std::size_t i) { return leaf_node(tree.packets[i], source); });
+}
 
 float root_extent(const ConeTree& tree) {
   const float c = std::min(tree.levels.back()[0].c[0], 2.0f);

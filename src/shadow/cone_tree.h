@@ -5,6 +5,7 @@
 #include <array>
 #include <cstdint>
 #include <glm/glm.hpp>
+#include <limits>
 #include <span>
 #include <vector>
 
@@ -31,9 +32,16 @@ struct RayPacket {
   std::uint32_t live;  ///< bit i: a ray is there and not yet blocked
 };
 
-/// Four sibling nodes. Point lights: unit axis w, chord c >= |direction - w| of every ray, shortest and longest
-/// ray. Directional lights: w across the light's direction, radius c, lowest and highest position along it.
-/// A node without rays has c < 0.
+/// Point lights: unit axis w, chord c >= |direction - w| of every ray, shortest and longest ray. Directional lights:
+/// w across the light's direction, radius c, lowest and highest position along it. A node without rays has c < 0.
+struct ConeNode {
+  glm::vec3 w{0.0f};
+  float c = -1;
+  float near = std::numeric_limits<float>::infinity();
+  float far = -std::numeric_limits<float>::infinity();
+};
+
+/// Four sibling nodes.
 struct NodeBlock {
   float wx[4], wy[4], wz[4], c[4], near[4], far[4];
 };
@@ -52,7 +60,7 @@ struct ConeTree {
 
 /// Packets and tree of `rays`, bottom-up.
 void build_cone_tree(const ShadowRays& rays, std::span<const glm::dvec3> positions, const RaySource& source,
-                     ConeTree& out);
+                     SimdLevel simd, ConeTree& out);
 /// Bounds anew with the live rays only (section 3.4, between the two passes).
 void update_cone_tree(const RaySource& source, ConeTree& tree);
 

@@ -119,14 +119,14 @@ void ShadowTracer::trace_shadow_mask(const VisiblePoints& points, const ViewRays
   generate_shadow_rays(points, light, source, s.set, s.keys, s.rays, s.at_light);
   s.timings.rays_ms = watch.lap_ms();
 
-  if (parts.sorted) sort_shadow_rays(points, source, s.keys, s.rays);
+  if (parts.sorted) sort_shadow_rays(points, source, config.simd, s.keys, s.rays);
   s.timings.sort_ms = watch.lap_ms();
 
   s.tree.packets.clear();
   s.stats.triangles = s.set.casting;
   s.stats.degenerate_triangles = s.set.degenerate;
   if (!s.rays.pixels.empty()) {
-    build_cone_tree(s.rays, points.positions, source, s.tree);
+    build_cone_tree(s.rays, points.positions, source, config.simd, s.tree);
     s.timings.build_ms = watch.lap_ms();
     const Traversal traversal{{parts.spheres, parts.early_accept, source.directional}, &s.set, &s.rays, &s.tree, &source,
                               &triangles, points.positions, config.contact};

@@ -6,6 +6,7 @@
 #include <cmath>
 
 #include "parallel/parallel.h"
+#include "shadow/ray_kernels.h"
 
 namespace tenebra {
 
@@ -14,7 +15,6 @@ namespace {
 using glm::dvec3;
 
 constexpr std::uint32_t tile = 64;          // pixels a side of the squares that run in parallel
-constexpr std::uint32_t curve_cells = 1 << 14;
 
 // The part of a light's reach that is not a matter of facing. Double, in this order of operations everywhere.
 bool in_reach(const dvec3& p, const ShadowLight& light) {
@@ -62,25 +62,14 @@ void visit_along_z_curve(Tiles tiles, Visit&& visit) {
   }
 }
 
-// Grid cell 0..2^14-1 of t in -1..1.
-std::uint32_t cell(double t) {
-  const double scaled = (t + 1) * (curve_cells / 2);
-  return static_cast<std::uint32_t>(std::clamp(scaled, 0.0, static_cast<double>(curve_cells - 1)));
-}
-
-// Cube face 0..5 by the major axis and its sign, then the Hilbert index of the other two coordinates over it.
-std::uint32_t direction_key(const dvec3& p) {
-  const dvec3 a = glm::abs(p);
-  const int axis = a.x >= a.y && a.x >= a.z ? 0 : (a.y >= a.z ? 1 : 2);
-  const double major = p[axis];
-  const double inverse = 1 / std::abs(major);
-  const std::uint32_t face = static_cast<std::uint32_t>(2 * axis + (major < 0));
-  return face << 28 | hilbert_index(cell(p[(axis + 1) % 3] * inverse), cell(p[(axis + 2) % 3] * inverse));
-}
-
 struct Plane2 {
-  dvec3 x, y;          // unit, across the light's travel
-  double centre_x, centre_y, scale;
+  dvec3 x{0}, y{0};  // unit, across the light's travel
+  double centre_x = 0, centre_y = 0, scale = 0;
+
+  /// As a direction through the cube's +Z face: parallel rays get the keys of their places across the light.
+  dvec3 project(const dvec3& p) const {
+    return {(glm::dot(p, x) - centre_x) * scale, (glm::dot(p, y) - centre_y) * scale, 1};
+  }
 };
 
 Plane2 plane_across(const VisiblePoints& points, const RaySource& source, const std::vector<std::uint32_t>& pixels) {
@@ -160,17 +149,23 @@ void generate_shadow_rays(const VisiblePoints& points, const ShadowLight& light,
   });
 }
 
-void sort_shadow_rays(const VisiblePoints& points, const RaySource& source, RayKeys& scratch, ShadowRays& rays) {
+void sort_shadow_rays(const VisiblePoints& points, const RaySource& source, SimdLevel simd, RayKeys& scratch,
+                      ShadowRays& rays) {
+  const RayKernels kernels = ray_kernels(simd);
   const Plane2 plane = source.directional ? plane_across(points, source, rays.pixels) : Plane2{};
   scratch.keys.resize(rays.pixels.size());
   parallel_ranges(rays.pixels.size(), 1 << 14, [&](std::size_t first, std::size_t last) {
-    for (std::size_t i = first; i < last; ++i) {
-      const dvec3 p = points.positions[rays.pixels[i]] - source.origin;
-      const std::uint32_t key =
-          source.directional ? hilbert_index(cell((glm::dot(p, plane.x) - plane.centre_x) * plane.scale),
-                                             cell((glm::dot(p, plane.y) - plane.centre_y) * plane.scale))
-                             : direction_key(p);
-      scratch.keys[i] = static_cast<std::uint64_t>(key) << 32 | rays.pixels[i];
+    float x[packet_size] = {}, y[packet_size] = {}, z[packet_size] = {};
+    std::uint32_t keys[packet_size];
+    for (std::size_t i = first; i < last; i += packet_size) {
+      const std::size_t count = std::min<std::size_t>(packet_size, last - i);
+      for (std::size_t k = 0; k < count; ++k) {
+        const dvec3 p = points.positions[rays.pixels[i + k]] - source.origin;
+        const dvec3 seen = source.directional ? plane.project(p) : p;
+        x[k] = static_cast<float>(seen.x), y[k] = static_cast<float>(seen.y), z[k] = static_cast<float>(seen.z);
+      }
+      kernels.direction_keys(x, y, z, keys);
+      for (std::size_t k = 0; k < count; ++k) scratch.keys[i + k] = static_cast<std::uint64_t>(keys[k]) << 32 | rays.pixels[i + k];
     }
   });
   radix_sort(scratch.keys, scratch);

@@ -27,10 +27,8 @@ void generate_shadow_rays(const VisiblePoints& points, const ShadowLight& light,
 
 /// Orders the rays by the cube face and the Hilbert index of their direction (directional lights: by the Hilbert
 /// index of their position across the light), ties in the order they had.
-void sort_shadow_rays(const VisiblePoints& points, const RaySource& source, RayKeys& scratch, ShadowRays& rays);
-
-/// Index of (x, y), each below 2^14, along a Hilbert curve over the 2^14 x 2^14 grid.
-std::uint32_t hilbert_index(std::uint32_t x, std::uint32_t y);
+void sort_shadow_rays(const VisiblePoints& points, const RaySource& source, SimdLevel simd, RayKeys& scratch,
+                      ShadowRays& rays);
 
 /// Stable sort of `keys` by bits 32 to 62, on all cores.
 void radix_sort(std::vector<std::uint64_t>& keys, RayKeys& scratch);

@@ -78,6 +78,74 @@ HWY_INLINE Pack<T, N> square_root(Pack<T, N> a) {
   return a;
 }
 
+template <class T, int N>
+HWY_INLINE Pack<T, N> max(Pack<T, N> a, Pack<T, N> b) {
+  for (int i = 0; i < a.registers; ++i) a.r[i] = hn::Max(a.r[i], b.r[i]);
+  return a;
+}
+template <class T, int N>
+HWY_INLINE Pack<T, N> absolute(Pack<T, N> a) {
+  for (int i = 0; i < a.registers; ++i) a.r[i] = hn::Abs(a.r[i]);
+  return a;
+}
+template <class T, int N>
+HWY_INLINE void store(Pack<T, N> a, T* to) {
+  for (int i = 0; i < a.registers; ++i) hn::StoreU(a.r[i], typename Pack<T, N>::Tag(), to + i * a.width);
+}
+/// Least and greatest lane.
+template <class T, int N>
+HWY_INLINE T least(Pack<T, N> a) {
+  for (int i = 1; i < a.registers; ++i) a.r[0] = hn::Min(a.r[0], a.r[i]);
+  return hn::GetLane(hn::MinOfLanes(typename Pack<T, N>::Tag(), a.r[0]));
+}
+template <class T, int N>
+HWY_INLINE T greatest(Pack<T, N> a) {
+  for (int i = 1; i < a.registers; ++i) a.r[0] = hn::Max(a.r[0], a.r[i]);
+  return hn::GetLane(hn::MaxOfLanes(typename Pack<T, N>::Tag(), a.r[0]));
+}
+
+/// Lanes of `a` where x <= y, of `b` elsewhere.
+template <class T, int N>
+HWY_INLINE Pack<T, N> where_not_above(Pack<float, N> x, Pack<float, N> y, Pack<T, N> a, Pack<T, N> b) {
+  for (int i = 0; i < a.registers; ++i) {
+    a.r[i] = hn::IfThenElse(hn::RebindMask(typename Pack<T, N>::Tag(), hn::Le(x.r[i], y.r[i])), a.r[i], b.r[i]);
+  }
+  return a;
+}
+
+// Whole numbers, for keys.
+template <int N>
+HWY_INLINE Pack<std::int32_t, N> truncate(Pack<float, N> a) {
+  Pack<std::int32_t, N> r;
+  for (int i = 0; i < a.registers; ++i) r.r[i] = hn::ConvertTo(typename Pack<std::int32_t, N>::Tag(), a.r[i]);
+  return r;
+}
+template <int N>
+HWY_INLINE Pack<std::int32_t, N> operator^(Pack<std::int32_t, N> a, Pack<std::int32_t, N> b) {
+  for (int i = 0; i < a.registers; ++i) a.r[i] = hn::Xor(a.r[i], b.r[i]);
+  return a;
+}
+template <int N>
+HWY_INLINE Pack<std::int32_t, N> operator&(Pack<std::int32_t, N> a, Pack<std::int32_t, N> b) {
+  for (int i = 0; i < a.registers; ++i) a.r[i] = hn::And(a.r[i], b.r[i]);
+  return a;
+}
+template <int N>
+HWY_INLINE Pack<std::int32_t, N> operator|(Pack<std::int32_t, N> a, Pack<std::int32_t, N> b) {
+  for (int i = 0; i < a.registers; ++i) a.r[i] = hn::Or(a.r[i], b.r[i]);
+  return a;
+}
+template <int Bits, int N>
+HWY_INLINE Pack<std::int32_t, N> shift_left(Pack<std::int32_t, N> a) {
+  for (int i = 0; i < a.registers; ++i) a.r[i] = hn::ShiftLeft<Bits>(a.r[i]);
+  return a;
+}
+template <int Bits, int N>
+HWY_INLINE Pack<std::int32_t, N> shift_right(Pack<std::int32_t, N> a) {
+  for (int i = 0; i < a.registers; ++i) a.r[i] = hn::ShiftRight<Bits>(a.r[i]);
+  return a;
+}
+
 /// Bit i is set where a < b in lane i; false where either is NaN.
 template <class T, int N>
 HWY_INLINE std::uint32_t less_bits(Pack<T, N> a, Pack<T, N> b) {

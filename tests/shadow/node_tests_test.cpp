@@ -66,7 +66,7 @@ void check(const Arrangement& a, const TraversalKernels& kernels, bool spheres) 
   build_triangle_set(view, ViewRays{.eye = {9, 9, 9}}, a.source, {.contact = ContactRule::none}, set);
   if (set.planes.empty()) return;
   ConeTree tree;
-  build_cone_tree(a.rays, a.points, a.source, tree);
+  build_cone_tree(a.rays, a.points, a.source, SimdLevel::automatic, tree);
   const Traversal traversal{{spheres, true, a.source.directional}, &set, &a.rays, &tree, &a.source, &view, a.points, ContactRule::none};
 
   TraceStats stats;
@@ -106,7 +106,7 @@ RootVerdict filter_once(const Arrangement& a, const TraversalKernels& kernels) {
   TriangleSet set;
   build_triangle_set(view, ViewRays{.eye = {9, 9, 9}}, a.source, {.contact = ContactRule::none}, set);
   ConeTree tree;
-  build_cone_tree(a.rays, a.points, a.source, tree);
+  build_cone_tree(a.rays, a.points, a.source, SimdLevel::automatic, tree);
   const Traversal traversal{{false, true, a.source.directional}, &set, &a.rays, &tree, &a.source, &view, a.points, ContactRule::none};
   const std::uint32_t place = 0;
   std::uint32_t storage[4][2];
