@@ -9,7 +9,7 @@
 namespace tenebra {
 namespace {
 
-constexpr double largest_coordinate = 1.8e18;  // beyond it, products of coordinates leave the range of floats
+constexpr double largest_coordinate = 1.8e18f;  // beyond it, products of coordinates leave the range of floats
 constexpr float dropped = std::numeric_limits<float>::quiet_NaN();
 
 /// What to apply to normals for positions under `m`: its inverse transpose up to a positive factor, from
