@@ -24,8 +24,8 @@ void main() {
   uint id = texelFetch(t_ids, texel, 0).r;
   vec3 color = u_background;
   if (id != no_triangle) {
-    Material material = b_materials[b_triangles[id].material];
-    color = material.ambient.rgb * u_ambient_light + material.emissive.rgb + texelFetch(t_light, texel, 0).rgb;
+    int material = material_of(triangle_record(id));
+    color = ambient_color(material) * u_ambient_light + emissive_color(material) + texelFetch(t_light, texel, 0).rgb;
   }
   vec3 encoded = srgb(clamp(color * u_exposure, 0.0, 1.0));
   o_color = vec4(floor(encoded * 255.0 + 0.5) / 255.0, 1.0);

@@ -44,8 +44,8 @@ void main() {
     fade = attenuation(to_light, distance);
   }
 
-  TriangleRecord triangle = b_triangles[id];
-  vec3 face = triangle.face_normal;
+  vec4 record = triangle_record(id);
+  vec3 face = record.xyz;
   if (dot(face, ray_direction(gl_FragCoord.xy)) > 0.0) face = -face;
   if (!(dot(face, to_light) > 0.0)) return;
   uint code = texelFetch(t_normals, texel, 0).r;
@@ -53,6 +53,6 @@ void main() {
   if (dot(normal, face) < 0.0) normal = -normal;
 
   float cosine = max(dot(normal, to_light), 0.0);
-  vec3 light = b_materials[triangle.material].base_color.rgb * u_light_color * (cosine * fade);
+  vec3 light = base_color(material_of(record)) * u_light_color * (cosine * fade);
   o_light = vec4(min(light, vec3(brightest)), 0.0);
 }

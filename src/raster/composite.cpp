@@ -81,7 +81,7 @@ void Compositor::finish(const GBuffer& gbuffer, const GeometryBuffers& geometry,
   draw_fullscreen(empty_);
   end_pass();
 
-  // The picture's own format comes back four times as fast as one the driver has to convert to.
+  // Read in the picture's own format: the driver then copies and need not convert.
   const std::size_t count =
       static_cast<std::size_t>(gbuffer.width) * static_cast<std::size_t>(gbuffer.height);
   rgba_.resize(4 * count);

@@ -10,10 +10,10 @@ namespace tenebra {
 namespace {
 
 // Bindings and locations of the shaders.
-constexpr unsigned record_binding = 0, material_binding = 1;
+constexpr unsigned record_unit = 8, material_unit = 9;
 constexpr unsigned position_location = 0, normal_location = 1;
 
-/// std430 of shaders/triangles.glsl.
+/// Three texels of shaders/triangles.glsl.
 struct MaterialRecord {
   glm::vec4 base_color, ambient, emissive;
 };
@@ -55,10 +55,10 @@ Expected<void> send(gl::Buffer& buffer, const std::vector<T>& values) {
 }
 
 std::size_t max_triangles() {
-  GLint64 block_bytes = 0;
-  glGetInteger64v(GL_MAX_SHADER_STORAGE_BLOCK_SIZE, &block_bytes);
+  GLint texels = 0;
+  glGetIntegerv(GL_MAX_TEXTURE_BUFFER_SIZE, &texels);
   const std::size_t drawable = std::numeric_limits<GLsizei>::max() / 3;
-  return std::min(static_cast<std::size_t>(block_bytes) / sizeof(TriangleRecord), drawable);
+  return std::min(static_cast<std::size_t>(texels), drawable);
 }
 
 }  // namespace
@@ -69,6 +69,8 @@ GeometryBuffers::GeometryBuffers()
       indices_(gl::Buffer::create()),
       record_buffer_(gl::Buffer::create()),
       material_buffer_(gl::Buffer::create()),
+      record_texture_(gl::BufferTexture::create(record_buffer_)),
+      material_texture_(gl::BufferTexture::create(material_buffer_)),
       vertices_(gl::VertexArray::create()) {
   vertices_.attach_vec3(position_location, positions_);
   vertices_.attach_vec3(normal_location, normals_);
@@ -106,8 +108,8 @@ void GeometryBuffers::draw() const {
 }
 
 void GeometryBuffers::bind_records() const {
-  glBindBufferBase(GL_SHADER_STORAGE_BUFFER, record_binding, record_buffer_.name());
-  glBindBufferBase(GL_SHADER_STORAGE_BUFFER, material_binding, material_buffer_.name());
+  glBindTextureUnit(record_unit, record_texture_.name());
+  glBindTextureUnit(material_unit, material_texture_.name());
 }
 
 }  // namespace tenebra

@@ -35,6 +35,7 @@ public:
 
 private:
   gl::Buffer positions_, normals_, indices_, record_buffer_, material_buffer_;
+  gl::BufferTexture record_texture_, material_texture_;
   gl::VertexArray vertices_;
   std::vector<TriangleRecord> records_;
   std::size_t material_count_ = 0;
