@@ -110,7 +110,7 @@ def gate():
     for side in (-1, 1):
         a, b = sorted((side * r, side * 7.0))
         model.add("gate", s.box((a, 0, -2.0), (b, spring, 0)))
-        model.add("trim stone", s.cylinder(2.3, 0, 20.0, 32).moved((side * 9.0, 0, -1.0)))
+        model.add("trim stone", s.cylinder(2.3, -0.25, 20.0, 32).moved((side * 9.0, 0, -1.0)))
         model.add("slate wall", s.cylinder(2.7, 20.0, 25.0, 32, top_radius=0.05).moved((side * 9.0, 0, -1.0)))
     for i in range(9):
         model.add("gate", s.box_on((-6.0 + 1.5 * i, height, -0.4), (0.8, 0.9, 0.8)))
@@ -141,7 +141,7 @@ def planter():
     draw = random.Random(5)
     for _ in range(9):
         at = (draw.uniform(-0.3, 0.3), draw.uniform(0.75, 1.7), draw.uniform(-0.3, 0.3))
-        bush = s.sphere(draw.uniform(0.26, 0.42), 7, 5, at)
+        bush = s.sphere(draw.uniform(0.26, 0.42), 7, 5).turned_y(draw.uniform(0, 2 * math.pi)).moved(at)
         model.add("leaf", s.Surface(bush.positions, bush.triangles))
     return model
 

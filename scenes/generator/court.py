@@ -52,8 +52,9 @@ def arcade():
         lower = [(x0, spring)] + curve + [(x0 + pitch, spring)]
         model.add("arcade", s.extruded_strip(lower, [(x, top) for x, _ in lower], -0.5, 0))
     model.add("wall", s.box((-HALF, top, -0.5), (HALF, WALL_TOP, 0)))
-    model.add("arcade", s.box((-HALF, top - 0.08, 0), (HALF, top + 0.1, 0.1)),
-              s.box((-HALF, WALL_TOP, -0.5), (HALF, WALL_TOP + 0.16, 0.22)))
+    # The mouldings of the two sides meet in the corner: each begins where the other's depth ends.
+    model.add("arcade", s.box((-HALF + 0.1, top - 0.08, 0), (HALF, top + 0.1, 0.1)),
+              s.box((-HALF + 0.22, WALL_TOP, -0.5), (HALF, WALL_TOP + 0.16, 0.22)))
     model.add("back wall", s.box((-HALF, 0, -3.2), (HALF, WALL_TOP, -2.9)))
     model.add("arcade", s.box((-HALF, top, -2.9), (HALF, top + 0.2, -0.5)))
     model.add("slab", s.box((-HALF, -0.3, -2.9), (HALF, 0, 0)))
@@ -71,8 +72,8 @@ def corner():
     model.add("back wall", s.box((-far, 0, -far), (-HALF, WALL_TOP, -far + 0.3)),
               s.box((-far, 0, -far + 0.3), (-far + 0.3, WALL_TOP, -HALF)))
     model.add("wall", s.box((HALF, 0, -far), (HALF + 0.4, 4.0, HALF + 0.4)), s.box((-far, 0, HALF), (HALF, 4.0, HALF + 0.4)))
-    model.add("tile", s.box((HALF - 0.1, 4.0, -far), (HALF + 0.5, 4.12, HALF + 0.5)),
-              s.box((-far, 4.0, HALF - 0.1), (HALF - 0.1, 4.12, HALF + 0.5)))
+    model.add("tile", s.box((HALF - 0.1, 4.0, -far - 0.05), (HALF + 0.5, 4.12, HALF + 0.5)),
+              s.box((-far - 0.05, 4.0, HALF - 0.1), (HALF - 0.1, 4.12, HALF + 0.5)))
     return model
 
 

@@ -64,13 +64,13 @@ def painting(width, height, draw):
         look = draw.choice(("red", "ochre", "green", "blue", "cream", "ink"))
         a, b = draw.uniform(0.12, 0.34) * width, draw.uniform(0.10, 0.36) * height
         cx, cy = draw.uniform(a - w, w - a) * 0.9, draw.uniform(b - h, h - b) * 0.9
-        model.add(look, s.box((cx - a, cy - b, 0.04), (cx + a, cy + b, 0.04 + 0.012 * depth)))
+        model.add(look, s.box((cx - a, cy - b, 0.04 - 0.005 * depth), (cx + a, cy + b, 0.04 + 0.012 * depth)))
     return model
 
 
 def block():
     model = s.Model()
-    model.add("block", s.chamfered_box((-1.15, 0, -1.15), (1.15, 0.9, 1.15), 0.05))
+    model.add("block", s.chamfered_box((-1.15, 0.22, -1.15), (1.15, 0.9, 1.15), 0.05))
     return model.add("stone", s.chamfered_box((-1.7, 0, -1.7), (1.7, 0.22, 1.7), 0.04))
 
 

@@ -8,7 +8,7 @@ from . import surface as s
 from . import vector as v
 
 THIGH, SHIN, ANKLE, HIP_WIDTH, HIP_HEIGHT = 0.44, 0.44, 0.11, 0.15, 0.93
-STEP_LENGTH, CYCLE_S, KEYS = 0.66, 1.2, 24   # one cycle is two steps
+STEP_LENGTH, CYCLE_S, KEYS = 0.66, 1.2, 48   # one cycle is two steps
 SPEED = 2 * STEP_LENGTH / CYCLE_S            # metres a second
 LIFT = 0.13
 PARTS = ("pelvis", "torso", "head", "thigh", "shin", "foot", "upper arm", "forearm")
