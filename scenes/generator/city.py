@@ -200,10 +200,10 @@ def add_robots(document):
 
 
 def add_lights(document):
-    high = document.punctual_light("high lamp", "point", (1.0, 0.84, 0.62), 24000.0)
-    document.node("high lamp", translation=(13.0, 62.0, -6.0), extensions=high)
-    sky = document.punctual_light("evening sky", "directional", (0.62, 0.76, 1.0), 0.9)
-    document.node("evening sky", rotation=v.look_rotation((-0.55, 0.9, 0.5), (0, 0, 0)), extensions=sky)
+    high = document.punctual_light("high lamp", "point", (1.0, 0.84, 0.62), 9500.0)
+    document.node("high lamp", translation=(5.0, 36.0, 3.0), extensions=high)
+    sky = document.punctual_light("evening sky", "directional", (0.62, 0.76, 1.0), 1.1)
+    document.node("evening sky", rotation=v.look_rotation((-0.42, 1.0, 0.35), (0, 0, 0)), extensions=sky)
 
 
 def build():
@@ -217,6 +217,6 @@ def build():
     add_robots(document)
     add_lights(document)
     motion.add_camera(document, "walk", 52,
-                      [(2.6, 1.5, 4.5), (1.6, 1.7, -0.5), (-0.4, 2.3, -6.0), (-3.2, 3.6, -11.0)],
+                      [(2.2, 1.5, 1.2), (1.4, 1.7, -1.8), (-0.4, 2.3, -6.0), (-3.2, 3.6, -11.0)],
                       [(-1.0, 1.6, -14.0), (-0.6, 1.7, -18.0), (0.3, 1.6, -24.0), (1.5, 0.6, -28.0)], END_S)
     return document

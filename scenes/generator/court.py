@@ -131,7 +131,7 @@ def add_panel(document, looks):
     """The area light, the quad one sees of it, and its box. The quad casts no shadow: it would cover its own light."""
     silent = {"casts_shadow": False}
     looks["panel"] = document.material("lit panel", (0.0, 0.0, 0.0), emissive=(1.0, 0.93, 0.80), extras=silent)
-    light = document.rect_light("panel light", (1.0, 0.90, 0.74), 95.0, *PANEL_SIZE)
+    light = document.rect_light("panel light", (1.0, 0.90, 0.74), 72.0, *PANEL_SIZE)
     turn = v.look_rotation(PANEL_AT, PANEL_AIM)
     root = document.node("panel", translation=PANEL_AT, rotation=turn)
     document.node("panel light", root, extensions=light)

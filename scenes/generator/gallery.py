@@ -10,7 +10,7 @@ from . import vector as v
 from .gltf import Document
 
 END_S = 12.0
-HALF_X, HALF_Z, HEIGHT = 9.0, 7.0, 6.6
+HALF_X, HALF_Z, HEIGHT = 9.0, 7.0, 7.6
 PILLARS = [(x, z) for x in (-5.6, 5.6) for z in (-4.4, 0.0, 4.4)]
 SCULPTURE = (0.0, 3.05, 0.0)
 LOOKS = {
@@ -102,10 +102,10 @@ def add_paintings(document, looks):
 
 
 def add_lights(document):
-    warm = document.punctual_light("warm lamp", "point", (1.0, 0.86, 0.68), 75.0)
-    cool = document.punctual_light("cool lamp", "point", (0.70, 0.83, 1.0), 45.0)
-    document.node("warm lamp", translation=(3.6, 5.5, 2.2), extensions=warm)
-    document.node("cool lamp", translation=(-3.4, 5.7, -2.2), extensions=cool)
+    warm = document.punctual_light("warm lamp", "point", (1.0, 0.86, 0.66), 72.0)
+    cool = document.punctual_light("cool lamp", "point", (0.70, 0.83, 1.0), 42.0)
+    document.node("warm lamp", translation=(3.6, 5.0, 2.4), extensions=warm)
+    document.node("cool lamp", translation=(-3.4, 4.8, -2.4), extensions=cool)
 
 
 def add_sculpture(document, look):
@@ -130,7 +130,7 @@ def build():
     add_paintings(document, looks)
     add_sculpture(document, document.material("shards", (0.80, 0.42, 0.14), double_sided=True))
     add_lights(document)
-    eyes = [(6.9 * math.sin(a), 1.7 + 0.5 * math.sin(2 * a), 5.4 * math.cos(a)) for a in
+    eyes = [(4.6 * math.sin(a), 1.75 + 0.35 * math.sin(2 * a), 5.3 * math.cos(a)) for a in
             (0.25 + 2.3 * i / 8 for i in range(9))]
-    motion.add_camera(document, "visitor", 58, eyes, [(0, 2.5, 0), (0.2, 2.7, 0), (0, 2.6, 0)], END_S)
+    motion.add_camera(document, "visitor", 60, eyes, [(0, 2.5, 0), (0.2, 2.7, 0), (0, 2.7, 0)], END_S)
     return document
