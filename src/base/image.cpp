@@ -85,8 +85,11 @@ Expected<Image8> read_png(const std::filesystem::path& path) {
       stbi_load_from_memory(reinterpret_cast<const stbi_uc*>(bytes->data()), static_cast<int>(bytes->size()),
                             &image.width, &image.height, &image.channels, 0),
       stbi_image_free);
-  if (decoded == nullptr)
-    return fail("{}: cannot decode the pixels ({})", path.string(), stbi_failure_reason());
+  if (decoded == nullptr) {
+    const std::string_view reason = stbi_failure_reason();
+    return fail("{}: cannot decode its {} x {} pixels ({})", path.string(), header->width, header->height,
+                reason == "outofmem" ? "not enough memory" : reason);
+  }
   const std::size_t count = static_cast<std::size_t>(image.width) * image.height * image.channels;
   image.pixels.assign(decoded.get(), decoded.get() + count);
   return image;

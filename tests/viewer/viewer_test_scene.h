@@ -48,8 +48,9 @@ inline std::filesystem::path write_moving_scene(const TemporaryFolder& folder, i
 {"name":"eye","camera":0,"translation":[0,2,6],"rotation":[-0.1564345,0,0,0.9876883]})" +
                                          light_nodes + R"(],
 "cameras":[{"name":"eye","type":"perspective","perspective":{"yfov":0.8,"znear":0.1}}],
-"meshes":[{"name":"floor","primitives":[{"attributes":{"POSITION":0}}]},
-{"name":"blocker","primitives":[{"attributes":{"POSITION":1}}]}],
+"meshes":[{"name":"floor","primitives":[{"attributes":{"POSITION":0},"material":0}]},
+{"name":"blocker","primitives":[{"attributes":{"POSITION":1},"material":0}]}],
+"materials":[{"pbrMetallicRoughness":{"baseColorFactor":[0.2,0.2,0.2,1]}}],
 "animations":[{"name":"slide","samplers":[{"input":2,"output":3}],
 "channels":[{"sampler":0,"target":{"node":1,"path":"translation"}}]}],
 "accessors":[
