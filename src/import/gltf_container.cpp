@@ -41,7 +41,8 @@ GltfContainer split_glb(std::string_view bytes) {
   if (word(bytes, 0) != glb_magic) refuse("GLB header: found magic {:#010x}, expected glTF", word(bytes, 0));
   if (word(bytes, 4) != 2) refuse("GLB header: found version {}, expected 2", word(bytes, 4));
   if (word(bytes, 8) != bytes.size())
-    refuse("GLB header: found a stated length of {}, expected the file's {} bytes", word(bytes, 8), bytes.size());
+    refuse("GLB header: found a stated length of {}, expected the file's {} bytes", word(bytes, 8),
+           bytes.size());
   GltfContainer result;
   result.is_glb = true;
   std::size_t offset = 12;
@@ -85,8 +86,7 @@ void check_json_size(std::string_view json) {
       refuse("JSON offset {}: found nesting deeper than {}, expected less", i, max_json_depth);
     if (c == '}' || c == ']') --depth;
   }
-  if (values > max_json_values)
-    refuse("JSON: found {} values, expected at most {}", values, max_json_values);
+  if (values > max_json_values) refuse("JSON: found {} values, expected at most {}", values, max_json_values);
   if (objects > max_json_objects)
     refuse("JSON: found {} objects, expected at most {}", objects, max_json_objects);
 }

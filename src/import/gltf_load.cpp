@@ -11,8 +11,8 @@ namespace tenebra::gltf {
 namespace {
 
 const std::set<std::string> understood_extensions = {
-    "KHR_lights_punctual", "EXT_lights_area",         "KHR_mesh_quantization",
-    "KHR_materials_unlit", "KHR_node_visibility",     "KHR_materials_emissive_strength",
+    "KHR_lights_punctual",  "EXT_lights_area",     "KHR_mesh_quantization",
+    "KHR_materials_unlit",  "KHR_node_visibility", "KHR_materials_emissive_strength",
     "KHR_texture_transform"};
 
 void check_version(const Model& model) {
@@ -100,12 +100,20 @@ void check_required_extensions(const Model& model) {
       refuse("extensionsRequired: found {}, expected only extensions that Tenebra reads", name);
 }
 
-bool no_file_exists(const std::string&, void*) { return false; }
-std::string no_path(const std::string&, void*) { return {}; }
-bool read_no_file(std::vector<unsigned char>*, std::string*, const std::string&, void*) { return false; }
-bool write_no_file(std::string*, const std::string&, const std::vector<unsigned char>&, void*) { return false; }
-bool load_no_image(tinygltf::Image*, const int, std::string*, std::string*, int, int, const unsigned char*, int,
-                   void*) {
+bool no_file_exists(const std::string&, void*) {
+  return false;
+}
+std::string no_path(const std::string&, void*) {
+  return {};
+}
+bool read_no_file(std::vector<unsigned char>*, std::string*, const std::string&, void*) {
+  return false;
+}
+bool write_no_file(std::string*, const std::string&, const std::vector<unsigned char>&, void*) {
+  return false;
+}
+bool load_no_image(tinygltf::Image*, const int, std::string*, std::string*, int, int, const unsigned char*,
+                   int, void*) {
   return true;
 }
 
@@ -119,8 +127,8 @@ void load_model(const std::filesystem::path& path, std::string_view bytes, Asset
   reader.SetFsCallbacks({no_file_exists, no_path, read_no_file, write_no_file, nullptr});
   reader.SetImageLoader(load_no_image, nullptr);
   std::string error, warning;
-  if (!reader.LoadASCIIFromString(&asset.model, &error, &warning, json.data(), static_cast<unsigned>(json.size()),
-                                  ""))
+  if (!reader.LoadASCIIFromString(&asset.model, &error, &warning, json.data(),
+                                  static_cast<unsigned>(json.size()), ""))
     refuse("JSON: found a fault ({}), expected glTF 2.0", error.substr(0, error.find('\n')));
   check_version(asset.model);
   check_required_extensions(asset.model);

@@ -25,7 +25,8 @@ public:
   explicit Budget(std::uint64_t bytes) : left_(bytes) {}
   /// Takes count * size bytes; throws ImportFailure naming `place` when they are not there.
   void take(std::uint64_t count, std::uint64_t size, const std::string& place) {
-    if (count > left_ / size) refuse("{}: found {} elements, expected no more than the file can fill", place, count);
+    if (count > left_ / size)
+      refuse("{}: found {} elements, expected no more than the file can fill", place, count);
     left_ -= count * size;
   }
 
@@ -37,7 +38,7 @@ struct Asset {
   Model model;
   std::vector<std::string> buffers;  ///< bytes of model.buffers
   Budget budget{0};
-  Scene scene;                       ///< what is being built; its warnings too
+  Scene scene;  ///< what is being built; its warnings too
 };
 
 /// JSON text to model; `binary` is the GLB's chunk. Throws ImportFailure.

@@ -13,15 +13,28 @@ namespace {
 
 using Json = nlohmann::json;
 
-enum class Kind { string, boolean, number, integer, ref, refs, numbers, strings, object, objects, attributes, targets };
+enum class Kind {
+  string,
+  boolean,
+  number,
+  integer,
+  ref,
+  refs,
+  numbers,
+  strings,
+  object,
+  objects,
+  attributes,
+  targets
+};
 
 struct Field {
   const char* name;
   Kind kind;
   bool required = false;
-  const char* section = "";          ///< ref, refs: the root table referred to
-  std::size_t length = 0;            ///< numbers: how many; 0: any, at least one
-  std::span<const Field> fields{};   ///< object, objects
+  const char* section = "";         ///< ref, refs: the root table referred to
+  std::size_t length = 0;           ///< numbers: how many; 0: any, at least one
+  std::span<const Field> fields{};  ///< object, objects
 };
 
 constexpr bool required = true;
@@ -33,9 +46,10 @@ constexpr Field asset_fields[] = {{"version", Kind::string, required}, {"minVers
 constexpr Field scene_fields[] = {name_field, {"nodes", Kind::refs, false, "nodes"}};
 constexpr Field light_link_fields[] = {{"light", Kind::integer, required}};
 constexpr Field visibility_fields[] = {{"visible", Kind::boolean}};
-constexpr Field node_extension_fields[] = {{"KHR_lights_punctual", Kind::object, false, "", 0, light_link_fields},
-                                           {"EXT_lights_area", Kind::object, false, "", 0, light_link_fields},
-                                           {"KHR_node_visibility", Kind::object, false, "", 0, visibility_fields}};
+constexpr Field node_extension_fields[] = {
+    {"KHR_lights_punctual", Kind::object, false, "", 0, light_link_fields},
+    {"EXT_lights_area", Kind::object, false, "", 0, light_link_fields},
+    {"KHR_node_visibility", Kind::object, false, "", 0, visibility_fields}};
 constexpr Field node_fields[] = {name_field,
                                  extras_field,
                                  {"camera", Kind::ref, false, "cameras"},
@@ -75,14 +89,17 @@ constexpr Field accessor_fields[] = {name_field,
                                      {"max", Kind::numbers},
                                      {"min", Kind::numbers},
                                      {"sparse", Kind::object, false, "", 0, sparse_fields}};
-constexpr Field view_fields[] = {{"buffer", Kind::ref, required, "buffers"}, {"byteOffset", Kind::integer},
-                                 {"byteLength", Kind::integer, required},    {"byteStride", Kind::integer},
+constexpr Field view_fields[] = {{"buffer", Kind::ref, required, "buffers"},
+                                 {"byteOffset", Kind::integer},
+                                 {"byteLength", Kind::integer, required},
+                                 {"byteStride", Kind::integer},
                                  {"target", Kind::integer}};
 constexpr Field buffer_fields[] = {{"uri", Kind::string}, {"byteLength", Kind::integer, required}};
 constexpr Field texture_info_fields[] = {{"index", Kind::ref, required, "textures"}};
-constexpr Field pbr_fields[] = {{"baseColorFactor", Kind::numbers, false, "", 4},
-                                {"baseColorTexture", Kind::object, false, "", 0, texture_info_fields},
-                                {"metallicRoughnessTexture", Kind::object, false, "", 0, texture_info_fields}};
+constexpr Field pbr_fields[] = {
+    {"baseColorFactor", Kind::numbers, false, "", 4},
+    {"baseColorTexture", Kind::object, false, "", 0, texture_info_fields},
+    {"metallicRoughnessTexture", Kind::object, false, "", 0, texture_info_fields}};
 constexpr Field strength_fields[] = {{"emissiveStrength", Kind::number}};
 constexpr Field material_extension_fields[] = {
     {"KHR_materials_emissive_strength", Kind::object, false, "", 0, strength_fields}};
@@ -132,7 +149,8 @@ constexpr Field light_fields[] = {name_field,
 constexpr Field lights_fields[] = {{"lights", Kind::objects, required, "", 0, light_fields}};
 constexpr Field root_extension_fields[] = {{"KHR_lights_punctual", Kind::object, false, "", 0, lights_fields},
                                            {"EXT_lights_area", Kind::object, false, "", 0, lights_fields}};
-constexpr Field texture_fields[] = {{"source", Kind::ref, false, "images"}, {"sampler", Kind::ref, false, "samplers"}};
+constexpr Field texture_fields[] = {{"source", Kind::ref, false, "images"},
+                                    {"sampler", Kind::ref, false, "samplers"}};
 constexpr Field image_fields[] = {{"uri", Kind::string}, {"bufferView", Kind::ref, false, "bufferViews"}};
 constexpr Field any_fields[] = {name_field};
 constexpr Field root_fields[] = {{"asset", Kind::object, required, "", 0, asset_fields},
@@ -167,7 +185,8 @@ public:
     if (!root_.is_object()) refuse("JSON: found {}, expected an object", root_.type_name());
     check_object(root_, "", root_fields);
     for (const char* table : {"textures", "images", "samplers"}) root_.erase(table);
-    if (skipped_textures_) warnings_.emplace_back("Textures and images are not read: factors alone colour the surfaces.");
+    if (skipped_textures_)
+      warnings_.emplace_back("Textures and images are not read: factors alone colour the surfaces.");
   }
 
 private:
@@ -191,7 +210,8 @@ private:
       }
       if (harmless && path.empty()) kept.insert(field.name);  // referred to until the end of the check
     }
-    for (auto it = object.begin(); it != object.end();) it = kept.contains(it.key()) ? ++it : object.erase(it);
+    for (auto it = object.begin(); it != object.end();)
+      it = kept.contains(it.key()) ? ++it : object.erase(it);
   }
 
   void check_harmless(Json& value, const std::string& place, const Field& field) {
@@ -199,7 +219,8 @@ private:
     try {
       if (!drop_if_empty(value, place, field)) check_value(value, place, field);
     } catch (const ImportFailure& failure) {
-      warnings_.push_back(fmt::format("{}; it only matters to textures, which are not read.", failure.what()));
+      warnings_.push_back(
+          fmt::format("{}; it only matters to textures, which are not read.", failure.what()));
       value = Json::array();
     }
   }
@@ -272,11 +293,16 @@ private:
       case Kind::boolean:
         if (!value.is_boolean()) refuse("{}: found {}, expected true or false", place, shorten(value));
         return;
-      case Kind::number: return check_number(value, place);
-      case Kind::integer: return check_integer(value, place);
-      case Kind::ref: return check_ref(value, place, field.section);
-      case Kind::refs: return check_refs(value, place, field.section);
-      case Kind::numbers: return check_numbers(value, place, field.length);
+      case Kind::number:
+        return check_number(value, place);
+      case Kind::integer:
+        return check_integer(value, place);
+      case Kind::ref:
+        return check_ref(value, place, field.section);
+      case Kind::refs:
+        return check_refs(value, place, field.section);
+      case Kind::numbers:
+        return check_numbers(value, place, field.length);
       case Kind::strings:
         return check_items(value, place, [&](Json& item, const std::string& at) {
           if (!item.is_string()) refuse("{}: found {}, expected a string", at, shorten(item));
@@ -287,9 +313,11 @@ private:
       case Kind::objects:
         return check_items(value, place,
                            [&](Json& item, const std::string& at) { check_object(item, at, field.fields); });
-      case Kind::attributes: return check_attributes(value, place);
+      case Kind::attributes:
+        return check_attributes(value, place);
       case Kind::targets:
-        return check_items(value, place, [&](Json& item, const std::string& at) { check_attributes(item, at); });
+        return check_items(value, place,
+                           [&](Json& item, const std::string& at) { check_attributes(item, at); });
     }
   }
 

@@ -61,7 +61,8 @@ fs::path confine(const fs::path& folder, std::string_view uri, std::string_view 
   std::error_code error;
   const fs::path root = fs::weakly_canonical(folder.empty() ? fs::path(".") : folder, error);
   const fs::path target = error ? fs::path() : fs::weakly_canonical(root / relative, error);
-  if (error) refuse("{}: cannot resolve '{}' ({}), expected a file in the folder", place, uri, error.message());
+  if (error)
+    refuse("{}: cannot resolve '{}' ({}), expected a file in the folder", place, uri, error.message());
   const auto inside = std::mismatch(root.begin(), root.end(), target.begin(), target.end());
   if (inside.first != root.end())
     refuse("{}: found '{}' leading out of the scene's folder, expected a file inside it", place, uri);

@@ -14,8 +14,9 @@ inline constexpr std::uintmax_t max_scene_file_bytes = std::uintmax_t{1} << 31;
 std::string read_scene_file(const std::filesystem::path& path);
 
 /// `uri` of a scene in `folder` as a path inside that folder, percent-encoding undone, links resolved. Throws
-/// ImportFailure naming `place` for schemes, absolute paths, `..`, control characters and links that lead out.
-std::filesystem::path confine(const std::filesystem::path& folder, std::string_view uri, std::string_view place,
-                              bool percent_encoded);
+/// ImportFailure naming `place` for schemes, absolute paths, `..`, control characters and links that lead
+/// out.
+std::filesystem::path confine(const std::filesystem::path& folder, std::string_view uri,
+                              std::string_view place, bool percent_encoded);
 
 }  // namespace tenebra
