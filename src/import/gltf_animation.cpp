@@ -26,6 +26,9 @@ struct ClipBuilder {
 
   const Accessor& accessor(int i) const { return asset.model.accessors[static_cast<std::size_t>(i)]; }
 
+  /// An accessor without bytes: its zeros are no key times.
+  bool is_empty(int i) const { return accessor(i).bufferView < 0 && !accessor(i).sparse.isSparse; }
+
   std::vector<double> read_times(int input, const std::string& where) {
     if (accessor(input).type != TINYGLTF_TYPE_SCALAR ||
         accessor(input).componentType != TINYGLTF_COMPONENT_TYPE_FLOAT)
@@ -34,6 +37,8 @@ struct ClipBuilder {
       asset.scene.warnings.push_back(
           fmt::format("{}.input: found no min and max, which are not needed here.", where));
     std::vector<double> times = read_numbers(asset, input);
+    if (is_empty(input)) return times;
+    clip.end_s = std::max(clip.end_s, times.back());
     double last = -1;
     for (const double time : times) {
       if (!(std::isfinite(time) && time >= 0 && time > last))
@@ -80,7 +85,6 @@ struct ClipBuilder {
       refuse("{}.output: found {} numbers, expected {} for its keys", where, track.values.size(), expected);
     if (std::any_of(track.values.begin(), track.values.end(), [](double v) { return !std::isfinite(v); }))
       refuse("{}.output: found a value that is not finite, expected numbers", where);
-    clip.end_s = std::max(clip.end_s, track.times_s.back());
     clip.tracks.push_back(std::move(track));
     return found->second;
   }
@@ -105,7 +109,7 @@ struct ClipBuilder {
       ++pointers;
       return;
     }
-    if (channel.target_node < 0) {
+    if (channel.target_node < 0 || is_empty(source().samplers[static_cast<std::size_t>(channel.sampler)].input)) {
       ++aimless;
       return;
     }
@@ -142,7 +146,7 @@ struct ClipBuilder {
           "animations[{}]: skipped {} channels that drive other things than nodes (KHR_animation_pointer).",
           index, pointers));
     if (aimless > 0)
-      warnings.push_back(fmt::format("animations[{}]: skipped {} channels without a node.", index, aimless));
+      warnings.push_back(fmt::format("animations[{}]: skipped {} channels without a node or without key times.", index, aimless));
     return std::move(clip);
   }
 };

@@ -15,12 +15,13 @@ const std::set<std::string> understood_extensions = {
     "KHR_materials_unlit",  "KHR_node_visibility", "KHR_materials_emissive_strength",
     "KHR_texture_transform"};
 
-void check_version(const Model& model) {
-  const auto is_readable = [](const std::string& version) { return version == "2.0"; };
-  const std::string& version = model.asset.version;
-  if (version.rfind("2.", 0) != 0) refuse("asset.version: found '{}', expected 2.x", version);
-  if (!model.asset.minVersion.empty() && !is_readable(model.asset.minVersion))
-    refuse("asset.minVersion: found '{}', expected 2.0", model.asset.minVersion);
+void check_version(Asset& asset) {
+  const std::string& version = asset.model.asset.version;
+  const std::string& least = asset.model.asset.minVersion;
+  if (!version.starts_with("2.")) refuse("asset.version: found '{}', expected 2.x", version);
+  if (!least.empty() && !least.starts_with("2.")) refuse("asset.minVersion: found '{}', expected 2.x", least);
+  if (version != "2.0" || (!least.empty() && least != "2.0"))
+    asset.scene.warnings.push_back(fmt::format("asset: found version {}; read as 2.0.", version));
 }
 
 int base64_digit(char c) {
@@ -33,7 +34,12 @@ int base64_digit(char c) {
 std::string decode_data_uri(const std::string& uri, const std::string& place) {
   static constexpr std::string_view marker = ";base64,";
   const std::size_t start = uri.find(marker);
-  if (start == std::string::npos || uri[start - 1] == ';')
+  if (start == std::string::npos) {
+    const std::size_t comma = uri.find(',');
+    if (comma == std::string::npos) refuse("{}: found no comma, expected data:TYPE,BYTES", place);
+    return undo_percent(std::string_view(uri).substr(comma + 1), place);
+  }
+  if (uri[start - 1] == ';')
     refuse("{}: found '{}', expected data:TYPE;base64,...", place, uri.substr(0, 40));
   std::string_view text = std::string_view(uri).substr(start + marker.size());
   while (!text.empty() && text.back() == '=') text.remove_suffix(1);
@@ -130,7 +136,7 @@ void load_model(const std::filesystem::path& path, std::string_view bytes, Asset
   if (!reader.LoadASCIIFromString(&asset.model, &error, &warning, json.data(),
                                   static_cast<unsigned>(json.size()), ""))
     refuse("JSON: found a fault ({}), expected glTF 2.0", error.substr(0, error.find('\n')));
-  check_version(asset.model);
+  check_version(asset);
   check_required_extensions(asset.model);
   load_buffers({path.parent_path(), container, asset});
 }

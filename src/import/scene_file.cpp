@@ -16,6 +16,8 @@ int hex_digit(char c) {
   return -1;
 }
 
+}  // namespace
+
 std::string undo_percent(std::string_view uri, std::string_view place) {
   std::string text;
   for (std::size_t i = 0; i < uri.size(); ++i) {
@@ -31,8 +33,6 @@ std::string undo_percent(std::string_view uri, std::string_view place) {
   }
   return text;
 }
-
-}  // namespace
 
 std::string read_scene_file(const fs::path& path) {
   std::error_code error;

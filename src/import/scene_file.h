@@ -13,6 +13,9 @@ inline constexpr std::uintmax_t max_scene_file_bytes = std::uintmax_t{1} << 31;
 /// The bytes of a regular file. Throws ImportFailure: missing, not a file, too large, unreadable.
 std::string read_scene_file(const std::filesystem::path& path);
 
+/// `uri` with its %XX undone. Throws ImportFailure naming `place`.
+std::string undo_percent(std::string_view uri, std::string_view place);
+
 /// `uri` of a scene in `folder` as a path inside that folder, percent-encoding undone, links resolved. Throws
 /// ImportFailure naming `place` for schemes, absolute paths, `..`, control characters and links that lead
 /// out.
