@@ -14,7 +14,9 @@ namespace {
 using Json = nlohmann::ordered_json;
 constexpr std::size_t max_glb_bytes = 0xFFFFFFFF;  // lengths are 32 bits
 
-Json to_json(const glm::vec3& v) { return Json::array({v.x, v.y, v.z}); }
+Json to_json(const glm::vec3& v) {
+  return Json::array({v.x, v.y, v.z});
+}
 
 /// The binary chunk and the tables that describe it.
 struct Binary {
@@ -64,15 +66,16 @@ struct GlbExport {
   double fps;
   Json root = {{"asset", {{"version", "2.0"}, {"generator", "Tenebra"}}}};
   Binary binary{root, {}};
-  std::vector<int> mesh_of;        ///< mesh of the file for each of the scene; -1: no triangles
-  std::map<int, int> light_of;     ///< index in its extension's table
+  std::vector<int> mesh_of;     ///< mesh of the file for each of the scene; -1: no triangles
+  std::map<int, int> light_of;  ///< index in its extension's table
 
   void write_materials() {
     for (const Material& source : scene.materials) {
-      Json material = {{"name", source.name},
-                       {"pbrMetallicRoughness",
-                        {{"baseColorFactor", {source.base_color.x, source.base_color.y, source.base_color.z, 1.0}},
-                         {"metallicFactor", 0}}}};
+      Json material = {
+          {"name", source.name},
+          {"pbrMetallicRoughness",
+           {{"baseColorFactor", {source.base_color.x, source.base_color.y, source.base_color.z, 1.0}},
+            {"metallicFactor", 0}}}};
       if (source.emissive != glm::vec3(0)) write_emissive(source.emissive, material);
       if (!source.casts_shadow) material["extras"]["casts_shadow"] = false;
       root["materials"].push_back(std::move(material));
@@ -143,7 +146,9 @@ struct GlbExport {
       write_attributes(mesh, attributes);
       const Json targets = write_targets(mesh);
       for (const auto& [material, list] : indices) {
-        Json primitive = {{"attributes", attributes}, {"indices", binary.add(list, 1, 5125, false)}, {"material", material}};
+        Json primitive = {{"attributes", attributes},
+                          {"indices", binary.add(list, 1, 5125, false)},
+                          {"material", material}};
         if (!targets.empty()) primitive["targets"] = targets;
         written["primitives"].push_back(std::move(primitive));
       }
@@ -161,11 +166,14 @@ struct GlbExport {
       const bool area = light.type >= LightType::area_rect;
       const char* extension = area ? "EXT_lights_area" : "KHR_lights_punctual";
       use(extension);
-      Json written = {{"name", light.name}, {"type", names[static_cast<int>(light.type)]},
-                      {"color", to_json(light.color)}, {"intensity", light.intensity}};
+      Json written = {{"name", light.name},
+                      {"type", names[static_cast<int>(light.type)]},
+                      {"color", to_json(light.color)},
+                      {"intensity", light.intensity}};
       if (light.range_m) written["range"] = *light.range_m;
       if (light.type == LightType::spot)
-        written["spot"] = {{"innerConeAngle", light.inner_cone_rad}, {"outerConeAngle", light.outer_cone_rad}};
+        written["spot"] = {{"innerConeAngle", light.inner_cone_rad},
+                           {"outerConeAngle", light.outer_cone_rad}};
       if (area) written["size"] = light.size_m.y;
       if (light.type == LightType::area_rect) written["rect"]["aspect"] = light.size_m.x / light.size_m.y;
       Json& table = root["extensions"][extension]["lights"];
@@ -184,8 +192,10 @@ struct GlbExport {
         if (camera.aspect) written["perspective"]["aspectRatio"] = aspect;
       } else {
         written["type"] = "orthographic";
-        written["orthographic"] = {{"xmag", camera.vertical_extent_m / 2 * aspect}, {"ymag", camera.vertical_extent_m / 2},
-                                   {"znear", camera.near_m}, {"zfar", camera.near_m + 1e4}};
+        written["orthographic"] = {{"xmag", camera.vertical_extent_m / 2 * aspect},
+                                   {"ymag", camera.vertical_extent_m / 2},
+                                   {"znear", camera.near_m},
+                                   {"zfar", camera.near_m + 1e4}};
       }
       root["cameras"].push_back(std::move(written));
     }
@@ -196,7 +206,8 @@ struct GlbExport {
       std::vector<float> numbers;
       for (const glm::mat4& m : skin.inverse_bind)
         for (int i = 0; i < 16; ++i) numbers.push_back(m[i / 4][i % 4]);
-      root["skins"].push_back({{"joints", skin.joints}, {"inverseBindMatrices", binary.add(numbers, 16, 5126, false)}});
+      root["skins"].push_back(
+          {{"joints", skin.joints}, {"inverseBindMatrices", binary.add(numbers, 16, 5126, false)}});
     }
   }
 
@@ -225,7 +236,8 @@ struct GlbExport {
       if (node.camera >= 0) written["camera"] = node.camera;
       if (node.light >= 0) {
         const bool area = scene.lights[static_cast<std::size_t>(node.light)].type >= LightType::area_rect;
-        written["extensions"][area ? "EXT_lights_area" : "KHR_lights_punctual"]["light"] = light_of[node.light];
+        written["extensions"][area ? "EXT_lights_area" : "KHR_lights_punctual"]["light"] =
+            light_of[node.light];
       }
       root["nodes"].push_back(std::move(written));
       if (node.parent >= 0)
@@ -237,8 +249,8 @@ struct GlbExport {
     root["scenes"].push_back(roots.empty() ? Json::object() : Json{{"nodes", roots}});
   }
 
-  void add_channel(Json& animation, int node, const char* path, const char* how, const std::vector<float>& times,
-                   const std::vector<float>& values, int components) {
+  void add_channel(Json& animation, int node, const char* path, const char* how,
+                   const std::vector<float>& times, const std::vector<float>& values, int components) {
     const int input = binary.add(times, 1, 5126, true);
     const int output = binary.add(values, components, 5126, false);
     animation["samplers"].push_back({{"input", input}, {"interpolation", how}, {"output", output}});
@@ -255,7 +267,8 @@ struct GlbExport {
     return times;
   }
 
-  void bake(const Clip& clip, const Track& track, bool rotation, std::vector<float>& times, std::vector<float>& values) {
+  void bake(const Clip& clip, const Track& track, bool rotation, std::vector<float>& times,
+            std::vector<float>& values) {
     times = frame_times(clip);
     std::vector<double> value(static_cast<std::size_t>(track.components));
     for (const float time : times) {
@@ -282,14 +295,17 @@ struct GlbExport {
       values.assign(track.values.begin(), track.values.end());
     }
     const int components = channel.path == ChannelPath::weights ? 1 : track.components;
-    add_channel(animation, channel.node, paths[static_cast<int>(channel.path)], how, times, values, components);
+    add_channel(animation, channel.node, paths[static_cast<int>(channel.path)], how, times, values,
+                components);
   }
 
   /// Hidden frames have scale 0; a track of scales of the same node is baked in.
   void write_visibility(const Clip& clip, const Channel& channel, Json& animation) {
     const glm::dvec3 scale = scene.nodes[static_cast<std::size_t>(channel.node)].scale;
     const Track& track = clip.tracks[static_cast<std::size_t>(channel.track)];
-    const auto is_scale = [&](const Channel& c) { return c.node == channel.node && c.path == ChannelPath::scale; };
+    const auto is_scale = [&](const Channel& c) {
+      return c.node == channel.node && c.path == ChannelPath::scale;
+    };
     const auto scaled = std::find_if(clip.channels.begin(), clip.channels.end(), is_scale);
     const std::vector<float> times = frame_times(clip);
     std::vector<float> values;
@@ -322,7 +338,8 @@ struct GlbExport {
 
   void write_clips() {
     const auto is_hidden_by = [](const Clip& clip, const Channel& c) {
-      return c.path == ChannelPath::scale && std::any_of(clip.channels.begin(), clip.channels.end(), [&](const Channel& o) {
+      return c.path == ChannelPath::scale &&
+             std::any_of(clip.channels.begin(), clip.channels.end(), [&](const Channel& o) {
                return o.node == c.node && o.path == ChannelPath::visibility;
              });
     };
@@ -372,10 +389,12 @@ Expected<void> export_glb(const Scene& scene, const std::filesystem::path& path,
     GlbExport writer{scene, fps, {{"asset", {{"version", "2.0"}, {"generator", "Tenebra"}}}}};
     const std::string bytes = writer.write();
     if (bytes.size() > max_glb_bytes)
-      return fail("{}: found {} bytes to write, expected at most {} in a GLB.", path.string(), bytes.size(), max_glb_bytes);
+      return fail("{}: found {} bytes to write, expected at most {} in a GLB.", path.string(), bytes.size(),
+                  max_glb_bytes);
     return write_file(path, bytes);
   } catch (const std::exception& error) {
-    return fail("{}: found a scene that cannot be written ({}), expected a smaller one.", path.string(), error.what());
+    return fail("{}: found a scene that cannot be written ({}), expected a smaller one.", path.string(),
+                error.what());
   }
 }
 

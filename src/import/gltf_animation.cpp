@@ -109,7 +109,8 @@ struct ClipBuilder {
       ++pointers;
       return;
     }
-    if (channel.target_node < 0 || is_empty(source().samplers[static_cast<std::size_t>(channel.sampler)].input)) {
+    if (channel.target_node < 0 ||
+        is_empty(source().samplers[static_cast<std::size_t>(channel.sampler)].input)) {
       ++aimless;
       return;
     }
@@ -146,7 +147,8 @@ struct ClipBuilder {
           "animations[{}]: skipped {} channels that drive other things than nodes (KHR_animation_pointer).",
           index, pointers));
     if (aimless > 0)
-      warnings.push_back(fmt::format("animations[{}]: skipped {} channels without a node or without key times.", index, aimless));
+      warnings.push_back(fmt::format(
+          "animations[{}]: skipped {} channels without a node or without key times.", index, aimless));
     return std::move(clip);
   }
 };
