@@ -28,14 +28,8 @@ Track start_track(int components, std::size_t keys) {
   return track;
 }
 
-glm::dvec3 read_vector(AffLexer& in, std::string_view what) {
-  const double x = in.number(what);
-  const double y = in.number(what);
-  return {x, y, in.number(what)};
-}
-
 void append_rotation(AffLexer& in, Track& track) {
-  const glm::dvec3 axis = read_vector(in, "a coordinate of a rotation's axis");
+  const glm::dvec3 axis = in.vector("a coordinate of a rotation's axis");
   const double half_angle = 0.5 * glm::radians(in.number("an angle in degrees"));
   const glm::dvec3 v = std::sin(half_angle) * axis;  // as written: the axis is not normalised
   track.values.insert(track.values.end(), {v.x, v.y, v.z, std::cos(half_angle)});
@@ -50,10 +44,10 @@ Track read_spline(AffLexer& in, int components) {
     if (components == 4) {
       append_rotation(in, track);
     } else {
-      const glm::dvec3 v = read_vector(in, "a value of a key");
+      const glm::dvec3 v = in.vector("a value of a key");
       track.values.insert(track.values.end(), {v.x, v.y, v.z});
     }
-    track.tcb.push_back(read_vector(in, "tension, continuity or bias of a key"));
+    track.tcb.push_back(in.vector("tension, continuity or bias of a key"));
   }
   return track;
 }

@@ -92,7 +92,8 @@ double AffLexer::finite_number(std::string_view text, std::string_view expected)
   const auto [end, error] = std::from_chars(digits.data(), digits.data() + digits.size(), value);
   if (end != digits.data() + digits.size()) fail(quote_word(text), expected);
   if (error == std::errc::result_out_of_range) {
-    if (digits.find("e-") == digits.npos && digits.find("E-") == digits.npos) fail(quote_word(text), expected);
+    if (digits.find("e-") == digits.npos && digits.find("E-") == digits.npos)
+      fail(quote_word(text), expected);
     value = 0;  // too small to tell from zero
   }
   return value;
@@ -100,6 +101,12 @@ double AffLexer::finite_number(std::string_view text, std::string_view expected)
 
 double AffLexer::number(std::string_view expected) {
   return finite_number(word(expected), expected);
+}
+
+glm::dvec3 AffLexer::vector(std::string_view expected) {
+  const double x = number(expected);
+  const double y = number(expected);
+  return {x, y, number(expected)};
 }
 
 float AffLexer::real(std::string_view expected) {

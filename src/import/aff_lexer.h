@@ -3,6 +3,7 @@
 #pragma once
 
 #include <cstdint>
+#include <glm/glm.hpp>
 #include <string>
 #include <string_view>
 
@@ -25,8 +26,9 @@ public:
   void expect(std::string_view keyword);
   bool next_is_number();
 
-  double number(std::string_view expected);  ///< finite
-  float real(std::string_view expected);     ///< beyond the range of floats: infinite
+  double number(std::string_view expected);      ///< finite
+  glm::dvec3 vector(std::string_view expected);  ///< three numbers
+  float real(std::string_view expected);         ///< beyond the range of floats: infinite
   std::int64_t integer(std::string_view expected);
   /// A count or size: 0 or more. Says nothing about what follows: see most_numbers_left.
   std::size_t count(std::string_view expected);

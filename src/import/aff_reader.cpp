@@ -25,12 +25,6 @@ glm::vec3 read_color(AffLexer& in) {
   return {r, g, in.real("a colour's blue")};
 }
 
-glm::dvec3 read_vector(AffLexer& in, std::string_view what) {
-  const double x = in.number(what);
-  const double y = in.number(what);
-  return {x, y, in.number(what)};
-}
-
 }  // namespace
 
 struct AffReader::Directive {
@@ -139,10 +133,10 @@ void AffReader::read_ambient(AffLexer& in) {
 
 void AffReader::read_static_transform(AffLexer& in) {
   Node node;
-  node.scale = read_vector(in, "a scale");
-  const glm::dvec3 axis = read_vector(in, "a coordinate of the rotation's axis");
+  node.scale = in.vector("a scale");
+  const glm::dvec3 axis = in.vector("a coordinate of the rotation's axis");
   const double angle = glm::radians(in.number("an angle in degrees"));
-  node.translation = read_vector(in, "a coordinate of the translation");
+  node.translation = in.vector("a coordinate of the translation");
   const double length = glm::length(axis);
   if (length > 0.0 && std::isfinite(length)) node.rotation = glm::angleAxis(angle, axis / length);
   open_block(in, std::move(node));

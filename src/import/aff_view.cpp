@@ -10,15 +10,9 @@
 namespace tenebra {
 namespace {
 
-glm::dvec3 read_vector(AffLexer& in, std::string_view what) {
-  const double x = in.number(what);
-  const double y = in.number(what);
-  return {x, y, in.number(what)};
-}
-
 glm::dvec3 read_named_vector(AffLexer& in, std::string_view keyword) {
   in.expect(keyword);
-  return read_vector(in, "a coordinate");
+  return in.vector("a coordinate");
 }
 
 glm::vec3 color(const std::array<double, 12>& numbers, std::size_t first) {
@@ -49,11 +43,11 @@ void AffReader::read_view(AffLexer& in) {
 }
 
 void AffReader::add_light(AffLexer& in, Node node) {
-  node.translation = read_vector(in, "a coordinate of the light");
+  node.translation = in.vector("a coordinate of the light");
   Light light;
   light.name = node.name;
   light.falloff = Falloff::none;
-  if (in.next_is_number()) light.color = glm::vec3(read_vector(in, "a value of the light's colour"));
+  if (in.next_is_number()) light.color = glm::vec3(in.vector("a value of the light's colour"));
   node.light = static_cast<int>(scene_.lights.size());
   charge(in, 2 * sizeof(Light));
   scene_.lights.push_back(std::move(light));

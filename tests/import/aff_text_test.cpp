@@ -306,7 +306,7 @@ TEST_F(AffText, MutantsLoadOrFailWithASentence) {
           text.resize(std::max<std::size_t>(at, 1));
           break;
       }
-      if (text.empty()) text = " ";
+      if (text.empty()) text.push_back(' ');
     }
     const Expected<Scene> result = read(text);
     if (result) {
