@@ -141,6 +141,21 @@ TEST(GltfImport, FollowsAChainOfTenThousandNodes) {
   for (int i = 0; i < 10000; ++i) EXPECT_EQ(scene->nodes[static_cast<std::size_t>(i)].parent, i - 1);
 }
 
+// 5000 accessors over the same bytes: each small, together hours of work.
+TEST(GltfImport, RefusesAccessorsThatReadTheSameBytesOverAndOver) {
+  const Folder folder;
+  Json json = {{"asset", {{"version", "2.0"}}},
+               {"buffers", {{{"byteLength", 1200000}, {"uri", "zeros.bin"}}}},
+               {"bufferViews", {{{"buffer", 0}, {"byteLength", 1200000}}}}};
+  for (int i = 0; i < 5000; ++i)
+    json["accessors"].push_back(
+        {{"bufferView", 0}, {"componentType", 5121}, {"count", 1200000}, {"type", "SCALAR"}});
+  folder.write("zeros.bin", std::string(1200000, '\0'));
+  const auto scene = import_gltf(folder.write("over.gltf", json.dump()));
+  ASSERT_FALSE(scene.has_value());
+  EXPECT_NE(scene.error().message.find("accessors["), std::string::npos) << scene.error().message;
+}
+
 TEST(GltfImport, RefusesDeepJson) {
   const Folder folder;
   const std::string deep = "{\"asset\":" + std::string(100000, '[') + std::string(100000, ']') + "}";
