@@ -58,6 +58,7 @@ const AffReader::Directive AffReader::directives[] = {
 };
 
 Scene AffReader::read(const std::filesystem::path& path) {
+  scene_.ambient_light = glm::vec3(1.0f);  // until `am` says otherwise
   AffFile* top = nullptr;
   try {
     top = &files_.open_top(path);

@@ -246,7 +246,10 @@ struct GlbExport {
         roots.push_back(i);
     }
     root["scene"] = 0;
-    root["scenes"].push_back(roots.empty() ? Json::object() : Json{{"nodes", roots}});
+    Json shown = roots.empty() ? Json::object() : Json{{"nodes", roots}};
+    const auto colour = [](const glm::vec3& c) { return Json{c.x, c.y, c.z}; };
+    shown["extras"] = {{"ambient_light", colour(scene.ambient_light)}, {"background", colour(scene.background)}};
+    root["scenes"].push_back(std::move(shown));
   }
 
   void add_channel(Json& animation, int node, const char* path, const char* how,

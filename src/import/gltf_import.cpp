@@ -21,6 +21,7 @@ Scene read_gltf(const std::filesystem::path& path) {
   gltf::build_lights(asset);
   gltf::build_meshes(asset);
   const std::vector<int> scene_node = gltf::build_nodes(asset);
+  gltf::build_surroundings(asset);
   gltf::build_skins(asset, scene_node);
   gltf::build_clips(asset, scene_node);
   return std::move(asset.scene);

@@ -61,6 +61,8 @@ void build_lights(Asset& asset);
 void build_meshes(Asset& asset);
 /// Nodes of the default scene, parents first. Returns the scene's node of each node of the file, or -1.
 std::vector<int> build_nodes(Asset& asset);
+/// Ambient light and background from the default scene's extras, where it has them.
+void build_surroundings(Asset& asset);
 void build_skins(Asset& asset, const std::vector<int>& scene_node);
 void build_clips(Asset& asset, const std::vector<int>& scene_node);
 

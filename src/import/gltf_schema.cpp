@@ -43,7 +43,11 @@ constexpr Field extras_fields[] = {{"casts_shadow", Kind::boolean}};
 constexpr Field extras_field{"extras", Kind::object, false, "", 0, extras_fields};
 
 constexpr Field asset_fields[] = {{"version", Kind::string, required}, {"minVersion", Kind::string}};
-constexpr Field scene_fields[] = {name_field, {"nodes", Kind::refs, false, "nodes"}};
+constexpr Field scene_extras_fields[] = {{"ambient_light", Kind::numbers, false, "", 3},
+                                         {"background", Kind::numbers, false, "", 3}};
+constexpr Field scene_fields[] = {name_field,
+                                  {"extras", Kind::object, false, "", 0, scene_extras_fields},
+                                  {"nodes", Kind::refs, false, "nodes"}};
 constexpr Field light_link_fields[] = {{"light", Kind::integer, required}};
 constexpr Field visibility_fields[] = {{"visible", Kind::boolean}};
 constexpr Field node_extension_fields[] = {
@@ -308,7 +312,7 @@ private:
           if (!item.is_string()) refuse("{}: found {}, expected a string", at, shorten(item));
         });
       case Kind::object:
-        if (field.name == extras_field.name && !keeps_extras(value)) value = Json::object();
+        if (field.name == extras_field.name) value = meaningful_extras(value, field.fields);
         return check_object(value, place, field.fields);
       case Kind::objects:
         return check_items(value, place,
@@ -321,9 +325,20 @@ private:
     }
   }
 
-  /// `extras` may hold anything; only a boolean `casts_shadow` means something here.
-  static bool keeps_extras(const Json& extras) {
-    return extras.is_object() && extras.contains("casts_shadow") && extras["casts_shadow"].is_boolean();
+  /// `extras` may hold anything; what does not look like one of `fields` is none of ours.
+  static Json meaningful_extras(const Json& extras, std::span<const Field> fields) {
+    Json kept = Json::object();
+    if (!extras.is_object()) return kept;
+    for (const Field& field : fields) {
+      const auto found = extras.find(field.name);
+      if (found == extras.end()) continue;
+      const bool fits = field.kind == Kind::boolean
+                            ? found->is_boolean()
+                            : found->is_array() && found->size() == field.length &&
+                                  std::all_of(found->begin(), found->end(), [](const Json& n) { return n.is_number(); });
+      if (fits) kept[std::string(field.name)] = *found;
+    }
+    return kept;
   }
 
   static std::string shorten(const Json& value) {

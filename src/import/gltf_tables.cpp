@@ -1,4 +1,5 @@
 // Materials, cameras and lights of a glTF file.
+#include <algorithm>
 #include <cmath>
 #include <numbers>
 
@@ -123,6 +124,19 @@ void build_lights(Asset& asset) {
   for (std::size_t i = 0; lights && i < lights->ArrayLen(); ++i)
     asset.scene.lights.push_back(
         read_area_light(lights->Get(i), fmt::format("extensions.EXT_lights_area.lights[{}]", i)));
+}
+
+void build_surroundings(Asset& asset) {
+  const Model& model = asset.model;
+  if (model.scenes.empty()) return;
+  const Value& extras = model.scenes[static_cast<std::size_t>(std::max(model.defaultScene, 0))].extras;
+  const auto read = [&](const char* name, glm::vec3& colour) {
+    const Value* found = member(extras, name);
+    if (!found) return;
+    for (int k = 0; k < 3; ++k) colour[k] = static_cast<float>(found->Get(k).GetNumberAsDouble());
+  };
+  read("ambient_light", asset.scene.ambient_light);
+  read("background", asset.scene.background);
 }
 
 }  // namespace tenebra::gltf

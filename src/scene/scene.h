@@ -111,7 +111,7 @@ struct Scene {
   std::vector<Camera> cameras;
   std::vector<Clip> clips;
   glm::vec3 background{0.0f};
-  glm::vec3 ambient_light{1.0f};
+  glm::vec3 ambient_light{0.1f};          ///< times the materials' ambient; formats that state one set it
   std::vector<std::string> warnings;      ///< sentences: what was skipped, guessed or added at import
 };
 
