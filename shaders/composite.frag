@@ -6,7 +6,7 @@ layout(location = 1) uniform vec3 u_background;
 layout(location = 2) uniform float u_exposure;
 out vec4 o_color;
 
-// x^(1/2.4) = y with y^12 = x^5. pow() is coarse on some drivers (llvmpipe: 1e-4); one step of Newton's method
+// x^(1/2.4) = y with y^12 = x^5. pow() may be coarse; one step of Newton's method
 // from it is good to a few ulp.
 vec3 root_2_4(vec3 x) {
   vec3 y = pow(x, vec3(1.0 / 2.4));
