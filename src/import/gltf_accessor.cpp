@@ -242,7 +242,8 @@ void check_accessors(Asset& asset) {
     if (all_zeros) continue;
     work.take(accessor.count, 1, fmt::format("accessors[{}].count", i));
     Budget passing = asset.budget;  // the values live only for the check
-    passing.take(accessor.count, 128, fmt::format("accessors[{}].count", i));
+    passing.take(accessor.count, 8 * static_cast<std::uint64_t>(component_count(accessor)),
+                 fmt::format("accessors[{}].count", i));
     check_bounds(asset, i, read_unbudgeted(asset, static_cast<int>(i)));
   }
 }

@@ -71,7 +71,9 @@ struct BufferSource {
       if (text.starts_with("data:")) return decode_data_uri(text, place + ".uri");
       const auto path = confine(folder, text, place + ".uri", true);
       try {
-        return read_scene_file(path);
+        std::string bytes = read_scene_file(path);
+        asset.budget.give(8 * bytes.size());
+        return bytes;
       } catch (const ImportFailure& failure) {
         refuse("{}.uri '{}': {}", place, text, failure.what());
       }

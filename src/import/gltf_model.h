@@ -29,6 +29,8 @@ public:
       refuse("{}: found {} elements, expected no more than the file can fill", place, count);
     left_ -= count * size;
   }
+  /// Adds what the bytes of one more file allow.
+  void give(std::uint64_t bytes) { left_ += bytes; }
 
 private:
   std::uint64_t left_;
