@@ -32,6 +32,11 @@ void set_node(NodeBlock& block, int lane, const ConeNode& node) {
   block.c[lane] = node.c;
   block.near[lane] = node.near;
   block.far[lane] = node.far;
+  // sin = c sqrt(1 - c^2 / 4) and cos = 1 - c^2 / 2 for unit directions within c of an axis of length 1 +- 2u; 16u
+  // covers that length and the roundings here.
+  const float c2 = node.c * node.c;
+  block.sine[lane] = node.c < hemisphere_chord ? node.c * std::sqrt(1 - c2 / 4) * (1 + 16 * u) : 2.0f;
+  block.slope[lane] = node.c < narrow_chord ? (block.sine[lane] + 16 * u) / (1 - 16 * u - c2 / 2) : 0.0f;
 }
 
 vec3 unit_or_x(const vec3& v) {

@@ -41,10 +41,13 @@ struct ConeNode {
   float far = -std::numeric_limits<float>::infinity();
 };
 
-/// Four sibling nodes.
+/// Four sibling nodes. Of cones also `sine` >= the sine of the half-angle (2 past 90 degrees) and `slope` >= its
+/// tangent (cones of c < narrow_chord only), both made from the chord, which is exact where cosines are not.
 struct NodeBlock {
-  float wx[4], wy[4], wz[4], c[4], near[4], far[4];
+  float wx[4], wy[4], wz[4], c[4], near[4], far[4], sine[4], slope[4];
 };
+inline constexpr float narrow_chord = 1.35f;           ///< about 85 degrees
+inline constexpr float hemisphere_chord = 1.4142137f;  ///< 90 degrees, rounded up
 
 struct ConeTree {
   bool directional = false;

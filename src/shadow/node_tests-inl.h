@@ -1,6 +1,7 @@
 // Cone/triangle tests, four sibling nodes at a time, in float. Conservative: a triangle is rejected only if no
 // ray of the node can be blocked by it, accepted early only if it blocks all of them. u = 2^-24 below; the
-// widenings are derived for planes rounded to float (1u), axes of any length near 1, with or without FMA.
+// widenings are derived for planes rounded to float (1u), axes of length 1 +- 2u, with or without FMA. A plane with
+// the unit normal m misses the cone if m.w < -sine, and has all of it inside if m.w > sine.
 // Olsson and Assarsson 2011, sections 3.2 and 3.3. Included once per target.
 #if defined(TENEBRA_SHADOW_NODE_TESTS_INL_H_) == defined(HWY_TARGET_TOGGLE)
 #ifdef TENEBRA_SHADOW_NODE_TESTS_INL_H_
@@ -23,12 +24,12 @@ constexpr float tiny = 1e-36f;  // products below the normal range
 
 struct Nodes {
   Vector4 w;
-  Float4 c, near, far;
+  Float4 c, near, far, sine, slope;
   std::uint32_t empty;  // bits of lanes without rays
 };
 
 HWY_INLINE Nodes load_nodes(const NodeBlock& b) {
-  Nodes n{{load<Float4>(b.wx), load<Float4>(b.wy), load<Float4>(b.wz)}, load<Float4>(b.c), load<Float4>(b.near), load<Float4>(b.far), 0};
+  Nodes n{{load<Float4>(b.wx), load<Float4>(b.wy), load<Float4>(b.wz)}, load<Float4>(b.c), load<Float4>(b.near), load<Float4>(b.far), load<Float4>(b.sine), load<Float4>(b.slope), 0};
   n.empty = less_bits(n.c, splat<Float4>(0.0f));
   return n;
 }
@@ -42,11 +43,9 @@ struct Verdict {
 
 // Section 3.2, figure 4: a plane through the apex that touches the cone, with its normal towards corner k. If all
 // corners lie beyond it, no ray of the cone meets the triangle. n = t - s |t| w with t = the part of the corner
-// across w. For every ray d of the cone n.d <= |t.w| + |t| c - s |t| (1 - c^2 / 2 - 4u) <= 0 by the choice of s.
+// across w. For every ray d of the cone n.d <= |t.w| + |t| sine - s |t| cosine <= 0 by the choice of the slope s.
 HWY_INLINE std::uint32_t beyond_separating_plane(const TriangleBounds& t, const Nodes& n) {
-  const Float4 half_c2 = splat<Float4>(0.5f) * n.c * n.c;
-  const Float4 slope = (n.c + splat<Float4>(16 * u)) / (splat<Float4>(1 - 8 * u) - half_c2);
-  const std::uint32_t narrow = less_bits(n.c, splat<Float4>(1.2f));
+  const std::uint32_t narrow = less_bits(n.c, splat<Float4>(narrow_chord));
   if (narrow == 0) return 0;
   Vector4 corner[3];
   Float4 along[3];
@@ -59,7 +58,7 @@ HWY_INLINE std::uint32_t beyond_separating_plane(const TriangleBounds& t, const 
     Vector4 across = subtract_scaled(corner[k], along[k], n.w);
     across = subtract_scaled(across, dot(across, n.w), n.w);
     const Float4 length = square_root(dot(across, across));
-    const Float4 climb = slope * length;
+    const Float4 climb = n.slope * length;
     Float4 nearest = dot(across, corner[0]) - climb * along[0];
     nearest = min(nearest, dot(across, corner[1]) - climb * along[1]);
     nearest = min(nearest, dot(across, corner[2]) - climb * along[2]);
@@ -69,12 +68,12 @@ HWY_INLINE std::uint32_t beyond_separating_plane(const TriangleBounds& t, const 
   return beyond & narrow;
 }
 
-// Section 3.2, last paragraph: cones past 90 degrees. If all corners lie in the complementary cone, which is
-// convex, so does the triangle. The chord between directions is longer than c outside the cone.
+// Section 3.2, last paragraph: cones near and past 90 degrees, rounded up to 90. If all corners lie in the
+// complementary cone, which is convex, so does the triangle. Outside of the cone chords to the axis are longer than c.
 HWY_INLINE std::uint32_t in_complementary_cone(const TriangleBounds& t, const Nodes& n) {
-  const std::uint32_t wide = less_bits(splat<Float4>(1.4142137f), n.c);
-  if (wide == 0) return 0;
-  const Float4 c = n.c + splat<Float4>(8 * u);
+  const std::uint32_t wide = ~less_bits(n.c, splat<Float4>(narrow_chord));
+  if ((wide & 15u) == 0) return 0;
+  const Float4 c = max(n.c, splat<Float4>(hemisphere_chord)) + splat<Float4>(8 * u);
   const Float4 c2 = c * c * splat<Float4>(1 + 8 * u);
   std::uint32_t outside = wide;
   for (int k = 0; k < 3; ++k) {
@@ -89,19 +88,22 @@ HWY_INLINE Verdict precise_cone_test(const TriangleBounds& t, const Nodes& n, fl
   Float4 lowest = splat<Float4>(4.0f);
   for (int k = 0; k < 3; ++k) lowest = min(lowest, dot(splat3<Float4>(t.mx[k], t.my[k], t.mz[k]), n.w));
   Verdict v{n.empty, 0};
-  v.rejected |= less_bits(lowest + n.c + slack, splat<Float4>(0.0f));
+  v.rejected |= less_bits(lowest + n.sine + slack, splat<Float4>(0.0f));
 
   // Nearest and farthest crossing of the own plane: rays reach it where |p| m.d > d.
   const Float4 plane_slack = splat<Float4>(5.2f * u + t.rho_plane);
   const Float4 facing = dot(splat3<Float4>(t.mx[3], t.my[3], t.mz[3]), n.w);
   const Float4 reach = n.far * (facing + n.c + plane_slack) * splat<Float4>(1 + 4 * u) + splat<Float4>(tiny);
   v.rejected |= less_bits(reach, splat<Float4>(t.d[3] * (1 - 4 * u)));
+  // The plane may come near the light where the triangle does not: not in the paper, a fifth to a half of the
+  // nodes of wide unsorted cones.
+  v.rejected |= less_bits(n.far, splat<Float4>(t.sphere_near));
   if (v.rejected == 15) return v;
 
   v.rejected |= beyond_separating_plane(t, n) | in_complementary_cone(t, n);
   if (early_accept) {
     const Float4 least = n.near * (facing - n.c - plane_slack) * splat<Float4>(1 - 4 * u) - splat<Float4>(tiny);
-    v.covered = less_bits(n.c + slack, lowest) & less_bits(splat<Float4>((t.d[3] + tau) * (1 + 8 * u) + tiny), least) & ~v.rejected;
+    v.covered = less_bits(n.sine + slack, lowest) & less_bits(splat<Float4>((t.d[3] + tau) * (1 + 8 * u) + tiny), least) & ~v.rejected;
   }
   return v;
 }
@@ -161,6 +163,7 @@ HWY_INLINE Verdict precise_cylinder_test(const TriangleBounds& t, const Nodes& n
   const Float4 plane_slack = scale * splat<Float4>(10 * u + t.rho_plane) + splat<Float4>(tiny);
   const Float4 level = plane_value(t, 3, n), climb = splat<Float4>(t.climb);
   v.rejected |= less_bits(level + n.c + n.far * climb + plane_slack, splat<Float4>(0.0f));
+  v.rejected |= less_bits(n.far, splat<Float4>(t.sphere_near) - slack);
   if (v.rejected == 15) return v;
 
   v.rejected |= beyond_separating_line(t, n, slack);
