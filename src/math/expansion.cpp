@@ -21,7 +21,9 @@ Expansion::Expansion(double value) {
   if (value != 0) terms_.push_back(value);
 }
 
-int Expansion::sign() const { return terms_.empty() ? 0 : (terms_.back() > 0 ? 1 : -1); }
+int Expansion::sign() const {
+  return terms_.empty() ? 0 : (terms_.back() > 0 ? 1 : -1);
+}
 
 Expansion Expansion::difference(double a, double b) {
   const auto [sum, error] = two_sum(a, -b);
@@ -60,7 +62,9 @@ Expansion operator+(const Expansion& a, const Expansion& b) {
   return result;
 }
 
-Expansion operator-(const Expansion& a, const Expansion& b) { return a + -b; }
+Expansion operator-(const Expansion& a, const Expansion& b) {
+  return a + -b;
+}
 
 Expansion operator*(const Expansion& a, const Expansion& b) {
   Expansion result;
@@ -74,12 +78,16 @@ ExactVector exact_difference(const glm::dvec3& a, const glm::dvec3& b) {
   return {Expansion::difference(a.x, b.x), Expansion::difference(a.y, b.y), Expansion::difference(a.z, b.z)};
 }
 
-ExactVector exact_vector(const glm::dvec3& a) { return {Expansion(a.x), Expansion(a.y), Expansion(a.z)}; }
+ExactVector exact_vector(const glm::dvec3& a) {
+  return {Expansion(a.x), Expansion(a.y), Expansion(a.z)};
+}
 
 ExactVector cross(const ExactVector& a, const ExactVector& b) {
   return {a.y * b.z - a.z * b.y, a.z * b.x - a.x * b.z, a.x * b.y - a.y * b.x};
 }
 
-Expansion dot(const ExactVector& a, const ExactVector& b) { return a.x * b.x + a.y * b.y + a.z * b.z; }
+Expansion dot(const ExactVector& a, const ExactVector& b) {
+  return a.x * b.x + a.y * b.y + a.z * b.z;
+}
 
 }  // namespace tenebra

@@ -1,6 +1,6 @@
 // Exact arithmetic on sums of doubles: a value is the unevaluated sum of the terms of an expansion.
-// Shewchuk 1997, "Adaptive Precision Floating-Point Arithmetic and Fast Robust Geometric Predicates", section 2.
-// Needs round to nearest, no contraction, no overflow, and products above 2^-1022.
+// Shewchuk 1997, "Adaptive Precision Floating-Point Arithmetic and Fast Robust Geometric Predicates",
+// section 2. Needs round to nearest, no contraction, no overflow, and products above 2^-1022.
 #pragma once
 
 #include <glm/glm.hpp>
@@ -10,7 +10,7 @@ namespace tenebra {
 
 /// Non-overlapping terms of ascending magnitude without zeros; no terms: zero.
 class Expansion {
- public:
+public:
   Expansion() = default;
   explicit Expansion(double value);
 
@@ -26,7 +26,7 @@ class Expansion {
   friend Expansion operator-(const Expansion& a, const Expansion& b);
   friend Expansion operator*(const Expansion& a, const Expansion& b);
 
- private:
+private:
   void add(double term);  // Shewchuk's grow-expansion, zeros dropped
   std::vector<double> terms_;
 };

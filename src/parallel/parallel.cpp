@@ -24,10 +24,10 @@ namespace {
 
 constexpr unsigned ieee_defaults = 0x1f80;  // MXCSR: all exceptions masked, to nearest, no FTZ, no DAZ
 
-// What a loop is to the thread sanitizer: libtbb is not instrumented, nor is this file, so the order that they
-// keep (the caller before each body, each body before the caller goes on) has to be said.
+// What a loop is to the thread sanitizer: libtbb is not instrumented, nor is this file, so the order that
+// they keep (the caller before each body, each body before the caller goes on) has to be said.
 class Loop {
- public:
+public:
   Loop() { __tsan_release(this); }
   ~Loop() { __tsan_acquire(this); }
   Loop(const Loop&) = delete;
@@ -44,8 +44,12 @@ class Loop {
 
 }  // namespace
 
-FloatEnvironment::FloatEnvironment() : saved_(_mm_getcsr()) { _mm_setcsr(ieee_defaults); }
-FloatEnvironment::~FloatEnvironment() { _mm_setcsr(saved_); }
+FloatEnvironment::FloatEnvironment() : saved_(_mm_getcsr()) {
+  _mm_setcsr(ieee_defaults);
+}
+FloatEnvironment::~FloatEnvironment() {
+  _mm_setcsr(saved_);
+}
 
 void with_threads(int threads, const std::function<void()>& body) {
   if (threads <= 0) {
@@ -57,7 +61,9 @@ void with_threads(int threads, const std::function<void()>& body) {
   arena.execute(body);
 }
 
-int thread_count() { return tbb::this_task_arena::max_concurrency(); }
+int thread_count() {
+  return tbb::this_task_arena::max_concurrency();
+}
 
 void parallel_ranges(std::size_t count, std::size_t grain,
                      const std::function<void(std::size_t, std::size_t)>& body) {
@@ -73,6 +79,8 @@ void parallel_tasks(int count, const std::function<void(int)>& body) {
   tbb::parallel_for(0, count, [&](int i) { loop.run([&] { body(i); }); });
 }
 
-int thread_index() { return std::max(0, tbb::this_task_arena::current_thread_index()); }
+int thread_index() {
+  return std::max(0, tbb::this_task_arena::current_thread_index());
+}
 
 }  // namespace tenebra

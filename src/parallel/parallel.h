@@ -9,13 +9,13 @@ namespace tenebra {
 
 /// Round to nearest and gradual underflow while it lives; the caller's settings come back with its end.
 class FloatEnvironment {
- public:
+public:
   FloatEnvironment();
   ~FloatEnvironment();
   FloatEnvironment(const FloatEnvironment&) = delete;
   FloatEnvironment& operator=(const FloatEnvironment&) = delete;
 
- private:
+private:
   unsigned saved_;
 };
 

@@ -91,11 +91,15 @@ Expected<Renderer> Renderer::create(gl::Context context, const Scene& scene) {
   return Renderer(std::move(state));
 }
 
-const std::string& Renderer::gl_renderer() const { return state_->context.description(); }
+const std::string& Renderer::gl_renderer() const {
+  return state_->context.description();
+}
 
-Expected<std::vector<int>> Renderer::State::chosen_lights(const FrameInput& input, const RenderSettings& settings) const {
+Expected<std::vector<int>> Renderer::State::chosen_lights(const FrameInput& input,
+                                                          const RenderSettings& settings) const {
   const int count = static_cast<int>(input.lights.size());
-  if (settings.light >= count) return fail("light {}: the scene has {} lights, counted from 0", settings.light, count);
+  if (settings.light >= count)
+    return fail("light {}: the scene has {} lights, counted from 0", settings.light, count);
   std::vector<int> chosen;
   for (int i = 0; i < count; ++i) {
     if (settings.light < 0 || settings.light == i) chosen.push_back(i);
@@ -104,7 +108,8 @@ Expected<std::vector<int>> Renderer::State::chosen_lights(const FrameInput& inpu
 }
 
 void Renderer::State::points_from_depth(const ViewRays& view) {
-  const std::size_t width = static_cast<std::size_t>(gbuffer.width), height = static_cast<std::size_t>(gbuffer.height);
+  const std::size_t width = static_cast<std::size_t>(gbuffer.width),
+                    height = static_cast<std::size_t>(gbuffer.height);
   points.width = gbuffer.width;
   points.height = gbuffer.height;
   points.triangles = ids;
@@ -113,12 +118,14 @@ void Renderer::State::points_from_depth(const ViewRays& view) {
     for (std::size_t i = first * width; i < last * width; ++i) {
       if (depth[i] <= 0) points.triangles[i] = no_triangle;
       if (points.triangles[i] == no_triangle) continue;
-      points.positions[i] = point_from_depth(view, gbuffer.transform, static_cast<int>(i % width), static_cast<int>(i / width), depth[i]);
+      points.positions[i] = point_from_depth(view, gbuffer.transform, static_cast<int>(i % width),
+                                             static_cast<int>(i / width), depth[i]);
     }
   });
 }
 
-void Renderer::State::read_samples(const FrameInput& input, const RenderSettings& settings, FrameTimings& timings) {
+void Renderer::State::read_samples(const FrameInput& input, const RenderSettings& settings,
+                                   FrameTimings& timings) {
   Stopwatch watch;
   read_triangle_ids(gbuffer, ids);
   if (settings.samples == SampleSource::depth) read_depth(gbuffer, depth);
@@ -130,22 +137,25 @@ void Renderer::State::read_samples(const FrameInput& input, const RenderSettings
   timings.points_ms = watch.lap_ms();
 }
 
-void Renderer::State::trace_light(const FrameInput& input, int light, const RenderSettings& settings, FrameResult& result) {
+void Renderer::State::trace_light(const FrameInput& input, int light, const RenderSettings& settings,
+                                  FrameResult& result) {
   const WorldLight& placed = input.lights[static_cast<std::size_t>(light)];
   HardShadowConfig config = settings.hard;
   if (settings.samples == SampleSource::depth) config.contact = ContactRule::none;
   with_threads(settings.threads, [&] {
     tracer.trace_shadow_mask(points, input.view, view_of(input.geometry),
-                             shadow_light(scene.lights[static_cast<std::size_t>(placed.light)], placed), config, mask);
+                             shadow_light(scene.lights[static_cast<std::size_t>(placed.light)], placed),
+                             config, mask);
   });
   add(result.stats, tracer.stats());
   add_trace_times(result.timings, tracer.timings());
   result.masks.push_back({light, {gbuffer.width, gbuffer.height, 1, mask}});
 }
 
-// Olsson and Assarsson 2011, section 3.1: (1) rasterise, direct light apart; (2) rays and their hierarchy from
-// what is seen; (3) triangles through the hierarchy; (4) blocked pixels lose the light; (5) add it up.
-Expected<void> Renderer::render_frame(const FrameInput& input, const RenderSettings& settings, FrameResult& result) {
+// Olsson and Assarsson 2011, section 3.1: (1) rasterise, direct light apart; (2) rays and their hierarchy
+// from what is seen; (3) triangles through the hierarchy; (4) blocked pixels lose the light; (5) add it up.
+Expected<void> Renderer::render_frame(const FrameInput& input, const RenderSettings& settings,
+                                      FrameResult& result) {
   State& s = *state_;
   const auto lights = s.chosen_lights(input, settings);
   if (!lights) return tl::unexpected(lights.error());
@@ -157,7 +167,9 @@ Expected<void> Renderer::render_frame(const FrameInput& input, const RenderSetti
   Stopwatch watch, whole;
 
   if (auto uploaded = s.geometry.upload(input.geometry); !uploaded) return uploaded;
-  if (auto drawn = s.gbuffer_pass.draw(input.view, s.geometry, settings.width, settings.height, s.gbuffer); !drawn) return drawn;
+  if (auto drawn = s.gbuffer_pass.draw(input.view, s.geometry, settings.width, settings.height, s.gbuffer);
+      !drawn)
+    return drawn;
   if (auto begun = s.compositor.begin(settings.width, settings.height); !begun) return begun;
   timings.raster_ms = watch.lap_ms();
 
@@ -166,16 +178,21 @@ Expected<void> Renderer::render_frame(const FrameInput& input, const RenderSetti
   for (const int light : *lights) {
     const WorldLight& placed = input.lights[static_cast<std::size_t>(light)];
     watch.lap_ms();
-    if (auto drawn = s.light_pass.draw(s.gbuffer, s.geometry, s.scene.lights[static_cast<std::size_t>(placed.light)], placed, s.light_buffer); !drawn) {
+    if (auto drawn =
+            s.light_pass.draw(s.gbuffer, s.geometry, s.scene.lights[static_cast<std::size_t>(placed.light)],
+                              placed, s.light_buffer);
+        !drawn) {
       return drawn;
     }
     timings.raster_ms += watch.lap_ms();
     if (shadows) s.trace_light(input, light, settings, result);
     watch.lap_ms();
-    s.compositor.add_light(s.light_buffer, shadows ? std::span<const std::uint8_t>(s.mask) : std::span<const std::uint8_t>());
+    s.compositor.add_light(s.light_buffer,
+                           shadows ? std::span<const std::uint8_t>(s.mask) : std::span<const std::uint8_t>());
     timings.writeback_ms += watch.lap_ms();
   }
-  s.compositor.finish(s.gbuffer, s.geometry, {s.scene.ambient_light, s.scene.background, settings.exposure}, result.image);
+  s.compositor.finish(s.gbuffer, s.geometry, {s.scene.ambient_light, s.scene.background, settings.exposure},
+                      result.image);
   timings.composite_ms = watch.lap_ms();
   timings.total_ms = whole.lap_ms();
   return {};

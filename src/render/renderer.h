@@ -28,9 +28,9 @@ struct RenderSettings {
   ShadowMode shadows = ShadowMode::hard;
   SampleSource samples = SampleSource::ids;
   HardShadowConfig hard;
-  int light = -1;          ///< index into the frame's lights; -1: all
-  int threads = 0;         ///< 0: all cores
-  float exposure = 1.0f;   ///< factor of linear colour before it is clamped
+  int light = -1;         ///< index into the frame's lights; -1: all
+  int threads = 0;        ///< 0: all cores
+  float exposure = 1.0f;  ///< factor of linear colour before it is clamped
 };
 
 /// What is drawn: one instant of a scene from one camera.
@@ -41,20 +41,20 @@ struct FrameInput {
 };
 
 struct LightMask {
-  int light = -1;   ///< index into FrameInput::lights
-  Image8 mask;      ///< 255 lit, 0 shadowed, facing away, out of reach or background
+  int light = -1;  ///< index into FrameInput::lights
+  Image8 mask;     ///< 255 lit, 0 shadowed, facing away, out of reach or background
 };
 
 struct FrameResult {
-  Image8 image;                   ///< RGB, sRGB-encoded
-  std::vector<LightMask> masks;   ///< one a light drawn; empty without shadows
+  Image8 image;                  ///< RGB, sRGB-encoded
+  std::vector<LightMask> masks;  ///< one a light drawn; empty without shadows
   FrameTimings timings;
   TraceStats stats;
 };
 
 /// Owns the OpenGL objects of one scene. Use it on the thread that created its context.
 class Renderer {
- public:
+public:
   /// Fails with a sentence if the context lacks OpenGL 4.5 core or a shader does not build.
   static Expected<Renderer> create(gl::Context context, const Scene& scene);
   Renderer(Renderer&&) noexcept;
@@ -66,7 +66,7 @@ class Renderer {
 
   const std::string& gl_renderer() const;  ///< GL_RENDERER and GL_VERSION of the context
 
- private:
+private:
   struct State;
   explicit Renderer(std::unique_ptr<State> state);
   std::unique_ptr<State> state_;

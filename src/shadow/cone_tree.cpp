@@ -18,8 +18,12 @@ using glm::vec3;
 constexpr float u = 0x1p-24f;
 constexpr float infinity = std::numeric_limits<float>::infinity();
 
-float round_up(double x) { return std::nextafter(static_cast<float>(x), infinity); }
-float round_down(double x) { return std::nextafter(static_cast<float>(x), -infinity); }
+float round_up(double x) {
+  return std::nextafter(static_cast<float>(x), infinity);
+}
+float round_down(double x) {
+  return std::nextafter(static_cast<float>(x), -infinity);
+}
 
 ConeNode node_at(const NodeBlock& block, int lane) {
   return {{block.wx[lane], block.wy[lane], block.wz[lane]}, block.c[lane], block.near[lane], block.far[lane]};
@@ -32,8 +36,8 @@ void set_node(NodeBlock& block, int lane, const ConeNode& node) {
   block.c[lane] = node.c;
   block.near[lane] = node.near;
   block.far[lane] = node.far;
-  // sin = c sqrt(1 - c^2 / 4) and cos = 1 - c^2 / 2 for unit directions within c of an axis of length 1 +- 2u; 16u
-  // covers that length and the roundings here.
+  // sin = c sqrt(1 - c^2 / 4) and cos = 1 - c^2 / 2 for unit directions within c of an axis of length 1 +-
+  // 2u; 16u covers that length and the roundings here.
   const float c2 = node.c * node.c;
   block.sine[lane] = node.c < hemisphere_chord ? node.c * std::sqrt(1 - c2 / 4) * (1 + 16 * u) : 2.0f;
   block.slope[lane] = node.c < narrow_chord ? (block.sine[lane] + 16 * u) / (1 - 16 * u - c2 / 2) : 0.0f;
@@ -64,10 +68,12 @@ RaySpan span_of(const dvec3& p, const RaySource& source) {
 }
 
 // Lengths in double: squares of tiny scenes must not underflow.
-float distance(const vec3& a, const vec3& b) { return static_cast<float>(glm::length(dvec3(a) - dvec3(b))); }
+float distance(const vec3& a, const vec3& b) {
+  return static_cast<float>(glm::length(dvec3(a) - dvec3(b)));
+}
 
-// c = (1 + 8u) max fl|d - w| + slack. Unit directions are rounded by 7u at most, and base + q stands for a point
-// up to 2u radius away. Across a directional light the coordinates are rounded relative to their size.
+// c = (1 + 8u) max fl|d - w| + slack. Unit directions are rounded by 7u at most, and base + q stands for a
+// point up to 2u radius away. Across a directional light the coordinates are rounded relative to their size.
 float leaf_slack(const RaySource& source, float size, float radius, double near) {
   return source.directional ? 4 * u * size : 7 * u + static_cast<float>(2 * u * radius / near);
 }
@@ -81,13 +87,15 @@ ConeNode leaf_node(const RayPacket& packet, const RaySource& source) {
   double near = infinity, far = -infinity;
   for (std::uint32_t live = packet.live; live != 0; live &= live - 1) {
     const int i = std::countr_zero(live);
-    const dvec3 p = dvec3(packet.base_x, packet.base_y, packet.base_z) + dvec3(packet.qx[i], packet.qy[i], packet.qz[i]);
+    const dvec3 p =
+        dvec3(packet.base_x, packet.base_y, packet.base_z) + dvec3(packet.qx[i], packet.qy[i], packet.qz[i]);
     spans[i] = span_of(p, source);
     low = glm::min(low, spans[i].w);
     high = glm::max(high, spans[i].w);
     near = std::min(near, spans[i].along);
     far = std::max(far, spans[i].along);
-    size = std::max({size, std::abs(spans[i].w.x), std::abs(spans[i].w.y), std::abs(spans[i].w.z), packet.radius});
+    size = std::max(
+        {size, std::abs(spans[i].w.x), std::abs(spans[i].w.y), std::abs(spans[i].w.z), packet.radius});
   }
   if (packet.live == 0) return node;
   const vec3 centre = 0.5f * low + 0.5f * high;
@@ -196,8 +204,8 @@ std::array<std::size_t, 2> ConeTree::packet_range(std::size_t level, std::size_t
   return {std::min(packets.size(), node * width), std::min(packets.size(), (node + 1) * width)};
 }
 
-void build_cone_tree(const ShadowRays& rays, std::span<const dvec3> positions, const RaySource& source, SimdLevel simd,
-                     ConeTree& out) {
+void build_cone_tree(const ShadowRays& rays, std::span<const dvec3> positions, const RaySource& source,
+                     SimdLevel simd, ConeTree& out) {
   const RayKernels kernels = ray_kernels(simd);
   out.directional = source.directional;
   out.packets.resize((rays.pixels.size() + packet_size - 1) / packet_size);
@@ -218,7 +226,8 @@ void update_cone_tree(const RaySource& source, ConeTree& tree) {
 
 float root_extent(const ConeTree& tree) {
   const float c = std::min(tree.levels.back()[0].c[0], 2.0f);
-  return static_cast<float>(M_PI) * (tree.directional ? tree.levels.back()[0].c[0] * tree.levels.back()[0].c[0] : c * c);
+  return static_cast<float>(M_PI) *
+         (tree.directional ? tree.levels.back()[0].c[0] * tree.levels.back()[0].c[0] : c * c);
 }
 
 }  // namespace tenebra

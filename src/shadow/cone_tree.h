@@ -23,17 +23,19 @@ struct ShadowRays {
   float tau_max = 0;                     ///< largest rounding tolerance of these triangles
 };
 
-/// A leaf: sixteen neighbouring rays. Point i = base + q_i relative to the source's origin, q rounded to float.
+/// A leaf: sixteen neighbouring rays. Point i = base + q_i relative to the source's origin, q rounded to
+/// float.
 struct RayPacket {
   float qx[packet_size], qy[packet_size], qz[packet_size];
   double base_x, base_y, base_z;
-  float radius;   ///< >= largest |q|
-  float reach;    ///< >= largest |point - origin|
+  float radius;        ///< >= largest |q|
+  float reach;         ///< >= largest |point - origin|
   std::uint32_t live;  ///< bit i: a ray is there and not yet blocked
 };
 
-/// Point lights: unit axis w, chord c >= |direction - w| of every ray, shortest and longest ray. Directional lights:
-/// w across the light's direction, radius c, lowest and highest position along it. A node without rays has c < 0.
+/// Point lights: unit axis w, chord c >= |direction - w| of every ray, shortest and longest ray. Directional
+/// lights: w across the light's direction, radius c, lowest and highest position along it. A node without
+/// rays has c < 0.
 struct ConeNode {
   glm::vec3 w{0.0f};
   float c = -1;
@@ -41,8 +43,9 @@ struct ConeNode {
   float far = -std::numeric_limits<float>::infinity();
 };
 
-/// Four sibling nodes. Of cones also `sine` >= the sine of the half-angle (2 past 90 degrees) and `slope` >= its
-/// tangent (cones of c < narrow_chord only), both made from the chord, which is exact where cosines are not.
+/// Four sibling nodes. Of cones also `sine` >= the sine of the half-angle (2 past 90 degrees) and `slope` >=
+/// its tangent (cones of c < narrow_chord only), both made from the chord, which is exact where cosines are
+/// not.
 struct NodeBlock {
   float wx[4], wy[4], wz[4], c[4], near[4], far[4], sine[4], slope[4];
 };

@@ -21,7 +21,8 @@ Corners corners_of(const TriangleView& triangles, std::uint32_t id) {
 
 bool inside_edge(const Corners& c, int k, const dvec3& point, int side, const RaySource& source) {
   const vec3 &a = c.v[k], &b = c.v[(k + 1) % 3];
-  const int sign = source.directional ? edge_side_infinite(source.light, a, b, point) : edge_side(source.light, a, b, point);
+  const int sign = source.directional ? edge_side_infinite(source.light, a, b, point)
+                                      : edge_side(source.light, a, b, point);
   return side * sign >= 0;
 }
 
@@ -41,7 +42,8 @@ bool decide(const TrianglePlanes& planes, const dvec3& point, std::uint32_t own,
     const double slack = k == 3 ? tau_own : 0.0;
     const double value = planes.mx[k] * p.x + planes.my[k] * p.y + planes.mz[k] * p.z - planes.d[k] - slack;
     // rho: the plane's own error; 2^-50: rounding of p, of the four products and of tau.
-    const double bound = planes.rho[k] * (size + planes.reach) + 0x1p-50 * (size + std::abs(planes.d[k]) + slack) + 0x1p-1000;
+    const double bound =
+        planes.rho[k] * (size + planes.reach) + 0x1p-50 * (size + std::abs(planes.d[k]) + slack) + 0x1p-1000;
     if (value < -bound) return false;
     open[k] = !(value > bound);
     any_open |= open[k];

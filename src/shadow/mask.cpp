@@ -15,8 +15,8 @@ namespace tenebra {
 namespace {
 
 constexpr std::uint8_t lit = 255;
-// Section 3.4: triangles that can cover a node four levels below the root go first; the tree is updated if they
-// finished at least this share of the rays.
+// Section 3.4: triangles that can cover a node four levels below the root go first; the tree is updated if
+// they finished at least this share of the rays.
 constexpr float blocker_share = 1.0f / 256;
 constexpr std::uint64_t update_share = 16;
 
@@ -79,7 +79,8 @@ void ShadowTracer::State::trace_two_passes(const Traversal& traversal, const Tra
   const float least = root_extent(tree) * blocker_share;
   places.clear();
   blockers.clear();
-  for (std::uint32_t i = 0; i < set.bounds.size(); ++i) (set.bounds[i].solid_angle >= least ? blockers : places).push_back(i);
+  for (std::uint32_t i = 0; i < set.extent.size(); ++i)
+    (set.extent[i] >= least ? blockers : places).push_back(i);
   traverse(traversal, kernels, blockers, scratch, stats);
   if ((rays.pixels.size() - live_rays(tree)) * update_share >= rays.pixels.size()) {
     update_cone_tree(*traversal.source, tree);
@@ -102,11 +103,16 @@ ShadowTracer::ShadowTracer(ShadowTracer&&) noexcept = default;
 ShadowTracer& ShadowTracer::operator=(ShadowTracer&&) noexcept = default;
 ShadowTracer::~ShadowTracer() = default;
 
-const TraceStats& ShadowTracer::stats() const { return state_->stats; }
-const FrameTimings& ShadowTracer::timings() const { return state_->timings; }
+const TraceStats& ShadowTracer::stats() const {
+  return state_->stats;
+}
+const FrameTimings& ShadowTracer::timings() const {
+  return state_->timings;
+}
 
-void ShadowTracer::trace_shadow_mask(const VisiblePoints& points, const ViewRays& view, const TriangleView& triangles,
-                                     const ShadowLight& light, const HardShadowConfig& config, ShadowMask& mask) {
+void ShadowTracer::trace_shadow_mask(const VisiblePoints& points, const ViewRays& view,
+                                     const TriangleView& triangles, const ShadowLight& light,
+                                     const HardShadowConfig& config, ShadowMask& mask) {
   const FloatEnvironment ieee;
   State& s = *state_;
   s.stats = {};
@@ -128,8 +134,14 @@ void ShadowTracer::trace_shadow_mask(const VisiblePoints& points, const ViewRays
   if (!s.rays.pixels.empty()) {
     build_cone_tree(s.rays, points.positions, source, config.simd, s.tree);
     s.timings.build_ms = watch.lap_ms();
-    const Traversal traversal{{parts.spheres, parts.early_accept, source.directional}, &s.set, &s.rays, &s.tree, &source,
-                              &triangles, points.positions, config.contact};
+    const Traversal traversal{{parts.spheres, parts.early_accept, source.directional},
+                              &s.set,
+                              &s.rays,
+                              &s.tree,
+                              &source,
+                              &triangles,
+                              points.positions,
+                              config.contact};
     const TraversalKernels kernels = traversal_kernels(config.simd);
     parts.two_pass ? s.trace_two_passes(traversal, kernels) : s.trace_one_pass(traversal, kernels);
     s.stats.tree_bytes = s.tree.byte_count();

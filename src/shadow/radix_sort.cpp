@@ -13,7 +13,9 @@ constexpr int digit_bits = 11;
 constexpr std::size_t buckets = std::size_t{1} << digit_bits;
 constexpr std::size_t keys_a_range = 1 << 16;
 
-std::size_t digit_of(std::uint64_t key, int shift) { return (key >> shift) & (buckets - 1); }
+std::size_t digit_of(std::uint64_t key, int shift) {
+  return (key >> shift) & (buckets - 1);
+}
 
 // Turns counts[range][bucket] into the place of the first key of that range and bucket.
 void prefix_sums(std::vector<std::uint32_t>& counts, std::size_t ranges) {

@@ -19,8 +19,8 @@ using Int16 = Pack<std::int32_t, 16>;
 
 constexpr int curve_bits = 14;
 
-// Hilbert index of cells x, y, highest bits first. `swapped` and `flipped` are all ones where from here on the curve
-// runs with x and y exchanged, or through their complements.
+// Hilbert index of cells x, y, highest bits first. `swapped` and `flipped` are all ones where from here on
+// the curve runs with x and y exchanged, or through their complements.
 HWY_INLINE Int16 hilbert_index(Int16 x, Int16 y) {
   const Int16 zero = splat<Int16>(0), ones = splat<Int16>(-1), one = splat<Int16>(1);
   Int16 swapped = zero, flipped = zero, index = zero;
@@ -54,7 +54,8 @@ void direction_keys(const float* px, const float* py, const float* pz, std::uint
   const Float16 major = where_not_above(largest, ax, x, where_not_above(largest, ay, y, z));
   const Float16 u = where_not_above(largest, ax, y, where_not_above(largest, ay, z, x));
   const Float16 v = where_not_above(largest, ax, z, where_not_above(largest, ay, x, y));
-  const Int16 axis = where_not_above(largest, ax, splat<Int16>(0), where_not_above(largest, ay, splat<Int16>(2), splat<Int16>(4)));
+  const Int16 axis = where_not_above(largest, ax, splat<Int16>(0),
+                                     where_not_above(largest, ay, splat<Int16>(2), splat<Int16>(4)));
   const Int16 face = axis | where_not_above(splat<Float16>(0.0f), major, splat<Int16>(0), splat<Int16>(1));
   const Int16 index = hilbert_index(cell_of(u / largest), cell_of(v / largest));
   std::int32_t out[16];
@@ -62,16 +63,17 @@ void direction_keys(const float* px, const float* py, const float* pz, std::uint
   std::copy(out, out + 16, keys);
 }
 
-// Chord cone around sixteen directions. In units of the packet's reach, so that squares stay in range. A float
-// position base + q is off by 2 sqrt(3) u (|p| + r) at most, its direction after normalising by 12u + 4u r / |p|;
-// lengths by a factor 1 +- 16u and 4u r.
+// Chord cone around sixteen directions. In units of the packet's reach, so that squares stay in range. A
+// float position base + q is off by 2 sqrt(3) u (|p| + r) at most, its direction after normalising by 12u +
+// 4u r / |p|; lengths by a factor 1 +- 16u and 4u r.
 ConeNode cone_around(const RayPacket& packet) {
   constexpr float u = 0x1p-24f;
   const float inverse = 1 / packet.reach;
   const Float16 scale = splat<Float16>(inverse);
-  const Pack3<Float16> p{(splat<Float16>(static_cast<float>(packet.base_x)) + load<Float16>(packet.qx)) * scale,
-                         (splat<Float16>(static_cast<float>(packet.base_y)) + load<Float16>(packet.qy)) * scale,
-                         (splat<Float16>(static_cast<float>(packet.base_z)) + load<Float16>(packet.qz)) * scale};
+  const Pack3<Float16> p{
+      (splat<Float16>(static_cast<float>(packet.base_x)) + load<Float16>(packet.qx)) * scale,
+      (splat<Float16>(static_cast<float>(packet.base_y)) + load<Float16>(packet.qy)) * scale,
+      (splat<Float16>(static_cast<float>(packet.base_z)) + load<Float16>(packet.qz)) * scale};
   const Float16 length = square_root(dot(p, p));
   const float shortest = least(length), longest = greatest(length);
   const float r = packet.radius * inverse;
@@ -80,14 +82,15 @@ ConeNode cone_around(const RayPacket& packet) {
   node.near = std::max(0.0f, (shortest * (1 - 16 * u) - 4 * u * r) * packet.reach * (1 - 4 * u));
   node.far = (longest * (1 + 16 * u) + 4 * u * r) * packet.reach * (1 + 4 * u);
   node.w = glm::vec3(1, 0, 0);
-  node.c = 4;  // more than any chord: bounds nothing, but is finite
+  node.c = 4;                            // more than any chord: bounds nothing, but is finite
   if (!(shortest > 1e-6f)) return node;  // a ray next to the light, in a packet that is not
 
   const Pack3<Float16> d{p.x / length, p.y / length, p.z / length};
   const glm::vec3 centre(least(d.x) + greatest(d.x), least(d.y) + greatest(d.y), least(d.z) + greatest(d.z));
   const float centre_length = std::sqrt(centre.x * centre.x + centre.y * centre.y + centre.z * centre.z);
   if (centre_length > 1e-3f) node.w = centre / centre_length;
-  const Pack3<Float16> apart{d.x - splat<Float16>(node.w.x), d.y - splat<Float16>(node.w.y), d.z - splat<Float16>(node.w.z)};
+  const Pack3<Float16> apart{d.x - splat<Float16>(node.w.x), d.y - splat<Float16>(node.w.y),
+                             d.z - splat<Float16>(node.w.z)};
   const float widest = std::sqrt(greatest(dot(apart, apart)));
   node.c = std::min(node.c, (1 + 8 * u) * widest + 12 * u + 4 * u * r / shortest);
   return node;
@@ -95,7 +98,9 @@ ConeNode cone_around(const RayPacket& packet) {
 
 }  // namespace
 
-RayKernels ray_kernels() { return {direction_keys, cone_around}; }
+RayKernels ray_kernels() {
+  return {direction_keys, cone_around};
+}
 
 }  // namespace tenebra::HWY_NAMESPACE
 HWY_AFTER_NAMESPACE();

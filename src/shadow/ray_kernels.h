@@ -10,8 +10,8 @@ namespace tenebra {
 
 /// Code for one instruction set.
 struct RayKernels {
-  /// Keys of sixteen directions of any length: cube face 0..5 by the major axis and its sign in bits 28 to 30,
-  /// below it the Hilbert index of the other two coordinates over the face, 14 bits each.
+  /// Keys of sixteen directions of any length: cube face 0..5 by the major axis and its sign in bits 28 to
+  /// 30, below it the Hilbert index of the other two coordinates over the face, 14 bits each.
   void (*direction_keys)(const float* x, const float* y, const float* z, std::uint32_t* keys) = nullptr;
   /// Bounds all sixteen rays of a packet (point lights, reach within 1e-15..1e15); conservative.
   ConeNode (*cone_around)(const RayPacket& packet) = nullptr;

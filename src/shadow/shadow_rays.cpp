@@ -14,7 +14,7 @@ namespace {
 
 using glm::dvec3;
 
-constexpr std::uint32_t tile = 64;          // pixels a side of the squares that run in parallel
+constexpr std::uint32_t tile = 64;  // pixels a side of the squares that run in parallel
 
 // The part of a light's reach that is not a matter of facing. Double, in this order of operations everywhere.
 bool in_reach(const dvec3& p, const ShadowLight& light) {
@@ -52,7 +52,8 @@ Tiles tiles_of(const VisiblePoints& points) {
           (static_cast<std::uint32_t>(points.height) + tile - 1) / tile};
 }
 
-// Tile indices along a Z curve over the smallest square power of two; calls visit(column, row) for those inside.
+// Tile indices along a Z curve over the smallest square power of two; calls visit(column, row) for those
+// inside.
 template <class Visit>
 void visit_along_z_curve(Tiles tiles, Visit&& visit) {
   const std::uint32_t side = std::bit_ceil(std::max({tiles.columns, tiles.rows, 1u}));
@@ -72,7 +73,8 @@ struct Plane2 {
   }
 };
 
-Plane2 plane_across(const VisiblePoints& points, const RaySource& source, const std::vector<std::uint32_t>& pixels) {
+Plane2 plane_across(const VisiblePoints& points, const RaySource& source,
+                    const std::vector<std::uint32_t>& pixels) {
   const dvec3 t = source.travel;
   const dvec3 other = std::abs(t.x) < 0.6 ? dvec3(1, 0, 0) : dvec3(0, 1, 0);
   Plane2 plane;
@@ -101,7 +103,8 @@ void generate_shadow_rays(const VisiblePoints& points, const ShadowLight& light,
   const std::uint32_t tile_count = tiles.columns * tiles.rows;
   std::vector<std::uint32_t> order;  // tile -> place along the curve
   order.reserve(tile_count);
-  visit_along_z_curve(tiles, [&](std::uint32_t column, std::uint32_t row) { order.push_back(row * tiles.columns + column); });
+  visit_along_z_curve(
+      tiles, [&](std::uint32_t column, std::uint32_t row) { order.push_back(row * tiles.columns + column); });
 
   // Each tile lists its pixels in a slot of its own; the slots are then closed up.
   constexpr std::uint32_t slot = tile * tile;
@@ -120,7 +123,8 @@ void generate_shadow_rays(const VisiblePoints& points, const ShadowLight& light,
     std::uint32_t* const slots = &out.pixels[static_cast<std::size_t>(t) * slot];
     for (const Offset offset : z_curve) {
       const std::uint32_t x = left + offset.x, y = top + offset.y;
-      if (x >= static_cast<std::uint32_t>(points.width) || y >= static_cast<std::uint32_t>(points.height)) continue;
+      if (x >= static_cast<std::uint32_t>(points.width) || y >= static_cast<std::uint32_t>(points.height))
+        continue;
       const std::uint32_t pixel = y * static_cast<std::uint32_t>(points.width) + x;
       if (!reached(pixel)) continue;
       if (!source.directional && points.positions[pixel] == source.origin) {
@@ -137,7 +141,8 @@ void generate_shadow_rays(const VisiblePoints& points, const ShadowLight& light,
   out.tau_max = 0;
   std::size_t kept = 0;
   for (std::uint32_t t = 0; t < tile_count; ++t) {
-    std::copy_n(out.pixels.begin() + static_cast<std::size_t>(t) * slot, scratch.counts[t], out.pixels.begin() + kept);
+    std::copy_n(out.pixels.begin() + static_cast<std::size_t>(t) * slot, scratch.counts[t],
+                out.pixels.begin() + kept);
     kept += scratch.counts[t];
     out.tau_max = std::max(out.tau_max, tau[t]);
     at_light.insert(at_light.end(), met[t].begin(), met[t].end());
@@ -162,10 +167,12 @@ void sort_shadow_rays(const VisiblePoints& points, const RaySource& source, Simd
       for (std::size_t k = 0; k < count; ++k) {
         const dvec3 p = points.positions[rays.pixels[i + k]] - source.origin;
         const dvec3 seen = source.directional ? plane.project(p) : p;
-        x[k] = static_cast<float>(seen.x), y[k] = static_cast<float>(seen.y), z[k] = static_cast<float>(seen.z);
+        x[k] = static_cast<float>(seen.x), y[k] = static_cast<float>(seen.y),
+        z[k] = static_cast<float>(seen.z);
       }
       kernels.direction_keys(x, y, z, keys);
-      for (std::size_t k = 0; k < count; ++k) scratch.keys[i + k] = static_cast<std::uint64_t>(keys[k]) << 32 | rays.pixels[i + k];
+      for (std::size_t k = 0; k < count; ++k)
+        scratch.keys[i + k] = static_cast<std::uint64_t>(keys[k]) << 32 | rays.pixels[i + k];
     }
   });
   radix_sort(scratch.keys, scratch);

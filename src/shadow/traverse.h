@@ -13,8 +13,8 @@
 namespace tenebra {
 
 struct TraversalFlags {
-  bool spheres = false;        ///< bounding spheres against cones, as in the earlier work; else section 3.2
-  bool early_accept = false;   ///< section 3.3
+  bool spheres = false;       ///< bounding spheres against cones, as in the earlier work; else section 3.2
+  bool early_accept = false;  ///< section 3.3
   bool directional = false;
 };
 
@@ -44,7 +44,8 @@ struct TraversalScratch {
 /// Code for one instruction set.
 struct TraversalKernels {
   /// Tests the four nodes of block `block` of level `level` against the triangles of `list`; appends each
-  /// triangle's place to out[lane] of the nodes it may meet and counts out_size[lane]. Lists need room for list.size + 1.
+  /// triangle's place to out[lane] of the nodes it may meet and counts out_size[lane]. Lists need room for
+  /// list.size + 1.
   void (*filter)(const Traversal&, std::size_t level, std::size_t block, TriangleList list,
                  std::uint32_t* const out[4], std::size_t out_size[4], TraceStats&) = nullptr;
   /// Takes `list` through the whole subtree of node `node` of level `level`, whose own test it has passed.
@@ -54,9 +55,11 @@ struct TraversalKernels {
 /// `level`: one that simd_level_supported, or automatic.
 TraversalKernels traversal_kernels(SimdLevel level);
 
-/// Takes the triangles at `places` through the tree on all cores. Memory is bounded: at most 65,536 triangles are
-/// under way at once, in lists of that size a level and thread. Counts do not depend on the number of threads.
-void traverse(const Traversal& traversal, const TraversalKernels& kernels, std::span<const std::uint32_t> places,
-              std::vector<TraversalScratch>& scratch, TraceStats& stats);
+/// Takes the triangles at `places` through the tree on all cores. Memory is bounded: at most 65,536 triangles
+/// are under way at once, in lists of that size a level and thread. Counts do not depend on the number of
+/// threads.
+void traverse(const Traversal& traversal, const TraversalKernels& kernels,
+              std::span<const std::uint32_t> places, std::vector<TraversalScratch>& scratch,
+              TraceStats& stats);
 
 }  // namespace tenebra

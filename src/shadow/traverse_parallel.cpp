@@ -27,7 +27,8 @@ struct Job {
 };
 
 // Tests one block's nodes and takes what passes further down; its four subtrees run side by side.
-TraceStats descend_block(const Job& job, std::size_t level, std::size_t block, std::span<const std::uint32_t> places) {
+TraceStats descend_block(const Job& job, std::size_t level, std::size_t block,
+                         std::span<const std::uint32_t> places) {
   std::array<std::vector<std::uint32_t>, branching> lists;
   std::uint32_t* out[branching];
   std::size_t size[branching];
@@ -56,8 +57,9 @@ TraceStats descend_block(const Job& job, std::size_t level, std::size_t block, s
 
 }  // namespace
 
-void traverse(const Traversal& traversal, const TraversalKernels& kernels, std::span<const std::uint32_t> places,
-              std::vector<TraversalScratch>& scratch, TraceStats& stats) {
+void traverse(const Traversal& traversal, const TraversalKernels& kernels,
+              std::span<const std::uint32_t> places, std::vector<TraversalScratch>& scratch,
+              TraceStats& stats) {
   const std::size_t top = traversal.tree->levels.size() - 1;
   scratch.resize(std::max(scratch.size(), static_cast<std::size_t>(thread_count())));
   for (TraversalScratch& s : scratch) s.lists.resize(std::max(s.lists.size(), branching * (top + 1)));

@@ -16,8 +16,12 @@ using glm::vec3;
 
 constexpr std::size_t triangles_a_range = 2048;
 
-float round_up(double x) { return std::nextafter(static_cast<float>(x), std::numeric_limits<float>::infinity()); }
-float round_down(double x) { return std::nextafter(static_cast<float>(x), -std::numeric_limits<float>::infinity()); }
+float round_up(double x) {
+  return std::nextafter(static_cast<float>(x), std::numeric_limits<float>::infinity());
+}
+float round_down(double x) {
+  return std::nextafter(static_cast<float>(x), -std::numeric_limits<float>::infinity());
+}
 
 bool lexicographically_less(const vec3& a, const vec3& b) {
   if (a.x != b.x) return a.x < b.x;
@@ -33,9 +37,10 @@ void set_plane(TrianglePlanes& t, int k, const dvec3& m, double d, double rho) {
   t.rho[k] = rho;
 }
 
-// Plane through the light and the edge a-b. The ends are taken in canonical order so that triangles that share
-// the edge get the same bits. rho: A x (B - A) has an error of 4 sqrt(3) v |a||e|; with the normalisation and the
-// evaluation 18 v |a||e| / |m| < 2^-48 |a||e| / |m| (v = 2^-53). An edge that points at the light has rho = inf.
+// Plane through the light and the edge a-b. The ends are taken in canonical order so that triangles that
+// share the edge get the same bits. rho: A x (B - A) has an error of 4 sqrt(3) v |a||e|; with the
+// normalisation and the evaluation 18 v |a||e| / |m| < 2^-48 |a||e| / |m| (v = 2^-53). An edge that points at
+// the light has rho = inf.
 void set_edge(TrianglePlanes& t, int k, vec3 a, vec3 b, const RaySource& source, double side) {
   if (!lexicographically_less(a, b)) {
     std::swap(a, b);
@@ -69,8 +74,9 @@ void set_own_plane(TrianglePlanes& t, const vec3 v[3], const dvec3& origin, doub
 }
 
 void set_sphere(TriangleBounds& b, const vec3 v[3], const RaySource& source) {
-  // The smallest sphere of a triangle: over its longest edge where it is obtuse, else its circumsphere; here the
-  // longest edge's midpoint with the distance to the far corner, at most 15 % larger and free of divisions by 0.
+  // The smallest sphere of a triangle: over its longest edge where it is obtuse, else its circumsphere; here
+  // the longest edge's midpoint with the distance to the far corner, at most 15 % larger and free of
+  // divisions by 0.
   dvec3 centre(0);
   double longest = -1;
   for (int k = 0; k < 3; ++k) {
@@ -98,7 +104,9 @@ void set_sphere(TriangleBounds& b, const vec3 v[3], const RaySource& source) {
   b.sx = direction.x, b.sy = direction.y, b.sz = direction.z;
   const double sine = distance > 0 ? radius / distance : 2.0;
   // Half-angle asin(sine) of the cap; its chord is 2 sin(half of it) = sqrt(2 (1 - cos)).
-  b.sphere_chord = sine < 1 ? round_up(std::sqrt(2.0) * sine / std::sqrt(1 + std::sqrt(1 - sine * sine)) * (1 + 0x1p-40)) : 2.0f;
+  b.sphere_chord =
+      sine < 1 ? round_up(std::sqrt(2.0) * sine / std::sqrt(1 + std::sqrt(1 - sine * sine)) * (1 + 0x1p-40))
+               : 2.0f;
   b.sphere_near = round_down(std::max(0.0, distance - radius) * (1 - 0x1p-40));
 }
 
@@ -111,12 +119,13 @@ void set_corners(TriangleBounds& b, const vec3 v[3], const RaySource& source) {
   }
 }
 
-float blocker_size(const vec3 v[3], const RaySource& source) {
+float blocker_extent(const vec3 v[3], const RaySource& source) {
   const dvec3 n = glm::cross(dvec3(v[1]) - dvec3(v[0]), dvec3(v[2]) - dvec3(v[0]));
   if (source.directional) return static_cast<float>(0.5 * std::abs(glm::dot(n, source.travel)));
   const dvec3 centre = (dvec3(v[0]) + dvec3(v[1]) + dvec3(v[2])) / 3.0 - source.origin;
   const double distance = glm::length(centre);
-  return static_cast<float>(0.5 * std::abs(glm::dot(n, centre)) / std::max(1e-300, distance * distance * distance));
+  return static_cast<float>(0.5 * std::abs(glm::dot(n, centre)) /
+                            std::max(1e-300, distance * distance * distance));
 }
 
 TriangleBounds bounds_of(const TrianglePlanes& t, const vec3 v[3], const RaySource& source) {
@@ -127,12 +136,11 @@ TriangleBounds bounds_of(const TrianglePlanes& t, const vec3 v[3], const RaySour
     b.mz[k] = static_cast<float>(t.mz[k]);
     b.d[k] = static_cast<float>(t.d[k]);
   }
-  b.rho_edge = round_up(std::max({t.rho[0], t.rho[1], t.rho[2]}));
-  b.rho_plane = round_up(t.rho[3]);
-  b.climb = static_cast<float>(t.mx[3] * source.travel.x + t.my[3] * source.travel.y + t.mz[3] * source.travel.z);
+  b.rho = round_up(std::max({t.rho[0], t.rho[1], t.rho[2], t.rho[3]}));
+  b.climb =
+      static_cast<float>(t.mx[3] * source.travel.x + t.my[3] * source.travel.y + t.mz[3] * source.travel.z);
   set_corners(b, v, source);
   set_sphere(b, v, source);
-  b.solid_angle = blocker_size(v, source);
   return b;
 }
 
@@ -143,7 +151,8 @@ int light_side(const vec3 v[3], const RaySource& source) {
 }
 
 int eye_side(const vec3 v[3], const ViewRays& view) {
-  return view.orthographic ? -direction_side(v[0], v[1], v[2], view.d0) : point_side(v[0], v[1], v[2], view.eye);
+  return view.orthographic ? -direction_side(v[0], v[1], v[2], view.d0)
+                           : point_side(v[0], v[1], v[2], view.eye);
 }
 
 TrianglePlanes planes_of(const vec3 v[3], std::uint32_t id, int side, const RaySource& source, double tau) {
@@ -169,7 +178,8 @@ Corners corners_of(const TriangleView& triangles, std::size_t id) {
 double rounding_tolerance(const vec3 triangle[3]) {
   double largest = 0;
   for (int k = 0; k < 3; ++k) {
-    for (int axis = 0; axis < 3; ++axis) largest = std::max(largest, std::abs(static_cast<double>(triangle[k][axis])));
+    for (int axis = 0; axis < 3; ++axis)
+      largest = std::max(largest, std::abs(static_cast<double>(triangle[k][axis])));
   }
   return 1.7320508075688772 * 0x1p-24 * largest;
 }
@@ -200,6 +210,7 @@ void build_triangle_set(const TriangleView& triangles, const ViewRays& view, con
   out.tau.resize(count);
   out.planes.resize(count);
   out.bounds.resize(count);
+  out.extent.resize(count);
   out.chunk_counts.assign(2 * ((count + triangles_a_range - 1) / triangles_a_range), 0);
 
   // Each range packs its casters at its own start; the ranges are then closed up.
@@ -217,6 +228,7 @@ void build_triangle_set(const TriangleView& triangles, const ViewRays& view, con
       if (side == 0 || (config.cull_front && side < 0)) continue;
       out.planes[kept] = planes_of(c.v, static_cast<std::uint32_t>(id), side, source, tau);
       out.bounds[kept] = bounds_of(out.planes[kept], c.v, source);
+      out.extent[kept] = blocker_extent(c.v, source);
       ++kept;
     }
     out.chunk_counts[2 * (first / triangles_a_range)] = static_cast<std::uint32_t>(kept - first);
@@ -230,16 +242,19 @@ void build_triangle_set(const TriangleView& triangles, const ViewRays& view, con
     if (first != kept) {
       std::copy_n(out.planes.begin() + first, size, out.planes.begin() + kept);
       std::copy_n(out.bounds.begin() + first, size, out.bounds.begin() + kept);
+      std::copy_n(out.extent.begin() + first, size, out.extent.begin() + kept);
     }
     kept += size;
     out.degenerate += out.chunk_counts[2 * chunk + 1];
   }
   out.planes.resize(kept);
   out.bounds.resize(kept);
+  out.extent.resize(kept);
   out.casting = triangles.casts_shadow.empty()
                     ? count
-                    : static_cast<std::uint64_t>(std::count_if(triangles.casts_shadow.begin(), triangles.casts_shadow.end(),
-                                                               [](std::uint8_t casts) { return casts != 0; }));
+                    : static_cast<std::uint64_t>(
+                          std::count_if(triangles.casts_shadow.begin(), triangles.casts_shadow.end(),
+                                        [](std::uint8_t casts) { return casts != 0; }));
 }
 
 }  // namespace tenebra

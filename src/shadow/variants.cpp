@@ -46,9 +46,17 @@ std::optional<T> value_in(const std::array<Names<T>, N>& names, std::string_view
 
 }  // namespace
 
-std::string_view variant_name(Variant variant) { return name_in(variants, variant); }
-std::optional<Variant> variant_from_name(std::string_view name) { return value_in(variants, name); }
-std::string_view simd_level_name(SimdLevel level) { return name_in(simd_levels, level); }
-std::optional<SimdLevel> simd_level_from_name(std::string_view name) { return value_in(simd_levels, name); }
+std::string_view variant_name(Variant variant) {
+  return name_in(variants, variant);
+}
+std::optional<Variant> variant_from_name(std::string_view name) {
+  return value_in(variants, name);
+}
+std::string_view simd_level_name(SimdLevel level) {
+  return name_in(simd_levels, level);
+}
+std::optional<SimdLevel> simd_level_from_name(std::string_view name) {
+  return value_in(simd_levels, name);
+}
 
 }  // namespace tenebra

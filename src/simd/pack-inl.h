@@ -1,6 +1,6 @@
-// N lanes of T on whatever vector registers the target has: one register, several, or emulation. Everything that
-// names a vector register stands here; kernels are written in terms of Pack. Included once per target, as
-// Highway's foreach_target asks.
+// N lanes of T on whatever vector registers the target has: one register, several, or emulation. Everything
+// that names a vector register stands here; kernels are written in terms of Pack. Included once per target,
+// as Highway's foreach_target asks.
 #if defined(TENEBRA_SIMD_PACK_INL_H_) == defined(HWY_TARGET_TOGGLE)
 #ifdef TENEBRA_SIMD_PACK_INL_H_
 #undef TENEBRA_SIMD_PACK_INL_H_
@@ -108,7 +108,8 @@ HWY_INLINE T greatest(Pack<T, N> a) {
 template <class T, int N>
 HWY_INLINE Pack<T, N> where_not_above(Pack<float, N> x, Pack<float, N> y, Pack<T, N> a, Pack<T, N> b) {
   for (int i = 0; i < a.registers; ++i) {
-    a.r[i] = hn::IfThenElse(hn::RebindMask(typename Pack<T, N>::Tag(), hn::Le(x.r[i], y.r[i])), a.r[i], b.r[i]);
+    a.r[i] =
+        hn::IfThenElse(hn::RebindMask(typename Pack<T, N>::Tag(), hn::Le(x.r[i], y.r[i])), a.r[i], b.r[i]);
   }
   return a;
 }
@@ -146,17 +147,45 @@ HWY_INLINE Pack<std::int32_t, N> shift_right(Pack<std::int32_t, N> a) {
   return a;
 }
 
-/// Bit i is set where a < b in lane i; false where either is NaN.
+/// A truth value a lane.
 template <class T, int N>
-HWY_INLINE std::uint32_t less_bits(Pack<T, N> a, Pack<T, N> b) {
+struct Truth {
+  hn::Mask<typename Pack<T, N>::Tag> r[Pack<T, N>::registers];
+};
+using Truth4 = Truth<float, 4>;
+
+/// a < b; false where either is NaN.
+template <class T, int N>
+HWY_INLINE Truth<T, N> less(Pack<T, N> a, Pack<T, N> b) {
+  Truth<T, N> t;
+  for (int i = 0; i < a.registers; ++i) t.r[i] = hn::Lt(a.r[i], b.r[i]);
+  return t;
+}
+template <class T, int N>
+HWY_INLINE Truth<T, N> operator|(Truth<T, N> a, Truth<T, N> b) {
+  for (int i = 0; i < Pack<T, N>::registers; ++i) a.r[i] = hn::Or(a.r[i], b.r[i]);
+  return a;
+}
+template <class T, int N>
+HWY_INLINE Truth<T, N> operator&(Truth<T, N> a, Truth<T, N> b) {
+  for (int i = 0; i < Pack<T, N>::registers; ++i) a.r[i] = hn::And(a.r[i], b.r[i]);
+  return a;
+}
+/// Bit i is lane i. Costs a trip through memory on some targets: once a decision, not once a comparison.
+template <class T, int N>
+HWY_INLINE std::uint32_t bits(Truth<T, N> a) {
   using P = Pack<T, N>;
-  std::uint32_t bits = 0;
+  std::uint32_t result = 0;
   for (int i = 0; i < P::registers; ++i) {
     std::uint8_t bytes[8] = {};
-    hn::StoreMaskBits(typename P::Tag(), hn::Lt(a.r[i], b.r[i]), bytes);
-    bits |= (bytes[0] | static_cast<std::uint32_t>(bytes[1]) << 8) << (i * P::width);
+    hn::StoreMaskBits(typename P::Tag(), a.r[i], bytes);
+    result |= (bytes[0] | static_cast<std::uint32_t>(bytes[1]) << 8) << (i * P::width);
   }
-  return bits;
+  return result;
+}
+template <class T, int N>
+HWY_INLINE std::uint32_t less_bits(Pack<T, N> a, Pack<T, N> b) {
+  return bits(less(a, b));
 }
 
 /// Three coordinates of N points or vectors.

@@ -27,7 +27,8 @@ Scene plate_over_floor() {
   scene.meshes.push_back(mesh);
   scene.nodes.push_back({.name = "all", .mesh = 0});
   for (const vec3 position : {vec3(0, 5, 0), vec3(4, 6, 3)}) {
-    scene.lights.push_back({.name = "lamp", .type = LightType::point, .falloff = Falloff::none, .intensity = 0.5f});
+    scene.lights.push_back(
+        {.name = "lamp", .type = LightType::point, .falloff = Falloff::none, .intensity = 0.5f});
     Node node{.translation = position};
     node.light = static_cast<int>(scene.lights.size()) - 1;
     scene.nodes.push_back(node);
@@ -43,20 +44,25 @@ FrameInput frame_of(const Scene& scene, int width, int height) {
   return input;
 }
 
-FrameResult draw(const Scene& scene, const RenderSettings& settings, gl::ContextKind kind = gl::ContextKind::automatic) {
+FrameResult draw(const Scene& scene, const RenderSettings& settings,
+                 gl::ContextKind kind = gl::ContextKind::automatic) {
   auto context = gl::Context::create(kind);
   EXPECT_TRUE(context) << context.error().message;
   auto renderer = Renderer::create(std::move(*context), scene);
   EXPECT_TRUE(renderer) << renderer.error().message;
   FrameResult result;
-  const auto drawn = renderer->render_frame(frame_of(scene, settings.width, settings.height), settings, result);
+  const auto drawn =
+      renderer->render_frame(frame_of(scene, settings.width, settings.height), settings, result);
   EXPECT_TRUE(drawn) << drawn.error().message;
   return result;
 }
 
-int count_of(const Image8& mask, int value) { return static_cast<int>(std::count(mask.pixels.begin(), mask.pixels.end(), value)); }
+int count_of(const Image8& mask, int value) {
+  return static_cast<int>(std::count(mask.pixels.begin(), mask.pixels.end(), value));
+}
 
-// Light at (0, 5, 0), plate at half width 1 and height 1: its shadow on the floor is the square |x|, |z| < 1.25.
+// Light at (0, 5, 0), plate at half width 1 and height 1: its shadow on the floor is the square |x|, |z|
+// < 1.25.
 TEST(Renderer, ShadowOfAPlateIsWhereGeometryPutsIt) {
   const Scene scene = plate_over_floor();
   const RenderSettings settings{.width = 160, .height = 120, .light = 0};
@@ -66,12 +72,15 @@ TEST(Renderer, ShadowOfAPlateIsWhereGeometryPutsIt) {
   int inside = 0, outside = 0;
   for (int y = 0; y < 120; ++y) {
     for (int x = 0; x < 160; ++x) {
-      const glm::dvec3 d = glm::dvec3(input.view.d0) + (x + 0.5) * glm::dvec3(input.view.dx) + (y + 0.5) * glm::dvec3(input.view.dy);
+      const glm::dvec3 d = glm::dvec3(input.view.d0) + (x + 0.5) * glm::dvec3(input.view.dx) +
+                           (y + 0.5) * glm::dvec3(input.view.dy);
       if (d.y >= 0) continue;
       const glm::dvec3 eye = input.view.eye;
       const glm::dvec3 on_plate = eye + d * (1 - eye.y) / d.y, on_floor = eye + d * (0 - eye.y) / d.y;
       const double reach = std::max(std::abs(on_floor.x), std::abs(on_floor.z));
-      if (std::max(std::abs(on_plate.x), std::abs(on_plate.z)) < 1.01 || reach > 9.9 || std::abs(reach - 1.25) < 1e-6) continue;
+      if (std::max(std::abs(on_plate.x), std::abs(on_plate.z)) < 1.01 || reach > 9.9 ||
+          std::abs(reach - 1.25) < 1e-6)
+        continue;
       const int mask = result.masks[0].mask.pixels[static_cast<std::size_t>(160 * y + x)];
       ASSERT_EQ(mask, reach < 1.25 ? 0 : 255) << x << ' ' << y;
       (reach < 1.25 ? inside : outside)++;
@@ -84,7 +93,8 @@ TEST(Renderer, ShadowOfAPlateIsWhereGeometryPutsIt) {
 TEST(Renderer, MasksAndPicturesAreTheSameFromEglAndOsmesa) {
   const Scene scene = plate_over_floor();
   const RenderSettings settings{.width = 161, .height = 97};
-  const FrameResult egl = draw(scene, settings, gl::ContextKind::egl), osmesa = draw(scene, settings, gl::ContextKind::osmesa);
+  const FrameResult egl = draw(scene, settings, gl::ContextKind::egl),
+                    osmesa = draw(scene, settings, gl::ContextKind::osmesa);
   EXPECT_EQ(egl.image, osmesa.image);
   ASSERT_EQ(egl.masks.size(), 2u);
   ASSERT_EQ(osmesa.masks.size(), 2u);
@@ -95,7 +105,8 @@ TEST(Renderer, EveryVariantAndThreadCountDrawsTheSamePicture) {
   const Scene scene = plate_over_floor();
   RenderSettings settings{.width = 161, .height = 97};
   const FrameResult expected = draw(scene, settings);
-  for (const char* name : {"Precise", "PreciseSorted", "Spheres", "SpheresSorted", "PreciseSEA", "PreciseEATP", "PreciseSEATP"}) {
+  for (const char* name : {"Precise", "PreciseSorted", "Spheres", "SpheresSorted", "PreciseSEA",
+                           "PreciseEATP", "PreciseSEATP"}) {
     settings.hard.variant = *variant_from_name(name);
     settings.threads = settings.threads % 3 + 1;
     EXPECT_EQ(draw(scene, settings).image, expected.image) << name;
@@ -118,7 +129,8 @@ TEST(Renderer, WithoutShadowsTheLightReachesAll) {
 }
 
 // The paper's samples are off their surface by the depth buffer's rounding; with the front faces culled, a
-// one-sided plate seen from its front casts nothing, so only compare what must hold: no light where ids say none.
+// one-sided plate seen from its front casts nothing, so only compare what must hold: no light where ids say
+// none.
 TEST(Renderer, DepthSamplesComeFromTheDepthBuffer) {
   const Scene scene = plate_over_floor();
   RenderSettings settings{.width = 160, .height = 120, .light = 0};
@@ -129,7 +141,8 @@ TEST(Renderer, DepthSamplesComeFromTheDepthBuffer) {
   settings.samples = SampleSource::ids;
   const FrameResult ids = draw(scene, settings);
   EXPECT_EQ(count_of(ids.masks[0].mask, 255), count_of(culled.masks[0].mask, 255));
-  // Without culling and without ids a good part of the surfaces shadows itself: the acne that ids do away with.
+  // Without culling and without ids a good part of the surfaces shadows itself: the acne that ids do away
+  // with.
   EXPECT_LT(count_of(depth.masks[0].mask, 255), count_of(culled.masks[0].mask, 255));
 }
 
@@ -140,7 +153,8 @@ TEST(Renderer, RefusesALightThatTheSceneLacks) {
   auto renderer = Renderer::create(std::move(*context), scene);
   ASSERT_TRUE(renderer);
   FrameResult result;
-  const auto drawn = renderer->render_frame(frame_of(scene, 8, 8), {.width = 8, .height = 8, .light = 2}, result);
+  const auto drawn =
+      renderer->render_frame(frame_of(scene, 8, 8), {.width = 8, .height = 8, .light = 2}, result);
   ASSERT_FALSE(drawn);
   EXPECT_EQ(drawn.error().message, "light 2: the scene has 2 lights, counted from 0");
 }

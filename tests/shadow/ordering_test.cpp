@@ -42,7 +42,9 @@ TEST(DirectionKeys, NeighboursAlongTheCurveAreNeighboursInTheGrid) {
       }
     }
     for (std::size_t i = 1; i < cells.size(); ++i) {
-      ASSERT_EQ(std::abs(cells[i].first - cells[i - 1].first) + std::abs(cells[i].second - cells[i - 1].second), 1) << i;
+      ASSERT_EQ(
+          std::abs(cells[i].first - cells[i - 1].first) + std::abs(cells[i].second - cells[i - 1].second), 1)
+          << i;
     }
     EXPECT_EQ(key_of_cell(0, 0, simd), face);
     EXPECT_EQ(key_of_cell((1 << 14) - 1, 0, simd), face + (1u << 28) - 1);
@@ -50,7 +52,8 @@ TEST(DirectionKeys, NeighboursAlongTheCurveAreNeighboursInTheGrid) {
 }
 
 TEST(DirectionKeys, NameTheCubeFace) {
-  const float x[16] = {2, -2, 1, 1, 1, 1, 3, 0, 0}, y[16] = {1, 1, 2, -2, 1, 1, 3, 0, 1}, z[16] = {1, 1, 1, 1, 2, -2, 3, 1, 0};
+  const float x[16] = {2, -2, 1, 1, 1, 1, 3, 0, 0}, y[16] = {1, 1, 2, -2, 1, 1, 3, 0, 1},
+              z[16] = {1, 1, 1, 1, 2, -2, 3, 1, 0};
   const std::uint32_t faces[] = {0, 1, 2, 3, 4, 5, 0, 4, 2};
   std::uint32_t keys[16];
   for (const SimdLevel simd : levels) {

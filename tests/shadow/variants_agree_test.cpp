@@ -1,5 +1,5 @@
-// Every variant against the plainest loop over the library's own exact decision. (The independent oracle is in
-// tests/reference.)
+// Every variant against the plainest loop over the library's own exact decision. (The independent oracle is
+// in tests/reference.)
 #include <gtest/gtest.h>
 
 #include <algorithm>
@@ -14,8 +14,9 @@ namespace {
 
 using glm::vec3;
 
-constexpr Variant all_variants[] = {Variant::precise,     Variant::precise_sorted, Variant::spheres,      Variant::spheres_sorted,
-                                    Variant::precise_sea, Variant::precise_eatp,   Variant::precise_seatp};
+constexpr Variant all_variants[] = {Variant::precise,        Variant::precise_sorted, Variant::spheres,
+                                    Variant::spheres_sorted, Variant::precise_sea,    Variant::precise_eatp,
+                                    Variant::precise_seatp};
 
 struct Soup {
   std::vector<vec3> positions;
@@ -33,7 +34,8 @@ Soup random_soup(int count, double size, std::uint64_t seed) {
   Soup soup;
   for (int i = 0; i < count; ++i) {
     const vec3 centre = random.vec3(-1, 1);
-    soup.add(centre + random.vec3(-size, size), centre + random.vec3(-size, size), centre + random.vec3(-size, size));
+    soup.add(centre + random.vec3(-size, size), centre + random.vec3(-size, size),
+             centre + random.vec3(-size, size));
   }
   return soup;
 }
@@ -54,7 +56,8 @@ VisiblePoints samples_on(const Soup& soup, int width, int height, std::uint64_t 
   return points;
 }
 
-ShadowMask plain_mask(const VisiblePoints& points, const ViewRays& view, const TriangleView& triangles, const ShadowLight& light) {
+ShadowMask plain_mask(const VisiblePoints& points, const ViewRays& view, const TriangleView& triangles,
+                      const ShadowLight& light) {
   const RaySource source = ray_source(light);
   TriangleSet set;
   build_triangle_set(triangles, view, source, {}, set);
@@ -64,7 +67,8 @@ ShadowMask plain_mask(const VisiblePoints& points, const ViewRays& view, const T
     if (points.triangles[i] == no_triangle || !set.facing[points.triangles[i]]) continue;
     bool blocked = false;
     for (const TrianglePlanes& t : set.planes) {
-      blocked = blocked || decide(t, points.positions[i], points.triangles[i], source, triangles, ContactRule::triangle_ids, stats);
+      blocked = blocked || decide(t, points.positions[i], points.triangles[i], source, triangles,
+                                  ContactRule::triangle_ids, stats);
     }
     mask[i] = blocked ? 0 : 255;
   }
@@ -93,7 +97,8 @@ TEST_P(VariantsAgree, WithThePlainLoop) {
       if (!simd_level_supported(simd)) continue;
       ShadowTracer tracer;
       ShadowMask mask;
-      tracer.trace_shadow_mask(points, view, soup.view(), c.light, {variant, false, ContactRule::triangle_ids, simd}, mask);
+      tracer.trace_shadow_mask(points, view, soup.view(), c.light,
+                               {variant, false, ContactRule::triangle_ids, simd}, mask);
       std::size_t differing = 0;
       for (std::size_t i = 0; i < mask.size(); ++i) differing += mask[i] != expected[i];
       EXPECT_EQ(differing, 0u) << variant_name(variant) << ' ' << simd_level_name(simd);
@@ -101,8 +106,12 @@ TEST_P(VariantsAgree, WithThePlainLoop) {
   }
 }
 
-ShadowLight point_light(vec3 position) { return {.position = position}; }
-ShadowLight sun(vec3 to_light) { return {.directional = true, .to_light = to_light}; }
+ShadowLight point_light(vec3 position) {
+  return {.position = position};
+}
+ShadowLight sun(vec3 to_light) {
+  return {.directional = true, .to_light = to_light};
+}
 
 INSTANTIATE_TEST_SUITE_P(Soups, VariantsAgree,
                          testing::Values(Case{"light_outside", 300, 0.1, point_light({2, 4, 3})},
@@ -110,7 +119,8 @@ INSTANTIATE_TEST_SUITE_P(Soups, VariantsAgree,
                                          Case{"large_triangles", 20, 1.0, point_light({2, 4, 3})},
                                          Case{"small_triangles", 4000, 0.03, point_light({1, 2, 1})},
                                          Case{"far_light", 300, 0.1, point_light({2e4f, 4e4f, 3e4f})},
-                                         Case{"sun", 300, 0.1, sun({2, 4, 3})}, Case{"sun_large", 20, 1.0, sun({0, 1, 0})}),
+                                         Case{"sun", 300, 0.1, sun({2, 4, 3})},
+                                         Case{"sun_large", 20, 1.0, sun({0, 1, 0})}),
                          [](const auto& info) { return info.param.name; });
 
 }  // namespace

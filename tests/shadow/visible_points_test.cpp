@@ -15,7 +15,8 @@ using glm::vec3;
 
 const ViewRays pinhole{.eye = {0, 0, 5}, .d0 = {-1, 1, -2}, .dx = {0.25f, 0, 0}, .dy = {0, -0.25f, 0}};
 
-VisiblePoints points_of(std::vector<std::uint32_t> ids, int width, int height, const ViewRays& view, const std::vector<vec3>& corners) {
+VisiblePoints points_of(std::vector<std::uint32_t> ids, int width, int height, const ViewRays& view,
+                        const std::vector<vec3>& corners) {
   const std::vector<glm::uvec3> triangles{{0, 1, 2}};
   VisiblePoints points;
   compute_visible_points(ids, width, height, view, {corners, triangles, {}}, points);
@@ -24,7 +25,8 @@ VisiblePoints points_of(std::vector<std::uint32_t> ids, int width, int height, c
 
 TEST(VisiblePoints, LieWhereThePixelsRayMeetsThePlane) {
   // Plane z = 1, eye at z = 5: t = 2 along (x, y, -2).
-  const auto points = points_of(std::vector<std::uint32_t>(64, 0), 8, 8, pinhole, {{-50, -50, 1}, {50, -50, 1}, {0, 50, 1}});
+  const auto points =
+      points_of(std::vector<std::uint32_t>(64, 0), 8, 8, pinhole, {{-50, -50, 1}, {50, -50, 1}, {0, 50, 1}});
   for (int y = 0; y < 8; ++y) {
     for (int x = 0; x < 8; ++x) {
       const dvec3 expected(2 * (-1 + 0.25 * (x + 0.5)), 2 * (1 - 0.25 * (y + 0.5)), 1);
@@ -34,13 +36,16 @@ TEST(VisiblePoints, LieWhereThePixelsRayMeetsThePlane) {
 }
 
 TEST(VisiblePoints, OrthographicRaysStartBesideEachOther) {
-  ViewRays view{.eye = {-1, 1, 5}, .d0 = {0, 0, -1}, .dx = {0.25f, 0, 0}, .dy = {0, -0.25f, 0}, .orthographic = true};
-  const auto points = points_of(std::vector<std::uint32_t>(64, 0), 8, 8, view, {{-50, -50, 1}, {50, -50, 1}, {0, 50, 1}});
+  ViewRays view{
+      .eye = {-1, 1, 5}, .d0 = {0, 0, -1}, .dx = {0.25f, 0, 0}, .dy = {0, -0.25f, 0}, .orthographic = true};
+  const auto points =
+      points_of(std::vector<std::uint32_t>(64, 0), 8, 8, view, {{-50, -50, 1}, {50, -50, 1}, {0, 50, 1}});
   EXPECT_EQ(points.positions[9], dvec3(-1 + 0.375, 1 - 0.375, 1));
 }
 
 TEST(VisiblePoints, IdsThatNameNothingBecomeNoTriangle) {
-  const auto points = points_of({no_triangle, 1, 77, 0}, 2, 2, pinhole, {{-50, -50, 1}, {50, -50, 1}, {0, 50, 1}});
+  const auto points =
+      points_of({no_triangle, 1, 77, 0}, 2, 2, pinhole, {{-50, -50, 1}, {50, -50, 1}, {0, 50, 1}});
   EXPECT_EQ(points.triangles, (std::vector<std::uint32_t>{no_triangle, no_triangle, no_triangle, 0}));
 }
 
@@ -60,7 +65,8 @@ TEST(VisiblePoints, AreClampedIntoTheirTriangle) {
 TEST(VisiblePoints, AreFiniteForDegenerateTriangles) {
   test::Random random(21);
   for (int i = 0; i < 2000; ++i) {
-    std::vector<vec3> corners{vec3(random.grid_vec3(2)), vec3(random.grid_vec3(2)), vec3(random.grid_vec3(2))};
+    std::vector<vec3> corners{vec3(random.grid_vec3(2)), vec3(random.grid_vec3(2)),
+                              vec3(random.grid_vec3(2))};
     ViewRays view = pinhole;
     view.eye = vec3(random.grid_vec3(2));
     const auto points = points_of(std::vector<std::uint32_t>(64, 0), 8, 8, view, corners);
@@ -81,7 +87,8 @@ TEST(VisiblePoints, HaveTheSameBitsOnAnyNumberOfThreads) {
   std::vector<std::uint32_t> ids(173 * 91, 0);
   const VisiblePoints expected = points_of(ids, 173, 91, pinhole, corners);
   for (const int threads : {1, 2, 3, 8}) {
-    with_threads(threads, [&] { EXPECT_EQ(points_of(ids, 173, 91, pinhole, corners).positions, expected.positions); });
+    with_threads(threads,
+                 [&] { EXPECT_EQ(points_of(ids, 173, 91, pinhole, corners).positions, expected.positions); });
   }
 }
 
