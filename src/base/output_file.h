@@ -1,18 +1,44 @@
-// Output files that are whole or absent.
+// Output files that are whole or absent: written beside their final name, flushed, then renamed.
 #pragma once
 
 #include <filesystem>
-#include <span>
+#include <string>
 #include <string_view>
 
 #include "base/expected.h"
 
 namespace tenebra {
 
-/// Writes `bytes` to `path`: into a temporary file beside it, flushed to disk, then renamed over it. On any
-/// failure (no such folder, no space, no permission, `path` is a folder) the temporary file is removed, an
-/// earlier file at `path` is untouched, and the sentence names the path and the system's reason.
-/// A `path` that is a device or pipe (/dev/full, /dev/stdout) is written directly.
+/// A file being written. Bytes go to a temporary file in the folder of `path`; `commit` makes them appear
+/// under `path`, replacing an earlier file in one step. Without a successful commit the temporary file is
+/// removed and an earlier file at `path` is untouched. A device or pipe (/dev/full, /dev/stdout) is written
+/// directly. Symbolic links are followed. Every failure is a sentence with the path and the system's reason.
+class OutputFile {
+public:
+  /// Fails if the folder is missing or not writable, or if `path` is a folder, a read-only file or too long a
+  /// name.
+  static Expected<OutputFile> create(const std::filesystem::path& path);
+
+  OutputFile(OutputFile&& other) noexcept;
+  OutputFile& operator=(OutputFile&& other) noexcept;
+  ~OutputFile();
+
+  Expected<void> write(std::string_view bytes);
+  /// Flushes to disk, closes and renames; also reports what only close finds out. Call it once, last.
+  Expected<void> commit();
+
+private:
+  OutputFile() = default;
+  Expected<void> open_temporary();
+  tl::unexpected<Error> system_failure(int error) const;
+
+  int descriptor_ = -1;
+  std::filesystem::path path_;       // as the user named it, for messages
+  std::filesystem::path target_;     // with symbolic links followed
+  std::filesystem::path temporary_;  // empty: `target_` is written directly
+};
+
+/// Writes `bytes` to `path` with the guarantees of OutputFile.
 Expected<void> write_file(const std::filesystem::path& path, std::string_view bytes);
 
 }  // namespace tenebra

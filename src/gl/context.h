@@ -5,6 +5,7 @@
 #include <optional>
 #include <string>
 #include <string_view>
+#include <vector>
 
 #include "base/expected.h"
 
@@ -13,22 +14,40 @@ namespace tenebra::gl {
 enum class ContextKind { automatic, egl, osmesa };
 std::optional<ContextKind> context_kind_from_name(std::string_view name);  ///< auto, egl, osmesa
 
-/// An OpenGL 4.5 core context, current on the thread that made it, with its functions loaded.
+struct ContextOptions {
+  bool debug = false;  ///< collect what the driver complains about (KHR_debug) for take_debug_messages
+};
+
+using Function = void (*)();
+using FunctionLoader = Function (*)(const char* name);  ///< glfwGetProcAddress and its like
+
+/// An OpenGL 4.5 core context, current on the thread that made it, with its functions loaded. The table of
+/// functions is one for the process: of several contexts, use only the one last created or made current.
 class Context {
- public:
+public:
   /// automatic: EGL surfaceless, else OSMesa. Fails with a sentence that names what each lacked.
-  static Expected<Context> create(ContextKind kind);
+  static Expected<Context> create(ContextKind kind, ContextOptions options = {});
+  /// The context that is current on this thread, owned by someone else (a window) who outlives this object.
+  static Expected<Context> adopt(FunctionLoader loader);
   Context(Context&&) noexcept;
   Context& operator=(Context&&) noexcept;
   ~Context();
 
-  std::string_view kind_name() const;       ///< "egl", "osmesa" or "window"
-  const std::string& description() const;   ///< GL_RENDERER, GL_VERSION
+  /// Makes it current on this thread again and its functions those of the process (adopted: functions only).
+  Expected<void> make_current();
+
+  std::string_view kind_name() const;      ///< "egl", "osmesa" or "window"
+  const std::string& description() const;  ///< GL_RENDERER, GL_VERSION
+
+  FunctionLoader function_loader() const;  ///< for others who draw in this context
+
+  /// Errors and warnings since the last call, oldest first; always empty without ContextOptions::debug.
+  std::vector<std::string> take_debug_messages();
 
   struct Backend;
   explicit Context(std::unique_ptr<Backend> backend);
 
- private:
+private:
   std::unique_ptr<Backend> backend_;
 };
 

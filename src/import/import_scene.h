@@ -22,8 +22,8 @@ Expected<Scene> import_aff(const std::filesystem::path& path, const ImportOption
 Expected<Scene> import_gltf(const std::filesystem::path& path);
 Expected<Scene> import_obj(const std::filesystem::path& path);
 
-/// Writes `scene` with its animation as a binary glTF 2.0 file. BART's splines are baked to `fps` keys a second
-/// (the clip's own frames where it states them); shapes become morph targets.
+/// Writes `scene` with its animation as a binary glTF 2.0 file. BART's splines are baked to `fps` keys a
+/// second (the clip's own frames where it states them); shapes become morph targets.
 Expected<void> export_glb(const Scene& scene, const std::filesystem::path& path, double fps = 30.0);
 
 }  // namespace tenebra

@@ -5,9 +5,17 @@
 #include <glm/glm.hpp>
 #include <vector>
 
+#include "scene/pose.h"
 #include "scene/scene.h"
 
 namespace tenebra {
+
+/// Vertices of one mesh in the space of its node, after its shapes or morph targets; and its skin's matrices.
+struct DeformBuffers {
+  std::vector<glm::dvec3> positions;
+  std::vector<glm::dvec3> normals;
+  std::vector<glm::dmat4> joints;
+};
 
 /// World-space triangles of one instant. Positions are transformed in double and rounded once to float: the
 /// floats are the geometry, exact from here on. Triangle order and count are the same in all frames.
@@ -18,6 +26,9 @@ struct FrameGeometry {
   std::vector<std::uint32_t> materials;      ///< one a triangle
   std::vector<std::uint8_t> casts_shadow;    ///< one a triangle, 0 or 1
   std::uint32_t dropped_non_finite = 0;      ///< triangles with a NaN or infinite vertex, or beyond 1.8e18
+                                             ///< (such a vertex is stored as zero: all positions are finite)
+  Pose pose;                                 ///< the nodes at this instant
+  DeformBuffers deformed;                    ///< scratch
 };
 
 /// A light of one instant in world space.

@@ -8,7 +8,7 @@
 #include <vector>
 
 #include "shadow/mask.h"
-#include "support/random.h"
+#include "support/seeded_random.h"
 
 namespace tenebra::testing {
 

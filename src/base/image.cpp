@@ -1,0 +1,112 @@
+#include "base/image.h"
+
+#include <stb/stb_image.h>
+#include <stb/stb_image_write.h>
+
+#include <bit>
+#include <cstring>
+#include <fstream>
+#include <memory>
+#include <string>
+#include <string_view>
+
+#include "base/output_file.h"
+#include "base/png_structure.h"
+
+namespace tenebra {
+namespace {
+
+constexpr std::uint64_t most_pixels = std::uint64_t{1} << 28;
+constexpr std::uint64_t most_file_bytes = std::uint64_t{1} << 30;
+
+template <class T>
+bool has_consistent_size(const Image<T>& image) {
+  return image.width > 0 && image.height > 0 && image.channels > 0 &&
+         static_cast<std::uint64_t>(image.width) * image.height <= most_pixels &&
+         image.pixels.size() == static_cast<std::size_t>(image.width) * image.height * image.channels;
+}
+
+template <class T>
+tl::unexpected<Error> refuse_size(const std::filesystem::path& path, const Image<T>& image) {
+  return fail("cannot write {}: found a picture of {} x {} with {} channels and {} values", path.string(),
+              image.width, image.height, image.channels, image.pixels.size());
+}
+
+void append_to_string(void* text, void* bytes, int size) {
+  static_cast<std::string*>(text)->append(static_cast<const char*>(bytes), static_cast<std::size_t>(size));
+}
+
+Expected<std::string> read_bytes(const std::filesystem::path& path) {
+  std::error_code error;
+  const bool regular = std::filesystem::is_regular_file(path, error);
+  if (error) return fail("cannot read {}: {}", path.string(), error.message());
+  if (!regular) return fail("cannot read {}: it is not a file", path.string());
+  const std::uint64_t size = std::filesystem::file_size(path, error);
+  if (error) return fail("cannot read {}: {}", path.string(), error.message());
+  if (size > most_file_bytes)
+    return fail("cannot read {}: its {} bytes are over the limit of 1 GiB", path.string(), size);
+  std::ifstream stream(path, std::ios::binary);
+  if (!stream) return fail("cannot read {}: permission denied or gone", path.string());
+  std::string bytes(size, '\0');
+  if (!stream.read(bytes.data(), static_cast<std::streamsize>(size))) {
+    return fail("cannot read {}: found {} of {} bytes", path.string(), stream.gcount(), size);
+  }
+  return bytes;
+}
+
+}  // namespace
+
+Expected<void> write_png(const std::filesystem::path& path, const Image8& image) {
+  const bool has_png_channels = image.channels == 1 || image.channels == 3 || image.channels == 4;
+  if (!has_png_channels || !has_consistent_size(image)) return refuse_size(path, image);
+  std::string bytes;
+  if (stbi_write_png_to_func(append_to_string, &bytes, image.width, image.height, image.channels,
+                             image.pixels.data(), image.width * image.channels) == 0) {
+    return fail("cannot write {}: not enough memory to compress {} x {} pixels", path.string(), image.width,
+                image.height);
+  }
+  return write_file(path, bytes);
+}
+
+Expected<Image8> read_png(const std::filesystem::path& path) {
+  const auto bytes = read_bytes(path);
+  if (!bytes) return tl::unexpected(bytes.error());
+  const auto header = check_png_structure(*bytes);
+  if (!header) return fail("{}: {}", path.string(), header.error().message);
+  if (header->bit_depth > 8) {
+    return fail("{}: found {} bits a channel, expected at most 8", path.string(), header->bit_depth);
+  }
+  if (std::uint64_t{header->width} * header->height > most_pixels) {
+    return fail("{}: found {} x {} pixels, expected at most 2^28", path.string(), header->width,
+                header->height);
+  }
+  Image8 image;
+  const std::unique_ptr<stbi_uc, void (*)(void*)> decoded(
+      stbi_load_from_memory(reinterpret_cast<const stbi_uc*>(bytes->data()), static_cast<int>(bytes->size()),
+                            &image.width, &image.height, &image.channels, 0),
+      stbi_image_free);
+  if (decoded == nullptr) {
+    const std::string_view reason = stbi_failure_reason();
+    return fail("{}: cannot decode its {} x {} pixels ({})", path.string(), header->width, header->height,
+                reason == "outofmem" ? "not enough memory" : reason);
+  }
+  const std::size_t count = static_cast<std::size_t>(image.width) * image.height * image.channels;
+  image.pixels.assign(decoded.get(), decoded.get() + count);
+  return image;
+}
+
+Expected<void> write_pfm(const std::filesystem::path& path, const ImageF& image) {
+  static_assert(std::endian::native == std::endian::little, "the scale -1 announces little-endian floats");
+  const bool has_pfm_channels = image.channels == 1 || image.channels == 3;
+  if (!has_pfm_channels || !has_consistent_size(image)) return refuse_size(path, image);
+  std::string bytes =
+      fmt::format("{}\n{} {}\n-1.0\n", image.channels == 3 ? "PF" : "Pf", image.width, image.height);
+  const std::size_t row_values = static_cast<std::size_t>(image.width) * image.channels;
+  for (int y = image.height - 1; y >= 0; --y) {  // PFM stores the bottom row first
+    bytes.append(reinterpret_cast<const char*>(image.pixels.data() + y * row_values),
+                 row_values * sizeof(float));
+  }
+  return write_file(path, bytes);
+}
+
+}  // namespace tenebra

@@ -1,0 +1,23 @@
+// The outer structure of a PNG file, checked before any of it is decoded: chunks, checksums, sizes.
+#pragma once
+
+#include <cstdint>
+#include <string_view>
+
+#include "base/expected.h"
+
+namespace tenebra {
+
+struct PngHeader {
+  std::uint32_t width = 0;
+  std::uint32_t height = 0;
+  int bit_depth = 0;
+};
+
+/// Header of a PNG file whose chunks are whole, in order (IHDR first, IEND last) and match their checksums,
+/// and whose compressed bytes can hold the pixels that the header claims. Fails with a phrase that names what
+/// was found
+/// ("found ... where ..."), without the file's name.
+Expected<PngHeader> check_png_structure(std::string_view bytes);
+
+}  // namespace tenebra

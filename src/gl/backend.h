@@ -1,0 +1,32 @@
+// Inside of gl::Context: what EGL, OSMesa and a window's context do each in their own way.
+#pragma once
+
+#include <memory>
+#include <string>
+#include <vector>
+
+#include "gl/context.h"
+
+namespace tenebra::gl {
+
+struct Context::Backend {
+  virtual ~Backend() = default;
+  virtual bool make_current() = 0;
+  virtual FunctionLoader loader() const = 0;
+  virtual std::string_view kind_name() const = 0;
+
+  std::string description;
+  std::vector<std::string> debug_messages;
+};
+
+using BackendResult = Expected<std::unique_ptr<Context::Backend>>;
+
+BackendResult create_egl_backend(ContextOptions options);     ///< not yet current
+BackendResult create_osmesa_backend(ContextOptions options);  ///< not yet current
+
+/// Loads the functions of the context that is current and describes it; fails below OpenGL 4.5.
+Expected<void> load_functions(Context::Backend& backend);
+/// Sends the current context's complaints to backend.debug_messages.
+void collect_debug_messages(Context::Backend& backend);
+
+}  // namespace tenebra::gl

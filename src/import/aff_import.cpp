@@ -1,0 +1,21 @@
+// The entry of the AFF importer: no exception leaves it.
+#include <exception>
+#include <new>
+
+#include "import/aff_reader.h"
+
+namespace tenebra {
+
+Expected<Scene> import_aff(const std::filesystem::path& path, const ImportOptions& options) {
+  try {
+    return AffReader(options).read(path);
+  } catch (const AffFailure& failure) {
+    return fail("{}", failure.message);
+  } catch (const std::bad_alloc&) {
+    return fail("{}: found more than fits into memory, expected a smaller scene.", path.string());
+  } catch (const std::exception& error) {
+    return fail("{}: found {}, expected a readable AFF file.", path.string(), error.what());
+  }
+}
+
+}  // namespace tenebra

@@ -1,0 +1,78 @@
+#include "parallel/parallel.h"
+
+#include <tbb/blocked_range.h>
+#include <tbb/global_control.h>
+#include <tbb/parallel_for.h>
+#include <tbb/task_arena.h>
+#include <xmmintrin.h>
+
+#include <algorithm>
+
+#ifdef TENEBRA_THREAD_SANITIZER
+extern "C" void __tsan_acquire(void*);
+extern "C" void __tsan_release(void*);
+#else
+namespace {
+void __tsan_acquire(void*) {}
+void __tsan_release(void*) {}
+}  // namespace
+#endif
+
+namespace tenebra {
+
+namespace {
+
+constexpr unsigned ieee_defaults = 0x1f80;  // MXCSR: all exceptions masked, to nearest, no FTZ, no DAZ
+
+// What a loop is to the thread sanitizer: libtbb is not instrumented, nor is this file, so the order that they
+// keep (the caller before each body, each body before the caller goes on) has to be said.
+class Loop {
+ public:
+  Loop() { __tsan_release(this); }
+  ~Loop() { __tsan_acquire(this); }
+  Loop(const Loop&) = delete;
+  Loop& operator=(const Loop&) = delete;
+
+  template <class Body>
+  void run(const Body& body) {
+    __tsan_acquire(this);
+    const FloatEnvironment ieee;
+    body();
+    __tsan_release(this);
+  }
+};
+
+}  // namespace
+
+FloatEnvironment::FloatEnvironment() : saved_(_mm_getcsr()) { _mm_setcsr(ieee_defaults); }
+FloatEnvironment::~FloatEnvironment() { _mm_setcsr(saved_); }
+
+void with_threads(int threads, const std::function<void()>& body) {
+  if (threads <= 0) {
+    body();
+    return;
+  }
+  tbb::global_control limit(tbb::global_control::max_allowed_parallelism, static_cast<std::size_t>(threads));
+  tbb::task_arena arena(threads);
+  arena.execute(body);
+}
+
+int thread_count() { return tbb::this_task_arena::max_concurrency(); }
+
+void parallel_ranges(std::size_t count, std::size_t grain,
+                     const std::function<void(std::size_t, std::size_t)>& body) {
+  const std::size_t ranges = (count + grain - 1) / grain;
+  Loop loop;
+  tbb::parallel_for(std::size_t{0}, ranges, [&](std::size_t i) {
+    loop.run([&] { body(i * grain, std::min(count, (i + 1) * grain)); });
+  });
+}
+
+void parallel_tasks(int count, const std::function<void(int)>& body) {
+  Loop loop;
+  tbb::parallel_for(0, count, [&](int i) { loop.run([&] { body(i); }); });
+}
+
+int thread_index() { return std::max(0, tbb::this_task_arena::current_thread_index()); }
+
+}  // namespace tenebra

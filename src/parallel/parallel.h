@@ -1,0 +1,39 @@
+// The one place for threads: loops and fork-join over oneTBB. Every body runs with IEEE defaults (round to
+// nearest, no flush to zero), whatever the caller's floating-point environment.
+#pragma once
+
+#include <cstddef>
+#include <functional>
+
+namespace tenebra {
+
+/// Round to nearest and gradual underflow while it lives; the caller's settings come back with its end.
+class FloatEnvironment {
+ public:
+  FloatEnvironment();
+  ~FloatEnvironment();
+  FloatEnvironment(const FloatEnvironment&) = delete;
+  FloatEnvironment& operator=(const FloatEnvironment&) = delete;
+
+ private:
+  unsigned saved_;
+};
+
+/// Runs `body` so that the loops below use at most `threads` threads (0: all cores).
+void with_threads(int threads, const std::function<void()>& body);
+
+/// Threads that a loop started here may use.
+int thread_count();
+
+/// Calls body(first, last) on ranges that cover 0..count, at most `grain` long each. The ranges depend on
+/// `count` and `grain` only, never on the number of threads.
+void parallel_ranges(std::size_t count, std::size_t grain,
+                     const std::function<void(std::size_t, std::size_t)>& body);
+
+/// Calls body(0) ... body(count - 1), possibly at once; may be nested.
+void parallel_tasks(int count, const std::function<void(int)>& body);
+
+/// Index of the calling thread among those of the loop, in 0..thread_count() - 1; for per-thread scratch.
+int thread_index();
+
+}  // namespace tenebra

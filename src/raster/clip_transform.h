@@ -1,0 +1,37 @@
+// The pixel rays of a view as OpenGL needs them: the same floats that define the rays make the clip
+// coordinates, so that what the rasteriser finds at a pixel is what the ray through the pixel's centre meets.
+// Window y runs down the picture: row 0, the top one, is at window y = 0, and nothing is ever flipped.
+#pragma once
+
+#include <glm/glm.hpp>
+
+#include "base/expected.h"
+#include "scene/frame_geometry.h"
+
+namespace tenebra {
+
+/// Smallest box around all finite positions of a frame; `min` > `max` if there are none.
+struct Box {
+  glm::vec3 min{1.0f};
+  glm::vec3 max{-1.0f};
+};
+
+/// Of a world position p, with q = p - eye: clip coordinates are clip_from_offset * q + clip_offset, made for
+/// depth 0..1. Depth is reversed, 1 at the near plane, so that floats are dense far away where depths crowd.
+/// Ray parameter t (of ViewRays: q = t d) from depth z: perspective, without far plane, near_t / z;
+/// orthographic, where the far plane lies behind all geometry, mix(far_t, near_t, z).
+struct ClipTransform {
+  glm::mat3x4 clip_from_offset{0.0f};
+  glm::vec4 clip_offset{0.0f};
+  float near_t = 0;
+  float far_t = 0;  ///< orthographic only
+};
+
+/// Fails if the rays are not finite or do not span a picture (no width, height or depth).
+Expected<ClipTransform> clip_transform(const ViewRays& view, const Box& bounds, int width, int height);
+
+/// The point that pixel (x, y), row 0 at the top, sees at depth `depth` > 0: the paper's reconstruction, as
+/// exact as float depth is: too coarse to do without a bias.
+glm::dvec3 point_from_depth(const ViewRays& view, const ClipTransform& transform, int x, int y, float depth);
+
+}  // namespace tenebra

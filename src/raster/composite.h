@@ -1,0 +1,43 @@
+// The picture: ambient and emitted light plus the light buffers where their masks let them through.
+#pragma once
+
+#include <cstdint>
+#include <glm/glm.hpp>
+#include <span>
+
+#include "base/image.h"
+#include "gl/objects.h"
+#include "raster/gbuffer.h"
+#include "raster/geometry_buffers.h"
+#include "raster/light_buffer.h"
+
+namespace tenebra {
+
+struct CompositeSettings {
+  glm::vec3 ambient_light{1.0f};
+  glm::vec3 background{0.0f};  ///< linear, where no triangle is seen
+  float exposure = 1.0f;       ///< factor of all linear colour, background too
+};
+
+/// begin, add_light for each light, finish: once a frame, in this order.
+class Compositor {
+public:
+  static Expected<Compositor> create();
+
+  Expected<void> begin(int width, int height);
+  /// Adds light x mask / 255. `mask`: width * height, row 0 at the top; empty: all lit.
+  void add_light(const LightBuffer& light, std::span<const std::uint8_t> mask);
+  /// (ambient x ambient_light + emissive + sum of light x mask) x exposure, clamped, as sRGB: within one
+  /// level's rounding of the formula. `out` keeps its capacity.
+  void finish(const GBuffer& gbuffer, const GeometryBuffers& geometry, const CompositeSettings& settings,
+              Image8& out);
+
+private:
+  gl::Program accumulate_program_, composite_program_;
+  gl::VertexArray empty_;
+  gl::Texture sum_, mask_, picture_;
+  gl::Framebuffer sum_framebuffer_, picture_framebuffer_;
+  std::vector<std::uint8_t> rgba_;
+};
+
+}  // namespace tenebra

@@ -1,0 +1,111 @@
+#include "raster/gbuffer.h"
+
+#include <embedded_shaders.h>
+#include <glad/gl.h>
+
+#include <algorithm>
+#include <array>
+#include <glm/gtc/type_ptr.hpp>
+#include <span>
+
+#include "raster/passes.h"
+
+namespace tenebra {
+namespace {
+
+// A frame needs 53 bytes a pixel: 3.5 GB at this many.
+constexpr std::int64_t max_pixels = std::int64_t{1} << 26;
+constexpr GLuint no_triangle_id = 0xffffffffu;
+constexpr int eye_location = 0, clip_from_offset_location = 1, clip_offset_location = 2;
+
+Expected<void> make_targets(int width, int height, GBuffer& out) {
+  if (out.framebuffer && out.width == width && out.height == height) return {};
+  auto depth = gl::Texture::create(gl::PixelFormat::depth32f, width, height);
+  auto ids = gl::Texture::create(gl::PixelFormat::r32ui, width, height);
+  auto normals = gl::Texture::create(gl::PixelFormat::r32ui, width, height);
+  for (auto* target : {&depth, &ids, &normals}) {
+    if (!*target) return tl::unexpected(std::move(target->error()));
+  }
+  auto framebuffer = gl::Framebuffer::create({&*ids, &*normals}, &*depth);
+  if (!framebuffer) return tl::unexpected(std::move(framebuffer.error()));
+  out.depth = std::move(*depth);
+  out.ids = std::move(*ids);
+  out.normals = std::move(*normals);
+  out.framebuffer = std::move(*framebuffer);
+  out.width = width;
+  out.height = height;
+  return {};
+}
+
+void clear(const gl::Framebuffer& target) {
+  const GLuint background[4] = {no_triangle_id, 0, 0, 0};
+  const GLuint nothing[4] = {};
+  const GLfloat infinitely_far = 0.0f;
+  glClearNamedFramebufferuiv(target.name(), GL_COLOR, 0, background);
+  glClearNamedFramebufferuiv(target.name(), GL_COLOR, 1, nothing);
+  glClearNamedFramebufferfv(target.name(), GL_DEPTH, 0, &infinitely_far);
+}
+
+}  // namespace
+
+Expected<void> check_picture_size(int width, int height) {
+  if (width < 1 || height < 1) return fail("picture: found size {}x{}, expected at least 1x1", width, height);
+  GLint texture = 0;
+  std::array<GLint, 2> viewport{};
+  glGetIntegerv(GL_MAX_TEXTURE_SIZE, &texture);
+  glGetIntegerv(GL_MAX_VIEWPORT_DIMS, viewport.data());
+  const int max_width = std::min(texture, viewport[0]), max_height = std::min(texture, viewport[1]);
+  if (width > max_width || height > max_height) {
+    return fail("picture: found size {}x{}, expected at most {}x{} (the limit of this OpenGL)", width, height,
+                max_width, max_height);
+  }
+  if (std::int64_t{width} * height > max_pixels) {
+    return fail("picture: found size {}x{}, expected at most {} pixels", width, height, max_pixels);
+  }
+  return {};
+}
+
+Expected<GBufferPass> GBufferPass::create() {
+  auto program =
+      gl::Program::build("gbuffer", {shaders::gbuffer_vert}, {shaders::normals_glsl, shaders::gbuffer_frag});
+  if (!program) return tl::unexpected(std::move(program.error()));
+  GBufferPass pass;
+  pass.program_ = std::move(*program);
+  return pass;
+}
+
+Expected<void> GBufferPass::draw(const ViewRays& view, const GeometryBuffers& geometry, int width, int height,
+                                 GBuffer& out) const {
+  if (auto size = check_picture_size(width, height); !size) return size;
+  auto transform = clip_transform(view, geometry.bounds(), width, height);
+  if (!transform) return tl::unexpected(std::move(transform.error()));
+  if (auto made = make_targets(width, height, out); !made) return made;
+  out.view = view;
+  out.transform = *transform;
+  begin_pass(out.framebuffer, program_, width, height);
+  clear(out.framebuffer);
+  glEnable(GL_DEPTH_TEST);
+  glDepthMask(GL_TRUE);
+  glDepthFunc(GL_GREATER);
+  glClipControl(GL_LOWER_LEFT, GL_ZERO_TO_ONE);
+  glUniform3fv(eye_location, 1, glm::value_ptr(view.eye));
+  glUniformMatrix3x4fv(clip_from_offset_location, 1, GL_FALSE, glm::value_ptr(transform->clip_from_offset));
+  glUniform4fv(clip_offset_location, 1, glm::value_ptr(transform->clip_offset));
+  geometry.draw();
+  glClipControl(GL_LOWER_LEFT, GL_NEGATIVE_ONE_TO_ONE);
+  glDisable(GL_DEPTH_TEST);
+  end_pass();
+  return {};
+}
+
+void read_triangle_ids(const GBuffer& gbuffer, std::vector<std::uint32_t>& ids) {
+  ids.resize(static_cast<std::size_t>(gbuffer.width) * static_cast<std::size_t>(gbuffer.height));
+  gbuffer.ids.read(std::as_writable_bytes(std::span(ids)));
+}
+
+void read_depth(const GBuffer& gbuffer, std::vector<float>& depth) {
+  depth.resize(static_cast<std::size_t>(gbuffer.width) * static_cast<std::size_t>(gbuffer.height));
+  gbuffer.depth.read(std::as_writable_bytes(std::span(depth)));
+}
+
+}  // namespace tenebra

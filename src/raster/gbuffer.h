@@ -1,0 +1,46 @@
+// The G-buffer: which triangle each pixel sees, how far away, and the normal to shade it with.
+#pragma once
+
+#include <cstdint>
+#include <vector>
+
+#include "gl/objects.h"
+#include "raster/clip_transform.h"
+#include "raster/geometry_buffers.h"
+#include "scene/frame_geometry.h"
+
+namespace tenebra {
+
+/// Targets of one size, kept from frame to frame. Materials are not in it: the triangle's id leads to them.
+struct GBuffer {
+  int width = 0;
+  int height = 0;
+  ViewRays view;  ///< what it was drawn with
+  ClipTransform transform;
+  gl::Texture depth;    ///< 32-bit float; see ClipTransform
+  gl::Texture ids;      ///< triangle ids; 0xffffffff where none is seen
+  gl::Texture normals;  ///< packed shading normals (shaders/normals.glsl)
+  gl::Framebuffer framebuffer;
+};
+
+/// Fails with a sentence on sizes below 1 or beyond what this OpenGL or a picture in one piece can hold.
+Expected<void> check_picture_size(int width, int height);
+
+class GBufferPass {
+public:
+  static Expected<GBufferPass> create();
+
+  /// Draws all triangles, two-sided, cut by the near plane. Where depths are equal the smaller id is seen.
+  /// Done when it returns. Fails on sizes that check_picture_size refuses and on rays that span no picture.
+  Expected<void> draw(const ViewRays& view, const GeometryBuffers& geometry, int width, int height,
+                      GBuffer& out) const;
+
+private:
+  gl::Program program_;
+};
+
+/// width * height values, row 0 at the top.
+void read_triangle_ids(const GBuffer& gbuffer, std::vector<std::uint32_t>& ids);
+void read_depth(const GBuffer& gbuffer, std::vector<float>& depth);  ///< 0 where no triangle is seen
+
+}  // namespace tenebra

@@ -1,0 +1,184 @@
+#include "render/renderer.h"
+
+#include <algorithm>
+
+#include "base/stopwatch.h"
+#include "parallel/parallel.h"
+#include "raster/composite.h"
+#include "raster/gbuffer.h"
+#include "raster/geometry_buffers.h"
+#include "raster/light_buffer.h"
+#include "render/shadow_lights.h"
+
+namespace tenebra {
+
+namespace {
+
+TriangleView view_of(const FrameGeometry& geometry) {
+  return {geometry.positions, geometry.triangles, geometry.casts_shadow};
+}
+
+void add(TraceStats& to, const TraceStats& from) {
+  to.rays += from.rays;
+  to.triangles += from.triangles;
+  to.nodes += from.nodes;
+  to.leaf_tests += from.leaf_tests;
+  to.early_accepts += from.early_accepts;
+  to.float_unknown += from.float_unknown;
+  to.double_unknown += from.double_unknown;
+  to.shadowed_pixels += from.shadowed_pixels;
+  to.lit_pixels += from.lit_pixels;
+  to.degenerate_triangles += from.degenerate_triangles;
+  to.tree_bytes = std::max(to.tree_bytes, from.tree_bytes);
+}
+
+void add_trace_times(FrameTimings& to, const FrameTimings& from) {
+  to.rays_ms += from.rays_ms;
+  to.sort_ms += from.sort_ms;
+  to.build_ms += from.build_ms;
+  to.traverse_ms += from.traverse_ms;
+  to.writeback_ms += from.writeback_ms;
+}
+
+}  // namespace
+
+struct Renderer::State {
+  gl::Context context;
+  Scene scene;  // materials, lights and colours only
+  GeometryBuffers geometry;
+  GBufferPass gbuffer_pass;
+  LightPass light_pass;
+  Compositor compositor;
+  GBuffer gbuffer{};
+  LightBuffer light_buffer{};
+
+  std::vector<std::uint32_t> ids{};
+  std::vector<float> depth{};
+  VisiblePoints points{};
+  ShadowTracer tracer{};
+  ShadowMask mask{};
+
+  Expected<std::vector<int>> chosen_lights(const FrameInput& input, const RenderSettings& settings) const;
+  void read_samples(const FrameInput& input, const RenderSettings& settings, FrameTimings& timings);
+  void points_from_depth(const ViewRays& view);
+  void trace_light(const FrameInput& input, int light, const RenderSettings& settings, FrameResult& result);
+};
+
+Renderer::Renderer(std::unique_ptr<State> state) : state_(std::move(state)) {}
+Renderer::Renderer(Renderer&&) noexcept = default;
+Renderer& Renderer::operator=(Renderer&&) noexcept = default;
+Renderer::~Renderer() = default;
+
+Expected<Renderer> Renderer::create(gl::Context context, const Scene& scene) {
+  auto gbuffer_pass = GBufferPass::create();
+  if (!gbuffer_pass) return tl::unexpected(gbuffer_pass.error());
+  auto light_pass = LightPass::create();
+  if (!light_pass) return tl::unexpected(light_pass.error());
+  auto compositor = Compositor::create();
+  if (!compositor) return tl::unexpected(compositor.error());
+  auto state = std::make_unique<State>(State{.context = std::move(context),
+                                             .scene = {},
+                                             .geometry = {},
+                                             .gbuffer_pass = std::move(*gbuffer_pass),
+                                             .light_pass = std::move(*light_pass),
+                                             .compositor = std::move(*compositor)});
+  if (auto uploaded = state->geometry.upload_materials(scene.materials); !uploaded) {
+    return tl::unexpected(uploaded.error());
+  }
+  state->scene.lights = scene.lights;
+  state->scene.ambient_light = scene.ambient_light;
+  state->scene.background = scene.background;
+  return Renderer(std::move(state));
+}
+
+const std::string& Renderer::gl_renderer() const { return state_->context.description(); }
+
+Expected<std::vector<int>> Renderer::State::chosen_lights(const FrameInput& input, const RenderSettings& settings) const {
+  const int count = static_cast<int>(input.lights.size());
+  if (settings.light >= count) return fail("light {}: the scene has {} lights, counted from 0", settings.light, count);
+  std::vector<int> chosen;
+  for (int i = 0; i < count; ++i) {
+    if (settings.light < 0 || settings.light == i) chosen.push_back(i);
+  }
+  return chosen;
+}
+
+void Renderer::State::points_from_depth(const ViewRays& view) {
+  const std::size_t width = static_cast<std::size_t>(gbuffer.width), height = static_cast<std::size_t>(gbuffer.height);
+  points.width = gbuffer.width;
+  points.height = gbuffer.height;
+  points.triangles = ids;
+  points.positions.resize(width * height);
+  parallel_ranges(height, 16, [&](std::size_t first, std::size_t last) {
+    for (std::size_t i = first * width; i < last * width; ++i) {
+      if (depth[i] <= 0) points.triangles[i] = no_triangle;
+      if (points.triangles[i] == no_triangle) continue;
+      points.positions[i] = point_from_depth(view, gbuffer.transform, static_cast<int>(i % width), static_cast<int>(i / width), depth[i]);
+    }
+  });
+}
+
+void Renderer::State::read_samples(const FrameInput& input, const RenderSettings& settings, FrameTimings& timings) {
+  Stopwatch watch;
+  read_triangle_ids(gbuffer, ids);
+  if (settings.samples == SampleSource::depth) read_depth(gbuffer, depth);
+  timings.readback_ms = watch.lap_ms();
+  with_threads(settings.threads, [&] {
+    if (settings.samples == SampleSource::depth) return points_from_depth(input.view);
+    compute_visible_points(ids, gbuffer.width, gbuffer.height, input.view, view_of(input.geometry), points);
+  });
+  timings.points_ms = watch.lap_ms();
+}
+
+void Renderer::State::trace_light(const FrameInput& input, int light, const RenderSettings& settings, FrameResult& result) {
+  const WorldLight& placed = input.lights[static_cast<std::size_t>(light)];
+  HardShadowConfig config = settings.hard;
+  if (settings.samples == SampleSource::depth) config.contact = ContactRule::none;
+  with_threads(settings.threads, [&] {
+    tracer.trace_shadow_mask(points, input.view, view_of(input.geometry),
+                             shadow_light(scene.lights[static_cast<std::size_t>(placed.light)], placed), config, mask);
+  });
+  add(result.stats, tracer.stats());
+  add_trace_times(result.timings, tracer.timings());
+  result.masks.push_back({light, {gbuffer.width, gbuffer.height, 1, mask}});
+}
+
+// Olsson and Assarsson 2011, section 3.1: (1) rasterise, direct light apart; (2) rays and their hierarchy from
+// what is seen; (3) triangles through the hierarchy; (4) blocked pixels lose the light; (5) add it up.
+Expected<void> Renderer::render_frame(const FrameInput& input, const RenderSettings& settings, FrameResult& result) {
+  State& s = *state_;
+  const auto lights = s.chosen_lights(input, settings);
+  if (!lights) return tl::unexpected(lights.error());
+  if (auto checked = check_picture_size(settings.width, settings.height); !checked) return checked;
+  result.masks.clear();
+  result.timings = {};
+  result.stats = {};
+  FrameTimings& timings = result.timings;
+  Stopwatch watch, whole;
+
+  if (auto uploaded = s.geometry.upload(input.geometry); !uploaded) return uploaded;
+  if (auto drawn = s.gbuffer_pass.draw(input.view, s.geometry, settings.width, settings.height, s.gbuffer); !drawn) return drawn;
+  if (auto begun = s.compositor.begin(settings.width, settings.height); !begun) return begun;
+  timings.raster_ms = watch.lap_ms();
+
+  const bool shadows = settings.shadows == ShadowMode::hard && !lights->empty();
+  if (shadows) s.read_samples(input, settings, timings);
+  for (const int light : *lights) {
+    const WorldLight& placed = input.lights[static_cast<std::size_t>(light)];
+    watch.lap_ms();
+    if (auto drawn = s.light_pass.draw(s.gbuffer, s.geometry, s.scene.lights[static_cast<std::size_t>(placed.light)], placed, s.light_buffer); !drawn) {
+      return drawn;
+    }
+    timings.raster_ms += watch.lap_ms();
+    if (shadows) s.trace_light(input, light, settings, result);
+    watch.lap_ms();
+    s.compositor.add_light(s.light_buffer, shadows ? std::span<const std::uint8_t>(s.mask) : std::span<const std::uint8_t>());
+    timings.writeback_ms += watch.lap_ms();
+  }
+  s.compositor.finish(s.gbuffer, s.geometry, {s.scene.ambient_light, s.scene.background, settings.exposure}, result.image);
+  timings.composite_ms = watch.lap_ms();
+  timings.total_ms = whole.lap_ms();
+  return {};
+}
+
+}  // namespace tenebra

@@ -1,0 +1,21 @@
+// Vertices of a mesh before its node places them: BART's shapes, glTF's morph targets, and skinning matrices.
+#pragma once
+
+#include <span>
+
+#include "scene/frame_geometry.h"
+
+namespace tenebra {
+
+/// True if the mesh's own positions are not what is drawn.
+inline bool deforms(const Mesh& mesh) {
+  return !mesh.shapes.empty() || !mesh.morph_targets.empty();
+}
+
+/// Fills out.positions and out.normals (empty if the mesh has none). `weights`: one a morph target.
+void deform_mesh(const Mesh& mesh, std::span<const double> weights, double time_s, DeformBuffers& out);
+
+/// Fills out.joints: each takes a vertex at rest to world space.
+void evaluate_joints(const Skin& skin, const Pose& pose, DeformBuffers& out);
+
+}  // namespace tenebra

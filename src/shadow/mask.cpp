@@ -1,0 +1,147 @@
+#include "shadow/mask.h"
+
+#include <bit>
+#include <numeric>
+
+#include "base/stopwatch.h"
+#include "parallel/parallel.h"
+#include "shadow/cone_tree.h"
+#include "shadow/shadow_rays.h"
+#include "shadow/traverse.h"
+#include "shadow/triangle_planes.h"
+
+namespace tenebra {
+
+namespace {
+
+constexpr std::uint8_t lit = 255;
+// Section 3.4: triangles that can cover a node four levels below the root go first; the tree is updated if they
+// finished at least this share of the rays.
+constexpr float blocker_share = 1.0f / 256;
+constexpr std::uint64_t update_share = 16;
+
+/// Table 1 of the paper.
+struct VariantParts {
+  bool spheres, sorted, early_accept, two_pass;
+};
+VariantParts parts_of(Variant variant) {
+  switch (variant) {
+    case Variant::precise:
+      return {false, false, false, false};
+    case Variant::precise_sorted:
+      return {false, true, false, false};
+    case Variant::spheres:
+      return {true, false, false, false};
+    case Variant::spheres_sorted:
+      return {true, true, false, false};
+    case Variant::precise_sea:
+      return {false, true, true, false};
+    case Variant::precise_eatp:
+      return {false, false, true, true};
+    case Variant::precise_seatp:
+      return {false, true, true, true};
+  }
+  return {};
+}
+
+std::uint64_t live_rays(const ConeTree& tree) {
+  std::uint64_t live = 0;
+  for (const RayPacket& packet : tree.packets) live += static_cast<std::uint64_t>(std::popcount(packet.live));
+  return live;
+}
+
+}  // namespace
+
+struct ShadowTracer::State {
+  TriangleSet set;
+  ShadowRays rays;
+  RayKeys keys;
+  ConeTree tree;
+  std::vector<std::uint32_t> at_light;
+  std::vector<std::uint32_t> places;
+  std::vector<std::uint32_t> blockers;
+  std::vector<TraversalScratch> scratch;
+  TraceStats stats;
+  FrameTimings timings;
+
+  void trace_one_pass(const Traversal& traversal, const TraversalKernels& kernels);
+  void trace_two_passes(const Traversal& traversal, const TraversalKernels& kernels);
+  void write_mask(ShadowMask& mask) const;
+};
+
+void ShadowTracer::State::trace_one_pass(const Traversal& traversal, const TraversalKernels& kernels) {
+  places.resize(set.planes.size());
+  std::iota(places.begin(), places.end(), 0u);
+  traverse(traversal, kernels, places, scratch, stats);
+}
+
+void ShadowTracer::State::trace_two_passes(const Traversal& traversal, const TraversalKernels& kernels) {
+  const float least = root_extent(tree) * blocker_share;
+  places.clear();
+  blockers.clear();
+  for (std::uint32_t i = 0; i < set.bounds.size(); ++i) (set.bounds[i].solid_angle >= least ? blockers : places).push_back(i);
+  traverse(traversal, kernels, blockers, scratch, stats);
+  if ((rays.pixels.size() - live_rays(tree)) * update_share >= rays.pixels.size()) {
+    update_cone_tree(*traversal.source, tree);
+  }
+  traverse(traversal, kernels, places, scratch, stats);
+}
+
+void ShadowTracer::State::write_mask(ShadowMask& mask) const {
+  parallel_ranges(rays.pixels.size(), 1 << 15, [&](std::size_t first, std::size_t last) {
+    for (std::size_t i = first; i < last; ++i) {
+      const bool live = (tree.packets[i / packet_size].live >> (i % packet_size)) & 1u;
+      mask[rays.pixels[i]] = live ? lit : 0;
+    }
+  });
+  for (const std::uint32_t pixel : at_light) mask[pixel] = lit;
+}
+
+ShadowTracer::ShadowTracer() : state_(std::make_unique<State>()) {}
+ShadowTracer::ShadowTracer(ShadowTracer&&) noexcept = default;
+ShadowTracer& ShadowTracer::operator=(ShadowTracer&&) noexcept = default;
+ShadowTracer::~ShadowTracer() = default;
+
+const TraceStats& ShadowTracer::stats() const { return state_->stats; }
+const FrameTimings& ShadowTracer::timings() const { return state_->timings; }
+
+void ShadowTracer::trace_shadow_mask(const VisiblePoints& points, const ViewRays& view, const TriangleView& triangles,
+                                     const ShadowLight& light, const HardShadowConfig& config, ShadowMask& mask) {
+  const FloatEnvironment ieee;
+  State& s = *state_;
+  s.stats = {};
+  s.timings = {};
+  const RaySource source = ray_source(light);
+  const VariantParts parts = parts_of(config.variant);
+  Stopwatch watch;
+
+  build_triangle_set(triangles, view, source, config, s.set);
+  generate_shadow_rays(points, light, source, s.set, s.keys, s.rays, s.at_light);
+  s.timings.rays_ms = watch.lap_ms();
+
+  if (parts.sorted) sort_shadow_rays(points, source, config.simd, s.keys, s.rays);
+  s.timings.sort_ms = watch.lap_ms();
+
+  s.tree.packets.clear();
+  s.stats.triangles = s.set.casting;
+  s.stats.degenerate_triangles = s.set.degenerate;
+  if (!s.rays.pixels.empty()) {
+    build_cone_tree(s.rays, points.positions, source, config.simd, s.tree);
+    s.timings.build_ms = watch.lap_ms();
+    const Traversal traversal{{parts.spheres, parts.early_accept, source.directional}, &s.set, &s.rays, &s.tree, &source,
+                              &triangles, points.positions, config.contact};
+    const TraversalKernels kernels = traversal_kernels(config.simd);
+    parts.two_pass ? s.trace_two_passes(traversal, kernels) : s.trace_one_pass(traversal, kernels);
+    s.stats.tree_bytes = s.tree.byte_count();
+  }
+  s.timings.traverse_ms = watch.lap_ms();
+
+  mask.assign(points.triangles.size(), 0);
+  s.write_mask(mask);
+  s.stats.rays = s.rays.pixels.size() + s.at_light.size();
+  s.stats.lit_pixels = live_rays(s.tree) + s.at_light.size();
+  s.stats.shadowed_pixels = s.stats.rays - s.stats.lit_pixels;
+  s.timings.writeback_ms = watch.lap_ms();
+}
+
+}  // namespace tenebra

@@ -1,0 +1,54 @@
+#include <array>
+#include <utility>
+
+#include "shadow/mask.h"
+
+namespace tenebra {
+
+namespace {
+
+template <class T>
+using Names = std::pair<T, std::string_view>;
+
+constexpr std::array<Names<Variant>, 7> variants = {{
+    {Variant::precise, "Precise"},
+    {Variant::precise_sorted, "PreciseSorted"},
+    {Variant::spheres, "Spheres"},
+    {Variant::spheres_sorted, "SpheresSorted"},
+    {Variant::precise_sea, "PreciseSEA"},
+    {Variant::precise_eatp, "PreciseEATP"},
+    {Variant::precise_seatp, "PreciseSEATP"},
+}};
+
+constexpr std::array<Names<SimdLevel>, 5> simd_levels = {{
+    {SimdLevel::automatic, "auto"},
+    {SimdLevel::scalar, "scalar"},
+    {SimdLevel::sse4, "sse4"},
+    {SimdLevel::avx2, "avx2"},
+    {SimdLevel::avx512, "avx512"},
+}};
+
+template <class T, std::size_t N>
+std::string_view name_in(const std::array<Names<T>, N>& names, T value) {
+  for (const auto& [candidate, name] : names) {
+    if (candidate == value) return name;
+  }
+  return {};
+}
+
+template <class T, std::size_t N>
+std::optional<T> value_in(const std::array<Names<T>, N>& names, std::string_view name) {
+  for (const auto& [value, candidate] : names) {
+    if (candidate == name) return value;
+  }
+  return std::nullopt;
+}
+
+}  // namespace
+
+std::string_view variant_name(Variant variant) { return name_in(variants, variant); }
+std::optional<Variant> variant_from_name(std::string_view name) { return value_in(variants, name); }
+std::string_view simd_level_name(SimdLevel level) { return name_in(simd_levels, level); }
+std::optional<SimdLevel> simd_level_from_name(std::string_view name) { return value_in(simd_levels, name); }
+
+}  // namespace tenebra

@@ -1,0 +1,87 @@
+// Visible points in double from triangle ids: no depth value enters, so no bias is needed.
+#include <algorithm>
+#include <cmath>
+
+#include "parallel/parallel.h"
+#include "shadow/mask.h"
+
+namespace tenebra {
+
+namespace {
+
+using glm::dvec3;
+
+// What the pixels of one triangle share. Barycentric weights of a point p on the plane are
+// u = du.(p - a), v = dv.(p - a), 1 - u - v.
+struct Receiver {
+  std::uint32_t id = no_triangle;
+  dvec3 a, e1, e2, normal, du, dv;
+  bool flat = false;  // no plane: zero area in double
+};
+
+Receiver receiver_of(const TriangleView& triangles, std::uint32_t id) {
+  const glm::uvec3 t = triangles.triangles[id];
+  Receiver r;
+  r.id = id;
+  r.a = triangles.positions[t.x];
+  r.e1 = dvec3(triangles.positions[t.y]) - r.a;
+  r.e2 = dvec3(triangles.positions[t.z]) - r.a;
+  r.normal = glm::cross(r.e1, r.e2);
+  const double area2 = glm::dot(r.normal, r.normal);
+  r.flat = !(area2 > 0);
+  if (!r.flat) {
+    r.du = glm::cross(r.e2, r.normal) / area2;
+    r.dv = glm::cross(r.normal, r.e1) / area2;
+  }
+  return r;
+}
+
+// Nearest admissible weights: negative ones to 0, renormalised. The point is then a double rounding off the
+// plane, far inside the contact rule's tolerance.
+dvec3 clamped(const Receiver& r, double u, double v) {
+  const double w0 = std::max(0.0, 1 - u - v), w1 = std::max(0.0, u), w2 = std::max(0.0, v);
+  const double sum = w0 + w1 + w2;
+  return r.a + (w1 / sum) * r.e1 + (w2 / sum) * r.e2;
+}
+
+// Where origin + t direction meets the triangle's plane, in the triangle. A ray that misses the plane (the
+// rasteriser saw a triangle edge-on) gets the centroid.
+dvec3 visible_point(const Receiver& r, const dvec3& origin, const dvec3& direction) {
+  const double speed = glm::dot(r.normal, direction);
+  const double t = glm::dot(r.normal, r.a - origin) / speed;
+  if (r.flat || !(t > 0) || !std::isfinite(t)) return r.a + (r.e1 + r.e2) / 3.0;
+  const dvec3 p = origin + t * direction;
+  const double u = glm::dot(r.du, p - r.a), v = glm::dot(r.dv, p - r.a);
+  if (u >= 0 && v >= 0 && u + v <= 1) return p;
+  if (!std::isfinite(u) || !std::isfinite(v)) return r.a + (r.e1 + r.e2) / 3.0;
+  return clamped(r, u, v);
+}
+
+}  // namespace
+
+void compute_visible_points(std::span<const std::uint32_t> ids, int width, int height, const ViewRays& view,
+                            const TriangleView& triangles, VisiblePoints& out) {
+  out.width = width;
+  out.height = height;
+  out.positions.resize(ids.size());
+  out.triangles.resize(ids.size());
+  const dvec3 eye(view.eye), d0(view.d0), dx(view.dx), dy(view.dy);
+  parallel_ranges(static_cast<std::size_t>(height), 8, [&](std::size_t first, std::size_t last) {
+    Receiver receiver;
+    for (std::size_t y = first; y < last; ++y) {
+      const dvec3 row = (static_cast<double>(y) + 0.5) * dy;
+      for (std::size_t x = 0; x < static_cast<std::size_t>(width); ++x) {
+        const std::size_t pixel = y * static_cast<std::size_t>(width) + x;
+        const std::uint32_t id = ids[pixel] < triangles.triangles.size() ? ids[pixel] : no_triangle;
+        out.triangles[pixel] = id;
+        if (id == no_triangle) continue;
+        if (id != receiver.id) receiver = receiver_of(triangles, id);
+        const dvec3 across = (static_cast<double>(x) + 0.5) * dx + row;
+        out.positions[pixel] = view.orthographic ? visible_point(receiver, eye + across, d0)
+                                                 : visible_point(receiver, eye, d0 + across);
+      }
+    }
+  });
+}
+
+}  // namespace tenebra

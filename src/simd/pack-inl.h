@@ -1,0 +1,194 @@
+// N lanes of T on whatever vector registers the target has: one register, several, or emulation. Everything that
+// names a vector register stands here; kernels are written in terms of Pack. Included once per target, as
+// Highway's foreach_target asks.
+#if defined(TENEBRA_SIMD_PACK_INL_H_) == defined(HWY_TARGET_TOGGLE)
+#ifdef TENEBRA_SIMD_PACK_INL_H_
+#undef TENEBRA_SIMD_PACK_INL_H_
+#else
+#define TENEBRA_SIMD_PACK_INL_H_
+#endif
+
+#include <hwy/highway.h>
+
+#include <cstdint>
+
+HWY_BEFORE_NAMESPACE();
+namespace tenebra::HWY_NAMESPACE {
+
+namespace hn = hwy::HWY_NAMESPACE;
+
+template <class T, int N>
+struct Pack {
+  using Tag = hn::CappedTag<T, N>;
+  static constexpr int width = static_cast<int>(hn::MaxLanes(Tag()));  ///< lanes a register
+  static constexpr int registers = N / width;
+  hn::Vec<Tag> r[registers];
+};
+using Float4 = Pack<float, 4>;
+using Float16 = Pack<float, 16>;
+
+template <class P, class T>
+HWY_INLINE P splat(T value) {
+  P p;
+  for (int i = 0; i < P::registers; ++i) p.r[i] = hn::Set(typename P::Tag(), value);
+  return p;
+}
+
+template <class P, class T>
+HWY_INLINE P load(const T* from) {
+  P p;
+  for (int i = 0; i < P::registers; ++i) p.r[i] = hn::LoadU(typename P::Tag(), from + i * P::width);
+  return p;
+}
+
+template <class T, int N>
+HWY_INLINE Pack<T, N> operator+(Pack<T, N> a, Pack<T, N> b) {
+  for (int i = 0; i < a.registers; ++i) a.r[i] = hn::Add(a.r[i], b.r[i]);
+  return a;
+}
+template <class T, int N>
+HWY_INLINE Pack<T, N> operator-(Pack<T, N> a, Pack<T, N> b) {
+  for (int i = 0; i < a.registers; ++i) a.r[i] = hn::Sub(a.r[i], b.r[i]);
+  return a;
+}
+template <class T, int N>
+HWY_INLINE Pack<T, N> operator*(Pack<T, N> a, Pack<T, N> b) {
+  for (int i = 0; i < a.registers; ++i) a.r[i] = hn::Mul(a.r[i], b.r[i]);
+  return a;
+}
+template <class T, int N>
+HWY_INLINE Pack<T, N> operator/(Pack<T, N> a, Pack<T, N> b) {
+  for (int i = 0; i < a.registers; ++i) a.r[i] = hn::Div(a.r[i], b.r[i]);
+  return a;
+}
+/// a * b + c, fused where the target fuses: callers' bounds hold for both.
+template <class T, int N>
+HWY_INLINE Pack<T, N> multiply_add(Pack<T, N> a, Pack<T, N> b, Pack<T, N> c) {
+  for (int i = 0; i < a.registers; ++i) a.r[i] = hn::MulAdd(a.r[i], b.r[i], c.r[i]);
+  return a;
+}
+template <class T, int N>
+HWY_INLINE Pack<T, N> min(Pack<T, N> a, Pack<T, N> b) {
+  for (int i = 0; i < a.registers; ++i) a.r[i] = hn::Min(a.r[i], b.r[i]);
+  return a;
+}
+template <class T, int N>
+HWY_INLINE Pack<T, N> square_root(Pack<T, N> a) {
+  for (int i = 0; i < a.registers; ++i) a.r[i] = hn::Sqrt(a.r[i]);
+  return a;
+}
+
+template <class T, int N>
+HWY_INLINE Pack<T, N> max(Pack<T, N> a, Pack<T, N> b) {
+  for (int i = 0; i < a.registers; ++i) a.r[i] = hn::Max(a.r[i], b.r[i]);
+  return a;
+}
+template <class T, int N>
+HWY_INLINE Pack<T, N> absolute(Pack<T, N> a) {
+  for (int i = 0; i < a.registers; ++i) a.r[i] = hn::Abs(a.r[i]);
+  return a;
+}
+template <class T, int N>
+HWY_INLINE void store(Pack<T, N> a, T* to) {
+  for (int i = 0; i < a.registers; ++i) hn::StoreU(a.r[i], typename Pack<T, N>::Tag(), to + i * a.width);
+}
+/// Least and greatest lane.
+template <class T, int N>
+HWY_INLINE T least(Pack<T, N> a) {
+  for (int i = 1; i < a.registers; ++i) a.r[0] = hn::Min(a.r[0], a.r[i]);
+  return hn::GetLane(hn::MinOfLanes(typename Pack<T, N>::Tag(), a.r[0]));
+}
+template <class T, int N>
+HWY_INLINE T greatest(Pack<T, N> a) {
+  for (int i = 1; i < a.registers; ++i) a.r[0] = hn::Max(a.r[0], a.r[i]);
+  return hn::GetLane(hn::MaxOfLanes(typename Pack<T, N>::Tag(), a.r[0]));
+}
+
+/// Lanes of `a` where x <= y, of `b` elsewhere.
+template <class T, int N>
+HWY_INLINE Pack<T, N> where_not_above(Pack<float, N> x, Pack<float, N> y, Pack<T, N> a, Pack<T, N> b) {
+  for (int i = 0; i < a.registers; ++i) {
+    a.r[i] = hn::IfThenElse(hn::RebindMask(typename Pack<T, N>::Tag(), hn::Le(x.r[i], y.r[i])), a.r[i], b.r[i]);
+  }
+  return a;
+}
+
+// Whole numbers, for keys.
+template <int N>
+HWY_INLINE Pack<std::int32_t, N> truncate(Pack<float, N> a) {
+  Pack<std::int32_t, N> r;
+  for (int i = 0; i < a.registers; ++i) r.r[i] = hn::ConvertTo(typename Pack<std::int32_t, N>::Tag(), a.r[i]);
+  return r;
+}
+template <int N>
+HWY_INLINE Pack<std::int32_t, N> operator^(Pack<std::int32_t, N> a, Pack<std::int32_t, N> b) {
+  for (int i = 0; i < a.registers; ++i) a.r[i] = hn::Xor(a.r[i], b.r[i]);
+  return a;
+}
+template <int N>
+HWY_INLINE Pack<std::int32_t, N> operator&(Pack<std::int32_t, N> a, Pack<std::int32_t, N> b) {
+  for (int i = 0; i < a.registers; ++i) a.r[i] = hn::And(a.r[i], b.r[i]);
+  return a;
+}
+template <int N>
+HWY_INLINE Pack<std::int32_t, N> operator|(Pack<std::int32_t, N> a, Pack<std::int32_t, N> b) {
+  for (int i = 0; i < a.registers; ++i) a.r[i] = hn::Or(a.r[i], b.r[i]);
+  return a;
+}
+template <int Bits, int N>
+HWY_INLINE Pack<std::int32_t, N> shift_left(Pack<std::int32_t, N> a) {
+  for (int i = 0; i < a.registers; ++i) a.r[i] = hn::ShiftLeft<Bits>(a.r[i]);
+  return a;
+}
+template <int Bits, int N>
+HWY_INLINE Pack<std::int32_t, N> shift_right(Pack<std::int32_t, N> a) {
+  for (int i = 0; i < a.registers; ++i) a.r[i] = hn::ShiftRight<Bits>(a.r[i]);
+  return a;
+}
+
+/// Bit i is set where a < b in lane i; false where either is NaN.
+template <class T, int N>
+HWY_INLINE std::uint32_t less_bits(Pack<T, N> a, Pack<T, N> b) {
+  using P = Pack<T, N>;
+  std::uint32_t bits = 0;
+  for (int i = 0; i < P::registers; ++i) {
+    std::uint8_t bytes[8] = {};
+    hn::StoreMaskBits(typename P::Tag(), hn::Lt(a.r[i], b.r[i]), bytes);
+    bits |= (bytes[0] | static_cast<std::uint32_t>(bytes[1]) << 8) << (i * P::width);
+  }
+  return bits;
+}
+
+/// Three coordinates of N points or vectors.
+template <class P>
+struct Pack3 {
+  P x, y, z;
+};
+template <class P>
+HWY_INLINE P dot(const Pack3<P>& a, const Pack3<P>& b) {
+  return multiply_add(a.z, b.z, multiply_add(a.y, b.y, a.x * b.x));
+}
+template <class P, class T>
+HWY_INLINE Pack3<P> splat3(T x, T y, T z) {
+  return {splat<P>(x), splat<P>(y), splat<P>(z)};
+}
+/// a - s b, lane by lane.
+template <class P>
+HWY_INLINE Pack3<P> subtract_scaled(const Pack3<P>& a, P s, const Pack3<P>& b) {
+  return {a.x - s * b.x, a.y - s * b.y, a.z - s * b.z};
+}
+
+/// out[k] = m.p - d for k = 0..3 in double; fused or not.
+HWY_INLINE void four_planes(const double* mx, const double* my, const double* mz, const double* d, double px,
+                            double py, double pz, double* out) {
+  using Double4 = Pack<double, 4>;
+  Double4 e = load<Double4>(mx) * splat<Double4>(px) - load<Double4>(d);
+  e = multiply_add(load<Double4>(my), splat<Double4>(py), e);
+  e = multiply_add(load<Double4>(mz), splat<Double4>(pz), e);
+  for (int i = 0; i < e.registers; ++i) hn::StoreU(e.r[i], typename Double4::Tag(), out + i * e.width);
+}
+
+}  // namespace tenebra::HWY_NAMESPACE
+HWY_AFTER_NAMESPACE();
+
+#endif

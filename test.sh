@@ -1,0 +1,18 @@
+#!/bin/bash
+# Builds everything and runs all tests. Arguments are passed on to ctest:
+#   ./test.sh -R OutputFile
+set -euo pipefail
+cd "$(dirname "$0")"
+
+tools/setup.sh --tests
+cmake --preset release -DTENEBRA_TESTS=ON > /dev/null
+cmake --build --preset release
+
+code=0
+ctest --test-dir build --output-on-failure -j2 "$@" || code=$?
+
+# A skipped test is no passed test: say how many there are, and why.
+log=build/Testing/Temporary/LastTest.log
+echo "Skipped tests: $(grep -c '^\[  SKIPPED \] .*ms)$' "$log" || true)"
+grep -A1 ': Skipped$' "$log" | grep -v -e ': Skipped$' -e '^--$' | sort | uniq -c || true
+exit "$code"

@@ -1,0 +1,56 @@
+#!/usr/bin/env python3
+"""Holds the sources to the layers of the README: who may include whom, and where machinery may be named.
+
+usage: layers_test.py ROOT        (prints each breach with its line; exit code 1 if there is one)
+"""
+import pathlib
+import re
+import sys
+
+MAY_INCLUDE = {
+    "base": {"base"},
+    "math": {"base", "math"},
+    "parallel": {"base", "parallel"},
+    "simd": {"base", "simd"},
+    "scene": {"base", "math", "scene"},
+    "import": {"base", "math", "scene", "import"},
+    "shadow": {"base", "math", "simd", "parallel", "scene", "shadow"},
+    "gl": {"base", "gl"},
+    "raster": {"base", "math", "scene", "gl", "raster"},
+    "render": {"base", "math", "simd", "parallel", "scene", "import", "shadow", "gl", "raster", "render"},
+}
+
+# What may be named where: (pattern, what it is, folders that may).
+CONTAINED = [
+    (r"\b_mm\w*\(|immintrin", "an intrinsic", {"simd", "parallel"}),  # parallel: the floating-point environment
+    (r"\bhn::|hwy::HWY_NAMESPACE", "a vector register", {"simd"}),
+    (r"\bstd::(thread|jthread|mutex|atomic|condition_variable|barrier)\b|\btbb::", "a thread", {"parallel"}),
+    (r"\bgl[A-Z]\w*\(", "an OpenGL call", {"gl", "raster"}),
+    (r"tiny_gltf|tinygltf::", "tinygltf", {"import"}),
+    (r"tinyobj::", "tinyobjloader", {"import"}),
+    (r"\bImGui|GLFW", "the window", set()),
+]
+
+
+def breaches(root):
+    for path in sorted((root / "src").rglob("*.*")):
+        folder = path.relative_to(root / "src").parts[0]
+        for number, line in enumerate(path.read_text(encoding="utf-8").splitlines(), 1):
+            where = f"{path.relative_to(root)}:{number}"
+            include = re.match(r'\s*#include "(\w+)/', line)
+            if include and include.group(1) not in MAY_INCLUDE.get(folder, set()):
+                yield f"{where}: {folder} may not include {include.group(1)}"
+            code = line.split("//")[0]
+            for pattern, what, folders in CONTAINED:
+                if folder not in folders and re.search(pattern, code):
+                    yield f"{where}: names {what}, allowed only in {sorted(folders) or 'viewer/window'}"
+
+
+def main():
+    found = list(breaches(pathlib.Path(sys.argv[1])))
+    print("\n".join(found) or "layers hold")
+    return 1 if found else 0
+
+
+if __name__ == "__main__":
+    sys.exit(main())

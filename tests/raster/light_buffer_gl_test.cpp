@@ -1,0 +1,172 @@
+// Light buffers against the formulas in double, pixel by pixel.
+#include "raster/light_buffer.h"
+
+#include "raster/raster_fixture.h"
+
+namespace tenebra {
+namespace {
+
+constexpr double pi = 3.14159265358979323846;
+constexpr int width = 33, height = 21;
+
+/// Fade of a light towards a point in direction `to_light` (unit) at `distance`, by KHR_lights_punctual.
+double expected_fade(const Light& light, const WorldLight& placed, const glm::dvec3& to_light,
+                     double distance) {
+  const double cosine = -glm::dot(glm::dvec3(placed.direction), to_light);
+  double fade = light.falloff == Falloff::inverse_square ? 1.0 / (distance * distance) : 1.0;
+  if (light.range_m) fade *= std::clamp(1.0 - std::pow(distance / *light.range_m, 4.0), 0.0, 1.0);
+  if (light.type == LightType::spot) {
+    const double inner = std::cos(light.inner_cone_rad), outer = std::cos(light.outer_cone_rad);
+    fade *= std::pow(std::clamp((cosine - outer) / std::max(0.001, inner - outer), 0.0, 1.0), 2.0);
+  }
+  const double area = glm::length(glm::cross(glm::dvec3(placed.axis_x), glm::dvec3(placed.axis_y)));
+  if (light.type == LightType::area_rect) fade *= 4.0 * area * std::max(cosine, 0.0);
+  if (light.type == LightType::area_disk) fade *= pi * area * std::max(cosine, 0.0);
+  return fade;
+}
+
+glm::dvec3 expected_light(const Light& light, const WorldLight& placed, const Material& material,
+                          const glm::dvec3& point, const glm::dvec3& face_to_eye, glm::dvec3 normal) {
+  glm::dvec3 to_light = -glm::dvec3(placed.direction);
+  double fade = 1.0;
+  if (light.type != LightType::directional) {
+    const glm::dvec3 path = glm::dvec3(placed.position) - point;
+    to_light = glm::normalize(path);
+    fade = expected_fade(light, placed, to_light, glm::length(path));
+  }
+  if (glm::dot(face_to_eye, to_light) <= 0) return glm::dvec3(0.0);
+  if (glm::dot(normal, face_to_eye) < 0) normal = -normal;
+  if (light.falloff == Falloff::inverse_square) fade /= pi;
+  return glm::dvec3(material.base_color) * glm::dvec3(light.color) * double(light.intensity) *
+         std::max(glm::dot(normal, to_light), 0.0) * fade;
+}
+
+class LightBufferTest : public RasterTest {
+protected:
+  /// A wall over the whole view in the plane z = -6, tilted; checks every pixel. Returns the brightest value
+  /// seen.
+  double expect_formula(const Light& light, const WorldLight& placed, const ViewRays& view,
+                        glm::vec3 normal = glm::vec3(0.0f), bool flip_winding = false) {
+    const Material material = make_material({0.8f, 0.5f, 1.5f});
+    FrameGeometry g;
+    add_triangle(g, {0, 0, -1}, {0, 0, -1}, {0, 0, -1});  // so that ids are not all 0
+    glm::vec3 a(-100, -80, -16), b(100, -80, -16), c(0, 160, 8);
+    if (flip_winding) std::swap(b, c);
+    add_triangle(g, a, b, c, 1, normal);
+    draw(g, view, width, height, {Material{}, material});
+    EXPECT_TRUE(
+        passes().light_pass.draw(passes().gbuffer, passes().geometry, light, placed, passes().light_buffer));
+    ImageF image;
+    read_light_buffer(passes().light_buffer, image);
+    glm::dvec3 face = glm::normalize(glm::cross(glm::dvec3(b - a), glm::dvec3(c - a)));
+    if (face.z < 0) face = -face;  // the eye is in front
+    const glm::dvec3 shading = normal == glm::vec3(0.0f) ? face : glm::dvec3(normal);
+    double brightest = 0;
+    for (int y = 0; y < height; ++y) {
+      for (int x = 0; x < width; ++x) {
+        const glm::dvec3 across = (x + 0.5) * glm::dvec3(view.dx) + (y + 0.5) * glm::dvec3(view.dy);
+        const glm::dvec3 origin = glm::dvec3(view.eye) + (view.orthographic ? across : glm::dvec3(0.0));
+        const glm::dvec3 ray = glm::dvec3(view.d0) + (view.orthographic ? glm::dvec3(0.0) : across);
+        const glm::dvec3 point = origin + glm::dot(face, glm::dvec3(a) - origin) / glm::dot(face, ray) * ray;
+        const glm::dvec3 expected = expected_light(light, placed, material, point, face, shading);
+        const float* found = &image.pixels[static_cast<std::size_t>(3 * (y * width + x))];
+        for (int i = 0; i < 3; ++i) {
+          brightest = std::max(brightest, expected[i]);
+          // Packed normals are good to 1e-4 rad, and a cone's edge steepens what the cosine lost.
+          EXPECT_NEAR(found[i], expected[i], 3e-4 * std::abs(expected[i]) + 2e-4) << "at " << x << ", " << y;
+        }
+      }
+    }
+    return brightest;
+  }
+};
+
+const ViewRays perspective = forward_view({0, 0, 0}, 20.0f, width, height);
+const ViewRays orthographic = orthographic_view({0, 0, 0}, 0.25f, width, height);
+
+TEST_P(LightBufferTest, PointLightsWithAndWithoutFalloff) {
+  Light light = make_light(LightType::point, 40.0f);
+  light.color = {1.0f, 0.5f, 0.25f};
+  const WorldLight placed{.position = {1, 2, -3}};
+  EXPECT_GT(expect_formula(light, placed, perspective), 0.1);
+  EXPECT_GT(expect_formula(light, placed, orthographic), 0.1);
+  light.range_m = 8.0f;
+  EXPECT_GT(expect_formula(light, placed, perspective), 0.1);
+  light.falloff = Falloff::none;
+  light.intensity = 1.0f;
+  EXPECT_GT(expect_formula(light, placed, perspective), 0.1);
+}
+
+TEST_P(LightBufferTest, SpotLightsFadeFromInnerToOuterCone) {
+  Light light = make_light(LightType::spot, 40.0f);
+  light.inner_cone_rad = 0.3f;
+  light.outer_cone_rad = 0.8f;
+  const WorldLight placed{.position = {1, 2, -1},
+                          .direction = glm::normalize(glm::vec3(-0.2f, -0.1f, -1.0f))};
+  EXPECT_GT(expect_formula(light, placed, perspective), 0.1);
+  light.outer_cone_rad = 2.0f;  // past 90 degrees
+  EXPECT_GT(expect_formula(light, placed, perspective), 0.1);
+}
+
+TEST_P(LightBufferTest, DirectionalLightsKnowNoDistance) {
+  Light light = make_light(LightType::directional, 2.0f);
+  const WorldLight placed{.direction = glm::normalize(glm::vec3(0.3f, -0.4f, -1.0f))};
+  EXPECT_GT(expect_formula(light, placed, perspective), 0.1);
+  EXPECT_GT(expect_formula(light, placed, orthographic), 0.1);
+}
+
+TEST_P(LightBufferTest, AreaLightsActAsTheirCentreAndShineOneWay) {
+  for (LightType type : {LightType::area_rect, LightType::area_disk}) {
+    const Light light = make_light(type, 30.0f);
+    WorldLight placed{
+        .position = {1, 1, -2}, .direction = {0, 0, -1}, .axis_x = {0.5f, 0, 0}, .axis_y = {0, 0.25f, 0}};
+    EXPECT_GT(expect_formula(light, placed, perspective), 0.1);
+    placed.direction = {0, 0, 1};
+    EXPECT_EQ(expect_formula(light, placed, perspective), 0.0);
+  }
+}
+
+TEST_P(LightBufferTest, ShadingNormalsTurnToTheEyeWhateverTheWinding) {
+  const Light light = make_light(LightType::point, 1.0f, Falloff::none);
+  const WorldLight placed{.position = {1, 2, -3}};
+  for (const glm::vec3& normal :
+       {glm::vec3(0.6f, 0.0f, 0.8f), glm::vec3(-0.6f, 0.0f, -0.8f), glm::vec3(0.0f)}) {
+    for (bool flip : {false, true}) EXPECT_GT(expect_formula(light, placed, perspective, normal, flip), 0.1);
+  }
+}
+
+TEST_P(LightBufferTest, LightsBehindTheFaceGiveNothingEvenIfTheNormalWouldLetThem) {
+  const Light light = make_light(LightType::point, 1.0f, Falloff::none);
+  const WorldLight behind{.position = {40, 0, -30}};
+  EXPECT_EQ(expect_formula(light, behind, perspective, glm::normalize(glm::vec3(1.0f, 0.0f, 0.1f))), 0.0);
+}
+
+TEST_P(LightBufferTest, LightOnTheSurfaceStaysFinite) {
+  const Light light = make_light(LightType::point, 1e30f);
+  FrameGeometry g;
+  add_triangle(g, {-9, -9, -4}, {9, -9, -4}, {0, 30, -4});
+  draw(g, forward_view({0, 0, 0}, 8.0f, 5, 5), 5, 5);
+  for (float height_m : {0.0f, 1e-20f, 1e-6f}) {
+    const WorldLight placed{.position = {0, 0, -4 + height_m}};
+    ASSERT_TRUE(
+        passes().light_pass.draw(passes().gbuffer, passes().geometry, light, placed, passes().light_buffer));
+    ImageF image;
+    read_light_buffer(passes().light_buffer, image);
+    for (float value : image.pixels) EXPECT_TRUE(std::isfinite(value) && value >= 0) << value;
+  }
+}
+
+TEST_P(LightBufferTest, BackgroundStaysDark) {
+  draw({}, perspective, width, height);
+  const Light light = make_light(LightType::directional);
+  ASSERT_TRUE(
+      passes().light_pass.draw(passes().gbuffer, passes().geometry, light, {}, passes().light_buffer));
+  ImageF image;
+  read_light_buffer(passes().light_buffer, image);
+  EXPECT_EQ(image.pixels, std::vector<float>(3u * width * height, 0.0f));
+}
+
+TENEBRA_BOTH_CONTEXTS(LightBufferTest);
+
+}  // namespace
+}  // namespace tenebra

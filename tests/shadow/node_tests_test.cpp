@@ -1,0 +1,216 @@
+// The node tests promise: a rejected triangle blocks no ray of the node, a covering one blocks all of them;
+// on every instruction set, for narrow and for very wide cones.
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+
+#include "shadow/decide.h"
+#include "shadow/traverse.h"
+#include "support/random.h"
+
+namespace tenebra {
+namespace {
+
+using glm::dvec3;
+using glm::vec3;
+
+constexpr int ray_count = 4 * packet_size;
+
+// Sixty-four rays around `centre` as seen from the source, and one triangle aimed at them.
+struct Arrangement {
+  std::vector<vec3> corners;
+  std::vector<glm::uvec3> triangles{{0, 1, 2}};
+  std::vector<dvec3> points;
+  ShadowRays rays;
+  RaySource source;
+};
+
+dvec3 unit_direction(test::Random& random) {
+  for (;;) {
+    const dvec3 v = random.vec3(-1, 1);
+    const double length = glm::length(v);
+    if (length > 0.05 && length < 1) return v / length;
+  }
+}
+
+Arrangement arrangement(test::Random& random, double spread, bool directional) {
+  Arrangement a;
+  const dvec3 axis = unit_direction(random);
+  ShadowLight light{.directional = directional, .position = random.vec3(-3, 3), .to_light = vec3(-axis)};
+  a.source = ray_source(light);
+  const double distance = std::pow(10.0, random.uniform(-1, 1));
+  const auto beside =
+      [&](double wider) {  // a place `wider` times the spread away from the axis, as seen from the light
+        return axis + wider * spread * dvec3(random.vec3(-1, 1));
+      };
+  for (int i = 0; i < ray_count; ++i) {
+    const dvec3 d = beside(1);
+    const double length = distance * random.uniform(0.9, 1.1);
+    a.points.push_back(a.source.origin +
+                       (directional ? d * distance + length * axis : d * (length / glm::length(d))));
+    a.rays.pixels.push_back(static_cast<std::uint32_t>(i));
+    a.rays.triangles.push_back(no_triangle);
+  }
+  const double depth =
+      distance * (random.below(4) == 0 ? random.uniform(0.9, 1.1) : random.uniform(0.3, 0.9));
+  for (int k = 0; k < 3; ++k) {
+    const dvec3 d = beside(std::pow(10.0, random.uniform(-0.5, 1.0)));
+    const double length = depth * random.uniform(0.8, 1.2);
+    a.corners.push_back(vec3(a.source.origin + (directional ? d * distance + length * axis : d * length)));
+  }
+  return a;
+}
+
+void check(const Arrangement& a, const TraversalKernels& kernels, bool spheres) {
+  const TriangleView view{a.corners, a.triangles, {}};
+  TriangleSet set;
+  build_triangle_set(view, ViewRays{.eye = {9, 9, 9}}, a.source, {.contact = ContactRule::none}, set);
+  if (set.planes.empty()) return;
+  ConeTree tree;
+  build_cone_tree(a.rays, a.points, a.source, SimdLevel::automatic, tree);
+  const Traversal traversal{{spheres, true, a.source.directional},
+                            &set,
+                            &a.rays,
+                            &tree,
+                            &a.source,
+                            &view,
+                            a.points,
+                            ContactRule::none};
+
+  TraceStats stats;
+  std::vector<bool> blocked(ray_count);
+  for (int i = 0; i < ray_count; ++i) {
+    blocked[i] = decide(set.planes[0], a.points[i], no_triangle, a.source, view, ContactRule::none, stats);
+  }
+  const std::uint32_t place = 0;
+  for (std::size_t level = 0; level < 2; ++level) {
+    ConeTree fresh = tree;
+    Traversal on_fresh = traversal;
+    on_fresh.tree = &fresh;
+    std::uint32_t storage[4][2];
+    std::uint32_t* out[4] = {storage[0], storage[1], storage[2], storage[3]};
+    std::size_t size[4];
+    kernels.filter(on_fresh, level, 0, {&place, 1}, out, size, stats);
+    for (int lane = 0; lane < (level == 0 ? 4 : 1); ++lane) {
+      const int first = lane * packet_size, last = level == 0 ? first + packet_size : ray_count;
+      const auto hits = std::count(blocked.begin() + first, blocked.begin() + last, true);
+      const bool covered = fresh.levels[level][0].c[lane] < 0;
+      if (covered) {
+        ASSERT_EQ(hits, last - first) << "covered, but some ray is free; level " << level << " lane " << lane;
+      } else if (size[lane] == 0) {
+        ASSERT_EQ(hits, 0) << "rejected, but some ray is blocked; level " << level << " lane " << lane;
+      }
+    }
+  }
+}
+
+struct RootVerdict {
+  bool rejected, covered;
+};
+
+// The root of the tree (level 1 has one node) against the arrangement's triangle.
+RootVerdict filter_once(const Arrangement& a, const TraversalKernels& kernels) {
+  const TriangleView view{a.corners, a.triangles, {}};
+  TriangleSet set;
+  build_triangle_set(view, ViewRays{.eye = {9, 9, 9}}, a.source, {.contact = ContactRule::none}, set);
+  ConeTree tree;
+  build_cone_tree(a.rays, a.points, a.source, SimdLevel::automatic, tree);
+  const Traversal traversal{{false, true, a.source.directional},
+                            &set,
+                            &a.rays,
+                            &tree,
+                            &a.source,
+                            &view,
+                            a.points,
+                            ContactRule::none};
+  const std::uint32_t place = 0;
+  std::uint32_t storage[4][2];
+  std::uint32_t* out[4] = {storage[0], storage[1], storage[2], storage[3]};
+  std::size_t size[4];
+  TraceStats stats;
+  kernels.filter(traversal, 1, 0, {&place, 1}, out, size, stats);
+  const bool covered = tree.levels[1][0].c[0] < 0;
+  return {!covered && size[0] == 0, covered};
+}
+
+class NodeTests : public testing::TestWithParam<SimdLevel> {};
+
+TEST_P(NodeTests, NeverRejectABlockerNorAcceptAGap) {
+  if (!simd_level_supported(GetParam())) GTEST_SKIP() << "this machine lacks " << simd_level_name(GetParam());
+  const TraversalKernels kernels = traversal_kernels(GetParam());
+  for (const bool directional : {false, true}) {
+    for (const double spread : {1e-6, 1e-4, 1e-2, 0.3, 1.0, 3.0, 30.0}) {
+      for (const bool spheres : {false, true}) {
+        for (std::uint64_t seed = 0; seed < 3000; ++seed) {
+          test::Random random(seed);
+          check(arrangement(random, spread, directional), kernels, spheres);
+          ASSERT_FALSE(HasFatalFailure()) << "seed " << seed << " spread " << spread << " directional "
+                                          << directional << " spheres " << spheres;
+        }
+      }
+    }
+  }
+}
+
+// The other side of the bounds: not so cautious as to be of no use. Corners in units of the spread, across
+// the axis.
+RootVerdict verdict_on(double spread, bool directional, const std::array<glm::dvec2, 3>& corners,
+                       const TraversalKernels& kernels) {
+  test::Random random(5);
+  Arrangement a;
+  a.source = ray_source({.directional = directional, .position = {0, 0, 0}, .to_light = {0, 0, 1}});
+  for (int i = 0; i < ray_count; ++i) {
+    a.points.push_back(10.0 *
+                       dvec3(spread * random.uniform(-0.7, 0.7), spread * random.uniform(-0.7, 0.7), -1));
+    a.rays.pixels.push_back(static_cast<std::uint32_t>(i));
+    a.rays.triangles.push_back(no_triangle);
+  }
+  for (const glm::dvec2& c : corners)
+    a.corners.push_back((directional ? 10.0 : 5.0) *
+                        dvec3(spread * c.x, spread * c.y, directional ? -0.5 : -1));
+  return filter_once(a, kernels);
+}
+
+TEST(NodeTestsSlack, ATriangleThatPassesBesideIsRejected) {
+  for (const double spread : {1e-5, 1e-4, 1e-3, 1e-2, 0.1}) {
+    for (const bool directional : {false, true}) {
+      const TraversalKernels kernels = traversal_kernels(SimdLevel::automatic);
+      EXPECT_TRUE(verdict_on(spread, directional, {{{1.3, -3}, {4, 0}, {1.3, 3}}}, kernels).rejected)
+          << spread << directional;
+      EXPECT_TRUE(verdict_on(spread, directional, {{{-30, -1.3}, {30, -1.3}, {0, -40}}}, kernels).rejected)
+          << spread << directional;
+    }
+  }
+}
+
+// Figure 4 of the paper: a sharp corner points at the cone and stops short of it. No edge plane separates the
+// two.
+TEST(NodeTestsSlack, TheTriangleShadowIsRejected) {
+  for (const double spread : {1e-4, 1e-3, 1e-2, 0.1}) {
+    for (const bool directional : {false, true}) {
+      const TraversalKernels kernels = traversal_kernels(SimdLevel::automatic);
+      EXPECT_TRUE(verdict_on(spread, directional, {{{1.5, 0}, {40, 4}, {40, -4}}}, kernels).rejected)
+          << spread << directional;
+    }
+  }
+}
+
+TEST(NodeTestsSlack, ALargeTriangleInFrontCovers) {
+  for (const double spread : {1e-5, 1e-4, 1e-3, 1e-2, 0.1}) {
+    for (const bool directional : {false, true}) {
+      const TraversalKernels kernels = traversal_kernels(SimdLevel::automatic);
+      EXPECT_TRUE(verdict_on(spread, directional, {{{-4, -3}, {4, -3}, {0, 5}}}, kernels).covered)
+          << spread << directional;
+    }
+  }
+}
+
+INSTANTIATE_TEST_SUITE_P(EveryInstructionSet, NodeTests,
+                         testing::Values(SimdLevel::scalar, SimdLevel::sse4, SimdLevel::avx2,
+                                         SimdLevel::avx512),
+                         [](const auto& info) { return std::string(simd_level_name(info.param)); });
+
+}  // namespace
+}  // namespace tenebra

@@ -1,0 +1,82 @@
+// tenebra info and tenebra convert: what a scene holds, before and after conversion.
+#include <gtest/gtest.h>
+
+#include <nlohmann/json.hpp>
+
+#include "viewer/viewer_test_scene.h"
+
+namespace tenebra::test {
+namespace {
+
+using nlohmann::json;
+
+json info_of(const std::string& scene) {
+  const auto result = tenebra({"info", scene, "--json"});
+  EXPECT_EQ(result.exit_code, 0) << result.errors;
+  return json::parse(result.output);
+}
+
+void expect_moving_scene(const json& info) {
+  EXPECT_EQ(info["counts"]["triangles"], moving_scene_triangles);
+  EXPECT_EQ(info["counts"]["casting_triangles"], moving_scene_triangles);
+  EXPECT_EQ(info["bounds_m"]["low"], json({-4.0, 0.0, -4.0}));
+  EXPECT_EQ(info["bounds_m"]["high"], json({4.0, 1.0, 4.0}));
+  ASSERT_EQ(info["lights"].size(), 2u);
+  EXPECT_EQ(info["lights"][1]["type"], "point");
+  EXPECT_EQ(info["lights"][1]["position_m"], json({1.0, 3.0, 0.0}));
+  EXPECT_EQ(info["lights"][1]["intensity"], 10.0);
+  ASSERT_EQ(info["cameras"].size(), 1u);
+  EXPECT_EQ(info["cameras"][0]["name"], "eye");
+  EXPECT_NEAR(info["cameras"][0]["vertical_fov_deg"], 45.8366, 1e-3);
+  ASSERT_EQ(info["clips"].size(), 1u);
+  EXPECT_EQ(info["clips"][0]["name"], "slide");
+  EXPECT_EQ(info["clips"][0]["end_s"], 10.0);
+  EXPECT_EQ(info["clips"][0]["frames"], moving_scene_frames);
+}
+
+TEST(InfoCommand, TellsWhatTheSceneHolds) {
+  const TemporaryFolder folder;
+  expect_moving_scene(info_of(write_moving_scene(folder, 2)));
+}
+
+TEST(InfoCommand, TellsTheSameAsText) {
+  const TemporaryFolder folder;
+  const auto result = tenebra({"info", write_moving_scene(folder)});
+  EXPECT_EQ(result.exit_code, 0) << result.errors;
+  for (const char* line : {"triangles: 3\n", "lights: 1\n", "cameras: 1\n", "name slide", "warnings: 0\n"}) {
+    EXPECT_NE(result.output.find(line), std::string::npos) << line << "\n" << result.output;
+  }
+}
+
+TEST(InfoCommand, ReadsAnObjWithoutLightsOrCameras) {
+  const TemporaryFolder folder;
+  write_text(folder / "a.obj", "v 0 0 0\nv 2 0 0\nv 0 3 0\nf 1 2 3\n");
+  const json info = info_of(folder / "a.obj");
+  EXPECT_EQ(info["counts"]["triangles"], 1);
+  EXPECT_EQ(info["bounds_m"]["high"], json({2.0, 3.0, 0.0}));
+  EXPECT_TRUE(info["lights"].empty());
+  EXPECT_TRUE(info["cameras"].empty());
+}
+
+TEST(ConvertCommand, KeepsTheSceneAndItsAnimation) {
+  const TemporaryFolder folder;
+  const auto result = tenebra({"convert", write_moving_scene(folder, 2), folder / "moved.glb"});
+  ASSERT_EQ(result.exit_code, 0) << result.errors;
+  EXPECT_TRUE(read_text(folder / "moved.glb").starts_with("glTF"));
+  expect_moving_scene(info_of(folder / "moved.glb"));
+}
+
+TEST(ConvertCommand, ReportsWhatItCannotWrite) {
+  const TemporaryFolder folder;
+  const std::string scene = write_moving_scene(folder);
+  for (const std::string& path : {(folder / "no/a.glb").string(), std::string(300, 'n') + ".glb"}) {
+    const auto result = tenebra({"convert", scene, path});
+    EXPECT_EQ(result.exit_code, 1);
+    EXPECT_TRUE(is_one_sentence(result.errors)) << result.errors;
+    EXPECT_NE(result.errors.find(path), std::string::npos) << result.errors;
+  }
+  EXPECT_EQ(folder.names(), (std::vector<std::string>{"moving.bin", "moving.gltf"}));
+}
+
+}  // namespace
+}  // namespace tenebra::test

@@ -1,0 +1,211 @@
+// The program as a whole: help, bad options, exit codes, sentences.
+#include <gtest/gtest.h>
+
+#include <cctype>
+#include <ostream>
+
+#include "base/image.h"
+#include "viewer/viewer_test_scene.h"
+
+namespace tenebra::test {
+namespace {
+
+TEST(Program, TeachesWithHelp) {
+  const auto help = tenebra({"--help"});
+  EXPECT_EQ(help.exit_code, 0);
+  EXPECT_EQ(help.errors, "");
+  for (const std::string command : {"render", "info", "convert", "compare"}) {
+    EXPECT_NE(help.output.find(command), std::string::npos) << command;
+    const auto own_help = tenebra({command, "--help"});
+    EXPECT_EQ(own_help.exit_code, 0);
+    EXPECT_NE(own_help.output.find("Example"), std::string::npos) << own_help.output;
+    EXPECT_NE(own_help.output.find("tenebra " + command), std::string::npos) << own_help.output;
+  }
+}
+
+TEST(Program, ExplainsEveryOptionOfRender) {
+  const std::string help = tenebra({"render", "--help"}).output;
+  for (const char* option :
+       {"--frames",  "--time",    "--fps",   "--clip",    "--size",     "--shadows", "--variant",
+        "--samples", "--cull",    "--light", "--camera",  "--eye",      "--look-at", "--up",
+        "--fov",     "--threads", "--simd",  "--context", "--exposure", "--no-cast", "--cone-sides",
+        "-o",        "--mask",    "--log",   "--trace",   "--quiet"}) {
+    EXPECT_NE(help.find(option), std::string::npos) << option;
+  }
+}
+
+TEST(Program, SaysItsVersion) {
+  const auto version = tenebra({"--version"});
+  EXPECT_EQ(version.exit_code, 0);
+  EXPECT_TRUE(version.output.starts_with("tenebra ")) << version.output;
+}
+
+struct BadUse {
+  std::vector<std::string> arguments;
+  std::string named;  ///< what the sentence must name
+};
+
+std::ostream& operator<<(std::ostream& stream, const BadUse& use) {
+  for (const std::string& argument : use.arguments) stream << argument << ' ';
+  return stream;
+}
+
+class BadOptions : public testing::TestWithParam<BadUse> {};
+
+TEST_P(BadOptions, EndInOneSentence) {
+  const TemporaryFolder folder;
+  std::vector<std::string> arguments = GetParam().arguments;
+  const std::string scene = write_moving_scene(folder);
+  for (std::string& argument : arguments) {
+    if (argument == "SCENE") argument = scene;
+  }
+  const auto result = tenebra(arguments, [&] {
+    if (::chdir(folder.path().c_str()) != 0) ::_exit(99);
+  });
+  EXPECT_EQ(result.exit_code, !arguments.empty() && arguments[0] == "compare" ? 2 : 1);
+  EXPECT_EQ(result.output, "");
+  EXPECT_TRUE(is_one_sentence(result.errors)) << result.errors;
+  EXPECT_NE(result.errors.find(GetParam().named), std::string::npos) << result.errors;
+  EXPECT_EQ(folder.names(), (std::vector<std::string>{"moving.bin", "moving.gltf"}))
+      << "nothing may be written";
+}
+
+std::vector<BadUse> bad_uses() {
+  std::vector<BadUse> uses{
+      {{}, "command"},
+      {{"paint"}, "paint"},
+      {{"render"}, "SCENE"},
+      {{"render", "missing.gltf"}, "missing.gltf"},
+      {{"render", "."}, "."},
+      {{"info", "missing.obj"}, "missing.obj"},
+      {{"convert", "SCENE"}, "OUT"},
+      {{"convert", "SCENE", "out.obj"}, ".glb"},
+      {{"convert", "missing.aff", "out.glb"}, "missing.aff"},
+      {{"compare", "missing.png"}, "B"},
+      {{"compare", "missing.png", "missing.png"}, "missing.png"},
+      {{"compare", "a", "b", "--threshold", "256"}, "--threshold"},
+      {{"compare", "SCENE", "SCENE"}, "moving.gltf"},
+  };
+  const std::vector<std::vector<std::string>> options{{"--size", "0x10"},
+                                                      {"--size", "16385x16"},
+                                                      {"--size", "800"},
+                                                      {"--size", "-1x-1"},
+                                                      {"--size", "1e3x5"},
+                                                      {"--size", "99999999999x1"},
+                                                      {"--fov", "0"},
+                                                      {"--fov", "180"},
+                                                      {"--fov", "-5"},
+                                                      {"--fov", "nan"},
+                                                      {"--fov", "wide"},
+                                                      {"--fps", "0"},
+                                                      {"--fps", "inf"},
+                                                      {"--fps", ""},
+                                                      {"--frames", "5:2"},
+                                                      {"--frames", "-1"},
+                                                      {"--frames", "0:9:0"},
+                                                      {"--frames", "0:1:2:3"},
+                                                      {"--frames", "a"},
+                                                      {"--frames", "301"},
+                                                      {"--frames", "0:301"},
+                                                      {"--frames", "99999999999"},
+                                                      {"--time", "soon"},
+                                                      {"--time", "inf"},
+                                                      {"--clip", "dance"},
+                                                      {"--clip", "1"},
+                                                      {"--camera", "other"},
+                                                      {"--camera", "1"},
+                                                      {"--light", "1"},
+                                                      {"--light", "-1"},
+                                                      {"--threads", "-1"},
+                                                      {"--threads", "1025"},
+                                                      {"--threads", "two"},
+                                                      {"--variant", "Fast"},
+                                                      {"--simd", "mmx"},
+                                                      {"--context", "glx"},
+                                                      {"--shadows", "soft-ish"},
+                                                      {"--samples", "both"},
+                                                      {"--cull", "back"},
+                                                      {"--exposure", "0"},
+                                                      {"--exposure", "-1"},
+                                                      {"--exposure", "1e39"},
+                                                      {"--no-cast", "nothing"},
+                                                      {"--cone-sides", "2"},
+                                                      {"--eye", "0,0", "--look-at", "0,0,1"},
+                                                      {"--eye", "0,0,x", "--look-at", "0,0,1"},
+                                                      {"--eye", "0,0,0"},
+                                                      {"--eye", "1e39,0,0", "--look-at", "0,0,0"},
+                                                      {"--look-at", "0,0,0"},
+                                                      {"--eye", "1,1,1", "--look-at", "1,1,1"},
+                                                      {"--frames", "0", "--time", "1"},
+                                                      {"-o", "picture.jpg"},
+                                                      {"-o", "%d-%d.png"},
+                                                      {"-o", "%s.png"},
+                                                      {"-o", "%4d.png"},
+                                                      {"-o", "a.png", "--frames", "0:1"},
+                                                      {"--mask", "a.png", "--frames", "0:1"},
+                                                      {"-o", "a.png", "--mask", "a.png"},
+                                                      {"--mask", "a.png", "--shadows", "none"},
+                                                      {"--log"},
+                                                      {"--bias", "0.1"},
+                                                      {"-o", "no/such/a.png"},
+                                                      {"-o", "moving.gltf/a.png"}};
+  for (const auto& option : options) {
+    std::vector<std::string> arguments{"render", "SCENE", "--quiet"};
+    arguments.insert(arguments.end(), option.begin(), option.end());
+    uses.push_back({arguments, option[0]});
+  }
+  uses.back().named = uses[uses.size() - 2].named = "folder";
+  return uses;
+}
+
+INSTANTIATE_TEST_SUITE_P(Program, BadOptions, testing::ValuesIn(bad_uses()), [](const auto& use) {
+  std::string name = std::to_string(use.index);
+  for (const std::string& argument : use.param.arguments) {
+    name += "_";
+    for (const char c : argument)
+      name += std::isalnum(static_cast<unsigned char>(c)) != 0 ? std::string(1, c) : "";
+  }
+  return name;
+});
+
+TEST(Program, SaysWhenNobodyReadsItsOutput) {
+  const TemporaryFolder folder;
+  const std::string scene = write_moving_scene(folder);
+  const auto closed = tenebra({"info", scene}, [] {
+    int ends[2];
+    if (::pipe(ends) != 0) ::_exit(99);
+    ::close(ends[0]);
+    ::dup2(ends[1], STDOUT_FILENO);
+  });
+  EXPECT_EQ(closed.exit_code, 1);
+  EXPECT_TRUE(is_one_sentence(closed.errors)) << closed.errors;
+
+  const auto full = tenebra({"info", scene}, [] {
+    const int device = ::open("/dev/full", O_WRONLY);
+    if (device < 0) ::_exit(99);
+    ::dup2(device, STDOUT_FILENO);
+  });
+  EXPECT_EQ(full.exit_code, 1);
+  EXPECT_TRUE(is_one_sentence(full.errors)) << full.errors;
+}
+
+TEST(Program, EndsInASentenceWithoutMemory) {
+#if defined(__SANITIZE_ADDRESS__) || defined(__SANITIZE_THREAD__)
+  GTEST_SKIP() << "sanitizers need more address space than this test leaves";
+#endif
+  const TemporaryFolder folder;
+  constexpr int side = 8192;  // 64 MiB decoded
+  ASSERT_TRUE(write_png(folder / "large.png", {side, side, 1, std::vector<std::uint8_t>(side * side)}));
+  for (const rlim_t limit_mib : {100, 150, 200, 250}) {
+    const auto result = tenebra({"compare", folder / "large.png", folder / "large.png"}, [&] {
+      const rlimit bound{limit_mib << 20, limit_mib << 20};
+      ::setrlimit(RLIMIT_AS, &bound);
+    });
+    EXPECT_EQ(result.exit_code, 2) << limit_mib;
+    EXPECT_TRUE(is_one_sentence(result.errors)) << result.errors;
+    EXPECT_NE(result.errors.find("memory"), std::string::npos) << result.errors;
+  }
+}
+
+}  // namespace
+}  // namespace tenebra::test

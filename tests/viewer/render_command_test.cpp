@@ -1,0 +1,234 @@
+// tenebra render: its files, its log, and what happens when it is stopped or cannot write.
+#include <gtest/gtest.h>
+#include <sys/resource.h>
+#include <unistd.h>
+
+#include <algorithm>
+#include <chrono>
+#include <csignal>
+#include <nlohmann/json.hpp>
+#include <sstream>
+#include <thread>
+
+#include "base/image.h"
+#include "viewer/viewer_test_scene.h"
+
+namespace tenebra::test {
+namespace {
+
+namespace fs = std::filesystem;
+using nlohmann::json;
+
+Image8 picture(const fs::path& path) {
+  auto image = read_png(path);
+  EXPECT_TRUE(image) << image.error().message;
+  return image.value_or(Image8{});
+}
+
+std::size_t count_of(const Image8& image, std::uint8_t value) {
+  return static_cast<std::size_t>(std::count(image.pixels.begin(), image.pixels.end(), value));
+}
+
+/// Lines of a log that are neither comments nor the header.
+std::vector<std::string> rows_of(const fs::path& log) {
+  std::istringstream stream(read_text(log));
+  std::vector<std::string> rows;
+  for (std::string line; std::getline(stream, line);) {
+    if (!line.starts_with('#')) rows.push_back(line);
+  }
+  if (!rows.empty()) rows.erase(rows.begin());
+  return rows;
+}
+
+/// Names in the folder but for the scene's files.
+std::vector<std::string> results_in(const TemporaryFolder& folder) {
+  std::vector<std::string> names = folder.names();
+  std::erase_if(names, [](const std::string& name) { return name.starts_with("moving."); });
+  return names;
+}
+
+TEST(RenderCommand, DrawsOneFrameToItsDefaultPlace) {
+  const TemporaryFolder folder;
+  const auto result = tenebra({"render", write_moving_scene(folder)}, [&] {
+    if (::chdir(folder.path().c_str()) != 0) ::_exit(99);
+  });
+  ASSERT_EQ(result.exit_code, 0) << result.errors;
+  const Image8 image = picture(folder / "out/0000.png");
+  EXPECT_EQ(image.width, 800);
+  EXPECT_EQ(image.height, 600);
+  EXPECT_EQ(image.channels, 3);
+  EXPECT_EQ(fs::exists(folder / "out/0001.png"), false);
+}
+
+TEST(RenderCommand, WritesMasksOfZeroAndFullOnly) {
+  const TemporaryFolder folder;
+  const auto result = tenebra({"render", write_moving_scene(folder), "--time", "5", "--size", "160x120", "-o",
+                               "none", "--mask", folder / "mask.png", "--quiet"});
+  ASSERT_EQ(result.exit_code, 0) << result.errors;
+  EXPECT_EQ(result.output + result.errors, "");
+  EXPECT_EQ(results_in(folder), std::vector<std::string>{"mask.png"});
+  const Image8 mask = picture(folder / "mask.png");
+  EXPECT_EQ(mask.channels, 1);
+  EXPECT_GT(count_of(mask, 0), 500u) << "sky and shadow";
+  EXPECT_GT(count_of(mask, 255), 500u) << "lit floor";
+  EXPECT_EQ(count_of(mask, 0) + count_of(mask, 255), mask.pixels.size());
+}
+
+TEST(RenderCommand, DarkensWhatTheMaskSaysIsShadowed) {
+  const TemporaryFolder folder;
+  const std::string scene = write_moving_scene(folder);
+  const std::vector<std::string> common{"render", scene, "--time", "5", "--size", "160x120", "--quiet", "-o"};
+  auto with = common;
+  with.insert(with.end(), {folder / "with.png"});
+  auto without = common;
+  without.insert(without.end(), {folder / "without.png", "--shadows", "none"});
+  auto uncast = common;
+  uncast.insert(uncast.end(), {folder / "uncast.png", "--no-cast", "blocker"});
+  for (const auto& arguments : {with, without, uncast}) ASSERT_EQ(tenebra(arguments).exit_code, 0);
+  const Image8 shadowed = picture(folder / "with.png");
+  const Image8 plain = picture(folder / "without.png");
+  EXPECT_EQ(picture(folder / "uncast.png"), plain) << "with the only blocker left out there is no shadow";
+  std::size_t darker = 0;
+  for (std::size_t i = 0; i < plain.pixels.size(); ++i) {
+    EXPECT_LE(shadowed.pixels[i], plain.pixels[i]);
+    darker += shadowed.pixels[i] < plain.pixels[i] ? 1 : 0;
+  }
+  EXPECT_GT(darker, 100u);
+}
+
+TEST(RenderCommand, NumbersFramesAndLights) {
+  const TemporaryFolder folder;
+  const auto result = tenebra({"render", write_moving_scene(folder, 2), "--frames", "3:9:3", "--size",
+                               "32x24", "-o", folder / "p%03d.png", "--mask", folder / "m%d.png"});
+  ASSERT_EQ(result.exit_code, 0) << result.errors;
+  EXPECT_EQ(results_in(folder),
+            (std::vector<std::string>{"m3_L0.png", "m3_L1.png", "m6_L0.png", "m6_L1.png", "m9_L0.png",
+                                      "m9_L1.png", "p003.png", "p006.png", "p009.png"}));
+  ASSERT_EQ(tenebra({"render", folder / "moving.gltf", "--light", "1", "--size", "32x24", "-o", "none",
+                     "--mask", folder / "one.png", "--frames", "3"})
+                .exit_code,
+            0);
+  EXPECT_EQ(picture(folder / "one.png"), picture(folder / "m3_L1.png"));
+}
+
+TEST(RenderCommand, LogsEveryFrameAndHowItWasMade) {
+  const TemporaryFolder folder;
+  const auto result = tenebra({"render", write_moving_scene(folder), "--frames", "all", "--fps", "2",
+                               "--size", "32x24", "-o", "none", "--log", folder / "frames.csv", "--trace",
+                               folder / "trace.json", "--no-cast", "floor"});
+  ASSERT_EQ(result.exit_code, 0) << result.errors;
+  EXPECT_EQ(results_in(folder), (std::vector<std::string>{"frames.csv", "trace.json"}));
+  EXPECT_EQ(rows_of(folder / "frames.csv").size(), 21u) << "10 s at 2 a second, both ends";
+  const std::string log = read_text(folder / "frames.csv");
+  for (const char* setting : {"# machine: ", "# renderer: ", "# threads: ", "# simd: ", "# LP_NUM_THREADS: ",
+                              "# scene: ", "# size: 32x24", "# variant: PreciseSorted", "# no_cast: floor"}) {
+    EXPECT_NE(log.find(setting), std::string::npos) << setting << "\n" << log;
+  }
+  int frames = 0;
+  const json trace = json::parse(read_text(folder / "trace.json"));
+  for (const json& event : trace["traceEvents"]) {
+    frames += event["name"].get<std::string>().starts_with("frame ") ? 1 : 0;
+  }
+  EXPECT_EQ(frames, 21);
+  for (const char* word : {"median", "95 %", "99 %", "worst", "total"}) {
+    EXPECT_NE(result.output.find(word), std::string::npos) << result.output;
+  }
+}
+
+TEST(RenderCommand, SeesTheSameFromACameraGivenByHand) {
+  const TemporaryFolder folder;
+  const std::string scene = write_moving_scene(folder);
+  ASSERT_EQ(
+      tenebra({"render", scene, "--camera", "eye", "--size", "64x48", "-o", folder / "name.png"}).exit_code,
+      0);
+  ASSERT_EQ(
+      tenebra({"render", scene, "--camera", "0", "--size", "64x48", "-o", folder / "number.png"}).exit_code,
+      0);
+  EXPECT_EQ(picture(folder / "name.png"), picture(folder / "number.png"));
+  const auto by_hand = tenebra({"render", scene, "--eye", "-1,5,0.5", "--look-at", "0,0,0", "--up", "0,0,-1",
+                                "--fov", "60", "--size", "64x48", "-o", folder / "hand.png"});
+  EXPECT_EQ(by_hand.exit_code, 0) << by_hand.errors;
+  EXPECT_NE(picture(folder / "hand.png"), picture(folder / "name.png"));
+}
+
+TEST(RenderCommand, ReportsOutputsThatCannotBeWritten) {
+  const TemporaryFolder folder;
+  const std::string scene = write_moving_scene(folder);
+  fs::create_directory(folder / "taken.png");
+  const std::string long_name = std::string(300, 'n') + ".png";
+  const std::vector<std::pair<std::string, std::string>> cases{
+      {"-o", folder / "taken.png"},      {"--mask", folder / "taken.png"},    {"--log", folder / "taken.png"},
+      {"--trace", folder / "taken.png"}, {"--log", folder / "no/frames.csv"}, {"--log", "/dev/full"},
+      {"--trace", "/dev/full"},          {"-o", folder / long_name}};
+  for (const auto& [option, path] : cases) {
+    std::vector<std::string> arguments{"render", scene, "--size", "32x24", "--quiet", option, path};
+    if (option != "-o") arguments.insert(arguments.end(), {"-o", "none"});
+    const auto result = tenebra(arguments);
+    EXPECT_EQ(result.exit_code, 1) << option << " " << path;
+    EXPECT_TRUE(is_one_sentence(result.errors)) << result.errors;
+    EXPECT_NE(result.errors.find(path), std::string::npos) << result.errors;
+    EXPECT_EQ(results_in(folder), std::vector<std::string>{"taken.png"}) << "whole or absent";
+  }
+}
+
+TEST(RenderCommand, LeavesNoHalfFilesOnAFullDisk) {
+  const TemporaryFolder folder;
+  const std::string scene = write_moving_scene(folder);
+  const auto result = tenebra({"render", scene, "--frames", "0:20", "--size", "32x24", "-o",
+                               folder / "%d.png", "--log", folder / "frames.csv"},
+                              [] {
+                                const rlimit bound{2500, 2500};  // pictures fit, the log does not
+                                ::setrlimit(RLIMIT_FSIZE, &bound);
+                              });
+  EXPECT_EQ(result.exit_code, 1);
+  EXPECT_NE(result.errors.find("File too large"), std::string::npos) << result.errors;
+  EXPECT_FALSE(fs::exists(folder / "frames.csv"));
+  for (const std::string& name : results_in(folder)) {
+    EXPECT_TRUE(name.ends_with(".png")) << name;
+    EXPECT_EQ(picture(folder / name).width, 32);
+  }
+}
+
+/// Starts a long render and sends `signal` when its third picture is there.
+ProgramResult interrupt(const TemporaryFolder& folder, int signal) {
+  ChildProgram render({TENEBRA_PROGRAM, "render", write_moving_scene(folder), "--frames", "all", "--size",
+                       "160x120", "-o", folder / "%04d.png", "--log", folder / "frames.csv", "--trace",
+                       folder / "trace.json"});
+  const auto end = std::chrono::steady_clock::now() + std::chrono::seconds(60);
+  while (!fs::exists(folder / "0002.png") && std::chrono::steady_clock::now() < end) {
+    std::this_thread::sleep_for(std::chrono::milliseconds(1));
+  }
+  render.send(signal);
+  return render.wait();
+}
+
+TEST(RenderCommand, StopsCleanlyBetweenFrames) {
+  for (const int signal : {SIGINT, SIGTERM}) {
+    const TemporaryFolder folder;
+    const auto result = interrupt(folder, signal);
+    EXPECT_EQ(result.exit_code, 128 + signal) << result.errors;
+    EXPECT_NE(result.errors.find("stopped after"), std::string::npos) << result.errors;
+    std::vector<std::string> names = results_in(folder);
+    ASSERT_EQ(std::erase(names, "frames.csv"), 1u);
+    ASSERT_EQ(std::erase(names, "trace.json"), 1u);
+    EXPECT_GE(names.size(), 3u);
+    EXPECT_LT(names.size(), static_cast<std::size_t>(moving_scene_frames));
+    EXPECT_EQ(rows_of(folder / "frames.csv").size(), names.size()) << "a row for every picture";
+    EXPECT_TRUE(json::accept(read_text(folder / "trace.json")));
+    for (const std::string& name : names) EXPECT_EQ(picture(folder / name).width, 160) << name;
+  }
+}
+
+TEST(RenderCommand, LeavesOnlyWholePicturesWhenKilled) {
+  const TemporaryFolder folder;
+  EXPECT_EQ(interrupt(folder, SIGKILL).exit_code, 128 + SIGKILL);
+  EXPECT_FALSE(fs::exists(folder / "frames.csv"));
+  for (const std::string& name : results_in(folder)) {
+    if (!name.starts_with(".")) {
+      EXPECT_EQ(picture(folder / name).width, 160) << name;
+    }
+  }
+}
+
+}  // namespace
+}  // namespace tenebra::test

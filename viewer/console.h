@@ -1,0 +1,27 @@
+// Text for the user. Never throws: a failed write to standard output is found by main at the end, and with
+// standard error gone there is nobody left to tell.
+#pragma once
+
+#include <fmt/format.h>
+
+#include <cstdio>
+#include <string>
+#include <utility>
+
+namespace tenebra::viewer {
+
+inline void write_text(std::FILE* stream, const std::string& text) {
+  std::fwrite(text.data(), 1, text.size(), stream);
+}
+
+template <class... Args>
+void print_out(fmt::format_string<Args...> format, Args&&... args) {
+  write_text(stdout, fmt::format(format, std::forward<Args>(args)...));
+}
+
+template <class... Args>
+void print_error(fmt::format_string<Args...> format, Args&&... args) {
+  write_text(stderr, fmt::format(format, std::forward<Args>(args)...));
+}
+
+}  // namespace tenebra::viewer

@@ -1,0 +1,53 @@
+// tenebra convert: any scene file to a binary glTF file that other programs open.
+#include <memory>
+
+#include "command.h"
+#include "console.h"
+#include "option_values.h"
+#include "scene_choice.h"
+#include "stop_signals.h"
+
+namespace tenebra::viewer {
+namespace {
+
+constexpr const char* examples =
+    "Example:\n"
+    "  tenebra convert bart/robots/Robot.aff robots.glb --fps 24\n"
+    "\n"
+    "BART's splines become keys at --fps a second, or at the file's own frames where it states them; "
+    "animated\n"
+    "triangles become morph targets. OUT is whole or absent.";
+
+struct ConvertOptions {
+  std::string input;
+  std::string output;
+  double fps = 30.0;
+  bool quiet = false;
+};
+
+Expected<int> convert(const ConvertOptions& options) {
+  if (!options.output.ends_with(".glb")) return fail("{}: expected a name that ends in .glb", options.output);
+  const auto scene = import_scene(options.input);
+  if (!scene) return tl::unexpected(scene.error());
+  if (!options.quiet) print_warnings(scene->warnings);
+  StopSignals stop;
+  if (auto written = export_glb(*scene, options.output, options.fps); !written)
+    return tl::unexpected(written.error());
+  return stop.caught() != 0 ? exit_code_of(stop.caught()) : 0;
+}
+
+}  // namespace
+
+void add_convert_command(CLI::App& program, Run& run) {
+  CLI::App* command = program.add_subcommand("convert", "A scene with its animation as binary glTF 2.0");
+  const auto options = std::make_shared<ConvertOptions>();
+  command->footer(examples);
+  command->add_option("IN", options->input, "Scene file: .gltf .glb .aff .nff .obj")->required();
+  command->add_option("OUT", options->output, "File to write, .glb")->required();
+  add_value(*command, "--fps", options->fps, parse_positive, "Keys a second for baked splines [30]")
+      ->type_name("F");
+  command->add_flag("--quiet", options->quiet, "No warnings");
+  command->callback([options, &run] { run = [options] { return convert(*options); }; });
+}
+
+}  // namespace tenebra::viewer

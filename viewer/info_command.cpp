@@ -1,0 +1,167 @@
+// tenebra info: what a scene file holds, as text or JSON.
+#include <memory>
+#include <nlohmann/json.hpp>
+#include <numbers>
+
+#include "command.h"
+#include "console.h"
+#include "option_values.h"
+#include "scene_choice.h"
+#include "scene_summary.h"
+
+namespace tenebra::viewer {
+namespace {
+
+using Json = nlohmann::ordered_json;
+
+constexpr const char* examples =
+    "Examples:\n"
+    "  tenebra info scenes/city.glb\n"
+    "  tenebra info scenes/city.glb --json | python3 -m json.tool\n"
+    "\n"
+    "Triangles and bounds are those of the first frame, in world space; frames are counted at --fps where "
+    "the file\n"
+    "does not state them.";
+
+struct InfoOptions {
+  std::string scene;
+  double fps = 30.0;
+  bool json = false;
+};
+
+std::string_view name_of(LightType type) {
+  switch (type) {
+    case LightType::point:
+      return "point";
+    case LightType::spot:
+      return "spot";
+    case LightType::directional:
+      return "directional";
+    case LightType::area_rect:
+      return "area_rect";
+    case LightType::area_disk:
+      return "area_disk";
+  }
+  return "";
+}
+
+Json list(glm::vec3 v) {
+  return {v.x, v.y, v.z};
+}
+
+Json counts_of(const Scene& scene, const SceneSummary& summary) {
+  return {{"triangles", summary.triangles},
+          {"casting_triangles", summary.casting_triangles},
+          {"dropped_non_finite", summary.dropped_non_finite},
+          {"vertices", summary.vertices},
+          {"nodes", scene.nodes.size()},
+          {"meshes", scene.meshes.size()},
+          {"materials", scene.materials.size()},
+          {"skins", scene.skins.size()}};
+}
+
+Json lights_of(const Scene& scene, const SceneSummary& summary) {
+  Json lights = Json::array();
+  for (const WorldLight& placed : summary.lights) {
+    const Light& light = scene.lights[static_cast<std::size_t>(placed.light)];
+    lights.push_back({{"name", light.name},
+                      {"type", name_of(light.type)},
+                      {"position_m", list(placed.position)},
+                      {"direction", list(placed.direction)},
+                      {"color", list(light.color)},
+                      {"intensity", light.intensity}});
+  }
+  return lights;
+}
+
+Json cameras_of(const Scene& scene) {
+  Json cameras = Json::array();
+  for (const Camera& camera : scene.cameras) {
+    const bool perspective = camera.projection == Projection::perspective;
+    Json entry{{"name", camera.name}, {"projection", perspective ? "perspective" : "orthographic"}};
+    if (perspective) entry["vertical_fov_deg"] = camera.vertical_fov_rad * 180.0 / std::numbers::pi;
+    if (!perspective) entry["vertical_extent_m"] = camera.vertical_extent_m;
+    if (camera.aspect) entry["aspect"] = *camera.aspect;
+    cameras.push_back(entry);
+  }
+  return cameras;
+}
+
+Json clips_of(const Scene& scene, double fps) {
+  Json clips = Json::array();
+  for (const Clip& clip : scene.clips) {
+    clips.push_back({{"name", clip.name},
+                     {"start_s", clip.start_s},
+                     {"end_s", clip.end_s},
+                     {"frames", frame_count(clip, fps)},
+                     {"channels", clip.channels.size()}});
+  }
+  return clips;
+}
+
+Json describe(const Scene& scene, const InfoOptions& options) {
+  const SceneSummary summary = summarize_scene(scene);
+  Json json{{"file", options.scene}, {"name", scene.name}, {"counts", counts_of(scene, summary)}};
+  json["bounds_m"] = nullptr;
+  if (summary.bounds)
+    json["bounds_m"] = {{"low", list(summary.bounds->low)}, {"high", list(summary.bounds->high)}};
+  json["lights"] = lights_of(scene, summary);
+  json["cameras"] = cameras_of(scene);
+  json["clips"] = clips_of(scene, options.fps);
+  json["warnings"] = scene.warnings;
+  return json;
+}
+
+/// One line: "name value, name value, ..." with texts unquoted.
+std::string line_of(const Json& object) {
+  std::string line;
+  for (const auto& [key, value] : object.items()) {
+    const std::string text = value.is_string() ? value.get<std::string>() : value.dump();
+    line += fmt::format("{}{} {}", line.empty() ? "" : ", ", key, text.empty() ? "-" : text);
+  }
+  return line;
+}
+
+void print_list(const Json& json, const char* key) {
+  const Json& entries = json[key];
+  print_out("{}: {}\n", key, entries.size());
+  for (std::size_t i = 0; i < entries.size(); ++i) {
+    print_out("  {}: {}\n", i, entries[i].is_string() ? entries[i].get<std::string>() : line_of(entries[i]));
+  }
+}
+
+void print_text(const Json& json) {
+  print_out("{}\n", json["file"].get<std::string>());
+  for (const auto& [key, value] : json["counts"].items()) print_out("{}: {}\n", key, value.dump());
+  print_out("bounds_m: {}\n", json["bounds_m"].is_null() ? "none" : line_of(json["bounds_m"]));
+  for (const char* key : {"lights", "cameras", "clips", "warnings"}) print_list(json, key);
+}
+
+Expected<int> info(const InfoOptions& options) {
+  const auto scene = import_scene(options.scene);
+  if (!scene) return tl::unexpected(scene.error());
+  const Json json = describe(*scene, options);
+  if (options.json) {
+    // File names and names in files may hold bytes that are not UTF-8, which JSON cannot.
+    print_out("{}\n", json.dump(2, ' ', false, Json::error_handler_t::replace));
+  } else {
+    print_text(json);
+  }
+  return 0;
+}
+
+}  // namespace
+
+void add_info_command(CLI::App& program, Run& run) {
+  CLI::App* command =
+      program.add_subcommand("info", "What a scene holds: counts, bounds, lights, cameras, animations");
+  const auto options = std::make_shared<InfoOptions>();
+  command->footer(examples);
+  command->add_option("SCENE", options->scene, "Scene file: .gltf .glb .aff .nff .obj")->required();
+  command->add_flag("--json", options->json, "As JSON");
+  add_value(*command, "--fps", options->fps, parse_positive, "Frames a second, to count frames [30]")
+      ->type_name("F");
+  command->callback([options, &run] { run = [options] { return info(*options); }; });
+}
+
+}  // namespace tenebra::viewer

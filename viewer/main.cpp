@@ -1,0 +1,88 @@
+// The program `tenebra`: picks the command, and turns every failure into one sentence and an exit code.
+
+#include <csignal>
+#include <cstdio>
+#include <exception>
+#include <new>
+#include <string>
+
+#include "command.h"
+#include "console.h"
+
+namespace {
+
+using tenebra::viewer::Run;
+
+constexpr int failure = 1;
+constexpr int comparison_failure = 2;  // `tenebra compare` says with 1 that pictures differ
+
+constexpr const char* about =
+    "tenebra: ray-traced, alias-free shadows for animated scenes, on the CPU beside OpenGL\n";
+constexpr const char* first_steps =
+    "First steps:\n"
+    "  tenebra info scenes/city.glb                      what a scene holds\n"
+    "  tenebra render scenes/city.glb                    its first frame, to out/0000.png\n"
+    "  tenebra render scenes/city.glb --frames all       the whole animation\n"
+    "  tenebra COMMAND --help                            the options of a command, with examples\n"
+    "\n"
+    "Scenes: glTF 2.0 (.gltf, .glb), BART's AFF (.aff, .nff), Wavefront OBJ (.obj).\n"
+    "A failure is one sentence on standard error and exit code 1.";
+
+int report(const std::string& sentence, int code) {
+  tenebra::viewer::print_error("tenebra: {}{}\n", sentence, sentence.ends_with('.') ? "" : ".");
+  return code;
+}
+
+/// What a command printed counts only once it is out: a full disk or a closed pipe shows here.
+int flush_output(int code) {
+  if (std::fflush(stdout) == 0 && std::ferror(stdout) == 0) return code;
+  return report("cannot write standard output: no space left, or nobody reads it any more", failure);
+}
+
+int parse_and_run(CLI::App& program, Run& run, int argc, char** argv) {
+  const auto failure_code = [&] { return program.got_subcommand("compare") ? comparison_failure : failure; };
+  try {
+    program.parse(argc, argv);
+  } catch (const CLI::CallForHelp&) {
+    // The help of the command that was asked about; CLI11 descends to it.
+    tenebra::viewer::print_out("{}", program.help());
+    return flush_output(0);
+  } catch (const CLI::CallForVersion& version) {
+    tenebra::viewer::print_out("{}\n", version.what());
+    return flush_output(0);
+  } catch (const CLI::ParseError& error) {
+    return report(error.what(), failure_code());
+  }
+  if (!run) return report("give a command: render, info, convert or compare (see tenebra --help)", failure);
+  try {
+    const auto code = run();
+    return code ? flush_output(*code) : report(code.error().message, failure_code());
+  } catch (const std::bad_alloc&) {
+    return report("not enough memory", failure_code());
+  } catch (const std::exception& error) {
+    return report(fmt::format("stopped by an unexpected failure ({})", error.what()), failure_code());
+  }
+}
+
+}  // namespace
+
+int main(int argc, char** argv) {
+  // Both are reported by the write that fails, in a sentence, instead of ending the program in the middle of
+  // a file.
+  std::signal(SIGPIPE, SIG_IGN);
+  std::signal(SIGXFSZ, SIG_IGN);
+  try {
+    CLI::App program{about, "tenebra"};
+    program.footer(first_steps);
+    program.set_version_flag("--version", "tenebra 0.1.0");
+    program.get_formatter()->column_width(34);
+    Run run;
+    tenebra::viewer::add_render_command(program, run);
+    tenebra::viewer::add_info_command(program, run);
+    tenebra::viewer::add_convert_command(program, run);
+    tenebra::viewer::add_compare_command(program, run);
+    return parse_and_run(program, run, argc, argv);
+  } catch (const std::exception& error) {
+    return report(fmt::format("cannot start ({})", error.what()), failure);
+  }
+}

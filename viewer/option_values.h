@@ -1,0 +1,53 @@
+// Values of options: from the text a user types to numbers, sizes and ranges, or a sentence of what was
+// expected.
+#pragma once
+
+#include <CLI/CLI.hpp>
+#include <glm/glm.hpp>
+#include <optional>
+#include <string>
+#include <utility>
+
+#include "base/expected.h"
+
+namespace tenebra::viewer {
+
+struct Size {
+  int width = 0;
+  int height = 0;
+};
+inline constexpr int largest_side_px = 16384;
+
+/// Frames first, first + step, ... up to and with `last`; without `last`: to the end of the animation.
+struct FrameRange {
+  int first = 0;
+  std::optional<int> last;
+  int step = 1;
+};
+
+Expected<Size> parse_size(const std::string& text);               ///< WxH, 1 to largest_side_px each
+Expected<FrameRange> parse_frame_range(const std::string& text);  ///< A, A:B, A:, A:B:STEP, A::STEP or all
+Expected<glm::vec3> parse_vector(const std::string& text);        ///< X,Y,Z, finite
+Expected<double> parse_field_of_view(const std::string& text);    ///< degrees in (0, 180)
+Expected<double> parse_positive(const std::string& text);         ///< finite and above 0
+Expected<double> parse_time(const std::string& text);             ///< seconds, finite
+Expected<int> parse_count(const std::string& text);               ///< whole, 0 to 1,000,000
+
+/// Adds an option whose value `parse` reads into `target`; its failure becomes "NAME: sentence".
+/// Given twice, the last counts. `target` must live as long as `command`.
+template <class Target, class Value>
+CLI::Option* add_value(CLI::App& command, const std::string& name, Target& target,
+                       Expected<Value> (*parse)(const std::string&), const std::string& help) {
+  return command
+      .add_option_function<std::string>(
+          name,
+          [&target, parse, name](const std::string& text) {
+            auto value = parse(text);
+            if (!value) throw CLI::ValidationError(name, value.error().message);
+            target = std::move(*value);
+          },
+          help)
+      ->take_last();
+}
+
+}  // namespace tenebra::viewer

@@ -1,0 +1,170 @@
+// tenebra render: a scene file in, pictures, masks, a log and a trace out.
+#include <chrono>
+#include <memory>
+#include <optional>
+
+#include "base/trace_json.h"
+#include "command.h"
+#include "console.h"
+#include "progress.h"
+#include "render_log.h"
+#include "render_plan.h"
+#include "scene_choice.h"
+#include "stop_signals.h"
+
+namespace tenebra::viewer {
+namespace {
+
+using Clock = std::chrono::steady_clock;
+
+double milliseconds(Clock::duration duration) {
+  return std::chrono::duration<double, std::milli>(duration).count();
+}
+
+/// The files that grow with the frames.
+struct Journals {
+  std::optional<FrameLog> log;
+  std::optional<FrameTrace> trace;
+
+  Expected<void> open(const RenderOptions& options, std::span<const LogSetting> settings) {
+    if (!options.log.empty()) {
+      auto made = FrameLog::create(options.log, settings);
+      if (!made) return tl::unexpected(made.error());
+      log.emplace(std::move(*made));
+    }
+    if (!options.trace.empty()) {
+      auto made = FrameTrace::create(options.trace, settings);
+      if (!made) return tl::unexpected(made.error());
+      trace.emplace(std::move(*made));
+    }
+    return {};
+  }
+
+  Expected<void> add(const FrameRecord& record, double begin_ms) {
+    if (log) {
+      if (auto added = log->add(record); !added) return added;
+    }
+    return trace ? trace->add(record, begin_ms) : Expected<void>();
+  }
+
+  Expected<void> finish() {
+    if (log) {
+      if (auto finished = log->finish(); !finished) return finished;
+    }
+    return trace ? trace->finish() : Expected<void>();
+  }
+};
+
+Expected<void> write_pictures(const RenderPlan& plan, const RenderOptions& options, int frame,
+                              const FrameResult& result) {
+  if (options.pictures) {
+    if (auto written = write_png(options.pictures->file(frame), result.image); !written) return written;
+  }
+  if (!options.masks) return {};
+  for (const LightMask& mask : result.masks) {
+    const std::string suffix = plan.several_lights ? fmt::format("_L{}", mask.light) : "";
+    if (auto written = write_png(options.masks->file(frame, suffix), mask.mask); !written) return written;
+  }
+  return {};
+}
+
+Expected<void> prepare_folders(const RenderOptions& options) {
+  for (const auto& pattern : {options.pictures, options.masks}) {
+    if (!pattern) continue;
+    if (auto prepared = pattern->prepare_folder(); !prepared) return prepared;
+  }
+  return {};
+}
+
+/// One render from the first frame to the last or to a signal.
+class FrameLoop {
+public:
+  FrameLoop(const RenderPlan& plan, const RenderOptions& options) : plan_(plan), options_(options) {}
+
+  Expected<void> run(StopSignals& stop) {
+    auto context = gl::Context::create(options_.context);
+    if (!context) return tl::unexpected(context.error());
+    auto renderer = Renderer::create(std::move(*context), plan_.scene);
+    if (!renderer) return tl::unexpected(renderer.error());
+    FrameGeometry first_frame;
+    evaluate_frame(plan_.scene, plan_.clip, plan_.frames.front().time_s, first_frame);
+    const auto settings = describe_render(plan_, options_, renderer->gl_renderer(), first_frame);
+    if (auto opened = journals_.open(options_, settings); !opened) return opened;
+
+    Progress progress(static_cast<int>(plan_.frames.size()), options_.quiet);
+    for (const PlannedFrame& frame : plan_.frames) {
+      if (auto drawn = draw(*renderer, frame); !drawn) return drawn;
+      progress.show(static_cast<int>(records_.size()));
+      if (stop.caught() != 0) break;
+    }
+    return journals_.finish();
+  }
+
+  std::span<const FrameRecord> records() const { return records_; }
+
+private:
+  Expected<void> draw(Renderer& renderer, const PlannedFrame& planned) {
+    const auto begin = Clock::now();
+    evaluate_frame(plan_.scene, plan_.clip, planned.time_s, input_.geometry);
+    input_.lights = evaluate_lights(plan_.scene, plan_.clip, planned.time_s);
+    input_.view = view_of(plan_, options_, planned.time_s);
+    const double evaluate_ms = milliseconds(Clock::now() - begin);
+    if (auto drawn = renderer.render_frame(input_, plan_.settings, result_); !drawn) return drawn;
+
+    FrameRecord record{planned.frame, planned.time_s, result_.timings, result_.stats};
+    record.timings.evaluate_ms = evaluate_ms;
+    record.timings.total_ms = milliseconds(Clock::now() - begin);
+    records_.push_back(record);
+    if (auto added = journals_.add(record, milliseconds(begin - begin_)); !added) return added;
+    return write_pictures(plan_, options_, planned.frame, result_);
+  }
+
+  const RenderPlan& plan_;
+  const RenderOptions& options_;
+  const Clock::time_point begin_ = Clock::now();
+  Journals journals_;
+  FrameInput input_;
+  FrameResult result_;
+  std::vector<FrameRecord> records_;
+};
+
+void print_summary(const RenderPlan& plan, const RenderOptions& options,
+                   std::span<const FrameRecord> records) {
+  print_out("{}", summary_table(records));
+  print_out("{} of {} frames, {}x{} pixels", records.size(), plan.frames.size(), plan.settings.width,
+            plan.settings.height);
+  if (options.pictures) print_out(", pictures in {}", options.pictures->text());
+  if (options.masks) print_out(", masks in {}", options.masks->text());
+  if (!options.log.empty()) print_out(", log in {}", options.log);
+  if (!options.trace.empty()) print_out(", trace in {}", options.trace);
+  print_out("\n");
+}
+
+Expected<int> render(const RenderOptions& options) {
+  if (auto checked = check_render_options(options); !checked) return tl::unexpected(checked.error());
+  const auto plan = plan_render(options);
+  if (!plan) return tl::unexpected(plan.error());
+  if (!options.quiet) print_warnings(plan->scene.warnings);
+  if (auto prepared = prepare_folders(options); !prepared) return tl::unexpected(prepared.error());
+
+  StopSignals stop;
+  FrameLoop loop(*plan, options);
+  if (auto done = loop.run(stop); !done) return tl::unexpected(done.error());
+  if (!options.quiet) print_summary(*plan, options, loop.records());
+  const bool stopped = loop.records().size() < plan->frames.size();
+  if (stopped)
+    print_error("tenebra: stopped after {} of {} frames\n", loop.records().size(), plan->frames.size());
+  return stopped ? exit_code_of(stop.caught()) : 0;
+}
+
+}  // namespace
+
+void add_render_command(CLI::App& program, Run& run) {
+  CLI::App* command =
+      program.add_subcommand("render", "Pictures with shadows, masks and a log of frame times");
+  const auto options = std::make_shared<RenderOptions>();
+  add_render_options(*command, *options);
+  command->callback([options, &run] { run = [options] { return render(*options); }; });
+}
+
+}  // namespace tenebra::viewer

@@ -1,0 +1,89 @@
+#include "render_log.h"
+
+#include "base/machine.h"
+#include "base/statistics.h"
+
+namespace tenebra::viewer {
+namespace {
+
+std::string camera_text(const RenderPlan& plan, const RenderOptions& options) {
+  const auto vector = [](glm::vec3 v) { return fmt::format("{},{},{}", v.x, v.y, v.z); };
+  std::string text =
+      fmt::format("{} ({})", plan.camera, plan.scene.cameras[static_cast<std::size_t>(plan.camera)].name);
+  if (options.eye) {
+    text = fmt::format("eye {} look-at {} up {}", vector(*options.eye), vector(options.look_at),
+                       vector(options.up));
+  }
+  return options.fov_deg ? fmt::format("{}, fov {} degrees", text, *options.fov_deg) : text;
+}
+
+std::string frames_text(const RenderPlan& plan, double fps) {
+  const PlannedFrame& first = plan.frames.front();
+  const PlannedFrame& last = plan.frames.back();
+  return fmt::format("{}, from {} ({} s) to {} ({} s), {} a second where the scene states none",
+                     plan.frames.size(), first.frame, first.time_s, last.frame, last.time_s, fps);
+}
+
+double shadow_ms(const FrameTimings& t) {
+  return t.rays_ms + t.sort_ms + t.build_ms + t.traverse_ms + t.writeback_ms;
+}
+
+std::string summary_row(std::string_view name, std::span<const FrameRecord> records, auto value) {
+  std::vector<double> values;
+  for (const FrameRecord& record : records) values.push_back(value(record.timings));
+  const Summary summary = summarize(values);
+  if (summary.worst <= 0) return "";
+  return fmt::format("{:<20}{:>10.2f}{:>10.2f}{:>10.2f}{:>10.2f}   {}\n", name, summary.median,
+                     summary.percentile_95, summary.percentile_99, summary.worst,
+                     records[summary.worst_at].frame);
+}
+
+}  // namespace
+
+std::vector<LogSetting> describe_render(const RenderPlan& plan, const RenderOptions& options,
+                                        const std::string& gl_renderer, const FrameGeometry& first_frame) {
+  const RenderSettings& settings = plan.settings;
+  const HardShadowConfig& hard = settings.hard;
+  const SimdLevel simd = hard.simd == SimdLevel::automatic ? best_simd_level() : hard.simd;
+  const bool has_clip = plan.clip >= 0;
+  std::vector<LogSetting> list{
+      {"machine", machine_description()},
+      {"renderer", gl_renderer},
+      {"threads", settings.threads == 0 ? "0 (all cores)" : fmt::format("{}", settings.threads)},
+      {"simd", std::string(simd_level_name(simd))},
+      {"LP_NUM_THREADS", environment_or("LP_NUM_THREADS", "not set")},
+      {"scene", options.scene},
+      {"triangles", fmt::format("{}", first_frame.triangles.size())},
+      {"dropped_non_finite", fmt::format("{}", first_frame.dropped_non_finite)},
+      {"clip", has_clip ? plan.scene.clips[static_cast<std::size_t>(plan.clip)].name : "none"},
+      {"frames", frames_text(plan, options.fps)},
+      {"camera", camera_text(plan, options)},
+      {"size", fmt::format("{}x{}", settings.width, settings.height)},
+      {"shadows", settings.shadows == ShadowMode::hard ? "hard" : "none"},
+      {"variant", std::string(variant_name(hard.variant))},
+      {"samples", settings.samples == SampleSource::ids ? "ids" : "depth"},
+      {"cull", hard.cull_front ? "front" : "none"},
+      {"light", settings.light < 0 ? "all" : fmt::format("{}", settings.light)},
+      {"exposure", fmt::format("{}", settings.exposure)},
+      {"cone_sides", fmt::format("{}", options.import.cone_sides)},
+  };
+  for (const std::string& name : options.no_cast) list.push_back({"no_cast", name});
+  for (const std::string& warning : plan.scene.warnings) list.push_back({"warning", warning});
+  return list;
+}
+
+std::string summary_table(std::span<const FrameRecord> records) {
+  if (records.empty()) return "";
+  std::string table = fmt::format("{:<20}{:>10}{:>10}{:>10}{:>10}   frame\n", "milliseconds", "median",
+                                  "95 %", "99 %", "worst");
+  for (const auto& stage : frame_stages) {
+    table += summary_row(stage.name, records, [&](const FrameTimings& t) { return t.*stage.value; });
+  }
+  table += summary_row("shadows", records, shadow_ms);
+  table += summary_row("shadows and points", records,
+                       [](const FrameTimings& t) { return shadow_ms(t) + t.points_ms; });
+  table += summary_row("total", records, [](const FrameTimings& t) { return t.total_ms; });
+  return table;
+}
+
+}  // namespace tenebra::viewer
