@@ -1,6 +1,7 @@
 // One comparison of the tests of the shadow mask: what is asked of the tracer, and what the oracle says.
 #pragma once
 
+#include <fmt/format.h>
 #include <gtest/gtest.h>
 
 #include <string>

@@ -11,8 +11,17 @@ using glm::dvec3;
 void push(VisiblePoints& points, dvec3 position, std::uint32_t id) {
   points.positions.push_back(position);
   points.triangles.push_back(id);
-  points.width = static_cast<int>(points.positions.size());
-  points.height = 1;
+}
+
+/// Lays the points out as a square picture; pixels left over see nothing.
+VisiblePoints squared(VisiblePoints points) {
+  const auto count = static_cast<double>(points.positions.size());
+  points.width = static_cast<int>(std::ceil(std::sqrt(count)));
+  points.height = points.width;
+  const auto pixels = static_cast<std::size_t>(points.width) * static_cast<std::size_t>(points.height);
+  points.positions.resize(pixels, dvec3(0));
+  points.triangles.resize(pixels, no_triangle);
+  return points;
 }
 
 /// A point of the closed triangle: a vertex, a point of an edge or inside.
@@ -112,7 +121,7 @@ VisiblePoints points_on_triangles(const Soup& soup, Random& random, int count) {
     const auto id = random.index(static_cast<std::uint32_t>(soup.triangles.size()));
     push(points, point_of(soup, id, random, false), id);
   }
-  return points;
+  return squared(std::move(points));
 }
 
 VisiblePoints points_behind_edges(const Soup& soup, const ShadowLight& light, Random& random, int count) {
@@ -130,7 +139,7 @@ VisiblePoints points_behind_edges(const Soup& soup, const ShadowLight& light, Ra
     const dvec3 point = target + t * away;
     if (std::isfinite(point.x + point.y + point.z) && t > 0) push(points, point, id);
   }
-  return points;
+  return squared(std::move(points));
 }
 
 ViewRays view_from_light(const ShadowLight& light) {

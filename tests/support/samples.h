@@ -36,11 +36,11 @@ ViewRays pinhole(glm::dvec3 eye, glm::dvec3 target, double fov, int width, int h
 /// Points of `view` with the ids that the peer sees (by compute_visible_points).
 VisiblePoints view_samples(const TriangleView& triangles, const ViewRays& view, int width, int height);
 
-/// `count` points in one row on random triangles: somewhere inside, on edges, on vertices.
+/// `count` points (laid out as a square) on random triangles: somewhere inside, on edges, on vertices.
 VisiblePoints points_on_triangles(const Soup& soup, Random& random, int count);
 
-/// `count` points in one row that lie where the light's ray through a vertex or a point of an edge goes on to
-/// meet another triangle: every one of them is a close call.
+/// `count` points (laid out as a square) that lie where the light's ray through a vertex or a point of an
+/// edge goes on to meet another triangle: every one of them is a close call.
 VisiblePoints points_behind_edges(const Soup& soup, const ShadowLight& light, Random& random, int count);
 
 /// A view for which every point is active that can be: the eye is at the light.
