@@ -69,8 +69,9 @@ TEST(ShadowMask, IsExactForPointsOnEverySoup) {
   std::uint64_t seed = 100;
   for (const SoupMaker& maker : soup_makers())
     for (const Place& place : places) {
+      ++seed;
       const int kind = static_cast<int>(seed % light_kinds);
-      MaskCase c = soup_case(maker, place, kind, ++seed);
+      MaskCase c = soup_case(maker, place, kind, seed);
       Random random(seed);
       c.points = points_on_triangles(c.soup, random, 6000);
       EXPECT_TRUE(exact(c, &shares));
@@ -84,7 +85,8 @@ TEST(ShadowMask, IsExactForPointsBehindEdgesAndVertices) {
   std::uint64_t seed = 1000;
   for (const SoupMaker& maker : soup_makers())
     for (const int kind : {0, 1, 2, 7}) {
-      MaskCase c = soup_case(maker, places[seed % std::size(places)], kind, ++seed);
+      ++seed;
+      MaskCase c = soup_case(maker, places[seed % std::size(places)], kind, seed);
       Random random(seed);
       c.points = points_behind_edges(c.soup, c.light, random, 3000);
       EXPECT_TRUE(exact(c, &shares));
@@ -99,7 +101,8 @@ TEST(ShadowMask, IsExactInViewsOfEverySoup) {
   std::uint64_t seed = 2000;
   for (const SoupMaker& maker : soup_makers())
     for (const int kind : {0, 1, 2, 4}) {
-      MaskCase c = soup_case(maker, places[seed % 2 == 0 ? 0 : seed % std::size(places)], kind, ++seed);
+      ++seed;
+      MaskCase c = soup_case(maker, places[seed % 2 == 0 ? 0 : seed % std::size(places)], kind, seed);
       Random random(seed);
       const dvec3 low = c.soup.low(), size = c.soup.high() - low, middle = low + 0.5 * size;
       c.view = pinhole(middle + 1.2 * size * random.direction(), middle, 0.6, 160, 150);
@@ -132,7 +135,8 @@ TEST(ShadowMask, IsTheSameForAllVariants) {
   std::uint64_t seed = 3000;
   for (const SoupMaker& maker : soup_makers())
     for (const int kind : {0, 1, 2}) {
-      MaskCase c = soup_case(maker, places[0], kind, ++seed);
+      ++seed;
+      MaskCase c = soup_case(maker, places[0], kind, seed);
       c.config.cull_front = false;
       Random random(seed);
       c.points = points_on_triangles(c.soup, random, 3000);
@@ -143,8 +147,9 @@ TEST(ShadowMask, IsTheSameForAllVariants) {
 TEST(ShadowMask, IsTheSameForAllInstructionSets) {
   std::uint64_t seed = 4000;
   for (const SoupMaker& maker : soup_makers()) {
+    ++seed;
     MaskCase c =
-        soup_case(maker, places[seed % std::size(places)], static_cast<int>(seed % light_kinds), ++seed);
+        soup_case(maker, places[seed % std::size(places)], static_cast<int>(seed % light_kinds), seed);
     Random random(seed);
     c.points = points_on_triangles(c.soup, random, 4000);
     const ShadowMask expected = oracle(c);
@@ -174,7 +179,8 @@ TEST(ShadowMask, IsExactWithoutContactRule) {
   Shares shares;
   std::uint64_t seed = 5000;
   for (const SoupMaker& maker : soup_makers()) {
-    MaskCase c = soup_case(maker, places[0], static_cast<int>(seed % 3), ++seed);
+    ++seed;
+    MaskCase c = soup_case(maker, places[0], static_cast<int>(seed % 3), seed);
     c.config.contact = ContactRule::none;
     c.config.cull_front = seed % 2 == 0;
     Random random(seed);

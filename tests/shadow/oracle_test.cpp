@@ -142,7 +142,7 @@ TEST(Oracle, CandidateSearchLosesNoBlocker) {
       const VisiblePoints points = aimed ? points_behind_edges(c.soup, c.light, random, 300)
                                          : points_on_triangles(c.soup, random, 300);
       reference::ExactMaskStats stats;
-      for (std::size_t i = 0; i < points.positions.size(); ++i)
+      for (std::size_t i = 0; i < points.positions.size() && points.triangles[i] != no_triangle; ++i)
         ASSERT_EQ(judge.blocker(points.positions[i], points.triangles[i], stats) == no_triangle,
                   judge.blocker_among_all(points.positions[i], points.triangles[i], stats) == no_triangle)
             << maker.name << ", seed 7, sample " << i;

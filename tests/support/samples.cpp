@@ -64,6 +64,8 @@ PeerTracer::~PeerTracer() {
 }
 
 std::uint32_t PeerTracer::nearest(glm::vec3 origin, glm::vec3 direction, float from) const {
+  direction = glm::vec3(glm::normalize(dvec3(direction)));
+  if (!(glm::dot(direction, direction) > 0.5f)) return no_triangle;  // Embree asserts on NaN and infinity
   RTCRayHit hit{};
   hit.ray = {origin.x,    origin.y, origin.z,  from, direction.x, direction.y,
              direction.z, 0,        HUGE_VALF, ~0u,  0,           0};
@@ -126,12 +128,13 @@ VisiblePoints points_on_triangles(const Soup& soup, Random& random, int count) {
 
 VisiblePoints points_behind_edges(const Soup& soup, const ShadowLight& light, Random& random, int count) {
   const PeerTracer peer(soup.view());
+  const auto beyond = static_cast<float>(1e-5 * glm::length(soup.high() - soup.low()));
   VisiblePoints points;
   for (int tries = 0; tries < 8 * count && static_cast<int>(points.positions.size()) < count; ++tries) {
     const auto occluder = random.index(static_cast<std::uint32_t>(soup.triangles.size()));
     const dvec3 target = point_of(soup, occluder, random, true), from(light.position);
     const dvec3 away = light.directional ? -dvec3(light.to_light) : target - from;
-    const std::uint32_t id = peer.nearest(glm::vec3(target), glm::vec3(away), 1e-4f);
+    const std::uint32_t id = peer.nearest(glm::vec3(target), glm::vec3(away), beyond);
     if (id == no_triangle || id == occluder) continue;
     const dvec3 a(soup.corner(id, 0)), b(soup.corner(id, 1)), c(soup.corner(id, 2));
     const dvec3 n = glm::cross(b - a, c - a);
