@@ -1,0 +1,61 @@
+// Candidate search of the oracle: a plain tree of boxes over the triangles, in absolute coordinates.
+#pragma once
+
+#include <array>
+#include <cstdint>
+#include <glm/glm.hpp>
+#include <vector>
+
+#include "shadow/mask.h"
+
+namespace tenebra::reference {
+
+/// The points P + t d, 0 <= t <= t_max; d is the exact real direction up to a relative error of 2^-53 a
+/// component.
+struct Segment {
+  glm::dvec3 origin;
+  glm::dvec3 direction;
+  double t_max;
+};
+
+class TriangleBoxes {
+public:
+  /// A tree over the triangles `ids`.
+  TriangleBoxes(const TriangleView& triangles, std::vector<std::uint32_t> ids);
+
+  /// Calls visit(id) for every triangle whose box the segment may meet, until visit returns true.
+  /// Conservative: a triangle that the segment meets is always visited.
+  template <class Visit>
+  bool any_of(const Segment& segment, Visit visit) const {
+    std::array<std::uint32_t, 128>
+        stack;  // halving 2^32 triangles needs 33 levels, two entries a level at most
+    std::size_t size = 0;
+    if (!nodes_.empty()) stack[size++] = 0;
+    while (size > 0) {
+      const Node& node = nodes_[stack[--size]];
+      if (!may_meet(segment, node)) continue;
+      if (node.right == 0) {
+        for (std::uint32_t i = node.first; i < node.first + node.count; ++i)
+          if (visit(ids_[i])) return true;
+      } else {
+        stack[size++] = node.right;
+        stack[size++] = static_cast<std::uint32_t>(&node - nodes_.data()) + 1;
+      }
+    }
+    return false;
+  }
+
+private:
+  struct Node {
+    glm::dvec3 low, high;
+    std::uint32_t right = 0;  ///< 0: a leaf; the left child follows its parent
+    std::uint32_t first = 0, count = 0;
+  };
+  static bool may_meet(const Segment& segment, const Node& node);
+  void split(const TriangleView& triangles, std::uint32_t first, std::uint32_t count);
+
+  std::vector<Node> nodes_;
+  std::vector<std::uint32_t> ids_;
+};
+
+}  // namespace tenebra::reference
