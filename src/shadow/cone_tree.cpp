@@ -62,6 +62,7 @@ RaySpan span_of(const dvec3& p, const RaySource& source) {
   }
   // Scaled by the largest component so that |p|^2 neither over- nor underflows.
   const double largest = std::max({std::abs(p.x), std::abs(p.y), std::abs(p.z)});
+  if (largest == 0) return {vec3(1, 0, 0), 0};
   const dvec3 q = p / largest;
   const double length = std::sqrt(glm::dot(q, q));
   return {vec3(q / length), length * largest};
@@ -72,10 +73,13 @@ float distance(const vec3& a, const vec3& b) {
   return static_cast<float>(glm::length(dvec3(a) - dvec3(b)));
 }
 
-// c = (1 + 8u) max fl|d - w| + slack. Unit directions are rounded by 7u at most, and base + q stands for a
-// point up to 2u radius away. Across a directional light the coordinates are rounded relative to their size.
-float leaf_slack(const RaySource& source, float size, float radius, double near) {
-  return source.directional ? 4 * u * size : 7 * u + static_cast<float>(2 * u * radius / near);
+// How far base + q may be from the point it stands for: q is rounded, below the normal range to a multiple of 2^-149.
+double displacement(const RayPacket& packet) { return 2 * double(u) * packet.radius + 0x1p-149; }
+
+// c = (1 + 8u) max fl|d - w| + slack. Unit directions are rounded by 7u at most and turned by the displacement.
+// Across a directional light the coordinates are rounded relative to their size.
+double leaf_slack(const RaySource& source, const RayPacket& packet, double size, double near) {
+  return source.directional ? 4 * u * size + displacement(packet) : 7 * u + 2 * displacement(packet) / near;
 }
 constexpr float widest_chord = 4;  // more than any chord of the unit sphere: bounds nothing, but is finite
 
@@ -104,11 +108,10 @@ ConeNode leaf_node(const RayPacket& packet, const RaySource& source) {
   for (std::uint32_t live = packet.live; live != 0; live &= live - 1) {
     widest = std::max(widest, distance(spans[std::countr_zero(live)].w, node.w));
   }
-  node.c = (1 + 8 * u) * widest + leaf_slack(source, size, packet.radius, near) + 1e-36f;
+  node.c = round_up((1 + 8 * u) * widest + leaf_slack(source, packet, size, near) + 1e-36);
   if (!source.directional) node.c = std::min(node.c, widest_chord);
-  // base + q is within 2 u radius of the stored point.
-  node.near = round_down(near - 2 * double(u) * packet.radius);
-  node.far = round_up(far + 2 * double(u) * packet.radius);
+  node.near = round_down(near - displacement(packet));
+  node.far = round_up(far + displacement(packet));
   return node;
 }
 
