@@ -4,6 +4,7 @@
 #include <tbb/parallel_reduce.h>
 
 #include <algorithm>
+#include <cfenv>
 #include <cmath>
 
 #include "reference/dyadic.h"
@@ -203,6 +204,7 @@ ShadowMask exact_mask(const VisiblePoints& points, const ViewRays& view, const T
   const ExactShadow oracle(view, triangles, light, config);
   ShadowMask mask(points.triangles.size(), 0);
   const auto part = [&](const tbb::blocked_range<std::size_t>& range, ExactMaskStats sum) {
+    std::fesetenv(FE_DFL_ENV);  // Embree leaves flush-to-zero on in the threads it shares with us
     for (std::size_t i = range.begin(); i < range.end(); ++i) {
       const std::uint32_t id = points.triangles[i];
       sum.samples += id != no_triangle;
