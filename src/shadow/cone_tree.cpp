@@ -73,11 +73,14 @@ float distance(const vec3& a, const vec3& b) {
   return static_cast<float>(glm::length(dvec3(a) - dvec3(b)));
 }
 
-// How far base + q may be from the point it stands for: q is rounded, below the normal range to a multiple of 2^-149.
-double displacement(const RayPacket& packet) { return 2 * double(u) * packet.radius + 0x1p-149; }
+// How far base + q may be from the point it stands for: q is rounded, below the normal range to a multiple of
+// 2^-149.
+double displacement(const RayPacket& packet) {
+  return 2 * double(u) * packet.radius + 0x1p-149;
+}
 
-// c = (1 + 8u) max fl|d - w| + slack. Unit directions are rounded by 7u at most and turned by the displacement.
-// Across a directional light the coordinates are rounded relative to their size.
+// c = (1 + 8u) max fl|d - w| + slack. Unit directions are rounded by 7u at most and turned by the
+// displacement. Across a directional light the coordinates are rounded relative to their size.
 double leaf_slack(const RaySource& source, const RayPacket& packet, double size, double near) {
   return source.directional ? 4 * u * size + displacement(packet) : 7 * u + 2 * displacement(packet) / near;
 }

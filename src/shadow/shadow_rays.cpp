@@ -2,8 +2,8 @@
 
 #include <algorithm>
 #include <array>
-#include <bit>
 #include <cmath>
+#include <utility>
 
 #include "parallel/parallel.h"
 #include "shadow/ray_kernels.h"
@@ -52,15 +52,27 @@ Tiles tiles_of(const VisiblePoints& points) {
           (static_cast<std::uint32_t>(points.height) + tile - 1) / tile};
 }
 
-// Tile indices along a Z curve over the smallest square power of two; calls visit(column, row) for those
-// inside.
-template <class Visit>
-void visit_along_z_curve(Tiles tiles, Visit&& visit) {
-  const std::uint32_t side = std::bit_ceil(std::max({tiles.columns, tiles.rows, 1u}));
-  for (std::uint32_t z = 0; z < side * side; ++z) {
-    const std::uint32_t column = even_bits(z), row = even_bits(z >> 1);
-    if (column < tiles.columns && row < tiles.rows) visit(column, row);
+// Bits of `v` moved to the even places.
+std::uint64_t spread(std::uint32_t v) {
+  std::uint64_t r = 0;
+  for (int bit = 0; bit < 32; ++bit) r |= static_cast<std::uint64_t>((v >> bit) & 1u) << (2 * bit);
+  return r;
+}
+
+// Tiles (row * columns + column) along a Z curve.
+std::vector<std::uint32_t> tile_order(Tiles tiles) {
+  std::vector<std::pair<std::uint64_t, std::uint32_t>> places;
+  places.reserve(static_cast<std::size_t>(tiles.columns) * tiles.rows);
+  for (std::uint32_t row = 0; row < tiles.rows; ++row) {
+    for (std::uint32_t column = 0; column < tiles.columns; ++column) {
+      places.emplace_back(spread(column) | spread(row) << 1, row * tiles.columns + column);
+    }
   }
+  std::sort(places.begin(), places.end());
+  std::vector<std::uint32_t> order;
+  order.reserve(places.size());
+  for (const auto& [key, place] : places) order.push_back(place);
+  return order;
 }
 
 struct Plane2 {
@@ -100,15 +112,13 @@ void generate_shadow_rays(const VisiblePoints& points, const ShadowLight& light,
                           const TriangleSet& triangles, RayKeys& scratch, ShadowRays& out,
                           std::vector<std::uint32_t>& at_light) {
   const Tiles tiles = tiles_of(points);
-  const std::uint32_t tile_count = tiles.columns * tiles.rows;
-  std::vector<std::uint32_t> order;  // tile -> place along the curve
-  order.reserve(tile_count);
-  visit_along_z_curve(
-      tiles, [&](std::uint32_t column, std::uint32_t row) { order.push_back(row * tiles.columns + column); });
+  const std::vector<std::uint32_t> order = tile_order(tiles);
+  const std::size_t tile_count = order.size();
 
   // Each tile lists its pixels in a slot of its own; the slots are then closed up.
-  constexpr std::uint32_t slot = tile * tile;
-  out.pixels.resize(static_cast<std::size_t>(tile_count) * slot);
+  const std::size_t slot = std::min<std::size_t>(tile, static_cast<std::size_t>(points.width)) *
+                           std::min<std::size_t>(tile, static_cast<std::size_t>(points.height));
+  out.pixels.resize(tile_count * slot);
   std::vector<float> tau(tile_count, 0.0f);
   std::vector<std::vector<std::uint32_t>> met(tile_count);
   scratch.counts.assign(tile_count, 0);
@@ -140,7 +150,7 @@ void generate_shadow_rays(const VisiblePoints& points, const ShadowLight& light,
   at_light.clear();
   out.tau_max = 0;
   std::size_t kept = 0;
-  for (std::uint32_t t = 0; t < tile_count; ++t) {
+  for (std::size_t t = 0; t < tile_count; ++t) {
     std::copy_n(out.pixels.begin() + static_cast<std::size_t>(t) * slot, scratch.counts[t],
                 out.pixels.begin() + kept);
     kept += scratch.counts[t];

@@ -6,7 +6,7 @@
 #include <cmath>
 
 #include "math/predicates.h"
-#include "support/random.h"
+#include "support/seeded_random.h"
 
 namespace tenebra {
 namespace {
@@ -39,13 +39,13 @@ TEST(Expansion, SignOfASumThatCancelsInDouble) {
 }
 
 TEST(Predicates, EdgeSideEqualsRationalArithmetic) {
-  test::Random random(7);
+  testing::Random random(7);
   int zeros = 0;
   for (int i = 0; i < 20000; ++i) {
     const bool wide = i % 2 == 0;
-    const auto point = [&] { return wide ? random.wide_vec3(-8, 8) : vec3(random.grid_vec3(4)); };
+    const auto point = [&] { return wide ? vec3(random.wide(-26, 26)) : vec3(random.grid(4)); };
     const vec3 l = point(), a = point(), b = point();
-    const dvec3 p = i % 4 == 0 ? dvec3(l) + random.uniform() * (dvec3(a) - dvec3(l)) : dvec3(point());
+    const dvec3 p = i % 4 == 0 ? dvec3(l) + random.unit() * (dvec3(a) - dvec3(l)) : dvec3(point());
     const int expected = rational_edge_side(l, a, b, p);
     zeros += expected == 0;
     ASSERT_EQ(edge_side(l, a, b, p), expected) << "case " << i;
@@ -54,9 +54,9 @@ TEST(Predicates, EdgeSideEqualsRationalArithmetic) {
 }
 
 TEST(Predicates, PointSideEqualsRationalArithmetic) {
-  test::Random random(8);
+  testing::Random random(8);
   for (int i = 0; i < 20000; ++i) {
-    const auto point = [&] { return i % 2 == 0 ? random.wide_vec3(-30, 30) : vec3(random.grid_vec3(3)); };
+    const auto point = [&] { return i % 2 == 0 ? vec3(random.wide(-99, 99)) : vec3(random.grid(3)); };
     const vec3 a = point(), b = point(), c = point(), p = point();
     ASSERT_EQ(point_side(a, b, c, p), rational_edge_side(a, b, c, p)) << "case " << i;
     ASSERT_EQ(plane_excess(a, b, c, p, 1, 0.0), rational_edge_side(a, b, c, p)) << "case " << i;

@@ -8,7 +8,7 @@
 
 #include "shadow/decide.h"
 #include "shadow/traverse.h"
-#include "support/random.h"
+#include "support/seeded_random.h"
 
 namespace tenebra {
 namespace {
@@ -27,37 +27,28 @@ struct Arrangement {
   RaySource source;
 };
 
-dvec3 unit_direction(test::Random& random) {
-  for (;;) {
-    const dvec3 v = random.vec3(-1, 1);
-    const double length = glm::length(v);
-    if (length > 0.05 && length < 1) return v / length;
-  }
-}
-
-Arrangement arrangement(test::Random& random, double spread, bool directional) {
+Arrangement arrangement(testing::Random& random, double spread, bool directional) {
   Arrangement a;
-  const dvec3 axis = unit_direction(random);
-  ShadowLight light{.directional = directional, .position = random.vec3(-3, 3), .to_light = vec3(-axis)};
+  const dvec3 axis = random.direction();
+  ShadowLight light{.directional = directional, .position = vec3(random.in_cube(3)), .to_light = vec3(-axis)};
   a.source = ray_source(light);
-  const double distance = std::pow(10.0, random.uniform(-1, 1));
+  const double distance = std::pow(10.0, random.in(-1, 1));
   const auto beside =
       [&](double wider) {  // a place `wider` times the spread away from the axis, as seen from the light
-        return axis + wider * spread * dvec3(random.vec3(-1, 1));
+        return axis + wider * spread * dvec3(random.in_cube(1));
       };
   for (int i = 0; i < ray_count; ++i) {
     const dvec3 d = beside(1);
-    const double length = distance * random.uniform(0.9, 1.1);
+    const double length = distance * random.in(0.9, 1.1);
     a.points.push_back(a.source.origin +
                        (directional ? d * distance + length * axis : d * (length / glm::length(d))));
     a.rays.pixels.push_back(static_cast<std::uint32_t>(i));
     a.rays.triangles.push_back(no_triangle);
   }
-  const double depth =
-      distance * (random.below(4) == 0 ? random.uniform(0.9, 1.1) : random.uniform(0.3, 0.9));
+  const double depth = distance * (random.index(4) == 0 ? random.in(0.9, 1.1) : random.in(0.3, 0.9));
   for (int k = 0; k < 3; ++k) {
-    const dvec3 d = beside(std::pow(10.0, random.uniform(-0.5, 1.0)));
-    const double length = depth * random.uniform(0.8, 1.2);
+    const dvec3 d = beside(std::pow(10.0, random.in(-0.5, 1.0)));
+    const double length = depth * random.in(0.8, 1.2);
     a.corners.push_back(vec3(a.source.origin + (directional ? d * distance + length * axis : d * length)));
   }
   return a;
@@ -135,7 +126,7 @@ RootVerdict filter_once(const Arrangement& a, const TraversalKernels& kernels) {
   return {!covered && size[0] == 0, covered};
 }
 
-class NodeTests : public testing::TestWithParam<SimdLevel> {};
+class NodeTests : public ::testing::TestWithParam<SimdLevel> {};
 
 TEST_P(NodeTests, NeverRejectABlockerNorAcceptAGap) {
   if (!simd_level_supported(GetParam())) GTEST_SKIP() << "this machine lacks " << simd_level_name(GetParam());
@@ -144,7 +135,7 @@ TEST_P(NodeTests, NeverRejectABlockerNorAcceptAGap) {
     for (const double spread : {1e-6, 1e-4, 1e-2, 0.3, 1.0, 3.0, 30.0}) {
       for (const bool spheres : {false, true}) {
         for (std::uint64_t seed = 0; seed < 3000; ++seed) {
-          test::Random random(seed);
+          testing::Random random(seed);
           check(arrangement(random, spread, directional), kernels, spheres);
           ASSERT_FALSE(HasFatalFailure()) << "seed " << seed << " spread " << spread << " directional "
                                           << directional << " spheres " << spheres;
@@ -158,12 +149,11 @@ TEST_P(NodeTests, NeverRejectABlockerNorAcceptAGap) {
 // the axis.
 RootVerdict verdict_on(double spread, bool directional, const std::array<glm::dvec2, 3>& corners,
                        const TraversalKernels& kernels) {
-  test::Random random(5);
+  testing::Random random(5);
   Arrangement a;
   a.source = ray_source({.directional = directional, .position = {0, 0, 0}, .to_light = {0, 0, 1}});
   for (int i = 0; i < ray_count; ++i) {
-    a.points.push_back(10.0 *
-                       dvec3(spread * random.uniform(-0.7, 0.7), spread * random.uniform(-0.7, 0.7), -1));
+    a.points.push_back(10.0 * dvec3(spread * random.in(-0.7, 0.7), spread * random.in(-0.7, 0.7), -1));
     a.rays.pixels.push_back(static_cast<std::uint32_t>(i));
     a.rays.triangles.push_back(no_triangle);
   }
@@ -208,8 +198,8 @@ TEST(NodeTestsSlack, ALargeTriangleInFrontCovers) {
 }
 
 INSTANTIATE_TEST_SUITE_P(EveryInstructionSet, NodeTests,
-                         testing::Values(SimdLevel::scalar, SimdLevel::sse4, SimdLevel::avx2,
-                                         SimdLevel::avx512),
+                         ::testing::Values(SimdLevel::scalar, SimdLevel::sse4, SimdLevel::avx2,
+                                           SimdLevel::avx512),
                          [](const auto& info) { return std::string(simd_level_name(info.param)); });
 
 }  // namespace

@@ -6,7 +6,7 @@
 
 #include "shadow/ray_kernels.h"
 #include "shadow/shadow_rays.h"
-#include "support/random.h"
+#include "support/seeded_random.h"
 
 namespace tenebra {
 namespace {
@@ -64,7 +64,7 @@ TEST(DirectionKeys, NameTheCubeFace) {
 }
 
 TEST(RadixSort, EqualsAStableSortByKey) {
-  test::Random random(3);
+  testing::Random random(3);
   for (const std::size_t size : {0, 1, 2, 1000, 200000}) {
     std::vector<std::uint64_t> keys(size);
     for (auto& key : keys) key = (random.bits() % 5000) << 41 | (random.bits() & 0xffffffffu);

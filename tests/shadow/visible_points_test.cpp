@@ -5,7 +5,7 @@
 
 #include "parallel/parallel.h"
 #include "shadow/mask.h"
-#include "support/random.h"
+#include "support/seeded_random.h"
 
 namespace tenebra {
 namespace {
@@ -63,12 +63,11 @@ TEST(VisiblePoints, AreClampedIntoTheirTriangle) {
 
 // Edge-on planes, rays that point away, needles of zero area: finite points in the triangle's box.
 TEST(VisiblePoints, AreFiniteForDegenerateTriangles) {
-  test::Random random(21);
+  testing::Random random(21);
   for (int i = 0; i < 2000; ++i) {
-    std::vector<vec3> corners{vec3(random.grid_vec3(2)), vec3(random.grid_vec3(2)),
-                              vec3(random.grid_vec3(2))};
+    std::vector<vec3> corners{vec3(random.grid(2)), vec3(random.grid(2)), vec3(random.grid(2))};
     ViewRays view = pinhole;
-    view.eye = vec3(random.grid_vec3(2));
+    view.eye = vec3(random.grid(2));
     const auto points = points_of(std::vector<std::uint32_t>(64, 0), 8, 8, view, corners);
     for (const dvec3& p : points.positions) {
       for (int k = 0; k < 3; ++k) {
@@ -82,7 +81,7 @@ TEST(VisiblePoints, AreFiniteForDegenerateTriangles) {
 }
 
 TEST(VisiblePoints, HaveTheSameBitsOnAnyNumberOfThreads) {
-  test::Random random(22);
+  testing::Random random(22);
   const std::vector<vec3> corners{{-50, -50, 1.3f}, {50, -40, 0.7f}, {0, 50, 1.1f}};
   std::vector<std::uint32_t> ids(173 * 91, 0);
   const VisiblePoints expected = points_of(ids, 173, 91, pinhole, corners);

@@ -30,6 +30,17 @@ public:
     return chance(0.5) ? -size : size;
   }
   glm::dvec3 in_cube(double half) { return {in(-half, half), in(-half, half), in(-half, half)}; }
+  /// Each coordinate +-2^U(low, high).
+  glm::dvec3 wide(int low, int high) {
+    return {power_of_two(low, high), power_of_two(low, high), power_of_two(low, high)};
+  }
+  /// Whole numbers -size..size: coplanar and collinear cases are common.
+  glm::dvec3 grid(int size) {
+    const auto number = [&] {
+      return static_cast<double>(index(2 * static_cast<std::uint32_t>(size) + 1)) - size;
+    };
+    return {number(), number(), number()};
+  }
   glm::dvec3 direction() {
     for (;;) {
       const glm::dvec3 v = in_cube(1);
