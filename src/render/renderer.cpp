@@ -1,7 +1,5 @@
 #include "render/renderer.h"
 
-#include <algorithm>
-
 #include "base/stopwatch.h"
 #include "parallel/parallel.h"
 #include "raster/composite.h"
@@ -16,20 +14,6 @@ namespace {
 
 TriangleView view_of(const FrameGeometry& geometry) {
   return {geometry.positions, geometry.triangles, geometry.casts_shadow};
-}
-
-void add(TraceStats& to, const TraceStats& from) {
-  to.rays += from.rays;
-  to.triangles += from.triangles;
-  to.nodes += from.nodes;
-  to.leaf_tests += from.leaf_tests;
-  to.early_accepts += from.early_accepts;
-  to.float_unknown += from.float_unknown;
-  to.double_unknown += from.double_unknown;
-  to.shadowed_pixels += from.shadowed_pixels;
-  to.lit_pixels += from.lit_pixels;
-  to.degenerate_triangles += from.degenerate_triangles;
-  to.tree_bytes = std::max(to.tree_bytes, from.tree_bytes);
 }
 
 void add_trace_times(FrameTimings& to, const FrameTimings& from) {
@@ -147,7 +131,7 @@ void Renderer::State::trace_light(const FrameInput& input, int light, const Rend
                              shadow_light(scene.lights[static_cast<std::size_t>(placed.light)], placed),
                              config, mask);
   });
-  add(result.stats, tracer.stats());
+  result.stats += tracer.stats();
   add_trace_times(result.timings, tracer.timings());
   result.masks.push_back({light, {gbuffer.width, gbuffer.height, 1, mask}});
 }

@@ -3,6 +3,7 @@
 #include <cmath>
 
 #include "math/predicates.h"
+#include "shadow/triangle_corners.h"
 
 namespace tenebra {
 
@@ -10,14 +11,6 @@ namespace {
 
 using glm::dvec3;
 using glm::vec3;
-
-struct Corners {
-  vec3 v[3];
-};
-Corners corners_of(const TriangleView& triangles, std::uint32_t id) {
-  const glm::uvec3 t = triangles.triangles[id];
-  return {{triangles.positions[t.x], triangles.positions[t.y], triangles.positions[t.z]}};
-}
 
 bool inside_edge(const Corners& c, int k, const dvec3& point, int side, const RaySource& source) {
   const vec3 &a = c.v[k], &b = c.v[(k + 1) % 3];

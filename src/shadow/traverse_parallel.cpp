@@ -11,14 +11,6 @@ namespace {
 constexpr std::size_t chunk_size = 1 << 16;
 constexpr std::size_t split_levels = 3;  // 4^3 subtrees to share out
 
-void add(TraceStats& to, const TraceStats& from) {
-  to.nodes += from.nodes;
-  to.leaf_tests += from.leaf_tests;
-  to.early_accepts += from.early_accepts;
-  to.float_unknown += from.float_unknown;
-  to.double_unknown += from.double_unknown;
-}
-
 struct Job {
   const Traversal& traversal;
   const TraversalKernels& kernels;
@@ -51,7 +43,7 @@ TraceStats descend_block(const Job& job, std::size_t level, std::size_t block,
     TraversalScratch& scratch = job.scratch[static_cast<std::size_t>(thread_index())];
     job.kernels.descend(job.traversal, level, node, list, scratch, below[lane]);
   });
-  for (const TraceStats& part : below) add(stats, part);
+  for (const TraceStats& part : below) stats += part;
   return stats;
 }
 
@@ -66,7 +58,7 @@ void traverse(const Traversal& traversal, const TraversalKernels& kernels,
   const Job job{traversal, kernels, scratch, top > split_levels ? top - split_levels : 0};
   for (std::size_t first = 0; first < places.size(); first += chunk_size) {
     const std::size_t size = std::min(chunk_size, places.size() - first);
-    add(stats, descend_block(job, top, 0, places.subspan(first, size)));
+    stats += descend_block(job, top, 0, places.subspan(first, size));
   }
 }
 

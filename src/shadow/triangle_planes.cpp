@@ -6,6 +6,7 @@
 
 #include "math/predicates.h"
 #include "parallel/parallel.h"
+#include "shadow/triangle_corners.h"
 
 namespace tenebra {
 
@@ -163,14 +164,6 @@ TrianglePlanes planes_of(const vec3 v[3], std::uint32_t id, int side, const RayS
   set_own_plane(t, v, source.origin, tau);
   for (int k = 0; k < 3; ++k) t.reach = std::max(t.reach, glm::length(dvec3(v[k]) - source.origin));
   return t;
-}
-
-struct Corners {
-  vec3 v[3];
-};
-Corners corners_of(const TriangleView& triangles, std::size_t id) {
-  const glm::uvec3 t = triangles.triangles[id];
-  return {{triangles.positions[t.x], triangles.positions[t.y], triangles.positions[t.z]}};
 }
 
 }  // namespace
