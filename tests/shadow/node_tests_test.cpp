@@ -15,6 +15,7 @@ namespace {
 
 using glm::dvec3;
 using glm::vec3;
+using testing::Random;
 
 constexpr int ray_count = 4 * packet_size;
 
@@ -27,7 +28,7 @@ struct Arrangement {
   RaySource source;
 };
 
-Arrangement arrangement(testing::Random& random, double spread, bool directional) {
+Arrangement arrangement(Random& random, double spread, bool directional) {
   Arrangement a;
   const dvec3 axis = random.direction();
   ShadowLight light{.directional = directional, .position = vec3(random.in_cube(3)), .to_light = vec3(-axis)};
@@ -126,6 +127,32 @@ RootVerdict filter_once(const Arrangement& a, const TraversalKernels& kernels) {
   return {!covered && size[0] == 0, covered};
 }
 
+// A triangle that lies outside of the cone but for its edge, which touches the outermost ray: decided by the
+// last bits of the bounds.
+Arrangement touching_arrangement(Random& random, double spread, bool directional) {
+  Arrangement a = arrangement(random, spread, directional);
+  const auto seen = [&](const dvec3& p) {
+    const dvec3 q = p - a.source.origin;
+    return directional ? q - glm::dot(q, a.source.travel) * a.source.travel : glm::normalize(q);
+  };
+  dvec3 low(INFINITY), high(-INFINITY);
+  for (const dvec3& p : a.points) low = glm::min(low, seen(p)), high = glm::max(high, seen(p));
+  const dvec3 axis = 0.5 * (low + high);
+  const dvec3 outermost =
+      *std::max_element(a.points.begin(), a.points.end(), [&](const dvec3& p, const dvec3& q) {
+        return glm::distance(seen(p), axis) < glm::distance(seen(q), axis);
+      });
+  const dvec3 outwards = seen(outermost) - axis;
+  const dvec3 travel = directional ? a.source.travel : glm::normalize(outermost - a.source.origin);
+  const dvec3 along = glm::cross(travel, outwards);
+  const dvec3 on_ray =
+      directional ? outermost - 0.5 * travel : a.source.origin + 0.5 * (outermost - a.source.origin);
+  const double size = 0.5 * std::pow(10.0, random.in(0, 1));
+  a.corners = {vec3(on_ray + size * along), vec3(on_ray - size * random.in(0.5, 1) * along),
+               vec3(on_ray + size * (outwards + random.in(-0.3, 0.3) * along))};
+  return a;
+}
+
 class NodeTests : public ::testing::TestWithParam<SimdLevel> {};
 
 TEST_P(NodeTests, NeverRejectABlockerNorAcceptAGap) {
@@ -135,8 +162,9 @@ TEST_P(NodeTests, NeverRejectABlockerNorAcceptAGap) {
     for (const double spread : {1e-6, 1e-4, 1e-2, 0.3, 1.0, 3.0, 30.0}) {
       for (const bool spheres : {false, true}) {
         for (std::uint64_t seed = 0; seed < 3000; ++seed) {
-          testing::Random random(seed);
+          Random random(seed);
           check(arrangement(random, spread, directional), kernels, spheres);
+          check(touching_arrangement(random, spread, directional), kernels, spheres);
           ASSERT_FALSE(HasFatalFailure()) << "seed " << seed << " spread " << spread << " directional "
                                           << directional << " spheres " << spheres;
         }
@@ -149,7 +177,7 @@ TEST_P(NodeTests, NeverRejectABlockerNorAcceptAGap) {
 // the axis.
 RootVerdict verdict_on(double spread, bool directional, const std::array<glm::dvec2, 3>& corners,
                        const TraversalKernels& kernels) {
-  testing::Random random(5);
+  Random random(5);
   Arrangement a;
   a.source = ray_source({.directional = directional, .position = {0, 0, 0}, .to_light = {0, 0, 1}});
   for (int i = 0; i < ray_count; ++i) {
