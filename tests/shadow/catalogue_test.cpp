@@ -2,6 +2,7 @@
 // hand-made or generated case a row, against the oracle.
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cfenv>
 #include <limits>
 
@@ -50,6 +51,26 @@ TEST(ShadowMask, CatalogueA_CoplanarTJunctionsInterpenetrating) {
   expect_exact("coplanar", coplanar(random, 100), point_light(up_there));
   expect_exact("wall", tilted_wall(random), point_light(up_there));
   expect_exact("interpenetrating", interpenetrating(random, 100), point_light(up_there));
+}
+
+// A needle's plane is so uncertain that a point computed on it may lie behind it by more than any tolerance: what
+// counts is that its own triangle never blocks it, neither ray by ray nor by early accept.
+TEST(ShadowMask, OwnTriangleNeverBlocksAPointBehindIt) {
+  Random random(27);
+  MaskCase c;
+  c.light = point_light(up_there);
+  c.view = view_from_light(c.light);
+  c.soup.add({-2, 0, -2}, {0, 0, 3}, {2, 0, -2});
+  c.soup.add({-0.5, -0.5, -0.5}, {0, -0.5, 0.5}, {0.5, -0.5, -0.5});
+  for (const double depth : {1e-6, 1e-3, 0.1}) {
+    c.name = fmt::format("{} behind the own triangle, seed 27", depth);
+    c.points = points_on_triangles(c.soup, random, 1000);
+    for (dvec3& p : c.points.positions) p.y -= depth;
+    const ShadowMask expected = oracle(c);
+    EXPECT_GT(std::count(expected.begin(), expected.end(), 255), 300);
+    EXPECT_GT(std::count(expected.begin(), expected.end(), 0), 300);
+    EXPECT_TRUE(all_variants_give(c, expected));
+  }
 }
 
 TEST(ShadowMask, CatalogueA_HugeTriangleAndTinyCluster) {
