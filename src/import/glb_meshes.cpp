@@ -16,13 +16,18 @@ using Parts = std::map<std::pair<std::uint32_t, bool>, Part>;  ///< by material 
 const std::vector<glm::vec3>& rest_positions(const Mesh& mesh) {
   return mesh.shapes.empty() ? mesh.positions : mesh.shapes[0].positions;
 }
-const std::vector<glm::vec3>& rest_normals(const Mesh& mesh) {
-  return mesh.shapes.empty() ? mesh.normals : mesh.shapes[0].normals;
+/// Of unit length as glTF wants them, or zero; BART's triangles have some of other lengths.
+std::vector<glm::vec3> rest_normals(const Mesh& mesh) {
+  std::vector<glm::vec3> normals = mesh.shapes.empty() ? mesh.normals : mesh.shapes[0].normals;
+  for (glm::vec3& n : normals) {
+    const float length = glm::length(n);
+    n = length > 0 && std::isfinite(length) ? n / length : glm::vec3(0);
+  }
+  return normals;
 }
 
-Parts split(const Mesh& mesh) {
+Parts split(const Mesh& mesh, const std::vector<glm::vec3>& normals) {
   constexpr std::uint32_t unused = 0xFFFFFFFF;
-  const auto& normals = rest_normals(mesh);
   const auto is_flat = [&](const glm::uvec3& t) {
     if (normals.empty()) return true;
     return normals[t.x] == glm::vec3(0) || normals[t.y] == glm::vec3(0) || normals[t.z] == glm::vec3(0);
@@ -58,9 +63,10 @@ std::vector<glm::vec3> pick(const std::vector<glm::vec3>& values, const Part& pa
   return picked;
 }
 
-GlbJson write_attributes(const Mesh& mesh, const Part& part, bool flat, GlbBinary& binary) {
+GlbJson write_attributes(const Mesh& mesh, const Part& part, const std::vector<glm::vec3>& normals,
+                         GlbBinary& binary) {
   GlbJson attributes = {{"POSITION", binary.add_vec3(pick(rest_positions(mesh), part), true)}};
-  if (!flat) attributes["NORMAL"] = binary.add_vec3(pick(rest_normals(mesh), part), false);
+  if (!normals.empty()) attributes["NORMAL"] = binary.add_vec3(pick(normals, part), false);
   if (mesh.joints.empty()) return attributes;
   std::vector<std::uint16_t> joints;
   std::vector<float> weights;
@@ -75,20 +81,21 @@ GlbJson write_attributes(const Mesh& mesh, const Part& part, bool flat, GlbBinar
 }
 
 /// Displacements of glTF's targets, or of the shapes after the first against the first.
-GlbJson write_targets(const Mesh& mesh, const Part& part, bool flat, GlbBinary& binary) {
+GlbJson write_targets(const Mesh& mesh, const Part& part, const std::vector<glm::vec3>& normals,
+                      GlbBinary& binary) {
   GlbJson targets = GlbJson::array();
-  const auto add = [&](std::vector<glm::vec3> positions, const std::vector<glm::vec3>& normals) {
+  const auto add = [&](std::vector<glm::vec3> positions, const std::vector<glm::vec3>& turns) {
     if (positions.empty()) positions.resize(part.vertices.size());
     GlbJson target = {{"POSITION", binary.add_vec3(positions, true)}};
-    if (!normals.empty() && !flat) target["NORMAL"] = binary.add_vec3(normals, false);
+    if (!turns.empty()) target["NORMAL"] = binary.add_vec3(turns, false);
     targets.push_back(std::move(target));
   };
   for (std::size_t s = 1; s < mesh.shapes.size(); ++s)
     add(pick(mesh.shapes[s].positions, part, &mesh.shapes[0].positions),
-        flat ? std::vector<glm::vec3>() : pick(mesh.shapes[s].normals, part, &mesh.shapes[0].normals));
+        normals.empty() ? normals : pick(mesh.shapes[s].normals, part, &normals));
   if (mesh.shapes.empty())
     for (const MorphTarget& target : mesh.morph_targets)
-      add(pick(target.positions, part), pick(target.normals, part));
+      add(pick(target.positions, part), normals.empty() ? normals : pick(target.normals, part));
   return targets;
 }
 
@@ -108,12 +115,14 @@ int GlbBinary::add_vec3(const std::vector<glm::vec3>& values, bool bounds) {
 }
 
 void GlbWriter::write_primitives(const Mesh& mesh, GlbJson& written) {
-  for (const auto& [key, part] : split(mesh)) {
+  const std::vector<glm::vec3> smooth = rest_normals(mesh), none;
+  for (const auto& [key, part] : split(mesh, smooth)) {
     const auto [material, flat] = key;
-    GlbJson primitive = {{"attributes", write_attributes(mesh, part, flat, binary_)},
+    const auto& normals = flat ? none : smooth;
+    GlbJson primitive = {{"attributes", write_attributes(mesh, part, normals, binary_)},
                          {"indices", binary_.add(part.corners, 1, 5125, false)},
                          {"material", material}};
-    GlbJson targets = write_targets(mesh, part, flat, binary_);
+    GlbJson targets = write_targets(mesh, part, normals, binary_);
     if (!targets.empty()) primitive["targets"] = std::move(targets);
     written["primitives"].push_back(std::move(primitive));
   }
