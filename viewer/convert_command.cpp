@@ -31,8 +31,9 @@ Expected<int> convert(const ConvertOptions& options) {
   if (!scene) return tl::unexpected(scene.error());
   if (!options.quiet) print_warnings(scene->warnings);
   StopSignals stop;
-  if (auto written = export_glb(*scene, options.output, options.fps); !written)
-    return tl::unexpected(written.error());
+  const auto losses = export_glb(*scene, options.output, options.fps);
+  if (!losses) return tl::unexpected(losses.error());
+  if (!options.quiet) print_warnings(*losses);
   return stop.caught() != 0 ? exit_code_of(stop.caught()) : 0;
 }
 

@@ -109,15 +109,16 @@ struct ClipBuilder {
       ++pointers;
       return;
     }
+    const bool weights = path->second == ChannelPath::weights;
+    if (weights && channel.target_node >= 0 && target_count(channel.target_node) == 0)
+      refuse("{}.target: found weights of nodes[{}] without morph targets, expected some", where,
+             channel.target_node);
     if (channel.target_node < 0 ||
         is_empty(source().samplers[static_cast<std::size_t>(channel.sampler)].input)) {
       ++aimless;
       return;
     }
     const auto& node = asset.model.nodes[static_cast<std::size_t>(channel.target_node)];
-    const bool weights = path->second == ChannelPath::weights;
-    if (weights && target_count(channel.target_node) == 0)
-      refuse("{}.target: found weights of a mesh without morph targets, expected some", where);
     if (!weights && !node.matrix.empty())
       refuse("{}.target: found nodes[{}] that has a matrix, expected translation, rotation and scale", where,
              channel.target_node);

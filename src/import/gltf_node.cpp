@@ -33,13 +33,21 @@ std::vector<int> order_from(const Model& model, const std::vector<int>& roots) {
   return order;
 }
 
+void check_reached(const std::vector<int>& order, std::size_t count) {
+  std::vector<bool> reached(count, false);
+  for (const int node : order) reached[static_cast<std::size_t>(node)] = true;
+  const auto lost = std::find(reached.begin(), reached.end(), false);
+  if (lost != reached.end())
+    refuse("nodes[{}]: found it in or below a loop of children, expected every node to hang from a root",
+           lost - reached.begin());
+}
+
 std::vector<int> default_roots(Asset& asset, const std::vector<int>& parents) {
   const Model& model = asset.model;
   std::vector<int> roots;
   for (std::size_t i = 0; i < parents.size(); ++i)
     if (parents[i] < 0) roots.push_back(static_cast<int>(i));
-  if (order_from(model, roots).size() != model.nodes.size())
-    refuse("nodes: found a loop of children, expected every node to hang from a root");
+  check_reached(order_from(model, roots), model.nodes.size());
   for (std::size_t s = 0; s < model.scenes.size(); ++s)
     for (const int node : model.scenes[s].nodes)
       if (parents[static_cast<std::size_t>(node)] >= 0)

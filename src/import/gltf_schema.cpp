@@ -42,6 +42,11 @@ constexpr Field name_field{"name", Kind::string};
 constexpr Field extras_fields[] = {{"casts_shadow", Kind::boolean}};
 constexpr Field extras_field{"extras", Kind::object, false, "", 0, extras_fields};
 
+constexpr Field material_extras_fields[] = {{"casts_shadow", Kind::boolean},
+                                            {"ambient", Kind::numbers, false, "", 3},
+                                            {"base_color", Kind::numbers, false, "", 3}};
+constexpr Field light_extras_fields[] = {{"falloff", Kind::string}, {"intensity", Kind::number}};
+
 constexpr Field asset_fields[] = {{"version", Kind::string, required}, {"minVersion", Kind::string}};
 constexpr Field scene_extras_fields[] = {{"ambient_light", Kind::numbers, false, "", 3},
                                          {"background", Kind::numbers, false, "", 3}};
@@ -108,7 +113,7 @@ constexpr Field strength_fields[] = {{"emissiveStrength", Kind::number}};
 constexpr Field material_extension_fields[] = {
     {"KHR_materials_emissive_strength", Kind::object, false, "", 0, strength_fields}};
 constexpr Field material_fields[] = {name_field,
-                                     extras_field,
+                                     {"extras", Kind::object, false, "", 0, material_extras_fields},
                                      {"pbrMetallicRoughness", Kind::object, false, "", 0, pbr_fields},
                                      {"normalTexture", Kind::object, false, "", 0, texture_info_fields},
                                      {"occlusionTexture", Kind::object, false, "", 0, texture_info_fields},
@@ -143,6 +148,7 @@ constexpr Field animation_fields[] = {name_field,
 constexpr Field spot_fields[] = {{"innerConeAngle", Kind::number}, {"outerConeAngle", Kind::number}};
 constexpr Field rect_fields[] = {{"aspect", Kind::number}};
 constexpr Field light_fields[] = {name_field,
+                                  {"extras", Kind::object, false, "", 0, light_extras_fields},
                                   {"type", Kind::string, required},
                                   {"color", Kind::numbers, false, "", 3},
                                   {"intensity", Kind::number},
@@ -325,6 +331,21 @@ private:
     }
   }
 
+  static bool looks_like(const Json& value, const Field& field) {
+    const auto is_number = [](const Json& n) { return n.is_number(); };
+    switch (field.kind) {
+      case Kind::boolean:
+        return value.is_boolean();
+      case Kind::string:
+        return value.is_string();
+      case Kind::number:
+        return value.is_number();
+      default:
+        return value.is_array() && value.size() == field.length &&
+               std::all_of(value.begin(), value.end(), is_number);
+    }
+  }
+
   /// `extras` may hold anything; what does not look like one of `fields` is none of ours.
   static Json meaningful_extras(const Json& extras, std::span<const Field> fields) {
     Json kept = Json::object();
@@ -332,10 +353,7 @@ private:
     for (const Field& field : fields) {
       const auto found = extras.find(field.name);
       if (found == extras.end()) continue;
-      const bool fits = field.kind == Kind::boolean
-                            ? found->is_boolean()
-                            : found->is_array() && found->size() == field.length &&
-                                  std::all_of(found->begin(), found->end(), [](const Json& n) { return n.is_number(); });
+      const bool fits = looks_like(*found, field);
       if (fits) kept[std::string(field.name)] = *found;
     }
     return kept;

@@ -17,6 +17,13 @@ double at_least_zero(double value, const std::string& place) {
   return value;
 }
 
+/// The three numbers `name` of `extras`, if they are there.
+void read_color(const Value& extras, const char* name, glm::vec3& color) {
+  const Value* found = member(extras, name);
+  if (!found) return;
+  for (int k = 0; k < 3; ++k) color[k] = static_cast<float>(found->Get(k).GetNumberAsDouble());
+}
+
 Light read_area_light(const Value& value, const std::string& place) {
   Light light;
   const std::string type = member(value, "type")->Get<std::string>();
@@ -51,6 +58,11 @@ Light read_punctual_light(const tinygltf::Light& source, const std::string& plac
   light.intensity = static_cast<float>(at_least_zero(source.intensity, place + ".intensity"));
   if (at_least_zero(source.range, place + ".range") > 0 && source.type != "directional")
     light.range_m = static_cast<float>(source.range);
+  if (const Value* falloff = member(source.extras, "falloff");
+      falloff && falloff->Get<std::string>() == "none") {
+    light.falloff = Falloff::none;  // written by export_glb, whose candela are for other programs
+    light.intensity = static_cast<float>(number_or(source.extras, "intensity", source.intensity));
+  }
   if (source.type == "spot")
     read_spot(source.spot, place, light);
   else if (source.type == "directional")
@@ -94,6 +106,8 @@ void build_materials(Asset& asset) {
     if (strength != source.extensions.end())
       material.emissive *= static_cast<float>(number_or(strength->second, "emissiveStrength", 1));
     material.casts_shadow = !says_no_shadow(source.extras);
+    read_color(source.extras, "ambient", material.ambient);
+    read_color(source.extras, "base_color", material.base_color);
     asset.scene.materials.push_back(std::move(material));
   }
 }
@@ -130,13 +144,8 @@ void build_surroundings(Asset& asset) {
   const Model& model = asset.model;
   if (model.scenes.empty()) return;
   const Value& extras = model.scenes[static_cast<std::size_t>(std::max(model.defaultScene, 0))].extras;
-  const auto read = [&](const char* name, glm::vec3& colour) {
-    const Value* found = member(extras, name);
-    if (!found) return;
-    for (int k = 0; k < 3; ++k) colour[k] = static_cast<float>(found->Get(k).GetNumberAsDouble());
-  };
-  read("ambient_light", asset.scene.ambient_light);
-  read("background", asset.scene.background);
+  read_color(extras, "ambient_light", asset.scene.ambient_light);
+  read_color(extras, "background", asset.scene.background);
 }
 
 }  // namespace tenebra::gltf

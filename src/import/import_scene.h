@@ -2,7 +2,8 @@
 #pragma once
 
 #include <filesystem>
-#include <optional>
+#include <string>
+#include <vector>
 
 #include "base/expected.h"
 #include "scene/scene.h"
@@ -23,7 +24,10 @@ Expected<Scene> import_gltf(const std::filesystem::path& path);
 Expected<Scene> import_obj(const std::filesystem::path& path);
 
 /// Writes `scene` with its animation as a binary glTF 2.0 file. BART's splines are baked to `fps` keys a
-/// second (the clip's own frames where it states them); shapes become morph targets.
-Expected<void> export_glb(const Scene& scene, const std::filesystem::path& path, double fps = 30.0);
+/// second (the clip's own frames where it states them); shapes become morph targets. Returns what glTF cannot
+/// hold, a sentence each. What other programs do not read stands in `extras` for import_gltf: lights without
+/// falloff, ambient factors, reflectances above 1, shadow flags, ambient light, background.
+Expected<std::vector<std::string>> export_glb(const Scene& scene, const std::filesystem::path& path,
+                                              double fps = 30.0);
 
 }  // namespace tenebra

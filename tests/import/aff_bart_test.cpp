@@ -122,6 +122,56 @@ TEST_F(AffBart, HoldsTheDocumentedMeshesLightsAndTimes) {
   EXPECT_EQ(museum.lights[0].falloff, Falloff::none);
 }
 
+/// Drawn triangles with two corners in the same place.
+std::size_t coincident(const Scene& scene) {
+  std::size_t count = 0;
+  for (const Node& node : scene.nodes) {
+    if (node.mesh < 0) continue;
+    const Mesh& mesh = scene.meshes[static_cast<std::size_t>(node.mesh)];
+    for (const glm::uvec3& t : mesh.triangles) {
+      const auto &p = mesh.positions[t.x], &q = mesh.positions[t.y], &r = mesh.positions[t.z];
+      count += p == q || q == r || r == p;
+    }
+  }
+  return count;
+}
+
+TEST_F(AffBart, KeepsTheTrianglesWithCoincidentVertices) {
+  EXPECT_EQ(coincident(scene_of(Bart::robots)), 128u);
+  EXPECT_EQ(coincident(scene_of(Bart::kitchen)), 21u);
+  EXPECT_EQ(coincident(scene_of(Bart::museum)), 0u);
+}
+
+struct Box {
+  Bart scene;
+  glm::dvec3 low, high;
+};
+
+TEST_F(AffBart, FillsTheDocumentedBoxOverAllFrames) {
+  const Box boxes[] = {{Bart::robots, {-164.1, -0.6, -435.4}, {164.1, 535.4, 250.1}},
+                       {Bart::kitchen, {-2, -1.1, -3.75}, {6, 2.9, 4.33}},
+                       {Bart::museum, {-5, -1.07, -9.94}, {5, 5, 5}}};
+  for (const Box& box : boxes) {
+    SCOPED_TRACE(file_of(box.scene));
+    const Scene& scene = scene_of(box.scene);
+    const int frames = scene.clips.at(0).frame_count;
+    glm::dvec3 low(INFINITY), high(-INFINITY);
+    FrameGeometry frame;
+    for (int i = 0; i < frames; i += 20) {
+      evaluate_frame(scene, 0, frame_time_s(scene.clips[0], i, 30.0), frame);
+      for (const glm::uvec3& t : frame.triangles)
+        for (int c = 0; c < 3; ++c) {
+          low = glm::min(low, glm::dvec3(frame.positions[t[c]]));
+          high = glm::max(high, glm::dvec3(frame.positions[t[c]]));
+        }
+    }
+    for (int k = 0; k < 3; ++k) {
+      EXPECT_NEAR(low[k], box.low[k], 0.1);
+      EXPECT_NEAR(high[k], box.high[k], 0.1);
+    }
+  }
+}
+
 TEST_F(AffBart, SkyCanBeLeftOut) {
   Scene robots = scene_of(Bart::robots);
   std::string unmatched;
