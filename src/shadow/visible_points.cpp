@@ -61,6 +61,7 @@ dvec3 visible_point(const Receiver& r, const dvec3& origin, const dvec3& directi
 
 void compute_visible_points(std::span<const std::uint32_t> ids, int width, int height, const ViewRays& view,
                             const TriangleView& triangles, VisiblePoints& out) {
+  const FloatEnvironment ieee;  // denormal floats of the view become doubles here
   out.width = width;
   out.height = height;
   out.positions.resize(ids.size());
