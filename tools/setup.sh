@@ -5,7 +5,7 @@ set -euo pipefail
 
 packages=(
   g++ cmake ninja-build pkg-config git python3 python3-glad
-  libegl-dev libegl1 libegl-mesa0 libgl1-mesa-dri libosmesa6
+  libegl-dev libopengl-dev libegl1 libegl-mesa0 libgl1-mesa-dri libosmesa6
   libglm-dev libfmt-dev libexpected-dev libtinygltf-dev libtinyobjloader-dev
   nlohmann-json3-dev libcli11-dev libstb-dev libtbb-dev libhwy-dev
 )
