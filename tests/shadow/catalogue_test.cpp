@@ -3,7 +3,6 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
-#include <cfenv>
 #include <limits>
 
 #include "shadow/mask_case.h"
@@ -333,25 +332,6 @@ TEST(ShadowMask, CatalogueE_NonFiniteTrianglesLeaveTheOthersAlone) {
     c.soup.add({bad, bad, bad}, {bad, bad, bad}, {bad, bad, bad});
   }
   EXPECT_TRUE(all_variants_give(c, expected));
-}
-
-TEST(ShadowMask, CatalogueE_RoundingModeOfTheCallerChangesNothingAndIsKept) {
-  Random random(64);
-  MaskCase c;
-  c.name = "rounding, seed 64";
-  c.soup = room(random, 300);
-  c.light = point_light({0.2, 1.6, -0.3});
-  c.view = view_from_light(c.light);
-  c.points = points_behind_edges(c.soup, c.light, random, 3000);
-  const ShadowMask expected = oracle(c);
-  for (const int mode : {FE_UPWARD, FE_DOWNWARD, FE_TOWARDZERO}) {
-    std::fesetround(mode);
-    const ShadowMask mask = traced(c);
-    const int after = std::fegetround();
-    std::fesetround(FE_TONEAREST);
-    EXPECT_EQ(after, mode);
-    EXPECT_TRUE(same_mask(c, mask, expected));
-  }
 }
 
 }  // namespace

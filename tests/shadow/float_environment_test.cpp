@@ -8,7 +8,7 @@
 
 #include "parallel/parallel.h"
 #include "shadow/mask.h"
-#include "support/random.h"
+#include "support/seeded_random.h"
 
 namespace tenebra {
 namespace {
@@ -38,13 +38,13 @@ struct Shot {
 
   explicit Shot(int exponent) {
     const float unit = std::ldexp(1.0f, exponent);
-    test::Random random(5);
+    testing::Random random(5);
     for (std::uint32_t i = 0; i < 900; i += 3) {
-      const glm::vec3 centre = random.vec3(-1, 1);
-      for (int k = 0; k < 3; ++k) positions.push_back((centre + random.vec3(-0.1, 0.1)) * unit);
+      const glm::vec3 centre = random.in_cube(1);
+      for (int k = 0; k < 3; ++k) positions.push_back((centre + glm::vec3(random.in_cube(0.1))) * unit);
       triangles.push_back({i, i + 1, i + 2});
     }
-    for (int i = 0; i < width * height; ++i) ids.push_back(static_cast<std::uint32_t>(random.below(300)));
+    for (int i = 0; i < width * height; ++i) ids.push_back(random.index(300));
     view = {.eye = glm::vec3(0.3f, 0.2f, 5) * unit,
             .d0 = glm::vec3(-1, 1, -5) * unit,
             .dx = glm::vec3(0.02f, 0, 0) * unit,
@@ -68,7 +68,7 @@ struct Shot {
   }
 };
 
-class FloatSettings : public testing::TestWithParam<int> {};
+class FloatSettings : public ::testing::TestWithParam<int> {};
 
 TEST_P(FloatSettings, OfTheCallerChangeNoBitAndComeBack) {
   const Shot shot(GetParam());
@@ -92,7 +92,7 @@ TEST_P(FloatSettings, OfTheCallerChangeNoBitAndComeBack) {
 }
 
 // At 2^-128 most coordinates are denormal floats.
-INSTANTIATE_TEST_SUITE_P(Units, FloatSettings, testing::Values(0, -128),
+INSTANTIATE_TEST_SUITE_P(Units, FloatSettings, ::testing::Values(0, -128),
                          [](const auto& info) { return info.param == 0 ? "metre" : "denormal"; });
 
 TEST(FloatEnvironment, HoldsIeeeDefaultsAndGivesTheCallersBack) {
