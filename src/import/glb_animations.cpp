@@ -30,6 +30,7 @@ struct GlbWriter::ClipWriter {
   int frames_accessor = -1;
   std::map<std::pair<int, ChannelPath>, int> sampler_of_track;
   std::map<int, int> sampler_of_mesh;
+  std::map<std::pair<int, ChannelPath>, const Channel*> channel_of;  ///< by node and path
 
   const Scene& scene() const { return writer.scene_; }
   const Track& track_of(const Channel& channel) const {
@@ -112,9 +113,8 @@ struct GlbWriter::ClipWriter {
   }
 
   const Channel* other(int node, ChannelPath path) const {
-    const auto found = std::find_if(clip.channels.begin(), clip.channels.end(),
-                                    [&](const Channel& c) { return c.node == node && c.path == path; });
-    return found == clip.channels.end() ? nullptr : &*found;
+    const auto found = channel_of.find({node, path});
+    return found == channel_of.end() ? nullptr : found->second;
   }
 
   void write_channel(const Channel& channel) {
@@ -183,6 +183,8 @@ struct GlbWriter::ClipWriter {
 
   void write() {
     find_delay();
+    for (const Channel& channel : clip.channels)
+      channel_of.try_emplace({channel.node, channel.path}, &channel);
     for (const Channel& channel : clip.channels) write_channel(channel);
     write_shapes();
     if (animation.contains("channels")) writer.root_["animations"].push_back(std::move(animation));

@@ -4,20 +4,16 @@
 
 namespace tenebra {
 
-bool GlbWriter::is_animated(int node, ChannelPath path) const {
-  return std::any_of(scene_.clips.begin(), scene_.clips.end(), [&](const Clip& clip) {
-    return std::any_of(clip.channels.begin(), clip.channels.end(),
-                       [&](const Channel& c) { return c.node == node && c.path == path; });
-  });
-}
-
 void GlbWriter::find_hidden_nodes() {
   std::size_t hidden = 0;
+  std::vector<bool> animated(scene_.nodes.size(), false);
+  for (const Clip& clip : scene_.clips)
+    for (const Channel& channel : clip.channels)
+      if (channel.path == ChannelPath::visibility) animated[static_cast<std::size_t>(channel.node)] = true;
   for (std::size_t i = 0; i < scene_.nodes.size(); ++i) {
     const Node& node = scene_.nodes[i];
     const bool by_parent = node.parent >= 0 && hidden_[static_cast<std::size_t>(node.parent)];
-    hidden_.push_back(by_parent ||
-                      (!node.visible && !is_animated(static_cast<int>(i), ChannelPath::visibility)));
+    hidden_.push_back(by_parent || (!node.visible && !animated[i]));
     hidden += hidden_.back() && (node.mesh >= 0 || node.light >= 0);
   }
   if (hidden > 0)

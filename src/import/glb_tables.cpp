@@ -49,27 +49,31 @@ void GlbWriter::write_materials() {
         "{} materials reflect more than 1 or less than 0: other programs see them cut to that.", bright));
 }
 
-/// Falls off to the light's own brightness at the middle of the scene, where the clip begins.
-double GlbWriter::candela_of(std::size_t light) const {
+/// From each light to the middle of the scene where its first clip begins; at least a tenth of the scene's
+/// size.
+std::vector<double> GlbWriter::light_distances() const {
   const int clip = scene_.clips.empty() ? -1 : 0;
   const double time_s = scene_.clips.empty() ? 0 : scene_.clips[0].start_s;
   FrameGeometry frame;
   evaluate_frame(scene_, clip, time_s, frame);
+  if (frame.triangles.empty()) return std::vector<double>(scene_.lights.size(), 1.0);
   glm::dvec3 low(INFINITY), high(-INFINITY);
   for (const glm::uvec3& t : frame.triangles)
     for (int c = 0; c < 3; ++c) {
       low = glm::min(low, glm::dvec3(frame.positions[t[c]]));
       high = glm::max(high, glm::dvec3(frame.positions[t[c]]));
     }
-  double distance = frame.triangles.empty() ? 1 : 0.1 * glm::length(high - low);
-  for (const WorldLight& placed : evaluate_lights(scene_, clip, time_s))
-    if (placed.light == static_cast<int>(light) && !frame.triangles.empty())
-      distance = std::max(distance, glm::length(glm::dvec3(placed.position) - 0.5 * (low + high)));
-  return glm::pi<double>() * distance * distance * scene_.lights[light].intensity;
+  std::vector<double> distances(scene_.lights.size(), 0.1 * glm::length(high - low));
+  for (const WorldLight& placed : evaluate_lights(scene_, clip, time_s)) {
+    double& distance = distances[static_cast<std::size_t>(placed.light)];
+    distance = std::max(distance, glm::length(glm::dvec3(placed.position) - 0.5 * (low + high)));
+  }
+  return distances;
 }
 
 void GlbWriter::write_lights() {
   std::size_t without_falloff = 0;
+  std::vector<double> distances;  // found for the first light that needs them
   for (std::size_t i = 0; i < scene_.lights.size(); ++i) {
     const Light& light = scene_.lights[i];
     const bool area = light.type >= LightType::area_rect;
@@ -77,10 +81,13 @@ void GlbWriter::write_lights() {
     const char* extension = area ? "EXT_lights_area" : "KHR_lights_punctual";
     use(extension);
     const float peak = peak_of(light.color);
+    if (steady && distances.empty()) distances = light_distances();
+    // Lambert's 1 / pi holds for lights with units only, here as in other programs.
+    const double candela_share = steady ? glm::pi<double>() * distances[i] * distances[i] : 1.0;
     GlbJson written = {{"name", light.name},
                        {"type", light_names[static_cast<int>(light.type)]},
                        {"color", to_json(light.color / peak)},
-                       {"intensity", (steady ? candela_of(i) : light.intensity) * peak}};
+                       {"intensity", candela_share * light.intensity * peak}};
     if (steady) {
       written["extras"] = {{"falloff", "none"}, {"intensity", light.intensity * peak}};
       ++without_falloff;

@@ -82,7 +82,7 @@ private:
   void write_lights();
   void write_cameras();
   void write_skins();
-  double candela_of(std::size_t light) const;
+  std::vector<double> light_distances() const;
   void use(const char* extension);
 
   // glb_meshes.cpp
@@ -94,7 +94,6 @@ private:
   void write_transform(std::size_t index, GlbJson& written);
   void write_contents(std::size_t index, GlbJson& written);
   void write_nodes();
-  bool is_animated(int node, ChannelPath path) const;
   int written_mesh(std::size_t node) const;
 
   // glb_animations.cpp
