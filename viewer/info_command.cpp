@@ -64,12 +64,12 @@ Json lights_of(const Scene& scene, const SceneSummary& summary) {
   Json lights = Json::array();
   for (const WorldLight& placed : summary.lights) {
     const Light& light = scene.lights[static_cast<std::size_t>(placed.light)];
-    lights.push_back({{"name", light.name},
-                      {"type", name_of(light.type)},
-                      {"position_m", list(placed.position)},
-                      {"direction", list(placed.direction)},
-                      {"color", list(light.color)},
-                      {"intensity", light.intensity}});
+    Json entry{{"name", light.name}, {"type", name_of(light.type)}};
+    if (light.type != LightType::directional) entry["position_m"] = list(placed.position);
+    if (light.type != LightType::point) entry["direction"] = list(placed.direction);
+    entry["color"] = list(light.color);
+    entry["intensity"] = light.intensity;
+    lights.push_back(entry);
   }
   return lights;
 }
@@ -112,12 +112,22 @@ Json describe(const Scene& scene, const InfoOptions& options) {
   return json;
 }
 
-/// One line: "name value, name value, ..." with texts unquoted.
+/// For people: numbers to six digits and without a negative zero, texts unquoted, vectors in parentheses.
+std::string text_of(const Json& value) {
+  if (value == "") return "-";
+  if (value.is_string()) return value.get<std::string>();
+  if (value.is_number_float()) return fmt::format("{:.6g}", value.get<double>() + 0.0);
+  if (!value.is_array()) return value.dump();
+  std::string text;
+  for (const Json& entry : value) text += (text.empty() ? "(" : ", ") + text_of(entry);
+  return text + ")";
+}
+
+/// One line: "name value, name value, ...".
 std::string line_of(const Json& object) {
   std::string line;
   for (const auto& [key, value] : object.items()) {
-    const std::string text = value.is_string() ? value.get<std::string>() : value.dump();
-    line += fmt::format("{}{} {}", line.empty() ? "" : ", ", key, text.empty() ? "-" : text);
+    line += fmt::format("{}{} {}", line.empty() ? "" : ", ", key, text_of(value));
   }
   return line;
 }
@@ -126,7 +136,7 @@ void print_list(const Json& json, const char* key) {
   const Json& entries = json[key];
   print_out("{}: {}\n", key, entries.size());
   for (std::size_t i = 0; i < entries.size(); ++i) {
-    print_out("  {}: {}\n", i, entries[i].is_string() ? entries[i].get<std::string>() : line_of(entries[i]));
+    print_out("  {}: {}\n", i, entries[i].is_object() ? line_of(entries[i]) : text_of(entries[i]));
   }
 }
 

@@ -48,6 +48,15 @@ TEST(InfoCommand, TellsTheSameAsText) {
   }
 }
 
+TEST(InfoCommand, RoundsNumbersForPeopleAndNotInJson) {
+  const TemporaryFolder folder;
+  write_text(folder / "a.obj", "v -12.2 0.1 -0\nv 2 0.1 0\nv 0 3 0\nf 1 2 3\n");
+  const auto text = tenebra({"info", folder / "a.obj"});
+  EXPECT_NE(text.output.find("bounds_m: low (-12.2, 0.1, 0), high (2, 3, 0)\n"), std::string::npos)
+      << text.output;
+  EXPECT_EQ(info_of(folder / "a.obj")["bounds_m"]["low"][0], static_cast<double>(-12.2f));
+}
+
 TEST(InfoCommand, ReadsAnObjWithoutLightsOrCameras) {
   const TemporaryFolder folder;
   write_text(folder / "a.obj", "v 0 0 0\nv 2 0 0\nv 0 3 0\nf 1 2 3\n");
