@@ -51,6 +51,11 @@ int parse_and_run(CLI::App& program, Run& run, int argc, char** argv) {
     tenebra::viewer::print_out("{}\n", version.what());
     return flush_output(0);
   } catch (const CLI::ParseError& error) {
+    const bool named = argc > 1 && argv[1][0] != '-';
+    if (named && program.get_subcommands().empty()) {
+      return report(fmt::format("unknown command '{}', expected render, info, convert or compare", argv[1]),
+                    failure);
+    }
     return report(error.what(), failure_code());
   }
   if (!run) return report("give a command: render, info, convert or compare (see tenebra --help)", failure);

@@ -1,5 +1,7 @@
 #include "render_log.h"
 
+#include "parallel/parallel.h"
+
 #include "base/machine.h"
 #include "base/statistics.h"
 
@@ -49,7 +51,8 @@ std::vector<LogSetting> describe_render(const RenderPlan& plan, const RenderOpti
   std::vector<LogSetting> list{
       {"machine", machine_description()},
       {"renderer", gl_renderer},
-      {"threads", settings.threads == 0 ? "0 (all cores)" : fmt::format("{}", settings.threads)},
+      {"threads", settings.threads == 0 ? fmt::format("{} (all cores)", thread_count())
+                                        : fmt::format("{}", settings.threads)},
       {"simd", std::string(simd_level_name(simd))},
       {"LP_NUM_THREADS", environment_or("LP_NUM_THREADS", "not set")},
       {"scene", options.scene},

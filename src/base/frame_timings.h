@@ -25,7 +25,7 @@ struct FrameTimings {
 /// Work counted by the tracer of shadow rays, summed over the lights. Counts do not jitter.
 struct TraceStats {
   std::uint64_t rays = 0;            ///< shadow rays traced: visible points that the light can reach
-  std::uint64_t triangles = 0;       ///< casting triangles handed to the tracer
+  std::uint64_t triangles = 0;       ///< casting triangles of the frame (not summed over the lights)
   std::uint64_t nodes = 0;           ///< node/triangle tests
   std::uint64_t leaf_tests = 0;      ///< ray/triangle tests
   std::uint64_t early_accepts = 0;   ///< nodes found covered by one triangle
@@ -37,10 +37,10 @@ struct TraceStats {
   std::uint64_t tree_bytes = 0;            ///< memory of the cone tree, largest of the lights
 };
 
-/// Adds the work of another light, or of another part of one (tree_bytes: the larger).
+/// Adds the work of another light, or of another part of one (triangles, tree_bytes: the larger).
 inline TraceStats& operator+=(TraceStats& to, const TraceStats& from) {
   to.rays += from.rays;
-  to.triangles += from.triangles;
+  to.triangles = std::max(to.triangles, from.triangles);
   to.nodes += from.nodes;
   to.leaf_tests += from.leaf_tests;
   to.early_accepts += from.early_accepts;
