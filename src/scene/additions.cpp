@@ -22,18 +22,27 @@ double first_time_s(const Scene& scene) {
   return scene.clips.empty() ? 0.0 : scene.clips.front().start_s;
 }
 
-/// A sphere about all triangles at the start of the first clip; the unit sphere if there are none.
-Sphere bounding_sphere(const Scene& scene) {
-  FrameGeometry frame;
-  evaluate_frame(scene, first_clip(scene), first_time_s(scene), frame);
-  glm::dvec3 low(INFINITY);
-  glm::dvec3 high(-INFINITY);
+void extend(const FrameGeometry& frame, glm::dvec3& low, glm::dvec3& high) {
   for (const glm::uvec3& triangle : frame.triangles) {
     if (triangle == glm::uvec3(0)) continue;
     for (int k = 0; k < 3; ++k) {
       low = glm::min(low, glm::dvec3(frame.positions[triangle[k]]));
       high = glm::max(high, glm::dvec3(frame.positions[triangle[k]]));
     }
+  }
+}
+
+/// A sphere about all triangles at nine times spread over the first clip; the unit sphere if there are none.
+Sphere bounding_sphere(const Scene& scene) {
+  constexpr int intervals = 8;
+  const double start_s = first_time_s(scene);
+  const double length_s = scene.clips.empty() ? 0.0 : scene.clips.front().end_s - start_s;
+  FrameGeometry frame;
+  glm::dvec3 low(INFINITY);
+  glm::dvec3 high(-INFINITY);
+  for (int i = 0; i <= (length_s > 0 ? intervals : 0); ++i) {
+    evaluate_frame(scene, first_clip(scene), start_s + length_s * i / intervals, frame);
+    extend(frame, low, high);
   }
   if (!(low.x <= high.x)) return {};
   const double radius = 0.5 * glm::length(high - low);

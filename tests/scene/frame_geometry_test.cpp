@@ -248,6 +248,25 @@ TEST(Additions, CameraSeesAllAndLightIsThere) {
   EXPECT_EQ(empty.cameras.size(), 1u);
 }
 
+TEST(Additions, CameraSeesWhatMovesThroughTheWholeClip) {
+  Scene scene = one_triangle();
+  Clip clip{.name = "away", .start_s = 0, .end_s = 4};
+  clip.tracks.push_back({.components = 3, .times_s = {0, 4}, .values = {0, 0, 0, 50, 20, 0}});
+  clip.channels.push_back({.node = 0, .path = ChannelPath::translation, .track = 0});
+  scene.clips.push_back(clip);
+  add_missing_camera_and_light(scene);
+  const ViewRays view = evaluate_camera(scene, 0, 0, 0, 64, 64);
+  for (const double time_s : {0.0, 2.0, 4.0}) {
+    FrameGeometry frame;
+    evaluate_frame(scene, 0, time_s, frame);
+    for (const glm::vec3& p : frame.positions) {
+      const glm::dvec3 pixel =
+          glm::inverse(glm::dmat3(view.dx, view.dy, view.d0)) * (glm::dvec3(p) - glm::dvec3(view.eye));
+      EXPECT_TRUE(pixel.x > 0 && pixel.x < 64 * pixel.z && pixel.y > 0 && pixel.y < 64 * pixel.z) << time_s;
+    }
+  }
+}
+
 TEST(Casters, AreLeftOutByMeshOrMaterialOrSource) {
   for (const std::string name : {"t", "paint", "a.aff:3"}) {
     Scene scene = one_triangle();
