@@ -1,12 +1,11 @@
 #include "reference/exact_mask.h"
 
-#include <tbb/blocked_range.h>
-#include <tbb/parallel_reduce.h>
-
 #include <algorithm>
-#include <cfenv>
 #include <cmath>
+#include <numeric>
+#include <vector>
 
+#include "parallel/parallel.h"
 #include "reference/dyadic.h"
 
 namespace tenebra::reference {
@@ -203,9 +202,9 @@ ShadowMask exact_mask(const VisiblePoints& points, const ViewRays& view, const T
                       const ShadowLight& light, const HardShadowConfig& config, ExactMaskStats* stats) {
   const ExactShadow oracle(view, triangles, light, config);
   ShadowMask mask(points.triangles.size(), 0);
-  const auto part = [&](const tbb::blocked_range<std::size_t>& range, ExactMaskStats sum) {
-    std::fesetenv(FE_DFL_ENV);  // Embree leaves flush-to-zero on in the threads it shares with us
-    for (std::size_t i = range.begin(); i < range.end(); ++i) {
+  const auto part = [&](std::size_t first, std::size_t last) {
+    ExactMaskStats sum;
+    for (std::size_t i = first; i < last; ++i) {
       const std::uint32_t id = points.triangles[i];
       sum.samples += id != no_triangle;
       if (!oracle.active(points.positions[i], id)) continue;
@@ -222,8 +221,11 @@ ShadowMask exact_mask(const VisiblePoints& points, const ViewRays& view, const T
     a.pairs += b.pairs, a.exact += b.exact;
     return a;
   };
-  const ExactMaskStats sum =
-      tbb::parallel_reduce(tbb::blocked_range<std::size_t>(0, mask.size(), 256), ExactMaskStats{}, part, add);
+  constexpr std::size_t grain = 256;
+  std::vector<ExactMaskStats> parts((mask.size() + grain - 1) / grain);
+  parallel_ranges(mask.size(), grain,
+                  [&](std::size_t first, std::size_t last) { parts[first / grain] = part(first, last); });
+  const ExactMaskStats sum = std::accumulate(parts.begin(), parts.end(), ExactMaskStats{}, add);
   if (stats != nullptr) *stats = add(*stats, sum);
   return mask;
 }
