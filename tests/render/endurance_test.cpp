@@ -1,5 +1,8 @@
 // Many frames of a moving scene in one process: what it holds does not grow once it has seen every frame.
 #include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cstdint>
 #include <unistd.h>
 
 #include <fstream>
@@ -53,9 +56,14 @@ TEST(Endurance, FiftyMoreFramesTakeNoMoreMemory) {
   ASSERT_TRUE(renderer) << renderer.error().message;
   Loop loop(*scene);
   loop.draw(*renderer, 20);  // buffers reach their sizes, threads and shaders are there
-  const std::int64_t warm = resident_bytes();
-  loop.draw(*renderer, 50);
-  EXPECT_LE(resident_bytes(), warm);
+  // A leak grows with every fifty frames; a page that a thread touches late (stack, libraries) comes once.
+  std::int64_t least_growth = INT64_MAX;
+  for (int round = 0; round < 4 && least_growth > 0; ++round) {
+    const std::int64_t warm = resident_bytes();
+    loop.draw(*renderer, 50);
+    least_growth = std::min(least_growth, resident_bytes() - warm);
+  }
+  EXPECT_LE(least_growth, 0);
 }
 
 }  // namespace
