@@ -14,10 +14,14 @@ MAY_INCLUDE = {
     "simd": {"base", "simd"},
     "scene": {"base", "math", "scene"},
     "import": {"base", "math", "scene", "import"},
-    "shadow": {"base", "math", "simd", "parallel", "scene", "shadow"},
+    "points": {"base", "math", "parallel", "scene", "points"},
+    "shadow": {"base", "math", "simd", "parallel", "scene", "points", "shadow"},
+    "soft": {"base", "math", "simd", "parallel", "scene", "points", "soft"},
+    "ao": {"base", "math", "simd", "parallel", "scene", "points", "ao"},
     "gl": {"base", "gl"},
     "raster": {"base", "math", "scene", "gl", "raster"},
-    "render": {"base", "math", "simd", "parallel", "scene", "import", "shadow", "gl", "raster", "render"},
+    "render": {"base", "math", "simd", "parallel", "scene", "import", "points", "shadow", "soft", "ao", "gl", "raster",
+               "render"},
 }
 
 # What may be named where: (pattern, what it is, folders that may).

@@ -19,14 +19,16 @@ std::string frame_log_header() {
   for (const auto& column : leading_timings) line.append(",").append(column.name);
   for (const auto& column : count_columns) line.append(",").append(column.name);
   for (const auto& column : closing_timings) line.append(",").append(column.name);
+  for (const auto& column : method_columns) line.append(",").append(column.name);
   return line;
 }
 
 std::string frame_log_row(const FrameRecord& record) {
   std::string line = fmt::format("{},{:.9g}", record.frame, record.time_s);
   for (const auto& column : leading_timings) line += fmt::format(",{:.3f}", record.timings.*column.value);
-  for (const auto& column : count_columns) line += fmt::format(",{}", record.stats.*column.value);
+  for (const auto& column : count_columns) line += fmt::format(",{}", column.value(record));
   for (const auto& column : closing_timings) line += fmt::format(",{:.3f}", record.timings.*column.value);
+  for (const auto& column : method_columns) line += fmt::format(",{}", column.value(record));
   return line;
 }
 

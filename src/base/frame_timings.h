@@ -9,17 +9,24 @@ namespace tenebra {
 
 /// Wall-clock milliseconds a stage (steady clock, GL finished before and after), summed over the lights.
 struct FrameTimings {
-  double evaluate_ms = 0;   ///< Scene -> FrameGeometry
-  double raster_ms = 0;     ///< G-buffer and light buffers
-  double readback_ms = 0;   ///< triangle ids (or depth) to the CPU
-  double points_ms = 0;     ///< visible points from triangle ids
-  double rays_ms = 0;       ///< shadow rays of the pixels that the light reaches, triangle planes
-  double sort_ms = 0;       ///< keys and sort (0 for unsorted variants)
-  double build_ms = 0;      ///< the cone tree
-  double traverse_ms = 0;   ///< triangles through the cone tree, decisions included
-  double writeback_ms = 0;  ///< mask to the pixel grid and to OpenGL
-  double composite_ms = 0;  ///< final picture and its read-back
-  double total_ms = 0;      ///< the whole frame
+  double evaluate_ms = 0;    ///< Scene -> FrameGeometry
+  double raster_ms = 0;      ///< G-buffer and light buffers
+  double readback_ms = 0;    ///< triangle ids (or depth) to the CPU
+  double points_ms = 0;      ///< visible points from triangle ids
+  double rays_ms = 0;        ///< shadow rays of the pixels that the light reaches, triangle planes
+  double sort_ms = 0;        ///< keys and sort (0 for unsorted variants)
+  double build_ms = 0;       ///< the cone tree
+  double traverse_ms = 0;    ///< triangles through the cone tree, decisions included
+  double writeback_ms = 0;   ///< mask to the pixel grid and to OpenGL
+  double composite_ms = 0;   ///< final picture and its read-back
+  double shaft_ms = 0;       ///< soft: groups of points and the occluders in their shafts
+  double init_ms = 0;        ///< soft: occluders made ready for the solvers (*)
+  double query_ms = 0;       ///< soft: visible part of the light from each point (*)
+  double irradiance_ms = 0;  ///< soft: integrals over the visible parts (*)
+                             ///< (*) groups run in parallel: the threads' times, summed, over their number
+  double ao_build_ms = 0;    ///< ao: fields, bakes and caches built in this frame
+  double ao_ms = 0;          ///< ao: look-ups (or rays), all points
+  double total_ms = 0;       ///< the whole frame
 };
 
 /// Work counted by the tracer of shadow rays, summed over the lights. Counts do not jitter.
@@ -52,5 +59,45 @@ inline TraceStats& operator+=(TraceStats& to, const TraceStats& from) {
   to.tree_bytes = std::max(to.tree_bytes, from.tree_bytes);
   return to;
 }
+
+/// Work of the exact soft shadows, summed over the lights.
+struct SoftStats {
+  std::uint64_t groups = 0;           ///< groups of points
+  std::uint64_t points_lit = 0;       ///< points that see all of the light's part above their horizon
+  std::uint64_t points_dark = 0;      ///< points that see none of it
+  std::uint64_t points_penumbra = 0;  ///< points that see a part
+  std::uint64_t candidates = 0;       ///< occluders left by the shafts, summed over the groups
+  std::uint64_t points_bsp = 0;       ///< points answered by a BSP
+  std::uint64_t points_clip = 0;      ///< points answered by clipping
+  std::uint64_t points_double = 0;    ///< points where float was not good enough
+  std::uint64_t fragments = 0;        ///< convex parts of the light handed to the integrals
+  std::uint64_t tree_nodes = 0;       ///< BSP nodes made
+  std::uint64_t peak_tree_bytes = 0;  ///< most memory of all BSPs alive at one time, all threads together
+};
+inline SoftStats& operator+=(SoftStats& to, const SoftStats& from) {
+  to.groups += from.groups;
+  to.points_lit += from.points_lit;
+  to.points_dark += from.points_dark;
+  to.points_penumbra += from.points_penumbra;
+  to.candidates += from.candidates;
+  to.points_bsp += from.points_bsp;
+  to.points_clip += from.points_clip;
+  to.points_double += from.points_double;
+  to.fragments += from.fragments;
+  to.tree_nodes += from.tree_nodes;
+  to.peak_tree_bytes = std::max(to.peak_tree_bytes, from.peak_tree_bytes);
+  return to;
+}
+
+/// Work of ambient occlusion.
+struct AoStats {
+  std::uint64_t points = 0;        ///< points or vertices computed
+  std::uint64_t objects = 0;       ///< rigid objects in reach of a visible point
+  std::uint64_t fields_built = 0;  ///< in this frame
+  std::uint64_t field_bytes = 0;   ///< all tables in memory
+  std::uint64_t lookups = 0;       ///< rays answered by a field
+  std::uint64_t rays_cast = 0;     ///< rays answered by casting
+  std::uint64_t cache_cells = 0;   ///< cells of the cache of static surroundings
+};
 
 }  // namespace tenebra

@@ -19,8 +19,8 @@ struct Image {
 
   bool operator==(const Image&) const = default;
 };
-using Image8 = Image<std::uint8_t>;   ///< sRGB-encoded colour, or a mask (255 lit, 0 shadowed)
-using ImageF = Image<float>;          ///< linear values
+using Image8 = Image<std::uint8_t>;  ///< sRGB-encoded colour, or a mask (255 lit, 0 shadowed)
+using ImageF = Image<float>;         ///< linear values
 
 /// Writes an 8-bit PNG (1, 3 or 4 channels), whole or not at all (see write_file).
 Expected<void> write_png(const std::filesystem::path& path, const Image8& image);

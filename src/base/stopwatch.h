@@ -7,7 +7,7 @@ namespace tenebra {
 
 /// Runs from its construction.
 class Stopwatch {
- public:
+public:
   /// Milliseconds since the last lap, or since construction; starts the next lap.
   double lap_ms() {
     const auto now = std::chrono::steady_clock::now();
@@ -16,7 +16,7 @@ class Stopwatch {
     return ms;
   }
 
- private:
+private:
   std::chrono::steady_clock::time_point lap_ = std::chrono::steady_clock::now();
 };
 

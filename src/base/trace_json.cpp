@@ -54,7 +54,9 @@ std::string slice(std::string_view name, double begin_ms, double duration_ms, st
 std::string counts_of(const FrameRecord& record) {
   std::string text = fmt::format("\"time_s\":{:.9g}", record.time_s);
   for (const auto& column : count_columns)
-    text += fmt::format(",\"{}\":{}", column.name, record.stats.*column.value);
+    text += fmt::format(",\"{}\":{}", column.name, column.value(record));
+  for (const auto& column : method_columns)
+    text += fmt::format(",\"{}\":{}", column.name, column.value(record));
   return text;
 }
 

@@ -12,10 +12,6 @@ namespace tenebra {
 
 namespace {
 
-TriangleView view_of(const FrameGeometry& geometry) {
-  return {geometry.positions, geometry.triangles, geometry.casts_shadow};
-}
-
 void add_trace_times(FrameTimings& to, const FrameTimings& from) {
   to.rays_ms += from.rays_ms;
   to.sort_ms += from.sort_ms;
@@ -116,7 +112,8 @@ void Renderer::State::read_samples(const FrameInput& input, const RenderSettings
   timings.readback_ms = watch.lap_ms();
   with_threads(settings.threads, [&] {
     if (settings.samples == SampleSource::depth) return points_from_depth(input.view);
-    compute_visible_points(ids, gbuffer.width, gbuffer.height, input.view, view_of(input.geometry), points);
+    compute_visible_points(ids, gbuffer.width, gbuffer.height, input.view, triangle_view(input.geometry),
+                           points);
   });
   timings.points_ms = watch.lap_ms();
 }
@@ -127,7 +124,7 @@ void Renderer::State::trace_light(const FrameInput& input, int light, const Rend
   HardShadowConfig config = settings.hard;
   if (settings.samples == SampleSource::depth) config.contact = ContactRule::none;
   with_threads(settings.threads, [&] {
-    tracer.trace_shadow_mask(points, input.view, view_of(input.geometry),
+    tracer.trace_shadow_mask(points, input.view, triangle_view(input.geometry),
                              shadow_light(scene.lights[static_cast<std::size_t>(placed.light)], placed),
                              config, mask);
   });
@@ -139,7 +136,7 @@ void Renderer::State::trace_light(const FrameInput& input, int light, const Rend
 // Olsson and Assarsson 2011, section 3.1: (1) rasterise, direct light apart; (2) rays and their hierarchy
 // from what is seen; (3) triangles through the hierarchy; (4) blocked pixels lose the light; (5) add it up.
 Expected<void> Renderer::render_frame(const FrameInput& input, const RenderSettings& settings,
-                                      FrameResult& result) {
+                                      FrameResult& result, const AoProgress&, const StopFlag*) {
   State& s = *state_;
   const auto lights = s.chosen_lights(input, settings);
   if (!lights) return tl::unexpected(lights.error());

@@ -6,21 +6,32 @@
 #include <string>
 #include <vector>
 
+#include "ao/ambient_occlusion.h"
 #include "base/expected.h"
 #include "base/frame_timings.h"
 #include "base/image.h"
 #include "gl/context.h"
+#include "parallel/stop_flag.h"
 #include "scene/frame_geometry.h"
 #include "scene/scene.h"
 #include "shadow/mask.h"
+#include "soft/soft_shadows.h"
 
 namespace tenebra {
 
-enum class ShadowMode { none, hard };
+enum class ShadowMode { none, hard, soft };
 
 /// Where the shadow rays start: points computed from triangle ids (exact, no bias), or the paper's
 /// reconstruction from the depth buffer (for comparison; front-face culling instead of a bias).
 enum class SampleSource { ids, depth };
+
+/// How lights without an area become rectangles in soft mode.
+struct AreaLightSettings {
+  glm::vec2 size{0.0f};              ///< width and height; 0: point and spot lights keep hard shadows
+  bool percent_of_diagonal = false;  ///< unit of `size`: percent of the scene's diagonal instead of metres
+  std::optional<glm::vec3> facing;   ///< point that the rectangles face; none: the centre of the scene's box
+  bool emissive_quads = false;       ///< planar convex meshes of an emissive material shine too
+};
 
 struct RenderSettings {
   int width = 800;
@@ -28,6 +39,9 @@ struct RenderSettings {
   ShadowMode shadows = ShadowMode::hard;
   SampleSource samples = SampleSource::ids;
   HardShadowConfig hard;
+  SoftShadowConfig soft;
+  AreaLightSettings area_lights;
+  AoConfig ao;
   int light = -1;         ///< index into the frame's lights; -1: all
   int threads = 0;        ///< 0: all cores
   float exposure = 1.0f;  ///< factor of linear colour before it is clamped
@@ -42,7 +56,8 @@ struct FrameInput {
 
 struct LightMask {
   int light = -1;  ///< index into FrameInput::lights
-  Image8 mask;     ///< 255 lit, 0 shadowed, facing away, out of reach or background
+  Image8 mask;     ///< 255 lit, 0 shadowed, facing away, out of reach or background; soft: 255 x fraction
+  ImageF visible_fraction;  ///< soft: visible part of the light, 0..1; else empty
 };
 
 struct FrameResult {
@@ -50,6 +65,9 @@ struct FrameResult {
   std::vector<LightMask> masks;  ///< one a light drawn; empty without shadows
   FrameTimings timings;
   TraceStats stats;
+  SoftStats soft;
+  AoStats ao;
+  std::vector<std::string> notes;  ///< sentences a user should see once, new with this frame
 };
 
 /// Owns the OpenGL objects of one scene. Use it on the thread that created its context.
@@ -62,7 +80,9 @@ public:
   ~Renderer();
 
   /// One frame; `result` keeps its capacity. Fails on sizes OpenGL cannot draw or a lost context.
-  Expected<void> render_frame(const FrameInput& input, const RenderSettings& settings, FrameResult& result);
+  /// With `stop` requested from another thread it fails soon, with "stopped".
+  Expected<void> render_frame(const FrameInput& input, const RenderSettings& settings, FrameResult& result,
+                              const AoProgress& progress = {}, const StopFlag* stop = nullptr);
 
   const std::string& gl_renderer() const;  ///< GL_RENDERER and GL_VERSION of the context
 

@@ -3,7 +3,7 @@
 #include <cmath>
 
 #include "math/predicates.h"
-#include "shadow/triangle_corners.h"
+#include "points/triangle_corners.h"
 
 namespace tenebra {
 

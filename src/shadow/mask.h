@@ -11,20 +11,12 @@
 #include <vector>
 
 #include "base/frame_timings.h"
+#include "points/contact_rule.h"
+#include "points/visible_points.h"
 #include "scene/frame_geometry.h"
+#include "simd/simd_level.h"
 
 namespace tenebra {
-
-/// Id of a pixel where no triangle is seen.
-inline constexpr std::uint32_t no_triangle = 0xffffffffu;
-
-/// Triangles of one instant: float vertices, taken as exact. Receivers and occluders alike, known by their
-/// index.
-struct TriangleView {
-  std::span<const glm::vec3> positions;
-  std::span<const glm::uvec3> triangles;
-  std::span<const std::uint8_t> casts_shadow;  ///< one a triangle; empty: all cast
-};
 
 /// What the rays of a light share: their end (point and spot lights) or their direction (directional lights).
 struct ShadowLight {
@@ -35,20 +27,6 @@ struct ShadowLight {
   float spot_cos_outer = -1.0f;   ///< points outside this cone get no ray and mask 0; -1: no cone
   float range_m = 0.0f;           ///< points farther away get no ray and mask 0; 0: unbounded
 };
-
-/// Samples, one a pixel, row 0 at the top: a point, taken as exact, and the triangle it lies on.
-struct VisiblePoints {
-  int width = 0;
-  int height = 0;
-  std::vector<glm::dvec3> positions;     ///< width * height; meaningless where the id is no_triangle
-  std::vector<std::uint32_t> triangles;  ///< width * height ids, or no_triangle
-};
-
-/// Points where the pixels' rays meet the planes of their triangles, in double, clamped into the triangle
-/// (a rasteriser's id may lie just outside). `ids`: width * height, row 0 at the top; ids out of range count
-/// as no_triangle. Bits do not depend on threads or instruction set.
-void compute_visible_points(std::span<const std::uint32_t> ids, int width, int height, const ViewRays& view,
-                            const TriangleView& triangles, VisiblePoints& out);
 
 /// The seven variants of the paper's Table 1. All give the same mask; they differ in the work they need.
 enum class Variant {
@@ -62,12 +40,6 @@ enum class Variant {
 };
 std::string_view variant_name(Variant variant);  ///< the paper's name: "PreciseSorted"
 std::optional<Variant> variant_from_name(std::string_view name);
-
-enum class SimdLevel { automatic, scalar, sse4, avx2, avx512 };
-std::string_view simd_level_name(SimdLevel level);
-std::optional<SimdLevel> simd_level_from_name(std::string_view name);
-bool simd_level_supported(SimdLevel level);  ///< by this build on this machine
-SimdLevel best_simd_level();                 ///< what `automatic` means here
 
 /// What decides that a point does not see the light.
 enum class ContactRule {
@@ -119,9 +91,5 @@ private:
   struct State;
   std::unique_ptr<State> state_;
 };
-
-/// theta of the contact rule, in double and by these operations (the definition above).
-double contact_threshold(const glm::vec3 occluder[3], double tau_occluder, double tau_receiver);
-double rounding_tolerance(const glm::vec3 triangle[3]);  ///< tau_X
 
 }  // namespace tenebra

@@ -214,26 +214,5 @@ TraversalKernels traversal_kernels(SimdLevel level) {
   }
 }
 
-bool simd_level_supported(SimdLevel level) {
-  const auto has = [](std::int64_t target) { return (HWY_TARGETS & hwy::SupportedTargets() & target) != 0; };
-  switch (level) {
-    case SimdLevel::avx512:
-      return has(HWY_AVX3);
-    case SimdLevel::avx2:
-      return has(HWY_AVX2);
-    case SimdLevel::sse4:
-      return has(HWY_SSE4);
-    default:
-      return true;
-  }
-}
-
-SimdLevel best_simd_level() {
-  for (const SimdLevel level : {SimdLevel::avx512, SimdLevel::avx2, SimdLevel::sse4}) {
-    if (simd_level_supported(level)) return level;
-  }
-  return SimdLevel::scalar;
-}
-
 }  // namespace tenebra
 #endif

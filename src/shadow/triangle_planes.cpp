@@ -6,7 +6,7 @@
 
 #include "math/predicates.h"
 #include "parallel/parallel.h"
-#include "shadow/triangle_corners.h"
+#include "points/triangle_corners.h"
 
 namespace tenebra {
 
@@ -167,21 +167,6 @@ TrianglePlanes planes_of(const vec3 v[3], std::uint32_t id, int side, const RayS
 }
 
 }  // namespace
-
-double rounding_tolerance(const vec3 triangle[3]) {
-  double largest = 0;
-  for (int k = 0; k < 3; ++k) {
-    for (int axis = 0; axis < 3; ++axis)
-      largest = std::max(largest, std::abs(static_cast<double>(triangle[k][axis])));
-  }
-  return 1.7320508075688772 * 0x1p-24 * largest;
-}
-
-double contact_threshold(const vec3 occluder[3], double tau_occluder, double tau_receiver) {
-  const dvec3 e1 = dvec3(occluder[1]) - dvec3(occluder[0]), e2 = dvec3(occluder[2]) - dvec3(occluder[0]);
-  const dvec3 n(e1.y * e2.z - e1.z * e2.y, e1.z * e2.x - e1.x * e2.z, e1.x * e2.y - e1.y * e2.x);
-  return (tau_occluder + tau_receiver) * std::sqrt(n.x * n.x + n.y * n.y + n.z * n.z);
-}
 
 RaySource ray_source(const ShadowLight& light) {
   RaySource source;

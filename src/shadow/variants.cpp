@@ -20,14 +20,6 @@ constexpr std::array<Names<Variant>, 7> variants = {{
     {Variant::precise_seatp, "PreciseSEATP"},
 }};
 
-constexpr std::array<Names<SimdLevel>, 5> simd_levels = {{
-    {SimdLevel::automatic, "auto"},
-    {SimdLevel::scalar, "scalar"},
-    {SimdLevel::sse4, "sse4"},
-    {SimdLevel::avx2, "avx2"},
-    {SimdLevel::avx512, "avx512"},
-}};
-
 template <class T, std::size_t N>
 std::string_view name_in(const std::array<Names<T>, N>& names, T value) {
   for (const auto& [candidate, name] : names) {
@@ -51,12 +43,6 @@ std::string_view variant_name(Variant variant) {
 }
 std::optional<Variant> variant_from_name(std::string_view name) {
   return value_in(variants, name);
-}
-std::string_view simd_level_name(SimdLevel level) {
-  return name_in(simd_levels, level);
-}
-std::optional<SimdLevel> simd_level_from_name(std::string_view name) {
-  return value_in(simd_levels, name);
 }
 
 }  // namespace tenebra

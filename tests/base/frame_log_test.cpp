@@ -2,6 +2,8 @@
 #include "base/frame_log.h"
 
 #include <gtest/gtest.h>
+#include <array>
+#include <bit>
 
 #include <map>
 #include <nlohmann/json.hpp>
@@ -27,7 +29,11 @@ FrameRecord numbered_record(int frame) {
   for (const auto& stage : frame_stages) record.timings.*stage.value = milliseconds++;
   record.timings.total_ms = 100.5;
   std::uint64_t count = 1000;
-  for (const auto& column : count_columns) record.stats.*column.value = count++;
+  std::array<std::uint64_t, sizeof(TraceStats) / 8> counts;
+  for (auto& value : counts) value = count++;
+  record.stats = std::bit_cast<TraceStats>(counts);
+  record.soft.groups = 77;
+  record.ao.cache_cells = 78;
   record.stats.nodes = 0xffffffffffffffffu;
   return record;
 }
@@ -49,7 +55,8 @@ TEST(FrameLog, HeaderBeginsAsPromised) {
 
 TEST(FrameLog, HasAColumnForEveryValueOfAFrame) {
   const std::size_t values =
-      (sizeof(FrameTimings) + sizeof(TraceStats)) / 8;  // all doubles and 64-bit counts
+      (sizeof(FrameTimings) + sizeof(TraceStats) + sizeof(SoftStats) + sizeof(AoStats)) /
+      8;  // all doubles and 64-bit counts
   const auto names = split(frame_log_header());
   EXPECT_EQ(names.size(), values + 2);
   EXPECT_EQ(std::set<std::string>(names.begin(), names.end()).size(), names.size()) << "no name twice";
@@ -87,7 +94,9 @@ TEST(FrameLog, ReadsBackAsASpreadsheetDoes) {
   EXPECT_EQ(rows[1]["frame"], "7");
   EXPECT_EQ(rows[1]["time_s"], "2.33333333");
   EXPECT_EQ(rows[0]["evaluate_ms"], "1.125");
-  EXPECT_EQ(rows[0]["composite_ms"], "10.125");
+  EXPECT_EQ(rows[0]["composite_ms"], fmt::format("{:.3f}", 0.125 + static_cast<double>(frame_stages.size())));
+  EXPECT_EQ(rows[0]["soft_groups"], "77");
+  EXPECT_EQ(rows[0]["ao_cache_cells"], "78");
   EXPECT_EQ(rows[0]["total_ms"], "100.500");
   EXPECT_EQ(rows[0]["rays"], "1000");
   EXPECT_EQ(rows[0]["nodes"], "18446744073709551615");

@@ -4,7 +4,7 @@
 #include <cstddef>
 #include <glm/glm.hpp>
 
-#include "shadow/mask.h"
+#include "points/visible_points.h"
 
 namespace tenebra {
 

@@ -1,9 +1,10 @@
 // Visible points in double from triangle ids: no depth value enters, so no bias is needed.
+#include "points/visible_points.h"
+
 #include <algorithm>
 #include <cmath>
 
 #include "parallel/parallel.h"
-#include "shadow/mask.h"
 
 namespace tenebra {
 

@@ -1,0 +1,1 @@
+#include "ao/ambient_occlusion.h"

@@ -1,0 +1,23 @@
+// Asks a long computation to end early, from another thread.
+#pragma once
+
+#include <atomic>
+
+namespace tenebra {
+
+/// Set by one thread, read by those that work: a computation that is given a flag looks at it at least every
+/// few milliseconds, drops what it has and says so in its result.
+class StopFlag {
+public:
+  void request() { requested_.store(true, std::memory_order_relaxed); }
+  void reset() { requested_.store(false, std::memory_order_relaxed); }
+  bool requested() const { return requested_.load(std::memory_order_relaxed); }
+
+private:
+  std::atomic<bool> requested_{false};
+};
+inline bool stop_requested(const StopFlag* flag) {
+  return flag != nullptr && flag->requested();
+}
+
+}  // namespace tenebra

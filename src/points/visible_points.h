@@ -1,0 +1,50 @@
+// The samples of a frame: points on triangles, one a pixel. What hard shadows, soft shadows and ambient
+// occlusion start from; no OpenGL.
+#pragma once
+
+#include <cstdint>
+#include <glm/glm.hpp>
+#include <span>
+#include <vector>
+
+#include "scene/frame_geometry.h"
+
+namespace tenebra {
+
+/// Id of a pixel where no triangle is seen.
+inline constexpr std::uint32_t no_triangle = 0xffffffffu;
+
+/// Triangles of one instant: float vertices, taken as exact. Receivers and occluders alike, known by their
+/// index.
+struct TriangleView {
+  std::span<const glm::vec3> positions;
+  std::span<const glm::uvec3> triangles;
+  std::span<const std::uint8_t> casts_shadow;  ///< one a triangle; empty: all cast
+};
+inline TriangleView triangle_view(const FrameGeometry& geometry) {
+  return {geometry.positions, geometry.triangles, geometry.casts_shadow};
+}
+
+/// Samples, one a pixel, row 0 at the top: a point, taken as exact, and the triangle it lies on.
+struct VisiblePoints {
+  int width = 0;
+  int height = 0;
+  std::vector<glm::dvec3> positions;     ///< width * height; meaningless where the id is no_triangle
+  std::vector<std::uint32_t> triangles;  ///< width * height ids, or no_triangle
+};
+
+/// Points where the pixels' rays meet the planes of their triangles, in double, clamped into the triangle
+/// (a rasteriser's id may lie just outside). `ids`: width * height, row 0 at the top; ids out of range count
+/// as no_triangle. Bits do not depend on threads or instruction set.
+void compute_visible_points(std::span<const std::uint32_t> ids, int width, int height, const ViewRays& view,
+                            const TriangleView& triangles, VisiblePoints& out);
+
+/// Unit shading normals at the points, one a pixel: `normals` (one a vertex of `triangles`; empty: face
+/// normals) interpolated in double, turned to the side from which `view` sees the triangle; the face normal
+/// where the interpolated one vanishes; zero where no triangle is seen or it has no area. Bits do not depend
+/// on threads or instruction set.
+void compute_shading_normals(const VisiblePoints& points, std::span<const glm::vec3> normals,
+                             const ViewRays& view, const TriangleView& triangles,
+                             std::vector<glm::vec3>& out);
+
+}  // namespace tenebra

@@ -1,0 +1,15 @@
+// Which vector instructions to use: the results do not depend on it, the time does.
+#pragma once
+
+#include <optional>
+#include <string_view>
+
+namespace tenebra {
+
+enum class SimdLevel { automatic, scalar, sse4, avx2, avx512 };
+std::string_view simd_level_name(SimdLevel level);  ///< "avx2"
+std::optional<SimdLevel> simd_level_from_name(std::string_view name);
+bool simd_level_supported(SimdLevel level);  ///< by this build on this machine
+SimdLevel best_simd_level();                 ///< what `automatic` means here
+
+}  // namespace tenebra

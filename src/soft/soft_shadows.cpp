@@ -1,0 +1,1 @@
+#include "soft/soft_shadows.h"
