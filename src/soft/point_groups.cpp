@@ -173,6 +173,49 @@ std::vector<std::uint32_t> pixels_by_triangle(const VisiblePoints& points, std::
   return pixels;
 }
 
+// Halves the range along the longest side of the box of its groups' centres.
+std::uint32_t split_range(std::span<PointGroup> groups) {
+  dvec3 low(INFINITY), high(-INFINITY);
+  for (const PointGroup& g : groups) {
+    const dvec3 centre = g.low + g.high;
+    low = glm::min(low, centre), high = glm::max(high, centre);
+  }
+  const dvec3 size = high - low;
+  const int axis = size.x >= size.y && size.x >= size.z ? 0 : size.y >= size.z ? 1 : 2;
+  const std::size_t half = groups.size() / 2;
+  std::nth_element(groups.begin(), groups.begin() + static_cast<std::ptrdiff_t>(half), groups.end(),
+                   [axis](const PointGroup& a, const PointGroup& b) {
+                     return a.low[axis] + a.high[axis] < b.low[axis] + b.high[axis];
+                   });
+  return static_cast<std::uint32_t>(half);
+}
+
+void build_tree(PointGroups& out) {
+  out.nodes.clear();
+  if (out.groups.empty()) return;
+  out.nodes.reserve(2 * out.groups.size());
+  out.nodes.push_back({.first = 0, .count = static_cast<std::uint32_t>(out.groups.size())});
+  for (std::size_t i = 0; i < out.nodes.size(); ++i) {
+    const std::uint32_t first = out.nodes[i].first, count = out.nodes[i].count;
+    if (count == 1) continue;
+    const std::uint32_t half = split_range({out.groups.data() + first, count});
+    out.nodes[i].children = static_cast<std::uint32_t>(out.nodes.size());
+    out.nodes.push_back({.first = first, .count = half});
+    out.nodes.push_back({.first = first + half, .count = count - half});
+  }
+  for (std::size_t i = out.nodes.size(); i-- > 0;) {
+    GroupNode& node = out.nodes[i];
+    if (node.children == 0) {
+      const PointGroup& group = out.groups[node.first];
+      node.low = group.low, node.high = group.high, node.points = group.count;
+      continue;
+    }
+    const GroupNode &a = out.nodes[node.children], &b = out.nodes[node.children + 1];
+    node.low = glm::min(a.low, b.low), node.high = glm::max(a.high, b.high);
+    node.points = a.points + b.points;
+  }
+}
+
 }  // namespace
 
 int seen_side(const TriangleView& triangles, std::uint32_t id, const ViewRays& view) {
@@ -184,6 +227,7 @@ int seen_side(const TriangleView& triangles, std::uint32_t id, const ViewRays& v
 void group_points(const VisiblePoints& points, const ViewRays& view, const TriangleView& triangles,
                   const AreaLight& light, SoftGrouping grouping, PointGroups& out) {
   const FloatEnvironment ieee;
+  out.width = points.width;
   out.groups.clear();
   out.pixels.clear();
   out.positions.clear();
@@ -198,6 +242,7 @@ void group_points(const VisiblePoints& points, const ViewRays& view, const Trian
       grouper.take(pixel);
     }
     grouper.close_whole();
+    build_tree(out);
     return;
   }
   const auto width = static_cast<std::uint32_t>(points.width),
@@ -214,6 +259,7 @@ void group_points(const VisiblePoints& points, const ViewRays& view, const Trian
     }
   });
   for (const PointGroups& band : bands) append(out, band);
+  build_tree(out);
 }
 
 }  // namespace tenebra
