@@ -17,6 +17,9 @@ using glm::dvec3;
 
 namespace {
 
+// Nodes of fewer groups hand on what they were given: a cull pays from here on (measured).
+constexpr std::uint32_t fewest_groups = 4;
+
 // Points times triangles below which a subtree is not worth sharing out.
 constexpr std::uint64_t serial_work = 1 << 16;
 
@@ -27,6 +30,24 @@ struct alignas(64) ThreadScratch {
   std::vector<ReceiverPlane> planes;
   std::vector<std::uint32_t> ids;
   ShaftStats stats;
+};
+
+// A list from the thread's stack, given back with its end.
+class ListLease {
+public:
+  explicit ListLease(ThreadScratch& scratch) : scratch_(scratch) {
+    if (scratch.lists_used == scratch.lists.size()) scratch.lists.emplace_back();
+    list_ = &scratch.lists[scratch.lists_used++];
+  }
+  ~ListLease() { --scratch_.lists_used; }
+  ListLease(const ListLease&) = delete;
+  ListLease& operator=(const ListLease&) = delete;
+  BlockList& operator*() const { return *list_; }
+  BlockList* operator->() const { return list_; }
+
+private:
+  ThreadScratch& scratch_;
+  BlockList* list_;
 };
 
 void add(ShaftStats& to, const ShaftStats& from) {
@@ -57,7 +78,9 @@ public:
 
 private:
   void descend_children(const GroupNode& node, const BlockList& list);
-  void decide(const PointGroup& group, const BlockList& from, ThreadScratch& scratch);
+  void decide(const PointGroup& group, const BlockList& from);
+  std::uint32_t cull(const PointGroup& group, const BlockList& from, ThreadScratch& scratch,
+                     BlockList& list) const;
   void hand_over(const PointGroup& group, GroupClass kind, ThreadScratch& scratch);
   ContactRange contact_of(const PointGroup& group) const;
   void set_planes(const PointGroup& group, std::vector<ReceiverPlane>& planes) const;
@@ -81,28 +104,25 @@ void Descent::descend(const GroupNode& node, const BlockList& from) {
   if (stop_requested(stop_)) return;
   ThreadScratch& scratch = scratch_[static_cast<std::size_t>(thread_index())];
   if (node.children == 0) {
-    decide(groups_.groups[node.first], from, scratch);
+    decide(groups_.groups[node.first], from);
     return;
   }
-  if (from.refs.empty()) {
+  if (from.refs.empty() || node.count < fewest_groups) {
     descend_children(node, from);
     return;
   }
-  if (scratch.lists_used == scratch.lists.size()) scratch.lists.emplace_back();
-  BlockList& list = scratch.lists[scratch.lists_used++];
+  ListLease list(scratch);
   Stopwatch watch;
   const Shaft shaft(box_cell(node.low, node.high, light_), light_);
-  filter(list, from, [&](auto... rest) { return kernels_.cull(shaft, 0, rest...); });
-  list.compact();
+  filter(*list, from, [&](auto... rest) { return kernels_.cull(shaft, 0, rest...); });
+  list->compact();
   scratch.stats.seconds += watch.lap_ms() * 1e-3;
-  descend_children(node, list);
-  --scratch.lists_used;
+  descend_children(node, *list);
 }
 
 void Descent::descend_children(const GroupNode& node, const BlockList& list) {
   const GroupNode* children = &groups_.nodes[node.children];
-  const std::uint64_t work = node.points * (block_size * list.refs.size() + 1);
-  if (work > serial_work) {
+  if (node.points * (block_size * list.refs.size() + 1) > serial_work) {
     parallel_tasks(2, [&](int k) { descend(children[k], list); });
   } else {
     descend(children[0], list);
@@ -119,39 +139,45 @@ ContactRange Descent::contact_of(const PointGroup& group) const {
   return range;
 }
 
-void Descent::decide(const PointGroup& group, const BlockList& from, ThreadScratch& scratch) {
+void Descent::decide(const PointGroup& group, const BlockList& from) {
+  if (stop_requested(stop_)) return;
+  ThreadScratch& scratch = scratch_[static_cast<std::size_t>(thread_index())];
   scratch.ids.clear();
   if (from.refs.empty()) {
     hand_over(group, GroupClass::lit, scratch);
     return;
   }
-  if (scratch.lists_used == scratch.lists.size()) scratch.lists.emplace_back();
-  BlockList& list = scratch.lists[scratch.lists_used++];
+  ListLease list(scratch);
   Stopwatch watch;
-  const Shaft shaft(fitted_cell(groups_.positions_of(group), groups_.pixels_of(group), groups_.width,
-                                group.low, group.high, light_),
-                    light_);
-  const ContactRange contact = contact_of(group);
-  filter(list, from, [&](auto... rest) { return kernels_.cull(shaft, contact.least, rest...); });
-  std::uint32_t dark = no_triangle;
-  if (!list.refs.empty()) {
-    set_planes(group, scratch.planes);
-    filter(list, list, [&](auto... rest) { return kernels_.drop_behind(scratch.planes, light_, rest...); });
-    filter(list, list, [&](auto... rest) { return kernels_.drop_beside(shaft, contact, rest..., dark); });
-  }
-  for (const Receiver& receiver : groups_.receivers_of(group))
-    if (receiver.triangle == dark) dark = no_triangle;
+  const std::uint32_t dark = cull(group, from, scratch, *list);
   if (dark != no_triangle)
     scratch.ids.push_back(dark);
   else
-    list.append_ids(scratch.ids);
-  --scratch.lists_used;
+    list->append_ids(scratch.ids);
   scratch.stats.seconds += watch.lap_ms() * 1e-3;
   hand_over(group,
             dark != no_triangle   ? GroupClass::dark
             : scratch.ids.empty() ? GroupClass::lit
                                   : GroupClass::mixed,
             scratch);
+}
+
+// Leaves in `list` what may block a line from the group; returns the triangle that blocks all, if one does.
+std::uint32_t Descent::cull(const PointGroup& group, const BlockList& from, ThreadScratch& scratch,
+                            BlockList& list) const {
+  const Shaft shaft(fitted_cell(groups_.positions_of(group), groups_.pixels_of(group), groups_.width,
+                                group.low, group.high, light_),
+                    light_);
+  const ContactRange contact = contact_of(group);
+  filter(list, from, [&](auto... rest) { return kernels_.cull(shaft, contact.least, rest...); });
+  if (list.refs.empty()) return no_triangle;
+  set_planes(group, scratch.planes);
+  filter(list, list, [&](auto... rest) { return kernels_.drop_behind(scratch.planes, light_, rest...); });
+  std::uint32_t dark = no_triangle;
+  filter(list, list, [&](auto... rest) { return kernels_.drop_beside(shaft, contact, rest..., dark); });
+  for (const Receiver& receiver : groups_.receivers_of(group))
+    if (receiver.triangle == dark) return no_triangle;
+  return dark;
 }
 
 void Descent::hand_over(const PointGroup& group, GroupClass kind, ThreadScratch& scratch) {
