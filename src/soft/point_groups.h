@@ -39,10 +39,12 @@ struct GroupNode {
 };
 
 struct PointGroups {
-  int width = 0;                         ///< pixels in a row of the picture
-  std::vector<GroupNode> nodes;          ///< node 0 is the root; none without groups
-  std::vector<PointGroup> groups;        ///< near ones in space near in the list
-  std::vector<std::uint32_t> pixels;     ///< group after group; every active pixel once
+  int width = 0;                   ///< pixels in a row of the picture
+  std::vector<GroupNode> nodes;    ///< node 0 is the root; none without groups
+  std::vector<PointGroup> groups;  ///< near ones in space near in the list
+  std::vector<std::uint32_t>
+      pixels;  ///< in the groups' ranges every active pixel once, between them nothing;
+               ///< in a neighbourhood along a Z curve: any range lies together
   std::vector<glm::dvec3> positions;     ///< of these pixels, world space
   std::vector<std::uint32_t> triangles;  ///< of these pixels
   std::vector<Receiver> receivers;       ///< group after group; each triangle once a group, ascending

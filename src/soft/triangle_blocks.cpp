@@ -4,6 +4,7 @@
 #include <bit>
 #include <cmath>
 
+#include "parallel/parallel.h"
 #include "points/triangle_corners.h"
 
 namespace tenebra {
@@ -52,6 +53,29 @@ float edge_size(const Corners& c) {
   return std::nextafter(static_cast<float>(size), INFINITY);
 }
 
+// Triangles 8b to 8b + 7; returns the lanes of those that may block.
+std::uint8_t gather_block(const TriangleView& triangles, std::size_t b, TriangleBlock& block) {
+  std::uint32_t casting = 0;
+  for (int lane = 0; lane < block_size; ++lane) {
+    const std::size_t id = b * block_size + static_cast<std::size_t>(lane);
+    const bool exists = id < triangles.triangles.size();
+    const Corners c = exists ? corners_of(triangles, id) : Corners{};
+    block.ids[lane] = exists ? static_cast<std::uint32_t>(id) : no_triangle;
+    block.size[lane] = edge_size(c);
+    block.largest[lane] = 0;
+    for (int corner = 0; corner < 3; ++corner) {
+      for (int axis = 0; axis < 3; ++axis) {
+        block.v[corner][axis][lane] = c.v[corner][axis];
+        block.largest[lane] = std::max(block.largest[lane], std::abs(c.v[corner][axis]));
+      }
+    }
+    const bool flat = c.v[0] == c.v[1] || c.v[1] == c.v[2] || c.v[2] == c.v[0];  // blocks nothing
+    const bool casts = exists && (triangles.casts_shadow.empty() || triangles.casts_shadow[id] != 0);
+    casting |= static_cast<std::uint32_t>(casts && !flat) << lane;
+  }
+  return static_cast<std::uint8_t>(casting);
+}
+
 }  // namespace
 
 std::size_t BlockList::triangle_count() const {
@@ -87,27 +111,16 @@ void BlockList::compact() {
 }
 
 void gather_casters(const TriangleView& triangles, BlockList& out) {
-  out.own.clear();
-  out.refs.clear();
-  BlockWriter writer(out);
-  for (std::uint32_t id = 0; id < triangles.triangles.size(); ++id) {
-    if (!triangles.casts_shadow.empty() && triangles.casts_shadow[id] == 0) continue;
-    const Corners c = corners_of(triangles, id);
-    if (c.v[0] == c.v[1] || c.v[1] == c.v[2] || c.v[2] == c.v[0]) continue;  // blocks nothing
-    int lane = 0;
-    TriangleBlock& b = writer.next(lane);
-    b.largest[lane] = 0;
-    b.ids[lane] = id;
-    for (int corner = 0; corner < 3; ++corner) {
-      for (int axis = 0; axis < 3; ++axis) {
-        b.v[corner][axis][lane] = c.v[corner][axis];
-        b.largest[lane] = std::max(b.largest[lane], std::abs(c.v[corner][axis]));
-      }
-    }
-    b.size[lane] = edge_size(c);
-  }
-  writer.close();
+  const std::size_t count = triangles.triangles.size();
+  out.own.resize((count + block_size - 1) / block_size);
   out.blocks = out.own.data();
+  std::vector<std::uint8_t> casting(out.own.size());
+  parallel_ranges(out.own.size(), 512, [&](std::size_t first, std::size_t last) {
+    for (std::size_t b = first; b < last; ++b) casting[b] = gather_block(triangles, b, out.own[b]);
+  });
+  out.refs.clear();
+  for (std::size_t b = 0; b < out.own.size(); ++b)
+    if (casting[b] != 0) out.refs.push_back({static_cast<std::uint32_t>(b), casting[b]});
 }
 
 }  // namespace tenebra

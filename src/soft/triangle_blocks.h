@@ -12,7 +12,7 @@ namespace tenebra {
 
 inline constexpr int block_size = 8;
 
-/// Lanes without a triangle repeat the first one.
+/// Idle lanes hold triangles that are not asked about.
 struct TriangleBlock {
   float v[3][3][block_size];  ///< corner, axis, triangle; world space
   float largest[block_size];  ///< largest |coordinate| of each triangle: tau is sqrt(3) 2^-24 of it
@@ -39,7 +39,7 @@ struct BlockList {
   void compact();
 };
 
-/// All casting triangles but those without extent, in order of their ids.
+/// All casting triangles, eight ids a block; those with two equal corners, which block nothing, are left out.
 void gather_casters(const TriangleView& triangles, BlockList& out);
 
 }  // namespace tenebra
