@@ -28,6 +28,11 @@ HWY_INLINE Vector8 constant(const glm::dvec3& v) {
   return splat3<Double8>(v.x, v.y, v.z);
 }
 
+// Not fused, so that all instruction sets keep the same triangles.
+HWY_INLINE Double8 product(const Vector8& a, const Vector8& b) {
+  return a.x * b.x + a.y * b.y + a.z * b.z;
+}
+
 // Vertices relative to the light's centre: off by u |coordinate|.
 struct Triangles {
   Vector8 v[3];
@@ -72,7 +77,7 @@ HWY_INLINE Truth<double, block_size> outside(const Shaft& shaft, const Triangles
              beyond(t.v[0].z, t.v[1].z, t.v[2].z, shaft.low.z, shaft.high.z);
   for (int k = 0; k < shaft.plane_count; ++k) {
     const Vector8 m = constant(shaft.planes[k].m);
-    const Double8 nearest = least(dot(m, t.v[0]), dot(m, t.v[1]), dot(m, t.v[2]));
+    const Double8 nearest = least(product(m, t.v[0]), product(m, t.v[1]), product(m, t.v[2]));
     out = out | less(constant(shaft.planes[k].limit) + margin, nearest);
   }
   return out;
@@ -87,26 +92,26 @@ struct PlaneRange {
 };
 HWY_INLINE PlaneRange plane_range(const Shaft& shaft, const TriangleBlock& block, const Triangles& t) {
   const Vector8 n = cross(edge(block, 0, 1), edge(block, 0, 2));
-  const Double8 at_corner = dot(n, t.v[0]);
-  const Double8 at_centre = dot(n, constant(shaft.cell.centre)) - at_corner;
-  Double8 around = absolute(dot(n, constant(shaft.cell.axis[0])));
-  around = around + absolute(dot(n, constant(shaft.cell.axis[1])));
-  around = around + absolute(dot(n, constant(shaft.cell.axis[2])));
+  const Double8 at_corner = product(n, t.v[0]);
+  const Double8 at_centre = product(n, constant(shaft.cell.centre)) - at_corner;
+  Double8 around = absolute(product(n, constant(shaft.cell.axis[0])));
+  around = around + absolute(product(n, constant(shaft.cell.axis[1])));
+  around = around + absolute(product(n, constant(shaft.cell.axis[2])));
   PlaneRange r;
   r.size2 = t.size * t.size;
   const Double8 margin =
       r.size2 * ((t.reach + constant(shaft.cell.reach)) * constant(0x1p-47) + constant(6 * shaft.cell.slack));
   around = around + margin;
   r.points_low = at_centre - around, r.points_high = at_centre + around;
-  r.light_low = r.light_high = dot(n, constant(shaft.light->vertices[0]));
+  r.light_low = r.light_high = product(n, constant(shaft.light->vertices[0]));
   for (int k = 1; k < shaft.light->count; ++k) {
-    const Double8 at = dot(n, constant(shaft.light->vertices[k]));
+    const Double8 at = product(n, constant(shaft.light->vertices[k]));
     r.light_low = min(r.light_low, at), r.light_high = max(r.light_high, at);
   }
   const Double8 light_margin = r.size2 * (t.reach + constant(shaft.light->reach)) * constant(0x1p-47);
   r.light_low = r.light_low - at_corner - light_margin;
   r.light_high = r.light_high - at_corner + light_margin;
-  r.normal_length = square_root(dot(n, n));
+  r.normal_length = square_root(product(n, n));
   return r;
 }
 
@@ -151,7 +156,7 @@ std::size_t drop_behind(std::span<const ReceiverPlane> receivers, const LightSha
     std::uint32_t dropped = ref.lanes;
     for (const ReceiverPlane& receiver : receivers) {
       const Vector8 m = constant(receiver.m);
-      const Double8 top = most(dot(m, t.v[0]), dot(m, t.v[1]), dot(m, t.v[2]));
+      const Double8 top = most(product(m, t.v[0]), product(m, t.v[1]), product(m, t.v[2]));
       std::uint32_t harmless = bits(less(top + margin, constant(receiver.limit)));
       for (int lane = 0; lane < block_size; ++lane)
         harmless |= static_cast<std::uint32_t>(block.ids[lane] == receiver.triangle) << lane;
@@ -175,17 +180,17 @@ HWY_INLINE Double8 side_margin(const Shaft& shaft, const Triangles& t) {
                    constant(light * (cell * 0x1p-45 + 6 * shaft.cell.slack)));
 }
 HWY_INLINE SideRange side_from(const Shaft& shaft, const Vector8& m, const Double8& at_light) {
-  const Double8 centre = dot(m, constant(shaft.cell.centre)) - at_light;
-  Double8 around = absolute(dot(m, constant(shaft.cell.axis[0])));
-  around = around + absolute(dot(m, constant(shaft.cell.axis[1])));
-  around = around + absolute(dot(m, constant(shaft.cell.axis[2])));
+  const Double8 centre = product(m, constant(shaft.cell.centre)) - at_light;
+  Double8 around = absolute(product(m, constant(shaft.cell.axis[0])));
+  around = around + absolute(product(m, constant(shaft.cell.axis[1])));
+  around = around + absolute(product(m, constant(shaft.cell.axis[2])));
   return {centre - around, centre + around};
 }
 HWY_INLINE SideRange side_range(const Shaft& shaft, const Vector8& e, const Vector8& moment) {
   SideRange range{constant(INFINITY), constant(-INFINITY)};
   for (int k = 0; k < shaft.light->count; ++k) {
     const Vector8 q = constant(shaft.light->vertices[k]);
-    const SideRange from = side_from(shaft, moment - cross(q, e), dot(moment, q));
+    const SideRange from = side_from(shaft, moment - cross(q, e), product(moment, q));
     range.low = min(range.low, from.low), range.high = max(range.high, from.high);
   }
   return range;

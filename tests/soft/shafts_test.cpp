@@ -1,206 +1,145 @@
-// No triangle that blocks a line is ever left out, and no group is called lit or dark that is not: exact
-// arithmetic on lines from the groups' points to the light.
+// No triangle that blocks a line is ever left out, and no group is called lit or dark that is not: soups of
+// every kind, every scale, near and far from the origin.
 #include "soft/shafts.h"
 
-#include <fmt/format.h>
 #include <gtest/gtest.h>
 
-#include "parallel/parallel.h"
-#include "reference/exact_segment.h"
-#include "soft/soft_case.h"
+#include "soft/shaft_check.h"
 
 namespace tenebra::testing {
 namespace {
 
 using glm::dvec3;
 
-/// What a group was given.
-struct Given {
-  GroupClass kind = GroupClass::lit;
-  std::vector<std::uint32_t> candidates;
-  bool operator==(const Given&) const = default;
-};
-
-std::vector<Given> given(const SoftCase& c, const PointGroups& groups, SimdLevel simd = SimdLevel::automatic,
-                         ShaftStats* stats = nullptr) {
-  std::vector<Given> all(groups.groups.size());
-  std::vector<int> calls(all.size(), 0);
-  ShaftCuller culler;
-  SoftShadowConfig config;
-  config.simd = simd;
-  EXPECT_TRUE(
-      culler.for_each_group(groups, c.soup.view(), c.light, config, nullptr,
-                            [&](const PointGroup& group, auto candidates, GroupClass kind, int thread) {
-                              const auto i = static_cast<std::size_t>(&group - groups.groups.data());
-                              all[i] = {kind, {candidates.begin(), candidates.end()}};
-                              ++calls[i];
-                              EXPECT_LT(thread, thread_count());
-                            }));
-  EXPECT_EQ(std::count(calls.begin(), calls.end(), 1), static_cast<std::ptrdiff_t>(calls.size()));
-  if (stats != nullptr) *stats = culler.stats();
-  return all;
-}
-
-PointGroups grouped(const SoftCase& c, SoftGrouping grouping = SoftGrouping::neighbourhood) {
-  PointGroups groups;
-  group_points(c.points, c.view, c.soup.view(), c.light, grouping, groups);
-  return groups;
-}
-
-/// Sums over the comparisons of a test.
-struct Tally {
-  std::uint64_t lines = 0, dropped = 0, kept = 0, blocked = 0, lit = 0, dark = 0, mixed = 0;
-  void print(const char* what) const {
-    std::printf(
-        "%s: %llu tests of lines (%llu blocked by candidates); pairs of group and triangle: %llu "
-        "dropped, %llu kept; groups: %llu lit, %llu dark, %llu mixed\n",
-        what, static_cast<unsigned long long>(lines), static_cast<unsigned long long>(blocked),
-        static_cast<unsigned long long>(dropped), static_cast<unsigned long long>(kept),
-        static_cast<unsigned long long>(lit), static_cast<unsigned long long>(dark),
-        static_cast<unsigned long long>(mixed));
-  }
-};
-
-/// Lines that the rule asks about: from a point in front of the light to a point of the light on the seen
-/// side.
-struct Line {
-  dvec3 p, q;
-  std::uint32_t receiver;
-};
-std::vector<Line> lines_of(const SoftCase& c, const PointGroups& groups, const PointGroup& group,
-                           Random& random, int count) {
-  std::vector<Line> lines;
-  for (int i = 0; i < count; ++i) {
-    const std::uint32_t k = random.index(group.count);
-    const Line line{groups.positions_of(group)[k], random_light_point(c.light, random),
-                    groups.triangles_of(group)[k]};
-    const int side = seen_side(c.soup.view(), line.receiver, c.view);
-    if (!(glm::dot(line.p - c.light.centre, c.light.normal) > 0)) continue;
-    if (reference::height_sign(corners_of(c.soup.view(), line.receiver), line.q) != side) continue;
-    lines.push_back(line);
-  }
-  return lines;
-}
-
-std::string describe(const SoftCase& c, const Line& line, std::uint32_t id) {
-  const Corners t = corners_of(c.soup.view(), id);
-  std::string text =
-      fmt::format("{}: triangle {}, receiver {}, P {:a} {:a} {:a}, Q {:a} {:a} {:a}, corners", c.name, id,
-                  line.receiver, line.p.x, line.p.y, line.p.z, line.q.x, line.q.y, line.q.z);
-  for (const glm::vec3& v : t.v) text += fmt::format(" ({:a} {:a} {:a})", v.x, v.y, v.z);
-  return text;
-}
-
-/// A dark group's triangle blocks all of its lines; nothing but the candidates blocks any of the others'.
-void check_group(const SoftCase& c, const Given& g, const std::vector<Line>& lines, Tally& tally) {
-  const TriangleView view = c.soup.view();
-  const auto blocks = [&](std::uint32_t id, const Line& line) {
-    ++tally.lines;
-    return id != line.receiver &&
-           reference::blocks(corners_of(view, id), theta_of(view, id, line.receiver), line.p, line.q);
-  };
-  if (g.kind == GroupClass::dark) {
-    ++tally.dark;
-    ASSERT_EQ(g.candidates.size(), 1u);
-    for (const Line& line : lines)
-      ASSERT_TRUE(blocks(g.candidates[0], line)) << "not dark: " << describe(c, line, g.candidates[0]);
-    return;
-  }
-  ++(g.kind == GroupClass::lit ? tally.lit : tally.mixed);
-  ASSERT_EQ(g.candidates.empty(), g.kind == GroupClass::lit);
-  std::vector<std::uint8_t> candidate(view.triangles.size(), 0);
-  for (const std::uint32_t id : g.candidates) {
-    ASSERT_EQ(candidate[id], 0) << "given twice";
-    ASSERT_TRUE(view.casts_shadow.empty() || view.casts_shadow[id] != 0);
-    candidate[id] = 1;
-  }
-  for (std::uint32_t id = 0; id < view.triangles.size(); ++id) {
-    if (!view.casts_shadow.empty() && view.casts_shadow[id] == 0) continue;
-    ++(candidate[id] != 0 ? tally.kept : tally.dropped);
-    for (const Line& line : lines) {
-      if (!blocks(id, line)) continue;
-      ASSERT_NE(candidate[id], 0) << "left out: " << describe(c, line, id);
-      ++tally.blocked;
-    }
-  }
-}
-
-void check(const SoftCase& c, Tally& tally, int lines_a_group,
-           SoftGrouping grouping = SoftGrouping::neighbourhood) {
-  const PointGroups groups = grouped(c, grouping);
-  const std::vector<Given> all = given(c, groups);
-  Random random(5);
-  for (std::size_t i = 0; i < all.size(); ++i) {
-    check_group(c, all[i], lines_of(c, groups, groups.groups[i], random, lines_a_group), tally);
-    if (::testing::Test::HasFatalFailure()) return;
-  }
-}
-
-/// A light somewhere about the soup: beside or inside it, facing its middle or anywhere, tiny to huge.
-AreaLight random_light(const Soup& soup, Random& random) {
-  const dvec3 middle = 0.5 * (soup.low() + soup.high()), half = 0.5 * (soup.high() - soup.low());
-  const double size = glm::length(half);
-  const dvec3 centre = middle + half * random.in_cube(random.chance(0.5) ? 1.0 : 2.0);
-  const dvec3 normal = random.chance(0.7) ? middle - centre : random.direction();
-  const double radius = size * (random.chance(0.8) ? random.in(0.02, 0.3) : std::pow(10.0, random.in(-9, 1)));
-  return regular_light(centre, glm::length(normal) > 0 ? normal : dvec3(0, 1, 0), radius,
-                       3 + static_cast<int>(random.index(12)));
-}
-
-/// The light lies in the plane of a triangle of the soup, around one of its corners.
-AreaLight light_in_plane(const Soup& soup, Random& random) {
-  const auto id = random.index(static_cast<std::uint32_t>(soup.triangles.size()));
-  const dvec3 a(soup.corner(id, 0)), b(soup.corner(id, 1)), c(soup.corner(id, 2));
-  const dvec3 n = glm::cross(b - a, c - a);
-  if (!(glm::length(n) > 0)) return random_light(soup, random);
-  return regular_light(a, random.chance(0.5) ? n : -n, 0.3 * glm::length(b - a), 4);
-}
-
-ViewRays random_view(const Soup& soup, const AreaLight& light, Random& random) {
-  ShadowLight eye;
-  eye.position = glm::vec3(light.centre);
-  if (random.chance(0.5)) return view_from_light(eye);
-  const dvec3 middle = 0.5 * (soup.low() + soup.high()), half = soup.high() - soup.low();
-  return pinhole(middle + half * random.in_cube(1), middle, 0.7, 32, 32);
-}
-
-SoftCase make_case(std::string name, Soup soup, AreaLight light, Random& random) {
-  SoftCase c;
-  c.name = std::move(name);
-  c.soup = std::move(soup);
-  c.light = std::move(light);
-  c.view = random_view(c.soup, c.light, random);
-  switch (random.index(3)) {
-    case 0:
-      c.points = points_on_triangles(c.soup, random, 150);
-      break;
-    case 1: {  // lines from the light's corners through edges and vertices
-      ShadowLight corner;
-      corner.position = c.light.vertices[random.index(static_cast<std::uint32_t>(c.light.vertices.size()))];
-      c.points = points_behind_edges(c.soup, corner, random, 150);
-      break;
-    }
-    default:
-      c.points = view_samples(c.soup.view(), c.view, 24, 24);
-  }
-  return c;
-}
-
-TEST(Shafts, NeverLeaveOutATriangleThatBlocksInAnySoup) {
+TEST(Shafts, NeverLeaveOutATriangleThatBlocks) {
   Tally tally;
   for (const SoupMaker& maker : soup_makers()) {
-    for (std::uint64_t seed = 0; seed < 8; ++seed) {
+    for (std::uint64_t seed = 0; seed < 12; ++seed) {
       Random random(1000 + seed);
       Soup soup = maker.make(random);
-      AreaLight light = seed % 4 == 3 ? light_in_plane(soup, random) : random_light(soup, random);
-      check(make_case(fmt::format("{}, seed {}", maker.name, seed), std::move(soup), light, random), tally,
-            24);
+      const AreaLight light = seed % 4 == 3 ? light_in_plane(soup, random) : random_light(soup, random);
+      const SoftCase c =
+          random_case(fmt::format("{}, seed {}", maker.name, seed), std::move(soup), light, random);
+      ShaftCheck(c).run(tally, 60);
+      ShaftCheck(c, SoftGrouping::triangle).run(tally, 20);
       if (HasFatalFailure()) return;
     }
   }
   tally.print("soups");
-  EXPECT_GT(tally.blocked, 20000u);
-  EXPECT_GT(tally.dropped, tally.kept);
+  EXPECT_GT(tally.blocked, 100000u);
+  EXPECT_GT(tally.dark, 500u);
+  EXPECT_GT(tally.dropped, 3 * tally.kept) << "the shafts leave out next to nothing";
+}
+
+TEST(Shafts, NeverLeaveOutATriangleThatBlocksFarFromTheOriginOrAtAnyScale) {
+  Tally tally;
+  for (const double offset : {1e3, 1e6, 1e8}) {
+    for (const double scale : {1e-6, 1.0, 1e6}) {
+      Random random(2000);
+      for (int i = 0; i < 4; ++i) {
+        const Soup near = i % 2 == 0 ? room(random, 60) : tilted_wall(random);
+        Soup soup = near.moved(scale, scale * offset * random.direction());
+        const AreaLight light = random_light(soup, random);
+        const SoftCase c = random_case(fmt::format("offset {}, scale {}, case {}", offset, scale, i),
+                                       std::move(soup), light, random);
+        ShaftCheck(c).run(tally, 40);
+        if (HasFatalFailure()) return;
+      }
+    }
+  }
+  tally.print("far and scaled");
+  EXPECT_GT(tally.blocked, 10000u);
+}
+
+SoftCase room_case(std::uint64_t seed, int size) {
+  Random random(seed);
+  SoftCase c;
+  c.name = fmt::format("room, seed {}", seed);
+  c.soup = room(random, 300);
+  c.light = regular_light({0.3, 1.7, -0.4}, {-0.1, -1, 0.2}, 0.3, 4);
+  c.view = pinhole({-1.8, 1.5, -1.7}, {0, 0, 0}, 0.9, size, size);
+  c.points = view_samples(c.soup.view(), c.view, size, size);
+  return c;
+}
+
+// Coordinates times 2^k: all roundings scale with them, so the same bits decide.
+TEST(Shafts, KeepTheSameTrianglesAtAnyPowerOfTwo) {
+  const SoftCase c = room_case(31, 64);
+  const std::vector<Given> expected = given(c, grouped(c));
+  for (const int k : {-40, -7, 9, 40}) {
+    SoftCase scaled = c;
+    const double scale = std::ldexp(1.0, k);
+    for (glm::vec3& v : scaled.soup.positions) v *= static_cast<float>(scale);
+    for (glm::dvec3& p : scaled.points.positions) p *= scale;
+    for (glm::dvec2& v : scaled.light.outline) v *= scale;
+    scaled.light.centre *= scale;
+    scaled.view.eye *= static_cast<float>(scale);
+    EXPECT_EQ(given(scaled, grouped(scaled)), expected) << "2^" << k;
+  }
+}
+
+TEST(Shafts, AreTheSameForAnyNumberOfThreadsAndAnyInstructions) {
+  const SoftCase c = room_case(32, 96);
+  ShaftStats expected_stats;
+  const std::vector<Given> expected = given(c, grouped(c), SimdLevel::scalar, &expected_stats);
+  for (const int threads : {1, 2, 3, 7}) {
+    for (const SimdLevel level : {SimdLevel::scalar, SimdLevel::sse4, SimdLevel::avx2, SimdLevel::avx512}) {
+      if (!simd_level_supported(level)) continue;
+      with_threads(threads, [&] {
+        ShaftStats stats;
+        EXPECT_EQ(given(c, grouped(c), level, &stats), expected)
+            << threads << " threads, " << simd_level_name(level);
+        EXPECT_EQ(stats.candidates, expected_stats.candidates);
+        EXPECT_EQ(stats.points_dark, expected_stats.points_dark);
+      });
+    }
+  }
+}
+
+TEST(Shafts, CountWhatTheyGive) {
+  const SoftCase c = room_case(33, 64);
+  const PointGroups groups = grouped(c);
+  ShaftStats stats;
+  std::uint64_t points[3] = {}, numbers[3] = {}, candidates = 0, most = 0;
+  const std::vector<Given> all = given(c, groups, SimdLevel::automatic, &stats);
+  for (std::size_t i = 0; i < all.size(); ++i) {
+    points[static_cast<int>(all[i].kind)] += groups.groups[i].count;
+    ++numbers[static_cast<int>(all[i].kind)];
+    if (all[i].kind != GroupClass::mixed) continue;
+    candidates += all[i].candidates.size();
+    most = std::max<std::uint64_t>(most, all[i].candidates.size());
+  }
+  EXPECT_EQ(stats.points_lit, points[0]);
+  EXPECT_EQ(stats.points_dark, points[1]);
+  EXPECT_EQ(stats.points_mixed, points[2]);
+  EXPECT_EQ(stats.groups_lit, numbers[0]);
+  EXPECT_EQ(stats.groups_dark, numbers[1]);
+  EXPECT_EQ(stats.groups_mixed, numbers[2]);
+  EXPECT_EQ(stats.candidates, candidates);
+  EXPECT_EQ(stats.most_candidates, most);
+  EXPECT_GT(candidates, 0u);
+  EXPECT_GT(stats.seconds, 0);
+}
+
+TEST(Shafts, EndEarlyWhenAsked) {
+  const SoftCase c = room_case(34, 64);
+  const PointGroups groups = grouped(c);
+  ShaftCuller culler;
+  StopFlag stop;
+  int calls = 0;
+  with_threads(1, [&] {
+    EXPECT_FALSE(culler.for_each_group(groups, c.soup.view(), c.light, {}, &stop, [&](auto&&...) {
+      if (++calls == 3) stop.request();
+    }));
+    EXPECT_EQ(calls, 3);
+    EXPECT_FALSE(
+        culler.for_each_group(groups, c.soup.view(), c.light, {}, &stop, [&](auto&&...) { ++calls; }));
+    EXPECT_EQ(calls, 3);
+    stop.reset();
+    EXPECT_TRUE(
+        culler.for_each_group(groups, c.soup.view(), c.light, {}, &stop, [&](auto&&...) { ++calls; }));
+  });
+  EXPECT_EQ(calls, 3 + static_cast<int>(groups.groups.size()));
 }
 
 }  // namespace

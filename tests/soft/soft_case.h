@@ -66,4 +66,47 @@ inline double theta_of(const TriangleView& triangles, std::uint32_t occluder, st
   return contact_threshold(t.v, rounding_tolerance(t.v), rounding_tolerance(r.v));
 }
 
+/// A light somewhere about the soup: beside or inside it, facing its middle or anywhere, tiny to huge.
+inline AreaLight random_light(const Soup& soup, Random& random) {
+  const glm::dvec3 middle = 0.5 * (soup.low() + soup.high()), half = 0.5 * (soup.high() - soup.low());
+  const double size = glm::length(half);
+  const glm::dvec3 centre = middle + half * random.in_cube(random.chance(0.5) ? 1.0 : 2.0);
+  const glm::dvec3 normal = random.chance(0.7) ? middle - centre : random.direction();
+  const double radius = size * (random.chance(0.8) ? random.in(0.02, 0.3) : std::pow(10.0, random.in(-9, 1)));
+  return regular_light(centre, glm::length(normal) > 0 ? normal : glm::dvec3(0, 1, 0), radius,
+                       3 + static_cast<int>(random.index(12)));
+}
+
+/// A light in the plane of a triangle of the soup, around one of its corners.
+inline AreaLight light_in_plane(const Soup& soup, Random& random) {
+  const auto id = random.index(static_cast<std::uint32_t>(soup.triangles.size()));
+  const glm::dvec3 a(soup.corner(id, 0)), b(soup.corner(id, 1)), c(soup.corner(id, 2));
+  const glm::dvec3 n = glm::cross(b - a, c - a);
+  if (!(glm::length(n) > 0)) return random_light(soup, random);
+  return regular_light(a, random.chance(0.5) ? n : -n, 0.3 * glm::length(b - a), 4);
+}
+
+/// Points of a view, points anywhere on the triangles, or points behind edges as a corner of the light sees
+/// them; seen from the light or from anywhere.
+inline SoftCase random_case(std::string name, Soup soup, AreaLight light, Random& random) {
+  SoftCase c{std::move(name), std::move(soup), {}, {}, std::move(light)};
+  ShadowLight at;
+  at.position = glm::vec3(c.light.centre);
+  c.view = view_from_light(at);
+  const glm::dvec3 middle = 0.5 * (c.soup.low() + c.soup.high()), size = c.soup.high() - c.soup.low();
+  if (random.chance(0.5)) c.view = pinhole(middle + size * random.in_cube(1), middle, 0.7, 24, 24);
+  at.position = c.light.vertices[random.index(static_cast<std::uint32_t>(c.light.vertices.size()))];
+  switch (random.index(3)) {
+    case 0:
+      c.points = points_on_triangles(c.soup, random, 150);
+      break;
+    case 1:
+      c.points = points_behind_edges(c.soup, at, random, 150);
+      break;
+    default:
+      c.points = view_samples(c.soup.view(), c.view, 24, 24);
+  }
+  return c;
+}
+
 }  // namespace tenebra::testing
