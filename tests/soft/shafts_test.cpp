@@ -42,7 +42,7 @@ TEST(Shafts, NeverLeaveOutATriangleThatBlocksFarFromTheOriginOrAtAnyScale) {
         const AreaLight light = random_light(soup, random);
         const SoftCase c = random_case(fmt::format("offset {}, scale {}, case {}", offset, scale, i),
                                        std::move(soup), light, random);
-        ShaftCheck(c).run(tally, 40);
+        ShaftCheck(c).run(tally, 200);
         if (HasFatalFailure()) return;
       }
     }
