@@ -96,6 +96,25 @@ TEST(ShaftCases, TrianglesBehindTheLightOrBeyondThePointsAreLeftOut) {
   EXPECT_EQ(kinds(c).lit, 16u);
 }
 
+// Points below two sheets that they are said to lie on, in turn: each sheet blocks all lines, but not from
+// its own points.
+TEST(ShaftCases, AReceiverOfTheGroupDarkensNone) {
+  SoftCase c = floor_case(1, 8);
+  see(c, 8);
+  c.soup = {};
+  for (const double y : {0.0, 0.25}) c.soup.add({-12, y, -12}, {0, y, 12}, {12, y, -12});
+  for (std::size_t i = 0; i < c.points.positions.size(); ++i) {
+    c.points.positions[i].y = -0.5;
+    c.points.triangles[i] = i % 2;
+  }
+  ShaftCheck check(c);
+  ASSERT_EQ(check.all().size(), 1u);
+  EXPECT_EQ(check.all()[0], (Given{GroupClass::mixed, {0, 1}}));
+  Tally tally;
+  check.run(tally, 20);
+  EXPECT_EQ(tally.blocked, tally.lines);
+}
+
 // A cone's faces share a corner and lie behind each other's planes.
 TEST(ShaftCases, AConvexBodyDoesNotBlockWhereTheWholeLightIsUp) {
   SoftCase c;

@@ -51,6 +51,25 @@ TEST(Shafts, NeverLeaveOutATriangleThatBlocksFarFromTheOriginOrAtAnyScale) {
   EXPECT_GT(tally.blocked, 10000u);
 }
 
+// Points of a foreign G-buffer lie beside their triangles, on either side.
+TEST(Shafts, NeverLeaveOutATriangleThatBlocksPointsOffTheirTriangles) {
+  Tally tally;
+  for (std::uint64_t seed = 0; seed < 40; ++seed) {
+    Random random(4000 + seed);
+    Soup soup = seed % 2 == 0 ? room(random, 40) : sphere(4, 1, {0, 0, 0});
+    const AreaLight light = random_light(soup, random);
+    SoftCase c = random_case(fmt::format("seed {}", seed), std::move(soup), light, random);
+    const double off = std::pow(10.0, random.in(-6, -0.5));
+    const dvec3 shift = off * random.direction();
+    for (dvec3& p : c.points.positions) p += seed % 4 < 2 ? shift : off * random.direction();
+    ShaftCheck(c).run(tally, 100);
+    ShaftCheck(c, SoftGrouping::triangle).run(tally, 20);
+    if (HasFatalFailure()) return;
+  }
+  tally.print("points off their triangles");
+  EXPECT_GT(tally.blocked, 50000u);
+}
+
 SoftCase room_case(std::uint64_t seed, int size) {
   Random random(seed);
   SoftCase c;
