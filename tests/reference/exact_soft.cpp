@@ -99,6 +99,22 @@ long double dot(const Vector3l& a, const Vector3l& b) {
   return a.x * b.x + a.y * b.y + a.z * b.z;
 }
 
+/// What `holes` leave of `base`; adds its area to `area`.
+template <class N>
+std::vector<Trapezoid> trapezoids_of(const Polygon<N>& base, const std::vector<Polygon<N>>& holes,
+                                     long double& area) {
+  std::vector<Trapezoid> out;
+  for_each_trapezoid(base, holes,
+                     [&](const N& left, const N& right, const SlabEdge<N>& low, const SlabEdge<N>& high) {
+                       const N middle = N(N(left + right) / 2);
+                       area += to_long_double(N(N(right - left) * N(high.at(middle) - low.at(middle))));
+                       out.push_back({to_long_double(left), to_long_double(right),
+                                      to_long_double(low.at(left)), to_long_double(low.at(right)),
+                                      to_long_double(high.at(left)), to_long_double(high.at(right))});
+                     });
+  return out;
+}
+
 /// Integral of the cosine over what the trapezoids subtend above the plane of `normal`.
 long double irradiance_of(const std::vector<Trapezoid>& visible, const LightFrame& frame,
                           const ExactVec& point, const Vector3l& normal) {
@@ -260,15 +276,7 @@ SoftAnswer ExactSoft::solve(const glm::dvec3& position, std::uint32_t id, glm::v
     if (!part.empty()) holes.push_back(std::move(part));
   }
   long double visible = 0;
-  for_each_trapezoid(
-      base, holes, [&](const N& left, const N& right, const SlabEdge<N>& low, const SlabEdge<N>& high) {
-        const N middle = N(N(left + right) / 2);
-        const N area = N(N(right - left) * N(high.at(middle) - low.at(middle)));
-        visible += to_long_double(area);
-        answer.visible.push_back({to_long_double(left), to_long_double(right), to_long_double(low.at(left)),
-                                  to_long_double(low.at(right)), to_long_double(high.at(left)),
-                                  to_long_double(high.at(right))});
-      });
+  answer.visible = trapezoids_of(base, holes, visible);
   const long double area = to_long_double(N(doubled_area(outline) / 2));
   answer.visible_fraction = static_cast<double>(std::clamp(visible / area, 0.0L, 1.0L));
   answer.candidates = occluders.size();
@@ -283,6 +291,7 @@ SoftAnswer ExactSoft::solve(const glm::dvec3& position, std::uint32_t id, glm::v
     up = {up.x / length, up.y / length, up.z / length};
   }
   answer.irradiance = static_cast<double>(irradiance_of(answer.visible, frame, point, up));
+  answer.unoccluded = static_cast<double>(irradiance_of(trapezoids_of(base, {}, visible), frame, point, up));
   return answer;
 }
 

@@ -27,6 +27,7 @@ struct SoftAnswer {
   double visible_fraction = 0;
   double irradiance = 0;   ///< for radiance 1; error below 1e-9 where the light is seen from less than 1e5
                            ///< times its size away
+  double unoccluded = 0;   ///< irradiance of the light's part above the horizon
   double error_bound = 0;  ///< of visible_fraction
   std::size_t candidates = 0;  ///< triangles in the shaft
   std::size_t occluders = 0;   ///< of these, those that block a part of the light above the horizon
