@@ -97,7 +97,8 @@ TEST(SoftCatalogue, A_EdgesThatMeetOtherEdgesExactly) {
   for (int i = 0; i < 40; ++i) {
     const dvec3 corner(glm::ivec3(random.in_cube(3)));
     const dvec3 u = random.chance(0.5) ? dvec3(1, 0, 0) : dvec3(0, 0, 1);
-    soup.quad({corner.x, 0.25 * random.index(3), corner.z}, u, random.chance(0.5) ? dvec3(0, 1, 0) : u.zyx());
+    soup.quad({corner.x, 0.25 * random.index(3), corner.z}, u,
+              random.chance(0.5) ? dvec3(0, 1, 0) : dvec3(u.z, u.y, u.x));
   }
   expect_exact("grid", soup, *make_rectangle_light({0, 3, 0}, {0.5f, 0, 0}, {0, 0, 0.5f}), sum, 3, 196);
   sum.print("grid");

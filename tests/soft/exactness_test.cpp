@@ -2,6 +2,7 @@
 // against the reference at every pixel, none excused.
 #include <gtest/gtest.h>
 
+#include "reference/exact_mask.h"
 #include "soft/soft_frames.h"
 
 namespace tenebra::testing {
@@ -119,9 +120,9 @@ TEST_F(BartSoft, CrowdedPointsAgreeWithShadowRays) {
     around.casts[0] = 0;
     int seen = 0;
     for (int k = 0; k < side * side; ++k) {
-      const dvec2 at((k % side + random.unit()) / side, (k / side + random.unit()) / side);
+      const glm::dvec2 at((k % side + random.unit()) / side, (k / side + random.unit()) / side);
       const auto& o = c.light.outline;
-      const dvec2 uv = o[0] + at.x * (o[1] - o[0]) + at.y * (o[3] - o[0]);
+      const glm::dvec2 uv = o[0] + at.x * (o[1] - o[0]) + at.y * (o[3] - o[0]);
       ShadowLight end;
       end.position = glm::vec3(c.light.centre + uv.x * c.light.ex + uv.y * c.light.ey);
       const reference::ExactShadow hard(c.view, around.view(), end, {});
