@@ -14,26 +14,19 @@ using glm::dvec2;
 using glm::dvec3;
 using glm::vec3;
 
-/// Points on all triangles and points behind edges, for a light, by both solvers in turn.
+/// Points on all triangles and points behind edges, for a light.
 void expect_exact(const std::string& name, const Soup& soup, const AreaLight& light, Judgement& sum,
-                  std::uint64_t seed, int count = 49) {
+                  std::uint64_t seed, int count = 36) {
   Random random(seed);
   SoftCase c;
   c.name = fmt::format("{}, seed {}", name, seed);
   c.soup = soup, c.light = light;
   c.view.eye = vec3(light.centre);
-  c.points = points_on_triangles(soup, random, count);
-  for (const SoftSolver solver : {SoftSolver::bsp, SoftSolver::clip}) {
-    c.config.solver = solver;
-    c.name = fmt::format("{}, seed {}, {}", name, seed, soft_solver_name(solver));
-    judge_all(c, sum);
-  }
+  c.points = points_on_triangles(soup, random, count / 2);
+  judge_all(c, sum);
   place_in_penumbra(c, random, count);
-  for (const SoftSolver solver : {SoftSolver::bsp, SoftSolver::clip}) {
-    c.config.solver = solver;
-    c.name = fmt::format("{}, seed {}, behind edges, {}", name, seed, soft_solver_name(solver));
-    judge_all(c, sum);
-  }
+  c.name += ", behind edges";
+  judge_all(c, sum);
 }
 
 AreaLight above(double size = 0.5) {
@@ -65,11 +58,11 @@ AreaLight random_light(Random& random, const Soup& soup) {
 TEST(SoftCatalogue, A_GeneratedTrianglesOfEveryKind) {
   for (const SoupMaker& maker : soup_makers()) {
     Judgement sum;
-    for (int k = 0; k < scaled(2); ++k) {
+    for (int k = 0; k < scaled(3); ++k) {
       const std::uint64_t seed = 100 + static_cast<std::uint64_t>(k);
       Random random(seed);
       const Soup soup = maker.make(random);
-      expect_exact(maker.name, soup, random_light(random, soup), sum, seed, 36);
+      expect_exact(maker.name, soup, random_light(random, soup), sum, seed);
     }
     sum.print(maker.name);
   }
@@ -85,7 +78,8 @@ TEST(SoftCatalogue, A_HugeTrianglesAndThousandCopies) {
   Soup copies = duplicates(random, 2, 150);
   copies.quad({-3, -1.5, -3}, {0, 0, 6}, {6, 0, 0});
   expect_exact("copies", copies, above(), sum, 2);
-  sum.print("huge, copies");
+  expect_exact("tiny", tiny_cluster(random, 1500), above(), sum, 3);
+  sum.print("huge, copies, tiny");
 }
 
 TEST(SoftCatalogue, A_EdgesThatMeetOtherEdgesExactly) {
@@ -100,7 +94,7 @@ TEST(SoftCatalogue, A_EdgesThatMeetOtherEdgesExactly) {
     soup.quad({corner.x, 0.25 * random.index(3), corner.z}, u,
               random.chance(0.5) ? dvec3(0, 1, 0) : dvec3(u.z, u.y, u.x));
   }
-  expect_exact("grid", soup, *make_rectangle_light({0, 3, 0}, {0.5f, 0, 0}, {0, 0, 0.5f}), sum, 3, 196);
+  expect_exact("grid", soup, must(make_rectangle_light({0, 3, 0}, {0.5f, 0, 0}, {0, 0, 0.5f})), sum, 3, 196);
   sum.print("grid");
 }
 
@@ -111,14 +105,14 @@ TEST(SoftCatalogue, B_LightsThatTouchAndCutTheGeometry) {
   const vec3 h{0.25f, 0, 0}, v{0, 0, 0.25f};
   // In the ceiling's plane, an ulp above and below; half sunk into the floor; with a corner at a corner of
   // the room, along an edge of it; inside the closed sphere; around it.
-  expect_exact("in a plane", soup, *make_rectangle_light({0, 2, 0}, h, v), sum, 4);
-  expect_exact("below a plane", soup, *make_rectangle_light({0, std::nextafter(2.0f, 0.0f), 0}, h, v), sum,
-               5);
-  expect_exact("beyond a plane", soup, *make_rectangle_light({0, std::nextafter(2.0f, 3.0f), 0}, h, v), sum,
-               6);
-  expect_exact("sunk", soup, *make_rectangle_light({0, -1, 0}, {0.25f, 0, 0}, {0, 0.25f, 0}), sum, 7);
-  expect_exact("at a corner", soup, *make_rectangle_light({1.75f, 1.5f, 1.75f}, h, v), sum, 8);
-  expect_exact("along an edge", soup, *make_rectangle_light({1.75f, 2, 0}, h, v), sum, 9);
+  expect_exact("in a plane", soup, must(make_rectangle_light({0, 2, 0}, h, v)), sum, 4);
+  expect_exact("below a plane", soup, must(make_rectangle_light({0, std::nextafter(2.0f, 0.0f), 0}, h, v)),
+               sum, 5);
+  expect_exact("beyond a plane", soup, must(make_rectangle_light({0, std::nextafter(2.0f, 3.0f), 0}, h, v)),
+               sum, 6);
+  expect_exact("sunk", soup, must(make_rectangle_light({0, -1, 0}, {0.25f, 0, 0}, {0, 0.25f, 0})), sum, 7);
+  expect_exact("at a corner", soup, must(make_rectangle_light({1.75f, 1.5f, 1.75f}, h, v)), sum, 8);
+  expect_exact("along an edge", soup, must(make_rectangle_light({1.75f, 2, 0}, h, v)), sum, 9);
   expect_exact("inside a body", soup, square_light({0.5, -0.2, 0.3}, {0, -1, 0}, 0.1), sum, 10);
   expect_exact("around a body", soup, square_light({0.5, -0.2, 0.3}, {0.5, -1, 0.3}, 2), sum, 11);
   sum.print("touching lights");
@@ -150,7 +144,7 @@ TEST(SoftCatalogue, B_SamplesAtTheLight) {
   c.name = "samples at the light";
   c.soup.quad({-4, -1, -4}, {0, 0, 8}, {8, 0, 0});
   c.soup.quad({-0.5, -1.5, 0}, {0, 3, 0}, {0, 0, 1});
-  c.light = *make_rectangle_light({0, 1, 0}, {0.5f, 0, 0}, {0, 0, 0.5f});
+  c.light = must(make_rectangle_light({0, 1, 0}, {0.5f, 0, 0}, {0, 0, 0.5f}));
   ASSERT_LT(c.light.normal.y, 0);
   c.view.eye = {-2, 0, 0.3f};
   for (const double y : {1.0, std::nextafter(1.0, 0.0), std::nextafter(1.0, 2.0), 1 - 1e-12, 1 - 1e-9,
@@ -160,10 +154,7 @@ TEST(SoftCatalogue, B_SamplesAtTheLight) {
       c.points.triangles.push_back(2);
     }
   c.points.width = static_cast<int>(c.points.positions.size()), c.points.height = 1;
-  for (const SoftSolver solver : {SoftSolver::bsp, SoftSolver::clip}) {
-    c.config.solver = solver;
-    judge_all(c, sum);
-  }
+  judge_all(c, sum);
   sum.print("samples at the light");
 }
 
@@ -176,14 +167,13 @@ TEST(SoftCatalogue, B_DistancesAndSizesOfEveryOrder) {
     // Small as seen from the scene, and large.
     for (const double ratio : {1e-2, 0.5})
       expect_exact(fmt::format("light at 1e{} of size {}", k, ratio), soup,
-                   square_light(distance * dvec3(0.3, 0.9, 0.2), {0, 0, 0}, ratio * distance), sum, 13, 25);
+                   square_light(distance * dvec3(0.3, 0.9, 0.2), {0, 0, 0}, ratio * distance), sum, 13, 24);
   }
-  for (const double size : {1e-9, 1e-6, 1e-3, 1e3})
+  for (const float size : {1e-9f, 1e-6f, 1e-3f, 1e3f})  // at the origin floats reach that far down
     expect_exact(fmt::format("light of {}", size), soup,
-                 *make_rectangle_light({0, 1, 0}, vec3(float(size), 0, 0), vec3(0, 0, float(size))), sum, 14,
-                 25);
-  expect_exact("a line of light", soup, *make_rectangle_light({0, 1, 0}, {1, 0, 0}, {0, 0, 1e-4f}), sum, 15,
-               25);
+                 must(make_rectangle_light(vec3(0), {size, 0, 0}, {0, 0, size})), sum, 14, 24);
+  expect_exact("a line of light", soup, must(make_rectangle_light({0, 1, 0}, {1, 0, 0}, {0, 0, 1e-4f})), sum,
+               15, 25);
   sum.print("distances and sizes");
 }
 
@@ -193,7 +183,7 @@ SoftCase moved(const SoftCase& c, double scale, dvec3 offset) {
   out.soup = c.soup.moved(scale, offset);
   std::vector<vec3> corners;
   for (const vec3& v : c.light.vertices) corners.emplace_back(dvec3(v) * scale + offset);
-  out.light = *make_area_light(corners);
+  out.light = must(make_area_light(corners));
   out.view.eye = vec3(dvec3(c.view.eye) * scale + offset);
   for (dvec3& p : out.points.positions) p = p * scale + offset;
   return out;
@@ -233,12 +223,12 @@ TEST(SoftCatalogue, E_ScaledAndMovedScenes) {
   for (const double scale : {1e-6, 1e-3, 1e3, 1e6}) {
     const SoftCase base = small_room(21, 1);
     SoftCase c = moved(base, scale, dvec3(0));
-    expect_exact(fmt::format("scale {}", scale), c.soup, c.light, sum, 21, 49);
+    expect_exact(fmt::format("scale {}", scale), c.soup, c.light, sum, 21);
   }
   for (const double offset : {1e3, 1e5, 1e6}) {
     const SoftCase base = small_room(22, 1);
     SoftCase c = moved(base, 1, offset * glm::normalize(dvec3(1, -2, 3)));
-    expect_exact(fmt::format("moved by {}", offset), c.soup, c.light, sum, 22, 49);
+    expect_exact(fmt::format("moved by {}", offset), c.soup, c.light, sum, 22);
   }
   sum.print("scaled and moved");
 }

@@ -22,7 +22,7 @@ SoftCase room_case(std::uint64_t seed, int count = 900) {
   c.name = fmt::format("room, seed {}", seed);
   c.soup = room(random, 60);
   snap(c.soup);
-  c.light = *make_rectangle_light({0.25f, 1.5f, -0.25f}, {0.25f, 0, 0}, {0, 0, 0.5f});
+  c.light = must(make_rectangle_light({0.25f, 1.5f, -0.25f}, {0.25f, 0, 0}, {0, 0, 0.5f}));
   place_in_penumbra(c, random, count);
   return c;
 }
@@ -149,7 +149,7 @@ TEST(SoftMetamorphic, PartsOfALightAddUpAndItsUmbraIsThatOfEveryPart) {
   for (int k = 0; k < 4; ++k) {
     parts.push_back(c);
     const vec3 centre{0.25f + (k % 2 == 0 ? -0.125f : 0.125f), 1.5f, -0.25f + (k < 2 ? -0.25f : 0.25f)};
-    parts.back().light = *make_rectangle_light(centre, {0.125f, 0, 0}, {0, 0, 0.25f});
+    parts.back().light = must(make_rectangle_light(centre, {0.125f, 0, 0}, {0, 0, 0.25f}));
   }
   for (const SoftPrecision precision : both) {
     const SoftMask whole = traced(c, precision);
