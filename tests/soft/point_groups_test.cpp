@@ -8,14 +8,14 @@
 
 #include "parallel/parallel.h"
 #include "reference/exact_segment.h"
-#include "soft/soft_case.h"
+#include "soft/group_case.h"
 
 namespace tenebra::testing {
 namespace {
 
 using glm::dvec3;
 
-PointGroups grouped(const SoftCase& c, SoftGrouping grouping) {
+PointGroups grouped(const GroupCase& c, SoftGrouping grouping) {
   PointGroups groups;
   group_points(c.points, c.view, c.soup.view(), c.light, grouping, groups);
   return groups;
@@ -23,7 +23,7 @@ PointGroups grouped(const SoftCase& c, SoftGrouping grouping) {
 
 /// How far, relative to what double resolves, the point is from being reached; below 0: reached for certain.
 /// Seen edge-on: never reached.
-double out_of_reach(const SoftCase& c, std::size_t pixel) {
+double out_of_reach(const GroupCase& c, std::size_t pixel) {
   const std::uint32_t id = c.points.triangles[pixel];
   if (id == no_triangle || seen_side(c.soup.view(), id, c.view) == 0) return INFINITY;
   const dvec3 p = c.points.positions[pixel];
@@ -41,7 +41,7 @@ double out_of_reach(const SoftCase& c, std::size_t pixel) {
   return std::max(out, below);
 }
 
-void expect_partition(const SoftCase& c, SoftGrouping grouping) {
+void expect_partition(const GroupCase& c, SoftGrouping grouping) {
   const PointGroups groups = grouped(c, grouping);
   std::vector<int> times(c.points.triangles.size(), 0);
   for (const PointGroup& group : groups.groups)
@@ -54,7 +54,7 @@ void expect_partition(const SoftCase& c, SoftGrouping grouping) {
   }
 }
 
-void expect_true_groups(const SoftCase& c, SoftGrouping grouping) {
+void expect_true_groups(const GroupCase& c, SoftGrouping grouping) {
   const PointGroups groups = grouped(c, grouping);
   for (const PointGroup& group : groups.groups) {
     ASSERT_GT(group.count, 0u);
@@ -117,7 +117,7 @@ TEST(PointGroups, HoldEveryActivePointOnceWithTrueBoxesAndReceivers) {
       Random random(3000 + seed);
       Soup soup = maker.make(random);
       const AreaLight light = seed == 3 ? light_in_plane(soup, random) : random_light(soup, random);
-      const SoftCase c =
+      const GroupCase c =
           random_case(fmt::format("{}, seed {}", maker.name, seed), std::move(soup), light, random);
       for (const SoftGrouping grouping : {SoftGrouping::neighbourhood, SoftGrouping::triangle}) {
         expect_partition(c, grouping);
@@ -132,8 +132,8 @@ TEST(PointGroups, HoldEveryActivePointOnceWithTrueBoxesAndReceivers) {
 }
 
 /// A floor at y = 0, seen by a camera that looks down and ahead.
-SoftCase stage(int width, int height) {
-  SoftCase c;
+GroupCase stage(int width, int height) {
+  GroupCase c;
   c.name = "stage";
   c.soup.quad({-4, 0, -4}, {0, 0, 8}, {8, 0, 0});
   c.light = regular_light({0, 4, 0}, {0, -1, 0}, 0.5, 4);
@@ -145,7 +145,7 @@ SoftCase stage(int width, int height) {
 TEST(PointGroups, CoverPicturesOfAnySize) {
   for (const auto& [width, height] :
        {std::pair{1, 1}, {1, 17}, {17, 1}, {7, 9}, {8, 8}, {9, 7}, {15, 16}, {33, 31}}) {
-    const SoftCase c = stage(width, height);
+    const GroupCase c = stage(width, height);
     for (const SoftGrouping grouping : {SoftGrouping::neighbourhood, SoftGrouping::triangle}) {
       expect_partition(c, grouping);
       expect_true_groups(c, grouping);
@@ -159,7 +159,7 @@ TEST(PointGroups, CoverPicturesOfAnySize) {
 }
 
 TEST(PointGroups, OfNothingAreNone) {
-  SoftCase c = stage(8, 8);
+  GroupCase c = stage(8, 8);
   c.points = {};
   for (const SoftGrouping grouping : {SoftGrouping::neighbourhood, SoftGrouping::triangle}) {
     const PointGroups groups = grouped(c, grouping);
@@ -169,7 +169,7 @@ TEST(PointGroups, OfNothingAreNone) {
 
 // Pixels of one tile on the floor and on a table far above it.
 TEST(PointGroups, AreSplitAtGapsInDepth) {
-  SoftCase c = stage(8, 8);
+  GroupCase c = stage(8, 8);
   EXPECT_EQ(grouped(c, SoftGrouping::neighbourhood).groups.size(), 1u);
   c.soup.quad({-4, 2, 2}, {0, 0, 8}, {8, 0, 0});
   c.points = view_samples(c.soup.view(), c.view, 8, 8);
@@ -192,7 +192,7 @@ TEST(PointGroups, OrderTheirPointsAlongAZCurve) {
 }
 
 TEST(PointGroups, LeaveOutWhatTheLightCannotReach) {
-  SoftCase c = stage(16, 16);
+  GroupCase c = stage(16, 16);
   c.light = regular_light({0, 4, 0}, {0, 1, 0}, 0.5, 4);  // shines up
   EXPECT_TRUE(grouped(c, SoftGrouping::neighbourhood).groups.empty());
   c.light = regular_light({0, -4, 0}, {0, 1, 0}, 0.5, 4);  // below the floor
@@ -206,7 +206,7 @@ TEST(PointGroups, LeaveOutWhatTheLightCannotReach) {
 }
 
 TEST(PointGroups, KnowTheSeenSide) {
-  SoftCase c = stage(4, 4);
+  GroupCase c = stage(4, 4);
   EXPECT_EQ(seen_side(c.soup.view(), 0, c.view), 1);
   c.view.eye.y = -1;
   EXPECT_EQ(seen_side(c.soup.view(), 0, c.view), -1);
@@ -221,7 +221,7 @@ TEST(PointGroups, KnowTheSeenSide) {
 
 TEST(PointGroups, AreTheSameForAnyNumberOfThreads) {
   Random random(41);
-  SoftCase c = stage(200, 120);
+  GroupCase c = stage(200, 120);
   c.soup.append(room(random, 100));
   c.points = view_samples(c.soup.view(), c.view, 200, 120);
   const auto list = [&] {

@@ -13,7 +13,7 @@
 #include "reference/exact_segment.h"
 #include "reference/triangle_boxes.h"
 #include "soft/shafts.h"
-#include "soft/soft_case.h"
+#include "soft/group_case.h"
 
 namespace tenebra::testing {
 
@@ -24,14 +24,14 @@ struct Given {
   bool operator==(const Given&) const = default;
 };
 
-inline PointGroups grouped(const SoftCase& c, SoftGrouping grouping = SoftGrouping::neighbourhood) {
+inline PointGroups grouped(const GroupCase& c, SoftGrouping grouping = SoftGrouping::neighbourhood) {
   PointGroups groups;
   group_points(c.points, c.view, c.soup.view(), c.light, grouping, groups);
   return groups;
 }
 
 /// One a group; each group must be handed over exactly once.
-inline std::vector<Given> given(const SoftCase& c, const PointGroups& groups,
+inline std::vector<Given> given(const GroupCase& c, const PointGroups& groups,
                                 SimdLevel simd = SimdLevel::automatic, ShaftStats* stats = nullptr) {
   std::vector<Given> all(groups.groups.size());
   std::vector<int> calls(all.size(), 0);
@@ -76,7 +76,7 @@ class ShaftCheck {
   using dvec3 = glm::dvec3;
 
 public:
-  ShaftCheck(const SoftCase& c, SoftGrouping grouping = SoftGrouping::neighbourhood)
+  ShaftCheck(const GroupCase& c, SoftGrouping grouping = SoftGrouping::neighbourhood)
       : c_(c), groups_(grouped(c, grouping)), given_(given(c, groups_)), boxes_(c.soup.view(), casters()) {}
 
   const PointGroups& groups() const { return groups_; }
@@ -184,7 +184,7 @@ private:
     return text;
   }
 
-  const SoftCase& c_;
+  const GroupCase& c_;
   PointGroups groups_;
   std::vector<Given> given_;
   reference::TriangleBoxes boxes_;

@@ -10,8 +10,8 @@ using glm::dvec3;
 
 /// A floor of 2 * cells^2 triangles in the plane y = 0, -4..4, seen from above; a square light of
 /// half-diagonal 0.5 at y = 4, facing down.
-SoftCase floor_case(int cells, int pixels) {
-  SoftCase c;
+GroupCase floor_case(int cells, int pixels) {
+  GroupCase c;
   c.name = "floor";
   const double step = 8.0 / cells;
   for (int z = 0; z < cells; ++z)
@@ -21,11 +21,11 @@ SoftCase floor_case(int cells, int pixels) {
   c.view = pinhole({0, 3, 0}, {0, 0, 0}, 0.9, pixels, pixels);
   return c;
 }
-void see(SoftCase& c, int pixels) {
+void see(GroupCase& c, int pixels) {
   c.points = view_samples(c.soup.view(), c.view, pixels, pixels);
 }
 
-Tally kinds(const SoftCase& c) {
+Tally kinds(const GroupCase& c) {
   Tally tally;
   ShaftCheck(c).run(tally, 20);
   return tally;
@@ -33,7 +33,7 @@ Tally kinds(const SoftCase& c) {
 
 TEST(ShaftCases, AFloorLiesUnderItsPointsAndBlocksNothing) {
   for (const int cells : {1, 3, 40}) {
-    SoftCase c = floor_case(cells, 32);
+    GroupCase c = floor_case(cells, 32);
     see(c, 32);
     const Tally tally = kinds(c);
     EXPECT_EQ(tally.mixed + tally.dark, 0u) << cells;
@@ -44,7 +44,7 @@ TEST(ShaftCases, AFloorLiesUnderItsPointsAndBlocksNothing) {
 // Vertices of a turned and moved floor are rounded: neighbours rise above each other by that much, which the
 // contact rule forgives.
 TEST(ShaftCases, ATiltedFloorFarFromTheOriginBlocksNothing) {
-  SoftCase c = floor_case(2, 32);
+  GroupCase c = floor_case(2, 32);
   const glm::dmat3 turn(0.36, 0.48, -0.8, -0.8, 0.6, 0, 0.48, 0.64, 0.6);  // a rotation
   const dvec3 move(1000, -2000, 500);
   for (glm::vec3& v : c.soup.positions) v = glm::vec3(turn * dvec3(v) + move);
@@ -58,7 +58,7 @@ TEST(ShaftCases, ATiltedFloorFarFromTheOriginBlocksNothing) {
 
 // A lid over everything; and one of half-width 0.75 halfway to the light: umbra to 1.15, penumbra to 2.
 TEST(ShaftCases, ALidDarkensTheGroupsInItsUmbraOnly) {
-  SoftCase c = floor_case(1, 64);
+  GroupCase c = floor_case(1, 64);
   see(c, 64);  // the camera hangs below the lid
   c.soup.add({-12, 2, -12}, {12, 2, -12}, {0, 2, 12});
   const auto lid = static_cast<std::uint32_t>(c.soup.triangles.size() - 1);
@@ -80,7 +80,7 @@ TEST(ShaftCases, ALidDarkensTheGroupsInItsUmbraOnly) {
 
 // Just touching the umbra's rim is not dark; the lid's own points are not darkened by it.
 TEST(ShaftCases, ALidInContactDarkensNothing) {
-  SoftCase c = floor_case(1, 32);
+  GroupCase c = floor_case(1, 32);
   see(c, 32);
   c.soup.add({-12, 0, -12}, {12, 0, -12}, {0, 0, 12});  // in the floor's plane
   const Tally tally = kinds(c);
@@ -88,7 +88,7 @@ TEST(ShaftCases, ALidInContactDarkensNothing) {
 }
 
 TEST(ShaftCases, TrianglesBehindTheLightOrBeyondThePointsAreLeftOut) {
-  SoftCase c = floor_case(1, 32);
+  GroupCase c = floor_case(1, 32);
   see(c, 32);
   c.soup.add({-12, 4.01, -12}, {12, 4.01, -12}, {0, 4.01, 12});
   c.soup.add({-12, -0.01, -12}, {12, -0.01, -12}, {0, -0.01, 12});
@@ -99,7 +99,7 @@ TEST(ShaftCases, TrianglesBehindTheLightOrBeyondThePointsAreLeftOut) {
 // Points below two sheets that they are said to lie on, in turn: each sheet blocks all lines, but not from
 // its own points.
 TEST(ShaftCases, AReceiverOfTheGroupDarkensNone) {
-  SoftCase c = floor_case(1, 8);
+  GroupCase c = floor_case(1, 8);
   see(c, 8);
   c.soup = {};
   for (const double y : {0.0, 0.25}) c.soup.add({-12, y, -12}, {0, y, 12}, {12, y, -12});
@@ -117,7 +117,7 @@ TEST(ShaftCases, AReceiverOfTheGroupDarkensNone) {
 
 // A cone's faces share a corner and lie behind each other's planes.
 TEST(ShaftCases, AConvexBodyDoesNotBlockWhereTheWholeLightIsUp) {
-  SoftCase c;
+  GroupCase c;
   c.name = "cone";
   const auto rim = [](int k) { return dvec3(2 * std::cos(0.3 * k), 0, -2 * std::sin(0.3 * k)); };
   for (int k = 0; k < 21; ++k) c.soup.add({0.1, 1, 0.2}, rim(k), k < 20 ? rim(k + 1) : rim(0));
@@ -130,7 +130,7 @@ TEST(ShaftCases, AConvexBodyDoesNotBlockWhereTheWholeLightIsUp) {
 }
 
 TEST(ShaftCases, WhatCastsNoShadowIsNoCandidate) {
-  SoftCase c = floor_case(1, 32);
+  GroupCase c = floor_case(1, 32);
   see(c, 32);
   c.soup.add({-12, 2, -12}, {12, 2, -12}, {0, 2, 12});
   c.view.eye.y = 1.5f;
@@ -139,7 +139,7 @@ TEST(ShaftCases, WhatCastsNoShadowIsNoCandidate) {
 }
 
 TEST(ShaftCases, NothingToGroupAndNothingThatCastsAreFine) {
-  SoftCase c = floor_case(1, 8);
+  GroupCase c = floor_case(1, 8);
   c.points = {.width = 8,
               .height = 8,
               .positions = std::vector<dvec3>(64),

@@ -18,7 +18,7 @@ TEST(Shafts, NeverLeaveOutATriangleThatBlocks) {
       Random random(1000 + seed);
       Soup soup = maker.make(random);
       const AreaLight light = seed % 4 == 3 ? light_in_plane(soup, random) : random_light(soup, random);
-      const SoftCase c =
+      const GroupCase c =
           random_case(fmt::format("{}, seed {}", maker.name, seed), std::move(soup), light, random);
       ShaftCheck(c).run(tally, 60);
       ShaftCheck(c, SoftGrouping::triangle).run(tally, 20);
@@ -40,7 +40,7 @@ TEST(Shafts, NeverLeaveOutATriangleThatBlocksFarFromTheOriginOrAtAnyScale) {
         const Soup near = i % 2 == 0 ? room(random, 60) : tilted_wall(random);
         Soup soup = near.moved(scale, scale * offset * random.direction());
         const AreaLight light = random_light(soup, random);
-        const SoftCase c = random_case(fmt::format("offset {}, scale {}, case {}", offset, scale, i),
+        const GroupCase c = random_case(fmt::format("offset {}, scale {}, case {}", offset, scale, i),
                                        std::move(soup), light, random);
         ShaftCheck(c).run(tally, 200);
         if (HasFatalFailure()) return;
@@ -58,7 +58,7 @@ TEST(Shafts, NeverLeaveOutATriangleThatBlocksPointsOffTheirTriangles) {
     Random random(4000 + seed);
     Soup soup = seed % 2 == 0 ? room(random, 40) : sphere(4, 1, {0, 0, 0});
     const AreaLight light = random_light(soup, random);
-    SoftCase c = random_case(fmt::format("seed {}", seed), std::move(soup), light, random);
+    GroupCase c = random_case(fmt::format("seed {}", seed), std::move(soup), light, random);
     const double off = std::pow(10.0, random.in(-6, -0.5));
     const dvec3 shift = off * random.direction();
     for (dvec3& p : c.points.positions) p += seed % 4 < 2 ? shift : off * random.direction();
@@ -70,9 +70,9 @@ TEST(Shafts, NeverLeaveOutATriangleThatBlocksPointsOffTheirTriangles) {
   EXPECT_GT(tally.blocked, 50000u);
 }
 
-SoftCase room_case(std::uint64_t seed, int size) {
+GroupCase room_case(std::uint64_t seed, int size) {
   Random random(seed);
-  SoftCase c;
+  GroupCase c;
   c.name = fmt::format("room, seed {}", seed);
   c.soup = room(random, 300);
   c.light = regular_light({0.3, 1.7, -0.4}, {-0.1, -1, 0.2}, 0.3, 4);
@@ -83,10 +83,10 @@ SoftCase room_case(std::uint64_t seed, int size) {
 
 // Coordinates times 2^k: all roundings scale with them, so the same bits decide.
 TEST(Shafts, KeepTheSameTrianglesAtAnyPowerOfTwo) {
-  const SoftCase c = room_case(31, 64);
+  const GroupCase c = room_case(31, 64);
   const std::vector<Given> expected = given(c, grouped(c));
   for (const int k : {-40, -7, 9, 40}) {
-    SoftCase scaled = c;
+    GroupCase scaled = c;
     const double scale = std::ldexp(1.0, k);
     for (glm::vec3& v : scaled.soup.positions) v *= static_cast<float>(scale);
     for (glm::dvec3& p : scaled.points.positions) p *= scale;
@@ -98,7 +98,7 @@ TEST(Shafts, KeepTheSameTrianglesAtAnyPowerOfTwo) {
 }
 
 TEST(Shafts, AreTheSameForAnyNumberOfThreadsAndAnyInstructions) {
-  const SoftCase c = room_case(32, 96);
+  const GroupCase c = room_case(32, 96);
   ShaftStats expected_stats;
   const std::vector<Given> expected = given(c, grouped(c), SimdLevel::scalar, &expected_stats);
   for (const int threads : {1, 2, 3, 7}) {
@@ -116,7 +116,7 @@ TEST(Shafts, AreTheSameForAnyNumberOfThreadsAndAnyInstructions) {
 }
 
 TEST(Shafts, CountWhatTheyGive) {
-  const SoftCase c = room_case(33, 64);
+  const GroupCase c = room_case(33, 64);
   const PointGroups groups = grouped(c);
   ShaftStats stats;
   std::uint64_t points[3] = {}, numbers[3] = {}, candidates = 0, most = 0;
@@ -141,7 +141,7 @@ TEST(Shafts, CountWhatTheyGive) {
 }
 
 TEST(Shafts, EndEarlyWhenAsked) {
-  const SoftCase c = room_case(34, 64);
+  const GroupCase c = room_case(34, 64);
   const PointGroups groups = grouped(c);
   ShaftCuller culler;
   StopFlag stop;
