@@ -306,6 +306,14 @@ HWY_INLINE Pack3<P> cross(const Pack3<P>& a, const Pack3<P>& b) {
   return {a.y * b.z - a.z * b.y, a.z * b.x - a.x * b.z, a.x * b.y - a.y * b.x};
 }
 
+/// Whether every lane holds.
+template <class T, int N>
+HWY_INLINE bool all_of(Truth<T, N> a) {
+  bool all = true;
+  for (int i = 0; i < Pack<T, N>::registers; ++i) all &= hn::AllTrue(typename Pack<T, N>::Tag(), a.r[i]);
+  return all;
+}
+
 }  // namespace tenebra::HWY_NAMESPACE
 HWY_AFTER_NAMESPACE();
 
