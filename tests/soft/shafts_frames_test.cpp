@@ -25,7 +25,8 @@ std::filesystem::path path_of(const SceneFrame& frame) {
              : std::filesystem::path(TENEBRA_SHARED_DIR) / "scenes/bart" / frame.scene;
 }
 
-/// A square of 4 % of the soup's diagonal around `centre`, facing the soup's middle.
+/// On scenes with point lights: a square of 4 % of the soup's diagonal around `centre`, facing the soup's
+/// middle.
 AreaLight square_light(const Soup& soup, glm::vec3 centre) {
   const dvec3 to_middle = glm::normalize(0.5 * (soup.low() + soup.high()) - dvec3(centre));
   const dvec3 other = std::abs(to_middle.y) < 0.9 ? dvec3(0, 1, 0) : dvec3(1, 0, 0);
@@ -54,7 +55,10 @@ SoftCase frame_case(const SceneFrame& frame, int width, int height) {
   c.soup.casts = geometry.casts_shadow;
   c.view = evaluate_camera(*scene, 0, time_s, 0, width, height);
   c.points = view_samples(c.soup.view(), c.view, width, height);
-  c.light = square_light(c.soup, evaluate_lights(*scene, 0, time_s).at(0).position);
+  const WorldLight light = evaluate_lights(*scene, 0, time_s).at(0);
+  c.light = scene->lights[static_cast<std::size_t>(light.light)].type == LightType::area_rect
+                ? *make_rectangle_light(light.position, -light.axis_x, light.axis_y)
+                : square_light(c.soup, light.position);
   return c;
 }
 
