@@ -85,7 +85,7 @@ HWY_INLINE Truth<double, block_size> outside(const Shaft& shaft, const Triangles
 
 // n.(x - A) over the points and over the light, n = (B - A) x (C - A), as least and greatest value, both
 // widened by their rounding: with edges off by u, n is off by 9 u size^2 a coordinate, and n.(x - A) by
-// (27 + 6 + 14) u size^2 (reach_A + reach_x).
+// (27 for n + 18 a product + 18 for x + 30 for sums) u size^2 (reach_A + reach_x).
 struct PlaneRange {
   Double8 points_low, points_high, light_low, light_high;
   Double8 normal_length, size2;
@@ -100,7 +100,7 @@ HWY_INLINE PlaneRange plane_range(const Shaft& shaft, const TriangleBlock& block
   PlaneRange r;
   r.size2 = t.size * t.size;
   const Double8 margin =
-      r.size2 * ((t.reach + constant(shaft.cell.reach)) * constant(0x1p-47) + constant(6 * shaft.cell.slack));
+      r.size2 * ((t.reach + constant(shaft.cell.reach)) * constant(0x1p-46) + constant(6 * shaft.cell.slack));
   around = around + margin;
   r.points_low = at_centre - around, r.points_high = at_centre + around;
   r.light_low = r.light_high = product(n, constant(shaft.light->vertices[0]));
@@ -108,7 +108,7 @@ HWY_INLINE PlaneRange plane_range(const Shaft& shaft, const TriangleBlock& block
     const Double8 at = product(n, constant(shaft.light->vertices[k]));
     r.light_low = min(r.light_low, at), r.light_high = max(r.light_high, at);
   }
-  const Double8 light_margin = r.size2 * (t.reach + constant(shaft.light->reach)) * constant(0x1p-47);
+  const Double8 light_margin = r.size2 * (t.reach + constant(shaft.light->reach)) * constant(0x1p-46);
   r.light_low = r.light_low - at_corner - light_margin;
   r.light_high = r.light_high - at_corner + light_margin;
   r.normal_length = square_root(product(n, n));
