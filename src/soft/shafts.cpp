@@ -200,7 +200,8 @@ void Descent::hand_over(const PointGroup& group, GroupClass kind, ThreadScratch&
 
 // A line from P to Q meets T at X, more than tau_R off P as T must be off P's side of its plane. With h the
 // height over the receiver's plane, h(X) >= h(P) + tau_R h(Q) / |PQ|: a triangle that stays below that blocks
-// nothing. Where the light sinks below the receiver's horizon only lines that rise count: h(X) >= h(P).
+// nothing (but for slivers thinner than 2^-47 of their length, whose n is rounding). Where the light sinks
+// below the receiver's horizon only lines that rise count: h(X) >= h(P).
 void Descent::set_planes(const PointGroup& group, std::vector<ReceiverPlane>& planes) const {
   planes.clear();
   for (const Receiver& receiver : groups_.receivers_of(group)) {
