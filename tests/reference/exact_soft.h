@@ -29,6 +29,7 @@ struct SoftAnswer {
                            ///< times its size away
   double unoccluded = 0;   ///< irradiance of the light's part above the horizon
   double error_bound = 0;  ///< of visible_fraction
+  bool at_plane = false;   ///< ex x ey and `normal` put the point on different sides of the light's plane
   bool skipped = false;    ///< too many occluders: nothing but their number is known
   std::size_t candidates = 0;  ///< triangles in the shaft
   std::size_t occluders = 0;   ///< of these, those that block a part of the light above the horizon
