@@ -232,8 +232,8 @@ int ExactSoft::eye_side(std::uint32_t id) const {
   return view_.orthographic ? dot(n, exact(-view_.d0)).sign() : dot(n, exact(view_.eye) - exact(t[0])).sign();
 }
 
-bool ExactSoft::faces_light(const glm::dvec3& point) const {
-  return dot(cross(exact(light_.ex), exact(light_.ey)), exact(point) - exact(light_.centre)).sign() > 0;
+int ExactSoft::light_side(const glm::dvec3& point) const {
+  return dot(cross(exact(light_.ex), exact(light_.ey)), exact(point) - exact(light_.centre)).sign();
 }
 
 std::vector<std::uint32_t> ExactSoft::candidates(const glm::dvec3& point, std::uint32_t id) const {
@@ -249,10 +249,12 @@ std::vector<std::uint32_t> ExactSoft::candidates(const glm::dvec3& point, std::u
 }
 
 template <class N>
-SoftAnswer ExactSoft::solve(const glm::dvec3& position, std::uint32_t id, glm::vec3 normal) const {
+SoftAnswer ExactSoft::solve(const glm::dvec3& position, std::uint32_t id, glm::vec3 normal,
+                            std::size_t most) const {
   SoftAnswer answer;
-  const int side = eye_side(id);
-  if (side == 0 || !faces_light(position)) return answer;
+  const int side = eye_side(id), front = light_side(position);
+  answer.at_plane = front != dot(exact(light_.normal), exact(position) - exact(light_.centre)).sign();
+  if (side == 0 || front <= 0) return answer;
   const LightFrame frame(light_);
   const ExactVec point = exact(position);
   const auto own = corners_of(triangles_, id);
@@ -275,12 +277,14 @@ SoftAnswer ExactSoft::solve(const glm::dvec3& position, std::uint32_t id, glm::v
     Polygon<N> part = hidden_part(base, frame, c, n, point, height.sign());
     if (!part.empty()) holes.push_back(std::move(part));
   }
+  answer.candidates = occluders.size();
+  answer.occluders = holes.size();
+  answer.skipped = holes.size() > most;
+  if (answer.skipped) return answer;
   long double visible = 0;
   answer.visible = trapezoids_of(base, holes, visible);
   const long double area = to_long_double(N(doubled_area(outline) / 2));
   answer.visible_fraction = static_cast<double>(std::clamp(visible / area, 0.0L, 1.0L));
-  answer.candidates = occluders.size();
-  answer.occluders = holes.size();
   Polygon<long double> rounded;
   for (const glm::dvec2& p : light_.outline) rounded.push_back({p.x, p.y});
   answer.error_bound = rounding_bound(rounded, holes.size()) + 0x1p-53;
@@ -296,10 +300,10 @@ SoftAnswer ExactSoft::solve(const glm::dvec3& position, std::uint32_t id, glm::v
 }
 
 SoftAnswer ExactSoft::answer(const glm::dvec3& point, std::uint32_t id, const glm::vec3& normal,
-                             SweepNumbers numbers) const {
+                             SweepNumbers numbers, std::size_t most_occluders) const {
   if (id >= triangles_.triangles.size()) return {};
-  return numbers == SweepNumbers::rational ? solve<mpq_class>(point, id, normal)
-                                           : solve<long double>(point, id, normal);
+  return numbers == SweepNumbers::rational ? solve<mpq_class>(point, id, normal, most_occluders)
+                                           : solve<long double>(point, id, normal, most_occluders);
 }
 
 }  // namespace tenebra::reference

@@ -29,6 +29,8 @@ struct SoftAnswer {
                            ///< times its size away
   double unoccluded = 0;   ///< irradiance of the light's part above the horizon
   double error_bound = 0;  ///< of visible_fraction
+  bool at_plane = false;   ///< ex x ey and `normal` put the point on different sides of the light's plane
+  bool skipped = false;    ///< too many occluders: nothing but their number is known
   std::size_t candidates = 0;  ///< triangles in the shaft
   std::size_t occluders = 0;   ///< of these, those that block a part of the light above the horizon
   std::vector<Trapezoid> visible;
@@ -41,16 +43,18 @@ public:
   ExactSoft(const ViewRays& view, const TriangleView& triangles, const AreaLight& light);
 
   /// What the sample (a point, its triangle, a shading normal; zero: the face normal towards the view) sees.
+  /// The time grows with the square of the occluders: beyond `most_occluders` the point is skipped.
   SoftAnswer answer(const glm::dvec3& point, std::uint32_t id, const glm::vec3& normal = glm::vec3(0),
-                    SweepNumbers numbers = SweepNumbers::long_double) const;
+                    SweepNumbers numbers = SweepNumbers::long_double,
+                    std::size_t most_occluders = 100000) const;
   /// Triangles that may block the sample: conservative.
   std::vector<std::uint32_t> candidates(const glm::dvec3& point, std::uint32_t id) const;
 
 private:
   template <class N>
-  SoftAnswer solve(const glm::dvec3& point, std::uint32_t id, glm::vec3 normal) const;
+  SoftAnswer solve(const glm::dvec3& point, std::uint32_t id, glm::vec3 normal, std::size_t most) const;
   int eye_side(std::uint32_t id) const;
-  bool faces_light(const glm::dvec3& point) const;
+  int light_side(const glm::dvec3& point) const;
 
   ViewRays view_;
   TriangleView triangles_;

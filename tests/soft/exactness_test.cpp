@@ -8,7 +8,7 @@
 namespace tenebra::testing {
 namespace {
 
-constexpr int width = 128, height = 72;
+constexpr int width = 96, height = 54;
 
 /// Some of `from`, each at most once.
 std::vector<std::size_t> some_of(std::vector<std::size_t> from, std::size_t count, Random& random) {
