@@ -45,31 +45,36 @@ HWY_INLINE std::uint32_t meet_boxes(const BvhNode& node, const Slabs& ray, float
   return bits(not_above(first, last));
 }
 
-HWY_INLINE Pack3<Float8> cross(const Pack3<Float8>& a, const Pack3<Float8>& b) {
-  return {a.y * b.z - a.z * b.y, a.z * b.x - a.x * b.z, a.x * b.y - a.y * b.x};
-}
-HWY_INLINE Float8 inner(const Pack3<Float8>& a, const Pack3<Float8>& b) {
-  return (a.x * b.x + a.y * b.y) + a.z * b.z;
+// The frame in which the ray runs along its longest axis and everything is sheared onto the plane across
+// (Woop, Benthin and Wald 2013).
+struct Shear {
+  int x, y, z;  // axes, z the longest
+  float to_x, to_y, to_z;
+};
+
+Shear shear_along(glm::vec3 d) {
+  const glm::vec3 size = glm::abs(d);
+  const int z = size.x >= size.y && size.x >= size.z ? 0 : size.y >= size.z ? 1 : 2;
+  const int x = (z + 1) % 3, y = (z + 2) % 3;
+  return {x, y, z, d[x] / d[z], d[y] / d[z], 1 / d[z]};
 }
 
-// Distances to the eight triangles, infinity where there is no hit. An edge's side is the sign of
-// direction.(p x q): it turns over exactly with p and q, so that neighbours agree and leave no gap.
-HWY_INLINE Float8 meet_triangles(const TriangleBlock& block, const CasterRay& ray) {
-  const Pack3<Float8> d = splat3<Float8>(ray.direction.x, ray.direction.y, ray.direction.z);
+// Distances to the eight triangles, infinity where there is no hit. In the plane, an edge's side is the sign
+// of a difference of two products: rounding may make it zero, never turn it over. Zero counts as inside, so
+// that neighbours leave no gap, at vertices neither.
+HWY_INLINE Float8 meet_triangles(const TriangleBlock& block, const CasterRay& ray, const Shear& shear) {
+  const Float8 to_x = splat<Float8>(shear.to_x), to_y = splat<Float8>(shear.to_y);
   Pack3<Float8> p[3];
   for (int k = 0; k < 3; ++k) {
-    p[k] = {load<Float8>(block.corner[k][0]) - splat<Float8>(ray.origin.x),
-            load<Float8>(block.corner[k][1]) - splat<Float8>(ray.origin.y),
-            load<Float8>(block.corner[k][2]) - splat<Float8>(ray.origin.z)};
+    const Float8 z = load<Float8>(block.corner[k][shear.z]) - splat<Float8>(ray.origin[shear.z]);
+    p[k] = {load<Float8>(block.corner[k][shear.x]) - splat<Float8>(ray.origin[shear.x]) - to_x * z,
+            load<Float8>(block.corner[k][shear.y]) - splat<Float8>(ray.origin[shear.y]) - to_y * z, z};
   }
-  const Float8 u = inner(cross(p[1], p[2]), d), v = inner(cross(p[2], p[0]), d),
-               w = inner(cross(p[0], p[1]), d);
+  const Float8 u = p[2].x * p[1].y - p[2].y * p[1].x, v = p[0].x * p[2].y - p[0].y * p[2].x,
+               w = p[1].x * p[0].y - p[1].y * p[0].x;
   const Float8 zero = splat<Float8>(0.0f), none = splat<Float8>(infinity);
-  const Float8 low = min(u, min(v, w)), high = max(u, max(v, w));
-  const Pack3<Float8> n = cross({p[1].x - p[0].x, p[1].y - p[0].y, p[1].z - p[0].z},
-                                {p[2].x - p[0].x, p[2].y - p[0].y, p[2].z - p[0].z});
-  const Float8 t = inner(p[0], n) / inner(d, n);
-  const auto inside = not_above(zero, low) | not_above(high, zero);
+  const Float8 t = ((u * p[0].z + v * p[1].z) + w * p[2].z) * splat<Float8>(shear.to_z) / ((u + v) + w);
+  const auto inside = not_above(zero, min(u, min(v, w))) | not_above(max(u, max(v, w)), zero);
   const auto ahead = less(splat<Float8>(ray.from), t) & less(t, splat<Float8>(ray.to));
   return where(inside & ahead, t, none);
 }
@@ -97,6 +102,7 @@ CasterHit trace(const TriangleBvh& bvh, CasterRay ray) {
       {finite_inverse(ray.direction.x), finite_inverse(ray.direction.y), finite_inverse(ray.direction.z)},
       ray.from,
       ray.to};
+  const Shear shear = shear_along(ray.direction);
   Entry stack[stack_size];
   int size = 0;
   stack[size++] = {ray.from, 0};
@@ -106,7 +112,7 @@ CasterHit trace(const TriangleBvh& bvh, CasterRay ray) {
     if (entry.child & bvh_leaf) {
       const TriangleBlock& block = bvh.blocks[entry.child & ~bvh_leaf];
       float t[bvh_width];
-      store(meet_triangles(block, ray), t);
+      store(meet_triangles(block, ray, shear), t);
       for (int i = 0; i < bvh_width; ++i) {
         if (!(t[i] <= hit.distance) || t[i] == infinity || block.triangle[i] == ray.skip) continue;
         if (t[i] == hit.distance && block.triangle[i] > hit.triangle) continue;
