@@ -150,7 +150,7 @@ Expected<DisplacementField> build_field(std::span<const glm::vec3> positions,
   if (bvh.triangles == 0) return fail("mesh for a field: found no triangle with an area, expected one");
   DisplacementField field = empty_field(settings, *shape);
   field.bound = bounding_ellipsoid(positions, triangles, settings.layout);
-  field.close = close_cells(positions, triangles, field.bound, field.cell());
+  field.close = close_cells(positions, triangles, field.bound, field.cell() / 4);
   const std::size_t rows = field.points.size(), directions = shape->entries / rows;
   const RowTracer tracer(field, bvh);
   // Eight rows end on a byte whatever their length.

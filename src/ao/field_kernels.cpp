@@ -31,7 +31,7 @@ HWY_INLINE Pack3<Float16> along(const Pack3<Float16>& a, Float16 s, const Pack3<
 }
 
 constexpr float half_diagonal = 0.70710678f;  // of a cell, in widths
-constexpr float cast_cells = 2;               // how far close rays are cast, in cells
+constexpr float cast_cells = 1;               // how far close rays are cast, in cells
 
 // The ray in unit space and its chord of the unit sphere.
 struct Chords {

@@ -29,9 +29,8 @@ HWY_INLINE Float16 octant_angle(Float16 t) {
 
 HWY_INLINE Square16 square_from_direction(const Pack3<Float16>& d) {
   const Float16 zero = splat<Float16>(0.0f), one = splat<Float16>(1.0f), tiny = splat<Float16>(1e-37f);
-  const Float16 x = absolute(d.x), y = absolute(d.y), z = absolute(d.z);
-  const Float16 plane = x * x + y * y, length = square_root(plane + z * z);
-  const Float16 r = square_root(plane / max(length * (length + z), tiny));
+  const Float16 x = absolute(d.x), y = absolute(d.y);
+  const Float16 r = square_root(max(one - absolute(d.z), zero));
   const Float16 larger = max(x, y), smaller = min(x, y);
   const Float16 angle = splat<Float16>(0.5f) * octant_angle(smaller / max(larger, tiny));
   const Float16 v = where_not_above(y, x, angle, one - angle) * r;

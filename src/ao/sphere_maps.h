@@ -22,13 +22,11 @@ inline float octant_angle(float t) {
   return p * t;
 }
 
-/// Octahedral map of equal areas (Clarberg 2008): a direction of any length but zero to the square. The upper
-/// hemisphere is the diamond |u| + |v| <= 1; off by at most 2e-6 (see octant_angle).
+/// Octahedral map of equal areas (Clarberg 2008): a unit vector to the square. The upper hemisphere is the
+/// diamond |u| + |v| <= 1. Off by at most 2e-6 (see octant_angle), at the poles by 4e-4 (1 - z cancels).
 inline glm::vec2 square_from_direction(glm::vec3 d) {
-  const float x = std::abs(d.x), y = std::abs(d.y), z = std::abs(d.z);
-  const float plane = x * x + y * y, length = std::sqrt(plane + z * z);
-  // Distance from the pole: sqrt(1 - z / length), without its cancellation.
-  const float r = std::sqrt(plane / std::max(length * (length + z), 1e-37f));
+  const float x = std::abs(d.x), y = std::abs(d.y);
+  const float r = std::sqrt(std::max(1 - std::abs(d.z), 0.0f));
   const float larger = std::max(x, y), smaller = std::min(x, y);
   const float angle = 0.5f * octant_angle(smaller / std::max(larger, 1e-37f));
   float v = (y <= x ? angle : 1 - angle) * r;
@@ -73,6 +71,14 @@ inline glm::vec2 square_from_disk(glm::vec2 disk) {
   const float r = std::sqrt(disk.x * disk.x + disk.y * disk.y);
   const float across = r * octant_angle(smaller / std::max(larger, 1e-37f));
   return {std::copysign(y <= x ? r : across, disk.x), std::copysign(y <= x ? across : r, disk.y)};
+}
+
+/// Point i of n that fill the square evenly, whatever n: a lattice of the golden ratio. Through the maps
+/// below its 256 rays have half the error of a 16 x 16 grid's, and no bias.
+inline glm::vec2 lattice_point(int i, int n) {
+  const double across = i * 0.61803398874989485;
+  return {static_cast<float>((2 * i + 1.0) / n - 1),
+          static_cast<float>(2 * (across - std::floor(across)) - 1)};
 }
 
 /// Malley: the disk lifted to the hemisphere around +z; density proportional to the cosine.
