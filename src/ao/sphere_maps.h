@@ -100,7 +100,7 @@ inline Frame frame_around(glm::vec3 n) {
 /// Cell 0 .. side - 1 of a coordinate of the square; NaN counts as cell 0.
 inline int cell_of(float coordinate, int side) {
   const float half = 0.5f * static_cast<float>(side);
-  return static_cast<int>(std::min(std::max(coordinate * half + half, 0.0f), static_cast<float>(side - 1)));
+  return static_cast<int>(std::min(std::max(0.0f, coordinate * half + half), static_cast<float>(side - 1)));
 }
 /// Cell index: rows of v.
 inline int cell_index(glm::vec2 square, int side) {
