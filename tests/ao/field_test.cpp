@@ -25,7 +25,7 @@ TEST(FieldShape, KeepsToTheMemoryPromised) {
   EXPECT_EQ(field_shape({paper, 4225, 1024, 8})->entries, 4225u * 1024);
   EXPECT_LE(field_shape({paper, 4225, 1024, 8})->bytes, 4'500'000u);
   EXPECT_LE(field_shape({paper, 4225, 1024, 1})->bytes, 600'000u);
-  EXPECT_EQ(field_shape({chords, 4225, 1024, 8})->position_side, 46);
+  EXPECT_EQ(field_shape({chords, 4225, 1024, 8})->position_side, 45);
   EXPECT_LE(field_shape({chords, 4225, 1024, 8})->bytes, 4'500'000u);
   EXPECT_LE(field_shape({chords, 4225, 1024, 1})->bytes, 600'000u);
   EXPECT_EQ(field_shape(sparse_field)->position_side, 24);
@@ -127,7 +127,7 @@ TEST(Field, OneBitKeepsTheHitsOfEightAndTheirMean) {
   for (const FieldLayout layout : {paper, chords}) {
     const DisplacementField one = object.field({layout, 49, 81, 1}),
                             whole = object.field({layout, 49, 81, 32});
-    const std::size_t positions = whole.points.size(), directions = whole.shape.entries / positions;
+    const std::size_t positions = whole.shape.positions(), directions = whole.shape.directions();
     for (std::size_t p = 0; p < positions; ++p) {
       double sum = 0;
       int hits = 0;

@@ -121,7 +121,7 @@ TEST(SphereMaps, PacksGiveTheSameBits) {
   namespace pack = tenebra::HWY_NAMESPACE;
   Random random(4);
   for (int i = 0; i < 20000; ++i) {
-    float x[16], y[16], z[16], u[16], v[16], s[16], t[16];
+    float x[16], y[16], z[16], x2[16], y2[16], z2[16], u[16], v[16], s[16], t[16];
     std::int32_t cell[16];
     for (int k = 0; k < 16; ++k) {
       vec3 d(random.direction());
@@ -133,12 +133,16 @@ TEST(SphereMaps, PacksGiveTheSameBits) {
         pack::square_from_direction({pack::load<P>(x), pack::load<P>(y), pack::load<P>(z)});
     const pack::Square16 disk = pack::square_from_disk(pack::load<P>(x), pack::load<P>(y));
     pack::store(sphere.u, u), pack::store(sphere.v, v), pack::store(disk.u, s), pack::store(disk.v, t);
-    pack::store(pack::cell_index(sphere, 46), cell);
+    const pack::Cell16 cells = pack::cell_of(sphere, 46);
+    pack::store(pack::cell_index(cells, 46), cell);
+    const pack::Pack3<P> back = pack::direction_from_square(pack::cell_point(cells, 46));
+    pack::store(back.x, x2), pack::store(back.y, y2), pack::store(back.z, z2);
     for (int k = 0; k < 16; ++k) {
       const vec2 square = square_from_direction({x[k], y[k], z[k]});
       ASSERT_EQ(square, vec2(u[k], v[k]));
       ASSERT_EQ(square_from_disk({x[k], y[k]}), vec2(s[k], t[k]));
       ASSERT_EQ(cell_index(square, 46), cell[k]);
+      ASSERT_EQ(direction_from_square(cell_point(cell[k], 46)), vec3(x2[k], y2[k], z2[k]));
     }
   }
 }
