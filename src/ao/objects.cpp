@@ -84,7 +84,8 @@ dmat4 local_matrix(const Node& node) {
 }
 
 dmat4 scaling(const dvec3& s) {
-  return {glm::dvec4(s.x, 0, 0, 0), glm::dvec4(0, s.y, 0, 0), glm::dvec4(0, 0, s.z, 0), glm::dvec4(0, 0, 0, 1)};
+  return {glm::dvec4(s.x, 0, 0, 0), glm::dvec4(0, s.y, 0, 0), glm::dvec4(0, 0, s.z, 0),
+          glm::dvec4(0, 0, 0, 1)};
 }
 
 /// The scale of a moving node without its size: what instances that differ in size have in common.
@@ -111,7 +112,8 @@ bool place(const Pose& pose, RigidObject& object) {
   if (!(largest > 0) || !std::isfinite(largest)) return false;
   const double slack = most_shear * largest;
   for (int k = 0; k < 3; ++k) {
-    if (largest - squares[k] > slack || std::abs(glm::dot(linear[k], linear[(k + 1) % 3])) > slack) return false;
+    if (largest - squares[k] > slack || std::abs(glm::dot(linear[k], linear[(k + 1) % 3])) > slack)
+      return false;
   }
   object.scale = std::sqrt((squares[0] + squares[1] + squares[2]) / 3);
   object.to_object = glm::inverse(object.to_world);
@@ -198,7 +200,8 @@ std::uint64_t signature_of(const Scene& scene, const FrameGeometry& geometry, co
   hash.add(motion.mover);
   for (const Part& part : parts_of(scene)) {
     const NodePose& pose = geometry.pose.nodes[part.node];
-    const std::size_t sizes[] = {part.first_vertex, part.first_triangle, static_cast<std::size_t>(pose.visible)};
+    const std::size_t sizes[] = {part.first_vertex, part.first_triangle,
+                                 static_cast<std::size_t>(pose.visible)};
     if (motion.mover[part.node] >= 0) {
       hash.add(sizes, 2 * sizeof(std::size_t));
       continue;
@@ -252,7 +255,8 @@ private:
     if (std::find(names.begin(), names.end(), shown) == names.end()) names.push_back(shown);
   }
 
-  /// From a node of the group to the object's space, by rest transforms alone: bits do not depend on the instant.
+  /// From a node of the group to the object's space, by rest transforms alone: bits do not depend on the
+  /// instant.
   dmat4 to_object(std::size_t node, const RigidObject& object) const {
     dmat4 matrix(1.0);
     for (; static_cast<int>(node) != object.node; node = static_cast<std::size_t>(scene_.nodes[node].parent))

@@ -26,8 +26,8 @@ void spread(const RayPattern& pattern, const RayAxes& axes, const glm::vec3& fac
                            component(local, axes.x.y, axes.y.y, axes.z.y),
                            component(local, axes.x.z, axes.y.z, axes.z.z)};
     const Float16 below = two * min(component(d, face.x, face.y, face.z), zero);
-    const Pack3<Float16> mirrored = subtract_scaled(
-        d, below, {splat<Float16>(face.x), splat<Float16>(face.y), splat<Float16>(face.z)});
+    const Pack3<Float16> mirrored =
+        subtract_scaled(d, below, {splat<Float16>(face.x), splat<Float16>(face.y), splat<Float16>(face.z)});
     store(ox, out->ox), store(oy, out->oy), store(oz, out->oz);
     store(mirrored.x, out->dx), store(mirrored.y, out->dy), store(mirrored.z, out->dz);
     ++out;

@@ -27,16 +27,16 @@ struct RayAxes {
   glm::vec3 x, y, z;
 };
 
-/// Axes about `normal`, turned by an angle that belongs to the cell of size `cell` in which `position` (in the
-/// receiver's own space) lies: a point keeps its rays whatever the camera does.
+/// Axes about `normal`, turned by an angle that belongs to the cell of size `cell` in which `position` (in
+/// the receiver's own space) lies: a point keeps its rays whatever the camera does.
 RayAxes turned_axes(const glm::vec3& normal, const glm::dvec3& position, double cell);
 
 /// Code for one instruction set. Bits do not depend on it.
 struct FanKernels {
   /// Rays of a point: the pattern in `axes`, those below the plane of `face` mirrored at it, so that a
   /// surface does not hide itself where its shading normal leans. One RayBatch a batch of the pattern.
-  void (*spread)(const RayPattern& pattern, const RayAxes& axes, const glm::vec3& face, const glm::vec3& origin,
-                 RayBatch* out) = nullptr;
+  void (*spread)(const RayPattern& pattern, const RayAxes& axes, const glm::vec3& face,
+                 const glm::vec3& origin, RayBatch* out) = nullptr;
   /// Sum of max(0, 1 - distance / reach) over whole batches.
   float (*fall_off)(const float* distances, int batches, float reach) = nullptr;
 };

@@ -10,14 +10,14 @@
 namespace tenebra {
 
 struct Receiver {
-  glm::dvec3 position{0.0};   ///< world
-  glm::dvec3 local{0.0};      ///< in the space of its object; world for what stands or deforms
-  glm::vec3 normal{0.0f};     ///< world, unit, of shading
-  glm::vec3 face{0.0f};       ///< world, unit, of the triangle, on the same side
+  glm::dvec3 position{0.0};  ///< world
+  glm::dvec3 local{0.0};     ///< in the space of its object; world for what stands or deforms
+  glm::vec3 normal{0.0f};    ///< world, unit, of shading
+  glm::vec3 face{0.0f};      ///< world, unit, of the triangle, on the same side
   TriangleOwner owner;
-  float v = 0, w = 0;         ///< barycentric weights of the second and third corner
-  bool front = true;          ///< seen from where the shape's triangle runs counter-clockwise
-  std::size_t index = 0;      ///< of the result
+  float v = 0, w = 0;     ///< barycentric weights of the second and third corner
+  bool front = true;      ///< seen from where the shape's triangle runs counter-clockwise
+  std::size_t index = 0;  ///< of the result
 };
 
 /// Makes receivers; cheap for a run of points on one triangle.

@@ -1,6 +1,5 @@
 #include "ao/self_occlusion.h"
 
-
 #include <algorithm>
 #include <cmath>
 
@@ -39,13 +38,6 @@ std::uint32_t steps_of(double edge, double spacing) {
   return static_cast<std::uint32_t>(std::clamp(std::ceil(edge / spacing), 1.0, finest));
 }
 
-double largest_coordinate(const ObjectShape& shape) {
-  float largest = 0;
-  for (const vec3& p : shape.positions)
-    largest = std::max({largest, std::abs(p.x), std::abs(p.y), std::abs(p.z)});
-  return largest;
-}
-
 vec3 face_normal(const ObjectShape& shape, std::size_t triangle) {
   const glm::uvec3 t = shape.triangles[triangle];
   const dvec3 a(shape.positions[t.x]);
@@ -56,12 +48,22 @@ vec3 face_normal(const ObjectShape& shape, std::size_t triangle) {
 
 }  // namespace
 
+double largest_coordinate(const ObjectShape& shape) {
+  float largest = 0;
+  for (const vec3& p : shape.positions)
+    largest = std::max({largest, std::abs(p.x), std::abs(p.y), std::abs(p.z)});
+  return largest;
+}
+
 float surface_lift(double largest_coordinate) {
   return static_cast<float>(4 * 1.7320508 * 0x1p-24 * largest_coordinate);
 }
 
 SelfOcclusion::SelfOcclusion(const ObjectShape& shape, const TriangleBvh& casters, double reach)
-    : shape_(shape), casters_(casters), reach_(reach), lift_(surface_lift(largest_coordinate(shape))),
+    : shape_(shape),
+      casters_(casters),
+      reach_(reach),
+      lift_(surface_lift(largest_coordinate(shape))),
       pattern_(make_ray_pattern(sample_rays)) {
   lay_grids(reach / 16);
   weld_corners(reach / 32);
@@ -127,9 +129,8 @@ void SelfOcclusion::weld_corners(double cell) {
     ++small;
   }
   corners_.resize(corners.size());
-  std::sort(corners.begin(), corners.end(), [](const Corner& a, const Corner& b) {
-    return a.key != b.key ? a.key < b.key : a.id < b.id;
-  });
+  std::sort(corners.begin(), corners.end(),
+            [](const Corner& a, const Corner& b) { return a.key != b.key ? a.key < b.key : a.id < b.id; });
   for (std::size_t i = 0; i < corners.size(); ++i) {
     if (i == 0 || corners[i].key != corners[i - 1].key) shared_.push_back(corners[i].id);
     corners_[corners[i].at] = static_cast<std::uint32_t>(shared_.size() - 1);
@@ -160,9 +161,8 @@ SelfOcclusion::Blend SelfOcclusion::blend(std::uint32_t triangle, float v, float
   return {{at(i + 1, j + 1), at(i, j + 1), at(i + 1, j)}, {fv + fw - 1, 1 - fv, 1 - fw}};
 }
 
-bool SelfOcclusion::known(const Blend& blend) const {
-  return values_[blend.samples[0]] != unknown && values_[blend.samples[1]] != unknown &&
-         values_[blend.samples[2]] != unknown;
+bool SelfOcclusion::known(std::uint32_t sample) const {
+  return values_[sample] != unknown;
 }
 
 float SelfOcclusion::occlusion(const Blend& blend) const {

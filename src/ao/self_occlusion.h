@@ -2,10 +2,10 @@
 // for good, interpolated. Serves what stands as well as what moves rigidly: neither ever changes for itself.
 //
 // Samples lie on the triangles, so nothing seeps through walls: on a large triangle at the points of a
-// triangular grid of a sixteenth of the reach, on a small one at its corners, where corners that lie within half of that and
-// face alike share a sample. Each is pulled a little into its triangle and answered by `sample_rays` rays
-// about its shading normal. A sample depends on nothing but the shape and the reach, so what is interpolated
-// does not depend on which frame or thread saw it first.
+// triangular grid of a sixteenth of the reach, on a small one at its corners, where corners that lie within
+// half of that and face alike share a sample. Each is pulled a little into its triangle and answered by
+// `sample_rays` rays about its shading normal. A sample depends on nothing but the shape and the reach, so
+// what is interpolated does not depend on which frame or thread saw it first.
 #pragma once
 
 #include <cstdint>
@@ -14,18 +14,16 @@
 #include <span>
 #include <vector>
 
+#include "ao/ao_kernels.h"
 #include "ao/objects.h"
-#include "ao/ray_pattern.h"
-#include "ao/triangle_bvh.h"
 #include "parallel/stop_flag.h"
 
 namespace tenebra {
 
-/// What casts rays, for one instruction set.
-struct AoKernels {
-  FanKernels fan;
-  BvhKernels bvh;
-};
+/// How far off the surface rays start: beyond the rounding to float of the point, and of the corners of two
+/// triangles that touch (each at most sqrt(3)/2 ulp of its largest coordinate; one ulp more for the sums).
+float surface_lift(double largest_coordinate);
+double largest_coordinate(const ObjectShape& shape);
 
 class SelfOcclusion {
 public:
@@ -44,7 +42,7 @@ public:
   /// At barycentric weights v, w of the second and third corner; `front`: the side from which the triangle
   /// runs counter-clockwise.
   Blend blend(std::uint32_t triangle, float v, float w, bool front) const;
-  bool known(const Blend& blend) const;
+  bool known(std::uint32_t sample) const;
   float occlusion(const Blend& blend) const;  ///< 0..1; all samples must be known
 
   /// Casts the rays of samples (unique). False if stopped.
@@ -80,11 +78,11 @@ private:
     std::uint32_t first = 0;
     std::uint32_t steps = 1;
   };
-  std::vector<Grid> grids_;              ///< one a triangle
-  std::vector<std::uint32_t> corners_;   ///< shared samples of small triangles' corners
-  std::vector<std::uint32_t> shared_;    ///< shared sample -> triangle * 3 + corner
-  std::vector<std::uint32_t> large_;     ///< triangles with grids, by ascending first sample
-  std::vector<std::uint16_t> values_;    ///< two a sample: front, back; `unknown` or 0..65534
+  std::vector<Grid> grids_;             ///< one a triangle
+  std::vector<std::uint32_t> corners_;  ///< shared samples of small triangles' corners
+  std::vector<std::uint32_t> shared_;   ///< shared sample -> triangle * 3 + corner
+  std::vector<std::uint32_t> large_;    ///< triangles with grids, by ascending first sample
+  std::vector<std::uint16_t> values_;   ///< two a sample: front, back; `unknown` or 0..65534
   std::uint64_t filled_ = 0;
 };
 
