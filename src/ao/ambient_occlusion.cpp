@@ -118,7 +118,13 @@ struct AmbientOcclusion::State {
   std::size_t body_index(int object) const {
     return object == TriangleOwner::standing ? objects.objects.size() : static_cast<std::size_t>(object);
   }
-  /// The samples of what a receiver lies on; null if it deforms or they are not made yet.
+  /// Whether what it lies on keeps its shape.
+  bool has_body(const Receiver& receiver) const {
+    const std::int32_t object = receiver.owner.object;
+    return object == TriangleOwner::standing ||
+           (object >= 0 && objects.objects[static_cast<std::size_t>(object)].rigid);
+  }
+  /// The samples of what a receiver lies on; null if it has none or they are not made yet.
   const SelfOcclusion* body_under(const Receiver& receiver) const;
   void make_body(int object);
   float others(const Receiver& receiver, Scratch& scratch, GroupReport& report) const;
@@ -178,7 +184,7 @@ void AmbientOcclusion::State::note_deforming(const AoConfig& config) {
 }
 
 const SelfOcclusion* AmbientOcclusion::State::body_under(const Receiver& receiver) const {
-  if (receiver.owner.object == TriangleOwner::deforming) return nullptr;
+  if (!has_body(receiver)) return nullptr;
   const int body = body_of[body_index(receiver.owner.object)];
   return body < 0 ? nullptr : bodies[static_cast<std::size_t>(body)].samples.get();
 }
@@ -189,7 +195,7 @@ void AmbientOcclusion::State::make_body(int object) {
   int shape = -1;
   double own_reach = reach;
   if (object != TriangleOwner::standing) {
-    const RigidObject& rigid = objects.objects[static_cast<std::size_t>(object)];
+    const MovingObject& rigid = objects.objects[static_cast<std::size_t>(object)];
     shape = rigid.shape;
     own_reach = reach / rigid.scale;
   }
@@ -228,7 +234,7 @@ float AmbientOcclusion::State::others(const Receiver& receiver, Scratch& scratch
     if (!occluders.reaches(occluder, receiver)) continue;
     if (!cast) cast_fan(receiver, scratch);
     cast = true;
-    occluders.meet(occluder, scratch.rays, scratch.distances.data(), report.counts);
+    occluders.meet(occluder, receiver, scratch.rays, scratch.distances.data(), report.counts);
   }
   if (!cast) return 0;
   const float sum = kernels.fan.fall_off(scratch.distances.data(), static_cast<int>(scratch.rays.size()),

@@ -108,8 +108,8 @@ TEST(FanCaster, LeavesNoGapBetweenNeighbours) {
   for (std::uint32_t j = 0; j < n; ++j)
     for (std::uint32_t i = 0; i < n; ++i) {
       const std::uint32_t a = j * n + i, b = j * n + (i + 1) % n;
-      triangles.push_back({a, b, b + n});
-      triangles.push_back({a, b + n, a + n});
+      if (j > 0) triangles.push_back({a, b, b + n});
+      if (j + 1 < n) triangles.push_back({a, b + n, a + n});
     }
   const TriangleBvh bvh = build_triangle_bvh(positions, triangles);
   for (int round = 0; round < 300; ++round) {
@@ -123,7 +123,7 @@ TEST(FanCaster, LeavesNoGapBetweenNeighbours) {
     float distance[batch_size];
     std::fill_n(distance, batch_size, infinity);
     closest_fan(SimdLevel::automatic)(bvh, rays, distance, nullptr);
-    for (int i = 0; i < batch_size; ++i) EXPECT_LT(distance[i], 1.01f) << round << " " << i;
+    for (int i = 0; i < batch_size; ++i) EXPECT_LT(distance[i], 1.01f) << round << " " << i << " " << rays.dx[i] << " " << rays.dy[i] << " " << rays.dz[i] << " " << origin.x<<" "<<origin.y<<" "<<origin.z<<" single "<<bvh_kernels(SimdLevel::automatic).closest(bvh,{rays.origin(i),rays.direction(i)}).distance;
   }
 }
 
