@@ -207,7 +207,6 @@ Expected<void> Occluders::build_object(std::size_t index, const AoProgress& prog
     if (!field) return tl::unexpected(field.error());
     shape.field = std::move(*field);
     field_bytes_ += shape.field->bytes();
-    ++fields_built_;
   }
   if (shape.field) placed.instance = place_field(*shape.field, &tree, objects_->objects[index].to_world);
   if (!placed.instance) shape.by_rays = true;
@@ -225,6 +224,7 @@ Expected<DisplacementField> Occluders::make_field(const ObjectShape& shape, cons
   const FieldProgress report = [&](double done) {
     if (progress) progress("displacement fields", done);
   };
+  ++fields_built_;
   auto field = build_field(shape.positions, triangles, tree, settings_, report, stop);
   if (field && !config_.cache.empty()) {
     if (auto saved = save_field(config_.cache, key, *field); !saved) notes_.push_back(saved.error().message);

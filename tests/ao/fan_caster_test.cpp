@@ -123,7 +123,7 @@ TEST(FanCaster, LeavesNoGapBetweenNeighbours) {
     float distance[batch_size];
     std::fill_n(distance, batch_size, infinity);
     closest_fan(SimdLevel::automatic)(bvh, rays, distance, nullptr);
-    for (int i = 0; i < batch_size; ++i) EXPECT_LT(distance[i], 1.01f) << round << " " << i << " " << rays.dx[i] << " " << rays.dy[i] << " " << rays.dz[i] << " " << origin.x<<" "<<origin.y<<" "<<origin.z<<" single "<<bvh_kernels(SimdLevel::automatic).closest(bvh,{rays.origin(i),rays.direction(i)}).distance;
+    for (int i = 0; i < batch_size; ++i) EXPECT_LT(distance[i], 1.01f) << round << " " << i;
   }
 }
 
