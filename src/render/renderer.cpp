@@ -41,6 +41,7 @@ struct Renderer::State {
   Expected<std::vector<int>> chosen_lights(const FrameInput& input, const RenderSettings& settings) const;
   void read_samples(const FrameInput& input, const RenderSettings& settings, FrameTimings& timings);
   void points_from_depth(const ViewRays& view);
+  void keep_pixel_nodes(FrameResult& result) const;
   void trace_light(const FrameInput& input, int light, const RenderSettings& settings, FrameResult& result);
 };
 
@@ -73,6 +74,26 @@ Expected<Renderer> Renderer::create(gl::Context context, const Scene& scene) {
 
 const std::string& Renderer::gl_renderer() const {
   return state_->context.description();
+}
+
+void Renderer::set_lights(const std::vector<Light>& lights) {
+  state_->scene.lights = lights;
+}
+
+std::vector<std::string> Renderer::take_debug_messages() {
+  return state_->context.take_debug_messages();
+}
+
+std::optional<glm::dvec3> Renderer::visible_point(const FrameInput& input, int x, int y) {
+  State& s = *state_;
+  if (x < 0 || y < 0 || x >= s.gbuffer.width || y >= s.gbuffer.height) return std::nullopt;
+  read_triangle_ids(s.gbuffer, s.ids);
+  compute_visible_points(s.ids, s.gbuffer.width, s.gbuffer.height, input.view, triangle_view(input.geometry),
+                         s.points);
+  const auto pixel = static_cast<std::size_t>(y) * static_cast<std::size_t>(s.gbuffer.width) +
+                     static_cast<std::size_t>(x);
+  if (s.points.triangles[pixel] == no_triangle) return std::nullopt;
+  return s.points.positions[pixel];
 }
 
 Expected<std::vector<int>> Renderer::State::chosen_lights(const FrameInput& input,
@@ -118,16 +139,24 @@ void Renderer::State::read_samples(const FrameInput& input, const RenderSettings
   timings.points_ms = watch.lap_ms();
 }
 
+void Renderer::State::keep_pixel_nodes(FrameResult& result) const {
+  const auto nodes = tracer.pixel_nodes();
+  result.pixel_nodes.resize(nodes.size());
+  for (std::size_t i = 0; i < nodes.size(); ++i) result.pixel_nodes[i] += nodes[i];
+}
+
 void Renderer::State::trace_light(const FrameInput& input, int light, const RenderSettings& settings,
                                   FrameResult& result) {
   const WorldLight& placed = input.lights[static_cast<std::size_t>(light)];
   HardShadowConfig config = settings.hard;
   if (settings.samples == SampleSource::depth) config.contact = ContactRule::none;
+  config.count_pixel_nodes = settings.diagnostics;
   with_threads(settings.threads, [&] {
     tracer.trace_shadow_mask(points, input.view, triangle_view(input.geometry),
                              shadow_light(scene.lights[static_cast<std::size_t>(placed.light)], placed),
                              config, mask);
   });
+  if (settings.diagnostics) keep_pixel_nodes(result);
   result.stats += tracer.stats();
   add_trace_times(result.timings, tracer.timings());
   result.masks.push_back({light, {gbuffer.width, gbuffer.height, 1, mask}});
@@ -144,6 +173,8 @@ Expected<void> Renderer::render_frame(const FrameInput& input, const RenderSetti
   result.masks.clear();
   result.timings = {};
   result.stats = {};
+  result.pixel_nodes.clear();
+  result.soft_classes.clear();
   FrameTimings& timings = result.timings;
   Stopwatch watch, whole;
 

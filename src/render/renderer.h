@@ -45,6 +45,7 @@ struct RenderSettings {
   int light = -1;         ///< index into the frame's lights; -1: all
   int threads = 0;        ///< 0: all cores
   float exposure = 1.0f;  ///< factor of linear colour before it is clamped
+  bool diagnostics = false;  ///< fill FrameResult::pixel_nodes and soft_classes; the picture is the same
 };
 
 /// What is drawn: one instant of a scene from one camera.
@@ -67,6 +68,8 @@ struct FrameResult {
   TraceStats stats;
   SoftStats soft;
   AoStats ao;
+  std::vector<std::uint32_t> pixel_nodes;   ///< diagnostics of hard shadows, see ShadowTracer; summed over lights
+  std::vector<std::uint8_t> soft_classes;   ///< diagnostics of soft shadows: highest SoftClass of all lights
   std::vector<std::string> notes;  ///< sentences a user should see once, new with this frame
 };
 
@@ -83,6 +86,16 @@ public:
   /// With `stop` requested from another thread it fails soon, with "stopped".
   Expected<void> render_frame(const FrameInput& input, const RenderSettings& settings, FrameResult& result,
                               const AoProgress& progress = {}, const StopFlag* stop = nullptr);
+
+  /// Other brightness, colours and sizes for the lights of the scene given to `create`, in its order.
+  void set_lights(const std::vector<Light>& lights);
+
+  /// What pixel (x, y), row 0 at the top, of the last frame sees, in world space; none: background. `input`:
+  /// that frame's.
+  std::optional<glm::dvec3> visible_point(const FrameInput& input, int x, int y);
+
+  /// What the driver complained about since the last call (contexts made with ContextOptions::debug).
+  std::vector<std::string> take_debug_messages();
 
   const std::string& gl_renderer() const;  ///< GL_RENDERER and GL_VERSION of the context
 
