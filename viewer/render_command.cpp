@@ -107,7 +107,7 @@ private:
     const auto begin = Clock::now();
     evaluate_frame(plan_.scene, plan_.clip, planned.time_s, input_.geometry);
     input_.lights = evaluate_lights(plan_.scene, plan_.clip, planned.time_s);
-    input_.view = view_of(plan_, options_, planned.time_s);
+    input_.view = view_of(plan_, options_.scene, planned.time_s, plan_.size);
     const double evaluate_ms = milliseconds(Clock::now() - begin);
     if (auto drawn = renderer.render_frame(input_, plan_.settings, result_); !drawn) return drawn;
 

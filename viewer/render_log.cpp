@@ -8,7 +8,7 @@
 namespace tenebra::viewer {
 namespace {
 
-std::string camera_text(const RenderPlan& plan, const RenderOptions& options) {
+std::string camera_text(const ScenePlan& plan, const SceneOptions& options) {
   const auto vector = [](glm::vec3 v) { return fmt::format("{},{},{}", v.x, v.y, v.z); };
   std::string text =
       fmt::format("{} ({})", plan.camera, plan.scene.cameras[static_cast<std::size_t>(plan.camera)].name);
@@ -55,12 +55,12 @@ std::vector<LogSetting> describe_render(const RenderPlan& plan, const RenderOpti
                                         : fmt::format("{}", settings.threads)},
       {"simd", std::string(simd_level_name(simd))},
       {"LP_NUM_THREADS", environment_or("LP_NUM_THREADS", "not set")},
-      {"scene", options.scene},
+      {"scene", options.scene.file},
       {"triangles", fmt::format("{}", first_frame.triangles.size())},
       {"dropped_non_finite", fmt::format("{}", first_frame.dropped_non_finite)},
       {"clip", has_clip ? plan.scene.clips[static_cast<std::size_t>(plan.clip)].name : "none"},
-      {"frames", frames_text(plan, options.fps)},
-      {"camera", camera_text(plan, options)},
+      {"frames", frames_text(plan, options.scene.fps)},
+      {"camera", camera_text(plan, options.scene)},
       {"size", fmt::format("{}x{}", settings.width, settings.height)},
       {"shadows", settings.shadows == ShadowMode::hard ? "hard" : "none"},
       {"variant", std::string(variant_name(hard.variant))},
@@ -68,9 +68,9 @@ std::vector<LogSetting> describe_render(const RenderPlan& plan, const RenderOpti
       {"cull", hard.cull_front ? "front" : "none"},
       {"light", settings.light < 0 ? "all" : fmt::format("{}", settings.light)},
       {"exposure", fmt::format("{}", settings.exposure)},
-      {"cone_sides", fmt::format("{}", options.import.cone_sides)},
+      {"cone_sides", fmt::format("{}", options.scene.import.cone_sides)},
   };
-  for (const std::string& name : options.no_cast) list.push_back({"no_cast", name});
+  for (const std::string& name : options.scene.no_cast) list.push_back({"no_cast", name});
   for (const std::string& warning : plan.scene.warnings) list.push_back({"warning", warning});
   return list;
 }
