@@ -80,8 +80,7 @@ Expected<std::shared_ptr<Picture>> FrameMaker::make(const FrameRequest& request,
   }
   picture->overlay = make_overlay(request.overlay, picture->a.result);
   picture->scene = request.scene;
-  picture->settings_a = request.a;
-  picture->settings_b = request.b.value_or(RenderSettings{});
+  picture->slot = request.slot;
   picture->view = input_.view;
   picture->lights = evaluate_lights(scene, request.clip, time_s);
   picture->clock = request.clock;

@@ -30,6 +30,7 @@ struct FrameRequest {
   std::optional<FreeCamera> free;  ///< instead of the scene's camera
   LightEdits lights;
   RenderSettings a;
+  int slot = 0;                         ///< of `a`: 0 for A, 1 for B (then b is empty)
   std::optional<RenderSettings> b;      ///< to compare with
   Overlay overlay = Overlay::none;
   std::optional<OutputPattern> record;  ///< each picture (a) is written, numbered by its frame
@@ -54,7 +55,7 @@ struct OverlayImage {
 struct Picture {
   std::uint64_t request = 0;  ///< number of the request that it answers
   std::shared_ptr<const ScenePlan> scene;
-  RenderSettings settings_a, settings_b;
+  int slot = 0;               ///< that `a` was drawn with
   Drawn a;
   std::optional<Drawn> b;
   PictureDifference difference;  ///< of a and b

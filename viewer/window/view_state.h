@@ -38,6 +38,9 @@ struct ViewState {
   Overlay overlay = Overlay::none;
   float overlay_opacity = 0.85f;
 
+  float diagonal_m = 1;      ///< of the scene at its first frame
+  glm::vec3 centre{0.0f};
+
   std::optional<Size> size;  ///< of the picture; none: that of its place in the window
   bool panel = true;
   bool help = false;
