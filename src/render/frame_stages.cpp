@@ -1,4 +1,5 @@
 // The stages of a frame: samples, ambient occlusion, one light.
+#include <algorithm>
 #include <cmath>
 
 #include "base/stopwatch.h"
@@ -87,10 +88,12 @@ Expected<void> Renderer::State::light_hard(const FrameInput& input, const DrawnL
   }
   HardShadowConfig config = settings.hard;
   if (settings.samples == SampleSource::depth) config.contact = ContactRule::none;
+  config.count_pixel_nodes = settings.diagnostics;
   with_threads(settings.threads, [&] {
     hard.trace_shadow_mask(points, input.view, triangle_view(input.geometry),
                            shadow_light(light.light, light.placed), config, hard_mask);
   });
+  if (settings.diagnostics) keep_pixel_nodes(result);
   result.stats += hard.stats();
   add_shadow_times(result.timings, hard.timings());
   LightMask& out = result.masks.emplace_back();
@@ -124,6 +127,7 @@ Expected<void> Renderer::State::light_soft(const FrameInput& input, const DrawnL
     done = soft.trace(points, normals, input.view, triangles, *light.area, settings.soft, soft_mask, stop);
   });
   if (!done) return fail("stopped");
+  if (settings.diagnostics) keep_soft_classes(result);
   result.soft += soft.stats();
   add_shadow_times(result.timings, soft.timings());
   watch.lap_ms();
@@ -134,10 +138,23 @@ Expected<void> Renderer::State::light_soft(const FrameInput& input, const DrawnL
   for (const float fraction : soft_mask.visible_fraction) {
     out.mask.pixels.push_back(static_cast<std::uint8_t>(std::lround(255.0f * fraction)));
   }
-  out.classes.assign(soft.classes().begin(), soft.classes().end());
   compositor.add_area_light(light_buffer, soft_mask.irradiance);
   result.timings.writeback_ms += watch.lap_ms();
   return {};
+}
+
+void Renderer::State::keep_pixel_nodes(FrameResult& result) const {
+  const auto nodes = hard.pixel_nodes();
+  result.pixel_nodes.resize(nodes.size());
+  for (std::size_t i = 0; i < nodes.size(); ++i) result.pixel_nodes[i] += nodes[i];
+}
+
+void Renderer::State::keep_soft_classes(FrameResult& result) const {
+  const auto classes = soft.classes();
+  result.soft_classes.resize(classes.size());
+  for (std::size_t i = 0; i < classes.size(); ++i) {
+    result.soft_classes[i] = std::max(result.soft_classes[i], classes[i]);
+  }
 }
 
 void Renderer::State::keep_new(std::vector<std::string>& notes) {

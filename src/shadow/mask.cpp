@@ -61,9 +61,13 @@ struct ShadowTracer::State {
   std::vector<std::uint32_t> places;
   std::vector<std::uint32_t> blockers;
   std::vector<TraversalScratch> scratch;
+  NodeTests node_tests;
+  std::vector<std::uint32_t> pixel_nodes;
   TraceStats stats;
   FrameTimings timings;
 
+  void begin_node_tests();
+  void spread_node_tests(std::size_t pixels);
   void trace_one_pass(const Traversal& traversal, const TraversalKernels& kernels);
   void trace_two_passes(const Traversal& traversal, const TraversalKernels& kernels);
   void write_mask(ShadowMask& mask) const;
@@ -98,6 +102,24 @@ void ShadowTracer::State::write_mask(ShadowMask& mask) const {
   for (const std::uint32_t pixel : at_light) mask[pixel] = lit;
 }
 
+void ShadowTracer::State::begin_node_tests() {
+  node_tests.resize(tree.levels.size());
+  for (std::size_t k = 0; k < tree.levels.size(); ++k)
+    node_tests[k].assign(tree.levels[k].size() * branching, 0);
+}
+
+void ShadowTracer::State::spread_node_tests(std::size_t pixels) {
+  pixel_nodes.assign(pixels, 0);
+  if (rays.pixels.empty()) return;
+  // From the root down each node takes on what the nodes above it did.
+  for (std::size_t k = tree.levels.size() - 1; k-- > 0;) {
+    for (std::size_t i = 0; i < node_tests[k].size(); ++i)
+      node_tests[k][i] += node_tests[k + 1][i / branching];
+  }
+  for (std::size_t i = 0; i < rays.pixels.size(); ++i)
+    pixel_nodes[rays.pixels[i]] = node_tests[0][i / packet_size];
+}
+
 ShadowTracer::ShadowTracer() : state_(std::make_unique<State>()) {}
 ShadowTracer::ShadowTracer(ShadowTracer&&) noexcept = default;
 ShadowTracer& ShadowTracer::operator=(ShadowTracer&&) noexcept = default;
@@ -108,6 +130,9 @@ const TraceStats& ShadowTracer::stats() const {
 }
 const FrameTimings& ShadowTracer::timings() const {
   return state_->timings;
+}
+std::span<const std::uint32_t> ShadowTracer::pixel_nodes() const {
+  return state_->pixel_nodes;
 }
 
 void ShadowTracer::trace_shadow_mask(const VisiblePoints& points, const ViewRays& view,
@@ -141,12 +166,17 @@ void ShadowTracer::trace_shadow_mask(const VisiblePoints& points, const ViewRays
                               &source,
                               &triangles,
                               points.positions,
-                              config.contact};
+                              config.contact,
+                              config.count_pixel_nodes ? &s.node_tests : nullptr};
+    if (config.count_pixel_nodes) s.begin_node_tests();
     const TraversalKernels kernels = traversal_kernels(config.simd);
     parts.two_pass ? s.trace_two_passes(traversal, kernels) : s.trace_one_pass(traversal, kernels);
     s.stats.tree_bytes = s.tree.byte_count();
   }
   s.timings.traverse_ms = watch.lap_ms();
+  s.pixel_nodes.clear();
+  if (config.count_pixel_nodes) s.spread_node_tests(points.triangles.size());
+  watch.lap_ms();
 
   mask.assign(points.triangles.size(), 0);
   s.write_mask(mask);

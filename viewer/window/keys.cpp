@@ -1,0 +1,186 @@
+// The keyboard, and the overlay that explains it.
+#include <algorithm>
+#include <array>
+
+#include "window/panels.h"
+
+namespace tenebra::viewer {
+namespace {
+
+struct KeyHelp {
+  const char* key;
+  const char* does;
+};
+
+constexpr std::array playing_keys{KeyHelp{"Space", "play, pause"},
+                                  KeyHelp{"Left, Right", "one frame back or on"},
+                                  KeyHelp{"Home, End", "first, last frame"},
+                                  KeyHelp{"[  ]", "slower, faster; past zero backwards"},
+                                  KeyHelp{"L", "loop"},
+                                  KeyHelp{"T", "start or end the log of frame times"}};
+constexpr std::array camera_keys{KeyHelp{"drag", "orbit, or look around while flying"},
+                                 KeyHelp{"right drag", "move sideways"},
+                                 KeyHelp{"wheel", "nearer, farther; flying: speed"},
+                                 KeyHelp{"W A S D Q E", "fly; Shift: faster"},
+                                 KeyHelp{"F, double click", "look at this point and orbit it"},
+                                 KeyHelp{"C", "scene's camera, orbit, fly"},
+                                 KeyHelp{"Backspace", "reset the camera"},
+                                 KeyHelp{"Ctrl+C", "copy the camera as arguments"}};
+constexpr std::array method_keys{KeyHelp{"1  2  3", "no, hard, soft shadows"},
+                                 KeyHelp{"4", "ambient occlusion: none, fields, rays"},
+                                 KeyHelp{"V, Shift+V", "next, previous variant of the hard shadows"},
+                                 KeyHelp{"X", "flip A and B"},
+                                 KeyHelp{"B", "compare A with B"},
+                                 KeyHelp{"N", "heat map of nodes"},
+                                 KeyHelp{"M", "classes of the soft shadows"}};
+constexpr std::array window_keys{KeyHelp{"P, Shift+P", "save the picture, the window"},
+                                 KeyHelp{"Tab", "show or hide the panel"},
+                                 KeyHelp{"Esc", "cancel what takes long"},
+                                 KeyHelp{"R", "compute again what was cancelled"},
+                                 KeyHelp{"?", "this overview"},
+                                 KeyHelp{"Ctrl+Q", "quit"}};
+
+AnimationClock::Wall now() {
+  return std::chrono::steady_clock::now();
+}
+
+bool pressed(int key, bool repeat = false) {
+  return ImGui::IsKeyPressed(key, repeat);
+}
+bool pressed(ImGuiKey_ key, bool repeat = false) {
+  return ImGui::IsKeyPressed(ImGui::GetKeyIndex(key), repeat);
+}
+
+void handle_time_keys(ViewState& state) {
+  AnimationClock& clock = state.clock;
+  if (pressed(ImGuiKey_Space)) toggle_playing(state);
+  if (pressed(ImGuiKey_LeftArrow, true)) clock.step(now(), -1);
+  if (pressed(ImGuiKey_RightArrow, true)) clock.step(now(), 1);
+  if (pressed(ImGuiKey_Home)) clock.seek(now(), clock.start_s());
+  if (pressed(ImGuiKey_End)) clock.seek(now(), clock.frame_time_s(clock.frames() - 1));
+  if (pressed('[', true)) clock.set_speed(now(), clock.speed() - 0.25);
+  if (pressed(']', true)) clock.set_speed(now(), clock.speed() + 0.25);
+  if (pressed('L')) clock.set_loop(now(), !clock.loop());
+}
+
+void handle_method_keys(ViewState& state) {
+  RenderSettings& render = state.method().render;
+  if (pressed('1')) render.shadows = ShadowMode::none;
+  if (pressed('2')) render.shadows = ShadowMode::hard;
+  if (pressed('3')) render.shadows = ShadowMode::soft;
+  if (pressed('4')) render.ao.mode = static_cast<AoMode>((static_cast<int>(render.ao.mode) + 1) % 3);
+  if (pressed('V', true)) {
+    constexpr int variants = 7;
+    const int step = ImGui::GetIO().KeyShift ? variants - 1 : 1;
+    render.hard.variant = static_cast<Variant>((static_cast<int>(render.hard.variant) + step) % variants);
+  }
+  if (pressed('X')) flip_slots(state);
+  if (pressed('B')) state.compare = !state.compare;
+  if (pressed('N')) state.overlay = state.overlay == Overlay::nodes ? Overlay::none : Overlay::nodes;
+  if (pressed('M')) state.overlay = state.overlay == Overlay::classes ? Overlay::none : Overlay::classes;
+}
+
+void handle_camera_keys(Ui& ui, float seconds) {
+  const ImGuiIO& io = ImGui::GetIO();
+  ViewState& state = ui.state;
+  if (pressed('C')) {
+    const auto next = static_cast<CameraMode>((static_cast<int>(state.camera_mode) + 1) % 3);
+    leave_scene_camera(ui, next);
+  }
+  if (pressed(ImGuiKey_Backspace)) {
+    state.camera_mode = state.options.eye ? CameraMode::orbit : CameraMode::scene;
+    state.free = state.start;
+  }
+  if (!flies(io)) return;
+  if (state.camera_mode != CameraMode::fly) leave_scene_camera(ui, CameraMode::fly);
+  const auto axis = [](int positive, int negative) {
+    return static_cast<float>(ImGui::IsKeyDown(positive)) - static_cast<float>(ImGui::IsKeyDown(negative));
+  };
+  const float metres = state.fly_speed * seconds * (io.KeyShift ? 4.0f : 1.0f);
+  fly(state.free, glm::vec3(axis('D', 'A'), axis('E', 'Q'), axis('W', 'S')) * metres);
+}
+
+void handle_window_keys(Ui& ui) {
+  const ImGuiIO& io = ImGui::GetIO();
+  if (pressed('P')) (io.KeyShift ? ui.actions.window_shot : ui.actions.picture_shot) = true;
+  if (pressed('T')) ui.actions.toggle_log = true;
+  if (pressed('R')) ui.actions.retry = true;
+  if (pressed(ImGuiKey_Tab)) ui.state.panel = !ui.state.panel;
+  if (pressed(ImGuiKey_Escape)) (ui.state.help ? ui.state.help : ui.actions.cancel) = !ui.state.help;
+}
+
+bool typed(ImWchar character) {
+  const ImVector<ImWchar>& queue = ImGui::GetIO().InputQueueCharacters;
+  return std::find(queue.begin(), queue.end(), character) != queue.end();
+}
+
+template <std::size_t N>
+void help_column(const char* title, const std::array<KeyHelp, N>& keys) {
+  ImGui::TextUnformatted(title);
+  ImGui::Separator();
+  for (const KeyHelp& key : keys) {
+    ImGui::PushStyleColor(ImGuiCol_Text, palette::accent);
+    ImGui::TextUnformatted(key.key);
+    ImGui::PopStyleColor();
+    ImGui::SameLine(ImGui::GetFontSize() * 8);
+    ImGui::PushTextWrapPos(0);
+    ImGui::TextUnformatted(key.does);
+    ImGui::PopTextWrapPos();
+  }
+  ImGui::Dummy({0, ImGui::GetFontSize() * 0.5f});
+}
+
+}  // namespace
+
+bool flies(const ImGuiIO& io) {
+  if (io.WantTextInput || io.KeyCtrl) return false;
+  constexpr std::array keys{'W', 'A', 'S', 'D', 'Q', 'E'};
+  return std::any_of(keys.begin(), keys.end(), [](char key) { return ImGui::IsKeyDown(key); });
+}
+
+void flip_slots(ViewState& state) {
+  state.active = 1 - state.active;
+  if (state.compare && (state.show == CompareView::a || state.show == CompareView::b)) {
+    state.show = state.active == 0 ? CompareView::a : CompareView::b;
+  } else if (state.compare) {
+    state.show = CompareView::b;
+    state.active = 1;
+  }
+}
+
+void handle_keys(Ui& ui, float seconds) {
+  const ImGuiIO& io = ImGui::GetIO();
+  if (io.WantTextInput) return;
+  if (typed('?')) ui.state.help = !ui.state.help;
+  if (io.KeyCtrl) {
+    if (pressed('C')) ui.actions.copy_camera = true;
+    if (pressed('Q')) ui.actions.quit = true;
+    return;
+  }
+  handle_time_keys(ui.state);
+  handle_method_keys(ui.state);
+  handle_camera_keys(ui, seconds);
+  handle_window_keys(ui);
+}
+
+void draw_help(Ui& ui, ImVec2 window) {
+  const bool wide = window.x > ui.px(760);
+  const ImVec2 size{std::min(window.x - ui.px(20), ui.px(wide ? 740.0f : 380.0f)), window.y - ui.px(20)};
+  ImGui::SetNextWindowPos({(window.x - size.x) / 2, window.y / 2}, ImGuiCond_Always, {0, 0.5f});
+  ImGui::SetNextWindowSizeConstraints({size.x, 0}, size);
+  ImGui::SetNextWindowFocus();
+  ImGui::Begin("##help", nullptr,
+               ImGuiWindowFlags_NoTitleBar | ImGuiWindowFlags_NoMove | ImGuiWindowFlags_NoResize |
+                   ImGuiWindowFlags_AlwaysAutoResize | ImGuiWindowFlags_NoSavedSettings);
+  ImGui::Columns(wide ? 2 : 1, nullptr, false);
+  help_column("Time", playing_keys);
+  help_column("Camera", camera_keys);
+  if (wide) ImGui::NextColumn();
+  help_column("Methods", method_keys);
+  help_column("Window", window_keys);
+  ImGui::Columns(1);
+  dim_text("Every setting is also an option: tenebra view --help");
+  ImGui::End();
+}
+
+}  // namespace tenebra::viewer
