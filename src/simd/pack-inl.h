@@ -288,6 +288,24 @@ HWY_INLINE Pack<T, N> narrowed(Pack<double, N> a) {
   }
 }
 
+/// N floats as doubles.
+template <class P>
+HWY_INLINE P load_widened(const float* from) {
+  const hn::Rebind<float, typename P::Tag> narrow;
+  P p;
+  for (int i = 0; i < P::registers; ++i)
+    p.r[i] = hn::PromoteTo(typename P::Tag(), hn::LoadU(narrow, from + i * P::width));
+  return p;
+}
+template <class P>
+HWY_INLINE Pack3<P> operator-(const Pack3<P>& a, const Pack3<P>& b) {
+  return {a.x - b.x, a.y - b.y, a.z - b.z};
+}
+template <class P>
+HWY_INLINE Pack3<P> cross(const Pack3<P>& a, const Pack3<P>& b) {
+  return {a.y * b.z - a.z * b.y, a.z * b.x - a.x * b.z, a.x * b.y - a.y * b.x};
+}
+
 }  // namespace tenebra::HWY_NAMESPACE
 HWY_AFTER_NAMESPACE();
 
