@@ -16,6 +16,10 @@ constexpr const char* examples =
     "      only the shadow mask: 255 lit, 0 shadowed\n"
     "  tenebra render room.glb --eye 0,1.6,4 --look-at 0,1,0 --fov 50 --light 0\n"
     "      another camera, one light\n"
+    "  tenebra render scenes/court.glb --shadows soft --mask visible.png --mask visible.pfm\n"
+    "      exact soft shadows of its area light, and the visible part of the light at each pixel\n"
+    "  tenebra render scenes/city.glb --shadows soft --light-size 2% --ao field --frames 0:9\n"
+    "      point lights made squares, and ambient occlusion\n"
     "\n"
     "Frames count from 0; A:B includes B; A: and all run to the end. Ctrl-C stops after the frame at hand, "
     "with the\n"
@@ -34,14 +38,28 @@ Expected<std::optional<OutputPattern>> parse_pictures(const std::string& text) {
   return std::optional<OutputPattern>(std::move(*pattern));
 }
 
+void read_masks(const std::vector<std::string>& names, std::vector<OutputPattern>& masks) {
+  masks.clear();
+  for (const std::string& name : names) {
+    auto pattern = OutputPattern::parse_mask(name);
+    if (!pattern) throw CLI::ValidationError("--mask", pattern.error().message);
+    masks.push_back(std::move(*pattern));
+  }
+}
+
 void add_output_options(CLI::App& command, RenderOptions& options) {
   options.pictures = OutputPattern::parse("out/%04d.png").value();
   add_value(command, "-o,--output", options.pictures, parse_pictures,
             "Pictures, %04d is the frame; none: no pictures [out/%04d.png]")
       ->type_name("FILE.png");
-  add_value(command, "--mask", options.masks, OutputPattern::parse,
-            "Shadow masks: 255 lit, 0 shadowed, turned away or background;\nseveral lights add _L0, _L1, ...")
-      ->type_name("FILE.png");
+  command
+      .add_option_function<std::vector<std::string>>(
+          "--mask", [&options](const std::vector<std::string>& names) { read_masks(names, options.masks); },
+          "Shadow masks: 255 lit, 0 shadowed, turned away or background,\nsoft: between them the visible "
+          "part "
+          "of the light; as .pfm in\n32 bits; several lights add _L0, _L1, ...; may be repeated")
+      ->allow_extra_args(false)
+      ->type_name("FILE.png|FILE.pfm");
   command.add_option("--log", options.log, "Time and work of each frame")->type_name("FILE.csv");
   command.add_option("--trace", options.trace, "The same for Perfetto or chrome://tracing")
       ->type_name("FILE.json");
@@ -54,11 +72,26 @@ bool draws_several_frames(const RenderOptions& options) {
   return options.frames && options.frames->last != options.frames->first;
 }
 
-Expected<void> check_pattern(const std::optional<OutputPattern>& pattern, const char* option, bool several) {
-  if (!pattern || !several || pattern->is_numbered()) return {};
+Expected<void> check_pattern(const OutputPattern& pattern, const char* option, bool several) {
+  if (!several || pattern.is_numbered()) return {};
   return fail(
       "{} {} has no frame number, and several frames would overwrite each other; expected one like %04d",
-      option, pattern->text());
+      option, pattern.text());
+}
+
+Expected<void> check_masks(const RenderOptions& options, bool several) {
+  const ShadowMode shadows = options.method.render.shadows;
+  for (const OutputPattern& mask : options.masks) {
+    if (auto checked = check_pattern(mask, "--mask", several); !checked) return checked;
+    if (shadows == ShadowMode::none) return fail("--mask needs shadows, and --shadows none makes no mask");
+    if (mask.is_pfm() && shadows != ShadowMode::soft) {
+      return fail("--mask {} holds fractions of lights, and they need --shadows soft", mask.text());
+    }
+    if (options.pictures && mask.file(0) == options.pictures->file(0)) {
+      return fail("-o and --mask name the same file {}", mask.text());
+    }
+  }
+  return {};
 }
 
 }  // namespace
@@ -78,14 +111,10 @@ void add_render_options(CLI::App& command, RenderOptions& options) {
 
 Expected<void> check_render_options(const RenderOptions& options) {
   const bool several = draws_several_frames(options);
-  if (auto checked = check_pattern(options.pictures, "-o", several); !checked) return checked;
-  if (auto checked = check_pattern(options.masks, "--mask", several); !checked) return checked;
-  if (options.masks && options.method.render.shadows == ShadowMode::none) {
-    return fail("--mask needs shadows, and --shadows none makes no mask");
+  if (options.pictures) {
+    if (auto checked = check_pattern(*options.pictures, "-o", several); !checked) return checked;
   }
-  if (options.masks && options.pictures && options.masks->file(0) == options.pictures->file(0)) {
-    return fail("-o and --mask name the same file {}", options.pictures->text());
-  }
+  if (auto checked = check_masks(options, several); !checked) return checked;
   if (auto checked = check_scene_options(options.scene); !checked) return checked;
   return check_method_options(options.method);
 }

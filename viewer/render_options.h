@@ -4,6 +4,7 @@
 #include <CLI/CLI.hpp>
 #include <optional>
 #include <string>
+#include <vector>
 
 #include "gl/context.h"
 #include "method_options.h"
@@ -19,10 +20,11 @@ struct RenderOptions {
   gl::ContextKind context = gl::ContextKind::automatic;
 
   std::optional<OutputPattern> pictures;  ///< none: no pictures
-  std::optional<OutputPattern> masks;
+  std::vector<OutputPattern> masks;       ///< .png or .pfm
   std::string log;
   std::string trace;
   bool quiet = false;
+  std::vector<std::string> warnings;  ///< options that do nothing with the others
 };
 
 /// Adds the options to `command`; they are read into `options`, which must live as long.

@@ -98,7 +98,7 @@ void draw_summary(const FrameHistory& history) {
   if (summary.count == 0) return;
   ImGui::TextUnformatted(fmt::format("median {}", milliseconds(summary.median)).c_str());
   ImGui::SameLine();
-  dim_text(fmt::format("95 % {}   99 % {}   of {} frames, ms", milliseconds(summary.percentile_95),
+  dim_text(fmt::format("95 %: {}   99 %: {} ms   n = {}", milliseconds(summary.percentile_95),
                        milliseconds(summary.percentile_99), summary.count)
                .c_str());
 }
