@@ -128,8 +128,12 @@ void draw_stages(Ui& ui, const FrameHistory& history) {
 
 /// 1234567 as 1 234 567.
 std::string grouped(std::uint64_t count) {
-  std::string text = std::to_string(count);
-  for (int at = static_cast<int>(text.size()) - 3; at > 0; at -= 3) text.insert(static_cast<std::size_t>(at), " ");
+  const std::string digits = std::to_string(count);
+  std::string text;
+  for (std::size_t i = 0; i < digits.size(); ++i) {
+    if (i > 0 && (digits.size() - i) % 3 == 0) text += ' ';
+    text += digits[i];
+  }
   return text;
 }
 
@@ -176,7 +180,7 @@ void draw_overlay_choice(Ui& ui) {
 }  // namespace
 
 void draw_cost_section(Ui& ui) {
-  if (!section("Cost", true)) return;
+  if (!section(ui, "Cost", true)) return;
   ViewState& state = ui.state;
   const int first = state.compare ? 0 : state.active;
   const FrameHistory& history = ui.history[static_cast<std::size_t>(first)];

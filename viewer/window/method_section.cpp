@@ -170,7 +170,7 @@ void draw_scene_section(Ui& ui) {
 }
 
 void draw_method_section(Ui& ui) {
-  if (!section("Method", true)) return;
+  if (!section(ui, "Method", true)) return;
   ViewState& state = ui.state;
   constexpr const char* slots[] = {"A", "B"};
   row(ui, "Slot", "Two methods with their settings; X flips between them, Compare shows both.");

@@ -50,7 +50,7 @@ void apply_style(float scale);
 void row(const Ui& ui, const char* label, const char* help = nullptr);
 void dim_text(const char* text);
 /// A heading that folds; true while open.
-bool section(const char* title, bool open);
+bool section(Ui& ui, const char* title, bool open);
 void tooltip(const char* text);  ///< over the last widget
 
 /// A row of buttons of which one is down. True if another was pressed.

@@ -183,6 +183,7 @@ void Viewer::send_request() {
   if (!new_method && key == sent_key_ && state_.clock == sent_clock_ && !actions_.retry) return;
   FrameRequest request = make_request();
   request.number = ++requests_;
+  report_.request(request);
   if (new_method) {
     settings_since_ = requests_;
     for (FrameHistory& history : history_) history.clear();
