@@ -272,6 +272,22 @@ HWY_INLINE Pack<T, N> choose(Truth<U, N> t, Pack<T, N> a, Pack<T, N> b) {
   return a;
 }
 
+/// Doubles as T, rounded to nearest.
+template <class T, int N>
+HWY_INLINE Pack<T, N> narrowed(Pack<double, N> a) {
+  if constexpr (sizeof(T) == sizeof(double)) {
+    return a;
+  } else {
+    using Half = hn::CappedTag<T, Pack<double, N>::width>;
+    Pack<T, N> p;
+    T lanes[N];
+    for (int i = 0; i < a.registers; ++i)
+      hn::StoreU(hn::DemoteTo(Half(), a.r[i]), Half(), lanes + i * a.width);
+    p = load<Pack<T, N>>(lanes);
+    return p;
+  }
+}
+
 }  // namespace tenebra::HWY_NAMESPACE
 HWY_AFTER_NAMESPACE();
 
