@@ -60,7 +60,7 @@ struct LightMask {
   int light = -1;  ///< index into FrameInput::lights; emissive meshes that shine follow them
   Image8 mask;     ///< 255 lit, 0 shadowed, facing away, out of reach or background; soft: 255 x fraction
   ImageF visible_fraction;  ///< soft mode: visible part of the light, 0..1 (0 or 1 of a point); else empty
-  std::vector<std::uint32_t> nodes;   ///< hard shadows with RenderSettings::diagnostics: see ShadowTracer::pixel_nodes
+  std::vector<float> nodes;           ///< hard, with RenderSettings::diagnostics: ShadowTracer::pixel_nodes
   std::vector<std::uint8_t> classes;  ///< soft shadows: a SoftClass a pixel, for display; else empty
 };
 

@@ -1,4 +1,5 @@
 // Node tests a pixel: what the viewer's heat map shows.
+#include <algorithm>
 #include <numeric>
 
 #include "shadow/mask_case.h"
@@ -32,13 +33,14 @@ TEST(PixelNodes, ChangeNothingAndStandWhereRaysAre) {
     ASSERT_EQ(nodes.size(), plain.size());
     const auto with_nodes = static_cast<std::uint64_t>(std::count_if(nodes.begin(), nodes.end(), [](auto n) { return n > 0; }));
     EXPECT_EQ(with_nodes, stats.rays) << "every ray is below the root, which every triangle is tested with";
-    const std::uint64_t sum = std::accumulate(nodes.begin(), nodes.end(), std::uint64_t{0});
-    EXPECT_GE(sum, stats.nodes) << "a node that is tested has a ray";
-    EXPECT_LE(*std::max_element(nodes.begin(), nodes.end()), stats.nodes);
+    const double sum = std::accumulate(nodes.begin(), nodes.end(), 0.0);
+    EXPECT_NEAR(sum, static_cast<double>(stats.nodes), 1e-5 * static_cast<double>(stats.nodes)) << "all work, once";
+    // A flat floor far from the sphere's shadow costs less than its edge.
+    EXPECT_GT(*std::max_element(nodes.begin(), nodes.end()), 1.5f * static_cast<float>(stats.nodes) / static_cast<float>(stats.rays));
   }
 }
 
-TEST(PixelNodes, OfOnePacketAreAllNodeTests) {
+TEST(PixelNodes, OfOnePacketAreEqualShares) {
   for (const Variant variant : all_variants) {
     MaskCase c = sphere_over_floor(4, 4);
     c.config.variant = variant;
@@ -46,8 +48,9 @@ TEST(PixelNodes, OfOnePacketAreAllNodeTests) {
     ShadowTracer tracer;
     traced(c, tracer);
     ASSERT_GT(tracer.stats().rays, 0u);
-    for (const std::uint32_t nodes : tracer.pixel_nodes()) {
-      if (nodes > 0) EXPECT_EQ(nodes, tracer.stats().nodes) << variant_name(variant);
+    const float share = static_cast<float>(static_cast<double>(tracer.stats().nodes) / static_cast<double>(tracer.stats().rays));
+    for (const float nodes : tracer.pixel_nodes()) {
+      if (nodes > 0) EXPECT_FLOAT_EQ(nodes, share) << variant_name(variant);
     }
   }
 }
@@ -55,7 +58,7 @@ TEST(PixelNodes, OfOnePacketAreAllNodeTests) {
 TEST(PixelNodes, DoNotDependOnThreads) {
   MaskCase c = sphere_over_floor(200, 150);
   c.config.count_pixel_nodes = true;
-  std::vector<std::uint32_t> alone;
+  std::vector<float> alone;
   ShadowTracer tracer;
   with_threads(1, [&] { traced(c, tracer); });
   alone.assign(tracer.pixel_nodes().begin(), tracer.pixel_nodes().end());

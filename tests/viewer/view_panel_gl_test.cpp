@@ -24,11 +24,6 @@ public:
     ImGui::CreateContext();
     ImGuiIO& io = ImGui::GetIO();
     io.IniFilename = nullptr;
-    for (const auto& [key, code] : {std::pair(ImGuiKey_Space, 32), {ImGuiKey_Escape, 256}, {ImGuiKey_Tab, 258},
-                                    {ImGuiKey_RightArrow, 262}, {ImGuiKey_LeftArrow, 263}, {ImGuiKey_Enter, 257},
-                                    {ImGuiKey_Backspace, 259}, {ImGuiKey_Home, 268}, {ImGuiKey_End, 269}}) {
-      io.KeyMap[key] = code;
-    }
     ImGui_ImplOpenGL3_Init("#version 330 core");
     apply_style(scale);
     gl_.emplace(std::move(*WindowGl::load(context_.function_loader(), true)));
@@ -93,8 +88,8 @@ public:
     return true;
   }
   void key(int code) {
-    ImGui::GetIO().KeysDown[code] = true, turn();
-    ImGui::GetIO().KeysDown[code] = false, turn();
+    viewer_->press_key({.code = code});
+    turn();
   }
   void type(char character) {
     ImGui::GetIO().AddInputCharacter(static_cast<unsigned>(character));
@@ -175,7 +170,7 @@ TEST(ViewPanel, CancelsWhatTakesLong) {
   bool offered = headless.turn_until([&] { return headless.viewer().marks().count("cancel") == 1; }, 20);
   if (!offered) GTEST_SKIP() << "this machine draws the soft shadows of the court before anyone could cancel them";
   EXPECT_EQ(headless.viewer().picture(), last) << "the last picture stays while the next is computed";
-  headless.key(256);
+  headless.key(key_code::escape);
   const auto begin = std::chrono::steady_clock::now();
   ASSERT_TRUE(headless.turn_until([&] { return headless.viewer().message().starts_with("Cancelled"); }));
   ASSERT_TRUE(headless.turn_until([&] { return headless.viewer().marks().count("cancel") == 0; }));
@@ -201,7 +196,7 @@ TEST(ViewPanel, SurvivesAnyHand) {
     // No fields and rays here: they would take the test's time, not the panel's.
     if (mark->first.starts_with("ao")) continue;
     if (what == 0) headless.key(keys[random.index(sizeof(keys) - 1)]);
-    if (what == 1) headless.key(random.chance(0.5) ? 258 : 262);
+    if (what == 1) headless.key(random.chance(0.5) ? key_code::tab : key_code::right);
     if (what == 2) ImGui::GetIO().MouseWheel = static_cast<float>(random.in(-2, 2)), headless.move_to(point);
     if (what == 3) {
       ImGui::GetIO().MouseDown[0] = true, headless.move_to(point);
@@ -210,7 +205,7 @@ TEST(ViewPanel, SurvivesAnyHand) {
     }
     if (what > 3) headless.click_at(point);
   }
-  headless.key(256);
+  headless.key(key_code::escape);
   headless.turn_until([] { return false; }, 0.5);
   EXPECT_FALSE(headless.viewer().is_over());
   EXPECT_EQ(headless.report().find("\"gl\""), std::string::npos) << "no OpenGL error on either context";

@@ -131,8 +131,7 @@ public:
   }
 
   void move_to(double x, double y) const {
-    xdotool({"mousemove", std::to_string(static_cast<int>(x)), std::to_string(static_cast<int>(y))});
-    pause();
+    act({"mousemove", std::to_string(static_cast<int>(x)), std::to_string(static_cast<int>(y))});
   }
   /// At a part of a widget's width; its middle.
   void move_to(const std::string& name, double part = 0.5) const {
@@ -144,9 +143,9 @@ public:
     press();
     release();
   }
-  void press(int button = 1) const { xdotool({"mousedown", std::to_string(button)}), pause(); }
-  void release(int button = 1) const { xdotool({"mouseup", std::to_string(button)}), pause(); }
-  void key(const std::string& keys) const { xdotool({"key", keys}), pause(); }
+  void press(int button = 1) const { act({"mousedown", std::to_string(button)}); }
+  void release(int button = 1) const { act({"mouseup", std::to_string(button)}); }
+  void key(const std::string& keys) const { act({"key", keys}); }
   void xdotool(std::vector<std::string> arguments) const {
     arguments.insert(arguments.begin(), "xdotool");
     const auto result = display_.run(arguments);
@@ -165,8 +164,21 @@ public:
   }
 
 private:
-  /// The window draws after each event, which people leave time for.
-  void pause() const { std::this_thread::sleep_for(std::chrono::milliseconds(120)); }
+  std::size_t draws() const {
+    std::size_t count = 0;
+    for (const Json& event : events()) count += event["event"] == "drawn" || event["event"] == "end" ? 1 : 0;
+    return count;
+  }
+  /// An event, and the wait until the window has drawn what came of it (nothing comes of a move to where the
+  /// pointer is).
+  void act(const std::vector<std::string>& arguments) const {
+    const std::size_t before = draws();
+    xdotool(arguments);
+    const auto end = std::chrono::steady_clock::now() + std::chrono::seconds(3);
+    while (draws() == before && std::chrono::steady_clock::now() < end) {
+      std::this_thread::sleep_for(std::chrono::milliseconds(20));
+    }
+  }
 
   const VirtualDisplay& display_;
   std::filesystem::path report_;

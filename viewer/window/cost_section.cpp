@@ -172,9 +172,9 @@ void draw_overlay_choice(Ui& ui) {
   row(ui, "Opacity");
   ImGui::SliderFloat("##opacity", &ui.state.overlay_opacity, 0, 1, "%.2f", ImGuiSliderFlags_AlwaysClamp);
   ui.mark("opacity");
-  if (ui.picture && ui.picture->overlay.kind == Overlay::none) {
-    dim_text(ui.state.overlay == Overlay::nodes ? "Hard shadows have nodes to count." : "Soft shadows have classes.");
-  }
+  const ShadowMode shadows = ui.state.slots[ui.state.compare ? 0 : ui.state.active].render.shadows;
+  if (ui.state.overlay == Overlay::nodes && shadows != ShadowMode::hard) dim_text("Only hard shadows have nodes to count.");
+  if (ui.state.overlay == Overlay::classes && shadows != ShadowMode::soft) dim_text("Only soft shadows have classes.");
 }
 
 }  // namespace

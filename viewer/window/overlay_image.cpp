@@ -37,8 +37,8 @@ Image8 empty_like(const Image8& picture) {
 }
 
 /// Node tests of each pixel, all lights; empty if no light has any.
-std::vector<std::uint32_t> nodes_of(const FrameResult& result) {
-  std::vector<std::uint32_t> sum;
+std::vector<float> nodes_of(const FrameResult& result) {
+  std::vector<float> sum;
   for (const LightMask& mask : result.masks) {
     sum.resize(std::max(sum.size(), mask.nodes.size()));
     for (std::size_t i = 0; i < mask.nodes.size(); ++i) sum[i] += mask.nodes[i];
@@ -56,14 +56,14 @@ std::vector<std::uint8_t> classes_of(const FrameResult& result) {
   return highest;
 }
 
-OverlayImage heat_map(const FrameResult& result, std::span<const std::uint32_t> pixel_nodes) {
+OverlayImage heat_map(const FrameResult& result, std::span<const float> pixel_nodes) {
   OverlayImage overlay{.kind = Overlay::nodes, .image = empty_like(result.image)};
-  std::vector<std::uint32_t> visited;
-  for (const std::uint32_t nodes : pixel_nodes) {
+  std::vector<float> visited;
+  for (const float nodes : pixel_nodes) {
     if (nodes > 0) visited.push_back(nodes);
   }
   if (!visited.empty()) {
-    for (const std::uint32_t nodes : visited) overlay.mean += nodes;
+    for (const float nodes : visited) overlay.mean += nodes;
     overlay.mean /= static_cast<double>(visited.size());
     overlay.peak = *std::max_element(visited.begin(), visited.end());
     const auto place = static_cast<std::size_t>(bright_share * static_cast<double>(visited.size() - 1));

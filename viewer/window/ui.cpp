@@ -26,6 +26,13 @@ void load_font(float scale) {
 
 }  // namespace
 
+const KeyPress* Ui::pressed(int code, bool repeat) const {
+  for (const KeyPress& press : keys) {
+    if (press.code == code && !press.ctrl && (repeat || !press.repeat)) return &press;
+  }
+  return nullptr;
+}
+
 void Ui::mark(const std::string& name) {
   if (!ImGui::IsItemVisible()) {
     marks.erase(name);
