@@ -1,5 +1,4 @@
 // The stages of a frame: samples, ambient occlusion, one light.
-#include <algorithm>
 #include <cmath>
 
 #include "base/stopwatch.h"
@@ -93,12 +92,12 @@ Expected<void> Renderer::State::light_hard(const FrameInput& input, const DrawnL
     hard.trace_shadow_mask(points, input.view, triangle_view(input.geometry),
                            shadow_light(light.light, light.placed), config, hard_mask);
   });
-  if (settings.diagnostics) keep_pixel_nodes(result);
   result.stats += hard.stats();
   add_shadow_times(result.timings, hard.timings());
   LightMask& out = result.masks.emplace_back();
   out.light = light.number;
   out.mask = {gbuffer.width, gbuffer.height, 1, hard_mask};
+  out.nodes.assign(hard.pixel_nodes().begin(), hard.pixel_nodes().end());
   if (settings.shadows == ShadowMode::soft) {
     out.visible_fraction = {gbuffer.width, gbuffer.height, 1, {}};
     for (const std::uint8_t lit : hard_mask) out.visible_fraction.pixels.push_back(lit != 0 ? 1.0f : 0.0f);
@@ -127,7 +126,6 @@ Expected<void> Renderer::State::light_soft(const FrameInput& input, const DrawnL
     done = soft.trace(points, normals, input.view, triangles, *light.area, settings.soft, soft_mask, stop);
   });
   if (!done) return fail("stopped");
-  if (settings.diagnostics) keep_soft_classes(result);
   result.soft += soft.stats();
   add_shadow_times(result.timings, soft.timings());
   watch.lap_ms();
@@ -138,23 +136,10 @@ Expected<void> Renderer::State::light_soft(const FrameInput& input, const DrawnL
   for (const float fraction : soft_mask.visible_fraction) {
     out.mask.pixels.push_back(static_cast<std::uint8_t>(std::lround(255.0f * fraction)));
   }
+  out.classes.assign(soft.classes().begin(), soft.classes().end());
   compositor.add_area_light(light_buffer, soft_mask.irradiance);
   result.timings.writeback_ms += watch.lap_ms();
   return {};
-}
-
-void Renderer::State::keep_pixel_nodes(FrameResult& result) const {
-  const auto nodes = hard.pixel_nodes();
-  result.pixel_nodes.resize(nodes.size());
-  for (std::size_t i = 0; i < nodes.size(); ++i) result.pixel_nodes[i] += nodes[i];
-}
-
-void Renderer::State::keep_soft_classes(FrameResult& result) const {
-  const auto classes = soft.classes();
-  result.soft_classes.resize(classes.size());
-  for (std::size_t i = 0; i < classes.size(); ++i) {
-    result.soft_classes[i] = std::max(result.soft_classes[i], classes[i]);
-  }
 }
 
 void Renderer::State::keep_new(std::vector<std::string>& notes) {

@@ -59,9 +59,9 @@ const std::string& Renderer::gl_renderer() const {
   return state_->context.description();
 }
 
-void Renderer::set_lights(const std::vector<Light>& lights) {
+void Renderer::set_lights(std::vector<Light> lights) {
   assert(lights.size() == state_->scene.lights.size());
-  state_->scene.lights = lights;
+  state_->scene.lights = std::move(lights);
 }
 
 std::vector<std::string> Renderer::take_debug_messages() {
@@ -74,8 +74,8 @@ std::optional<glm::dvec3> Renderer::visible_point(const FrameInput& input, int x
   read_triangle_ids(s.gbuffer, s.ids);
   compute_visible_points(s.ids, s.gbuffer.width, s.gbuffer.height, input.view, triangle_view(input.geometry),
                          s.points);
-  const auto pixel =
-      static_cast<std::size_t>(y) * static_cast<std::size_t>(s.gbuffer.width) + static_cast<std::size_t>(x);
+  const auto pixel = static_cast<std::size_t>(y) * static_cast<std::size_t>(s.gbuffer.width) +
+                     static_cast<std::size_t>(x);
   if (s.points.triangles[pixel] == no_triangle) return std::nullopt;
   return s.points.positions[pixel];
 }
@@ -92,8 +92,6 @@ Expected<void> Renderer::render_frame(const FrameInput& input, const RenderSetti
   result.stats = {};
   result.soft = {};
   result.ao = {};
-  result.pixel_nodes.clear();
-  result.soft_classes.clear();
   FrameTimings& timings = result.timings;
   Stopwatch watch, whole;
   if (auto checked = check_settings(settings); !checked) return checked;

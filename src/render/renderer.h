@@ -43,10 +43,10 @@ struct RenderSettings {
   SoftShadowConfig soft;
   AreaLightSettings area_lights;
   AoConfig ao;
-  int light = -1;            ///< index into the frame's lights; -1: all
-  int threads = 0;           ///< 0: all cores
-  float exposure = 1.0f;     ///< factor of linear colour before it is clamped
-  bool diagnostics = false;  ///< fill FrameResult::pixel_nodes and soft_classes; the picture is the same
+  int light = -1;         ///< index into the frame's lights; -1: all
+  int threads = 0;        ///< 0: all cores
+  float exposure = 1.0f;  ///< factor of linear colour before it is clamped
+  bool diagnostics = false;  ///< fill LightMask::nodes; the picture is the same
 };
 
 /// What is drawn: one instant of a scene from one camera.
@@ -60,6 +60,8 @@ struct LightMask {
   int light = -1;  ///< index into FrameInput::lights; emissive meshes that shine follow them
   Image8 mask;     ///< 255 lit, 0 shadowed, facing away, out of reach or background; soft: 255 x fraction
   ImageF visible_fraction;  ///< soft mode: visible part of the light, 0..1 (0 or 1 of a point); else empty
+  std::vector<float> nodes;           ///< hard, with RenderSettings::diagnostics: ShadowTracer::pixel_nodes
+  std::vector<std::uint8_t> classes;  ///< soft shadows: a SoftClass a pixel, for display; else empty
 };
 
 struct FrameResult {
@@ -69,10 +71,7 @@ struct FrameResult {
   TraceStats stats;
   SoftStats soft;
   AoStats ao;
-  std::vector<std::uint32_t>
-      pixel_nodes;  ///< diagnostics of hard shadows, see ShadowTracer; summed over lights
-  std::vector<std::uint8_t> soft_classes;  ///< diagnostics of soft shadows: highest SoftClass of all lights
-  std::vector<std::string> notes;          ///< sentences a user should see once, new with this frame
+  std::vector<std::string> notes;  ///< sentences a user should see once, new with this frame
 };
 
 /// Owns the OpenGL objects of one scene. Use it on the thread that created its context.
@@ -90,8 +89,8 @@ public:
   Expected<void> render_frame(const FrameInput& input, const RenderSettings& settings, FrameResult& result,
                               const AoProgress& progress = {}, const StopFlag* stop = nullptr);
 
-  /// Other brightness, colours and sizes for the lights of the scene given to `create`, in its order.
-  void set_lights(const std::vector<Light>& lights);
+  /// Replaces Scene::lights (colour, intensity, size): a viewer's sliders. As many as the scene has.
+  void set_lights(std::vector<Light> lights);
 
   /// What pixel (x, y), row 0 at the top, of the last frame sees, in world space; none: background. `input`:
   /// that frame's.

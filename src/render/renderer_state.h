@@ -49,8 +49,6 @@ struct Renderer::State {
   /// One light as a polygon: the visible part from each point and its irradiance.
   Expected<void> light_soft(const FrameInput& input, const DrawnLight& light, const RenderSettings& settings,
                             FrameResult& result, const StopFlag* stop);
-  void keep_pixel_nodes(FrameResult& result) const;
-  void keep_soft_classes(FrameResult& result) const;
   /// Drops the notes that earlier frames gave.
   void keep_new(std::vector<std::string>& notes);
 };

@@ -62,7 +62,7 @@ struct ShadowTracer::State {
   std::vector<std::uint32_t> blockers;
   std::vector<TraversalScratch> scratch;
   NodeTests node_tests;
-  std::vector<std::uint32_t> pixel_nodes;
+  std::vector<float> pixel_nodes;
   TraceStats stats;
   FrameTimings timings;
 
@@ -110,14 +110,18 @@ void ShadowTracer::State::begin_node_tests() {
 
 void ShadowTracer::State::spread_node_tests(std::size_t pixels) {
   pixel_nodes.assign(pixels, 0);
-  if (rays.pixels.empty()) return;
-  // From the root down each node takes on what the nodes above it did.
-  for (std::size_t k = tree.levels.size() - 1; k-- > 0;) {
-    for (std::size_t i = 0; i < node_tests[k].size(); ++i)
-      node_tests[k][i] += node_tests[k + 1][i / branching];
+  const std::size_t count = rays.pixels.size();
+  for (std::size_t packet = 0; packet * packet_size < count; ++packet) {
+    double shares = 0;
+    std::size_t node = packet, most = packet_size;  // rays that a node of this level holds, but for the last
+    for (const std::vector<std::uint32_t>& level : node_tests) {
+      shares += static_cast<double>(level[node]) / static_cast<double>(std::min(most, count - node * most));
+      node /= branching;
+      most *= branching;
+    }
+    const std::size_t last = std::min(count, (packet + 1) * packet_size);
+    for (std::size_t i = packet * packet_size; i < last; ++i) pixel_nodes[rays.pixels[i]] = static_cast<float>(shares);
   }
-  for (std::size_t i = 0; i < rays.pixels.size(); ++i)
-    pixel_nodes[rays.pixels[i]] = node_tests[0][i / packet_size];
 }
 
 ShadowTracer::ShadowTracer() : state_(std::make_unique<State>()) {}
@@ -131,7 +135,7 @@ const TraceStats& ShadowTracer::stats() const {
 const FrameTimings& ShadowTracer::timings() const {
   return state_->timings;
 }
-std::span<const std::uint32_t> ShadowTracer::pixel_nodes() const {
+std::span<const float> ShadowTracer::pixel_nodes() const {
   return state_->pixel_nodes;
 }
 

@@ -87,9 +87,9 @@ public:
   const TraceStats& stats() const;  ///< of the last call
   const FrameTimings& timings()
       const;  ///< of the last call: rays_ms, sort_ms, build_ms, traverse_ms, writeback_ms
-  /// Of the last call with count_pixel_nodes: node/triangle tests made at the nodes above each pixel's ray,
-  /// one a pixel, 0 without a ray; else empty.
-  std::span<const std::uint32_t> pixel_nodes() const;
+  /// Of the last call with count_pixel_nodes: node/triangle tests made for each pixel, those of a node shared
+  /// equally by the rays below it: they sum up to TraceStats::nodes. 0 without a ray; else empty.
+  std::span<const float> pixel_nodes() const;
 
 private:
   struct State;

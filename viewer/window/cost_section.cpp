@@ -98,7 +98,7 @@ void draw_summary(const FrameHistory& history) {
   if (summary.count == 0) return;
   ImGui::TextUnformatted(fmt::format("median {}", milliseconds(summary.median)).c_str());
   ImGui::SameLine();
-  dim_text(fmt::format("95 % {}   99 % {}   of {} frames, ms", milliseconds(summary.percentile_95),
+  dim_text(fmt::format("95 %: {}   99 %: {} ms   n = {}", milliseconds(summary.percentile_95),
                        milliseconds(summary.percentile_99), summary.count)
                .c_str());
 }
@@ -128,8 +128,12 @@ void draw_stages(Ui& ui, const FrameHistory& history) {
 
 /// 1234567 as 1 234 567.
 std::string grouped(std::uint64_t count) {
-  std::string text = std::to_string(count);
-  for (int at = static_cast<int>(text.size()) - 3; at > 0; at -= 3) text.insert(static_cast<std::size_t>(at), " ");
+  const std::string digits = std::to_string(count);
+  std::string text;
+  for (std::size_t i = 0; i < digits.size(); ++i) {
+    if (i > 0 && (digits.size() - i) % 3 == 0) text += ' ';
+    text += digits[i];
+  }
   return text;
 }
 
@@ -168,15 +172,15 @@ void draw_overlay_choice(Ui& ui) {
   row(ui, "Opacity");
   ImGui::SliderFloat("##opacity", &ui.state.overlay_opacity, 0, 1, "%.2f", ImGuiSliderFlags_AlwaysClamp);
   ui.mark("opacity");
-  if (ui.picture && ui.picture->overlay.kind == Overlay::none) {
-    dim_text(ui.state.overlay == Overlay::nodes ? "Hard shadows have nodes to count." : "Soft shadows have classes.");
-  }
+  const ShadowMode shadows = ui.state.slots[ui.state.compare ? 0 : ui.state.active].render.shadows;
+  if (ui.state.overlay == Overlay::nodes && shadows != ShadowMode::hard) dim_text("Only hard shadows have nodes to count.");
+  if (ui.state.overlay == Overlay::classes && shadows != ShadowMode::soft) dim_text("Only soft shadows have classes.");
 }
 
 }  // namespace
 
 void draw_cost_section(Ui& ui) {
-  if (!section("Cost", true)) return;
+  if (!section(ui, "Cost", true)) return;
   ViewState& state = ui.state;
   const int first = state.compare ? 0 : state.active;
   const FrameHistory& history = ui.history[static_cast<std::size_t>(first)];

@@ -59,6 +59,11 @@ void EventReport::opened(const std::string& file, const ScenePlan& scene) {
              {"cameras", scene.scene.cameras.size()}}));
 }
 
+void EventReport::request(const FrameRequest& request) {
+  if (!file_) return;
+  line(dump({{"event", "request"}, {"number", request.number}, {"time_s", request.clock.time_at(request.asked)}}));
+}
+
 void EventReport::picture(const Picture& picture, std::uint64_t number) {
   if (!file_) return;
   const FrameRecord& a = picture.a.record;

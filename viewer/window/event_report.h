@@ -17,6 +17,7 @@ public:
 
   bool is_on() const { return file_ != nullptr; }
   void opened(const std::string& file, const ScenePlan& scene);
+  void request(const FrameRequest& request);
   void picture(const Picture& picture, std::uint64_t number);
   void state(const ViewState& state);  ///< where it differs from the last
   void marks(const Marks& marks);      ///< the same

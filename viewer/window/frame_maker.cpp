@@ -79,6 +79,8 @@ Expected<std::shared_ptr<Picture>> FrameMaker::make(const FrameRequest& request,
     picture->b = std::move(*b);
   }
   picture->overlay = make_overlay(request.overlay, picture->a.result);
+  picture->a.result.masks.clear();  // the window shows the picture, not the masks
+  if (picture->b) picture->b->result.masks.clear();
   picture->scene = request.scene;
   picture->slot = request.slot;
   picture->view = input_.view;

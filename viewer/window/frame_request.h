@@ -46,8 +46,8 @@ struct Drawn {
 struct OverlayImage {
   Overlay kind = Overlay::none;
   Image8 image;                            ///< RGB
-  std::uint32_t highest = 0;               ///< nodes: what the brightest colour stands for
-  std::uint32_t peak = 0;                  ///< nodes: the most of any pixel
+  float highest = 0;                       ///< nodes: what the brightest colour stands for
+  float peak = 0;                          ///< nodes: the most of any pixel
   double mean = 0;                         ///< nodes: of the pixels with a triangle
   std::array<std::size_t, 6> class_sizes{};  ///< classes: pixels of each SoftClass
 };

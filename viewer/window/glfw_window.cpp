@@ -88,6 +88,18 @@ Viewer& viewer_of(GLFWwindow* window) {
   return *static_cast<Viewer*>(glfwGetWindowUserPointer(window));
 }
 
+static_assert(key_code::space == GLFW_KEY_SPACE && key_code::escape == GLFW_KEY_ESCAPE &&
+              key_code::tab == GLFW_KEY_TAB && key_code::backspace == GLFW_KEY_BACKSPACE &&
+              key_code::right == GLFW_KEY_RIGHT && key_code::left == GLFW_KEY_LEFT &&
+              key_code::home == GLFW_KEY_HOME && key_code::end == GLFW_KEY_END);
+
+/// GLFW's code, but letters as the keyboard's layout has them.
+int code_of(int key, int scancode) {
+  const char* name = glfwGetKeyName(key, scancode);
+  const bool letter = name && name[0] >= 'a' && name[0] <= 'z' && name[1] == 0;
+  return letter ? name[0] - 'a' + 'A' : key;
+}
+
 /// Every event makes the window draw. Set before Dear ImGui's own callbacks, which call these in turn.
 void watch_events(GLFWwindow* window) {
   const auto came = [](GLFWwindow* w) {
@@ -97,7 +109,15 @@ void watch_events(GLFWwindow* window) {
   glfwSetCursorPosCallback(window, [](GLFWwindow* w, double, double) { note(w); });
   glfwSetMouseButtonCallback(window, [](GLFWwindow* w, int, int, int) { note(w); });
   glfwSetScrollCallback(window, [](GLFWwindow* w, double, double) { note(w); });
-  glfwSetKeyCallback(window, [](GLFWwindow* w, int, int, int, int) { note(w); });
+  glfwSetKeyCallback(window, [](GLFWwindow* w, int key, int scancode, int action, int modifiers) {
+    if (action != GLFW_RELEASE && glfwGetWindowUserPointer(w)) {
+      viewer_of(w).press_key({.code = code_of(key, scancode),
+                              .shift = (modifiers & GLFW_MOD_SHIFT) != 0,
+                              .ctrl = (modifiers & GLFW_MOD_CONTROL) != 0,
+                              .repeat = action == GLFW_REPEAT});
+    }
+    note(w);
+  });
   glfwSetCharCallback(window, [](GLFWwindow* w, unsigned) { note(w); });
   glfwSetCursorEnterCallback(window, [](GLFWwindow* w, int) { note(w); });
   glfwSetWindowFocusCallback(window, [](GLFWwindow* w, int) { note(w); });

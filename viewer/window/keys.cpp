@@ -44,69 +44,66 @@ AnimationClock::Wall now() {
   return std::chrono::steady_clock::now();
 }
 
-bool pressed(int key, bool repeat = false) {
-  return ImGui::IsKeyPressed(key, repeat);
-}
-bool pressed(ImGuiKey_ key, bool repeat = false) {
-  return ImGui::IsKeyPressed(ImGui::GetKeyIndex(key), repeat);
-}
-
-void handle_time_keys(ViewState& state) {
+void handle_time_keys(const Ui& ui) {
+  ViewState& state = ui.state;
   AnimationClock& clock = state.clock;
-  if (pressed(ImGuiKey_Space)) toggle_playing(state);
-  if (pressed(ImGuiKey_LeftArrow, true)) clock.step(now(), -1);
-  if (pressed(ImGuiKey_RightArrow, true)) clock.step(now(), 1);
-  if (pressed(ImGuiKey_Home)) clock.seek(now(), clock.start_s());
-  if (pressed(ImGuiKey_End)) clock.seek(now(), clock.frame_time_s(clock.frames() - 1));
-  if (pressed('[', true)) clock.set_speed(now(), clock.speed() - 0.25);
-  if (pressed(']', true)) clock.set_speed(now(), clock.speed() + 0.25);
-  if (pressed('L')) clock.set_loop(now(), !clock.loop());
+  if (ui.pressed(key_code::space)) toggle_playing(state);
+  if (ui.pressed(key_code::left, true)) clock.step(now(), -1);
+  if (ui.pressed(key_code::right, true)) clock.step(now(), 1);
+  if (ui.pressed(key_code::home)) clock.seek(now(), clock.start_s());
+  if (ui.pressed(key_code::end)) clock.seek(now(), clock.frame_time_s(clock.frames() - 1));
+  if (ui.pressed('[', true)) clock.set_speed(now(), clock.speed() - 0.25);
+  if (ui.pressed(']', true)) clock.set_speed(now(), clock.speed() + 0.25);
+  if (ui.pressed('L')) clock.set_loop(now(), !clock.loop());
 }
 
-void handle_method_keys(ViewState& state) {
+void handle_method_keys(const Ui& ui) {
+  ViewState& state = ui.state;
   RenderSettings& render = state.method().render;
-  if (pressed('1')) render.shadows = ShadowMode::none;
-  if (pressed('2')) render.shadows = ShadowMode::hard;
-  if (pressed('3')) render.shadows = ShadowMode::soft;
-  if (pressed('4')) render.ao.mode = static_cast<AoMode>((static_cast<int>(render.ao.mode) + 1) % 3);
-  if (pressed('V', true)) {
+  if (ui.pressed('1')) render.shadows = ShadowMode::none;
+  if (ui.pressed('2')) render.shadows = ShadowMode::hard;
+  if (ui.pressed('3')) render.shadows = ShadowMode::soft;
+  if (ui.pressed('4')) render.ao.mode = static_cast<AoMode>((static_cast<int>(render.ao.mode) + 1) % 3);
+  if (ui.pressed('V', true)) {
     constexpr int variants = 7;
-    const int step = ImGui::GetIO().KeyShift ? variants - 1 : 1;
+    const int step = ui.pressed('V', true)->shift ? variants - 1 : 1;
     render.hard.variant = static_cast<Variant>((static_cast<int>(render.hard.variant) + step) % variants);
   }
-  if (pressed('X')) flip_slots(state);
-  if (pressed('B')) state.compare = !state.compare;
-  if (pressed('N')) state.overlay = state.overlay == Overlay::nodes ? Overlay::none : Overlay::nodes;
-  if (pressed('M')) state.overlay = state.overlay == Overlay::classes ? Overlay::none : Overlay::classes;
+  if (ui.pressed('X')) flip_slots(state);
+  if (ui.pressed('B')) state.compare = !state.compare;
+  if (ui.pressed('N')) state.overlay = state.overlay == Overlay::nodes ? Overlay::none : Overlay::nodes;
+  if (ui.pressed('M')) state.overlay = state.overlay == Overlay::classes ? Overlay::none : Overlay::classes;
 }
 
-void handle_camera_keys(Ui& ui, float seconds) {
-  const ImGuiIO& io = ImGui::GetIO();
+void handle_camera_keys(Ui& ui) {
   ViewState& state = ui.state;
-  if (pressed('C')) {
-    const auto next = static_cast<CameraMode>((static_cast<int>(state.camera_mode) + 1) % 3);
-    leave_scene_camera(ui, next);
+  if (ui.pressed('C')) {
+    leave_scene_camera(ui, static_cast<CameraMode>((static_cast<int>(state.camera_mode) + 1) % 3));
   }
-  if (pressed(ImGuiKey_Backspace)) {
-    state.camera_mode = state.options.eye ? CameraMode::orbit : CameraMode::scene;
-    state.free = state.start;
-  }
-  if (!flies(io)) return;
-  if (state.camera_mode != CameraMode::fly) leave_scene_camera(ui, CameraMode::fly);
+  if (!ui.pressed(key_code::backspace)) return;
+  state.camera_mode = state.options.eye ? CameraMode::orbit : CameraMode::scene;
+  state.free = state.start;
+}
+
+void fly_by_keys(Ui& ui, float seconds) {
+  const ImGuiIO& io = ImGui::GetIO();
+  if (!flies(io) || !ui.picture) return;
+  if (ui.state.camera_mode != CameraMode::fly) leave_scene_camera(ui, CameraMode::fly);
   const auto axis = [](int positive, int negative) {
     return static_cast<float>(ImGui::IsKeyDown(positive)) - static_cast<float>(ImGui::IsKeyDown(negative));
   };
-  const float metres = state.fly_speed * seconds * (io.KeyShift ? 4.0f : 1.0f);
-  fly(state.free, glm::vec3(axis('D', 'A'), axis('E', 'Q'), axis('W', 'S')) * metres);
+  const float metres = ui.state.fly_speed * seconds * (io.KeyShift ? 4.0f : 1.0f);
+  fly(ui.state.free, glm::vec3(axis('D', 'A'), axis('E', 'Q'), axis('W', 'S')) * metres);
 }
 
 void handle_window_keys(Ui& ui) {
-  const ImGuiIO& io = ImGui::GetIO();
-  if (pressed('P')) (io.KeyShift ? ui.actions.window_shot : ui.actions.picture_shot) = true;
-  if (pressed('T')) ui.actions.toggle_log = true;
-  if (pressed('R')) ui.actions.retry = true;
-  if (pressed(ImGuiKey_Tab)) ui.state.panel = !ui.state.panel;
-  if (pressed(ImGuiKey_Escape)) (ui.state.help ? ui.state.help : ui.actions.cancel) = !ui.state.help;
+  if (const auto p = ui.pressed('P')) (p->shift ? ui.actions.window_shot : ui.actions.picture_shot) = true;
+  if (ui.pressed('T')) ui.actions.toggle_log = true;
+  if (ui.pressed('R')) ui.actions.retry = true;
+  if (ui.pressed(key_code::tab)) ui.state.panel = !ui.state.panel;
+  if (!ui.pressed(key_code::escape)) return;
+  if (!ui.state.help) ui.actions.cancel = true;
+  ui.state.help = false;
 }
 
 bool typed(ImWchar character) {
@@ -117,7 +114,6 @@ bool typed(ImWchar character) {
 template <std::size_t N>
 void help_column(const char* title, const std::array<KeyHelp, N>& keys) {
   ImGui::TextUnformatted(title);
-  ImGui::Separator();
   for (const KeyHelp& key : keys) {
     ImGui::PushStyleColor(ImGuiCol_Text, palette::accent);
     ImGui::TextUnformatted(key.key);
@@ -152,15 +148,17 @@ void handle_keys(Ui& ui, float seconds) {
   const ImGuiIO& io = ImGui::GetIO();
   if (io.WantTextInput) return;
   if (typed('?')) ui.state.help = !ui.state.help;
-  if (io.KeyCtrl) {
-    if (pressed('C')) ui.actions.copy_camera = true;
-    if (pressed('Q')) ui.actions.quit = true;
-    return;
+  for (const KeyPress& press : ui.keys) {  // one by one: two presses of a key are two
+    if (press.ctrl && press.code == 'C') ui.actions.copy_camera = true;
+    if (press.ctrl && press.code == 'Q') ui.actions.quit = true;
+    Ui one = ui;
+    one.keys = {&press, 1};
+    handle_time_keys(one);
+    handle_method_keys(one);
+    handle_camera_keys(one);
+    handle_window_keys(one);
   }
-  handle_time_keys(ui.state);
-  handle_method_keys(ui.state);
-  handle_camera_keys(ui, seconds);
-  handle_window_keys(ui);
+  fly_by_keys(ui, seconds);
 }
 
 void draw_help(Ui& ui, ImVec2 window) {

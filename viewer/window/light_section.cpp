@@ -46,7 +46,7 @@ void edit_light(Ui& ui, int index, const Light& light) {
 }  // namespace
 
 void draw_light_section(Ui& ui) {
-  if (!ui.state.scene || !section("Lights", false)) return;
+  if (!ui.state.scene || !section(ui, "Lights", false)) return;
   const auto& lights = ui.state.scene->scene.lights;
   for (int i = 0; i < static_cast<int>(lights.size()); ++i) edit_light(ui, i, lights[static_cast<std::size_t>(i)]);
   ImGui::Checkbox("circles in the view", &ui.state.light_handles);
@@ -54,7 +54,7 @@ void draw_light_section(Ui& ui) {
 }
 
 void draw_camera_section(Ui& ui) {
-  if (!ui.state.scene || !section("Camera", false)) return;
+  if (!ui.state.scene || !section(ui, "Camera", false)) return;
   ViewState& state = ui.state;
   constexpr const char* modes[] = {"scene", "orbit", "fly"};
   row(ui, "Moves", "The scene's animated camera; one that circles a point; one that flies (W A S D Q E).");
@@ -103,7 +103,7 @@ void draw_camera_section(Ui& ui) {
 }
 
 void draw_compare_section(Ui& ui) {
-  if (!section("Compare", ui.state.compare)) return;
+  if (!section(ui, "Compare", ui.state.compare)) return;
   ViewState& state = ui.state;
   row(ui, "A with B", "Draws both methods; X flips.");
   ImGui::Checkbox("draw both##compare", &state.compare);

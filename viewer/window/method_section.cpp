@@ -148,7 +148,7 @@ void draw_scene_section(Ui& ui) {
   tooltip(fmt::format("{}\n{} nodes, {} meshes, {} lights. Drop a scene file on the window to open it.",
                       ui.state.options.file, scene.nodes.size(), scene.meshes.size(), scene.lights.size())
               .c_str());
-  ImGui::SameLine(ImGui::GetWindowWidth() - ImGui::GetStyle().WindowPadding.x - ImGui::CalcTextSize("? keys").x);
+  ImGui::SameLine(ImGui::GetContentRegionMax().x - ImGui::CalcTextSize("? keys").x);
   dim_text("? keys");
   if (ImGui::IsItemClicked()) ui.state.help = true;
   if (scene.clips.size() < 2) return;
@@ -170,7 +170,7 @@ void draw_scene_section(Ui& ui) {
 }
 
 void draw_method_section(Ui& ui) {
-  if (!section("Method", true)) return;
+  if (!section(ui, "Method", true)) return;
   ViewState& state = ui.state;
   constexpr const char* slots[] = {"A", "B"};
   row(ui, "Slot", "Two methods with their settings; X flips between them, Compare shows both.");

@@ -2,6 +2,8 @@
 
 #include <algorithm>
 #include <cmath>
+#include <span>
+#include <vector>
 
 namespace tenebra::viewer {
 namespace {
@@ -34,14 +36,34 @@ Image8 empty_like(const Image8& picture) {
   return {picture.width, picture.height, 3, std::vector<std::uint8_t>(pixels * 3)};
 }
 
-OverlayImage heat_map(const FrameResult& result) {
+/// Node tests of each pixel, all lights; empty if no light has any.
+std::vector<float> nodes_of(const FrameResult& result) {
+  std::vector<float> sum;
+  for (const LightMask& mask : result.masks) {
+    sum.resize(std::max(sum.size(), mask.nodes.size()));
+    for (std::size_t i = 0; i < mask.nodes.size(); ++i) sum[i] += mask.nodes[i];
+  }
+  return sum;
+}
+
+/// The highest SoftClass of each pixel, all lights: what cost most. Empty if no light has any.
+std::vector<std::uint8_t> classes_of(const FrameResult& result) {
+  std::vector<std::uint8_t> highest;
+  for (const LightMask& mask : result.masks) {
+    highest.resize(std::max(highest.size(), mask.classes.size()));
+    for (std::size_t i = 0; i < mask.classes.size(); ++i) highest[i] = std::max(highest[i], mask.classes[i]);
+  }
+  return highest;
+}
+
+OverlayImage heat_map(const FrameResult& result, std::span<const float> pixel_nodes) {
   OverlayImage overlay{.kind = Overlay::nodes, .image = empty_like(result.image)};
-  std::vector<std::uint32_t> visited;
-  for (const std::uint32_t nodes : result.pixel_nodes) {
+  std::vector<float> visited;
+  for (const float nodes : pixel_nodes) {
     if (nodes > 0) visited.push_back(nodes);
   }
   if (!visited.empty()) {
-    for (const std::uint32_t nodes : visited) overlay.mean += nodes;
+    for (const float nodes : visited) overlay.mean += nodes;
     overlay.mean /= static_cast<double>(visited.size());
     overlay.peak = *std::max_element(visited.begin(), visited.end());
     const auto place = static_cast<std::size_t>(bright_share * static_cast<double>(visited.size() - 1));
@@ -49,16 +71,16 @@ OverlayImage heat_map(const FrameResult& result) {
     overlay.highest = visited[place];
   }
   const double unit = overlay.highest > 0 ? 1.0 / overlay.highest : 0.0;
-  for (std::size_t i = 0; i < result.pixel_nodes.size(); ++i) {
-    put(overlay.image, i, heat_color(result.pixel_nodes[i] * unit));
+  for (std::size_t i = 0; i < pixel_nodes.size(); ++i) {
+    put(overlay.image, i, heat_color(pixel_nodes[i] * unit));
   }
   return overlay;
 }
 
-OverlayImage class_map(const FrameResult& result) {
+OverlayImage class_map(const FrameResult& result, std::span<const std::uint8_t> classes) {
   OverlayImage overlay{.kind = Overlay::classes, .image = empty_like(result.image)};
-  for (std::size_t i = 0; i < result.soft_classes.size(); ++i) {
-    const auto index = std::min<std::size_t>(result.soft_classes[i], class_looks.size() - 1);
+  for (std::size_t i = 0; i < classes.size(); ++i) {
+    const auto index = std::min<std::size_t>(classes[i], class_looks.size() - 1);
     ++overlay.class_sizes[index];
     put(overlay.image, i, class_looks[index].color);
   }
@@ -84,8 +106,14 @@ const char* class_name(SoftClass soft_class) {
 }
 
 OverlayImage make_overlay(Overlay kind, const FrameResult& result) {
-  if (kind == Overlay::nodes && !result.pixel_nodes.empty()) return heat_map(result);
-  if (kind == Overlay::classes && !result.soft_classes.empty()) return class_map(result);
+  if (kind == Overlay::nodes) {
+    const auto nodes = nodes_of(result);
+    return nodes.empty() ? OverlayImage{} : heat_map(result, nodes);
+  }
+  if (kind == Overlay::classes) {
+    const auto classes = classes_of(result);
+    return classes.empty() ? OverlayImage{} : class_map(result, classes);
+  }
   return {};
 }
 

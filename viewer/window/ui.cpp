@@ -26,6 +26,13 @@ void load_font(float scale) {
 
 }  // namespace
 
+const KeyPress* Ui::pressed(int code, bool repeat) const {
+  for (const KeyPress& press : keys) {
+    if (press.code == code && !press.ctrl && (repeat || !press.repeat)) return &press;
+  }
+  return nullptr;
+}
+
 void Ui::mark(const std::string& name) {
   if (!ImGui::IsItemVisible()) {
     marks.erase(name);
@@ -96,8 +103,11 @@ void row(const Ui& ui, const char* label, const char* help) {
   ImGui::SetNextItemWidth(-1);
 }
 
-bool section(const char* title, bool open) {
-  return ImGui::CollapsingHeader(title, open ? ImGuiTreeNodeFlags_DefaultOpen : ImGuiTreeNodeFlags_None);
+bool section(Ui& ui, const char* title, bool open) {
+  const bool is_open =
+      ImGui::CollapsingHeader(title, open ? ImGuiTreeNodeFlags_DefaultOpen : ImGuiTreeNodeFlags_None);
+  ui.mark(std::string("section.") + title);
+  return is_open;
 }
 
 bool segments(Ui& ui, const std::string& name, const char* const* labels, int count, int& chosen) {

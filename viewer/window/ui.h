@@ -4,11 +4,13 @@
 #include <imgui.h>
 
 #include <map>
+#include <span>
 #include <string>
 #include <string_view>
 
 #include "choices.h"
 #include "window/frame_history.h"
+#include "window/key_press.h"
 #include "window/render_worker.h"
 #include "window/view_state.h"
 
@@ -23,11 +25,14 @@ struct Ui {
   Marks& marks;
   const Picture* picture;  ///< the newest; null before the first
   std::array<FrameHistory, 2>& history;
+  std::span<const KeyPress> keys;  ///< pressed since the last frame of the window
   WorkerStatus worker;
   std::string_view log;    ///< name of the log being written, or ""
   float scale = 1;         ///< of the display: 1 at 96 dots an inch
 
   float px(float length) const { return length * scale; }
+  /// The press of this key without Ctrl; null: none. `repeat`: holding it down counts too.
+  const KeyPress* pressed(int code, bool repeat = false) const;
   /// Records the last widget under `name`.
   void mark(const std::string& name);
 };
@@ -50,7 +55,7 @@ void apply_style(float scale);
 void row(const Ui& ui, const char* label, const char* help = nullptr);
 void dim_text(const char* text);
 /// A heading that folds; true while open.
-bool section(const char* title, bool open);
+bool section(Ui& ui, const char* title, bool open);
 void tooltip(const char* text);  ///< over the last widget
 
 /// A row of buttons of which one is down. True if another was pressed.

@@ -131,9 +131,9 @@ void draw_heat_legend(Ui& ui, Area place) {
     list.AddRectFilled({x, bar.y}, {x + ui.px(5), bar.y + ui.px(12)}, IM_COL32(c.r, c.g, c.b, 255));
   }
   list.AddText(low + ImVec2(ui.px(10), ui.px(5)), palette::text,
-               fmt::format("node tests a pixel, mean {:.0f}", overlay.mean).c_str());
+               fmt::format("node tests a pixel, mean {:.1f}", overlay.mean).c_str());
   list.AddText(bar + ImVec2(0, ui.px(14)), palette::dim, "0");
-  const std::string right = fmt::format("{} (most {})", overlay.highest, overlay.peak);
+  const std::string right = fmt::format("{:.1f} (most {:.1f})", overlay.highest, overlay.peak);
   list.AddText(bar + ImVec2(ui.px(200) - ImGui::CalcTextSize(right.c_str()).x, ui.px(14)), palette::dim, right.c_str());
 }
 
@@ -263,7 +263,7 @@ void use_hand(Ui& ui, const Stage& stage, Area area) {
   const bool turns = hovered && hand != Hand::light;
   if (turns) turn_wheel(ui, io.MouseWheel);
   const bool clicked = hovered && io.MouseDoubleClicked[ImGuiMouseButton_Left] && under < 0;
-  const bool focus_key = hovered && !io.WantTextInput && ImGui::IsKeyPressed('F', false);
+  const bool focus_key = hovered && !io.WantTextInput && ui.pressed('F');
   if (clicked || focus_key) ui.actions.focus = glm::ivec2(glm::floor(stage.pixel_at(io.MousePos)));
 }
 

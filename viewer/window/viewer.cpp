@@ -26,6 +26,16 @@ const Clip* clip_of(const ScenePlan& plan, int clip) {
   return clip < 0 ? nullptr : &plan.scene.clips[static_cast<std::size_t>(clip)];
 }
 
+/// `name`, or with a number the first that no file has: a log does not replace an earlier one.
+std::string unused_name(const std::filesystem::path& name) {
+  std::filesystem::path file = name;
+  std::error_code none;
+  for (int i = 2; std::filesystem::exists(file, none); ++i) {
+    file = fmt::format("{}_{}{}", name.stem().string(), i, name.extension().string());
+  }
+  return file.string();
+}
+
 FreeCamera start_camera(const SceneOptions& options) {
   return {*options.eye, options.look_at, options.up, options.fov_deg.value_or(FreeCamera{}.fov_deg)};
 }
@@ -114,6 +124,7 @@ void Viewer::take_picture(const std::shared_ptr<const Picture>& picture) {
     if (picture->b) history_[1].add(picture->b->record);
   }
   for (const std::string& note : picture->a.result.notes) say(note);
+  if (!options_.log.empty()) toggle_log();  // --log: from the first picture on
   if (log_) log_picture(*picture);
   // By fixed steps the pictures move the clock; a hand that has moved it since is not overruled.
   if (state_.clock.fixed_step() && state_.clock.playing() && picture->request == requests_) {
@@ -131,7 +142,7 @@ void Viewer::take_picture(const std::shared_ptr<const Picture>& picture) {
 
 void Viewer::take_pick(const std::optional<glm::vec3>& point) {
   if (!point) return say("Nothing there to focus on: this pixel shows the background.");
-  Ui ui{state_, actions_, marks_, picture_.get(), history_, {}, {}, 1};
+  Ui ui{state_, actions_, marks_, picture_.get(), history_, {}, {}, {}, 1};
   leave_scene_camera(ui, CameraMode::orbit);
   focus(state_.free, *point);
   due_ = std::max(due_, 1);
@@ -183,6 +194,7 @@ void Viewer::send_request() {
   if (!new_method && key == sent_key_ && state_.clock == sent_clock_ && !actions_.retry) return;
   FrameRequest request = make_request();
   request.number = ++requests_;
+  report_.request(request);
   if (new_method) {
     settings_since_ = requests_;
     for (FrameHistory& history : history_) history.clear();
@@ -243,7 +255,7 @@ void Viewer::toggle_log() {
     return say(finished ? fmt::format("Log written to {}", path) : finished.error().message, !finished);
   }
   if (!picture_) return;
-  const std::string path = options_.log.empty() ? "tenebra_frames.csv" : options_.log;
+  const std::string path = options_.log.empty() ? unused_name("tenebra_frames.csv") : std::exchange(options_.log, "");
   auto log = SessionLog::start(path, state_, *picture_, worker_.gl_renderer());
   if (!log) return say(log.error().message, true);
   log_.emplace(std::move(*log));
@@ -322,7 +334,7 @@ void Viewer::draw(float scale, float pixels_a_unit) {
   hand_moves_ = ImGui::IsAnyMouseDown();
   const std::string log = log_ ? log_->path() : "";
   marks_.clear();
-  Ui ui{state_, actions_, marks_, picture_.get(), history_, worker_.status(), log, scale};
+  Ui ui{state_, actions_, marks_, picture_.get(), history_, keys_, worker_.status(), log, scale};
   handle_keys(ui, std::min(seconds, 0.1f));
   if (flies(io)) due_ = std::max(due_, 1);
 
@@ -354,7 +366,11 @@ void Viewer::draw(float scale, float pixels_a_unit) {
       asked.focus || asked.open) {
     due_ = std::max(due_, 1);
   }
+  keys_.clear();
   report_.marks(marks_);
+  if (due_ > 0 || !input_undrawn_) return;
+  input_undrawn_ = false;
+  report_.note("drawn", "");
 }
 
 }  // namespace tenebra::viewer

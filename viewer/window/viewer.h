@@ -27,7 +27,15 @@ public:
 
   bool is_over() const { return quit_; }
   bool needs_drawing() const { return due_ > 0; }
-  void input_came() { due_ = std::max(due_, 3); }  ///< Dear ImGui takes a frame or two to settle
+  void press_key(KeyPress press) {
+    keys_.push_back(press);
+    input_came();
+  }
+  /// Dear ImGui takes a frame or two to settle.
+  void input_came() {
+    due_ = std::max(due_, 3);
+    input_undrawn_ = true;
+  }
   double sleep_s() const;                          ///< how long to wait for events at most
   const ViewState& state() const { return state_; }
   const Picture* picture() const { return picture_.get(); }
@@ -62,6 +70,7 @@ private:
   ViewState state_;
   Actions actions_;
   Marks marks_;
+  std::vector<KeyPress> keys_;
   std::array<FrameHistory, 2> history_;
   std::optional<SessionLog> log_;
   std::shared_ptr<const Picture> picture_;
@@ -77,6 +86,7 @@ private:
   std::uint64_t pictures_ = 0;
   int shots_ = 0;
   bool window_shot_ = false;
+  bool input_undrawn_ = false;
   bool quit_ = false;
   int due_ = 3;              // frames of the window to draw
   AnimationClock::Wall last_draw_{};
