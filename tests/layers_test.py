@@ -37,7 +37,27 @@ CONTAINED = [
 ]
 
 
+# The same for the program: folders or files below viewer/ that may name it.
+CONTAINED_IN_VIEWER = [
+    (r"\bImGui\b|imgui|GLFW|glfw", "the window", ("window/",)),
+    (r"GLFW|glfw[A-Z3]", "GLFW", ("window/glfw_window.cpp",)),
+    (r"\bstd::(thread|jthread|mutex|atomic|condition_variable|barrier)\b", "a thread", ("window/render_worker.",)),
+    (r"\bgl[A-Z]\w*\(", "an OpenGL call", ()),
+]
+
+
+def viewer_breaches(root):
+    for path in sorted((root / "viewer").rglob("*.*")):
+        name = path.relative_to(root / "viewer").as_posix()
+        for number, line in enumerate(path.read_text(encoding="utf-8").splitlines(), 1):
+            code = line.split("//")[0]
+            for pattern, what, places in CONTAINED_IN_VIEWER:
+                if re.search(pattern, code) and "window/glfw_window.h" not in code and not name.startswith(places):
+                    yield f"viewer/{name}:{number}: names {what}, allowed only in {places or 'src/gl and src/raster'}"
+
+
 def breaches(root):
+    yield from viewer_breaches(root)
     for path in sorted((root / "src").rglob("*.*")):
         folder = path.relative_to(root / "src").parts[0]
         for number, line in enumerate(path.read_text(encoding="utf-8").splitlines(), 1):
