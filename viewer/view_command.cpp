@@ -15,7 +15,7 @@ constexpr const char* examples =
     "      the bundled city; ? shows the keys\n"
     "  tenebra view scenes/gallery.glb --play --overlay nodes\n"
     "      where the tracer's work goes\n"
-    "  tenebra view scenes/court.glb --shadows soft --compare \"--shadows hard\"\n"
+    "  tenebra view scenes/court.glb --shadows soft --compare=\"--shadows hard\"\n"
     "      soft against hard shadows, with a line to wipe between them\n"
     "  tenebra view scenes/city.glb --size 1280x720 --record out/%04d.png --exit-after 300\n"
     "      the first 300 frames as pictures, the same bits as tenebra render\n"

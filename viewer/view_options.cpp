@@ -100,8 +100,9 @@ void add_window_options(CLI::App& command, ViewOptions& options) {
 void add_compare_options(CLI::App& command, ViewOptions& options) {
   const auto group = [](CLI::Option* option) { option->group(compare_group); };
   group(command
-            .add_option("--compare", options.compare_text,
-                        "\"OPTIONS\": a second method B, this one (A) with other\nshadow or ao options")
+            .add_option(
+                "--compare", options.compare_text,
+                "--compare=\"OPTIONS\": a second method B, this one (A) with\nother shadow or ao options")
             ->type_name("TEXT"));
   group(add_choice<show_choices>(command, "--show", options.show, "How A and B are shown [wipe]"));
   group(add_value(command, "--wipe", options.wipe, parse_wipe, "Where the wipe stands [0.5]")

@@ -185,7 +185,7 @@ TEST(ViewPanel, SurvivesAnyHand) {
   HeadlessViewer headless(test::write_moving_scene(folder, 2), {900, 640});
   ASSERT_TRUE(headless.wait_for_first_picture());
   testing::Random random(11);
-  constexpr char keys[] = " 123VXBNMCLPRTWASDQEF[]";
+  constexpr char keys[] = " 123VXBNMCLPRWASDQEF[]";
   for (int i = 0; i < 400 && !headless.viewer().is_over(); ++i) {
     const auto& marks = headless.viewer().marks();
     auto mark = marks.begin();
@@ -194,7 +194,7 @@ TEST(ViewPanel, SurvivesAnyHand) {
     const ImVec2 point{static_cast<float>(random.in(at.x, at.z)), static_cast<float>(random.in(at.y, at.w))};
     const std::uint32_t what = random.index(6);
     // No fields and rays here: they would take the test's time, not the panel's.
-    if (mark->first.starts_with("ao")) continue;
+    if (mark->first.starts_with("ao") || mark->first == "log") continue;
     if (what == 0) headless.key(keys[random.index(sizeof(keys) - 1)]);
     if (what == 1) headless.key(random.chance(0.5) ? key_code::tab : key_code::right);
     if (what == 2) ImGui::GetIO().MouseWheel = static_cast<float>(random.in(-2, 2)), headless.move_to(point);

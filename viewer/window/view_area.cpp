@@ -278,7 +278,8 @@ Size picture_size(const ViewState& state, Area view, float pixels_a_unit) {
 
 void leave_scene_camera(Ui& ui, CameraMode mode) {
   ViewState& state = ui.state;
-  if (state.camera_mode == CameraMode::scene && ui.picture) {
+  if (!ui.picture) return;  // nothing to start from yet
+  if (state.camera_mode == CameraMode::scene) {
     const Image8& image = ui.picture->a.result.image;
     const ViewRays& view = ui.picture->view;
     const float distance = std::max(glm::distance(state.centre, view.eye), 1e-3f * state.diagonal_m);

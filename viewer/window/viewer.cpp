@@ -15,6 +15,7 @@ using Wall = AnimationClock::Wall;
 
 constexpr double message_s = 6.0;
 constexpr double look_again_s = 0.1;    // while the worker is busy: progress, patience
+constexpr double progress_after_s = 0.4;  // its display moves
 constexpr double resting_sleep_s = 0.5; // signals are looked at this often
 constexpr float flight_share = 0.1f;    // of the scene's diagonal a second
 
@@ -82,6 +83,12 @@ void Viewer::take_scene(OpenedScene opened) {
     return say(opened.scene.error().message, true);
   }
   const bool first = !state_.scene;
+  const int light = first ? state_.method().render.light : -1;
+  if (auto checked = check_light(**opened.scene, light, opened.options.time_s.value_or(0)); !checked) {
+    failure_ = checked.error().message;
+    quit_ = true;
+    return;
+  }
   state_.scene = *opened.scene;
   state_.options = std::move(opened.options);
   const ScenePlan& plan = *state_.scene;
@@ -100,9 +107,8 @@ void Viewer::take_scene(OpenedScene opened) {
     state_.free = state_.start = start_camera(state_.options);
     state_.camera_mode = options_.navigate;
   }
-  if (first && state_.method().render.light >= 0) {
-    const int chosen = state_.method().render.light;
-    for (int i = 0; i < static_cast<int>(plan.scene.lights.size()); ++i) state_.light_edit(i).on = i == chosen;
+  for (int i = 0; light >= 0 && i < static_cast<int>(plan.scene.lights.size()); ++i) {
+    state_.light_edit(i).on = i == light;
   }
   for (MethodOptions& slot : state_.slots) slot.render.light = -1;  // the list of lights says which are on
   if (!first) state_.lights.clear();
@@ -219,7 +225,7 @@ void Viewer::update() {
   actions_.retry = false;
   worker_.stop_if_outdated();
   const WorkerStatus status = worker_.status();
-  if (status.loading || status.drawing || !messages_.empty()) {
+  if (status.elapsed_s > progress_after_s) {
     if (std::chrono::duration<double>(now() - last_draw_).count() > look_again_s) due_ = std::max(due_, 1);
   }
   while (!messages_.empty() && messages_.front().until < now()) {
