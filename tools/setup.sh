@@ -8,6 +8,7 @@ packages=(
   libegl-dev libopengl-dev libegl1 libegl-mesa0 libgl1-mesa-dri libosmesa6
   libglm-dev libfmt-dev libexpected-dev libtinygltf-dev libtinyobjloader-dev
   nlohmann-json3-dev libcli11-dev libstb-dev libtbb-dev libhwy-dev
+  libzstd-dev libxxhash-dev
 )
 if [[ "${1:-}" == --tests ]]; then
   packages+=(libgtest-dev libgmock-dev libbenchmark-dev libembree-dev libgmp-dev)

@@ -1,0 +1,79 @@
+// Displacement fields: the distance to a rigid object along every chord of its bounding sphere, sampled once.
+// Gaitatzes, Chrysanthou and Papaioannou 2010, section 3 and Algorithm 1.
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+#include <functional>
+#include <glm/glm.hpp>
+#include <span>
+#include <vector>
+
+#include "ao/ambient_occlusion.h"
+#include "ao/triangle_bvh.h"
+#include "base/expected.h"
+#include "parallel/stop_flag.h"
+
+namespace tenebra {
+
+struct FieldSettings {
+  FieldLayout layout = FieldLayout::chords;
+  int positions = 4225;   ///< samples on the sphere; rounded to the next smaller square
+  int directions = 1024;  ///< inward directions a position; rounded to the next smaller square
+  int bits = 8;           ///< of a stored distance: 1, 8 or 32
+};
+
+/// A table of the size that settings ask for. Chords have as many exits as entries: the nearest square whose
+/// square holds positions x directions (4,225 x 1,024: 46^2 x 46^2).
+struct FieldShape {
+  int position_side = 0;   ///< positions = side^2, cells of the octahedral map
+  int direction_side = 0;  ///< directions = side^2; chords: cells of the exit
+  std::size_t entries = 0;
+  std::size_t bytes = 0;  ///< of the table
+};
+/// Fails, with one sentence, on settings out of range: fewer than 4 or more than 1,048,576 of either, bits
+/// other than 1, 8 and 32, a table beyond 1 GiB.
+Expected<FieldShape> field_shape(const FieldSettings& settings);
+
+/// Smallest useful table (0.33 MB): 24^2 x 24^2 chords.
+inline constexpr FieldSettings sparse_field{FieldLayout::chords, 576, 576, 8};
+
+struct Sphere {
+  glm::dvec3 centre{0.0};
+  double radius = 0;
+};
+
+/// What one mesh looks like from everywhere outside. Object space is the mesh's own; unit space has the
+/// bounding sphere as its unit sphere. Entry (p, d) tells of the ray that enters at position p towards
+/// direction or exit d: how far beyond the middle of its chord it first meets the object, -1 .. 1 in radii.
+struct DisplacementField {
+  FieldLayout layout = FieldLayout::chords;
+  int bits = 8;
+  FieldShape shape;
+  Sphere sphere;  ///< object space
+  std::vector<std::uint8_t>
+      table;                      ///< entry (p, d) at p * directions + d; 1 bit: 1 a hit; 8 bits: 0..254 for
+                                  ///< -1..1, 255 no hit; 32: a float, 2 no hit. Three bytes more at the end.
+  std::vector<float> mean;        ///< 1 bit: what all hits from position p stand for; else empty
+  std::vector<glm::vec3> points;  ///< unit positions, the cells' centres
+
+  /// Of table, mean and points: what a field costs in memory.
+  std::size_t bytes() const {
+    return table.size() + mean.size() * sizeof(float) + points.size() * sizeof(glm::vec3);
+  }
+};
+
+/// A small sphere around all triangles' corners (within 2 % of the smallest), never too small.
+Sphere bounding_sphere(std::span<const glm::vec3> positions, std::span<const glm::uvec3> triangles);
+
+/// Called by the caller's thread now and then with 0..1.
+using FieldProgress = std::function<void(double done)>;
+
+/// Algorithm 1, on all cores; the same bits for any thread count and instruction set. Fails with "stopped" if
+/// `stop` was requested, on settings out of range, and on a mesh without a triangle of any area.
+Expected<DisplacementField> build_field(std::span<const glm::vec3> positions,
+                                        std::span<const glm::uvec3> triangles, const TriangleBvh& bvh,
+                                        const FieldSettings& settings, const FieldProgress& progress = {},
+                                        const StopFlag* stop = nullptr);
+
+}  // namespace tenebra
