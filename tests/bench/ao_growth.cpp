@@ -4,6 +4,7 @@
 #include <memory>
 
 #include "ao_contestants.h"
+#include "ao_race.h"
 #include "ao_session.h"
 #include "bench_plot.h"
 
@@ -16,30 +17,28 @@ struct Level {
   ObjectTree tree;
   std::unique_ptr<BuiltField> field;
   AoPeer peer;
-  std::vector<double> field_ms{}, embree_ms{};
+  double field_ms = 0, embree_ms = 0;
 
   explicit Level(Object of) : object(std::move(of)), tree(object), peer(object) {}
 };
 
-/// All levels in turn, round by round.
-void race(std::vector<std::unique_ptr<Level>>& levels, std::span<const RayBatch> rays, int rounds) {
-  for (int round = -1; round < rounds; ++round) {  // the first round warms up
-    for (const auto& level : levels) {
-      const double field = trace_ms(rays, field_tracer(*level->field));
-      const double embree =
-          std::min(trace_ms(rays, level->peer.single_rays()), trace_ms(rays, level->peer.packets(true)));
-      if (round < 0) continue;
-      level->field_ms.push_back(field);
-      level->embree_ms.push_back(embree);
-    }
+void race_levels(std::vector<std::unique_ptr<Level>>& levels, std::span<const RayBatch> rays, int rounds) {
+  std::vector<Racer> racers;
+  for (const auto& level : levels) {
+    racers.push_back({"field", field_tracer(*level->field)});
+    racers.push_back({"embree", level->peer.single_rays()});
+    racers.push_back({"embree", level->peer.packets(false)});
+  }
+  race(racers, rays, rounds);
+  for (std::size_t i = 0; i < levels.size(); ++i) {
+    levels[i]->field_ms = racers[3 * i].ms;
+    levels[i]->embree_ms = std::min(racers[3 * i + 1].ms, racers[3 * i + 2].ms);
   }
 }
 
-/// Median over the rounds of how much slower `other` is than `first`, in percent.
-double growth(const std::vector<double>& first, const std::vector<double>& other) {
-  std::vector<double> ratios;
-  for (std::size_t i = 0; i < first.size(); ++i) ratios.push_back(100 * (other[i] / first[i] - 1));
-  return median(ratios);
+/// How much slower, in percent.
+double growth(double from_ms, double to_ms) {
+  return 100 * (to_ms / from_ms - 1);
 }
 
 void tell(AoSession& session, const std::vector<std::unique_ptr<Level>>& levels) {
@@ -50,7 +49,7 @@ void tell(AoSession& session, const std::vector<std::unique_ptr<Level>>& levels)
     const double percent = growth(levels[0]->field_ms, level->field_ms);
     const double peer_percent = growth(levels[0]->embree_ms, level->embree_ms);
     const auto triangles = static_cast<double>(level->object.triangles.size());
-    const double field_ms = median(level->field_ms), embree_ms = median(level->embree_ms);
+    const double field_ms = level->field_ms, embree_ms = level->embree_ms;
     const std::string view = fmt::format("triangles={}", level->object.triangles.size());
     rows.push_back({fmt::format("{}", level->object.triangles.size()),
                     fmt::format("{:.2f}", level->tree.build_ms / 1e3),
@@ -87,7 +86,7 @@ Expected<void> measure_growth(AoSession& session) {
   }
   const Ball& ball = levels[0]->tree.ball;
   const auto rays = batches_towards(corner_receivers(ball), CosineRays(16, 16, 7), ball.centre, ball.radius);
-  race(levels, rays, session.by_effort(1, 5, 15));
+  race_levels(levels, rays, session.by_effort(1, 5, 15));
   tell(session, levels);
   return {};
 }

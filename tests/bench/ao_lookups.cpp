@@ -4,19 +4,13 @@
 #include <cmath>
 
 #include "ao_contestants.h"
+#include "ao_race.h"
 #include "ao_session.h"
-#include "bench_plot.h"
 #include "parallel/parallel.h"
 #include "support/seeded_random.h"
 
 namespace tenebra::bench {
 namespace {
-
-struct Contestant {
-  std::string name;
-  Tracer tracer;
-  std::vector<double> times_ms;
-};
 
 /// Points one to three radii off the middle, facing it.
 std::vector<Receiver> points_around(const Ball& ball, int count) {
@@ -29,27 +23,11 @@ std::vector<Receiver> points_around(const Ball& ball, int count) {
   return points;
 }
 
-/// All contestants in turn, round by round, so that what else the machine does meets all alike.
-void race(std::vector<Contestant>& contestants, std::span<const RayBatch> rays, int rounds) {
-  for (Contestant& c : contestants) {
-    c.times_ms.clear();
-    trace_ms(rays.first(std::min<std::size_t>(rays.size(), 512)), c.tracer);  // warm
-  }
-  for (int round = 0; round < rounds; ++round) {
-    for (Contestant& c : contestants) c.times_ms.push_back(trace_ms(rays, c.tracer));
-  }
-}
-
-/// Median over the rounds of (the faster Embree / field), the ratio of neighbours in time.
-double speedup(const std::vector<Contestant>& c, std::size_t field) {
-  std::vector<double> ratios;
-  std::size_t embree = 2;
-  for (std::size_t i = 3; i < c.size(); ++i) {
-    if (median(c[i].times_ms) < median(c[embree].times_ms)) embree = i;
-  }
-  for (std::size_t i = 0; i < c[field].times_ms.size(); ++i)
-    ratios.push_back(c[embree].times_ms[i] / c[field].times_ms[i]);
-  return median(ratios);
+/// The fastest of Embree (all but the first two) over racer `field`.
+double speedup(const std::vector<Racer>& racers, std::size_t field) {
+  double embree = racers[2].ms;
+  for (std::size_t i = 3; i < racers.size(); ++i) embree = std::min(embree, racers[i].ms);
+  return embree / racers[field].ms;
 }
 
 Expected<void> measure_object(AoSession& session, const Object& object,
@@ -59,31 +37,31 @@ Expected<void> measure_object(AoSession& session, const Object& object,
   const auto chords = build_field(object, tree, {});
   const auto paper = build_field(object, tree, {.layout = FieldLayout::positions_directions});
   if (!chords || !paper) return tl::unexpected((!chords ? chords : paper).error());
-  std::vector<Contestant> contestants{{"field, chords", field_tracer(**chords), {}},
-                                      {"field, paper", field_tracer(**paper), {}},
-                                      {"embree, single rays", peer.single_rays(), {}},
-                                      {"embree, packets", peer.packets(false), {}},
-                                      {"embree, coherent packets", peer.packets(true), {}}};
+  std::vector<Racer> racers{{"field, chords", field_tracer(**chords)},
+                            {"field, paper", field_tracer(**paper)},
+                            {"embree, single rays", peer.single_rays()},
+                            {"embree, packets", peer.packets(false)},
+                            {"embree, coherent packets", peer.packets(true)}};
   const auto points = points_around(tree.ball, session.by_effort(20, 1500, 4000));
   const auto rays = batches_towards(points, CosineRays(16, 16, 6), tree.ball.centre, tree.ball.radius);
   const double count = static_cast<double>(rays.size()) * batch_size;
   for (const int threads : {1, thread_count()}) {
-    with_threads(threads, [&] { race(contestants, rays, session.by_effort(1, 5, 9)); });
+    with_threads(threads, [&] { race(racers, rays, session.by_effort(1, 5, 9)); });
     std::vector<std::string> row{object.name, fmt::format("{}", threads)};
-    for (const Contestant& c : contestants) {
-      const double ns = median(c.times_ms) * 1e6 / count;
+    for (const Racer& racer : racers) {
+      const double ns = racer.ms * 1e6 / count;
       row.push_back(fmt::format("{:.2f}", ns));
       session.report.add(
-          {"lookups", object.name, c.name, fmt::format("threads={}", threads), "time", ns, "ns/ray"});
+          {"lookups", object.name, racer.name, fmt::format("threads={}", threads), "time", ns, "ns/ray"});
     }
     for (const std::size_t field : {0u, 1u}) {
-      const double faster = speedup(contestants, field);
+      const double faster = speedup(racers, field);
       row.push_back(fmt::format("{:.1f}", faster));
-      session.report.add({"lookups", object.name, contestants[field].name, fmt::format("threads={}", threads),
+      session.report.add({"lookups", object.name, racers[field].name, fmt::format("threads={}", threads),
                           "speedup", faster, ""});
     }
     rows.push_back(row);
-    if (object.triangles.size() >= 5000) keep_least(session.headline.lookup_speedup, speedup(contestants, 0));
+    if (object.triangles.size() >= 5000) keep_least(session.headline.lookup_speedup, speedup(racers, 0));
     if (threads == thread_count()) break;  // one thread is all there is
   }
   return {};
