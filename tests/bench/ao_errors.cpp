@@ -4,6 +4,7 @@
 #include <cmath>
 
 #include "ao_contestants.h"
+#include "ao_race.h"
 #include "ao_session.h"
 #include "ao_sheet.h"
 #include "bench_plot.h"
@@ -11,7 +12,7 @@
 namespace tenebra::bench {
 namespace {
 
-constexpr int rays_side = 16;  // 256 rays a point
+constexpr int ray_count = 256;  // a point
 constexpr std::array position_counts{289, 1089, 4225};
 constexpr std::array direction_sides{16, 32, 64, 128};
 
@@ -25,13 +26,12 @@ struct Subject {
   std::vector<RayBatch> corner_rays;  // those that may meet the sphere
 
   Subject(const Object& of, const AoSession& session) : object(of), tree(of), peer(of) {
-    const int side = session.by_effort(16, 64, 64);
-    const CosineRays many(side, side, 1), few(rays_side, rays_side, 2);
+    const CosineRays many(session.by_effort(256, 4096, 4096), 1), few(ray_count, 2);
     corner = corner_receivers(tree.ball);
     floor = floor_receivers(object, tree.ball);
     air = air_receivers(tree.ball, peer, session.by_effort(50, 1000, 1000), 3);
     const auto truth = [&](const std::vector<Receiver>& at) {
-      return occlusion(at, many, diameter(), peer.packets(true));
+      return occlusion(at, many, diameter(), peer.packets(false));
     };
     corner_truth = truth(corner), floor_truth = truth(floor), air_truth = truth(air);
     corner_rays = batches_towards(corner, few, tree.ball.centre, tree.ball.radius);
@@ -52,7 +52,7 @@ void check_range(AoSession& session, const std::string& where, std::span<const f
 }
 
 Errors errors_of(AoSession& session, const Subject& subject, const Tracer& tracer, const std::string& name) {
-  const CosineRays few(rays_side, rays_side, 2);
+  const CosineRays few(ray_count, 2);
   const auto found = [&](const std::vector<Receiver>& at) {
     auto values = occlusion(at, few, subject.diameter(), tracer);
     check_range(session, subject.object.name + ", " + name, values);
@@ -104,7 +104,7 @@ const std::vector<std::string> head{"table",   "MB",    "build s", "look-up ms",
 
 /// Error of 256 exact rays: what no table can fall below.
 void add_noise(AoSession& session, const Subject& subject, std::vector<std::vector<std::string>>& rows) {
-  const Errors e = errors_of(session, subject, subject.peer.packets(true), "embree");
+  const Errors e = errors_of(session, subject, subject.peer.packets(false), "embree");
   add_figures(session, "figure6", subject, "embree, 256 rays", nullptr, e);
   rows.push_back(row_of("embree, 256 rays", nullptr, e));
 }

@@ -85,7 +85,7 @@ Expected<void> measure_growth(AoSession& session) {
     level.field = std::move(*field);
   }
   const Ball& ball = levels[0]->tree.ball;
-  const auto rays = batches_towards(corner_receivers(ball), CosineRays(16, 16, 7), ball.centre, ball.radius);
+  const auto rays = batches_towards(corner_receivers(ball), CosineRays(256, 7), ball.centre, ball.radius);
   race_levels(levels, rays, session.by_effort(1, 5, 15));
   tell(session, levels);
   return {};

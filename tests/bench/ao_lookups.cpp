@@ -43,7 +43,7 @@ Expected<void> measure_object(AoSession& session, const Object& object,
                             {"embree, packets", peer.packets(false)},
                             {"embree, coherent packets", peer.packets(true)}};
   const auto points = points_around(tree.ball, session.by_effort(20, 1500, 4000));
-  const auto rays = batches_towards(points, CosineRays(16, 16, 6), tree.ball.centre, tree.ball.radius);
+  const auto rays = batches_towards(points, CosineRays(256, 6), tree.ball.centre, tree.ball.radius);
   const double count = static_cast<double>(rays.size()) * batch_size;
   for (const int threads : {1, thread_count()}) {
     with_threads(threads, [&] { race(racers, rays, session.by_effort(1, 5, 9)); });

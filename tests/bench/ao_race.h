@@ -9,6 +9,21 @@
 
 namespace tenebra::bench {
 
+/// What work costs: on one thread the processor time of the process, which other programs do not add to; on
+/// more the time on the clock. Runs from its construction.
+class CostClock {
+public:
+  CostClock();
+  double ms();  ///< since construction
+
+private:
+  bool one_thread_;
+  double start_ms_;
+};
+
+/// Cost of `tracer` for all batches.
+double trace_ms(std::span<const RayBatch> batches, const Tracer& tracer);
+
 struct Racer {
   std::string name;
   Tracer tracer;

@@ -6,7 +6,6 @@
 #include <limits>
 #include <numbers>
 
-#include "base/stopwatch.h"
 #include "parallel/parallel.h"
 #include "support/seeded_random.h"
 
@@ -15,9 +14,6 @@ namespace {
 
 using glm::dvec2;
 using glm::vec3;
-
-constexpr int shifts = 64;
-constexpr float infinity = std::numeric_limits<float>::infinity();
 
 /// Shirley and Chiu 1997: squares about the centre become circles. a, b in -1 .. 1.
 dvec2 concentric(double a, double b) {
@@ -33,16 +29,17 @@ vec3 cosine_direction(double x, double y) {
   return {d.x, d.y, std::sqrt(std::max(0.0, 1 - d.x * d.x - d.y * d.y))};
 }
 
-/// Strata in blocks of 4 x 4, or in rows where there is only one column or row.
-std::vector<std::array<int, 2>> block_order(int across, int down) {
-  std::vector<std::array<int, 2>> order;
-  const int block_x = std::min(across, 4), block_y = std::min(down, 4);
-  for (int y = 0; y < down; y += block_y) {
-    for (int x = 0; x < across; x += block_x) {
-      for (int i = 0; i < block_x * block_y; ++i) order.push_back({x + i % block_x, y + i / block_x});
-    }
+/// Points of the unit square, sorted into blocks of sixteen about as wide as high.
+std::vector<dvec2> lattice(int count) {
+  std::vector<dvec2> points;
+  for (int i = 0; i < count; ++i)
+    points.emplace_back((i + 0.5) / count, std::fmod(i / std::numbers::phi, 1.0));
+  const int blocks = count / batch_size, columns = static_cast<int>(std::lround(std::sqrt(blocks)));
+  for (int c = 0; c < columns; ++c) {
+    const auto at = [&](int column) { return points.begin() + batch_size * (blocks * column / columns); };
+    std::sort(at(c), at(c + 1), [](const dvec2& a, const dvec2& b) { return a.y < b.y; });
   }
-  return order;
+  return points;
 }
 
 std::uint64_t mixed(std::uint64_t seed, std::size_t index) {
@@ -59,25 +56,18 @@ std::array<vec3, 2> turned_tangents(const vec3& n, float turn) {
 
 }  // namespace
 
-CosineRays::CosineRays(int across, int down, std::uint64_t seed) : count_(across * down), seed_(seed) {
-  testing::Random random(seed);
-  const auto order = block_order(across, down);
-  for (int shift = 0; shift < shifts; ++shift) {
-    const double dx = random.unit(), dy = random.unit();
-    for (const auto& [x, y] : order)
-      directions_.push_back(cosine_direction((x + dx) / across, (y + dy) / down));
-  }
+CosineRays::CosineRays(int count, std::uint64_t seed) : seed_(seed) {
+  for (const dvec2& p : lattice(count)) directions_.push_back(cosine_direction(p.x, p.y));
 }
 
 void CosineRays::batches(const Receiver& receiver, std::size_t index, std::span<RayBatch> out) const {
   const std::uint64_t hash = mixed(seed_, index);
-  const vec3* local = &directions_[(hash % shifts) * static_cast<std::size_t>(count_)];
   const auto turn = static_cast<float>(static_cast<double>(hash >> 11) * 0x1p-53 * 2 * std::numbers::pi);
   const auto [u, v] = turned_tangents(receiver.normal, turn);
   const vec3 p = receiver.position, n = receiver.normal;
-  for (int i = 0; i < count_; ++i) {
-    const vec3 d = local[i];
-    out[static_cast<std::size_t>(i / batch_size)].set(i % batch_size, p, d.x * u + d.y * v + d.z * n);
+  for (std::size_t i = 0; i < directions_.size(); ++i) {
+    const vec3 d = directions_[i];
+    out[i / batch_size].set(static_cast<int>(i % batch_size), p, d.x * u + d.y * v + d.z * n);
   }
 }
 
@@ -120,20 +110,6 @@ std::vector<RayBatch> batches_towards(std::span<const Receiver> receivers, const
   }
   if (filled != 0) result.pop_back();
   return result;
-}
-
-double trace_ms(std::span<const RayBatch> batches, const Tracer& tracer) {
-  Stopwatch watch;
-  std::vector<float> kept(batches.size());
-  parallel_ranges(batches.size(), 512, [&](std::size_t first, std::size_t last) {
-    for (std::size_t b = first; b < last; ++b) {
-      float t[batch_size];
-      std::fill(t, t + batch_size, infinity);
-      tracer(batches[b], t);
-      kept[b] = t[0];  // so that the work is needed
-    }
-  });
-  return watch.lap_ms();
 }
 
 double rms_255(std::span<const float> a, std::span<const float> b) {

@@ -32,7 +32,7 @@ bool in_free_space(const vec3& position, const Ball& ball, const AoPeer& peer, t
 
 std::vector<Receiver> corner_receivers(const Ball& ball) {
   std::vector<Receiver> receivers;
-  const double wall = -1.05 * ball.radius, step = 3 * ball.radius / (grid - 1);
+  const double wall = -1.05 * ball.radius, step = 6 * ball.radius / (grid - 1);
   for (int axis = 0; axis < 3; ++axis) {
     for (int i = 0; i < grid * grid; ++i) {
       dvec3 p(wall), normal(0.0);

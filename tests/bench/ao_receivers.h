@@ -16,7 +16,8 @@ struct Ball {
   double radius = 0;
 };
 
-/// The paper's corner: three walls of 33 x 33 points, 5 % of the radius beyond the sphere, facing it.
+/// The paper's corner: three walls of 33 x 33 points, three of the sphere's diameters wide, 5 % of the radius
+/// beyond it, facing it.
 std::vector<Receiver> corner_receivers(const Ball& ball);
 
 /// A floor just (a thousandth of the radius) below the object's lowest point: the points inside the sphere of
