@@ -43,7 +43,7 @@ struct GroupReport {
 /// Buffers of a thread.
 struct Scratch {
   std::vector<Receiver> receivers;
-  std::vector<SelfOcclusion::Blend> blends;
+  std::vector<std::uint32_t> missing;
   std::vector<int> near;
   std::vector<RayBatch> rays;
   std::vector<float> distances;
@@ -208,7 +208,7 @@ void AmbientOcclusion::State::make_body(int object) {
 
 /// Rays of a receiver into scratch.rays, distances at the reach.
 void AmbientOcclusion::State::cast_fan(const Receiver& receiver, Scratch& scratch) const {
-  constexpr double cell = 1.0 / 64;  // of the reach: rays are turned anew
+  constexpr double cell = 1.0 / 256;  // of the reach: rays are turned anew
   const dvec3 size = glm::abs(receiver.position);
   const float off = std::max(lift, surface_lift(std::max({size.x, size.y, size.z})));
   const double scale = receiver.owner.object >= 0
@@ -238,19 +238,16 @@ float AmbientOcclusion::State::others(const Receiver& receiver, Scratch& scratch
 
 /// What the receiver needs that is not there yet.
 void AmbientOcclusion::State::collect(const Receiver& receiver, Scratch& scratch, GroupReport& report) const {
-  SelfOcclusion::Blend blend{};
   const std::int32_t object = receiver.owner.object;
   if (const SelfOcclusion* body = body_under(receiver)) {
-    blend = body->blend(receiver.owner.triangle, receiver.v, receiver.w, receiver.front);
+    scratch.missing.clear();
+    body->add_missing(receiver.on_shape(), scratch.missing);
     const auto number = static_cast<std::uint32_t>(body_of[body_index(object)]);
-    for (const std::uint32_t sample : blend.samples) {
-      if (!body->known(sample)) report.samples.push_back({number, sample});
-    }
+    for (const std::uint32_t sample : scratch.missing) report.samples.push_back({number, sample});
   } else if (object != TriangleOwner::deforming &&
              (report.bodies.empty() || report.bodies.back() != object)) {
     report.bodies.push_back(object);
   }
-  scratch.blends.push_back(blend);
   for (const int occluder : scratch.near) {
     const bool seen =
         std::find(report.reached.begin(), report.reached.end(), occluder) != report.reached.end();
@@ -266,17 +263,15 @@ void AmbientOcclusion::State::shade(const ReceiverSet& set, int group, Scratch& 
   PointBox box;
   for (const Receiver& receiver : scratch.receivers) box.extend(receiver.position);
   occluders.near(box, scratch.near);
-  scratch.blends.clear();
   for (const Receiver& receiver : scratch.receivers) collect(receiver, scratch, report);
   for (const int occluder : report.reached) {
     if (!occluders.ready(occluder)) report.occluders.push_back(occluder);
   }
   sort_unique(report.samples);
   if (!report.complete()) return;
-  for (std::size_t i = 0; i < scratch.receivers.size(); ++i) {
-    const Receiver& receiver = scratch.receivers[i];
+  for (const Receiver& receiver : scratch.receivers) {
     const SelfOcclusion* body = body_under(receiver);
-    const float own = body != nullptr ? body->occlusion(scratch.blends[i]) : 0;
+    const float own = body != nullptr ? body->occlusion(receiver.on_shape(), kernels) : 0;
     values[receiver.index] = (1 - own) * (1 - others(receiver, scratch, report));
   }
   report.points = scratch.receivers.size();

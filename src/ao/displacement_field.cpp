@@ -5,6 +5,7 @@
 #include <cstring>
 
 #include "ao/field_chords.h"
+#include "ao/near_cells.h"
 #include "ao/sphere_maps.h"
 #include "parallel/parallel.h"
 
@@ -63,6 +64,7 @@ DisplacementField empty_field(const FieldSettings& settings, const FieldShape& s
   field.shape = shape;
   field.table.resize(shape.bytes + field_padding);
   field.points = cell_centres(shape.position_side);
+  field.close.resize(near_words);
   if (field.bits == 1) field.mean.resize(field.points.size());
   return field;
 }
@@ -77,38 +79,8 @@ Chord sample_chord(const DisplacementField& field, std::size_t position, std::si
   return {entry, 2 * h.z * (h.x * frame.x + h.y * frame.y + h.z * inward)};
 }
 
-Sphere bounding_sphere(std::span<const glm::vec3> positions, std::span<const glm::uvec3> triangles) {
-  std::vector<glm::dvec3> corners;
-  corners.reserve(triangles.size());
-  glm::dvec3 low(HUGE_VAL), high(-HUGE_VAL);
-  std::vector<bool> seen(positions.size());
-  for (const glm::uvec3& t : triangles) {
-    for (int k = 0; k < 3; ++k) {
-      if (t[k] >= positions.size() || seen[t[k]]) continue;
-      seen[t[k]] = true;
-      const glm::dvec3 p(positions[t[k]]);
-      if (!(std::abs(p.x) <= 1e18 && std::abs(p.y) <= 1e18 && std::abs(p.z) <= 1e18)) continue;
-      corners.push_back(p);
-      low = glm::min(low, p);
-      high = glm::max(high, p);
-    }
-  }
-  if (corners.empty()) return {};
-  // Badoiu and Clarkson 2003: a step of 1 / (i + 1) towards the farthest corner.
-  Sphere best{{}, HUGE_VAL};
-  glm::dvec3 centre = 0.5 * (low + high);
-  for (int i = 1; i <= 100; ++i) {
-    double largest = -1;
-    glm::dvec3 farthest = centre;
-    for (const glm::dvec3& p : corners) {
-      const double square = glm::dot(p - centre, p - centre);
-      if (square > largest) largest = square, farthest = p;
-    }
-    if (std::sqrt(largest) < best.radius) best = {centre, std::sqrt(largest)};
-    centre += (farthest - centre) / (i + 1.0);
-  }
-  best.radius *= 1 + 0x1p-20;  // rounding to float, there and in the look-up, keeps corners inside
-  return best;
+float DisplacementField::cell() const {
+  return static_cast<float>(std::sqrt(4 * M_PI / std::sqrt(static_cast<double>(shape.entries))));
 }
 
 namespace {
@@ -126,10 +98,9 @@ public:
       const std::size_t count = std::min<std::size_t>(batch_size, row.size() - d);
       for (std::size_t i = 0; i < count; ++i) {
         const Chord chord = sample_chord(field_, position, d + i);
-        const auto radius = static_cast<float>(field_.sphere.radius);
         rays.set(static_cast<int>(i),
-                 glm::vec3(field_.sphere.centre + field_.sphere.radius * glm::dvec3(chord.entry)),
-                 radius * chord.along);
+                 glm::vec3(field_.bound.centre + field_.bound.axes * glm::dvec3(chord.entry)),
+                 glm::vec3(field_.bound.axes) * chord.along);
         length[i] = glm::length(chord.along);
       }
       std::fill(t, t + batch_size, 2.0f);
@@ -178,7 +149,8 @@ Expected<DisplacementField> build_field(std::span<const glm::vec3> positions,
   if (!shape) return tl::unexpected(shape.error());
   if (bvh.triangles == 0) return fail("mesh for a field: found no triangle with an area, expected one");
   DisplacementField field = empty_field(settings, *shape);
-  field.sphere = bounding_sphere(positions, triangles);
+  field.bound = bounding_ellipsoid(positions, triangles, settings.layout);
+  field.close = close_cells(positions, triangles, field.bound, field.cell());
   const std::size_t rows = field.points.size(), directions = shape->entries / rows;
   const RowTracer tracer(field, bvh);
   // Eight rows end on a byte whatever their length.

@@ -43,28 +43,41 @@ struct Sphere {
   double radius = 0;
 };
 
-/// What one mesh looks like from everywhere outside. Object space is the mesh's own; unit space has the
-/// bounding sphere as its unit sphere. Entry (p, d) tells of the ray that enters at position p towards
-/// direction or exit d: how far beyond the middle of its chord it first meets the object, -1 .. 1 in radii.
+/// What bounds a mesh in object space: a sphere (the paper's), or for chords one stretched along the axes
+/// to fit long objects better. Unit space is the object space in which it is the unit sphere.
+struct Ellipsoid {
+  glm::dvec3 centre{0.0};
+  glm::dvec3 axes{0.0};  ///< half of its extent along x, y, z
+};
+/// Within 2 % of the smallest sphere or, of those stretched with the mesh's extents (at most 4 : 1), of the
+/// smallest ellipsoid; never too small. Zero axes if there are no triangles.
+Ellipsoid bounding_ellipsoid(std::span<const glm::vec3> positions, std::span<const glm::uvec3> triangles,
+                             FieldLayout layout);
+
+/// What one mesh looks like from everywhere outside. Entry (p, d) tells of the ray that enters the unit
+/// sphere at position p towards direction or exit d: how far beyond the middle of its chord it first meets
+/// the object, -1 .. 1 in unit space.
 struct DisplacementField {
   FieldLayout layout = FieldLayout::chords;
   int bits = 8;
   FieldShape shape;
-  Sphere sphere;  ///< object space
+  Ellipsoid bound;
   std::vector<std::uint8_t>
       table;                      ///< entry (p, d) at p * directions + d; 1 bit: 1 a hit; 8 bits: 0..254 for
                                   ///< -1..1, 255 no hit; 32: a float, 2 no hit. Three bytes more at the end.
   std::vector<float> mean;        ///< 1 bit: what all hits from position p stand for; else empty
   std::vector<glm::vec3> points;  ///< unit positions, the cells' centres
+  std::vector<std::uint32_t> close;  ///< one bit a cell of the cube around the unit sphere (near_cells.h):
+                                     ///< set where the object is nearer than `cell()`
 
-  /// Of table, mean and points: what a field costs in memory.
+  /// Width of a cell of the unit sphere, were all of the table's entries chords: what the field resolves.
+  float cell() const;
+  /// Of all of the above: what a field costs in memory.
   std::size_t bytes() const {
-    return table.size() + mean.size() * sizeof(float) + points.size() * sizeof(glm::vec3);
+    return table.size() + mean.size() * sizeof(float) + points.size() * sizeof(glm::vec3) +
+           close.size() * sizeof(std::uint32_t);
   }
 };
-
-/// A small sphere around all triangles' corners (within 2 % of the smallest), never too small.
-Sphere bounding_sphere(std::span<const glm::vec3> positions, std::span<const glm::uvec3> triangles);
 
 /// Called by the caller's thread now and then with 0..1.
 using FieldProgress = std::function<void(double done)>;

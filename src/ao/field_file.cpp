@@ -4,13 +4,16 @@
 #include <xxhash.h>
 #include <zstd.h>
 
+#include <algorithm>
 #include <array>
 #include <bit>
-#include <cmath>
+#include <cstddef>
 #include <cstring>
 #include <fstream>
+#include <span>
 #include <string>
 #include <system_error>
+#include <type_traits>
 
 #include "ao/field_chords.h"
 #include "base/output_file.h"
@@ -34,12 +37,12 @@ struct Header {
   std::uint32_t version;
   std::uint32_t bits;
   FieldKey key;
-  double sphere[4];            ///< centre, radius
-  std::uint64_t plain_bytes;   ///< mean and table, without the padding
+  double bound[6];             ///< centre, axes
+  std::uint64_t plain_bytes;   ///< of the three parts below
   std::uint64_t packed_bytes;  ///< what follows the header
   FieldKey checksum;           ///< of the header with this zero, and of all that follows
 };
-static_assert(sizeof(Header) == 96);
+static_assert(sizeof(Header) == 112);
 
 FieldKey digest(XXH3_state_t& state) {
   const XXH128_hash_t hash = XXH3_128bits_digest(&state);
@@ -55,8 +58,27 @@ FieldKey checksum(Header header, std::string_view packed) {
   return digest(state);
 }
 
-std::size_t mean_bytes(const DisplacementField& field) {
-  return field.mean.size() * sizeof(float);
+/// What is stored of a field, one part after the other.
+template <class Field>
+auto parts(Field& field) {
+  const auto bytes = [](auto& vector, std::size_t size) {
+    auto whole = [&] {
+      if constexpr (std::is_const_v<Field>)
+        return std::as_bytes(std::span(vector));
+      else
+        return std::as_writable_bytes(std::span(vector));
+    }();
+    return whole.first(size);
+  };
+  return std::array{bytes(field.mean, field.mean.size() * sizeof(float)),
+                    bytes(field.close, field.close.size() * sizeof(std::uint32_t)),
+                    bytes(field.table, field.shape.bytes)};
+}
+
+std::size_t plain_size(const DisplacementField& field) {
+  std::size_t size = 0;
+  for (const auto& part : parts(field)) size += part.size();
+  return size;
 }
 
 Expected<std::string> read_whole(const fs::path& path, std::size_t most) {
@@ -98,19 +120,20 @@ Expected<void> save_field(const fs::path& folder, const FieldKey& key, const Dis
   std::error_code error;
   fs::create_directories(folder, error);
   if (error) return fail("{}: {}", folder.string(), error.message());
-  std::string plain(mean_bytes(field) + field.shape.bytes, '\0');
-  if (!field.mean.empty()) std::memcpy(plain.data(), field.mean.data(), mean_bytes(field));
-  std::memcpy(plain.data() + mean_bytes(field), field.table.data(), field.shape.bytes);
+  std::string plain;
+  plain.reserve(plain_size(field));
+  for (const auto& part : parts(field)) plain.append(reinterpret_cast<const char*>(part.data()), part.size());
   std::string packed(ZSTD_compressBound(plain.size()), '\0');
   const std::size_t size =
       ZSTD_compress(packed.data(), packed.size(), plain.data(), plain.size(), compression_level);
   if (ZSTD_isError(size)) return fail("{}: {}", field_path(folder, key).string(), ZSTD_getErrorName(size));
   packed.resize(size);
+  const auto& [centre, axes] = field.bound;
   Header header{magic,
                 version,
                 static_cast<std::uint32_t>(field.bits),
                 key,
-                {field.sphere.centre.x, field.sphere.centre.y, field.sphere.centre.z, field.sphere.radius},
+                {centre.x, centre.y, centre.z, axes.x, axes.y, axes.z},
                 plain.size(),
                 packed.size(),
                 {}};
@@ -125,7 +148,7 @@ Expected<DisplacementField> load_field(const fs::path& folder, const FieldKey& k
   if (!shape) return tl::unexpected(shape.error());
   const fs::path path = field_path(folder, key);
   DisplacementField field = empty_field(settings, *shape);
-  const std::size_t plain_bytes = mean_bytes(field) + shape->bytes;
+  const std::size_t plain_bytes = plain_size(field);
   const Expected<std::string> bytes = read_whole(path, sizeof(Header) + ZSTD_compressBound(plain_bytes));
   if (!bytes) return tl::unexpected(bytes.error());
   Header header{};
@@ -145,9 +168,13 @@ Expected<DisplacementField> load_field(const fs::path& folder, const FieldKey& k
   std::string plain(plain_bytes, '\0');
   if (ZSTD_decompress(plain.data(), plain.size(), packed.data(), packed.size()) != plain_bytes)
     return fail("{}: found bytes that do not unpack, expected {} bytes", path.string(), plain_bytes);
-  if (!field.mean.empty()) std::memcpy(field.mean.data(), plain.data(), mean_bytes(field));
-  std::memcpy(field.table.data(), plain.data() + mean_bytes(field), shape->bytes);
-  field.sphere = {{header.sphere[0], header.sphere[1], header.sphere[2]}, header.sphere[3]};
+  const char* from = plain.data();
+  for (const auto& part : parts(field)) {
+    std::copy(from, from + part.size(), reinterpret_cast<char*>(part.data()));
+    from += part.size();
+  }
+  const double(&b)[6] = header.bound;
+  field.bound = {{b[0], b[1], b[2]}, {b[3], b[4], b[5]}};
   return field;
 }
 

@@ -2,14 +2,19 @@
 // bits.
 #include "ao/field_chords.h"
 #include "ao/field_lookup.h"
+#include "ao/near_cells.h"
 
 #define HWY_DISABLED_TARGETS (HWY_AVX3_DL | HWY_SSSE3)
 #undef HWY_TARGET_INCLUDE
 #define HWY_TARGET_INCLUDE "ao/field_kernels.cpp"
 #include <hwy/foreach_target.h>
 // After foreach_target.h
+#include "ao/bvh_trace-inl.h"
 #include "ao/sphere_maps-inl.h"
 #include "simd/pack-inl.h"
+
+#include <algorithm>
+#include <bit>
 
 HWY_BEFORE_NAMESPACE();
 namespace tenebra::HWY_NAMESPACE {
@@ -25,40 +30,48 @@ HWY_INLINE Pack3<Float16> along(const Pack3<Float16>& a, Float16 s, const Pack3<
   return {a.x + s * b.x, a.y + s * b.y, a.z + s * b.z};
 }
 
+constexpr float half_diagonal = 0.70710678f;  // of a cell, in widths
+constexpr float cast_cells = 2;               // how far close rays are cast, in cells
+
 // The ray in unit space and its chord of the unit sphere.
 struct Chords {
   Truth16 met;            // the line has a chord at all
-  Pack3<Float16> unit;    // direction
-  Pack3<Float16> middle;  // of the chord: the point nearest to the centre
+  Pack3<Float16> origin;  // of the ray
+  Pack3<Float16> unit;    // its direction
+  Pack3<Float16> middle;  // of the chord: the point nearest to the centre; the centre where there is none
   Float16 half;           // length
   Float16 at;             // t of the middle
-  Float16 per_unit;       // t of one radius
+  Float16 per_unit;       // t of one unit of length
 };
 
 HWY_INLINE Float16 row_times(const float row[4], const Pack3<Float16>& v) {
   return (splat<Float16>(row[0]) * v.x + splat<Float16>(row[1]) * v.y) + splat<Float16>(row[2]) * v.z;
 }
+HWY_INLINE Pack3<Float16> moved(const float rows[3][4], const Pack3<Float16>& p) {
+  return {row_times(rows[0], p) + splat<Float16>(rows[0][3]),
+          row_times(rows[1], p) + splat<Float16>(rows[1][3]),
+          row_times(rows[2], p) + splat<Float16>(rows[2][3])};
+}
 
 HWY_INLINE Chords chords_of(const FieldInstance& f, const RayBatch& rays) {
-  const Pack3<Float16> o{load<Float16>(rays.ox), load<Float16>(rays.oy), load<Float16>(rays.oz)};
+  const Float16 one = splat<Float16>(1.0f), zero = splat<Float16>(0.0f);
   const Pack3<Float16> d{load<Float16>(rays.dx), load<Float16>(rays.dy), load<Float16>(rays.dz)};
-  const Pack3<Float16> origin{row_times(f.unit_from_world[0], o) + splat<Float16>(f.unit_from_world[0][3]),
-                              row_times(f.unit_from_world[1], o) + splat<Float16>(f.unit_from_world[1][3]),
-                              row_times(f.unit_from_world[2], o) + splat<Float16>(f.unit_from_world[2][3])};
   const Pack3<Float16> direction{row_times(f.unit_from_world[0], d), row_times(f.unit_from_world[1], d),
                                  row_times(f.unit_from_world[2], d)};
   Chords c;
-  const Float16 one = splat<Float16>(1.0f), zero = splat<Float16>(0.0f);
+  c.origin =
+      moved(f.unit_from_world, {load<Float16>(rays.ox), load<Float16>(rays.oy), load<Float16>(rays.oz)});
   const Float16 square = inner(direction, direction);
   c.per_unit = one / square_root(square);
   c.unit = {direction.x * c.per_unit, direction.y * c.per_unit, direction.z * c.per_unit};
-  const Float16 back = zero - inner(origin, c.unit);
-  c.middle = along(origin, back, c.unit);
-  c.at = back * c.per_unit;
-  const Float16 half_square = one - inner(c.middle, c.middle);
+  const Float16 ahead = zero - inner(c.origin, c.unit);
+  c.at = ahead * c.per_unit;
+  const Pack3<Float16> middle = along(c.origin, ahead, c.unit);
+  const Float16 half_square = one - inner(middle, middle);
   c.met =
       less(zero, half_square) & less(splat<Float16>(1e-30f), square) & less(square, splat<Float16>(1e30f));
   c.half = square_root(max(half_square, zero));
+  c.middle = {where(c.met, middle.x, zero), where(c.met, middle.y, zero), where(c.met, middle.z, zero)};
   return c;
 }
 
@@ -98,39 +111,115 @@ HWY_INLINE Int16 direction_cell(const DisplacementField& field, Int16 position,
   return cell_index(square_from_disk(inner(to, x) * scale, inner(to, y) * scale), field.shape.direction_side);
 }
 
-void nearest_hits(const FieldInstance& instance, const RayBatch& rays, float* distance) {
+// The two looks at a chord: t of the first hit seen from the entry, and of the first seen from the exit,
+// which is the last along the ray. `none` where there is no hit.
+class Looks {
+public:
+  HWY_INLINE Looks(const DisplacementField& field, const Chords& chords)
+      : field_(field),
+        c_(chords),
+        entry_(end_cell(splat<Float16>(0.0f) - c_.half)),
+        exit_(end_cell(c_.half)) {}
+
+  HWY_INLINE Float16 first(Float16 none) const {
+    const Float16 s = look(entry_, exit_);
+    return where(less(s, splat<Float16>(no_hit)), c_.at + s * c_.per_unit, none);
+  }
+  HWY_INLINE Float16 last(Float16 none) const {
+    const Float16 s = look(exit_, entry_);
+    return where(less(s, splat<Float16>(no_hit)), c_.at - s * c_.per_unit, none);
+  }
+
+private:
+  // The cell of the point of the chord that lies s beyond its middle.
+  HWY_INLINE Int16 end_cell(Float16 s) const {
+    return cell_index(square_from_direction(along(c_.middle, s, c_.unit)), field_.shape.position_side);
+  }
+  HWY_INLINE Float16 look(Int16 from, Int16 to) const {
+    return sample(field_, from,
+                  field_.layout == FieldLayout::chords ? to : direction_cell(field_, from, c_.middle));
+  }
+
+  const DisplacementField& field_;
+  const Chords& c_;
+  Int16 entry_, exit_;
+};
+
+// Bits of those rays `inside` that start close to the object.
+HWY_INLINE std::uint32_t close_rays(const DisplacementField& field, const Chords& c, Truth16 inside) {
+  const Float16 half = splat<Float16>(0.5f * near_side), last = splat<Float16>(near_side - 1.0f);
+  const auto cell = [&](Float16 x) {
+    return truncate(min(max(where(inside, x, half) * half + half, splat<Float16>(0.0f)), last));
+  };
+  const Int16 side = splat<Int16>(near_side);
+  const Int16 place = (cell(c.origin.z) * side + cell(c.origin.y)) * side + cell(c.origin.x);
+  const Int16 word = gather<std::int32_t>(field.close.data(), shift_left<2>(shift_right<5>(place)));
+  const Int16 bit = shift_right(word, place & splat<Int16>(31)) & splat<Int16>(1);
+  return bits(inside & less(splat<Float16>(0.0f), to_float(bit)));
+}
+
+// Casts the rays in `close` up to t = start[i].
+void cast_close(const FieldInstance& instance, const RayBatch& rays, std::uint32_t close, const float* start,
+                float* distance) {
+  const auto& m = instance.object_from_world;
+  for (; close != 0; close &= close - 1) {
+    const int i = std::countr_zero(close);
+    const glm::vec3 o = rays.origin(i), d = rays.direction(i);
+    CasterRay ray{.to = std::min(start[i], distance[i])};
+    for (int k = 0; k < 3; ++k) {
+      ray.origin[k] = m[k][0] * o.x + m[k][1] * o.y + m[k][2] * o.z + m[k][3];
+      ray.direction[k] = m[k][0] * d.x + m[k][1] * d.y + m[k][2] * d.z;
+    }
+    distance[i] = std::min(distance[i], trace_ray<false>(*instance.near, ray).distance);
+  }
+}
+
+// Where a ray that is in the open at t = start, between the first and the last hit of its chord, meets the
+// object next. Next to one of them, it is taken to lie before the first or behind the last; else the last hit
+// stands for what may come before it.
+HWY_INLINE Float16 between(Float16 start, Float16 first, Float16 last, Float16 tolerance, Float16 none) {
+  const Float16 behind_first = start - first, before_last = last - start;
+  const Float16 far = where(less(before_last, tolerance), none, last);
+  return where(less(behind_first, min(tolerance, before_last)), start, far);
+}
+
+int nearest_hits(const FieldInstance& instance, const RayBatch& rays, float* distance) {
   const DisplacementField& field = *instance.field;
   const Chords c = chords_of(instance, rays);
-  const Float16 zero = splat<Float16>(0.0f), one = splat<Float16>(1.0f);
-  const Float16 before = load<Float16>(distance);
-  const Float16 enter = c.at - c.half * c.per_unit, exit = c.at + c.half * c.per_unit;
-  const Truth16 near = c.met & less(zero, exit) & less(enter, before);
-  if (!any(near)) return;
-  const auto end_cell = [&](Float16 s) {  // lanes without a chord look somewhere, to no effect
-    const Pack3<Float16> p = along(c.middle, s, c.unit);
-    return cell_index(
-        square_from_direction({where(c.met, p.x, zero), where(c.met, p.y, zero), where(c.met, p.z, one)}),
-        field.shape.position_side);
-  };
-  const Int16 entry = end_cell(zero - c.half), out = end_cell(c.half);
-  const bool chords = field.layout == FieldLayout::chords;
-  const Pack3<Float16> middle{where(c.met, c.middle.x, zero), where(c.met, c.middle.y, zero),
-                              where(c.met, c.middle.z, zero)};
-  const Float16 s = sample(field, entry, chords ? out : direction_cell(field, entry, middle));
-  const Float16 t = c.at + s * c.per_unit;
-  const Truth16 hit = near & less(s, splat<Float16>(no_hit));
-  const Truth16 outside = not_above(zero, enter), ahead = not_above(zero, t);
-  Float16 found = where(hit & (outside | ahead), max(t, max(enter, zero)), before);
+  const Float16 zero = splat<Float16>(0.0f), none = splat<Float16>(no_distance);
+  const Float16 reach = c.half * c.per_unit, enter = c.at - reach, exit = c.at + reach;
+  Float16 before = load<Float16>(distance);
+  Truth16 live = c.met & less(zero, exit) & less(enter, before);
+  if (!any(live)) return 0;
+  Truth16 inside = live & less(enter, zero);
+  Float16 start = max(enter, zero);
+  std::uint32_t close = 0;
+  if (instance.near != nullptr && any(inside)) close = close_rays(field, c, inside);
+  if (close != 0) {
+    float starts[batch_size], cast[batch_size];
+    store(splat<Float16>(cast_cells * field.cell()) * c.per_unit, cast);
+    store(start, starts);
+    for (std::uint32_t rest = close; rest != 0; rest &= rest - 1)
+      starts[std::countr_zero(rest)] = cast[std::countr_zero(rest)];
+    cast_close(instance, rays, close, starts, distance);
+    start = load<Float16>(starts);
+    before = load<Float16>(distance);
+    live = live & less(start, before) & less(start, exit);
+    inside = inside & live;
+  }
+  const Looks looks(field, c);
+  const Float16 first = looks.first(none);
+  Float16 found = where(inside & less(first, start), none, max(first, start));
   if (instance.ends == FieldEnds::both) {
-    const Truth16 behind = hit & less(t, zero) & less(enter, zero);
+    const Truth16 behind = inside & less(first, start);
     if (any(behind)) {
-      const Float16 s2 = sample(field, out, chords ? entry : direction_cell(field, out, middle));
-      const Float16 t2 = c.at - s2 * c.per_unit;
-      const Truth16 second = behind & less(s2, splat<Float16>(no_hit)) & not_above(zero, t2);
-      found = where(second, t2, found);
+      const Float16 tolerance = splat<Float16>(half_diagonal * field.cell()) * c.per_unit;
+      const Float16 last = looks.last(first);
+      found = where(behind, between(start, first, last, tolerance, none), found);
     }
   }
-  store(min(found, before), distance);
+  store(where(live, min(found, before), before), distance);
+  return std::popcount(close);
 }
 
 }  // namespace

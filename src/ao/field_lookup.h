@@ -14,28 +14,34 @@ namespace tenebra {
 /// How a ray from inside the sphere is answered.
 enum class FieldEnds {
   first,  ///< the paper's: the first hit along the whole chord, nothing if it lies behind the origin
-  both,   ///< if it lies behind, the first hit seen from the other end of the chord
+  both,   ///< if it lies behind, the first hit seen from the other end of the chord. Origins are in the open:
+          ///< one that seems to lie less than half a cell's diagonal behind either hit is taken to lie on it.
 };
 
 /// A field where an object stands. Any invertible affine transform will do, sheared and mirrored ones too:
 /// the ray is moved into the object's space, where distances along it stay what they are.
 struct FieldInstance {
   const DisplacementField* field = nullptr;
-  float unit_from_world[3][4] = {};  ///< rows: the bounding sphere becomes the unit sphere
+  const TriangleBvh* near = nullptr;  ///< casts the first cells of rays that start close to the object, where
+                                      ///< no field of bearable size resolves contact; null: the field alone
   FieldEnds ends = FieldEnds::both;
+  float unit_from_world[3][4] = {};  ///< rows
+  float object_from_world[3][4] = {};
   Sphere world;  ///< holds the object in world space, for culling
 };
 
 /// Nothing if the transform has no inverse in float (a flattened object): there is no volume to look into.
-std::optional<FieldInstance> place_field(const DisplacementField& field, const glm::dmat4& world_from_object,
+std::optional<FieldInstance> place_field(const DisplacementField& field, const TriangleBvh* near,
+                                         const glm::dmat4& world_from_object,
                                          FieldEnds ends = FieldEnds::both);
 
 /// Code for one instruction set. Bits do not depend on it.
 struct FieldKernels {
   /// distance[i] = t of the first hit of ray i if that is less than distance[i]; else left as it is. Never
   /// NaN, never negative; rays that are not finite or have no direction meet nothing.
-  /// From outside the sphere: the sample of the ray's nearest chord. From inside: see FieldEnds.
-  void (*nearest_hits)(const FieldInstance& instance, const RayBatch& rays, float* distance) = nullptr;
+  /// From outside the sphere: the sample of the ray's nearest chord. From inside: see FieldEnds. Returns the
+  /// number of rays of which a part was cast.
+  int (*nearest_hits)(const FieldInstance& instance, const RayBatch& rays, float* distance) = nullptr;
 };
 FieldKernels field_kernels(SimdLevel level);
 

@@ -239,7 +239,7 @@ void Occluders::meet(int occluder, std::span<const RayBatch> rays, float* distan
   if (occluder < 0) {
     const TriangleBvh& tree = occluder == standing ? *standing_ : *deforming_;
     counts.rays_cast += all;
-    return each([&](const RayBatch& batch, float* out) { kernels_.bvh.closest_batch(tree, batch, out); });
+    return each([&](const RayBatch& batch, float* out) { kernels_.cast(tree, batch, out, nullptr); });
   }
   const Placed& placed = placed_[static_cast<std::size_t>(occluder)];
   if (placed.instance) {
@@ -251,7 +251,7 @@ void Occluders::meet(int occluder, std::span<const RayBatch> rays, float* distan
   const TriangleBvh& tree = *shapes_[static_cast<std::size_t>(placed.shape)].casters;
   counts.rays_cast += all;
   each([&](const RayBatch& batch, float* out) {
-    kernels_.bvh.closest_batch(tree, moved(batch, placed.to_object), out);
+    kernels_.cast(tree, moved(batch, placed.to_object), out, nullptr);
   });
 }
 

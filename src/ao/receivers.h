@@ -6,6 +6,7 @@
 #include <glm/glm.hpp>
 
 #include "ao/objects.h"
+#include "ao/self_occlusion.h"
 
 namespace tenebra {
 
@@ -15,8 +16,9 @@ struct Receiver {
   glm::vec3 normal{0.0f};    ///< world, unit, of shading
   glm::vec3 face{0.0f};      ///< world, unit, of the triangle, on the same side
   TriangleOwner owner;
-  float v = 0, w = 0;     ///< barycentric weights of the second and third corner
-  bool front = true;      ///< seen from where the shape's triangle runs counter-clockwise
+  float v = 0, w = 0;  ///< barycentric weights of the second and third corner
+  bool front = true;   ///< seen from where the shape's triangle runs counter-clockwise
+  SurfacePoint on_shape() const { return {owner.triangle, v, w, front}; }
   std::size_t index = 0;  ///< of the result
 };
 

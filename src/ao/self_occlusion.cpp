@@ -12,8 +12,26 @@ namespace {
 using glm::dvec3;
 using glm::vec3;
 
-constexpr std::uint16_t unknown = 0xffff;
-constexpr float most = 65534.0f;
+// A value is unknown, buried, or 2 x (0..most) + (something is near).
+constexpr std::uint16_t unknown = 0xffff, buried = 0xfffe;
+constexpr float most = 32766.0f;
+constexpr std::uint32_t refinement = 4;  // fine steps a wide one
+constexpr double wide_steps = 12;        // a reach
+constexpr double near_steps = 1.5;       // wide ones: closer things make samples come closer too
+
+/// Sixteen directions all around, three degrees above the surface: they see what is low.
+RayPattern grazing_pattern() {
+  constexpr double up = 0.0524, around = 6.283185307179586 / batch_size;
+  RayPattern pattern;
+  pattern.rays = batch_size;
+  pattern.batches.resize(1);
+  for (int i = 0; i < batch_size; ++i) {
+    pattern.batches[0].x[i] = static_cast<float>(std::sqrt(1 - up * up) * std::cos(i * around));
+    pattern.batches[0].y[i] = static_cast<float>(std::sqrt(1 - up * up) * std::sin(i * around));
+    pattern.batches[0].z[i] = static_cast<float>(up);
+  }
+  return pattern;
+}
 
 std::size_t grid_size(std::uint32_t steps) {
   return (std::size_t{steps} + 1) * (std::size_t{steps} + 2) / 2;
@@ -33,9 +51,11 @@ double longest_edge(const ObjectShape& shape, std::size_t triangle) {
   return std::sqrt(square);
 }
 
+/// Fine steps along a side: a multiple of the refinement, or 1 for a triangle whose corners will do.
 std::uint32_t steps_of(double edge, double spacing) {
-  constexpr double finest = 8192;
-  return static_cast<std::uint32_t>(std::clamp(std::ceil(edge / spacing), 1.0, finest));
+  constexpr double most_wide = 2048;
+  if (!(edge > 0.5 * spacing)) return 1;
+  return refinement * static_cast<std::uint32_t>(std::clamp(std::ceil(edge / spacing), 1.0, most_wide));
 }
 
 vec3 face_normal(const ObjectShape& shape, std::size_t triangle) {
@@ -63,10 +83,12 @@ SelfOcclusion::SelfOcclusion(const ObjectShape& shape, const TriangleBvh& caster
     : shape_(shape),
       casters_(casters),
       reach_(reach),
+      spacing_(reach / wide_steps),
       lift_(surface_lift(largest_coordinate(shape))),
-      pattern_(make_ray_pattern(sample_rays)) {
-  lay_grids(reach / 16);
-  weld_corners(reach / 32);
+      pattern_(make_ray_pattern(sample_rays)),
+      grazing_(grazing_pattern()) {
+  lay_grids();
+  weld_corners();
   std::size_t samples = shared_.size();
   for (const std::uint32_t t : large_) {
     grids_[t].first = static_cast<std::uint32_t>(samples);
@@ -76,21 +98,21 @@ SelfOcclusion::SelfOcclusion(const ObjectShape& shape, const TriangleBvh& caster
 }
 
 // Too many samples: the spacing grows until they fit.
-void SelfOcclusion::lay_grids(double spacing) {
+void SelfOcclusion::lay_grids() {
   grids_.assign(shape_.triangles.size(), {});
   std::vector<double> edges(shape_.triangles.size());
   for (std::size_t t = 0; t < edges.size(); ++t) edges[t] = longest_edge(shape_, t);
   const auto count = [&] {
     std::size_t samples = 0;
     for (const double edge : edges) {
-      const std::uint32_t steps = steps_of(edge, spacing);
+      const std::uint32_t steps = steps_of(edge, spacing_);
       samples += steps > 1 ? grid_size(steps) : 0;
     }
     return samples;
   };
-  while (count() > most_samples) spacing *= 1.25;
+  while (count() > most_samples) spacing_ *= 1.25;
   for (std::size_t t = 0; t < edges.size(); ++t) {
-    grids_[t].steps = steps_of(edges[t], spacing);
+    grids_[t].steps = steps_of(edges[t], spacing_);
     if (grids_[t].steps > 1) large_.push_back(static_cast<std::uint32_t>(t));
   }
 }
@@ -114,7 +136,8 @@ std::uint64_t SelfOcclusion::corner_key(std::uint32_t triangle, int corner, doub
   return key;
 }
 
-void SelfOcclusion::weld_corners(double cell) {
+void SelfOcclusion::weld_corners() {
+  const double cell = 0.25 * spacing_;
   struct Corner {
     std::uint64_t key;
     std::uint32_t at;  // 3 x small triangle + corner
@@ -137,46 +160,75 @@ void SelfOcclusion::weld_corners(double cell) {
   }
 }
 
-SelfOcclusion::Blend SelfOcclusion::blend(std::uint32_t triangle, float v, float w, bool front) const {
-  const Grid grid = grids_[triangle];
-  const std::uint32_t side = front ? 0 : 1;
-  v = std::clamp(v, 0.0f, 1.0f), w = std::clamp(w, 0.0f, 1.0f - v);
+SelfOcclusion::Blend SelfOcclusion::blend(const SurfacePoint& point, std::uint32_t stride) const {
+  const Grid grid = grids_[point.triangle];
+  const std::uint32_t side = point.front ? 0 : 1;
+  const float v = std::clamp(point.v, 0.0f, 1.0f), w = std::clamp(point.w, 0.0f, 1.0f - v);
   if (grid.steps == 1) {
     const std::uint32_t* c = &corners_[std::size_t{3} * grid.first];
     return {{2 * c[0] + side, 2 * c[1] + side, 2 * c[2] + side}, {1 - v - w, v, w}};
   }
-  const auto steps = static_cast<float>(grid.steps);
-  const auto i = std::min(static_cast<std::uint32_t>(v * steps), grid.steps - 1);
-  const auto j = std::min(static_cast<std::uint32_t>(w * steps), grid.steps - 1 - i);
-  float fv = std::clamp(v * steps - static_cast<float>(i), 0.0f, 1.0f);
-  float fw = std::clamp(w * steps - static_cast<float>(j), 0.0f, 1.0f);
+  const std::uint32_t count = grid.steps / stride;
+  const auto steps = static_cast<float>(count);
+  const auto i = std::min(static_cast<std::uint32_t>(v * steps), count - 1);
+  const auto j = std::min(static_cast<std::uint32_t>(w * steps), count - 1 - i);
+  const float fv = std::clamp(v * steps - static_cast<float>(i), 0.0f, 1.0f);
+  const float fw = std::clamp(w * steps - static_cast<float>(j), 0.0f, 1.0f);
   const auto at = [&](std::uint32_t x, std::uint32_t y) {
-    return 2 * (grid.first + grid_index(x, y, grid.steps)) + side;
+    return 2 * (grid.first + grid_index(stride * x, stride * y, grid.steps)) + side;
   };
   if (fv + fw <= 1) return {{at(i, j), at(i + 1, j), at(i, j + 1)}, {1 - fv - fw, fv, fw}};
-  if (i + j + 2 > grid.steps) {  // beyond the long side by rounding
+  if (i + j + 2 > count) {  // beyond the long side by rounding
     const float sum = fv + fw;
     return {{at(i, j), at(i + 1, j), at(i, j + 1)}, {0, fv / sum, fw / sum}};
   }
   return {{at(i + 1, j + 1), at(i, j + 1), at(i + 1, j)}, {fv + fw - 1, 1 - fv, 1 - fw}};
 }
 
-bool SelfOcclusion::known(std::uint32_t sample) const {
-  return values_[sample] != unknown;
+bool SelfOcclusion::is_rough(const Blend& blend) const {
+  return std::any_of(blend.samples, blend.samples + 3, [this](std::uint32_t sample) {
+    return values_[sample] == buried || (values_[sample] != unknown && values_[sample] % 2 == 1);
+  });
 }
 
-float SelfOcclusion::occlusion(const Blend& blend) const {
-  float sum = 0;
-  for (int k = 0; k < 3; ++k) sum += blend.weights[k] * static_cast<float>(values_[blend.samples[k]]);
-  return std::clamp(sum / most, 0.0f, 1.0f);
+/// The wide grid's samples, or the fine one's where those say that something is near.
+SelfOcclusion::Blend SelfOcclusion::deciding_blend(const SurfacePoint& point) const {
+  if (grids_[point.triangle].steps == 1) return blend(point, 1);
+  const Blend wide = blend(point, refinement);
+  return is_rough(wide) ? blend(point, 1) : wide;
 }
 
-SelfOcclusion::Place SelfOcclusion::place(std::uint32_t sample) const {
+void SelfOcclusion::add_missing(const SurfacePoint& point, std::vector<std::uint32_t>& missing) const {
+  const std::size_t before = missing.size();
+  const auto add = [&](const Blend& blend) {
+    for (const std::uint32_t sample : blend.samples) {
+      if (values_[sample] == unknown) missing.push_back(sample);
+    }
+  };
+  if (grids_[point.triangle].steps > 1) add(blend(point, refinement));
+  if (missing.size() == before) add(deciding_blend(point));
+}
+
+float SelfOcclusion::occlusion(const SurfacePoint& point, const AoKernels& kernels) const {
+  constexpr float enough = 1e-4f;
+  const Blend around = deciding_blend(point);
+  float sum = 0, total = 0;
+  for (int k = 0; k < 3; ++k) {
+    const std::uint16_t value = values_[around.samples[k]];
+    if (value >= buried) continue;
+    sum += around.weights[k] * static_cast<float>(value / 2);
+    total += around.weights[k];
+  }
+  if (!(total > enough)) return look(point, kernels).occlusion;
+  return std::clamp(sum / (total * most), 0.0f, 1.0f);
+}
+
+SurfacePoint SelfOcclusion::place(std::uint32_t sample) const {
   const bool front = sample % 2 == 0;
   sample /= 2;
   const auto pulled = [&](std::uint32_t triangle, float v, float w, float steps) {
     const float pull = 0.25f / steps;  // towards the middle: clear of the triangle's edges
-    return Place{triangle, v + pull * (1.0f / 3 - v), w + pull * (1.0f / 3 - w), front};
+    return SurfacePoint{triangle, v + pull * (1.0f / 3 - v), w + pull * (1.0f / 3 - w), front};
   };
   if (sample < shared_.size()) {
     const std::uint32_t corner = shared_[sample] % 3;
@@ -192,39 +244,50 @@ SelfOcclusion::Place SelfOcclusion::place(std::uint32_t sample) const {
   return pulled(triangle, static_cast<float>(i) / steps, static_cast<float>(j) / steps, steps);
 }
 
-float SelfOcclusion::cast(const Place& place, const AoKernels& kernels) const {
-  const glm::uvec3 t = shape_.triangles[place.triangle];
-  vec3 face = face_normal(shape_, place.triangle);
-  if (face == vec3(0.0f)) return 0;
-  if (!place.front) face = -face;
-  const float u = 1 - place.v - place.w;
-  vec3 normal = u * shape_.normals[t.x] + place.v * shape_.normals[t.y] + place.w * shape_.normals[t.z];
+SelfOcclusion::Seen SelfOcclusion::look(const SurfacePoint& point, const AoKernels& kernels) const {
+  constexpr int batches = sample_rays / batch_size;
+  const glm::uvec3 t = shape_.triangles[point.triangle];
+  vec3 face = face_normal(shape_, point.triangle);
+  if (face == vec3(0.0f)) return {};
+  if (!point.front) face = -face;
+  const float u = 1 - point.v - point.w;
+  vec3 normal = u * shape_.normals[t.x] + point.v * shape_.normals[t.y] + point.w * shape_.normals[t.z];
   const float square = glm::dot(normal, normal);
   normal = square > 1e-12f ? normal / std::sqrt(square) : face;
   if (glm::dot(normal, face) < 0) normal = -normal;
-  const dvec3 p = double{u} * dvec3(shape_.positions[t.x]) + double{place.v} * dvec3(shape_.positions[t.y]) +
-                  double{place.w} * dvec3(shape_.positions[t.z]);
-  const Frame frame = frame_around(normal);
-  RayBatch rays[sample_rays / batch_size];
-  alignas(64) float distances[sample_rays];
-  kernels.fan.spread(pattern_, {frame.x, frame.y, normal}, face, vec3(p + double{lift_} * dvec3(face)), rays);
-  std::fill_n(distances, sample_rays, static_cast<float>(reach_));
-  for (int b = 0; b < sample_rays / batch_size; ++b)
-    kernels.bvh.closest_batch(casters_, rays[b], distances + b * batch_size);
-  return kernels.fan.fall_off(distances, sample_rays / batch_size, static_cast<float>(reach_)) / sample_rays;
+  const dvec3 p = double{u} * dvec3(shape_.positions[t.x]) + double{point.v} * dvec3(shape_.positions[t.y]) +
+                  double{point.w} * dvec3(shape_.positions[t.z]);
+  const vec3 origin(p + double{lift_} * dvec3(face));
+  const auto reach = static_cast<float>(reach_);
+  RayBatch rays[batches + 1];
+  alignas(64) float distances[(batches + 1) * batch_size], facing[(batches + 1) * batch_size];
+  const Frame frame = frame_around(normal), flat = frame_around(face);
+  kernels.fan.spread(pattern_, {frame.x, frame.y, normal}, face, origin, rays);
+  kernels.fan.spread(grazing_, {flat.x, flat.y, face}, face, origin, rays + batches);
+  std::fill(std::begin(distances), std::end(distances), reach);
+  for (int b = 0; b <= batches; ++b)
+    kernels.cast(casters_, rays[b], distances + b * batch_size, facing + b * batch_size);
+  Seen seen;
+  seen.occlusion = std::clamp(kernels.fan.fall_off(distances, batches, reach) / sample_rays, 0.0f, 1.0f);
+  seen.near = *std::min_element(std::begin(distances), std::end(distances)) < near_steps * spacing_;
+  seen.buried = 2 * std::count_if(facing, facing + sample_rays, [](float f) { return f < 0; }) > sample_rays;
+  return seen;
 }
 
 bool SelfOcclusion::fill(std::span<const std::uint32_t> samples, const AoKernels& kernels,
                          const std::function<void(double)>& progress, const StopFlag* stop) {
   constexpr std::size_t step = 8192, grain = 32;
+  const auto stored = [](const Seen& seen) {
+    if (seen.buried) return buried;
+    return static_cast<std::uint16_t>(2 * std::lround(seen.occlusion * most) + (seen.near ? 1 : 0));
+  };
   for (std::size_t first = 0; first < samples.size(); first += step) {
     if (stop_requested(stop)) return false;
     if (progress) progress(static_cast<double>(first) / static_cast<double>(samples.size()));
     const auto part = samples.subspan(first, std::min(step, samples.size() - first));
     parallel_ranges(part.size(), grain, [&](std::size_t begin, std::size_t end) {
       for (std::size_t i = begin; i < end && !stop_requested(stop); ++i)
-        values_[part[i]] = static_cast<std::uint16_t>(
-            std::lround(std::clamp(cast(place(part[i]), kernels), 0.0f, 1.0f) * most));
+        values_[part[i]] = stored(look(place(part[i]), kernels));
     });
   }
   filled_ += samples.size();

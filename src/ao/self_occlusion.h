@@ -1,11 +1,12 @@
 // How much a body that keeps its shape hides itself: sampled over its surface as points are first seen, kept
 // for good, interpolated. Serves what stands as well as what moves rigidly: neither ever changes for itself.
 //
-// Samples lie on the triangles, so nothing seeps through walls: on a large triangle at the points of a
-// triangular grid of a sixteenth of the reach, on a small one at its corners, where corners that lie within
-// half of that and face alike share a sample. Each is pulled a little into its triangle and answered by
-// `sample_rays` rays about its shading normal. A sample depends on nothing but the shape and the reach, so
-// what is interpolated does not depend on which frame or thread saw it first.
+// Samples lie on the triangles, so nothing seeps through walls: on a large triangle at the points of a grid
+// of reach / 12, and of a quarter of that where something is near; on a small one at its corners, where
+// corners that lie close and face alike share a sample. Each is pulled a little into its triangle and
+// answered by rays about its shading normal. Samples that lie inside something (most rays see backs) are
+// passed over. A sample depends on nothing but the shape and the reach, so what is interpolated does not
+// depend on which frame or thread saw it first.
 #pragma once
 
 #include <cstdint>
@@ -25,25 +26,26 @@ namespace tenebra {
 float surface_lift(double largest_coordinate);
 double largest_coordinate(const ObjectShape& shape);
 
+/// A point of a shape's surface.
+struct SurfacePoint {
+  std::uint32_t triangle = 0;
+  float v = 0, w = 0;  ///< barycentric weights of the second and third corner
+  bool front = true;   ///< seen from where the triangle runs counter-clockwise
+};
+
 class SelfOcclusion {
 public:
   static constexpr int sample_rays = 256;
   static constexpr std::size_t most_samples = std::size_t{1} << 24;  ///< two sides each; 64 MiB of values
 
-  /// Three samples and their weights, which add up to 1.
-  struct Blend {
-    std::uint32_t samples[3];
-    float weights[3];
-  };
-
   /// `reach`: where occlusion has fallen off to nothing, in units of the shape. Keeps references to both.
   SelfOcclusion(const ObjectShape& shape, const TriangleBvh& casters, double reach);
 
-  /// At barycentric weights v, w of the second and third corner; `front`: the side from which the triangle
-  /// runs counter-clockwise.
-  Blend blend(std::uint32_t triangle, float v, float w, bool front) const;
-  bool known(std::uint32_t sample) const;
-  float occlusion(const Blend& blend) const;  ///< 0..1; all samples must be known
+  /// Adds the samples that the point needs next to `missing`: none if it has all. To be asked again when they
+  /// are filled: what they see decides whether finer ones are needed.
+  void add_missing(const SurfacePoint& point, std::vector<std::uint32_t>& missing) const;
+  /// Hidden share, 0..1. Nothing may be missing. A point with none but buried samples is answered by rays.
+  float occlusion(const SurfacePoint& point, const AoKernels& kernels) const;
 
   /// Casts the rays of samples (unique). False if stopped.
   bool fill(std::span<const std::uint32_t> samples, const AoKernels& kernels,
@@ -54,26 +56,36 @@ public:
   std::size_t bytes() const;
 
 private:
-  /// Where a sample lies.
-  struct Place {
-    std::uint32_t triangle;
-    float v, w;
-    bool front;
+  /// Three samples around a point and their weights, which add up to 1.
+  struct Blend {
+    std::uint32_t samples[3];
+    float weights[3];
   };
-  void lay_grids(double spacing);
-  void weld_corners(double cell);
+  /// What rays from a point have found.
+  struct Seen {
+    float occlusion = 0;
+    bool near = false;    ///< something stands close: samples have to be closer too
+    bool buried = false;  ///< most rays see the back of something
+  };
+  void lay_grids();
+  void weld_corners();
   std::uint64_t corner_key(std::uint32_t triangle, int corner, double cell) const;
-  Place place(std::uint32_t sample) const;
-  float cast(const Place& place, const AoKernels& kernels) const;
+  /// On every `stride`th point of the triangle's grid.
+  Blend blend(const SurfacePoint& point, std::uint32_t stride) const;
+  Blend deciding_blend(const SurfacePoint& point) const;
+  bool is_rough(const Blend& blend) const;
+  SurfacePoint place(std::uint32_t sample) const;
+  Seen look(const SurfacePoint& point, const AoKernels& kernels) const;
 
   const ObjectShape& shape_;
   const TriangleBvh& casters_;
   double reach_;
-  float lift_;  ///< off the surface: more than the rounding of points and corners
-  RayPattern pattern_;
+  double spacing_;  ///< of the wide grids
+  float lift_;      ///< off the surface: more than the rounding of points and corners
+  RayPattern pattern_, grazing_;
 
-  /// A triangle's samples: from `first` on if it has a grid of `steps` > 1 steps along a side, else three
-  /// entries of corners_ from 3 x first on.
+  /// A triangle's samples: from `first` on if it has a grid of `steps` > 1 (fine) steps along a side, else
+  /// three entries of corners_ from 3 x first on.
   struct Grid {
     std::uint32_t first = 0;
     std::uint32_t steps = 1;
@@ -82,7 +94,7 @@ private:
   std::vector<std::uint32_t> corners_;  ///< shared samples of small triangles' corners
   std::vector<std::uint32_t> shared_;   ///< shared sample -> triangle * 3 + corner
   std::vector<std::uint32_t> large_;    ///< triangles with grids, by ascending first sample
-  std::vector<std::uint16_t> values_;   ///< two a sample: front, back; `unknown` or 0..65534
+  std::vector<std::uint16_t> values_;   ///< two a sample: front, back; see self_occlusion.cpp
   std::uint64_t filled_ = 0;
 };
 
