@@ -8,19 +8,22 @@ ObjectTree::ObjectTree(const Object& object) {
   Stopwatch watch;
   bvh = build_triangle_bvh(object.positions, object.triangles);
   build_ms = watch.lap_ms();
-  const Sphere sphere = bounding_sphere(object.positions, object.triangles);
-  ball = {sphere.centre, sphere.radius};
+  const Ellipsoid sphere =
+      bounding_ellipsoid(object.positions, object.triangles, FieldLayout::positions_directions);
+  ball = {sphere.centre, sphere.axes.x};
 }
 
 Expected<std::unique_ptr<BuiltField>> build_field(const Object& object, const ObjectTree& tree,
-                                                  const FieldSettings& settings, FieldEnds ends) {
+                                                  const FieldSettings& settings, Inside inside) {
   auto built = std::make_unique<BuiltField>();
   Stopwatch watch;
   auto field = tenebra::build_field(object.positions, object.triangles, tree.bvh, settings);
   if (!field) return tl::unexpected(field.error());
   built->build_ms = watch.lap_ms();
   built->field = std::move(*field);
-  const auto placed = place_field(built->field, glm::dmat4(1.0), ends);
+  const auto placed =
+      place_field(built->field, inside == Inside::near_rays ? &tree.bvh : nullptr, glm::dmat4(1.0),
+                  inside == Inside::first_hit ? FieldEnds::first : FieldEnds::both);
   if (!placed) return fail("{}: expected a field that can be placed, found none", object.name);
   built->placed = *placed;
   return built;

@@ -14,8 +14,15 @@ namespace tenebra::bench {
 struct ObjectTree {
   explicit ObjectTree(const Object& object);
   TriangleBvh bvh;
-  Ball ball;  ///< the bounding sphere of its fields
+  Ball ball;  ///< the bounding sphere of the paper's fields
   double build_ms = 0;
+};
+
+/// How rays from inside the sphere are answered.
+enum class Inside {
+  first_hit,  ///< the paper's
+  both_ends,  ///< the table alone
+  near_rays,  ///< the default: rays that start close to the object are cast first
 };
 
 struct BuiltField {
@@ -23,10 +30,10 @@ struct BuiltField {
   FieldInstance placed;  ///< refers to `field`
   double build_ms = 0;   ///< without the tree
 };
-/// The address stays: tracers refer to it.
+/// Refers to `tree`. The address stays: tracers refer to it.
 Expected<std::unique_ptr<BuiltField>> build_field(const Object& object, const ObjectTree& tree,
                                                   const FieldSettings& settings,
-                                                  FieldEnds ends = FieldEnds::both);
+                                                  Inside inside = Inside::near_rays);
 
 /// Looks `built` up, which has to outlive it.
 Tracer field_tracer(const BuiltField& built);

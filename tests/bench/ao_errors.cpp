@@ -144,7 +144,7 @@ Expected<void> figure6_layout(AoSession& session, const Subject& subject, bool f
 struct Variant {
   std::string name;
   FieldSettings settings;
-  FieldEnds ends = FieldEnds::both;
+  Inside inside = Inside::near_rays;
 };
 std::vector<Variant> variants() {
   constexpr FieldLayout chords = FieldLayout::chords, paper = FieldLayout::positions_directions;
@@ -152,11 +152,13 @@ std::vector<Variant> variants() {
           {"chords 1 bit", {chords, 4225, 1024, 1}},
           {"chords 32 bit", {chords, 4225, 1024, 32}},
           {"chords sparse, 8 bit", sparse_field},
-          {"chords 8 bit, first hit only", {chords, 4225, 1024, 8}, FieldEnds::first},
+          {"chords 8 bit, no near rays", {chords, 4225, 1024, 8}, Inside::both_ends},
+          {"chords 8 bit, first hit only", {chords, 4225, 1024, 8}, Inside::first_hit},
           {"paper 8 bit", {paper, 4225, 1024, 8}},
           {"paper 1 bit", {paper, 4225, 1024, 1}},
           {"paper 32 bit", {paper, 4225, 1024, 32}},
-          {"paper 8 bit, first hit only", {paper, 4225, 1024, 8}, FieldEnds::first}};
+          {"paper 8 bit, no near rays", {paper, 4225, 1024, 8}, Inside::both_ends},
+          {"paper 8 bit, first hit only", {paper, 4225, 1024, 8}, Inside::first_hit}};
 }
 
 /// The promises are for all objects but the hard one.
@@ -175,7 +177,7 @@ Expected<void> memory_table(AoSession& session, const Subject& subject) {
   for (const Variant& variant : variants()) {
     FieldSettings settings = variant.settings;
     if (session.effort == Effort::tiny) settings.positions = 64, settings.directions = 64;
-    const auto built = build_field(subject.object, subject.tree, settings, variant.ends);
+    const auto built = build_field(subject.object, subject.tree, settings, variant.inside);
     if (!built) return tl::unexpected(built.error());
     const Errors e = errors_of(session, subject, field_tracer(**built), variant.name);
     add_figures(session, "memory", subject, variant.name, built->get(), e);
