@@ -9,7 +9,9 @@
 #include "ao/fan_caster.h"
 #include "simd/pack-inl.h"
 
+#include <algorithm>
 #include <bit>
+#include <limits>
 
 HWY_BEFORE_NAMESPACE();
 namespace tenebra::HWY_NAMESPACE {
@@ -108,6 +110,12 @@ HWY_INLINE void meet_block(const TriangleBlock& block, Fan& fan) {
   }
 }
 
+// Square of the reach with room for rounding; finite, so that the boxes of empty places (infinitely far) stay
+// out.
+HWY_INLINE float limit(const Fan& fan) {
+  return std::min(fan.reach * fan.reach * (1 + 0x1p-18f), std::numeric_limits<float>::max());
+}
+
 struct Entry {
   float square;
   std::uint32_t child;
@@ -126,7 +134,7 @@ void closest_fan(const TriangleBvh& bvh, const RayBatch& rays, float* distance, 
   stack[size++] = {0, 0};
   while (size > 0) {
     const Entry entry = stack[--size];
-    if (!(entry.square <= fan.reach * fan.reach * (1 + 0x1p-18f))) continue;
+    if (!(entry.square <= limit(fan))) continue;
     if (entry.child & bvh_leaf) {
       meet_block(bvh.blocks[entry.child & ~bvh_leaf], fan);
       fan.reach = greatest(fan.distance);
@@ -137,7 +145,7 @@ void closest_fan(const TriangleBvh& bvh, const RayBatch& rays, float* distance, 
     box_distances(node, fan, squares);
     const int base = size;
     for (int i = 0; i < bvh_width; ++i) {
-      if (!(squares[i] <= fan.reach * fan.reach * (1 + 0x1p-18f)) || !meets_box(node, i, fan)) continue;
+      if (!(squares[i] <= limit(fan)) || !meets_box(node, i, fan)) continue;
       int place = size++;
       for (; place > base && stack[place - 1].square < squares[i]; --place) stack[place] = stack[place - 1];
       stack[place] = {squares[i], node.child[i]};

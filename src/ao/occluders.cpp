@@ -117,8 +117,8 @@ void Occluders::place(std::size_t index) {
   placed.sphere = {dvec3(object.to_world * glm::dvec4(dvec3(shape.center), 1.0)),
                    shape.radius * object.scale * (1 + 2e-3)};  // the shear that still counts as rigid
   placed.to_object = glm::mat4x3(object.to_object);
-  const auto& field = shapes_[static_cast<std::size_t>(object.shape)].field;
-  if (field) placed.instance = place_field(*field, object.to_world);
+  const Shape& kept = shapes_[static_cast<std::size_t>(object.shape)];
+  if (kept.field) placed.instance = place_field(*kept.field, &*kept.casters, object.to_world);
   by_x_.push_back(index);
   largest_radius_ = std::max(largest_radius_, placed.sphere.radius);
 }
@@ -188,8 +188,8 @@ Expected<void> Occluders::build_object(std::size_t index, const AoProgress& prog
   Placed& placed = placed_[index];
   const auto number = static_cast<std::size_t>(placed.shape);
   Shape& shape = shapes_[number];
+  const TriangleBvh& tree = casters(placed.shape);
   if (!shape.field && !shape.by_rays) {
-    const TriangleBvh& tree = casters(placed.shape);
     const auto size = field_shape(settings_);
     if (!size) return tl::unexpected(size.error());
     const bool full = field_bytes_ + size->bytes > most_field_bytes;
@@ -207,7 +207,7 @@ Expected<void> Occluders::build_object(std::size_t index, const AoProgress& prog
     field_bytes_ += shape.field->bytes();
     ++fields_built_;
   }
-  if (shape.field) placed.instance = place_field(*shape.field, objects_->objects[index].to_world);
+  if (shape.field) placed.instance = place_field(*shape.field, &tree, objects_->objects[index].to_world);
   if (!placed.instance) shape.by_rays = true;
   return {};
 }
@@ -245,7 +245,8 @@ void Occluders::meet(int occluder, std::span<const RayBatch> rays, float* distan
   if (placed.instance) {
     counts.lookups += all;
     return each([&](const RayBatch& batch, float* out) {
-      kernels_.field.nearest_hits(*placed.instance, batch, out);
+      counts.rays_cast +=
+          static_cast<std::uint64_t>(kernels_.field.nearest_hits(*placed.instance, batch, out));
     });
   }
   const TriangleBvh& tree = *shapes_[static_cast<std::size_t>(placed.shape)].casters;
