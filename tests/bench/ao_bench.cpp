@@ -30,11 +30,10 @@ struct AoArguments {
 /// Options that no part could work with.
 Expected<void> check_options(const AoArguments& arguments) {
   const BenchOptions& o = arguments.options;
-  if (o.threads < 0 || o.threads > 4096)
-    return fail("--threads: found {}, expected 0 (all cores) to 4096", o.threads);
+  if (o.threads < 0) return fail("--threads: found {}, expected 0 (all cores) or more", o.threads);
   std::error_code ignored;
   if (!o.data.empty() && !std::filesystem::is_directory(o.data, ignored))
-    return fail("--data: found no folder {}, expected one that holds `bart` and `extra`", o.data.string());
+    return fail("--data: {} is not a folder", o.data.string());
   for (const std::string& name : arguments.only) {
     if (std::none_of(parts.begin(), parts.end(), [&](const Part& p) { return p.name == name; })) {
       return fail("--only: found {}, expected errors, surface, growth, lookups, frames or flicker", name);
@@ -43,19 +42,21 @@ Expected<void> check_options(const AoArguments& arguments) {
   return {};
 }
 
+/// What was left out is not a number.
 void print_headline(const AoHeadline& h) {
-  const auto line = [](const char* name, const std::optional<double>& value, const char* format) {
-    if (value) std::printf("ao.%s: %s\n", name, fmt::format(fmt::runtime(format), *value).c_str());
+  const auto line = [](const char* name, const std::optional<double>& value, int digits) {
+    std::printf("ao.%s: %s\n", name, value ? fmt::format("{:.{}f}", *value, digits).c_str() : "nan");
   };
-  line("outside_rms_255", h.outside_rms_255, "{:.3g}");
-  line("paper_rms_255", h.paper_rms_255, "{:.3g}");
-  line("inside_rms_255", h.inside_rms_255, "{:.3g}");
-  line("surface_rms_255", h.surface_rms_255, "{:.3g}");
-  line("lookup_speedup", h.lookup_speedup, "{:.3g}");
-  line("frame_speedup", h.frame_speedup, "{:.3g}");
-  line("frame_speedup_half", h.frame_speedup_half, "{:.3g}");
-  line("growth_1k_to_1m", h.growth_1k_to_1m, "{:.3g}");
-  line("bytes", h.bytes, "{:.0f}");
+  std::printf("\n");
+  line("outside_rms_255", h.outside_rms_255, 2);
+  line("paper_rms_255", h.paper_rms_255, 2);
+  line("inside_rms_255", h.inside_rms_255, 2);
+  line("surface_rms_255", h.surface_rms_255, 2);
+  line("lookup_speedup", h.lookup_speedup, 1);
+  line("frame_speedup", h.frame_speedup, 1);
+  line("frame_speedup_half", h.frame_speedup_half, 1);
+  line("growth_1k_to_1m", h.growth_1k_to_1m, 1);
+  line("bytes", h.bytes, 0);
 }
 
 Expected<void> write_files(const AoSession& session) {
@@ -77,6 +78,7 @@ Expected<void> measure_parts(AoSession& session, const std::vector<std::string>&
     if (auto done = part.measure(session); !done) return done;
   }
   if (auto written = write_files(session); !written) return written;
+  if (!session.notes.empty()) std::printf("\n");
   for (const std::string& note : session.notes) std::printf("note: %s.\n", note.c_str());
   print_headline(session.headline);
   return {};

@@ -61,6 +61,7 @@ struct Changes {
 };
 
 struct Viewing {
+  const AoSession& session;
   const Scene& scene;
   int width, height;
   AmbientOcclusion ao{};
@@ -68,7 +69,7 @@ struct Viewing {
 };
 
 Expected<void> compare(Viewing& run, const BenchFrame& now, const BenchFrame& next, Changes& changes) {
-  const AoConfig config{.mode = AoMode::field, .distance_m = run.reach};
+  const AoConfig config = run.session.field_config(64, run.reach);
   const MovingTriangles moving(now.geometry, next.geometry);
   const Carried carried = carry(now, moving.moves(), next.view);
   std::vector<float> before, after;
@@ -98,7 +99,7 @@ Expected<void> measure_clip(AoSession& session, const Footage& clip,
         fmt::format("{} is left out of the steadiness: {}", clip.name, scene.error().message));
     return {};
   }
-  Viewing run{*scene, session.by_effort(64, 320, 640), session.by_effort(48, 240, 480)};
+  Viewing run{session, *scene, session.by_effort(64, 320, 640), session.by_effort(48, 240, 480)};
   BenchFrame now, next;
   evaluate_bench_frame(*scene, clip.first_frame, run.width, run.height, now);
   run.reach = static_cast<double>(now.diagonal_m) / 20;

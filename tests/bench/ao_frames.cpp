@@ -52,8 +52,9 @@ public:
 
 private:
   AoConfig config(const Pairing& pairing) const {
-    return {
-        .mode = AoMode::field, .rays = pairing.rays, .downscale = pairing.downscale, .distance_m = reach_m};
+    AoConfig config = session_.field_config(pairing.rays, reach_m);
+    config.downscale = pairing.downscale;
+    return config;
   }
   Expected<void> find_errors();
   Expected<void> measure_times(int slot);
@@ -219,7 +220,8 @@ Expected<void> ViewBench::run() {
 }  // namespace
 
 Expected<void> measure_frames(AoSession& session) {
-  const auto meshes = crowd_objects(session.options.data, session.notes);
+  auto meshes = crowd_objects(session.options.data, session.notes);
+  if (session.effort == Effort::tiny) meshes.resize(1);
   for (const CrowdView& view : {far_view, near_view}) {
     progress(fmt::format("frames: {}", view.name));
     ViewBench bench(session, view, meshes);

@@ -34,8 +34,8 @@ Expected<void> measure_object(AoSession& session, const Object& object,
                               std::vector<std::vector<std::string>>& rows) {
   const ObjectTree tree(object);
   const AoPeer peer(object);
-  const auto chords = build_field(object, tree, {});
-  const auto paper = build_field(object, tree, {.layout = FieldLayout::positions_directions});
+  const auto chords = build_field(object, tree, session.table());
+  const auto paper = build_field(object, tree, session.table(FieldLayout::positions_directions));
   if (!chords || !paper) return tl::unexpected((!chords ? chords : paper).error());
   std::vector<Racer> racers{{"field, chords", field_tracer(**chords)},
                             {"field, paper", field_tracer(**paper)},
@@ -77,6 +77,7 @@ Expected<void> measure_lookups(AoSession& session) {
                                               "embree 16 ns", "embree 16 coherent ns", "chords x",
                                               "paper x"}};
   for (const Object& object : *objects) {
+    if (session.effort == Effort::tiny && object.name != "flake") continue;
     progress(fmt::format("look-ups: {}", object.name));
     if (auto done = measure_object(session, object, rows); !done) return done;
   }

@@ -158,8 +158,8 @@ Object make_knot(int around, int across) {
   const auto at = [&](int i, int j) { return static_cast<unsigned>((i % around) * across + j % across); };
   for (int i = 0; i < around; ++i) {
     for (int j = 0; j < across; ++j) {
-      knot.triangles.emplace_back(at(i, j), at(i, j + 1), at(i + 1, j));
-      knot.triangles.emplace_back(at(i + 1, j), at(i, j + 1), at(i + 1, j + 1));
+      knot.triangles.emplace_back(at(i, j), at(i + 1, j), at(i, j + 1));
+      knot.triangles.emplace_back(at(i + 1, j), at(i + 1, j + 1), at(i, j + 1));
     }
   }
   return knot;

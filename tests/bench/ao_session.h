@@ -6,6 +6,7 @@
 #include <utility>
 #include <vector>
 
+#include "ao/displacement_field.h"
 #include "base/image.h"
 #include "bench_command.h"
 #include "bench_report.h"
@@ -29,6 +30,19 @@ struct AoSession {
   AoHeadline headline;
   std::vector<std::string> notes;  ///< sentences: what was missing, replaced or out of bounds
   std::vector<std::pair<std::string, Image8>> pictures;  ///< to be written as STEM_name.png beside the CSV
+
+  /// Tables of the default size, or small ones where figures mean nothing.
+  FieldSettings table(FieldLayout layout = FieldLayout::chords) const {
+    if (effort == Effort::tiny) return {layout, 64, 64, 8};
+    return {.layout = layout};
+  }
+  AoConfig field_config(int rays, double reach_m) const {
+    return {.mode = AoMode::field,
+            .rays = rays,
+            .distance_m = reach_m,
+            .positions = table().positions,
+            .directions = table().directions};
+  }
 
   /// The value for this run's effort.
   template <class T>

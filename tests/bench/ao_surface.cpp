@@ -15,7 +15,8 @@ struct Found {
 };
 
 /// Occlusion at points of an object whose node moves, at rest.
-Expected<Found> found_on(const Object& object, const std::vector<SurfacePoint>& points, float reach) {
+Expected<Found> found_on(const AoSession& session, const Object& object,
+                         const std::vector<SurfacePoint>& points, float reach) {
   const Scene scene = make_crowd({object}, 1, 0);
   FrameGeometry geometry;
   evaluate_frame(scene, -1, 0, geometry);
@@ -30,9 +31,8 @@ Expected<Found> found_on(const Object& object, const std::vector<SurfacePoint>& 
     normals.push_back(point.at.normal);
   }
   AmbientOcclusion ao;
-  const AoConfig config{.mode = AoMode::field, .rays = 256, .distance_m = reach};
   Found found;
-  auto done = ao.compute(scene, geometry, visible, normals, config, found.hidden);
+  auto done = ao.compute(scene, geometry, visible, normals, session.field_config(256, reach), found.hidden);
   if (!done) return tl::unexpected(done.error());
   found.build_ms = ao.timings().ao_build_ms;
   for (float& v : found.hidden) v = 1 - v;
@@ -60,7 +60,7 @@ Expected<void> measure_surface(AoSession& session) {
                                  peer.packets(false, start));
     const double noise =
         rms_255(occlusion(receivers, CosineRays(256, 31), reach, peer.packets(false, start)), truth);
-    const auto found = found_on(object, points, reach);
+    const auto found = found_on(session, object, points, reach);
     if (!found) return tl::unexpected(found.error());
     const double rms = rms_255(found->hidden, truth);
     session.report.add({"surface", object.name, "field", "rays=256", "rms", rms, "1/255"});
