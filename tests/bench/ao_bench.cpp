@@ -17,9 +17,10 @@ struct Part {
   const char* name;
   Expected<void> (*measure)(AoSession&);
 };
-constexpr std::array parts{Part{"errors", measure_errors}, Part{"surface", measure_surface},
-                           Part{"growth", measure_growth}, Part{"lookups", measure_lookups},
-                           Part{"frames", measure_frames}, Part{"flicker", measure_flicker}};
+constexpr std::array parts{Part{"errors", measure_errors},   Part{"surface", measure_surface},
+                           Part{"growth", measure_growth},   Part{"many", measure_many},
+                           Part{"lookups", measure_lookups}, Part{"frames", measure_frames},
+                           Part{"flicker", measure_flicker}};
 
 struct AoArguments {
   BenchOptions options;
@@ -36,7 +37,8 @@ Expected<void> check_options(const AoArguments& arguments) {
     return fail("--data: {} is not a folder", o.data.string());
   for (const std::string& name : arguments.only) {
     if (std::none_of(parts.begin(), parts.end(), [&](const Part& p) { return p.name == name; })) {
-      return fail("--only: found {}, expected errors, surface, growth, lookups, frames or flicker", name);
+      return fail("--only: found {}, expected errors, surface, growth, many, lookups, frames or flicker",
+                  name);
     }
   }
   return {};
@@ -112,7 +114,7 @@ void add_ao_command(CLI::App& program, Run& run) {
   add_bench_options(*command, arguments->options);
   command
       ->add_option("--only", arguments->only,
-                   "Some parts: errors, surface, growth, lookups, frames, flicker [all]")
+                   "Some parts: errors, surface, growth, many, lookups, frames, flicker [all]")
       ->type_name("PART,...")
       ->delimiter(',');
   command->add_flag("--tiny", arguments->tiny, "Check that all parts run; the figures mean nothing");

@@ -203,6 +203,16 @@ void ViewBench::tell() {
                   view_.name, frame_.points.width, frame_.points.height, scene_.nodes.size() - 1, triangles,
                   reach_m, build_ms_ / 1e3, static_cast<double>(field_bytes_) / 1e6, peer_->build_ms() / 1e3),
       rows);
+  std::vector<std::string> settings;
+  Bars field{"field", {}}, embree{"embree", {}};
+  for (const Pairing& p : pairings_) {
+    settings.push_back(fmt::format("{}, RMS {:.1f}", p.downscale == 1 ? "full" : "half", p.rms));
+    field.values.push_back(p.ms[0]);
+    embree.values.push_back(p.embree_ms[0]);
+  }
+  session_.report.add_plot(view_.plot,
+                           bar_plot(fmt::format("A frame at equal error, one thread, {}", view_.name),
+                                    {"time (ms)", true}, settings, {field, embree}));
   session_.report.add({"frames", view_.name, "field", "", "build", build_ms_, "ms"});
   session_.report.add({"frames", view_.name, "embree", "", "build", peer_->build_ms(), "ms"});
 }

@@ -6,6 +6,7 @@
 #include "ao_contestants.h"
 #include "ao_race.h"
 #include "ao_session.h"
+#include "bench_plot.h"
 #include "parallel/parallel.h"
 #include "support/seeded_random.h"
 
@@ -31,7 +32,7 @@ double speedup(const std::vector<Racer>& racers, std::size_t field) {
 }
 
 Expected<void> measure_object(AoSession& session, const Object& object,
-                              std::vector<std::vector<std::string>>& rows) {
+                              std::vector<std::vector<std::string>>& rows, std::vector<Bars>& bars) {
   const ObjectTree tree(object);
   const AoPeer peer(object);
   const auto chords = build_field(object, tree, session.table());
@@ -48,8 +49,12 @@ Expected<void> measure_object(AoSession& session, const Object& object,
   for (const int threads : {1, thread_count()}) {
     with_threads(threads, [&] { race(racers, rays, session.by_effort(1, 5, 9)); });
     std::vector<std::string> row{object.name, fmt::format("{}", threads)};
-    for (const Racer& racer : racers) {
+    bars.resize(racers.size());
+    for (std::size_t r = 0; r < racers.size(); ++r) {
+      const Racer& racer = racers[r];
       const double ns = racer.ms * 1e6 / count;
+      bars[r].name = racer.name;
+      if (threads == 1) bars[r].values.push_back(ns);
       row.push_back(fmt::format("{:.2f}", ns));
       session.report.add(
           {"lookups", object.name, racer.name, fmt::format("threads={}", threads), "time", ns, "ns/ray"});
@@ -73,16 +78,20 @@ Expected<void> measure_lookups(AoSession& session) {
   std::vector<std::string> known;  // named with the errors already
   const auto objects = error_objects(session.options.data, known);
   if (!objects) return tl::unexpected(objects.error());
+  std::vector<std::string> names;
+  std::vector<Bars> bars;
   std::vector<std::vector<std::string>> rows{{"object", "threads", "chords ns", "paper ns", "embree 1 ns",
                                               "embree 16 ns", "embree 16 coherent ns", "chords x",
                                               "paper x"}};
   for (const Object& object : *objects) {
     if (session.effort == Effort::tiny && object.name != "flake") continue;
     progress(fmt::format("look-ups: {}", object.name));
-    if (auto done = measure_object(session, object, rows); !done) return done;
+    if (auto done = measure_object(session, object, rows, bars); !done) return done;
+    names.push_back(object.name);
   }
   print_table("Look-ups against Embree's nearest hits, a ray (x: the fastest of Embree over the field)",
               rows);
+  session.report.add_plot("lookups", bar_plot("A ray on one thread", {"time (ns)", true}, names, bars));
   return {};
 }
 

@@ -66,7 +66,8 @@ void print_table(const std::string& title, const std::vector<std::vector<std::st
 // The parts.
 Expected<void> measure_errors(AoSession& session);   ///< Figure 6 and the memory table
 Expected<void> measure_surface(AoSession& session);  ///< on the object
-Expected<void> measure_growth(AoSession& session);   ///< Figure 8
+Expected<void> measure_growth(AoSession& session);   ///< Figure 8: triangles
+Expected<void> measure_many(AoSession& session);     ///< Figure 8: objects
 Expected<void> measure_lookups(AoSession& session);  ///< against Embree's nearest hits
 Expected<void> measure_frames(AoSession& session);   ///< whole frames against Embree
 Expected<void> measure_flicker(AoSession& session);  ///< animated scenes
