@@ -18,28 +18,36 @@ HWY_BEFORE_NAMESPACE();
 namespace tenebra::HWY_NAMESPACE {
 
 constexpr float no_distance = std::numeric_limits<float>::infinity();
+constexpr float largest_distance = std::numeric_limits<float>::max();
 
-// What a box is tested with: 1 / direction, finite so that no product is NaN.
+// What boxes are tested with. 1 / direction is kept finite so that no product is NaN.
 struct Slabs {
   float origin[3], inverse[3];
+  int near[3], far[3];  // which plane of a box comes first along each axis: rows of BvhNode::plane
   float from, to;
 };
 
-inline float finite_inverse(float d) {
-  return 1 / (std::abs(d) < 1e-18f ? std::copysign(1e-18f, d) : d);
+inline Slabs slabs_of(const CasterRay& ray) {
+  Slabs slabs{.from = ray.from, .to = ray.to};
+  for (int axis = 0; axis < 3; ++axis) {
+    const float d = ray.direction[axis];
+    slabs.origin[axis] = ray.origin[axis];
+    slabs.inverse[axis] = 1 / (std::abs(d) < 1e-18f ? std::copysign(1e-18f, d) : d);
+    slabs.near[axis] = axis + (slabs.inverse[axis] < 0 ? 3 : 0);
+    slabs.far[axis] = axis + (slabs.inverse[axis] < 0 ? 0 : 3);
+  }
+  return slabs;
 }
 
 // Bits of the children that the ray may meet, and where it enters them. Rounding loses at most three parts
-// in 2^24 of each end: the last end is moved out by them.
+// in 2^24 of each end: the last end is moved out by more.
 HWY_INLINE std::uint32_t meet_boxes(const BvhNode& node, const Slabs& ray, float* enter) {
   Float8 first = splat<Float8>(ray.from), last = splat<Float8>(ray.to);
   for (int axis = 0; axis < 3; ++axis) {
     const Float8 origin = splat<Float8>(ray.origin[axis]), inverse = splat<Float8>(ray.inverse[axis]);
-    const bool up = ray.inverse[axis] >= 0;
-    const Float8 near = (load<Float8>(up ? node.low[axis] : node.high[axis]) - origin) * inverse;
-    const Float8 far = (load<Float8>(up ? node.high[axis] : node.low[axis]) - origin) * inverse;
-    first = max(first, near);
-    last = min(last, far * splat<Float8>(1 + 8 * 0x1p-24f));
+    first = max(first, (load<Float8>(node.plane[ray.near[axis]]) - origin) * inverse);
+    last = min(
+        last, (load<Float8>(node.plane[ray.far[axis]]) - origin) * inverse * splat<Float8>(1 + 8 * 0x1p-24f));
   }
   store(first, enter);
   return bits(not_above(first, last));
@@ -99,11 +107,7 @@ template <bool Any>
 CasterHit trace_ray(const TriangleBvh& bvh, CasterRay ray) {
   CasterHit hit;
   if (bvh.nodes.empty() || !usable(ray)) return hit;
-  Slabs slabs{
-      {ray.origin.x, ray.origin.y, ray.origin.z},
-      {finite_inverse(ray.direction.x), finite_inverse(ray.direction.y), finite_inverse(ray.direction.z)},
-      ray.from,
-      ray.to};
+  Slabs slabs = slabs_of(ray);
   const Shear shear = shear_along(ray.direction);
   Entry stack[stack_size];
   int size = 0;
@@ -113,12 +117,16 @@ CasterHit trace_ray(const TriangleBvh& bvh, CasterRay ray) {
     if (entry.enter > slabs.to) continue;
     if (entry.child & bvh_leaf) {
       const TriangleBlock& block = bvh.blocks[entry.child & ~bvh_leaf];
-      float t[bvh_width];
-      store(meet_triangles(block, ray, shear), t);
-      for (int i = 0; i < bvh_width; ++i) {
-        if (!(t[i] <= hit.distance) || t[i] == no_distance || block.triangle[i] == ray.skip) continue;
-        if (t[i] == hit.distance && block.triangle[i] > hit.triangle) continue;
-        hit = {t[i], block.triangle[i]};
+      const Float8 t = meet_triangles(block, ray, shear);
+      std::uint32_t met = bits(not_above(t, splat<Float8>(std::min(hit.distance, largest_distance))));
+      if (met == 0) continue;
+      float distance[bvh_width];
+      store(t, distance);
+      for (; met != 0; met &= met - 1) {
+        const CasterHit found{distance[std::countr_zero(met)], block.triangle[std::countr_zero(met)]};
+        if (found.triangle == ray.skip || found.distance > hit.distance) continue;
+        if (found.distance == hit.distance && found.triangle > hit.triangle) continue;
+        hit = found;
         if (Any) return hit;
       }
       slabs.to = std::min(slabs.to, hit.distance);

@@ -14,18 +14,11 @@ namespace tenebra {
 namespace {
 
 constexpr int fewest_samples = 4, most_samples = 1 << 20;
-constexpr std::size_t most_bytes = std::size_t{1} << 30;
+constexpr std::size_t most_bytes = std::size_t{1} << 30, most_entries = most_bytes;  // 32-bit offsets
 constexpr int progress_steps = 32;
 
 int root(double square) {
   return static_cast<int>(std::floor(std::sqrt(square) + 1e-9));
-}
-
-std::vector<glm::vec3> cell_centres(int side) {
-  std::vector<glm::vec3> points(static_cast<std::size_t>(side) * static_cast<std::size_t>(side));
-  for (std::size_t i = 0; i < points.size(); ++i)
-    points[i] = direction_from_square(cell_point(static_cast<int>(i), side));
-  return points;
 }
 
 }  // namespace
@@ -43,17 +36,13 @@ Expected<FieldShape> field_shape(const FieldSettings& settings) {
   FieldShape shape{root(settings.positions), root(settings.directions), 0, 0};
   if (settings.layout == FieldLayout::chords) {
     const double entries = static_cast<double>(settings.positions) * settings.directions;
-    const double side = std::round(std::sqrt(std::sqrt(entries)));
-    shape.position_side = shape.direction_side = static_cast<int>(side);
+    shape.position_side = shape.direction_side = root(std::sqrt(entries));
   }
-  const auto square = [](int side) {
-    return static_cast<std::size_t>(side) * static_cast<std::size_t>(side);
-  };
-  shape.entries = square(shape.position_side) * square(shape.direction_side);
+  shape.entries = shape.positions() * shape.directions();
   shape.bytes = (shape.entries * static_cast<std::size_t>(settings.bits) + 7) / 8;
-  if (shape.bytes > most_bytes)
-    return fail("size of a field: found {} bytes for {} positions and {} directions, expected at most {}",
-                shape.bytes, settings.positions, settings.directions, most_bytes);
+  if (shape.entries > most_entries || shape.bytes > most_bytes)
+    return fail("size of a field: found {} samples of {} bits, expected at most {} and {} bytes",
+                shape.entries, settings.bits, most_entries, most_bytes);
   return shape;
 }
 
@@ -63,15 +52,17 @@ DisplacementField empty_field(const FieldSettings& settings, const FieldShape& s
   field.bits = settings.bits;
   field.shape = shape;
   field.table.resize(shape.bytes + field_padding);
-  field.points = cell_centres(shape.position_side);
   field.close.resize(near_words);
-  if (field.bits == 1) field.mean.resize(field.points.size());
+  if (field.bits == 1) field.mean.resize(shape.positions());
   return field;
 }
 
 Chord sample_chord(const DisplacementField& field, std::size_t position, std::size_t direction) {
-  const glm::vec3 entry = field.points[position];
-  if (field.layout == FieldLayout::chords) return {entry, field.points[direction] - entry};
+  const auto place = [&](std::size_t cell) {
+    return direction_from_square(cell_point(static_cast<int>(cell), field.shape.position_side));
+  };
+  const glm::vec3 entry = place(position);
+  if (field.layout == FieldLayout::chords) return {entry, place(direction) - entry};
   const glm::vec3 inward = -entry;
   const Frame frame = frame_around(inward);
   const glm::vec3 h =
@@ -150,8 +141,8 @@ Expected<DisplacementField> build_field(std::span<const glm::vec3> positions,
   if (bvh.triangles == 0) return fail("mesh for a field: found no triangle with an area, expected one");
   DisplacementField field = empty_field(settings, *shape);
   field.bound = bounding_ellipsoid(positions, triangles, settings.layout);
-  field.close = close_cells(positions, triangles, field.bound, field.cell());
-  const std::size_t rows = field.points.size(), directions = shape->entries / rows;
+  field.close = close_cells(positions, triangles, field.bound, field.cell() / 4);
+  const std::size_t rows = shape->positions(), directions = shape->directions();
   const RowTracer tracer(field, bvh);
   // Eight rows end on a byte whatever their length.
   constexpr std::size_t grain = 8;

@@ -23,16 +23,23 @@ struct FieldSettings {
   int bits = 8;           ///< of a stored distance: 1, 8 or 32
 };
 
-/// A table of the size that settings ask for. Chords have as many exits as entries: the nearest square whose
-/// square holds positions x directions (4,225 x 1,024: 46^2 x 46^2).
+/// A table of the size that settings ask for. Chords have as many exits as entries: the largest square whose
+/// square is not above positions x directions (4,225 x 1,024: 45^2 x 45^2).
 struct FieldShape {
   int position_side = 0;   ///< positions = side^2, cells of the octahedral map
   int direction_side = 0;  ///< directions = side^2; chords: cells of the exit
   std::size_t entries = 0;
   std::size_t bytes = 0;  ///< of the table
+
+  std::size_t positions() const {
+    return static_cast<std::size_t>(position_side) * static_cast<std::size_t>(position_side);
+  }
+  std::size_t directions() const {
+    return static_cast<std::size_t>(direction_side) * static_cast<std::size_t>(direction_side);
+  }
 };
 /// Fails, with one sentence, on settings out of range: fewer than 4 or more than 1,048,576 of either, bits
-/// other than 1, 8 and 32, a table beyond 1 GiB.
+/// other than 1, 8 and 32, a table of more than 2^30 samples or bytes.
 Expected<FieldShape> field_shape(const FieldSettings& settings);
 
 /// Smallest useful table (0.33 MB): 24^2 x 24^2 chords.
@@ -63,10 +70,9 @@ struct DisplacementField {
   FieldShape shape;
   Ellipsoid bound;
   std::vector<std::uint8_t>
-      table;                      ///< entry (p, d) at p * directions + d; 1 bit: 1 a hit; 8 bits: 0..254 for
-                                  ///< -1..1, 255 no hit; 32: a float, 2 no hit. Three bytes more at the end.
-  std::vector<float> mean;        ///< 1 bit: what all hits from position p stand for; else empty
-  std::vector<glm::vec3> points;  ///< unit positions, the cells' centres
+      table;                ///< entry (p, d) at p * directions + d; 1 bit: 1 a hit; 8 bits: 0..254 for
+                            ///< -1..1, 255 no hit; 32: a float, 2 no hit. Three bytes more at the end.
+  std::vector<float> mean;  ///< 1 bit: what all hits from position p stand for; else empty
   std::vector<std::uint32_t> close;  ///< one bit a cell of the cube around the unit sphere (near_cells.h):
                                      ///< set where the object is nearer than `cell()`
 
@@ -74,8 +80,7 @@ struct DisplacementField {
   float cell() const;
   /// Of all of the above: what a field costs in memory.
   std::size_t bytes() const {
-    return table.size() + mean.size() * sizeof(float) + points.size() * sizeof(glm::vec3) +
-           close.size() * sizeof(std::uint32_t);
+    return table.size() + mean.size() * sizeof(float) + close.size() * sizeof(std::uint32_t);
   }
 };
 

@@ -15,7 +15,7 @@ struct Chord {
 /// The chord that entry (position, direction) of the table stands for.
 Chord sample_chord(const DisplacementField& field, std::size_t position, std::size_t direction);
 
-/// A field of this shape with its points; sphere, table and means are zero.
+/// A field of this shape, all of it zero.
 DisplacementField empty_field(const FieldSettings& settings, const FieldShape& shape);
 
 }  // namespace tenebra

@@ -31,7 +31,7 @@ HWY_INLINE Pack3<Float16> along(const Pack3<Float16>& a, Float16 s, const Pack3<
 }
 
 constexpr float half_diagonal = 0.70710678f;  // of a cell, in widths
-constexpr float cast_cells = 2;               // how far close rays are cast, in cells
+constexpr float cast_cells = 1;               // how far close rays are cast, in cells
 
 // The ray in unit space and its chord of the unit sphere.
 struct Chords {
@@ -92,23 +92,21 @@ HWY_INLINE Float16 sample(const DisplacementField& field, Int16 position, Int16 
                          gather<float>(field.mean.data(), shift_left<2>(position)), none);
 }
 
-// The paper's second discretisation: seen from position sample a, the direction to the chord's middle.
-HWY_INLINE Int16 direction_cell(const DisplacementField& field, Int16 position,
+// The paper's second discretisation: the direction to the chord's middle, seen from the position sample.
+HWY_INLINE Int16 direction_cell(const FieldShape& shape, const Cell16& position,
                                 const Pack3<Float16>& middle) {
-  const Float16 one = splat<Float16>(1.0f);
-  const Int16 offset = position * splat<Int16>(sizeof(glm::vec3));
-  const float* points = &field.points[0].x;
-  const Pack3<Float16> a{gather<float>(points, offset), gather<float>(points + 1, offset),
-                         gather<float>(points + 2, offset)};
-  const Pack3<Float16> to{middle.x - a.x, middle.y - a.y, middle.z - a.z};
+  const Float16 zero = splat<Float16>(0.0f), one = splat<Float16>(1.0f);
+  const Pack3<Float16> a = direction_from_square(cell_point(position, shape.position_side));
+  const Pack3<Float16> n{zero - a.x, zero - a.y, zero - a.z};  // inwards
+  const Pack3<Float16> to{middle.x + n.x, middle.y + n.y, middle.z + n.z};
   const Float16 scale = one / square_root(inner(to, to));
-  // frame_around(-a)
-  const Pack3<Float16> n{splat<Float16>(0.0f) - a.x, splat<Float16>(0.0f) - a.y, splat<Float16>(0.0f) - a.z};
+  // frame_around(n)
   const Float16 sign = copy_sign(one, n.z);
   const Float16 k = splat<Float16>(-1.0f) / (sign + n.z), b = n.x * n.y * k;
-  const Pack3<Float16> x{one + sign * (n.x * n.x * k), sign * b, (splat<Float16>(0.0f) - sign) * n.x};
-  const Pack3<Float16> y{b, sign + n.y * n.y * k, splat<Float16>(0.0f) - n.y};
-  return cell_index(square_from_disk(inner(to, x) * scale, inner(to, y) * scale), field.shape.direction_side);
+  const Pack3<Float16> x{one + sign * (n.x * n.x * k), sign * b, (zero - sign) * n.x};
+  const Pack3<Float16> y{b, sign + n.y * n.y * k, zero - n.y};
+  const Square16 square = square_from_disk(inner(to, x) * scale, inner(to, y) * scale);
+  return cell_index(cell_of(square, shape.direction_side), shape.direction_side);
 }
 
 // The two looks at a chord: t of the first hit seen from the entry, and of the first seen from the exit,
@@ -118,31 +116,34 @@ public:
   HWY_INLINE Looks(const DisplacementField& field, const Chords& chords)
       : field_(field),
         c_(chords),
+        paper_(field.layout == FieldLayout::positions_directions),
         entry_(end_cell(splat<Float16>(0.0f) - c_.half)),
-        exit_(end_cell(c_.half)) {}
+        exit_(paper_ ? entry_ : end_cell(c_.half)) {}
 
   HWY_INLINE Float16 first(Float16 none) const {
     const Float16 s = look(entry_, exit_);
     return where(less(s, splat<Float16>(no_hit)), c_.at + s * c_.per_unit, none);
   }
   HWY_INLINE Float16 last(Float16 none) const {
-    const Float16 s = look(exit_, entry_);
+    const Float16 s = look(paper_ ? end_cell(c_.half) : exit_, entry_);
     return where(less(s, splat<Float16>(no_hit)), c_.at - s * c_.per_unit, none);
   }
 
 private:
   // The cell of the point of the chord that lies s beyond its middle.
-  HWY_INLINE Int16 end_cell(Float16 s) const {
-    return cell_index(square_from_direction(along(c_.middle, s, c_.unit)), field_.shape.position_side);
+  HWY_INLINE Cell16 end_cell(Float16 s) const {
+    return cell_of(square_from_direction(along(c_.middle, s, c_.unit)), field_.shape.position_side);
   }
-  HWY_INLINE Float16 look(Int16 from, Int16 to) const {
-    return sample(field_, from,
-                  field_.layout == FieldLayout::chords ? to : direction_cell(field_, from, c_.middle));
+  HWY_INLINE Float16 look(const Cell16& from, const Cell16& to) const {
+    const FieldShape& shape = field_.shape;
+    return sample(field_, cell_index(from, shape.position_side),
+                  paper_ ? direction_cell(shape, from, c_.middle) : cell_index(to, shape.direction_side));
   }
 
   const DisplacementField& field_;
   const Chords& c_;
-  Int16 entry_, exit_;
+  bool paper_;
+  Cell16 entry_, exit_;
 };
 
 // Bits of those rays `inside` that start close to the object.

@@ -22,13 +22,11 @@ inline float octant_angle(float t) {
   return p * t;
 }
 
-/// Octahedral map of equal areas (Clarberg 2008): a direction of any length but zero to the square. The upper
-/// hemisphere is the diamond |u| + |v| <= 1; off by at most 2e-6 (see octant_angle).
+/// Octahedral map of equal areas (Clarberg 2008): a unit vector to the square. The upper hemisphere is the
+/// diamond |u| + |v| <= 1. Off by at most 2e-6 (see octant_angle), at the poles by 4e-4 (1 - z cancels).
 inline glm::vec2 square_from_direction(glm::vec3 d) {
-  const float x = std::abs(d.x), y = std::abs(d.y), z = std::abs(d.z);
-  const float plane = x * x + y * y, length = std::sqrt(plane + z * z);
-  // Distance from the pole: sqrt(1 - z / length), without its cancellation.
-  const float r = std::sqrt(plane / std::max(length * (length + z), 1e-37f));
+  const float x = std::abs(d.x), y = std::abs(d.y);
+  const float r = std::sqrt(std::max(1 - std::abs(d.z), 0.0f));
   const float larger = std::max(x, y), smaller = std::min(x, y);
   const float angle = 0.5f * octant_angle(smaller / std::max(larger, 1e-37f));
   float v = (y <= x ? angle : 1 - angle) * r;
@@ -43,14 +41,16 @@ inline glm::vec2 square_from_direction(glm::vec3 d) {
 
 /// Its inverse: a unit vector.
 inline glm::vec3 direction_from_square(glm::vec2 square) {
-  const double u = std::abs(square.x), v = std::abs(square.y);
-  const double above = 1 - (u + v);  // the lower hemisphere is folded over the diamond's sides
-  const double r = 1 - std::abs(above);
-  const double phi = (r <= 0 ? 1 : (v - u) / r + 1) * 0.78539816339744831;
-  const double out = r * std::sqrt(std::max(0.0, 2 - r * r));
-  return {static_cast<float>(std::copysign(std::cos(phi) * out, square.x)),
-          static_cast<float>(std::copysign(std::sin(phi) * out, square.y)),
-          static_cast<float>(std::copysign(1 - r * r, above))};
+  const float u = std::abs(square.x), v = std::abs(square.y);
+  const float above = 1 - (u + v);  // the lower hemisphere is folded over the diamond's sides
+  const float r = 1 - std::abs(above);
+  // Angle from the x axis: (1 + q) pi / 4; sine and cosine of q pi / 4, over sqrt(2), off by at most 2e-8.
+  const float q = (v - u) / std::max(r, 1e-37f), s = q * q;
+  const float sine = (((-2.54235228e-05f * s + 0.00176070069f) * s + -0.0570956444f) * s + 0.555360366f) * q;
+  const float cosine = ((-0.000225480425f * s + 0.0112075793f) * s + -0.21808888f) * s + 0.707106762f;
+  const float out = r * std::sqrt(2 - r * r);
+  return {std::copysign((cosine - sine) * out, square.x), std::copysign((cosine + sine) * out, square.y),
+          std::copysign(1 - r * r, above)};
 }
 
 /// Shirley and Chiu 1997: concentric squares to concentric circles, areas kept.
@@ -75,6 +75,14 @@ inline glm::vec2 square_from_disk(glm::vec2 disk) {
   return {std::copysign(y <= x ? r : across, disk.x), std::copysign(y <= x ? across : r, disk.y)};
 }
 
+/// Point i of n that fill the square evenly, whatever n: a lattice of the golden ratio. Through the maps
+/// below its 256 rays have half the error of a 16 x 16 grid's, and no bias.
+inline glm::vec2 lattice_point(int i, int n) {
+  const double across = i * 0.61803398874989485;
+  return {static_cast<float>((2 * i + 1.0) / n - 1),
+          static_cast<float>(2 * (across - std::floor(across)) - 1)};
+}
+
 /// Malley: the disk lifted to the hemisphere around +z; density proportional to the cosine.
 inline glm::vec3 hemisphere_from_square(glm::vec2 square) {
   const glm::vec2 d = disk_from_square(square);
@@ -94,7 +102,7 @@ inline Frame frame_around(glm::vec3 n) {
 /// Cell 0 .. side - 1 of a coordinate of the square; NaN counts as cell 0.
 inline int cell_of(float coordinate, int side) {
   const float half = 0.5f * static_cast<float>(side);
-  return static_cast<int>(std::min(std::max(coordinate * half + half, 0.0f), static_cast<float>(side - 1)));
+  return static_cast<int>(std::min(std::max(0.0f, coordinate * half + half), static_cast<float>(side - 1)));
 }
 /// Cell index: rows of v.
 inline int cell_index(glm::vec2 square, int side) {

@@ -202,8 +202,8 @@ std::uint32_t Builder::add_node(const Range& whole, int depth) {
     BvhNode& node = bvh_.nodes[place];
     node.child[lane] = child;
     for (int axis = 0; axis < 3; ++axis) {
-      node.low[axis][lane] = used ? children[lane].box.low[axis] - margin_ : infinity;
-      node.high[axis][lane] = used ? children[lane].box.high[axis] + margin_ : -infinity;
+      node.plane[axis][lane] = used ? children[lane].box.low[axis] - margin_ : infinity;
+      node.plane[axis + 3][lane] = used ? children[lane].box.high[axis] + margin_ : -infinity;
     }
   }
   return place;

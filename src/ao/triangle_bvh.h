@@ -21,8 +21,7 @@ inline constexpr std::uint32_t no_caster = 0xffffffffu;
 /// that no ray meets.
 inline constexpr std::uint32_t bvh_leaf = 0x80000000u;
 struct alignas(64) BvhNode {
-  float low[3][bvh_width];
-  float high[3][bvh_width];
+  float plane[6][bvh_width];  ///< low x, y, z, high x, y, z
   std::uint32_t child[bvh_width];
 };
 
