@@ -22,6 +22,13 @@ namespace {
 using glm::dvec3;
 using glm::vec3;
 
+/// What of a receiver's occlusion is computed.
+enum class AoPart {
+  all,
+  own,     ///< by its own body
+  others,  ///< by all but its own body
+};
+
 /// A sample of a body that a receiver lacks.
 struct MissingSample {
   std::uint32_t body;
@@ -118,14 +125,24 @@ struct AmbientOcclusion::State {
   std::size_t body_index(int object) const {
     return object == TriangleOwner::standing ? objects.objects.size() : static_cast<std::size_t>(object);
   }
-  /// The samples of what a receiver lies on; null if it deforms or they are not made yet.
+  /// Whether what it lies on keeps its shape.
+  bool has_body(const Receiver& receiver) const {
+    const std::int32_t object = receiver.owner.object;
+    return object == TriangleOwner::standing ||
+           (object >= 0 && objects.objects[static_cast<std::size_t>(object)].rigid);
+  }
+  /// The samples of what a receiver lies on; null if it has none or they are not made yet.
   const SelfOcclusion* body_under(const Receiver& receiver) const;
   void make_body(int object);
   float others(const Receiver& receiver, Scratch& scratch, GroupReport& report) const;
-  void collect(const Receiver& receiver, Scratch& scratch, GroupReport& report) const;
-  void shade(const ReceiverSet& set, int group, Scratch& scratch, GroupReport& report);
+  void collect_samples(const Receiver& receiver, Scratch& scratch, GroupReport& report) const;
+  void collect_occluders(const Receiver& receiver, const Scratch& scratch, GroupReport& report) const;
+  void shade(const ReceiverSet& set, AoPart part, int group, Scratch& scratch, GroupReport& report);
   Expected<void> supply(std::vector<GroupReport>& reports, const AoProgress& progress, const StopFlag* stop);
-  Expected<void> from_fields(const ReceiverSet& set, const AoProgress& progress, const StopFlag* stop);
+  Expected<void> from_fields(const ReceiverSet& set, AoPart part, const AoProgress& progress,
+                             const StopFlag* stop);
+  Expected<void> run(const AoFrame& frame, const AoConfig& config, std::span<float> out,
+                     const AoProgress& progress, const StopFlag* stop);
   Expected<void> from_rays(const ReceiverSet& set, const FrameGeometry& geometry, const StopFlag* stop);
   void cast_fan(const Receiver& receiver, Scratch& scratch) const;
 };
@@ -178,7 +195,7 @@ void AmbientOcclusion::State::note_deforming(const AoConfig& config) {
 }
 
 const SelfOcclusion* AmbientOcclusion::State::body_under(const Receiver& receiver) const {
-  if (receiver.owner.object == TriangleOwner::deforming) return nullptr;
+  if (!has_body(receiver)) return nullptr;
   const int body = body_of[body_index(receiver.owner.object)];
   return body < 0 ? nullptr : bodies[static_cast<std::size_t>(body)].samples.get();
 }
@@ -189,7 +206,7 @@ void AmbientOcclusion::State::make_body(int object) {
   int shape = -1;
   double own_reach = reach;
   if (object != TriangleOwner::standing) {
-    const RigidObject& rigid = objects.objects[static_cast<std::size_t>(object)];
+    const MovingObject& rigid = objects.objects[static_cast<std::size_t>(object)];
     shape = rigid.shape;
     own_reach = reach / rigid.scale;
   }
@@ -228,7 +245,7 @@ float AmbientOcclusion::State::others(const Receiver& receiver, Scratch& scratch
     if (!occluders.reaches(occluder, receiver)) continue;
     if (!cast) cast_fan(receiver, scratch);
     cast = true;
-    occluders.meet(occluder, scratch.rays, scratch.distances.data(), report.counts);
+    occluders.meet(occluder, receiver, scratch.rays, scratch.distances.data(), report.counts);
   }
   if (!cast) return 0;
   const float sum = kernels.fan.fall_off(scratch.distances.data(), static_cast<int>(scratch.rays.size()),
@@ -236,41 +253,48 @@ float AmbientOcclusion::State::others(const Receiver& receiver, Scratch& scratch
   return std::clamp(sum / static_cast<float>(pattern.rays), 0.0f, 1.0f);
 }
 
-/// What the receiver needs that is not there yet.
-void AmbientOcclusion::State::collect(const Receiver& receiver, Scratch& scratch, GroupReport& report) const {
+/// What of its own body's samples the receiver needs that is not there yet.
+void AmbientOcclusion::State::collect_samples(const Receiver& receiver, Scratch& scratch,
+                                              GroupReport& report) const {
   const std::int32_t object = receiver.owner.object;
   if (const SelfOcclusion* body = body_under(receiver)) {
     scratch.missing.clear();
     body->add_missing(receiver.on_shape(), scratch.missing);
     const auto number = static_cast<std::uint32_t>(body_of[body_index(object)]);
     for (const std::uint32_t sample : scratch.missing) report.samples.push_back({number, sample});
-  } else if (object != TriangleOwner::deforming &&
-             (report.bodies.empty() || report.bodies.back() != object)) {
+  } else if (has_body(receiver) && (report.bodies.empty() || report.bodies.back() != object)) {
     report.bodies.push_back(object);
-  }
-  for (const int occluder : scratch.near) {
-    const bool seen =
-        std::find(report.reached.begin(), report.reached.end(), occluder) != report.reached.end();
-    if (!seen && occluders.reaches(occluder, receiver)) report.reached.push_back(occluder);
   }
 }
 
-void AmbientOcclusion::State::shade(const ReceiverSet& set, int group, Scratch& scratch,
-                                    GroupReport& report) {
-  report = {};
-  set.receivers(group, scratch.receivers);
-  if (scratch.receivers.empty()) return;
-  PointBox box;
-  for (const Receiver& receiver : scratch.receivers) box.extend(receiver.position);
-  occluders.near(box, scratch.near);
-  for (const Receiver& receiver : scratch.receivers) collect(receiver, scratch, report);
-  for (const int occluder : report.reached) {
+void AmbientOcclusion::State::collect_occluders(const Receiver& receiver, const Scratch& scratch,
+                                                GroupReport& report) const {
+  for (const int occluder : scratch.near) {
+    const auto& reached = report.reached;
+    if (std::find(reached.begin(), reached.end(), occluder) != reached.end()) continue;
+    if (!occluders.reaches(occluder, receiver)) continue;
+    report.reached.push_back(occluder);
     if (!occluders.ready(occluder)) report.occluders.push_back(occluder);
+  }
+}
+
+void AmbientOcclusion::State::shade(const ReceiverSet& set, AoPart part, int group, Scratch& scratch,
+                                    GroupReport& report) {
+  set.receivers(group, scratch.receivers);
+  scratch.near.clear();
+  if (part != AoPart::own && !scratch.receivers.empty()) {
+    PointBox box;
+    for (const Receiver& receiver : scratch.receivers) box.extend(receiver.position);
+    occluders.near(box, scratch.near);
+  }
+  for (const Receiver& receiver : scratch.receivers) {
+    if (part != AoPart::others) collect_samples(receiver, scratch, report);
+    collect_occluders(receiver, scratch, report);
   }
   sort_unique(report.samples);
   if (!report.complete()) return;
   for (const Receiver& receiver : scratch.receivers) {
-    const SelfOcclusion* body = body_under(receiver);
+    const SelfOcclusion* body = part == AoPart::others ? nullptr : body_under(receiver);
     const float own = body != nullptr ? body->occlusion(receiver.on_shape(), kernels) : 0;
     values[receiver.index] = (1 - own) * (1 - others(receiver, scratch, report));
   }
@@ -309,8 +333,9 @@ Expected<void> AmbientOcclusion::State::supply(std::vector<GroupReport>& reports
   return {};
 }
 
-Expected<void> AmbientOcclusion::State::from_fields(const ReceiverSet& set, const AoProgress& progress,
-                                                    const StopFlag* stop) {
+Expected<void> AmbientOcclusion::State::from_fields(const ReceiverSet& set, AoPart part,
+                                                    const AoProgress& progress, const StopFlag* stop) {
+  values.assign(set.values(), 1.0f);
   std::vector<int> pending(static_cast<std::size_t>(set.groups()));
   for (std::size_t i = 0; i < pending.size(); ++i) pending[i] = static_cast<int>(i);
   std::vector<Scratch> scratch(static_cast<std::size_t>(thread_count()));
@@ -322,9 +347,9 @@ Expected<void> AmbientOcclusion::State::from_fields(const ReceiverSet& set, cons
     parallel_tasks(static_cast<int>(pending.size()), [&](int i) {
       if (stop_requested(stop)) return;
       const auto at = static_cast<std::size_t>(i);
-      shade(set, pending[at], scratch[static_cast<std::size_t>(thread_index())], reports[at]);
+      shade(set, part, pending[at], scratch[static_cast<std::size_t>(thread_index())], reports[at]);
     });
-    timings.ao_ms += watch.lap_ms();
+    watch.lap_ms();
     if (stop_requested(stop)) return fail("stopped");
     std::vector<int> left;
     for (std::size_t i = 0; i < pending.size(); ++i) {
@@ -342,17 +367,18 @@ Expected<void> AmbientOcclusion::State::from_fields(const ReceiverSet& set, cons
     }
     timings.ao_build_ms += watch.lap_ms();
   }
-  stats.objects = static_cast<std::uint64_t>(
+  stats.objects += static_cast<std::uint64_t>(
       std::count_if(reached.begin(), reached.end(), [](int occluder) { return occluder >= 0; }));
   return {};
 }
 
 Expected<void> AmbientOcclusion::State::from_rays(const ReceiverSet& set, const FrameGeometry& geometry,
                                                   const StopFlag* stop) {
+  values.assign(set.values(), 1.0f);
   Stopwatch watch;
   const auto reference = ReferenceRays::create(triangle_view(geometry));
   if (!reference) return tl::unexpected(reference.error());
-  timings.ao_build_ms = watch.lap_ms();
+  timings.ao_build_ms += watch.lap_ms();
   std::vector<Scratch> scratch(static_cast<std::size_t>(thread_count()));
   std::vector<std::uint64_t> points(static_cast<std::size_t>(set.groups()), 0);
   parallel_tasks(set.groups(), [&](int group) {
@@ -369,10 +395,39 @@ Expected<void> AmbientOcclusion::State::from_rays(const ReceiverSet& set, const 
       values[receiver.index] = 1 - std::clamp(sum / static_cast<float>(pattern.rays), 0.0f, 1.0f);
     }
   });
-  timings.ao_ms = watch.lap_ms();
   for (const std::uint64_t count : points) stats.points += count;
   stats.rays_cast = stats.points * static_cast<std::uint64_t>(pattern.rays);
   return stop_requested(stop) ? Expected<void>(fail("stopped")) : Expected<void>();
+}
+
+/// Moving things blur well, what stands does not: with a downscale only the others' part is computed at a
+/// fraction of the pixels.
+Expected<void> AmbientOcclusion::State::run(const AoFrame& frame, const AoConfig& config,
+                                            std::span<float> out, const AoProgress& progress,
+                                            const StopFlag* stop) {
+  const auto solve = [&](const ReceiverSet& set, AoPart part) {
+    return config.mode == AoMode::rays ? from_rays(set, frame.geometry, stop)
+                                       : from_fields(set, part, progress, stop);
+  };
+  const auto length = static_cast<float>(reach);
+  if (config.place == AoPlace::vertices) {
+    const VertexReceivers set(frame);
+    auto done = solve(set, AoPart::all);
+    if (done) set.spread(values, out);
+    return done;
+  }
+  const bool split = config.downscale > 1 && config.mode == AoMode::field;
+  const PixelReceivers set(frame, config.downscale, length);
+  if (auto done = solve(set, split ? AoPart::others : AoPart::all); !done) return done;
+  set.spread(values, out);
+  if (!split) return {};
+  const std::uint64_t points = stats.points;
+  if (auto done = solve(PixelReceivers(frame, 1, length), AoPart::own); !done) return done;
+  stats.points = points;
+  parallel_ranges(out.size(), 1 << 14, [&](std::size_t first, std::size_t last) {
+    for (std::size_t i = first; i < last; ++i) out[i] *= values[i];
+  });
+  return {};
 }
 
 Expected<void> AmbientOcclusion::compute(const Scene& scene, const FrameGeometry& geometry,
@@ -388,23 +443,11 @@ Expected<void> AmbientOcclusion::compute(const Scene& scene, const FrameGeometry
   if (config.mode == AoMode::none) return {};
   Stopwatch watch;
   s.find(scene, geometry, config);
-  s.timings.ao_build_ms = watch.lap_ms();
+  const double found_ms = s.timings.ao_build_ms = watch.lap_ms();
 
-  const AoFrame frame{geometry, points, normals, s.objects};
-  std::unique_ptr<ReceiverSet> set;
-  if (config.place == AoPlace::vertices) {
-    set = std::make_unique<VertexReceivers>(frame);
-  } else {
-    set = std::make_unique<PixelReceivers>(frame, config.downscale, static_cast<float>(s.reach));
-  }
-  s.values.assign(set->values(), 1.0f);
-  const double prepared_ms = watch.lap_ms();
-  auto done =
-      config.mode == AoMode::rays ? s.from_rays(*set, geometry, stop) : s.from_fields(*set, progress, stop);
-  if (!done) return done;
-  watch.lap_ms();
-  set->spread(s.values, out);
-  s.timings.ao_ms += prepared_ms + watch.lap_ms();
+  if (auto done = s.run({geometry, points, normals, s.objects}, config, out, progress, stop); !done)
+    return done;
+  s.timings.ao_ms = watch.lap_ms() - (s.timings.ao_build_ms - found_ms);
   s.stats.fields_built = s.occluders.fields_built();
   s.stats.field_bytes = s.occluders.field_bytes();
   for (const State::Body& body : s.bodies) s.stats.cache_cells += body.samples->filled();

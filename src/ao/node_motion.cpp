@@ -24,7 +24,6 @@ double variation(const Track& track) {
 }  // namespace
 
 NodeMotion find_motion(const Scene& scene) {
-  constexpr double noise = 1e-3;  // of scales that exporters write for bodies that keep their size
   std::vector<bool> moves(scene.nodes.size(), false);
   NodeMotion motion;
   motion.resized.assign(scene.nodes.size(), false);
@@ -36,17 +35,14 @@ NodeMotion find_motion(const Scene& scene) {
       if (fixed || channel.path == ChannelPath::weights || track.components < 1) continue;
       const double change = variation(track);
       if (change > 0) moves[index] = true;
-      if (change > noise && channel.path == ChannelPath::scale) motion.resized[index] = true;
+      if (change > 0 && channel.path == ChannelPath::scale) motion.resized[index] = true;
     }
   }
   motion.mover.assign(scene.nodes.size(), -1);
   for (std::size_t i = 0; i < scene.nodes.size(); ++i) {  // parents come before their children
     const int parent = scene.nodes[i].parent;
     if (moves[i]) motion.mover[i] = static_cast<int>(i);
-    if (parent < 0) continue;
-    const auto above = static_cast<std::size_t>(parent);
-    if (!moves[i]) motion.mover[i] = motion.mover[above];
-    motion.resized[i] = motion.resized[i] || motion.resized[above];
+    if (!moves[i] && parent >= 0) motion.mover[i] = motion.mover[static_cast<std::size_t>(parent)];
   }
   return motion;
 }

@@ -9,7 +9,7 @@ namespace tenebra {
 
 struct NodeMotion {
   std::vector<int> mover;     ///< deepest ancestor (or the node itself) that a clip moves; -1: it stands
-  std::vector<bool> resized;  ///< a clip changes the scale of the node or of an ancestor
+  std::vector<bool> resized;  ///< a clip changes the node's own scale
 };
 
 /// A channel counts if its values differ from key to key.

@@ -17,7 +17,7 @@ using glm::dmat4;
 using glm::dvec3;
 using glm::vec3;
 
-constexpr double most_shear = 1e-3;  // columns this far from orthogonal and equally long still turn rigidly
+constexpr double most_shear = 1e-3;  // an object this far from its size and right angles is still itself
 
 class Hash {
 public:
@@ -89,35 +89,28 @@ dmat4 scaling(const dvec3& s) {
 }
 
 /// The scale of a moving node without its size: what instances that differ in size have in common.
-dvec3 proportions(const Scene& scene, const Pose& pose, std::size_t node) {
-  if (scene.nodes[node].matrix) return dvec3(1.0);
-  const dvec3 s = pose.nodes[node].scale;
-  const double largest = std::max({std::abs(s.x), std::abs(s.y), std::abs(s.z)});
-  return largest > 0 ? s / largest : dvec3(1.0);
+dvec3 proportions(const dvec3& scale) {
+  const double largest = std::max({std::abs(scale.x), std::abs(scale.y), std::abs(scale.z)});
+  return largest > 0 && scale.x * scale.y * scale.z != 0 ? scale / largest : dvec3(1.0);
 }
 
-/// Places an object. False if its transform is singular or shears.
-bool place(const Pose& pose, RigidObject& object) {
+/// Places an object; whether it is rigid depends on its `scale`.
+void place(const Pose& pose, MovingObject& object) {
   const NodePose& node = pose.nodes[static_cast<std::size_t>(object.node)];
-  object.visible = node.visible;
   object.to_world = node.to_world;
-  for (int k = 0; k < 3; ++k) {
-    if (object.own_scale[k] == 0) return false;
-    object.to_world[k] = object.to_world[k] / object.own_scale[k];
-  }
-  const glm::dmat3 linear(object.to_world);
-  double squares[3];
-  for (int k = 0; k < 3; ++k) squares[k] = glm::dot(linear[k], linear[k]);
-  const double largest = std::max({squares[0], squares[1], squares[2]});
-  if (!(largest > 0) || !std::isfinite(largest)) return false;
-  const double slack = most_shear * largest;
-  for (int k = 0; k < 3; ++k) {
-    if (largest - squares[k] > slack || std::abs(glm::dot(linear[k], linear[(k + 1) % 3])) > slack)
-      return false;
-  }
-  object.scale = std::sqrt((squares[0] + squares[1] + squares[2]) / 3);
+  for (int k = 0; k < 3; ++k) object.to_world[k] = object.to_world[k] / object.own_scale[k];
   object.to_object = glm::inverse(object.to_world);
-  return true;
+  object.visible = node.visible && std::isfinite(glm::dot(object.to_object[0], object.to_object[1]) +
+                                                 glm::dot(object.to_object[2], object.to_object[3]));
+  const glm::dmat3 square = glm::transpose(glm::dmat3(object.to_world)) * glm::dmat3(object.to_world);
+  const double wanted = object.scale * object.scale;
+  double largest = 0, off = 0;
+  for (int k = 0; k < 3; ++k) {
+    largest = std::max(largest, std::abs(square[k][0]) + std::abs(square[k][1]) + std::abs(square[k][2]));
+    for (int m = 0; m < 3; ++m) off = std::max(off, std::abs(square[k][m] - (k == m ? wanted : 0)));
+  }
+  object.largest_scale = std::sqrt(largest);  // no eigenvalue exceeds a row's sum
+  object.rigid = off <= most_shear * wanted;
 }
 
 vec3 unit_or_zero(const dvec3& n) {
@@ -230,7 +223,7 @@ private:
   void sort_in(const Part& part) {
     const Node& node = scene_.nodes[part.node];
     const int mover = motion_.mover[part.node];
-    if (deforms(scene_, node, *part.mesh) || motion_.resized[part.node]) return add_deforming(part);
+    if (deforms(scene_, node, *part.mesh)) return add_deforming(part);
     if (mover >= 0) {
       groups_[mover].push_back(part);
     } else {
@@ -257,7 +250,7 @@ private:
 
   /// From a node of the group to the object's space, by rest transforms alone: bits do not depend on the
   /// instant.
-  dmat4 to_object(std::size_t node, const RigidObject& object) const {
+  dmat4 to_object(std::size_t node, const MovingObject& object) const {
     dmat4 matrix(1.0);
     for (; static_cast<int>(node) != object.node; node = static_cast<std::size_t>(scene_.nodes[node].parent))
       matrix = still_matrix(node) * matrix;
@@ -271,15 +264,18 @@ private:
     return local_matrix(node);
   }
 
-  void add_object(int node, const std::vector<Part>& parts) {
-    RigidObject object;
-    object.node = node;
-    object.name = scene_.nodes[static_cast<std::size_t>(node)].name;
-    object.own_scale = proportions(scene_, geometry_.pose, static_cast<std::size_t>(node));
-    if (!place(geometry_.pose, object)) {
-      for (const Part& part : parts) add_deforming(part);
-      return;
-    }
+  void add_object(int index, const std::vector<Part>& parts) {
+    const auto node = static_cast<std::size_t>(index);
+    const Node& at_rest = scene_.nodes[node];
+    MovingObject object;
+    object.node = index;
+    object.name = at_rest.name;
+    if (!at_rest.matrix)
+      object.own_scale =
+          proportions(motion_.resized[node] ? at_rest.scale : geometry_.pose.nodes[node].scale);
+    place(geometry_.pose, object);
+    object.scale = std::cbrt(std::abs(glm::determinant(glm::dmat3(object.to_world))));
+    place(geometry_.pose, object);
     ObjectShape shape;
     for (const Part& part : parts) {
       own(part, static_cast<std::int32_t>(out_.objects.size()), shape.triangles.size());
@@ -318,11 +314,7 @@ bool move_objects(const Scene& scene, const FrameGeometry& geometry, SceneObject
   if (objects.motion.mover.size() != scene.nodes.size()) return false;
   if (objects.owners.size() != geometry.triangles.size()) return false;
   if (signature_of(scene, geometry, objects.motion) != objects.signature) return false;
-  for (RigidObject& object : objects.objects) {
-    const double before = object.scale;
-    if (!place(geometry.pose, object)) return false;
-    if (std::abs(object.scale - before) > 1e-2 * before) return false;
-  }
+  for (MovingObject& object : objects.objects) place(geometry.pose, object);
   return true;
 }
 

@@ -1,5 +1,5 @@
-// The scene as ambient occlusion sees it: what stands (one body in world space), rigid objects that move
-// (each in its own space; equal ones share one shape), and triangles that deform.
+// The scene as ambient occlusion sees it: what stands (one body in world space), objects that move (each in
+// its own space; equal ones share one shape), and triangles that deform.
 // A node moves if a channel of any clip changes it; all meshes below the deepest such ancestor move as one,
 // so a robot's limb is one object however many nodes it is modelled of.
 #pragma once
@@ -26,15 +26,18 @@ struct ObjectShape {
   std::uint64_t hash = 0;             ///< of the geometry
 };
 
-struct RigidObject {
+struct MovingObject {
   std::string name;
   int node = -1;              ///< whose motion it shares
   int shape = -1;             ///< index into SceneObjects::shapes
   glm::dvec3 own_scale{1.0};  ///< of the node, over its largest: part of the shape
-  glm::dmat4 to_world{1.0};   ///< a rotation (or reflection), one scale, a translation; of this instant
+  double scale = 1.0;         ///< metres of the world a unit of the object, when found
+  // Of this instant:
+  glm::dmat4 to_world{1.0};
   glm::dmat4 to_object{1.0};
-  double scale = 1.0;   ///< metres of the world a unit of the object
-  bool visible = true;  ///< drawn at this instant
+  double largest_scale = 1.0;  ///< no vector grows by more
+  bool rigid = true;    ///< to_world is a rotation (or reflection), `scale` and a translation, nothing else
+  bool visible = true;  ///< drawn, and not flattened to nothing
 };
 
 /// Whose triangle it is.
@@ -47,7 +50,7 @@ struct TriangleOwner {
 struct SceneObjects {
   ObjectShape standing;
   std::vector<ObjectShape> shapes;
-  std::vector<RigidObject> objects;
+  std::vector<MovingObject> objects;
   std::vector<TriangleOwner> owners;         ///< one a triangle of the frame
   std::vector<std::uint32_t> deforming;      ///< ids of triangles that deform
   std::vector<std::string> deforming_names;  ///< of their meshes, each once
@@ -58,8 +61,8 @@ struct SceneObjects {
 /// Everything anew, at the instant of `geometry`.
 SceneObjects find_objects(const Scene& scene, const FrameGeometry& geometry);
 
-/// Moves the rigid objects to the instant of `geometry`. False if what stood has moved or a rigid object has
-/// changed its size or shape: then they have to be found anew.
+/// Moves the objects to the instant of `geometry`. False if what stood has moved: then they have to be found
+/// anew.
 bool move_objects(const Scene& scene, const FrameGeometry& geometry, SceneObjects& objects);
 
 }  // namespace tenebra

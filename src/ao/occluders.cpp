@@ -108,14 +108,14 @@ void Occluders::begin_frame(const SceneObjects& objects, const FrameGeometry& ge
 }
 
 void Occluders::place(std::size_t index) {
-  const RigidObject& object = objects_->objects[index];
+  const MovingObject& object = objects_->objects[index];
   const ObjectShape& shape = objects_->shapes[static_cast<std::size_t>(object.shape)];
   Placed& placed = placed_[index];
   placed.shape = object.shape;
   placed.visible = object.visible && shape.radius > 0;
   if (!placed.visible) return;
   placed.sphere = {dvec3(object.to_world * glm::dvec4(dvec3(shape.center), 1.0)),
-                   shape.radius * object.scale * (1 + 2e-3)};  // the shear that still counts as rigid
+                   shape.radius * object.largest_scale};
   placed.to_object = glm::mat4x3(object.to_object);
   const Shape& kept = shapes_[static_cast<std::size_t>(object.shape)];
   if (kept.field) placed.instance = place_field(*kept.field, &*kept.casters, object.to_world);
@@ -143,7 +143,9 @@ void Occluders::near(const PointBox& box, std::vector<int>& out) const {
 }
 
 bool Occluders::reaches(int occluder, const Receiver& receiver) const {
-  if (occluder == receiver.owner.object && occluder != deforming) return false;
+  if (occluder == receiver.owner.object && occluder != deforming &&
+      (occluder == standing || objects_->objects[static_cast<std::size_t>(occluder)].rigid))
+    return false;
   const Sphere& sphere = occluder == standing    ? standing_sphere_
                          : occluder == deforming ? deforming_sphere_
                                                  : placed_[static_cast<std::size_t>(occluder)].sphere;
@@ -205,7 +207,6 @@ Expected<void> Occluders::build_object(std::size_t index, const AoProgress& prog
     if (!field) return tl::unexpected(field.error());
     shape.field = std::move(*field);
     field_bytes_ += shape.field->bytes();
-    ++fields_built_;
   }
   if (shape.field) placed.instance = place_field(*shape.field, &tree, objects_->objects[index].to_world);
   if (!placed.instance) shape.by_rays = true;
@@ -223,6 +224,7 @@ Expected<DisplacementField> Occluders::make_field(const ObjectShape& shape, cons
   const FieldProgress report = [&](double done) {
     if (progress) progress("displacement fields", done);
   };
+  ++fields_built_;
   auto field = build_field(shape.positions, triangles, tree, settings_, report, stop);
   if (field && !config_.cache.empty()) {
     if (auto saved = save_field(config_.cache, key, *field); !saved) notes_.push_back(saved.error().message);
@@ -230,7 +232,7 @@ Expected<DisplacementField> Occluders::make_field(const ObjectShape& shape, cons
   return field;
 }
 
-void Occluders::meet(int occluder, std::span<const RayBatch> rays, float* distances,
+void Occluders::meet(int occluder, const Receiver& receiver, std::span<const RayBatch> rays, float* distances,
                      OccluderCounts& counts) const {
   const auto each = [&](const auto& hit) {
     for (std::size_t b = 0; b < rays.size(); ++b) hit(rays[b], distances + b * batch_size);
@@ -242,7 +244,7 @@ void Occluders::meet(int occluder, std::span<const RayBatch> rays, float* distan
     return each([&](const RayBatch& batch, float* out) { kernels_.cast(tree, batch, out, nullptr); });
   }
   const Placed& placed = placed_[static_cast<std::size_t>(occluder)];
-  if (placed.instance) {
+  if (placed.instance && occluder != receiver.owner.object) {
     counts.lookups += all;
     return each([&](const RayBatch& batch, float* out) {
       counts.rays_cast +=

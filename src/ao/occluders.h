@@ -49,14 +49,16 @@ public:
   /// What may come within the reach of a point in the box: objects in ascending order, then `standing`,
   /// `deforming`.
   void near(const PointBox& box, std::vector<int>& out) const;
-  /// Whether any part of it may lie above the receiver's planes, within the reach, and is not its own body.
+  /// Whether any part of it may lie above the receiver's planes, within the reach, and is not its own body
+  /// (but for an object that is stretched or sheared: samples of its surface would not hold).
   bool reaches(int occluder, const Receiver& receiver) const;
   bool ready(int occluder) const;
   /// Makes what `missing` (ascending, unique) lacks. Fails with "stopped".
   Expected<void> build(std::span<const int> missing, const AoProgress& progress, const StopFlag* stop);
 
-  /// Shortens the distances of the rays of one receiver to what `occluder` is hit at.
-  void meet(int occluder, std::span<const RayBatch> rays, float* distances, OccluderCounts& counts) const;
+  /// Shortens the distances of the rays of one receiver to where they hit `occluder`.
+  void meet(int occluder, const Receiver& receiver, std::span<const RayBatch> rays, float* distances,
+            OccluderCounts& counts) const;
 
   /// The tree over the casting triangles of a shape, or of what stands (-1).
   const TriangleBvh& casters(int shape);

@@ -28,7 +28,7 @@ void ReceiverMaker::take(std::uint32_t triangle) {
   } else if (owner_.object == TriangleOwner::standing) {
     t = corners(objects_.standing.positions, objects_.standing.triangles[owner_.triangle]);
   } else {
-    const RigidObject& object = objects_.objects[static_cast<std::size_t>(owner_.object)];
+    const MovingObject& object = objects_.objects[static_cast<std::size_t>(owner_.object)];
     const ObjectShape& shape = objects_.shapes[static_cast<std::size_t>(object.shape)];
     to_object_ = &object.to_object;
     t = corners(shape.positions, shape.triangles[owner_.triangle]);

@@ -270,6 +270,25 @@ TEST(AmbientOcclusion, DeformingMeshesAreNamedAndMetByRaysOrLeftOut) {
   }
 }
 
+TEST(AmbientOcclusion, StretchedObjectsFollowTheReference) {
+  SceneMaker make;
+  make.add(quad_mesh({-3, 0, -3}, {0, 0, 6}, {6, 0, 0}));
+  Mesh pair = ball_mesh(0.6, 24);  // two balls side by side: they hide each other
+  for (glm::vec3& p : pair.positions) p.x -= 0.65f;
+  Mesh other = ball_mesh(0.6, 24);
+  for (glm::vec3& p : other.positions) p.x += 0.65f;
+  append(pair, other);
+  const int node = make.add(pair, {0, 0.7, 0});
+  make.animate(node, ChannelPath::scale, {1, 1, 1}, {0.4, 1, 1.5});
+  AmbientOcclusion ao;
+  for (const double time_s : {0.0, 1.0}) {
+    const AoView frame(make.scene, time_s, pinhole({3, 4, 5}, {0, 0.3, 0}, 0.4, 80, 64), 80, 64);
+    const auto reference = occlude(make.scene, frame, config_of(AoMode::rays, 256));
+    const auto found = occlude(ao, make.scene, frame, config_of(AoMode::field, 256));
+    EXPECT_LT(compare(frame, found, reference).rms_255, 4) << time_s;
+  }
+}
+
 TEST(AmbientOcclusion, WhatCastsNoShadowHidesNoAmbientLight) {
   SceneMaker make;
   make.add(quad_mesh({-3, 0, -3}, {0, 0, 6}, {6, 0, 0}));

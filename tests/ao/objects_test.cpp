@@ -54,7 +54,7 @@ TEST(Objects, ShapesPlacedInTheWorldAreTheFramesTriangles) {
   evaluate_frame(make.scene, 0, 0.5, geometry);
   const SceneObjects objects = find_objects(make.scene, geometry);
   ASSERT_EQ(objects.objects.size(), 1u);
-  const RigidObject& object = objects.objects[0];
+  const MovingObject& object = objects.objects[0];
   const ObjectShape& shape = objects.shapes[0];
   for (std::size_t id = 0; id < geometry.triangles.size(); ++id) {
     ASSERT_EQ(objects.owners[id].object, 0);
@@ -85,22 +85,37 @@ TEST(Objects, InstancesShareAShapeWhateverTheirTurnAndSize) {
   EXPECT_NE(objects.objects[0].shape, objects.objects[2].shape);
 }
 
-TEST(Objects, WhatChangesSizeOrShapeIsNotRigid) {
+TEST(Objects, MeshesThatDeformAreNamed) {
   SceneMaker make;
-  make.scene.nodes.reserve(8);
-  const int grows = make.add(box_mesh({0, 0, 0}, {1, 1, 1}));
-  make.scene.meshes[0].name = "balloon";
-  make.animate(grows, ChannelPath::scale, {1, 1, 1}, {2, 2, 2});
-  make.add(box_mesh({0, 0, 0}, {1, 1, 1}), {4, 0, 0});
-  make.scene.meshes[1].source = "morph.aff:3";
-  make.scene.meshes[1].shapes = {{0, make.scene.meshes[1].positions, {}}};
+  for (const char* name : {"morph.aff:3", "morph.aff:3", "blob"}) {
+    Mesh mesh = box_mesh({0, 0, 0}, {1, 1, 1});
+    mesh.source = name;
+    mesh.shapes = {{0, mesh.positions, {}}};
+    make.add(mesh);
+  }
+  const SceneObjects objects = found(make.scene);
+  EXPECT_EQ(objects.deforming.size(), 36u);
+  EXPECT_EQ(objects.deforming_names, (std::vector<std::string>{"morph.aff:3", "blob"}));
+  EXPECT_TRUE(objects.objects.empty());
+}
+
+TEST(Objects, WhatIsStretchedIsNotRigidForAWhile) {
+  SceneMaker make;
+  const int balloon = make.add(box_mesh({0, 0, 0}, {1, 1, 1}));
+  make.animate(balloon, ChannelPath::scale, {2, 2, 2}, {4, 2, 2});
+  make.scene.nodes[0].scale = glm::dvec3(2);
   const int jitter = make.place(0, {8, 0, 0});
   make.animate(jitter, ChannelPath::scale, {1, 1, 1}, {1.0000001, 1, 1});  // an exporter's noise
-  make.move(jitter, {0, 1, 0});
-  const SceneObjects objects = found(make.scene);
-  EXPECT_EQ(objects.deforming.size(), 24u);
-  EXPECT_EQ(objects.deforming_names, (std::vector<std::string>{"balloon", "morph.aff:3"}));
-  EXPECT_EQ(objects.objects.size(), 1u);
+  SceneObjects objects = found(make.scene);
+  ASSERT_EQ(objects.objects.size(), 2u);
+  EXPECT_EQ(objects.shapes.size(), 1u);
+  EXPECT_TRUE(objects.objects[0].rigid);
+  FrameGeometry geometry;
+  evaluate_frame(make.scene, 0, 1, geometry);
+  ASSERT_TRUE(move_objects(make.scene, geometry, objects));
+  EXPECT_FALSE(objects.objects[0].rigid);
+  EXPECT_NEAR(objects.objects[0].largest_scale, 4, 1e-9);
+  EXPECT_TRUE(objects.objects[1].rigid);
 }
 
 TEST(Objects, FollowTheFrameUntilWhatStoodMoves) {
