@@ -46,7 +46,7 @@ HWY_INLINE void box_distances(const BvhNode& node, const Fan& fan, float* out) {
   Float8 square = zero;
   for (int axis = 0; axis < 3; ++axis) {
     const Float8 o = splat<Float8>(fan.origin[axis]);
-    const Float8 off = max(zero, max(load<Float8>(node.low[axis]) - o, o - load<Float8>(node.high[axis])));
+    const Float8 off = max(zero, max(load<Float8>(node.plane[axis]) - o, o - load<Float8>(node.plane[3 + axis])));
     square = square + off * off;
   }
   store(square, out);
@@ -56,8 +56,8 @@ HWY_INLINE bool meets_box(const BvhNode& node, int child, const Fan& fan) {
   Float16 first = splat<Float16>(0.0f), last = fan.distance;
   const Float16* inverted[3] = {&fan.inverted.x, &fan.inverted.y, &fan.inverted.z};
   for (int axis = 0; axis < 3; ++axis) {
-    const Float16 a = splat<Float16>(node.low[axis][child] - fan.origin[axis]) * *inverted[axis];
-    const Float16 b = splat<Float16>(node.high[axis][child] - fan.origin[axis]) * *inverted[axis];
+    const Float16 a = splat<Float16>(node.plane[axis][child] - fan.origin[axis]) * *inverted[axis];
+    const Float16 b = splat<Float16>(node.plane[3 + axis][child] - fan.origin[axis]) * *inverted[axis];
     first = max(first, min(a, b));
     last = min(last, max(a, b) * splat<Float16>(1 + 8 * 0x1p-24f));  // rounding loses at most three parts
   }

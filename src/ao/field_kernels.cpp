@@ -159,29 +159,76 @@ HWY_INLINE std::uint32_t close_rays(const DisplacementField& field, const Chords
   return bits(inside & less(splat<Float16>(0.0f), to_float(bit)));
 }
 
-// Casts the rays in `close` up to t = start[i].
-void cast_close(const FieldInstance& instance, const RayBatch& rays, std::uint32_t close, const float* start,
-                float* distance) {
+// Casts the rays in `which` from t = from[i] to to[i]; to[i] becomes the distance of the hit if there is one.
+void cast(const FieldInstance& instance, const RayBatch& rays, std::uint32_t which, const float* from,
+          float* to) {
   const auto& m = instance.object_from_world;
-  for (; close != 0; close &= close - 1) {
-    const int i = std::countr_zero(close);
+  for (; which != 0; which &= which - 1) {
+    const int i = std::countr_zero(which);
     const glm::vec3 o = rays.origin(i), d = rays.direction(i);
-    CasterRay ray{.to = std::min(start[i], distance[i])};
+    CasterRay ray{.from = from[i], .to = to[i]};
     for (int k = 0; k < 3; ++k) {
       ray.origin[k] = m[k][0] * o.x + m[k][1] * o.y + m[k][2] * o.z + m[k][3];
       ray.direction[k] = m[k][0] * d.x + m[k][1] * d.y + m[k][2] * d.z;
     }
-    distance[i] = std::min(distance[i], trace_ray<false>(*instance.near, ray).distance);
+    to[i] = std::min(to[i], trace_ray<false>(*instance.near, ray).distance);
   }
 }
 
-// Where a ray that is in the open at t = start, between the first and the last hit of its chord, meets the
-// object next. Next to one of them, it is taken to lie before the first or behind the last; else the last hit
-// stands for what may come before it.
-HWY_INLINE Float16 between(Float16 start, Float16 first, Float16 last, Float16 tolerance, Float16 none) {
-  const Float16 behind_first = start - first, before_last = last - start;
-  const Float16 far = where(less(before_last, tolerance), none, last);
-  return where(less(behind_first, min(tolerance, before_last)), start, far);
+// The answer for rays from outside, and what is known of the others.
+struct Answer {
+  Truth16 live;    // rays that may still meet the object
+  Float16 start;   // from here on: 0, where the sphere begins, or as far as the ray was cast
+  Float16 before;  // what was found before or by casting
+};
+
+// Rays that start close to the object are cast for one cell's width.
+HWY_INLINE int cast_close(const FieldInstance& instance, const RayBatch& rays, const Chords& c,
+                          Truth16 inside, Answer& answer) {
+  const std::uint32_t close = close_rays(*instance.field, c, inside);
+  if (close == 0) return 0;
+  float from[batch_size] = {}, start[batch_size], reach[batch_size], before[batch_size];
+  store(answer.start, start);
+  store(answer.before, before);
+  store(splat<Float16>(cast_cells * instance.field->cell()) * c.per_unit, reach);
+  for (std::uint32_t rest = close; rest != 0; rest &= rest - 1) {
+    const int i = std::countr_zero(rest);
+    start[i] = reach[i];
+    reach[i] = std::min(reach[i], before[i]);
+  }
+  cast(instance, rays, close, from, reach);
+  for (std::uint32_t rest = close; rest != 0; rest &= rest - 1) {
+    const int i = std::countr_zero(rest);
+    if (reach[i] < start[i]) before[i] = std::min(before[i], reach[i]);
+  }
+  answer.start = load<Float16>(start);
+  answer.before = load<Float16>(before);
+  answer.live = answer.live & less(answer.start, answer.before);
+  return std::popcount(close);
+}
+
+// A ray that is in the open at t = start, between the first and the last hit of its chord. Next to one of
+// them, it is taken to lie before the first or behind the last. Else something may come before the last: it
+// is cast, or the last stands for it.
+HWY_INLINE int between(const FieldInstance& instance, const RayBatch& rays, const Answer& answer,
+                       Truth16 behind, Float16 first, Float16 last, Float16 tolerance, Float16& found) {
+  const Float16 none = splat<Float16>(no_distance);
+  const Float16 behind_first = answer.start - first, before_last = last - answer.start;
+  const Truth16 at_first = behind & less(behind_first, min(tolerance, before_last));
+  const Truth16 deep = behind & not_above(tolerance, before_last) & not_above(tolerance, behind_first);
+  found = where(at_first, answer.start, where(behind, where(deep, last, none), found));
+  if (instance.near == nullptr) return 0;
+  const std::uint32_t which = bits(deep);
+  if (which == 0) return 0;
+  float from[batch_size], to[batch_size], limit[batch_size];
+  store(answer.start, from);
+  store(answer.before, limit);
+  std::copy(limit, limit + batch_size, to);
+  cast(instance, rays, which, from, to);
+  for (int i = 0; i < batch_size; ++i)
+    if (to[i] == limit[i]) to[i] = no_distance;
+  found = where(deep, load<Float16>(to), found);
+  return std::popcount(which);
 }
 
 int nearest_hits(const FieldInstance& instance, const RayBatch& rays, float* distance) {
@@ -189,38 +236,26 @@ int nearest_hits(const FieldInstance& instance, const RayBatch& rays, float* dis
   const Chords c = chords_of(instance, rays);
   const Float16 zero = splat<Float16>(0.0f), none = splat<Float16>(no_distance);
   const Float16 reach = c.half * c.per_unit, enter = c.at - reach, exit = c.at + reach;
-  Float16 before = load<Float16>(distance);
-  Truth16 live = c.met & less(zero, exit) & less(enter, before);
-  if (!any(live)) return 0;
-  Truth16 inside = live & less(enter, zero);
-  Float16 start = max(enter, zero);
-  std::uint32_t close = 0;
-  if (instance.near != nullptr && any(inside)) close = close_rays(field, c, inside);
-  if (close != 0) {
-    float starts[batch_size], cast[batch_size];
-    store(splat<Float16>(cast_cells * field.cell()) * c.per_unit, cast);
-    store(start, starts);
-    for (std::uint32_t rest = close; rest != 0; rest &= rest - 1)
-      starts[std::countr_zero(rest)] = cast[std::countr_zero(rest)];
-    cast_close(instance, rays, close, starts, distance);
-    start = load<Float16>(starts);
-    before = load<Float16>(distance);
-    live = live & less(start, before) & less(start, exit);
-    inside = inside & live;
+  Answer answer{.start = max(enter, zero), .before = load<Float16>(distance)};
+  answer.live = c.met & less(zero, exit) & less(enter, answer.before);
+  if (!any(answer.live)) return 0;
+  Truth16 inside = answer.live & less(enter, zero);
+  int casts = 0;
+  if (instance.near != nullptr && any(inside)) {
+    casts = cast_close(instance, rays, c, inside, answer);
+    answer.live = answer.live & less(answer.start, exit);
+    inside = inside & answer.live;
   }
   const Looks looks(field, c);
   const Float16 first = looks.first(none);
-  Float16 found = where(inside & less(first, start), none, max(first, start));
-  if (instance.ends == FieldEnds::both) {
-    const Truth16 behind = inside & less(first, start);
-    if (any(behind)) {
-      const Float16 tolerance = splat<Float16>(half_diagonal * field.cell()) * c.per_unit;
-      const Float16 last = looks.last(first);
-      found = where(behind, between(start, first, last, tolerance, none), found);
-    }
+  const Truth16 behind = inside & less(first, answer.start);
+  Float16 found = where(behind, none, max(first, answer.start));
+  if (instance.ends == FieldEnds::both && any(behind)) {
+    const Float16 tolerance = splat<Float16>(half_diagonal * field.cell()) * c.per_unit;
+    casts += between(instance, rays, answer, behind, first, looks.last(first), tolerance, found);
   }
-  store(where(live, min(found, before), before), distance);
-  return std::popcount(close);
+  store(where(answer.live, min(found, answer.before), answer.before), distance);
+  return casts;
 }
 
 }  // namespace

@@ -15,15 +15,16 @@ namespace tenebra {
 enum class FieldEnds {
   first,  ///< the paper's: the first hit along the whole chord, nothing if it lies behind the origin
   both,   ///< if it lies behind, the first hit seen from the other end of the chord. Origins are in the open:
-          ///< one that seems to lie less than half a cell's diagonal behind either hit is taken to lie on it.
+         ///< one that seems to lie between the hits, but within half a cell's diagonal of one, is on its
+         ///< outer side.
 };
 
 /// A field where an object stands. Any invertible affine transform will do, sheared and mirrored ones too:
 /// the ray is moved into the object's space, where distances along it stay what they are.
 struct FieldInstance {
   const DisplacementField* field = nullptr;
-  const TriangleBvh* near = nullptr;  ///< casts the first cells of rays that start close to the object, where
-                                      ///< no field of bearable size resolves contact; null: the field alone
+  const TriangleBvh* near = nullptr;  ///< if given, casts what the field cannot tell: the first part of rays
+                                      ///< that start next to the object, and rays from deep inside its hull
   FieldEnds ends = FieldEnds::both;
   float unit_from_world[3][4] = {};  ///< rows
   float object_from_world[3][4] = {};

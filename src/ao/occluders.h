@@ -14,8 +14,8 @@
 
 #include "ao/ao_kernels.h"
 #include "ao/displacement_field.h"
-#include "ao/objects.h"
 #include "ao/receivers.h"
+#include "ao/scene_objects.h"
 #include "ao/self_occlusion.h"
 #include "base/expected.h"
 

@@ -5,7 +5,7 @@
 #include <cstdint>
 #include <glm/glm.hpp>
 
-#include "ao/objects.h"
+#include "ao/scene_objects.h"
 #include "ao/self_occlusion.h"
 
 namespace tenebra {

@@ -16,7 +16,7 @@
 #include <vector>
 
 #include "ao/ao_kernels.h"
-#include "ao/objects.h"
+#include "ao/scene_objects.h"
 #include "parallel/stop_flag.h"
 
 namespace tenebra {

@@ -1,7 +1,7 @@
 // How surfaces hide themselves, against closed forms and against rays.
 #include "ao/self_occlusion.h"
 
-#include "ao/objects.h"
+#include "ao/scene_objects.h"
 #include "ao_case.h"
 
 namespace tenebra {

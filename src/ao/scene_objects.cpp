@@ -1,4 +1,4 @@
-#include "ao/objects.h"
+#include "ao/scene_objects.h"
 
 #include <fmt/format.h>
 

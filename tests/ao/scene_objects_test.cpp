@@ -1,5 +1,5 @@
 // What moves as one, what shares a shape, and what is left to rays.
-#include "ao/objects.h"
+#include "ao/scene_objects.h"
 
 #include "ao_case.h"
 #include "import/import_scene.h"
