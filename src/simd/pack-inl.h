@@ -217,6 +217,61 @@ HWY_INLINE void four_planes(const double* mx, const double* my, const double* mz
   for (int i = 0; i < e.registers; ++i) hn::StoreU(e.r[i], typename Double4::Tag(), out + i * e.width);
 }
 
+/// Lane numbers for `permute`: as wide as T.
+template <class T>
+using LaneIndex = hwy::MakeSigned<T>;
+
+/// Lane k is a's lane index[k]; 0 <= index < N.
+template <class T, int N>
+HWY_INLINE Pack<T, N> permute(Pack<T, N> a, Pack<LaneIndex<T>, N> index) {
+  using P = Pack<T, N>;
+  using I = Pack<LaneIndex<T>, N>;
+  P p;
+  if constexpr (P::registers == 1) {
+    p.r[0] = hn::TableLookupLanes(a.r[0], hn::IndicesFromVec(typename P::Tag(), index.r[0]));
+  } else if constexpr (P::registers == 2) {
+    const typename I::Tag d;
+    for (int i = 0; i < 2; ++i) {
+      const auto within = hn::And(index.r[i], hn::Set(d, static_cast<LaneIndex<T>>(P::width - 1)));
+      const auto places = hn::IndicesFromVec(typename P::Tag(), within);
+      const auto upper = hn::Gt(index.r[i], hn::Set(d, static_cast<LaneIndex<T>>(P::width - 1)));
+      p.r[i] = hn::IfThenElse(hn::RebindMask(typename P::Tag(), upper), hn::TableLookupLanes(a.r[1], places),
+                              hn::TableLookupLanes(a.r[0], places));
+    }
+  } else {
+    T from[N], to[N];
+    LaneIndex<T> places[N];
+    store(a, from);
+    store(index, places);
+    for (int i = 0; i < N; ++i) to[i] = from[places[i]];
+    p = load<P>(to);
+  }
+  return p;
+}
+
+/// a > b, lane by lane, of whole numbers.
+template <class T, int N>
+HWY_INLINE Truth<T, N> greater(Pack<T, N> a, Pack<T, N> b) {
+  Truth<T, N> t;
+  for (int i = 0; i < a.registers; ++i) t.r[i] = hn::Gt(a.r[i], b.r[i]);
+  return t;
+}
+/// a == b, lane by lane.
+template <class T, int N>
+HWY_INLINE Truth<T, N> equal(Pack<T, N> a, Pack<T, N> b) {
+  Truth<T, N> t;
+  for (int i = 0; i < a.registers; ++i) t.r[i] = hn::Eq(a.r[i], b.r[i]);
+  return t;
+}
+/// Lanes of `a` where `t` holds, of `b` elsewhere; `t` may come from lanes of another kind and the same size.
+template <class U, class T, int N>
+HWY_INLINE Pack<T, N> choose(Truth<U, N> t, Pack<T, N> a, Pack<T, N> b) {
+  for (int i = 0; i < a.registers; ++i) {
+    a.r[i] = hn::IfThenElse(hn::RebindMask(typename Pack<T, N>::Tag(), t.r[i]), a.r[i], b.r[i]);
+  }
+  return a;
+}
+
 }  // namespace tenebra::HWY_NAMESPACE
 HWY_AFTER_NAMESPACE();
 

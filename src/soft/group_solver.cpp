@@ -1,0 +1,287 @@
+#include "soft/group_solver.h"
+
+#undef HWY_DISABLED_TARGETS
+#define HWY_DISABLED_TARGETS (HWY_AVX3_DL | HWY_SSSE3)
+#undef HWY_TARGET_INCLUDE
+#define HWY_TARGET_INCLUDE "soft/group_solver.cpp"
+#include <hwy/foreach_target.h>
+// After foreach_target.h
+#include <algorithm>
+#include <cmath>
+
+#include "base/stopwatch.h"
+#include "points/contact_rule.h"
+#include "points/triangle_corners.h"
+#include "soft/clip_solver-inl.h"
+#include "soft/line_class_query-inl.h"
+
+HWY_BEFORE_NAMESPACE();
+namespace tenebra::HWY_NAMESPACE {
+
+/// A group whose lines amplify rounding more than this is solved in double: 4 epsilon condition, the place of
+/// a line in units of the light, then stays below 2e-5 in float.
+inline constexpr double largest_condition = 40;
+
+/// Trees beyond this size are dropped, and the rest of the group is clipped.
+inline constexpr std::size_t largest_tree_bytes = std::size_t{8} << 20;
+
+template <class T>
+LightPolygon<T> polygon_of(std::span<const glm::dvec2> outline) {
+  T x[polygon_capacity], y[polygon_capacity];
+  for (std::size_t k = 0; k < polygon_capacity; ++k) {
+    const glm::dvec2 at = outline[k < outline.size() ? k : 0];
+    x[k] = static_cast<T>(at.x);
+    y[k] = static_cast<T>(at.y);
+  }
+  using Lanes = typename LightPolygon<T>::Lanes;
+  return {load<Lanes>(x), load<Lanes>(y), static_cast<int>(outline.size())};
+}
+
+template <class T>
+LightLine<T> line_of(const glm::dvec3& line) {
+  const double size = std::abs(line.x) + std::abs(line.y) + std::abs(line.z);
+  const glm::dvec3 scaled = size > 0 ? line / size : line;
+  return {static_cast<T>(scaled.x), static_cast<T>(scaled.y), static_cast<T>(scaled.z)};
+}
+
+/// The triangle a point lies on, as far as the light is concerned.
+struct ReceiverPlane {
+  std::uint32_t id = no_triangle;
+  double tau = 0;
+  glm::dvec3 horizon{0.0};  ///< line on the light's plane, positive above
+  glm::dvec3 face{0.0};     ///< unit normal on the seen side; 0: no area
+};
+
+ReceiverPlane receiver_plane(const SoftFrame& frame, std::uint32_t id) {
+  const Corners c = corners_of(frame.triangles, id);
+  const glm::dvec3 a(c.v[0]);
+  const glm::dvec3 n = glm::cross(glm::dvec3(c.v[1]) - a, glm::dvec3(c.v[2]) - a);
+  const glm::dvec3 to_eye =
+      frame.view.orthographic ? -glm::dvec3(frame.view.d0) : glm::dvec3(frame.view.eye) - a;
+  const double height = glm::dot(n, to_eye), length = std::sqrt(glm::dot(n, n));
+  ReceiverPlane plane;
+  plane.id = id;
+  plane.tau = rounding_tolerance(c.v);
+  if (!(length > 0) || height == 0) return plane;
+  const int side = height > 0 ? 1 : -1;
+  plane.horizon = horizon_line(frame.light, frame.triangles, id, side);
+  plane.face = static_cast<double>(side) / length * n;
+  return plane;
+}
+
+/// The solvers for one precision and their buffers.
+template <class T>
+struct Precision {
+  GroupOccluders<T> occluders;
+  LineClassBsp bsp;
+  LineClassQuery<T> query;
+  ClipSolver<T> clip;
+  FragmentList<T> start, visible, scratch;
+  bool use_bsp = false;
+  bool clip_ready = false;
+};
+
+class Solver final : public GroupSolver {
+public:
+  void solve(const SoftFrame& frame, const GroupTask& task) override {
+    Stopwatch watch;
+    receiver_ = {};
+    bool wide = frame.config.precision == SoftPrecision::reference;
+    if (!wide) {
+      set_up_occluders(frame.light, frame.triangles, task.frame, task.candidates, float_.occluders);
+      wide = float_.occluders.condition > largest_condition;
+    }
+    if (wide) {
+      set_up_occluders(frame.light, frame.triangles, task.frame, task.candidates, double_.occluders);
+      stats.points_double += task.pixels.size();
+    }
+    times.init_ms += watch.lap_ms();
+    if (wide) {
+      solve_with(double_, frame, task);
+    } else {
+      solve_with(float_, frame, task);
+    }
+  }
+
+  void solve_lit(const SoftFrame& frame, std::span<const std::uint32_t> pixels) override {
+    Stopwatch watch;
+    receiver_ = {};
+    double_.occluders = {};
+    double_.use_bsp = false;
+    double_.clip_ready = false;
+    const GroupTask task{pixels, {}, {}};
+    for (const std::uint32_t pixel : pixels) solve_point(double_, frame, task, pixel);
+    times.irradiance_ms += watch.lap_ms();
+  }
+
+private:
+  template <class T>
+  void solve_with(Precision<T>& p, const SoftFrame& frame, const GroupTask& task) {
+    p.use_bsp = wants_bsp(frame.config, p.occluders);
+    p.clip_ready = false;
+    Stopwatch watch;
+    if (p.use_bsp) p.bsp.reset(p.occluders, frame.triangles, task.frame, frame.config.choice);
+    times.init_ms += watch.lap_ms();
+    for (const std::uint32_t pixel : task.pixels) {
+      solve_point(p, frame, task, pixel);
+      if (p.use_bsp && !frame.config.keep_trees) {
+        stats.tree_nodes += p.bsp.node_count();
+        p.bsp.reset(p.occluders, frame.triangles, task.frame, frame.config.choice);
+      }
+    }
+    times.query_ms += watch.lap_ms();
+    if (p.use_bsp) stats.tree_nodes += p.bsp.node_count();
+  }
+
+  template <class T>
+  static bool wants_bsp(const SoftShadowConfig& config, const GroupOccluders<T>& occluders) {
+    if (config.solver != SoftSolver::automatic) return config.solver == SoftSolver::bsp;
+    return occluders.occluders.size() <= 400;
+  }
+
+  template <class T>
+  void solve_point(Precision<T>& p, const SoftFrame& frame, const GroupTask& task, std::uint32_t pixel) {
+    const std::uint32_t receiver = frame.points.triangles[pixel];
+    if (receiver != receiver_.id) receiver_ = receiver_plane(frame, receiver);
+    const glm::dvec3 point = frame.points.positions[pixel];
+    const LightPolygon<T> whole = polygon_of<T>(frame.light.outline);
+    p.start.clear();
+    p.start.push(whole);
+    keep_positive(p.start, line_of<T>(receiver_.horizon), p.scratch);
+    const double above = receiver_.face == glm::dvec3(0.0) ? 0.0 : area_of(p.start);
+    p.visible.clear();
+    if (above > 0) find_visible(p, frame, task, point);
+    finish(p, frame, pixel, point, above);
+  }
+
+  template <class T>
+  double area_of(const FragmentList<T>& fragments) {
+    double area = 0;
+    for (std::size_t i = 0; i < fragments.size(); ++i) {
+      const StoredPolygon<T>& f = fragments[i];
+      for (int k = 0; k < f.count; ++k) {
+        const int next = k + 1 < f.count ? k + 1 : 0;
+        area += (double(f.x[k]) * double(f.y[next]) - double(f.x[next]) * double(f.y[k])) / 2;
+      }
+    }
+    return area;
+  }
+
+  template <class T>
+  void find_visible(Precision<T>& p, const SoftFrame& frame, const GroupTask& task, const glm::dvec3& point) {
+    const glm::dvec3 d = point - task.frame.centre;
+    const T dx = static_cast<T>(d.x), dy = static_cast<T>(d.y), dz = static_cast<T>(d.z);
+    if (p.use_bsp && p.bsp.bytes() > largest_tree_bytes) p.use_bsp = false;
+    if (!p.use_bsp && !p.clip_ready) {
+      p.clip.reset(p.occluders);
+      p.clip_ready = true;
+    }
+    for (std::size_t i = 0; i < p.start.size(); ++i) {
+      const LightPolygon<T> part = loaded(p.start[i]);
+      if (p.use_bsp) {
+        p.query.query(p.bsp, p.occluders.lines.data(), part, dx, dy, dz, p.visible);
+      } else {
+        p.clip.query(part, dx, dy, dz, p.visible);
+      }
+    }
+    for (const std::uint32_t occluder : p.occluders.indefinite) {
+      if (p.visible.empty()) return;
+      glm::dvec3 lines[4];
+      const int count = occluder_lines_at(frame.light, frame.triangles, occluder, point, receiver_.id,
+                                          receiver_.tau, lines);
+      if (count == 0) continue;
+      LightLine<T> narrow[4];
+      for (int k = 0; k < count; ++k) narrow[k] = line_of<T>(lines[k]);
+      p.scratch.clear();
+      for (std::size_t i = 0; i < p.visible.size(); ++i)
+        subtract(loaded(p.visible[i]), narrow, count, p.scratch);
+      p.visible.swap(p.scratch);
+    }
+  }
+
+  template <class T>
+  void finish(Precision<T>& p, const SoftFrame& frame, std::uint32_t pixel, const glm::dvec3& point,
+              double above) {
+    const glm::dvec3 normal = frame.normals.empty() ? receiver_.face : glm::dvec3(frame.normals[pixel]);
+    const Receiver3 at{frame.light.origin - point, normal};
+    edges_.count = 0;
+    append_edges(p.visible, edges_);
+    EdgeSums sums = sum_edges(edges_, frame.light, at);
+    const double area = sums.area;
+    const glm::dvec3 horizon{glm::dot(normal, frame.light.ex), glm::dot(normal, frame.light.ey),
+                             glm::dot(normal, at.to_origin)};
+    if (cuts(frame.light, horizon)) {
+      keep_positive(p.visible, line_of<T>(horizon), p.scratch);
+      edges_.count = 0;
+      append_edges(p.visible, edges_);
+      sums = sum_edges(edges_, frame.light, at);
+    }
+    stats.fragments += p.visible.size();
+    const double fraction = std::clamp(area / frame.light.area, 0.0, 1.0);
+    frame.out.visible_fraction[pixel] = static_cast<float>(fraction);
+    frame.out.irradiance[pixel] = static_cast<float>(std::clamp(sums.irradiance, 0.0, 3.141592653589793));
+    count(above, area, frame, pixel, p.use_bsp);
+  }
+
+  void count(double above, double area, const SoftFrame& frame, std::uint32_t pixel, bool use_bsp) {
+    (void)above;
+    const bool dark = area <= 0;
+    const bool lit = area >= above * (1 - 1e-6);
+    SoftClass found = use_bsp ? SoftClass::bsp : SoftClass::clip;
+    if (above <= 0) {
+      found = SoftClass::below_horizon;
+    } else if (dark) {
+      ++stats.points_dark;
+    } else if (lit) {
+      ++stats.points_lit;
+    } else {
+      ++stats.points_penumbra;
+    }
+    frame.classes[pixel] = static_cast<std::uint8_t>(found);
+  }
+
+  static bool cuts(const LightFrame& light, const glm::dvec3& line) {
+    for (const glm::dvec2& at : light.outline) {
+      if (!(line.x * at.x + line.y * at.y + line.z > 0)) return true;
+    }
+    return false;
+  }
+
+  Precision<float> float_;
+  Precision<double> double_;
+  ReceiverPlane receiver_;
+  LightEdges edges_;
+};
+
+std::unique_ptr<GroupSolver> make_solver() {
+  return std::make_unique<Solver>();
+}
+
+}  // namespace tenebra::HWY_NAMESPACE
+HWY_AFTER_NAMESPACE();
+
+#if HWY_ONCE
+
+namespace tenebra {
+
+std::unique_ptr<GroupSolver> make_group_solver(SimdLevel level) {
+  switch (level == SimdLevel::automatic ? best_simd_level() : level) {
+#if HWY_TARGETS & HWY_AVX3
+    case SimdLevel::avx512:
+      return N_AVX3::make_solver();
+#endif
+#if HWY_TARGETS & HWY_AVX2
+    case SimdLevel::avx2:
+      return N_AVX2::make_solver();
+#endif
+#if HWY_TARGETS & HWY_SSE4
+    case SimdLevel::sse4:
+      return N_SSE4::make_solver();
+#endif
+    default:
+      return HWY_STATIC_DISPATCH(make_solver)();
+  }
+}
+
+}  // namespace tenebra
+#endif

@@ -1,0 +1,56 @@
+// From the points of one group and the occluders in its shaft to visible fractions and irradiance.
+#pragma once
+
+#include <cstdint>
+#include <memory>
+#include <span>
+
+#include "base/frame_timings.h"
+#include "points/visible_points.h"
+#include "soft/group_occluders.h"
+#include "soft/light_frame.h"
+#include "soft/soft_shadows.h"
+
+namespace tenebra {
+
+/// What all groups of a frame and light share.
+struct SoftFrame {
+  const VisiblePoints& points;
+  std::span<const glm::vec3> normals;  ///< one a pixel, or empty
+  const ViewRays& view;
+  const TriangleView& triangles;
+  const LightFrame& light;
+  const SoftShadowConfig& config;
+  SoftMask& out;
+  std::span<std::uint8_t> classes;
+};
+
+/// Points of one group, and what may stand between them and the light.
+struct GroupTask {
+  std::span<const std::uint32_t> pixels;
+  GroupFrame frame;
+  std::span<const std::uint32_t> candidates;  ///< triangles; all that block are among them
+};
+
+/// Times of one thread, milliseconds.
+struct SolverTimes {
+  double init_ms = 0, query_ms = 0, irradiance_ms = 0;
+};
+
+/// Solves group after group with buffers of its own: one a thread.
+class GroupSolver {
+public:
+  virtual ~GroupSolver() = default;
+
+  /// Fills out's pixels of the group. The result depends on the group alone.
+  virtual void solve(const SoftFrame& frame, const GroupTask& task) = 0;
+  /// The same for a group that nothing stands in front of.
+  virtual void solve_lit(const SoftFrame& frame, std::span<const std::uint32_t> pixels) = 0;
+
+  SoftStats stats;
+  SolverTimes times;
+};
+
+std::unique_ptr<GroupSolver> make_group_solver(SimdLevel level);
+
+}  // namespace tenebra

@@ -1,0 +1,110 @@
+// Irradiance from polygons of uniform, diffuse light, and their area: one sum over edges. Included once per
+// target.
+#if defined(TENEBRA_SOFT_IRRADIANCE_INL_H_) == defined(HWY_TARGET_TOGGLE)
+#ifdef TENEBRA_SOFT_IRRADIANCE_INL_H_
+#undef TENEBRA_SOFT_IRRADIANCE_INL_H_
+#else
+#define TENEBRA_SOFT_IRRADIANCE_INL_H_
+#endif
+
+#include <vector>
+
+#include "simd/pack-inl.h"
+#include "soft/light_frame.h"
+
+HWY_BEFORE_NAMESPACE();
+namespace tenebra::HWY_NAMESPACE {
+
+using Double8 = Pack<double, 8>;
+
+/// Edges of polygons on the light's plane, from (u0, v0) to (u1, v1).
+struct LightEdges {
+  std::vector<double> u0, v0, u1, v1;
+  std::size_t count = 0;
+
+  /// Makes room for `more` edges and a full register behind them.
+  void reserve(std::size_t more) {
+    const std::size_t needed = count + more + 16;
+    if (u0.size() >= needed) return;
+    for (auto* values : {&u0, &v0, &u1, &v1}) values->resize(2 * needed);
+  }
+};
+
+/// atan2(s, c) for s >= 0, not both 0; relative error below 1e-13.
+HWY_INLINE Double8 angle_of(Double8 s, Double8 c) {
+  const auto num = [](double value) { return splat<Double8>(value); };
+  const Double8 size = absolute(c);
+  const Double8 low = min(s, size), high = max(s, size);
+  // atan(low / high), beyond pi/8 by atan(q) = pi/4 + atan((q - 1) / (q + 1)).
+  const auto steep = less(num(0.41421356237309503) * high, low);
+  const Double8 q = choose(steep, low - high, low) / choose(steep, low + high, high);
+  const Double8 y = q * q;
+  // Chebyshev interpolation of atan(q) / q in y, 0 <= y <= tan(pi/8)^2.
+  Double8 p = num(0.030662440370424447);
+  for (const double a :
+       {-0.05874505621307831, 0.07563703551915192, -0.09078392072943424, 0.11110385046148014,
+        -0.14285690423839287, 0.19999999604891977, -0.33333333330803444, 0.9999999999999732}) {
+    p = p * y + num(a);
+  }
+  Double8 angle = q * p;
+  angle = choose(steep, num(0.7853981633974483) + angle, angle);
+  angle = choose(less(size, s), num(1.5707963267948966) - angle, angle);
+  return choose(less(c, num(0.0)), num(3.141592653589793) - angle, angle);
+}
+
+/// A point as the light is seen from it: world space, metres.
+struct Receiver3 {
+  glm::dvec3 to_origin{0.0};  ///< from the point to the light's origin
+  glm::dvec3 normal{0.0};     ///< unit
+};
+
+struct EdgeSums {
+  double area = 0;        ///< units of the light squared
+  double irradiance = 0;  ///< for radiance 1
+};
+
+/// Area and irradiance of the polygons with these edges, counter-clockwise seen from the light's front; edges
+/// that two polygons share cancel. Irradiance in Nishita and Nakamae's contour form (1985): -1/2 the sum over
+/// the edges of the angle an edge subtends times the cosine between normal and the plane of point and edge.
+/// The polygons lie above the receiver's horizon; the point not on the light's plane.
+/// The same bits on every target: sums run in the order of the edges.
+HWY_INLINE EdgeSums sum_edges(const LightEdges& edges, const LightFrame& light, const Receiver3& at) {
+  const auto num = [](double value) { return splat<Double8>(value); };
+  EdgeSums sums;
+  for (std::size_t k = 0; k < edges.count; k += 8) {
+    const Double8 u0 = load<Double8>(&edges.u0[k]), v0 = load<Double8>(&edges.v0[k]);
+    const Double8 u1 = load<Double8>(&edges.u1[k]), v1 = load<Double8>(&edges.v1[k]);
+    const Double8 du = u1 - u0, dv = v1 - v0;
+    Pack3<Double8> r, e;
+    r.x = num(at.to_origin.x) + u0 * num(light.ex.x) + v0 * num(light.ey.x);
+    r.y = num(at.to_origin.y) + u0 * num(light.ex.y) + v0 * num(light.ey.y);
+    r.z = num(at.to_origin.z) + u0 * num(light.ex.z) + v0 * num(light.ey.z);
+    e.x = du * num(light.ex.x) + dv * num(light.ey.x);
+    e.y = du * num(light.ex.y) + dv * num(light.ey.y);
+    e.z = du * num(light.ex.z) + dv * num(light.ey.z);
+    const Double8 cx = r.y * e.z - r.z * e.y, cy = r.z * e.x - r.x * e.z, cz = r.x * e.y - r.y * e.x;
+    const Double8 sine = square_root(cx * cx + cy * cy + cz * cz);
+    const Double8 square = r.x * r.x + r.y * r.y + r.z * r.z;
+    const Double8 cosine = square + (r.x * e.x + r.y * e.y + r.z * e.z);
+    const Double8 upright = num(at.normal.x) * cx + num(at.normal.y) * cy + num(at.normal.z) * cz;
+    const auto none = less(sine, num(1e-300));  // an edge of no length, or seen end-on
+    const Double8 term =
+        choose(none, num(0.0), upright * angle_of(sine, cosine) / choose(none, num(1.0), sine));
+    double terms[8], areas[8];
+    store(term, terms);
+    store(u0 * v1 - u1 * v0, areas);
+    const std::size_t valid = HWY_MIN(std::size_t{8}, edges.count - k);
+    for (std::size_t i = 0; i < valid; ++i) {
+      sums.irradiance -= terms[i];
+      sums.area += areas[i];
+    }
+  }
+  sums.irradiance *= 0.5;
+  sums.area *= 0.5;
+  return sums;
+}
+
+}  // namespace tenebra::HWY_NAMESPACE
+HWY_AFTER_NAMESPACE();
+
+#endif

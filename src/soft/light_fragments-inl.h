@@ -1,0 +1,135 @@
+// Lists of convex fragments of the light, and the subtraction of an occluder's shadow from one. Included once
+// per target.
+#if defined(TENEBRA_SOFT_LIGHT_FRAGMENTS_INL_H_) == defined(HWY_TARGET_TOGGLE)
+#ifdef TENEBRA_SOFT_LIGHT_FRAGMENTS_INL_H_
+#undef TENEBRA_SOFT_LIGHT_FRAGMENTS_INL_H_
+#else
+#define TENEBRA_SOFT_LIGHT_FRAGMENTS_INL_H_
+#endif
+
+#include <span>
+#include <vector>
+
+#include "soft/irradiance-inl.h"
+#include "soft/light_polygon-inl.h"
+
+HWY_BEFORE_NAMESPACE();
+namespace tenebra::HWY_NAMESPACE {
+
+/// Fragments in lists have at most this many vertices: an occluder's lines, at most four, add one each.
+inline constexpr int fragment_capacity = polygon_capacity - 5;
+
+/// A LightPolygon in memory.
+template <class T>
+struct StoredPolygon {
+  T x[polygon_capacity], y[polygon_capacity];
+  int count;
+};
+
+template <class T>
+HWY_INLINE LightPolygon<T> loaded(const StoredPolygon<T>& from) {
+  using Lanes = Pack<T, polygon_capacity>;
+  return {load<Lanes>(from.x), load<Lanes>(from.y), from.count};
+}
+
+template <class T>
+class FragmentList {
+public:
+  void clear() { size_ = 0; }
+  bool empty() const { return size_ == 0; }
+  std::size_t size() const { return size_; }
+  const StoredPolygon<T>& operator[](std::size_t i) const { return polygons_[i]; }
+  void swap(FragmentList& other) {
+    polygons_.swap(other.polygons_);
+    std::swap(size_, other.size_);
+  }
+
+  /// Halved until it fits.
+  HWY_INLINE void push(const LightPolygon<T>& polygon) {
+    if (polygon.count > fragment_capacity) {
+      LightPolygon<T> low, high;
+      halve(polygon, low, high);
+      push_small(low);
+      push_small(high);
+    } else {
+      push_small(polygon);
+    }
+  }
+  HWY_INLINE LightPolygon<T> pop() { return loaded(polygons_[--size_]); }
+
+private:
+  HWY_INLINE void push_small(const LightPolygon<T>& polygon) {
+    if (size_ == polygons_.size()) polygons_.resize(2 * size_ + 16);
+    StoredPolygon<T>& to = polygons_[size_++];
+    store(polygon.x, to.x);
+    store(polygon.y, to.y);
+    to.count = polygon.count;
+  }
+
+  std::vector<StoredPolygon<T>> polygons_;
+  std::size_t size_ = 0;
+};
+
+/// Adds what is left of `fragment` outside the shadow (where all `lines` are positive) to `out`.
+template <class T>
+HWY_INLINE void subtract(const LightPolygon<T>& fragment, const LightLine<T>* lines, int count,
+                         FragmentList<T>& out) {
+  std::uint32_t crossing = 0;
+  for (int k = 0; k < count; ++k) {
+    const LineValues<T> values = evaluate(fragment, lines[k]);
+    if (values.positive == 0) return out.push(fragment);
+    if (values.negative != 0) crossing |= 1u << k;
+  }
+  LightPolygon<T> rest = fragment;
+  for (int k = 0; k < count; ++k) {
+    if ((crossing >> k & 1u) == 0) continue;
+    const LineValues<T> values = evaluate(rest, lines[k]);
+    if (values.positive == 0) return out.push(rest);
+    if (values.negative == 0) continue;
+    LightPolygon<T> inside, outside;
+    split(rest, values, inside, outside);
+    out.push(outside);
+    rest = inside;
+  }
+}
+
+/// The part of every fragment on the positive side of `line`.
+template <class T>
+HWY_INLINE void keep_positive(FragmentList<T>& fragments, const LightLine<T>& line,
+                              FragmentList<T>& scratch) {
+  scratch.clear();
+  for (std::size_t i = 0; i < fragments.size(); ++i) {
+    const LightPolygon<T> fragment = loaded(fragments[i]);
+    const LineValues<T> values = evaluate(fragment, line);
+    if (values.positive == 0) continue;
+    if (values.negative == 0) {
+      scratch.push(fragment);
+      continue;
+    }
+    LightPolygon<T> inside, outside;
+    split(fragment, values, inside, outside);
+    scratch.push(inside);
+  }
+  fragments.swap(scratch);
+}
+
+template <class T>
+HWY_INLINE void append_edges(const FragmentList<T>& fragments, LightEdges& edges) {
+  for (std::size_t i = 0; i < fragments.size(); ++i) {
+    const StoredPolygon<T>& p = fragments[i];
+    edges.reserve(static_cast<std::size_t>(p.count));
+    for (int k = 0; k < p.count; ++k) {
+      const int next = k + 1 < p.count ? k + 1 : 0;
+      edges.u0[edges.count] = p.x[k];
+      edges.v0[edges.count] = p.y[k];
+      edges.u1[edges.count] = p.x[next];
+      edges.v1[edges.count] = p.y[next];
+      ++edges.count;
+    }
+  }
+}
+
+}  // namespace tenebra::HWY_NAMESPACE
+HWY_AFTER_NAMESPACE();
+
+#endif

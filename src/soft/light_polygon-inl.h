@@ -1,0 +1,149 @@
+// Convex polygons on the light's plane, kept in vector lanes, and their split by a line: the one geometric
+// operation of both solvers (a light fragment against a plane through the point; Mora et al. 2012, section
+// 4.2). Coordinates are in units of the light (light_frame.h). Included once per target.
+#if defined(TENEBRA_SOFT_LIGHT_POLYGON_INL_H_) == defined(HWY_TARGET_TOGGLE)
+#ifdef TENEBRA_SOFT_LIGHT_POLYGON_INL_H_
+#undef TENEBRA_SOFT_LIGHT_POLYGON_INL_H_
+#else
+#define TENEBRA_SOFT_LIGHT_POLYGON_INL_H_
+#endif
+
+#include <bit>
+#include <cassert>
+#include <limits>
+
+#include "simd/pack-inl.h"
+
+HWY_BEFORE_NAMESPACE();
+namespace tenebra::HWY_NAMESPACE {
+
+inline constexpr int polygon_capacity = 16;
+
+/// Vertex k in lane k, counter-clockwise; lanes from `count` on repeat vertex 0.
+template <class T>
+struct LightPolygon {
+  using Lanes = Pack<T, polygon_capacity>;
+  Lanes x, y;
+  int count = 0;
+};
+
+/// The points (x, y) with u x + v y + w > 0 are on the positive side.
+template <class T>
+struct LightLine {
+  T u = 0, v = 0, w = 0;
+};
+
+/// Vertices nearer to a line than this, in units of the light, count as on it: what rounding the coordinates
+/// of a vertex (below 1.5 in magnitude) and three products can amount to.
+template <class T>
+inline constexpr T on_line = 4 * std::numeric_limits<T>::epsilon();
+
+template <class T>
+struct LineValues {
+  Pack<T, polygon_capacity> value;
+  std::uint32_t positive = 0;  ///< bit k: vertex k strictly on the positive side, by more than on_line
+  std::uint32_t negative = 0;
+};
+
+template <class T>
+HWY_INLINE LineValues<T> evaluate(const LightPolygon<T>& polygon, const LightLine<T>& line) {
+  using Lanes = Pack<T, polygon_capacity>;
+  LineValues<T> r;
+  r.value = splat<Lanes>(line.u) * polygon.x + splat<Lanes>(line.v) * polygon.y + splat<Lanes>(line.w);
+  const Lanes near = splat<Lanes>(on_line<T> * (HWY_MAX(line.u, -line.u) + HWY_MAX(line.v, -line.v)));
+  r.positive = less_bits(near, r.value);
+  r.negative = less_bits(r.value, splat<Lanes>(T(0)) - near);
+  return r;
+}
+
+/// The vertices of one side: `length` vertices from `first` on, cyclic.
+struct VertexRun {
+  int first = 0, length = 0;
+};
+
+/// The run of set bits among the lowest `count`. Rounding can break the run of a thin polygon in pieces: the
+/// longest piece then, the others lie within rounding of the line.
+HWY_INLINE VertexRun run_of(std::uint32_t set, int count) {
+  const std::uint32_t all = (1u << count) - 1u;
+  set &= all;
+  const std::uint32_t before = ((set << 1) | (set >> (count - 1))) & all;
+  std::uint32_t starts = set & ~before;
+  VertexRun best;
+  while (starts != 0) {
+    const int first = std::countr_zero(starts);
+    starts &= starts - 1;
+    int length = 1;
+    while (length < count && (set >> ((first + length) % count) & 1u) != 0) ++length;
+    if (length > best.length) best = {first, length};
+  }
+  return best;
+}
+
+/// The part of `polygon` at the vertices of `run`, closed by the points where the line crosses the edges that
+/// leave the run. Both sides of a split compute these points from the positive end: the same bits.
+template <class T>
+HWY_INLINE LightPolygon<T> cut(const LightPolygon<T>& polygon, const Pack<T, polygon_capacity>& values,
+                               VertexRun run, bool positive) {
+  using Lanes = Pack<T, polygon_capacity>;
+  using Index = Pack<LaneIndex<T>, polygon_capacity>;
+  constexpr LaneIndex<T> lanes[polygon_capacity] = {0, 1, 2, 3, 4, 5, 6, 7, 8, 9, 10, 11, 12, 13, 14, 15};
+  const int n = polygon.count;
+  const auto whole = [](int i) { return splat<Index>(static_cast<LaneIndex<T>>(i)); };
+  const int last = (run.first + run.length - 1) % n;
+  const int next = (last + 1) % n, previous = (run.first + n - 1) % n;
+  const Index lane = load<Index>(lanes);
+  const Index straight = lane + whole(run.first);
+  const Index wrapped = choose(greater(straight, whole(n - 1)), straight - whole(n), straight);
+  const Index kept = choose(greater(whole(run.length), lane), wrapped, whole(run.first));
+  const auto leaves = equal(lane, whole(run.length));
+  const auto returns = equal(lane, whole(run.length + 1));
+  const Index within = choose(leaves, whole(positive ? last : next),
+                              choose(returns, whole(positive ? run.first : previous), kept));
+  const Index beyond = choose(leaves, whole(positive ? next : last),
+                              choose(returns, whole(positive ? previous : run.first), kept));
+
+  const Lanes zero = splat<Lanes>(T(0)), one = splat<Lanes>(T(1));
+  const Lanes from = permute(values, within);
+  const Lanes drop = from - permute(values, beyond);
+  const Lanes share = min(max(from / choose(equal(drop, zero), one, drop), zero), one);
+  const Lanes t = choose(leaves, share, choose(returns, share, zero));
+  const Lanes x = permute(polygon.x, within), y = permute(polygon.y, within);
+  LightPolygon<T> part;
+  part.x = x + t * (permute(polygon.x, beyond) - x);
+  part.y = y + t * (permute(polygon.y, beyond) - y);
+  part.count = run.length + 2;
+  return part;
+}
+
+/// Both parts of a polygon that has vertices on both sides. Vertices on the line go with the negative side.
+/// polygon.count < polygon_capacity.
+template <class T>
+HWY_INLINE void split(const LightPolygon<T>& polygon, const LineValues<T>& line, LightPolygon<T>& positive,
+                      LightPolygon<T>& negative) {
+  assert(polygon.count < polygon_capacity);
+  const VertexRun run = run_of(line.positive, polygon.count);
+  positive = cut(polygon, line.value, run, true);
+  negative =
+      cut(polygon, line.value, {(run.first + run.length) % polygon.count, polygon.count - run.length}, false);
+}
+
+/// Two polygons for one, along a diagonal: vertices 0 to count / 2, and the others with both ends.
+template <class T>
+HWY_INLINE void halve(const LightPolygon<T>& polygon, LightPolygon<T>& low, LightPolygon<T>& high) {
+  using Index = Pack<LaneIndex<T>, polygon_capacity>;
+  LaneIndex<T> first[polygon_capacity], second[polygon_capacity];
+  const int middle = polygon.count / 2;
+  for (int k = 0; k < polygon_capacity; ++k) {
+    first[k] = static_cast<LaneIndex<T>>(k <= middle ? k : 0);
+    const int v = middle + k;
+    second[k] = static_cast<LaneIndex<T>>(v < polygon.count ? v : v == polygon.count ? 0 : middle);
+  }
+  low = {permute(polygon.x, load<Index>(first)), permute(polygon.y, load<Index>(first)), middle + 1};
+  high = {permute(polygon.x, load<Index>(second)), permute(polygon.y, load<Index>(second)),
+          polygon.count - middle + 1};
+}
+
+}  // namespace tenebra::HWY_NAMESPACE
+HWY_AFTER_NAMESPACE();
+
+#endif
