@@ -1,5 +1,6 @@
 // tenebra-bench soft: the exact soft shadows beside Embree's shadow rays, and the experiments of Mora et al.
 // 2012.
+#include <algorithm>
 #include <cstdio>
 #include <memory>
 
@@ -40,6 +41,11 @@ Expected<void> check(const SoftOptions& options) {
   if (!options.data.empty() && !std::filesystem::is_directory(options.data, ignored))
     return fail("--data: {} is not a folder, expected the folder of robots, museum and kitchen",
                 options.data.string());
+  const auto names = scene_names();
+  for (const std::string& name : options.only) {
+    if (std::find(names.begin(), names.end(), name) == names.end())
+      return fail("--only: found {}, expected {}", name, fmt::join(names, ", "));
+  }
   if (options.size[0] < 16 || options.size[1] < 16 || options.size[0] > 8192 || options.size[1] > 8192)
     return fail("--size: found {} {}, expected 16 to 8192 pixels each", options.size[0], options.size[1]);
   if (!options.pictures.empty() && !std::filesystem::is_directory(options.pictures, ignored))
@@ -105,7 +111,7 @@ void add_soft_command(CLI::App& program, Run& run) {
   command->add_option("--pictures", options->pictures, "Write Tenebra's and Embree's pictures at equal time")
       ->type_name("FOLDER");
   command->add_option("--size", options->size, "Width and height")->expected(2)->group("");  // for tests
-  command->add_option("--only", options->only, "Scenes by name: robots museum5 kitchen museum5x64 court")
+  command->add_option("--only", options->only, "Scenes by name: robots, museum5, kitchen, museum5x64, court")
       ->type_name("NAME");
   command->callback([options, &run] { run = [options] { return run_soft(*options); }; });
 }

@@ -97,6 +97,12 @@ Expected<AreaLight> square_light(const BenchFrame& frame, double side_percent, g
   return make_rectangle_light(place, glm::vec3(half_m * basis[0]), glm::vec3(-half_m * basis[1]));
 }
 
+std::vector<std::string> scene_names() {
+  std::vector<std::string> names;
+  for (const SceneEntry& entry : scene_entries()) names.emplace_back(entry.name);
+  return names;
+}
+
 Expected<void> for_each_view(const BenchOptions& options, const ViewChoice& choice,
                              std::vector<std::string>& skipped,
                              const std::function<Expected<void>(const SoftView&)>& body) {

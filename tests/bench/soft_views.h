@@ -28,6 +28,8 @@ struct ViewChoice {
   std::vector<std::string> only;  ///< names of scenes ("robots"); empty: all
 };
 
+std::vector<std::string> scene_names();
+
 /// Loads one view after another and calls `body`, so that one scene is in memory at a time. Scenes that are
 /// not there are named on standard error and in `skipped`. Fails where a scene that is there cannot be read.
 Expected<void> for_each_view(const BenchOptions& options, const ViewChoice& choice,
