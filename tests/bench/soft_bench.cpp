@@ -27,11 +27,12 @@ struct Effort {
   std::vector<double> areas;
   int area_rounds;
   std::vector<std::size_t> lights;
+  std::size_t life_points;  ///< queries of Figure 11's tree, at most
 };
 
 Effort effort(bool quick) {
-  if (quick) return {3, false, false, 64, {1, 9, 25, 100}, 1, {2, 12, 36}};
-  return {7, true, true, 16, {1, 2, 4, 9, 16, 25, 49, 100}, 3, {2, 4, 9, 12, 16, 24, 36}};
+  if (quick) return {3, false, false, 64, {1, 9, 25, 100}, 1, {2, 12, 36}, 5000};
+  return {7, true, true, 16, {1, 2, 4, 9, 16, 25, 49, 100}, 3, {2, 4, 9, 12, 16, 24, 36}, 20000};
 }
 
 Expected<void> check(const SoftOptions& options) {
@@ -74,6 +75,8 @@ Expected<void> measure_view(const SoftView& view, const SoftOptions& options, So
   if (shows_growth(view, results)) {
     results.areas = measure_areas(view, how.areas, how.area_rounds, report);
     results.lights = measure_lights(view, how.lights, report);
+    results.life = measure_life(view, contest.penumbra, how.life_points, report);
+    results.growth_view = view.name;
   }
   results.contests.push_back(std::move(contest));
   return {};

@@ -191,6 +191,7 @@ Contest run_contest(const SoftView& view, const ContestPlan& plan, Report& repor
   run_rounds(ring, truth, plan, contest);
   compare_at_equal_time(ring, truth, plan, contest);
   note_results(ring, contest);
+  contest.penumbra = truth.penumbra;
   return contest;
 }
 

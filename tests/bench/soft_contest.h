@@ -53,6 +53,7 @@ struct Contest {
   std::vector<float> embree_equal_time;  ///< with the fewest rays that take at least as long; pictures only
   SampledPoint equal_time;               ///< what that took
   double white = 1;
+  std::vector<std::uint8_t> penumbra;  ///< one a pixel, 1: sees a part of the light
 };
 
 /// Runs the contest and adds every measurement to `report`.

@@ -70,14 +70,23 @@ std::string area_table(const std::vector<AreaRow>& areas) {
   return "Growing light (Figure 9)\n" + text_table(table);
 }
 
-std::string lights_table(const std::vector<LightsRow>& lights) {
+std::string lights_table(const std::vector<LightsRow>& lights, const std::string& view) {
   Table table{{"lights", "Tenebra s", "s a light", "trees MB"}};
   for (const LightsRow& l : lights) {
     table.push_back({fmt::format("{}", l.lights), seconds(l.time_ms),
                      seconds(l.time_ms / static_cast<double>(std::max<std::size_t>(l.lights, 1))),
                      megabytes(l.peak_bytes)});
   }
-  return "Many lights (Figure 10)\n" + text_table(table);
+  return fmt::format("Many lights, {} (Figure 10)\n{}", view, text_table(table));
+}
+
+std::string life_table(const std::vector<LifeRow>& life, const std::string& view) {
+  Table table{{"queries", "us a query", "tree MB", "nodes"}};
+  for (const LifeRow& l : life) {
+    table.push_back({fmt::format("{}", l.queries), times(l.us_a_query), megabytes(l.bytes),
+                     fmt::format("{:.0f}", l.nodes)});
+  }
+  return fmt::format("One tree's life, {} (Figure 11)\n{}", view, text_table(table));
 }
 
 void add_contest_plots(const std::vector<Contest>& contests, Report& report) {
@@ -127,17 +136,28 @@ void add_growth_plots(const SoftResults& results, Report& report) {
     embree.points.emplace_back(a.factor, a.contest.embree_ms / 1000);
     memory.points.emplace_back(a.factor, static_cast<double>(a.contest.stats.peak_tree_bytes) / megabyte);
   }
-  report.add_plot("figure9_time",
-                  curve_plot("Growing light", {"area (times the smallest)"}, {"time (s)"}, {time, embree}));
-  report.add_plot("figure9_memory",
-                  curve_plot("Growing light", {"area (times the smallest)"}, {"MB"}, {memory}));
+  report.add_plot("figure9_time", curve_plot("Growing light, " + results.growth_view,
+                                             {"area (times the smallest)"}, {"time (s)"}, {time, embree}));
+  report.add_plot("figure9_memory", curve_plot("Growing light, " + results.growth_view,
+                                               {"area (times the smallest)"}, {"MB"}, {memory}));
   Curve lights_time{"Tenebra", {}}, lights_memory{"trees", {}};
   for (const LightsRow& l : results.lights) {
     lights_time.points.emplace_back(static_cast<double>(l.lights), l.time_ms / 1000);
     lights_memory.points.emplace_back(static_cast<double>(l.lights), l.peak_bytes / megabyte);
   }
-  report.add_plot("figure10_time", curve_plot("Many lights", {"lights"}, {"time (s)"}, {lights_time}));
-  report.add_plot("figure10_memory", curve_plot("Many lights", {"lights"}, {"MB"}, {lights_memory}));
+  Curve cost{"a query", {}}, tree{"the tree", {}};
+  for (const LifeRow& l : results.life) {
+    cost.points.emplace_back(static_cast<double>(l.queries), l.us_a_query);
+    tree.points.emplace_back(static_cast<double>(l.queries), l.bytes / megabyte);
+  }
+  report.add_plot("figure11_time", curve_plot("One tree's life, " + results.growth_view, {"queries"},
+                                              {"time a query (us)"}, {cost}));
+  report.add_plot("figure11_memory",
+                  curve_plot("One tree's life, " + results.growth_view, {"queries"}, {"MB"}, {tree}));
+  report.add_plot("figure10_time",
+                  curve_plot("Many lights, " + results.growth_view, {"lights"}, {"time (s)"}, {lights_time}));
+  report.add_plot("figure10_memory",
+                  curve_plot("Many lights, " + results.growth_view, {"lights"}, {"MB"}, {lights_memory}));
 }
 
 double worst(const std::vector<double>& speed_ups) {
@@ -150,7 +170,8 @@ double worst(const std::vector<double>& speed_ups) {
 std::string soft_tables(const SoftResults& results) {
   std::string text = contest_table(results.contests) + '\n' + equal_time_table(results.contests) + '\n' +
                      cost_table(results.costs) + '\n' + area_table(results.areas) + '\n' +
-                     lights_table(results.lights) + '\n';
+                     lights_table(results.lights, results.growth_view) + '\n' +
+                     life_table(results.life, results.growth_view) + '\n';
   for (const std::string& name : results.skipped) text += name + ": skipped, the scene is not there\n";
   return text;
 }

@@ -5,6 +5,7 @@
 #include <vector>
 
 #include "soft_figures.h"
+#include "soft_life.h"
 
 namespace tenebra::bench {
 
@@ -13,6 +14,8 @@ struct SoftResults {
   std::vector<CostRow> costs;
   std::vector<AreaRow> areas;
   std::vector<LightsRow> lights;
+  std::vector<LifeRow> life;
+  std::string growth_view;           ///< on which areas, lights and life were measured
   std::vector<std::string> skipped;  ///< scenes that are not there
 };
 
