@@ -272,6 +272,38 @@ HWY_INLINE Pack<T, N> choose(Truth<U, N> t, Pack<T, N> a, Pack<T, N> b) {
   return a;
 }
 
+/// Doubles as T, rounded to nearest.
+template <class T, int N>
+HWY_INLINE Pack<T, N> narrowed(Pack<double, N> a) {
+  if constexpr (sizeof(T) == sizeof(double)) {
+    return a;
+  } else {
+    using Half = hn::CappedTag<T, Pack<double, N>::width>;
+    Pack<T, N> p;
+    T lanes[N];
+    for (int i = 0; i < a.registers; ++i)
+      hn::StoreU(hn::DemoteTo(Half(), a.r[i]), Half(), lanes + i * a.width);
+    p = load<Pack<T, N>>(lanes);
+    return p;
+  }
+/// N floats as doubles.
+template <class P>
+HWY_INLINE P load_widened(const float* from) {
+  const hn::Rebind<float, typename P::Tag> narrow;
+  P p;
+  for (int i = 0; i < P::registers; ++i)
+    p.r[i] = hn::PromoteTo(typename P::Tag(), hn::LoadU(narrow, from + i * P::width));
+  return p;
+}
+template <class P>
+HWY_INLINE Pack3<P> operator-(const Pack3<P>& a, const Pack3<P>& b) {
+  return {a.x - b.x, a.y - b.y, a.z - b.z};
+}
+template <class P>
+HWY_INLINE Pack3<P> cross(const Pack3<P>& a, const Pack3<P>& b) {
+  return {a.y * b.z - a.z * b.y, a.z * b.x - a.x * b.z, a.x * b.y - a.y * b.x};
+}
+
 }  // namespace tenebra::HWY_NAMESPACE
 HWY_AFTER_NAMESPACE();
 

@@ -1,4 +1,4 @@
-// The occluders of a group in arrays of sixteen, their lines at one point, and which of them reach a part of
+// The occluders of a group in blocks of sixteen, their lines at one point, and which of them reach a part of
 // the light. Included once per target.
 #if defined(TENEBRA_SOFT_CLIP_CANDIDATES_INL_H_) == defined(HWY_TARGET_TOGGLE)
 #ifdef TENEBRA_SOFT_CLIP_CANDIDATES_INL_H_
@@ -22,80 +22,78 @@ struct LightBox {
   T cu = 0, cv = 0, hu = 1, hv = 1;
 };
 
-/// Lines of sixteen occluders at one point, up to four each; missing ones are positive everywhere.
-template <class T>
-struct CandidateBlock {
-  T u[4][16], v[4][16], w[4][16];
+/// A point as a group knows it.
+struct GroupPoint {
+  glm::dvec3 from_centre{0.0};
+  glm::dvec3 in_light{0.0};  ///< u, v, height: light_coordinates
+  double light_height = 0;   ///< of the light's plane over the group's centre
+  std::uint32_t receiver = no_triangle;
+  double receiver_tau = 0;
 };
+
+/// Which occluders are looked at.
+enum class Chosen { all, indefinite };
 
 template <class T>
 class ClipCandidates {
 public:
-  /// Rearranges a group's lines.
-  void reset(const GroupOccluders<T>& group) {
-    count_ = group.occluders.size();
-    blocks_.assign((count_ + 15) / 16, {});
-    for (auto& block : blocks_) {
-      for (auto& slot : block.c) {
-        for (auto& w : slot[0][2]) w = 1;
-      }
+  /// Takes over a group's lines, largest occluder first.
+  void reset(const GroupOccluders& group, Chosen chosen) {
+    order_.clear();
+    if (chosen == Chosen::all) {
+      for (std::uint32_t i = 0; i < group.occluders.size(); ++i)
+        order_.push_back({&group.occluders[i], nullptr});
     }
+    for (std::uint32_t i = 0; i < group.indefinite.size(); ++i) {
+      order_.push_back({&group.indefinite[i], &group.heights[i]});
+    }
+    std::sort(order_.begin(), order_.end(), [](const Entry& a, const Entry& b) {
+      return a.occluder->size != b.occluder->size ? a.occluder->size > b.occluder->size
+                                                  : a.occluder->triangle < b.occluder->triangle;
+    });
     slots_ = 0;
-    for (std::size_t i = 0; i < count_; ++i) {
-      const Occluder& occluder = group.occluders[i];
-      slots_ = HWY_MAX(slots_, static_cast<int>(occluder.line_count));
-      for (std::uint32_t slot = 0; slot < occluder.line_count; ++slot) {
-        const MovingLine<T>& line = group.lines[occluder.first_line + slot];
-        for (int k = 0; k < 4; ++k) {
-          for (int c = 0; c < 3; ++c) blocks_[i / 16].c[slot][k][c][i % 16] = line.c[k][c];
-        }
-      }
-    }
-    at_point_.resize(blocks_.size());
+    for (const Entry& entry : order_) slots_ = HWY_MAX(slots_, static_cast<int>(entry.occluder->line_count));
+    moving_.resize((order_.size() + 15) / 16);
+    at_point_.resize(moving_.size());
+    for (std::size_t i = 0; i < 16 * moving_.size(); ++i) fill(group, i);
   }
 
-  /// Lines of all occluders at the point centre + d.
-  HWY_INLINE void move_to(T dx, T dy, T dz) {
-    using Lanes = Pack<T, 16>;
-    const Lanes x = splat<Lanes>(dx), y = splat<Lanes>(dy), z = splat<Lanes>(dz);
-    for (std::size_t b = 0; b < blocks_.size(); ++b) {
-      for (int slot = 0; slot < slots_; ++slot) {
-        const auto& c = blocks_[b].c[slot];
-        T* to[3] = {at_point_[b].u[slot], at_point_[b].v[slot], at_point_[b].w[slot]};
-        for (int i = 0; i < 3; ++i) {
-          store(load<Lanes>(c[0][i]) + x * load<Lanes>(c[1][i]) + y * load<Lanes>(c[2][i]) +
-                    z * load<Lanes>(c[3][i]),
-                to[i]);
-        }
-      }
+  std::size_t size() const { return order_.size(); }
+
+  /// Shadow boxes, and the lines of the occluders whose boxes reach the light, at a point.
+  HWY_NOINLINE void move_to(const GroupPoint& at) {
+    for (std::size_t b = 0; b < moving_.size(); ++b) {
+      at_point_[b].reaching = find_boxes(at, b);
+      if (at_point_[b].reaching != 0) find_lines(at, b);
     }
   }
 
-  /// Appends the occluders whose shadow may reach into `box` to `out`, in order; true if one of them covers
+  /// Appends the occluders whose shadow may reach into `box` to `list`, in order; true if one of them covers
   /// it.
-  HWY_INLINE bool find_all(const LightBox<T>& box, std::vector<std::uint32_t>& out) const {
-    for (std::size_t b = 0; b < blocks_.size(); ++b) {
+  HWY_NOINLINE bool find_all(const LightBox<T>& box, std::vector<std::uint32_t>& list) const {
+    for (std::size_t b = 0; b < at_point_.size(); ++b) {
+      if (at_point_[b].reaching == 0) continue;
       const Reach reach = reach_of(at_point_[b], box);
-      const std::size_t valid = HWY_MIN(std::size_t{16}, count_ - 16 * b);
-      const std::uint32_t all = (1u << valid) - 1u;
+      const std::size_t valid = HWY_MIN(std::size_t{16}, order_.size() - 16 * b);
+      const std::uint32_t all = ((1u << valid) - 1u) & at_point_[b].reaching;
       if ((reach.covering & all) != 0) return true;
       for (std::uint32_t bits = reach.meeting & all; bits != 0; bits &= bits - 1) {
-        out.push_back(static_cast<std::uint32_t>(16 * b) +
-                      static_cast<std::uint32_t>(std::countr_zero(bits)));
+        list.push_back(static_cast<std::uint32_t>(16 * b) +
+                       static_cast<std::uint32_t>(std::countr_zero(bits)));
       }
     }
     return false;
   }
 
-  /// Those of `from[first..]` whose shadow may reach into `box`, appended to the same list; true if one
-  /// covers it.
-  HWY_INLINE bool find_among(std::size_t first, std::size_t last, const LightBox<T>& box,
-                             std::vector<std::uint32_t>& list) {
+  /// Those of list[first..last) whose shadow may reach into `box`, appended; true if one of them covers it.
+  HWY_NOINLINE bool find_among(std::size_t first, std::size_t last, const LightBox<T>& box,
+                               std::vector<std::uint32_t>& list) {
     for (std::size_t i = first; i < last; i += 16) {
       const std::size_t valid = HWY_MIN(std::size_t{16}, last - i);
       for (std::size_t k = 0; k < valid; ++k) {
         const std::uint32_t id = list[i + k];
-        const CandidateBlock<T>& from = at_point_[id / 16];
+        const Block& from = at_point_[id / 16];
+        for (int side = 0; side < 4; ++side) gathered_.box[side][k] = from.box[side][id % 16];
         for (int slot = 0; slot < slots_; ++slot) {
           gathered_.u[slot][k] = from.u[slot][id % 16];
           gathered_.v[slot][k] = from.v[slot][id % 16];
@@ -114,22 +112,133 @@ public:
 
   /// The lines of one occluder at the point; returns their number.
   HWY_INLINE int lines_of(std::uint32_t id, LightLine<T>* lines) const {
-    const CandidateBlock<T>& from = at_point_[id / 16];
-    for (int slot = 0; slot < slots_; ++slot) {
+    const Block& from = at_point_[id / 16];
+    const int count = static_cast<int>(order_[id].occluder->line_count);
+    for (int slot = 0; slot < count; ++slot) {
       lines[slot] = {from.u[slot][id % 16], from.v[slot][id % 16], from.w[slot][id % 16]};
     }
-    return slots_;
+    return count;
   }
 
 private:
+  using Wide = Pack<double, 16>;
+  struct Entry {
+    const Occluder* occluder;
+    const PlaneHeight* plane;  ///< of indefinite ones
+  };
   struct MovingBlock {
-    T c[4][4][3][16];  ///< line, power of the point, coefficient, occluder
+    double c[4][4][3][16];    ///< line, power of the point, coefficient, occluder
+    double corner[3][3][16];  ///< corner, coordinate, occluder
+    bool indefinite;          ///< one of them is
+  };
+  struct Block {
+    T box[4][16];  ///< of the shadow: least and greatest u, v
+    std::uint32_t reaching = 0;
+    T u[4][16], v[4][16], w[4][16];
   };
   struct Reach {
     std::uint32_t meeting, covering;
   };
 
-  HWY_INLINE Reach reach_of(const CandidateBlock<T>& lines, const LightBox<T>& box) const {
+  /// Missing lines, and those of missing occluders, are positive everywhere.
+  void fill(const GroupOccluders& group, std::size_t i) {
+    MovingBlock& block = moving_[i / 16];
+    if (i % 16 == 0) block.indefinite = false;
+    const Occluder* occluder = i < order_.size() ? order_[i].occluder : nullptr;
+    if (i < order_.size() && order_[i].plane != nullptr) block.indefinite = true;
+    for (std::uint32_t k = 0; k < 3; ++k) {
+      const glm::dvec3 corner = occluder ? group.corners[occluder->first_corner + k] : glm::dvec3(0.0);
+      for (int c = 0; c < 3; ++c) block.corner[k][c][i % 16] = corner[c];
+    }
+    for (std::uint32_t slot = 0; slot < 4; ++slot) {
+      const bool there = occluder != nullptr && slot < occluder->line_count;
+      for (int k = 0; k < 4; ++k) {
+        for (int c = 0; c < 3; ++c) {
+          block.c[slot][k][c][i % 16] = there              ? group.lines[occluder->first_line + slot].c[k][c]
+                                        : k == 0 && c == 2 ? 1.0
+                                                           : 0.0;
+        }
+      }
+    }
+  }
+
+  /// Boxes of the shadows on the light's plane; bit k: that of occluder k meets the light. An occluder all at
+  /// or below the point's height shadows nothing; one that is partly so has no box.
+  HWY_INLINE std::uint32_t find_boxes(const GroupPoint& at, std::size_t b) {
+    const auto num = [](double value) { return splat<Wide>(value); };
+    const Wide far = num(1e30), zero = num(0);
+    Wide low_u = far, low_v = far, high_u = num(-1e30), high_v = high_u, lowest = far, highest = high_u;
+    const Wide pu = num(at.in_light.x), pv = num(at.in_light.y);
+    const Wide reach = num(at.light_height - at.in_light.z);
+    for (int k = 0; k < 3; ++k) {
+      const auto& corner = moving_[b].corner[k];
+      const Wide rise = load<Wide>(corner[2]) - num(at.in_light.z);
+      lowest = min(lowest, rise);
+      highest = max(highest, rise);
+      const Wide t = reach / choose(less(zero, rise), rise, num(1));
+      const Wide u = pu + (load<Wide>(corner[0]) - pu) * t, v = pv + (load<Wide>(corner[1]) - pv) * t;
+      low_u = min(low_u, u);
+      high_u = max(high_u, u);
+      low_v = min(low_v, v);
+      high_v = max(high_v, v);
+    }
+    const auto boxed = less(zero, lowest);
+    const Wide one = num(1), minus = num(-1);
+    low_u = choose(boxed, low_u, minus);
+    low_v = choose(boxed, low_v, minus);
+    high_u = choose(boxed, high_u, one);
+    high_v = choose(boxed, high_v, one);
+    Block& to = at_point_[b];
+    store(narrowed<T>(max(low_u, num(-2))), to.box[0]);
+    store(narrowed<T>(min(high_u, num(2))), to.box[1]);
+    store(narrowed<T>(max(low_v, num(-2))), to.box[2]);
+    store(narrowed<T>(min(high_v, num(2))), to.box[3]);
+    return less_bits(zero, highest) & less_bits(low_u, one) & less_bits(minus, high_u) &
+           less_bits(low_v, one) & less_bits(minus, high_v);
+  }
+
+  HWY_INLINE void find_lines(const GroupPoint& at, std::size_t b) {
+    const Wide x = splat<Wide>(at.from_centre.x), y = splat<Wide>(at.from_centre.y),
+               z = splat<Wide>(at.from_centre.z);
+    alignas(64) double signs[16];
+    const bool turned = find_signs(b, at, signs);
+    for (int slot = 0; slot < slots_; ++slot) {
+      const auto& c = moving_[b].c[slot];
+      Block& to = at_point_[b];
+      T* lines[3] = {to.u[slot], to.v[slot], to.w[slot]};
+      for (int i = 0; i < 3; ++i) {
+        Wide value =
+            load<Wide>(c[0][i]) + x * load<Wide>(c[1][i]) + y * load<Wide>(c[2][i]) + z * load<Wide>(c[3][i]);
+        if (turned) value = value * load<Wide>(signs);
+        store(narrowed<T>(value), lines[i]);
+      }
+      if (turned) shut(signs, slot, to);
+    }
+  }
+
+  /// Signs of the lines in a block; false if all are +1.
+  bool find_signs(std::size_t b, const GroupPoint& at, double* signs) const {
+    if (!moving_[b].indefinite) return false;
+    for (std::size_t k = 0; k < 16; ++k) {
+      signs[k] = 1;
+      if (16 * b + k >= order_.size()) continue;
+      const Entry& entry = order_[16 * b + k];
+      if (entry.plane == nullptr) continue;
+      signs[k] = entry.occluder->triangle == at.receiver
+                     ? 0
+                     : blocking_sign(*entry.plane, at.from_centre, at.receiver_tau);
+    }
+    return true;
+  }
+
+  /// What does not block has no shadow.
+  static void shut(const double* signs, int slot, Block& block) {
+    for (int k = 0; k < 16; ++k) {
+      if (signs[k] == 0) block.w[slot][k] = -1;
+    }
+  }
+
+  HWY_INLINE Reach reach_of(const Block& lines, const LightBox<T>& box) const {
     using Lanes = Pack<T, 16>;
     const Lanes zero = splat<Lanes>(T(0));
     const Lanes cu = splat<Lanes>(box.cu), cv = splat<Lanes>(box.cv);
@@ -143,13 +252,16 @@ private:
       highest = min(highest, value + radius);
       lowest = min(lowest, value - radius);
     }
-    return {less_bits(zero, highest), less_bits(zero, lowest)};
+    const std::uint32_t boxes =
+        less_bits(load<Lanes>(lines.box[0]), cu + hu) & less_bits(cu - hu, load<Lanes>(lines.box[1])) &
+        less_bits(load<Lanes>(lines.box[2]), cv + hv) & less_bits(cv - hv, load<Lanes>(lines.box[3]));
+    return {less_bits(zero, highest) & boxes, less_bits(zero, lowest)};
   }
 
-  std::vector<MovingBlock> blocks_;
-  std::vector<CandidateBlock<T>> at_point_;
-  CandidateBlock<T> gathered_{};
-  std::size_t count_ = 0;
+  std::vector<Entry> order_;
+  std::vector<MovingBlock> moving_;
+  std::vector<Block> at_point_;
+  Block gathered_{};
   int slots_ = 0;
 };
 

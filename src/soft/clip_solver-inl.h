@@ -16,11 +16,13 @@ namespace tenebra::HWY_NAMESPACE {
 template <class T>
 class ClipSolver {
 public:
-  void reset(const GroupOccluders<T>& group) { candidates_.reset(group); }
+  void reset(const GroupOccluders& group, Chosen chosen) { candidates_.reset(group, chosen); }
 
-  /// Appends the parts of `light` (convex, within |u|, |v| <= 1) visible from the point centre + d to `out`.
-  HWY_INLINE void query(const LightPolygon<T>& light, T dx, T dy, T dz, FragmentList<T>& out) {
-    candidates_.move_to(dx, dy, dz);
+  /// The next queries are about this point.
+  void move_to(const GroupPoint& at) { candidates_.move_to(at); }
+
+  /// Appends the parts of `light` (convex, within |u|, |v| <= 1) visible from the point to `out`.
+  HWY_NOINLINE void query(const LightPolygon<T>& light, FragmentList<T>& out) {
     list_.clear();
     const LightBox<T> whole;
     if (candidates_.find_all(whole, list_)) return;
@@ -51,7 +53,7 @@ private:
   }
 
   /// Cuts `polygon` to the line's positive side; false if nothing is left.
-  static HWY_INLINE bool keep_side(const LightLine<T>& line, LightPolygon<T>& polygon) {
+  static HWY_NOINLINE bool keep_side(const LightLine<T>& line, LightPolygon<T>& polygon) {
     const LineValues<T> values = evaluate(polygon, line);
     if (values.positive == 0) return false;
     if (values.negative == 0) return true;

@@ -1,5 +1,5 @@
 // The occluders of one group of points as the solvers use them: lines on the light's plane that move linearly
-// with the point. Set up in double relative to the group's centre, then kept in T: this is what makes single
+// with the point. Relative to the group's centre and in double: this is what makes polygons in single
 // precision work with far lights.
 //
 // For a point P and an edge from a to b of an occluder, the plane through P, a, b has the normal
@@ -26,10 +26,10 @@ struct GroupFrame {
   double receiver_tau = 0;                   ///< largest rounding tolerance of these
 };
 
-/// Line (u, v, w) at P = centre + d: c[0] + d.x c[1] + d.y c[2] + d.z c[3]; c[k] = {u, v, w, 0}.
-template <class T>
+/// Line (u, v, w) at P = centre + d: c[0] + d.x c[1] + d.y c[2] + d.z c[3]. Scaled so that no coefficient of
+/// any point of the group exceeds 1.
 struct MovingLine {
-  T c[4][4];
+  glm::dvec3 c[4];
 };
 
 /// The plane through the group's points and an edge in space, relative to the group's centre: the side of a
@@ -40,37 +40,55 @@ struct EdgePlane {
   glm::dvec3 normal{0.0};  ///< at the centre
 };
 
-/// A triangle whose shadow on the light's plane is, for every point of the group, where all its lines are
-/// positive. Lines that are positive for every point and all of the light are left out.
+/// A triangle whose shadow on the light's plane is where all its lines are positive.
 struct Occluder {
   std::uint32_t triangle = 0;
   std::uint32_t first_line = 0;
-  std::uint32_t line_count = 0;  ///< 0: the light is dark for the whole group
-  double size = 0;               ///< about the solid angle at the group's centre
+  std::uint32_t line_count = 0;    ///< 0: the light is dark for the whole group
+  std::uint32_t first_corner = 0;  ///< index into GroupOccluders::corners
+  double size = 0;                 ///< about the solid angle at the group's centre
 };
 
-template <class T>
+/// Where the points of a group lie to the plane of a triangle: at centre + d the height over it, times the
+/// length of its normal, is height + d.slope.
+struct PlaneHeight {
+  double height = 0;
+  glm::dvec3 slope{0.0};  ///< the triangle's normal n
+  double threshold = 0;   ///< tau |n|, tau the triangle's rounding tolerance
+  double length = 0;      ///< |n|
+};
+
 struct GroupOccluders {
-  std::vector<Occluder> occluders;  ///< largest first (ties: by id)
-  std::vector<MovingLine<T>> lines;
-  std::vector<EdgePlane> planes;          ///< one a line
-  std::vector<std::uint32_t> indefinite;  ///< triangles that shadow the points from both sides, some of them
-                                          ///< not at all, or carry some: to be asked point by point
-  double condition = 0;  ///< largest factor by which lines amplify rounding: a line lies within
-                         ///< 4 epsilon(T) condition of its place, units of the light
+  /// Triangles that shadow all points of the group from the same side, largest first (ties: by id). Lines
+  /// that are positive for every point and all of the light are left out.
+  std::vector<Occluder> occluders;
+  /// The others: points lie on both sides, or too near, or on the triangle itself. Four lines each, three
+  /// edges and the plane, for points behind the plane; for points in front their signs turn.
+  std::vector<Occluder> indefinite;
+  std::vector<PlaneHeight> heights;  ///< one an indefinite occluder
+  /// Three an occluder: coordinates u and v of their foot on the light's plane, and the height over the
+  /// group's centre towards that plane, metres.
+  std::vector<glm::dvec3> corners;
+  std::vector<MovingLine> lines;
+  std::vector<EdgePlane> planes;  ///< one a line
 };
 
 /// Sorts `candidates` into definite and indefinite occluders and sets up their lines. What it leaves out
 /// blocks nothing between the group and the light (Theorem 1, with margins for the rounding of double).
-template <class T>
 void set_up_occluders(const LightFrame& light, const TriangleView& triangles, const GroupFrame& group,
-                      std::span<const std::uint32_t> candidates, GroupOccluders<T>& out);
+                      std::span<const std::uint32_t> candidates, GroupOccluders& out);
 
-/// The lines of one occluder at one point, in double: its shadow is where all are positive. Returns their
-/// number, 0 if the triangle does not block from there (contact rule; `receiver`: the point's triangle).
-int occluder_lines_at(const LightFrame& light, const TriangleView& triangles, std::uint32_t occluder,
-                      const glm::dvec3& point, std::uint32_t receiver, double receiver_tau,
-                      glm::dvec3 lines[4]);
+/// +1: the occluder blocks points like centre + d by its lines as they are; -1: with their signs turned; 0:
+/// not at all (contact rule).
+inline int blocking_sign(const PlaneHeight& plane, const glm::dvec3& d, double receiver_tau) {
+  const double height = plane.height + d.x * plane.slope.x + d.y * plane.slope.y + d.z * plane.slope.z;
+  const double threshold = plane.threshold + receiver_tau * plane.length;
+  return height < -threshold ? 1 : height > threshold ? -1 : 0;
+}
+
+/// u, v and height of a place as in GroupOccluders::corners.
+glm::dvec3 light_coordinates(const LightFrame& light, const glm::dvec3& group_centre,
+                             const glm::dvec3& place);
 
 /// The line on the light's plane where triangle `receiver` meets it, positive on the side of `seen_side`
 /// (+1: that of the triangle's normal).

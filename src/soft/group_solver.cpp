@@ -14,13 +14,10 @@
 #include "points/triangle_corners.h"
 #include "soft/clip_solver-inl.h"
 #include "soft/line_class_query-inl.h"
+#include "soft/point_groups.h"
 
 HWY_BEFORE_NAMESPACE();
 namespace tenebra::HWY_NAMESPACE {
-
-/// A group whose lines amplify rounding more than this is solved in double: 4 epsilon condition, the place of
-/// a line in units of the light, then stays below 2e-5 in float.
-inline constexpr double largest_condition = 40;
 
 /// Trees beyond this size are dropped, and the rest of the group is clipped.
 inline constexpr std::size_t largest_tree_bytes = std::size_t{8} << 20;
@@ -56,14 +53,12 @@ ReceiverPlane receiver_plane(const SoftFrame& frame, std::uint32_t id) {
   const Corners c = corners_of(frame.triangles, id);
   const glm::dvec3 a(c.v[0]);
   const glm::dvec3 n = glm::cross(glm::dvec3(c.v[1]) - a, glm::dvec3(c.v[2]) - a);
-  const glm::dvec3 to_eye =
-      frame.view.orthographic ? -glm::dvec3(frame.view.d0) : glm::dvec3(frame.view.eye) - a;
-  const double height = glm::dot(n, to_eye), length = std::sqrt(glm::dot(n, n));
+  const double length = std::sqrt(glm::dot(n, n));
+  const int side = seen_side(frame.triangles, id, frame.view);
   ReceiverPlane plane;
   plane.id = id;
   plane.tau = rounding_tolerance(c.v);
-  if (!(length > 0) || height == 0) return plane;
-  const int side = height > 0 ? 1 : -1;
+  if (!(length > 0) || side == 0) return plane;
   plane.horizon = horizon_line(frame.light, frame.triangles, id, side);
   plane.face = static_cast<double>(side) / length * n;
   return plane;
@@ -72,13 +67,9 @@ ReceiverPlane receiver_plane(const SoftFrame& frame, std::uint32_t id) {
 /// The solvers for one precision and their buffers.
 template <class T>
 struct Precision {
-  GroupOccluders<T> occluders;
-  LineClassBsp bsp;
   LineClassQuery<T> query;
   ClipSolver<T> clip;
   FragmentList<T> start, visible, scratch;
-  bool use_bsp = false;
-  bool clip_ready = false;
 };
 
 class Solver final : public GroupSolver {
@@ -86,57 +77,56 @@ public:
   void solve(const SoftFrame& frame, const GroupTask& task) override {
     Stopwatch watch;
     receiver_ = {};
-    bool wide = frame.config.precision == SoftPrecision::reference;
-    if (!wide) {
-      set_up_occluders(frame.light, frame.triangles, task.frame, task.candidates, float_.occluders);
-      wide = float_.occluders.condition > largest_condition;
-    }
+    set_up_occluders(frame.light, frame.triangles, task.frame, task.candidates, occluders_);
+    use_bsp_ = wants_bsp(frame.config);
+    if (use_bsp_) bsp_.reset(occluders_, frame.triangles, task.frame, frame.config.choice);
+    const Chosen chosen = use_bsp_ ? Chosen::indefinite : Chosen::all;
+    const bool wide = frame.config.precision == SoftPrecision::reference;
     if (wide) {
-      set_up_occluders(frame.light, frame.triangles, task.frame, task.candidates, double_.occluders);
-      stats.points_double += task.pixels.size();
+      double_.clip.reset(occluders_, chosen);
+    } else {
+      float_.clip.reset(occluders_, chosen);
     }
     times.init_ms += watch.lap_ms();
     if (wide) {
-      solve_with(double_, frame, task);
+      solve_points(double_, frame, task);
     } else {
-      solve_with(float_, frame, task);
+      solve_points(float_, frame, task);
     }
+    times.query_ms += watch.lap_ms();
   }
 
   void solve_lit(const SoftFrame& frame, std::span<const std::uint32_t> pixels) override {
     Stopwatch watch;
     receiver_ = {};
-    double_.occluders = {};
-    double_.use_bsp = false;
-    double_.clip_ready = false;
-    const GroupTask task{pixels, {}, {}};
-    for (const std::uint32_t pixel : pixels) solve_point(double_, frame, task, pixel);
+    use_bsp_ = false;
+    set_up_occluders(frame.light, frame.triangles, {}, {}, occluders_);
+    double_.clip.reset(occluders_, Chosen::all);
+    for (const std::uint32_t pixel : pixels) solve_point(double_, frame, {pixels, {}, {}}, pixel);
     times.irradiance_ms += watch.lap_ms();
   }
 
 private:
   template <class T>
-  void solve_with(Precision<T>& p, const SoftFrame& frame, const GroupTask& task) {
-    p.use_bsp = wants_bsp(frame.config, p.occluders);
-    p.clip_ready = false;
-    Stopwatch watch;
-    if (p.use_bsp) p.bsp.reset(p.occluders, frame.triangles, task.frame, frame.config.choice);
-    times.init_ms += watch.lap_ms();
+  void solve_points(Precision<T>& p, const SoftFrame& frame, const GroupTask& task) {
     for (const std::uint32_t pixel : task.pixels) {
+      if (use_bsp_ && bsp_.bytes() > largest_tree_bytes) {
+        stats.tree_nodes += bsp_.node_count();
+        use_bsp_ = false;
+        p.clip.reset(occluders_, Chosen::all);
+      }
       solve_point(p, frame, task, pixel);
-      if (p.use_bsp && !frame.config.keep_trees) {
-        stats.tree_nodes += p.bsp.node_count();
-        p.bsp.reset(p.occluders, frame.triangles, task.frame, frame.config.choice);
+      if (use_bsp_ && !frame.config.keep_trees) {
+        stats.tree_nodes += bsp_.node_count();
+        bsp_.reset(occluders_, frame.triangles, task.frame, frame.config.choice);
       }
     }
-    times.query_ms += watch.lap_ms();
-    if (p.use_bsp) stats.tree_nodes += p.bsp.node_count();
+    if (use_bsp_) stats.tree_nodes += bsp_.node_count();
   }
 
-  template <class T>
-  static bool wants_bsp(const SoftShadowConfig& config, const GroupOccluders<T>& occluders) {
+  bool wants_bsp(const SoftShadowConfig& config) const {
     if (config.solver != SoftSolver::automatic) return config.solver == SoftSolver::bsp;
-    return occluders.occluders.size() <= 400;
+    return occluders_.occluders.size() <= 400 && occluders_.indefinite.size() <= 16;
   }
 
   template <class T>
@@ -144,14 +134,33 @@ private:
     const std::uint32_t receiver = frame.points.triangles[pixel];
     if (receiver != receiver_.id) receiver_ = receiver_plane(frame, receiver);
     const glm::dvec3 point = frame.points.positions[pixel];
-    const LightPolygon<T> whole = polygon_of<T>(frame.light.outline);
     p.start.clear();
-    p.start.push(whole);
+    p.start.push(polygon_of<T>(frame.light.outline));
     keep_positive(p.start, line_of<T>(receiver_.horizon), p.scratch);
     const double above = receiver_.face == glm::dvec3(0.0) ? 0.0 : area_of(p.start);
     p.visible.clear();
-    if (above > 0) find_visible(p, frame, task, point);
+    if (above > 0)
+      find_visible(
+          p, {point - task.frame.centre, light_coordinates(frame.light, task.frame.centre, point),
+              glm::dot(task.frame.centre - frame.light.origin, frame.light.normal), receiver, receiver_.tau});
     finish(p, frame, pixel, point, above);
+  }
+
+  template <class T>
+  void find_visible(Precision<T>& p, const GroupPoint& at) {
+    p.clip.move_to(at);
+    for (std::size_t i = 0; i < p.start.size(); ++i) {
+      const LightPolygon<T> part = loaded(p.start[i]);
+      if (use_bsp_) {
+        p.query.query(bsp_, occluders_.lines.data(), part, at.from_centre, p.visible);
+      } else {
+        p.clip.query(part, p.visible);
+      }
+    }
+    if (!use_bsp_ || occluders_.indefinite.empty()) return;
+    p.scratch.clear();
+    for (std::size_t i = 0; i < p.visible.size(); ++i) p.clip.query(loaded(p.visible[i]), p.scratch);
+    p.visible.swap(p.scratch);
   }
 
   template <class T>
@@ -165,38 +174,6 @@ private:
       }
     }
     return area;
-  }
-
-  template <class T>
-  void find_visible(Precision<T>& p, const SoftFrame& frame, const GroupTask& task, const glm::dvec3& point) {
-    const glm::dvec3 d = point - task.frame.centre;
-    const T dx = static_cast<T>(d.x), dy = static_cast<T>(d.y), dz = static_cast<T>(d.z);
-    if (p.use_bsp && p.bsp.bytes() > largest_tree_bytes) p.use_bsp = false;
-    if (!p.use_bsp && !p.clip_ready) {
-      p.clip.reset(p.occluders);
-      p.clip_ready = true;
-    }
-    for (std::size_t i = 0; i < p.start.size(); ++i) {
-      const LightPolygon<T> part = loaded(p.start[i]);
-      if (p.use_bsp) {
-        p.query.query(p.bsp, p.occluders.lines.data(), part, dx, dy, dz, p.visible);
-      } else {
-        p.clip.query(part, dx, dy, dz, p.visible);
-      }
-    }
-    for (const std::uint32_t occluder : p.occluders.indefinite) {
-      if (p.visible.empty()) return;
-      glm::dvec3 lines[4];
-      const int count = occluder_lines_at(frame.light, frame.triangles, occluder, point, receiver_.id,
-                                          receiver_.tau, lines);
-      if (count == 0) continue;
-      LightLine<T> narrow[4];
-      for (int k = 0; k < count; ++k) narrow[k] = line_of<T>(lines[k]);
-      p.scratch.clear();
-      for (std::size_t i = 0; i < p.visible.size(); ++i)
-        subtract(loaded(p.visible[i]), narrow, count, p.scratch);
-      p.visible.swap(p.scratch);
-    }
   }
 
   template <class T>
@@ -220,7 +197,7 @@ private:
     const double fraction = std::clamp(area / frame.light.area, 0.0, 1.0);
     frame.out.visible_fraction[pixel] = static_cast<float>(fraction);
     frame.out.irradiance[pixel] = static_cast<float>(std::clamp(sums.irradiance, 0.0, 3.141592653589793));
-    count(above, area, frame, pixel, p.use_bsp);
+    count(above, area, frame, pixel, use_bsp_);
   }
 
   void count(double above, double area, const SoftFrame& frame, std::uint32_t pixel, bool use_bsp) {
@@ -247,6 +224,9 @@ private:
     return false;
   }
 
+  GroupOccluders occluders_;
+  LineClassBsp bsp_;
+  bool use_bsp_ = false;
   Precision<float> float_;
   Precision<double> double_;
   ReceiverPlane receiver_;

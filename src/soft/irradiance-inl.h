@@ -68,7 +68,8 @@ struct EdgeSums {
 /// the edges of the angle an edge subtends times the cosine between normal and the plane of point and edge.
 /// The polygons lie above the receiver's horizon; the point not on the light's plane.
 /// The same bits on every target: sums run in the order of the edges.
-HWY_INLINE EdgeSums sum_edges(const LightEdges& edges, const LightFrame& light, const Receiver3& at) {
+inline HWY_NOINLINE EdgeSums sum_edges(const LightEdges& edges, const LightFrame& light,
+                                       const Receiver3& at) {
   const auto num = [](double value) { return splat<Double8>(value); };
   EdgeSums sums;
   for (std::size_t k = 0; k < edges.count; k += 8) {

@@ -55,6 +55,7 @@ public:
       push_small(polygon);
     }
   }
+  void shrink(std::size_t size) { size_ = size; }
   HWY_INLINE LightPolygon<T> pop() { return loaded(polygons_[--size_]); }
 
 private:
@@ -72,19 +73,23 @@ private:
 
 /// Adds what is left of `fragment` outside the shadow (where all `lines` are positive) to `out`.
 template <class T>
-HWY_INLINE void subtract(const LightPolygon<T>& fragment, const LightLine<T>* lines, int count,
-                         FragmentList<T>& out) {
+HWY_NOINLINE void subtract(const LightPolygon<T>& fragment, const LightLine<T>* lines, int count,
+                           FragmentList<T>& out) {
   std::uint32_t crossing = 0;
   for (int k = 0; k < count; ++k) {
     const LineValues<T> values = evaluate(fragment, lines[k]);
     if (values.positive == 0) return out.push(fragment);
     if (values.negative != 0) crossing |= 1u << k;
   }
+  const std::size_t before = out.size();
   LightPolygon<T> rest = fragment;
   for (int k = 0; k < count; ++k) {
     if ((crossing >> k & 1u) == 0) continue;
     const LineValues<T> values = evaluate(rest, lines[k]);
-    if (values.positive == 0) return out.push(rest);
+    if (values.positive == 0) {  // they do not overlap: a fragment stays whole
+      out.shrink(before);
+      return out.push(fragment);
+    }
     if (values.negative == 0) continue;
     LightPolygon<T> inside, outside;
     split(rest, values, inside, outside);
@@ -95,8 +100,8 @@ HWY_INLINE void subtract(const LightPolygon<T>& fragment, const LightLine<T>* li
 
 /// The part of every fragment on the positive side of `line`.
 template <class T>
-HWY_INLINE void keep_positive(FragmentList<T>& fragments, const LightLine<T>& line,
-                              FragmentList<T>& scratch) {
+HWY_NOINLINE void keep_positive(FragmentList<T>& fragments, const LightLine<T>& line,
+                                FragmentList<T>& scratch) {
   scratch.clear();
   for (std::size_t i = 0; i < fragments.size(); ++i) {
     const LightPolygon<T> fragment = loaded(fragments[i]);
@@ -114,7 +119,7 @@ HWY_INLINE void keep_positive(FragmentList<T>& fragments, const LightLine<T>& li
 }
 
 template <class T>
-HWY_INLINE void append_edges(const FragmentList<T>& fragments, LightEdges& edges) {
+void append_edges(const FragmentList<T>& fragments, LightEdges& edges) {
   for (std::size_t i = 0; i < fragments.size(); ++i) {
     const StoredPolygon<T>& p = fragments[i];
     edges.reserve(static_cast<std::size_t>(p.count));

@@ -19,8 +19,7 @@ double sum_of(const dvec3& v) {
 
 }  // namespace
 
-template <class T>
-void LineClassBsp::reset(const GroupOccluders<T>& occluders, const TriangleView& triangles,
+void LineClassBsp::reset(const GroupOccluders& occluders, const TriangleView& triangles,
                          const GroupFrame& group, OccluderChoice choice) {
   nodes_.clear();
   waiting_.clear();
@@ -109,10 +108,5 @@ std::size_t LineClassBsp::bytes() const {
   return nodes_.capacity() * sizeof(BspNode) + waiting_.capacity() * sizeof(std::uint32_t) +
          lists_.capacity() * sizeof(Range) + corners_.capacity() * sizeof(dvec3);
 }
-
-template void LineClassBsp::reset<float>(const GroupOccluders<float>&, const TriangleView&, const GroupFrame&,
-                                         OccluderChoice);
-template void LineClassBsp::reset<double>(const GroupOccluders<double>&, const TriangleView&,
-                                          const GroupFrame&, OccluderChoice);
 
 }  // namespace tenebra

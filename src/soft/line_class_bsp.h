@@ -30,9 +30,8 @@ struct BspNode {
 
 class LineClassBsp {
 public:
-  /// A tree of one undefined leaf that all occluders wait in. They must outlive it.
-  template <class T>
-  void reset(const GroupOccluders<T>& occluders, const TriangleView& triangles, const GroupFrame& group,
+  /// A tree of one undefined leaf that all definite occluders wait in. They must outlive it.
+  void reset(const GroupOccluders& occluders, const TriangleView& triangles, const GroupFrame& group,
              OccluderChoice choice);
 
   BspChild root() const { return root_; }

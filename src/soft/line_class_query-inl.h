@@ -16,20 +16,19 @@
 HWY_BEFORE_NAMESPACE();
 namespace tenebra::HWY_NAMESPACE {
 
-/// The line of a hyperplane as the point centre + d meets it: u, v, w.
+/// The line of a hyperplane as it meets the light from the point centre + d.
 template <class T>
-HWY_INLINE LightLine<T> line_at(const MovingLine<T>& line, T dx, T dy, T dz) {
-  return {line.c[0][0] + dx * line.c[1][0] + dy * line.c[2][0] + dz * line.c[3][0],
-          line.c[0][1] + dx * line.c[1][1] + dy * line.c[2][1] + dz * line.c[3][1],
-          line.c[0][2] + dx * line.c[1][2] + dy * line.c[2][2] + dz * line.c[3][2]};
+HWY_INLINE LightLine<T> line_at(const MovingLine& line, const glm::dvec3& d) {
+  const glm::dvec3 at = line.c[0] + d.x * line.c[1] + d.y * line.c[2] + d.z * line.c[3];
+  return {static_cast<T>(at.x), static_cast<T>(at.y), static_cast<T>(at.z)};
 }
 
 template <class T>
 class LineClassQuery {
 public:
   /// Appends the parts of `light` visible from the point centre + d to `out`.
-  HWY_INLINE void query(LineClassBsp& bsp, const MovingLine<T>* lines, const LightPolygon<T>& light, T dx,
-                        T dy, T dz, FragmentList<T>& out) {
+  HWY_NOINLINE void query(LineClassBsp& bsp, const MovingLine* lines, const LightPolygon<T>& light,
+                          const glm::dvec3& d, FragmentList<T>& out) {
     push(-1, 0, light);
     while (!places_.empty()) {
       Place place = places_.back();
@@ -39,7 +38,7 @@ public:
       while (true) {
         if (is_undefined(child)) child = bsp.grow(place.parent, place.side);
         if (child < 0) break;
-        const LineValues<T> values = evaluate(fragment, line_at(lines[bsp.nodes()[child].line], dx, dy, dz));
+        const LineValues<T> values = evaluate(fragment, line_at<T>(lines[bsp.nodes()[child].line], d));
         place = {child, values.positive != 0};
         if (values.positive != 0 && values.negative != 0) {
           LightPolygon<T> positive, negative;

@@ -1,1 +1,165 @@
 #include "soft/soft_shadows.h"
+
+#include <algorithm>
+#include <array>
+#include <utility>
+
+#include "base/stopwatch.h"
+#include "parallel/parallel.h"
+#include "points/contact_rule.h"
+#include "points/triangle_corners.h"
+#include "soft/group_solver.h"
+#include "soft/light_frame.h"
+#include "soft/point_groups.h"
+#include "soft/shafts.h"
+
+namespace tenebra {
+
+namespace {
+
+constexpr std::array<std::pair<SoftSolver, std::string_view>, 3> solver_names = {{
+    {SoftSolver::automatic, "auto"},
+    {SoftSolver::bsp, "bsp"},
+    {SoftSolver::clip, "clip"},
+}};
+
+/// What one thread keeps: its solver and the receivers of the group at hand.
+struct Worker {
+  std::unique_ptr<GroupSolver> solver;
+  std::vector<std::uint32_t> receivers;
+};
+
+GroupFrame frame_of(const PointGroup& group, const PointGroups& groups, const TriangleView& triangles,
+                    std::vector<std::uint32_t>& receivers) {
+  GroupFrame frame;
+  frame.centre = 0.5 * (group.low + group.high);
+  frame.half = glm::max(group.high - frame.centre, frame.centre - group.low);
+  receivers.clear();
+  for (const Receiver& receiver : groups.receivers_of(group)) {
+    receivers.push_back(receiver.triangle);
+    frame.receiver_tau =
+        std::max(frame.receiver_tau, rounding_tolerance(corners_of(triangles, receiver.triangle).v));
+  }
+  frame.receivers = receivers;
+  return frame;
+}
+
+}  // namespace
+
+std::string_view soft_solver_name(SoftSolver solver) {
+  for (const auto& [candidate, name] : solver_names) {
+    if (candidate == solver) return name;
+  }
+  return {};
+}
+
+std::optional<SoftSolver> soft_solver_from_name(std::string_view name) {
+  for (const auto& [solver, candidate] : solver_names) {
+    if (candidate == name) return solver;
+  }
+  return std::nullopt;
+}
+
+struct SoftShadowTracer::State {
+  PointGroups groups;
+  ShaftCuller culler;
+  std::vector<Worker> workers;
+  SimdLevel level = SimdLevel::automatic;
+  std::vector<std::uint8_t> classes;
+  SoftStats stats;
+  FrameTimings timings;
+
+  void prepare(const SoftShadowConfig& config, std::size_t pixels, SoftMask& out);
+  void solve_group(const SoftFrame& frame, const PointGroup& group, std::span<const std::uint32_t> candidates,
+                   GroupClass kind, Worker& worker);
+  void gather();
+};
+
+void SoftShadowTracer::State::prepare(const SoftShadowConfig& config, std::size_t pixels, SoftMask& out) {
+  if (workers.size() != static_cast<std::size_t>(thread_count()) || level != config.simd) {
+    workers.clear();
+    workers.resize(static_cast<std::size_t>(thread_count()));
+    level = config.simd;
+  }
+  for (Worker& worker : workers) {
+    if (!worker.solver) worker.solver = make_group_solver(level);
+    worker.solver->stats = {};
+    worker.solver->times = {};
+  }
+  stats = {};
+  timings = {};
+  out.visible_fraction.assign(pixels, 0.0f);
+  out.irradiance.assign(pixels, 0.0f);
+}
+
+void SoftShadowTracer::State::solve_group(const SoftFrame& frame, const PointGroup& group,
+                                          std::span<const std::uint32_t> candidates, GroupClass kind,
+                                          Worker& worker) {
+  const auto pixels = groups.pixels_of(group);
+  if (kind == GroupClass::dark) {
+    for (const std::uint32_t pixel : pixels) classes[pixel] = static_cast<std::uint8_t>(SoftClass::dark);
+    worker.solver->stats.points_dark += pixels.size();
+  } else if (kind == GroupClass::lit) {
+    worker.solver->solve_lit(frame, pixels);
+  } else {
+    const GroupFrame group_frame = frame_of(group, groups, frame.triangles, worker.receivers);
+    worker.solver->stats.candidates += candidates.size();
+    worker.solver->solve(frame, {pixels, group_frame, candidates});
+  }
+}
+
+void SoftShadowTracer::State::gather() {
+  const double threads = std::max<double>(1, static_cast<double>(workers.size()));
+  for (const Worker& worker : workers) {
+    stats += worker.solver->stats;
+    timings.init_ms += worker.solver->times.init_ms / threads;
+    timings.query_ms += worker.solver->times.query_ms / threads;
+    timings.irradiance_ms += worker.solver->times.irradiance_ms / threads;
+  }
+  stats.groups = groups.groups.size();
+  timings.shaft_ms += culler.stats().seconds * 1e3 / threads;
+}
+
+SoftShadowTracer::SoftShadowTracer() : state_(std::make_unique<State>()) {}
+SoftShadowTracer::SoftShadowTracer(SoftShadowTracer&&) noexcept = default;
+SoftShadowTracer& SoftShadowTracer::operator=(SoftShadowTracer&&) noexcept = default;
+SoftShadowTracer::~SoftShadowTracer() = default;
+
+// Mora et al. 2012, Algorithm 2, with groups of points in the place of visible triangles.
+bool SoftShadowTracer::trace(const VisiblePoints& points, std::span<const glm::vec3> normals,
+                             const ViewRays& view, const TriangleView& triangles, const AreaLight& light,
+                             const SoftShadowConfig& config, SoftMask& out, const StopFlag* stop) {
+  const FloatEnvironment ieee;
+  State& s = *state_;
+  s.prepare(config, points.triangles.size(), out);
+  s.classes.resize(points.triangles.size());
+  for (std::size_t i = 0; i < points.triangles.size(); ++i) {
+    s.classes[i] = static_cast<std::uint8_t>(points.triangles[i] == no_triangle ? SoftClass::background
+                                                                                : SoftClass::below_horizon);
+  }
+  Stopwatch watch;
+  group_points(points, view, triangles, light, config.grouping, s.groups);
+  s.timings.shaft_ms = watch.lap_ms();
+
+  const LightFrame frame_of_light = light_frame(light);
+  const SoftFrame frame{points, normals, view, triangles, frame_of_light, config, out, s.classes};
+  const bool done = s.culler.for_each_group(
+      s.groups, triangles, light, config, stop,
+      [&](const PointGroup& group, std::span<const std::uint32_t> candidates, GroupClass kind, int thread) {
+        s.solve_group(frame, group, candidates, kind, s.workers[static_cast<std::size_t>(thread)]);
+      });
+  s.gather();
+  return done;
+}
+
+const SoftStats& SoftShadowTracer::stats() const {
+  return state_->stats;
+}
+const FrameTimings& SoftShadowTracer::timings() const {
+  return state_->timings;
+}
+std::span<const std::uint8_t> SoftShadowTracer::classes() const {
+  return state_->classes;
+}
+
+}  // namespace tenebra
