@@ -286,6 +286,8 @@ HWY_INLINE Pack<T, N> narrowed(Pack<double, N> a) {
     p = load<Pack<T, N>>(lanes);
     return p;
   }
+}
+
 /// N floats as doubles.
 template <class P>
 HWY_INLINE P load_widened(const float* from) {
