@@ -210,7 +210,11 @@ std::string curve_plot(const std::string& title, const Axis& x, const Axis& y,
 
 std::string bar_plot(const std::string& title, const Axis& y, const std::vector<std::string>& categories,
                      const std::vector<Bars>& bars, bool stacked) {
-  const Scale scale = scale_for(bar_ends(categories.size(), bars, stacked), y.logarithmic && !stacked);
+  std::vector<double> ends = bar_ends(categories.size(), bars, stacked);
+  const bool logarithmic = y.logarithmic && !stacked;
+  for (std::size_t i = 0; logarithmic && i < categories.size() * bars.size(); ++i)
+    ends.push_back(0.5 * ends[i]);  // no bar vanishes on the axis
+  const Scale scale = scale_for(ends, logarithmic);
   std::string svg = head(title) + y_axis(scale, y.label);
   const double base = top + plot_height;
   svg += line_between(left, base, left + plot_width, base, "black");
