@@ -41,7 +41,7 @@ CONTAINED = [
 CONTAINED_IN_VIEWER = [
     (r"\bImGui\b|imgui|GLFW|glfw", "the window", ("window/",)),
     (r"GLFW|glfw[A-Z3]", "GLFW", ("window/glfw_window.cpp",)),
-    (r"\bstd::(thread|jthread|mutex|atomic|condition_variable|barrier)\b", "a thread", ("window/render_worker.",)),
+    (r"\bstd::(thread|jthread|mutex|atomic|condition_variable|barrier)\b", "a thread", ("window/render_worker.", "stop_signals.")),
     (r"\bgl[A-Z]\w*\(", "an OpenGL call", ()),
 ]
 

@@ -23,10 +23,6 @@ template <class P>
 HWY_INLINE P inner(const Pack3<P>& a, const Pack3<P>& b) {
   return (a.x * b.x + a.y * b.y) + a.z * b.z;
 }
-template <class P>
-HWY_INLINE Pack3<P> cross(const Pack3<P>& a, const Pack3<P>& b) {
-  return {a.y * b.z - a.z * b.y, a.z * b.x - a.x * b.z, a.x * b.y - a.y * b.x};
-}
 HWY_INLINE Float16 inverse(Float16 d) {
   const Float16 tiny = splat<Float16>(1e-18f);
   return splat<Float16>(1.0f) / copy_sign(max(absolute(d), tiny), d);
