@@ -98,6 +98,36 @@ TEST(SoftCatalogue, A_EdgesThatMeetOtherEdgesExactly) {
   sum.print("grid");
 }
 
+// Plates that lie on a ground within and beyond the rounding of both (theta: 1e-7 times 2 x 4 coordinates),
+// walls that stand on it, and points beside them at such distances.
+TEST(SoftCatalogue, A_ContactsWithinTheRounding) {
+  Judgement sum;
+  SoftCase c;
+  c.name = "contacts, seed 4";
+  c.light = above(2);
+  c.soup.quad({-4, 0, -4}, {0, 0, 8}, {8, 0, 0});
+  const double tau = std::sqrt(3.0) * 0x1p-24 * 8;
+  Random random(4);
+  for (int i = 0; i < 24; ++i) {
+    const double x = -3.5 + i % 6, z = -3 + 2 * (i / 6), gap = tau * std::exp2(random.in(-3, 3));
+    if (i % 2 == 0)
+      c.soup.quad({x, gap, z}, {0, 0, 0.75}, {0.75, 0, 0});
+    else
+      c.soup.quad({x, -0.25, z}, {0, 1.25, 0}, {0.25, 0, 0.5});
+    for (int k = 0; k < 6; ++k) {
+      const double off = random.chance(0.5) ? tau * random.in(-3, 3) : random.in(-0.2, 0.2);
+      const double s = random.in(0, 0.6);
+      c.points.positions.push_back(i % 2 == 0 ? dvec3(x + s, 0, z + s)
+                                              : dvec3(x + 0.25 * s + off, 0, z + 0.5 * s - 0.5 * off));
+      c.points.triangles.push_back(c.points.positions.back().x < c.points.positions.back().z ? 0 : 1);
+    }
+  }
+  c.points.width = 12, c.points.height = 12;
+  c.view.eye = vec3(c.light.centre);
+  judge_all(c, sum);
+  sum.print("contacts");
+}
+
 TEST(SoftCatalogue, B_LightsThatTouchAndCutTheGeometry) {
   Judgement sum;
   Random random(3);
