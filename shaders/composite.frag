@@ -1,9 +1,11 @@
 // The picture of a frame: ambient, emitted and direct light, exposed, clamped, as sRGB.
 layout(binding = 0) uniform usampler2D t_ids;
 layout(binding = 1) uniform sampler2D t_light;
+layout(binding = 2) uniform sampler2D t_openness;
 layout(location = 0) uniform vec3 u_ambient_light;
 layout(location = 1) uniform vec3 u_background;
 layout(location = 2) uniform float u_exposure;
+layout(location = 3) uniform bool u_use_openness;
 out vec4 o_color;
 
 // x^(1/2.4) = y with y^12 = x^5. pow() may be coarse; one step of Newton's method
@@ -25,7 +27,9 @@ void main() {
   vec3 color = u_background;
   if (id != no_triangle) {
     int material = material_of(triangle_record(id));
-    color = ambient_color(material) * u_ambient_light + emissive_color(material) + texelFetch(t_light, texel, 0).rgb;
+    vec3 ambient = ambient_color(material) * u_ambient_light;
+    if (u_use_openness) ambient *= texelFetch(t_openness, texel, 0).r;
+    color = ambient + emissive_color(material) + texelFetch(t_light, texel, 0).rgb;
   }
   vec3 encoded = srgb(clamp(color * u_exposure, 0.0, 1.0));
   o_color = vec4(floor(encoded * 255.0 + 0.5) / 255.0, 1.0);

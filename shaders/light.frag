@@ -1,4 +1,4 @@
-// Direct diffuse light of one light before shadowing; formulas at LightPass::draw.
+// Direct diffuse light of one light before shadowing; formulas at LightPass::draw and draw_area.
 layout(binding = 0) uniform usampler2D t_ids;
 layout(binding = 1) uniform usampler2D t_normals;
 layout(binding = 2) uniform sampler2D t_depth;
@@ -8,8 +8,9 @@ layout(location = 7) uniform vec3 u_light_color;
 layout(location = 8) uniform vec2 u_cone;   // scale and offset of the cosine
 layout(location = 9) uniform float u_range; // 0: unbounded
 layout(location = 10) uniform bool u_directional;
-layout(location = 11) uniform bool u_inverse_square;
+layout(location = 11) uniform int u_distance_power; // -2, 0 or 2
 layout(location = 12) uniform bool u_cosine_emitter;
+layout(location = 13) uniform bool u_by_irradiance; // cosines and visibility come with the irradiance
 out vec4 o_light;
 
 // A light that touches a surface is infinitely bright there; infinity times a mask of 0 would not be 0.
@@ -25,7 +26,8 @@ float attenuation(vec3 to_light, float distance) {
     float near = distance / u_range;
     result *= clamp(1.0 - near * near * near * near, 0.0, 1.0);
   }
-  return u_inverse_square ? result / (distance * distance) : result;
+  float squared = distance * distance;
+  return u_distance_power == 0 ? result : u_distance_power < 0 ? result / squared : result * squared;
 }
 
 void main() {
@@ -45,6 +47,11 @@ void main() {
   }
 
   vec4 record = triangle_record(id);
+  vec3 color = base_color(material_of(record)) * u_light_color;
+  if (u_by_irradiance) {
+    o_light = vec4(min(color * fade, vec3(brightest)), 0.0);
+    return;
+  }
   vec3 face = record.xyz;
   if (dot(face, ray_direction(gl_FragCoord.xy)) > 0.0) face = -face;
   if (!(dot(face, to_light) > 0.0)) return;
@@ -53,6 +60,5 @@ void main() {
   if (dot(normal, face) < 0.0) normal = -normal;
 
   float cosine = max(dot(normal, to_light), 0.0);
-  vec3 light = base_color(material_of(record)) * u_light_color * (cosine * fade);
-  o_light = vec4(min(light, vec3(brightest)), 0.0);
+  o_light = vec4(min(color * (cosine * fade), vec3(brightest)), 0.0);
 }

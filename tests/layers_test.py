@@ -24,7 +24,7 @@ MAY_INCLUDE = {
                "render"},
 }
 
-# What may be named where: (pattern, what it is, folders that may).
+# What may be named where: (pattern, what it is, folders or files that may).
 CONTAINED = [
     (r"\b_mm\w*\(|immintrin", "an intrinsic", {"simd", "parallel"}),  # parallel: the floating-point environment
     (r"\bhn::|hwy::HWY_NAMESPACE", "a vector register", {"simd"}),
@@ -33,10 +33,31 @@ CONTAINED = [
     (r"tiny_gltf|tinygltf::", "tinygltf", {"import"}),
     (r"tinyobj::", "tinyobjloader", {"import"}),
     (r"\bImGui|GLFW", "the window", set()),
+    (r"\brtc[A-Z]\w*\(|embree", "the ray caster", {"ao/reference_rays.cpp"}),
 ]
 
 
+# The same for the program: folders or files below viewer/ that may name it.
+CONTAINED_IN_VIEWER = [
+    (r"\bImGui\b|imgui|GLFW|glfw", "the window", ("window/",)),
+    (r"GLFW|glfw[A-Z3]", "GLFW", ("window/glfw_window.cpp",)),
+    (r"\bstd::(thread|jthread|mutex|atomic|condition_variable|barrier)\b", "a thread", ("window/render_worker.",)),
+    (r"\bgl[A-Z]\w*\(", "an OpenGL call", ()),
+]
+
+
+def viewer_breaches(root):
+    for path in sorted((root / "viewer").rglob("*.*")):
+        name = path.relative_to(root / "viewer").as_posix()
+        for number, line in enumerate(path.read_text(encoding="utf-8").splitlines(), 1):
+            code = line.split("//")[0]
+            for pattern, what, places in CONTAINED_IN_VIEWER:
+                if re.search(pattern, code) and "window/glfw_window.h" not in code and not name.startswith(places):
+                    yield f"viewer/{name}:{number}: names {what}, allowed only in {places or 'src/gl and src/raster'}"
+
+
 def breaches(root):
+    yield from viewer_breaches(root)
     for path in sorted((root / "src").rglob("*.*")):
         folder = path.relative_to(root / "src").parts[0]
         for number, line in enumerate(path.read_text(encoding="utf-8").splitlines(), 1):
@@ -46,7 +67,7 @@ def breaches(root):
                 yield f"{where}: {folder} may not include {include.group(1)}"
             code = line.split("//")[0]
             for pattern, what, folders in CONTAINED:
-                if folder not in folders and re.search(pattern, code):
+                if not {folder, str(path.relative_to(root / "src"))} & folders and re.search(pattern, code):
                     yield f"{where}: names {what}, allowed only in {sorted(folders) or 'viewer/window'}"
 
 

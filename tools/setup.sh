@@ -8,9 +8,12 @@ packages=(
   libegl-dev libopengl-dev libegl1 libegl-mesa0 libgl1-mesa-dri libosmesa6
   libglm-dev libfmt-dev libexpected-dev libtinygltf-dev libtinyobjloader-dev
   nlohmann-json3-dev libcli11-dev libstb-dev libtbb-dev libhwy-dev
+  libzstd-dev libxxhash-dev
+  libglfw3-dev libimgui-dev libgl1 libglx-mesa0 fonts-dejavu-core
 )
 if [[ "${1:-}" == --tests ]]; then
-  packages+=(libgtest-dev libgmock-dev libbenchmark-dev libembree-dev libgmp-dev)
+  packages+=(libgtest-dev libgmock-dev libbenchmark-dev libembree-dev libgmp-dev
+    xvfb xauth xdotool imagemagick x11-xserver-utils)
 fi
 
 if ! command -v dpkg-query apt-get > /dev/null; then

@@ -12,6 +12,7 @@ namespace tenebra::viewer {
 using Run = std::function<Expected<int>()>;
 
 /// Each adds one command to `program`, its options and its help, and sets `run` when the user chose it.
+void add_view_command(CLI::App& program, Run& run);
 void add_render_command(CLI::App& program, Run& run);
 void add_info_command(CLI::App& program, Run& run);
 void add_convert_command(CLI::App& program, Run& run);

@@ -1,13 +1,11 @@
 // tenebra compare: are two pictures the same?
-#include <algorithm>
-#include <array>
-#include <cstdlib>
 #include <memory>
 
 #include "base/image.h"
 #include "command.h"
 #include "console.h"
 #include "option_values.h"
+#include "picture_difference.h"
 #include "stop_signals.h"
 
 namespace tenebra::viewer {
@@ -33,54 +31,6 @@ struct CompareOptions {
   int threshold = 0;
 };
 
-using Pixel = std::array<int, 4>;
-
-/// Pixel `index` as red, green, blue, alpha.
-Pixel pixel_of(const Image8& image, std::size_t index) {
-  const std::uint8_t* values = image.pixels.data() + index * static_cast<std::size_t>(image.channels);
-  switch (image.channels) {
-    case 1:
-      return {values[0], values[0], values[0], largest_value};
-    case 2:
-      return {values[0], values[0], values[0], values[1]};
-    case 3:
-      return {values[0], values[1], values[2], largest_value};
-    default:
-      return {values[0], values[1], values[2], values[3]};
-  }
-}
-
-int largest_difference(const Pixel& a, const Pixel& b) {
-  int largest = 0;
-  for (std::size_t i = 0; i < a.size(); ++i) largest = std::max(largest, std::abs(a[i] - b[i]));
-  return largest;
-}
-
-struct Comparison {
-  std::size_t pixels = 0;
-  std::size_t differing = 0;  ///< by more than the threshold
-  int largest = 0;
-  Image8 picture;  ///< `a` dark and grey, differing pixels red
-};
-
-Comparison compare_pixels(const Image8& a, const Image8& b, int threshold) {
-  Comparison result;
-  result.pixels = static_cast<std::size_t>(a.width) * static_cast<std::size_t>(a.height);
-  result.picture = {a.width, a.height, 3, std::vector<std::uint8_t>(result.pixels * 3)};
-  for (std::size_t i = 0; i < result.pixels; ++i) {
-    const Pixel in_a = pixel_of(a, i);
-    const int difference = largest_difference(in_a, pixel_of(b, i));
-    result.largest = std::max(result.largest, difference);
-    const bool differs = difference > threshold;
-    result.differing += differs ? 1 : 0;
-    const auto grey = static_cast<std::uint8_t>((in_a[0] + in_a[1] + in_a[2]) / 12);
-    std::uint8_t* out = result.picture.pixels.data() + i * 3;
-    out[0] = differs ? largest_value : grey;
-    out[1] = out[2] = differs ? 0 : grey;
-  }
-  return result;
-}
-
 Expected<int> compare(const CompareOptions& options) {
   const auto a = read_png(options.a);
   if (!a) return tl::unexpected(a.error());
@@ -91,11 +41,12 @@ Expected<int> compare(const CompareOptions& options) {
               options.output.empty() ? "" : ", no picture of the difference");
     return different;
   }
-  const Comparison result = compare_pixels(*a, *b, options.threshold);
+  Image8 marked;
+  const PictureDifference result =
+      compare_pictures(*a, *b, options.threshold, options.output.empty() ? nullptr : &marked);
   if (!options.output.empty()) {
     const StopSignals stop;
-    if (auto written = write_png(options.output, result.picture); !written)
-      return tl::unexpected(written.error());
+    if (auto written = write_png(options.output, marked); !written) return tl::unexpected(written.error());
   }
   print_out("{}: {} of {} pixels differ by more than {}, largest difference {} of 255\n",
             result.differing == 0 ? "same" : "different", result.differing, result.pixels, options.threshold,

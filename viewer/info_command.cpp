@@ -49,6 +49,10 @@ Json list(glm::vec3 v) {
   return {v.x, v.y, v.z};
 }
 
+double degrees(float radians) {
+  return radians * 180.0 / std::numbers::pi;
+}
+
 Json counts_of(const Scene& scene, const SceneSummary& summary) {
   return {{"triangles", summary.triangles},
           {"casting_triangles", summary.casting_triangles},
@@ -69,6 +73,13 @@ Json lights_of(const Scene& scene, const SceneSummary& summary) {
     if (light.type != LightType::point) entry["direction"] = list(placed.direction);
     entry["color"] = list(light.color);
     entry["intensity"] = light.intensity;
+    if (light.type == LightType::spot) {
+      entry["half_angles_deg"] = {degrees(light.inner_cone_rad), degrees(light.outer_cone_rad)};
+    }
+    if (light.type == LightType::area_rect || light.type == LightType::area_disk) {
+      entry["size_m"] = {2 * glm::length(placed.axis_x), 2 * glm::length(placed.axis_y)};
+    }
+    if (light.range_m) entry["range_m"] = *light.range_m;
     lights.push_back(entry);
   }
   return lights;
@@ -79,7 +90,7 @@ Json cameras_of(const Scene& scene) {
   for (const Camera& camera : scene.cameras) {
     const bool perspective = camera.projection == Projection::perspective;
     Json entry{{"name", camera.name}, {"projection", perspective ? "perspective" : "orthographic"}};
-    if (perspective) entry["vertical_fov_deg"] = camera.vertical_fov_rad * 180.0 / std::numbers::pi;
+    if (perspective) entry["vertical_fov_deg"] = degrees(camera.vertical_fov_rad);
     if (!perspective) entry["vertical_extent_m"] = camera.vertical_extent_m;
     if (camera.aspect) entry["aspect"] = *camera.aspect;
     cameras.push_back(entry);

@@ -20,6 +20,7 @@ constexpr const char* about =
     "tenebra: ray-traced, alias-free shadows for animated scenes, on the CPU beside OpenGL\n";
 constexpr const char* first_steps =
     "First steps:\n"
+    "  tenebra view                                      a window on the bundled city\n"
     "  tenebra info scenes/city.glb                      what a scene holds\n"
     "  tenebra render scenes/city.glb                    its first frame, to out/0000.png\n"
     "  tenebra render scenes/city.glb --frames all       the whole animation\n"
@@ -53,12 +54,14 @@ int parse_and_run(CLI::App& program, Run& run, int argc, char** argv) {
   } catch (const CLI::ParseError& error) {
     const bool named = argc > 1 && argv[1][0] != '-';
     if (named && program.get_subcommands().empty()) {
-      return report(fmt::format("unknown command '{}', expected render, info, convert or compare", argv[1]),
-                    failure);
+      return report(
+          fmt::format("unknown command '{}', expected view, render, info, convert or compare", argv[1]),
+          failure);
     }
     return report(error.what(), failure_code());
   }
-  if (!run) return report("give a command: render, info, convert or compare (see tenebra --help)", failure);
+  if (!run)
+    return report("give a command: view, render, info, convert or compare (see tenebra --help)", failure);
   try {
     const auto code = run();
     return code ? flush_output(*code) : report(code.error().message, failure_code());
@@ -82,6 +85,7 @@ int main(int argc, char** argv) {
     program.set_version_flag("--version", "tenebra 0.1.0");
     program.get_formatter()->column_width(34);
     Run run;
+    tenebra::viewer::add_view_command(program, run);
     tenebra::viewer::add_render_command(program, run);
     tenebra::viewer::add_info_command(program, run);
     tenebra::viewer::add_convert_command(program, run);

@@ -2,6 +2,7 @@
 
 #include <charconv>
 #include <cmath>
+#include <cstdlib>
 #include <string_view>
 #include <vector>
 
@@ -118,6 +119,54 @@ Expected<int> parse_count(const std::string& text) {
     return fail("found {}, expected a whole number from 0 to {}", text, largest_count);
   }
   return *count;
+}
+
+Expected<int> parse_at_least_one(const std::string& text) {
+  const auto count = parse_count(text);
+  if (!count || *count < 1)
+    return fail("found {}, expected a whole number from 1 to {}", text, largest_count);
+  return count;
+}
+
+Expected<int> parse_square_count(const std::string& text) {
+  std::int64_t product = 1;
+  const auto parts = split(text, 'x');
+  for (const std::string_view part : parts) product *= number_from<int>(part).value_or(0);
+  const bool whole = parts.size() <= 2 && product >= 1 && product <= largest_count;
+  if (!whole || (parts.size() == 2 && parts[0].starts_with('-'))) {
+    return fail("found {}, expected a number from 1 to {}, or one as WxH, like 1024 or 32x32", text,
+                largest_count);
+  }
+  return static_cast<int>(product);
+}
+
+Expected<LightSize> parse_light_size(const std::string& text) {
+  LightSize result;
+  std::string_view sizes = text;
+  result.percent = sizes.ends_with('%');
+  if (result.percent) sizes.remove_suffix(1);
+  const auto parts = split(sizes, 'x');
+  const auto side = [&](std::size_t i) { return static_cast<float>(finite_from(parts[i]).value_or(0)); };
+  result.size = {side(0), side(parts.size() - 1)};
+  const bool usable = result.size.x > 0 && result.size.y > 0 && std::isfinite(result.size.x + result.size.y);
+  if (parts.size() > 2 || !usable) {
+    return fail(
+        "found {}, expected W or WxH above 0, in metres or with % of the scene's diagonal, like 0.5, 1x0.4 "
+        "or 4%",
+        text);
+  }
+  return result;
+}
+
+std::filesystem::path default_cache_folder() {
+  const auto absolute = [](const char* variable) {
+    const char* value = std::getenv(variable);
+    const std::filesystem::path path = value == nullptr ? "" : value;
+    return path.is_absolute() ? path : std::filesystem::path();
+  };
+  if (const auto cache = absolute("XDG_CACHE_HOME"); !cache.empty()) return cache / "tenebra";
+  const auto home = absolute("HOME");
+  return home.empty() ? home : home / ".cache" / "tenebra";
 }
 
 }  // namespace tenebra::viewer

@@ -3,6 +3,7 @@
 #pragma once
 
 #include <CLI/CLI.hpp>
+#include <filesystem>
 #include <glm/glm.hpp>
 #include <optional>
 #include <string>
@@ -18,6 +19,12 @@ struct Size {
 };
 inline constexpr int largest_side_px = 16384;
 
+/// Width and height of an area light, in metres or in percent of the scene's diagonal.
+struct LightSize {
+  glm::vec2 size{0.0f};
+  bool percent = false;
+};
+
 /// Frames first, first + step, ... up to and with `last`; without `last`: to the end of the animation.
 struct FrameRange {
   int first = 0;
@@ -32,6 +39,13 @@ Expected<double> parse_field_of_view(const std::string& text);    ///< degrees i
 Expected<double> parse_positive(const std::string& text);         ///< finite and above 0
 Expected<double> parse_time(const std::string& text);             ///< seconds, finite
 Expected<int> parse_count(const std::string& text);               ///< whole, 0 to 1,000,000
+Expected<int> parse_at_least_one(const std::string& text);        ///< whole, 1 to 1,000,000
+Expected<int> parse_square_count(const std::string& text);        ///< N or WxH of them, 1 to 1,000,000 in all
+Expected<LightSize> parse_light_size(const std::string& text);    ///< W, WxH, W% or WxH%
+
+/// Folder for files that can be made again, by the XDG rules: $XDG_CACHE_HOME/tenebra, else
+/// $HOME/.cache/tenebra; empty where neither is set.
+std::filesystem::path default_cache_folder();
 
 /// Adds an option whose value `parse` reads into `target`; its failure becomes "NAME: sentence".
 /// Given twice, the last counts. `target` must live as long as `command`.

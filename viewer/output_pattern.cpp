@@ -5,8 +5,6 @@ namespace {
 
 namespace fs = std::filesystem;
 
-constexpr std::string_view extension = ".png";
-
 bool is_digit(char c) {
   return c >= '0' && c <= '9';
 }
@@ -28,10 +26,20 @@ int read_conversion(std::string_view text, std::size_t& at) {
 }  // namespace
 
 Expected<OutputPattern> OutputPattern::parse(const std::string& text) {
-  if (!text.ends_with(extension))
-    return fail("found {}, expected a name that ends in .png, like out/%04d.png", text);
+  if (text.ends_with(".png")) return parse_stem(text, ".png");
+  return fail("found {}, expected a name that ends in .png, like out/%04d.png", text);
+}
+
+Expected<OutputPattern> OutputPattern::parse_mask(const std::string& text) {
+  if (text.ends_with(".pfm")) return parse_stem(text, ".pfm");
+  if (text.ends_with(".png")) return parse_stem(text, ".png");
+  return fail("found {}, expected a name that ends in .png or .pfm, like out/mask_%04d.png", text);
+}
+
+Expected<OutputPattern> OutputPattern::parse_stem(const std::string& text, std::string_view extension) {
   OutputPattern pattern;
   pattern.text_ = text;
+  pattern.extension_ = extension;
   const std::string_view stem = std::string_view(text).substr(0, text.size() - extension.size());
   for (std::size_t at = 0; at < stem.size();) {
     std::string& part = pattern.is_numbered() ? pattern.after_ : pattern.before_;
@@ -52,7 +60,7 @@ Expected<OutputPattern> OutputPattern::parse(const std::string& text) {
 
 fs::path OutputPattern::file(int frame, std::string_view suffix) const {
   const std::string number = is_numbered() ? fmt::format("{:0{}}", frame, digits_) : "";
-  return fmt::format("{}{}{}{}{}", before_, number, after_, suffix, extension);
+  return fmt::format("{}{}{}{}{}", before_, number, after_, suffix, extension_);
 }
 
 Expected<void> OutputPattern::prepare_folder() const {

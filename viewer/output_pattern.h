@@ -15,8 +15,11 @@ class OutputPattern {
 public:
   /// Refuses other conversions, two numbers, and names that do not end in .png.
   static Expected<OutputPattern> parse(const std::string& text);
+  /// The same for names that end in .png or .pfm.
+  static Expected<OutputPattern> parse_mask(const std::string& text);
 
   bool is_numbered() const { return digits_ >= 0; }
+  bool is_pfm() const { return extension_ == ".pfm"; }
   const std::string& text() const { return text_; }
   /// Name for `frame`, with `suffix` before the extension.
   std::filesystem::path file(int frame, std::string_view suffix = "") const;
@@ -25,10 +28,13 @@ public:
   Expected<void> prepare_folder() const;
 
 private:
+  static Expected<OutputPattern> parse_stem(const std::string& text, std::string_view extension);
+
   std::string text_;
   std::string before_;
   std::string after_;  // without the extension
-  int digits_ = -1;    // -1: no number
+  std::string extension_;
+  int digits_ = -1;  // -1: no number
 };
 
 }  // namespace tenebra::viewer

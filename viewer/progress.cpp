@@ -37,4 +37,15 @@ void Progress::show(int done) {
   std::fflush(stderr);
 }
 
+void Progress::show_building(std::string_view what, double done) {
+  if (!shown_) return;
+  print_error("{}{}: {:.0f} %", clear_line, what, 100.0 * done);
+  std::fflush(stderr);
+}
+
+void Progress::print_notes(const std::vector<std::string>& notes) {
+  if (shown_ && !notes.empty()) print_error("{}", clear_line);
+  for (const std::string& note : notes) print_error("note: {}\n", note);
+}
+
 }  // namespace tenebra::viewer

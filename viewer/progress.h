@@ -2,6 +2,9 @@
 #pragma once
 
 #include <chrono>
+#include <string>
+#include <string_view>
+#include <vector>
 
 namespace tenebra::viewer {
 
@@ -15,6 +18,10 @@ public:
 
   /// `done` frames are written.
   void show(int done);
+  /// Something long that the frame at hand needs is built: `done` of 0..1.
+  void show_building(std::string_view what, double done);
+  /// "note: ..." on standard error whatever it is, one line each.
+  void print_notes(const std::vector<std::string>& notes);
 
 private:
   int frames_;

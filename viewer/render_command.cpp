@@ -40,8 +40,11 @@ struct Journals {
     return {};
   }
 
-  Expected<void> add(const FrameRecord& record, double begin_ms) {
+  Expected<void> add(const FrameRecord& record, double begin_ms, const std::vector<std::string>& notes) {
     if (log) {
+      for (const std::string& note : notes) {
+        if (auto noted = log->comment({"note", note}); !noted) return noted;
+      }
       if (auto added = log->add(record); !added) return added;
     }
     return trace ? trace->add(record, begin_ms) : Expected<void>();
@@ -60,18 +63,21 @@ Expected<void> write_pictures(const RenderPlan& plan, const RenderOptions& optio
   if (options.pictures) {
     if (auto written = write_png(options.pictures->file(frame), result.image); !written) return written;
   }
-  if (!options.masks) return {};
-  for (const LightMask& mask : result.masks) {
-    const std::string suffix = plan.several_lights ? fmt::format("_L{}", mask.light) : "";
-    if (auto written = write_png(options.masks->file(frame, suffix), mask.mask); !written) return written;
+  for (const OutputPattern& pattern : options.masks) {
+    for (const LightMask& mask : result.masks) {
+      const auto file = pattern.file(frame, plan.several_lights ? fmt::format("_L{}", mask.light) : "");
+      auto written = pattern.is_pfm() ? write_pfm(file, mask.visible_fraction) : write_png(file, mask.mask);
+      if (!written) return written;
+    }
   }
   return {};
 }
 
 Expected<void> prepare_folders(const RenderOptions& options) {
-  for (const auto& pattern : {options.pictures, options.masks}) {
-    if (!pattern) continue;
-    if (auto prepared = pattern->prepare_folder(); !prepared) return prepared;
+  std::vector<OutputPattern> patterns = options.masks;
+  if (options.pictures) patterns.push_back(*options.pictures);
+  for (const OutputPattern& pattern : patterns) {
+    if (auto prepared = pattern.prepare_folder(); !prepared) return prepared;
   }
   return {};
 }
@@ -93,7 +99,9 @@ public:
 
     Progress progress(static_cast<int>(plan_.frames.size()), options_.quiet);
     for (const PlannedFrame& frame : plan_.frames) {
-      if (auto drawn = draw(*renderer, frame); !drawn) return drawn;
+      const auto drawn = draw(*renderer, frame, progress, stop.flag());
+      if (!drawn && drawn.error().message == "stopped") break;
+      if (!drawn) return drawn;
       progress.show(static_cast<int>(records_.size()));
       if (stop.caught() != 0) break;
     }
@@ -103,19 +111,24 @@ public:
   std::span<const FrameRecord> records() const { return records_; }
 
 private:
-  Expected<void> draw(Renderer& renderer, const PlannedFrame& planned) {
+  Expected<void> draw(Renderer& renderer, const PlannedFrame& planned, Progress& progress,
+                      const StopFlag& stop) {
     const auto begin = Clock::now();
     evaluate_frame(plan_.scene, plan_.clip, planned.time_s, input_.geometry);
     input_.lights = evaluate_lights(plan_.scene, plan_.clip, planned.time_s);
-    input_.view = view_of(plan_, options_, planned.time_s);
+    input_.view = view_of(plan_, options_.scene, planned.time_s, plan_.size);
     const double evaluate_ms = milliseconds(Clock::now() - begin);
-    if (auto drawn = renderer.render_frame(input_, plan_.settings, result_); !drawn) return drawn;
+    const auto on_progress = [&](std::string_view what, double done) { progress.show_building(what, done); };
+    if (auto drawn = renderer.render_frame(input_, plan_.settings, result_, on_progress, &stop); !drawn)
+      return drawn;
+    if (!options_.quiet) progress.print_notes(result_.notes);
 
-    FrameRecord record{planned.frame, planned.time_s, result_.timings, result_.stats};
+    FrameRecord record{planned.frame, planned.time_s, result_.timings,
+                       result_.stats, result_.soft,   result_.ao};
     record.timings.evaluate_ms = evaluate_ms;
     record.timings.total_ms = milliseconds(Clock::now() - begin);
     records_.push_back(record);
-    if (auto added = journals_.add(record, milliseconds(begin - begin_)); !added) return added;
+    if (auto added = journals_.add(record, milliseconds(begin - begin_), result_.notes); !added) return added;
     return write_pictures(plan_, options_, planned.frame, result_);
   }
 
@@ -134,7 +147,7 @@ void print_summary(const RenderPlan& plan, const RenderOptions& options,
   print_out("{} of {} frames, {}x{} pixels", records.size(), plan.frames.size(), plan.settings.width,
             plan.settings.height);
   if (options.pictures) print_out(", pictures in {}", options.pictures->text());
-  if (options.masks) print_out(", masks in {}", options.masks->text());
+  for (const OutputPattern& mask : options.masks) print_out(", masks in {}", mask.text());
   if (!options.log.empty()) print_out(", log in {}", options.log);
   if (!options.trace.empty()) print_out(", trace in {}", options.trace);
   print_out("\n");
@@ -144,7 +157,10 @@ Expected<int> render(const RenderOptions& options) {
   if (auto checked = check_render_options(options); !checked) return tl::unexpected(checked.error());
   const auto plan = plan_render(options);
   if (!plan) return tl::unexpected(plan.error());
-  if (!options.quiet) print_warnings(plan->scene.warnings);
+  if (!options.quiet) {
+    print_warnings(options.warnings);
+    print_warnings(plan->scene.warnings);
+  }
   if (auto prepared = prepare_folders(options); !prepared) return tl::unexpected(prepared.error());
 
   StopSignals stop;
@@ -164,7 +180,10 @@ void add_render_command(CLI::App& program, Run& run) {
       program.add_subcommand("render", "Pictures with shadows, masks and a log of frame times");
   const auto options = std::make_shared<RenderOptions>();
   add_render_options(*command, *options);
-  command->callback([options, &run] { run = [options] { return render(*options); }; });
+  command->callback([options, command, &run] {
+    options->warnings = idle_method_options(*command, options->method);
+    run = [options] { return render(*options); };
+  });
 }
 
 }  // namespace tenebra::viewer

@@ -1,15 +1,18 @@
 #include "render_log.h"
 
-#include "parallel/parallel.h"
-
 #include "base/machine.h"
 #include "base/statistics.h"
+#include "choices.h"
+#include "parallel/parallel.h"
 
 namespace tenebra::viewer {
 namespace {
 
-std::string camera_text(const RenderPlan& plan, const RenderOptions& options) {
-  const auto vector = [](glm::vec3 v) { return fmt::format("{},{},{}", v.x, v.y, v.z); };
+std::string vector(glm::vec3 v) {
+  return fmt::format("{},{},{}", v.x, v.y, v.z);
+}
+
+std::string camera_text(const ScenePlan& plan, const SceneOptions& options) {
   std::string text =
       fmt::format("{} ({})", plan.camera, plan.scene.cameras[static_cast<std::size_t>(plan.camera)].name);
   if (options.eye) {
@@ -27,7 +30,39 @@ std::string frames_text(const RenderPlan& plan, double fps) {
 }
 
 double shadow_ms(const FrameTimings& t) {
-  return t.rays_ms + t.sort_ms + t.build_ms + t.traverse_ms + t.writeback_ms;
+  return t.rays_ms + t.sort_ms + t.build_ms + t.traverse_ms + t.shaft_ms + t.init_ms + t.query_ms +
+         t.irradiance_ms + t.writeback_ms;
+}
+
+std::string light_size_text(const AreaLightSettings& lights) {
+  if (lights.size.x <= 0) return "as the scene has it";
+  return fmt::format("{}x{}{}", lights.size.x, lights.size.y, lights.percent_of_diagonal ? "%" : " m");
+}
+
+void describe_soft(const RenderSettings& settings, std::vector<LogSetting>& list) {
+  const SoftShadowConfig& soft = settings.soft;
+  const AreaLightSettings& lights = settings.area_lights;
+  list.insert(list.end(), {{"soft_solver", choice_name(solver_choices, soft.solver)},
+                           {"soft_grouping", choice_name(grouping_choices, soft.grouping)},
+                           {"soft_choice", choice_name(occluder_choices, soft.choice)},
+                           {"soft_precision", choice_name(precision_choices, soft.precision)},
+                           {"light_size", light_size_text(lights)},
+                           {"light_facing", lights.facing ? vector(*lights.facing) : "the scene's centre"},
+                           {"emissive_lights", lights.emissive_quads ? "yes" : "no"}});
+}
+
+void describe_ao(const AoConfig& ao, std::vector<LogSetting>& list) {
+  const std::string distance = ao.distance_m > 0 ? fmt::format("{} m", ao.distance_m) : "diagonal / 20";
+  list.insert(list.end(), {{"ao_at", choice_name(place_choices, ao.place)},
+                           {"ao_rays", fmt::format("{}", ao.rays)},
+                           {"ao_distance", distance}});
+  if (ao.mode != AoMode::field) return;
+  list.insert(list.end(), {{"ao_layout", choice_name(layout_choices, ao.layout)},
+                           {"ao_positions", fmt::format("{}", ao.positions)},
+                           {"ao_directions", fmt::format("{}", ao.directions)},
+                           {"ao_bits", fmt::format("{}", ao.bits)},
+                           {"ao_deforming", choice_name(deforming_choices, ao.deforming)},
+                           {"ao_cache", ao.cache.empty() ? "none" : ao.cache.string()}});
 }
 
 std::string summary_row(std::string_view name, std::span<const FrameRecord> records, auto value) {
@@ -42,11 +77,27 @@ std::string summary_row(std::string_view name, std::span<const FrameRecord> reco
 
 }  // namespace
 
+std::vector<LogSetting> describe_method(const RenderSettings& settings) {
+  const HardShadowConfig& hard = settings.hard;
+  std::vector<LogSetting> list{
+      {"shadows", choice_name(shadow_choices, settings.shadows)},
+      {"variant", std::string(variant_name(hard.variant))},
+      {"samples", choice_name(sample_choices, settings.samples)},
+      {"cull", choice_name(cull_choices, hard.cull_front)},
+      {"light", settings.light < 0 ? "all" : fmt::format("{}", settings.light)},
+      {"exposure", fmt::format("{}", settings.exposure)},
+      {"ao", choice_name(ao_choices, settings.ao.mode)},
+  };
+  if (settings.shadows == ShadowMode::soft) describe_soft(settings, list);
+  if (settings.ao.mode != AoMode::none) describe_ao(settings.ao, list);
+  return list;
+}
+
 std::vector<LogSetting> describe_render(const RenderPlan& plan, const RenderOptions& options,
                                         const std::string& gl_renderer, const FrameGeometry& first_frame) {
   const RenderSettings& settings = plan.settings;
-  const HardShadowConfig& hard = settings.hard;
-  const SimdLevel simd = hard.simd == SimdLevel::automatic ? best_simd_level() : hard.simd;
+  const SimdLevel asked = settings.hard.simd;
+  const SimdLevel simd = asked == SimdLevel::automatic ? best_simd_level() : asked;
   const bool has_clip = plan.clip >= 0;
   std::vector<LogSetting> list{
       {"machine", machine_description()},
@@ -55,22 +106,17 @@ std::vector<LogSetting> describe_render(const RenderPlan& plan, const RenderOpti
                                         : fmt::format("{}", settings.threads)},
       {"simd", std::string(simd_level_name(simd))},
       {"LP_NUM_THREADS", environment_or("LP_NUM_THREADS", "not set")},
-      {"scene", options.scene},
+      {"scene", options.scene.file},
       {"triangles", fmt::format("{}", first_frame.triangles.size())},
       {"dropped_non_finite", fmt::format("{}", first_frame.dropped_non_finite)},
       {"clip", has_clip ? plan.scene.clips[static_cast<std::size_t>(plan.clip)].name : "none"},
-      {"frames", frames_text(plan, options.fps)},
-      {"camera", camera_text(plan, options)},
+      {"frames", frames_text(plan, options.scene.fps)},
+      {"camera", camera_text(plan, options.scene)},
       {"size", fmt::format("{}x{}", settings.width, settings.height)},
-      {"shadows", settings.shadows == ShadowMode::hard ? "hard" : "none"},
-      {"variant", std::string(variant_name(hard.variant))},
-      {"samples", settings.samples == SampleSource::ids ? "ids" : "depth"},
-      {"cull", hard.cull_front ? "front" : "none"},
-      {"light", settings.light < 0 ? "all" : fmt::format("{}", settings.light)},
-      {"exposure", fmt::format("{}", settings.exposure)},
-      {"cone_sides", fmt::format("{}", options.import.cone_sides)},
+      {"cone_sides", fmt::format("{}", options.scene.import.cone_sides)},
   };
-  for (const std::string& name : options.no_cast) list.push_back({"no_cast", name});
+  for (LogSetting& setting : describe_method(settings)) list.push_back(std::move(setting));
+  for (const std::string& name : options.scene.no_cast) list.push_back({"no_cast", name});
   for (const std::string& warning : plan.scene.warnings) list.push_back({"warning", warning});
   return list;
 }

@@ -10,6 +10,9 @@
 
 namespace tenebra::viewer {
 
+/// The settings of shadows and ambient occlusion, of the methods that are on.
+std::vector<LogSetting> describe_method(const RenderSettings& settings);
+
 /// Machine, OpenGL renderer, threads, vector instructions, scene and every setting, as the log's comment
 /// lines. `first_frame`: geometry of the first frame, for its counts.
 std::vector<LogSetting> describe_render(const RenderPlan& plan, const RenderOptions& options,

@@ -1,4 +1,4 @@
-// The options of `tenebra render`.
+// The options of `tenebra render`: scene and method as every command has them, and the files it writes.
 #pragma once
 
 #include <CLI/CLI.hpp>
@@ -7,39 +7,24 @@
 #include <vector>
 
 #include "gl/context.h"
-#include "import/import_scene.h"
-#include "option_values.h"
+#include "method_options.h"
 #include "output_pattern.h"
-#include "render/renderer.h"
+#include "scene_options.h"
 
 namespace tenebra::viewer {
 
 struct RenderOptions {
-  std::string scene;
-  ImportOptions import;
-  std::vector<std::string> no_cast;
-
+  SceneOptions scene;
+  MethodOptions method;
   std::optional<FrameRange> frames;
-  std::optional<double> time_s;
-  double fps = 30.0;
-  std::optional<std::string> clip;
-
-  std::optional<std::string> camera;
-  std::optional<glm::vec3> eye;
-  glm::vec3 look_at{0.0f};
-  glm::vec3 up{0, 1, 0};
-  std::optional<double> fov_deg;
-  std::optional<Size> size;
-
-  RenderSettings render;
-  std::optional<bool> cull_front;  ///< not given: as the samples need it
   gl::ContextKind context = gl::ContextKind::automatic;
 
   std::optional<OutputPattern> pictures;  ///< none: no pictures
-  std::optional<OutputPattern> masks;
+  std::vector<OutputPattern> masks;       ///< .png or .pfm
   std::string log;
   std::string trace;
   bool quiet = false;
+  std::vector<std::string> warnings;  ///< options that do nothing with the others
 };
 
 /// Adds the options to `command`; they are read into `options`, which must live as long.

@@ -1,10 +1,10 @@
-// What a render will draw, decided before the first frame: clip, frames, camera, size and output names.
+// What a render will draw, decided before the first frame: scene, frames and settings.
 #pragma once
 
 #include <vector>
 
 #include "render_options.h"
-#include "scene/frame_geometry.h"
+#include "scene_plan.h"
 
 namespace tenebra::viewer {
 
@@ -13,10 +13,7 @@ struct PlannedFrame {
   double time_s = 0;
 };
 
-struct RenderPlan {
-  Scene scene;  ///< with cameras and lights added and casters left out
-  int clip = -1;
-  int camera = 0;  ///< index into scene.cameras; unused with --eye
+struct RenderPlan : ScenePlan {
   std::vector<PlannedFrame> frames;
   RenderSettings settings;
   bool several_lights = false;  ///< masks carry the number of their light
@@ -24,8 +21,5 @@ struct RenderPlan {
 
 /// Imports the scene and fits the options to it. Fails on what the scene does not have.
 Expected<RenderPlan> plan_render(const RenderOptions& options);
-
-/// The camera of one instant.
-ViewRays view_of(const RenderPlan& plan, const RenderOptions& options, double time_s);
 
 }  // namespace tenebra::viewer

@@ -11,7 +11,7 @@ from .gltf import Document
 END_S = 10.0
 HALF = 7.0                # the court is a square, 14 m wide
 WALL_TOP = 7.2
-PANEL_AT, PANEL_AIM, PANEL_SIZE = (4.6, 9.2, 5.6), (-0.8, 0.4, -0.8), (4.0, 2.5)
+PANEL_AT, PANEL_AIM, PANEL_SIZE = (4.6, 9.2, 5.6), (-0.8, 0.4, -0.8), (2.0, 1.25)
 LOOKS = {
     "slab light": (0.52, 0.48, 0.42), "slab": (0.45, 0.41, 0.36), "slab dark": (0.36, 0.33, 0.30),
     "joint": (0.20, 0.18, 0.16), "wall": (0.66, 0.52, 0.38), "arcade": (0.70, 0.62, 0.50),
@@ -132,7 +132,7 @@ def add_panel(document, looks):
     """The area light, the quad one sees of it, and its box. The quad casts no shadow: it would cover its own light."""
     silent = {"casts_shadow": False}
     looks["panel"] = document.material("lit panel", (0.0, 0.0, 0.0), emissive=(1.0, 0.93, 0.80), extras=silent)
-    light = document.rect_light("panel light", (1.0, 0.90, 0.74), 72.0, *PANEL_SIZE)
+    light = document.rect_light("panel light", (1.0, 0.90, 0.74), 288.0, *PANEL_SIZE)
     turn = v.look_rotation(PANEL_AT, PANEL_AIM)
     root = document.node("panel", translation=PANEL_AT, rotation=turn)
     document.node("panel light", root, extensions=light)

@@ -12,6 +12,10 @@ std::string on_one_line(std::string text) {
   return text;
 }
 
+std::string comment_line(const LogSetting& setting) {
+  return fmt::format("# {}: {}\n", on_one_line(setting.name), on_one_line(setting.value));
+}
+
 }  // namespace
 
 std::string frame_log_header() {
@@ -36,9 +40,7 @@ Expected<FrameLog> FrameLog::create(const std::filesystem::path& path, std::span
   auto file = OutputFile::create(path);
   if (!file) return tl::unexpected(file.error());
   std::string head;
-  for (const LogSetting& setting : settings) {
-    head += fmt::format("# {}: {}\n", on_one_line(setting.name), on_one_line(setting.value));
-  }
+  for (const LogSetting& setting : settings) head += comment_line(setting);
   head += frame_log_header() + "\n";
   if (auto written = file->write(head); !written) return tl::unexpected(written.error());
   return FrameLog(std::move(*file));
@@ -46,6 +48,10 @@ Expected<FrameLog> FrameLog::create(const std::filesystem::path& path, std::span
 
 Expected<void> FrameLog::add(const FrameRecord& record) {
   return file_.write(frame_log_row(record) + "\n");
+}
+
+Expected<void> FrameLog::comment(const LogSetting& setting) {
+  return file_.write(comment_line(setting));
 }
 
 Expected<void> FrameLog::finish() {

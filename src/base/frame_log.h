@@ -25,6 +25,8 @@ public:
   static Expected<FrameLog> create(const std::filesystem::path& path, std::span<const LogSetting> settings);
 
   Expected<void> add(const FrameRecord& record);
+  /// A comment line "# name: value" between the rows: what came up with the next frame.
+  Expected<void> comment(const LogSetting& setting);
   Expected<void> finish();
 
 private:

@@ -20,6 +20,8 @@ Formats formats_of(PixelFormat format) {
       return {GL_R32UI, GL_RED_INTEGER, GL_UNSIGNED_INT, 4};
     case PixelFormat::r8:
       return {GL_R8, GL_RED, GL_UNSIGNED_BYTE, 1};
+    case PixelFormat::r32f:
+      return {GL_R32F, GL_RED, GL_FLOAT, 4};
     case PixelFormat::rgba8:
       return {GL_RGBA8, GL_RGBA, GL_UNSIGNED_BYTE, 4};
     case PixelFormat::rgba32f:

@@ -51,7 +51,7 @@ private:
   std::size_t capacity_ = 0;
 };
 
-enum class PixelFormat { depth32f, r32ui, r8, rgba8, rgba32f };
+enum class PixelFormat { depth32f, r32ui, r8, r32f, rgba8, rgba32f };
 std::size_t bytes_per_pixel(PixelFormat format);
 
 /// A two-dimensional texture without mipmaps; rows are tightly packed in memory, row 0 first.

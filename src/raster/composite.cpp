@@ -11,8 +11,9 @@
 namespace tenebra {
 namespace {
 
-constexpr int use_mask_location = 0;                                                 // of accumulate.frag
-constexpr int ambient_location = 0, background_location = 1, exposure_location = 2;  // of composite.frag
+constexpr int use_factor_location = 0;  // of accumulate.frag
+constexpr int ambient_location = 0, background_location = 1, exposure_location = 2,
+              use_openness_location = 3;  // of composite.frag
 
 }  // namespace
 
@@ -33,8 +34,9 @@ Expected<void> Compositor::begin(int width, int height) {
   if (!picture_framebuffer_ || sum_.width() != width || sum_.height() != height) {
     auto sum = gl::Texture::create(gl::PixelFormat::rgba32f, width, height);
     auto mask = gl::Texture::create(gl::PixelFormat::r8, width, height);
+    auto factor = gl::Texture::create(gl::PixelFormat::r32f, width, height);
     auto picture = gl::Texture::create(gl::PixelFormat::rgba8, width, height);
-    for (auto* target : {&sum, &mask, &picture}) {
+    for (auto* target : {&sum, &mask, &factor, &picture}) {
       if (!*target) return tl::unexpected(std::move(target->error()));
     }
     auto sum_framebuffer = gl::Framebuffer::create({&*sum});
@@ -44,6 +46,7 @@ Expected<void> Compositor::begin(int width, int height) {
     }
     sum_ = std::move(*sum);
     mask_ = std::move(*mask);
+    factor_ = std::move(*factor);
     picture_ = std::move(*picture);
     sum_framebuffer_ = std::move(*sum_framebuffer);
     picture_framebuffer_ = std::move(*picture_framebuffer);
@@ -54,15 +57,24 @@ Expected<void> Compositor::begin(int width, int height) {
 }
 
 void Compositor::add_light(const LightBuffer& light, std::span<const std::uint8_t> mask) {
-  assert(light.light.width() == sum_.width() && light.light.height() == sum_.height());
   if (!mask.empty()) mask_.upload(std::as_bytes(mask));
+  accumulate(light, mask.empty() ? nullptr : &mask_);
+}
+
+void Compositor::add_area_light(const LightBuffer& light, std::span<const float> irradiance) {
+  factor_.upload(std::as_bytes(irradiance));
+  accumulate(light, &factor_);
+}
+
+void Compositor::accumulate(const LightBuffer& light, const gl::Texture* factor) {
+  assert(light.light.width() == sum_.width() && light.light.height() == sum_.height());
   begin_pass(sum_framebuffer_, accumulate_program_, sum_.width(), sum_.height());
   glEnable(GL_BLEND);
   glBlendEquation(GL_FUNC_ADD);
   glBlendFunc(GL_ONE, GL_ONE);
   bind_texture(0, light.light);
-  bind_texture(1, mask_);
-  glUniform1i(use_mask_location, !mask.empty());
+  bind_texture(1, factor != nullptr ? *factor : mask_);
+  glUniform1i(use_factor_location, factor != nullptr);
   draw_fullscreen(empty_);
   glDisable(GL_BLEND);
   end_pass();
@@ -71,13 +83,16 @@ void Compositor::add_light(const LightBuffer& light, std::span<const std::uint8_
 void Compositor::finish(const GBuffer& gbuffer, const GeometryBuffers& geometry,
                         const CompositeSettings& settings, Image8& out) {
   assert(gbuffer.width == sum_.width() && gbuffer.height == sum_.height());
+  if (!settings.openness.empty()) factor_.upload(std::as_bytes(settings.openness));
   begin_pass(picture_framebuffer_, composite_program_, gbuffer.width, gbuffer.height);
   geometry.bind_records();
   bind_texture(0, gbuffer.ids);
   bind_texture(1, sum_);
+  bind_texture(2, factor_);
   glUniform3fv(ambient_location, 1, glm::value_ptr(settings.ambient_light));
   glUniform3fv(background_location, 1, glm::value_ptr(settings.background));
   glUniform1f(exposure_location, settings.exposure);
+  glUniform1i(use_openness_location, !settings.openness.empty());
   draw_fullscreen(empty_);
   end_pass();
 

@@ -26,21 +26,33 @@ enum Location : GLint {
   cone = 8,
   range = 9,
   directional = 10,
-  inverse_square = 11,
+  distance_power = 11,
   cosine_emitter = 12,
+  by_irradiance = 13,
 };
 
 bool is_area(LightType type) {
   return type == LightType::area_rect || type == LightType::area_disk;
 }
 
-/// Intensity on the axis times color, and 1/pi of the diffuse reflection for lights with units.
-glm::vec3 scaled_color(const Light& light, const WorldLight& placed) {
+/// Intensity on the axis (with `area_m2`: radiance) times color, and 1/pi of the diffuse reflection for
+/// lights with units.
+glm::vec3 scaled_color(const Light& light, const WorldLight& placed, std::optional<double> area_m2) {
   glm::vec3 color = light.color * light.intensity;
   const float half_area = glm::length(glm::cross(placed.axis_x, placed.axis_y));
-  if (light.type == LightType::area_rect) color *= 4.0f * half_area;
-  if (light.type == LightType::area_disk) color *= glm::pi<float>() * half_area;
+  if (area_m2) {
+    if (!is_area(light.type)) color /= static_cast<float>(*area_m2);
+  } else if (is_area(light.type)) {
+    color *= (light.type == LightType::area_rect ? 4.0f : glm::pi<float>()) * half_area;
+  }
   return light.falloff == Falloff::inverse_square ? color / glm::pi<float>() : color;
+}
+
+/// What the distance is raised to.
+int power_of_distance(const Light& light, bool by_irradiance) {
+  if (light.type == LightType::directional) return 0;
+  const int of_point = light.falloff == Falloff::inverse_square ? -2 : 0;
+  return by_irradiance ? of_point + 2 : of_point;  // irradiance falls off by itself
 }
 
 /// Scale and offset of the cosine, as KHR_lights_punctual gives them; other lights: 1 everywhere.
@@ -61,18 +73,20 @@ void set_view(const GBuffer& gbuffer) {
   glUniform1i(orthographic, view.orthographic);
 }
 
-void set_light(const GBuffer& gbuffer, const Light& light, const WorldLight& placed) {
+void set_light(const GBuffer& gbuffer, const Light& light, const WorldLight& placed,
+               std::optional<double> area_m2) {
   const bool is_directional = light.type == LightType::directional;
   // Relative to the eye: far from the world's origin absolute floats are coarse.
   const glm::vec3 from_eye = placed.position - gbuffer.view.eye;
   glUniform3fv(light_from_eye, 1, glm::value_ptr(from_eye));
   glUniform3fv(light_direction, 1, glm::value_ptr(placed.direction));
-  glUniform3fv(light_color, 1, glm::value_ptr(scaled_color(light, placed)));
+  glUniform3fv(light_color, 1, glm::value_ptr(scaled_color(light, placed, area_m2)));
   glUniform2fv(cone, 1, glm::value_ptr(cone_fade(light)));
   glUniform1f(range, light.range_m.value_or(0.0f));
   glUniform1i(directional, is_directional);
-  glUniform1i(inverse_square, light.falloff == Falloff::inverse_square && !is_directional);
-  glUniform1i(cosine_emitter, is_area(light.type));
+  glUniform1i(distance_power, power_of_distance(light, area_m2.has_value()));
+  glUniform1i(cosine_emitter, is_area(light.type) && !area_m2);
+  glUniform1i(by_irradiance, area_m2.has_value());
 }
 
 Expected<void> make_target(int width, int height, LightBuffer& out) {
@@ -101,6 +115,18 @@ Expected<LightPass> LightPass::create() {
 
 Expected<void> LightPass::draw(const GBuffer& gbuffer, const GeometryBuffers& geometry, const Light& light,
                                const WorldLight& placed, LightBuffer& out) const {
+  return draw(gbuffer, geometry, light, placed, std::nullopt, out);
+}
+
+Expected<void> LightPass::draw_area(const GBuffer& gbuffer, const GeometryBuffers& geometry,
+                                    const Light& light, const WorldLight& placed, double area_m2,
+                                    LightBuffer& out) const {
+  return draw(gbuffer, geometry, light, placed, std::optional(area_m2), out);
+}
+
+Expected<void> LightPass::draw(const GBuffer& gbuffer, const GeometryBuffers& geometry, const Light& light,
+                               const WorldLight& placed, std::optional<double> area_m2,
+                               LightBuffer& out) const {
   if (auto made = make_target(gbuffer.width, gbuffer.height, out); !made) return made;
   begin_pass(out.framebuffer, program_, gbuffer.width, gbuffer.height);
   geometry.bind_records();
@@ -108,7 +134,7 @@ Expected<void> LightPass::draw(const GBuffer& gbuffer, const GeometryBuffers& ge
   bind_texture(1, gbuffer.normals);
   bind_texture(2, gbuffer.depth);
   set_view(gbuffer);
-  set_light(gbuffer, light, placed);
+  set_light(gbuffer, light, placed, area_m2);
   draw_fullscreen(empty_);
   end_pass();
   return {};

@@ -1,6 +1,8 @@
 // The light buffer: direct diffuse light of one light before shadowing.
 #pragma once
 
+#include <optional>
+
 #include "base/image.h"
 #include "gl/objects.h"
 #include "raster/gbuffer.h"
@@ -30,7 +32,17 @@ public:
   Expected<void> draw(const GBuffer& gbuffer, const GeometryBuffers& geometry, const Light& light,
                       const WorldLight& placed, LightBuffer& out) const;
 
+  /// The same of a light with an area, for each unit of the irradiance that light of radiance 1 sends to a
+  /// point: c / pi * L, with L = nits of an area light, I / area_m2 of the others. Falloff::none: c * I d^2 /
+  /// area_m2 with the distance d to the light's centre, which a small light's irradiance, area cos cos' /
+  /// d^2, makes c * I cos(theta) cos' again. Range and a spot's cone fade as seen from the light's centre.
+  Expected<void> draw_area(const GBuffer& gbuffer, const GeometryBuffers& geometry, const Light& light,
+                           const WorldLight& placed, double area_m2, LightBuffer& out) const;
+
 private:
+  Expected<void> draw(const GBuffer& gbuffer, const GeometryBuffers& geometry, const Light& light,
+                      const WorldLight& placed, std::optional<double> area_m2, LightBuffer& out) const;
+
   gl::Program program_;
   gl::VertexArray empty_;
 };

@@ -29,7 +29,8 @@ enum class SampleSource { ids, depth };
 struct AreaLightSettings {
   glm::vec2 size{0.0f};              ///< width and height; 0: point and spot lights keep hard shadows
   bool percent_of_diagonal = false;  ///< unit of `size`: percent of the scene's diagonal instead of metres
-  std::optional<glm::vec3> facing;   ///< point that the rectangles face; none: the centre of the scene's box
+  std::optional<glm::vec3> facing;   ///< point that the rectangles face; none: the centre of the scene's box,
+                                     ///< and for spot lights where they shine
   bool emissive_quads = false;       ///< planar convex meshes of an emissive material shine too
 };
 
@@ -45,6 +46,7 @@ struct RenderSettings {
   int light = -1;         ///< index into the frame's lights; -1: all
   int threads = 0;        ///< 0: all cores
   float exposure = 1.0f;  ///< factor of linear colour before it is clamped
+  bool diagnostics = false;  ///< fill LightMask::nodes; the picture is the same
 };
 
 /// What is drawn: one instant of a scene from one camera.
@@ -55,9 +57,11 @@ struct FrameInput {
 };
 
 struct LightMask {
-  int light = -1;  ///< index into FrameInput::lights
+  int light = -1;  ///< index into FrameInput::lights; emissive meshes that shine follow them
   Image8 mask;     ///< 255 lit, 0 shadowed, facing away, out of reach or background; soft: 255 x fraction
-  ImageF visible_fraction;  ///< soft: visible part of the light, 0..1; else empty
+  ImageF visible_fraction;  ///< soft mode: visible part of the light, 0..1 (0 or 1 of a point); else empty
+  std::vector<float> nodes;           ///< hard, with RenderSettings::diagnostics: ShadowTracer::pixel_nodes
+  std::vector<std::uint8_t> classes;  ///< soft shadows: a SoftClass a pixel, for display; else empty
 };
 
 struct FrameResult {
@@ -73,7 +77,8 @@ struct FrameResult {
 /// Owns the OpenGL objects of one scene. Use it on the thread that created its context.
 class Renderer {
 public:
-  /// Fails with a sentence if the context lacks OpenGL 4.5 core or a shader does not build.
+  /// Fails with a sentence if the context lacks OpenGL 4.5 core or a shader does not build. Keeps what it
+  /// needs of `scene`.
   static Expected<Renderer> create(gl::Context context, const Scene& scene);
   Renderer(Renderer&&) noexcept;
   Renderer& operator=(Renderer&&) noexcept;
@@ -83,6 +88,16 @@ public:
   /// With `stop` requested from another thread it fails soon, with "stopped".
   Expected<void> render_frame(const FrameInput& input, const RenderSettings& settings, FrameResult& result,
                               const AoProgress& progress = {}, const StopFlag* stop = nullptr);
+
+  /// Replaces Scene::lights (colour, intensity, size): a viewer's sliders. As many as the scene has.
+  void set_lights(std::vector<Light> lights);
+
+  /// What pixel (x, y), row 0 at the top, of the last frame sees, in world space; none: background. `input`:
+  /// that frame's.
+  std::optional<glm::dvec3> visible_point(const FrameInput& input, int x, int y);
+
+  /// What the driver complained about since the last call (contexts made with ContextOptions::debug).
+  std::vector<std::string> take_debug_messages();
 
   const std::string& gl_renderer() const;  ///< GL_RENDERER and GL_VERSION of the context
 

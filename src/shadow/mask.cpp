@@ -61,9 +61,13 @@ struct ShadowTracer::State {
   std::vector<std::uint32_t> places;
   std::vector<std::uint32_t> blockers;
   std::vector<TraversalScratch> scratch;
+  NodeTests node_tests;
+  std::vector<float> pixel_nodes;
   TraceStats stats;
   FrameTimings timings;
 
+  void begin_node_tests();
+  void spread_node_tests(std::size_t pixels);
   void trace_one_pass(const Traversal& traversal, const TraversalKernels& kernels);
   void trace_two_passes(const Traversal& traversal, const TraversalKernels& kernels);
   void write_mask(ShadowMask& mask) const;
@@ -98,6 +102,28 @@ void ShadowTracer::State::write_mask(ShadowMask& mask) const {
   for (const std::uint32_t pixel : at_light) mask[pixel] = lit;
 }
 
+void ShadowTracer::State::begin_node_tests() {
+  node_tests.resize(tree.levels.size());
+  for (std::size_t k = 0; k < tree.levels.size(); ++k)
+    node_tests[k].assign(tree.levels[k].size() * branching, 0);
+}
+
+void ShadowTracer::State::spread_node_tests(std::size_t pixels) {
+  pixel_nodes.assign(pixels, 0);
+  const std::size_t count = rays.pixels.size();
+  for (std::size_t packet = 0; packet * packet_size < count; ++packet) {
+    double shares = 0;
+    std::size_t node = packet, most = packet_size;  // rays that a node of this level holds, but for the last
+    for (const std::vector<std::uint32_t>& level : node_tests) {
+      shares += static_cast<double>(level[node]) / static_cast<double>(std::min(most, count - node * most));
+      node /= branching;
+      most *= branching;
+    }
+    const std::size_t last = std::min(count, (packet + 1) * packet_size);
+    for (std::size_t i = packet * packet_size; i < last; ++i) pixel_nodes[rays.pixels[i]] = static_cast<float>(shares);
+  }
+}
+
 ShadowTracer::ShadowTracer() : state_(std::make_unique<State>()) {}
 ShadowTracer::ShadowTracer(ShadowTracer&&) noexcept = default;
 ShadowTracer& ShadowTracer::operator=(ShadowTracer&&) noexcept = default;
@@ -108,6 +134,9 @@ const TraceStats& ShadowTracer::stats() const {
 }
 const FrameTimings& ShadowTracer::timings() const {
   return state_->timings;
+}
+std::span<const float> ShadowTracer::pixel_nodes() const {
+  return state_->pixel_nodes;
 }
 
 void ShadowTracer::trace_shadow_mask(const VisiblePoints& points, const ViewRays& view,
@@ -141,12 +170,17 @@ void ShadowTracer::trace_shadow_mask(const VisiblePoints& points, const ViewRays
                               &source,
                               &triangles,
                               points.positions,
-                              config.contact};
+                              config.contact,
+                              config.count_pixel_nodes ? &s.node_tests : nullptr};
+    if (config.count_pixel_nodes) s.begin_node_tests();
     const TraversalKernels kernels = traversal_kernels(config.simd);
     parts.two_pass ? s.trace_two_passes(traversal, kernels) : s.trace_one_pass(traversal, kernels);
     s.stats.tree_bytes = s.tree.byte_count();
   }
   s.timings.traverse_ms = watch.lap_ms();
+  s.pixel_nodes.clear();
+  if (config.count_pixel_nodes) s.spread_node_tests(points.triangles.size());
+  watch.lap_ms();
 
   mask.assign(points.triangles.size(), 0);
   s.write_mask(mask);

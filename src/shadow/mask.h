@@ -55,6 +55,7 @@ struct HardShadowConfig {
       false;  ///< section 3.6: only triangles that face away from the light cast (closed meshes only)
   ContactRule contact = ContactRule::triangle_ids;
   SimdLevel simd = SimdLevel::automatic;
+  bool count_pixel_nodes = false;  ///< fill ShadowTracer::pixel_nodes, for display; the mask is the same
 };
 
 /// One a pixel: 255 the point sees the light; 0 blocked, facing away, out of reach, or no triangle.
@@ -86,6 +87,9 @@ public:
   const TraceStats& stats() const;  ///< of the last call
   const FrameTimings& timings()
       const;  ///< of the last call: rays_ms, sort_ms, build_ms, traverse_ms, writeback_ms
+  /// Of the last call with count_pixel_nodes: node/triangle tests made for each pixel, those of a node shared
+  /// equally by the rays below it: they sum up to TraceStats::nodes. 0 without a ray; else empty.
+  std::span<const float> pixel_nodes() const;
 
 private:
   struct State;

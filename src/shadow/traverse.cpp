@@ -130,6 +130,16 @@ bool accept_early(const Traversal& s, std::size_t level, std::size_t node, std::
   return true;
 }
 
+// Adds what `filter` did at a block: `tested` triangles at each node that was never covered, else `until` of
+// them.
+void count_tests(NodeTests& tests, std::size_t level, std::size_t block, std::uint32_t empty,
+                 std::size_t tested, const std::uint32_t until[4]) {
+  for (std::size_t lane = 0; lane < branching; ++lane) {
+    tests[level][block * branching + lane] +=
+        (empty >> lane) & 1u ? until[lane] : static_cast<std::uint32_t>(tested);
+  }
+}
+
 // A record is two cache lines, and lists skip most records.
 HWY_INLINE void fetch_ahead(const TriangleBounds* bounds) {
   __builtin_prefetch(bounds);
@@ -140,7 +150,9 @@ void filter(const Traversal& s, std::size_t level, std::size_t block, TriangleLi
             std::uint32_t* const out[4], std::size_t out_size[4], TraceStats& stats) {
   Nodes nodes = load_nodes(s.tree->levels[level][block]);
   std::size_t size[4] = {0, 0, 0, 0};
-  for (std::size_t i = 0; i < list.size && nodes.empty != 15; ++i) {
+  std::uint32_t until[4] = {0, 0, 0, 0};
+  std::size_t i = 0;
+  for (; i < list.size && nodes.empty != 15; ++i) {
     const std::uint32_t place = list.places[i];
     if (i + 4 < list.size) fetch_ahead(&s.set->bounds[list.places[i + 4]]);
     const TriangleBounds& bounds = s.set->bounds[place];
@@ -156,9 +168,11 @@ void filter(const Traversal& s, std::size_t level, std::size_t block, TriangleLi
       if (accept_early(s, level, block * branching + static_cast<std::size_t>(lane),
                        s.set->planes[place].triangle, stats)) {
         nodes.empty |= 1u << lane;
+        until[lane] = static_cast<std::uint32_t>(i + 1);
       }
     }
   }
+  if (s.node_tests) count_tests(*s.node_tests, level, block, nodes.empty, i, until);
   // A covered node keeps no triangles: its subtree is finished.
   for (int lane = 0; lane < branching; ++lane) out_size[lane] = (nodes.empty >> lane) & 1u ? 0 : size[lane];
 }

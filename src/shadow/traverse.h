@@ -12,6 +12,10 @@
 
 namespace tenebra {
 
+/// Triangles that each node was tested with: levels as in ConeTree, one count a node. Sums up to
+/// TraceStats::nodes.
+using NodeTests = std::vector<std::vector<std::uint32_t>>;
+
 struct TraversalFlags {
   bool spheres = false;       ///< bounding spheres against cones, as in the earlier work; else section 3.2
   bool early_accept = false;  ///< section 3.3
@@ -28,6 +32,7 @@ struct Traversal {
   const TriangleView* triangles = nullptr;
   std::span<const glm::dvec3> positions;
   ContactRule contact = ContactRule::triangle_ids;
+  NodeTests* node_tests = nullptr;  ///< added to if given; of the size of the tree
 };
 
 /// Places in TriangleSet::planes. A list's storage has room for one more than it holds.

@@ -8,6 +8,7 @@
 #include "math/predicates.h"
 #include "parallel/parallel.h"
 #include "points/triangle_corners.h"
+#include "soft/group_tree.h"
 
 namespace tenebra {
 
@@ -90,15 +91,6 @@ struct Point {
   Receiver receiver;
 };
 
-struct Box {
-  dvec3 low{INFINITY}, high{-INFINITY};
-  void add(const dvec3& p) { low = glm::min(low, p), high = glm::max(high, p); }
-};
-int longest_side(const Box& box) {
-  const dvec3 size = box.high - box.low;
-  return size.x >= size.y && size.x >= size.z ? 0 : size.y >= size.z ? 1 : 2;
-}
-
 // Groups of a part of the picture; its points go where the caller says.
 struct Part {
   std::vector<PointGroup> groups;
@@ -106,7 +98,7 @@ struct Part {
   std::uint32_t next = 0;  // place of the next point in PointGroups
 };
 
-void append_group(const ActivePoints& active, std::span<const Point> points, const Box& box, Part& part,
+void append_group(const ActivePoints& active, std::span<const Point> points, const PointBox& box, Part& part,
                   PointGroups& out) {
   PointGroup group;
   group.first = part.next;
@@ -136,9 +128,9 @@ constexpr int slices = 16;
 constexpr int slices_of_a_gap = 5;
 
 void append_split(const ActivePoints& active, std::span<Point> points, Part& part, PointGroups& out) {
-  Box box;
+  PointBox box;
   for (const Point& p : points) box.add(active.position(p.pixel));
-  const int axis = longest_side(box);
+  const int axis = box.longest_side();
   const double scale = slices / (box.high[axis] - box.low[axis]);
   const auto slice = [&](const Point& p) {
     return std::min(slices - 1, static_cast<int>((active.position(p.pixel)[axis] - box.low[axis]) * scale));
@@ -188,7 +180,7 @@ void append(const Part& part, PointGroups& to) {
 void group_by_triangle(std::span<const std::uint32_t> pixels, ActivePoints& active, PointGroups& out) {
   Part part;
   std::vector<Point> taken;
-  Box box;
+  PointBox box;
   const auto close = [&] {
     if (!taken.empty()) append_group(active, taken, box, part, out);
     taken.clear();
@@ -229,45 +221,6 @@ void group_tiles(const VisiblePoints& points, auto&& make_active, PointGroups& o
   for (const Part& part : parts) append(part, out);
 }
 
-// Halves the range along the longest side of the box of its groups' centres.
-std::uint32_t split_range(std::span<PointGroup> groups) {
-  Box box;
-  for (const PointGroup& g : groups) box.add(g.low + g.high);
-  const int axis = longest_side(box);
-  const std::size_t half = groups.size() / 2;
-  std::nth_element(groups.begin(), groups.begin() + static_cast<std::ptrdiff_t>(half), groups.end(),
-                   [axis](const PointGroup& a, const PointGroup& b) {
-                     return a.low[axis] + a.high[axis] < b.low[axis] + b.high[axis];
-                   });
-  return static_cast<std::uint32_t>(half);
-}
-
-void build_tree(PointGroups& out) {
-  out.nodes.clear();
-  if (out.groups.empty()) return;
-  out.nodes.reserve(2 * out.groups.size());
-  out.nodes.push_back({.first = 0, .count = static_cast<std::uint32_t>(out.groups.size())});
-  for (std::size_t i = 0; i < out.nodes.size(); ++i) {
-    const std::uint32_t first = out.nodes[i].first, count = out.nodes[i].count;
-    if (count == 1) continue;
-    const std::uint32_t half = split_range({out.groups.data() + first, count});
-    out.nodes[i].children = static_cast<std::uint32_t>(out.nodes.size());
-    out.nodes.push_back({.first = first, .count = half});
-    out.nodes.push_back({.first = first + half, .count = count - half});
-  }
-  for (std::size_t i = out.nodes.size(); i-- > 0;) {
-    GroupNode& node = out.nodes[i];
-    if (node.children == 0) {
-      const PointGroup& group = out.groups[node.first];
-      node.low = group.low, node.high = group.high, node.points = group.count;
-      continue;
-    }
-    const GroupNode &a = out.nodes[node.children], &b = out.nodes[node.children + 1];
-    node.low = glm::min(a.low, b.low), node.high = glm::max(a.high, b.high);
-    node.points = a.points + b.points;
-  }
-}
-
 }  // namespace
 
 int seen_side(const TriangleView& triangles, std::uint32_t id, const ViewRays& view) {
@@ -292,7 +245,7 @@ void group_points(const VisiblePoints& points, const ViewRays& view, const Trian
     group_tiles(
         points, [&] { return ActivePoints(points, view, triangles, light); }, out);
   }
-  build_tree(out);
+  build_group_tree(out);
 }
 
 }  // namespace tenebra

@@ -59,15 +59,18 @@ Cell fitted_cell(std::span<const dvec3> points, std::span<const std::uint32_t> p
                  const dvec3& low, const dvec3& high, const LightShape& light) {
   const auto columns = static_cast<std::uint32_t>(width);
   const dvec3 base = 0.5 * (low + high);
-  double mean_x = 0, mean_y = 0;
-  for (const std::uint32_t pixel : pixels) mean_x += pixel % columns, mean_y += pixel / columns;
-  mean_x /= static_cast<double>(pixels.size()), mean_y /= static_cast<double>(pixels.size());
-  dvec3 r(0), c(0);
+  // Slopes of the position along rows and columns, up to a factor: sum of (x - mean x) p.
+  dvec3 r(0), c(0), all(0);
+  double x_sum = 0, y_sum = 0;
   for (std::size_t i = 0; i < points.size(); ++i) {
     const dvec3 p = points[i] - base;
-    r += (pixels[i] % columns - mean_x) * p;
-    c += (pixels[i] / columns - mean_y) * p;
+    const std::uint32_t row = pixels[i] / columns;
+    const double x = pixels[i] - row * columns, y = row;
+    r += x * p, c += y * p, all += p;
+    x_sum += x, y_sum += y;
   }
+  const auto count = static_cast<double>(points.size());
+  r -= x_sum / count * all, c -= y_sum / count * all;
   const double r_length = std::sqrt(glm::dot(r, r)), c_length = std::sqrt(glm::dot(c, c));
   r /= r_length, c /= c_length;
   dvec3 n = glm::cross(r, c);

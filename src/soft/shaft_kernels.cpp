@@ -66,26 +66,27 @@ HWY_INLINE Double8 most(const Double8& a, const Double8& b, const Double8& c) {
   return max(a, max(b, c));
 }
 
-// Triangles wholly outside of a plane of the shaft or of its box. m.v is off by 5 u reach as |m|_1 <= 1.
-HWY_INLINE Truth<double, block_size> outside(const Shaft& shaft, const Triangles& t) {
+// Lanes of triangles that may meet the shaft's box and the inner sides of its planes. m.v is off by 5 u reach
+// as |m|_1 <= 1.
+HWY_INLINE std::uint32_t inside(const Shaft& shaft, const Triangles& t, std::uint32_t lanes) {
   const Double8 margin = t.reach * constant(0x1p-50);
   const auto beyond = [&](const Double8& a, const Double8& b, const Double8& c, double low, double high) {
     return less(constant(high) + margin, least(a, b, c)) | less(most(a, b, c) + margin, constant(low));
   };
-  auto out = beyond(t.v[0].x, t.v[1].x, t.v[2].x, shaft.low.x, shaft.high.x) |
-             beyond(t.v[0].y, t.v[1].y, t.v[2].y, shaft.low.y, shaft.high.y) |
-             beyond(t.v[0].z, t.v[1].z, t.v[2].z, shaft.low.z, shaft.high.z);
-  for (int k = 0; k < shaft.plane_count; ++k) {
+  lanes &= ~bits(beyond(t.v[0].x, t.v[1].x, t.v[2].x, shaft.low.x, shaft.high.x) |
+                 beyond(t.v[0].y, t.v[1].y, t.v[2].y, shaft.low.y, shaft.high.y) |
+                 beyond(t.v[0].z, t.v[1].z, t.v[2].z, shaft.low.z, shaft.high.z));
+  for (int k = 0; k < shaft.plane_count && lanes != 0; ++k) {
     const Vector8 m = constant(shaft.planes[k].m);
     const Double8 nearest = least(product(m, t.v[0]), product(m, t.v[1]), product(m, t.v[2]));
-    out = out | less(constant(shaft.planes[k].limit) + margin, nearest);
+    lanes &= ~bits(less(constant(shaft.planes[k].limit) + margin, nearest));
   }
-  return out;
+  return lanes;
 }
 
 // n.(x - A) over the points and over the light, n = (B - A) x (C - A), as least and greatest value, both
 // widened by their rounding: with edges off by u, n is off by 9 u size^2 a coordinate, and n.(x - A) by
-// (27 + 6 + 14) u size^2 (reach_A + reach_x).
+// (27 for n + 18 a product + 18 for x + 30 for sums) u size^2 (reach_A + reach_x).
 struct PlaneRange {
   Double8 points_low, points_high, light_low, light_high;
   Double8 normal_length, size2;
@@ -100,7 +101,7 @@ HWY_INLINE PlaneRange plane_range(const Shaft& shaft, const TriangleBlock& block
   PlaneRange r;
   r.size2 = t.size * t.size;
   const Double8 margin =
-      r.size2 * ((t.reach + constant(shaft.cell.reach)) * constant(0x1p-47) + constant(6 * shaft.cell.slack));
+      r.size2 * ((t.reach + constant(shaft.cell.reach)) * constant(0x1p-46) + constant(6 * shaft.cell.slack));
   around = around + margin;
   r.points_low = at_centre - around, r.points_high = at_centre + around;
   r.light_low = r.light_high = product(n, constant(shaft.light->vertices[0]));
@@ -108,7 +109,7 @@ HWY_INLINE PlaneRange plane_range(const Shaft& shaft, const TriangleBlock& block
     const Double8 at = product(n, constant(shaft.light->vertices[k]));
     r.light_low = min(r.light_low, at), r.light_high = max(r.light_high, at);
   }
-  const Double8 light_margin = r.size2 * (t.reach + constant(shaft.light->reach)) * constant(0x1p-47);
+  const Double8 light_margin = r.size2 * (t.reach + constant(shaft.light->reach)) * constant(0x1p-46);
   r.light_low = r.light_low - at_corner - light_margin;
   r.light_high = r.light_high - at_corner + light_margin;
   r.normal_length = square_root(product(n, n));
@@ -135,7 +136,7 @@ std::size_t cull(const Shaft& shaft, double tau_least, const TriangleBlock* bloc
   for (const BlockRef& ref : in) {
     const TriangleBlock& block = blocks[ref.block];
     const Triangles t = load_triangles(block, *shaft.light);
-    std::uint32_t lanes = ref.lanes & ~bits(outside(shaft, t));
+    std::uint32_t lanes = inside(shaft, t, ref.lanes);
     if (lanes == 0) continue;
     const PlaneRange r = plane_range(shaft, block, t);
     const Double8 theta = theta_low(block, r, tau_least);

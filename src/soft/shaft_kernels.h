@@ -7,23 +7,11 @@
 #include <span>
 
 #include "simd/simd_level.h"
+#include "soft/receiver_planes.h"
 #include "soft/shaft.h"
 #include "soft/triangle_blocks.h"
 
 namespace tenebra {
-
-/// Half-space of a receiver that no line from its points in the group to the light enters: a triangle with
-/// m.(v - origin) <= limit for its vertices blocks none of them, nor does the receiver itself.
-struct ReceiverPlane {
-  std::uint32_t triangle = no_triangle;
-  glm::dvec3 m{0.0};  ///< unit
-  double limit = 0;
-};
-
-/// Contact tolerances (tau_R) of the receivers of a group.
-struct ContactRange {
-  double least = 0, most = 0;
-};
 
 struct ShaftKernels {
   /// Triangles that may meet the shaft, and whose own plane may have points and light on two sides. Writes to

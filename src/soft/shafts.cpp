@@ -1,19 +1,15 @@
 #include "soft/shafts.h"
 
 #include <algorithm>
-#include <cmath>
 #include <deque>
 #include <vector>
 
 #include "base/stopwatch.h"
 #include "parallel/parallel.h"
-#include "points/contact_rule.h"
-#include "points/triangle_corners.h"
+#include "soft/receiver_planes.h"
 #include "soft/shaft_kernels.h"
 
 namespace tenebra {
-
-using glm::dvec3;
 
 namespace {
 
@@ -82,8 +78,6 @@ private:
   std::uint32_t cull(const PointGroup& group, const BlockList& from, ThreadScratch& scratch,
                      BlockList& list) const;
   void hand_over(const PointGroup& group, GroupClass kind, ThreadScratch& scratch);
-  ContactRange contact_of(const PointGroup& group) const;
-  void set_planes(const PointGroup& group, std::vector<ReceiverPlane>& planes) const;
 
   const PointGroups& groups_;
   const TriangleView& triangles_;
@@ -130,15 +124,6 @@ void Descent::descend_children(const GroupNode& node, const BlockList& list) {
   }
 }
 
-ContactRange Descent::contact_of(const PointGroup& group) const {
-  ContactRange range{INFINITY, 0};
-  for (const Receiver& receiver : groups_.receivers_of(group)) {
-    const double tau = rounding_tolerance(corners_of(triangles_, receiver.triangle).v);
-    range.least = std::min(range.least, tau), range.most = std::max(range.most, tau);
-  }
-  return range;
-}
-
 void Descent::decide(const PointGroup& group, const BlockList& from) {
   if (stop_requested(stop_)) return;
   ThreadScratch& scratch = scratch_[static_cast<std::size_t>(thread_index())];
@@ -168,10 +153,10 @@ std::uint32_t Descent::cull(const PointGroup& group, const BlockList& from, Thre
   const Shaft shaft(fitted_cell(groups_.positions_of(group), groups_.pixels_of(group), groups_.width,
                                 group.low, group.high, light_),
                     light_);
-  const ContactRange contact = contact_of(group);
+  const ContactRange contact = contact_range(groups_, group, triangles_);
   filter(list, from, [&](auto... rest) { return kernels_.cull(shaft, contact.least, rest...); });
   if (list.refs.empty()) return no_triangle;
-  set_planes(group, scratch.planes);
+  find_receiver_planes(groups_, group, triangles_, light_, scratch.planes);
   filter(list, list, [&](auto... rest) { return kernels_.drop_behind(scratch.planes, light_, rest...); });
   std::uint32_t dark = no_triangle;
   filter(list, list, [&](auto... rest) { return kernels_.drop_beside(shaft, contact, rest..., dark); });
@@ -196,40 +181,6 @@ void Descent::hand_over(const PointGroup& group, GroupClass kind, ThreadScratch&
       break;
   }
   body_(group, scratch.ids, kind, thread_index());
-}
-
-// A line from P to Q meets T at X, more than tau_R off P as T must be off P's side of its plane. With h the
-// height over the receiver's plane, h(X) >= h(P) + tau_R h(Q) / |PQ|: a triangle that stays below that blocks
-// nothing. Where the light sinks below the receiver's horizon only lines that rise count: h(X) >= h(P).
-void Descent::set_planes(const PointGroup& group, std::vector<ReceiverPlane>& planes) const {
-  planes.clear();
-  for (const Receiver& receiver : groups_.receivers_of(group)) {
-    const Corners c = corners_of(triangles_, receiver.triangle);
-    const dvec3 a(c.v[0]), n = glm::cross(dvec3(c.v[1]) - a, dvec3(c.v[2]) - a);
-    const double length = std::sqrt(glm::dot(n, n));
-    const dvec3 m = length > 0 ? n * (receiver.side / length) : dvec3(0);
-    const double corner = glm::dot(m, a - light_.origin);
-    double points_low = 0, reach = 0;
-    const auto points = groups_.positions_of(group);
-    const auto triangles = groups_.triangles_of(group);
-    for (std::size_t i = 0; i < points.size(); ++i) {
-      if (triangles[i] != receiver.triangle) continue;
-      const dvec3 p = points[i] - light_.origin;
-      points_low = std::min(points_low, glm::dot(m, p) - corner);
-      reach = std::max({reach, std::abs(p.x), std::abs(p.y), std::abs(p.z)});
-    }
-    double light_low = INFINITY;
-    for (int k = 0; k < light_.count; ++k)
-      light_low = std::min(light_low, glm::dot(m, light_.vertices[k]) - corner);
-    const double origin =
-        std::max({std::abs(light_.origin.x), std::abs(light_.origin.y), std::abs(light_.origin.z)});
-    const double tau = rounding_tolerance(c.v);
-    const double margin = 0x1p-46 * (reach + light_.reach + origin + tau * 0x1p24);
-    const double distance = 1.7320508075688774 * (reach + light_.reach) * (1 + 0x1p-40);
-    const double rise =
-        light_low > margin && distance > 0 ? tau * (light_low - margin) / distance * (1 - 0x1p-40) : 0;
-    planes.push_back({receiver.triangle, m, length > 0 ? corner + points_low + rise - margin : -INFINITY});
-  }
 }
 
 }  // namespace

@@ -107,6 +107,46 @@ TEST_P(CompositeTest, SumsAmbientEmissiveAndLightsThroughTheirMasks) {
   }
 }
 
+TEST_P(CompositeTest, AreaLightsCountByTheirIrradianceAndOpennessByTheAmbientTermOnly) {
+  constexpr int width = 6, height = 4;
+  const Material material = make_material({0.5f, 0.25f, 0.125f}, {0.1f, 0.2f, 0.3f}, {0.01f, 0, 0.02f});
+  draw(left_half(), forward_view({0, 0, 0}, 10.0f, width, height), width, height, {Material{}, material});
+  std::vector<float> irradiance(width * height), openness(width * height);
+  for (std::size_t i = 0; i < irradiance.size(); ++i) {
+    irradiance[i] = 0.13f * static_cast<float>(i);  // 0 to 3, not cut at 1
+    openness[i] = 1.0f - 0.04f * static_cast<float>(i);
+  }
+  const Light area = make_light(LightType::area_rect, 2.0f);
+  const Light sun = make_light(LightType::directional, 0.25f, Falloff::none);
+  const CompositeSettings open{.ambient_light = {0.5f, 1.0f, 0.25f}, .background = {0.9f, 0.0f, 0.4f}};
+  CompositeSettings closing = open;
+  closing.openness = openness;
+  for (const CompositeSettings& settings : {open, closing}) {
+    ASSERT_TRUE(passes().compositor.begin(width, height));
+    ASSERT_TRUE(passes().light_pass.draw_area(passes().gbuffer, passes().geometry, area, {}, 1.0,
+                                              passes().light_buffer));
+    passes().compositor.add_area_light(passes().light_buffer, irradiance);
+    ASSERT_TRUE(
+        passes().light_pass.draw(passes().gbuffer, passes().geometry, sun, {}, passes().light_buffer));
+    passes().compositor.add_light(passes().light_buffer, {});  // no factor of the light before
+    Image8 image;
+    passes().compositor.finish(passes().gbuffer, passes().geometry, settings, image);
+    for (int i = 0; i < width * height; ++i) {
+      const auto at = static_cast<std::size_t>(i);
+      const double lit = 2.0 / std::acos(-1.0) * irradiance[at] + 0.25;
+      const double let_through = settings.openness.empty() ? 1.0 : openness[at];
+      for (int c = 0; c < 3; ++c) {
+        double linear = settings.background[c];
+        if (i % width < width / 2) {
+          linear = double(material.ambient[c]) * settings.ambient_light[c] * let_through +
+                   material.emissive[c] + lit * material.base_color[c];
+        }
+        EXPECT_NEAR(image.pixels[3 * at + static_cast<std::size_t>(c)], srgb_level(linear), 0.501) << i;
+      }
+    }
+  }
+}
+
 TEST_P(CompositeTest, NegativeAmbientMeansTheBaseColour) {
   const Material material = make_material({0.5f, 0.25f, 0.125f});
   draw(left_half(), forward_view({0, 0, 0}, 10.0f, 2, 1), 2, 1, {Material{}, material});

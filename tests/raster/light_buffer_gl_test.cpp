@@ -126,6 +126,57 @@ TEST_P(LightBufferTest, AreaLightsActAsTheirCentreAndShineOneWay) {
   }
 }
 
+// What draw_area leaves out is the irradiance; of a small light that is area cos cos' / d^2, and with it the
+// buffer must be that of the point: both passes in one relation, for every kind of light and fade.
+TEST_P(LightBufferTest, AreaBuffersTimesTheIrradianceOfASmallLightAreThoseOfItsCentre) {
+  constexpr double area_m2 = 0.375;
+  const WorldLight placed{.position = {1, 2, -1},
+                          .direction = glm::normalize(glm::vec3(-0.2f, -0.1f, -1.0f)),
+                          .axis_x = {0.75f, 0, 0},
+                          .axis_y = {0, 0.125f, 0}};  // a rectangle of 0.375
+  FrameGeometry g;
+  add_triangle(g, {-100, -80, -16}, {100, -80, -16}, {0, 160, 8});
+  draw(g, perspective, width, height, {make_material({0.8f, 0.5f, 1.5f})});
+  const glm::dvec3 face = glm::normalize(glm::cross(glm::dvec3(200, 0, 0), glm::dvec3(100, 240, 24)));
+  for (const LightType type : {LightType::point, LightType::spot, LightType::area_rect}) {
+    for (const Falloff falloff : {Falloff::inverse_square, Falloff::none}) {
+      if (type == LightType::area_rect && falloff == Falloff::none) continue;  // no format has it
+      Light light = make_light(type, 3.0f, falloff);
+      light.color = {1.0f, 0.5f, 0.25f};
+      light.range_m = 20.0f;
+      light.inner_cone_rad = 0.3f;
+      light.outer_cone_rad = 0.9f;
+      ImageF point, area;
+      ASSERT_TRUE(passes().light_pass.draw(passes().gbuffer, passes().geometry, light, placed,
+                                           passes().light_buffer));
+      read_light_buffer(passes().light_buffer, point);
+      ASSERT_TRUE(passes().light_pass.draw_area(passes().gbuffer, passes().geometry, light, placed, area_m2,
+                                                passes().light_buffer));
+      read_light_buffer(passes().light_buffer, area);
+      int lit = 0;
+      for (int i = 0; i < width * height; ++i) {
+        const glm::dvec3 ray = glm::dvec3(perspective.d0) + (i % width + 0.5) * glm::dvec3(perspective.dx) +
+                               (i / width + 0.5) * glm::dvec3(perspective.dy);
+        const glm::dvec3 path = glm::dvec3(placed.position) -
+                                glm::dot(face, glm::dvec3(-100, -80, -16)) / glm::dot(face, ray) * ray;
+        const double distance = glm::length(path);
+        const double at_light = glm::dot(glm::dvec3(placed.direction), -path / distance);
+        const double irradiance =
+            area_m2 * std::max(glm::dot(face, path / distance), 0.0) / (distance * distance);
+        // An area light's own cosine is part of the point's light already; a lamp made an area gains it.
+        const double factor =
+            type == LightType::area_rect ? irradiance * std::max(at_light, 0.0) : irradiance;
+        for (int c = 0; c < 3; ++c) {
+          const auto at = static_cast<std::size_t>(3 * i + c);
+          EXPECT_NEAR(area.pixels[at] * factor, point.pixels[at], 1e-3 * point.pixels[at] + 1e-6) << i;
+          lit += point.pixels[at] > 0;
+        }
+      }
+      EXPECT_GT(lit, 100);
+    }
+  }
+}
+
 TEST_P(LightBufferTest, ShadingNormalsTurnToTheEyeWhateverTheWinding) {
   const Light light = make_light(LightType::point, 1.0f, Falloff::none);
   const WorldLight placed{.position = {1, 2, -3}};

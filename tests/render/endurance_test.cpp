@@ -1,9 +1,9 @@
 // Many frames of a moving scene in one process: what it holds does not grow once it has seen every frame.
 #include <gtest/gtest.h>
 
+#include <unistd.h>
 #include <algorithm>
 #include <cstdint>
-#include <unistd.h>
 
 #include <fstream>
 
@@ -23,7 +23,7 @@ std::int64_t resident_bytes() {
 // Ten instants of the scene's clip, drawn over and over.
 class Loop {
 public:
-  explicit Loop(const Scene& scene) : scene_(scene) {}
+  Loop(const Scene& scene, const RenderSettings& settings) : scene_(scene), settings_(settings) {}
 
   void draw(Renderer& renderer, int times) {
     for (int i = 0; i < times; ++i) {
@@ -39,31 +39,42 @@ public:
 
 private:
   const Scene& scene_;
-  const RenderSettings settings_{.width = 200, .height = 150};
+  const RenderSettings settings_;
   FrameInput input_;
   FrameResult result_;
 };
 
-TEST(Endurance, FiftyMoreFramesTakeNoMoreMemory) {
+/// Draws `scene` over and over; a round that takes no more memory than the one before ends it.
+void expect_memory_stands_still(const char* file, const RenderSettings& settings, int frames_a_round) {
 #if defined(__SANITIZE_ADDRESS__) || defined(__SANITIZE_THREAD__)
   GTEST_SKIP() << "sanitizers keep freed memory for a while and need memory of their own";
 #endif
-  const auto scene = import_scene(TENEBRA_SCENES_DIR "/gallery.glb");
+  const auto scene = import_scene(file);
   ASSERT_TRUE(scene) << scene.error().message;
   auto context = gl::Context::create(gl::ContextKind::automatic);
   ASSERT_TRUE(context) << context.error().message;
   auto renderer = Renderer::create(std::move(*context), *scene);
   ASSERT_TRUE(renderer) << renderer.error().message;
-  Loop loop(*scene);
+  Loop loop(*scene, settings);
   loop.draw(*renderer, 20);  // buffers reach their sizes, threads and shaders are there
-  // A leak grows with every fifty frames; a page that a thread touches late (stack, libraries) comes once.
+  // A leak grows with every round; a page that a thread touches late (stack, libraries) comes once.
   std::int64_t least_growth = INT64_MAX;
   for (int round = 0; round < 4 && least_growth > 0; ++round) {
     const std::int64_t warm = resident_bytes();
-    loop.draw(*renderer, 50);
+    loop.draw(*renderer, frames_a_round);
     least_growth = std::min(least_growth, resident_bytes() - warm);
   }
   EXPECT_LE(least_growth, 0);
+}
+
+TEST(Endurance, FiftyMoreFramesTakeNoMoreMemory) {
+  expect_memory_stands_still(TENEBRA_SCENES_DIR "/gallery.glb", {.width = 200, .height = 150}, 50);
+}
+
+TEST(Endurance, TwentyMoreFramesWithSoftShadowsTakeNoMoreMemory) {
+  RenderSettings settings{.width = 120, .height = 90, .shadows = ShadowMode::soft};
+  settings.area_lights = {.size = glm::vec2(2.0f), .percent_of_diagonal = true};
+  expect_memory_stands_still(TENEBRA_SCENES_DIR "/city.glb", settings, 20);
 }
 
 }  // namespace

@@ -1,20 +1,9 @@
-#include "render/renderer.h"
-
-#include <gtest/gtest.h>
-
-#include <algorithm>
+#include "render/render_fixture.h"
 
 namespace tenebra {
 namespace {
 
 using glm::vec3;
-
-void add_quad(Mesh& mesh, vec3 corner, vec3 u, vec3 v) {
-  const auto i = static_cast<std::uint32_t>(mesh.positions.size());
-  mesh.positions.insert(mesh.positions.end(), {corner, corner + u, corner + u + v, corner + v});
-  mesh.triangles.insert(mesh.triangles.end(), {{i, i + 1, i + 2}, {i, i + 2, i + 3}});
-  mesh.materials.insert(mesh.materials.end(), {0, 0});
-}
 
 // A floor of 20 x 20 at y = 0, a plate of 2 x 2 at y = 1 above its middle, lights to choose from.
 Scene plate_over_floor() {
@@ -34,27 +23,6 @@ Scene plate_over_floor() {
     scene.nodes.push_back(node);
   }
   return scene;
-}
-
-FrameInput frame_of(const Scene& scene, int width, int height) {
-  FrameInput input;
-  evaluate_frame(scene, -1, 0, input.geometry);
-  input.lights = evaluate_lights(scene, -1, 0);
-  input.view = look_at({0, 8, 8}, {0, 0, 0}, {0, 1, 0}, 0.8f, 0.1f, width, height);
-  return input;
-}
-
-FrameResult draw(const Scene& scene, const RenderSettings& settings,
-                 gl::ContextKind kind = gl::ContextKind::automatic) {
-  auto context = gl::Context::create(kind);
-  EXPECT_TRUE(context) << context.error().message;
-  auto renderer = Renderer::create(std::move(*context), scene);
-  EXPECT_TRUE(renderer) << renderer.error().message;
-  FrameResult result;
-  const auto drawn =
-      renderer->render_frame(frame_of(scene, settings.width, settings.height), settings, result);
-  EXPECT_TRUE(drawn) << drawn.error().message;
-  return result;
 }
 
 int count_of(const Image8& mask, int value) {
@@ -148,13 +116,10 @@ TEST(Renderer, DepthSamplesComeFromTheDepthBuffer) {
 
 TEST(Renderer, RefusesALightThatTheSceneLacks) {
   const Scene scene = plate_over_floor();
-  auto context = gl::Context::create(gl::ContextKind::automatic);
-  ASSERT_TRUE(context) << context.error().message;
-  auto renderer = Renderer::create(std::move(*context), scene);
-  ASSERT_TRUE(renderer);
+  Renderer renderer = renderer_for(scene);
   FrameResult result;
   const auto drawn =
-      renderer->render_frame(frame_of(scene, 8, 8), {.width = 8, .height = 8, .light = 2}, result);
+      renderer.render_frame(frame_of(scene, 8, 8), {.width = 8, .height = 8, .light = 2}, result);
   ASSERT_FALSE(drawn);
   EXPECT_EQ(drawn.error().message, "light 2: the scene has 2 lights, counted from 0");
 }

@@ -57,6 +57,24 @@ TEST(InfoCommand, RoundsNumbersForPeopleAndNotInJson) {
   EXPECT_EQ(info_of(folder / "a.obj")["bounds_m"]["low"][0], static_cast<double>(-12.2f));
 }
 
+TEST(InfoCommand, TellsTheSizeOfAreaLightsAndTheConesOfSpots) {
+  const TemporaryFolder folder;
+  write_text(folder / "a.gltf", R"({"asset":{"version":"2.0"},"scene":0,"scenes":[{"nodes":[0,1]}],
+"extensionsUsed":["KHR_lights_punctual","EXT_lights_area"],
+"extensions":{"KHR_lights_punctual":{"lights":[{"type":"spot","range":7,
+"spot":{"innerConeAngle":0.5,"outerConeAngle":0.75}}]},
+"EXT_lights_area":{"lights":[{"type":"rect","intensity":5,"size":0.5,"rect":{"aspect":3}}]}},
+"nodes":[{"extensions":{"KHR_lights_punctual":{"light":0}}},
+{"scale":[2,2,2],"extensions":{"EXT_lights_area":{"light":0}}}]})");
+  const json info = info_of(folder / "a.gltf");
+  ASSERT_EQ(info["lights"].size(), 2u);
+  EXPECT_NEAR(info["lights"][0]["half_angles_deg"][0], 28.6479, 1e-3);
+  EXPECT_NEAR(info["lights"][0]["half_angles_deg"][1], 42.9718, 1e-3);
+  EXPECT_EQ(info["lights"][0]["range_m"], 7.0);
+  EXPECT_FALSE(info["lights"][0].contains("size_m"));
+  EXPECT_EQ(info["lights"][1]["size_m"], json({3.0, 1.0}));
+}
+
 TEST(InfoCommand, ReadsAnObjWithoutLightsOrCameras) {
   const TemporaryFolder folder;
   write_text(folder / "a.obj", "v 0 0 0\nv 2 0 0\nv 0 3 0\nf 1 2 3\n");

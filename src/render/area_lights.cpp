@@ -1,0 +1,112 @@
+#include "render/area_lights.h"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+#include "points/contact_rule.h"
+
+namespace tenebra {
+
+namespace {
+
+using glm::dvec3;
+using glm::vec3;
+
+/// Half axes of a rectangle that shines along `direction`; the first is level where that says something.
+void rectangle_axes(const dvec3& direction, glm::dvec2 size_m, vec3& half_x, vec3& half_y) {
+  const bool upright = std::abs(direction.y) > 0.999 * glm::length(direction);
+  const dvec3 x = glm::normalize(glm::cross(upright ? dvec3(0, 0, -1) : dvec3(0, 1, 0), direction));
+  const dvec3 y = glm::normalize(glm::cross(direction, x));
+  half_x = vec3(0.5 * size_m.x * x);
+  half_y = vec3(0.5 * size_m.y * y);
+}
+
+dvec3 facing_direction(const Light& light, const WorldLight& placed, const AreaLightSettings& settings,
+                       const SceneBox& box) {
+  if (!settings.facing && light.type == LightType::spot) return placed.direction;
+  const dvec3 direction = dvec3(settings.facing.value_or(vec3(box.centre()))) - dvec3(placed.position);
+  return glm::dot(direction, direction) > 0 ? direction : dvec3(0, -1, 0);
+}
+
+Expected<AreaLight> rectangle_of_point(const Light& light, const WorldLight& placed,
+                                       const AreaLightSettings& settings, const SceneBox& box) {
+  const double unit_m = settings.percent_of_diagonal ? 0.01 * box.diagonal_m() : 1.0;
+  vec3 half_x, half_y;
+  rectangle_axes(facing_direction(light, placed, settings, box), unit_m * glm::dvec2(settings.size), half_x,
+                 half_y);
+  return make_rectangle_light(placed.position, half_x, half_y);
+}
+
+/// The file's own rectangle or disc; its axes span the side away from which it shines.
+Expected<AreaLight> placed_polygon(const Light& light, const WorldLight& placed) {
+  const bool turned = glm::dot(glm::cross(placed.axis_x, placed.axis_y), placed.direction) < 0;
+  const vec3 half_x = turned ? -placed.axis_x : placed.axis_x;
+  return light.type == LightType::area_disk ? make_disc_light(placed.position, half_x, placed.axis_y)
+                                            : make_rectangle_light(placed.position, half_x, placed.axis_y);
+}
+
+/// Distance up to which a vertex counts as in the light's plane but for the vertex's own rounding. The
+/// light's vertices are rounded sums of a rounded centre and two rounded half axes: off by 2 tau each; the
+/// plane through them is off by at most as much again within their reach.
+double plane_tolerance(const AreaLight& light) {
+  vec3 far(0.0f);
+  for (const vec3& v : light.vertices) far = glm::max(far, glm::abs(v));
+  const vec3 thrice[3] = {far, far, far};
+  return 4 * rounding_tolerance(thrice);
+}
+
+bool within(const AreaLight& light, const vec3 corners[3], double light_tolerance) {
+  const double tolerance = light_tolerance + rounding_tolerance(corners);
+  for (int k = 0; k < 3; ++k) {
+    if (!(std::abs(glm::dot(light.normal, dvec3(corners[k]) - light.centre)) <= tolerance)) return false;
+  }
+  return true;
+}
+
+}  // namespace
+
+SceneBox box_of(const FrameGeometry& geometry) {
+  constexpr double huge = std::numeric_limits<double>::max();
+  SceneBox box{dvec3(huge), dvec3(-huge)};
+  for (const glm::uvec3& triangle : geometry.triangles) {
+    if (triangle == glm::uvec3(0)) continue;  // dropped
+    for (int k = 0; k < 3; ++k) {
+      const dvec3 p(geometry.positions[triangle[k]]);
+      box.low = glm::min(box.low, p);
+      box.high = glm::max(box.high, p);
+    }
+  }
+  return box;
+}
+
+Expected<std::optional<AreaLight>> area_light_of(const Light& light, const WorldLight& placed,
+                                                 const AreaLightSettings& settings, const SceneBox& box) {
+  const bool is_area = light.type == LightType::area_rect || light.type == LightType::area_disk;
+  const bool sized = settings.size.x > 0 && settings.size.y > 0;
+  if (light.type == LightType::directional || (!is_area && !sized)) return std::optional<AreaLight>();
+  auto made = is_area ? placed_polygon(light, placed) : rectangle_of_point(light, placed, settings, box);
+  if (!made) return tl::unexpected(std::move(made.error()));
+  return std::optional<AreaLight>(std::move(*made));
+}
+
+bool lies_in_plane(const AreaLight& light, const vec3 corners[3]) {
+  return within(light, corners, plane_tolerance(light));
+}
+
+bool casters_off_plane(const FrameGeometry& geometry, const AreaLight& light,
+                       std::vector<std::uint8_t>& out) {
+  const double tolerance = plane_tolerance(light);
+  bool found = false;
+  for (std::size_t i = 0; i < geometry.triangles.size(); ++i) {
+    const glm::uvec3 t = geometry.triangles[i];
+    const vec3 corners[3] = {geometry.positions[t.x], geometry.positions[t.y], geometry.positions[t.z]};
+    if (geometry.casts_shadow[i] == 0 || !within(light, corners, tolerance)) continue;
+    if (!found) out = geometry.casts_shadow;
+    found = true;
+    out[i] = 0;
+  }
+  return found;
+}
+
+}  // namespace tenebra

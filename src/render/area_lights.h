@@ -1,0 +1,40 @@
+// Lights of the scene as polygons that shine: what the soft shadows trace.
+#pragma once
+
+#include <cstdint>
+#include <glm/glm.hpp>
+#include <optional>
+#include <vector>
+
+#include "render/renderer.h"
+#include "soft/area_light.h"
+
+namespace tenebra {
+
+/// Smallest box around the drawn triangles of a frame; `low` > `high` if there are none.
+struct SceneBox {
+  glm::dvec3 low{1.0};
+  glm::dvec3 high{-1.0};
+
+  bool empty() const { return low.x > high.x; }
+  glm::dvec3 centre() const { return 0.5 * (low + high); }
+  double diagonal_m() const { return empty() ? 0.0 : glm::length(high - low); }
+};
+SceneBox box_of(const FrameGeometry& geometry);
+
+/// The polygon of a light: area lights as the file has them; point and spot lights as rectangles of the
+/// settings' size about their place, facing `settings.facing`, else along a spot's axis or from a point
+/// towards the box's centre, their width level. None for directional lights and where no size is given.
+/// Fails with a sentence where the polygon is none: no area, not finite.
+Expected<std::optional<AreaLight>> area_light_of(const Light& light, const WorldLight& placed,
+                                                 const AreaLightSettings& settings, const SceneBox& box);
+
+/// Whether triangle `corners` lies in the light's plane, up to the rounding of both: the quad that shows a
+/// lamp's face. In exact arithmetic it blocks nothing of that light; rounded it might hide all of it.
+bool lies_in_plane(const AreaLight& light, const glm::vec3 corners[3]);
+
+/// `geometry.casts_shadow` without the triangles that lie in the light's plane; returns whether there are
+/// any, else `out` is left alone.
+bool casters_off_plane(const FrameGeometry& geometry, const AreaLight& light, std::vector<std::uint8_t>& out);
+
+}  // namespace tenebra

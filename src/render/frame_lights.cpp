@@ -1,0 +1,89 @@
+#include "render/frame_lights.h"
+
+#include <fmt/format.h>
+
+#include "render/emissive.h"
+
+namespace tenebra {
+
+namespace {
+
+std::string title(const DrawnLight& drawn) {
+  return drawn.light.name.empty() ? fmt::format("light {}", drawn.number)
+                                  : fmt::format("light {} ({})", drawn.number, drawn.light.name);
+}
+
+void give_area(DrawnLight& drawn, const AreaLightSettings& settings, const SceneBox& box,
+               std::vector<std::string>& notes) {
+  auto area = area_light_of(drawn.light, drawn.placed, settings, box);
+  if (area && *area) {
+    drawn.area = std::move(**area);
+  } else if (!area) {
+    notes.push_back(fmt::format("{} keeps hard shadows: {}", title(drawn), area.error().message));
+  } else if (drawn.light.type == LightType::directional) {
+    notes.push_back(
+        fmt::format("{} is directional and keeps hard shadows, for it has no size", title(drawn)));
+  } else {
+    notes.push_back(fmt::format(
+        "{} is a point and keeps hard shadows, as long as --light-size gives it no size", title(drawn)));
+  }
+}
+
+/// A polygon of the scene that is the face of a lamp which `lights` already hold.
+bool is_face_of_a_light(const AreaLight& polygon, const std::vector<DrawnLight>& lights) {
+  for (const DrawnLight& drawn : lights) {
+    if (!drawn.area || drawn.light.type == LightType::point || drawn.light.type == LightType::spot) continue;
+    const std::vector<glm::vec3>& v = polygon.vertices;
+    const glm::vec3 corners[3] = {v[0], v[1], v[2]};
+    const double apart = glm::length(polygon.centre - drawn.area->centre);
+    if (lies_in_plane(*drawn.area, corners) && apart * apart < polygon.area_m2) return true;
+  }
+  return false;
+}
+
+void add_emissive(const Scene& scene, const FrameInput& input, std::vector<DrawnLight>& lights,
+                  std::vector<std::string>& notes) {
+  int number = static_cast<int>(input.lights.size());
+  for (EmissivePolygon& polygon : emissive_polygons(scene, input.geometry, notes)) {
+    if (is_face_of_a_light(polygon.area, lights)) {
+      notes.push_back(fmt::format("mesh {} is the face of an area light and counts once", polygon.mesh));
+      continue;
+    }
+    DrawnLight drawn{.number = number++};
+    drawn.light.name = polygon.mesh;
+    drawn.light.type = LightType::area_rect;
+    drawn.light.color = polygon.radiance;
+    drawn.placed.position = glm::vec3(polygon.area.centre);
+    drawn.placed.direction = glm::vec3(polygon.area.normal);
+    drawn.area = std::move(polygon.area);
+    lights.push_back(std::move(drawn));
+  }
+}
+
+}  // namespace
+
+Expected<std::vector<DrawnLight>> drawn_lights(const Scene& scene, const FrameInput& input,
+                                               const RenderSettings& settings,
+                                               std::vector<std::string>& notes) {
+  std::vector<DrawnLight> lights;
+  for (const WorldLight& placed : input.lights) {
+    const int number = static_cast<int>(lights.size());
+    lights.push_back({number, scene.lights[static_cast<std::size_t>(placed.light)], placed, std::nullopt});
+  }
+  if (settings.shadows == ShadowMode::soft) {
+    const SceneBox box = box_of(input.geometry);
+    for (DrawnLight& drawn : lights) {
+      std::vector<std::string> unasked;
+      const bool asked = settings.light < 0 || settings.light == drawn.number;
+      give_area(drawn, settings.area_lights, box, asked ? notes : unasked);
+    }
+    if (settings.area_lights.emissive_quads) add_emissive(scene, input, lights, notes);
+  }
+  if (settings.light < 0) return lights;
+  if (settings.light >= static_cast<int>(lights.size())) {
+    return fail("light {}: the scene has {} lights, counted from 0", settings.light, lights.size());
+  }
+  return std::vector<DrawnLight>{std::move(lights[static_cast<std::size_t>(settings.light)])};
+}
+
+}  // namespace tenebra

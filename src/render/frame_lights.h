@@ -1,0 +1,26 @@
+// The lights that a frame draws, each with the shadows it gets.
+#pragma once
+
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "render/area_lights.h"
+
+namespace tenebra {
+
+struct DrawnLight {
+  int number = -1;  ///< index into FrameInput::lights; emissive meshes follow them
+  Light light;
+  WorldLight placed;
+  std::optional<AreaLight> area;  ///< soft shadows of this polygon; none: those of a point, or none at all
+};
+
+/// The lights of `input` that `settings` asks for, with polygons in soft mode. Lights that keep hard shadows
+/// there and emissive meshes that are no lights are named in `notes`, a sentence each. Fails on a number that
+/// the frame does not have.
+Expected<std::vector<DrawnLight>> drawn_lights(const Scene& scene, const FrameInput& input,
+                                               const RenderSettings& settings,
+                                               std::vector<std::string>& notes);
+
+}  // namespace tenebra

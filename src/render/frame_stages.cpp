@@ -1,0 +1,149 @@
+// The stages of a frame: samples, ambient occlusion, one light.
+#include <cmath>
+
+#include "base/stopwatch.h"
+#include "parallel/parallel.h"
+#include "render/renderer_state.h"
+#include "render/shadow_lights.h"
+
+namespace tenebra {
+
+namespace {
+
+/// Times of one light's shadows, added to those of the frame; the stages of one method are zero in the other.
+void add_shadow_times(FrameTimings& to, const FrameTimings& from) {
+  to.rays_ms += from.rays_ms;
+  to.sort_ms += from.sort_ms;
+  to.build_ms += from.build_ms;
+  to.traverse_ms += from.traverse_ms;
+  to.writeback_ms += from.writeback_ms;
+  to.shaft_ms += from.shaft_ms;
+  to.init_ms += from.init_ms;
+  to.query_ms += from.query_ms;
+  to.irradiance_ms += from.irradiance_ms;
+}
+
+}  // namespace
+
+void Renderer::State::points_from_depth(const ViewRays& view) {
+  const std::size_t width = static_cast<std::size_t>(gbuffer.width),
+                    height = static_cast<std::size_t>(gbuffer.height);
+  points.width = gbuffer.width;
+  points.height = gbuffer.height;
+  points.triangles = ids;
+  points.positions.resize(width * height);
+  parallel_ranges(height, 16, [&](std::size_t first, std::size_t last) {
+    for (std::size_t i = first * width; i < last * width; ++i) {
+      if (depth[i] <= 0) points.triangles[i] = no_triangle;
+      if (points.triangles[i] == no_triangle) continue;
+      points.positions[i] = point_from_depth(view, gbuffer.transform, static_cast<int>(i % width),
+                                             static_cast<int>(i / width), depth[i]);
+    }
+  });
+}
+
+void Renderer::State::read_samples(const FrameInput& input, const RenderSettings& settings,
+                                   FrameTimings& timings) {
+  Stopwatch watch;
+  read_triangle_ids(gbuffer, ids);
+  if (settings.samples == SampleSource::depth) read_depth(gbuffer, depth);
+  timings.readback_ms = watch.lap_ms();
+  const bool exact = settings.samples == SampleSource::ids;
+  const bool shaded = settings.shadows == ShadowMode::soft || settings.ao.mode != AoMode::none;
+  const TriangleView triangles = triangle_view(input.geometry);
+  with_threads(settings.threads, [&] {
+    if (!exact) return points_from_depth(input.view);
+    compute_visible_points(ids, gbuffer.width, gbuffer.height, input.view, triangles, points);
+    if (shaded) compute_shading_normals(points, input.geometry.normals, input.view, triangles, normals);
+  });
+  timings.points_ms = watch.lap_ms();
+}
+
+Expected<void> Renderer::State::occlude_ambient(const FrameInput& input, const RenderSettings& settings,
+                                                FrameResult& result, const AoProgress& progress,
+                                                const StopFlag* stop) {
+  Expected<void> done;
+  with_threads(settings.threads, [&] {
+    done = ambient.compute(scene, input.geometry, points, normals, settings.ao, openness, progress, stop);
+  });
+  if (!done) return done;
+  result.ao = ambient.stats();
+  result.timings.ao_build_ms = ambient.timings().ao_build_ms;
+  result.timings.ao_ms = ambient.timings().ao_ms;
+  result.notes.insert(result.notes.end(), ambient.notes().begin(), ambient.notes().end());
+  return {};
+}
+
+Expected<void> Renderer::State::light_hard(const FrameInput& input, const DrawnLight& light,
+                                           const RenderSettings& settings, FrameResult& result) {
+  Stopwatch watch;
+  if (auto drawn = light_pass.draw(gbuffer, geometry, light.light, light.placed, light_buffer); !drawn)
+    return drawn;
+  result.timings.raster_ms += watch.lap_ms();
+  if (settings.shadows == ShadowMode::none) {
+    compositor.add_light(light_buffer, {});
+    result.timings.writeback_ms += watch.lap_ms();
+    return {};
+  }
+  HardShadowConfig config = settings.hard;
+  if (settings.samples == SampleSource::depth) config.contact = ContactRule::none;
+  config.count_pixel_nodes = settings.diagnostics;
+  with_threads(settings.threads, [&] {
+    hard.trace_shadow_mask(points, input.view, triangle_view(input.geometry),
+                           shadow_light(light.light, light.placed), config, hard_mask);
+  });
+  result.stats += hard.stats();
+  add_shadow_times(result.timings, hard.timings());
+  LightMask& out = result.masks.emplace_back();
+  out.light = light.number;
+  out.mask = {gbuffer.width, gbuffer.height, 1, hard_mask};
+  out.nodes.assign(hard.pixel_nodes().begin(), hard.pixel_nodes().end());
+  if (settings.shadows == ShadowMode::soft) {
+    out.visible_fraction = {gbuffer.width, gbuffer.height, 1, {}};
+    for (const std::uint8_t lit : hard_mask) out.visible_fraction.pixels.push_back(lit != 0 ? 1.0f : 0.0f);
+  }
+  watch.lap_ms();
+  compositor.add_light(light_buffer, hard_mask);
+  result.timings.writeback_ms += watch.lap_ms();
+  return {};
+}
+
+Expected<void> Renderer::State::light_soft(const FrameInput& input, const DrawnLight& light,
+                                           const RenderSettings& settings, FrameResult& result,
+                                           const StopFlag* stop) {
+  Stopwatch watch;
+  if (auto drawn = light_pass.draw_area(gbuffer, geometry, light.light, light.placed, light.area->area_m2,
+                                        light_buffer);
+      !drawn) {
+    return drawn;
+  }
+  result.timings.raster_ms += watch.lap_ms();
+  TriangleView triangles = triangle_view(input.geometry);
+  if (casters_off_plane(input.geometry, *light.area, casters)) triangles.casts_shadow = casters;
+  result.timings.shaft_ms += watch.lap_ms();
+  bool done = false;
+  with_threads(settings.threads, [&] {
+    done = soft.trace(points, normals, input.view, triangles, *light.area, settings.soft, soft_mask, stop);
+  });
+  if (!done) return fail("stopped");
+  result.soft += soft.stats();
+  add_shadow_times(result.timings, soft.timings());
+  watch.lap_ms();
+  LightMask& out = result.masks.emplace_back();
+  out.light = light.number;
+  out.visible_fraction = {gbuffer.width, gbuffer.height, 1, soft_mask.visible_fraction};
+  out.mask = {gbuffer.width, gbuffer.height, 1, {}};
+  for (const float fraction : soft_mask.visible_fraction) {
+    out.mask.pixels.push_back(static_cast<std::uint8_t>(std::lround(255.0f * fraction)));
+  }
+  out.classes.assign(soft.classes().begin(), soft.classes().end());
+  compositor.add_area_light(light_buffer, soft_mask.irradiance);
+  result.timings.writeback_ms += watch.lap_ms();
+  return {};
+}
+
+void Renderer::State::keep_new(std::vector<std::string>& notes) {
+  std::erase_if(notes, [&](const std::string& note) { return !said.insert(note).second; });
+}
+
+}  // namespace tenebra

@@ -1,0 +1,128 @@
+// Frames with ambient occlusion: it darkens the ambient term where geometry stands close, and nothing else.
+#include "render/render_fixture.h"
+
+namespace tenebra {
+namespace {
+
+using glm::vec3;
+
+constexpr int width = 81, height = 61;
+
+/// Floor, plate and a light, all with ambient light; the plate glows a little.
+Scene corner_scene() {
+  Scene scene = white_floor(true);
+  scene.materials.push_back({.name = "glow", .base_color = vec3(0.0f), .emissive = vec3(0.25f)});
+  scene.meshes[0].materials[2] = scene.meshes[0].materials[3] = 1;
+  scene.ambient_light = vec3(0.4f);
+  add_light(scene, {.name = "lamp", .falloff = Falloff::none, .intensity = 0.3f}, {3, 6, 2});
+  return scene;
+}
+
+RenderSettings occluded(AoMode mode) {
+  RenderSettings settings{.width = width, .height = height, .shadows = ShadowMode::none};
+  settings.ao.mode = mode;
+  settings.ao.distance_m = 2;
+  return settings;
+}
+
+class AmbientFrames : public testing::TestWithParam<AoMode> {};
+
+TEST_P(AmbientFrames, DarkenTheFloorBelowThePlateAndNothingInTheOpen) {
+  Scene scene = corner_scene();
+  scene.lights[0].intensity = 0;
+  const FrameResult result = draw(scene, occluded(GetParam()));
+  const ViewRays view = frame_of(scene, width, height).view;
+  const int open = static_cast<int>(std::lround(srgb_level(0.4)));
+  int in_the_open = 0, below = 0;
+  for (int y = 0; y < height; ++y) {
+    for (int x = 0; x < width; ++x) {
+      const auto p = on_plane(view, x, y), plate = on_plane(view, x, y, 1);
+      const int level = result.image.pixels[static_cast<std::size_t>(3 * (y * width + x))];
+      if (!p || std::max(std::abs(p->x), std::abs(p->z)) > 9.9) continue;
+      if (plate && std::max(std::abs(plate->x), std::abs(plate->z)) < 0.99) {
+        EXPECT_EQ(level, std::lround(srgb_level(0.25))) << "what glows is not occluded";
+      } else if (std::max(std::abs(p->x), std::abs(p->z)) > 3.1) {
+        EXPECT_NEAR(level, open, 2) << "farther from the plate than rays reach";
+        ++in_the_open;
+      } else if (std::max(std::abs(p->x), std::abs(p->z)) < 0.9) {
+        EXPECT_LT(level, open - 10) << "below the plate";
+        ++below;
+      }
+    }
+  }
+  EXPECT_GT(in_the_open, 500);
+  EXPECT_GT(below, 5);
+  EXPECT_GT(result.ao.points, 0u);
+  EXPECT_GT(result.timings.ao_build_ms + result.timings.ao_ms, 0);
+}
+
+TEST_P(AmbientFrames, LeaveDirectLightAlone) {
+  Scene scene = corner_scene();
+  scene.ambient_light = vec3(0.0f);
+  const FrameResult without = draw(scene, occluded(AoMode::none)), with = draw(scene, occluded(GetParam()));
+  EXPECT_EQ(with.image, without.image);
+  EXPECT_GT(*std::max_element(with.image.pixels.begin(), with.image.pixels.end()), 60);
+}
+
+TEST_P(AmbientFrames, StandBesideEveryShadowMode) {
+  const Scene scene = corner_scene();
+  RenderSettings settings = occluded(GetParam());
+  settings.area_lights.size = {1, 1};
+  for (const ShadowMode mode : {ShadowMode::none, ShadowMode::hard, ShadowMode::soft}) {
+    settings.shadows = mode;
+    RenderSettings bright = settings;
+    bright.ao.mode = AoMode::none;
+    const FrameResult with = draw(scene, settings), without = draw(scene, bright);
+    int darker = 0;
+    for (std::size_t i = 0; i < with.image.pixels.size(); ++i) {
+      ASSERT_LE(with.image.pixels[i], without.image.pixels[i]);
+      darker += with.image.pixels[i] < without.image.pixels[i];
+    }
+    EXPECT_GT(darker, 30);
+    ASSERT_EQ(with.masks.size(), without.masks.size());
+    for (std::size_t i = 0; i < with.masks.size(); ++i) {
+      EXPECT_EQ(with.masks[i].mask, without.masks[i].mask);
+    }
+  }
+}
+
+TEST_P(AmbientFrames, GiveTheSameBitsForEveryThreadCount) {
+  const Scene scene = corner_scene();
+  RenderSettings settings = occluded(GetParam());
+  const Image8 expected = draw(scene, settings).image;
+  for (const int threads : {1, 2, 3}) {
+    settings.threads = threads;
+    EXPECT_EQ(draw(scene, settings).image, expected) << threads;
+  }
+}
+
+TEST_P(AmbientFrames, StopWhenAskedTo) {
+  const Scene scene = corner_scene();
+  Renderer renderer = renderer_for(scene);
+  StopFlag stop;
+  stop.request();
+  FrameResult result;
+  const auto drawn =
+      renderer.render_frame(frame_of(scene, width, height), occluded(GetParam()), result, {}, &stop);
+  ASSERT_FALSE(drawn);
+  EXPECT_EQ(drawn.error().message, "stopped");
+  EXPECT_TRUE(renderer.render_frame(frame_of(scene, width, height), occluded(GetParam()), result));
+}
+
+TEST(AmbientSettings, NeedExactPoints) {
+  const Scene scene = corner_scene();
+  RenderSettings settings = occluded(AoMode::rays);
+  settings.samples = SampleSource::depth;
+  Renderer renderer = renderer_for(scene);
+  FrameResult result;
+  const auto drawn = renderer.render_frame(frame_of(scene, width, height), settings, result);
+  ASSERT_FALSE(drawn);
+  EXPECT_EQ(drawn.error().message,
+            "samples from the depth buffer: ambient occlusion needs the exact points from triangle ids");
+}
+
+INSTANTIATE_TEST_SUITE_P(, AmbientFrames, testing::Values(AoMode::field, AoMode::rays),
+                         [](const auto& mode) { return mode.param == AoMode::field ? "field" : "rays"; });
+
+}  // namespace
+}  // namespace tenebra

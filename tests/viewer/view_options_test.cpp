@@ -1,0 +1,95 @@
+// tenebra view without a window: options that are refused, the missing display, and that settings survive the
+// way to their arguments and back.
+#include <gtest/gtest.h>
+
+#include "method_arguments.h"
+#include "picture_difference.h"
+#include "view_options.h"
+#include "viewer_test_scene.h"
+
+namespace tenebra::test {
+namespace {
+
+using viewer::MethodOptions;
+
+TEST(ViewCommand, RefusesInASentence) {
+  const std::vector<std::vector<std::string>> cases{{"--speed", "5"},
+                                                    {"--wipe", "2"},
+                                                    {"--set-light", "0 glow=1"},
+                                                    {"--compare=--shadows purple"},
+                                                    {"--compare=--no-such-option"},
+                                                    {"--overlay", "cost"},
+                                                    {"--record", "out.png"},
+                                                    {"--window", "0x0"},
+                                                    {"--exit-after", "-1"},
+                                                    {"--samples", "depth", "--shadows", "soft"}};
+  for (auto arguments : cases) {
+    arguments.insert(arguments.begin(), "view");
+    const auto result = tenebra(arguments, [] { ::unsetenv("DISPLAY"); });
+    EXPECT_EQ(result.exit_code, 1) << arguments[1];
+    EXPECT_TRUE(is_one_sentence(result.errors)) << arguments[1] << ": " << result.errors;
+  }
+}
+
+TEST(ViewCommand, SaysWhatToDoWithoutADisplay) {
+  const auto result = tenebra({"view"}, [] {
+    ::unsetenv("DISPLAY");
+    ::unsetenv("WAYLAND_DISPLAY");
+  });
+  EXPECT_EQ(result.exit_code, 1);
+  EXPECT_TRUE(is_one_sentence(result.errors)) << result.errors;
+  EXPECT_NE(result.errors.find("display"), std::string::npos) << result.errors;
+  EXPECT_NE(result.errors.find("tenebra render"), std::string::npos) << result.errors;
+}
+
+MethodOptions parsed(const std::string& text) {
+  MethodOptions method;
+  CLI::App app;
+  viewer::add_method_options(app, method);
+  app.parse(text);
+  return method;
+}
+
+TEST(MethodArguments, GiveBackWhatTheyWereMadeFrom) {
+  EXPECT_EQ(viewer::method_arguments(parsed("")), "");
+  for (const char* text :
+       {"--shadows none", "--light 2 --exposure 0.1 --threads 3", "--simd scalar --variant PreciseSEATP",
+        "--samples depth --cull none", "--cull front",
+        "--shadows soft --light-size 0.5x0.25 --light-facing 1,2.5,-3 --emissive-lights --soft-solver bsp "
+        "--soft-grouping triangle --soft-choice random --soft-precision reference",
+        "--light-size 4x4%",
+        "--ao field --ao-at vertices --ao-layout positions --ao-rays 7 --ao-distance 1.5 --ao-positions 99 "
+        "--ao-directions 64 --ao-bits 1 --ao-deforming none --ao-cache none"}) {
+    EXPECT_EQ(viewer::method_arguments(parsed(text)), text);
+  }
+}
+
+TEST(MethodArguments, CoverEveryMethodOption) {
+  MethodOptions method;
+  CLI::App app;
+  viewer::add_method_options(app, method);
+  const std::string all = viewer::method_arguments(
+      parsed("--shadows soft --light 2 --exposure 0.1 --threads 3 --simd scalar --variant Spheres --samples depth "
+             "--cull front --light-size 1x1 --light-facing 1,2,3 --emissive-lights --soft-solver bsp --soft-grouping "
+             "triangle --soft-choice random --soft-precision reference --ao rays --ao-at vertices --ao-layout positions "
+             "--ao-rays 7 --ao-distance 1.5 --ao-positions 99 --ao-directions 64 --ao-bits 1 --ao-deforming none "
+             "--ao-cache none"));
+  for (const CLI::Option* option : app.get_options()) {
+    if (option->get_name() == "--help") continue;
+    EXPECT_NE((" " + all + " ").find(" " + option->get_name() + " "), std::string::npos) << option->get_name();
+  }
+}
+
+TEST(PictureDifference, CountsAndShowsWhatDiffers) {
+  const Image8 a{2, 1, 3, {10, 20, 30, 200, 200, 200}};
+  const Image8 b{2, 1, 3, {10, 25, 30, 200, 100, 201}};
+  const auto difference = viewer::compare_pictures(a, b, 0);
+  EXPECT_EQ(difference.pixels, 2u);
+  EXPECT_EQ(difference.differing, 2u);
+  EXPECT_EQ(difference.largest, 100);
+  EXPECT_EQ(viewer::compare_pictures(a, b, 5).differing, 1u);
+  EXPECT_EQ(viewer::absolute_difference(a, b, 4).pixels, (std::vector<std::uint8_t>{0, 20, 0, 0, 255, 4}));
+}
+
+}  // namespace
+}  // namespace tenebra::test

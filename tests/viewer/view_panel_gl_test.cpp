@@ -1,0 +1,235 @@
+// The viewer without a display: drawn on an EGL surface, Dear ImGui's io driven by hand.
+#include <backends/imgui_impl_opengl3.h>
+#include <glad/gl.h>
+#include <gtest/gtest.h>
+#include <imgui.h>
+
+#include <thread>
+
+#include "support/seeded_random.h"
+#include "viewer_test_scene.h"
+#include "window/viewer.h"
+
+namespace tenebra::viewer {
+namespace {
+
+using test::TemporaryFolder;
+
+/// A picture to draw on and a viewer that draws. Keys are GLFW's codes; a letter's is its capital.
+class HeadlessViewer {
+public:
+  HeadlessViewer(const std::filesystem::path& scene, Size window, float scale = 1)
+      : window_(window), scale_(scale), context_(gl::Context::create(gl::ContextKind::egl, {.debug = true}).value()) {
+    make_framebuffer();
+    ImGui::CreateContext();
+    ImGuiIO& io = ImGui::GetIO();
+    io.IniFilename = nullptr;
+    ImGui_ImplOpenGL3_Init("#version 330 core");
+    apply_style(scale);
+    gl_.emplace(std::move(*WindowGl::load(context_.function_loader(), true)));
+    ViewOptions options;
+    options.scene.file = scene.string();
+    options.shots = OutputPattern::parse((folder_ / "shot_%d.png").string()).value();
+    options.log = (folder_ / "frames.csv").string();
+    options.report = (folder_ / "report.jsonl").string();
+    options.gl_debug = true;
+    options.method.render.ao.cache.clear();
+    viewer_.emplace(options, *gl_, std::move(*EventReport::create(options.report)), [] {});
+  }
+  ~HeadlessViewer() {
+    viewer_.reset();
+    gl_.reset();
+    ImGui_ImplOpenGL3_Shutdown();
+    ImGui::DestroyContext();
+  }
+  HeadlessViewer(const HeadlessViewer&) = delete;
+  HeadlessViewer& operator=(const HeadlessViewer&) = delete;
+
+  Viewer& viewer() { return *viewer_; }
+  std::string report() const { return test::read_text(folder_ / "report.jsonl"); }
+  const TemporaryFolder& folder() const { return folder_; }
+
+  void turn() {
+    viewer_->update();
+    ImGuiIO& io = ImGui::GetIO();
+    io.DisplaySize = {static_cast<float>(window_.width), static_cast<float>(window_.height)};
+    io.DeltaTime = 1.0f / 60;
+    ImGui_ImplOpenGL3_NewFrame();
+    ImGui::NewFrame();
+    viewer_->draw(scale_, 1);
+    ImGui::Render();
+    gl_->clear(window_.width, window_.height);
+    ImGui_ImplOpenGL3_RenderDrawData(ImGui::GetDrawData());
+    viewer_->after_draw(window_.width, window_.height);
+  }
+  template <class Condition>
+  bool turn_until(Condition condition, double seconds = 60) {
+    const auto end = std::chrono::steady_clock::now() + std::chrono::duration<double>(seconds);
+    while (!condition() && std::chrono::steady_clock::now() < end) {
+      turn();
+      std::this_thread::sleep_for(std::chrono::milliseconds(2));
+    }
+    return condition();
+  }
+  bool wait_for_first_picture() {
+    return turn_until([&] { return viewer_->picture() != nullptr || viewer_->is_over(); }) && viewer_->picture();
+  }
+  void move_to(ImVec2 at) { ImGui::GetIO().MousePos = at, turn(); }
+  void click_at(ImVec2 at) {
+    move_to(at);
+    ImGui::GetIO().MouseDown[0] = true, turn();
+    ImGui::GetIO().MouseDown[0] = false, turn();
+  }
+  bool click(const std::string& name) {
+    const auto found = viewer_->marks().find(name);
+    if (found == viewer_->marks().end()) return false;
+    const ImVec4 at = found->second;
+    click_at({(at.x + at.z) / 2, (at.y + at.w) / 2});
+    return true;
+  }
+  void key(int code) {
+    viewer_->press_key({.code = code});
+    turn();
+  }
+  void type(char character) {
+    ImGui::GetIO().AddInputCharacter(static_cast<unsigned>(character));
+    turn();
+  }
+  Image8 pixels() const { return gl_->read_window(window_.width, window_.height); }
+  std::vector<std::string> gl_messages() { return gl_->take_messages(); }
+
+private:
+  void make_framebuffer() {
+    unsigned texture = 0, framebuffer = 0;
+    glCreateTextures(GL_TEXTURE_2D, 1, &texture);
+    glTextureStorage2D(texture, 1, GL_RGBA8, window_.width, window_.height);
+    glCreateFramebuffers(1, &framebuffer);
+    glNamedFramebufferTexture(framebuffer, GL_COLOR_ATTACHMENT0, texture, 0);
+    glBindFramebuffer(GL_FRAMEBUFFER, framebuffer);
+  }
+
+  TemporaryFolder folder_;
+  Size window_;
+  float scale_;
+  gl::Context context_;
+  std::optional<WindowGl> gl_;
+  std::optional<Viewer> viewer_;
+};
+
+int pixels_unlike(const Image8& a, const Image8& b) {
+  int count = 0;
+  for (std::size_t i = 0; i < a.pixels.size(); ++i) count += a.pixels[i] != b.pixels[i] ? 1 : 0;
+  return count;
+}
+
+TEST(ViewPanel, IsDrawnWithoutADisplay) {
+  const TemporaryFolder folder;
+  HeadlessViewer headless(test::write_moving_scene(folder), {1280, 720});
+  ASSERT_TRUE(headless.wait_for_first_picture());
+  headless.turn();
+  const Image8 before = headless.pixels();
+  for (const char* name : {"play", "scrubber", "shadows.soft", "variant", "graph", "overlay.nodes", "section.Lights"}) {
+    EXPECT_EQ(headless.viewer().marks().count(name), 1u) << name;
+  }
+  headless.click("shadows.none");
+  EXPECT_EQ(headless.viewer().state().slots[0].render.shadows, ShadowMode::none);
+  ASSERT_TRUE(headless.turn_until([&] { return headless.viewer().picture()->a.record.stats.rays == 0; }));
+  headless.turn();
+  EXPECT_GT(pixels_unlike(headless.pixels(), before), 1000) << "the picture lost its shadow, the panel a row";
+  EXPECT_TRUE(headless.gl_messages().empty());
+}
+
+TEST(ViewPanel, BadFilesShowTheirMessageAndKeepTheScene) {
+  const TemporaryFolder folder;
+  HeadlessViewer headless(test::write_moving_scene(folder), {1280, 720});
+  ASSERT_TRUE(headless.wait_for_first_picture());
+  const auto scene = headless.viewer().state().scene;
+  test::write_text(folder / "broken.glb", "no scene at all");
+  for (const std::string& file : {(folder / "broken.glb").string(), (folder / "missing.gltf").string(),
+                                  folder.path().string(), std::string("notes.txt")}) {
+    const std::string before = headless.viewer().message();
+    headless.viewer().drop({file});
+    ASSERT_TRUE(headless.turn_until([&] { return headless.viewer().message() != before; })) << file;
+    EXPECT_NE(headless.viewer().message().find(std::filesystem::path(file).filename().string()), std::string::npos)
+        << headless.viewer().message();
+    EXPECT_EQ(headless.viewer().state().scene, scene);
+    EXPECT_FALSE(headless.viewer().is_over());
+  }
+  headless.viewer().drop({TENEBRA_SCENES_DIR "/court.glb"});
+  ASSERT_TRUE(headless.turn_until([&] { return headless.viewer().state().scene != scene; }));
+  const auto number = [&] { return headless.viewer().picture()->scene; };
+  EXPECT_TRUE(headless.turn_until([&] { return number() == headless.viewer().state().scene; })) << "the good one shows";
+}
+
+TEST(ViewPanel, CancelsWhatTakesLong) {
+  const TemporaryFolder folder;
+  HeadlessViewer headless(TENEBRA_SCENES_DIR "/court.glb", {1280, 720});
+  ASSERT_TRUE(headless.wait_for_first_picture());
+  const Picture* last = headless.viewer().picture();
+  headless.key('3');  // soft shadows of the whole court
+  bool offered = headless.turn_until([&] { return headless.viewer().marks().count("cancel") == 1; }, 20);
+  if (!offered) GTEST_SKIP() << "this machine draws the soft shadows of the court before anyone could cancel them";
+  EXPECT_EQ(headless.viewer().picture(), last) << "the last picture stays while the next is computed";
+  headless.key(key_code::escape);
+  const auto begin = std::chrono::steady_clock::now();
+  ASSERT_TRUE(headless.turn_until([&] { return headless.viewer().message().starts_with("Cancelled"); }));
+  ASSERT_TRUE(headless.turn_until([&] { return headless.viewer().marks().count("cancel") == 0; }));
+  EXPECT_LT(std::chrono::duration<double>(std::chrono::steady_clock::now() - begin).count(), 5.0);
+  EXPECT_EQ(headless.viewer().picture(), last);
+  headless.key('2');
+  EXPECT_TRUE(headless.turn_until([&] { return headless.viewer().picture() != last; })) << "and work goes on";
+}
+
+TEST(ViewPanel, SurvivesAnyHand) {
+  const TemporaryFolder folder;
+  HeadlessViewer headless(test::write_moving_scene(folder, 2), {900, 640});
+  ASSERT_TRUE(headless.wait_for_first_picture());
+  testing::Random random(11);
+  constexpr char keys[] = " 123VXBNMCLPRWASDQEF[]";
+  for (int i = 0; i < 400 && !headless.viewer().is_over(); ++i) {
+    const auto& marks = headless.viewer().marks();
+    auto mark = marks.begin();
+    std::advance(mark, random.index(static_cast<std::uint32_t>(marks.size())));
+    const ImVec4 at = mark->second;
+    const ImVec2 point{static_cast<float>(random.in(at.x, at.z)), static_cast<float>(random.in(at.y, at.w))};
+    const std::uint32_t what = random.index(6);
+    // No fields and rays here: they would take the test's time, not the panel's.
+    if (mark->first.starts_with("ao") || mark->first == "log") continue;
+    if (what == 0) headless.key(keys[random.index(sizeof(keys) - 1)]);
+    if (what == 1) headless.key(random.chance(0.5) ? key_code::tab : key_code::right);
+    if (what == 2) ImGui::GetIO().MouseWheel = static_cast<float>(random.in(-2, 2)), headless.move_to(point);
+    if (what == 3) {
+      ImGui::GetIO().MouseDown[0] = true, headless.move_to(point);
+      headless.move_to({static_cast<float>(random.in(0, 900)), static_cast<float>(random.in(0, 640))});
+      ImGui::GetIO().MouseDown[0] = false, headless.turn();
+    }
+    if (what > 3) headless.click_at(point);
+  }
+  headless.key(key_code::escape);
+  headless.turn_until([] { return false; }, 0.5);
+  EXPECT_FALSE(headless.viewer().is_over());
+  EXPECT_EQ(headless.report().find("\"gl\""), std::string::npos) << "no OpenGL error on either context";
+  EXPECT_TRUE(headless.gl_messages().empty());
+}
+
+TEST(ViewPanel, StaysUsableInSmallWindowsAndOnDenseDisplays) {
+  const TemporaryFolder folder;
+  const auto scene = test::write_moving_scene(folder);
+  {
+    HeadlessViewer small(scene, {300, 200});
+    ASSERT_TRUE(small.wait_for_first_picture());
+    EXPECT_EQ(small.viewer().marks().count("shadows.hard"), 0u) << "no room for the panel";
+    EXPECT_EQ(small.viewer().marks().count("play"), 1u);
+    small.click("play");
+    EXPECT_TRUE(small.viewer().state().clock.playing());
+  }
+  {
+    HeadlessViewer dense(scene, {2560, 1440}, 2);
+    ASSERT_TRUE(dense.wait_for_first_picture());
+    const ImVec4 play = dense.viewer().marks().at("play");
+    EXPECT_NEAR(play.w - play.y, 46, 4);
+  }
+}
+
+}  // namespace
+}  // namespace tenebra::viewer

@@ -1,0 +1,75 @@
+// Options whose value is one of a few words: one table a kind serves reading, messages and logs.
+#pragma once
+
+#include <fmt/format.h>
+
+#include <array>
+#include <string>
+#include <string_view>
+
+#include "base/expected.h"
+#include "render/renderer.h"
+
+namespace tenebra::viewer {
+
+template <class T>
+struct Choice {
+  std::string_view name;
+  T value;
+};
+
+inline constexpr std::array shadow_choices{Choice<ShadowMode>{"none", ShadowMode::none},
+                                           Choice<ShadowMode>{"hard", ShadowMode::hard},
+                                           Choice<ShadowMode>{"soft", ShadowMode::soft}};
+inline constexpr std::array sample_choices{Choice<SampleSource>{"ids", SampleSource::ids},
+                                           Choice<SampleSource>{"depth", SampleSource::depth}};
+inline constexpr std::array solver_choices{Choice<SoftSolver>{"auto", SoftSolver::automatic},
+                                           Choice<SoftSolver>{"bsp", SoftSolver::bsp},
+                                           Choice<SoftSolver>{"clip", SoftSolver::clip}};
+inline constexpr std::array grouping_choices{
+    Choice<SoftGrouping>{"neighbourhood", SoftGrouping::neighbourhood},
+    Choice<SoftGrouping>{"triangle", SoftGrouping::triangle}};
+inline constexpr std::array occluder_choices{Choice<OccluderChoice>{"largest", OccluderChoice::largest},
+                                             Choice<OccluderChoice>{"random", OccluderChoice::random}};
+inline constexpr std::array precision_choices{Choice<SoftPrecision>{"fast", SoftPrecision::fast},
+                                              Choice<SoftPrecision>{"reference", SoftPrecision::reference}};
+inline constexpr std::array ao_choices{Choice<AoMode>{"none", AoMode::none},
+                                       Choice<AoMode>{"field", AoMode::field},
+                                       Choice<AoMode>{"rays", AoMode::rays}};
+inline constexpr std::array place_choices{Choice<AoPlace>{"pixels", AoPlace::pixels},
+                                          Choice<AoPlace>{"vertices", AoPlace::vertices}};
+inline constexpr std::array layout_choices{
+    Choice<FieldLayout>{"chords", FieldLayout::chords},
+    Choice<FieldLayout>{"positions", FieldLayout::positions_directions}};
+inline constexpr std::array deforming_choices{Choice<bool>{"rays", true}, Choice<bool>{"none", false}};
+inline constexpr std::array cull_choices{Choice<bool>{"none", false}, Choice<bool>{"front", true}};
+
+/// "a, b or c"; `between` "|" for the help: "a|b|c".
+template <class T, std::size_t N>
+std::string choice_list(const std::array<Choice<T>, N>& choices, std::string_view between = "") {
+  std::string text;
+  for (std::size_t i = 0; i < N; ++i) {
+    const std::string_view separator = !between.empty() ? between : i + 1 == N ? " or " : ", ";
+    if (i > 0) text += separator;
+    text += choices[i].name;
+  }
+  return text;
+}
+
+template <class T, std::size_t N>
+Expected<T> parse_choice(const std::array<Choice<T>, N>& choices, const std::string& text) {
+  for (const Choice<T>& choice : choices) {
+    if (choice.name == text) return choice.value;
+  }
+  return fail("found {}, expected {}", text, choice_list(choices));
+}
+
+template <class T, std::size_t N>
+std::string choice_name(const std::array<Choice<T>, N>& choices, T value) {
+  for (const Choice<T>& choice : choices) {
+    if (choice.value == value) return std::string(choice.name);
+  }
+  return "";
+}
+
+}  // namespace tenebra::viewer

@@ -1,0 +1,14 @@
+// --config FILE: options of a command from a file.
+#pragma once
+
+#include <CLI/CLI.hpp>
+
+namespace tenebra::viewer {
+
+/// Adds --config FILE. The file has lines `name = value` with the long names of `command`'s options
+/// ("size = 800x600", "quiet = true", "no-cast = [a, b]"), # comments, and sections: what stands under
+/// [render] or [view] is for that command only. What the command line says counts more than the file. A
+/// failure is one sentence with file and name.
+void add_config_option(CLI::App& command);
+
+}  // namespace tenebra::viewer

@@ -1,0 +1,216 @@
+#include "method_options.h"
+
+#include "choices.h"
+
+namespace tenebra::viewer {
+namespace {
+
+constexpr const char* shadow_group = "Shadows";
+constexpr const char* hard_group = "Hard shadows";
+constexpr const char* soft_group = "Soft shadows";
+constexpr const char* ao_group = "Ambient occlusion";
+
+template <const auto& choices, class Target>
+CLI::Option* add_choice(CLI::App& command, const char* name, Target& target, const char* help) {
+  const auto parse = +[](const std::string& text) { return parse_choice(choices, text); };
+  return add_value(command, name, target, parse, help)->type_name(choice_list(choices, "|"));
+}
+
+void set_group(std::initializer_list<CLI::Option*> options, const char* group) {
+  for (CLI::Option* option : options) option->group(group);
+}
+
+Expected<Variant> parse_variant(const std::string& text) {
+  if (const auto variant = variant_from_name(text)) return *variant;
+  return fail(
+      "found {}, expected Precise, PreciseSorted, Spheres, SpheresSorted, PreciseSEA, PreciseEATP or "
+      "PreciseSEATP",
+      text);
+}
+
+Expected<SimdLevel> parse_simd(const std::string& text) {
+  const auto level = simd_level_from_name(text);
+  if (!level) return fail("found {}, expected auto, scalar, sse4, avx2 or avx512", text);
+  if (*level != SimdLevel::automatic && !simd_level_supported(*level)) {
+    return fail("this machine or build has no {}, its best is {}", text, simd_level_name(best_simd_level()));
+  }
+  return *level;
+}
+
+Expected<int> parse_light(const std::string& text) {
+  if (text == "all") return -1;
+  const auto number = parse_count(text);
+  return number ? number : fail("found {}, expected the number of a light, from 0, or all", text);
+}
+
+Expected<int> parse_threads(const std::string& text) {
+  const auto threads = parse_count(text);
+  if (!threads || *threads > 1024) return fail("found {}, expected 1 to 1024, or 0 for all cores", text);
+  return threads;
+}
+
+Expected<float> parse_exposure(const std::string& text) {
+  const auto exposure = parse_positive(text);
+  if (!exposure || static_cast<float>(*exposure) == 0.0f || *exposure > 1e30) {
+    return fail("found {}, expected a factor above 0, like 1.5", text);
+  }
+  return static_cast<float>(*exposure);
+}
+
+Expected<int> parse_bits(const std::string& text) {
+  const auto bits = parse_count(text);
+  if (!bits || (*bits != 1 && *bits != 8 && *bits != 32)) return fail("found {}, expected 1, 8 or 32", text);
+  return bits;
+}
+
+Expected<std::filesystem::path> parse_cache(const std::string& text) {
+  if (text.empty()) return fail("found an empty name, expected a folder or none");
+  return text == "none" ? std::filesystem::path() : std::filesystem::path(text);
+}
+
+void add_common(CLI::App& command, RenderSettings& render) {
+  set_group({add_choice<shadow_choices>(command, "--shadows", render.shadows,
+                                        "hard: of the lights' centres; soft: of their areas,\nboth exact and "
+                                        "without noise [hard]"),
+             add_value(command, "--light", render.light, parse_light, "One light, by number, or all [all]")
+                 ->type_name("N|all"),
+             add_value(command, "--exposure", render.exposure, parse_exposure, "Factor of the light [1]")
+                 ->type_name("E"),
+             add_value(command, "--threads", render.threads, parse_threads,
+                       "Threads of shadows and ambient occlusion [0: all cores]")
+                 ->type_name("N"),
+             add_value(command, "--simd", render.hard.simd, parse_simd,
+                       "Vector instructions: auto, scalar, sse4, avx2 or avx512;\nthe same masks with each "
+                       "[auto]")
+                 ->type_name("LEVEL")},
+            shadow_group);
+}
+
+void add_hard(CLI::App& command, MethodOptions& options) {
+  set_group({add_value(command, "--variant", options.render.hard.variant, parse_variant,
+                       "Precise, PreciseSorted, Spheres, SpheresSorted, PreciseSEA, PreciseEATP or "
+                       "PreciseSEATP: the same mask by other work [PreciseSorted]")
+                 ->type_name("V"),
+             add_choice<sample_choices>(command, "--samples", options.render.samples,
+                                        "Where shadow rays start: exact points from triangle\nids, or the "
+                                        "paper's from the depth buffer [ids]"),
+             add_choice<cull_choices>(command, "--cull", options.cull_front,
+                                      "front: only faces turned away from the light cast;\nfor closed meshes "
+                                      "[none; front with depth samples]")},
+            hard_group);
+}
+
+void add_soft(CLI::App& command, MethodOptions& options) {
+  SoftShadowConfig& soft = options.render.soft;
+  AreaLightSettings& lights = options.render.area_lights;
+  auto* size = add_value(command, "--light-size", options.light_size, parse_light_size,
+                         "Makes point and spot lights rectangles of this size, in\nmetres or (4%) in percent "
+                         "of the scene's diagonal,\nwith the light they had [they stay points]")
+                   ->type_name("W[xH][%]");
+  auto* facing = add_value(command, "--light-facing", lights.facing, parse_vector,
+                           "What those rectangles face [the scene's centre;\nspot lights: where they shine]")
+                     ->type_name("X,Y,Z")
+                     ->needs(size);
+  auto* emissive = command.add_flag("--emissive-lights", lights.emissive_quads,
+                                    "Flat convex meshes of an emissive material shine too");
+  set_group({size, facing, emissive,
+             add_choice<solver_choices>(command, "--soft-solver", soft.solver,
+                                        "What finds the visible part of a light: the lazy BSP\nof the paper, "
+                                        "clipping, or by what each group of\npoints requires; the same "
+                                        "picture [auto]"),
+             add_choice<grouping_choices>(command, "--soft-grouping", soft.grouping,
+                                          "Points that share a BSP: neighbours, or as in the\npaper's "
+                                          "Algorithm 2 those of a triangle [neighbourhood]"),
+             add_choice<occluder_choices>(command, "--soft-choice", soft.choice,
+                                          "Occluder that the BSP takes next; the paper's: random [largest]"),
+             add_choice<precision_choices>(command, "--soft-precision", soft.precision,
+                                           "reference: double throughout [fast]")},
+            soft_group);
+}
+
+void add_ao(CLI::App& command, AoConfig& ao) {
+  ao.cache = default_cache_folder();
+  set_group(
+      {add_choice<ao_choices>(command, "--ao", ao.mode,
+                              "field: from displacement fields of the rigid objects;\nrays: by ray casting, "
+                              "to compare with [none]"),
+       add_choice<place_choices>(command, "--ao-at", ao.place,
+                                 "Where it is computed; vertices as in the paper [pixels]"),
+       add_choice<layout_choices>(command, "--ao-layout", ao.layout,
+                                  "What a field stores: chords from entry to exit, or the\npaper's positions "
+                                  "x directions [chords]"),
+       add_value(command, "--ao-rays", ao.rays, parse_at_least_one, "Rays a point [64]")->type_name("N"),
+       add_value(command, "--ao-distance", ao.distance_m, parse_positive,
+                 "Metres at which nothing occludes any more [a\ntwentieth of the scene's diagonal]")
+           ->type_name("D"),
+       add_value(command, "--ao-positions", ao.positions, parse_at_least_one,
+                 "Samples on an object's bounding sphere [4225]")
+           ->type_name("P"),
+       add_value(command, "--ao-directions", ao.directions, parse_square_count,
+                 "Directions a sample, 1024 or 32x32 [1024]")
+           ->type_name("D"),
+       add_value(command, "--ao-bits", ao.bits, parse_bits, "Bits of a stored distance [8]")
+           ->type_name("1|8|32"),
+       add_choice<deforming_choices>(command, "--ao-deforming", ao.deforming,
+                                     "Objects that deform and have no field: by rays, or not\nat all [rays]"),
+       add_value(command, "--ao-cache", ao.cache, parse_cache,
+                 "Folder where built fields are kept\n[$XDG_CACHE_HOME/tenebra or ~/.cache/tenebra]")
+           ->type_name("FOLDER|none")},
+      ao_group);
+}
+
+}  // namespace
+
+void add_method_options(CLI::App& command, MethodOptions& options) {
+  add_common(command, options.render);
+  add_hard(command, options);
+  add_soft(command, options);
+  add_ao(command, options.render.ao);
+}
+
+Expected<void> check_method_options(const MethodOptions& options) {
+  const RenderSettings& render = options.render;
+  const bool soft = render.shadows == ShadowMode::soft;
+  if (render.samples == SampleSource::depth && (soft || render.ao.mode != AoMode::none)) {
+    return fail("--samples depth has no exact points, and {} needs them; expected --samples ids",
+                soft ? "--shadows soft" : "--ao");
+  }
+  if (soft && options.cull_front.value_or(false)) {
+    return fail("--cull front is for hard shadows, and with --shadows soft every face casts");
+  }
+  return {};
+}
+
+std::vector<std::string> idle_method_options(const CLI::App& command, const MethodOptions& options) {
+  std::vector<std::string> sentences;
+  for (const CLI::Option* option : command.get_options()) {
+    if (option->count() == 0) continue;
+    const std::string& group = option->get_group();
+    const bool idle_soft = group == soft_group && options.render.shadows != ShadowMode::soft;
+    const bool idle_ao =
+        group == ao_group && options.render.ao.mode == AoMode::none && option->get_name() != "--ao";
+    if (idle_soft)
+      sentences.push_back(fmt::format("{} does nothing without --shadows soft", option->get_name()));
+    if (idle_ao) sentences.push_back(fmt::format("{} does nothing without --ao", option->get_name()));
+  }
+  return sentences;
+}
+
+RenderSettings method_settings(const MethodOptions& options, Size size) {
+  RenderSettings settings = options.render;
+  settings.width = size.width;
+  settings.height = size.height;
+  // Points from the depth buffer lie off their triangles: only the paper's front-face culling keeps those
+  // from shadowing their own points.
+  const bool from_depth = settings.samples == SampleSource::depth;
+  settings.hard.cull_front = options.cull_front.value_or(from_depth);
+  settings.hard.contact = from_depth ? ContactRule::none : ContactRule::triangle_ids;
+  settings.soft.simd = settings.ao.simd = settings.hard.simd;
+  if (options.light_size) {
+    settings.area_lights.size = options.light_size->size;
+    settings.area_lights.percent_of_diagonal = options.light_size->percent;
+  }
+  return settings;
+}
+
+}  // namespace tenebra::viewer

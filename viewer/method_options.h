@@ -1,0 +1,33 @@
+// The options that choose how light is computed: shadows, their settings, ambient occlusion. `tenebra render`
+// and `tenebra view` share them.
+#pragma once
+
+#include <CLI/CLI.hpp>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "option_values.h"
+#include "render/renderer.h"
+
+namespace tenebra::viewer {
+
+struct MethodOptions {
+  RenderSettings render;                ///< but for its size
+  std::optional<bool> cull_front;       ///< not given: as the samples need it
+  std::optional<LightSize> light_size;  ///< not given: points stay points
+};
+
+/// Adds the options to `command`; they are read into `options`, which must live as long.
+void add_method_options(CLI::App& command, MethodOptions& options);
+
+/// What single options cannot check: combinations.
+Expected<void> check_method_options(const MethodOptions& options);
+
+/// Options given to `command` that the chosen methods do not look at, a sentence each.
+std::vector<std::string> idle_method_options(const CLI::App& command, const MethodOptions& options);
+
+/// The settings of a frame of `size`.
+RenderSettings method_settings(const MethodOptions& options, Size size);
+
+}  // namespace tenebra::viewer

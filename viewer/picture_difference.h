@@ -1,0 +1,23 @@
+// How two pictures of one size differ, pixel by pixel.
+#pragma once
+
+#include <cstddef>
+
+#include "base/image.h"
+
+namespace tenebra::viewer {
+
+/// Grey counts as equal red, green and blue, and a picture without alpha as opaque.
+struct PictureDifference {
+  std::size_t pixels = 0;
+  std::size_t differing = 0;  ///< by more than the threshold in some channel
+  int largest = 0;            ///< of any channel, 0..255
+};
+
+/// Sizes must be equal. `marked`, if given: `a` dark and grey, differing pixels red.
+PictureDifference compare_pictures(const Image8& a, const Image8& b, int threshold, Image8* marked = nullptr);
+
+/// |a - b| of each channel times `gain`, clamped to 255. Sizes and channels must be equal.
+Image8 absolute_difference(const Image8& a, const Image8& b, int gain);
+
+}  // namespace tenebra::viewer

@@ -1,0 +1,79 @@
+#include "scene_options.h"
+
+namespace tenebra::viewer {
+namespace {
+
+constexpr const char* scene_group = "Scene and moment";
+constexpr const char* camera_group = "Camera";
+
+Expected<int> parse_cone_sides(const std::string& text) {
+  const auto sides = parse_count(text);
+  if (!sides || *sides < 3 || *sides > 4096) return fail("found {}, expected 3 to 4096", text);
+  return sides;
+}
+
+void add_files(CLI::App& command, SceneOptions& options) {
+  command.add_option("SCENE", options.file, "Scene file: .gltf .glb .aff .nff .obj");
+  command
+      .add_option("--no-cast", options.no_cast,
+                  "Mesh, material or (AFF) FILE:LINE that casts no shadow; may be repeated")
+      ->type_name("NAME")
+      ->allow_extra_args(false)
+      ->group(scene_group);
+  add_value(command, "--cone-sides", options.import.cone_sides, parse_cone_sides,
+            "AFF: sides of cones and cylinders [64; the paper's count needs 8]")
+      ->type_name("N")
+      ->group(scene_group);
+}
+
+void add_moment(CLI::App& command, SceneOptions& options) {
+  add_value(command, "--time", options.time_s, parse_time, "This time of the animation")
+      ->type_name("S")
+      ->group(scene_group);
+  add_value(command, "--fps", options.fps, parse_positive,
+            "Frames a second where the scene does not state\nits frames (glTF) [30]")
+      ->type_name("F")
+      ->group(scene_group);
+  command.add_option("--clip", options.clip, "Animation, by name or number [the first]")
+      ->type_name("NAME|N")
+      ->group(scene_group);
+}
+
+void add_camera(CLI::App& command, SceneOptions& options) {
+  auto* camera =
+      command.add_option("--camera", options.camera, "Camera of the scene, by name or number [the first]")
+          ->type_name("NAME|N");
+  auto* eye =
+      add_value(command, "--eye", options.eye, parse_vector, "Camera at this place instead, in world space")
+          ->type_name("X,Y,Z")
+          ->excludes(camera);
+  auto* look_at =
+      add_value(command, "--look-at", options.look_at, parse_vector, "What it looks at")->type_name("X,Y,Z");
+  auto* up = add_value(command, "--up", options.up, parse_vector, "What is up [0,1,0]")->type_name("X,Y,Z");
+  eye->needs(look_at);
+  look_at->needs(eye);
+  up->needs(eye);
+  auto* fov = add_value(command, "--fov", options.fov_deg, parse_field_of_view,
+                        "Full vertical field of view in degrees [the camera's; 45 with --eye]")
+                  ->type_name("D");
+  auto* size = add_value(command, "--size", options.size, parse_size,
+                         "Size in pixels [800x600, or 800 wide with the camera's aspect]")
+                   ->type_name("WxH");
+  for (CLI::Option* option : {camera, eye, look_at, up, fov, size}) option->group(camera_group);
+}
+
+}  // namespace
+
+void add_scene_options(CLI::App& command, SceneOptions& options) {
+  add_files(command, options);
+  add_moment(command, options);
+  add_camera(command, options);
+}
+
+Expected<void> check_scene_options(const SceneOptions& options) {
+  if (options.eye && *options.eye == options.look_at) return fail("--eye and --look-at are the same point");
+  if (options.eye && options.up == glm::vec3(0.0f)) return fail("--up is 0,0,0, expected a direction");
+  return {};
+}
+
+}  // namespace tenebra::viewer

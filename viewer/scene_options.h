@@ -1,0 +1,40 @@
+// The options that choose what is looked at: scene, moment, camera. `tenebra render` and `tenebra view` share
+// them.
+#pragma once
+
+#include <CLI/CLI.hpp>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "import/import_scene.h"
+#include "option_values.h"
+
+namespace tenebra::viewer {
+
+struct SceneOptions {
+  std::string file;  ///< positional SCENE; empty: not given
+  ImportOptions import;
+  std::vector<std::string> no_cast;
+
+  std::optional<double> time_s;
+  double fps = 30.0;
+  std::optional<std::string> clip;
+
+  std::optional<std::string> camera;
+  std::optional<glm::vec3> eye;
+  glm::vec3 look_at{0.0f};
+  glm::vec3 up{0, 1, 0};
+  std::optional<double> fov_deg;
+  std::optional<Size> size;
+};
+
+/// Adds SCENE, --no-cast, --cone-sides, --time, --fps, --clip and those of the camera, --size too; they are
+/// read into `options`, which must live as long. A command makes SCENE required with
+/// command.get_option("SCENE")->required().
+void add_scene_options(CLI::App& command, SceneOptions& options);
+
+/// What single options cannot check: combinations.
+Expected<void> check_scene_options(const SceneOptions& options);
+
+}  // namespace tenebra::viewer

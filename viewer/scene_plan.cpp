@@ -1,0 +1,80 @@
+#include "scene_plan.h"
+
+#include <algorithm>
+#include <cmath>
+#include <numbers>
+
+#include "scene_choice.h"
+
+namespace tenebra::viewer {
+namespace {
+
+constexpr Size default_size{800, 600};
+constexpr double default_fov_deg = 45.0;
+/// With --eye the near plane lies at this part of the way to the point looked at.
+constexpr float near_of_distance = 1e-3f;
+
+float radians(double degrees) {
+  return static_cast<float>(degrees * std::numbers::pi / 180.0);
+}
+
+Size plan_size(const Scene& scene, int camera, const SceneOptions& options) {
+  if (options.size) return *options.size;
+  const auto aspect = scene.cameras[static_cast<std::size_t>(camera)].aspect;
+  if (options.eye || !aspect || !(*aspect > 0)) return default_size;
+  const double height = std::clamp<double>(default_size.width / *aspect, 1.0, largest_side_px);
+  return {default_size.width, static_cast<int>(std::lround(height))};
+}
+
+Expected<void> apply_field_of_view(Scene& scene, int camera, const SceneOptions& options) {
+  if (!options.fov_deg || options.eye) return {};
+  Camera& chosen = scene.cameras[static_cast<std::size_t>(camera)];
+  if (chosen.projection == Projection::orthographic) {
+    return fail("--fov: camera {} ({}) is orthographic and has no field of view", camera, chosen.name);
+  }
+  chosen.vertical_fov_rad = radians(*options.fov_deg);
+  return {};
+}
+
+}  // namespace
+
+Expected<ScenePlan> plan_scene(const SceneOptions& options) {
+  auto scene = import_scene(options.file, options.import);
+  if (!scene) return tl::unexpected(scene.error());
+  ScenePlan plan;
+  plan.scene = std::move(*scene);
+  std::string unmatched;
+  if (!leave_out_casters(plan.scene, options.no_cast, unmatched)) {
+    return fail("--no-cast: {} names no mesh, material or FILE:LINE of the scene", unmatched);
+  }
+  add_missing_camera_and_light(plan.scene);
+
+  const auto clip = choose_clip(plan.scene, options.clip);
+  if (!clip) return tl::unexpected(clip.error());
+  plan.clip = *clip;
+  const auto camera = choose_camera(plan.scene, options.camera);
+  if (!camera) return tl::unexpected(camera.error());
+  plan.camera = *camera;
+  plan.size = plan_size(plan.scene, plan.camera, options);
+  if (auto applied = apply_field_of_view(plan.scene, plan.camera, options); !applied) {
+    return tl::unexpected(applied.error());
+  }
+  return plan;
+}
+
+ViewRays view_of(const ScenePlan& plan, const SceneOptions& options, double time_s, Size size) {
+  if (!options.eye) {
+    return evaluate_camera(plan.scene, plan.clip, time_s, plan.camera, size.width, size.height);
+  }
+  const float near_m = near_of_distance * glm::distance(*options.eye, options.look_at);
+  return look_at(*options.eye, options.look_at, options.up,
+                 radians(options.fov_deg.value_or(default_fov_deg)), near_m, size.width, size.height);
+}
+
+Expected<int> check_light(const ScenePlan& plan, int light, double time_s) {
+  const int count = static_cast<int>(evaluate_lights(plan.scene, plan.clip, time_s).size());
+  if (light >= count) return fail("--light: found {}, the scene has lights 0 to {}", light, count - 1);
+  return count;
+}
+
+}  // namespace tenebra::viewer

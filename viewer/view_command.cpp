@@ -1,0 +1,45 @@
+// tenebra view: a window on an animated scene.
+#include <memory>
+
+#include "bundled_scene.h"
+#include "command.h"
+#include "view_options.h"
+#include "window/glfw_window.h"
+
+namespace tenebra::viewer {
+namespace {
+
+constexpr const char* examples =
+    "Examples:\n"
+    "  tenebra view\n"
+    "      the bundled city; ? shows the keys\n"
+    "  tenebra view scenes/gallery.glb --play --overlay nodes\n"
+    "      where the tracer's work goes\n"
+    "  tenebra view scenes/court.glb --shadows soft --compare=\"--shadows hard\"\n"
+    "      soft against hard shadows, with a line to wipe between them\n"
+    "  tenebra view scenes/city.glb --size 1280x720 --record out/%04d.png --exit-after 300\n"
+    "      the first 300 frames as pictures, the same bits as tenebra render\n"
+    "\n"
+    "The window needs a display with OpenGL 3.3; tenebra render needs none.";
+
+Expected<int> view(ViewOptions options) {
+  if (auto settled = settle_view_options(options); !settled) return tl::unexpected(settled.error());
+  if (options.scene.file.empty()) {
+    auto bundled = bundled_scene("city.glb");
+    if (!bundled) return tl::unexpected(bundled.error());
+    options.scene.file = bundled->string();
+  }
+  return run_window(options);
+}
+
+}  // namespace
+
+void add_view_command(CLI::App& program, Run& run) {
+  CLI::App* command = program.add_subcommand("view", "A window: watch, switch methods, see what each costs");
+  const auto options = std::make_shared<ViewOptions>();
+  command->footer(examples);
+  add_view_options(*command, *options);
+  command->callback([options, &run] { run = [options] { return view(*options); }; });
+}
+
+}  // namespace tenebra::viewer

@@ -1,0 +1,134 @@
+#include "window/event_report.h"
+
+#include <cerrno>
+#include <cstring>
+#include <nlohmann/json.hpp>
+
+#include "method_arguments.h"
+
+namespace tenebra::viewer {
+namespace {
+
+using Json = nlohmann::ordered_json;
+
+std::string dump(const Json& json) {
+  return json.dump(-1, ' ', false, Json::error_handler_t::replace);
+}
+
+const char* name_of(CameraMode mode) {
+  return mode == CameraMode::scene ? "scene" : mode == CameraMode::orbit ? "orbit" : "fly";
+}
+
+const char* name_of(CompareView view) {
+  constexpr const char* names[] = {"a", "b", "side", "wipe", "difference"};
+  return names[static_cast<std::size_t>(view)];
+}
+
+Json lights_of(const ViewState& state) {
+  Json lights = Json::array();
+  for (std::size_t i = 0; i < state.lights.size(); ++i) {
+    const std::string text = light_edit_text(static_cast<int>(i), state.lights[i]);
+    if (!text.empty()) lights.push_back(text);
+  }
+  return lights;
+}
+
+}  // namespace
+
+Expected<EventReport> EventReport::create(const std::string& path) {
+  EventReport report;
+  if (path.empty()) return report;
+  report.file_.reset(std::fopen(path.c_str(), "w"));
+  if (!report.file_) return fail("--report {}: {}", path, std::strerror(errno));
+  return report;
+}
+
+void EventReport::line(const std::string& text) {
+  if (!file_) return;
+  std::fwrite(text.data(), 1, text.size(), file_.get());
+  std::fputc('\n', file_.get());
+  std::fflush(file_.get());
+}
+
+void EventReport::opened(const std::string& file, const ScenePlan& scene) {
+  if (!file_) return;
+  line(dump({{"event", "opened"},
+             {"file", file},
+             {"lights", scene.scene.lights.size()},
+             {"clips", scene.scene.clips.size()},
+             {"cameras", scene.scene.cameras.size()}}));
+}
+
+void EventReport::request(const FrameRequest& request) {
+  if (!file_) return;
+  line(dump({{"event", "request"}, {"number", request.number}, {"time_s", request.clock.time_at(request.asked)}}));
+}
+
+void EventReport::picture(const Picture& picture, std::uint64_t number) {
+  if (!file_) return;
+  const FrameRecord& a = picture.a.record;
+  Json json{{"event", "picture"},
+            {"number", number},
+            {"request", picture.request},
+            {"frame", a.frame},
+            {"time_s", a.time_s},
+            {"width", picture.a.result.image.width},
+            {"height", picture.a.result.image.height},
+            {"total_ms", a.timings.total_ms},
+            {"delay_ms", picture.delay_ms},
+            {"rays", a.stats.rays},
+            {"nodes", a.stats.nodes},
+            {"soft_groups", a.soft.groups},
+            {"ao_points", a.ao.points}};
+  if (picture.b) {
+    json["nodes_b"] = picture.b->record.stats.nodes;
+    json["differing"] = picture.difference.differing;
+    json["largest"] = picture.difference.largest;
+  }
+  if (picture.overlay.kind == Overlay::nodes) json["overlay_peak"] = picture.overlay.peak;
+  if (picture.overlay.kind == Overlay::classes) json["overlay_classes"] = picture.overlay.class_sizes;
+  line(dump(json));
+}
+
+void EventReport::state(const ViewState& state) {
+  if (!file_) return;
+  const auto overlay = state.overlay == Overlay::none ? "none" : state.overlay == Overlay::nodes ? "nodes" : "classes";
+  const std::string text = dump({{"event", "state"},
+                                 {"file", state.options.file},
+                                 {"clip", state.clip},
+                                 {"playing", state.clock.playing()},
+                                 {"speed", state.clock.speed()},
+                                 {"loop", state.clock.loop()},
+                                 {"fixed_step", state.clock.fixed_step()},
+                                 {"camera", name_of(state.camera_mode)},
+                                 {"free", camera_arguments(state.free)},
+                                 {"active", state.active},
+                                 {"a", method_arguments(state.slots[0])},
+                                 {"b", method_arguments(state.slots[1])},
+                                 {"compare", state.compare},
+                                 {"show", name_of(state.show)},
+                                 {"wipe", state.wipe},
+                                 {"overlay", overlay},
+                                 {"lights", lights_of(state)},
+                                 {"panel", state.panel},
+                                 {"help", state.help}});
+  if (text == last_state_) return;
+  last_state_ = text;
+  line(text);
+}
+
+void EventReport::marks(const Marks& marks) {
+  if (!file_) return;
+  Json json{{"event", "marks"}};
+  for (const auto& [name, place] : marks) json[name] = {place.x, place.y, place.z, place.w};
+  const std::string text = dump(json);
+  if (text == last_marks_) return;
+  last_marks_ = text;
+  line(text);
+}
+
+void EventReport::note(const char* event, const std::string& text) {
+  if (file_) line(dump({{"event", event}, {"text", text}}));
+}
+
+}  // namespace tenebra::viewer

@@ -1,0 +1,102 @@
+#include "window/frame_maker.h"
+
+#include "base/stopwatch.h"
+#include "window/overlay_image.h"
+
+namespace tenebra::viewer {
+namespace {
+
+/// The free camera as the options of `tenebra render` give it.
+SceneOptions options_of(const FreeCamera& camera) {
+  SceneOptions options;
+  options.eye = camera.eye;
+  options.look_at = camera.target;
+  options.up = camera.up;
+  options.fov_deg = camera.fov_deg;
+  return options;
+}
+
+ViewRays view_of_request(const FrameRequest& request, double time_s, int width, int height) {
+  if (request.free) return view_of(*request.scene, options_of(*request.free), time_s, Size{width, height});
+  return evaluate_camera(request.scene->scene, request.clip, time_s, request.camera, width, height);
+}
+
+}  // namespace
+
+Expected<void> FrameMaker::take_scene(const std::shared_ptr<const ScenePlan>& scene) {
+  if (renderer_ && scene == scene_) return {};
+  // The old renderer goes while its context is current, before a new context takes its place.
+  renderer_.reset();
+  auto context = gl::Context::create(kind_, {.debug = debug_});
+  if (!context) return tl::unexpected(context.error());
+  auto renderer = Renderer::create(std::move(*context), scene->scene);
+  if (!renderer) return tl::unexpected(renderer.error());
+  renderer_.emplace(std::move(*renderer));
+  scene_ = scene;
+  return {};
+}
+
+Expected<Drawn> FrameMaker::draw(const FrameRequest& request, const RenderSettings& settings, double time_s,
+                                 const AoProgress& progress, const StopFlag& stop) {
+  Drawn drawn;
+  Stopwatch watch;
+  if (auto done = renderer_->render_frame(input_, settings, drawn.result, progress, &stop); !done) {
+    return tl::unexpected(done.error());
+  }
+  const FrameResult& result = drawn.result;
+  drawn.record = {.frame = request.clock.frame_of(time_s),
+                  .time_s = time_s,
+                  .timings = result.timings,
+                  .stats = result.stats,
+                  .soft = result.soft,
+                  .ao = result.ao};
+  drawn.record.timings.evaluate_ms = evaluate_ms_;
+  drawn.record.timings.total_ms = watch.lap_ms() + evaluate_ms_;
+  return drawn;
+}
+
+Expected<std::shared_ptr<Picture>> FrameMaker::make(const FrameRequest& request, double time_s,
+                                                    const AoProgress& progress, const StopFlag& stop) {
+  if (auto taken = take_scene(request.scene); !taken) return tl::unexpected(taken.error());
+  const Scene& scene = request.scene->scene;
+  Stopwatch watch;
+  evaluate_frame(scene, request.clip, time_s, input_.geometry);
+  input_.lights = edited_lights(evaluate_lights(scene, request.clip, time_s), request.lights);
+  input_.view = view_of_request(request, time_s, request.a.width, request.a.height);
+  evaluate_ms_ = watch.lap_ms();
+  renderer_->set_lights(edited_lights(scene.lights, request.lights));
+
+  auto picture = std::make_shared<Picture>();
+  RenderSettings settings = request.a;
+  settings.diagnostics = request.overlay != Overlay::none;
+  auto a = draw(request, settings, time_s, progress, stop);
+  if (!a) return tl::unexpected(a.error());
+  picture->a = std::move(*a);
+  if (request.b) {
+    auto b = draw(request, *request.b, time_s, progress, stop);
+    if (!b) return tl::unexpected(b.error());
+    picture->difference = compare_pictures(picture->a.result.image, b->result.image, 0);
+    picture->b = std::move(*b);
+  }
+  picture->overlay = make_overlay(request.overlay, picture->a.result);
+  picture->a.result.masks.clear();  // the window shows the picture, not the masks
+  if (picture->b) picture->b->result.masks.clear();
+  picture->scene = request.scene;
+  picture->slot = request.slot;
+  picture->view = input_.view;
+  picture->lights = evaluate_lights(scene, request.clip, time_s);
+  picture->clock = request.clock;
+  return picture;
+}
+
+std::optional<glm::vec3> FrameMaker::visible_point(int x, int y) {
+  if (!renderer_) return std::nullopt;
+  const auto point = renderer_->visible_point(input_, x, y);
+  return point ? std::optional<glm::vec3>(*point) : std::nullopt;
+}
+
+std::vector<std::string> FrameMaker::take_debug_messages() {
+  return renderer_ ? renderer_->take_debug_messages() : std::vector<std::string>();
+}
+
+}  // namespace tenebra::viewer

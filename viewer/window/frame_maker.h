@@ -1,0 +1,42 @@
+// From a request to a picture: the viewer's use of the Renderer, the same as that of `tenebra render`. Knows no
+// window and no thread; everything of one FrameMaker happens on one thread.
+#pragma once
+
+#include <memory>
+#include <optional>
+
+#include "gl/context.h"
+#include "window/frame_request.h"
+
+namespace tenebra::viewer {
+
+class FrameMaker {
+public:
+  /// `debug`: collect what OpenGL complains about.
+  FrameMaker(gl::ContextKind kind, bool debug) : kind_(kind), debug_(debug) {}
+
+  /// Draws the request at `time_s` of its animation. A stop ends in the error "stopped"; the next call starts
+  /// afresh.
+  Expected<std::shared_ptr<Picture>> make(const FrameRequest& request, double time_s,
+                                          const AoProgress& progress, const StopFlag& stop);
+
+  /// What a pixel of the last picture sees; none: background, or no picture yet.
+  std::optional<glm::vec3> visible_point(int x, int y);
+
+  std::string gl_renderer() const { return renderer_ ? renderer_->gl_renderer() : ""; }
+  std::vector<std::string> take_debug_messages();
+
+private:
+  Expected<void> take_scene(const std::shared_ptr<const ScenePlan>& scene);
+  Expected<Drawn> draw(const FrameRequest& request, const RenderSettings& settings, double time_s,
+                       const AoProgress& progress, const StopFlag& stop);
+
+  gl::ContextKind kind_;
+  bool debug_;
+  std::shared_ptr<const ScenePlan> scene_;
+  std::optional<Renderer> renderer_;
+  FrameInput input_;
+  double evaluate_ms_ = 0;
+};
+
+}  // namespace tenebra::viewer

@@ -1,0 +1,184 @@
+#include "window/glfw_window.h"
+
+#define GLFW_INCLUDE_NONE
+#include <GLFW/glfw3.h>
+#include <imgui.h>
+#include <backends/imgui_impl_glfw.h>
+#include <backends/imgui_impl_opengl3.h>
+
+#include <filesystem>
+#include <memory>
+
+#include "stop_signals.h"
+#include "window/viewer.h"
+
+namespace tenebra::viewer {
+namespace {
+
+constexpr const char* without_window = "tenebra render makes the same pictures without a window";
+
+std::string glfw_problem() {
+  const char* text = nullptr;
+  glfwGetError(&text);
+  return text ? text : "no reason given";
+}
+
+/// GLFW from its start to its end.
+struct Library {
+  static Expected<std::unique_ptr<Library>> start() {
+    if (!glfwInit()) {
+      return fail("no window can be opened: found no display ({}), expected one in DISPLAY; {}", glfw_problem(),
+                  without_window);
+    }
+    return std::make_unique<Library>();
+  }
+  ~Library() { glfwTerminate(); }
+};
+
+struct Destroy {
+  void operator()(GLFWwindow* window) const { glfwDestroyWindow(window); }
+};
+using Window = std::unique_ptr<GLFWwindow, Destroy>;
+
+Expected<Window> open_window(const ViewOptions& options) {
+  glfwWindowHint(GLFW_CONTEXT_VERSION_MAJOR, 3);
+  glfwWindowHint(GLFW_CONTEXT_VERSION_MINOR, 3);
+  glfwWindowHint(GLFW_OPENGL_PROFILE, GLFW_OPENGL_CORE_PROFILE);
+  glfwWindowHint(GLFW_OPENGL_FORWARD_COMPAT, GLFW_TRUE);
+  glfwWindowHint(GLFW_OPENGL_DEBUG_CONTEXT, options.gl_debug ? GLFW_TRUE : GLFW_FALSE);
+  glfwWindowHint(GLFW_SCALE_TO_MONITOR, GLFW_TRUE);
+  glfwWindowHint(GLFW_DEPTH_BITS, 0);
+  glfwWindowHint(GLFW_STENCIL_BITS, 0);
+  Window window(glfwCreateWindow(options.window.width, options.window.height, "Tenebra", nullptr, nullptr));
+  if (!window) {
+    return fail("no window with OpenGL 3.3 can be opened ({}); {}", glfw_problem(), without_window);
+  }
+  glfwSetWindowSizeLimits(window.get(), 240, 180, GLFW_DONT_CARE, GLFW_DONT_CARE);
+  glfwMakeContextCurrent(window.get());
+  glfwSwapInterval(1);
+  return window;
+}
+
+float scale_of(GLFWwindow* window) {
+  float x = 1, y = 1;
+  glfwGetWindowContentScale(window, &x, &y);
+  return x;
+}
+
+/// Dear ImGui in a window, from its start to its end.
+class Gui {
+public:
+  Gui(GLFWwindow* window) {
+    ImGui::CreateContext();
+    ImGui::GetIO().IniFilename = nullptr;
+    ImGui_ImplGlfw_InitForOpenGL(window, true);
+    ImGui_ImplOpenGL3_Init("#version 330 core");
+    apply_style(scale_of(window));
+  }
+  ~Gui() {
+    ImGui_ImplOpenGL3_Shutdown();
+    ImGui_ImplGlfw_Shutdown();
+    ImGui::DestroyContext();
+  }
+  Gui(const Gui&) = delete;
+  Gui& operator=(const Gui&) = delete;
+};
+
+Viewer& viewer_of(GLFWwindow* window) {
+  return *static_cast<Viewer*>(glfwGetWindowUserPointer(window));
+}
+
+static_assert(key_code::space == GLFW_KEY_SPACE && key_code::escape == GLFW_KEY_ESCAPE &&
+              key_code::tab == GLFW_KEY_TAB && key_code::backspace == GLFW_KEY_BACKSPACE &&
+              key_code::right == GLFW_KEY_RIGHT && key_code::left == GLFW_KEY_LEFT &&
+              key_code::home == GLFW_KEY_HOME && key_code::end == GLFW_KEY_END);
+
+/// GLFW's code, but letters as the keyboard's layout has them.
+int code_of(int key, int scancode) {
+  const char* name = glfwGetKeyName(key, scancode);
+  const bool letter = name && name[0] >= 'a' && name[0] <= 'z' && name[1] == 0;
+  return letter ? name[0] - 'a' + 'A' : key;
+}
+
+/// Every event makes the window draw. Set before Dear ImGui's own callbacks, which call these in turn.
+void watch_events(GLFWwindow* window) {
+  const auto came = [](GLFWwindow* w) {
+    if (glfwGetWindowUserPointer(w)) viewer_of(w).input_came();
+  };
+  static constexpr auto note = +came;
+  glfwSetCursorPosCallback(window, [](GLFWwindow* w, double, double) { note(w); });
+  glfwSetMouseButtonCallback(window, [](GLFWwindow* w, int, int, int) { note(w); });
+  glfwSetScrollCallback(window, [](GLFWwindow* w, double, double) { note(w); });
+  glfwSetKeyCallback(window, [](GLFWwindow* w, int key, int scancode, int action, int modifiers) {
+    if (action != GLFW_RELEASE && glfwGetWindowUserPointer(w)) {
+      viewer_of(w).press_key({.code = code_of(key, scancode),
+                              .shift = (modifiers & GLFW_MOD_SHIFT) != 0,
+                              .ctrl = (modifiers & GLFW_MOD_CONTROL) != 0,
+                              .repeat = action == GLFW_REPEAT});
+    }
+    note(w);
+  });
+  glfwSetCharCallback(window, [](GLFWwindow* w, unsigned) { note(w); });
+  glfwSetCursorEnterCallback(window, [](GLFWwindow* w, int) { note(w); });
+  glfwSetWindowFocusCallback(window, [](GLFWwindow* w, int) { note(w); });
+  glfwSetFramebufferSizeCallback(window, [](GLFWwindow* w, int, int) { note(w); });
+  glfwSetWindowRefreshCallback(window, [](GLFWwindow* w) { note(w); });
+  glfwSetDropCallback(window, [](GLFWwindow* w, int count, const char** files) {
+    viewer_of(w).drop({files, files + count});
+  });
+}
+
+void draw_frame(GLFWwindow* window, WindowGl& gl, Viewer& viewer) {
+  int width = 0, height = 0, units = 0, ignored = 0;
+  glfwGetFramebufferSize(window, &width, &height);
+  glfwGetWindowSize(window, &units, &ignored);
+  if (width < 1 || height < 1) return;  // minimised
+  ImGui_ImplOpenGL3_NewFrame();
+  ImGui_ImplGlfw_NewFrame();
+  ImGui::NewFrame();
+  viewer.draw(scale_of(window), static_cast<float>(width) / static_cast<float>(units));
+  ImGui::Render();
+  gl.clear(width, height);
+  ImGui_ImplOpenGL3_RenderDrawData(ImGui::GetDrawData());
+  viewer.after_draw(width, height);
+  glfwSwapBuffers(window);
+}
+
+void set_title(GLFWwindow* window, const Viewer& viewer, std::string& shown) {
+  const std::string file = std::filesystem::path(viewer.state().options.file).filename().string();
+  if (file == shown) return;
+  shown = file;
+  glfwSetWindowTitle(window, (file + " - Tenebra").c_str());
+}
+
+}  // namespace
+
+Expected<int> run_window(const ViewOptions& options) {
+  StopSignals stop;  // before the worker's thread
+  const auto library = Library::start();
+  if (!library) return tl::unexpected(library.error());
+  const auto window = open_window(options);
+  if (!window) return tl::unexpected(window.error());
+  auto gl = WindowGl::load(glfwGetProcAddress, options.gl_debug);
+  if (!gl) return tl::unexpected(gl.error());
+  auto report = EventReport::create(options.report);
+  if (!report) return tl::unexpected(report.error());
+
+  watch_events(window->get());
+  const Gui gui(window->get());
+  Viewer viewer(options, *gl, std::move(*report), glfwPostEmptyEvent);
+  glfwSetWindowUserPointer(window->get(), &viewer);
+  std::string title;
+  while (!viewer.is_over() && !glfwWindowShouldClose(window->get()) && stop.caught() == 0) {
+    const double sleep_s = viewer.sleep_s();
+    sleep_s > 0 ? glfwWaitEventsTimeout(sleep_s) : glfwPollEvents();
+    viewer.update();
+    if (viewer.needs_drawing()) draw_frame(window->get(), *gl, viewer);
+    set_title(window->get(), viewer, title);
+  }
+  glfwSetWindowUserPointer(window->get(), nullptr);
+  if (auto finished = viewer.finish(); !finished) return tl::unexpected(finished.error());
+  return stop.caught() != 0 ? exit_code_of(stop.caught()) : 0;
+}
+
+}  // namespace tenebra::viewer

@@ -1,0 +1,184 @@
+// The keyboard, and the overlay that explains it.
+#include <algorithm>
+#include <array>
+
+#include "window/panels.h"
+
+namespace tenebra::viewer {
+namespace {
+
+struct KeyHelp {
+  const char* key;
+  const char* does;
+};
+
+constexpr std::array playing_keys{KeyHelp{"Space", "play, pause"},
+                                  KeyHelp{"Left, Right", "one frame back or on"},
+                                  KeyHelp{"Home, End", "first, last frame"},
+                                  KeyHelp{"[  ]", "slower, faster; past zero backwards"},
+                                  KeyHelp{"L", "loop"},
+                                  KeyHelp{"T", "start or end the log of frame times"}};
+constexpr std::array camera_keys{KeyHelp{"drag", "orbit, or look around while flying"},
+                                 KeyHelp{"right drag", "move sideways"},
+                                 KeyHelp{"wheel", "nearer, farther; flying: speed"},
+                                 KeyHelp{"W A S D Q E", "fly; Shift: faster"},
+                                 KeyHelp{"F, double click", "look at this point and orbit it"},
+                                 KeyHelp{"C", "scene's camera, orbit, fly"},
+                                 KeyHelp{"Backspace", "reset the camera"},
+                                 KeyHelp{"Ctrl+C", "copy the camera as arguments"}};
+constexpr std::array method_keys{KeyHelp{"1  2  3", "no, hard, soft shadows"},
+                                 KeyHelp{"4", "ambient occlusion: none, fields, rays"},
+                                 KeyHelp{"V, Shift+V", "next, previous variant of the hard shadows"},
+                                 KeyHelp{"X", "flip A and B"},
+                                 KeyHelp{"B", "compare A with B"},
+                                 KeyHelp{"N", "heat map of nodes"},
+                                 KeyHelp{"M", "classes of the soft shadows"}};
+constexpr std::array window_keys{KeyHelp{"P, Shift+P", "save the picture, the window"},
+                                 KeyHelp{"Tab", "show or hide the panel"},
+                                 KeyHelp{"Esc", "cancel what takes long"},
+                                 KeyHelp{"R", "compute again what was cancelled"},
+                                 KeyHelp{"?", "this overview"},
+                                 KeyHelp{"Ctrl+Q", "quit"}};
+
+AnimationClock::Wall now() {
+  return std::chrono::steady_clock::now();
+}
+
+void handle_time_keys(const Ui& ui) {
+  ViewState& state = ui.state;
+  AnimationClock& clock = state.clock;
+  if (ui.pressed(key_code::space)) toggle_playing(state);
+  if (ui.pressed(key_code::left, true)) clock.step(now(), -1);
+  if (ui.pressed(key_code::right, true)) clock.step(now(), 1);
+  if (ui.pressed(key_code::home)) clock.seek(now(), clock.start_s());
+  if (ui.pressed(key_code::end)) clock.seek(now(), clock.frame_time_s(clock.frames() - 1));
+  if (ui.pressed('[', true)) clock.set_speed(now(), clock.speed() - 0.25);
+  if (ui.pressed(']', true)) clock.set_speed(now(), clock.speed() + 0.25);
+  if (ui.pressed('L')) clock.set_loop(now(), !clock.loop());
+}
+
+void handle_method_keys(const Ui& ui) {
+  ViewState& state = ui.state;
+  RenderSettings& render = state.method().render;
+  if (ui.pressed('1')) render.shadows = ShadowMode::none;
+  if (ui.pressed('2')) render.shadows = ShadowMode::hard;
+  if (ui.pressed('3')) render.shadows = ShadowMode::soft;
+  if (ui.pressed('4')) render.ao.mode = static_cast<AoMode>((static_cast<int>(render.ao.mode) + 1) % 3);
+  if (ui.pressed('V', true)) {
+    constexpr int variants = 7;
+    const int step = ui.pressed('V', true)->shift ? variants - 1 : 1;
+    render.hard.variant = static_cast<Variant>((static_cast<int>(render.hard.variant) + step) % variants);
+  }
+  if (ui.pressed('X')) flip_slots(state);
+  if (ui.pressed('B')) state.compare = !state.compare;
+  if (ui.pressed('N')) state.overlay = state.overlay == Overlay::nodes ? Overlay::none : Overlay::nodes;
+  if (ui.pressed('M')) state.overlay = state.overlay == Overlay::classes ? Overlay::none : Overlay::classes;
+}
+
+void handle_camera_keys(Ui& ui) {
+  ViewState& state = ui.state;
+  if (ui.pressed('C')) {
+    leave_scene_camera(ui, static_cast<CameraMode>((static_cast<int>(state.camera_mode) + 1) % 3));
+  }
+  if (!ui.pressed(key_code::backspace)) return;
+  state.camera_mode = state.options.eye ? CameraMode::orbit : CameraMode::scene;
+  state.free = state.start;
+}
+
+void fly_by_keys(Ui& ui, float seconds) {
+  const ImGuiIO& io = ImGui::GetIO();
+  if (!flies(io) || !ui.picture) return;
+  if (ui.state.camera_mode != CameraMode::fly) leave_scene_camera(ui, CameraMode::fly);
+  const auto axis = [](int positive, int negative) {
+    return static_cast<float>(ImGui::IsKeyDown(positive)) - static_cast<float>(ImGui::IsKeyDown(negative));
+  };
+  const float metres = ui.state.fly_speed * seconds * (io.KeyShift ? 4.0f : 1.0f);
+  fly(ui.state.free, glm::vec3(axis('D', 'A'), axis('E', 'Q'), axis('W', 'S')) * metres);
+}
+
+void handle_window_keys(Ui& ui) {
+  if (const auto p = ui.pressed('P')) (p->shift ? ui.actions.window_shot : ui.actions.picture_shot) = true;
+  if (ui.pressed('T')) ui.actions.toggle_log = true;
+  if (ui.pressed('R')) ui.actions.retry = true;
+  if (ui.pressed(key_code::tab)) ui.state.panel = !ui.state.panel;
+  if (!ui.pressed(key_code::escape)) return;
+  if (!ui.state.help) ui.actions.cancel = true;
+  ui.state.help = false;
+}
+
+bool typed(ImWchar character) {
+  const ImVector<ImWchar>& queue = ImGui::GetIO().InputQueueCharacters;
+  return std::find(queue.begin(), queue.end(), character) != queue.end();
+}
+
+template <std::size_t N>
+void help_column(const char* title, const std::array<KeyHelp, N>& keys) {
+  ImGui::TextUnformatted(title);
+  for (const KeyHelp& key : keys) {
+    ImGui::PushStyleColor(ImGuiCol_Text, palette::accent);
+    ImGui::TextUnformatted(key.key);
+    ImGui::PopStyleColor();
+    ImGui::SameLine(ImGui::GetFontSize() * 8);
+    ImGui::PushTextWrapPos(0);
+    ImGui::TextUnformatted(key.does);
+    ImGui::PopTextWrapPos();
+  }
+  ImGui::Dummy({0, ImGui::GetFontSize() * 0.5f});
+}
+
+}  // namespace
+
+bool flies(const ImGuiIO& io) {
+  if (io.WantTextInput || io.KeyCtrl) return false;
+  constexpr std::array keys{'W', 'A', 'S', 'D', 'Q', 'E'};
+  return std::any_of(keys.begin(), keys.end(), [](char key) { return ImGui::IsKeyDown(key); });
+}
+
+void flip_slots(ViewState& state) {
+  state.active = 1 - state.active;
+  if (state.compare && (state.show == CompareView::a || state.show == CompareView::b)) {
+    state.show = state.active == 0 ? CompareView::a : CompareView::b;
+  } else if (state.compare) {
+    state.show = CompareView::b;
+    state.active = 1;
+  }
+}
+
+void handle_keys(Ui& ui, float seconds) {
+  const ImGuiIO& io = ImGui::GetIO();
+  if (io.WantTextInput) return;
+  if (typed('?')) ui.state.help = !ui.state.help;
+  for (const KeyPress& press : ui.keys) {  // one by one: two presses of a key are two
+    if (press.ctrl && press.code == 'C') ui.actions.copy_camera = true;
+    if (press.ctrl && press.code == 'Q') ui.actions.quit = true;
+    Ui one = ui;
+    one.keys = {&press, 1};
+    handle_time_keys(one);
+    handle_method_keys(one);
+    handle_camera_keys(one);
+    handle_window_keys(one);
+  }
+  fly_by_keys(ui, seconds);
+}
+
+void draw_help(Ui& ui, ImVec2 window) {
+  const bool wide = window.x > ui.px(760);
+  const ImVec2 size{std::min(window.x - ui.px(20), ui.px(wide ? 740.0f : 380.0f)), window.y - ui.px(20)};
+  ImGui::SetNextWindowPos({(window.x - size.x) / 2, window.y / 2}, ImGuiCond_Always, {0, 0.5f});
+  ImGui::SetNextWindowSizeConstraints({size.x, 0}, size);
+  ImGui::SetNextWindowFocus();
+  ImGui::Begin("##help", nullptr,
+               ImGuiWindowFlags_NoTitleBar | ImGuiWindowFlags_NoMove | ImGuiWindowFlags_NoResize |
+                   ImGuiWindowFlags_AlwaysAutoResize | ImGuiWindowFlags_NoSavedSettings);
+  ImGui::Columns(wide ? 2 : 1, nullptr, false);
+  help_column("Time", playing_keys);
+  help_column("Camera", camera_keys);
+  if (wide) ImGui::NextColumn();
+  help_column("Methods", method_keys);
+  help_column("Window", window_keys);
+  ImGui::Columns(1);
+  dim_text("Every setting is also an option: tenebra view --help");
+  ImGui::End();
+}
+
+}  // namespace tenebra::viewer

@@ -1,0 +1,138 @@
+// The lights, the camera, and the comparison of A and B.
+#include <algorithm>
+
+#include "window/panels.h"
+
+namespace tenebra::viewer {
+namespace {
+
+const char* type_name(LightType type) {
+  constexpr const char* names[] = {"point", "spot", "directional", "rectangle", "disk"};
+  return names[static_cast<std::size_t>(type)];
+}
+
+void edit_light(Ui& ui, int index, const Light& light) {
+  LightEdit edit = static_cast<std::size_t>(index) < ui.state.lights.size()
+                       ? ui.state.lights[static_cast<std::size_t>(index)]
+                       : LightEdit{};
+  const LightEdit before = edit;
+  ImGui::PushID(index);
+  const std::string title = fmt::format("{}  {}", index, light.name.empty() ? type_name(light.type) : light.name.c_str());
+  ImGui::Checkbox(title.c_str(), &edit.on);
+  ui.mark(fmt::format("light.{}.on", index));
+  tooltip(type_name(light.type));
+  if (edit != LightEdit{}) {
+    ImGui::SameLine(ImGui::GetWindowWidth() - ui.px(64));
+    if (ImGui::SmallButton("reset")) edit = {};
+  }
+  row(ui, "  Intensity", "Factor of the scene's.");
+  ImGui::SliderFloat("##intensity", &edit.intensity, 0.01f, 100.0f, "x %.3g", ImGuiSliderFlags_Logarithmic);
+  ui.mark(fmt::format("light.{}.intensity", index));
+  if (!(edit.intensity > 0)) edit.intensity = 1;
+  if (light.type == LightType::area_rect || light.type == LightType::area_disk) {
+    row(ui, "  Size", "Factor of the scene's.");
+    ImGui::SliderFloat("##size", &edit.size, 0.05f, 20.0f, "x %.3g", ImGuiSliderFlags_Logarithmic);
+    ui.mark(fmt::format("light.{}.size", index));
+    if (!(edit.size > 0)) edit.size = 1;
+  }
+  if (light.type != LightType::directional) {
+    row(ui, "  Moved", "From where the animation has it, in metres; or drag its circle in the view.");
+    ImGui::DragFloat3("##move", &edit.move.x, 0.02f, 0, 0, "%.2f");
+  }
+  ImGui::PopID();
+  if (edit != before) ui.state.light_edit(index) = edit;
+}
+
+}  // namespace
+
+void draw_light_section(Ui& ui) {
+  if (!ui.state.scene || !section(ui, "Lights", false)) return;
+  const auto& lights = ui.state.scene->scene.lights;
+  for (int i = 0; i < static_cast<int>(lights.size()); ++i) edit_light(ui, i, lights[static_cast<std::size_t>(i)]);
+  ImGui::Checkbox("circles in the view", &ui.state.light_handles);
+  ui.mark("circles");
+}
+
+void draw_camera_section(Ui& ui) {
+  if (!ui.state.scene || !section(ui, "Camera", false)) return;
+  ViewState& state = ui.state;
+  constexpr const char* modes[] = {"scene", "orbit", "fly"};
+  row(ui, "Moves", "The scene's animated camera; one that circles a point; one that flies (W A S D Q E).");
+  int mode = static_cast<int>(state.camera_mode);
+  if (segments(ui, "camera", modes, 3, mode)) leave_scene_camera(ui, static_cast<CameraMode>(mode));
+  const auto& cameras = state.scene->scene.cameras;
+  if (cameras.size() > 1 && state.camera_mode == CameraMode::scene) {
+    row(ui, "Camera");
+    const auto name = [&](int i) {
+      const std::string& own = cameras[static_cast<std::size_t>(i)].name;
+      return own.empty() ? fmt::format("camera {}", i) : own;
+    };
+    if (ImGui::BeginCombo("##camera", name(state.camera).c_str())) {
+      for (int i = 0; i < static_cast<int>(cameras.size()); ++i) {
+        ImGui::PushID(i);
+        if (ImGui::Selectable(name(i).c_str(), i == state.camera)) state.camera = i;
+        ImGui::PopID();
+      }
+      ImGui::EndCombo();
+    }
+  }
+  if (state.camera_mode != CameraMode::scene) {
+    row(ui, "Eye");
+    ImGui::DragFloat3("##eye", &state.free.eye.x, 0.05f, 0, 0, "%.3f");
+    row(ui, "Looks at");
+    ImGui::DragFloat3("##target", &state.free.target.x, 0.05f, 0, 0, "%.3f");
+    row(ui, "Field of view");
+    float fov = static_cast<float>(state.free.fov_deg);
+    if (ImGui::SliderFloat("##fov", &fov, 5, 150, "%.1f degrees")) state.free.fov_deg = std::clamp(fov, 1.0f, 179.0f);
+    if (state.camera_mode == CameraMode::fly) {
+      row(ui, "Speed");
+      ImGui::SliderFloat("##fly", &state.fly_speed, 1e-3f * state.diagonal_m, state.diagonal_m, "%.2f m/s",
+                         ImGuiSliderFlags_Logarithmic);
+    }
+  }
+  const float half = (ImGui::GetContentRegionAvail().x - ImGui::GetStyle().ItemSpacing.x) / 2;
+  if (ImGui::Button("Reset", {half, 0})) {
+    state.camera_mode = state.options.eye ? CameraMode::orbit : CameraMode::scene;
+    state.free = state.start;
+  }
+  ui.mark("reset camera");
+  ImGui::SameLine();
+  if (ImGui::Button("Copy arguments", {half, 0})) ui.actions.copy_camera = true;
+  ui.mark("copy camera");
+  tooltip("The camera as options of tenebra render, to the clipboard (Ctrl+C).");
+}
+
+void draw_compare_section(Ui& ui) {
+  if (!section(ui, "Compare", ui.state.compare)) return;
+  ViewState& state = ui.state;
+  row(ui, "A with B", "Draws both methods; X flips.");
+  ImGui::Checkbox("draw both##compare", &state.compare);
+  ui.mark("compare");
+  if (!state.compare) return;
+  constexpr const char* views[] = {"A", "B", "side", "wipe", "diff"};
+  int show = static_cast<int>(state.show);
+  if (segments(ui, "show", views, 5, show)) state.show = static_cast<CompareView>(show);
+  if (state.show == CompareView::wipe) {
+    row(ui, "Wipe");
+    ImGui::SliderFloat("##wipe", &state.wipe, 0, 1, "%.2f", ImGuiSliderFlags_AlwaysClamp);
+    ui.mark("wipe slider");
+  }
+  if (state.show == CompareView::difference) {
+    row(ui, "Brighter by", "Factor of the difference as it is shown.");
+    ImGui::SliderInt("##gain", &state.gain, 1, 64, "%d", ImGuiSliderFlags_Logarithmic | ImGuiSliderFlags_AlwaysClamp);
+  }
+  if (!ui.picture || !ui.picture->b) return;
+  const PictureDifference& difference = ui.picture->difference;
+  row(ui, "Difference");
+  if (difference.differing == 0) {
+    ImGui::TextUnformatted("none: the same picture");
+  } else {
+    ImGui::TextUnformatted(fmt::format("{} pixels ({:.2f} %), largest {}", difference.differing,
+                                       100.0 * static_cast<double>(difference.differing) /
+                                           static_cast<double>(difference.pixels),
+                                       difference.largest)
+                               .c_str());
+  }
+}
+
+}  // namespace tenebra::viewer

@@ -1,0 +1,45 @@
+#include "window/session_log.h"
+
+#include "base/machine.h"
+#include "method_arguments.h"
+#include "parallel/parallel.h"
+
+namespace tenebra::viewer {
+
+std::string SessionLog::key_of(const ViewState& state) {
+  const int slot = state.compare ? 0 : state.active;
+  std::string key = fmt::format("{}|{}|{}", fmt::ptr(state.scene.get()), state.clip,
+                                method_arguments(state.slots[static_cast<std::size_t>(slot)]));
+  for (std::size_t i = 0; i < state.lights.size(); ++i) {
+    key += "|" + light_edit_text(static_cast<int>(i), state.lights[i]);
+  }
+  return key;
+}
+
+Expected<SessionLog> SessionLog::start(const std::string& path, const ViewState& state, const Picture& picture,
+                                       const std::string& gl_renderer) {
+  const Image8& image = picture.a.result.image;
+  const MethodOptions& method = state.slots[static_cast<std::size_t>(picture.slot)];
+  const bool follows = state.camera_mode == CameraMode::scene;
+  std::vector<LogSetting> settings{
+      {"machine", machine_description()},
+      {"renderer", gl_renderer},
+      {"threads", method.render.threads == 0 ? fmt::format("{} (all cores)", thread_count())
+                                             : fmt::format("{}", method.render.threads)},
+      {"scene", state.options.file},
+      {"clip", state.clip < 0 ? "none" : state.scene->scene.clips[static_cast<std::size_t>(state.clip)].name},
+      {"camera", follows ? fmt::format("--camera {}", state.camera) : camera_arguments(state.free)},
+      {"size", fmt::format("{}x{}", image.width, image.height)},
+      {"method", method_arguments(method)},
+      {"played", state.clock.fixed_step() ? "by fixed steps" : "by the clock, in the window"},
+  };
+  for (std::size_t i = 0; i < state.lights.size(); ++i) {
+    const std::string text = light_edit_text(static_cast<int>(i), state.lights[i]);
+    if (!text.empty()) settings.push_back({"set_light", text});
+  }
+  auto log = FrameLog::create(path, settings);
+  if (!log) return tl::unexpected(log.error());
+  return SessionLog(std::move(*log), path, key_of(state));
+}
+
+}  // namespace tenebra::viewer

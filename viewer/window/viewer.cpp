@@ -1,0 +1,382 @@
+#include "window/viewer.h"
+
+#include <algorithm>
+#include <filesystem>
+
+#include "console.h"
+#include "method_arguments.h"
+#include "scene_choice.h"
+#include "scene_summary.h"
+
+namespace tenebra::viewer {
+namespace {
+
+using Wall = AnimationClock::Wall;
+
+constexpr double message_s = 6.0;
+constexpr double look_again_s = 0.1;    // while the worker is busy: progress, patience
+constexpr double progress_after_s = 0.4;  // its display moves
+constexpr double resting_sleep_s = 0.5; // signals are looked at this often
+constexpr float flight_share = 0.1f;    // of the scene's diagonal a second
+
+Wall now() {
+  return std::chrono::steady_clock::now();
+}
+
+const Clip* clip_of(const ScenePlan& plan, int clip) {
+  return clip < 0 ? nullptr : &plan.scene.clips[static_cast<std::size_t>(clip)];
+}
+
+/// `name`, or with a number the first that no file has: a log does not replace an earlier one.
+std::string unused_name(const std::filesystem::path& name) {
+  std::filesystem::path file = name;
+  std::error_code none;
+  for (int i = 2; std::filesystem::exists(file, none); ++i) {
+    file = fmt::format("{}_{}{}", name.stem().string(), i, name.extension().string());
+  }
+  return file.string();
+}
+
+FreeCamera start_camera(const SceneOptions& options) {
+  return {*options.eye, options.look_at, options.up, options.fov_deg.value_or(FreeCamera{}.fov_deg)};
+}
+
+}  // namespace
+
+Viewer::Viewer(ViewOptions options, WindowGl& gl, EventReport report, std::function<void()> wake)
+    : options_(std::move(options)),
+      gl_(gl),
+      report_(std::move(report)),
+      textures_(gl),
+      worker_(options_.context, options_.gl_debug, std::move(wake)) {
+  state_.slots = {options_.method, options_.compare.value_or(options_.method)};
+  state_.compare = options_.compare.has_value();
+  state_.show = options_.show;
+  state_.wipe = options_.wipe;
+  state_.overlay = options_.overlay;
+  state_.lights = options_.lights;
+  state_.size = options_.scene.size;
+  state_.panel = options_.panel;
+  worker_.open(options_.scene);
+}
+
+double Viewer::sleep_s() const {
+  if (due_ > 0) return 0;
+  const WorkerStatus status = worker_.status();
+  const bool stirs = status.loading || status.drawing || !messages_.empty();
+  return stirs ? look_again_s : resting_sleep_s;
+}
+
+void Viewer::say(std::string text, bool failure) {
+  report_.note(failure ? "failure" : "message", text);
+  messages_.push_back({std::move(text), failure, now() + std::chrono::milliseconds(static_cast<int>(message_s * 1e3))});
+  due_ = std::max(due_, 1);
+}
+
+void Viewer::take_scene(OpenedScene opened) {
+  if (!opened.scene) {
+    if (!state_.scene) {
+      failure_ = opened.scene.error().message;
+      quit_ = true;
+      return;
+    }
+    return say(opened.scene.error().message, true);
+  }
+  const bool first = !state_.scene;
+  const int light = first ? state_.method().render.light : -1;
+  if (auto checked = check_light(**opened.scene, light, opened.options.time_s.value_or(0)); !checked) {
+    failure_ = checked.error().message;
+    quit_ = true;
+    return;
+  }
+  state_.scene = *opened.scene;
+  state_.options = std::move(opened.options);
+  const ScenePlan& plan = *state_.scene;
+  state_.clip = plan.clip;
+  state_.camera = plan.camera;
+  AnimationClock clock(clip_of(plan, plan.clip), state_.options.fps);
+  clock.set_loop(now(), first ? options_.loop : state_.clock.loop());
+  clock.set_speed(now(), first ? options_.speed : state_.clock.speed());
+  clock.set_fixed_step(now(), first ? options_.fixed_step : state_.clock.fixed_step());
+  if (state_.options.time_s) clock.seek(now(), *state_.options.time_s);
+  if (first ? options_.play : state_.clock.playing()) clock.play(now());
+  state_.clock = clock;
+
+  state_.camera_mode = CameraMode::scene;
+  if (state_.options.eye) {
+    state_.free = state_.start = start_camera(state_.options);
+    state_.camera_mode = options_.navigate;
+  }
+  for (int i = 0; light >= 0 && i < static_cast<int>(plan.scene.lights.size()); ++i) {
+    state_.light_edit(i).on = i == light;
+  }
+  for (MethodOptions& slot : state_.slots) slot.render.light = -1;  // the list of lights says which are on
+  if (!first) state_.lights.clear();
+  for (FrameHistory& history : history_) history.clear();
+  const auto bounds = summarize_scene(plan.scene).bounds;
+  state_.diagonal_m = bounds ? glm::distance(bounds->low, bounds->high) : 1.0f;
+  state_.centre = bounds ? 0.5f * (bounds->low + bounds->high) : glm::vec3(0.0f);
+  state_.fly_speed = flight_share * state_.diagonal_m;
+  report_.opened(state_.options.file, plan);
+  for (const std::string& warning : plan.scene.warnings) say("Warning: " + warning);
+}
+
+void Viewer::take_picture(const std::shared_ptr<const Picture>& picture) {
+  picture_ = picture;
+  ++pictures_;
+  report_.picture(*picture, pictures_);
+  if (picture->request >= settings_since_) {
+    history_[static_cast<std::size_t>(picture->slot)].add(picture->a.record);
+    if (picture->b) history_[1].add(picture->b->record);
+  }
+  for (const std::string& note : picture->a.result.notes) say(note);
+  if (!options_.log.empty()) toggle_log();  // --log: from the first picture on
+  if (log_) log_picture(*picture);
+  // By fixed steps the pictures move the clock; a hand that has moved it since is not overruled.
+  if (state_.clock.fixed_step() && state_.clock.playing() && picture->request == requests_) {
+    state_.clock.seek(now(), picture->a.record.time_s);
+    if (state_.clock.is_over(now())) state_.clock.pause(now());
+    sent_clock_ = state_.clock;
+  }
+  if (options_.record && !state_.clock.playing()) {
+    say(fmt::format("Recorded to {}", options_.record->text()));
+    options_.record.reset();
+  }
+  if (options_.exit_after > 0 && pictures_ >= static_cast<std::uint64_t>(options_.exit_after)) quit_ = true;
+  due_ = std::max(due_, 1);
+}
+
+void Viewer::take_pick(const std::optional<glm::vec3>& point) {
+  if (!point) return say("Nothing there to focus on: this pixel shows the background.");
+  Ui ui{state_, actions_, marks_, picture_.get(), history_, {}, {}, {}, 1};
+  leave_scene_camera(ui, CameraMode::orbit);
+  focus(state_.free, *point);
+  due_ = std::max(due_, 1);
+}
+
+void Viewer::follow_clock() {
+  const AnimationClock& clock = state_.clock;
+  if (!clock.fixed_step() && clock.is_over(now())) state_.clock.pause(now());
+}
+
+std::string Viewer::method_key() const {
+  std::string key = fmt::format("{} {} {}x{}", state_.compare, state_.compare ? 0 : state_.active, place_.width,
+                                place_.height);
+  for (const MethodOptions& slot : state_.slots) key += "|" + method_arguments(slot);
+  if (!state_.compare) {
+    key = fmt::format("{} {}x{}|{}", state_.active, place_.width, place_.height,
+                      method_arguments(state_.slots[static_cast<std::size_t>(state_.active)]));
+  }
+  key += fmt::format("|{}", static_cast<int>(state_.overlay));
+  return key;
+}
+
+FrameRequest Viewer::make_request() const {
+  FrameRequest request;
+  request.asked = now();
+  request.scene = state_.scene;
+  request.clip = state_.clip;
+  request.clock = state_.clock;
+  request.camera = state_.camera;
+  if (state_.camera_mode != CameraMode::scene) request.free = state_.free;
+  request.lights = state_.lights;
+  request.slot = state_.compare ? 0 : state_.active;
+  request.a = method_settings(state_.slots[static_cast<std::size_t>(request.slot)], place_);
+  if (state_.compare) request.b = method_settings(state_.slots[1], place_);
+  request.overlay = state_.overlay;
+  request.record = options_.record;
+  return request;
+}
+
+void Viewer::send_request() {
+  if (!state_.scene || place_.width < 1) return;
+  const std::string method = method_key();
+  std::string key = fmt::format("{} {} {} {}", fmt::ptr(state_.scene.get()), state_.clip, state_.camera,
+                                state_.camera_mode == CameraMode::scene ? "" : camera_arguments(state_.free));
+  for (std::size_t i = 0; i < state_.lights.size(); ++i) {
+    key += "|" + light_edit_text(static_cast<int>(i), state_.lights[i]);
+  }
+  const bool new_method = method != sent_method_;
+  if (!new_method && key == sent_key_ && state_.clock == sent_clock_ && !actions_.retry) return;
+  FrameRequest request = make_request();
+  request.number = ++requests_;
+  report_.request(request);
+  if (new_method) {
+    settings_since_ = requests_;
+    for (FrameHistory& history : history_) history.clear();
+  }
+  // A setting chosen by a click is wanted now; a hand that drags wants to see pictures on its way.
+  worker_.request(std::move(request), new_method && !hand_moves_);
+  sent_method_ = method;
+  sent_key_ = key;
+  sent_clock_ = state_.clock;
+}
+
+void Viewer::update() {
+  WorkerResults results = worker_.take_results();
+  for (OpenedScene& opened : results.opened) take_scene(std::move(opened));
+  for (const auto& picture : results.pictures) take_picture(picture);
+  for (const auto& point : results.picked) take_pick(point);
+  for (const std::string& text : results.failures) say(text, true);
+  for (const std::string& text : results.gl_messages) report_.note("gl", text);
+  follow_clock();
+  act();
+  send_request();
+  actions_.retry = false;
+  worker_.stop_if_outdated();
+  const WorkerStatus status = worker_.status();
+  if (status.elapsed_s > progress_after_s) {
+    if (std::chrono::duration<double>(now() - last_draw_).count() > look_again_s) due_ = std::max(due_, 1);
+  }
+  while (!messages_.empty() && messages_.front().until < now()) {
+    messages_.pop_front();
+    due_ = std::max(due_, 1);
+  }
+  report_.state(state_);
+  if (!failure_.empty() && !state_.scene) quit_ = true;
+}
+
+void Viewer::save_picture() {
+  if (!picture_) return;
+  const auto file = options_.shots->file(++shots_);
+  const auto written = write_png(file, picture_->a.result.image);
+  report_.note(written ? "shot" : "failure", written ? file.string() : written.error().message);
+  say(written ? fmt::format("Picture saved to {}", file.string()) : written.error().message, !written);
+}
+
+void Viewer::after_draw(int framebuffer_width, int framebuffer_height) {
+  if (!window_shot_) return;
+  window_shot_ = false;
+  const auto file = options_.shots->file(++shots_);
+  const auto written = write_png(file, gl_.read_window(framebuffer_width, framebuffer_height));
+  report_.note(written ? "shot" : "failure", written ? file.string() : written.error().message);
+  say(written ? fmt::format("Window saved to {}", file.string()) : written.error().message, !written);
+}
+
+void Viewer::toggle_log() {
+  if (log_) {
+    const std::string path = log_->path();
+    const auto finished = log_->finish();
+    log_.reset();
+    return say(finished ? fmt::format("Log written to {}", path) : finished.error().message, !finished);
+  }
+  if (!picture_) return;
+  const std::string path = options_.log.empty() ? unused_name("tenebra_frames.csv") : std::exchange(options_.log, "");
+  auto log = SessionLog::start(path, state_, *picture_, worker_.gl_renderer());
+  if (!log) return say(log.error().message, true);
+  log_.emplace(std::move(*log));
+  say(fmt::format("Logging frames to {}", path));
+}
+
+void Viewer::log_picture(const Picture& picture) {
+  const bool belongs = log_->belongs(state_);
+  const auto added = belongs ? log_->add(picture) : Expected<void>();
+  if (!added) {
+    say(added.error().message, true);
+    log_.reset();
+  } else if (!belongs) {
+    toggle_log();
+    say("The log ended where the settings changed.");
+  }
+}
+
+void Viewer::act() {
+  const Actions actions = std::exchange(actions_, {});
+  actions_.retry = actions.retry;  // for send_request
+  quit_ = quit_ || actions.quit;
+  if (actions.cancel && worker_.status().drawing) {
+    worker_.cancel();
+    state_.clock.pause(now());
+    sent_clock_ = state_.clock;
+    say("Cancelled: the picture is the last that was finished. Press R to compute the new one.");
+  }
+  if (actions.picture_shot) save_picture();
+  if (actions.window_shot) window_shot_ = true, due_ = std::max(due_, 1);
+  if (actions.toggle_log) toggle_log();
+  if (actions.focus) worker_.pick(*actions.focus);
+  if (actions.open) drop({*actions.open});
+}
+
+void Viewer::drop(const std::vector<std::string>& files) {
+  if (files.empty()) return;
+  report_.note("drop", files.front());
+  SceneOptions options;
+  options.file = files.front();
+  options.import = options_.scene.import;
+  options.fps = options_.scene.fps;
+  worker_.open(std::move(options));
+  if (files.size() > 1) say(fmt::format("{} files were dropped; the first is opened.", files.size()));
+}
+
+Expected<void> Viewer::finish() {
+  for (const std::string& text : gl_.take_messages()) report_.note("gl", text);
+  report_.note("end", fmt::format("{} pictures", pictures_));
+  if (log_) {
+    if (auto finished = log_->finish(); !finished) return finished;
+  }
+  if (!failure_.empty()) return fail("{}", failure_);
+  return {};
+}
+
+void Viewer::draw_messages(Area view) {
+  float y = view.low.y + 10;
+  ImDrawList& list = *ImGui::GetForegroundDrawList();
+  for (const Message& message : messages_) {
+    const float width = std::min(view.size.x - 20, 640.0f * ImGui::GetFontSize() / 15);
+    const ImVec2 size = ImGui::CalcTextSize(message.text.c_str(), nullptr, false, width - 24);
+    list.AddRectFilled({view.low.x + 10, y}, {view.low.x + 34 + size.x, y + size.y + 14}, palette::shade, 4);
+    list.AddRectFilled({view.low.x + 10, y}, {view.low.x + 13, y + size.y + 14},
+                       message.failure ? palette::warning : palette::accent);
+    list.AddText(nullptr, 0, {view.low.x + 22, y + 7}, palette::text, message.text.c_str(), nullptr, width - 24);
+    y += size.y + 20;
+  }
+}
+
+void Viewer::draw(float scale, float pixels_a_unit) {
+  const float seconds = std::chrono::duration<float>(now() - last_draw_).count();
+  last_draw_ = now();
+  due_ = std::max(0, due_ - 1);
+  const ImGuiIO& io = ImGui::GetIO();
+  hand_moves_ = ImGui::IsAnyMouseDown();
+  const std::string log = log_ ? log_->path() : "";
+  marks_.clear();
+  Ui ui{state_, actions_, marks_, picture_.get(), history_, keys_, worker_.status(), log, scale};
+  handle_keys(ui, std::min(seconds, 0.1f));
+  if (flies(io)) due_ = std::max(due_, 1);
+
+  const Layout layout = layout_of(ui, io.DisplaySize);
+  place_ = state_.size.value_or(picture_size(state_, layout.view, pixels_a_unit));
+  if (picture_) {
+    const Size shown = picture_size(state_, layout.view, pixels_a_unit);
+    const Image8& image = picture_->a.result.image;
+    textures_.show(picture_, state_, image.width <= shown.width && image.height <= shown.height);
+  }
+  draw_view(ui, textures_, layout.view);
+  draw_transport(ui, layout.transport);
+  if (layout.has_panel) draw_panel(ui, layout.panel);
+  draw_progress(ui, layout.view);
+  if (state_.help) draw_help(ui, io.DisplaySize);
+  draw_messages(layout.view);
+  if (actions_.copy_camera) {
+    const std::string size = fmt::format(" --time {} --size {}x{}", state_.clock.time_at(now()), place_.width,
+                                         place_.height);
+    const std::string text = state_.camera_mode == CameraMode::scene
+                                 ? fmt::format("--camera {}{}", state_.camera, size)
+                                 : camera_arguments(state_.free) + size;
+    ImGui::SetClipboardText(text.c_str());
+    report_.note("copied", text);
+    say("Copied: " + text);
+  }
+  const Actions& asked = actions_;
+  if (asked.quit || asked.cancel || asked.retry || asked.picture_shot || asked.window_shot || asked.toggle_log ||
+      asked.focus || asked.open) {
+    due_ = std::max(due_, 1);
+  }
+  keys_.clear();
+  report_.marks(marks_);
+  if (due_ > 0 || !input_undrawn_) return;
+  input_undrawn_ = false;
+  report_.note("drawn", "");
+}
+
+}  // namespace tenebra::viewer

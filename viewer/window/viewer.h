@@ -1,0 +1,97 @@
+// The viewer without its window: state, worker, panels. Any OpenGL context with Dear ImGui on it can show it.
+#pragma once
+
+#include <deque>
+
+#include "view_options.h"
+#include "window/event_report.h"
+#include "window/panels.h"
+#include "window/session_log.h"
+
+namespace tenebra::viewer {
+
+class Viewer {
+public:
+  /// `gl` must outlive it. `wake` is called on another thread when `update` has something to do.
+  Viewer(ViewOptions options, WindowGl& gl, EventReport report, std::function<void()> wake);
+
+  /// Takes what the worker has finished and asks it for what the state wants; once a turn of the loop.
+  void update();
+  /// Draws everything; between ImGui::NewFrame and ImGui::Render. `pixels_a_unit`: of the framebuffer.
+  void draw(float scale, float pixels_a_unit);
+  /// After Render: writes a screenshot of the window if one was asked for.
+  void after_draw(int framebuffer_width, int framebuffer_height);
+  void drop(const std::vector<std::string>& files);
+  /// Ends the log; its failure, if any, or that of the first scene.
+  Expected<void> finish();
+
+  bool is_over() const { return quit_; }
+  bool needs_drawing() const { return due_ > 0; }
+  void press_key(KeyPress press) {
+    keys_.push_back(press);
+    input_came();
+  }
+  /// Dear ImGui takes a frame or two to settle.
+  void input_came() {
+    due_ = std::max(due_, 3);
+    input_undrawn_ = true;
+  }
+  double sleep_s() const;                          ///< how long to wait for events at most
+  const ViewState& state() const { return state_; }
+  const Picture* picture() const { return picture_.get(); }
+  const Marks& marks() const { return marks_; }
+  std::string message() const { return messages_.empty() ? "" : messages_.back().text; }
+
+private:
+  struct Message {
+    std::string text;
+    bool failure;
+    AnimationClock::Wall until;
+  };
+
+  void take_scene(OpenedScene opened);
+  void take_picture(const std::shared_ptr<const Picture>& picture);
+  void take_pick(const std::optional<glm::vec3>& point);
+  void follow_clock();
+  FrameRequest make_request() const;
+  std::string method_key() const;
+  void send_request();
+  void act();
+  void say(std::string text, bool failure = false);
+  void draw_messages(Area view);
+  void save_picture();
+  void toggle_log();
+  void log_picture(const Picture& picture);
+
+  ViewOptions options_;
+  WindowGl& gl_;
+  EventReport report_;
+  ViewTextures textures_;
+  ViewState state_;
+  Actions actions_;
+  Marks marks_;
+  std::vector<KeyPress> keys_;
+  std::array<FrameHistory, 2> history_;
+  std::optional<SessionLog> log_;
+  std::shared_ptr<const Picture> picture_;
+  std::deque<Message> messages_;
+  std::string failure_;      // that ends the program
+
+  Size place_{0, 0};         // of the picture in the window
+  bool hand_moves_ = false;  // a mouse button is down
+  std::string sent_key_, sent_method_;
+  AnimationClock sent_clock_;
+  std::uint64_t requests_ = 0;
+  std::uint64_t settings_since_ = 0;  // the first request with the present settings
+  std::uint64_t pictures_ = 0;
+  int shots_ = 0;
+  bool window_shot_ = false;
+  bool input_undrawn_ = false;
+  bool quit_ = false;
+  int due_ = 3;              // frames of the window to draw
+  AnimationClock::Wall last_draw_{};
+
+  RenderWorker worker_;      // last: its thread ends first
+};
+
+}  // namespace tenebra::viewer
