@@ -128,6 +128,51 @@ TEST(SoftCatalogue, A_ContactsWithinTheRounding) {
   sum.print("contacts");
 }
 
+// Whole groups of points below one plate: theirs is one decision, by the rounding of both triangles.
+TEST(SoftCatalogue, A_PlatesOverWholeGroups) {
+  Judgement sum;
+  const double theta = 2 * std::sqrt(3.0) * 0x1p-24 * 4;
+  for (const double factor : {0.3, 0.6, 0.9, 0.99, 1.01, 1.1, 2.0, 1e3}) {
+    SoftCase c;
+    c.name = fmt::format("plate {} theta above the ground", factor);
+    c.light = above(2);
+    c.soup.quad({-4, 0, -4}, {0, 0, 8}, {8, 0, 0});
+    c.soup.add({-4, factor * theta, -4}, {-4, factor * theta, 4}, {4, factor * theta, 4});
+    c.view.eye = vec3(c.light.centre);
+    c.points.width = 16, c.points.height = 8;
+    for (int k = 0; k < 128; ++k) {
+      c.points.positions.emplace_back(-3 + 0.03 * (k % 16), 0, 2 + 0.03 * (k / 16));
+      c.points.triangles.push_back(0);
+    }
+    judge_all(c, sum);
+    for (const float f : traced(c, SoftPrecision::fast).visible_fraction)
+      ASSERT_EQ(f, factor < 1 ? 1.0f : 0.0f) << c.name;
+  }
+  sum.print("plates over whole groups");
+}
+
+// A point that its maker put off its triangle, even far behind it: its own triangle never blocks it, others
+// do.
+TEST(SoftCatalogue, A_OwnTrianglesNeverBlock) {
+  Judgement sum;
+  Random random(27);
+  SoftCase c;
+  c.light = above(1);
+  c.view.eye = vec3(c.light.centre);
+  c.soup.add({-2, 0, -2}, {0, 0, 3}, {2, 0, -2});
+  c.soup.add({-0.5, -0.5, -0.5}, {0, -0.5, 0.5}, {0.5, -0.5, -0.5});
+  for (const double depth : {1e-6, 1e-3, 0.1}) {
+    c.name = fmt::format("{} behind the own triangle, seed 27", depth);
+    c.points = points_on_triangles(c.soup, random, 144);
+    for (dvec3& p : c.points.positions) p.y -= depth;
+    judge_all(c, sum);
+    // The same with whole groups on one triangle.
+    std::sort(c.points.triangles.begin(), c.points.triangles.end());
+    judge_all(c, sum);
+  }
+  sum.print("points behind their own triangles");
+}
+
 TEST(SoftCatalogue, B_LightsThatTouchAndCutTheGeometry) {
   Judgement sum;
   Random random(3);
