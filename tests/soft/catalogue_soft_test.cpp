@@ -98,6 +98,81 @@ TEST(SoftCatalogue, A_EdgesThatMeetOtherEdgesExactly) {
   sum.print("grid");
 }
 
+// Plates that lie on a ground within and beyond the rounding of both (theta: 1e-7 times 2 x 4 coordinates),
+// walls that stand on it, and points beside them at such distances.
+TEST(SoftCatalogue, A_ContactsWithinTheRounding) {
+  Judgement sum;
+  SoftCase c;
+  c.name = "contacts, seed 4";
+  c.light = above(2);
+  c.soup.quad({-4, 0, -4}, {0, 0, 8}, {8, 0, 0});
+  const double tau = std::sqrt(3.0) * 0x1p-24 * 8;
+  Random random(4);
+  for (int i = 0; i < 24; ++i) {
+    const double x = -3.5 + i % 6, z = -3 + 2 * (i / 6), gap = tau * std::exp2(random.in(-3, 3));
+    if (i % 2 == 0)
+      c.soup.quad({x, gap, z}, {0, 0, 0.75}, {0.75, 0, 0});
+    else
+      c.soup.quad({x, -0.25, z}, {0, 1.25, 0}, {0.25, 0, 0.5});
+    for (int k = 0; k < 6; ++k) {
+      const double off = random.chance(0.5) ? tau * random.in(-3, 3) : random.in(-0.2, 0.2);
+      const double s = random.in(0, 0.6);
+      c.points.positions.push_back(i % 2 == 0 ? dvec3(x + s, 0, z + s)
+                                              : dvec3(x + 0.25 * s + off, 0, z + 0.5 * s - 0.5 * off));
+      c.points.triangles.push_back(c.points.positions.back().x < c.points.positions.back().z ? 0 : 1);
+    }
+  }
+  c.points.width = 12, c.points.height = 12;
+  c.view.eye = vec3(c.light.centre);
+  judge_all(c, sum);
+  sum.print("contacts");
+}
+
+// Whole groups of points below one plate: theirs is one decision, by the rounding of both triangles.
+TEST(SoftCatalogue, A_PlatesOverWholeGroups) {
+  Judgement sum;
+  const double theta = 2 * std::sqrt(3.0) * 0x1p-24 * 4;
+  for (const double factor : {0.3, 0.6, 0.9, 0.99, 1.01, 1.1, 2.0, 1e3}) {
+    SoftCase c;
+    c.name = fmt::format("plate {} theta above the ground", factor);
+    c.light = above(2);
+    c.soup.quad({-4, 0, -4}, {0, 0, 8}, {8, 0, 0});
+    c.soup.add({-4, factor * theta, -4}, {-4, factor * theta, 4}, {4, factor * theta, 4});
+    c.view.eye = vec3(c.light.centre);
+    c.points.width = 16, c.points.height = 8;
+    for (int k = 0; k < 128; ++k) {
+      c.points.positions.emplace_back(-3 + 0.03 * (k % 16), 0, 2 + 0.03 * (k / 16));
+      c.points.triangles.push_back(0);
+    }
+    judge_all(c, sum);
+    for (const float f : traced(c, SoftPrecision::fast).visible_fraction)
+      ASSERT_EQ(f, factor < 1 ? 1.0f : 0.0f) << c.name;
+  }
+  sum.print("plates over whole groups");
+}
+
+// A point that its maker put off its triangle, even far behind it: its own triangle never blocks it, others
+// do.
+TEST(SoftCatalogue, A_OwnTrianglesNeverBlock) {
+  Judgement sum;
+  Random random(27);
+  SoftCase c;
+  c.light = above(1);
+  c.view.eye = vec3(c.light.centre);
+  c.soup.add({-2, 0, -2}, {0, 0, 3}, {2, 0, -2});
+  c.soup.add({-0.5, -0.5, -0.5}, {0, -0.5, 0.5}, {0.5, -0.5, -0.5});
+  for (const double depth : {1e-6, 1e-3, 0.1}) {
+    c.name = fmt::format("{} behind the own triangle, seed 27", depth);
+    c.points = points_on_triangles(c.soup, random, 144);
+    for (dvec3& p : c.points.positions) p.y -= depth;
+    judge_all(c, sum);
+    // The same with whole groups on one triangle.
+    std::sort(c.points.triangles.begin(), c.points.triangles.end());
+    judge_all(c, sum);
+  }
+  sum.print("points behind their own triangles");
+}
+
 TEST(SoftCatalogue, B_LightsThatTouchAndCutTheGeometry) {
   Judgement sum;
   Random random(3);

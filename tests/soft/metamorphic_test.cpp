@@ -257,14 +257,14 @@ void expect_same_for_all_choices(const SoftCase& c) {
 
 TEST(SoftMetamorphic, SolversGroupingsAndChoicesGiveTheSameAnswer) {
   expect_same_for_all_choices(room_case(11));
-  expect_same_for_all_choices(frame_case(bundled_frames[2], 96, 54));
+  expect_same_for_all_choices(frame_case(bundled_frames[2], 64, 36));
   if (!bart_is_there()) GTEST_SKIP() << "The BART scenes are not at " TENEBRA_SHARED_DIR ".";
-  expect_same_for_all_choices(frame_case(bart_frames[0], 96, 54));
-  expect_same_for_all_choices(frame_case(bart_frames[1], 96, 54));
+  expect_same_for_all_choices(frame_case(bart_frames[0], 64, 36));
+  expect_same_for_all_choices(frame_case(bart_frames[1], 64, 36));
 }
 
 TEST(SoftMetamorphic, InstructionSetsAndThreadsGiveTheSameBits) {
-  std::vector<SoftCase> cases{room_case(12), frame_case(bundled_frames[2], 96, 54)};
+  std::vector<SoftCase> cases{room_case(12, 400), frame_case(bundled_frames[2], 48, 27)};
   for (SoftCase& c : cases)
     for (const SoftSolver solver : {SoftSolver::automatic, SoftSolver::bsp, SoftSolver::clip}) {
       c.config.solver = solver;
