@@ -168,18 +168,21 @@ double worst(const std::vector<double>& speed_ups) {
 }  // namespace
 
 std::string soft_tables(const SoftResults& results) {
-  std::string text = contest_table(results.contests) + '\n' + equal_time_table(results.contests) + '\n' +
-                     cost_table(results.costs) + '\n' + area_table(results.areas) + '\n' +
-                     lights_table(results.lights, results.growth_view) + '\n' +
-                     life_table(results.life, results.growth_view) + '\n';
+  std::string text;
+  if (!results.contests.empty())
+    text += contest_table(results.contests) + '\n' + equal_time_table(results.contests) + '\n';
+  if (!results.costs.empty()) text += cost_table(results.costs) + '\n';
+  if (!results.areas.empty()) text += area_table(results.areas) + '\n';
+  if (!results.lights.empty()) text += lights_table(results.lights, results.growth_view) + '\n';
+  if (!results.life.empty()) text += life_table(results.life, results.growth_view) + '\n';
   for (const std::string& name : results.skipped) text += name + ": skipped, the scene is not there\n";
   return text;
 }
 
 void add_soft_plots(const SoftResults& results, Report& report) {
-  add_contest_plots(results.contests, report);
-  add_cost_plots(results.costs, report);
-  add_growth_plots(results, report);
+  if (!results.contests.empty()) add_contest_plots(results.contests, report);
+  if (!results.costs.empty()) add_cost_plots(results.costs, report);
+  if (!results.areas.empty()) add_growth_plots(results, report);
 }
 
 std::string soft_summary(const SoftResults& results) {
