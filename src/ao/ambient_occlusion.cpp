@@ -50,6 +50,7 @@ struct GroupReport {
 /// Buffers of a thread.
 struct Scratch {
   std::vector<Receiver> receivers;
+  std::vector<SelfOcclusion::Blend> blends;  ///< one a receiver
   std::vector<std::uint32_t> missing;
   std::vector<int> near;
   std::vector<RayBatch> rays;
@@ -259,7 +260,7 @@ void AmbientOcclusion::State::collect_samples(const Receiver& receiver, Scratch&
   const std::int32_t object = receiver.owner.object;
   if (const SelfOcclusion* body = body_under(receiver)) {
     scratch.missing.clear();
-    body->add_missing(receiver.on_shape(), scratch.missing);
+    scratch.blends.back() = body->find_samples(receiver.on_shape(), scratch.missing);
     const auto number = static_cast<std::uint32_t>(body_of[body_index(object)]);
     for (const std::uint32_t sample : scratch.missing) report.samples.push_back({number, sample});
   } else if (has_body(receiver) && (report.bodies.empty() || report.bodies.back() != object)) {
@@ -287,15 +288,18 @@ void AmbientOcclusion::State::shade(const ReceiverSet& set, AoPart part, int gro
     for (const Receiver& receiver : scratch.receivers) box.extend(receiver.position);
     occluders.near(box, scratch.near);
   }
+  scratch.blends.clear();
   for (const Receiver& receiver : scratch.receivers) {
+    scratch.blends.emplace_back();
     if (part != AoPart::others) collect_samples(receiver, scratch, report);
     collect_occluders(receiver, scratch, report);
   }
   sort_unique(report.samples);
   if (!report.complete()) return;
-  for (const Receiver& receiver : scratch.receivers) {
+  for (std::size_t i = 0; i < scratch.receivers.size(); ++i) {
+    const Receiver& receiver = scratch.receivers[i];
     const SelfOcclusion* body = part == AoPart::others ? nullptr : body_under(receiver);
-    const float own = body != nullptr ? body->occlusion(receiver.on_shape(), kernels) : 0;
+    const float own = body != nullptr ? body->occlusion(receiver.on_shape(), scratch.blends[i], kernels) : 0;
     values[receiver.index] = (1 - own) * (1 - others(receiver, scratch, report));
   }
   report.points = scratch.receivers.size();
