@@ -67,7 +67,10 @@ Expected<void> check(const AoConfig& config, const VisiblePoints& points, std::s
     return fail("ambient occlusion: scale 1/{}, expected 1/1 to 1/{}", config.downscale, most_downscale);
   const auto size = field_shape({config.layout, config.positions, config.directions, config.bits});
   if (!size) return tl::unexpected(size.error());
-  if (points.positions.size() != points.triangles.size() || normals.size() != points.triangles.size())
+  const std::size_t pixels = points.triangles.size();
+  if (points.positions.size() != pixels || normals.size() != pixels || points.width < 0 ||
+      points.height < 0 ||
+      static_cast<std::size_t>(points.width) * static_cast<std::size_t>(points.height) != pixels)
     return fail("ambient occlusion: {} points and {} normals, expected one a pixel of {} x {}",
                 points.positions.size(), normals.size(), points.width, points.height);
   return {};
@@ -346,7 +349,10 @@ Expected<void> AmbientOcclusion::State::from_fields(const ReceiverSet& set, AoPa
   std::vector<GroupReport> reports;
   std::vector<int> reached;
   Stopwatch watch;
-  while (!pending.empty()) {
+  constexpr int most_rounds = 8;  // bodies, wide samples, fine samples and occluders take four
+  for (int round = 0; !pending.empty(); ++round) {
+    if (round == most_rounds)
+      return fail("ambient occlusion: what {} groups of points lack cannot be made", pending.size());
     reports.assign(pending.size(), {});
     parallel_tasks(static_cast<int>(pending.size()), [&](int i) {
       if (stop_requested(stop)) return;

@@ -279,7 +279,7 @@ bool SelfOcclusion::fill(std::span<const std::uint32_t> samples, const AoKernels
                          const std::function<void(double)>& progress, const StopFlag* stop) {
   constexpr std::size_t step = 8192, grain = 32;
   const auto stored = [](const Seen& seen) {
-    if (seen.buried) return buried;
+    if (seen.buried || !(seen.occlusion >= 0)) return buried;
     return static_cast<std::uint16_t>(2 * std::lround(seen.occlusion * most) + (seen.near ? 1 : 0));
   };
   for (std::size_t first = 0; first < samples.size(); first += step) {
