@@ -50,6 +50,7 @@ struct GroupReport {
 /// Buffers of a thread.
 struct Scratch {
   std::vector<Receiver> receivers;
+  std::vector<SelfOcclusion::Blend> blends;  ///< one a receiver
   std::vector<std::uint32_t> missing;
   std::vector<int> near;
   std::vector<RayBatch> rays;
@@ -66,7 +67,10 @@ Expected<void> check(const AoConfig& config, const VisiblePoints& points, std::s
     return fail("ambient occlusion: scale 1/{}, expected 1/1 to 1/{}", config.downscale, most_downscale);
   const auto size = field_shape({config.layout, config.positions, config.directions, config.bits});
   if (!size) return tl::unexpected(size.error());
-  if (points.positions.size() != points.triangles.size() || normals.size() != points.triangles.size())
+  const std::size_t pixels = points.triangles.size();
+  if (points.positions.size() != pixels || normals.size() != pixels || points.width < 0 ||
+      points.height < 0 ||
+      static_cast<std::size_t>(points.width) * static_cast<std::size_t>(points.height) != pixels)
     return fail("ambient occlusion: {} points and {} normals, expected one a pixel of {} x {}",
                 points.positions.size(), normals.size(), points.width, points.height);
   return {};
@@ -259,7 +263,7 @@ void AmbientOcclusion::State::collect_samples(const Receiver& receiver, Scratch&
   const std::int32_t object = receiver.owner.object;
   if (const SelfOcclusion* body = body_under(receiver)) {
     scratch.missing.clear();
-    body->add_missing(receiver.on_shape(), scratch.missing);
+    scratch.blends.back() = body->find_samples(receiver.on_shape(), scratch.missing);
     const auto number = static_cast<std::uint32_t>(body_of[body_index(object)]);
     for (const std::uint32_t sample : scratch.missing) report.samples.push_back({number, sample});
   } else if (has_body(receiver) && (report.bodies.empty() || report.bodies.back() != object)) {
@@ -287,15 +291,18 @@ void AmbientOcclusion::State::shade(const ReceiverSet& set, AoPart part, int gro
     for (const Receiver& receiver : scratch.receivers) box.extend(receiver.position);
     occluders.near(box, scratch.near);
   }
+  scratch.blends.clear();
   for (const Receiver& receiver : scratch.receivers) {
+    scratch.blends.emplace_back();
     if (part != AoPart::others) collect_samples(receiver, scratch, report);
     collect_occluders(receiver, scratch, report);
   }
   sort_unique(report.samples);
   if (!report.complete()) return;
-  for (const Receiver& receiver : scratch.receivers) {
+  for (std::size_t i = 0; i < scratch.receivers.size(); ++i) {
+    const Receiver& receiver = scratch.receivers[i];
     const SelfOcclusion* body = part == AoPart::others ? nullptr : body_under(receiver);
-    const float own = body != nullptr ? body->occlusion(receiver.on_shape(), kernels) : 0;
+    const float own = body != nullptr ? body->occlusion(receiver.on_shape(), scratch.blends[i], kernels) : 0;
     values[receiver.index] = (1 - own) * (1 - others(receiver, scratch, report));
   }
   report.points = scratch.receivers.size();
@@ -342,7 +349,10 @@ Expected<void> AmbientOcclusion::State::from_fields(const ReceiverSet& set, AoPa
   std::vector<GroupReport> reports;
   std::vector<int> reached;
   Stopwatch watch;
-  while (!pending.empty()) {
+  constexpr int most_rounds = 8;  // bodies, wide samples, fine samples and occluders take four
+  for (int round = 0; !pending.empty(); ++round) {
+    if (round == most_rounds)
+      return fail("ambient occlusion: what {} groups of points lack cannot be made", pending.size());
     reports.assign(pending.size(), {});
     parallel_tasks(static_cast<int>(pending.size()), [&](int i) {
       if (stop_requested(stop)) return;

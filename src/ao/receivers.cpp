@@ -54,6 +54,7 @@ bool ReceiverMaker::make(std::uint32_t triangle, const dvec3& position, const ve
   if (!std::isfinite(position.x + position.y + position.z)) return false;
   out.position = position;
   out.local = to_object_ != nullptr ? dvec3(*to_object_ * glm::dvec4(position, 1.0)) : position;
+  if (!std::isfinite(out.local.x + out.local.y + out.local.z)) return false;
   out.normal = normal;
   out.front = glm::dot(face_, normal) >= 0;
   out.face = out.front ? face_ : -face_;

@@ -110,7 +110,7 @@ void place(const Pose& pose, MovingObject& object) {
     for (int m = 0; m < 3; ++m) off = std::max(off, std::abs(square[k][m] - (k == m ? wanted : 0)));
   }
   object.largest_scale = std::sqrt(largest);  // no eigenvalue exceeds a row's sum
-  object.rigid = off <= most_shear * wanted;
+  object.rigid = wanted > 0 && off <= most_shear * wanted;
 }
 
 vec3 unit_or_zero(const dvec3& n) {

@@ -187,31 +187,32 @@ SelfOcclusion::Blend SelfOcclusion::blend(const SurfacePoint& point, std::uint32
 
 bool SelfOcclusion::is_rough(const Blend& blend) const {
   return std::any_of(blend.samples, blend.samples + 3, [this](std::uint32_t sample) {
-    return values_[sample] == buried || (values_[sample] != unknown && values_[sample] % 2 == 1);
+    return values_[sample] == buried || values_[sample] % 2 == 1;
   });
 }
 
 /// The wide grid's samples, or the fine one's where those say that something is near.
-SelfOcclusion::Blend SelfOcclusion::deciding_blend(const SurfacePoint& point) const {
-  if (grids_[point.triangle].steps == 1) return blend(point, 1);
-  const Blend wide = blend(point, refinement);
-  return is_rough(wide) ? blend(point, 1) : wide;
-}
-
-void SelfOcclusion::add_missing(const SurfacePoint& point, std::vector<std::uint32_t>& missing) const {
-  const std::size_t before = missing.size();
-  const auto add = [&](const Blend& blend) {
+SelfOcclusion::Blend SelfOcclusion::find_samples(const SurfacePoint& point,
+                                                 std::vector<std::uint32_t>& missing) const {
+  const auto lacks = [&](const Blend& blend) {
+    const std::size_t before = missing.size();
     for (const std::uint32_t sample : blend.samples) {
       if (values_[sample] == unknown) missing.push_back(sample);
     }
+    return missing.size() > before;
   };
-  if (grids_[point.triangle].steps > 1) add(blend(point, refinement));
-  if (missing.size() == before) add(deciding_blend(point));
+  if (grids_[point.triangle].steps > 1) {
+    const Blend wide = blend(point, refinement);
+    if (lacks(wide) || !is_rough(wide)) return wide;
+  }
+  const Blend fine = blend(point, 1);
+  lacks(fine);
+  return fine;
 }
 
-float SelfOcclusion::occlusion(const SurfacePoint& point, const AoKernels& kernels) const {
+float SelfOcclusion::occlusion(const SurfacePoint& point, const Blend& around,
+                               const AoKernels& kernels) const {
   constexpr float enough = 1e-4f;
-  const Blend around = deciding_blend(point);
   float sum = 0, total = 0;
   for (int k = 0; k < 3; ++k) {
     const std::uint16_t value = values_[around.samples[k]];
@@ -278,7 +279,7 @@ bool SelfOcclusion::fill(std::span<const std::uint32_t> samples, const AoKernels
                          const std::function<void(double)>& progress, const StopFlag* stop) {
   constexpr std::size_t step = 8192, grain = 32;
   const auto stored = [](const Seen& seen) {
-    if (seen.buried) return buried;
+    if (seen.buried || !(seen.occlusion >= 0)) return buried;
     return static_cast<std::uint16_t>(2 * std::lround(seen.occlusion * most) + (seen.near ? 1 : 0));
   };
   for (std::size_t first = 0; first < samples.size(); first += step) {

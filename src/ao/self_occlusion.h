@@ -41,11 +41,17 @@ public:
   /// `reach`: where occlusion has fallen off to nothing, in units of the shape. Keeps references to both.
   SelfOcclusion(const ObjectShape& shape, const TriangleBvh& casters, double reach);
 
-  /// Adds the samples that the point needs next to `missing`: none if it has all. To be asked again when they
-  /// are filled: what they see decides whether finer ones are needed.
-  void add_missing(const SurfacePoint& point, std::vector<std::uint32_t>& missing) const;
-  /// Hidden share, 0..1. Nothing may be missing. A point with none but buried samples is answered by rays.
-  float occlusion(const SurfacePoint& point, const AoKernels& kernels) const;
+  /// Three samples around a point and their weights, which add up to 1.
+  struct Blend {
+    std::uint32_t samples[3];
+    float weights[3];
+  };
+
+  /// The samples that answer the point. Adds those that it lacks to `missing`: if there are any, it has to be
+  /// asked again when they are filled, for what they see decides whether finer ones are needed.
+  Blend find_samples(const SurfacePoint& point, std::vector<std::uint32_t>& missing) const;
+  /// Hidden share, 0..1, by the point's samples, all known. If all of them are buried rays answer the point.
+  float occlusion(const SurfacePoint& point, const Blend& samples, const AoKernels& kernels) const;
 
   /// Casts the rays of samples (unique). False if stopped.
   bool fill(std::span<const std::uint32_t> samples, const AoKernels& kernels,
@@ -56,11 +62,6 @@ public:
   std::size_t bytes() const;
 
 private:
-  /// Three samples around a point and their weights, which add up to 1.
-  struct Blend {
-    std::uint32_t samples[3];
-    float weights[3];
-  };
   /// What rays from a point have found.
   struct Seen {
     float occlusion = 0;
@@ -72,7 +73,6 @@ private:
   std::uint64_t corner_key(std::uint32_t triangle, int corner, double cell) const;
   /// On every `stride`th point of the triangle's grid.
   Blend blend(const SurfacePoint& point, std::uint32_t stride) const;
-  Blend deciding_blend(const SurfacePoint& point) const;
   bool is_rough(const Blend& blend) const;
   SurfacePoint place(std::uint32_t sample) const;
   Seen look(const SurfacePoint& point, const AoKernels& kernels) const;
