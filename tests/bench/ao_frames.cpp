@@ -26,7 +26,8 @@ struct Pairing {
   int downscale;
   double rms = 0;
   double ms[2] = {0, 0};
-  double embree_rays = 0;  ///< at equal error
+  int embree_downscale = 1;  ///< 1 too where Embree at half resolution cannot be as exact
+  double embree_rays = 0;    ///< at equal error
   double embree_ms[2] = {0, 0};
   int embree_mode[2] = {0, 0};  ///< the faster: index into mode_names
 };
@@ -59,7 +60,7 @@ private:
   Expected<void> find_errors();
   Expected<void> measure_times(int slot);
   Expected<double> field_ms(const Pairing& pairing);
-  double rays_at(double rms, int downscale) const;
+  void match(Pairing& pairing) const;
   void tell();
 
   AoSession& session_;
@@ -106,17 +107,23 @@ Expected<void> ViewBench::find_errors() {
     if (rays == 32 && session_.effort == Effort::quick) continue;
     errors_[1].push_back({rays, truth_.rms_255(peer_->frame(rays, 2))});
   }
-  for (Pairing& pairing : pairings_) pairing.embree_rays = rays_at(pairing.rms, pairing.downscale);
+  for (Pairing& pairing : pairings_) match(pairing);
   return {};
 }
 
-/// On a straight line in logarithms between two measured counts, or beyond them. At least one ray.
-double ViewBench::rays_at(double rms, int downscale) const {
-  const std::vector<PeerError>& e = errors_[downscale - 1];
+/// Embree's rays for the field's error: on a straight line in logarithms between two measured counts, or
+/// beyond them; at least one. More rays do not mend what half resolution blurs: where the most of them leave
+/// a larger error than the field's, Embree has to trace at full resolution.
+void ViewBench::match(Pairing& pairing) const {
+  const bool half = pairing.downscale == 2 && errors_[1].back().rms <= pairing.rms;
+  pairing.embree_downscale = half ? 2 : 1;
+  const std::vector<PeerError>& e = errors_[pairing.embree_downscale - 1];
   std::size_t i = 1;
-  while (i + 1 < e.size() && e[i].rms > rms) ++i;
+  while (i + 1 < e.size() && e[i].rms > pairing.rms) ++i;
+  pairing.embree_rays = e.back().rays;
+  if (!(pairing.rms > 0 && e[i].rms > 0 && e[i - 1].rms > e[i].rms)) return;  // nothing in view to differ by
   const double slope = std::log(e[i].rms / e[i - 1].rms) / std::log(double(e[i].rays) / e[i - 1].rays);
-  return std::max(1.0, e[i].rays * std::pow(rms / e[i].rms, 1 / slope));
+  pairing.embree_rays = std::max(1.0, e[i].rays * std::pow(pairing.rms / e[i].rms, 1 / slope));
 }
 
 Expected<double> ViewBench::field_ms(const Pairing& pairing) {
@@ -150,8 +157,8 @@ Expected<void> ViewBench::measure_times(int slot) {
   for (std::size_t i = 0; i < pairings_.size(); ++i) {
     Pairing& pairing = pairings_[i];
     pairing.ms[slot] = median(field[i]);
-    const std::size_t first = pairing.downscale == 1 ? 0 : 4;
-    const double extra = pairing.downscale == 1 ? 0 : median(spread);
+    const std::size_t first = pairing.embree_downscale == 1 ? 0 : 4;
+    const double extra = pairing.embree_downscale == 1 ? 0 : median(spread);
     for (const std::size_t mode : {0u, 1u}) {
       const PeerCost cost{median(peer[first + mode]), median(peer[first + 2 + mode])};
       const double ms = extra + std::max(0.0, cost.at(pairing.embree_rays));
@@ -165,18 +172,18 @@ Expected<void> ViewBench::measure_times(int slot) {
 
 void ViewBench::tell() {
   std::vector<std::vector<std::string>> rows{{"resolution", "threads", "field rays", "RMS", "field ms",
-                                              "embree rays", "embree ms", "by", "faster x"}};
+                                              "embree", "embree rays", "embree ms", "by", "faster x"}};
   const int all = thread_count();
   for (const Pairing& p : pairings_) {
     for (int slot = 0; slot < (all == 1 ? 1 : 2); ++slot) {
       const double faster = p.embree_ms[slot] / p.ms[slot];
       const char* resolution = p.downscale == 1 ? "full" : "half";
       const int threads = slot == 0 ? 1 : all;
-      rows.push_back({resolution, fmt::format("{}", threads), fmt::format("{}", p.rays),
-                      fmt::format("{:.2f}", p.rms), fmt::format("{:.1f}", p.ms[slot]),
-                      fmt::format("{:.1f}", p.embree_rays), fmt::format("{:.0f}", p.embree_ms[slot]),
-                      mode_names[static_cast<std::size_t>(p.embree_mode[slot])],
-                      fmt::format("{:.1f}", faster)});
+      rows.push_back(
+          {resolution, fmt::format("{}", threads), fmt::format("{}", p.rays), fmt::format("{:.2f}", p.rms),
+           fmt::format("{:.1f}", p.ms[slot]), p.embree_downscale == 1 ? "full" : "half",
+           fmt::format("{:.1f}", p.embree_rays), fmt::format("{:.0f}", p.embree_ms[slot]),
+           mode_names[static_cast<std::size_t>(p.embree_mode[slot])], fmt::format("{:.1f}", faster)});
       const std::string parameter =
           fmt::format("{} resolution, rays={}, threads={}", resolution, p.rays, threads);
       session_.report.add({"frames", view_.name, "field", parameter, "rms", p.rms, "1/255"});

@@ -52,8 +52,8 @@ void write_text(Image8& image, int left, int top, const std::string& text) {
 Sheet::Sheet(const Ball& ball, const AoPeer& peer, std::span<const float> truth)
     : truth_(truth.begin(), truth.end()) {
   const double near_wall = -1.05 * ball.radius, step = 6 * ball.radius / (grid - 1);
-  const dvec3 eye = ball.centre + dvec3(11.0, 9.0, 13.0) * ball.radius;
-  const ViewRays view = testing::pinhole(eye, ball.centre + dvec3(1.2 * ball.radius), 0.27, side, side);
+  const dvec3 eye = ball.centre + dvec3(7.0, 5.5, 8.0) * ball.radius;
+  const ViewRays view = testing::pinhole(eye, ball.centre + dvec3(0.3 * ball.radius), 0.27, side, side);
   for (int i = 0; i < side * side; ++i) {
     const vec3 direction = view.d0 + (static_cast<float>(i % side) + 0.5f) * view.dx +
                            (static_cast<float>(i / side) + 0.5f) * view.dy;
