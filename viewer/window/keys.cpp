@@ -167,6 +167,7 @@ void draw_help(Ui& ui, ImVec2 window) {
   ImGui::SetNextWindowPos({(window.x - size.x) / 2, window.y / 2}, ImGuiCond_Always, {0, 0.5f});
   ImGui::SetNextWindowSizeConstraints({size.x, 0}, size);
   ImGui::SetNextWindowFocus();
+  ImGui::PushStyleVar(ImGuiStyleVar_WindowBorderSize, 1);
   ImGui::Begin("##help", nullptr,
                ImGuiWindowFlags_NoTitleBar | ImGuiWindowFlags_NoMove | ImGuiWindowFlags_NoResize |
                    ImGuiWindowFlags_AlwaysAutoResize | ImGuiWindowFlags_NoSavedSettings);
@@ -179,6 +180,7 @@ void draw_help(Ui& ui, ImVec2 window) {
   ImGui::Columns(1);
   dim_text("Every setting is also an option: tenebra view --help");
   ImGui::End();
+  ImGui::PopStyleVar();
 }
 
 }  // namespace tenebra::viewer

@@ -127,11 +127,11 @@ void draw_compare_section(Ui& ui) {
   if (difference.differing == 0) {
     ImGui::TextUnformatted("none: the same picture");
   } else {
-    ImGui::TextUnformatted(fmt::format("{} pixels ({:.2f} %), largest {}", difference.differing,
-                                       100.0 * static_cast<double>(difference.differing) /
-                                           static_cast<double>(difference.pixels),
-                                       difference.largest)
-                               .c_str());
+    ImGui::TextUnformatted(fmt::format("{} pixels, most {}", difference.differing, difference.largest).c_str());
+    tooltip(fmt::format("{:.2f} % of the pixels differ; the largest difference of a channel is {} of 255.",
+                        100.0 * static_cast<double>(difference.differing) / static_cast<double>(difference.pixels),
+                        difference.largest)
+                .c_str());
   }
 }
 
