@@ -74,7 +74,7 @@ struct DisplacementField {
                             ///< -1..1, 255 no hit; 32: a float, 2 no hit. Three bytes more at the end.
   std::vector<float> mean;  ///< 1 bit: what all hits from position p stand for; else empty
   std::vector<std::uint32_t> close;  ///< one bit a cell of the cube around the unit sphere (near_cells.h):
-                                     ///< set where the object is nearer than `cell()`
+                                     ///< set next to the object, at least within a quarter of `cell()`
 
   /// Width of a cell of the unit sphere, were all of the table's entries chords: what the field resolves.
   float cell() const;

@@ -15,8 +15,8 @@ namespace tenebra {
 enum class FieldEnds {
   first,  ///< the paper's: the first hit along the whole chord, nothing if it lies behind the origin
   both,   ///< if it lies behind, the first hit seen from the other end of the chord. Origins are in the open:
-         ///< one that seems to lie between the hits, but within half a cell's diagonal of one, is on its
-         ///< outer side.
+          ///< one that seems to lie between the hits, but within half a cell's diagonal of one, is on its
+          ///< outer side.
 };
 
 /// A field where an object stands. Any invertible affine transform will do, sheared and mirrored ones too:

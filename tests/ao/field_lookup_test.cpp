@@ -53,7 +53,7 @@ TEST(FieldLookup, FindsABallWhereItIs) {
   const Object ball = testing::ball({3, -2, 1}, vec3(2), 24);
   for (const FieldLayout layout : {paper, chords}) {
     for (const int bits : {8, 32}) {
-      const DisplacementField field = ball.field({layout, 4225, 1024, bits});
+      const DisplacementField field = ball.field({layout, 1225, 784, bits});
       const FieldInstance instance = *place_field(field, nullptr, dmat4(1));
       // Through the middle, from outside, from on the sphere, from far away.
       for (const double from : {2.001, 2.5, 5.0, 100.0}) {

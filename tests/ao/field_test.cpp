@@ -7,6 +7,7 @@
 
 #include "ao/displacement_field.h"
 #include "ao/field_chords.h"
+#include "ao/near_cells.h"
 #include "ao/objects.h"
 #include "parallel/parallel.h"
 #include "support/seeded_random.h"
@@ -181,6 +182,46 @@ TEST(Field, ReportsProgressAndStops) {
   ASSERT_FALSE(stopped);
   EXPECT_EQ(stopped.error().message, "stopped");
   EXPECT_EQ(calls, 3);
+}
+
+TEST(NearCells, HoldAllThatIsNearAndLittleElse) {
+  Random random(8);
+  for (const Object& object : {testing::table(), testing::ball({5, 6, 7}, {1, 2, 3}, 40)}) {
+    const Ellipsoid bound = bounding_ellipsoid(object.positions, object.triangles, chords);
+    constexpr float reach = 0.03f;
+    const std::vector<std::uint32_t> bits = close_cells(object.positions, object.triangles, bound, reach);
+    ASSERT_EQ(bits.size(), near_words);
+    const auto close = [&](dvec3 unit) {
+      const glm::ivec3 c = glm::clamp(glm::ivec3((unit + 1.0) * (near_side / 2.0)), 0, near_side - 1);
+      const int place = (c.z * near_side + c.y) * near_side + c.x;
+      return (bits[static_cast<std::size_t>(place / 32)] >> place % 32 & 1) != 0;
+    };
+    const auto in_unit = [&](dvec3 p) { return (p - bound.centre) / bound.axes; };
+    for (int i = 0; i < 20000; ++i) {
+      const glm::uvec3 t =
+          object.triangles[random.index(static_cast<std::uint32_t>(object.triangles.size()))];
+      const dvec3 a(object.positions[t.x]), b(object.positions[t.y]), c(object.positions[t.z]);
+      const double u = random.unit(), v = (1 - u) * random.unit();
+      const dvec3 near = in_unit(a + u * (b - a) + v * (c - a)) + reach * random.unit() * random.direction();
+      if (glm::dot(near, near) > 1) continue;
+      EXPECT_TRUE(close(near));
+    }
+    // Nothing within a tenth in any direction: not close.
+    const TriangleBvh bvh = object.bvh();
+    int far = 0;
+    for (int i = 0; i < 2000; ++i) {
+      const dvec3 p = random.in_cube(0.57);
+      bool free = true;
+      for (int k = 0; k < 200 && free; ++k)
+        free = !bvh_kernels(SimdLevel::automatic)
+                    .any(bvh, {vec3(bound.centre + bound.axes * p), vec3(bound.axes * random.direction()), 0,
+                               0.15f});
+      if (!free) continue;
+      ++far;
+      EXPECT_FALSE(close(p));
+    }
+    EXPECT_GT(far, 100);
+  }
 }
 
 TEST(Field, RefusesAMeshWithoutArea) {
