@@ -76,18 +76,31 @@ float PixelReceivers::blurred(std::span<const float> values, int x, int y) const
   const float fx = (static_cast<float>(x - step_ / 2)) / static_cast<float>(step_);
   const float fy = (static_cast<float>(y - step_ / 2)) / static_cast<float>(step_);
   const int x0 = static_cast<int>(std::floor(fx)) - 1, y0 = static_cast<int>(std::floor(fy)) - 1;
+  const int x1 = std::min(x0 + 4, width_), y1 = std::min(y0 + 4, height_);
+  const auto value_at = [&](int cx, int cy) {
+    return values[static_cast<std::size_t>(cy) * static_cast<std::size_t>(width_) +
+                  static_cast<std::size_t>(cx)];
+  };
+  float least = 1, most = 0;
+  for (int cy = std::max(0, y0); cy < y1; ++cy) {
+    for (int cx = std::max(0, x0); cx < x1; ++cx)
+      least = std::min(least, value_at(cx, cy)), most = std::max(most, value_at(cx, cy));
+  }
+  if (least >= most) return least;  // all alike: nothing to weigh
   float sum = 0, total = 0, nearest = 1, best = -1;
-  for (int cy = std::max(0, y0); cy < std::min(y0 + 4, height_); ++cy) {
-    for (int cx = std::max(0, x0); cx < std::min(x0 + 4, width_); ++cx) {
+  for (int cy = std::max(0, y0); cy < y1; ++cy) {
+    for (int cx = std::max(0, x0); cx < x1; ++cx) {
       const std::size_t there = pixel(cx, cy);
       if (frame_.points.triangles[there] == no_triangle) continue;
       const float dx = static_cast<float>(cx) - fx, dy = static_cast<float>(cy) - fy;
-      const auto off = static_cast<float>(std::abs(glm::dot(frame_.points.positions[there] - p, dvec3(n))));
+      const auto off =
+          static_cast<float>(std::abs(glm::dot(frame_.points.positions[there] - p, dvec3(n)))) / reach_;
       const float alike = std::max(0.0f, glm::dot(n, frame_.normals[there]));
       const float a2 = alike * alike, a4 = a2 * a2;
-      const float weight = std::exp(-0.5f * (dx * dx + dy * dy)) * a4 * a4 * std::exp(-off * 32 / reach_);
-      const float value = values[static_cast<std::size_t>(cy) * static_cast<std::size_t>(width_) +
-                                 static_cast<std::size_t>(cx)];
+      const float x_weight = 1 - dx * dx / 4, y_weight = 1 - dy * dy / 4;  // 0 at the window's edge
+      const float plane = 1 / (1 + 8 * off), plane2 = plane * plane;
+      const float weight = x_weight * x_weight * y_weight * y_weight * a4 * a4 * plane2 * plane2;
+      const float value = value_at(cx, cy);
       sum += weight * value, total += weight;
       if (weight > best) best = weight, nearest = value;
     }
