@@ -37,8 +37,8 @@ AreaLight square_light(const Soup& soup, glm::vec3 centre) {
   return light ? *light : AreaLight{};
 }
 
-SoftCase frame_case(const SceneFrame& frame, int width, int height) {
-  SoftCase c;
+GroupCase frame_case(const SceneFrame& frame, int width, int height) {
+  GroupCase c;
   c.name = fmt::format("{} {}", frame.scene, frame.frame);
   Expected<Scene> scene = import_scene(path_of(frame));
   if (!scene) {
@@ -63,7 +63,7 @@ SoftCase frame_case(const SceneFrame& frame, int width, int height) {
 }
 
 void expect_no_blocker_left_out(const SceneFrame& frame) {
-  const SoftCase c = frame_case(frame, 320, 180);
+  const GroupCase c = frame_case(frame, 320, 180);
   if (::testing::Test::HasFailure()) return;
   ShaftCheck check(c);
   Tally tally;
