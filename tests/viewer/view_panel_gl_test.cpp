@@ -61,13 +61,14 @@ public:
     gl_->clear(window_.width, window_.height);
     ImGui_ImplOpenGL3_RenderDrawData(ImGui::GetDrawData());
     viewer_->after_draw(window_.width, window_.height);
+    gl_->read_window(1, 1);  // waits, as a swap would: frames that pile up would starve the worker's
   }
   template <class Condition>
   bool turn_until(Condition condition, double seconds = 60) {
     const auto end = std::chrono::steady_clock::now() + std::chrono::duration<double>(seconds);
     while (!condition() && std::chrono::steady_clock::now() < end) {
       turn();
-      std::this_thread::sleep_for(std::chrono::milliseconds(2));
+      std::this_thread::sleep_for(std::chrono::milliseconds(10));
     }
     return condition();
   }

@@ -102,7 +102,7 @@ TEST(ViewWindow, PlaysScrubsStepsAndLoops) {
   session.expect_state("loop", false, [&] { session.click("loop"); });
   session.key("End");
   EXPECT_EQ(session.wait_for_picture()["time_s"], 10.0);
-  session.expect_state("speed", -4.0, [&] { session.move_to("speed", 0.001), session.press(), session.release(); });
+  session.expect_state("speed", -4.0, [&] { session.move_to("speed", 0.01), session.press(), session.release(); });
   from = session.count();
   session.expect_state("playing", true, [&] { session.key("space"); });
   session.wait_for(from + 1, "the stop at the begin", [](const Json& event) {
@@ -355,9 +355,9 @@ TEST(ViewWindow, LogsRecordsAndLeaves) {
     return text.substr(at + 1, text.find('\n', at + 1) - at - 1);
   };
   EXPECT_EQ(header(log), header(render_log)) << "the same columns";
-  EXPECT_NE(log.find("\n0,0.000000000,"), std::string::npos) << log;
-  EXPECT_NE(log.find("\n1,0.033333333,"), std::string::npos) << log;
-  EXPECT_NE(log.find("\n2,0.066666667,"), std::string::npos) << log;
+  EXPECT_NE(log.find("\n0,0,"), std::string::npos) << log;
+  EXPECT_NE(log.find("\n1,0.0333333333,"), std::string::npos) << log;
+  EXPECT_NE(log.find("\n2,0.0666666667,"), std::string::npos) << log;
 }
 
 TEST(ViewWindow, ResizesAndExplainsItself) {

@@ -178,6 +178,11 @@ private:
     while (draws() == before && std::chrono::steady_clock::now() < end) {
       std::this_thread::sleep_for(std::chrono::milliseconds(20));
     }
+    // A key or button that comes up again is drawn for itself.
+    for (std::size_t drawn = before; drawn != draws();) {
+      drawn = draws();
+      std::this_thread::sleep_for(std::chrono::milliseconds(250));
+    }
   }
 
   const VirtualDisplay& display_;
