@@ -7,7 +7,8 @@
 
 namespace tenebra::viewer {
 
-/// The bundled scene `name`: of the installation that the program is in, else of the checkout it was built from.
+/// The bundled scene `name`: of the installation that the program is in, else of the checkout it was built
+/// from.
 Expected<std::filesystem::path> bundled_scene(const std::string& name);
 
 }  // namespace tenebra::viewer

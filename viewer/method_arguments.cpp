@@ -30,7 +30,8 @@ void add_soft(Arguments& arguments, const MethodOptions& options) {
   const AreaLightSettings& lights = options.render.area_lights;
   if (options.light_size) {
     const glm::vec2 size = options.light_size->size;
-    arguments.add("--light-size", fmt::format("{}x{}{}", size.x, size.y, options.light_size->percent ? "%" : ""));
+    arguments.add("--light-size",
+                  fmt::format("{}x{}{}", size.x, size.y, options.light_size->percent ? "%" : ""));
     if (const auto& facing = lights.facing) {
       arguments.add("--light-facing", fmt::format("{},{},{}", facing->x, facing->y, facing->z));
     }

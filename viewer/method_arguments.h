@@ -7,8 +7,8 @@
 
 namespace tenebra::viewer {
 
-/// "--shadows soft --light-size 0.5x0.5 ...": every option whose value is not the default, in the order of the
-/// help. Read by add_method_options it gives the same settings.
+/// "--shadows soft --light-size 0.5x0.5 ...": every option whose value is not the default, in the order of
+/// the help. Read by add_method_options it gives the same settings.
 std::string method_arguments(const MethodOptions& options);
 
 }  // namespace tenebra::viewer

@@ -10,11 +10,12 @@ constexpr const char* window_group = "Window";
 constexpr const char* compare_group = "Compare and explain";
 constexpr const char* output_group = "Output";
 
-constexpr std::array show_choices{Choice<CompareView>{"a", CompareView::a}, Choice<CompareView>{"b", CompareView::b},
-                                  Choice<CompareView>{"side", CompareView::side_by_side},
-                                  Choice<CompareView>{"wipe", CompareView::wipe},
-                                  Choice<CompareView>{"difference", CompareView::difference}};
-constexpr std::array overlay_choices{Choice<Overlay>{"none", Overlay::none}, Choice<Overlay>{"nodes", Overlay::nodes},
+constexpr std::array show_choices{
+    Choice<CompareView>{"a", CompareView::a}, Choice<CompareView>{"b", CompareView::b},
+    Choice<CompareView>{"side", CompareView::side_by_side}, Choice<CompareView>{"wipe", CompareView::wipe},
+    Choice<CompareView>{"difference", CompareView::difference}};
+constexpr std::array overlay_choices{Choice<Overlay>{"none", Overlay::none},
+                                     Choice<Overlay>{"nodes", Overlay::nodes},
                                      Choice<Overlay>{"classes", Overlay::classes}};
 constexpr std::array navigate_choices{Choice<CameraMode>{"scene", CameraMode::scene},
                                       Choice<CameraMode>{"orbit", CameraMode::orbit},
@@ -59,22 +60,26 @@ Expected<MethodOptions> parse_method(const std::string& text, const MethodOption
   } catch (const CLI::ParseError& error) {
     return fail("--compare: {}", error.what());
   }
-  if (auto checked = check_method_options(method); !checked) return fail("--compare: {}", checked.error().message);
+  if (auto checked = check_method_options(method); !checked)
+    return fail("--compare: {}", checked.error().message);
   return method;
 }
 
 void add_window_options(CLI::App& command, ViewOptions& options) {
   const auto group = [](CLI::Option* option) { option->group(window_group); };
-  group(add_value(command, "--window", options.window, parse_size, "Size of the window [1280x720]")->type_name("WxH"));
+  group(add_value(command, "--window", options.window, parse_size, "Size of the window [1280x720]")
+            ->type_name("WxH"));
   group(command.add_flag("--panel,!--no-panel", options.panel, "The panel at the right [yes]"));
   group(command.add_flag("--play", options.play, "Start playing"));
   group(add_value(command, "--speed", options.speed, parse_speed, "Of playing; below 0: backwards [1]")
             ->type_name("-4..4"));
   group(command.add_flag("--loop,!--no-loop", options.loop, "Begin again at the end [yes]"));
-  group(command.add_flag("--fixed-step", options.fixed_step,
-                         "Every picture is the next frame, however long it takes,\ninstead of time by the clock"));
-  group(add_choice<navigate_choices>(command, "--navigate", options.navigate,
-                                     "Whose camera: the scene's, or one that orbits or flies\n[scene; orbit with --eye]"));
+  group(command.add_flag(
+      "--fixed-step", options.fixed_step,
+      "Every picture is the next frame, however long it takes,\ninstead of time by the clock"));
+  group(add_choice<navigate_choices>(
+      command, "--navigate", options.navigate,
+      "Whose camera: the scene's, or one that orbits or flies\n[scene; orbit with --eye]"));
   command
       .add_option_function<std::vector<std::string>>(
           "--set-light",
@@ -85,7 +90,8 @@ void add_window_options(CLI::App& command, ViewOptions& options) {
               }
             }
           },
-          "\"N KEY=VALUE ...\" changes light N: on=0, intensity=FACTOR,\nmove=X,Y,Z, size=FACTOR; may be repeated")
+          "\"N KEY=VALUE ...\" changes light N: on=0, intensity=FACTOR,\nmove=X,Y,Z, size=FACTOR; may be "
+          "repeated")
       ->type_name("TEXT")
       ->allow_extra_args(false)
       ->group(window_group);
@@ -93,11 +99,14 @@ void add_window_options(CLI::App& command, ViewOptions& options) {
 
 void add_compare_options(CLI::App& command, ViewOptions& options) {
   const auto group = [](CLI::Option* option) { option->group(compare_group); };
-  group(command.add_option("--compare", options.compare_text,
-                           "--compare=\"OPTIONS\": a second method B, this one (A) with\nother shadow or ao options")
+  group(command
+            .add_option(
+                "--compare", options.compare_text,
+                "--compare=\"OPTIONS\": a second method B, this one (A) with\nother shadow or ao options")
             ->type_name("TEXT"));
   group(add_choice<show_choices>(command, "--show", options.show, "How A and B are shown [wipe]"));
-  group(add_value(command, "--wipe", options.wipe, parse_wipe, "Where the wipe stands [0.5]")->type_name("0..1"));
+  group(add_value(command, "--wipe", options.wipe, parse_wipe, "Where the wipe stands [0.5]")
+            ->type_name("0..1"));
   group(add_choice<overlay_choices>(command, "--overlay", options.overlay,
                                     "nodes visited for each pixel, or classes of the soft\nshadows [none]"));
 }
@@ -105,24 +114,28 @@ void add_compare_options(CLI::App& command, ViewOptions& options) {
 void add_output_options(CLI::App& command, ViewOptions& options) {
   const auto group = [](CLI::Option* option) { option->group(output_group); };
   options.shots = OutputPattern::parse("tenebra_%04d.png").value();
-  group(add_value(command, "--shots", options.shots, parse_numbered, "Names of screenshots [tenebra_%04d.png]")
-            ->type_name("FILE.png"));
+  group(
+      add_value(command, "--shots", options.shots, parse_numbered, "Names of screenshots [tenebra_%04d.png]")
+          ->type_name("FILE.png"));
   group(add_value(command, "--record", options.record, parse_numbered,
                   "Plays the animation once by fixed steps and writes every\npicture, %04d is the frame")
             ->type_name("FILE.png"));
   group(command.add_option("--log", options.log, "Time and work of each frame, as of tenebra render")
             ->type_name("FILE.csv"));
-  group(add_value(command, "--exit-after", options.exit_after, parse_count, "Quit after so many pictures [0: stay]")
+  group(add_value(command, "--exit-after", options.exit_after, parse_count,
+                  "Quit after so many pictures [0: stay]")
             ->type_name("N"));
   group(command.add_option("--report", options.report, "What happened, one JSON object a line; for scripts")
             ->type_name("FILE"));
-  group(command.add_flag("--gl-debug", options.gl_debug, "OpenGL debug contexts; complaints go to the report"));
-  group(add_value(command, "--context", options.context,
-                  +[](const std::string& text) -> Expected<gl::ContextKind> {
-                    if (const auto kind = gl::context_kind_from_name(text)) return *kind;
-                    return fail("found {}, expected auto, egl or osmesa", text);
-                  },
-                  "OpenGL of the pictures [auto: EGL, else OSMesa]")
+  group(
+      command.add_flag("--gl-debug", options.gl_debug, "OpenGL debug contexts; complaints go to the report"));
+  group(add_value(
+            command, "--context", options.context,
+            +[](const std::string& text) -> Expected<gl::ContextKind> {
+              if (const auto kind = gl::context_kind_from_name(text)) return *kind;
+              return fail("found {}, expected auto, egl or osmesa", text);
+            },
+            "OpenGL of the pictures [auto: EGL, else OSMesa]")
             ->type_name("auto|egl|osmesa"));
 }
 

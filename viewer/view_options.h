@@ -1,4 +1,5 @@
-// The options of `tenebra view`: scene and method as every command has them, and what its window can be set to.
+// The options of `tenebra view`: scene and method as every command has them, and what its window can be set
+// to.
 #pragma once
 
 #include <CLI/CLI.hpp>
@@ -32,7 +33,7 @@ struct ViewOptions {
   float wipe = 0.5f;
   Overlay overlay = Overlay::none;
 
-  std::optional<OutputPattern> shots;   ///< names of screenshots
+  std::optional<OutputPattern> shots;  ///< names of screenshots
   std::optional<OutputPattern> record;
   std::string log;
   int exit_after = 0;  ///< pictures; 0: stay
