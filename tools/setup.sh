@@ -8,6 +8,7 @@ packages=(
   libegl-dev libopengl-dev libegl1 libegl-mesa0 libgl1-mesa-dri libosmesa6
   libglm-dev libfmt-dev libexpected-dev libtinygltf-dev libtinyobjloader-dev
   nlohmann-json3-dev libcli11-dev libstb-dev libtbb-dev libhwy-dev
+  libzstd-dev libxxhash-dev
   libglfw3-dev libimgui-dev libgl1 libglx-mesa0 fonts-dejavu-core
 )
 if [[ "${1:-}" == --tests ]]; then

@@ -46,8 +46,7 @@ Expected<int> compare(const CompareOptions& options) {
       compare_pictures(*a, *b, options.threshold, options.output.empty() ? nullptr : &marked);
   if (!options.output.empty()) {
     const StopSignals stop;
-    if (auto written = write_png(options.output, marked); !written)
-      return tl::unexpected(written.error());
+    if (auto written = write_png(options.output, marked); !written) return tl::unexpected(written.error());
   }
   print_out("{}: {} of {} pixels differ by more than {}, largest difference {} of 255\n",
             result.differing == 0 ? "same" : "different", result.differing, result.pixels, options.threshold,

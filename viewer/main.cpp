@@ -54,12 +54,14 @@ int parse_and_run(CLI::App& program, Run& run, int argc, char** argv) {
   } catch (const CLI::ParseError& error) {
     const bool named = argc > 1 && argv[1][0] != '-';
     if (named && program.get_subcommands().empty()) {
-      return report(fmt::format("unknown command '{}', expected view, render, info, convert or compare", argv[1]),
-                    failure);
+      return report(
+          fmt::format("unknown command '{}', expected view, render, info, convert or compare", argv[1]),
+          failure);
     }
     return report(error.what(), failure_code());
   }
-  if (!run) return report("give a command: view, render, info, convert or compare (see tenebra --help)", failure);
+  if (!run)
+    return report("give a command: view, render, info, convert or compare (see tenebra --help)", failure);
   try {
     const auto code = run();
     return code ? flush_output(*code) : report(code.error().message, failure_code());

@@ -99,8 +99,8 @@ public:
 
     Progress progress(static_cast<int>(plan_.frames.size()), options_.quiet);
     for (const PlannedFrame& frame : plan_.frames) {
-      const auto drawn = draw(*renderer, frame, progress, stop);
-      if (stop.caught() != 0 && !drawn) break;
+      const auto drawn = draw(*renderer, frame, progress, stop.flag());
+      if (!drawn && drawn.error().message == "stopped") break;
       if (!drawn) return drawn;
       progress.show(static_cast<int>(records_.size()));
       if (stop.caught() != 0) break;
@@ -112,17 +112,13 @@ public:
 
 private:
   Expected<void> draw(Renderer& renderer, const PlannedFrame& planned, Progress& progress,
-                      StopSignals& signals) {
+                      const StopFlag& stop) {
     const auto begin = Clock::now();
     evaluate_frame(plan_.scene, plan_.clip, planned.time_s, input_.geometry);
     input_.lights = evaluate_lights(plan_.scene, plan_.clip, planned.time_s);
     input_.view = view_of(plan_, options_.scene, planned.time_s, plan_.size);
     const double evaluate_ms = milliseconds(Clock::now() - begin);
-    StopFlag stop;
-    const auto on_progress = [&](std::string_view what, double done) {
-      progress.show_building(what, done);
-      if (signals.caught() != 0) stop.request();
-    };
+    const auto on_progress = [&](std::string_view what, double done) { progress.show_building(what, done); };
     if (auto drawn = renderer.render_frame(input_, plan_.settings, result_, on_progress, &stop); !drawn)
       return drawn;
     if (!options_.quiet) progress.print_notes(result_.notes);

@@ -21,9 +21,10 @@ constexpr const char* examples =
     "  tenebra render scenes/city.glb --shadows soft --light-size 2% --ao field --frames 0:9\n"
     "      point lights made squares, and ambient occlusion\n"
     "\n"
-    "Frames count from 0; A:B includes B; A: and all run to the end. Ctrl-C stops after the frame at hand, "
-    "with the\n"
-    "log whole. Files are whole or absent; the last folder of a picture's name is made if it is missing.\n"
+    "Frames count from 0; A:B includes B; A: and all run to the end. Ctrl-C drops the frame at hand and "
+    "leaves\n"
+    "those before it, with the log whole. Files are whole or absent; the last folder of a picture's name is "
+    "made if it is missing.\n"
     "Exit code: 0 done, 1 failed (one sentence says why), 130 or 143 stopped by a signal.";
 
 Expected<gl::ContextKind> parse_context(const std::string& text) {

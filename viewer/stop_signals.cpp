@@ -1,5 +1,6 @@
 #include "stop_signals.h"
 
+#include <chrono>
 #include <ctime>
 #include <initializer_list>
 
@@ -9,16 +10,31 @@ StopSignals::StopSignals() {
   sigemptyset(&held_);
   for (const int signal : {SIGINT, SIGTERM, SIGHUP}) sigaddset(&held_, signal);
   pthread_sigmask(SIG_BLOCK, &held_, &before_);
+  watcher_ = std::jthread([this](const std::stop_token& ended) {
+    while (!ended.stop_requested()) {
+      take();
+      std::this_thread::sleep_for(std::chrono::milliseconds(20));
+    }
+  });
 }
 
 StopSignals::~StopSignals() {
-  caught();  // taken here, so that lifting the mask does not end the program
+  watcher_.request_stop();
+  watcher_.join();
+  take();  // so that lifting the mask does not end the program
   pthread_sigmask(SIG_SETMASK, &before_, nullptr);
 }
 
-int StopSignals::caught() {
+void StopSignals::take() {
   const timespec at_once{};
-  for (int signal = 0; (signal = sigtimedwait(&held_, nullptr, &at_once)) > 0;) caught_ = signal;
+  for (int signal = 0; (signal = sigtimedwait(&held_, nullptr, &at_once)) > 0;) {
+    caught_ = signal;
+    flag_.request();
+  }
+}
+
+int StopSignals::caught() {
+  take();
   return caught_;
 }
 

@@ -33,6 +33,8 @@ struct AoConfig {
   AoPlace place = AoPlace::pixels;
   FieldLayout layout = FieldLayout::chords;
   int rays = 64;  ///< a point, cosine-weighted
+  int downscale =
+      1;  ///< pixels: computed at one of so many squared, the rest blurred from those that resemble it
   double distance_m =
       0;  ///< where occlusion has fallen off to nothing; 0: a twentieth of the scene's diagonal
   int positions = 4225;   ///< samples on the bounding sphere, rounded to what the map offers

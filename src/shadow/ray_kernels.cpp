@@ -15,8 +15,6 @@ namespace tenebra::HWY_NAMESPACE {
 
 namespace {
 
-using Int16 = Pack<std::int32_t, 16>;
-
 constexpr int curve_bits = 14;
 
 // Hilbert index of cells x, y, highest bits first. `swapped` and `flipped` are all ones where from here on

@@ -288,6 +288,89 @@ HWY_INLINE Pack<T, N> narrowed(Pack<double, N> a) {
   }
 }
 
+/// N floats as doubles.
+template <class P>
+HWY_INLINE P load_widened(const float* from) {
+  const hn::Rebind<float, typename P::Tag> narrow;
+  P p;
+  for (int i = 0; i < P::registers; ++i)
+    p.r[i] = hn::PromoteTo(typename P::Tag(), hn::LoadU(narrow, from + i * P::width));
+  return p;
+}
+template <class P>
+HWY_INLINE Pack3<P> operator-(const Pack3<P>& a, const Pack3<P>& b) {
+  return {a.x - b.x, a.y - b.y, a.z - b.z};
+}
+template <class P>
+HWY_INLINE Pack3<P> cross(const Pack3<P>& a, const Pack3<P>& b) {
+  return {a.y * b.z - a.z * b.y, a.z * b.x - a.x * b.z, a.x * b.y - a.y * b.x};
+}
+
+/// Whether every lane holds.
+template <class T, int N>
+HWY_INLINE bool all_of(Truth<T, N> a) {
+  bool all = true;
+  for (int i = 0; i < Pack<T, N>::registers; ++i) all &= hn::AllTrue(typename Pack<T, N>::Tag(), a.r[i]);
+  return all;
+}
+
+// For tables and for rays against boxes and triangles.
+using Float8 = Pack<float, 8>;
+using Int16 = Pack<std::int32_t, 16>;
+
+/// |a| with the sign of b.
+template <int N>
+HWY_INLINE Pack<float, N> copy_sign(Pack<float, N> a, Pack<float, N> b) {
+  for (int i = 0; i < a.registers; ++i) a.r[i] = hn::CopySign(a.r[i], b.r[i]);
+  return a;
+}
+template <int N>
+HWY_INLINE Pack<float, N> to_float(Pack<std::int32_t, N> a) {
+  Pack<float, N> r;
+  for (int i = 0; i < a.registers; ++i) r.r[i] = hn::ConvertTo(typename Pack<float, N>::Tag(), a.r[i]);
+  return r;
+}
+/// The floats with these bits.
+template <int N>
+HWY_INLINE Pack<float, N> as_float(Pack<std::int32_t, N> a) {
+  Pack<float, N> r;
+  for (int i = 0; i < a.registers; ++i) r.r[i] = hn::BitCast(typename Pack<float, N>::Tag(), a.r[i]);
+  return r;
+}
+/// Lane by lane, by 0..31.
+template <int N>
+HWY_INLINE Pack<std::int32_t, N> shift_right(Pack<std::int32_t, N> a, Pack<std::int32_t, N> by) {
+  for (int i = 0; i < a.registers; ++i) a.r[i] = hn::Shr(a.r[i], by.r[i]);
+  return a;
+}
+/// The T that starts `bytes` bytes after `from`, lane by lane; any alignment.
+template <class T, int N>
+HWY_INLINE Pack<T, N> gather(const void* from, Pack<std::int32_t, N> bytes) {
+  Pack<T, N> r;
+  for (int i = 0; i < r.registers; ++i)
+    r.r[i] = hn::GatherOffset(typename Pack<T, N>::Tag(), static_cast<const T*>(from), bytes.r[i]);
+  return r;
+}
+/// a <= b; false where either is NaN.
+template <class T, int N>
+HWY_INLINE Truth<T, N> not_above(Pack<T, N> a, Pack<T, N> b) {
+  Truth<T, N> t;
+  for (int i = 0; i < a.registers; ++i) t.r[i] = hn::Le(a.r[i], b.r[i]);
+  return t;
+}
+/// Lanes of `a` where t, of `b` elsewhere.
+template <class T, int N>
+HWY_INLINE Pack<T, N> where(Truth<T, N> t, Pack<T, N> a, Pack<T, N> b) {
+  for (int i = 0; i < a.registers; ++i) a.r[i] = hn::IfThenElse(t.r[i], a.r[i], b.r[i]);
+  return a;
+}
+template <class T, int N>
+HWY_INLINE bool any(Truth<T, N> t) {
+  for (int i = 0; i < Pack<T, N>::registers; ++i)
+    if (!hn::AllFalse(typename Pack<T, N>::Tag(), t.r[i])) return true;
+  return false;
+}
+
 }  // namespace tenebra::HWY_NAMESPACE
 HWY_AFTER_NAMESPACE();
 

@@ -36,7 +36,9 @@ std::optional<SimdLevel> simd_level_from_name(std::string_view name) {
 }
 
 bool simd_level_supported(SimdLevel level) {
-  const auto has = [](std::int64_t target) { return (HWY_TARGETS & hwy::SupportedTargets() & target) != 0; };
+  // Asked once: the answer needs instructions that cost tens of microseconds in a virtual machine.
+  static const std::int64_t supported = HWY_TARGETS & hwy::SupportedTargets();
+  const auto has = [](std::int64_t target) { return (supported & target) != 0; };
   switch (level) {
     case SimdLevel::avx512:
       return has(HWY_AVX3);

@@ -68,18 +68,17 @@ public:
     }
   }
 
-  /// Appends the occluders whose shadow may reach into `box` to `list`, in order; true if one of them covers
-  /// it.
-  HWY_NOINLINE bool find_all(const LightBox<T>& box, std::vector<std::uint32_t>& list) const {
+  /// Appends the occluders whose shadow may reach the light to `list`, largest first; true if one covers it.
+  HWY_NOINLINE bool find_all(std::vector<std::uint32_t>& list) {
+    shadows_.clear();
     for (std::size_t b = 0; b < at_point_.size(); ++b) {
-      if (at_point_[b].reaching == 0) continue;
-      const Reach reach = reach_of(at_point_[b], box);
-      const std::size_t valid = HWY_MIN(std::size_t{16}, order_.size() - 16 * b);
-      const std::uint32_t all = ((1u << valid) - 1u) & at_point_[b].reaching;
-      if ((reach.covering & all) != 0) return true;
-      for (std::uint32_t bits = reach.meeting & all; bits != 0; bits &= bits - 1) {
-        list.push_back(static_cast<std::uint32_t>(16 * b) +
-                       static_cast<std::uint32_t>(std::countr_zero(bits)));
+      const std::uint32_t reaching = at_point_[b].reaching;
+      if (reaching == 0) continue;
+      const Reach reach = reach_of(at_point_[b]);
+      if ((reach.covering & reaching) != 0) return true;
+      for (std::uint32_t bits = reach.meeting & reaching; bits != 0; bits &= bits - 1) {
+        list.push_back(static_cast<std::uint32_t>(shadows_.size()));
+        add_shadow(b, std::countr_zero(bits));
       }
     }
     return false;
@@ -87,41 +86,34 @@ public:
 
   /// Those of list[first..last) whose shadow may reach into `box`, appended; true if one of them covers it.
   HWY_NOINLINE bool find_among(std::size_t first, std::size_t last, const LightBox<T>& box,
-                               std::vector<std::uint32_t>& list) {
-    for (std::size_t i = first; i < last; i += 16) {
-      const std::size_t valid = HWY_MIN(std::size_t{16}, last - i);
-      for (std::size_t k = 0; k < valid; ++k) {
-        const std::uint32_t id = list[i + k];
-        const Block& from = at_point_[id / 16];
-        for (int side = 0; side < 4; ++side) gathered_.box[side][k] = from.box[side][id % 16];
-        for (int slot = 0; slot < slots_; ++slot) {
-          gathered_.u[slot][k] = from.u[slot][id % 16];
-          gathered_.v[slot][k] = from.v[slot][id % 16];
-          gathered_.w[slot][k] = from.w[slot][id % 16];
-        }
-      }
-      const Reach reach = reach_of(gathered_, box);
-      const std::uint32_t all = (1u << valid) - 1u;
-      if ((reach.covering & all) != 0) return true;
-      for (std::uint32_t bits = reach.meeting & all; bits != 0; bits &= bits - 1) {
-        list.push_back(list[i + static_cast<std::size_t>(std::countr_zero(bits))]);
-      }
+                               std::vector<std::uint32_t>& list) const {
+    const T border[4] = {box.cu + box.hu, box.hu - box.cu, box.cv + box.hv, box.hv - box.cv};
+    const Four border_lanes = load<Four>(border), zero = splat<Four>(T(0));
+    const Four cu = splat<Four>(box.cu), cv = splat<Four>(box.cv);
+    const Four hu = splat<Four>(box.hu), hv = splat<Four>(box.hv);
+    for (std::size_t i = first; i < last; ++i) {
+      const Shadow& shadow = shadows_[list[i]];
+      if (!all_of(less(load<Four>(shadow.box), border_lanes))) continue;
+      const Four u = load<Four>(shadow.u), v = load<Four>(shadow.v);
+      const Four value = u * cu + v * cv + load<Four>(shadow.w);
+      const Four radius = absolute(u) * hu + absolute(v) * hv;
+      if (!all_of(less(zero, value + radius))) continue;
+      if (all_of(less(zero, value - radius))) return true;
+      list.push_back(list[i]);
     }
     return false;
   }
 
-  /// The lines of one occluder at the point; returns their number.
+  /// The lines of a shadow in a list; returns their number.
   HWY_INLINE int lines_of(std::uint32_t id, LightLine<T>* lines) const {
-    const Block& from = at_point_[id / 16];
-    const int count = static_cast<int>(order_[id].occluder->line_count);
-    for (int slot = 0; slot < count; ++slot) {
-      lines[slot] = {from.u[slot][id % 16], from.v[slot][id % 16], from.w[slot][id % 16]};
-    }
-    return count;
+    const Shadow& shadow = shadows_[id];
+    for (int slot = 0; slot < slots_; ++slot) lines[slot] = {shadow.u[slot], shadow.v[slot], shadow.w[slot]};
+    return slots_;
   }
 
 private:
   using Wide = Pack<double, 16>;
+  using Four = Pack<T, 4>;
   struct Entry {
     const Occluder* occluder;
     const PlaneHeight* plane;  ///< of indefinite ones
@@ -132,9 +124,14 @@ private:
     bool indefinite;          ///< one of them is
   };
   struct Block {
-    T box[4][16];  ///< of the shadow: least and greatest u, v
+    T box[4][16];  ///< of the shadow: least u, -greatest u, least v, -greatest v
     std::uint32_t reaching = 0;
     T u[4][16], v[4][16], w[4][16];
+  };
+  /// What an occluder shadows at the point, by itself: four lines (missing ones are positive everywhere) and
+  /// a box, its greatest coordinates negated.
+  struct Shadow {
+    T u[4], v[4], w[4], box[4];
   };
   struct Reach {
     std::uint32_t meeting, covering;
@@ -190,9 +187,9 @@ private:
     high_v = choose(boxed, high_v, one);
     Block& to = at_point_[b];
     store(narrowed<T>(max(low_u, num(-2))), to.box[0]);
-    store(narrowed<T>(min(high_u, num(2))), to.box[1]);
+    store(narrowed<T>(zero - min(high_u, num(2))), to.box[1]);
     store(narrowed<T>(max(low_v, num(-2))), to.box[2]);
-    store(narrowed<T>(min(high_v, num(2))), to.box[3]);
+    store(narrowed<T>(zero - min(high_v, num(2))), to.box[3]);
     return less_bits(zero, highest) & less_bits(low_u, one) & less_bits(minus, high_u) &
            less_bits(low_v, one) & less_bits(minus, high_v);
   }
@@ -238,30 +235,38 @@ private:
     }
   }
 
-  HWY_INLINE Reach reach_of(const Block& lines, const LightBox<T>& box) const {
+  /// Which shadows meet and cover the square around the light.
+  HWY_INLINE Reach reach_of(const Block& lines) const {
     using Lanes = Pack<T, 16>;
     const Lanes zero = splat<Lanes>(T(0));
-    const Lanes cu = splat<Lanes>(box.cu), cv = splat<Lanes>(box.cv);
-    const Lanes hu = splat<Lanes>(box.hu), hv = splat<Lanes>(box.hv);
     Lanes highest = splat<Lanes>(T(1)),
           lowest = highest;  // least over the lines of the greatest, least value
     for (int slot = 0; slot < slots_; ++slot) {
-      const Lanes u = load<Lanes>(lines.u[slot]), v = load<Lanes>(lines.v[slot]);
-      const Lanes value = u * cu + v * cv + load<Lanes>(lines.w[slot]);
-      const Lanes radius = absolute(u) * hu + absolute(v) * hv;
+      const Lanes radius = absolute(load<Lanes>(lines.u[slot])) + absolute(load<Lanes>(lines.v[slot]));
+      const Lanes value = load<Lanes>(lines.w[slot]);
       highest = min(highest, value + radius);
       lowest = min(lowest, value - radius);
     }
-    const std::uint32_t boxes =
-        less_bits(load<Lanes>(lines.box[0]), cu + hu) & less_bits(cu - hu, load<Lanes>(lines.box[1])) &
-        less_bits(load<Lanes>(lines.box[2]), cv + hv) & less_bits(cv - hv, load<Lanes>(lines.box[3]));
-    return {less_bits(zero, highest) & boxes, less_bits(zero, lowest)};
+    return {less_bits(zero, highest), less_bits(zero, lowest)};
+  }
+
+  void add_shadow(std::size_t b, int k) {
+    const Block& from = at_point_[b];
+    Shadow to;
+    for (int slot = 0; slot < 4; ++slot) {
+      const bool there = slot < slots_;
+      to.u[slot] = there ? from.u[slot][k] : T(0);
+      to.v[slot] = there ? from.v[slot][k] : T(0);
+      to.w[slot] = there ? from.w[slot][k] : T(1);
+      to.box[slot] = from.box[slot][k];
+    }
+    shadows_.push_back(to);
   }
 
   std::vector<Entry> order_;
   std::vector<MovingBlock> moving_;
   std::vector<Block> at_point_;
-  Block gathered_{};
+  std::vector<Shadow> shadows_;  ///< of find_all
   int slots_ = 0;
 };
 

@@ -24,32 +24,67 @@ public:
   /// Appends the parts of `light` (convex, within |u|, |v| <= 1) visible from the point to `out`.
   HWY_NOINLINE void query(const LightPolygon<T>& light, FragmentList<T>& out) {
     list_.clear();
-    const LightBox<T> whole;
-    if (candidates_.find_all(whole, list_)) return;
-    solve(light, whole, 0, 0, out);
+    if (candidates_.find_all(list_)) return;
+    solve(light, 0, out);
   }
 
 private:
-  static constexpr std::size_t few = 16;  ///< occluders that are subtracted without more ado
-  static constexpr int deepest = 16;      ///< halvings of the light
+  static constexpr std::size_t few = 32;     ///< occluders that are subtracted without more ado
+  static constexpr std::size_t largest = 8;  ///< occluders that go first where halving does not part them
 
-  /// Subtracts list_[first..] from `part`, the light within `box`.
-  void solve(const LightPolygon<T>& part, const LightBox<T>& box, std::size_t first, int depth,
-             FragmentList<T>& out) {
+  /// Subtracts list_[first..] from `part`; leaves the list as long as it is.
+  void solve(const LightPolygon<T>& part, std::size_t first, FragmentList<T>& out) {
     const std::size_t last = list_.size();
-    if (last - first <= few || depth == deepest) return subtract_all(part, first, last, out);
-    const bool wide = box.hu >= box.hv;
-    for (const T side : {T(-1), T(1)}) {
-      LightBox<T> half = box;
-      (wide ? half.hu : half.hv) *= T(0.5);
-      (wide ? half.cu : half.cv) += side * (wide ? half.hu : half.hv);
-      const LightLine<T> border =
-          wide ? LightLine<T>{side, T(0), -side * box.cu} : LightLine<T>{T(0), side, -side * box.cv};
-      LightPolygon<T> kept = part;
-      if (!keep_side(border, kept)) continue;
-      if (!candidates_.find_among(first, last, half, list_)) solve(kept, half, last, depth + 1, out);
-      list_.resize(last);
+    if (last - first <= few) {
+      FragmentList<T> left = subtract_all(part, first, last);
+      for (std::size_t k = 0; k < left.size(); ++k) out.push(loaded(left[k]));
+      return give_back(std::move(left));
     }
+    if (halve_light(part, first, last, out)) return;
+    FragmentList<T> left = subtract_all(part, first, first + largest);
+    for (std::size_t k = 0; k < left.size(); ++k) {
+      const LightPolygon<T> fragment = loaded(left[k]);
+      const std::size_t from = list_.size();
+      if (!candidates_.find_among(first + largest, last, box_of(fragment), list_)) solve(fragment, from, out);
+      list_.resize(from);
+    }
+    give_back(std::move(left));
+  }
+
+  /// Solves both halves of `part` if that parts the occluders: three quarters of them in only one half, at least.
+  bool halve_light(const LightPolygon<T>& part, std::size_t first, std::size_t last, FragmentList<T>& out) {
+    const LightBox<T> box = box_of(part);
+    const bool wide = box.hu >= box.hv;
+    LightBox<T> low = box;
+    (wide ? low.hu : low.hv) *= T(0.5);
+    LightBox<T> high = low;
+    (wide ? low.cu : low.cv) -= wide ? low.hu : low.hv;
+    (wide ? high.cu : high.cv) += wide ? low.hu : low.hv;
+    const bool low_covered = candidates_.find_among(first, last, low, list_);
+    if (low_covered) list_.resize(last);
+    const std::size_t middle = list_.size();
+    const bool high_covered = candidates_.find_among(first, last, high, list_);
+    if (high_covered) list_.resize(middle);
+    const std::size_t count = list_.size() - last;
+    const bool parted = low_covered || high_covered || 4 * count < 5 * (last - first);
+    if (parted) {
+      const T sign = -1;
+      const LightLine<T> below = wide ? LightLine<T>{sign, 0, box.cu} : LightLine<T>{0, sign, box.cv};
+      const LightLine<T> above = wide ? LightLine<T>{1, 0, -box.cu} : LightLine<T>{0, 1, -box.cv};
+      LightPolygon<T> kept = part;
+      if (!high_covered && keep_side(above, kept)) solve(kept, middle, out);
+      list_.resize(middle);
+      kept = part;
+      if (!low_covered && keep_side(below, kept)) solve(kept, last, out);
+    }
+    list_.resize(last);
+    return parted;
+  }
+
+  static HWY_INLINE LightBox<T> box_of(const LightPolygon<T>& polygon) {
+    const T low_u = least(polygon.x), high_u = greatest(polygon.x);
+    const T low_v = least(polygon.y), high_v = greatest(polygon.y);
+    return {(low_u + high_u) / 2, (low_v + high_v) / 2, (high_u - low_u) / 2, (high_v - low_v) / 2};
   }
 
   /// Cuts `polygon` to the line's positive side; false if nothing is left.
@@ -63,22 +98,35 @@ private:
     return true;
   }
 
-  void subtract_all(const LightPolygon<T>& part, std::size_t first, std::size_t last, FragmentList<T>& out) {
-    now_.clear();
-    now_.push(part);
-    for (std::size_t i = first; i < last && !now_.empty(); ++i) {
+  /// What list_[first..last) leaves of `part`.
+  HWY_NOINLINE FragmentList<T> subtract_all(const LightPolygon<T>& part, std::size_t first,
+                                            std::size_t last) {
+    FragmentList<T> now = take();
+    now.push(part);
+    for (std::size_t i = first; i < last && !now.empty(); ++i) {
       LightLine<T> lines[4];
       const int count = candidates_.lines_of(list_[i], lines);
       next_.clear();
-      for (std::size_t k = 0; k < now_.size(); ++k) subtract(loaded(now_[k]), lines, count, next_);
-      now_.swap(next_);
+      for (std::size_t k = 0; k < now.size(); ++k) subtract(loaded(now[k]), lines, count, next_);
+      now.swap(next_);
     }
-    for (std::size_t k = 0; k < now_.size(); ++k) out.push(loaded(now_[k]));
+    return now;
   }
 
+  FragmentList<T> take() {
+    if (spare_.empty()) return {};
+    FragmentList<T> list = std::move(spare_.back());
+    spare_.pop_back();
+    list.clear();
+    return list;
+  }
+  void give_back(FragmentList<T> list) { spare_.push_back(std::move(list)); }
+
   ClipCandidates<T> candidates_;
-  std::vector<std::uint32_t> list_;
-  FragmentList<T> now_, next_;
+  std::vector<std::uint32_t>
+      list_;  ///< occluders that reach the parts at hand, largest first, part after part
+  FragmentList<T> next_;
+  std::vector<FragmentList<T>> spare_;
 };
 
 }  // namespace tenebra::HWY_NAMESPACE

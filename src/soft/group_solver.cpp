@@ -137,7 +137,8 @@ private:
     p.start.clear();
     p.start.push(polygon_of<T>(frame.light.outline));
     keep_positive(p.start, line_of<T>(receiver_.horizon), p.scratch);
-    const double above = receiver_.face == glm::dvec3(0.0) ? 0.0 : area_of(p.start);
+    const bool in_front = glm::dot(point - frame.light.origin, frame.light.normal) > 0;
+    const double above = !in_front || receiver_.face == glm::dvec3(0.0) ? 0.0 : area_of(p.start);
     p.visible.clear();
     if (above > 0)
       find_visible(

@@ -61,22 +61,29 @@ struct VertexRun {
   int first = 0, length = 0;
 };
 
-/// The run of set bits among the lowest `count`. Rounding can break the run of a thin polygon in pieces: the
-/// longest piece then, the others lie within rounding of the line.
-HWY_INLINE VertexRun run_of(std::uint32_t set, int count) {
+/// The vertices of `set` among the lowest `count` bits as a run. Rounding can break the run of a thin polygon
+/// in pieces: then the one around the vertex farthest on the positive side; values fall from there on both
+/// sides, so that what other pieces hold lies within rounding of the line.
+template <class T>
+HWY_INLINE VertexRun run_of(std::uint32_t set, int count, const Pack<T, polygon_capacity>& values) {
   const std::uint32_t all = (1u << count) - 1u;
   set &= all;
-  const std::uint32_t before = ((set << 1) | (set >> (count - 1))) & all;
-  std::uint32_t starts = set & ~before;
-  VertexRun best;
-  while (starts != 0) {
-    const int first = std::countr_zero(starts);
-    starts &= starts - 1;
-    int length = 1;
-    while (length < count && (set >> ((first + length) % count) & 1u) != 0) ++length;
-    if (length > best.length) best = {first, length};
+  const std::uint32_t starts = set & ~(((set << 1) | (set >> (count - 1))) & all);
+  if (std::has_single_bit(starts)) return {std::countr_zero(starts), std::popcount(set)};
+  T lanes[polygon_capacity];
+  store(values, lanes);
+  int farthest = 0;
+  for (int k = 1; k < count; ++k) {
+    if (lanes[k] > lanes[farthest]) farthest = k;
   }
-  return best;
+  const auto positive = [&](int k) { return (set >> ((k + count) % count) & 1u) != 0; };
+  VertexRun run{farthest, 1};
+  while (run.length < count - 1 && positive(farthest + run.length)) ++run.length;
+  while (run.length < count - 1 && positive(run.first - 1)) {
+    run.first = (run.first - 1 + count) % count;
+    ++run.length;
+  }
+  return run;
 }
 
 /// The part of `polygon` at the vertices of `run`, closed by the points where the line crosses the edges that
@@ -121,7 +128,7 @@ template <class T>
 HWY_INLINE void split(const LightPolygon<T>& polygon, const LineValues<T>& line, LightPolygon<T>& positive,
                       LightPolygon<T>& negative) {
   assert(polygon.count < polygon_capacity);
-  const VertexRun run = run_of(line.positive, polygon.count);
+  const VertexRun run = run_of(line.positive, polygon.count, line.value);
   positive = cut(polygon, line.value, run, true);
   negative =
       cut(polygon, line.value, {(run.first + run.length) % polygon.count, polygon.count - run.length}, false);

@@ -105,8 +105,8 @@ BspChild LineClassBsp::grow(std::int32_t parent, int side) {
 }
 
 std::size_t LineClassBsp::bytes() const {
-  return nodes_.capacity() * sizeof(BspNode) + waiting_.capacity() * sizeof(std::uint32_t) +
-         lists_.capacity() * sizeof(Range) + corners_.capacity() * sizeof(dvec3);
+  return nodes_.size() * sizeof(BspNode) + waiting_.size() * sizeof(std::uint32_t) +
+         lists_.size() * sizeof(Range) + corners_.size() * sizeof(dvec3);
 }
 
 }  // namespace tenebra

@@ -37,12 +37,14 @@ public:
   BspChild root() const { return root_; }
   const BspNode* nodes() const { return nodes_.data(); }
 
+  /// Memory in use, not what is kept for later trees: a function of the tree alone.
+  std::size_t bytes() const;
+
   /// Replaces the undefined leaf at `child` (the root: parent < 0) by the classes of one of its occluders and
   /// inserts the others below (Algorithm 1, lines 31 to 35). Returns what stands there now.
   BspChild grow(std::int32_t parent, int side);
 
   std::size_t node_count() const { return nodes_.size(); }
-  std::size_t bytes() const;
 
 private:
   enum class Orientation { negative, mixed, positive };

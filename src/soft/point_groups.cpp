@@ -8,6 +8,7 @@
 #include "math/predicates.h"
 #include "parallel/parallel.h"
 #include "points/triangle_corners.h"
+#include "soft/group_tree.h"
 
 namespace tenebra {
 
@@ -16,10 +17,22 @@ namespace {
 using glm::dvec3;
 
 constexpr std::uint32_t tile = 8;  // pixels a side
+static_assert(tile * tile == largest_neighbourhood);
 
-double length_of(const dvec3& v) {
-  return std::sqrt(glm::dot(v, v));
+double sum(const dvec3& v) {
+  return std::abs(v.x) + std::abs(v.y) + std::abs(v.z);
 }
+
+// Pixels of a tile along a Z curve, so that any range of them lies together.
+struct Offset {
+  std::uint32_t x, y;
+};
+constexpr auto z_curve = [] {
+  std::array<Offset, largest_neighbourhood> offsets{};
+  for (std::uint32_t z = 0; z < offsets.size(); ++z)
+    offsets[z] = {(z & 1) | (z >> 1 & 2) | (z >> 2 & 4), (z >> 1 & 1) | (z >> 2 & 2) | (z >> 3 & 4)};
+  return offsets;
+}();
 
 // What decides whether the points of one triangle are active.
 struct Reach {
@@ -37,126 +50,108 @@ Reach reach_of(const TriangleView& triangles, std::uint32_t id, const ViewRays& 
   for (const glm::dvec2& v : light.outline) {
     const dvec3 q = light.centre + v.x * light.ex + v.y * light.ey;
     // Q is off by 2^-50 of its coordinates, n and the dot product as in predicates.cpp.
-    const double bound = 0x1p-46 * length_of(e1) * length_of(e2) * (length_of(q - a) + length_of(q));
+    const double bound = 0x1p-46 * sum(e1) * sum(e2) * (sum(q - a) + sum(light.centre) + sum(q));
     reach.light_above |= glm::dot(n, q - a) > -bound;
   }
   return reach;
 }
 
-bool in_front(const dvec3& p, const AreaLight& light) {
-  const double bound = 0x1p-48 * (length_of(p) + length_of(light.centre));
-  return glm::dot(p - light.centre, light.normal) > -bound;
-}
-
-// A growing set of groups with the triangle last asked about.
-class Grouper {
+// Answers for the pixels of a frame, and remembers triangles.
+class ActivePoints {
 public:
-  Grouper(const VisiblePoints& points, const ViewRays& view, const TriangleView& triangles,
-          const AreaLight& light, PointGroups& out)
-      : points_(points), view_(view), triangles_(triangles), light_(light), out_(out) {}
+  ActivePoints(const VisiblePoints& points, const ViewRays& view, const TriangleView& triangles,
+               const AreaLight& light)
+      : points_(points), view_(view), triangles_(triangles), light_(light), light_size_(sum(light.centre)) {}
 
-  /// Appends the pixel if it is active.
-  void take(std::uint32_t pixel) {
+  /// The pixel's receiver, if the point is active.
+  const Receiver* receiver(std::uint32_t pixel) {
     const std::uint32_t id = points_.triangles[pixel];
-    if (id >= triangles_.triangles.size()) return;
-    if (id != reach_.receiver.triangle) reach_ = reach_of(triangles_, id, view_, light_);
-    if (!reach_.light_above || !in_front(points_.positions[pixel], light_)) return;
-    taken_.push_back({pixel, reach_.receiver});
+    if (id >= triangles_.triangles.size()) return nullptr;
+    Reach& reach = known_[id % known_.size()];
+    if (id != reach.receiver.triangle) reach = reach_of(triangles_, id, view_, light_);
+    return reach.light_above && in_front(points_.positions[pixel]) ? &reach.receiver : nullptr;
   }
-
-  /// Makes groups of the pixels taken since.
-  void close() {
-    if (!taken_.empty()) split(taken_);
-    taken_.clear();
-  }
-  void close_whole() {
-    if (!taken_.empty()) append(taken_);
-    taken_.clear();
-  }
+  const dvec3& position(std::uint32_t pixel) const { return points_.positions[pixel]; }
 
 private:
-  struct Taken {
-    std::uint32_t pixel;
-    Receiver receiver;
-  };
-
-  const dvec3& at(const Taken& t) const { return points_.positions[t.pixel]; }
-
-  // Splits at the widest gap along the longest side of the box while that gap is wide for the box.
-  void split(std::span<Taken> part) {
-    dvec3 low(INFINITY), high(-INFINITY);
-    for (const Taken& t : part) low = glm::min(low, at(t)), high = glm::max(high, at(t));
-    const dvec3 size = high - low;
-    const int axis = size.x >= size.y && size.x >= size.z ? 0 : size.y >= size.z ? 1 : 2;
-    std::array<double, largest_neighbourhood> along;
-    for (std::size_t i = 0; i < part.size(); ++i) along[i] = at(part[i])[axis];
-    std::sort(along.begin(), along.begin() + part.size());
-    std::size_t widest = 0;
-    for (std::size_t i = 1; i < part.size(); ++i)
-      if (widest == 0 || along[i] - along[i - 1] > along[widest] - along[widest - 1]) widest = i;
-    if (widest == 0 || !(along[widest] - along[widest - 1] > gap_share * size[axis])) {
-      append(part);
-      return;
-    }
-    const double limit = along[widest];
-    const auto middle =
-        std::stable_partition(part.begin(), part.end(), [&](const Taken& t) { return at(t)[axis] < limit; });
-    split({part.begin(), middle});
-    split({middle, part.end()});
+  bool in_front(const dvec3& p) const {
+    return glm::dot(p - light_.centre, light_.normal) > -0x1p-48 * (sum(p) + light_size_);
   }
-
-  void append(std::span<const Taken> part) {
-    PointGroup group;
-    group.first = static_cast<std::uint32_t>(out_.pixels.size());
-    group.count = static_cast<std::uint32_t>(part.size());
-    group.first_receiver = static_cast<std::uint32_t>(out_.receivers.size());
-    group.low = dvec3(INFINITY), group.high = dvec3(-INFINITY);
-    for (const Taken& t : part) {
-      out_.pixels.push_back(t.pixel);
-      out_.positions.push_back(at(t));
-      out_.triangles.push_back(t.receiver.triangle);
-      group.low = glm::min(group.low, at(t)), group.high = glm::max(group.high, at(t));
-      if (out_.receivers.size() == group.first_receiver ||
-          out_.receivers.back().triangle != t.receiver.triangle)
-        out_.receivers.push_back(t.receiver);
-    }
-    const auto begin = out_.receivers.begin() + group.first_receiver;
-    std::sort(begin, out_.receivers.end(), [](auto& a, auto& b) { return a.triangle < b.triangle; });
-    out_.receivers.erase(
-        std::unique(begin, out_.receivers.end(), [](auto& a, auto& b) { return a.triangle == b.triangle; }),
-        out_.receivers.end());
-    group.receiver_count = static_cast<std::uint32_t>(out_.receivers.size()) - group.first_receiver;
-    out_.groups.push_back(group);
-  }
-
-  static constexpr double gap_share = 0.3;  // evenly spaced rows of pixels leave gaps of 1/7
 
   const VisiblePoints& points_;
   const ViewRays& view_;
   const TriangleView& triangles_;
   const AreaLight& light_;
-  PointGroups& out_;
-  Reach reach_;
-  std::vector<Taken> taken_;
+  double light_size_;
+  std::array<Reach, 64> known_;  // by the id's last bits
 };
 
-template <class T>
-void append_to(std::vector<T>& to, const std::vector<T>& from) {
-  to.insert(to.end(), from.begin(), from.end());
+struct Point {
+  std::uint32_t pixel;
+  Receiver receiver;
+};
+
+// Groups of a part of the picture; its points go where the caller says.
+struct Part {
+  std::vector<PointGroup> groups;
+  std::vector<Receiver> receivers;
+  std::uint32_t next = 0;  // place of the next point in PointGroups
+};
+
+void append_group(const ActivePoints& active, std::span<const Point> points, const PointBox& box, Part& part,
+                  PointGroups& out) {
+  PointGroup group;
+  group.first = part.next;
+  group.count = static_cast<std::uint32_t>(points.size());
+  group.first_receiver = static_cast<std::uint32_t>(part.receivers.size());
+  group.low = box.low, group.high = box.high;
+  for (const Point& p : points) {
+    out.pixels[part.next] = p.pixel;
+    out.positions[part.next] = active.position(p.pixel);
+    out.triangles[part.next++] = p.receiver.triangle;
+    if (part.receivers.size() == group.first_receiver ||
+        part.receivers.back().triangle != p.receiver.triangle)
+      part.receivers.push_back(p.receiver);
+  }
+  const auto begin = part.receivers.begin() + group.first_receiver;
+  std::sort(begin, part.receivers.end(), [](auto& a, auto& b) { return a.triangle < b.triangle; });
+  part.receivers.erase(
+      std::unique(begin, part.receivers.end(), [](auto& a, auto& b) { return a.triangle == b.triangle; }),
+      part.receivers.end());
+  group.receiver_count = static_cast<std::uint32_t>(part.receivers.size()) - group.first_receiver;
+  part.groups.push_back(group);
 }
 
-void append(PointGroups& to, const PointGroups& from) {
-  const auto first = static_cast<std::uint32_t>(to.pixels.size());
-  const auto first_receiver = static_cast<std::uint32_t>(to.receivers.size());
-  for (PointGroup group : from.groups) {
-    group.first += first;
-    group.first_receiver += first_receiver;
-    to.groups.push_back(group);
+// Splits where five of sixteen slices across the longest side are empty: rows of pixels evenly spaced along
+// it leave at most two, so this is a gap in depth.
+constexpr int slices = 16;
+constexpr int slices_of_a_gap = 5;
+
+void append_split(const ActivePoints& active, std::span<Point> points, Part& part, PointGroups& out) {
+  PointBox box;
+  for (const Point& p : points) box.add(active.position(p.pixel));
+  const int axis = box.longest_side();
+  const double scale = slices / (box.high[axis] - box.low[axis]);
+  const auto slice = [&](const Point& p) {
+    return std::min(slices - 1, static_cast<int>((active.position(p.pixel)[axis] - box.low[axis]) * scale));
+  };
+  int gap = 0, run = 0;
+  if (std::isfinite(scale)) {
+    std::uint32_t taken = 0;
+    for (const Point& p : points) taken |= 1u << slice(p);
+    for (int k = 0; k < slices && gap == 0; ++k) {
+      run = (taken >> k & 1) != 0 ? 0 : run + 1;
+      if (run == slices_of_a_gap) gap = k;
+    }
   }
-  append_to(to.pixels, from.pixels);
-  append_to(to.positions, from.positions);
-  append_to(to.triangles, from.triangles);
-  append_to(to.receivers, from.receivers);
+  if (gap == 0) {
+    append_group(active, points, box, part, out);
+    return;
+  }
+  const auto middle =
+      std::stable_partition(points.begin(), points.end(), [&](const Point& p) { return slice(p) < gap; });
+  append_split(active, {points.begin(), middle}, part, out);
+  append_split(active, {middle, points.end()}, part, out);
 }
 
 // Pixels by triangle, each triangle's in row order (counting sort).
@@ -173,6 +168,59 @@ std::vector<std::uint32_t> pixels_by_triangle(const VisiblePoints& points, std::
   return pixels;
 }
 
+void append(const Part& part, PointGroups& to) {
+  const auto first_receiver = static_cast<std::uint32_t>(to.receivers.size());
+  for (PointGroup group : part.groups) {
+    group.first_receiver += first_receiver;
+    to.groups.push_back(group);
+  }
+  to.receivers.insert(to.receivers.end(), part.receivers.begin(), part.receivers.end());
+}
+
+void group_by_triangle(std::span<const std::uint32_t> pixels, ActivePoints& active, PointGroups& out) {
+  Part part;
+  std::vector<Point> taken;
+  PointBox box;
+  const auto close = [&] {
+    if (!taken.empty()) append_group(active, taken, box, part, out);
+    taken.clear();
+    box = {};
+  };
+  for (const std::uint32_t pixel : pixels) {
+    const Receiver* receiver = active.receiver(pixel);
+    if (receiver == nullptr) continue;
+    if (!taken.empty() && taken.back().receiver.triangle != receiver->triangle) close();
+    taken.push_back({pixel, *receiver});
+    box.add(active.position(pixel));
+  }
+  close();
+  append(part, out);
+}
+
+// Rows of tiles run in parallel; each has room for all of its pixels.
+void group_tiles(const VisiblePoints& points, auto&& make_active, PointGroups& out) {
+  const auto width = static_cast<std::uint32_t>(points.width);
+  const auto height = static_cast<std::uint32_t>(points.height);
+  std::vector<Part> parts((height + tile - 1) / tile);
+  parallel_tasks(static_cast<int>(parts.size()), [&](int row) {
+    ActivePoints active = make_active();
+    Part& part = parts[row];
+    const std::uint32_t top = static_cast<std::uint32_t>(row) * tile;
+    part.next = top * width;
+    std::array<Point, largest_neighbourhood> taken;
+    for (std::uint32_t left = 0; left < width; left += tile) {
+      std::size_t count = 0;
+      for (const Offset o : z_curve) {
+        if (left + o.x >= width || top + o.y >= height) continue;
+        const std::uint32_t pixel = (top + o.y) * width + left + o.x;
+        if (const Receiver* receiver = active.receiver(pixel)) taken[count++] = {pixel, *receiver};
+      }
+      if (count > 0) append_split(active, {taken.data(), count}, part, out);
+    }
+  });
+  for (const Part& part : parts) append(part, out);
+}
+
 }  // namespace
 
 int seen_side(const TriangleView& triangles, std::uint32_t id, const ViewRays& view) {
@@ -184,36 +232,20 @@ int seen_side(const TriangleView& triangles, std::uint32_t id, const ViewRays& v
 void group_points(const VisiblePoints& points, const ViewRays& view, const TriangleView& triangles,
                   const AreaLight& light, SoftGrouping grouping, PointGroups& out) {
   const FloatEnvironment ieee;
+  out.width = points.width;
   out.groups.clear();
-  out.pixels.clear();
-  out.positions.clear();
-  out.triangles.clear();
   out.receivers.clear();
+  out.pixels.resize(points.triangles.size());
+  out.positions.resize(points.triangles.size());
+  out.triangles.resize(points.triangles.size());
   if (grouping == SoftGrouping::triangle) {
-    Grouper grouper(points, view, triangles, light, out);
-    std::uint32_t current = no_triangle;
-    for (const std::uint32_t pixel : pixels_by_triangle(points, triangles.triangles.size())) {
-      if (points.triangles[pixel] != current) grouper.close_whole();
-      current = points.triangles[pixel];
-      grouper.take(pixel);
-    }
-    grouper.close_whole();
-    return;
+    ActivePoints active(points, view, triangles, light);
+    group_by_triangle(pixels_by_triangle(points, triangles.triangles.size()), active, out);
+  } else {
+    group_tiles(
+        points, [&] { return ActivePoints(points, view, triangles, light); }, out);
   }
-  const auto width = static_cast<std::uint32_t>(points.width),
-             height = static_cast<std::uint32_t>(points.height);
-  const std::uint32_t rows = (height + tile - 1) / tile;
-  std::vector<PointGroups> bands(rows);
-  parallel_tasks(static_cast<int>(rows), [&](int row) {
-    Grouper grouper(points, view, triangles, light, bands[row]);
-    const std::uint32_t top = static_cast<std::uint32_t>(row) * tile;
-    for (std::uint32_t left = 0; left < width; left += tile) {
-      for (std::uint32_t y = top; y < std::min(top + tile, height); ++y)
-        for (std::uint32_t x = left; x < std::min(left + tile, width); ++x) grouper.take(y * width + x);
-      grouper.close();
-    }
-  });
-  for (const PointGroups& band : bands) append(out, band);
+  build_group_tree(out);
 }
 
 }  // namespace tenebra

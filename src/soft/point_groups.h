@@ -30,9 +30,21 @@ struct PointGroup {
   glm::dvec3 low{0.0}, high{0.0};                        ///< box of the points, world space, exact
 };
 
+/// A range of groups with the box of its points. Children follow each other; those of node 0 are the whole.
+struct GroupNode {
+  glm::dvec3 low{0.0}, high{0.0};
+  std::uint32_t first = 0, count = 0;  ///< groups
+  std::uint32_t points = 0;            ///< in all of them
+  std::uint32_t children = 0;          ///< first of two nodes; 0: one group
+};
+
 struct PointGroups {
-  std::vector<PointGroup> groups;
-  std::vector<std::uint32_t> pixels;     ///< group after group; every active pixel once
+  int width = 0;                   ///< pixels in a row of the picture
+  std::vector<GroupNode> nodes;    ///< node 0 is the root; none without groups
+  std::vector<PointGroup> groups;  ///< near ones in space near in the list
+  std::vector<std::uint32_t>
+      pixels;  ///< in the groups' ranges every active pixel once, between them nothing;
+               ///< in a neighbourhood along a Z curve: any range lies together
   std::vector<glm::dvec3> positions;     ///< of these pixels, world space
   std::vector<std::uint32_t> triangles;  ///< of these pixels
   std::vector<Receiver> receivers;       ///< group after group; each triangle once a group, ascending

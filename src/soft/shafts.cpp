@@ -1,48 +1,193 @@
 #include "soft/shafts.h"
 
 #include <algorithm>
-#include <cmath>
+#include <deque>
+#include <vector>
 
 #include "base/stopwatch.h"
 #include "parallel/parallel.h"
-#include "points/triangle_corners.h"
+#include "soft/receiver_planes.h"
+#include "soft/shaft_kernels.h"
 
 namespace tenebra {
 
-using glm::dvec3;
-
 namespace {
 
-struct Box {
-  dvec3 low, high;
+// Nodes of fewer groups hand on what they were given: a cull pays from here on (measured).
+constexpr std::uint32_t fewest_groups = 4;
+
+// Points times triangles below which a subtree is not worth sharing out.
+constexpr std::uint64_t serial_work = 1 << 16;
+
+// What one thread uses. A thread that waits for a subtree may begin another on top of it: lists are a stack.
+struct alignas(64) ThreadScratch {
+  std::deque<BlockList> lists;
+  std::size_t lists_used = 0;
+  std::vector<ReceiverPlane> planes;
+  std::vector<std::uint32_t> ids;
+  ShaftStats stats;
 };
 
-Box box_of(const Corners& c) {
-  const dvec3 a(c.v[0]), b(c.v[1]), d(c.v[2]);
-  return {glm::min(a, glm::min(b, d)), glm::max(a, glm::max(b, d))};
-}
-
-bool apart(const Box& a, const Box& b) {
-  return a.high.x < b.low.x || b.high.x < a.low.x || a.high.y < b.low.y || b.high.y < a.low.y ||
-         a.high.z < b.low.z || b.high.z < a.low.z;
-}
-
-// The light's box, widened by the rounding of its vertices.
-Box box_of(const AreaLight& light) {
-  Box box{dvec3(INFINITY), dvec3(-INFINITY)};
-  for (const glm::dvec2& v : light.outline) {
-    const dvec3 q = light.centre + v.x * light.ex + v.y * light.ey;
-    const dvec3 error = 0x1p-48 * (glm::abs(light.centre) + std::abs(v.x) + std::abs(v.y));
-    box.low = glm::min(box.low, q - error), box.high = glm::max(box.high, q + error);
+// A list from the thread's stack, given back with its end.
+class ListLease {
+public:
+  explicit ListLease(ThreadScratch& scratch) : scratch_(scratch) {
+    if (scratch.lists_used == scratch.lists.size()) scratch.lists.emplace_back();
+    list_ = &scratch.lists[scratch.lists_used++];
   }
-  return box;
+  ~ListLease() { --scratch_.lists_used; }
+  ListLease(const ListLease&) = delete;
+  ListLease& operator=(const ListLease&) = delete;
+  BlockList& operator*() const { return *list_; }
+  BlockList* operator->() const { return list_; }
+
+private:
+  ThreadScratch& scratch_;
+  BlockList* list_;
+};
+
+void add(ShaftStats& to, const ShaftStats& from) {
+  to.groups_lit += from.groups_lit, to.points_lit += from.points_lit;
+  to.groups_dark += from.groups_dark, to.points_dark += from.points_dark;
+  to.groups_mixed += from.groups_mixed, to.points_mixed += from.points_mixed;
+  to.candidates += from.candidates;
+  to.most_candidates = std::max(to.most_candidates, from.most_candidates);
+  to.seconds += from.seconds;
+}
+
+// One call of for_each_group.
+class Descent {
+public:
+  Descent(const PointGroups& groups, const TriangleView& triangles, const LightShape& light,
+          const ShaftKernels& kernels, const StopFlag* stop, const GroupBody& body,
+          std::vector<ThreadScratch>& scratch)
+      : groups_(groups),
+        triangles_(triangles),
+        light_(light),
+        kernels_(kernels),
+        stop_(stop),
+        body_(body),
+        scratch_(scratch) {}
+
+  /// `from`: what may matter to the node.
+  void descend(const GroupNode& node, const BlockList& from);
+
+private:
+  void descend_children(const GroupNode& node, const BlockList& list);
+  void decide(const PointGroup& group, const BlockList& from);
+  std::uint32_t cull(const PointGroup& group, const BlockList& from, ThreadScratch& scratch,
+                     BlockList& list) const;
+  void hand_over(const PointGroup& group, GroupClass kind, ThreadScratch& scratch);
+
+  const PointGroups& groups_;
+  const TriangleView& triangles_;
+  const LightShape& light_;
+  const ShaftKernels& kernels_;
+  const StopFlag* stop_;
+  const GroupBody& body_;
+  std::vector<ThreadScratch>& scratch_;
+};
+
+void filter(BlockList& list, const BlockList& from, auto&& kernel) {
+  list.refs.resize(from.refs.size());
+  list.blocks = from.blocks;
+  list.refs.resize(kernel(list.blocks, std::span<const BlockRef>(from.refs), list.refs.data()));
+}
+
+void Descent::descend(const GroupNode& node, const BlockList& from) {
+  if (stop_requested(stop_)) return;
+  ThreadScratch& scratch = scratch_[static_cast<std::size_t>(thread_index())];
+  if (node.children == 0) {
+    decide(groups_.groups[node.first], from);
+    return;
+  }
+  if (from.refs.empty() || node.count < fewest_groups) {
+    descend_children(node, from);
+    return;
+  }
+  ListLease list(scratch);
+  Stopwatch watch;
+  const Shaft shaft(box_cell(node.low, node.high, light_), light_);
+  filter(*list, from, [&](auto... rest) { return kernels_.cull(shaft, 0, rest...); });
+  list->compact();
+  scratch.stats.seconds += watch.lap_ms() * 1e-3;
+  descend_children(node, *list);
+}
+
+void Descent::descend_children(const GroupNode& node, const BlockList& list) {
+  const GroupNode* children = &groups_.nodes[node.children];
+  if (node.points * (block_size * list.refs.size() + 1) > serial_work) {
+    parallel_tasks(2, [&](int k) { descend(children[k], list); });
+  } else {
+    descend(children[0], list);
+    descend(children[1], list);
+  }
+}
+
+void Descent::decide(const PointGroup& group, const BlockList& from) {
+  if (stop_requested(stop_)) return;
+  ThreadScratch& scratch = scratch_[static_cast<std::size_t>(thread_index())];
+  scratch.ids.clear();
+  if (from.refs.empty()) {
+    hand_over(group, GroupClass::lit, scratch);
+    return;
+  }
+  ListLease list(scratch);
+  Stopwatch watch;
+  const std::uint32_t dark = cull(group, from, scratch, *list);
+  if (dark != no_triangle)
+    scratch.ids.push_back(dark);
+  else
+    list->append_ids(scratch.ids);
+  scratch.stats.seconds += watch.lap_ms() * 1e-3;
+  hand_over(group,
+            dark != no_triangle   ? GroupClass::dark
+            : scratch.ids.empty() ? GroupClass::lit
+                                  : GroupClass::mixed,
+            scratch);
+}
+
+// Leaves in `list` what may block a line from the group; returns the triangle that blocks all, if one does.
+std::uint32_t Descent::cull(const PointGroup& group, const BlockList& from, ThreadScratch& scratch,
+                            BlockList& list) const {
+  const Shaft shaft(fitted_cell(groups_.positions_of(group), groups_.pixels_of(group), groups_.width,
+                                group.low, group.high, light_),
+                    light_);
+  const ContactRange contact = contact_range(groups_, group, triangles_);
+  filter(list, from, [&](auto... rest) { return kernels_.cull(shaft, contact.least, rest...); });
+  if (list.refs.empty()) return no_triangle;
+  find_receiver_planes(groups_, group, triangles_, light_, scratch.planes);
+  filter(list, list, [&](auto... rest) { return kernels_.drop_behind(scratch.planes, light_, rest...); });
+  std::uint32_t dark = no_triangle;
+  filter(list, list, [&](auto... rest) { return kernels_.drop_beside(shaft, contact, rest..., dark); });
+  for (const Receiver& receiver : groups_.receivers_of(group))
+    if (receiver.triangle == dark) return no_triangle;
+  return dark;
+}
+
+void Descent::hand_over(const PointGroup& group, GroupClass kind, ThreadScratch& scratch) {
+  ShaftStats& s = scratch.stats;
+  switch (kind) {
+    case GroupClass::lit:
+      ++s.groups_lit, s.points_lit += group.count;
+      break;
+    case GroupClass::dark:
+      ++s.groups_dark, s.points_dark += group.count;
+      break;
+    case GroupClass::mixed:
+      ++s.groups_mixed, s.points_mixed += group.count;
+      s.candidates += scratch.ids.size();
+      s.most_candidates = std::max<std::uint64_t>(s.most_candidates, scratch.ids.size());
+      break;
+  }
+  body_(group, scratch.ids, kind, thread_index());
 }
 
 }  // namespace
 
 struct ShaftCuller::State {
-  std::vector<Box> boxes;
-  std::vector<std::uint32_t> casters;
+  BlockList casters;
+  std::vector<ThreadScratch> scratch;
   ShaftStats stats;
 };
 
@@ -55,36 +200,21 @@ const ShaftStats& ShaftCuller::stats() const {
 }
 
 bool ShaftCuller::for_each_group(const PointGroups& groups, const TriangleView& triangles,
-                                 const AreaLight& light, const SoftShadowConfig&, const StopFlag* stop,
-                                 const GroupBody& body) {
+                                 const AreaLight& area_light, const SoftShadowConfig& config,
+                                 const StopFlag* stop, const GroupBody& body) {
   State& s = *state_;
   s.stats = {};
-  s.casters.clear();
-  s.boxes.clear();
-  for (std::uint32_t id = 0; id < triangles.triangles.size(); ++id) {
-    if (!triangles.casts_shadow.empty() && triangles.casts_shadow[id] == 0) continue;
-    s.casters.push_back(id);
-    s.boxes.push_back(box_of(corners_of(triangles, id)));
-  }
-  const Box light_box = box_of(light);
-  std::vector<std::vector<std::uint32_t>> lists(static_cast<std::size_t>(thread_count()));
-  std::vector<ShaftStats> stats(lists.size());
-  parallel_tasks(static_cast<int>(groups.groups.size()), [&](int g) {
-    if (stop_requested(stop)) return;
-    const PointGroup& group = groups.groups[g];
-    const int thread = thread_index();
-    std::vector<std::uint32_t>& list = lists[thread];
-    list.clear();
-    const Box shaft{glm::min(group.low, light_box.low), glm::max(group.high, light_box.high)};
-    for (std::size_t i = 0; i < s.casters.size(); ++i) {
-      if (apart(shaft, s.boxes[i])) continue;
-      if (group.receiver_count == 1 && groups.receivers_of(group)[0].triangle == s.casters[i]) continue;
-      list.push_back(s.casters[i]);
-    }
-    stats[thread].candidates += list.size();
-    body(group, list, list.empty() ? GroupClass::lit : GroupClass::mixed, thread);
-  });
-  for (const ShaftStats& part : stats) s.stats.candidates += part.candidates;
+  const FloatEnvironment ieee;
+  Stopwatch watch;
+  const LightShape light(area_light);
+  gather_casters(triangles, s.casters);
+  s.scratch.resize(std::max(s.scratch.size(), static_cast<std::size_t>(thread_count())));
+  for (ThreadScratch& scratch : s.scratch) scratch.stats = {};
+  s.stats.seconds = watch.lap_ms() * 1e-3;
+  const ShaftKernels kernels = shaft_kernels(config.simd);
+  if (!groups.nodes.empty())
+    Descent(groups, triangles, light, kernels, stop, body, s.scratch).descend(groups.nodes[0], s.casters);
+  for (const ThreadScratch& scratch : s.scratch) add(s.stats, scratch.stats);
   return !stop_requested(stop);
 }
 

@@ -42,10 +42,10 @@ public:
   ShaftCuller& operator=(ShaftCuller&&) noexcept;
   ~ShaftCuller();
 
-  /// Calls `body` once for each group, in parallel. A triangle is left out of a group's candidates only if it
-  /// is certain that it blocks no line from a point P of the group to a point Q of the light's front, by the
-  /// rule of SoftShadowTracer::trace. Groups with much work are shared out singly. Returns false, with some
-  /// groups left out, if `stop` was requested.
+  /// Calls `body` once for each group, in parallel; subtrees with much work are shared out down to single
+  /// groups. A triangle is left out of a group's candidates only if it is certain that it blocks no line from
+  /// a point of the group to the light, by the rule of SoftShadowTracer::trace; the rest depends neither on
+  /// threads nor on the instruction set. Returns false, with some groups left out, if `stop` was requested.
   bool for_each_group(const PointGroups& groups, const TriangleView& triangles, const AreaLight& light,
                       const SoftShadowConfig& config, const StopFlag* stop, const GroupBody& body);
 

@@ -28,6 +28,20 @@ public:
     return Dyadic(a.mantissa_ * b.mantissa_, a.exponent_ + b.exponent_);
   }
   int sign() const { return sgn(mantissa_); }
+  mpq_class rational() const {
+    mpq_class q(mantissa_);
+    if (exponent_ < 0) return q >> static_cast<mp_bitcnt_t>(-exponent_);
+    return q << static_cast<mp_bitcnt_t>(exponent_);
+  }
+  /// Towards zero: within 2^-63 of the value, relatively.
+  long double rounded() const {
+    const long drop = static_cast<long>(mpz_sizeinbase(mantissa_.get_mpz_t(), 2)) - 64;
+    const mpz_class top = drop > 0 ? mpz_class(abs(mantissa_) >> static_cast<mp_bitcnt_t>(drop))
+                                   : mpz_class(abs(mantissa_));
+    const long double size = std::ldexp(static_cast<long double>(top.get_ui()),
+                                        static_cast<int>(exponent_ + (drop > 0 ? drop : 0)));
+    return sgn(mantissa_) < 0 ? -size : size;
+  }
 
 private:
   Dyadic(mpz_class mantissa, long exponent) : mantissa_(std::move(mantissa)), exponent_(exponent) {}

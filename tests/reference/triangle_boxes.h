@@ -45,6 +45,24 @@ public:
     return false;
   }
 
+  /// Calls visit(id) for every triangle whose box and all boxes around it satisfy may(low, high).
+  template <class May, class Visit>
+  void each_of(May may, Visit visit) const {
+    std::array<std::uint32_t, 128> stack;
+    std::size_t size = 0;
+    if (!nodes_.empty()) stack[size++] = 0;
+    while (size > 0) {
+      const Node& node = nodes_[stack[--size]];
+      if (!may(node.low, node.high)) continue;
+      if (node.right == 0) {
+        for (std::uint32_t i = node.first; i < node.first + node.count; ++i) visit(ids_[i]);
+      } else {
+        stack[size++] = node.right;
+        stack[size++] = static_cast<std::uint32_t>(&node - nodes_.data()) + 1;
+      }
+    }
+  }
+
 private:
   struct Node {
     glm::dvec3 low, high;

@@ -1,0 +1,171 @@
+// Sixteen rays against one field. Without fused operations, so that every instruction set gives the same
+// bits.
+#include "ao/field_chords.h"
+#include "ao/field_lookup.h"
+#include "ao/near_cells.h"
+
+#define HWY_DISABLED_TARGETS (HWY_AVX3_DL | HWY_SSSE3)
+#undef HWY_TARGET_INCLUDE
+#define HWY_TARGET_INCLUDE "ao/field_kernels.cpp"
+#include <hwy/foreach_target.h>
+// After foreach_target.h
+#include "ao/bvh_trace-inl.h"
+#include "ao/field_chords-inl.h"
+
+#include <algorithm>
+#include <bit>
+
+HWY_BEFORE_NAMESPACE();
+namespace tenebra::HWY_NAMESPACE {
+
+namespace {
+
+constexpr float half_diagonal = 0.70710678f;  // of a cell, in widths
+constexpr float cast_cells = 1;               // how far close rays are cast, in cells
+
+// Bits of those rays `inside` that start close to the object.
+HWY_INLINE std::uint32_t close_rays(const DisplacementField& field, const Chords& c, Truth16 inside) {
+  const Float16 half = splat<Float16>(0.5f * near_side), last = splat<Float16>(near_side - 1.0f);
+  const auto cell = [&](Float16 x) {
+    return truncate(min(max(where(inside, x, half) * half + half, splat<Float16>(0.0f)), last));
+  };
+  const Int16 side = splat<Int16>(near_side);
+  const Int16 place = (cell(c.origin.z) * side + cell(c.origin.y)) * side + cell(c.origin.x);
+  const Int16 word = gather<std::int32_t>(field.close.data(), shift_left<2>(shift_right<5>(place)));
+  const Int16 bit = shift_right(word, place & splat<Int16>(31)) & splat<Int16>(1);
+  return bits(inside & less(splat<Float16>(0.0f), to_float(bit)));
+}
+
+// Casts the rays in `which` from t = from[i] to to[i]; to[i] becomes the distance of the hit if there is one.
+void cast(const FieldInstance& instance, const RayBatch& rays, std::uint32_t which, const float* from,
+          float* to) {
+  const auto& m = instance.object_from_world;
+  for (; which != 0; which &= which - 1) {
+    const int i = std::countr_zero(which);
+    const glm::vec3 o = rays.origin(i), d = rays.direction(i);
+    CasterRay ray{.from = from[i], .to = to[i]};
+    for (int k = 0; k < 3; ++k) {
+      ray.origin[k] = m[k][0] * o.x + m[k][1] * o.y + m[k][2] * o.z + m[k][3];
+      ray.direction[k] = m[k][0] * d.x + m[k][1] * d.y + m[k][2] * d.z;
+    }
+    to[i] = std::min(to[i], trace_ray<false>(*instance.near, ray).distance);
+  }
+}
+
+// The answer for rays from outside, and what is known of the others.
+struct Answer {
+  Truth16 live;    // rays that may still meet the object
+  Float16 start;   // from here on: 0, where the sphere begins, or as far as the ray was cast
+  Float16 before;  // what was found before or by casting
+};
+
+// Rays that start close to the object are cast for one cell's width.
+HWY_INLINE int cast_close(const FieldInstance& instance, const RayBatch& rays, const Chords& c,
+                          Truth16 inside, Answer& answer) {
+  const std::uint32_t close = close_rays(*instance.field, c, inside);
+  if (close == 0) return 0;
+  float from[batch_size] = {}, start[batch_size], reach[batch_size], before[batch_size];
+  store(answer.start, start);
+  store(answer.before, before);
+  store(splat<Float16>(cast_cells * instance.field->cell()) * c.per_unit, reach);
+  for (std::uint32_t rest = close; rest != 0; rest &= rest - 1) {
+    const int i = std::countr_zero(rest);
+    start[i] = reach[i];
+    reach[i] = std::min(reach[i], before[i]);
+  }
+  cast(instance, rays, close, from, reach);
+  for (std::uint32_t rest = close; rest != 0; rest &= rest - 1) {
+    const int i = std::countr_zero(rest);
+    if (reach[i] < start[i]) before[i] = std::min(before[i], reach[i]);
+  }
+  answer.start = load<Float16>(start);
+  answer.before = load<Float16>(before);
+  answer.live = answer.live & less(answer.start, answer.before);
+  return std::popcount(close);
+}
+
+// A ray that is in the open at t = start, between the first and the last hit of its chord. Next to one of
+// them, it is taken to lie before the first or behind the last. Else something may come before the last: it
+// is cast, or the last stands for it.
+HWY_INLINE int between(const FieldInstance& instance, const RayBatch& rays, const Answer& answer,
+                       Truth16 behind, Float16 first, Float16 last, Float16 tolerance, Float16& found) {
+  const Float16 none = splat<Float16>(no_distance);
+  const Float16 behind_first = answer.start - first, before_last = last - answer.start;
+  const Truth16 at_first = behind & less(behind_first, min(tolerance, before_last));
+  const Truth16 deep = behind & not_above(tolerance, before_last) & not_above(tolerance, behind_first);
+  found = where(at_first, answer.start, where(behind, where(deep, last, none), found));
+  if (instance.near == nullptr) return 0;
+  const std::uint32_t which = bits(deep);
+  if (which == 0) return 0;
+  float from[batch_size], to[batch_size], limit[batch_size];
+  store(answer.start, from);
+  store(answer.before, limit);
+  std::copy(limit, limit + batch_size, to);
+  cast(instance, rays, which, from, to);
+  for (int i = 0; i < batch_size; ++i)
+    if (to[i] == limit[i]) to[i] = no_distance;
+  found = where(deep, load<Float16>(to), found);
+  return std::popcount(which);
+}
+
+int nearest_hits(const FieldInstance& instance, const RayBatch& rays, float* distance) {
+  const DisplacementField& field = *instance.field;
+  const Chords c = chords_of(instance, rays);
+  const Float16 zero = splat<Float16>(0.0f), none = splat<Float16>(no_distance);
+  const Float16 reach = c.half * c.per_unit, enter = c.at - reach, exit = c.at + reach;
+  Answer answer{.start = max(enter, zero), .before = load<Float16>(distance)};
+  answer.live = c.met & less(zero, exit) & less(enter, answer.before);
+  if (!any(answer.live)) return 0;
+  Truth16 inside = answer.live & less(enter, zero);
+  int casts = 0;
+  if (instance.near != nullptr && any(inside)) {
+    casts = cast_close(instance, rays, c, inside, answer);
+    answer.live = answer.live & less(answer.start, exit);
+    inside = inside & answer.live;
+  }
+  const Looks looks(field, c);
+  const Float16 first = looks.first(none);
+  const Truth16 behind = inside & less(first, answer.start);
+  Float16 found = where(behind, none, max(first, answer.start));
+  if (instance.ends == FieldEnds::both && any(behind)) {
+    const Float16 tolerance = splat<Float16>(half_diagonal * field.cell()) * c.per_unit;
+    casts += between(instance, rays, answer, behind, first, looks.last(first), tolerance, found);
+  }
+  store(where(answer.live, min(found, answer.before), answer.before), distance);
+  return casts;
+}
+
+}  // namespace
+
+FieldKernels field_kernels() {
+  return {nearest_hits};
+}
+
+}  // namespace tenebra::HWY_NAMESPACE
+HWY_AFTER_NAMESPACE();
+
+#if HWY_ONCE
+
+namespace tenebra {
+
+FieldKernels field_kernels(SimdLevel level) {
+  switch (level == SimdLevel::automatic ? best_simd_level() : level) {
+#if HWY_TARGETS & HWY_AVX3
+    case SimdLevel::avx512:
+      return N_AVX3::field_kernels();
+#endif
+#if HWY_TARGETS & HWY_AVX2
+    case SimdLevel::avx2:
+      return N_AVX2::field_kernels();
+#endif
+#if HWY_TARGETS & HWY_SSE4
+    case SimdLevel::sse4:
+      return N_SSE4::field_kernels();
+#endif
+    default:
+      return HWY_STATIC_DISPATCH(field_kernels)();
+  }
+}
+
+}  // namespace tenebra
+#endif

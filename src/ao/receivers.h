@@ -1,0 +1,46 @@
+// Points that ambient light falls on: a visible point with its normals, the body it lies on and where on it.
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+#include <glm/glm.hpp>
+
+#include "ao/scene_objects.h"
+#include "ao/self_occlusion.h"
+
+namespace tenebra {
+
+struct Receiver {
+  glm::dvec3 position{0.0};  ///< world
+  glm::dvec3 local{0.0};     ///< in the space of its object; world for what stands or deforms
+  glm::vec3 normal{0.0f};    ///< world, unit, of shading
+  glm::vec3 face{0.0f};      ///< world, unit, of the triangle, on the same side
+  TriangleOwner owner;
+  float v = 0, w = 0;  ///< barycentric weights of the second and third corner
+  bool front = true;   ///< seen from where the shape's triangle runs counter-clockwise
+  SurfacePoint on_shape() const { return {owner.triangle, v, w, front}; }
+  std::size_t index = 0;  ///< of the result
+};
+
+/// Makes receivers; cheap for a run of points on one triangle.
+class ReceiverMaker {
+public:
+  ReceiverMaker(const FrameGeometry& geometry, const SceneObjects& objects)
+      : geometry_(geometry), objects_(objects) {}
+
+  /// False where there is none: no triangle, no area, no normal, or a point that is not finite.
+  bool make(std::uint32_t triangle, const glm::dvec3& position, const glm::vec3& normal, Receiver& out);
+
+private:
+  void take(std::uint32_t triangle);
+
+  const FrameGeometry& geometry_;
+  const SceneObjects& objects_;
+  std::uint32_t triangle_ = 0xffffffffu;
+  TriangleOwner owner_;
+  const glm::dmat4* to_object_ = nullptr;
+  glm::dvec3 a_{0.0}, du_{0.0}, dv_{0.0};
+  glm::vec3 face_{0.0f};  ///< world, unit; zero: no area
+};
+
+}  // namespace tenebra

@@ -1,0 +1,271 @@
+#include "soft/shaft_kernels.h"
+
+#define HWY_DISABLED_TARGETS (HWY_AVX3_DL | HWY_SSSE3)
+#undef HWY_TARGET_INCLUDE
+#define HWY_TARGET_INCLUDE "soft/shaft_kernels.cpp"
+#include <hwy/foreach_target.h>
+// After foreach_target.h
+#include "simd/pack-inl.h"
+
+#include <algorithm>
+#include <bit>
+#include <cmath>
+
+HWY_BEFORE_NAMESPACE();
+namespace tenebra::HWY_NAMESPACE {
+
+namespace {
+
+// u = 2^-53. Reaches bound |coordinates| relative to the light's centre, `size` those of the edges. Vectors
+// of three coordinates bounded by r and s have |a.b| <= 3 r s.
+using Double8 = Pack<double, block_size>;
+using Vector8 = Pack3<Double8>;
+
+HWY_INLINE Double8 constant(double value) {
+  return splat<Double8>(value);
+}
+HWY_INLINE Vector8 constant(const glm::dvec3& v) {
+  return splat3<Double8>(v.x, v.y, v.z);
+}
+
+// Not fused, so that all instruction sets keep the same triangles.
+HWY_INLINE Double8 product(const Vector8& a, const Vector8& b) {
+  return a.x * b.x + a.y * b.y + a.z * b.z;
+}
+
+// Vertices relative to the light's centre: off by u |coordinate|.
+struct Triangles {
+  Vector8 v[3];
+  Double8 reach, size;
+};
+HWY_INLINE Triangles load_triangles(const TriangleBlock& block, const LightShape& light) {
+  Triangles t;
+  for (int k = 0; k < 3; ++k) {
+    t.v[k].x = load_widened<Double8>(block.v[k][0]) - constant(light.origin.x);
+    t.v[k].y = load_widened<Double8>(block.v[k][1]) - constant(light.origin.y);
+    t.v[k].z = load_widened<Double8>(block.v[k][2]) - constant(light.origin.z);
+  }
+  t.reach =
+      load_widened<Double8>(block.largest) +
+      constant(std::max({std::abs(light.origin.x), std::abs(light.origin.y), std::abs(light.origin.z)}));
+  t.size = load_widened<Double8>(block.size);
+  return t;
+}
+
+// An edge's vector from the vertices' floats, so that the light's distance costs it nothing.
+HWY_INLINE Vector8 edge(const TriangleBlock& block, int from, int to) {
+  return {load_widened<Double8>(block.v[to][0]) - load_widened<Double8>(block.v[from][0]),
+          load_widened<Double8>(block.v[to][1]) - load_widened<Double8>(block.v[from][1]),
+          load_widened<Double8>(block.v[to][2]) - load_widened<Double8>(block.v[from][2])};
+}
+
+HWY_INLINE Double8 least(const Double8& a, const Double8& b, const Double8& c) {
+  return min(a, min(b, c));
+}
+HWY_INLINE Double8 most(const Double8& a, const Double8& b, const Double8& c) {
+  return max(a, max(b, c));
+}
+
+// Lanes of triangles that may meet the shaft's box and the inner sides of its planes. m.v is off by 5 u reach
+// as |m|_1 <= 1.
+HWY_INLINE std::uint32_t inside(const Shaft& shaft, const Triangles& t, std::uint32_t lanes) {
+  const Double8 margin = t.reach * constant(0x1p-50);
+  const auto beyond = [&](const Double8& a, const Double8& b, const Double8& c, double low, double high) {
+    return less(constant(high) + margin, least(a, b, c)) | less(most(a, b, c) + margin, constant(low));
+  };
+  lanes &= ~bits(beyond(t.v[0].x, t.v[1].x, t.v[2].x, shaft.low.x, shaft.high.x) |
+                 beyond(t.v[0].y, t.v[1].y, t.v[2].y, shaft.low.y, shaft.high.y) |
+                 beyond(t.v[0].z, t.v[1].z, t.v[2].z, shaft.low.z, shaft.high.z));
+  for (int k = 0; k < shaft.plane_count && lanes != 0; ++k) {
+    const Vector8 m = constant(shaft.planes[k].m);
+    const Double8 nearest = least(product(m, t.v[0]), product(m, t.v[1]), product(m, t.v[2]));
+    lanes &= ~bits(less(constant(shaft.planes[k].limit) + margin, nearest));
+  }
+  return lanes;
+}
+
+// n.(x - A) over the points and over the light, n = (B - A) x (C - A), as least and greatest value, both
+// widened by their rounding: with edges off by u, n is off by 9 u size^2 a coordinate, and n.(x - A) by
+// (27 for n + 18 a product + 18 for x + 30 for sums) u size^2 (reach_A + reach_x).
+struct PlaneRange {
+  Double8 points_low, points_high, light_low, light_high;
+  Double8 normal_length, size2;
+};
+HWY_INLINE PlaneRange plane_range(const Shaft& shaft, const TriangleBlock& block, const Triangles& t) {
+  const Vector8 n = cross(edge(block, 0, 1), edge(block, 0, 2));
+  const Double8 at_corner = product(n, t.v[0]);
+  const Double8 at_centre = product(n, constant(shaft.cell.centre)) - at_corner;
+  Double8 around = absolute(product(n, constant(shaft.cell.axis[0])));
+  around = around + absolute(product(n, constant(shaft.cell.axis[1])));
+  around = around + absolute(product(n, constant(shaft.cell.axis[2])));
+  PlaneRange r;
+  r.size2 = t.size * t.size;
+  const Double8 margin =
+      r.size2 * ((t.reach + constant(shaft.cell.reach)) * constant(0x1p-46) + constant(6 * shaft.cell.slack));
+  around = around + margin;
+  r.points_low = at_centre - around, r.points_high = at_centre + around;
+  r.light_low = r.light_high = product(n, constant(shaft.light->vertices[0]));
+  for (int k = 1; k < shaft.light->count; ++k) {
+    const Double8 at = product(n, constant(shaft.light->vertices[k]));
+    r.light_low = min(r.light_low, at), r.light_high = max(r.light_high, at);
+  }
+  const Double8 light_margin = r.size2 * (t.reach + constant(shaft.light->reach)) * constant(0x1p-46);
+  r.light_low = r.light_low - at_corner - light_margin;
+  r.light_high = r.light_high - at_corner + light_margin;
+  r.normal_length = square_root(product(n, n));
+  return r;
+}
+
+// theta for a receiver's tau, from below and from above: |n| is off by 16 u size^2, here and in the
+// definition.
+HWY_INLINE Double8 tau_of(const TriangleBlock& block, double tau_receiver) {
+  return load_widened<Double8>(block.largest) * constant(1.7320508075688772 * 0x1p-24) +
+         constant(tau_receiver);
+}
+HWY_INLINE Double8 theta_low(const TriangleBlock& block, const PlaneRange& r, double tau_least) {
+  return tau_of(block, tau_least) * (r.normal_length * constant(1 - 0x1p-49) - r.size2 * constant(0x1p-48));
+}
+HWY_INLINE Double8 theta_high(const TriangleBlock& block, const PlaneRange& r, double tau_most) {
+  return tau_of(block, tau_most) * (r.normal_length * constant(1 + 0x1p-49) + r.size2 * constant(0x1p-48));
+}
+
+std::size_t cull(const Shaft& shaft, double tau_least, const TriangleBlock* blocks,
+                 std::span<const BlockRef> in, BlockRef* out) {
+  std::size_t count = 0;
+  const Double8 zero = constant(0.0);
+  for (const BlockRef& ref : in) {
+    const TriangleBlock& block = blocks[ref.block];
+    const Triangles t = load_triangles(block, *shaft.light);
+    std::uint32_t lanes = inside(shaft, t, ref.lanes);
+    if (lanes == 0) continue;
+    const PlaneRange r = plane_range(shaft, block, t);
+    const Double8 theta = theta_low(block, r, tau_least);
+    lanes &= bits((less(theta, r.points_high) & less(r.light_low, zero)) |
+                  (less(theta, zero - r.points_low) & less(zero, r.light_high)));
+    if (lanes != 0) out[count++] = {ref.block, lanes};
+  }
+  return count;
+}
+
+std::size_t drop_behind(std::span<const ReceiverPlane> receivers, const LightShape& light,
+                        const TriangleBlock* blocks, std::span<const BlockRef> in, BlockRef* out) {
+  std::size_t count = 0;
+  for (const BlockRef& ref : in) {
+    const TriangleBlock& block = blocks[ref.block];
+    const Triangles t = load_triangles(block, light);
+    const Double8 margin = t.reach * constant(0x1p-49);
+    std::uint32_t dropped = ref.lanes;
+    for (const ReceiverPlane& receiver : receivers) {
+      const Vector8 m = constant(receiver.m);
+      const Double8 top = most(product(m, t.v[0]), product(m, t.v[1]), product(m, t.v[2]));
+      std::uint32_t harmless = bits(less(top + margin, constant(receiver.limit)));
+      for (int lane = 0; lane < block_size; ++lane)
+        harmless |= static_cast<std::uint32_t>(block.ids[lane] == receiver.triangle) << lane;
+      dropped &= harmless;
+      if (dropped == 0) break;
+    }
+    if (const std::uint32_t lanes = ref.lanes & ~dropped; lanes != 0) out[count++] = {ref.block, lanes};
+  }
+  return count;
+}
+
+// f(P, Q) = ((a - Q) x e).(P - Q), the side of the line PQ of the edge a, a + e, over cell and light: affine
+// in P and in Q, so its extremes are at the vertices (Theorem 1). With a, e, P, Q off by u it is
+//   a x e.(P - Q) - (Q x e).P: 18 products of three coordinates, each off by 14 u.
+struct SideRange {
+  Double8 low, high;
+};
+HWY_INLINE Double8 side_margin(const Shaft& shaft, const Triangles& t) {
+  const double light = shaft.light->reach, cell = shaft.cell.reach;
+  return t.size * (t.reach * constant((cell + light) * 0x1p-45 + 6 * shaft.cell.slack) +
+                   constant(light * (cell * 0x1p-45 + 6 * shaft.cell.slack)));
+}
+HWY_INLINE SideRange side_from(const Shaft& shaft, const Vector8& m, const Double8& at_light) {
+  const Double8 centre = product(m, constant(shaft.cell.centre)) - at_light;
+  Double8 around = absolute(product(m, constant(shaft.cell.axis[0])));
+  around = around + absolute(product(m, constant(shaft.cell.axis[1])));
+  around = around + absolute(product(m, constant(shaft.cell.axis[2])));
+  return {centre - around, centre + around};
+}
+HWY_INLINE SideRange side_range(const Shaft& shaft, const Vector8& e, const Vector8& moment) {
+  SideRange range{constant(INFINITY), constant(-INFINITY)};
+  for (int k = 0; k < shaft.light->count; ++k) {
+    const Vector8 q = constant(shaft.light->vertices[k]);
+    const SideRange from = side_from(shaft, moment - cross(q, e), product(moment, q));
+    range.low = min(range.low, from.low), range.high = max(range.high, from.high);
+  }
+  return range;
+}
+
+// Lines cross T from its front (f >= 0 at all edges) or from its back (f <= 0).
+std::size_t drop_beside(const Shaft& shaft, ContactRange contact, const TriangleBlock* blocks,
+                        std::span<const BlockRef> in, BlockRef* out, std::uint32_t& dark) {
+  std::size_t count = 0;
+  const Double8 zero = constant(0.0);
+  for (const BlockRef& ref : in) {
+    const TriangleBlock& block = blocks[ref.block];
+    const Triangles t = load_triangles(block, *shaft.light);
+    const PlaneRange plane = plane_range(shaft, block, t);
+    const Double8 theta = theta_low(block, plane, contact.least);
+    std::uint32_t front = bits(less(theta, plane.points_high) & less(plane.light_low, zero)) & ref.lanes;
+    std::uint32_t back =
+        bits(less(theta, zero - plane.points_low) & less(zero, plane.light_high)) & ref.lanes;
+    const Double8 sure = theta_high(block, plane, contact.most);
+    std::uint32_t all_front = bits(less(sure, plane.points_low) & less(plane.light_high, zero)) & front;
+    std::uint32_t all_back = bits(less(sure, zero - plane.points_high) & less(zero, plane.light_low)) & back;
+    const Double8 margin = side_margin(shaft, t);
+    for (int k = 0; k < 3 && (front | back) != 0; ++k) {
+      const Vector8 e = edge(block, k, (k + 1) % 3);
+      const Vector8 moment = cross(t.v[k], e);
+      const SideRange at_centre = side_from(shaft, moment, zero);
+      // What the light's centre finds neither outer nor inner, its vertices do not either.
+      const std::uint32_t open = (front & bits(less(at_centre.high, zero))) |
+                                 (back & bits(less(zero, at_centre.low))) | all_front | all_back;
+      if (open == 0) continue;
+      const SideRange f = side_range(shaft, e, moment);
+      front &= ~bits(less(f.high, zero - margin));
+      back &= ~bits(less(margin, f.low));
+      all_front &= bits(less(margin, f.low));
+      all_back &= bits(less(f.high, zero - margin));
+    }
+    const std::uint32_t all = (all_front & front) | (all_back & back);
+    if (all != 0 && dark == no_triangle) dark = block.ids[std::countr_zero(all)];
+    if ((front | back) != 0) out[count++] = {ref.block, front | back};
+  }
+  return count;
+}
+
+}  // namespace
+
+ShaftKernels shaft_kernels() {
+  return {cull, drop_behind, drop_beside};
+}
+
+}  // namespace tenebra::HWY_NAMESPACE
+HWY_AFTER_NAMESPACE();
+
+#if HWY_ONCE
+
+namespace tenebra {
+
+ShaftKernels shaft_kernels(SimdLevel level) {
+  switch (level == SimdLevel::automatic ? best_simd_level() : level) {
+#if HWY_TARGETS & HWY_AVX3
+    case SimdLevel::avx512:
+      return N_AVX3::shaft_kernels();
+#endif
+#if HWY_TARGETS & HWY_AVX2
+    case SimdLevel::avx2:
+      return N_AVX2::shaft_kernels();
+#endif
+#if HWY_TARGETS & HWY_SSE4
+    case SimdLevel::sse4:
+      return N_SSE4::shaft_kernels();
+#endif
+    default:
+      return HWY_STATIC_DISPATCH(shaft_kernels)();
+  }
+}
+
+}  // namespace tenebra
+#endif

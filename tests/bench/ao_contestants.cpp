@@ -1,0 +1,44 @@
+#include "ao_contestants.h"
+
+#include "base/stopwatch.h"
+
+namespace tenebra::bench {
+
+ObjectTree::ObjectTree(const Object& object) {
+  Stopwatch watch;
+  bvh = build_triangle_bvh(object.positions, object.triangles);
+  build_ms = watch.lap_ms();
+  const Ellipsoid sphere =
+      bounding_ellipsoid(object.positions, object.triangles, FieldLayout::positions_directions);
+  ball = {sphere.centre, sphere.axes.x};
+}
+
+Expected<std::unique_ptr<BuiltField>> build_field(const Object& object, const ObjectTree& tree,
+                                                  const FieldSettings& settings, Inside inside) {
+  auto built = std::make_unique<BuiltField>();
+  Stopwatch watch;
+  auto field = tenebra::build_field(object.positions, object.triangles, tree.bvh, settings);
+  if (!field) return tl::unexpected(field.error());
+  built->build_ms = watch.lap_ms();
+  built->field = std::move(*field);
+  const auto placed =
+      place_field(built->field, inside == Inside::near_rays ? &tree.bvh : nullptr, glm::dmat4(1.0),
+                  inside == Inside::first_hit ? FieldEnds::first : FieldEnds::both);
+  if (!placed) return fail("{}: expected a field that can be placed, found none", object.name);
+  built->placed = *placed;
+  return built;
+}
+
+Tracer field_tracer(const BuiltField& built) {
+  const auto nearest_hits = field_kernels(SimdLevel::automatic).nearest_hits;
+  return [nearest_hits, placed = &built.placed](const RayBatch& rays, float* distance) {
+    nearest_hits(*placed, rays, distance);
+  };
+}
+
+std::string shape_name(const DisplacementField& field) {
+  const char* layout = field.layout == FieldLayout::chords ? "chords" : "paper";
+  return fmt::format("{} {}^2 x {}^2", layout, field.shape.position_side, field.shape.direction_side);
+}
+
+}  // namespace tenebra::bench

@@ -1,0 +1,424 @@
+// The oracle of the soft shadows is judged here: closed forms, convex bodies, rationals against long doubles,
+// and rays of the oracle of the hard shadows.
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <functional>
+#include <numbers>
+
+#include "reference/exact_mask.h"
+#include "reference/exact_soft.h"
+#include "support/samples.h"
+#include "support/scaled.h"
+#include "support/soup.h"
+
+namespace tenebra::testing {
+namespace {
+
+using glm::dvec2;
+using glm::dvec3;
+using glm::vec3;
+using reference::ExactSoft;
+using reference::SoftAnswer;
+using reference::SweepNumbers;
+
+/// A light [-1, 1]^2 at z = 2 that shines down on a ground z = 0 (triangle 0), seen from above.
+struct Desk {
+  Soup soup;
+  AreaLight light = *make_rectangle_light({0, 0, 2}, {1, 0, 0}, {0, -1, 0});
+  ViewRays view;
+  vec3 normal{0.0f};
+
+  Desk() {
+    soup.add({-100, -100, 0}, {100, -100, 0}, {0, 200, 0});
+    view.eye = {0, 0, 1};
+  }
+  SoftAnswer at(dvec3 point, SweepNumbers numbers = SweepNumbers::rational, std::uint32_t id = 0) const {
+    return ExactSoft(view, soup.view(), light).answer(point, id, normal, numbers);
+  }
+  double fraction(dvec3 point = dvec3(0.0)) const {
+    const SoftAnswer exact = at(point), rounded = at(point, SweepNumbers::long_double);
+    EXPECT_NEAR(exact.visible_fraction, rounded.visible_fraction, rounded.error_bound);
+    EXPECT_LT(rounded.error_bound, 1e-14);
+    EXPECT_EQ(exact.occluders, rounded.occluders);
+    return exact.visible_fraction;
+  }
+};
+
+TEST(SoftOracle, AnEmptySkyShowsTheWholeLight) {
+  const Desk desk;
+  EXPECT_EQ(desk.fraction(), 1.0);
+  // Configuration factor of a parallel rectangle, corner over the point, sides 1 x 1 at height 2 (Siegel and
+  // Howell, C-11), four times.
+  const double a = 0.5, r = std::sqrt(1 + a * a);
+  const double expected = 4 * 0.5 * 2 * a / r * std::atan(a / r);
+  EXPECT_NEAR(desk.at(dvec3(0.0)).irradiance, expected, 1e-15);
+}
+
+TEST(SoftOracle, OneTriangleHidesItsProjection) {
+  Desk desk;
+  desk.soup.add({0, 0, 1}, {0.5, 0, 1}, {0, 0.5, 1});  // projects to the half of a quarter of the light
+  EXPECT_EQ(desk.fraction(), 0.875);
+  std::swap(desk.soup.triangles[1].x, desk.soup.triangles[1].y);
+  EXPECT_EQ(desk.fraction(), 0.875);
+  EXPECT_EQ(desk.fraction({1, 1, 0}), 0.75 + 0.125);  // the projection moves to [-1, 0]^2
+  EXPECT_EQ(desk.fraction({3, 0, 0}), 1.0);
+}
+
+TEST(SoftOracle, HalvesQuartersAndAllOfTheLight) {
+  Desk half;
+  half.soup.quad({0, -10, 1}, {10, 0, 0}, {0, 20, 0});
+  EXPECT_EQ(half.fraction(), 0.5);
+  EXPECT_NEAR(half.at(dvec3(0.0)).irradiance, 0.5 * Desk().at(dvec3(0.0)).irradiance, 1e-15);
+  half.soup.quad({-10, 0, 1.5}, {20, 0, 0}, {0, 10, 0});  // overlaps the first
+  EXPECT_EQ(half.fraction(), 0.25);
+  half.soup.quad({-10, -10, 0.5}, {20, 0, 0}, {0, 20, 0});
+  EXPECT_EQ(half.fraction(), 0.0);
+  EXPECT_EQ(half.at(dvec3(0.0)).irradiance, 0.0);
+  EXPECT_TRUE(half.at(dvec3(0.0)).visible.empty());
+}
+
+TEST(SoftOracle, OccludersAcrossTheLightsPlaneHideTheirPartBelowIt) {
+  Desk desk;
+  desk.soup.quad({0.5, -10, 1}, {0, 20, 0}, {0, 0, 3});  // hides 1/2 < u <= 1: its plane cuts the light
+  EXPECT_EQ(desk.fraction(), 0.75);
+  Desk behind;
+  behind.soup.quad({-10, -10, 2.25}, {20, 0, 0}, {0, 20, 0});
+  EXPECT_EQ(behind.fraction(), 1.0);
+  Desk on_the_plane;
+  on_the_plane.soup.quad({-10, -10, 2}, {20, 0, 0}, {0, 20, 0});  // touches no segment before its end
+  EXPECT_EQ(on_the_plane.fraction(), 1.0);
+}
+
+TEST(SoftOracle, OccludersThroughThePointDoNotBlock) {
+  Desk desk;
+  desk.soup.quad({0, -10, -1}, {0, 20, 0}, {0, 0, 4});  // its plane holds the point
+  EXPECT_EQ(desk.fraction(), 1.0);
+  // A wall that stands on the ground at x = 1: theta = tau |n| is (100 and 20) sqrt(3) 2^-24 off its plane.
+  Desk wall;
+  wall.soup.quad({1, -10, 0}, {0, 20, 0}, {0, 0, 20});
+  const double theta = std::sqrt(3.0) * 0x1p-24 * (200 + 20);
+  EXPECT_EQ(wall.fraction({1 - 0.999 * theta, 0, 0}), 1.0);
+  EXPECT_EQ(wall.fraction({1 - 1.001 * theta, 0, 0}), 1.0);  // the light is on the point's side of the wall
+  EXPECT_EQ(wall.fraction({1 + 0.999 * theta, 0, 0}), 1.0);
+  EXPECT_EQ(wall.fraction({1 + 1.001 * theta, 0, 0}), 0.0);
+}
+
+TEST(SoftOracle, ContactsCloseTheShadow) {
+  // A plate that lies on the ground, 2 theta above: everything below it is dark.
+  Desk desk;
+  const double theta = std::sqrt(3.0) * 0x1p-24 * (200 + 10);
+  desk.soup.quad({-10, -10, 2 * theta}, {20, 0, 0}, {0, 20, 0});
+  EXPECT_EQ(desk.fraction(), 0.0);
+  desk.soup.positions.resize(3), desk.soup.triangles.resize(1);
+  desk.soup.quad({-10, -10, 0.5 * theta}, {20, 0, 0}, {0, 20, 0});  // within the rounding: the same surface
+  EXPECT_EQ(desk.fraction(), 1.0);
+}
+
+TEST(SoftOracle, TheHorizonCutsTheLight) {
+  Desk desk;
+  desk.soup.positions[0] = {0, -100, -100};  // the plane x = 0 halves the light
+  desk.soup.positions[1] = {0, 100, -100};
+  desk.soup.positions[2] = {0, 0, 200};
+  desk.view.eye = {1, 0, 0};
+  EXPECT_EQ(desk.fraction(), 0.5);
+  desk.view.eye = {-1, 0, 0};
+  EXPECT_EQ(desk.fraction(), 0.5);
+  desk.view.eye = {0, 1, 0};  // edge-on
+  EXPECT_EQ(desk.fraction(), 0.0);
+  desk.view.orthographic = true;
+  desk.view.d0 = {-1, 0, 0};
+  EXPECT_EQ(desk.fraction(), 0.5);
+  // The corner of a unit square in the plane z = 2 above the edge of the half space x > 0.
+  const double a = 0.5;
+  const double perpendicular = std::atan(1 / (2 * 1.0)) - 2 / std::sqrt(5.0) * std::atan(1 / std::sqrt(5.0));
+  EXPECT_NEAR(desk.at(dvec3(0.0)).irradiance, perpendicular, 1e-15) << a;
+}
+
+TEST(SoftOracle, PointsBehindOrOnTheLightSeeNothing) {
+  Desk desk;
+  EXPECT_EQ(desk.fraction({0, 0, 2}), 0.0);
+  EXPECT_EQ(desk.fraction({5, 0, 2}), 0.0);
+  EXPECT_EQ(desk.fraction({0, 0, 2.5}), 0.0);
+  EXPECT_GT(desk.fraction({0, 0, std::nextafter(2.0, 0.0)}), 0.0);
+}
+
+TEST(SoftOracle, BackgroundFlagsAndOwnTriangle) {
+  Desk desk;
+  desk.soup.quad({0, -10, 1}, {10, 0, 0}, {0, 20, 0});
+  EXPECT_EQ(desk.at(dvec3(0.0), SweepNumbers::rational, no_triangle).visible_fraction, 0.0);
+  EXPECT_EQ(desk.fraction(), 0.5);
+  desk.soup.casts = {1, 1, 0};  // the triangle that is left passes beside the light
+  EXPECT_EQ(desk.fraction(), 1.0);
+  desk.soup.casts = {1, 0, 1};
+  EXPECT_EQ(desk.fraction(), 0.5);
+  desk.soup.casts = {1, 0, 0};
+  EXPECT_EQ(desk.fraction(), 1.0);
+  desk.soup.casts = {};
+  // A ground that does not hold the point would block; as the own triangle it does not.
+  EXPECT_EQ(desk.fraction({0, 0, -0.5}), 0.5);
+  EXPECT_EQ(desk.at({0, 0, -0.5}, SweepNumbers::rational, 1).visible_fraction, 0.0);
+  desk.soup.positions[7] = vec3(std::nanf(""));  // of triangle 2, which covers the half
+  EXPECT_EQ(desk.fraction(), 1.0);
+  desk.soup.positions[1] = desk.soup.positions[0];
+  EXPECT_EQ(desk.fraction(), 0.0);  // a receiver without area
+}
+
+/// Area of the hull of `points` and of its part inside the light's square, by clipping the hull.
+double hull_area(std::vector<dvec2> points) {
+  const auto turn = [](dvec2 o, dvec2 a, dvec2 b) {
+    return (a.x - o.x) * (b.y - o.y) - (a.y - o.y) * (b.x - o.x);
+  };
+  std::sort(points.begin(), points.end(),
+            [](dvec2 a, dvec2 b) { return a.x != b.x ? a.x < b.x : a.y < b.y; });
+  double doubled = 0;
+  for (int half = 0; half < 2; ++half) {
+    std::vector<dvec2> chain;
+    for (const dvec2& p : points) {
+      while (chain.size() > 1 && turn(chain[chain.size() - 2], chain.back(), p) <= 0) chain.pop_back();
+      chain.push_back(p);
+    }
+    for (std::size_t i = 0; i + 1 < chain.size(); ++i)
+      doubled += chain[i].x * chain[i + 1].y - chain[i].y * chain[i + 1].x;
+    std::reverse(points.begin(), points.end());
+  }
+  return doubled / 2;
+}
+
+Soup tetrahedron(const dvec3 corners[4]) {
+  Soup soup;
+  for (int k = 0; k < 4; ++k) soup.add(corners[k], corners[(k + 1) % 4], corners[(k + 2) % 4]);
+  return soup;
+}
+
+TEST(SoftOracle, ConvexBodiesHideTheHullOfTheirCornersWithoutCracks) {
+  Random random(1);
+  for (int i = 0; i < 200; ++i) {
+    Desk desk;
+    const double radius = random.in(0.05, 0.2);
+    const dvec3 centre(random.in(-0.2, 0.2), random.in(-0.2, 0.2), random.in(0.7, 1.3));
+    dvec3 corners[4];
+    for (dvec3& corner : corners) corner = centre + random.in_cube(radius);
+    desk.soup.append(i % 2 == 0 ? tetrahedron(corners)
+                                : box(centre - 0.3 * radius, centre + dvec3(radius, 0.5 * radius, radius)));
+    std::vector<dvec2> projected;
+    for (std::size_t k = 3; k < desk.soup.positions.size(); ++k) {
+      const dvec3 q(desk.soup.positions[k]);
+      projected.emplace_back(2 * q.x / q.z, 2 * q.y / q.z);
+    }
+    EXPECT_NEAR(desk.fraction(), 1 - hull_area(projected) / 4, 1e-14) << "case " << i;
+  }
+}
+
+TEST(SoftOracle, InsideAClosedBodyTheLightIsHiddenWhole) {
+  Random random(2);
+  for (int i = 0; i < 20; ++i) {
+    Desk desk;
+    desk.soup.append(sphere(4, 1.5, random.in_cube(0.3)));
+    const dvec3 point(random.in(-0.4, 0.4), random.in(-0.4, 0.4), 0);
+    const SoftAnswer rounded = desk.at(point, SweepNumbers::long_double);
+    EXPECT_LE(rounded.visible_fraction, rounded.error_bound) << "case " << i;
+    if (i < 4) {
+      EXPECT_EQ(desk.at(point).visible_fraction, 0.0) << "case " << i;
+    }
+  }
+}
+
+/// A soup, a polygonal light above or beside it, and points on the soup's triangles.
+struct SoupCase {
+  Soup soup;
+  AreaLight light;
+  ViewRays view;
+  VisiblePoints points;
+  SoupCase(Random& random, const SoupMaker& maker, int count) : soup(maker.make(random)) {
+    const dvec3 low = soup.low(), high = soup.high();
+    const double size = glm::length(high - low);
+    for (;;) {
+      const dvec3 x = random.direction() * size * std::exp2(random.in(-6, -1));
+      const dvec3 y = glm::normalize(glm::cross(x, random.direction())) * size * std::exp2(random.in(-6, -1));
+      const vec3 centre(0.5 * (low + high) + random.direction() * size * random.in(0.0, 1.0));
+      auto made = random.chance(0.5) ? make_rectangle_light(centre, vec3(x), vec3(y))
+                                     : make_disc_light(centre, vec3(x), vec3(y));
+      if (made) {
+        light = *made;
+        break;
+      }
+    }
+    view.eye = vec3(light.centre);
+    points = points_on_triangles(soup, random, count);
+  }
+};
+
+TEST(SoftOracle, RationalsAndLongDoublesAgree) {
+  Random random(3);
+  int compared = 0, partly = 0;
+  std::size_t most = 0;
+  for (const SoupMaker& maker : soup_makers()) {
+    const SoupCase c(random, maker, 12);
+    const ExactSoft oracle(c.view, c.soup.view(), c.light);
+    for (std::size_t i = 0; i < c.points.positions.size(); ++i) {
+      const dvec3 p = c.points.positions[i];
+      const std::uint32_t id = c.points.triangles[i];
+      const SoftAnswer rounded = oracle.answer(p, id);
+      if (rounded.occluders > 16) continue;
+      const SoftAnswer exact = oracle.answer(p, id, vec3(0), SweepNumbers::rational);
+      EXPECT_NEAR(exact.visible_fraction, rounded.visible_fraction, rounded.error_bound)
+          << maker.name << " " << i;
+      EXPECT_NEAR(exact.irradiance, rounded.irradiance, 1e-12) << maker.name << " " << i;
+      ++compared;
+      partly += exact.visible_fraction > 0 && exact.visible_fraction < 1;
+      most = std::max(most, rounded.occluders);
+    }
+  }
+  std::printf("rationals against long doubles: %d points, %d of them in a penumbra, up to %zu occluders\n",
+              compared, partly, most);
+  EXPECT_GT(partly, 20);
+}
+
+/// By more than rounding.
+bool inside_outline(const AreaLight& light, dvec2 p) {
+  for (std::size_t k = 0; k < light.outline.size(); ++k) {
+    const dvec2 a = light.outline[k], e = light.outline[(k + 1) % light.outline.size()] - a;
+    if (!(e.x * (p.y - a.y) - e.y * (p.x - a.x) > 1e-9 * light.area_m2)) return false;
+  }
+  return true;
+}
+
+TEST(SoftOracle, TheCullingLosesNothing) {
+  Random random(4);
+  int kept = 0, all = 0;
+  for (const SoupMaker& maker : soup_makers()) {
+    const SoupCase c(random, maker, 6);
+    const ExactSoft oracle(c.view, c.soup.view(), c.light);
+    for (std::size_t i = 0; i < c.points.positions.size(); ++i) {
+      const std::uint32_t id = c.points.triangles[i];
+      const std::vector<std::uint32_t> near = oracle.candidates(c.points.positions[i], id);
+      for (std::uint32_t t = 0; t < c.soup.triangles.size() && id != no_triangle; ++t) {
+        ++all;
+        if (std::find(near.begin(), near.end(), t) != near.end()) {
+          ++kept;
+          continue;
+        }
+        // A culled triangle hides nothing: no ray through a corner or its centre goes on to the light.
+        const dvec3 q[3] = {dvec3(c.soup.corner(t, 0)), dvec3(c.soup.corner(t, 1)),
+                            dvec3(c.soup.corner(t, 2))};
+        for (const dvec3& x : {q[0], q[1], q[2], (q[0] + q[1] + q[2]) / 3.0}) {
+          const dvec3 p = c.points.positions[i], d = x - p;
+          const double slope = glm::dot(c.light.normal, d);
+          const double where = glm::dot(c.light.normal, c.light.centre - p) / slope;
+          if (!(slope < 0) || !(where > 1 + 1e-9)) continue;
+          const dvec3 hit = p + where * d - c.light.centre;
+          const dvec2 uv(glm::dot(hit, c.light.ex), glm::dot(hit, c.light.ey));
+          const bool inside = glm::dot(c.light.normal, p - c.light.centre) > 0 && inside_outline(c.light, uv);
+          EXPECT_FALSE(inside && t != id) << maker.name << " point " << i << " triangle " << t;
+        }
+      }
+    }
+  }
+  std::printf("culling: %d of %d pairs kept\n", kept, all);
+  EXPECT_LT(kept, all / 2);
+}
+
+/// Whether the visible region holds (u, v).
+bool sees(const SoftAnswer& answer, dvec2 p) {
+  return std::any_of(answer.visible.begin(), answer.visible.end(), [&](const reference::Trapezoid& t) {
+    const long double s = (p.x - t.left) / (t.right - t.left);
+    return s >= 0 && s <= 1 && p.y >= t.low_left + s * (t.low_right - t.low_left) &&
+           p.y <= t.high_left + s * (t.high_right - t.high_left);
+  });
+}
+
+dvec2 random_point_of(const std::vector<dvec2>& outline, Random& random) {
+  const std::size_t k = 1 + random.index(static_cast<std::uint32_t>(outline.size() - 2));
+  double s = random.unit(), t = random.unit();
+  if (s + t > 1) s = 1 - s, t = 1 - t;
+  return outline[0] + s * (outline[k] - outline[0]) + t * (outline[k + 1] - outline[0]);
+}
+
+struct RayCount {
+  int rays = 0, free = 0, close = 0, wrong = 0;
+};
+
+/// Shadow rays to random points of the light by the oracle of the hard shadows. Each must agree with the
+/// visible region, unless its end, rounded to float and so beside the light's plane, lies that close to the
+/// region's border.
+RayCount compare_with_rays(const SoupCase& c, Random& random, int ends) {
+  RayCount count;
+  const ExactSoft oracle(c.view, c.soup.view(), c.light);
+  std::vector<SoftAnswer> answers;
+  for (std::size_t i = 0; i < c.points.positions.size(); ++i)
+    answers.push_back(oracle.answer(c.points.positions[i], c.points.triangles[i]));
+  for (int k = 0; k < ends; ++k) {
+    const dvec2 aimed = random_point_of(c.light.outline, random);
+    ShadowLight end;
+    end.position = vec3(c.light.centre + aimed.x * c.light.ex + aimed.y * c.light.ey);
+    const dvec3 offset = dvec3(end.position) - c.light.centre;
+    const dvec2 uv(glm::dot(offset, c.light.ex), glm::dot(offset, c.light.ey));
+    const double off = std::abs(glm::dot(offset, c.light.normal)) + 1e-12 * glm::length(offset);
+    const reference::ExactShadow hard(c.view, c.soup.view(), end, {});
+    for (std::size_t i = 0; i < answers.size(); ++i) {
+      const dvec3 p = c.points.positions[i];
+      const std::uint32_t id = c.points.triangles[i];
+      const double height = glm::dot(c.light.normal, p - c.light.centre);
+      if (id == no_triangle || !(height > 0)) continue;
+      reference::ExactMaskStats stats;
+      const bool free = hard.active(p, id) && hard.blocker(p, id, stats) == no_triangle;
+      ++count.rays, count.free += free;
+      if (free == sees(answers[i], uv)) continue;
+      // Where the ray meets the light's plane.
+      const double shift = 4 * off * (1 + glm::length(dvec3(end.position) - p) / height);
+      bool close = false;
+      for (int n = 0; n < 9; ++n)
+        close = close || sees(answers[i], uv + shift * dvec2(n % 3 - 1, n / 3 - 1)) == free;
+      count.close += close, count.wrong += !close;
+      EXPECT_TRUE(close) << "point " << i << ", end " << k << ": ray " << free << ", region " << !free;
+    }
+  }
+  return count;
+}
+
+TEST(SoftOracle, ShadowRaysOfTheHardOracleAgreePointByPoint) {
+  Random random(5);
+  RayCount sum;
+  for (const SoupMaker& maker : soup_makers()) {
+    const SoupCase c(random, maker, 64);
+    const RayCount count = compare_with_rays(c, random, scaled(16));
+    EXPECT_EQ(count.wrong, 0) << maker.name;
+    sum.rays += count.rays, sum.free += count.free, sum.close += count.close;
+  }
+  std::printf("hard rays: %d, %d of them free, %d closer to a border than the rounding of their ends\n",
+              sum.rays, sum.free, sum.close);
+  EXPECT_GT(sum.rays, scaled(6000));
+  EXPECT_GT(sum.free, sum.rays / 20);
+  EXPECT_LT(sum.close, sum.rays / 100);
+}
+
+TEST(SoftOracle, IrradianceIsTheIntegralOverTheVisibleRegion) {
+  Random random(6);
+  const double node = 0.5 / std::sqrt(3.0);
+  for (int i = 0; i < 20; ++i) {
+    Desk desk;
+    desk.soup.append(sphere(2, 0.3, random.in_cube(0.3) + dvec3(0, 0, 1)));
+    desk.normal = vec3(glm::normalize(dvec3(random.in(-1, 1), random.in(-1, 1), random.in(0, 1))));
+    const SoftAnswer answer = desk.at({0.1, 0.2, 0}, SweepNumbers::long_double);
+    double sum = 0;
+    constexpr int parts = 24;  // Gauss's rule of two points on 24 x 24 cells a trapezoid
+    for (const reference::Trapezoid& t : answer.visible)
+      for (int a = 0; a < 2 * parts; ++a)
+        for (int b = 0; b < 2 * parts; ++b) {
+          const double s = (a / 2 + 0.5 + (a % 2 ? node : -node)) / parts;
+          const double r = (b / 2 + 0.5 + (b % 2 ? node : -node)) / parts;
+          const double low = double(t.low_left + s * (t.low_right - t.low_left));
+          const double high = double(t.high_left + s * (t.high_right - t.high_left));
+          const double u = double(t.left + s * (t.right - t.left)), v = low + r * (high - low);
+          const dvec3 q = desk.light.centre + u * desk.light.ex + v * desk.light.ey - dvec3(0.1, 0.2, 0);
+          const double d = glm::length(q);
+          const double cosines = std::max(glm::dot(dvec3(desk.normal), q), 0.0) * q.z / (d * d);
+          sum += cosines / (d * d) * (high - low) * double(t.right - t.left) / (4 * parts * parts);
+        }
+    EXPECT_NEAR(answer.irradiance, sum, 1e-4 * sum + 1e-6) << "case " << i;
+  }
+}
+
+}  // namespace
+}  // namespace tenebra::testing

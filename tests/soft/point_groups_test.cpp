@@ -1,0 +1,241 @@
+// Every active point is in one group; groups are small, lie together and know what they hold.
+#include "soft/point_groups.h"
+
+#include <fmt/format.h>
+#include <gtest/gtest.h>
+
+#include <set>
+
+#include "parallel/parallel.h"
+#include "reference/exact_segment.h"
+#include "soft/group_case.h"
+
+namespace tenebra::testing {
+namespace {
+
+using glm::dvec3;
+
+PointGroups grouped(const GroupCase& c, SoftGrouping grouping) {
+  PointGroups groups;
+  group_points(c.points, c.view, c.soup.view(), c.light, grouping, groups);
+  return groups;
+}
+
+/// How far, relative to what double resolves, the point is from being reached; below 0: reached for certain.
+/// Seen edge-on: never reached.
+double out_of_reach(const GroupCase& c, std::size_t pixel) {
+  const std::uint32_t id = c.points.triangles[pixel];
+  if (id == no_triangle || seen_side(c.soup.view(), id, c.view) == 0) return INFINITY;
+  const dvec3 p = c.points.positions[pixel];
+  const double size = glm::length(p) + glm::length(c.light.centre);
+  double out = -glm::dot(p - c.light.centre, c.light.normal) / size;
+  const Corners t = corners_of(c.soup.view(), id);
+  const dvec3 a(t.v[0]), e(dvec3(t.v[1]) - a), f(dvec3(t.v[2]) - a);
+  double below = INFINITY;
+  for (const glm::dvec2& v : c.light.outline) {
+    const dvec3 q = light_point(c.light, v);
+    const double height = glm::dot(glm::cross(e, f), q - a) * seen_side(c.soup.view(), id, c.view);
+    below = std::min(below, -height / (glm::length(e) * glm::length(f) *
+                                       (glm::length(q) + glm::length(a) + glm::length(c.light.centre))));
+  }
+  return std::max(out, below);
+}
+
+void expect_partition(const GroupCase& c, SoftGrouping grouping) {
+  const PointGroups groups = grouped(c, grouping);
+  std::vector<int> times(c.points.triangles.size(), 0);
+  for (const PointGroup& group : groups.groups)
+    for (const std::uint32_t pixel : groups.pixels_of(group)) ++times[pixel];
+  for (std::size_t i = 0; i < times.size(); ++i) {
+    ASSERT_LE(times[i], 1) << c.name << ", pixel " << i;
+    const double out = out_of_reach(c, i);
+    ASSERT_TRUE(out > -1e-15 || times[i] == 1) << c.name << ", pixel " << i << " is reached: " << out;
+    ASSERT_TRUE(out < 1e-12 || times[i] == 0) << c.name << ", pixel " << i << " is not: " << out;
+  }
+}
+
+void expect_true_groups(const GroupCase& c, SoftGrouping grouping) {
+  const PointGroups groups = grouped(c, grouping);
+  for (const PointGroup& group : groups.groups) {
+    ASSERT_GT(group.count, 0u);
+    dvec3 low(INFINITY), high(-INFINITY);
+    std::set<std::uint32_t> receivers, tiles;
+    for (std::uint32_t i = 0; i < group.count; ++i) {
+      const std::uint32_t pixel = groups.pixels_of(group)[i];
+      const dvec3 p = groups.positions_of(group)[i];
+      ASSERT_EQ(p, c.points.positions[pixel]);
+      ASSERT_EQ(groups.triangles_of(group)[i], c.points.triangles[pixel]);
+      low = glm::min(low, p), high = glm::max(high, p);
+      receivers.insert(c.points.triangles[pixel]);
+      const auto width = static_cast<std::uint32_t>(c.points.width);
+      tiles.insert(pixel / width / 8 * width + pixel % width / 8);
+    }
+    EXPECT_EQ(low, group.low);
+    EXPECT_EQ(high, group.high);
+    std::vector<std::uint32_t> listed;
+    for (const Receiver& receiver : groups.receivers_of(group)) {
+      listed.push_back(receiver.triangle);
+      EXPECT_EQ(receiver.side, seen_side(c.soup.view(), receiver.triangle, c.view));
+    }
+    EXPECT_EQ(listed, std::vector<std::uint32_t>(receivers.begin(), receivers.end()));
+    if (grouping == SoftGrouping::triangle) {
+      EXPECT_EQ(receivers.size(), 1u);
+    } else {
+      EXPECT_EQ(tiles.size(), 1u);
+      EXPECT_LE(group.count, largest_neighbourhood);
+    }
+  }
+}
+
+void expect_true_tree(const PointGroups& groups) {
+  ASSERT_EQ(groups.nodes.empty(), groups.groups.empty());
+  if (groups.nodes.empty()) return;
+  EXPECT_EQ(groups.nodes[0].count, groups.groups.size());
+  for (const GroupNode& node : groups.nodes) {
+    dvec3 low(INFINITY), high(-INFINITY);
+    std::uint32_t points = 0;
+    for (std::uint32_t g = node.first; g < node.first + node.count; ++g) {
+      low = glm::min(low, groups.groups[g].low), high = glm::max(high, groups.groups[g].high);
+      points += groups.groups[g].count;
+    }
+    ASSERT_EQ(low, node.low);
+    ASSERT_EQ(high, node.high);
+    ASSERT_EQ(points, node.points);
+    ASSERT_EQ(node.children == 0, node.count == 1);
+    if (node.children == 0) continue;
+    const GroupNode &a = groups.nodes[node.children], &b = groups.nodes[node.children + 1];
+    ASSERT_EQ(a.first, node.first);
+    ASSERT_EQ(b.first, a.first + a.count);
+    ASSERT_EQ(a.count + b.count, node.count);
+  }
+}
+
+TEST(PointGroups, HoldEveryActivePointOnceWithTrueBoxesAndReceivers) {
+  int active = 0;
+  for (const SoupMaker& maker : soup_makers()) {
+    for (std::uint64_t seed = 0; seed < 4; ++seed) {
+      Random random(3000 + seed);
+      Soup soup = maker.make(random);
+      const AreaLight light = seed == 3 ? light_in_plane(soup, random) : random_light(soup, random);
+      const GroupCase c =
+          random_case(fmt::format("{}, seed {}", maker.name, seed), std::move(soup), light, random);
+      for (const SoftGrouping grouping : {SoftGrouping::neighbourhood, SoftGrouping::triangle}) {
+        expect_partition(c, grouping);
+        expect_true_groups(c, grouping);
+        expect_true_tree(grouped(c, grouping));
+        if (HasFatalFailure()) return;
+        active += static_cast<int>(grouped(c, grouping).groups.size());
+      }
+    }
+  }
+  EXPECT_GT(active, 1000);
+}
+
+/// A floor at y = 0, seen by a camera that looks down and ahead.
+GroupCase stage(int width, int height) {
+  GroupCase c;
+  c.name = "stage";
+  c.soup.quad({-4, 0, -4}, {0, 0, 8}, {8, 0, 0});
+  c.light = regular_light({0, 4, 0}, {0, -1, 0}, 0.5, 4);
+  c.view = pinhole({0, 3, 3}, {0, 0, 0}, 0.4, width, height);
+  c.points = view_samples(c.soup.view(), c.view, width, height);
+  return c;
+}
+
+TEST(PointGroups, CoverPicturesOfAnySize) {
+  for (const auto& [width, height] :
+       {std::pair{1, 1}, {1, 17}, {17, 1}, {7, 9}, {8, 8}, {9, 7}, {15, 16}, {33, 31}}) {
+    const GroupCase c = stage(width, height);
+    for (const SoftGrouping grouping : {SoftGrouping::neighbourhood, SoftGrouping::triangle}) {
+      expect_partition(c, grouping);
+      expect_true_groups(c, grouping);
+    }
+    std::uint32_t points = 0, expected = 0;
+    for (const PointGroup& group : grouped(c, SoftGrouping::neighbourhood).groups) points += group.count;
+    for (const std::uint32_t id : c.points.triangles) expected += id != no_triangle;
+    EXPECT_EQ(points, expected);
+    EXPECT_GT(points, 0u);
+  }
+}
+
+TEST(PointGroups, OfNothingAreNone) {
+  GroupCase c = stage(8, 8);
+  c.points = {};
+  for (const SoftGrouping grouping : {SoftGrouping::neighbourhood, SoftGrouping::triangle}) {
+    const PointGroups groups = grouped(c, grouping);
+    EXPECT_TRUE(groups.groups.empty() && groups.nodes.empty());
+  }
+}
+
+// Pixels of one tile on the floor and on a table far above it.
+TEST(PointGroups, AreSplitAtGapsInDepth) {
+  GroupCase c = stage(8, 8);
+  EXPECT_EQ(grouped(c, SoftGrouping::neighbourhood).groups.size(), 1u);
+  c.soup.quad({-4, 2, 2}, {0, 0, 8}, {8, 0, 0});
+  c.points = view_samples(c.soup.view(), c.view, 8, 8);
+  const PointGroups groups = grouped(c, SoftGrouping::neighbourhood);
+  ASSERT_EQ(groups.groups.size(), 2u);
+  for (const PointGroup& group : groups.groups) EXPECT_LT(group.high.y - group.low.y, 1e-9);
+}
+
+// Any half of a full tile is a compact part of it, for solvers that take fewer points.
+TEST(PointGroups, OrderTheirPointsAlongAZCurve) {
+  const PointGroups groups = grouped(stage(8, 8), SoftGrouping::neighbourhood);
+  ASSERT_EQ(groups.groups.size(), 1u);
+  for (std::uint32_t part = 0; part < 4; ++part) {
+    std::set<std::uint32_t> columns, rows;
+    for (const std::uint32_t pixel : groups.pixels_of(groups.groups[0]).subspan(16 * part, 16))
+      columns.insert(pixel % 8), rows.insert(pixel / 8);
+    EXPECT_EQ(columns.size(), 4u);
+    EXPECT_EQ(rows.size(), 4u);
+  }
+}
+
+TEST(PointGroups, LeaveOutWhatTheLightCannotReach) {
+  GroupCase c = stage(16, 16);
+  c.light = regular_light({0, 4, 0}, {0, 1, 0}, 0.5, 4);  // shines up
+  EXPECT_TRUE(grouped(c, SoftGrouping::neighbourhood).groups.empty());
+  c.light = regular_light({0, -4, 0}, {0, 1, 0}, 0.5, 4);  // below the floor
+  EXPECT_TRUE(grouped(c, SoftGrouping::neighbourhood).groups.empty());
+  c.light = regular_light({0, 0, -2}, {0, 0, 1}, 0.5, 4);  // half of it below; half of the floor behind it
+  std::uint32_t points = 0, expected = 0;
+  for (const PointGroup& group : grouped(c, SoftGrouping::neighbourhood).groups) points += group.count;
+  for (const dvec3& p : c.points.positions) expected += p.z > -2;
+  EXPECT_EQ(points, expected);
+  EXPECT_GT(points, 0u);
+}
+
+TEST(PointGroups, KnowTheSeenSide) {
+  GroupCase c = stage(4, 4);
+  EXPECT_EQ(seen_side(c.soup.view(), 0, c.view), 1);
+  c.view.eye.y = -1;
+  EXPECT_EQ(seen_side(c.soup.view(), 0, c.view), -1);
+  c.view.eye.y = 0;
+  EXPECT_EQ(seen_side(c.soup.view(), 0, c.view), 0);
+  c.view.orthographic = true;
+  c.view.d0 = {0.3f, -0.1f, 0};
+  EXPECT_EQ(seen_side(c.soup.view(), 0, c.view), 1) << "rays that come down";
+  c.view.d0 = {1, 0, 1};
+  EXPECT_EQ(seen_side(c.soup.view(), 0, c.view), 0);
+}
+
+TEST(PointGroups, AreTheSameForAnyNumberOfThreads) {
+  Random random(41);
+  GroupCase c = stage(200, 120);
+  c.soup.append(room(random, 100));
+  c.points = view_samples(c.soup.view(), c.view, 200, 120);
+  const auto list = [&] {
+    std::vector<std::vector<std::uint32_t>> all;
+    const PointGroups groups = grouped(c, SoftGrouping::neighbourhood);
+    for (const PointGroup& g : groups.groups) {
+      const auto pixels = groups.pixels_of(g);
+      all.emplace_back(pixels.begin(), pixels.end());
+    }
+    return all;
+  };
+  const auto expected = list();
+  for (const int threads : {1, 2, 3, 7}) with_threads(threads, [&] { EXPECT_EQ(list(), expected); });
+}
+
+}  // namespace
+}  // namespace tenebra::testing

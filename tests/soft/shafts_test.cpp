@@ -1,0 +1,165 @@
+// No triangle that blocks a line is ever left out, and no group is called lit or dark that is not: soups of
+// every kind, every scale, near and far from the origin.
+#include "soft/shafts.h"
+
+#include <gtest/gtest.h>
+
+#include "soft/shaft_check.h"
+
+namespace tenebra::testing {
+namespace {
+
+using glm::dvec3;
+
+TEST(Shafts, NeverLeaveOutATriangleThatBlocks) {
+  Tally tally;
+  for (const SoupMaker& maker : soup_makers()) {
+    for (std::uint64_t seed = 0; seed < 8; ++seed) {
+      Random random(1000 + seed);
+      Soup soup = maker.make(random);
+      const AreaLight light = seed % 4 == 3 ? light_in_plane(soup, random) : random_light(soup, random);
+      const GroupCase c =
+          random_case(fmt::format("{}, seed {}", maker.name, seed), std::move(soup), light, random);
+      ShaftCheck(c).run(tally, 60);
+      ShaftCheck(c, SoftGrouping::triangle).run(tally, 20);
+      if (HasFatalFailure()) return;
+    }
+  }
+  tally.print("soups");
+  EXPECT_GT(tally.blocked, 100000u);
+  EXPECT_GT(tally.dark, 300u);
+  EXPECT_GT(tally.dropped, 3 * tally.kept) << "the shafts leave out next to nothing";
+}
+
+TEST(Shafts, NeverLeaveOutATriangleThatBlocksFarFromTheOriginOrAtAnyScale) {
+  Tally tally;
+  for (const double offset : {1e3, 1e6, 1e8}) {
+    for (const double scale : {1e-6, 1.0, 1e6}) {
+      Random random(2000);
+      for (int i = 0; i < 4; ++i) {
+        const Soup near = i % 2 == 0 ? room(random, 60) : tilted_wall(random);
+        Soup soup = near.moved(scale, scale * offset * random.direction());
+        const AreaLight light = random_light(soup, random);
+        const GroupCase c = random_case(fmt::format("offset {}, scale {}, case {}", offset, scale, i),
+                                       std::move(soup), light, random);
+        ShaftCheck(c).run(tally, 200);
+        if (HasFatalFailure()) return;
+      }
+    }
+  }
+  tally.print("far and scaled");
+  EXPECT_GT(tally.blocked, 10000u);
+}
+
+// Points of a foreign G-buffer lie beside their triangles, on either side.
+TEST(Shafts, NeverLeaveOutATriangleThatBlocksPointsOffTheirTriangles) {
+  Tally tally;
+  for (std::uint64_t seed = 0; seed < 40; ++seed) {
+    Random random(4000 + seed);
+    Soup soup = seed % 2 == 0 ? room(random, 40) : sphere(4, 1, {0, 0, 0});
+    const AreaLight light = random_light(soup, random);
+    GroupCase c = random_case(fmt::format("seed {}", seed), std::move(soup), light, random);
+    const double off = std::pow(10.0, random.in(-6, -0.5));
+    const dvec3 shift = off * random.direction();
+    for (dvec3& p : c.points.positions) p += seed % 4 < 2 ? shift : off * random.direction();
+    ShaftCheck(c).run(tally, 100);
+    ShaftCheck(c, SoftGrouping::triangle).run(tally, 20);
+    if (HasFatalFailure()) return;
+  }
+  tally.print("points off their triangles");
+  EXPECT_GT(tally.blocked, 50000u);
+}
+
+GroupCase room_case(std::uint64_t seed, int size) {
+  Random random(seed);
+  GroupCase c;
+  c.name = fmt::format("room, seed {}", seed);
+  c.soup = room(random, 300);
+  c.light = regular_light({0.3, 1.7, -0.4}, {-0.1, -1, 0.2}, 0.3, 4);
+  c.view = pinhole({-1.8, 1.5, -1.7}, {0, 0, 0}, 0.9, size, size);
+  c.points = view_samples(c.soup.view(), c.view, size, size);
+  return c;
+}
+
+// Coordinates times 2^k: all roundings scale with them, so the same bits decide.
+TEST(Shafts, KeepTheSameTrianglesAtAnyPowerOfTwo) {
+  const GroupCase c = room_case(31, 64);
+  const std::vector<Given> expected = given(c, grouped(c));
+  for (const int k : {-40, -7, 9, 40}) {
+    GroupCase scaled = c;
+    const double scale = std::ldexp(1.0, k);
+    for (glm::vec3& v : scaled.soup.positions) v *= static_cast<float>(scale);
+    for (glm::dvec3& p : scaled.points.positions) p *= scale;
+    for (glm::dvec2& v : scaled.light.outline) v *= scale;
+    scaled.light.centre *= scale;
+    scaled.view.eye *= static_cast<float>(scale);
+    EXPECT_EQ(given(scaled, grouped(scaled)), expected) << "2^" << k;
+  }
+}
+
+TEST(Shafts, AreTheSameForAnyNumberOfThreadsAndAnyInstructions) {
+  const GroupCase c = room_case(32, 96);
+  ShaftStats expected_stats;
+  const std::vector<Given> expected = given(c, grouped(c), SimdLevel::scalar, &expected_stats);
+  for (const int threads : {1, 2, 3, 7}) {
+    for (const SimdLevel level : {SimdLevel::scalar, SimdLevel::sse4, SimdLevel::avx2, SimdLevel::avx512}) {
+      if (!simd_level_supported(level)) continue;
+      with_threads(threads, [&] {
+        ShaftStats stats;
+        EXPECT_EQ(given(c, grouped(c), level, &stats), expected)
+            << threads << " threads, " << simd_level_name(level);
+        EXPECT_EQ(stats.candidates, expected_stats.candidates);
+        EXPECT_EQ(stats.points_dark, expected_stats.points_dark);
+      });
+    }
+  }
+}
+
+TEST(Shafts, CountWhatTheyGive) {
+  const GroupCase c = room_case(33, 64);
+  const PointGroups groups = grouped(c);
+  ShaftStats stats;
+  std::uint64_t points[3] = {}, numbers[3] = {}, candidates = 0, most = 0;
+  const std::vector<Given> all = given(c, groups, SimdLevel::automatic, &stats);
+  for (std::size_t i = 0; i < all.size(); ++i) {
+    points[static_cast<int>(all[i].kind)] += groups.groups[i].count;
+    ++numbers[static_cast<int>(all[i].kind)];
+    if (all[i].kind != GroupClass::mixed) continue;
+    candidates += all[i].candidates.size();
+    most = std::max<std::uint64_t>(most, all[i].candidates.size());
+  }
+  EXPECT_EQ(stats.points_lit, points[0]);
+  EXPECT_EQ(stats.points_dark, points[1]);
+  EXPECT_EQ(stats.points_mixed, points[2]);
+  EXPECT_EQ(stats.groups_lit, numbers[0]);
+  EXPECT_EQ(stats.groups_dark, numbers[1]);
+  EXPECT_EQ(stats.groups_mixed, numbers[2]);
+  EXPECT_EQ(stats.candidates, candidates);
+  EXPECT_EQ(stats.most_candidates, most);
+  EXPECT_GT(candidates, 0u);
+  EXPECT_GT(stats.seconds, 0);
+}
+
+TEST(Shafts, EndEarlyWhenAsked) {
+  const GroupCase c = room_case(34, 64);
+  const PointGroups groups = grouped(c);
+  ShaftCuller culler;
+  StopFlag stop;
+  int calls = 0;
+  with_threads(1, [&] {
+    EXPECT_FALSE(culler.for_each_group(groups, c.soup.view(), c.light, {}, &stop, [&](auto&&...) {
+      if (++calls == 3) stop.request();
+    }));
+    EXPECT_EQ(calls, 3);
+    EXPECT_FALSE(
+        culler.for_each_group(groups, c.soup.view(), c.light, {}, &stop, [&](auto&&...) { ++calls; }));
+    EXPECT_EQ(calls, 3);
+    stop.reset();
+    EXPECT_TRUE(
+        culler.for_each_group(groups, c.soup.view(), c.light, {}, &stop, [&](auto&&...) { ++calls; }));
+  });
+  EXPECT_EQ(calls, 3 + static_cast<int>(groups.groups.size()));
+}
+
+}  // namespace
+}  // namespace tenebra::testing

@@ -1,0 +1,54 @@
+// Frames of the bundled and the BART scenes as cases of the soft shadows.
+#pragma once
+
+#include "soft/soft_case.h"
+
+namespace tenebra::testing {
+
+struct SceneFrame {
+  const char* scene;  ///< below scenes/bart, or a bundled one
+  int frame;
+  const char* no_cast = "";
+};
+/// The views of the issue; robots without its sky dome as a caster.
+inline const SceneFrame bart_frames[] = {
+    {"robots/Robot.aff", 100, "city2.aff:69"}, {"museum/museum5.aff", 20}, {"kitchen/kitchen.aff", 100}};
+inline const SceneFrame bundled_frames[] = {{"city.glb", 150}, {"gallery.glb", 100}, {"court.glb", 150}};
+
+inline std::filesystem::path path_of(const SceneFrame& frame) {
+  const std::filesystem::path bundled = std::filesystem::path(TENEBRA_SCENES_DIR) / frame.scene;
+  return std::filesystem::exists(bundled)
+             ? bundled
+             : std::filesystem::path(TENEBRA_SHARED_DIR) / "scenes/bart" / frame.scene;
+}
+inline bool bart_is_there() {
+  return std::filesystem::exists(path_of(bart_frames[0]));
+}
+
+/// Light number `light` made a square of `percent` of the scene's diagonal that faces the scene's centre;
+/// points and shading normals of the frame's own camera.
+inline SoftCase frame_case(const SceneFrame& frame, int width, int height, double percent = 4,
+                           std::size_t light = 0) {
+  SoftCase c;
+  c.name = fmt::format("{} frame {} light {} of {} %", frame.scene, frame.frame, light, percent);
+  Expected<Scene> scene = import_scene(path_of(frame));
+  if (!scene) throw std::runtime_error(scene.error().message);
+  std::string unmatched;
+  if (*frame.no_cast != 0 && !leave_out_casters(*scene, {frame.no_cast}, unmatched))
+    throw std::runtime_error(unmatched + " matches nothing in " + frame.scene);
+  const double time_s = frame_time_s(scene->clips.at(0), frame.frame, 30.0);
+  FrameGeometry geometry;
+  evaluate_frame(*scene, 0, time_s, geometry);
+  c.soup.positions = geometry.positions, c.soup.triangles = geometry.triangles;
+  c.soup.casts = geometry.casts_shadow;
+  c.view = evaluate_camera(*scene, 0, time_s, 0, width, height);
+  c.points = view_samples(c.soup.view(), c.view, width, height);
+  compute_shading_normals(c.points, geometry.normals, c.view, c.soup.view(), c.normals);
+  const WorldLight placed = evaluate_lights(*scene, 0, time_s).at(light);
+  const glm::dvec3 low = c.soup.low(), high = c.soup.high();
+  c.light =
+      square_light(glm::dvec3(placed.position), 0.5 * (low + high), percent / 100 * glm::length(high - low));
+  return c;
+}
+
+}  // namespace tenebra::testing
