@@ -31,12 +31,15 @@ TEST(PixelNodes, ChangeNothingAndStandWhereRaysAre) {
 
     const auto nodes = tracer.pixel_nodes();
     ASSERT_EQ(nodes.size(), plain.size());
-    const auto with_nodes = static_cast<std::uint64_t>(std::count_if(nodes.begin(), nodes.end(), [](auto n) { return n > 0; }));
+    const auto with_nodes =
+        static_cast<std::uint64_t>(std::count_if(nodes.begin(), nodes.end(), [](auto n) { return n > 0; }));
     EXPECT_EQ(with_nodes, stats.rays) << "every ray is below the root, which every triangle is tested with";
     const double sum = std::accumulate(nodes.begin(), nodes.end(), 0.0);
-    EXPECT_NEAR(sum, static_cast<double>(stats.nodes), 1e-5 * static_cast<double>(stats.nodes)) << "all work, once";
+    EXPECT_NEAR(sum, static_cast<double>(stats.nodes), 1e-5 * static_cast<double>(stats.nodes))
+        << "all work, once";
     // A flat floor far from the sphere's shadow costs less than its edge.
-    EXPECT_GT(*std::max_element(nodes.begin(), nodes.end()), 1.5f * static_cast<float>(stats.nodes) / static_cast<float>(stats.rays));
+    EXPECT_GT(*std::max_element(nodes.begin(), nodes.end()),
+              1.5f * static_cast<float>(stats.nodes) / static_cast<float>(stats.rays));
   }
 }
 
@@ -48,7 +51,8 @@ TEST(PixelNodes, OfOnePacketAreEqualShares) {
     ShadowTracer tracer;
     traced(c, tracer);
     ASSERT_GT(tracer.stats().rays, 0u);
-    const float share = static_cast<float>(static_cast<double>(tracer.stats().nodes) / static_cast<double>(tracer.stats().rays));
+    const float share = static_cast<float>(static_cast<double>(tracer.stats().nodes) /
+                                           static_cast<double>(tracer.stats().rays));
     for (const float nodes : tracer.pixel_nodes()) {
       if (nodes > 0) EXPECT_FLOAT_EQ(nodes, share) << variant_name(variant);
     }
@@ -63,7 +67,8 @@ TEST(PixelNodes, DoNotDependOnThreads) {
   with_threads(1, [&] { traced(c, tracer); });
   alone.assign(tracer.pixel_nodes().begin(), tracer.pixel_nodes().end());
   with_threads(4, [&] { traced(c, tracer); });
-  EXPECT_TRUE(std::equal(alone.begin(), alone.end(), tracer.pixel_nodes().begin(), tracer.pixel_nodes().end()));
+  EXPECT_TRUE(
+      std::equal(alone.begin(), alone.end(), tracer.pixel_nodes().begin(), tracer.pixel_nodes().end()));
 }
 
 }  // namespace

@@ -15,8 +15,8 @@ using glm::vec3;
 constexpr int width = 640, height = 480;
 
 ViewRays rays_of(const FreeCamera& camera) {
-  return look_at(camera.eye, camera.target, camera.up, static_cast<float>(camera.fov_deg * std::numbers::pi / 180),
-                 0.01f, width, height);
+  return look_at(camera.eye, camera.target, camera.up,
+                 static_cast<float>(camera.fov_deg * std::numbers::pi / 180), 0.01f, width, height);
 }
 
 glm::dvec3 middle_of(const ViewRays& view) {
@@ -87,15 +87,17 @@ TEST(FreeCamera, TakesOverWhatTheSceneCameraSees) {
     EXPECT_NEAR(taken.fov_deg, seen.fov_deg, 1e-3);
     const ViewRays again = rays_of(taken);
     EXPECT_NEAR(glm::length(glm::normalize(middle_of(view)) - glm::normalize(middle_of(again))), 0, 1e-4);
-    EXPECT_NEAR(glm::length(glm::normalize(glm::dvec3(view.dx)) - glm::normalize(glm::dvec3(again.dx))), 0, 2e-3);
+    EXPECT_NEAR(glm::length(glm::normalize(glm::dvec3(view.dx)) - glm::normalize(glm::dvec3(again.dx))), 0,
+                2e-3);
   }
 }
 
 TEST(FreeCamera, PixelOfIsTheInverseOfTheRays) {
   const ViewRays view = rays_of({.eye = {1, 2, 3}, .target = {0, 0, -4}});
   for (const glm::dvec2 pixel : {glm::dvec2(0, 0), glm::dvec2(100.5, 20.25), glm::dvec2(639, 479)}) {
-    const glm::dvec3 point = glm::dvec3(view.eye) + 7.0 * (glm::dvec3(view.d0) + pixel.x * glm::dvec3(view.dx) +
-                                                           pixel.y * glm::dvec3(view.dy));
+    const glm::dvec3 point =
+        glm::dvec3(view.eye) +
+        7.0 * (glm::dvec3(view.d0) + pixel.x * glm::dvec3(view.dx) + pixel.y * glm::dvec3(view.dy));
     const glm::dvec3 found = pixel_of(view, point);
     EXPECT_NEAR(found.x, pixel.x, 1e-6);
     EXPECT_NEAR(found.y, pixel.y, 1e-6);
@@ -115,8 +117,8 @@ TEST(LightEdits, ReadBackWhatTheyWrite) {
 }
 
 TEST(LightEdits, RefuseInASentence) {
-  for (const char* text : {"", "x", "-1 on=0", "0 on=2", "0 intensity=-1", "0 intensity=nan", "0 move=1,2", "0 glow=1",
-                           "0 size"}) {
+  for (const char* text : {"", "x", "-1 on=0", "0 on=2", "0 intensity=-1", "0 intensity=nan", "0 move=1,2",
+                           "0 glow=1", "0 size"}) {
     LightEdits edits;
     const auto parsed = parse_light_edit(text, edits);
     EXPECT_FALSE(parsed) << text;

@@ -68,15 +68,18 @@ TEST(MethodArguments, CoverEveryMethodOption) {
   MethodOptions method;
   CLI::App app;
   viewer::add_method_options(app, method);
-  const std::string all = viewer::method_arguments(
-      parsed("--shadows soft --light 2 --exposure 0.1 --threads 3 --simd scalar --variant Spheres --samples depth "
-             "--cull front --light-size 1x1 --light-facing 1,2,3 --emissive-lights --soft-solver bsp --soft-grouping "
-             "triangle --soft-choice random --soft-precision reference --ao rays --ao-at vertices --ao-layout positions "
-             "--ao-rays 7 --ao-distance 1.5 --ao-positions 99 --ao-directions 64 --ao-bits 1 --ao-deforming none "
-             "--ao-cache none"));
+  const std::string all = viewer::method_arguments(parsed(
+      "--shadows soft --light 2 --exposure 0.1 --threads 3 --simd scalar --variant Spheres --samples depth "
+      "--cull front --light-size 1x1 --light-facing 1,2,3 --emissive-lights --soft-solver bsp "
+      "--soft-grouping "
+      "triangle --soft-choice random --soft-precision reference --ao rays --ao-at vertices --ao-layout "
+      "positions "
+      "--ao-rays 7 --ao-distance 1.5 --ao-positions 99 --ao-directions 64 --ao-bits 1 --ao-deforming none "
+      "--ao-cache none"));
   for (const CLI::Option* option : app.get_options()) {
     if (option->get_name() == "--help") continue;
-    EXPECT_NE((" " + all + " ").find(" " + option->get_name() + " "), std::string::npos) << option->get_name();
+    EXPECT_NE((" " + all + " ").find(" " + option->get_name() + " "), std::string::npos)
+        << option->get_name();
   }
 }
 

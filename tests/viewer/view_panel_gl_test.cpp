@@ -19,7 +19,9 @@ using test::TemporaryFolder;
 class HeadlessViewer {
 public:
   HeadlessViewer(const std::filesystem::path& scene, Size window, float scale = 1)
-      : window_(window), scale_(scale), context_(gl::Context::create(gl::ContextKind::egl, {.debug = true}).value()) {
+      : window_(window),
+        scale_(scale),
+        context_(gl::Context::create(gl::ContextKind::egl, {.debug = true}).value()) {
     make_framebuffer();
     ImGui::CreateContext();
     ImGuiIO& io = ImGui::GetIO();
@@ -61,18 +63,20 @@ public:
     gl_->clear(window_.width, window_.height);
     ImGui_ImplOpenGL3_RenderDrawData(ImGui::GetDrawData());
     viewer_->after_draw(window_.width, window_.height);
+    gl_->read_window(1, 1);  // waits, as a swap would: frames that pile up would starve the worker's
   }
   template <class Condition>
   bool turn_until(Condition condition, double seconds = 60) {
     const auto end = std::chrono::steady_clock::now() + std::chrono::duration<double>(seconds);
     while (!condition() && std::chrono::steady_clock::now() < end) {
       turn();
-      std::this_thread::sleep_for(std::chrono::milliseconds(2));
+      std::this_thread::sleep_for(std::chrono::milliseconds(10));
     }
     return condition();
   }
   bool wait_for_first_picture() {
-    return turn_until([&] { return viewer_->picture() != nullptr || viewer_->is_over(); }) && viewer_->picture();
+    return turn_until([&] { return viewer_->picture() != nullptr || viewer_->is_over(); }) &&
+           viewer_->picture();
   }
   void move_to(ImVec2 at) { ImGui::GetIO().MousePos = at, turn(); }
   void click_at(ImVec2 at) {
@@ -128,7 +132,8 @@ TEST(ViewPanel, IsDrawnWithoutADisplay) {
   ASSERT_TRUE(headless.wait_for_first_picture());
   headless.turn();
   const Image8 before = headless.pixels();
-  for (const char* name : {"play", "scrubber", "shadows.soft", "variant", "graph", "overlay.nodes", "section.Lights"}) {
+  for (const char* name :
+       {"play", "scrubber", "shadows.soft", "variant", "graph", "overlay.nodes", "section.Lights"}) {
     EXPECT_EQ(headless.viewer().marks().count(name), 1u) << name;
   }
   headless.click("shadows.none");
@@ -150,7 +155,8 @@ TEST(ViewPanel, BadFilesShowTheirMessageAndKeepTheScene) {
     const std::string before = headless.viewer().message();
     headless.viewer().drop({file});
     ASSERT_TRUE(headless.turn_until([&] { return headless.viewer().message() != before; })) << file;
-    EXPECT_NE(headless.viewer().message().find(std::filesystem::path(file).filename().string()), std::string::npos)
+    EXPECT_NE(headless.viewer().message().find(std::filesystem::path(file).filename().string()),
+              std::string::npos)
         << headless.viewer().message();
     EXPECT_EQ(headless.viewer().state().scene, scene);
     EXPECT_FALSE(headless.viewer().is_over());
@@ -158,7 +164,8 @@ TEST(ViewPanel, BadFilesShowTheirMessageAndKeepTheScene) {
   headless.viewer().drop({TENEBRA_SCENES_DIR "/court.glb"});
   ASSERT_TRUE(headless.turn_until([&] { return headless.viewer().state().scene != scene; }));
   const auto number = [&] { return headless.viewer().picture()->scene; };
-  EXPECT_TRUE(headless.turn_until([&] { return number() == headless.viewer().state().scene; })) << "the good one shows";
+  EXPECT_TRUE(headless.turn_until([&] { return number() == headless.viewer().state().scene; }))
+      << "the good one shows";
 }
 
 TEST(ViewPanel, CancelsWhatTakesLong) {
@@ -168,7 +175,8 @@ TEST(ViewPanel, CancelsWhatTakesLong) {
   const Picture* last = headless.viewer().picture();
   headless.key('3');  // soft shadows of the whole court
   bool offered = headless.turn_until([&] { return headless.viewer().marks().count("cancel") == 1; }, 20);
-  if (!offered) GTEST_SKIP() << "this machine draws the soft shadows of the court before anyone could cancel them";
+  if (!offered)
+    GTEST_SKIP() << "this machine draws the soft shadows of the court before anyone could cancel them";
   EXPECT_EQ(headless.viewer().picture(), last) << "the last picture stays while the next is computed";
   headless.key(key_code::escape);
   const auto begin = std::chrono::steady_clock::now();

@@ -1,12 +1,12 @@
-// Drives `tenebra view` as a person would: a virtual display, real key and mouse events, pictures of the screen;
-// what the program says of itself comes from its --report.
+// Drives `tenebra view` as a person would: a virtual display, real key and mouse events, pictures of the
+// screen; what the program says of itself comes from its --report.
 #pragma once
 
 #include <gtest/gtest.h>
 
 #include <chrono>
-#include <nlohmann/json.hpp>
 #include <memory>
+#include <nlohmann/json.hpp>
 #include <sstream>
 #include <thread>
 
@@ -53,7 +53,8 @@ private:
 /// One session with the window.
 class ViewSession {
 public:
-  ViewSession(const VirtualDisplay& display, const TemporaryFolder& folder, std::vector<std::string> arguments)
+  ViewSession(const VirtualDisplay& display, const TemporaryFolder& folder,
+              std::vector<std::string> arguments)
       : display_(display), report_(folder / "report.jsonl") {
     arguments.insert(arguments.begin(), {TENEBRA_PROGRAM, "view"});
     arguments.insert(arguments.end(), {"--report", report_.string(), "--gl-debug"});
@@ -81,7 +82,8 @@ public:
       }
       std::this_thread::sleep_for(std::chrono::milliseconds(20));
     } while (std::chrono::steady_clock::now() < end);
-    ADD_FAILURE() << "waited in vain for " << what << "; last: " << (count() > 0 ? events().back().dump() : "");
+    ADD_FAILURE() << "waited in vain for " << what
+                  << "; last: " << (count() > 0 ? events().back().dump() : "");
     return nullptr;
   }
   Json wait_for_event(std::size_t from, const std::string& name) const {
@@ -177,6 +179,11 @@ private:
     const auto end = std::chrono::steady_clock::now() + std::chrono::seconds(3);
     while (draws() == before && std::chrono::steady_clock::now() < end) {
       std::this_thread::sleep_for(std::chrono::milliseconds(20));
+    }
+    // A key or button that comes up again is drawn for itself.
+    for (std::size_t drawn = before; drawn != draws();) {
+      drawn = draws();
+      std::this_thread::sleep_for(std::chrono::milliseconds(250));
     }
   }
 

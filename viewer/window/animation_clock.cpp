@@ -38,7 +38,8 @@ double AnimationClock::time_at(Wall now) const {
   if (!playing_ || fixed_step_) return anchor_s_;
   const double length_s = end_s() - start_s();
   if (!(length_s > 0)) return start_s();
-  const double moved_s = anchor_s_ - start_s() + speed_ * std::chrono::duration<double>(now - anchor_).count();
+  const double moved_s =
+      anchor_s_ - start_s() + speed_ * std::chrono::duration<double>(now - anchor_).count();
   if (!loop_) return start_s() + std::clamp(moved_s, 0.0, length_s);
   const double rest_s = std::fmod(moved_s, length_s);
   return start_s() + (rest_s < 0 ? rest_s + length_s : rest_s);

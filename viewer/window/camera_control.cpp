@@ -40,15 +40,17 @@ std::string camera_arguments(const FreeCamera& camera) {
 }
 
 FreeCamera free_camera(const ViewRays& view, int width, int height, float distance_m) {
-  const glm::vec3 middle = 0.5f * static_cast<float>(width) * view.dx + 0.5f * static_cast<float>(height) * view.dy;
+  const glm::vec3 middle =
+      0.5f * static_cast<float>(width) * view.dx + 0.5f * static_cast<float>(height) * view.dy;
   const float half_height = 0.5f * static_cast<float>(height) * glm::length(view.dy);
   FreeCamera camera;
   camera.up = -glm::normalize(view.dy);
   if (view.orthographic) {
     const glm::vec3 forward = glm::normalize(view.d0);
     camera.target = view.eye + middle + forward * distance_m;
-    camera.eye = camera.target -
-                 forward * (half_height / static_cast<float>(std::tan(camera.fov_deg / 2 / degrees_per_radian)));
+    camera.eye =
+        camera.target -
+        forward * (half_height / static_cast<float>(std::tan(camera.fov_deg / 2 / degrees_per_radian)));
     return camera;
   }
   const glm::vec3 axis = view.d0 + middle;
@@ -73,8 +75,8 @@ void pan(FreeCamera& camera, glm::vec2 pixels, int height) {
   const glm::dmat3 basis = view_basis(forward, camera.up);
   const double metres_a_pixel =
       2 * glm::length(forward) * std::tan(camera.fov_deg / 2 / degrees_per_radian) / height;
-  const glm::vec3 moved = (basis[1] * static_cast<double>(pixels.y) - basis[0] * static_cast<double>(pixels.x)) *
-                          metres_a_pixel;
+  const glm::vec3 moved =
+      (basis[1] * static_cast<double>(pixels.y) - basis[0] * static_cast<double>(pixels.x)) * metres_a_pixel;
   camera.eye += moved;
   camera.target += moved;
 }

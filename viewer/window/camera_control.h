@@ -23,17 +23,17 @@ struct FreeCamera {
 /// "--eye X,Y,Z --look-at X,Y,Z --up X,Y,Z --fov D", each number with as many digits as tell it apart.
 std::string camera_arguments(const FreeCamera& camera);
 
-/// The free camera that sees what `view` sees, looking at a point `distance_m` away (orthographic views, which
-/// have no field of view: from far enough to see as much at that point).
+/// The free camera that sees what `view` sees, looking at a point `distance_m` away (orthographic views,
+/// which have no field of view: from far enough to see as much at that point).
 FreeCamera free_camera(const ViewRays& view, int width, int height, float distance_m);
 
 /// Moves of the hand. Angles in radians; `right`, `down` as the mouse moves.
-void orbit(FreeCamera& camera, float right_rad, float down_rad);      ///< the eye around the target
-void look_around(FreeCamera& camera, float right_rad, float down_rad);///< the target around the eye
-void pan(FreeCamera& camera, glm::vec2 pixels, int height);           ///< the target stays under the pointer
-void zoom(FreeCamera& camera, float steps);                           ///< towards the target; 1: a notch
-void fly(FreeCamera& camera, glm::vec3 right_up_forward_m);           ///< eye and target
-void focus(FreeCamera& camera, glm::vec3 point);                      ///< turns towards it; orbits it then
+void orbit(FreeCamera& camera, float right_rad, float down_rad);        ///< the eye around the target
+void look_around(FreeCamera& camera, float right_rad, float down_rad);  ///< the target around the eye
+void pan(FreeCamera& camera, glm::vec2 pixels, int height);  ///< the target stays under the pointer
+void zoom(FreeCamera& camera, float steps);                  ///< towards the target; 1: a notch
+void fly(FreeCamera& camera, glm::vec3 right_up_forward_m);  ///< eye and target
+void focus(FreeCamera& camera, glm::vec3 point);             ///< turns towards it; orbits it then
 
 /// Window position in pixels of a world point, row 0 at the top; z > 0: in front of the eye (units of d0).
 glm::dvec3 pixel_of(const ViewRays& view, glm::dvec3 point);

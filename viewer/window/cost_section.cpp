@@ -9,10 +9,12 @@ namespace {
 
 /// A colour a stage, told apart on dark ground; neighbours differ in brightness too.
 constexpr std::array stage_colors{
-    IM_COL32(110, 118, 134, 255), IM_COL32(94, 156, 255, 255), IM_COL32(58, 96, 168, 255),  IM_COL32(120, 210, 220, 255),
-    IM_COL32(150, 110, 70, 255),  IM_COL32(222, 170, 90, 255), IM_COL32(122, 196, 120, 255), IM_COL32(70, 140, 76, 255),
-    IM_COL32(190, 220, 110, 255), IM_COL32(236, 110, 84, 255), IM_COL32(150, 96, 190, 255),  IM_COL32(198, 150, 230, 255),
-    IM_COL32(226, 96, 150, 255),  IM_COL32(150, 60, 110, 255), IM_COL32(180, 186, 196, 255), IM_COL32(84, 92, 108, 255)};
+    IM_COL32(110, 118, 134, 255), IM_COL32(94, 156, 255, 255), IM_COL32(58, 96, 168, 255),
+    IM_COL32(120, 210, 220, 255), IM_COL32(150, 110, 70, 255), IM_COL32(222, 170, 90, 255),
+    IM_COL32(122, 196, 120, 255), IM_COL32(70, 140, 76, 255),  IM_COL32(190, 220, 110, 255),
+    IM_COL32(236, 110, 84, 255),  IM_COL32(150, 96, 190, 255), IM_COL32(198, 150, 230, 255),
+    IM_COL32(226, 96, 150, 255),  IM_COL32(150, 60, 110, 255), IM_COL32(180, 186, 196, 255),
+    IM_COL32(84, 92, 108, 255)};
 static_assert(stage_colors.size() == frame_stages.size());
 
 std::string milliseconds(double ms) {
@@ -41,12 +43,14 @@ void draw_marks_of(const Summary& summary, ImVec2 low, ImVec2 size, double top_m
     const float y = low.y + size.y * static_cast<float>(1 - std::min(1.0, line.ms / top_ms));
     list.AddLine({low.x, y}, {low.x + size.x, y}, line.color);
   }
-  list.AddText(nullptr, font * 0.85f, {low.x + 4, low.y + 2}, palette::dim, fmt::format("{:g} ms", top_ms).c_str());
+  list.AddText(nullptr, font * 0.85f, {low.x + 4, low.y + 2}, palette::dim,
+               fmt::format("{:g} ms", top_ms).c_str());
 }
 
 void explain_frame(const FrameRecord& record) {
   ImGui::BeginTooltip();
-  ImGui::TextUnformatted(fmt::format("frame {}   {} ms", record.frame, milliseconds(record.timings.total_ms)).c_str());
+  ImGui::TextUnformatted(
+      fmt::format("frame {}   {} ms", record.frame, milliseconds(record.timings.total_ms)).c_str());
   for (std::size_t i = 0; i < frame_stages.size(); ++i) {
     const double ms = record.timings.*frame_stages[i].value;
     if (ms <= 0) continue;
@@ -57,7 +61,8 @@ void explain_frame(const FrameRecord& record) {
   ImGui::EndTooltip();
 }
 
-/// One column a frame, its stages stacked from the bottom in the order they run; the rest of the frame is grey.
+/// One column a frame, its stages stacked from the bottom in the order they run; the rest of the frame is
+/// grey.
 void draw_graph(Ui& ui, const FrameHistory& history, const char* name) {
   const auto& records = history.records();
   const ImVec2 size{ImGui::GetContentRegionAvail().x, ui.px(84)};
@@ -115,9 +120,11 @@ void draw_stages(Ui& ui, const FrameHistory& history) {
     const float line = ImGui::GetTextLineHeight(), width = ImGui::GetContentRegionAvail().x;
     const double share = median / std::max(1e-9, history.total_ms().median);
     list.AddRectFilled({at.x + ui.px(160), at.y + line * 0.3f},
-                       {at.x + ui.px(160) + (width - ui.px(160)) * static_cast<float>(std::min(1.0, share)), at.y + line * 0.8f},
+                       {at.x + ui.px(160) + (width - ui.px(160)) * static_cast<float>(std::min(1.0, share)),
+                        at.y + line * 0.8f},
                        stage_colors[i], 2);
-    list.AddRectFilled({at.x, at.y + line * 0.3f}, {at.x + line * 0.5f, at.y + line * 0.8f}, stage_colors[i], 2);
+    list.AddRectFilled({at.x, at.y + line * 0.3f}, {at.x + line * 0.5f, at.y + line * 0.8f}, stage_colors[i],
+                       2);
     ImGui::SetCursorPosX(ImGui::GetCursorPosX() + line);
     dim_text(std::string(frame_stages[i].name).c_str());
     const std::string text = milliseconds(median);
@@ -142,7 +149,8 @@ void draw_counts(Ui& ui, const Picture& picture) {
   const float width = ImGui::GetContentRegionAvail().x;
   const float right_a = two ? width * 0.7f : width;
   const auto cell = [](const std::string& text, float right) {
-    ImGui::SameLine(std::max(0.0f, right - ImGui::CalcTextSize(text.c_str()).x) + ImGui::GetStyle().WindowPadding.x);
+    ImGui::SameLine(std::max(0.0f, right - ImGui::CalcTextSize(text.c_str()).x) +
+                    ImGui::GetStyle().WindowPadding.x);
     ImGui::TextUnformatted(text.c_str());
   };
   const auto line = [&](const CountColumn& column) {
@@ -164,8 +172,9 @@ void draw_counts(Ui& ui, const Picture& picture) {
 
 void draw_overlay_choice(Ui& ui) {
   constexpr const char* kinds[] = {"none", "nodes", "classes"};
-  row(ui, "Overlay", "nodes: a heat map of node tests for each pixel (hard shadows); classes: what the soft shadows made "
-                     "of each pixel.");
+  row(ui, "Overlay",
+      "nodes: a heat map of node tests for each pixel (hard shadows); classes: what the soft shadows made "
+      "of each pixel.");
   int kind = static_cast<int>(ui.state.overlay);
   if (segments(ui, "overlay", kinds, 3, kind)) ui.state.overlay = static_cast<Overlay>(kind);
   if (ui.state.overlay == Overlay::none) return;
@@ -173,8 +182,10 @@ void draw_overlay_choice(Ui& ui) {
   ImGui::SliderFloat("##opacity", &ui.state.overlay_opacity, 0, 1, "%.2f", ImGuiSliderFlags_AlwaysClamp);
   ui.mark("opacity");
   const ShadowMode shadows = ui.state.slots[ui.state.compare ? 0 : ui.state.active].render.shadows;
-  if (ui.state.overlay == Overlay::nodes && shadows != ShadowMode::hard) dim_text("Only hard shadows have nodes to count.");
-  if (ui.state.overlay == Overlay::classes && shadows != ShadowMode::soft) dim_text("Only soft shadows have classes.");
+  if (ui.state.overlay == Overlay::nodes && shadows != ShadowMode::hard)
+    dim_text("Only hard shadows have nodes to count.");
+  if (ui.state.overlay == Overlay::classes && shadows != ShadowMode::soft)
+    dim_text("Only soft shadows have classes.");
 }
 
 }  // namespace
@@ -191,7 +202,8 @@ void draw_cost_section(Ui& ui) {
     draw_summary(ui.history[1]);
   }
   draw_overlay_choice(ui);
-  row(ui, "Log", "A row a frame, with the columns of tenebra render --log; it ends where the settings change.");
+  row(ui, "Log",
+      "A row a frame, with the columns of tenebra render --log; it ends where the settings change.");
   if (ImGui::Button(ui.log.empty() ? "Start (T)" : fmt::format("End {} (T)", ui.log).c_str(), {-1, 0})) {
     ui.actions.toggle_log = true;
   }

@@ -61,7 +61,8 @@ void EventReport::opened(const std::string& file, const ScenePlan& scene) {
 
 void EventReport::request(const FrameRequest& request) {
   if (!file_) return;
-  line(dump({{"event", "request"}, {"number", request.number}, {"time_s", request.clock.time_at(request.asked)}}));
+  line(dump(
+      {{"event", "request"}, {"number", request.number}, {"time_s", request.clock.time_at(request.asked)}}));
 }
 
 void EventReport::picture(const Picture& picture, std::uint64_t number) {
@@ -92,7 +93,9 @@ void EventReport::picture(const Picture& picture, std::uint64_t number) {
 
 void EventReport::state(const ViewState& state) {
   if (!file_) return;
-  const auto overlay = state.overlay == Overlay::none ? "none" : state.overlay == Overlay::nodes ? "nodes" : "classes";
+  const auto overlay = state.overlay == Overlay::none    ? "none"
+                       : state.overlay == Overlay::nodes ? "nodes"
+                                                         : "classes";
   const std::string text = dump({{"event", "state"},
                                  {"file", state.options.file},
                                  {"clip", state.clip},

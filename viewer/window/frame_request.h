@@ -21,7 +21,7 @@ enum class Overlay { none, nodes, classes };
 
 /// Everything that decides a picture. While its clock plays it stands for picture after picture.
 struct FrameRequest {
-  std::uint64_t number = 0;        ///< counts the requests of the session, from 1
+  std::uint64_t number = 0;  ///< counts the requests of the session, from 1
   AnimationClock::Wall asked{};
   std::shared_ptr<const ScenePlan> scene;
   int clip = -1;
@@ -30,8 +30,8 @@ struct FrameRequest {
   std::optional<FreeCamera> free;  ///< instead of the scene's camera
   LightEdits lights;
   RenderSettings a;
-  int slot = 0;                         ///< of `a`: 0 for A, 1 for B (then b is empty)
-  std::optional<RenderSettings> b;      ///< to compare with
+  int slot = 0;                     ///< of `a`: 0 for A, 1 for B (then b is empty)
+  std::optional<RenderSettings> b;  ///< to compare with
   Overlay overlay = Overlay::none;
   std::optional<OutputPattern> record;  ///< each picture (a) is written, numbered by its frame
 };
@@ -45,25 +45,25 @@ struct Drawn {
 /// An image of the size of the picture that explains it.
 struct OverlayImage {
   Overlay kind = Overlay::none;
-  Image8 image;                            ///< RGB
-  float highest = 0;                       ///< nodes: what the brightest colour stands for
-  float peak = 0;                          ///< nodes: the most of any pixel
-  double mean = 0;                         ///< nodes: of the pixels with a triangle
+  Image8 image;                              ///< RGB
+  float highest = 0;                         ///< nodes: what the brightest colour stands for
+  float peak = 0;                            ///< nodes: the most of any pixel
+  double mean = 0;                           ///< nodes: of the pixels with a triangle
   std::array<std::size_t, 6> class_sizes{};  ///< classes: pixels of each SoftClass
 };
 
 struct Picture {
   std::uint64_t request = 0;  ///< number of the request that it answers
   std::shared_ptr<const ScenePlan> scene;
-  int slot = 0;               ///< that `a` was drawn with
+  int slot = 0;  ///< that `a` was drawn with
   Drawn a;
   std::optional<Drawn> b;
   PictureDifference difference;  ///< of a and b
   OverlayImage overlay;          ///< of a
   ViewRays view;
   std::vector<WorldLight> lights;
-  AnimationClock clock;          ///< as it was when the picture was begun
-  double delay_ms = 0;           ///< from the request, or while it plays from the picture before, to this one
+  AnimationClock clock;  ///< as it was when the picture was begun
+  double delay_ms = 0;   ///< from the request, or while it plays from the picture before, to this one
 };
 
 }  // namespace tenebra::viewer

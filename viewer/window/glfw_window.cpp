@@ -2,9 +2,9 @@
 
 #define GLFW_INCLUDE_NONE
 #include <GLFW/glfw3.h>
-#include <imgui.h>
 #include <backends/imgui_impl_glfw.h>
 #include <backends/imgui_impl_opengl3.h>
+#include <imgui.h>
 
 #include <filesystem>
 #include <memory>
@@ -27,8 +27,8 @@ std::string glfw_problem() {
 struct Library {
   static Expected<std::unique_ptr<Library>> start() {
     if (!glfwInit()) {
-      return fail("no window can be opened: found no display ({}), expected one in DISPLAY; {}", glfw_problem(),
-                  without_window);
+      return fail("no window can be opened: found no display ({}), expected one in DISPLAY; {}",
+                  glfw_problem(), without_window);
     }
     return std::make_unique<Library>();
   }

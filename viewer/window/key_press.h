@@ -12,8 +12,8 @@ struct KeyPress {
 };
 
 namespace key_code {
-inline constexpr int space = 32, escape = 256, tab = 258, backspace = 259, right = 262, left = 263, home = 268,
-                     end = 269;
+inline constexpr int space = 32, escape = 256, tab = 258, backspace = 259, right = 262, left = 263,
+                     home = 268, end = 269;
 }
 
 }  // namespace tenebra::viewer

@@ -12,7 +12,7 @@ namespace {
 constexpr float panel_px = 344;
 constexpr float least_view_px = 300;  // beside the panel
 constexpr float transport_px = 74;
-constexpr double slow_s = 0.4;        // from here on the progress is shown
+constexpr double slow_s = 0.4;  // from here on the progress is shown
 
 }  // namespace
 
@@ -52,7 +52,8 @@ void draw_progress(Ui& ui, Area view) {
                      : !status.stage.empty() ? status.stage
                      : soft                  ? "Exact soft shadows"
                                              : "Computing";
-  ImGui::SetNextWindowPos({view.low.x + view.size.x / 2, view.low.y + view.size.y - ui.px(16)}, ImGuiCond_Always, {0.5f, 1});
+  ImGui::SetNextWindowPos({view.low.x + view.size.x / 2, view.low.y + view.size.y - ui.px(16)},
+                          ImGuiCond_Always, {0.5f, 1});
   ImGui::PushStyleColor(ImGuiCol_WindowBg, palette::shade);
   ImGui::Begin("##progress", nullptr,
                ImGuiWindowFlags_NoDecoration | ImGuiWindowFlags_NoMove | ImGuiWindowFlags_AlwaysAutoResize |

@@ -44,7 +44,8 @@ Expected<void> parse_light_edit(const std::string& text, LightEdits& edits) {
   while (words >> word) {
     const auto sign = word.find('=');
     const std::string value = sign == std::string::npos ? "" : word.substr(sign + 1);
-    if (auto applied = apply(word.substr(0, sign), value, edits[static_cast<std::size_t>(*light)]); !applied) {
+    if (auto applied = apply(word.substr(0, sign), value, edits[static_cast<std::size_t>(*light)]);
+        !applied) {
       return applied;
     }
   }
@@ -55,7 +56,8 @@ std::string light_edit_text(int light, const LightEdit& edit) {
   std::string text;
   if (!edit.on) text += " on=0";
   if (edit.intensity != 1) text += fmt::format(" intensity={}", edit.intensity);
-  if (edit.move != glm::vec3(0.0f)) text += fmt::format(" move={},{},{}", edit.move.x, edit.move.y, edit.move.z);
+  if (edit.move != glm::vec3(0.0f))
+    text += fmt::format(" move={},{},{}", edit.move.x, edit.move.y, edit.move.z);
   if (edit.size != 1) text += fmt::format(" size={}", edit.size);
   return text.empty() ? "" : fmt::format("{}{}", light, text);
 }

@@ -17,7 +17,8 @@ void edit_light(Ui& ui, int index, const Light& light) {
                        : LightEdit{};
   const LightEdit before = edit;
   ImGui::PushID(index);
-  const std::string title = fmt::format("{}  {}", index, light.name.empty() ? type_name(light.type) : light.name.c_str());
+  const std::string title =
+      fmt::format("{}  {}", index, light.name.empty() ? type_name(light.type) : light.name.c_str());
   ImGui::Checkbox(title.c_str(), &edit.on);
   ui.mark(fmt::format("light.{}.on", index));
   tooltip(type_name(light.type));
@@ -48,7 +49,8 @@ void edit_light(Ui& ui, int index, const Light& light) {
 void draw_light_section(Ui& ui) {
   if (!ui.state.scene || !section(ui, "Lights", false)) return;
   const auto& lights = ui.state.scene->scene.lights;
-  for (int i = 0; i < static_cast<int>(lights.size()); ++i) edit_light(ui, i, lights[static_cast<std::size_t>(i)]);
+  for (int i = 0; i < static_cast<int>(lights.size()); ++i)
+    edit_light(ui, i, lights[static_cast<std::size_t>(i)]);
   ImGui::Checkbox("circles in the view", &ui.state.light_handles);
   ui.mark("circles");
 }
@@ -83,7 +85,8 @@ void draw_camera_section(Ui& ui) {
     ImGui::DragFloat3("##target", &state.free.target.x, 0.05f, 0, 0, "%.3f");
     row(ui, "Field of view");
     float fov = static_cast<float>(state.free.fov_deg);
-    if (ImGui::SliderFloat("##fov", &fov, 5, 150, "%.1f degrees")) state.free.fov_deg = std::clamp(fov, 1.0f, 179.0f);
+    if (ImGui::SliderFloat("##fov", &fov, 5, 150, "%.1f degrees"))
+      state.free.fov_deg = std::clamp(fov, 1.0f, 179.0f);
     if (state.camera_mode == CameraMode::fly) {
       row(ui, "Speed");
       ImGui::SliderFloat("##fly", &state.fly_speed, 1e-3f * state.diagonal_m, state.diagonal_m, "%.2f m/s",
@@ -119,7 +122,8 @@ void draw_compare_section(Ui& ui) {
   }
   if (state.show == CompareView::difference) {
     row(ui, "Brighter by", "Factor of the difference as it is shown.");
-    ImGui::SliderInt("##gain", &state.gain, 1, 64, "%d", ImGuiSliderFlags_Logarithmic | ImGuiSliderFlags_AlwaysClamp);
+    ImGui::SliderInt("##gain", &state.gain, 1, 64, "%d",
+                     ImGuiSliderFlags_Logarithmic | ImGuiSliderFlags_AlwaysClamp);
   }
   if (!ui.picture || !ui.picture->b) return;
   const PictureDifference& difference = ui.picture->difference;
@@ -127,10 +131,12 @@ void draw_compare_section(Ui& ui) {
   if (difference.differing == 0) {
     ImGui::TextUnformatted("none: the same picture");
   } else {
-    ImGui::TextUnformatted(fmt::format("{} pixels, most {}", difference.differing, difference.largest).c_str());
-    tooltip(fmt::format("{:.2f} % of the pixels differ; the largest difference of a channel is {} of 255.",
-                        100.0 * static_cast<double>(difference.differing) / static_cast<double>(difference.pixels),
-                        difference.largest)
+    ImGui::TextUnformatted(
+        fmt::format("{} pixels, most {}", difference.differing, difference.largest).c_str());
+    tooltip(fmt::format(
+                "{:.2f} % of the pixels differ; the largest difference of a channel is {} of 255.",
+                100.0 * static_cast<double>(difference.differing) / static_cast<double>(difference.pixels),
+                difference.largest)
                 .c_str());
   }
 }

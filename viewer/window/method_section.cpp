@@ -6,14 +6,17 @@
 namespace tenebra::viewer {
 namespace {
 
-constexpr std::array variants{Variant::precise,     Variant::precise_sorted, Variant::spheres,      Variant::spheres_sorted,
-                              Variant::precise_sea, Variant::precise_eatp,   Variant::precise_seatp};
-constexpr std::array levels{SimdLevel::automatic, SimdLevel::scalar, SimdLevel::sse4, SimdLevel::avx2, SimdLevel::avx512};
+constexpr std::array variants{Variant::precise,        Variant::precise_sorted, Variant::spheres,
+                              Variant::spheres_sorted, Variant::precise_sea,    Variant::precise_eatp,
+                              Variant::precise_seatp};
+constexpr std::array levels{SimdLevel::automatic, SimdLevel::scalar, SimdLevel::sse4, SimdLevel::avx2,
+                            SimdLevel::avx512};
 constexpr std::array bit_choices{Choice<int>{"1", 1}, Choice<int>{"8", 8}, Choice<int>{"32", 32}};
 
 bool number(Ui& ui, const char* name, int& value, int low, int high, int step) {
   ImGui::PushID(name);
-  const bool changed = ImGui::InputInt("##value", &value, step, step * 8, ImGuiInputTextFlags_EnterReturnsTrue);
+  const bool changed =
+      ImGui::InputInt("##value", &value, step, step * 8, ImGuiInputTextFlags_EnterReturnsTrue);
   ImGui::PopID();
   ui.mark(name);
   if (changed) value = std::clamp(value, low, high);
@@ -25,15 +28,16 @@ void edit_hard(Ui& ui, MethodOptions& method) {
   row(ui, "Variant", "The seven variants of Olsson and Assarsson's Table 1: the same mask by other work.");
   if (ImGui::BeginCombo("##variant", std::string(variant_name(hard.variant)).c_str())) {
     for (const Variant variant : variants) {
-      const std::string name = std::string(variant_name(variant)) +
-                               (variant == HardShadowConfig{}.variant ? "  (default)" : "");
+      const std::string name =
+          std::string(variant_name(variant)) + (variant == HardShadowConfig{}.variant ? "  (default)" : "");
       if (ImGui::Selectable(name.c_str(), variant == hard.variant)) hard.variant = variant;
       ui.mark("variant." + std::string(variant_name(variant)));
     }
     ImGui::EndCombo();
   }
   ui.mark("variant");
-  row(ui, "Samples", "Where rays start: exact points from triangle ids, or the paper's from the depth buffer.");
+  row(ui, "Samples",
+      "Where rays start: exact points from triangle ids, or the paper's from the depth buffer.");
   choose(ui, "samples", sample_choices, method.render.samples);
   if (method.render.samples == SampleSource::depth && method.render.ao.mode != AoMode::none) {
     method.render.ao.mode = AoMode::none;
@@ -44,10 +48,12 @@ void edit_hard(Ui& ui, MethodOptions& method) {
 }
 
 void edit_light_size(Ui& ui, MethodOptions& method) {
-  row(ui, "Light size", "Makes point and spot lights rectangles with the light they had; 0: they stay points.");
+  row(ui, "Light size",
+      "Makes point and spot lights rectangles with the light they had; 0: they stay points.");
   LightSize size = method.light_size.value_or(LightSize{});
   float metres[2] = {size.size.x, size.size.y};
-  bool changed = ImGui::DragFloat2("##light size", metres, 0.01f, 0, 1000, size.percent ? "%.2f %%" : "%.2f m");
+  bool changed =
+      ImGui::DragFloat2("##light size", metres, 0.01f, 0, 1000, size.percent ? "%.2f %%" : "%.2f m");
   ui.mark("light size");
   row(ui, "");
   changed |= ImGui::Checkbox("% of the scene's diagonal", &size.percent);
@@ -79,7 +85,8 @@ void edit_soft(Ui& ui, MethodOptions& method) {
   edit_light_size(ui, method);
   row(ui, "Emissive", "Flat convex meshes of an emissive material shine too.");
   ImGui::Checkbox("quads shine##emissive", &method.render.area_lights.emissive_quads);
-  row(ui, "Solver", "What finds the visible part of the light: the lazy BSP of Mora et al., clipping, or by need.");
+  row(ui, "Solver",
+      "What finds the visible part of the light: the lazy BSP of Mora et al., clipping, or by need.");
   choose(ui, "solver", solver_choices, soft.solver);
   row(ui, "Groups", "Points that share a BSP.");
   choose(ui, "grouping", grouping_choices, soft.grouping);
@@ -114,7 +121,8 @@ void edit_ao(Ui& ui, AoConfig& ao) {
   choose(ui, "deforming", deforming_choices, ao.deforming);
   row(ui, "Cache", "Folder of built fields.");
   bool kept = !ao.cache.empty();
-  if (ImGui::Checkbox("keep built fields", &kept)) ao.cache = kept ? default_cache_folder() : std::filesystem::path();
+  if (ImGui::Checkbox("keep built fields", &kept))
+    ao.cache = kept ? default_cache_folder() : std::filesystem::path();
   if (kept) tooltip(ao.cache.c_str());
 }
 
@@ -182,7 +190,8 @@ void draw_method_section(Ui& ui) {
   choose(ui, "shadows", shadow_choices, method.render.shadows);
   if (method.render.shadows == ShadowMode::hard) edit_hard(ui, method);
   if (method.render.shadows == ShadowMode::soft) edit_soft(ui, method);
-  row(ui, "Occlusion", "Ambient occlusion: by displacement fields of rigid objects, or by rays to compare with.");
+  row(ui, "Occlusion",
+      "Ambient occlusion: by displacement fields of rigid objects, or by rays to compare with.");
   choose(ui, "ao", ao_choices, method.render.ao.mode);
   if (method.render.ao.mode != AoMode::none) {
     method.render.samples = SampleSource::ids;

@@ -8,7 +8,8 @@
 namespace tenebra::viewer {
 namespace {
 
-constexpr double bright_share = 0.99;  // pixels below the brightest colour: a few hot ones do not darken the rest
+constexpr double bright_share =
+    0.99;  // pixels below the brightest colour: a few hot ones do not darken the rest
 
 /// Even steps in brightness, readable without colour.
 constexpr std::array<glm::u8vec3, 7> heat_stops{
@@ -92,8 +93,8 @@ OverlayImage class_map(const FrameResult& result, std::span<const std::uint8_t> 
 glm::u8vec3 heat_color(double part) {
   const double at = std::clamp(part, 0.0, 1.0) * (heat_stops.size() - 1);
   const auto low = std::min(static_cast<std::size_t>(at), heat_stops.size() - 2);
-  const glm::dvec3 mixed = glm::mix(glm::dvec3(heat_stops[low]), glm::dvec3(heat_stops[low + 1]),
-                                    at - static_cast<double>(low));
+  const glm::dvec3 mixed =
+      glm::mix(glm::dvec3(heat_stops[low]), glm::dvec3(heat_stops[low + 1]), at - static_cast<double>(low));
   return glm::u8vec3(glm::round(mixed));
 }
 

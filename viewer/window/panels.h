@@ -22,17 +22,17 @@ Layout layout_of(const Ui& ui, ImVec2 window);
 /// Pixels that a picture has there, if its size is not fixed: half of the width side by side.
 Size picture_size(const ViewState& state, Area view, float pixels_a_unit);
 
-void draw_view(Ui& ui, const ViewTextures& textures, Area area);      ///< the picture, and the hand on it
-void draw_transport(Ui& ui, Area area);                               ///< play, scrubber, speed
-void draw_panel(Ui& ui, Area area);                                   ///< all sections below
+void draw_view(Ui& ui, const ViewTextures& textures, Area area);  ///< the picture, and the hand on it
+void draw_transport(Ui& ui, Area area);                           ///< play, scrubber, speed
+void draw_panel(Ui& ui, Area area);                               ///< all sections below
 void draw_scene_section(Ui& ui);
 void draw_method_section(Ui& ui);
 void draw_light_section(Ui& ui);
 void draw_camera_section(Ui& ui);
 void draw_compare_section(Ui& ui);
 void draw_cost_section(Ui& ui);
-void draw_help(Ui& ui, ImVec2 window);                                ///< the overlay of keys
-void draw_progress(Ui& ui, Area view);                                ///< what takes long, and its cancel button
+void draw_help(Ui& ui, ImVec2 window);  ///< the overlay of keys
+void draw_progress(Ui& ui, Area view);  ///< what takes long, and its cancel button
 
 /// Keys that act wherever the pointer is; `seconds` since the last call moves a flying camera.
 void handle_keys(Ui& ui, float seconds);

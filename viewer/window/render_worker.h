@@ -16,11 +16,11 @@
 namespace tenebra::viewer {
 
 struct WorkerStatus {
-  bool loading = false;   ///< a scene
-  bool drawing = false;   ///< a picture
-  double elapsed_s = 0;   ///< of either
-  std::string stage;      ///< what takes long, where the method says so
-  double done = 0;        ///< 0..1 of the stage
+  bool loading = false;  ///< a scene
+  bool drawing = false;  ///< a picture
+  double elapsed_s = 0;  ///< of either
+  std::string stage;     ///< what takes long, where the method says so
+  double done = 0;       ///< 0..1 of the stage
 };
 
 struct OpenedScene {
@@ -46,8 +46,8 @@ public:
   RenderWorker& operator=(const RenderWorker&) = delete;
 
   void open(SceneOptions options);
-  /// Replaces an earlier request. A frame under way is finished first, so that dragging shows pictures, unless
-  /// `at_once`, or it has taken longer than anyone dragging would wait (see stop_if_outdated).
+  /// Replaces an earlier request. A frame under way is finished first, so that dragging shows pictures,
+  /// unless `at_once`, or it has taken longer than anyone dragging would wait (see stop_if_outdated).
   void request(FrameRequest request, bool at_once);
   void pick(glm::ivec2 pixel);  ///< asks for the visible point of a pixel of the last picture
   void cancel();                ///< drops the request and the frame under way

@@ -16,8 +16,8 @@ std::string SessionLog::key_of(const ViewState& state) {
   return key;
 }
 
-Expected<SessionLog> SessionLog::start(const std::string& path, const ViewState& state, const Picture& picture,
-                                       const std::string& gl_renderer) {
+Expected<SessionLog> SessionLog::start(const std::string& path, const ViewState& state,
+                                       const Picture& picture, const std::string& gl_renderer) {
   const Image8& image = picture.a.result.image;
   const MethodOptions& method = state.slots[static_cast<std::size_t>(picture.slot)];
   const bool follows = state.camera_mode == CameraMode::scene;

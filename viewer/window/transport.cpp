@@ -20,7 +20,8 @@ bool sign_button(Ui& ui, const char* name, Sign sign) {
   const ImVec2 low = ImGui::GetItemRectMin(), high = ImGui::GetItemRectMax();
   const float x = (low.x + high.x) / 2, y = (low.y + high.y) / 2, r = height * 0.23f;
   ImDrawList& list = *ImGui::GetWindowDrawList();
-  if (sign == Sign::play) list.AddTriangleFilled({x - r * 0.8f, y - r}, {x + r, y}, {x - r * 0.8f, y + r}, palette::text);
+  if (sign == Sign::play)
+    list.AddTriangleFilled({x - r * 0.8f, y - r}, {x + r, y}, {x - r * 0.8f, y + r}, palette::text);
   if (sign == Sign::pause) {
     list.AddRectFilled({x - r, y - r}, {x - r * 0.3f, y + r}, palette::text);
     list.AddRectFilled({x + r * 0.3f, y - r}, {x + r, y + r}, palette::text);
@@ -51,8 +52,10 @@ void draw_speed(Ui& ui) {
   AnimationClock& clock = ui.state.clock;
   ImGui::SetNextItemWidth(ui.px(150));
   float speed = static_cast<float>(clock.speed());
-  const char* format = clock.fixed_step() ? (clock.speed() < 0 ? "fixed steps back" : "fixed steps") : "speed %.2fx";
-  if (ImGui::SliderFloat("##speed", &speed, -static_cast<float>(fastest_speed), static_cast<float>(fastest_speed), format)) {
+  const char* format =
+      clock.fixed_step() ? (clock.speed() < 0 ? "fixed steps back" : "fixed steps") : "speed %.2fx";
+  if (ImGui::SliderFloat("##speed", &speed, -static_cast<float>(fastest_speed),
+                         static_cast<float>(fastest_speed), format)) {
     clock.set_speed(now(), std::round(speed * 20) / 20.0);
   }
   ui.mark("speed");
@@ -65,7 +68,8 @@ void draw_speed(Ui& ui) {
   bool fixed_step = clock.fixed_step();
   if (ImGui::Checkbox("fixed step", &fixed_step)) clock.set_fixed_step(now(), fixed_step);
   ui.mark("fixed step");
-  tooltip("Every picture is the next frame, however long it takes: for measuring. Else time runs by the clock.");
+  tooltip(
+      "Every picture is the next frame, however long it takes: for measuring. Else time runs by the clock.");
 }
 
 void draw_scrubber(Ui& ui) {
@@ -75,7 +79,8 @@ void draw_scrubber(Ui& ui) {
   const bool held = ImGui::GetStateStorage()->GetBool(ImGui::GetID("scrubbing"));
   double time_s = clock.time_at(now());
   if (clock.playing() && ui.picture && !held) time_s = ui.picture->a.record.time_s;
-  const std::string format = fmt::format("{:.3f} s   frame {} of 0..{}", time_s, clock.frame_of(time_s), clock.frames() - 1);
+  const std::string format =
+      fmt::format("{:.3f} s   frame {} of 0..{}", time_s, clock.frame_of(time_s), clock.frames() - 1);
   ImGui::SetNextItemWidth(-1);
   if (ImGui::SliderScalar("##time", ImGuiDataType_Double, &time_s, &begin_s, &end_s, format.c_str())) {
     clock.seek(now(), time_s);
@@ -119,7 +124,8 @@ void toggle_playing(ViewState& state) {
 void draw_transport(Ui& ui, Area area) {
   ImGui::SetNextWindowPos(area.low);
   ImGui::SetNextWindowSize(area.size);
-  ImGui::Begin("##transport", nullptr, ImGuiWindowFlags_NoDecoration | ImGuiWindowFlags_NoMove | ImGuiWindowFlags_NoNav);
+  ImGui::Begin("##transport", nullptr,
+               ImGuiWindowFlags_NoDecoration | ImGuiWindowFlags_NoMove | ImGuiWindowFlags_NoNav);
   draw_scrubber(ui);
   draw_buttons(ui);
   if (area.size.x > ui.px(560)) {

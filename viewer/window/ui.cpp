@@ -14,10 +14,12 @@ ImVec4 grey(float value, float alpha = 1) {
 
 void load_font(float scale) {
   ImFontAtlas& fonts = *ImGui::GetIO().Fonts;
-  for (const char* file : {"/usr/share/fonts/truetype/dejavu/DejaVuSans.ttf", "/usr/share/fonts/TTF/DejaVuSans.ttf",
-                           "/usr/share/fonts/dejavu-sans-fonts/DejaVuSans.ttf"}) {
+  for (const char* file :
+       {"/usr/share/fonts/truetype/dejavu/DejaVuSans.ttf", "/usr/share/fonts/TTF/DejaVuSans.ttf",
+        "/usr/share/fonts/dejavu-sans-fonts/DejaVuSans.ttf"}) {
     std::error_code none;
-    if (std::filesystem::is_regular_file(file, none) && fonts.AddFontFromFileTTF(file, font_px * scale)) return;
+    if (std::filesystem::is_regular_file(file, none) && fonts.AddFontFromFileTTF(file, font_px * scale))
+      return;
   }
   ImFontConfig plain;  // built in, made for 13 pixels
   plain.SizePixels = 13.0f * std::max(1.0f, std::round(scale));
@@ -112,13 +114,15 @@ bool section(Ui& ui, const char* title, bool open) {
 
 bool segments(Ui& ui, const std::string& name, const char* const* labels, int count, int& chosen) {
   const float gap = ui.px(2);
-  const float width = (ImGui::GetContentRegionAvail().x - gap * static_cast<float>(count - 1)) / static_cast<float>(count);
+  const float width =
+      (ImGui::GetContentRegionAvail().x - gap * static_cast<float>(count - 1)) / static_cast<float>(count);
   bool changed = false;
   ImGui::PushID(name.c_str());
   for (int i = 0; i < count; ++i) {
     if (i > 0) ImGui::SameLine(0, gap);
     const bool down = i == chosen;
-    if (down) ImGui::PushStyleColor(ImGuiCol_Button, ImGui::ColorConvertU32ToFloat4(IM_COL32(50, 92, 168, 255)));
+    if (down)
+      ImGui::PushStyleColor(ImGuiCol_Button, ImGui::ColorConvertU32ToFloat4(IM_COL32(50, 92, 168, 255)));
     if (ImGui::Button(labels[i], {width, 0}) && !down) {
       chosen = i;
       changed = true;

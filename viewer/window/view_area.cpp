@@ -16,12 +16,14 @@ ImVec2 operator+(ImVec2 a, ImVec2 b) {
   return {a.x + b.x, a.y + b.y};
 }
 
-/// The largest place for a picture of `width` x `height` within `area`, centred on whole pixels; never enlarged.
+/// The largest place for a picture of `width` x `height` within `area`, centred on whole pixels; never
+/// enlarged.
 Area fit(Area area, int width, int height) {
   const float w = static_cast<float>(width), h = static_cast<float>(height);
   const float factor = std::min({1.0f, area.size.x / w, area.size.y / h});
   const ImVec2 size{factor == 1 ? w : std::floor(w * factor), factor == 1 ? h : std::floor(h * factor)};
-  return {{std::floor(area.low.x + (area.size.x - size.x) / 2), std::floor(area.low.y + (area.size.y - size.y) / 2)},
+  return {{std::floor(area.low.x + (area.size.x - size.x) / 2),
+           std::floor(area.low.y + (area.size.y - size.y) / 2)},
           size};
 }
 
@@ -76,8 +78,9 @@ private:
     if (texture.width() == 0) return;
     // The cut lies on a whole pixel of the window, so that both sides stay exact.
     const float left = std::round(area.size.x * from), right = std::round(area.size.x * to);
-    list_.AddImage(texture.id(), {area.low.x + left, area.low.y}, {area.low.x + right, area.low.y + area.size.y},
-                   {left / area.size.x, 0}, {right / area.size.x, 1},
+    list_.AddImage(texture.id(), {area.low.x + left, area.low.y},
+                   {area.low.x + right, area.low.y + area.size.y}, {left / area.size.x, 0},
+                   {right / area.size.x, 1},
                    IM_COL32(255, 255, 255, static_cast<int>(std::round(255 * opacity))));
   }
 
@@ -115,7 +118,8 @@ void draw_labels(Ui& ui, const Stage& stage) {
   }
   label(left, show == CompareView::b ? "B" : "A");
   if (show == CompareView::wipe) label(place.low + ImVec2(place.size.x - 32, place.size.y - 36), "B");
-  if (show == CompareView::side_by_side) label(stage.at_pixel({0, ui.picture->a.result.image.height}, 1) + ImVec2(8, -36), "B");
+  if (show == CompareView::side_by_side)
+    label(stage.at_pixel({0, ui.picture->a.result.image.height}, 1) + ImVec2(8, -36), "B");
 }
 
 void draw_heat_legend(Ui& ui, Area place) {
@@ -134,7 +138,8 @@ void draw_heat_legend(Ui& ui, Area place) {
                fmt::format("node tests a pixel, mean {:.1f}", overlay.mean).c_str());
   list.AddText(bar + ImVec2(0, ui.px(14)), palette::dim, "0");
   const std::string right = fmt::format("{:.1f} (most {:.1f})", overlay.highest, overlay.peak);
-  list.AddText(bar + ImVec2(ui.px(200) - ImGui::CalcTextSize(right.c_str()).x, ui.px(14)), palette::dim, right.c_str());
+  list.AddText(bar + ImVec2(ui.px(200) - ImGui::CalcTextSize(right.c_str()).x, ui.px(14)), palette::dim,
+               right.c_str());
 }
 
 void draw_class_legend(Ui& ui, Area place) {
@@ -148,11 +153,14 @@ void draw_class_legend(Ui& ui, Area place) {
     const auto soft_class = static_cast<SoftClass>(i);
     const glm::u8vec3 c = class_color(soft_class);
     const ImVec2 at = low + ImVec2(ui.px(10), ui.px(7) + line * static_cast<float>(i));
-    list.AddRectFilled(at + ImVec2(0, ui.px(3)), at + ImVec2(ui.px(12), ui.px(15)), IM_COL32(c.r, c.g, c.b, 255), 2);
+    list.AddRectFilled(at + ImVec2(0, ui.px(3)), at + ImVec2(ui.px(12), ui.px(15)),
+                       IM_COL32(c.r, c.g, c.b, 255), 2);
     list.AddText(at + ImVec2(ui.px(20), 0), palette::text, class_name(soft_class));
-    const double share = static_cast<double>(ui.picture->overlay.class_sizes[static_cast<std::size_t>(i)]) / pixels;
+    const double share =
+        static_cast<double>(ui.picture->overlay.class_sizes[static_cast<std::size_t>(i)]) / pixels;
     const std::string text = fmt::format("{:.1f} %", 100 * share);
-    list.AddText(at + ImVec2(ui.px(230) - ImGui::CalcTextSize(text.c_str()).x, 0), palette::dim, text.c_str());
+    list.AddText(at + ImVec2(ui.px(230) - ImGui::CalcTextSize(text.c_str()).x, 0), palette::dim,
+                 text.c_str());
   }
 }
 
@@ -186,7 +194,8 @@ int draw_light_handles(Ui& ui, const Stage& stage, ImVec2 pointer) {
       const std::string number = fmt::format("{}", light.light);
       const ImVec2 size = ImGui::CalcTextSize(number.c_str());
       list.AddText({at.x - size.x / 2, at.y - size.y / 2}, palette::text, number.c_str());
-      if (place == 0) ui.marks[fmt::format("light.{}", light.light)] = {at.x - 2, at.y - 2, at.x + 2, at.y + 2};
+      if (place == 0)
+        ui.marks[fmt::format("light.{}", light.light)] = {at.x - 2, at.y - 2, at.x + 2, at.y + 2};
     }
   }
   return under;
@@ -202,8 +211,8 @@ void drag_light(Ui& ui, const Stage& stage, int light, ImVec2 pointer) {
     const glm::dvec2 now = stage.pixel_at(pointer);
     const double depth = old.z * std::pow(1.05, static_cast<double>(ImGui::GetIO().MouseWheel));
     const glm::dvec3 across = now.x * glm::dvec3(view.dx) + now.y * glm::dvec3(view.dy);
-    const glm::dvec3 to = glm::dvec3(view.eye) +
-                          (view.orthographic ? across + depth * glm::dvec3(view.d0) : depth * (glm::dvec3(view.d0) + across));
+    const glm::dvec3 to = glm::dvec3(view.eye) + (view.orthographic ? across + depth * glm::dvec3(view.d0)
+                                                                    : depth * (glm::dvec3(view.d0) + across));
     ui.state.light_edit(light).move += glm::vec3(to - at);
   }
 }
@@ -241,7 +250,8 @@ void use_hand(Ui& ui, const Stage& stage, Area area) {
                          ImGuiButtonFlags_MouseButtonLeft | ImGuiButtonFlags_MouseButtonRight |
                              ImGuiButtonFlags_MouseButtonMiddle);
   ui.mark("view");
-  const bool hovered = ImGui::IsItemHovered(), held = ImGui::IsItemActive(), pressed = ImGui::IsItemActivated();
+  const bool hovered = ImGui::IsItemHovered(), held = ImGui::IsItemActive(),
+             pressed = ImGui::IsItemActivated();
   const int under = draw_light_handles(ui, stage, hovered || held ? io.MousePos : ImVec2(-1e6f, -1e6f));
   const Area place = stage.place();
   const float wipe_x = place.low.x + place.size.x * ui.state.wipe;
@@ -254,7 +264,8 @@ void use_hand(Ui& ui, const Stage& stage, Area area) {
     storage.SetInt(light_id, under);
   }
   const auto hand = held ? static_cast<Hand>(storage.GetInt(hand_id)) : Hand::none;
-  if (hand == Hand::wipe) ui.state.wipe = std::clamp((io.MousePos.x - place.low.x) / place.size.x, 0.0f, 1.0f);
+  if (hand == Hand::wipe)
+    ui.state.wipe = std::clamp((io.MousePos.x - place.low.x) / place.size.x, 0.0f, 1.0f);
   if (hand == Hand::light && !pressed) drag_light(ui, stage, storage.GetInt(light_id), io.MousePos);
   if (hand == Hand::camera) {
     const int button = io.MouseDown[ImGuiMouseButton_Left] ? ImGuiMouseButton_Left : ImGuiMouseButton_Right;
@@ -272,7 +283,9 @@ void use_hand(Ui& ui, const Stage& stage, Area area) {
 Size picture_size(const ViewState& state, Area view, float pixels_a_unit) {
   const bool side = state.compare && state.show == CompareView::side_by_side;
   const float width = side ? (view.size.x - gap_px) / 2 : view.size.x;
-  const auto pixels = [&](float length) { return std::clamp(static_cast<int>(length * pixels_a_unit), 16, largest_side_px); };
+  const auto pixels = [&](float length) {
+    return std::clamp(static_cast<int>(length * pixels_a_unit), 16, largest_side_px);
+  };
   return {pixels(width), pixels(view.size.y)};
 }
 
@@ -294,8 +307,8 @@ void draw_view(Ui& ui, const ViewTextures& textures, Area area) {
   ImGui::PushStyleVar(ImGuiStyleVar_WindowPadding, ImVec2(0, 0));
   ImGui::PushStyleColor(ImGuiCol_WindowBg, IM_COL32(9, 10, 12, 255));
   ImGui::Begin("##view", nullptr,
-               ImGuiWindowFlags_NoDecoration | ImGuiWindowFlags_NoMove | ImGuiWindowFlags_NoBringToFrontOnFocus |
-                   ImGuiWindowFlags_NoNav);
+               ImGuiWindowFlags_NoDecoration | ImGuiWindowFlags_NoMove |
+                   ImGuiWindowFlags_NoBringToFrontOnFocus | ImGuiWindowFlags_NoNav);
   if (ui.picture && area.size.x >= 1 && area.size.y >= 1) {
     Stage stage(ui, area);
     stage.draw(textures);
@@ -303,8 +316,10 @@ void draw_view(Ui& ui, const ViewTextures& textures, Area area) {
     ui.marks["picture"] = {place.low.x, place.low.y, place.low.x + place.size.x, place.low.y + place.size.y};
     use_hand(ui, stage, area);
     draw_labels(ui, stage);
-    if (ui.state.overlay == Overlay::nodes && ui.picture->overlay.kind == Overlay::nodes) draw_heat_legend(ui, place);
-    if (ui.state.overlay == Overlay::classes && ui.picture->overlay.kind == Overlay::classes) draw_class_legend(ui, place);
+    if (ui.state.overlay == Overlay::nodes && ui.picture->overlay.kind == Overlay::nodes)
+      draw_heat_legend(ui, place);
+    if (ui.state.overlay == Overlay::classes && ui.picture->overlay.kind == Overlay::classes)
+      draw_class_legend(ui, place);
   }
   ImGui::End();
   ImGui::PopStyleColor();

@@ -23,22 +23,22 @@ struct ViewState {
   CameraMode camera_mode = CameraMode::scene;
   int camera = 0;
   FreeCamera free;
-  FreeCamera start;      ///< where `reset` goes
-  float fly_speed = 1;   ///< metres a second
+  FreeCamera start;     ///< where `reset` goes
+  float fly_speed = 1;  ///< metres a second
 
   std::array<MethodOptions, 2> slots;  ///< A and B
   int active = 0;                      ///< the slot that the panel edits
   bool compare = false;                ///< both slots are drawn
   CompareView show = CompareView::wipe;
   float wipe = 0.5f;
-  int gain = 8;          ///< factor of the difference as it is shown
+  int gain = 8;  ///< factor of the difference as it is shown
 
   LightEdits lights;
   bool light_handles = true;
   Overlay overlay = Overlay::none;
   float overlay_opacity = 0.85f;
 
-  float diagonal_m = 1;      ///< of the scene at its first frame
+  float diagonal_m = 1;  ///< of the scene at its first frame
   glm::vec3 centre{0.0f};
 
   std::optional<Size> size;  ///< of the picture; none: that of its place in the window
@@ -62,8 +62,8 @@ struct Actions {
   bool window_shot = false;
   bool toggle_log = false;
   bool copy_camera = false;
-  std::optional<glm::ivec2> focus;   ///< pixel of the picture
-  std::optional<std::string> open;   ///< a scene file
+  std::optional<glm::ivec2> focus;  ///< pixel of the picture
+  std::optional<std::string> open;  ///< a scene file
 };
 
 }  // namespace tenebra::viewer

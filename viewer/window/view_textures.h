@@ -21,7 +21,8 @@ public:
     a.show(picture->a.result.image, !exact);
     if (picture->b) b.show(picture->b->result.image, !exact);
     if (picture->b && state.show == CompareView::difference) {
-      difference.show(absolute_difference(picture->a.result.image, picture->b->result.image, state.gain), !exact);
+      difference.show(absolute_difference(picture->a.result.image, picture->b->result.image, state.gain),
+                      !exact);
     }
     if (picture->overlay.kind != Overlay::none) overlay.show(picture->overlay.image, !exact);
   }

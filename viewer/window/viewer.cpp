@@ -14,10 +14,10 @@ namespace {
 using Wall = AnimationClock::Wall;
 
 constexpr double message_s = 6.0;
-constexpr double look_again_s = 0.1;    // while the worker is busy: progress, patience
+constexpr double look_again_s = 0.1;      // while the worker is busy: progress, patience
 constexpr double progress_after_s = 0.4;  // its display moves
-constexpr double resting_sleep_s = 0.5; // signals are looked at this often
-constexpr float flight_share = 0.1f;    // of the scene's diagonal a second
+constexpr double resting_sleep_s = 0.5;   // signals are looked at this often
+constexpr float flight_share = 0.1f;      // of the scene's diagonal a second
 
 Wall now() {
   return std::chrono::steady_clock::now();
@@ -69,7 +69,8 @@ double Viewer::sleep_s() const {
 
 void Viewer::say(std::string text, bool failure) {
   report_.note(failure ? "failure" : "message", text);
-  messages_.push_back({std::move(text), failure, now() + std::chrono::milliseconds(static_cast<int>(message_s * 1e3))});
+  messages_.push_back(
+      {std::move(text), failure, now() + std::chrono::milliseconds(static_cast<int>(message_s * 1e3))});
   due_ = std::max(due_, 1);
 }
 
@@ -160,8 +161,8 @@ void Viewer::follow_clock() {
 }
 
 std::string Viewer::method_key() const {
-  std::string key = fmt::format("{} {} {}x{}", state_.compare, state_.compare ? 0 : state_.active, place_.width,
-                                place_.height);
+  std::string key = fmt::format("{} {} {}x{}", state_.compare, state_.compare ? 0 : state_.active,
+                                place_.width, place_.height);
   for (const MethodOptions& slot : state_.slots) key += "|" + method_arguments(slot);
   if (!state_.compare) {
     key = fmt::format("{} {}x{}|{}", state_.active, place_.width, place_.height,
@@ -261,7 +262,8 @@ void Viewer::toggle_log() {
     return say(finished ? fmt::format("Log written to {}", path) : finished.error().message, !finished);
   }
   if (!picture_) return;
-  const std::string path = options_.log.empty() ? unused_name("tenebra_frames.csv") : std::exchange(options_.log, "");
+  const std::string path =
+      options_.log.empty() ? unused_name("tenebra_frames.csv") : std::exchange(options_.log, "");
   auto log = SessionLog::start(path, state_, *picture_, worker_.gl_renderer());
   if (!log) return say(log.error().message, true);
   log_.emplace(std::move(*log));
@@ -327,7 +329,8 @@ void Viewer::draw_messages(Area view) {
     list.AddRectFilled({view.low.x + 10, y}, {view.low.x + 34 + size.x, y + size.y + 14}, palette::shade, 4);
     list.AddRectFilled({view.low.x + 10, y}, {view.low.x + 13, y + size.y + 14},
                        message.failure ? palette::warning : palette::accent);
-    list.AddText(nullptr, 0, {view.low.x + 22, y + 7}, palette::text, message.text.c_str(), nullptr, width - 24);
+    list.AddText(nullptr, 0, {view.low.x + 22, y + 7}, palette::text, message.text.c_str(), nullptr,
+                 width - 24);
     y += size.y + 20;
   }
 }
@@ -358,8 +361,8 @@ void Viewer::draw(float scale, float pixels_a_unit) {
   if (state_.help) draw_help(ui, io.DisplaySize);
   draw_messages(layout.view);
   if (actions_.copy_camera) {
-    const std::string size = fmt::format(" --time {} --size {}x{}", state_.clock.time_at(now()), place_.width,
-                                         place_.height);
+    const std::string size =
+        fmt::format(" --time {} --size {}x{}", state_.clock.time_at(now()), place_.width, place_.height);
     const std::string text = state_.camera_mode == CameraMode::scene
                                  ? fmt::format("--camera {}{}", state_.camera, size)
                                  : camera_arguments(state_.free) + size;
@@ -368,8 +371,8 @@ void Viewer::draw(float scale, float pixels_a_unit) {
     say("Copied: " + text);
   }
   const Actions& asked = actions_;
-  if (asked.quit || asked.cancel || asked.retry || asked.picture_shot || asked.window_shot || asked.toggle_log ||
-      asked.focus || asked.open) {
+  if (asked.quit || asked.cancel || asked.retry || asked.picture_shot || asked.window_shot ||
+      asked.toggle_log || asked.focus || asked.open) {
     due_ = std::max(due_, 1);
   }
   keys_.clear();

@@ -36,7 +36,7 @@ public:
     due_ = std::max(due_, 3);
     input_undrawn_ = true;
   }
-  double sleep_s() const;                          ///< how long to wait for events at most
+  double sleep_s() const;  ///< how long to wait for events at most
   const ViewState& state() const { return state_; }
   const Picture* picture() const { return picture_.get(); }
   const Marks& marks() const { return marks_; }
@@ -75,7 +75,7 @@ private:
   std::optional<SessionLog> log_;
   std::shared_ptr<const Picture> picture_;
   std::deque<Message> messages_;
-  std::string failure_;      // that ends the program
+  std::string failure_;  // that ends the program
 
   Size place_{0, 0};         // of the picture in the window
   bool hand_moves_ = false;  // a mouse button is down
@@ -88,10 +88,10 @@ private:
   bool window_shot_ = false;
   bool input_undrawn_ = false;
   bool quit_ = false;
-  int due_ = 3;              // frames of the window to draw
+  int due_ = 3;  // frames of the window to draw
   AnimationClock::Wall last_draw_{};
 
-  RenderWorker worker_;      // last: its thread ends first
+  RenderWorker worker_;  // last: its thread ends first
 };
 
 }  // namespace tenebra::viewer

@@ -34,8 +34,8 @@ void find(gl::FunctionLoader loader, const char* name, Pointer& function) {
   function = reinterpret_cast<Pointer>(loader(name));
 }
 
-void GLAD_API_PTR on_message(GLenum, GLenum type, GLuint, GLenum severity, GLsizei length, const GLchar* message,
-                             const void* user) {
+void GLAD_API_PTR on_message(GLenum, GLenum type, GLuint, GLenum severity, GLsizei length,
+                             const GLchar* message, const void* user) {
   if (severity == GL_DEBUG_SEVERITY_NOTIFICATION || type == GL_DEBUG_TYPE_PERFORMANCE) return;
   static_cast<std::vector<std::string>*>(const_cast<void*>(user))
       ->emplace_back(message, static_cast<std::size_t>(length));
@@ -64,13 +64,14 @@ Expected<WindowGl> WindowGl::load(gl::FunctionLoader loader, bool debug) {
   find(loader, "glTexImage2D", gl->tex_image);
   find(loader, "glEnable", gl->enable);
   find(loader, "glDebugMessageCallback", gl->debug_message_callback);
-  if (!gl->get_integer) return fail("the window's OpenGL context has no functions; tenebra render needs no window");
+  if (!gl->get_integer)
+    return fail("the window's OpenGL context has no functions; tenebra render needs no window");
   GLint major = 0, minor = 0;
   gl->get_integer(GL_MAJOR_VERSION, &major);
   gl->get_integer(GL_MINOR_VERSION, &minor);
   if (major * 10 + minor < 33) {
-    return fail("the window's OpenGL is version {}.{}, expected 3.3 or newer; tenebra render needs no window", major,
-                minor);
+    return fail("the window's OpenGL is version {}.{}, expected 3.3 or newer; tenebra render needs no window",
+                major, minor);
   }
   if (debug && gl->debug_message_callback) {
     gl->enable(GL_DEBUG_OUTPUT);
@@ -121,8 +122,8 @@ void WindowGl::upload(unsigned texture, const Image8& image, bool smooth) {
   }
   gl_->pixel_store(GL_UNPACK_ALIGNMENT, 1);
   gl_->pixel_store(GL_UNPACK_ROW_LENGTH, 0);
-  gl_->tex_image(GL_TEXTURE_2D, 0, image.channels == 4 ? GL_RGBA8 : GL_RGB8, image.width, image.height, 0, format,
-                 GL_UNSIGNED_BYTE, image.pixels.data());
+  gl_->tex_image(GL_TEXTURE_2D, 0, image.channels == 4 ? GL_RGBA8 : GL_RGB8, image.width, image.height, 0,
+                 format, GL_UNSIGNED_BYTE, image.pixels.data());
 }
 
 std::vector<std::string> WindowGl::take_messages() {

@@ -21,8 +21,8 @@ public:
   WindowGl& operator=(WindowGl&&) noexcept;
   ~WindowGl();
 
-  void clear(int width, int height);               ///< of the framebuffer, in the window's dark
-  Image8 read_window(int width, int height) const; ///< RGB, row 0 at the top, of what was last drawn
+  void clear(int width, int height);                ///< of the framebuffer, in the window's dark
+  Image8 read_window(int width, int height) const;  ///< RGB, row 0 at the top, of what was last drawn
 
   unsigned create_texture();
   /// RGB or RGBA. `smooth`: for pictures that are shown larger or smaller than they are.
