@@ -63,7 +63,8 @@ public:
   /// Shadow boxes, and the lines of the occluders whose boxes reach the light, at a point.
   HWY_NOINLINE void move_to(const GroupPoint& at) {
     for (std::size_t b = 0; b < moving_.size(); ++b) {
-      at_point_[b].reaching = find_boxes(at, b);
+      const std::size_t valid = HWY_MIN(std::size_t{16}, order_.size() - 16 * b);
+      at_point_[b].reaching = find_boxes(at, b) & ((1u << valid) - 1u);
       if (at_point_[b].reaching != 0) find_lines(at, b);
     }
   }

@@ -198,14 +198,13 @@ private:
     const double fraction = std::clamp(area / frame.light.area, 0.0, 1.0);
     frame.out.visible_fraction[pixel] = static_cast<float>(fraction);
     frame.out.irradiance[pixel] = static_cast<float>(std::clamp(sums.irradiance, 0.0, 3.141592653589793));
-    count(above, area, frame, pixel, use_bsp_);
+    count(above, area, frame, pixel);
   }
 
-  void count(double above, double area, const SoftFrame& frame, std::uint32_t pixel, bool use_bsp) {
-    (void)above;
+  void count(double above, double area, const SoftFrame& frame, std::uint32_t pixel) {
     const bool dark = area <= 0;
     const bool lit = area >= above * (1 - 1e-6);
-    SoftClass found = use_bsp ? SoftClass::bsp : SoftClass::clip;
+    SoftClass found = use_bsp_ ? SoftClass::bsp : SoftClass::clip;
     if (above <= 0) {
       found = SoftClass::below_horizon;
     } else if (dark) {
