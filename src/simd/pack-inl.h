@@ -177,9 +177,13 @@ HWY_INLINE std::uint32_t bits(Truth<T, N> a) {
   using P = Pack<T, N>;
   std::uint32_t result = 0;
   for (int i = 0; i < P::registers; ++i) {
+#if HWY_TARGET <= HWY_AVX3  // masks are registers of their own there
+    result |= static_cast<std::uint32_t>(a.r[i].raw) << (i * P::width);
+#else
     std::uint8_t bytes[8] = {};
     hn::StoreMaskBits(typename P::Tag(), a.r[i], bytes);
     result |= (bytes[0] | static_cast<std::uint32_t>(bytes[1]) << 8) << (i * P::width);
+#endif
   }
   return result;
 }

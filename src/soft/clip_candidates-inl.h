@@ -48,8 +48,7 @@ public:
       order_.push_back({&group.indefinite[i], &group.heights[i]});
     }
     std::sort(order_.begin(), order_.end(), [](const Entry& a, const Entry& b) {
-      return a.occluder->size != b.occluder->size ? a.occluder->size > b.occluder->size
-                                                  : a.occluder->triangle < b.occluder->triangle;
+      return comes_before(a.occluder->size, a.occluder->triangle, b.occluder->size, b.occluder->triangle);
     });
     slots_ = 0;
     for (const Entry& entry : order_) slots_ = HWY_MAX(slots_, static_cast<int>(entry.occluder->line_count));

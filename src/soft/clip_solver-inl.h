@@ -29,7 +29,7 @@ public:
   }
 
 private:
-  static constexpr std::size_t few = 32;     ///< occluders that are subtracted without more ado
+  static constexpr std::size_t few = 64;     ///< occluders that are subtracted without more ado
   static constexpr std::size_t largest = 8;  ///< occluders that go first where halving does not part them
 
   /// Subtracts list_[first..] from `part`; leaves the list as long as it is.
@@ -51,7 +51,8 @@ private:
     give_back(std::move(left));
   }
 
-  /// Solves both halves of `part` if that parts the occluders: three quarters of them in only one half, at least.
+  /// Solves both halves of `part` if that parts the occluders: three quarters of them in only one half, at
+  /// least.
   bool halve_light(const LightPolygon<T>& part, std::size_t first, std::size_t last, FragmentList<T>& out) {
     const LightBox<T> box = box_of(part);
     const bool wide = box.hu >= box.hv;

@@ -123,11 +123,12 @@ bool contains(std::span<const std::uint32_t> list, std::uint32_t id) {
   return std::find(list.begin(), list.end(), id) != list.end();
 }
 
-double solid_angle(const Triangle3& t, const dvec3& centre) {
+int size_class(const Triangle3& t, const dvec3& centre) {
   const dvec3 middle = (t.v[0] + t.v[1] + t.v[2]) / 3.0 - centre;
   const double distance = std::sqrt(glm::dot(middle, middle));
   const double volume = std::abs(glm::dot(t.normal, t.v[0] - centre));
-  return distance > 0 ? volume / (distance * distance * distance) : 0.0;
+  const double solid_angle = distance > 0 ? volume / (distance * distance * distance) : 0.0;
+  return solid_angle > 0 ? std::ilogb(solid_angle) : -5000;
 }
 
 MovingLine plane_line(const Triangle3& t, const LightFrame& light, double sign) {
@@ -170,7 +171,7 @@ void add_corners(const Triangle3& t, const LightFrame& light, const GroupFrame& 
 }
 
 bool larger(const Occluder& a, const Occluder& b) {
-  return a.size != b.size ? a.size > b.size : a.triangle < b.triangle;
+  return comes_before(a.size, a.triangle, b.size, b.triangle);
 }
 
 }  // namespace
@@ -189,7 +190,7 @@ void set_up_occluders(const LightFrame& light, const TriangleView& triangles, co
     if (sides.never) continue;
     const auto first = static_cast<std::uint32_t>(out.lines.size());
     const auto corner = static_cast<std::uint32_t>(out.corners.size());
-    const Occluder occluder{id, first, 4, corner, solid_angle(t, group.centre)};
+    const Occluder occluder{id, first, 4, corner, size_class(t, group.centre)};
     if (sides.points == 0 || contains(group.receivers, id)) {
       add_indefinite(t, light, group, out);
       out.indefinite.push_back(occluder);

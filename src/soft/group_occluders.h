@@ -40,13 +40,20 @@ struct EdgePlane {
   glm::dvec3 normal{0.0};  ///< at the centre
 };
 
+/// Occluders come in classes of size, largest first, and within a class in the order of the triangles:
+/// neighbours of a mesh then follow each other and eat up the light from one side, where an order of size
+/// alone riddles it with holes.
+inline bool comes_before(int size_a, std::uint32_t triangle_a, int size_b, std::uint32_t triangle_b) {
+  return size_a != size_b ? size_a > size_b : triangle_a < triangle_b;
+}
+
 /// A triangle whose shadow on the light's plane is where all its lines are positive.
 struct Occluder {
   std::uint32_t triangle = 0;
   std::uint32_t first_line = 0;
   std::uint32_t line_count = 0;    ///< 0: the light is dark for the whole group
   std::uint32_t first_corner = 0;  ///< index into GroupOccluders::corners
-  double size = 0;                 ///< about the solid angle at the group's centre
+  int size = 0;  ///< class of the solid angle at the group's centre: its binary logarithm, rounded down
 };
 
 /// Where the points of a group lie to the plane of a triangle: at centre + d the height over it, times the

@@ -110,12 +110,15 @@ void SoftShadowTracer::State::solve_group(const SoftFrame& frame, const PointGro
 
 void SoftShadowTracer::State::gather() {
   const double threads = std::max<double>(1, static_cast<double>(workers.size()));
+  std::uint64_t tree_bytes = 0;  // a thread holds one tree at a time
   for (const Worker& worker : workers) {
     stats += worker.solver->stats;
+    tree_bytes += worker.solver->stats.peak_tree_bytes;
     timings.init_ms += worker.solver->times.init_ms / threads;
     timings.query_ms += worker.solver->times.query_ms / threads;
     timings.irradiance_ms += worker.solver->times.irradiance_ms / threads;
   }
+  stats.peak_tree_bytes = tree_bytes;
   stats.groups = groups.groups.size();
   timings.shaft_ms += culler.stats().seconds * 1e3 / threads;
 }

@@ -19,7 +19,7 @@ namespace tenebra {
 
 /// What finds the visible part of the light from the points of a group. All give the same answer.
 enum class SoftSolver {
-  automatic,  ///< per group, by what it requires
+  automatic,  ///< whichever was measured to be faster: clip
   bsp,        ///< the paper's lazily grown BSP of line classes (Algorithm 1)
   clip,       ///< occluders subtracted from the light's polygon, point by point
 };
@@ -71,7 +71,8 @@ public:
   /// triangle T other than R meets the segment PQ with P more than theta off T's plane and P, Q on different
   /// sides of it (theta: the contact rule of points/contact_rule.h, the same as for hard shadows).
   /// visible_fraction is the area of those Q over the light's; irradiance is the integral over them, clamped
-  /// to the shading normal's hemisphere. Errors: `reference` 1e-6 of the fraction; `fast` 0.1/255 of the
+  /// to the shading normal's hemisphere. Errors: `reference` 1e-6 of the fraction (for
+  /// lights of at least 1e-8 of their distance); `fast` 0.1/255 of the
   /// unoccluded irradiance. The same bits for any thread count.
   ///
   /// Returns false, with `out` unspecified, if `stop` was requested before the end.
