@@ -66,18 +66,21 @@ HWY_INLINE Chords chords_of(const FieldInstance& f, const RayBatch& rays) {
   return c;
 }
 
-// s of entry (position, direction); no_hit where there is none.
-HWY_INLINE Float16 sample(const DisplacementField& field, Int16 position, Int16 direction) {
-  const int directions = field.shape.direction_side * field.shape.direction_side;
-  const Int16 entry = position * splat<Int16>(directions) + direction;
-  if (field.bits == 32) return gather<float>(field.table.data(), shift_left<2>(entry));
+// Where in the table an entry stands, in bytes.
+HWY_INLINE Int16 byte_of(const DisplacementField& field, Int16 entry) {
+  return field.bits == 32 ? shift_left<2>(entry) : field.bits == 8 ? entry : shift_right<3>(entry);
+}
+
+// s of an entry, which belongs to `position`; no_hit where there is none.
+HWY_INLINE Float16 sample(const DisplacementField& field, Int16 position, Int16 entry) {
+  const Int16 at = byte_of(field, entry);
+  if (field.bits == 32) return gather<float>(field.table.data(), at);
   const Float16 none = splat<Float16>(no_hit);
+  const Int16 word = gather<std::int32_t>(field.table.data(), at);
   if (field.bits == 8) {
-    const Int16 byte = gather<std::int32_t>(field.table.data(), entry) & splat<Int16>(255);
-    const Float16 s = to_float(byte) * splat<Float16>(1 / 127.0f) - splat<Float16>(1.0f);
+    const Float16 s = to_float(word & splat<Int16>(255)) * splat<Float16>(1 / 127.0f) - splat<Float16>(1.0f);
     return where_not_above(splat<Float16>(1.0f + 0.5f / 127), s, none, s);
   }
-  const Int16 word = gather<std::int32_t>(field.table.data(), shift_right<3>(entry));
   const Int16 bit = shift_right(word, entry & splat<Int16>(7)) & splat<Int16>(1);
   return where_not_above(splat<Float16>(1.0f), to_float(bit),
                          gather<float>(field.mean.data(), shift_left<2>(position)), none);
@@ -100,42 +103,61 @@ HWY_INLINE Int16 direction_cell(const FieldShape& shape, const Cell16& position,
   return cell_index(cell_of(square, shape.direction_side), shape.direction_side);
 }
 
-// The two looks at a chord: t of the first hit seen from the entry, and of the first seen from the exit,
-// which is the last along the ray. `none` where there is no hit.
+// A look at a chord from one of its ends.
+struct Look {
+  Int16 position;  // of that end
+  Int16 entry;     // of the table
+};
+
+// Both looks, once `begin` has been called.
 class Looks {
 public:
-  HWY_INLINE Looks(const DisplacementField& field, const Chords& chords)
-      : field_(field),
-        c_(chords),
-        paper_(field.layout == FieldLayout::positions_directions),
-        entry_(end_cell(splat<Float16>(0.0f) - c_.half)),
-        exit_(paper_ ? entry_ : end_cell(c_.half)) {}
-
-  HWY_INLINE Float16 first(Float16 none) const {
-    const Float16 s = look(entry_, exit_);
-    return where(less(s, splat<Float16>(no_hit)), c_.at + s * c_.per_unit, none);
+  HWY_INLINE void begin(const DisplacementField& field, const Chords& c) {
+    paper_ = field.layout == FieldLayout::positions_directions;
+    const Cell16 enter = end_cell(field, c, splat<Float16>(0.0f) - c.half);
+    from_enter_.position = cell_index(enter, field.shape.position_side);
+    if (paper_) {
+      from_enter_.entry = entry(field, from_enter_.position, direction_cell(field.shape, enter, c.middle));
+    } else {
+      exit_ = cell_index(end_cell(field, c, c.half), field.shape.position_side);
+      from_enter_.entry = entry(field, from_enter_.position, exit_);
+    }
   }
-  HWY_INLINE Float16 last(Float16 none) const {
-    const Float16 s = look(paper_ ? end_cell(c_.half) : exit_, entry_);
-    return where(less(s, splat<Float16>(no_hit)), c_.at - s * c_.per_unit, none);
+  HWY_INLINE const Look& from_enter() const { return from_enter_; }
+  HWY_INLINE Look from_exit(const DisplacementField& field, const Chords& c) const {
+    if (!paper_) return {exit_, entry(field, exit_, from_enter_.position)};
+    const Cell16 exit = end_cell(field, c, c.half);
+    const Int16 position = cell_index(exit, field.shape.position_side);
+    return {position, entry(field, position, direction_cell(field.shape, exit, c.middle))};
   }
 
 private:
   // The cell of the point of the chord that lies s beyond its middle.
-  HWY_INLINE Cell16 end_cell(Float16 s) const {
-    return cell_of(square_from_direction(along(c_.middle, s, c_.unit)), field_.shape.position_side);
+  HWY_INLINE static Cell16 end_cell(const DisplacementField& field, const Chords& c, Float16 s) {
+    return cell_of(square_from_direction(along(c.middle, s, c.unit)), field.shape.position_side);
   }
-  HWY_INLINE Float16 look(const Cell16& from, const Cell16& to) const {
-    const FieldShape& shape = field_.shape;
-    return sample(field_, cell_index(from, shape.position_side),
-                  paper_ ? direction_cell(shape, from, c_.middle) : cell_index(to, shape.direction_side));
+  HWY_INLINE static Int16 entry(const DisplacementField& field, Int16 position, Int16 direction) {
+    const int directions = field.shape.direction_side * field.shape.direction_side;
+    return position * splat<Int16>(directions) + direction;
   }
 
-  const DisplacementField& field_;
-  const Chords& c_;
   bool paper_;
-  Cell16 entry_, exit_;
+  Look from_enter_;
+  Int16 exit_;  // position; chords only
 };
+
+// t of the first hit seen from the entry, and of the first seen from the exit, which is the last along the
+// ray. `none` where there is no hit.
+HWY_INLINE Float16 first_hit(const DisplacementField& field, const Chords& c, const Look& from_enter,
+                             Float16 none) {
+  const Float16 s = sample(field, from_enter.position, from_enter.entry);
+  return where(less(s, splat<Float16>(no_hit)), c.at + s * c.per_unit, none);
+}
+HWY_INLINE Float16 last_hit(const DisplacementField& field, const Chords& c, const Look& from_exit,
+                            Float16 none) {
+  const Float16 s = sample(field, from_exit.position, from_exit.entry);
+  return where(less(s, splat<Float16>(no_hit)), c.at - s * c.per_unit, none);
+}
 
 }  // namespace tenebra::HWY_NAMESPACE
 HWY_AFTER_NAMESPACE();

@@ -20,6 +20,8 @@ namespace tenebra::HWY_NAMESPACE {
 
 namespace {
 
+// Batches looked up at once, so that what they need of the table arrives while others are worked on.
+constexpr std::size_t in_flight = 4;
 constexpr float half_diagonal = 0.70710678f;  // of a cell, in widths
 constexpr float cast_cells = 1;               // how far close rays are cast, in cells
 
@@ -108,30 +110,71 @@ HWY_INLINE int between(const FieldInstance& instance, const RayBatch& rays, cons
   return std::popcount(which);
 }
 
-int nearest_hits(const FieldInstance& instance, const RayBatch& rays, float* distance) {
+// Sixteen rays that wait for the table.
+struct Query {
+  Chords chords;
+  Answer answer;
+  Truth16 inside;  // live rays that start in the unit sphere
+  bool any;        // ray is live; else nothing below is set
+  Float16 exit;    // t where it ends
+  Looks looks;
+};
+
+HWY_INLINE void prefetch(const DisplacementField& field, Int16 entry) {
+  std::int32_t at[batch_size];
+  store(byte_of(field, entry), at);
+  for (const std::int32_t byte : at) fetch_soon(field.table.data() + byte);
+}
+
+// Asks for what the rays will need of the table.
+HWY_INLINE void begin(const FieldInstance& instance, const RayBatch& rays, const float* distance, Query& q) {
+  const Float16 zero = splat<Float16>(0.0f);
+  const Chords c = q.chords = chords_of(instance, rays);
+  const Float16 reach = c.half * c.per_unit, enter = c.at - reach;
+  q.exit = c.at + reach;
+  q.answer.start = max(enter, zero);
+  q.answer.before = load<Float16>(distance);
+  q.answer.live = c.met & less(zero, q.exit) & less(enter, q.answer.before);
+  q.any = any(q.answer.live);
+  if (!q.any) return;
+  q.inside = q.answer.live & less(enter, zero);
+  q.looks.begin(*instance.field, c);
+  prefetch(*instance.field, q.looks.from_enter().entry);
+}
+
+HWY_INLINE int finish(const FieldInstance& instance, const RayBatch& rays, Query& q, float* distance) {
   const DisplacementField& field = *instance.field;
-  const Chords c = chords_of(instance, rays);
-  const Float16 zero = splat<Float16>(0.0f), none = splat<Float16>(no_distance);
-  const Float16 reach = c.half * c.per_unit, enter = c.at - reach, exit = c.at + reach;
-  Answer answer{.start = max(enter, zero), .before = load<Float16>(distance)};
-  answer.live = c.met & less(zero, exit) & less(enter, answer.before);
-  if (!any(answer.live)) return 0;
-  Truth16 inside = answer.live & less(enter, zero);
+  const Chords& c = q.chords;
+  if (!q.any) return 0;
   int casts = 0;
-  if (instance.near != nullptr && any(inside)) {
-    casts = cast_close(instance, rays, c, inside, answer);
-    answer.live = answer.live & less(answer.start, exit);
-    inside = inside & answer.live;
+  if (instance.near != nullptr && any(q.inside)) {
+    casts = cast_close(instance, rays, c, q.inside, q.answer);
+    q.answer.live = q.answer.live & less(q.answer.start, q.exit);
+    q.inside = q.inside & q.answer.live;
   }
-  const Looks looks(field, c);
-  const Float16 first = looks.first(none);
-  const Truth16 behind = inside & less(first, answer.start);
-  Float16 found = where(behind, none, max(first, answer.start));
+  const Float16 none = splat<Float16>(no_distance);
+  const Float16 first = first_hit(field, c, q.looks.from_enter(), none);
+  const Truth16 behind = q.inside & less(first, q.answer.start);
+  Float16 found = where(behind, none, max(first, q.answer.start));
   if (instance.ends == FieldEnds::both && any(behind)) {
     const Float16 tolerance = splat<Float16>(half_diagonal * field.cell()) * c.per_unit;
-    casts += between(instance, rays, answer, behind, first, looks.last(first), tolerance, found);
+    const Float16 last = last_hit(field, c, q.looks.from_exit(field, c), first);
+    casts += between(instance, rays, q.answer, behind, first, last, tolerance, found);
   }
-  store(where(answer.live, min(found, answer.before), answer.before), distance);
+  store(where(q.answer.live, min(found, q.answer.before), q.answer.before), distance);
+  return casts;
+}
+
+int nearest_hits(const FieldInstance& instance, std::span<const RayBatch> rays, float* distances) {
+  Query queries[in_flight];
+  int casts = 0;
+  for (; !rays.empty(); rays = rays.subspan(std::min(in_flight, rays.size()))) {
+    const std::size_t count = std::min(in_flight, rays.size());
+    for (std::size_t i = 0; i < count; ++i) begin(instance, rays[i], distances + i * batch_size, queries[i]);
+    for (std::size_t i = 0; i < count; ++i)
+      casts += finish(instance, rays[i], queries[i], distances + i * batch_size);
+    distances += count * batch_size;
+  }
   return casts;
 }
 

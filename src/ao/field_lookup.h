@@ -1,9 +1,10 @@
-// Looking up displacement fields: sixteen rays of the world against one instance of an object.
+// Looking up displacement fields: rays of the world, sixteen at a time, against one instance of an object.
 // Gaitatzes, Chrysanthou and Papaioannou 2010, Algorithm 2.
 #pragma once
 
 #include <glm/glm.hpp>
 #include <optional>
+#include <span>
 
 #include "ao/displacement_field.h"
 #include "ao/ray_batch.h"
@@ -41,8 +42,10 @@ struct FieldKernels {
   /// distance[i] = t of the first hit of ray i if that is less than distance[i]; else left as it is. Never
   /// NaN, never negative; rays that are not finite or have no direction meet nothing.
   /// From outside the sphere: the sample of the ray's nearest chord. From inside: see FieldEnds. Returns the
-  /// number of rays of which a part was cast.
-  int (*nearest_hits)(const FieldInstance& instance, const RayBatch& rays, float* distance) = nullptr;
+  /// number of rays of which a part was cast. Best given all rays of a point in one call: a batch's look-ups
+  /// wait for memory while the next ones are worked on.
+  int (*nearest_hits)(const FieldInstance& instance, std::span<const RayBatch> rays,
+                      float* distances) = nullptr;
 };
 FieldKernels field_kernels(SimdLevel level);
 

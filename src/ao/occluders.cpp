@@ -246,10 +246,9 @@ void Occluders::meet(int occluder, const Receiver& receiver, std::span<const Ray
   const Placed& placed = placed_[static_cast<std::size_t>(occluder)];
   if (placed.instance && occluder != receiver.owner.object) {
     counts.lookups += all;
-    return each([&](const RayBatch& batch, float* out) {
-      counts.rays_cast +=
-          static_cast<std::uint64_t>(kernels_.field.nearest_hits(*placed.instance, batch, out));
-    });
+    counts.rays_cast +=
+        static_cast<std::uint64_t>(kernels_.field.nearest_hits(*placed.instance, rays, distances));
+    return;
   }
   const TriangleBvh& tree = *shapes_[static_cast<std::size_t>(placed.shape)].casters;
   counts.rays_cast += all;

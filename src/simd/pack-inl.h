@@ -8,6 +8,7 @@
 #define TENEBRA_SIMD_PACK_INL_H_
 #endif
 
+#include <hwy/cache_control.h>
 #include <hwy/highway.h>
 
 #include <cstdint>
@@ -373,6 +374,11 @@ HWY_INLINE bool any(Truth<T, N> t) {
   for (int i = 0; i < Pack<T, N>::registers; ++i)
     if (!hn::AllFalse(typename Pack<T, N>::Tag(), t.r[i])) return true;
   return false;
+}
+
+/// Asks for the cache line of `at`, which is needed in a while; any address will do.
+HWY_INLINE void fetch_soon(const void* at) {
+  hwy::Prefetch(static_cast<const unsigned char*>(at));
 }
 
 }  // namespace tenebra::HWY_NAMESPACE

@@ -88,7 +88,7 @@ double field_occlusion(const FieldInstance& instance, const Receiver& r, double 
     std::fill(t, t + batch_size, static_cast<float>(distance));
     for (int k = 0; k < batch_size; ++k)
       batch.set(k, r.position, directions[static_cast<std::size_t>(i + k)]);
-    kernels.nearest_hits(instance, batch, t);
+    kernels.nearest_hits(instance, {&batch, 1}, t);
     for (const float d : t) sum += occlusion(d, distance);
   }
   return sum / rays;

@@ -32,7 +32,7 @@ Distances look(const FieldInstance& instance, const RayBatch& rays, SimdLevel le
                float limit = infinity) {
   Distances d;
   std::fill(d.t, d.t + batch_size, limit);
-  field_kernels(level).nearest_hits(instance, rays, d.t);
+  field_kernels(level).nearest_hits(instance, {&rays, 1}, d.t);
   return d;
 }
 float look_one(const FieldInstance& instance, vec3 origin, vec3 direction, float limit = infinity) {
@@ -237,6 +237,29 @@ TEST(FieldLookup, SeesFromInsideTheSphere) {
   EXPECT_NEAR(look_one(both, {0.001f, 0.699f, 0.0f}, {0, 1, 0}), 0.001f, 0.02f);  // and by the field
 }
 
+TEST(FieldLookup, AnswersManyBatchesAsItDoesOne) {
+  const Object object = testing::table();
+  const TriangleBvh bvh = object.bvh();
+  Random random(9);
+  std::vector<RayBatch> rays;  // inside and outside, and some that meet nothing
+  for (int i = 0; i < 23; ++i) rays.push_back(i % 5 == 2 ? RayBatch{} : random_rays(random, i % 3 + 0.7));
+  const auto nearest_hits = field_kernels(SimdLevel::automatic).nearest_hits;
+  for (const FieldLayout layout : {paper, chords}) {
+    const DisplacementField field = object.field({layout, 400, 256, 8});
+    const FieldInstance instance = *place_field(field, &bvh, dmat4(1));
+    for (std::size_t count = 0; count <= rays.size(); ++count) {
+      std::vector<float> all(rays.size() * batch_size, 2.0f), single = all;
+      const int casts = nearest_hits(instance, {rays.data(), count}, all.data());
+      int casts_of_single = 0;
+      for (std::size_t b = 0; b < count; ++b)
+        casts_of_single += nearest_hits(instance, {&rays[b], 1}, single.data() + b * batch_size);
+      EXPECT_EQ(all, single) << count;
+      EXPECT_EQ(casts, casts_of_single) << count;
+      if (count == rays.size()) EXPECT_LT(*std::min_element(all.begin(), all.end()), 2.0f);
+    }
+  }
+}
+
 TEST(FieldLookup, CastsOnlyRaysThatStartCloseToTheObject) {
   const Object object = testing::table();
   const TriangleBvh bvh = object.bvh();
@@ -247,7 +270,7 @@ TEST(FieldLookup, CastsOnlyRaysThatStartCloseToTheObject) {
     float distance[batch_size];
     std::fill(distance, distance + batch_size, infinity);
     rays.set(0, origin, {0, 1, 0});
-    return field_kernels(SimdLevel::automatic).nearest_hits(instance, rays, distance);
+    return field_kernels(SimdLevel::automatic).nearest_hits(instance, {&rays, 1}, distance);
   };
   EXPECT_EQ(casts({0, -3, 0}), 0);
   EXPECT_EQ(casts({0, 0.3f, 0}), 0);

@@ -31,8 +31,8 @@ Expected<std::unique_ptr<BuiltField>> build_field(const Object& object, const Ob
 
 Tracer field_tracer(const BuiltField& built) {
   const auto nearest_hits = field_kernels(SimdLevel::automatic).nearest_hits;
-  return [nearest_hits, placed = &built.placed](const RayBatch& rays, float* distance) {
-    nearest_hits(*placed, rays, distance);
+  return [nearest_hits, placed = &built.placed](std::span<const RayBatch> rays, float* distances) {
+    nearest_hits(*placed, rays, distances);
   };
 }
 

@@ -78,19 +78,17 @@ std::vector<float> FramePeer::at(std::span<const std::size_t> pixels, int rays) 
 void FramePeer::tile(const Grid& grid, int number, const CosineRays& rays, const Tracer& tracer,
                      std::span<float> values) const {
   std::vector<RayBatch> batches(static_cast<std::size_t>(rays.count() / batch_size));
+  std::vector<float> t(static_cast<std::size_t>(rays.count()));
   const int x0 = number % grid.columns * Grid::tile, y0 = number / grid.columns * Grid::tile;
   for (int y = y0; y < std::min(y0 + Grid::tile, grid.height); ++y) {
     for (int x = x0; x < std::min(x0 + Grid::tile, grid.width); ++x) {
       const std::size_t i = grid.pixel(frame_.points, x, y);
       if (frame_.points.triangles[i] == no_triangle) continue;
       rays.batches({glm::vec3(frame_.points.positions[i]), frame_.normals[i]}, i, batches);
+      std::fill(t.begin(), t.end(), reach_);
+      tracer(batches, t.data());
       float sum = 0;
-      for (const RayBatch& batch : batches) {
-        float t[batch_size];
-        std::fill(t, t + batch_size, reach_);
-        tracer(batch, t);
-        for (const float hit : t) sum += 1 - hit / reach_;
-      }
+      for (const float hit : t) sum += 1 - hit / reach_;
       values[static_cast<std::size_t>(y * grid.width + x)] = 1 - sum / static_cast<float>(rays.count());
     }
   }

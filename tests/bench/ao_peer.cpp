@@ -63,12 +63,15 @@ PeerHit AoPeer::nearest(glm::vec3 origin, glm::vec3 direction) const {
 }
 
 Tracer AoPeer::single_rays(float from) const {
-  return [scene = scene_.get(), from](const RayBatch& rays, float* t) { trace_single(scene, rays, from, t); };
+  return [scene = scene_.get(), from](std::span<const RayBatch> rays, float* t) {
+    for (std::size_t b = 0; b < rays.size(); ++b) trace_single(scene, rays[b], from, t + b * batch_size);
+  };
 }
 
 Tracer AoPeer::packets(bool coherent, float from) const {
-  return [scene = scene_.get(), from, coherent](const RayBatch& rays, float* t) {
-    trace_packet(scene, rays, from, coherent, t);
+  return [scene = scene_.get(), from, coherent](std::span<const RayBatch> rays, float* t) {
+    for (std::size_t b = 0; b < rays.size(); ++b)
+      trace_packet(scene, rays[b], from, coherent, t + b * batch_size);
   };
 }
 

@@ -76,15 +76,13 @@ std::vector<float> occlusion(std::span<const Receiver> receivers, const CosineRa
   std::vector<float> result(receivers.size());
   parallel_ranges(receivers.size(), 32, [&](std::size_t first, std::size_t last) {
     std::vector<RayBatch> batches(static_cast<std::size_t>(rays.count() / batch_size));
+    std::vector<float> t(static_cast<std::size_t>(rays.count()));
     for (std::size_t r = first; r < last; ++r) {
       rays.batches(receivers[r], r, batches);
+      std::fill(t.begin(), t.end(), distance);
+      tracer(batches, t.data());
       double sum = 0;
-      for (const RayBatch& batch : batches) {
-        float t[batch_size];
-        std::fill(t, t + batch_size, distance);
-        tracer(batch, t);
-        for (const float hit : t) sum += 1 - static_cast<double>(hit) / static_cast<double>(distance);
-      }
+      for (const float hit : t) sum += 1 - static_cast<double>(hit) / static_cast<double>(distance);
       result[r] = static_cast<float>(sum / rays.count());
     }
   });

@@ -33,8 +33,9 @@ private:
   std::vector<glm::vec3> directions_;  // around +z
 };
 
-/// Sixteen rays: distance[i] = t of the nearest hit before distance[i], else left as it is.
-using Tracer = std::function<void(const RayBatch&, float* distance)>;
+/// Any number of rays, the next that there are: distances[i] = t of the nearest hit before distances[i], else
+/// left as it is.
+using Tracer = std::function<void(std::span<const RayBatch>, float* distances)>;
 
 /// 1 closed .. 0 open, one a receiver, with linear fall-off to nothing at `distance`. On all threads; the
 /// same bits for any number.
