@@ -302,7 +302,7 @@ void AmbientOcclusion::State::shade(const ReceiverSet& set, AoPart part, int gro
   for (std::size_t i = 0; i < scratch.receivers.size(); ++i) {
     const Receiver& receiver = scratch.receivers[i];
     const SelfOcclusion* body = part == AoPart::others ? nullptr : body_under(receiver);
-    const float own = body != nullptr ? body->occlusion(scratch.blends[i]) : 0;
+    const float own = body != nullptr ? body->occlusion(receiver.on_shape(), scratch.blends[i], kernels) : 0;
     values[receiver.index] = (1 - own) * (1 - others(receiver, scratch, report));
   }
   report.points = scratch.receivers.size();

@@ -18,9 +18,8 @@ constexpr std::uint16_t unknown = 0xffff, near_bit = 1, buried_bit = 2;
 constexpr float most = 16382.0f;
 constexpr std::uint32_t refinement = 4;   // fine steps a wide one
 constexpr double wide_steps = 12;         // a reach
-constexpr float enough_open = 0.5f;       // weight: with less a point counts as buried
 constexpr float disagreement = 0.1f;      // neighbours that differ by more have their cell divided
-constexpr std::uint32_t patch_steps = 8;  // of a divided cell
+constexpr std::uint32_t patch_steps = 4;  // of a divided cell
 constexpr std::size_t patch_size = (patch_steps + 1) * (patch_steps + 2) / 2;
 constexpr std::uint64_t is_patch = std::uint64_t{1} << 63;  // what is missing is a cell's division
 constexpr double near_steps = 1.5;  // wide ones: closer things make samples come closer too
@@ -200,15 +199,17 @@ bool SelfOcclusion::is_rough(const Blend& blend) const {
   });
 }
 
-/// So much that straight lines between them do not hold; or some are buried and some are not.
+/// Some buried, some not.
+bool SelfOcclusion::are_mixed(const Blend& blend) const {
+  const auto is_buried = [&](int k) { return (values_[blend.samples[k]] & buried_bit) != 0; };
+  return is_buried(0) != is_buried(1) || is_buried(0) != is_buried(2);
+}
+
+/// So much that straight lines between them do not hold.
 bool SelfOcclusion::disagree(const Blend& blend) const {
-  int least = values_[blend.samples[0]], greatest = 0, buried = 0;
-  for (const std::uint32_t sample : blend.samples) {
-    const int value = values_[sample];
-    least = std::min(least, value), greatest = std::max(greatest, value);
-    buried += (value & buried_bit) != 0 ? 1 : 0;
-  }
-  return buried % 3 != 0 || static_cast<float>(greatest - least) > 4 * most * disagreement;
+  const auto [least, greatest] =
+      std::minmax({values_[blend.samples[0]], values_[blend.samples[1]], values_[blend.samples[2]]});
+  return are_mixed(blend) || static_cast<float>(greatest - least) > 4 * most * disagreement;
 }
 
 bool SelfOcclusion::lacks(const Blend& blend, std::vector<std::uint64_t>& missing) const {
@@ -274,16 +275,12 @@ SurfacePoint SelfOcclusion::place_in_patch(std::uint32_t sample) const {
   return {triangle, (i + 1 - v) / steps, (j + 1 - w) / steps, (key & 1) == 0};
 }
 
-float SelfOcclusion::occlusion(const Blend& around) const {
-  float sum[2] = {0, 0}, total[2] = {0, 0};
-  for (int k = 0; k < 3; ++k) {
-    const std::uint16_t value = values_[around.samples[k]];
-    const int kind = (value & buried_bit) != 0 ? 1 : 0;
-    sum[kind] += around.weights[k] * static_cast<float>(value / 4);
-    total[kind] += around.weights[k];
-  }
-  const int kind = total[0] >= enough_open ? 0 : 1;
-  return std::clamp(sum[kind] / (total[kind] * most), 0.0f, 1.0f);
+float SelfOcclusion::occlusion(const SurfacePoint& point, const Blend& around,
+                               const AoKernels& kernels) const {
+  if (are_mixed(around)) return look(point, kernels).occlusion;
+  float sum = 0;
+  for (int k = 0; k < 3; ++k) sum += around.weights[k] * static_cast<float>(values_[around.samples[k]] / 4);
+  return std::clamp(sum / most, 0.0f, 1.0f);
 }
 
 SurfacePoint SelfOcclusion::place(std::uint32_t sample) const {

@@ -52,8 +52,9 @@ public:
   /// The samples that answer the point. Adds what it lacks to `missing`: if there is any, it has to be
   /// asked again when they are filled, for what they see decides whether finer ones are needed.
   Blend find_samples(const SurfacePoint& point, std::vector<std::uint64_t>& missing) const;
-  /// Hidden share, 0..1, by the point's samples, all known.
-  float occlusion(const Blend& samples) const;
+  /// Hidden share, 0..1, by the point's samples, all known. Where some are buried and some are not, rays
+  /// answer the point itself.
+  float occlusion(const SurfacePoint& point, const Blend& samples, const AoKernels& kernels) const;
 
   /// Casts the rays of what is missing (ascending, unique). False if stopped.
   bool fill(std::span<const std::uint64_t> missing, const AoKernels& kernels,
@@ -83,6 +84,7 @@ private:
   /// On every `stride`th point of the triangle's grid.
   Blend blend(const SurfacePoint& point, std::uint32_t stride) const;
   bool is_rough(const Blend& blend) const;
+  bool are_mixed(const Blend& blend) const;
   bool disagree(const Blend& blend) const;
   bool lacks(const Blend& blend, std::vector<std::uint64_t>& missing) const;
   std::uint64_t patch_key(const SurfacePoint& point) const;

@@ -33,7 +33,7 @@ float filled(SelfOcclusion& samples, const SurfacePoint& point) {
     const auto around = samples.find_samples(point, missing);
     std::sort(missing.begin(), missing.end());
     missing.erase(std::unique(missing.begin(), missing.end()), missing.end());
-    if (missing.empty()) return samples.occlusion(around);
+    if (missing.empty()) return samples.occlusion(point, around, kernels);
     EXPECT_TRUE(samples.fill(missing, kernels, {}, nullptr));
   }
   ADD_FAILURE() << "still missing after five rounds";
