@@ -32,7 +32,7 @@ enum class AoPart {
 /// A sample of a body that a receiver lacks.
 struct MissingSample {
   std::uint32_t body;
-  std::uint32_t sample;
+  std::uint64_t sample;
   auto operator<=>(const MissingSample&) const = default;
 };
 
@@ -51,7 +51,7 @@ struct GroupReport {
 struct Scratch {
   std::vector<Receiver> receivers;
   std::vector<SelfOcclusion::Blend> blends;  ///< one a receiver
-  std::vector<std::uint32_t> missing;
+  std::vector<std::uint64_t> missing;
   std::vector<int> near;
   std::vector<RayBatch> rays;
   std::vector<float> distances;
@@ -265,7 +265,7 @@ void AmbientOcclusion::State::collect_samples(const Receiver& receiver, Scratch&
     scratch.missing.clear();
     scratch.blends.back() = body->find_samples(receiver.on_shape(), scratch.missing);
     const auto number = static_cast<std::uint32_t>(body_of[body_index(object)]);
-    for (const std::uint32_t sample : scratch.missing) report.samples.push_back({number, sample});
+    for (const std::uint64_t sample : scratch.missing) report.samples.push_back({number, sample});
   } else if (has_body(receiver) && (report.bodies.empty() || report.bodies.back() != object)) {
     report.bodies.push_back(object);
   }
@@ -321,7 +321,7 @@ Expected<void> AmbientOcclusion::State::supply(std::vector<GroupReport>& reports
   sort_unique(samples);
   stats.rays_cast += samples.size() * SelfOcclusion::sample_rays;
   for (std::size_t first = 0, last = 0; first < samples.size(); first = last) {
-    std::vector<std::uint32_t> of_body;
+    std::vector<std::uint64_t> of_body;
     const std::uint32_t body = samples[first].body;
     for (; last < samples.size() && samples[last].body == body; ++last)
       of_body.push_back(samples[last].sample);
@@ -349,7 +349,7 @@ Expected<void> AmbientOcclusion::State::from_fields(const ReceiverSet& set, AoPa
   std::vector<GroupReport> reports;
   std::vector<int> reached;
   Stopwatch watch;
-  constexpr int most_rounds = 8;  // bodies, wide samples, fine samples and occluders take four
+  constexpr int most_rounds = 8;  // bodies, wide, fine and finest samples and occluders take six
   for (int round = 0; !pending.empty(); ++round) {
     if (round == most_rounds)
       return fail("ambient occlusion: what {} groups of points lack cannot be made", pending.size());

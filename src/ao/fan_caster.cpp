@@ -42,7 +42,8 @@ HWY_INLINE void box_distances(const BvhNode& node, const Fan& fan, float* out) {
   Float8 square = zero;
   for (int axis = 0; axis < 3; ++axis) {
     const Float8 o = splat<Float8>(fan.origin[axis]);
-    const Float8 off = max(zero, max(load<Float8>(node.plane[axis]) - o, o - load<Float8>(node.plane[3 + axis])));
+    const Float8 off =
+        max(zero, max(load<Float8>(node.plane[axis]) - o, o - load<Float8>(node.plane[3 + axis])));
     square = square + off * off;
   }
   store(square, out);

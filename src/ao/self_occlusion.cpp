@@ -1,6 +1,7 @@
 #include "ao/self_occlusion.h"
 
 #include <algorithm>
+#include <bit>
 #include <cmath>
 
 #include "ao/sphere_maps.h"
@@ -12,12 +13,16 @@ namespace {
 using glm::dvec3;
 using glm::vec3;
 
-// A value is unknown, buried, or 2 x (0..most) + (something is near).
-constexpr std::uint16_t unknown = 0xffff, buried = 0xfffe;
-constexpr float most = 32766.0f;
-constexpr std::uint32_t refinement = 4;  // fine steps a wide one
-constexpr double wide_steps = 12;        // a reach
-constexpr double near_steps = 1.5;       // wide ones: closer things make samples come closer too
+// A value is unknown, or 4 x (0..most) + 2 x (buried) + (something is near).
+constexpr std::uint16_t unknown = 0xffff, near_bit = 1, buried_bit = 2;
+constexpr float most = 16382.0f;
+constexpr std::uint32_t refinement = 4;   // fine steps a wide one
+constexpr double wide_steps = 12;         // a reach
+constexpr float disagreement = 0.1f;      // neighbours that differ by more have their cell divided
+constexpr std::uint32_t patch_steps = 4;  // of a divided cell
+constexpr std::size_t patch_size = (patch_steps + 1) * (patch_steps + 2) / 2;
+constexpr std::uint64_t is_patch = std::uint64_t{1} << 63;  // what is missing is a cell's division
+constexpr double near_steps = 1.5;  // wide ones: closer things make samples come closer too
 
 /// Sixteen directions all around, three degrees above the surface: they see what is low.
 RayPattern grazing_pattern() {
@@ -95,6 +100,7 @@ SelfOcclusion::SelfOcclusion(const ObjectShape& shape, const TriangleBvh& caster
     samples += grid_size(grids_[t].steps);
   }
   values_.assign(2 * samples, unknown);
+  in_patches_ = values_.size();
 }
 
 // Too many samples: the spacing grows until they fit.
@@ -117,7 +123,7 @@ void SelfOcclusion::lay_grids() {
   }
 }
 
-std::uint64_t SelfOcclusion::corner_key(std::uint32_t triangle, int corner, double cell) const {
+std::uint64_t SelfOcclusion::corner_key(std::uint32_t triangle, int corner) const {
   const std::uint32_t vertex = shape_.triangles[triangle][corner];
   const vec3 face = face_normal(shape_, triangle);
   const vec3 normal = shape_.normals[vertex] == vec3(0.0f) ? face : shape_.normals[vertex];
@@ -129,7 +135,7 @@ std::uint64_t SelfOcclusion::corner_key(std::uint32_t triangle, int corner, doub
     key ^= key >> 31;
   };
   for (int k = 0; k < 3; ++k) {
-    mix(std::floor(shape_.positions[vertex][k] / cell + 0.3819660113));
+    mix(std::bit_cast<std::uint32_t>(shape_.positions[vertex][k] + 0.0f));
     mix(std::round(4.0 * normal[k]));
     mix(std::round(3.0 * face[k]));
   }
@@ -137,7 +143,6 @@ std::uint64_t SelfOcclusion::corner_key(std::uint32_t triangle, int corner, doub
 }
 
 void SelfOcclusion::weld_corners() {
-  const double cell = 0.25 * spacing_;
   struct Corner {
     std::uint64_t key;
     std::uint32_t at;  // 3 x small triangle + corner
@@ -148,7 +153,7 @@ void SelfOcclusion::weld_corners() {
     if (grids_[t].steps > 1) continue;
     grids_[t].first = small;
     for (std::uint32_t k = 0; k < 3; ++k)
-      corners.push_back({corner_key(t, static_cast<int>(k), cell), 3 * small + k, 3 * t + k});
+      corners.push_back({corner_key(t, static_cast<int>(k)), 3 * small + k, 3 * t + k});
     ++small;
   }
   corners_.resize(corners.size());
@@ -160,6 +165,19 @@ void SelfOcclusion::weld_corners() {
   }
 }
 
+SelfOcclusion::GridCell SelfOcclusion::grid_cell(float v, float w, std::uint32_t count) {
+  const auto steps = static_cast<float>(count);
+  const auto i = std::min(static_cast<std::uint32_t>(v * steps), count - 1);
+  const auto j = std::min(static_cast<std::uint32_t>(w * steps), count - 1 - i);
+  const float fv = std::clamp(v * steps - static_cast<float>(i), 0.0f, 1.0f);
+  const float fw = std::clamp(w * steps - static_cast<float>(j), 0.0f, 1.0f);
+  const float sum = fv + fw;
+  if (sum <= 1) return {{i, i + 1, i}, {j, j, j + 1}, {1 - sum, fv, fw}, false};
+  if (i + j + 2 > count)  // beyond the long side by rounding
+    return {{i, i + 1, i}, {j, j, j + 1}, {0, fv / sum, fw / sum}, false};
+  return {{i + 1, i, i + 1}, {j + 1, j + 1, j}, {sum - 1, 1 - fv, 1 - fw}, true};
+}
+
 SelfOcclusion::Blend SelfOcclusion::blend(const SurfacePoint& point, std::uint32_t stride) const {
   const Grid grid = grids_[point.triangle];
   const std::uint32_t side = point.front ? 0 : 1;
@@ -168,63 +186,105 @@ SelfOcclusion::Blend SelfOcclusion::blend(const SurfacePoint& point, std::uint32
     const std::uint32_t* c = &corners_[std::size_t{3} * grid.first];
     return {{2 * c[0] + side, 2 * c[1] + side, 2 * c[2] + side}, {1 - v - w, v, w}};
   }
-  const std::uint32_t count = grid.steps / stride;
-  const auto steps = static_cast<float>(count);
-  const auto i = std::min(static_cast<std::uint32_t>(v * steps), count - 1);
-  const auto j = std::min(static_cast<std::uint32_t>(w * steps), count - 1 - i);
-  const float fv = std::clamp(v * steps - static_cast<float>(i), 0.0f, 1.0f);
-  const float fw = std::clamp(w * steps - static_cast<float>(j), 0.0f, 1.0f);
-  const auto at = [&](std::uint32_t x, std::uint32_t y) {
-    return 2 * (grid.first + grid_index(stride * x, stride * y, grid.steps)) + side;
+  const GridCell cell = grid_cell(v, w, grid.steps / stride);
+  const auto at = [&](int k) {
+    return 2 * (grid.first + grid_index(stride * cell.i[k], stride * cell.j[k], grid.steps)) + side;
   };
-  if (fv + fw <= 1) return {{at(i, j), at(i + 1, j), at(i, j + 1)}, {1 - fv - fw, fv, fw}};
-  if (i + j + 2 > count) {  // beyond the long side by rounding
-    const float sum = fv + fw;
-    return {{at(i, j), at(i + 1, j), at(i, j + 1)}, {0, fv / sum, fw / sum}};
-  }
-  return {{at(i + 1, j + 1), at(i, j + 1), at(i + 1, j)}, {fv + fw - 1, 1 - fv, 1 - fw}};
+  return {{at(0), at(1), at(2)}, {cell.weights[0], cell.weights[1], cell.weights[2]}};
 }
 
 bool SelfOcclusion::is_rough(const Blend& blend) const {
   return std::any_of(blend.samples, blend.samples + 3, [this](std::uint32_t sample) {
-    return values_[sample] == buried || values_[sample] % 2 == 1;
+    return (values_[sample] & (near_bit | buried_bit)) != 0;
   });
 }
 
-/// The wide grid's samples, or the fine one's where those say that something is near.
+/// Some buried, some not.
+bool SelfOcclusion::are_mixed(const Blend& blend) const {
+  const auto is_buried = [&](int k) { return (values_[blend.samples[k]] & buried_bit) != 0; };
+  return is_buried(0) != is_buried(1) || is_buried(0) != is_buried(2);
+}
+
+/// So much that straight lines between them do not hold.
+bool SelfOcclusion::disagree(const Blend& blend) const {
+  const auto [least, greatest] =
+      std::minmax({values_[blend.samples[0]], values_[blend.samples[1]], values_[blend.samples[2]]});
+  return are_mixed(blend) || static_cast<float>(greatest - least) > 4 * most * disagreement;
+}
+
+bool SelfOcclusion::lacks(const Blend& blend, std::vector<std::uint64_t>& missing) const {
+  const std::size_t before = missing.size();
+  for (const std::uint32_t sample : blend.samples) {
+    if (values_[sample] == unknown) missing.push_back(sample);
+  }
+  return missing.size() > before;
+}
+
+/// Names the finest cell of the triangle's grid around the point: bits 60.. 30 the triangle, 14 each for the
+/// cell's place, one for the half, one for the side.
+std::uint64_t SelfOcclusion::patch_key(const SurfacePoint& point) const {
+  const float v = std::clamp(point.v, 0.0f, 1.0f), w = std::clamp(point.w, 0.0f, 1.0f - v);
+  const GridCell cell = grid_cell(v, w, grids_[point.triangle].steps);
+  const std::uint64_t i = cell.i[cell.upper ? 1 : 0], j = cell.j[cell.upper ? 2 : 0];
+  return is_patch | std::uint64_t{point.triangle} << 30 | i << 16 | j << 2 | (cell.upper ? 2u : 0u) |
+         (point.front ? 0u : 1u);
+}
+
+/// The wide grid's samples, the fine one's where those say that something is near, the divided cell's where
+/// those disagree.
 SelfOcclusion::Blend SelfOcclusion::find_samples(const SurfacePoint& point,
-                                                 std::vector<std::uint32_t>& missing) const {
-  const auto lacks = [&](const Blend& blend) {
-    const std::size_t before = missing.size();
-    for (const std::uint32_t sample : blend.samples) {
-      if (values_[sample] == unknown) missing.push_back(sample);
-    }
-    return missing.size() > before;
-  };
+                                                 std::vector<std::uint64_t>& missing) const {
   if (grids_[point.triangle].steps > 1) {
     const Blend wide = blend(point, refinement);
-    if (lacks(wide) || !is_rough(wide)) return wide;
+    if (lacks(wide, missing) || (!is_rough(wide) && !disagree(wide))) return wide;
   }
   const Blend fine = blend(point, 1);
-  lacks(fine);
-  return fine;
+  if (lacks(fine, missing) || !disagree(fine)) return fine;
+  const std::uint64_t key = patch_key(point);
+  const auto patch = patch_at_.find(key);
+  if (patch == patch_at_.end()) {
+    missing.push_back(key);
+    return fine;
+  }
+  const GridCell cell = grid_cell(fine.weights[1], fine.weights[2], patch_steps);
+  const auto at = [&](int k) { return patch->second + grid_index(cell.i[k], cell.j[k], patch_steps); };
+  const Blend finest{{at(0), at(1), at(2)}, {cell.weights[0], cell.weights[1], cell.weights[2]}};
+  lacks(finest, missing);
+  return finest;
+}
+
+void SelfOcclusion::add_patch(std::uint64_t key) {
+  if (!patch_at_.emplace(key, static_cast<std::uint32_t>(values_.size())).second) return;
+  patches_.push_back(key);
+  values_.resize(values_.size() + patch_size, unknown);
+}
+
+SurfacePoint SelfOcclusion::place_in_patch(std::uint32_t sample) const {
+  const std::size_t number = sample - in_patches_;
+  const std::uint64_t key = patches_[number / patch_size];
+  auto a = static_cast<std::uint32_t>(number % patch_size);
+  std::uint32_t b = 0;
+  while (a > patch_steps - b) a -= patch_steps - b++ + 1;  // rows shrink by one
+  const auto triangle = static_cast<std::uint32_t>((key & ~is_patch) >> 30);
+  const auto i = static_cast<float>(key >> 16 & 0x3fff), j = static_cast<float>(key >> 2 & 0x3fff);
+  const auto steps = static_cast<float>(grids_[triangle].steps);
+  constexpr float pull = 0.25f / patch_steps;
+  float v = static_cast<float>(a) / patch_steps, w = static_cast<float>(b) / patch_steps;
+  v += pull * (1.0f / 3 - v), w += pull * (1.0f / 3 - w);
+  if ((key & 2) == 0) return {triangle, (i + v) / steps, (j + w) / steps, (key & 1) == 0};
+  return {triangle, (i + 1 - v) / steps, (j + 1 - w) / steps, (key & 1) == 0};
 }
 
 float SelfOcclusion::occlusion(const SurfacePoint& point, const Blend& around,
                                const AoKernels& kernels) const {
-  constexpr float enough = 1e-4f;
-  float sum = 0, total = 0;
-  for (int k = 0; k < 3; ++k) {
-    const std::uint16_t value = values_[around.samples[k]];
-    if (value >= buried) continue;
-    sum += around.weights[k] * static_cast<float>(value / 2);
-    total += around.weights[k];
-  }
-  if (!(total > enough)) return look(point, kernels).occlusion;
-  return std::clamp(sum / (total * most), 0.0f, 1.0f);
+  if (are_mixed(around)) return look(point, kernels).occlusion;
+  float sum = 0;
+  for (int k = 0; k < 3; ++k) sum += around.weights[k] * static_cast<float>(values_[around.samples[k]] / 4);
+  return std::clamp(sum / most, 0.0f, 1.0f);
 }
 
 SurfacePoint SelfOcclusion::place(std::uint32_t sample) const {
+  if (sample >= in_patches_) return place_in_patch(sample);
   const bool front = sample % 2 == 0;
   sample /= 2;
   const auto pulled = [&](std::uint32_t triangle, float v, float w, float steps) {
@@ -275,17 +335,20 @@ SelfOcclusion::Seen SelfOcclusion::look(const SurfacePoint& point, const AoKerne
   return seen;
 }
 
-bool SelfOcclusion::fill(std::span<const std::uint32_t> samples, const AoKernels& kernels,
+bool SelfOcclusion::fill(std::span<const std::uint64_t> missing, const AoKernels& kernels,
                          const std::function<void(double)>& progress, const StopFlag* stop) {
+  const auto divisions = std::lower_bound(missing.begin(), missing.end(), is_patch);
+  for (auto key = divisions; key != missing.end(); ++key) add_patch(*key);
+  const std::vector<std::uint32_t> samples(missing.begin(), divisions);
   constexpr std::size_t step = 8192, grain = 32;
   const auto stored = [](const Seen& seen) {
-    if (seen.buried || !(seen.occlusion >= 0)) return buried;
-    return static_cast<std::uint16_t>(2 * std::lround(seen.occlusion * most) + (seen.near ? 1 : 0));
+    return static_cast<std::uint16_t>(4 * std::lround(seen.occlusion * most) +
+                                      (seen.buried ? buried_bit : 0) + (seen.near ? near_bit : 0));
   };
   for (std::size_t first = 0; first < samples.size(); first += step) {
     if (stop_requested(stop)) return false;
     if (progress) progress(static_cast<double>(first) / static_cast<double>(samples.size()));
-    const auto part = samples.subspan(first, std::min(step, samples.size() - first));
+    const auto part = std::span(samples).subspan(first, std::min(step, samples.size() - first));
     parallel_ranges(part.size(), grain, [&](std::size_t begin, std::size_t end) {
       for (std::size_t i = begin; i < end && !stop_requested(stop); ++i)
         values_[part[i]] = stored(look(place(part[i]), kernels));
@@ -297,7 +360,8 @@ bool SelfOcclusion::fill(std::span<const std::uint32_t> samples, const AoKernels
 
 std::size_t SelfOcclusion::bytes() const {
   return values_.size() * sizeof(values_[0]) + grids_.size() * sizeof(Grid) +
-         (corners_.size() + shared_.size() + large_.size()) * sizeof(std::uint32_t);
+         (corners_.size() + shared_.size() + large_.size()) * sizeof(std::uint32_t) +
+         patches_.size() * 4 * sizeof(std::uint64_t);
 }
 
 }  // namespace tenebra

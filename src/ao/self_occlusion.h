@@ -3,16 +3,18 @@
 //
 // Samples lie on the triangles, so nothing seeps through walls: on a large triangle at the points of a grid
 // of reach / 12, and of a quarter of that where something is near; on a small one at its corners, where
-// corners that lie close and face alike share a sample. Each is pulled a little into its triangle and
-// answered by rays about its shading normal. Samples that lie inside something (most rays see backs) are
-// passed over. A sample depends on nothing but the shape and the reach, so what is interpolated does not
-// depend on which frame or thread saw it first.
+// corners at one place that face alike share a sample. Where those around a point disagree, its cell is
+// divided further. Each is pulled a little into its triangle and answered by rays about its shading normal.
+// Samples that lie inside something (most rays see backs) and those in the open are never mixed. A sample
+// depends on nothing but the shape and the reach, so what is interpolated does not depend on which frame or
+// thread saw it first.
 #pragma once
 
 #include <cstdint>
 #include <functional>
 #include <glm/glm.hpp>
 #include <span>
+#include <unordered_map>
 #include <vector>
 
 #include "ao/ao_kernels.h"
@@ -47,14 +49,15 @@ public:
     float weights[3];
   };
 
-  /// The samples that answer the point. Adds those that it lacks to `missing`: if there are any, it has to be
+  /// The samples that answer the point. Adds what it lacks to `missing`: if there is any, it has to be
   /// asked again when they are filled, for what they see decides whether finer ones are needed.
-  Blend find_samples(const SurfacePoint& point, std::vector<std::uint32_t>& missing) const;
-  /// Hidden share, 0..1, by the point's samples, all known. If all of them are buried rays answer the point.
+  Blend find_samples(const SurfacePoint& point, std::vector<std::uint64_t>& missing) const;
+  /// Hidden share, 0..1, by the point's samples, all known. Where some are buried and some are not, rays
+  /// answer the point itself.
   float occlusion(const SurfacePoint& point, const Blend& samples, const AoKernels& kernels) const;
 
-  /// Casts the rays of samples (unique). False if stopped.
-  bool fill(std::span<const std::uint32_t> samples, const AoKernels& kernels,
+  /// Casts the rays of what is missing (ascending, unique). False if stopped.
+  bool fill(std::span<const std::uint64_t> missing, const AoKernels& kernels,
             const std::function<void(double)>& progress, const StopFlag* stop);
 
   double reach() const { return reach_; }
@@ -70,10 +73,23 @@ private:
   };
   void lay_grids();
   void weld_corners();
-  std::uint64_t corner_key(std::uint32_t triangle, int corner, double cell) const;
+  std::uint64_t corner_key(std::uint32_t triangle, int corner) const;
+  /// A triangle between neighbouring points of a grid, and where a point lies in it.
+  struct GridCell {
+    std::uint32_t i[3], j[3];
+    float weights[3];
+    bool upper;
+  };
+  static GridCell grid_cell(float v, float w, std::uint32_t count);
   /// On every `stride`th point of the triangle's grid.
   Blend blend(const SurfacePoint& point, std::uint32_t stride) const;
   bool is_rough(const Blend& blend) const;
+  bool are_mixed(const Blend& blend) const;
+  bool disagree(const Blend& blend) const;
+  bool lacks(const Blend& blend, std::vector<std::uint64_t>& missing) const;
+  std::uint64_t patch_key(const SurfacePoint& point) const;
+  void add_patch(std::uint64_t key);
+  SurfacePoint place_in_patch(std::uint32_t sample) const;
   SurfacePoint place(std::uint32_t sample) const;
   Seen look(const SurfacePoint& point, const AoKernels& kernels) const;
 
@@ -95,6 +111,9 @@ private:
   std::vector<std::uint32_t> shared_;   ///< shared sample -> triangle * 3 + corner
   std::vector<std::uint32_t> large_;    ///< triangles with grids, by ascending first sample
   std::vector<std::uint16_t> values_;   ///< two a sample: front, back; see self_occlusion.cpp
+  std::size_t in_patches_ = 0;          ///< from this value on they belong to patches
+  std::vector<std::uint64_t> patches_;  ///< divided cells by their keys, in the order of their values
+  std::unordered_map<std::uint64_t, std::uint32_t> patch_at_;  ///< key -> index of the first value
   std::uint64_t filled_ = 0;
 };
 

@@ -28,15 +28,15 @@ const AoKernels kernels = ao_kernels(SimdLevel::automatic);
 
 /// Asks and fills until nothing is missing, as a frame does.
 float filled(SelfOcclusion& samples, const SurfacePoint& point) {
-  for (int round = 0; round < 3; ++round) {
-    std::vector<std::uint32_t> missing;
+  for (int round = 0; round < 5; ++round) {
+    std::vector<std::uint64_t> missing;
     const auto around = samples.find_samples(point, missing);
     std::sort(missing.begin(), missing.end());
     missing.erase(std::unique(missing.begin(), missing.end()), missing.end());
     if (missing.empty()) return samples.occlusion(point, around, kernels);
     EXPECT_TRUE(samples.fill(missing, kernels, {}, nullptr));
   }
-  ADD_FAILURE() << "still missing after three rounds";
+  ADD_FAILURE() << "still missing after five rounds";
   return -1;
 }
 
@@ -127,12 +127,12 @@ TEST(SelfOcclusion, MemoryIsBoundedHoweverShortTheReach) {
 TEST(SelfOcclusion, StopsWhenAsked) {
   const Body body(box_mesh({0, 0, 0}, {1, 1, 1}));
   SelfOcclusion samples(body.shape, body.casters, 4);
-  std::vector<std::uint32_t> missing;
+  std::vector<std::uint64_t> missing;
   samples.find_samples({0, 0.3f, 0.3f, true}, missing);
   StopFlag stop;
   stop.request();
   EXPECT_FALSE(samples.fill(missing, kernels, {}, &stop));
-  std::vector<std::uint32_t> still;
+  std::vector<std::uint64_t> still;
   samples.find_samples({0, 0.3f, 0.3f, true}, still);
   EXPECT_EQ(still, missing);
 }
