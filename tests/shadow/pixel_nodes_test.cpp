@@ -54,7 +54,9 @@ TEST(PixelNodes, OfOnePacketAreEqualShares) {
     const float share = static_cast<float>(static_cast<double>(tracer.stats().nodes) /
                                            static_cast<double>(tracer.stats().rays));
     for (const float nodes : tracer.pixel_nodes()) {
-      if (nodes > 0) EXPECT_FLOAT_EQ(nodes, share) << variant_name(variant);
+      if (nodes > 0) {
+        EXPECT_FLOAT_EQ(nodes, share) << variant_name(variant);
+      }
     }
   }
 }

@@ -50,6 +50,25 @@ TEST(AnimationClock, WrapsBothWaysAndStopsWithoutLoop) {
   EXPECT_NEAR(clock.time_at(at(101)), 3.0, 1e-8) << "playing again begins at the other end";
 }
 
+TEST(AnimationClock, StandsUnderTheHandAndPlaysOnWhenItLetsGo) {
+  const Clip clip = two_seconds();
+  AnimationClock clock(&clip);
+  clock.set_loop(at(0), false);
+  clock.play(at(0));
+  clock.set_held(at(0.5), true);
+  EXPECT_NEAR(clock.time_at(at(50)), 1.5, 1e-8);
+  EXPECT_TRUE(clock.playing());
+  EXPECT_FALSE(clock.runs());
+  clock.seek(at(50), 3);
+  EXPECT_FALSE(clock.is_over(at(51))) << "held at the end it is not over: the hand may come back";
+  clock.seek(at(52), 2);
+  clock.set_held(at(60), true);
+  EXPECT_EQ(clock.time_at(at(60)), 2);
+  clock.set_held(at(60), false);
+  EXPECT_NEAR(clock.time_at(at(60.25)), 2.25, 1e-8);
+  EXPECT_TRUE(clock.is_over(at(62)));
+}
+
 TEST(AnimationClock, LimitsSpeedAndTime) {
   const Clip clip = two_seconds();
   AnimationClock clock(&clip);

@@ -37,7 +37,7 @@ public:
     }
   }
 
-  std::string name() const { return ":" + std::to_string(number_); }
+  std::string name() const { return fmt::format(":{}", number_); }
   void enter() const { ::setenv("DISPLAY", name().c_str(), 1); }
   ProgramResult run(std::vector<std::string> arguments) const {
     arguments[0] = "/usr/bin/" + arguments[0];

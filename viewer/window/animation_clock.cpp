@@ -35,7 +35,7 @@ int AnimationClock::frame_of(double time_s) const {
 }
 
 double AnimationClock::time_at(Wall now) const {
-  if (!playing_ || fixed_step_) return anchor_s_;
+  if (!runs() || fixed_step_) return anchor_s_;
   const double length_s = end_s() - start_s();
   if (!(length_s > 0)) return start_s();
   const double moved_s =
@@ -46,7 +46,7 @@ double AnimationClock::time_at(Wall now) const {
 }
 
 bool AnimationClock::is_over(Wall now) const {
-  if (!playing_ || loop_ || speed_ == 0) return false;
+  if (!runs() || loop_ || speed_ == 0) return false;
   const double time_s = time_at(now);
   if (fixed_step_) return frame_of(time_s) == (speed_ < 0 ? 0 : frames() - 1);
   return speed_ < 0 ? time_s <= start_s() : time_s >= end_s();
@@ -66,6 +66,12 @@ void AnimationClock::pause(Wall now) {
 void AnimationClock::seek(Wall now, double time_s) {
   anchor_s_ = std::clamp(time_s, start_s(), std::max(start_s(), end_s()));
   anchor_ = now;
+}
+
+void AnimationClock::set_held(Wall now, bool held) {
+  if (held == held_) return;
+  seek(now, time_at(now));
+  held_ = held;
 }
 
 void AnimationClock::set_speed(Wall now, double speed) {
@@ -104,7 +110,8 @@ bool AnimationClock::operator==(const AnimationClock& other) const {
   return timing_.start_s == other.timing_.start_s && timing_.end_s == other.timing_.end_s &&
          timing_.frame_count == other.timing_.frame_count && fps_ == other.fps_ &&
          playing_ == other.playing_ && loop_ == other.loop_ && fixed_step_ == other.fixed_step_ &&
-         speed_ == other.speed_ && anchor_s_ == other.anchor_s_ && anchor_ == other.anchor_;
+         held_ == other.held_ && speed_ == other.speed_ && anchor_s_ == other.anchor_s_ &&
+         anchor_ == other.anchor_;
 }
 
 }  // namespace tenebra::viewer

@@ -24,11 +24,13 @@ public:
   int frame_of(double time_s) const;     ///< last frame that is not after `time_s`
 
   bool playing() const { return playing_; }
+  bool held() const { return held_; }
+  bool runs() const { return playing_ && !held_; }
   double speed() const { return speed_; }
   bool loop() const { return loop_; }
   bool fixed_step() const { return fixed_step_; }
 
-  /// Seconds within start_s() .. end_s(). Does not move while fixed_step().
+  /// Seconds within start_s() .. end_s(). Does not move while fixed_step() or held().
   double time_at(Wall now) const;
   /// Playing has come to the last moment there is, and does not loop.
   bool is_over(Wall now) const;
@@ -36,6 +38,7 @@ public:
   void play(Wall now);  ///< from the other end if it is over
   void pause(Wall now);
   void seek(Wall now, double time_s);
+  void set_held(Wall now, bool held);      ///< a hand holds it where it is; playing goes on when it lets go
   void set_speed(Wall now, double speed);  ///< clamped to -4 .. 4
   void set_loop(Wall now, bool loop);
   void set_fixed_step(Wall now, bool fixed_step);
@@ -52,6 +55,7 @@ private:
   bool playing_ = false;
   bool loop_ = true;
   bool fixed_step_ = false;
+  bool held_ = false;
   double speed_ = 1.0;
   double anchor_s_ = 0;  // the time of the animation when the wall clock showed anchor_
   Wall anchor_{};

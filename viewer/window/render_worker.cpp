@@ -88,7 +88,7 @@ std::string RenderWorker::gl_renderer() const {
 
 /// Something to draw, and room for it.
 bool RenderWorker::can_draw() const {
-  return request_ && (fresh_ || request_->clock.playing()) && results_.pictures.size() < most_waiting;
+  return request_ && (fresh_ || request_->clock.runs()) && results_.pictures.size() < most_waiting;
 }
 
 void RenderWorker::publish(std::unique_lock<std::mutex>& lock) {

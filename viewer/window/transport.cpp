@@ -76,19 +76,17 @@ void draw_scrubber(Ui& ui) {
   AnimationClock& clock = ui.state.clock;
   const double begin_s = clock.start_s(), end_s = clock.end_s();
   // While it plays the scrubber shows the picture's moment; while it is held, the hand's.
-  const bool held = ImGui::GetStateStorage()->GetBool(ImGui::GetID("scrubbing"));
-  double time_s = clock.time_at(now());
-  if (clock.playing() && ui.picture && !held) time_s = ui.picture->a.record.time_s;
+  const auto at = now();
+  double time_s = clock.time_at(at);
+  if (clock.runs() && ui.picture) time_s = ui.picture->a.record.time_s;
   const std::string format =
       fmt::format("{:.3f} s   frame {} of 0..{}", time_s, clock.frame_of(time_s), clock.frames() - 1);
   ImGui::SetNextItemWidth(-1);
-  if (ImGui::SliderScalar("##time", ImGuiDataType_Double, &time_s, &begin_s, &end_s, format.c_str())) {
-    clock.seek(now(), time_s);
-  }
-  // Playing goes on under a hand that rests: the time stays where it is held.
+  const bool changed =
+      ImGui::SliderScalar("##time", ImGuiDataType_Double, &time_s, &begin_s, &end_s, format.c_str());
   const bool active = ImGui::IsItemActive();
-  if (active && clock.playing()) clock.seek(now(), time_s);
-  ImGui::GetStateStorage()->SetBool(ImGui::GetID("scrubbing"), active);
+  if (changed || (active && !clock.held())) clock.seek(at, time_s);
+  clock.set_held(at, active);
   ui.mark("scrubber");
 }
 
