@@ -22,6 +22,25 @@ namespace tenebra::HWY_NAMESPACE {
 /// Trees beyond this size are dropped, and the rest of the group is clipped.
 inline constexpr std::size_t largest_tree_bytes = std::size_t{4} << 20;
 
+template <class T>
+LightPolygon<T> polygon_of(std::span<const glm::dvec2> outline) {
+  T x[polygon_capacity], y[polygon_capacity];
+  for (std::size_t k = 0; k < polygon_capacity; ++k) {
+    const glm::dvec2 at = outline[k < outline.size() ? k : 0];
+    x[k] = static_cast<T>(at.x);
+    y[k] = static_cast<T>(at.y);
+  }
+  using Lanes = typename LightPolygon<T>::Lanes;
+  return {load<Lanes>(x), load<Lanes>(y), static_cast<int>(outline.size())};
+}
+
+template <class T>
+LightLine<T> line_of(const glm::dvec3& line) {
+  const double size = std::abs(line.x) + std::abs(line.y) + std::abs(line.z);
+  const glm::dvec3 scaled = size > 0 ? line / size : line;
+  return {static_cast<T>(scaled.x), static_cast<T>(scaled.y), static_cast<T>(scaled.z)};
+}
+
 /// The triangle a point lies on, as far as the light is concerned.
 struct ReceiverPlane {
   std::uint32_t id = no_triangle;
