@@ -20,12 +20,13 @@ inline bool has_program(const char* name) {
   return std::filesystem::exists(std::filesystem::path("/usr/bin") / name);
 }
 
-/// Xvfb on a free display number for as long as it lives.
+/// Xvfb on a free display number for as long as it lives. Held keys do not repeat: a slow machine holds every
+/// key.
 class VirtualDisplay {
 public:
   explicit VirtualDisplay(const std::string& screen = "1280x800x24", int dots_per_inch = 96) {
-    const std::string command = "exec Xvfb -displayfd 3 -screen 0 " + screen + " -noreset -nolisten tcp 3>" +
-                                (folder_ / "number").string();
+    const std::string command = "exec Xvfb -displayfd 3 -screen 0 " + screen +
+                                " -noreset -nolisten tcp -r 3>" + (folder_ / "number").string();
     server_ = std::make_unique<ChildProgram>(std::vector<std::string>{"/bin/bash", "-c", command});
     for (int i = 0; i < 400 && read_text(folder_ / "number").find('\n') == std::string::npos; ++i) {
       std::this_thread::sleep_for(std::chrono::milliseconds(50));
@@ -89,7 +90,7 @@ public:
   Json wait_for_event(std::size_t from, const std::string& name) const {
     return wait_for(from, name.c_str(), [&](const Json& event) { return event["event"] == name; });
   }
-  /// The picture that shows what has been asked for until now.
+  /// The picture that shows what has been asked for until now; it and its numbers are in the window.
   Json wait_for_picture() const {
     std::this_thread::sleep_for(std::chrono::milliseconds(200));
     const auto newest_request = [&] {
@@ -99,9 +100,14 @@ public:
       }
       return newest;
     };
-    return wait_for(0, "the picture of the last request", [&](const Json& event) {
+    const Json picture = wait_for(0, "the picture of the last request", [&](const Json& event) {
       return event["event"] == "picture" && event["request"] == newest_request();
     });
+    if (picture.is_null()) return picture;
+    wait_for(0, "its draw", [&](const Json& event) {
+      return event["event"] == "shown" && std::stoull(event["text"].get<std::string>()) >= picture["number"];
+    });
+    return picture;
   }
   Json state() const {
     Json last;
@@ -118,22 +124,35 @@ public:
     wait_for(from, key, [&](const Json& event) { return event["event"] == "state" && event[key] == value; });
   }
 
+  Json marks() const {
+    Json marks;
+    for (Json& event : events()) {
+      if (event["event"] == "marks") marks = std::move(event);
+    }
+    return marks;
+  }
+  void wait_until_gone(const std::string& name) const {
+    for (int i = 0; i < 1200 && marks().contains(name); ++i) {
+      std::this_thread::sleep_for(std::chrono::milliseconds(50));
+    }
+    EXPECT_FALSE(marks().contains(name)) << name;
+  }
   /// Left, top, right, bottom of a widget on the screen; waits until it is there.
   std::array<double, 4> place(const std::string& name) const {
-    Json marks;
     for (int i = 0; i < 600; ++i) {
-      for (const Json& event : events()) {
-        if (event["event"] == "marks") marks = event;
-      }
+      const Json marks = this->marks();
       if (marks.contains(name)) return marks[name].get<std::array<double, 4>>();
       std::this_thread::sleep_for(std::chrono::milliseconds(50));
     }
-    ADD_FAILURE() << "no widget " << name << " in " << marks.dump();
+    ADD_FAILURE() << "no widget " << name << " in " << marks().dump();
     return {};
   }
 
   void move_to(double x, double y) const {
-    act({"mousemove", std::to_string(static_cast<int>(x)), std::to_string(static_cast<int>(y))});
+    const std::array to{static_cast<int>(x), static_cast<int>(y)};
+    if (to == pointer_) return;  // nothing would come of it
+    act({"mousemove", std::to_string(to[0]), std::to_string(to[1])});
+    pointer_ = to;
   }
   /// At a part of a widget's width; its middle.
   void move_to(const std::string& name, double part = 0.5) const {
@@ -149,6 +168,7 @@ public:
   void release(int button = 1) const { act({"mouseup", std::to_string(button)}); }
   void key(const std::string& keys) const { act({"key", keys}); }
   void xdotool(std::vector<std::string> arguments) const {
+    pointer_ = {-1, -1};
     arguments.insert(arguments.begin(), "xdotool");
     const auto result = display_.run(arguments);
     EXPECT_EQ(result.exit_code, 0) << arguments[1] << ": " << result.errors;
@@ -171,12 +191,13 @@ private:
     for (const Json& event : events()) count += event["event"] == "drawn" || event["event"] == "end" ? 1 : 0;
     return count;
   }
-  /// An event, and the wait until the window has drawn what came of it (nothing comes of a move to where the
-  /// pointer is).
+  /// An event, and the wait until the window has drawn what came of it.
   void act(const std::vector<std::string>& arguments) const {
     const std::size_t before = draws();
+    const auto pointer = pointer_;
     xdotool(arguments);
-    const auto end = std::chrono::steady_clock::now() + std::chrono::seconds(3);
+    pointer_ = pointer;
+    const auto end = std::chrono::steady_clock::now() + std::chrono::seconds(30);
     while (draws() == before && std::chrono::steady_clock::now() < end) {
       std::this_thread::sleep_for(std::chrono::milliseconds(20));
     }
@@ -190,6 +211,7 @@ private:
   const VirtualDisplay& display_;
   std::filesystem::path report_;
   std::unique_ptr<ChildProgram> program_;
+  mutable std::array<int, 2> pointer_{-1, -1};  // where it was moved last
 };
 
 #define TENEBRA_NEEDS_A_DISPLAY()                                                              \

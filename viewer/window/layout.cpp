@@ -12,7 +12,6 @@ namespace {
 constexpr float panel_px = 344;
 constexpr float least_view_px = 300;  // beside the panel
 constexpr float transport_px = 74;
-constexpr double slow_s = 0.4;  // from here on the progress is shown
 
 }  // namespace
 
@@ -46,7 +45,7 @@ void draw_panel(Ui& ui, Area area) {
 void draw_progress(Ui& ui, Area view) {
   const WorkerStatus& status = ui.worker;
   const bool first = !ui.picture && status.elapsed_s > 0;
-  if ((!status.loading && !status.drawing) || (status.elapsed_s < slow_s && !first)) return;
+  if ((!status.loading && !status.drawing) || (!status.slow && !first)) return;
   const bool soft = ui.state.method().render.shadows == ShadowMode::soft;
   std::string what = status.loading ? "Loading " + std::filesystem::path(status.stage).filename().string()
                      : !status.stage.empty() ? status.stage

@@ -13,6 +13,9 @@ constexpr std::size_t most_waiting = 2;
 // up for the newest request.
 constexpr double least_patience_s = 0.25;
 constexpr double most_patience_s = 1.0;
+// Frames that take as long as the one before show no progress: drawing it would take their processors.
+constexpr double least_slow_s = 0.4;
+constexpr double most_slow_s = 1.0;
 
 double seconds(Clock::duration duration) {
   return std::chrono::duration<double>(duration).count();
@@ -70,6 +73,7 @@ WorkerStatus RenderWorker::status() const {
   const std::lock_guard lock(mutex_);
   WorkerStatus status = status_;
   if (status.loading || status.drawing) status.elapsed_s = seconds(Clock::now() - begun_);
+  status.slow = status.elapsed_s > std::clamp(2 * last_frame_s_, least_slow_s, most_slow_s);
   return status;
 }
 

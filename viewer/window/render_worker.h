@@ -19,6 +19,7 @@ struct WorkerStatus {
   bool loading = false;  ///< a scene
   bool drawing = false;  ///< a picture
   double elapsed_s = 0;  ///< of either
+  bool slow = false;     ///< takes long, beside the frame before: time to show progress
   std::string stage;     ///< what takes long, where the method says so
   double done = 0;       ///< 0..1 of the stage
 };

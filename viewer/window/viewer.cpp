@@ -14,10 +14,10 @@ namespace {
 using Wall = AnimationClock::Wall;
 
 constexpr double message_s = 6.0;
-constexpr double look_again_s = 0.1;      // while the worker is busy: progress, patience
-constexpr double progress_after_s = 0.4;  // its display moves
-constexpr double resting_sleep_s = 0.5;   // signals are looked at this often
-constexpr float flight_share = 0.1f;      // of the scene's diagonal a second
+constexpr double look_again_s = 0.1;     // while the worker is busy: progress, patience
+constexpr double progress_s = 0.25;      // its display moves this often
+constexpr double resting_sleep_s = 0.5;  // signals are looked at this often
+constexpr float flight_share = 0.1f;     // of the scene's diagonal a second
 
 Wall now() {
   return std::chrono::steady_clock::now();
@@ -226,8 +226,8 @@ void Viewer::update() {
   actions_.retry = false;
   worker_.stop_if_outdated();
   const WorkerStatus status = worker_.status();
-  if (status.elapsed_s > progress_after_s) {
-    if (std::chrono::duration<double>(now() - last_draw_).count() > look_again_s) due_ = std::max(due_, 1);
+  if (status.slow && std::chrono::duration<double>(now() - last_draw_).count() > progress_s) {
+    due_ = std::max(due_, 1);
   }
   while (!messages_.empty() && messages_.front().until < now()) {
     messages_.pop_front();
@@ -332,6 +332,7 @@ void Viewer::draw_messages(Area view) {
     list.AddText(nullptr, 0, {view.low.x + 22, y + 7}, palette::text, message.text.c_str(), nullptr,
                  width - 24);
     y += size.y + 20;
+    marks_["message"] = {view.low.x + 10, view.low.y + 10, view.low.x + 34 + size.x, y};
   }
 }
 
@@ -377,6 +378,7 @@ void Viewer::draw(float scale, float pixels_a_unit) {
   }
   keys_.clear();
   report_.marks(marks_);
+  if (std::exchange(shown_, pictures_) != pictures_) report_.note("shown", fmt::format("{}", pictures_));
   if (due_ > 0 || !input_undrawn_) return;
   input_undrawn_ = false;
   report_.note("drawn", "");

@@ -84,6 +84,7 @@ private:
   std::uint64_t requests_ = 0;
   std::uint64_t settings_since_ = 0;  // the first request with the present settings
   std::uint64_t pictures_ = 0;
+  std::uint64_t shown_ = 0;  // of pictures_
   int shots_ = 0;
   bool window_shot_ = false;
   bool input_undrawn_ = false;
