@@ -86,7 +86,8 @@ Expected<Image8> read_png(const std::filesystem::path& path) {
                             &image.width, &image.height, &image.channels, 0),
       stbi_image_free);
   if (decoded == nullptr) {
-    const std::string_view reason = stbi_failure_reason();
+    const char* const stated = stbi_failure_reason();  // none where its own thread-local state had no memory
+    const std::string_view reason = stated == nullptr ? "outofmem" : stated;
     return fail("{}: cannot decode its {} x {} pixels ({})", path.string(), header->width, header->height,
                 reason == "outofmem" ? "not enough memory" : reason);
   }
