@@ -255,7 +255,9 @@ TEST(FieldLookup, AnswersManyBatchesAsItDoesOne) {
         casts_of_single += nearest_hits(instance, {&rays[b], 1}, single.data() + b * batch_size);
       EXPECT_EQ(all, single) << count;
       EXPECT_EQ(casts, casts_of_single) << count;
-      if (count == rays.size()) EXPECT_LT(*std::min_element(all.begin(), all.end()), 2.0f);
+      if (count == rays.size()) {
+        EXPECT_LT(*std::min_element(all.begin(), all.end()), 2.0f);
+      }
     }
   }
 }
