@@ -14,6 +14,7 @@
 #include "points/triangle_corners.h"
 #include "soft/clip_solver-inl.h"
 #include "soft/line_class_query-inl.h"
+#include "soft/outline_solver-inl.h"
 #include "soft/point_groups.h"
 
 HWY_BEFORE_NAMESPACE();
@@ -69,6 +70,7 @@ template <class T>
 struct Precision {
   LineClassQuery<T> query;
   ClipSolver<T> clip;
+  OutlineSolver<T> outline;
   FragmentList<T> start, visible, scratch;
 };
 
@@ -77,15 +79,12 @@ public:
   void solve(const SoftFrame& frame, const GroupTask& task) override {
     Stopwatch watch;
     receiver_ = {};
-    set_up_occluders(frame.light, frame.triangles, task.frame, task.candidates, occluders_);
-    use_bsp_ = wants_bsp(frame.config);
-    if (use_bsp_) bsp_.reset(occluders_, frame.triangles, task.frame, frame.config.choice);
-    const Chosen chosen = use_bsp_ ? Chosen::indefinite : Chosen::all;
+    set_up(frame, task);
     const bool wide = frame.config.precision == SoftPrecision::reference;
     if (wide) {
-      double_.clip.reset(occluders_, chosen);
+      reset(double_);
     } else {
-      float_.clip.reset(occluders_, chosen);
+      reset(float_);
     }
     times.init_ms += watch.lap_ms();
     if (wide) {
@@ -100,6 +99,7 @@ public:
     Stopwatch watch;
     receiver_ = {};
     use_bsp_ = false;
+    outline_.clear();
     set_up_occluders(frame.light, frame.triangles, {}, {}, occluders_);
     double_.clip.reset(occluders_, Chosen::all);
     for (const std::uint32_t pixel : pixels) solve_point(double_, frame, {pixels, {}, {}}, pixel);
@@ -107,6 +107,24 @@ public:
   }
 
 private:
+  void set_up(const SoftFrame& frame, const GroupTask& task) {
+    outline_.clear();
+    std::span<const std::uint32_t> others = task.candidates;
+    if (frame.config.solver == SoftSolver::automatic) {
+      finder_.find(frame.light, frame.triangles, task.frame, task.candidates, outline_, rest_);
+      others = rest_;
+    }
+    set_up_occluders(frame.light, frame.triangles, task.frame, others, occluders_);
+    use_bsp_ = wants_bsp(frame.config);
+    if (use_bsp_) bsp_.reset(occluders_, frame.triangles, task.frame, frame.config.choice);
+  }
+
+  template <class T>
+  void reset(Precision<T>& p) {
+    p.clip.reset(occluders_, use_bsp_ ? Chosen::indefinite : Chosen::all);
+    if (!outline_.empty()) p.outline.reset(outline_);
+  }
+
   template <class T>
   void solve_points(Precision<T>& p, const SoftFrame& frame, const GroupTask& task) {
     for (const std::uint32_t pixel : task.pixels) {
@@ -162,9 +180,17 @@ private:
         p.clip.query(part, p.visible);
       }
     }
-    if (!use_bsp_ || occluders_.indefinite.empty()) return;
+    if (use_bsp_ && !occluders_.indefinite.empty()) refine(p, p.clip);
+    if (outline_.empty() || p.visible.empty()) return;
+    p.outline.move_to(at);
+    refine(p, p.outline);
+  }
+
+  /// Replaces the fragments found so far by what `solver` leaves of them.
+  template <class T, class S>
+  void refine(Precision<T>& p, S& solver) {
     p.scratch.clear();
-    for (std::size_t i = 0; i < p.visible.size(); ++i) p.clip.query(loaded(p.visible[i]), p.scratch);
+    for (std::size_t i = 0; i < p.visible.size(); ++i) solver.query(loaded(p.visible[i]), p.scratch);
     p.visible.swap(p.scratch);
   }
 
@@ -230,6 +256,9 @@ private:
     return false;
   }
 
+  OutlineFinder finder_;
+  GroupOutline outline_;
+  std::vector<std::uint32_t> rest_;  ///< candidates that the outline leaves
   GroupOccluders occluders_;
   LineClassBsp bsp_;
   bool use_bsp_ = false;
