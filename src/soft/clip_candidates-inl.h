@@ -60,8 +60,8 @@ public:
   std::size_t size() const { return order_.size(); }
 
   /// Forgets all lists and finds the boxes of the shadows at a point. The list of those that may reach the
-  /// light is [0, count()), largest first; false if one of the largest covers the light.
-  HWY_NOINLINE bool move_to(const GroupPoint& at) {
+  /// light is [0, count()), largest first.
+  HWY_NOINLINE void move_to(const GroupPoint& at) {
     at_ = at;
     count_ = 0;
     make_room(16 * moving_.size());
@@ -72,23 +72,19 @@ public:
       const std::size_t valid = HWY_MIN(std::size_t{16}, order_.size() - 16 * b);
       append_meeting(at_point_[b].box, ids_in_block(b), valid, light);
     }
-    return !find_lit(0, light);
   }
 
   std::size_t count() const { return count_; }
   /// Forgets the lists beyond.
   void shrink(std::size_t count) { count_ = count; }
 
-  /// Appends those of the list [first, last) whose shadow may reach into `box`; false, and nothing appended, if
-  /// one of them covers it.
-  HWY_NOINLINE bool find_among(std::size_t first, std::size_t last, const LightBox<T>& box) {
+  /// Appends those of the list [first, last) whose shadow may reach into `box`.
+  HWY_NOINLINE void find_among(std::size_t first, std::size_t last, const LightBox<T>& box) {
     make_room(last - first);
-    const std::size_t from = count_;
     for (std::size_t i = first; i < last; i += 16) {
       const T* sides[4] = {&sides_[0][i], &sides_[1][i], &sides_[2][i], &sides_[3][i]};
       append_meeting(sides, load<Index>(&ids_[i]), HWY_MIN(std::size_t{16}, last - i), box);
     }
-    return !find_lit(from, box);
   }
 
   /// The lines of an occluder in a list, by its place there; returns their number.
@@ -96,7 +92,8 @@ public:
     const auto id = static_cast<std::size_t>(ids_[place]);
     const Block& block = block_with_lines(id / 16);
     const std::size_t k = id % 16;
-    for (int slot = 0; slot < slots_; ++slot) lines[slot] = {block.u[slot][k], block.v[slot][k], block.w[slot][k]};
+    for (int slot = 0; slot < slots_; ++slot)
+      lines[slot] = {block.u[slot][k], block.v[slot][k], block.w[slot][k]};
     return slots_;
   }
 
@@ -104,8 +101,6 @@ private:
   using Wide = Pack<double, 16>;
   using Lanes = Pack<T, 16>;
   using Index = Pack<LaneIndex<T>, 16>;
-  enum class Reach { misses, meets, covers };
-  static constexpr std::size_t closely = 64;  ///< places whose lines are looked at before they are needed
   struct Entry {
     const Occluder* occluder;
     const PlaneHeight* plane;  ///< of indefinite ones
@@ -143,8 +138,8 @@ private:
     }
   }
 
-  /// Boxes of the shadows on the light's plane. An occluder all at or below the point's height shadows nothing;
-  /// one that is partly so may shadow all.
+  /// Boxes of the shadows on the light's plane. An occluder all at or below the point's height shadows
+  /// nothing; one that is partly so may shadow all.
   HWY_INLINE void find_boxes(const GroupPoint& at, std::size_t b) {
     const auto num = [](double value) { return splat<Wide>(value); };
     const Wide far = num(1e30), zero = num(0);
@@ -250,51 +245,12 @@ private:
     count_ += added;
   }
 
-  /// Drops the places from `first` on whose shadow misses `box`; true, and all dropped, if one covers it. Only
-  /// the first ones are looked at closely where there are many: they are the largest.
-  HWY_INLINE bool find_lit(std::size_t first, const LightBox<T>& box) {
-    const std::size_t last = HWY_MIN(count_, first + closely);
-    std::size_t kept = first;
-    for (std::size_t i = first; i < last; ++i) {
-      const Reach reach = reach_of(i, box);
-      if (reach == Reach::covers) {
-        count_ = first;
-        return true;
-      }
-      if (reach == Reach::meets) move_place(i, kept++);
-    }
-    if (kept < last) {
-      for (std::size_t i = last; i < count_; ++i) move_place(i, kept++);
-      count_ = kept;
-    }
-    return false;
-  }
-
-  HWY_INLINE void move_place(std::size_t from, std::size_t to) {
-    for (auto& side : sides_) side[to] = side[from];
-    ids_[to] = ids_[from];
-  }
-
-  HWY_INLINE Reach reach_of(std::size_t place, const LightBox<T>& box) {
-    LightLine<T> lines[4];
-    const int count = lines_of(place, lines);
-    const auto size = [](T a) { return HWY_MAX(a, -a); };
-    bool covers = true;
-    for (int slot = 0; slot < count; ++slot) {
-      const T value = lines[slot].u * box.cu + lines[slot].v * box.cv + lines[slot].w;
-      const T radius = size(lines[slot].u) * box.hu + size(lines[slot].v) * box.hv;
-      if (!(value + radius > 0)) return Reach::misses;
-      covers &= value - radius > 0;
-    }
-    return covers ? Reach::covers : Reach::meets;
-  }
-
   std::vector<Entry> order_;
   std::vector<MovingBlock> moving_;
   std::vector<Block> at_point_;
   GroupPoint at_;
-  std::vector<T> sides_[4];           ///< boxes of the shadows in lists, as in Block
-  std::vector<LaneIndex<T>> ids_;     ///< and the occluders
+  std::vector<T> sides_[4];        ///< boxes of the shadows in lists, as in Block
+  std::vector<LaneIndex<T>> ids_;  ///< and the occluders
   std::size_t count_ = 0;
   int slots_ = 0;
 };

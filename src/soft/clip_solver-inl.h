@@ -19,15 +19,13 @@ public:
   void reset(const GroupOccluders& group, Chosen chosen) { candidates_.reset(group, chosen); }
 
   /// The next queries are about this point.
-  void move_to(const GroupPoint& at) { lit_ = candidates_.move_to(at); }
+  void move_to(const GroupPoint& at) { candidates_.move_to(at); }
 
   /// Appends the parts of `light` (convex, within |u|, |v| <= 1) visible from the point to `out`.
-  HWY_NOINLINE void query(const LightPolygon<T>& light, FragmentList<T>& out) {
-    if (lit_) solve(light, 0, out);
-  }
+  HWY_NOINLINE void query(const LightPolygon<T>& light, FragmentList<T>& out) { solve(light, 0, out); }
 
 private:
-  static constexpr std::size_t few = 64;     ///< occluders that are subtracted without more ado
+  static constexpr std::size_t few = 24;     ///< occluders that are subtracted without more ado
   static constexpr std::size_t largest = 8;  ///< occluders that go first where halving does not part them
 
   /// Subtracts the occluders in places from `first` on from `part`.
@@ -43,7 +41,8 @@ private:
     for (std::size_t k = 0; k < left.size(); ++k) {
       const LightPolygon<T> fragment = loaded(left[k]);
       const std::size_t from = candidates_.count();
-      if (candidates_.find_among(first + largest, last, box_of(fragment))) solve(fragment, from, out);
+      candidates_.find_among(first + largest, last, box_of(fragment));
+      solve(fragment, from, out);
       candidates_.shrink(from);
     }
     give_back(std::move(left));
@@ -59,20 +58,20 @@ private:
     LightBox<T> high = low;
     (wide ? low.cu : low.cv) -= wide ? low.hu : low.hv;
     (wide ? high.cu : high.cv) += wide ? low.hu : low.hv;
-    const bool low_lit = candidates_.find_among(first, last, low);
+    candidates_.find_among(first, last, low);
     const std::size_t middle = candidates_.count();
-    const bool high_lit = candidates_.find_among(first, last, high);
+    candidates_.find_among(first, last, high);
     const std::size_t count = candidates_.count() - last;
-    const bool parted = !low_lit || !high_lit || 4 * count < 5 * (last - first);
+    const bool parted = 4 * count < 5 * (last - first);
     if (parted) {
       const T sign = -1;
       const LightLine<T> below = wide ? LightLine<T>{sign, 0, box.cu} : LightLine<T>{0, sign, box.cv};
       const LightLine<T> above = wide ? LightLine<T>{1, 0, -box.cu} : LightLine<T>{0, 1, -box.cv};
       LightPolygon<T> kept = part;
-      if (high_lit && keep_side(above, kept)) solve(kept, middle, out);
+      if (keep_side(above, kept)) solve(kept, middle, out);
       candidates_.shrink(middle);
       kept = part;
-      if (low_lit && keep_side(below, kept)) solve(kept, last, out);
+      if (keep_side(below, kept)) solve(kept, last, out);
     }
     candidates_.shrink(last);
     return parted;
@@ -120,7 +119,6 @@ private:
   void give_back(FragmentList<T> list) { spare_.push_back(std::move(list)); }
 
   ClipCandidates<T> candidates_;
-  bool lit_ = true;  ///< no occluder covers the light by itself
   FragmentList<T> next_;
   std::vector<FragmentList<T>> spare_;
 };
