@@ -32,16 +32,18 @@ public:
   HWY_NOINLINE void move_to(const GroupPoint& at) {
     for (std::size_t b = 0; b < moving_.size(); ++b) move_block(at, b);
     add_sometimes(at);
-    segments_.clear();
-    for (std::size_t b = 0; b < moving_.size(); ++b) find_segments(at_point_[b]);
+    around_.count = crossing_.count = 0;
+    around_.make_room(at_point_.size() * 16);
+    crossing_.make_room(at_point_.size() * 16);
+    for (const Block& block : at_point_) gather(block);
+    crossing_light_ = crossing_.count;
     slack_ = static_cast<T>(0x1p-32 * (4 + 2 * std::abs(at.in_light.y)));
   }
 
   /// Appends the parts of `light` (convex, within |u|, |v| <= 1) visible from the point to `out`.
   HWY_NOINLINE void query(const LightPolygon<T>& light, FragmentList<T>& out) {
-    list_.clear();
-    for (std::uint32_t i = 0; i < segments_.size(); ++i) list_.push_back(i);
-    solve(light, 0, out);
+    crossing_.copy(0, crossing_light_);
+    branch(light, crossing_light_, out);
   }
 
 private:
@@ -52,13 +54,31 @@ private:
     double from[3][16], to[3][16];
     double winding[16];
   };
+  /// Sixteen edges at the point: their lines, ends, and windings.
   struct Block {
     T u[16], v[16], w[16], from_u[16], from_v[16], to_u[16], to_v[16], winding[16];
   };
-  /// An edge that may cross the light.
-  struct Segment {
-    LightLine<T> line;
-    T from_u, from_v, to_u, to_v;
+  /// Edges without gaps, one array a quantity.
+  struct Edges {
+    std::vector<T> u, v, w, from_u, from_v, to_u, to_v, winding;
+    std::size_t count = 0;
+
+    /// Room for `more` edges and a full register behind them.
+    void make_room(std::size_t more) {
+      const std::size_t needed = count + more + 16;
+      if (u.size() >= needed) return;
+      for (auto* values : {&u, &v, &w, &from_u, &from_v, &to_u, &to_v, &winding}) values->resize(2 * needed);
+    }
+    void copy(std::size_t first, std::size_t last) {
+      make_room(last - first);
+      for (auto* values : {&u, &v, &w, &from_u, &from_v, &to_u, &to_v})
+        std::copy(&(*values)[first], &(*values)[last], &(*values)[count]);
+      count += last - first;
+    }
+    void drop(std::size_t place) {
+      --count;
+      for (auto* values : {&u, &v, &w, &from_u, &from_v, &to_u, &to_v}) (*values)[place] = (*values)[count];
+    }
   };
 
   void fill(std::size_t i) {
@@ -110,50 +130,60 @@ private:
     }
   }
 
-  /// The block's edges whose shadows may cross the square around the light.
-  HWY_INLINE void find_segments(const Block& block) {
+  /// Adds the block's edges to those around the light that count, and to those that may cross the square
+  /// around it.
+  HWY_INLINE void gather(const Block& block) {
     const Lanes zero = splat<Lanes>(T(0)), one = splat<Lanes>(T(1)), minus = splat<Lanes>(T(-1));
+    const Lanes u = load<Lanes>(block.u), v = load<Lanes>(block.v), w = load<Lanes>(block.w);
     const Lanes u0 = load<Lanes>(block.from_u), u1 = load<Lanes>(block.to_u);
     const Lanes v0 = load<Lanes>(block.from_v), v1 = load<Lanes>(block.to_v);
-    const Lanes radius = absolute(load<Lanes>(block.u)) + absolute(load<Lanes>(block.v));
-    std::uint32_t meeting = less_bits(min(u0, u1), one) & less_bits(minus, max(u0, u1)) &
-                            less_bits(min(v0, v1), one) & less_bits(minus, max(v0, v1)) &
-                            less_bits(absolute(load<Lanes>(block.w)), radius) &
-                            less_bits(zero, absolute(load<Lanes>(block.winding)));
-    for (; meeting != 0; meeting &= meeting - 1) {
-      const int k = std::countr_zero(meeting);
-      segments_.push_back({{block.u[k], block.v[k], block.w[k]},
-                           block.from_u[k],
-                           block.from_v[k],
-                           block.to_u[k],
-                           block.to_v[k]});
-    }
+    const Lanes winding = load<Lanes>(block.winding);
+    const auto counts = less(zero, absolute(winding)) & less(minus, max(u0, u1)) & less(min(v0, v1), one) &
+                        less(minus, max(v0, v1));
+    if (!any(counts)) return;
+    compress(counts, u, &around_.u[around_.count]);
+    compress(counts, v, &around_.v[around_.count]);
+    compress(counts, w, &around_.w[around_.count]);
+    compress(counts, v0, &around_.from_v[around_.count]);
+    compress(counts, v1, &around_.to_v[around_.count]);
+    around_.count += compress(counts, winding, &around_.winding[around_.count]);
+    add_crossing(counts & less(min(u0, u1), one) & less(absolute(w), absolute(u) + absolute(v)),
+                 {u, v, w, u0, v0, u1, v1}, crossing_.count);
   }
 
-  /// Cuts `part` along list_[first..), and forgets those.
+  /// An edge a lane.
+  struct EdgeLanes {
+    Lanes u, v, w, from_u, from_v, to_u, to_v;
+  };
+
+  /// Writes the edges where `chosen` to crossing_ from `to` on, and ends it behind them.
+  HWY_INLINE void add_crossing(Truth<T, 16> chosen, const EdgeLanes& edges, std::size_t to) {
+    compress(chosen, edges.u, &crossing_.u[to]);
+    compress(chosen, edges.v, &crossing_.v[to]);
+    compress(chosen, edges.w, &crossing_.w[to]);
+    compress(chosen, edges.from_u, &crossing_.from_u[to]);
+    compress(chosen, edges.from_v, &crossing_.from_v[to]);
+    compress(chosen, edges.to_u, &crossing_.to_u[to]);
+    crossing_.count = to + compress(chosen, edges.to_v, &crossing_.to_v[to]);
+  }
+
+  /// Cuts `part` along the crossing edges from `first` on, and forgets those.
   void solve(const LightPolygon<T>& part, std::size_t first, FragmentList<T>& out) {
     LightPolygon<T> rest = part;
-    while (list_.size() > first) {
-      const std::size_t middle = first + (list_.size() - first) / 2;
-      const Segment segment = segments_[list_[middle]];
-      list_[middle] = list_.back();
-      list_.pop_back();
-      const LineValues<T> values = evaluate(rest, segment.line);
+    while (crossing_.count > first) {
+      const std::size_t middle = first + (crossing_.count - first) / 2;
+      const LightLine<T> line{crossing_.u[middle], crossing_.v[middle], crossing_.w[middle]};
+      crossing_.drop(middle);
+      const LineValues<T> values = evaluate(rest, line);
       if (values.positive == 0 || values.negative == 0) continue;
-      LightPolygon<T> left, right;
-      split(rest, values, left, right);
-      const std::size_t last = list_.size();
-      reaching(first, last, left, segment.line, T(1));
+      LightPolygon<T> left;
+      split(rest, values, left, rest);
+      const std::size_t last = crossing_.count;
+      crossing_.make_room(last - first);
+      keep_crossing(first, last, left, line, T(1), last);
       branch(left, last, out);
-      rest = right;
-      const std::size_t from = list_.size();
-      reaching(first, last, right, segment.line, T(-1));
-      list_.erase(list_.begin() + static_cast<std::ptrdiff_t>(first),
-                  list_.begin() + static_cast<std::ptrdiff_t>(from));
-      if (rest.count > fragment_capacity) {
-        branch(rest, first, out);
-        return;
-      }
+      keep_crossing(first, last, rest, line, T(-1), first);
+      if (rest.count > fragment_capacity) return branch(rest, first, out);
     }
     if (winding_around(rest) == T(0)) out.push(rest);
   }
@@ -163,33 +193,50 @@ private:
     if (part.count <= fragment_capacity) return solve(part, first, out);
     LightPolygon<T> low, high;
     halve(part, low, high);
-    const std::size_t last = list_.size();
-    for (std::size_t i = first; i < last; ++i) list_.push_back(list_[i]);
+    const std::size_t last = crossing_.count;
+    crossing_.copy(first, last);
     solve(low, last, out);
     solve(high, first, out);
   }
 
-  /// Appends those of list_[first..last) that may cross `part`, which lies on the side `sign` of `line`.
-  HWY_NOINLINE void reaching(std::size_t first, std::size_t last, const LightPolygon<T>& part,
-                             const LightLine<T>& line, T sign) {
+  /// Writes those of the crossing edges [first, last) that may cross `part`, which lies on the side `sign` of
+  /// `line`, to `to` (first or last), and forgets what lies behind.
+  HWY_NOINLINE void keep_crossing(std::size_t first, std::size_t last, const LightPolygon<T>& part,
+                                  const LightLine<T>& line, T sign, std::size_t to) {
     const T low_u = least(part.x), high_u = greatest(part.x), low_v = least(part.y),
             high_v = greatest(part.y);
-    const T cu = (low_u + high_u) / 2, cv = (low_v + high_v) / 2, hu = high_u - cu, hv = high_v - cv;
-    const auto size = [](T a) { return a < 0 ? -a : a; };
-    for (std::size_t i = first; i < last; ++i) {
-      const Segment& s = segments_[list_[i]];
-      if (HWY_MIN(s.from_u, s.to_u) > high_u || HWY_MAX(s.from_u, s.to_u) < low_u ||
-          HWY_MIN(s.from_v, s.to_v) > high_v || HWY_MAX(s.from_v, s.to_v) < low_v)
-        continue;
-      if (size(s.line.u * cu + s.line.v * cv + s.line.w) > size(s.line.u) * hu + size(s.line.v) * hv)
-        continue;
-      const auto beyond = [&](T u, T v) {
-        return sign * (line.u * u + line.v * v + line.w) >
-               on_line<T> * (size(line.u * u) + size(line.v * v) + size(line.w));
-      };
-      if (!beyond(s.from_u, s.from_v) && !beyond(s.to_u, s.to_v)) continue;
-      list_.push_back(list_[i]);
+    const auto num = [](T value) { return splat<Lanes>(value); };
+    const Lanes cu = num((low_u + high_u) / 2), cv = num((low_v + high_v) / 2);
+    const Lanes hu = num((high_u - low_u) / 2), hv = num((high_v - low_v) / 2);
+    const Lanes lu = num(sign * line.u), lv = num(sign * line.v), lw = num(sign * line.w);
+    const auto beyond = [&](Lanes u, Lanes v) {
+      const Lanes a = lu * u, b = lv * v;
+      return less(num(on_line<T>) * (absolute(a) + absolute(b) + absolute(lw)), a + b + lw);
+    };
+    crossing_.count = to;
+    for (std::size_t i = first; i < last; i += 16) {
+      const EdgeLanes e = edges_from(i);
+      const auto meets = lanes_below(last - i) & not_above(min(e.from_u, e.to_u), num(high_u)) &
+                         not_above(num(low_u), max(e.from_u, e.to_u)) &
+                         not_above(min(e.from_v, e.to_v), num(high_v)) &
+                         not_above(num(low_v), max(e.from_v, e.to_v));
+      const auto crosses =
+          not_above(absolute(e.u * cu + e.v * cv + e.w), absolute(e.u) * hu + absolute(e.v) * hv);
+      add_crossing(meets & crosses & (beyond(e.from_u, e.from_v) | beyond(e.to_u, e.to_v)), e,
+                   crossing_.count);
     }
+  }
+
+  HWY_INLINE EdgeLanes edges_from(std::size_t i) const {
+    return {load<Lanes>(&crossing_.u[i]),      load<Lanes>(&crossing_.v[i]),
+            load<Lanes>(&crossing_.w[i]),      load<Lanes>(&crossing_.from_u[i]),
+            load<Lanes>(&crossing_.from_v[i]), load<Lanes>(&crossing_.to_u[i]),
+            load<Lanes>(&crossing_.to_v[i])};
+  }
+
+  static HWY_INLINE Truth<T, 16> lanes_below(std::size_t count) {
+    constexpr T lanes[16] = {0, 1, 2, 3, 4, 5, 6, 7, 8, 9, 10, 11, 12, 13, 14, 15};
+    return less(load<Lanes>(lanes), splat<Lanes>(static_cast<T>(HWY_MIN(count, std::size_t{16}))));
   }
 
   /// How many triangles cover a part of the light that no edge crosses.
@@ -218,12 +265,12 @@ private:
     const Lanes near = splat<Lanes>(on_line<T>), slack = splat<Lanes>(slack_);
     Lanes sum = zero;
     std::uint32_t doubtful = 0;
-    for (const Block& block : at_point_) {
-      const Lanes lu = load<Lanes>(block.u), lv = load<Lanes>(block.v);
-      const Lanes turns = load<Lanes>(block.winding);
-      const Lanes value = lu * qu + lv * qv + load<Lanes>(block.w);
-      const auto from_above = less(qv, load<Lanes>(block.from_v)),
-                 to_above = less(qv, load<Lanes>(block.to_v));
+    for (std::size_t i = 0; i < around_.count; i += 16) {
+      const Lanes lu = load<Lanes>(&around_.u[i]), lv = load<Lanes>(&around_.v[i]);
+      const Lanes value = lu * qu + lv * qv + load<Lanes>(&around_.w[i]);
+      const Lanes turns = choose(lanes_below(around_.count - i), load<Lanes>(&around_.winding[i]), zero);
+      const auto from_above = less(qv, load<Lanes>(&around_.from_v[i]));
+      const auto to_above = less(qv, load<Lanes>(&around_.to_v[i]));
       const Lanes up = choose(from_above, zero, choose(less(zero, value), turns, zero));
       const Lanes down = choose(from_above, choose(less(value, zero), zero - turns, zero), zero);
       sum = sum + choose(to_above, up, down);
@@ -241,10 +288,11 @@ private:
   const GroupOutline* outline_ = nullptr;
   std::vector<MovingBlock> moving_;
   std::vector<Block> at_point_;
-  std::vector<Segment> segments_;
-  std::vector<std::uint32_t> list_;  ///< segments that cross the parts at hand, part after part
-  std::vector<int> signs_;           ///< one a SometimesBlocker
-  T slack_ = 0;                      ///< what rounding the corners can amount to, units of the light
+  Edges around_;    ///< edges that a ray from the light towards +u may cross
+  Edges crossing_;  ///< edges that may cross the light, and behind them, the parts at hand
+  std::size_t crossing_light_ = 0;
+  std::vector<int> signs_;  ///< one a SometimesBlocker
+  T slack_ = 0;             ///< what rounding the corners can amount to, units of the light
 };
 
 }  // namespace tenebra::HWY_NAMESPACE
