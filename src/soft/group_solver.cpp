@@ -102,7 +102,11 @@ public:
     outline_.clear();
     set_up_occluders(frame.light, frame.triangles, {}, {}, occluders_);
     double_.clip.reset(occluders_, Chosen::all);
-    for (const std::uint32_t pixel : pixels) solve_point(double_, frame, {pixels, {}, {}}, pixel);
+    for (const std::uint32_t pixel : pixels) {
+      if (!add_whole(frame, pixel)) solve_point(double_, frame, {pixels, {}, {}}, pixel);
+      if (whole_count_ == 8) finish_whole(frame);
+    }
+    finish_whole(frame);
     times.irradiance_ms += watch.lap_ms();
   }
 
@@ -154,19 +158,68 @@ private:
   template <class T>
   void solve_point(Precision<T>& p, const SoftFrame& frame, const GroupTask& task, std::uint32_t pixel) {
     const std::uint32_t receiver = frame.points.triangles[pixel];
-    if (receiver != receiver_.id) receiver_ = receiver_plane(frame, receiver);
+    if (receiver != receiver_.id) start_on(p, frame, receiver);
     const glm::dvec3 point = frame.points.positions[pixel];
-    p.start.clear();
-    p.start.push(polygon_of<T>(frame.light.outline));
-    keep_positive(p.start, line_of<T>(receiver_.horizon), p.scratch);
     const bool in_front = glm::dot(point - frame.light.origin, frame.light.normal) > 0;
-    const double above = !in_front || receiver_.face == glm::dvec3(0.0) ? 0.0 : area_of(p.start);
+    const double above = in_front ? above_ : 0.0;
     p.visible.clear();
     if (above > 0)
       find_visible(
           p, {point - task.frame.centre, light_coordinates(frame.light, task.frame.centre, point),
               glm::dot(task.frame.centre - frame.light.origin, frame.light.normal), receiver, receiver_.tau});
     finish(p, frame, pixel, point, above);
+  }
+
+  /// Takes up another receiver: the part of the light above its plane is the same for all its points.
+  template <class T>
+  void start_on(Precision<T>& p, const SoftFrame& frame, std::uint32_t receiver) {
+    receiver_ = receiver_plane(frame, receiver);
+    p.start.clear();
+    p.start.push(polygon_of<T>(frame.light.outline));
+    keep_positive(p.start, line_of<T>(receiver_.horizon), p.scratch);
+    above_ = receiver_.face == glm::dvec3(0.0) ? 0.0 : area_of(p.start);
+  }
+
+  /// Puts aside a point that sees the whole light above its horizon, to be finished with seven others; false
+  /// if it is none.
+  bool add_whole(const SoftFrame& frame, std::uint32_t pixel) {
+    const std::uint32_t receiver = frame.points.triangles[pixel];
+    if (receiver != receiver_.id) start_on(double_, frame, receiver);
+    const glm::dvec3 to_origin = frame.light.origin - frame.points.positions[pixel];
+    const glm::dvec3 normal = frame.normals.empty() ? receiver_.face : glm::dvec3(frame.normals[pixel]);
+    const bool in_front = glm::dot(to_origin, frame.light.normal) < 0;
+    if (!in_front || !(above_ > 0) || cuts(frame.light, receiver_.horizon) ||
+        cuts(frame.light, shading_horizon(frame.light, to_origin, normal)))
+      return false;
+    for (int c = 0; c < 3; ++c) {
+      whole_.to_origin[c][whole_count_] = to_origin[c];
+      whole_.normal[c][whole_count_] = normal[c];
+    }
+    whole_pixels_[whole_count_++] = pixel;
+    return true;
+  }
+
+  void finish_whole(const SoftFrame& frame) {
+    if (whole_count_ == 0) return;
+    double irradiance[8];
+    irradiance_of_whole(frame.light, whole_, irradiance);
+    for (std::size_t k = 0; k < whole_count_; ++k) {
+      frame.out.visible_fraction[whole_pixels_[k]] = 1.0f;
+      frame.out.irradiance[whole_pixels_[k]] = clamped(irradiance[k]);
+      count(1, 1, frame, whole_pixels_[k]);
+    }
+    stats.fragments += whole_count_;
+    whole_count_ = 0;
+  }
+
+  static float clamped(double irradiance) {
+    return static_cast<float>(std::clamp(irradiance, 0.0, 3.141592653589793));
+  }
+
+  /// Where the plane of the shading normal through a point meets the light's.
+  static glm::dvec3 shading_horizon(const LightFrame& light, const glm::dvec3& to_origin,
+                                    const glm::dvec3& normal) {
+    return {glm::dot(normal, light.ex), glm::dot(normal, light.ey), glm::dot(normal, to_origin)};
   }
 
   template <class T>
@@ -217,8 +270,7 @@ private:
     append_edges(p.visible, edges_);
     EdgeSums sums = sum_edges(edges_, frame.light, at);
     const double area = sums.area;
-    const glm::dvec3 horizon{glm::dot(normal, frame.light.ex), glm::dot(normal, frame.light.ey),
-                             glm::dot(normal, at.to_origin)};
+    const glm::dvec3 horizon = shading_horizon(frame.light, at.to_origin, normal);
     if (cuts(frame.light, horizon)) {
       keep_positive(p.visible, line_of<T>(horizon), p.scratch);
       edges_.count = 0;
@@ -228,7 +280,7 @@ private:
     stats.fragments += p.visible.size();
     const double fraction = std::clamp(area / frame.light.area, 0.0, 1.0);
     frame.out.visible_fraction[pixel] = static_cast<float>(fraction);
-    frame.out.irradiance[pixel] = static_cast<float>(std::clamp(sums.irradiance, 0.0, 3.141592653589793));
+    frame.out.irradiance[pixel] = clamped(sums.irradiance);
     count(above, area, frame, pixel);
   }
 
@@ -265,7 +317,11 @@ private:
   Precision<float> float_;
   Precision<double> double_;
   ReceiverPlane receiver_;
+  double above_ = 0;  ///< area of the light above its horizon
   LightEdges edges_;
+  ReceiverLanes whole_{};  ///< points put aside
+  std::uint32_t whole_pixels_[8] = {};
+  std::size_t whole_count_ = 0;
 };
 
 std::unique_ptr<GroupSolver> make_solver() {
