@@ -47,9 +47,12 @@ public:
     for (std::uint32_t i = 0; i < group.indefinite.size(); ++i) {
       order_.push_back({&group.indefinite[i], &group.heights[i]});
     }
-    std::sort(order_.begin(), order_.end(), [](const Entry& a, const Entry& b) {
+    const auto before = [](const Entry& a, const Entry& b) {
       return comes_before(a.occluder->size, a.occluder->triangle, b.occluder->size, b.occluder->triangle);
-    });
+    };
+    const auto middle = order_.end() - static_cast<std::ptrdiff_t>(group.indefinite.size());
+    std::sort(middle, order_.end(), before);
+    std::inplace_merge(order_.begin(), middle, order_.end(), before);
     slots_ = 0;
     for (const Entry& entry : order_) slots_ = HWY_MAX(slots_, static_cast<int>(entry.occluder->line_count));
     moving_.resize((order_.size() + 15) / 16);
@@ -78,13 +81,22 @@ public:
   /// Forgets the lists beyond.
   void shrink(std::size_t count) { count_ = count; }
 
-  /// Appends those of the list [first, last) whose shadow may reach into `box`.
-  HWY_NOINLINE void find_among(std::size_t first, std::size_t last, const LightBox<T>& box) {
+  /// Appends those of the list [first, last) whose shadow may reach into `box`; false, and nothing appended,
+  /// if one of the largest among them covers it.
+  HWY_NOINLINE bool find_among(std::size_t first, std::size_t last, const LightBox<T>& box) {
     make_room(last - first);
+    const std::size_t from = count_;
     for (std::size_t i = first; i < last; i += 16) {
       const T* sides[4] = {&sides_[0][i], &sides_[1][i], &sides_[2][i], &sides_[3][i]};
       append_meeting(sides, load<Index>(&ids_[i]), HWY_MIN(std::size_t{16}, last - i), box);
     }
+    const std::size_t largest_end = HWY_MIN(count_, from + looked_at);
+    for (std::size_t i = from; i < largest_end; ++i) {
+      if (!covers(i, box)) continue;
+      count_ = from;
+      return false;
+    }
+    return true;
   }
 
   /// The lines of an occluder in a list, by its place there; returns their number.
@@ -245,6 +257,18 @@ private:
     count_ += added;
   }
 
+  HWY_INLINE bool covers(std::size_t place, const LightBox<T>& box) {
+    LightLine<T> lines[4];
+    const int count = lines_of(place, lines);
+    const auto size = [](T a) { return HWY_MAX(a, -a); };
+    for (int slot = 0; slot < count; ++slot) {
+      const T value = lines[slot].u * box.cu + lines[slot].v * box.cv + lines[slot].w;
+      if (!(value > size(lines[slot].u) * box.hu + size(lines[slot].v) * box.hv)) return false;
+    }
+    return true;
+  }
+
+  static constexpr std::size_t looked_at = 4;  ///< occluders that may cover a part by themselves
   std::vector<Entry> order_;
   std::vector<MovingBlock> moving_;
   std::vector<Block> at_point_;

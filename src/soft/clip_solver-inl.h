@@ -41,8 +41,7 @@ private:
     for (std::size_t k = 0; k < left.size(); ++k) {
       const LightPolygon<T> fragment = loaded(left[k]);
       const std::size_t from = candidates_.count();
-      candidates_.find_among(first + largest, last, box_of(fragment));
-      solve(fragment, from, out);
+      if (candidates_.find_among(first + largest, last, box_of(fragment))) solve(fragment, from, out);
       candidates_.shrink(from);
     }
     give_back(std::move(left));
@@ -52,26 +51,27 @@ private:
   /// least.
   bool halve_light(const LightPolygon<T>& part, std::size_t first, std::size_t last, FragmentList<T>& out) {
     const LightBox<T> box = box_of(part);
+    if (HWY_MAX(box.hu, box.hv) < 4 * on_line<T>) return false;  // no line parts its vertices
     const bool wide = box.hu >= box.hv;
     LightBox<T> low = box;
     (wide ? low.hu : low.hv) *= T(0.5);
     LightBox<T> high = low;
     (wide ? low.cu : low.cv) -= wide ? low.hu : low.hv;
     (wide ? high.cu : high.cv) += wide ? low.hu : low.hv;
-    candidates_.find_among(first, last, low);
+    const bool low_lit = candidates_.find_among(first, last, low);
     const std::size_t middle = candidates_.count();
-    candidates_.find_among(first, last, high);
+    const bool high_lit = candidates_.find_among(first, last, high);
     const std::size_t count = candidates_.count() - last;
-    const bool parted = 4 * count < 5 * (last - first);
+    const bool parted = !low_lit || !high_lit || 4 * count < 5 * (last - first);
     if (parted) {
       const T sign = -1;
       const LightLine<T> below = wide ? LightLine<T>{sign, 0, box.cu} : LightLine<T>{0, sign, box.cv};
       const LightLine<T> above = wide ? LightLine<T>{1, 0, -box.cu} : LightLine<T>{0, 1, -box.cv};
       LightPolygon<T> kept = part;
-      if (keep_side(above, kept)) solve(kept, middle, out);
+      if (high_lit && keep_side(above, kept)) solve(kept, middle, out);
       candidates_.shrink(middle);
       kept = part;
-      if (keep_side(below, kept)) solve(kept, last, out);
+      if (low_lit && keep_side(below, kept)) solve(kept, last, out);
     }
     candidates_.shrink(last);
     return parted;

@@ -15,7 +15,8 @@ namespace {
 using glm::dvec3;
 using glm::vec3;
 
-constexpr std::size_t worthwhile = 32;  // triangles; fewer are subtracted one by one
+constexpr std::size_t worthwhile = 32;    // triangles; fewer are subtracted one by one
+constexpr std::size_t look_after = 2048;  // triangles, and give up if hardly any edge has cancelled
 
 bool before(const vec3& a, const vec3& b) {
   return a.x != b.x ? a.x < b.x : a.y != b.y ? a.y < b.y : a.z < b.z;
@@ -73,9 +74,13 @@ void OutlineFinder::add_triangle(const vec3* corners, int turn, std::int32_t blo
     const std::uint32_t edge = forward ? edge_of(a, b) : edge_of(b, a);
     const int winding = forward ? turn : -turn;
     if (blocker < 0) {
+      count_left(edges_[edge], -1);
       edges_[edge].winding += winding;
+      count_left(edges_[edge], 1);
     } else {
+      count_left(edges_[edge], -1);
       edges_[edge].used = true;
+      count_left(edges_[edge], 1);
       out.uses.push_back({edge, static_cast<std::uint32_t>(blocker), winding});
     }
   }
@@ -100,18 +105,13 @@ void OutlineFinder::keep_outline(const LightFrame& light, const GroupFrame& grou
   for (OutlineUse& use : out.uses) use.edge = kept_[use.edge];
 }
 
-void OutlineFinder::find(const LightFrame& light, const TriangleView& triangles, const GroupFrame& group,
+// How much of the candidates is taken, or none if the edges of most do not cancel.
+bool OutlineFinder::take(const LightFrame& light, const TriangleView& triangles, const GroupFrame& group,
                          std::span<const std::uint32_t> candidates, GroupOutline& out,
                          std::vector<std::uint32_t>& rest) {
-  out.clear();
-  rest.assign(candidates.begin(), candidates.end());
-  if (candidates.size() < worthwhile) return;
-  edges_.clear();
-  table_.assign(std::bit_ceil(6 * candidates.size()), 0);
-  rest.clear();
-  std::size_t taken = 0;
   const int facing = glm::dot(glm::cross(light.ex, light.ey), light.origin - group.centre) > 0 ? 1 : -1;
   const int large = light_class(light, group.centre) - 2;
+  std::size_t taken = 0;
   for (const std::uint32_t id : candidates) {
     const Triangle3 t = triangle_in_double(triangles, id);
     const PlaneSides sides = plane_sides(t, light, group);
@@ -122,21 +122,29 @@ void OutlineFinder::find(const LightFrame& light, const TriangleView& triangles,
     }
     const bool sometimes = sides.points == 0 || contains(group.receivers, id);
     if (!sometimes && sides.light == (sides.points > 0 ? Side::positive : Side::negative)) continue;
-    ++taken;
     if (sometimes) out.sometimes.push_back({id, plane_height(t, group)});
     // From its negative side the triangle is seen as (u, v) turn if the light is `facing`.
     const Corners corners = corners_of(triangles, id);
     add_triangle(corners.v, sometimes ? facing : -facing * sides.points,
                  sometimes ? static_cast<std::int32_t>(out.sometimes.size()) - 1 : -1, out);
+    if (++taken % look_after == 0 && 2 * left_ > 5 * taken) return false;
   }
-  std::size_t left = 0;
-  for (const Edge& edge : edges_) left += edge.winding != 0 || edge.used;
-  if (taken < worthwhile || 5 * left > 6 * taken) {
-    out.clear();
-    rest.assign(candidates.begin(), candidates.end());
-    return;
+  return taken >= worthwhile && 5 * left_ <= 6 * taken;
+}
+
+void OutlineFinder::find(const LightFrame& light, const TriangleView& triangles, const GroupFrame& group,
+                         std::span<const std::uint32_t> candidates, GroupOutline& out,
+                         std::vector<std::uint32_t>& rest) {
+  out.clear();
+  rest.clear();
+  if (candidates.size() >= worthwhile) {
+    edges_.clear();
+    left_ = 0;
+    table_.assign(std::bit_ceil(6 * candidates.size()), 0);
+    if (take(light, triangles, group, candidates, out, rest)) return keep_outline(light, group, out);
   }
-  keep_outline(light, group, out);
+  out.clear();
+  rest.assign(candidates.begin(), candidates.end());
 }
 
 }  // namespace tenebra

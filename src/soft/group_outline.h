@@ -69,11 +69,18 @@ private:
     bool used = false;  ///< by a triangle that blocks sometimes
   };
 
+  bool take(const LightFrame& light, const TriangleView& triangles, const GroupFrame& group,
+            std::span<const std::uint32_t> candidates, GroupOutline& out, std::vector<std::uint32_t>& rest);
   void add_triangle(const glm::vec3* corners, int turn, std::int32_t blocker, GroupOutline& out);
   std::uint32_t edge_of(const glm::vec3& from, const glm::vec3& to);
   void keep_outline(const LightFrame& light, const GroupFrame& group, GroupOutline& out);
 
+  void count_left(const Edge& edge, int change) {
+    if (edge.winding != 0 || edge.used) left_ += static_cast<std::size_t>(change);
+  }
+
   std::vector<Edge> edges_;
+  std::size_t left_ = 0;              ///< edges that have not cancelled
   std::vector<std::uint32_t> table_;  ///< open addressing: index into edges_ + 1, or 0
   std::vector<std::uint32_t> kept_;
 };

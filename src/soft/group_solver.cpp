@@ -103,7 +103,11 @@ public:
     set_up_occluders(frame.light, frame.triangles, {}, {}, occluders_);
     double_.clip.reset(occluders_, Chosen::all);
     for (const std::uint32_t pixel : pixels) {
-      if (!add_whole(frame, pixel)) solve_point(double_, frame, {pixels, {}, {}}, pixel);
+      if (!add_whole(frame, pixel)) {
+        solve_point(double_, frame, {pixels, {}, {}}, pixel);
+        if (frame.classes[pixel] == class_of(SoftClass::clip))
+          frame.classes[pixel] = class_of(SoftClass::lit);
+      }
       if (whole_count_ == 8) finish_whole(frame);
     }
     finish_whole(frame);
@@ -206,8 +210,9 @@ private:
     for (std::size_t k = 0; k < whole_count_; ++k) {
       frame.out.visible_fraction[whole_pixels_[k]] = 1.0f;
       frame.out.irradiance[whole_pixels_[k]] = clamped(irradiance[k]);
-      count(1, 1, frame, whole_pixels_[k]);
+      frame.classes[whole_pixels_[k]] = class_of(SoftClass::lit);
     }
+    stats.points_lit += whole_count_;
     stats.fragments += whole_count_;
     whole_count_ = 0;
   }
@@ -298,8 +303,10 @@ private:
     } else {
       ++stats.points_penumbra;
     }
-    frame.classes[pixel] = static_cast<std::uint8_t>(found);
+    frame.classes[pixel] = class_of(found);
   }
+
+  static std::uint8_t class_of(SoftClass soft_class) { return static_cast<std::uint8_t>(soft_class); }
 
   static bool cuts(const LightFrame& light, const glm::dvec3& line) {
     for (const glm::dvec2& at : light.outline) {
