@@ -116,7 +116,7 @@ void add_soft(CLI::App& command, MethodOptions& options) {
   set_group({size, facing, emissive,
              add_choice<solver_choices>(command, "--soft-solver", soft.solver,
                                         "What finds the visible part of a light: the lazy BSP\nof the paper, "
-                                        "clipping, or auto: the faster as\nmeasured, now clipping; the same "
+                                        "clipping, or auto: meshes by their\noutline, the rest clipped; the same "
                                         "picture [auto]"),
              add_choice<grouping_choices>(command, "--soft-grouping", soft.grouping,
                                           "Points that share a BSP: neighbours, or as in the\npaper's "

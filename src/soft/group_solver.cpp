@@ -292,8 +292,9 @@ private:
   void count(double above, double area, const SoftFrame& frame, std::uint32_t pixel) {
     const bool dark = area <= 0;
     const bool lit = area >= above * (1 - 1e-6);
-    SoftClass found = use_bsp_ ? SoftClass::bsp : SoftClass::clip;
-    if (above > 0) ++(use_bsp_ ? stats.points_bsp : stats.points_clip);
+    const bool outlined = !outline_.empty();
+    SoftClass found = use_bsp_ ? SoftClass::bsp : outlined ? SoftClass::outline : SoftClass::clip;
+    if (above > 0) ++(use_bsp_ ? stats.points_bsp : outlined ? stats.points_outline : stats.points_clip);
     if (above <= 0) {
       found = SoftClass::below_horizon;
     } else if (dark) {

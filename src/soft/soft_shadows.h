@@ -19,7 +19,7 @@ namespace tenebra {
 
 /// What finds the visible part of the light from the points of a group. All give the same answer.
 enum class SoftSolver {
-  automatic,  ///< whichever was measured to be faster: clip
+  automatic,  ///< meshes by their outline where enough of their edges cancel, the rest by clipping
   bsp,        ///< the paper's lazily grown BSP of line classes (Algorithm 1)
   clip,       ///< occluders subtracted from the light's polygon, point by point
 };
@@ -91,6 +91,6 @@ private:
   std::unique_ptr<State> state_;
 };
 
-enum class SoftClass : std::uint8_t { background, below_horizon, lit, dark, bsp, clip };
+enum class SoftClass : std::uint8_t { background, below_horizon, lit, dark, bsp, clip, outline };
 
 }  // namespace tenebra

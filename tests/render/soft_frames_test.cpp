@@ -181,7 +181,7 @@ TEST(SoftFrames, EverySolverGivesTheSamePicture) {
   Scene scene = white_floor(true);
   add_light(scene, rectangle_light(2, {1, 1}), {0.3f, 5, 0.1f}, facing_down);
   const FrameResult expected = draw(scene, soft);
-  for (const SoftSolver solver : {SoftSolver::bsp, SoftSolver::clip}) {
+  for (const SoftSolver solver : {SoftSolver::automatic, SoftSolver::bsp, SoftSolver::clip}) {
     RenderSettings settings = soft;
     settings.soft.solver = solver;
     const FrameResult found = draw(scene, settings);

@@ -274,7 +274,7 @@ SoftCase small_room(std::uint64_t seed, int count) {
 }
 
 TEST(SoftCatalogue, E_PowersOfTwoKeepTheBits) {
-  for (const SoftSolver solver : {SoftSolver::bsp, SoftSolver::clip})
+  for (const SoftSolver solver : {SoftSolver::automatic, SoftSolver::bsp, SoftSolver::clip})
     for (const SoftPrecision precision : {SoftPrecision::reference, SoftPrecision::fast}) {
       SoftCase c = small_room(20, 400);
       c.config.solver = solver;

@@ -159,7 +159,7 @@ inline std::vector<std::size_t> pixels_of(const SoftCase& c) {
   return pixels;
 }
 
-/// Traces by both solvers in both precisions and judges every pixel of the case. White is what an open sky
+/// Traces by all solvers in both precisions and judges every pixel of the case. White is what an open sky
 /// would give at the brightest of the points.
 inline void judge_all(SoftCase c, Judgement& sum) {
   const std::vector<std::size_t> pixels = pixels_of(c);
@@ -167,7 +167,7 @@ inline void judge_all(SoftCase c, Judgement& sum) {
   double white = 0;
   for (const reference::SoftAnswer& a : answers) white = std::max(white, a.unoccluded);
   const std::string name = c.name;
-  for (const SoftSolver solver : {SoftSolver::bsp, SoftSolver::clip}) {
+  for (const SoftSolver solver : {SoftSolver::automatic, SoftSolver::bsp, SoftSolver::clip}) {
     c.config.solver = solver;
     c.name = fmt::format("{}, {}", name, soft_solver_name(solver));
     judge(c, traced(c, SoftPrecision::reference), traced(c, SoftPrecision::fast), white, pixels, answers,

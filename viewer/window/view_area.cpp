@@ -146,10 +146,10 @@ void draw_class_legend(Ui& ui, Area place) {
   ImDrawList& list = *ImGui::GetWindowDrawList();
   const ImVec2 low = place.low + ImVec2(place.size.x - ui.px(258), ui.px(8));
   const float line = ImGui::GetTextLineHeight() + ui.px(3);
-  list.AddRectFilled(low, low + ImVec2(ui.px(250), line * 6 + ui.px(14)), palette::shade, 3);
+  list.AddRectFilled(low, low + ImVec2(ui.px(250), line * 7 + ui.px(14)), palette::shade, 3);
   double pixels = 0;
   for (const std::size_t size : ui.picture->overlay.class_sizes) pixels += static_cast<double>(size);
-  for (int i = 0; i < 6; ++i) {
+  for (int i = 0; i < 7; ++i) {
     const auto soft_class = static_cast<SoftClass>(i);
     const glm::u8vec3 c = class_color(soft_class);
     const ImVec2 at = low + ImVec2(ui.px(10), ui.px(7) + line * static_cast<float>(i));
