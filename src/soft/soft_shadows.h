@@ -71,9 +71,9 @@ public:
   /// triangle T other than R meets the segment PQ with P more than theta off T's plane and P, Q on different
   /// sides of it (theta: the contact rule of points/contact_rule.h, the same as for hard shadows).
   /// visible_fraction is the area of those Q over the light's; irradiance is the integral over them, clamped
-  /// to the shading normal's hemisphere. Errors: `reference` 1e-6 of the fraction (for
-  /// lights of at least 1e-8 of their distance); `fast` 0.1/255 of the
-  /// unoccluded irradiance. The same bits for any thread count.
+  /// to the shading normal's hemisphere. Errors: `reference` 1e-6 of the fraction, or 2^-48 of the distance
+  /// over the light's size if that is more; `fast` 0.1/255 of the unoccluded irradiance (lights of at least
+  /// 1e-10 of their distance). The same bits for any thread count.
   ///
   /// Returns false, with `out` unspecified, if `stop` was requested before the end.
   bool trace(const VisiblePoints& points, std::span<const glm::vec3> normals, const ViewRays& view,
