@@ -273,12 +273,12 @@ TEST(ViewWindow, ShowsTheBitsOfRender) {
     arguments.insert(arguments.end(), {"--shots", folder / "shot_%d.png"});
     const ViewSession session(display, folder, arguments);
     session.wait_for_picture();
-    EXPECT_EQ(picture_of(shot_after(session, "p")), expected) << method[1];
     // The lights' circles lie over the picture: they go for the comparison, and messages by themselves.
     session.click("section.Lights");
     session.click("circles");
     session.move_to("scrubber");
     session.wait_for_picture();
+    EXPECT_EQ(picture_of(shot_after(session, "p")), expected) << method[1];
     session.wait_until_gone("message");
     const Image8 window = picture_of(shot_after(session, "shift+p"));
     EXPECT_EQ(cut(window, session.place("picture")), expected) << "pixels of the window, " << method[1];

@@ -59,6 +59,7 @@ public:
       : display_(display), report_(folder / "report.jsonl") {
     arguments.insert(arguments.begin(), {TENEBRA_PROGRAM, "view"});
     arguments.insert(arguments.end(), {"--report", report_.string(), "--gl-debug"});
+    std::filesystem::remove(report_);  // an earlier session's: its events would be taken for this one's
     display.run({"xdotool", "mousemove", "5", "5"});
     program_ = std::make_unique<ChildProgram>(arguments, [&display] { display.enter(); });
   }
