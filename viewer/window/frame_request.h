@@ -12,7 +12,7 @@
 #include "scene_plan.h"
 #include "window/animation_clock.h"
 #include "window/camera_control.h"
-#include "window/light_edits.h"
+#include "light_edits.h"
 
 namespace tenebra::viewer {
 

@@ -168,9 +168,8 @@ bool has_place(const ViewState& state, const WorldLight& light) {
   return state.scene->scene.lights[static_cast<std::size_t>(light.light)].type != LightType::directional;
 }
 
-glm::vec3 moved_place(ViewState& state, const WorldLight& light) {
-  const auto index = static_cast<std::size_t>(light.light);
-  return light.position + (index < state.lights.size() ? state.lights[index].move : glm::vec3(0.0f));
+glm::vec3 moved_place(const ViewState& state, const WorldLight& light) {
+  return light.position + edit_of(state.lights, light.light).move;
 }
 
 /// Draws the lights' handles; the light under the pointer, or -1.
@@ -182,8 +181,7 @@ int draw_light_handles(Ui& ui, const Stage& stage, ImVec2 pointer) {
     if (!has_place(ui.state, light)) continue;
     const glm::dvec3 pixel = pixel_of(ui.picture->view, moved_place(ui.state, light));
     if (!(pixel.z > 0)) continue;
-    const bool on = static_cast<std::size_t>(light.light) >= ui.state.lights.size() ||
-                    ui.state.lights[static_cast<std::size_t>(light.light)].on;
+    const bool on = edit_of(ui.state.lights, light.light).on;
     for (int place = 0; place < stage.places(); ++place) {
       const ImVec2 at = stage.at_pixel(pixel, place);
       const float r = ui.px(handle_px);

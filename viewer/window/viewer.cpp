@@ -54,10 +54,13 @@ Viewer::Viewer(ViewOptions options, WindowGl& gl, EventReport report, std::funct
   state_.show = options_.show;
   state_.wipe = options_.wipe;
   state_.overlay = options_.overlay;
-  state_.lights = options_.lights;
   state_.size = options_.scene.size;
   state_.panel = options_.panel;
-  worker_.open(options_.scene);
+  if (options_.plan) {
+    take_scene({options_.scene, std::move(options_.plan)});
+  } else {
+    worker_.open(options_.scene);
+  }
 }
 
 double Viewer::sleep_s() const {
@@ -84,12 +87,6 @@ void Viewer::take_scene(OpenedScene opened) {
     return say(opened.scene.error().message, true);
   }
   const bool first = !state_.scene;
-  const int light = first ? state_.method().render.light : -1;
-  if (auto checked = check_light(**opened.scene, light, opened.options.time_s.value_or(0)); !checked) {
-    failure_ = checked.error().message;
-    quit_ = true;
-    return;
-  }
   state_.scene = *opened.scene;
   state_.options = std::move(opened.options);
   const ScenePlan& plan = *state_.scene;
@@ -108,11 +105,8 @@ void Viewer::take_scene(OpenedScene opened) {
     state_.free = state_.start = start_camera(state_.options);
     state_.camera_mode = options_.navigate;
   }
-  for (int i = 0; light >= 0 && i < static_cast<int>(plan.scene.lights.size()); ++i) {
-    state_.light_edit(i).on = i == light;
-  }
-  for (MethodOptions& slot : state_.slots) slot.render.light = -1;  // the list of lights says which are on
-  if (!first) state_.lights.clear();
+  state_.lights = state_.options.lights;
+  take_light(first ? state_.slots[0].render.light : -1);
   for (FrameHistory& history : history_) history.clear();
   const auto bounds = summarize_scene(plan.scene).bounds;
   state_.diagonal_m = bounds ? glm::distance(bounds->low, bounds->high) : 1.0f;
@@ -120,6 +114,19 @@ void Viewer::take_scene(OpenedScene opened) {
   state_.fly_speed = flight_share * state_.diagonal_m;
   report_.opened(state_.options.file, plan);
   for (const std::string& warning : plan.scene.warnings) say("Warning: " + warning);
+}
+
+/// The list of lights says which are on. One light beside emissive meshes, which are not in the list, or of
+/// one slot alone stays a setting of the method.
+void Viewer::take_light(int chosen) {
+  const bool one_for_both = state_.slots[0].render.light == state_.slots[1].render.light;
+  if (chosen >= 0 && (!one_for_both || state_.slots[0].render.area_lights.emissive_quads)) return;
+  const auto& all = state_.scene->scene.lights;
+  const auto placed = evaluate_lights(state_.scene->scene, state_.clip, state_.options.time_s.value_or(0));
+  for (int i = 0; chosen >= 0 && i < static_cast<int>(all.size()); ++i) {
+    state_.light_edit(i).on = i == placed[static_cast<std::size_t>(chosen)].light;
+  }
+  for (MethodOptions& slot : state_.slots) slot.render.light = -1;
 }
 
 void Viewer::take_picture(const std::shared_ptr<const Picture>& picture) {
@@ -194,9 +201,7 @@ void Viewer::send_request() {
   const std::string method = method_key();
   std::string key = fmt::format("{} {} {} {}", fmt::ptr(state_.scene.get()), state_.clip, state_.camera,
                                 state_.camera_mode == CameraMode::scene ? "" : camera_arguments(state_.free));
-  for (std::size_t i = 0; i < state_.lights.size(); ++i) {
-    key += "|" + light_edit_text(static_cast<int>(i), state_.lights[i]);
-  }
+  for (const std::string& text : light_edit_texts(state_.lights)) key += "|" + text;
   const bool new_method = method != sent_method_;
   if (!new_method && key == sent_key_ && state_.clock == sent_clock_ && !actions_.retry) return;
   FrameRequest request = make_request();

@@ -50,6 +50,7 @@ private:
   };
 
   void take_scene(OpenedScene opened);
+  void take_light(int chosen);
   void take_picture(const std::shared_ptr<const Picture>& picture);
   void take_pick(const std::optional<glm::vec3>& point);
   void follow_clock();
