@@ -26,7 +26,8 @@ Expected<void> apply(const std::string& key, const std::string& value, LightEdit
   }
   if (key == "size") {
     const auto size = parse_light_size(value);
-    if (!size || size->percent) return fail("found size={}, expected W or WxH in metres, like 0.5x0.3", value);
+    if (!size || size->percent)
+      return fail("found size={}, expected W or WxH in metres, like 0.5x0.3", value);
     edit.size_m = size->size;
     return {};
   }

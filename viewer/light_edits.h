@@ -13,8 +13,8 @@ namespace tenebra::viewer {
 
 struct LightEdit {
   bool on = true;
-  float intensity = 1;   ///< factor of the scene's
-  glm::vec3 move{0.0f};  ///< metres, world space, added to where the animation has it
+  float intensity = 1;              ///< factor of the scene's
+  glm::vec3 move{0.0f};             ///< metres, world space, added to where the animation has it
   std::optional<glm::vec2> size_m;  ///< width and height, world space; none: the scene's, of a point
                                     ///< light that of the method
 

@@ -37,7 +37,8 @@ void add_lights(CLI::App& command, SceneOptions& options) {
               }
             }
           },
-          "\"N KEY=VALUE ...\" changes light N: on=0,\nintensity=FACTOR, move=X,Y,Z (metres), size=WxH (metres, "
+          "\"N KEY=VALUE ...\" changes light N: on=0,\nintensity=FACTOR, move=X,Y,Z (metres), size=WxH "
+          "(metres, "
           "of\nsoft shadows); may be repeated")
       ->type_name("TEXT")
       ->allow_extra_args(false)

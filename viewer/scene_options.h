@@ -1,5 +1,5 @@
-// The options that choose what is looked at: scene, lights, moment, camera. `tenebra render` and `tenebra view` share
-// them.
+// The options that choose what is looked at: scene, lights, moment, camera. `tenebra render` and `tenebra
+// view` share them.
 #pragma once
 
 #include <CLI/CLI.hpp>

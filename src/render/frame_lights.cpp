@@ -24,8 +24,9 @@ void give_area(DrawnLight& drawn, const AreaLightSettings& settings, const Scene
     notes.push_back(
         fmt::format("{} is directional and keeps hard shadows, for it has no size", title(drawn)));
   } else {
-    notes.push_back(fmt::format(
-        "{} is a point and keeps hard shadows, until --light-size or --set-light gives it a size", title(drawn)));
+    notes.push_back(
+        fmt::format("{} is a point and keeps hard shadows, until --light-size or --set-light gives it a size",
+                    title(drawn)));
   }
 }
 

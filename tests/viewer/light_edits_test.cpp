@@ -109,8 +109,7 @@ TEST(SetLight, OfALightThatTheSceneLacksIsRefusedBeforeAWindowOpens) {
   for (const std::vector<std::string>& wrong :
        {std::vector<std::string>{"--light", "2"}, {"--set-light", "2 on=0"}, {"--set-light", "0 size=0"}}) {
     for (const char* command : {"render", "view"}) {
-      const auto result =
-          test::tenebra({command, scene, wrong[0], wrong[1]}, [] { ::unsetenv("DISPLAY"); });
+      const auto result = test::tenebra({command, scene, wrong[0], wrong[1]}, [] { ::unsetenv("DISPLAY"); });
       EXPECT_EQ(result.exit_code, 1);
       EXPECT_TRUE(test::is_one_sentence(result.errors)) << result.errors;
       EXPECT_TRUE(result.errors.starts_with("tenebra: " + wrong[0] + ": found ")) << result.errors;

@@ -3,9 +3,9 @@
 
 #include <numbers>
 
+#include "light_edits.h"
 #include "support/seeded_random.h"
 #include "window/camera_control.h"
-#include "light_edits.h"
 
 namespace tenebra::viewer {
 namespace {

@@ -25,7 +25,7 @@ constexpr std::array camera_keys{KeyHelp{"drag", "orbit, or look around while fl
                                  KeyHelp{"F, double click", "look at this point and orbit it"},
                                  KeyHelp{"C", "scene's camera, orbit, fly"},
                                  KeyHelp{"Backspace", "reset the camera"},
-                                 KeyHelp{"Ctrl+C", "copy the camera as arguments"}};
+                                 KeyHelp{"Ctrl+C", "copy camera, method and lights as options"}};
 constexpr std::array method_keys{KeyHelp{"1  2  3", "no, hard, soft shadows"},
                                  KeyHelp{"4", "ambient occlusion: none, fields, rays"},
                                  KeyHelp{"V, Shift+V", "next, previous variant of the hard shadows"},
@@ -149,7 +149,7 @@ void handle_keys(Ui& ui, float seconds) {
   if (io.WantTextInput) return;
   if (typed('?')) ui.state.help = !ui.state.help;
   for (const KeyPress& press : ui.keys) {  // one by one: two presses of a key are two
-    if (press.ctrl && press.code == 'C') ui.actions.copy_camera = true;
+    if (press.ctrl && press.code == 'C') ui.actions.copy_arguments = true;
     if (press.ctrl && press.code == 'Q') ui.actions.quit = true;
     Ui one = ui;
     one.keys = {&press, 1};

@@ -19,13 +19,15 @@ glm::vec2 size_without_edit_m(const Ui& ui, int index, const Light& light) {
     return size.size * (size.percent ? 0.01f * ui.state.diagonal_m : 1.0f);
   }
   for (const WorldLight& placed : ui.picture ? ui.picture->lights : std::vector<WorldLight>{}) {
-    if (placed.light == index) return 2.0f * glm::vec2(glm::length(placed.axis_x), glm::length(placed.axis_y));
+    if (placed.light == index)
+      return 2.0f * glm::vec2(glm::length(placed.axis_x), glm::length(placed.axis_y));
   }
   return light.size_m;
 }
 
 void edit_light_size(Ui& ui, int index, const Light& light, LightEdit& edit) {
-  row(ui, "  Size", "Width and height in metres, of soft shadows; a point's until it is changed: the method's.");
+  row(ui, "  Size",
+      "Width and height in metres, of soft shadows; a point's until it is changed: the method's.");
   glm::vec2 size_m = edit.size_m.value_or(size_without_edit_m(ui, index, light));
   if (ImGui::DragFloat2("##size", &size_m.x, 0.01f, 0.0f, 1000.0f, "%.2f m")) {
     // Both sides at once where one alone would leave the light without an area.
@@ -69,10 +71,10 @@ void edit_light(Ui& ui, int index, const Light& light) {
 void draw_light_section(Ui& ui) {
   if (!ui.state.scene || !section(ui, "Lights", false)) return;
   const auto& lights = ui.state.scene->scene.lights;
-  for (int i = 0; i < static_cast<int>(lights.size()); ++i)
-    edit_light(ui, i, lights[static_cast<std::size_t>(i)]);
   ImGui::Checkbox("circles in the view", &ui.state.light_handles);
   ui.mark("circles");
+  for (int i = 0; i < static_cast<int>(lights.size()); ++i)
+    edit_light(ui, i, lights[static_cast<std::size_t>(i)]);
 }
 
 void draw_camera_section(Ui& ui) {
@@ -120,9 +122,9 @@ void draw_camera_section(Ui& ui) {
   }
   ui.mark("reset camera");
   ImGui::SameLine();
-  if (ImGui::Button("Copy arguments", {half, 0})) ui.actions.copy_camera = true;
-  ui.mark("copy camera");
-  tooltip("The camera as options of tenebra render, to the clipboard (Ctrl+C).");
+  if (ImGui::Button("Copy arguments", {half, 0})) ui.actions.copy_arguments = true;
+  ui.mark("copy arguments");
+  tooltip("Camera, method and lights as options of tenebra render, to the clipboard (Ctrl+C).");
 }
 
 void draw_compare_section(Ui& ui) {

@@ -7,6 +7,7 @@
 #include "method_arguments.h"
 #include "scene_choice.h"
 #include "scene_summary.h"
+#include "window/shell_arguments.h"
 
 namespace tenebra::viewer {
 namespace {
@@ -344,7 +345,7 @@ void Viewer::draw_messages(Area view) {
 void Viewer::draw(float scale, float pixels_a_unit) {
   const float seconds = std::chrono::duration<float>(now() - last_draw_).count();
   last_draw_ = now();
-  due_ = std::max(0, due_ - 1);
+  due_ = std::max(mouse_.waits() ? 3 : 0, due_ - 1);
   const ImGuiIO& io = ImGui::GetIO();
   hand_moves_ = ImGui::IsAnyMouseDown();
   const std::string log = log_ ? log_->path() : "";
@@ -366,12 +367,8 @@ void Viewer::draw(float scale, float pixels_a_unit) {
   draw_progress(ui, layout.view);
   if (state_.help) draw_help(ui, io.DisplaySize);
   draw_messages(layout.view);
-  if (actions_.copy_camera) {
-    const std::string size =
-        fmt::format(" --time {} --size {}x{}", state_.clock.time_at(now()), place_.width, place_.height);
-    const std::string text = state_.camera_mode == CameraMode::scene
-                                 ? fmt::format("--camera {}{}", state_.camera, size)
-                                 : camera_arguments(state_.free) + size;
+  if (actions_.copy_arguments && state_.scene) {
+    const std::string text = shell_arguments(state_, state_.clock.time_at(now()), place_);
     ImGui::SetClipboardText(text.c_str());
     report_.note("copied", text);
     say("Copied: " + text);

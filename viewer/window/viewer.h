@@ -5,6 +5,7 @@
 
 #include "view_options.h"
 #include "window/event_report.h"
+#include "window/mouse_queue.h"
 #include "window/panels.h"
 #include "window/session_log.h"
 
@@ -29,12 +30,14 @@ public:
   bool needs_drawing() const { return due_ > 0; }
   void press_key(KeyPress press) {
     keys_.push_back(press);
-    input_came();
+    input_came("key down");
   }
-  /// Dear ImGui takes a frame or two to settle.
-  void input_came() {
+  MouseQueue& mouse() { return mouse_; }
+  /// The window draws again: Dear ImGui takes a frame or two to settle. `what`, for the report.
+  void input_came(const char* what) {
     due_ = std::max(due_, 3);
     input_undrawn_ = true;
+    report_.note("input", what);
   }
   double sleep_s() const;  ///< how long to wait for events at most
   const ViewState& state() const { return state_; }
@@ -72,6 +75,7 @@ private:
   Actions actions_;
   Marks marks_;
   std::vector<KeyPress> keys_;
+  MouseQueue mouse_;
   std::array<FrameHistory, 2> history_;
   std::optional<SessionLog> log_;
   std::shared_ptr<const Picture> picture_;
