@@ -232,6 +232,22 @@ TEST(ViewWindow, MovesLightsAndCamera) {
   quit(session);
 }
 
+TEST(ViewWindow, TakesAClickWhereItWasMade) {
+  TENEBRA_NEEDS_A_DISPLAY();
+  const TemporaryFolder folder;
+  const VirtualDisplay display;
+  const ViewSession session(display, folder, {write_moving_scene(folder)});
+  session.wait_for_picture();
+  const auto [left, top, right, bottom] = session.place("loop");
+  const std::string x = std::to_string(int(left) + 8), y = std::to_string(int(top + bottom) / 2);
+  for (const bool loop : {false, true, false}) {  // the hand is away again before the window has drawn
+    session.expect_state("loop", loop, [&] {
+      session.xdotool({"mousemove", x, y, "mousedown", "1", "mouseup", "1", "mousemove", "40", "40"});
+    });
+  }
+  quit(session);
+}
+
 TEST(ViewWindow, CopiesWhatItShowsForRender) {
   TENEBRA_NEEDS_A_DISPLAY();
   const TemporaryFolder folder;
