@@ -42,6 +42,12 @@ public:
     places_[1] = side_ ? fit(half_of(area, true), image.width, image.height) : places_[0];
   }
 
+  /// It explains A: where A is not to be seen, neither is it.
+  bool shows_overlay() const {
+    const bool hides =
+        both() && (ui_.state.show == CompareView::b || ui_.state.show == CompareView::difference);
+    return !hides && ui_.state.overlay != Overlay::none && ui_.picture->overlay.kind == ui_.state.overlay;
+  }
   bool both() const { return ui_.state.compare && ui_.picture->b.has_value(); }
   Area place() const { return places_[0]; }
 
@@ -52,7 +58,7 @@ public:
     image(textures.a, places_[0], 0, show == CompareView::wipe ? ui_.state.wipe : 1);
     if (show == CompareView::wipe) image(textures.b, places_[0], ui_.state.wipe, 1);
     if (show == CompareView::side_by_side) image(textures.b, places_[1], 0, 1);
-    if (ui_.state.overlay != Overlay::none && ui_.picture->overlay.kind == ui_.state.overlay) {
+    if (shows_overlay()) {
       const float to = show == CompareView::wipe ? ui_.state.wipe : 1;
       image(textures.overlay, places_[0], 0, to, ui_.state.overlay_opacity);
     }
@@ -314,10 +320,9 @@ void draw_view(Ui& ui, const ViewTextures& textures, Area area) {
     ui.marks["picture"] = {place.low.x, place.low.y, place.low.x + place.size.x, place.low.y + place.size.y};
     use_hand(ui, stage, area);
     draw_labels(ui, stage);
-    if (ui.state.overlay == Overlay::nodes && ui.picture->overlay.kind == Overlay::nodes)
-      draw_heat_legend(ui, place);
-    if (ui.state.overlay == Overlay::classes && ui.picture->overlay.kind == Overlay::classes)
-      draw_class_legend(ui, place);
+    if (stage.shows_overlay()) {
+      ui.state.overlay == Overlay::nodes ? draw_heat_legend(ui, place) : draw_class_legend(ui, place);
+    }
   }
   ImGui::End();
   ImGui::PopStyleColor();

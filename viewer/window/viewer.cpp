@@ -243,9 +243,17 @@ void Viewer::update() {
   if (!failure_.empty() && !state_.scene) quit_ = true;
 }
 
+/// The first name that no file has: a screenshot does not replace an earlier one.
+std::filesystem::path Viewer::next_shot() {
+  std::error_code none;
+  do ++shots_;
+  while (std::filesystem::exists(options_.shots->file(shots_), none));
+  return options_.shots->file(shots_);
+}
+
 void Viewer::save_picture() {
   if (!picture_) return;
-  const auto file = options_.shots->file(++shots_);
+  const auto file = next_shot();
   const auto written = write_png(file, picture_->a.result.image);
   report_.note(written ? "shot" : "failure", written ? file.string() : written.error().message);
   say(written ? fmt::format("Picture saved to {}", file.string()) : written.error().message, !written);
@@ -254,7 +262,7 @@ void Viewer::save_picture() {
 void Viewer::after_draw(int framebuffer_width, int framebuffer_height) {
   if (!window_shot_) return;
   window_shot_ = false;
-  const auto file = options_.shots->file(++shots_);
+  const auto file = next_shot();
   const auto written = write_png(file, gl_.read_window(framebuffer_width, framebuffer_height));
   report_.note(written ? "shot" : "failure", written ? file.string() : written.error().message);
   say(written ? fmt::format("Window saved to {}", file.string()) : written.error().message, !written);

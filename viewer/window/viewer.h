@@ -63,6 +63,7 @@ private:
   void act();
   void say(std::string text, bool failure = false);
   void draw_messages(Area view);
+  std::filesystem::path next_shot();
   void save_picture();
   void toggle_log();
   void log_picture(const Picture& picture);
