@@ -1,5 +1,7 @@
 #include "method_arguments.h"
 
+#include <algorithm>
+
 #include "choices.h"
 
 namespace tenebra::viewer {
@@ -55,11 +57,22 @@ void add_ao(Arguments& arguments, const AoConfig& ao) {
   arguments.value("--ao-bits", ao.bits, standard.bits);
   arguments.choice("--ao-deforming", deforming_choices, ao.deforming, standard.deforming);
   if (ao.cache != default_cache_folder()) {
-    arguments.add("--ao-cache", ao.cache.empty() ? "none" : ao.cache.string());
+    arguments.add("--ao-cache", ao.cache.empty() ? "none" : shell_word(ao.cache.string()));
   }
 }
 
 }  // namespace
+
+std::string shell_word(const std::string& word) {
+  const auto is_plain = [](char c) {
+    const bool letter = (c >= 'a' && c <= 'z') || (c >= 'A' && c <= 'Z') || (c >= '0' && c <= '9');
+    return letter || std::string_view("_-+=.,:/%@").find(c) != std::string_view::npos;
+  };
+  if (!word.empty() && std::all_of(word.begin(), word.end(), is_plain)) return word;
+  std::string text = "'";
+  for (const char c : word) text += c == '\'' ? std::string("'\\''") : std::string(1, c);
+  return text + "'";
+}
 
 std::string method_arguments(const MethodOptions& options) {
   const RenderSettings& render = options.render;

@@ -11,4 +11,7 @@ namespace tenebra::viewer {
 /// the help. Read by add_method_options it gives the same settings.
 std::string method_arguments(const MethodOptions& options);
 
+/// `word` as a POSIX shell and add_method_options take it for one word: quoted where it must be.
+std::string shell_word(const std::string& word);
+
 }  // namespace tenebra::viewer

@@ -49,14 +49,6 @@ Expected<int> parse_threads(const std::string& text) {
   return threads;
 }
 
-Expected<float> parse_exposure(const std::string& text) {
-  const auto exposure = parse_positive(text);
-  if (!exposure || static_cast<float>(*exposure) == 0.0f || *exposure > 1e30) {
-    return fail("found {}, expected a factor above 0, like 1.5", text);
-  }
-  return static_cast<float>(*exposure);
-}
-
 Expected<int> parse_bits(const std::string& text) {
   const auto bits = parse_count(text);
   if (!bits || (*bits != 1 && *bits != 8 && *bits != 32)) return fail("found {}, expected 1, 8 or 32", text);
@@ -74,7 +66,7 @@ void add_common(CLI::App& command, RenderSettings& render) {
                                         "without noise [hard]"),
              add_value(command, "--light", render.light, parse_light, "One light, by number, or all [all]")
                  ->type_name("N|all"),
-             add_value(command, "--exposure", render.exposure, parse_exposure, "Factor of the light [1]")
+             add_value(command, "--exposure", render.exposure, parse_factor, "Factor of the light [1]")
                  ->type_name("E"),
              add_value(command, "--threads", render.threads, parse_threads,
                        "Threads of shadows and ambient occlusion [0: all cores]")

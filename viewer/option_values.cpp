@@ -107,6 +107,14 @@ Expected<double> parse_positive(const std::string& text) {
   return *number;
 }
 
+Expected<float> parse_factor(const std::string& text) {
+  const auto factor = parse_positive(text);
+  if (!factor || static_cast<float>(*factor) == 0.0f || *factor > 1e30) {
+    return fail("found {}, expected a factor above 0, like 1.5", text);
+  }
+  return static_cast<float>(*factor);
+}
+
 Expected<double> parse_time(const std::string& text) {
   const auto seconds = finite_from(text);
   if (!seconds) return fail("found {}, expected a time in seconds, like 1.5", text);

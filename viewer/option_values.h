@@ -37,6 +37,7 @@ Expected<FrameRange> parse_frame_range(const std::string& text);  ///< A, A:B, A
 Expected<glm::vec3> parse_vector(const std::string& text);        ///< X,Y,Z, finite
 Expected<double> parse_field_of_view(const std::string& text);    ///< degrees in (0, 180)
 Expected<double> parse_positive(const std::string& text);         ///< finite and above 0
+Expected<float> parse_factor(const std::string& text);            ///< above 0, at most 1e30
 Expected<double> parse_time(const std::string& text);             ///< seconds, finite
 Expected<int> parse_count(const std::string& text);               ///< whole, 0 to 1,000,000
 Expected<int> parse_at_least_one(const std::string& text);        ///< whole, 1 to 1,000,000

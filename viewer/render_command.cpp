@@ -115,7 +115,8 @@ private:
                       const StopFlag& stop) {
     const auto begin = Clock::now();
     evaluate_frame(plan_.scene, plan_.clip, planned.time_s, input_.geometry);
-    input_.lights = evaluate_lights(plan_.scene, plan_.clip, planned.time_s);
+    input_.lights =
+        edited_lights(evaluate_lights(plan_.scene, plan_.clip, planned.time_s), options_.scene.lights);
     input_.view = view_of(plan_, options_.scene, planned.time_s, plan_.size);
     const double evaluate_ms = milliseconds(Clock::now() - begin);
     const auto on_progress = [&](std::string_view what, double done) { progress.show_building(what, done); };

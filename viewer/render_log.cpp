@@ -116,6 +116,9 @@ std::vector<LogSetting> describe_render(const RenderPlan& plan, const RenderOpti
       {"cone_sides", fmt::format("{}", options.scene.import.cone_sides)},
   };
   for (LogSetting& setting : describe_method(settings)) list.push_back(std::move(setting));
+  for (std::string& text : light_edit_texts(options.scene.lights)) {
+    list.push_back({"set_light", std::move(text)});
+  }
   for (const std::string& name : options.scene.no_cast) list.push_back({"no_cast", name});
   for (const std::string& warning : plan.scene.warnings) list.push_back({"warning", warning});
   return list;

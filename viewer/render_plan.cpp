@@ -34,6 +34,8 @@ Expected<RenderPlan> plan_render(const RenderOptions& options) {
   if (!frames) return tl::unexpected(frames.error());
   plan.frames = std::move(*frames);
   plan.settings = method_settings(options.method, plan.size);
+  plan.settings.area_lights.own_size_m = edited_sizes_m(options.scene.lights);
+  plan.scene.lights = edited_lights(std::move(plan.scene.lights), options.scene.lights);
   const int light = plan.settings.light;
   // Emissive meshes follow the scene's lights; the renderer, which finds them, checks their number.
   const bool emissive = plan.settings.area_lights.emissive_quads;

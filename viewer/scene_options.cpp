@@ -26,6 +26,25 @@ void add_files(CLI::App& command, SceneOptions& options) {
       ->group(scene_group);
 }
 
+void add_lights(CLI::App& command, SceneOptions& options) {
+  command
+      .add_option_function<std::vector<std::string>>(
+          "--set-light",
+          [&options](const std::vector<std::string>& texts) {
+            for (const std::string& text : texts) {
+              if (auto parsed = parse_light_edit(text, options.lights); !parsed) {
+                throw CLI::ValidationError("--set-light", parsed.error().message);
+              }
+            }
+          },
+          "\"N KEY=VALUE ...\" changes light N: on=0,\nintensity=FACTOR, move=X,Y,Z (metres), size=WxH "
+          "(metres, "
+          "of\nsoft shadows); may be repeated")
+      ->type_name("TEXT")
+      ->allow_extra_args(false)
+      ->group(scene_group);
+}
+
 void add_moment(CLI::App& command, SceneOptions& options) {
   add_value(command, "--time", options.time_s, parse_time, "This time of the animation")
       ->type_name("S")
@@ -66,6 +85,7 @@ void add_camera(CLI::App& command, SceneOptions& options) {
 
 void add_scene_options(CLI::App& command, SceneOptions& options) {
   add_files(command, options);
+  add_lights(command, options);
   add_moment(command, options);
   add_camera(command, options);
 }

@@ -1,5 +1,5 @@
-// The options that choose what is looked at: scene, moment, camera. `tenebra render` and `tenebra view` share
-// them.
+// The options that choose what is looked at: scene, lights, moment, camera. `tenebra render` and `tenebra
+// view` share them.
 #pragma once
 
 #include <CLI/CLI.hpp>
@@ -8,6 +8,7 @@
 #include <vector>
 
 #include "import/import_scene.h"
+#include "light_edits.h"
 #include "option_values.h"
 
 namespace tenebra::viewer {
@@ -27,10 +28,12 @@ struct SceneOptions {
   glm::vec3 up{0, 1, 0};
   std::optional<double> fov_deg;
   std::optional<Size> size;
+
+  LightEdits lights;
 };
 
-/// Adds SCENE, --no-cast, --cone-sides, --time, --fps, --clip and those of the camera, --size too; they are
-/// read into `options`, which must live as long. A command makes SCENE required with
+/// Adds SCENE, --no-cast, --cone-sides, --set-light, --time, --fps, --clip and those of the camera, --size
+/// too; they are read into `options`, which must live as long. A command makes SCENE required with
 /// command.get_option("SCENE")->required().
 void add_scene_options(CLI::App& command, SceneOptions& options);
 

@@ -36,6 +36,18 @@ Expected<void> apply_field_of_view(Scene& scene, int camera, const SceneOptions&
   return {};
 }
 
+/// Nodes may share a light: each gets its own, so that a light has the same number for --light, for
+/// --set-light and in the viewer's list.
+void number_lights(Scene& scene) {
+  std::vector<Light> lights;
+  for (Node& node : scene.nodes) {
+    if (node.light < 0) continue;
+    lights.push_back(scene.lights[static_cast<std::size_t>(node.light)]);
+    node.light = static_cast<int>(lights.size()) - 1;
+  }
+  scene.lights = std::move(lights);
+}
+
 }  // namespace
 
 Expected<ScenePlan> plan_scene(const SceneOptions& options) {
@@ -48,6 +60,11 @@ Expected<ScenePlan> plan_scene(const SceneOptions& options) {
     return fail("--no-cast: {} names no mesh, material or FILE:LINE of the scene", unmatched);
   }
   add_missing_camera_and_light(plan.scene);
+  number_lights(plan.scene);
+  if (options.lights.size() > plan.scene.lights.size()) {
+    return fail("--set-light: found light {}, the scene has lights 0 to {}", options.lights.size() - 1,
+                static_cast<int>(plan.scene.lights.size()) - 1);
+  }
 
   const auto clip = choose_clip(plan.scene, options.clip);
   if (!clip) return tl::unexpected(clip.error());

@@ -8,7 +8,8 @@
 namespace tenebra::viewer {
 
 struct ScenePlan {
-  Scene scene;  ///< with cameras and lights added and casters left out
+  Scene scene;  ///< with cameras and lights added and casters left out; Scene::lights in the order of the
+                ///< nodes that have them, each node its own
   int clip = -1;
   int camera = 0;  ///< index into scene.cameras; unused with --eye
   Size size;       ///< --size, or what the camera asks for

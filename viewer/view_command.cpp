@@ -22,12 +22,29 @@ constexpr const char* examples =
     "\n"
     "The window needs a display with OpenGL 3.3; tenebra render needs none.";
 
+/// The scene, where options speak of its lights: what it does not have is said before a window opens.
+Expected<std::shared_ptr<const ScenePlan>> plan_with_lights(const ViewOptions& options) {
+  auto plan = plan_scene(options.scene);
+  if (!plan) return tl::unexpected(plan.error());
+  const RenderSettings& render = options.method.render;
+  const int light = render.area_lights.emissive_quads ? -1 : render.light;
+  if (auto checked = check_light(*plan, light, options.scene.time_s.value_or(0)); !checked) {
+    return tl::unexpected(checked.error());
+  }
+  return std::make_shared<const ScenePlan>(std::move(*plan));
+}
+
 Expected<int> view(ViewOptions options) {
   if (auto settled = settle_view_options(options); !settled) return tl::unexpected(settled.error());
   if (options.scene.file.empty()) {
     auto bundled = bundled_scene("city.glb");
     if (!bundled) return tl::unexpected(bundled.error());
     options.scene.file = bundled->string();
+  }
+  if (options.method.render.light >= 0 || !options.scene.lights.empty()) {
+    auto planned = plan_with_lights(options);
+    if (!planned) return tl::unexpected(planned.error());
+    options.plan = std::move(*planned);
   }
   return run_window(options);
 }

@@ -80,21 +80,6 @@ void add_window_options(CLI::App& command, ViewOptions& options) {
   group(add_choice<navigate_choices>(
       command, "--navigate", options.navigate,
       "Whose camera: the scene's, or one that orbits or flies\n[scene; orbit with --eye]"));
-  command
-      .add_option_function<std::vector<std::string>>(
-          "--set-light",
-          [&options](const std::vector<std::string>& texts) {
-            for (const std::string& text : texts) {
-              if (auto parsed = parse_light_edit(text, options.lights); !parsed) {
-                throw CLI::ValidationError("--set-light", parsed.error().message);
-              }
-            }
-          },
-          "\"N KEY=VALUE ...\" changes light N: on=0, intensity=FACTOR,\nmove=X,Y,Z, size=FACTOR; may be "
-          "repeated")
-      ->type_name("TEXT")
-      ->allow_extra_args(false)
-      ->group(window_group);
 }
 
 void add_compare_options(CLI::App& command, ViewOptions& options) {

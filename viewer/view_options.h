@@ -26,7 +26,7 @@ struct ViewOptions {
   bool loop = true;
   bool fixed_step = false;
   CameraMode navigate = CameraMode::scene;
-  LightEdits lights;
+  std::shared_ptr<const ScenePlan> plan;  ///< of `scene`, if it is there already
   std::optional<std::string> compare_text;
   std::optional<MethodOptions> compare;  ///< slot B, of compare_text
   CompareView show = CompareView::wipe;

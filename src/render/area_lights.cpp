@@ -29,12 +29,18 @@ dvec3 facing_direction(const Light& light, const WorldLight& placed, const AreaL
   return glm::dot(direction, direction) > 0 ? direction : dvec3(0, -1, 0);
 }
 
+/// Width and height that the settings give point light `light`.
+glm::dvec2 point_size_m(int light, const AreaLightSettings& settings, const SceneBox& box) {
+  const auto index = static_cast<std::size_t>(light);
+  if (index < settings.own_size_m.size() && settings.own_size_m[index]) return *settings.own_size_m[index];
+  return (settings.percent_of_diagonal ? 0.01 * box.diagonal_m() : 1.0) * glm::dvec2(settings.size);
+}
+
 Expected<AreaLight> rectangle_of_point(const Light& light, const WorldLight& placed,
                                        const AreaLightSettings& settings, const SceneBox& box) {
-  const double unit_m = settings.percent_of_diagonal ? 0.01 * box.diagonal_m() : 1.0;
   vec3 half_x, half_y;
-  rectangle_axes(facing_direction(light, placed, settings, box), unit_m * glm::dvec2(settings.size), half_x,
-                 half_y);
+  rectangle_axes(facing_direction(light, placed, settings, box), point_size_m(placed.light, settings, box),
+                 half_x, half_y);
   return make_rectangle_light(placed.position, half_x, half_y);
 }
 
@@ -83,7 +89,8 @@ SceneBox box_of(const FrameGeometry& geometry) {
 Expected<std::optional<AreaLight>> area_light_of(const Light& light, const WorldLight& placed,
                                                  const AreaLightSettings& settings, const SceneBox& box) {
   const bool is_area = light.type == LightType::area_rect || light.type == LightType::area_disk;
-  const bool sized = settings.size.x > 0 && settings.size.y > 0;
+  const glm::dvec2 size_m = point_size_m(placed.light, settings, box);
+  const bool sized = size_m.x > 0 && size_m.y > 0;
   if (light.type == LightType::directional || (!is_area && !sized)) return std::optional<AreaLight>();
   auto made = is_area ? placed_polygon(light, placed) : rectangle_of_point(light, placed, settings, box);
   if (!made) return tl::unexpected(std::move(made.error()));

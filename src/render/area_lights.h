@@ -23,7 +23,7 @@ struct SceneBox {
 SceneBox box_of(const FrameGeometry& geometry);
 
 /// The polygon of a light: area lights as the file has them; point and spot lights as rectangles of the
-/// settings' size about their place, facing `settings.facing`, else along a spot's axis or from a point
+/// settings' size, or their own, about their place, facing `settings.facing`, else along a spot's axis or from a point
 /// towards the box's centre, their width level. None for directional lights and where no size is given.
 /// Fails with a sentence where the polygon is none: no area, not finite.
 Expected<std::optional<AreaLight>> area_light_of(const Light& light, const WorldLight& placed,

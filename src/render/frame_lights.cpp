@@ -24,8 +24,9 @@ void give_area(DrawnLight& drawn, const AreaLightSettings& settings, const Scene
     notes.push_back(
         fmt::format("{} is directional and keeps hard shadows, for it has no size", title(drawn)));
   } else {
-    notes.push_back(fmt::format(
-        "{} is a point and keeps hard shadows, as long as --light-size gives it no size", title(drawn)));
+    notes.push_back(
+        fmt::format("{} is a point and keeps hard shadows, until --light-size or --set-light gives it a size",
+                    title(drawn)));
   }
 }
 
@@ -74,16 +75,18 @@ Expected<std::vector<DrawnLight>> drawn_lights(const Scene& scene, const FrameIn
     const SceneBox box = box_of(input.geometry);
     for (DrawnLight& drawn : lights) {
       std::vector<std::string> unasked;
-      const bool asked = settings.light < 0 || settings.light == drawn.number;
+      const bool asked = drawn.light.intensity != 0 && (settings.light < 0 || settings.light == drawn.number);
       give_area(drawn, settings.area_lights, box, asked ? notes : unasked);
     }
     if (settings.area_lights.emissive_quads) add_emissive(scene, input, lights, notes);
   }
-  if (settings.light < 0) return lights;
   if (settings.light >= static_cast<int>(lights.size())) {
     return fail("light {}: the scene has {} lights, counted from 0", settings.light, lights.size());
   }
-  return std::vector<DrawnLight>{std::move(lights[static_cast<std::size_t>(settings.light)])};
+  std::erase_if(lights, [&](const DrawnLight& drawn) {
+    return drawn.light.intensity == 0 || (settings.light >= 0 && drawn.number != settings.light);
+  });
+  return lights;
 }
 
 }  // namespace tenebra

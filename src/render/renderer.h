@@ -32,6 +32,9 @@ struct AreaLightSettings {
   std::optional<glm::vec3> facing;   ///< point that the rectangles face; none: the centre of the scene's box,
                                      ///< and for spot lights where they shine
   bool emissive_quads = false;       ///< planar convex meshes of an emissive material shine too
+  /// By Scene::lights: width and height in metres of the point and spot lights that have their own, beside
+  /// `size`; may be shorter.
+  std::vector<std::optional<glm::vec2>> own_size_m;
 };
 
 struct RenderSettings {
@@ -66,7 +69,7 @@ struct LightMask {
 
 struct FrameResult {
   Image8 image;                  ///< RGB, sRGB-encoded
-  std::vector<LightMask> masks;  ///< one a light drawn; empty without shadows
+  std::vector<LightMask> masks;  ///< one a light drawn, of those with an intensity; empty without shadows
   FrameTimings timings;
   TraceStats stats;
   SoftStats soft;

@@ -201,7 +201,7 @@ TEST(SoftFrames, LightsWithoutASizeKeepHardShadowsAndAreNamedOnce) {
   ASSERT_TRUE(renderer.render_frame(input, soft, result));
   ASSERT_EQ(result.notes.size(), 2u);
   EXPECT_EQ(result.notes[0],
-            "light 0 (lamp) is a point and keeps hard shadows, as long as --light-size gives it no size");
+            "light 0 (lamp) is a point and keeps hard shadows, until --light-size or --set-light gives it a size");
   EXPECT_EQ(result.notes[1], "light 1 (sun) is directional and keeps hard shadows, for it has no size");
   const Image8 image = result.image;
   for (const LightMask& mask : result.masks) {

@@ -3,9 +3,9 @@
 
 #include <numbers>
 
+#include "light_edits.h"
 #include "support/seeded_random.h"
 #include "window/camera_control.h"
-#include "window/light_edits.h"
 
 namespace tenebra::viewer {
 namespace {
@@ -104,45 +104,6 @@ TEST(FreeCamera, PixelOfIsTheInverseOfTheRays) {
     EXPECT_NEAR(found.z, 7, 1e-9);
   }
   EXPECT_LT(pixel_of(view, glm::dvec3(view.eye) - glm::dvec3(view.d0)).z, 0) << "behind the eye";
-}
-
-TEST(LightEdits, ReadBackWhatTheyWrite) {
-  const LightEdit edit{.on = false, .intensity = 0.3f, .move = {1, -2.5f, 1e-7f}, .size = 2};
-  LightEdits edits;
-  ASSERT_TRUE(parse_light_edit(light_edit_text(3, edit), edits));
-  ASSERT_EQ(edits.size(), 4u);
-  EXPECT_EQ(edits[3], edit);
-  EXPECT_EQ(edits[0], LightEdit{});
-  EXPECT_EQ(light_edit_text(0, {}), "");
-}
-
-TEST(LightEdits, RefuseInASentence) {
-  for (const char* text : {"", "x", "-1 on=0", "0 on=2", "0 intensity=-1", "0 intensity=nan", "0 move=1,2",
-                           "0 glow=1", "0 size"}) {
-    LightEdits edits;
-    const auto parsed = parse_light_edit(text, edits);
-    EXPECT_FALSE(parsed) << text;
-    if (!parsed) {
-      EXPECT_NE(parsed.error().message.find("expected"), std::string::npos) << text;
-    }
-  }
-}
-
-TEST(LightEdits, LeaveOutWhatIsOffAndMoveTheRest) {
-  LightEdits edits(2);
-  edits[0].on = false;
-  edits[1] = {.intensity = 2, .move = {0, 1, 0}, .size = 3};
-  std::vector<WorldLight> placed(3);
-  for (int i = 0; i < 3; ++i) placed[static_cast<std::size_t>(i)].light = i;
-  const auto kept = edited_lights(placed, edits);
-  ASSERT_EQ(kept.size(), 2u);
-  EXPECT_EQ(kept[0].light, 1);
-  EXPECT_EQ(kept[0].position, vec3(0, 1, 0));
-  EXPECT_EQ(kept[0].axis_x, vec3(3, 0, 0));
-  EXPECT_EQ(kept[1].position, vec3(0, 0, 0));
-  const auto lights = edited_lights(std::vector<Light>(3), edits);
-  EXPECT_EQ(lights[1].intensity, 2);
-  EXPECT_EQ(lights[2].intensity, 1);
 }
 
 }  // namespace

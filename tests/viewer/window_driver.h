@@ -4,7 +4,9 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <chrono>
+#include <fstream>
 #include <memory>
 #include <nlohmann/json.hpp>
 #include <sstream>
@@ -59,63 +61,73 @@ public:
       : display_(display), report_(folder / "report.jsonl") {
     arguments.insert(arguments.begin(), {TENEBRA_PROGRAM, "view"});
     arguments.insert(arguments.end(), {"--report", report_.string(), "--gl-debug"});
+    std::filesystem::remove(report_);  // an earlier session's: its events would be taken for this one's
     display.run({"xdotool", "mousemove", "5", "5"});
     program_ = std::make_unique<ChildProgram>(arguments, [&display] { display.enter(); });
   }
 
   /// All events so far.
-  std::vector<Json> events() const {
-    std::vector<Json> events;
-    std::istringstream lines(read_text(report_));
-    for (std::string line; std::getline(lines, line) && !lines.eof();) events.push_back(Json::parse(line));
-    return events;
+  const std::vector<Json>& events() const {
+    std::ifstream file(report_, std::ios::binary);
+    file.seekg(read_);
+    for (std::string line; std::getline(file, line) && !file.eof();
+         read_ += std::streamoff(line.size() + 1)) {
+      events_.push_back(Json::parse(line));
+    }
+    return events_;
   }
   std::size_t count() const { return events().size(); }
 
+  /// Waits until `done`, which is asked whenever there may be new events; false after a long wait.
+  template <class Done>
+  bool wait_until(const char* what, Done done) const {
+    const auto end = std::chrono::steady_clock::now() + std::chrono::duration<double>(patience_s_);
+    while (!done()) {
+      if (std::chrono::steady_clock::now() > end) {
+        patience_s_ = 1;  // what follows will hardly come
+        ADD_FAILURE() << "waited in vain for " << what
+                      << "; last: " << (count() > 0 ? events().back().dump() : "");
+        return false;
+      }
+      std::this_thread::sleep_for(std::chrono::milliseconds(5));
+    }
+    return true;
+  }
   /// The first event from number `from` on that `fits`; null after a long wait.
   template <class Fits>
-  Json wait_for(std::size_t from, const char* what, Fits fits, double seconds = 60) const {
-    const auto end = std::chrono::steady_clock::now() + std::chrono::duration<double>(seconds);
-    do {
-      const auto all = events();
-      for (std::size_t i = from; i < all.size(); ++i) {
-        if (fits(all[i])) return all[i];
-      }
-      std::this_thread::sleep_for(std::chrono::milliseconds(20));
-    } while (std::chrono::steady_clock::now() < end);
-    ADD_FAILURE() << "waited in vain for " << what
-                  << "; last: " << (count() > 0 ? events().back().dump() : "");
-    return nullptr;
+  Json wait_for(std::size_t from, const char* what, Fits fits) const {
+    Json found;
+    wait_until(what, [&] {
+      const auto& all = events();
+      const auto first = all.begin() + static_cast<std::ptrdiff_t>(std::min(from, all.size()));
+      const auto it = std::find_if(first, all.end(), fits);
+      if (it != all.end()) found = *it;
+      return it != all.end();
+    });
+    return found;
   }
   Json wait_for_event(std::size_t from, const std::string& name) const {
     return wait_for(from, name.c_str(), [&](const Json& event) { return event["event"] == name; });
   }
   /// The picture that shows what has been asked for until now; it and its numbers are in the window.
   Json wait_for_picture() const {
-    std::this_thread::sleep_for(std::chrono::milliseconds(200));
-    const auto newest_request = [&] {
-      std::uint64_t newest = 0;
-      for (const Json& event : events()) {
-        if (event["event"] == "request") newest = event["number"];
-      }
-      return newest;
-    };
-    const Json picture = wait_for(0, "the picture of the last request", [&](const Json& event) {
-      return event["event"] == "picture" && event["request"] == newest_request();
-    });
-    if (picture.is_null()) return picture;
-    wait_for(0, "its draw", [&](const Json& event) {
-      return event["event"] == "shown" && std::stoull(event["text"].get<std::string>()) >= picture["number"];
+    Json picture;
+    wait_until("the picture of the last request, and its draw", [&] {
+      const auto& all = events();
+      const auto is = [](const char* name) {
+        return [name](const Json& event) { return event["event"] == name; };
+      };
+      const auto request = std::find_if(all.rbegin(), all.rend(), is("request"));
+      const auto shown = std::find_if(all.rbegin(), all.rend(), is("shown"));
+      const auto last = std::find_if(all.rbegin(), all.rend(), is("picture"));
+      if (request == all.rend() || shown == all.rend() || last == all.rend()) return false;
+      picture = *last;
+      return picture["request"] == (*request)["number"] &&
+             std::stoull((*shown)["text"].get<std::string>()) >= picture["number"];
     });
     return picture;
   }
-  Json state() const {
-    Json last;
-    for (const Json& event : events()) {
-      if (event["event"] == "state") last = event;
-    }
-    return last;
-  }
+  Json state() const { return last("state"); }
   /// Does something and waits until the state has `value` at `key`.
   template <class Act>
   void expect_state(const char* key, const Json& value, Act act) const {
@@ -124,34 +136,20 @@ public:
     wait_for(from, key, [&](const Json& event) { return event["event"] == "state" && event[key] == value; });
   }
 
-  Json marks() const {
-    Json marks;
-    for (Json& event : events()) {
-      if (event["event"] == "marks") marks = std::move(event);
-    }
-    return marks;
-  }
+  Json marks() const { return last("marks"); }
   void wait_until_gone(const std::string& name) const {
-    for (int i = 0; i < 1200 && marks().contains(name); ++i) {
-      std::this_thread::sleep_for(std::chrono::milliseconds(50));
-    }
-    EXPECT_FALSE(marks().contains(name)) << name;
+    wait_until(("no " + name).c_str(), [&] { return !marks().contains(name); });
   }
   /// Left, top, right, bottom of a widget on the screen; waits until it is there.
   std::array<double, 4> place(const std::string& name) const {
-    for (int i = 0; i < 600; ++i) {
-      const Json marks = this->marks();
-      if (marks.contains(name)) return marks[name].get<std::array<double, 4>>();
-      std::this_thread::sleep_for(std::chrono::milliseconds(50));
-    }
-    ADD_FAILURE() << "no widget " << name << " in " << marks().dump();
-    return {};
+    if (!wait_until(("a widget " + name).c_str(), [&] { return marks().contains(name); })) return {};
+    return marks()[name].get<std::array<double, 4>>();
   }
 
   void move_to(double x, double y) const {
     const std::array to{static_cast<int>(x), static_cast<int>(y)};
     if (to == pointer_) return;  // nothing would come of it
-    act({"mousemove", std::to_string(to[0]), std::to_string(to[1])});
+    act({"mousemove", std::to_string(to[0]), std::to_string(to[1])}, "move");
     pointer_ = to;
   }
   /// At a part of a widget's width; its middle.
@@ -164,9 +162,13 @@ public:
     press();
     release();
   }
-  void press(int button = 1) const { act({"mousedown", std::to_string(button)}); }
-  void release(int button = 1) const { act({"mouseup", std::to_string(button)}); }
-  void key(const std::string& keys) const { act({"key", keys}); }
+  void press(int button = 1) const { act({"mousedown", std::to_string(button)}, "press"); }
+  void release(int button = 1) const { act({"mouseup", std::to_string(button)}, "release"); }
+  /// "ctrl+q": each of them goes down and comes up again.
+  void key(const std::string& keys) const {
+    const auto held = std::count(keys.begin(), keys.end(), '+');
+    act({"key", keys}, "key up", static_cast<std::size_t>(held) + 1);
+  }
   void xdotool(std::vector<std::string> arguments) const {
     pointer_ = {-1, -1};
     arguments.insert(arguments.begin(), "xdotool");
@@ -186,31 +188,36 @@ public:
   }
 
 private:
-  std::size_t draws() const {
-    std::size_t count = 0;
-    for (const Json& event : events()) count += event["event"] == "drawn" || event["event"] == "end" ? 1 : 0;
-    return count;
+  Json last(const char* name) const {
+    const auto& all = events();
+    const auto it =
+        std::find_if(all.rbegin(), all.rend(), [&](const Json& event) { return event["event"] == name; });
+    return it == all.rend() ? Json() : *it;
   }
-  /// An event, and the wait until the window has drawn what came of it.
-  void act(const std::vector<std::string>& arguments) const {
-    const std::size_t before = draws();
+  /// Events, and the wait until the window has drawn what came of them: `count` inputs of the name that the
+  /// report gives the last of them, then a draw. Or the end.
+  void act(const std::vector<std::string>& arguments, const char* input, std::size_t count = 1) const {
+    const std::size_t from = this->count();
     const auto pointer = pointer_;
     xdotool(arguments);
     pointer_ = pointer;
-    const auto end = std::chrono::steady_clock::now() + std::chrono::seconds(30);
-    while (draws() == before && std::chrono::steady_clock::now() < end) {
-      std::this_thread::sleep_for(std::chrono::milliseconds(20));
-    }
-    // A key or button that comes up again is drawn for itself.
-    for (std::size_t drawn = before; drawn != draws();) {
-      drawn = draws();
-      std::this_thread::sleep_for(std::chrono::milliseconds(250));
-    }
+    wait_until(input, [&] {
+      const auto& all = events();
+      std::size_t seen = 0;
+      for (std::size_t i = from; i < all.size(); ++i) {
+        if (all[i]["event"] == "input" && all[i]["text"] == input) ++seen;
+        if (all[i]["event"] == "end" || (seen >= count && all[i]["event"] == "drawn")) return true;
+      }
+      return false;
+    });
   }
 
   const VirtualDisplay& display_;
   std::filesystem::path report_;
   std::unique_ptr<ChildProgram> program_;
+  mutable double patience_s_ = 60;
+  mutable std::vector<Json> events_;
+  mutable std::streamoff read_ = 0;             // of the report
   mutable std::array<int, 2> pointer_{-1, -1};  // where it was moved last
 };
 

@@ -17,8 +17,10 @@ constexpr std::array stage_colors{
     IM_COL32(84, 92, 108, 255)};
 static_assert(stage_colors.size() == frame_stages.size());
 
+constexpr ImU32 ground = IM_COL32(13, 14, 18, 255);  // of the graph
+
 std::string milliseconds(double ms) {
-  return ms < 10 ? fmt::format("{:.2f}", ms) : fmt::format("{:.1f}", ms);
+  return fmt::format("{:.{}f}", ms, ms < 10 ? 2 : ms < 100 ? 1 : 0);
 }
 
 /// A round number not below `value`: what the axis ends at.
@@ -43,8 +45,10 @@ void draw_marks_of(const Summary& summary, ImVec2 low, ImVec2 size, double top_m
     const float y = low.y + size.y * static_cast<float>(1 - std::min(1.0, line.ms / top_ms));
     list.AddLine({low.x, y}, {low.x + size.x, y}, line.color);
   }
-  list.AddText(nullptr, font * 0.85f, {low.x + 4, low.y + 2}, palette::dim,
-               fmt::format("{:g} ms", top_ms).c_str());
+  const std::string top = fmt::format("{:g} ms", top_ms);
+  const ImVec2 text = ImGui::CalcTextSize(top.c_str());
+  list.AddRectFilled(low, {low.x + text.x * 0.85f + 8, low.y + text.y * 0.85f + 4}, ground, 3);
+  list.AddText(nullptr, font * 0.85f, {low.x + 4, low.y + 2}, palette::dim, top.c_str());
 }
 
 void explain_frame(const FrameRecord& record) {
@@ -70,7 +74,7 @@ void draw_graph(Ui& ui, const FrameHistory& history, const char* name) {
   ui.mark(name);
   const ImVec2 low = ImGui::GetItemRectMin();
   ImDrawList& list = *ImGui::GetWindowDrawList();
-  list.AddRectFilled(low, {low.x + size.x, low.y + size.y}, IM_COL32(13, 14, 18, 255), 3);
+  list.AddRectFilled(low, {low.x + size.x, low.y + size.y}, ground, 3);
   if (records.empty()) return;
   const Summary summary = history.total_ms();
   const double top_ms = axis_end(summary.percentile_99 * 1.05);
@@ -103,7 +107,7 @@ void draw_summary(const FrameHistory& history) {
   if (summary.count == 0) return;
   ImGui::TextUnformatted(fmt::format("median {}", milliseconds(summary.median)).c_str());
   ImGui::SameLine();
-  dim_text(fmt::format("95 %: {}   99 %: {} ms   n = {}", milliseconds(summary.percentile_95),
+  dim_text(fmt::format("95 %: {}  99 %: {} ms  n = {}", milliseconds(summary.percentile_95),
                        milliseconds(summary.percentile_99), summary.count)
                .c_str());
 }

@@ -24,15 +24,6 @@ const char* name_of(CompareView view) {
   return names[static_cast<std::size_t>(view)];
 }
 
-Json lights_of(const ViewState& state) {
-  Json lights = Json::array();
-  for (std::size_t i = 0; i < state.lights.size(); ++i) {
-    const std::string text = light_edit_text(static_cast<int>(i), state.lights[i]);
-    if (!text.empty()) lights.push_back(text);
-  }
-  return lights;
-}
-
 }  // namespace
 
 Expected<EventReport> EventReport::create(const std::string& path) {
@@ -112,7 +103,7 @@ void EventReport::state(const ViewState& state) {
                                  {"show", name_of(state.show)},
                                  {"wipe", state.wipe},
                                  {"overlay", overlay},
-                                 {"lights", lights_of(state)},
+                                 {"lights", light_edit_texts(state.lights)},
                                  {"panel", state.panel},
                                  {"help", state.help}});
   if (text == last_state_) return;

@@ -68,12 +68,15 @@ Expected<std::shared_ptr<Picture>> FrameMaker::make(const FrameRequest& request,
 
   auto picture = std::make_shared<Picture>();
   RenderSettings settings = request.a;
+  settings.area_lights.own_size_m = edited_sizes_m(request.lights);
   settings.diagnostics = request.overlay != Overlay::none;
   auto a = draw(request, settings, time_s, progress, stop);
   if (!a) return tl::unexpected(a.error());
   picture->a = std::move(*a);
   if (request.b) {
-    auto b = draw(request, *request.b, time_s, progress, stop);
+    RenderSettings settings_b = *request.b;
+    settings_b.area_lights.own_size_m = settings.area_lights.own_size_m;
+    auto b = draw(request, settings_b, time_s, progress, stop);
     if (!b) return tl::unexpected(b.error());
     picture->difference = compare_pictures(picture->a.result.image, b->result.image, 0);
     picture->b = std::move(*b);

@@ -6,13 +6,13 @@
 #include <optional>
 
 #include "base/frame_columns.h"
+#include "light_edits.h"
 #include "output_pattern.h"
 #include "picture_difference.h"
 #include "render/renderer.h"
 #include "scene_plan.h"
 #include "window/animation_clock.h"
 #include "window/camera_control.h"
-#include "window/light_edits.h"
 
 namespace tenebra::viewer {
 

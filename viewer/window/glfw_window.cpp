@@ -84,8 +84,9 @@ public:
   Gui& operator=(const Gui&) = delete;
 };
 
-Viewer& viewer_of(GLFWwindow* window) {
-  return *static_cast<Viewer*>(glfwGetWindowUserPointer(window));
+/// Null before and after its session.
+Viewer* viewer_of(GLFWwindow* window) {
+  return static_cast<Viewer*>(glfwGetWindowUserPointer(window));
 }
 
 static_assert(key_code::space == GLFW_KEY_SPACE && key_code::escape == GLFW_KEY_ESCAPE &&
@@ -102,29 +103,33 @@ int code_of(int key, int scancode) {
 
 /// Every event makes the window draw. Set before Dear ImGui's own callbacks, which call these in turn.
 void watch_events(GLFWwindow* window) {
-  const auto came = [](GLFWwindow* w) {
-    if (glfwGetWindowUserPointer(w)) viewer_of(w).input_came();
+  static constexpr auto came = +[](GLFWwindow* w, const char* what) {
+    if (Viewer* viewer = viewer_of(w)) viewer->input_came(what);
   };
-  static constexpr auto note = +came;
-  glfwSetCursorPosCallback(window, [](GLFWwindow* w, double, double) { note(w); });
-  glfwSetMouseButtonCallback(window, [](GLFWwindow* w, int, int, int) { note(w); });
-  glfwSetScrollCallback(window, [](GLFWwindow* w, double, double) { note(w); });
-  glfwSetKeyCallback(window, [](GLFWwindow* w, int key, int scancode, int action, int modifiers) {
-    if (action != GLFW_RELEASE && glfwGetWindowUserPointer(w)) {
-      viewer_of(w).press_key({.code = code_of(key, scancode),
-                              .shift = (modifiers & GLFW_MOD_SHIFT) != 0,
-                              .ctrl = (modifiers & GLFW_MOD_CONTROL) != 0,
-                              .repeat = action == GLFW_REPEAT});
-    }
-    note(w);
+  glfwSetCursorPosCallback(window, [](GLFWwindow* w, double x, double y) {
+    if (Viewer* viewer = viewer_of(w)) viewer->mouse().move({static_cast<float>(x), static_cast<float>(y)});
+    came(w, "move");
   });
-  glfwSetCharCallback(window, [](GLFWwindow* w, unsigned) { note(w); });
-  glfwSetCursorEnterCallback(window, [](GLFWwindow* w, int) { note(w); });
-  glfwSetWindowFocusCallback(window, [](GLFWwindow* w, int) { note(w); });
-  glfwSetFramebufferSizeCallback(window, [](GLFWwindow* w, int, int) { note(w); });
-  glfwSetWindowRefreshCallback(window, [](GLFWwindow* w) { note(w); });
+  glfwSetMouseButtonCallback(window, [](GLFWwindow* w, int button, int action, int) {
+    if (Viewer* viewer = viewer_of(w)) viewer->mouse().button(button, action == GLFW_PRESS);
+    came(w, action == GLFW_PRESS ? "press" : "release");
+  });
+  glfwSetScrollCallback(window, [](GLFWwindow* w, double, double) { came(w, "wheel"); });
+  glfwSetKeyCallback(window, [](GLFWwindow* w, int key, int scancode, int action, int modifiers) {
+    Viewer* viewer = viewer_of(w);
+    if (action == GLFW_RELEASE || !viewer) return came(w, "key up");
+    viewer->press_key({.code = code_of(key, scancode),
+                       .shift = (modifiers & GLFW_MOD_SHIFT) != 0,
+                       .ctrl = (modifiers & GLFW_MOD_CONTROL) != 0,
+                       .repeat = action == GLFW_REPEAT});
+  });
+  glfwSetCharCallback(window, [](GLFWwindow* w, unsigned) { came(w, "character"); });
+  glfwSetCursorEnterCallback(window, [](GLFWwindow* w, int) { came(w, "enter"); });
+  glfwSetWindowFocusCallback(window, [](GLFWwindow* w, int) { came(w, "focus"); });
+  glfwSetFramebufferSizeCallback(window, [](GLFWwindow* w, int, int) { came(w, "size"); });
+  glfwSetWindowRefreshCallback(window, [](GLFWwindow* w) { came(w, "refresh"); });
   glfwSetDropCallback(window, [](GLFWwindow* w, int count, const char** files) {
-    viewer_of(w).drop({files, files + count});
+    if (Viewer* viewer = viewer_of(w)) viewer->drop({files, files + count});
   });
 }
 
@@ -135,6 +140,7 @@ void draw_frame(GLFWwindow* window, WindowGl& gl, Viewer& viewer) {
   if (width < 1 || height < 1) return;  // minimised
   ImGui_ImplOpenGL3_NewFrame();
   ImGui_ImplGlfw_NewFrame();
+  viewer.mouse().feed(ImGui::GetIO());
   ImGui::NewFrame();
   viewer.draw(scale_of(window), static_cast<float>(width) / static_cast<float>(units));
   ImGui::Render();

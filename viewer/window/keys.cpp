@@ -1,44 +1,48 @@
 // The keyboard, and the overlay that explains it.
 #include <algorithm>
 #include <array>
+#include <sstream>
+#include <string>
 
 #include "window/panels.h"
 
 namespace tenebra::viewer {
 namespace {
 
-struct KeyHelp {
-  const char* key;
-  const char* does;
-};
-
-constexpr std::array playing_keys{KeyHelp{"Space", "play, pause"},
-                                  KeyHelp{"Left, Right", "one frame back or on"},
-                                  KeyHelp{"Home, End", "first, last frame"},
-                                  KeyHelp{"[  ]", "slower, faster; past zero backwards"},
-                                  KeyHelp{"L", "loop"},
-                                  KeyHelp{"T", "start or end the log of frame times"}};
-constexpr std::array camera_keys{KeyHelp{"drag", "orbit, or look around while flying"},
-                                 KeyHelp{"right drag", "move sideways"},
-                                 KeyHelp{"wheel", "nearer, farther; flying: speed"},
-                                 KeyHelp{"W A S D Q E", "fly; Shift: faster"},
-                                 KeyHelp{"F, double click", "look at this point and orbit it"},
-                                 KeyHelp{"C", "scene's camera, orbit, fly"},
-                                 KeyHelp{"Backspace", "reset the camera"},
-                                 KeyHelp{"Ctrl+C", "copy the camera as arguments"}};
-constexpr std::array method_keys{KeyHelp{"1  2  3", "no, hard, soft shadows"},
-                                 KeyHelp{"4", "ambient occlusion: none, fields, rays"},
-                                 KeyHelp{"V, Shift+V", "next, previous variant of the hard shadows"},
-                                 KeyHelp{"X", "flip A and B"},
-                                 KeyHelp{"B", "compare A with B"},
-                                 KeyHelp{"N", "heat map of nodes"},
-                                 KeyHelp{"M", "classes of the soft shadows"}};
-constexpr std::array window_keys{KeyHelp{"P, Shift+P", "save the picture, the window"},
-                                 KeyHelp{"Tab", "show or hide the panel"},
-                                 KeyHelp{"Esc", "cancel what takes long"},
-                                 KeyHelp{"R", "compute again what was cancelled"},
-                                 KeyHelp{"?", "this overview"},
-                                 KeyHelp{"Ctrl+Q", "quit"}};
+/// What the overlay says: a line a key, below titles; "key: what it does".
+constexpr const char* time_and_camera =
+    "Time\n"
+    "Space: play, pause\n"
+    "Left, Right: one frame back or on\n"
+    "Home, End: first, last frame\n"
+    "[  ]: slower, faster; past zero backwards\n"
+    "L: loop\n"
+    "T: start or end the log of frame times\n"
+    "Camera\n"
+    "drag: orbit, or look around while flying\n"
+    "right drag: move sideways\n"
+    "wheel: nearer, farther; flying: speed\n"
+    "W A S D Q E: fly; Shift: faster\n"
+    "F, double click: look at this point and orbit it\n"
+    "C: scene's camera, orbit, fly\n"
+    "Backspace: reset the camera\n"
+    "Ctrl+C: copy what is shown as options\n";
+constexpr const char* methods_and_window =
+    "Methods\n"
+    "1  2  3: no, hard, soft shadows\n"
+    "4: ambient occlusion: none, fields, rays\n"
+    "V, Shift+V: next, previous variant of the hard shadows\n"
+    "X: flip A and B\n"
+    "B: compare A with B\n"
+    "N: heat map of nodes\n"
+    "M: classes of the soft shadows\n"
+    "Window\n"
+    "P, Shift+P: save the picture, the window\n"
+    "Tab: show or hide the panel\n"
+    "Esc: cancel what takes long\n"
+    "R: compute again what was cancelled\n"
+    "?: this overview\n"
+    "Ctrl+Q: quit\n";
 
 AnimationClock::Wall now() {
   return std::chrono::steady_clock::now();
@@ -111,19 +115,23 @@ bool typed(ImWchar character) {
   return std::find(queue.begin(), queue.end(), character) != queue.end();
 }
 
-template <std::size_t N>
-void help_column(const char* title, const std::array<KeyHelp, N>& keys) {
-  ImGui::TextUnformatted(title);
-  for (const KeyHelp& key : keys) {
+void help_column(const char* lines) {
+  std::istringstream stream(lines);
+  for (std::string line; std::getline(stream, line);) {
+    const auto colon = line.find(": ");
+    if (colon == std::string::npos) {  // a title
+      if (stream.tellg() > static_cast<std::streamoff>(line.size() + 1)) ImGui::Spacing();
+      ImGui::TextUnformatted(line.c_str());
+      continue;
+    }
     ImGui::PushStyleColor(ImGuiCol_Text, palette::accent);
-    ImGui::TextUnformatted(key.key);
+    ImGui::TextUnformatted(line.substr(0, colon).c_str());
     ImGui::PopStyleColor();
     ImGui::SameLine(ImGui::GetFontSize() * 8);
     ImGui::PushTextWrapPos(0);
-    ImGui::TextUnformatted(key.does);
+    ImGui::TextUnformatted(line.substr(colon + 2).c_str());
     ImGui::PopTextWrapPos();
   }
-  ImGui::Dummy({0, ImGui::GetFontSize() * 0.5f});
 }
 
 }  // namespace
@@ -149,7 +157,7 @@ void handle_keys(Ui& ui, float seconds) {
   if (io.WantTextInput) return;
   if (typed('?')) ui.state.help = !ui.state.help;
   for (const KeyPress& press : ui.keys) {  // one by one: two presses of a key are two
-    if (press.ctrl && press.code == 'C') ui.actions.copy_camera = true;
+    if (press.ctrl && press.code == 'C') ui.actions.copy_arguments = true;
     if (press.ctrl && press.code == 'Q') ui.actions.quit = true;
     Ui one = ui;
     one.keys = {&press, 1};
@@ -172,12 +180,11 @@ void draw_help(Ui& ui, ImVec2 window) {
                ImGuiWindowFlags_NoTitleBar | ImGuiWindowFlags_NoMove | ImGuiWindowFlags_NoResize |
                    ImGuiWindowFlags_AlwaysAutoResize | ImGuiWindowFlags_NoSavedSettings);
   ImGui::Columns(wide ? 2 : 1, nullptr, false);
-  help_column("Time", playing_keys);
-  help_column("Camera", camera_keys);
+  help_column(time_and_camera);
   if (wide) ImGui::NextColumn();
-  help_column("Methods", method_keys);
-  help_column("Window", window_keys);
+  help_column(methods_and_window);
   ImGui::Columns(1);
+  ImGui::Spacing();
   dim_text("Every setting is also an option: tenebra view --help");
   ImGui::End();
   ImGui::PopStyleVar();

@@ -10,7 +10,7 @@ namespace tenebra::viewer {
 namespace {
 
 constexpr float panel_px = 344;
-constexpr float least_view_px = 300;  // beside the panel
+constexpr float least_view_px = 280;  // beside the panel: there is one at 640 wide
 constexpr float transport_px = 74;
 
 }  // namespace
@@ -51,7 +51,7 @@ void draw_progress(Ui& ui, Area view) {
                      : !status.stage.empty() ? status.stage
                      : soft                  ? "Exact soft shadows"
                                              : "Computing";
-  ImGui::SetNextWindowPos({view.low.x + view.size.x / 2, view.low.y + view.size.y - ui.px(16)},
+  ImGui::SetNextWindowPos({view.low.x + view.size.x / 2, view.low.y + view.size.y - ui.px(48)},
                           ImGuiCond_Always, {0.5f, 1});
   ImGui::PushStyleColor(ImGuiCol_WindowBg, palette::shade);
   ImGui::Begin("##progress", nullptr,

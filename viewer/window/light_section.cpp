@@ -11,10 +11,36 @@ const char* type_name(LightType type) {
   return names[static_cast<std::size_t>(type)];
 }
 
+/// Width and height of a light where the user has not changed them: the scene's, of a point the method's; 0:
+/// none.
+glm::vec2 size_without_edit_m(const Ui& ui, int index, const Light& light) {
+  if (light.type == LightType::point || light.type == LightType::spot) {
+    const LightSize size = ui.state.method().light_size.value_or(LightSize{});
+    return size.size * (size.percent ? 0.01f * ui.state.diagonal_m : 1.0f);
+  }
+  for (const WorldLight& placed : ui.picture ? ui.picture->lights : std::vector<WorldLight>{}) {
+    if (placed.light == index)
+      return 2.0f * glm::vec2(glm::length(placed.axis_x), glm::length(placed.axis_y));
+  }
+  return light.size_m;
+}
+
+void edit_light_size(Ui& ui, int index, const Light& light, LightEdit& edit) {
+  row(ui, "  Size",
+      "Width and height in metres, of soft shadows; a point's until it is changed: the method's.");
+  glm::vec2 size_m = edit.size_m.value_or(size_without_edit_m(ui, index, light));
+  if (ImGui::DragFloat2("##size", &size_m.x, 0.01f, 0.0f, 1000.0f, "%.2f m")) {
+    // Both sides at once where one alone would leave the light without an area.
+    if (!(size_m.x > 0)) size_m.x = size_m.y;
+    if (!(size_m.y > 0)) size_m.y = size_m.x;
+    edit.size_m.reset();
+    if (size_m.x > 0) edit.size_m = size_m;
+  }
+  ui.mark(fmt::format("light.{}.size", index));
+}
+
 void edit_light(Ui& ui, int index, const Light& light) {
-  LightEdit edit = static_cast<std::size_t>(index) < ui.state.lights.size()
-                       ? ui.state.lights[static_cast<std::size_t>(index)]
-                       : LightEdit{};
+  LightEdit edit = edit_of(ui.state.lights, index);
   const LightEdit before = edit;
   ImGui::PushID(index);
   const std::string title =
@@ -25,18 +51,14 @@ void edit_light(Ui& ui, int index, const Light& light) {
   if (edit != LightEdit{}) {
     ImGui::SameLine(ImGui::GetWindowWidth() - ui.px(64));
     if (ImGui::SmallButton("reset")) edit = {};
+    ui.mark(fmt::format("light.{}.reset", index));
   }
   row(ui, "  Intensity", "Factor of the scene's.");
   ImGui::SliderFloat("##intensity", &edit.intensity, 0.01f, 100.0f, "x %.3g", ImGuiSliderFlags_Logarithmic);
   ui.mark(fmt::format("light.{}.intensity", index));
   if (!(edit.intensity > 0)) edit.intensity = 1;
-  if (light.type == LightType::area_rect || light.type == LightType::area_disk) {
-    row(ui, "  Size", "Factor of the scene's.");
-    ImGui::SliderFloat("##size", &edit.size, 0.05f, 20.0f, "x %.3g", ImGuiSliderFlags_Logarithmic);
-    ui.mark(fmt::format("light.{}.size", index));
-    if (!(edit.size > 0)) edit.size = 1;
-  }
   if (light.type != LightType::directional) {
+    edit_light_size(ui, index, light, edit);
     row(ui, "  Moved", "From where the animation has it, in metres; or drag its circle in the view.");
     ImGui::DragFloat3("##move", &edit.move.x, 0.02f, 0, 0, "%.2f");
   }
@@ -49,10 +71,10 @@ void edit_light(Ui& ui, int index, const Light& light) {
 void draw_light_section(Ui& ui) {
   if (!ui.state.scene || !section(ui, "Lights", false)) return;
   const auto& lights = ui.state.scene->scene.lights;
-  for (int i = 0; i < static_cast<int>(lights.size()); ++i)
-    edit_light(ui, i, lights[static_cast<std::size_t>(i)]);
   ImGui::Checkbox("circles in the view", &ui.state.light_handles);
   ui.mark("circles");
+  for (int i = 0; i < static_cast<int>(lights.size()); ++i)
+    edit_light(ui, i, lights[static_cast<std::size_t>(i)]);
 }
 
 void draw_camera_section(Ui& ui) {
@@ -100,9 +122,9 @@ void draw_camera_section(Ui& ui) {
   }
   ui.mark("reset camera");
   ImGui::SameLine();
-  if (ImGui::Button("Copy arguments", {half, 0})) ui.actions.copy_camera = true;
-  ui.mark("copy camera");
-  tooltip("The camera as options of tenebra render, to the clipboard (Ctrl+C).");
+  if (ImGui::Button("Copy arguments", {half, 0})) ui.actions.copy_arguments = true;
+  ui.mark("copy arguments");
+  tooltip("Camera, method and lights as options of tenebra render, to the clipboard (Ctrl+C).");
 }
 
 void draw_compare_section(Ui& ui) {

@@ -10,9 +10,7 @@ std::string SessionLog::key_of(const ViewState& state) {
   const int slot = state.compare ? 0 : state.active;
   std::string key = fmt::format("{}|{}|{}", fmt::ptr(state.scene.get()), state.clip,
                                 method_arguments(state.slots[static_cast<std::size_t>(slot)]));
-  for (std::size_t i = 0; i < state.lights.size(); ++i) {
-    key += "|" + light_edit_text(static_cast<int>(i), state.lights[i]);
-  }
+  for (const std::string& text : light_edit_texts(state.lights)) key += "|" + text;
   return key;
 }
 
@@ -33,10 +31,7 @@ Expected<SessionLog> SessionLog::start(const std::string& path, const ViewState&
       {"method", method_arguments(method)},
       {"played", state.clock.fixed_step() ? "by fixed steps" : "by the clock, in the window"},
   };
-  for (std::size_t i = 0; i < state.lights.size(); ++i) {
-    const std::string text = light_edit_text(static_cast<int>(i), state.lights[i]);
-    if (!text.empty()) settings.push_back({"set_light", text});
-  }
+  for (std::string& text : light_edit_texts(state.lights)) settings.push_back({"set_light", std::move(text)});
   auto log = FrameLog::create(path, settings);
   if (!log) return tl::unexpected(log.error());
   return SessionLog(std::move(*log), path, key_of(state));

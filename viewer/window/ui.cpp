@@ -1,6 +1,8 @@
 #include "window/ui.h"
 
+#include <algorithm>
 #include <filesystem>
+#include <vector>
 
 namespace tenebra::viewer {
 namespace {
@@ -112,10 +114,29 @@ bool section(Ui& ui, const char* title, bool open) {
   return is_open;
 }
 
+namespace {
+
+/// Widths of buttons side by side, `whole` in all: the same, unless a label needs more.
+std::vector<float> widths_of(const char* const* labels, int count, float whole) {
+  std::vector<float> needed;
+  float sum = 0, most = 0;
+  for (int i = 0; i < count; ++i) {
+    needed.push_back(ImGui::CalcTextSize(labels[i]).x + 2 * ImGui::GetStyle().FramePadding.x);
+    sum += needed.back();
+    most = std::max(most, needed.back());
+  }
+  const float each = whole / static_cast<float>(count);
+  const bool fits = most <= each;
+  for (float& width : needed) width = fits ? each : width + (whole - sum) / static_cast<float>(count);
+  return needed;
+}
+
+}  // namespace
+
 bool segments(Ui& ui, const std::string& name, const char* const* labels, int count, int& chosen) {
   const float gap = ui.px(2);
-  const float width =
-      (ImGui::GetContentRegionAvail().x - gap * static_cast<float>(count - 1)) / static_cast<float>(count);
+  const std::vector<float> widths =
+      widths_of(labels, count, ImGui::GetContentRegionAvail().x - gap * static_cast<float>(count - 1));
   bool changed = false;
   ImGui::PushID(name.c_str());
   for (int i = 0; i < count; ++i) {
@@ -123,7 +144,7 @@ bool segments(Ui& ui, const std::string& name, const char* const* labels, int co
     const bool down = i == chosen;
     if (down)
       ImGui::PushStyleColor(ImGuiCol_Button, ImGui::ColorConvertU32ToFloat4(IM_COL32(50, 92, 168, 255)));
-    if (ImGui::Button(labels[i], {width, 0}) && !down) {
+    if (ImGui::Button(labels[i], {widths[static_cast<std::size_t>(i)], 0}) && !down) {
       chosen = i;
       changed = true;
     }

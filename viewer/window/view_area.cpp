@@ -42,6 +42,12 @@ public:
     places_[1] = side_ ? fit(half_of(area, true), image.width, image.height) : places_[0];
   }
 
+  /// It explains A: where A is not to be seen, neither is it.
+  bool shows_overlay() const {
+    const bool hides =
+        both() && (ui_.state.show == CompareView::b || ui_.state.show == CompareView::difference);
+    return !hides && ui_.state.overlay != Overlay::none && ui_.picture->overlay.kind == ui_.state.overlay;
+  }
   bool both() const { return ui_.state.compare && ui_.picture->b.has_value(); }
   Area place() const { return places_[0]; }
 
@@ -52,7 +58,7 @@ public:
     image(textures.a, places_[0], 0, show == CompareView::wipe ? ui_.state.wipe : 1);
     if (show == CompareView::wipe) image(textures.b, places_[0], ui_.state.wipe, 1);
     if (show == CompareView::side_by_side) image(textures.b, places_[1], 0, 1);
-    if (ui_.state.overlay != Overlay::none && ui_.picture->overlay.kind == ui_.state.overlay) {
+    if (shows_overlay()) {
       const float to = show == CompareView::wipe ? ui_.state.wipe : 1;
       image(textures.overlay, places_[0], 0, to, ui_.state.overlay_opacity);
     }
@@ -168,9 +174,8 @@ bool has_place(const ViewState& state, const WorldLight& light) {
   return state.scene->scene.lights[static_cast<std::size_t>(light.light)].type != LightType::directional;
 }
 
-glm::vec3 moved_place(ViewState& state, const WorldLight& light) {
-  const auto index = static_cast<std::size_t>(light.light);
-  return light.position + (index < state.lights.size() ? state.lights[index].move : glm::vec3(0.0f));
+glm::vec3 moved_place(const ViewState& state, const WorldLight& light) {
+  return light.position + edit_of(state.lights, light.light).move;
 }
 
 /// Draws the lights' handles; the light under the pointer, or -1.
@@ -182,8 +187,7 @@ int draw_light_handles(Ui& ui, const Stage& stage, ImVec2 pointer) {
     if (!has_place(ui.state, light)) continue;
     const glm::dvec3 pixel = pixel_of(ui.picture->view, moved_place(ui.state, light));
     if (!(pixel.z > 0)) continue;
-    const bool on = static_cast<std::size_t>(light.light) >= ui.state.lights.size() ||
-                    ui.state.lights[static_cast<std::size_t>(light.light)].on;
+    const bool on = edit_of(ui.state.lights, light.light).on;
     for (int place = 0; place < stage.places(); ++place) {
       const ImVec2 at = stage.at_pixel(pixel, place);
       const float r = ui.px(handle_px);
@@ -316,10 +320,9 @@ void draw_view(Ui& ui, const ViewTextures& textures, Area area) {
     ui.marks["picture"] = {place.low.x, place.low.y, place.low.x + place.size.x, place.low.y + place.size.y};
     use_hand(ui, stage, area);
     draw_labels(ui, stage);
-    if (ui.state.overlay == Overlay::nodes && ui.picture->overlay.kind == Overlay::nodes)
-      draw_heat_legend(ui, place);
-    if (ui.state.overlay == Overlay::classes && ui.picture->overlay.kind == Overlay::classes)
-      draw_class_legend(ui, place);
+    if (stage.shows_overlay()) {
+      ui.state.overlay == Overlay::nodes ? draw_heat_legend(ui, place) : draw_class_legend(ui, place);
+    }
   }
   ImGui::End();
   ImGui::PopStyleColor();

@@ -61,7 +61,7 @@ struct Actions {
   bool picture_shot = false;
   bool window_shot = false;
   bool toggle_log = false;
-  bool copy_camera = false;
+  bool copy_arguments = false;
   std::optional<glm::ivec2> focus;  ///< pixel of the picture
   std::optional<std::string> open;  ///< a scene file
 };

@@ -7,6 +7,7 @@
 #include "method_arguments.h"
 #include "scene_choice.h"
 #include "scene_summary.h"
+#include "window/shell_arguments.h"
 
 namespace tenebra::viewer {
 namespace {
@@ -54,10 +55,13 @@ Viewer::Viewer(ViewOptions options, WindowGl& gl, EventReport report, std::funct
   state_.show = options_.show;
   state_.wipe = options_.wipe;
   state_.overlay = options_.overlay;
-  state_.lights = options_.lights;
   state_.size = options_.scene.size;
   state_.panel = options_.panel;
-  worker_.open(options_.scene);
+  if (options_.plan) {
+    take_scene({options_.scene, std::move(options_.plan)});
+  } else {
+    worker_.open(options_.scene);
+  }
 }
 
 double Viewer::sleep_s() const {
@@ -84,12 +88,6 @@ void Viewer::take_scene(OpenedScene opened) {
     return say(opened.scene.error().message, true);
   }
   const bool first = !state_.scene;
-  const int light = first ? state_.method().render.light : -1;
-  if (auto checked = check_light(**opened.scene, light, opened.options.time_s.value_or(0)); !checked) {
-    failure_ = checked.error().message;
-    quit_ = true;
-    return;
-  }
   state_.scene = *opened.scene;
   state_.options = std::move(opened.options);
   const ScenePlan& plan = *state_.scene;
@@ -108,11 +106,8 @@ void Viewer::take_scene(OpenedScene opened) {
     state_.free = state_.start = start_camera(state_.options);
     state_.camera_mode = options_.navigate;
   }
-  for (int i = 0; light >= 0 && i < static_cast<int>(plan.scene.lights.size()); ++i) {
-    state_.light_edit(i).on = i == light;
-  }
-  for (MethodOptions& slot : state_.slots) slot.render.light = -1;  // the list of lights says which are on
-  if (!first) state_.lights.clear();
+  state_.lights = state_.options.lights;
+  take_light(first ? state_.slots[0].render.light : -1);
   for (FrameHistory& history : history_) history.clear();
   const auto bounds = summarize_scene(plan.scene).bounds;
   state_.diagonal_m = bounds ? glm::distance(bounds->low, bounds->high) : 1.0f;
@@ -120,6 +115,19 @@ void Viewer::take_scene(OpenedScene opened) {
   state_.fly_speed = flight_share * state_.diagonal_m;
   report_.opened(state_.options.file, plan);
   for (const std::string& warning : plan.scene.warnings) say("Warning: " + warning);
+}
+
+/// The list of lights says which are on. One light beside emissive meshes, which are not in the list, or of
+/// one slot alone stays a setting of the method.
+void Viewer::take_light(int chosen) {
+  const bool one_for_both = state_.slots[0].render.light == state_.slots[1].render.light;
+  if (chosen >= 0 && (!one_for_both || state_.slots[0].render.area_lights.emissive_quads)) return;
+  const auto& all = state_.scene->scene.lights;
+  const auto placed = evaluate_lights(state_.scene->scene, state_.clip, state_.options.time_s.value_or(0));
+  for (int i = 0; chosen >= 0 && i < static_cast<int>(all.size()); ++i) {
+    state_.light_edit(i).on = i == placed[static_cast<std::size_t>(chosen)].light;
+  }
+  for (MethodOptions& slot : state_.slots) slot.render.light = -1;
 }
 
 void Viewer::take_picture(const std::shared_ptr<const Picture>& picture) {
@@ -194,9 +202,7 @@ void Viewer::send_request() {
   const std::string method = method_key();
   std::string key = fmt::format("{} {} {} {}", fmt::ptr(state_.scene.get()), state_.clip, state_.camera,
                                 state_.camera_mode == CameraMode::scene ? "" : camera_arguments(state_.free));
-  for (std::size_t i = 0; i < state_.lights.size(); ++i) {
-    key += "|" + light_edit_text(static_cast<int>(i), state_.lights[i]);
-  }
+  for (const std::string& text : light_edit_texts(state_.lights)) key += "|" + text;
   const bool new_method = method != sent_method_;
   if (!new_method && key == sent_key_ && state_.clock == sent_clock_ && !actions_.retry) return;
   FrameRequest request = make_request();
@@ -237,9 +243,17 @@ void Viewer::update() {
   if (!failure_.empty() && !state_.scene) quit_ = true;
 }
 
+/// The first name that no file has: a screenshot does not replace an earlier one.
+std::filesystem::path Viewer::next_shot() {
+  std::error_code none;
+  do ++shots_;
+  while (std::filesystem::exists(options_.shots->file(shots_), none));
+  return options_.shots->file(shots_);
+}
+
 void Viewer::save_picture() {
   if (!picture_) return;
-  const auto file = options_.shots->file(++shots_);
+  const auto file = next_shot();
   const auto written = write_png(file, picture_->a.result.image);
   report_.note(written ? "shot" : "failure", written ? file.string() : written.error().message);
   say(written ? fmt::format("Picture saved to {}", file.string()) : written.error().message, !written);
@@ -248,7 +262,7 @@ void Viewer::save_picture() {
 void Viewer::after_draw(int framebuffer_width, int framebuffer_height) {
   if (!window_shot_) return;
   window_shot_ = false;
-  const auto file = options_.shots->file(++shots_);
+  const auto file = next_shot();
   const auto written = write_png(file, gl_.read_window(framebuffer_width, framebuffer_height));
   report_.note(written ? "shot" : "failure", written ? file.string() : written.error().message);
   say(written ? fmt::format("Window saved to {}", file.string()) : written.error().message, !written);
@@ -339,7 +353,7 @@ void Viewer::draw_messages(Area view) {
 void Viewer::draw(float scale, float pixels_a_unit) {
   const float seconds = std::chrono::duration<float>(now() - last_draw_).count();
   last_draw_ = now();
-  due_ = std::max(0, due_ - 1);
+  due_ = std::max(mouse_.waits() ? 3 : 0, due_ - 1);
   const ImGuiIO& io = ImGui::GetIO();
   hand_moves_ = ImGui::IsAnyMouseDown();
   const std::string log = log_ ? log_->path() : "";
@@ -361,12 +375,8 @@ void Viewer::draw(float scale, float pixels_a_unit) {
   draw_progress(ui, layout.view);
   if (state_.help) draw_help(ui, io.DisplaySize);
   draw_messages(layout.view);
-  if (actions_.copy_camera) {
-    const std::string size =
-        fmt::format(" --time {} --size {}x{}", state_.clock.time_at(now()), place_.width, place_.height);
-    const std::string text = state_.camera_mode == CameraMode::scene
-                                 ? fmt::format("--camera {}{}", state_.camera, size)
-                                 : camera_arguments(state_.free) + size;
+  if (actions_.copy_arguments && state_.scene) {
+    const std::string text = shell_arguments(state_, state_.clock.time_at(now()), place_);
     ImGui::SetClipboardText(text.c_str());
     report_.note("copied", text);
     say("Copied: " + text);

@@ -5,6 +5,7 @@
 
 #include "view_options.h"
 #include "window/event_report.h"
+#include "window/mouse_queue.h"
 #include "window/panels.h"
 #include "window/session_log.h"
 
@@ -29,12 +30,14 @@ public:
   bool needs_drawing() const { return due_ > 0; }
   void press_key(KeyPress press) {
     keys_.push_back(press);
-    input_came();
+    input_came("key down");
   }
-  /// Dear ImGui takes a frame or two to settle.
-  void input_came() {
+  MouseQueue& mouse() { return mouse_; }
+  /// The window draws again: Dear ImGui takes a frame or two to settle. `what`, for the report.
+  void input_came(const char* what) {
     due_ = std::max(due_, 3);
     input_undrawn_ = true;
+    report_.note("input", what);
   }
   double sleep_s() const;  ///< how long to wait for events at most
   const ViewState& state() const { return state_; }
@@ -50,6 +53,7 @@ private:
   };
 
   void take_scene(OpenedScene opened);
+  void take_light(int chosen);
   void take_picture(const std::shared_ptr<const Picture>& picture);
   void take_pick(const std::optional<glm::vec3>& point);
   void follow_clock();
@@ -59,6 +63,7 @@ private:
   void act();
   void say(std::string text, bool failure = false);
   void draw_messages(Area view);
+  std::filesystem::path next_shot();
   void save_picture();
   void toggle_log();
   void log_picture(const Picture& picture);
@@ -71,6 +76,7 @@ private:
   Actions actions_;
   Marks marks_;
   std::vector<KeyPress> keys_;
+  MouseQueue mouse_;
   std::array<FrameHistory, 2> history_;
   std::optional<SessionLog> log_;
   std::shared_ptr<const Picture> picture_;

@@ -1,0 +1,121 @@
+// What the user changes about lights: its text, its effect, and the same on the command line.
+#include <gtest/gtest.h>
+
+#include "base/image.h"
+#include "light_edits.h"
+#include "viewer_test_scene.h"
+
+namespace tenebra::viewer {
+namespace {
+
+using glm::vec3;
+using test::TemporaryFolder;
+
+TEST(LightEdits, ReadBackWhatTheyWrite) {
+  LightEdits edits(4);
+  edits[3] = {.on = false, .intensity = 0.3f, .move = {1, -2.5f, 1e-7f}, .size_m = glm::vec2(0.1f, 7)};
+  const auto texts = light_edit_texts(edits);
+  ASSERT_EQ(texts.size(), 1u) << "lights as the scene has them need no words";
+  LightEdits read;
+  ASSERT_TRUE(parse_light_edit(texts[0], read));
+  EXPECT_EQ(read, edits);
+}
+
+TEST(LightEdits, RefuseInASentence) {
+  for (const char* text :
+       {"", "x", "-1 on=0", "0 on=2", "0 intensity=-1", "0 intensity=nan", "0 intensity=1e-60", "0 move=1,2",
+        "0 glow=1", "0 size", "0 size=0", "0 size=1x1x1", "0 size=4%"}) {
+    LightEdits edits;
+    const auto parsed = parse_light_edit(text, edits);
+    EXPECT_FALSE(parsed) << text;
+    if (!parsed) {
+      EXPECT_NE(parsed.error().message.find("expected"), std::string::npos) << text;
+    }
+  }
+}
+
+TEST(LightEdits, ChangeTheirLightAndNoOther) {
+  LightEdits edits(2);
+  edits[0].on = false;
+  edits[1] = {.intensity = 2, .move = {0, 1, 0}, .size_m = glm::vec2(6, 3)};
+  std::vector<WorldLight> placed(3);
+  for (int i = 0; i < 3; ++i) placed[static_cast<std::size_t>(i)].light = i;
+  const auto moved = edited_lights(placed, edits);
+  ASSERT_EQ(moved.size(), 3u) << "numbers stay what they are";
+  EXPECT_EQ(moved[1].position, vec3(0, 1, 0));
+  EXPECT_EQ(moved[1].axis_x, vec3(3, 0, 0));
+  EXPECT_EQ(moved[1].axis_y, vec3(0, 1.5f, 0));
+  EXPECT_EQ(moved[2].position, vec3(0, 0, 0));
+  const auto lights = edited_lights(std::vector<Light>(3), edits);
+  EXPECT_EQ(lights[0].intensity, 0);
+  EXPECT_EQ(lights[1].intensity, 2);
+  EXPECT_EQ(lights[2].intensity, 1);
+  EXPECT_EQ(edited_sizes_m(edits), (std::vector<std::optional<glm::vec2>>{std::nullopt, glm::vec2(6, 3)}));
+}
+
+Image8 rendered(const TemporaryFolder& folder, std::vector<std::string> arguments) {
+  arguments.insert(arguments.begin(), "render");
+  arguments.insert(arguments.end(), {"--size", "80x60", "--quiet", "-o", folder / "picture.png"});
+  const auto result = test::tenebra(arguments);
+  EXPECT_EQ(result.exit_code, 0) << result.errors;
+  auto image = read_png(folder / "picture.png");
+  EXPECT_TRUE(image) << image.error().message;
+  return image ? std::move(*image) : Image8{};
+}
+
+TEST(SetLight, DrawsWhatTheOtherOptionsDraw) {
+  const TemporaryFolder folder;
+  const std::string scene = test::write_moving_scene(folder, 2);
+  const auto soft = [&](std::vector<std::string> more) {
+    more.insert(more.begin(), {scene, "--shadows", "soft"});
+    return rendered(folder, more);
+  };
+  const Image8 first = rendered(folder, {scene, "--light", "0"});
+  EXPECT_NE(rendered(folder, {scene}), first);
+  EXPECT_EQ(rendered(folder, {scene, "--set-light", "1 on=0"}), first);
+  EXPECT_EQ(rendered(folder, {scene, "--set-light", "0 move=1,0,0", "--light", "0"}),
+            rendered(folder, {scene, "--light", "1"}))
+      << "the second light stands a metre beside the first";
+  const Image8 sized = soft({"--light-size", "1x0.5"});
+  EXPECT_EQ(soft({"--set-light", "0 size=1x0.5", "--set-light", "1 size=1x0.5"}), sized);
+  EXPECT_EQ(soft({"--set-light", "1 size=1x0.5", "--light-size", "1x0.5"}), sized);
+  const Image8 one = soft({"--set-light", "1 size=1x0.5", "--light", "1"});
+  EXPECT_EQ(soft({"--light-size", "1x0.5", "--light", "1"}), one) << "light 0 has no part in it";
+  EXPECT_NE(soft({"--set-light", "1 size=2x0.5", "--light", "1"}), one);
+}
+
+TEST(SetLight, CountsEachPlaceOfASharedLight) {
+  const TemporaryFolder folder;
+  const std::string scene = test::write_moving_scene(folder, 2);
+  const Image8 first = rendered(folder, {scene, "--light", "0"});
+  std::string text = test::read_text(scene);
+  const auto second = text.find(R"("light":1)");
+  ASSERT_NE(second, std::string::npos);
+  test::write_text(scene, text.replace(second, 9, R"("light":0)"));
+  EXPECT_EQ(rendered(folder, {scene, "--set-light", "1 on=0"}), first);
+}
+
+TEST(SetLight, NumbersMasksAsTheSceneDoes) {
+  const TemporaryFolder folder;
+  const std::string scene = test::write_moving_scene(folder, 2);
+  rendered(folder, {scene, "--set-light", "0 on=0", "--mask", folder / "mask.png"});
+  EXPECT_FALSE(std::filesystem::exists(folder / "mask_L0.png"));
+  EXPECT_TRUE(std::filesystem::exists(folder / "mask_L1.png"));
+}
+
+TEST(SetLight, OfALightThatTheSceneLacksIsRefusedBeforeAWindowOpens) {
+  const TemporaryFolder folder;
+  const std::string scene = test::write_moving_scene(folder, 2);
+  for (const std::vector<std::string>& wrong :
+       {std::vector<std::string>{"--light", "2"}, {"--set-light", "2 on=0"}, {"--set-light", "0 size=0"}}) {
+    for (const char* command : {"render", "view"}) {
+      const auto result = test::tenebra({command, scene, wrong[0], wrong[1]}, [] { ::unsetenv("DISPLAY"); });
+      EXPECT_EQ(result.exit_code, 1);
+      EXPECT_TRUE(test::is_one_sentence(result.errors)) << result.errors;
+      EXPECT_TRUE(result.errors.starts_with("tenebra: " + wrong[0] + ": found ")) << result.errors;
+    }
+  }
+}
+
+}  // namespace
+}  // namespace tenebra::viewer

@@ -1,0 +1,43 @@
+// What the user changes about the lights of a scene: on or off, brightness, place, size.
+#pragma once
+
+#include <glm/glm.hpp>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "base/expected.h"
+#include "scene/frame_geometry.h"
+
+namespace tenebra::viewer {
+
+struct LightEdit {
+  bool on = true;
+  float intensity = 1;              ///< factor of the scene's
+  glm::vec3 move{0.0f};             ///< metres, world space, added to where the animation has it
+  std::optional<glm::vec2> size_m;  ///< width and height, world space; none: the scene's, of a point
+                                    ///< light that of the method
+
+  bool operator==(const LightEdit&) const = default;
+};
+
+/// One a light of Scene::lights; lights beyond the end are as the scene has them.
+using LightEdits = std::vector<LightEdit>;
+
+/// "N KEY=VALUE ...": `1 on=0`, `0 intensity=2 move=0,1.5,0 size=0.5x0.3`. The edit of light N in `edits`,
+/// which grows as needed.
+Expected<void> parse_light_edit(const std::string& text, LightEdits& edits);
+/// The same as text, one an edit that changes something.
+std::vector<std::string> light_edit_texts(const LightEdits& edits);
+
+/// The edit of light `light`; one that changes nothing where `edits` has none.
+LightEdit edit_of(const LightEdits& edits, int light);
+
+/// The lights of the scene with their brightness as edited; those that are off have none.
+std::vector<Light> edited_lights(std::vector<Light> lights, const LightEdits& edits);
+/// The lights of an instant where and as large as edited.
+std::vector<WorldLight> edited_lights(std::vector<WorldLight> lights, const LightEdits& edits);
+/// Sizes of the point and spot lights that have their own, for AreaLightSettings::own_size_m.
+std::vector<std::optional<glm::vec2>> edited_sizes_m(const LightEdits& edits);
+
+}  // namespace tenebra::viewer

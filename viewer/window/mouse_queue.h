@@ -1,0 +1,43 @@
+// The mouse between two frames of the window. Dear ImGui looks at it once a frame; here every press and
+// release gets a frame of its own, at the place where it happened, however long frames take.
+#pragma once
+
+#include <imgui.h>
+
+#include <array>
+#include <deque>
+
+namespace tenebra::viewer {
+
+class MouseQueue {
+public:
+  void move(ImVec2 to) { at_ = to; }
+  /// `button`: Dear ImGui's number; others are dropped.
+  void button(int button, bool down) {
+    if (button >= 0 && button < static_cast<int>(down_.size())) waiting_.push_back({at_, button, down});
+  }
+  bool waits() const { return !waiting_.empty(); }
+
+  /// Before ImGui::NewFrame, after the window system has filled `io`: gives it the next press or release.
+  void feed(ImGuiIO& io) {
+    if (waits()) {
+      const Event event = waiting_.front();
+      waiting_.pop_front();
+      io.MousePos = event.at;
+      down_[static_cast<std::size_t>(event.button)] = event.down;
+    }
+    for (std::size_t i = 0; i < down_.size(); ++i) io.MouseDown[i] = down_[i];
+  }
+
+private:
+  struct Event {
+    ImVec2 at;
+    int button;
+    bool down;
+  };
+  ImVec2 at_{0, 0};
+  std::array<bool, 3> down_{};  // as Dear ImGui has been told
+  std::deque<Event> waiting_;
+};
+
+}  // namespace tenebra::viewer

@@ -1,0 +1,45 @@
+#include "window/shell_arguments.h"
+
+#include <algorithm>
+
+#include "method_arguments.h"
+
+namespace tenebra::viewer {
+namespace {
+
+/// What --camera and --clip find `index` by: its number, unless a name says that already.
+template <class Named>
+std::string number_or_name(const std::vector<Named>& list, int index) {
+  const std::string number = fmt::format("{}", index);
+  const bool taken =
+      std::any_of(list.begin(), list.end(), [&](const Named& named) { return named.name == number; });
+  return taken ? list[static_cast<std::size_t>(index)].name : number;
+}
+
+}  // namespace
+
+std::string shell_arguments(const ViewState& state, double time_s, Size size) {
+  const Scene& scene = state.scene->scene;
+  std::string text;
+  const auto add = [&](const char* name, const std::string& value) {
+    text += fmt::format("{} {} ", name, shell_word(value));
+  };
+  for (const std::string& name : state.options.no_cast) add("--no-cast", name);
+  if (const int sides = state.options.import.cone_sides; sides != ImportOptions{}.cone_sides) {
+    add("--cone-sides", fmt::format("{}", sides));
+  }
+  if (state.clip > 0) add("--clip", number_or_name(scene.clips, state.clip));
+  if (state.camera_mode == CameraMode::scene) {
+    add("--camera", number_or_name(scene.cameras, state.camera));
+    if (state.options.fov_deg && !state.options.eye) add("--fov", fmt::format("{}", *state.options.fov_deg));
+  } else {
+    text += camera_arguments(state.free) + " ";
+  }
+  text += fmt::format("--time {} --size {}x{}", time_s, size.width, size.height);
+  const std::string method = method_arguments(state.slots[static_cast<std::size_t>(state.active)]);
+  if (!method.empty()) text += " " + method;
+  for (const std::string& light : light_edit_texts(state.lights)) text += " --set-light " + shell_word(light);
+  return text;
+}
+
+}  // namespace tenebra::viewer
