@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 #include <cstdint>
+#include <numbers>
 #include <utility>
 
 #include "ao/sphere_maps.h"
@@ -10,14 +11,7 @@
 namespace tenebra {
 namespace {
 
-constexpr double turn = 6.283185307179586;
-
-/// Van der Corput: the bits of i mirrored at the binary point.
-double radical_inverse(std::uint32_t i) {
-  double value = 0, digit = 0.5;
-  for (; i > 0; i >>= 1, digit /= 2) value += (i & 1) * digit;
-  return value;
-}
+constexpr double turn = 2 * std::numbers::pi;
 
 /// Bits of two coordinates interleaved: neighbours in the square come close together.
 std::uint32_t morton(glm::dvec2 p) {
@@ -48,7 +42,7 @@ std::uint64_t cell_number(double coordinate, double cell) {
 RayPattern make_ray_pattern(int rays) {
   std::vector<glm::dvec2> square;
   for (int i = 0; i < rays; ++i)
-    square.push_back({(i + 0.5) / rays, radical_inverse(static_cast<std::uint32_t>(i)) + 0.5 / rays});
+    square.push_back({(i + 0.5) / rays, std::fmod((i + 0.5) / std::numbers::phi, 1.0)});
   std::stable_sort(square.begin(), square.end(),
                    [](const glm::dvec2& a, const glm::dvec2& b) { return morton(a) < morton(b); });
   RayPattern pattern;
