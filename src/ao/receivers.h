@@ -6,7 +6,7 @@
 #include <glm/glm.hpp>
 
 #include "ao/scene_objects.h"
-#include "ao/self_occlusion.h"
+#include "ao/surface_layout.h"
 
 namespace tenebra {
 

@@ -28,15 +28,17 @@ const AoKernels kernels = ao_kernels(SimdLevel::automatic);
 
 /// Asks and fills until nothing is missing, as a frame does.
 float filled(SelfOcclusion& samples, const SurfacePoint& point) {
-  for (int round = 0; round < 5; ++round) {
+  for (int round = 0; round < 6; ++round) {
     std::vector<std::uint64_t> missing;
-    const auto around = samples.find_samples(point, missing);
+    const SelfOcclusion::Answer answer = samples.find(point, missing);
     std::sort(missing.begin(), missing.end());
     missing.erase(std::unique(missing.begin(), missing.end()), missing.end());
-    if (missing.empty()) return samples.occlusion(point, around, kernels);
+    EXPECT_EQ(missing.empty(), answer.state != SelfOcclusion::State::missing);
+    if (answer.state == SelfOcclusion::State::mixed) return samples.look(point, kernels);
+    if (missing.empty()) return answer.occlusion;
     EXPECT_TRUE(samples.fill(missing, kernels, {}, nullptr));
   }
-  ADD_FAILURE() << "still missing after five rounds";
+  ADD_FAILURE() << "still missing after six rounds";
   return -1;
 }
 
@@ -120,7 +122,7 @@ TEST(SelfOcclusion, MemoryIsBoundedHoweverShortTheReach) {
   append(scene, box_mesh({-1, 0, -1}, {1, 2, 1}));
   const Body body(scene);
   SelfOcclusion samples(body.shape, body.casters, 0.01);
-  EXPECT_LE(samples.bytes(), 2 * sizeof(std::uint16_t) * SelfOcclusion::most_samples + 10000);
+  EXPECT_LE(samples.bytes(), 2 * sizeof(std::uint16_t) * SurfaceLayout::most_places + 10000);
   EXPECT_GE(filled(samples, {0, 0.25f, 0.25f, true}), 0);
 }
 
@@ -128,12 +130,12 @@ TEST(SelfOcclusion, StopsWhenAsked) {
   const Body body(box_mesh({0, 0, 0}, {1, 1, 1}));
   SelfOcclusion samples(body.shape, body.casters, 4);
   std::vector<std::uint64_t> missing;
-  samples.find_samples({0, 0.3f, 0.3f, true}, missing);
+  samples.find({0, 0.3f, 0.3f, true}, missing);
   StopFlag stop;
   stop.request();
   EXPECT_FALSE(samples.fill(missing, kernels, {}, &stop));
   std::vector<std::uint64_t> still;
-  samples.find_samples({0, 0.3f, 0.3f, true}, still);
+  samples.find({0, 0.3f, 0.3f, true}, still);
   EXPECT_EQ(still, missing);
 }
 
