@@ -30,11 +30,11 @@ std::uint64_t mixed(std::uint64_t z) {
   return z ^ (z >> 31);
 }
 
-/// Cell of a coordinate. Shifted, so that walls at round coordinates do not lie between two cells.
-std::uint64_t cell_number(double coordinate, double cell) {
+/// Cell of a coordinate in cells. Shifted, so that walls at round coordinates do not lie between two cells.
+std::uint64_t cell_number(double coordinate) {
   constexpr double shift = 0.3819660113, most = 1e15;
   return static_cast<std::uint64_t>(
-      static_cast<std::int64_t>(std::floor(std::clamp(coordinate / cell, -most, most) + shift)));
+      static_cast<std::int64_t>(std::floor(std::clamp(coordinate, -most, most) + shift)));
 }
 
 }  // namespace
@@ -57,14 +57,15 @@ RayPattern make_ray_pattern(int rays) {
 }
 
 RayAxes turned_axes(const glm::vec3& normal, const glm::dvec3& position, double cell) {
-  std::uint64_t key = mixed(cell_number(position.x, cell) + 0x9e3779b97f4a7c15u);
-  key = mixed(key ^ cell_number(position.y, cell));
-  key = mixed(key ^ cell_number(position.z, cell));
-  const double angle = (static_cast<double>(key >> 11) * 0x1p-53 - 0.5) * (0.25 * turn), x = angle * angle;
-  // Series for an eighth of a turn either way, beyond float; then whole quarters.
-  auto s =
-      static_cast<float>(angle * (1 - x / 6 * (1 - x / 20 * (1 - x / 42 * (1 - x / 72 * (1 - x / 110))))));
-  auto c = static_cast<float>(1 - x / 2 * (1 - x / 12 * (1 - x / 30 * (1 - x / 56 * (1 - x / 90)))));
+  const double cells = 1 / cell;
+  const std::uint64_t key = mixed(0xd1342543de82ef95u * cell_number(position.x * cells) +
+                                  0xaf251af3b0f025b5u * cell_number(position.y * cells) +
+                                  0x9e3779b97f4a7c15u * cell_number(position.z * cells) + 1);
+  const float angle = (static_cast<float>(key >> 40) * 0x1p-24f - 0.5f) * static_cast<float>(0.25 * turn);
+  const float x = angle * angle;
+  // Series for an eighth of a turn either way, to a float's rounding; then whole quarters.
+  float s = angle * (1 - x * (1.0f / 6 - x * (1.0f / 120 - x * (1.0f / 5040 - x * (1.0f / 362880)))));
+  float c = 1 - x * (0.5f - x * (1.0f / 24 - x * (1.0f / 720 - x * (1.0f / 40320))));
   if ((key & 1) != 0) c = -std::exchange(s, c);
   if ((key & 2) != 0) c = -c, s = -s;
   const Frame frame = frame_around(normal);

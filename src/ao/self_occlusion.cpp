@@ -93,9 +93,9 @@ SelfOcclusion::Answer SelfOcclusion::find_large(const SurfacePoint& point,
     if ((values.any() & too_near) == 0 && !values.disagree()) return values.answer(around.weights);
     if (!last) continue;
     const std::uint64_t key = layout_.cell_key(point);
-    const auto cell = cell_at_.find(key);
-    if (cell != cell_at_.end()) return find_in_cell(point, cell->second, missing);
-    if (cells_.size() >= most_cells_) return values.answer(around.weights);
+    const std::uint32_t cell = cells_.find(key);
+    if (cell != CellNumbers::none) return find_in_cell(point, cell, missing);
+    if (cells_.keys().size() >= most_cells_) return values.answer(around.weights);
     missing.push_back(is_cell | key);
     return missing_answer;
   }
@@ -116,16 +116,15 @@ SelfOcclusion::Answer SelfOcclusion::find_in_cell(const SurfacePoint& point, std
 SurfacePoint SelfOcclusion::place(std::uint32_t sample) const {
   if (sample < layout_.samples()) return layout_.place(sample);
   const std::size_t number = sample - layout_.samples();
-  return layout_.place_in_cell(cells_[number / SurfaceLayout::cell_samples],
+  return layout_.place_in_cell(cells_.keys()[number / SurfaceLayout::cell_samples],
                                static_cast<std::uint32_t>(number % SurfaceLayout::cell_samples));
 }
 
 /// False where there is no room.
 bool SelfOcclusion::add_cell(std::uint64_t key) {
-  if (cell_at_.contains(key)) return true;
-  if (cells_.size() >= most_cells_) return false;
-  cell_at_.emplace(key, static_cast<std::uint32_t>(cells_.size()));
-  cells_.push_back(key);
+  if (cells_.find(key) != CellNumbers::none) return true;
+  if (cells_.keys().size() >= most_cells_) return false;
+  cells_.add(key);
   values_.resize(values_.size() + SurfaceLayout::cell_samples, unknown);
   return true;
 }
@@ -138,7 +137,7 @@ void SelfOcclusion::settle(std::uint64_t index) {
   const Values values{{values_[corners.at[0]], values_[corners.at[1]], values_[corners.at[2]]}};
   const std::uint64_t key = layout_.cell_key(middle);
   if (values.disagree() && add_cell(key)) {
-    const std::uint32_t number = cell_at_.at(key);
+    const std::uint32_t number = cells_.find(key);
     side = {{static_cast<Value>(number & 0xffff), static_cast<Value>(number >> 16), 0}, Side::divided};
   } else {
     side = {{values.v[0], values.v[1], values.v[2]}, Side::corners};
@@ -189,7 +188,7 @@ bool SelfOcclusion::cast(const std::vector<std::uint32_t>& samples, const AoKern
 
 std::size_t SelfOcclusion::bytes() const {
   return layout_.bytes() + values_.size() * sizeof(values_[0]) + sides_.size() * sizeof(sides_[0]) +
-         cells_.size() * 5 * sizeof(std::uint64_t);
+         cells_.bytes();
 }
 
 }  // namespace tenebra

@@ -11,9 +11,9 @@
 #include <cstdint>
 #include <functional>
 #include <span>
-#include <unordered_map>
 #include <vector>
 
+#include "ao/cell_numbers.h"
 #include "ao/surface_rays.h"
 #include "parallel/stop_flag.h"
 
@@ -77,10 +77,9 @@ private:
   SurfaceLayout layout_;
   SurfaceRays rays_;
   std::size_t most_cells_;
-  std::vector<Side> sides_;           ///< two a triangle; empty if all are large
-  std::vector<Value> values_;         ///< of the layout's samples, then of divided cells
-  std::vector<std::uint64_t> cells_;  ///< divided ones by their keys, in the order of their values
-  std::unordered_map<std::uint64_t, std::uint32_t> cell_at_;  ///< key -> number
+  std::vector<Side> sides_;    ///< two a triangle; empty if all are large
+  std::vector<Value> values_;  ///< of the layout's samples, then of divided cells
+  CellNumbers cells_;          ///< divided ones, in the order of their values
   std::uint64_t filled_ = 0;
 };
 
