@@ -21,7 +21,7 @@ namespace tenebra::HWY_NAMESPACE {
 namespace {
 
 // Batches looked up at once, so that what they need of the table arrives while others are worked on.
-constexpr std::size_t in_flight = 4;
+constexpr std::size_t in_flight = 8;
 constexpr float half_diagonal = 0.70710678f;  // of a cell, in widths
 constexpr float cast_cells = 1;               // how far close rays are cast, in cells
 

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "base/sort_unique.h"
 #include "parallel/parallel.h"
 
 namespace tenebra {
@@ -144,6 +145,14 @@ void SelfOcclusion::settle(std::uint64_t index) {
   }
 }
 
+/// Whether a wider grid has it already.
+bool SelfOcclusion::copied(std::uint32_t sample) {
+  if (sample >= layout_.samples()) return false;
+  const Value wider = values_[layout_.widest(sample)];
+  if (wider != unknown) values_[sample] = wider;
+  return wider != unknown;
+}
+
 bool SelfOcclusion::fill(std::span<const std::uint64_t> missing, const AoKernels& kernels,
                          const std::function<void(double)>& progress, const StopFlag* stop) {
   const auto sides = std::lower_bound(missing.begin(), missing.end(), is_side);
@@ -156,8 +165,8 @@ bool SelfOcclusion::fill(std::span<const std::uint64_t> missing, const AoKernels
     for (const std::uint32_t at : corners.at)
       if (values_[at] == unknown) samples.push_back(at);
   }
-  std::sort(samples.begin(), samples.end());
-  samples.erase(std::unique(samples.begin(), samples.end()), samples.end());
+  std::erase_if(samples, [this](std::uint32_t sample) { return copied(sample); });
+  sort_unique(samples);
   if (!cast(samples, kernels, progress, stop)) return false;
   for (auto side = sides; side != cells; ++side) settle(*side & ~is_side);
   for (auto key = cells; key != missing.end(); ++key) add_cell(*key & ~is_cell);

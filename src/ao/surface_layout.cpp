@@ -32,27 +32,25 @@ GridPoint grid_point(std::uint32_t index, std::uint32_t steps) {
   return {index, j};
 }
 
-/// Three grids: a point is stored in the widest that has it.
+/// Three grids, each whole.
 std::size_t grids_size(std::uint32_t steps) {
   return grid_size(steps / 4) + grid_size(steps / 2) + grid_size(steps);
 }
-std::uint32_t grids_index(std::uint32_t i, std::uint32_t j, std::uint32_t steps) {
-  const auto wide = static_cast<std::uint32_t>(grid_size(steps / 4)),
-             half = static_cast<std::uint32_t>(grid_size(steps / 2));
-  if (((i | j) & 3) == 0) return grid_index(i / 4, j / 4, steps / 4);
-  if (((i | j) & 1) == 0) return wide + grid_index(i / 2, j / 2, steps / 2);
-  return wide + half + grid_index(i, j, steps);
+/// Where in them the grid of a level starts.
+std::uint32_t level_start(int level, std::uint32_t steps) {
+  return static_cast<std::uint32_t>((level > 0 ? grid_size(steps / 4) : 0) +
+                                    (level > 1 ? grid_size(steps / 2) : 0));
 }
-GridPoint grids_point(std::uint32_t index, std::uint32_t steps) {
-  for (std::uint32_t stride = refinement; stride > 1; stride /= 2) {
-    const auto size = static_cast<std::uint32_t>(grid_size(steps / stride));
-    if (index < size) {
-      const GridPoint p = grid_point(index, steps / stride);
-      return {stride * p.i, stride * p.j};
-    }
-    index -= size;
-  }
-  return grid_point(index, steps);
+/// A point of one of them.
+struct LevelPoint {
+  int level;
+  std::uint32_t i, j;  ///< in steps of the level
+};
+LevelPoint level_point(std::uint32_t index, std::uint32_t steps) {
+  int level = 0;
+  while (level + 1 < SurfaceLayout::levels && index >= level_start(level + 1, steps)) ++level;
+  const GridPoint p = grid_point(index - level_start(level, steps), steps >> (2 - level));
+  return {level, p.i, p.j};
 }
 
 double longest_edge(const ObjectShape& shape, std::size_t triangle) {
@@ -186,16 +184,26 @@ SampleTriple SurfaceLayout::corners(const SurfacePoint& point) const {
 SampleTriple SurfaceLayout::around(const SurfacePoint& point, int level) const {
   const Weights at(point);
   const Grid grid = grids_[point.triangle];
-  const std::uint32_t side = point.front ? 0 : 1, stride = refinement >> level;
-  const Cell c = cell(at.v, at.w, grid.steps / stride);
-  SampleTriple triple;
-  for (int k = 0; k < 3; ++k) {
-    const std::uint32_t index = level == 0 ? grid_index(c.i[k], c.j[k], grid.steps / stride)
-                                           : grids_index(stride * c.i[k], stride * c.j[k], grid.steps);
-    triple.at[k] = 2 * (grid.first + index) + side;
-    triple.weights[k] = c.weights[k];
-  }
-  return triple;
+  const std::uint32_t side = point.front ? 0 : 1, steps = grid.steps >> (levels - 1 - level);
+  const std::uint32_t first = grid.first + level_start(level, grid.steps);
+  const Cell c = cell(at.v, at.w, steps);
+  const auto sample = [&](int k) { return 2 * (first + grid_index(c.i[k], c.j[k], steps)) + side; };
+  return {{sample(0), sample(1), sample(2)}, {c.weights[0], c.weights[1], c.weights[2]}};
+}
+
+std::uint32_t SurfaceLayout::triangle_at(std::uint32_t place) const {
+  const auto after = std::upper_bound(large_.begin(), large_.end(), place,
+                                      [&](std::uint32_t p, std::uint32_t t) { return p < grids_[t].first; });
+  return *(after - 1);
+}
+
+std::uint32_t SurfaceLayout::widest(std::uint32_t sample) const {
+  if (sample / 2 < shared_.size()) return sample;
+  const Grid grid = grids_[triangle_at(sample / 2)];
+  LevelPoint p = level_point(sample / 2 - grid.first, grid.steps);
+  for (; p.level > 0 && ((p.i | p.j) & 1) == 0; --p.level) p.i /= 2, p.j /= 2;
+  const std::uint32_t steps = grid.steps >> (levels - 1 - p.level);
+  return 2 * (grid.first + level_start(p.level, grid.steps) + grid_index(p.i, p.j, steps)) + sample % 2;
 }
 
 SurfacePoint SurfaceLayout::place(std::uint32_t sample) const {
@@ -209,13 +217,12 @@ SurfacePoint SurfaceLayout::place(std::uint32_t sample) const {
     const std::uint32_t corner = shared_[sample] % 3;
     return pulled(shared_[sample] / 3, corner == 1 ? 1.0f : 0.0f, corner == 2 ? 1.0f : 0.0f, 1);
   }
-  const auto after = std::upper_bound(large_.begin(), large_.end(), sample,
-                                      [&](std::uint32_t s, std::uint32_t t) { return s < grids_[t].first; });
-  const std::uint32_t triangle = *(after - 1);
+  const std::uint32_t triangle = triangle_at(sample);
   const Grid grid = grids_[triangle];
-  const GridPoint p = grids_point(sample - grid.first, grid.steps);
-  const auto steps = static_cast<float>(grid.steps);
-  return pulled(triangle, static_cast<float>(p.i) / steps, static_cast<float>(p.j) / steps, steps);
+  const LevelPoint p = level_point(sample - grid.first, grid.steps);
+  const auto steps = static_cast<float>(grid.steps >> (levels - 1 - p.level));
+  return pulled(triangle, static_cast<float>(p.i) / steps, static_cast<float>(p.j) / steps,
+                static_cast<float>(grid.steps));
 }
 
 // Bits from 30 on: the triangle, 14 each for the cell's place, one for the half, one for the side.

@@ -1,7 +1,7 @@
 // Where on a body's surface its own occlusion is sampled.
 //
 // On a large triangle the samples are the points of three grids, of reach / 12 and a half and a quarter of
-// that, one within the other; on a small one its corners, where corners at one place that face alike share a
+// that; on a small one its corners, where corners at one place that face alike share a
 // sample. The finest cell of a grid, or a small triangle, can be divided once more. Samples are pulled a
 // little into their triangles, clear of what touches them at edges and corners.
 #pragma once
@@ -48,6 +48,8 @@ public:
   /// Points of a large triangle's grid.
   SampleTriple around(const SurfacePoint& point, int level) const;
   SurfacePoint place(std::uint32_t sample) const;
+  /// The sample at the same place in the widest grid that has it.
+  std::uint32_t widest(std::uint32_t sample) const;
 
   /// Names the finest cell around the point.
   std::uint64_t cell_key(const SurfacePoint& point) const;
@@ -71,6 +73,7 @@ private:
     bool upper;
   };
   static Cell cell(float v, float w, std::uint32_t steps);
+  std::uint32_t triangle_at(std::uint32_t place) const;
   void lay_grids();
   void weld_corners();
 
