@@ -33,8 +33,9 @@ std::uint64_t mixed(std::uint64_t z) {
 /// Cell of a coordinate in cells. Shifted, so that walls at round coordinates do not lie between two cells.
 std::uint64_t cell_number(double coordinate) {
   constexpr double shift = 0.3819660113, most = 1e15;
-  return static_cast<std::uint64_t>(
-      static_cast<std::int64_t>(std::floor(std::clamp(coordinate, -most, most) + shift)));
+  const double shifted = std::clamp(coordinate, -most, most) + shift;
+  const auto whole = static_cast<std::int64_t>(shifted);  // towards zero
+  return static_cast<std::uint64_t>(whole - (static_cast<double>(whole) > shifted ? 1 : 0));
 }
 
 }  // namespace
