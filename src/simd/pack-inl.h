@@ -376,6 +376,18 @@ HWY_INLINE bool any(Truth<T, N> t) {
   return false;
 }
 
+/// Writes the lanes where t is true one after another; returns their number. `to` has room for all N.
+template <class T, int N, class U>
+HWY_INLINE std::size_t compress(Truth<U, N> t, Pack<T, N> a, T* to) {
+  std::size_t count = 0;
+  for (int i = 0; i < a.registers; ++i) {
+    const auto mask = hn::RebindMask(typename Pack<T, N>::Tag(), t.r[i]);
+    hn::StoreU(hn::Compress(a.r[i], mask), typename Pack<T, N>::Tag(), to + count);
+    count += hn::CountTrue(typename Pack<T, N>::Tag(), mask);
+  }
+  return count;
+}
+
 /// Asks for the cache line of `at`, which is needed in a while; any address will do.
 HWY_INLINE void fetch_soon(const void* at) {
   hwy::Prefetch(static_cast<const unsigned char*>(at));

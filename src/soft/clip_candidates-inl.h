@@ -59,61 +59,48 @@ public:
 
   std::size_t size() const { return order_.size(); }
 
-  /// Shadow boxes, and the lines of the occluders whose boxes reach the light, at a point.
+  /// Forgets all lists and finds the boxes of the shadows at a point. The list of those that may reach the
+  /// light is [0, count()), largest first.
   HWY_NOINLINE void move_to(const GroupPoint& at) {
+    at_ = at;
+    count_ = 0;
+    make_room(16 * moving_.size());
+    const LightBox<T> light;
     for (std::size_t b = 0; b < moving_.size(); ++b) {
+      at_point_[b].has_lines = false;
+      find_boxes(at, b);
       const std::size_t valid = HWY_MIN(std::size_t{16}, order_.size() - 16 * b);
-      at_point_[b].reaching = find_boxes(at, b) & ((1u << valid) - 1u);
-      if (at_point_[b].reaching != 0) find_lines(at, b);
+      append_meeting(at_point_[b].box, ids_in_block(b), valid, light);
     }
   }
 
-  /// Appends the occluders whose shadow may reach the light to `list`, largest first; true if one covers it.
-  HWY_NOINLINE bool find_all(std::vector<std::uint32_t>& list) {
-    shadows_.clear();
-    for (std::size_t b = 0; b < at_point_.size(); ++b) {
-      const std::uint32_t reaching = at_point_[b].reaching;
-      if (reaching == 0) continue;
-      const Reach reach = reach_of(at_point_[b]);
-      if ((reach.covering & reaching) != 0) return true;
-      for (std::uint32_t bits = reach.meeting & reaching; bits != 0; bits &= bits - 1) {
-        list.push_back(static_cast<std::uint32_t>(shadows_.size()));
-        add_shadow(b, std::countr_zero(bits));
-      }
+  std::size_t count() const { return count_; }
+  /// Forgets the lists beyond.
+  void shrink(std::size_t count) { count_ = count; }
+
+  /// Appends those of the list [first, last) whose shadow may reach into `box`.
+  HWY_NOINLINE void find_among(std::size_t first, std::size_t last, const LightBox<T>& box) {
+    make_room(last - first);
+    for (std::size_t i = first; i < last; i += 16) {
+      const T* sides[4] = {&sides_[0][i], &sides_[1][i], &sides_[2][i], &sides_[3][i]};
+      append_meeting(sides, load<Index>(&ids_[i]), HWY_MIN(std::size_t{16}, last - i), box);
     }
-    return false;
   }
 
-  /// Those of list[first..last) whose shadow may reach into `box`, appended; true if one of them covers it.
-  HWY_NOINLINE bool find_among(std::size_t first, std::size_t last, const LightBox<T>& box,
-                               std::vector<std::uint32_t>& list) const {
-    const T border[4] = {box.cu + box.hu, box.hu - box.cu, box.cv + box.hv, box.hv - box.cv};
-    const Four border_lanes = load<Four>(border), zero = splat<Four>(T(0));
-    const Four cu = splat<Four>(box.cu), cv = splat<Four>(box.cv);
-    const Four hu = splat<Four>(box.hu), hv = splat<Four>(box.hv);
-    for (std::size_t i = first; i < last; ++i) {
-      const Shadow& shadow = shadows_[list[i]];
-      if (!all_of(less(load<Four>(shadow.box), border_lanes))) continue;
-      const Four u = load<Four>(shadow.u), v = load<Four>(shadow.v);
-      const Four value = u * cu + v * cv + load<Four>(shadow.w);
-      const Four radius = absolute(u) * hu + absolute(v) * hv;
-      if (!all_of(less(zero, value + radius))) continue;
-      if (all_of(less(zero, value - radius))) return true;
-      list.push_back(list[i]);
-    }
-    return false;
-  }
-
-  /// The lines of a shadow in a list; returns their number.
-  HWY_INLINE int lines_of(std::uint32_t id, LightLine<T>* lines) const {
-    const Shadow& shadow = shadows_[id];
-    for (int slot = 0; slot < slots_; ++slot) lines[slot] = {shadow.u[slot], shadow.v[slot], shadow.w[slot]};
+  /// The lines of an occluder in a list, by its place there; returns their number.
+  HWY_INLINE int lines_of(std::size_t place, LightLine<T>* lines) {
+    const auto id = static_cast<std::size_t>(ids_[place]);
+    const Block& block = block_with_lines(id / 16);
+    const std::size_t k = id % 16;
+    for (int slot = 0; slot < slots_; ++slot)
+      lines[slot] = {block.u[slot][k], block.v[slot][k], block.w[slot][k]};
     return slots_;
   }
 
 private:
   using Wide = Pack<double, 16>;
-  using Four = Pack<T, 4>;
+  using Lanes = Pack<T, 16>;
+  using Index = Pack<LaneIndex<T>, 16>;
   struct Entry {
     const Occluder* occluder;
     const PlaneHeight* plane;  ///< of indefinite ones
@@ -125,16 +112,8 @@ private:
   };
   struct Block {
     T box[4][16];  ///< of the shadow: least u, -greatest u, least v, -greatest v
-    std::uint32_t reaching = 0;
     T u[4][16], v[4][16], w[4][16];
-  };
-  /// What an occluder shadows at the point, by itself: four lines (missing ones are positive everywhere) and
-  /// a box, its greatest coordinates negated.
-  struct Shadow {
-    T u[4], v[4], w[4], box[4];
-  };
-  struct Reach {
-    std::uint32_t meeting, covering;
+    bool has_lines = false;
   };
 
   /// Missing lines, and those of missing occluders, are positive everywhere.
@@ -159,9 +138,9 @@ private:
     }
   }
 
-  /// Boxes of the shadows on the light's plane; bit k: that of occluder k meets the light. An occluder all at
-  /// or below the point's height shadows nothing; one that is partly so has no box.
-  HWY_INLINE std::uint32_t find_boxes(const GroupPoint& at, std::size_t b) {
+  /// Boxes of the shadows on the light's plane. An occluder all at or below the point's height shadows
+  /// nothing; one that is partly so may shadow all.
+  HWY_INLINE void find_boxes(const GroupPoint& at, std::size_t b) {
     const auto num = [](double value) { return splat<Wide>(value); };
     const Wide far = num(1e30), zero = num(0);
     Wide low_u = far, low_v = far, high_u = num(-1e30), high_v = high_u, lowest = far, highest = high_u;
@@ -179,19 +158,16 @@ private:
       low_v = min(low_v, v);
       high_v = max(high_v, v);
     }
-    const auto boxed = less(zero, lowest);
-    const Wide one = num(1), minus = num(-1);
-    low_u = choose(boxed, low_u, minus);
-    low_v = choose(boxed, low_v, minus);
-    high_u = choose(boxed, high_u, one);
-    high_v = choose(boxed, high_v, one);
-    Block& to = at_point_[b];
-    store(narrowed<T>(max(low_u, num(-2))), to.box[0]);
-    store(narrowed<T>(zero - min(high_u, num(2))), to.box[1]);
-    store(narrowed<T>(max(low_v, num(-2))), to.box[2]);
-    store(narrowed<T>(zero - min(high_v, num(2))), to.box[3]);
-    return less_bits(zero, highest) & less_bits(low_u, one) & less_bits(minus, high_u) &
-           less_bits(low_v, one) & less_bits(minus, high_v);
+    const auto boxed = less(zero, lowest), none = not_above(highest, zero);
+    low_u = choose(none, num(2), choose(boxed, low_u, num(-2)));
+    low_v = choose(boxed, low_v, num(-2));
+    high_u = choose(boxed, high_u, num(2));
+    high_v = choose(boxed, high_v, num(2));
+    T(&box)[4][16] = at_point_[b].box;
+    store(narrowed<T>(max(low_u, num(-2))), box[0]);
+    store(narrowed<T>(zero - min(high_u, num(2))), box[1]);
+    store(narrowed<T>(max(low_v, num(-2))), box[2]);
+    store(narrowed<T>(zero - min(high_v, num(2))), box[3]);
   }
 
   HWY_INLINE void find_lines(const GroupPoint& at, std::size_t b) {
@@ -235,38 +211,47 @@ private:
     }
   }
 
-  /// Which shadows meet and cover the square around the light.
-  HWY_INLINE Reach reach_of(const Block& lines) const {
-    using Lanes = Pack<T, 16>;
-    const Lanes zero = splat<Lanes>(T(0));
-    Lanes highest = splat<Lanes>(T(1)),
-          lowest = highest;  // least over the lines of the greatest, least value
-    for (int slot = 0; slot < slots_; ++slot) {
-      const Lanes radius = absolute(load<Lanes>(lines.u[slot])) + absolute(load<Lanes>(lines.v[slot]));
-      const Lanes value = load<Lanes>(lines.w[slot]);
-      highest = min(highest, value + radius);
-      lowest = min(lowest, value - radius);
+  HWY_INLINE const Block& block_with_lines(std::size_t b) {
+    if (!at_point_[b].has_lines) {
+      find_lines(at_, b);
+      at_point_[b].has_lines = true;
     }
-    return {less_bits(zero, highest), less_bits(zero, lowest)};
+    return at_point_[b];
   }
 
-  void add_shadow(std::size_t b, int k) {
-    const Block& from = at_point_[b];
-    Shadow to;
-    for (int slot = 0; slot < 4; ++slot) {
-      const bool there = slot < slots_;
-      to.u[slot] = there ? from.u[slot][k] : T(0);
-      to.v[slot] = there ? from.v[slot][k] : T(0);
-      to.w[slot] = there ? from.w[slot][k] : T(1);
-      to.box[slot] = from.box[slot][k];
-    }
-    shadows_.push_back(to);
+  static HWY_INLINE Index ids_in_block(std::size_t b) {
+    constexpr LaneIndex<T> lanes[16] = {0, 1, 2, 3, 4, 5, 6, 7, 8, 9, 10, 11, 12, 13, 14, 15};
+    return load<Index>(lanes) + splat<Index>(static_cast<LaneIndex<T>>(16 * b));
+  }
+
+  /// Room for `more` places and a full register behind them.
+  void make_room(std::size_t more) {
+    const std::size_t needed = count_ + more + 16;
+    if (ids_.size() >= needed) return;
+    for (auto& side : sides_) side.resize(2 * needed);
+    ids_.resize(2 * needed);
+  }
+
+  /// Appends those of the first `valid` lanes whose boxes meet `box`.
+  template <class Sides>
+  HWY_INLINE void append_meeting(const Sides& sides, Index ids, std::size_t valid, const LightBox<T>& box) {
+    constexpr T lanes[16] = {0, 1, 2, 3, 4, 5, 6, 7, 8, 9, 10, 11, 12, 13, 14, 15};
+    const T border[4] = {box.cu + box.hu, box.hu - box.cu, box.cv + box.hv, box.hv - box.cv};
+    auto meets = less(load<Lanes>(lanes), splat<Lanes>(static_cast<T>(valid)));
+    for (int k = 0; k < 4; ++k) meets = meets & less(load<Lanes>(&sides[k][0]), splat<Lanes>(border[k]));
+    std::size_t added = 0;
+    for (int k = 0; k < 4; ++k) added = compress(meets, load<Lanes>(&sides[k][0]), &sides_[k][count_]);
+    compress(meets, ids, &ids_[count_]);
+    count_ += added;
   }
 
   std::vector<Entry> order_;
   std::vector<MovingBlock> moving_;
   std::vector<Block> at_point_;
-  std::vector<Shadow> shadows_;  ///< of find_all
+  GroupPoint at_;
+  std::vector<T> sides_[4];        ///< boxes of the shadows in lists, as in Block
+  std::vector<LaneIndex<T>> ids_;  ///< and the occluders
+  std::size_t count_ = 0;
   int slots_ = 0;
 };
 

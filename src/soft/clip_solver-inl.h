@@ -22,19 +22,15 @@ public:
   void move_to(const GroupPoint& at) { candidates_.move_to(at); }
 
   /// Appends the parts of `light` (convex, within |u|, |v| <= 1) visible from the point to `out`.
-  HWY_NOINLINE void query(const LightPolygon<T>& light, FragmentList<T>& out) {
-    list_.clear();
-    if (candidates_.find_all(list_)) return;
-    solve(light, 0, out);
-  }
+  HWY_NOINLINE void query(const LightPolygon<T>& light, FragmentList<T>& out) { solve(light, 0, out); }
 
 private:
-  static constexpr std::size_t few = 64;     ///< occluders that are subtracted without more ado
+  static constexpr std::size_t few = 24;     ///< occluders that are subtracted without more ado
   static constexpr std::size_t largest = 8;  ///< occluders that go first where halving does not part them
 
-  /// Subtracts list_[first..] from `part`; leaves the list as long as it is.
+  /// Subtracts the occluders in places from `first` on from `part`.
   void solve(const LightPolygon<T>& part, std::size_t first, FragmentList<T>& out) {
-    const std::size_t last = list_.size();
+    const std::size_t last = candidates_.count();
     if (last - first <= few) {
       FragmentList<T> left = subtract_all(part, first, last);
       for (std::size_t k = 0; k < left.size(); ++k) out.push(loaded(left[k]));
@@ -44,9 +40,10 @@ private:
     FragmentList<T> left = subtract_all(part, first, first + largest);
     for (std::size_t k = 0; k < left.size(); ++k) {
       const LightPolygon<T> fragment = loaded(left[k]);
-      const std::size_t from = list_.size();
-      if (!candidates_.find_among(first + largest, last, box_of(fragment), list_)) solve(fragment, from, out);
-      list_.resize(from);
+      const std::size_t from = candidates_.count();
+      candidates_.find_among(first + largest, last, box_of(fragment));
+      solve(fragment, from, out);
+      candidates_.shrink(from);
     }
     give_back(std::move(left));
   }
@@ -61,24 +58,22 @@ private:
     LightBox<T> high = low;
     (wide ? low.cu : low.cv) -= wide ? low.hu : low.hv;
     (wide ? high.cu : high.cv) += wide ? low.hu : low.hv;
-    const bool low_covered = candidates_.find_among(first, last, low, list_);
-    if (low_covered) list_.resize(last);
-    const std::size_t middle = list_.size();
-    const bool high_covered = candidates_.find_among(first, last, high, list_);
-    if (high_covered) list_.resize(middle);
-    const std::size_t count = list_.size() - last;
-    const bool parted = low_covered || high_covered || 4 * count < 5 * (last - first);
+    candidates_.find_among(first, last, low);
+    const std::size_t middle = candidates_.count();
+    candidates_.find_among(first, last, high);
+    const std::size_t count = candidates_.count() - last;
+    const bool parted = 4 * count < 5 * (last - first);
     if (parted) {
       const T sign = -1;
       const LightLine<T> below = wide ? LightLine<T>{sign, 0, box.cu} : LightLine<T>{0, sign, box.cv};
       const LightLine<T> above = wide ? LightLine<T>{1, 0, -box.cu} : LightLine<T>{0, 1, -box.cv};
       LightPolygon<T> kept = part;
-      if (!high_covered && keep_side(above, kept)) solve(kept, middle, out);
-      list_.resize(middle);
+      if (keep_side(above, kept)) solve(kept, middle, out);
+      candidates_.shrink(middle);
       kept = part;
-      if (!low_covered && keep_side(below, kept)) solve(kept, last, out);
+      if (keep_side(below, kept)) solve(kept, last, out);
     }
-    list_.resize(last);
+    candidates_.shrink(last);
     return parted;
   }
 
@@ -99,14 +94,14 @@ private:
     return true;
   }
 
-  /// What list_[first..last) leaves of `part`.
+  /// What the occluders in places [first, last) leave of `part`.
   HWY_NOINLINE FragmentList<T> subtract_all(const LightPolygon<T>& part, std::size_t first,
                                             std::size_t last) {
     FragmentList<T> now = take();
     now.push(part);
     for (std::size_t i = first; i < last && !now.empty(); ++i) {
       LightLine<T> lines[4];
-      const int count = candidates_.lines_of(list_[i], lines);
+      const int count = candidates_.lines_of(i, lines);
       next_.clear();
       for (std::size_t k = 0; k < now.size(); ++k) subtract(loaded(now[k]), lines, count, next_);
       now.swap(next_);
@@ -124,8 +119,6 @@ private:
   void give_back(FragmentList<T> list) { spare_.push_back(std::move(list)); }
 
   ClipCandidates<T> candidates_;
-  std::vector<std::uint32_t>
-      list_;  ///< occluders that reach the parts at hand, largest first, part after part
   FragmentList<T> next_;
   std::vector<FragmentList<T>> spare_;
 };

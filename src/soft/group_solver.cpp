@@ -14,6 +14,7 @@
 #include "points/triangle_corners.h"
 #include "soft/clip_solver-inl.h"
 #include "soft/line_class_query-inl.h"
+#include "soft/outline_solver-inl.h"
 #include "soft/point_groups.h"
 
 HWY_BEFORE_NAMESPACE();
@@ -69,6 +70,7 @@ template <class T>
 struct Precision {
   LineClassQuery<T> query;
   ClipSolver<T> clip;
+  OutlineSolver<T> outline;
   FragmentList<T> start, visible, scratch;
 };
 
@@ -77,15 +79,12 @@ public:
   void solve(const SoftFrame& frame, const GroupTask& task) override {
     Stopwatch watch;
     receiver_ = {};
-    set_up_occluders(frame.light, frame.triangles, task.frame, task.candidates, occluders_);
-    use_bsp_ = wants_bsp(frame.config);
-    if (use_bsp_) bsp_.reset(occluders_, frame.triangles, task.frame, frame.config.choice);
-    const Chosen chosen = use_bsp_ ? Chosen::indefinite : Chosen::all;
+    set_up(frame, task);
     const bool wide = frame.config.precision == SoftPrecision::reference;
     if (wide) {
-      double_.clip.reset(occluders_, chosen);
+      reset(double_);
     } else {
-      float_.clip.reset(occluders_, chosen);
+      reset(float_);
     }
     times.init_ms += watch.lap_ms();
     if (wide) {
@@ -100,13 +99,36 @@ public:
     Stopwatch watch;
     receiver_ = {};
     use_bsp_ = false;
+    outline_.clear();
     set_up_occluders(frame.light, frame.triangles, {}, {}, occluders_);
     double_.clip.reset(occluders_, Chosen::all);
-    for (const std::uint32_t pixel : pixels) solve_point(double_, frame, {pixels, {}, {}}, pixel);
+    for (const std::uint32_t pixel : pixels) {
+      if (!add_whole(frame, pixel)) solve_point(double_, frame, {pixels, {}, {}}, pixel);
+      if (whole_count_ == 8) finish_whole(frame);
+    }
+    finish_whole(frame);
     times.irradiance_ms += watch.lap_ms();
   }
 
 private:
+  void set_up(const SoftFrame& frame, const GroupTask& task) {
+    outline_.clear();
+    std::span<const std::uint32_t> others = task.candidates;
+    if (frame.config.solver == SoftSolver::automatic) {
+      finder_.find(frame.light, frame.triangles, task.frame, task.candidates, outline_, rest_);
+      others = rest_;
+    }
+    set_up_occluders(frame.light, frame.triangles, task.frame, others, occluders_);
+    use_bsp_ = wants_bsp(frame.config);
+    if (use_bsp_) bsp_.reset(occluders_, frame.triangles, task.frame, frame.config.choice);
+  }
+
+  template <class T>
+  void reset(Precision<T>& p) {
+    p.clip.reset(occluders_, use_bsp_ ? Chosen::indefinite : Chosen::all);
+    if (!outline_.empty()) p.outline.reset(outline_);
+  }
+
   template <class T>
   void solve_points(Precision<T>& p, const SoftFrame& frame, const GroupTask& task) {
     for (const std::uint32_t pixel : task.pixels) {
@@ -136,19 +158,68 @@ private:
   template <class T>
   void solve_point(Precision<T>& p, const SoftFrame& frame, const GroupTask& task, std::uint32_t pixel) {
     const std::uint32_t receiver = frame.points.triangles[pixel];
-    if (receiver != receiver_.id) receiver_ = receiver_plane(frame, receiver);
+    if (receiver != receiver_.id) start_on(p, frame, receiver);
     const glm::dvec3 point = frame.points.positions[pixel];
-    p.start.clear();
-    p.start.push(polygon_of<T>(frame.light.outline));
-    keep_positive(p.start, line_of<T>(receiver_.horizon), p.scratch);
     const bool in_front = glm::dot(point - frame.light.origin, frame.light.normal) > 0;
-    const double above = !in_front || receiver_.face == glm::dvec3(0.0) ? 0.0 : area_of(p.start);
+    const double above = in_front ? above_ : 0.0;
     p.visible.clear();
     if (above > 0)
       find_visible(
           p, {point - task.frame.centre, light_coordinates(frame.light, task.frame.centre, point),
               glm::dot(task.frame.centre - frame.light.origin, frame.light.normal), receiver, receiver_.tau});
     finish(p, frame, pixel, point, above);
+  }
+
+  /// Takes up another receiver: the part of the light above its plane is the same for all its points.
+  template <class T>
+  void start_on(Precision<T>& p, const SoftFrame& frame, std::uint32_t receiver) {
+    receiver_ = receiver_plane(frame, receiver);
+    p.start.clear();
+    p.start.push(polygon_of<T>(frame.light.outline));
+    keep_positive(p.start, line_of<T>(receiver_.horizon), p.scratch);
+    above_ = receiver_.face == glm::dvec3(0.0) ? 0.0 : area_of(p.start);
+  }
+
+  /// Puts aside a point that sees the whole light above its horizon, to be finished with seven others; false
+  /// if it is none.
+  bool add_whole(const SoftFrame& frame, std::uint32_t pixel) {
+    const std::uint32_t receiver = frame.points.triangles[pixel];
+    if (receiver != receiver_.id) start_on(double_, frame, receiver);
+    const glm::dvec3 to_origin = frame.light.origin - frame.points.positions[pixel];
+    const glm::dvec3 normal = frame.normals.empty() ? receiver_.face : glm::dvec3(frame.normals[pixel]);
+    const bool in_front = glm::dot(to_origin, frame.light.normal) < 0;
+    if (!in_front || !(above_ > 0) || cuts(frame.light, receiver_.horizon) ||
+        cuts(frame.light, shading_horizon(frame.light, to_origin, normal)))
+      return false;
+    for (int c = 0; c < 3; ++c) {
+      whole_.to_origin[c][whole_count_] = to_origin[c];
+      whole_.normal[c][whole_count_] = normal[c];
+    }
+    whole_pixels_[whole_count_++] = pixel;
+    return true;
+  }
+
+  void finish_whole(const SoftFrame& frame) {
+    if (whole_count_ == 0) return;
+    double irradiance[8];
+    irradiance_of_whole(frame.light, whole_, irradiance);
+    for (std::size_t k = 0; k < whole_count_; ++k) {
+      frame.out.visible_fraction[whole_pixels_[k]] = 1.0f;
+      frame.out.irradiance[whole_pixels_[k]] = clamped(irradiance[k]);
+      count(1, 1, frame, whole_pixels_[k]);
+    }
+    stats.fragments += whole_count_;
+    whole_count_ = 0;
+  }
+
+  static float clamped(double irradiance) {
+    return static_cast<float>(std::clamp(irradiance, 0.0, 3.141592653589793));
+  }
+
+  /// Where the plane of the shading normal through a point meets the light's.
+  static glm::dvec3 shading_horizon(const LightFrame& light, const glm::dvec3& to_origin,
+                                    const glm::dvec3& normal) {
+    return {glm::dot(normal, light.ex), glm::dot(normal, light.ey), glm::dot(normal, to_origin)};
   }
 
   template <class T>
@@ -162,9 +233,17 @@ private:
         p.clip.query(part, p.visible);
       }
     }
-    if (!use_bsp_ || occluders_.indefinite.empty()) return;
+    if (use_bsp_ && !occluders_.indefinite.empty()) refine(p, p.clip);
+    if (outline_.empty() || p.visible.empty()) return;
+    p.outline.move_to(at);
+    refine(p, p.outline);
+  }
+
+  /// Replaces the fragments found so far by what `solver` leaves of them.
+  template <class T, class S>
+  void refine(Precision<T>& p, S& solver) {
     p.scratch.clear();
-    for (std::size_t i = 0; i < p.visible.size(); ++i) p.clip.query(loaded(p.visible[i]), p.scratch);
+    for (std::size_t i = 0; i < p.visible.size(); ++i) solver.query(loaded(p.visible[i]), p.scratch);
     p.visible.swap(p.scratch);
   }
 
@@ -191,8 +270,7 @@ private:
     append_edges(p.visible, edges_);
     EdgeSums sums = sum_edges(edges_, frame.light, at);
     const double area = sums.area;
-    const glm::dvec3 horizon{glm::dot(normal, frame.light.ex), glm::dot(normal, frame.light.ey),
-                             glm::dot(normal, at.to_origin)};
+    const glm::dvec3 horizon = shading_horizon(frame.light, at.to_origin, normal);
     if (cuts(frame.light, horizon)) {
       keep_positive(p.visible, line_of<T>(horizon), p.scratch);
       edges_.count = 0;
@@ -202,7 +280,7 @@ private:
     stats.fragments += p.visible.size();
     const double fraction = std::clamp(area / frame.light.area, 0.0, 1.0);
     frame.out.visible_fraction[pixel] = static_cast<float>(fraction);
-    frame.out.irradiance[pixel] = static_cast<float>(std::clamp(sums.irradiance, 0.0, 3.141592653589793));
+    frame.out.irradiance[pixel] = clamped(sums.irradiance);
     count(above, area, frame, pixel);
   }
 
@@ -230,13 +308,20 @@ private:
     return false;
   }
 
+  OutlineFinder finder_;
+  GroupOutline outline_;
+  std::vector<std::uint32_t> rest_;  ///< candidates that the outline leaves
   GroupOccluders occluders_;
   LineClassBsp bsp_;
   bool use_bsp_ = false;
   Precision<float> float_;
   Precision<double> double_;
   ReceiverPlane receiver_;
+  double above_ = 0;  ///< area of the light above its horizon
   LightEdges edges_;
+  ReceiverLanes whole_{};  ///< points put aside
+  std::uint32_t whole_pixels_[8] = {};
+  std::size_t whole_count_ = 0;
 };
 
 std::unique_ptr<GroupSolver> make_solver() {

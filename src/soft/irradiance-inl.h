@@ -105,6 +105,37 @@ inline HWY_NOINLINE EdgeSums sum_edges(const LightEdges& edges, const LightFrame
   return sums;
 }
 
+/// Eight points, a lane each.
+struct ReceiverLanes {
+  double to_origin[3][8], normal[3][8];
+};
+
+/// The irradiance that a whole light, its outline above the horizons of all points, sends to eight of them.
+inline HWY_NOINLINE void irradiance_of_whole(const LightFrame& light, const ReceiverLanes& at,
+                                             double* irradiance) {
+  const auto num = [](double value) { return splat<Double8>(value); };
+  const auto lanes = [](const double(&from)[3][8]) {
+    return Pack3<Double8>{load<Double8>(from[0]), load<Double8>(from[1]), load<Double8>(from[2])};
+  };
+  const Pack3<Double8> origin = lanes(at.to_origin), normal = lanes(at.normal);
+  Double8 sum = num(0.0);
+  for (std::size_t k = 0; k < light.outline.size(); ++k) {
+    const glm::dvec2 a = light.outline[k], b = light.outline[(k + 1) % light.outline.size()];
+    const glm::dvec3 from = a.x * light.ex + a.y * light.ey,
+                     along = (b.x - a.x) * light.ex + (b.y - a.y) * light.ey;
+    const Pack3<Double8> r{origin.x + num(from.x), origin.y + num(from.y), origin.z + num(from.z)};
+    const Pack3<Double8> e{num(along.x), num(along.y), num(along.z)};
+    const Pack3<Double8> c = cross(r, e);
+    const Double8 sine = square_root(dot(c, c));
+    const auto none = less(sine, num(1e-300));
+    const Double8 term =
+        choose(none, num(0.0),
+               dot(normal, c) * angle_of(sine, dot(r, r) + dot(r, e)) / choose(none, num(1.0), sine));
+    sum = sum - term;
+  }
+  store(num(0.5) * sum, irradiance);
+}
+
 }  // namespace tenebra::HWY_NAMESPACE
 HWY_AFTER_NAMESPACE();
 

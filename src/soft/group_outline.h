@@ -1,0 +1,81 @@
+// The outline of the meshes that stand between a group of points and the light: only the edges at which the
+// number of triangles in the way may change.
+//
+// Every triangle is turned to show its points one and the same orientation. Where two neighbours share an
+// edge, they run through it in opposite directions, and the edge cancels: what is left of a closed mesh is
+// its silhouette, as seen from the light. How many triangles cover a place of the light is then the winding
+// number of this outline around it (the same for all triangles as for their outline, by the linearity of
+// boundaries), and the light is visible where it is zero. No assumption on the meshes: open, two-sided or
+// crossing ones only cancel less.
+#pragma once
+
+#include <cstdint>
+#include <glm/glm.hpp>
+#include <span>
+#include <vector>
+
+#include "points/visible_points.h"
+#include "soft/group_occluders.h"
+#include "soft/light_frame.h"
+
+namespace tenebra {
+
+struct OutlineEdge {
+  MovingLine line;      ///< positive to the left of the way from `from` to `to`, in (u, v)
+  glm::dvec3 from, to;  ///< u, v, height as in GroupOccluders::corners
+  int winding =
+      0;  ///< triangles that block all points: +1 one that runs through it this way, -1 the other way
+};
+
+/// A triangle that the points of the group lie on both sides of, or too near to: its part in the outline is
+/// its blocking_sign at the point times its uses.
+struct SometimesBlocker {
+  std::uint32_t triangle = 0;
+  PlaneHeight plane;
+};
+
+/// What such a triangle adds to the winding of an edge where its blocking_sign is +1.
+struct OutlineUse {
+  std::uint32_t edge = 0, blocker = 0;
+  int winding = 0;
+};
+
+struct GroupOutline {
+  std::vector<OutlineEdge> edges;
+  std::vector<SometimesBlocker> sometimes;
+  std::vector<OutlineUse> uses;
+
+  bool empty() const { return edges.empty(); }
+  void clear() {
+    edges.clear();
+    sometimes.clear();
+    uses.clear();
+  }
+};
+
+/// Finds outlines, with a table of edges of its own.
+class OutlineFinder {
+public:
+  /// Fills `out` from those of `candidates` that lie between all points of the group and the light's plane,
+  /// well apart from both, and leaves the others in `rest`. Where too few edges cancel, `out` is empty and
+  /// all are left.
+  void find(const LightFrame& light, const TriangleView& triangles, const GroupFrame& group,
+            std::span<const std::uint32_t> candidates, GroupOutline& out, std::vector<std::uint32_t>& rest);
+
+private:
+  struct Edge {
+    glm::vec3 from, to;  ///< from before to, by coordinates
+    int winding = 0;
+    bool used = false;  ///< by a triangle that blocks sometimes
+  };
+
+  void add_triangle(const glm::vec3* corners, int turn, std::int32_t blocker, GroupOutline& out);
+  std::uint32_t edge_of(const glm::vec3& from, const glm::vec3& to);
+  void keep_outline(const LightFrame& light, const GroupFrame& group, GroupOutline& out);
+
+  std::vector<Edge> edges_;
+  std::vector<std::uint32_t> table_;  ///< open addressing: index into edges_ + 1, or 0
+  std::vector<std::uint32_t> kept_;
+};
+
+}  // namespace tenebra

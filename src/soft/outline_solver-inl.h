@@ -1,0 +1,301 @@
+// The visible part of the light from the outline of meshes: it is cut along the edges that cross it, and a
+// part that no edge crosses any more is visible if the outline winds around it zero times. Included once per
+// target.
+#if defined(TENEBRA_SOFT_OUTLINE_SOLVER_INL_H_) == defined(HWY_TARGET_TOGGLE)
+#ifdef TENEBRA_SOFT_OUTLINE_SOLVER_INL_H_
+#undef TENEBRA_SOFT_OUTLINE_SOLVER_INL_H_
+#else
+#define TENEBRA_SOFT_OUTLINE_SOLVER_INL_H_
+#endif
+
+#include <algorithm>
+#include <vector>
+
+#include "soft/clip_candidates-inl.h"
+#include "soft/group_outline.h"
+#include "soft/light_fragments-inl.h"
+
+HWY_BEFORE_NAMESPACE();
+namespace tenebra::HWY_NAMESPACE {
+
+template <class T>
+class OutlineSolver {
+public:
+  void reset(const GroupOutline& outline) {
+    outline_ = &outline;
+    moving_.resize((outline.edges.size() + 15) / 16);
+    at_point_.resize(moving_.size());
+    for (std::size_t i = 0; i < 16 * moving_.size(); ++i) fill(i);
+  }
+
+  /// The next queries are about this point.
+  HWY_NOINLINE void move_to(const GroupPoint& at) {
+    for (std::size_t b = 0; b < moving_.size(); ++b) move_block(at, b);
+    add_sometimes(at);
+    around_.count = crossing_.count = 0;
+    around_.make_room(at_point_.size() * 16);
+    crossing_.make_room(at_point_.size() * 16);
+    for (const Block& block : at_point_) gather(block);
+    crossing_light_ = crossing_.count;
+    slack_ = static_cast<T>(0x1p-32 * (4 + 2 * std::abs(at.in_light.y)));
+  }
+
+  /// Appends the parts of `light` (convex, within |u|, |v| <= 1) visible from the point to `out`.
+  HWY_NOINLINE void query(const LightPolygon<T>& light, FragmentList<T>& out) {
+    crossing_.copy(0, crossing_light_);
+    branch(light, crossing_light_, out);
+  }
+
+private:
+  using Wide = Pack<double, 16>;
+  using Lanes = Pack<T, 16>;
+  struct MovingBlock {
+    double c[4][3][16];  ///< power of the point, coefficient, edge
+    double from[3][16], to[3][16];
+    double winding[16];
+  };
+  /// Sixteen edges at the point: their lines, ends, and windings.
+  struct Block {
+    T u[16], v[16], w[16], from_u[16], from_v[16], to_u[16], to_v[16], winding[16];
+  };
+  /// Edges without gaps, one array a quantity.
+  struct Edges {
+    std::vector<T> u, v, w, from_u, from_v, to_u, to_v, winding;
+    std::size_t count = 0;
+
+    /// Room for `more` edges and a full register behind them.
+    void make_room(std::size_t more) {
+      const std::size_t needed = count + more + 16;
+      if (u.size() >= needed) return;
+      for (auto* values : {&u, &v, &w, &from_u, &from_v, &to_u, &to_v, &winding}) values->resize(2 * needed);
+    }
+    void copy(std::size_t first, std::size_t last) {
+      make_room(last - first);
+      for (auto* values : {&u, &v, &w, &from_u, &from_v, &to_u, &to_v})
+        std::copy(&(*values)[first], &(*values)[last], &(*values)[count]);
+      count += last - first;
+    }
+    void drop(std::size_t place) {
+      --count;
+      for (auto* values : {&u, &v, &w, &from_u, &from_v, &to_u, &to_v}) (*values)[place] = (*values)[count];
+    }
+  };
+
+  void fill(std::size_t i) {
+    MovingBlock& block = moving_[i / 16];
+    const std::size_t k = i % 16;
+    const OutlineEdge none{{{glm::dvec3(0, 0, 1)}}, glm::dvec3(0, 0, 1), glm::dvec3(0, 0, 1), 0};
+    const OutlineEdge& edge = i < outline_->edges.size() ? outline_->edges[i] : none;
+    for (int c = 0; c < 3; ++c) {
+      for (int power = 0; power < 4; ++power) block.c[power][c][k] = edge.line.c[power][c];
+      block.from[c][k] = edge.from[c];
+      block.to[c][k] = edge.to[c];
+    }
+    block.winding[k] = edge.winding;
+  }
+
+  /// u and v where the line from the point through corners meets the light's plane.
+  static HWY_INLINE void project(const GroupPoint& at, const double (*corner)[16], T* u, T* v) {
+    const Wide pu = splat<Wide>(at.in_light.x), pv = splat<Wide>(at.in_light.y);
+    const Wide t =
+        splat<Wide>(at.light_height - at.in_light.z) / (load<Wide>(corner[2]) - splat<Wide>(at.in_light.z));
+    store(narrowed<T>(pu + (load<Wide>(corner[0]) - pu) * t), u);
+    store(narrowed<T>(pv + (load<Wide>(corner[1]) - pv) * t), v);
+  }
+
+  HWY_INLINE void move_block(const GroupPoint& at, std::size_t b) {
+    const MovingBlock& from = moving_[b];
+    Block& to = at_point_[b];
+    const Wide x = splat<Wide>(at.from_centre.x), y = splat<Wide>(at.from_centre.y),
+               z = splat<Wide>(at.from_centre.z);
+    T* lines[3] = {to.u, to.v, to.w};
+    for (int i = 0; i < 3; ++i) {
+      store(narrowed<T>(load<Wide>(from.c[0][i]) + x * load<Wide>(from.c[1][i]) +
+                        y * load<Wide>(from.c[2][i]) + z * load<Wide>(from.c[3][i])),
+            lines[i]);
+    }
+    project(at, from.from, to.from_u, to.from_v);
+    project(at, from.to, to.to_u, to.to_v);
+    store(narrowed<T>(load<Wide>(from.winding)), to.winding);
+  }
+
+  void add_sometimes(const GroupPoint& at) {
+    signs_.clear();
+    for (const SometimesBlocker& blocker : outline_->sometimes) {
+      const bool itself = blocker.triangle == at.receiver;
+      signs_.push_back(itself ? 0 : blocking_sign(blocker.plane, at.from_centre, at.receiver_tau));
+    }
+    for (const OutlineUse& use : outline_->uses) {
+      at_point_[use.edge / 16].winding[use.edge % 16] += static_cast<T>(signs_[use.blocker] * use.winding);
+    }
+  }
+
+  /// Adds the block's edges to those around the light that count, and to those that may cross the square
+  /// around it.
+  HWY_INLINE void gather(const Block& block) {
+    const Lanes zero = splat<Lanes>(T(0)), one = splat<Lanes>(T(1)), minus = splat<Lanes>(T(-1));
+    const Lanes u = load<Lanes>(block.u), v = load<Lanes>(block.v), w = load<Lanes>(block.w);
+    const Lanes u0 = load<Lanes>(block.from_u), u1 = load<Lanes>(block.to_u);
+    const Lanes v0 = load<Lanes>(block.from_v), v1 = load<Lanes>(block.to_v);
+    const Lanes winding = load<Lanes>(block.winding);
+    const auto counts = less(zero, absolute(winding)) & less(minus, max(u0, u1)) & less(min(v0, v1), one) &
+                        less(minus, max(v0, v1));
+    if (!any(counts)) return;
+    compress(counts, u, &around_.u[around_.count]);
+    compress(counts, v, &around_.v[around_.count]);
+    compress(counts, w, &around_.w[around_.count]);
+    compress(counts, v0, &around_.from_v[around_.count]);
+    compress(counts, v1, &around_.to_v[around_.count]);
+    around_.count += compress(counts, winding, &around_.winding[around_.count]);
+    add_crossing(counts & less(min(u0, u1), one) & less(absolute(w), absolute(u) + absolute(v)),
+                 {u, v, w, u0, v0, u1, v1}, crossing_.count);
+  }
+
+  /// An edge a lane.
+  struct EdgeLanes {
+    Lanes u, v, w, from_u, from_v, to_u, to_v;
+  };
+
+  /// Writes the edges where `chosen` to crossing_ from `to` on, and ends it behind them.
+  HWY_INLINE void add_crossing(Truth<T, 16> chosen, const EdgeLanes& edges, std::size_t to) {
+    compress(chosen, edges.u, &crossing_.u[to]);
+    compress(chosen, edges.v, &crossing_.v[to]);
+    compress(chosen, edges.w, &crossing_.w[to]);
+    compress(chosen, edges.from_u, &crossing_.from_u[to]);
+    compress(chosen, edges.from_v, &crossing_.from_v[to]);
+    compress(chosen, edges.to_u, &crossing_.to_u[to]);
+    crossing_.count = to + compress(chosen, edges.to_v, &crossing_.to_v[to]);
+  }
+
+  /// Cuts `part` along the crossing edges from `first` on, and forgets those.
+  void solve(const LightPolygon<T>& part, std::size_t first, FragmentList<T>& out) {
+    LightPolygon<T> rest = part;
+    while (crossing_.count > first) {
+      const std::size_t middle = first + (crossing_.count - first) / 2;
+      const LightLine<T> line{crossing_.u[middle], crossing_.v[middle], crossing_.w[middle]};
+      crossing_.drop(middle);
+      const LineValues<T> values = evaluate(rest, line);
+      if (values.positive == 0 || values.negative == 0) continue;
+      LightPolygon<T> left;
+      split(rest, values, left, rest);
+      const std::size_t last = crossing_.count;
+      crossing_.make_room(last - first);
+      keep_crossing(first, last, left, line, T(1), last);
+      branch(left, last, out);
+      keep_crossing(first, last, rest, line, T(-1), first);
+      if (rest.count > fragment_capacity) return branch(rest, first, out);
+    }
+    if (winding_around(rest) == T(0)) out.push(rest);
+  }
+
+  /// The same for a polygon of any size.
+  void branch(const LightPolygon<T>& part, std::size_t first, FragmentList<T>& out) {
+    if (part.count <= fragment_capacity) return solve(part, first, out);
+    LightPolygon<T> low, high;
+    halve(part, low, high);
+    const std::size_t last = crossing_.count;
+    crossing_.copy(first, last);
+    solve(low, last, out);
+    solve(high, first, out);
+  }
+
+  /// Writes those of the crossing edges [first, last) that may cross `part`, which lies on the side `sign` of
+  /// `line`, to `to` (first or last), and forgets what lies behind.
+  HWY_NOINLINE void keep_crossing(std::size_t first, std::size_t last, const LightPolygon<T>& part,
+                                  const LightLine<T>& line, T sign, std::size_t to) {
+    const T low_u = least(part.x), high_u = greatest(part.x), low_v = least(part.y),
+            high_v = greatest(part.y);
+    const auto num = [](T value) { return splat<Lanes>(value); };
+    const Lanes cu = num((low_u + high_u) / 2), cv = num((low_v + high_v) / 2);
+    const Lanes hu = num((high_u - low_u) / 2), hv = num((high_v - low_v) / 2);
+    const Lanes lu = num(sign * line.u), lv = num(sign * line.v), lw = num(sign * line.w);
+    const auto beyond = [&](Lanes u, Lanes v) {
+      const Lanes a = lu * u, b = lv * v;
+      return less(num(on_line<T>) * (absolute(a) + absolute(b) + absolute(lw)), a + b + lw);
+    };
+    crossing_.count = to;
+    for (std::size_t i = first; i < last; i += 16) {
+      const EdgeLanes e = edges_from(i);
+      const auto meets = lanes_below(last - i) & not_above(min(e.from_u, e.to_u), num(high_u)) &
+                         not_above(num(low_u), max(e.from_u, e.to_u)) &
+                         not_above(min(e.from_v, e.to_v), num(high_v)) &
+                         not_above(num(low_v), max(e.from_v, e.to_v));
+      const auto crosses =
+          not_above(absolute(e.u * cu + e.v * cv + e.w), absolute(e.u) * hu + absolute(e.v) * hv);
+      add_crossing(meets & crosses & (beyond(e.from_u, e.from_v) | beyond(e.to_u, e.to_v)), e,
+                   crossing_.count);
+    }
+  }
+
+  HWY_INLINE EdgeLanes edges_from(std::size_t i) const {
+    return {load<Lanes>(&crossing_.u[i]),      load<Lanes>(&crossing_.v[i]),
+            load<Lanes>(&crossing_.w[i]),      load<Lanes>(&crossing_.from_u[i]),
+            load<Lanes>(&crossing_.from_v[i]), load<Lanes>(&crossing_.to_u[i]),
+            load<Lanes>(&crossing_.to_v[i])};
+  }
+
+  static HWY_INLINE Truth<T, 16> lanes_below(std::size_t count) {
+    constexpr T lanes[16] = {0, 1, 2, 3, 4, 5, 6, 7, 8, 9, 10, 11, 12, 13, 14, 15};
+    return less(load<Lanes>(lanes), splat<Lanes>(static_cast<T>(HWY_MIN(count, std::size_t{16}))));
+  }
+
+  /// How many triangles cover a part of the light that no edge crosses.
+  T winding_around(const LightPolygon<T>& part) {
+    T x[polygon_capacity], y[polygon_capacity];
+    store(part.x, x);
+    store(part.y, y);
+    T winding = 0;
+    for (int attempt = 0; attempt < 3; ++attempt) {
+      T u = 0, v = 0, total = 0;
+      for (int k = 0; k < part.count; ++k) {
+        const T weight = T(1) + T(k * attempt);
+        u += weight * x[k];
+        v += weight * y[k];
+        total += weight;
+      }
+      if (find_winding(u / total, v / total, winding)) break;
+    }
+    return winding;
+  }
+
+  /// The winding number around (u, v): the edges that a ray from there towards +u crosses. False if that is
+  /// too near to an edge to be sure.
+  HWY_NOINLINE bool find_winding(T u, T v, T& winding) const {
+    const Lanes zero = splat<Lanes>(T(0)), qu = splat<Lanes>(u), qv = splat<Lanes>(v);
+    const Lanes near = splat<Lanes>(on_line<T>), slack = splat<Lanes>(slack_);
+    Lanes sum = zero;
+    std::uint32_t doubtful = 0;
+    for (std::size_t i = 0; i < around_.count; i += 16) {
+      const Lanes lu = load<Lanes>(&around_.u[i]), lv = load<Lanes>(&around_.v[i]);
+      const Lanes value = lu * qu + lv * qv + load<Lanes>(&around_.w[i]);
+      const Lanes turns = choose(lanes_below(around_.count - i), load<Lanes>(&around_.winding[i]), zero);
+      const auto from_above = less(qv, load<Lanes>(&around_.from_v[i]));
+      const auto to_above = less(qv, load<Lanes>(&around_.to_v[i]));
+      const Lanes up = choose(from_above, zero, choose(less(zero, value), turns, zero));
+      const Lanes down = choose(from_above, choose(less(value, zero), zero - turns, zero), zero);
+      sum = sum + choose(to_above, up, down);
+      const Lanes margin = near * (absolute(lu) + absolute(lv)) + slack * absolute(lv);
+      doubtful |= (bits(from_above) ^ bits(to_above)) & less_bits(absolute(value), margin) &
+                  less_bits(zero, absolute(turns));
+    }
+    T lanes[16];
+    store(sum, lanes);
+    winding = 0;
+    for (const T lane : lanes) winding += lane;
+    return doubtful == 0;
+  }
+
+  const GroupOutline* outline_ = nullptr;
+  std::vector<MovingBlock> moving_;
+  std::vector<Block> at_point_;
+  Edges around_;    ///< edges that a ray from the light towards +u may cross
+  Edges crossing_;  ///< edges that may cross the light, and behind them, the parts at hand
+  std::size_t crossing_light_ = 0;
+  std::vector<int> signs_;  ///< one a SometimesBlocker
+  T slack_ = 0;             ///< what rounding the corners can amount to, units of the light
+};
+
+}  // namespace tenebra::HWY_NAMESPACE
+HWY_AFTER_NAMESPACE();
+
+#endif
