@@ -52,6 +52,7 @@ public:
 
   double reach() const { return reach_; }
   std::uint64_t filled() const { return filled_; }
+  std::size_t cells() const { return cells_.keys().size(); }  ///< divided
   std::size_t bytes() const;
 
 private:
