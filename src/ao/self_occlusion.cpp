@@ -45,6 +45,11 @@ struct Values {
   }
 };
 
+/// Inside a side of a triangle.
+SurfacePoint middle_of(std::uint64_t side) {
+  return {static_cast<std::uint32_t>(side / 2), 0.25f, 0.25f, side % 2 == 0};
+}
+
 constexpr SelfOcclusion::Answer missing_answer{SelfOcclusion::State::missing, 0};
 
 }  // namespace
@@ -89,7 +94,7 @@ SelfOcclusion::Answer SelfOcclusion::find_large(const SurfacePoint& point,
         if (values.v[k] == unknown) missing.push_back(around.at[k]);
       return missing_answer;
     }
-    const bool last = level + 1 == SurfaceLayout::levels;
+    const bool last = level + 1 == layout_.levels(point.triangle);
     const int too_near = last ? 0 : buried | (level == 0 ? near_wide : near_half);
     if ((values.any() & too_near) == 0 && !values.disagree()) return values.answer(around.weights);
     if (!last) continue;
@@ -133,7 +138,7 @@ bool SelfOcclusion::add_cell(std::uint64_t key) {
 /// Keeps what the corners of a small triangle say beside it, or divides it.
 void SelfOcclusion::settle(std::uint64_t index) {
   Side& side = sides_[index];
-  const SurfacePoint middle{static_cast<std::uint32_t>(index / 2), 0.25f, 0.25f, index % 2 == 0};
+  const SurfacePoint middle = middle_of(index);
   const SampleTriple corners = layout_.corners(middle);
   const Values values{{values_[corners.at[0]], values_[corners.at[1]], values_[corners.at[2]]}};
   const std::uint64_t key = layout_.cell_key(middle);
@@ -145,29 +150,23 @@ void SelfOcclusion::settle(std::uint64_t index) {
   }
 }
 
-/// Whether a wider grid has it already.
-bool SelfOcclusion::copied(std::uint32_t sample) {
-  if (sample >= layout_.samples()) return false;
-  const Value wider = values_[layout_.widest(sample)];
-  if (wider != unknown) values_[sample] = wider;
-  return wider != unknown;
-}
-
 bool SelfOcclusion::fill(std::span<const std::uint64_t> missing, const AoKernels& kernels,
                          const std::function<void(double)>& progress, const StopFlag* stop) {
   const auto sides = std::lower_bound(missing.begin(), missing.end(), is_side);
   const auto cells = std::lower_bound(sides, missing.end(), is_cell);
-  std::vector<std::uint32_t> samples(missing.begin(), sides);
-  for (auto side = sides; side != cells; ++side) {
-    const std::uint64_t index = *side & ~is_side;
-    const SampleTriple corners =
-        layout_.corners({static_cast<std::uint32_t>(index / 2), 0.25f, 0.25f, index % 2 == 0});
-    for (const std::uint32_t at : corners.at)
-      if (values_[at] == unknown) samples.push_back(at);
-  }
-  std::erase_if(samples, [this](std::uint32_t sample) { return copied(sample); });
+  std::vector<std::uint32_t> samples;
+  const auto want = [&](std::uint32_t sample) {
+    const std::uint32_t shared = sample < layout_.samples() ? layout_.shared(sample) : sample;
+    if (values_[shared] == unknown) samples.push_back(shared);
+  };
+  for (auto sample = missing.begin(); sample != sides; ++sample) want(static_cast<std::uint32_t>(*sample));
+  for (auto side = sides; side != cells; ++side)
+    for (const std::uint32_t corner : layout_.corners(middle_of(*side & ~is_side)).at) want(corner);
   sort_unique(samples);
   if (!cast(samples, kernels, progress, stop)) return false;
+  for (auto sample = missing.begin(); sample != sides; ++sample)
+    if (*sample < layout_.samples())
+      values_[*sample] = values_[layout_.shared(static_cast<std::uint32_t>(*sample))];
   for (auto side = sides; side != cells; ++side) settle(*side & ~is_side);
   for (auto key = cells; key != missing.end(); ++key) add_cell(*key & ~is_cell);
   return true;

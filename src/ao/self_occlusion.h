@@ -70,7 +70,6 @@ private:
                       std::vector<std::uint64_t>& missing) const;
   bool cast(const std::vector<std::uint32_t>& samples, const AoKernels& kernels,
             const std::function<void(double)>& progress, const StopFlag* stop);
-  bool copied(std::uint32_t sample);
   bool add_cell(std::uint64_t key);
   void settle(std::uint64_t side);
   SurfacePoint place(std::uint32_t sample) const;

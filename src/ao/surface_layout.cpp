@@ -32,14 +32,21 @@ GridPoint grid_point(std::uint32_t index, std::uint32_t steps) {
   return {index, j};
 }
 
-/// Three grids, each whole.
-std::size_t grids_size(std::uint32_t steps) {
-  return grid_size(steps / 4) + grid_size(steps / 2) + grid_size(steps);
+int levels_of(std::uint32_t steps) {
+  return steps == 2 ? 2 : SurfaceLayout::most_levels;
 }
-/// Where in them the grid of a level starts.
+/// Steps of a level along a side.
+std::uint32_t level_steps(int level, std::uint32_t steps) {
+  return steps >> (levels_of(steps) - 1 - level);
+}
+/// Where a level starts among a triangle's grids, each of which is whole.
 std::uint32_t level_start(int level, std::uint32_t steps) {
-  return static_cast<std::uint32_t>((level > 0 ? grid_size(steps / 4) : 0) +
-                                    (level > 1 ? grid_size(steps / 2) : 0));
+  std::size_t start = 0;
+  for (int wider = 0; wider < level; ++wider) start += grid_size(level_steps(wider, steps));
+  return static_cast<std::uint32_t>(start);
+}
+std::size_t grids_size(std::uint32_t steps) {
+  return level_start(levels_of(steps) - 1, steps) + grid_size(steps);
 }
 /// A point of one of them.
 struct LevelPoint {
@@ -48,8 +55,8 @@ struct LevelPoint {
 };
 LevelPoint level_point(std::uint32_t index, std::uint32_t steps) {
   int level = 0;
-  while (level + 1 < SurfaceLayout::levels && index >= level_start(level + 1, steps)) ++level;
-  const GridPoint p = grid_point(index - level_start(level, steps), steps >> (2 - level));
+  while (level + 1 < levels_of(steps) && index >= level_start(level + 1, steps)) ++level;
+  const GridPoint p = grid_point(index - level_start(level, steps), level_steps(level, steps));
   return {level, p.i, p.j};
 }
 
@@ -63,10 +70,12 @@ double longest_edge(const ObjectShape& shape, std::size_t triangle) {
   return std::sqrt(square);
 }
 
-/// Fine steps along a side: a multiple of the refinement, or 1 for a triangle whose corners will do.
+/// Fine steps along a side: a multiple of the refinement, 2 for a triangle within one wide step, 1 for one
+/// whose corners will do.
 std::uint32_t steps_of(double edge, double spacing) {
   constexpr double most_wide = 2048;
   if (!(edge > 0.5 * spacing)) return 1;
+  if (edge <= spacing) return 2;
   return refinement * static_cast<std::uint32_t>(std::clamp(std::ceil(edge / spacing), 1.0, most_wide));
 }
 
@@ -141,23 +150,19 @@ void SurfaceLayout::lay_grids() {
 void SurfaceLayout::weld_corners() {
   struct Corner {
     std::uint64_t key;
-    std::uint32_t at;  // 3 x small triangle + corner
     std::uint32_t id;  // 3 x triangle + corner
   };
   std::vector<Corner> corners;
-  for (std::uint32_t t = 0, small = 0; t < grids_.size(); ++t) {
-    if (grids_[t].steps > 1) continue;
-    grids_[t].first = small;
+  corners.reserve(3 * grids_.size());
+  for (std::uint32_t t = 0; t < grids_.size(); ++t)
     for (std::uint32_t k = 0; k < 3; ++k)
-      corners.push_back({corner_key(shape_, t, static_cast<int>(k)), 3 * small + k, 3 * t + k});
-    ++small;
-  }
+      corners.push_back({corner_key(shape_, t, static_cast<int>(k)), 3 * t + k});
   corners_.resize(corners.size());
   std::sort(corners.begin(), corners.end(),
             [](const Corner& a, const Corner& b) { return a.key != b.key ? a.key < b.key : a.id < b.id; });
   for (std::size_t i = 0; i < corners.size(); ++i) {
     if (i == 0 || corners[i].key != corners[i - 1].key) shared_.push_back(corners[i].id);
-    corners_[corners[i].at] = static_cast<std::uint32_t>(shared_.size() - 1);
+    corners_[corners[i].id] = static_cast<std::uint32_t>(shared_.size() - 1);
   }
 }
 
@@ -176,7 +181,7 @@ SurfaceLayout::Cell SurfaceLayout::cell(float v, float w, std::uint32_t count) {
 
 SampleTriple SurfaceLayout::corners(const SurfacePoint& point) const {
   const Weights at(point);
-  const std::uint32_t* c = &corners_[std::size_t{3} * grids_[point.triangle].first];
+  const std::uint32_t* c = &corners_[std::size_t{3} * point.triangle];
   const std::uint32_t side = point.front ? 0 : 1;
   return {{2 * c[0] + side, 2 * c[1] + side, 2 * c[2] + side}, {1 - at.v - at.w, at.v, at.w}};
 }
@@ -184,7 +189,7 @@ SampleTriple SurfaceLayout::corners(const SurfacePoint& point) const {
 SampleTriple SurfaceLayout::around(const SurfacePoint& point, int level) const {
   const Weights at(point);
   const Grid grid = grids_[point.triangle];
-  const std::uint32_t side = point.front ? 0 : 1, steps = grid.steps >> (levels - 1 - level);
+  const std::uint32_t side = point.front ? 0 : 1, steps = level_steps(level, grid.steps);
   const std::uint32_t first = grid.first + level_start(level, grid.steps);
   const Cell c = cell(at.v, at.w, steps);
   const auto sample = [&](int k) { return 2 * (first + grid_index(c.i[k], c.j[k], steps)) + side; };
@@ -197,13 +202,20 @@ std::uint32_t SurfaceLayout::triangle_at(std::uint32_t place) const {
   return *(after - 1);
 }
 
-std::uint32_t SurfaceLayout::widest(std::uint32_t sample) const {
+int SurfaceLayout::levels(std::uint32_t triangle) const {
+  return levels_of(grids_[triangle].steps);
+}
+
+std::uint32_t SurfaceLayout::shared(std::uint32_t sample) const {
   if (sample / 2 < shared_.size()) return sample;
-  const Grid grid = grids_[triangle_at(sample / 2)];
+  const std::uint32_t triangle = triangle_at(sample / 2), side = sample % 2;
+  const Grid grid = grids_[triangle];
   LevelPoint p = level_point(sample / 2 - grid.first, grid.steps);
   for (; p.level > 0 && ((p.i | p.j) & 1) == 0; --p.level) p.i /= 2, p.j /= 2;
-  const std::uint32_t steps = grid.steps >> (levels - 1 - p.level);
-  return 2 * (grid.first + level_start(p.level, grid.steps) + grid_index(p.i, p.j, steps)) + sample % 2;
+  const std::uint32_t steps = level_steps(p.level, grid.steps), sum = p.i + p.j;
+  if (p.level == 0 && (sum == 0 || p.i == steps || p.j == steps))
+    return 2 * corners_[std::size_t{3} * triangle + (sum == 0 ? 0 : p.i == steps ? 1 : 2)] + side;
+  return 2 * (grid.first + level_start(p.level, grid.steps) + grid_index(p.i, p.j, steps)) + side;
 }
 
 SurfacePoint SurfaceLayout::place(std::uint32_t sample) const {
@@ -215,12 +227,14 @@ SurfacePoint SurfaceLayout::place(std::uint32_t sample) const {
   };
   if (sample < shared_.size()) {
     const std::uint32_t corner = shared_[sample] % 3;
-    return pulled(shared_[sample] / 3, corner == 1 ? 1.0f : 0.0f, corner == 2 ? 1.0f : 0.0f, 1);
+    const std::uint32_t owner = shared_[sample] / 3;
+    return pulled(owner, corner == 1 ? 1.0f : 0.0f, corner == 2 ? 1.0f : 0.0f,
+                  static_cast<float>(grids_[owner].steps));
   }
   const std::uint32_t triangle = triangle_at(sample);
   const Grid grid = grids_[triangle];
   const LevelPoint p = level_point(sample - grid.first, grid.steps);
-  const auto steps = static_cast<float>(grid.steps >> (levels - 1 - p.level));
+  const auto steps = static_cast<float>(level_steps(p.level, grid.steps));
   return pulled(triangle, static_cast<float>(p.i) / steps, static_cast<float>(p.j) / steps,
                 static_cast<float>(grid.steps));
 }

@@ -1,9 +1,10 @@
 // Where on a body's surface its own occlusion is sampled.
 //
 // On a large triangle the samples are the points of three grids, of reach / 12 and a half and a quarter of
-// that; on a small one its corners, where corners at one place that face alike share a
-// sample. The finest cell of a grid, or a small triangle, can be divided once more. Samples are pulled a
-// little into their triangles, clear of what touches them at edges and corners.
+// that (of two, where one wide step is longer than the triangle); on a small one its corners. Corners at one
+// place that face alike share a sample, and so do grids where they meet. The finest cell of a grid, or a
+// small triangle, can be divided once more. Samples are pulled a little into their triangles, clear of what
+// touches them at edges and corners.
 #pragma once
 
 #include <cstddef>
@@ -33,7 +34,7 @@ struct SampleTriple {
 
 class SurfaceLayout {
 public:
-  static constexpr int levels = 3;                                  ///< of the grids: wide, half, fine
+  static constexpr int most_levels = 3;                             ///< of the grids: wide, half, fine
   static constexpr std::size_t most_places = std::size_t{1} << 24;  ///< two samples each, front and back
   static constexpr std::uint32_t cell_samples = 15;                 ///< of a divided cell
 
@@ -43,13 +44,14 @@ public:
   std::size_t samples() const { return 2 * places_; }
   double spacing() const { return spacing_; }  ///< of the wide grids
   bool is_small(std::uint32_t triangle) const { return grids_[triangle].steps == 1; }
+  int levels(std::uint32_t triangle) const;  ///< of a large one
   /// Corners of a small triangle.
   SampleTriple corners(const SurfacePoint& point) const;
   /// Points of a large triangle's grid.
   SampleTriple around(const SurfacePoint& point, int level) const;
   SurfacePoint place(std::uint32_t sample) const;
-  /// The sample at the same place in the widest grid that has it.
-  std::uint32_t widest(std::uint32_t sample) const;
+  /// The one sample that stands for all at its place: a corner's, or that of the widest grid which has it.
+  std::uint32_t shared(std::uint32_t sample) const;
 
   /// Names the finest cell around the point.
   std::uint64_t cell_key(const SurfacePoint& point) const;
@@ -60,11 +62,9 @@ public:
   std::size_t bytes() const;
 
 private:
-  /// From place `first` on if it has `steps` > 1 (fine) steps along a side, else three entries of corners_
-  /// from 3 x first on.
   struct Grid {
-    std::uint32_t first = 0;
-    std::uint32_t steps = 1;
+    std::uint32_t first = 0;  ///< place
+    std::uint32_t steps = 1;  ///< fine ones along a side; 1: small
   };
   /// A triangle between neighbouring points of a grid, and where a point lies in it.
   struct Cell {
@@ -81,7 +81,7 @@ private:
   double spacing_;
   std::size_t places_ = 0;
   std::vector<Grid> grids_;             ///< one a triangle
-  std::vector<std::uint32_t> corners_;  ///< places of small triangles' corners
+  std::vector<std::uint32_t> corners_;  ///< places of all triangles' corners
   std::vector<std::uint32_t> shared_;   ///< place -> triangle * 3 + corner
   std::vector<std::uint32_t> large_;    ///< triangles with grids, by ascending first place
 };

@@ -14,6 +14,12 @@ struct Body {
   ObjectShape shape;
   TriangleBvh casters;
 
+  glm::dvec3 at(const SurfacePoint& p) const {
+    const glm::uvec3 t = shape.triangles[p.triangle];
+    return (1 - double{p.v} - p.w) * glm::dvec3(shape.positions[t.x]) +
+           double{p.v} * glm::dvec3(shape.positions[t.y]) + double{p.w} * glm::dvec3(shape.positions[t.z]);
+  }
+
   explicit Body(const Mesh& mesh) {
     SceneMaker make;
     make.add(mesh);
@@ -179,7 +185,7 @@ TEST(CellNumbers, FindsWhatWasAddedAndNothingElse) {
 }
 
 // All samples of a grid lie on their triangle, within a quarter of a fine step of their own place; those that
-// share a place with a wider grid's lie where that one lies.
+// share one sample lie at one place, but for that.
 TEST(SurfaceLayout, PlacesSamplesWhereTheyAreAsked) {
   const Body body(sieve());
   const SurfaceLayout layout(body.shape, 1);
@@ -190,7 +196,7 @@ TEST(SurfaceLayout, PlacesSamplesWhereTheyAreAsked) {
     const SurfacePoint point{random.index(802), static_cast<float>(v), static_cast<float>(w),
                              random.chance(0.5)};
     ASSERT_FALSE(layout.is_small(point.triangle));
-    for (int level = 0; level < SurfaceLayout::levels; ++level) {
+    for (int level = 0; level < layout.levels(point.triangle); ++level) {
       const SampleTriple around = layout.around(point, level);
       double sum_v = 0, sum_w = 0, sum = 0;
       for (int k = 0; k < 3; ++k) {
@@ -201,12 +207,12 @@ TEST(SurfaceLayout, PlacesSamplesWhereTheyAreAsked) {
         EXPECT_GE(std::min({place.v, place.w, 1 - place.v - place.w}), 0);
         sum_v += double{around.weights[k]} * place.v, sum_w += double{around.weights[k]} * place.w;
         sum += around.weights[k];
-        const std::uint32_t widest = layout.widest(around.at[k]);
-        const SurfacePoint there = layout.place(widest);
-        EXPECT_EQ(there.v, place.v);
-        EXPECT_EQ(there.w, place.w);
-        EXPECT_EQ(layout.widest(widest), widest);
-        wider += widest != around.at[k];
+        const std::uint32_t shared = layout.shared(around.at[k]);
+        const SurfacePoint there = layout.place(shared);
+        EXPECT_LT(glm::length(body.at(there) - body.at(place)), 0.1);
+        EXPECT_EQ(there.front, place.front);
+        EXPECT_EQ(layout.shared(shared), shared);
+        wider += shared != around.at[k];
       }
       EXPECT_NEAR(sum, 1, 1e-5);
       EXPECT_NEAR(sum_v, v, 0.05);
