@@ -86,7 +86,7 @@ HWY_INLINE Float8 meet_triangles(const TriangleBlock& block, const CasterRay& ra
       ((u * scale * p[0].z + v * scale * p[1].z) + w * scale * p[2].z) * splat<Float8>(shear.to_z);
   const auto inside = not_above(zero, min(u, min(v, w))) | not_above(max(u, max(v, w)), zero);
   const auto ahead = less(splat<Float8>(ray.from), t) & less(t, splat<Float8>(ray.to));
-  return where(inside & ahead, t, none);
+  return choose(inside & ahead, t, none);
 }
 
 inline bool usable(const CasterRay& ray) {

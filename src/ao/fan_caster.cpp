@@ -102,8 +102,8 @@ HWY_INLINE void meet_block(const TriangleBlock& block, Fan& fan) {
     if (!any(inside)) continue;
     const Float16 sum = (u + v) + w, t = splat<Float16>(planes.volume[i]) / sum;
     const auto hit = inside & less(zero, t) & less(t, fan.distance);
-    fan.distance = where(hit, t, fan.distance);
-    fan.facing = where(hit, zero - sum, fan.facing);
+    fan.distance = choose(hit, t, fan.distance);
+    fan.facing = choose(hit, zero - sum, fan.facing);
   }
 }
 

@@ -62,7 +62,7 @@ HWY_INLINE Chords chords_of(const FieldInstance& f, const RayBatch& rays) {
   c.met =
       less(zero, half_square) & less(splat<Float16>(1e-30f), square) & less(square, splat<Float16>(1e30f));
   c.half = square_root(max(half_square, zero));
-  c.middle = {where(c.met, middle.x, zero), where(c.met, middle.y, zero), where(c.met, middle.z, zero)};
+  c.middle = {choose(c.met, middle.x, zero), choose(c.met, middle.y, zero), choose(c.met, middle.z, zero)};
   return c;
 }
 
@@ -151,12 +151,12 @@ private:
 HWY_INLINE Float16 first_hit(const DisplacementField& field, const Chords& c, const Look& from_enter,
                              Float16 none) {
   const Float16 s = sample(field, from_enter.position, from_enter.entry);
-  return where(less(s, splat<Float16>(no_hit)), c.at + s * c.per_unit, none);
+  return choose(less(s, splat<Float16>(no_hit)), c.at + s * c.per_unit, none);
 }
 HWY_INLINE Float16 last_hit(const DisplacementField& field, const Chords& c, const Look& from_exit,
                             Float16 none) {
   const Float16 s = sample(field, from_exit.position, from_exit.entry);
-  return where(less(s, splat<Float16>(no_hit)), c.at - s * c.per_unit, none);
+  return choose(less(s, splat<Float16>(no_hit)), c.at - s * c.per_unit, none);
 }
 
 }  // namespace tenebra::HWY_NAMESPACE

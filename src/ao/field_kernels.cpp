@@ -21,7 +21,7 @@ namespace tenebra::HWY_NAMESPACE {
 namespace {
 
 // Batches looked up at once, so that what they need of the table arrives while others are worked on.
-constexpr std::size_t in_flight = 4;
+constexpr std::size_t in_flight = 8;
 constexpr float half_diagonal = 0.70710678f;  // of a cell, in widths
 constexpr float cast_cells = 1;               // how far close rays are cast, in cells
 
@@ -29,7 +29,7 @@ constexpr float cast_cells = 1;               // how far close rays are cast, in
 HWY_INLINE std::uint32_t close_rays(const DisplacementField& field, const Chords& c, Truth16 inside) {
   const Float16 half = splat<Float16>(0.5f * near_side), last = splat<Float16>(near_side - 1.0f);
   const auto cell = [&](Float16 x) {
-    return truncate(min(max(where(inside, x, half) * half + half, splat<Float16>(0.0f)), last));
+    return truncate(min(max(choose(inside, x, half) * half + half, splat<Float16>(0.0f)), last));
   };
   const Int16 side = splat<Int16>(near_side);
   const Int16 place = (cell(c.origin.z) * side + cell(c.origin.y)) * side + cell(c.origin.x);
@@ -95,7 +95,7 @@ HWY_INLINE int between(const FieldInstance& instance, const RayBatch& rays, cons
   const Float16 behind_first = answer.start - first, before_last = last - answer.start;
   const Truth16 at_first = behind & less(behind_first, min(tolerance, before_last));
   const Truth16 deep = behind & not_above(tolerance, before_last) & not_above(tolerance, behind_first);
-  found = where(at_first, answer.start, where(behind, where(deep, last, none), found));
+  found = choose(at_first, answer.start, choose(behind, choose(deep, last, none), found));
   if (instance.near == nullptr) return 0;
   const std::uint32_t which = bits(deep);
   if (which == 0) return 0;
@@ -106,7 +106,7 @@ HWY_INLINE int between(const FieldInstance& instance, const RayBatch& rays, cons
   cast(instance, rays, which, from, to);
   for (int i = 0; i < batch_size; ++i)
     if (to[i] == limit[i]) to[i] = no_distance;
-  found = where(deep, load<Float16>(to), found);
+  found = choose(deep, load<Float16>(to), found);
   return std::popcount(which);
 }
 
@@ -155,13 +155,13 @@ HWY_INLINE int finish(const FieldInstance& instance, const RayBatch& rays, Query
   const Float16 none = splat<Float16>(no_distance);
   const Float16 first = first_hit(field, c, q.looks.from_enter(), none);
   const Truth16 behind = q.inside & less(first, q.answer.start);
-  Float16 found = where(behind, none, max(first, q.answer.start));
+  Float16 found = choose(behind, none, max(first, q.answer.start));
   if (instance.ends == FieldEnds::both && any(behind)) {
     const Float16 tolerance = splat<Float16>(half_diagonal * field.cell()) * c.per_unit;
     const Float16 last = last_hit(field, c, q.looks.from_exit(field, c), first);
     casts += between(instance, rays, q.answer, behind, first, last, tolerance, found);
   }
-  store(where(q.answer.live, min(found, q.answer.before), q.answer.before), distance);
+  store(choose(q.answer.live, min(found, q.answer.before), q.answer.before), distance);
   return casts;
 }
 

@@ -142,18 +142,29 @@ void Occluders::near(const PointBox& box, std::vector<int>& out) const {
   add(deforming_sphere_, deforming);
 }
 
-bool Occluders::reaches(int occluder, const Receiver& receiver) const {
-  if (occluder == receiver.owner.object && occluder != deforming &&
-      (occluder == standing || objects_->objects[static_cast<std::size_t>(occluder)].rigid))
-    return false;
-  const Sphere& sphere = occluder == standing    ? standing_sphere_
-                         : occluder == deforming ? deforming_sphere_
-                                                 : placed_[static_cast<std::size_t>(occluder)].sphere;
-  const dvec3 away = sphere.centre - receiver.position;
-  const double farthest = sphere.radius + reach_;
-  return glm::dot(away, away) < farthest * farthest &&
-         glm::dot(away, dvec3(receiver.normal)) > -sphere.radius &&
-         glm::dot(away, dvec3(receiver.face)) > -sphere.radius;
+const Sphere& Occluders::sphere(int occluder) const {
+  if (occluder == standing) return standing_sphere_;
+  if (occluder == deforming) return deforming_sphere_;
+  return placed_[static_cast<std::size_t>(occluder)].sphere;
+}
+
+bool Occluders::reaches(int occluder, std::span<const Receiver> receivers, std::uint8_t* out) const {
+  const bool hides_itself = occluder == deforming ||
+                            (occluder >= 0 && !objects_->objects[static_cast<std::size_t>(occluder)].rigid);
+  const Sphere around = sphere(occluder);
+  const double farthest = around.radius + reach_;
+  bool any = false;
+  for (std::size_t i = 0; i < receivers.size(); ++i) {
+    const Receiver& receiver = receivers[i];
+    const dvec3 away = around.centre - receiver.position;
+    const bool reached = (hides_itself || occluder != receiver.owner.object) &&
+                         glm::dot(away, away) < farthest * farthest &&
+                         glm::dot(away, dvec3(receiver.normal)) > -around.radius &&
+                         glm::dot(away, dvec3(receiver.face)) > -around.radius;
+    out[i] = reached ? 1 : 0;
+    any |= reached;
+  }
+  return any;
 }
 
 bool Occluders::ready(int occluder) const {
@@ -232,7 +243,7 @@ Expected<DisplacementField> Occluders::make_field(const ObjectShape& shape, cons
   return field;
 }
 
-void Occluders::meet(int occluder, const Receiver& receiver, std::span<const RayBatch> rays, float* distances,
+void Occluders::meet(int occluder, std::int32_t owner, std::span<const RayBatch> rays, float* distances,
                      OccluderCounts& counts) const {
   const auto each = [&](const auto& hit) {
     for (std::size_t b = 0; b < rays.size(); ++b) hit(rays[b], distances + b * batch_size);
@@ -244,7 +255,7 @@ void Occluders::meet(int occluder, const Receiver& receiver, std::span<const Ray
     return each([&](const RayBatch& batch, float* out) { kernels_.cast(tree, batch, out, nullptr); });
   }
   const Placed& placed = placed_[static_cast<std::size_t>(occluder)];
-  if (placed.instance && occluder != receiver.owner.object) {
+  if (placed.instance && occluder != owner) {
     counts.lookups += all;
     counts.rays_cast +=
         static_cast<std::uint64_t>(kernels_.field.nearest_hits(*placed.instance, rays, distances));

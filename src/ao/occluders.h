@@ -16,7 +16,7 @@
 #include "ao/displacement_field.h"
 #include "ao/receivers.h"
 #include "ao/scene_objects.h"
-#include "ao/self_occlusion.h"
+#include "ao/triangle_bvh.h"
 #include "base/expected.h"
 
 namespace tenebra {
@@ -49,15 +49,17 @@ public:
   /// What may come within the reach of a point in the box: objects in ascending order, then `standing`,
   /// `deforming`.
   void near(const PointBox& box, std::vector<int>& out) const;
-  /// Whether any part of it may lie above the receiver's planes, within the reach, and is not its own body
-  /// (but for an object that is stretched or sheared: samples of its surface would not hold).
-  bool reaches(int occluder, const Receiver& receiver) const;
+  /// out[i]: whether any part of it may lie above receiver i's planes, within the reach, and is not its own
+  /// body (but for an object that is stretched or sheared: samples of its surface would not hold). Returns
+  /// whether any is.
+  bool reaches(int occluder, std::span<const Receiver> receivers, std::uint8_t* out) const;
   bool ready(int occluder) const;
   /// Makes what `missing` (ascending, unique) lacks. Fails with "stopped".
   Expected<void> build(std::span<const int> missing, const AoProgress& progress, const StopFlag* stop);
 
-  /// Shortens the distances of the rays of one receiver to where they hit `occluder`.
-  void meet(int occluder, const Receiver& receiver, std::span<const RayBatch> rays, float* distances,
+  /// Shortens the distances of rays of points on object `owner` to where they hit `occluder`. The rays of a
+  /// batch start at one point.
+  void meet(int occluder, std::int32_t owner, std::span<const RayBatch> rays, float* distances,
             OccluderCounts& counts) const;
 
   /// The tree over the casting triangles of a shape, or of what stands (-1).
@@ -68,6 +70,7 @@ public:
   std::vector<std::string> take_notes() { return std::exchange(notes_, {}); }
 
 private:
+  const Sphere& sphere(int occluder) const;
   struct Shape {
     std::uint64_t hash = 0;
     std::optional<TriangleBvh> casters;

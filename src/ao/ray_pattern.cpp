@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 #include <cstdint>
+#include <numbers>
 #include <utility>
 
 #include "ao/sphere_maps.h"
@@ -10,14 +11,7 @@
 namespace tenebra {
 namespace {
 
-constexpr double turn = 6.283185307179586;
-
-/// Van der Corput: the bits of i mirrored at the binary point.
-double radical_inverse(std::uint32_t i) {
-  double value = 0, digit = 0.5;
-  for (; i > 0; i >>= 1, digit /= 2) value += (i & 1) * digit;
-  return value;
-}
+constexpr double turn = 2 * std::numbers::pi;
 
 /// Bits of two coordinates interleaved: neighbours in the square come close together.
 std::uint32_t morton(glm::dvec2 p) {
@@ -36,11 +30,12 @@ std::uint64_t mixed(std::uint64_t z) {
   return z ^ (z >> 31);
 }
 
-/// Cell of a coordinate. Shifted, so that walls at round coordinates do not lie between two cells.
-std::uint64_t cell_number(double coordinate, double cell) {
+/// Cell of a coordinate in cells. Shifted, so that walls at round coordinates do not lie between two cells.
+std::uint64_t cell_number(double coordinate) {
   constexpr double shift = 0.3819660113, most = 1e15;
-  return static_cast<std::uint64_t>(
-      static_cast<std::int64_t>(std::floor(std::clamp(coordinate / cell, -most, most) + shift)));
+  const double shifted = std::clamp(coordinate, -most, most) + shift;
+  const auto whole = static_cast<std::int64_t>(shifted);  // towards zero
+  return static_cast<std::uint64_t>(whole - (static_cast<double>(whole) > shifted ? 1 : 0));
 }
 
 }  // namespace
@@ -48,7 +43,7 @@ std::uint64_t cell_number(double coordinate, double cell) {
 RayPattern make_ray_pattern(int rays) {
   std::vector<glm::dvec2> square;
   for (int i = 0; i < rays; ++i)
-    square.push_back({(i + 0.5) / rays, radical_inverse(static_cast<std::uint32_t>(i)) + 0.5 / rays});
+    square.push_back({(i + 0.5) / rays, std::fmod((i + 0.5) / std::numbers::phi, 1.0)});
   std::stable_sort(square.begin(), square.end(),
                    [](const glm::dvec2& a, const glm::dvec2& b) { return morton(a) < morton(b); });
   RayPattern pattern;
@@ -63,14 +58,15 @@ RayPattern make_ray_pattern(int rays) {
 }
 
 RayAxes turned_axes(const glm::vec3& normal, const glm::dvec3& position, double cell) {
-  std::uint64_t key = mixed(cell_number(position.x, cell) + 0x9e3779b97f4a7c15u);
-  key = mixed(key ^ cell_number(position.y, cell));
-  key = mixed(key ^ cell_number(position.z, cell));
-  const double angle = (static_cast<double>(key >> 11) * 0x1p-53 - 0.5) * (0.25 * turn), x = angle * angle;
-  // Series for an eighth of a turn either way, beyond float; then whole quarters.
-  auto s =
-      static_cast<float>(angle * (1 - x / 6 * (1 - x / 20 * (1 - x / 42 * (1 - x / 72 * (1 - x / 110))))));
-  auto c = static_cast<float>(1 - x / 2 * (1 - x / 12 * (1 - x / 30 * (1 - x / 56 * (1 - x / 90)))));
+  const double cells = 1 / cell;
+  const std::uint64_t key = mixed(0xd1342543de82ef95u * cell_number(position.x * cells) +
+                                  0xaf251af3b0f025b5u * cell_number(position.y * cells) +
+                                  0x9e3779b97f4a7c15u * cell_number(position.z * cells) + 1);
+  const float angle = (static_cast<float>(key >> 40) * 0x1p-24f - 0.5f) * static_cast<float>(0.25 * turn);
+  const float x = angle * angle;
+  // Series for an eighth of a turn either way, to a float's rounding; then whole quarters.
+  float s = angle * (1 - x * (1.0f / 6 - x * (1.0f / 120 - x * (1.0f / 5040 - x * (1.0f / 362880)))));
+  float c = 1 - x * (0.5f - x * (1.0f / 24 - x * (1.0f / 720 - x * (1.0f / 40320))));
   if ((key & 1) != 0) c = -std::exchange(s, c);
   if ((key & 2) != 0) c = -c, s = -s;
   const Frame frame = frame_around(normal);

@@ -36,8 +36,12 @@ void PixelReceivers::receivers(int group, std::vector<Receiver>& out) const {
   out.clear();
   ReceiverMaker maker(frame_.geometry, frame_.objects);
   const int x0 = group % columns_ * tile, y0 = group / columns_ * tile;
+  std::uint32_t triangles[tile];
   for (int y = y0; y < std::min(y0 + tile, height_); ++y) {
-    for (int x = x0; x < std::min(x0 + tile, width_); ++x) {
+    const int count = std::min(tile, width_ - x0);
+    for (int k = 0; k < count; ++k) triangles[k] = frame_.points.triangles[pixel(x0 + k, y)];
+    maker.fetch({triangles, static_cast<std::size_t>(count)});
+    for (int x = x0; x < x0 + count; ++x) {
       const std::size_t i = pixel(x, y);
       Receiver receiver;
       if (!maker.make(frame_.points.triangles[i], frame_.points.positions[i], frame_.normals[i], receiver))

@@ -3,43 +3,54 @@
 #include <cmath>
 
 namespace tenebra {
-namespace {
 
 using glm::dvec3;
 using glm::vec3;
 
-struct Triangle {
-  dvec3 v[3];
-};
-
-Triangle corners(const std::vector<vec3>& positions, const glm::uvec3& t) {
-  return {{dvec3(positions[t.x]), dvec3(positions[t.y]), dvec3(positions[t.z])}};
+void ReceiverMaker::fetch(std::span<const std::uint32_t> triangles) {
+  fetched_.clear();
+  next_ = 0;
+  std::uint32_t last = triangle_;
+  for (const std::uint32_t id : triangles) {
+    if (id == last || id >= objects_.owners.size()) continue;
+    last = id;
+    fetched_.push_back({.id = id});
+  }
+  // One loop a step of indirection: no load waits for that of another triangle.
+  for (Fetched& f : fetched_) f.owner = objects_.owners[f.id];
+  for (Fetched& f : fetched_) look_up(f);
+  for (Fetched& f : fetched_)
+    for (int k = 0; k < 3; ++k) f.at[k] = (*f.positions)[f.corners[k]];
 }
 
-}  // namespace
-
-void ReceiverMaker::take(std::uint32_t triangle) {
-  triangle_ = triangle;
-  owner_ = objects_.owners[triangle];
-  to_object_ = nullptr;
-  Triangle t;
-  if (owner_.object == TriangleOwner::deforming) {
-    t = corners(geometry_.positions, geometry_.triangles[triangle]);
-  } else if (owner_.object == TriangleOwner::standing) {
-    t = corners(objects_.standing.positions, objects_.standing.triangles[owner_.triangle]);
-  } else {
-    const MovingObject& object = objects_.objects[static_cast<std::size_t>(owner_.object)];
-    const ObjectShape& shape = objects_.shapes[static_cast<std::size_t>(object.shape)];
-    to_object_ = &object.to_object;
-    t = corners(shape.positions, shape.triangles[owner_.triangle]);
+void ReceiverMaker::look_up(Fetched& f) const {
+  if (f.owner.object == TriangleOwner::deforming) {
+    f.positions = &geometry_.positions;
+    f.corners = geometry_.triangles[f.id];
+    return;
   }
-  a_ = t.v[0];
-  const dvec3 e1 = t.v[1] - a_, e2 = t.v[2] - a_, n = glm::cross(e1, e2);
+  const ObjectShape* shape = &objects_.standing;
+  if (f.owner.object >= 0) {
+    const int number = objects_.objects[static_cast<std::size_t>(f.owner.object)].shape;
+    shape = &objects_.shapes[static_cast<std::size_t>(number)];
+  }
+  f.positions = &shape->positions;
+  f.corners = shape->triangles[f.owner.triangle];
+}
+
+void ReceiverMaker::take(const Fetched& triangle) {
+  triangle_ = triangle.id;
+  owner_ = triangle.owner;
+  to_object_ =
+      owner_.object < 0 ? nullptr : &objects_.objects[static_cast<std::size_t>(owner_.object)].to_object;
+  a_ = triangle.at[0];
+  const dvec3 e1 = dvec3(triangle.at[1]) - a_, e2 = dvec3(triangle.at[2]) - a_, n = glm::cross(e1, e2);
   const double area2 = glm::dot(n, n);
   face_ = vec3(0.0f);
   if (!(area2 > 0) || !std::isfinite(area2)) return;
-  du_ = glm::cross(e2, n) / area2;
-  dv_ = glm::cross(n, e1) / area2;
+  const double scale = 1 / area2;
+  du_ = scale * glm::cross(e2, n);
+  dv_ = scale * glm::cross(n, e1);
   dvec3 world = n;
   if (to_object_ != nullptr)  // the transpose of the inverse: right for any transform
     world = glm::transpose(glm::dmat3(*to_object_)) * n;
@@ -48,7 +59,10 @@ void ReceiverMaker::take(std::uint32_t triangle) {
 
 bool ReceiverMaker::make(std::uint32_t triangle, const dvec3& position, const vec3& normal, Receiver& out) {
   if (triangle >= objects_.owners.size()) return false;
-  if (triangle != triangle_) take(triangle);
+  if (triangle != triangle_) {
+    if (next_ == fetched_.size() || fetched_[next_].id != triangle) fetch({&triangle, 1});
+    take(fetched_[next_++]);
+  }
   const float square = glm::dot(normal, normal);
   if (face_ == vec3(0.0f) || !(square > 0.25f && square < 4.0f)) return false;
   if (!std::isfinite(position.x + position.y + position.z)) return false;

@@ -4,9 +4,11 @@
 #include <cstddef>
 #include <cstdint>
 #include <glm/glm.hpp>
+#include <span>
+#include <vector>
 
 #include "ao/scene_objects.h"
-#include "ao/self_occlusion.h"
+#include "ao/surface_layout.h"
 
 namespace tenebra {
 
@@ -28,14 +30,29 @@ public:
   ReceiverMaker(const FrameGeometry& geometry, const SceneObjects& objects)
       : geometry_(geometry), objects_(objects) {}
 
+  /// Fetches the triangles of points about to be made, in their order: memory is slow, and waits for many
+  /// at once here, for one after the other else.
+  void fetch(std::span<const std::uint32_t> triangles);
+
   /// False where there is none: no triangle, no area, no normal, or a point that is not finite.
   bool make(std::uint32_t triangle, const glm::dvec3& position, const glm::vec3& normal, Receiver& out);
 
 private:
-  void take(std::uint32_t triangle);
+  /// A triangle in the space of its object.
+  struct Fetched {
+    std::uint32_t id;
+    TriangleOwner owner;
+    const std::vector<glm::vec3>* positions;
+    glm::uvec3 corners;
+    glm::vec3 at[3];
+  };
+  void look_up(Fetched& triangle) const;
+  void take(const Fetched& triangle);
 
   const FrameGeometry& geometry_;
   const SceneObjects& objects_;
+  std::vector<Fetched> fetched_;
+  std::size_t next_ = 0;  ///< of fetched_
   std::uint32_t triangle_ = 0xffffffffu;
   TriangleOwner owner_;
   const glm::dmat4* to_object_ = nullptr;

@@ -363,12 +363,6 @@ HWY_INLINE Truth<T, N> not_above(Pack<T, N> a, Pack<T, N> b) {
   for (int i = 0; i < a.registers; ++i) t.r[i] = hn::Le(a.r[i], b.r[i]);
   return t;
 }
-/// Lanes of `a` where t, of `b` elsewhere.
-template <class T, int N>
-HWY_INLINE Pack<T, N> where(Truth<T, N> t, Pack<T, N> a, Pack<T, N> b) {
-  for (int i = 0; i < a.registers; ++i) a.r[i] = hn::IfThenElse(t.r[i], a.r[i], b.r[i]);
-  return a;
-}
 template <class T, int N>
 HWY_INLINE bool any(Truth<T, N> t) {
   for (int i = 0; i < Pack<T, N>::registers; ++i)

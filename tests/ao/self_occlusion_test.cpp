@@ -14,6 +14,12 @@ struct Body {
   ObjectShape shape;
   TriangleBvh casters;
 
+  glm::dvec3 at(const SurfacePoint& p) const {
+    const glm::uvec3 t = shape.triangles[p.triangle];
+    return (1 - double{p.v} - p.w) * glm::dvec3(shape.positions[t.x]) +
+           double{p.v} * glm::dvec3(shape.positions[t.y]) + double{p.w} * glm::dvec3(shape.positions[t.z]);
+  }
+
   explicit Body(const Mesh& mesh) {
     SceneMaker make;
     make.add(mesh);
@@ -28,15 +34,17 @@ const AoKernels kernels = ao_kernels(SimdLevel::automatic);
 
 /// Asks and fills until nothing is missing, as a frame does.
 float filled(SelfOcclusion& samples, const SurfacePoint& point) {
-  for (int round = 0; round < 5; ++round) {
+  for (int round = 0; round < 6; ++round) {
     std::vector<std::uint64_t> missing;
-    const auto around = samples.find_samples(point, missing);
+    const SelfOcclusion::Answer answer = samples.find(point, missing);
     std::sort(missing.begin(), missing.end());
     missing.erase(std::unique(missing.begin(), missing.end()), missing.end());
-    if (missing.empty()) return samples.occlusion(point, around, kernels);
+    EXPECT_EQ(missing.empty(), answer.state != SelfOcclusion::State::missing);
+    if (answer.state == SelfOcclusion::State::mixed) return samples.look(point, kernels);
+    if (missing.empty()) return answer.occlusion;
     EXPECT_TRUE(samples.fill(missing, kernels, {}, nullptr));
   }
-  ADD_FAILURE() << "still missing after five rounds";
+  ADD_FAILURE() << "still missing after six rounds";
   return -1;
 }
 
@@ -120,20 +128,110 @@ TEST(SelfOcclusion, MemoryIsBoundedHoweverShortTheReach) {
   append(scene, box_mesh({-1, 0, -1}, {1, 2, 1}));
   const Body body(scene);
   SelfOcclusion samples(body.shape, body.casters, 0.01);
-  EXPECT_LE(samples.bytes(), 2 * sizeof(std::uint16_t) * SelfOcclusion::most_samples + 10000);
+  EXPECT_LE(samples.bytes(), 2 * sizeof(std::uint16_t) * SurfaceLayout::most_places + 10000);
   EXPECT_GE(filled(samples, {0, 0.25f, 0.25f, true}), 0);
+}
+
+/// A floor under a plate of many small holes: neighbouring samples disagree everywhere.
+Mesh sieve() {
+  Mesh mesh = quad_mesh({0, 0, 0}, {0, 0, 4}, {4, 0, 0});
+  for (int j = 0; j < 20; ++j)
+    for (int i = 0; i < 20; ++i)
+      append(mesh, quad_mesh({0.2f * i, 0.02f, 0.2f * j}, {0, 0, 0.1f}, {0.1f, 0, 0}));
+  append(mesh, ball_mesh(0.3, 40));  // small triangles, some of them in the floor
+  return mesh;
+}
+
+// Beyond the limit, cells stay whole: answers are coarser, but there are some.
+TEST(SelfOcclusion, DividesNoMoreCellsThanAllowed) {
+  const Body body(sieve());
+  Random random(9);
+  std::vector<SurfacePoint> points;
+  for (int i = 0; i < 2000; ++i) {
+    const double v = random.unit(), w = random.unit() * (1 - v);
+    points.push_back({random.index(static_cast<std::uint32_t>(body.shape.triangles.size())),
+                      static_cast<float>(v), static_cast<float>(w), random.chance(0.8)});
+    points.push_back({random.index(2), static_cast<float>(v), static_cast<float>(w), true});
+  }
+  SelfOcclusion whole(body.shape, body.casters, 1), few(body.shape, body.casters, 1, 7),
+      none(body.shape, body.casters, 1, 0);
+  for (const SurfacePoint& point : points) {
+    for (SelfOcclusion* samples : {&whole, &few, &none}) {
+      const float hidden = filled(*samples, point);
+      EXPECT_GE(hidden, 0);
+      EXPECT_LE(hidden, 1);
+    }
+  }
+  EXPECT_GT(whole.cells(), 100u);
+  EXPECT_EQ(few.cells(), 7u);
+  EXPECT_EQ(none.cells(), 0u);
+  constexpr std::size_t cell = SurfaceLayout::cell_samples * sizeof(std::uint16_t) + sizeof(std::uint64_t);
+  EXPECT_GE(whole.bytes(), none.bytes() + cell * whole.cells());
+  EXPECT_LE(few.bytes(), none.bytes() + cell * 7 + 64 * 16);  // and the smallest table
+}
+
+// The same answer wherever a number is in the table, and none for keys that were never added.
+TEST(CellNumbers, FindsWhatWasAddedAndNothingElse) {
+  CellNumbers cells;
+  EXPECT_EQ(cells.find(0), CellNumbers::none);
+  const auto key = [](std::uint64_t i) { return i << 30 | (i % 7) << 16; };
+  for (std::uint64_t i = 0; i < 10000; ++i) cells.add(key(2 * i));
+  for (std::uint64_t i = 0; i < 10000; ++i) {
+    EXPECT_EQ(cells.find(key(2 * i)), i);
+    EXPECT_EQ(cells.keys()[i], key(2 * i));
+    EXPECT_EQ(cells.find(key(2 * i + 1)), CellNumbers::none);
+  }
+  EXPECT_LE(cells.bytes(), 10000 * 8 + 32768 * 16);
+}
+
+// All samples of a grid lie on their triangle, within a quarter of a fine step of their own place; those that
+// share one sample lie at one place, but for that.
+TEST(SurfaceLayout, PlacesSamplesWhereTheyAreAsked) {
+  const Body body(sieve());
+  const SurfaceLayout layout(body.shape, 1);
+  Random random(5);
+  int wider = 0;
+  for (int i = 0; i < 3000; ++i) {
+    const double v = random.unit(), w = random.unit() * (1 - v);
+    const SurfacePoint point{random.index(802), static_cast<float>(v), static_cast<float>(w),
+                             random.chance(0.5)};
+    ASSERT_FALSE(layout.is_small(point.triangle));
+    for (int level = 0; level < layout.levels(point.triangle); ++level) {
+      const SampleTriple around = layout.around(point, level);
+      double sum_v = 0, sum_w = 0, sum = 0;
+      for (int k = 0; k < 3; ++k) {
+        ASSERT_LT(around.at[k], layout.samples());
+        const SurfacePoint place = layout.place(around.at[k]);
+        EXPECT_EQ(place.triangle, point.triangle);
+        EXPECT_EQ(place.front, point.front);
+        EXPECT_GE(std::min({place.v, place.w, 1 - place.v - place.w}), 0);
+        sum_v += double{around.weights[k]} * place.v, sum_w += double{around.weights[k]} * place.w;
+        sum += around.weights[k];
+        const std::uint32_t shared = layout.shared(around.at[k]);
+        const SurfacePoint there = layout.place(shared);
+        EXPECT_LT(glm::length(body.at(there) - body.at(place)), 0.1);
+        EXPECT_EQ(there.front, place.front);
+        EXPECT_EQ(layout.shared(shared), shared);
+        wider += shared != around.at[k];
+      }
+      EXPECT_NEAR(sum, 1, 1e-5);
+      EXPECT_NEAR(sum_v, v, 0.05);
+      EXPECT_NEAR(sum_w, w, 0.05);
+    }
+  }
+  EXPECT_GT(wider, 300);
 }
 
 TEST(SelfOcclusion, StopsWhenAsked) {
   const Body body(box_mesh({0, 0, 0}, {1, 1, 1}));
   SelfOcclusion samples(body.shape, body.casters, 4);
   std::vector<std::uint64_t> missing;
-  samples.find_samples({0, 0.3f, 0.3f, true}, missing);
+  samples.find({0, 0.3f, 0.3f, true}, missing);
   StopFlag stop;
   stop.request();
   EXPECT_FALSE(samples.fill(missing, kernels, {}, &stop));
   std::vector<std::uint64_t> still;
-  samples.find_samples({0, 0.3f, 0.3f, true}, still);
+  samples.find({0, 0.3f, 0.3f, true}, still);
   EXPECT_EQ(still, missing);
 }
 

@@ -33,7 +33,7 @@ vec3 cosine_direction(double x, double y) {
 std::vector<dvec2> lattice(int count) {
   std::vector<dvec2> points;
   for (int i = 0; i < count; ++i)
-    points.emplace_back((i + 0.5) / count, std::fmod(i / std::numbers::phi, 1.0));
+    points.emplace_back((i + 0.5) / count, std::fmod((i + 0.5) / std::numbers::phi, 1.0));
   const int blocks = count / batch_size, columns = static_cast<int>(std::lround(std::sqrt(blocks)));
   for (int c = 0; c < columns; ++c) {
     const auto at = [&](int column) { return points.begin() + batch_size * (blocks * column / columns); };
