@@ -1,0 +1,248 @@
+#include "shadow/tiles/square_tiles.h"
+
+#include <algorithm>
+#include <array>
+#include <bit>
+#include <cmath>
+#include <memory>
+
+#include "points/contact_rule.h"
+#include "points/triangle_corners.h"
+
+namespace tenebra {
+
+namespace {
+
+using glm::dvec3;
+
+// A square is a node as it stands if it is at most this many times as wide as its tiles are on the mean: 4
+// for a flat patch, with room for perspective and curvature.
+constexpr float coherent_extent = 8;
+constexpr float shortest_ray = 1e-15f, longest_ray = 1e15f;
+
+std::uint8_t face_of(const dvec3& p) {
+  const double x = std::abs(p.x), y = std::abs(p.y), z = std::abs(p.z), largest = std::max({x, y, z});
+  const int axis = largest <= x ? 0 : largest <= y ? 1 : 2;
+  return static_cast<std::uint8_t>(2 * axis + (p[axis] < 0 ? 1 : 0));
+}
+
+dvec3 base_of(const RayTile& tile) {
+  return {tile.base[0], tile.base[1], tile.base[2]};
+}
+
+}  // namespace
+
+/// What is known of the triangles that pixels nearby lie on.
+struct SquareSorter::Receivers {
+  struct Known {
+    std::uint32_t id = no_triangle;
+    float tau = 0;
+    bool facing = false;
+  };
+  std::array<Known, 4096> known;
+};
+
+/// The sixteen tiles of a square.
+struct SquareSorter::Square {
+  TilePoints points[square_tiles];
+  FaceBox boxes[square_tiles];
+  std::uint32_t present = 0;  ///< bits of tiles with rays
+  std::uint32_t mixed = 0;    ///< bits of tiles whose rays start on several triangles
+  std::uint32_t gaps = 0;     ///< bits of tiles with a gap
+  float tau[square_tiles];
+};
+
+/// Curve keys, worked out sixteen at a time.
+struct SquareSorter::Keys {
+  Keys(const RayKernels& k, std::vector<std::uint32_t>& to) : kernels(k), out(to) {}
+  const RayKernels& kernels;
+  std::vector<std::uint32_t>& out;
+  float x[16] = {}, y[16] = {}, z[16] = {};
+  std::uint8_t faces[16] = {};
+  int size = 0;
+
+  void add(const dvec3& p, std::uint8_t face) {
+    x[size] = static_cast<float>(p.x), y[size] = static_cast<float>(p.y), z[size] = static_cast<float>(p.z);
+    faces[size] = face;
+    if (++size == 16) flush();
+  }
+  void flush() {
+    std::uint32_t keys[16];
+    kernels.direction_keys(x, y, z, keys);
+    for (int i = 0; i < size; ++i)
+      out.push_back((keys[i] & 0x0fffffffu) | static_cast<std::uint32_t>(faces[i]) << 28);
+    size = 0;
+  }
+};
+
+SquareSorter::SquareSorter(const VisiblePoints& points, const ViewRays& view, const TriangleView& triangles,
+                           const ShadowLight& light, const RaySource& source, const HardShadowConfig& config)
+    : points_(points),
+      view_(view),
+      triangles_(triangles),
+      light_(light),
+      source_(source),
+      use_tau_(config.contact == ContactRule::triangle_ids),
+      bounded_(light.range_m > 0 || light.spot_cos_outer > -1),
+      kernels_(tile_kernels(config.simd)),
+      ray_kernels_(ray_kernels(config.simd)) {}
+
+std::uint32_t SquareSorter::active_lanes(std::uint32_t x, std::uint32_t y, Receivers& receivers,
+                                         Square& square, int tile, ForestScratch::Row& out) const {
+  const auto width = static_cast<std::uint32_t>(points_.width),
+             height = static_cast<std::uint32_t>(points_.height);
+  std::uint32_t lanes = 0, last = no_triangle;
+  float tau = 0;
+  bool facing = false;
+  for (std::uint32_t row = 0; row < tile_side && y + row < height; ++row) {
+    const std::size_t first = static_cast<std::size_t>(y + row) * width + x;
+    for (std::uint32_t column = 0; column < tile_side && x + column < width; ++column) {
+      const std::uint32_t id = points_.triangles[first + column];
+      if (id >= triangles_.triangles.size()) continue;
+      if (id != last) {
+        Receivers::Known& known = receivers.known[id % receivers.known.size()];
+        if (known.id != id) {
+          const Corners c = corners_of(triangles_, id);
+          const int side = light_side(c.v, source_);
+          known = {id, 0, side != 0 && eye_side(c.v, view_) == -side};
+          if (use_tau_) known.tau = std::nextafter(static_cast<float>(rounding_tolerance(c.v)), INFINITY);
+        }
+        facing = known.facing;
+        if (facing && lanes != 0) square.mixed |= 1u << tile;
+        if (facing) tau = std::max(tau, known.tau);
+        last = id;
+      }
+      if (!facing) continue;
+      if (bounded_ && !in_reach(points_.positions[first + column] - source_.origin, light_)) continue;
+      if (points_.positions[first + column] == source_.origin) {
+        out.at_light.push_back(static_cast<std::uint32_t>(first + column));
+        continue;
+      }
+      lanes |= 1u << (4 * row + column);
+    }
+  }
+  square.tau[tile] = tau;
+  return lanes;
+}
+
+void SquareSorter::load_tile(std::uint32_t x, std::uint32_t y, std::uint32_t lanes, RayTile& tile,
+                             TilePoints& p) const {
+  const auto width = static_cast<std::uint32_t>(points_.width),
+             height = static_cast<std::uint32_t>(points_.height);
+  const std::size_t first = static_cast<std::size_t>(y) * width + x;
+  tile.pixel = static_cast<std::uint32_t>(first);
+  const dvec3* rows[4];
+  dvec3 copies[4][4];
+  const bool inside = x + tile_side <= width && y + tile_side <= height;
+  for (std::uint32_t row = 0; row < tile_side; ++row) {
+    rows[row] = inside ? &points_.positions[first + row * static_cast<std::size_t>(width)] : copies[row];
+    for (std::uint32_t column = 0; !inside && column < tile_side; ++column) {
+      const bool there = x + column < width && y + row < height;
+      copies[row][column] =
+          there ? points_.positions[first + row * static_cast<std::size_t>(width) + column] : dvec3(0.0);
+    }
+  }
+  kernels_.load(rows, source_.origin, lanes, tile, p);
+}
+
+void SquareSorter::read_square(std::uint32_t x, std::uint32_t y, RayTile* tiles, Receivers& receivers,
+                               Square& square, ForestScratch::Row& out) const {
+  square.present = square.mixed = square.gaps = 0;
+  for (int t = 0; t < square_tiles; ++t) {
+    const std::uint32_t tile_x = x + static_cast<std::uint32_t>(t) % 4 * tile_side,
+                        tile_y = y + static_cast<std::uint32_t>(t) / 4 * tile_side;
+    RayTile& tile = tiles[t];
+    tile.live = tile.rays = tile.tests = 0;
+    const std::uint32_t lanes = active_lanes(tile_x, tile_y, receivers, square, t, out);
+    if (lanes == 0) continue;
+    load_tile(tile_x, tile_y, lanes, tile, square.points[t]);
+    tile.tau = square.tau[t];
+    square.present |= 1u << t;
+    out.rays += static_cast<std::uint64_t>(std::popcount(lanes));
+    out.in_range &= tile.reach < longest_ray && tile.reach > shortest_ray;
+    if ((square.mixed >> t) & 1u && kernels_.beyond_gap(tile) != 0) square.gaps |= 1u << t;
+  }
+}
+
+bool SquareSorter::make_node(std::uint32_t first_tile, const RayTile* tiles, Square& square, Keys& keys,
+                             ForestScratch::Row& out) const {
+  if (square.gaps != 0) return false;
+  dvec3 centre(0.0);
+  for (std::uint32_t left = square.present; left != 0; left &= left - 1)
+    centre += base_of(tiles[std::countr_zero(left)]);
+  const std::uint8_t face = face_of(centre);
+  RayNode node;
+  float u = 0, v = 0;
+  for (std::uint32_t left = square.present; left != 0; left &= left - 1) {
+    const int t = std::countr_zero(left);
+    if (!kernels_.bound(square.points[t], face, square.boxes[t])) return false;
+    u += square.boxes[t].u1 - square.boxes[t].u0, v += square.boxes[t].v1 - square.boxes[t].v0;
+    node.set_box(t, square.boxes[t]);
+    node.child[t] = first_tile + static_cast<std::uint32_t>(t);
+  }
+  node.live = node.filled = square.present;
+  const FaceBox all = bounds_of(node);
+  const float scale = coherent_extent / static_cast<float>(std::popcount(square.present));
+  if (all.u1 - all.u0 > u * scale || all.v1 - all.v0 > v * scale) return false;
+  out.nodes.push_back(node);
+  out.node_faces.push_back(face);
+  keys.add(centre, face);
+  return true;
+}
+
+// Splits the tile at gaps, and into single rays where it is off its face. The first part to be done keeps
+// the tile's place.
+void SquareSorter::loosen_tile(std::uint32_t x, std::uint32_t y, std::uint32_t number,
+                               std::vector<RayTile>& tiles, Keys& keys, ForestScratch::Row& out) const {
+  RayTile tile = tiles[number];
+  TilePoints points;
+  std::uint32_t parts[tile_rays], size = 0, place = number;
+  parts[size++] = tile.rays;
+  while (size > 0) {
+    const std::uint32_t lanes = parts[--size];
+    load_tile(x, y, lanes, tile, points);
+    const std::uint8_t face = face_of(base_of(tile));
+    FaceBox box{};
+    std::uint32_t beyond = kernels_.beyond_gap(tile);
+    if (beyond == 0 && !kernels_.bound(points, face, box)) beyond = lanes & (lanes - 1);
+    if (beyond != 0) {
+      parts[size++] = beyond;
+      parts[size++] = lanes & ~beyond;
+      continue;
+    }
+    out.in_range &= tile.reach > shortest_ray;
+    if (place == number) {
+      tiles[number] = tile;
+    } else {
+      out.split.push_back(tile);
+    }
+    out.loose.push_back({place, face, box});
+    keys.add(base_of(tile), face);
+    place = static_cast<std::uint32_t>(tiles.size() + out.split.size());
+  }
+}
+
+void SquareSorter::sort_row(std::uint32_t row, std::vector<RayTile>& tiles, ForestScratch::Row& out) const {
+  out.split.clear(), out.nodes.clear(), out.node_faces.clear(), out.node_keys.clear();
+  out.loose.clear(), out.loose_keys.clear(), out.at_light.clear();
+  out.rays = 0;
+  out.in_range = true;
+  const SquareGrid grid(points_.width, points_.height);
+  const auto receivers = std::make_unique<Receivers>();
+  const auto square = std::make_unique<Square>();
+  Keys node_keys(ray_kernels_, out.node_keys), loose_keys(ray_kernels_, out.loose_keys);
+  const std::uint32_t y = row * square_side;
+  for (std::uint32_t column = 0; column < grid.columns; ++column) {
+    const std::uint32_t x = column * square_side, first = (row * grid.columns + column) * square_tiles;
+    read_square(x, y, &tiles[first], *receivers, *square, out);
+    if (square->present == 0 || make_node(first, &tiles[first], *square, node_keys, out)) continue;
+    for (std::uint32_t left = square->present; left != 0; left &= left - 1) {
+      const auto t = static_cast<std::uint32_t>(std::countr_zero(left));
+      loosen_tile(x + t % 4 * tile_side, y + t / 4 * tile_side, first + t, tiles, loose_keys, out);
+    }
+  }
+  node_keys.flush();
+  loose_keys.flush();
+}
+
+}  // namespace tenebra
