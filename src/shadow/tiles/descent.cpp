@@ -50,6 +50,13 @@ private:
   }
   RayTile& tile(const RayNode& n, int slot) { return d_.forest.tiles[n.child[slot]]; }
 
+  /// Asks for what tests read of the tiles, all at once.
+  void fetch_tiles(const RayNode& n, std::uint32_t slots) const {
+    for (; slots != 0; slots &= slots - 1) {
+      const auto* at = reinterpret_cast<const char*>(&d_.forest.tiles[n.child[std::countr_zero(slots)]]);
+      for (std::size_t line = 0; line < sizeof(RayTile); line += 64) fetch_soon(at + line);
+    }
+  }
   bool narrow(RayRef& rays, const FaceBox& box);
   int collect(int level, std::uint32_t number, const FaceBox& box);
   void meet_cluster(const TriangleCluster& cluster, const RayRef& rays, const FaceBox& box);
@@ -59,6 +66,10 @@ private:
   void test_cluster(RayTile& rays, const TriangleCluster& cluster);
   void test_triangle(RayTile& rays, int lane, std::uint32_t id);
   void test_rays(RayTile& rays, int lane, const float e0[4], float k, std::uint32_t id);
+  /// A triangle never blocks its own points.
+  bool skips(const RayTile& rays, std::uint32_t id) const {
+    return rays.own == id && d_.contact == ContactRule::triangle_ids;
+  }
   void settle(RayTile& rays, std::uint32_t open, std::uint32_t id);
   std::uint32_t own_lanes(const RayTile& rays, std::uint32_t lanes, std::uint32_t id) const;
   std::size_t pixel_of(const RayTile& rays, int lane) const;
@@ -134,6 +145,7 @@ void RootDescent::meet_cluster(const TriangleCluster& cluster, const RayRef& ray
 void RootDescent::meet_tiles(const TriangleCluster& cluster) {
   for (const DescentScratch::Hits& hit : scratch_.hits) {
     RayNode& n = node(0, hit.node);
+    fetch_tiles(n, hit.tiles);
     for (std::uint32_t left = hit.tiles; left != 0; left &= left - 1) {
       const int slot = std::countr_zero(left);
       RayTile& rays = tile(n, slot);
@@ -161,7 +173,9 @@ void RootDescent::descend_triangle(int level, std::uint32_t number, const FaceTr
                                    std::uint32_t id) {
   RayNode& n = node(level, number);
   n.tests += 1;
-  for (std::uint32_t met = children_met(n, t); met != 0; met &= met - 1) {
+  std::uint32_t met = children_met(n, t);
+  if (level == 0) fetch_tiles(n, met);
+  for (; met != 0; met &= met - 1) {
     const int slot = std::countr_zero(met);
     if (level > 0) {
       descend_triangle(level - 1, n.child[slot], t, lane, id);
@@ -216,12 +230,14 @@ void RootDescent::test_cluster(RayTile& rays, const TriangleCluster& cluster) {
   store(k16, ks);
   for (; left != 0 && rays.live != 0; left &= left - 1) {
     const int i = std::countr_zero(left);
+    if (skips(rays, cluster.ids[i])) continue;
     const float e[4] = {values[0][i], values[1][i], values[2][i], values[3][i]};
     test_rays(rays, i, e, ks[i], cluster.ids[i]);
   }
 }
 
 void RootDescent::test_triangle(RayTile& rays, int i, std::uint32_t id) {
+  if (skips(rays, id)) return;
   const ClusterPlanes& c = scratch_.planes;
   float e[4];
   float lowest = HUGE_VALF;
@@ -263,6 +279,7 @@ std::size_t RootDescent::pixel_of(const RayTile& rays, int lane) const {
 }
 
 std::uint32_t RootDescent::own_lanes(const RayTile& rays, std::uint32_t lanes, std::uint32_t id) const {
+  if (rays.own != no_triangle) return rays.own == id ? lanes : 0;
   std::uint32_t own = 0;
   for (; lanes != 0; lanes &= lanes - 1) {
     const int lane = std::countr_zero(lanes);

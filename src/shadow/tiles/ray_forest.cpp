@@ -118,6 +118,17 @@ void plant(ForestScratch& s, RayForest& out) {
   for (const RayNode& root : out.levels[2]) out.root_boxes.push_back(bounds_of(root));
 }
 
+/// Four pixels by the bits of `live`; returns how many are set.
+std::uint32_t write_row(std::uint32_t live, std::uint8_t* to) {
+  if (live == 15u) {  // no other tile holds rays of this row: four bytes at once
+    std::memset(to, 255, 4);
+    return 4;
+  }
+  std::uint32_t count = 0;
+  for (; live != 0; live &= live - 1, ++count) to[std::countr_zero(live)] = 255;
+  return count;
+}
+
 }  // namespace
 
 FaceBox bounds_of(const RayNode& node) {
@@ -150,22 +161,22 @@ void build_ray_forest(const VisiblePoints& points, const ViewRays& view, const T
   plant(scratch, out);
 }
 
-void write_live_rays(const RayForest& forest, std::size_t width, ShadowMask& mask) {
-  parallel_ranges(forest.tiles.size(), 1 << 12, [&](std::size_t first, std::size_t last) {
+TileCounts write_live_rays(const RayForest& forest, std::size_t width, ShadowMask& mask) {
+  constexpr std::size_t grain = 1 << 12;
+  std::vector<TileCounts> parts((forest.tiles.size() + grain - 1) / grain);
+  parallel_ranges(forest.tiles.size(), grain, [&](std::size_t first, std::size_t last) {
+    TileCounts& counts = parts[first / grain];
     for (std::size_t i = first; i < last; ++i) {
       const RayTile& tile = forest.tiles[i];
+      counts.tests += tile.tests;
       if (tile.live == 0) continue;
-      for (std::size_t row = 0; row < tile_side; ++row) {
-        const std::uint32_t bits = (tile.live >> (4 * row)) & 15u;
-        std::uint8_t* const to = &mask[tile.pixel] + row * width;
-        if (bits == 15u) {  // no other tile holds rays of this row: four bytes at once
-          std::memset(to, 255, 4);
-          continue;
-        }
-        for (std::uint32_t left = bits; left != 0; left &= left - 1) to[std::countr_zero(left)] = 255;
-      }
+      for (std::size_t row = 0; row < tile_side; ++row)
+        counts.live += write_row((tile.live >> (4 * row)) & 15u, &mask[tile.pixel] + row * width);
     }
   });
+  TileCounts sum;
+  for (const TileCounts& part : parts) sum.live += part.live, sum.tests += part.tests;
+  return sum;
 }
 
 }  // namespace tenebra

@@ -39,6 +39,7 @@ struct alignas(64) RayTile {
   std::uint32_t live;   ///< bit i: a ray is there and not yet blocked
   std::uint32_t rays;   ///< bits of the lanes that had a ray
   std::uint32_t tests;  ///< triangles that the tile was tested with
+  std::uint32_t own;    ///< triangle that all points lie on; no_triangle: several
 };
 
 /// Bounds on a face, widened so that boxes of triangles computed in float (relative error 5u) need no margin
@@ -110,7 +111,11 @@ void build_ray_forest(const VisiblePoints& points, const ViewRays& view, const T
                       const ShadowLight& light, const RaySource& source, const HardShadowConfig& config,
                       ForestScratch& scratch, RayForest& out);
 
+struct TileCounts {
+  std::uint64_t live = 0;   ///< rays left
+  std::uint64_t tests = 0;  ///< sum of RayTile::tests
+};
 /// 255 where rays are left; the mask is zero elsewhere.
-void write_live_rays(const RayForest& forest, std::size_t width, ShadowMask& mask);
+TileCounts write_live_rays(const RayForest& forest, std::size_t width, ShadowMask& mask);
 
 }  // namespace tenebra

@@ -47,9 +47,7 @@ struct SquareSorter::Square {
   TilePoints points[square_tiles];
   FaceBox boxes[square_tiles];
   std::uint32_t present = 0;  ///< bits of tiles with rays
-  std::uint32_t mixed = 0;    ///< bits of tiles whose rays start on several triangles
   std::uint32_t gaps = 0;     ///< bits of tiles with a gap
-  float tau[square_tiles];
 };
 
 /// Curve keys, worked out sixteen at a time.
@@ -87,45 +85,90 @@ SquareSorter::SquareSorter(const VisiblePoints& points, const ViewRays& view, co
       kernels_(tile_kernels(config.simd)),
       ray_kernels_(ray_kernels(config.simd)) {}
 
-std::uint32_t SquareSorter::active_lanes(std::uint32_t x, std::uint32_t y, Receivers& receivers,
-                                         Square& square, int tile, ForestScratch::Row& out) const {
+/// Rays of a tile before they are loaded.
+struct SquareSorter::Lanes {
+  std::uint32_t bits = 0;
+  float tau = 0;
+  std::uint32_t own = no_triangle;  ///< that all of them start on
+};
+
+std::size_t SquareSorter::pixel_at(std::uint32_t x, std::uint32_t y, int lane) const {
+  return (y + static_cast<std::size_t>(lane / 4)) * static_cast<std::size_t>(points_.width) + x +
+         static_cast<std::size_t>(lane % 4);
+}
+
+/// Whether triangle `id` faces light and eye; its rounding tolerance, rounded up.
+bool SquareSorter::faces(std::uint32_t id, Receivers& receivers, float& tau) const {
+  Receivers::Known& known = receivers.known[id % receivers.known.size()];
+  if (known.id != id) {
+    const Corners c = corners_of(triangles_, id);
+    const int side = light_side(c.v, source_);
+    known = {id, 0, side != 0 && eye_side(c.v, view_) == -side};
+    if (use_tau_) known.tau = std::nextafter(static_cast<float>(rounding_tolerance(c.v)), INFINITY);
+  }
+  tau = known.tau;
+  return known.facing;
+}
+
+/// The triangle that all sixteen pixels see; no_triangle: several or none, or pixels outside of the picture.
+std::uint32_t SquareSorter::same_triangle(std::uint32_t x, std::uint32_t y) const {
+  const auto width = static_cast<std::uint32_t>(points_.width);
+  if (x + tile_side > width || y + tile_side > static_cast<std::uint32_t>(points_.height)) return no_triangle;
+  const std::uint32_t* const ids = &points_.triangles[pixel_at(x, y, 0)];
+  std::uint32_t different = 0;
+  for (std::size_t row = 0; row < tile_side; ++row) {
+    for (std::size_t column = 0; column < tile_side; ++column)
+      different |= ids[row * width + column] ^ ids[0];
+  }
+  return different == 0 ? ids[0] : no_triangle;
+}
+
+SquareSorter::Lanes SquareSorter::active_lanes(std::uint32_t x, std::uint32_t y, Receivers& receivers) const {
+  Lanes lanes;
+  const std::uint32_t same = same_triangle(x, y);
+  if (same < triangles_.triangles.size()) {
+    if (faces(same, receivers, lanes.tau)) lanes = {0xffffu, lanes.tau, same};
+    return lanes;
+  }
   const auto width = static_cast<std::uint32_t>(points_.width),
              height = static_cast<std::uint32_t>(points_.height);
-  std::uint32_t lanes = 0, last = no_triangle;
-  float tau = 0;
-  bool facing = false;
   for (std::uint32_t row = 0; row < tile_side && y + row < height; ++row) {
-    const std::size_t first = static_cast<std::size_t>(y + row) * width + x;
     for (std::uint32_t column = 0; column < tile_side && x + column < width; ++column) {
-      const std::uint32_t id = points_.triangles[first + column];
-      if (id >= triangles_.triangles.size()) continue;
-      if (id != last) {
-        Receivers::Known& known = receivers.known[id % receivers.known.size()];
-        if (known.id != id) {
-          const Corners c = corners_of(triangles_, id);
-          const int side = light_side(c.v, source_);
-          known = {id, 0, side != 0 && eye_side(c.v, view_) == -side};
-          if (use_tau_) known.tau = std::nextafter(static_cast<float>(rounding_tolerance(c.v)), INFINITY);
-        }
-        facing = known.facing;
-        if (facing && lanes != 0) square.mixed |= 1u << tile;
-        if (facing) tau = std::max(tau, known.tau);
-        last = id;
-      }
-      if (!facing) continue;
-      if (bounded_ && !in_reach(points_.positions[first + column] - source_.origin, light_)) continue;
-      if (points_.positions[first + column] == source_.origin) {
-        out.at_light.push_back(static_cast<std::uint32_t>(first + column));
-        continue;
-      }
-      lanes |= 1u << (4 * row + column);
+      const int lane = static_cast<int>(4 * row + column);
+      const std::uint32_t id = points_.triangles[pixel_at(x, y, lane)];
+      float tau = 0;
+      if (id >= triangles_.triangles.size() || !faces(id, receivers, tau)) continue;
+      lanes.own = lanes.bits == 0 || lanes.own == id ? id : no_triangle;
+      lanes.tau = std::max(lanes.tau, tau);
+      lanes.bits |= 1u << lane;
     }
   }
-  square.tau[tile] = tau;
   return lanes;
 }
 
-void SquareSorter::load_tile(std::uint32_t x, std::uint32_t y, std::uint32_t lanes, RayTile& tile,
+std::uint32_t SquareSorter::in_reach_lanes(std::uint32_t x, std::uint32_t y, std::uint32_t lanes) const {
+  std::uint32_t reached = lanes;
+  for (std::uint32_t left = lanes; left != 0; left &= left - 1) {
+    const int lane = std::countr_zero(left);
+    if (!in_reach(points_.positions[pixel_at(x, y, lane)] - source_.origin, light_)) reached &= ~(1u << lane);
+  }
+  return reached;
+}
+
+/// Without the lanes whose point is the light itself, which are noted.
+std::uint32_t SquareSorter::off_the_light(std::uint32_t x, std::uint32_t y, std::uint32_t lanes,
+                                          ForestScratch::Row& out) const {
+  std::uint32_t off = lanes;
+  for (std::uint32_t left = lanes; left != 0; left &= left - 1) {
+    const int lane = std::countr_zero(left);
+    if (points_.positions[pixel_at(x, y, lane)] != source_.origin) continue;
+    off &= ~(1u << lane);
+    out.at_light.push_back(static_cast<std::uint32_t>(pixel_at(x, y, lane)));
+  }
+  return off;
+}
+
+bool SquareSorter::load_tile(std::uint32_t x, std::uint32_t y, std::uint32_t lanes, RayTile& tile,
                              TilePoints& p) const {
   const auto width = static_cast<std::uint32_t>(points_.width),
              height = static_cast<std::uint32_t>(points_.height);
@@ -142,25 +185,32 @@ void SquareSorter::load_tile(std::uint32_t x, std::uint32_t y, std::uint32_t lan
           there ? points_.positions[first + row * static_cast<std::size_t>(width) + column] : dvec3(0.0);
     }
   }
-  kernels_.load(rows, source_.origin, lanes, tile, p);
+  return kernels_.load(rows, source_.origin, lanes, tile, p);
 }
 
 void SquareSorter::read_square(std::uint32_t x, std::uint32_t y, RayTile* tiles, Receivers& receivers,
                                Square& square, ForestScratch::Row& out) const {
-  square.present = square.mixed = square.gaps = 0;
+  square.present = square.gaps = 0;
   for (int t = 0; t < square_tiles; ++t) {
     const std::uint32_t tile_x = x + static_cast<std::uint32_t>(t) % 4 * tile_side,
                         tile_y = y + static_cast<std::uint32_t>(t) / 4 * tile_side;
     RayTile& tile = tiles[t];
     tile.live = tile.rays = tile.tests = 0;
-    const std::uint32_t lanes = active_lanes(tile_x, tile_y, receivers, square, t, out);
-    if (lanes == 0) continue;
-    load_tile(tile_x, tile_y, lanes, tile, square.points[t]);
-    tile.tau = square.tau[t];
+    Lanes lanes = active_lanes(tile_x, tile_y, receivers);
+    if (bounded_) lanes.bits = in_reach_lanes(tile_x, tile_y, lanes.bits);
+    if (lanes.bits == 0) continue;
+    if (load_tile(tile_x, tile_y, lanes.bits, tile, square.points[t])) {
+      lanes.bits = off_the_light(tile_x, tile_y, lanes.bits, out);
+      if (lanes.bits == 0) continue;
+      load_tile(tile_x, tile_y, lanes.bits, tile, square.points[t]);
+    }
+    tile.live = tile.rays = lanes.bits;
+    tile.tau = lanes.tau;
+    tile.own = lanes.own;
     square.present |= 1u << t;
-    out.rays += static_cast<std::uint64_t>(std::popcount(lanes));
+    out.rays += static_cast<std::uint64_t>(std::popcount(lanes.bits));
     out.in_range &= tile.reach < longest_ray && tile.reach > shortest_ray;
-    if ((square.mixed >> t) & 1u && kernels_.beyond_gap(tile) != 0) square.gaps |= 1u << t;
+    if (lanes.own == no_triangle && kernels_.beyond_gap(tile) != 0) square.gaps |= 1u << t;
   }
 }
 

@@ -34,9 +34,16 @@ private:
   struct Square;
   struct Keys;
 
-  std::uint32_t active_lanes(std::uint32_t x, std::uint32_t y, Receivers& receivers, Square& square, int tile,
-                             ForestScratch::Row& out) const;
-  void load_tile(std::uint32_t x, std::uint32_t y, std::uint32_t lanes, RayTile& tile, TilePoints& p) const;
+  struct Lanes;
+
+  bool faces(std::uint32_t id, Receivers& receivers, float& tau) const;
+  Lanes active_lanes(std::uint32_t x, std::uint32_t y, Receivers& receivers) const;
+  std::uint32_t same_triangle(std::uint32_t x, std::uint32_t y) const;
+  std::uint32_t in_reach_lanes(std::uint32_t x, std::uint32_t y, std::uint32_t lanes) const;
+  std::uint32_t off_the_light(std::uint32_t x, std::uint32_t y, std::uint32_t lanes,
+                              ForestScratch::Row& out) const;
+  std::size_t pixel_at(std::uint32_t x, std::uint32_t y, int lane) const;
+  bool load_tile(std::uint32_t x, std::uint32_t y, std::uint32_t lanes, RayTile& tile, TilePoints& p) const;
   void read_square(std::uint32_t x, std::uint32_t y, RayTile* tiles, Receivers& receivers, Square& square,
                    ForestScratch::Row& out) const;
   bool make_node(std::uint32_t first_tile, const RayTile* tiles, Square& square, Keys& keys,

@@ -19,7 +19,7 @@ constexpr float u = 0x1p-24f;
 
 using Double4 = Pack<double, 4>;
 
-void load_tile(const glm::dvec3* const rows[4], const glm::dvec3& origin, std::uint32_t lanes, RayTile& tile,
+bool load_tile(const glm::dvec3* const rows[4], const glm::dvec3& origin, std::uint32_t lanes, RayTile& tile,
                TilePoints& points) {
   const int first = std::countr_zero(lanes), last = 31 - std::countl_zero(lanes);
   const glm::dvec3 base =
@@ -51,6 +51,9 @@ void load_tile(const glm::dvec3* const rows[4], const glm::dvec3& origin, std::u
   const double distance = std::sqrt(base.x * base.x + base.y * base.y + base.z * base.z);
   tile.reach = static_cast<float>((distance + static_cast<double>(tile.radius)) * (1 + 0x1p-20));
   tile.live = tile.rays = lanes;
+  const Float16 size = max(absolute(load<Float16>(points.x)),
+                           max(absolute(load<Float16>(points.y)), absolute(load<Float16>(points.z))));
+  return !(least(size) > 0);
 }
 
 std::uint32_t beyond_gap(const RayTile& tile) {

@@ -16,8 +16,9 @@ struct TilePoints {
 /// Code for one instruction set.
 struct TileKernels {
   /// Fills q, base, radius, reach, live and rays of `tile` for the lanes in `lanes` (not 0). rows[k] points
-  /// to the four points of row k, of which those in `lanes` are read as numbers.
-  void (*load)(const glm::dvec3* const rows[4], const glm::dvec3& origin, std::uint32_t lanes, RayTile& tile,
+  /// to the four points of row k, of which those in `lanes` are read as numbers. True if one of them may be
+  /// the light itself.
+  bool (*load)(const glm::dvec3* const rows[4], const glm::dvec3& origin, std::uint32_t lanes, RayTile& tile,
                TilePoints& points) = nullptr;
   /// Lanes of `tile` beyond a gap: farther from its first ray than the others by half of the tile's extent.
   std::uint32_t (*beyond_gap)(const RayTile& tile) = nullptr;

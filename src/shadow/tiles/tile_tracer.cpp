@@ -17,14 +17,7 @@ std::uint64_t count_tests(const RayForest& forest) {
   for (const auto& level : forest.levels) {
     for (const RayNode& node : level) tests += node.tests;
   }
-  for (const RayTile& tile : forest.tiles) tests += tile.rays != 0 ? tile.tests : 0;
-  return tests * wide;
-}
-
-std::uint64_t live_rays(const RayForest& forest) {
-  std::uint64_t live = 0;
-  for (const RayTile& tile : forest.tiles) live += static_cast<std::uint64_t>(std::popcount(tile.live));
-  return live;
+  return tests;
 }
 
 }  // namespace
@@ -58,14 +51,14 @@ bool TileTracer::trace(const VisiblePoints& points, const ViewRays& view, const 
   timings.traverse_ms = watch.lap_ms();
 
   mask.assign(points.triangles.size(), 0);
-  write_live_rays(forest_, static_cast<std::size_t>(points.width), mask);
+  const TileCounts counts = write_live_rays(forest_, static_cast<std::size_t>(points.width), mask);
   for (const std::uint32_t pixel : forest_.at_light) mask[pixel] = 255;
   timings.writeback_ms = watch.lap_ms();
 
   stats.triangles = clusters_.casters();
-  stats.nodes = count_tests(forest_);
+  stats.nodes = (count_tests(forest_) + counts.tests) * wide;
   stats.rays = forest_.rays + forest_.at_light.size();
-  stats.lit_pixels = live_rays(forest_) + forest_.at_light.size();
+  stats.lit_pixels = counts.live + forest_.at_light.size();
   stats.shadowed_pixels = stats.rays - stats.lit_pixels;
   stats.tree_bytes = forest_.byte_count() + clusters_.byte_count();
   return true;
