@@ -114,9 +114,10 @@ struct FaceTriangle {
   float mx[4], my[4], mz[4];
   float edge_slack;
   float d, own_slack;
+  float cover;  ///< d and the rays' own tolerance, rounded up
 };
 
-HWY_INLINE FaceTriangle face_triangle(const ClusterPlanes& c, int i, const Face& face) {
+HWY_INLINE FaceTriangle face_triangle(const ClusterPlanes& c, int i, const Face& face, float tau) {
   const float(*const m[3])[16] = {c.fx, c.fy, c.fz};
   FaceTriangle t;
   for (int k = 0; k < 4; ++k) {
@@ -127,24 +128,35 @@ HWY_INLINE FaceTriangle face_triangle(const ClusterPlanes& c, int i, const Face&
   t.edge_slack = 23 * u + 4.5f * c.rho[i];
   t.own_slack = 28 * u + 4.5f * c.rho[i];
   t.d = static_cast<float>(c.d[i]) * (1 - 8 * u) - c.rho[i] * c.reach[i] * (1 + 8 * u);
+  t.cover = (static_cast<float>(c.d[i]) + c.rho[i] * c.reach[i] + tau) * (1 + 16 * u);
   return t;
+}
+
+/// Plane k of a triangle over the boxes of a node: its largest value (towards = 1) or its smallest (-1).
+HWY_INLINE Float16 extreme(const RayNode& n, const FaceTriangle& t, int k, float towards) {
+  const Float16 pu = load<Float16>(t.mx[k] * towards > 0 ? n.u1 : n.u0),
+                pv = load<Float16>(t.my[k] * towards > 0 ? n.v1 : n.v0);
+  return multiply_add(splat<Float16>(t.mx[k]), pu,
+                      multiply_add(splat<Float16>(t.my[k]), pv, splat<Float16>(t.mz[k])));
 }
 
 /// Bits of the node's children that triangle `t` may block rays of.
 HWY_INLINE std::uint32_t children_met(const RayNode& n, const FaceTriangle& t) {
   const std::uint32_t met = children_met(n, t.box);
   if (met == 0) return 0;
-  const auto highest = [&](int k) HWY_ATTR {
-    const Float16 pu = load<Float16>(t.mx[k] > 0 ? n.u1 : n.u0),
-                  pv = load<Float16>(t.my[k] > 0 ? n.v1 : n.v0);
-    return multiply_add(splat<Float16>(t.mx[k]), pu,
-                        multiply_add(splat<Float16>(t.my[k]), pv, splat<Float16>(t.mz[k])));
-  };
-  const Float16 edges = min(highest(0), min(highest(1), highest(2)));
-  const Float16 own = highest(3) + splat<Float16>(t.own_slack);
+  const Float16 edges = min(extreme(n, t, 0, 1), min(extreme(n, t, 1, 1), extreme(n, t, 2, 1)));
+  const Float16 own = extreme(n, t, 3, 1) + splat<Float16>(t.own_slack);
   const auto missed =
       less(edges, splat<Float16>(-t.edge_slack)) | less(own, splat<Float16>(t.d) * load<Float16>(n.w));
   return met & ~bits(missed);
+}
+
+/// Bits of the node's children all of whose rays triangle `t` blocks for sure, but for its own.
+HWY_INLINE std::uint32_t children_covered(const RayNode& n, const FaceTriangle& t) {
+  const Float16 edges = min(extreme(n, t, 0, -1), min(extreme(n, t, 1, -1), extreme(n, t, 2, -1)));
+  const Float16 own = extreme(n, t, 3, -1) - splat<Float16>(t.own_slack);
+  return bits(less(splat<Float16>(t.edge_slack), edges) &
+              less(splat<Float16>(t.cover) * load<Float16>(n.w1), own));
 }
 
 }  // namespace tenebra::HWY_NAMESPACE

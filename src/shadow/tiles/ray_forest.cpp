@@ -20,7 +20,7 @@ constexpr float infinity = std::numeric_limits<float>::infinity();
 void widen(FaceBox& to, const FaceBox& by) {
   to.u0 = std::min(to.u0, by.u0), to.u1 = std::max(to.u1, by.u1);
   to.v0 = std::min(to.v0, by.v0), to.v1 = std::max(to.v1, by.v1);
-  to.w = std::min(to.w, by.w);
+  to.w = std::min(to.w, by.w), to.w1 = std::max(to.w1, by.w1);
 }
 
 /// Key and place of everything that is sorted: in the order of the rows, so that it does not depend on
@@ -40,6 +40,7 @@ void gather_rows(std::size_t slots, ForestScratch& s, RayForest& out) {
   s.node_keys.keys.clear(), s.loose_keys.keys.clear();
   out.at_light.clear();
   out.rays = 0;
+  out.tau = 0;
   out.in_range = true;
   std::size_t split = slots;
   for (const ForestScratch::Row& row : s.rows) split += row.split.size();
@@ -58,6 +59,7 @@ void gather_rows(std::size_t slots, ForestScratch& s, RayForest& out) {
     add_keys(row.loose_keys, s.loose_keys);
     out.at_light.insert(out.at_light.end(), row.at_light.begin(), row.at_light.end());
     out.rays += row.rays;
+    out.tau = std::max(out.tau, row.tau);
     out.in_range &= row.in_range;
   }
 }
@@ -132,14 +134,14 @@ std::uint32_t write_row(std::uint32_t live, std::uint8_t* to) {
 }  // namespace
 
 FaceBox bounds_of(const RayNode& node) {
-  FaceBox box{infinity, -infinity, infinity, -infinity, infinity};
+  FaceBox box{infinity, -infinity, infinity, -infinity, infinity, 0};
   for (std::uint32_t live = node.live; live != 0; live &= live - 1)
     widen(box, node.box(std::countr_zero(live)));
   return box;
 }
 
 std::size_t RayForest::byte_count() const {
-  std::size_t bytes = tiles.size() * sizeof(RayTile);
+  std::size_t bytes = tiles.size() * (sizeof(RayTile) + sizeof(TileRays));
   for (const auto& level : levels) bytes += level.size() * sizeof(RayNode);
   return bytes;
 }
@@ -156,6 +158,7 @@ void build_ray_forest(const VisiblePoints& points, const ViewRays& view, const T
     sorter.sort_row(static_cast<std::uint32_t>(row), out.tiles, scratch.rows[static_cast<std::size_t>(row)]);
   });
   gather_rows(slots, scratch, out);
+  out.tile_rays.resize(out.tiles.size());
   if (!out.in_range) return;
   group_loose(scratch);
   plant(scratch, out);

@@ -26,8 +26,9 @@ std::uint8_t face_of(const dvec3& p) {
   return static_cast<std::uint8_t>(2 * axis + (p[axis] < 0 ? 1 : 0));
 }
 
-dvec3 base_of(const RayTile& tile) {
-  return {tile.base[0], tile.base[1], tile.base[2]};
+/// About the middle of a tile's points.
+dvec3 middle_of(const TilePoints& p) {
+  return 0.5 * dvec3(p.x[0], p.y[0], p.z[0]) + 0.5 * dvec3(p.x[15], p.y[15], p.z[15]);
 }
 
 }  // namespace
@@ -90,6 +91,7 @@ struct SquareSorter::Lanes {
   std::uint32_t bits = 0;
   float tau = 0;
   std::uint32_t own = no_triangle;  ///< that all of them start on
+  std::uint64_t owners = 0;
 };
 
 std::size_t SquareSorter::pixel_at(std::uint32_t x, std::uint32_t y, int lane) const {
@@ -127,7 +129,7 @@ SquareSorter::Lanes SquareSorter::active_lanes(std::uint32_t x, std::uint32_t y,
   Lanes lanes;
   const std::uint32_t same = same_triangle(x, y);
   if (same < triangles_.triangles.size()) {
-    if (faces(same, receivers, lanes.tau)) lanes = {0xffffu, lanes.tau, same};
+    if (faces(same, receivers, lanes.tau)) lanes = {0xffffu, lanes.tau, same, 1ull << (same % 64)};
     return lanes;
   }
   const auto width = static_cast<std::uint32_t>(points_.width),
@@ -140,6 +142,7 @@ SquareSorter::Lanes SquareSorter::active_lanes(std::uint32_t x, std::uint32_t y,
       if (id >= triangles_.triangles.size() || !faces(id, receivers, tau)) continue;
       lanes.own = lanes.bits == 0 || lanes.own == id ? id : no_triangle;
       lanes.tau = std::max(lanes.tau, tau);
+      lanes.owners |= 1ull << (id % 64);
       lanes.bits |= 1u << lane;
     }
   }
@@ -168,24 +171,16 @@ std::uint32_t SquareSorter::off_the_light(std::uint32_t x, std::uint32_t y, std:
   return off;
 }
 
-bool SquareSorter::load_tile(std::uint32_t x, std::uint32_t y, std::uint32_t lanes, RayTile& tile,
-                             TilePoints& p) const {
-  const auto width = static_cast<std::uint32_t>(points_.width),
-             height = static_cast<std::uint32_t>(points_.height);
-  const std::size_t first = static_cast<std::size_t>(y) * width + x;
-  tile.pixel = static_cast<std::uint32_t>(first);
-  const dvec3* rows[4];
-  dvec3 copies[4][4];
-  const bool inside = x + tile_side <= width && y + tile_side <= height;
-  for (std::uint32_t row = 0; row < tile_side; ++row) {
-    rows[row] = inside ? &points_.positions[first + row * static_cast<std::size_t>(width)] : copies[row];
-    for (std::uint32_t column = 0; !inside && column < tile_side; ++column) {
-      const bool there = x + column < width && y + row < height;
-      copies[row][column] =
-          there ? points_.positions[first + row * static_cast<std::size_t>(width) + column] : dvec3(0.0);
-    }
+/// Asks for the points of a square that is read soon: the rows of a picture are too far apart for the
+/// processor to guess.
+void SquareSorter::fetch_square(std::uint32_t x, std::uint32_t y) const {
+  const auto height = static_cast<std::uint32_t>(points_.height);
+  for (std::uint32_t row = y; row < std::min(y + square_side, height); ++row) {
+    const std::size_t first = pixel_at(x, row, 0);
+    const auto* const at = reinterpret_cast<const char*>(points_.positions.data() + first);
+    for (std::size_t line = 0; line < square_side * sizeof(dvec3); line += 64) __builtin_prefetch(at + line);
+    __builtin_prefetch(points_.triangles.data() + first);
   }
-  return kernels_.load(rows, source_.origin, lanes, tile, p);
 }
 
 void SquareSorter::read_square(std::uint32_t x, std::uint32_t y, RayTile* tiles, Receivers& receivers,
@@ -199,27 +194,34 @@ void SquareSorter::read_square(std::uint32_t x, std::uint32_t y, RayTile* tiles,
     Lanes lanes = active_lanes(tile_x, tile_y, receivers);
     if (bounded_) lanes.bits = in_reach_lanes(tile_x, tile_y, lanes.bits);
     if (lanes.bits == 0) continue;
-    if (load_tile(tile_x, tile_y, lanes.bits, tile, square.points[t])) {
+    const TileRows rows(points_, tile_x, tile_y);
+    TilePoints& points = square.points[t];
+    kernels_.project(rows, source_.origin, lanes.bits, points);
+    if (!(points.nearest > 0)) {
       lanes.bits = off_the_light(tile_x, tile_y, lanes.bits, out);
       if (lanes.bits == 0) continue;
-      load_tile(tile_x, tile_y, lanes.bits, tile, square.points[t]);
+      kernels_.project(rows, source_.origin, lanes.bits, points);
     }
+    tile.pixel = static_cast<std::uint32_t>(pixel_at(tile_x, tile_y, 0));
     tile.live = tile.rays = lanes.bits;
+    tile.loaded = false;
     tile.tau = lanes.tau;
+    out.tau = std::max(out.tau, lanes.tau);
     tile.own = lanes.own;
+    tile.owners = lanes.owners;
     square.present |= 1u << t;
     out.rays += static_cast<std::uint64_t>(std::popcount(lanes.bits));
-    out.in_range &= tile.reach < longest_ray && tile.reach > shortest_ray;
-    if (lanes.own == no_triangle && kernels_.beyond_gap(tile) != 0) square.gaps |= 1u << t;
+    out.in_range &= points.farthest < longest_ray && points.nearest > shortest_ray;
+    if (lanes.own == no_triangle && kernels_.beyond_gap(points, lanes.bits) != 0) square.gaps |= 1u << t;
   }
 }
 
-bool SquareSorter::make_node(std::uint32_t first_tile, const RayTile* tiles, Square& square, Keys& keys,
+bool SquareSorter::make_node(std::uint32_t first_tile, Square& square, Keys& keys,
                              ForestScratch::Row& out) const {
   if (square.gaps != 0) return false;
   dvec3 centre(0.0);
   for (std::uint32_t left = square.present; left != 0; left &= left - 1)
-    centre += base_of(tiles[std::countr_zero(left)]);
+    centre += middle_of(square.points[std::countr_zero(left)]);
   const std::uint8_t face = face_of(centre);
   RayNode node;
   float u = 0, v = 0;
@@ -245,29 +247,30 @@ bool SquareSorter::make_node(std::uint32_t first_tile, const RayTile* tiles, Squ
 void SquareSorter::loosen_tile(std::uint32_t x, std::uint32_t y, std::uint32_t number,
                                std::vector<RayTile>& tiles, Keys& keys, ForestScratch::Row& out) const {
   RayTile tile = tiles[number];
+  const TileRows rows(points_, x, y);
   TilePoints points;
   std::uint32_t parts[tile_rays], size = 0, place = number;
   parts[size++] = tile.rays;
   while (size > 0) {
     const std::uint32_t lanes = parts[--size];
-    load_tile(x, y, lanes, tile, points);
-    const std::uint8_t face = face_of(base_of(tile));
+    kernels_.project(rows, source_.origin, lanes, points);
+    const std::uint8_t face = face_of(middle_of(points));
     FaceBox box{};
-    std::uint32_t beyond = kernels_.beyond_gap(tile);
+    std::uint32_t beyond = kernels_.beyond_gap(points, lanes);
     if (beyond == 0 && !kernels_.bound(points, face, box)) beyond = lanes & (lanes - 1);
     if (beyond != 0) {
       parts[size++] = beyond;
       parts[size++] = lanes & ~beyond;
       continue;
     }
-    out.in_range &= tile.reach > shortest_ray;
+    tile.live = tile.rays = lanes;
     if (place == number) {
       tiles[number] = tile;
     } else {
       out.split.push_back(tile);
     }
     out.loose.push_back({place, face, box});
-    keys.add(base_of(tile), face);
+    keys.add(middle_of(points), face);
     place = static_cast<std::uint32_t>(tiles.size() + out.split.size());
   }
 }
@@ -276,6 +279,7 @@ void SquareSorter::sort_row(std::uint32_t row, std::vector<RayTile>& tiles, Fore
   out.split.clear(), out.nodes.clear(), out.node_faces.clear(), out.node_keys.clear();
   out.loose.clear(), out.loose_keys.clear(), out.at_light.clear();
   out.rays = 0;
+  out.tau = 0;
   out.in_range = true;
   const SquareGrid grid(points_.width, points_.height);
   const auto receivers = std::make_unique<Receivers>();
@@ -284,8 +288,9 @@ void SquareSorter::sort_row(std::uint32_t row, std::vector<RayTile>& tiles, Fore
   const std::uint32_t y = row * square_side;
   for (std::uint32_t column = 0; column < grid.columns; ++column) {
     const std::uint32_t x = column * square_side, first = (row * grid.columns + column) * square_tiles;
+    if (column + 1 < grid.columns) fetch_square(x + square_side, y);
     read_square(x, y, &tiles[first], *receivers, *square, out);
-    if (square->present == 0 || make_node(first, &tiles[first], *square, node_keys, out)) continue;
+    if (square->present == 0 || make_node(first, *square, node_keys, out)) continue;
     for (std::uint32_t left = square->present; left != 0; left &= left - 1) {
       const auto t = static_cast<std::uint32_t>(std::countr_zero(left));
       loosen_tile(x + t % 4 * tile_side, y + t / 4 * tile_side, first + t, tiles, loose_keys, out);

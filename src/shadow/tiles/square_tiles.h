@@ -43,11 +43,10 @@ private:
   std::uint32_t off_the_light(std::uint32_t x, std::uint32_t y, std::uint32_t lanes,
                               ForestScratch::Row& out) const;
   std::size_t pixel_at(std::uint32_t x, std::uint32_t y, int lane) const;
-  bool load_tile(std::uint32_t x, std::uint32_t y, std::uint32_t lanes, RayTile& tile, TilePoints& p) const;
   void read_square(std::uint32_t x, std::uint32_t y, RayTile* tiles, Receivers& receivers, Square& square,
                    ForestScratch::Row& out) const;
-  bool make_node(std::uint32_t first_tile, const RayTile* tiles, Square& square, Keys& keys,
-                 ForestScratch::Row& out) const;
+  void fetch_square(std::uint32_t x, std::uint32_t y) const;
+  bool make_node(std::uint32_t first_tile, Square& square, Keys& keys, ForestScratch::Row& out) const;
   void loosen_tile(std::uint32_t x, std::uint32_t y, std::uint32_t number, std::vector<RayTile>& tiles,
                    Keys& keys, ForestScratch::Row& out) const;
 
