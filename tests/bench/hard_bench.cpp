@@ -17,7 +17,8 @@ struct Part {
   const char* name;
   Expected<void> (*measure)(HardSession&);
 };
-constexpr std::array parts{Part{"frames", measure_hard_frames}};
+constexpr std::array parts{Part{"frames", measure_hard_frames}, Part{"growth", measure_hard_growth},
+                           Part{"variance", measure_hard_variance}, Part{"paper", measure_hard_paper}};
 
 struct HardArguments {
   BenchOptions options;
