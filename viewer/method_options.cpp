@@ -23,7 +23,7 @@ void set_group(std::initializer_list<CLI::Option*> options, const char* group) {
 Expected<Variant> parse_variant(const std::string& text) {
   if (const auto variant = variant_from_name(text)) return *variant;
   return fail(
-      "found {}, expected Precise, PreciseSorted, Spheres, SpheresSorted, PreciseSEA, PreciseEATP or "
+      "found {}, expected Tiles, Precise, PreciseSorted, Spheres, SpheresSorted, PreciseSEA, PreciseEATP or "
       "PreciseSEATP",
       text);
 }
@@ -80,8 +80,8 @@ void add_common(CLI::App& command, RenderSettings& render) {
 
 void add_hard(CLI::App& command, MethodOptions& options) {
   set_group({add_value(command, "--variant", options.render.hard.variant, parse_variant,
-                       "Precise, PreciseSorted, Spheres, SpheresSorted, PreciseSEA, PreciseEATP or "
-                       "PreciseSEATP: the same mask by other work [PreciseSorted]")
+                       "Tiles, Precise, PreciseSorted, Spheres, SpheresSorted, PreciseSEA,\nPreciseEATP or "
+                       "PreciseSEATP: the same mask by other work [Tiles]")
                  ->type_name("V"),
              add_choice<sample_choices>(command, "--samples", options.render.samples,
                                         "Where shadow rays start: exact points from triangle\nids, or the "

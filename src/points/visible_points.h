@@ -20,9 +20,10 @@ struct TriangleView {
   std::span<const glm::vec3> positions;
   std::span<const glm::uvec3> triangles;
   std::span<const std::uint8_t> casts_shadow;  ///< one a triangle; empty: all cast
+  std::span<const std::uint32_t> parts;  ///< a hint: first triangle of each group that moves as one, ascending
 };
 inline TriangleView triangle_view(const FrameGeometry& geometry) {
-  return {geometry.positions, geometry.triangles, geometry.casts_shadow};
+  return {geometry.positions, geometry.triangles, geometry.casts_shadow, geometry.parts};
 }
 
 /// Samples, one a pixel, row 0 at the top: a point, taken as exact, and the triangle it lies on.

@@ -187,6 +187,7 @@ void evaluate_frame(const Scene& scene, int clip, double time_s, FrameGeometry& 
   evaluate_pose(scene, clip, time_s, out.pose);
   resize(scene, out);
   out.dropped_non_finite = 0;
+  out.parts.clear();
   std::size_t vertex = 0;
   std::size_t triangle = 0;
   for (std::size_t i = 0; i < scene.nodes.size(); ++i) {
@@ -196,6 +197,7 @@ void evaluate_frame(const Scene& scene, int clip, double time_s, FrameGeometry& 
     const NodePose& pose = out.pose.nodes[i];
     const std::span<const double> weights(out.pose.weights.data() + pose.first_weight,
                                           mesh.morph_targets.size());
+    out.parts.push_back(static_cast<std::uint32_t>(triangle));
     const Instance instance{mesh, vertex, triangle, pose.visible, pose.to_world, skin_of(scene, node, mesh)};
     write_instance(scene, instance, weights, shape_time_s, out);
     vertex += mesh.positions.size();

@@ -25,6 +25,7 @@ struct FrameGeometry {
   std::vector<glm::uvec3> triangles;         ///< triangle id -> vertices; (0,0,0) for dropped ones
   std::vector<std::uint32_t> materials;      ///< one a triangle
   std::vector<std::uint8_t> casts_shadow;    ///< one a triangle, 0 or 1
+  std::vector<std::uint32_t> parts;          ///< first triangle of each mesh at its node
   std::uint32_t dropped_non_finite = 0;      ///< triangles with a NaN or infinite vertex, or beyond 1.8e18
                                              ///< (such a vertex is stored as zero: all positions are finite)
   Pose pose;                                 ///< the nodes at this instant

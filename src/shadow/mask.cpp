@@ -7,6 +7,7 @@
 #include "parallel/parallel.h"
 #include "shadow/cone_tree.h"
 #include "shadow/shadow_rays.h"
+#include "shadow/tiles/tile_tracer.h"
 #include "shadow/traverse.h"
 #include "shadow/triangle_planes.h"
 
@@ -28,6 +29,7 @@ VariantParts parts_of(Variant variant) {
   switch (variant) {
     case Variant::precise:
       return {false, false, false, false};
+    case Variant::tiles:  // where it does not apply
     case Variant::precise_sorted:
       return {false, true, false, false};
     case Variant::spheres:
@@ -53,6 +55,7 @@ std::uint64_t live_rays(const ConeTree& tree) {
 }  // namespace
 
 struct ShadowTracer::State {
+  TileTracer tiles;
   TriangleSet set;
   ShadowRays rays;
   RayKeys keys;
@@ -120,7 +123,8 @@ void ShadowTracer::State::spread_node_tests(std::size_t pixels) {
       most *= branching;
     }
     const std::size_t last = std::min(count, (packet + 1) * packet_size);
-    for (std::size_t i = packet * packet_size; i < last; ++i) pixel_nodes[rays.pixels[i]] = static_cast<float>(shares);
+    for (std::size_t i = packet * packet_size; i < last; ++i)
+      pixel_nodes[rays.pixels[i]] = static_cast<float>(shares);
   }
 }
 
@@ -146,6 +150,12 @@ void ShadowTracer::trace_shadow_mask(const VisiblePoints& points, const ViewRays
   State& s = *state_;
   s.stats = {};
   s.timings = {};
+  s.pixel_nodes.clear();
+  if (config.variant == Variant::tiles &&
+      s.tiles.trace(points, view, triangles, light, config, mask, s.stats, s.timings)) {
+    if (config.count_pixel_nodes) s.tiles.spread_tests(points.width, points.triangles.size(), s.pixel_nodes);
+    return;
+  }
   const RaySource source = ray_source(light);
   const VariantParts parts = parts_of(config.variant);
   Stopwatch watch;

@@ -28,8 +28,11 @@ struct ShadowLight {
   float range_m = 0.0f;           ///< points farther away get no ray and mask 0; 0: unbounded
 };
 
-/// The seven variants of the paper's Table 1. All give the same mask; they differ in the work they need.
+/// Ours, and the seven variants of the paper's Table 1. All give the same mask; they differ in the work they
+/// need.
 enum class Variant {
+  tiles,  ///< tiles of rays against clusters of triangles (tiles/tile_tracer.h); where it does not apply,
+          ///< precise_sorted
   precise,
   precise_sorted,
   spheres,
@@ -50,7 +53,7 @@ enum class ContactRule {
 };
 
 struct HardShadowConfig {
-  Variant variant = Variant::precise_sorted;
+  Variant variant = Variant::tiles;
   bool cull_front =
       false;  ///< section 3.6: only triangles that face away from the light cast (closed meshes only)
   ContactRule contact = ContactRule::triangle_ids;

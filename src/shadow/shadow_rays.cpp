@@ -16,16 +16,6 @@ using glm::dvec3;
 
 constexpr std::uint32_t tile = 64;  // pixels a side of the squares that run in parallel
 
-// The part of a light's reach that is not a matter of facing. Double, in this order of operations everywhere.
-bool in_reach(const dvec3& p, const ShadowLight& light) {
-  if (light.directional) return true;
-  const double distance2 = p.x * p.x + p.y * p.y + p.z * p.z;
-  if (light.range_m > 0 && distance2 > static_cast<double>(light.range_m) * light.range_m) return false;
-  if (light.spot_cos_outer <= -1) return true;
-  const double along = p.x * light.spot_axis.x + p.y * light.spot_axis.y + p.z * light.spot_axis.z;
-  return along >= light.spot_cos_outer * std::sqrt(distance2);
-}
-
 constexpr std::uint32_t even_bits(std::uint32_t v) {
   std::uint32_t r = 0;
   for (int bit = 0; bit < 16; ++bit) r |= ((v >> (2 * bit)) & 1u) << bit;
@@ -107,6 +97,15 @@ Plane2 plane_across(const VisiblePoints& points, const RaySource& source,
 }
 
 }  // namespace
+
+bool in_reach(const dvec3& p, const ShadowLight& light) {
+  if (light.directional) return true;
+  const double distance2 = p.x * p.x + p.y * p.y + p.z * p.z;
+  if (light.range_m > 0 && distance2 > static_cast<double>(light.range_m) * light.range_m) return false;
+  if (light.spot_cos_outer <= -1) return true;
+  const double along = p.x * light.spot_axis.x + p.y * light.spot_axis.y + p.z * light.spot_axis.z;
+  return along >= light.spot_cos_outer * std::sqrt(distance2);
+}
 
 void generate_shadow_rays(const VisiblePoints& points, const ShadowLight& light, const RaySource& source,
                           const TriangleSet& triangles, RayKeys& scratch, ShadowRays& out,

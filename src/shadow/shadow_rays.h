@@ -11,6 +11,10 @@
 
 namespace tenebra {
 
+/// Whether `p`, relative to a point or spot light, is within its cone and range: the part of a light's reach
+/// that is not a matter of facing. Double, in one order of operations.
+bool in_reach(const glm::dvec3& p, const ShadowLight& light);
+
 /// Scratch of generate_shadow_rays and sort_shadow_rays.
 struct RayKeys {
   std::vector<std::uint64_t> keys;  ///< key << 32 | pixel

@@ -145,7 +145,8 @@ TriangleBounds bounds_of(const TrianglePlanes& t, const vec3 v[3], const RaySour
   return b;
 }
 
-// Side of the light: s of the contract, 0 for triangles that block nothing.
+}  // namespace
+
 int light_side(const vec3 v[3], const RaySource& source) {
   return source.directional ? -direction_side(v[0], v[1], v[2], source.light)
                             : -point_side(v[0], v[1], v[2], source.light);
@@ -165,8 +166,6 @@ TrianglePlanes planes_of(const vec3 v[3], std::uint32_t id, int side, const RayS
   for (int k = 0; k < 3; ++k) t.reach = std::max(t.reach, glm::length(dvec3(v[k]) - source.origin));
   return t;
 }
-
-}  // namespace
 
 RaySource ray_source(const ShadowLight& light) {
   RaySource source;

@@ -62,6 +62,14 @@ struct TriangleSet {
   std::vector<std::uint32_t> chunk_counts;  ///< scratch
 };
 
+/// s of the contract: on which side of the triangle the light is; 0: the triangle blocks nothing. Exact.
+int light_side(const glm::vec3 corners[3], const RaySource& source);
+/// The same for the eye, with the opposite sign for an eye on the light's side. Exact.
+int eye_side(const glm::vec3 corners[3], const ViewRays& view);
+/// Planes of a triangle on side `side` (not 0); `tau` is its rounding tolerance.
+TrianglePlanes planes_of(const glm::vec3 corners[3], std::uint32_t id, int side, const RaySource& source,
+                         double tau);
+
 /// Fills `out` for one light and view. Order of `planes` is the order of ids.
 void build_triangle_set(const TriangleView& triangles, const ViewRays& view, const RaySource& source,
                         const HardShadowConfig& config, TriangleSet& out);

@@ -10,7 +10,8 @@ namespace {
 template <class T>
 using Names = std::pair<T, std::string_view>;
 
-constexpr std::array<Names<Variant>, 7> variants = {{
+constexpr std::array<Names<Variant>, 8> variants = {{
+    {Variant::tiles, "Tiles"},
     {Variant::precise, "Precise"},
     {Variant::precise_sorted, "PreciseSorted"},
     {Variant::spheres, "Spheres"},

@@ -387,6 +387,50 @@ HWY_INLINE void fetch_soon(const void* at) {
   hwy::Prefetch(static_cast<const unsigned char*>(at));
 }
 
+/// Lanes 0 ... N - 1 of a truth value from the bits of `bits`.
+template <class T, int N>
+HWY_INLINE Truth<T, N> truth_of(std::uint32_t bits) {
+  using P = Pack<T, N>;
+  Truth<T, N> t;
+  for (int i = 0; i < P::registers; ++i) {
+    const std::uint32_t part = bits >> (i * P::width);
+    const std::uint8_t bytes[8] = {static_cast<std::uint8_t>(part), static_cast<std::uint8_t>(part >> 8)};
+    t.r[i] = hn::LoadMaskBits(typename P::Tag(), bytes);
+  }
+  return t;
+}
+/// N triples x y z x y z ...
+template <class P, class T>
+HWY_INLINE Pack3<P> load3(const T* from) {
+  Pack3<P> p;
+  for (int i = 0; i < P::registers; ++i)
+    hn::LoadInterleaved3(typename P::Tag(), from + 3 * i * P::width, p.x.r[i], p.y.r[i], p.z.r[i]);
+  return p;
+}
+/// Doubles rounded to nearest.
+template <int N>
+HWY_INLINE void store_narrowed(Pack<double, N> a, float* to) {
+  const hn::Rebind<float, typename Pack<double, N>::Tag> narrow;
+  for (int i = 0; i < a.registers; ++i) hn::StoreU(hn::DemoteTo(narrow, a.r[i]), narrow, to + i * a.width);
+}
+
+/// Doubles as floats, rounded to nearest, without a trip through memory.
+template <int N>
+HWY_INLINE Pack<float, N> demoted(Pack<double, N> a) {
+  using P = Pack<float, N>;
+  P p;
+#if HWY_TARGET == HWY_SCALAR
+  for (int i = 0; i < P::registers; ++i) p.r[i] = hn::DemoteTo(typename P::Tag(), a.r[i]);
+#else
+  static_assert(Pack<double, N>::registers == 2 * P::registers);
+  const hn::Half<typename P::Tag> half;
+  for (int i = 0; i < P::registers; ++i)
+    p.r[i] =
+        hn::Combine(typename P::Tag(), hn::DemoteTo(half, a.r[2 * i + 1]), hn::DemoteTo(half, a.r[2 * i]));
+#endif
+  return p;
+}
+
 }  // namespace tenebra::HWY_NAMESPACE
 HWY_AFTER_NAMESPACE();
 

@@ -24,6 +24,7 @@ using Run = std::function<Expected<void>()>;
 /// Adds --data, --quick, --threads and --csv.
 void add_bench_options(CLI::App& command, BenchOptions& options);
 
+void add_hard_command(CLI::App& program, Run& run);
 void add_soft_command(CLI::App& program, Run& run);
 void add_ao_command(CLI::App& program, Run& run);
 

@@ -20,6 +20,7 @@ int main(int argc, char** argv) {
   CLI::App program("Measures Tenebra and its peers side by side.");
   program.require_subcommand(1);
   tenebra::bench::Run run;
+  tenebra::bench::add_hard_command(program, run);
   tenebra::bench::add_soft_command(program, run);
   tenebra::bench::add_ao_command(program, run);
   CLI11_PARSE(program, argc, argv);

@@ -4,9 +4,8 @@
 #include <exception>
 
 #include "bench_report.h"
+#include "bench_scenes.h"
 #include "scene/view_basis.h"
-#include "support/child_process.h"
-#include "support/temporary_folder.h"
 
 namespace tenebra::bench {
 namespace {
@@ -14,50 +13,21 @@ namespace {
 constexpr double side_percent_of_diagonal = 4;
 
 struct SceneEntry {
-  const char* name;
-  const char* file;  // in the folder of BART, or of the bundled scenes
-  bool bundled;
-  std::vector<std::string> no_cast;
+  std::string name;
   std::vector<int> frames;  // the first is the one that the goals are stated for
 };
 
 const std::vector<SceneEntry>& scene_entries() {
-  // The two triangles of the robots' sky lie below its light.
-  static const std::vector<SceneEntry> entries{
-      {"robots", "robots/Robot.aff", false, {"city2.aff:69"}, {100, 400}},
-      {"museum5", "museum/museum5.aff", false, {}, {20, 100}},
-      {"kitchen", "kitchen/kitchen.aff", false, {}, {100, 400}},
-      {"museum5x64", "museum5x64/museum5x64.aff", false, {}, {20, 100}},
-      {"court", "court.glb", true, {}, {60}}};
+  static const std::vector<SceneEntry> entries{{"robots", {100, 400}},
+                                               {"museum5", {20, 100}},
+                                               {"kitchen", {100, 400}},
+                                               {"museum5x64", {20, 100}},
+                                               {"court", {60}}};
   return entries;
 }
 
 bool chosen(const ViewChoice& choice, const std::string& name) {
   return choice.only.empty() || std::find(choice.only.begin(), choice.only.end(), name) != choice.only.end();
-}
-
-/// museum5x64 is not stored: its script makes it, in a folder that goes with `made`.
-std::filesystem::path make_museum5x64(const std::filesystem::path& data,
-                                      std::unique_ptr<test::TemporaryFolder>& made) {
-  const auto script = data / "make_museum5x64.py";
-  std::error_code ignored;
-  if (!std::filesystem::exists(script, ignored)) return {};
-  progress("museum5x64: made by " + script.string());
-  made = std::make_unique<test::TemporaryFolder>();
-  const auto result =
-      test::run_program({"/usr/bin/env", "python3", script.string(), (made->path() / "museum5x64").string()});
-  if (result.exit_code == 0) return *made / "museum5x64/museum5x64.aff";
-  progress("museum5x64: " + result.errors);
-  return {};
-}
-
-/// Where the scene's file is; empty: nowhere.
-std::filesystem::path find_scene(const SceneEntry& entry, const std::filesystem::path& data,
-                                 std::unique_ptr<test::TemporaryFolder>& made) {
-  const auto folder = entry.bundled ? std::filesystem::path(TENEBRA_SCENES_DIR) : data;
-  std::error_code ignored;
-  if (std::filesystem::exists(folder / entry.file, ignored)) return folder / entry.file;
-  return entry.name == std::string("museum5x64") ? make_museum5x64(data, made) : std::filesystem::path();
 }
 
 /// The scene's own area light, or its first light made a square.
@@ -73,12 +43,13 @@ Expected<AreaLight> light_of(const Scene& scene, const BenchFrame& frame) {
 Expected<void> visit_frames(const SceneEntry& entry, const std::filesystem::path& file,
                             const ViewChoice& choice,
                             const std::function<Expected<void>(const SoftView&)>& body) {
-  const auto scene = load_scene(file, entry.no_cast);
+  const BenchScene& known = bench_scene(entry.name);
+  const auto scene = load_scene(file, known.no_cast);
   if (!scene) return tl::unexpected(scene.error());
   for (const int number : entry.frames) {
     const bool first = number == entry.frames.front();
     if (!first && !choice.more_frames) continue;
-    SoftView view{fmt::format("{} {}", entry.name, number), first && !entry.bundled, {}, {}};
+    SoftView view{fmt::format("{} {}", entry.name, number), first && !known.bundled, {}, {}};
     evaluate_bench_frame(*scene, number, choice.width, choice.height, view.frame);
     auto light = light_of(*scene, view.frame);
     if (!light) return fail("{}: {}", view.name, light.error().message);
@@ -110,9 +81,10 @@ Expected<void> for_each_view(const BenchOptions& options, const ViewChoice& choi
   for (const SceneEntry& entry : scene_entries()) {
     if (!chosen(choice, entry.name)) continue;
     std::unique_ptr<test::TemporaryFolder> made;
-    const auto file = find_scene(entry, data, made);
+    const auto file = find_scene(bench_scene(entry.name), data, made);
     if (file.empty()) {
-      progress(fmt::format("{}: skipped, {} is not there", entry.name, (data / entry.file).string()));
+      progress(fmt::format("{}: skipped, {} is not there", entry.name,
+                           (data / bench_scene(entry.name).file).string()));
       skipped.emplace_back(entry.name);
       continue;
     }

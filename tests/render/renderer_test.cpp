@@ -73,7 +73,7 @@ TEST(Renderer, EveryVariantAndThreadCountDrawsTheSamePicture) {
   const Scene scene = plate_over_floor();
   RenderSettings settings{.width = 161, .height = 97};
   const FrameResult expected = draw(scene, settings);
-  for (const char* name : {"Precise", "PreciseSorted", "Spheres", "SpheresSorted", "PreciseSEA",
+  for (const char* name : {"Tiles", "Precise", "PreciseSorted", "Spheres", "SpheresSorted", "PreciseSEA",
                            "PreciseEATP", "PreciseSEATP"}) {
     settings.hard.variant = *variant_from_name(name);
     settings.threads = settings.threads % 3 + 1;

@@ -58,7 +58,7 @@ MaskCase soup_case(const SoupMaker& maker, const Place& place, int kind, std::ui
   if (seed % 3 == 0)
     for (std::size_t i = 0; i < c.soup.triangles.size(); ++i) c.soup.casts.push_back(random.chance(0.9));
   c.light = light_of_kind(kind, c.soup, random);
-  c.config.variant = all_variants[seed % 7];
+  c.config.variant = all_variants[seed % std::size(all_variants)];
   c.config.cull_front = seed % 11 == 0;
   c.view = view_from_light(c.light);
   return c;

@@ -83,7 +83,7 @@ std::uint64_t expect_exact(std::span<const SceneFrame> frames, int size) {
   for (const SceneFrame& frame : frames) {
     Shares own;
     for (MaskCase& c : frame_cases(frame, size, size)) {
-      c.config.variant = all_variants[turn++ % 7];
+      c.config.variant = all_variants[turn++ % std::size(all_variants)];
       EXPECT_TRUE(exact(c, &own));
     }
     own.print(fmt::format("{} {}", frame.scene, frame.frame).c_str());

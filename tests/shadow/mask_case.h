@@ -26,8 +26,8 @@ struct MaskCase {
 };
 
 inline constexpr Variant all_variants[] = {
-    Variant::precise,     Variant::precise_sorted, Variant::spheres,      Variant::spheres_sorted,
-    Variant::precise_sea, Variant::precise_eatp,   Variant::precise_seatp};
+    Variant::tiles,          Variant::precise,     Variant::precise_sorted, Variant::spheres,
+    Variant::spheres_sorted, Variant::precise_sea, Variant::precise_eatp,   Variant::precise_seatp};
 
 /// Sums over the comparisons of a test; printed at its end.
 struct Shares {
@@ -123,7 +123,7 @@ inline ::testing::AssertionResult exact(const MaskCase& c, Shares* shares = null
   return same_mask(c, mask, expected);
 }
 
-/// All seven variants must give `expected`.
+/// All variants must give `expected`.
 inline ::testing::AssertionResult all_variants_give(MaskCase c, const ShadowMask& expected) {
   for (const Variant variant : all_variants) {
     c.config.variant = variant;

@@ -121,7 +121,7 @@ TEST(RenderCommand, LogsEveryFrameAndHowItWasMade) {
   EXPECT_EQ(rows_of(folder / "frames.csv").size(), 21u) << "10 s at 2 a second, both ends";
   const std::string log = read_text(folder / "frames.csv");
   for (const char* setting : {"# machine: ", "# renderer: ", "# threads: ", "# simd: ", "# LP_NUM_THREADS: ",
-                              "# scene: ", "# size: 32x24", "# variant: PreciseSorted", "# no_cast: floor"}) {
+                              "# scene: ", "# size: 32x24", "# variant: Tiles", "# no_cast: floor"}) {
     EXPECT_NE(log.find(setting), std::string::npos) << setting << "\n" << log;
   }
   int frames = 0;

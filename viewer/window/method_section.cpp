@@ -6,9 +6,9 @@
 namespace tenebra::viewer {
 namespace {
 
-constexpr std::array variants{Variant::precise,        Variant::precise_sorted, Variant::spheres,
-                              Variant::spheres_sorted, Variant::precise_sea,    Variant::precise_eatp,
-                              Variant::precise_seatp};
+constexpr std::array variants{Variant::tiles,        Variant::precise,        Variant::precise_sorted,
+                              Variant::spheres,      Variant::spheres_sorted, Variant::precise_sea,
+                              Variant::precise_eatp, Variant::precise_seatp};
 constexpr std::array levels{SimdLevel::automatic, SimdLevel::scalar, SimdLevel::sse4, SimdLevel::avx2,
                             SimdLevel::avx512};
 constexpr std::array bit_choices{Choice<int>{"1", 1}, Choice<int>{"8", 8}, Choice<int>{"32", 32}};
@@ -25,7 +25,8 @@ bool number(Ui& ui, const char* name, int& value, int low, int high, int step) {
 
 void edit_hard(Ui& ui, MethodOptions& method) {
   HardShadowConfig& hard = method.render.hard;
-  row(ui, "Variant", "The seven variants of Olsson and Assarsson's Table 1: the same mask by other work.");
+  row(ui, "Variant",
+      "Tiles, ours, and the seven of Olsson and Assarsson's Table 1: the same mask by other work.");
   if (ImGui::BeginCombo("##variant", std::string(variant_name(hard.variant)).c_str())) {
     for (const Variant variant : variants) {
       const std::string name =

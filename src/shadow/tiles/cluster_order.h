@@ -1,0 +1,16 @@
+// The order of triangles for clusters: near ones of like size together.
+#pragma once
+
+#include <cstdint>
+#include <vector>
+
+#include "points/visible_points.h"
+
+namespace tenebra {
+
+/// Ids of all casters: by class of size (largest first), within a class part by part (triangles that move
+/// together stay together), within a part along a Morton curve. Classes begin at multiples of 256, the whole
+/// is one of 16; gaps are no_triangle.
+void cluster_order(const TriangleView& triangles, std::vector<std::uint32_t>& order);
+
+}  // namespace tenebra

@@ -1,0 +1,123 @@
+// Planes of a cluster's sixteen triangles through the light, in double. The same quantities and error bounds
+// as planes_of: A x (B - A) has an error of 4 sqrt(3) v |a||e|; with the normalisation and the evaluation it
+// stays below rho (|p| + reach), rho = 2^-48 |a||e| / |m| (v = 2^-53). Included once per target.
+#if defined(TENEBRA_CLUSTER_PLANES_INL_H_) == defined(HWY_TARGET_TOGGLE)
+#ifdef TENEBRA_CLUSTER_PLANES_INL_H_
+#undef TENEBRA_CLUSTER_PLANES_INL_H_
+#else
+#define TENEBRA_CLUSTER_PLANES_INL_H_
+#endif
+
+#include <cmath>
+
+#include "shadow/tiles/descent.h"
+#include "simd/pack-inl.h"
+
+HWY_BEFORE_NAMESPACE();
+namespace tenebra::HWY_NAMESPACE {
+
+using Double8 = Pack<double, 8>;
+using Vector8 = Pack3<Double8>;
+
+/// Eight triangles in double, relative to the light.
+struct Eight {
+  Vector8 a[3];
+  Double8 side;     // +1, -1; 0 where double cannot tell
+  Double8 largest;  // |coordinate| of the corners in world space
+};
+
+HWY_INLINE Eight load_eight(const TriangleCluster& c, int at, const glm::dvec3& light) {
+  Eight t;
+  const Vector8 origin = splat3<Double8>(light.x, light.y, light.z);
+  t.largest = splat<Double8>(0.0);
+  for (int k = 0; k < 3; ++k) {
+    const Vector8 p{load_widened<Double8>(c.x[k] + at), load_widened<Double8>(c.y[k] + at),
+                    load_widened<Double8>(c.z[k] + at)};
+    t.largest = max(t.largest, max(absolute(p.x), max(absolute(p.y), absolute(p.z))));
+    t.a[k] = p - origin;
+  }
+  return t;
+}
+
+/// Stores plane `k`, turned to the side of `side`; returns the square of rho / 2^-48. 1 / 0 gives no plane
+/// and an infinite error: all is left to the exact stage.
+HWY_INLINE Double8 store_plane(ClusterPlanes& out, int k, int at, const Vector8& m, Double8 side,
+                               Double8 squares, Vector8& unit) {
+  const Double8 zero = splat<Double8>(0.0), length2 = dot(m, m);
+  const Truth<double, 8> real = less(zero, length2);
+  const Double8 inverse = choose(real, splat<Double8>(1.0) / square_root(length2), zero);
+  const Double8 factor = inverse * side;
+  unit = {m.x * factor, m.y * factor, m.z * factor};
+  store(unit.x, out.mx[k] + at), store(unit.y, out.my[k] + at), store(unit.z, out.mz[k] + at);
+  store_narrowed(unit.x, out.fx[k] + at), store_narrowed(unit.y, out.fy[k] + at);
+  store_narrowed(unit.z, out.fz[k] + at);
+  return choose(real, squares * inverse * inverse, splat<Double8>(HUGE_VAL));
+}
+
+/// Side of the light: sign of n.(A - L) where the error bound of the product allows, else 0.
+HWY_INLINE Double8 certain_side(const Vector8& n, const Vector8& a, Double8 squares) {
+  const Double8 value = dot(n, a);
+  const Double8 bound2 = splat<Double8>(0x1p-92) * squares * dot(a, a);
+  const Double8 one = splat<Double8>(1.0);
+  const Double8 sign = choose(less(splat<Double8>(0.0), value), one, splat<Double8>(-1.0));
+  return choose(less(bound2, value * value), sign, splat<Double8>(0.0));
+}
+
+/// Exact sides of the lanes in `lanes` whose side is 0; returns the lanes that are 0 indeed.
+inline std::uint32_t settle_sides(const TriangleCluster& c, int at, std::uint32_t lanes,
+                                  const RaySource& source, double side[8]) {
+  std::uint32_t edge_on = 0;
+  for (int i = 0; i < 8; ++i) {
+    if (!((lanes >> i) & 1u) || side[i] != 0) continue;
+    glm::vec3 v[3];
+    for (int k = 0; k < 3; ++k) v[k] = {c.x[k][at + i], c.y[k][at + i], c.z[k][at + i]};
+    side[i] = light_side(v, source);
+    if (side[i] == 0) edge_on |= 1u << i;
+  }
+  return edge_on;
+}
+
+/// Planes of triangles at ... at + 7; returns the bits of those that may block something.
+HWY_INLINE std::uint32_t set_up_eight(const TriangleCluster& c, int at, const RaySource& source, bool use_tau,
+                                      bool cull_front, ClusterPlanes& out) {
+  Eight t = load_eight(c, at, source.origin);
+  const Vector8 e1 = t.a[1] - t.a[0], e2 = t.a[2] - t.a[0], n = cross(e1, e2);
+  const Double8 own_squares = dot(e1, e1) * dot(e2, e2);
+  t.side = certain_side(n, t.a[0], own_squares);
+  std::uint32_t valid = (c.used >> at) & 255u;
+  double side[8];
+  store(t.side, side);
+  valid &= ~settle_sides(c, at, valid, source, side);
+  if (cull_front) {
+    for (int i = 0; i < 8; ++i) valid &= side[i] < 0 ? ~(1u << i) : ~0u;
+  }
+  t.side = load<Double8>(side);
+
+  Vector8 unit;
+  Double8 worst = splat<Double8>(0.0), reach2 = worst;
+  for (int k = 0; k < 3; ++k) {
+    const Vector8 edge = t.a[(k + 1) % 3] - t.a[k];
+    const Double8 from2 = dot(t.a[k], t.a[k]);
+    worst = max(worst, store_plane(out, k, at, cross(t.a[k], edge), t.side, from2 * dot(edge, edge), unit));
+    reach2 = max(reach2, from2);
+    store_narrowed(t.a[k].x, out.ax[k] + at), store_narrowed(t.a[k].y, out.ay[k] + at);
+    store_narrowed(t.a[k].z, out.az[k] + at);
+  }
+  worst = max(worst, store_plane(out, 3, at, n, t.side, own_squares, unit));
+  const Double8 tau = t.largest * splat<Double8>(use_tau ? 1.7320508075688772 * 0x1p-24 : 0.0);
+  store(dot(unit, t.a[0]) + tau, out.d + at);
+  store_narrowed(square_root(worst) * splat<Double8>(0x1p-48 * (1 + 0x1p-20)), out.rho + at);
+  store_narrowed(square_root(reach2) * splat<Double8>(1 + 0x1p-20), out.reach + at);
+  return valid << at;
+}
+
+HWY_INLINE void set_up_planes(const TriangleCluster& c, const RaySource& source, bool use_tau,
+                              bool cull_front, ClusterPlanes& out) {
+  out.valid = set_up_eight(c, 0, source, use_tau, cull_front, out);
+  out.valid |= set_up_eight(c, 8, source, use_tau, cull_front, out);
+}
+
+}  // namespace tenebra::HWY_NAMESPACE
+HWY_AFTER_NAMESPACE();
+
+#endif

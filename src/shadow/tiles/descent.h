@@ -1,0 +1,53 @@
+// Triangles against rays: the tree of clusters and the forest of rays, descended together.
+#pragma once
+
+#include "base/frame_timings.h"
+#include "shadow/mask.h"
+#include "shadow/tiles/ray_forest.h"
+#include "shadow/tiles/triangle_clusters.h"
+
+namespace tenebra {
+
+/// What a descent reads, and the forest it writes to: live rays and counts of tests.
+struct Descent {
+  const ClusterTree& clusters;
+  RayForest& forest;
+  const RaySource& source;  ///< not directional
+  const TriangleView& triangles;
+  const VisiblePoints& points;
+  ContactRule contact;
+  bool cull_front;
+};
+
+/// A cluster's triangles as seen from the light: planes m.p - d relative to the light as in TrianglePlanes,
+/// sixteen at a time.
+struct alignas(64) ClusterPlanes {
+  double mx[4][16], my[4][16],
+      mz[4][16];                          ///< unit; 0..2: through the light and an edge (d = 0); 3: own plane
+  double d[16];                           ///< own plane, tau of the triangle included
+  float fx[4][16], fy[4][16], fz[4][16];  ///< the same in float
+  float rho[16];                          ///< relative errors, the largest of the four planes', rounded up
+  float reach[16];                        ///< >= largest |vertex - light|
+  float ax[3][16], ay[3][16], az[3][16];  ///< corners relative to the light
+  std::uint32_t valid;                    ///< bit i: triangle i may block something
+};
+
+/// Scratch of one thread.
+struct DescentScratch {
+  struct Hits {
+    std::uint32_t node;   ///< of level 0
+    std::uint32_t tiles;  ///< bits of its children
+  };
+  std::vector<Hits> hits;
+  ClusterPlanes planes;
+};
+
+/// Code for one instruction set.
+struct DescentKernels {
+  /// Takes all clusters through the tree of root `root`.
+  void (*descend)(const Descent&, std::uint32_t root, DescentScratch&, TraceStats&) = nullptr;
+};
+/// `level`: one that simd_level_supported, or automatic.
+DescentKernels descent_kernels(SimdLevel level);
+
+}  // namespace tenebra

@@ -1,0 +1,165 @@
+// Boxes and triangles against nodes of rays on a cube's face, sixteen at a time, in float. Conservative: what
+// is rejected can block no ray of the node. u = 2^-24 below. Included once per target.
+#if defined(TENEBRA_FACE_TESTS_INL_H_) == defined(HWY_TARGET_TOGGLE)
+#ifdef TENEBRA_FACE_TESTS_INL_H_
+#undef TENEBRA_FACE_TESTS_INL_H_
+#else
+#define TENEBRA_FACE_TESTS_INL_H_
+#endif
+
+#include "shadow/tiles/descent.h"
+#include "simd/pack-inl.h"
+
+HWY_BEFORE_NAMESPACE();
+namespace tenebra::HWY_NAMESPACE {
+
+constexpr float u = 0x1p-24f;
+constexpr float off_the_face = 1e30f;  // beyond face_limit, and its products with anything sane are finite
+constexpr float next_to_the_light = 1e-30f;
+
+/// The face: its axes in the order u, v, z.
+struct Face {
+  int axes[3];
+  float sign;  ///< of z along its axis
+};
+HWY_INLINE Face face_axes(int face) {
+  const int axis = face / 2;
+  return {{(axis + 1) % 3, (axis + 2) % 3, axis}, face % 2 == 0 ? 1.0f : -1.0f};
+}
+
+/// Sixteen boxes on a face: u, v ranges and largest w. Each is off by at most 5u of its value.
+struct FaceBoxes {
+  Float16 u0, u1, v0, v1, w;
+};
+
+/// Bits of the boxes that meet `rays`; NaN counts as meeting.
+HWY_INLINE std::uint32_t boxes_met(const FaceBoxes& b, const FaceBox& rays) {
+  const auto missed = less(splat<Float16>(rays.u1), b.u0) | less(b.u1, splat<Float16>(rays.u0)) |
+                      less(splat<Float16>(rays.v1), b.v0) | less(b.v1, splat<Float16>(rays.v0)) |
+                      less(b.w, splat<Float16>(rays.w));
+  return 0xffffu & ~bits(missed);
+}
+
+/// Bits of the node's children that a box meets and that have rays left.
+HWY_INLINE std::uint32_t children_met(const RayNode& n, const FaceBox& box) {
+  const auto missed =
+      less(splat<Float16>(box.u1), load<Float16>(n.u0)) | less(load<Float16>(n.u1), splat<Float16>(box.u0)) |
+      less(splat<Float16>(box.v1), load<Float16>(n.v0)) | less(load<Float16>(n.v1), splat<Float16>(box.v0)) |
+      less(splat<Float16>(box.w), load<Float16>(n.w));
+  return n.live & ~bits(missed);
+}
+
+/// Lower end of x/z for x >= low and z in (z0, z1], given 1/z0 and 1/z1; `pull` is off_the_face where z0 <=
+/// 0.
+HWY_INLINE Float16 lower_end(Float16 low, Float16 near_inverse, Float16 far_inverse, Float16 pull) {
+  return where_not_above(splat<Float16>(0.0f), low, low * far_inverse, low * near_inverse - pull);
+}
+HWY_INLINE Float16 upper_end(Float16 high, Float16 near_inverse, Float16 far_inverse, Float16 pull) {
+  return where_not_above(high, splat<Float16>(0.0f), high * far_inverse, high * near_inverse + pull);
+}
+
+/// World-space boxes on a face of the cube around `light`; returns the bits of those that reach in front of
+/// it. Differences of floats are off by u, quotients and products by 4u more.
+HWY_INLINE std::uint32_t project_boxes(const BoxNode& node, const glm::vec3& light, const Face& face,
+                                       FaceBoxes& out) {
+  Float16 low[3], high[3];
+  for (int k = 0; k < 3; ++k) {
+    const int axis = face.axes[k];
+    low[k] = load<Float16>(node.low[axis]) - splat<Float16>(light[axis]);
+    high[k] = load<Float16>(node.high[axis]) - splat<Float16>(light[axis]);
+  }
+  const Float16 zero = splat<Float16>(0.0f);
+  const Float16 z0 = face.sign > 0 ? low[2] : zero - high[2], z1 = face.sign > 0 ? high[2] : zero - low[2];
+  const Float16 closest = splat<Float16>(next_to_the_light), one = splat<Float16>(1.0f);
+  const Float16 near_inverse = one / max(z0, closest), far_inverse = one / z1;
+  const Float16 pull = where_not_above(z0, closest, splat<Float16>(off_the_face), zero);
+  out.u0 = lower_end(low[0], near_inverse, far_inverse, pull);
+  out.u1 = upper_end(high[0], near_inverse, far_inverse, pull);
+  out.v0 = lower_end(low[1], near_inverse, far_inverse, pull);
+  out.v1 = upper_end(high[1], near_inverse, far_inverse, pull);
+  out.w = near_inverse;
+  return less_bits(zero, z1);
+}
+
+/// Boxes of a cluster's triangles themselves: tighter than its box by far. Triangles that reach behind the
+/// face's plane get `all`. Returns the bits of those that reach in front of it.
+HWY_INLINE std::uint32_t project_triangles(const ClusterPlanes& c, const Face& face, const FaceBox& all,
+                                           FaceBoxes& out) {
+  const float(*const corners[3])[16] = {c.ax, c.ay, c.az};
+  const Float16 one = splat<Float16>(1.0f);
+  Float16 z0, z1;
+  for (int k = 0; k < 3; ++k) {
+    const Float16 z = load<Float16>(corners[face.axes[2]][k]) * splat<Float16>(face.sign);
+    const Float16 w = one / z;
+    const Float16 pu = load<Float16>(corners[face.axes[0]][k]) * w,
+                  pv = load<Float16>(corners[face.axes[1]][k]) * w;
+    z0 = k == 0 ? z : min(z0, z), z1 = k == 0 ? z : max(z1, z);
+    out.u0 = k == 0 ? pu : min(out.u0, pu), out.u1 = k == 0 ? pu : max(out.u1, pu);
+    out.v0 = k == 0 ? pv : min(out.v0, pv), out.v1 = k == 0 ? pv : max(out.v1, pv);
+  }
+  const Float16 closest = splat<Float16>(next_to_the_light);
+  out.u0 = where_not_above(z0, closest, splat<Float16>(all.u0), out.u0);
+  out.u1 = where_not_above(z0, closest, splat<Float16>(all.u1), out.u1);
+  out.v0 = where_not_above(z0, closest, splat<Float16>(all.v0), out.v0);
+  out.v1 = where_not_above(z0, closest, splat<Float16>(all.v1), out.v1);
+  out.w = where_not_above(z0, closest, splat<Float16>(all.w), one / max(z0, closest));
+  return c.valid & less_bits(splat<Float16>(0.0f), z1);
+}
+
+/// One triangle on a face. Plane k at the point (u, v, w) of a ray: m.(u, v, 1) - d w, the plane's value over
+/// z. |p| / z <= 4.4 on a face of +-3, so rho (|p| + reach) becomes rho (4.4 + reach w); floats and roundings
+/// add 5.1u (|mx| 3 + |my| 3 + |mz|) <= 23u for the edges, 28u and 6.1u d w for the own plane.
+struct FaceTriangle {
+  FaceBox box;
+  float mx[4], my[4], mz[4];
+  float edge_slack;
+  float d, own_slack;
+  float cover;  ///< d and the rays' own tolerance, rounded up
+};
+
+HWY_INLINE FaceTriangle face_triangle(const ClusterPlanes& c, int i, const Face& face, float tau) {
+  const float(*const m[3])[16] = {c.fx, c.fy, c.fz};
+  FaceTriangle t;
+  for (int k = 0; k < 4; ++k) {
+    t.mx[k] = m[face.axes[0]][k][i];
+    t.my[k] = m[face.axes[1]][k][i];
+    t.mz[k] = m[face.axes[2]][k][i] * face.sign;
+  }
+  t.edge_slack = 23 * u + 4.5f * c.rho[i];
+  t.own_slack = 28 * u + 4.5f * c.rho[i];
+  t.d = static_cast<float>(c.d[i]) * (1 - 8 * u) - c.rho[i] * c.reach[i] * (1 + 8 * u);
+  t.cover = (static_cast<float>(c.d[i]) + c.rho[i] * c.reach[i] + tau) * (1 + 16 * u);
+  return t;
+}
+
+/// Plane k of a triangle over the boxes of a node: its largest value (towards = 1) or its smallest (-1).
+HWY_INLINE Float16 extreme(const RayNode& n, const FaceTriangle& t, int k, float towards) {
+  const Float16 pu = load<Float16>(t.mx[k] * towards > 0 ? n.u1 : n.u0),
+                pv = load<Float16>(t.my[k] * towards > 0 ? n.v1 : n.v0);
+  return multiply_add(splat<Float16>(t.mx[k]), pu,
+                      multiply_add(splat<Float16>(t.my[k]), pv, splat<Float16>(t.mz[k])));
+}
+
+/// Bits of the node's children that triangle `t` may block rays of.
+HWY_INLINE std::uint32_t children_met(const RayNode& n, const FaceTriangle& t) {
+  const std::uint32_t met = children_met(n, t.box);
+  if (met == 0) return 0;
+  const Float16 edges = min(extreme(n, t, 0, 1), min(extreme(n, t, 1, 1), extreme(n, t, 2, 1)));
+  const Float16 own = extreme(n, t, 3, 1) + splat<Float16>(t.own_slack);
+  const auto missed =
+      less(edges, splat<Float16>(-t.edge_slack)) | less(own, splat<Float16>(t.d) * load<Float16>(n.w));
+  return met & ~bits(missed);
+}
+
+/// Bits of the node's children all of whose rays triangle `t` blocks for sure, but for its own.
+HWY_INLINE std::uint32_t children_covered(const RayNode& n, const FaceTriangle& t) {
+  const Float16 edges = min(extreme(n, t, 0, -1), min(extreme(n, t, 1, -1), extreme(n, t, 2, -1)));
+  const Float16 own = extreme(n, t, 3, -1) - splat<Float16>(t.own_slack);
+  return bits(less(splat<Float16>(t.edge_slack), edges) &
+              less(splat<Float16>(t.cover) * load<Float16>(n.w1), own));
+}
+
+}  // namespace tenebra::HWY_NAMESPACE
+HWY_AFTER_NAMESPACE();
+
+#endif

@@ -1,0 +1,35 @@
+// The variant Tiles: rays in tiles of neighbouring pixels, triangles in clusters of neighbouring triangles, a
+// tree over each, descended together. Against the paper's way it sorts thousands of tiles instead of a
+// million rays, bounds them by boxes on a cube's faces (cones of rectangular section with their apex at the
+// light) instead of round cones, and looks at sixteen triangles or nodes at once. The last test, and with it
+// the mask, is the same: planes through the light in double, a float filter, double, exact signs.
+#pragma once
+
+#include "base/frame_timings.h"
+#include "shadow/mask.h"
+#include "shadow/tiles/descent.h"
+
+namespace tenebra {
+
+/// Buffers kept from frame to frame, the order of the triangles among them.
+class TileTracer {
+public:
+  /// Fills `mask`, `stats` and `timings` as ShadowTracer does. False, with nothing of use in them, where the
+  /// method does not apply: directional lights, and points that are not 1e-15 ... 1e15 from the light.
+  bool trace(const VisiblePoints& points, const ViewRays& view, const TriangleView& triangles,
+             const ShadowLight& light, const HardShadowConfig& config, ShadowMask& mask, TraceStats& stats,
+             FrameTimings& timings);
+
+  /// Of the last call: node tests a pixel, those of a node shared equally by the rays below it.
+  void spread_tests(int width, std::size_t pixels, std::vector<float>& out) const;
+
+private:
+  void descend(const Descent& descent, SimdLevel simd, TraceStats& stats);
+
+  ClusterTree clusters_;
+  RayForest forest_;
+  ForestScratch forest_scratch_;
+  std::vector<DescentScratch> scratch_;
+};
+
+}  // namespace tenebra

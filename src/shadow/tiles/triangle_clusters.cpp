@@ -1,0 +1,176 @@
+#include "shadow/tiles/triangle_clusters.h"
+
+#include <algorithm>
+#include <cmath>
+#include <cstring>
+#include <limits>
+
+#include "parallel/parallel.h"
+#include "points/triangle_corners.h"
+#include "shadow/tiles/cluster_order.h"
+
+namespace tenebra {
+
+namespace {
+
+using glm::vec3;
+
+constexpr std::size_t block = 256;  // vertices or triangles that are compared together
+constexpr float infinity = std::numeric_limits<float>::infinity();
+
+template <class T>
+bool same_elements(std::span<const T> a, const std::vector<T>& b) {
+  return a.size() == b.size() && (a.empty() || std::memcmp(a.data(), b.data(), a.size_bytes()) == 0);
+}
+
+/// Copies what differs and counts the blocks that did, before each block.
+template <class T>
+void copy_changes(std::span<const T> from, std::vector<T>& to, std::vector<std::uint32_t>& changed) {
+  const std::size_t blocks = (from.size() + block - 1) / block;
+  changed.resize(blocks + 1);
+  parallel_ranges(blocks, 64, [&](std::size_t first, std::size_t last) {
+    for (std::size_t b = first; b < last; ++b) {
+      const std::size_t begin = b * block, size = std::min(block, from.size() - begin);
+      const bool differs = std::memcmp(&from[begin], &to[begin], size * sizeof(T)) != 0;
+      if (differs) std::memcpy(&to[begin], &from[begin], size * sizeof(T));
+      changed[b + 1] = differs ? 1 : 0;
+    }
+  });
+  changed[0] = 0;
+  for (std::size_t b = 0; b < blocks; ++b) changed[b + 1] += changed[b];
+}
+
+bool finite(const vec3& p) {
+  return std::isfinite(p.x) && std::isfinite(p.y) && std::isfinite(p.z);
+}
+
+void clear_box(BoxNode& node, std::size_t lane) {
+  for (int axis = 0; axis < 3; ++axis) {
+    node.low[axis][lane] = infinity;
+    node.high[axis][lane] = -infinity;
+  }
+}
+
+void set_cluster_box(const TriangleCluster& c, BoxNode& node, std::size_t lane) {
+  clear_box(node, lane);
+  const float(*const corners[3])[cluster_size] = {c.x, c.y, c.z};
+  for (int axis = 0; axis < 3; ++axis) {
+    float low = infinity, high = -infinity;
+    for (int k = 0; k < 3; ++k) {
+      for (std::uint32_t i = 0; i < cluster_size; ++i) {
+        const bool used = (c.used >> i) & 1u;
+        low = std::min(low, used ? corners[axis][k][i] : infinity);
+        high = std::max(high, used ? corners[axis][k][i] : -infinity);
+      }
+    }
+    node.low[axis][lane] = low;
+    node.high[axis][lane] = high;
+  }
+}
+
+void set_parent_box(const BoxNode& child, BoxNode& node, std::size_t lane) {
+  for (int axis = 0; axis < 3; ++axis) {
+    node.low[axis][lane] = *std::min_element(child.low[axis], child.low[axis] + cluster_size);
+    node.high[axis][lane] = *std::max_element(child.high[axis], child.high[axis] + cluster_size);
+  }
+}
+
+}  // namespace
+
+std::size_t ClusterTree::byte_count() const {
+  std::size_t bytes = clusters_.size() * (sizeof(TriangleCluster) + sizeof(Origin));
+  for (const auto& level : levels_) bytes += level.size() * sizeof(BoxNode);
+  return bytes + positions_.size() * sizeof(vec3) + triangles_.size() * sizeof(glm::uvec3);
+}
+
+bool ClusterTree::same_order(const TriangleView& t) const {
+  return t.positions.size() == positions_.size() && t.triangles.size() == triangles_.size() &&
+         same_elements(t.casts_shadow, casts_) && same_elements(t.parts, parts_);
+}
+
+void ClusterTree::find_order(const TriangleView& t) {
+  positions_.assign(t.positions.begin(), t.positions.end());
+  triangles_.assign(t.triangles.begin(), t.triangles.end());
+  casts_.assign(t.casts_shadow.begin(), t.casts_shadow.end());
+  parts_.assign(t.parts.begin(), t.parts.end());
+  casters_ = casts_.empty() ? t.triangles.size()
+                            : static_cast<std::uint64_t>(std::count_if(
+                                  casts_.begin(), casts_.end(), [](auto casts) { return casts != 0; }));
+  cluster_order(t, order_);
+  clusters_.resize(order_.size() / cluster_size);
+  origins_.resize(clusters_.size());
+  levels_.clear();
+  for (std::size_t size = clusters_.size(); size > 0; size = levels_.back().size()) {
+    levels_.emplace_back((size + cluster_size - 1) / cluster_size);
+    if (levels_.back().size() == 1) break;
+  }
+  for (auto& level : levels_) {
+    for (std::size_t lane = 0; lane < cluster_size; ++lane) clear_box(level.back(), lane);
+  }
+}
+
+bool ClusterTree::changed(std::size_t cluster) const {
+  const Origin& o = origins_[cluster];
+  return changed_vertices_[o.last_vertex + 1] != changed_vertices_[o.first_vertex] ||
+         changed_triangles_[o.last_triangle + 1] != changed_triangles_[o.first_triangle];
+}
+
+void ClusterTree::fill_cluster(const TriangleView& t, std::size_t cluster) {
+  TriangleCluster& c = clusters_[cluster];
+  std::uint32_t low_vertex = no_triangle, high_vertex = 0, low_id = no_triangle, high_id = 0;
+  c.used = 0;
+  for (std::uint32_t i = 0; i < cluster_size; ++i) {
+    const std::uint32_t id = order_[cluster * cluster_size + i];
+    c.ids[i] = id;
+    for (int k = 0; k < 3; ++k) c.x[k][i] = c.y[k][i] = c.z[k][i] = 0;
+    if (id == no_triangle) continue;
+    const glm::uvec3 v = t.triangles[id];
+    low_id = std::min(low_id, id), high_id = std::max(high_id, id);
+    bool all_finite = true;
+    for (int k = 0; k < 3; ++k) {
+      low_vertex = std::min(low_vertex, v[k]), high_vertex = std::max(high_vertex, v[k]);
+      all_finite &= finite(t.positions[v[k]]);
+    }
+    // Two equal corners span no area.
+    if (!all_finite || v.x == v.y || v.y == v.z || v.z == v.x) continue;
+    for (int k = 0; k < 3; ++k) {
+      const vec3& p = t.positions[v[k]];
+      c.x[k][i] = p.x, c.y[k][i] = p.y, c.z[k][i] = p.z;
+    }
+    c.used |= 1u << i;
+  }
+  const bool empty = low_id == no_triangle;
+  constexpr auto b = static_cast<std::uint32_t>(block);
+  origins_[cluster] = empty ? Origin{} : Origin{low_vertex / b, high_vertex / b, low_id / b, high_id / b};
+}
+
+void ClusterTree::refit(const TriangleView& t, bool all) {
+  if (levels_.empty()) return;
+  parallel_ranges(levels_[0].size(), 16, [&](std::size_t first, std::size_t last) {
+    for (std::size_t node = first; node < last; ++node) {
+      const std::size_t end = std::min(clusters_.size(), (node + 1) * cluster_size);
+      for (std::size_t c = node * cluster_size; c < end; ++c) {
+        if (!all && !changed(c)) continue;
+        fill_cluster(t, c);
+        set_cluster_box(clusters_[c], levels_[0][node], c % cluster_size);
+      }
+    }
+  });
+  for (std::size_t k = 1; k < levels_.size(); ++k) {
+    const auto& children = levels_[k - 1];
+    for (std::size_t i = 0; i < children.size(); ++i)
+      set_parent_box(children[i], levels_[k][i / cluster_size], i % cluster_size);
+  }
+}
+
+void ClusterTree::update(const TriangleView& t) {
+  if (!same_order(t)) {
+    find_order(t);
+    return refit(t, true);
+  }
+  copy_changes(t.positions, positions_, changed_vertices_);
+  copy_changes(t.triangles, triangles_, changed_triangles_);
+  if (changed_vertices_.back() + changed_triangles_.back() > 0) refit(t, false);
+}
+
+}  // namespace tenebra

@@ -1,0 +1,68 @@
+// Casting triangles in clusters of sixteen and an implicit sixteen-way tree of boxes over them: what the
+// variant Tiles descends together with its ray tree. The order is found once (classes of size, then part by
+// part along a Morton curve); from frame to frame boxes are refitted, of clusters with a changed vertex only.
+#pragma once
+
+#include <array>
+#include <cstdint>
+#include <glm/glm.hpp>
+#include <vector>
+
+#include "points/visible_points.h"
+
+namespace tenebra {
+
+inline constexpr std::uint32_t cluster_size = 16;
+
+/// Corner k of triangle i is (x[k][i], y[k][i], z[k][i]), world space.
+struct alignas(64) TriangleCluster {
+  float x[3][cluster_size], y[3][cluster_size], z[3][cluster_size];
+  std::uint32_t ids[cluster_size];
+  std::uint32_t used = 0;  ///< bit i: triangle i is there, finite, and may block something
+};
+
+/// Sixteen boxes, world space. An empty one has low = infinity, high = -infinity.
+struct alignas(64) BoxNode {
+  float low[3][cluster_size], high[3][cluster_size];
+};
+
+class ClusterTree {
+public:
+  /// Follows `triangles`: finds the order anew where their number, parts or casters changed, refits else.
+  void update(const TriangleView& triangles);
+
+  const std::vector<TriangleCluster>& clusters() const { return clusters_; }
+  /// levels()[0]: node i holds the boxes of clusters 16 i ... 16 i + 15; levels()[k]: those of the nodes of
+  /// level k - 1. The last level has one node. Empty without casters.
+  const std::vector<std::vector<BoxNode>>& levels() const { return levels_; }
+  std::uint64_t casters() const { return casters_; }
+  std::size_t byte_count() const;
+
+private:
+  /// Vertices and triangles, in blocks, that a cluster was made from: [first, last].
+  struct Origin {
+    std::uint32_t first_vertex = 0, last_vertex = 0, first_triangle = 0, last_triangle = 0;
+  };
+
+  bool same_order(const TriangleView& triangles) const;
+  void find_order(const TriangleView& triangles);
+  void note_changes(const TriangleView& triangles);
+  bool changed(std::size_t cluster) const;
+  void fill_cluster(const TriangleView& triangles, std::size_t cluster);
+  void refit(const TriangleView& triangles, bool all);
+
+  std::vector<std::uint32_t> order_;  ///< ids; no_triangle: a gap
+  std::vector<TriangleCluster> clusters_;
+  std::vector<Origin> origins_;
+  std::vector<std::vector<BoxNode>> levels_;
+  std::uint64_t casters_ = 0;
+  // What the last frame looked like.
+  std::vector<glm::vec3> positions_;
+  std::vector<glm::uvec3> triangles_;
+  std::vector<std::uint8_t> casts_;
+  std::vector<std::uint32_t> parts_;
+  // Changed blocks before each: one more than there are blocks.
+  std::vector<std::uint32_t> changed_vertices_, changed_triangles_;
+};
+
+}  // namespace tenebra
