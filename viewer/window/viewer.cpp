@@ -122,9 +122,10 @@ void Viewer::take_scene(OpenedScene opened) {
 void Viewer::take_light(int chosen) {
   const bool one_for_both = state_.slots[0].render.light == state_.slots[1].render.light;
   if (chosen >= 0 && (!one_for_both || state_.slots[0].render.area_lights.emissive_quads)) return;
-  const auto& all = state_.scene->scene.lights;
-  const auto placed = evaluate_lights(state_.scene->scene, state_.clip, state_.options.time_s.value_or(0));
-  for (int i = 0; chosen >= 0 && i < static_cast<int>(all.size()); ++i) {
+  const Scene& scene = state_.scene->scene;
+  const auto placed = evaluate_lights(scene, state_.clip, state_.options.time_s.value_or(0));
+  if (chosen >= static_cast<int>(placed.size())) return;  // the renderer says so
+  for (int i = 0; chosen >= 0 && i < static_cast<int>(scene.lights.size()); ++i) {
     state_.light_edit(i).on = i == placed[static_cast<std::size_t>(chosen)].light;
   }
   for (MethodOptions& slot : state_.slots) slot.render.light = -1;
