@@ -43,12 +43,11 @@ void PixelReceivers::receivers(int group, std::vector<Receiver>& out) const {
     maker.fetch({triangles, static_cast<std::size_t>(count)});
     for (int x = x0; x < x0 + count; ++x) {
       const std::size_t i = pixel(x, y);
-      Receiver receiver;
-      if (!maker.make(frame_.points.triangles[i], frame_.points.positions[i], frame_.normals[i], receiver))
-        continue;
+      Receiver& receiver = out.emplace_back();
       receiver.index =
           static_cast<std::size_t>(y) * static_cast<std::size_t>(width_) + static_cast<std::size_t>(x);
-      out.push_back(receiver);
+      if (!maker.make(frame_.points.triangles[i], frame_.points.positions[i], frame_.normals[i], receiver))
+        out.pop_back();
     }
   }
 }

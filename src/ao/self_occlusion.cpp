@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "ao/surface_layout_inline.h"
 #include "base/sort_unique.h"
 #include "parallel/parallel.h"
 

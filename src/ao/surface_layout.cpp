@@ -4,6 +4,8 @@
 #include <bit>
 #include <cmath>
 
+#include "ao/surface_layout_inline.h"
+
 namespace tenebra {
 namespace {
 
@@ -16,13 +18,6 @@ constexpr std::uint32_t cell_steps = 4;  // of a divided cell
 static_assert((cell_steps + 1) * (cell_steps + 2) / 2 == SurfaceLayout::cell_samples);
 constexpr float pull = 0.25f;  // steps towards the middle of the triangle
 
-std::size_t grid_size(std::uint32_t steps) {
-  return (std::size_t{steps} + 1) * (std::size_t{steps} + 2) / 2;
-}
-/// Grid point (i, j), i + j <= steps, in rows of j.
-std::uint32_t grid_index(std::uint32_t i, std::uint32_t j, std::uint32_t steps) {
-  return j * (2 * steps + 3 - j) / 2 + i;
-}
 struct GridPoint {
   std::uint32_t i, j;
 };
@@ -32,19 +27,6 @@ GridPoint grid_point(std::uint32_t index, std::uint32_t steps) {
   return {index, j};
 }
 
-int levels_of(std::uint32_t steps) {
-  return steps == 2 ? 2 : SurfaceLayout::most_levels;
-}
-/// Steps of a level along a side.
-std::uint32_t level_steps(int level, std::uint32_t steps) {
-  return steps >> (levels_of(steps) - 1 - level);
-}
-/// Where a level starts among a triangle's grids, each of which is whole.
-std::uint32_t level_start(int level, std::uint32_t steps) {
-  std::size_t start = 0;
-  for (int wider = 0; wider < level; ++wider) start += grid_size(level_steps(wider, steps));
-  return static_cast<std::uint32_t>(start);
-}
 std::size_t grids_size(std::uint32_t steps) {
   return level_start(levels_of(steps) - 1, steps) + grid_size(steps);
 }
@@ -98,13 +80,6 @@ std::uint64_t corner_key(const ObjectShape& shape, std::uint32_t triangle, int c
   }
   return key;
 }
-
-/// Weights of a point that is in the triangle but for rounding.
-struct Weights {
-  float v, w;
-  explicit Weights(const SurfacePoint& point)
-      : v(std::clamp(point.v, 0.0f, 1.0f)), w(std::clamp(point.w, 0.0f, 1.0f - v)) {}
-};
 
 }  // namespace
 
@@ -166,34 +141,11 @@ void SurfaceLayout::weld_corners() {
   }
 }
 
-SurfaceLayout::Cell SurfaceLayout::cell(float v, float w, std::uint32_t count) {
-  const auto steps = static_cast<float>(count);
-  const auto i = std::min(static_cast<std::uint32_t>(v * steps), count - 1);
-  const auto j = std::min(static_cast<std::uint32_t>(w * steps), count - 1 - i);
-  const float fv = std::clamp(v * steps - static_cast<float>(i), 0.0f, 1.0f);
-  const float fw = std::clamp(w * steps - static_cast<float>(j), 0.0f, 1.0f);
-  const float sum = fv + fw;
-  if (sum <= 1) return {{i, i + 1, i}, {j, j, j + 1}, {1 - sum, fv, fw}, false};
-  if (i + j + 2 > count)  // beyond the long side by rounding
-    return {{i, i + 1, i}, {j, j, j + 1}, {0, fv / sum, fw / sum}, false};
-  return {{i + 1, i, i + 1}, {j + 1, j + 1, j}, {sum - 1, 1 - fv, 1 - fw}, true};
-}
-
 SampleTriple SurfaceLayout::corners(const SurfacePoint& point) const {
   const Weights at(point);
   const std::uint32_t* c = &corners_[std::size_t{3} * point.triangle];
   const std::uint32_t side = point.front ? 0 : 1;
   return {{2 * c[0] + side, 2 * c[1] + side, 2 * c[2] + side}, {1 - at.v - at.w, at.v, at.w}};
-}
-
-SampleTriple SurfaceLayout::around(const SurfacePoint& point, int level) const {
-  const Weights at(point);
-  const Grid grid = grids_[point.triangle];
-  const std::uint32_t side = point.front ? 0 : 1, steps = level_steps(level, grid.steps);
-  const std::uint32_t first = grid.first + level_start(level, grid.steps);
-  const Cell c = cell(at.v, at.w, steps);
-  const auto sample = [&](int k) { return 2 * (first + grid_index(c.i[k], c.j[k], steps)) + side; };
-  return {{sample(0), sample(1), sample(2)}, {c.weights[0], c.weights[1], c.weights[2]}};
 }
 
 std::uint32_t SurfaceLayout::triangle_at(std::uint32_t place) const {

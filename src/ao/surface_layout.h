@@ -47,7 +47,7 @@ public:
   int levels(std::uint32_t triangle) const;  ///< of a large one
   /// Corners of a small triangle.
   SampleTriple corners(const SurfacePoint& point) const;
-  /// Points of a large triangle's grid.
+  /// Points of a large triangle's grid. Defined in surface_layout_inline.h.
   SampleTriple around(const SurfacePoint& point, int level) const;
   SurfacePoint place(std::uint32_t sample) const;
   /// The one sample that stands for all at its place: a corner's, or that of the widest grid which has it.

@@ -2,6 +2,7 @@
 #include "ao/self_occlusion.h"
 
 #include "ao/scene_objects.h"
+#include "ao/surface_layout_inline.h"
 #include "ao_case.h"
 
 namespace tenebra {
