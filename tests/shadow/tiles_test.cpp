@@ -37,8 +37,9 @@ TEST(Tiles, KeepTheirBuffersOverMovingFrames) {
     for (std::uint32_t v = first; v < first + 40; ++v) c.soup.positions[v] += step;
     const auto id = random.index(static_cast<std::uint32_t>(c.soup.triangles.size()));
     if (frame % 3 == 1) c.soup.triangles[id] = glm::uvec3(0);  // hidden
-    if (frame == 5) c.soup.casts[id] = 0;
     if (frame == 8) c.soup.append(random_soup(random, 50, 0.2));
+    if (frame >= 5) c.soup.casts.assign(c.soup.triangles.size(), 1);
+    if (frame == 6) c.soup.casts[id] = 0;
     c.points = view_samples(c.soup.view(), c.view, 150, 90);
     EXPECT_TRUE(same_mask(c, traced(c, tracer), by_cone_tree(c)));
   }
@@ -112,6 +113,7 @@ TEST(Tiles, LightAmongTheSamplesFacesAllSidesOfTheCube) {
 TEST(ClusterOrder, HoldsEveryCasterOnce) {
   Random random(77);
   Soup soup = room(random, 500);
+  soup.casts.assign(soup.triangles.size(), 1);
   for (std::size_t i = 0; i < soup.casts.size(); i += 7) soup.casts[i] = 0;
   std::vector<std::uint32_t> order;
   const std::vector<std::uint32_t> parts{0, 12, 100};
