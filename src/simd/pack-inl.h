@@ -419,14 +419,33 @@ template <int N>
 HWY_INLINE Pack<float, N> demoted(Pack<double, N> a) {
   using P = Pack<float, N>;
   P p;
-#if HWY_TARGET == HWY_SCALAR
-  for (int i = 0; i < P::registers; ++i) p.r[i] = hn::DemoteTo(typename P::Tag(), a.r[i]);
+  if constexpr (Pack<double, N>::registers == P::registers) {
+    for (int i = 0; i < P::registers; ++i) p.r[i] = hn::DemoteTo(typename P::Tag(), a.r[i]);
+  } else {
+#if HWY_TARGET != HWY_SCALAR
+    static_assert(Pack<double, N>::registers == 2 * P::registers);
+    const hn::Half<typename P::Tag> half;
+    for (int i = 0; i < P::registers; ++i) {
+      const auto upper = hn::DemoteTo(half, a.r[2 * i + 1]);
+      p.r[i] = hn::Combine(typename P::Tag(), upper, hn::DemoteTo(half, a.r[2 * i]));
+    }
+#endif
+  }
+  return p;
+}
+/// Four fours, one after another.
+HWY_INLINE Float16 joined(const Float4 (&a)[4]) {
+  Float16 p;
+#if HWY_TARGET <= HWY_AVX2
+  const hn::CappedTag<float, 8> eight;
+  const auto low = hn::Combine(eight, a[1].r[0], a[0].r[0]), high = hn::Combine(eight, a[3].r[0], a[2].r[0]);
+#if HWY_TARGET <= HWY_AVX3
+  p.r[0] = hn::Combine(Float16::Tag(), high, low);
 #else
-  static_assert(Pack<double, N>::registers == 2 * P::registers);
-  const hn::Half<typename P::Tag> half;
-  for (int i = 0; i < P::registers; ++i)
-    p.r[i] =
-        hn::Combine(typename P::Tag(), hn::DemoteTo(half, a.r[2 * i + 1]), hn::DemoteTo(half, a.r[2 * i]));
+  p.r[0] = low, p.r[1] = high;
+#endif
+#else
+  for (int i = 0; i < Float16::registers; ++i) p.r[i] = a[i * Float16::width / 4].r[i % Float4::registers];
 #endif
   return p;
 }

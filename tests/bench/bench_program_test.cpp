@@ -41,6 +41,29 @@ TEST(BenchProgram, RefusesInASentence) {
   expect_refusal({"soft", "--only", "atlantis"}, "--only: found atlantis, expected");
 }
 
+TEST(BenchProgram, HardRefusesInASentence) {
+  expect_refusal({"hard", "--threads", "-1"}, "--threads: found -1, expected 0 (all cores) or more");
+  expect_refusal({"hard", "--data", "/nowhere/at/all"}, "--data: /nowhere/at/all is not a folder");
+  expect_refusal({"hard", "--csv", "/nowhere/at/all.csv"}, "/nowhere/at/all.csv");
+  expect_refusal({"hard", "--only", "atlantis"},
+                 "--only: found atlantis, expected frames, growth, variance, paper");
+}
+
+TEST(BenchProgram, HardEndsWithItsFiguresWhereScenesAreMissing) {
+  const test::TemporaryFolder folder;
+  const auto result =
+      bench({"hard", "--tiny", "--data", folder.path().string(), "--csv", (folder / "hard.csv").string()});
+  ASSERT_EQ(result.exit_code, 0) << result.errors;
+  EXPECT_NE(result.output.find("robots: skipped"), std::string::npos) << result.output;
+  bool found = false;
+  for (const char* name : {"hard.dynamic_geomean", "hard.static_geomean", "hard.dynamic_worst",
+                           "hard.static_worst", "hard.growth_static_1.8m", "hard.p99_over_median"}) {
+    EXPECT_TRUE(std::isnan(figure(result.output, name, found))) << name;
+    EXPECT_TRUE(found) << name;
+  }
+  EXPECT_NE(test::read_text(folder / "hard.csv").find("\nframes,city 150,tenebra,"), std::string::npos);
+}
+
 TEST(BenchProgram, HelpNamesTheOptions) {
   const auto result = bench({"soft", "--help"});
   EXPECT_EQ(result.exit_code, 0);

@@ -21,6 +21,7 @@ using Double4 = Pack<double, 4>;
 void project(const TileRows& rows, const glm::dvec3& origin, std::uint32_t lanes, TilePoints& points) {
   const Pack3<Double4> light = splat3<Double4>(origin.x, origin.y, origin.z);
   const glm::dvec3& other = rows.point(std::countr_zero(lanes));
+  Float4 x[4], y[4], z[4];
   for (int row = 0; row < 4; ++row) {
     Pack3<Double4> p = load3<Double4>(&rows[row]->x);
     const std::uint32_t there = (lanes >> (4 * row)) & 15u;
@@ -30,12 +31,11 @@ void project(const TileRows& rows, const glm::dvec3& origin, std::uint32_t lanes
            choose(is_there, p.z, splat<Double4>(other.z))};
     }
     p = p - light;
-    store_narrowed(p.x, points.x + 4 * row);
-    store_narrowed(p.y, points.y + 4 * row);
-    store_narrowed(p.z, points.z + 4 * row);
+    x[row] = demoted(p.x), y[row] = demoted(p.y), z[row] = demoted(p.z);
   }
-  const Float16 size = max(absolute(load<Float16>(points.x)),
-                           max(absolute(load<Float16>(points.y)), absolute(load<Float16>(points.z))));
+  const Float16 px = joined(x), py = joined(y), pz = joined(z);
+  store(px, points.x), store(py, points.y), store(pz, points.z);
+  const Float16 size = max(absolute(px), max(absolute(py), absolute(pz)));
   points.nearest = least(size), points.farthest = greatest(size);
 }
 

@@ -25,6 +25,7 @@ HWY_INLINE void load_tile_rays(const TileRows& rows, const glm::dvec3& origin, s
   const Pack3<Double4> light = splat3<Double4>(origin.x, origin.y, origin.z);
   const Pack3<Double4> centre = splat3<Double4>(base.x, base.y, base.z);
   const Double4 zero = splat<Double4>(0.0);
+  Float4 x[4], y[4], z[4];
   for (int row = 0; row < 4; ++row) {
     Pack3<Double4> q = load3<Double4>(&rows[row]->x) - light - centre;
     const std::uint32_t there = (lanes >> (4 * row)) & 15u;
@@ -32,14 +33,13 @@ HWY_INLINE void load_tile_rays(const TileRows& rows, const glm::dvec3& origin, s
       const Truth<double, 4> is_there = truth_of<double, 4>(there);
       q = {choose(is_there, q.x, zero), choose(is_there, q.y, zero), choose(is_there, q.z, zero)};
     }
-    store_narrowed(q.x, out.qx + 4 * row);
-    store_narrowed(q.y, out.qy + 4 * row);
-    store_narrowed(q.z, out.qz + 4 * row);
+    x[row] = demoted(q.x), y[row] = demoted(q.y), z[row] = demoted(q.z);
   }
+  const Pack3<Float16> q{joined(x), joined(y), joined(z)};
+  store(q.x, out.qx), store(q.y, out.qy), store(q.z, out.qz);
   out.base[0] = base.x, out.base[1] = base.y, out.base[2] = base.z;
   // q is rounded by u, the sum of squares by 4u: 2^-20 covers both many times over. Where squares leave the
   // range of floats, by coordinates.
-  const Pack3<Float16> q{load<Float16>(out.qx), load<Float16>(out.qy), load<Float16>(out.qz)};
   const float largest2 = greatest(dot(q, q));
   if (largest2 > 1e-30f && largest2 < 1e36f) {
     out.radius = std::sqrt(largest2) * (1 + 0x1p-20f);

@@ -164,6 +164,8 @@ void ClusterTree::refit(const TriangleView& t, bool all) {
 }
 
 void ClusterTree::update(const TriangleView& t) {
+  if (t.version != 0 && t.version == version_) return;
+  version_ = t.version;
   if (!same_order(t)) {
     find_order(t);
     return refit(t, true);

@@ -56,6 +56,7 @@ private:
   std::vector<Origin> origins_;
   std::vector<std::vector<BoxNode>> levels_;
   std::uint64_t casters_ = 0;
+  std::uint64_t version_ = 0;
   // What the last frame looked like.
   std::vector<glm::vec3> positions_;
   std::vector<glm::uvec3> triangles_;

@@ -1,0 +1,131 @@
+// The variant Tiles beyond what all variants are tested for: buffers kept over moving frames, the order of
+// triangles, where the method does not apply, threads and instruction sets.
+#include <algorithm>
+
+#include "shadow/mask_case.h"
+#include "shadow/tiles/cluster_order.h"
+#include "shadow/tiles/triangle_clusters.h"
+
+namespace tenebra::testing {
+namespace {
+
+MaskCase room_case(std::uint64_t seed, int width, int height) {
+  Random random(seed);
+  MaskCase c;
+  c.name = fmt::format("room, seed {}", seed);
+  c.soup = room(random, 600);
+  c.light = point_light({0.2, 1.6, -0.3});
+  c.view = pinhole({-1.8, 1.5, -1.7}, {0, 0, 0}, 0.9, width, height);
+  c.points = view_samples(c.soup.view(), c.view, width, height);
+  return c;
+}
+
+/// What the paper's way says, from buffers of its own.
+ShadowMask by_cone_tree(MaskCase c) {
+  c.config.variant = Variant::precise_sorted;
+  return traced(c);
+}
+
+TEST(Tiles, KeepTheirBuffersOverMovingFrames) {
+  MaskCase c = room_case(71, 150, 90);
+  Random random(72);
+  ShadowTracer tracer;
+  for (int frame = 0; frame < 12; ++frame) {
+    c.name = fmt::format("moving room, frame {}", frame);
+    const auto first = random.index(static_cast<std::uint32_t>(c.soup.positions.size() - 40));
+    const glm::vec3 step(random.in_cube(0.1));
+    for (std::uint32_t v = first; v < first + 40; ++v) c.soup.positions[v] += step;
+    const auto id = random.index(static_cast<std::uint32_t>(c.soup.triangles.size()));
+    if (frame % 3 == 1) c.soup.triangles[id] = glm::uvec3(0);  // hidden
+    if (frame == 8) c.soup.append(random_soup(random, 50, 0.2));
+    if (frame >= 5) c.soup.casts.assign(c.soup.triangles.size(), 1);
+    if (frame == 6) c.soup.casts[id] = 0;
+    c.points = view_samples(c.soup.view(), c.view, 150, 90);
+    EXPECT_TRUE(same_mask(c, traced(c, tracer), by_cone_tree(c)));
+  }
+}
+
+TEST(Tiles, TakeTheCallersWordThatNothingMoved) {
+  MaskCase c = room_case(73, 64, 64);
+  TriangleView view = c.soup.view();
+  view.version = 7;
+  ShadowTracer tracer;
+  ShadowMask first, second, third;
+  tracer.trace_shadow_mask(c.points, c.view, view, c.light, {}, first);
+  tracer.trace_shadow_mask(c.points, c.view, view, c.light, {}, second);
+  EXPECT_EQ(first, second);
+  for (glm::vec3& p : c.soup.positions) p.y += p.y > 0 ? 0.3f : 0.0f;
+  view = c.soup.view();
+  view.version = 8;
+  tracer.trace_shadow_mask(c.points, c.view, view, c.light, {}, third);
+  EXPECT_TRUE(same_mask(c, third, by_cone_tree(c)));
+}
+
+TEST(Tiles, AreTheSameForThreadsAndInstructionSets) {
+  MaskCase c = room_case(74, 333, 211);
+  const ShadowMask expected = oracle(c);
+  std::uint64_t nodes = 0, leaf_tests = 0;
+  for (const SimdLevel level :
+       {SimdLevel::scalar, SimdLevel::sse4, SimdLevel::avx2, SimdLevel::avx512, SimdLevel::automatic}) {
+    if (!simd_level_supported(level)) continue;
+    c.config.simd = level;
+    for (const int threads : {1, 3, 16}) {
+      ShadowTracer tracer;
+      with_threads(threads, [&] { EXPECT_TRUE(same_mask(c, traced(c, tracer), expected)) << threads; });
+      if (threads > 1) {
+        EXPECT_EQ(tracer.stats().nodes, nodes);
+        EXPECT_EQ(tracer.stats().leaf_tests, leaf_tests);
+      }
+      nodes = tracer.stats().nodes, leaf_tests = tracer.stats().leaf_tests;
+    }
+  }
+}
+
+TEST(Tiles, GiveWayWhereTheyDoNotApply) {
+  MaskCase c = room_case(75, 64, 64);
+  c.light = sun({0.3, 1, 0.2});
+  EXPECT_TRUE(same_mask(c, traced(c), oracle(c)));
+  c = room_case(75, 64, 64);
+  for (const double scale : {0x1p-100, 0x1p70}) {
+    MaskCase scaled = c;
+    scaled.soup = c.soup.moved(scale, glm::dvec3(0));
+    scaled.light.position = glm::vec3(glm::dvec3(c.light.position) * scale);
+    scaled.view = view_from_light(scaled.light);
+    for (glm::dvec3& p : scaled.points.positions) p *= scale;
+    EXPECT_TRUE(same_mask(scaled, traced(scaled), oracle(scaled)));
+  }
+}
+
+TEST(Tiles, LightAmongTheSamplesFacesAllSidesOfTheCube) {
+  Random random(76);
+  MaskCase c;
+  c.soup = sphere(8, 2, glm::dvec3(0));
+  c.soup.append(random_soup(random, 300, 0.3));
+  c.points = points_on_triangles(c.soup, random, 5000);
+  for (int i = 0; i < 8; ++i) {
+    c.light = point_light(random.in_cube(i < 4 ? 0.5 : 1e-3));
+    c.view = view_from_light(c.light);
+    c.name = fmt::format("light {} inside, seed 76", i);
+    EXPECT_TRUE(same_mask(c, traced(c), oracle(c)));
+  }
+}
+
+TEST(ClusterOrder, HoldsEveryCasterOnce) {
+  Random random(77);
+  Soup soup = room(random, 500);
+  soup.casts.assign(soup.triangles.size(), 1);
+  for (std::size_t i = 0; i < soup.casts.size(); i += 7) soup.casts[i] = 0;
+  std::vector<std::uint32_t> order;
+  const std::vector<std::uint32_t> parts{0, 12, 100};
+  TriangleView view = soup.view();
+  view.parts = parts;
+  cluster_order(view, order);
+  EXPECT_EQ(order.size() % cluster_size, 0u);
+  std::vector<int> met(soup.triangles.size(), 0);
+  for (const std::uint32_t id : order)
+    if (id != no_triangle) ++met[id];
+  for (std::size_t i = 0; i < met.size(); ++i) EXPECT_EQ(met[i], soup.casts[i] != 0 ? 1 : 0) << i;
+}
+
+}  // namespace
+}  // namespace tenebra::testing
