@@ -82,6 +82,7 @@ Expected<void> run_hard(const HardArguments& arguments) {
   HardSession session{.options = arguments.options, .report = Report(arguments.options.csv)};
   if (arguments.options.quick) session.effort = HardEffort::quick;
   if (arguments.tiny) session.effort = HardEffort::tiny;
+  if (auto fine = session.report.check(); !fine) return fine;
   Expected<void> done;
   with_threads(arguments.options.threads, [&] {
     std::printf("%s; threads: %d, simd: %s\n", machine_description().c_str(), thread_count(),
