@@ -311,14 +311,6 @@ HWY_INLINE Pack3<P> cross(const Pack3<P>& a, const Pack3<P>& b) {
   return {a.y * b.z - a.z * b.y, a.z * b.x - a.x * b.z, a.x * b.y - a.y * b.x};
 }
 
-/// Whether every lane holds.
-template <class T, int N>
-HWY_INLINE bool all_of(Truth<T, N> a) {
-  bool all = true;
-  for (int i = 0; i < Pack<T, N>::registers; ++i) all &= hn::AllTrue(typename Pack<T, N>::Tag(), a.r[i]);
-  return all;
-}
-
 // For tables and for rays against boxes and triangles.
 using Float8 = Pack<float, 8>;
 using Int16 = Pack<std::int32_t, 16>;
@@ -333,13 +325,6 @@ template <int N>
 HWY_INLINE Pack<float, N> to_float(Pack<std::int32_t, N> a) {
   Pack<float, N> r;
   for (int i = 0; i < a.registers; ++i) r.r[i] = hn::ConvertTo(typename Pack<float, N>::Tag(), a.r[i]);
-  return r;
-}
-/// The floats with these bits.
-template <int N>
-HWY_INLINE Pack<float, N> as_float(Pack<std::int32_t, N> a) {
-  Pack<float, N> r;
-  for (int i = 0; i < a.registers; ++i) r.r[i] = hn::BitCast(typename Pack<float, N>::Tag(), a.r[i]);
   return r;
 }
 /// Lane by lane, by 0..31.

@@ -7,7 +7,6 @@
 #define TENEBRA_SOFT_CLIP_CANDIDATES_INL_H_
 #endif
 
-#include <bit>
 #include <vector>
 
 #include "soft/group_occluders.h"
@@ -59,8 +58,6 @@ public:
     at_point_.resize(moving_.size());
     for (std::size_t i = 0; i < 16 * moving_.size(); ++i) fill(group, i);
   }
-
-  std::size_t size() const { return order_.size(); }
 
   /// Forgets all lists and finds the boxes of the shadows at a point. The list of those that may reach the
   /// light is [0, count()), largest first.

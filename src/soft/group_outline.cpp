@@ -3,7 +3,6 @@
 #include <algorithm>
 #include <bit>
 #include <cmath>
-#include <limits>
 
 #include "points/triangle_corners.h"
 #include "soft/occluder_geometry.h"
@@ -105,7 +104,7 @@ void OutlineFinder::keep_outline(const LightFrame& light, const GroupFrame& grou
   for (OutlineUse& use : out.uses) use.edge = kept_[use.edge];
 }
 
-// How much of the candidates is taken, or none if the edges of most do not cancel.
+// Adds up the edges of what `candidates` can give; false if too few of them cancel.
 bool OutlineFinder::take(const LightFrame& light, const TriangleView& triangles, const GroupFrame& group,
                          std::span<const std::uint32_t> candidates, GroupOutline& out,
                          std::vector<std::uint32_t>& rest) {

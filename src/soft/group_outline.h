@@ -3,7 +3,7 @@
 //
 // Every triangle is turned to show its points one and the same orientation. Where two neighbours share an
 // edge, they run through it in opposite directions, and the edge cancels: what is left of a closed mesh is
-// its silhouette, as seen from the light. How many triangles cover a place of the light is then the winding
+// its silhouette, as seen from the points. How many triangles cover a place of the light is then the winding
 // number of this outline around it (the same for all triangles as for their outline, by the linearity of
 // boundaries), and the light is visible where it is zero. No assumption on the meshes: open, two-sided or
 // crossing ones only cancel less.

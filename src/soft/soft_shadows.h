@@ -35,7 +35,7 @@ enum class SoftGrouping {
 /// Which occluder of an undefined leaf is merged next (Algorithm 1, line 31).
 enum class OccluderChoice { largest, random };
 
-/// fast: solvers in float relative to the point, double where a derived bound asks for it.
+/// fast: the lines of occluders in double, the polygons that they cut in float, in units of the light.
 /// reference: double throughout.
 enum class SoftPrecision { fast, reference };
 

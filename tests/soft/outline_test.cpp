@@ -26,7 +26,7 @@ SoftCase below(const std::string& name, const Soup& mesh, int pixels = 40) {
   return c;
 }
 
-/// A quarter-open bowl: half of a sphere, its lower half's triangles left out.
+/// The upper half of a sphere, open below.
 Soup bowl(int rings) {
   const Soup whole = sphere(rings, 0.9, {0, 1.2, 0});
   Soup half = whole;
