@@ -50,8 +50,7 @@ private:
   using Wide = Pack<double, 16>;
   using Lanes = Pack<T, 16>;
   struct MovingBlock {
-    double c[4][3][16];  ///< power of the point, coefficient, edge
-    double from[3][16], to[3][16];
+    double from[3][16], to[3][16];  ///< coordinate, edge
     double winding[16];
   };
   /// Sixteen edges at the point: their lines, ends, and windings.
@@ -84,39 +83,38 @@ private:
   void fill(std::size_t i) {
     MovingBlock& block = moving_[i / 16];
     const std::size_t k = i % 16;
-    const OutlineEdge none{{{glm::dvec3(0, 0, 1)}}, glm::dvec3(0, 0, 1), glm::dvec3(0, 0, 1), 0};
+    const OutlineEdge none{glm::dvec3(0, 0, 1), glm::dvec3(0, 0, 1), 0};
     const OutlineEdge& edge = i < outline_->edges.size() ? outline_->edges[i] : none;
     for (int c = 0; c < 3; ++c) {
-      for (int power = 0; power < 4; ++power) block.c[power][c][k] = edge.line.c[power][c];
       block.from[c][k] = edge.from[c];
       block.to[c][k] = edge.to[c];
     }
     block.winding[k] = edge.winding;
   }
 
-  /// u and v where the line from the point through corners meets the light's plane.
-  static HWY_INLINE void project(const GroupPoint& at, const double (*corner)[16], T* u, T* v) {
-    const Wide pu = splat<Wide>(at.in_light.x), pv = splat<Wide>(at.in_light.y);
-    const Wide t =
-        splat<Wide>(at.light_height - at.in_light.z) / (load<Wide>(corner[2]) - splat<Wide>(at.in_light.z));
-    store(narrowed<T>(pu + (load<Wide>(corner[0]) - pu) * t), u);
-    store(narrowed<T>(pv + (load<Wide>(corner[1]) - pv) * t), v);
+  /// u and v where the line from the point along `way` meets the light's plane.
+  static HWY_INLINE void project(const GroupPoint& at, const Pack3<Wide>& way, T* u, T* v) {
+    const Wide t = wide(at.reach) / way.z;
+    store(narrowed<T>(wide(at.in_light.x) + way.x * t), u);
+    store(narrowed<T>(wide(at.in_light.y) + way.y * t), v);
   }
 
+  /// Lines are positive to the left of the way from `from` to `to`.
   HWY_INLINE void move_block(const GroupPoint& at, std::size_t b) {
-    const MovingBlock& from = moving_[b];
+    const MovingBlock& block = moving_[b];
     Block& to = at_point_[b];
-    const Wide x = splat<Wide>(at.from_centre.x), y = splat<Wide>(at.from_centre.y),
-               z = splat<Wide>(at.from_centre.z);
-    T* lines[3] = {to.u, to.v, to.w};
-    for (int i = 0; i < 3; ++i) {
-      store(narrowed<T>(load<Wide>(from.c[0][i]) + x * load<Wide>(from.c[1][i]) +
-                        y * load<Wide>(from.c[2][i]) + z * load<Wide>(from.c[3][i])),
-            lines[i]);
-    }
-    project(at, from.from, to.from_u, to.from_v);
-    project(at, from.to, to.to_u, to.to_v);
-    store(narrowed<T>(load<Wide>(from.winding)), to.winding);
+    const Wide x = wide(at.in_axes.x), y = wide(at.in_axes.y), z = wide(at.in_axes.z);
+    const auto way = [&](const double(&end)[3][16]) {
+      return Pack3<Wide>{load<Wide>(end[0]) - x, load<Wide>(end[1]) - y, load<Wide>(end[2]) - z};
+    };
+    const Pack3<Wide> a = way(block.from), b_way = way(block.to);
+    const Pack3<Wide> n = cross(a, b_way - a);
+    store(narrowed<T>(n.x), to.u);
+    store(narrowed<T>(n.y), to.v);
+    store(narrowed<T>(n.z * wide(at.reach) - n.x * wide(at.in_light.x) - n.y * wide(at.in_light.y)), to.w);
+    project(at, a, to.from_u, to.from_v);
+    project(at, b_way, to.to_u, to.to_v);
+    store(narrowed<T>(load<Wide>(block.winding)), to.winding);
   }
 
   void add_sometimes(const GroupPoint& at) {
