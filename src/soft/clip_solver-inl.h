@@ -103,13 +103,10 @@ private:
       chosen_.push_back(i);
     }
     if (!has_many()) {
-      for (std::size_t i = 0; i < parts.size(); ++i) {
-        const std::size_t first = cold_.list.count();
-        for (std::size_t b = 0; b < cold_.block_count(); ++b) cold_.append_block(b, boxes_[i]);
-        solve(cold_, loaded(parts[i]), first, out);
-        cold_.list.shrink(first);
-      }
-      return;
+      for (std::size_t b = 0; b < cold_.block_count(); ++b)
+        cold_.append_block(b, box_of_all(0, parts.size()));
+      subtract_list(parts, 0, parts.size(), 0, out);
+      return cold_.list.shrink(0);
     }
     if (!blocks_listed_) {
       bounds_.list_at(at_, blocks_);
@@ -119,40 +116,42 @@ private:
     subtract_blocks(parts, 0, parts.size(), 0, last, out);
   }
 
-  /// Subtracts the blocks in places [first, last) from the parts in places [begin, end) of chosen_, whose
-  /// boxes part the blocks as in the building of a tree of boxes.
+  /// Subtracts the blocks in places [first, last) from the parts in places [begin, end) of chosen_. The parts
+  /// are sorted by halves, as in the building of a tree of boxes, until they are few for the blocks around
+  /// them, and from there on with a list of the blocks' triangles.
   void subtract_blocks(const FragmentList<T>& parts, std::size_t begin, std::size_t end, std::size_t first,
                        std::size_t last, FragmentList<T>& out) {
+    const std::size_t middle = 16 * (end - begin) < last - first ? part_boxes(begin, end) : begin;
+    if (middle == begin || middle == end) {
+      const LightBox<T> box = box_of_all(begin, end);
+      const std::size_t place = cold_.list.count();
+      for (std::size_t i = first; i < last; ++i) cold_.append_block(blocks_.id(i), box);
+      subtract_list(parts, begin, end, place, out);
+      return cold_.list.shrink(place);
+    }
+    for (const auto& [from, to] : {std::pair(begin, middle), std::pair(middle, end)}) {
+      blocks_.narrow(first, last, box_of_all(from, to));
+      subtract_blocks(parts, from, to, last, blocks_.count(), out);
+      blocks_.shrink(last);
+    }
+  }
+
+  /// The same for the occluders in the list from place `first` on.
+  void subtract_list(const FragmentList<T>& parts, std::size_t begin, std::size_t end, std::size_t first,
+                     FragmentList<T>& out) {
+    const std::size_t last = cold_.list.count();
     if (first == last) {
       for (std::size_t i = begin; i < end; ++i) out.push(loaded(parts[chosen_[i]]));
       return;
     }
-    const std::size_t middle = last - first > 2 ? part_boxes(begin, end) : begin;
-    if (middle == begin || middle == end) {
-      for (std::size_t i = begin; i < end; ++i) subtract_from(parts, chosen_[i], first, last, out);
-      return;
+    if (end - begin == 1) return solve(cold_, loaded(parts[chosen_[begin]]), first, out);
+    std::size_t middle = part_boxes(begin, end);
+    if (middle == begin || middle == end) middle = begin + (end - begin) / 2;
+    for (const auto& [from, to] : {std::pair(begin, middle), std::pair(middle, end)}) {
+      cold_.list.narrow(first, last, box_of_all(from, to));
+      subtract_list(parts, from, to, last, out);
+      cold_.list.shrink(last);
     }
-    subtract_narrowed(parts, begin, middle, first, last, out);
-    subtract_narrowed(parts, middle, end, first, last, out);
-  }
-
-  void subtract_narrowed(const FragmentList<T>& parts, std::size_t begin, std::size_t end, std::size_t first,
-                         std::size_t last, FragmentList<T>& out) {
-    const std::size_t from = blocks_.count();
-    blocks_.narrow(first, last, box_of_all(begin, end));
-    subtract_blocks(parts, begin, end, from, blocks_.count(), out);
-    blocks_.shrink(from);
-  }
-
-  void subtract_from(const FragmentList<T>& parts, std::uint32_t part, std::size_t first, std::size_t last,
-                     FragmentList<T>& out) {
-    const std::size_t from = blocks_.count(), place = cold_.list.count();
-    const LightBox<T> box = boxes_[part];
-    blocks_.narrow(first, last, box);
-    for (std::size_t i = from; i < blocks_.count(); ++i) cold_.append_block(blocks_.id(i), box);
-    blocks_.shrink(from);
-    solve(cold_, loaded(parts[part]), place, out);
-    cold_.list.shrink(place);
   }
 
   LightBox<T> box_of_all(std::size_t begin, std::size_t end) const {
