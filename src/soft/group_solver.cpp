@@ -108,11 +108,10 @@ public:
     order_.clear();
     double_.clip.reset(candidates_, order_);
     for (const std::uint32_t pixel : pixels) {
-      if (!add_whole(frame, pixel)) {
-        solve_point(double_, frame, {pixels, {}, {}}, pixel);
-        if (frame.classes[pixel] == class_of(SoftClass::clip))
-          frame.classes[pixel] = class_of(SoftClass::lit);
-      }
+      const bool whole = add_whole(frame, pixel);
+      if (!whole) solve_point(double_, frame, {pixels, {}, {}}, pixel);
+      if (whole || frame.classes[pixel] == class_of(SoftClass::clip))
+        frame.classes[pixel] = class_of(SoftClass::lit);
       if (whole_count_ == 8) finish_whole(frame);
     }
     finish_whole(frame);
@@ -199,6 +198,7 @@ private:
         bsp_.reset(occluders_, frame.triangles, task.frame, frame.config.choice);
       }
     }
+    finish_whole(frame);
     if (use_bsp_) note_tree();
   }
 
@@ -220,7 +220,12 @@ private:
     const double above = in_front ? above_ : 0.0;
     p.visible.clear();
     if (above > 0) find_visible(p, group_point(candidates_.axes, point, receiver, receiver_.tau));
-    finish(p, frame, pixel, point, above);
+    if (above > 0 && p.visible == p.start && add_whole(frame, pixel)) {
+      count_solver(frame, pixel);
+      if (whole_count_ == 8) finish_whole(frame);
+    } else {
+      finish(p, frame, pixel, point, above);
+    }
   }
 
   /// Takes up another receiver: the part of the light above its plane is the same for all its points.
@@ -259,7 +264,6 @@ private:
     for (std::size_t k = 0; k < whole_count_; ++k) {
       frame.out.visible_fraction[whole_pixels_[k]] = 1.0f;
       frame.out.irradiance[whole_pixels_[k]] = clamped(irradiance[k]);
-      frame.classes[whole_pixels_[k]] = class_of(SoftClass::lit);
     }
     stats.points_lit += whole_count_;
     stats.fragments += whole_count_;
@@ -339,21 +343,22 @@ private:
   }
 
   void count(double above, double area, const SoftFrame& frame, std::uint32_t pixel) {
-    const bool dark = area <= 0;
-    const bool lit = area >= above * (1 - 1e-6);
-    const bool outlined = !outline_.empty();
-    SoftClass found = use_bsp_ ? SoftClass::bsp : outlined ? SoftClass::outline : SoftClass::clip;
-    if (above > 0) ++(use_bsp_ ? stats.points_bsp : outlined ? stats.points_outline : stats.points_clip);
     if (above <= 0) {
-      found = SoftClass::below_horizon;
-    } else if (dark) {
-      ++stats.points_dark;
-    } else if (lit) {
-      ++stats.points_lit;
-    } else {
-      ++stats.points_penumbra;
+      frame.classes[pixel] = class_of(SoftClass::below_horizon);
+      return;
     }
-    frame.classes[pixel] = class_of(found);
+    count_solver(frame, pixel);
+    const bool dark = area <= 0, lit = area >= above * (1 - 1e-6);
+    ++(dark ? stats.points_dark : lit ? stats.points_lit : stats.points_penumbra);
+  }
+
+  /// Counts a point for the solver at work.
+  void count_solver(const SoftFrame& frame, std::uint32_t pixel) {
+    const bool outlined = !outline_.empty();
+    ++(use_bsp_ ? stats.points_bsp : outlined ? stats.points_outline : stats.points_clip);
+    frame.classes[pixel] = class_of(use_bsp_   ? SoftClass::bsp
+                                    : outlined ? SoftClass::outline
+                                               : SoftClass::clip);
   }
 
   static std::uint8_t class_of(SoftClass soft_class) { return static_cast<std::uint8_t>(soft_class); }

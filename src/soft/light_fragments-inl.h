@@ -7,6 +7,8 @@
 #define TENEBRA_SOFT_LIGHT_FRAGMENTS_INL_H_
 #endif
 
+#include <algorithm>
+#include <cstring>
 #include <span>
 #include <vector>
 
@@ -39,6 +41,15 @@ public:
   bool empty() const { return size_ == 0; }
   std::size_t size() const { return size_; }
   const StoredPolygon<T>& operator[](std::size_t i) const { return polygons_[i]; }
+  /// The same vertices in the same order, bit by bit.
+  bool operator==(const FragmentList& other) const {
+    const auto equal = [](const StoredPolygon<T>& a, const StoredPolygon<T>& b) {
+      return a.count == b.count && std::memcmp(a.x, b.x, sizeof(a.x)) == 0 &&
+             std::memcmp(a.y, b.y, sizeof(a.y)) == 0;
+    };
+    return size_ == other.size_ &&
+           std::equal(polygons_.data(), polygons_.data() + size_, other.polygons_.data(), equal);
+  }
   void swap(FragmentList& other) {
     polygons_.swap(other.polygons_);
     std::swap(size_, other.size_);

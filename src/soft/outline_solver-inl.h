@@ -1,6 +1,7 @@
 // The visible part of the light from the outline of meshes: it is cut along the edges that cross it, and a
-// part that no edge crosses any more is visible if the outline winds around it zero times. Included once per
-// target.
+// part that no edge crosses any more is visible if the outline winds around it zero times. A part is dark,
+// and need not be cut, as soon as the edges that cross it cannot bring its winding down to zero. Included
+// once per target.
 #if defined(TENEBRA_SOFT_OUTLINE_SOLVER_INL_H_) == defined(HWY_TARGET_TOGGLE)
 #ifdef TENEBRA_SOFT_OUTLINE_SOLVER_INL_H_
 #undef TENEBRA_SOFT_OUTLINE_SOLVER_INL_H_
@@ -47,8 +48,8 @@ public:
   }
 
 private:
-  using Wide = Pack<double, 16>;
   using Lanes = Pack<T, 16>;
+  static constexpr std::size_t several = 2;  ///< edges; to cut along fewer is quicker than to ask first
   struct MovingBlock {
     double from[3][16], to[3][16];  ///< coordinate, edge
     double winding[16];
@@ -70,13 +71,14 @@ private:
     }
     void copy(std::size_t first, std::size_t last) {
       make_room(last - first);
-      for (auto* values : {&u, &v, &w, &from_u, &from_v, &to_u, &to_v})
+      for (auto* values : {&u, &v, &w, &from_u, &from_v, &to_u, &to_v, &winding})
         std::copy(&(*values)[first], &(*values)[last], &(*values)[count]);
       count += last - first;
     }
     void drop(std::size_t place) {
       --count;
-      for (auto* values : {&u, &v, &w, &from_u, &from_v, &to_u, &to_v}) (*values)[place] = (*values)[count];
+      for (auto* values : {&u, &v, &w, &from_u, &from_v, &to_u, &to_v, &winding})
+        (*values)[place] = (*values)[count];
     }
   };
 
@@ -146,12 +148,12 @@ private:
     compress(counts, v1, &around_.to_v[around_.count]);
     around_.count += compress(counts, winding, &around_.winding[around_.count]);
     add_crossing(counts & less(min(u0, u1), one) & less(absolute(w), absolute(u) + absolute(v)),
-                 {u, v, w, u0, v0, u1, v1}, crossing_.count);
+                 {u, v, w, u0, v0, u1, v1, winding}, crossing_.count);
   }
 
   /// An edge a lane.
   struct EdgeLanes {
-    Lanes u, v, w, from_u, from_v, to_u, to_v;
+    Lanes u, v, w, from_u, from_v, to_u, to_v, winding;
   };
 
   /// Writes the edges where `chosen` to crossing_ from `to` on, and ends it behind them.
@@ -162,6 +164,7 @@ private:
     compress(chosen, edges.from_u, &crossing_.from_u[to]);
     compress(chosen, edges.from_v, &crossing_.from_v[to]);
     compress(chosen, edges.to_u, &crossing_.to_u[to]);
+    compress(chosen, edges.winding, &crossing_.winding[to]);
     crossing_.count = to + compress(chosen, edges.to_v, &crossing_.to_v[to]);
   }
 
@@ -169,6 +172,10 @@ private:
   void solve(const LightPolygon<T>& part, std::size_t first, FragmentList<T>& out) {
     LightPolygon<T> rest = part;
     while (crossing_.count > first) {
+      if (crossing_.count - first >= several && is_dark(rest, first)) {
+        crossing_.count = first;
+        return;
+      }
       const std::size_t middle = first + (crossing_.count - first) / 2;
       const LightLine<T> line{crossing_.u[middle], crossing_.v[middle], crossing_.w[middle]};
       crossing_.drop(middle);
@@ -184,6 +191,26 @@ private:
       if (rest.count > fragment_capacity) return branch(rest, first, out);
     }
     if (winding_around(rest) == T(0)) out.push(rest);
+  }
+
+  /// The winding around a place of `part`, less what the crossing edges from `first` on can take from it, is
+  /// above zero: on the way from there to another place of the part each is crossed once at most.
+  HWY_NOINLINE bool is_dark(const LightPolygon<T>& part, std::size_t first) const {
+    const Place at = middle_of(part, 0);
+    T winding = 0;
+    if (!find_winding(at, winding) || winding <= T(0)) return false;
+    const Lanes zero = splat<Lanes>(T(0)), qu = splat<Lanes>(at.u), qv = splat<Lanes>(at.v);
+    Lanes lost = zero;
+    for (std::size_t i = first; i < crossing_.count; i += 16) {
+      const Lanes side = load<Lanes>(&crossing_.u[i]) * qu + load<Lanes>(&crossing_.v[i]) * qv +
+                         load<Lanes>(&crossing_.w[i]);
+      const Lanes turns = choose(lanes_below(crossing_.count - i), load<Lanes>(&crossing_.winding[i]), zero);
+      lost = lost + max(choose(less(zero, side), turns, zero - turns), zero);
+    }
+    T lanes[16];
+    store(lost, lanes);
+    for (const T lane : lanes) winding -= lane;
+    return winding > T(0);
   }
 
   /// The same for a polygon of any size.
@@ -229,7 +256,7 @@ private:
     return {load<Lanes>(&crossing_.u[i]),      load<Lanes>(&crossing_.v[i]),
             load<Lanes>(&crossing_.w[i]),      load<Lanes>(&crossing_.from_u[i]),
             load<Lanes>(&crossing_.from_v[i]), load<Lanes>(&crossing_.to_u[i]),
-            load<Lanes>(&crossing_.to_v[i])};
+            load<Lanes>(&crossing_.to_v[i]),   load<Lanes>(&crossing_.winding[i])};
   }
 
   static HWY_INLINE Truth<T, 16> lanes_below(std::size_t count) {
@@ -237,29 +264,37 @@ private:
     return less(load<Lanes>(lanes), splat<Lanes>(static_cast<T>(HWY_MIN(count, std::size_t{16}))));
   }
 
-  /// How many triangles cover a part of the light that no edge crosses.
-  T winding_around(const LightPolygon<T>& part) {
+  struct Place {
+    T u, v;
+  };
+  /// A mean of the corners, another one for each `attempt`.
+  static HWY_INLINE Place middle_of(const LightPolygon<T>& part, int attempt) {
     T x[polygon_capacity], y[polygon_capacity];
     store(part.x, x);
     store(part.y, y);
+    T u = 0, v = 0, total = 0;
+    for (int k = 0; k < part.count; ++k) {
+      const T weight = T(1) + T(k * attempt);
+      u += weight * x[k];
+      v += weight * y[k];
+      total += weight;
+    }
+    return {u / total, v / total};
+  }
+
+  /// How many triangles cover a part of the light that no edge crosses.
+  T winding_around(const LightPolygon<T>& part) {
     T winding = 0;
     for (int attempt = 0; attempt < 3; ++attempt) {
-      T u = 0, v = 0, total = 0;
-      for (int k = 0; k < part.count; ++k) {
-        const T weight = T(1) + T(k * attempt);
-        u += weight * x[k];
-        v += weight * y[k];
-        total += weight;
-      }
-      if (find_winding(u / total, v / total, winding)) break;
+      if (find_winding(middle_of(part, attempt), winding)) break;
     }
     return winding;
   }
 
-  /// The winding number around (u, v): the edges that a ray from there towards +u crosses. False if that is
+  /// The winding number around a place: the edges that a ray from there towards +u crosses. False if that is
   /// too near to an edge to be sure.
-  HWY_NOINLINE bool find_winding(T u, T v, T& winding) const {
-    const Lanes zero = splat<Lanes>(T(0)), qu = splat<Lanes>(u), qv = splat<Lanes>(v);
+  HWY_NOINLINE bool find_winding(Place at, T& winding) const {
+    const Lanes zero = splat<Lanes>(T(0)), qu = splat<Lanes>(at.u), qv = splat<Lanes>(at.v);
     const Lanes near = splat<Lanes>(on_line<T>), slack = splat<Lanes>(slack_);
     Lanes sum = zero;
     std::uint32_t doubtful = 0;
