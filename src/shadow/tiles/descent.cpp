@@ -21,8 +21,6 @@ namespace tenebra::HWY_NAMESPACE {
 
 namespace {
 
-using Double16 = Pack<double, 16>;
-
 // Up to so many tiles meet a cluster one by one; with more each triangle looks for its own.
 constexpr int few_tiles = 32;
 
@@ -39,6 +37,7 @@ public:
       : d_(d),
         face_(face_axes(d.forest.faces[root])),
         light_(d.source.light),
+        skip_own_(d.contact == ContactRule::triangle_ids),
         scratch_(scratch),
         stats_(stats) {}
 
@@ -54,22 +53,18 @@ private:
 
   void fetch_tiles(const RayNode& n, std::uint32_t slots) const;
   bool narrow(RayRef& rays, const FaceBox& box);
-  int collect(int level, std::uint32_t number, const FaceBox& box);
+  void collect(int level, std::uint32_t number, const FaceBox& box, int& count);
   void meet_cluster(const TriangleCluster& cluster, const RayRef& rays, const FaceBox& box);
-  void meet_tiles(const TriangleCluster& cluster);
-  void meet_triangles(const TriangleCluster& cluster, const RayRef& rays, const FaceBox& box);
+  void meet_tiles(const TriangleCluster& cluster, std::uint32_t ahead, const FaceBoxes& boxes);
+  void meet_triangles(const TriangleCluster& cluster, const RayRef& rays, std::uint32_t left,
+                      const FaceBoxes& boxes);
   void descend_triangle(int level, std::uint32_t number, const FaceTriangle& t, int lane, std::uint32_t id);
   std::uint32_t cover_tiles(RayNode& n, const FaceTriangle& t, std::uint32_t met, std::uint32_t id);
-  void test_cluster(RayTile& tile, const TriangleCluster& cluster);
   void test_triangle(RayTile& tile, int lane, std::uint32_t id);
   void test_rays(RayTile& tile, const TileRays& rays, int lane, const float e0[4], float k, std::uint32_t id);
-  /// A triangle never blocks its own points.
-  bool skips(const RayTile& tile, std::uint32_t id) const {
-    return tile.own == id && d_.contact == ContactRule::triangle_ids;
-  }
   /// Whether some of the points may lie on the triangle.
   bool may_own(const RayTile& tile, std::uint32_t id) const {
-    return ((tile.owners >> (id % 64)) & 1u) != 0 && d_.contact == ContactRule::triangle_ids;
+    return ((tile.owners >> (id % 64)) & 1u) != 0 && skip_own_;
   }
   void settle(RayTile& tile, std::uint32_t open, std::uint32_t id);
   std::uint32_t own_lanes(const RayTile& tile, std::uint32_t lanes, std::uint32_t id) const;
@@ -79,6 +74,7 @@ private:
   const Descent& d_;
   const Face face_;
   const glm::vec3 light_;
+  const bool skip_own_;  ///< a triangle never blocks its own points
   DescentScratch& scratch_;
   TraceStats& stats_;
 };
@@ -148,46 +144,63 @@ void RootDescent::visit(std::size_t level, std::size_t number, const RayRef& ray
   }
 }
 
-// Tiles below the node that the box meets, into scratch_.hits.
-int RootDescent::collect(int level, std::uint32_t number, const FaceBox& box) {
+// Tiles below the node that the box meets, into scratch_.hits, at least until they are more than few.
+void RootDescent::collect(int level, std::uint32_t number, const FaceBox& box, int& count) {
   RayNode& n = node(level, number);
   n.tests += 1;
   std::uint32_t met = children_met(n, box);
   if (level == 0) {
     if (met != 0) scratch_.hits.push_back({number, met});
-    return std::popcount(met);
+    count += std::popcount(met);
+    return;
   }
-  int count = 0;
-  for (; met != 0; met &= met - 1) count += collect(level - 1, n.child[std::countr_zero(met)], box);
-  return count;
+  for (; met != 0 && count <= few_tiles; met &= met - 1)
+    collect(level - 1, n.child[std::countr_zero(met)], box, count);
 }
 
 void RootDescent::meet_cluster(const TriangleCluster& cluster, const RayRef& rays, const FaceBox& box) {
   scratch_.hits.clear();
-  const int tiles = collect(rays.level, rays.node, box);
+  int tiles = 0;
+  collect(rays.level, rays.node, box, tiles);
   if (tiles == 0) return;
-  set_up_planes(cluster, d_.source, d_.contact == ContactRule::triangle_ids, d_.cull_front, scratch_.planes);
-  if (scratch_.planes.valid == 0) return;
-  tiles <= few_tiles ? meet_tiles(cluster) : meet_triangles(cluster, rays, box);
+  FaceBoxes boxes;
+  const std::uint32_t ahead = project_triangles(cluster, light_, face_, box, boxes);
+  if (tiles <= few_tiles) return meet_tiles(cluster, ahead, boxes);
+  set_up_planes(cluster, d_.source, skip_own_, d_.cull_front, scratch_.planes);
+  meet_triangles(cluster, rays, ahead & scratch_.planes.valid, boxes);
 }
 
-void RootDescent::meet_tiles(const TriangleCluster& cluster) {
+// Few tiles: each looks for its triangles, whose planes are not needed before one is found.
+void RootDescent::meet_tiles(const TriangleCluster& cluster, std::uint32_t ahead, const FaceBoxes& boxes) {
+  bool set_up = false;
   for (const DescentScratch::Hits& hit : scratch_.hits) {
     RayNode& n = node(0, hit.node);
-    fetch_tiles(n, hit.tiles);
     for (std::uint32_t left = hit.tiles; left != 0; left &= left - 1) {
       const int slot = std::countr_zero(left);
+      n.tests += 1;
+      std::uint32_t near = ahead & boxes_met(boxes, n.box(slot));
+      if (skip_own_) near &= ~equal_bits(cluster.ids, n.own[slot]);
+      if (near == 0) continue;
+      if (!set_up) {
+        set_up = true;
+        set_up_planes(cluster, d_.source, skip_own_, d_.cull_front, scratch_.planes);
+        ahead &= scratch_.planes.valid;
+        near &= ahead;
+      }
       RayTile& met = tile(n, slot);
-      test_cluster(met, cluster);
+      for (; near != 0 && met.live != 0; near &= near - 1) {
+        const int i = std::countr_zero(near);
+        test_triangle(met, i, cluster.ids[i]);
+      }
       if (met.live == 0) n.live &= ~(1u << slot);
     }
     if (n.live == 0) retire(0, hit.node);
   }
 }
 
-void RootDescent::meet_triangles(const TriangleCluster& cluster, const RayRef& rays, const FaceBox& box) {
-  FaceBoxes boxes;
-  std::uint32_t left = project_triangles(scratch_.planes, face_, box, boxes);
+// Many: each triangle looks for its tiles.
+void RootDescent::meet_triangles(const TriangleCluster& cluster, const RayRef& rays, std::uint32_t left,
+                                 const FaceBoxes& boxes) {
   alignas(64) float u0[16], u1[16], v0[16], v1[16], w[16];
   store(boxes.u0, u0), store(boxes.u1, u1), store(boxes.v0, v0), store(boxes.v1, v1), store(boxes.w, w);
   for (; left != 0; left &= left - 1) {
@@ -203,7 +216,10 @@ void RootDescent::descend_triangle(int level, std::uint32_t number, const FaceTr
   RayNode& n = node(level, number);
   n.tests += 1;
   std::uint32_t met = children_met(n, t);
-  if (level == 0 && met != 0) met = cover_tiles(n, t, met, id);
+  if (level == 0 && met != 0) {
+    if (skip_own_) met &= ~equal_bits(n.own, id);
+    met = cover_tiles(n, t, met, id);
+  }
   for (; met != 0; met &= met - 1) {
     const int slot = std::countr_zero(met);
     if (level > 0) {
@@ -251,52 +267,17 @@ HWY_INLINE float constant_part(const TileRays& rays, float tau) {
   return (10.1f * u * rays.radius + 2 * u * tau) * (1 + 16 * u) + 0x1p-122f;
 }
 
-// All planes of a cluster at the tile's base: what the tile's sphere cannot reach is done with.
-void RootDescent::test_cluster(RayTile& tile, const TriangleCluster& cluster) {
-  const ClusterPlanes& c = scratch_.planes;
-  const TileRays& rays = rays_of(tile);
-  tile.tests += 1;
-  const Double16 bx = splat<Double16>(rays.base[0]), by = splat<Double16>(rays.base[1]),
-                 bz = splat<Double16>(rays.base[2]);
-  Float16 e0[4];
-  for (int k = 0; k < 4; ++k) {
-    Double16 e = load<Double16>(c.mx[k]) * bx;
-    if (k == 3) e = e - load<Double16>(c.d);
-    e = multiply_add(load<Double16>(c.my[k]), by, e);
-    e0[k] = demoted(multiply_add(load<Double16>(c.mz[k]), bz, e));
-  }
-  const Float16 bounds = load<Float16>(c.rho) * (splat<Float16>(rays.reach) + load<Float16>(c.reach));
-  const Float16 k16 =
-      multiply_add(bounds, splat<Float16>(1 + 16 * u), splat<Float16>(constant_part(rays, tile.tau)));
-  const Float16 limit = (splat<Float16>(rays.radius) + k16) * splat<Float16>(-1 - 16 * u);
-  const Float16 lowest = min(min(e0[0], e0[1]), min(e0[2], e0[3]));
-  std::uint32_t left = c.valid & ~less_bits(lowest, limit);
-  if (left == 0) return;
-  alignas(64) float values[4][16], ks[16];
-  for (int k = 0; k < 4; ++k) store(e0[k], values[k]);
-  store(k16, ks);
-  for (; left != 0 && tile.live != 0; left &= left - 1) {
-    const int i = std::countr_zero(left);
-    if (skips(tile, cluster.ids[i])) continue;
-    const float e[4] = {values[0][i], values[1][i], values[2][i], values[3][i]};
-    test_rays(tile, rays, i, e, ks[i], cluster.ids[i]);
-  }
-}
-
 void RootDescent::test_triangle(RayTile& tile, int i, std::uint32_t id) {
-  if (skips(tile, id)) return;
+  tile.tests += 1;
   const ClusterPlanes& c = scratch_.planes;
   const TileRays& rays = rays_of(tile);
   float e[4];
-  float lowest = HUGE_VALF;
   for (int k = 0; k < 4; ++k) {
     const double value = c.mx[k][i] * rays.base[0] - (k == 3 ? c.d[i] : 0.0) + c.my[k][i] * rays.base[1] +
                          c.mz[k][i] * rays.base[2];
     e[k] = static_cast<float>(value);
-    lowest = HWY_MIN(lowest, e[k]);
   }
   const float k = c.rho[i] * (rays.reach + c.reach[i]) * (1 + 16 * u) + constant_part(rays, tile.tau);
-  if (lowest < (rays.radius + k) * (-1 - 16 * u)) return;
   test_rays(tile, rays, i, e, k, id);
 }
 

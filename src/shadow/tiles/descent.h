@@ -28,7 +28,6 @@ struct alignas(64) ClusterPlanes {
   float fx[4][16], fy[4][16], fz[4][16];  ///< the same in float
   float rho[16];                          ///< relative errors, the largest of the four planes', rounded up
   float reach[16];                        ///< >= largest |vertex - light|
-  float ax[3][16], ay[3][16], az[3][16];  ///< corners relative to the light
   std::uint32_t valid;                    ///< bit i: triangle i may block something
 };
 

@@ -82,17 +82,19 @@ HWY_INLINE std::uint32_t project_boxes(const BoxNode& node, const glm::vec3& lig
 }
 
 /// Boxes of a cluster's triangles themselves: tighter than its box by far. Triangles that reach behind the
-/// face's plane get `all`. Returns the bits of those that reach in front of it.
-HWY_INLINE std::uint32_t project_triangles(const ClusterPlanes& c, const Face& face, const FaceBox& all,
-                                           FaceBoxes& out) {
-  const float(*const corners[3])[16] = {c.ax, c.ay, c.az};
-  const Float16 one = splat<Float16>(1.0f);
+/// face's plane get `all`. Returns the bits of those that reach in front of it. Errors as project_boxes.
+HWY_INLINE std::uint32_t project_triangles(const TriangleCluster& c, const glm::vec3& light, const Face& face,
+                                           const FaceBox& all, FaceBoxes& out) {
+  const float(*const corners[3])[16] = {c.x, c.y, c.z};
+  const Float16 one = splat<Float16>(1.0f), sign = splat<Float16>(face.sign);
+  const Pack3<Float16> origin =
+      splat3<Float16>(light[face.axes[0]], light[face.axes[1]], light[face.axes[2]]);
   Float16 z0, z1;
   for (int k = 0; k < 3; ++k) {
-    const Float16 z = load<Float16>(corners[face.axes[2]][k]) * splat<Float16>(face.sign);
+    const Float16 z = (load<Float16>(corners[face.axes[2]][k]) - origin.z) * sign;
     const Float16 w = one / z;
-    const Float16 pu = load<Float16>(corners[face.axes[0]][k]) * w,
-                  pv = load<Float16>(corners[face.axes[1]][k]) * w;
+    const Float16 pu = (load<Float16>(corners[face.axes[0]][k]) - origin.x) * w,
+                  pv = (load<Float16>(corners[face.axes[1]][k]) - origin.y) * w;
     z0 = k == 0 ? z : min(z0, z), z1 = k == 0 ? z : max(z1, z);
     out.u0 = k == 0 ? pu : min(out.u0, pu), out.u1 = k == 0 ? pu : max(out.u1, pu);
     out.v0 = k == 0 ? pv : min(out.v0, pv), out.v1 = k == 0 ? pv : max(out.v1, pv);
@@ -103,7 +105,7 @@ HWY_INLINE std::uint32_t project_triangles(const ClusterPlanes& c, const Face& f
   out.v0 = where_not_above(z0, closest, splat<Float16>(all.v0), out.v0);
   out.v1 = where_not_above(z0, closest, splat<Float16>(all.v1), out.v1);
   out.w = where_not_above(z0, closest, splat<Float16>(all.w), one / max(z0, closest));
-  return c.valid & less_bits(splat<Float16>(0.0f), z1);
+  return c.used & less_bits(splat<Float16>(0.0f), z1);
 }
 
 /// One triangle on a face. Plane k at the point (u, v, w) of a ray: m.(u, v, 1) - d w, the plane's value over

@@ -76,6 +76,7 @@ void group_loose(ForestScratch& s) {
     for (int k = 0; k < 16 && i < keys.size() && s.loose[place_of(keys[i])].face == face; ++k, ++i) {
       const ForestScratch::Loose& loose = s.loose[place_of(keys[i])];
       node.child[k] = loose.tile;
+      node.own[k] = loose.own;
       node.set_box(k, loose.box);
       node.live |= 1u << k;
     }

@@ -60,6 +60,7 @@ struct FaceBox {
 struct alignas(64) RayNode {
   float u0[16], u1[16], v0[16], v1[16], w[16], w1[16];
   std::uint32_t child[16];
+  std::uint32_t own[16];     ///< level 0: RayTile::own of the tiles
   std::uint32_t live = 0;    ///< bit i: child i has rays left
   std::uint32_t filled = 0;  ///< bit i: there is a child i
   std::uint32_t parent = 0;  ///< node of the level above
@@ -94,6 +95,7 @@ struct RayForest {
 struct ForestScratch {
   struct Loose {
     std::uint32_t tile;
+    std::uint32_t own;
     std::uint8_t face;
     FaceBox box;
   };

@@ -216,7 +216,7 @@ void SquareSorter::read_square(std::uint32_t x, std::uint32_t y, RayTile* tiles,
   }
 }
 
-bool SquareSorter::make_node(std::uint32_t first_tile, Square& square, Keys& keys,
+bool SquareSorter::make_node(const RayTile* tiles, std::uint32_t first_tile, Square& square, Keys& keys,
                              ForestScratch::Row& out) const {
   if (square.gaps != 0) return false;
   dvec3 centre(0.0);
@@ -231,6 +231,7 @@ bool SquareSorter::make_node(std::uint32_t first_tile, Square& square, Keys& key
     u += square.boxes[t].u1 - square.boxes[t].u0, v += square.boxes[t].v1 - square.boxes[t].v0;
     node.set_box(t, square.boxes[t]);
     node.child[t] = first_tile + static_cast<std::uint32_t>(t);
+    node.own[t] = tiles[t].own;
   }
   node.live = node.filled = square.present;
   const FaceBox all = bounds_of(node);
@@ -269,7 +270,7 @@ void SquareSorter::loosen_tile(std::uint32_t x, std::uint32_t y, std::uint32_t n
     } else {
       out.split.push_back(tile);
     }
-    out.loose.push_back({place, face, box});
+    out.loose.push_back({place, tile.own, face, box});
     keys.add(middle_of(points), face);
     place = static_cast<std::uint32_t>(tiles.size() + out.split.size());
   }
@@ -290,7 +291,7 @@ void SquareSorter::sort_row(std::uint32_t row, std::vector<RayTile>& tiles, Fore
     const std::uint32_t x = column * square_side, first = (row * grid.columns + column) * square_tiles;
     if (column + 1 < grid.columns) fetch_square(x + square_side, y);
     read_square(x, y, &tiles[first], *receivers, *square, out);
-    if (square->present == 0 || make_node(first, *square, node_keys, out)) continue;
+    if (square->present == 0 || make_node(&tiles[first], first, *square, node_keys, out)) continue;
     for (std::uint32_t left = square->present; left != 0; left &= left - 1) {
       const auto t = static_cast<std::uint32_t>(std::countr_zero(left));
       loosen_tile(x + t % 4 * tile_side, y + t / 4 * tile_side, first + t, tiles, loose_keys, out);

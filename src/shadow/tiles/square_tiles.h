@@ -46,7 +46,7 @@ private:
   void read_square(std::uint32_t x, std::uint32_t y, RayTile* tiles, Receivers& receivers, Square& square,
                    ForestScratch::Row& out) const;
   void fetch_square(std::uint32_t x, std::uint32_t y) const;
-  bool make_node(std::uint32_t first_tile, Square& square, Keys& keys, ForestScratch::Row& out) const;
+  bool make_node(const RayTile* tiles, std::uint32_t first_tile, Square& square, Keys& keys, ForestScratch::Row& out) const;
   void loosen_tile(std::uint32_t x, std::uint32_t y, std::uint32_t number, std::vector<RayTile>& tiles,
                    Keys& keys, ForestScratch::Row& out) const;
 
