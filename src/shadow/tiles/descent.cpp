@@ -11,7 +11,6 @@
 #include "shadow/decide.h"
 #include "shadow/tiles/cluster_planes-inl.h"
 #include "shadow/tiles/face_tests-inl.h"
-#include "shadow/tiles/tile_rays-inl.h"
 #include "simd/pack-inl.h"
 
 #include <bit>
@@ -48,9 +47,12 @@ private:
   RayNode& node(int level, std::uint32_t number) {
     return d_.forest.levels[static_cast<std::size_t>(level)][number];
   }
-  RayTile& tile(const RayNode& n, int slot) { return d_.forest.tiles[n.child[slot]]; }
-  const TileRays& rays_of(RayTile& tile);
+  const PointTile& tile(const RayNode& n, int slot) const { return d_.tiles.tiles[n.child[slot]]; }
 
+  void note_test(RayNode& n) {
+    ++n.tests;
+    ++stats_.nodes;
+  }
   void fetch_tiles(const RayNode& n, std::uint32_t slots) const;
   bool narrow(RayRef& rays, const FaceBox& box);
   void collect(int level, std::uint32_t number, const FaceBox& box, int& count);
@@ -60,15 +62,15 @@ private:
                       const FaceBoxes& boxes);
   void descend_triangle(int level, std::uint32_t number, const FaceTriangle& t, int lane, std::uint32_t id);
   std::uint32_t cover_tiles(RayNode& n, const FaceTriangle& t, std::uint32_t met, std::uint32_t id);
-  void test_triangle(RayTile& tile, int lane, std::uint32_t id);
-  void test_rays(RayTile& tile, const TileRays& rays, int lane, const float e0[4], float k, std::uint32_t id);
-  /// Whether some of the points may lie on the triangle.
-  bool may_own(const RayTile& tile, std::uint32_t id) const {
+  void test_triangle(std::uint32_t number, int slot, int i, std::uint32_t id);
+  void block_rays(RayNode& n, int slot, std::uint32_t sure, std::uint32_t open, std::uint32_t id);
+  /// Whether some of the points may lie on the triangle, which never blocks those.
+  bool may_own(const PointTile& tile, std::uint32_t id) const {
     return ((tile.owners >> (id % 64)) & 1u) != 0 && skip_own_;
   }
-  void settle(RayTile& tile, std::uint32_t open, std::uint32_t id);
-  std::uint32_t own_lanes(const RayTile& tile, std::uint32_t lanes, std::uint32_t id) const;
-  std::size_t pixel_of(const RayTile& tile, int lane) const;
+  std::uint32_t own_lanes(const PointTile& tile, std::uint32_t lanes, std::uint32_t id) const;
+  std::uint32_t blocked_lanes(const PointTile& tile, std::uint32_t open, std::uint32_t id);
+  std::size_t pixel_of(const PointTile& tile, int lane) const;
   void retire(int level, std::uint32_t number);
 
   const Descent& d_;
@@ -83,16 +85,8 @@ private:
 void RootDescent::fetch_tiles(const RayNode& n, std::uint32_t slots) const {
   if ((slots & (slots - 1)) == 0) return;
   for (; slots != 0; slots &= slots - 1) {
-    const std::uint32_t number = n.child[std::countr_zero(slots)];
-    const RayTile& tile = d_.forest.tiles[number];
-    const auto* at = reinterpret_cast<const char*>(&d_.forest.tile_rays[number]);
-    for (std::size_t line = 0; line < sizeof(TileRays); line += 64) fetch_soon(at + line);
-    if (tile.loaded) continue;
-    const glm::dvec3* points = d_.points.positions.data() + tile.pixel;
-    for (int row = 0; row < tile_side; ++row, points += d_.points.width) {
-      fetch_soon(points);
-      fetch_soon(reinterpret_cast<const char*>(points) + 64);
-    }
+    const auto* at = reinterpret_cast<const char*>(&d_.tiles.tiles[n.child[std::countr_zero(slots)]]);
+    for (std::size_t line = 0; line < sizeof(PointTile); line += 64) fetch_soon(at + line);
   }
 }
 
@@ -100,7 +94,7 @@ void RootDescent::fetch_tiles(const RayNode& n, std::uint32_t slots) const {
 bool RootDescent::narrow(RayRef& rays, const FaceBox& box) {
   for (;;) {
     RayNode& n = node(rays);
-    n.tests += 1;
+    note_test(n);
     const std::uint32_t met = children_met(n, box);
     if (met == 0) return false;
     if (rays.level == 0 || (met & (met - 1)) != 0) return true;
@@ -109,21 +103,10 @@ bool RootDescent::narrow(RayRef& rays, const FaceBox& box) {
   }
 }
 
-const TileRays& RootDescent::rays_of(RayTile& tile) {
-  TileRays& rays = d_.forest.tile_rays[static_cast<std::size_t>(&tile - d_.forest.tiles.data())];
-  if (!tile.loaded) {
-    const auto width = static_cast<std::uint32_t>(d_.points.width);
-    load_tile_rays(TileRows(d_.points, tile.pixel % width, tile.pixel / width), d_.source.origin, tile.rays,
-                   rays);
-    tile.loaded = true;
-  }
-  return rays;
-}
-
 void RootDescent::visit(std::size_t level, std::size_t number, const RayRef& rays) {
   RayNode& n = node(rays);
   if (n.live == 0) return;
-  n.tests += 1;
+  note_test(n);
   FaceBoxes boxes;
   std::uint32_t met = project_boxes(d_.clusters.levels()[level][number], light_, face_, boxes);
   met &= boxes_met(boxes, rays.box);
@@ -147,7 +130,7 @@ void RootDescent::visit(std::size_t level, std::size_t number, const RayRef& ray
 // Tiles below the node that the box meets, into scratch_.hits, at least until they are more than few.
 void RootDescent::collect(int level, std::uint32_t number, const FaceBox& box, int& count) {
   RayNode& n = node(level, number);
-  n.tests += 1;
+  note_test(n);
   std::uint32_t met = children_met(n, box);
   if (level == 0) {
     if (met != 0) scratch_.hits.push_back({number, met});
@@ -177,7 +160,7 @@ void RootDescent::meet_tiles(const TriangleCluster& cluster, std::uint32_t ahead
     RayNode& n = node(0, hit.node);
     for (std::uint32_t left = hit.tiles; left != 0; left &= left - 1) {
       const int slot = std::countr_zero(left);
-      n.tests += 1;
+      note_test(n);
       std::uint32_t near = ahead & boxes_met(boxes, n.box(slot));
       if (skip_own_) near &= ~equal_bits(cluster.ids, n.own[slot]);
       if (near == 0) continue;
@@ -187,12 +170,10 @@ void RootDescent::meet_tiles(const TriangleCluster& cluster, std::uint32_t ahead
         ahead &= scratch_.planes.valid;
         near &= ahead;
       }
-      RayTile& met = tile(n, slot);
-      for (; near != 0 && met.live != 0; near &= near - 1) {
+      for (; near != 0 && n.rays[slot] != 0; near &= near - 1) {
         const int i = std::countr_zero(near);
-        test_triangle(met, i, cluster.ids[i]);
+        test_triangle(hit.node, slot, i, cluster.ids[i]);
       }
-      if (met.live == 0) n.live &= ~(1u << slot);
     }
     if (n.live == 0) retire(0, hit.node);
   }
@@ -214,7 +195,7 @@ void RootDescent::meet_triangles(const TriangleCluster& cluster, const RayRef& r
 void RootDescent::descend_triangle(int level, std::uint32_t number, const FaceTriangle& t, int lane,
                                    std::uint32_t id) {
   RayNode& n = node(level, number);
-  n.tests += 1;
+  note_test(n);
   std::uint32_t met = children_met(n, t);
   if (level == 0 && met != 0) {
     if (skip_own_) met &= ~equal_bits(n.own, id);
@@ -226,9 +207,7 @@ void RootDescent::descend_triangle(int level, std::uint32_t number, const FaceTr
       descend_triangle(level - 1, n.child[slot], t, lane, id);
       continue;
     }
-    RayTile& below = tile(n, slot);
-    test_triangle(below, lane, id);
-    if (below.live == 0) n.live &= ~(1u << slot);
+    test_triangle(number, slot, lane, id);
   }
   if (n.live == 0) retire(level, number);
 }
@@ -238,15 +217,87 @@ std::uint32_t RootDescent::cover_tiles(RayNode& n, const FaceTriangle& t, std::u
                                        std::uint32_t id) {
   for (std::uint32_t left = met & children_covered(n, t); left != 0; left &= left - 1) {
     const int slot = std::countr_zero(left);
-    RayTile& below = tile(n, slot);
-    if (may_own(below, id)) continue;
-    below.live = 0;
+    if (may_own(tile(n, slot), id)) continue;
+    n.rays[slot] = 0;
     n.live &= ~(1u << slot);
     met &= ~(1u << slot);
     ++stats_.early_accepts;
   }
   fetch_tiles(n, met);
   return met;
+}
+
+// Sixteen rays against a triangle: its planes at the tile's base in double, the rest in float. With r >= |q| a
+// sum in floats is off by at most K = 10.1 u r + rho (R + reach), or cannot have the wrong sign at all
+// (|e0| > 2r); R <= |base| + r, by coordinates. The own plane opens tau of the rays' own triangles later.
+void RootDescent::test_triangle(std::uint32_t number, int slot, int i, std::uint32_t id) {
+  RayNode& n = node(0, number);
+  const PointTile& rays = tile(n, slot);
+  const ClusterPlanes& c = scratch_.planes;
+  if (d_.tile_tests != nullptr) ++(*d_.tile_tests)[number][static_cast<std::size_t>(slot)];
+  ++stats_.nodes;
+  stats_.leaf_tests += static_cast<std::uint64_t>(std::popcount(n.rays[slot]));
+  double base[3];
+  for (int k = 0; k < 3; ++k) base[k] = static_cast<double>(rays.base[k]) - d_.source.origin[k];
+  const auto reach = static_cast<float>(std::abs(base[0]) + std::abs(base[1]) + std::abs(base[2])) + rays.radius;
+  const float k = (10.1f * u * rays.radius + 2 * u * rays.tau + c.rho[i] * (reach + c.reach[i])) * (1 + 32 * u) +
+                  0x1p-122f;
+  const Pack3<Float16> q{load<Float16>(rays.qx), load<Float16>(rays.qy), load<Float16>(rays.qz)};
+  const auto value = [&](int plane) HWY_ATTR {
+    const double e0 = c.mx[plane][i] * base[0] - (plane == 3 ? c.d[i] : 0.0) + c.my[plane][i] * base[1] +
+                      c.mz[plane][i] * base[2];
+    const Pack3<Float16> m = splat3<Float16>(c.fx[plane][i], c.fy[plane][i], c.fz[plane][i]);
+    return multiply_add(
+        m.z, q.z, multiply_add(m.y, q.y, multiply_add(m.x, q.x, splat<Float16>(static_cast<float>(e0)))));
+  };
+  const Float16 edges = min(value(0), min(value(1), value(2))), own = value(3);
+  const std::uint32_t missed = less_bits(min(edges, own), splat<Float16>(-k));
+  const std::uint32_t near = n.rays[slot] & ~missed;
+  if (near == 0) return;
+  const std::uint32_t sure = less_bits(splat<Float16>(k), min(edges, own - splat<Float16>(rays.tau)));
+  block_rays(n, slot, near & sure, near & ~sure, id);
+}
+
+// Lanes of `sure` are blocked but for the triangle's own points, those of `open` may be.
+void RootDescent::block_rays(RayNode& n, int slot, std::uint32_t sure, std::uint32_t open, std::uint32_t id) {
+  const PointTile& rays = tile(n, slot);
+  if (may_own(rays, id)) {
+    const std::uint32_t own = own_lanes(rays, sure | open, id);
+    sure &= ~own, open &= ~own;
+  }
+  const std::uint32_t left = n.rays[slot] & ~(open == 0 ? sure : sure | blocked_lanes(rays, open, id));
+  n.rays[slot] = static_cast<std::uint16_t>(left);
+  if (left == 0) n.live &= ~(1u << slot);
+}
+
+std::size_t RootDescent::pixel_of(const PointTile& tile, int lane) const {
+  return tile.pixel + static_cast<std::size_t>(lane % 4) +
+         static_cast<std::size_t>(lane / 4) * static_cast<std::size_t>(d_.points.width);
+}
+
+std::uint32_t RootDescent::own_lanes(const PointTile& tile, std::uint32_t lanes, std::uint32_t id) const {
+  std::uint32_t own = 0;
+  for (; lanes != 0; lanes &= lanes - 1) {
+    const int lane = std::countr_zero(lanes);
+    if (d_.points.triangles[pixel_of(tile, lane)] == id) own |= 1u << lane;
+  }
+  return own;
+}
+
+/// Of the lanes of `open` those that are blocked: in double, then exactly.
+std::uint32_t RootDescent::blocked_lanes(const PointTile& tile, std::uint32_t open, std::uint32_t id) {
+  const Corners corners = corners_of(d_.triangles, id);
+  const TrianglePlanes planes = planes_of(corners.v, id, light_side(corners.v, d_.source), d_.source,
+                                          skip_own_ ? rounding_tolerance(corners.v) : 0.0);
+  std::uint32_t blocked = 0;
+  for (; open != 0; open &= open - 1) {
+    const int lane = std::countr_zero(open);
+    const std::size_t pixel = pixel_of(tile, lane);
+    if (decide(planes, d_.points.positions[pixel], d_.points.triangles[pixel], d_.source, d_.triangles,
+               d_.contact, stats_))
+      blocked |= 1u << lane;
+  }
+  return blocked;
 }
 
 // A node whose rays are all blocked is met by nothing more.
@@ -258,78 +309,6 @@ void RootDescent::retire(int level, std::uint32_t number) {
     if (parent.live != 0) return;
     number = n.parent;
     ++level;
-  }
-}
-
-// K of the float filter: with r >= |q| a sum in floats is off by at most 10.1 u r + rho (R + reach), or
-// cannot have the wrong sign at all (|e0| > 2r). The last factor covers the roundings of K itself.
-HWY_INLINE float constant_part(const TileRays& rays, float tau) {
-  return (10.1f * u * rays.radius + 2 * u * tau) * (1 + 16 * u) + 0x1p-122f;
-}
-
-void RootDescent::test_triangle(RayTile& tile, int i, std::uint32_t id) {
-  tile.tests += 1;
-  const ClusterPlanes& c = scratch_.planes;
-  const TileRays& rays = rays_of(tile);
-  float e[4];
-  for (int k = 0; k < 4; ++k) {
-    const double value = c.mx[k][i] * rays.base[0] - (k == 3 ? c.d[i] : 0.0) + c.my[k][i] * rays.base[1] +
-                         c.mz[k][i] * rays.base[2];
-    e[k] = static_cast<float>(value);
-  }
-  const float k = c.rho[i] * (rays.reach + c.reach[i]) * (1 + 16 * u) + constant_part(rays, tile.tau);
-  test_rays(tile, rays, i, e, k, id);
-}
-
-// Sixteen rays against one triangle. `e0`: its planes at the tile's base; the own plane opens tau of the
-// rays' own triangles later.
-void RootDescent::test_rays(RayTile& tile, const TileRays& rays, int i, const float e0[4], float k,
-                            std::uint32_t id) {
-  const ClusterPlanes& c = scratch_.planes;
-  stats_.leaf_tests += static_cast<std::uint64_t>(std::popcount(tile.live));
-  const Pack3<Float16> q{load<Float16>(rays.qx), load<Float16>(rays.qy), load<Float16>(rays.qz)};
-  const auto value = [&](int plane) HWY_ATTR {
-    const Pack3<Float16> m = splat3<Float16>(c.fx[plane][i], c.fy[plane][i], c.fz[plane][i]);
-    return multiply_add(m.z, q.z, multiply_add(m.y, q.y, multiply_add(m.x, q.x, splat<Float16>(e0[plane]))));
-  };
-  const Float16 edges = min(value(0), min(value(1), value(2))), own = value(3);
-  const std::uint32_t missed = less_bits(min(edges, own), splat<Float16>(-k));
-  const std::uint32_t near = tile.live & ~missed;
-  if (near == 0) return;
-  std::uint32_t blocked = near & less_bits(splat<Float16>(k), min(edges, own - splat<Float16>(tile.tau)));
-  const std::uint32_t open = near & ~blocked;
-  if (blocked != 0 && may_own(tile, id)) blocked &= ~own_lanes(tile, blocked, id);
-  tile.live &= ~blocked;
-  if (open != 0) settle(tile, open, id);
-}
-
-std::size_t RootDescent::pixel_of(const RayTile& tile, int lane) const {
-  return tile.pixel + static_cast<std::size_t>(lane % 4) +
-         static_cast<std::size_t>(lane / 4) * static_cast<std::size_t>(d_.points.width);
-}
-
-std::uint32_t RootDescent::own_lanes(const RayTile& tile, std::uint32_t lanes, std::uint32_t id) const {
-  std::uint32_t own = 0;
-  for (; lanes != 0; lanes &= lanes - 1) {
-    const int lane = std::countr_zero(lanes);
-    if (d_.points.triangles[pixel_of(tile, lane)] == id) own |= 1u << lane;
-  }
-  return own;
-}
-
-void RootDescent::settle(RayTile& tile, std::uint32_t open, std::uint32_t id) {
-  if (may_own(tile, id)) open &= ~own_lanes(tile, open, id);
-  if (open == 0) return;
-  const bool use_tau = d_.contact == ContactRule::triangle_ids;
-  const Corners corners = corners_of(d_.triangles, id);
-  const TrianglePlanes planes = planes_of(corners.v, id, light_side(corners.v, d_.source), d_.source,
-                                          use_tau ? rounding_tolerance(corners.v) : 0.0);
-  for (; open != 0; open &= open - 1) {
-    const int lane = std::countr_zero(open);
-    const std::size_t pixel = pixel_of(tile, lane);
-    if (decide(planes, d_.points.positions[pixel], d_.points.triangles[pixel], d_.source, d_.triangles,
-               d_.contact, stats_))
-      tile.live &= ~(1u << lane);
   }
 }
 
