@@ -72,14 +72,14 @@ std::uint32_t beyond_gap(const PointTile& tile, std::uint32_t lanes) {
   return 0;
 }
 
-void bound(const PointTile& tile, std::uint32_t lanes, int group, PointBlock& block) {
+void bound(const PointTile& tile, std::uint32_t lanes, int place, PointSquare& square) {
   const float* const q[3] = {tile.qx, tile.qy, tile.qz};
   const Truth<float, 16> there = truth_of<float, 16>(lanes);
   const int first = std::countr_zero(lanes);
   for (int axis = 0; axis < 3; ++axis) {
     const Float16 all = choose(there, load<Float16>(q[axis]), splat<Float16>(q[axis][first]));
-    block.low[axis][group] = least(all);
-    block.high[axis][group] = greatest(all);
+    square.low[axis][place] = least(all);
+    square.high[axis][place] = greatest(all);
   }
 }
 

@@ -31,8 +31,8 @@ struct PointTileKernels {
   /// Lanes of `lanes` (not 0) beyond a gap: farther from the first of them than the others by half of the
   /// extent.
   std::uint32_t (*beyond_gap)(const PointTile& tile, std::uint32_t lanes) = nullptr;
-  /// Box around q of the lanes in `lanes` (not 0) as group `group` of a block.
-  void (*bound)(const PointTile& tile, std::uint32_t lanes, int group, PointBlock& block) = nullptr;
+  /// Box around q of the lanes in `lanes` (not 0) as that of tile `place` of a square.
+  void (*bound)(const PointTile& tile, std::uint32_t lanes, int place, PointSquare& square) = nullptr;
 };
 PointTileKernels point_tile_kernels();
 

@@ -31,7 +31,7 @@ public:
         kernels_(point_tile_kernels()),
         width_(static_cast<std::uint32_t>(points.width)),
         height_(static_cast<std::uint32_t>(points.height)) {
-    patch_.blocks.clear(), patch_.receivers.clear();
+    patch_.squares.clear(), patch_.receivers.clear();
     patch_.receiver_count = 0;
   }
 
@@ -58,8 +58,7 @@ private:
   bool one_receiver(std::uint32_t x, std::uint32_t y) const;
   Owner owner_of(const PointTile& tile, std::uint32_t lanes) const;
   void note_owners(PointTile& tile, std::uint32_t lanes) const;
-  void add_group(std::uint32_t number, std::uint32_t lanes, int group, PointBlock& block) const;
-  void add_parts(std::uint32_t number, std::uint32_t lanes, PointBlock& block);
+  void add_tile(const PointTile& tile, std::uint32_t lanes, int place, PointSquare& square) const;
 
   const VisiblePoints& points_;
   const TriangleView& triangles_;
@@ -152,73 +151,41 @@ void PatchMaker::note_owners(PointTile& tile, std::uint32_t lanes) const {
   }
 }
 
-void PatchMaker::add_group(std::uint32_t number, std::uint32_t lanes, int group, PointBlock& block) const {
-  const PointTile& tile = out_.tiles[number];
+void PatchMaker::add_tile(const PointTile& tile, std::uint32_t lanes, int place, PointSquare& square) const {
   const Owner owner = owner_of(tile, lanes);
-  block.tile[group] = number;
-  block.own[group] = owner.id;
-  block.receiver[group] = owner.receiver;
-  block.lanes[group] = static_cast<std::uint16_t>(lanes);
-  block.filled |= 1u << group;
-  kernels_.bound(tile, lanes, group, block);
-}
-
-/// Cuts the tile at gaps; `block` is handed on when it is full.
-void PatchMaker::add_parts(std::uint32_t number, std::uint32_t lanes, PointBlock& block) {
-  std::uint32_t parts[tile_points], size = 0;
-  parts[size++] = lanes;
-  while (size > 0) {
-    const std::uint32_t part = parts[--size];
-    const std::uint32_t beyond = kernels_.beyond_gap(out_.tiles[number], part);
-    if (beyond != 0) {
-      parts[size++] = beyond;
-      parts[size++] = part & ~beyond;
-      continue;
-    }
-    if (block.filled == 0xffffu) {
-      patch_.blocks.push_back(block);
-      block.filled = 0;
-    }
-    add_group(number, part, std::popcount(block.filled), block);
-  }
+  square.own[place] = owner.id;
+  square.receiver[place] = owner.receiver;
+  square.lanes[place] = static_cast<std::uint16_t>(lanes);
+  square.filled |= 1u << place;
+  square.radius = std::max(square.radius, tile.radius);
+  square.tau = std::max(square.tau, tile.tau);
+  kernels_.bound(tile, lanes, place, square);
+  const bool several = owner.receiver == several_receivers;
+  if (several && kernels_.beyond_gap(tile, lanes) != 0) square.gaps |= 1u << place;
 }
 
 void PatchMaker::add_square(std::uint32_t x, std::uint32_t y, std::uint32_t first) {
-  std::uint32_t lanes[16], gaps = 0;
-  PointBlock block{};
-  bool found = false;
+  PointSquare square{};
+  square.first_tile = first;
   glm::vec3 base(0.0f);
   for (std::uint32_t t = 0; t < 16; ++t) {
     const std::uint32_t tile_x = x + t % 4 * tile_side, tile_y = y + t / 4 * tile_side;
     PointTile& tile = out_.tiles[first + t];
-    lanes[t] = find_receivers(tile_x, tile_y, tile);
-    if (lanes[t] == 0) continue;
+    const std::uint32_t lanes = find_receivers(tile_x, tile_y, tile);
+    if (lanes == 0) continue;
     const TileRows rows(points_, tile_x, tile_y);
-    if (!found) base = rows.point(std::countr_zero(lanes[t]));
-    found = true;
-    kernels_.fill(rows, base, lanes[t], tile);
+    if (square.filled == 0) base = rows.point(std::countr_zero(lanes));
+    kernels_.fill(rows, base, lanes, tile);
     tile.pixel = tile_y * width_ + tile_x;
-    note_owners(tile, lanes[t]);
-    block.radius = std::max(block.radius, tile.radius);
-    block.tau = std::max(block.tau, tile.tau);
-    const bool several = owner_of(tile, lanes[t]).receiver == several_receivers;
-    if (several && kernels_.beyond_gap(tile, lanes[t]) != 0) gaps |= 1u << t;
+    note_owners(tile, lanes);
+    add_tile(tile, lanes, static_cast<int>(t), square);
   }
-  if (!found) return;
+  if (square.filled == 0) return;
   // What leaves the range of floats is for others to look at (not NaN: max takes what is finite).
   const bool finite = std::isfinite(base.x) && std::isfinite(base.y) && std::isfinite(base.z);
-  if (!finite) block.radius = std::numeric_limits<float>::infinity();
-  for (int k = 0; k < 3; ++k) block.base[k] = base[k];
-  block.whole = gaps == 0;
-  for (std::uint32_t t = 0; t < 16; ++t) {
-    if (lanes[t] == 0) continue;
-    if (gaps != 0) {
-      add_parts(first + t, lanes[t], block);
-    } else {
-      add_group(first + t, lanes[t], static_cast<int>(t), block);
-    }
-  }
-  patch_.blocks.push_back(block);
+  if (!finite) square.radius = std::numeric_limits<float>::infinity();
+  for (int k = 0; k < 3; ++k) square.base[k] = base[k];
+  patch_.squares.push_back(square);
 }
 
 }  // namespace
@@ -226,7 +193,7 @@ void PatchMaker::add_square(std::uint32_t x, std::uint32_t y, std::uint32_t firs
 std::size_t PointTiles::byte_count() const {
   std::size_t bytes = tiles.size() * sizeof(PointTile);
   for (const PointPatch& patch : patches)
-    bytes += patch.blocks.size() * sizeof(PointBlock) + patch.receivers.size() * sizeof(ReceiverBlock);
+    bytes += patch.squares.size() * sizeof(PointSquare) + patch.receivers.size() * sizeof(ReceiverBlock);
   return bytes;
 }
 

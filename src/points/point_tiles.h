@@ -2,9 +2,8 @@
 // nearby, boxes around them, and the triangles they lie on. No light is known here: one form serves all
 // lights. The points in double stay what counts; nothing here is farther from them than it says.
 //
-// Tiles come in squares of 16x16 pixels. A tile whose points lie on several triangles may straddle a gap in
-// depth; it is cut there, so that all points of a group are neighbours. Sixteen groups make a block: the
-// sixteen tiles of a square without gaps, or groups of one with gaps.
+// Sixteen tiles make a square of 16x16 pixels, whose points share a base. A tile whose points lie on several
+// triangles may straddle a gap in depth; this is noted.
 #pragma once
 
 #include <cstddef>
@@ -37,18 +36,18 @@ struct alignas(64) PointTile {
 };
 static_assert(sizeof(PointTile) == 256);
 
-/// Up to sixteen groups of points of one square, each of one tile: boxes of q.
-struct alignas(64) PointBlock {
+/// Sixteen tiles, boxes of q of each. What is said of a tile that is not `filled` means nothing.
+struct alignas(64) PointSquare {
   float low[3][16], high[3][16];
-  std::uint32_t tile[16];
-  std::uint32_t own[16];       ///< id that all points of the group lie on; no_triangle: several
+  std::uint32_t own[16];       ///< id that all points lie on; no_triangle: several
   std::uint16_t receiver[16];  ///< the same as a number; several_receivers
-  std::uint16_t lanes[16];     ///< of the tile
-  float base[3];               ///< of q
-  float radius;                ///< >= |q| of all groups
-  float tau;                   ///< largest of the tiles'
-  std::uint32_t filled;        ///< bits of the groups that are there
-  bool whole;                  ///< group i is tile i of a square without gaps
+  std::uint16_t lanes[16];     ///< that have a point
+  std::uint32_t first_tile;
+  std::uint32_t filled;  ///< bits of the tiles with points
+  std::uint32_t gaps;    ///< bits of the tiles with a gap
+  float base[3];         ///< of q
+  float radius;          ///< >= |q| of all
+  float tau;             ///< largest of the tiles'
 };
 
 /// Sixteen triangles that points lie on and that face the eye: points above (n, a) are before them.
@@ -63,7 +62,7 @@ struct alignas(64) ReceiverBlock {
 
 /// Squares in a row, at most patch_squares.
 struct PointPatch {
-  std::vector<PointBlock> blocks;
+  std::vector<PointSquare> squares;  ///< that have points
   std::vector<ReceiverBlock> receivers;
   std::uint32_t receiver_count = 0;
 };

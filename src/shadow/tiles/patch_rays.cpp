@@ -57,16 +57,17 @@ struct PatchRays::Keys {
   }
 };
 
-/// A block and where its rays go.
+/// A square and where its rays go.
 struct PatchRays::Work {
   Work(const RayKernels& kernels, ForestScratch::Patch& to)
       : out(to), node_keys(kernels, to.node_keys), loose_keys(kernels, to.loose_keys) {}
   ForestScratch::Patch& out;
   Keys node_keys, loose_keys;
-  const PointBlock* block = nullptr;
+  const PointSquare* square = nullptr;
   std::uint16_t rays[16] = {};
-  std::uint32_t present = 0;  ///< bits of groups with rays
-  RayNode node;               ///< boxes
+  std::uint32_t present = 0;  ///< bits of tiles with rays
+  std::uint32_t gaps = 0;     ///< bits of those with a gap between rays
+  RayNode node{};             ///< boxes
 };
 
 PatchRays::PatchRays(const VisiblePoints& points, const PointTiles& tiles, const TriangleView& triangles,
@@ -79,6 +80,7 @@ PatchRays::PatchRays(const VisiblePoints& points, const PointTiles& tiles, const
       pixels_(points.width, points.height),
       bounded_(light.range_m > 0 || light.spot_cos_outer > -1),
       kernels_(tile_kernels(config.simd)),
+      point_kernels_(point_tile_kernels()),
       ray_kernels_(ray_kernels(config.simd)) {}
 
 std::size_t PatchRays::pixel_at(std::uint32_t tile, int lane) const {
@@ -86,14 +88,19 @@ std::size_t PatchRays::pixel_at(std::uint32_t tile, int lane) const {
          static_cast<std::size_t>(lane % 4);
 }
 
-/// About the middle of a group, relative to the light.
-dvec3 PatchRays::centre_of(const PointBlock& block, int group) const {
+/// About the middle of a tile, relative to the light.
+dvec3 PatchRays::centre_of(const PointSquare& square, int tile) const {
   dvec3 centre;
   for (int k = 0; k < 3; ++k) {
-    centre[k] = static_cast<double>(block.base[k]) - source_.origin[k] +
-                0.5 * static_cast<double>(block.low[k][group]) + 0.5 * static_cast<double>(block.high[k][group]);
+    const double middle = 0.5 * static_cast<double>(square.low[k][tile]) + 0.5 * static_cast<double>(square.high[k][tile]);
+    centre[k] = static_cast<double>(square.base[k]) - source_.origin[k] + middle;
   }
   return centre;
+}
+
+dvec3 PatchRays::point_of(const PointTile& tile, int lane) const {
+  return dvec3(tile.base[0], tile.base[1], tile.base[2]) - source_.origin +
+         dvec3(tile.qx[lane], tile.qy[lane], tile.qz[lane]);
 }
 
 /// For each receiver 1: the light is on the eye's side.
@@ -113,15 +120,15 @@ void PatchRays::find_facing(const PointPatch& patch, std::vector<std::uint8_t>& 
   }
 }
 
-std::uint32_t PatchRays::facing_lanes(const PointBlock& block, int group,
+std::uint32_t PatchRays::facing_lanes(const PointSquare& square, int tile,
                                       const std::vector<std::uint8_t>& facing) const {
-  const std::uint32_t lanes = block.lanes[group];
-  if (block.receiver[group] != several_receivers) return facing[block.receiver[group]] != 0 ? lanes : 0;
-  const PointTile& tile = tiles_.tiles[block.tile[group]];
+  const std::uint32_t lanes = square.lanes[tile];
+  if (square.receiver[tile] != several_receivers) return facing[square.receiver[tile]] != 0 ? lanes : 0;
+  const PointTile& points = tiles_.tiles[square.first_tile + static_cast<std::uint32_t>(tile)];
   std::uint32_t faced = 0;
   for (std::uint32_t left = lanes; left != 0; left &= left - 1) {
     const int lane = std::countr_zero(left);
-    faced |= static_cast<std::uint32_t>(facing[tile.receiver[lane]]) << lane;
+    faced |= static_cast<std::uint32_t>(facing[points.receiver[lane]]) << lane;
   }
   return faced;
 }
@@ -135,99 +142,134 @@ std::uint32_t PatchRays::in_reach_lanes(std::uint32_t tile, std::uint32_t lanes)
   return reached;
 }
 
+void PatchRays::find_lanes(const PointSquare& square, Work& work) const {
+  work.square = &square;
+  work.present = work.gaps = 0;
+  for (std::uint32_t left = square.filled; left != 0; left &= left - 1) {
+    const int t = std::countr_zero(left);
+    const std::uint32_t number = square.first_tile + static_cast<std::uint32_t>(t);
+    std::uint32_t lanes = facing_lanes(square, t, work.out.facing);
+    if (bounded_ && lanes != 0) lanes = in_reach_lanes(number, lanes);
+    work.rays[t] = static_cast<std::uint16_t>(lanes);
+    if (lanes == 0) continue;
+    work.present |= 1u << t;
+    work.out.rays += static_cast<std::uint64_t>(std::popcount(lanes));
+    // Points that are left out may leave a gap.
+    const bool fewer = square.receiver[t] == several_receivers && lanes != square.lanes[t];
+    const bool gap = fewer ? point_kernels_.beyond_gap(tiles_.tiles[number], lanes) != 0
+                           : ((square.gaps >> t) & 1u) != 0;
+    if (gap) work.gaps |= 1u << t;
+  }
+}
+
 /// False: too wide; nothing is done.
-bool PatchRays::add_node(Work& work, std::uint32_t groups, std::uint8_t face) const {
+bool PatchRays::add_node(Work& work, std::uint8_t face) const {
   RayNode& node = work.node;
-  node.live = node.filled = groups;
+  node.live = node.filled = work.present;
   const FaceBox all = bounds_of(node);
   float wide = 0, high = 0;
-  for (std::uint32_t left = groups; left != 0; left &= left - 1) {
+  for (std::uint32_t left = work.present; left != 0; left &= left - 1) {
     const int i = std::countr_zero(left);
     wide += node.u1[i] - node.u0[i], high += node.v1[i] - node.v0[i];
   }
-  const float scale = coherent_extent / static_cast<float>(std::popcount(groups));
+  const float scale = coherent_extent / static_cast<float>(std::popcount(work.present));
   if (all.u1 - all.u0 > wide * scale || all.v1 - all.v0 > high * scale) return false;
-  for (int i = 0; i < 16; ++i) {
-    node.child[i] = work.block->tile[i];
-    node.own[i] = work.block->own[i];
+  for (std::uint32_t i = 0; i < 16; ++i) {
+    node.child[i] = work.square->first_tile + i;
+    node.own[i] = work.square->own[i];
     node.rays[i] = node.all_rays[i] = work.rays[i];
   }
   work.out.nodes.push_back(node);
   work.out.node_faces.push_back(face);
-  work.node_keys.add(centre_of(*work.block, std::countr_zero(groups)), face);
+  work.node_keys.add(centre_of(*work.square, std::countr_zero(work.present)), face);
   return true;
 }
 
-void PatchRays::add_loose(Work& work, int group, std::uint8_t face) const {
-  const PointBlock& block = *work.block;
+void PatchRays::add_ray(Work& work, int tile, int lane) const {
+  const std::uint32_t number = work.square->first_tile + static_cast<std::uint32_t>(tile);
+  const std::size_t pixel = pixel_at(number, lane);
+  const dvec3 p = points_.positions[pixel] - source_.origin;
+  const double size = std::max({std::abs(p.x), std::abs(p.y), std::abs(p.z)});
+  if (size == 0) {
+    work.out.at_light.push_back(static_cast<std::uint32_t>(pixel));
+    --work.out.rays;
+    return;
+  }
+  work.out.in_range &= size > shortest_ray && size < longest_ray;
+  const std::uint8_t face = face_of(p);
   work.out.loose.push_back(
-      {block.tile[group], block.own[group], work.rays[group], face, work.node.box(group)});
-  work.loose_keys.add(centre_of(block, group), face);
+      {number, work.square->own[tile], static_cast<std::uint16_t>(1u << lane), face, box_of(p, face)});
+  work.loose_keys.add(p, face);
 }
 
-/// A group whose box reaches beyond all faces, or to the light: its points one by one.
-void PatchRays::add_single_rays(Work& work, int group) const {
-  const std::uint32_t tile = work.block->tile[group];
-  for (std::uint32_t left = work.rays[group]; left != 0; left &= left - 1) {
-    const int lane = std::countr_zero(left);
-    const std::size_t pixel = pixel_at(tile, lane);
-    const dvec3 p = points_.positions[pixel] - source_.origin;
-    const double size = std::max({std::abs(p.x), std::abs(p.y), std::abs(p.z)});
-    if (size == 0) {
-      work.out.at_light.push_back(static_cast<std::uint32_t>(pixel));
-      --work.out.rays;
+/// Splits a tile at its gaps, and into single rays where it is off its face.
+void PatchRays::add_parts(Work& work, int tile) const {
+  const std::uint32_t number = work.square->first_tile + static_cast<std::uint32_t>(tile);
+  const PointTile& points = tiles_.tiles[number];
+  std::uint32_t parts[tile_points], size = 0;
+  parts[size++] = work.rays[tile];
+  while (size > 0) {
+    const std::uint32_t lanes = parts[--size];
+    const std::uint32_t beyond =
+        ((work.gaps >> tile) & 1u) != 0 ? point_kernels_.beyond_gap(points, lanes) : 0;
+    if (beyond != 0) {
+      parts[size++] = beyond;
+      parts[size++] = lanes & ~beyond;
       continue;
     }
-    work.out.in_range &= size > shortest_ray && size < longest_ray;
-    const std::uint8_t face = face_of(p);
-    work.out.loose.push_back(
-        {tile, work.block->own[group], static_cast<std::uint16_t>(1u << lane), face, box_of(p, face)});
-    work.loose_keys.add(p, face);
+    const dvec3 centre = 0.5 * (point_of(points, std::countr_zero(lanes)) +
+                                point_of(points, 31 - std::countl_zero(lanes)));
+    const std::uint8_t face = face_of(centre);
+    FaceBox box{};
+    if (kernels_.bound(points, lanes, source_.origin, face, box)) {
+      work.out.loose.push_back(
+          {number, work.square->own[tile], static_cast<std::uint16_t>(lanes), face, box});
+      work.loose_keys.add(centre, face);
+      continue;
+    }
+    for (std::uint32_t left = lanes; left != 0; left &= left - 1) add_ray(work, tile, std::countr_zero(left));
   }
 }
 
-/// Puts the groups with rays on faces, as many as can be on one at a time.
-void PatchRays::place_block(Work& work) const {
-  std::uint32_t left = work.present;
-  while (left != 0) {
-    const int first = std::countr_zero(left);
-    const std::uint8_t face = face_of(centre_of(*work.block, first));
-    const std::uint32_t on = kernels_.project(*work.block, source_.origin, face, work.node) & left;
-    if (((on >> first) & 1u) == 0) {
-      add_single_rays(work, first);
-      left &= left - 1;
-      continue;
-    }
-    left &= ~on;
-    if (work.block->whole && on == work.present && add_node(work, on, face)) return;
-    for (std::uint32_t loose = on; loose != 0; loose &= loose - 1)
-      add_loose(work, std::countr_zero(loose), face);
+/// Boxes of the square's tiles on one face; false: not all are on it.
+bool PatchRays::project(Work& work, std::uint8_t face) const {
+  const PointSquare& square = *work.square;
+  const std::uint32_t on = kernels_.project(square, source_.origin, face, work.node);
+  if ((work.present & ~on) != 0) return false;
+  // The box of points on several triangles is wider than they are.
+  for (std::uint32_t left = work.present; left != 0; left &= left - 1) {
+    const int t = std::countr_zero(left);
+    if (square.receiver[t] != several_receivers) continue;
+    FaceBox box{};
+    const PointTile& points = tiles_.tiles[square.first_tile + static_cast<std::uint32_t>(t)];
+    if (kernels_.bound(points, work.rays[t], source_.origin, face, box)) work.node.set_box(t, box);
   }
+  return true;
+}
+
+void PatchRays::place_square(Work& work) const {
+  if (work.gaps == 0) {
+    const std::uint8_t face = face_of(centre_of(*work.square, std::countr_zero(work.present)));
+    if (project(work, face) && add_node(work, face)) return;
+  }
+  for (std::uint32_t left = work.present; left != 0; left &= left - 1) add_parts(work, std::countr_zero(left));
 }
 
 void PatchRays::find(const PointPatch& patch, ForestScratch::Patch& out) const {
   out.clear();
   find_facing(patch, out.facing);
   Work work(ray_kernels_, out);
-  for (const PointBlock& block : patch.blocks) {
-    work.block = &block;
-    work.present = 0;
-    for (std::uint32_t left = block.filled; left != 0; left &= left - 1) {
-      const int group = std::countr_zero(left);
-      std::uint32_t lanes = facing_lanes(block, group, out.facing);
-      if (bounded_ && lanes != 0) lanes = in_reach_lanes(block.tile[group], lanes);
-      work.rays[group] = static_cast<std::uint16_t>(lanes);
-      if (lanes != 0) work.present |= 1u << group;
-      out.rays += static_cast<std::uint64_t>(std::popcount(lanes));
-    }
+  for (const PointSquare& square : patch.squares) {
+    find_lanes(square, work);
     if (work.present == 0) continue;
-    out.tau = std::max(out.tau, block.tau);
-    double farthest = block.radius;
-    for (int k = 0; k < 3; ++k)
-      farthest = std::max(farthest, std::abs(static_cast<double>(block.base[k]) - source_.origin[k]) +
-                                        static_cast<double>(block.radius));
+    out.tau = std::max(out.tau, square.tau);
+    double farthest = square.radius;
+    for (int k = 0; k < 3; ++k) {
+      const double base = std::abs(static_cast<double>(square.base[k]) - source_.origin[k]);
+      farthest = std::max(farthest, base + static_cast<double>(square.radius));
+    }
     out.in_range &= farthest < longest_ray;
-    if (out.in_range) place_block(work);
+    if (out.in_range) place_square(work);
   }
   work.node_keys.flush();
   work.loose_keys.flush();

@@ -4,20 +4,21 @@
 #include <cstdint>
 #include <vector>
 
+#include "points/point_tile_kernels.h"
 #include "shadow/ray_kernels.h"
 #include "shadow/tiles/ray_forest.h"
 #include "shadow/tiles/tile_kernels.h"
 
 namespace tenebra {
 
-/// Finds the rays of a patch: which groups of points face the light, and where they are on the cube around
-/// it. One for all threads.
+/// Finds the rays of a patch: which points face the light, and where they are on the cube around it. One for
+/// all threads.
 class PatchRays {
 public:
   PatchRays(const VisiblePoints& points, const PointTiles& tiles, const TriangleView& triangles, const ShadowLight& light,
             const RaySource& source, const HardShadowConfig& config);
 
-  /// Whole squares become nodes as they stand, other groups are loose. Both with keys along the curve.
+  /// Squares without gaps become nodes as they stand, other groups are loose. Both with keys along the curve.
   void find(const PointPatch& patch, ForestScratch::Patch& out) const;
 
 private:
@@ -25,15 +26,17 @@ private:
   struct Work;
 
   void find_facing(const PointPatch& patch, std::vector<std::uint8_t>& facing) const;
-  std::uint32_t facing_lanes(const PointBlock& block, int group,
-                             const std::vector<std::uint8_t>& facing) const;
+  void find_lanes(const PointSquare& square, Work& work) const;
+  std::uint32_t facing_lanes(const PointSquare& square, int tile, const std::vector<std::uint8_t>& facing) const;
   std::uint32_t in_reach_lanes(std::uint32_t tile, std::uint32_t lanes) const;
   std::size_t pixel_at(std::uint32_t tile, int lane) const;
-  glm::dvec3 centre_of(const PointBlock& block, int group) const;
-  void place_block(Work& work) const;
-  bool add_node(Work& work, std::uint32_t groups, std::uint8_t face) const;
-  void add_loose(Work& work, int group, std::uint8_t face) const;
-  void add_single_rays(Work& work, int group) const;
+  glm::dvec3 centre_of(const PointSquare& square, int tile) const;
+  glm::dvec3 point_of(const PointTile& tile, int lane) const;
+  void place_square(Work& work) const;
+  bool project(Work& work, std::uint8_t face) const;
+  bool add_node(Work& work, std::uint8_t face) const;
+  void add_parts(Work& work, int tile) const;
+  void add_ray(Work& work, int tile, int lane) const;
 
   const VisiblePoints& points_;
   const PointTiles& tiles_;
@@ -43,6 +46,7 @@ private:
   TilePixels pixels_;
   bool bounded_;  ///< by a cone or a range
   TileKernels kernels_;
+  PointTileKernels point_kernels_;
   RayKernels ray_kernels_;
 };
 

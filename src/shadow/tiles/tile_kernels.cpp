@@ -7,6 +7,8 @@
 // After foreach_target.h
 #include "simd/pack-inl.h"
 
+#include <bit>
+
 HWY_BEFORE_NAMESPACE();
 namespace tenebra::HWY_NAMESPACE {
 
@@ -31,19 +33,19 @@ Facing facing(const ReceiverBlock& r, const glm::vec3& light) {
 struct Range {
   Float16 low, high;
 };
-HWY_INLINE Range range_of(const PointBlock& block, const glm::dvec3& light, int axis) {
-  const auto base = static_cast<float>(static_cast<double>(block.base[axis]) - light[axis]);
+HWY_INLINE Range range_of(const PointSquare& square, const glm::dvec3& light, int axis) {
+  const auto base = static_cast<float>(static_cast<double>(square.base[axis]) - light[axis]);
   const Float16 centre = splat<Float16>(base),
-                margin = splat<Float16>(5 * u * ((base < 0 ? -base : base) + block.radius));
-  return {centre + load<Float16>(block.low[axis]) - margin, centre + load<Float16>(block.high[axis]) + margin};
+                margin = splat<Float16>(5 * u * ((base < 0 ? -base : base) + square.radius));
+  return {centre + load<Float16>(square.low[axis]) - margin, centre + load<Float16>(square.high[axis]) + margin};
 }
 
 // The ranges are true bounds; the quotients are rounded by 2u: 6u of values up to face_limit. The boxes of
 // triangles are off by 5u of values up to face_limit: 16u. Together 32u.
-std::uint32_t project(const PointBlock& block, const glm::dvec3& light, int face, RayNode& node) {
+std::uint32_t project(const PointSquare& square, const glm::dvec3& light, int face, RayNode& node) {
   const int axis = face / 2;
-  const Range across[2] = {range_of(block, light, (axis + 1) % 3), range_of(block, light, (axis + 2) % 3)};
-  Range z = range_of(block, light, axis);
+  const Range across[2] = {range_of(square, light, (axis + 1) % 3), range_of(square, light, (axis + 2) % 3)};
+  Range z = range_of(square, light, axis);
   const Float16 zero = splat<Float16>(0.0f), one = splat<Float16>(1.0f);
   if (face % 2 != 0) z = {zero - z.high, zero - z.low};
   const Float16 near_inverse = one / z.low, far_inverse = one / z.high;
@@ -60,13 +62,38 @@ std::uint32_t project(const PointBlock& block, const glm::dvec3& light, int face
   }
   store(far_inverse * splat<Float16>(1 - 16 * u), node.w);
   store(near_inverse * splat<Float16>(1 + 16 * u), node.w1);
-  return block.filled & bits(on);
+  return square.filled & bits(on);
+}
+
+// The coordinates of points are off by the margins of range_of: u by (margin + face_limit margin of z) / z.
+bool bound(const PointTile& tile, std::uint32_t lanes, const glm::dvec3& light, int face, FaceBox& box) {
+  const float* const q[3] = {tile.qx, tile.qy, tile.qz};
+  const Truth<float, 16> there = truth_of<float, 16>(lanes);
+  const int first = std::countr_zero(lanes);
+  float margins[3];
+  Float16 p[3];
+  for (int k = 0; k < 3; ++k) {
+    const int axis = (face / 2 + 1 + k) % 3;
+    const auto base = static_cast<float>(static_cast<double>(tile.base[axis]) - light[axis]);
+    margins[k] = 5 * u * ((base < 0 ? -base : base) + tile.radius);
+    p[k] = splat<Float16>(base) + choose(there, load<Float16>(q[axis]), splat<Float16>(q[axis][first]));
+  }
+  if (face % 2 != 0) p[2] = splat<Float16>(0.0f) - p[2];
+  const float nearest = least(p[2]) - margins[2], farthest = greatest(p[2]) + margins[2];
+  if (!(nearest > shortest_ray)) return false;
+  const Float16 w = splat<Float16>(1.0f) / p[2], pu = p[0] * w, pv = p[1] * w;
+  const float near_inverse = 1 / nearest, off = (1 + 16 * u) * near_inverse;
+  const float u_margin = (margins[0] + 3.1f * margins[2]) * off + 32 * u,
+              v_margin = (margins[1] + 3.1f * margins[2]) * off + 32 * u;
+  box = {least(pu) - u_margin,     greatest(pu) + u_margin,          least(pv) - v_margin,
+         greatest(pv) + v_margin, (1 - 16 * u) / farthest, near_inverse * (1 + 16 * u)};
+  return box.u0 >= -face_limit && box.u1 <= face_limit && box.v0 >= -face_limit && box.v1 <= face_limit;
 }
 
 }  // namespace
 
 TileKernels tile_kernels() {
-  return {facing, project};
+  return {facing, project, bound};
 }
 
 }  // namespace tenebra::HWY_NAMESPACE

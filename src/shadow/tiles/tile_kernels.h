@@ -1,4 +1,4 @@
-// What is done to sixteen groups of points, or to sixteen of the triangles they lie on, before any caster is
+// What is done to sixteen tiles of points, or to sixteen of the triangles they lie on, before any caster is
 // met.
 #pragma once
 
@@ -20,10 +20,13 @@ struct Facing {
 /// Code for one instruction set.
 struct TileKernels {
   Facing (*facing)(const ReceiverBlock& receivers, const glm::vec3& light) = nullptr;
-  /// Boxes of a block's groups on a face, widened, into `node`. Returns the bits of those all of whose points
+  /// Boxes of a square's tiles on a face, widened, into `node`. Returns the bits of those all of whose points
   /// are on the face (z > shortest_ray, within face_limit); the boxes of others mean nothing.
-  std::uint32_t (*project)(const PointBlock& block, const glm::dvec3& light, int face,
+  std::uint32_t (*project)(const PointSquare& square, const glm::dvec3& light, int face,
                            RayNode& node) = nullptr;
+  /// The same for some lanes (not 0) of a tile, from the points themselves.
+  bool (*bound)(const PointTile& tile, std::uint32_t lanes, const glm::dvec3& light, int face,
+                FaceBox& box) = nullptr;
 };
 TileKernels tile_kernels(SimdLevel level);
 
