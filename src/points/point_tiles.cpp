@@ -185,6 +185,8 @@ void PatchMaker::add_square(std::uint32_t x, std::uint32_t y, std::uint32_t firs
   const bool finite = std::isfinite(base.x) && std::isfinite(base.y) && std::isfinite(base.z);
   if (!finite) square.radius = std::numeric_limits<float>::infinity();
   for (int k = 0; k < 3; ++k) square.base[k] = base[k];
+  for (std::uint32_t left = square.filled; left != 0; left &= left - 1)
+    out_.tiles[first + static_cast<std::uint32_t>(std::countr_zero(left))].radius = square.radius;
   patch_.squares.push_back(square);
 }
 

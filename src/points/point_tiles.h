@@ -27,8 +27,8 @@ inline constexpr std::uint16_t several_receivers = 0xffffu;  ///< no index of a 
 /// that face away from the eye or see nothing hold the q of another.
 struct alignas(64) PointTile {
   float qx[tile_points], qy[tile_points], qz[tile_points];
-  float base[3];  ///< exact; of the whole square
-  float radius;   ///< >= |q| of all lanes
+  float base[3];  ///< exact; of the whole square too
+  float radius;   ///< >= |q| of all points of the square
   std::uint32_t pixel;
   float tau;                            ///< largest rounding tolerance of the points' triangles, rounded up
   std::uint64_t owners;                 ///< bit id % 64 of all triangles that points lie on

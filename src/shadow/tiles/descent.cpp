@@ -11,6 +11,8 @@
 #include "shadow/decide.h"
 #include "shadow/tiles/cluster_planes-inl.h"
 #include "shadow/tiles/face_tests-inl.h"
+#include "shadow/tiles/ray_test-inl.h"
+#include "shadow/tiles/tile_bounds-inl.h"
 #include "simd/pack-inl.h"
 
 #include <bit>
@@ -30,10 +32,18 @@ struct RayRef {
   FaceBox box;
 };
 
+/// A triangle on its way down.
+struct Caster {
+  FaceTriangle face;
+  LeafTriangle leaf;
+  Aim aim;
+};
+
 class RootDescent {
 public:
   RootDescent(const Descent& d, std::uint32_t root, DescentScratch& scratch, TraceStats& stats)
       : d_(d),
+        root_(root),
         face_(face_axes(d.forest.faces[root])),
         light_(d.source.light),
         skip_own_(d.contact == ContactRule::triangle_ids),
@@ -53,6 +63,7 @@ private:
     ++n.tests;
     ++stats_.nodes;
   }
+  void fetch_nodes(const RayNode& n, int level, std::uint32_t slots) const;
   void fetch_tiles(const RayNode& n, std::uint32_t slots) const;
   bool narrow(RayRef& rays, const FaceBox& box);
   void collect(int level, std::uint32_t number, const FaceBox& box, int& count);
@@ -60,9 +71,10 @@ private:
   void meet_tiles(const TriangleCluster& cluster, std::uint32_t ahead, const FaceBoxes& boxes);
   void meet_triangles(const TriangleCluster& cluster, const RayRef& rays, std::uint32_t left,
                       const FaceBoxes& boxes);
-  void descend_triangle(int level, std::uint32_t number, const FaceTriangle& t, int lane, std::uint32_t id);
+  void descend_triangle(int level, std::uint32_t number, Caster& t);
   std::uint32_t cover_tiles(RayNode& n, const FaceTriangle& t, std::uint32_t met, std::uint32_t id);
-  void test_triangle(std::uint32_t number, int slot, int i, std::uint32_t id);
+  void test_slot(std::uint32_t number, int slot, const LeafTriangle& t, Aim& aim);
+  void shrink(RayNode& n, int slot) const;
   void block_rays(RayNode& n, int slot, std::uint32_t sure, std::uint32_t open, std::uint32_t id);
   /// Whether some of the points may lie on the triangle, which never blocks those.
   bool may_own(const PointTile& tile, std::uint32_t id) const {
@@ -74,6 +86,7 @@ private:
   void retire(int level, std::uint32_t number);
 
   const Descent& d_;
+  const std::uint32_t root_;
   const Face face_;
   const glm::vec3 light_;
   const bool skip_own_;  ///< a triangle never blocks its own points
@@ -87,6 +100,15 @@ void RootDescent::fetch_tiles(const RayNode& n, std::uint32_t slots) const {
   for (; slots != 0; slots &= slots - 1) {
     const auto* at = reinterpret_cast<const char*>(&d_.tiles.tiles[n.child[std::countr_zero(slots)]]);
     for (std::size_t line = 0; line < sizeof(PointTile); line += 64) fetch_soon(at + line);
+  }
+}
+
+void RootDescent::fetch_nodes(const RayNode& n, int level, std::uint32_t slots) const {
+  if ((slots & (slots - 1)) == 0) return;
+  const std::vector<RayNode>& below = d_.forest.levels[static_cast<std::size_t>(level) - 1];
+  for (; slots != 0; slots &= slots - 1) {
+    const auto* at = reinterpret_cast<const char*>(&below[n.child[std::countr_zero(slots)]]);
+    for (std::size_t line = 0; line < sizeof(RayNode); line += 64) fetch_soon(at + line);
   }
 }
 
@@ -137,6 +159,7 @@ void RootDescent::collect(int level, std::uint32_t number, const FaceBox& box, i
     count += std::popcount(met);
     return;
   }
+  fetch_nodes(n, level, met);
   for (; met != 0 && count <= few_tiles; met &= met - 1)
     collect(level - 1, n.child[std::countr_zero(met)], box, count);
 }
@@ -172,7 +195,10 @@ void RootDescent::meet_tiles(const TriangleCluster& cluster, std::uint32_t ahead
       }
       for (; near != 0 && n.rays[slot] != 0; near &= near - 1) {
         const int i = std::countr_zero(near);
-        test_triangle(hit.node, slot, i, cluster.ids[i]);
+        LeafTriangle t;
+        take_triangle(scratch_.planes, i, cluster.ids[i], t);
+        Aim aim{no_square};
+        test_slot(hit.node, slot, t, aim);
       }
     }
     if (n.live == 0) retire(0, hit.node);
@@ -186,28 +212,31 @@ void RootDescent::meet_triangles(const TriangleCluster& cluster, const RayRef& r
   store(boxes.u0, u0), store(boxes.u1, u1), store(boxes.v0, v0), store(boxes.v1, v1), store(boxes.w, w);
   for (; left != 0; left &= left - 1) {
     const int i = std::countr_zero(left);
-    FaceTriangle t = face_triangle(scratch_.planes, i, face_, d_.forest.tau);
-    t.box = {u0[i], u1[i], v0[i], v1[i], w[i]};
-    descend_triangle(rays.level, rays.node, t, i, cluster.ids[i]);
+    Caster t;
+    t.face = face_triangle(scratch_.planes, i, face_, d_.forest.tau);
+    t.face.box = {u0[i], u1[i], v0[i], v1[i], w[i]};
+    take_triangle(scratch_.planes, i, cluster.ids[i], t.leaf);
+    t.aim.square = no_square;
+    descend_triangle(rays.level, rays.node, t);
   }
 }
 
-void RootDescent::descend_triangle(int level, std::uint32_t number, const FaceTriangle& t, int lane,
-                                   std::uint32_t id) {
+void RootDescent::descend_triangle(int level, std::uint32_t number, Caster& t) {
   RayNode& n = node(level, number);
   note_test(n);
-  std::uint32_t met = children_met(n, t);
+  std::uint32_t met = children_met(n, t.face);
   if (level == 0 && met != 0) {
-    if (skip_own_) met &= ~equal_bits(n.own, id);
-    met = cover_tiles(n, t, met, id);
+    if (skip_own_) met &= ~equal_bits(n.own, t.leaf.id);
+    met = cover_tiles(n, t.face, met, t.leaf.id);
   }
+  if (level > 0) fetch_nodes(n, level, met);
   for (; met != 0; met &= met - 1) {
     const int slot = std::countr_zero(met);
     if (level > 0) {
-      descend_triangle(level - 1, n.child[slot], t, lane, id);
-      continue;
+      descend_triangle(level - 1, n.child[slot], t);
+    } else {
+      test_slot(number, slot, t.leaf, t.aim);
     }
-    test_triangle(number, slot, lane, id);
   }
   if (n.live == 0) retire(level, number);
 }
@@ -227,35 +256,31 @@ std::uint32_t RootDescent::cover_tiles(RayNode& n, const FaceTriangle& t, std::u
   return met;
 }
 
-// Sixteen rays against a triangle: its planes at the tile's base in double, the rest in float. With r >= |q| a
-// sum in floats is off by at most K = 10.1 u r + rho (R + reach), or cannot have the wrong sign at all
-// (|e0| > 2r); R <= |base| + r, by coordinates. The own plane opens tau of the rays' own triangles later.
-void RootDescent::test_triangle(std::uint32_t number, int slot, int i, std::uint32_t id) {
+// The rays of a node's slot against a triangle.
+void RootDescent::test_slot(std::uint32_t number, int slot, const LeafTriangle& t, Aim& aim) {
   RayNode& n = node(0, number);
   const PointTile& rays = tile(n, slot);
-  const ClusterPlanes& c = scratch_.planes;
   if (d_.tile_tests != nullptr) ++(*d_.tile_tests)[number][static_cast<std::size_t>(slot)];
   ++stats_.nodes;
   stats_.leaf_tests += static_cast<std::uint64_t>(std::popcount(n.rays[slot]));
-  double base[3];
-  for (int k = 0; k < 3; ++k) base[k] = static_cast<double>(rays.base[k]) - d_.source.origin[k];
-  const auto reach = static_cast<float>(std::abs(base[0]) + std::abs(base[1]) + std::abs(base[2])) + rays.radius;
-  const float k = (10.1f * u * rays.radius + 2 * u * rays.tau + c.rho[i] * (reach + c.reach[i])) * (1 + 32 * u) +
-                  0x1p-122f;
-  const Pack3<Float16> q{load<Float16>(rays.qx), load<Float16>(rays.qy), load<Float16>(rays.qz)};
-  const auto value = [&](int plane) HWY_ATTR {
-    const double e0 = c.mx[plane][i] * base[0] - (plane == 3 ? c.d[i] : 0.0) + c.my[plane][i] * base[1] +
-                      c.mz[plane][i] * base[2];
-    const Pack3<Float16> m = splat3<Float16>(c.fx[plane][i], c.fy[plane][i], c.fz[plane][i]);
-    return multiply_add(
-        m.z, q.z, multiply_add(m.y, q.y, multiply_add(m.x, q.x, splat<Float16>(static_cast<float>(e0)))));
-  };
-  const Float16 edges = min(value(0), min(value(1), value(2))), own = value(3);
-  const std::uint32_t missed = less_bits(min(edges, own), splat<Float16>(-k));
-  const std::uint32_t near = n.rays[slot] & ~missed;
-  if (near == 0) return;
-  const std::uint32_t sure = less_bits(splat<Float16>(k), min(edges, own - splat<Float16>(rays.tau)));
-  block_rays(n, slot, near & sure, near & ~sure, id);
+  if (aim.square != n.child[slot] / 16) {
+    aim.square = n.child[slot] / 16;
+    take_aim(t, rays, d_.source.origin, aim);
+  }
+  const Verdict verdict = test_rays(t, aim, rays, n.tau);
+  const std::uint32_t near = n.rays[slot] & verdict.near;
+  if (near != 0) {
+    block_rays(n, slot, near & verdict.sure, near & ~verdict.sure, t.id);
+  } else if (((n.wide >> slot) & 1u) != 0) {
+    shrink(n, slot);
+  }
+}
+
+// What missed all rays may have met the box only: of all points, or of rays that are blocked by now.
+void RootDescent::shrink(RayNode& n, int slot) const {
+  FaceBox box{};
+  if (bound(tile(n, slot), n.rays[slot], d_.source.origin, d_.forest.faces[root_], box)) n.set_box(slot, box);
+  n.wide &= ~(1u << slot);
 }
 
 // Lanes of `sure` are blocked but for the triangle's own points, those of `open` may be.
@@ -267,6 +292,7 @@ void RootDescent::block_rays(RayNode& n, int slot, std::uint32_t sure, std::uint
   }
   const std::uint32_t left = n.rays[slot] & ~(open == 0 ? sure : sure | blocked_lanes(rays, open, id));
   n.rays[slot] = static_cast<std::uint16_t>(left);
+  n.wide |= 1u << slot;
   if (left == 0) n.live &= ~(1u << slot);
 }
 

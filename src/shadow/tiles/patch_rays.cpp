@@ -67,6 +67,7 @@ struct PatchRays::Work {
   std::uint16_t rays[16] = {};
   std::uint32_t present = 0;  ///< bits of tiles with rays
   std::uint32_t gaps = 0;     ///< bits of those with a gap between rays
+  std::uint32_t wide = 0;     ///< bits of those whose boxes are wider than the rays
   RayNode node{};             ///< boxes
 };
 
@@ -142,6 +143,16 @@ std::uint32_t PatchRays::in_reach_lanes(std::uint32_t tile, std::uint32_t lanes)
   return reached;
 }
 
+/// Asks for the tiles that are looked at more closely: with points on several triangles.
+void PatchRays::fetch_mixed_tiles(const PointSquare& square) const {
+  for (std::uint32_t left = square.filled; left != 0; left &= left - 1) {
+    const int t = std::countr_zero(left);
+    if (square.receiver[t] != several_receivers) continue;
+    const auto* at = reinterpret_cast<const char*>(&tiles_.tiles[square.first_tile + static_cast<std::uint32_t>(t)]);
+    for (std::size_t line = 0; line < sizeof(PointTile); line += 64) __builtin_prefetch(at + line);
+  }
+}
+
 void PatchRays::find_lanes(const PointSquare& square, Work& work) const {
   work.square = &square;
   work.present = work.gaps = 0;
@@ -153,7 +164,7 @@ void PatchRays::find_lanes(const PointSquare& square, Work& work) const {
     work.rays[t] = static_cast<std::uint16_t>(lanes);
     if (lanes == 0) continue;
     work.present |= 1u << t;
-    work.out.rays += static_cast<std::uint64_t>(std::popcount(lanes));
+    work.out.rays += lanes == 0xffffu ? 16u : static_cast<std::uint64_t>(std::popcount(lanes));
     // Points that are left out may leave a gap.
     const bool fewer = square.receiver[t] == several_receivers && lanes != square.lanes[t];
     const bool gap = fewer ? point_kernels_.beyond_gap(tiles_.tiles[number], lanes) != 0
@@ -179,6 +190,8 @@ bool PatchRays::add_node(Work& work, std::uint8_t face) const {
     node.own[i] = work.square->own[i];
     node.rays[i] = node.all_rays[i] = work.rays[i];
   }
+  node.tau = work.square->tau;
+  node.wide = work.wide;
   work.out.nodes.push_back(node);
   work.out.node_faces.push_back(face);
   work.node_keys.add(centre_of(*work.square, std::countr_zero(work.present)), face);
@@ -198,7 +211,7 @@ void PatchRays::add_ray(Work& work, int tile, int lane) const {
   work.out.in_range &= size > shortest_ray && size < longest_ray;
   const std::uint8_t face = face_of(p);
   work.out.loose.push_back(
-      {number, work.square->own[tile], static_cast<std::uint16_t>(1u << lane), face, box_of(p, face)});
+      {number, work.square->own[tile], static_cast<std::uint16_t>(1u << lane), face, work.square->tau, box_of(p, face)});
   work.loose_keys.add(p, face);
 }
 
@@ -223,7 +236,7 @@ void PatchRays::add_parts(Work& work, int tile) const {
     FaceBox box{};
     if (kernels_.bound(points, lanes, source_.origin, face, box)) {
       work.out.loose.push_back(
-          {number, work.square->own[tile], static_cast<std::uint16_t>(lanes), face, box});
+          {number, work.square->own[tile], static_cast<std::uint16_t>(lanes), face, work.square->tau, box});
       work.loose_keys.add(centre, face);
       continue;
     }
@@ -236,13 +249,14 @@ bool PatchRays::project(Work& work, std::uint8_t face) const {
   const PointSquare& square = *work.square;
   const std::uint32_t on = kernels_.project(square, source_.origin, face, work.node);
   if ((work.present & ~on) != 0) return false;
-  // The box of points on several triangles is wider than they are.
+  // The box of points on several triangles may be much wider than they are.
+  work.wide = work.present;
   for (std::uint32_t left = work.present; left != 0; left &= left - 1) {
     const int t = std::countr_zero(left);
     if (square.receiver[t] != several_receivers) continue;
     FaceBox box{};
     const PointTile& points = tiles_.tiles[square.first_tile + static_cast<std::uint32_t>(t)];
-    if (kernels_.bound(points, work.rays[t], source_.origin, face, box)) work.node.set_box(t, box);
+    if (kernels_.bound(points, work.rays[t], source_.origin, face, box)) work.node.set_box(t, box), work.wide &= ~(1u << t);
   }
   return true;
 }
@@ -260,6 +274,7 @@ void PatchRays::find(const PointPatch& patch, ForestScratch::Patch& out) const {
   find_facing(patch, out.facing);
   Work work(ray_kernels_, out);
   for (const PointSquare& square : patch.squares) {
+    if (&square != &patch.squares.back()) fetch_mixed_tiles(*(&square + 1));
     find_lanes(square, work);
     if (work.present == 0) continue;
     out.tau = std::max(out.tau, square.tau);

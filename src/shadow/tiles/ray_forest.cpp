@@ -67,6 +67,7 @@ void group_loose(ForestScratch& s) {
       node.child[k] = loose.tile;
       node.own[k] = loose.own;
       node.rays[k] = node.all_rays[k] = loose.rays;
+      node.tau = std::max(node.tau, loose.tau);
       node.set_box(k, loose.box);
       node.live |= 1u << k;
     }

@@ -43,8 +43,10 @@ struct alignas(64) RayNode {
   std::uint32_t own[16];       ///< level 0: triangle that all points lie on; no_triangle: several
   std::uint16_t rays[16];      ///< level 0: lanes of the tile with a ray that is not yet blocked
   std::uint16_t all_rays[16];  ///< level 0: lanes that had a ray
+  float tau = 0;             ///< level 0: largest rounding tolerance of the points' triangles
   std::uint32_t live = 0;    ///< bit i: child i has rays left
   std::uint32_t filled = 0;  ///< bit i: there is a child i
+  std::uint32_t wide = 0;    ///< level 0, bit i: the box of child i may be wider than its rays
   std::uint32_t parent = 0;  ///< node of the level above
   std::uint32_t slot = 0;    ///< among its children
   std::uint32_t tests = 0;   ///< triangles and boxes that its children were tested with
@@ -78,6 +80,7 @@ struct ForestScratch {
     std::uint32_t own;
     std::uint16_t rays;
     std::uint8_t face;
+    float tau;
     FaceBox box;
   };
   struct Patch {  ///< what one patch of points gave
