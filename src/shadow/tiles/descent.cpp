@@ -22,9 +22,6 @@ namespace tenebra::HWY_NAMESPACE {
 
 namespace {
 
-// Up to so many tiles meet a cluster one by one; with more each triangle looks for its own.
-constexpr int few_tiles = 32;
-
 /// A node of rays and its own bounds.
 struct RayRef {
   int level;
@@ -32,9 +29,8 @@ struct RayRef {
   FaceBox box;
 };
 
-/// A triangle on its way down.
+/// A triangle that meets rays.
 struct Caster {
-  FaceTriangle face;
   LeafTriangle leaf;
   Aim aim;
 };
@@ -66,12 +62,13 @@ private:
   void fetch_nodes(const RayNode& n, int level, std::uint32_t slots) const;
   void fetch_tiles(const RayNode& n, std::uint32_t slots) const;
   bool narrow(RayRef& rays, const FaceBox& box);
-  void collect(int level, std::uint32_t number, const FaceBox& box, int& count);
   void meet_cluster(const TriangleCluster& cluster, const RayRef& rays, const FaceBox& box);
-  void meet_tiles(const TriangleCluster& cluster, std::uint32_t ahead, const FaceBoxes& boxes);
-  void meet_triangles(const TriangleCluster& cluster, const RayRef& rays, std::uint32_t left,
-                      const FaceBoxes& boxes);
-  void descend_triangle(int level, std::uint32_t number, Caster& t);
+  void descend_cluster(const RayRef& rays, std::uint32_t mask);
+  void set_up_cluster();
+  Caster& take(int i);
+  void meet_tiles(const RayRef& rays, std::uint32_t met, std::uint32_t mask);
+  void meet_tile(std::uint32_t number, int slot, std::uint32_t mask);
+  void meet_triangle(std::uint32_t number, int i, const FaceTriangle& t);
   std::uint32_t cover_tiles(RayNode& n, const FaceTriangle& t, std::uint32_t met, std::uint32_t id);
   void test_slot(std::uint32_t number, int slot, const LeafTriangle& t, Aim& aim);
   void shrink(RayNode& n, int slot) const;
@@ -92,6 +89,14 @@ private:
   const bool skip_own_;  ///< a triangle never blocks its own points
   DescentScratch& scratch_;
   TraceStats& stats_;
+  // Of the cluster that is on its way down.
+  const TriangleCluster* cluster_ = nullptr;
+  FaceBox cluster_box_{};
+  FaceBoxes boxes_;      ///< of its triangles
+  bool set_up_ = false;  ///< the scratch's planes, and the same on the face
+  FaceCluster on_face_;
+  std::uint32_t taken_ = 0;  ///< bits of the casters that are ready
+  Caster casters_[16];
 };
 
 // Asks for what tests read of the tiles, all at once.
@@ -149,96 +154,95 @@ void RootDescent::visit(std::size_t level, std::size_t number, const RayRef& ray
   }
 }
 
-// Tiles below the node that the box meets, into scratch_.hits, at least until they are more than few.
-void RootDescent::collect(int level, std::uint32_t number, const FaceBox& box, int& count) {
-  RayNode& n = node(level, number);
-  note_test(n);
-  std::uint32_t met = children_met(n, box);
-  if (level == 0) {
-    if (met != 0) scratch_.hits.push_back({number, met});
-    count += std::popcount(met);
-    return;
-  }
-  fetch_nodes(n, level, met);
-  for (; met != 0 && count <= few_tiles; met &= met - 1)
-    collect(level - 1, n.child[std::countr_zero(met)], box, count);
-}
-
 void RootDescent::meet_cluster(const TriangleCluster& cluster, const RayRef& rays, const FaceBox& box) {
-  scratch_.hits.clear();
-  int tiles = 0;
-  collect(rays.level, rays.node, box, tiles);
-  if (tiles == 0) return;
-  FaceBoxes boxes;
-  const std::uint32_t ahead = project_triangles(cluster, light_, face_, box, boxes);
-  if (tiles <= few_tiles) return meet_tiles(cluster, ahead, boxes);
-  set_up_planes(cluster, d_.source, skip_own_, d_.cull_front, scratch_.planes);
-  meet_triangles(cluster, rays, ahead & scratch_.planes.valid, boxes);
+  const std::uint32_t ahead = project_triangles(cluster, light_, face_, box, boxes_) & boxes_met(boxes_, rays.box);
+  if (ahead == 0) return;
+  cluster_ = &cluster;
+  cluster_box_ = box;
+  set_up_ = false;
+  taken_ = 0;
+  descend_cluster(rays, ahead);
 }
 
-// Few tiles: each looks for its triangles, whose planes are not needed before one is found.
-void RootDescent::meet_tiles(const TriangleCluster& cluster, std::uint32_t ahead, const FaceBoxes& boxes) {
-  bool set_up = false;
-  for (const DescentScratch::Hits& hit : scratch_.hits) {
-    RayNode& n = node(0, hit.node);
-    for (std::uint32_t left = hit.tiles; left != 0; left &= left - 1) {
-      const int slot = std::countr_zero(left);
-      note_test(n);
-      std::uint32_t near = ahead & boxes_met(boxes, n.box(slot));
-      if (skip_own_) near &= ~equal_bits(cluster.ids, n.own[slot]);
-      if (near == 0) continue;
-      if (!set_up) {
-        set_up = true;
-        set_up_planes(cluster, d_.source, skip_own_, d_.cull_front, scratch_.planes);
-        ahead &= scratch_.planes.valid;
-        near &= ahead;
-      }
-      for (; near != 0 && n.rays[slot] != 0; near &= near - 1) {
-        const int i = std::countr_zero(near);
-        LeafTriangle t;
-        take_triangle(scratch_.planes, i, cluster.ids[i], t);
-        Aim aim{no_square};
-        test_slot(hit.node, slot, t, aim);
-      }
-    }
-    if (n.live == 0) retire(0, hit.node);
-  }
-}
-
-// Many: each triangle looks for its tiles.
-void RootDescent::meet_triangles(const TriangleCluster& cluster, const RayRef& rays, std::uint32_t left,
-                                 const FaceBoxes& boxes) {
-  alignas(64) float u0[16], u1[16], v0[16], v1[16], w[16];
-  store(boxes.u0, u0), store(boxes.u1, u1), store(boxes.v0, v0), store(boxes.v1, v1), store(boxes.w, w);
-  for (; left != 0; left &= left - 1) {
-    const int i = std::countr_zero(left);
-    Caster t;
-    t.face = face_triangle(scratch_.planes, i, face_, d_.forest.tau);
-    t.face.box = {u0[i], u1[i], v0[i], v1[i], w[i]};
-    take_triangle(scratch_.planes, i, cluster.ids[i], t.leaf);
-    t.aim.square = no_square;
-    descend_triangle(rays.level, rays.node, t);
-  }
-}
-
-void RootDescent::descend_triangle(int level, std::uint32_t number, Caster& t) {
-  RayNode& n = node(level, number);
+// The triangles of `mask` meet the box of `rays`.
+void RootDescent::descend_cluster(const RayRef& rays, std::uint32_t mask) {
+  RayNode& n = node(rays);
   note_test(n);
-  std::uint32_t met = children_met(n, t.face);
-  if (level == 0 && met != 0) {
-    if (skip_own_) met &= ~equal_bits(n.own, t.leaf.id);
-    met = cover_tiles(n, t.face, met, t.leaf.id);
+  const std::uint32_t met = children_met(n, cluster_box_);
+  if (met == 0) return;
+  if (rays.level == 0) return meet_tiles(rays, met, mask);
+  fetch_nodes(n, rays.level, met);
+  for (std::uint32_t left = met; left != 0; left &= left - 1) {
+    const int slot = std::countr_zero(left);
+    const RayRef child{rays.level - 1, n.child[slot], n.box(slot)};
+    const std::uint32_t deeper = mask & boxes_met(boxes_, child.box);
+    note_test(n);
+    if (deeper != 0) descend_cluster(child, deeper);
   }
-  if (level > 0) fetch_nodes(n, level, met);
-  for (; met != 0; met &= met - 1) {
-    const int slot = std::countr_zero(met);
-    if (level > 0) {
-      descend_triangle(level - 1, n.child[slot], t);
-    } else {
-      test_slot(number, slot, t.leaf, t.aim);
+}
+
+// Planes in double are not needed before a triangle's box meets a node of tiles.
+void RootDescent::set_up_cluster() {
+  set_up_ = true;
+  set_up_planes(*cluster_, d_.source, skip_own_, d_.cull_front, scratch_.planes);
+  face_cluster(scratch_.planes, face_, d_.forest.tau, on_face_);
+}
+
+/// Triangle i of the cluster made ready for rays.
+Caster& RootDescent::take(int i) {
+  Caster& c = casters_[i];
+  if (((taken_ >> i) & 1u) == 0) {
+    taken_ |= 1u << i;
+    take_triangle(scratch_.planes, i, cluster_->ids[i], c.leaf);
+    c.aim.square = no_square;
+  }
+  return c;
+}
+
+// Few tiles look for their triangles sixteen at a time, few triangles for their tiles.
+void RootDescent::meet_tiles(const RayRef& rays, std::uint32_t met, std::uint32_t mask) {
+  if (!set_up_) set_up_cluster();
+  mask &= scratch_.planes.valid & triangles_met(on_face_, rays.box);
+  if (mask == 0) return;
+  RayNode& n = node(rays);
+  if (std::popcount(met) <= std::popcount(mask)) {
+    fetch_tiles(n, met);
+    for (; met != 0; met &= met - 1) meet_tile(rays.node, std::countr_zero(met), mask);
+  } else {
+    alignas(64) float u0[16], u1[16], v0[16], v1[16], w[16];
+    store(boxes_.u0, u0), store(boxes_.u1, u1), store(boxes_.v0, v0), store(boxes_.v1, v1), store(boxes_.w, w);
+    for (; mask != 0 && n.live != 0; mask &= mask - 1) {
+      const int i = std::countr_zero(mask);
+      FaceTriangle t = face_triangle(on_face_, i);
+      t.box = {u0[i], u1[i], v0[i], v1[i], w[i]};
+      meet_triangle(rays.node, i, t);
     }
   }
-  if (n.live == 0) retire(level, number);
+  if (n.live == 0) retire(0, rays.node);
+}
+
+void RootDescent::meet_tile(std::uint32_t number, int slot, std::uint32_t mask) {
+  RayNode& n = node(0, number);
+  note_test(n);
+  std::uint32_t near = mask & boxes_met(boxes_, n.box(slot));
+  if (skip_own_) near &= ~equal_bits(cluster_->ids, n.own[slot]);
+  if (near != 0) near &= triangles_met(on_face_, n.box(slot));
+  for (; near != 0 && n.rays[slot] != 0; near &= near - 1) {
+    Caster& c = take(std::countr_zero(near));
+    test_slot(number, slot, c.leaf, c.aim);
+  }
+}
+
+void RootDescent::meet_triangle(std::uint32_t number, int i, const FaceTriangle& t) {
+  RayNode& n = node(0, number);
+  note_test(n);
+  std::uint32_t met = children_met(n, t);
+  if (skip_own_) met &= ~equal_bits(n.own, cluster_->ids[i]);
+  if (met == 0) return;
+  met = cover_tiles(n, t, met, cluster_->ids[i]);
+  if (met == 0) return;
+  Caster& c = take(i);
+  for (; met != 0; met &= met - 1) test_slot(number, std::countr_zero(met), c.leaf, c.aim);
 }
 
 // Early accept: tiles that the triangle covers are done with, unread. Returns those that must be tested.

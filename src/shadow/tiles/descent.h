@@ -35,11 +35,6 @@ struct alignas(64) ClusterPlanes {
 
 /// Scratch of one thread.
 struct DescentScratch {
-  struct Hits {
-    std::uint32_t node;   ///< of level 0
-    std::uint32_t tiles;  ///< bits of its children
-  };
-  std::vector<Hits> hits;
   ClusterPlanes planes;
 };
 
