@@ -34,8 +34,8 @@ float radius_of(const Vector16& q) {
 }
 
 void fill(const TileRows& rows, const glm::vec3& base, std::uint32_t lanes, PointTile& tile) {
-  const Pack3<Double4> centre = splat3<Double4>(static_cast<double>(base.x), static_cast<double>(base.y),
-                                                static_cast<double>(base.z));
+  const Pack3<Double4> centre =
+      splat3<Double4>(static_cast<double>(base.x), static_cast<double>(base.y), static_cast<double>(base.z));
   const glm::dvec3& other = rows.point(std::countr_zero(lanes));
   Float4 x[4], y[4], z[4];
   for (int row = 0; row < 4; ++row) {
@@ -58,8 +58,7 @@ void fill(const TileRows& rows, const glm::vec3& base, std::uint32_t lanes, Poin
 std::uint32_t beyond_gap(const PointTile& tile, std::uint32_t lanes) {
   const int first = std::countr_zero(lanes);
   const Vector16 apart = points_of(tile) - splat3<Float16>(tile.qx[first], tile.qy[first], tile.qz[first]);
-  const Float16 distance2 =
-      choose(truth_of<float, 16>(lanes), dot(apart, apart), splat<Float16>(0.0f));
+  const Float16 distance2 = choose(truth_of<float, 16>(lanes), dot(apart, apart), splat<Float16>(0.0f));
   const float farthest2 = greatest(distance2);
   if (!(farthest2 > 0)) return 0;
   std::uint32_t nearer[9];

@@ -107,7 +107,8 @@ bool PatchMaker::one_receiver(std::uint32_t x, std::uint32_t y) const {
   const std::uint32_t* const ids = ids_at(x, y);
   std::uint32_t different = 0;
   for (std::size_t row = 0; row < tile_side; ++row) {
-    for (std::size_t column = 0; column < tile_side; ++column) different |= ids[row * width_ + column] ^ ids[0];
+    for (std::size_t column = 0; column < tile_side; ++column)
+      different |= ids[row * width_ + column] ^ ids[0];
   }
   return different == 0;
 }

@@ -23,8 +23,8 @@ inline constexpr std::uint32_t square_side = 16;
 inline constexpr std::uint32_t patch_squares = 64;           ///< in a row
 inline constexpr std::uint16_t several_receivers = 0xffffu;  ///< no index of a receiver
 
-/// Sixteen pixels; lane i is pixel + i % 4 + i / 4 * width. Its point is base + q_i, q rounded to float. Lanes
-/// that face away from the eye or see nothing hold the q of another.
+/// Sixteen pixels; lane i is pixel + i % 4 + i / 4 * width. Its point is base + q_i, q rounded to float.
+/// Lanes that face away from the eye or see nothing hold the q of another.
 struct alignas(64) PointTile {
   float qx[tile_points], qy[tile_points], qz[tile_points];
   float base[3];  ///< exact; of the whole square too

@@ -94,7 +94,8 @@ void compute_visible_points(std::span<const std::uint32_t> ids, int width, int h
   // Tiles are made of rows that are still near.
   parallel_tasks(static_cast<int>(grid.rows), [&](int band) {
     const auto row = static_cast<std::uint32_t>(band);
-    compute_rows(ids, row * square_side, std::min<std::size_t>((row + 1) * square_side, static_cast<std::size_t>(height)), view,
+    compute_rows(ids, row * square_side,
+                 std::min<std::size_t>((row + 1) * square_side, static_cast<std::size_t>(height)), view,
                  triangles, out);
     for (std::uint32_t part = 0; tiled && part < grid.row_patches; ++part)
       make_point_patch(out, triangles, row * grid.row_patches + part, out.tiles);

@@ -21,7 +21,8 @@ struct TriangleView {
   std::span<const glm::vec3> positions;
   std::span<const glm::uvec3> triangles;
   std::span<const std::uint8_t> casts_shadow;  ///< one a triangle; empty: all cast
-  std::span<const std::uint32_t> parts;  ///< a hint: first triangle of each group that moves as one, ascending
+  std::span<const std::uint32_t>
+      parts;                  ///< a hint: first triangle of each group that moves as one, ascending
   std::uint64_t version = 0;  ///< not 0: the caller's word that views of one number are the same throughout
 };
 inline TriangleView triangle_view(const FrameGeometry& geometry) {

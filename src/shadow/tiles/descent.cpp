@@ -155,7 +155,8 @@ void RootDescent::visit(std::size_t level, std::size_t number, const RayRef& ray
 }
 
 void RootDescent::meet_cluster(const TriangleCluster& cluster, const RayRef& rays, const FaceBox& box) {
-  const std::uint32_t ahead = project_triangles(cluster, light_, face_, box, boxes_) & boxes_met(boxes_, rays.box);
+  const std::uint32_t ahead =
+      project_triangles(cluster, light_, face_, box, boxes_) & boxes_met(boxes_, rays.box);
   if (ahead == 0) return;
   cluster_ = &cluster;
   cluster_box_ = box;
@@ -210,7 +211,8 @@ void RootDescent::meet_tiles(const RayRef& rays, std::uint32_t met, std::uint32_
     for (; met != 0; met &= met - 1) meet_tile(rays.node, std::countr_zero(met), mask);
   } else {
     alignas(64) float u0[16], u1[16], v0[16], v1[16], w[16];
-    store(boxes_.u0, u0), store(boxes_.u1, u1), store(boxes_.v0, v0), store(boxes_.v1, v1), store(boxes_.w, w);
+    store(boxes_.u0, u0), store(boxes_.u1, u1), store(boxes_.v0, v0), store(boxes_.v1, v1),
+        store(boxes_.w, w);
     for (; mask != 0 && n.live != 0; mask &= mask - 1) {
       const int i = std::countr_zero(mask);
       FaceTriangle t = face_triangle(on_face_, i);

@@ -109,8 +109,8 @@ HWY_INLINE std::uint32_t project_triangles(const TriangleCluster& c, const glm::
 }
 
 /// A cluster's triangles on a face. Plane k at the point (u, v, w) of a ray: m.(u, v, 1) - d w, the plane's
-/// value over z. |p| / z <= 4.4 on a face of +-3, so rho (|p| + reach) becomes rho (4.4 + reach w); floats and
-/// roundings add 5.1u (|mx| 3 + |my| 3 + |mz|) <= 23u for the edges, 28u and 6.1u d w for the own plane.
+/// value over z. |p| / z <= 4.4 on a face of +-3, so rho (|p| + reach) becomes rho (4.4 + reach w); floats
+/// and roundings add 5.1u (|mx| 3 + |my| 3 + |mz|) <= 23u for the edges, 28u and 6.1u d w for the own plane.
 struct FaceCluster {
   alignas(64) float mx[4][16], my[4][16], mz[4][16];
   float edge_slack[16], own_slack[16];
@@ -143,7 +143,8 @@ HWY_INLINE std::uint32_t triangles_met(const FaceCluster& c, const FaceBox& box)
   };
   const Float16 edges = min(most(0), min(most(1), most(2))) + load<Float16>(c.edge_slack);
   const Float16 own = most(3) + load<Float16>(c.own_slack);
-  return 0xffffu & ~bits(less(edges, splat<Float16>(0.0f)) | less(own, load<Float16>(c.d) * splat<Float16>(box.w)));
+  return 0xffffu &
+         ~bits(less(edges, splat<Float16>(0.0f)) | less(own, load<Float16>(c.d) * splat<Float16>(box.w)));
 }
 
 /// One triangle of a cluster.

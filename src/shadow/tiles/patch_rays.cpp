@@ -93,7 +93,8 @@ std::size_t PatchRays::pixel_at(std::uint32_t tile, int lane) const {
 dvec3 PatchRays::centre_of(const PointSquare& square, int tile) const {
   dvec3 centre;
   for (int k = 0; k < 3; ++k) {
-    const double middle = 0.5 * static_cast<double>(square.low[k][tile]) + 0.5 * static_cast<double>(square.high[k][tile]);
+    const double middle =
+        0.5 * static_cast<double>(square.low[k][tile]) + 0.5 * static_cast<double>(square.high[k][tile]);
     centre[k] = static_cast<double>(square.base[k]) - source_.origin[k] + middle;
   }
   return centre;
@@ -148,7 +149,8 @@ void PatchRays::fetch_mixed_tiles(const PointSquare& square) const {
   for (std::uint32_t left = square.filled; left != 0; left &= left - 1) {
     const int t = std::countr_zero(left);
     if (square.receiver[t] != several_receivers) continue;
-    const auto* at = reinterpret_cast<const char*>(&tiles_.tiles[square.first_tile + static_cast<std::uint32_t>(t)]);
+    const auto* at =
+        reinterpret_cast<const char*>(&tiles_.tiles[square.first_tile + static_cast<std::uint32_t>(t)]);
     for (std::size_t line = 0; line < sizeof(PointTile); line += 64) __builtin_prefetch(at + line);
   }
 }
@@ -167,8 +169,8 @@ void PatchRays::find_lanes(const PointSquare& square, Work& work) const {
     work.out.rays += lanes == 0xffffu ? 16u : static_cast<std::uint64_t>(std::popcount(lanes));
     // Points that are left out may leave a gap.
     const bool fewer = square.receiver[t] == several_receivers && lanes != square.lanes[t];
-    const bool gap = fewer ? point_kernels_.beyond_gap(tiles_.tiles[number], lanes) != 0
-                           : ((square.gaps >> t) & 1u) != 0;
+    const bool gap =
+        fewer ? point_kernels_.beyond_gap(tiles_.tiles[number], lanes) != 0 : ((square.gaps >> t) & 1u) != 0;
     if (gap) work.gaps |= 1u << t;
   }
 }
@@ -210,8 +212,8 @@ void PatchRays::add_ray(Work& work, int tile, int lane) const {
   }
   work.out.in_range &= size > shortest_ray && size < longest_ray;
   const std::uint8_t face = face_of(p);
-  work.out.loose.push_back(
-      {number, work.square->own[tile], static_cast<std::uint16_t>(1u << lane), face, work.square->tau, box_of(p, face)});
+  work.out.loose.push_back({number, work.square->own[tile], static_cast<std::uint16_t>(1u << lane), face,
+                            work.square->tau, box_of(p, face)});
   work.loose_keys.add(p, face);
 }
 
@@ -230,8 +232,8 @@ void PatchRays::add_parts(Work& work, int tile) const {
       parts[size++] = lanes & ~beyond;
       continue;
     }
-    const dvec3 centre = 0.5 * (point_of(points, std::countr_zero(lanes)) +
-                                point_of(points, 31 - std::countl_zero(lanes)));
+    const dvec3 centre =
+        0.5 * (point_of(points, std::countr_zero(lanes)) + point_of(points, 31 - std::countl_zero(lanes)));
     const std::uint8_t face = face_of(centre);
     FaceBox box{};
     if (kernels_.bound(points, lanes, source_.origin, face, box)) {
@@ -256,7 +258,8 @@ bool PatchRays::project(Work& work, std::uint8_t face) const {
     if (square.receiver[t] != several_receivers) continue;
     FaceBox box{};
     const PointTile& points = tiles_.tiles[square.first_tile + static_cast<std::uint32_t>(t)];
-    if (kernels_.bound(points, work.rays[t], source_.origin, face, box)) work.node.set_box(t, box), work.wide &= ~(1u << t);
+    if (kernels_.bound(points, work.rays[t], source_.origin, face, box))
+      work.node.set_box(t, box), work.wide &= ~(1u << t);
   }
   return true;
 }
@@ -266,7 +269,8 @@ void PatchRays::place_square(Work& work) const {
     const std::uint8_t face = face_of(centre_of(*work.square, std::countr_zero(work.present)));
     if (project(work, face) && add_node(work, face)) return;
   }
-  for (std::uint32_t left = work.present; left != 0; left &= left - 1) add_parts(work, std::countr_zero(left));
+  for (std::uint32_t left = work.present; left != 0; left &= left - 1)
+    add_parts(work, std::countr_zero(left));
 }
 
 void PatchRays::find(const PointPatch& patch, ForestScratch::Patch& out) const {

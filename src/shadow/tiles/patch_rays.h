@@ -15,8 +15,8 @@ namespace tenebra {
 /// all threads.
 class PatchRays {
 public:
-  PatchRays(const VisiblePoints& points, const PointTiles& tiles, const TriangleView& triangles, const ShadowLight& light,
-            const RaySource& source, const HardShadowConfig& config);
+  PatchRays(const VisiblePoints& points, const PointTiles& tiles, const TriangleView& triangles,
+            const ShadowLight& light, const RaySource& source, const HardShadowConfig& config);
 
   /// Squares without gaps become nodes as they stand, other groups are loose. Both with keys along the curve.
   void find(const PointPatch& patch, ForestScratch::Patch& out) const;
@@ -28,7 +28,8 @@ private:
   void find_facing(const PointPatch& patch, std::vector<std::uint8_t>& facing) const;
   void fetch_mixed_tiles(const PointSquare& square) const;
   void find_lanes(const PointSquare& square, Work& work) const;
-  std::uint32_t facing_lanes(const PointSquare& square, int tile, const std::vector<std::uint8_t>& facing) const;
+  std::uint32_t facing_lanes(const PointSquare& square, int tile,
+                             const std::vector<std::uint8_t>& facing) const;
   std::uint32_t in_reach_lanes(std::uint32_t tile, std::uint32_t lanes) const;
   std::size_t pixel_at(std::uint32_t tile, int lane) const;
   glm::dvec3 centre_of(const PointSquare& square, int tile) const;

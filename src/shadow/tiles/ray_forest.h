@@ -7,11 +7,11 @@
 // section with its apex at the light, and sixteen of them are tested in a few instructions. A face serves all
 // rays with |u|, |v| <= face_limit, so that few tiles straddle two.
 //
-// The points come in tiles of 4x4 pixels, with boxes around them (points/point_tiles.h): nothing is read of the
-// points themselves before a triangle comes near them. A square of sixteen tiles without depth gaps is a node
-// of the lowest level as it stands; the groups of the others are sorted along a Hilbert curve on the cube and
-// joined anew. The nodes are then sorted along the same curve: thousands of them, where sorting all rays is a
-// million.
+// The points come in tiles of 4x4 pixels, with boxes around them (points/point_tiles.h): nothing is read of
+// the points themselves before a triangle comes near them. A square of sixteen tiles without depth gaps is a
+// node of the lowest level as it stands; the groups of the others are sorted along a Hilbert curve on the
+// cube and joined anew. The nodes are then sorted along the same curve: thousands of them, where sorting all
+// rays is a million.
 #pragma once
 
 #include <array>
@@ -43,13 +43,13 @@ struct alignas(64) RayNode {
   std::uint32_t own[16];       ///< level 0: triangle that all points lie on; no_triangle: several
   std::uint16_t rays[16];      ///< level 0: lanes of the tile with a ray that is not yet blocked
   std::uint16_t all_rays[16];  ///< level 0: lanes that had a ray
-  float tau = 0;             ///< level 0: largest rounding tolerance of the points' triangles
-  std::uint32_t live = 0;    ///< bit i: child i has rays left
-  std::uint32_t filled = 0;  ///< bit i: there is a child i
-  std::uint32_t wide = 0;    ///< level 0, bit i: the box of child i may be wider than its rays
-  std::uint32_t parent = 0;  ///< node of the level above
-  std::uint32_t slot = 0;    ///< among its children
-  std::uint32_t tests = 0;   ///< triangles and boxes that its children were tested with
+  float tau = 0;               ///< level 0: largest rounding tolerance of the points' triangles
+  std::uint32_t live = 0;      ///< bit i: child i has rays left
+  std::uint32_t filled = 0;    ///< bit i: there is a child i
+  std::uint32_t wide = 0;      ///< level 0, bit i: the box of child i may be wider than its rays
+  std::uint32_t parent = 0;    ///< node of the level above
+  std::uint32_t slot = 0;      ///< among its children
+  std::uint32_t tests = 0;     ///< triangles and boxes that its children were tested with
 
   FaceBox box(int i) const { return {u0[i], u1[i], v0[i], v1[i], w[i], w1[i]}; }
   void set_box(int i, const FaceBox& b) {

@@ -44,15 +44,15 @@ inline constexpr std::uint32_t no_square = 0xffffffffu;
 
 // With r >= |q| a sum in floats is off by at most K = 10.1 u r + rho (R + reach), or cannot have the wrong
 // sign at all (|e0| > 2r); R <= |base| + r, by coordinates.
-HWY_INLINE void take_aim(const LeafTriangle& t, const PointTile& tile, const glm::dvec3& light,
-                         Aim& aim) {
+HWY_INLINE void take_aim(const LeafTriangle& t, const PointTile& tile, const glm::dvec3& light, Aim& aim) {
   using Double4 = Pack<double, 4>;
   double base[3];
   for (int k = 0; k < 3; ++k) base[k] = static_cast<double>(tile.base[k]) - light[k];
   Double4 e = load<Double4>(t.mx) * splat<Double4>(base[0]) - load<Double4>(t.d);
   e = multiply_add(load<Double4>(t.my), splat<Double4>(base[1]), e);
   store(demoted(multiply_add(load<Double4>(t.mz), splat<Double4>(base[2]), e)), aim.e0);
-  const auto reach = static_cast<float>(std::abs(base[0]) + std::abs(base[1]) + std::abs(base[2])) + tile.radius;
+  const auto reach =
+      static_cast<float>(std::abs(base[0]) + std::abs(base[1]) + std::abs(base[2])) + tile.radius;
   aim.sure = (10.1f * u * tile.radius + t.rho * (reach + t.reach)) * (1 + 32 * u) + 0x1p-122f;
 }
 

@@ -14,11 +14,12 @@
 HWY_BEFORE_NAMESPACE();
 namespace tenebra::HWY_NAMESPACE {
 
-/// Box on a face of some lanes (not 0) of a tile, widened; false if a point is off the face. The base relative
-/// to the light is rounded by u, as q is and as their sum is: 3u (|base| + radius), 5u with the roundings
-/// here; so the quotient is off by (margin + face_limit margin of z) / z, by 6u for its own roundings and by
-/// 16u for those of the boxes of triangles.
-HWY_INLINE bool bound(const PointTile& tile, std::uint32_t lanes, const glm::dvec3& light, int face, FaceBox& box) {
+/// Box on a face of some lanes (not 0) of a tile, widened; false if a point is off the face. The base
+/// relative to the light is rounded by u, as q is and as their sum is: 3u (|base| + radius), 5u with the
+/// roundings here; so the quotient is off by (margin + face_limit margin of z) / z, by 6u for its own
+/// roundings and by 16u for those of the boxes of triangles.
+HWY_INLINE bool bound(const PointTile& tile, std::uint32_t lanes, const glm::dvec3& light, int face,
+                      FaceBox& box) {
   constexpr float u = 0x1p-24f;
   const float* const q[3] = {tile.qx, tile.qy, tile.qz};
   const Truth<float, 16> there = truth_of<float, 16>(lanes);
@@ -38,7 +39,7 @@ HWY_INLINE bool bound(const PointTile& tile, std::uint32_t lanes, const glm::dve
   const float near_inverse = 1 / nearest, off = (1 + 16 * u) * near_inverse;
   const float u_margin = (margins[0] + 3.1f * margins[2]) * off + 32 * u,
               v_margin = (margins[1] + 3.1f * margins[2]) * off + 32 * u;
-  box = {least(pu) - u_margin,     greatest(pu) + u_margin,          least(pv) - v_margin,
+  box = {least(pu) - u_margin,    greatest(pu) + u_margin, least(pv) - v_margin,
          greatest(pv) + v_margin, (1 - 16 * u) / farthest, near_inverse * (1 + 16 * u)};
   return box.u0 >= -face_limit && box.u1 <= face_limit && box.v0 >= -face_limit && box.v1 <= face_limit;
 }

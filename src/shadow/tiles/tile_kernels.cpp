@@ -23,7 +23,8 @@ Facing facing(const ReceiverBlock& r, const glm::vec3& light) {
   const Float16 value = dot(n, to_light);
   const Float16 bound =
       load<Float16>(r.slack) * (absolute(to_light.x) + absolute(to_light.y) + absolute(to_light.z));
-  const std::uint32_t before = less_bits(bound, value), behind = less_bits(bound, splat<Float16>(0.0f) - value);
+  const std::uint32_t before = less_bits(bound, value),
+                      behind = less_bits(bound, splat<Float16>(0.0f) - value);
   return {before, 0xffffu & ~(before | behind)};
 }
 
@@ -36,7 +37,8 @@ HWY_INLINE Range range_of(const PointSquare& square, const glm::dvec3& light, in
   const auto base = static_cast<float>(static_cast<double>(square.base[axis]) - light[axis]);
   const Float16 centre = splat<Float16>(base),
                 margin = splat<Float16>(5 * u * ((base < 0 ? -base : base) + square.radius));
-  return {centre + load<Float16>(square.low[axis]) - margin, centre + load<Float16>(square.high[axis]) + margin};
+  return {centre + load<Float16>(square.low[axis]) - margin,
+          centre + load<Float16>(square.high[axis]) + margin};
 }
 
 // The ranges are true bounds; the quotients are rounded by 2u: 6u of values up to face_limit. The boxes of
@@ -54,8 +56,10 @@ std::uint32_t project(const PointSquare& square, const glm::dvec3& light, int fa
   Truth<float, 16> on = less(splat<Float16>(shortest_ray), z.low);
   for (int k = 0; k < 2; ++k) {
     const Range r = across[k];
-    const Float16 from = r.low * where_not_above(zero, r.low, far_inverse, near_inverse) - splat<Float16>(margin),
-                  to = r.high * where_not_above(r.high, zero, far_inverse, near_inverse) + splat<Float16>(margin);
+    const Float16 from = r.low * where_not_above(zero, r.low, far_inverse, near_inverse) -
+                         splat<Float16>(margin),
+                  to = r.high * where_not_above(r.high, zero, far_inverse, near_inverse) +
+                       splat<Float16>(margin);
     store(from, low[k]), store(to, high[k]);
     on = on & not_above(splat<Float16>(-face_limit), from) & not_above(to, splat<Float16>(face_limit));
   }

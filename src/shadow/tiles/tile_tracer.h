@@ -24,7 +24,8 @@ public:
   void spread_tests(int width, int height, std::vector<float>& out) const;
 
 private:
-  const PointTiles& tiles_of(const VisiblePoints& points, const ViewRays& view, const TriangleView& triangles);
+  const PointTiles& tiles_of(const VisiblePoints& points, const ViewRays& view,
+                             const TriangleView& triangles);
   void descend(const Descent& descent, SimdLevel simd, TraceStats& stats);
 
   PointTiles own_tiles_;  ///< of points that came without
