@@ -67,7 +67,6 @@ struct PatchRays::Work {
   std::uint16_t rays[16] = {};
   std::uint32_t present = 0;  ///< bits of tiles with rays
   std::uint32_t gaps = 0;     ///< bits of those with a gap between rays
-  std::uint32_t wide = 0;     ///< bits of those whose boxes are wider than the rays
   RayNode node{};             ///< boxes
 };
 
@@ -193,7 +192,7 @@ bool PatchRays::add_node(Work& work, std::uint8_t face) const {
     node.rays[i] = node.all_rays[i] = work.rays[i];
   }
   node.tau = work.square->tau;
-  node.wide = work.wide;
+  node.wide = work.present;  // boxes along the axes: shrunk where that pays
   work.out.nodes.push_back(node);
   work.out.node_faces.push_back(face);
   work.node_keys.add(centre_of(*work.square, std::countr_zero(work.present)), face);
@@ -246,28 +245,11 @@ void PatchRays::add_parts(Work& work, int tile) const {
   }
 }
 
-/// Boxes of the square's tiles on one face; false: not all are on it.
-bool PatchRays::project(Work& work, std::uint8_t face) const {
-  const PointSquare& square = *work.square;
-  const std::uint32_t on = kernels_.project(square, source_.origin, face, work.node);
-  if ((work.present & ~on) != 0) return false;
-  // The box of points on several triangles may be much wider than they are.
-  work.wide = work.present;
-  for (std::uint32_t left = work.present; left != 0; left &= left - 1) {
-    const int t = std::countr_zero(left);
-    if (square.receiver[t] != several_receivers) continue;
-    FaceBox box{};
-    const PointTile& points = tiles_.tiles[square.first_tile + static_cast<std::uint32_t>(t)];
-    if (kernels_.bound(points, work.rays[t], source_.origin, face, box))
-      work.node.set_box(t, box), work.wide &= ~(1u << t);
-  }
-  return true;
-}
-
 void PatchRays::place_square(Work& work) const {
   if (work.gaps == 0) {
     const std::uint8_t face = face_of(centre_of(*work.square, std::countr_zero(work.present)));
-    if (project(work, face) && add_node(work, face)) return;
+    const std::uint32_t on = kernels_.project(*work.square, source_.origin, face, work.node);
+    if ((work.present & ~on) == 0 && add_node(work, face)) return;
   }
   for (std::uint32_t left = work.present; left != 0; left &= left - 1)
     add_parts(work, std::countr_zero(left));

@@ -35,6 +35,7 @@ std::uint32_t place_of(std::uint64_t key) {
 /// Gathers what the patches gave, in their order.
 void gather_patches(ForestScratch& s, RayForest& out) {
   s.nodes.clear(), s.node_faces.clear(), s.loose.clear();
+  s.joined.clear();
   s.node_keys.keys.clear(), s.loose_keys.keys.clear();
   out.at_light.clear();
   out.rays = 0;
@@ -42,7 +43,7 @@ void gather_patches(ForestScratch& s, RayForest& out) {
   out.in_range = true;
   for (const ForestScratch::Patch& patch : s.patches) {
     s.loose.insert(s.loose.end(), patch.loose.begin(), patch.loose.end());
-    s.nodes.insert(s.nodes.end(), patch.nodes.begin(), patch.nodes.end());
+    for (const RayNode& node : patch.nodes) s.nodes.push_back(&node);
     s.node_faces.insert(s.node_faces.end(), patch.node_faces.begin(), patch.node_faces.end());
     add_keys(patch.node_keys, s.node_keys);
     add_keys(patch.loose_keys, s.loose_keys);
@@ -56,12 +57,14 @@ void gather_patches(ForestScratch& s, RayForest& out) {
 /// Loose groups in the order of the curve become nodes of sixteen on one face, with the key of their first.
 void group_loose(ForestScratch& s) {
   radix_sort(s.loose_keys.keys, s.loose_keys);
+  s.joined.reserve(s.loose.size() / 16 + 8);  // one may be short on each face: none is moved
   const auto& keys = s.loose_keys.keys;
   for (std::size_t i = 0; i < keys.size();) {
     const std::uint8_t face = s.loose[place_of(keys[i])].face;
     s.node_keys.keys.push_back(keys[i] >> 32 << 32 | s.nodes.size());
     s.node_faces.push_back(face);
-    RayNode& node = s.nodes.emplace_back();
+    RayNode& node = s.joined.emplace_back();
+    s.nodes.push_back(&node);
     for (int k = 0; k < 16 && i < keys.size() && s.loose[place_of(keys[i])].face == face; ++k, ++i) {
       const ForestScratch::Loose& loose = s.loose[place_of(keys[i])];
       node.child[k] = loose.tile;
@@ -100,7 +103,7 @@ void plant(ForestScratch& s, RayForest& out) {
     const bool new_face = out.faces.empty() || out.faces.back() != face;
     const bool new_parent = new_face || out.levels[1].back().live == 0xffffu;
     const bool new_root = new_face || (new_parent && out.levels[2].back().live == 0xffffu);
-    out.levels[0].push_back(s.nodes[place_of(key)]);
+    out.levels[0].push_back(*s.nodes[place_of(key)]);
     append(out, 0, new_parent);
     if (new_parent) append(out, 1, new_root);
     if (new_root) out.faces.push_back(face);
@@ -110,6 +113,19 @@ void plant(ForestScratch& s, RayForest& out) {
       out.levels[level + 1][node.parent].set_box(static_cast<int>(node.slot), bounds_of(node));
   }
   for (const RayNode& root : out.levels[2]) out.root_boxes.push_back(bounds_of(root));
+}
+
+/// Whether a node is a whole square without a blocked ray.
+bool all_lit(const RayNode& node) {
+  if (node.live != 0xffffu || node.child[0] % 16 != 0 || node.child[15] != node.child[0] + 15) return false;
+  std::uint32_t all = 0xffffu;
+  for (int i = 0; i < 16; ++i)
+    all &= node.child[i] == node.child[0] + static_cast<std::uint32_t>(i) ? node.rays[i] : 0u;
+  return all == 0xffffu;
+}
+
+void write_square(std::uint8_t* to, int width) {
+  for (std::uint32_t row = 0; row < square_side; ++row, to += width) std::memset(to, 255, square_side);
 }
 
 /// Four pixels by the bits of `live`; returns how many are set.
@@ -169,6 +185,11 @@ std::uint64_t write_live_rays(const RayForest& forest, int width, int height, Sh
   parallel_ranges(nodes.size(), grain, [&](std::size_t first, std::size_t last) {
     std::uint64_t count = 0;
     for (std::size_t i = first; i < last; ++i) {
+      if (all_lit(nodes[i])) {
+        write_square(&mask[pixel_of(nodes[i].child[0])], width);
+        count += 256;
+        continue;
+      }
       for (std::uint32_t left = nodes[i].live; left != 0; left &= left - 1) {
         const int slot = std::countr_zero(left);
         std::uint8_t* to = &mask[pixel_of(nodes[i].child[slot])];

@@ -100,7 +100,8 @@ struct ForestScratch {
   std::vector<Patch> patches;
   std::vector<Loose> loose;
   std::vector<std::uint8_t> node_faces;
-  std::vector<RayNode> nodes;
+  std::vector<RayNode> joined;        ///< of loose groups
+  std::vector<const RayNode*> nodes;  ///< the patches' and these
   RayKeys node_keys, loose_keys;
 };
 
