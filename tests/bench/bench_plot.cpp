@@ -190,10 +190,11 @@ std::string bar_group(std::size_t category, double x, double group_width, const 
   return svg;
 }
 
-}  // namespace
-
-std::string curve_plot(const std::string& title, const Axis& x, const Axis& y,
-                       const std::vector<Curve>& curves) {
+/// Scales over all points of some curves.
+struct Scales {
+  Scale x, y;
+};
+Scales scales_for(const std::vector<Curve>& curves, const Axis& x, const Axis& y) {
   std::vector<double> xs, ys;
   for (const Curve& c : curves) {
     for (const auto& [vx, vy] : c.points) {
@@ -201,7 +202,81 @@ std::string curve_plot(const std::string& title, const Axis& x, const Axis& y,
       ys.push_back(vy);
     }
   }
-  const Scale x_scale = scale_for(xs, x.logarithmic), y_scale = scale_for(ys, y.logarithmic);
+  return {scale_for(xs, x.logarithmic), scale_for(ys, y.logarithmic)};
+}
+
+/// A decade more below, whose foot stands for 0.
+Scale with_zero(Scale scale) {
+  scale.low /= 10;
+  return scale;
+}
+
+double y_pixel_or_foot(const Scale& scale, double value) {
+  return scale.logarithmic && !(value > 0) ? top + plot_height : y_pixel(scale, value);
+}
+
+/// One of a few shapes, so that families differ in more than colour.
+std::string mark(std::size_t family, double x, double y) {
+  constexpr double r = 4;
+  const char* colour = colour_of(family);
+  switch (family % 4) {
+    case 0:
+      return fmt::format("<circle cx=\"{:.1f}\" cy=\"{:.1f}\" r=\"{}\" fill=\"{}\"/>\n", x, y, r, colour);
+    case 1:
+      return fmt::format("<rect x=\"{:.1f}\" y=\"{:.1f}\" width=\"{}\" height=\"{}\" fill=\"{}\"/>\n", x - r,
+                         y - r, 2 * r, 2 * r, colour);
+    case 2:
+      return fmt::format("<polygon points=\"{:.1f},{:.1f} {:.1f},{:.1f} {:.1f},{:.1f}\" fill=\"{}\"/>\n", x,
+                         y - 1.2 * r, x - 1.2 * r, y + r, x + 1.2 * r, y + r, colour);
+    default:
+      return fmt::format(
+          "<polygon points=\"{:.1f},{:.1f} {:.1f},{:.1f} {:.1f},{:.1f} {:.1f},{:.1f}\" fill=\"{}\"/>\n", x,
+          y - 1.3 * r, x - 1.3 * r, y, x, y + 1.3 * r, x + 1.3 * r, y, colour);
+  }
+}
+
+std::string front_line(const Curve& front, const Scale& x, const Scale& y) {
+  std::string path, rings;
+  for (const auto& [vx, vy] : front.points) {
+    const double px = x_pixel(x, vx), py = y_pixel_or_foot(y, vy);
+    path += fmt::format("{:.1f},{:.1f} ", px, py);
+    rings += fmt::format("<circle cx=\"{:.1f}\" cy=\"{:.1f}\" r=\"8\" fill=\"none\" stroke=\"#444444\"/>\n",
+                         px, py);
+  }
+  return fmt::format("<polyline points=\"{}\" fill=\"none\" stroke=\"#888888\" stroke-dasharray=\"5 4\"/>\n",
+                     path) +
+         rings;
+}
+
+}  // namespace
+
+std::string scatter_plot(const std::string& title, const Axis& x, const Axis& y,
+                         const std::vector<Curve>& families, const Curve& front) {
+  Scales scales = scales_for(families, x, y);
+  std::string zero;
+  if (y.logarithmic) {
+    scales.y = with_zero(scales.y);
+    zero = text_at(left - 8, top + plot_height + 4, "end", "0");
+  }
+  std::string svg = head(title) + y_axis(scales.y, y.label) + zero + x_axis(scales.x, x.label);
+  svg += front_line(front, scales.x, scales.y);
+  for (std::size_t s = 0; s < families.size(); ++s) {
+    for (const auto& [vx, vy] : families[s].points)
+      svg += mark(s, x_pixel(scales.x, vx), y_pixel_or_foot(scales.y, vy));
+    const double legend_y = top + 16 + 20.0 * static_cast<double>(s);
+    svg += mark(s, width - right + 26, legend_y) +
+           text_at(width - right + 38, legend_y + 4, "start", families[s].name);
+  }
+  const double legend_y = top + 16 + 20.0 * static_cast<double>(families.size());
+  svg += fmt::format("<circle cx=\"{:.1f}\" cy=\"{:.1f}\" r=\"8\" fill=\"none\" stroke=\"#444444\"/>\n",
+                     width - right + 26, legend_y) +
+         text_at(width - right + 38, legend_y + 4, "start", front.name);
+  return svg + "</svg>\n";
+}
+
+std::string curve_plot(const std::string& title, const Axis& x, const Axis& y,
+                       const std::vector<Curve>& curves) {
+  const auto [x_scale, y_scale] = scales_for(curves, x, y);
   std::string svg = head(title) + y_axis(y_scale, y.label) + x_axis(x_scale, x.label);
   for (std::size_t s = 0; s < curves.size(); ++s)
     svg += curve(curves[s], s, x_scale, y_scale) + legend_entry(s, curves[s].name);

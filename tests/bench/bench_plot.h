@@ -23,6 +23,11 @@ struct Curve {
 std::string curve_plot(const std::string& title, const Axis& x, const Axis& y,
                        const std::vector<Curve>& curves);
 
+/// Points of several families, and through those of `front`, which are ringed, a dashed line. On a
+/// logarithmic y axis what is 0 is drawn on a line of its own at the bottom, "0".
+std::string scatter_plot(const std::string& title, const Axis& x, const Axis& y,
+                         const std::vector<Curve>& families, const Curve& front);
+
 struct Bars {
   std::string name;
   std::vector<double> values;  ///< one a category
