@@ -1,10 +1,10 @@
-// The trade of soft shadows: the exact solvers, hard masks of N points of the light, N rays of Embree, and
-// the same behind shaft culling.
+// The trade of soft shadows: the exact solvers, N points of the light with exact hard shadows, N rays of
+// Embree, and the same behind shaft culling.
 #include <cmath>
 
 #include "ao_race.h"
+#include "render/light_points.h"
 #include "soft_fair.h"
-#include "trade_light_points.h"
 #include "trade_session.h"
 
 namespace tenebra::bench {
@@ -100,14 +100,14 @@ void SoftTrade::add_exact() {
 }
 
 void SoftTrade::add_light_points() {
-  ShadowTracer tracer;
-  for (const std::size_t count :
-       session_.by_effort<std::vector<std::size_t>>({4}, {4, 8, 16, 32, 64}, {4, 8, 16, 32, 64, 128})) {
-    LightPointMasks masks(view_.light, count);
-    add("hard masks of light points", fmt::format("{}", count), count > 16 ? 1 : session_.by_effort(1, 3, 5),
-        [&]() -> std::span<const float> {
-          masks.trace(view_, tracer, picture_);
-          return picture_;
+  LightPointShadows shadows;
+  for (const int count :
+       session_.by_effort<std::vector<int>>({8}, {4, 8, 16, 32, 64}, {4, 8, 16, 32, 64, 128})) {
+    add("light points (--soft-points)", fmt::format("{}", count),
+        count > 16 ? 1 : session_.by_effort(1, 3, 5), [&]() -> std::span<const float> {
+          shadows.trace(view_.frame.points, view_.frame.normals, view_.frame.view, view_.frame.triangles(),
+                        view_.light, count, {}, mask_);
+          return mask_.irradiance;
         });
   }
 }
@@ -149,8 +149,8 @@ TradeTable SoftTrade::run() {
 void keep_headline(TradeSession& session, const TradeTable& table) {
   const TradePoint& exact = *table.find("default (exact)");
   session.keep_largest("soft_default_worst_255", exact.errors[3]);
-  if (const TradePoint* p = table.find("hard masks of light points, 16"))
-    session.keep_largest("soft_16_points_rms_255", p->errors[0]);
+  if (const TradePoint* p = table.find("light points (--soft-points), 8"))
+    session.keep_largest("soft_fast_rms_255", p->errors[0]);
 }
 
 }  // namespace
