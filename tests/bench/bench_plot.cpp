@@ -190,29 +190,60 @@ std::string bar_group(std::size_t category, double x, double group_width, const 
   return svg;
 }
 
-/// Scales over all points of some curves.
-struct Scales {
-  Scale x, y;
-};
-Scales scales_for(const std::vector<Curve>& curves, const Axis& x, const Axis& y) {
-  std::vector<double> xs, ys;
-  for (const Curve& c : curves) {
-    for (const auto& [vx, vy] : c.points) {
-      xs.push_back(vx);
-      ys.push_back(vy);
+/// From a round number (1, 2 or 5 times a power of ten) to another, ticks at all of them or, over many
+/// decades, at powers of ten.
+Scale tight_scale(double low, double high) {
+  constexpr int many_decades = 3;
+  Scale scale{0, 0, true, {}};
+  const bool wide = high / low > std::pow(10, many_decades);
+  for (int power = static_cast<int>(std::floor(std::log10(low))); !(scale.high >= high); ++power) {
+    for (const int digit : {1, 2, 5}) {
+      if (wide && digit != 1) continue;
+      const double tick = digit * std::pow(10, power);
+      if (scale.high >= high) break;
+      if (tick <= low) scale.low = tick, scale.ticks.clear();
+      scale.high = tick;
+      scale.ticks.push_back(tick);
     }
   }
-  return {scale_for(xs, x.logarithmic), scale_for(ys, y.logarithmic)};
-}
-
-/// A decade more below, whose foot stands for 0.
-Scale with_zero(Scale scale) {
-  scale.low /= 10;
   return scale;
 }
 
-double y_pixel_or_foot(const Scale& scale, double value) {
-  return scale.logarithmic && !(value > 0) ? top + plot_height : y_pixel(scale, value);
+/// Values above `floor` on a logarithmic scale, what is not above it on a line of its own at the foot.
+struct FootedScale {
+  Scale scale;
+  double floor;
+  static constexpr double foot_px = 34;  // below the scale
+
+  double pixel(double value) const {
+    if (!(value > floor)) return top + plot_height;
+    return top + (plot_height - foot_px) * (1 - scale.at(value));
+  }
+};
+
+FootedScale footed_scale(const std::vector<Curve>& families, double floor) {
+  double low = std::numeric_limits<double>::infinity(), high = 0;
+  for (const Curve& c : families) {
+    for (const auto& [x, y] : c.points) {
+      if (!(y > floor)) continue;
+      low = std::min(low, y);
+      high = std::max(high, y);
+    }
+  }
+  return {low < high ? tight_scale(low, high) : tight_scale(1, 10), floor};
+}
+
+std::string footed_axis(const FootedScale& y, const std::string& label) {
+  std::string svg;
+  const auto line = [&](double at, const std::string& text) {
+    svg += line_between(left, at, left + plot_width, at, "#dddddd") + text_at(left - 8, at + 4, "end", text);
+  };
+  for (const double tick : y.scale.ticks) line(y.pixel(tick), fmt::format("{:.6g}", tick));
+  line(top + plot_height, y.floor > 0 ? fmt::format("\u2264 {:.6g}", y.floor) : "0");
+  svg += line_between(left, top, left, top + plot_height, "black");
+  const double middle = top + plot_height / 2;
+  return svg + text_at(20, middle, "middle", label, 13,
+                       fmt::format(" transform=\"rotate(-90 20 {:.1f})\"", middle));
 }
 
 /// One of a few shapes, so that families differ in more than colour.
@@ -235,13 +266,16 @@ std::string mark(std::size_t family, double x, double y) {
   }
 }
 
-std::string front_line(const Curve& front, const Scale& x, const Scale& y) {
+std::string ring(double x, double y) {
+  return fmt::format("<circle cx=\"{:.1f}\" cy=\"{:.1f}\" r=\"8\" fill=\"none\" stroke=\"#444444\"/>\n", x,
+                     y);
+}
+
+std::string front_line(const Curve& front, const Scale& x, const FootedScale& y) {
   std::string path, rings;
   for (const auto& [vx, vy] : front.points) {
-    const double px = x_pixel(x, vx), py = y_pixel_or_foot(y, vy);
-    path += fmt::format("{:.1f},{:.1f} ", px, py);
-    rings += fmt::format("<circle cx=\"{:.1f}\" cy=\"{:.1f}\" r=\"8\" fill=\"none\" stroke=\"#444444\"/>\n",
-                         px, py);
+    path += fmt::format("{:.1f},{:.1f} ", x_pixel(x, vx), y.pixel(vy));
+    rings += ring(x_pixel(x, vx), y.pixel(vy));
   }
   return fmt::format("<polyline points=\"{}\" fill=\"none\" stroke=\"#888888\" stroke-dasharray=\"5 4\"/>\n",
                      path) +
@@ -250,33 +284,39 @@ std::string front_line(const Curve& front, const Scale& x, const Scale& y) {
 
 }  // namespace
 
-std::string scatter_plot(const std::string& title, const Axis& x, const Axis& y,
-                         const std::vector<Curve>& families, const Curve& front) {
-  Scales scales = scales_for(families, x, y);
-  std::string zero;
-  if (y.logarithmic) {
-    scales.y = with_zero(scales.y);
-    zero = text_at(left - 8, top + plot_height + 4, "end", "0");
+std::string scatter_plot(const std::string& title, const std::string& x_label, const std::string& y_label,
+                         double floor, const std::vector<Curve>& families, const Curve& front) {
+  double low = std::numeric_limits<double>::infinity(), high = 0;
+  for (const Curve& c : families) {
+    for (const auto& [x, y] : c.points) low = std::min(low, x), high = std::max(high, x);
   }
-  std::string svg = head(title) + y_axis(scales.y, y.label) + zero + x_axis(scales.x, x.label);
-  svg += front_line(front, scales.x, scales.y);
+  const Scale x = low > 0 && low < high ? tight_scale(low, high) : tight_scale(1, 10);
+  const FootedScale y = footed_scale(families, floor);
+  std::string svg = head(title) + footed_axis(y, y_label) + x_axis(x, x_label) + front_line(front, x, y);
   for (std::size_t s = 0; s < families.size(); ++s) {
-    for (const auto& [vx, vy] : families[s].points)
-      svg += mark(s, x_pixel(scales.x, vx), y_pixel_or_foot(scales.y, vy));
-    const double legend_y = top + 16 + 20.0 * static_cast<double>(s);
-    svg += mark(s, width - right + 26, legend_y) +
-           text_at(width - right + 38, legend_y + 4, "start", families[s].name);
+    for (const auto& [vx, vy] : families[s].points) svg += mark(s, x_pixel(x, vx), y.pixel(vy));
   }
-  const double legend_y = top + 16 + 20.0 * static_cast<double>(families.size());
-  svg += fmt::format("<circle cx=\"{:.1f}\" cy=\"{:.1f}\" r=\"8\" fill=\"none\" stroke=\"#444444\"/>\n",
-                     width - right + 26, legend_y) +
-         text_at(width - right + 38, legend_y + 4, "start", front.name);
+  double legend_y = top + 16;
+  const double legend_x = width - right + 26;
+  const auto explain = [&](const std::string& shape, const std::string& name) {
+    svg += shape + text_at(legend_x + 12, legend_y + 4, "start", name);
+    legend_y += 20;
+  };
+  for (std::size_t s = 0; s < families.size(); ++s) explain(mark(s, legend_x, legend_y), families[s].name);
+  explain(ring(legend_x, legend_y), front.name);
   return svg + "</svg>\n";
 }
 
 std::string curve_plot(const std::string& title, const Axis& x, const Axis& y,
                        const std::vector<Curve>& curves) {
-  const auto [x_scale, y_scale] = scales_for(curves, x, y);
+  std::vector<double> xs, ys;
+  for (const Curve& c : curves) {
+    for (const auto& [vx, vy] : c.points) {
+      xs.push_back(vx);
+      ys.push_back(vy);
+    }
+  }
+  const Scale x_scale = scale_for(xs, x.logarithmic), y_scale = scale_for(ys, y.logarithmic);
   std::string svg = head(title) + y_axis(y_scale, y.label) + x_axis(x_scale, x.label);
   for (std::size_t s = 0; s < curves.size(); ++s)
     svg += curve(curves[s], s, x_scale, y_scale) + legend_entry(s, curves[s].name);

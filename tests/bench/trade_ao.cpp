@@ -18,7 +18,7 @@ struct AoView {
   const Scene& scene;
   const BenchFrame& frame;
   double reach_m;  // 0: a twentieth of the scene's diagonal
-  bool tables;     // tables of other sizes too, in a quick run
+  bool tables;     // tables of other sizes too
 };
 
 /// What one setting is called and is.
@@ -116,7 +116,7 @@ void AoTrade::add_rays() {
 
 /// What the tables' size and the bits of a distance do; in a quick run one at a time.
 void AoTrade::add_tables(FieldLayout layout, const char* family) {
-  const bool all = session_.effort == Effort::full;
+  const bool all = session_.effort == Effort::full && view_.tables;
   for (const int positions : {289, 1089, 4225}) {
     for (const int directions : {256, 1024, 4096}) {
       for (const int bits : {1, 8, 32}) {
@@ -154,7 +154,7 @@ Expected<TradePoint> AoTrade::measure(const AoSetting& setting) {
 Expected<TradeTable> AoTrade::run() {
   if (auto found = find_truth(); !found) return tl::unexpected(found.error());
   add_rays();
-  if (session_.effort == Effort::full || (session_.effort == Effort::quick && view_.tables)) {
+  if (session_.effort != Effort::tiny && view_.tables) {
     add_tables(FieldLayout::chords, "other tables");
     add_tables(FieldLayout::positions_directions, "tables of the paper");
   }
@@ -165,8 +165,9 @@ Expected<TradeTable> AoTrade::run() {
     table.points.push_back(std::move(*point));
   }
   const auto hidden = std::count_if(truth_.begin(), truth_.end(), [](float open) { return open < 1; });
-  table.remark = fmt::format("Of {} pixels that were compared, ambient light is hidden in part at {}.",
-                             pixels_.size(), hidden);
+  table.remark =
+      fmt::format("{}x{} pixels; of {} that were compared, ambient light is hidden in part at {}.",
+                  view_.frame.points.width, view_.frame.points.height, pixels_.size(), hidden);
   return table;
 }
 
@@ -186,11 +187,16 @@ Expected<void> try_view(TradeSession& session, const AoView& view) {
   return {};
 }
 
+int picture_side(const TradeSession& session) {
+  return session.by_effort(64, 512, 1024);
+}
+
 Expected<void> try_crowd(TradeSession& session, const CrowdView& view, const std::vector<Object>& meshes) {
   const Scene scene = make_crowd(meshes, session.by_effort(3, 50, 50), view.spacing_m);
   BenchFrame frame;
-  see_crowd(scene, view, 3.7, session.by_effort(64, 1024, 1024), frame);
-  return try_view(session, {fmt::format("crowd, {}", view.name), scene, frame, 1.0, true});
+  see_crowd(scene, view, 3.7, picture_side(session), frame);
+  return try_view(session, {view.name == std::string(near_view.name) ? "crowd near" : "crowd far", scene,
+                            frame, 1.0, true});
 }
 
 Expected<void> try_scene(TradeSession& session, const std::string& name, int number) {
@@ -204,7 +210,7 @@ Expected<void> try_scene(TradeSession& session, const std::string& name, int num
   const auto scene = load_scene(file, known.no_cast);
   if (!scene) return tl::unexpected(scene.error());
   BenchFrame frame;
-  const int size = session.by_effort(64, 1024, 1024);
+  const int size = picture_side(session);
   evaluate_bench_frame(*scene, number, size, size, frame);
   return try_view(session, {fmt::format("{} {}", name, number), *scene, frame, 0, false});
 }

@@ -29,10 +29,10 @@ Expected<void> measure(const PartsArguments& arguments) {
 }  // namespace
 
 void TradeSession::finish(TradeTable table) {
-  mark_front(table.points);
+  mark_front(table.points, table.none_below);
   add_figures(table, report);
   report.add_plot(plot_name(table), trade_plot(table));
-  std::printf("\n%s shadows, %s (* on the Pareto front)\n%s", table.method.c_str(), table.view.c_str(),
+  std::printf("\n%s, %s (* on the Pareto front)\n%s", method_title(table.method).c_str(), table.view.c_str(),
               trade_text(table).c_str());
   if (!table.remark.empty()) std::printf("%s\n", table.remark.c_str());
   std::fflush(stdout);

@@ -136,7 +136,8 @@ TradeTable SoftTrade::run() {
              {"worst penumbra pixel", "1/255"},
              {"RMS of all", "1/255"},
              {"worst of all", "1/255"}},
-            {}};
+            {},
+            0.01};
   find_truth();
   add_exact();
   add_light_points();

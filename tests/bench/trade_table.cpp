@@ -10,9 +10,9 @@
 namespace tenebra::bench {
 namespace {
 
-bool beats(const TradePoint& a, const TradePoint& b) {
-  const bool as_good = a.ms <= b.ms && a.errors[0] <= b.errors[0];
-  return as_good && (a.ms < b.ms || a.errors[0] < b.errors[0]);
+bool beats(const TradePoint& a, const TradePoint& b, double none_below) {
+  const double error_a = std::max(a.errors[0], none_below), error_b = std::max(b.errors[0], none_below);
+  return a.ms <= b.ms && error_a <= error_b && (a.ms < b.ms || error_a < error_b);
 }
 
 std::string title_of(const ErrorColumn& column) {
@@ -27,10 +27,14 @@ const TradePoint* TradeTable::find(const std::string& name) const {
   return found == points.end() ? nullptr : &*found;
 }
 
-void mark_front(std::vector<TradePoint>& points) {
+std::string method_title(const std::string& method) {
+  return method == "ao" ? "ambient occlusion" : method + " shadows";
+}
+
+void mark_front(std::vector<TradePoint>& points, double none_below) {
   for (TradePoint& point : points) {
     point.front = std::none_of(points.begin(), points.end(),
-                               [&](const TradePoint& other) { return beats(other, point); });
+                               [&](const TradePoint& other) { return beats(other, point, none_below); });
   }
 }
 
@@ -72,8 +76,8 @@ std::string trade_plot(const TradeTable& table) {
     if (p.front) front.points.emplace_back(p.ms, p.errors[0]);
   }
   std::sort(front.points.begin(), front.points.end());
-  return scatter_plot(fmt::format("{}: what {} shadows cost", table.view, table.method), {"time (ms)", true},
-                      {title_of(table.columns[0]), true}, families, front);
+  return scatter_plot(fmt::format("{}: time and error of {}", table.view, method_title(table.method)),
+                      "time (ms)", title_of(table.columns[0]), table.none_below, families, front);
 }
 
 std::string plot_name(const TradeTable& table) {

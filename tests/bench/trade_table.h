@@ -31,14 +31,18 @@ struct TradeTable {
   std::string view;    ///< "robots 100"
   std::vector<ErrorColumn> columns;
   std::vector<TradePoint> points;
-  std::string remark{};  ///< what a reader of the table has to know of this view, a sentence; may be empty
+  double none_below = 0;  ///< first errors up to this count as none: beneath what the method promises
+  std::string remark{};   ///< what a reader of the table has to know of this view, a sentence; may be empty
 
   /// The setting of that name; null where it was not measured.
   const TradePoint* find(const std::string& name) const;
 };
 
-/// Sets TradePoint::front by time and the first error.
-void mark_front(std::vector<TradePoint>& points);
+/// "hard shadows" of "hard".
+std::string method_title(const std::string& method);
+
+/// Sets TradePoint::front by time and the first error; errors up to `none_below` are all alike.
+void mark_front(std::vector<TradePoint>& points, double none_below);
 
 /// Time, errors and "front" of each setting, as experiment "trade METHOD".
 void add_figures(const TradeTable& table, Report& report);
@@ -46,7 +50,8 @@ void add_figures(const TradeTable& table, Report& report);
 /// The settings from the fastest to the slowest; those on the front with a star.
 std::string trade_text(const TradeTable& table);
 
-/// Time on x, the first error on y, both logarithmic; the front is a line, what is exact lies at the bottom.
+/// Time on x, the first error on y, both logarithmic; the front is a line, what has no error lies at the
+/// foot.
 std::string trade_plot(const TradeTable& table);
 /// "hard_robots_100"
 std::string plot_name(const TradeTable& table);
