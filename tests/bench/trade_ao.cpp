@@ -165,9 +165,8 @@ Expected<TradeTable> AoTrade::run() {
     table.points.push_back(std::move(*point));
   }
   const auto hidden = std::count_if(truth_.begin(), truth_.end(), [](float open) { return open < 1; });
-  table.remark =
-      fmt::format("{}x{} pixels; of {} that were compared, ambient light is hidden in part at {}.",
-                  view_.frame.points.width, view_.frame.points.height, pixels_.size(), hidden);
+  table.remark = fmt::format("{}x{} pixels; of {} that were compared, ambient light is hidden in part at {}.",
+                             view_.frame.points.width, view_.frame.points.height, pixels_.size(), hidden);
   return table;
 }
 

@@ -14,11 +14,24 @@ constexpr std::array parts{
     BenchPart<TradeSession>{"ao", measure_trade_ao}, BenchPart<TradeSession>{"needs", measure_trade_needs}};
 const std::span<const BenchPart<TradeSession>> all_parts(parts);
 
-Expected<void> measure(const PartsArguments& arguments) {
-  TradeSession session{
-      .options = arguments.options, .effort = arguments.effort(), .report = Report(arguments.options.csv)};
+Expected<void> check(const TradeOptions& options) {
+  std::error_code ignored;
+  if (!options.docs.empty() && !std::filesystem::is_directory(options.docs, ignored))
+    return fail("--docs: {} is not a folder, expected one to write trade.md to", options.docs.string());
+  return {};
+}
+
+Expected<void> measure(const PartsArguments& arguments, const TradeOptions& options) {
+  if (auto fine = check(options); !fine) return fine;
+  TradeSession session{.options = arguments.options,
+                       .trade = options,
+                       .effort = arguments.effort(),
+                       .report = Report(arguments.options.csv)};
   if (auto done = measure_parts(arguments, all_parts, session); !done) return done;
   if (auto written = session.report.write(parts_settings(arguments)); !written) return written;
+  if (!options.docs.empty()) {
+    if (auto written = write_trade_page(session); !written) return written;
+  }
   std::printf("\n");
   for (const std::string& name : session.skipped) std::printf("%s: skipped, not there\n", name.c_str());
   for (const std::string& note : session.notes) std::printf("note: %s.\n", note.c_str());
@@ -40,8 +53,12 @@ void TradeSession::finish(TradeTable table) {
 }
 
 void add_trade_command(CLI::App& program, Run& run) {
+  const auto options = std::make_shared<TradeOptions>();
   add_parts_command(program, run, {"trade", "What accuracy costs, for every method and setting"},
-                    part_names(all_parts), measure);
+                    part_names(all_parts),
+                    [options](const PartsArguments& arguments) { return measure(arguments, *options); })
+      .add_option("--docs", options->docs, "Write trade.md and its plots, the page of the documentation")
+      ->type_name("FOLDER");
 }
 
 }  // namespace tenebra::bench

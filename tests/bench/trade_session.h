@@ -10,6 +10,11 @@
 
 namespace tenebra::bench {
 
+/// Where a script and a reader find what was measured.
+struct TradeOptions {
+  std::filesystem::path docs;  ///< folder of trade.md and its plots; empty: none
+};
+
 /// What a stage that is not run, or shrunk, saves on one view.
 struct NeedRow {
   std::string stage, view;
@@ -20,6 +25,7 @@ struct NeedRow {
 
 struct TradeSession {
   BenchOptions options;
+  TradeOptions trade;
   Effort effort = Effort::full;
   Report report;
   std::vector<TradeTable> tables;
@@ -40,6 +46,9 @@ struct TradeSession {
   /// Marks the front of `table`, prints it and keeps it.
   void finish(TradeTable table);
 };
+
+/// trade.md and its plots, from what was measured. Fails where the folder cannot be written.
+Expected<void> write_trade_page(const TradeSession& session);
 
 // The parts.
 Expected<void> measure_trade_hard(TradeSession& session);

@@ -61,17 +61,18 @@ std::size_t differing_pixels(const ShadowMask& a, const ShadowMask& b) {
   return differing;
 }
 
-TunedBias best_bias(const CubeMap& map, const HardView& view, const ShadowMask& exact) {
-  TunedBias best;
+ShadowMapBias best_bias(const CubeMap& map, const HardView& view, const ShadowMask& exact) {
+  std::vector<double> candidates{0};
+  for (double texels = 1.0 / 32; texels <= 8; texels *= std::sqrt(2.0)) candidates.push_back(texels);
+  ShadowMapBias best;
+  std::size_t fewest = exact.size() + 1;
   ShadowMask mask;
-  const auto wrong_at = [&](double texels) {
+  for (const double texels : candidates) {
     shadow_from_map(map, view, {texels}, mask);
-    return differing_pixels(mask, exact);
-  };
-  best.wrong = best.wrong_without = wrong_at(0);
-  for (double texels = 1.0 / 32; texels <= 8; texels *= std::sqrt(2.0)) {
-    const std::size_t wrong = wrong_at(texels);
-    if (wrong < best.wrong) best = {{texels}, wrong, best.wrong_without};
+    const std::size_t wrong = differing_pixels(mask, exact);
+    if (wrong >= fewest) continue;
+    fewest = wrong;
+    best.texels = texels;
   }
   return best;
 }

@@ -21,13 +21,8 @@ void shadow_from_map(const CubeMap& map, const HardView& view, ShadowMapBias bia
 /// Pixels where the masks differ.
 std::size_t differing_pixels(const ShadowMask& a, const ShadowMask& b);
 
-struct TunedBias {
-  ShadowMapBias bias;
-  std::size_t wrong = 0;
-  std::size_t wrong_without = 0;  ///< with no bias at all
-};
-/// Of many biases the one with the fewest pixels that differ from `exact`: more than a user can hope for, who
-/// has no exact mask and one number for all frames.
-TunedBias best_bias(const CubeMap& map, const HardView& view, const ShadowMask& exact);
+/// Of many biases, none among them, the one with the fewest pixels that differ from `exact`: more than a user
+/// can hope for, who has no exact mask and one number for all frames.
+ShadowMapBias best_bias(const CubeMap& map, const HardView& view, const ShadowMask& exact);
 
 }  // namespace tenebra::bench
