@@ -90,7 +90,7 @@ std::string short_number(double value) {
   if (value == 0) return "0";
   if (!std::isfinite(value)) return fmt::format("{}", value);
   const double size = std::abs(value);
-  if (size >= 100) return fmt::format("{:.0f}", value);
+  if (size >= 100 || value == std::floor(value)) return fmt::format("{:.0f}", value);
   if (size < 1e-3) return fmt::format("{:.0e}", value);
   const int before = static_cast<int>(std::floor(std::log10(size)));
   return fmt::format("{:.{}f}", value, std::max(0, 2 - before));
