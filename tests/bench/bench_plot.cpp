@@ -209,11 +209,12 @@ Scale tight_scale(double low, double high) {
   return scale;
 }
 
-/// Values above `floor` on a logarithmic scale, what is not above it on a line of its own at the foot.
+/// Values above `floor` on a logarithmic scale, what is not above it on a line of its own at the foot, if
+/// there is any.
 struct FootedScale {
   Scale scale;
   double floor;
-  static constexpr double foot_px = 34;  // below the scale
+  double foot_px;  // of the foot below the scale; 0: none
 
   double pixel(double value) const {
     if (!(value > floor)) return top + plot_height;
@@ -222,15 +223,16 @@ struct FootedScale {
 };
 
 FootedScale footed_scale(const std::vector<Curve>& families, double floor) {
-  double low = std::numeric_limits<double>::infinity(), high = 0;
+  double low = std::numeric_limits<double>::infinity(), high = 0, foot_px = 0;
   for (const Curve& c : families) {
     for (const auto& [x, y] : c.points) {
+      if (!(y > floor)) foot_px = 34;
       if (!(y > floor)) continue;
       low = std::min(low, y);
       high = std::max(high, y);
     }
   }
-  return {low < high ? tight_scale(low, high) : tight_scale(1, 10), floor};
+  return {low < high ? tight_scale(low, high) : tight_scale(1, 10), floor, foot_px};
 }
 
 std::string footed_axis(const FootedScale& y, const std::string& label) {
@@ -239,7 +241,7 @@ std::string footed_axis(const FootedScale& y, const std::string& label) {
     svg += line_between(left, at, left + plot_width, at, "#dddddd") + text_at(left - 8, at + 4, "end", text);
   };
   for (const double tick : y.scale.ticks) line(y.pixel(tick), fmt::format("{:.6g}", tick));
-  line(top + plot_height, y.floor > 0 ? fmt::format("\u2264 {:.6g}", y.floor) : "0");
+  if (y.foot_px > 0) line(top + plot_height, y.floor > 0 ? fmt::format("\u2264 {:.6g}", y.floor) : "0");
   svg += line_between(left, top, left, top + plot_height, "black");
   const double middle = top + plot_height / 2;
   return svg + text_at(20, middle, "middle", label, 13,

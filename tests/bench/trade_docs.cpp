@@ -129,7 +129,7 @@ std::string needs_section(const std::vector<NeedRow>& needs) {
         fmt::format("| {} | {} | {} | {} | {}{} |\n", n.stage, n.view, timed ? short_number(n.with_ms) : "",
                     timed ? short_number(n.all_ms) : "", n.shrunk, n.same ? "" : " (NOT the same bits)");
   }
-  return text;
+  return text + "\nWhere `ms` is not below `all`, the stage saves nothing on that view.\n";
 }
 
 }  // namespace
