@@ -1,5 +1,9 @@
 // The visible part of the light by subtracting occluders from it, largest first; where many reach the light
-// it is halved, like a kd-tree, until few are left in a part. Included once per target.
+// it is halved, like a kd-tree, until few are left in a part.
+//
+// What took light from one point mostly does so from the next: those occluders are kept apart and come first.
+// Only what they leave of the light meets the others, found through the bounds of their blocks: a point in
+// full shadow under a thousand leaves never looks at most of them. Included once per target.
 #if defined(TENEBRA_SOFT_CLIP_SOLVER_INL_H_) == defined(HWY_TARGET_TOGGLE)
 #ifdef TENEBRA_SOFT_CLIP_SOLVER_INL_H_
 #undef TENEBRA_SOFT_CLIP_SOLVER_INL_H_
@@ -7,7 +11,9 @@
 #define TENEBRA_SOFT_CLIP_SOLVER_INL_H_
 #endif
 
-#include "soft/clip_candidates-inl.h"
+#include <algorithm>
+
+#include "soft/block_bounds-inl.h"
 #include "soft/light_fragments-inl.h"
 
 HWY_BEFORE_NAMESPACE();
@@ -16,40 +22,183 @@ namespace tenebra::HWY_NAMESPACE {
 template <class T>
 class ClipSolver {
 public:
-  void reset(const GroupOccluders& group, Chosen chosen) { candidates_.reset(group, chosen); }
+  /// Takes over the candidates of a group in places `order`, largest first.
+  void reset(const GroupCandidates& group, std::span<const std::uint32_t> order) {
+    group_ = &group;
+    order_ = order;
+    hot_.clear(group.heights);
+    hot_ids_.clear();
+    cold_.clear(group.heights);
+    for (const std::uint32_t place : order) cold_.add(group.all[place]);
+    if (has_many()) bounds_.find(cold_);
+  }
 
   /// The next queries are about this point.
-  void move_to(const GroupPoint& at) { candidates_.move_to(at); }
+  void move_to(const GroupPoint& at) {
+    if (has_many()) choose_hot();
+    at_ = at;
+    hot_.move_to(at);
+    cold_.move_to(at);
+    blocks_listed_ = false;
+  }
 
   /// Appends the parts of `light` (convex, within |u|, |v| <= 1) visible from the point to `out`.
-  HWY_NOINLINE void query(const LightPolygon<T>& light, FragmentList<T>& out) { solve(light, 0, out); }
+  HWY_NOINLINE void query(const LightPolygon<T>& light, FragmentList<T>& out) {
+    FragmentList<T> left = take();
+    if (hot_.count() == 0) {
+      left.push(light);
+    } else {
+      for (std::size_t b = 0; b < hot_.block_count(); ++b) hot_.append_block(b, box_of(light));
+      solve(hot_, light, 0, left);
+      hot_.list.shrink(0);
+    }
+    if (!left.empty()) subtract_cold(left, out);
+    give_back(std::move(left));
+  }
 
 private:
+  using Candidates = ClipCandidates<T>;
   static constexpr std::size_t few = 24;     ///< occluders that are subtracted without more ado
   static constexpr std::size_t largest = 8;  ///< occluders that go first where halving does not part them
+  static constexpr std::size_t many = 48;    ///< occluders from which on it pays to keep some apart
 
-  /// Subtracts the occluders in places from `first` on from `part`.
-  void solve(const LightPolygon<T>& part, std::size_t first, FragmentList<T>& out) {
-    const std::size_t last = candidates_.count();
+  bool has_many() const { return cold_.count() > many; }
+
+  /// Puts those aside that took light from the last point; sorts out the others where they are more.
+  void choose_hot() {
+    useful_.clear();
+    for (std::size_t b = 0; b < hot_.block_count(); ++b) {
+      for (std::uint32_t bits = hot_.take_useful(b); bits != 0; bits &= bits - 1)
+        useful_.push_back(hot_ids_[16 * b + static_cast<std::size_t>(std::countr_zero(bits))]);
+    }
+    const std::size_t old = useful_.size();
+    for (std::size_t b = 0; b < cold_.block_count(); ++b) {
+      for (std::uint32_t bits = cold_.take_useful(b); bits != 0; bits &= bits - 1)
+        useful_.push_back(static_cast<std::uint32_t>(16 * b) +
+                          static_cast<std::uint32_t>(std::countr_zero(bits)));
+    }
+    if (hot_.count() > 2 * old + 16) {
+      for (const std::uint32_t id : hot_ids_) cold_.block(id / 16).lanes |= 1u << (id % 16);
+      hot_ids_.clear();
+      hot_.clear(group_->heights);
+      std::sort(useful_.begin(), useful_.end());
+      for (const std::uint32_t id : useful_) add_hot(id);
+    } else {
+      for (std::size_t i = old; i < useful_.size(); ++i) add_hot(useful_[i]);
+    }
+  }
+
+  void add_hot(std::uint32_t id) {
+    hot_ids_.push_back(id);
+    hot_.add(group_->all[order_[id]]);
+    cold_.block(id / 16).lanes &= ~(1u << (id % 16));
+  }
+
+  /// What the occluders that are not hot leave of `parts`.
+  void subtract_cold(const FragmentList<T>& parts, FragmentList<T>& out) {
+    boxes_.clear();
+    chosen_.clear();
+    for (std::uint32_t i = 0; i < parts.size(); ++i) {
+      boxes_.push_back(box_of(loaded(parts[i])));
+      chosen_.push_back(i);
+    }
+    if (!has_many()) {
+      for (std::size_t b = 0; b < cold_.block_count(); ++b)
+        cold_.append_block(b, box_of_all(0, parts.size()));
+      subtract_list(parts, 0, parts.size(), 0, out);
+      return cold_.list.shrink(0);
+    }
+    if (!blocks_listed_) {
+      bounds_.list_at(at_, blocks_);
+      blocks_listed_ = true;
+    }
+    const std::size_t last = blocks_.count();
+    subtract_blocks(parts, 0, parts.size(), 0, last, out);
+  }
+
+  /// Subtracts the blocks in places [first, last) from the parts in places [begin, end) of chosen_. The parts
+  /// are sorted by halves, as in the building of a tree of boxes, until they are few for the blocks around
+  /// them, and from there on with a list of the blocks' triangles.
+  void subtract_blocks(const FragmentList<T>& parts, std::size_t begin, std::size_t end, std::size_t first,
+                       std::size_t last, FragmentList<T>& out) {
+    const std::size_t middle = 16 * (end - begin) < last - first ? part_boxes(begin, end) : begin;
+    if (middle == begin || middle == end) {
+      const LightBox<T> box = box_of_all(begin, end);
+      const std::size_t place = cold_.list.count();
+      for (std::size_t i = first; i < last; ++i) cold_.append_block(blocks_.id(i), box);
+      subtract_list(parts, begin, end, place, out);
+      return cold_.list.shrink(place);
+    }
+    for (const auto& [from, to] : {std::pair(begin, middle), std::pair(middle, end)}) {
+      blocks_.narrow(first, last, box_of_all(from, to));
+      subtract_blocks(parts, from, to, last, blocks_.count(), out);
+      blocks_.shrink(last);
+    }
+  }
+
+  /// The same for the occluders in the list from place `first` on.
+  void subtract_list(const FragmentList<T>& parts, std::size_t begin, std::size_t end, std::size_t first,
+                     FragmentList<T>& out) {
+    const std::size_t last = cold_.list.count();
+    if (first == last) {
+      for (std::size_t i = begin; i < end; ++i) out.push(loaded(parts[chosen_[i]]));
+      return;
+    }
+    if (end - begin == 1) return solve(cold_, loaded(parts[chosen_[begin]]), first, out);
+    std::size_t middle = part_boxes(begin, end);
+    if (middle == begin || middle == end) middle = begin + (end - begin) / 2;
+    for (const auto& [from, to] : {std::pair(begin, middle), std::pair(middle, end)}) {
+      cold_.list.narrow(first, last, box_of_all(from, to));
+      subtract_list(parts, from, to, last, out);
+      cold_.list.shrink(last);
+    }
+  }
+
+  LightBox<T> box_of_all(std::size_t begin, std::size_t end) const {
+    T low[2] = {2, 2}, high[2] = {-2, -2};
+    for (std::size_t i = begin; i < end; ++i) {
+      const LightBox<T>& b = boxes_[chosen_[i]];
+      low[0] = HWY_MIN(low[0], b.cu - b.hu);
+      high[0] = HWY_MAX(high[0], b.cu + b.hu);
+      low[1] = HWY_MIN(low[1], b.cv - b.hv);
+      high[1] = HWY_MAX(high[1], b.cv + b.hv);
+    }
+    return {(low[0] + high[0]) / 2, (low[1] + high[1]) / 2, (high[0] - low[0]) / 2, (high[1] - low[1]) / 2};
+  }
+
+  /// Sorts the parts in places [begin, end) by the half that their middles lie in; returns where the second
+  /// half begins.
+  std::size_t part_boxes(std::size_t begin, std::size_t end) {
+    const LightBox<T> all = box_of_all(begin, end);
+    const bool wide = all.hu >= all.hv;
+    const auto low = [&](std::uint32_t i) { return wide ? boxes_[i].cu < all.cu : boxes_[i].cv < all.cv; };
+    const auto at = [&](std::size_t i) { return chosen_.begin() + static_cast<std::ptrdiff_t>(i); };
+    return static_cast<std::size_t>(std::partition(at(begin), at(end), low) - chosen_.begin());
+  }
+
+  /// Subtracts the occluders in the list from place `first` on from `part`.
+  void solve(Candidates& c, const LightPolygon<T>& part, std::size_t first, FragmentList<T>& out) {
+    const std::size_t last = c.list.count();
     if (last - first <= few) {
-      FragmentList<T> left = subtract_all(part, first, last);
+      FragmentList<T> left = subtract_all(c, part, first, last);
       for (std::size_t k = 0; k < left.size(); ++k) out.push(loaded(left[k]));
       return give_back(std::move(left));
     }
-    if (halve_light(part, first, last, out)) return;
-    FragmentList<T> left = subtract_all(part, first, first + largest);
+    if (halve_light(c, part, first, last, out)) return;
+    FragmentList<T> left = subtract_all(c, part, first, first + largest);
     for (std::size_t k = 0; k < left.size(); ++k) {
       const LightPolygon<T> fragment = loaded(left[k]);
-      const std::size_t from = candidates_.count();
-      if (candidates_.find_among(first + largest, last, box_of(fragment))) solve(fragment, from, out);
-      candidates_.shrink(from);
+      const std::size_t from = c.list.count();
+      if (c.find_among(first + largest, last, box_of(fragment))) solve(c, fragment, from, out);
+      c.list.shrink(from);
     }
     give_back(std::move(left));
   }
 
   /// Solves both halves of `part` if that parts the occluders: three quarters of them in only one half, at
   /// least.
-  bool halve_light(const LightPolygon<T>& part, std::size_t first, std::size_t last, FragmentList<T>& out) {
+  bool halve_light(Candidates& c, const LightPolygon<T>& part, std::size_t first, std::size_t last,
+                   FragmentList<T>& out) {
     const LightBox<T> box = box_of(part);
     if (HWY_MAX(box.hu, box.hv) < 4 * on_line<T>) return false;  // no line parts its vertices
     const bool wide = box.hu >= box.hv;
@@ -58,29 +207,23 @@ private:
     LightBox<T> high = low;
     (wide ? low.cu : low.cv) -= wide ? low.hu : low.hv;
     (wide ? high.cu : high.cv) += wide ? low.hu : low.hv;
-    const bool low_lit = candidates_.find_among(first, last, low);
-    const std::size_t middle = candidates_.count();
-    const bool high_lit = candidates_.find_among(first, last, high);
-    const std::size_t count = candidates_.count() - last;
+    const bool low_lit = c.find_among(first, last, low);
+    const std::size_t middle = c.list.count();
+    const bool high_lit = c.find_among(first, last, high);
+    const std::size_t count = c.list.count() - last;
     const bool parted = !low_lit || !high_lit || 4 * count < 5 * (last - first);
     if (parted) {
       const T sign = -1;
       const LightLine<T> below = wide ? LightLine<T>{sign, 0, box.cu} : LightLine<T>{0, sign, box.cv};
       const LightLine<T> above = wide ? LightLine<T>{1, 0, -box.cu} : LightLine<T>{0, 1, -box.cv};
       LightPolygon<T> kept = part;
-      if (high_lit && keep_side(above, kept)) solve(kept, middle, out);
-      candidates_.shrink(middle);
+      if (high_lit && keep_side(above, kept)) solve(c, kept, middle, out);
+      c.list.shrink(middle);
       kept = part;
-      if (low_lit && keep_side(below, kept)) solve(kept, last, out);
+      if (low_lit && keep_side(below, kept)) solve(c, kept, last, out);
     }
-    candidates_.shrink(last);
+    c.list.shrink(last);
     return parted;
-  }
-
-  static HWY_INLINE LightBox<T> box_of(const LightPolygon<T>& polygon) {
-    const T low_u = least(polygon.x), high_u = greatest(polygon.x);
-    const T low_v = least(polygon.y), high_v = greatest(polygon.y);
-    return {(low_u + high_u) / 2, (low_v + high_v) / 2, (high_u - low_u) / 2, (high_v - low_v) / 2};
   }
 
   /// Cuts `polygon` to the line's positive side; false if nothing is left.
@@ -95,15 +238,18 @@ private:
   }
 
   /// What the occluders in places [first, last) leave of `part`.
-  HWY_NOINLINE FragmentList<T> subtract_all(const LightPolygon<T>& part, std::size_t first,
+  HWY_NOINLINE FragmentList<T> subtract_all(Candidates& c, const LightPolygon<T>& part, std::size_t first,
                                             std::size_t last) {
     FragmentList<T> now = take();
     now.push(part);
     for (std::size_t i = first; i < last && !now.empty(); ++i) {
       LightLine<T> lines[4];
-      const int count = candidates_.lines_of(i, lines);
+      const std::size_t id = c.list.id(i);
+      const int count = c.lines_of(id, lines);
       next_.clear();
-      for (std::size_t k = 0; k < now.size(); ++k) subtract(loaded(now[k]), lines, count, next_);
+      bool taken = false;
+      for (std::size_t k = 0; k < now.size(); ++k) taken |= subtract(loaded(now[k]), lines, count, next_);
+      if (taken) c.mark_useful(id);
       now.swap(next_);
     }
     return now;
@@ -118,7 +264,17 @@ private:
   }
   void give_back(FragmentList<T> list) { spare_.push_back(std::move(list)); }
 
-  ClipCandidates<T> candidates_;
+  const GroupCandidates* group_ = nullptr;
+  std::span<const std::uint32_t> order_;
+  GroupPoint at_;
+  Candidates hot_;                               ///< what took light from the last points
+  Candidates cold_;                              ///< all; lanes of the hot ones are idle
+  std::vector<std::uint32_t> hot_ids_, useful_;  ///< ids in cold_
+  BlockBounds<T> bounds_;                        ///< of cold_
+  ShadowList<T> blocks_;
+  bool blocks_listed_ = false;
+  std::vector<LightBox<T>> boxes_;     ///< of the parts that the hot ones leave
+  std::vector<std::uint32_t> chosen_;  ///< indices of these parts
   FragmentList<T> next_;
   std::vector<FragmentList<T>> spare_;
 };

@@ -43,19 +43,6 @@ bool add_definite(const Triangle3& t, const LightFrame& light, const GroupFrame&
   return true;
 }
 
-void add_indefinite(const Triangle3& t, const LightFrame& light, const GroupFrame& group,
-                    GroupOccluders& out) {
-  for (int k = 0; k < 3; ++k) {
-    add_line(edge_line(light, group.centre, t.v[k], t.v[(k + 1) % 3], 1), {}, group.half, out);
-  }
-  add_line(plane_line(t, light, 1), {}, group.half, out);
-  out.heights.push_back(plane_height(t, group));
-}
-
-void add_corners(const Triangle3& t, const LightFrame& light, const GroupFrame& group, GroupOccluders& out) {
-  for (const dvec3& v : t.v) out.corners.push_back(light_coordinates(light, group.centre, v));
-}
-
 bool larger(const Occluder& a, const Occluder& b) {
   return comes_before(a.size, a.triangle, b.size, b.triangle);
 }
@@ -66,8 +53,6 @@ void set_up_occluders(const LightFrame& light, const TriangleView& triangles, co
                       std::span<const std::uint32_t> candidates, GroupOccluders& out) {
   out.occluders.clear();
   out.indefinite.clear();
-  out.heights.clear();
-  out.corners.clear();
   out.lines.clear();
   out.planes.clear();
   for (const std::uint32_t id : candidates) {
@@ -75,32 +60,20 @@ void set_up_occluders(const LightFrame& light, const TriangleView& triangles, co
     const PlaneSides sides = plane_sides(t, light, group);
     if (sides.never) continue;
     const auto first = static_cast<std::uint32_t>(out.lines.size());
-    const auto corner = static_cast<std::uint32_t>(out.corners.size());
-    const Occluder occluder{id, first, 4, corner, size_class(t, group.centre)};
     if (sides.points == 0 || contains(group.receivers, id)) {
-      add_indefinite(t, light, group, out);
-      out.indefinite.push_back(occluder);
-      add_corners(t, light, group, out);
+      out.indefinite.push_back(id);
       continue;
     }
     if (sides.light == (sides.points > 0 ? Side::positive : Side::negative)) continue;
     if (add_definite(t, light, group, sides, out)) {
-      out.occluders.push_back(occluder);
-      add_corners(t, light, group, out);
-      out.occluders.back().line_count = static_cast<std::uint32_t>(out.lines.size()) - first;
+      const auto count = static_cast<std::uint32_t>(out.lines.size()) - first;
+      out.occluders.push_back({id, first, count, size_class(t, group.centre)});
     } else {
       out.lines.resize(first);
       out.planes.resize(first);
     }
   }
   std::sort(out.occluders.begin(), out.occluders.end(), larger);
-}
-
-dvec3 light_coordinates(const LightFrame& light, const dvec3& group_centre, const dvec3& place) {
-  const dvec3 from = place - light.origin;
-  const double square = glm::dot(light.ex, light.ex);
-  return {glm::dot(from, light.ex) / square, glm::dot(from, light.ey) / square,
-          glm::dot(group_centre - place, light.normal)};
 }
 
 dvec3 horizon_line(const LightFrame& light, const TriangleView& triangles, std::uint32_t receiver,

@@ -51,8 +51,7 @@ inline bool comes_before(int size_a, std::uint32_t triangle_a, int size_b, std::
 struct Occluder {
   std::uint32_t triangle = 0;
   std::uint32_t first_line = 0;
-  std::uint32_t line_count = 0;    ///< 0: the light is dark for the whole group
-  std::uint32_t first_corner = 0;  ///< index into GroupOccluders::corners
+  std::uint32_t line_count = 0;  ///< 0: the light is dark for the whole group
   int size = 0;  ///< class of the solid angle at the group's centre: its binary logarithm, rounded down
 };
 
@@ -65,17 +64,13 @@ struct PlaneHeight {
   double length = 0;      ///< |n|
 };
 
+/// What the BSP is made of.
 struct GroupOccluders {
   /// Triangles that shadow all points of the group from the same side, largest first (ties: by id). Lines
   /// that are positive for every point and all of the light are left out.
   std::vector<Occluder> occluders;
-  /// The others: points lie on both sides, or too near, or on the triangle itself. Four lines each, three
-  /// edges and the plane, for points behind the plane; for points in front their signs turn.
-  std::vector<Occluder> indefinite;
-  std::vector<PlaneHeight> heights;  ///< one an indefinite occluder
-  /// Three an occluder: coordinates u and v of their foot on the light's plane, and the height over the
-  /// group's centre towards that plane, metres.
-  std::vector<glm::dvec3> corners;
+  /// Triangles with points on both sides, or too near, or on the triangle itself.
+  std::vector<std::uint32_t> indefinite;
   std::vector<MovingLine> lines;
   std::vector<EdgePlane> planes;  ///< one a line
 };
@@ -92,10 +87,6 @@ inline int blocking_sign(const PlaneHeight& plane, const glm::dvec3& d, double r
   const double threshold = plane.threshold + receiver_tau * plane.length;
   return height < -threshold ? 1 : height > threshold ? -1 : 0;
 }
-
-/// u, v and height of a place as in GroupOccluders::corners.
-glm::dvec3 light_coordinates(const LightFrame& light, const glm::dvec3& group_centre,
-                             const glm::dvec3& place);
 
 /// The line on the light's plane where triangle `receiver` meets it, positive on the side of `seen_side`
 /// (+1: that of the triangle's normal).

@@ -15,14 +15,13 @@
 #include <vector>
 
 #include "points/visible_points.h"
-#include "soft/group_occluders.h"
+#include "soft/group_candidates.h"
 #include "soft/light_frame.h"
 
 namespace tenebra {
 
 struct OutlineEdge {
-  MovingLine line;      ///< positive to the left of the way from `from` to `to`, in (u, v)
-  glm::dvec3 from, to;  ///< u, v, height as in GroupOccluders::corners
+  glm::dvec3 from, to;  ///< in LightAxes
   int winding =
       0;  ///< triangles that block all points: +1 one that runs through it this way, -1 the other way
 };
@@ -56,11 +55,10 @@ struct GroupOutline {
 /// Finds outlines, with a table of edges of its own.
 class OutlineFinder {
 public:
-  /// Fills `out` from those of `candidates` that lie between all points of the group and the light's plane,
-  /// well apart from both, and leaves the others in `rest`. Where too few edges cancel, `out` is empty and
-  /// all are left.
-  void find(const LightFrame& light, const TriangleView& triangles, const GroupFrame& group,
-            std::span<const std::uint32_t> candidates, GroupOutline& out, std::vector<std::uint32_t>& rest);
+  /// Fills `out` from those of `candidates` that stand between the group's points and the light, and leaves
+  /// the places of the others in `rest`. Where too few edges cancel, `out` is empty and all are left.
+  void find(const LightFrame& light, const TriangleView& triangles, const GroupCandidates& candidates,
+            GroupOutline& out, std::vector<std::uint32_t>& rest);
 
 private:
   struct Edge {
@@ -69,11 +67,11 @@ private:
     bool used = false;  ///< by a triangle that blocks sometimes
   };
 
-  bool take(const LightFrame& light, const TriangleView& triangles, const GroupFrame& group,
-            std::span<const std::uint32_t> candidates, GroupOutline& out, std::vector<std::uint32_t>& rest);
+  bool take(const LightFrame& light, const TriangleView& triangles, const GroupCandidates& candidates,
+            GroupOutline& out, std::vector<std::uint32_t>& rest);
   void add_triangle(const glm::vec3* corners, int turn, std::int32_t blocker, GroupOutline& out);
   std::uint32_t edge_of(const glm::vec3& from, const glm::vec3& to);
-  void keep_outline(const LightFrame& light, const GroupFrame& group, GroupOutline& out);
+  void keep_outline(const LightAxes& axes, GroupOutline& out);
 
   void count_left(const Edge& edge, int change) {
     if (edge.winding != 0 || edge.used) left_ += static_cast<std::size_t>(change);

@@ -8,6 +8,7 @@
 // After foreach_target.h
 #include <algorithm>
 #include <cmath>
+#include <numeric>
 
 #include "base/stopwatch.h"
 #include "points/contact_rule.h"
@@ -76,6 +77,8 @@ struct Precision {
 
 class Solver final : public GroupSolver {
 public:
+  explicit Solver(FindCandidates find_candidates) : find_candidates_(find_candidates) {}
+
   void solve(const SoftFrame& frame, const GroupTask& task) override {
     Stopwatch watch;
     receiver_ = {};
@@ -100,14 +103,15 @@ public:
     receiver_ = {};
     use_bsp_ = false;
     outline_.clear();
-    set_up_occluders(frame.light, frame.triangles, {}, {}, occluders_);
-    double_.clip.reset(occluders_, Chosen::all);
+    candidates_.clear();
+    candidates_.axes = light_axes(frame.light, glm::dvec3(0.0));
+    order_.clear();
+    double_.clip.reset(candidates_, order_);
     for (const std::uint32_t pixel : pixels) {
-      if (!add_whole(frame, pixel)) {
-        solve_point(double_, frame, {pixels, {}, {}}, pixel);
-        if (frame.classes[pixel] == class_of(SoftClass::clip))
-          frame.classes[pixel] = class_of(SoftClass::lit);
-      }
+      const bool whole = add_whole(frame, pixel);
+      if (!whole) solve_point(double_, frame, {pixels, {}, {}}, pixel);
+      if (whole || frame.classes[pixel] == class_of(SoftClass::clip))
+        frame.classes[pixel] = class_of(SoftClass::lit);
       if (whole_count_ == 8) finish_whole(frame);
     }
     finish_whole(frame);
@@ -115,21 +119,64 @@ public:
   }
 
 private:
+  static constexpr std::uint32_t columns = 32, places = columns * columns, size_ranks = 16;
+
   void set_up(const SoftFrame& frame, const GroupTask& task) {
     outline_.clear();
-    std::span<const std::uint32_t> others = task.candidates;
-    if (frame.config.solver == SoftSolver::automatic) {
-      finder_.find(frame.light, frame.triangles, task.frame, task.candidates, outline_, rest_);
-      others = rest_;
-    }
-    set_up_occluders(frame.light, frame.triangles, task.frame, others, occluders_);
     use_bsp_ = wants_bsp(frame.config);
-    if (use_bsp_) bsp_.reset(occluders_, frame.triangles, task.frame, frame.config.choice);
+    std::span<const std::uint32_t> clipped = task.candidates;
+    if (use_bsp_) {
+      set_up_occluders(frame.light, frame.triangles, task.frame, task.candidates, occluders_);
+      bsp_.reset(occluders_, frame.triangles, task.frame, frame.config.choice);
+      clipped = occluders_.indefinite;
+    }
+    find_candidates_(frame.light, frame.triangles, task.frame, clipped, candidates_);
+    if (frame.config.solver == SoftSolver::automatic) {
+      finder_.find(frame.light, frame.triangles, candidates_, outline_, rest_);
+    } else {
+      rest_.resize(candidates_.all.size());
+      std::iota(rest_.begin(), rest_.end(), 0u);
+    }
+    sort_by_size();
+  }
+
+  /// Fills order_ from rest_: classes of size, largest first, and in a class by where they stand before the
+  /// light; what comes first at one place, stays so.
+  void sort_by_size() {
+    ranks_.clear();
+    const bool many = rest_.size() > 512;
+    for (const std::uint32_t place : rest_) {
+      const Candidate& c = candidates_.all[place];
+      ranks_.push_back(many ? rank_of(c) : static_cast<std::uint32_t>(std::clamp(32 - c.size, 0, 127)));
+    }
+    ends_.assign(many ? size_ranks * places + 1 : 129, 0);
+    for (const std::uint32_t rank : ranks_) ++ends_[rank + 1];
+    for (std::size_t k = 1; k < ends_.size(); ++k) ends_[k] += ends_[k - 1];
+    order_.resize(rest_.size());
+    for (std::size_t i = 0; i < rest_.size(); ++i) order_[ends_[ranks_[i]]++] = rest_[i];
+  }
+
+  std::uint32_t rank_of(const Candidate& c) const {
+    const glm::dvec3 sum = corner(c, 0) + corner(c, 1) + corner(c, 2);
+    const double t = sum.z > 0 ? candidates_.axes.centre_uv.z / sum.z : 0.0;
+    std::uint32_t at[2];
+    for (int k = 0; k < 2; ++k) {
+      const double from_edge = candidates_.axes.centre_uv[k] + sum[k] * t + 1;
+      at[k] = static_cast<std::uint32_t>(std::clamp(from_edge * (columns / 2), 0.0, columns - 1.0));
+    }
+    const int size = std::clamp((32 - c.size) / 4, 0, static_cast<int>(size_ranks) - 1);
+    std::uint32_t morton = 0;
+    for (int bit = 0; bit < 5; ++bit)
+      morton |= (at[0] >> bit & 1u) << (2 * bit) | (at[1] >> bit & 1u) << (2 * bit + 1);
+    return static_cast<std::uint32_t>(size) * places + morton;
+  }
+  static glm::dvec3 corner(const Candidate& c, int k) {
+    return {c.corners[k][0], c.corners[k][1], c.corners[k][2]};
   }
 
   template <class T>
   void reset(Precision<T>& p) {
-    p.clip.reset(occluders_, use_bsp_ ? Chosen::indefinite : Chosen::all);
+    p.clip.reset(candidates_, order_);
     if (!outline_.empty()) p.outline.reset(outline_);
   }
 
@@ -139,7 +186,11 @@ private:
       if (use_bsp_ && bsp_.bytes() > largest_tree_bytes) {
         note_tree();
         use_bsp_ = false;
-        p.clip.reset(occluders_, Chosen::all);
+        find_candidates_(frame.light, frame.triangles, task.frame, task.candidates, candidates_);
+        rest_.resize(candidates_.all.size());
+        std::iota(rest_.begin(), rest_.end(), 0u);
+        sort_by_size();
+        p.clip.reset(candidates_, order_);
       }
       solve_point(p, frame, task, pixel);
       if (use_bsp_ && !frame.config.keep_trees) {
@@ -147,6 +198,7 @@ private:
         bsp_.reset(occluders_, frame.triangles, task.frame, frame.config.choice);
       }
     }
+    finish_whole(frame);
     if (use_bsp_) note_tree();
   }
 
@@ -167,11 +219,13 @@ private:
     const bool in_front = glm::dot(point - frame.light.origin, frame.light.normal) > 0;
     const double above = in_front ? above_ : 0.0;
     p.visible.clear();
-    if (above > 0)
-      find_visible(
-          p, {point - task.frame.centre, light_coordinates(frame.light, task.frame.centre, point),
-              glm::dot(task.frame.centre - frame.light.origin, frame.light.normal), receiver, receiver_.tau});
-    finish(p, frame, pixel, point, above);
+    if (above > 0) find_visible(p, group_point(candidates_.axes, point, receiver, receiver_.tau));
+    if (above > 0 && p.visible == p.start && add_whole(frame, pixel)) {
+      count_solver(frame, pixel);
+      if (whole_count_ == 8) finish_whole(frame);
+    } else {
+      finish(p, frame, pixel, point, above);
+    }
   }
 
   /// Takes up another receiver: the part of the light above its plane is the same for all its points.
@@ -210,7 +264,6 @@ private:
     for (std::size_t k = 0; k < whole_count_; ++k) {
       frame.out.visible_fraction[whole_pixels_[k]] = 1.0f;
       frame.out.irradiance[whole_pixels_[k]] = clamped(irradiance[k]);
-      frame.classes[whole_pixels_[k]] = class_of(SoftClass::lit);
     }
     stats.points_lit += whole_count_;
     stats.fragments += whole_count_;
@@ -238,7 +291,7 @@ private:
         p.clip.query(part, p.visible);
       }
     }
-    if (use_bsp_ && !occluders_.indefinite.empty()) refine(p, p.clip);
+    if (use_bsp_ && !order_.empty()) refine(p, p.clip);
     if (outline_.empty() || p.visible.empty()) return;
     p.outline.move_to(at);
     refine(p, p.outline);
@@ -290,21 +343,22 @@ private:
   }
 
   void count(double above, double area, const SoftFrame& frame, std::uint32_t pixel) {
-    const bool dark = area <= 0;
-    const bool lit = area >= above * (1 - 1e-6);
-    const bool outlined = !outline_.empty();
-    SoftClass found = use_bsp_ ? SoftClass::bsp : outlined ? SoftClass::outline : SoftClass::clip;
-    if (above > 0) ++(use_bsp_ ? stats.points_bsp : outlined ? stats.points_outline : stats.points_clip);
     if (above <= 0) {
-      found = SoftClass::below_horizon;
-    } else if (dark) {
-      ++stats.points_dark;
-    } else if (lit) {
-      ++stats.points_lit;
-    } else {
-      ++stats.points_penumbra;
+      frame.classes[pixel] = class_of(SoftClass::below_horizon);
+      return;
     }
-    frame.classes[pixel] = class_of(found);
+    count_solver(frame, pixel);
+    const bool dark = area <= 0, lit = area >= above * (1 - 1e-6);
+    ++(dark ? stats.points_dark : lit ? stats.points_lit : stats.points_penumbra);
+  }
+
+  /// Counts a point for the solver at work.
+  void count_solver(const SoftFrame& frame, std::uint32_t pixel) {
+    const bool outlined = !outline_.empty();
+    ++(use_bsp_ ? stats.points_bsp : outlined ? stats.points_outline : stats.points_clip);
+    frame.classes[pixel] = class_of(use_bsp_   ? SoftClass::bsp
+                                    : outlined ? SoftClass::outline
+                                               : SoftClass::clip);
   }
 
   static std::uint8_t class_of(SoftClass soft_class) { return static_cast<std::uint8_t>(soft_class); }
@@ -316,10 +370,14 @@ private:
     return false;
   }
 
+  FindCandidates find_candidates_;
+  GroupCandidates candidates_;
   OutlineFinder finder_;
   GroupOutline outline_;
-  std::vector<std::uint32_t> rest_;  ///< candidates that the outline leaves
-  GroupOccluders occluders_;
+  std::vector<std::uint32_t> rest_;   ///< places of the candidates that the outline leaves
+  std::vector<std::uint32_t> order_;  ///< the same, largest first
+  std::vector<std::uint32_t> ranks_, ends_;
+  GroupOccluders occluders_;  ///< of the BSP
   LineClassBsp bsp_;
   bool use_bsp_ = false;
   Precision<float> float_;
@@ -332,8 +390,8 @@ private:
   std::size_t whole_count_ = 0;
 };
 
-std::unique_ptr<GroupSolver> make_solver() {
-  return std::make_unique<Solver>();
+std::unique_ptr<GroupSolver> make_solver(FindCandidates find_candidates) {
+  return std::make_unique<Solver>(find_candidates);
 }
 
 }  // namespace tenebra::HWY_NAMESPACE
@@ -344,21 +402,22 @@ HWY_AFTER_NAMESPACE();
 namespace tenebra {
 
 std::unique_ptr<GroupSolver> make_group_solver(SimdLevel level) {
+  const FindCandidates find = find_candidates_kernel(level);
   switch (level == SimdLevel::automatic ? best_simd_level() : level) {
 #if HWY_TARGETS & HWY_AVX3
     case SimdLevel::avx512:
-      return N_AVX3::make_solver();
+      return N_AVX3::make_solver(find);
 #endif
 #if HWY_TARGETS & HWY_AVX2
     case SimdLevel::avx2:
-      return N_AVX2::make_solver();
+      return N_AVX2::make_solver(find);
 #endif
 #if HWY_TARGETS & HWY_SSE4
     case SimdLevel::sse4:
-      return N_SSE4::make_solver();
+      return N_SSE4::make_solver(find);
 #endif
     default:
-      return HWY_STATIC_DISPATCH(make_solver)();
+      return HWY_STATIC_DISPATCH(make_solver)(find);
   }
 }
 

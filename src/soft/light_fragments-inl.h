@@ -7,6 +7,8 @@
 #define TENEBRA_SOFT_LIGHT_FRAGMENTS_INL_H_
 #endif
 
+#include <algorithm>
+#include <cstring>
 #include <span>
 #include <vector>
 
@@ -39,6 +41,15 @@ public:
   bool empty() const { return size_ == 0; }
   std::size_t size() const { return size_; }
   const StoredPolygon<T>& operator[](std::size_t i) const { return polygons_[i]; }
+  /// The same vertices in the same order, bit by bit.
+  bool operator==(const FragmentList& other) const {
+    const auto equal = [](const StoredPolygon<T>& a, const StoredPolygon<T>& b) {
+      return a.count == b.count && std::memcmp(a.x, b.x, sizeof(a.x)) == 0 &&
+             std::memcmp(a.y, b.y, sizeof(a.y)) == 0;
+    };
+    return size_ == other.size_ &&
+           std::equal(polygons_.data(), polygons_.data() + size_, other.polygons_.data(), equal);
+  }
   void swap(FragmentList& other) {
     polygons_.swap(other.polygons_);
     std::swap(size_, other.size_);
@@ -71,14 +82,18 @@ private:
   std::size_t size_ = 0;
 };
 
-/// Adds what is left of `fragment` outside the shadow (where all `lines` are positive) to `out`.
+/// Adds what is left of `fragment` outside the shadow (where all `lines` are positive) to `out`; false if
+/// that is all of it.
 template <class T>
-HWY_NOINLINE void subtract(const LightPolygon<T>& fragment, const LightLine<T>* lines, int count,
+HWY_NOINLINE bool subtract(const LightPolygon<T>& fragment, const LightLine<T>* lines, int count,
                            FragmentList<T>& out) {
   std::uint32_t crossing = 0;
   for (int k = 0; k < count; ++k) {
     const LineValues<T> values = evaluate(fragment, lines[k]);
-    if (values.positive == 0) return out.push(fragment);
+    if (values.positive == 0) {
+      out.push(fragment);
+      return false;
+    }
     if (values.negative != 0) crossing |= 1u << k;
   }
   const std::size_t before = out.size();
@@ -88,7 +103,8 @@ HWY_NOINLINE void subtract(const LightPolygon<T>& fragment, const LightLine<T>* 
     const LineValues<T> values = evaluate(rest, lines[k]);
     if (values.positive == 0) {  // they do not overlap: a fragment stays whole
       out.shrink(before);
-      return out.push(fragment);
+      out.push(fragment);
+      return false;
     }
     if (values.negative == 0) continue;
     LightPolygon<T> inside, outside;
@@ -96,6 +112,7 @@ HWY_NOINLINE void subtract(const LightPolygon<T>& fragment, const LightLine<T>* 
     out.push(outside);
     rest = inside;
   }
+  return true;
 }
 
 /// The part of every fragment on the positive side of `line`.

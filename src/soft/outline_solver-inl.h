@@ -1,6 +1,7 @@
 // The visible part of the light from the outline of meshes: it is cut along the edges that cross it, and a
-// part that no edge crosses any more is visible if the outline winds around it zero times. Included once per
-// target.
+// part that no edge crosses any more is visible if the outline winds around it zero times. A part is dark,
+// and need not be cut, as soon as the edges that cross it cannot bring its winding down to zero. Included
+// once per target.
 #if defined(TENEBRA_SOFT_OUTLINE_SOLVER_INL_H_) == defined(HWY_TARGET_TOGGLE)
 #ifdef TENEBRA_SOFT_OUTLINE_SOLVER_INL_H_
 #undef TENEBRA_SOFT_OUTLINE_SOLVER_INL_H_
@@ -47,11 +48,10 @@ public:
   }
 
 private:
-  using Wide = Pack<double, 16>;
   using Lanes = Pack<T, 16>;
+  static constexpr std::size_t several = 2;  ///< edges; to cut along fewer is quicker than to ask first
   struct MovingBlock {
-    double c[4][3][16];  ///< power of the point, coefficient, edge
-    double from[3][16], to[3][16];
+    double from[3][16], to[3][16];  ///< coordinate, edge
     double winding[16];
   };
   /// Sixteen edges at the point: their lines, ends, and windings.
@@ -71,52 +71,52 @@ private:
     }
     void copy(std::size_t first, std::size_t last) {
       make_room(last - first);
-      for (auto* values : {&u, &v, &w, &from_u, &from_v, &to_u, &to_v})
+      for (auto* values : {&u, &v, &w, &from_u, &from_v, &to_u, &to_v, &winding})
         std::copy(&(*values)[first], &(*values)[last], &(*values)[count]);
       count += last - first;
     }
     void drop(std::size_t place) {
       --count;
-      for (auto* values : {&u, &v, &w, &from_u, &from_v, &to_u, &to_v}) (*values)[place] = (*values)[count];
+      for (auto* values : {&u, &v, &w, &from_u, &from_v, &to_u, &to_v, &winding})
+        (*values)[place] = (*values)[count];
     }
   };
 
   void fill(std::size_t i) {
     MovingBlock& block = moving_[i / 16];
     const std::size_t k = i % 16;
-    const OutlineEdge none{{{glm::dvec3(0, 0, 1)}}, glm::dvec3(0, 0, 1), glm::dvec3(0, 0, 1), 0};
+    const OutlineEdge none{glm::dvec3(0, 0, 1), glm::dvec3(0, 0, 1), 0};
     const OutlineEdge& edge = i < outline_->edges.size() ? outline_->edges[i] : none;
     for (int c = 0; c < 3; ++c) {
-      for (int power = 0; power < 4; ++power) block.c[power][c][k] = edge.line.c[power][c];
       block.from[c][k] = edge.from[c];
       block.to[c][k] = edge.to[c];
     }
     block.winding[k] = edge.winding;
   }
 
-  /// u and v where the line from the point through corners meets the light's plane.
-  static HWY_INLINE void project(const GroupPoint& at, const double (*corner)[16], T* u, T* v) {
-    const Wide pu = splat<Wide>(at.in_light.x), pv = splat<Wide>(at.in_light.y);
-    const Wide t =
-        splat<Wide>(at.light_height - at.in_light.z) / (load<Wide>(corner[2]) - splat<Wide>(at.in_light.z));
-    store(narrowed<T>(pu + (load<Wide>(corner[0]) - pu) * t), u);
-    store(narrowed<T>(pv + (load<Wide>(corner[1]) - pv) * t), v);
+  /// u and v where the line from the point along `way` meets the light's plane.
+  static HWY_INLINE void project(const GroupPoint& at, const Pack3<Wide>& way, T* u, T* v) {
+    const Wide t = wide(at.reach) / way.z;
+    store(narrowed<T>(wide(at.in_light.x) + way.x * t), u);
+    store(narrowed<T>(wide(at.in_light.y) + way.y * t), v);
   }
 
+  /// Lines are positive to the left of the way from `from` to `to`.
   HWY_INLINE void move_block(const GroupPoint& at, std::size_t b) {
-    const MovingBlock& from = moving_[b];
+    const MovingBlock& block = moving_[b];
     Block& to = at_point_[b];
-    const Wide x = splat<Wide>(at.from_centre.x), y = splat<Wide>(at.from_centre.y),
-               z = splat<Wide>(at.from_centre.z);
-    T* lines[3] = {to.u, to.v, to.w};
-    for (int i = 0; i < 3; ++i) {
-      store(narrowed<T>(load<Wide>(from.c[0][i]) + x * load<Wide>(from.c[1][i]) +
-                        y * load<Wide>(from.c[2][i]) + z * load<Wide>(from.c[3][i])),
-            lines[i]);
-    }
-    project(at, from.from, to.from_u, to.from_v);
-    project(at, from.to, to.to_u, to.to_v);
-    store(narrowed<T>(load<Wide>(from.winding)), to.winding);
+    const Wide x = wide(at.in_axes.x), y = wide(at.in_axes.y), z = wide(at.in_axes.z);
+    const auto way = [&](const double(&end)[3][16]) {
+      return Pack3<Wide>{load<Wide>(end[0]) - x, load<Wide>(end[1]) - y, load<Wide>(end[2]) - z};
+    };
+    const Pack3<Wide> a = way(block.from), b_way = way(block.to);
+    const Pack3<Wide> n = cross(a, b_way - a);
+    store(narrowed<T>(n.x), to.u);
+    store(narrowed<T>(n.y), to.v);
+    store(narrowed<T>(n.z * wide(at.reach) - n.x * wide(at.in_light.x) - n.y * wide(at.in_light.y)), to.w);
+    project(at, a, to.from_u, to.from_v);
+    project(at, b_way, to.to_u, to.to_v);
+    store(narrowed<T>(load<Wide>(block.winding)), to.winding);
   }
 
   void add_sometimes(const GroupPoint& at) {
@@ -148,12 +148,12 @@ private:
     compress(counts, v1, &around_.to_v[around_.count]);
     around_.count += compress(counts, winding, &around_.winding[around_.count]);
     add_crossing(counts & less(min(u0, u1), one) & less(absolute(w), absolute(u) + absolute(v)),
-                 {u, v, w, u0, v0, u1, v1}, crossing_.count);
+                 {u, v, w, u0, v0, u1, v1, winding}, crossing_.count);
   }
 
   /// An edge a lane.
   struct EdgeLanes {
-    Lanes u, v, w, from_u, from_v, to_u, to_v;
+    Lanes u, v, w, from_u, from_v, to_u, to_v, winding;
   };
 
   /// Writes the edges where `chosen` to crossing_ from `to` on, and ends it behind them.
@@ -164,6 +164,7 @@ private:
     compress(chosen, edges.from_u, &crossing_.from_u[to]);
     compress(chosen, edges.from_v, &crossing_.from_v[to]);
     compress(chosen, edges.to_u, &crossing_.to_u[to]);
+    compress(chosen, edges.winding, &crossing_.winding[to]);
     crossing_.count = to + compress(chosen, edges.to_v, &crossing_.to_v[to]);
   }
 
@@ -171,6 +172,10 @@ private:
   void solve(const LightPolygon<T>& part, std::size_t first, FragmentList<T>& out) {
     LightPolygon<T> rest = part;
     while (crossing_.count > first) {
+      if (crossing_.count - first >= several && is_dark(rest, first)) {
+        crossing_.count = first;
+        return;
+      }
       const std::size_t middle = first + (crossing_.count - first) / 2;
       const LightLine<T> line{crossing_.u[middle], crossing_.v[middle], crossing_.w[middle]};
       crossing_.drop(middle);
@@ -186,6 +191,26 @@ private:
       if (rest.count > fragment_capacity) return branch(rest, first, out);
     }
     if (winding_around(rest) == T(0)) out.push(rest);
+  }
+
+  /// The winding around a place of `part`, less what the crossing edges from `first` on can take from it, is
+  /// above zero: on the way from there to another place of the part each is crossed once at most.
+  HWY_NOINLINE bool is_dark(const LightPolygon<T>& part, std::size_t first) const {
+    const Place at = middle_of(part, 0);
+    T winding = 0;
+    if (!find_winding(at, winding) || winding <= T(0)) return false;
+    const Lanes zero = splat<Lanes>(T(0)), qu = splat<Lanes>(at.u), qv = splat<Lanes>(at.v);
+    Lanes lost = zero;
+    for (std::size_t i = first; i < crossing_.count; i += 16) {
+      const Lanes side = load<Lanes>(&crossing_.u[i]) * qu + load<Lanes>(&crossing_.v[i]) * qv +
+                         load<Lanes>(&crossing_.w[i]);
+      const Lanes turns = choose(lanes_below(crossing_.count - i), load<Lanes>(&crossing_.winding[i]), zero);
+      lost = lost + max(choose(less(zero, side), turns, zero - turns), zero);
+    }
+    T lanes[16];
+    store(lost, lanes);
+    for (const T lane : lanes) winding -= lane;
+    return winding > T(0);
   }
 
   /// The same for a polygon of any size.
@@ -231,7 +256,7 @@ private:
     return {load<Lanes>(&crossing_.u[i]),      load<Lanes>(&crossing_.v[i]),
             load<Lanes>(&crossing_.w[i]),      load<Lanes>(&crossing_.from_u[i]),
             load<Lanes>(&crossing_.from_v[i]), load<Lanes>(&crossing_.to_u[i]),
-            load<Lanes>(&crossing_.to_v[i])};
+            load<Lanes>(&crossing_.to_v[i]),   load<Lanes>(&crossing_.winding[i])};
   }
 
   static HWY_INLINE Truth<T, 16> lanes_below(std::size_t count) {
@@ -239,29 +264,37 @@ private:
     return less(load<Lanes>(lanes), splat<Lanes>(static_cast<T>(HWY_MIN(count, std::size_t{16}))));
   }
 
-  /// How many triangles cover a part of the light that no edge crosses.
-  T winding_around(const LightPolygon<T>& part) {
+  struct Place {
+    T u, v;
+  };
+  /// A mean of the corners, another one for each `attempt`.
+  static HWY_INLINE Place middle_of(const LightPolygon<T>& part, int attempt) {
     T x[polygon_capacity], y[polygon_capacity];
     store(part.x, x);
     store(part.y, y);
+    T u = 0, v = 0, total = 0;
+    for (int k = 0; k < part.count; ++k) {
+      const T weight = T(1) + T(k * attempt);
+      u += weight * x[k];
+      v += weight * y[k];
+      total += weight;
+    }
+    return {u / total, v / total};
+  }
+
+  /// How many triangles cover a part of the light that no edge crosses.
+  T winding_around(const LightPolygon<T>& part) {
     T winding = 0;
     for (int attempt = 0; attempt < 3; ++attempt) {
-      T u = 0, v = 0, total = 0;
-      for (int k = 0; k < part.count; ++k) {
-        const T weight = T(1) + T(k * attempt);
-        u += weight * x[k];
-        v += weight * y[k];
-        total += weight;
-      }
-      if (find_winding(u / total, v / total, winding)) break;
+      if (find_winding(middle_of(part, attempt), winding)) break;
     }
     return winding;
   }
 
-  /// The winding number around (u, v): the edges that a ray from there towards +u crosses. False if that is
+  /// The winding number around a place: the edges that a ray from there towards +u crosses. False if that is
   /// too near to an edge to be sure.
-  HWY_NOINLINE bool find_winding(T u, T v, T& winding) const {
-    const Lanes zero = splat<Lanes>(T(0)), qu = splat<Lanes>(u), qv = splat<Lanes>(v);
+  HWY_NOINLINE bool find_winding(Place at, T& winding) const {
+    const Lanes zero = splat<Lanes>(T(0)), qu = splat<Lanes>(at.u), qv = splat<Lanes>(at.v);
     const Lanes near = splat<Lanes>(on_line<T>), slack = splat<Lanes>(slack_);
     Lanes sum = zero;
     std::uint32_t doubtful = 0;

@@ -87,13 +87,20 @@ std::vector<std::uint32_t> mesh_of(const SoftCase& c) {
   return all;
 }
 
+GroupCandidates candidates_of(const SoftCase& c, const GroupFrame& group) {
+  GroupCandidates candidates;
+  find_candidates_kernel(SimdLevel::automatic)(light_frame(c.light), c.soup.view(), group, mesh_of(c),
+                                               candidates);
+  return candidates;
+}
+
 TEST(SoftOutline, OfAClosedMeshIsItsSilhouette) {
   const SoftCase c = below("sphere", sphere(12, 0.8, {0.1, 1.4, 0}));
   GroupFrame group = floor_group();
   group.half *= 0.25;
   GroupOutline outline;
   std::vector<std::uint32_t> rest;
-  OutlineFinder().find(light_frame(c.light), c.soup.view(), group, mesh_of(c), outline, rest);
+  OutlineFinder().find(light_frame(c.light), c.soup.view(), candidates_of(c, group), outline, rest);
   EXPECT_TRUE(rest.empty());
   std::size_t always = 0;
   for (const OutlineEdge& edge : outline.edges) always += edge.winding != 0;
@@ -107,9 +114,10 @@ TEST(SoftOutline, LeavesLooseTrianglesAlone) {
   const SoftCase c = below("cloud", random_soup(random, 200, 0.2).moved(1, {0, 2, 0}));
   GroupOutline outline;
   std::vector<std::uint32_t> rest;
-  OutlineFinder().find(light_frame(c.light), c.soup.view(), floor_group(), mesh_of(c), outline, rest);
+  const GroupCandidates candidates = candidates_of(c, floor_group());
+  OutlineFinder().find(light_frame(c.light), c.soup.view(), candidates, outline, rest);
   EXPECT_TRUE(outline.empty());
-  EXPECT_EQ(rest, mesh_of(c));
+  EXPECT_EQ(rest.size(), candidates.all.size());
 }
 
 /// Twice the signed area of a, b, c; 0 where rounding might decide.
@@ -168,7 +176,9 @@ TEST(SoftOutline, WindsAroundAPlaceOnceForEachTriangleInFrontOfIt) {
     const GroupFrame group = floor_group();
     GroupOutline outline;
     std::vector<std::uint32_t> rest;
-    OutlineFinder().find(light, c.soup.view(), group, mesh_of(c), outline, rest);
+    const GroupCandidates candidates = candidates_of(c, group);
+    OutlineFinder().find(light, c.soup.view(), candidates, outline, rest);
+    for (std::uint32_t& place : rest) place = candidates.all[place].triangle;
     ASSERT_FALSE(outline.empty());
     ASSERT_LT(rest.size(), c.soup.triangles.size() / 4);
     for (int k = 0; k < 400; ++k) {
@@ -177,10 +187,10 @@ TEST(SoftOutline, WindsAroundAPlaceOnceForEachTriangleInFrontOfIt) {
       for (const SometimesBlocker& blocker : outline.sometimes)
         signs.push_back(blocking_sign(blocker.plane, p - group.centre, 0));
       const dvec2 q(2 * random.unit() - 1, 2 * random.unit() - 1);
-      const dvec3 at = light_coordinates(light, group.centre, p);
+      const dvec3 at = candidates.axes.of(p - group.centre);
       bool sure = true;
-      const double winding = winding_around(
-          q, outline, signs, at.z, glm::dot(group.centre - light.origin, light.normal), dvec2(at), sure);
+      const double winding = winding_around(q - dvec2(candidates.axes.centre_uv), outline, signs, at.z,
+                                            candidates.axes.centre_uv.z, dvec2(at), sure);
       const int count = covering(c, rest, p, light.point(q), sure);
       if (!sure) continue;
       EXPECT_EQ(winding, count) << c.soup.triangles.size() << " triangles, P " << p.x << " " << p.z << ", q "

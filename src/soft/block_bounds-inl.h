@@ -1,0 +1,76 @@
+// Bounds of blocks of occluders, and at a point the boxes on the light's plane that hold all shadows of a
+// block. Included once per target.
+#if defined(TENEBRA_SOFT_BLOCK_BOUNDS_INL_H_) == defined(HWY_TARGET_TOGGLE)
+#ifdef TENEBRA_SOFT_BLOCK_BOUNDS_INL_H_
+#undef TENEBRA_SOFT_BLOCK_BOUNDS_INL_H_
+#else
+#define TENEBRA_SOFT_BLOCK_BOUNDS_INL_H_
+#endif
+
+#include "soft/clip_candidates-inl.h"
+
+HWY_BEFORE_NAMESPACE();
+namespace tenebra::HWY_NAMESPACE {
+
+template <class T>
+class BlockBounds {
+public:
+  void find(ClipCandidates<T>& candidates) {
+    count_ = candidates.block_count();
+    bounds_.resize((count_ + 15) / 16);
+    for (std::size_t b = 0; b < count_; ++b) {
+      const OccluderBlock& block = candidates.block(b);
+      const auto there = truth_of<double, 16>(block.lanes);
+      for (int axis = 0; axis < 3; ++axis) {
+        const Wide v0 = load<Wide>(block.corners[0][axis]), v1 = load<Wide>(block.corners[1][axis]),
+                   v2 = load<Wide>(block.corners[2][axis]);
+        const Wide low = min(v0, min(v1, v2)), high = max(v0, max(v1, v2));
+        bounds_[b / 16].low[axis][b % 16] = least(choose(there, low, wide(1e300)));
+        bounds_[b / 16].high[axis][b % 16] = greatest(choose(there, high, wide(-1e300)));
+      }
+    }
+  }
+
+  /// The list of blocks with shadows, from its beginning on.
+  HWY_NOINLINE void list_at(const GroupPoint& at, ShadowList<T>& list) const {
+    list.shrink(0);
+    for (std::size_t from = 0; from < count_; from += 16) {
+      T sides[4][16];
+      const std::uint32_t above = find_boxes_of(bounds_[from / 16], at, sides);
+      const std::uint32_t there = count_ - from < 16 ? (1u << (count_ - from)) - 1u : 0xffffu;
+      list.append(sides, from, above & there, LightBox<T>());
+    }
+  }
+
+private:
+  struct Bounds {
+    double low[3][16], high[3][16];  ///< in the light's axes
+  };
+
+  /// A box with a part at or below the point's height may shadow all.
+  static HWY_INLINE std::uint32_t find_boxes_of(const Bounds& bounds, const GroupPoint& at,
+                                                T (&sides)[4][16]) {
+    const Wide zero = wide(0), two = wide(2), minus = wide(-2);
+    const Wide lowest = load<Wide>(bounds.low[2]) - wide(at.in_axes.z);
+    const Wide highest = load<Wide>(bounds.high[2]) - wide(at.in_axes.z);
+    const auto boxed = less(zero, lowest);
+    const Wide near = wide(at.reach) / choose(boxed, lowest, wide(1));
+    const Wide far = wide(at.reach) / choose(boxed, highest, wide(1));
+    for (int axis = 0; axis < 2; ++axis) {
+      const Wide from = wide(at.in_light[axis]), place = wide(at.in_axes[axis]);
+      const Wide low = load<Wide>(bounds.low[axis]) - place, high = load<Wide>(bounds.high[axis]) - place;
+      const Wide least_at = from + min(low * near, low * far), most_at = from + max(high * near, high * far);
+      store(narrowed<T>(max(choose(boxed, least_at, minus), minus)), sides[2 * axis]);
+      store(narrowed<T>(zero - min(choose(boxed, most_at, two), two)), sides[2 * axis + 1]);
+    }
+    return less_bits(zero, highest);
+  }
+
+  std::vector<Bounds> bounds_;
+  std::size_t count_ = 0;
+};
+
+}  // namespace tenebra::HWY_NAMESPACE
+HWY_AFTER_NAMESPACE();
+
+#endif

@@ -1,0 +1,70 @@
+// The triangles that may stand between one group of points and the light, in axes of the light around the
+// group's centre. All that the solvers ask of a triangle at a point follows from its corners there:
+//
+// For a point P and an edge from a to b, the plane through the three has the normal N = (a-P) x (b-a), and a
+// place Q of the light's plane lies on its side N.(Q-P): a line on the light's plane (the hyperplane of the
+// edge in Pluecker space, met with the lines through P; Mora et al. 2012, section 4.2). Coordinates relative
+// to the group and in double are what makes polygons in single precision work with far lights.
+#pragma once
+
+#include <cstdint>
+#include <glm/glm.hpp>
+#include <span>
+#include <vector>
+
+#include "points/visible_points.h"
+#include "simd/simd_level.h"
+#include "soft/group_occluders.h"
+#include "soft/light_frame.h"
+
+namespace tenebra {
+
+/// Axes of the light around a place: the light's unit is the unit of all three coordinates, the third is the
+/// height towards the light's plane. An affine map: it keeps lines, planes and sides (times `turn`).
+struct LightAxes {
+  glm::dvec3 u{0.0}, v{0.0}, height{0.0};  ///< rows of the map from world space
+  glm::dvec3 centre{0.0};                  ///< world space; the origin of these axes
+  glm::dvec3 centre_uv{
+      0.0};         ///< its u and v from the light's origin, and the height of the light's plane over it
+  double turn = 1;  ///< sign of the map's determinant
+
+  /// A difference from the centre in these axes.
+  glm::dvec3 of(const glm::dvec3& from_centre) const {
+    return {glm::dot(u, from_centre), glm::dot(v, from_centre), glm::dot(height, from_centre)};
+  }
+};
+LightAxes light_axes(const LightFrame& light, const glm::dvec3& centre);
+
+struct Candidate {
+  double corners[3][3];  ///< corner, coordinate in LightAxes
+  double plane[3];  ///< (u, v, w) of the triangle's own plane; positive everywhere where it is not needed
+  double sign =
+      0;  ///< +-1: its lines times this are positive in its shadow, at all points; 0: see PlaneHeight
+  std::uint32_t triangle = 0;
+  std::int32_t size =
+      0;  ///< class of the solid angle at the group's centre: its binary logarithm, rounded down
+  std::uint32_t height = 0;  ///< index into GroupCandidates::heights where sign is 0
+  bool has_plane = false;
+  bool stands_between =
+      false;  ///< well apart from all points and the light's plane: its shadow there is finite
+};
+
+struct GroupCandidates {
+  LightAxes axes;
+  std::vector<Candidate> all;
+  std::vector<PlaneHeight> heights;
+
+  void clear() {
+    all.clear();
+    heights.clear();
+  }
+};
+
+/// Fills `out` with those of the triangles `ids` that may block between the group's points and the light, in
+/// their order. What it leaves out blocks nothing there (margins cover the rounding of double).
+using FindCandidates = void (*)(const LightFrame& light, const TriangleView& triangles,
+                                const GroupFrame& group, std::span<const std::uint32_t> ids,
+                                GroupCandidates& out);
+FindCandidates find_candidates_kernel(SimdLevel level);
+
+}  // namespace tenebra

@@ -1,0 +1,143 @@
+// Occluders of a group in blocks of sixteen, largest first, and at one point, block by block as they are
+// asked for: the boxes of their shadows on the light's plane and their lines there. Included once per target.
+#if defined(TENEBRA_SOFT_OCCLUDER_BLOCKS_INL_H_) == defined(HWY_TARGET_TOGGLE)
+#ifdef TENEBRA_SOFT_OCCLUDER_BLOCKS_INL_H_
+#undef TENEBRA_SOFT_OCCLUDER_BLOCKS_INL_H_
+#else
+#define TENEBRA_SOFT_OCCLUDER_BLOCKS_INL_H_
+#endif
+
+#include <bit>
+#include <span>
+#include <vector>
+
+#include "soft/group_candidates.h"
+#include "soft/light_polygon-inl.h"
+
+HWY_BEFORE_NAMESPACE();
+namespace tenebra::HWY_NAMESPACE {
+
+/// A point as a group knows it.
+struct GroupPoint {
+  glm::dvec3 from_centre{0.0};  ///< world space
+  glm::dvec3 in_axes{0.0};      ///< the same in the light's axes
+  glm::dvec2 in_light{0.0};     ///< u and v from the light's origin
+  double reach = 0;             ///< height of the light's plane over the point, units of the light
+  double turn = 1;              ///< of the axes
+  std::uint32_t receiver = no_triangle;
+  double receiver_tau = 0;
+};
+
+inline GroupPoint group_point(const LightAxes& axes, const glm::dvec3& position, std::uint32_t receiver,
+                              double receiver_tau) {
+  GroupPoint at{position - axes.centre, {}, {}, 0, axes.turn, receiver, receiver_tau};
+  at.in_axes = axes.of(at.from_centre);
+  at.in_light = glm::dvec2(axes.centre_uv) + glm::dvec2(at.in_axes);
+  at.reach = axes.centre_uv.z - at.in_axes.z;
+  return at;
+}
+
+/// Sixteen occluders. Idle lanes hold anything.
+struct OccluderBlock {
+  double corners[3][3][16];  ///< corner, coordinate, occluder
+  double plane[3][16];
+  double sign[16];
+  std::uint32_t triangle[16], height[16];
+  std::uint32_t lanes = 0;       ///< bits of the occluders that are there
+  std::uint32_t indefinite = 0;  ///< and of those whose sign depends on the point
+  bool has_planes = false;       ///< one of them needs its own plane
+};
+
+HWY_INLINE void put(const Candidate& c, OccluderBlock& block, std::size_t lane) {
+  for (int k = 0; k < 3; ++k) {
+    for (int axis = 0; axis < 3; ++axis) block.corners[k][axis][lane] = c.corners[k][axis];
+    block.plane[k][lane] = c.plane[k];
+  }
+  block.sign[lane] = c.sign;
+  block.triangle[lane] = c.triangle;
+  block.height[lane] = c.height;
+  block.lanes |= 1u << lane;
+  if (c.sign == 0) block.indefinite |= 1u << lane;
+  block.has_planes |= c.has_plane;
+}
+
+/// A block at a point. Sides of boxes: least u, -greatest u, least v, -greatest v.
+template <class T>
+struct BlockAtPoint {
+  T box[4][16];
+  T u[4][16], v[4][16], w[4][16];  ///< lines: three edges and, where the block has planes, the plane
+  double sign[16];                 ///< 0: blocks nothing at this point
+  std::uint32_t lanes = 0;         ///< that may shadow something
+  std::uint32_t boxes_of = 0, lines_of = 0;  ///< number of the point that they are for
+};
+
+using Wide = Pack<double, 16>;
+
+HWY_INLINE Wide wide(double value) {
+  return splat<Wide>(value);
+}
+
+/// Boxes of the shadows on the light's plane. An occluder all at or below the point's height shadows nothing;
+/// one that is partly so may shadow all.
+template <class T>
+HWY_NOINLINE void find_boxes(const OccluderBlock& block, std::span<const PlaneHeight> heights,
+                             const GroupPoint& at, BlockAtPoint<T>& out) {
+  const Wide far = wide(1e30), zero = wide(0);
+  Wide low_u = far, low_v = far, high_u = wide(-1e30), high_v = high_u, lowest = far, highest = high_u;
+  const Wide pu = wide(at.in_light.x), pv = wide(at.in_light.y), reach = wide(at.reach);
+  const Wide x = wide(at.in_axes.x), y = wide(at.in_axes.y), z = wide(at.in_axes.z);
+  for (const auto& corner : block.corners) {
+    const Wide rise = load<Wide>(corner[2]) - z;
+    lowest = min(lowest, rise);
+    highest = max(highest, rise);
+    const Wide t = reach / choose(less(zero, rise), rise, wide(1));
+    const Wide u = pu + (load<Wide>(corner[0]) - x) * t, v = pv + (load<Wide>(corner[1]) - y) * t;
+    low_u = min(low_u, u);
+    high_u = max(high_u, u);
+    low_v = min(low_v, v);
+    high_v = max(high_v, v);
+  }
+  const auto boxed = less(zero, lowest);
+  const Wide two = wide(2), minus = wide(-2);
+  store(narrowed<T>(max(choose(boxed, low_u, minus), minus)), out.box[0]);
+  store(narrowed<T>(zero - min(choose(boxed, high_u, two), two)), out.box[1]);
+  store(narrowed<T>(max(choose(boxed, low_v, minus), minus)), out.box[2]);
+  store(narrowed<T>(zero - min(choose(boxed, high_v, two), two)), out.box[3]);
+  out.lanes = block.lanes & less_bits(zero, highest);
+  if ((block.indefinite & out.lanes) == 0) return;
+  for (int k = 0; k < 16; ++k) {
+    out.sign[k] = block.sign[k];
+    if (((block.indefinite & out.lanes) >> k & 1u) == 0) continue;
+    const bool itself = block.triangle[k] == at.receiver;
+    const PlaneHeight& plane = heights[block.height[k]];
+    out.sign[k] = itself ? 0 : at.turn * blocking_sign(plane, at.from_centre, at.receiver_tau);
+    if (out.sign[k] == 0) out.lanes &= ~(1u << k);
+  }
+}
+
+/// The lines of a block whose boxes are there.
+template <class T>
+HWY_NOINLINE void find_lines(const OccluderBlock& block, const GroupPoint& at, BlockAtPoint<T>& out) {
+  const Wide sign = load<Wide>((block.indefinite & out.lanes) == 0 ? block.sign : out.sign);
+  const Wide x = wide(at.in_axes.x), y = wide(at.in_axes.y), z = wide(at.in_axes.z);
+  const Wide pu = wide(at.in_light.x), pv = wide(at.in_light.y), reach = wide(at.reach);
+  const auto corner = [&](int k) {
+    const auto& c = block.corners[k];
+    return Pack3<Wide>{load<Wide>(c[0]) - x, load<Wide>(c[1]) - y, load<Wide>(c[2]) - z};
+  };
+  const Pack3<Wide> corners[3] = {corner(0), corner(1), corner(2)};
+  for (int k = 0; k < 3; ++k) {
+    const Pack3<Wide> n = cross(corners[k], corners[k < 2 ? k + 1 : 0] - corners[k]);
+    store(narrowed<T>(n.x * sign), out.u[k]);
+    store(narrowed<T>(n.y * sign), out.v[k]);
+    store(narrowed<T>((n.z * reach - n.x * pu - n.y * pv) * sign), out.w[k]);
+  }
+  if (!block.has_planes) return;
+  T* to[3] = {out.u[3], out.v[3], out.w[3]};
+  for (int i = 0; i < 3; ++i) store(narrowed<T>(load<Wide>(block.plane[i]) * sign), to[i]);
+}
+
+}  // namespace tenebra::HWY_NAMESPACE
+HWY_AFTER_NAMESPACE();
+
+#endif
