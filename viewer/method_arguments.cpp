@@ -43,6 +43,7 @@ void add_soft(Arguments& arguments, const MethodOptions& options) {
   arguments.choice("--soft-grouping", grouping_choices, soft.grouping, SoftShadowConfig{}.grouping);
   arguments.choice("--soft-choice", occluder_choices, soft.choice, SoftShadowConfig{}.choice);
   arguments.choice("--soft-precision", precision_choices, soft.precision, SoftShadowConfig{}.precision);
+  arguments.value("--soft-points", options.render.soft_points, RenderSettings{}.soft_points);
 }
 
 void add_ao(Arguments& arguments, const AoConfig& ao) {
@@ -51,6 +52,7 @@ void add_ao(Arguments& arguments, const AoConfig& ao) {
   arguments.choice("--ao-at", place_choices, ao.place, standard.place);
   arguments.choice("--ao-layout", layout_choices, ao.layout, standard.layout);
   arguments.value("--ao-rays", ao.rays, standard.rays);
+  arguments.value("--ao-downscale", ao.downscale, standard.downscale);
   arguments.value("--ao-distance", ao.distance_m, standard.distance_m);
   arguments.value("--ao-positions", ao.positions, standard.positions);
   arguments.value("--ao-directions", ao.directions, standard.directions);

@@ -9,6 +9,11 @@ constexpr const char* shadow_group = "Shadows";
 constexpr const char* hard_group = "Hard shadows";
 constexpr const char* soft_group = "Soft shadows";
 constexpr const char* ao_group = "Ambient occlusion";
+constexpr int most_soft_points = 4096, most_downscale = 8;
+
+constexpr const char* points_name = "--soft-points";
+constexpr const char* rays_name = "--ao-rays";
+constexpr const char* downscale_name = "--ao-downscale";
 
 template <const auto& choices, class Target>
 CLI::Option* add_choice(CLI::App& command, const char* name, Target& target, const char* help) {
@@ -49,6 +54,26 @@ Expected<int> parse_threads(const std::string& text) {
   return threads;
 }
 
+Expected<int> parse_points(const std::string& text) {
+  const auto points = parse_count(text);
+  if (!points || *points > most_soft_points) {
+    return fail("found {}, expected 1 to {} points, or 0 for the exact solution", text, most_soft_points);
+  }
+  return points;
+}
+
+Expected<int> parse_downscale(const std::string& text) {
+  const auto scale = parse_count(text);
+  if (!scale || *scale < 1 || *scale > most_downscale)
+    return fail("found {}, expected 1 (every pixel) to {}", text, most_downscale);
+  return scale;
+}
+
+Expected<Quality> parse_quality(const std::string& text) {
+  if (const auto quality = quality_from_name(text)) return *quality;
+  return fail("found {}, expected fast, balanced or exact", text);
+}
+
 Expected<int> parse_bits(const std::string& text) {
   const auto bits = parse_count(text);
   if (!bits || (*bits != 1 && *bits != 8 && *bits != 32)) return fail("found {}, expected 1, 8 or 32", text);
@@ -60,22 +85,29 @@ Expected<std::filesystem::path> parse_cache(const std::string& text) {
   return text == "none" ? std::filesystem::path() : std::filesystem::path(text);
 }
 
-void add_common(CLI::App& command, RenderSettings& render) {
-  set_group({add_choice<shadow_choices>(command, "--shadows", render.shadows,
-                                        "hard: of the lights' centres; soft: of their areas,\nboth exact and "
-                                        "without noise [hard]"),
-             add_value(command, "--light", render.light, parse_light, "One light, by number, or all [all]")
-                 ->type_name("N|all"),
-             add_value(command, "--exposure", render.exposure, parse_factor, "Factor of the light [1]")
-                 ->type_name("E"),
-             add_value(command, "--threads", render.threads, parse_threads,
-                       "Threads of shadows and ambient occlusion [0: all cores]")
-                 ->type_name("N"),
-             add_value(command, "--simd", render.hard.simd, parse_simd,
-                       "Vector instructions: auto, scalar, sse4, avx2 or avx512;\nthe same masks with each "
-                       "[auto]")
-                 ->type_name("LEVEL")},
-            shadow_group);
+void add_common(CLI::App& command, MethodOptions& options) {
+  RenderSettings& render = options.render;
+  set_group(
+      {add_value(command, "--quality", options.quality, parse_quality,
+                 "What soft shadows and ambient occlusion may cost (docs/\ntrade.md has their errors). "
+                 "fast: --soft-points 8\n--ao-rays 16 --ao-downscale 2; balanced: the defaults;\nexact: "
+                 "--ao-rays 256. These options win if they are given")
+           ->type_name("fast|balanced|exact"),
+       add_choice<shadow_choices>(command, "--shadows", render.shadows,
+                                  "hard: of the lights' centres; soft: of their areas,\nboth exact and "
+                                  "without noise [hard]"),
+       add_value(command, "--light", render.light, parse_light, "One light, by number, or all [all]")
+           ->type_name("N|all"),
+       add_value(command, "--exposure", render.exposure, parse_factor, "Factor of the light [1]")
+           ->type_name("E"),
+       add_value(command, "--threads", render.threads, parse_threads,
+                 "Threads of shadows and ambient occlusion [0: all cores]")
+           ->type_name("N"),
+       add_value(command, "--simd", render.hard.simd, parse_simd,
+                 "Vector instructions: auto, scalar, sse4, avx2 or avx512;\nthe same masks with each "
+                 "[auto]")
+           ->type_name("LEVEL")},
+      shadow_group);
 }
 
 void add_hard(CLI::App& command, MethodOptions& options) {
@@ -105,19 +137,24 @@ void add_soft(CLI::App& command, MethodOptions& options) {
                      ->needs(size);
   auto* emissive = command.add_flag("--emissive-lights", lights.emissive_quads,
                                     "Flat convex meshes of an emissive material shine too");
-  set_group({size, facing, emissive,
-             add_choice<solver_choices>(command, "--soft-solver", soft.solver,
-                                        "What finds the visible part of a light: the lazy BSP\nof the paper, "
-                                        "clipping, or auto: meshes by their\noutline, the rest clipped; the same "
-                                        "picture [auto]"),
-             add_choice<grouping_choices>(command, "--soft-grouping", soft.grouping,
-                                          "Points that share a BSP: neighbours, or as in the\npaper's "
-                                          "Algorithm 2 those of a triangle [neighbourhood]"),
-             add_choice<occluder_choices>(command, "--soft-choice", soft.choice,
-                                          "Occluder that the BSP takes next; the paper's: random [largest]"),
-             add_choice<precision_choices>(command, "--soft-precision", soft.precision,
-                                           "reference: double throughout [fast]")},
-            soft_group);
+  set_group(
+      {size, facing, emissive,
+       add_choice<solver_choices>(command, "--soft-solver", soft.solver,
+                                  "What finds the visible part of a light: the lazy BSP\nof the paper, "
+                                  "clipping, or auto: meshes by their\noutline, the rest clipped; the same "
+                                  "picture [auto]"),
+       add_choice<grouping_choices>(command, "--soft-grouping", soft.grouping,
+                                    "Points that share a BSP: neighbours, or as in the\npaper's "
+                                    "Algorithm 2 those of a triangle [neighbourhood]"),
+       add_choice<occluder_choices>(command, "--soft-choice", soft.choice,
+                                    "Occluder that the BSP takes next; the paper's: random [largest]"),
+       add_choice<precision_choices>(command, "--soft-precision", soft.precision,
+                                     "reference: double throughout [fast]"),
+       add_value(command, points_name, options.render.soft_points, parse_points,
+                 "Instead of all that: lights are so many points, each\nwith exact hard shadows; steps "
+                 "in the penumbra [0: exact]")
+           ->type_name("N")},
+      soft_group);
 }
 
 void add_ao(CLI::App& command, AoConfig& ao) {
@@ -131,7 +168,10 @@ void add_ao(CLI::App& command, AoConfig& ao) {
        add_choice<layout_choices>(command, "--ao-layout", ao.layout,
                                   "What a field stores: chords from entry to exit, or the\npaper's positions "
                                   "x directions [chords]"),
-       add_value(command, "--ao-rays", ao.rays, parse_at_least_one, "Rays a point [64]")->type_name("N"),
+       add_value(command, rays_name, ao.rays, parse_at_least_one, "Rays a point [64]")->type_name("N"),
+       add_value(command, downscale_name, ao.downscale, parse_downscale,
+                 "Of N x N pixels one is computed, the rest blurred\nfrom those that resemble it [1: all]")
+           ->type_name("N"),
        add_value(command, "--ao-distance", ao.distance_m, parse_positive,
                  "Metres at which nothing occludes any more [a\ntwentieth of the scene's diagonal]")
            ->type_name("D"),
@@ -154,10 +194,20 @@ void add_ao(CLI::App& command, AoConfig& ao) {
 }  // namespace
 
 void add_method_options(CLI::App& command, MethodOptions& options) {
-  add_common(command, options.render);
+  add_common(command, options);
   add_hard(command, options);
   add_soft(command, options);
   add_ao(command, options.render.ao);
+}
+
+void settle_quality(const CLI::App& command, MethodOptions& options) {
+  if (!options.quality) return;
+  const RenderSettings given = options.render;
+  const auto was_given = [&](const char* name) { return command.get_option(name)->count() > 0; };
+  apply_quality(*options.quality, options.render);
+  if (was_given(points_name)) options.render.soft_points = given.soft_points;
+  if (was_given(rays_name)) options.render.ao.rays = given.ao.rays;
+  if (was_given(downscale_name)) options.render.ao.downscale = given.ao.downscale;
 }
 
 Expected<void> check_method_options(const MethodOptions& options) {

@@ -8,18 +8,23 @@
 #include <vector>
 
 #include "option_values.h"
-#include "render/renderer.h"
+#include "render/quality.h"
 
 namespace tenebra::viewer {
 
 struct MethodOptions {
   RenderSettings render;                ///< but for its size
+  std::optional<Quality> quality;       ///< as given; settle_quality turns it into settings
   std::optional<bool> cull_front;       ///< not given: as the samples need it
   std::optional<LightSize> light_size;  ///< not given: points stay points
 };
 
 /// Adds the options to `command`; they are read into `options`, which must live as long.
 void add_method_options(CLI::App& command, MethodOptions& options);
+
+/// Sets what a given --quality stands for, but for options that `command` was given themselves: they win
+/// wherever they stand, in a file of options too. To be called once all options are read.
+void settle_quality(const CLI::App& command, MethodOptions& options);
 
 /// What single options cannot check: combinations.
 Expected<void> check_method_options(const MethodOptions& options);

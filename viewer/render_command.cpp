@@ -182,6 +182,7 @@ void add_render_command(CLI::App& program, Run& run) {
   const auto options = std::make_shared<RenderOptions>();
   add_render_options(*command, *options);
   command->callback([options, command, &run] {
+    settle_quality(*command, options->method);
     options->warnings = idle_method_options(*command, options->method);
     run = [options] { return render(*options); };
   });

@@ -42,19 +42,23 @@ std::string light_size_text(const AreaLightSettings& lights) {
 void describe_soft(const RenderSettings& settings, std::vector<LogSetting>& list) {
   const SoftShadowConfig& soft = settings.soft;
   const AreaLightSettings& lights = settings.area_lights;
-  list.insert(list.end(), {{"soft_solver", choice_name(solver_choices, soft.solver)},
-                           {"soft_grouping", choice_name(grouping_choices, soft.grouping)},
-                           {"soft_choice", choice_name(occluder_choices, soft.choice)},
-                           {"soft_precision", choice_name(precision_choices, soft.precision)},
-                           {"light_size", light_size_text(lights)},
-                           {"light_facing", lights.facing ? vector(*lights.facing) : "the scene's centre"},
-                           {"emissive_lights", lights.emissive_quads ? "yes" : "no"}});
+  list.insert(
+      list.end(),
+      {{"soft_solver", choice_name(solver_choices, soft.solver)},
+       {"soft_grouping", choice_name(grouping_choices, soft.grouping)},
+       {"soft_choice", choice_name(occluder_choices, soft.choice)},
+       {"soft_precision", choice_name(precision_choices, soft.precision)},
+       {"soft_points", settings.soft_points == 0 ? "none, exact" : fmt::format("{}", settings.soft_points)},
+       {"light_size", light_size_text(lights)},
+       {"light_facing", lights.facing ? vector(*lights.facing) : "the scene's centre"},
+       {"emissive_lights", lights.emissive_quads ? "yes" : "no"}});
 }
 
 void describe_ao(const AoConfig& ao, std::vector<LogSetting>& list) {
   const std::string distance = ao.distance_m > 0 ? fmt::format("{} m", ao.distance_m) : "diagonal / 20";
   list.insert(list.end(), {{"ao_at", choice_name(place_choices, ao.place)},
                            {"ao_rays", fmt::format("{}", ao.rays)},
+                           {"ao_downscale", fmt::format("{}", ao.downscale)},
                            {"ao_distance", distance}});
   if (ao.mode != AoMode::field) return;
   list.insert(list.end(), {{"ao_layout", choice_name(layout_choices, ao.layout)},

@@ -56,7 +56,10 @@ void add_view_command(CLI::App& program, Run& run) {
   const auto options = std::make_shared<ViewOptions>();
   command->footer(examples);
   add_view_options(*command, *options);
-  command->callback([options, &run] { run = [options] { return view(*options); }; });
+  command->callback([options, command, &run] {
+    settle_quality(*command, options->method);
+    run = [options] { return view(*options); };
+  });
 }
 
 }  // namespace tenebra::viewer

@@ -51,6 +51,7 @@ Expected<std::optional<OutputPattern>> parse_numbered(const std::string& text) {
 /// Slot B from the text of its options, on top of slot A's.
 Expected<MethodOptions> parse_method(const std::string& text, const MethodOptions& base) {
   MethodOptions method = base;
+  method.quality.reset();  // what it stands for is in the settings
   CLI::App app;
   add_method_options(app, method);
   const auto cache = base.render.ao.cache;  // add_method_options sets its default
@@ -60,6 +61,7 @@ Expected<MethodOptions> parse_method(const std::string& text, const MethodOption
   } catch (const CLI::ParseError& error) {
     return fail("--compare: {}", error.what());
   }
+  settle_quality(app, method);
   if (auto checked = check_method_options(method); !checked)
     return fail("--compare: {}", checked.error().message);
   return method;

@@ -29,6 +29,20 @@ struct FrameTimings {
   double total_ms = 0;       ///< the whole frame
 };
 
+/// Adds the stages of one light's shadows, or of a part of them; the frame's other stages are left alone.
+inline FrameTimings& operator+=(FrameTimings& to, const FrameTimings& from) {
+  to.rays_ms += from.rays_ms;
+  to.sort_ms += from.sort_ms;
+  to.build_ms += from.build_ms;
+  to.traverse_ms += from.traverse_ms;
+  to.writeback_ms += from.writeback_ms;
+  to.shaft_ms += from.shaft_ms;
+  to.init_ms += from.init_ms;
+  to.query_ms += from.query_ms;
+  to.irradiance_ms += from.irradiance_ms;
+  return to;
+}
+
 /// Work counted by the tracer of shadow rays, summed over the lights. Counts do not jitter.
 struct TraceStats {
   std::uint64_t rays = 0;            ///< shadow rays traced: visible points that the light can reach

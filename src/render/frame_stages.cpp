@@ -8,23 +8,6 @@
 
 namespace tenebra {
 
-namespace {
-
-/// Times of one light's shadows, added to those of the frame; the stages of one method are zero in the other.
-void add_shadow_times(FrameTimings& to, const FrameTimings& from) {
-  to.rays_ms += from.rays_ms;
-  to.sort_ms += from.sort_ms;
-  to.build_ms += from.build_ms;
-  to.traverse_ms += from.traverse_ms;
-  to.writeback_ms += from.writeback_ms;
-  to.shaft_ms += from.shaft_ms;
-  to.init_ms += from.init_ms;
-  to.query_ms += from.query_ms;
-  to.irradiance_ms += from.irradiance_ms;
-}
-
-}  // namespace
-
 void Renderer::State::points_from_depth(const ViewRays& view) {
   const std::size_t width = static_cast<std::size_t>(gbuffer.width),
                     height = static_cast<std::size_t>(gbuffer.height);
@@ -96,7 +79,7 @@ Expected<void> Renderer::State::light_hard(const FrameInput& input, const DrawnL
                            shadow_light(light.light, light.placed), config, hard_mask);
   });
   result.stats += hard.stats();
-  add_shadow_times(result.timings, hard.timings());
+  result.timings += hard.timings();
   LightMask& out = result.masks.emplace_back();
   out.light = light.number;
   out.mask = {gbuffer.width, gbuffer.height, 1, hard_mask};
@@ -124,13 +107,22 @@ Expected<void> Renderer::State::light_soft(const FrameInput& input, const DrawnL
   TriangleView triangles = triangle_view(input.geometry);
   if (casters_off_plane(input.geometry, *light.area, casters)) triangles.casts_shadow = casters;
   result.timings.shaft_ms += watch.lap_ms();
+  const HardShadowConfig of_points{.variant = settings.hard.variant, .simd = settings.hard.simd};
   bool done = false;
   with_threads(settings.threads, [&] {
-    done = soft.trace(points, normals, input.view, triangles, *light.area, settings.soft, soft_mask, stop);
+    done = settings.soft_points > 0 ? light_points.trace(points, normals, input.view, triangles, *light.area,
+                                                         settings.soft_points, of_points, soft_mask, stop)
+                                    : soft.trace(points, normals, input.view, triangles, *light.area,
+                                                 settings.soft, soft_mask, stop);
   });
   if (!done) return fail("stopped");
-  result.soft += soft.stats();
-  add_shadow_times(result.timings, soft.timings());
+  if (settings.soft_points > 0) {
+    result.stats += light_points.stats();
+    result.timings += light_points.timings();
+  } else {
+    result.soft += soft.stats();
+    result.timings += soft.timings();
+  }
   watch.lap_ms();
   LightMask& out = result.masks.emplace_back();
   out.light = light.number;
@@ -139,7 +131,7 @@ Expected<void> Renderer::State::light_soft(const FrameInput& input, const DrawnL
   for (const float fraction : soft_mask.visible_fraction) {
     out.mask.pixels.push_back(static_cast<std::uint8_t>(std::lround(255.0f * fraction)));
   }
-  out.classes.assign(soft.classes().begin(), soft.classes().end());
+  if (settings.soft_points == 0) out.classes.assign(soft.classes().begin(), soft.classes().end());
   compositor.add_area_light(light_buffer, soft_mask.irradiance);
   result.timings.writeback_ms += watch.lap_ms();
   return {};

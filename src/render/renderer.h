@@ -44,6 +44,7 @@ struct RenderSettings {
   SampleSource samples = SampleSource::ids;
   HardShadowConfig hard;
   SoftShadowConfig soft;
+  int soft_points = 0;  ///< soft mode: 0 exact; else area lights are so many points (render/light_points.h)
   AreaLightSettings area_lights;
   AoConfig ao;
   int light = -1;         ///< index into the frame's lights; -1: all
@@ -64,7 +65,7 @@ struct LightMask {
   Image8 mask;     ///< 255 lit, 0 shadowed, facing away, out of reach or background; soft: 255 x fraction
   ImageF visible_fraction;  ///< soft mode: visible part of the light, 0..1 (0 or 1 of a point); else empty
   std::vector<float> nodes;           ///< hard, with RenderSettings::diagnostics: ShadowTracer::pixel_nodes
-  std::vector<std::uint8_t> classes;  ///< soft shadows: a SoftClass a pixel, for display; else empty
+  std::vector<std::uint8_t> classes;  ///< exact soft shadows: a SoftClass a pixel, for display; else empty
 };
 
 struct FrameResult {

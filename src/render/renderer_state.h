@@ -11,6 +11,7 @@
 #include "raster/geometry_buffers.h"
 #include "raster/light_buffer.h"
 #include "render/frame_lights.h"
+#include "render/light_points.h"
 #include "render/renderer.h"
 
 namespace tenebra {
@@ -32,6 +33,7 @@ struct Renderer::State {
   ShadowTracer hard{};
   ShadowMask hard_mask{};
   SoftShadowTracer soft{};
+  LightPointShadows light_points{};
   SoftMask soft_mask{};
   std::vector<std::uint8_t> casters{};
   AmbientOcclusion ambient{};

@@ -8,13 +8,9 @@
 
 #include "ao/displacement_field.h"
 #include "base/image.h"
-#include "bench_command.h"
-#include "bench_report.h"
+#include "bench_parts.h"
 
 namespace tenebra::bench {
-
-/// How much is measured. Tiny ones check that all parts run; their figures mean nothing.
-enum class Effort { tiny, quick, full };
 
 /// The last lines; parts that were left out leave theirs empty.
 struct AoHeadline {
@@ -59,9 +55,6 @@ inline void keep_largest(std::optional<double>& kept, double value) {
 inline void keep_least(std::optional<double>& kept, double value) {
   if (!kept || !(value >= *kept)) kept = value;
 }
-
-/// Prints at once, for those who watch.
-void print_table(const std::string& title, const std::vector<std::vector<std::string>>& rows);
 
 // The parts.
 Expected<void> measure_errors(AoSession& session);   ///< Figure 6 and the memory table

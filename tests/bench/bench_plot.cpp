@@ -190,7 +190,124 @@ std::string bar_group(std::size_t category, double x, double group_width, const 
   return svg;
 }
 
+/// From a round number (1, 2 or 5 times a power of ten) to another, ticks at all of them or, over many
+/// decades, at powers of ten.
+Scale tight_scale(double low, double high) {
+  constexpr int many_decades = 3;
+  Scale scale{0, 0, true, {}};
+  const bool wide = high / low > std::pow(10, many_decades);
+  for (int power = static_cast<int>(std::floor(std::log10(low))); !(scale.high >= high); ++power) {
+    for (const int digit : {1, 2, 5}) {
+      if (wide && digit != 1) continue;
+      const double tick = digit * std::pow(10, power);
+      if (scale.high >= high) break;
+      if (tick <= low) scale.low = tick, scale.ticks.clear();
+      scale.high = tick;
+      scale.ticks.push_back(tick);
+    }
+  }
+  return scale;
+}
+
+/// Values above `floor` on a logarithmic scale, what is not above it on a line of its own at the foot, if
+/// there is any.
+struct FootedScale {
+  Scale scale;
+  double floor;
+  double foot_px;  // of the foot below the scale; 0: none
+
+  double pixel(double value) const {
+    if (!(value > floor)) return top + plot_height;
+    return top + (plot_height - foot_px) * (1 - scale.at(value));
+  }
+};
+
+FootedScale footed_scale(const std::vector<Curve>& families, double floor) {
+  double low = std::numeric_limits<double>::infinity(), high = 0, foot_px = 0;
+  for (const Curve& c : families) {
+    for (const auto& [x, y] : c.points) {
+      if (!(y > floor)) foot_px = 34;
+      if (!(y > floor)) continue;
+      low = std::min(low, y);
+      high = std::max(high, y);
+    }
+  }
+  return {low < high ? tight_scale(low, high) : tight_scale(1, 10), floor, foot_px};
+}
+
+std::string footed_axis(const FootedScale& y, const std::string& label) {
+  std::string svg;
+  const auto line = [&](double at, const std::string& text) {
+    svg += line_between(left, at, left + plot_width, at, "#dddddd") + text_at(left - 8, at + 4, "end", text);
+  };
+  for (const double tick : y.scale.ticks) line(y.pixel(tick), fmt::format("{:.6g}", tick));
+  if (y.foot_px > 0) line(top + plot_height, y.floor > 0 ? fmt::format("\u2264 {:.6g}", y.floor) : "0");
+  svg += line_between(left, top, left, top + plot_height, "black");
+  const double middle = top + plot_height / 2;
+  return svg + text_at(20, middle, "middle", label, 13,
+                       fmt::format(" transform=\"rotate(-90 20 {:.1f})\"", middle));
+}
+
+/// One of a few shapes, so that families differ in more than colour.
+std::string mark(std::size_t family, double x, double y) {
+  constexpr double r = 4;
+  const char* colour = colour_of(family);
+  switch (family % 4) {
+    case 0:
+      return fmt::format("<circle cx=\"{:.1f}\" cy=\"{:.1f}\" r=\"{}\" fill=\"{}\"/>\n", x, y, r, colour);
+    case 1:
+      return fmt::format("<rect x=\"{:.1f}\" y=\"{:.1f}\" width=\"{}\" height=\"{}\" fill=\"{}\"/>\n", x - r,
+                         y - r, 2 * r, 2 * r, colour);
+    case 2:
+      return fmt::format("<polygon points=\"{:.1f},{:.1f} {:.1f},{:.1f} {:.1f},{:.1f}\" fill=\"{}\"/>\n", x,
+                         y - 1.2 * r, x - 1.2 * r, y + r, x + 1.2 * r, y + r, colour);
+    default:
+      return fmt::format(
+          "<polygon points=\"{:.1f},{:.1f} {:.1f},{:.1f} {:.1f},{:.1f} {:.1f},{:.1f}\" fill=\"{}\"/>\n", x,
+          y - 1.3 * r, x - 1.3 * r, y, x, y + 1.3 * r, x + 1.3 * r, y, colour);
+  }
+}
+
+std::string ring(double x, double y) {
+  return fmt::format("<circle cx=\"{:.1f}\" cy=\"{:.1f}\" r=\"8\" fill=\"none\" stroke=\"#444444\"/>\n", x,
+                     y);
+}
+
+std::string front_line(const Curve& front, const Scale& x, const FootedScale& y) {
+  std::string path, rings;
+  for (const auto& [vx, vy] : front.points) {
+    path += fmt::format("{:.1f},{:.1f} ", x_pixel(x, vx), y.pixel(vy));
+    rings += ring(x_pixel(x, vx), y.pixel(vy));
+  }
+  return fmt::format("<polyline points=\"{}\" fill=\"none\" stroke=\"#888888\" stroke-dasharray=\"5 4\"/>\n",
+                     path) +
+         rings;
+}
+
 }  // namespace
+
+std::string scatter_plot(const std::string& title, const std::string& x_label, const std::string& y_label,
+                         double floor, const std::vector<Curve>& families, const Curve& front) {
+  double low = std::numeric_limits<double>::infinity(), high = 0;
+  for (const Curve& c : families) {
+    for (const auto& [x, y] : c.points) low = std::min(low, x), high = std::max(high, x);
+  }
+  const Scale x = low > 0 && low < high ? tight_scale(low, high) : tight_scale(1, 10);
+  const FootedScale y = footed_scale(families, floor);
+  std::string svg = head(title) + footed_axis(y, y_label) + x_axis(x, x_label) + front_line(front, x, y);
+  for (std::size_t s = 0; s < families.size(); ++s) {
+    for (const auto& [vx, vy] : families[s].points) svg += mark(s, x_pixel(x, vx), y.pixel(vy));
+  }
+  double legend_y = top + 16;
+  const double legend_x = width - right + 26;
+  const auto explain = [&](const std::string& shape, const std::string& name) {
+    svg += shape + text_at(legend_x + 12, legend_y + 4, "start", name);
+    legend_y += 20;
+  };
+  for (std::size_t s = 0; s < families.size(); ++s) explain(mark(s, legend_x, legend_y), families[s].name);
+  explain(ring(legend_x, legend_y), front.name);
+  return svg + "</svg>\n";
+}
 
 std::string curve_plot(const std::string& title, const Axis& x, const Axis& y,
                        const std::vector<Curve>& curves) {

@@ -23,6 +23,11 @@ struct Curve {
 std::string curve_plot(const std::string& title, const Axis& x, const Axis& y,
                        const std::vector<Curve>& curves);
 
+/// Points of several families on logarithmic axes, and a dashed line through those of `front`, which are
+/// ringed. What is not above `floor` lies on a line of its own at the foot.
+std::string scatter_plot(const std::string& title, const std::string& x_label, const std::string& y_label,
+                         double floor, const std::vector<Curve>& families, const Curve& front);
+
 struct Bars {
   std::string name;
   std::vector<double> values;  ///< one a category

@@ -64,6 +64,42 @@ TEST(BenchProgram, HardEndsWithItsFiguresWhereScenesAreMissing) {
   EXPECT_NE(test::read_text(folder / "hard.csv").find("\nframes,city 150,tenebra,"), std::string::npos);
 }
 
+TEST(BenchProgram, TradeRefusesInASentence) {
+  expect_refusal({"trade", "--threads", "-1"}, "--threads: found -1, expected 0 (all cores) or more");
+  expect_refusal({"trade", "--data", "/nowhere/at/all"}, "--data: /nowhere/at/all is not a folder");
+  expect_refusal({"trade", "--docs", "/nowhere/at/all"}, "--docs: /nowhere/at/all is not a folder");
+  expect_refusal({"trade", "--only", "atlantis"}, "--only: found atlantis, expected hard, soft, ao, needs");
+}
+
+TEST(BenchProgram, TradeWritesItsPageFromBundledScenesAlone) {
+  const test::TemporaryFolder folder;
+  const auto result = bench({"trade", "--tiny", "--data", folder.path().string(), "--docs",
+                             folder.path().string(), "--csv", (folder / "trade.csv").string()});
+  ASSERT_EQ(result.exit_code, 0) << result.errors;
+  EXPECT_NE(result.output.find("robots: skipped"), std::string::npos) << result.output;
+  bool found = false;
+  for (const char* name :
+       {"trade.hard_default_wrong_pixels", "trade.hard_variants_wrong_pixels", "trade.needs_differing"}) {
+    EXPECT_EQ(figure(result.output, name, found), 0) << name;
+    EXPECT_TRUE(found) << name;
+  }
+  EXPECT_LE(figure(result.output, "trade.soft_default_worst_255", found), 0.1);
+  EXPECT_TRUE(found);
+  const std::string page = test::read_text(folder / "trade.md"), csv = test::read_text(folder / "trade.csv");
+  for (const char* part : {"## Which to choose", "## Hard shadows", "## Soft shadows", "## Ambient occlusion",
+                           "## Only what a scene requires", "| default (Tiles) | "})
+    EXPECT_NE(page.find(part), std::string::npos) << part;
+  EXPECT_EQ(page.find("NOT the same"), std::string::npos);
+  for (const char* row : {"\ntrade hard,city 150,default (Tiles),,time,", "\ntrade soft,court 60,",
+                          "\ntrade ao,city 150,", "\ntrade needs,city 150,"})
+    EXPECT_NE(csv.find(row), std::string::npos) << row;
+  for (const std::string& name :
+       {"trade_hard_city_150.svg", "trade_soft_court_60.svg", "trade_ao_city_150.svg"}) {
+    EXPECT_NE(page.find(name), std::string::npos) << name;
+    EXPECT_NE(test::read_text(folder / name).find("</svg>"), std::string::npos) << name;
+  }
+}
+
 TEST(BenchProgram, HelpNamesTheOptions) {
   const auto result = bench({"soft", "--help"});
   EXPECT_EQ(result.exit_code, 0);

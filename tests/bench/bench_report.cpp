@@ -77,6 +77,11 @@ std::string text_table(const std::vector<std::vector<std::string>>& rows) {
   return text;
 }
 
+void print_table(const std::string& title, const std::vector<std::vector<std::string>>& rows) {
+  std::printf("\n%s\n%s", title.c_str(), text_table(rows).c_str());
+  std::fflush(stdout);
+}
+
 double geometric_mean(std::span<const double> values) {
   double sum = 0;
   for (const double v : values) {

@@ -50,6 +50,9 @@ private:
 /// Columns of text, each as wide as its widest entry, numbers to the right; the first row is the head.
 std::string text_table(const std::vector<std::vector<std::string>>& rows);
 
+/// Prints such a table below its title at once, for those who watch.
+void print_table(const std::string& title, const std::vector<std::vector<std::string>>& rows);
+
 /// Geometric mean; 0 for no values or where one is not positive.
 double geometric_mean(std::span<const double> values);
 double median(std::span<const double> values);

@@ -5,14 +5,12 @@
 #include <string>
 #include <vector>
 
-#include "bench_command.h"
-#include "bench_report.h"
+#include "bench_parts.h"
 #include "hard_views.h"
 
 namespace tenebra::bench {
 
-/// How much is measured. Tiny ones check that all parts run; their figures mean nothing.
-enum class HardEffort { tiny, quick, full };
+using HardEffort = Effort;
 
 /// The last lines; parts that were left out leave theirs empty.
 struct HardHeadline {

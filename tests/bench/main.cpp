@@ -23,6 +23,7 @@ int main(int argc, char** argv) {
   tenebra::bench::add_hard_command(program, run);
   tenebra::bench::add_soft_command(program, run);
   tenebra::bench::add_ao_command(program, run);
+  tenebra::bench::add_trade_command(program, run);
   CLI11_PARSE(program, argc, argv);
   if (const auto done = run(); !done) {
     std::fprintf(stderr, "tenebra-bench: %s\n", done.error().message.c_str());

@@ -47,6 +47,7 @@ MethodOptions parsed(const std::string& text) {
   CLI::App app;
   viewer::add_method_options(app, method);
   app.parse(text);
+  viewer::settle_quality(app, method);
   return method;
 }
 
@@ -56,9 +57,10 @@ TEST(MethodArguments, GiveBackWhatTheyWereMadeFrom) {
        {"--shadows none", "--light 2 --exposure 0.1 --threads 3", "--simd scalar --variant PreciseSEATP",
         "--samples depth --cull none", "--cull front",
         "--shadows soft --light-size 0.5x0.25 --light-facing 1,2.5,-3 --emissive-lights --soft-solver bsp "
-        "--soft-grouping triangle --soft-choice random --soft-precision reference",
+        "--soft-grouping triangle --soft-choice random --soft-precision reference --soft-points 12",
         "--light-size 4x4%",
-        "--ao field --ao-at vertices --ao-layout positions --ao-rays 7 --ao-distance 1.5 --ao-positions 99 "
+        "--ao field --ao-at vertices --ao-layout positions --ao-rays 7 --ao-downscale 3 --ao-distance 1.5 "
+        "--ao-positions 99 "
         "--ao-directions 64 --ao-bits 1 --ao-deforming none --ao-cache none"}) {
     EXPECT_EQ(viewer::method_arguments(parsed(text)), text);
   }
@@ -72,12 +74,14 @@ TEST(MethodArguments, CoverEveryMethodOption) {
       "--shadows soft --light 2 --exposure 0.1 --threads 3 --simd scalar --variant Spheres --samples depth "
       "--cull front --light-size 1x1 --light-facing 1,2,3 --emissive-lights --soft-solver bsp "
       "--soft-grouping "
-      "triangle --soft-choice random --soft-precision reference --ao rays --ao-at vertices --ao-layout "
+      "triangle --soft-choice random --soft-precision reference --soft-points 12 --ao rays --ao-at vertices "
+      "--ao-layout "
       "positions "
-      "--ao-rays 7 --ao-distance 1.5 --ao-positions 99 --ao-directions 64 --ao-bits 1 --ao-deforming none "
-      "--ao-cache none"));
+      "--ao-rays 7 --ao-downscale 2 --ao-distance 1.5 --ao-positions 99 --ao-directions 64 --ao-bits 1 "
+      "--ao-deforming none --ao-cache none"));
   for (const CLI::Option* option : app.get_options()) {
-    if (option->get_name() == "--help") continue;
+    // --quality is told by what it stands for.
+    if (option->get_name() == "--help" || option->get_name() == "--quality") continue;
     EXPECT_NE((" " + all + " ").find(" " + option->get_name() + " "), std::string::npos)
         << option->get_name();
   }

@@ -95,6 +95,8 @@ void edit_soft(Ui& ui, MethodOptions& method) {
   choose(ui, "occluder", occluder_choices, soft.choice);
   row(ui, "Precision", "reference: double throughout.");
   choose(ui, "precision", precision_choices, soft.precision);
+  row(ui, "Points", "Instead of all that: the light as so many points with exact hard shadows; 0: exact.");
+  number(ui, "soft points", method.render.soft_points, 0, 4096, 4);
 }
 
 void edit_ao(Ui& ui, AoConfig& ao) {
@@ -102,6 +104,9 @@ void edit_ao(Ui& ui, AoConfig& ao) {
   choose(ui, "place", place_choices, ao.place);
   row(ui, "Rays", "A point, weighted by the cosine.");
   number(ui, "ao rays", ao.rays, 1, 65536, 16);
+  row(ui, "Downscale",
+      "Of so many pixels squared one is computed, the rest blurred from those that resemble it.");
+  number(ui, "ao downscale", ao.downscale, 1, 8, 1);
   row(ui, "Distance", "Where nothing occludes any more; 0: a twentieth of the scene's diagonal.");
   ImGui::InputDouble("##distance", &ao.distance_m, 0, 0, ao.distance_m > 0 ? "%.3f m" : "automatic",
                      ImGuiInputTextFlags_EnterReturnsTrue);
@@ -125,6 +130,27 @@ void edit_ao(Ui& ui, AoConfig& ao) {
   if (ImGui::Checkbox("keep built fields", &kept))
     ao.cache = kept ? default_cache_folder() : std::filesystem::path();
   if (kept) tooltip(ao.cache.c_str());
+}
+
+/// Which preset the settings are; none where they are their own.
+std::optional<Quality> quality_of(const RenderSettings& render) {
+  for (const Quality quality : qualities) {
+    RenderSettings preset = render;
+    apply_quality(quality, preset);
+    if (preset.soft_points == render.soft_points && preset.ao.rays == render.ao.rays &&
+        preset.ao.downscale == render.ao.downscale)
+      return quality;
+  }
+  return std::nullopt;
+}
+
+void choose_quality(Ui& ui, RenderSettings& render) {
+  row(ui, "Quality", "What soft shadows and ambient occlusion may cost: sets points, rays and downscale.");
+  constexpr const char* names[] = {"fast", "balanced", "exact"};
+  const auto now = quality_of(render);
+  int chosen = now ? static_cast<int>(*now) : -1;
+  if (segments(ui, "quality", names, 3, chosen))
+    apply_quality(qualities[static_cast<std::size_t>(chosen)], render);
 }
 
 void edit_machine(Ui& ui, RenderSettings& render) {
@@ -187,6 +213,7 @@ void draw_method_section(Ui& ui) {
     state.show = state.active == 0 ? CompareView::a : CompareView::b;
   }
   MethodOptions& method = state.method();
+  choose_quality(ui, method.render);
   row(ui, "Shadows");
   choose(ui, "shadows", shadow_choices, method.render.shadows);
   if (method.render.shadows == ShadowMode::hard) edit_hard(ui, method);

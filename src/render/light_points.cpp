@@ -1,0 +1,120 @@
+#include "render/light_points.h"
+
+#include <algorithm>
+#include <cmath>
+#include <numbers>
+
+#include "base/stopwatch.h"
+#include "parallel/parallel.h"
+
+namespace tenebra {
+
+namespace {
+
+using glm::dvec2;
+using glm::dvec3;
+
+/// Where the line at `x` crosses a convex outline: from x() to y().
+dvec2 chord_at(const std::vector<dvec2>& outline, double x) {
+  dvec2 chord(INFINITY, -INFINITY);
+  const auto meet = [&](double y) { chord = {std::min(chord.x, y), std::max(chord.y, y)}; };
+  for (std::size_t i = 0; i < outline.size(); ++i) {
+    const dvec2 a = outline[i], b = outline[(i + 1) % outline.size()];
+    if (a.x == x) meet(a.y);
+    if ((a.x < x) != (b.x < x) && a.x != x && b.x != x) meet(a.y + (x - a.x) / (b.x - a.x) * (b.y - a.y));
+  }
+  return chord;
+}
+
+/// Part of the outline between two neighbouring vertices in x: a trapezoid.
+struct Slab {
+  double x, step;       ///< from x to x + step
+  double width, slope;  ///< of the chord at x, and its growth with x
+  double area() const { return step * (width + 0.5 * slope * step); }
+  /// Where the area from the left is `part`.
+  double x_at(double part) const {
+    return x + 2 * part / (width + std::sqrt(std::max(0.0, width * width + 2 * slope * part)));
+  }
+};
+
+std::vector<Slab> slabs_of(const std::vector<dvec2>& outline) {
+  std::vector<double> xs;
+  for (const dvec2& v : outline) xs.push_back(v.x);
+  std::sort(xs.begin(), xs.end());
+  std::vector<Slab> slabs;
+  for (std::size_t i = 1; i < xs.size(); ++i) {
+    if (xs[i] == xs[i - 1]) continue;
+    const dvec2 from = chord_at(outline, xs[i - 1]), to = chord_at(outline, xs[i]);
+    const double step = xs[i] - xs[i - 1], width = from.y - from.x;
+    slabs.push_back({xs[i - 1], step, width, (to.y - to.x - width) / step});
+  }
+  return slabs;
+}
+
+/// What one point of the light, which stands for `area_m2` of it, sends to the pixels that see it.
+struct PointOfLight {
+  dvec3 place, normal;
+  double area_m2;
+  float fraction;
+
+  void add(const ShadowMask& mask, const VisiblePoints& points, std::span<const glm::vec3> normals,
+           SoftMask& out) const {
+    parallel_ranges(mask.size(), 1 << 14, [&](std::size_t first, std::size_t last) {
+      for (std::size_t i = first; i < last; ++i) {
+        if (mask[i] == 0) continue;
+        out.visible_fraction[i] += fraction;
+        const dvec3 to = place - points.positions[i];
+        const double square = glm::dot(to, to), at_light = -glm::dot(normal, to),
+                     at_point = glm::dot(dvec3(normals[i]), to);
+        if (at_light > 0 && at_point > 0)
+          out.irradiance[i] += static_cast<float>(area_m2 * at_light * at_point / (square * square));
+      }
+    });
+  }
+};
+
+}  // namespace
+
+std::vector<glm::vec3> points_on_light(const AreaLight& light, int count) {
+  const std::vector<Slab> slabs = slabs_of(light.outline);
+  double total = 0;
+  for (const Slab& slab : slabs) total += slab.area();
+  std::vector<glm::vec3> points;
+  for (int i = 0; i < count; ++i) {
+    double part = (i + 0.5) / count * total;
+    std::size_t k = 0;
+    while (k + 1 < slabs.size() && part > slabs[k].area()) part -= slabs[k++].area();
+    const double x = std::clamp(slabs[k].x_at(part), slabs[k].x, slabs[k].x + slabs[k].step);
+    const dvec2 chord = chord_at(light.outline, x);
+    const double y = std::lerp(chord.x, chord.y, std::fmod((i + 0.5) / std::numbers::phi, 1.0));
+    points.emplace_back(light.centre + x * light.ex + y * light.ey);
+  }
+  return points;
+}
+
+bool LightPointShadows::trace(const VisiblePoints& points, std::span<const glm::vec3> normals,
+                              const ViewRays& view, const TriangleView& triangles, const AreaLight& light,
+                              int count, const HardShadowConfig& config, SoftMask& out,
+                              const StopFlag* stop) {
+  const FloatEnvironment ieee;
+  stats_ = {};
+  timings_ = {};
+  out.visible_fraction.assign(points.triangles.size(), 0.0f);
+  out.irradiance.assign(points.triangles.size(), 0.0f);
+  places_ = points_on_light(light, count);
+  for (const glm::vec3& place : places_) {
+    if (stop_requested(stop)) return false;
+    const ShadowLight point{.position = place, .spot_axis = glm::vec3(light.normal), .spot_cos_outer = 0.0f};
+    tracer_.trace_shadow_mask(points, view, triangles, point, config, mask_);
+    stats_ += tracer_.stats();
+    timings_ += tracer_.timings();
+    Stopwatch watch;
+    PointOfLight{dvec3(place), light.normal, light.area_m2 / count, 1.0f / static_cast<float>(count)}.add(
+        mask_, points, normals, out);
+    timings_.irradiance_ms += watch.lap_ms();
+  }
+  for (float& fraction : out.visible_fraction) fraction = std::min(fraction, 1.0f);
+  return true;
+}
+
+}  // namespace tenebra

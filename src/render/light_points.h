@@ -1,0 +1,37 @@
+// Area lights as a few points, each with exact hard shadows: the quick stand-in for the exact soft shadows.
+// Without noise, but a penumbra has as many steps as there are points; docs/trade.md says how far it is off.
+#pragma once
+
+#include <span>
+#include <vector>
+
+#include "shadow/mask.h"
+#include "soft/soft_shadows.h"
+
+namespace tenebra {
+
+/// `count` points on the light, spread evenly: each stands for the same area (a Fibonacci lattice).
+std::vector<glm::vec3> points_on_light(const AreaLight& light, int count);
+
+/// Buffers kept from frame to frame.
+class LightPointShadows {
+public:
+  /// As SoftShadowTracer::trace with `light` as `count` points; `normals`: one a pixel. The same bits for any
+  /// thread count, instruction set and variant. Returns false, with `out` unspecified, if `stop` was
+  /// requested before the end.
+  bool trace(const VisiblePoints& points, std::span<const glm::vec3> normals, const ViewRays& view,
+             const TriangleView& triangles, const AreaLight& light, int count, const HardShadowConfig& config,
+             SoftMask& out, const StopFlag* stop = nullptr);
+
+  const TraceStats& stats() const { return stats_; }  ///< of the last call, summed over the points
+  const FrameTimings& timings() const { return timings_; }
+
+private:
+  ShadowTracer tracer_;
+  ShadowMask mask_;
+  std::vector<glm::vec3> places_;
+  TraceStats stats_;
+  FrameTimings timings_;
+};
+
+}  // namespace tenebra

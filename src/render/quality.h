@@ -1,0 +1,32 @@
+// Three words for settings that cost and err differently, chosen from the Pareto fronts of docs/trade.md.
+#pragma once
+
+#include <array>
+#include <optional>
+#include <string_view>
+
+#include "render/renderer.h"
+
+namespace tenebra {
+
+enum class Quality {
+  fast,      ///< soft shadows of a few points of the light, ambient occlusion by few rays at half resolution
+  balanced,  ///< the defaults: exact shadows, ambient occlusion by 64 rays
+  exact,     ///< exact shadows, ambient occlusion by 256 rays
+};
+inline constexpr std::array qualities{Quality::fast, Quality::balanced, Quality::exact};
+std::string_view quality_name(Quality quality);  ///< "fast"
+std::optional<Quality> quality_from_name(std::string_view name);
+
+/// What a preset sets. Hard shadows are exact in all of them: no inexact setting is faster by much.
+struct QualitySettings {
+  int soft_points = 0;   ///< RenderSettings::soft_points
+  int ao_rays = 64;      ///< AoConfig::rays
+  int ao_downscale = 1;  ///< AoConfig::downscale
+};
+QualitySettings quality_settings(Quality quality);
+
+/// Sets these and leaves all else alone: what is drawn, and how it is computed, stays the caller's.
+void apply_quality(Quality quality, RenderSettings& settings);
+
+}  // namespace tenebra

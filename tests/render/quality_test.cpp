@@ -1,0 +1,86 @@
+// The presets: what each sets, that it sets nothing else, and that exact is exact.
+#include "render/quality.h"
+#include "render/render_fixture.h"
+
+namespace tenebra {
+namespace {
+
+TEST(Quality, NamesLeadBackToPresets) {
+  for (const Quality quality : qualities) EXPECT_EQ(quality_from_name(quality_name(quality)), quality);
+  for (const char* name : {"", "Fast", "best", "exact "}) EXPECT_EQ(quality_from_name(name), std::nullopt);
+}
+
+TEST(Quality, SetsWhatItStandsFor) {
+  RenderSettings settings;
+  apply_quality(Quality::fast, settings);
+  EXPECT_EQ(settings.soft_points, 8);
+  EXPECT_EQ(settings.ao.rays, 16);
+  EXPECT_EQ(settings.ao.downscale, 2);
+  apply_quality(Quality::exact, settings);
+  EXPECT_EQ(settings.soft_points, 0);
+  EXPECT_EQ(settings.ao.rays, 256);
+  EXPECT_EQ(settings.ao.downscale, 1);
+  apply_quality(Quality::balanced, settings);
+  EXPECT_EQ(settings.soft_points, RenderSettings{}.soft_points);
+  EXPECT_EQ(settings.ao.rays, AoConfig{}.rays);
+  EXPECT_EQ(settings.ao.downscale, AoConfig{}.downscale);
+}
+
+TEST(Quality, LeavesAlone) {
+  RenderSettings settings{.width = 7, .height = 5, .shadows = ShadowMode::soft, .light = 3, .exposure = 2};
+  settings.hard.variant = Variant::spheres;
+  settings.soft.solver = SoftSolver::bsp;
+  settings.ao.mode = AoMode::rays;
+  settings.ao.positions = 99;
+  for (const Quality quality : qualities) {
+    apply_quality(quality, settings);
+    EXPECT_EQ(settings.width, 7);
+    EXPECT_EQ(settings.shadows, ShadowMode::soft);
+    EXPECT_EQ(settings.light, 3);
+    EXPECT_EQ(settings.exposure, 2);
+    EXPECT_EQ(settings.hard.variant, Variant::spheres);
+    EXPECT_EQ(settings.soft.solver, SoftSolver::bsp);
+    EXPECT_EQ(settings.ao.mode, AoMode::rays);
+    EXPECT_EQ(settings.ao.positions, 99);
+  }
+}
+
+Scene plate_scene() {
+  Scene scene = white_floor(true);
+  scene.ambient_light = glm::vec3(0.3f);
+  add_light(scene, {.name = "lamp", .falloff = Falloff::none, .intensity = 0.5f}, {1, 4, 0});
+  return scene;
+}
+
+Image8 picture(const RenderSettings& settings) {
+  return draw(plate_scene(), settings).image;
+}
+
+TEST(Quality, ExactAndBalancedShadowsHaveTheBitsOfTheDefault) {
+  for (const ShadowMode mode : {ShadowMode::hard, ShadowMode::soft}) {
+    RenderSettings settings{.width = 121, .height = 91, .shadows = mode};
+    settings.area_lights.size = {1, 1};
+    const Image8 expected = picture(settings);
+    for (const Quality quality : {Quality::exact, Quality::balanced}) {
+      apply_quality(quality, settings);
+      EXPECT_EQ(picture(settings), expected) << quality_name(quality);
+    }
+    apply_quality(Quality::fast, settings);
+    if (mode == ShadowMode::hard) {
+      EXPECT_EQ(picture(settings), expected) << "hard shadows are exact in every preset";
+    } else {
+      EXPECT_NE(picture(settings), expected) << "fast has steps";
+    }
+  }
+}
+
+TEST(Quality, BalancedOcclusionHasTheBitsOfTheDefault) {
+  RenderSettings settings{.width = 81, .height = 61, .shadows = ShadowMode::none};
+  settings.ao.mode = AoMode::field;
+  const Image8 expected = picture(settings);
+  apply_quality(Quality::balanced, settings);
+  EXPECT_EQ(picture(settings), expected);
+}
+
+}  // namespace
+}  // namespace tenebra

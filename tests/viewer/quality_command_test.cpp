@@ -1,0 +1,114 @@
+// --quality: what it sets, that options given themselves win wherever they stand, and what its pictures are.
+#include <gtest/gtest.h>
+
+#include "base/image.h"
+#include "config_file.h"
+#include "method_arguments.h"
+#include "view_options.h"
+#include "viewer/viewer_test_scene.h"
+
+namespace tenebra::test {
+namespace {
+
+/// The method that options stand for, as text without what is default.
+std::string method_of(const std::string& text) {
+  viewer::MethodOptions method;
+  CLI::App app;
+  viewer::add_method_options(app, method);
+  viewer::add_config_option(app);
+  app.parse(text);
+  viewer::settle_quality(app, method);
+  return viewer::method_arguments(method);
+}
+
+TEST(QualityOption, SetsWhatItStandsFor) {
+  EXPECT_EQ(method_of("--quality fast"), "--soft-points 8 --ao-rays 16 --ao-downscale 2");
+  EXPECT_EQ(method_of("--quality balanced"), "");
+  EXPECT_EQ(method_of("--quality exact"), "--ao-rays 256");
+  EXPECT_EQ(method_of("--quality exact --quality fast"), method_of("--quality fast")) << "the last counts";
+}
+
+TEST(QualityOption, LosesToOptionsGivenThemselves) {
+  for (const char* text : {"--quality fast --ao-rays 32", "--ao-rays 32 --quality fast"})
+    EXPECT_EQ(method_of(text), "--soft-points 8 --ao-rays 32 --ao-downscale 2") << text;
+  for (const char* text : {"--soft-points 0 --quality fast", "--quality fast --soft-points 0"})
+    EXPECT_EQ(method_of(text), "--ao-rays 16 --ao-downscale 2") << text;
+  for (const char* text : {"--ao-downscale 1 --quality fast", "--quality fast --ao-downscale 1"})
+    EXPECT_EQ(method_of(text), "--soft-points 8 --ao-rays 16") << text;
+  EXPECT_EQ(method_of("--ao-rays 64 --quality exact"), "") << "the default, but given";
+  EXPECT_EQ(method_of("--soft-points 3 --variant Spheres --quality exact"),
+            "--variant Spheres --soft-points 3 --ao-rays 256");
+}
+
+TEST(QualityOption, LosesToThemInAFileToo) {
+  const TemporaryFolder folder;
+  const auto with = [&](const std::string& file, const std::string& line) {
+    write_text(folder / "my.cfg", file);
+    return method_of(line + " --config " + (folder / "my.cfg").string());
+  };
+  EXPECT_EQ(with("quality = fast\nao-rays = 32\n", ""), "--soft-points 8 --ao-rays 32 --ao-downscale 2");
+  EXPECT_EQ(with("ao-rays = 32\nquality = fast\n", ""), "--soft-points 8 --ao-rays 32 --ao-downscale 2");
+  EXPECT_EQ(with("quality = fast\n", "--ao-rays 32"), "--soft-points 8 --ao-rays 32 --ao-downscale 2");
+  EXPECT_EQ(with("ao-rays = 32\n", "--quality fast"), "--soft-points 8 --ao-rays 32 --ao-downscale 2");
+  EXPECT_EQ(with("quality = fast\n", "--quality exact"), "--ao-rays 256") << "the command line counts more";
+}
+
+TEST(QualityOption, IsRefusedInASentenceWhereUnknown) {
+  const TemporaryFolder folder;
+  const std::string scene = write_moving_scene(folder);
+  for (const char* command : {"render", "view"}) {
+    for (const char* name : {"best", "Fast", ""}) {
+      const auto result = tenebra({command, scene, "--quality", name});
+      EXPECT_EQ(result.exit_code, 1) << command << ' ' << name;
+      EXPECT_TRUE(is_one_sentence(result.errors)) << result.errors;
+      EXPECT_NE(result.errors.find("expected fast, balanced or exact"), std::string::npos) << result.errors;
+    }
+  }
+  for (const auto& [option, value] : {std::pair{"--soft-points", "-1"},
+                                      {"--soft-points", "5000"},
+                                      {"--ao-downscale", "0"},
+                                      {"--ao-downscale", "9"}}) {
+    const auto result = tenebra({"render", scene, option, value});
+    EXPECT_EQ(result.exit_code, 1) << option << ' ' << value;
+    EXPECT_TRUE(is_one_sentence(result.errors)) << result.errors;
+  }
+}
+
+TEST(QualityOption, OfTheSecondMethodStandsOnTheFirst) {
+  viewer::ViewOptions options;
+  CLI::App app;
+  viewer::add_view_options(app, options);
+  app.parse("--shadows soft --quality fast --ao-rays 5 --compare=\"--quality exact\"");
+  viewer::settle_quality(app, options.method);
+  ASSERT_TRUE(viewer::settle_view_options(options));
+  EXPECT_EQ(viewer::method_arguments(options.method),
+            "--shadows soft --soft-points 8 --ao-rays 5 --ao-downscale 2");
+  ASSERT_TRUE(options.compare);
+  EXPECT_EQ(viewer::method_arguments(*options.compare), "--shadows soft --ao-rays 256");
+}
+
+/// A picture with soft shadows.
+Image8 picture(const TemporaryFolder& folder, const std::string& scene, std::vector<std::string> more) {
+  std::vector<std::string> arguments{"render",        scene,  "--time",       "5",   "--size",  "80x60",
+                                     "--shadows",     "soft", "--light-size", "1.5", "--quiet", "-o",
+                                     folder / "p.png"};
+  arguments.insert(arguments.end(), more.begin(), more.end());
+  const auto result = tenebra(arguments);
+  EXPECT_EQ(result.exit_code, 0) << result.errors;
+  return read_png(folder / "p.png").value_or(Image8{});
+}
+
+TEST(QualityOption, ExactIsTheDefaultExactPictureToTheBit) {
+  const TemporaryFolder folder;
+  const std::string scene = write_moving_scene(folder);
+  const Image8 standard = picture(folder, scene, {});
+  EXPECT_EQ(picture(folder, scene, {"--quality", "exact"}), standard);
+  EXPECT_EQ(picture(folder, scene, {"--quality", "balanced"}), standard);
+  const Image8 fast = picture(folder, scene, {"--quality", "fast"});
+  EXPECT_NE(fast, standard);
+  EXPECT_EQ(picture(folder, scene, {"--soft-points", "8"}), fast);
+  EXPECT_EQ(picture(folder, scene, {"--soft-points", "0", "--quality", "fast"}), standard);
+}
+
+}  // namespace
+}  // namespace tenebra::test
