@@ -3,6 +3,7 @@
 #include <gtest/gtest.h>
 
 #include <cmath>
+#include <glm/gtc/matrix_transform.hpp>
 
 #include "soft/group_outline.h"
 #include "soft/light_frame.h"
@@ -75,6 +76,15 @@ std::vector<SoftCase> mesh_cases() {
     boxes.append(box(low, low + dvec3(0.3)));
   }
   for (int k = 0; k < 4; ++k) shells.append(sphere(6, 0.4 + 0.15 * k, {0.1 * k, 1.4, 0}));
+  for (int heap = 0; heap < 4; ++heap) {  // outlines behind outlines
+    Soup balls;
+    for (int k = 0; k < 16; ++k) {
+      const dvec3 centre(1.6 * random.unit() - 0.8, 0.9 + 1.2 * random.unit(), 1.6 * random.unit() - 0.8);
+      balls.append(k % 4 == 3 ? torus(14, 6, 0.3, 0.08).moved(1, centre)
+                              : sphere(3, 0.1 + 0.3 * random.unit(), centre));
+    }
+    cases.push_back(below(fmt::format("heap {}", heap), balls));
+  }
   cases.push_back(below("boxes that touch", boxes));
   cases.push_back(below("spheres in spheres", shells));
   cases.push_back(below("tilted wall", tilted_wall(random).moved(0.8, {0, 1.5, 0})));
@@ -263,6 +273,40 @@ TEST(SoftOutline, ThinPartsUnderManyOccludersEnd) {
     for (std::size_t i = 0; i < c.size(); ++i)
       EXPECT_NEAR(mask.visible_fraction[i], precise.visible_fraction[i], fast_bound) << describe(c, i);
   }
+}
+
+// The silhouette of a sheet beside the light runs along the ray on which windings are counted, level with the
+// middle of the light: rounding of a turned scene decides which of its edges the ray seems to meet.
+TEST(SoftOutline, SeesPastEdgesLevelWithTheMiddleOfTheLight) {
+  Random random(94);
+  std::size_t by_outline = 0;
+  for (int round = 0; round < 60; ++round) {
+    const dvec3 axis(2 * random.unit() - 1, 2 * random.unit() - 1, 2 * random.unit() - 1);
+    const glm::dmat3 turn(glm::rotate(glm::dmat4(1.0), 6.28 * random.unit(), glm::normalize(axis)));
+    SoftCase c;
+    c.name = fmt::format("seed 94, round {}", round);
+    c.soup.quad(turn * dvec3(-3, 0, -3), turn * dvec3(0, 0, 6), turn * dvec3(6, 0, 0));
+    constexpr int cells = 24;
+    for (int i = 0; i < cells * cells; ++i) {
+      const dvec3 corner(0.6 + 0.6 / cells * (i % cells), 2, 0.5 / cells * (i / cells));
+      c.soup.quad(turn * corner, turn * dvec3(0.6 / cells, 0, 0), turn * dvec3(0, 0, 0.5 / cells));
+    }
+    c.light = must(make_rectangle_light(turn * dvec3(0, 4, 0), turn * dvec3(1, 0, 0), turn * dvec3(0, 0, 1)));
+    c.view = pinhole(turn * dvec3(0, 3, 2), dvec3(0), 1, 8, 8);
+    c.points.width = c.points.height = 8;
+    for (int i = 0; i < 64; ++i) {  // from some of them the sheet does reach into the light
+      c.points.positions.push_back(turn * dvec3(0.06 * (i % 8), 0, 4e-8 * (random.unit() - 0.5)));
+      c.points.triangles.push_back(0);
+    }
+    SoftStats stats;
+    const SoftMask mask = traced(c, c.config, &stats);
+    by_outline += stats.points_outline;
+    for (std::size_t i = 0; i < c.size(); ++i) {
+      const double width = std::max(0.0, 0.06 * static_cast<double>(i % 8) - 0.2);
+      EXPECT_NEAR(mask.visible_fraction[i], 1 - width / 4, 1e-6) << describe(c, i);
+    }
+  }
+  EXPECT_GT(by_outline, 1000u);
 }
 
 }  // namespace
