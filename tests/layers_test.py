@@ -14,7 +14,7 @@ MAY_INCLUDE = {
     "simd": {"base", "simd"},
     "scene": {"base", "math", "scene"},
     "import": {"base", "math", "scene", "import"},
-    "points": {"base", "math", "parallel", "scene", "points"},
+    "points": {"base", "math", "simd", "parallel", "scene", "points"},
     "shadow": {"base", "math", "simd", "parallel", "scene", "points", "shadow"},
     "soft": {"base", "math", "simd", "parallel", "scene", "points", "soft"},
     "ao": {"base", "math", "simd", "parallel", "scene", "points", "ao"},

@@ -1,9 +1,10 @@
-// The corners of a triangle by its id.
+// The corners of a triangle by its id, and from which side it is seen.
 #pragma once
 
 #include <cstddef>
 #include <glm/glm.hpp>
 
+#include "math/predicates.h"
 #include "points/visible_points.h"
 
 namespace tenebra {
@@ -15,6 +16,13 @@ struct Corners {
 inline Corners corners_of(const TriangleView& triangles, std::size_t id) {
   const glm::uvec3 t = triangles.triangles[id];
   return {{triangles.positions[t.x], triangles.positions[t.y], triangles.positions[t.z]}};
+}
+
+/// The side of the triangle that the eye is on: of (B - A) x (C - A) +1, else -1; 0: edge-on, no area. Exact;
+/// orthographic views: the eye is at infinity against d0.
+inline int eye_side(const glm::vec3 v[3], const ViewRays& view) {
+  return view.orthographic ? -direction_side(v[0], v[1], v[2], view.d0)
+                           : point_side(v[0], v[1], v[2], view.eye);
 }
 
 }  // namespace tenebra

@@ -58,31 +58,47 @@ dvec3 visible_point(const Receiver& r, const dvec3& origin, const dvec3& directi
   return clamped(r, u, v);
 }
 
+/// Rows first ... last - 1 of the picture.
+void compute_rows(std::span<const std::uint32_t> ids, std::size_t first, std::size_t last,
+                  const ViewRays& view, const TriangleView& triangles, VisiblePoints& out) {
+  const dvec3 eye(view.eye), d0(view.d0), dx(view.dx), dy(view.dy);
+  Receiver receiver;
+  for (std::size_t y = first; y < last; ++y) {
+    const dvec3 row = (static_cast<double>(y) + 0.5) * dy;
+    for (std::size_t x = 0; x < static_cast<std::size_t>(out.width); ++x) {
+      const std::size_t pixel = y * static_cast<std::size_t>(out.width) + x;
+      const std::uint32_t id = ids[pixel] < triangles.triangles.size() ? ids[pixel] : no_triangle;
+      out.triangles[pixel] = id;
+      if (id == no_triangle) continue;
+      if (id != receiver.id) receiver = receiver_of(triangles, id);
+      const dvec3 across = (static_cast<double>(x) + 0.5) * dx + row;
+      out.positions[pixel] = view.orthographic ? visible_point(receiver, eye + across, d0)
+                                               : visible_point(receiver, eye, d0 + across);
+    }
+  }
+}
+
 }  // namespace
 
 void compute_visible_points(std::span<const std::uint32_t> ids, int width, int height, const ViewRays& view,
-                            const TriangleView& triangles, VisiblePoints& out) {
+                            const TriangleView& triangles, VisiblePoints& out, PointLayout layout) {
   const FloatEnvironment ieee;  // denormal floats of the view become doubles here
   out.width = width;
   out.height = height;
   out.positions.resize(ids.size());
   out.triangles.resize(ids.size());
-  const dvec3 eye(view.eye), d0(view.d0), dx(view.dx), dy(view.dy);
-  parallel_ranges(static_cast<std::size_t>(height), 8, [&](std::size_t first, std::size_t last) {
-    Receiver receiver;
-    for (std::size_t y = first; y < last; ++y) {
-      const dvec3 row = (static_cast<double>(y) + 0.5) * dy;
-      for (std::size_t x = 0; x < static_cast<std::size_t>(width); ++x) {
-        const std::size_t pixel = y * static_cast<std::size_t>(width) + x;
-        const std::uint32_t id = ids[pixel] < triangles.triangles.size() ? ids[pixel] : no_triangle;
-        out.triangles[pixel] = id;
-        if (id == no_triangle) continue;
-        if (id != receiver.id) receiver = receiver_of(triangles, id);
-        const dvec3 across = (static_cast<double>(x) + 0.5) * dx + row;
-        out.positions[pixel] = view.orthographic ? visible_point(receiver, eye + across, d0)
-                                                 : visible_point(receiver, eye, d0 + across);
-      }
-    }
+  const bool tiled = layout == PointLayout::rows_and_tiles;
+  if (!tiled) out.tiles = {};
+  if (tiled) begin_point_tiles(width, height, view, out.tiles);
+  const SquareGrid grid(width, height);
+  // Tiles are made of rows that are still near.
+  parallel_tasks(static_cast<int>(grid.rows), [&](int band) {
+    const auto row = static_cast<std::uint32_t>(band);
+    compute_rows(ids, row * square_side,
+                 std::min<std::size_t>((row + 1) * square_side, static_cast<std::size_t>(height)), view,
+                 triangles, out);
+    for (std::uint32_t part = 0; tiled && part < grid.row_patches; ++part)
+      make_point_patch(out, triangles, row * grid.row_patches + part, out.tiles);
   });
 }
 

@@ -7,6 +7,7 @@
 #include <span>
 #include <vector>
 
+#include "points/point_tiles.h"
 #include "scene/frame_geometry.h"
 
 namespace tenebra {
@@ -20,7 +21,8 @@ struct TriangleView {
   std::span<const glm::vec3> positions;
   std::span<const glm::uvec3> triangles;
   std::span<const std::uint8_t> casts_shadow;  ///< one a triangle; empty: all cast
-  std::span<const std::uint32_t> parts;  ///< a hint: first triangle of each group that moves as one, ascending
+  std::span<const std::uint32_t>
+      parts;                  ///< a hint: first triangle of each group that moves as one, ascending
   std::uint64_t version = 0;  ///< not 0: the caller's word that views of one number are the same throughout
 };
 inline TriangleView triangle_view(const FrameGeometry& geometry) {
@@ -33,13 +35,18 @@ struct VisiblePoints {
   int height = 0;
   std::vector<glm::dvec3> positions;     ///< width * height; meaningless where the id is no_triangle
   std::vector<std::uint32_t> triangles;  ///< width * height ids, or no_triangle
+  PointTiles tiles;  ///< empty, or the same points again: to be cleared by whoever changes them
 };
+
+/// Hard shadows read tiles; where there are none they make their own, of points in rows.
+enum class PointLayout { rows, rows_and_tiles };
 
 /// Points where the pixels' rays meet the planes of their triangles, in double, clamped into the triangle
 /// (a rasteriser's id may lie just outside). `ids`: width * height, row 0 at the top; ids out of range count
 /// as no_triangle. Bits do not depend on threads or instruction set.
 void compute_visible_points(std::span<const std::uint32_t> ids, int width, int height, const ViewRays& view,
-                            const TriangleView& triangles, VisiblePoints& out);
+                            const TriangleView& triangles, VisiblePoints& out,
+                            PointLayout layout = PointLayout::rows);
 
 /// Unit shading normals at the points, one a pixel: `normals` (one a vertex of `triangles`; empty: face
 /// normals) interpolated in double, turned to the side from which `view` sees the triangle; the face normal

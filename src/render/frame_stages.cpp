@@ -14,6 +14,7 @@ void Renderer::State::points_from_depth(const ViewRays& view) {
   points.width = gbuffer.width;
   points.height = gbuffer.height;
   points.triangles = ids;
+  points.tiles = {};
   points.positions.resize(width * height);
   parallel_ranges(height, 16, [&](std::size_t first, std::size_t last) {
     for (std::size_t i = first * width; i < last * width; ++i) {
@@ -32,11 +33,13 @@ void Renderer::State::read_samples(const FrameInput& input, const RenderSettings
   if (settings.samples == SampleSource::depth) read_depth(gbuffer, depth);
   timings.readback_ms = watch.lap_ms();
   const bool exact = settings.samples == SampleSource::ids;
+  const bool tiled = settings.shadows == ShadowMode::hard && settings.hard.variant == Variant::tiles;
   const bool shaded = settings.shadows == ShadowMode::soft || settings.ao.mode != AoMode::none;
   const TriangleView triangles = triangle_view(input.geometry);
   with_threads(settings.threads, [&] {
     if (!exact) return points_from_depth(input.view);
-    compute_visible_points(ids, gbuffer.width, gbuffer.height, input.view, triangles, points);
+    compute_visible_points(ids, gbuffer.width, gbuffer.height, input.view, triangles, points,
+                           tiled ? PointLayout::rows_and_tiles : PointLayout::rows);
     if (shaded) compute_shading_normals(points, input.geometry.normals, input.view, triangles, normals);
   });
   timings.points_ms = watch.lap_ms();

@@ -153,7 +153,7 @@ void ShadowTracer::trace_shadow_mask(const VisiblePoints& points, const ViewRays
   s.pixel_nodes.clear();
   if (config.variant == Variant::tiles &&
       s.tiles.trace(points, view, triangles, light, config, mask, s.stats, s.timings)) {
-    if (config.count_pixel_nodes) s.tiles.spread_tests(points.width, points.triangles.size(), s.pixel_nodes);
+    if (config.count_pixel_nodes) s.tiles.spread_tests(points.width, points.height, s.pixel_nodes);
     return;
   }
   const RaySource source = ray_source(light);

@@ -152,11 +152,6 @@ int light_side(const vec3 v[3], const RaySource& source) {
                             : -point_side(v[0], v[1], v[2], source.light);
 }
 
-int eye_side(const vec3 v[3], const ViewRays& view) {
-  return view.orthographic ? -direction_side(v[0], v[1], v[2], view.d0)
-                           : point_side(v[0], v[1], v[2], view.eye);
-}
-
 TrianglePlanes planes_of(const vec3 v[3], std::uint32_t id, int side, const RaySource& source, double tau) {
   TrianglePlanes t{};
   t.triangle = id;

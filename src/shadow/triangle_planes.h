@@ -64,8 +64,6 @@ struct TriangleSet {
 
 /// s of the contract: on which side of the triangle the light is; 0: the triangle blocks nothing. Exact.
 int light_side(const glm::vec3 corners[3], const RaySource& source);
-/// The same for the eye, with the opposite sign for an eye on the light's side. Exact.
-int eye_side(const glm::vec3 corners[3], const ViewRays& view);
 /// Planes of a triangle on side `side` (not 0); `tau` is its rounding tolerance.
 TrianglePlanes planes_of(const glm::vec3 corners[3], std::uint32_t id, int side, const RaySource& source,
                          double tau);

@@ -435,6 +435,13 @@ HWY_INLINE Float16 joined(const Float4 (&a)[4]) {
   return p;
 }
 
+/// Bits of the sixteen that equal `value`.
+HWY_INLINE std::uint32_t equal_bits(const std::uint32_t* sixteen, std::uint32_t value) {
+  using P = Pack<std::int32_t, 16>;
+  return bits(equal(load<P>(reinterpret_cast<const std::int32_t*>(sixteen)),
+                    splat<P>(static_cast<std::int32_t>(value))));
+}
+
 }  // namespace tenebra::HWY_NAMESPACE
 HWY_AFTER_NAMESPACE();
 

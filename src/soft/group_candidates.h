@@ -14,10 +14,16 @@
 
 #include "points/visible_points.h"
 #include "simd/simd_level.h"
-#include "soft/group_occluders.h"
 #include "soft/light_frame.h"
 
 namespace tenebra {
+
+/// What the points of a group share. World space.
+struct GroupFrame {
+  glm::dvec3 centre{0.0}, half{0.0};         ///< box of the points
+  std::span<const std::uint32_t> receivers;  ///< triangles that the points lie on
+  double receiver_tau = 0;                   ///< largest rounding tolerance of these
+};
 
 /// Axes of the light around a place: the light's unit is the unit of all three coordinates, the third is the
 /// height towards the light's plane. An affine map: it keeps lines, planes and sides (times `turn`).
@@ -35,6 +41,24 @@ struct LightAxes {
 };
 LightAxes light_axes(const LightFrame& light, const glm::dvec3& centre);
 
+/// Where the points of a group lie to the plane of a triangle: at centre + d the height over it, times the
+/// length of its normal, is height + d.slope.
+struct PlaneHeight {
+  double height = 0;
+  glm::dvec3 slope{0.0};  ///< the triangle's normal n
+  double threshold = 0;   ///< tau |n|, tau the triangle's rounding tolerance
+  double length = 0;      ///< |n|
+};
+
+/// +1: the occluder blocks points like centre + d by its lines as they are; -1: with their signs turned; 0:
+/// not at all (contact rule).
+inline int blocking_sign(const PlaneHeight& plane, const glm::dvec3& d, double receiver_tau) {
+  const double height = plane.height + d.x * plane.slope.x + d.y * plane.slope.y + d.z * plane.slope.z;
+  const double threshold = plane.threshold + receiver_tau * plane.length;
+  return height < -threshold ? 1 : height > threshold ? -1 : 0;
+}
+
+/// A triangle that may block.
 struct Candidate {
   double corners[3][3];  ///< corner, coordinate in LightAxes
   double plane[3];  ///< (u, v, w) of the triangle's own plane; positive everywhere where it is not needed

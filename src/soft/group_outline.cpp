@@ -30,7 +30,7 @@ std::uint32_t hash_of(const vec3& v) {
   return h;
 }
 
-// The solid angle of the light as size_class gives it, were it seen face on.
+// The solid angle of the light as Candidate::size gives it, were it seen face on.
 int light_class(const LightFrame& light, const dvec3& point) {
   const dvec3 from = light.origin - point;
   return std::ilogb(light.area * glm::dot(light.ex, light.ex) / glm::dot(from, from));

@@ -13,6 +13,7 @@
 #include "base/stopwatch.h"
 #include "points/contact_rule.h"
 #include "points/triangle_corners.h"
+#include "soft/candidate_order.h"
 #include "soft/clip_solver-inl.h"
 #include "soft/line_class_query-inl.h"
 #include "soft/outline_solver-inl.h"
@@ -105,8 +106,8 @@ public:
     outline_.clear();
     candidates_.clear();
     candidates_.axes = light_axes(frame.light, glm::dvec3(0.0));
-    order_.clear();
-    double_.clip.reset(candidates_, order_);
+    clipped_ = {};
+    double_.clip.reset(candidates_, clipped_);
     for (const std::uint32_t pixel : pixels) {
       const bool whole = add_whole(frame, pixel);
       if (!whole) solve_point(double_, frame, {pixels, {}, {}}, pixel);
@@ -119,64 +120,32 @@ public:
   }
 
 private:
-  static constexpr std::uint32_t columns = 32, places = columns * columns, size_ranks = 16;
-
   void set_up(const SoftFrame& frame, const GroupTask& task) {
     outline_.clear();
+    find_candidates_(frame.light, frame.triangles, task.frame, task.candidates, candidates_);
     use_bsp_ = wants_bsp(frame.config);
-    std::span<const std::uint32_t> clipped = task.candidates;
     if (use_bsp_) {
-      set_up_occluders(frame.light, frame.triangles, task.frame, task.candidates, occluders_);
+      set_up_occluders(frame.light, frame.triangles, task.frame, candidates_, occluders_);
       bsp_.reset(occluders_, frame.triangles, task.frame, frame.config.choice);
-      clipped = occluders_.indefinite;
-    }
-    find_candidates_(frame.light, frame.triangles, task.frame, clipped, candidates_);
-    if (frame.config.solver == SoftSolver::automatic) {
-      finder_.find(frame.light, frame.triangles, candidates_, outline_, rest_);
+      clipped_ = order_.sorted(candidates_, occluders_.indefinite);
     } else {
-      rest_.resize(candidates_.all.size());
-      std::iota(rest_.begin(), rest_.end(), 0u);
+      if (frame.config.solver == SoftSolver::automatic) {
+        finder_.find(frame.light, frame.triangles, candidates_, outline_, rest_);
+      } else {
+        take_all();
+      }
+      clipped_ = order_.sorted(candidates_, rest_);
     }
-    sort_by_size();
   }
 
-  /// Fills order_ from rest_: classes of size, largest first, and in a class by where they stand before the
-  /// light; what comes first at one place, stays so.
-  void sort_by_size() {
-    ranks_.clear();
-    const bool many = rest_.size() > 512;
-    for (const std::uint32_t place : rest_) {
-      const Candidate& c = candidates_.all[place];
-      ranks_.push_back(many ? rank_of(c) : static_cast<std::uint32_t>(std::clamp(32 - c.size, 0, 127)));
-    }
-    ends_.assign(many ? size_ranks * places + 1 : 129, 0);
-    for (const std::uint32_t rank : ranks_) ++ends_[rank + 1];
-    for (std::size_t k = 1; k < ends_.size(); ++k) ends_[k] += ends_[k - 1];
-    order_.resize(rest_.size());
-    for (std::size_t i = 0; i < rest_.size(); ++i) order_[ends_[ranks_[i]]++] = rest_[i];
-  }
-
-  std::uint32_t rank_of(const Candidate& c) const {
-    const glm::dvec3 sum = corner(c, 0) + corner(c, 1) + corner(c, 2);
-    const double t = sum.z > 0 ? candidates_.axes.centre_uv.z / sum.z : 0.0;
-    std::uint32_t at[2];
-    for (int k = 0; k < 2; ++k) {
-      const double from_edge = candidates_.axes.centre_uv[k] + sum[k] * t + 1;
-      at[k] = static_cast<std::uint32_t>(std::clamp(from_edge * (columns / 2), 0.0, columns - 1.0));
-    }
-    const int size = std::clamp((32 - c.size) / 4, 0, static_cast<int>(size_ranks) - 1);
-    std::uint32_t morton = 0;
-    for (int bit = 0; bit < 5; ++bit)
-      morton |= (at[0] >> bit & 1u) << (2 * bit) | (at[1] >> bit & 1u) << (2 * bit + 1);
-    return static_cast<std::uint32_t>(size) * places + morton;
-  }
-  static glm::dvec3 corner(const Candidate& c, int k) {
-    return {c.corners[k][0], c.corners[k][1], c.corners[k][2]};
+  void take_all() {
+    rest_.resize(candidates_.all.size());
+    std::iota(rest_.begin(), rest_.end(), 0u);
   }
 
   template <class T>
   void reset(Precision<T>& p) {
-    p.clip.reset(candidates_, order_);
+    p.clip.reset(candidates_, clipped_);
     if (!outline_.empty()) p.outline.reset(outline_);
   }
 
@@ -186,11 +155,9 @@ private:
       if (use_bsp_ && bsp_.bytes() > largest_tree_bytes) {
         note_tree();
         use_bsp_ = false;
-        find_candidates_(frame.light, frame.triangles, task.frame, task.candidates, candidates_);
-        rest_.resize(candidates_.all.size());
-        std::iota(rest_.begin(), rest_.end(), 0u);
-        sort_by_size();
-        p.clip.reset(candidates_, order_);
+        take_all();
+        clipped_ = order_.sorted(candidates_, rest_);
+        p.clip.reset(candidates_, clipped_);
       }
       solve_point(p, frame, task, pixel);
       if (use_bsp_ && !frame.config.keep_trees) {
@@ -291,7 +258,7 @@ private:
         p.clip.query(part, p.visible);
       }
     }
-    if (use_bsp_ && !order_.empty()) refine(p, p.clip);
+    if (use_bsp_ && !clipped_.empty()) refine(p, p.clip);
     if (outline_.empty() || p.visible.empty()) return;
     p.outline.move_to(at);
     refine(p, p.outline);
@@ -374,10 +341,10 @@ private:
   GroupCandidates candidates_;
   OutlineFinder finder_;
   GroupOutline outline_;
-  std::vector<std::uint32_t> rest_;   ///< places of the candidates that the outline leaves
-  std::vector<std::uint32_t> order_;  ///< the same, largest first
-  std::vector<std::uint32_t> ranks_, ends_;
-  GroupOccluders occluders_;  ///< of the BSP
+  std::vector<std::uint32_t> rest_;  ///< places of the candidates that the outline leaves
+  CandidateOrder order_;
+  std::span<const std::uint32_t> clipped_;  ///< places of the candidates that are clipped, largest first
+  GroupOccluders occluders_;                ///< of the BSP
   LineClassBsp bsp_;
   bool use_bsp_ = false;
   Precision<float> float_;

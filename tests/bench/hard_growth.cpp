@@ -68,7 +68,8 @@ struct Extent {
 void retarget(HardView& view, PictureSize size) {
   BenchFrame& f = view.frame;
   const auto ids = nearest_triangles(f.triangles(), f.view, size.width, size.height);
-  compute_visible_points(ids, size.width, size.height, f.view, f.triangles(), f.points);
+  compute_visible_points(ids, size.width, size.height, f.view, f.triangles(), f.points,
+                         PointLayout::rows_and_tiles);
 }
 
 /// One series: contests, a row each, and two curves.

@@ -22,6 +22,7 @@ void evaluate_hard_view(const Scene& scene, int number, PictureSize size, HardVi
   const double earlier_s = clip < 0 ? 0.0 : frame_time_s(scene.clips[0], number > 0 ? number - 1 : 1, 30.0);
   evaluate_frame(scene, clip, earlier_s, view.before);
   evaluate_bench_frame(scene, number, size.width, size.height, view.frame);
+  make_point_tiles(view.frame.points, view.frame.view, view.frame.triangles(), view.frame.points.tiles);
   const WorldLight& placed = view.frame.lights.front();
   view.light = shadow_light(scene.lights[static_cast<std::size_t>(placed.light)], placed);
 }

@@ -81,6 +81,23 @@ TEST(Tiles, AreTheSameForThreadsAndInstructionSets) {
   }
 }
 
+TEST(Tiles, ReadPointsThatComeInTiles) {
+  for (const glm::ivec2 size :
+       {glm::ivec2{333, 211}, glm::ivec2{64, 48}, glm::ivec2{3, 2}, glm::ivec2{1100, 20}}) {
+    MaskCase c = room_case(78, size.x, size.y);
+    const ShadowMask expected = oracle(c);
+    const std::vector<std::uint32_t> ids = c.points.triangles;
+    compute_visible_points(ids, size.x, size.y, c.view, c.soup.view(), c.points, PointLayout::rows_and_tiles);
+    ASSERT_FALSE(c.points.tiles.empty());
+    EXPECT_TRUE(same_mask(c, traced(c), expected)) << size.x;
+    // Of a light that some points cannot see, and for another eye than the tiles were made for.
+    c.light.range_m = 1.5f;
+    EXPECT_TRUE(same_mask(c, traced(c), oracle(c))) << size.x;
+    c.view.eye = c.light.position;
+    EXPECT_TRUE(same_mask(c, traced(c), oracle(c))) << size.x;
+  }
+}
+
 TEST(Tiles, GiveWayWhereTheyDoNotApply) {
   MaskCase c = room_case(75, 64, 64);
   c.light = sun({0.3, 1, 0.2});

@@ -244,7 +244,8 @@ TEST(SoftCatalogue, B_DistancesAndSizesOfEveryOrder) {
       expect_exact(fmt::format("light at 1e{} of size {}", k, ratio), soup,
                    square_light(distance * dvec3(0.3, 0.9, 0.2), {0, 0, 0}, ratio * distance), sum, 13, 24);
   }
-  for (const float size : {1e-10f, 1e-9f, 1e-8f, 1e-6f, 1e-3f, 1e3f})  // at the origin floats reach that far down
+  for (const float size :
+       {1e-10f, 1e-9f, 1e-8f, 1e-6f, 1e-3f, 1e3f})  // at the origin floats reach that far down
     expect_exact(fmt::format("light of {}", size), soup,
                  must(make_rectangle_light(vec3(0), {size, 0, 0}, {0, 0, size})), sum, 14, 24);
   expect_exact("a line of light", soup, must(make_rectangle_light({0, 1, 0}, {1, 0, 0}, {0, 0, 1e-4f})), sum,

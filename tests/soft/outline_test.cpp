@@ -69,6 +69,14 @@ std::vector<SoftCase> mesh_cases() {
   cases.push_back(below("half sunk sphere", sphere(10, 0.9, {0, 0.1, 0})));
   cases.push_back(below("sphere through the light", with(ball, sphere(8, 0.6, {0.3, 5, -0.2}))));
   cases.push_back(below("sphere in a cloud", with(ball, random_soup(random, 20, 0.3).moved(1, {0, 2, 0}))));
+  Soup boxes, shells;
+  for (int k = 0; k < 12; ++k) {  // they touch: edges of several boxes lie on each other
+    const dvec3 low(0.3 * (k % 3) - 0.4, 0.9 + 0.3 * (k / 6), 0.3 * (k / 3 % 2) - 0.3);
+    boxes.append(box(low, low + dvec3(0.3)));
+  }
+  for (int k = 0; k < 4; ++k) shells.append(sphere(6, 0.4 + 0.15 * k, {0.1 * k, 1.4, 0}));
+  cases.push_back(below("boxes that touch", boxes));
+  cases.push_back(below("spheres in spheres", shells));
   cases.push_back(below("tilted wall", tilted_wall(random).moved(0.8, {0, 1.5, 0})));
   return cases;
 }
@@ -233,6 +241,9 @@ TEST(SoftOutline, IsExact) {
   judge_all(below("small sphere", sphere(3, 0.8, {0.1, 1.4, 0}), 24), sum);
   judge_all(below("small torus", torus(14, 6, 0.9, 0.3).moved(1, {0, 1.1, 0.2}), 24), sum);
   judge_all(below("small bowl", two_sided(bowl(3)), 24), sum);
+  Soup shells;
+  for (int k = 0; k < 3; ++k) shells.append(sphere(2, 0.4 + 0.2 * k, {0.1 * k, 1.4, 0}));
+  judge_all(below("spheres in spheres", shells, 24), sum);
   sum.print("outlines");
   EXPECT_GT(sum.penumbra, 300u);
 }

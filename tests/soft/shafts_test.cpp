@@ -41,7 +41,7 @@ TEST(Shafts, NeverLeaveOutATriangleThatBlocksFarFromTheOriginOrAtAnyScale) {
         Soup soup = near.moved(scale, scale * offset * random.direction());
         const AreaLight light = random_light(soup, random);
         const GroupCase c = random_case(fmt::format("offset {}, scale {}, case {}", offset, scale, i),
-                                       std::move(soup), light, random);
+                                        std::move(soup), light, random);
         ShaftCheck(c).run(tally, 200);
         if (HasFatalFailure()) return;
       }

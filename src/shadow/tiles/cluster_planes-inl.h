@@ -100,8 +100,6 @@ HWY_INLINE std::uint32_t set_up_eight(const TriangleCluster& c, int at, const Ra
     const Double8 from2 = dot(t.a[k], t.a[k]);
     worst = max(worst, store_plane(out, k, at, cross(t.a[k], edge), t.side, from2 * dot(edge, edge), unit));
     reach2 = max(reach2, from2);
-    store_narrowed(t.a[k].x, out.ax[k] + at), store_narrowed(t.a[k].y, out.ay[k] + at);
-    store_narrowed(t.a[k].z, out.az[k] + at);
   }
   worst = max(worst, store_plane(out, 3, at, n, t.side, own_squares, unit));
   const Double8 tau = t.largest * splat<Double8>(use_tau ? 1.7320508075688772 * 0x1p-24 : 0.0);

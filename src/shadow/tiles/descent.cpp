@@ -11,7 +11,8 @@
 #include "shadow/decide.h"
 #include "shadow/tiles/cluster_planes-inl.h"
 #include "shadow/tiles/face_tests-inl.h"
-#include "shadow/tiles/tile_rays-inl.h"
+#include "shadow/tiles/ray_test-inl.h"
+#include "shadow/tiles/tile_bounds-inl.h"
 #include "simd/pack-inl.h"
 
 #include <bit>
@@ -21,11 +22,6 @@ namespace tenebra::HWY_NAMESPACE {
 
 namespace {
 
-using Double16 = Pack<double, 16>;
-
-// Up to so many tiles meet a cluster one by one; with more each triangle looks for its own.
-constexpr int few_tiles = 32;
-
 /// A node of rays and its own bounds.
 struct RayRef {
   int level;
@@ -33,12 +29,20 @@ struct RayRef {
   FaceBox box;
 };
 
+/// A triangle that meets rays.
+struct Caster {
+  LeafTriangle leaf;
+  Aim aim;
+};
+
 class RootDescent {
 public:
   RootDescent(const Descent& d, std::uint32_t root, DescentScratch& scratch, TraceStats& stats)
       : d_(d),
+        root_(root),
         face_(face_axes(d.forest.faces[root])),
         light_(d.source.light),
+        skip_own_(d.contact == ContactRule::triangle_ids),
         scratch_(scratch),
         stats_(stats) {}
 
@@ -49,54 +53,67 @@ private:
   RayNode& node(int level, std::uint32_t number) {
     return d_.forest.levels[static_cast<std::size_t>(level)][number];
   }
-  RayTile& tile(const RayNode& n, int slot) { return d_.forest.tiles[n.child[slot]]; }
-  const TileRays& rays_of(RayTile& tile);
+  const PointTile& tile(const RayNode& n, int slot) const { return d_.tiles.tiles[n.child[slot]]; }
 
+  void note_test(RayNode& n) {
+    ++n.tests;
+    ++stats_.nodes;
+  }
+  void fetch_nodes(const RayNode& n, int level, std::uint32_t slots) const;
   void fetch_tiles(const RayNode& n, std::uint32_t slots) const;
   bool narrow(RayRef& rays, const FaceBox& box);
-  int collect(int level, std::uint32_t number, const FaceBox& box);
   void meet_cluster(const TriangleCluster& cluster, const RayRef& rays, const FaceBox& box);
-  void meet_tiles(const TriangleCluster& cluster);
-  void meet_triangles(const TriangleCluster& cluster, const RayRef& rays, const FaceBox& box);
-  void descend_triangle(int level, std::uint32_t number, const FaceTriangle& t, int lane, std::uint32_t id);
+  void descend_cluster(const RayRef& rays, std::uint32_t mask);
+  void set_up_cluster();
+  Caster& take(int i);
+  void meet_tiles(const RayRef& rays, std::uint32_t met, std::uint32_t mask);
+  void meet_tile(std::uint32_t number, int slot, std::uint32_t mask);
+  void meet_triangle(std::uint32_t number, int i, const FaceTriangle& t);
   std::uint32_t cover_tiles(RayNode& n, const FaceTriangle& t, std::uint32_t met, std::uint32_t id);
-  void test_cluster(RayTile& tile, const TriangleCluster& cluster);
-  void test_triangle(RayTile& tile, int lane, std::uint32_t id);
-  void test_rays(RayTile& tile, const TileRays& rays, int lane, const float e0[4], float k, std::uint32_t id);
-  /// A triangle never blocks its own points.
-  bool skips(const RayTile& tile, std::uint32_t id) const {
-    return tile.own == id && d_.contact == ContactRule::triangle_ids;
+  void test_slot(std::uint32_t number, int slot, const LeafTriangle& t, Aim& aim);
+  void shrink(RayNode& n, int slot) const;
+  void block_rays(RayNode& n, int slot, std::uint32_t sure, std::uint32_t open, std::uint32_t id);
+  /// Whether some of the points may lie on the triangle, which never blocks those.
+  bool may_own(const PointTile& tile, std::uint32_t id) const {
+    return ((tile.owners >> (id % 64)) & 1u) != 0 && skip_own_;
   }
-  /// Whether some of the points may lie on the triangle.
-  bool may_own(const RayTile& tile, std::uint32_t id) const {
-    return ((tile.owners >> (id % 64)) & 1u) != 0 && d_.contact == ContactRule::triangle_ids;
-  }
-  void settle(RayTile& tile, std::uint32_t open, std::uint32_t id);
-  std::uint32_t own_lanes(const RayTile& tile, std::uint32_t lanes, std::uint32_t id) const;
-  std::size_t pixel_of(const RayTile& tile, int lane) const;
+  std::uint32_t own_lanes(const PointTile& tile, std::uint32_t lanes, std::uint32_t id) const;
+  std::uint32_t blocked_lanes(const PointTile& tile, std::uint32_t open, std::uint32_t id);
+  std::size_t pixel_of(const PointTile& tile, int lane) const;
   void retire(int level, std::uint32_t number);
 
   const Descent& d_;
+  const std::uint32_t root_;
   const Face face_;
   const glm::vec3 light_;
+  const bool skip_own_;  ///< a triangle never blocks its own points
   DescentScratch& scratch_;
   TraceStats& stats_;
+  // Of the cluster that is on its way down.
+  const TriangleCluster* cluster_ = nullptr;
+  FaceBox cluster_box_{};
+  FaceBoxes boxes_;      ///< of its triangles
+  bool set_up_ = false;  ///< the scratch's planes, and the same on the face
+  FaceCluster on_face_;
+  std::uint32_t taken_ = 0;  ///< bits of the casters that are ready
+  Caster casters_[16];
 };
 
 // Asks for what tests read of the tiles, all at once.
 void RootDescent::fetch_tiles(const RayNode& n, std::uint32_t slots) const {
   if ((slots & (slots - 1)) == 0) return;
   for (; slots != 0; slots &= slots - 1) {
-    const std::uint32_t number = n.child[std::countr_zero(slots)];
-    const RayTile& tile = d_.forest.tiles[number];
-    const auto* at = reinterpret_cast<const char*>(&d_.forest.tile_rays[number]);
-    for (std::size_t line = 0; line < sizeof(TileRays); line += 64) fetch_soon(at + line);
-    if (tile.loaded) continue;
-    const glm::dvec3* points = d_.points.positions.data() + tile.pixel;
-    for (int row = 0; row < tile_side; ++row, points += d_.points.width) {
-      fetch_soon(points);
-      fetch_soon(reinterpret_cast<const char*>(points) + 64);
-    }
+    const auto* at = reinterpret_cast<const char*>(&d_.tiles.tiles[n.child[std::countr_zero(slots)]]);
+    for (std::size_t line = 0; line < sizeof(PointTile); line += 64) fetch_soon(at + line);
+  }
+}
+
+void RootDescent::fetch_nodes(const RayNode& n, int level, std::uint32_t slots) const {
+  if ((slots & (slots - 1)) == 0) return;
+  const std::vector<RayNode>& below = d_.forest.levels[static_cast<std::size_t>(level) - 1];
+  for (; slots != 0; slots &= slots - 1) {
+    const auto* at = reinterpret_cast<const char*>(&below[n.child[std::countr_zero(slots)]]);
+    for (std::size_t line = 0; line < sizeof(RayNode); line += 64) fetch_soon(at + line);
   }
 }
 
@@ -104,7 +121,7 @@ void RootDescent::fetch_tiles(const RayNode& n, std::uint32_t slots) const {
 bool RootDescent::narrow(RayRef& rays, const FaceBox& box) {
   for (;;) {
     RayNode& n = node(rays);
-    n.tests += 1;
+    note_test(n);
     const std::uint32_t met = children_met(n, box);
     if (met == 0) return false;
     if (rays.level == 0 || (met & (met - 1)) != 0) return true;
@@ -113,21 +130,10 @@ bool RootDescent::narrow(RayRef& rays, const FaceBox& box) {
   }
 }
 
-const TileRays& RootDescent::rays_of(RayTile& tile) {
-  TileRays& rays = d_.forest.tile_rays[static_cast<std::size_t>(&tile - d_.forest.tiles.data())];
-  if (!tile.loaded) {
-    const auto width = static_cast<std::uint32_t>(d_.points.width);
-    load_tile_rays(TileRows(d_.points, tile.pixel % width, tile.pixel / width), d_.source.origin, tile.rays,
-                   rays);
-    tile.loaded = true;
-  }
-  return rays;
-}
-
 void RootDescent::visit(std::size_t level, std::size_t number, const RayRef& rays) {
   RayNode& n = node(rays);
   if (n.live == 0) return;
-  n.tests += 1;
+  note_test(n);
   FaceBoxes boxes;
   std::uint32_t met = project_boxes(d_.clusters.levels()[level][number], light_, face_, boxes);
   met &= boxes_met(boxes, rays.box);
@@ -148,73 +154,97 @@ void RootDescent::visit(std::size_t level, std::size_t number, const RayRef& ray
   }
 }
 
-// Tiles below the node that the box meets, into scratch_.hits.
-int RootDescent::collect(int level, std::uint32_t number, const FaceBox& box) {
-  RayNode& n = node(level, number);
-  n.tests += 1;
-  std::uint32_t met = children_met(n, box);
-  if (level == 0) {
-    if (met != 0) scratch_.hits.push_back({number, met});
-    return std::popcount(met);
-  }
-  int count = 0;
-  for (; met != 0; met &= met - 1) count += collect(level - 1, n.child[std::countr_zero(met)], box);
-  return count;
-}
-
 void RootDescent::meet_cluster(const TriangleCluster& cluster, const RayRef& rays, const FaceBox& box) {
-  scratch_.hits.clear();
-  const int tiles = collect(rays.level, rays.node, box);
-  if (tiles == 0) return;
-  set_up_planes(cluster, d_.source, d_.contact == ContactRule::triangle_ids, d_.cull_front, scratch_.planes);
-  if (scratch_.planes.valid == 0) return;
-  tiles <= few_tiles ? meet_tiles(cluster) : meet_triangles(cluster, rays, box);
+  const std::uint32_t ahead =
+      project_triangles(cluster, light_, face_, box, boxes_) & boxes_met(boxes_, rays.box);
+  if (ahead == 0) return;
+  cluster_ = &cluster;
+  cluster_box_ = box;
+  set_up_ = false;
+  taken_ = 0;
+  descend_cluster(rays, ahead);
 }
 
-void RootDescent::meet_tiles(const TriangleCluster& cluster) {
-  for (const DescentScratch::Hits& hit : scratch_.hits) {
-    RayNode& n = node(0, hit.node);
-    fetch_tiles(n, hit.tiles);
-    for (std::uint32_t left = hit.tiles; left != 0; left &= left - 1) {
-      const int slot = std::countr_zero(left);
-      RayTile& met = tile(n, slot);
-      test_cluster(met, cluster);
-      if (met.live == 0) n.live &= ~(1u << slot);
+// The triangles of `mask` meet the box of `rays`.
+void RootDescent::descend_cluster(const RayRef& rays, std::uint32_t mask) {
+  RayNode& n = node(rays);
+  note_test(n);
+  const std::uint32_t met = children_met(n, cluster_box_);
+  if (met == 0) return;
+  if (rays.level == 0) return meet_tiles(rays, met, mask);
+  fetch_nodes(n, rays.level, met);
+  for (std::uint32_t left = met; left != 0; left &= left - 1) {
+    const int slot = std::countr_zero(left);
+    const RayRef child{rays.level - 1, n.child[slot], n.box(slot)};
+    const std::uint32_t deeper = mask & boxes_met(boxes_, child.box);
+    note_test(n);
+    if (deeper != 0) descend_cluster(child, deeper);
+  }
+}
+
+// Planes in double are not needed before a triangle's box meets a node of tiles.
+void RootDescent::set_up_cluster() {
+  set_up_ = true;
+  set_up_planes(*cluster_, d_.source, skip_own_, d_.cull_front, scratch_.planes);
+  face_cluster(scratch_.planes, face_, d_.forest.tau, on_face_);
+}
+
+/// Triangle i of the cluster made ready for rays.
+Caster& RootDescent::take(int i) {
+  Caster& c = casters_[i];
+  if (((taken_ >> i) & 1u) == 0) {
+    taken_ |= 1u << i;
+    take_triangle(scratch_.planes, i, cluster_->ids[i], c.leaf);
+    c.aim.square = no_square;
+  }
+  return c;
+}
+
+// Few tiles look for their triangles sixteen at a time, few triangles for their tiles.
+void RootDescent::meet_tiles(const RayRef& rays, std::uint32_t met, std::uint32_t mask) {
+  if (!set_up_) set_up_cluster();
+  mask &= scratch_.planes.valid & triangles_met(on_face_, rays.box);
+  if (mask == 0) return;
+  RayNode& n = node(rays);
+  if (std::popcount(met) <= std::popcount(mask)) {
+    fetch_tiles(n, met);
+    for (; met != 0; met &= met - 1) meet_tile(rays.node, std::countr_zero(met), mask);
+  } else {
+    alignas(64) float u0[16], u1[16], v0[16], v1[16], w[16];
+    store(boxes_.u0, u0), store(boxes_.u1, u1), store(boxes_.v0, v0), store(boxes_.v1, v1),
+        store(boxes_.w, w);
+    for (; mask != 0 && n.live != 0; mask &= mask - 1) {
+      const int i = std::countr_zero(mask);
+      FaceTriangle t = face_triangle(on_face_, i);
+      t.box = {u0[i], u1[i], v0[i], v1[i], w[i]};
+      meet_triangle(rays.node, i, t);
     }
-    if (n.live == 0) retire(0, hit.node);
+  }
+  if (n.live == 0) retire(0, rays.node);
+}
+
+void RootDescent::meet_tile(std::uint32_t number, int slot, std::uint32_t mask) {
+  RayNode& n = node(0, number);
+  note_test(n);
+  std::uint32_t near = mask & boxes_met(boxes_, n.box(slot));
+  if (skip_own_) near &= ~equal_bits(cluster_->ids, n.own[slot]);
+  if (near != 0) near &= triangles_met(on_face_, n.box(slot));
+  for (; near != 0 && n.rays[slot] != 0; near &= near - 1) {
+    Caster& c = take(std::countr_zero(near));
+    test_slot(number, slot, c.leaf, c.aim);
   }
 }
 
-void RootDescent::meet_triangles(const TriangleCluster& cluster, const RayRef& rays, const FaceBox& box) {
-  FaceBoxes boxes;
-  std::uint32_t left = project_triangles(scratch_.planes, face_, box, boxes);
-  alignas(64) float u0[16], u1[16], v0[16], v1[16], w[16];
-  store(boxes.u0, u0), store(boxes.u1, u1), store(boxes.v0, v0), store(boxes.v1, v1), store(boxes.w, w);
-  for (; left != 0; left &= left - 1) {
-    const int i = std::countr_zero(left);
-    FaceTriangle t = face_triangle(scratch_.planes, i, face_, d_.forest.tau);
-    t.box = {u0[i], u1[i], v0[i], v1[i], w[i]};
-    descend_triangle(rays.level, rays.node, t, i, cluster.ids[i]);
-  }
-}
-
-void RootDescent::descend_triangle(int level, std::uint32_t number, const FaceTriangle& t, int lane,
-                                   std::uint32_t id) {
-  RayNode& n = node(level, number);
-  n.tests += 1;
+void RootDescent::meet_triangle(std::uint32_t number, int i, const FaceTriangle& t) {
+  RayNode& n = node(0, number);
+  note_test(n);
   std::uint32_t met = children_met(n, t);
-  if (level == 0 && met != 0) met = cover_tiles(n, t, met, id);
-  for (; met != 0; met &= met - 1) {
-    const int slot = std::countr_zero(met);
-    if (level > 0) {
-      descend_triangle(level - 1, n.child[slot], t, lane, id);
-      continue;
-    }
-    RayTile& below = tile(n, slot);
-    test_triangle(below, lane, id);
-    if (below.live == 0) n.live &= ~(1u << slot);
-  }
-  if (n.live == 0) retire(level, number);
+  if (skip_own_) met &= ~equal_bits(n.own, cluster_->ids[i]);
+  if (met == 0) return;
+  met = cover_tiles(n, t, met, cluster_->ids[i]);
+  if (met == 0) return;
+  Caster& c = take(i);
+  for (; met != 0; met &= met - 1) test_slot(number, std::countr_zero(met), c.leaf, c.aim);
 }
 
 // Early accept: tiles that the triangle covers are done with, unread. Returns those that must be tested.
@@ -222,15 +252,84 @@ std::uint32_t RootDescent::cover_tiles(RayNode& n, const FaceTriangle& t, std::u
                                        std::uint32_t id) {
   for (std::uint32_t left = met & children_covered(n, t); left != 0; left &= left - 1) {
     const int slot = std::countr_zero(left);
-    RayTile& below = tile(n, slot);
-    if (may_own(below, id)) continue;
-    below.live = 0;
+    if (may_own(tile(n, slot), id)) continue;
+    n.rays[slot] = 0;
     n.live &= ~(1u << slot);
     met &= ~(1u << slot);
     ++stats_.early_accepts;
   }
   fetch_tiles(n, met);
   return met;
+}
+
+// The rays of a node's slot against a triangle.
+void RootDescent::test_slot(std::uint32_t number, int slot, const LeafTriangle& t, Aim& aim) {
+  RayNode& n = node(0, number);
+  const PointTile& rays = tile(n, slot);
+  if (d_.tile_tests != nullptr) ++(*d_.tile_tests)[number][static_cast<std::size_t>(slot)];
+  ++stats_.nodes;
+  stats_.leaf_tests += static_cast<std::uint64_t>(std::popcount(n.rays[slot]));
+  if (aim.square != n.child[slot] / 16) {
+    aim.square = n.child[slot] / 16;
+    take_aim(t, rays, d_.source.origin, aim);
+  }
+  const Verdict verdict = test_rays(t, aim, rays, n.tau);
+  const std::uint32_t near = n.rays[slot] & verdict.near;
+  if (near != 0) {
+    block_rays(n, slot, near & verdict.sure, near & ~verdict.sure, t.id);
+  } else if (((n.wide >> slot) & 1u) != 0) {
+    shrink(n, slot);
+  }
+}
+
+// What missed all rays may have met the box only: of all points, or of rays that are blocked by now.
+void RootDescent::shrink(RayNode& n, int slot) const {
+  FaceBox box{};
+  if (bound(tile(n, slot), n.rays[slot], d_.source.origin, d_.forest.faces[root_], box)) n.set_box(slot, box);
+  n.wide &= ~(1u << slot);
+}
+
+// Lanes of `sure` are blocked but for the triangle's own points, those of `open` may be.
+void RootDescent::block_rays(RayNode& n, int slot, std::uint32_t sure, std::uint32_t open, std::uint32_t id) {
+  const PointTile& rays = tile(n, slot);
+  if (may_own(rays, id)) {
+    const std::uint32_t own = own_lanes(rays, sure | open, id);
+    sure &= ~own, open &= ~own;
+  }
+  const std::uint32_t left = n.rays[slot] & ~(open == 0 ? sure : sure | blocked_lanes(rays, open, id));
+  n.rays[slot] = static_cast<std::uint16_t>(left);
+  n.wide |= 1u << slot;
+  if (left == 0) n.live &= ~(1u << slot);
+}
+
+std::size_t RootDescent::pixel_of(const PointTile& tile, int lane) const {
+  return tile.pixel + static_cast<std::size_t>(lane % 4) +
+         static_cast<std::size_t>(lane / 4) * static_cast<std::size_t>(d_.points.width);
+}
+
+std::uint32_t RootDescent::own_lanes(const PointTile& tile, std::uint32_t lanes, std::uint32_t id) const {
+  std::uint32_t own = 0;
+  for (; lanes != 0; lanes &= lanes - 1) {
+    const int lane = std::countr_zero(lanes);
+    if (d_.points.triangles[pixel_of(tile, lane)] == id) own |= 1u << lane;
+  }
+  return own;
+}
+
+/// Of the lanes of `open` those that are blocked: in double, then exactly.
+std::uint32_t RootDescent::blocked_lanes(const PointTile& tile, std::uint32_t open, std::uint32_t id) {
+  const Corners corners = corners_of(d_.triangles, id);
+  const TrianglePlanes planes = planes_of(corners.v, id, light_side(corners.v, d_.source), d_.source,
+                                          skip_own_ ? rounding_tolerance(corners.v) : 0.0);
+  std::uint32_t blocked = 0;
+  for (; open != 0; open &= open - 1) {
+    const int lane = std::countr_zero(open);
+    const std::size_t pixel = pixel_of(tile, lane);
+    if (decide(planes, d_.points.positions[pixel], d_.points.triangles[pixel], d_.source, d_.triangles,
+               d_.contact, stats_))
+      blocked |= 1u << lane;
+  }
+  return blocked;
 }
 
 // A node whose rays are all blocked is met by nothing more.
@@ -242,113 +341,6 @@ void RootDescent::retire(int level, std::uint32_t number) {
     if (parent.live != 0) return;
     number = n.parent;
     ++level;
-  }
-}
-
-// K of the float filter: with r >= |q| a sum in floats is off by at most 10.1 u r + rho (R + reach), or
-// cannot have the wrong sign at all (|e0| > 2r). The last factor covers the roundings of K itself.
-HWY_INLINE float constant_part(const TileRays& rays, float tau) {
-  return (10.1f * u * rays.radius + 2 * u * tau) * (1 + 16 * u) + 0x1p-122f;
-}
-
-// All planes of a cluster at the tile's base: what the tile's sphere cannot reach is done with.
-void RootDescent::test_cluster(RayTile& tile, const TriangleCluster& cluster) {
-  const ClusterPlanes& c = scratch_.planes;
-  const TileRays& rays = rays_of(tile);
-  tile.tests += 1;
-  const Double16 bx = splat<Double16>(rays.base[0]), by = splat<Double16>(rays.base[1]),
-                 bz = splat<Double16>(rays.base[2]);
-  Float16 e0[4];
-  for (int k = 0; k < 4; ++k) {
-    Double16 e = load<Double16>(c.mx[k]) * bx;
-    if (k == 3) e = e - load<Double16>(c.d);
-    e = multiply_add(load<Double16>(c.my[k]), by, e);
-    e0[k] = demoted(multiply_add(load<Double16>(c.mz[k]), bz, e));
-  }
-  const Float16 bounds = load<Float16>(c.rho) * (splat<Float16>(rays.reach) + load<Float16>(c.reach));
-  const Float16 k16 =
-      multiply_add(bounds, splat<Float16>(1 + 16 * u), splat<Float16>(constant_part(rays, tile.tau)));
-  const Float16 limit = (splat<Float16>(rays.radius) + k16) * splat<Float16>(-1 - 16 * u);
-  const Float16 lowest = min(min(e0[0], e0[1]), min(e0[2], e0[3]));
-  std::uint32_t left = c.valid & ~less_bits(lowest, limit);
-  if (left == 0) return;
-  alignas(64) float values[4][16], ks[16];
-  for (int k = 0; k < 4; ++k) store(e0[k], values[k]);
-  store(k16, ks);
-  for (; left != 0 && tile.live != 0; left &= left - 1) {
-    const int i = std::countr_zero(left);
-    if (skips(tile, cluster.ids[i])) continue;
-    const float e[4] = {values[0][i], values[1][i], values[2][i], values[3][i]};
-    test_rays(tile, rays, i, e, ks[i], cluster.ids[i]);
-  }
-}
-
-void RootDescent::test_triangle(RayTile& tile, int i, std::uint32_t id) {
-  if (skips(tile, id)) return;
-  const ClusterPlanes& c = scratch_.planes;
-  const TileRays& rays = rays_of(tile);
-  float e[4];
-  float lowest = HUGE_VALF;
-  for (int k = 0; k < 4; ++k) {
-    const double value = c.mx[k][i] * rays.base[0] - (k == 3 ? c.d[i] : 0.0) + c.my[k][i] * rays.base[1] +
-                         c.mz[k][i] * rays.base[2];
-    e[k] = static_cast<float>(value);
-    lowest = HWY_MIN(lowest, e[k]);
-  }
-  const float k = c.rho[i] * (rays.reach + c.reach[i]) * (1 + 16 * u) + constant_part(rays, tile.tau);
-  if (lowest < (rays.radius + k) * (-1 - 16 * u)) return;
-  test_rays(tile, rays, i, e, k, id);
-}
-
-// Sixteen rays against one triangle. `e0`: its planes at the tile's base; the own plane opens tau of the
-// rays' own triangles later.
-void RootDescent::test_rays(RayTile& tile, const TileRays& rays, int i, const float e0[4], float k,
-                            std::uint32_t id) {
-  const ClusterPlanes& c = scratch_.planes;
-  stats_.leaf_tests += static_cast<std::uint64_t>(std::popcount(tile.live));
-  const Pack3<Float16> q{load<Float16>(rays.qx), load<Float16>(rays.qy), load<Float16>(rays.qz)};
-  const auto value = [&](int plane) HWY_ATTR {
-    const Pack3<Float16> m = splat3<Float16>(c.fx[plane][i], c.fy[plane][i], c.fz[plane][i]);
-    return multiply_add(m.z, q.z, multiply_add(m.y, q.y, multiply_add(m.x, q.x, splat<Float16>(e0[plane]))));
-  };
-  const Float16 edges = min(value(0), min(value(1), value(2))), own = value(3);
-  const std::uint32_t missed = less_bits(min(edges, own), splat<Float16>(-k));
-  const std::uint32_t near = tile.live & ~missed;
-  if (near == 0) return;
-  std::uint32_t blocked = near & less_bits(splat<Float16>(k), min(edges, own - splat<Float16>(tile.tau)));
-  const std::uint32_t open = near & ~blocked;
-  if (blocked != 0 && may_own(tile, id)) blocked &= ~own_lanes(tile, blocked, id);
-  tile.live &= ~blocked;
-  if (open != 0) settle(tile, open, id);
-}
-
-std::size_t RootDescent::pixel_of(const RayTile& tile, int lane) const {
-  return tile.pixel + static_cast<std::size_t>(lane % 4) +
-         static_cast<std::size_t>(lane / 4) * static_cast<std::size_t>(d_.points.width);
-}
-
-std::uint32_t RootDescent::own_lanes(const RayTile& tile, std::uint32_t lanes, std::uint32_t id) const {
-  std::uint32_t own = 0;
-  for (; lanes != 0; lanes &= lanes - 1) {
-    const int lane = std::countr_zero(lanes);
-    if (d_.points.triangles[pixel_of(tile, lane)] == id) own |= 1u << lane;
-  }
-  return own;
-}
-
-void RootDescent::settle(RayTile& tile, std::uint32_t open, std::uint32_t id) {
-  if (may_own(tile, id)) open &= ~own_lanes(tile, open, id);
-  if (open == 0) return;
-  const bool use_tau = d_.contact == ContactRule::triangle_ids;
-  const Corners corners = corners_of(d_.triangles, id);
-  const TrianglePlanes planes = planes_of(corners.v, id, light_side(corners.v, d_.source), d_.source,
-                                          use_tau ? rounding_tolerance(corners.v) : 0.0);
-  for (; open != 0; open &= open - 1) {
-    const int lane = std::countr_zero(open);
-    const std::size_t pixel = pixel_of(tile, lane);
-    if (decide(planes, d_.points.positions[pixel], d_.points.triangles[pixel], d_.source, d_.triangles,
-               d_.contact, stats_))
-      tile.live &= ~(1u << lane);
   }
 }
 

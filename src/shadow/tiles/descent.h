@@ -15,8 +15,10 @@ struct Descent {
   const RaySource& source;  ///< not directional
   const TriangleView& triangles;
   const VisiblePoints& points;
+  const PointTiles& tiles;  ///< of the same points
   ContactRule contact;
   bool cull_front;
+  std::vector<std::array<std::uint32_t, 16>>* tile_tests;  ///< null, or counts: one a node of level 0
 };
 
 /// A cluster's triangles as seen from the light: planes m.p - d relative to the light as in TrianglePlanes,
@@ -28,17 +30,11 @@ struct alignas(64) ClusterPlanes {
   float fx[4][16], fy[4][16], fz[4][16];  ///< the same in float
   float rho[16];                          ///< relative errors, the largest of the four planes', rounded up
   float reach[16];                        ///< >= largest |vertex - light|
-  float ax[3][16], ay[3][16], az[3][16];  ///< corners relative to the light
   std::uint32_t valid;                    ///< bit i: triangle i may block something
 };
 
 /// Scratch of one thread.
 struct DescentScratch {
-  struct Hits {
-    std::uint32_t node;   ///< of level 0
-    std::uint32_t tiles;  ///< bits of its children
-  };
-  std::vector<Hits> hits;
   ClusterPlanes planes;
 };
 

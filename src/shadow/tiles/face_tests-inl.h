@@ -82,17 +82,19 @@ HWY_INLINE std::uint32_t project_boxes(const BoxNode& node, const glm::vec3& lig
 }
 
 /// Boxes of a cluster's triangles themselves: tighter than its box by far. Triangles that reach behind the
-/// face's plane get `all`. Returns the bits of those that reach in front of it.
-HWY_INLINE std::uint32_t project_triangles(const ClusterPlanes& c, const Face& face, const FaceBox& all,
-                                           FaceBoxes& out) {
-  const float(*const corners[3])[16] = {c.ax, c.ay, c.az};
-  const Float16 one = splat<Float16>(1.0f);
+/// face's plane get `all`. Returns the bits of those that reach in front of it. Errors as project_boxes.
+HWY_INLINE std::uint32_t project_triangles(const TriangleCluster& c, const glm::vec3& light, const Face& face,
+                                           const FaceBox& all, FaceBoxes& out) {
+  const float(*const corners[3])[16] = {c.x, c.y, c.z};
+  const Float16 one = splat<Float16>(1.0f), sign = splat<Float16>(face.sign);
+  const Pack3<Float16> origin =
+      splat3<Float16>(light[face.axes[0]], light[face.axes[1]], light[face.axes[2]]);
   Float16 z0, z1;
   for (int k = 0; k < 3; ++k) {
-    const Float16 z = load<Float16>(corners[face.axes[2]][k]) * splat<Float16>(face.sign);
+    const Float16 z = (load<Float16>(corners[face.axes[2]][k]) - origin.z) * sign;
     const Float16 w = one / z;
-    const Float16 pu = load<Float16>(corners[face.axes[0]][k]) * w,
-                  pv = load<Float16>(corners[face.axes[1]][k]) * w;
+    const Float16 pu = (load<Float16>(corners[face.axes[0]][k]) - origin.x) * w,
+                  pv = (load<Float16>(corners[face.axes[1]][k]) - origin.y) * w;
     z0 = k == 0 ? z : min(z0, z), z1 = k == 0 ? z : max(z1, z);
     out.u0 = k == 0 ? pu : min(out.u0, pu), out.u1 = k == 0 ? pu : max(out.u1, pu);
     out.v0 = k == 0 ? pv : min(out.v0, pv), out.v1 = k == 0 ? pv : max(out.v1, pv);
@@ -103,32 +105,62 @@ HWY_INLINE std::uint32_t project_triangles(const ClusterPlanes& c, const Face& f
   out.v0 = where_not_above(z0, closest, splat<Float16>(all.v0), out.v0);
   out.v1 = where_not_above(z0, closest, splat<Float16>(all.v1), out.v1);
   out.w = where_not_above(z0, closest, splat<Float16>(all.w), one / max(z0, closest));
-  return c.valid & less_bits(splat<Float16>(0.0f), z1);
+  return c.used & less_bits(splat<Float16>(0.0f), z1);
 }
 
-/// One triangle on a face. Plane k at the point (u, v, w) of a ray: m.(u, v, 1) - d w, the plane's value over
-/// z. |p| / z <= 4.4 on a face of +-3, so rho (|p| + reach) becomes rho (4.4 + reach w); floats and roundings
-/// add 5.1u (|mx| 3 + |my| 3 + |mz|) <= 23u for the edges, 28u and 6.1u d w for the own plane.
+/// A cluster's triangles on a face. Plane k at the point (u, v, w) of a ray: m.(u, v, 1) - d w, the plane's
+/// value over z. |p| / z <= 4.4 on a face of +-3, so rho (|p| + reach) becomes rho (4.4 + reach w); floats
+/// and roundings add 5.1u (|mx| 3 + |my| 3 + |mz|) <= 23u for the edges, 28u and 6.1u d w for the own plane.
+struct FaceCluster {
+  alignas(64) float mx[4][16], my[4][16], mz[4][16];
+  float edge_slack[16], own_slack[16];
+  float d[16];      ///< rounded down
+  float cover[16];  ///< d and the rays' own tolerance, rounded up
+};
+
+HWY_INLINE void face_cluster(const ClusterPlanes& c, const Face& face, float tau, FaceCluster& out) {
+  const float(*const m[3])[16] = {c.fx, c.fy, c.fz};
+  for (int k = 0; k < 4; ++k) {
+    store(load<Float16>(m[face.axes[0]][k]), out.mx[k]);
+    store(load<Float16>(m[face.axes[1]][k]), out.my[k]);
+    store(load<Float16>(m[face.axes[2]][k]) * splat<Float16>(face.sign), out.mz[k]);
+  }
+  alignas(64) float narrow[16];
+  store_narrowed(load<Pack<double, 16>>(c.d), narrow);
+  const Float16 d = load<Float16>(narrow), rho = load<Float16>(c.rho), far = rho * load<Float16>(c.reach);
+  store(multiply_add(splat<Float16>(4.5f), rho, splat<Float16>(23 * u)), out.edge_slack);
+  store(multiply_add(splat<Float16>(4.5f), rho, splat<Float16>(28 * u)), out.own_slack);
+  store(d - absolute(d) * splat<Float16>(8 * u) - far * splat<Float16>(1 + 8 * u), out.d);
+  store((d + far + splat<Float16>(tau)) * splat<Float16>(1 + 16 * u), out.cover);
+}
+
+/// Bits of the triangles that may block rays of a box: its corner that is farthest inside each plane.
+HWY_INLINE std::uint32_t triangles_met(const FaceCluster& c, const FaceBox& box) {
+  const auto most = [&](int k) HWY_ATTR {
+    const Float16 mx = load<Float16>(c.mx[k]), my = load<Float16>(c.my[k]);
+    return max(mx * splat<Float16>(box.u0), mx * splat<Float16>(box.u1)) +
+           (max(my * splat<Float16>(box.v0), my * splat<Float16>(box.v1)) + load<Float16>(c.mz[k]));
+  };
+  const Float16 edges = min(most(0), min(most(1), most(2))) + load<Float16>(c.edge_slack);
+  const Float16 own = most(3) + load<Float16>(c.own_slack);
+  return 0xffffu &
+         ~bits(less(edges, splat<Float16>(0.0f)) | less(own, load<Float16>(c.d) * splat<Float16>(box.w)));
+}
+
+/// One triangle of a cluster.
 struct FaceTriangle {
   FaceBox box;
   float mx[4], my[4], mz[4];
   float edge_slack;
   float d, own_slack;
-  float cover;  ///< d and the rays' own tolerance, rounded up
+  float cover;
 };
 
-HWY_INLINE FaceTriangle face_triangle(const ClusterPlanes& c, int i, const Face& face, float tau) {
-  const float(*const m[3])[16] = {c.fx, c.fy, c.fz};
+HWY_INLINE FaceTriangle face_triangle(const FaceCluster& c, int i) {
   FaceTriangle t;
-  for (int k = 0; k < 4; ++k) {
-    t.mx[k] = m[face.axes[0]][k][i];
-    t.my[k] = m[face.axes[1]][k][i];
-    t.mz[k] = m[face.axes[2]][k][i] * face.sign;
-  }
-  t.edge_slack = 23 * u + 4.5f * c.rho[i];
-  t.own_slack = 28 * u + 4.5f * c.rho[i];
-  t.d = static_cast<float>(c.d[i]) * (1 - 8 * u) - c.rho[i] * c.reach[i] * (1 + 8 * u);
-  t.cover = (static_cast<float>(c.d[i]) + c.rho[i] * c.reach[i] + tau) * (1 + 16 * u);
+  for (int k = 0; k < 4; ++k) t.mx[k] = c.mx[k][i], t.my[k] = c.my[k][i], t.mz[k] = c.mz[k][i];
+  t.edge_slack = c.edge_slack[i], t.own_slack = c.own_slack[i];
+  t.d = c.d[i], t.cover = c.cover[i];
   return t;
 }
 

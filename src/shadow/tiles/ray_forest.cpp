@@ -7,9 +7,7 @@
 #include <limits>
 
 #include "parallel/parallel.h"
-#include "points/triangle_corners.h"
-#include "shadow/ray_kernels.h"
-#include "shadow/tiles/square_tiles.h"
+#include "shadow/tiles/patch_rays.h"
 
 namespace tenebra {
 
@@ -23,7 +21,7 @@ void widen(FaceBox& to, const FaceBox& by) {
   to.w = std::min(to.w, by.w), to.w1 = std::max(to.w1, by.w1);
 }
 
-/// Key and place of everything that is sorted: in the order of the rows, so that it does not depend on
+/// Key and place of everything that is sorted: in the order of the patches, so that it does not depend on
 /// threads.
 void add_keys(const std::vector<std::uint32_t>& keys, RayKeys& to) {
   for (const std::uint32_t key : keys)
@@ -34,48 +32,45 @@ std::uint32_t place_of(std::uint64_t key) {
   return static_cast<std::uint32_t>(key);
 }
 
-/// Gathers what the rows gave: tiles behind those of the squares, nodes, loose tiles, in the order of rows.
-void gather_rows(std::size_t slots, ForestScratch& s, RayForest& out) {
+/// Gathers what the patches gave, in their order.
+void gather_patches(ForestScratch& s, RayForest& out) {
   s.nodes.clear(), s.node_faces.clear(), s.loose.clear();
+  s.joined.clear();
   s.node_keys.keys.clear(), s.loose_keys.keys.clear();
   out.at_light.clear();
   out.rays = 0;
   out.tau = 0;
   out.in_range = true;
-  std::size_t split = slots;
-  for (const ForestScratch::Row& row : s.rows) split += row.split.size();
-  out.tiles.resize(split);
-  split = slots;
-  for (const ForestScratch::Row& row : s.rows) {
-    std::copy(row.split.begin(), row.split.end(), out.tiles.begin() + static_cast<std::ptrdiff_t>(split));
-    for (ForestScratch::Loose loose : row.loose) {
-      if (loose.tile >= slots) loose.tile += static_cast<std::uint32_t>(split - slots);
-      s.loose.push_back(loose);
-    }
-    split += row.split.size();
-    s.nodes.insert(s.nodes.end(), row.nodes.begin(), row.nodes.end());
-    s.node_faces.insert(s.node_faces.end(), row.node_faces.begin(), row.node_faces.end());
-    add_keys(row.node_keys, s.node_keys);
-    add_keys(row.loose_keys, s.loose_keys);
-    out.at_light.insert(out.at_light.end(), row.at_light.begin(), row.at_light.end());
-    out.rays += row.rays;
-    out.tau = std::max(out.tau, row.tau);
-    out.in_range &= row.in_range;
+  for (const ForestScratch::Patch& patch : s.patches) {
+    s.loose.insert(s.loose.end(), patch.loose.begin(), patch.loose.end());
+    for (const RayNode& node : patch.nodes) s.nodes.push_back(&node);
+    s.node_faces.insert(s.node_faces.end(), patch.node_faces.begin(), patch.node_faces.end());
+    add_keys(patch.node_keys, s.node_keys);
+    add_keys(patch.loose_keys, s.loose_keys);
+    out.at_light.insert(out.at_light.end(), patch.at_light.begin(), patch.at_light.end());
+    out.rays += patch.rays;
+    out.tau = std::max(out.tau, patch.tau);
+    out.in_range &= patch.in_range;
   }
 }
 
-/// Loose tiles in the order of the curve become nodes of sixteen on one face, with the key of their first.
+/// Loose groups in the order of the curve become nodes of sixteen on one face, with the key of their first.
 void group_loose(ForestScratch& s) {
   radix_sort(s.loose_keys.keys, s.loose_keys);
+  s.joined.reserve(s.loose.size() / 16 + 8);  // one may be short on each face: none is moved
   const auto& keys = s.loose_keys.keys;
   for (std::size_t i = 0; i < keys.size();) {
     const std::uint8_t face = s.loose[place_of(keys[i])].face;
     s.node_keys.keys.push_back(keys[i] >> 32 << 32 | s.nodes.size());
     s.node_faces.push_back(face);
-    RayNode& node = s.nodes.emplace_back();
+    RayNode& node = s.joined.emplace_back();
+    s.nodes.push_back(&node);
     for (int k = 0; k < 16 && i < keys.size() && s.loose[place_of(keys[i])].face == face; ++k, ++i) {
       const ForestScratch::Loose& loose = s.loose[place_of(keys[i])];
       node.child[k] = loose.tile;
+      node.own[k] = loose.own;
+      node.rays[k] = node.all_rays[k] = loose.rays;
+      node.tau = std::max(node.tau, loose.tau);
       node.set_box(k, loose.box);
       node.live |= 1u << k;
     }
@@ -108,7 +103,7 @@ void plant(ForestScratch& s, RayForest& out) {
     const bool new_face = out.faces.empty() || out.faces.back() != face;
     const bool new_parent = new_face || out.levels[1].back().live == 0xffffu;
     const bool new_root = new_face || (new_parent && out.levels[2].back().live == 0xffffu);
-    out.levels[0].push_back(s.nodes[place_of(key)]);
+    out.levels[0].push_back(*s.nodes[place_of(key)]);
     append(out, 0, new_parent);
     if (new_parent) append(out, 1, new_root);
     if (new_root) out.faces.push_back(face);
@@ -118,6 +113,19 @@ void plant(ForestScratch& s, RayForest& out) {
       out.levels[level + 1][node.parent].set_box(static_cast<int>(node.slot), bounds_of(node));
   }
   for (const RayNode& root : out.levels[2]) out.root_boxes.push_back(bounds_of(root));
+}
+
+/// Whether a node is a whole square without a blocked ray.
+bool all_lit(const RayNode& node) {
+  if (node.live != 0xffffu || node.child[0] % 16 != 0 || node.child[15] != node.child[0] + 15) return false;
+  std::uint32_t all = 0xffffu;
+  for (int i = 0; i < 16; ++i)
+    all &= node.child[i] == node.child[0] + static_cast<std::uint32_t>(i) ? node.rays[i] : 0u;
+  return all == 0xffffu;
+}
+
+void write_square(std::uint8_t* to, int width) {
+  for (std::uint32_t row = 0; row < square_side; ++row, to += width) std::memset(to, 255, square_side);
 }
 
 /// Four pixels by the bits of `live`; returns how many are set.
@@ -140,45 +148,59 @@ FaceBox bounds_of(const RayNode& node) {
   return box;
 }
 
+void ForestScratch::Patch::clear() {
+  nodes.clear(), node_faces.clear(), node_keys.clear();
+  loose.clear(), loose_keys.clear(), at_light.clear();
+  rays = 0;
+  tau = 0;
+  in_range = true;
+}
+
 std::size_t RayForest::byte_count() const {
-  std::size_t bytes = tiles.size() * (sizeof(RayTile) + sizeof(TileRays));
+  std::size_t bytes = 0;
   for (const auto& level : levels) bytes += level.size() * sizeof(RayNode);
   return bytes;
 }
 
-void build_ray_forest(const VisiblePoints& points, const ViewRays& view, const TriangleView& triangles,
+void build_ray_forest(const VisiblePoints& points, const PointTiles& tiles, const TriangleView& triangles,
                       const ShadowLight& light, const RaySource& source, const HardShadowConfig& config,
                       ForestScratch& scratch, RayForest& out) {
-  const SquareGrid grid(points.width, points.height);
-  const std::size_t slots = static_cast<std::size_t>(grid.columns) * grid.rows * square_tiles;
-  out.tiles.resize(slots);
-  scratch.rows.resize(grid.rows);
-  const SquareSorter sorter(points, view, triangles, light, source, config);
-  parallel_tasks(static_cast<int>(grid.rows), [&](int row) {
-    sorter.sort_row(static_cast<std::uint32_t>(row), out.tiles, scratch.rows[static_cast<std::size_t>(row)]);
+  scratch.patches.resize(tiles.patches.size());
+  const PatchRays rays(points, tiles, triangles, light, source, config);
+  parallel_tasks(static_cast<int>(tiles.patches.size()), [&](int patch) {
+    const auto i = static_cast<std::size_t>(patch);
+    rays.find(tiles.patches[i], scratch.patches[i]);
   });
-  gather_rows(slots, scratch, out);
-  out.tile_rays.resize(out.tiles.size());
+  gather_patches(scratch, out);
   if (!out.in_range) return;
   group_loose(scratch);
   plant(scratch, out);
 }
 
-TileCounts write_live_rays(const RayForest& forest, std::size_t width, ShadowMask& mask) {
-  constexpr std::size_t grain = 1 << 12;
-  std::vector<TileCounts> parts((forest.tiles.size() + grain - 1) / grain);
-  parallel_ranges(forest.tiles.size(), grain, [&](std::size_t first, std::size_t last) {
-    TileCounts& counts = parts[first / grain];
+std::uint64_t write_live_rays(const RayForest& forest, int width, int height, ShadowMask& mask) {
+  constexpr std::size_t grain = 256;
+  const std::vector<RayNode>& nodes = forest.levels[0];
+  const TilePixels pixel_of(width, height);
+  std::vector<std::uint64_t> parts((nodes.size() + grain - 1) / grain);
+  parallel_ranges(nodes.size(), grain, [&](std::size_t first, std::size_t last) {
+    std::uint64_t count = 0;
     for (std::size_t i = first; i < last; ++i) {
-      const RayTile& tile = forest.tiles[i];
-      counts.tests += tile.tests;
-      if (tile.live == 0) continue;
-      for (std::size_t row = 0; row < tile_side; ++row)
-        counts.live += write_row((tile.live >> (4 * row)) & 15u, &mask[tile.pixel] + row * width);
+      if (all_lit(nodes[i])) {
+        write_square(&mask[pixel_of(nodes[i].child[0])], width);
+        count += 256;
+        continue;
+      }
+      for (std::uint32_t left = nodes[i].live; left != 0; left &= left - 1) {
+        const int slot = std::countr_zero(left);
+        std::uint8_t* to = &mask[pixel_of(nodes[i].child[slot])];
+        for (std::uint32_t row = 0; row < tile_side; ++row, to += width)
+          count += write_row((nodes[i].rays[slot] >> (4 * row)) & 15u, to);
+      }
     }
+    parts[first / grain] = count;
   });
-  TileCounts sum;
-  for (const TileCounts& part : parts) sum.live += part.live, sum.tests += part.tests;
+  std::uint64_t sum = 0;
+  for (const std::uint64_t part : parts) sum += part;
   return sum;
 }
 

@@ -7,9 +7,11 @@
 // section with its apex at the light, and sixteen of them are tested in a few instructions. A face serves all
 // rays with |u|, |v| <= face_limit, so that few tiles straddle two.
 //
-// A square of 16x16 pixels without depth gaps is a node of the lowest level as it stands; the tiles of the
-// others, split at the gaps, are sorted along a Hilbert curve on the cube and grouped anew. The nodes are
-// then sorted along the same curve: thousands of them, where sorting all rays is a million.
+// The points come in tiles of 4x4 pixels, with boxes around them (points/point_tiles.h): nothing is read of
+// the points themselves before a triangle comes near them. A square of sixteen tiles without depth gaps is a
+// node of the lowest level as it stands; the groups of the others are sorted along a Hilbert curve on the
+// cube and joined anew. The nodes are then sorted along the same curve: thousands of them, where sorting all
+// rays is a million.
 #pragma once
 
 #include <array>
@@ -17,36 +19,14 @@
 #include <glm/glm.hpp>
 #include <vector>
 
+#include "points/point_tiles.h"
 #include "shadow/mask.h"
 #include "shadow/shadow_rays.h"
 #include "shadow/triangle_planes.h"
 
 namespace tenebra {
 
-inline constexpr int tile_side = 4, tile_rays = 16;
-inline constexpr int square_tiles = 16;  ///< tiles of a square of 16x16 pixels
 inline constexpr float face_limit = 3;
-
-/// Up to sixteen rays; lane i is pixel + i % 4 + i / 4 * width. What is asked of a tile again and again.
-struct RayTile {
-  std::uint32_t pixel;   ///< of lane 0
-  std::uint32_t live;    ///< bit i: a ray is there and not yet blocked
-  std::uint32_t rays;    ///< bits of the lanes that had a ray
-  std::uint32_t tests;   ///< triangles that the tile was tested with
-  std::uint32_t own;     ///< triangle that all points lie on; no_triangle: several
-  float tau;             ///< largest rounding tolerance of the points' own triangles
-  std::uint64_t owners;  ///< bit id % 64 of all triangles that points lie on
-  bool loaded;           ///< its TileRays are there
-};
-
-/// The rays of a tile, made when the first triangle comes near them: many tiles are never asked. Point i =
-/// base + q_i relative to the light, q rounded to float, 0 in lanes without a ray.
-struct alignas(64) TileRays {
-  float qx[tile_rays], qy[tile_rays], qz[tile_rays];
-  double base[3];
-  float radius;  ///< >= largest |q|
-  float reach;   ///< >= largest |point|
-};
 
 /// Bounds on a face, widened so that boxes of triangles computed in float (relative error 5u) need no margin
 /// of their own.
@@ -56,15 +36,20 @@ struct FaceBox {
   float w1 = 0;  ///< largest, of rays
 };
 
-/// Sixteen children: tiles (level 0), or nodes of the level below.
+/// Sixteen children: groups of a tile's rays (level 0), or nodes of the level below.
 struct alignas(64) RayNode {
   float u0[16], u1[16], v0[16], v1[16], w[16], w1[16];
-  std::uint32_t child[16];
-  std::uint32_t live = 0;    ///< bit i: child i has rays left
-  std::uint32_t filled = 0;  ///< bit i: there is a child i
-  std::uint32_t parent = 0;  ///< node of the level above
-  std::uint32_t slot = 0;    ///< among its children
-  std::uint32_t tests = 0;   ///< triangles and boxes that its children were tested with
+  std::uint32_t child[16];     ///< level 0: number of the tile
+  std::uint32_t own[16];       ///< level 0: triangle that all points lie on; no_triangle: several
+  std::uint16_t rays[16];      ///< level 0: lanes of the tile with a ray that is not yet blocked
+  std::uint16_t all_rays[16];  ///< level 0: lanes that had a ray
+  float tau = 0;               ///< level 0: largest rounding tolerance of the points' triangles
+  std::uint32_t live = 0;      ///< bit i: child i has rays left
+  std::uint32_t filled = 0;    ///< bit i: there is a child i
+  std::uint32_t wide = 0;      ///< level 0, bit i: the box of child i may be wider than its rays
+  std::uint32_t parent = 0;    ///< node of the level above
+  std::uint32_t slot = 0;      ///< among its children
+  std::uint32_t tests = 0;     ///< triangles and boxes that its children were tested with
 
   FaceBox box(int i) const { return {u0[i], u1[i], v0[i], v1[i], w[i], w1[i]}; }
   void set_box(int i, const FaceBox& b) {
@@ -77,8 +62,6 @@ FaceBox bounds_of(const RayNode& node);
 
 inline constexpr int ray_levels = 3;
 struct RayForest {
-  std::vector<RayTile> tiles;
-  std::vector<TileRays> tile_rays;                      ///< one a tile
   std::array<std::vector<RayNode>, ray_levels> levels;  ///< [0]: over tiles; [2]: the roots
   std::vector<std::uint8_t> faces;                      ///< of each root: axis * 2, + 1 for the negative side
   std::vector<FaceBox> root_boxes;
@@ -94,11 +77,14 @@ struct RayForest {
 struct ForestScratch {
   struct Loose {
     std::uint32_t tile;
+    std::uint32_t own;
+    std::uint16_t rays;
     std::uint8_t face;
+    float tau;
     FaceBox box;
   };
-  struct Row {                   ///< what one row of squares gave
-    std::vector<RayTile> split;  ///< tiles beyond the sixteen of a square
+  struct Patch {  ///< what one patch of points gave
+    std::vector<std::uint8_t> facing;
     std::vector<RayNode> nodes;
     std::vector<std::uint8_t> node_faces;
     std::vector<std::uint32_t> node_keys;
@@ -108,24 +94,38 @@ struct ForestScratch {
     std::uint64_t rays = 0;
     float tau = 0;
     bool in_range = true;
+
+    void clear();
   };
-  std::vector<Row> rows;
+  std::vector<Patch> patches;
   std::vector<Loose> loose;
   std::vector<std::uint8_t> node_faces;
-  std::vector<RayNode> nodes;
+  std::vector<RayNode> joined;        ///< of loose groups
+  std::vector<const RayNode*> nodes;  ///< the patches' and these
   RayKeys node_keys, loose_keys;
 };
 
-/// Point and spot lights.
-void build_ray_forest(const VisiblePoints& points, const ViewRays& view, const TriangleView& triangles,
+/// Point and spot lights. `tiles`: of `points`.
+void build_ray_forest(const VisiblePoints& points, const PointTiles& tiles, const TriangleView& triangles,
                       const ShadowLight& light, const RaySource& source, const HardShadowConfig& config,
                       ForestScratch& scratch, RayForest& out);
 
-struct TileCounts {
-  std::uint64_t live = 0;   ///< rays left
-  std::uint64_t tests = 0;  ///< sum of RayTile::tests
+/// 255 where rays are left; the mask is zero elsewhere. Returns their number.
+std::uint64_t write_live_rays(const RayForest& forest, int width, int height, ShadowMask& mask);
+
+/// First pixels of tiles by their number.
+class TilePixels {
+public:
+  TilePixels(int width, int height)
+      : columns_(SquareGrid(width, height).columns), width_(static_cast<std::size_t>(width)) {}
+  std::size_t operator()(std::uint32_t tile) const {
+    const std::uint32_t square = tile / 16, row = square / columns_, column = square - row * columns_;
+    return (static_cast<std::size_t>(row) * 16 + tile % 16 / 4 * 4) * width_ + column * 16 + tile % 4 * 4;
+  }
+
+private:
+  std::uint32_t columns_;
+  std::size_t width_;
 };
-/// 255 where rays are left; the mask is zero elsewhere.
-TileCounts write_live_rays(const RayForest& forest, std::size_t width, ShadowMask& mask);
 
 }  // namespace tenebra

@@ -5,9 +5,8 @@
 #define HWY_TARGET_INCLUDE "shadow/tiles/tile_kernels.cpp"
 #include <hwy/foreach_target.h>
 // After foreach_target.h
+#include "shadow/tiles/tile_bounds-inl.h"
 #include "simd/pack-inl.h"
-
-#include <bit>
 
 HWY_BEFORE_NAMESPACE();
 namespace tenebra::HWY_NAMESPACE {
@@ -16,68 +15,63 @@ namespace {
 
 constexpr float u = 0x1p-24f;
 
-using Double4 = Pack<double, 4>;
-
-void project(const TileRows& rows, const glm::dvec3& origin, std::uint32_t lanes, TilePoints& points) {
-  const Pack3<Double4> light = splat3<Double4>(origin.x, origin.y, origin.z);
-  const glm::dvec3& other = rows.point(std::countr_zero(lanes));
-  Float4 x[4], y[4], z[4];
-  for (int row = 0; row < 4; ++row) {
-    Pack3<Double4> p = load3<Double4>(&rows[row]->x);
-    const std::uint32_t there = (lanes >> (4 * row)) & 15u;
-    if (there != 15u) {
-      const Truth<double, 4> is_there = truth_of<double, 4>(there);
-      p = {choose(is_there, p.x, splat<Double4>(other.x)), choose(is_there, p.y, splat<Double4>(other.y)),
-           choose(is_there, p.z, splat<Double4>(other.z))};
-    }
-    p = p - light;
-    x[row] = demoted(p.x), y[row] = demoted(p.y), z[row] = demoted(p.z);
-  }
-  const Float16 px = joined(x), py = joined(y), pz = joined(z);
-  store(px, points.x), store(py, points.y), store(pz, points.z);
-  const Float16 size = max(absolute(px), max(absolute(py), absolute(pz)));
-  points.nearest = least(size), points.farthest = greatest(size);
+Facing facing(const ReceiverBlock& r, const glm::vec3& light) {
+  const Pack3<Float16> to_light{splat<Float16>(light.x) - load<Float16>(r.ax),
+                                splat<Float16>(light.y) - load<Float16>(r.ay),
+                                splat<Float16>(light.z) - load<Float16>(r.az)};
+  const Pack3<Float16> n{load<Float16>(r.nx), load<Float16>(r.ny), load<Float16>(r.nz)};
+  const Float16 value = dot(n, to_light);
+  const Float16 bound =
+      load<Float16>(r.slack) * (absolute(to_light.x) + absolute(to_light.y) + absolute(to_light.z));
+  const std::uint32_t before = less_bits(bound, value),
+                      behind = less_bits(bound, splat<Float16>(0.0f) - value);
+  return {before, 0xffffu & ~(before | behind)};
 }
 
-std::uint32_t beyond_gap(const TilePoints& points, std::uint32_t lanes) {
-  const int first = std::countr_zero(lanes);
-  const Pack3<Float16> p{load<Float16>(points.x), load<Float16>(points.y), load<Float16>(points.z)};
-  const Pack3<Float16> apart = p - splat3<Float16>(points.x[first], points.y[first], points.z[first]);
-  const Float16 distance2 = dot(apart, apart);
-  const float farthest2 =
-      greatest(distance2);  // lanes without a ray are at 0, or lie on another that has one
-  if (!(farthest2 > 0)) return 0;
-  std::uint32_t nearer[9];
-  for (int k = 1; k <= 8; ++k) {
-    const float limit = farthest2 * static_cast<float>(k * k) / 64.0f;
-    nearer[k] = less_bits(distance2, splat<Float16>(limit)) & lanes;
-  }
-  for (int k = 1; k <= 4; ++k)
-    if (nearer[k] == nearer[k + 4]) return lanes & ~nearer[k];
-  return 0;
+/// Bounds of a coordinate of the points relative to the light. The base relative to it is rounded by u, as q
+/// is and as their sum is: 3u (|base| + radius) and, with the roundings here, 5u.
+struct Range {
+  Float16 low, high;
+};
+HWY_INLINE Range range_of(const PointSquare& square, const glm::dvec3& light, int axis) {
+  const auto base = static_cast<float>(static_cast<double>(square.base[axis]) - light[axis]);
+  const Float16 centre = splat<Float16>(base),
+                margin = splat<Float16>(5 * u * ((base < 0 ? -base : base) + square.radius));
+  return {centre + load<Float16>(square.low[axis]) - margin,
+          centre + load<Float16>(square.high[axis]) + margin};
 }
 
-// The points are rounded by u, the quotient by 3u in all: 3.1 u face_limit and more. The boxes of triangles
-// are off by 5u of values up to face_limit: 16u. Together 32u.
-bool bound(const TilePoints& points, int face, FaceBox& box) {
-  const float* const axes[3] = {points.x, points.y, points.z};
+// The ranges are true bounds; the quotients are rounded by 2u: 6u of values up to face_limit. The boxes of
+// triangles are off by 5u of values up to face_limit: 16u. Together 32u.
+std::uint32_t project(const PointSquare& square, const glm::dvec3& light, int face, RayNode& node) {
   const int axis = face / 2;
-  const Float16 sign = splat<Float16>(face % 2 == 0 ? 1.0f : -1.0f);
-  const Float16 z = load<Float16>(axes[axis]) * sign;
-  const Float16 w = splat<Float16>(1.0f) / z;
-  const Float16 pu = load<Float16>(axes[(axis + 1) % 3]) * w, pv = load<Float16>(axes[(axis + 2) % 3]) * w;
-  if (!(least(z) > 0)) return false;
+  const Range across[2] = {range_of(square, light, (axis + 1) % 3), range_of(square, light, (axis + 2) % 3)};
+  Range z = range_of(square, light, axis);
+  const Float16 zero = splat<Float16>(0.0f), one = splat<Float16>(1.0f);
+  if (face % 2 != 0) z = {zero - z.high, zero - z.low};
+  const Float16 near_inverse = one / z.low, far_inverse = one / z.high;
   constexpr float margin = 32 * u;
-  box.u0 = least(pu) - margin, box.u1 = greatest(pu) + margin;
-  box.v0 = least(pv) - margin, box.v1 = greatest(pv) + margin;
-  box.w = least(w) * (1 - 16 * u), box.w1 = greatest(w) * (1 + 16 * u);
-  return box.u0 >= -face_limit && box.u1 <= face_limit && box.v0 >= -face_limit && box.v1 <= face_limit;
+  float* const low[2] = {node.u0, node.v0};
+  float* const high[2] = {node.u1, node.v1};
+  Truth<float, 16> on = less(splat<Float16>(shortest_ray), z.low);
+  for (int k = 0; k < 2; ++k) {
+    const Range r = across[k];
+    const Float16 from = r.low * where_not_above(zero, r.low, far_inverse, near_inverse) -
+                         splat<Float16>(margin),
+                  to = r.high * where_not_above(r.high, zero, far_inverse, near_inverse) +
+                       splat<Float16>(margin);
+    store(from, low[k]), store(to, high[k]);
+    on = on & not_above(splat<Float16>(-face_limit), from) & not_above(to, splat<Float16>(face_limit));
+  }
+  store(far_inverse * splat<Float16>(1 - 16 * u), node.w);
+  store(near_inverse * splat<Float16>(1 + 16 * u), node.w1);
+  return square.filled & bits(on);
 }
 
 }  // namespace
 
 TileKernels tile_kernels() {
-  return {project, beyond_gap, bound};
+  return {facing, project, bound};
 }
 
 }  // namespace tenebra::HWY_NAMESPACE

@@ -12,15 +12,18 @@ namespace {
 
 constexpr std::uint64_t wide = 16;  // what one test of a node or tile looks at
 
-std::uint64_t count_tests(const RayForest& forest) {
-  std::uint64_t tests = 0;
-  for (const auto& level : forest.levels) {
-    for (const RayNode& node : level) tests += node.tests;
-  }
-  return tests;
+bool same_eye(const ViewRays& a, const ViewRays& b) {
+  return a.orthographic == b.orthographic && (a.orthographic ? a.d0 == b.d0 : a.eye == b.eye);
 }
 
 }  // namespace
+
+const PointTiles& TileTracer::tiles_of(const VisiblePoints& points, const ViewRays& view,
+                                       const TriangleView& triangles) {
+  if (!points.tiles.empty() && same_eye(points.tiles.view, view)) return points.tiles;
+  make_point_tiles(points, view, triangles, own_tiles_);
+  return own_tiles_;
+}
 
 void TileTracer::descend(const Descent& descent, SimdLevel simd, TraceStats& stats) {
   const DescentKernels kernels = descent_kernels(simd);
@@ -41,40 +44,44 @@ bool TileTracer::trace(const VisiblePoints& points, const ViewRays& view, const 
   const RaySource source = ray_source(light);
   if (source.directional) return false;
   Stopwatch watch;
-  build_ray_forest(points, view, triangles, light, source, config, forest_scratch_, forest_);
+  const PointTiles& tiles = tiles_of(points, view, triangles);
+  build_ray_forest(points, tiles, triangles, light, source, config, forest_scratch_, forest_);
   timings.rays_ms = watch.lap_ms();
   if (!forest_.in_range) return false;
   clusters_.update(triangles);
   timings.build_ms = watch.lap_ms();
-  descend({clusters_, forest_, source, triangles, points, config.contact, config.cull_front}, config.simd,
-          stats);
+  tile_tests_.assign(config.count_pixel_nodes ? forest_.levels[0].size() : 0, {});
+  descend({clusters_, forest_, source, triangles, points, tiles, config.contact, config.cull_front,
+           config.count_pixel_nodes ? &tile_tests_ : nullptr},
+          config.simd, stats);
   timings.traverse_ms = watch.lap_ms();
 
   mask.assign(points.triangles.size(), 0);
-  const TileCounts counts = write_live_rays(forest_, static_cast<std::size_t>(points.width), mask);
+  const std::uint64_t live = write_live_rays(forest_, points.width, points.height, mask);
   for (const std::uint32_t pixel : forest_.at_light) mask[pixel] = 255;
   timings.writeback_ms = watch.lap_ms();
 
   stats.triangles = clusters_.casters();
-  stats.nodes = (count_tests(forest_) + counts.tests) * wide;
+  stats.nodes *= wide;
   stats.rays = forest_.rays + forest_.at_light.size();
-  stats.lit_pixels = counts.live + forest_.at_light.size();
+  stats.lit_pixels = live + forest_.at_light.size();
   stats.shadowed_pixels = stats.rays - stats.lit_pixels;
   stats.tree_bytes = forest_.byte_count() + clusters_.byte_count();
   return true;
 }
 
 // From the leaves up: rays below each node; from the roots down: the shares of all nodes above a tile.
-void TileTracer::spread_tests(int width, std::size_t pixels, std::vector<float>& out) const {
-  out.assign(pixels, 0);
+void TileTracer::spread_tests(int width, int height, std::vector<float>& out) const {
+  out.assign(static_cast<std::size_t>(width) * static_cast<std::size_t>(height), 0);
+  const TilePixels pixel_of(width, height);
   std::array<std::vector<double>, ray_levels> rays, shares;
   const auto& levels = forest_.levels;
   for (std::size_t level = 0; level < ray_levels; ++level) {
     for (const RayNode& node : levels[level]) {
       double below = 0;
       for (std::uint32_t slots = node.filled; slots != 0; slots &= slots - 1) {
-        const std::uint32_t child = node.child[std::countr_zero(slots)];
-        below += level > 0 ? rays[level - 1][child] : std::popcount(forest_.tiles[child].rays);
+        const int slot = std::countr_zero(slots);
+        below += level > 0 ? rays[level - 1][node.child[slot]] : std::popcount(node.all_rays[slot]);
       }
       rays[level].push_back(below);
     }
@@ -86,12 +93,16 @@ void TileTracer::spread_tests(int width, std::size_t pixels, std::vector<float>&
     }
   }
   for (std::size_t i = 0; i < levels[0].size(); ++i) {
-    for (std::uint32_t slots = levels[0][i].filled; slots != 0; slots &= slots - 1) {
-      const RayTile& tile = forest_.tiles[levels[0][i].child[std::countr_zero(slots)]];
-      const double share = shares[0][i] + static_cast<double>(tile.tests * wide) / std::popcount(tile.rays);
-      for (std::uint32_t lanes = tile.rays; lanes != 0; lanes &= lanes - 1) {
-        const auto lane = static_cast<std::size_t>(std::countr_zero(lanes));
-        out[tile.pixel + lane % 4 + lane / 4 * static_cast<std::size_t>(width)] = static_cast<float>(share);
+    const RayNode& node = levels[0][i];
+    for (std::uint32_t slots = node.filled; slots != 0; slots &= slots - 1) {
+      const auto slot = static_cast<std::size_t>(std::countr_zero(slots));
+      const std::uint32_t lanes = node.all_rays[slot];
+      const double share =
+          shares[0][i] + static_cast<double>(tile_tests_[i][slot] * wide) / std::popcount(lanes);
+      const std::size_t first = pixel_of(node.child[slot]);
+      for (std::uint32_t left = lanes; left != 0; left &= left - 1) {
+        const auto lane = static_cast<std::size_t>(std::countr_zero(left));
+        out[first + lane % 4 + lane / 4 * static_cast<std::size_t>(width)] = static_cast<float>(share);
       }
     }
   }

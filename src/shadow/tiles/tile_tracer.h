@@ -21,11 +21,15 @@ public:
              FrameTimings& timings);
 
   /// Of the last call: node tests a pixel, those of a node shared equally by the rays below it.
-  void spread_tests(int width, std::size_t pixels, std::vector<float>& out) const;
+  void spread_tests(int width, int height, std::vector<float>& out) const;
 
 private:
+  const PointTiles& tiles_of(const VisiblePoints& points, const ViewRays& view,
+                             const TriangleView& triangles);
   void descend(const Descent& descent, SimdLevel simd, TraceStats& stats);
 
+  PointTiles own_tiles_;  ///< of points that came without
+  std::vector<std::array<std::uint32_t, 16>> tile_tests_;
   ClusterTree clusters_;
   RayForest forest_;
   ForestScratch forest_scratch_;

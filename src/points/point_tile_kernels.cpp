@@ -1,0 +1,131 @@
+#include "points/point_tile_kernels.h"
+
+#define HWY_DISABLED_TARGETS (HWY_AVX3_DL | HWY_SSSE3)
+#undef HWY_TARGET_INCLUDE
+#define HWY_TARGET_INCLUDE "points/point_tile_kernels.cpp"
+#include <hwy/foreach_target.h>
+// After foreach_target.h
+#include "simd/pack-inl.h"
+
+#include <bit>
+#include <cmath>
+
+#include "simd/simd_level.h"
+
+HWY_BEFORE_NAMESPACE();
+namespace tenebra::HWY_NAMESPACE {
+
+namespace {
+
+using Double4 = Pack<double, 4>;
+using Vector16 = Pack3<Float16>;
+
+Vector16 points_of(const PointTile& tile) {
+  return {load<Float16>(tile.qx), load<Float16>(tile.qy), load<Float16>(tile.qz)};
+}
+
+// q is rounded by u, the sum of squares by 4u: 2^-20 covers both many times over. Where squares leave the
+// range of floats, by coordinates.
+float radius_of(const Vector16& q) {
+  const float largest2 = greatest(dot(q, q));
+  if (largest2 > 1e-30f && largest2 < 1e36f) return std::sqrt(largest2) * (1 + 0x1p-20f);
+  const float largest = greatest(max(absolute(q.x), max(absolute(q.y), absolute(q.z))));
+  return largest * 1.7320509f * (1 + 0x1p-20f) + 0x1p-126f;
+}
+
+void fill(const TileRows& rows, const glm::vec3& base, std::uint32_t lanes, PointTile& tile) {
+  const Pack3<Double4> centre =
+      splat3<Double4>(static_cast<double>(base.x), static_cast<double>(base.y), static_cast<double>(base.z));
+  const glm::dvec3& other = rows.point(std::countr_zero(lanes));
+  Float4 x[4], y[4], z[4];
+  for (int row = 0; row < 4; ++row) {
+    Pack3<Double4> p = load3<Double4>(&rows[row]->x);
+    const std::uint32_t there = (lanes >> (4 * row)) & 15u;
+    if (there != 15u) {
+      const Truth<double, 4> is_there = truth_of<double, 4>(there);
+      p = {choose(is_there, p.x, splat<Double4>(other.x)), choose(is_there, p.y, splat<Double4>(other.y)),
+           choose(is_there, p.z, splat<Double4>(other.z))};
+    }
+    p = p - centre;
+    x[row] = demoted(p.x), y[row] = demoted(p.y), z[row] = demoted(p.z);
+  }
+  const Vector16 q{joined(x), joined(y), joined(z)};
+  store(q.x, tile.qx), store(q.y, tile.qy), store(q.z, tile.qz);
+  tile.base[0] = base.x, tile.base[1] = base.y, tile.base[2] = base.z;
+  tile.radius = radius_of(q);
+}
+
+std::uint32_t beyond_gap(const PointTile& tile, std::uint32_t lanes) {
+  const int first = std::countr_zero(lanes);
+  const Vector16 apart = points_of(tile) - splat3<Float16>(tile.qx[first], tile.qy[first], tile.qz[first]);
+  const Float16 distance2 = choose(truth_of<float, 16>(lanes), dot(apart, apart), splat<Float16>(0.0f));
+  const float farthest2 = greatest(distance2);
+  if (!(farthest2 > 0)) return 0;
+  std::uint32_t nearer[9];
+  for (int k = 1; k <= 8; ++k) {
+    const float limit = farthest2 * static_cast<float>(k * k) / 64.0f;
+    nearer[k] = less_bits(distance2, splat<Float16>(limit)) & lanes;
+  }
+  for (int k = 1; k <= 4; ++k)
+    if (nearer[k] == nearer[k + 4]) return lanes & ~nearer[k];
+  return 0;
+}
+
+void bound(const PointTile& tile, std::uint32_t lanes, int place, PointSquare& square) {
+  const float* const q[3] = {tile.qx, tile.qy, tile.qz};
+  const Truth<float, 16> there = truth_of<float, 16>(lanes);
+  const int first = std::countr_zero(lanes);
+  for (int axis = 0; axis < 3; ++axis) {
+    const Float16 all = choose(there, load<Float16>(q[axis]), splat<Float16>(q[axis][first]));
+    square.low[axis][place] = least(all);
+    square.high[axis][place] = greatest(all);
+  }
+}
+
+}  // namespace
+
+PointTileKernels point_tile_kernels() {
+  return {fill, beyond_gap, bound};
+}
+
+}  // namespace tenebra::HWY_NAMESPACE
+HWY_AFTER_NAMESPACE();
+
+#if HWY_ONCE
+
+namespace tenebra {
+
+PointTileKernels point_tile_kernels() {
+  switch (best_simd_level()) {
+#if HWY_TARGETS & HWY_AVX3
+    case SimdLevel::avx512:
+      return N_AVX3::point_tile_kernels();
+#endif
+#if HWY_TARGETS & HWY_AVX2
+    case SimdLevel::avx2:
+      return N_AVX2::point_tile_kernels();
+#endif
+#if HWY_TARGETS & HWY_SSE4
+    case SimdLevel::sse4:
+      return N_SSE4::point_tile_kernels();
+#endif
+    default:
+      return HWY_STATIC_DISPATCH(point_tile_kernels)();
+  }
+}
+
+TileRows::TileRows(const VisiblePoints& points, std::uint32_t x, std::uint32_t y) {
+  const auto width = static_cast<std::uint32_t>(points.width),
+             height = static_cast<std::uint32_t>(points.height);
+  const std::size_t first = static_cast<std::size_t>(y) * width + x;
+  const bool inside = x + tile_side <= width && y + tile_side <= height;
+  for (std::uint32_t row = 0; row < tile_side; ++row) {
+    const glm::dvec3* const from = points.positions.data() + first + static_cast<std::size_t>(row) * width;
+    rows_[row] = inside ? from : copies_[row];
+    for (std::uint32_t column = 0; !inside && column < tile_side; ++column)
+      copies_[row][column] = x + column < width && y + row < height ? from[column] : glm::dvec3(0.0);
+  }
+}
+
+}  // namespace tenebra
+#endif

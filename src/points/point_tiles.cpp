@@ -1,0 +1,227 @@
+#include "points/point_tiles.h"
+
+#include <algorithm>
+#include <array>
+#include <bit>
+#include <cmath>
+#include <limits>
+#include <memory>
+
+#include "parallel/parallel.h"
+#include "points/contact_rule.h"
+#include "points/point_tile_kernels.h"
+#include "points/triangle_corners.h"
+
+namespace tenebra {
+
+namespace {
+
+using glm::dvec3;
+
+constexpr std::uint16_t no_receiver = 0xfffeu;  // faces away from the eye
+
+/// Makes one patch.
+class PatchMaker {
+public:
+  PatchMaker(const VisiblePoints& points, const TriangleView& triangles, PointTiles& out, PointPatch& patch)
+      : points_(points),
+        triangles_(triangles),
+        out_(out),
+        patch_(patch),
+        kernels_(point_tile_kernels()),
+        width_(static_cast<std::uint32_t>(points.width)),
+        height_(static_cast<std::uint32_t>(points.height)) {
+    patch_.squares.clear(), patch_.receivers.clear();
+    patch_.receiver_count = 0;
+  }
+
+  /// The square with its first pixel at (x, y), whose tiles are numbered from `first`.
+  void add_square(std::uint32_t x, std::uint32_t y, std::uint32_t first);
+
+private:
+  struct Known {
+    std::uint32_t id = no_triangle;
+    std::uint16_t number = 0;
+  };
+  /// What the points of some lanes lie on.
+  struct Owner {
+    std::uint32_t id = no_triangle;
+    std::uint16_t receiver = several_receivers;
+  };
+
+  std::uint16_t receiver_of(std::uint32_t id);
+  std::uint16_t add_receiver(std::uint32_t id);
+  const std::uint32_t* ids_at(std::uint32_t x, std::uint32_t y) const {
+    return &points_.triangles[static_cast<std::size_t>(y) * width_ + x];
+  }
+  std::uint32_t find_receivers(std::uint32_t x, std::uint32_t y, PointTile& tile);
+  bool one_receiver(std::uint32_t x, std::uint32_t y) const;
+  Owner owner_of(const PointTile& tile, std::uint32_t lanes) const;
+  void note_owners(PointTile& tile, std::uint32_t lanes) const;
+  void add_tile(const PointTile& tile, std::uint32_t lanes, int place, PointSquare& square) const;
+
+  const VisiblePoints& points_;
+  const TriangleView& triangles_;
+  PointTiles& out_;
+  PointPatch& patch_;
+  const PointTileKernels kernels_;
+  const std::uint32_t width_, height_;
+  std::array<Known, 4096> known_{};  // of the triangles that pixels nearby lie on
+};
+
+// n / |n| in double is off by less than 2^-48 |e1||e2| / |n|; rounding it, the difference p - a and the
+// products add less than 16 u of |p - a|.
+std::uint16_t PatchMaker::add_receiver(std::uint32_t id) {
+  const Corners c = corners_of(triangles_, id);
+  const int side = eye_side(c.v, out_.view);
+  if (side == 0) return no_receiver;
+  const std::uint32_t number = patch_.receiver_count++;
+  if (number % 16 == 0) patch_.receivers.emplace_back();
+  ReceiverBlock& block = patch_.receivers.back();
+  const std::uint32_t i = number % 16;
+  const dvec3 e1 = dvec3(c.v[1]) - dvec3(c.v[0]), e2 = dvec3(c.v[2]) - dvec3(c.v[0]);
+  const dvec3 n = glm::cross(e1, e2);
+  const double length = glm::length(n);
+  const dvec3 unit = length > 0 ? n * (side / length) : dvec3(0);
+  block.nx[i] = static_cast<float>(unit.x), block.ny[i] = static_cast<float>(unit.y);
+  block.nz[i] = static_cast<float>(unit.z);
+  block.ax[i] = c.v[0].x, block.ay[i] = c.v[0].y, block.az[i] = c.v[0].z;
+  const double slack = 16 * 0x1p-24 + 0x1p-47 * glm::length(e1) * glm::length(e2) / length;
+  block.slack[i] = slack < 1 ? static_cast<float>(slack) : 2.0f;
+  block.tau[i] = std::nextafter(static_cast<float>(rounding_tolerance(c.v)), INFINITY);
+  block.id[i] = id;
+  block.side[i] = static_cast<std::int8_t>(side);
+  return static_cast<std::uint16_t>(number);
+}
+
+std::uint16_t PatchMaker::receiver_of(std::uint32_t id) {
+  if (id >= triangles_.triangles.size()) return no_receiver;
+  Known& known = known_[id % known_.size()];
+  if (known.id != id) known = {id, add_receiver(id)};
+  return known.number;
+}
+
+/// Whether all sixteen pixels are in the picture and see the same triangle.
+bool PatchMaker::one_receiver(std::uint32_t x, std::uint32_t y) const {
+  if (x + tile_side > width_ || y + tile_side > height_) return false;
+  const std::uint32_t* const ids = ids_at(x, y);
+  std::uint32_t different = 0;
+  for (std::size_t row = 0; row < tile_side; ++row) {
+    for (std::size_t column = 0; column < tile_side; ++column)
+      different |= ids[row * width_ + column] ^ ids[0];
+  }
+  return different == 0;
+}
+
+/// Lanes whose points lie on a triangle that faces the eye.
+std::uint32_t PatchMaker::find_receivers(std::uint32_t x, std::uint32_t y, PointTile& tile) {
+  if (one_receiver(x, y)) {
+    const std::uint16_t number = receiver_of(*ids_at(x, y));
+    std::fill(std::begin(tile.receiver), std::end(tile.receiver), number);
+    return number == no_receiver ? 0 : 0xffffu;
+  }
+  std::uint32_t lanes = 0;
+  for (std::uint32_t row = 0; row < tile_side && y + row < height_; ++row) {
+    for (std::uint32_t column = 0; column < tile_side && x + column < width_; ++column) {
+      const std::uint32_t lane = tile_side * row + column;
+      tile.receiver[lane] = receiver_of(*ids_at(x + column, y + row));
+      if (tile.receiver[lane] != no_receiver) lanes |= 1u << lane;
+    }
+  }
+  return lanes;
+}
+
+PatchMaker::Owner PatchMaker::owner_of(const PointTile& tile, std::uint32_t lanes) const {
+  const std::uint16_t first = tile.receiver[std::countr_zero(lanes)];
+  for (std::uint32_t left = lanes; left != 0; left &= left - 1)
+    if (tile.receiver[std::countr_zero(left)] != first) return {};
+  return {patch_.receivers[first / 16].id[first % 16], first};
+}
+
+void PatchMaker::note_owners(PointTile& tile, std::uint32_t lanes) const {
+  tile.owners = 0;
+  tile.tau = 0;
+  std::uint32_t before = no_receiver;
+  for (std::uint32_t left = lanes; left != 0; left &= left - 1) {
+    const std::uint32_t number = tile.receiver[std::countr_zero(left)];
+    if (number == before) continue;
+    before = number;
+    const ReceiverBlock& block = patch_.receivers[number / 16];
+    tile.owners |= 1ull << (block.id[number % 16] % 64);
+    tile.tau = std::max(tile.tau, block.tau[number % 16]);
+  }
+}
+
+void PatchMaker::add_tile(const PointTile& tile, std::uint32_t lanes, int place, PointSquare& square) const {
+  const Owner owner = owner_of(tile, lanes);
+  square.own[place] = owner.id;
+  square.receiver[place] = owner.receiver;
+  square.lanes[place] = static_cast<std::uint16_t>(lanes);
+  square.filled |= 1u << place;
+  square.radius = std::max(square.radius, tile.radius);
+  square.tau = std::max(square.tau, tile.tau);
+  kernels_.bound(tile, lanes, place, square);
+  const bool several = owner.receiver == several_receivers;
+  if (several && kernels_.beyond_gap(tile, lanes) != 0) square.gaps |= 1u << place;
+}
+
+void PatchMaker::add_square(std::uint32_t x, std::uint32_t y, std::uint32_t first) {
+  PointSquare square{};
+  square.first_tile = first;
+  glm::vec3 base(0.0f);
+  for (std::uint32_t t = 0; t < 16; ++t) {
+    const std::uint32_t tile_x = x + t % 4 * tile_side, tile_y = y + t / 4 * tile_side;
+    PointTile& tile = out_.tiles[first + t];
+    const std::uint32_t lanes = find_receivers(tile_x, tile_y, tile);
+    if (lanes == 0) continue;
+    const TileRows rows(points_, tile_x, tile_y);
+    if (square.filled == 0) base = rows.point(std::countr_zero(lanes));
+    kernels_.fill(rows, base, lanes, tile);
+    tile.pixel = tile_y * width_ + tile_x;
+    note_owners(tile, lanes);
+    add_tile(tile, lanes, static_cast<int>(t), square);
+  }
+  if (square.filled == 0) return;
+  // What leaves the range of floats is for others to look at (not NaN: max takes what is finite).
+  const bool finite = std::isfinite(base.x) && std::isfinite(base.y) && std::isfinite(base.z);
+  if (!finite) square.radius = std::numeric_limits<float>::infinity();
+  for (int k = 0; k < 3; ++k) square.base[k] = base[k];
+  for (std::uint32_t left = square.filled; left != 0; left &= left - 1)
+    out_.tiles[first + static_cast<std::uint32_t>(std::countr_zero(left))].radius = square.radius;
+  patch_.squares.push_back(square);
+}
+
+}  // namespace
+
+std::size_t PointTiles::byte_count() const {
+  std::size_t bytes = tiles.size() * sizeof(PointTile);
+  for (const PointPatch& patch : patches)
+    bytes += patch.squares.size() * sizeof(PointSquare) + patch.receivers.size() * sizeof(ReceiverBlock);
+  return bytes;
+}
+
+void begin_point_tiles(int width, int height, const ViewRays& view, PointTiles& out) {
+  const SquareGrid grid(width, height);
+  out.tiles.resize(static_cast<std::size_t>(grid.columns) * grid.rows * 16);
+  out.patches.resize(static_cast<std::size_t>(grid.row_patches) * grid.rows);
+  out.view = view;
+}
+
+void make_point_patch(const VisiblePoints& points, const TriangleView& triangles, std::uint32_t patch,
+                      PointTiles& out) {
+  const SquareGrid grid(points.width, points.height);
+  const auto maker = std::make_unique<PatchMaker>(points, triangles, out, out.patches[patch]);
+  const std::uint32_t row = patch / grid.row_patches, first = patch % grid.row_patches * patch_squares;
+  for (std::uint32_t column = first; column < std::min(first + patch_squares, grid.columns); ++column)
+    maker->add_square(column * square_side, row * square_side, (row * grid.columns + column) * 16);
+}
+
+void make_point_tiles(const VisiblePoints& points, const ViewRays& view, const TriangleView& triangles,
+                      PointTiles& out) {
+  begin_point_tiles(points.width, points.height, view, out);
+  parallel_tasks(static_cast<int>(out.patches.size()), [&](int patch) {
+    make_point_patch(points, triangles, static_cast<std::uint32_t>(patch), out);
+  });
+}
+
+}  // namespace tenebra

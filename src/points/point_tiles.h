@@ -1,0 +1,97 @@
+// The visible points once more, as hard shadows read them: tiles of 4x4 pixels in floats relative to a point
+// nearby, boxes around them, and the triangles they lie on. No light is known here: one form serves all
+// lights. The points in double stay what counts; nothing here is farther from them than it says.
+//
+// Sixteen tiles make a square of 16x16 pixels, whose points share a base. A tile whose points lie on several
+// triangles may straddle a gap in depth; this is noted.
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+#include <glm/glm.hpp>
+#include <vector>
+
+#include "scene/frame_geometry.h"
+
+namespace tenebra {
+
+struct VisiblePoints;
+struct TriangleView;
+
+inline constexpr int tile_side = 4, tile_points = 16;
+inline constexpr std::uint32_t square_side = 16;
+inline constexpr std::uint32_t patch_squares = 64;           ///< in a row
+inline constexpr std::uint16_t several_receivers = 0xffffu;  ///< no index of a receiver
+
+/// Sixteen pixels; lane i is pixel + i % 4 + i / 4 * width. Its point is base + q_i, q rounded to float.
+/// Lanes that face away from the eye or see nothing hold the q of another.
+struct alignas(64) PointTile {
+  float qx[tile_points], qy[tile_points], qz[tile_points];
+  float base[3];  ///< exact; of the whole square too
+  float radius;   ///< >= |q| of all points of the square
+  std::uint32_t pixel;
+  float tau;                            ///< largest rounding tolerance of the points' triangles, rounded up
+  std::uint64_t owners;                 ///< bit id % 64 of all triangles that points lie on
+  std::uint16_t receiver[tile_points];  ///< number in PointPatch::receivers, where a lane has a point
+};
+static_assert(sizeof(PointTile) == 256);
+
+/// Sixteen tiles, boxes of q of each. What is said of a tile that is not `filled` means nothing.
+struct alignas(64) PointSquare {
+  float low[3][16], high[3][16];
+  std::uint32_t own[16];       ///< id that all points lie on; no_triangle: several
+  std::uint16_t receiver[16];  ///< the same as a number; several_receivers
+  std::uint16_t lanes[16];     ///< that have a point
+  std::uint32_t first_tile;
+  std::uint32_t filled;  ///< bits of the tiles with points
+  std::uint32_t gaps;    ///< bits of the tiles with a gap
+  float base[3];         ///< of q
+  float radius;          ///< >= |q| of all
+  float tau;             ///< largest of the tiles'
+};
+
+/// Sixteen triangles that points lie on and that face the eye: points above (n, a) are before them.
+struct alignas(64) ReceiverBlock {
+  float nx[16], ny[16], nz[16];  ///< unit normal to the eye's side, rounded
+  float ax[16], ay[16], az[16];  ///< a corner, exact
+  float slack[16];  ///< n.(p - a) has the sign of the exact value where |n.(p - a)| > slack |p - a|
+  float tau[16];    ///< rounding tolerance, rounded up
+  std::uint32_t id[16];
+  std::int8_t side[16];  ///< of the eye
+};
+
+/// Squares in a row, at most patch_squares.
+struct PointPatch {
+  std::vector<PointSquare> squares;  ///< that have points
+  std::vector<ReceiverBlock> receivers;
+  std::uint32_t receiver_count = 0;
+};
+
+struct PointTiles {
+  std::vector<PointTile> tiles;  ///< sixteen a square, squares row by row; those without points as they were
+  std::vector<PointPatch> patches;
+  ViewRays view;  ///< whose eye the triangles face
+
+  bool empty() const { return patches.empty(); }
+  std::size_t byte_count() const;
+};
+
+struct SquareGrid {
+  SquareGrid(int width, int height)
+      : columns((static_cast<std::uint32_t>(width) + square_side - 1) / square_side),
+        rows((static_cast<std::uint32_t>(height) + square_side - 1) / square_side),
+        row_patches((columns + patch_squares - 1) / patch_squares) {}
+  std::uint32_t columns, rows;
+  std::uint32_t row_patches;
+};
+
+/// Makes room for the tiles of a picture; patches are then made one by one, in any order.
+void begin_point_tiles(int width, int height, const ViewRays& view, PointTiles& out);
+/// Makes patch `patch` (row of squares * row_patches + part of the row) of points that are there.
+void make_point_patch(const VisiblePoints& points, const TriangleView& triangles, std::uint32_t patch,
+                      PointTiles& out);
+/// All of it. `view`: the eye that saw the points.
+void make_point_tiles(const VisiblePoints& points, const ViewRays& view, const TriangleView& triangles,
+                      PointTiles& out);
+
+}  // namespace tenebra

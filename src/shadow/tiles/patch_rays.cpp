@@ -1,0 +1,279 @@
+#include "shadow/tiles/patch_rays.h"
+
+#include <algorithm>
+#include <bit>
+#include <cmath>
+
+#include "points/triangle_corners.h"
+
+namespace tenebra {
+
+namespace {
+
+using glm::dvec3;
+
+// A square is a node as it stands if it is at most this many times as wide as its tiles are on the mean: 4
+// for a flat patch, with room for perspective and curvature.
+constexpr float coherent_extent = 8;
+
+std::uint8_t face_of(const dvec3& p) {
+  const double x = std::abs(p.x), y = std::abs(p.y), z = std::abs(p.z), largest = std::max({x, y, z});
+  const int axis = largest <= x ? 0 : largest <= y ? 1 : 2;
+  return static_cast<std::uint8_t>(2 * axis + (p[axis] < 0 ? 1 : 0));
+}
+
+/// Box of a single point on its own face, with the margins of TileKernels::project.
+FaceBox box_of(const dvec3& p, std::uint8_t face) {
+  const int axis = face / 2;
+  const double z = std::abs(p[axis]);
+  constexpr float u = 0x1p-24f;
+  const auto pu = static_cast<float>(p[(axis + 1) % 3] / z), pv = static_cast<float>(p[(axis + 2) % 3] / z);
+  const auto w = static_cast<float>(1 / z);
+  return {pu - 32 * u, pu + 32 * u, pv - 32 * u, pv + 32 * u, w * (1 - 16 * u), w * (1 + 16 * u)};
+}
+
+}  // namespace
+
+/// Curve keys, worked out sixteen at a time.
+struct PatchRays::Keys {
+  Keys(const RayKernels& k, std::vector<std::uint32_t>& to) : kernels(k), out(to) {}
+  const RayKernels& kernels;
+  std::vector<std::uint32_t>& out;
+  float x[16] = {}, y[16] = {}, z[16] = {};
+  std::uint8_t faces[16] = {};
+  int size = 0;
+
+  void add(const dvec3& p, std::uint8_t face) {
+    x[size] = static_cast<float>(p.x), y[size] = static_cast<float>(p.y), z[size] = static_cast<float>(p.z);
+    faces[size] = face;
+    if (++size == 16) flush();
+  }
+  void flush() {
+    std::uint32_t keys[16];
+    kernels.direction_keys(x, y, z, keys);
+    for (int i = 0; i < size; ++i)
+      out.push_back((keys[i] & 0x0fffffffu) | static_cast<std::uint32_t>(faces[i]) << 28);
+    size = 0;
+  }
+};
+
+/// A square and where its rays go.
+struct PatchRays::Work {
+  Work(const RayKernels& kernels, ForestScratch::Patch& to)
+      : out(to), node_keys(kernels, to.node_keys), loose_keys(kernels, to.loose_keys) {}
+  ForestScratch::Patch& out;
+  Keys node_keys, loose_keys;
+  const PointSquare* square = nullptr;
+  std::uint16_t rays[16] = {};
+  std::uint32_t present = 0;  ///< bits of tiles with rays
+  std::uint32_t gaps = 0;     ///< bits of those with a gap between rays
+  RayNode node{};             ///< boxes
+};
+
+PatchRays::PatchRays(const VisiblePoints& points, const PointTiles& tiles, const TriangleView& triangles,
+                     const ShadowLight& light, const RaySource& source, const HardShadowConfig& config)
+    : points_(points),
+      tiles_(tiles),
+      triangles_(triangles),
+      light_(light),
+      source_(source),
+      pixels_(points.width, points.height),
+      bounded_(light.range_m > 0 || light.spot_cos_outer > -1),
+      kernels_(tile_kernels(config.simd)),
+      point_kernels_(point_tile_kernels()),
+      ray_kernels_(ray_kernels(config.simd)) {}
+
+std::size_t PatchRays::pixel_at(std::uint32_t tile, int lane) const {
+  return pixels_(tile) + static_cast<std::size_t>(lane / 4) * static_cast<std::size_t>(points_.width) +
+         static_cast<std::size_t>(lane % 4);
+}
+
+/// About the middle of a tile, relative to the light.
+dvec3 PatchRays::centre_of(const PointSquare& square, int tile) const {
+  dvec3 centre;
+  for (int k = 0; k < 3; ++k) {
+    const double middle =
+        0.5 * static_cast<double>(square.low[k][tile]) + 0.5 * static_cast<double>(square.high[k][tile]);
+    centre[k] = static_cast<double>(square.base[k]) - source_.origin[k] + middle;
+  }
+  return centre;
+}
+
+dvec3 PatchRays::point_of(const PointTile& tile, int lane) const {
+  return dvec3(tile.base[0], tile.base[1], tile.base[2]) - source_.origin +
+         dvec3(tile.qx[lane], tile.qy[lane], tile.qz[lane]);
+}
+
+/// For each receiver 1: the light is on the eye's side.
+void PatchRays::find_facing(const PointPatch& patch, std::vector<std::uint8_t>& facing) const {
+  facing.resize(patch.receivers.size() * 16);
+  for (std::size_t b = 0; b < patch.receivers.size(); ++b) {
+    const ReceiverBlock& block = patch.receivers[b];
+    Facing found = kernels_.facing(block, source_.light);
+    for (std::uint32_t i = 0; i < 16; ++i) {
+      const std::size_t number = b * 16 + i;
+      if (((found.open >> i) & 1u) != 0 && number < patch.receiver_count) {
+        const int side = light_side(corners_of(triangles_, block.id[i]).v, source_);
+        found.facing |= side == -block.side[i] ? 1u << i : 0u;
+      }
+      facing[number] = static_cast<std::uint8_t>((found.facing >> i) & 1u);
+    }
+  }
+}
+
+std::uint32_t PatchRays::facing_lanes(const PointSquare& square, int tile,
+                                      const std::vector<std::uint8_t>& facing) const {
+  const std::uint32_t lanes = square.lanes[tile];
+  if (square.receiver[tile] != several_receivers) return facing[square.receiver[tile]] != 0 ? lanes : 0;
+  const PointTile& points = tiles_.tiles[square.first_tile + static_cast<std::uint32_t>(tile)];
+  std::uint32_t faced = 0;
+  for (std::uint32_t left = lanes; left != 0; left &= left - 1) {
+    const int lane = std::countr_zero(left);
+    faced |= static_cast<std::uint32_t>(facing[points.receiver[lane]]) << lane;
+  }
+  return faced;
+}
+
+std::uint32_t PatchRays::in_reach_lanes(std::uint32_t tile, std::uint32_t lanes) const {
+  std::uint32_t reached = lanes;
+  for (std::uint32_t left = lanes; left != 0; left &= left - 1) {
+    const int lane = std::countr_zero(left);
+    if (!in_reach(points_.positions[pixel_at(tile, lane)] - source_.origin, light_)) reached &= ~(1u << lane);
+  }
+  return reached;
+}
+
+/// Asks for the tiles that are looked at more closely: with points on several triangles.
+void PatchRays::fetch_mixed_tiles(const PointSquare& square) const {
+  for (std::uint32_t left = square.filled; left != 0; left &= left - 1) {
+    const int t = std::countr_zero(left);
+    if (square.receiver[t] != several_receivers) continue;
+    const auto* at =
+        reinterpret_cast<const char*>(&tiles_.tiles[square.first_tile + static_cast<std::uint32_t>(t)]);
+    for (std::size_t line = 0; line < sizeof(PointTile); line += 64) __builtin_prefetch(at + line);
+  }
+}
+
+void PatchRays::find_lanes(const PointSquare& square, Work& work) const {
+  work.square = &square;
+  work.present = work.gaps = 0;
+  for (std::uint32_t left = square.filled; left != 0; left &= left - 1) {
+    const int t = std::countr_zero(left);
+    const std::uint32_t number = square.first_tile + static_cast<std::uint32_t>(t);
+    std::uint32_t lanes = facing_lanes(square, t, work.out.facing);
+    if (bounded_ && lanes != 0) lanes = in_reach_lanes(number, lanes);
+    work.rays[t] = static_cast<std::uint16_t>(lanes);
+    if (lanes == 0) continue;
+    work.present |= 1u << t;
+    work.out.rays += lanes == 0xffffu ? 16u : static_cast<std::uint64_t>(std::popcount(lanes));
+    // Points that are left out may leave a gap.
+    const bool fewer = square.receiver[t] == several_receivers && lanes != square.lanes[t];
+    const bool gap =
+        fewer ? point_kernels_.beyond_gap(tiles_.tiles[number], lanes) != 0 : ((square.gaps >> t) & 1u) != 0;
+    if (gap) work.gaps |= 1u << t;
+  }
+}
+
+/// False: too wide; nothing is done.
+bool PatchRays::add_node(Work& work, std::uint8_t face) const {
+  RayNode& node = work.node;
+  node.live = node.filled = work.present;
+  const FaceBox all = bounds_of(node);
+  float wide = 0, high = 0;
+  for (std::uint32_t left = work.present; left != 0; left &= left - 1) {
+    const int i = std::countr_zero(left);
+    wide += node.u1[i] - node.u0[i], high += node.v1[i] - node.v0[i];
+  }
+  const float scale = coherent_extent / static_cast<float>(std::popcount(work.present));
+  if (all.u1 - all.u0 > wide * scale || all.v1 - all.v0 > high * scale) return false;
+  for (std::uint32_t i = 0; i < 16; ++i) {
+    node.child[i] = work.square->first_tile + i;
+    node.own[i] = work.square->own[i];
+    node.rays[i] = node.all_rays[i] = work.rays[i];
+  }
+  node.tau = work.square->tau;
+  node.wide = work.present;  // boxes along the axes: shrunk where that pays
+  work.out.nodes.push_back(node);
+  work.out.node_faces.push_back(face);
+  work.node_keys.add(centre_of(*work.square, std::countr_zero(work.present)), face);
+  return true;
+}
+
+void PatchRays::add_ray(Work& work, int tile, int lane) const {
+  const std::uint32_t number = work.square->first_tile + static_cast<std::uint32_t>(tile);
+  const std::size_t pixel = pixel_at(number, lane);
+  const dvec3 p = points_.positions[pixel] - source_.origin;
+  const double size = std::max({std::abs(p.x), std::abs(p.y), std::abs(p.z)});
+  if (size == 0) {
+    work.out.at_light.push_back(static_cast<std::uint32_t>(pixel));
+    --work.out.rays;
+    return;
+  }
+  work.out.in_range &= size > shortest_ray && size < longest_ray;
+  const std::uint8_t face = face_of(p);
+  work.out.loose.push_back({number, work.square->own[tile], static_cast<std::uint16_t>(1u << lane), face,
+                            work.square->tau, box_of(p, face)});
+  work.loose_keys.add(p, face);
+}
+
+/// Splits a tile at its gaps, and into single rays where it is off its face.
+void PatchRays::add_parts(Work& work, int tile) const {
+  const std::uint32_t number = work.square->first_tile + static_cast<std::uint32_t>(tile);
+  const PointTile& points = tiles_.tiles[number];
+  std::uint32_t parts[tile_points], size = 0;
+  parts[size++] = work.rays[tile];
+  while (size > 0) {
+    const std::uint32_t lanes = parts[--size];
+    const std::uint32_t beyond =
+        ((work.gaps >> tile) & 1u) != 0 ? point_kernels_.beyond_gap(points, lanes) : 0;
+    if (beyond != 0) {
+      parts[size++] = beyond;
+      parts[size++] = lanes & ~beyond;
+      continue;
+    }
+    const dvec3 centre =
+        0.5 * (point_of(points, std::countr_zero(lanes)) + point_of(points, 31 - std::countl_zero(lanes)));
+    const std::uint8_t face = face_of(centre);
+    FaceBox box{};
+    if (kernels_.bound(points, lanes, source_.origin, face, box)) {
+      work.out.loose.push_back(
+          {number, work.square->own[tile], static_cast<std::uint16_t>(lanes), face, work.square->tau, box});
+      work.loose_keys.add(centre, face);
+      continue;
+    }
+    for (std::uint32_t left = lanes; left != 0; left &= left - 1) add_ray(work, tile, std::countr_zero(left));
+  }
+}
+
+void PatchRays::place_square(Work& work) const {
+  if (work.gaps == 0) {
+    const std::uint8_t face = face_of(centre_of(*work.square, std::countr_zero(work.present)));
+    const std::uint32_t on = kernels_.project(*work.square, source_.origin, face, work.node);
+    if ((work.present & ~on) == 0 && add_node(work, face)) return;
+  }
+  for (std::uint32_t left = work.present; left != 0; left &= left - 1)
+    add_parts(work, std::countr_zero(left));
+}
+
+void PatchRays::find(const PointPatch& patch, ForestScratch::Patch& out) const {
+  out.clear();
+  find_facing(patch, out.facing);
+  Work work(ray_kernels_, out);
+  for (const PointSquare& square : patch.squares) {
+    if (&square != &patch.squares.back()) fetch_mixed_tiles(*(&square + 1));
+    find_lanes(square, work);
+    if (work.present == 0) continue;
+    out.tau = std::max(out.tau, square.tau);
+    double farthest = square.radius;
+    for (int k = 0; k < 3; ++k) {
+      const double base = std::abs(static_cast<double>(square.base[k]) - source_.origin[k]);
+      farthest = std::max(farthest, base + static_cast<double>(square.radius));
+    }
+    out.in_range &= farthest < longest_ray;
+    if (out.in_range) place_square(work);
+  }
+  work.node_keys.flush();
+  work.loose_keys.flush();
+}
+
+}  // namespace tenebra

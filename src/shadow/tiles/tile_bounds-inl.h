@@ -1,0 +1,50 @@
+// Bounds of a tile's rays on a face, from the points themselves. Included once per target.
+#if defined(TENEBRA_TILE_BOUNDS_INL_H_) == defined(HWY_TARGET_TOGGLE)
+#ifdef TENEBRA_TILE_BOUNDS_INL_H_
+#undef TENEBRA_TILE_BOUNDS_INL_H_
+#else
+#define TENEBRA_TILE_BOUNDS_INL_H_
+#endif
+
+#include <bit>
+
+#include "shadow/tiles/tile_kernels.h"
+#include "simd/pack-inl.h"
+
+HWY_BEFORE_NAMESPACE();
+namespace tenebra::HWY_NAMESPACE {
+
+/// Box on a face of some lanes (not 0) of a tile, widened; false if a point is off the face. The base
+/// relative to the light is rounded by u, as q is and as their sum is: 3u (|base| + radius), 5u with the
+/// roundings here; so the quotient is off by (margin + face_limit margin of z) / z, by 6u for its own
+/// roundings and by 16u for those of the boxes of triangles.
+HWY_INLINE bool bound(const PointTile& tile, std::uint32_t lanes, const glm::dvec3& light, int face,
+                      FaceBox& box) {
+  constexpr float u = 0x1p-24f;
+  const float* const q[3] = {tile.qx, tile.qy, tile.qz};
+  const Truth<float, 16> there = truth_of<float, 16>(lanes);
+  const int first = std::countr_zero(lanes);
+  float margins[3];
+  Float16 p[3];
+  for (int k = 0; k < 3; ++k) {
+    const int axis = (face / 2 + 1 + k) % 3;
+    const auto base = static_cast<float>(static_cast<double>(tile.base[axis]) - light[axis]);
+    margins[k] = 5 * u * ((base < 0 ? -base : base) + tile.radius);
+    p[k] = splat<Float16>(base) + choose(there, load<Float16>(q[axis]), splat<Float16>(q[axis][first]));
+  }
+  if (face % 2 != 0) p[2] = splat<Float16>(0.0f) - p[2];
+  const float nearest = least(p[2]) - margins[2], farthest = greatest(p[2]) + margins[2];
+  if (!(nearest > shortest_ray)) return false;
+  const Float16 w = splat<Float16>(1.0f) / p[2], pu = p[0] * w, pv = p[1] * w;
+  const float near_inverse = 1 / nearest, off = (1 + 16 * u) * near_inverse;
+  const float u_margin = (margins[0] + 3.1f * margins[2]) * off + 32 * u,
+              v_margin = (margins[1] + 3.1f * margins[2]) * off + 32 * u;
+  box = {least(pu) - u_margin,    greatest(pu) + u_margin, least(pv) - v_margin,
+         greatest(pv) + v_margin, (1 - 16 * u) / farthest, near_inverse * (1 + 16 * u)};
+  return box.u0 >= -face_limit && box.u1 <= face_limit && box.v0 >= -face_limit && box.v1 <= face_limit;
+}
+
+}  // namespace tenebra::HWY_NAMESPACE
+HWY_AFTER_NAMESPACE();
+
+#endif

@@ -1,0 +1,144 @@
+// Tiles say the same as the points in double that they are made of, or nothing.
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <bit>
+#include <cmath>
+#include <cstring>
+
+#include "parallel/parallel.h"
+#include "points/contact_rule.h"
+#include "points/triangle_corners.h"
+#include "support/samples.h"
+#include "support/seeded_random.h"
+
+namespace tenebra::testing {
+namespace {
+
+constexpr double u = 0x1p-24;
+
+struct TiledCase {
+  Soup soup;
+  ViewRays view;
+  VisiblePoints points;
+};
+
+TiledCase tiled_room(std::uint64_t seed, int width, int height, double scale = 1, double offset = 0) {
+  Random random(seed);
+  TiledCase c;
+  c.soup = room(random, 400).moved(scale, glm::dvec3(offset));
+  c.view = pinhole(glm::dvec3(-1.8, 1.5, -1.7) * scale + offset, glm::dvec3(offset), 0.9, width, height);
+  const VisiblePoints seen = view_samples(c.soup.view(), c.view, width, height);
+  compute_visible_points(seen.triangles, width, height, c.view, c.soup.view(), c.points,
+                         PointLayout::rows_and_tiles);
+  return c;
+}
+
+const ReceiverBlock& block_of(const PointPatch& patch, std::uint16_t number) {
+  return patch.receivers[number / 16];
+}
+
+/// One tile of a square against the points of its pixels.
+void check_tile(const TiledCase& c, const PointPatch& patch, const PointSquare& square, std::uint32_t t) {
+  const PointTile& tile = c.points.tiles.tiles[square.first_tile + t];
+  for (std::uint32_t lane = 0; lane < 16; ++lane) {
+    if (((square.lanes[t] >> lane) & 1u) == 0) continue;
+    const std::size_t pixel = tile.pixel + lane % 4 + lane / 4 * static_cast<std::size_t>(c.points.width);
+    const std::uint32_t id = c.points.triangles[pixel], number = tile.receiver[lane];
+    ASSERT_LT(number, patch.receiver_count);
+    EXPECT_EQ(block_of(patch, tile.receiver[lane]).id[number % 16], id);
+    EXPECT_NE((tile.owners >> (id % 64)) & 1u, 0u);
+    EXPECT_TRUE(square.own[t] == id || square.own[t] == no_triangle);
+    EXPECT_GE(tile.tau, rounding_tolerance(corners_of(c.soup.view(), id).v));
+    const float q[3] = {tile.qx[lane], tile.qy[lane], tile.qz[lane]};
+    double length2 = 0;
+    for (int axis = 0; axis < 3; ++axis) {
+      EXPECT_EQ(square.base[axis], tile.base[axis]);
+      const double exact = c.points.positions[pixel][axis] - static_cast<double>(tile.base[axis]);
+      EXPECT_LE(std::abs(static_cast<double>(q[axis]) - exact), u * std::abs(exact) + 1e-40);
+      EXPECT_LE(square.low[axis][t], q[axis]);
+      EXPECT_GE(square.high[axis][t], q[axis]);
+      length2 += static_cast<double>(q[axis]) * static_cast<double>(q[axis]);
+    }
+    EXPECT_GE(static_cast<double>(tile.radius), std::sqrt(length2));
+    EXPECT_EQ(tile.radius, square.radius);
+  }
+}
+
+TEST(PointTiles, HoldThePointsThatFaceTheEye) {
+  for (const auto& [width, height] : {std::pair{97, 61}, {16, 16}, {5, 3}, {1040, 18}}) {
+    const TiledCase c = tiled_room(31, width, height);
+    std::vector<int> met(c.points.triangles.size(), 0);
+    for (const PointPatch& patch : c.points.tiles.patches) {
+      for (const PointSquare& square : patch.squares) {
+        for (std::uint32_t t = 0; t < 16; ++t) {
+          if (((square.filled >> t) & 1u) == 0) continue;
+          check_tile(c, patch, square, t);
+          const PointTile& tile = c.points.tiles.tiles[square.first_tile + t];
+          for (std::uint32_t lanes = square.lanes[t]; lanes != 0; lanes &= lanes - 1) {
+            const auto lane = static_cast<std::size_t>(std::countr_zero(lanes));
+            ++met[tile.pixel + lane % 4 + lane / 4 * static_cast<std::size_t>(width)];
+          }
+        }
+      }
+    }
+    for (std::size_t i = 0; i < met.size(); ++i) {
+      const std::uint32_t id = c.points.triangles[i];
+      const bool seen = id != no_triangle && eye_side(corners_of(c.soup.view(), id).v, c.view) != 0;
+      EXPECT_EQ(met[i], seen ? 1 : 0) << i;
+    }
+  }
+}
+
+TEST(PointTiles, StayPreciseFarFromTheOrigin) {
+  const TiledCase c = tiled_room(32, 64, 64, 1, 1e6);
+  for (const PointPatch& patch : c.points.tiles.patches) {
+    for (const PointSquare& square : patch.squares) {
+      EXPECT_LT(square.radius, 100);
+      for (std::uint32_t t = 0; t < 16; ++t)
+        if (((square.filled >> t) & 1u) != 0) check_tile(c, patch, square, t);
+    }
+  }
+}
+
+// What a receiver says of a light, beyond its slack, is what the exact sign says.
+TEST(PointTiles, ReceiversKnowTheirSide) {
+  const TiledCase c = tiled_room(33, 64, 64);
+  Random random(34);
+  int certain = 0;
+  for (const PointPatch& patch : c.points.tiles.patches) {
+    for (std::uint32_t number = 0; number < patch.receiver_count; ++number) {
+      const ReceiverBlock& b = patch.receivers[number / 16];
+      const std::uint32_t i = number % 16;
+      const Corners corners = corners_of(c.soup.view(), b.id[i]);
+      for (int k = 0; k < 20; ++k) {
+        const glm::dvec3 near = glm::mix(glm::dvec3(corners.v[0]), glm::dvec3(corners.v[1]), 0.3);
+        const glm::vec3 p(near + random.in_cube(k % 2 == 0 ? 2.0 : 1e-6));
+        const glm::dvec3 away = glm::dvec3(p) - glm::dvec3(corners.v[0]);
+        const double value = glm::dot(glm::dvec3(b.nx[i], b.ny[i], b.nz[i]), away);
+        if (std::abs(value) <= static_cast<double>(b.slack[i]) * glm::length(away)) continue;
+        ++certain;
+        const int side = point_side(corners.v[0], corners.v[1], corners.v[2], p) * b.side[i];
+        EXPECT_EQ(side, value > 0 ? 1 : -1);
+      }
+    }
+  }
+  EXPECT_GT(certain, 1000);
+}
+
+TEST(PointTiles, AreTheSameForAllThreads) {
+  const TiledCase c = tiled_room(35, 130, 70);
+  PointTiles again;
+  with_threads(7, [&] { make_point_tiles(c.points, c.view, c.soup.view(), again); });
+  ASSERT_EQ(again.patches.size(), c.points.tiles.patches.size());
+  for (std::size_t i = 0; i < again.patches.size(); ++i) {
+    const PointPatch &a = again.patches[i], &b = c.points.tiles.patches[i];
+    ASSERT_EQ(a.squares.size(), b.squares.size());
+    ASSERT_EQ(a.receiver_count, b.receiver_count);
+    for (std::size_t k = 0; k < a.squares.size(); ++k)
+      EXPECT_EQ(std::memcmp(&a.squares[k], &b.squares[k], sizeof(PointSquare)), 0);
+  }
+}
+
+}  // namespace
+}  // namespace tenebra::testing

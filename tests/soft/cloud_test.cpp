@@ -1,0 +1,60 @@
+// Clouds of loose triangles: what took light from the last points goes first, and the others are found
+// through the bounds of their blocks.
+#include <gtest/gtest.h>
+
+#include <cmath>
+
+#include "soft/soft_case.h"
+
+namespace tenebra::testing {
+namespace {
+
+/// A floor below, a cloud of loose triangles between, a light above.
+SoftCase below_cloud(const std::string& name, int count, double size, int pixels, std::uint64_t seed) {
+  Random random(seed);
+  SoftCase c;
+  c.name = name;
+  c.soup.quad({-8, 0, -8}, {0, 0, 16}, {16, 0, 0});
+  c.soup.append(random_soup(random, count, size).moved(1.2, {0, 2.5, 0}));
+  c.light = square_light({0.4, 6, -0.3}, {0, 0, 0}, 1.5);
+  c.view = pinhole({0, 1.1, 4}, {0, 0, 0}, 0.9, pixels, pixels);
+  c.points = view_samples(c.soup.view(), c.view, pixels, pixels);
+  return c;
+}
+
+TEST(SoftCloud, IsExact) {
+  Judgement sum;
+  judge_all(below_cloud("400 leaves, seed 91", 400, 0.35, 16, 91), sum);
+  judge_all(below_cloud("1,200 leaves, seed 92", 1200, 0.15, 16, 92), sum);
+  sum.print("clouds");
+  EXPECT_GT(sum.penumbra, 150u);
+}
+
+// 3,000 leaves fill blocks by the hundred: clipping takes all its ways. The BSP shares none of them but for
+// the leaves that points lie on both sides of.
+TEST(SoftCloud, GivesWhatTheBspGives) {
+  std::size_t between = 0, dark = 0;
+  for (const auto& [count, size] : {std::pair(700, 0.5), std::pair(3000, 0.12)}) {
+    SoftCase c = below_cloud("leaves, seed 93", count, size, 20, 93);
+    c.config.precision = SoftPrecision::reference;
+    c.config.solver = SoftSolver::bsp;
+    const SoftMask expected = traced(c, c.config);
+    for (const SoftPrecision precision : {SoftPrecision::reference, SoftPrecision::fast}) {
+      c.config.solver = SoftSolver::clip;
+      c.config.precision = precision;
+      const SoftMask mask = traced(c, c.config);
+      const double bound = precision == SoftPrecision::reference ? 1e-6 : fast_bound;
+      for (std::size_t i = 0; i < c.size(); ++i) {
+        const float e = expected.visible_fraction[i];
+        between += e > 0 && e < 1;
+        dark += e == 0 && c.points.triangles[i] < 2;
+        EXPECT_NEAR(mask.visible_fraction[i], e, bound) << describe(c, i);
+      }
+    }
+  }
+  EXPECT_GT(between, 400u);
+  EXPECT_GT(dark, 40u);
+}
+
+}  // namespace
+}  // namespace tenebra::testing
