@@ -18,7 +18,8 @@ inline constexpr std::array qualities{Quality::fast, Quality::balanced, Quality:
 std::string_view quality_name(Quality quality);  ///< "fast"
 std::optional<Quality> quality_from_name(std::string_view name);
 
-/// What a preset sets. Hard shadows are exact in all of them: no inexact setting is faster by much.
+/// What a preset sets. Hard shadows are exact in all of them: what inexact settings save is little beside what
+/// they get wrong (docs/trade.md).
 struct QualitySettings {
   int soft_points = 0;   ///< RenderSettings::soft_points
   int ao_rays = 64;      ///< AoConfig::rays

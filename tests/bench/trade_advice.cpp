@@ -119,7 +119,7 @@ std::string hard_advice(const TradeTables& tables) {
       "themselves: {} wrong pixels.\n"
       "- A shadow map of 4096 is wrong at {} pixels with the best bias, one of 1024 at {}; without a bias "
       "one of "
-      "4096 would be at {}. Where a GPU draws it, it costs next to nothing, and errs as much.\n"
+      "4096 would be at {}. Drawing it is for GPUs, which were not measured; its errors stay.\n"
       "- Embree's rays, which start at a bias of their own, differ at {} pixels in {} of the default's time "
       "(tree built for the frame).\n",
       fastest_exact(tables, tiles), tables.size(),
@@ -164,14 +164,11 @@ std::string ao_advice(const TradeTables& tables) {
   return fmt::format(
       "- Fields answer 64 rays in {} ms at {} /255 RMS; Embree's 64 rays take {} times as long, at {} /255.\n"
       "- Half resolution with 16 rays takes {} of the time of full resolution with 64, at {} /255 RMS; its "
-      "worst "
-      "pixels ({} /255) lie at small or thin things.\n"
+      "worst pixel: {} /255.\n"
       "- 256 rays at full resolution: {} times the time of 64, {} /255. What is left then is the tables' and "
-      "the "
-      "samples' own error, and rays alone mend it.\n"
+      "the samples' own error.\n"
       "- Tables: four times smaller ones (1089x1024) err by {} /255 with 64 rays, the smallest tried "
-      "(289x256) by "
-      "{}, the largest (4225x4096) by {}; one bit a distance instead of eight: {}.\n",
+      "(289x256) by {}, the largest (4225x4096) by {}; one bit a distance instead of eight: {}.\n",
       range(tables, time("field, 64 rays")), range(tables, error("field, 64 rays")),
       range(tables, times("Embree rays, 64 rays", "field, 64 rays")),
       range(tables, error("Embree rays, 64 rays")),

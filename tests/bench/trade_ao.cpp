@@ -7,6 +7,7 @@
 #include "ao_race.h"
 #include "bench_scenes.h"
 #include "support/seeded_random.h"
+#include "trade_contest.h"
 #include "trade_session.h"
 
 namespace tenebra::bench {
@@ -43,7 +44,8 @@ private:
   Expected<void> find_truth();
   void add_rays();
   void add_tables(FieldLayout layout, const char* family);
-  Expected<TradePoint> measure(const AoSetting& setting);
+  Expected<double> compute(const AoConfig& config);
+  Expected<std::vector<TradePoint>> measure(std::span<const AoSetting> same_tables);
   std::vector<double> errors_of(std::span<const float> open) const;
 
   TradeSession& session_;
@@ -134,21 +136,31 @@ void AoTrade::add_tables(FieldLayout layout, const char* family) {
   }
 }
 
-Expected<TradePoint> AoTrade::measure(const AoSetting& setting) {
+/// Once; its time. Of Embree's rays without the tree: it may be kept where nothing moves.
+Expected<double> AoTrade::compute(const AoConfig& config) {
   const BenchFrame& frame = view_.frame;
-  std::vector<double> times;
-  const bool rays = setting.config.mode == AoMode::rays;
-  const int rounds = rays ? 1 : session_.by_effort(1, 2, 5);
-  for (int round = rays ? 0 : -1; round < rounds; ++round) {  // the first builds what is missing
-    CostClock clock;
-    if (auto done =
-            ao_.compute(view_.scene, frame.geometry, frame.points, frame.normals, setting.config, open_);
-        !done)
-      return tl::unexpected(done.error());
-    // Embree's tree is not counted: it may be kept where nothing moves.
-    if (round >= 0) times.push_back(rays ? ao_.timings().ao_ms : clock.ms());
+  CostClock clock;
+  if (auto done = ao_.compute(view_.scene, frame.geometry, frame.points, frame.normals, config, open_); !done)
+    return tl::unexpected(done.error());
+  return config.mode == AoMode::rays ? ao_.timings().ao_ms : clock.ms();
+}
+
+/// Settings that share tables, in turn; fields are built and samples cast before.
+Expected<std::vector<TradePoint>> AoTrade::measure(std::span<const AoSetting> same_tables) {
+  if (const auto built = compute(same_tables[0].config); !built) return tl::unexpected(built.error());
+  std::vector<Contestant> contestants;
+  for (const AoSetting& setting : same_tables) {
+    const bool rays = setting.config.mode == AoMode::rays;
+    contestants.push_back({setting.family, setting.name, rays ? 1 : session_.by_effort(1, 3, 5),
+                           [this, &setting] { return compute(setting.config); },
+                           [this] { return errors_of(open_); }});
   }
-  return TradePoint{setting.family, setting.name, median(times), errors_of(open_)};
+  return take_turns(contestants);
+}
+
+bool same_tables(const AoConfig& a, const AoConfig& b) {
+  return a.layout == b.layout && a.positions == b.positions && a.directions == b.directions &&
+         a.bits == b.bits;
 }
 
 Expected<TradeTable> AoTrade::run() {
@@ -159,10 +171,11 @@ Expected<TradeTable> AoTrade::run() {
     add_tables(FieldLayout::positions_directions, "tables of the paper");
   }
   TradeTable table{"ao", view_.name, {{"RMS", "1/255"}, {"worst pixel", "1/255"}}, {}};
-  for (const AoSetting& setting : settings_) {
-    auto point = measure(setting);
-    if (!point) return tl::unexpected(point.error());
-    table.points.push_back(std::move(*point));
+  for (std::size_t first = 0, last = 0; first < settings_.size(); first = last) {
+    while (last < settings_.size() && same_tables(settings_[first].config, settings_[last].config)) ++last;
+    const auto points = measure(std::span(settings_).subspan(first, last - first));
+    if (!points) return tl::unexpected(points.error());
+    table.points.insert(table.points.end(), points->begin(), points->end());
   }
   const auto hidden = std::count_if(truth_.begin(), truth_.end(), [](float open) { return open < 1; });
   table.remark = fmt::format("{}x{} pixels; of {} that were compared, ambient light is hidden in part at {}.",

@@ -77,7 +77,9 @@ std::string head(const TradeSession& session) {
       "%.\n\n"
       "A setting is on the **Pareto front** of a view, its time bold, if no other is both as fast and as "
       "exact "
-      "and better in one of the two. In the plots the front is dashed and its settings are ringed.\n\n",
+      "and better in one of the two. In the plots the front is dashed and its settings are ringed. Embree's "
+      "rays are a peer "
+      "to compare with, no setting of Tenebra's (but for `--ao rays`).\n\n",
       session.effort == Effort::quick ? " --quick" : "", machine_description(), thread_count());
 }
 

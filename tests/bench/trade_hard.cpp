@@ -4,25 +4,15 @@
 #include <cmath>
 #include <memory>
 
-#include "ao_race.h"
 #include "hard_embree.h"
 #include "parallel/parallel.h"
+#include "render/renderer.h"
+#include "trade_contest.h"
 #include "trade_session.h"
 #include "trade_shadow_map.h"
 
 namespace tenebra::bench {
 namespace {
-
-/// One setting: a name, what makes its mask, and what was found.
-struct Contestant {
-  std::string family, setting;
-  std::function<Expected<void>(ShadowMask&)> trace;
-  int rounds = 1;
-  std::function<void()> prepare{};            // before each run, not timed
-  std::function<void(ShadowMask&)> finish{};  // after it, not timed
-  std::vector<double> ms{};
-  double wrong = 0;
-};
 
 /// One view with all settings on it.
 class HardTrade {
@@ -35,13 +25,17 @@ public:
 private:
   Expected<void> see();
   void points_from_depth(VisiblePoints& out) const;
+  void see_points();
+  void unpad();
   void add_tracers();
-  void add_tracer(const std::string& family, const std::string& setting, HardShadowConfig config, int rounds);
-  void add_depth_samples();
+  void add(const std::string& family, const std::string& setting, int rounds,
+           std::function<Expected<void>()> trace);
+  void add_tracer(const std::string& family, const std::string& setting, HardShadowConfig config, int rounds,
+                  SampleSource samples = SampleSource::ids);
   Expected<void> add_shadow_maps();
   void add_shadow_map(CubeMap* map, float near_m, ShadowMapBias bias, const std::string& setting);
   void add_embree();
-  Expected<void> measure();
+  std::vector<double> errors() const;
 
   TradeSession& session_;
   TradeRaster& raster_;
@@ -51,10 +45,11 @@ private:
   std::vector<std::unique_ptr<ShadowTracer>> tracers_;
   std::vector<std::unique_ptr<CubeMap>> maps_;
   std::vector<std::unique_ptr<HardPeer>> peers_;
-  ShadowMask padded_;
+  ShadowMask padded_, mask_;
   PeerPoints peer_points_;
   std::vector<Contestant> contestants_;
   ShadowMask exact_;
+  double rays_ = 0;
   std::string remark_;
 };
 
@@ -69,6 +64,7 @@ Expected<void> HardTrade::see() {
   compute_visible_points(ids, points.width, points.height, view_.frame.view, view_.frame.triangles(), points);
   ShadowTracer tracer;
   tracer.trace_shadow_mask(points, view_.frame.view, view_.frame.triangles(), view_.light, {}, exact_);
+  rays_ = static_cast<double>(tracer.stats().rays);
   return {};
 }
 
@@ -87,30 +83,47 @@ void HardTrade::points_from_depth(VisiblePoints& out) const {
   });
 }
 
+/// Wrong pixels, and their share of those that have a ray, in percent.
+std::vector<double> HardTrade::errors() const {
+  const auto wrong = static_cast<double>(differing_pixels(mask_, exact_));
+  return {wrong, rays_ > 0 ? 100 * wrong / rays_ : 0};
+}
+
+void HardTrade::add(const std::string& family, const std::string& setting, int rounds,
+                    std::function<Expected<void>()> trace) {
+  contestants_.push_back({family, setting, rounds, clocked(std::move(trace)), [this] { return errors(); }});
+}
+
 void HardTrade::add_tracer(const std::string& family, const std::string& setting, HardShadowConfig config,
-                           int rounds) {
+                           int rounds, SampleSource samples) {
   ShadowTracer* tracer = tracers_.emplace_back(std::make_unique<ShadowTracer>()).get();
-  contestants_.push_back({family, setting,
-                          [this, tracer, config](ShadowMask& mask) -> Expected<void> {
-                            compute_visible_points(view_.frame.points.triangles, view_.frame.points.width,
-                                                   view_.frame.points.height, view_.frame.view,
-                                                   view_.frame.triangles(), scratch_points_);
-                            tracer->trace_shadow_mask(scratch_points_, view_.frame.view,
-                                                      view_.frame.triangles(), view_.light, config, mask);
-                            return {};
-                          },
-                          rounds});
+  add(family, setting, rounds, [this, tracer, config, samples]() -> Expected<void> {
+    if (samples == SampleSource::depth) {
+      points_from_depth(scratch_points_);
+    } else {
+      see_points();
+    }
+    tracer->trace_shadow_mask(scratch_points_, view_.frame.view, view_.frame.triangles(), view_.light, config,
+                              mask_);
+    return {};
+  });
+  if (config.variant != Variant::tiles) return;
+  // An animation's tracer has met the frame before, and follows what moved; the others keep nothing.
+  contestants_.back().prepare = [this, tracer, config] {
+    tracer->trace_shadow_mask(view_.frame.points, view_.frame.view, triangle_view(view_.before), view_.light,
+                              config, mask_);
+  };
+}
+
+void HardTrade::see_points() {
+  const VisiblePoints& points = view_.frame.points;
+  compute_visible_points(points.triangles, points.width, points.height, view_.frame.view,
+                         view_.frame.triangles(), scratch_points_);
 }
 
 void HardTrade::add_tracers() {
   const int many = session_.by_effort(1, 5, 15), few = session_.by_effort(1, 1, 3);
   add_tracer("default (Tiles)", "", {}, many);
-  // An animation's tracer has met the frame before, and follows what moved.
-  contestants_.back().prepare = [this, tracer = tracers_.back().get()] {
-    ShadowMask unused;
-    tracer->trace_shadow_mask(view_.frame.points, view_.frame.view, triangle_view(view_.before), view_.light,
-                              {}, unused);
-  };
   for (const Variant variant :
        {Variant::precise_sorted, Variant::spheres_sorted, Variant::precise_sea, Variant::precise_seatp,
         Variant::precise_eatp, Variant::precise, Variant::spheres}) {
@@ -119,21 +132,10 @@ void HardTrade::add_tracers() {
     add_tracer("variants of the paper", name, {.variant = variant}, sorted ? many : few);
   }
   add_tracer("front faces culled", "exact samples", {.cull_front = true}, many);
-}
-
-void HardTrade::add_depth_samples() {
-  for (const bool cull : {true, false}) {
-    ShadowTracer* tracer = tracers_.emplace_back(std::make_unique<ShadowTracer>()).get();
-    const HardShadowConfig config{.cull_front = cull, .contact = ContactRule::none};
-    contestants_.push_back({"samples from depth", cull ? "front faces culled" : "all cast, no bias",
-                            [this, tracer, config](ShadowMask& mask) -> Expected<void> {
-                              points_from_depth(scratch_points_);
-                              tracer->trace_shadow_mask(scratch_points_, view_.frame.view,
-                                                        view_.frame.triangles(), view_.light, config, mask);
-                              return {};
-                            },
-                            session_.by_effort(1, 5, 15)});
-  }
+  add_tracer("samples from depth", "front faces culled", {.cull_front = true, .contact = ContactRule::none},
+             many, SampleSource::depth);
+  add_tracer("samples from depth", "all cast, no bias", {.contact = ContactRule::none}, many,
+             SampleSource::depth);
 }
 
 Expected<void> HardTrade::add_shadow_maps() {
@@ -157,14 +159,13 @@ Expected<void> HardTrade::add_shadow_maps() {
 }
 
 void HardTrade::add_shadow_map(CubeMap* map, float near_m, ShadowMapBias bias, const std::string& setting) {
-  contestants_.push_back({"shadow map", setting,
-                          [this, map, size = map->size, near_m, bias](ShadowMask& mask) -> Expected<void> {
-                            auto drawn = raster_.draw_cube(view_.frame.geometry, view_.light.position, near_m,
-                                                           size, *map);
-                            if (drawn) shadow_from_map(*map, view_, bias, mask);
-                            return drawn;
-                          },
-                          session_.by_effort(1, 1, 3)});
+  add("shadow map", setting, session_.by_effort(1, 1, 3),
+      [this, map, size = map->size, near_m, bias]() -> Expected<void> {
+        see_points();
+        auto drawn = raster_.draw_cube(view_.frame.geometry, view_.light.position, near_m, size, *map);
+        if (drawn) shadow_from_map(*map, view_, bias, mask_);
+        return drawn;
+      });
 }
 
 /// Built anew as a moving scene needs it, or traced alone in the better tree of one that stands.
@@ -176,61 +177,38 @@ void HardTrade::add_embree() {
                              view_.frame.triangles(),
                              moving ? RTC_BUILD_QUALITY_LOW : RTC_BUILD_QUALITY_MEDIUM, thread_count()))
                          .get();
-    const auto trace = [this, peer, moving](ShadowMask&) -> Expected<void> {
-      if (moving) peer->build();
-      compute_visible_points(view_.frame.points.triangles, view_.frame.points.width,
-                             view_.frame.points.height, view_.frame.view, view_.frame.triangles(),
-                             scratch_points_);
-      peer->trace(peer_points_, view_.light, PacketTile::square, padded_);
-      return {};
+    add("Embree", moving ? "built and traced" : "traced alone", session_.by_effort(1, 5, 15),
+        [this, peer, moving]() -> Expected<void> {
+          if (moving) peer->build();
+          see_points();
+          peer->trace(peer_points_, view_.light, PacketTile::square, padded_);
+          return {};
+        });
+    contestants_.back().errors = [this] {
+      unpad();
+      return errors();
     };
-    const auto unpad = [this](ShadowMask& mask) {
-      const auto width = static_cast<std::size_t>(view_.frame.points.width);
-      mask.resize(view_.frame.pixel_count());
-      for (std::size_t i = 0; i < mask.size(); ++i)
-        mask[i] = padded_[i / width * static_cast<std::size_t>(peer_points_.width) + i % width];
-    };
-    contestants_.push_back({"Embree",
-                            moving ? "built and traced" : "traced alone",
-                            trace,
-                            session_.by_effort(1, 5, 15),
-                            {},
-                            unpad});
   }
 }
 
-/// All in turn, round by round.
-Expected<void> HardTrade::measure() {
-  ShadowMask mask;
-  int rounds = 0;
-  for (const Contestant& c : contestants_) rounds = std::max(rounds, c.rounds);
-  for (int round = 0; round < rounds; ++round) {
-    for (Contestant& c : contestants_) {
-      if (round >= c.rounds) continue;
-      if (c.prepare) c.prepare();
-      CostClock clock;
-      if (auto done = c.trace(mask); !done) return done;
-      c.ms.push_back(clock.ms());
-      if (c.finish) c.finish(mask);
-      c.wrong = std::max(c.wrong, static_cast<double>(differing_pixels(mask, exact_)));
-    }
-  }
-  return {};
+/// Embree's mask without the pixels that fill its packets.
+void HardTrade::unpad() {
+  const auto width = static_cast<std::size_t>(view_.frame.points.width);
+  mask_.resize(view_.frame.pixel_count());
+  for (std::size_t i = 0; i < mask_.size(); ++i)
+    mask_[i] = padded_[i / width * static_cast<std::size_t>(peer_points_.width) + i % width];
 }
 
 Expected<TradeTable> HardTrade::run() {
   if (auto seen = see(); !seen) return tl::unexpected(seen.error());
   add_tracers();
-  add_depth_samples();
   if (auto added = add_shadow_maps(); !added) return tl::unexpected(added.error());
   add_embree();
-  if (auto done = measure(); !done) return tl::unexpected(done.error());
-  TradeTable table{"hard", view_.name, {{"wrong pixels", ""}, {"of those with a ray", "%"}}, {}};
+  auto points = take_turns(contestants_);
+  if (!points) return tl::unexpected(points.error());
+  TradeTable table{
+      "hard", view_.name, {{"wrong pixels", ""}, {"of those with a ray", "%"}}, std::move(*points)};
   table.remark = remark_;
-  const auto rays = static_cast<double>(tracers_.front()->stats().rays);
-  for (const Contestant& c : contestants_)
-    table.points.push_back(
-        {c.family, c.setting, median(c.ms), {c.wrong, rays > 0 ? 100 * c.wrong / rays : 0}});
   return table;
 }
 

@@ -1,10 +1,12 @@
 // The trade of soft shadows: the exact solvers, N points of the light with exact hard shadows, N rays of
 // Embree, and the same behind shaft culling.
 #include <cmath>
+#include <memory>
 
 #include "ao_race.h"
 #include "render/light_points.h"
 #include "soft_fair.h"
+#include "trade_contest.h"
 #include "trade_session.h"
 
 namespace tenebra::bench {
@@ -40,12 +42,11 @@ public:
         receivers_(sampled_receivers(view.frame)),
         picture_(view.frame.pixel_count()) {}
 
-  TradeTable run();
+  Expected<TradeTable> run();
 
 private:
-  /// Median of `rounds` runs, and the errors of the last picture.
   void add(const std::string& family, const std::string& setting, int rounds,
-           const std::function<std::span<const float>()>& trace);
+           std::function<std::span<const float>()> trace);
   void find_truth();
   void add_exact();
   void add_light_points();
@@ -60,19 +61,20 @@ private:
   SoftMask mask_;
   Truth truth_;
   double truth_ms_ = 0;
-  TradeTable table_;
+  std::span<const float> found_;  // of the last run
+  LightPointShadows light_points_;
+  ShaftedSampler shafted_;
+  std::vector<std::unique_ptr<SoftSampler>> samplers_;
+  std::vector<Contestant> contestants_;
 };
 
 void SoftTrade::add(const std::string& family, const std::string& setting, int rounds,
-                    const std::function<std::span<const float>()>& trace) {
-  std::vector<double> times;
-  std::span<const float> found;
-  for (int round = 0; round < rounds; ++round) {
-    CostClock clock;
-    found = trace();
-    times.push_back(clock.ms());
-  }
-  table_.points.push_back({family, setting, median(times), errors_of(truth_, found)});
+                    std::function<std::span<const float>()> trace) {
+  contestants_.push_back({family, setting, rounds, clocked([this, trace]() -> Expected<void> {
+                            found_ = trace();
+                            return {};
+                          }),
+                          [this] { return errors_of(truth_, found_); }});
 }
 
 void SoftTrade::find_truth() {
@@ -96,55 +98,58 @@ void SoftTrade::add_exact() {
   add("exact, other solvers", "clip", session_.by_effort(1, 1, 3), with(SoftSolver::clip));
   if (session_.effort != Effort::quick)
     add("exact, other solvers", "bsp", session_.by_effort(1, 1, 3), with(SoftSolver::bsp));
-  table_.points.push_back({"exact, other solvers", "reference precision", truth_ms_, {0, 0, 0, 0}});
 }
 
 void SoftTrade::add_light_points() {
-  LightPointShadows shadows;
   for (const int count :
        session_.by_effort<std::vector<int>>({8}, {4, 8, 16, 32, 64}, {4, 8, 16, 32, 64, 128})) {
     add("light points (--soft-points)", fmt::format("{}", count),
-        count > 16 ? 1 : session_.by_effort(1, 3, 5), [&]() -> std::span<const float> {
-          shadows.trace(view_.frame.points, view_.frame.normals, view_.frame.view, view_.frame.triangles(),
-                        view_.light, count, {}, mask_);
+        count > 16 ? session_.by_effort(1, 1, 3) : session_.by_effort(1, 3, 5),
+        [this, count]() -> std::span<const float> {
+          light_points_.trace(view_.frame.points, view_.frame.normals, view_.frame.view,
+                              view_.frame.triangles(), view_.light, count, {}, mask_);
           return mask_.irradiance;
         });
   }
 }
 
 void SoftTrade::add_embree() {
-  ShaftedSampler shafted;
   for (const std::size_t rays : session_.by_effort<std::vector<std::size_t>>(
            {4}, {4, 8, 16, 32, 64, 128, 256}, {4, 8, 16, 32, 64, 128, 256, 512})) {
-    const SoftSampler sampler(view_.light, rays, Packing::tile);
-    const int rounds = rays > 16 ? session_.by_effort(1, 1, 3) : session_.by_effort(1, 3, 5);
-    add("Embree rays", fmt::format("{}", rays), rounds, [&]() -> std::span<const float> {
+    const SoftSampler& sampler =
+        *samplers_.emplace_back(std::make_unique<SoftSampler>(view_.light, rays, Packing::tile));
+    const int rounds = rays > 64 ? session_.by_effort(1, 1, 3) : session_.by_effort(1, 3, 5);
+    add("Embree rays", fmt::format("{}", rays), rounds, [this, &sampler]() -> std::span<const float> {
       sampler.trace(casters_, receivers_, view_.frame.points.width, view_.frame.points.height, {}, picture_);
       return picture_;
     });
-    add("shafts + Embree rays", fmt::format("{}", rays), rounds, [&]() -> std::span<const float> {
-      shafted.trace(view_, casters_, receivers_, sampler, picture_);
-      return picture_;
-    });
+    add("shafts + Embree rays", fmt::format("{}", rays), rounds,
+        [this, &sampler]() -> std::span<const float> {
+          shafted_.trace(view_, casters_, receivers_, sampler, picture_);
+          return picture_;
+        });
   }
 }
 
-TradeTable SoftTrade::run() {
-  table_ = {"soft",
-            view_.name,
-            {{"penumbra RMS", "1/255"},
-             {"worst penumbra pixel", "1/255"},
-             {"RMS of all", "1/255"},
-             {"worst of all", "1/255"}},
-            {},
-            0.01};
+Expected<TradeTable> SoftTrade::run() {
   find_truth();
   add_exact();
   add_light_points();
   add_embree();
+  auto points = take_turns(contestants_);
+  if (!points) return tl::unexpected(points.error());
+  points->push_back({"exact, other solvers", "reference precision", truth_ms_, {0, 0, 0, 0}});
+  TradeTable table{"soft",
+                   view_.name,
+                   {{"penumbra RMS", "1/255"},
+                    {"worst penumbra pixel", "1/255"},
+                    {"RMS of all", "1/255"},
+                    {"worst of all", "1/255"}},
+                   std::move(*points),
+                   0.01};
   const auto share = static_cast<double>(truth_.penumbra_count) / static_cast<double>(picture_.size());
-  table_.remark = fmt::format("{:.1f} % of the pixels are penumbra.", 100 * share);
-  return std::move(table_);
+  table.remark = fmt::format("{:.1f} % of the pixels are penumbra.", 100 * share);
+  return table;
 }
 
 void keep_headline(TradeSession& session, const TradeTable& table) {
@@ -162,9 +167,10 @@ Expected<void> measure_trade_soft(TradeSession& session) {
   if (session.effort == Effort::quick) choice.only = {"robots", "museum5", "kitchen", "court"};
   return for_each_view(session.options, choice, session.skipped, [&](const SoftView& view) -> Expected<void> {
     progress(view.name + ": soft shadows, what they cost");
-    TradeTable table = SoftTrade(session, view).run();
-    keep_headline(session, table);
-    session.finish(std::move(table));
+    auto table = SoftTrade(session, view).run();
+    if (!table) return tl::unexpected(table.error());
+    keep_headline(session, *table);
+    session.finish(std::move(*table));
     return {};
   });
 }
