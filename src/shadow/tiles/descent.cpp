@@ -292,7 +292,7 @@ void RootDescent::shrink(RayNode& n, int slot) const {
 // Lanes of `sure` are blocked but for the triangle's own points, those of `open` may be.
 void RootDescent::block_rays(RayNode& n, int slot, std::uint32_t sure, std::uint32_t open, std::uint32_t id) {
   const PointTile& rays = tile(n, slot);
-  if (may_own(rays, id)) {
+  if (n.own[slot] == no_triangle && may_own(rays, id)) {
     const std::uint32_t own = own_lanes(rays, sure | open, id);
     sure &= ~own, open &= ~own;
   }

@@ -63,6 +63,7 @@ struct PatchRays::Work {
       : out(to), node_keys(kernels, to.node_keys), loose_keys(kernels, to.loose_keys) {}
   ForestScratch::Patch& out;
   Keys node_keys, loose_keys;
+  const PointPatch* patch = nullptr;
   const PointSquare* square = nullptr;
   std::uint16_t rays[16] = {};
   std::uint32_t present = 0;  ///< bits of tiles with rays
@@ -216,6 +217,18 @@ void PatchRays::add_ray(Work& work, int tile, int lane) const {
   work.loose_keys.add(p, face);
 }
 
+/// The triangle that the points of some lanes lie on; no_triangle: several.
+std::uint32_t PatchRays::own_of(const Work& work, int tile, std::uint32_t lanes) const {
+  const PointSquare& square = *work.square;
+  if (square.receiver[tile] != several_receivers) return square.own[tile];
+  const std::uint16_t* const receivers =
+      tiles_.tiles[square.first_tile + static_cast<std::uint32_t>(tile)].receiver;
+  const std::uint16_t first = receivers[std::countr_zero(lanes)];
+  for (std::uint32_t left = lanes; left != 0; left &= left - 1)
+    if (receivers[std::countr_zero(left)] != first) return no_triangle;
+  return work.patch->receivers[first / 16].id[first % 16];
+}
+
 /// Splits a tile at its gaps, and into single rays where it is off its face.
 void PatchRays::add_parts(Work& work, int tile) const {
   const std::uint32_t number = work.square->first_tile + static_cast<std::uint32_t>(tile);
@@ -237,7 +250,7 @@ void PatchRays::add_parts(Work& work, int tile) const {
     FaceBox box{};
     if (kernels_.bound(points, lanes, source_.origin, face, box)) {
       work.out.loose.push_back(
-          {number, work.square->own[tile], static_cast<std::uint16_t>(lanes), face, work.square->tau, box});
+          {number, own_of(work, tile, lanes), static_cast<std::uint16_t>(lanes), face, work.square->tau, box});
       work.loose_keys.add(centre, face);
       continue;
     }
@@ -259,6 +272,7 @@ void PatchRays::find(const PointPatch& patch, ForestScratch::Patch& out) const {
   out.clear();
   find_facing(patch, out.facing);
   Work work(ray_kernels_, out);
+  work.patch = &patch;
   for (const PointSquare& square : patch.squares) {
     if (&square != &patch.squares.back()) fetch_mixed_tiles(*(&square + 1));
     find_lanes(square, work);
