@@ -67,8 +67,8 @@ private:
   void set_up_cluster();
   Caster& take(int i);
   void meet_tiles(const RayRef& rays, std::uint32_t met, std::uint32_t mask);
-  void meet_tile(std::uint32_t number, int slot, std::uint32_t mask);
-  void meet_triangle(std::uint32_t number, int i, const FaceTriangle& t);
+  void by_tiles(std::uint32_t number, std::uint32_t met, std::uint32_t mask);
+  void by_triangles(std::uint32_t number, std::uint32_t mask);
   std::uint32_t cover_tiles(RayNode& n, const FaceTriangle& t, std::uint32_t met, std::uint32_t id);
   void test_slot(std::uint32_t number, int slot, const LeafTriangle& t, Aim& aim);
   void shrink(RayNode& n, int slot) const;
@@ -165,20 +165,25 @@ void RootDescent::meet_cluster(const TriangleCluster& cluster, const RayRef& ray
   descend_cluster(rays, ahead);
 }
 
-// The triangles of `mask` meet the box of `rays`.
+// The triangles of `mask` meet the box of `rays`. What children need is asked for before the first is met.
 void RootDescent::descend_cluster(const RayRef& rays, std::uint32_t mask) {
   RayNode& n = node(rays);
   note_test(n);
   const std::uint32_t met = children_met(n, cluster_box_);
   if (met == 0) return;
   if (rays.level == 0) return meet_tiles(rays, met, mask);
-  fetch_nodes(n, rays.level, met);
+  std::uint16_t deeper[16];
+  std::uint32_t entered = 0;
   for (std::uint32_t left = met; left != 0; left &= left - 1) {
     const int slot = std::countr_zero(left);
-    const RayRef child{rays.level - 1, n.child[slot], n.box(slot)};
-    const std::uint32_t deeper = mask & boxes_met(boxes_, child.box);
     note_test(n);
-    if (deeper != 0) descend_cluster(child, deeper);
+    deeper[slot] = static_cast<std::uint16_t>(mask & boxes_met(boxes_, n.box(slot)));
+    if (deeper[slot] != 0) entered |= 1u << slot;
+  }
+  fetch_nodes(n, rays.level, entered);
+  for (; entered != 0; entered &= entered - 1) {
+    const int slot = std::countr_zero(entered);
+    descend_cluster({rays.level - 1, n.child[slot], n.box(slot)}, deeper[slot]);
   }
 }
 
@@ -200,51 +205,69 @@ Caster& RootDescent::take(int i) {
   return c;
 }
 
-// Few tiles look for their triangles sixteen at a time, few triangles for their tiles.
+// Few tiles look for their triangles sixteen at a time, few triangles for their tiles; then rays are tested.
 void RootDescent::meet_tiles(const RayRef& rays, std::uint32_t met, std::uint32_t mask) {
   if (!set_up_) set_up_cluster();
   mask &= scratch_.planes.valid & triangles_met(on_face_, rays.box);
   if (mask == 0) return;
-  RayNode& n = node(rays);
   if (std::popcount(met) <= std::popcount(mask)) {
-    fetch_tiles(n, met);
-    for (; met != 0; met &= met - 1) meet_tile(rays.node, std::countr_zero(met), mask);
+    by_tiles(rays.node, met, mask);
   } else {
-    alignas(64) float u0[16], u1[16], v0[16], v1[16], w[16];
-    store(boxes_.u0, u0), store(boxes_.u1, u1), store(boxes_.v0, v0), store(boxes_.v1, v1),
-        store(boxes_.w, w);
-    for (; mask != 0 && n.live != 0; mask &= mask - 1) {
-      const int i = std::countr_zero(mask);
-      FaceTriangle t = face_triangle(on_face_, i);
-      t.box = {u0[i], u1[i], v0[i], v1[i], w[i]};
-      meet_triangle(rays.node, i, t);
+    by_triangles(rays.node, mask);
+  }
+  if (node(rays).live == 0) retire(0, rays.node);
+}
+
+void RootDescent::by_tiles(std::uint32_t number, std::uint32_t met, std::uint32_t mask) {
+  RayNode& n = node(0, number);
+  std::uint16_t near[16];
+  std::uint32_t tested = 0;
+  for (; met != 0; met &= met - 1) {
+    const int slot = std::countr_zero(met);
+    note_test(n);
+    const FaceBox box = n.box(slot);
+    std::uint32_t found = mask & boxes_met(boxes_, box);
+    if (skip_own_) found &= ~equal_bits(cluster_->ids, n.own[slot]);
+    if (found != 0) found &= triangles_met(on_face_, box);
+    if (found == 0) continue;
+    near[slot] = static_cast<std::uint16_t>(found);
+    tested |= 1u << slot;
+  }
+  fetch_tiles(n, tested);
+  for (; tested != 0; tested &= tested - 1) {
+    const int slot = std::countr_zero(tested);
+    for (std::uint32_t left = near[slot]; left != 0 && n.rays[slot] != 0; left &= left - 1) {
+      Caster& c = take(std::countr_zero(left));
+      test_slot(number, slot, c.leaf, c.aim);
     }
   }
-  if (n.live == 0) retire(0, rays.node);
 }
 
-void RootDescent::meet_tile(std::uint32_t number, int slot, std::uint32_t mask) {
+void RootDescent::by_triangles(std::uint32_t number, std::uint32_t mask) {
   RayNode& n = node(0, number);
-  note_test(n);
-  std::uint32_t near = mask & boxes_met(boxes_, n.box(slot));
-  if (skip_own_) near &= ~equal_bits(cluster_->ids, n.own[slot]);
-  if (near != 0) near &= triangles_met(on_face_, n.box(slot));
-  for (; near != 0 && n.rays[slot] != 0; near &= near - 1) {
-    Caster& c = take(std::countr_zero(near));
-    test_slot(number, slot, c.leaf, c.aim);
+  alignas(64) float u0[16], u1[16], v0[16], v1[16], w[16];
+  store(boxes_.u0, u0), store(boxes_.u1, u1), store(boxes_.v0, v0), store(boxes_.v1, v1), store(boxes_.w, w);
+  std::uint16_t met[16];
+  std::uint32_t testing = 0, tested = 0;
+  for (; mask != 0; mask &= mask - 1) {
+    const int i = std::countr_zero(mask);
+    note_test(n);
+    FaceTriangle t = face_triangle(on_face_, i);
+    t.box = {u0[i], u1[i], v0[i], v1[i], w[i]};
+    std::uint32_t found = children_met(n, t);
+    if (skip_own_) found &= ~equal_bits(n.own, cluster_->ids[i]);
+    if (found != 0) found = cover_tiles(n, t, found, cluster_->ids[i]);
+    if (found == 0) continue;
+    met[i] = static_cast<std::uint16_t>(found);
+    testing |= 1u << i, tested |= found;
   }
-}
-
-void RootDescent::meet_triangle(std::uint32_t number, int i, const FaceTriangle& t) {
-  RayNode& n = node(0, number);
-  note_test(n);
-  std::uint32_t met = children_met(n, t);
-  if (skip_own_) met &= ~equal_bits(n.own, cluster_->ids[i]);
-  if (met == 0) return;
-  met = cover_tiles(n, t, met, cluster_->ids[i]);
-  if (met == 0) return;
-  Caster& c = take(i);
-  for (; met != 0; met &= met - 1) test_slot(number, std::countr_zero(met), c.leaf, c.aim);
+  fetch_tiles(n, tested & n.live);
+  for (; testing != 0; testing &= testing - 1) {
+    const int i = std::countr_zero(testing);
+    Caster& c = take(i);
+    for (std::uint32_t left = met[i] & n.live; left != 0; left &= left - 1)
+      test_slot(number, std::countr_zero(left), c.leaf, c.aim);
+  }
 }
 
 // Early accept: tiles that the triangle covers are done with, unread. Returns those that must be tested.
@@ -258,7 +281,6 @@ std::uint32_t RootDescent::cover_tiles(RayNode& n, const FaceTriangle& t, std::u
     met &= ~(1u << slot);
     ++stats_.early_accepts;
   }
-  fetch_tiles(n, met);
   return met;
 }
 
