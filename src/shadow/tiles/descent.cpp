@@ -65,11 +65,14 @@ private:
   void meet_cluster(const TriangleCluster& cluster, const RayRef& rays, const FaceBox& box);
   void descend_cluster(const RayRef& rays, std::uint32_t mask);
   void set_up_cluster();
+  FaceBox box_of(int i) const {
+    return {lanes_[0][i], lanes_[1][i], lanes_[2][i], lanes_[3][i], lanes_[4][i]};
+  }
   Caster& take(int i);
   void meet_tiles(const RayRef& rays, std::uint32_t met, std::uint32_t mask);
   void by_tiles(std::uint32_t number, std::uint32_t met, std::uint32_t mask);
   void by_triangles(std::uint32_t number, std::uint32_t mask);
-  std::uint32_t cover_tiles(RayNode& n, const FaceTriangle& t, std::uint32_t met, std::uint32_t id);
+  std::uint32_t cover_tiles(RayNode& n, int i, std::uint32_t met);
   void test_slot(std::uint32_t number, int slot, const LeafTriangle& t, Aim& aim);
   void shrink(RayNode& n, int slot) const;
   void block_rays(RayNode& n, int slot, std::uint32_t sure, std::uint32_t open, std::uint32_t id);
@@ -92,8 +95,9 @@ private:
   // Of the cluster that is on its way down.
   const TriangleCluster* cluster_ = nullptr;
   FaceBox cluster_box_{};
-  FaceBoxes boxes_;      ///< of its triangles
-  bool set_up_ = false;  ///< the scratch's planes, and the same on the face
+  FaceBoxes boxes_;                 ///< of its triangles
+  alignas(64) float lanes_[5][16];  ///< the same, for box_of
+  bool set_up_ = false;             ///< the scratch's planes, and the same on the face
   FaceCluster on_face_;
   std::uint32_t taken_ = 0;  ///< bits of the casters that are ready
   Caster casters_[16];
@@ -190,6 +194,8 @@ void RootDescent::descend_cluster(const RayRef& rays, std::uint32_t mask) {
 // Planes in double are not needed before a triangle's box meets a node of tiles.
 void RootDescent::set_up_cluster() {
   set_up_ = true;
+  store(boxes_.u0, lanes_[0]), store(boxes_.u1, lanes_[1]), store(boxes_.v0, lanes_[2]);
+  store(boxes_.v1, lanes_[3]), store(boxes_.w, lanes_[4]);
   set_up_planes(*cluster_, d_.source, skip_own_, d_.cull_front, scratch_.planes);
   face_cluster(scratch_.planes, face_, d_.forest.tau, on_face_);
 }
@@ -245,18 +251,14 @@ void RootDescent::by_tiles(std::uint32_t number, std::uint32_t met, std::uint32_
 
 void RootDescent::by_triangles(std::uint32_t number, std::uint32_t mask) {
   RayNode& n = node(0, number);
-  alignas(64) float u0[16], u1[16], v0[16], v1[16], w[16];
-  store(boxes_.u0, u0), store(boxes_.u1, u1), store(boxes_.v0, v0), store(boxes_.v1, v1), store(boxes_.w, w);
   std::uint16_t met[16];
   std::uint32_t testing = 0, tested = 0;
   for (; mask != 0; mask &= mask - 1) {
     const int i = std::countr_zero(mask);
     note_test(n);
-    FaceTriangle t = face_triangle(on_face_, i);
-    t.box = {u0[i], u1[i], v0[i], v1[i], w[i]};
-    std::uint32_t found = children_met(n, t);
+    std::uint32_t found = children_met(n, on_face_, i, box_of(i));
     if (skip_own_) found &= ~equal_bits(n.own, cluster_->ids[i]);
-    if (found != 0) found = cover_tiles(n, t, found, cluster_->ids[i]);
+    if (found != 0) found = cover_tiles(n, i, found);
     if (found == 0) continue;
     met[i] = static_cast<std::uint16_t>(found);
     testing |= 1u << i, tested |= found;
@@ -271,11 +273,10 @@ void RootDescent::by_triangles(std::uint32_t number, std::uint32_t mask) {
 }
 
 // Early accept: tiles that the triangle covers are done with, unread. Returns those that must be tested.
-std::uint32_t RootDescent::cover_tiles(RayNode& n, const FaceTriangle& t, std::uint32_t met,
-                                       std::uint32_t id) {
-  for (std::uint32_t left = met & children_covered(n, t); left != 0; left &= left - 1) {
+std::uint32_t RootDescent::cover_tiles(RayNode& n, int i, std::uint32_t met) {
+  for (std::uint32_t left = met & children_covered(n, on_face_, i); left != 0; left &= left - 1) {
     const int slot = std::countr_zero(left);
-    if (may_own(tile(n, slot), id)) continue;
+    if (may_own(tile(n, slot), cluster_->ids[i])) continue;
     n.rays[slot] = 0;
     n.live &= ~(1u << slot);
     met &= ~(1u << slot);

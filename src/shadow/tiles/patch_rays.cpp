@@ -249,8 +249,8 @@ void PatchRays::add_parts(Work& work, int tile) const {
     const std::uint8_t face = face_of(centre);
     FaceBox box{};
     if (kernels_.bound(points, lanes, source_.origin, face, box)) {
-      work.out.loose.push_back(
-          {number, own_of(work, tile, lanes), static_cast<std::uint16_t>(lanes), face, work.square->tau, box});
+      work.out.loose.push_back({number, own_of(work, tile, lanes), static_cast<std::uint16_t>(lanes), face,
+                                work.square->tau, box});
       work.loose_keys.add(centre, face);
       continue;
     }
