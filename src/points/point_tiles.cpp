@@ -28,7 +28,7 @@ public:
         triangles_(triangles),
         out_(out),
         patch_(patch),
-        kernels_(point_tile_kernels()),
+        kernels_(point_tile_kernels(SimdLevel::automatic)),
         width_(static_cast<std::uint32_t>(points.width)),
         height_(static_cast<std::uint32_t>(points.height)) {
     patch_.squares.clear(), patch_.receivers.clear();

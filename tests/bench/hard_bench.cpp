@@ -24,6 +24,7 @@ struct HardArguments {
   BenchOptions options;
   std::vector<std::string> only;
   bool tiny = false;
+  std::string simd = "auto";
 };
 
 std::string part_names() {
@@ -40,11 +41,20 @@ Expected<void> check_options(const HardArguments& arguments) {
   if (!o.data.empty() && !std::filesystem::is_directory(o.data, ignored))
     return fail("--data: {} is not a folder, expected the folder of robots, museum and kitchen",
                 o.data.string());
+  const auto simd = simd_level_from_name(arguments.simd);
+  if (!simd || (*simd != SimdLevel::automatic && !simd_level_supported(*simd)))
+    return fail("--simd: found {}, expected auto or a level of this machine: scalar, sse4, avx2, avx512",
+                arguments.simd);
   for (const std::string& name : arguments.only) {
     if (std::none_of(parts.begin(), parts.end(), [&](const Part& p) { return p.name == name; }))
       return fail("--only: found {}, expected {}", name, part_names());
   }
   return Report(o.csv).check();
+}
+
+std::string session_simd(const HardSession& session) {
+  return std::string(
+      simd_level_name(session.simd == SimdLevel::automatic ? best_simd_level() : session.simd));
 }
 
 /// What was left out is not a number.
@@ -67,7 +77,7 @@ Expected<void> measure_parts(HardSession& session, const std::vector<std::string
     if (auto done = part.measure(session); !done) return done;
   }
   const std::array settings{fmt::format("threads: {}", thread_count()),
-                            fmt::format("simd: {}", simd_level_name(best_simd_level())),
+                            fmt::format("simd: {}", session_simd(session)),
                             fmt::format("quick: {}", session.options.quick)};
   if (auto written = session.report.write(settings); !written) return written;
   std::printf("\n");
@@ -80,13 +90,14 @@ Expected<void> measure_parts(HardSession& session, const std::vector<std::string
 Expected<void> run_hard(const HardArguments& arguments) {
   if (auto fine = check_options(arguments); !fine) return fine;
   HardSession session{.options = arguments.options, .report = Report(arguments.options.csv)};
+  session.simd = *simd_level_from_name(arguments.simd);
   if (arguments.options.quick) session.effort = HardEffort::quick;
   if (arguments.tiny) session.effort = HardEffort::tiny;
   if (auto fine = session.report.check(); !fine) return fine;
   Expected<void> done;
   with_threads(arguments.options.threads, [&] {
     std::printf("%s; threads: %d, simd: %s\n", machine_description().c_str(), thread_count(),
-                std::string(simd_level_name(best_simd_level())).c_str());
+                session_simd(session).c_str());
     done = measure_parts(session, arguments.only);
   });
   return done;
@@ -107,6 +118,8 @@ void add_hard_command(CLI::App& program, Run& run) {
   command->add_option("--only", arguments->only, fmt::format("Some parts: {} [all]", part_names()))
       ->type_name("PART,...")
       ->delimiter(',');
+  command->add_option("--simd", arguments->simd, "Instructions that all are kept to [auto]")
+      ->type_name("LEVEL");
   command->add_flag("--tiny", arguments->tiny, "Check that all parts run; the figures mean nothing");
   command->callback([arguments, &run] { run = [arguments] { return run_hard(*arguments); }; });
 }

@@ -81,7 +81,7 @@ PatchRays::PatchRays(const VisiblePoints& points, const PointTiles& tiles, const
       pixels_(points.width, points.height),
       bounded_(light.range_m > 0 || light.spot_cos_outer > -1),
       kernels_(tile_kernels(config.simd)),
-      point_kernels_(point_tile_kernels()),
+      point_kernels_(point_tile_kernels(config.simd)),
       ray_kernels_(ray_kernels(config.simd)) {}
 
 std::size_t PatchRays::pixel_at(std::uint32_t tile, int lane) const {
