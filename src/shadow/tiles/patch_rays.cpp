@@ -68,7 +68,6 @@ struct PatchRays::Work {
   std::uint16_t rays[16] = {};
   std::uint32_t present = 0;  ///< bits of tiles with rays
   std::uint32_t gaps = 0;     ///< bits of those with a gap between rays
-  RayNode node{};             ///< boxes
 };
 
 PatchRays::PatchRays(const VisiblePoints& points, const PointTiles& tiles, const TriangleView& triangles,
@@ -144,14 +143,15 @@ std::uint32_t PatchRays::in_reach_lanes(std::uint32_t tile, std::uint32_t lanes)
   return reached;
 }
 
-/// Asks for the tiles that are looked at more closely: with points on several triangles.
+/// Asks for what is looked at more closely: receivers of tiles with several, points of tiles with gaps.
 void PatchRays::fetch_mixed_tiles(const PointSquare& square) const {
   for (std::uint32_t left = square.filled; left != 0; left &= left - 1) {
     const int t = std::countr_zero(left);
     if (square.receiver[t] != several_receivers) continue;
-    const auto* at =
-        reinterpret_cast<const char*>(&tiles_.tiles[square.first_tile + static_cast<std::uint32_t>(t)]);
-    for (std::size_t line = 0; line < sizeof(PointTile); line += 64) __builtin_prefetch(at + line);
+    const PointTile& tile = tiles_.tiles[square.first_tile + static_cast<std::uint32_t>(t)];
+    __builtin_prefetch(tile.receiver);
+    if (((square.gaps >> t) & 1u) == 0) continue;
+    for (const float* const q : {tile.qx, tile.qy, tile.qz}) __builtin_prefetch(q);
   }
 }
 
@@ -177,7 +177,7 @@ void PatchRays::find_lanes(const PointSquare& square, Work& work) const {
 
 /// False: too wide; nothing is done.
 bool PatchRays::add_node(Work& work, std::uint8_t face) const {
-  RayNode& node = work.node;
+  RayNode& node = work.out.nodes[work.out.count];
   node.live = node.filled = work.present;
   const FaceBox all = bounds_of(node);
   float wide = 0, high = 0;
@@ -194,8 +194,9 @@ bool PatchRays::add_node(Work& work, std::uint8_t face) const {
   }
   node.tau = work.square->tau;
   node.wide = work.present;  // boxes along the axes: shrunk where that pays
-  work.out.nodes.push_back(node);
-  work.out.node_faces.push_back(face);
+  node.tests = 0;
+  work.out.boxes.push_back(all);
+  ++work.out.count;
   work.node_keys.add(centre_of(*work.square, std::countr_zero(work.present)), face);
   return true;
 }
@@ -212,7 +213,7 @@ void PatchRays::add_ray(Work& work, int tile, int lane) const {
   }
   work.out.in_range &= size > shortest_ray && size < longest_ray;
   const std::uint8_t face = face_of(p);
-  work.out.loose.push_back({number, work.square->own[tile], static_cast<std::uint16_t>(1u << lane), face,
+  work.out.loose.push_back({number, work.square->own[tile], static_cast<std::uint16_t>(1u << lane),
                             work.square->tau, box_of(p, face)});
   work.loose_keys.add(p, face);
 }
@@ -249,8 +250,8 @@ void PatchRays::add_parts(Work& work, int tile) const {
     const std::uint8_t face = face_of(centre);
     FaceBox box{};
     if (kernels_.bound(points, lanes, source_.origin, face, box)) {
-      work.out.loose.push_back({number, own_of(work, tile, lanes), static_cast<std::uint16_t>(lanes), face,
-                                work.square->tau, box});
+      work.out.loose.push_back(
+          {number, own_of(work, tile, lanes), static_cast<std::uint16_t>(lanes), work.square->tau, box});
       work.loose_keys.add(centre, face);
       continue;
     }
@@ -261,7 +262,8 @@ void PatchRays::add_parts(Work& work, int tile) const {
 void PatchRays::place_square(Work& work) const {
   if (work.gaps == 0) {
     const std::uint8_t face = face_of(centre_of(*work.square, std::countr_zero(work.present)));
-    const std::uint32_t on = kernels_.project(*work.square, source_.origin, face, work.node);
+    const std::uint32_t on =
+        kernels_.project(*work.square, source_.origin, face, work.out.nodes[work.out.count]);
     if ((work.present & ~on) == 0 && add_node(work, face)) return;
   }
   for (std::uint32_t left = work.present; left != 0; left &= left - 1)
@@ -286,6 +288,7 @@ void PatchRays::find(const PointPatch& patch, ForestScratch::Patch& out) const {
     out.in_range &= farthest < longest_ray;
     if (out.in_range) place_square(work);
   }
+  for (std::size_t i = out.count; i < patch_squares; ++i) out.nodes[i].live = out.nodes[i].filled = 0;
   work.node_keys.flush();
   work.loose_keys.flush();
 }

@@ -88,6 +88,10 @@ void TileTracer::spread_tests(int width, int height, std::vector<float>& out) co
   }
   for (std::size_t level = ray_levels; level-- > 0;) {
     for (std::size_t i = 0; i < levels[level].size(); ++i) {
+      if (levels[level][i].filled == 0) {
+        shares[level].push_back(0);
+        continue;
+      }
       const double above = level + 1 < ray_levels ? shares[level + 1][levels[level][i].parent] : 0.0;
       shares[level].push_back(above + static_cast<double>(levels[level][i].tests * wide) / rays[level][i]);
     }
