@@ -35,6 +35,13 @@ struct Caster {
   Aim aim;
 };
 
+/// A slot of a node of tiles, and triangles of the cluster that it is to be tested with.
+struct Waiting {
+  std::uint32_t node;
+  std::uint16_t slot, triangles;
+};
+constexpr int most_waiting = 32;
+
 class RootDescent {
 public:
   RootDescent(const Descent& d, std::uint32_t root, DescentScratch& scratch, TraceStats& stats)
@@ -60,7 +67,6 @@ private:
     ++stats_.nodes;
   }
   void fetch_nodes(const RayNode& n, int level, std::uint32_t slots) const;
-  void fetch_tiles(const RayNode& n, std::uint32_t slots) const;
   bool narrow(RayRef& rays, const FaceBox& box);
   void meet_cluster(const TriangleCluster& cluster, const RayRef& rays, const FaceBox& box);
   void descend_cluster(const RayRef& rays, std::uint32_t mask);
@@ -72,6 +78,8 @@ private:
   void meet_tiles(const RayRef& rays, std::uint32_t met, std::uint32_t mask);
   void by_tiles(std::uint32_t number, std::uint32_t met, std::uint32_t mask);
   void by_triangles(std::uint32_t number, std::uint32_t mask);
+  void put_off(std::uint32_t number, int slot, std::uint32_t triangles);
+  void test_waiting();
   std::uint32_t cover_tiles(RayNode& n, int i, std::uint32_t met);
   void test_slot(std::uint32_t number, int slot, const LeafTriangle& t, Aim& aim);
   void shrink(RayNode& n, int slot) const;
@@ -101,17 +109,11 @@ private:
   FaceCluster on_face_;
   std::uint32_t taken_ = 0;  ///< bits of the casters that are ready
   Caster casters_[16];
+  Waiting waiting_[most_waiting];
+  int waiting_count_ = 0;
 };
 
-// Asks for what tests read of the tiles, all at once.
-void RootDescent::fetch_tiles(const RayNode& n, std::uint32_t slots) const {
-  if ((slots & (slots - 1)) == 0) return;
-  for (; slots != 0; slots &= slots - 1) {
-    const auto* at = reinterpret_cast<const char*>(&d_.tiles.tiles[n.child[std::countr_zero(slots)]]);
-    for (std::size_t line = 0; line < sizeof(PointTile); line += 64) fetch_soon(at + line);
-  }
-}
-
+// Asks for nodes that are about to be met.
 void RootDescent::fetch_nodes(const RayNode& n, int level, std::uint32_t slots) const {
   if ((slots & (slots - 1)) == 0) return;
   const std::vector<RayNode>& below = d_.forest.levels[static_cast<std::size_t>(level) - 1];
@@ -167,6 +169,7 @@ void RootDescent::meet_cluster(const TriangleCluster& cluster, const RayRef& ray
   set_up_ = false;
   taken_ = 0;
   descend_cluster(rays, ahead);
+  test_waiting();
 }
 
 // The triangles of `mask` meet the box of `rays`. What children need is asked for before the first is met.
@@ -211,7 +214,7 @@ Caster& RootDescent::take(int i) {
   return c;
 }
 
-// Few tiles look for their triangles sixteen at a time, few triangles for their tiles; then rays are tested.
+// Few tiles look for their triangles sixteen at a time, few triangles for their tiles.
 void RootDescent::meet_tiles(const RayRef& rays, std::uint32_t met, std::uint32_t mask) {
   if (!set_up_) set_up_cluster();
   mask &= scratch_.planes.valid & triangles_met(on_face_, rays.box);
@@ -221,13 +224,10 @@ void RootDescent::meet_tiles(const RayRef& rays, std::uint32_t met, std::uint32_
   } else {
     by_triangles(rays.node, mask);
   }
-  if (node(rays).live == 0) retire(0, rays.node);
 }
 
 void RootDescent::by_tiles(std::uint32_t number, std::uint32_t met, std::uint32_t mask) {
   RayNode& n = node(0, number);
-  std::uint16_t near[16];
-  std::uint32_t tested = 0;
   for (; met != 0; met &= met - 1) {
     const int slot = std::countr_zero(met);
     note_test(n);
@@ -235,48 +235,57 @@ void RootDescent::by_tiles(std::uint32_t number, std::uint32_t met, std::uint32_
     std::uint32_t found = mask & boxes_met(boxes_, box);
     if (skip_own_) found &= ~equal_bits(cluster_->ids, n.own[slot]);
     if (found != 0) found &= triangles_met(on_face_, box);
-    if (found == 0) continue;
-    near[slot] = static_cast<std::uint16_t>(found);
-    tested |= 1u << slot;
-  }
-  fetch_tiles(n, tested);
-  for (; tested != 0; tested &= tested - 1) {
-    const int slot = std::countr_zero(tested);
-    for (std::uint32_t left = near[slot]; left != 0 && n.rays[slot] != 0; left &= left - 1) {
-      Caster& c = take(std::countr_zero(left));
-      test_slot(number, slot, c.leaf, c.aim);
-    }
+    if (found != 0) put_off(number, slot, found);
   }
 }
 
 void RootDescent::by_triangles(std::uint32_t number, std::uint32_t mask) {
   RayNode& n = node(0, number);
-  std::uint16_t met[16];
-  std::uint32_t testing = 0, tested = 0;
-  for (; mask != 0; mask &= mask - 1) {
+  std::uint16_t found[16] = {};
+  std::uint32_t tested = 0;
+  for (; mask != 0 && n.live != 0; mask &= mask - 1) {
     const int i = std::countr_zero(mask);
     note_test(n);
-    std::uint32_t found = children_met(n, on_face_, i, box_of(i));
-    if (skip_own_) found &= ~equal_bits(n.own, cluster_->ids[i]);
-    if (found != 0) found = cover_tiles(n, i, found);
-    if (found == 0) continue;
-    met[i] = static_cast<std::uint16_t>(found);
-    testing |= 1u << i, tested |= found;
+    std::uint32_t met = children_met(n, on_face_, i, box_of(i));
+    if (skip_own_) met &= ~equal_bits(n.own, cluster_->ids[i]);
+    if (met != 0) met = cover_tiles(n, i, met);
+    tested |= met;
+    for (; met != 0; met &= met - 1) found[std::countr_zero(met)] |= static_cast<std::uint16_t>(1u << i);
   }
-  fetch_tiles(n, tested & n.live);
-  for (; testing != 0; testing &= testing - 1) {
-    const int i = std::countr_zero(testing);
-    Caster& c = take(i);
-    for (std::uint32_t left = met[i] & n.live; left != 0; left &= left - 1)
-      test_slot(number, std::countr_zero(left), c.leaf, c.aim);
+  for (tested &= n.live; tested != 0; tested &= tested - 1) {
+    const int slot = std::countr_zero(tested);
+    put_off(number, slot, found[slot]);
   }
+  if (n.live == 0) retire(0, number);
+}
+
+// What is to be tested is asked for at once, and tested when it has had time to come.
+void RootDescent::put_off(std::uint32_t number, int slot, std::uint32_t triangles) {
+  const auto* at = reinterpret_cast<const char*>(&tile(node(0, number), slot));
+  for (std::size_t line = 0; line < sizeof(PointTile); line += 64) fetch_soon(at + line);
+  waiting_[waiting_count_++] = {number, static_cast<std::uint16_t>(slot),
+                                static_cast<std::uint16_t>(triangles)};
+  if (waiting_count_ == most_waiting) test_waiting();
+}
+
+void RootDescent::test_waiting() {
+  for (int k = 0; k < waiting_count_; ++k) {
+    const Waiting& w = waiting_[k];
+    RayNode& n = node(0, w.node);
+    for (std::uint32_t left = w.triangles; left != 0 && n.rays[w.slot] != 0; left &= left - 1) {
+      Caster& c = take(std::countr_zero(left));
+      test_slot(w.node, w.slot, c.leaf, c.aim);
+    }
+    if (n.live == 0) retire(0, w.node);
+  }
+  waiting_count_ = 0;
 }
 
 // Early accept: tiles that the triangle covers are done with, unread. Returns those that must be tested.
 std::uint32_t RootDescent::cover_tiles(RayNode& n, int i, std::uint32_t met) {
   for (std::uint32_t left = met & children_covered(n, on_face_, i); left != 0; left &= left - 1) {
     const int slot = std::countr_zero(left);
-    if (may_own(tile(n, slot), cluster_->ids[i])) continue;
+    if (n.own[slot] == no_triangle && may_own(tile(n, slot), cluster_->ids[i])) continue;
     n.rays[slot] = 0;
     n.live &= ~(1u << slot);
     met &= ~(1u << slot);
