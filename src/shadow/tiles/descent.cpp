@@ -35,6 +35,13 @@ struct Caster {
   Aim aim;
 };
 
+/// Asks for all of `what`, which is needed soon.
+template <class T>
+HWY_INLINE void fetch_all(const T& what) {
+  const auto* at = reinterpret_cast<const char*>(&what);
+  for (std::size_t line = 0; line < sizeof(T); line += 64) fetch_soon(at + line);
+}
+
 /// A slot of a node of tiles, and triangles of the cluster that it is to be tested with.
 struct Waiting {
   std::uint32_t node;
@@ -117,10 +124,7 @@ private:
 void RootDescent::fetch_nodes(const RayNode& n, int level, std::uint32_t slots) const {
   if ((slots & (slots - 1)) == 0) return;
   const std::vector<RayNode>& below = d_.forest.levels[static_cast<std::size_t>(level) - 1];
-  for (; slots != 0; slots &= slots - 1) {
-    const auto* at = reinterpret_cast<const char*>(&below[n.child[std::countr_zero(slots)]]);
-    for (std::size_t line = 0; line < sizeof(RayNode); line += 64) fetch_soon(at + line);
-  }
+  for (; slots != 0; slots &= slots - 1) fetch_all(below[n.child[std::countr_zero(slots)]]);
 }
 
 // Down to the deepest node that holds all rays which the box may meet; false: there are none.
@@ -146,16 +150,24 @@ void RootDescent::visit(std::size_t level, std::size_t number, const RayRef& ray
   if (met == 0) return;
   alignas(64) float u0[16], u1[16], v0[16], v1[16], w[16];
   store(boxes.u0, u0), store(boxes.u1, u1), store(boxes.v0, v0), store(boxes.v1, v1), store(boxes.w, w);
+  const auto child_of = [&](int i) { return number * cluster_size + static_cast<std::size_t>(i); };
+  const auto box_of_child = [&](int i) { return FaceBox{u0[i], u1[i], v0[i], v1[i], w[i]}; };
+  RayRef deeper[16];
+  std::uint32_t entered = 0;
   for (; met != 0; met &= met - 1) {
     const int i = std::countr_zero(met);
-    const FaceBox box{u0[i], u1[i], v0[i], v1[i], w[i]};
-    const std::size_t child = number * cluster_size + static_cast<std::size_t>(i);
-    RayRef deeper = rays;
-    if (!narrow(deeper, box)) continue;
+    deeper[i] = rays;
+    if (!narrow(deeper[i], box_of_child(i))) continue;
+    entered |= 1u << i;
+    level > 0 ? fetch_all(d_.clusters.levels()[level - 1][child_of(i)])
+              : fetch_all(d_.clusters.clusters()[child_of(i)]);
+  }
+  for (; entered != 0; entered &= entered - 1) {
+    const int i = std::countr_zero(entered);
     if (level > 0) {
-      visit(level - 1, child, deeper);
+      visit(level - 1, child_of(i), deeper[i]);
     } else {
-      meet_cluster(d_.clusters.clusters()[child], deeper, box);
+      meet_cluster(d_.clusters.clusters()[child_of(i)], deeper[i], box_of_child(i));
     }
   }
 }
@@ -261,8 +273,7 @@ void RootDescent::by_triangles(std::uint32_t number, std::uint32_t mask) {
 
 // What is to be tested is asked for at once, and tested when it has had time to come.
 void RootDescent::put_off(std::uint32_t number, int slot, std::uint32_t triangles) {
-  const auto* at = reinterpret_cast<const char*>(&tile(node(0, number), slot));
-  for (std::size_t line = 0; line < sizeof(PointTile); line += 64) fetch_soon(at + line);
+  fetch_all(tile(node(0, number), slot));
   waiting_[waiting_count_++] = {number, static_cast<std::uint16_t>(slot),
                                 static_cast<std::uint16_t>(triangles)};
   if (waiting_count_ == most_waiting) test_waiting();
