@@ -15,6 +15,7 @@ using glm::dvec3;
 // A square is a node as it stands if it is at most this many times as wide as its tiles are on the mean: 4
 // for a flat patch, with room for perspective and curvature.
 constexpr float coherent_extent = 8;
+constexpr std::ptrdiff_t fetch_ahead = 4;  // squares: the time that memory takes
 
 std::uint8_t face_of(const dvec3& p) {
   const double x = std::abs(p.x), y = std::abs(p.y), z = std::abs(p.z), largest = std::max({x, y, z});
@@ -276,7 +277,7 @@ void PatchRays::find(const PointPatch& patch, ForestScratch::Patch& out) const {
   Work work(ray_kernels_, out);
   work.patch = &patch;
   for (const PointSquare& square : patch.squares) {
-    if (&square != &patch.squares.back()) fetch_mixed_tiles(*(&square + 1));
+    if (&patch.squares.back() - &square >= fetch_ahead) fetch_mixed_tiles(*(&square + fetch_ahead));
     find_lanes(square, work);
     if (work.present == 0) continue;
     out.tau = std::max(out.tau, square.tau);
