@@ -10,8 +10,6 @@
 #include <bit>
 #include <cmath>
 
-#include "simd/simd_level.h"
-
 HWY_BEFORE_NAMESPACE();
 namespace tenebra::HWY_NAMESPACE {
 
@@ -95,8 +93,8 @@ HWY_AFTER_NAMESPACE();
 
 namespace tenebra {
 
-PointTileKernels point_tile_kernels() {
-  switch (best_simd_level()) {
+PointTileKernels point_tile_kernels(SimdLevel level) {
+  switch (level == SimdLevel::automatic ? best_simd_level() : level) {
 #if HWY_TARGETS & HWY_AVX3
     case SimdLevel::avx512:
       return N_AVX3::point_tile_kernels();

@@ -6,6 +6,7 @@
 
 #include "points/point_tiles.h"
 #include "points/visible_points.h"
+#include "simd/simd_level.h"
 
 namespace tenebra {
 
@@ -24,7 +25,7 @@ private:
   glm::dvec3 copies_[4][4];
 };
 
-/// Code for the best instruction set of this machine.
+/// Code for one instruction set.
 struct PointTileKernels {
   /// q, base and radius from the points of the lanes in `lanes` (not 0).
   void (*fill)(const TileRows& rows, const glm::vec3& base, std::uint32_t lanes, PointTile& tile) = nullptr;
@@ -34,6 +35,6 @@ struct PointTileKernels {
   /// Box around q of the lanes in `lanes` (not 0) as that of tile `place` of a square.
   void (*bound)(const PointTile& tile, std::uint32_t lanes, int place, PointSquare& square) = nullptr;
 };
-PointTileKernels point_tile_kernels();
+PointTileKernels point_tile_kernels(SimdLevel level);
 
 }  // namespace tenebra

@@ -28,7 +28,7 @@ public:
         triangles_(triangles),
         out_(out),
         patch_(patch),
-        kernels_(point_tile_kernels()),
+        kernels_(point_tile_kernels(SimdLevel::automatic)),
         width_(static_cast<std::uint32_t>(points.width)),
         height_(static_cast<std::uint32_t>(points.height)) {
     patch_.squares.clear(), patch_.receivers.clear();
@@ -54,11 +54,11 @@ private:
   const std::uint32_t* ids_at(std::uint32_t x, std::uint32_t y) const {
     return &points_.triangles[static_cast<std::size_t>(y) * width_ + x];
   }
-  std::uint32_t find_receivers(std::uint32_t x, std::uint32_t y, PointTile& tile);
+  std::uint32_t find_receivers(std::uint32_t x, std::uint32_t y, bool one, PointTile& tile);
   bool one_receiver(std::uint32_t x, std::uint32_t y) const;
-  Owner owner_of(const PointTile& tile, std::uint32_t lanes) const;
-  void note_owners(PointTile& tile, std::uint32_t lanes) const;
-  void add_tile(const PointTile& tile, std::uint32_t lanes, int place, PointSquare& square) const;
+  Owner note_owners(PointTile& tile, std::uint32_t lanes, bool one) const;
+  void add_tile(const PointTile& tile, std::uint32_t lanes, const Owner& owner, int place,
+                PointSquare& square) const;
 
   const VisiblePoints& points_;
   const TriangleView& triangles_;
@@ -114,8 +114,8 @@ bool PatchMaker::one_receiver(std::uint32_t x, std::uint32_t y) const {
 }
 
 /// Lanes whose points lie on a triangle that faces the eye.
-std::uint32_t PatchMaker::find_receivers(std::uint32_t x, std::uint32_t y, PointTile& tile) {
-  if (one_receiver(x, y)) {
+std::uint32_t PatchMaker::find_receivers(std::uint32_t x, std::uint32_t y, bool one, PointTile& tile) {
+  if (one) {
     const std::uint16_t number = receiver_of(*ids_at(x, y));
     std::fill(std::begin(tile.receiver), std::end(tile.receiver), number);
     return number == no_receiver ? 0 : 0xffffu;
@@ -131,29 +131,27 @@ std::uint32_t PatchMaker::find_receivers(std::uint32_t x, std::uint32_t y, Point
   return lanes;
 }
 
-PatchMaker::Owner PatchMaker::owner_of(const PointTile& tile, std::uint32_t lanes) const {
+/// Notes what the points of the lanes (not 0) lie on.
+PatchMaker::Owner PatchMaker::note_owners(PointTile& tile, std::uint32_t lanes, bool one) const {
   const std::uint16_t first = tile.receiver[std::countr_zero(lanes)];
-  for (std::uint32_t left = lanes; left != 0; left &= left - 1)
-    if (tile.receiver[std::countr_zero(left)] != first) return {};
-  return {patch_.receivers[first / 16].id[first % 16], first};
-}
-
-void PatchMaker::note_owners(PointTile& tile, std::uint32_t lanes) const {
-  tile.owners = 0;
-  tile.tau = 0;
-  std::uint32_t before = no_receiver;
+  const ReceiverBlock& block = patch_.receivers[first / 16];
+  Owner owner{block.id[first % 16], first};
+  tile.owners = 1ull << (owner.id % 64);
+  tile.tau = block.tau[first % 16];
+  if (one) return owner;
   for (std::uint32_t left = lanes; left != 0; left &= left - 1) {
-    const std::uint32_t number = tile.receiver[std::countr_zero(left)];
-    if (number == before) continue;
-    before = number;
-    const ReceiverBlock& block = patch_.receivers[number / 16];
-    tile.owners |= 1ull << (block.id[number % 16] % 64);
-    tile.tau = std::max(tile.tau, block.tau[number % 16]);
+    const std::uint16_t number = tile.receiver[std::countr_zero(left)];
+    if (number == first) continue;
+    owner = {};
+    const ReceiverBlock& other = patch_.receivers[number / 16];
+    tile.owners |= 1ull << (other.id[number % 16] % 64);
+    tile.tau = std::max(tile.tau, other.tau[number % 16]);
   }
+  return owner;
 }
 
-void PatchMaker::add_tile(const PointTile& tile, std::uint32_t lanes, int place, PointSquare& square) const {
-  const Owner owner = owner_of(tile, lanes);
+void PatchMaker::add_tile(const PointTile& tile, std::uint32_t lanes, const Owner& owner, int place,
+                          PointSquare& square) const {
   square.own[place] = owner.id;
   square.receiver[place] = owner.receiver;
   square.lanes[place] = static_cast<std::uint16_t>(lanes);
@@ -172,14 +170,14 @@ void PatchMaker::add_square(std::uint32_t x, std::uint32_t y, std::uint32_t firs
   for (std::uint32_t t = 0; t < 16; ++t) {
     const std::uint32_t tile_x = x + t % 4 * tile_side, tile_y = y + t / 4 * tile_side;
     PointTile& tile = out_.tiles[first + t];
-    const std::uint32_t lanes = find_receivers(tile_x, tile_y, tile);
+    const bool one = one_receiver(tile_x, tile_y);
+    const std::uint32_t lanes = find_receivers(tile_x, tile_y, one, tile);
     if (lanes == 0) continue;
     const TileRows rows(points_, tile_x, tile_y);
     if (square.filled == 0) base = rows.point(std::countr_zero(lanes));
     kernels_.fill(rows, base, lanes, tile);
     tile.pixel = tile_y * width_ + tile_x;
-    note_owners(tile, lanes);
-    add_tile(tile, lanes, static_cast<int>(t), square);
+    add_tile(tile, lanes, note_owners(tile, lanes, one), static_cast<int>(t), square);
   }
   if (square.filled == 0) return;
   // What leaves the range of floats is for others to look at (not NaN: max takes what is finite).

@@ -5,20 +5,13 @@
 #include <cmath>
 
 #include "parallel/parallel.h"
+#include "points/visible_run.h"
 
 namespace tenebra {
 
 namespace {
 
 using glm::dvec3;
-
-// What the pixels of one triangle share. Barycentric weights of a point p on the plane are
-// u = du.(p - a), v = dv.(p - a), 1 - u - v.
-struct Receiver {
-  std::uint32_t id = no_triangle;
-  dvec3 a, e1, e2, normal, du, dv;
-  bool flat = false;  // no plane: zero area in double
-};
 
 Receiver receiver_of(const TriangleView& triangles, std::uint32_t id) {
   const glm::uvec3 t = triangles.triangles[id];
@@ -58,22 +51,43 @@ dvec3 visible_point(const Receiver& r, const dvec3& origin, const dvec3& directi
   return clamped(r, u, v);
 }
 
+/// Pixels x ... end - 1 of a row, all of which see `r`.
+void compute_run(const Receiver& r, const PixelRow& row, std::size_t x, std::size_t end,
+                 const VisibleRunKernels& kernels, dvec3* out) {
+  while (x < end) {
+    const std::size_t count = std::min<std::size_t>(8, end - x);
+    dvec3 points[8];
+    const std::uint32_t inside = count > 2 && !r.flat ? kernels.eight(r, row, x, points) : 0;
+    for (std::size_t i = 0; i < count; ++i, ++x) {
+      const dvec3 across = (static_cast<double>(x) + 0.5) * row.dx + row.row;
+      out[x] = ((inside >> i) & 1u) != 0 ? points[i] : visible_point(r, row.eye, row.d0 + across);
+    }
+  }
+}
+
 /// Rows first ... last - 1 of the picture.
 void compute_rows(std::span<const std::uint32_t> ids, std::size_t first, std::size_t last,
                   const ViewRays& view, const TriangleView& triangles, VisiblePoints& out) {
   const dvec3 eye(view.eye), d0(view.d0), dx(view.dx), dy(view.dy);
+  const VisibleRunKernels kernels = visible_run_kernels(SimdLevel::automatic);
+  const auto width = static_cast<std::size_t>(out.width);
   Receiver receiver;
   for (std::size_t y = first; y < last; ++y) {
-    const dvec3 row = (static_cast<double>(y) + 0.5) * dy;
-    for (std::size_t x = 0; x < static_cast<std::size_t>(out.width); ++x) {
-      const std::size_t pixel = y * static_cast<std::size_t>(out.width) + x;
+    const PixelRow row{eye, d0, dx, (static_cast<double>(y) + 0.5) * dy};
+    for (std::size_t x = 0, end = 0; x < width; x = end) {
+      const std::size_t pixel = y * width + x;
+      while (end < width && ids[y * width + end] == ids[pixel]) ++end;
       const std::uint32_t id = ids[pixel] < triangles.triangles.size() ? ids[pixel] : no_triangle;
-      out.triangles[pixel] = id;
+      std::fill_n(&out.triangles[pixel], end - x, id);
       if (id == no_triangle) continue;
       if (id != receiver.id) receiver = receiver_of(triangles, id);
-      const dvec3 across = (static_cast<double>(x) + 0.5) * dx + row;
-      out.positions[pixel] = view.orthographic ? visible_point(receiver, eye + across, d0)
-                                               : visible_point(receiver, eye, d0 + across);
+      if (!view.orthographic) {
+        compute_run(receiver, row, x, end, kernels, &out.positions[y * width]);
+        continue;
+      }
+      for (std::size_t i = x; i < end; ++i)
+        out.positions[y * width + i] =
+            visible_point(receiver, eye + ((static_cast<double>(i) + 0.5) * dx + row.row), d0);
     }
   }
 }

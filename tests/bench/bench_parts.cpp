@@ -5,7 +5,6 @@
 
 #include "base/machine.h"
 #include "parallel/parallel.h"
-#include "simd/simd_level.h"
 
 namespace tenebra::bench {
 namespace {
@@ -53,9 +52,9 @@ CLI::App& add_parts_command(CLI::App& program, Run& run, CommandName name,
   return *command;
 }
 
-std::vector<std::string> parts_settings(const PartsArguments& arguments) {
-  return {fmt::format("threads: {}", thread_count()),
-          fmt::format("simd: {}", simd_level_name(best_simd_level())),
+std::vector<std::string> parts_settings(const PartsArguments& arguments, SimdLevel simd) {
+  const SimdLevel level = simd == SimdLevel::automatic ? best_simd_level() : simd;
+  return {fmt::format("threads: {}", thread_count()), fmt::format("simd: {}", simd_level_name(level)),
           fmt::format("quick: {}", arguments.options.quick)};
 }
 

@@ -10,6 +10,7 @@
 
 #include "bench_command.h"
 #include "bench_report.h"
+#include "simd/simd_level.h"
 
 namespace tenebra::bench {
 
@@ -62,7 +63,8 @@ Expected<void> measure_parts(const PartsArguments& arguments, std::span<const Be
 }
 
 /// The head of a CSV: "threads: 2", "simd: avx512", "quick: true".
-std::vector<std::string> parts_settings(const PartsArguments& arguments);
+std::vector<std::string> parts_settings(const PartsArguments& arguments,
+                                        SimdLevel simd = SimdLevel::automatic);
 
 /// The last lines that a script reads: "hard.static_worst: 0.40"; nan where nothing was measured.
 void print_headline(const std::string& name, const std::optional<double>& value, int digits);

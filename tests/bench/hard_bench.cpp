@@ -2,6 +2,7 @@
 // of Olsson and Assarsson 2011.
 #include <array>
 #include <cstdio>
+#include <memory>
 
 #include "bench_parts.h"
 #include "hard_session.h"
@@ -25,11 +26,18 @@ void print_headlines(const HardHeadline& h) {
   print_headline("hard.p99_over_median", h.p99_over_median, 3);
 }
 
-Expected<void> measure(const PartsArguments& arguments) {
-  HardSession session{
-      .options = arguments.options, .effort = arguments.effort(), .report = Report(arguments.options.csv)};
+/// `simd` is the name of the level that both contestants are kept to.
+Expected<void> measure(const PartsArguments& arguments, const std::string& simd) {
+  const auto level = simd_level_from_name(simd);
+  if (!level || (*level != SimdLevel::automatic && !simd_level_supported(*level)))
+    return fail("--simd: found {}, expected auto or a level of this machine: scalar, sse4, avx2, avx512",
+                simd);
+  HardSession session{.options = arguments.options,
+                      .effort = arguments.effort(),
+                      .simd = *level,
+                      .report = Report(arguments.options.csv)};
   if (auto done = measure_parts(arguments, all_parts, session); !done) return done;
-  if (auto written = session.report.write(parts_settings(arguments)); !written) return written;
+  if (auto written = session.report.write(parts_settings(arguments, *level)); !written) return written;
   std::printf("\n");
   for (const std::string& name : session.skipped) std::printf("%s: skipped, not there\n", name.c_str());
   for (const std::string& note : session.notes) std::printf("note: %s.\n", note.c_str());
@@ -45,10 +53,13 @@ void print_hard_table(const std::string& title, const std::vector<std::vector<st
 }
 
 void add_hard_command(CLI::App& program, Run& run) {
-  add_parts_command(
+  const auto simd = std::make_shared<std::string>("auto");
+  CLI::App& command = add_parts_command(
       program, run,
       {"hard", "Hard shadows beside Embree's rays; the experiments of Olsson and Assarsson 2011"},
-      part_names(all_parts), measure);
+      part_names(all_parts), [simd](const PartsArguments& arguments) { return measure(arguments, *simd); });
+  command.add_option("--simd", *simd, "Instructions that both contestants are kept to [auto]")
+      ->type_name("LEVEL");
 }
 
 }  // namespace tenebra::bench

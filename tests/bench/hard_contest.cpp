@@ -17,8 +17,8 @@ double cost_ms(const std::function<void()>& work) {
 
 /// One kind of Embree's builds with both packings.
 struct Peer {
-  Peer(const HardView& view, RTCBuildQuality quality, int threads)
-      : embree(view.frame.triangles(), quality, threads) {}
+  Peer(const HardView& view, RTCBuildQuality quality, const HardContest& contest)
+      : embree(view.frame.triangles(), quality, contest.threads, contest.simd) {}
   HardPeer embree;
   std::array<std::vector<double>, 2> trace_ms;
   std::vector<double> build_ms;
@@ -55,6 +55,7 @@ std::size_t count_differing(const VisiblePoints& points, const ShadowMask& ours,
 /// Tenebra's default, kept from frame to frame.
 struct Ours {
   const HardView& view;
+  HardShadowConfig config;
   ShadowTracer tracer;
   ShadowMask mask;
   std::vector<double> dynamic_ms, static_ms;
@@ -62,7 +63,7 @@ struct Ours {
 
   double trace(const TriangleView& triangles) {
     return cost_ms([&] {
-      tracer.trace_shadow_mask(view.frame.points, view.frame.view, triangles, view.light, {}, mask);
+      tracer.trace_shadow_mask(view.frame.points, view.frame.view, triangles, view.light, config, mask);
     });
   }
   void round(bool dynamic) {
@@ -93,10 +94,10 @@ struct Ours {
 
 HardTimes contest_here(const HardView& view, const HardContest& contest) {
   const PeerPoints points = peer_points(view);
-  Peer low(view, RTC_BUILD_QUALITY_LOW, contest.threads);
-  Peer medium(view, RTC_BUILD_QUALITY_MEDIUM, contest.threads);
-  Peer high(view, RTC_BUILD_QUALITY_HIGH, contest.threads);
-  Ours ours{view, {}, {}, {}, {}, {}};
+  Peer low(view, RTC_BUILD_QUALITY_LOW, contest);
+  Peer medium(view, RTC_BUILD_QUALITY_MEDIUM, contest);
+  Peer high(view, RTC_BUILD_QUALITY_HIGH, contest);
+  Ours ours{view, {.simd = contest.simd}, {}, {}, {}, {}, {}};
   for (int round = -1; round < contest.rounds; ++round) {
     if (round == 0) {
       for (Peer* peer : {&low, &medium, &high}) peer->forget();

@@ -33,7 +33,8 @@ struct HardTimes {
 struct HardContest {
   int threads = 1;
   int rounds = 9;
-  bool dynamic = true;  ///< else only the static contestants
+  bool dynamic = true;                    ///< else only the static contestants
+  SimdLevel simd = SimdLevel::automatic;  ///< of both
 };
 
 /// On `threads` threads, at least three rounds.

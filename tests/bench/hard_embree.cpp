@@ -50,6 +50,33 @@ void aim(const ShadowLight& light, float length_of_no_end, RTCRay16& rays) {
   }
 }
 
+const char* isa_option(SimdLevel simd) {
+  switch (simd) {
+    case SimdLevel::avx512:
+      return ",isa=avx512";
+    case SimdLevel::avx2:
+      return ",isa=avx2";
+    case SimdLevel::sse4:
+      return ",isa=sse4.2";
+    case SimdLevel::scalar:  // Embree has none
+      return ",isa=sse2";
+    case SimdLevel::automatic:
+      break;
+  }
+  return "";
+}
+
+/// Half of a packet.
+void copy_half(const RTCRay16& from, int first, RTCRay8& to) {
+  const auto copy = [&](const float* plane, float* out) { std::copy_n(plane + first, 8, out); };
+  copy(from.org_x, to.org_x), copy(from.org_y, to.org_y), copy(from.org_z, to.org_z);
+  copy(from.dir_x, to.dir_x), copy(from.dir_y, to.dir_y), copy(from.dir_z, to.dir_z);
+  copy(from.tnear, to.tnear), copy(from.tfar, to.tfar), copy(from.time, to.time);
+  std::copy_n(from.mask + first, 8, to.mask);
+  std::copy_n(from.id + first, 8, to.id);
+  std::copy_n(from.flags + first, 8, to.flags);
+}
+
 }  // namespace
 
 const char* packet_tile_name(PacketTile tile) {
@@ -78,10 +105,11 @@ PeerPoints peer_points(const HardView& view) {
   return to;
 }
 
-HardPeer::HardPeer(const TriangleView& triangles, RTCBuildQuality quality, int threads)
-    : device_(rtcNewDevice(fmt::format("threads={}", threads).c_str())),
+HardPeer::HardPeer(const TriangleView& triangles, RTCBuildQuality quality, int threads, SimdLevel simd)
+    : device_(rtcNewDevice(fmt::format("threads={}{}", threads, isa_option(simd)).c_str())),
       scene_(rtcNewScene(device_)),
       mesh_(rtcNewGeometry(device_, RTC_GEOMETRY_TYPE_TRIANGLE)) {
+  sixteen_ = rtcGetDeviceProperty(device_, RTC_DEVICE_PROPERTY_NATIVE_RAY16_SUPPORTED) != 0;
   if (quality == RTC_BUILD_QUALITY_LOW) rtcSetSceneFlags(scene_, RTC_SCENE_FLAG_DYNAMIC);
   rtcSetSceneBuildQuality(scene_, quality);
   rtcSetGeometryBuildQuality(mesh_, quality);
@@ -113,6 +141,16 @@ void HardPeer::build() {
   rtcCommitScene(scene_);
 }
 
+void HardPeer::occluded(const std::int32_t* valid, RTCIntersectContext& context, RTCRay16& rays) const {
+  if (sixteen_) return rtcOccluded16(valid, scene_, &context, &rays);
+  for (int first = 0; first < 16; first += 8) {
+    alignas(32) RTCRay8 half;
+    copy_half(rays, first, half);
+    rtcOccluded8(valid + first, scene_, &context, &half);
+    std::copy_n(half.tfar, 8, rays.tfar + first);
+  }
+}
+
 void HardPeer::trace(const PeerPoints& points, const ShadowLight& light, PacketTile tile,
                      ShadowMask& mask) const {
   const Shape shape = shape_of(tile);
@@ -134,7 +172,7 @@ void HardPeer::trace(const PeerPoints& points, const ShadowLight& light, PacketT
         take(points.y, first, width, shape, rays.org_y);
         take(points.z, first, width, shape, rays.org_z);
         aim(light, end, rays);
-        rtcOccluded16(valid, scene_, &context, &rays);
+        occluded(valid, context, rays);
         for (int i = 0; i < 16; ++i) {
           const auto row = static_cast<std::size_t>(i / shape.columns);
           const auto column = static_cast<std::size_t>(i % shape.columns);

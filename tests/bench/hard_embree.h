@@ -27,7 +27,9 @@ PeerPoints peer_points(const HardView& view);
 /// One scene of Embree over the casters of a frame.
 class HardPeer {
 public:
-  HardPeer(const TriangleView& triangles, RTCBuildQuality quality, int threads);
+  /// `simd`: instructions that Embree is kept to; automatic: all it knows.
+  HardPeer(const TriangleView& triangles, RTCBuildQuality quality, int threads,
+           SimdLevel simd = SimdLevel::automatic);
   ~HardPeer();
   HardPeer(const HardPeer&) = delete;
   HardPeer& operator=(const HardPeer&) = delete;
@@ -38,6 +40,9 @@ public:
   void trace(const PeerPoints& points, const ShadowLight& light, PacketTile tile, ShadowMask& mask) const;
 
 private:
+  void occluded(const std::int32_t* valid, RTCIntersectContext& context, RTCRay16& rays) const;
+
+  bool sixteen_;  ///< packets of sixteen are native; else eights are
   RTCDevice device_;
   RTCScene scene_;
   RTCGeometry mesh_;

@@ -65,7 +65,7 @@ Expected<void> measure_hard_frames(HardSession& session) {
   const int rounds = session.by_effort(1, 9, 25);
   const auto measure = [&](const Scene&, const HardView& view) -> Expected<void> {
     for (std::size_t i = 0; i < threads.size(); ++i) {
-      const HardTimes times = run_hard_contest(view, {threads[i], rounds});
+      const HardTimes times = run_hard_contest(view, {threads[i], rounds, true, session.simd});
       report_times(times, "frames", view.name, fmt::format("threads={}", threads[i]), session.report);
       add_row(view, times, tables[i]);
       ratios[i].add(view, times);

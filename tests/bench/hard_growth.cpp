@@ -80,7 +80,8 @@ struct Series {
   Curve ours{"Tenebra", {}}, embree{"Embree, trace alone", {}};
 
   HardTimes run(const HardView& view, double x) {
-    const HardTimes t = run_hard_contest(view, {thread_count(), session.by_effort(1, 3, 7), false});
+    const HardTimes t =
+        run_hard_contest(view, {thread_count(), session.by_effort(1, 3, 7), false, session.simd});
     report_times(t, experiment, view.name, fmt::format("{}", x), session.report);
     ours.points.emplace_back(x, t.ours_static);
     embree.points.emplace_back(x, t.embree_static);

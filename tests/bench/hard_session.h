@@ -21,6 +21,7 @@ struct HardHeadline {
 struct HardSession {
   BenchOptions options;
   HardEffort effort = HardEffort::full;
+  SimdLevel simd = SimdLevel::automatic;  ///< of both contestants
   Report report;
   HardHeadline headline;
   std::vector<std::string> notes;    ///< sentences: what was missing, replaced or out of bounds

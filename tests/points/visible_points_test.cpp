@@ -4,6 +4,7 @@
 #include <cmath>
 
 #include "parallel/parallel.h"
+#include "points/visible_run.h"
 #include "shadow/mask.h"
 #include "support/seeded_random.h"
 
@@ -89,6 +90,44 @@ TEST(VisiblePoints, HaveTheSameBitsOnAnyNumberOfThreads) {
     with_threads(threads,
                  [&] { EXPECT_EQ(points_of(ids, 173, 91, pinhole, corners).positions, expected.positions); });
   }
+}
+
+// Eight pixels at a time, by whatever instructions, and one by one: a picture one pixel wide has no runs.
+TEST(VisiblePoints, HaveTheSameBitsAloneAndInRuns) {
+  testing::Random random(91);
+  int met = 0;
+  for (int scene = 0; scene < 200; ++scene) {
+    std::vector<vec3> corners(3);
+    for (vec3& c : corners) c = vec3(random.in_cube(scene % 2 == 0 ? 2.0 : 20.0));
+    const Receiver receiver = [&] {
+      Receiver r;
+      r.a = corners[0], r.e1 = dvec3(corners[1]) - r.a, r.e2 = dvec3(corners[2]) - r.a;
+      r.normal = glm::cross(r.e1, r.e2);
+      const double area2 = glm::dot(r.normal, r.normal);
+      r.du = glm::cross(r.e2, r.normal) / area2, r.dv = glm::cross(r.normal, r.e1) / area2;
+      return r;
+    }();
+    const auto whole = points_of(std::vector<std::uint32_t>(8 * 8, 0), 8, 8, pinhole, corners);
+    for (int y = 0; y < 8; ++y) {
+      const PixelRow row{pinhole.eye, pinhole.d0, pinhole.dx, (y + 0.5) * dvec3(pinhole.dy)};
+      for (const SimdLevel level : {SimdLevel::scalar, SimdLevel::sse4, SimdLevel::avx2, SimdLevel::avx512}) {
+        if (!simd_level_supported(level)) continue;
+        dvec3 eight[8];
+        const std::uint32_t inside = visible_run_kernels(level).eight(receiver, row, 0, eight);
+        for (int x = 0; x < 8; ++x) {
+          if (((inside >> x) & 1u) == 0) continue;
+          ++met;
+          EXPECT_EQ(eight[x], whole.positions[8 * y + x]) << scene;
+        }
+      }
+      for (int x = 0; x < 8; ++x) {
+        ViewRays moved = pinhole;  // pixel (x, y) first: exact, as all steps are powers of two
+        moved.d0 += static_cast<float>(x) * pinhole.dx + static_cast<float>(y) * pinhole.dy;
+        EXPECT_EQ(points_of({0}, 1, 1, moved, corners).positions[0], whole.positions[8 * y + x]) << scene;
+      }
+    }
+  }
+  EXPECT_GT(met, 500);
 }
 
 }  // namespace

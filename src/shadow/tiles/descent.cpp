@@ -35,6 +35,20 @@ struct Caster {
   Aim aim;
 };
 
+/// Asks for all of `what`, which is needed soon.
+template <class T>
+HWY_INLINE void fetch_all(const T& what) {
+  const auto* at = reinterpret_cast<const char*>(&what);
+  for (std::size_t line = 0; line < sizeof(T); line += 64) fetch_soon(at + line);
+}
+
+/// A slot of a node of tiles, and triangles of the cluster that it is to be tested with.
+struct Waiting {
+  std::uint32_t node;
+  std::uint16_t slot, triangles;
+};
+constexpr int most_waiting = 32;
+
 class RootDescent {
 public:
   RootDescent(const Descent& d, std::uint32_t root, DescentScratch& scratch, TraceStats& stats)
@@ -60,16 +74,20 @@ private:
     ++stats_.nodes;
   }
   void fetch_nodes(const RayNode& n, int level, std::uint32_t slots) const;
-  void fetch_tiles(const RayNode& n, std::uint32_t slots) const;
   bool narrow(RayRef& rays, const FaceBox& box);
   void meet_cluster(const TriangleCluster& cluster, const RayRef& rays, const FaceBox& box);
   void descend_cluster(const RayRef& rays, std::uint32_t mask);
   void set_up_cluster();
+  FaceBox box_of(int i) const {
+    return {lanes_[0][i], lanes_[1][i], lanes_[2][i], lanes_[3][i], lanes_[4][i]};
+  }
   Caster& take(int i);
   void meet_tiles(const RayRef& rays, std::uint32_t met, std::uint32_t mask);
-  void meet_tile(std::uint32_t number, int slot, std::uint32_t mask);
-  void meet_triangle(std::uint32_t number, int i, const FaceTriangle& t);
-  std::uint32_t cover_tiles(RayNode& n, const FaceTriangle& t, std::uint32_t met, std::uint32_t id);
+  void by_tiles(std::uint32_t number, std::uint32_t met, std::uint32_t mask);
+  void by_triangles(std::uint32_t number, std::uint32_t mask);
+  void put_off(std::uint32_t number, int slot, std::uint32_t triangles);
+  void test_waiting();
+  std::uint32_t cover_tiles(RayNode& n, int i, std::uint32_t met);
   void test_slot(std::uint32_t number, int slot, const LeafTriangle& t, Aim& aim);
   void shrink(RayNode& n, int slot) const;
   void block_rays(RayNode& n, int slot, std::uint32_t sure, std::uint32_t open, std::uint32_t id);
@@ -92,29 +110,21 @@ private:
   // Of the cluster that is on its way down.
   const TriangleCluster* cluster_ = nullptr;
   FaceBox cluster_box_{};
-  FaceBoxes boxes_;      ///< of its triangles
-  bool set_up_ = false;  ///< the scratch's planes, and the same on the face
+  FaceBoxes boxes_;                 ///< of its triangles
+  alignas(64) float lanes_[5][16];  ///< the same, for box_of
+  bool set_up_ = false;             ///< the scratch's planes, and the same on the face
   FaceCluster on_face_;
   std::uint32_t taken_ = 0;  ///< bits of the casters that are ready
   Caster casters_[16];
+  Waiting waiting_[most_waiting];
+  int waiting_count_ = 0;
 };
 
-// Asks for what tests read of the tiles, all at once.
-void RootDescent::fetch_tiles(const RayNode& n, std::uint32_t slots) const {
-  if ((slots & (slots - 1)) == 0) return;
-  for (; slots != 0; slots &= slots - 1) {
-    const auto* at = reinterpret_cast<const char*>(&d_.tiles.tiles[n.child[std::countr_zero(slots)]]);
-    for (std::size_t line = 0; line < sizeof(PointTile); line += 64) fetch_soon(at + line);
-  }
-}
-
+// Asks for nodes that are about to be met.
 void RootDescent::fetch_nodes(const RayNode& n, int level, std::uint32_t slots) const {
   if ((slots & (slots - 1)) == 0) return;
   const std::vector<RayNode>& below = d_.forest.levels[static_cast<std::size_t>(level) - 1];
-  for (; slots != 0; slots &= slots - 1) {
-    const auto* at = reinterpret_cast<const char*>(&below[n.child[std::countr_zero(slots)]]);
-    for (std::size_t line = 0; line < sizeof(RayNode); line += 64) fetch_soon(at + line);
-  }
+  for (; slots != 0; slots &= slots - 1) fetch_all(below[n.child[std::countr_zero(slots)]]);
 }
 
 // Down to the deepest node that holds all rays which the box may meet; false: there are none.
@@ -140,16 +150,24 @@ void RootDescent::visit(std::size_t level, std::size_t number, const RayRef& ray
   if (met == 0) return;
   alignas(64) float u0[16], u1[16], v0[16], v1[16], w[16];
   store(boxes.u0, u0), store(boxes.u1, u1), store(boxes.v0, v0), store(boxes.v1, v1), store(boxes.w, w);
+  const auto child_of = [&](int i) { return number * cluster_size + static_cast<std::size_t>(i); };
+  const auto box_of_child = [&](int i) { return FaceBox{u0[i], u1[i], v0[i], v1[i], w[i]}; };
+  RayRef deeper[16];
+  std::uint32_t entered = 0;
   for (; met != 0; met &= met - 1) {
     const int i = std::countr_zero(met);
-    const FaceBox box{u0[i], u1[i], v0[i], v1[i], w[i]};
-    const std::size_t child = number * cluster_size + static_cast<std::size_t>(i);
-    RayRef deeper = rays;
-    if (!narrow(deeper, box)) continue;
+    deeper[i] = rays;
+    if (!narrow(deeper[i], box_of_child(i))) continue;
+    entered |= 1u << i;
+    level > 0 ? fetch_all(d_.clusters.levels()[level - 1][child_of(i)])
+              : fetch_all(d_.clusters.clusters()[child_of(i)]);
+  }
+  for (; entered != 0; entered &= entered - 1) {
+    const int i = std::countr_zero(entered);
     if (level > 0) {
-      visit(level - 1, child, deeper);
+      visit(level - 1, child_of(i), deeper[i]);
     } else {
-      meet_cluster(d_.clusters.clusters()[child], deeper, box);
+      meet_cluster(d_.clusters.clusters()[child_of(i)], deeper[i], box_of_child(i));
     }
   }
 }
@@ -163,28 +181,36 @@ void RootDescent::meet_cluster(const TriangleCluster& cluster, const RayRef& ray
   set_up_ = false;
   taken_ = 0;
   descend_cluster(rays, ahead);
+  test_waiting();
 }
 
-// The triangles of `mask` meet the box of `rays`.
+// The triangles of `mask` meet the box of `rays`. What children need is asked for before the first is met.
 void RootDescent::descend_cluster(const RayRef& rays, std::uint32_t mask) {
   RayNode& n = node(rays);
   note_test(n);
   const std::uint32_t met = children_met(n, cluster_box_);
   if (met == 0) return;
   if (rays.level == 0) return meet_tiles(rays, met, mask);
-  fetch_nodes(n, rays.level, met);
+  std::uint16_t deeper[16];
+  std::uint32_t entered = 0;
   for (std::uint32_t left = met; left != 0; left &= left - 1) {
     const int slot = std::countr_zero(left);
-    const RayRef child{rays.level - 1, n.child[slot], n.box(slot)};
-    const std::uint32_t deeper = mask & boxes_met(boxes_, child.box);
     note_test(n);
-    if (deeper != 0) descend_cluster(child, deeper);
+    deeper[slot] = static_cast<std::uint16_t>(mask & boxes_met(boxes_, n.box(slot)));
+    if (deeper[slot] != 0) entered |= 1u << slot;
+  }
+  fetch_nodes(n, rays.level, entered);
+  for (; entered != 0; entered &= entered - 1) {
+    const int slot = std::countr_zero(entered);
+    descend_cluster({rays.level - 1, n.child[slot], n.box(slot)}, deeper[slot]);
   }
 }
 
 // Planes in double are not needed before a triangle's box meets a node of tiles.
 void RootDescent::set_up_cluster() {
   set_up_ = true;
+  store(boxes_.u0, lanes_[0]), store(boxes_.u1, lanes_[1]), store(boxes_.v0, lanes_[2]);
+  store(boxes_.v1, lanes_[3]), store(boxes_.w, lanes_[4]);
   set_up_planes(*cluster_, d_.source, skip_own_, d_.cull_front, scratch_.planes);
   face_cluster(scratch_.planes, face_, d_.forest.tau, on_face_);
 }
@@ -205,60 +231,77 @@ void RootDescent::meet_tiles(const RayRef& rays, std::uint32_t met, std::uint32_
   if (!set_up_) set_up_cluster();
   mask &= scratch_.planes.valid & triangles_met(on_face_, rays.box);
   if (mask == 0) return;
-  RayNode& n = node(rays);
   if (std::popcount(met) <= std::popcount(mask)) {
-    fetch_tiles(n, met);
-    for (; met != 0; met &= met - 1) meet_tile(rays.node, std::countr_zero(met), mask);
+    by_tiles(rays.node, met, mask);
   } else {
-    alignas(64) float u0[16], u1[16], v0[16], v1[16], w[16];
-    store(boxes_.u0, u0), store(boxes_.u1, u1), store(boxes_.v0, v0), store(boxes_.v1, v1),
-        store(boxes_.w, w);
-    for (; mask != 0 && n.live != 0; mask &= mask - 1) {
-      const int i = std::countr_zero(mask);
-      FaceTriangle t = face_triangle(on_face_, i);
-      t.box = {u0[i], u1[i], v0[i], v1[i], w[i]};
-      meet_triangle(rays.node, i, t);
+    by_triangles(rays.node, mask);
+  }
+}
+
+void RootDescent::by_tiles(std::uint32_t number, std::uint32_t met, std::uint32_t mask) {
+  RayNode& n = node(0, number);
+  for (; met != 0; met &= met - 1) {
+    const int slot = std::countr_zero(met);
+    note_test(n);
+    const FaceBox box = n.box(slot);
+    std::uint32_t found = mask & boxes_met(boxes_, box);
+    if (skip_own_) found &= ~equal_bits(cluster_->ids, n.own[slot]);
+    if (found != 0) found &= triangles_met(on_face_, box);
+    if (found != 0) put_off(number, slot, found);
+  }
+}
+
+void RootDescent::by_triangles(std::uint32_t number, std::uint32_t mask) {
+  RayNode& n = node(0, number);
+  std::uint16_t found[16] = {};
+  std::uint32_t tested = 0;
+  for (; mask != 0 && n.live != 0; mask &= mask - 1) {
+    const int i = std::countr_zero(mask);
+    note_test(n);
+    std::uint32_t met = children_met(n, on_face_, i, box_of(i));
+    if (skip_own_) met &= ~equal_bits(n.own, cluster_->ids[i]);
+    if (met != 0) met = cover_tiles(n, i, met);
+    tested |= met;
+    for (; met != 0; met &= met - 1) found[std::countr_zero(met)] |= static_cast<std::uint16_t>(1u << i);
+  }
+  for (tested &= n.live; tested != 0; tested &= tested - 1) {
+    const int slot = std::countr_zero(tested);
+    put_off(number, slot, found[slot]);
+  }
+  if (n.live == 0) retire(0, number);
+}
+
+// What is to be tested is asked for at once, and tested when it has had time to come.
+void RootDescent::put_off(std::uint32_t number, int slot, std::uint32_t triangles) {
+  fetch_all(tile(node(0, number), slot));
+  waiting_[waiting_count_++] = {number, static_cast<std::uint16_t>(slot),
+                                static_cast<std::uint16_t>(triangles)};
+  if (waiting_count_ == most_waiting) test_waiting();
+}
+
+void RootDescent::test_waiting() {
+  for (int k = 0; k < waiting_count_; ++k) {
+    const Waiting& w = waiting_[k];
+    RayNode& n = node(0, w.node);
+    for (std::uint32_t left = w.triangles; left != 0 && n.rays[w.slot] != 0; left &= left - 1) {
+      Caster& c = take(std::countr_zero(left));
+      test_slot(w.node, w.slot, c.leaf, c.aim);
     }
+    if (n.live == 0) retire(0, w.node);
   }
-  if (n.live == 0) retire(0, rays.node);
-}
-
-void RootDescent::meet_tile(std::uint32_t number, int slot, std::uint32_t mask) {
-  RayNode& n = node(0, number);
-  note_test(n);
-  std::uint32_t near = mask & boxes_met(boxes_, n.box(slot));
-  if (skip_own_) near &= ~equal_bits(cluster_->ids, n.own[slot]);
-  if (near != 0) near &= triangles_met(on_face_, n.box(slot));
-  for (; near != 0 && n.rays[slot] != 0; near &= near - 1) {
-    Caster& c = take(std::countr_zero(near));
-    test_slot(number, slot, c.leaf, c.aim);
-  }
-}
-
-void RootDescent::meet_triangle(std::uint32_t number, int i, const FaceTriangle& t) {
-  RayNode& n = node(0, number);
-  note_test(n);
-  std::uint32_t met = children_met(n, t);
-  if (skip_own_) met &= ~equal_bits(n.own, cluster_->ids[i]);
-  if (met == 0) return;
-  met = cover_tiles(n, t, met, cluster_->ids[i]);
-  if (met == 0) return;
-  Caster& c = take(i);
-  for (; met != 0; met &= met - 1) test_slot(number, std::countr_zero(met), c.leaf, c.aim);
+  waiting_count_ = 0;
 }
 
 // Early accept: tiles that the triangle covers are done with, unread. Returns those that must be tested.
-std::uint32_t RootDescent::cover_tiles(RayNode& n, const FaceTriangle& t, std::uint32_t met,
-                                       std::uint32_t id) {
-  for (std::uint32_t left = met & children_covered(n, t); left != 0; left &= left - 1) {
+std::uint32_t RootDescent::cover_tiles(RayNode& n, int i, std::uint32_t met) {
+  for (std::uint32_t left = met & children_covered(n, on_face_, i); left != 0; left &= left - 1) {
     const int slot = std::countr_zero(left);
-    if (may_own(tile(n, slot), id)) continue;
+    if (n.own[slot] == no_triangle && may_own(tile(n, slot), cluster_->ids[i])) continue;
     n.rays[slot] = 0;
     n.live &= ~(1u << slot);
     met &= ~(1u << slot);
     ++stats_.early_accepts;
   }
-  fetch_tiles(n, met);
   return met;
 }
 
@@ -292,7 +335,7 @@ void RootDescent::shrink(RayNode& n, int slot) const {
 // Lanes of `sure` are blocked but for the triangle's own points, those of `open` may be.
 void RootDescent::block_rays(RayNode& n, int slot, std::uint32_t sure, std::uint32_t open, std::uint32_t id) {
   const PointTile& rays = tile(n, slot);
-  if (may_own(rays, id)) {
+  if (n.own[slot] == no_triangle && may_own(rays, id)) {
     const std::uint32_t own = own_lanes(rays, sure | open, id);
     sure &= ~own, open &= ~own;
   }

@@ -147,48 +147,36 @@ HWY_INLINE std::uint32_t triangles_met(const FaceCluster& c, const FaceBox& box)
          ~bits(less(edges, splat<Float16>(0.0f)) | less(own, load<Float16>(c.d) * splat<Float16>(box.w)));
 }
 
-/// One triangle of a cluster.
-struct FaceTriangle {
-  FaceBox box;
-  float mx[4], my[4], mz[4];
-  float edge_slack;
-  float d, own_slack;
-  float cover;
-};
-
-HWY_INLINE FaceTriangle face_triangle(const FaceCluster& c, int i) {
-  FaceTriangle t;
-  for (int k = 0; k < 4; ++k) t.mx[k] = c.mx[k][i], t.my[k] = c.my[k][i], t.mz[k] = c.mz[k][i];
-  t.edge_slack = c.edge_slack[i], t.own_slack = c.own_slack[i];
-  t.d = c.d[i], t.cover = c.cover[i];
-  return t;
+/// Plane k of triangle i over the boxes of a node: its largest value.
+HWY_INLINE Float16 most(const RayNode& n, const FaceCluster& c, int k, int i) {
+  const Float16 mx = splat<Float16>(c.mx[k][i]), my = splat<Float16>(c.my[k][i]);
+  return max(mx * load<Float16>(n.u0), mx * load<Float16>(n.u1)) +
+         (max(my * load<Float16>(n.v0), my * load<Float16>(n.v1)) + splat<Float16>(c.mz[k][i]));
+}
+/// Its smallest.
+HWY_INLINE Float16 fewest(const RayNode& n, const FaceCluster& c, int k, int i) {
+  const Float16 mx = splat<Float16>(c.mx[k][i]), my = splat<Float16>(c.my[k][i]);
+  return min(mx * load<Float16>(n.u0), mx * load<Float16>(n.u1)) +
+         (min(my * load<Float16>(n.v0), my * load<Float16>(n.v1)) + splat<Float16>(c.mz[k][i]));
 }
 
-/// Plane k of a triangle over the boxes of a node: its largest value (towards = 1) or its smallest (-1).
-HWY_INLINE Float16 extreme(const RayNode& n, const FaceTriangle& t, int k, float towards) {
-  const Float16 pu = load<Float16>(t.mx[k] * towards > 0 ? n.u1 : n.u0),
-                pv = load<Float16>(t.my[k] * towards > 0 ? n.v1 : n.v0);
-  return multiply_add(splat<Float16>(t.mx[k]), pu,
-                      multiply_add(splat<Float16>(t.my[k]), pv, splat<Float16>(t.mz[k])));
-}
-
-/// Bits of the node's children that triangle `t` may block rays of.
-HWY_INLINE std::uint32_t children_met(const RayNode& n, const FaceTriangle& t) {
-  const std::uint32_t met = children_met(n, t.box);
+/// Bits of the node's children that triangle i, whose box is `box`, may block rays of.
+HWY_INLINE std::uint32_t children_met(const RayNode& n, const FaceCluster& c, int i, const FaceBox& box) {
+  const std::uint32_t met = children_met(n, box);
   if (met == 0) return 0;
-  const Float16 edges = min(extreme(n, t, 0, 1), min(extreme(n, t, 1, 1), extreme(n, t, 2, 1)));
-  const Float16 own = extreme(n, t, 3, 1) + splat<Float16>(t.own_slack);
+  const Float16 edges = min(most(n, c, 0, i), min(most(n, c, 1, i), most(n, c, 2, i)));
+  const Float16 own = most(n, c, 3, i) + splat<Float16>(c.own_slack[i]);
   const auto missed =
-      less(edges, splat<Float16>(-t.edge_slack)) | less(own, splat<Float16>(t.d) * load<Float16>(n.w));
+      less(edges, splat<Float16>(-c.edge_slack[i])) | less(own, splat<Float16>(c.d[i]) * load<Float16>(n.w));
   return met & ~bits(missed);
 }
 
-/// Bits of the node's children all of whose rays triangle `t` blocks for sure, but for its own.
-HWY_INLINE std::uint32_t children_covered(const RayNode& n, const FaceTriangle& t) {
-  const Float16 edges = min(extreme(n, t, 0, -1), min(extreme(n, t, 1, -1), extreme(n, t, 2, -1)));
-  const Float16 own = extreme(n, t, 3, -1) - splat<Float16>(t.own_slack);
-  return bits(less(splat<Float16>(t.edge_slack), edges) &
-              less(splat<Float16>(t.cover) * load<Float16>(n.w1), own));
+/// Bits of the node's children all of whose rays triangle i blocks for sure, but for its own.
+HWY_INLINE std::uint32_t children_covered(const RayNode& n, const FaceCluster& c, int i) {
+  const Float16 edges = min(fewest(n, c, 0, i), min(fewest(n, c, 1, i), fewest(n, c, 2, i)));
+  const Float16 own = fewest(n, c, 3, i) - splat<Float16>(c.own_slack[i]);
+  return bits(less(splat<Float16>(c.edge_slack[i]), edges) &
+              less(splat<Float16>(c.cover[i]) * load<Float16>(n.w1), own));
 }
 
 }  // namespace tenebra::HWY_NAMESPACE

@@ -15,6 +15,7 @@ using glm::dvec3;
 // A square is a node as it stands if it is at most this many times as wide as its tiles are on the mean: 4
 // for a flat patch, with room for perspective and curvature.
 constexpr float coherent_extent = 8;
+constexpr std::ptrdiff_t fetch_ahead = 4;  // squares: the time that memory takes
 
 std::uint8_t face_of(const dvec3& p) {
   const double x = std::abs(p.x), y = std::abs(p.y), z = std::abs(p.z), largest = std::max({x, y, z});
@@ -63,11 +64,11 @@ struct PatchRays::Work {
       : out(to), node_keys(kernels, to.node_keys), loose_keys(kernels, to.loose_keys) {}
   ForestScratch::Patch& out;
   Keys node_keys, loose_keys;
+  const PointPatch* patch = nullptr;
   const PointSquare* square = nullptr;
   std::uint16_t rays[16] = {};
   std::uint32_t present = 0;  ///< bits of tiles with rays
   std::uint32_t gaps = 0;     ///< bits of those with a gap between rays
-  RayNode node{};             ///< boxes
 };
 
 PatchRays::PatchRays(const VisiblePoints& points, const PointTiles& tiles, const TriangleView& triangles,
@@ -80,7 +81,7 @@ PatchRays::PatchRays(const VisiblePoints& points, const PointTiles& tiles, const
       pixels_(points.width, points.height),
       bounded_(light.range_m > 0 || light.spot_cos_outer > -1),
       kernels_(tile_kernels(config.simd)),
-      point_kernels_(point_tile_kernels()),
+      point_kernels_(point_tile_kernels(config.simd)),
       ray_kernels_(ray_kernels(config.simd)) {}
 
 std::size_t PatchRays::pixel_at(std::uint32_t tile, int lane) const {
@@ -143,14 +144,15 @@ std::uint32_t PatchRays::in_reach_lanes(std::uint32_t tile, std::uint32_t lanes)
   return reached;
 }
 
-/// Asks for the tiles that are looked at more closely: with points on several triangles.
+/// Asks for what is looked at more closely: receivers of tiles with several, points of tiles with gaps.
 void PatchRays::fetch_mixed_tiles(const PointSquare& square) const {
   for (std::uint32_t left = square.filled; left != 0; left &= left - 1) {
     const int t = std::countr_zero(left);
     if (square.receiver[t] != several_receivers) continue;
-    const auto* at =
-        reinterpret_cast<const char*>(&tiles_.tiles[square.first_tile + static_cast<std::uint32_t>(t)]);
-    for (std::size_t line = 0; line < sizeof(PointTile); line += 64) __builtin_prefetch(at + line);
+    const PointTile& tile = tiles_.tiles[square.first_tile + static_cast<std::uint32_t>(t)];
+    __builtin_prefetch(tile.receiver);
+    if (((square.gaps >> t) & 1u) == 0) continue;
+    for (const float* const q : {tile.qx, tile.qy, tile.qz}) __builtin_prefetch(q);
   }
 }
 
@@ -176,7 +178,7 @@ void PatchRays::find_lanes(const PointSquare& square, Work& work) const {
 
 /// False: too wide; nothing is done.
 bool PatchRays::add_node(Work& work, std::uint8_t face) const {
-  RayNode& node = work.node;
+  RayNode& node = work.out.nodes[work.out.count];
   node.live = node.filled = work.present;
   const FaceBox all = bounds_of(node);
   float wide = 0, high = 0;
@@ -193,8 +195,9 @@ bool PatchRays::add_node(Work& work, std::uint8_t face) const {
   }
   node.tau = work.square->tau;
   node.wide = work.present;  // boxes along the axes: shrunk where that pays
-  work.out.nodes.push_back(node);
-  work.out.node_faces.push_back(face);
+  node.tests = 0;
+  work.out.boxes.push_back(all);
+  ++work.out.count;
   work.node_keys.add(centre_of(*work.square, std::countr_zero(work.present)), face);
   return true;
 }
@@ -211,9 +214,21 @@ void PatchRays::add_ray(Work& work, int tile, int lane) const {
   }
   work.out.in_range &= size > shortest_ray && size < longest_ray;
   const std::uint8_t face = face_of(p);
-  work.out.loose.push_back({number, work.square->own[tile], static_cast<std::uint16_t>(1u << lane), face,
+  work.out.loose.push_back({number, work.square->own[tile], static_cast<std::uint16_t>(1u << lane),
                             work.square->tau, box_of(p, face)});
   work.loose_keys.add(p, face);
+}
+
+/// The triangle that the points of some lanes lie on; no_triangle: several.
+std::uint32_t PatchRays::own_of(const Work& work, int tile, std::uint32_t lanes) const {
+  const PointSquare& square = *work.square;
+  if (square.receiver[tile] != several_receivers) return square.own[tile];
+  const std::uint16_t* const receivers =
+      tiles_.tiles[square.first_tile + static_cast<std::uint32_t>(tile)].receiver;
+  const std::uint16_t first = receivers[std::countr_zero(lanes)];
+  for (std::uint32_t left = lanes; left != 0; left &= left - 1)
+    if (receivers[std::countr_zero(left)] != first) return no_triangle;
+  return work.patch->receivers[first / 16].id[first % 16];
 }
 
 /// Splits a tile at its gaps, and into single rays where it is off its face.
@@ -237,7 +252,7 @@ void PatchRays::add_parts(Work& work, int tile) const {
     FaceBox box{};
     if (kernels_.bound(points, lanes, source_.origin, face, box)) {
       work.out.loose.push_back(
-          {number, work.square->own[tile], static_cast<std::uint16_t>(lanes), face, work.square->tau, box});
+          {number, own_of(work, tile, lanes), static_cast<std::uint16_t>(lanes), work.square->tau, box});
       work.loose_keys.add(centre, face);
       continue;
     }
@@ -248,7 +263,8 @@ void PatchRays::add_parts(Work& work, int tile) const {
 void PatchRays::place_square(Work& work) const {
   if (work.gaps == 0) {
     const std::uint8_t face = face_of(centre_of(*work.square, std::countr_zero(work.present)));
-    const std::uint32_t on = kernels_.project(*work.square, source_.origin, face, work.node);
+    const std::uint32_t on =
+        kernels_.project(*work.square, source_.origin, face, work.out.nodes[work.out.count]);
     if ((work.present & ~on) == 0 && add_node(work, face)) return;
   }
   for (std::uint32_t left = work.present; left != 0; left &= left - 1)
@@ -259,8 +275,9 @@ void PatchRays::find(const PointPatch& patch, ForestScratch::Patch& out) const {
   out.clear();
   find_facing(patch, out.facing);
   Work work(ray_kernels_, out);
+  work.patch = &patch;
   for (const PointSquare& square : patch.squares) {
-    if (&square != &patch.squares.back()) fetch_mixed_tiles(*(&square + 1));
+    if (&patch.squares.back() - &square >= fetch_ahead) fetch_mixed_tiles(*(&square + fetch_ahead));
     find_lanes(square, work);
     if (work.present == 0) continue;
     out.tau = std::max(out.tau, square.tau);
@@ -272,6 +289,7 @@ void PatchRays::find(const PointPatch& patch, ForestScratch::Patch& out) const {
     out.in_range &= farthest < longest_ray;
     if (out.in_range) place_square(work);
   }
+  for (std::size_t i = out.count; i < patch_squares; ++i) out.nodes[i].live = out.nodes[i].filled = 0;
   work.node_keys.flush();
   work.loose_keys.flush();
 }

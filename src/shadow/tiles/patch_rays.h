@@ -36,6 +36,7 @@ private:
   glm::dvec3 point_of(const PointTile& tile, int lane) const;
   void place_square(Work& work) const;
   bool add_node(Work& work, std::uint8_t face) const;
+  std::uint32_t own_of(const Work& work, int tile, std::uint32_t lanes) const;
   void add_parts(Work& work, int tile) const;
   void add_ray(Work& work, int tile, int lane) const;
 

@@ -21,32 +21,35 @@ void widen(FaceBox& to, const FaceBox& by) {
   to.w = std::min(to.w, by.w), to.w1 = std::max(to.w1, by.w1);
 }
 
-/// Key and place of everything that is sorted: in the order of the patches, so that it does not depend on
-/// threads.
-void add_keys(const std::vector<std::uint32_t>& keys, RayKeys& to) {
-  for (const std::uint32_t key : keys)
-    to.keys.push_back(static_cast<std::uint64_t>(key) << 32 | to.keys.size());
-}
-
 std::uint32_t place_of(std::uint64_t key) {
   return static_cast<std::uint32_t>(key);
 }
+/// Keys have the face above the place on its curve.
+std::uint8_t face_of(std::uint64_t key) {
+  return static_cast<std::uint8_t>(key >> 60);
+}
+std::uint64_t key_of(std::uint32_t curve, std::size_t place) {
+  return static_cast<std::uint64_t>(curve) << 32 | place;
+}
 
-/// Gathers what the patches gave, in their order.
+/// Gathers what the patches gave, in their order, so that nothing depends on threads.
 void gather_patches(ForestScratch& s, RayForest& out) {
-  s.nodes.clear(), s.node_faces.clear(), s.loose.clear();
-  s.joined.clear();
+  s.loose.clear();
+  s.boxes.resize(out.levels[0].size());
   s.node_keys.keys.clear(), s.loose_keys.keys.clear();
   out.at_light.clear();
   out.rays = 0;
   out.tau = 0;
   out.in_range = true;
   for (const ForestScratch::Patch& patch : s.patches) {
-    s.loose.insert(s.loose.end(), patch.loose.begin(), patch.loose.end());
-    for (const RayNode& node : patch.nodes) s.nodes.push_back(&node);
-    s.node_faces.insert(s.node_faces.end(), patch.node_faces.begin(), patch.node_faces.end());
-    add_keys(patch.node_keys, s.node_keys);
-    add_keys(patch.loose_keys, s.loose_keys);
+    for (std::size_t i = 0; i < patch.count; ++i) {
+      s.node_keys.keys.push_back(key_of(patch.node_keys[i], patch.first + i));
+      s.boxes[patch.first + i] = patch.boxes[i];
+    }
+    for (std::size_t i = 0; i < patch.loose.size(); ++i) {
+      s.loose_keys.keys.push_back(key_of(patch.loose_keys[i], s.loose.size()));
+      s.loose.push_back(patch.loose[i]);
+    }
     out.at_light.insert(out.at_light.end(), patch.at_light.begin(), patch.at_light.end());
     out.rays += patch.rays;
     out.tau = std::max(out.tau, patch.tau);
@@ -55,17 +58,14 @@ void gather_patches(ForestScratch& s, RayForest& out) {
 }
 
 /// Loose groups in the order of the curve become nodes of sixteen on one face, with the key of their first.
-void group_loose(ForestScratch& s) {
+void group_loose(ForestScratch& s, std::vector<RayNode>& nodes) {
   radix_sort(s.loose_keys.keys, s.loose_keys);
-  s.joined.reserve(s.loose.size() / 16 + 8);  // one may be short on each face: none is moved
   const auto& keys = s.loose_keys.keys;
   for (std::size_t i = 0; i < keys.size();) {
-    const std::uint8_t face = s.loose[place_of(keys[i])].face;
-    s.node_keys.keys.push_back(keys[i] >> 32 << 32 | s.nodes.size());
-    s.node_faces.push_back(face);
-    RayNode& node = s.joined.emplace_back();
-    s.nodes.push_back(&node);
-    for (int k = 0; k < 16 && i < keys.size() && s.loose[place_of(keys[i])].face == face; ++k, ++i) {
+    const std::uint8_t face = face_of(keys[i]);
+    s.node_keys.keys.push_back(key_of(static_cast<std::uint32_t>(keys[i] >> 32), nodes.size()));
+    RayNode& node = nodes.emplace_back();
+    for (int k = 0; k < 16 && i < keys.size() && face_of(keys[i]) == face; ++k, ++i) {
       const ForestScratch::Loose& loose = s.loose[place_of(keys[i])];
       node.child[k] = loose.tile;
       node.own[k] = loose.own;
@@ -75,43 +75,40 @@ void group_loose(ForestScratch& s) {
       node.live |= 1u << k;
     }
     node.filled = node.live;
+    s.boxes.push_back(bounds_of(node));
   }
 }
 
-/// Appends `child` of level `level` to the last node of the level above, or to a new one.
-void append(RayForest& f, int level, bool fresh) {
-  auto& above = f.levels[static_cast<std::size_t>(level) + 1];
-  auto& own = f.levels[static_cast<std::size_t>(level)];
+/// Makes node `child` of level `level` one of the last node of the level above, or of a new one.
+void append(RayForest& f, std::size_t level, std::size_t child, bool fresh) {
+  auto& above = f.levels[level + 1];
   if (fresh) above.emplace_back();
   RayNode& parent = above.back();
   const int slot = std::popcount(parent.live);
-  parent.child[slot] = static_cast<std::uint32_t>(own.size() - 1);
+  parent.child[slot] = static_cast<std::uint32_t>(child);
   parent.live |= 1u << slot;
   parent.filled = parent.live;
-  own.back().parent = static_cast<std::uint32_t>(above.size() - 1);
-  own.back().slot = static_cast<std::uint32_t>(slot);
+  f.levels[level][child].parent = static_cast<std::uint32_t>(above.size() - 1);
+  f.levels[level][child].slot = static_cast<std::uint32_t>(slot);
 }
 
-/// The nodes along the curve, sixteen a parent, parents and roots of one face each.
+/// The nodes along the curve, sixteen a parent, parents and roots of one face each. They stay where they are.
 void plant(ForestScratch& s, RayForest& out) {
   radix_sort(s.node_keys.keys, s.node_keys);
-  for (auto& level : out.levels) level.clear();
+  out.levels[1].clear(), out.levels[2].clear();
   out.faces.clear(), out.root_boxes.clear();
-  out.levels[0].reserve(s.nodes.size());
   for (const std::uint64_t key : s.node_keys.keys) {
-    const std::uint8_t face = s.node_faces[place_of(key)];
-    const bool new_face = out.faces.empty() || out.faces.back() != face;
+    const bool new_face = out.faces.empty() || out.faces.back() != face_of(key);
     const bool new_parent = new_face || out.levels[1].back().live == 0xffffu;
     const bool new_root = new_face || (new_parent && out.levels[2].back().live == 0xffffu);
-    out.levels[0].push_back(*s.nodes[place_of(key)]);
-    append(out, 0, new_parent);
-    if (new_parent) append(out, 1, new_root);
-    if (new_root) out.faces.push_back(face);
+    append(out, 0, place_of(key), new_parent);
+    RayNode& parent = out.levels[1].back();
+    parent.set_box(std::popcount(parent.live) - 1, s.boxes[place_of(key)]);
+    if (new_parent) append(out, 1, out.levels[1].size() - 1, new_root);
+    if (new_root) out.faces.push_back(face_of(key));
   }
-  for (std::size_t level = 0; level + 1 < ray_levels; ++level) {
-    for (const RayNode& node : out.levels[level])
-      out.levels[level + 1][node.parent].set_box(static_cast<int>(node.slot), bounds_of(node));
-  }
+  for (const RayNode& node : out.levels[1])
+    out.levels[2][node.parent].set_box(static_cast<int>(node.slot), bounds_of(node));
   for (const RayNode& root : out.levels[2]) out.root_boxes.push_back(bounds_of(root));
 }
 
@@ -149,7 +146,8 @@ FaceBox bounds_of(const RayNode& node) {
 }
 
 void ForestScratch::Patch::clear() {
-  nodes.clear(), node_faces.clear(), node_keys.clear();
+  count = 0;
+  boxes.clear(), node_keys.clear();
   loose.clear(), loose_keys.clear(), at_light.clear();
   rays = 0;
   tau = 0;
@@ -166,14 +164,18 @@ void build_ray_forest(const VisiblePoints& points, const PointTiles& tiles, cons
                       const ShadowLight& light, const RaySource& source, const HardShadowConfig& config,
                       ForestScratch& scratch, RayForest& out) {
   scratch.patches.resize(tiles.patches.size());
+  const std::size_t slots = tiles.patches.size() * patch_squares;
+  out.levels[0].resize(slots);
   const PatchRays rays(points, tiles, triangles, light, source, config);
   parallel_tasks(static_cast<int>(tiles.patches.size()), [&](int patch) {
     const auto i = static_cast<std::size_t>(patch);
+    scratch.patches[i].first = i * patch_squares;
+    scratch.patches[i].nodes = &out.levels[0][i * patch_squares];
     rays.find(tiles.patches[i], scratch.patches[i]);
   });
   gather_patches(scratch, out);
   if (!out.in_range) return;
-  group_loose(scratch);
+  group_loose(scratch, out.levels[0]);
   plant(scratch, out);
 }
 

@@ -62,8 +62,10 @@ FaceBox bounds_of(const RayNode& node);
 
 inline constexpr int ray_levels = 3;
 struct RayForest {
-  std::array<std::vector<RayNode>, ray_levels> levels;  ///< [0]: over tiles; [2]: the roots
-  std::vector<std::uint8_t> faces;                      ///< of each root: axis * 2, + 1 for the negative side
+  /// [0]: over tiles, patch_squares a patch as far as needed (others are empty), then those joined of loose
+  /// groups; [2]: the roots.
+  std::array<std::vector<RayNode>, ray_levels> levels;
+  std::vector<std::uint8_t> faces;  ///< of each root: axis * 2, + 1 for the negative side
   std::vector<FaceBox> root_boxes;
   std::vector<std::uint32_t> at_light;  ///< pixels whose point is the light: lit
   std::uint64_t rays = 0;
@@ -79,14 +81,15 @@ struct ForestScratch {
     std::uint32_t tile;
     std::uint32_t own;
     std::uint16_t rays;
-    std::uint8_t face;
     float tau;
     FaceBox box;
   };
   struct Patch {  ///< what one patch of points gave
     std::vector<std::uint8_t> facing;
-    std::vector<RayNode> nodes;
-    std::vector<std::uint8_t> node_faces;
+    RayNode* nodes = nullptr;  ///< room for patch_squares in level 0, from `first` on
+    std::size_t first = 0;
+    std::size_t count = 0;
+    std::vector<FaceBox> boxes;  ///< of these nodes
     std::vector<std::uint32_t> node_keys;
     std::vector<Loose> loose;
     std::vector<std::uint32_t> loose_keys;
@@ -99,9 +102,7 @@ struct ForestScratch {
   };
   std::vector<Patch> patches;
   std::vector<Loose> loose;
-  std::vector<std::uint8_t> node_faces;
-  std::vector<RayNode> joined;        ///< of loose groups
-  std::vector<const RayNode*> nodes;  ///< the patches' and these
+  std::vector<FaceBox> boxes;  ///< of the nodes of level 0
   RayKeys node_keys, loose_keys;
 };
 

@@ -42,13 +42,13 @@ bool TileTracer::trace(const VisiblePoints& points, const ViewRays& view, const 
                        const ShadowLight& light, const HardShadowConfig& config, ShadowMask& mask,
                        TraceStats& stats, FrameTimings& timings) {
   const RaySource source = ray_source(light);
-  if (source.directional) return false;
+  if (source.directional || triangles.positions.size() > most_vertices) return false;
   Stopwatch watch;
   const PointTiles& tiles = tiles_of(points, view, triangles);
   build_ray_forest(points, tiles, triangles, light, source, config, forest_scratch_, forest_);
   timings.rays_ms = watch.lap_ms();
   if (!forest_.in_range) return false;
-  clusters_.update(triangles);
+  clusters_.update(triangles, config.simd);
   timings.build_ms = watch.lap_ms();
   tile_tests_.assign(config.count_pixel_nodes ? forest_.levels[0].size() : 0, {});
   descend({clusters_, forest_, source, triangles, points, tiles, config.contact, config.cull_front,
@@ -88,6 +88,10 @@ void TileTracer::spread_tests(int width, int height, std::vector<float>& out) co
   }
   for (std::size_t level = ray_levels; level-- > 0;) {
     for (std::size_t i = 0; i < levels[level].size(); ++i) {
+      if (levels[level][i].filled == 0) {
+        shares[level].push_back(0);
+        continue;
+      }
       const double above = level + 1 < ray_levels ? shares[level + 1][levels[level][i].parent] : 0.0;
       shares[level].push_back(above + static_cast<double>(levels[level][i].tests * wide) / rays[level][i]);
     }

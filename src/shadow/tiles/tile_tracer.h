@@ -15,7 +15,8 @@ namespace tenebra {
 class TileTracer {
 public:
   /// Fills `mask`, `stats` and `timings` as ShadowTracer does. False, with nothing of use in them, where the
-  /// method does not apply: directional lights, and points that are not 1e-15 ... 1e15 from the light.
+  /// method does not apply: directional lights, points that are not 1e-15 ... 1e15 from the light, and more
+  /// than most_vertices.
   bool trace(const VisiblePoints& points, const ViewRays& view, const TriangleView& triangles,
              const ShadowLight& light, const HardShadowConfig& config, ShadowMask& mask, TraceStats& stats,
              FrameTimings& timings);

@@ -1,12 +1,13 @@
 #include "shadow/tiles/triangle_clusters.h"
 
 #include <algorithm>
-#include <cmath>
+#include <bit>
 #include <cstring>
 #include <limits>
 
 #include "parallel/parallel.h"
 #include "points/triangle_corners.h"
+#include "shadow/tiles/cluster_kernels.h"
 #include "shadow/tiles/cluster_order.h"
 
 namespace tenebra {
@@ -40,31 +41,10 @@ void copy_changes(std::span<const T> from, std::vector<T>& to, std::vector<std::
   for (std::size_t b = 0; b < blocks; ++b) changed[b + 1] += changed[b];
 }
 
-bool finite(const vec3& p) {
-  return std::isfinite(p.x) && std::isfinite(p.y) && std::isfinite(p.z);
-}
-
 void clear_box(BoxNode& node, std::size_t lane) {
   for (int axis = 0; axis < 3; ++axis) {
     node.low[axis][lane] = infinity;
     node.high[axis][lane] = -infinity;
-  }
-}
-
-void set_cluster_box(const TriangleCluster& c, BoxNode& node, std::size_t lane) {
-  clear_box(node, lane);
-  const float(*const corners[3])[cluster_size] = {c.x, c.y, c.z};
-  for (int axis = 0; axis < 3; ++axis) {
-    float low = infinity, high = -infinity;
-    for (int k = 0; k < 3; ++k) {
-      for (std::uint32_t i = 0; i < cluster_size; ++i) {
-        const bool used = (c.used >> i) & 1u;
-        low = std::min(low, used ? corners[axis][k][i] : infinity);
-        high = std::max(high, used ? corners[axis][k][i] : -infinity);
-      }
-    }
-    node.low[axis][lane] = low;
-    node.high[axis][lane] = high;
   }
 }
 
@@ -78,7 +58,7 @@ void set_parent_box(const BoxNode& child, BoxNode& node, std::size_t lane) {
 }  // namespace
 
 std::size_t ClusterTree::byte_count() const {
-  std::size_t bytes = clusters_.size() * (sizeof(TriangleCluster) + sizeof(Origin));
+  std::size_t bytes = clusters_.size() * (sizeof(TriangleCluster) + sizeof(ClusterCorners) + sizeof(Origin));
   for (const auto& level : levels_) bytes += level.size() * sizeof(BoxNode);
   return bytes + positions_.size() * sizeof(vec3) + triangles_.size() * sizeof(glm::uvec3);
 }
@@ -98,6 +78,7 @@ void ClusterTree::find_order(const TriangleView& t) {
                                   casts_.begin(), casts_.end(), [](auto casts) { return casts != 0; }));
   cluster_order(t, order_);
   clusters_.resize(order_.size() / cluster_size);
+  corners_.resize(clusters_.size());
   origins_.resize(clusters_.size());
   levels_.clear();
   for (std::size_t size = clusters_.size(); size > 0; size = levels_.back().size()) {
@@ -109,50 +90,51 @@ void ClusterTree::find_order(const TriangleView& t) {
   }
 }
 
-bool ClusterTree::changed(std::size_t cluster) const {
+bool ClusterTree::triangles_changed(std::size_t cluster) const {
   const Origin& o = origins_[cluster];
-  return changed_vertices_[o.last_vertex + 1] != changed_vertices_[o.first_vertex] ||
-         changed_triangles_[o.last_triangle + 1] != changed_triangles_[o.first_triangle];
+  return changed_triangles_[o.last_triangle + 1] != changed_triangles_[o.first_triangle];
+}
+bool ClusterTree::vertices_changed(std::size_t cluster) const {
+  const Origin& o = origins_[cluster];
+  return changed_vertices_[o.last_vertex + 1] != changed_vertices_[o.first_vertex];
 }
 
-void ClusterTree::fill_cluster(const TriangleView& t, std::size_t cluster) {
+void ClusterTree::find_corners(const TriangleView& t, std::size_t cluster) {
   TriangleCluster& c = clusters_[cluster];
+  ClusterCorners& corners = corners_[cluster] = {};
   std::uint32_t low_vertex = no_triangle, high_vertex = 0, low_id = no_triangle, high_id = 0;
-  c.used = 0;
   for (std::uint32_t i = 0; i < cluster_size; ++i) {
-    const std::uint32_t id = order_[cluster * cluster_size + i];
-    c.ids[i] = id;
-    for (int k = 0; k < 3; ++k) c.x[k][i] = c.y[k][i] = c.z[k][i] = 0;
+    const std::uint32_t id = c.ids[i] = order_[cluster * cluster_size + i];
     if (id == no_triangle) continue;
     const glm::uvec3 v = t.triangles[id];
     low_id = std::min(low_id, id), high_id = std::max(high_id, id);
-    bool all_finite = true;
-    for (int k = 0; k < 3; ++k) {
-      low_vertex = std::min(low_vertex, v[k]), high_vertex = std::max(high_vertex, v[k]);
-      all_finite &= finite(t.positions[v[k]]);
-    }
+    low_vertex = std::min({low_vertex, v.x, v.y, v.z}), high_vertex = std::max({high_vertex, v.x, v.y, v.z});
     // Two equal corners span no area.
-    if (!all_finite || v.x == v.y || v.y == v.z || v.z == v.x) continue;
-    for (int k = 0; k < 3; ++k) {
-      const vec3& p = t.positions[v[k]];
-      c.x[k][i] = p.x, c.y[k][i] = p.y, c.z[k][i] = p.z;
-    }
-    c.used |= 1u << i;
+    if (v.x != v.y && v.y != v.z && v.z != v.x) corners.possible |= 1u << i;
   }
   const bool empty = low_id == no_triangle;
+  corners.first = empty ? 0 : low_vertex;
+  for (std::uint32_t left = corners.possible; left != 0; left &= left - 1) {
+    const int i = std::countr_zero(left);
+    for (int k = 0; k < 3; ++k)
+      corners.offset[k][i] =
+          static_cast<std::int32_t>((t.triangles[c.ids[i]][k] - corners.first) * sizeof(vec3));
+  }
   constexpr auto b = static_cast<std::uint32_t>(block);
   origins_[cluster] = empty ? Origin{} : Origin{low_vertex / b, high_vertex / b, low_id / b, high_id / b};
 }
 
-void ClusterTree::refit(const TriangleView& t, bool all) {
+void ClusterTree::refit(const TriangleView& t, SimdLevel simd, bool all) {
   if (levels_.empty()) return;
+  const ClusterKernels kernels = cluster_kernels(simd);
   parallel_ranges(levels_[0].size(), 16, [&](std::size_t first, std::size_t last) {
     for (std::size_t node = first; node < last; ++node) {
       const std::size_t end = std::min(clusters_.size(), (node + 1) * cluster_size);
       for (std::size_t c = node * cluster_size; c < end; ++c) {
-        if (!all && !changed(c)) continue;
-        fill_cluster(t, c);
-        set_cluster_box(clusters_[c], levels_[0][node], c % cluster_size);
+        const bool other = all || triangles_changed(c);
+        if (!other && !vertices_changed(c)) continue;
+        if (other) find_corners(t, c);
+        kernels.follow(t.positions.data(), corners_[c], clusters_[c], levels_[0][node], c % cluster_size);
       }
     }
   });
@@ -163,16 +145,16 @@ void ClusterTree::refit(const TriangleView& t, bool all) {
   }
 }
 
-void ClusterTree::update(const TriangleView& t) {
+void ClusterTree::update(const TriangleView& t, SimdLevel simd) {
   if (t.version != 0 && t.version == version_) return;
   version_ = t.version;
   if (!same_order(t)) {
     find_order(t);
-    return refit(t, true);
+    return refit(t, simd, true);
   }
   copy_changes(t.positions, positions_, changed_vertices_);
   copy_changes(t.triangles, triangles_, changed_triangles_);
-  if (changed_vertices_.back() + changed_triangles_.back() > 0) refit(t, false);
+  if (changed_vertices_.back() + changed_triangles_.back() > 0) refit(t, simd, false);
 }
 
 }  // namespace tenebra

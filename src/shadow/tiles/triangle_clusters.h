@@ -9,16 +9,26 @@
 #include <vector>
 
 #include "points/visible_points.h"
+#include "simd/simd_level.h"
 
 namespace tenebra {
 
 inline constexpr std::uint32_t cluster_size = 16;
+inline constexpr std::size_t most_vertices =
+    (std::size_t{1} << 31) / sizeof(glm::vec3);  ///< of a ClusterTree
 
 /// Corner k of triangle i is (x[k][i], y[k][i], z[k][i]), world space.
 struct alignas(64) TriangleCluster {
   float x[3][cluster_size], y[3][cluster_size], z[3][cluster_size];
   std::uint32_t ids[cluster_size];
   std::uint32_t used = 0;  ///< bit i: triangle i is there, finite, and may block something
+};
+
+/// Where a cluster's corners stand in memory.
+struct ClusterCorners {
+  std::int32_t offset[3][cluster_size];  ///< bytes from the first vertex
+  std::uint32_t first = 0;               ///< vertex
+  std::uint32_t possible = 0;            ///< bit i: triangle i is there and has three different corners
 };
 
 /// Sixteen boxes, world space. An empty one has low = infinity, high = -infinity.
@@ -29,7 +39,7 @@ struct alignas(64) BoxNode {
 class ClusterTree {
 public:
   /// Follows `triangles`: finds the order anew where their number, parts or casters changed, refits else.
-  void update(const TriangleView& triangles);
+  void update(const TriangleView& triangles, SimdLevel simd);
 
   const std::vector<TriangleCluster>& clusters() const { return clusters_; }
   /// levels()[0]: node i holds the boxes of clusters 16 i ... 16 i + 15; levels()[k]: those of the nodes of
@@ -47,12 +57,14 @@ private:
   bool same_order(const TriangleView& triangles) const;
   void find_order(const TriangleView& triangles);
   void note_changes(const TriangleView& triangles);
-  bool changed(std::size_t cluster) const;
-  void fill_cluster(const TriangleView& triangles, std::size_t cluster);
-  void refit(const TriangleView& triangles, bool all);
+  bool triangles_changed(std::size_t cluster) const;
+  bool vertices_changed(std::size_t cluster) const;
+  void find_corners(const TriangleView& triangles, std::size_t cluster);
+  void refit(const TriangleView& triangles, SimdLevel simd, bool all);
 
   std::vector<std::uint32_t> order_;  ///< ids; no_triangle: a gap
   std::vector<TriangleCluster> clusters_;
+  std::vector<ClusterCorners> corners_;
   std::vector<Origin> origins_;
   std::vector<std::vector<BoxNode>> levels_;
   std::uint64_t casters_ = 0;

@@ -1,0 +1,35 @@
+// Points of neighbouring pixels that see one triangle, eight at a time: the operations of the scalar code in
+// the same order, so the same bits.
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+#include <glm/glm.hpp>
+
+#include "simd/simd_level.h"
+
+namespace tenebra {
+
+/// What the pixels of one triangle share. Barycentric weights of a point p on the plane are
+/// u = du.(p - a), v = dv.(p - a), 1 - u - v.
+struct Receiver {
+  std::uint32_t id = 0xffffffffu;
+  glm::dvec3 a, e1, e2, normal, du, dv;
+  bool flat = false;  ///< no plane: zero area in double
+};
+
+/// Pixels of a row of a perspective view: directions d0 + ((x + 0.5) dx + row) from the eye.
+struct PixelRow {
+  glm::dvec3 eye, d0, dx, row;
+};
+
+/// Code for one instruction set.
+struct VisibleRunKernels {
+  /// Points of pixels x ... x + 7 on a receiver that is not flat. Returns the bits of those that lie inside
+  /// of the triangle; the others are left to be clamped.
+  std::uint32_t (*eight)(const Receiver& receiver, const PixelRow& row, std::size_t x,
+                         glm::dvec3 points[8]) = nullptr;
+};
+VisibleRunKernels visible_run_kernels(SimdLevel level);
+
+}  // namespace tenebra

@@ -1,0 +1,21 @@
+// Clusters follow their vertices, sixteen triangles at a time.
+#pragma once
+
+#include <cstdint>
+#include <glm/glm.hpp>
+
+#include "shadow/tiles/triangle_clusters.h"
+#include "simd/simd_level.h"
+
+namespace tenebra {
+
+/// Code for one instruction set; all give the same.
+struct ClusterKernels {
+  /// Corners of the cluster's triangles from positions[first + offset / 12 bytes]; `used` loses those that
+  /// are not finite. The box around the used ones becomes lane `lane` of `node`.
+  void (*follow)(const glm::vec3* positions, const ClusterCorners& corners, TriangleCluster& cluster,
+                 BoxNode& node, std::size_t lane) = nullptr;
+};
+ClusterKernels cluster_kernels(SimdLevel level);
+
+}  // namespace tenebra
