@@ -277,22 +277,6 @@ HWY_INLINE Pack<T, N> choose(Truth<U, N> t, Pack<T, N> a, Pack<T, N> b) {
   return a;
 }
 
-/// Doubles as T, rounded to nearest.
-template <class T, int N>
-HWY_INLINE Pack<T, N> narrowed(Pack<double, N> a) {
-  if constexpr (sizeof(T) == sizeof(double)) {
-    return a;
-  } else {
-    using Half = hn::CappedTag<T, Pack<double, N>::width>;
-    Pack<T, N> p;
-    T lanes[N];
-    for (int i = 0; i < a.registers; ++i)
-      hn::StoreU(hn::DemoteTo(Half(), a.r[i]), Half(), lanes + i * a.width);
-    p = load<Pack<T, N>>(lanes);
-    return p;
-  }
-}
-
 /// N floats as doubles.
 template <class P>
 HWY_INLINE P load_widened(const float* from) {
@@ -379,8 +363,12 @@ HWY_INLINE Truth<T, N> truth_of(std::uint32_t bits) {
   Truth<T, N> t;
   for (int i = 0; i < P::registers; ++i) {
     const std::uint32_t part = bits >> (i * P::width);
+#if HWY_TARGET <= HWY_AVX3
+    t.r[i].raw = static_cast<decltype(t.r[i].raw)>(part);
+#else
     const std::uint8_t bytes[8] = {static_cast<std::uint8_t>(part), static_cast<std::uint8_t>(part >> 8)};
     t.r[i] = hn::LoadMaskBits(typename P::Tag(), bytes);
+#endif
   }
   return t;
 }
@@ -397,6 +385,10 @@ template <int N>
 HWY_INLINE void store_narrowed(Pack<double, N> a, float* to) {
   const hn::Rebind<float, typename Pack<double, N>::Tag> narrow;
   for (int i = 0; i < a.registers; ++i) hn::StoreU(hn::DemoteTo(narrow, a.r[i]), narrow, to + i * a.width);
+}
+template <int N>
+HWY_INLINE void store_narrowed(Pack<double, N> a, double* to) {
+  store(a, to);
 }
 
 /// Doubles as floats, rounded to nearest, without a trip through memory.
@@ -433,6 +425,13 @@ HWY_INLINE Float16 joined(const Float4 (&a)[4]) {
   for (int i = 0; i < Float16::registers; ++i) p.r[i] = a[i * Float16::width / 4].r[i % Float4::registers];
 #endif
   return p;
+}
+
+/// Sum of the lanes, in the target's order: the same bits everywhere only where all sums are exact.
+template <class T, int N>
+HWY_INLINE T total(Pack<T, N> a) {
+  for (int i = 1; i < a.registers; ++i) a.r[0] = hn::Add(a.r[0], a.r[i]);
+  return hn::GetLane(hn::SumOfLanes(typename Pack<T, N>::Tag(), a.r[0]));
 }
 
 /// Bits of the sixteen that equal `value`.

@@ -60,8 +60,8 @@ private:
       const Wide from = wide(at.in_light[axis]), place = wide(at.in_axes[axis]);
       const Wide low = load<Wide>(bounds.low[axis]) - place, high = load<Wide>(bounds.high[axis]) - place;
       const Wide least_at = from + min(low * near, low * far), most_at = from + max(high * near, high * far);
-      store(narrowed<T>(max(choose(boxed, least_at, minus), minus)), sides[2 * axis]);
-      store(narrowed<T>(zero - min(choose(boxed, most_at, two), two)), sides[2 * axis + 1]);
+      store_narrowed(max(choose(boxed, least_at, minus), minus), sides[2 * axis]);
+      store_narrowed(zero - min(choose(boxed, most_at, two), two), sides[2 * axis + 1]);
     }
     return less_bits(zero, highest);
   }

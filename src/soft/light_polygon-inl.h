@@ -96,8 +96,9 @@ HWY_INLINE LightPolygon<T> cut(const LightPolygon<T>& polygon, const Pack<T, pol
   constexpr LaneIndex<T> lanes[polygon_capacity] = {0, 1, 2, 3, 4, 5, 6, 7, 8, 9, 10, 11, 12, 13, 14, 15};
   const int n = polygon.count;
   const auto whole = [](int i) { return splat<Index>(static_cast<LaneIndex<T>>(i)); };
-  const int last = (run.first + run.length - 1) % n;
-  const int next = (last + 1) % n, previous = (run.first + n - 1) % n;
+  const auto cyclic = [n](int k) { return k < n ? k : k - n; };
+  const int last = cyclic(run.first + run.length - 1);
+  const int next = cyclic(last + 1), previous = cyclic(run.first + n - 1);
   const Index lane = load<Index>(lanes);
   const Index straight = lane + whole(run.first);
   const Index wrapped = choose(greater(straight, whole(n - 1)), straight - whole(n), straight);
@@ -128,10 +129,11 @@ template <class T>
 HWY_INLINE void split(const LightPolygon<T>& polygon, const LineValues<T>& line, LightPolygon<T>& positive,
                       LightPolygon<T>& negative) {
   assert(polygon.count < polygon_capacity);
-  const VertexRun run = run_of(line.positive, polygon.count, line.value);
+  const int n = polygon.count;
+  const VertexRun run = run_of(line.positive, n, line.value);
+  const int behind = run.first + run.length;
   positive = cut(polygon, line.value, run, true);
-  negative =
-      cut(polygon, line.value, {(run.first + run.length) % polygon.count, polygon.count - run.length}, false);
+  negative = cut(polygon, line.value, {behind < n ? behind : behind - n, n - run.length}, false);
 }
 
 /// Two polygons for one, along a diagonal: vertices 0 to count / 2, and the others with both ends.

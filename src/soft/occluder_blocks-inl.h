@@ -99,10 +99,10 @@ HWY_NOINLINE void find_boxes(const OccluderBlock& block, std::span<const PlaneHe
   }
   const auto boxed = less(zero, lowest);
   const Wide two = wide(2), minus = wide(-2);
-  store(narrowed<T>(max(choose(boxed, low_u, minus), minus)), out.box[0]);
-  store(narrowed<T>(zero - min(choose(boxed, high_u, two), two)), out.box[1]);
-  store(narrowed<T>(max(choose(boxed, low_v, minus), minus)), out.box[2]);
-  store(narrowed<T>(zero - min(choose(boxed, high_v, two), two)), out.box[3]);
+  store_narrowed(max(choose(boxed, low_u, minus), minus), out.box[0]);
+  store_narrowed(zero - min(choose(boxed, high_u, two), two), out.box[1]);
+  store_narrowed(max(choose(boxed, low_v, minus), minus), out.box[2]);
+  store_narrowed(zero - min(choose(boxed, high_v, two), two), out.box[3]);
   out.lanes = block.lanes & less_bits(zero, highest);
   if ((block.indefinite & out.lanes) == 0) return;
   for (int k = 0; k < 16; ++k) {
@@ -128,13 +128,13 @@ HWY_NOINLINE void find_lines(const OccluderBlock& block, const GroupPoint& at, B
   const Pack3<Wide> corners[3] = {corner(0), corner(1), corner(2)};
   for (int k = 0; k < 3; ++k) {
     const Pack3<Wide> n = cross(corners[k], corners[k < 2 ? k + 1 : 0] - corners[k]);
-    store(narrowed<T>(n.x * sign), out.u[k]);
-    store(narrowed<T>(n.y * sign), out.v[k]);
-    store(narrowed<T>((n.z * reach - n.x * pu - n.y * pv) * sign), out.w[k]);
+    store_narrowed(n.x * sign, out.u[k]);
+    store_narrowed(n.y * sign, out.v[k]);
+    store_narrowed((n.z * reach - n.x * pu - n.y * pv) * sign, out.w[k]);
   }
   if (!block.has_planes) return;
   T* to[3] = {out.u[3], out.v[3], out.w[3]};
-  for (int i = 0; i < 3; ++i) store(narrowed<T>(load<Wide>(block.plane[i]) * sign), to[i]);
+  for (int i = 0; i < 3; ++i) store_narrowed(load<Wide>(block.plane[i]) * sign, to[i]);
 }
 
 }  // namespace tenebra::HWY_NAMESPACE

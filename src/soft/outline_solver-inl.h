@@ -101,8 +101,8 @@ private:
   /// u and v where the line from the point along `way` meets the light's plane.
   static HWY_INLINE void project(const GroupPoint& at, const Pack3<Wide>& way, T* u, T* v) {
     const Wide t = wide(at.reach) / way.z;
-    store(narrowed<T>(wide(at.in_light.x) + way.x * t), u);
-    store(narrowed<T>(wide(at.in_light.y) + way.y * t), v);
+    store_narrowed(wide(at.in_light.x) + way.x * t, u);
+    store_narrowed(wide(at.in_light.y) + way.y * t, v);
   }
 
   /// Lines are positive to the left of the way from `from` to `to`.
@@ -115,12 +115,12 @@ private:
     };
     const Pack3<Wide> a = way(block.from), b_way = way(block.to);
     const Pack3<Wide> n = cross(a, b_way - a);
-    store(narrowed<T>(n.x), to.u);
-    store(narrowed<T>(n.y), to.v);
-    store(narrowed<T>(n.z * wide(at.reach) - n.x * wide(at.in_light.x) - n.y * wide(at.in_light.y)), to.w);
+    store_narrowed(n.x, to.u);
+    store_narrowed(n.y, to.v);
+    store_narrowed(n.z * wide(at.reach) - n.x * wide(at.in_light.x) - n.y * wide(at.in_light.y), to.w);
     project(at, a, to.from_u, to.from_v);
     project(at, b_way, to.to_u, to.to_v);
-    store(narrowed<T>(load<Wide>(block.winding)), to.winding);
+    store_narrowed(load<Wide>(block.winding), to.winding);
   }
 
   void add_sometimes(const GroupPoint& at) {
@@ -404,10 +404,7 @@ private:
       doubtful |= (bits(from_above) ^ bits(to_above)) & less_bits(absolute(value), margin) &
                   less_bits(zero, absolute(turns));
     }
-    T lanes[16];
-    store(sum, lanes);
-    winding = 0;
-    for (const T lane : lanes) winding += lane;
+    winding = total(sum);  // of whole numbers: exact in any order
     return doubtful == 0;
   }
 
