@@ -427,6 +427,37 @@ HWY_INLINE Float16 joined(const Float4 (&a)[4]) {
   return p;
 }
 
+/// Doubles as T, rounded to nearest.
+template <class T, int N>
+HWY_INLINE Pack<T, N> narrowed(Pack<double, N> a) {
+  if constexpr (sizeof(T) == sizeof(double)) {
+    return a;
+  } else {
+    return demoted(a);
+  }
+}
+
+/// Lane after lane, the four packs' values in turn.
+template <class T, int N>
+HWY_INLINE void store_fours(Pack<T, N> a, Pack<T, N> b, Pack<T, N> c, Pack<T, N> d, T* to) {
+  for (int i = 0; i < a.registers; ++i)
+    hn::StoreInterleaved4(a.r[i], b.r[i], c.r[i], d.r[i], typename Pack<T, N>::Tag(), to + 4 * i * a.width);
+}
+/// The same four values again and again.
+template <class P, class T>
+HWY_INLINE P load_four(const T* from) {
+  if constexpr (sizeof(T) == 4 && P::width >= 4) {
+    P p;
+    for (int i = 0; i < P::registers; ++i) p.r[i] = hn::LoadDup128(typename P::Tag(), from);
+    return p;
+  } else {
+    constexpr int lanes = P::width * P::registers;
+    T repeated[lanes];
+    for (int k = 0; k < lanes; ++k) repeated[k] = from[k % 4];
+    return load<P>(repeated);
+  }
+}
+
 /// Sum of the lanes, in the target's order: the same bits everywhere only where all sums are exact.
 template <class T, int N>
 HWY_INLINE T total(Pack<T, N> a) {

@@ -77,18 +77,15 @@ public:
     return true;
   }
 
-  /// The lines of an occluder; returns their number.
-  HWY_INLINE int lines_of(std::size_t id, LightLine<T>* lines) {
+  /// The lines around an occluder's shadow.
+  HWY_INLINE ShadowLines<T> lines_of(std::size_t id) {
     const std::size_t b = id / 16, k = id % 16;
     BlockAtPoint<T>& there = at_point_[b];
     if (there.lines_of != point_) {
       find_lines(blocks_[b], at_, there);
       there.lines_of = point_;
     }
-    const int count = blocks_[b].has_planes ? 4 : 3;
-    for (int slot = 0; slot < count; ++slot)
-      lines[slot] = {there.u[slot][k], there.v[slot][k], there.w[slot][k]};
-    return count;
+    return {there.u[k], there.v[k], there.w[k]};
   }
 
   void mark_useful(std::size_t id) { useful_[id / 16] |= 1u << (id % 16); }
@@ -99,14 +96,12 @@ public:
 
 private:
   HWY_INLINE bool covers(std::size_t id, const LightBox<T>& box) {
-    LightLine<T> lines[4];
-    const int count = lines_of(id, lines);
-    const auto size = [](T a) { return HWY_MAX(a, -a); };
-    for (int slot = 0; slot < count; ++slot) {
-      const T value = lines[slot].u * box.cu + lines[slot].v * box.cv + lines[slot].w;
-      if (!(value > size(lines[slot].u) * box.hu + size(lines[slot].v) * box.hv)) return false;
-    }
-    return true;
+    using Lanes = Pack<T, 4>;
+    const ShadowLines<T> lines = lines_of(id);
+    const Lanes u = load<Lanes>(lines.u), v = load<Lanes>(lines.v), w = load<Lanes>(lines.w);
+    const Lanes value = u * splat<Lanes>(box.cu) + v * splat<Lanes>(box.cv) + w;
+    const Lanes reach = absolute(u) * splat<Lanes>(box.hu) + absolute(v) * splat<Lanes>(box.hv);
+    return less_bits(reach, value) == all_lines;
   }
 
   static constexpr std::size_t looked_at = 4;  ///< occluders that may cover a part by themselves

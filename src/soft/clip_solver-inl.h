@@ -240,19 +240,29 @@ private:
   /// What the occluders in places [first, last) leave of `part`.
   HWY_NOINLINE FragmentList<T> subtract_all(Candidates& c, const LightPolygon<T>& part, std::size_t first,
                                             std::size_t last) {
-    FragmentList<T> now = take();
-    now.push(part);
-    for (std::size_t i = first; i < last && !now.empty(); ++i) {
-      LightLine<T> lines[4];
-      const std::size_t id = c.list.id(i);
-      const int count = c.lines_of(id, lines);
-      next_.clear();
-      bool taken = false;
-      for (std::size_t k = 0; k < now.size(); ++k) taken |= subtract(loaded(now[k]), lines, count, next_);
-      if (taken) c.mark_useful(id);
-      now.swap(next_);
+    FragmentList<T> left = take();
+    left.push(part);
+    for (std::size_t i = first; i < last && !left.empty(); ++i) {
+      if (subtract_one(c.lines_of(c.list.id(i)), left)) c.mark_useful(c.list.id(i));
     }
-    return now;
+    return left;
+  }
+
+  /// Subtracts a shadow from all fragments; true if that took something.
+  static HWY_INLINE bool subtract_one(const ShadowLines<T>& lines, FragmentList<T>& fragments) {
+    bool taken = false;
+    std::size_t count = fragments.size();  // of those not yet subtracted from: what is left goes behind them
+    for (std::size_t k = 0; k < count;) {
+      const LightPolygon<T> fragment = loaded(fragments[k]);
+      const LineSides sides = sides_of(fragment, lines);
+      if (sides.positive != all_lines || !subtract(fragment, lines, sides.negative, fragments)) {
+        ++k;
+        continue;
+      }
+      taken = true;
+      fragments.remove(k, count--);
+    }
+    return taken;
   }
 
   FragmentList<T> take() {
@@ -275,7 +285,6 @@ private:
   bool blocks_listed_ = false;
   std::vector<LightBox<T>> boxes_;     ///< of the parts that the hot ones leave
   std::vector<std::uint32_t> chosen_;  ///< indices of these parts
-  FragmentList<T> next_;
   std::vector<FragmentList<T>> spare_;
 };
 

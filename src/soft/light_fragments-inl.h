@@ -23,7 +23,7 @@ inline constexpr int fragment_capacity = polygon_capacity - 5;
 
 /// A LightPolygon in memory.
 template <class T>
-struct StoredPolygon {
+struct alignas(64) StoredPolygon {
   T x[polygon_capacity], y[polygon_capacity];
   int count;
 };
@@ -67,6 +67,11 @@ public:
     }
   }
   void shrink(std::size_t size) { size_ = size; }
+  /// Puts the last of the first `count` in its place, and the last of all in that one's.
+  HWY_INLINE void remove(std::size_t place, std::size_t count) {
+    polygons_[place] = polygons_[count - 1];
+    polygons_[count - 1] = polygons_[--size_];
+  }
   HWY_INLINE LightPolygon<T> pop() { return loaded(polygons_[--size_]); }
 
 private:
@@ -82,28 +87,17 @@ private:
   std::size_t size_ = 0;
 };
 
-/// Adds what is left of `fragment` outside the shadow (where all `lines` are positive) to `out`; false if
-/// that is all of it.
+/// Adds what is left of `fragment` outside the shadow to `out`; false, and nothing added, if that is all of
+/// it. `crossing`: bits of the lines that have vertices on both sides; none is on the outside of a line.
 template <class T>
-HWY_NOINLINE bool subtract(const LightPolygon<T>& fragment, const LightLine<T>* lines, int count,
-                           FragmentList<T>& out) {
-  std::uint32_t crossing = 0;
-  for (int k = 0; k < count; ++k) {
-    const LineValues<T> values = evaluate(fragment, lines[k]);
-    if (values.positive == 0) {
-      out.push(fragment);
-      return false;
-    }
-    if (values.negative != 0) crossing |= 1u << k;
-  }
+HWY_NOINLINE bool subtract(const LightPolygon<T>& fragment, const ShadowLines<T>& lines,
+                           std::uint32_t crossing, FragmentList<T>& out) {
   const std::size_t before = out.size();
   LightPolygon<T> rest = fragment;
-  for (int k = 0; k < count; ++k) {
-    if ((crossing >> k & 1u) == 0) continue;
-    const LineValues<T> values = evaluate(rest, lines[k]);
-    if (values.positive == 0) {  // they do not overlap: a fragment stays whole
+  for (; crossing != 0; crossing &= crossing - 1) {
+    const LineValues<T> values = evaluate(rest, lines[std::countr_zero(crossing)]);
+    if (values.positive == 0) {
       out.shrink(before);
-      out.push(fragment);
       return false;
     }
     if (values.negative == 0) continue;

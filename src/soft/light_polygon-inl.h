@@ -56,6 +56,43 @@ HWY_INLINE LineValues<T> evaluate(const LightPolygon<T>& polygon, const LightLin
   return r;
 }
 
+/// Four lines that bound a convex shadow, positive inside.
+template <class T>
+struct ShadowLines {
+  const T *u = nullptr, *v = nullptr, *w = nullptr;  ///< of each line
+
+  LightLine<T> operator[](int k) const { return {u[k], v[k], w[k]}; }
+};
+inline constexpr std::uint32_t all_lines = 15;
+
+/// Bit k: line k has vertices strictly on that side, by more than on_line.
+struct LineSides {
+  std::uint32_t positive = 0, negative = 0;
+};
+
+/// The same decisions as evaluate(), for four lines and four vertices at a time.
+template <class T>
+HWY_INLINE LineSides sides_of(const LightPolygon<T>& polygon, const ShadowLines<T>& lines) {
+  using Lanes = Pack<T, polygon_capacity>;
+  using Index = Pack<LaneIndex<T>, polygon_capacity>;
+  constexpr LaneIndex<T> fours[polygon_capacity] = {0, 0, 0, 0, 1, 1, 1, 1, 2, 2, 2, 2, 3, 3, 3, 3};
+  const Lanes u = load_four<Lanes>(lines.u), v = load_four<Lanes>(lines.v), w = load_four<Lanes>(lines.w);
+  const Lanes near = splat<Lanes>(on_line<T>) * (absolute(u) + absolute(v));
+  const Lanes below = splat<Lanes>(T(0)) - near;
+  std::uint32_t positive = 0, negative = 0;
+  for (int first = 0; first < polygon.count; first += 4) {
+    const Index vertices = load<Index>(fours) + splat<Index>(static_cast<LaneIndex<T>>(first));
+    const Lanes value = u * permute(polygon.x, vertices) + v * permute(polygon.y, vertices) + w;
+    positive |= less_bits(near, value);
+    negative |= less_bits(value, below);
+  }
+  const auto lines_of = [](std::uint32_t lanes) {
+    lanes |= lanes >> 8;
+    return (lanes | lanes >> 4) & all_lines;
+  };
+  return {lines_of(positive), lines_of(negative)};
+}
+
 /// The vertices of one side: `length` vertices from `first` on, cyclic.
 struct VertexRun {
   int first = 0, length = 0;

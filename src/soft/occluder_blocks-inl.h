@@ -65,9 +65,9 @@ HWY_INLINE void put(const Candidate& c, OccluderBlock& block, std::size_t lane) 
 template <class T>
 struct BlockAtPoint {
   T box[4][16];
-  T u[4][16], v[4][16], w[4][16];  ///< lines: three edges and, where the block has planes, the plane
-  double sign[16];                 ///< 0: blocks nothing at this point
-  std::uint32_t lanes = 0;         ///< that may shadow something
+  T u[16][4], v[16][4], w[16][4];            ///< occluder, line: three edges and the plane, if it needs one
+  double sign[16];                           ///< 0: blocks nothing at this point
+  std::uint32_t lanes = 0;                   ///< that may shadow something
   std::uint32_t boxes_of = 0, lines_of = 0;  ///< number of the point that they are for
 };
 
@@ -126,15 +126,24 @@ HWY_NOINLINE void find_lines(const OccluderBlock& block, const GroupPoint& at, B
     return Pack3<Wide>{load<Wide>(c[0]) - x, load<Wide>(c[1]) - y, load<Wide>(c[2]) - z};
   };
   const Pack3<Wide> corners[3] = {corner(0), corner(1), corner(2)};
+  Pack<T, 16> u[4], v[4], w[4];
   for (int k = 0; k < 3; ++k) {
     const Pack3<Wide> n = cross(corners[k], corners[k < 2 ? k + 1 : 0] - corners[k]);
-    store_narrowed(n.x * sign, out.u[k]);
-    store_narrowed(n.y * sign, out.v[k]);
-    store_narrowed((n.z * reach - n.x * pu - n.y * pv) * sign, out.w[k]);
+    u[k] = narrowed<T>(n.x * sign);
+    v[k] = narrowed<T>(n.y * sign);
+    w[k] = narrowed<T>((n.z * reach - n.x * pu - n.y * pv) * sign);
   }
-  if (!block.has_planes) return;
-  T* to[3] = {out.u[3], out.v[3], out.w[3]};
-  for (int i = 0; i < 3; ++i) store_narrowed(load<Wide>(block.plane[i]) * sign, to[i]);
+  if (block.has_planes) {
+    u[3] = narrowed<T>(load<Wide>(block.plane[0]) * sign);
+    v[3] = narrowed<T>(load<Wide>(block.plane[1]) * sign);
+    w[3] = narrowed<T>(load<Wide>(block.plane[2]) * sign);
+  } else {  // all is inside
+    u[3] = v[3] = splat<Pack<T, 16>>(T(0));
+    w[3] = splat<Pack<T, 16>>(T(1));
+  }
+  store_fours(u[0], u[1], u[2], u[3], out.u[0]);
+  store_fours(v[0], v[1], v[2], v[3], out.v[0]);
+  store_fours(w[0], w[1], w[2], w[3], out.w[0]);
 }
 
 }  // namespace tenebra::HWY_NAMESPACE
