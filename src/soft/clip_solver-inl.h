@@ -99,13 +99,13 @@ private:
     boxes_.clear();
     chosen_.clear();
     for (std::uint32_t i = 0; i < parts.size(); ++i) {
-      boxes_.push_back(box_of(loaded(parts[i])));
+      boxes_.push_back(sides_of_box(loaded(parts[i])));
       chosen_.push_back(i);
     }
+    const LightBox<T> box = box_of_all(0, parts.size());
     if (!has_many()) {
-      for (std::size_t b = 0; b < cold_.block_count(); ++b)
-        cold_.append_block(b, box_of_all(0, parts.size()));
-      subtract_list(parts, 0, parts.size(), 0, out);
+      for (std::size_t b = 0; b < cold_.block_count(); ++b) cold_.append_block(b, box);
+      subtract_list(parts, 0, parts.size(), box, 0, out);
       return cold_.list.shrink(0);
     }
     if (!blocks_listed_) {
@@ -113,65 +113,90 @@ private:
       blocks_listed_ = true;
     }
     const std::size_t last = blocks_.count();
-    subtract_blocks(parts, 0, parts.size(), 0, last, out);
+    subtract_blocks(parts, 0, parts.size(), box, 0, last, out);
   }
 
-  /// Subtracts the blocks in places [first, last) from the parts in places [begin, end) of chosen_. The parts
-  /// are sorted by halves, as in the building of a tree of boxes, until they are few for the blocks around
-  /// them, and from there on with a list of the blocks' triangles.
-  void subtract_blocks(const FragmentList<T>& parts, std::size_t begin, std::size_t end, std::size_t first,
-                       std::size_t last, FragmentList<T>& out) {
-    const std::size_t middle = 16 * (end - begin) < last - first ? part_boxes(begin, end) : begin;
+  /// Subtracts the blocks in places [first, last) from the parts in places [begin, end) of chosen_, which lie
+  /// in `box`. The parts are sorted by halves, as in the building of a tree of boxes, until they are few for
+  /// the blocks around them, and from there on with a list of the blocks' triangles.
+  void subtract_blocks(const FragmentList<T>& parts, std::size_t begin, std::size_t end,
+                       const LightBox<T>& box, std::size_t first, std::size_t last, FragmentList<T>& out) {
+    const std::size_t middle = 16 * (end - begin) < last - first ? part_boxes(begin, end, box) : begin;
     if (middle == begin || middle == end) {
-      const LightBox<T> box = box_of_all(begin, end);
       const std::size_t place = cold_.list.count();
       for (std::size_t i = first; i < last; ++i) cold_.append_block(blocks_.id(i), box);
-      subtract_list(parts, begin, end, place, out);
+      subtract_list(parts, begin, end, box, place, out);
       return cold_.list.shrink(place);
     }
     for (const auto& [from, to] : {std::pair(begin, middle), std::pair(middle, end)}) {
-      blocks_.narrow(first, last, box_of_all(from, to));
-      subtract_blocks(parts, from, to, last, blocks_.count(), out);
+      const LightBox<T> half = box_of_all(from, to);
+      blocks_.narrow(first, last, half);
+      subtract_blocks(parts, from, to, half, last, blocks_.count(), out);
       blocks_.shrink(last);
     }
   }
 
   /// The same for the occluders in the list from place `first` on.
-  void subtract_list(const FragmentList<T>& parts, std::size_t begin, std::size_t end, std::size_t first,
-                     FragmentList<T>& out) {
+  void subtract_list(const FragmentList<T>& parts, std::size_t begin, std::size_t end, const LightBox<T>& box,
+                     std::size_t first, FragmentList<T>& out) {
     const std::size_t last = cold_.list.count();
-    if (first == last) {
-      for (std::size_t i = begin; i < end; ++i) out.push(loaded(parts[chosen_[i]]));
+    if (last - first <= 16) {
+      for (std::size_t i = begin; i < end; ++i) subtract_sixteen(parts, chosen_[i], first, last, out);
       return;
     }
     if (end - begin == 1) return solve(cold_, loaded(parts[chosen_[begin]]), first, out);
-    std::size_t middle = part_boxes(begin, end);
+    std::size_t middle = part_boxes(begin, end, box);
     if (middle == begin || middle == end) middle = begin + (end - begin) / 2;
     for (const auto& [from, to] : {std::pair(begin, middle), std::pair(middle, end)}) {
-      cold_.list.narrow(first, last, box_of_all(from, to));
-      subtract_list(parts, from, to, last, out);
+      const LightBox<T> half = box_of_all(from, to);
+      cold_.list.narrow(first, last, half);
+      subtract_list(parts, from, to, half, last, out);
       cold_.list.shrink(last);
     }
   }
 
-  LightBox<T> box_of_all(std::size_t begin, std::size_t end) const {
-    T low[2] = {2, 2}, high[2] = {-2, -2};
-    for (std::size_t i = begin; i < end; ++i) {
-      const LightBox<T>& b = boxes_[chosen_[i]];
-      low[0] = HWY_MIN(low[0], b.cu - b.hu);
-      high[0] = HWY_MAX(high[0], b.cu + b.hu);
-      low[1] = HWY_MIN(low[1], b.cv - b.hv);
-      high[1] = HWY_MAX(high[1], b.cv + b.hv);
+  /// Subtracts the occluders in the list [first, last), at most sixteen, from one part.
+  HWY_INLINE void subtract_sixteen(const FragmentList<T>& parts, std::uint32_t part, std::size_t first,
+                                   std::size_t last, FragmentList<T>& out) {
+    const std::size_t from = out.size();
+    out.push(loaded(parts[part]));
+    if (first == last) return;
+    std::uint32_t met = cold_.list.meeting(first, last, box_of_sides(boxes_[part]));
+    for (; met != 0 && out.size() > from; met &= met - 1) {
+      const std::size_t id = cold_.list.id(first + static_cast<std::size_t>(std::countr_zero(met)));
+      if (subtract_one(cold_.lines_of(id), out, from)) cold_.mark_useful(id);
     }
-    return {(low[0] + high[0]) / 2, (low[1] + high[1]) / 2, (high[0] - low[0]) / 2, (high[1] - low[1]) / 2};
   }
 
-  /// Sorts the parts in places [begin, end) by the half that their middles lie in; returns where the second
-  /// half begins.
-  std::size_t part_boxes(std::size_t begin, std::size_t end) {
-    const LightBox<T> all = box_of_all(begin, end);
-    const bool wide = all.hu >= all.hv;
-    const auto low = [&](std::uint32_t i) { return wide ? boxes_[i].cu < all.cu : boxes_[i].cv < all.cv; };
+  /// A box's sides: what is around several is the least of each.
+  using Sides = Pack<T, 4>;
+  struct BoxSides {
+    T side[4];  ///< least u, -greatest u, least v, -greatest v
+  };
+  static BoxSides sides_of_box(const LightPolygon<T>& p) {
+    return {{least(p.x), -greatest(p.x), least(p.y), -greatest(p.y)}};
+  }
+  static LightBox<T> box_of_sides(const BoxSides& b) {
+    return {(b.side[0] - b.side[1]) / 2, (b.side[2] - b.side[3]) / 2, (-b.side[1] - b.side[0]) / 2,
+            (-b.side[3] - b.side[2]) / 2};
+  }
+
+  LightBox<T> box_of_all(std::size_t begin, std::size_t end) const {
+    Sides all = load<Sides>(boxes_[chosen_[begin]].side);
+    for (std::size_t i = begin + 1; i < end; ++i) all = min(all, load<Sides>(boxes_[chosen_[i]].side));
+    BoxSides sides;
+    store(all, sides.side);
+    return box_of_sides(sides);
+  }
+
+  /// Sorts the parts in places [begin, end), which lie in `box`, by the half that their middles lie in;
+  /// returns where the second half begins.
+  std::size_t part_boxes(std::size_t begin, std::size_t end, const LightBox<T>& box) {
+    const std::size_t axis = box.hu >= box.hv ? 0 : 2;
+    const T middle = 2 * (axis == 0 ? box.cu : box.cv);
+    const auto low = [&](std::uint32_t i) {
+      return boxes_[i].side[axis] - boxes_[i].side[axis + 1] < middle;
+    };
     const auto at = [&](std::size_t i) { return chosen_.begin() + static_cast<std::ptrdiff_t>(i); };
     return static_cast<std::size_t>(std::partition(at(begin), at(end), low) - chosen_.begin());
   }
@@ -179,13 +204,10 @@ private:
   /// Subtracts the occluders in the list from place `first` on from `part`.
   void solve(Candidates& c, const LightPolygon<T>& part, std::size_t first, FragmentList<T>& out) {
     const std::size_t last = c.list.count();
-    if (last - first <= few) {
-      FragmentList<T> left = subtract_all(c, part, first, last);
-      for (std::size_t k = 0; k < left.size(); ++k) out.push(loaded(left[k]));
-      return give_back(std::move(left));
-    }
+    if (last - first <= few) return subtract_all(c, part, first, last, out);
     if (halve_light(c, part, first, last, out)) return;
-    FragmentList<T> left = subtract_all(c, part, first, first + largest);
+    FragmentList<T> left = take();
+    subtract_all(c, part, first, first + largest, left);
     for (std::size_t k = 0; k < left.size(); ++k) {
       const LightPolygon<T> fragment = loaded(left[k]);
       const std::size_t from = c.list.count();
@@ -237,22 +259,22 @@ private:
     return true;
   }
 
-  /// What the occluders in places [first, last) leave of `part`.
-  HWY_NOINLINE FragmentList<T> subtract_all(Candidates& c, const LightPolygon<T>& part, std::size_t first,
-                                            std::size_t last) {
-    FragmentList<T> left = take();
-    left.push(part);
-    for (std::size_t i = first; i < last && !left.empty(); ++i) {
-      if (subtract_one(c.lines_of(c.list.id(i)), left)) c.mark_useful(c.list.id(i));
+  /// Appends what the occluders in places [first, last) leave of `part`.
+  HWY_NOINLINE void subtract_all(Candidates& c, const LightPolygon<T>& part, std::size_t first,
+                                 std::size_t last, FragmentList<T>& out) {
+    const std::size_t from = out.size();
+    out.push(part);
+    for (std::size_t i = first; i < last && out.size() > from; ++i) {
+      if (subtract_one(c.lines_of(c.list.id(i)), out, from)) c.mark_useful(c.list.id(i));
     }
-    return left;
   }
 
-  /// Subtracts a shadow from all fragments; true if that took something.
-  static HWY_INLINE bool subtract_one(const ShadowLines<T>& lines, FragmentList<T>& fragments) {
+  /// Subtracts a shadow from the fragments from place `from` on; true if that took something.
+  static HWY_INLINE bool subtract_one(const ShadowLines<T>& lines, FragmentList<T>& fragments,
+                                      std::size_t from) {
     bool taken = false;
-    std::size_t count = fragments.size();  // of those not yet subtracted from: what is left goes behind them
-    for (std::size_t k = 0; k < count;) {
+    std::size_t end = fragments.size();  // of those not yet subtracted from: what is left goes behind them
+    for (std::size_t k = from; k < end;) {
       const LightPolygon<T> fragment = loaded(fragments[k]);
       const LineSides sides = sides_of(fragment, lines);
       if (sides.positive != all_lines || !subtract(fragment, lines, sides.negative, fragments)) {
@@ -260,7 +282,7 @@ private:
         continue;
       }
       taken = true;
-      fragments.remove(k, count--);
+      fragments.remove(k, end--);
     }
     return taken;
   }
@@ -283,7 +305,7 @@ private:
   BlockBounds<T> bounds_;                        ///< of cold_
   ShadowList<T> blocks_;
   bool blocks_listed_ = false;
-  std::vector<LightBox<T>> boxes_;     ///< of the parts that the hot ones leave
+  std::vector<BoxSides> boxes_;        ///< of the parts that the hot ones leave
   std::vector<std::uint32_t> chosen_;  ///< indices of these parts
   std::vector<FragmentList<T>> spare_;
 };

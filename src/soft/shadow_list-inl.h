@@ -59,8 +59,20 @@ public:
     }
   }
 
+  /// Bits of those of the list [first, last), at most sixteen, that meet `box`.
+  HWY_INLINE std::uint32_t meeting(std::size_t first, std::size_t last, const LightBox<T>& box) const {
+    const T* sides[4] = {&sides_[0][first], &sides_[1][first], &sides_[2][first], &sides_[3][first]};
+    return bits(meets(sides, box)) & ((1u << (last - first)) - 1u);
+  }
+
 private:
   using Lanes = Pack<T, 16>;
+
+  static HWY_INLINE Truth<T, 16> meets(const T* const (&sides)[4], const LightBox<T>& box) {
+    const auto below = [&](int k, T border) { return less(load<Lanes>(sides[k]), splat<Lanes>(border)); };
+    return below(0, box.cu + box.hu) & below(1, box.hu - box.cu) & below(2, box.cv + box.hv) &
+           below(3, box.hv - box.cv);
+  }
 
   /// Room for `more` places and a full register behind them.
   HWY_INLINE void make_room(std::size_t more) {
@@ -72,13 +84,11 @@ private:
 
   HWY_INLINE void append_meeting(const T* const (&sides)[4], Index ids, Truth<T, 16> valid,
                                  const LightBox<T>& box) {
-    const T border[4] = {box.cu + box.hu, box.hu - box.cu, box.cv + box.hv, box.hv - box.cv};
-    auto meets = valid;
-    for (int k = 0; k < 4; ++k) meets = meets & less(load<Lanes>(sides[k]), splat<Lanes>(border[k]));
-    if (!any(meets)) return;
+    const auto chosen = valid & meets(sides, box);
+    if (!any(chosen)) return;
     std::size_t added = 0;
-    for (int k = 0; k < 4; ++k) added = compress(meets, load<Lanes>(sides[k]), &sides_[k][count_]);
-    compress(meets, ids, &ids_[count_]);
+    for (int k = 0; k < 4; ++k) added = compress(chosen, load<Lanes>(sides[k]), &sides_[k][count_]);
+    compress(chosen, ids, &ids_[count_]);
     count_ += added;
   }
 
