@@ -54,12 +54,14 @@ public:
 
   /// Appends to the list what may reach into `box`.
   HWY_INLINE void append_block(std::size_t b, const LightBox<T>& box) {
-    BlockAtPoint<T>& there = at_point_[b];
-    if (there.boxes_of != point_) {
-      find_boxes(blocks_[b], heights_, at_, there);
-      there.boxes_of = point_;
-    }
+    const BlockAtPoint<T>& there = with_boxes(b);
     list.append(there.box, 16 * b, there.lanes & blocks_[b].lanes, box);
+  }
+  /// Bits of the occluders of a block that may reach into `box`.
+  HWY_INLINE std::uint32_t meeting(std::size_t b, const LightBox<T>& box) {
+    const BlockAtPoint<T>& there = with_boxes(b);
+    const T* sides[4] = {there.box[0], there.box[1], there.box[2], there.box[3]};
+    return bits(ShadowList<T>::meets(sides, box)) & there.lanes & blocks_[b].lanes;
   }
 
   /// Appends those of the list [first, last) whose shadow may reach into `box`; false, and nothing appended,
@@ -95,6 +97,15 @@ public:
   ShadowList<T> list;
 
 private:
+  HWY_INLINE const BlockAtPoint<T>& with_boxes(std::size_t b) {
+    BlockAtPoint<T>& there = at_point_[b];
+    if (there.boxes_of != point_) {
+      find_boxes(blocks_[b], heights_, at_, there);
+      there.boxes_of = point_;
+    }
+    return there;
+  }
+
   HWY_INLINE bool covers(std::size_t id, const LightBox<T>& box) {
     using Lanes = Pack<T, 4>;
     const ShadowLines<T> lines = lines_of(id);

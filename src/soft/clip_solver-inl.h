@@ -44,6 +44,7 @@ public:
 
   /// Appends the parts of `light` (convex, within |u|, |v| <= 1) visible from the point to `out`.
   HWY_NOINLINE void query(const LightPolygon<T>& light, FragmentList<T>& out) {
+    if (cold_.block_count() <= 1) return subtract_block(light, out);
     FragmentList<T> left = take();
     if (hot_.count() == 0) {
       left.push(light);
@@ -63,6 +64,15 @@ private:
   static constexpr std::size_t many = 48;    ///< occluders from which on it pays to keep some apart
 
   bool has_many() const { return cold_.count() > many; }
+
+  /// Where all occluders fit in one block, there is nothing to sort out.
+  void subtract_block(const LightPolygon<T>& light, FragmentList<T>& out) {
+    const std::size_t from = out.size();
+    out.push(light);
+    std::uint32_t met = cold_.block_count() == 0 ? 0 : cold_.meeting(0, box_of(light));
+    for (; met != 0 && out.size() > from; met &= met - 1)
+      subtract_one(cold_.lines_of(static_cast<std::size_t>(std::countr_zero(met))), out, from);
+  }
 
   /// Puts those aside that took light from the last point; sorts out the others where they are more.
   void choose_hot() {

@@ -32,6 +32,14 @@ template <class T>
 class ShadowList {
 public:
   using Index = Pack<LaneIndex<T>, 16>;
+  using Lanes = Pack<T, 16>;
+
+  /// Of sixteen boxes those that meet `box`.
+  static HWY_INLINE Truth<T, 16> meets(const T* const (&sides)[4], const LightBox<T>& box) {
+    const auto below = [&](int k, T border) { return less(load<Lanes>(sides[k]), splat<Lanes>(border)); };
+    return below(0, box.cu + box.hu) & below(1, box.hu - box.cu) & below(2, box.cv + box.hv) &
+           below(3, box.hv - box.cv);
+  }
 
   std::size_t count() const { return count_; }
   /// Forgets the places beyond.
@@ -66,14 +74,6 @@ public:
   }
 
 private:
-  using Lanes = Pack<T, 16>;
-
-  static HWY_INLINE Truth<T, 16> meets(const T* const (&sides)[4], const LightBox<T>& box) {
-    const auto below = [&](int k, T border) { return less(load<Lanes>(sides[k]), splat<Lanes>(border)); };
-    return below(0, box.cu + box.hu) & below(1, box.hu - box.cu) & below(2, box.cv + box.hv) &
-           below(3, box.hv - box.cv);
-  }
-
   /// Room for `more` places and a full register behind them.
   HWY_INLINE void make_room(std::size_t more) {
     const std::size_t needed = count_ + more + 16;
