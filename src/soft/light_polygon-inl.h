@@ -18,6 +18,9 @@ HWY_BEFORE_NAMESPACE();
 namespace tenebra::HWY_NAMESPACE {
 
 inline constexpr int polygon_capacity = 16;
+template <class T>
+inline constexpr LaneIndex<T> lane_numbers[polygon_capacity] = {0, 1, 2,  3,  4,  5,  6,  7,
+                                                                8, 9, 10, 11, 12, 13, 14, 15};
 
 /// Vertex k in lane k, counter-clockwise; lanes from `count` on repeat vertex 0.
 template <class T>
@@ -123,29 +126,32 @@ HWY_INLINE VertexRun run_of(std::uint32_t set, int count, const Pack<T, polygon_
   return run;
 }
 
-/// The part of `polygon` at the vertices of `run`, closed by the points where the line crosses the edges that
-/// leave the run. Both sides of a split compute these points from the positive end: the same bits.
+/// Numbers of the vertices of `run`, repeating its first vertex behind them.
 template <class T>
-HWY_INLINE LightPolygon<T> cut(const LightPolygon<T>& polygon, const Pack<T, polygon_capacity>& values,
-                               VertexRun run, bool positive) {
+HWY_INLINE Pack<LaneIndex<T>, polygon_capacity> vertices_of(VertexRun run, int count) {
+  using Index = Pack<LaneIndex<T>, polygon_capacity>;
+  const auto whole = [](int i) { return splat<Index>(static_cast<LaneIndex<T>>(i)); };
+  const Index lane = load<Index>(lane_numbers<T>), straight = lane + whole(run.first);
+  const Index wrapped = choose(greater(straight, whole(count - 1)), straight - whole(count), straight);
+  return choose(greater(whole(run.length), lane), wrapped, whole(run.first));
+}
+
+/// The part of `polygon` at the vertices of `run`, on the positive side, closed by the points where the line
+/// crosses the edges that leave the run: behind its last vertex, then before its first.
+template <class T>
+HWY_INLINE LightPolygon<T> positive_part(const LightPolygon<T>& polygon,
+                                         const Pack<T, polygon_capacity>& values, VertexRun run) {
   using Lanes = Pack<T, polygon_capacity>;
   using Index = Pack<LaneIndex<T>, polygon_capacity>;
-  constexpr LaneIndex<T> lanes[polygon_capacity] = {0, 1, 2, 3, 4, 5, 6, 7, 8, 9, 10, 11, 12, 13, 14, 15};
   const int n = polygon.count;
   const auto whole = [](int i) { return splat<Index>(static_cast<LaneIndex<T>>(i)); };
   const auto cyclic = [n](int k) { return k < n ? k : k - n; };
   const int last = cyclic(run.first + run.length - 1);
-  const int next = cyclic(last + 1), previous = cyclic(run.first + n - 1);
-  const Index lane = load<Index>(lanes);
-  const Index straight = lane + whole(run.first);
-  const Index wrapped = choose(greater(straight, whole(n - 1)), straight - whole(n), straight);
-  const Index kept = choose(greater(whole(run.length), lane), wrapped, whole(run.first));
-  const auto leaves = equal(lane, whole(run.length));
-  const auto returns = equal(lane, whole(run.length + 1));
-  const Index within = choose(leaves, whole(positive ? last : next),
-                              choose(returns, whole(positive ? run.first : previous), kept));
-  const Index beyond = choose(leaves, whole(positive ? next : last),
-                              choose(returns, whole(positive ? previous : run.first), kept));
+  const Index lane = load<Index>(lane_numbers<T>);
+  const auto leaves = equal(lane, whole(run.length)), returns = equal(lane, whole(run.length + 1));
+  const Index within = choose(leaves, whole(last), vertices_of<T>(run, n));
+  const Index beyond =
+      choose(leaves, whole(cyclic(last + 1)), choose(returns, whole(cyclic(run.first + n - 1)), within));
 
   const Lanes zero = splat<Lanes>(T(0)), one = splat<Lanes>(T(1));
   const Lanes from = permute(values, within);
@@ -153,11 +159,25 @@ HWY_INLINE LightPolygon<T> cut(const LightPolygon<T>& polygon, const Pack<T, pol
   const Lanes share = min(max(from / choose(equal(drop, zero), one, drop), zero), one);
   const Lanes t = choose(leaves, share, choose(returns, share, zero));
   const Lanes x = permute(polygon.x, within), y = permute(polygon.y, within);
-  LightPolygon<T> part;
-  part.x = x + t * (permute(polygon.x, beyond) - x);
-  part.y = y + t * (permute(polygon.y, beyond) - y);
-  part.count = run.length + 2;
-  return part;
+  return {x + t * (permute(polygon.x, beyond) - x), y + t * (permute(polygon.y, beyond) - y), run.length + 2};
+}
+
+/// The other part: the vertices that are not of `run`, and the same two points.
+template <class T>
+HWY_INLINE LightPolygon<T> negative_part(const LightPolygon<T>& polygon, VertexRun run,
+                                         const LightPolygon<T>& positive) {
+  using Lanes = Pack<T, polygon_capacity>;
+  using Index = Pack<LaneIndex<T>, polygon_capacity>;
+  const int n = polygon.count, behind = run.first + run.length, length = n - run.length;
+  const auto whole = [](int i) { return splat<Index>(static_cast<LaneIndex<T>>(i)); };
+  const Index lane = load<Index>(lane_numbers<T>);
+  const Index kept = vertices_of<T>({behind < n ? behind : behind - n, length}, n);
+  const auto crossings = greater(lane, whole(length - 1)) & greater(whole(length + 2), lane);
+  const Index points = choose(crossings, whole(n + 1) - lane, lane);
+  const auto part = [&](Lanes from, Lanes of_positive) {
+    return choose(crossings, permute(of_positive, points), permute(from, kept));
+  };
+  return {part(polygon.x, positive.x), part(polygon.y, positive.y), length + 2};
 }
 
 /// Both parts of a polygon that has vertices on both sides. Vertices on the line go with the negative side.
@@ -166,11 +186,10 @@ template <class T>
 HWY_INLINE void split(const LightPolygon<T>& polygon, const LineValues<T>& line, LightPolygon<T>& positive,
                       LightPolygon<T>& negative) {
   assert(polygon.count < polygon_capacity);
-  const int n = polygon.count;
-  const VertexRun run = run_of(line.positive, n, line.value);
-  const int behind = run.first + run.length;
-  positive = cut(polygon, line.value, run, true);
-  negative = cut(polygon, line.value, {behind < n ? behind : behind - n, n - run.length}, false);
+  const VertexRun run = run_of(line.positive, polygon.count, line.value);
+  const LightPolygon<T> inside = positive_part(polygon, line.value, run);
+  negative = negative_part(polygon, run, inside);
+  positive = inside;
 }
 
 /// Two polygons for one, along a diagonal: vertices 0 to count / 2, and the others with both ends.
