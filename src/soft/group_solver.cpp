@@ -108,7 +108,9 @@ public:
     candidates_.axes = light_axes(frame.light, glm::dvec3(0.0));
     clipped_ = {};
     double_.clip.reset(candidates_, clipped_);
-    for (const std::uint32_t pixel : pixels) {
+    for (std::size_t i = 0; i < pixels.size(); ++i) {
+      const std::uint32_t pixel = pixels[i];
+      fetch_ahead(frame, pixels, i);
       const bool whole = add_whole(frame, pixel);
       if (!whole) solve_point(double_, frame, {pixels, {}, {}}, pixel);
       if (whole || frame.classes[pixel] == class_of(SoftClass::clip))
@@ -151,7 +153,9 @@ private:
 
   template <class T>
   void solve_points(Precision<T>& p, const SoftFrame& frame, const GroupTask& task) {
-    for (const std::uint32_t pixel : task.pixels) {
+    for (std::size_t i = 0; i < task.pixels.size(); ++i) {
+      const std::uint32_t pixel = task.pixels[i];
+      fetch_ahead(frame, task.pixels, i);
       if (use_bsp_ && bsp_.bytes() > largest_tree_bytes) {
         note_tree();
         use_bsp_ = false;
@@ -167,6 +171,16 @@ private:
     }
     finish_whole(frame);
     if (use_bsp_) note_tree();
+  }
+
+  /// Asks for what is read of a point some places behind place `i`.
+  static HWY_INLINE void fetch_ahead(const SoftFrame& frame, std::span<const std::uint32_t> pixels,
+                                     std::size_t i) {
+    if (i + 8 >= pixels.size()) return;
+    const std::uint32_t pixel = pixels[i + 8];
+    fetch_soon(&frame.points.positions[pixel]);
+    fetch_soon(&frame.points.triangles[pixel]);
+    if (!frame.normals.empty()) fetch_soon(&frame.normals[pixel]);
   }
 
   /// Counts a tree that is given up.
