@@ -36,7 +36,49 @@ int light_class(const LightFrame& light, const dvec3& point) {
   return std::ilogb(light.area * glm::dot(light.ex, light.ex) / glm::dot(from, from));
 }
 
+// Where the shadow of a corner falls on the light's plane, from all points of a group.
+struct ShadowRange {
+  double low[2] = {1e300, 1e300}, high[2] = {-1e300, -1e300};
+
+  // `half`: of the points' box in the axes. With r the ratio of the heights of light and corner over a point,
+  // the shadow lies at centre + r corner - (r - 1) point: linear in r, which is monotone in the point's
+  // height.
+  void add(const LightAxes& axes, const dvec3& half, const dvec3& corner) {
+    for (const double z : {-half.z, half.z}) {
+      const double r = (axes.centre_uv.z - z) / (corner.z - z);
+      for (int axis = 0; axis < 2; ++axis) {
+        const double middle = axes.centre_uv[axis] + r * corner[axis], reach = half[axis] * std::abs(1 - r);
+        const double rounding =
+            0x1p-48 * (std::abs(axes.centre_uv[axis]) + std::abs(r * corner[axis]) + reach);
+        low[axis] = std::min(low[axis], middle - reach - rounding);
+        high[axis] = std::max(high[axis], middle + reach + rounding);
+      }
+    }
+  }
+  // No ray from the light towards +u meets it.
+  bool beside_light() const { return high[0] < -1 || high[1] < -1 || low[1] > 1; }
+};
+
 }  // namespace
+
+void drop_beside_light(const GroupFrame& group, const LightAxes& axes, GroupOutline& outline) {
+  const auto reach = [&](const dvec3& row) { return glm::dot(glm::abs(row), group.half); };
+  const dvec3 half(reach(axes.u), reach(axes.v), reach(axes.height));
+  constexpr std::uint32_t dropped = ~0u;
+  std::vector<std::uint32_t> places(outline.edges.size(), dropped);
+  std::uint32_t count = 0;
+  for (std::size_t i = 0; i < outline.edges.size(); ++i) {
+    const OutlineEdge edge = outline.edges[i];
+    ShadowRange range;
+    range.add(axes, half, edge.from), range.add(axes, half, edge.to);
+    if (range.beside_light()) continue;
+    places[i] = count;
+    outline.edges[count++] = edge;
+  }
+  outline.edges.resize(count);
+  for (OutlineUse& use : outline.uses) use.edge = places[use.edge];
+  std::erase_if(outline.uses, [](const OutlineUse& use) { return use.edge == dropped; });
+}
 
 std::uint32_t OutlineFinder::edge_of(const vec3& from, const vec3& to) {
   const std::size_t mask = table_.size() - 1;

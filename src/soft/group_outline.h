@@ -52,6 +52,10 @@ struct GroupOutline {
   }
 };
 
+/// Drops the edges that no ray from a place of the light towards +u meets, from any point of the group: the
+/// winding around places of the light stays. `outline` stands between all points and the light's plane.
+void drop_beside_light(const GroupFrame& group, const LightAxes& axes, GroupOutline& outline);
+
 /// Finds outlines, with a table of edges of its own.
 class OutlineFinder {
 public:

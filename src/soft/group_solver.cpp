@@ -133,6 +133,7 @@ private:
     } else {
       if (frame.config.solver == SoftSolver::automatic) {
         finder_.find(frame.light, frame.triangles, candidates_, outline_, rest_);
+        drop_beside_light(task.frame, candidates_.axes, outline_);
       } else {
         take_all();
       }
