@@ -287,6 +287,10 @@ HWY_INLINE P load_widened(const float* from) {
   return p;
 }
 template <class P>
+HWY_INLINE P load_widened(const double* from) {
+  return load<P>(from);
+}
+template <class P>
 HWY_INLINE Pack3<P> operator-(const Pack3<P>& a, const Pack3<P>& b) {
   return {a.x - b.x, a.y - b.y, a.z - b.z};
 }

@@ -59,9 +59,10 @@ public:
 
 private:
   using Candidates = ClipCandidates<T>;
-  static constexpr std::size_t few = 24;     ///< occluders that are subtracted without more ado
-  static constexpr std::size_t largest = 8;  ///< occluders that go first where halving does not part them
-  static constexpr std::size_t many = 48;    ///< occluders from which on it pays to keep some apart
+  static constexpr std::size_t few = 24;      ///< occluders that are subtracted without more ado
+  static constexpr std::size_t handful = 32;  ///< occluders that are looked at for each part anew
+  static constexpr std::size_t largest = 8;   ///< occluders that go first where halving does not part them
+  static constexpr std::size_t many = 48;     ///< occluders from which on it pays to keep some apart
 
   bool has_many() const { return cold_.count() > many; }
 
@@ -150,8 +151,8 @@ private:
   void subtract_list(const FragmentList<T>& parts, std::size_t begin, std::size_t end, const LightBox<T>& box,
                      std::size_t first, FragmentList<T>& out) {
     const std::size_t last = cold_.list.count();
-    if (last - first <= 16) {
-      for (std::size_t i = begin; i < end; ++i) subtract_sixteen(parts, chosen_[i], first, last, out);
+    if (last - first <= handful) {
+      for (std::size_t i = begin; i < end; ++i) subtract_handful(parts, chosen_[i], first, last, out);
       return;
     }
     if (end - begin == 1) return solve(cold_, loaded(parts[chosen_[begin]]), first, out);
@@ -165,13 +166,13 @@ private:
     }
   }
 
-  /// Subtracts the occluders in the list [first, last), at most sixteen, from one part.
-  HWY_INLINE void subtract_sixteen(const FragmentList<T>& parts, std::uint32_t part, std::size_t first,
+  /// Subtracts the occluders in the list [first, last), at most a handful, from one part.
+  HWY_INLINE void subtract_handful(const FragmentList<T>& parts, std::uint32_t part, std::size_t first,
                                    std::size_t last, FragmentList<T>& out) {
     const std::size_t from = out.size();
     out.push(loaded(parts[part]));
     if (first == last) return;
-    std::uint32_t met = cold_.list.meeting(first, last, box_of_sides(boxes_[part]));
+    std::uint64_t met = cold_.list.meeting(first, last, box_of_sides(boxes_[part]));
     for (; met != 0 && out.size() > from; met &= met - 1) {
       const std::size_t id = cold_.list.id(first + static_cast<std::size_t>(std::countr_zero(met)));
       if (subtract_one(cold_.lines_of(id), out, from)) cold_.mark_useful(id);

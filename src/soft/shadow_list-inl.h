@@ -67,10 +67,15 @@ public:
     }
   }
 
-  /// Bits of those of the list [first, last), at most sixteen, that meet `box`.
-  HWY_INLINE std::uint32_t meeting(std::size_t first, std::size_t last, const LightBox<T>& box) const {
-    const T* sides[4] = {&sides_[0][first], &sides_[1][first], &sides_[2][first], &sides_[3][first]};
-    return bits(meets(sides, box)) & ((1u << (last - first)) - 1u);
+  /// Bits of those of the list [first, last), at most 64, that meet `box`.
+  HWY_INLINE std::uint64_t meeting(std::size_t first, std::size_t last, const LightBox<T>& box) const {
+    std::uint64_t met = 0;
+    for (std::size_t i = first; i < last; i += 16) {
+      const T* sides[4] = {&sides_[0][i], &sides_[1][i], &sides_[2][i], &sides_[3][i]};
+      const std::uint32_t there = last - i < 16 ? (1u << (last - i)) - 1u : 0xffffu;
+      met |= static_cast<std::uint64_t>(bits(meets(sides, box)) & there) << (i - first);
+    }
+    return met;
   }
 
 private:
