@@ -187,7 +187,7 @@ int covering(const SoftCase& c, const std::vector<std::uint32_t>& left_out, dvec
 TEST(SoftOutline, WindsAroundAPlaceOnceForEachTriangleInFrontOfIt) {
   const Soup ball = sphere(10, 0.8, {0.1, 1.4, 0}), ring = torus(48, 18, 0.9, 0.3).moved(1, {0, 1.1, 0.2});
   Random random(72);
-  std::size_t compared = 0, covered = 0;
+  std::size_t compared = 0, covered = 0, dropped = 0;
   for (const Soup& mesh : {ball, ring, bowl(9), two_sided(bowl(8)), with(ball, ring)}) {
     const SoftCase c = below("mesh", mesh);
     const LightFrame light = light_frame(c.light);
@@ -199,6 +199,9 @@ TEST(SoftOutline, WindsAroundAPlaceOnceForEachTriangleInFrontOfIt) {
     for (std::uint32_t& place : rest) place = candidates.all[place].triangle;
     ASSERT_FALSE(outline.empty());
     ASSERT_LT(rest.size(), c.soup.triangles.size() / 4);
+    GroupOutline near = outline;
+    drop_beside_light(group, candidates.axes, near);
+    dropped += outline.edges.size() - near.edges.size();
     for (int k = 0; k < 400; ++k) {
       const dvec3 p = group.centre + dvec3(2 * random.unit() - 1, 0, 2 * random.unit() - 1) * group.half;
       std::vector<int> signs;
@@ -207,10 +210,14 @@ TEST(SoftOutline, WindsAroundAPlaceOnceForEachTriangleInFrontOfIt) {
       const dvec2 q(2 * random.unit() - 1, 2 * random.unit() - 1);
       const dvec3 at = candidates.axes.of(p - group.centre);
       bool sure = true;
-      const double winding = winding_around(q - dvec2(candidates.axes.centre_uv), outline, signs, at.z,
-                                            candidates.axes.centre_uv.z, dvec2(at), sure);
+      const auto winding_of = [&](const GroupOutline& edges) {
+        return winding_around(q - dvec2(candidates.axes.centre_uv), edges, signs, at.z,
+                              candidates.axes.centre_uv.z, dvec2(at), sure);
+      };
+      const double winding = winding_of(outline), winding_near = winding_of(near);
       const int count = covering(c, rest, p, light.point(q), sure);
       if (!sure) continue;
+      EXPECT_EQ(winding_near, winding) << "without the edges beside the light";
       EXPECT_EQ(winding, count) << c.soup.triangles.size() << " triangles, P " << p.x << " " << p.z << ", q "
                                 << q.x << " " << q.y;
       ++compared;
@@ -219,6 +226,7 @@ TEST(SoftOutline, WindsAroundAPlaceOnceForEachTriangleInFrontOfIt) {
   }
   EXPECT_GT(compared, 1000u);
   EXPECT_GT(covered, 200u);
+  EXPECT_GT(dropped, 100u);
 }
 
 TEST(SoftOutline, GivesWhatClippingGives) {
