@@ -253,7 +253,8 @@ private:
   }
 
   /// What the crossing edges can take from the winding on the way along edges from the middle of their part
-  /// on the light to its ends, at most. An edge that shares a corner and leaves there does not cross.
+  /// on the light to its ends, at most. An edge that shares a corner, as it does itself, does not count:
+  /// should it run along the way for a while, then where it ends, another one leaves it there and counts.
   HWY_NOINLINE Lanes lost_along(const EdgeLanes& e, const Segments& on) const {
     const auto num = [](T value) { return splat<Lanes>(value); };
     const Lanes zero = num(0), near = num(4 * on_line<T>);
@@ -272,10 +273,8 @@ private:
       const auto same = [](Lanes u0, Lanes v0, Lanes u1, Lanes v1) { return equal(u0, u1) & equal(v0, v1); };
       const auto shared = same(e.from_u, e.from_v, fu, fv) | same(e.from_u, e.from_v, tu, tv) |
                           same(e.to_u, e.to_v, fu, fv) | same(e.to_u, e.to_v, tu, tv);
-      const auto leaves = less(reach, max(absolute(from), absolute(to)));
       const auto apart = less(margin, min(a, b)) | less(max(a, b), zero - margin) |
-                         less(reach, min(from, to)) | less(max(from, to), zero - reach) | (shared & leaves) |
-                         equal(e.number, num(crossing_.number[i]));
+                         less(reach, min(from, to)) | less(max(from, to), zero - reach) | shared;
       // It takes from the side that it winds around: the left one for positive turns.
       const Lanes middle = a + b, twice = margin + margin;
       const auto loses = turns > 0 ? less(zero - twice, middle) : less(middle, twice);
