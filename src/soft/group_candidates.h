@@ -58,9 +58,9 @@ inline int blocking_sign(const PlaneHeight& plane, const glm::dvec3& d, double r
   return height < -threshold ? 1 : height > threshold ? -1 : 0;
 }
 
-/// A triangle that may block.
+/// A triangle that may block, or two that are seen as one quadrilateral (quads.h).
 struct Candidate {
-  double corners[3][3];  ///< corner, coordinate in LightAxes
+  double corners[4][3];  ///< corner, coordinate in LightAxes; a triangle's fourth is its first
   double plane[3];  ///< (u, v, w) of the triangle's own plane; positive everywhere where it is not needed
   double sign =
       0;  ///< +-1: its lines times this are positive in its shadow, at all points; 0: see PlaneHeight
@@ -69,6 +69,7 @@ struct Candidate {
       0;  ///< class of the solid angle at the group's centre: its binary logarithm, rounded down
   std::uint32_t height = 0;  ///< index into GroupCandidates::heights where sign is 0
   bool has_plane = false;
+  bool is_quad = false;
   bool stands_between =
       false;  ///< well apart from all points and the light's plane: its shadow there is finite
 };

@@ -18,6 +18,7 @@
 #include "soft/line_class_query-inl.h"
 #include "soft/outline_solver-inl.h"
 #include "soft/point_groups.h"
+#include "soft/quads.h"
 
 HWY_BEFORE_NAMESPACE();
 namespace tenebra::HWY_NAMESPACE {
@@ -137,6 +138,7 @@ private:
       } else {
         take_all();
       }
+      if (frame.config.solver == SoftSolver::automatic) pair_triangles(task.frame, candidates_, rest_);
       clipped_ = order_.sorted(candidates_, rest_);
     }
   }
