@@ -35,10 +35,12 @@ public:
 
   /// The next queries are about this point.
   void move_to(const GroupPoint& at) {
-    if (has_many()) choose_hot();
     at_ = at;
-    hot_.move_to(at);
-    cold_.move_to(at);
+    if (has_many()) {
+      choose_hot();
+      hot_.move_to(at_);
+    }
+    cold_.move_to(at_);
     blocks_listed_ = false;
   }
 
