@@ -359,52 +359,36 @@ private:
     return less(counted(), splat<Lanes>(static_cast<T>(HWY_MIN(count, std::size_t{16}))));
   }
 
-  /// A mean of the corners, another one for each `attempt`.
-  static HWY_INLINE Place middle_of(const LightPolygon<T>& part, int attempt) {
+  static Place middle_of(const LightPolygon<T>& part) {
     T x[polygon_capacity], y[polygon_capacity];
     store(part.x, x);
     store(part.y, y);
-    T u = 0, v = 0, total = 0;
+    Place sum{0, 0};
     for (int k = 0; k < part.count; ++k) {
-      const T weight = T(1) + T(k * attempt);
-      u += weight * x[k];
-      v += weight * y[k];
-      total += weight;
+      sum.u += x[k];
+      sum.v += y[k];
     }
-    return {u / total, v / total};
+    return {sum.u / static_cast<T>(part.count), sum.v / static_cast<T>(part.count)};
   }
 
-  /// How many triangles cover a part of the light that no edge crosses.
-  T winding_around(const LightPolygon<T>& part) {
-    T winding = 0;
-    for (int attempt = 0; attempt < 3; ++attempt) {
-      if (find_winding(middle_of(part, attempt), winding)) break;
-    }
-    return winding;
-  }
-
-  /// The winding number around a place: the edges that a ray from there towards
-  /// +u crosses. False if that is too near to an edge to be sure.
-  HWY_NOINLINE bool find_winding(Place at, T& winding) const {
+  /// How many triangles cover a part of the light that no edge crosses: the edges that a ray from its middle
+  /// towards +u crosses. Rounding can decide only where an edge is as near to the middle, and so where the
+  /// part is no wider than that.
+  HWY_NOINLINE T winding_around(const LightPolygon<T>& part) const {
+    const Place at = middle_of(part);
     const Lanes zero = splat<Lanes>(T(0)), qu = splat<Lanes>(at.u), qv = splat<Lanes>(at.v);
-    const Lanes near = splat<Lanes>(on_line<T>), slack = splat<Lanes>(slack_);
     Lanes sum = zero;
-    std::uint32_t doubtful = 0;
     for (std::size_t i = 0; i < around_.count; i += 16) {
-      const Lanes lu = load<Lanes>(&around_.u[i]), lv = load<Lanes>(&around_.v[i]);
-      const Lanes value = lu * qu + lv * qv + load<Lanes>(&around_.w[i]);
+      const Lanes value =
+          load<Lanes>(&around_.u[i]) * qu + load<Lanes>(&around_.v[i]) * qv + load<Lanes>(&around_.w[i]);
       const Lanes turns = choose(lanes_below(around_.count - i), load<Lanes>(&around_.winding[i]), zero);
       const auto from_above = less(qv, load<Lanes>(&around_.from_v[i]));
       const auto to_above = less(qv, load<Lanes>(&around_.to_v[i]));
       const Lanes up = choose(from_above, zero, choose(less(zero, value), turns, zero));
       const Lanes down = choose(from_above, choose(less(value, zero), zero - turns, zero), zero);
       sum = sum + choose(to_above, up, down);
-      const Lanes margin = near * (absolute(lu) + absolute(lv)) + slack * absolute(lv);
-      doubtful |= (bits(from_above) ^ bits(to_above)) & less_bits(absolute(value), margin) &
-                  less_bits(zero, absolute(turns));
     }
-    winding = total(sum);  // of whole numbers: exact in any order
-    return doubtful == 0;
+    return total(sum);  // of whole numbers: exact in any order
   }
 
   const GroupOutline* outline_ = nullptr;
