@@ -38,6 +38,10 @@ struct LightAxes {
   glm::dvec3 of(const glm::dvec3& from_centre) const {
     return {glm::dot(u, from_centre), glm::dot(v, from_centre), glm::dot(height, from_centre)};
   }
+  /// Half the sizes, in these axes, of what is around a box of `half` sizes in world space.
+  glm::dvec3 half_around(const glm::dvec3& half) const {
+    return {glm::dot(glm::abs(u), half), glm::dot(glm::abs(v), half), glm::dot(glm::abs(height), half)};
+  }
 };
 LightAxes light_axes(const LightFrame& light, const glm::dvec3& centre);
 

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <optional>
 
 namespace tenebra {
 
@@ -29,33 +30,41 @@ bool may_pair(const Candidate& c) {
   return c.sign != 0 && !c.has_plane && !c.is_quad;
 }
 
+struct SharedEdge {
+  int of_a = 0, of_b = 0;  // its first corners
+};
+
+// An edge that both run through, in opposite directions.
+std::optional<SharedEdge> shared_edge(const Candidate& a, const Candidate& b) {
+  for (int i = 0; i < 3; ++i)
+    for (int j = 0; j < 3; ++j)
+      if (corner_of(a, i) == corner_of(b, j + 1) && corner_of(a, i + 1) == corner_of(b, j))
+        return SharedEdge{i, j};
+  return std::nullopt;
+}
+
 // `half`: of the points' box, in the light's axes.
 bool pair(Candidate& a, const Candidate& b, const dvec3& half) {
   if (!may_pair(a) || !may_pair(b) || a.sign != b.sign) return false;
-  for (int i = 0; i < 3; ++i) {
-    for (int j = 0; j < 3; ++j) {
-      const dvec3 from = corner_of(a, i), to = corner_of(a, i + 1);
-      if (corner_of(b, j) != to || corner_of(b, j + 1) != from) continue;
-      const dvec3 other = corner_of(b, j + 2), own = corner_of(a, i + 2);
-      if (!turn_from_all(own, from, other, a.sign, half) || !turn_from_all(other, to, own, a.sign, half))
-        return false;
-      const dvec3 quad[4] = {from, other, to, own};
-      for (int k = 0; k < 4; ++k)
-        for (int axis = 0; axis < 3; ++axis) a.corners[k][axis] = quad[k][axis];
-      a.is_quad = true;
-      a.size = std::max(a.size, b.size) + (a.size == b.size ? 1 : 0);
-      return true;
-    }
-  }
-  return false;
+  const auto edge = shared_edge(a, b);
+  if (!edge) return false;
+  const dvec3 quad[4] = {corner_of(a, edge->of_a), corner_of(b, edge->of_b + 2), corner_of(a, edge->of_a + 1),
+                         corner_of(a, edge->of_a + 2)};
+  if (!turn_from_all(quad[3], quad[0], quad[1], a.sign, half) ||
+      !turn_from_all(quad[1], quad[2], quad[3], a.sign, half))
+    return false;
+  for (int k = 0; k < 4; ++k)
+    for (int axis = 0; axis < 3; ++axis) a.corners[k][axis] = quad[k][axis];
+  a.is_quad = true;
+  a.size = std::max(a.size, b.size) + (a.size == b.size ? 1 : 0);
+  return true;
 }
 
 }  // namespace
 
 void pair_triangles(const GroupFrame& group, GroupCandidates& candidates,
                     std::vector<std::uint32_t>& places) {
-  const auto reach = [&](const dvec3& row) { return glm::dot(glm::abs(row), group.half); };
-  const dvec3 half(reach(candidates.axes.u), reach(candidates.axes.v), reach(candidates.axes.height));
+  const dvec3 half = candidates.axes.half_around(group.half);
   std::size_t kept = 0;
   for (const std::uint32_t place : places) {
     if (kept > 0 && pair(candidates.all[places[kept - 1]], candidates.all[place], half)) continue;
