@@ -32,6 +32,7 @@ public:
 
   /// The next queries are about this point.
   HWY_NOINLINE void move_to(const GroupPoint& at) {
+    slack_ = static_cast<T>(0x1p-32 * (4 + 2 * std::abs(at.in_light.y)));
     for (std::size_t b = 0; b < moving_.size(); ++b) move_block(at, b);
     add_sometimes(at);
     around_.count = crossing_.count = 0;
@@ -40,7 +41,6 @@ public:
     for (std::size_t b = 0; b < at_point_.size(); ++b) gather(at_point_[b], static_cast<T>(16 * b));
     if (crossing_.count >= several && crossing_.count <= many) drop_inner();
     crossing_light_ = crossing_.count;
-    slack_ = static_cast<T>(0x1p-32 * (4 + 2 * std::abs(at.in_light.y)));
   }
 
   /// Appends the parts of `light` (convex, within |u|, |v| <= 1) visible from the point to `out`.
