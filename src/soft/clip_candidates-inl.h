@@ -34,7 +34,6 @@ public:
       }
       OccluderBlock& block = blocks_[blocks - 1];
       block.lanes = block.indefinite = block.quads = 0;
-      block.has_planes = false;
       at_point_[blocks - 1].boxes_of = at_point_[blocks - 1].lines_of = 0;
       useful_[blocks - 1] = 0;
     }

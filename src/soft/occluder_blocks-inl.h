@@ -46,7 +46,6 @@ struct OccluderBlock {
   std::uint32_t lanes = 0;       ///< bits of the occluders that are there
   std::uint32_t indefinite = 0;  ///< and of those whose sign depends on the point
   std::uint32_t quads = 0;       ///< and of those with four corners
-  bool has_planes = false;       ///< one of them needs its own plane
 };
 
 HWY_INLINE void put(const Candidate& c, OccluderBlock& block, std::size_t lane) {
@@ -59,7 +58,6 @@ HWY_INLINE void put(const Candidate& c, OccluderBlock& block, std::size_t lane) 
   block.lanes |= 1u << lane;
   if (c.sign == 0) block.indefinite |= 1u << lane;
   if (c.is_quad) block.quads |= 1u << lane;
-  block.has_planes |= c.has_plane;
 }
 
 /// A block at a point. Sides of boxes: least u, -greatest u, least v, -greatest v.
@@ -117,41 +115,46 @@ HWY_NOINLINE void find_boxes(const OccluderBlock& block, std::span<const PlaneHe
   }
 }
 
+/// The lines of occluders first to first + 7 of a block.
+template <class T>
+HWY_INLINE void find_eight_lines(const OccluderBlock& block, const double* signs, const GroupPoint& at,
+                                 std::size_t first, BlockAtPoint<T>& out) {
+  using Doubles = Pack<double, 8>;
+  using Lanes = Pack<T, 8>;
+  const auto num = [](double value) { return splat<Doubles>(value); };
+  const auto corner = [&](int k) {
+    const auto of = [&](int axis) {
+      return load<Doubles>(block.corners[k][axis] + first) - num(at.in_axes[axis]);
+    };
+    return Pack3<Doubles>{of(0), of(1), of(2)};
+  };
+  const Doubles sign = load<Doubles>(signs + first);
+  Lanes u[4], v[4], w[4];
+  Pack3<Doubles> from = corner(0);
+  for (int k = 0; k < 4; ++k) {  // of triangles, corner 3 is corner 0, and the fourth line is none
+    const Pack3<Doubles> to = corner(k < 3 ? k + 1 : 0);
+    const Pack3<Doubles> n = cross(from, to - from);
+    u[k] = narrowed<T>(n.x * sign);
+    v[k] = narrowed<T>(n.y * sign);
+    w[k] = narrowed<T>((n.z * num(at.reach) - n.x * num(at.in_light.x) - n.y * num(at.in_light.y)) * sign);
+    from = to;
+  }
+  const auto quads = truth_of<T, 8>(block.quads >> first);
+  const auto plane = [&](int k) { return narrowed<T>(load<Doubles>(block.plane[k] + first) * sign); };
+  u[3] = choose(quads, u[3], plane(0));
+  v[3] = choose(quads, v[3], plane(1));
+  w[3] = choose(quads, w[3], plane(2));
+  store_fours(u[0], u[1], u[2], u[3], out.u[first]);
+  store_fours(v[0], v[1], v[2], v[3], out.v[first]);
+  store_fours(w[0], w[1], w[2], w[3], out.w[first]);
+}
+
 /// The lines of a block whose boxes are there.
 template <class T>
 HWY_NOINLINE void find_lines(const OccluderBlock& block, const GroupPoint& at, BlockAtPoint<T>& out) {
-  const Wide sign = load<Wide>((block.indefinite & out.lanes) == 0 ? block.sign : out.sign);
-  const Wide x = wide(at.in_axes.x), y = wide(at.in_axes.y), z = wide(at.in_axes.z);
-  const Wide pu = wide(at.in_light.x), pv = wide(at.in_light.y), reach = wide(at.reach);
-  const auto corner = [&](int k) {
-    const auto& c = block.corners[k];
-    return Pack3<Wide>{load<Wide>(c[0]) - x, load<Wide>(c[1]) - y, load<Wide>(c[2]) - z};
-  };
-  Pack<T, 16> u[4], v[4], w[4];
-  const auto find_line = [&](int k, const Pack3<Wide>& from, const Pack3<Wide>& to) {
-    const Pack3<Wide> n = cross(from, to - from);
-    u[k] = narrowed<T>(n.x * sign);
-    v[k] = narrowed<T>(n.y * sign);
-    w[k] = narrowed<T>((n.z * reach - n.x * pu - n.y * pv) * sign);
-  };
-  const Pack3<Wide> corners[4] = {corner(0), corner(1), corner(2), corner(3)};  // of triangles: 3 is 0
-  for (int k = 0; k < 3; ++k) find_line(k, corners[k], corners[k + 1]);
-  const auto quads = truth_of<T, 16>(block.quads);
-  const Pack<T, 16> none = splat<Pack<T, 16>>(T(0)), one = splat<Pack<T, 16>>(T(1));
-  if (block.quads != 0) {
-    find_line(3, corners[3], corners[0]);
-  } else {
-    u[3] = v[3] = w[3] = none;
-  }
-  const auto plane = [&](int k, Pack<T, 16> idle) {  // where it is not needed, all is inside
-    return block.has_planes ? narrowed<T>(load<Wide>(block.plane[k]) * sign) : idle;
-  };
-  u[3] = choose(quads, u[3], plane(0, none));
-  v[3] = choose(quads, v[3], plane(1, none));
-  w[3] = choose(quads, w[3], plane(2, one));
-  store_fours(u[0], u[1], u[2], u[3], out.u[0]);
-  store_fours(v[0], v[1], v[2], v[3], out.v[0]);
-  store_fours(w[0], w[1], w[2], w[3], out.w[0]);
+  const double* const signs = (block.indefinite & out.lanes) == 0 ? block.sign : out.sign;
+  find_eight_lines(block, signs, at, 0, out);
+  find_eight_lines(block, signs, at, 8, out);
 }
 
 }  // namespace tenebra::HWY_NAMESPACE
