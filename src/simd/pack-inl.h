@@ -343,14 +343,42 @@ HWY_INLINE bool any(Truth<T, N> t) {
   return false;
 }
 
-/// Writes the lanes where t is true one after another; returns their number. `to` has room for all N.
+/// For every set of lanes of a register the numbers of its lanes, one after another.
+template <class T, int Width>
+struct CompressTable {
+  LaneIndex<T> rows[1 << Width][Width] = {};
+
+  constexpr CompressTable() {
+    for (int set = 0; set < (1 << Width); ++set) {
+      int count = 0;
+      for (int lane = 0; lane < Width; ++lane)
+        if ((set >> lane & 1) != 0) rows[set][count++] = static_cast<LaneIndex<T>>(lane);
+    }
+  }
+};
+template <class T, int Width>
+inline constexpr CompressTable<T, Width> compress_table;
+
+/// Writes the lanes where t is true one after another; returns their number. `to` has room for all N. (Where
+/// the target has no instruction for it, Highway's tables are copied to the stack at each use by GCC 12.)
 template <class T, int N, class U>
 HWY_INLINE std::size_t compress(Truth<U, N> t, Pack<T, N> a, T* to) {
+  using P = Pack<T, N>;
+  const typename P::Tag tag;
   std::size_t count = 0;
-  for (int i = 0; i < a.registers; ++i) {
-    const auto mask = hn::RebindMask(typename Pack<T, N>::Tag(), t.r[i]);
-    hn::StoreU(hn::Compress(a.r[i], mask), typename Pack<T, N>::Tag(), to + count);
-    count += hn::CountTrue(typename Pack<T, N>::Tag(), mask);
+  for (int i = 0; i < P::registers; ++i) {
+    const auto mask = hn::RebindMask(tag, t.r[i]);
+    if constexpr (HWY_TARGET <= HWY_AVX3 || P::width == 1) {
+      hn::StoreU(hn::Compress(a.r[i], mask), tag, to + count);
+      count += hn::CountTrue(tag, mask);
+    } else {
+      std::uint8_t set[8] = {};
+      hn::StoreMaskBits(tag, mask, set);
+      const auto row =
+          hn::LoadU(typename Pack<LaneIndex<T>, N>::Tag(), compress_table<T, P::width>.rows[set[0]]);
+      hn::StoreU(hn::TableLookupLanes(a.r[i], hn::IndicesFromVec(tag, row)), tag, to + count);
+      count += static_cast<std::size_t>(hwy::PopCount(set[0]));
+    }
   }
   return count;
 }
