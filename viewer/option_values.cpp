@@ -44,6 +44,11 @@ std::optional<int> frame_from(std::string_view text) {
 
 }  // namespace
 
+std::string without_gap(std::string sentence) {
+  constexpr std::string_view gap = "found , ";
+  return sentence.starts_with(gap) ? sentence.replace(0, gap.size(), "found nothing, ") : sentence;
+}
+
 Expected<Size> parse_size(const std::string& text) {
   const auto parts = split(text, 'x');
   const auto side = [&](std::size_t i) {

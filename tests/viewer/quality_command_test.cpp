@@ -74,6 +74,35 @@ TEST(QualityOption, IsRefusedInASentenceWhereUnknown) {
   }
 }
 
+TEST(QualityOption, SaysWhereItDoesNothing) {
+  const TemporaryFolder folder;
+  const std::string scene = write_moving_scene(folder);
+  const auto warnings = [&](std::vector<std::string> more) {
+    more.insert(more.begin(), {"render", scene, "--size", "16x12", "-o", "none"});
+    const auto result = tenebra(more);
+    EXPECT_EQ(result.exit_code, 0) << result.errors;
+    std::string found;
+    for (std::size_t at = 0; (at = result.errors.find("warning: ", at)) != std::string::npos; ++at)
+      found += result.errors.substr(at, result.errors.find('\n', at) + 1 - at);
+    return found;
+  };
+  const std::string idle = "warning: --quality does nothing without --shadows soft or --ao\n";
+  EXPECT_EQ(warnings({"--quality", "fast"}), idle) << "hard shadows are exact, and as fast, in each preset";
+  EXPECT_EQ(warnings({"--quality", "fast", "--ao", "rays", "--ao-rays", "1"}), "");
+  const std::vector<std::string> soft{"--shadows", "soft", "--light-size", "1"};
+  const auto with = [&](std::vector<std::string> more) {
+    more.insert(more.begin(), soft.begin(), soft.end());
+    return warnings(more);
+  };
+  EXPECT_EQ(with({"--quality", "fast"}), "");
+  EXPECT_EQ(with({"--quality", "fast", "--soft-solver", "bsp"}),
+            "warning: --soft-solver does nothing where lights are 8 points\n");
+  EXPECT_EQ(with({"--soft-points", "0", "--soft-precision", "reference"}), "");
+  EXPECT_EQ(warnings({"--shadows", "none", "--samples", "depth", "--variant", "Spheres"}),
+            "warning: --variant does nothing with --shadows none\n"
+            "warning: --samples does nothing with --shadows none\n");
+}
+
 TEST(QualityOption, OfTheSecondMethodStandsOnTheFirst) {
   viewer::ViewOptions options;
   CLI::App app;
