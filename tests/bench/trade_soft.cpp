@@ -14,22 +14,9 @@ namespace {
 
 /// In 1/255 of white: over the penumbra and over the whole picture.
 std::vector<double> errors_of(const Truth& truth, std::span<const float> irradiance) {
-  double sum = 0, worst = 0, penumbra_sum = 0, penumbra_worst = 0;
-  for (std::size_t i = 0; i < irradiance.size(); ++i) {
-    const double error =
-        std::abs(static_cast<double>(irradiance[i]) - static_cast<double>(truth.mask.irradiance[i]));
-    sum += error * error;
-    worst = std::max(worst, error);
-    if (truth.penumbra[i] == 0) continue;
-    penumbra_sum += error * error;
-    penumbra_worst = std::max(penumbra_worst, error);
-  }
-  const double unit = 255 / truth.white;
-  const auto root = [&](double squares, std::size_t count) {
-    return count == 0 ? 0 : unit * std::sqrt(squares / static_cast<double>(count));
-  };
-  return {root(penumbra_sum, truth.penumbra_count), unit * penumbra_worst, root(sum, irradiance.size()),
-          unit * worst};
+  const SoftErrors penumbra = errors_255(truth, irradiance, Where::penumbra),
+                   all = errors_255(truth, irradiance, Where::everywhere);
+  return {penumbra.rms, penumbra.worst, all.rms, all.worst};
 }
 
 /// One view with all settings on it.
