@@ -62,8 +62,10 @@ Expected<void> HardTrade::see() {
       !drawn)
     return drawn;
   compute_visible_points(ids, points.width, points.height, view_.frame.view, view_.frame.triangles(), points);
+  // Neither the traversal nor the instructions of the default, which would be no judge of itself.
+  const HardShadowConfig truth{.variant = Variant::precise_sorted, .simd = SimdLevel::scalar};
   ShadowTracer tracer;
-  tracer.trace_shadow_mask(points, view_.frame.view, view_.frame.triangles(), view_.light, {}, exact_);
+  tracer.trace_shadow_mask(points, view_.frame.view, view_.frame.triangles(), view_.light, truth, exact_);
   rays_ = static_cast<double>(tracer.stats().rays);
   return {};
 }
