@@ -94,7 +94,7 @@ void add_common(CLI::App& command, MethodOptions& options) {
            "What soft shadows and ambient occlusion may cost.\nfast: --soft-points 8 --ao-rays 16 "
            "--ao-downscale 2\n(penumbrae off by 3 to 8/255 RMS, occlusion by 3 to 7);\nbalanced: the "
            "defaults (exact; occlusion by 2 to 6);\nexact: --ao-rays 256 (2 to 5); docs/trade.md has it "
-           "all.\nThese options win where they are given themselves")
+           "all.\nAn option that is given itself wins")
            ->type_name("fast|balanced|exact"),
        add_choice<shadow_choices>(command, "--shadows", render.shadows,
                                   "hard: of the lights' centres; soft: of their areas,\nboth exact and "
