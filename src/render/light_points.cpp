@@ -62,11 +62,12 @@ struct PointOfLight {
     parallel_ranges(mask.size(), 1 << 14, [&](std::size_t first, std::size_t last) {
       for (std::size_t i = first; i < last; ++i) {
         if (mask[i] == 0) continue;
-        out.visible_fraction[i] += fraction;
         const dvec3 to = place - points.positions[i];
         const double square = glm::dot(to, to), at_light = -glm::dot(normal, to),
                      at_point = glm::dot(dvec3(normals[i]), to);
-        if (at_light > 0 && at_point > 0)
+        if (!(at_light > 0)) continue;  // behind the light
+        out.visible_fraction[i] += fraction;
+        if (at_point > 0)
           out.irradiance[i] += static_cast<float>(area_m2 * at_light * at_point / (square * square));
       }
     });
@@ -104,8 +105,7 @@ bool LightPointShadows::trace(const VisiblePoints& points, std::span<const glm::
   places_ = points_on_light(light, count);
   for (const glm::vec3& place : places_) {
     if (stop_requested(stop)) return false;
-    const ShadowLight point{.position = place, .spot_axis = glm::vec3(light.normal), .spot_cos_outer = 0.0f};
-    tracer_.trace_shadow_mask(points, view, triangles, point, config, mask_);
+    tracer_.trace_shadow_mask(points, view, triangles, {.position = place}, config, mask_);
     stats_ += tracer_.stats();
     timings_ += tracer_.timings();
     Stopwatch watch;

@@ -44,6 +44,7 @@ private:
   EmbreeScene casters_;
   std::vector<SampledReceiver> receivers_;
   std::vector<float> picture_;
+  VisiblePoints tiled_;
   SoftShadowTracer tracer_;
   SoftMask mask_;
   Truth truth_;
@@ -87,14 +88,18 @@ void SoftTrade::add_exact() {
     add("exact, other solvers", "bsp", session_.by_effort(1, 1, 3), with(SoftSolver::bsp));
 }
 
+/// Beside tiles, as the renderer has them.
 void SoftTrade::add_light_points() {
+  const VisiblePoints& points = view_.frame.points;
+  compute_visible_points(points.triangles, points.width, points.height, view_.frame.view,
+                         view_.frame.triangles(), tiled_, PointLayout::rows_and_tiles);
   for (const int count :
        session_.by_effort<std::vector<int>>({8}, {4, 8, 16, 32, 64}, {4, 8, 16, 32, 64, 128})) {
     add("light points (--soft-points)", fmt::format("{}", count),
         count > 16 ? session_.by_effort(1, 1, 3) : session_.by_effort(1, 3, 5),
         [this, count]() -> std::span<const float> {
-          light_points_.trace(view_.frame.points, view_.frame.normals, view_.frame.view,
-                              view_.frame.triangles(), view_.light, count, {}, mask_);
+          light_points_.trace(tiled_, view_.frame.normals, view_.frame.view, view_.frame.triangles(),
+                              view_.light, count, {}, mask_);
           return mask_.irradiance;
         });
   }
