@@ -8,6 +8,7 @@
 
 #include "command.h"
 #include "console.h"
+#include "option_values.h"
 
 namespace {
 
@@ -34,16 +35,6 @@ int report(const std::string& sentence, int code) {
   return code;
 }
 
-/// CLI11's "--size: 1 required WxH missing" in the words of all other refusals.
-std::string sentence_of(const CLI::ParseError& error) {
-  std::string text = error.what();
-  const std::string required = ": 1 required ", missing = " missing";
-  const std::size_t at = text.find(required);
-  if (at == std::string::npos || !text.ends_with(missing)) return text;
-  text.resize(text.size() - missing.size());
-  return text.replace(at, required.size(), ": found no value, expected ");
-}
-
 /// What a command printed counts only once it is out: a full disk or a closed pipe shows here.
 int flush_output(int code) {
   if (std::fflush(stdout) == 0 && std::ferror(stdout) == 0) return code;
@@ -68,7 +59,7 @@ int parse_and_run(CLI::App& program, Run& run, int argc, char** argv) {
           fmt::format("unknown command '{}', expected view, render, info, convert or compare", argv[1]),
           failure);
     }
-    return report(sentence_of(error), failure_code());
+    return report(tenebra::viewer::sentence_of(error), failure_code());
   }
   if (!run)
     return report("give a command: view, render, info, convert or compare (see tenebra --help)", failure);

@@ -48,6 +48,9 @@ Expected<LightSize> parse_light_size(const std::string& text);    ///< W, WxH, W
 /// $HOME/.cache/tenebra; empty where neither is set.
 std::filesystem::path default_cache_folder();
 
+/// CLI11's "--size: 1 required WxH missing" in the words of all other refusals, the rest as it stands.
+std::string sentence_of(const CLI::ParseError& error);
+
 /// "found , expected ..." of an empty text as "found nothing, expected ...".
 std::string without_gap(std::string sentence);
 
