@@ -68,21 +68,26 @@ std::string remarks(const std::vector<const TradeTable*>& tables) {
   return text.empty() ? text : text + "\n";
 }
 
+/// The command that writes the page again.
+std::string command_line(const TradeSession& session) {
+  const int threads = session.options.threads;
+  return fmt::format("tenebra-bench trade{}{} --docs docs", session.by_effort(" --tiny", " --quick", ""),
+                     threads == 0 ? "" : fmt::format(" --threads {}", threads));
+}
+
 std::string head(const TradeSession& session) {
-  const char* effort = session.by_effort(" --tiny", " --quick", "");
+  const std::string measured = thread_count() == 1 ? "1 thread, processor time"
+                                                   : fmt::format("{} threads, by the clock", thread_count());
   return fmt::format(
       "# What accuracy costs\n\n"
-      "Written by `tenebra-bench trade{} --docs docs`; edit `tests/bench/trade_docs.cpp` and "
-      "`trade_advice.cpp`, "
-      "not this file.\nMachine: {}; {} threads. Times in milliseconds a frame; two runs differ by some 10 "
-      "%.\n\n"
+      "Written by `{}`; edit `tests/bench/trade_docs.cpp` and `trade_advice.cpp`, not this file.\n"
+      "Machine: {}; {}. Times in milliseconds a frame; two runs differ by some 10 %.\n\n"
       "A setting is on the **Pareto front** of a view, its time bold, if no other is both as fast and as "
       "exact "
       "and better in one of the two. In the plots the front is dashed and its settings are ringed. Embree's "
-      "rays are a peer "
-      "to compare with, no setting of Tenebra's (but for `--ao rays`). RMS: root of the mean square. "
-      "Penumbra, shaft and other words: README, *Vocabulary*.\n\n",
-      effort, machine_description(), thread_count());
+      "rays are a peer to compare with, no setting of Tenebra's (but for `--ao rays`). RMS: root of the mean "
+      "square. Penumbra, shaft and other words: README, *Vocabulary*.\n\n",
+      command_line(session), machine_description(), measured);
 }
 
 std::string hard_section(const std::vector<const TradeTable*>& tables) {
