@@ -22,9 +22,9 @@ public:
       const OccluderBlock& block = candidates.block(b);
       const auto there = truth_of<double, 16>(block.lanes);
       for (int axis = 0; axis < 3; ++axis) {
-        const Wide v0 = load<Wide>(block.corners[0][axis]), v1 = load<Wide>(block.corners[1][axis]),
-                   v2 = load<Wide>(block.corners[2][axis]);
-        const Wide low = min(v0, min(v1, v2)), high = max(v0, max(v1, v2));
+        const Wide v0 = load<Wide>(block.corners[0][axis]), v1 = load<Wide>(block.corners[1][axis]);
+        const Wide v2 = load<Wide>(block.corners[2][axis]), v3 = load<Wide>(block.corners[3][axis]);
+        const Wide low = min(min(v0, v1), min(v2, v3)), high = max(max(v0, v1), max(v2, v3));
         bounds_[b / 16].low[axis][b % 16] = least(choose(there, low, wide(1e300)));
         bounds_[b / 16].high[axis][b % 16] = greatest(choose(there, high, wide(-1e300)));
       }

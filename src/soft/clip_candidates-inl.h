@@ -33,8 +33,7 @@ public:
         useful_.resize(2 * blocks);
       }
       OccluderBlock& block = blocks_[blocks - 1];
-      block.lanes = block.indefinite = 0;
-      block.has_planes = false;
+      block.lanes = block.indefinite = block.quads = 0;
       at_point_[blocks - 1].boxes_of = at_point_[blocks - 1].lines_of = 0;
       useful_[blocks - 1] = 0;
     }
@@ -45,9 +44,9 @@ public:
   std::size_t block_count() const { return (count_ + 15) / 16; }
   OccluderBlock& block(std::size_t b) { return blocks_[b]; }
 
-  /// Forgets all lists.
+  /// Forgets all lists. `at` stays where it is until the next.
   void move_to(const GroupPoint& at) {
-    at_ = at;
+    at_ = &at;
     ++point_;
     list.shrink(0);
   }
@@ -84,7 +83,7 @@ public:
     const std::size_t b = id / 16, k = id % 16;
     BlockAtPoint<T>& there = at_point_[b];
     if (there.lines_of != point_) {
-      find_lines(blocks_[b], at_, there);
+      find_lines(blocks_[b], *at_, there);
       there.lines_of = point_;
     }
     return {there.u[k], there.v[k], there.w[k]};
@@ -100,7 +99,7 @@ private:
   HWY_INLINE const BlockAtPoint<T>& with_boxes(std::size_t b) {
     BlockAtPoint<T>& there = at_point_[b];
     if (there.boxes_of != point_) {
-      find_boxes(blocks_[b], heights_, at_, there);
+      find_boxes(blocks_[b], heights_, *at_, there);
       there.boxes_of = point_;
     }
     return there;
@@ -121,7 +120,7 @@ private:
   std::vector<BlockAtPoint<T>> at_point_;
   std::vector<std::uint32_t> useful_;
   std::size_t count_ = 0;
-  GroupPoint at_;
+  const GroupPoint* at_ = nullptr;
   std::uint32_t point_ = 0;  ///< number of the point at hand, from 1
 };
 

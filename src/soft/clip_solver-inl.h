@@ -15,6 +15,7 @@
 
 #include "soft/block_bounds-inl.h"
 #include "soft/light_fragments-inl.h"
+#include "soft/part_boxes-inl.h"
 
 HWY_BEFORE_NAMESPACE();
 namespace tenebra::HWY_NAMESPACE {
@@ -35,10 +36,12 @@ public:
 
   /// The next queries are about this point.
   void move_to(const GroupPoint& at) {
-    if (has_many()) choose_hot();
     at_ = at;
-    hot_.move_to(at);
-    cold_.move_to(at);
+    if (has_many()) {
+      choose_hot();
+      hot_.move_to(at_);
+    }
+    cold_.move_to(at_);
     blocks_listed_ = false;
   }
 
@@ -107,13 +110,8 @@ private:
 
   /// What the occluders that are not hot leave of `parts`.
   void subtract_cold(const FragmentList<T>& parts, FragmentList<T>& out) {
-    boxes_.clear();
-    chosen_.clear();
-    for (std::uint32_t i = 0; i < parts.size(); ++i) {
-      boxes_.push_back(sides_of_box(loaded(parts[i])));
-      chosen_.push_back(i);
-    }
-    const LightBox<T> box = box_of_all(0, parts.size());
+    boxes_.reset(parts);
+    const LightBox<T> box = boxes_.around(0, parts.size());
     if (!has_many()) {
       for (std::size_t b = 0; b < cold_.block_count(); ++b) cold_.append_block(b, box);
       subtract_list(parts, 0, parts.size(), box, 0, out);
@@ -127,12 +125,12 @@ private:
     subtract_blocks(parts, 0, parts.size(), box, 0, last, out);
   }
 
-  /// Subtracts the blocks in places [first, last) from the parts in places [begin, end) of chosen_, which lie
+  /// Subtracts the blocks in places [first, last) from the parts in places [begin, end) of boxes_, which lie
   /// in `box`. The parts are sorted by halves, as in the building of a tree of boxes, until they are few for
   /// the blocks around them, and from there on with a list of the blocks' triangles.
   void subtract_blocks(const FragmentList<T>& parts, std::size_t begin, std::size_t end,
                        const LightBox<T>& box, std::size_t first, std::size_t last, FragmentList<T>& out) {
-    const std::size_t middle = 16 * (end - begin) < last - first ? part_boxes(begin, end, box) : begin;
+    const std::size_t middle = 16 * (end - begin) < last - first ? boxes_.halve(begin, end, box) : begin;
     if (middle == begin || middle == end) {
       const std::size_t place = cold_.list.count();
       for (std::size_t i = first; i < last; ++i) cold_.append_block(blocks_.id(i), box);
@@ -140,7 +138,7 @@ private:
       return cold_.list.shrink(place);
     }
     for (const auto& [from, to] : {std::pair(begin, middle), std::pair(middle, end)}) {
-      const LightBox<T> half = box_of_all(from, to);
+      const LightBox<T> half = boxes_.around(from, to);
       blocks_.narrow(first, last, half);
       subtract_blocks(parts, from, to, half, last, blocks_.count(), out);
       blocks_.shrink(last);
@@ -152,14 +150,14 @@ private:
                      std::size_t first, FragmentList<T>& out) {
     const std::size_t last = cold_.list.count();
     if (last - first <= handful) {
-      for (std::size_t i = begin; i < end; ++i) subtract_handful(parts, chosen_[i], first, last, out);
+      for (std::size_t i = begin; i < end; ++i) subtract_handful(parts, i, first, last, out);
       return;
     }
-    if (end - begin == 1) return solve(cold_, loaded(parts[chosen_[begin]]), first, out);
-    std::size_t middle = part_boxes(begin, end, box);
+    if (end - begin == 1) return solve(cold_, loaded(parts[boxes_.part(begin)]), first, out);
+    std::size_t middle = boxes_.halve(begin, end, box);
     if (middle == begin || middle == end) middle = begin + (end - begin) / 2;
     for (const auto& [from, to] : {std::pair(begin, middle), std::pair(middle, end)}) {
-      const LightBox<T> half = box_of_all(from, to);
+      const LightBox<T> half = boxes_.around(from, to);
       cold_.list.narrow(first, last, half);
       subtract_list(parts, from, to, half, last, out);
       cold_.list.shrink(last);
@@ -167,49 +165,16 @@ private:
   }
 
   /// Subtracts the occluders in the list [first, last), at most a handful, from one part.
-  HWY_INLINE void subtract_handful(const FragmentList<T>& parts, std::uint32_t part, std::size_t first,
+  HWY_INLINE void subtract_handful(const FragmentList<T>& parts, std::size_t place, std::size_t first,
                                    std::size_t last, FragmentList<T>& out) {
     const std::size_t from = out.size();
-    out.push(loaded(parts[part]));
+    out.push(loaded(parts[boxes_.part(place)]));
     if (first == last) return;
-    std::uint64_t met = cold_.list.meeting(first, last, box_of_sides(boxes_[part]));
+    std::uint64_t met = cold_.list.meeting(first, last, boxes_.around(place, place + 1));
     for (; met != 0 && out.size() > from; met &= met - 1) {
       const std::size_t id = cold_.list.id(first + static_cast<std::size_t>(std::countr_zero(met)));
       if (subtract_one(cold_.lines_of(id), out, from)) cold_.mark_useful(id);
     }
-  }
-
-  /// A box's sides: what is around several is the least of each.
-  using Sides = Pack<T, 4>;
-  struct BoxSides {
-    T side[4];  ///< least u, -greatest u, least v, -greatest v
-  };
-  static BoxSides sides_of_box(const LightPolygon<T>& p) {
-    return {{least(p.x), -greatest(p.x), least(p.y), -greatest(p.y)}};
-  }
-  static LightBox<T> box_of_sides(const BoxSides& b) {
-    return {(b.side[0] - b.side[1]) / 2, (b.side[2] - b.side[3]) / 2, (-b.side[1] - b.side[0]) / 2,
-            (-b.side[3] - b.side[2]) / 2};
-  }
-
-  LightBox<T> box_of_all(std::size_t begin, std::size_t end) const {
-    Sides all = load<Sides>(boxes_[chosen_[begin]].side);
-    for (std::size_t i = begin + 1; i < end; ++i) all = min(all, load<Sides>(boxes_[chosen_[i]].side));
-    BoxSides sides;
-    store(all, sides.side);
-    return box_of_sides(sides);
-  }
-
-  /// Sorts the parts in places [begin, end), which lie in `box`, by the half that their middles lie in;
-  /// returns where the second half begins.
-  std::size_t part_boxes(std::size_t begin, std::size_t end, const LightBox<T>& box) {
-    const std::size_t axis = box.hu >= box.hv ? 0 : 2;
-    const T middle = 2 * (axis == 0 ? box.cu : box.cv);
-    const auto low = [&](std::uint32_t i) {
-      return boxes_[i].side[axis] - boxes_[i].side[axis + 1] < middle;
-    };
-    const auto at = [&](std::size_t i) { return chosen_.begin() + static_cast<std::ptrdiff_t>(i); };
-    return static_cast<std::size_t>(std::partition(at(begin), at(end), low) - chosen_.begin());
   }
 
   /// Subtracts the occluders in the list from place `first` on from `part`.
@@ -316,8 +281,7 @@ private:
   BlockBounds<T> bounds_;                        ///< of cold_
   ShadowList<T> blocks_;
   bool blocks_listed_ = false;
-  std::vector<BoxSides> boxes_;        ///< of the parts that the hot ones leave
-  std::vector<std::uint32_t> chosen_;  ///< indices of these parts
+  PartBoxes<T> boxes_;  ///< of what the hot ones leave
   std::vector<FragmentList<T>> spare_;
 };
 

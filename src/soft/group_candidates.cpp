@@ -187,10 +187,9 @@ private:
       c.sign = -points * out.axes.turn;
       c.has_plane = !is(l.light_in_front | l.light_behind);
     }
-    for (int k = 0; k < 3; ++k) {
-      for (int axis = 0; axis < 3; ++axis) c.corners[k][axis] = l.corners[k][axis][i];
-      c.plane[k] = c.has_plane ? l.plane[k][i] : k == 2 ? c.sign : 0.0;
-    }
+    for (int k = 0; k < 4; ++k)
+      for (int axis = 0; axis < 3; ++axis) c.corners[k][axis] = l.corners[k % 3][axis][i];
+    for (int k = 0; k < 3; ++k) c.plane[k] = c.has_plane ? l.plane[k][i] : k == 2 ? c.sign : 0.0;
     // The exponent is the logarithm, rounded down (all tiny ones are one class).
     c.size = static_cast<std::int32_t>(std::bit_cast<std::uint64_t>(l.solid_angle[i]) >> 52) - 1023;
     c.stands_between = is(l.stands_between);

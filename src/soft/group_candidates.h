@@ -38,6 +38,10 @@ struct LightAxes {
   glm::dvec3 of(const glm::dvec3& from_centre) const {
     return {glm::dot(u, from_centre), glm::dot(v, from_centre), glm::dot(height, from_centre)};
   }
+  /// Half the sizes, in these axes, of what is around a box of `half` sizes in world space.
+  glm::dvec3 half_around(const glm::dvec3& half) const {
+    return {glm::dot(glm::abs(u), half), glm::dot(glm::abs(v), half), glm::dot(glm::abs(height), half)};
+  }
 };
 LightAxes light_axes(const LightFrame& light, const glm::dvec3& centre);
 
@@ -58,9 +62,9 @@ inline int blocking_sign(const PlaneHeight& plane, const glm::dvec3& d, double r
   return height < -threshold ? 1 : height > threshold ? -1 : 0;
 }
 
-/// A triangle that may block.
+/// A triangle that may block, or two that are seen as one quadrilateral (quads.h).
 struct Candidate {
-  double corners[3][3];  ///< corner, coordinate in LightAxes
+  double corners[4][3];  ///< corner, coordinate in LightAxes; a triangle's fourth is its first
   double plane[3];  ///< (u, v, w) of the triangle's own plane; positive everywhere where it is not needed
   double sign =
       0;  ///< +-1: its lines times this are positive in its shadow, at all points; 0: see PlaneHeight
@@ -69,6 +73,7 @@ struct Candidate {
       0;  ///< class of the solid angle at the group's centre: its binary logarithm, rounded down
   std::uint32_t height = 0;  ///< index into GroupCandidates::heights where sign is 0
   bool has_plane = false;
+  bool is_quad = false;
   bool stands_between =
       false;  ///< well apart from all points and the light's plane: its shadow there is finite
 };

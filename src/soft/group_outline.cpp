@@ -62,8 +62,7 @@ struct ShadowRange {
 }  // namespace
 
 void drop_beside_light(const GroupFrame& group, const LightAxes& axes, GroupOutline& outline) {
-  const auto reach = [&](const dvec3& row) { return glm::dot(glm::abs(row), group.half); };
-  const dvec3 half(reach(axes.u), reach(axes.v), reach(axes.height));
+  const dvec3 half = axes.half_around(group.half);
   constexpr std::uint32_t dropped = ~0u;
   std::vector<std::uint32_t> places(outline.edges.size(), dropped);
   std::uint32_t count = 0;

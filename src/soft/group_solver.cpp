@@ -18,6 +18,7 @@
 #include "soft/line_class_query-inl.h"
 #include "soft/outline_solver-inl.h"
 #include "soft/point_groups.h"
+#include "soft/quads.h"
 
 HWY_BEFORE_NAMESPACE();
 namespace tenebra::HWY_NAMESPACE {
@@ -50,6 +51,7 @@ struct ReceiverPlane {
   double tau = 0;
   glm::dvec3 horizon{0.0};  ///< line on the light's plane, positive above
   glm::dvec3 face{0.0};     ///< unit normal on the seen side; 0: no area
+  bool cuts_light = true;   ///< part of the light is not above it
 };
 
 ReceiverPlane receiver_plane(const SoftFrame& frame, std::uint32_t id) {
@@ -137,6 +139,7 @@ private:
       } else {
         take_all();
       }
+      if (frame.config.solver == SoftSolver::automatic) pair_triangles(task.frame, candidates_, rest_);
       clipped_ = order_.sorted(candidates_, rest_);
     }
   }
@@ -217,6 +220,7 @@ private:
     p.start.clear();
     p.start.push(polygon_of<T>(frame.light.outline));
     keep_positive(p.start, line_of<T>(receiver_.horizon), p.scratch);
+    receiver_.cuts_light = cuts(frame.light, receiver_.horizon);
     above_ = receiver_.face == glm::dvec3(0.0) ? 0.0 : area_of(p.start);
   }
 
@@ -228,7 +232,7 @@ private:
     const glm::dvec3 to_origin = frame.light.origin - frame.points.positions[pixel];
     const glm::dvec3 normal = frame.normals.empty() ? receiver_.face : glm::dvec3(frame.normals[pixel]);
     const bool in_front = glm::dot(to_origin, frame.light.normal) < 0;
-    if (!in_front || !(above_ > 0) || cuts(frame.light, receiver_.horizon) ||
+    if (!in_front || !(above_ > 0) || receiver_.cuts_light ||
         cuts(frame.light, shading_horizon(frame.light, to_origin, normal)))
       return false;
     for (int c = 0; c < 3; ++c) {

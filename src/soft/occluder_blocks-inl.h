@@ -39,33 +39,32 @@ inline GroupPoint group_point(const LightAxes& axes, const glm::dvec3& position,
 
 /// Sixteen occluders. Idle lanes hold anything.
 struct OccluderBlock {
-  double corners[3][3][16];  ///< corner, coordinate, occluder
+  double corners[4][3][16];  ///< corner, coordinate, occluder
   double plane[3][16];
   double sign[16];
   std::uint32_t triangle[16], height[16];
   std::uint32_t lanes = 0;       ///< bits of the occluders that are there
   std::uint32_t indefinite = 0;  ///< and of those whose sign depends on the point
-  bool has_planes = false;       ///< one of them needs its own plane
+  std::uint32_t quads = 0;       ///< and of those with four corners
 };
 
 HWY_INLINE void put(const Candidate& c, OccluderBlock& block, std::size_t lane) {
-  for (int k = 0; k < 3; ++k) {
+  for (int k = 0; k < 4; ++k)
     for (int axis = 0; axis < 3; ++axis) block.corners[k][axis][lane] = c.corners[k][axis];
-    block.plane[k][lane] = c.plane[k];
-  }
+  for (int k = 0; k < 3; ++k) block.plane[k][lane] = c.plane[k];
   block.sign[lane] = c.sign;
   block.triangle[lane] = c.triangle;
   block.height[lane] = c.height;
   block.lanes |= 1u << lane;
   if (c.sign == 0) block.indefinite |= 1u << lane;
-  block.has_planes |= c.has_plane;
+  if (c.is_quad) block.quads |= 1u << lane;
 }
 
 /// A block at a point. Sides of boxes: least u, -greatest u, least v, -greatest v.
 template <class T>
 struct BlockAtPoint {
   T box[4][16];
-  T u[16][4], v[16][4], w[16][4];            ///< occluder, line: three edges and the plane, if it needs one
+  T u[16][4], v[16][4], w[16][4];            ///< occluder, line: the edges and the plane, if it needs one
   double sign[16];                           ///< 0: blocks nothing at this point
   std::uint32_t lanes = 0;                   ///< that may shadow something
   std::uint32_t boxes_of = 0, lines_of = 0;  ///< number of the point that they are for
@@ -86,7 +85,8 @@ HWY_NOINLINE void find_boxes(const OccluderBlock& block, std::span<const PlaneHe
   Wide low_u = far, low_v = far, high_u = wide(-1e30), high_v = high_u, lowest = far, highest = high_u;
   const Wide pu = wide(at.in_light.x), pv = wide(at.in_light.y), reach = wide(at.reach);
   const Wide x = wide(at.in_axes.x), y = wide(at.in_axes.y), z = wide(at.in_axes.z);
-  for (const auto& corner : block.corners) {
+  for (int k = 0; k < (block.quads == 0 ? 3 : 4); ++k) {
+    const auto& corner = block.corners[k];
     const Wide rise = load<Wide>(corner[2]) - z;
     lowest = min(lowest, rise);
     highest = max(highest, rise);
@@ -115,35 +115,46 @@ HWY_NOINLINE void find_boxes(const OccluderBlock& block, std::span<const PlaneHe
   }
 }
 
+/// The lines of occluders first to first + 7 of a block.
+template <class T>
+HWY_INLINE void find_eight_lines(const OccluderBlock& block, const double* signs, const GroupPoint& at,
+                                 std::size_t first, BlockAtPoint<T>& out) {
+  using Doubles = Pack<double, 8>;
+  using Lanes = Pack<T, 8>;
+  const auto num = [](double value) { return splat<Doubles>(value); };
+  const auto corner = [&](int k) {
+    const auto of = [&](int axis) {
+      return load<Doubles>(block.corners[k][axis] + first) - num(at.in_axes[axis]);
+    };
+    return Pack3<Doubles>{of(0), of(1), of(2)};
+  };
+  const Doubles sign = load<Doubles>(signs + first);
+  Lanes u[4], v[4], w[4];
+  Pack3<Doubles> from = corner(0);
+  for (int k = 0; k < 4; ++k) {  // of triangles, corner 3 is corner 0, and the fourth line is none
+    const Pack3<Doubles> to = corner(k < 3 ? k + 1 : 0);
+    const Pack3<Doubles> n = cross(from, to - from);
+    u[k] = narrowed<T>(n.x * sign);
+    v[k] = narrowed<T>(n.y * sign);
+    w[k] = narrowed<T>((n.z * num(at.reach) - n.x * num(at.in_light.x) - n.y * num(at.in_light.y)) * sign);
+    from = to;
+  }
+  const auto quads = truth_of<T, 8>(block.quads >> first);
+  const auto plane = [&](int k) { return narrowed<T>(load<Doubles>(block.plane[k] + first) * sign); };
+  u[3] = choose(quads, u[3], plane(0));
+  v[3] = choose(quads, v[3], plane(1));
+  w[3] = choose(quads, w[3], plane(2));
+  store_fours(u[0], u[1], u[2], u[3], out.u[first]);
+  store_fours(v[0], v[1], v[2], v[3], out.v[first]);
+  store_fours(w[0], w[1], w[2], w[3], out.w[first]);
+}
+
 /// The lines of a block whose boxes are there.
 template <class T>
 HWY_NOINLINE void find_lines(const OccluderBlock& block, const GroupPoint& at, BlockAtPoint<T>& out) {
-  const Wide sign = load<Wide>((block.indefinite & out.lanes) == 0 ? block.sign : out.sign);
-  const Wide x = wide(at.in_axes.x), y = wide(at.in_axes.y), z = wide(at.in_axes.z);
-  const Wide pu = wide(at.in_light.x), pv = wide(at.in_light.y), reach = wide(at.reach);
-  const auto corner = [&](int k) {
-    const auto& c = block.corners[k];
-    return Pack3<Wide>{load<Wide>(c[0]) - x, load<Wide>(c[1]) - y, load<Wide>(c[2]) - z};
-  };
-  const Pack3<Wide> corners[3] = {corner(0), corner(1), corner(2)};
-  Pack<T, 16> u[4], v[4], w[4];
-  for (int k = 0; k < 3; ++k) {
-    const Pack3<Wide> n = cross(corners[k], corners[k < 2 ? k + 1 : 0] - corners[k]);
-    u[k] = narrowed<T>(n.x * sign);
-    v[k] = narrowed<T>(n.y * sign);
-    w[k] = narrowed<T>((n.z * reach - n.x * pu - n.y * pv) * sign);
-  }
-  if (block.has_planes) {
-    u[3] = narrowed<T>(load<Wide>(block.plane[0]) * sign);
-    v[3] = narrowed<T>(load<Wide>(block.plane[1]) * sign);
-    w[3] = narrowed<T>(load<Wide>(block.plane[2]) * sign);
-  } else {  // all is inside
-    u[3] = v[3] = splat<Pack<T, 16>>(T(0));
-    w[3] = splat<Pack<T, 16>>(T(1));
-  }
-  store_fours(u[0], u[1], u[2], u[3], out.u[0]);
-  store_fours(v[0], v[1], v[2], v[3], out.v[0]);
-  store_fours(w[0], w[1], w[2], w[3], out.w[0]);
+  const double* const signs = (block.indefinite & out.lanes) == 0 ? block.sign : out.sign;
+  find_eight_lines(block, signs, at, 0, out);
+  find_eight_lines(block, signs, at, 8, out);
 }
 
 }  // namespace tenebra::HWY_NAMESPACE

@@ -15,6 +15,7 @@
 
 #include "soft/clip_candidates-inl.h"
 #include "soft/group_outline.h"
+#include "soft/inner_edges-inl.h"
 #include "soft/light_fragments-inl.h"
 
 HWY_BEFORE_NAMESPACE();
@@ -32,6 +33,7 @@ public:
 
   /// The next queries are about this point.
   HWY_NOINLINE void move_to(const GroupPoint& at) {
+    slack_ = static_cast<T>(0x1p-32 * (4 + 2 * std::abs(at.in_light.y)));
     for (std::size_t b = 0; b < moving_.size(); ++b) move_block(at, b);
     add_sometimes(at);
     around_.count = crossing_.count = 0;
@@ -40,7 +42,6 @@ public:
     for (std::size_t b = 0; b < at_point_.size(); ++b) gather(at_point_[b], static_cast<T>(16 * b));
     if (crossing_.count >= several && crossing_.count <= many) drop_inner();
     crossing_light_ = crossing_.count;
-    slack_ = static_cast<T>(0x1p-32 * (4 + 2 * std::abs(at.in_light.y)));
   }
 
   /// Appends the parts of `light` (convex, within |u|, |v| <= 1) visible from the point to `out`.
@@ -61,31 +62,6 @@ private:
   struct Block {
     T u[16], v[16], w[16], from_u[16], from_v[16], to_u[16], to_v[16], winding[16];
   };
-  /// Edges without gaps, one array a quantity.
-  struct Edges {
-    std::vector<T> u, v, w, from_u, from_v, to_u, to_v, winding, number;
-    std::size_t count = 0;
-
-    /// Room for `more` edges and a full register behind them.
-    void make_room(std::size_t more) {
-      const std::size_t needed = count + more + 16;
-      if (u.size() >= needed) return;
-      for (auto* values : {&u, &v, &w, &from_u, &from_v, &to_u, &to_v, &winding, &number})
-        values->resize(2 * needed);
-    }
-    void copy(std::size_t first, std::size_t last) {
-      make_room(last - first);
-      for (auto* values : {&u, &v, &w, &from_u, &from_v, &to_u, &to_v, &winding, &number})
-        std::copy(&(*values)[first], &(*values)[last], &(*values)[count]);
-      count += last - first;
-    }
-    void drop(std::size_t place) {
-      --count;
-      for (auto* values : {&u, &v, &w, &from_u, &from_v, &to_u, &to_v, &winding, &number})
-        (*values)[place] = (*values)[count];
-    }
-  };
-
   void fill(std::size_t i) {
     MovingBlock& block = moving_[i / 16];
     const std::size_t k = i % 16;
@@ -150,138 +126,24 @@ private:
     compress(counts, w, &around_.w[around_.count]);
     compress(counts, v0, &around_.from_v[around_.count]);
     compress(counts, v1, &around_.to_v[around_.count]);
-    const Lanes number = counted() + splat<Lanes>(first);
+    const Lanes number = counted_lanes<T>() + splat<Lanes>(first);
     compress(counts, number, &around_.number[around_.count]);
     around_.count += compress(counts, winding, &around_.winding[around_.count]);
-    add_crossing(counts & less(min(u0, u1), one) & less(absolute(w), absolute(u) + absolute(v)),
-                 {u, v, w, u0, v0, u1, v1, winding, number}, crossing_.count);
+    crossing_.append(counts & less(min(u0, u1), one) & less(absolute(w), absolute(u) + absolute(v)),
+                     {u, v, w, u0, v0, u1, v1, winding, number});
   }
 
   struct Place {
     T u, v;
   };
-  /// An edge a lane.
-  struct EdgeLanes {
-    Lanes u, v, w, from_u, from_v, to_u, to_v, winding, number;
-  };
-
-  /// Writes the edges where `chosen` to crossing_ from `to` on, and ends it behind them.
-  HWY_INLINE void add_crossing(Truth<T, 16> chosen, const EdgeLanes& edges, std::size_t to) {
-    compress(chosen, edges.u, &crossing_.u[to]);
-    compress(chosen, edges.v, &crossing_.v[to]);
-    compress(chosen, edges.w, &crossing_.w[to]);
-    compress(chosen, edges.from_u, &crossing_.from_u[to]);
-    compress(chosen, edges.from_v, &crossing_.from_v[to]);
-    compress(chosen, edges.to_u, &crossing_.to_u[to]);
-    compress(chosen, edges.winding, &crossing_.winding[to]);
-    compress(chosen, edges.number, &crossing_.number[to]);
-    crossing_.count = to + compress(chosen, edges.to_v, &crossing_.to_v[to]);
-  }
-
   /// Forgets the crossing edges that have shadow on both sides all along, sixteen at a time.
   HWY_NOINLINE void drop_inner() {
     kept_.clear();
-    for (std::size_t i = 0; i < crossing_.count; i += 16) kept_.push_back(~inner_edges(edges_from(i)));
+    for (std::size_t i = 0; i < crossing_.count; i += 16)
+      kept_.push_back(~inner_edges(around_, crossing_, slack_, crossing_.lanes_from(i)));
     const std::size_t count = std::exchange(crossing_.count, 0);
     for (std::size_t i = 0; i < count; i += 16)
-      add_crossing(lanes_below(count - i) & truth_of<T, 16>(kept_[i / 16]), edges_from(i), crossing_.count);
-  }
-
-  /// The part of edges on the light.
-  struct Segments {
-    Lanes u0, v0, u1, v1;
-    Truth<T, 16> there;
-  };
-
-  /// Bits of the edges where the lesser winding beside their middle, less what others can take from it on the
-  /// way to the ends, is above zero, and of those that do not reach the light. 0 where rounding might decide.
-  std::uint32_t inner_edges(const EdgeLanes& e) const {
-    const Lanes zero = splat<Lanes>(T(0)), half = splat<Lanes>(T(0.5));
-    const Segments on = clipped_to_light(e);
-    const std::uint32_t beyond = ~bits(on.there);
-    const Lanes mu = (on.u0 + on.u1) * half, mv = (on.v0 + on.v1) * half;
-    Lanes right = zero;
-    const std::uint32_t sure = windings_right_of(e, mu, mv, right);
-    const Lanes left = right + choose(less(e.from_v, e.to_v), e.winding, zero - e.winding);
-    const Lanes lesser = min(left, right);
-    const std::uint32_t dark = sure & less_bits(zero, lesser);
-    return dark == 0 ? beyond : beyond | (dark & less_bits(lost_along(e, on), lesser));
-  }
-
-  static HWY_INLINE Segments clipped_to_light(const EdgeLanes& e) {
-    const Lanes zero = splat<Lanes>(T(0)), one = splat<Lanes>(T(1));
-    const Lanes du = e.to_u - e.from_u, dv = e.to_v - e.from_v;
-    Lanes low = zero, high = one;
-    const auto clip = [&](Lanes from, Lanes along) {  // to from + t along <= 1
-      const Lanes t = (one - from) / choose(equal(along, zero), one, along);
-      high = choose(less(zero, along), min(high, t), high);
-      low = choose(less(along, zero), max(low, t), low);
-    };
-    clip(e.from_u, du), clip(zero - e.from_u, zero - du), clip(e.from_v, dv),
-        clip(zero - e.from_v, zero - dv);
-    // Ends that are not clipped stay as they are: others may share them.
-    const auto at = [&](Lanes t, Lanes from, Lanes along, Lanes to) {
-      return choose(less(zero, t), choose(less(t, one), from + t * along, to), from);
-    };
-    return {at(low, e.from_u, du, e.to_u), at(low, e.from_v, dv, e.to_v), at(high, e.from_u, du, e.to_u),
-            at(high, e.from_v, dv, e.to_v), less(low, high)};
-  }
-
-  /// Windings just to the right of places on edges, which the ray towards +u begins on; bits of those that
-  /// are sure.
-  HWY_NOINLINE std::uint32_t windings_right_of(const EdgeLanes& e, Lanes mu, Lanes mv, Lanes& winding) const {
-    const auto num = [](T value) { return splat<Lanes>(value); };
-    const Lanes zero = num(0);
-    winding = zero;
-    Lanes doubt = zero;
-    for (std::size_t i = 0; i < around_.count; ++i) {
-      const T u = around_.u[i], v = around_.v[i];
-      const Lanes value = num(u) * mu + num(v) * mv + num(around_.w[i]);
-      const Lanes from = num(around_.from_v[i]), to = num(around_.to_v[i]), turns = num(around_.winding[i]);
-      const auto rises = not_above(from, mv) & less(mv, to), falls = not_above(to, mv) & less(mv, from);
-      const Lanes gained = choose(rises & less(zero, value), turns, zero),
-                  lost = choose(falls & less(value, zero), turns, zero);
-      const auto itself = equal(e.number, num(around_.number[i]));
-      const auto size = [](T a) { return HWY_MAX(a, -a); };
-      const T margin = on_line<T> * (size(u) + size(v)) + slack_ * size(v);
-      winding = choose(itself, winding, winding + gained - lost);
-      doubt =
-          choose(itself, doubt, choose((rises | falls) & less(absolute(value), num(margin)), num(1), doubt));
-    }
-    const auto level = not_above(max(e.from_v, e.to_v), mv) | less(mv, min(e.from_v, e.to_v));
-    return ~(less_bits(zero, doubt) | bits(level));
-  }
-
-  /// What the crossing edges can take from the winding on the way along edges from the middle of their part
-  /// on the light to its ends, at most. An edge that shares a corner and leaves there does not cross.
-  HWY_NOINLINE Lanes lost_along(const EdgeLanes& e, const Segments& on) const {
-    const auto num = [](T value) { return splat<Lanes>(value); };
-    const Lanes zero = num(0), near = num(4 * on_line<T>);
-    Lanes lost = zero;
-    for (std::size_t i = 0; i < crossing_.count; ++i) {
-      const T u = crossing_.u[i], v = crossing_.v[i], turns = crossing_.winding[i];
-      const auto size = [](T a) { return HWY_MAX(a, -a); };
-      const Lanes margin = num(8 * on_line<T> * (size(u) + size(v)));
-      const Lanes a = num(u) * on.u0 + num(v) * on.v0 + num(crossing_.w[i]);
-      const Lanes b = num(u) * on.u1 + num(v) * on.v1 + num(crossing_.w[i]);
-      const Lanes fu = num(crossing_.from_u[i]), fv = num(crossing_.from_v[i]);
-      const Lanes tu = num(crossing_.to_u[i]), tv = num(crossing_.to_v[i]);
-      const Lanes from = e.u * fu + e.v * fv + e.w, to = e.u * tu + e.v * tv + e.w;
-      const Lanes reach = near * (absolute(e.u) * max(absolute(fu), absolute(tu)) +
-                                  absolute(e.v) * max(absolute(fv), absolute(tv)) + absolute(e.w));
-      const auto same = [](Lanes u0, Lanes v0, Lanes u1, Lanes v1) { return equal(u0, u1) & equal(v0, v1); };
-      const auto shared = same(e.from_u, e.from_v, fu, fv) | same(e.from_u, e.from_v, tu, tv) |
-                          same(e.to_u, e.to_v, fu, fv) | same(e.to_u, e.to_v, tu, tv);
-      const auto leaves = less(reach, max(absolute(from), absolute(to)));
-      const auto apart = less(margin, min(a, b)) | less(max(a, b), zero - margin) |
-                         less(reach, min(from, to)) | less(max(from, to), zero - reach) | (shared & leaves) |
-                         equal(e.number, num(crossing_.number[i]));
-      // It takes from the side that it winds around: the left one for positive turns.
-      const Lanes middle = a + b, twice = margin + margin;
-      const auto loses = turns > 0 ? less(zero - twice, middle) : less(middle, twice);
-      lost = lost + choose(apart, zero, choose(loses, num(size(turns)), zero));
-    }
-    return lost;
+      crossing_.append(lanes_below<T>(count - i) & truth_of<T, 16>(kept_[i / 16]), crossing_.lanes_from(i));
   }
 
   /// Cuts `part` along the crossing edges from `first` on, and forgets those.
@@ -332,87 +194,54 @@ private:
     };
     crossing_.count = to;
     for (std::size_t i = first; i < last; i += 16) {
-      const EdgeLanes e = edges_from(i);
-      const auto meets = lanes_below(last - i) & not_above(min(e.from_u, e.to_u), num(high_u)) &
+      const OutlineLanes<T> e = crossing_.lanes_from(i);
+      const auto meets = lanes_below<T>(last - i) & not_above(min(e.from_u, e.to_u), num(high_u)) &
                          not_above(num(low_u), max(e.from_u, e.to_u)) &
                          not_above(min(e.from_v, e.to_v), num(high_v)) &
                          not_above(num(low_v), max(e.from_v, e.to_v));
       const auto crosses =
           not_above(absolute(e.u * cu + e.v * cv + e.w), absolute(e.u) * hu + absolute(e.v) * hv);
-      add_crossing(meets & crosses & (beyond(e.from_u, e.from_v) | beyond(e.to_u, e.to_v)), e,
-                   crossing_.count);
+      crossing_.append(meets & crosses & (beyond(e.from_u, e.from_v) | beyond(e.to_u, e.to_v)), e);
     }
   }
 
-  HWY_INLINE EdgeLanes edges_from(std::size_t i) const {
-    return {load<Lanes>(&crossing_.u[i]),      load<Lanes>(&crossing_.v[i]),
-            load<Lanes>(&crossing_.w[i]),      load<Lanes>(&crossing_.from_u[i]),
-            load<Lanes>(&crossing_.from_v[i]), load<Lanes>(&crossing_.to_u[i]),
-            load<Lanes>(&crossing_.to_v[i]),   load<Lanes>(&crossing_.winding[i]),
-            load<Lanes>(&crossing_.number[i])};
-  }
-
-  static HWY_INLINE Lanes counted() {
-    constexpr T lanes[16] = {0, 1, 2, 3, 4, 5, 6, 7, 8, 9, 10, 11, 12, 13, 14, 15};
-    return load<Lanes>(lanes);
-  }
-  static HWY_INLINE Truth<T, 16> lanes_below(std::size_t count) {
-    return less(counted(), splat<Lanes>(static_cast<T>(HWY_MIN(count, std::size_t{16}))));
-  }
-
-  /// A mean of the corners, another one for each `attempt`.
-  static HWY_INLINE Place middle_of(const LightPolygon<T>& part, int attempt) {
+  static Place middle_of(const LightPolygon<T>& part) {
     T x[polygon_capacity], y[polygon_capacity];
     store(part.x, x);
     store(part.y, y);
-    T u = 0, v = 0, total = 0;
+    Place sum{0, 0};
     for (int k = 0; k < part.count; ++k) {
-      const T weight = T(1) + T(k * attempt);
-      u += weight * x[k];
-      v += weight * y[k];
-      total += weight;
+      sum.u += x[k];
+      sum.v += y[k];
     }
-    return {u / total, v / total};
+    return {sum.u / static_cast<T>(part.count), sum.v / static_cast<T>(part.count)};
   }
 
-  /// How many triangles cover a part of the light that no edge crosses.
-  T winding_around(const LightPolygon<T>& part) {
-    T winding = 0;
-    for (int attempt = 0; attempt < 3; ++attempt) {
-      if (find_winding(middle_of(part, attempt), winding)) break;
-    }
-    return winding;
-  }
-
-  /// The winding number around a place: the edges that a ray from there towards
-  /// +u crosses. False if that is too near to an edge to be sure.
-  HWY_NOINLINE bool find_winding(Place at, T& winding) const {
+  /// How many triangles cover a part of the light that no edge crosses: the edges that a ray from its middle
+  /// towards +u crosses. Rounding can decide only where an edge is as near to the middle, and so where the
+  /// part is no wider than that.
+  HWY_NOINLINE T winding_around(const LightPolygon<T>& part) const {
+    const Place at = middle_of(part);
     const Lanes zero = splat<Lanes>(T(0)), qu = splat<Lanes>(at.u), qv = splat<Lanes>(at.v);
-    const Lanes near = splat<Lanes>(on_line<T>), slack = splat<Lanes>(slack_);
     Lanes sum = zero;
-    std::uint32_t doubtful = 0;
     for (std::size_t i = 0; i < around_.count; i += 16) {
-      const Lanes lu = load<Lanes>(&around_.u[i]), lv = load<Lanes>(&around_.v[i]);
-      const Lanes value = lu * qu + lv * qv + load<Lanes>(&around_.w[i]);
-      const Lanes turns = choose(lanes_below(around_.count - i), load<Lanes>(&around_.winding[i]), zero);
+      const Lanes value =
+          load<Lanes>(&around_.u[i]) * qu + load<Lanes>(&around_.v[i]) * qv + load<Lanes>(&around_.w[i]);
+      const Lanes turns = choose(lanes_below<T>(around_.count - i), load<Lanes>(&around_.winding[i]), zero);
       const auto from_above = less(qv, load<Lanes>(&around_.from_v[i]));
       const auto to_above = less(qv, load<Lanes>(&around_.to_v[i]));
       const Lanes up = choose(from_above, zero, choose(less(zero, value), turns, zero));
       const Lanes down = choose(from_above, choose(less(value, zero), zero - turns, zero), zero);
       sum = sum + choose(to_above, up, down);
-      const Lanes margin = near * (absolute(lu) + absolute(lv)) + slack * absolute(lv);
-      doubtful |= (bits(from_above) ^ bits(to_above)) & less_bits(absolute(value), margin) &
-                  less_bits(zero, absolute(turns));
     }
-    winding = total(sum);  // of whole numbers: exact in any order
-    return doubtful == 0;
+    return total(sum);  // of whole numbers: exact in any order
   }
 
   const GroupOutline* outline_ = nullptr;
   std::vector<MovingBlock> moving_;
   std::vector<Block> at_point_;
-  Edges around_;    ///< edges that a ray from the light towards +u may cross
-  Edges crossing_;  ///< edges that may cross the light, and behind them, the parts at hand
+  OutlineEdges<T> around_;    ///< edges that a ray from the light towards +u may cross
+  OutlineEdges<T> crossing_;  ///< edges that may cross the light, and behind them, the parts at hand
   std::size_t crossing_light_ = 0;
   std::vector<std::uint32_t> kept_;  ///< bits of the crossing edges
   std::vector<int> signs_;           ///< one a SometimesBlocker
