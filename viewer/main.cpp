@@ -8,6 +8,7 @@
 
 #include "command.h"
 #include "console.h"
+#include "option_values.h"
 
 namespace {
 
@@ -58,7 +59,7 @@ int parse_and_run(CLI::App& program, Run& run, int argc, char** argv) {
           fmt::format("unknown command '{}', expected view, render, info, convert or compare", argv[1]),
           failure);
     }
-    return report(error.what(), failure_code());
+    return report(tenebra::viewer::sentence_of(error), failure_code());
   }
   if (!run)
     return report("give a command: view, render, info, convert or compare (see tenebra --help)", failure);

@@ -11,9 +11,10 @@ constexpr const char* soft_group = "Soft shadows";
 constexpr const char* ao_group = "Ambient occlusion";
 constexpr int most_soft_points = 4096, most_downscale = 8;
 
-constexpr const char* points_name = "--soft-points";
-constexpr const char* rays_name = "--ao-rays";
-constexpr const char* downscale_name = "--ao-downscale";
+constexpr const char* quality_option = "--quality";
+constexpr const char* points_option = "--soft-points";
+constexpr const char* rays_option = "--ao-rays";
+constexpr const char* downscale_option = "--ao-downscale";
 
 template <const auto& choices, class Target>
 CLI::Option* add_choice(CLI::App& command, const char* name, Target& target, const char* help) {
@@ -89,11 +90,11 @@ void add_common(CLI::App& command, MethodOptions& options) {
   RenderSettings& render = options.render;
   set_group(
       {add_value(
-           command, "--quality", options.quality, parse_quality,
+           command, quality_option, options.quality, parse_quality,
            "What soft shadows and ambient occlusion may cost.\nfast: --soft-points 8 --ao-rays 16 "
            "--ao-downscale 2\n(penumbrae off by 3 to 8/255 RMS, occlusion by 3 to 7);\nbalanced: the "
            "defaults (exact; occlusion by 2 to 6);\nexact: --ao-rays 256 (2 to 5); docs/trade.md has it "
-           "all.\nThese options win where they are given themselves")
+           "all.\nAn option that is given itself wins")
            ->type_name("fast|balanced|exact"),
        add_choice<shadow_choices>(command, "--shadows", render.shadows,
                                   "hard: of the lights' centres; soft: of their areas,\nboth exact and "
@@ -152,7 +153,7 @@ void add_soft(CLI::App& command, MethodOptions& options) {
                                     "Occluder that the BSP takes next; the paper's: random [largest]"),
        add_choice<precision_choices>(command, "--soft-precision", soft.precision,
                                      "reference: double throughout [fast]"),
-       add_value(command, points_name, options.render.soft_points, parse_points,
+       add_value(command, points_option, options.render.soft_points, parse_points,
                  "Instead of all that: lights are so many points, each\nwith exact hard shadows; steps "
                  "in the penumbra [0: exact]")
            ->type_name("N")},
@@ -170,8 +171,8 @@ void add_ao(CLI::App& command, AoConfig& ao) {
        add_choice<layout_choices>(command, "--ao-layout", ao.layout,
                                   "What a field stores: chords from entry to exit, or the\npaper's positions "
                                   "x directions [chords]"),
-       add_value(command, rays_name, ao.rays, parse_at_least_one, "Rays a point [64]")->type_name("N"),
-       add_value(command, downscale_name, ao.downscale, parse_downscale,
+       add_value(command, rays_option, ao.rays, parse_at_least_one, "Rays a point [64]")->type_name("N"),
+       add_value(command, downscale_option, ao.downscale, parse_downscale,
                  "Of N x N pixels one is computed, the rest blurred\nfrom those that resemble it [1: all]")
            ->type_name("N"),
        add_value(command, "--ao-distance", ao.distance_m, parse_positive,
@@ -193,6 +194,20 @@ void add_ao(CLI::App& command, AoConfig& ao) {
       ao_group);
 }
 
+/// Why the chosen methods do not look at `option`; empty if they do.
+std::string idle_for(const CLI::Option& option, const RenderSettings& render) {
+  const std::string &name = option.get_name(), &group = option.get_group();
+  const bool soft = render.shadows == ShadowMode::soft, ao = render.ao.mode != AoMode::none;
+  if (name == quality_option && !soft && !ao) return "without --shadows soft or --ao";
+  if (group == hard_group && render.shadows == ShadowMode::none) return "with --shadows none";
+  if (group == soft_group && !soft) return "without --shadows soft";
+  // --soft-solver, --soft-precision and their like.
+  if (name.starts_with("--soft-") && name != points_option && render.soft_points > 0)
+    return fmt::format("where lights are {} points", render.soft_points);
+  if (group == ao_group && !ao && name != "--ao") return "without --ao";
+  return {};
+}
+
 }  // namespace
 
 void add_method_options(CLI::App& command, MethodOptions& options) {
@@ -207,9 +222,9 @@ void settle_quality(const CLI::App& command, MethodOptions& options) {
   const RenderSettings given = options.render;
   const auto was_given = [&](const char* name) { return command.get_option(name)->count() > 0; };
   apply_quality(*options.quality, options.render);
-  if (was_given(points_name)) options.render.soft_points = given.soft_points;
-  if (was_given(rays_name)) options.render.ao.rays = given.ao.rays;
-  if (was_given(downscale_name)) options.render.ao.downscale = given.ao.downscale;
+  if (was_given(points_option)) options.render.soft_points = given.soft_points;
+  if (was_given(rays_option)) options.render.ao.rays = given.ao.rays;
+  if (was_given(downscale_option)) options.render.ao.downscale = given.ao.downscale;
 }
 
 Expected<void> check_method_options(const MethodOptions& options) {
@@ -229,13 +244,8 @@ std::vector<std::string> idle_method_options(const CLI::App& command, const Meth
   std::vector<std::string> sentences;
   for (const CLI::Option* option : command.get_options()) {
     if (option->count() == 0) continue;
-    const std::string& group = option->get_group();
-    const bool idle_soft = group == soft_group && options.render.shadows != ShadowMode::soft;
-    const bool idle_ao =
-        group == ao_group && options.render.ao.mode == AoMode::none && option->get_name() != "--ao";
-    if (idle_soft)
-      sentences.push_back(fmt::format("{} does nothing without --shadows soft", option->get_name()));
-    if (idle_ao) sentences.push_back(fmt::format("{} does nothing without --ao", option->get_name()));
+    if (const std::string lack = idle_for(*option, options.render); !lack.empty())
+      sentences.push_back(fmt::format("{} does nothing {}", option->get_name(), lack));
   }
   return sentences;
 }

@@ -48,6 +48,12 @@ Expected<LightSize> parse_light_size(const std::string& text);    ///< W, WxH, W
 /// $HOME/.cache/tenebra; empty where neither is set.
 std::filesystem::path default_cache_folder();
 
+/// CLI11's "--size: 1 required WxH missing" in the words of all other refusals, the rest as it stands.
+std::string sentence_of(const CLI::ParseError& error);
+
+/// "found , expected ..." of an empty text as "found nothing, expected ...".
+std::string without_gap(std::string sentence);
+
 /// Adds an option whose value `parse` reads into `target`; its failure becomes "NAME: sentence".
 /// Given twice, the last counts. `target` must live as long as `command`.
 template <class Target, class Value>
@@ -58,7 +64,7 @@ CLI::Option* add_value(CLI::App& command, const std::string& name, Target& targe
           name,
           [&target, parse, name](const std::string& text) {
             auto value = parse(text);
-            if (!value) throw CLI::ValidationError(name, value.error().message);
+            if (!value) throw CLI::ValidationError(name, without_gap(value.error().message));
             target = std::move(*value);
           },
           help)

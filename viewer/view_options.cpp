@@ -53,13 +53,14 @@ Expected<MethodOptions> parse_method(const std::string& text, const MethodOption
   MethodOptions method = base;
   method.quality.reset();  // what it stands for is in the settings
   CLI::App app;
+  app.set_help_flag();  // --help is no method
   add_method_options(app, method);
   const auto cache = base.render.ao.cache;  // add_method_options sets its default
   method.render.ao.cache = cache;
   try {
     app.parse(text);
   } catch (const CLI::ParseError& error) {
-    return fail("--compare: {}", error.what());
+    return fail("--compare: {}", sentence_of(error));
   }
   settle_quality(app, method);
   if (auto checked = check_method_options(method); !checked)

@@ -28,7 +28,8 @@ struct Slabs {
 };
 
 inline Slabs slabs_of(const CasterRay& ray) {
-  Slabs slabs{.from = ray.from, .to = ray.to};
+  Slabs slabs;
+  slabs.from = ray.from, slabs.to = ray.to;
   for (int axis = 0; axis < 3; ++axis) {
     const float d = ray.direction[axis];
     slabs.origin[axis] = ray.origin[axis];

@@ -33,7 +33,9 @@ void Renderer::State::read_samples(const FrameInput& input, const RenderSettings
   if (settings.samples == SampleSource::depth) read_depth(gbuffer, depth);
   timings.readback_ms = watch.lap_ms();
   const bool exact = settings.samples == SampleSource::ids;
-  const bool tiled = settings.shadows == ShadowMode::hard && settings.hard.variant == Variant::tiles;
+  const bool traced = settings.shadows == ShadowMode::hard ||
+                      (settings.shadows == ShadowMode::soft && settings.soft_points > 0);
+  const bool tiled = traced && settings.hard.variant == Variant::tiles;
   const bool shaded = settings.shadows == ShadowMode::soft || settings.ao.mode != AoMode::none;
   const TriangleView triangles = triangle_view(input.geometry);
   with_threads(settings.threads, [&] {

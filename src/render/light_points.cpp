@@ -51,23 +51,30 @@ std::vector<Slab> slabs_of(const std::vector<dvec2>& outline) {
   return slabs;
 }
 
-/// What one point of the light, which stands for `area_m2` of it, sends to the pixels that see it.
-struct PointOfLight {
-  dvec3 place, normal;
+/// What some points of the light, each of which stands for `area_m2` of it, send to the pixels that see them.
+struct PointsOfLight {
+  std::span<const glm::vec3> places;
+  std::span<const ShadowMask> masks;  // one a place
+  dvec3 normal;
   double area_m2;
   float fraction;
 
-  void add(const ShadowMask& mask, const VisiblePoints& points, std::span<const glm::vec3> normals,
-           SoftMask& out) const {
-    parallel_ranges(mask.size(), 1 << 14, [&](std::size_t first, std::size_t last) {
+  void add_to_pixel(std::size_t i, const dvec3& at, const dvec3& facing, SoftMask& out) const {
+    for (std::size_t k = 0; k < places.size(); ++k) {
+      if (masks[k][i] == 0) continue;
+      const dvec3 to = dvec3(places[k]) - at;
+      const double square = glm::dot(to, to), at_light = -glm::dot(normal, to),
+                   at_point = glm::dot(facing, to);
+      if (!(at_light > 0)) continue;  // behind the light
+      out.visible_fraction[i] += fraction;
+      if (at_point > 0)
+        out.irradiance[i] += static_cast<float>(area_m2 * at_light * at_point / (square * square));
+    }
+  }
+  void add(const VisiblePoints& points, std::span<const glm::vec3> normals, SoftMask& out) const {
+    parallel_ranges(points.triangles.size(), 1 << 14, [&](std::size_t first, std::size_t last) {
       for (std::size_t i = first; i < last; ++i) {
-        if (mask[i] == 0) continue;
-        out.visible_fraction[i] += fraction;
-        const dvec3 to = place - points.positions[i];
-        const double square = glm::dot(to, to), at_light = -glm::dot(normal, to),
-                     at_point = glm::dot(dvec3(normals[i]), to);
-        if (at_light > 0 && at_point > 0)
-          out.irradiance[i] += static_cast<float>(area_m2 * at_light * at_point / (square * square));
+        if (points.triangles[i] != no_triangle) add_to_pixel(i, points.positions[i], dvec3(normals[i]), out);
       }
     });
   }
@@ -102,15 +109,17 @@ bool LightPointShadows::trace(const VisiblePoints& points, std::span<const glm::
   out.visible_fraction.assign(points.triangles.size(), 0.0f);
   out.irradiance.assign(points.triangles.size(), 0.0f);
   places_ = points_on_light(light, count);
-  for (const glm::vec3& place : places_) {
-    if (stop_requested(stop)) return false;
-    const ShadowLight point{.position = place, .spot_axis = glm::vec3(light.normal), .spot_cos_outer = 0.0f};
-    tracer_.trace_shadow_mask(points, view, triangles, point, config, mask_);
-    stats_ += tracer_.stats();
-    timings_ += tracer_.timings();
+  for (std::size_t first = 0; first < places_.size(); first += masks_.size()) {
+    const auto some = std::span(places_).subspan(first, std::min(masks_.size(), places_.size() - first));
+    for (std::size_t k = 0; k < some.size(); ++k) {
+      if (stop_requested(stop)) return false;
+      tracer_.trace_shadow_mask(points, view, triangles, {.position = some[k]}, config, masks_[k]);
+      stats_ += tracer_.stats();
+      timings_ += tracer_.timings();
+    }
     Stopwatch watch;
-    PointOfLight{dvec3(place), light.normal, light.area_m2 / count, 1.0f / static_cast<float>(count)}.add(
-        mask_, points, normals, out);
+    PointsOfLight{some, masks_, light.normal, light.area_m2 / count, 1.0f / static_cast<float>(count)}.add(
+        points, normals, out);
     timings_.irradiance_ms += watch.lap_ms();
   }
   for (float& fraction : out.visible_fraction) fraction = std::min(fraction, 1.0f);

@@ -2,6 +2,7 @@
 // Without noise, but a penumbra has as many steps as there are points; docs/trade.md says how far it is off.
 #pragma once
 
+#include <array>
 #include <span>
 #include <vector>
 
@@ -28,7 +29,7 @@ public:
 
 private:
   ShadowTracer tracer_;
-  ShadowMask mask_;
+  std::array<ShadowMask, 8> masks_;  // of the points that are added at once
   std::vector<glm::vec3> places_;
   TraceStats stats_;
   FrameTimings timings_;

@@ -2,6 +2,7 @@
 // that scripts read.
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cmath>
 #include <cstdlib>
 
@@ -21,6 +22,7 @@ void expect_refusal(const std::vector<std::string>& arguments, const std::string
   EXPECT_NE(result.exit_code, 0);
   EXPECT_LT(result.exit_code, 128) << "ended by a signal";
   EXPECT_NE(result.errors.find(sentence), std::string::npos) << result.errors;
+  EXPECT_EQ(std::count(result.errors.begin(), result.errors.end(), '\n'), 1) << result.errors;
 }
 
 /// Value of the line "name: value"; NaN where it says nan or is missing.
@@ -35,6 +37,7 @@ TEST(BenchProgram, RefusesInASentence) {
   expect_refusal({"soft", "--bogus"}, "--bogus");
   expect_refusal({"soft", "--threads", "-1"}, "--threads: found -1, expected 0 (all cores) or more");
   expect_refusal({"soft", "--threads", "many"}, "many");
+  expect_refusal({"soft", "--csv"}, "--csv");
   expect_refusal({"soft", "--data", "/nowhere/at/all"}, "--data: /nowhere/at/all is not a folder");
   expect_refusal({"soft", "--pictures", "/nowhere/at/all"}, "--pictures: /nowhere/at/all is not a folder");
   expect_refusal({"soft", "--csv", "/nowhere/at/all.csv"}, "/nowhere/at/all.csv");
@@ -69,6 +72,11 @@ TEST(BenchProgram, TradeRefusesInASentence) {
   expect_refusal({"trade", "--data", "/nowhere/at/all"}, "--data: /nowhere/at/all is not a folder");
   expect_refusal({"trade", "--docs", "/nowhere/at/all"}, "--docs: /nowhere/at/all is not a folder");
   expect_refusal({"trade", "--only", "atlantis"}, "--only: found atlantis, expected hard, soft, ao, needs");
+  const test::TemporaryFolder folder;
+  expect_refusal({"trade", "--docs", folder.path().string(), "--only", "soft,ao"},
+                 "--docs: found --only soft,ao, expected all parts");
+  EXPECT_TRUE(folder.names().empty()) << "a page of some parts would replace that of all";
+  expect_refusal({"trade", "--docs", "/proc/self"}, "cannot write /proc/self/trade.md");
 }
 
 TEST(BenchProgram, TradeWritesItsPageFromBundledScenesAlone) {
@@ -93,8 +101,7 @@ TEST(BenchProgram, TradeWritesItsPageFromBundledScenesAlone) {
   for (const char* row : {"\ntrade hard,city 150,default (Tiles),,time,", "\ntrade soft,court 60,",
                           "\ntrade ao,city 150,", "\ntrade needs,city 150,"})
     EXPECT_NE(csv.find(row), std::string::npos) << row;
-  for (const std::string& name :
-       {"trade_hard_city_150.svg", "trade_soft_court_60.svg", "trade_ao_city_150.svg"}) {
+  for (const char* name : {"trade_hard_city_150.svg", "trade_soft_court_60.svg", "trade_ao_city_150.svg"}) {
     EXPECT_NE(page.find(name), std::string::npos) << name;
     EXPECT_NE(test::read_text(folder / name).find("</svg>"), std::string::npos) << name;
   }

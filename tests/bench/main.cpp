@@ -1,5 +1,6 @@
 // tenebra-bench: what each method costs and how exact it is, beside its peers. One subcommand a method.
 #include <cstdio>
+#include <string>
 
 #include "bench_command.h"
 
@@ -16,6 +17,15 @@ void add_bench_options(CLI::App& command, BenchOptions& options) {
 
 }  // namespace tenebra::bench
 
+namespace {
+
+int refuse(const std::string& sentence) {
+  std::fprintf(stderr, "tenebra-bench: %s\n", sentence.c_str());
+  return 1;
+}
+
+}  // namespace
+
 int main(int argc, char** argv) {
   CLI::App program("Measures Tenebra and its peers side by side.");
   program.require_subcommand(1);
@@ -24,10 +34,12 @@ int main(int argc, char** argv) {
   tenebra::bench::add_soft_command(program, run);
   tenebra::bench::add_ao_command(program, run);
   tenebra::bench::add_trade_command(program, run);
-  CLI11_PARSE(program, argc, argv);
-  if (const auto done = run(); !done) {
-    std::fprintf(stderr, "tenebra-bench: %s\n", done.error().message.c_str());
-    return 1;
+  try {
+    program.parse(argc, argv);
+  } catch (const CLI::ParseError& error) {
+    if (error.get_exit_code() == 0) return program.exit(error);  // --help
+    return refuse(error.what());
   }
-  return 0;
+  const auto done = run();
+  return done ? 0 : refuse(done.error().message);
 }

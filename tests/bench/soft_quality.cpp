@@ -96,24 +96,27 @@ void finish_truth(const BenchFrame& frame, const AreaLight& light, Truth& truth)
   truth.white = percentile_999(std::move(seen));
 }
 
-double penumbra_rmse_255(const Truth& truth, std::span<const float> irradiance) {
-  double sum = 0;
+SoftErrors errors_255(const Truth& truth, std::span<const float> irradiance, Where where) {
+  double sum = 0, worst = 0;
+  std::size_t count = 0;
   for (std::size_t i = 0; i < irradiance.size(); ++i) {
-    const double error = static_cast<double>(irradiance[i]) - static_cast<double>(truth.mask.irradiance[i]);
-    if (truth.penumbra[i] != 0) sum += error * error;
+    if (where == Where::penumbra && truth.penumbra[i] == 0) continue;
+    const double error =
+        std::abs(static_cast<double>(irradiance[i]) - static_cast<double>(truth.mask.irradiance[i]));
+    sum += error * error;
+    worst = std::max(worst, std::isfinite(error) ? error : std::numeric_limits<double>::infinity());
+    ++count;
   }
-  if (truth.penumbra_count == 0) return 0;
-  return 255 / truth.white * std::sqrt(sum / static_cast<double>(truth.penumbra_count));
+  const double unit = 255 / truth.white;
+  return {count == 0 ? 0 : unit * std::sqrt(sum / static_cast<double>(count)), unit * worst};
+}
+
+double penumbra_rmse_255(const Truth& truth, std::span<const float> irradiance) {
+  return errors_255(truth, irradiance, Where::penumbra).rms;
 }
 
 double largest_error_255(const Truth& truth, std::span<const float> irradiance) {
-  double largest = 0;
-  for (std::size_t i = 0; i < irradiance.size(); ++i) {
-    const double error = static_cast<double>(irradiance[i]) - static_cast<double>(truth.mask.irradiance[i]);
-    largest =
-        std::max(largest, std::isfinite(error) ? std::abs(error) : std::numeric_limits<double>::infinity());
-  }
-  return 255 / truth.white * largest;
+  return errors_255(truth, irradiance, Where::everywhere).worst;
 }
 
 }  // namespace tenebra::bench

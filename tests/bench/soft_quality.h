@@ -34,7 +34,15 @@ struct Truth {
 /// Derives the rest from the mask.
 void finish_truth(const BenchFrame& frame, const AreaLight& light, Truth& truth);
 
-/// Root of the mean square error over the penumbra, and the largest error of all pixels; in 1/255 of white.
+/// Root of the mean square and largest error of the irradiance, in 1/255 of white; what is not finite errs
+/// without bound.
+struct SoftErrors {
+  double rms = 0, worst = 0;
+};
+enum class Where { penumbra, everywhere };
+SoftErrors errors_255(const Truth& truth, std::span<const float> irradiance, Where where);
+
+/// Over the penumbra, and over all pixels.
 double penumbra_rmse_255(const Truth& truth, std::span<const float> irradiance);
 double largest_error_255(const Truth& truth, std::span<const float> irradiance);
 

@@ -4,6 +4,7 @@
 #include <cstdio>
 #include <memory>
 
+#include "base/output_file.h"
 #include "trade_session.h"
 
 namespace tenebra::bench {
@@ -14,15 +15,21 @@ constexpr std::array parts{
     BenchPart<TradeSession>{"ao", measure_trade_ao}, BenchPart<TradeSession>{"needs", measure_trade_needs}};
 const std::span<const BenchPart<TradeSession>> all_parts(parts);
 
-Expected<void> check(const TradeOptions& options) {
+/// Before minutes of measuring, not after them.
+Expected<void> check(const PartsArguments& arguments, const TradeOptions& options) {
+  if (options.docs.empty()) return {};
   std::error_code ignored;
-  if (!options.docs.empty() && !std::filesystem::is_directory(options.docs, ignored))
+  if (!std::filesystem::is_directory(options.docs, ignored))
     return fail("--docs: {} is not a folder, expected one to write trade.md to", options.docs.string());
-  return {};
+  if (!arguments.only.empty())
+    return fail("--docs: found --only {}, expected all parts: the page tells of each",
+                fmt::join(arguments.only, ","));
+  const auto page = OutputFile::create(options.docs / "trade.md");
+  return page ? Expected<void>() : tl::unexpected(page.error());
 }
 
 Expected<void> measure(const PartsArguments& arguments, const TradeOptions& options) {
-  if (auto fine = check(options); !fine) return fine;
+  if (auto fine = check(arguments, options); !fine) return fine;
   TradeSession session{.options = arguments.options,
                        .trade = options,
                        .effort = arguments.effort(),

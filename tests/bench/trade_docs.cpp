@@ -68,25 +68,33 @@ std::string remarks(const std::vector<const TradeTable*>& tables) {
   return text.empty() ? text : text + "\n";
 }
 
+/// The command that writes the page again.
+std::string command_line(const TradeSession& session) {
+  const int threads = session.options.threads;
+  return fmt::format("tenebra-bench trade{}{} --docs docs", session.by_effort(" --tiny", " --quick", ""),
+                     threads == 0 ? "" : fmt::format(" --threads {}", threads));
+}
+
 std::string head(const TradeSession& session) {
+  const std::string measured = thread_count() == 1 ? "1 thread, processor time"
+                                                   : fmt::format("{} threads, by the clock", thread_count());
   return fmt::format(
       "# What accuracy costs\n\n"
-      "Written by `tenebra-bench trade{} --docs docs`; edit `tests/bench/trade_docs.cpp` and "
-      "`trade_advice.cpp`, "
-      "not this file.\nMachine: {}; {} threads. Times in milliseconds a frame; two runs differ by some 10 "
-      "%.\n\n"
+      "Written by `{}`; edit `tests/bench/trade_docs.cpp` and `trade_advice.cpp`, not this file.\n"
+      "Machine: {}; {}. Times in milliseconds a frame; two runs differ by some 10 %.\n\n"
       "A setting is on the **Pareto front** of a view, its time bold, if no other is both as fast and as "
       "exact "
       "and better in one of the two. In the plots the front is dashed and its settings are ringed. Embree's "
-      "rays are a peer "
-      "to compare with, no setting of Tenebra's (but for `--ao rays`).\n\n",
-      session.effort == Effort::quick ? " --quick" : "", machine_description(), thread_count());
+      "rays are a peer to compare with, no setting of Tenebra's (but for `--ao rays`). RMS: root of the mean "
+      "square. Penumbra, shaft and other words: README, *Vocabulary*.\n\n",
+      command_line(session), machine_description(), measured);
 }
 
 std::string hard_section(const std::vector<const TradeTable*>& tables) {
   return "## Hard shadows\n\n" + plots(tables) + hard_advice(tables) +
          "\nTime (visible points included) · wrong pixels:\n\n" + settings_table(tables, 0, 1, true) +
-         "Pictures of 1024x1024, the first light. Wrong: not as the exact answer. Shadow maps are cubes "
+         "Pictures of 1024x1024, the first light. Wrong: not as the exact answer, which `PreciseSorted` gave "
+         "without vector instructions. Shadow maps are cubes "
          "drawn by "
          "Tenebra's own rasteriser, on this machine on the CPU and with ids and normals beside the depth; "
          "the "
@@ -103,7 +111,10 @@ std::string soft_section(const std::vector<const TradeTable*>& tables) {
          settings_table(tables, 2, 4, false) +
          "Pictures of 1280x720; a light of 4 % of the scene's diagonal, the court its own. Errors against "
          "the "
-         "solver in double precision; up to 0.01/255 they count as none. `clip` and `bsp`: `--soft-solver`. "
+         "solver in double precision; up to 0.01/255 they count as none. White is the light that one pixel "
+         "of a "
+         "thousand has more of; errors of the visible part of the light (`--mask FILE.pfm`) are larger where "
+         "the light is weak. `clip`: `--soft-solver`; `bsp` takes part in runs without `--quick`. "
          "Embree's rays are stratified, drawn beforehand, its tree is not counted.\n\n" +
          remarks(tables);
 }
@@ -121,15 +132,16 @@ std::string ao_section(const std::vector<const TradeTable*>& tables) {
 std::string needs_section(const std::vector<NeedRow>& needs) {
   std::string text =
       "## Only what a scene requires\n\n"
-      "What stages cost as the frame needs them, and what they would cost if all of it were done. Both give "
-      "the "
-      "same bits; tests hold that (`tests/render/needs_test.cpp`).\n\n"
+      "What stages cost as the frame needs them, and what they would cost if all of it were done. Where both "
+      "were run, both gave the same bits, or the row says that they did not; rows without times only count. "
+      "(Behind shafts it is the dark points that are compared: at the others rays are as noisy as without.) "
+      "Tests hold the same: `tests/render/needs_test.cpp`.\n\n"
       "| stage | view | ms | all, ms | what is left |\n|---|---|---|---|---|\n";
   for (const NeedRow& n : needs) {
     const bool timed = n.all_ms > 0;
-    text +=
-        fmt::format("| {} | {} | {} | {} | {}{} |\n", n.stage, n.view, timed ? short_number(n.with_ms) : "",
-                    timed ? short_number(n.all_ms) : "", n.shrunk, n.same ? "" : " (NOT the same bits)");
+    text += fmt::format("| {} | {} | {} | {} | {}{} |\n", n.stage, n.view,
+                        timed ? short_number(n.with_ms) : "", timed ? short_number(n.all_ms) : "", n.shrunk,
+                        n.same.value_or(true) ? "" : " (NOT the same bits)");
   }
   return text + "\nWhere `ms` is not below `all`, the stage saves nothing on that view.\n";
 }

@@ -25,7 +25,7 @@ public:
 private:
   Expected<void> see();
   void points_from_depth(VisiblePoints& out) const;
-  void see_points();
+  void see_points(PointLayout layout = PointLayout::rows);
   void unpad();
   void add_tracers();
   void add(const std::string& family, const std::string& setting, int rounds,
@@ -62,8 +62,10 @@ Expected<void> HardTrade::see() {
       !drawn)
     return drawn;
   compute_visible_points(ids, points.width, points.height, view_.frame.view, view_.frame.triangles(), points);
+  // Neither the traversal nor the instructions of the default, which would be no judge of itself.
+  const HardShadowConfig truth{.variant = Variant::precise_sorted, .simd = SimdLevel::scalar};
   ShadowTracer tracer;
-  tracer.trace_shadow_mask(points, view_.frame.view, view_.frame.triangles(), view_.light, {}, exact_);
+  tracer.trace_shadow_mask(points, view_.frame.view, view_.frame.triangles(), view_.light, truth, exact_);
   rays_ = static_cast<double>(tracer.stats().rays);
   return {};
 }
@@ -100,8 +102,8 @@ void HardTrade::add_tracer(const std::string& family, const std::string& setting
   add(family, setting, rounds, [this, tracer, config, samples]() -> Expected<void> {
     if (samples == SampleSource::depth) {
       points_from_depth(scratch_points_);
-    } else {
-      see_points();
+    } else {  // as the renderer asks for them
+      see_points(config.variant == Variant::tiles ? PointLayout::rows_and_tiles : PointLayout::rows);
     }
     tracer->trace_shadow_mask(scratch_points_, view_.frame.view, view_.frame.triangles(), view_.light, config,
                               mask_);
@@ -115,10 +117,10 @@ void HardTrade::add_tracer(const std::string& family, const std::string& setting
   };
 }
 
-void HardTrade::see_points() {
+void HardTrade::see_points(PointLayout layout) {
   const VisiblePoints& points = view_.frame.points;
   compute_visible_points(points.triangles, points.width, points.height, view_.frame.view,
-                         view_.frame.triangles(), scratch_points_);
+                         view_.frame.triangles(), scratch_points_, layout);
 }
 
 void HardTrade::add_tracers() {

@@ -77,8 +77,7 @@ void need_sort(TradeSession& session, const HardView& view, int rounds) {
   session.needs.push_back({"tiles sorted where depth has gaps", view.name, "Tiles; all rays: PreciseSorted",
                            few.timings.rays_ms, sorted.timings.rays_ms, few.mask == sorted.mask});
   session.needs.push_back({"rays for points that the light reaches", view.name,
-                           fmt::format("{} rays of {} pixels", few.stats.rays, view.frame.pixel_count()), 0,
-                           0, true});
+                           fmt::format("{} rays of {} pixels", few.stats.rays, view.frame.pixel_count())});
   const TracedRun passes = trace(view, {.variant = Variant::precise_seatp}, rounds, two);
   const TracedRun one = trace(view, {.variant = Variant::precise_sea}, rounds, paper);
   session.needs.push_back(
@@ -171,7 +170,7 @@ void print_needs(const std::vector<NeedRow>& needs) {
   for (const NeedRow& n : needs) {
     const bool timed = n.all_ms > 0;
     rows.push_back({n.stage, n.view, timed ? short_number(n.with_ms) : "",
-                    timed ? short_number(n.all_ms) : "", n.same ? "yes" : "NO", n.shrunk});
+                    timed ? short_number(n.all_ms) : "", n.same ? *n.same ? "yes" : "NO" : "", n.shrunk});
   }
   print_table("What frames need of each stage, and what all of it would cost", rows);
 }
@@ -203,7 +202,7 @@ Expected<void> measure_trade_needs(TradeSession& session) {
   print_needs(session.needs);
   double differing = 0;
   for (const NeedRow& n : session.needs) {
-    differing += n.same ? 0 : 1;
+    differing += n.same.value_or(true) ? 0 : 1;
     if (n.all_ms == 0) continue;
     session.report.add({"trade needs", n.view, n.stage, n.shrunk, "time", n.with_ms, "ms"});
     session.report.add({"trade needs", n.view, n.stage, n.shrunk, "time of all", n.all_ms, "ms"});

@@ -49,15 +49,13 @@ Expected<void> need_fields(TradeSession& session, const std::string& name, const
   session.needs.push_back(
       {"fields of objects in reach", name,
        fmt::format("{} of {} fields; {} of {} objects; all fields: {} ms", first.fields_built, all.count,
-                   first.objects, objects.objects.size(), short_number(all.ms)),
-       0, 0, true});
+                   first.objects, objects.objects.size(), short_number(all.ms))});
   const double rays = static_cast<double>(first.points) * config.rays;
   session.needs.push_back(
       {"look-ups of objects in reach", name,
        fmt::format("{} a ray, of {} objects",
                    short_number(rays > 0 ? static_cast<double>(ambient.stats().lookups) / rays : 0.0),
-                   objects.objects.size()),
-       0, 0, true});
+                   objects.objects.size())});
   return {};
 }
 

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <map>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -20,7 +21,7 @@ struct NeedRow {
   std::string stage, view;
   std::string shrunk;              ///< what the frame's own needs leave: "1,204 of 4,096 tiles sorted"
   double with_ms = 0, all_ms = 0;  ///< as it is; were all of it done. 0: only counted
-  bool same = true;                ///< both gave the same bits
+  std::optional<bool> same{};      ///< both gave the same bits; none: only one of them was run
 };
 
 struct TradeSession {

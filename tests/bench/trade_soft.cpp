@@ -14,22 +14,9 @@ namespace {
 
 /// In 1/255 of white: over the penumbra and over the whole picture.
 std::vector<double> errors_of(const Truth& truth, std::span<const float> irradiance) {
-  double sum = 0, worst = 0, penumbra_sum = 0, penumbra_worst = 0;
-  for (std::size_t i = 0; i < irradiance.size(); ++i) {
-    const double error =
-        std::abs(static_cast<double>(irradiance[i]) - static_cast<double>(truth.mask.irradiance[i]));
-    sum += error * error;
-    worst = std::max(worst, error);
-    if (truth.penumbra[i] == 0) continue;
-    penumbra_sum += error * error;
-    penumbra_worst = std::max(penumbra_worst, error);
-  }
-  const double unit = 255 / truth.white;
-  const auto root = [&](double squares, std::size_t count) {
-    return count == 0 ? 0 : unit * std::sqrt(squares / static_cast<double>(count));
-  };
-  return {root(penumbra_sum, truth.penumbra_count), unit * penumbra_worst, root(sum, irradiance.size()),
-          unit * worst};
+  const SoftErrors penumbra = errors_255(truth, irradiance, Where::penumbra),
+                   all = errors_255(truth, irradiance, Where::everywhere);
+  return {penumbra.rms, penumbra.worst, all.rms, all.worst};
 }
 
 /// One view with all settings on it.
@@ -57,6 +44,7 @@ private:
   EmbreeScene casters_;
   std::vector<SampledReceiver> receivers_;
   std::vector<float> picture_;
+  VisiblePoints tiled_;
   SoftShadowTracer tracer_;
   SoftMask mask_;
   Truth truth_;
@@ -100,14 +88,18 @@ void SoftTrade::add_exact() {
     add("exact, other solvers", "bsp", session_.by_effort(1, 1, 3), with(SoftSolver::bsp));
 }
 
+/// Beside tiles, as the renderer has them.
 void SoftTrade::add_light_points() {
+  const VisiblePoints& points = view_.frame.points;
+  compute_visible_points(points.triangles, points.width, points.height, view_.frame.view,
+                         view_.frame.triangles(), tiled_, PointLayout::rows_and_tiles);
   for (const int count :
        session_.by_effort<std::vector<int>>({8}, {4, 8, 16, 32, 64}, {4, 8, 16, 32, 64, 128})) {
     add("light points (--soft-points)", fmt::format("{}", count),
         count > 16 ? session_.by_effort(1, 1, 3) : session_.by_effort(1, 3, 5),
         [this, count]() -> std::span<const float> {
-          light_points_.trace(view_.frame.points, view_.frame.normals, view_.frame.view,
-                              view_.frame.triangles(), view_.light, count, {}, mask_);
+          light_points_.trace(tiled_, view_.frame.normals, view_.frame.view, view_.frame.triangles(),
+                              view_.light, count, {}, mask_);
           return mask_.irradiance;
         });
   }

@@ -114,6 +114,27 @@ TEST(LightPoints, GoToTheExactShadowAsTheyGrow) {
   EXPECT_LE(farthest, 4) << "irradiance as well as fractions";
 }
 
+// A wall stands behind the panel: its upper half lies behind the light's plane and gets nothing of it.
+TEST(LightPoints, ShowAllOrNothingWhereTheLightShowsAllOrNothing) {
+  Scene scene = panel_scene();
+  Mesh wall{.name = "wall"};
+  add_quad(wall, {-6, 0, -3}, {12, 0, 0}, {0, 8, 0});
+  add_mesh(scene, std::move(wall));
+  RenderSettings settings{.width = 121, .height = 91, .shadows = ShadowMode::soft};
+  const FrameResult exact = draw(scene, settings);
+  settings.soft_points = 8;
+  const FrameResult points = draw(scene, settings);
+  std::size_t all = 0, nothing = 0;
+  for (std::size_t i = 0; i < exact.masks[0].visible_fraction.pixels.size(); ++i) {
+    const float fraction = exact.masks[0].visible_fraction.pixels[i];
+    if (fraction != 0 && fraction != 1) continue;
+    ++(fraction == 0 ? nothing : all);
+    ASSERT_EQ(points.masks[0].visible_fraction.pixels[i], fraction) << i;
+  }
+  EXPECT_GT(all, 1000u);
+  EXPECT_GT(nothing, 1000u);
+}
+
 TEST(LightPoints, GiveSoManySteps) {
   const FrameResult result = with_points(8);
   for (const float fraction : result.masks[0].visible_fraction.pixels)

@@ -1,5 +1,8 @@
 // --quality: what it sets, that options given themselves win wherever they stand, and what its pictures are.
+#include <fmt/format.h>
 #include <gtest/gtest.h>
+
+#include <cstdio>
 
 #include "base/image.h"
 #include "config_file.h"
@@ -74,6 +77,35 @@ TEST(QualityOption, IsRefusedInASentenceWhereUnknown) {
   }
 }
 
+TEST(QualityOption, SaysWhereItDoesNothing) {
+  const TemporaryFolder folder;
+  const std::string scene = write_moving_scene(folder);
+  const auto warnings = [&](std::vector<std::string> more) {
+    more.insert(more.begin(), {"render", scene, "--size", "16x12", "-o", "none"});
+    const auto result = tenebra(more);
+    EXPECT_EQ(result.exit_code, 0) << result.errors;
+    std::string found;
+    for (std::size_t at = 0; (at = result.errors.find("warning: ", at)) != std::string::npos; ++at)
+      found += result.errors.substr(at, result.errors.find('\n', at) + 1 - at);
+    return found;
+  };
+  const std::string idle = "warning: --quality does nothing without --shadows soft or --ao\n";
+  EXPECT_EQ(warnings({"--quality", "fast"}), idle) << "hard shadows are exact, and as fast, in each preset";
+  EXPECT_EQ(warnings({"--quality", "fast", "--ao", "rays", "--ao-rays", "1"}), "");
+  const std::vector<std::string> soft{"--shadows", "soft", "--light-size", "1"};
+  const auto with = [&](std::vector<std::string> more) {
+    more.insert(more.begin(), soft.begin(), soft.end());
+    return warnings(more);
+  };
+  EXPECT_EQ(with({"--quality", "fast"}), "");
+  EXPECT_EQ(with({"--quality", "fast", "--soft-solver", "bsp"}),
+            "warning: --soft-solver does nothing where lights are 8 points\n");
+  EXPECT_EQ(with({"--soft-points", "0", "--soft-precision", "reference"}), "");
+  EXPECT_EQ(warnings({"--shadows", "none", "--samples", "depth", "--variant", "Spheres"}),
+            "warning: --variant does nothing with --shadows none\n"
+            "warning: --samples does nothing with --shadows none\n");
+}
+
 TEST(QualityOption, OfTheSecondMethodStandsOnTheFirst) {
   viewer::ViewOptions options;
   CLI::App app;
@@ -85,6 +117,37 @@ TEST(QualityOption, OfTheSecondMethodStandsOnTheFirst) {
             "--shadows soft --soft-points 8 --ao-rays 5 --ao-downscale 2");
   ASSERT_TRUE(options.compare);
   EXPECT_EQ(viewer::method_arguments(*options.compare), "--shadows soft --ao-rays 256");
+}
+
+/// "2.8 to 6.7" of column `column` of a preset's row in docs/trade.md, with so many decimals.
+std::string documented(const std::string& page, const std::string& preset, int column, int decimals) {
+  std::size_t at = page.find("| `" + preset + "` |");
+  if (at == std::string::npos) return "no row of " + preset;
+  while (column-- > 0) at = page.find('|', at + 1);
+  double from = 0, to = 0;
+  if (std::sscanf(page.c_str() + at, "| %lf to %lf |", &from, &to) != 2) return "no range of " + preset;
+  return fmt::format("{:.{}f} to {:.{}f}", from, decimals, to, decimals);
+}
+
+// The page is written by what measures; README and --help repeat some of it.
+TEST(QualityOption, IsDocumentedWithTheErrorsThatWereMeasured) {
+  const std::filesystem::path root = std::filesystem::path(TENEBRA_SCENES_DIR).parent_path();
+  const std::string page = read_text(root / "docs" / "trade.md"), readme = read_text(root / "README.md"),
+                    help = tenebra({"render", "--help"}).output;
+  const auto between = [](const std::string& text, const char* first, const char* last) {
+    const std::size_t begin = text.find(first);
+    return text.substr(std::min(begin, text.size()), text.find(last, begin) - begin);
+  };
+  const std::string told = between(readme, "- `--quality fast|", "- `--config"),
+                    helped = between(help, "--quality fast|", "--shadows none|");
+  constexpr int penumbra = 3, occlusion = 6;
+  for (const auto& [preset, column] :
+       {std::pair{"fast", penumbra}, {"fast", occlusion}, {"balanced", occlusion}, {"exact", occlusion}}) {
+    const std::string exactly = documented(page, preset, column, 1),
+                      roughly = documented(page, preset, column, 0);
+    EXPECT_NE(told.find(exactly), std::string::npos) << exactly << " of " << preset << " in " << told;
+    EXPECT_NE(helped.find(roughly), std::string::npos) << roughly << " of " << preset << " in " << helped;
+  }
 }
 
 /// A picture with soft shadows.

@@ -31,6 +31,18 @@ TEST(ViewCommand, RefusesInASentence) {
   }
 }
 
+TEST(ViewCommand, NamesWhatTheSecondMethodLacks) {
+  for (const auto& [option, sentence] :
+       {std::pair{"--compare=--help", "--compare: The following argument was not expected: --help"},
+        {"--compare=--quality", "--compare: --quality: found no value, expected fast|balanced|exact"},
+        {"--compare=--quality best", "--compare: --quality: found best, expected fast, balanced or exact"}}) {
+    const auto result = tenebra({"view", option}, [] { ::unsetenv("DISPLAY"); });
+    EXPECT_EQ(result.exit_code, 1) << option;
+    EXPECT_TRUE(is_one_sentence(result.errors)) << result.errors;
+    EXPECT_NE(result.errors.find(sentence), std::string::npos) << result.errors;
+  }
+}
+
 TEST(ViewCommand, SaysWhatToDoWithoutADisplay) {
   const auto result = tenebra({"view"}, [] {
     ::unsetenv("DISPLAY");

@@ -143,6 +143,12 @@ TEST(ViewWindow, FlipsEveryMethod) {
   EXPECT_GT(shows("ao.rays", "--ao rays")["ao_points"], 0);
   EXPECT_GT(shows("ao.field", "--ao field")["ao_points"], 0);
   session.photograph("method_ao");
+  const Json fast = shows("quality.fast", "--soft-points 8 --ao field --ao-rays 16 --ao-downscale 2");
+  EXPECT_GT(fast["rays"], 0) << "eight hard shadows";
+  EXPECT_EQ(fast["soft_groups"], 0) << "and no exact solver";
+  EXPECT_GT(shows("quality.exact", "--ao field --ao-rays 256")["soft_groups"], 0);
+  session.click("quality.balanced");
+  session.wait_for_picture();
   session.click("ao.none");
   session.click("shadows.hard");
   session.wait_for_picture();
@@ -367,12 +373,13 @@ TEST(ViewWindow, LogsRecordsAndLeaves) {
   const TemporaryFolder folder;
   const std::string scene = write_moving_scene(folder);
   const VirtualDisplay display;
-  const ViewSession session(
-      display, folder,
-      {scene, "--size", "160x120", "--record", folder / "out/%04d.png", "--exit-after", "4"});
+  const ViewSession session(display, folder,
+                            {scene, "--size", "160x120", "--shadows", "soft", "--light-size", "1x1",
+                             "--quality", "fast", "--record", folder / "out/%04d.png", "--exit-after", "4"});
   EXPECT_EQ(session.wait().exit_code, 0);
   const auto render =
-      tenebra({"render", scene, "--size", "160x120", "--frames", "0:3", "-o", folder / "render/%04d.png"});
+      tenebra({"render", scene, "--size", "160x120", "--shadows", "soft", "--light-size", "1x1",
+               "--soft-points", "8", "--frames", "0:3", "-o", folder / "render/%04d.png"});
   ASSERT_EQ(render.exit_code, 0) << render.errors;
   for (const char* name : {"0000.png", "0001.png", "0002.png", "0003.png"}) {
     EXPECT_EQ(picture_of(folder / "out" / name), picture_of(folder / "render" / name)) << name;

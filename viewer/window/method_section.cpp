@@ -146,10 +146,11 @@ std::optional<Quality> quality_of(const RenderSettings& render) {
 
 void choose_quality(Ui& ui, RenderSettings& render) {
   row(ui, "Quality", "What soft shadows and ambient occlusion may cost: sets points, rays and downscale.");
-  constexpr const char* names[] = {"fast", "balanced", "exact"};
+  std::array<const char*, qualities.size()> names;
+  for (std::size_t i = 0; i < names.size(); ++i) names[i] = quality_name(qualities[i]).data();  // literals
   const auto now = quality_of(render);
   int chosen = now ? static_cast<int>(*now) : -1;
-  if (segments(ui, "quality", names, 3, chosen))
+  if (segments(ui, "quality", names.data(), static_cast<int>(names.size()), chosen))
     apply_quality(qualities[static_cast<std::size_t>(chosen)], render);
 }
 
