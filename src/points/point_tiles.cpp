@@ -31,7 +31,7 @@ public:
         kernels_(point_tile_kernels(SimdLevel::automatic)),
         width_(static_cast<std::uint32_t>(points.width)),
         height_(static_cast<std::uint32_t>(points.height)) {
-    patch_.squares.clear(), patch_.receivers.clear();
+    patch_.squares.clear(), patch_.receivers.clear(), patch_.mixed.clear();
     patch_.receiver_count = 0;
   }
 
@@ -58,7 +58,7 @@ private:
   bool one_receiver(std::uint32_t x, std::uint32_t y) const;
   Owner note_owners(PointTile& tile, std::uint32_t lanes, bool one) const;
   void add_tile(const PointTile& tile, std::uint32_t lanes, const Owner& owner, int place,
-                PointSquare& square) const;
+                PointSquare& square);
 
   const VisiblePoints& points_;
   const TriangleView& triangles_;
@@ -151,7 +151,7 @@ PatchMaker::Owner PatchMaker::note_owners(PointTile& tile, std::uint32_t lanes, 
 }
 
 void PatchMaker::add_tile(const PointTile& tile, std::uint32_t lanes, const Owner& owner, int place,
-                          PointSquare& square) const {
+                          PointSquare& square) {
   square.own[place] = owner.id;
   square.receiver[place] = owner.receiver;
   square.lanes[place] = static_cast<std::uint16_t>(lanes);
@@ -159,8 +159,9 @@ void PatchMaker::add_tile(const PointTile& tile, std::uint32_t lanes, const Owne
   square.radius = std::max(square.radius, tile.radius);
   square.tau = std::max(square.tau, tile.tau);
   kernels_.bound(tile, lanes, place, square);
-  const bool several = owner.receiver == several_receivers;
-  if (several && kernels_.beyond_gap(tile, lanes) != 0) square.gaps |= 1u << place;
+  if (owner.receiver != several_receivers) return;
+  patch_.mixed.push_back(std::to_array(tile.receiver));
+  if (kernels_.beyond_gap(tile, lanes) != 0) square.gaps |= 1u << place;
 }
 
 void PatchMaker::add_square(std::uint32_t x, std::uint32_t y, std::uint32_t first) {
@@ -194,7 +195,8 @@ void PatchMaker::add_square(std::uint32_t x, std::uint32_t y, std::uint32_t firs
 std::size_t PointTiles::byte_count() const {
   std::size_t bytes = tiles.size() * sizeof(PointTile);
   for (const PointPatch& patch : patches)
-    bytes += patch.squares.size() * sizeof(PointSquare) + patch.receivers.size() * sizeof(ReceiverBlock);
+    bytes += patch.squares.size() * sizeof(PointSquare) + patch.receivers.size() * sizeof(ReceiverBlock) +
+             patch.mixed.size() * sizeof(patch.mixed[0]);
   return bytes;
 }
 

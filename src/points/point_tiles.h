@@ -6,6 +6,7 @@
 // triangles may straddle a gap in depth; this is noted.
 #pragma once
 
+#include <array>
 #include <cstddef>
 #include <cstdint>
 #include <glm/glm.hpp>
@@ -64,6 +65,8 @@ struct alignas(64) ReceiverBlock {
 struct PointPatch {
   std::vector<PointSquare> squares;  ///< that have points
   std::vector<ReceiverBlock> receivers;
+  /// PointTile::receiver of all tiles of several receivers, in the order of squares and tiles.
+  std::vector<std::array<std::uint16_t, tile_points>> mixed;
   std::uint32_t receiver_count = 0;
 };
 

@@ -65,6 +65,7 @@ struct PatchRays::Work {
   ForestScratch::Patch& out;
   Keys node_keys, loose_keys;
   const PointPatch* patch = nullptr;
+  std::size_t mixed = 0;  ///< tiles of several receivers so far
   const PointSquare* square = nullptr;
   std::uint16_t rays[16] = {};
   std::uint32_t present = 0;  ///< bits of tiles with rays
@@ -122,15 +123,13 @@ void PatchRays::find_facing(const PointPatch& patch, std::vector<std::uint8_t>& 
   }
 }
 
-std::uint32_t PatchRays::facing_lanes(const PointSquare& square, int tile,
-                                      const std::vector<std::uint8_t>& facing) const {
-  const std::uint32_t lanes = square.lanes[tile];
-  if (square.receiver[tile] != several_receivers) return facing[square.receiver[tile]] != 0 ? lanes : 0;
-  const PointTile& points = tiles_.tiles[square.first_tile + static_cast<std::uint32_t>(tile)];
+/// Of lanes on several triangles those that face the light.
+std::uint32_t PatchRays::facing_lanes(const std::array<std::uint16_t, tile_points>& receivers,
+                                      std::uint32_t lanes, const std::vector<std::uint8_t>& facing) const {
   std::uint32_t faced = 0;
   for (std::uint32_t left = lanes; left != 0; left &= left - 1) {
     const int lane = std::countr_zero(left);
-    faced |= static_cast<std::uint32_t>(facing[points.receiver[lane]]) << lane;
+    faced |= static_cast<std::uint32_t>(facing[receivers[static_cast<std::size_t>(lane)]]) << lane;
   }
   return faced;
 }
@@ -144,15 +143,12 @@ std::uint32_t PatchRays::in_reach_lanes(std::uint32_t tile, std::uint32_t lanes)
   return reached;
 }
 
-/// Asks for what is looked at more closely: receivers of tiles with several, points of tiles with gaps.
-void PatchRays::fetch_mixed_tiles(const PointSquare& square) const {
-  for (std::uint32_t left = square.filled; left != 0; left &= left - 1) {
-    const int t = std::countr_zero(left);
-    if (square.receiver[t] != several_receivers) continue;
-    const PointTile& tile = tiles_.tiles[square.first_tile + static_cast<std::uint32_t>(t)];
-    __builtin_prefetch(tile.receiver);
-    if (((square.gaps >> t) & 1u) == 0) continue;
-    for (const float* const q : {tile.qx, tile.qy, tile.qz}) __builtin_prefetch(q);
+/// Asks for what is looked at more closely: points of tiles with gaps.
+void PatchRays::fetch_gaps(const PointSquare& square) const {
+  for (std::uint32_t left = square.gaps; left != 0; left &= left - 1) {
+    const PointTile& tile =
+        tiles_.tiles[square.first_tile + static_cast<std::uint32_t>(std::countr_zero(left))];
+    for (const float* const q : {tile.qx, tile.qy, tile.qz, tile.base}) __builtin_prefetch(q);
   }
 }
 
@@ -162,7 +158,12 @@ void PatchRays::find_lanes(const PointSquare& square, Work& work) const {
   for (std::uint32_t left = square.filled; left != 0; left &= left - 1) {
     const int t = std::countr_zero(left);
     const std::uint32_t number = square.first_tile + static_cast<std::uint32_t>(t);
-    std::uint32_t lanes = facing_lanes(square, t, work.out.facing);
+    std::uint32_t lanes = square.lanes[t];
+    if (square.receiver[t] == several_receivers) {
+      lanes = facing_lanes(work.patch->mixed[work.mixed++], lanes, work.out.facing);
+    } else if (work.out.facing[square.receiver[t]] == 0) {
+      lanes = 0;
+    }
     if (bounded_ && lanes != 0) lanes = in_reach_lanes(number, lanes);
     work.rays[t] = static_cast<std::uint16_t>(lanes);
     if (lanes == 0) continue;
@@ -277,7 +278,7 @@ void PatchRays::find(const PointPatch& patch, ForestScratch::Patch& out) const {
   Work work(ray_kernels_, out);
   work.patch = &patch;
   for (const PointSquare& square : patch.squares) {
-    if (&patch.squares.back() - &square >= fetch_ahead) fetch_mixed_tiles(*(&square + fetch_ahead));
+    if (&patch.squares.back() - &square >= fetch_ahead) fetch_gaps(*(&square + fetch_ahead));
     find_lanes(square, work);
     if (work.present == 0) continue;
     out.tau = std::max(out.tau, square.tau);

@@ -26,9 +26,9 @@ private:
   struct Work;
 
   void find_facing(const PointPatch& patch, std::vector<std::uint8_t>& facing) const;
-  void fetch_mixed_tiles(const PointSquare& square) const;
+  void fetch_gaps(const PointSquare& square) const;
   void find_lanes(const PointSquare& square, Work& work) const;
-  std::uint32_t facing_lanes(const PointSquare& square, int tile,
+  std::uint32_t facing_lanes(const std::array<std::uint16_t, tile_points>& receivers, std::uint32_t lanes,
                              const std::vector<std::uint8_t>& facing) const;
   std::uint32_t in_reach_lanes(std::uint32_t tile, std::uint32_t lanes) const;
   std::size_t pixel_at(std::uint32_t tile, int lane) const;
