@@ -103,7 +103,8 @@ HWY_INLINE std::uint32_t set_up_eight(const TriangleCluster& c, int at, const Ra
   }
   worst = max(worst, store_plane(out, 3, at, n, t.side, own_squares, unit));
   const Double8 tau = t.largest * splat<Double8>(use_tau ? 1.7320508075688772 * 0x1p-24 : 0.0);
-  store(dot(unit, t.a[0]) + tau, out.d + at);
+  const Double8 d = dot(unit, t.a[0]) + tau;
+  store(d, out.d + at), store_narrowed(d, out.fd + at);
   store_narrowed(square_root(worst) * splat<Double8>(0x1p-48 * (1 + 0x1p-20)), out.rho + at);
   store_narrowed(square_root(reach2) * splat<Double8>(1 + 0x1p-20), out.reach + at);
   return valid << at;

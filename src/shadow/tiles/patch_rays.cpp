@@ -33,6 +33,14 @@ FaceBox box_of(const dvec3& p, std::uint8_t face) {
   return {pu - 32 * u, pu + 32 * u, pv - 32 * u, pv + 32 * u, w * (1 - 16 * u), w * (1 + 16 * u)};
 }
 
+/// The triangle that the points of some lanes lie on; no_triangle: several.
+std::uint32_t own_of(const PointTile& tile, std::uint32_t lanes) {
+  const std::uint32_t first = tile.id[std::countr_zero(lanes)];
+  for (std::uint32_t left = lanes; left != 0; left &= left - 1)
+    if (tile.id[std::countr_zero(left)] != first) return no_triangle;
+  return first;
+}
+
 }  // namespace
 
 /// Curve keys, worked out sixteen at a time.
@@ -85,24 +93,19 @@ PatchRays::PatchRays(const VisiblePoints& points, const PointTiles& tiles, const
       point_kernels_(point_tile_kernels(config.simd)),
       ray_kernels_(ray_kernels(config.simd)) {}
 
-std::size_t PatchRays::pixel_at(std::uint32_t tile, int lane) const {
-  return pixels_(tile) + static_cast<std::size_t>(lane / 4) * static_cast<std::size_t>(points_.width) +
-         static_cast<std::size_t>(lane % 4);
-}
-
 /// About the middle of a tile, relative to the light.
 dvec3 PatchRays::centre_of(const PointSquare& square, int tile) const {
   dvec3 centre;
   for (int k = 0; k < 3; ++k) {
     const double middle =
         0.5 * static_cast<double>(square.low[k][tile]) + 0.5 * static_cast<double>(square.high[k][tile]);
-    centre[k] = static_cast<double>(square.base[k]) - source_.origin[k] + middle;
+    centre[k] = static_cast<double>(square.base.at[k]) - source_.origin[k] + middle;
   }
   return centre;
 }
 
-dvec3 PatchRays::point_of(const PointTile& tile, int lane) const {
-  return dvec3(tile.base[0], tile.base[1], tile.base[2]) - source_.origin +
+dvec3 PatchRays::point_of(const PointSquare& square, const PointTile& tile, int lane) const {
+  return dvec3(square.base.at[0], square.base.at[1], square.base.at[2]) - source_.origin +
          dvec3(tile.qx[lane], tile.qy[lane], tile.qz[lane]);
 }
 
@@ -124,8 +127,8 @@ void PatchRays::find_facing(const PointPatch& patch, std::vector<std::uint8_t>& 
 }
 
 /// Of lanes on several triangles those that face the light.
-std::uint32_t PatchRays::facing_lanes(const std::array<std::uint16_t, tile_points>& receivers,
-                                      std::uint32_t lanes, const std::vector<std::uint8_t>& facing) const {
+std::uint32_t PatchRays::facing_lanes(const TileReceivers& receivers, std::uint32_t lanes,
+                                      const std::vector<std::uint8_t>& facing) const {
   std::uint32_t faced = 0;
   for (std::uint32_t left = lanes; left != 0; left &= left - 1) {
     const int lane = std::countr_zero(left);
@@ -138,7 +141,7 @@ std::uint32_t PatchRays::in_reach_lanes(std::uint32_t tile, std::uint32_t lanes)
   std::uint32_t reached = lanes;
   for (std::uint32_t left = lanes; left != 0; left &= left - 1) {
     const int lane = std::countr_zero(left);
-    if (!in_reach(points_.positions[pixel_at(tile, lane)] - source_.origin, light_)) reached &= ~(1u << lane);
+    if (!in_reach(points_.positions[pixels_(tile, lane)] - source_.origin, light_)) reached &= ~(1u << lane);
   }
   return reached;
 }
@@ -148,7 +151,7 @@ void PatchRays::fetch_gaps(const PointSquare& square) const {
   for (std::uint32_t left = square.gaps; left != 0; left &= left - 1) {
     const PointTile& tile =
         tiles_.tiles[square.first_tile + static_cast<std::uint32_t>(std::countr_zero(left))];
-    for (const float* const q : {tile.qx, tile.qy, tile.qz, tile.base}) __builtin_prefetch(q);
+    for (const float* const q : {tile.qx, tile.qy, tile.qz}) __builtin_prefetch(q);
   }
 }
 
@@ -205,7 +208,7 @@ bool PatchRays::add_node(Work& work, std::uint8_t face) const {
 
 void PatchRays::add_ray(Work& work, int tile, int lane) const {
   const std::uint32_t number = work.square->first_tile + static_cast<std::uint32_t>(tile);
-  const std::size_t pixel = pixel_at(number, lane);
+  const std::size_t pixel = pixels_(number, lane);
   const dvec3 p = points_.positions[pixel] - source_.origin;
   const double size = std::max({std::abs(p.x), std::abs(p.y), std::abs(p.z)});
   if (size == 0) {
@@ -220,21 +223,10 @@ void PatchRays::add_ray(Work& work, int tile, int lane) const {
   work.loose_keys.add(p, face);
 }
 
-/// The triangle that the points of some lanes lie on; no_triangle: several.
-std::uint32_t PatchRays::own_of(const Work& work, int tile, std::uint32_t lanes) const {
-  const PointSquare& square = *work.square;
-  if (square.receiver[tile] != several_receivers) return square.own[tile];
-  const std::uint16_t* const receivers =
-      tiles_.tiles[square.first_tile + static_cast<std::uint32_t>(tile)].receiver;
-  const std::uint16_t first = receivers[std::countr_zero(lanes)];
-  for (std::uint32_t left = lanes; left != 0; left &= left - 1)
-    if (receivers[std::countr_zero(left)] != first) return no_triangle;
-  return work.patch->receivers[first / 16].id[first % 16];
-}
-
 /// Splits a tile at its gaps, and into single rays where it is off its face.
 void PatchRays::add_parts(Work& work, int tile) const {
-  const std::uint32_t number = work.square->first_tile + static_cast<std::uint32_t>(tile);
+  const PointSquare& square = *work.square;
+  const std::uint32_t number = square.first_tile + static_cast<std::uint32_t>(tile);
   const PointTile& points = tiles_.tiles[number];
   std::uint32_t parts[tile_points], size = 0;
   parts[size++] = work.rays[tile];
@@ -247,13 +239,14 @@ void PatchRays::add_parts(Work& work, int tile) const {
       parts[size++] = lanes & ~beyond;
       continue;
     }
-    const dvec3 centre =
-        0.5 * (point_of(points, std::countr_zero(lanes)) + point_of(points, 31 - std::countl_zero(lanes)));
+    const dvec3 centre = 0.5 * (point_of(square, points, std::countr_zero(lanes)) +
+                                point_of(square, points, 31 - std::countl_zero(lanes)));
     const std::uint8_t face = face_of(centre);
     FaceBox box{};
-    if (kernels_.bound(points, lanes, source_.origin, face, box)) {
-      work.out.loose.push_back(
-          {number, own_of(work, tile, lanes), static_cast<std::uint16_t>(lanes), work.square->tau, box});
+    if (kernels_.bound(points, square.base, lanes, source_.origin, face, box)) {
+      const bool one = square.receiver[tile] != several_receivers;
+      work.out.loose.push_back({number, one ? square.own[tile] : own_of(points, lanes),
+                                static_cast<std::uint16_t>(lanes), square.tau, box});
       work.loose_keys.add(centre, face);
       continue;
     }
@@ -282,10 +275,10 @@ void PatchRays::find(const PointPatch& patch, ForestScratch::Patch& out) const {
     find_lanes(square, work);
     if (work.present == 0) continue;
     out.tau = std::max(out.tau, square.tau);
-    double farthest = square.radius;
+    double farthest = square.base.radius;
     for (int k = 0; k < 3; ++k) {
-      const double base = std::abs(static_cast<double>(square.base[k]) - source_.origin[k]);
-      farthest = std::max(farthest, base + static_cast<double>(square.radius));
+      const double base = std::abs(static_cast<double>(square.base.at[k]) - source_.origin[k]);
+      farthest = std::max(farthest, base + static_cast<double>(square.base.radius));
     }
     out.in_range &= farthest < longest_ray;
     if (out.in_range) place_square(work);

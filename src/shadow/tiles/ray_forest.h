@@ -114,19 +114,4 @@ void build_ray_forest(const VisiblePoints& points, const PointTiles& tiles, cons
 /// 255 where rays are left; the mask is zero elsewhere. Returns their number.
 std::uint64_t write_live_rays(const RayForest& forest, int width, int height, ShadowMask& mask);
 
-/// First pixels of tiles by their number.
-class TilePixels {
-public:
-  TilePixels(int width, int height)
-      : columns_(SquareGrid(width, height).columns), width_(static_cast<std::size_t>(width)) {}
-  std::size_t operator()(std::uint32_t tile) const {
-    const std::uint32_t square = tile / 16, row = square / columns_, column = square - row * columns_;
-    return (static_cast<std::size_t>(row) * 16 + tile % 16 / 4 * 4) * width_ + column * 16 + tile % 4 * 4;
-  }
-
-private:
-  std::uint32_t columns_;
-  std::size_t width_;
-};
-
 }  // namespace tenebra

@@ -34,9 +34,9 @@ struct Range {
   Float16 low, high;
 };
 HWY_INLINE Range range_of(const PointSquare& square, const glm::dvec3& light, int axis) {
-  const auto base = static_cast<float>(static_cast<double>(square.base[axis]) - light[axis]);
+  const auto base = static_cast<float>(static_cast<double>(square.base.at[axis]) - light[axis]);
   const Float16 centre = splat<Float16>(base),
-                margin = splat<Float16>(5 * u * ((base < 0 ? -base : base) + square.radius));
+                margin = splat<Float16>(5 * u * ((base < 0 ? -base : base) + square.base.radius));
   return {centre + load<Float16>(square.low[axis]) - margin,
           centre + load<Float16>(square.high[axis]) + margin};
 }

@@ -25,8 +25,8 @@ struct TileKernels {
   std::uint32_t (*project)(const PointSquare& square, const glm::dvec3& light, int face,
                            RayNode& node) = nullptr;
   /// The same for some lanes (not 0) of a tile, from the points themselves.
-  bool (*bound)(const PointTile& tile, std::uint32_t lanes, const glm::dvec3& light, int face,
-                FaceBox& box) = nullptr;
+  bool (*bound)(const PointTile& tile, const PointBase& base, std::uint32_t lanes, const glm::dvec3& light,
+                int face, FaceBox& box) = nullptr;
 };
 TileKernels tile_kernels(SimdLevel level);
 
