@@ -64,12 +64,13 @@ std::size_t ClusterTree::byte_count() const {
 }
 
 bool ClusterTree::same_order(const TriangleView& t) const {
-  return t.positions.size() == positions_.size() && t.triangles.size() == triangles_.size() &&
+  return t.positions.size() + 1 == positions_.size() && t.triangles.size() == triangles_.size() &&
          same_elements(t.casts_shadow, casts_) && same_elements(t.parts, parts_);
 }
 
 void ClusterTree::find_order(const TriangleView& t) {
   positions_.assign(t.positions.begin(), t.positions.end());
+  positions_.emplace_back(0.0f);
   triangles_.assign(t.triangles.begin(), t.triangles.end());
   casts_.assign(t.casts_shadow.begin(), t.casts_shadow.end());
   parts_.assign(t.parts.begin(), t.parts.end());
@@ -134,7 +135,7 @@ void ClusterTree::refit(const TriangleView& t, SimdLevel simd, bool all) {
         const bool other = all || triangles_changed(c);
         if (!other && !vertices_changed(c)) continue;
         if (other) find_corners(t, c);
-        kernels.follow(t.positions.data(), corners_[c], clusters_[c], levels_[0][node], c % cluster_size);
+        kernels.follow(positions_.data(), corners_[c], clusters_[c], levels_[0][node], c % cluster_size);
       }
     }
   });

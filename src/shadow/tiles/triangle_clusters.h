@@ -70,7 +70,7 @@ private:
   std::uint64_t casters_ = 0;
   std::uint64_t version_ = 0;
   // What the last frame looked like.
-  std::vector<glm::vec3> positions_;
+  std::vector<glm::vec3> positions_;  ///< and one more, so that all can be read in fours of floats
   std::vector<glm::uvec3> triangles_;
   std::vector<std::uint8_t> casts_;
   std::vector<std::uint32_t> parts_;
