@@ -12,9 +12,6 @@ namespace {
 
 using glm::dvec3;
 
-// A square is a node as it stands if it is at most this many times as wide as its tiles are on the mean: 4
-// for a flat patch, with room for perspective and curvature.
-constexpr float coherent_extent = 8;
 constexpr std::ptrdiff_t fetch_ahead = 4;  // squares: the time that memory takes
 
 std::uint8_t face_of(const dvec3& p) {
@@ -31,6 +28,13 @@ FaceBox box_of(const dvec3& p, std::uint8_t face) {
   const auto pu = static_cast<float>(p[(axis + 1) % 3] / z), pv = static_cast<float>(p[(axis + 2) % 3] / z);
   const auto w = static_cast<float>(1 / z);
   return {pu - 32 * u, pu + 32 * u, pv - 32 * u, pv + 32 * u, w * (1 - 16 * u), w * (1 + 16 * u)};
+}
+
+/// Asks for all of `what`, which is needed in a while.
+template <class T>
+void fetch(const T& what) {
+  const auto* const at = reinterpret_cast<const char*>(&what);
+  for (std::size_t line = 0; line < sizeof(T); line += 64) __builtin_prefetch(at + line);
 }
 
 /// The triangle that the points of some lanes lie on; no_triangle: several.
@@ -146,13 +150,10 @@ std::uint32_t PatchRays::in_reach_lanes(std::uint32_t tile, std::uint32_t lanes)
   return reached;
 }
 
-/// Asks for what is looked at more closely: points of tiles with gaps.
+/// Points of tiles with gaps are looked at more closely.
 void PatchRays::fetch_gaps(const PointSquare& square) const {
-  for (std::uint32_t left = square.gaps; left != 0; left &= left - 1) {
-    const PointTile& tile =
-        tiles_.tiles[square.first_tile + static_cast<std::uint32_t>(std::countr_zero(left))];
-    for (const float* const q : {tile.qx, tile.qy, tile.qz}) __builtin_prefetch(q);
-  }
+  for (std::uint32_t left = square.gaps; left != 0; left &= left - 1)
+    fetch(tiles_.tiles[square.first_tile + static_cast<std::uint32_t>(std::countr_zero(left))]);
 }
 
 void PatchRays::find_lanes(const PointSquare& square, Work& work) const {
@@ -180,30 +181,18 @@ void PatchRays::find_lanes(const PointSquare& square, Work& work) const {
   }
 }
 
-/// False: too wide; nothing is done.
-bool PatchRays::add_node(Work& work, std::uint8_t face) const {
-  RayNode& node = work.out.nodes[work.out.count];
-  node.live = node.filled = work.present;
-  const FaceBox all = bounds_of(node);
-  float wide = 0, high = 0;
-  for (std::uint32_t left = work.present; left != 0; left &= left - 1) {
-    const int i = std::countr_zero(left);
-    wide += node.u1[i] - node.u0[i], high += node.v1[i] - node.v0[i];
-  }
-  const float scale = coherent_extent / static_cast<float>(std::popcount(work.present));
-  if (all.u1 - all.u0 > wide * scale || all.v1 - all.v0 > high * scale) return false;
-  for (std::uint32_t i = 0; i < 16; ++i) {
-    node.child[i] = work.square->first_tile + i;
-    node.own[i] = work.square->own[i];
-    node.rays[i] = node.all_rays[i] = work.rays[i];
-  }
-  node.tau = work.square->tau;
-  node.wide = work.present;  // boxes along the axes: shrunk where that pays
+/// The next node, whose boxes are there, gets the square's tiles.
+void PatchRays::add_node(Work& work, std::uint8_t face) const {
+  const PointSquare& square = *work.square;
+  RayNode& node = work.out.nodes[work.out.count++];
+  node.live = node.filled = node.wide = work.present;  // boxes along the axes: shrunk where that pays
+  for (std::uint32_t i = 0; i < 16; ++i) node.child[i] = square.first_tile + i;
+  std::copy(std::begin(square.own), std::end(square.own), node.own);
+  std::copy(std::begin(work.rays), std::end(work.rays), node.rays);
+  std::copy(std::begin(work.rays), std::end(work.rays), node.all_rays);
+  node.tau = square.tau;
   node.tests = 0;
-  work.out.boxes.push_back(all);
-  ++work.out.count;
-  work.node_keys.add(centre_of(*work.square, std::countr_zero(work.present)), face);
-  return true;
+  work.node_keys.add(centre_of(square, std::countr_zero(work.present)), face);
 }
 
 void PatchRays::add_ray(Work& work, int tile, int lane) const {
@@ -257,9 +246,12 @@ void PatchRays::add_parts(Work& work, int tile) const {
 void PatchRays::place_square(Work& work) const {
   if (work.gaps == 0) {
     const std::uint8_t face = face_of(centre_of(*work.square, std::countr_zero(work.present)));
-    const std::uint32_t on =
-        kernels_.project(*work.square, source_.origin, face, work.out.nodes[work.out.count]);
-    if ((work.present & ~on) == 0 && add_node(work, face)) return;
+    FaceBox all{};
+    if (kernels_.project(*work.square, work.present, source_.origin, face, work.out.nodes[work.out.count],
+                         all)) {
+      work.out.boxes.push_back(all);
+      return add_node(work, face);
+    }
   }
   for (std::uint32_t left = work.present; left != 0; left &= left - 1)
     add_parts(work, std::countr_zero(left));
@@ -271,7 +263,9 @@ void PatchRays::find(const PointPatch& patch, ForestScratch::Patch& out) const {
   Work work(ray_kernels_, out);
   work.patch = &patch;
   for (const PointSquare& square : patch.squares) {
-    if (&patch.squares.back() - &square >= fetch_ahead) fetch_gaps(*(&square + fetch_ahead));
+    const std::ptrdiff_t after = &patch.squares.back() - &square;
+    if (after >= 2 * fetch_ahead) fetch(*(&square + 2 * fetch_ahead));
+    if (after >= fetch_ahead) fetch_gaps(*(&square + fetch_ahead));
     find_lanes(square, work);
     if (work.present == 0) continue;
     out.tau = std::max(out.tau, square.tau);
