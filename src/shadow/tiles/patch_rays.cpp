@@ -246,12 +246,9 @@ void PatchRays::add_parts(Work& work, int tile) const {
 void PatchRays::place_square(Work& work) const {
   if (work.gaps == 0) {
     const std::uint8_t face = face_of(centre_of(*work.square, std::countr_zero(work.present)));
-    FaceBox all{};
     if (kernels_.project(*work.square, work.present, source_.origin, face, work.out.nodes[work.out.count],
-                         all)) {
-      work.out.boxes.push_back(all);
+                         work.out.boxes[work.out.count]))
       return add_node(work, face);
-    }
   }
   for (std::uint32_t left = work.present; left != 0; left &= left - 1)
     add_parts(work, std::countr_zero(left));

@@ -87,12 +87,13 @@ struct ForestScratch {
   struct Patch {  ///< what one patch of points gave
     std::vector<std::uint8_t> facing;
     RayNode* nodes = nullptr;  ///< room for patch_squares in level 0, from `first` on
+    FaceBox* boxes = nullptr;  ///< of these nodes
     std::size_t first = 0;
     std::size_t count = 0;
-    std::vector<FaceBox> boxes;  ///< of these nodes
     std::vector<std::uint32_t> node_keys;
     std::vector<Loose> loose;
     std::vector<std::uint32_t> loose_keys;
+    std::size_t first_key = 0, first_loose_key = 0;  ///< among those of all patches
     std::vector<std::uint32_t> at_light;
     std::uint64_t rays = 0;
     float tau = 0;
@@ -101,9 +102,10 @@ struct ForestScratch {
     void clear();
   };
   std::vector<Patch> patches;
-  std::vector<Loose> loose;
   std::vector<FaceBox> boxes;  ///< of the nodes of level 0
   RayKeys node_keys, loose_keys;
+  std::vector<std::size_t> begins;
+  std::vector<std::uint8_t> faces;  ///< of the nodes of level 1
 };
 
 /// Point and spot lights. `tiles`: of `points`.
