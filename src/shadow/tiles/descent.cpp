@@ -204,6 +204,8 @@ void RootDescent::set_up_cluster() {
   store(boxes_.v1, lanes_[3]), store(boxes_.w, lanes_[4]);
   set_up_planes(*cluster_, d_.source, skip_own_, d_.cull_front, scratch_.planes);
   face_cluster(scratch_.planes, face_, d_.forest.tau, on_face_);
+  for (std::uint32_t left = scratch_.planes.edge_on; left != 0; left &= left - 1)
+    scratch_.edge_on.push_back(cluster_->ids[std::countr_zero(left)]);
 }
 
 // Few tiles look for their triangles sixteen at a time, few triangles for their tiles.

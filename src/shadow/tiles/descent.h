@@ -32,11 +32,13 @@ struct alignas(64) ClusterPlanes {
   float rho[16];                          ///< relative errors, the largest of the four planes', rounded up
   float reach[16];                        ///< >= largest |vertex - light|
   std::uint32_t valid;                    ///< bit i: triangle i may block something
+  std::uint32_t edge_on;                  ///< bit i: it lies in a plane through the light, or has no area
 };
 
 /// Scratch of one thread.
 struct DescentScratch {
   ClusterPlanes planes;
+  std::vector<std::uint32_t> edge_on;  ///< triangles that were found so, as often as they were
 };
 
 /// Code for one instruction set.
