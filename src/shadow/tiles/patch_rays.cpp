@@ -12,6 +12,9 @@ namespace {
 
 using glm::dvec3;
 
+// A node with a larger box (on a face of 36) gets the boxes of the points themselves: many triangles would
+// meet it. Boxes along the axes are wide where points are near the light.
+constexpr float wide_area = 1.0f / 64;
 constexpr std::ptrdiff_t fetch_ahead = 4;  // squares: the time that memory takes
 
 std::uint8_t face_of(const dvec3& p) {
@@ -195,6 +198,21 @@ void PatchRays::add_node(Work& work, std::uint8_t face) const {
   work.node_keys.add(centre_of(square, std::countr_zero(work.present)), face);
 }
 
+/// Boxes of the points themselves for the node that was added last.
+void PatchRays::tighten(Work& work, std::uint8_t face) const {
+  const PointSquare& square = *work.square;
+  RayNode& node = work.out.nodes[work.out.count - 1];
+  for (std::uint32_t left = node.wide; left != 0; left &= left - 1) {
+    const int slot = std::countr_zero(left);
+    FaceBox box{};
+    if (kernels_.bound(tiles_.tiles[node.child[slot]], square.base, node.rays[slot], source_.origin, face,
+                       box))
+      node.set_box(slot, box);
+  }
+  node.wide = 0;
+  work.out.boxes[work.out.count - 1] = bounds_of(node);
+}
+
 void PatchRays::add_ray(Work& work, int tile, int lane) const {
   const std::uint32_t number = work.square->first_tile + static_cast<std::uint32_t>(tile);
   const std::size_t pixel = pixels_(number, lane);
@@ -246,9 +264,13 @@ void PatchRays::add_parts(Work& work, int tile) const {
 void PatchRays::place_square(Work& work) const {
   if (work.gaps == 0) {
     const std::uint8_t face = face_of(centre_of(*work.square, std::countr_zero(work.present)));
+    FaceBox& box = work.out.boxes[work.out.count];
     if (kernels_.project(*work.square, work.present, source_.origin, face, work.out.nodes[work.out.count],
-                         work.out.boxes[work.out.count]))
-      return add_node(work, face);
+                         box)) {
+      add_node(work, face);
+      if ((box.u1 - box.u0) * (box.v1 - box.v0) > wide_area) tighten(work, face);
+      return;
+    }
   }
   for (std::uint32_t left = work.present; left != 0; left &= left - 1)
     add_parts(work, std::countr_zero(left));
