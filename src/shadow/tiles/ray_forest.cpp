@@ -167,15 +167,16 @@ void write_square(std::uint8_t* to, int width) {
   for (std::uint32_t row = 0; row < square_side; ++row, to += width) std::memset(to, 255, square_side);
 }
 
-/// Four pixels by the bits of `live`; returns how many are set.
-std::uint32_t write_row(std::uint32_t live, std::uint8_t* to) {
-  if (live == 15u) {  // no other tile holds rays of this row: four bytes at once
-    std::memset(to, 255, 4);
-    return 4;
+/// The pixels of a tile by the bits of `live`, and no other: threads share tiles.
+void write_tile(std::uint32_t live, std::uint8_t* to, int width) {
+  if (live == 0xffffu) {
+    for (std::uint32_t row = 0; row < tile_side; ++row, to += width) std::memset(to, 255, tile_side);
+    return;
   }
-  std::uint32_t count = 0;
-  for (; live != 0; live &= live - 1, ++count) to[std::countr_zero(live)] = 255;
-  return count;
+  for (; live != 0; live &= live - 1) {
+    const int lane = std::countr_zero(live);
+    to[lane % 4 + lane / 4 * width] = 255;
+  }
 }
 
 }  // namespace
@@ -237,9 +238,9 @@ std::uint64_t write_live_rays(const RayForest& forest, int width, int height, Sh
       }
       for (std::uint32_t left = nodes[i].live; left != 0; left &= left - 1) {
         const int slot = std::countr_zero(left);
-        std::uint8_t* to = &mask[pixel_of(nodes[i].child[slot])];
-        for (std::uint32_t row = 0; row < tile_side; ++row, to += width)
-          count += write_row((nodes[i].rays[slot] >> (4 * row)) & 15u, to);
+        const std::uint32_t live = nodes[i].rays[slot];
+        write_tile(live, &mask[pixel_of(nodes[i].child[slot])], width);
+        count += static_cast<std::uint64_t>(std::popcount(live));
       }
     }
     parts[first / grain] = count;
