@@ -85,7 +85,13 @@ private:
   std::uint32_t cover_tiles(RayNode& n, int i, std::uint32_t met);
   void test_tile(const Waiting& w);
   bool test_triangle(const Waiting& w, const RoughRays& rough, int i);
-  void shrink(RayNode& n, int slot) const;
+  void shrink(RayNode& n, int slot);
+  void tighten(const RayRef& rays);
+  void drop(RayNode& n, int slot) {
+    n.rays[slot] = 0;
+    n.live &= ~(1u << slot);
+    node(1, n.parent).wide |= 1u << n.slot;
+  }
   /// Lanes of a slot whose points lie on a triangle, which never blocks those.
   std::uint32_t own_lanes(const RayNode& n, int slot, std::uint32_t id) const {
     return n.own[slot] == no_triangle && skip_own_ ? equal_bits(tile(n, slot).id, id) : 0;
@@ -180,7 +186,7 @@ void RootDescent::descend_cluster(const RayRef& rays, std::uint32_t mask) {
   RayNode& n = node(rays);
   note_test(n);
   const std::uint32_t met = children_met(n, cluster_box_);
-  if (met == 0) return;
+  if (met == 0) return tighten(rays);
   if (rays.level == 0) return meet_tiles(rays, met, mask);
   std::uint16_t deeper[16];
   std::uint32_t entered = 0;
@@ -271,8 +277,7 @@ std::uint32_t RootDescent::cover_tiles(RayNode& n, int i, std::uint32_t met) {
   for (std::uint32_t left = met & children_covered(n, on_face_, i); left != 0; left &= left - 1) {
     const int slot = std::countr_zero(left);
     if ((n.rays[slot] & own_lanes(n, slot, cluster_->ids[i])) != 0) continue;
-    n.rays[slot] = 0;
-    n.live &= ~(1u << slot);
+    drop(n, slot);
     met &= ~(1u << slot);
     ++stats_.early_accepts;
   }
@@ -305,16 +310,28 @@ bool RootDescent::test_triangle(const Waiting& w, const RoughRays& rough, int i)
   if (open != 0) blocked |= blocked_lanes(n.child[w.slot], open, id);
   n.rays[w.slot] = static_cast<std::uint16_t>(n.rays[w.slot] & ~blocked);
   n.wide |= 1u << w.slot;
-  if (n.rays[w.slot] == 0) n.live &= ~(1u << w.slot);
+  if (n.rays[w.slot] == 0) drop(n, w.slot);
   return true;
 }
 
 // What missed all rays may have met the box only: of all points, or of rays that are blocked by now.
-void RootDescent::shrink(RayNode& n, int slot) const {
+void RootDescent::shrink(RayNode& n, int slot) {
   FaceBox box{};
   if (bound(tile(n, slot), base(n, slot), n.rays[slot], d_.source.origin, d_.forest.faces[root_], box))
     n.set_box(slot, box);
   n.wide &= ~(1u << slot);
+  node(1, n.parent).wide |= 1u << n.slot;
+}
+
+// What missed all children may have met the node's box only, which may be that of rays blocked by now.
+void RootDescent::tighten(const RayRef& rays) {
+  if (rays.level + 1 == ray_levels) return;
+  RayNode& n = node(rays);
+  RayNode& parent = node(rays.level + 1, n.parent);
+  if (((parent.wide >> n.slot) & 1u) == 0 || n.live == 0) return;
+  parent.wide &= ~(1u << n.slot);
+  parent.set_box(static_cast<int>(n.slot), bounds_of(n));
+  if (rays.level + 2 < ray_levels) node(rays.level + 2, parent.parent).wide |= 1u << parent.slot;
 }
 
 /// Of the lanes of `open` those that are blocked: in double, then exactly.

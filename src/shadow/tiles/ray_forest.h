@@ -46,7 +46,7 @@ struct alignas(64) RayNode {
   float tau = 0;               ///< level 0: largest rounding tolerance of the points' triangles
   std::uint32_t live = 0;      ///< bit i: child i has rays left
   std::uint32_t filled = 0;    ///< bit i: there is a child i
-  std::uint32_t wide = 0;      ///< level 0, bit i: the box of child i may be wider than its rays
+  std::uint32_t wide = 0;      ///< bit i: the box of child i may be wider than its rays
   std::uint32_t parent = 0;    ///< node of the level above
   std::uint32_t slot = 0;      ///< among its children
   std::uint32_t tests = 0;     ///< triangles and boxes that its children were tested with
