@@ -12,9 +12,9 @@ namespace {
 
 using glm::dvec3;
 
-// A node with a larger box (on a face of 36) gets the boxes of the points themselves: many triangles would
-// meet it. Boxes along the axes are wide where points are near the light.
-constexpr float wide_area = 1.0f / 64;
+// Boxes on a face with a larger area (a face has 36) are met by too many triangles: such squares are taken
+// tile by tile, such tiles ray by ray. Near the light pixels side by side may lie in all directions.
+constexpr float widest_square = 1.0f / 64, widest_tile = widest_square / 64;
 constexpr std::ptrdiff_t fetch_ahead = 4;  // squares: the time that memory takes
 
 std::uint8_t face_of(const dvec3& p) {
@@ -31,6 +31,10 @@ FaceBox box_of(const dvec3& p, std::uint8_t face) {
   const auto pu = static_cast<float>(p[(axis + 1) % 3] / z), pv = static_cast<float>(p[(axis + 2) % 3] / z);
   const auto w = static_cast<float>(1 / z);
   return {pu - 32 * u, pu + 32 * u, pv - 32 * u, pv + 32 * u, w * (1 - 16 * u), w * (1 + 16 * u)};
+}
+
+float area(const FaceBox& box) {
+  return (box.u1 - box.u0) * (box.v1 - box.v0);
 }
 
 /// Asks for all of `what`, which is needed in a while.
@@ -198,21 +202,6 @@ void PatchRays::add_node(Work& work, std::uint8_t face) const {
   work.node_keys.add(centre_of(square, std::countr_zero(work.present)), face);
 }
 
-/// Boxes of the points themselves for the node that was added last.
-void PatchRays::tighten(Work& work, std::uint8_t face) const {
-  const PointSquare& square = *work.square;
-  RayNode& node = work.out.nodes[work.out.count - 1];
-  for (std::uint32_t left = node.wide; left != 0; left &= left - 1) {
-    const int slot = std::countr_zero(left);
-    FaceBox box{};
-    if (kernels_.bound(tiles_.tiles[node.child[slot]], square.base, node.rays[slot], source_.origin, face,
-                       box))
-      node.set_box(slot, box);
-  }
-  node.wide = 0;
-  work.out.boxes[work.out.count - 1] = bounds_of(node);
-}
-
 void PatchRays::add_ray(Work& work, int tile, int lane) const {
   const std::uint32_t number = work.square->first_tile + static_cast<std::uint32_t>(tile);
   const std::size_t pixel = pixels_(number, lane);
@@ -230,7 +219,7 @@ void PatchRays::add_ray(Work& work, int tile, int lane) const {
   work.loose_keys.add(p, face);
 }
 
-/// Splits a tile at its gaps, and into single rays where it is off its face.
+/// Splits a tile at its gaps, and into single rays where it is off its face or wide.
 void PatchRays::add_parts(Work& work, int tile) const {
   const PointSquare& square = *work.square;
   const std::uint32_t number = square.first_tile + static_cast<std::uint32_t>(tile);
@@ -250,7 +239,7 @@ void PatchRays::add_parts(Work& work, int tile) const {
                                 point_of(square, points, 31 - std::countl_zero(lanes)));
     const std::uint8_t face = face_of(centre);
     FaceBox box{};
-    if (kernels_.bound(points, square.base, lanes, source_.origin, face, box)) {
+    if (kernels_.bound(points, square.base, lanes, source_.origin, face, box) && area(box) <= widest_tile) {
       const bool one = square.receiver[tile] != several_receivers;
       work.out.loose.push_back({number, one ? square.own[tile] : own_of(points, lanes),
                                 static_cast<std::uint16_t>(lanes), square.tau, box});
@@ -266,10 +255,9 @@ void PatchRays::place_square(Work& work) const {
     const std::uint8_t face = face_of(centre_of(*work.square, std::countr_zero(work.present)));
     FaceBox& box = work.out.boxes[work.out.count];
     if (kernels_.project(*work.square, work.present, source_.origin, face, work.out.nodes[work.out.count],
-                         box)) {
-      add_node(work, face);
-      if ((box.u1 - box.u0) * (box.v1 - box.v0) > wide_area) tighten(work, face);
-      return;
+                         box) &&
+        area(box) <= widest_square) {
+      return add_node(work, face);
     }
   }
   for (std::uint32_t left = work.present; left != 0; left &= left - 1)

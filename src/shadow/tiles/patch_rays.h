@@ -35,7 +35,6 @@ private:
   glm::dvec3 point_of(const PointSquare& square, const PointTile& tile, int lane) const;
   void place_square(Work& work) const;
   void add_node(Work& work, std::uint8_t face) const;
-  void tighten(Work& work, std::uint8_t face) const;
   void add_parts(Work& work, int tile) const;
   void add_ray(Work& work, int tile, int lane) const;
 
