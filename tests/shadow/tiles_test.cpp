@@ -125,6 +125,25 @@ TEST(Tiles, CountWhatBlocksNothing) {
   EXPECT_EQ(degenerate(Variant::tiles, tiles, 1), degenerate(Variant::precise_sorted, cones, 1));
 }
 
+// A light low in the middle of a field of boxes that is seen from afar: pixels side by side lie in all
+// directions from it. Tiles as they stand are then tested with most of the field's triangles.
+TEST(Tiles, AreSplitWhereTheyAreWideFromTheLight) {
+  MaskCase c;
+  c.soup.quad({-41, 0, 41}, {82, 0, 0}, {0, 0, -82});
+  for (int x = -20; x < 20; ++x) {
+    for (int z = -20; z < 20; ++z)
+      c.soup.append(box({2 * x + 0.5, 0, 2 * z + 0.5}, {2 * x + 1.25, 0.5, 2 * z + 1.5}));
+  }
+  c.light = point_light({0.1, 0.75, 0.2});
+  c.view = pinhole({60, 50, 60}, {0, 0, 0}, 0.8, 96, 96);
+  c.points = view_samples(c.soup.view(), c.view, 96, 96);
+  ShadowTracer tracer;
+  EXPECT_TRUE(same_mask(c, traced(c, tracer), oracle(c)));
+  const double rays = static_cast<double>(tracer.stats().rays);
+  EXPECT_GT(rays, 1000);
+  EXPECT_LT(static_cast<double>(tracer.stats().leaf_tests), 8 * rays);
+}
+
 TEST(Tiles, GiveWayWhereTheyDoNotApply) {
   MaskCase c = room_case(75, 64, 64);
   c.light = sun({0.3, 1, 0.2});
