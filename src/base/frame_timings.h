@@ -54,7 +54,8 @@ struct TraceStats {
   std::uint64_t double_unknown = 0;  ///< of these, pairs that double precision left open: decided exactly
   std::uint64_t shadowed_pixels = 0;       ///< rays found blocked
   std::uint64_t lit_pixels = 0;            ///< rays found free
-  std::uint64_t degenerate_triangles = 0;  ///< zero area or edge-on to the light: they block nothing
+  std::uint64_t degenerate_triangles = 0;  ///< zero area or edge-on to the light: they block nothing. Variant
+                                           ///< Tiles: of those that came near rays, or have equal corners
   std::uint64_t tree_bytes = 0;            ///< memory of the cone tree, largest of the lights
 };
 

@@ -31,7 +31,7 @@ float radius_of(const Vector16& q) {
   return largest * 1.7320509f * (1 + 0x1p-20f) + 0x1p-126f;
 }
 
-void fill(const TileRows& rows, const glm::vec3& base, std::uint32_t lanes, PointTile& tile) {
+float fill(const TileRows& rows, const glm::vec3& base, std::uint32_t lanes, PointTile& tile) {
   const Pack3<Double4> centre =
       splat3<Double4>(static_cast<double>(base.x), static_cast<double>(base.y), static_cast<double>(base.z));
   const glm::dvec3& other = rows.point(std::countr_zero(lanes));
@@ -49,8 +49,7 @@ void fill(const TileRows& rows, const glm::vec3& base, std::uint32_t lanes, Poin
   }
   const Vector16 q{joined(x), joined(y), joined(z)};
   store(q.x, tile.qx), store(q.y, tile.qy), store(q.z, tile.qz);
-  tile.base[0] = base.x, tile.base[1] = base.y, tile.base[2] = base.z;
-  tile.radius = radius_of(q);
+  return radius_of(q);
 }
 
 std::uint32_t beyond_gap(const PointTile& tile, std::uint32_t lanes) {

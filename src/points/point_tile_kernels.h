@@ -27,8 +27,8 @@ private:
 
 /// Code for one instruction set.
 struct PointTileKernels {
-  /// q, base and radius from the points of the lanes in `lanes` (not 0).
-  void (*fill)(const TileRows& rows, const glm::vec3& base, std::uint32_t lanes, PointTile& tile) = nullptr;
+  /// q from the points of the lanes in `lanes` (not 0). Returns a radius: >= |q| of all.
+  float (*fill)(const TileRows& rows, const glm::vec3& base, std::uint32_t lanes, PointTile& tile) = nullptr;
   /// Lanes of `lanes` (not 0) beyond a gap: farther from the first of them than the others by half of the
   /// extent.
   std::uint32_t (*beyond_gap)(const PointTile& tile, std::uint32_t lanes) = nullptr;

@@ -31,7 +31,7 @@ public:
         kernels_(point_tile_kernels(SimdLevel::automatic)),
         width_(static_cast<std::uint32_t>(points.width)),
         height_(static_cast<std::uint32_t>(points.height)) {
-    patch_.squares.clear(), patch_.receivers.clear();
+    patch_.squares.clear(), patch_.receivers.clear(), patch_.mixed.clear();
     patch_.receiver_count = 0;
   }
 
@@ -43,10 +43,11 @@ private:
     std::uint32_t id = no_triangle;
     std::uint16_t number = 0;
   };
-  /// What the points of some lanes lie on.
-  struct Owner {
-    std::uint32_t id = no_triangle;
-    std::uint16_t receiver = several_receivers;
+  /// What the points of a tile lie on.
+  struct Seen {
+    std::uint32_t lanes = 0;  ///< that have a point on a triangle that faces the eye
+    bool one = false;         ///< all sixteen see the same triangle
+    TileReceivers receiver;
   };
 
   std::uint16_t receiver_of(std::uint32_t id);
@@ -54,11 +55,9 @@ private:
   const std::uint32_t* ids_at(std::uint32_t x, std::uint32_t y) const {
     return &points_.triangles[static_cast<std::size_t>(y) * width_ + x];
   }
-  std::uint32_t find_receivers(std::uint32_t x, std::uint32_t y, bool one, PointTile& tile);
   bool one_receiver(std::uint32_t x, std::uint32_t y) const;
-  Owner note_owners(PointTile& tile, std::uint32_t lanes, bool one) const;
-  void add_tile(const PointTile& tile, std::uint32_t lanes, const Owner& owner, int place,
-                PointSquare& square) const;
+  void find_receivers(std::uint32_t x, std::uint32_t y, Seen& seen, PointTile& tile);
+  void note_owners(const Seen& seen, int place, PointSquare& square) const;
 
   const VisiblePoints& points_;
   const TriangleView& triangles_;
@@ -113,94 +112,90 @@ bool PatchMaker::one_receiver(std::uint32_t x, std::uint32_t y) const {
   return different == 0;
 }
 
-/// Lanes whose points lie on a triangle that faces the eye.
-std::uint32_t PatchMaker::find_receivers(std::uint32_t x, std::uint32_t y, bool one, PointTile& tile) {
-  if (one) {
-    const std::uint16_t number = receiver_of(*ids_at(x, y));
-    std::fill(std::begin(tile.receiver), std::end(tile.receiver), number);
-    return number == no_receiver ? 0 : 0xffffu;
+void PatchMaker::find_receivers(std::uint32_t x, std::uint32_t y, Seen& seen, PointTile& tile) {
+  seen.one = one_receiver(x, y);
+  if (seen.one) {
+    const std::uint32_t id = *ids_at(x, y);
+    const std::uint16_t number = receiver_of(id);
+    seen.receiver.fill(number);
+    std::fill(std::begin(tile.id), std::end(tile.id), id);
+    seen.lanes = number == no_receiver ? 0 : 0xffffu;
+    return;
   }
-  std::uint32_t lanes = 0;
+  seen.lanes = 0;
+  std::fill(std::begin(tile.id), std::end(tile.id), no_triangle);
   for (std::uint32_t row = 0; row < tile_side && y + row < height_; ++row) {
     for (std::uint32_t column = 0; column < tile_side && x + column < width_; ++column) {
-      const std::uint32_t lane = tile_side * row + column;
-      tile.receiver[lane] = receiver_of(*ids_at(x + column, y + row));
-      if (tile.receiver[lane] != no_receiver) lanes |= 1u << lane;
+      const std::uint32_t lane = tile_side * row + column, id = *ids_at(x + column, y + row);
+      seen.receiver[lane] = receiver_of(id);
+      if (seen.receiver[lane] == no_receiver) continue;
+      tile.id[lane] = id;
+      seen.lanes |= 1u << lane;
     }
   }
-  return lanes;
 }
 
-/// Notes what the points of the lanes (not 0) lie on.
-PatchMaker::Owner PatchMaker::note_owners(PointTile& tile, std::uint32_t lanes, bool one) const {
-  const std::uint16_t first = tile.receiver[std::countr_zero(lanes)];
+/// Notes what the points of the tile (it has some) lie on.
+void PatchMaker::note_owners(const Seen& seen, int place, PointSquare& square) const {
+  const std::uint16_t first = seen.receiver[std::countr_zero(seen.lanes)];
   const ReceiverBlock& block = patch_.receivers[first / 16];
-  Owner owner{block.id[first % 16], first};
-  tile.owners = 1ull << (owner.id % 64);
-  tile.tau = block.tau[first % 16];
-  if (one) return owner;
-  for (std::uint32_t left = lanes; left != 0; left &= left - 1) {
-    const std::uint16_t number = tile.receiver[std::countr_zero(left)];
+  square.own[place] = block.id[first % 16];
+  square.receiver[place] = first;
+  square.tau = std::max(square.tau, block.tau[first % 16]);
+  for (std::uint32_t left = seen.one ? 0 : seen.lanes; left != 0; left &= left - 1) {
+    const std::uint16_t number = seen.receiver[std::countr_zero(left)];
     if (number == first) continue;
-    owner = {};
-    const ReceiverBlock& other = patch_.receivers[number / 16];
-    tile.owners |= 1ull << (other.id[number % 16] % 64);
-    tile.tau = std::max(tile.tau, other.tau[number % 16]);
+    square.own[place] = no_triangle;
+    square.receiver[place] = several_receivers;
+    square.tau = std::max(square.tau, patch_.receivers[number / 16].tau[number % 16]);
   }
-  return owner;
-}
-
-void PatchMaker::add_tile(const PointTile& tile, std::uint32_t lanes, const Owner& owner, int place,
-                          PointSquare& square) const {
-  square.own[place] = owner.id;
-  square.receiver[place] = owner.receiver;
-  square.lanes[place] = static_cast<std::uint16_t>(lanes);
-  square.filled |= 1u << place;
-  square.radius = std::max(square.radius, tile.radius);
-  square.tau = std::max(square.tau, tile.tau);
-  kernels_.bound(tile, lanes, place, square);
-  const bool several = owner.receiver == several_receivers;
-  if (several && kernels_.beyond_gap(tile, lanes) != 0) square.gaps |= 1u << place;
 }
 
 void PatchMaker::add_square(std::uint32_t x, std::uint32_t y, std::uint32_t first) {
   PointSquare square{};
   square.first_tile = first;
   glm::vec3 base(0.0f);
+  Seen seen;
   for (std::uint32_t t = 0; t < 16; ++t) {
     const std::uint32_t tile_x = x + t % 4 * tile_side, tile_y = y + t / 4 * tile_side;
+    const int place = static_cast<int>(t);
     PointTile& tile = out_.tiles[first + t];
-    const bool one = one_receiver(tile_x, tile_y);
-    const std::uint32_t lanes = find_receivers(tile_x, tile_y, one, tile);
-    if (lanes == 0) continue;
+    find_receivers(tile_x, tile_y, seen, tile);
+    if (seen.lanes == 0) continue;
     const TileRows rows(points_, tile_x, tile_y);
-    if (square.filled == 0) base = rows.point(std::countr_zero(lanes));
-    kernels_.fill(rows, base, lanes, tile);
-    tile.pixel = tile_y * width_ + tile_x;
-    add_tile(tile, lanes, note_owners(tile, lanes, one), static_cast<int>(t), square);
+    if (square.filled == 0) base = rows.point(std::countr_zero(seen.lanes));
+    square.filled |= 1u << t;
+    square.lanes[t] = static_cast<std::uint16_t>(seen.lanes);
+    square.base.radius = std::max(square.base.radius, kernels_.fill(rows, base, seen.lanes, tile));
+    kernels_.bound(tile, seen.lanes, place, square);
+    note_owners(seen, place, square);
+    if (square.receiver[t] != several_receivers) continue;
+    patch_.mixed.push_back(seen.receiver);
+    if (kernels_.beyond_gap(tile, seen.lanes) != 0) square.gaps |= 1u << t;
   }
   if (square.filled == 0) return;
   // What leaves the range of floats is for others to look at (not NaN: max takes what is finite).
   const bool finite = std::isfinite(base.x) && std::isfinite(base.y) && std::isfinite(base.z);
-  if (!finite) square.radius = std::numeric_limits<float>::infinity();
-  for (int k = 0; k < 3; ++k) square.base[k] = base[k];
-  for (std::uint32_t left = square.filled; left != 0; left &= left - 1)
-    out_.tiles[first + static_cast<std::uint32_t>(std::countr_zero(left))].radius = square.radius;
+  if (!finite) square.base.radius = std::numeric_limits<float>::infinity();
+  for (int k = 0; k < 3; ++k) square.base.at[k] = base[k];
+  out_.bases[first / 16] = square.base;
   patch_.squares.push_back(square);
 }
 
 }  // namespace
 
 std::size_t PointTiles::byte_count() const {
-  std::size_t bytes = tiles.size() * sizeof(PointTile);
+  std::size_t bytes = tiles.size() * sizeof(PointTile) + bases.size() * sizeof(PointBase);
   for (const PointPatch& patch : patches)
-    bytes += patch.squares.size() * sizeof(PointSquare) + patch.receivers.size() * sizeof(ReceiverBlock);
+    bytes += patch.squares.size() * sizeof(PointSquare) + patch.receivers.size() * sizeof(ReceiverBlock) +
+             patch.mixed.size() * sizeof(TileReceivers);
   return bytes;
 }
 
 void begin_point_tiles(int width, int height, const ViewRays& view, PointTiles& out) {
   const SquareGrid grid(width, height);
-  out.tiles.resize(static_cast<std::size_t>(grid.columns) * grid.rows * 16);
+  out.bases.resize(static_cast<std::size_t>(grid.columns) * grid.rows);
+  out.tiles.resize(out.bases.size() * 16);
   out.patches.resize(static_cast<std::size_t>(grid.row_patches) * grid.rows);
   out.view = view;
 }

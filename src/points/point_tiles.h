@@ -6,6 +6,7 @@
 // triangles may straddle a gap in depth; this is noted.
 #pragma once
 
+#include <array>
 #include <cstddef>
 #include <cstdint>
 #include <glm/glm.hpp>
@@ -23,18 +24,22 @@ inline constexpr std::uint32_t square_side = 16;
 inline constexpr std::uint32_t patch_squares = 64;           ///< in a row
 inline constexpr std::uint16_t several_receivers = 0xffffu;  ///< no index of a receiver
 
-/// Sixteen pixels; lane i is pixel + i % 4 + i / 4 * width. Its point is base + q_i, q rounded to float.
-/// Lanes that face away from the eye or see nothing hold the q of another.
+/// What the points of a square are relative to.
+struct PointBase {
+  float at[3];   ///< exact
+  float radius;  ///< >= |q| of all points of the square
+};
+
+/// Sixteen pixels, four rows of four. The point of lane i is base + q_i, q rounded to float. Lanes that face
+/// away from the eye or see nothing hold the q of another.
 struct alignas(64) PointTile {
   float qx[tile_points], qy[tile_points], qz[tile_points];
-  float base[3];  ///< exact; of the whole square too
-  float radius;   ///< >= |q| of all points of the square
-  std::uint32_t pixel;
-  float tau;                            ///< largest rounding tolerance of the points' triangles, rounded up
-  std::uint64_t owners;                 ///< bit id % 64 of all triangles that points lie on
-  std::uint16_t receiver[tile_points];  ///< number in PointPatch::receivers, where a lane has a point
+  std::uint32_t id[tile_points];  ///< of the triangle that the point lies on; no_triangle: there is no point
 };
 static_assert(sizeof(PointTile) == 256);
+
+/// Numbers in PointPatch::receivers, where a lane has a point.
+using TileReceivers = std::array<std::uint16_t, tile_points>;
 
 /// Sixteen tiles, boxes of q of each. What is said of a tile that is not `filled` means nothing.
 struct alignas(64) PointSquare {
@@ -45,9 +50,8 @@ struct alignas(64) PointSquare {
   std::uint32_t first_tile;
   std::uint32_t filled;  ///< bits of the tiles with points
   std::uint32_t gaps;    ///< bits of the tiles with a gap
-  float base[3];         ///< of q
-  float radius;          ///< >= |q| of all
-  float tau;             ///< largest of the tiles'
+  PointBase base;
+  float tau;  ///< largest rounding tolerance of the points' triangles, rounded up
 };
 
 /// Sixteen triangles that points lie on and that face the eye: points above (n, a) are before them.
@@ -64,11 +68,13 @@ struct alignas(64) ReceiverBlock {
 struct PointPatch {
   std::vector<PointSquare> squares;  ///< that have points
   std::vector<ReceiverBlock> receivers;
+  std::vector<TileReceivers> mixed;  ///< of tiles of several receivers, in the order of squares and tiles
   std::uint32_t receiver_count = 0;
 };
 
 struct PointTiles {
   std::vector<PointTile> tiles;  ///< sixteen a square, squares row by row; those without points as they were
+  std::vector<PointBase> bases;  ///< one a square
   std::vector<PointPatch> patches;
   ViewRays view;  ///< whose eye the triangles face
 
@@ -83,6 +89,24 @@ struct SquareGrid {
         row_patches((columns + patch_squares - 1) / patch_squares) {}
   std::uint32_t columns, rows;
   std::uint32_t row_patches;
+};
+
+/// First pixels of tiles by their number.
+class TilePixels {
+public:
+  TilePixels(int width, int height)
+      : columns_(SquareGrid(width, height).columns), width_(static_cast<std::size_t>(width)) {}
+  std::size_t operator()(std::uint32_t tile) const {
+    const std::uint32_t square = tile / 16, row = square / columns_, column = square - row * columns_;
+    return (static_cast<std::size_t>(row) * 16 + tile % 16 / 4 * 4) * width_ + column * 16 + tile % 4 * 4;
+  }
+  std::size_t operator()(std::uint32_t tile, int lane) const {
+    return (*this)(tile) + static_cast<std::size_t>(lane / 4) * width_ + static_cast<std::size_t>(lane % 4);
+  }
+
+private:
+  std::uint32_t columns_;
+  std::size_t width_;
 };
 
 /// Makes room for the tiles of a picture; patches are then made one by one, in any order.

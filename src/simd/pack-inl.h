@@ -504,6 +504,35 @@ HWY_INLINE std::uint32_t equal_bits(const std::uint32_t* sixteen, std::uint32_t 
                     splat<P>(static_cast<std::int32_t>(value))));
 }
 
+/// Sum of all lanes, in an order of the target's own.
+template <class T, int N>
+HWY_INLINE T total(Pack<T, N> a) {
+  for (int i = 1; i < a.registers; ++i) a.r[0] = hn::Add(a.r[0], a.r[i]);
+  return hn::GetLane(hn::SumOfLanes(typename Pack<T, N>::Tag(), a.r[0]));
+}
+
+/// Sixteen points by coordinate: point 4 i + k is x y z at lanes 4 i ... 4 i + 2 of p[k].
+HWY_INLINE Pack3<Float16> transposed(const Float16 (&p)[4]) {
+  Pack3<Float16> t;
+#if HWY_TARGET == HWY_SCALAR
+  for (int i = 0; i < 16; ++i) {
+    const auto* const from = &p[i % 4].r[i / 4 * 4];
+    t.x.r[i] = from[0], t.y.r[i] = from[1], t.z.r[i] = from[2];
+  }
+#else
+  const Float16::Tag d;
+  for (int i = 0; i < Float16::registers; ++i) {
+    const auto xy02 = hn::InterleaveLower(d, p[0].r[i], p[2].r[i]);
+    const auto xy13 = hn::InterleaveLower(d, p[1].r[i], p[3].r[i]);
+    t.x.r[i] = hn::InterleaveLower(d, xy02, xy13);
+    t.y.r[i] = hn::InterleaveUpper(d, xy02, xy13);
+    t.z.r[i] = hn::InterleaveLower(d, hn::InterleaveUpper(d, p[0].r[i], p[2].r[i]),
+                                   hn::InterleaveUpper(d, p[1].r[i], p[3].r[i]));
+  }
+#endif
+  return t;
+}
+
 }  // namespace tenebra::HWY_NAMESPACE
 HWY_AFTER_NAMESPACE();
 

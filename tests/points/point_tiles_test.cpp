@@ -34,51 +34,69 @@ TiledCase tiled_room(std::uint64_t seed, int width, int height, double scale = 1
   return c;
 }
 
-const ReceiverBlock& block_of(const PointPatch& patch, std::uint16_t number) {
-  return patch.receivers[number / 16];
-}
-
-/// One tile of a square against the points of its pixels.
-void check_tile(const TiledCase& c, const PointPatch& patch, const PointSquare& square, std::uint32_t t) {
-  const PointTile& tile = c.points.tiles.tiles[square.first_tile + t];
+/// One tile of a square against the points of its pixels; `mixed`: what it lies on, if that is several.
+void check_tile(const TiledCase& c, const PointPatch& patch, const PointSquare& square, std::uint32_t t,
+                const TileReceivers* mixed) {
+  const std::uint32_t number = square.first_tile + t;
+  const PointTile& tile = c.points.tiles.tiles[number];
+  const TilePixels pixel_of(c.points.width, c.points.height);
+  EXPECT_EQ(std::memcmp(&c.points.tiles.bases[number / 16], &square.base, sizeof(PointBase)), 0);
   for (std::uint32_t lane = 0; lane < 16; ++lane) {
-    if (((square.lanes[t] >> lane) & 1u) == 0) continue;
-    const std::size_t pixel = tile.pixel + lane % 4 + lane / 4 * static_cast<std::size_t>(c.points.width);
-    const std::uint32_t id = c.points.triangles[pixel], number = tile.receiver[lane];
-    ASSERT_LT(number, patch.receiver_count);
-    EXPECT_EQ(block_of(patch, tile.receiver[lane]).id[number % 16], id);
-    EXPECT_NE((tile.owners >> (id % 64)) & 1u, 0u);
-    EXPECT_TRUE(square.own[t] == id || square.own[t] == no_triangle);
-    EXPECT_GE(tile.tau, rounding_tolerance(corners_of(c.soup.view(), id).v));
+    if (((square.lanes[t] >> lane) & 1u) == 0) {
+      EXPECT_TRUE(tile.id[lane] == no_triangle);
+      continue;
+    }
+    const std::size_t pixel = pixel_of(number, static_cast<int>(lane));
+    const std::uint32_t id = c.points.triangles[pixel];
+    const std::uint16_t receiver = mixed == nullptr ? square.receiver[t] : (*mixed)[lane];
+    ASSERT_LT(receiver, patch.receiver_count);
+    EXPECT_EQ(patch.receivers[receiver / 16].id[receiver % 16], id);
+    EXPECT_EQ(tile.id[lane], id);
+    EXPECT_EQ(square.own[t], mixed == nullptr ? id : no_triangle);
+    EXPECT_GE(square.tau, rounding_tolerance(corners_of(c.soup.view(), id).v));
     const float q[3] = {tile.qx[lane], tile.qy[lane], tile.qz[lane]};
     double length2 = 0;
     for (int axis = 0; axis < 3; ++axis) {
-      EXPECT_EQ(square.base[axis], tile.base[axis]);
-      const double exact = c.points.positions[pixel][axis] - static_cast<double>(tile.base[axis]);
+      const double exact = c.points.positions[pixel][axis] - static_cast<double>(square.base.at[axis]);
       EXPECT_LE(std::abs(static_cast<double>(q[axis]) - exact), u * std::abs(exact) + 1e-40);
       EXPECT_LE(square.low[axis][t], q[axis]);
       EXPECT_GE(square.high[axis][t], q[axis]);
       length2 += static_cast<double>(q[axis]) * static_cast<double>(q[axis]);
     }
-    EXPECT_GE(static_cast<double>(tile.radius), std::sqrt(length2));
-    EXPECT_EQ(tile.radius, square.radius);
+    EXPECT_GE(static_cast<double>(square.base.radius), std::sqrt(length2));
   }
+}
+
+/// All tiles of a case; returns how many lie on several triangles.
+std::size_t check_tiles(const TiledCase& c) {
+  std::size_t all_mixed = 0;
+  for (const PointPatch& patch : c.points.tiles.patches) {
+    std::size_t mixed = 0;
+    for (const PointSquare& square : patch.squares) {
+      for (std::uint32_t t = 0; t < 16; ++t) {
+        if (((square.filled >> t) & 1u) == 0) continue;
+        const bool several = square.receiver[t] == several_receivers;
+        check_tile(c, patch, square, t, several ? &patch.mixed.at(mixed++) : nullptr);
+      }
+    }
+    EXPECT_EQ(mixed, patch.mixed.size());
+    all_mixed += mixed;
+  }
+  return all_mixed;
 }
 
 TEST(PointTiles, HoldThePointsThatFaceTheEye) {
   for (const auto& [width, height] : {std::pair{97, 61}, {16, 16}, {5, 3}, {1040, 18}}) {
     const TiledCase c = tiled_room(31, width, height);
+    const TilePixels pixel_of(width, height);
     std::vector<int> met(c.points.triangles.size(), 0);
+    EXPECT_GT(check_tiles(c), 0u);
     for (const PointPatch& patch : c.points.tiles.patches) {
       for (const PointSquare& square : patch.squares) {
         for (std::uint32_t t = 0; t < 16; ++t) {
           if (((square.filled >> t) & 1u) == 0) continue;
-          check_tile(c, patch, square, t);
-          const PointTile& tile = c.points.tiles.tiles[square.first_tile + t];
-          for (std::uint32_t lanes = square.lanes[t]; lanes != 0; lanes &= lanes - 1) {
-            const auto lane = static_cast<std::size_t>(std::countr_zero(lanes));
-            ++met[tile.pixel + lane % 4 + lane / 4 * static_cast<std::size_t>(width)];
-          }
+          for (std::uint32_t lanes = square.lanes[t]; lanes != 0; lanes &= lanes - 1)
+            ++met[pixel_of(square.first_tile + t, std::countr_zero(lanes))];
         }
       }
     }
@@ -92,13 +110,9 @@ TEST(PointTiles, HoldThePointsThatFaceTheEye) {
 
 TEST(PointTiles, StayPreciseFarFromTheOrigin) {
   const TiledCase c = tiled_room(32, 64, 64, 1, 1e6);
-  for (const PointPatch& patch : c.points.tiles.patches) {
-    for (const PointSquare& square : patch.squares) {
-      EXPECT_LT(square.radius, 100);
-      for (std::uint32_t t = 0; t < 16; ++t)
-        if (((square.filled >> t) & 1u) != 0) check_tile(c, patch, square, t);
-    }
-  }
+  EXPECT_GT(check_tiles(c), 0u);
+  for (const PointPatch& patch : c.points.tiles.patches)
+    for (const PointSquare& square : patch.squares) EXPECT_LT(square.base.radius, 100);
 }
 
 // What a receiver says of a light, beyond its slack, is what the exact sign says.

@@ -98,6 +98,52 @@ TEST(Tiles, ReadPointsThatComeInTiles) {
   }
 }
 
+// Counted once each, however many roots meet them, and taken back when they get an area.
+TEST(Tiles, CountWhatBlocksNothing) {
+  MaskCase c = room_case(79, 200, 150);
+  c.soup.casts.assign(c.soup.triangles.size(), 1);
+  const auto degenerate = [&c](Variant variant, ShadowTracer& tracer, int threads) {
+    c.config.variant = variant;
+    with_threads(threads, [&] { traced(c, tracer); });
+    return tracer.stats().degenerate_triangles;
+  };
+  ShadowTracer cones, tiles;
+  const std::uint64_t before = degenerate(Variant::precise_sorted, cones, 1);
+  EXPECT_LE(degenerate(Variant::tiles, tiles, 1), before);
+  const auto first = static_cast<std::uint32_t>(c.soup.triangles.size());
+  const double x = c.light.position.x;
+  for (int i = 0; i < 5; ++i)  // edge-on to the light, all through the room
+    c.soup.add({x, -1, 0.3 * i - 1.5}, {x, -0.4, 0.3 * i - 1.2}, {x, 0.7, 0.2 * i - 0.5});
+  c.soup.add({-2, -2, -2}, {0, 0, 0}, {2, 2, 2});  // without area
+  c.soup.casts.resize(c.soup.triangles.size(), 1);
+  c.soup.triangles[3] = glm::uvec3(7);                       // hidden
+  c.soup.casts[4] = 0, c.soup.triangles[4] = glm::uvec3(8);  // casts nothing anyway
+  const std::uint64_t expected = degenerate(Variant::precise_sorted, cones, 1);
+  EXPECT_GE(expected, before + 7);
+  for (const int threads : {1, 3}) EXPECT_EQ(degenerate(Variant::tiles, tiles, threads), expected);
+  for (std::uint32_t i = first; i < c.soup.triangles.size(); ++i) c.soup.triangles[i] = glm::uvec3(0);
+  EXPECT_EQ(degenerate(Variant::tiles, tiles, 1), degenerate(Variant::precise_sorted, cones, 1));
+}
+
+// A light low in the middle of a field of boxes that is seen from afar: pixels side by side lie in all
+// directions from it. Tiles as they stand are then tested with most of the field's triangles.
+TEST(Tiles, AreSplitWhereTheyAreWideFromTheLight) {
+  MaskCase c;
+  c.soup.quad({-41, 0, 41}, {82, 0, 0}, {0, 0, -82});
+  for (int x = -20; x < 20; ++x) {
+    for (int z = -20; z < 20; ++z)
+      c.soup.append(box({2 * x + 0.5, 0, 2 * z + 0.5}, {2 * x + 1.25, 0.5, 2 * z + 1.5}));
+  }
+  c.light = point_light({0.1, 0.75, 0.2});
+  c.view = pinhole({60, 50, 60}, {0, 0, 0}, 0.8, 96, 96);
+  c.points = view_samples(c.soup.view(), c.view, 96, 96);
+  ShadowTracer tracer;
+  EXPECT_TRUE(same_mask(c, traced(c, tracer), oracle(c)));
+  const double rays = static_cast<double>(tracer.stats().rays);
+  EXPECT_GT(rays, 1000);
+  EXPECT_LT(static_cast<double>(tracer.stats().leaf_tests), 8 * rays);
+}
+
 TEST(Tiles, GiveWayWhereTheyDoNotApply) {
   MaskCase c = room_case(75, 64, 64);
   c.light = sun({0.3, 1, 0.2});

@@ -14,18 +14,26 @@ namespace tenebra::HWY_NAMESPACE {
 
 namespace {
 
+/// Corner k of all triangles.
+HWY_INLINE Pack3<Float16> corners_at(const glm::vec3* positions, const ClusterCorners& corners, int k) {
+  const char* const from = reinterpret_cast<const char*>(&positions[corners.first]);
+  const auto corner = [&](int i) HWY_ATTR {
+    return load<Float4>(reinterpret_cast<const float*>(from + corners.offset[k][i]));
+  };
+  Float16 p[4];
+  for (int i = 0; i < 4; ++i) p[i] = joined({corner(i), corner(i + 4), corner(i + 8), corner(i + 12)});
+  return transposed(p);
+}
+
 void follow(const glm::vec3* positions, const ClusterCorners& corners, TriangleCluster& cluster,
             BoxNode& node, std::size_t lane) {
   float(*const axes[3])[16] = {cluster.x, cluster.y, cluster.z};
-  const float* const from = &positions[corners.first].x;
   const Float16 zero = splat<Float16>(0.0f);
   Float16 p[3][3], broken = zero;  // NaN where a coordinate is not finite
   for (int k = 0; k < 3; ++k) {
-    const Int16 offset = load<Int16>(corners.offset[k]);
-    for (int axis = 0; axis < 3; ++axis) {
-      p[axis][k] = gather<float>(from + axis, offset);
-      broken = broken + p[axis][k] * zero;
-    }
+    const Pack3<Float16> corner = corners_at(positions, corners, k);
+    p[0][k] = corner.x, p[1][k] = corner.y, p[2][k] = corner.z;
+    for (int axis = 0; axis < 3; ++axis) broken = broken + p[axis][k] * zero;
   }
   const Truth<float, 16> used = truth_of<float, 16>(corners.possible) & equal(broken, zero);
   cluster.used = bits(used);

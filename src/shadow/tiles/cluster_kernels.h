@@ -11,8 +11,9 @@ namespace tenebra {
 
 /// Code for one instruction set; all give the same.
 struct ClusterKernels {
-  /// Corners of the cluster's triangles from positions[first + offset / 12 bytes]; `used` loses those that
-  /// are not finite. The box around the used ones becomes lane `lane` of `node`.
+  /// Corners of the cluster's triangles from positions[first + offset / 12 bytes] (of which four floats are
+  /// read: another must follow the last); `used` loses those that are not finite. The box around the used
+  /// ones becomes lane `lane` of `node`.
   void (*follow)(const glm::vec3* positions, const ClusterCorners& corners, TriangleCluster& cluster,
                  BoxNode& node, std::size_t lane) = nullptr;
 };

@@ -3,10 +3,10 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
-#include <utility>
 
 #include "parallel/parallel.h"
 #include "points/triangle_corners.h"
+#include "shadow/tiles/triangle_clusters.h"
 
 namespace tenebra {
 
@@ -16,92 +16,108 @@ using glm::vec3;
 
 // Longest edge in units of the scene's longest side: above the first, above the second, below.
 constexpr float class_limits[] = {1.0f / 16, 1.0f / 128};
-constexpr std::size_t class_count = 3, cluster = 16, node = 256;
+constexpr std::size_t class_count = 3, node_size = 256;
 
-std::uint32_t spread_by_two(std::uint32_t v) {
-  std::uint32_t r = 0;
-  for (int bit = 0; bit < 10; ++bit) r |= ((v >> bit) & 1u) << (3 * bit);
-  return r;
+bool is_finite(const vec3& p) {
+  return std::isfinite(p.x) && std::isfinite(p.y) && std::isfinite(p.z);
 }
 
-struct Frame {
+/// The longest side of the box around all vertices.
+float extent_of(const TriangleView& t) {
   vec3 low{std::numeric_limits<float>::infinity()}, high{-std::numeric_limits<float>::infinity()};
+  for (const vec3& p : t.positions)
+    if (is_finite(p)) low = glm::min(low, p), high = glm::max(high, p);
+  return std::max({high.x - low.x, high.y - low.y, high.z - low.z});
+}
 
-  float longest() const { return std::max({high.x - low.x, high.y - low.y, high.z - low.z}); }
-  /// Morton code of 30 bits; points that are not finite get any.
-  std::uint32_t morton(const vec3& p) const {
-    std::uint32_t code = 0;
-    for (int axis = 0; axis < 3; ++axis) {
-      const float extent = high[axis] - low[axis];
-      const float place = extent > 0 ? (p[axis] - low[axis]) / extent : 0.0f;
-      const float cell = place > 0 ? std::min(place, 1.0f) * 1023.0f : 0.0f;
-      code |= spread_by_two(static_cast<std::uint32_t>(cell)) << axis;
-    }
-    return code;
-  }
+struct Item {
+  std::uint32_t id;
+  vec3 centre;  ///< finite
 };
 
-vec3 centre_of(const Corners& c) {
-  return c.v[0] / 3.0f + c.v[1] / 3.0f + c.v[2] / 3.0f;
+Item item_of(std::uint32_t id, const Corners& c) {
+  const vec3 centre = c.v[0] / 3.0f + c.v[1] / 3.0f + c.v[2] / 3.0f;
+  return {id, is_finite(centre) ? centre : vec3(0.0f)};
 }
 
-Frame frame_of(const TriangleView& t) {
-  Frame frame;
-  for (const vec3& p : t.positions) {
-    if (!std::isfinite(p.x) || !std::isfinite(p.y) || !std::isfinite(p.z)) continue;
-    frame.low = glm::min(frame.low, p);
-    frame.high = glm::max(frame.high, p);
-  }
-  return frame;
+/// Items first ... last - 1, near ones together: cut in two across their longest side, and so on, between
+/// multiples of `unit`; of `larger` ones while there are several.
+void cut_in_halves(std::vector<Item>& items, std::size_t first, std::size_t last, std::size_t unit,
+                   std::size_t larger) {
+  const std::size_t step = last - first >= 2 * larger ? larger : unit;
+  const std::size_t middle = (first + (last - first) / 2 + step / 2) / step * step;
+  if (middle <= first || middle >= last) return;
+  vec3 low = items[first].centre, high = low;
+  for (std::size_t i = first; i < last; ++i)
+    low = glm::min(low, items[i].centre), high = glm::max(high, items[i].centre);
+  const vec3 size = high - low;
+  const int axis = size.x >= size.y && size.x >= size.z ? 0 : size.y >= size.z ? 1 : 2;
+  const auto at = [&](std::size_t i) { return items.begin() + static_cast<std::ptrdiff_t>(i); };
+  std::nth_element(at(first), at(middle), at(last), [axis](const Item& a, const Item& b) {
+    return a.centre[axis] != b.centre[axis] ? a.centre[axis] < b.centre[axis] : a.id < b.id;
+  });
+  cut_in_halves(items, first, middle, unit, larger);
+  cut_in_halves(items, middle, last, unit, larger);
 }
 
-/// Rank of each part along the curve, by its first triangle.
-std::vector<std::uint32_t> part_ranks(const TriangleView& t, const Frame& frame) {
-  std::vector<std::pair<std::uint32_t, std::uint32_t>> keys;
-  for (std::uint32_t i = 0; i < t.parts.size(); ++i) {
-    const bool there = t.parts[i] < t.triangles.size();
-    keys.emplace_back(there ? frame.morton(centre_of(corners_of(t, t.parts[i]))) : 0u, i);
+/// Triangles first ... last - 1.
+struct Part {
+  std::uint32_t first, last;
+};
+
+/// All parts, near ones together by their first triangles.
+std::vector<Part> parts_in_order(const TriangleView& t) {
+  const auto count = static_cast<std::uint32_t>(t.triangles.size());
+  if (t.parts.empty()) return {{0, count}};
+  std::vector<Item> items;
+  for (std::uint32_t i = 0; i < t.parts.size(); ++i)
+    items.push_back(t.parts[i] < count ? item_of(i, corners_of(t, t.parts[i])) : Item{i, vec3(0.0f)});
+  cut_in_halves(items, 0, items.size(), 1, 1);
+  std::vector<Part> parts;
+  for (const Item& item : items) {
+    const bool is_last = item.id + 1 == t.parts.size();
+    parts.push_back({item.id == 0 ? 0 : t.parts[item.id], is_last ? count : t.parts[item.id + 1]});
   }
-  std::sort(keys.begin(), keys.end());
-  std::vector<std::uint32_t> ranks(std::max<std::size_t>(1, keys.size()), 0);
-  for (std::uint32_t r = 0; r < keys.size(); ++r) ranks[keys[r].second] = r;
-  return ranks;
+  return parts;
 }
 
 float longest_edge(const Corners& c) {
   return std::max({glm::length(c.v[1] - c.v[0]), glm::length(c.v[2] - c.v[1]), glm::length(c.v[0] - c.v[2])});
 }
 
-struct Key {
-  std::uint64_t place;  // rank of the part, Morton code
-  std::uint32_t id;
-  bool operator<(const Key& other) const {
-    return place != other.place ? place < other.place : id < other.id;
-  }
+/// Casters of one class of size, and where each part of them begins.
+struct SizeClass {
+  std::vector<Item> items;
+  std::vector<std::size_t> begins;
 };
+
+void sort_class(SizeClass& c) {
+  c.begins.push_back(c.items.size());
+  for (std::size_t i = 0; i + 1 < c.begins.size(); ++i)
+    cut_in_halves(c.items, c.begins[i], c.begins[i + 1], cluster_size, node_size);
+}
 
 }  // namespace
 
 void cluster_order(const TriangleView& t, std::vector<std::uint32_t>& order) {
-  const Frame frame = frame_of(t);
-  const std::vector<std::uint32_t> ranks = part_ranks(t, frame);
-  std::vector<Key> classes[class_count];
-  std::size_t part = 0;
-  for (std::uint32_t id = 0; id < t.triangles.size(); ++id) {
-    while (part + 1 < t.parts.size() && t.parts[part + 1] <= id) ++part;
-    if (!t.casts_shadow.empty() && t.casts_shadow[id] == 0) continue;
-    const Corners c = corners_of(t, id);
-    const float size = longest_edge(c) / frame.longest();
-    const std::size_t k = size > class_limits[0] ? 0 : size > class_limits[1] ? 1 : 2;
-    classes[k].push_back({static_cast<std::uint64_t>(ranks[part]) << 30 | frame.morton(centre_of(c)), id});
+  const float extent = extent_of(t);
+  SizeClass classes[class_count];
+  for (const Part& part : parts_in_order(t)) {
+    for (SizeClass& c : classes) c.begins.push_back(c.items.size());
+    for (std::uint32_t id = part.first; id < part.last; ++id) {
+      if (!t.casts_shadow.empty() && t.casts_shadow[id] == 0) continue;
+      const Corners c = corners_of(t, id);
+      const float size = longest_edge(c) / extent;
+      classes[size > class_limits[0] ? 0 : size > class_limits[1] ? 1 : 2].items.push_back(item_of(id, c));
+    }
   }
-  parallel_tasks(class_count, [&](int k) { std::sort(classes[k].begin(), classes[k].end()); });
+  parallel_tasks(class_count, [&](int k) { sort_class(classes[k]); });
   order.clear();
-  for (const auto& keys : classes) {
-    if (!keys.empty()) order.resize((order.size() + node - 1) / node * node, no_triangle);
-    for (const Key& key : keys) order.push_back(key.id);
+  for (const SizeClass& c : classes) {
+    if (!c.items.empty()) order.resize((order.size() + node_size - 1) / node_size * node_size, no_triangle);
+    for (const Item& item : c.items) order.push_back(item.id);
   }
-  order.resize((order.size() + cluster - 1) / cluster * cluster, no_triangle);
+  order.resize((order.size() + cluster_size - 1) / cluster_size * cluster_size, no_triangle);
 }
 
 }  // namespace tenebra

@@ -77,9 +77,9 @@ inline std::uint32_t settle_sides(const TriangleCluster& c, int at, std::uint32_
   return edge_on;
 }
 
-/// Planes of triangles at ... at + 7; returns the bits of those that may block something.
-HWY_INLINE std::uint32_t set_up_eight(const TriangleCluster& c, int at, const RaySource& source, bool use_tau,
-                                      bool cull_front, ClusterPlanes& out) {
+/// Planes of triangles at ... at + 7, whose bits of `valid` and `edge_on` are added.
+HWY_INLINE void set_up_eight(const TriangleCluster& c, int at, const RaySource& source, bool use_tau,
+                             bool cull_front, ClusterPlanes& out) {
   Eight t = load_eight(c, at, source.origin);
   const Vector8 e1 = t.a[1] - t.a[0], e2 = t.a[2] - t.a[0], n = cross(e1, e2);
   const Double8 own_squares = dot(e1, e1) * dot(e2, e2);
@@ -87,7 +87,8 @@ HWY_INLINE std::uint32_t set_up_eight(const TriangleCluster& c, int at, const Ra
   std::uint32_t valid = (c.used >> at) & 255u;
   double side[8];
   store(t.side, side);
-  valid &= ~settle_sides(c, at, valid, source, side);
+  const std::uint32_t edge_on = settle_sides(c, at, valid, source, side);
+  valid &= ~edge_on;
   if (cull_front) {
     for (int i = 0; i < 8; ++i) valid &= side[i] < 0 ? ~(1u << i) : ~0u;
   }
@@ -103,16 +104,19 @@ HWY_INLINE std::uint32_t set_up_eight(const TriangleCluster& c, int at, const Ra
   }
   worst = max(worst, store_plane(out, 3, at, n, t.side, own_squares, unit));
   const Double8 tau = t.largest * splat<Double8>(use_tau ? 1.7320508075688772 * 0x1p-24 : 0.0);
-  store(dot(unit, t.a[0]) + tau, out.d + at);
+  const Double8 d = dot(unit, t.a[0]) + tau;
+  store(d, out.d + at), store_narrowed(d, out.fd + at);
   store_narrowed(square_root(worst) * splat<Double8>(0x1p-48 * (1 + 0x1p-20)), out.rho + at);
   store_narrowed(square_root(reach2) * splat<Double8>(1 + 0x1p-20), out.reach + at);
-  return valid << at;
+  out.valid |= valid << at;
+  out.edge_on |= edge_on << at;
 }
 
 HWY_INLINE void set_up_planes(const TriangleCluster& c, const RaySource& source, bool use_tau,
                               bool cull_front, ClusterPlanes& out) {
-  out.valid = set_up_eight(c, 0, source, use_tau, cull_front, out);
-  out.valid |= set_up_eight(c, 8, source, use_tau, cull_front, out);
+  out.valid = out.edge_on = 0;
+  set_up_eight(c, 0, source, use_tau, cull_front, out);
+  set_up_eight(c, 8, source, use_tau, cull_front, out);
 }
 
 }  // namespace tenebra::HWY_NAMESPACE

@@ -29,12 +29,6 @@ struct RayRef {
   FaceBox box;
 };
 
-/// A triangle that meets rays.
-struct Caster {
-  LeafTriangle leaf;
-  Aim aim;
-};
-
 /// Asks for all of `what`, which is needed soon.
 template <class T>
 HWY_INLINE void fetch_all(const T& what) {
@@ -57,6 +51,7 @@ public:
         face_(face_axes(d.forest.faces[root])),
         light_(d.source.light),
         skip_own_(d.contact == ContactRule::triangle_ids),
+        pixels_(d.points.width, d.points.height),
         scratch_(scratch),
         stats_(stats) {}
 
@@ -68,6 +63,7 @@ private:
     return d_.forest.levels[static_cast<std::size_t>(level)][number];
   }
   const PointTile& tile(const RayNode& n, int slot) const { return d_.tiles.tiles[n.child[slot]]; }
+  const PointBase& base(const RayNode& n, int slot) const { return d_.tiles.bases[n.child[slot] / 16]; }
 
   void note_test(RayNode& n) {
     ++n.tests;
@@ -81,23 +77,26 @@ private:
   FaceBox box_of(int i) const {
     return {lanes_[0][i], lanes_[1][i], lanes_[2][i], lanes_[3][i], lanes_[4][i]};
   }
-  Caster& take(int i);
   void meet_tiles(const RayRef& rays, std::uint32_t met, std::uint32_t mask);
   void by_tiles(std::uint32_t number, std::uint32_t met, std::uint32_t mask);
   void by_triangles(std::uint32_t number, std::uint32_t mask);
   void put_off(std::uint32_t number, int slot, std::uint32_t triangles);
   void test_waiting();
   std::uint32_t cover_tiles(RayNode& n, int i, std::uint32_t met);
-  void test_slot(std::uint32_t number, int slot, const LeafTriangle& t, Aim& aim);
-  void shrink(RayNode& n, int slot) const;
-  void block_rays(RayNode& n, int slot, std::uint32_t sure, std::uint32_t open, std::uint32_t id);
-  /// Whether some of the points may lie on the triangle, which never blocks those.
-  bool may_own(const PointTile& tile, std::uint32_t id) const {
-    return ((tile.owners >> (id % 64)) & 1u) != 0 && skip_own_;
+  void test_tile(const Waiting& w);
+  bool test_triangle(const Waiting& w, const RoughRays& rough, int i);
+  void shrink(RayNode& n, int slot);
+  void tighten(const RayRef& rays);
+  void drop(RayNode& n, int slot) {
+    n.rays[slot] = 0;
+    n.live &= ~(1u << slot);
+    node(1, n.parent).wide |= 1u << n.slot;
   }
-  std::uint32_t own_lanes(const PointTile& tile, std::uint32_t lanes, std::uint32_t id) const;
-  std::uint32_t blocked_lanes(const PointTile& tile, std::uint32_t open, std::uint32_t id);
-  std::size_t pixel_of(const PointTile& tile, int lane) const;
+  /// Lanes of a slot whose points lie on a triangle, which never blocks those.
+  std::uint32_t own_lanes(const RayNode& n, int slot, std::uint32_t id) const {
+    return n.own[slot] == no_triangle && skip_own_ ? equal_bits(tile(n, slot).id, id) : 0;
+  }
+  std::uint32_t blocked_lanes(std::uint32_t tile, std::uint32_t open, std::uint32_t id);
   void retire(int level, std::uint32_t number);
 
   const Descent& d_;
@@ -105,6 +104,7 @@ private:
   const Face face_;
   const glm::vec3 light_;
   const bool skip_own_;  ///< a triangle never blocks its own points
+  const TilePixels pixels_;
   DescentScratch& scratch_;
   TraceStats& stats_;
   // Of the cluster that is on its way down.
@@ -114,8 +114,6 @@ private:
   alignas(64) float lanes_[5][16];  ///< the same, for box_of
   bool set_up_ = false;             ///< the scratch's planes, and the same on the face
   FaceCluster on_face_;
-  std::uint32_t taken_ = 0;  ///< bits of the casters that are ready
-  Caster casters_[16];
   Waiting waiting_[most_waiting];
   int waiting_count_ = 0;
 };
@@ -179,7 +177,6 @@ void RootDescent::meet_cluster(const TriangleCluster& cluster, const RayRef& ray
   cluster_ = &cluster;
   cluster_box_ = box;
   set_up_ = false;
-  taken_ = 0;
   descend_cluster(rays, ahead);
   test_waiting();
 }
@@ -189,7 +186,7 @@ void RootDescent::descend_cluster(const RayRef& rays, std::uint32_t mask) {
   RayNode& n = node(rays);
   note_test(n);
   const std::uint32_t met = children_met(n, cluster_box_);
-  if (met == 0) return;
+  if (met == 0) return tighten(rays);
   if (rays.level == 0) return meet_tiles(rays, met, mask);
   std::uint16_t deeper[16];
   std::uint32_t entered = 0;
@@ -213,17 +210,8 @@ void RootDescent::set_up_cluster() {
   store(boxes_.v1, lanes_[3]), store(boxes_.w, lanes_[4]);
   set_up_planes(*cluster_, d_.source, skip_own_, d_.cull_front, scratch_.planes);
   face_cluster(scratch_.planes, face_, d_.forest.tau, on_face_);
-}
-
-/// Triangle i of the cluster made ready for rays.
-Caster& RootDescent::take(int i) {
-  Caster& c = casters_[i];
-  if (((taken_ >> i) & 1u) == 0) {
-    taken_ |= 1u << i;
-    take_triangle(scratch_.planes, i, cluster_->ids[i], c.leaf);
-    c.aim.square = no_square;
-  }
-  return c;
+  for (std::uint32_t left = scratch_.planes.edge_on; left != 0; left &= left - 1)
+    scratch_.edge_on.push_back(cluster_->ids[std::countr_zero(left)]);
 }
 
 // Few tiles look for their triangles sixteen at a time, few triangles for their tiles.
@@ -280,15 +268,7 @@ void RootDescent::put_off(std::uint32_t number, int slot, std::uint32_t triangle
 }
 
 void RootDescent::test_waiting() {
-  for (int k = 0; k < waiting_count_; ++k) {
-    const Waiting& w = waiting_[k];
-    RayNode& n = node(0, w.node);
-    for (std::uint32_t left = w.triangles; left != 0 && n.rays[w.slot] != 0; left &= left - 1) {
-      Caster& c = take(std::countr_zero(left));
-      test_slot(w.node, w.slot, c.leaf, c.aim);
-    }
-    if (n.live == 0) retire(0, w.node);
-  }
+  for (int k = 0; k < waiting_count_; ++k) test_tile(waiting_[k]);
   waiting_count_ = 0;
 }
 
@@ -296,78 +276,73 @@ void RootDescent::test_waiting() {
 std::uint32_t RootDescent::cover_tiles(RayNode& n, int i, std::uint32_t met) {
   for (std::uint32_t left = met & children_covered(n, on_face_, i); left != 0; left &= left - 1) {
     const int slot = std::countr_zero(left);
-    if (n.own[slot] == no_triangle && may_own(tile(n, slot), cluster_->ids[i])) continue;
-    n.rays[slot] = 0;
-    n.live &= ~(1u << slot);
+    if ((n.rays[slot] & own_lanes(n, slot, cluster_->ids[i])) != 0) continue;
+    drop(n, slot);
     met &= ~(1u << slot);
     ++stats_.early_accepts;
   }
   return met;
 }
 
-// The rays of a node's slot against a triangle.
-void RootDescent::test_slot(std::uint32_t number, int slot, const LeafTriangle& t, Aim& aim) {
-  RayNode& n = node(0, number);
-  const PointTile& rays = tile(n, slot);
-  if (d_.tile_tests != nullptr) ++(*d_.tile_tests)[number][static_cast<std::size_t>(slot)];
+void RootDescent::test_tile(const Waiting& w) {
+  RayNode& n = node(0, w.node);
+  const RoughRays rough = rough_rays(tile(n, w.slot), base(n, w.slot), d_.source.origin);
+  bool missed = false;
+  for (std::uint32_t left = w.triangles; left != 0 && n.rays[w.slot] != 0; left &= left - 1)
+    missed |= !test_triangle(w, rough, std::countr_zero(left));
+  if (n.live == 0) return retire(0, w.node);
+  if (missed && ((n.wide >> w.slot) & 1u) != 0 && n.rays[w.slot] != 0) shrink(n, w.slot);
+}
+
+// The rays of a tile against triangle i; false: all are missed.
+bool RootDescent::test_triangle(const Waiting& w, const RoughRays& rough, int i) {
+  RayNode& n = node(0, w.node);
+  const std::uint32_t id = cluster_->ids[i], rays = n.rays[w.slot] & ~own_lanes(n, w.slot, id);
+  if (d_.tile_tests != nullptr) ++(*d_.tile_tests)[w.node][w.slot];
   ++stats_.nodes;
-  stats_.leaf_tests += static_cast<std::uint64_t>(std::popcount(n.rays[slot]));
-  if (aim.square != n.child[slot] / 16) {
-    aim.square = n.child[slot] / 16;
-    take_aim(t, rays, d_.source.origin, aim);
-  }
-  const Verdict verdict = test_rays(t, aim, rays, n.tau);
-  const std::uint32_t near = n.rays[slot] & verdict.near;
-  if (near != 0) {
-    block_rays(n, slot, near & verdict.sure, near & ~verdict.sure, t.id);
-  } else if (((n.wide >> slot) & 1u) != 0) {
-    shrink(n, slot);
-  }
+  stats_.leaf_tests += static_cast<std::uint64_t>(std::popcount(rays));
+  Verdict verdict = rough_verdict(scratch_.planes, i, rough, n.tau);
+  if ((rays & verdict.near & ~verdict.sure) != 0)
+    verdict = fine_verdict(scratch_.planes, i, tile(n, w.slot), base(n, w.slot), d_.source.origin, n.tau);
+  const std::uint32_t near = rays & verdict.near, open = near & ~verdict.sure;
+  if (near == 0) return false;
+  std::uint32_t blocked = near & verdict.sure;
+  if (open != 0) blocked |= blocked_lanes(n.child[w.slot], open, id);
+  n.rays[w.slot] = static_cast<std::uint16_t>(n.rays[w.slot] & ~blocked);
+  n.wide |= 1u << w.slot;
+  if (n.rays[w.slot] == 0) drop(n, w.slot);
+  return true;
 }
 
 // What missed all rays may have met the box only: of all points, or of rays that are blocked by now.
-void RootDescent::shrink(RayNode& n, int slot) const {
+void RootDescent::shrink(RayNode& n, int slot) {
   FaceBox box{};
-  if (bound(tile(n, slot), n.rays[slot], d_.source.origin, d_.forest.faces[root_], box)) n.set_box(slot, box);
+  if (bound(tile(n, slot), base(n, slot), n.rays[slot], d_.source.origin, d_.forest.faces[root_], box))
+    n.set_box(slot, box);
   n.wide &= ~(1u << slot);
+  node(1, n.parent).wide |= 1u << n.slot;
 }
 
-// Lanes of `sure` are blocked but for the triangle's own points, those of `open` may be.
-void RootDescent::block_rays(RayNode& n, int slot, std::uint32_t sure, std::uint32_t open, std::uint32_t id) {
-  const PointTile& rays = tile(n, slot);
-  if (n.own[slot] == no_triangle && may_own(rays, id)) {
-    const std::uint32_t own = own_lanes(rays, sure | open, id);
-    sure &= ~own, open &= ~own;
-  }
-  const std::uint32_t left = n.rays[slot] & ~(open == 0 ? sure : sure | blocked_lanes(rays, open, id));
-  n.rays[slot] = static_cast<std::uint16_t>(left);
-  n.wide |= 1u << slot;
-  if (left == 0) n.live &= ~(1u << slot);
-}
-
-std::size_t RootDescent::pixel_of(const PointTile& tile, int lane) const {
-  return tile.pixel + static_cast<std::size_t>(lane % 4) +
-         static_cast<std::size_t>(lane / 4) * static_cast<std::size_t>(d_.points.width);
-}
-
-std::uint32_t RootDescent::own_lanes(const PointTile& tile, std::uint32_t lanes, std::uint32_t id) const {
-  std::uint32_t own = 0;
-  for (; lanes != 0; lanes &= lanes - 1) {
-    const int lane = std::countr_zero(lanes);
-    if (d_.points.triangles[pixel_of(tile, lane)] == id) own |= 1u << lane;
-  }
-  return own;
+// What missed all children may have met the node's box only, which may be that of rays blocked by now.
+void RootDescent::tighten(const RayRef& rays) {
+  if (rays.level + 1 == ray_levels) return;
+  RayNode& n = node(rays);
+  RayNode& parent = node(rays.level + 1, n.parent);
+  if (((parent.wide >> n.slot) & 1u) == 0 || n.live == 0) return;
+  parent.wide &= ~(1u << n.slot);
+  parent.set_box(static_cast<int>(n.slot), bounds_of(n));
+  if (rays.level + 2 < ray_levels) node(rays.level + 2, parent.parent).wide |= 1u << parent.slot;
 }
 
 /// Of the lanes of `open` those that are blocked: in double, then exactly.
-std::uint32_t RootDescent::blocked_lanes(const PointTile& tile, std::uint32_t open, std::uint32_t id) {
+std::uint32_t RootDescent::blocked_lanes(std::uint32_t tile, std::uint32_t open, std::uint32_t id) {
   const Corners corners = corners_of(d_.triangles, id);
   const TrianglePlanes planes = planes_of(corners.v, id, light_side(corners.v, d_.source), d_.source,
                                           skip_own_ ? rounding_tolerance(corners.v) : 0.0);
   std::uint32_t blocked = 0;
   for (; open != 0; open &= open - 1) {
     const int lane = std::countr_zero(open);
-    const std::size_t pixel = pixel_of(tile, lane);
+    const std::size_t pixel = pixels_(tile, lane);
     if (decide(planes, d_.points.positions[pixel], d_.points.triangles[pixel], d_.source, d_.triangles,
                d_.contact, stats_))
       blocked |= 1u << lane;

@@ -28,14 +28,17 @@ struct alignas(64) ClusterPlanes {
       mz[4][16];                          ///< unit; 0..2: through the light and an edge (d = 0); 3: own plane
   double d[16];                           ///< own plane, tau of the triangle included
   float fx[4][16], fy[4][16], fz[4][16];  ///< the same in float
+  float fd[16];                           ///< d
   float rho[16];                          ///< relative errors, the largest of the four planes', rounded up
   float reach[16];                        ///< >= largest |vertex - light|
   std::uint32_t valid;                    ///< bit i: triangle i may block something
+  std::uint32_t edge_on;                  ///< bit i: it lies in a plane through the light, or has no area
 };
 
 /// Scratch of one thread.
 struct DescentScratch {
   ClusterPlanes planes;
+  std::vector<std::uint32_t> edge_on;  ///< triangles that were found so, as often as they were
 };
 
 /// Code for one instruction set.

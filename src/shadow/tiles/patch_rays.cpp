@@ -12,9 +12,9 @@ namespace {
 
 using glm::dvec3;
 
-// A square is a node as it stands if it is at most this many times as wide as its tiles are on the mean: 4
-// for a flat patch, with room for perspective and curvature.
-constexpr float coherent_extent = 8;
+// Boxes on a face with a larger area (a face has 36) are met by too many triangles: such squares are taken
+// tile by tile, such tiles ray by ray. Near the light pixels side by side may lie in all directions.
+constexpr float widest_square = 1.0f / 64, widest_tile = widest_square / 64;
 constexpr std::ptrdiff_t fetch_ahead = 4;  // squares: the time that memory takes
 
 std::uint8_t face_of(const dvec3& p) {
@@ -31,6 +31,25 @@ FaceBox box_of(const dvec3& p, std::uint8_t face) {
   const auto pu = static_cast<float>(p[(axis + 1) % 3] / z), pv = static_cast<float>(p[(axis + 2) % 3] / z);
   const auto w = static_cast<float>(1 / z);
   return {pu - 32 * u, pu + 32 * u, pv - 32 * u, pv + 32 * u, w * (1 - 16 * u), w * (1 + 16 * u)};
+}
+
+float area(const FaceBox& box) {
+  return (box.u1 - box.u0) * (box.v1 - box.v0);
+}
+
+/// Asks for all of `what`, which is needed in a while.
+template <class T>
+void fetch(const T& what) {
+  const auto* const at = reinterpret_cast<const char*>(&what);
+  for (std::size_t line = 0; line < sizeof(T); line += 64) __builtin_prefetch(at + line);
+}
+
+/// The triangle that the points of some lanes lie on; no_triangle: several.
+std::uint32_t own_of(const PointTile& tile, std::uint32_t lanes) {
+  const std::uint32_t first = tile.id[std::countr_zero(lanes)];
+  for (std::uint32_t left = lanes; left != 0; left &= left - 1)
+    if (tile.id[std::countr_zero(left)] != first) return no_triangle;
+  return first;
 }
 
 }  // namespace
@@ -65,6 +84,7 @@ struct PatchRays::Work {
   ForestScratch::Patch& out;
   Keys node_keys, loose_keys;
   const PointPatch* patch = nullptr;
+  std::size_t mixed = 0;  ///< tiles of several receivers so far
   const PointSquare* square = nullptr;
   std::uint16_t rays[16] = {};
   std::uint32_t present = 0;  ///< bits of tiles with rays
@@ -84,24 +104,19 @@ PatchRays::PatchRays(const VisiblePoints& points, const PointTiles& tiles, const
       point_kernels_(point_tile_kernels(config.simd)),
       ray_kernels_(ray_kernels(config.simd)) {}
 
-std::size_t PatchRays::pixel_at(std::uint32_t tile, int lane) const {
-  return pixels_(tile) + static_cast<std::size_t>(lane / 4) * static_cast<std::size_t>(points_.width) +
-         static_cast<std::size_t>(lane % 4);
-}
-
 /// About the middle of a tile, relative to the light.
 dvec3 PatchRays::centre_of(const PointSquare& square, int tile) const {
   dvec3 centre;
   for (int k = 0; k < 3; ++k) {
     const double middle =
         0.5 * static_cast<double>(square.low[k][tile]) + 0.5 * static_cast<double>(square.high[k][tile]);
-    centre[k] = static_cast<double>(square.base[k]) - source_.origin[k] + middle;
+    centre[k] = static_cast<double>(square.base.at[k]) - source_.origin[k] + middle;
   }
   return centre;
 }
 
-dvec3 PatchRays::point_of(const PointTile& tile, int lane) const {
-  return dvec3(tile.base[0], tile.base[1], tile.base[2]) - source_.origin +
+dvec3 PatchRays::point_of(const PointSquare& square, const PointTile& tile, int lane) const {
+  return dvec3(square.base.at[0], square.base.at[1], square.base.at[2]) - source_.origin +
          dvec3(tile.qx[lane], tile.qy[lane], tile.qz[lane]);
 }
 
@@ -122,15 +137,13 @@ void PatchRays::find_facing(const PointPatch& patch, std::vector<std::uint8_t>& 
   }
 }
 
-std::uint32_t PatchRays::facing_lanes(const PointSquare& square, int tile,
+/// Of lanes on several triangles those that face the light.
+std::uint32_t PatchRays::facing_lanes(const TileReceivers& receivers, std::uint32_t lanes,
                                       const std::vector<std::uint8_t>& facing) const {
-  const std::uint32_t lanes = square.lanes[tile];
-  if (square.receiver[tile] != several_receivers) return facing[square.receiver[tile]] != 0 ? lanes : 0;
-  const PointTile& points = tiles_.tiles[square.first_tile + static_cast<std::uint32_t>(tile)];
   std::uint32_t faced = 0;
   for (std::uint32_t left = lanes; left != 0; left &= left - 1) {
     const int lane = std::countr_zero(left);
-    faced |= static_cast<std::uint32_t>(facing[points.receiver[lane]]) << lane;
+    faced |= static_cast<std::uint32_t>(facing[receivers[static_cast<std::size_t>(lane)]]) << lane;
   }
   return faced;
 }
@@ -139,21 +152,15 @@ std::uint32_t PatchRays::in_reach_lanes(std::uint32_t tile, std::uint32_t lanes)
   std::uint32_t reached = lanes;
   for (std::uint32_t left = lanes; left != 0; left &= left - 1) {
     const int lane = std::countr_zero(left);
-    if (!in_reach(points_.positions[pixel_at(tile, lane)] - source_.origin, light_)) reached &= ~(1u << lane);
+    if (!in_reach(points_.positions[pixels_(tile, lane)] - source_.origin, light_)) reached &= ~(1u << lane);
   }
   return reached;
 }
 
-/// Asks for what is looked at more closely: receivers of tiles with several, points of tiles with gaps.
-void PatchRays::fetch_mixed_tiles(const PointSquare& square) const {
-  for (std::uint32_t left = square.filled; left != 0; left &= left - 1) {
-    const int t = std::countr_zero(left);
-    if (square.receiver[t] != several_receivers) continue;
-    const PointTile& tile = tiles_.tiles[square.first_tile + static_cast<std::uint32_t>(t)];
-    __builtin_prefetch(tile.receiver);
-    if (((square.gaps >> t) & 1u) == 0) continue;
-    for (const float* const q : {tile.qx, tile.qy, tile.qz}) __builtin_prefetch(q);
-  }
+/// Points of tiles with gaps are looked at more closely.
+void PatchRays::fetch_gaps(const PointSquare& square) const {
+  for (std::uint32_t left = square.gaps; left != 0; left &= left - 1)
+    fetch(tiles_.tiles[square.first_tile + static_cast<std::uint32_t>(std::countr_zero(left))]);
 }
 
 void PatchRays::find_lanes(const PointSquare& square, Work& work) const {
@@ -162,7 +169,12 @@ void PatchRays::find_lanes(const PointSquare& square, Work& work) const {
   for (std::uint32_t left = square.filled; left != 0; left &= left - 1) {
     const int t = std::countr_zero(left);
     const std::uint32_t number = square.first_tile + static_cast<std::uint32_t>(t);
-    std::uint32_t lanes = facing_lanes(square, t, work.out.facing);
+    std::uint32_t lanes = square.lanes[t];
+    if (square.receiver[t] == several_receivers) {
+      lanes = facing_lanes(work.patch->mixed[work.mixed++], lanes, work.out.facing);
+    } else if (work.out.facing[square.receiver[t]] == 0) {
+      lanes = 0;
+    }
     if (bounded_ && lanes != 0) lanes = in_reach_lanes(number, lanes);
     work.rays[t] = static_cast<std::uint16_t>(lanes);
     if (lanes == 0) continue;
@@ -176,35 +188,23 @@ void PatchRays::find_lanes(const PointSquare& square, Work& work) const {
   }
 }
 
-/// False: too wide; nothing is done.
-bool PatchRays::add_node(Work& work, std::uint8_t face) const {
-  RayNode& node = work.out.nodes[work.out.count];
-  node.live = node.filled = work.present;
-  const FaceBox all = bounds_of(node);
-  float wide = 0, high = 0;
-  for (std::uint32_t left = work.present; left != 0; left &= left - 1) {
-    const int i = std::countr_zero(left);
-    wide += node.u1[i] - node.u0[i], high += node.v1[i] - node.v0[i];
-  }
-  const float scale = coherent_extent / static_cast<float>(std::popcount(work.present));
-  if (all.u1 - all.u0 > wide * scale || all.v1 - all.v0 > high * scale) return false;
-  for (std::uint32_t i = 0; i < 16; ++i) {
-    node.child[i] = work.square->first_tile + i;
-    node.own[i] = work.square->own[i];
-    node.rays[i] = node.all_rays[i] = work.rays[i];
-  }
-  node.tau = work.square->tau;
-  node.wide = work.present;  // boxes along the axes: shrunk where that pays
+/// The next node, whose boxes are there, gets the square's tiles.
+void PatchRays::add_node(Work& work, std::uint8_t face) const {
+  const PointSquare& square = *work.square;
+  RayNode& node = work.out.nodes[work.out.count++];
+  node.live = node.filled = node.wide = work.present;  // boxes along the axes: shrunk where that pays
+  for (std::uint32_t i = 0; i < 16; ++i) node.child[i] = square.first_tile + i;
+  std::copy(std::begin(square.own), std::end(square.own), node.own);
+  std::copy(std::begin(work.rays), std::end(work.rays), node.rays);
+  std::copy(std::begin(work.rays), std::end(work.rays), node.all_rays);
+  node.tau = square.tau;
   node.tests = 0;
-  work.out.boxes.push_back(all);
-  ++work.out.count;
-  work.node_keys.add(centre_of(*work.square, std::countr_zero(work.present)), face);
-  return true;
+  work.node_keys.add(centre_of(square, std::countr_zero(work.present)), face);
 }
 
 void PatchRays::add_ray(Work& work, int tile, int lane) const {
   const std::uint32_t number = work.square->first_tile + static_cast<std::uint32_t>(tile);
-  const std::size_t pixel = pixel_at(number, lane);
+  const std::size_t pixel = pixels_(number, lane);
   const dvec3 p = points_.positions[pixel] - source_.origin;
   const double size = std::max({std::abs(p.x), std::abs(p.y), std::abs(p.z)});
   if (size == 0) {
@@ -219,21 +219,10 @@ void PatchRays::add_ray(Work& work, int tile, int lane) const {
   work.loose_keys.add(p, face);
 }
 
-/// The triangle that the points of some lanes lie on; no_triangle: several.
-std::uint32_t PatchRays::own_of(const Work& work, int tile, std::uint32_t lanes) const {
-  const PointSquare& square = *work.square;
-  if (square.receiver[tile] != several_receivers) return square.own[tile];
-  const std::uint16_t* const receivers =
-      tiles_.tiles[square.first_tile + static_cast<std::uint32_t>(tile)].receiver;
-  const std::uint16_t first = receivers[std::countr_zero(lanes)];
-  for (std::uint32_t left = lanes; left != 0; left &= left - 1)
-    if (receivers[std::countr_zero(left)] != first) return no_triangle;
-  return work.patch->receivers[first / 16].id[first % 16];
-}
-
-/// Splits a tile at its gaps, and into single rays where it is off its face.
+/// Splits a tile at its gaps, and into single rays where it is off its face or wide.
 void PatchRays::add_parts(Work& work, int tile) const {
-  const std::uint32_t number = work.square->first_tile + static_cast<std::uint32_t>(tile);
+  const PointSquare& square = *work.square;
+  const std::uint32_t number = square.first_tile + static_cast<std::uint32_t>(tile);
   const PointTile& points = tiles_.tiles[number];
   std::uint32_t parts[tile_points], size = 0;
   parts[size++] = work.rays[tile];
@@ -246,13 +235,14 @@ void PatchRays::add_parts(Work& work, int tile) const {
       parts[size++] = lanes & ~beyond;
       continue;
     }
-    const dvec3 centre =
-        0.5 * (point_of(points, std::countr_zero(lanes)) + point_of(points, 31 - std::countl_zero(lanes)));
+    const dvec3 centre = 0.5 * (point_of(square, points, std::countr_zero(lanes)) +
+                                point_of(square, points, 31 - std::countl_zero(lanes)));
     const std::uint8_t face = face_of(centre);
     FaceBox box{};
-    if (kernels_.bound(points, lanes, source_.origin, face, box)) {
-      work.out.loose.push_back(
-          {number, own_of(work, tile, lanes), static_cast<std::uint16_t>(lanes), work.square->tau, box});
+    if (kernels_.bound(points, square.base, lanes, source_.origin, face, box) && area(box) <= widest_tile) {
+      const bool one = square.receiver[tile] != several_receivers;
+      work.out.loose.push_back({number, one ? square.own[tile] : own_of(points, lanes),
+                                static_cast<std::uint16_t>(lanes), square.tau, box});
       work.loose_keys.add(centre, face);
       continue;
     }
@@ -263,9 +253,12 @@ void PatchRays::add_parts(Work& work, int tile) const {
 void PatchRays::place_square(Work& work) const {
   if (work.gaps == 0) {
     const std::uint8_t face = face_of(centre_of(*work.square, std::countr_zero(work.present)));
-    const std::uint32_t on =
-        kernels_.project(*work.square, source_.origin, face, work.out.nodes[work.out.count]);
-    if ((work.present & ~on) == 0 && add_node(work, face)) return;
+    FaceBox& box = work.out.boxes[work.out.count];
+    if (kernels_.project(*work.square, work.present, source_.origin, face, work.out.nodes[work.out.count],
+                         box) &&
+        area(box) <= widest_square) {
+      return add_node(work, face);
+    }
   }
   for (std::uint32_t left = work.present; left != 0; left &= left - 1)
     add_parts(work, std::countr_zero(left));
@@ -277,14 +270,16 @@ void PatchRays::find(const PointPatch& patch, ForestScratch::Patch& out) const {
   Work work(ray_kernels_, out);
   work.patch = &patch;
   for (const PointSquare& square : patch.squares) {
-    if (&patch.squares.back() - &square >= fetch_ahead) fetch_mixed_tiles(*(&square + fetch_ahead));
+    const std::ptrdiff_t after = &patch.squares.back() - &square;
+    if (after >= 2 * fetch_ahead) fetch(*(&square + 2 * fetch_ahead));
+    if (after >= fetch_ahead) fetch_gaps(*(&square + fetch_ahead));
     find_lanes(square, work);
     if (work.present == 0) continue;
     out.tau = std::max(out.tau, square.tau);
-    double farthest = square.radius;
+    double farthest = square.base.radius;
     for (int k = 0; k < 3; ++k) {
-      const double base = std::abs(static_cast<double>(square.base[k]) - source_.origin[k]);
-      farthest = std::max(farthest, base + static_cast<double>(square.radius));
+      const double base = std::abs(static_cast<double>(square.base.at[k]) - source_.origin[k]);
+      farthest = std::max(farthest, base + static_cast<double>(square.base.radius));
     }
     out.in_range &= farthest < longest_ray;
     if (out.in_range) place_square(work);

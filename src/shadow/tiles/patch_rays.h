@@ -26,17 +26,15 @@ private:
   struct Work;
 
   void find_facing(const PointPatch& patch, std::vector<std::uint8_t>& facing) const;
-  void fetch_mixed_tiles(const PointSquare& square) const;
+  void fetch_gaps(const PointSquare& square) const;
   void find_lanes(const PointSquare& square, Work& work) const;
-  std::uint32_t facing_lanes(const PointSquare& square, int tile,
+  std::uint32_t facing_lanes(const TileReceivers& receivers, std::uint32_t lanes,
                              const std::vector<std::uint8_t>& facing) const;
   std::uint32_t in_reach_lanes(std::uint32_t tile, std::uint32_t lanes) const;
-  std::size_t pixel_at(std::uint32_t tile, int lane) const;
   glm::dvec3 centre_of(const PointSquare& square, int tile) const;
-  glm::dvec3 point_of(const PointTile& tile, int lane) const;
+  glm::dvec3 point_of(const PointSquare& square, const PointTile& tile, int lane) const;
   void place_square(Work& work) const;
-  bool add_node(Work& work, std::uint8_t face) const;
-  std::uint32_t own_of(const Work& work, int tile, std::uint32_t lanes) const;
+  void add_node(Work& work, std::uint8_t face) const;
   void add_parts(Work& work, int tile) const;
   void add_ray(Work& work, int tile, int lane) const;
 

@@ -21,95 +21,137 @@ void widen(FaceBox& to, const FaceBox& by) {
   to.w = std::min(to.w, by.w), to.w1 = std::max(to.w1, by.w1);
 }
 
+// Keys: face, place on its curve, and 32 bits that say what it is the key of.
 std::uint32_t place_of(std::uint64_t key) {
   return static_cast<std::uint32_t>(key);
 }
-/// Keys have the face above the place on its curve.
 std::uint8_t face_of(std::uint64_t key) {
   return static_cast<std::uint8_t>(key >> 60);
 }
 std::uint64_t key_of(std::uint32_t curve, std::size_t place) {
   return static_cast<std::uint64_t>(curve) << 32 | place;
 }
+// A loose group by its patch and its place there.
+static_assert(patch_squares * 256 <= 0x10000);
+std::size_t loose_place(std::size_t patch, std::size_t i) {
+  return patch << 16 | i;
+}
 
 /// Gathers what the patches gave, in their order, so that nothing depends on threads.
 void gather_patches(ForestScratch& s, RayForest& out) {
-  s.loose.clear();
-  s.boxes.resize(out.levels[0].size());
-  s.node_keys.keys.clear(), s.loose_keys.keys.clear();
+  std::size_t nodes = 0, loose = 0;
   out.at_light.clear();
   out.rays = 0;
   out.tau = 0;
   out.in_range = true;
-  for (const ForestScratch::Patch& patch : s.patches) {
-    for (std::size_t i = 0; i < patch.count; ++i) {
-      s.node_keys.keys.push_back(key_of(patch.node_keys[i], patch.first + i));
-      s.boxes[patch.first + i] = patch.boxes[i];
-    }
-    for (std::size_t i = 0; i < patch.loose.size(); ++i) {
-      s.loose_keys.keys.push_back(key_of(patch.loose_keys[i], s.loose.size()));
-      s.loose.push_back(patch.loose[i]);
-    }
+  for (ForestScratch::Patch& patch : s.patches) {
+    patch.first_key = nodes, patch.first_loose_key = loose;
+    nodes += patch.count, loose += patch.loose.size();
     out.at_light.insert(out.at_light.end(), patch.at_light.begin(), patch.at_light.end());
     out.rays += patch.rays;
     out.tau = std::max(out.tau, patch.tau);
     out.in_range &= patch.in_range;
   }
+  s.node_keys.keys.resize(nodes), s.loose_keys.keys.resize(loose);
+  parallel_tasks(static_cast<int>(s.patches.size()), [&](int p) {
+    const auto number = static_cast<std::size_t>(p);
+    const ForestScratch::Patch& patch = s.patches[number];
+    for (std::size_t i = 0; i < patch.count; ++i)
+      s.node_keys.keys[patch.first_key + i] = key_of(patch.node_keys[i], patch.first + i);
+    for (std::size_t i = 0; i < patch.loose.size(); ++i)
+      s.loose_keys.keys[patch.first_loose_key + i] = key_of(patch.loose_keys[i], loose_place(number, i));
+  });
 }
 
-/// Loose groups in the order of the curve become nodes of sixteen on one face, with the key of their first.
+/// Where nodes begin among children in order: up to sixteen each, all of one face; the last entry is the end.
+template <class FaceOf>
+void cut_into_nodes(std::size_t count, const FaceOf& face_of_child, std::vector<std::size_t>& begins) {
+  begins.clear();
+  for (std::size_t i = 0; i < count; ++i) {
+    if (i == 0 || i - begins.back() == 16 || face_of_child(i) != face_of_child(begins.back()))
+      begins.push_back(i);
+  }
+  begins.push_back(count);
+}
+
+constexpr std::size_t grain = 32;  // nodes that are made together
+
+/// Loose groups in the order of the curve become nodes, with the key of their first.
 void group_loose(ForestScratch& s, std::vector<RayNode>& nodes) {
   radix_sort(s.loose_keys.keys, s.loose_keys);
   const auto& keys = s.loose_keys.keys;
-  for (std::size_t i = 0; i < keys.size();) {
-    const std::uint8_t face = face_of(keys[i]);
-    s.node_keys.keys.push_back(key_of(static_cast<std::uint32_t>(keys[i] >> 32), nodes.size()));
-    RayNode& node = nodes.emplace_back();
-    for (int k = 0; k < 16 && i < keys.size() && face_of(keys[i]) == face; ++k, ++i) {
-      const ForestScratch::Loose& loose = s.loose[place_of(keys[i])];
-      node.child[k] = loose.tile;
-      node.own[k] = loose.own;
-      node.rays[k] = node.all_rays[k] = loose.rays;
-      node.tau = std::max(node.tau, loose.tau);
-      node.set_box(k, loose.box);
-      node.live |= 1u << k;
+  cut_into_nodes(
+      keys.size(), [&](std::size_t i) { return face_of(keys[i]); }, s.begins);
+  const std::size_t count = s.begins.size() - 1, first = nodes.size(), first_key = s.node_keys.keys.size();
+  nodes.resize(first + count), s.boxes.resize(first + count), s.node_keys.keys.resize(first_key + count);
+  const auto loose_at = [&](std::size_t k) -> const ForestScratch::Loose& {
+    const std::uint32_t place = place_of(keys[k]);
+    return s.patches[place >> 16].loose[place & 0xffffu];
+  };
+  parallel_ranges(count, grain, [&](std::size_t begin, std::size_t end) {
+    for (std::size_t i = begin; i < end; ++i) {
+      RayNode& node = nodes[first + i] = {};
+      for (std::size_t k = s.begins[i]; k < s.begins[i + 1]; ++k) {
+        if (k + 16 < keys.size()) __builtin_prefetch(&loose_at(k + 16));
+        const ForestScratch::Loose& loose = loose_at(k);
+        const std::size_t slot = k - s.begins[i];
+        node.child[slot] = loose.tile;
+        node.own[slot] = loose.own;
+        node.rays[slot] = node.all_rays[slot] = loose.rays;
+        node.tau = std::max(node.tau, loose.tau);
+        node.set_box(static_cast<int>(slot), loose.box);
+        node.live |= 1u << slot;
+      }
+      node.filled = node.live;
+      s.boxes[first + i] = bounds_of(node);
+      s.node_keys.keys[first_key + i] =
+          key_of(static_cast<std::uint32_t>(keys[s.begins[i]] >> 32), first + i);
     }
-    node.filled = node.live;
-    s.boxes.push_back(bounds_of(node));
-  }
+  });
 }
 
-/// Makes node `child` of level `level` one of the last node of the level above, or of a new one.
-void append(RayForest& f, std::size_t level, std::size_t child, bool fresh) {
-  auto& above = f.levels[level + 1];
-  if (fresh) above.emplace_back();
-  RayNode& parent = above.back();
-  const int slot = std::popcount(parent.live);
-  parent.child[slot] = static_cast<std::uint32_t>(child);
-  parent.live |= 1u << slot;
-  parent.filled = parent.live;
-  f.levels[level][child].parent = static_cast<std::uint32_t>(above.size() - 1);
-  f.levels[level][child].slot = static_cast<std::uint32_t>(slot);
+/// The level above `level`, whose nodes child(0), child(1) ... are in order and have the boxes box(0) ...
+template <class FaceOf, class Child, class Box>
+void add_level(ForestScratch& s, RayForest& f, std::size_t level, std::size_t count,
+               const FaceOf& face_of_child, const Child& child, const Box& box) {
+  cut_into_nodes(count, face_of_child, s.begins);
+  std::vector<RayNode>& above = f.levels[level + 1];
+  above.resize(s.begins.size() - 1);
+  parallel_ranges(above.size(), grain, [&](std::size_t begin, std::size_t end) {
+    for (std::size_t i = begin; i < end; ++i) {
+      RayNode& parent = above[i] = {};
+      for (std::size_t k = s.begins[i]; k < s.begins[i + 1]; ++k) {
+        const auto slot = static_cast<std::uint32_t>(k - s.begins[i]);
+        parent.child[slot] = child(k);
+        parent.set_box(static_cast<int>(slot), box(k));
+        parent.live |= 1u << slot;
+        f.levels[level][child(k)].parent = static_cast<std::uint32_t>(i);
+        f.levels[level][child(k)].slot = slot;
+      }
+      parent.filled = parent.live;
+    }
+  });
 }
 
 /// The nodes along the curve, sixteen a parent, parents and roots of one face each. They stay where they are.
 void plant(ForestScratch& s, RayForest& out) {
   radix_sort(s.node_keys.keys, s.node_keys);
-  out.levels[1].clear(), out.levels[2].clear();
+  const auto& keys = s.node_keys.keys;
+  add_level(
+      s, out, 0, keys.size(), [&](std::size_t i) { return face_of(keys[i]); },
+      [&](std::size_t i) { return place_of(keys[i]); },
+      [&](std::size_t i) { return s.boxes[place_of(keys[i])]; });
+  s.faces.clear();
+  for (std::size_t i = 0; i + 1 < s.begins.size(); ++i) s.faces.push_back(face_of(keys[s.begins[i]]));
+  add_level(
+      s, out, 1, s.faces.size(), [&](std::size_t i) { return s.faces[i]; },
+      [](std::size_t i) { return static_cast<std::uint32_t>(i); },
+      [&](std::size_t i) { return bounds_of(out.levels[1][i]); });
   out.faces.clear(), out.root_boxes.clear();
-  for (const std::uint64_t key : s.node_keys.keys) {
-    const bool new_face = out.faces.empty() || out.faces.back() != face_of(key);
-    const bool new_parent = new_face || out.levels[1].back().live == 0xffffu;
-    const bool new_root = new_face || (new_parent && out.levels[2].back().live == 0xffffu);
-    append(out, 0, place_of(key), new_parent);
-    RayNode& parent = out.levels[1].back();
-    parent.set_box(std::popcount(parent.live) - 1, s.boxes[place_of(key)]);
-    if (new_parent) append(out, 1, out.levels[1].size() - 1, new_root);
-    if (new_root) out.faces.push_back(face_of(key));
+  for (std::size_t i = 0; i < out.levels[2].size(); ++i) {
+    out.faces.push_back(s.faces[s.begins[i]]);
+    out.root_boxes.push_back(bounds_of(out.levels[2][i]));
   }
-  for (const RayNode& node : out.levels[1])
-    out.levels[2][node.parent].set_box(static_cast<int>(node.slot), bounds_of(node));
-  for (const RayNode& root : out.levels[2]) out.root_boxes.push_back(bounds_of(root));
 }
 
 /// Whether a node is a whole square without a blocked ray.
@@ -125,15 +167,16 @@ void write_square(std::uint8_t* to, int width) {
   for (std::uint32_t row = 0; row < square_side; ++row, to += width) std::memset(to, 255, square_side);
 }
 
-/// Four pixels by the bits of `live`; returns how many are set.
-std::uint32_t write_row(std::uint32_t live, std::uint8_t* to) {
-  if (live == 15u) {  // no other tile holds rays of this row: four bytes at once
-    std::memset(to, 255, 4);
-    return 4;
+/// The pixels of a tile by the bits of `live`, and no other: threads share tiles.
+void write_tile(std::uint32_t live, std::uint8_t* to, int width) {
+  if (live == 0xffffu) {
+    for (std::uint32_t row = 0; row < tile_side; ++row, to += width) std::memset(to, 255, tile_side);
+    return;
   }
-  std::uint32_t count = 0;
-  for (; live != 0; live &= live - 1, ++count) to[std::countr_zero(live)] = 255;
-  return count;
+  for (; live != 0; live &= live - 1) {
+    const int lane = std::countr_zero(live);
+    to[lane % 4 + lane / 4 * width] = 255;
+  }
 }
 
 }  // namespace
@@ -147,7 +190,7 @@ FaceBox bounds_of(const RayNode& node) {
 
 void ForestScratch::Patch::clear() {
   count = 0;
-  boxes.clear(), node_keys.clear();
+  node_keys.clear();
   loose.clear(), loose_keys.clear(), at_light.clear();
   rays = 0;
   tau = 0;
@@ -165,12 +208,13 @@ void build_ray_forest(const VisiblePoints& points, const PointTiles& tiles, cons
                       ForestScratch& scratch, RayForest& out) {
   scratch.patches.resize(tiles.patches.size());
   const std::size_t slots = tiles.patches.size() * patch_squares;
-  out.levels[0].resize(slots);
+  out.levels[0].resize(slots), scratch.boxes.resize(slots);
   const PatchRays rays(points, tiles, triangles, light, source, config);
   parallel_tasks(static_cast<int>(tiles.patches.size()), [&](int patch) {
     const auto i = static_cast<std::size_t>(patch);
     scratch.patches[i].first = i * patch_squares;
     scratch.patches[i].nodes = &out.levels[0][i * patch_squares];
+    scratch.patches[i].boxes = &scratch.boxes[i * patch_squares];
     rays.find(tiles.patches[i], scratch.patches[i]);
   });
   gather_patches(scratch, out);
@@ -194,9 +238,9 @@ std::uint64_t write_live_rays(const RayForest& forest, int width, int height, Sh
       }
       for (std::uint32_t left = nodes[i].live; left != 0; left &= left - 1) {
         const int slot = std::countr_zero(left);
-        std::uint8_t* to = &mask[pixel_of(nodes[i].child[slot])];
-        for (std::uint32_t row = 0; row < tile_side; ++row, to += width)
-          count += write_row((nodes[i].rays[slot] >> (4 * row)) & 15u, to);
+        const std::uint32_t live = nodes[i].rays[slot];
+        write_tile(live, &mask[pixel_of(nodes[i].child[slot])], width);
+        count += static_cast<std::uint64_t>(std::popcount(live));
       }
     }
     parts[first / grain] = count;

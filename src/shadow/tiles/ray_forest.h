@@ -46,7 +46,7 @@ struct alignas(64) RayNode {
   float tau = 0;               ///< level 0: largest rounding tolerance of the points' triangles
   std::uint32_t live = 0;      ///< bit i: child i has rays left
   std::uint32_t filled = 0;    ///< bit i: there is a child i
-  std::uint32_t wide = 0;      ///< level 0, bit i: the box of child i may be wider than its rays
+  std::uint32_t wide = 0;      ///< bit i: the box of child i may be wider than its rays
   std::uint32_t parent = 0;    ///< node of the level above
   std::uint32_t slot = 0;      ///< among its children
   std::uint32_t tests = 0;     ///< triangles and boxes that its children were tested with
@@ -87,12 +87,13 @@ struct ForestScratch {
   struct Patch {  ///< what one patch of points gave
     std::vector<std::uint8_t> facing;
     RayNode* nodes = nullptr;  ///< room for patch_squares in level 0, from `first` on
+    FaceBox* boxes = nullptr;  ///< of these nodes
     std::size_t first = 0;
     std::size_t count = 0;
-    std::vector<FaceBox> boxes;  ///< of these nodes
     std::vector<std::uint32_t> node_keys;
     std::vector<Loose> loose;
     std::vector<std::uint32_t> loose_keys;
+    std::size_t first_key = 0, first_loose_key = 0;  ///< among those of all patches
     std::vector<std::uint32_t> at_light;
     std::uint64_t rays = 0;
     float tau = 0;
@@ -101,9 +102,10 @@ struct ForestScratch {
     void clear();
   };
   std::vector<Patch> patches;
-  std::vector<Loose> loose;
   std::vector<FaceBox> boxes;  ///< of the nodes of level 0
   RayKeys node_keys, loose_keys;
+  std::vector<std::size_t> begins;
+  std::vector<std::uint8_t> faces;  ///< of the nodes of level 1
 };
 
 /// Point and spot lights. `tiles`: of `points`.
@@ -113,20 +115,5 @@ void build_ray_forest(const VisiblePoints& points, const PointTiles& tiles, cons
 
 /// 255 where rays are left; the mask is zero elsewhere. Returns their number.
 std::uint64_t write_live_rays(const RayForest& forest, int width, int height, ShadowMask& mask);
-
-/// First pixels of tiles by their number.
-class TilePixels {
-public:
-  TilePixels(int width, int height)
-      : columns_(SquareGrid(width, height).columns), width_(static_cast<std::size_t>(width)) {}
-  std::size_t operator()(std::uint32_t tile) const {
-    const std::uint32_t square = tile / 16, row = square / columns_, column = square - row * columns_;
-    return (static_cast<std::size_t>(row) * 16 + tile % 16 / 4 * 4) * width_ + column * 16 + tile % 4 * 4;
-  }
-
-private:
-  std::uint32_t columns_;
-  std::size_t width_;
-};
 
 }  // namespace tenebra

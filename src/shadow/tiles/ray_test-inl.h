@@ -1,5 +1,6 @@
-// Sixteen rays of a tile against one triangle: planes at the base of the tile's square in double, the rest in
-// float. Included once per target.
+// Sixteen rays of a tile against one triangle: all in float, which most triangles miss by more than floats
+// are off; then planes at the base of the tile's square in double, the rest in float. Included once per
+// target.
 #if defined(TENEBRA_RAY_TEST_INL_H_) == defined(HWY_TARGET_TOGGLE)
 #ifdef TENEBRA_RAY_TEST_INL_H_
 #undef TENEBRA_RAY_TEST_INL_H_
@@ -16,44 +17,19 @@
 HWY_BEFORE_NAMESPACE();
 namespace tenebra::HWY_NAMESPACE {
 
-/// One of a cluster's triangles, its four planes side by side.
-struct LeafTriangle {
-  double mx[4], my[4], mz[4], d[4];
-  float fx[4], fy[4], fz[4];
-  float rho, reach;
-  std::uint32_t id;
+/// The points of a tile relative to the light, in float. The base is rounded, q is, and so is their sum: each
+/// coordinate is off by at most 3u (|base| + radius), the point by 3u reach.
+struct RoughRays {
+  Pack3<Float16> p;
+  float reach;  ///< >= |p|, and as above
 };
 
-HWY_INLINE void take_triangle(const ClusterPlanes& c, int i, std::uint32_t id, LeafTriangle& t) {
-  for (int k = 0; k < 4; ++k) {
-    t.mx[k] = c.mx[k][i], t.my[k] = c.my[k][i], t.mz[k] = c.mz[k][i];
-    t.d[k] = k == 3 ? c.d[i] : 0.0;
-    t.fx[k] = c.fx[k][i], t.fy[k] = c.fy[k][i], t.fz[k] = c.fz[k][i];
-  }
-  t.rho = c.rho[i], t.reach = c.reach[i];
-  t.id = id;
-}
-
-/// A triangle's planes at the base of a square.
-struct Aim {
-  std::uint32_t square;
-  float e0[4];
-  float sure;  ///< K of the float filter
-};
-inline constexpr std::uint32_t no_square = 0xffffffffu;
-
-// With r >= |q| a sum in floats is off by at most K = 10.1 u r + rho (R + reach), or cannot have the wrong
-// sign at all (|e0| > 2r); R <= |base| + r, by coordinates.
-HWY_INLINE void take_aim(const LeafTriangle& t, const PointTile& tile, const glm::dvec3& light, Aim& aim) {
-  using Double4 = Pack<double, 4>;
-  double base[3];
-  for (int k = 0; k < 3; ++k) base[k] = static_cast<double>(tile.base[k]) - light[k];
-  Double4 e = load<Double4>(t.mx) * splat<Double4>(base[0]) - load<Double4>(t.d);
-  e = multiply_add(load<Double4>(t.my), splat<Double4>(base[1]), e);
-  store(demoted(multiply_add(load<Double4>(t.mz), splat<Double4>(base[2]), e)), aim.e0);
-  const auto reach =
-      static_cast<float>(std::abs(base[0]) + std::abs(base[1]) + std::abs(base[2])) + tile.radius;
-  aim.sure = (10.1f * u * tile.radius + t.rho * (reach + t.reach)) * (1 + 32 * u) + 0x1p-122f;
+HWY_INLINE RoughRays rough_rays(const PointTile& tile, const PointBase& from, const glm::dvec3& light) {
+  float base[3];
+  for (int k = 0; k < 3; ++k) base[k] = static_cast<float>(static_cast<double>(from.at[k]) - light[k]);
+  return {{splat<Float16>(base[0]) + load<Float16>(tile.qx), splat<Float16>(base[1]) + load<Float16>(tile.qy),
+           splat<Float16>(base[2]) + load<Float16>(tile.qz)},
+          std::abs(base[0]) + std::abs(base[1]) + std::abs(base[2]) + 2 * from.radius};
 }
 
 /// Lanes of a tile.
@@ -62,8 +38,65 @@ struct Verdict {
   std::uint32_t sure;  ///< blocked for sure, of those that are near
 };
 
-/// The own plane opens tau of the rays' own triangles later.
-HWY_INLINE Verdict test_rays(const LeafTriangle& t, const Aim& aim, const PointTile& tile, float tau) {
+/// Triangle i of a cluster. The points are off by 3u reach, the planes by u, products and sums by 5u of |p|
+/// (without fused ones), d by u and its difference by u more: below 12u (|p| + |d|). The own plane opens tau
+/// of the rays' own triangles later.
+HWY_INLINE Verdict rough_verdict(const ClusterPlanes& c, int i, const RoughRays& rays, float tau) {
+  const auto value = [&](int k) HWY_ATTR {
+    return multiply_add(
+        splat<Float16>(c.fz[k][i]), rays.p.z,
+        multiply_add(splat<Float16>(c.fy[k][i]), rays.p.y, splat<Float16>(c.fx[k][i]) * rays.p.x));
+  };
+  const Float16 edges = min(value(0), min(value(1), value(2))), own = value(3) - splat<Float16>(c.fd[i]);
+  const float k = (12 * u + c.rho[i]) * (1 + 8 * u) * (rays.reach + c.reach[i]) + 2.5f * u * tau + 0x1p-122f;
+  return {0xffffu & ~less_bits(min(edges, own), splat<Float16>(-k)),
+          less_bits(splat<Float16>(k), min(edges, own - splat<Float16>(tau)))};
+}
+
+/// One of a cluster's triangles, its four planes side by side.
+struct LeafTriangle {
+  double mx[4], my[4], mz[4], d[4];
+  float fx[4], fy[4], fz[4];
+  float rho, reach;
+};
+
+HWY_INLINE void take_triangle(const ClusterPlanes& c, int i, LeafTriangle& t) {
+  for (int k = 0; k < 4; ++k) {
+    t.mx[k] = c.mx[k][i], t.my[k] = c.my[k][i], t.mz[k] = c.mz[k][i];
+    t.d[k] = k == 3 ? c.d[i] : 0.0;
+    t.fx[k] = c.fx[k][i], t.fy[k] = c.fy[k][i], t.fz[k] = c.fz[k][i];
+  }
+  t.rho = c.rho[i], t.reach = c.reach[i];
+}
+
+/// A triangle's planes at the base of a square.
+struct Aim {
+  float e0[4];
+  float sure;  ///< K of the float filter
+};
+
+// With r >= |q| a sum in floats is off by at most K = 10.1 u r + rho (R + reach), or cannot have the wrong
+// sign at all (|e0| > 2r); R <= |base| + r, by coordinates.
+HWY_INLINE Aim aim_at(const LeafTriangle& t, const PointBase& from, const glm::dvec3& light) {
+  using Double4 = Pack<double, 4>;
+  double base[3];
+  for (int k = 0; k < 3; ++k) base[k] = static_cast<double>(from.at[k]) - light[k];
+  Double4 e = load<Double4>(t.mx) * splat<Double4>(base[0]) - load<Double4>(t.d);
+  e = multiply_add(load<Double4>(t.my), splat<Double4>(base[1]), e);
+  Aim aim;
+  store(demoted(multiply_add(load<Double4>(t.mz), splat<Double4>(base[2]), e)), aim.e0);
+  const auto reach =
+      static_cast<float>(std::abs(base[0]) + std::abs(base[1]) + std::abs(base[2])) + from.radius;
+  aim.sure = (10.1f * u * from.radius + t.rho * (reach + t.reach)) * (1 + 32 * u) + 0x1p-122f;
+  return aim;
+}
+
+/// Again, where the rough verdict leaves something open.
+HWY_INLINE Verdict fine_verdict(const ClusterPlanes& c, int i, const PointTile& tile, const PointBase& from,
+                                const glm::dvec3& light, float tau) {
+  LeafTriangle t;
+  take_triangle(c, i, t);
+  const Aim aim = aim_at(t, from, light);
   const Pack3<Float16> q{load<Float16>(tile.qx), load<Float16>(tile.qy), load<Float16>(tile.qz)};
   const auto value = [&](int k) HWY_ATTR {
     const Pack3<Float16> m = splat3<Float16>(t.fx[k], t.fy[k], t.fz[k]);

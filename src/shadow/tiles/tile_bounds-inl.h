@@ -18,8 +18,8 @@ namespace tenebra::HWY_NAMESPACE {
 /// relative to the light is rounded by u, as q is and as their sum is: 3u (|base| + radius), 5u with the
 /// roundings here; so the quotient is off by (margin + face_limit margin of z) / z, by 6u for its own
 /// roundings and by 16u for those of the boxes of triangles.
-HWY_INLINE bool bound(const PointTile& tile, std::uint32_t lanes, const glm::dvec3& light, int face,
-                      FaceBox& box) {
+HWY_INLINE bool bound(const PointTile& tile, const PointBase& from, std::uint32_t lanes,
+                      const glm::dvec3& light, int face, FaceBox& box) {
   constexpr float u = 0x1p-24f;
   const float* const q[3] = {tile.qx, tile.qy, tile.qz};
   const Truth<float, 16> there = truth_of<float, 16>(lanes);
@@ -28,8 +28,8 @@ HWY_INLINE bool bound(const PointTile& tile, std::uint32_t lanes, const glm::dve
   Float16 p[3];
   for (int k = 0; k < 3; ++k) {
     const int axis = (face / 2 + 1 + k) % 3;
-    const auto base = static_cast<float>(static_cast<double>(tile.base[axis]) - light[axis]);
-    margins[k] = 5 * u * ((base < 0 ? -base : base) + tile.radius);
+    const auto base = static_cast<float>(static_cast<double>(from.at[axis]) - light[axis]);
+    margins[k] = 5 * u * ((base < 0 ? -base : base) + from.radius);
     p[k] = splat<Float16>(base) + choose(there, load<Float16>(q[axis]), splat<Float16>(q[axis][first]));
   }
   if (face % 2 != 0) p[2] = splat<Float16>(0.0f) - p[2];

@@ -8,12 +8,18 @@
 #include "shadow/tiles/tile_bounds-inl.h"
 #include "simd/pack-inl.h"
 
+#include <bit>
+
 HWY_BEFORE_NAMESPACE();
 namespace tenebra::HWY_NAMESPACE {
 
 namespace {
 
 constexpr float u = 0x1p-24f;
+constexpr float off_the_face = 1e30f;
+// A square is a node as it stands if it is at most this many times as wide as its tiles are on the mean: 4
+// for a flat patch, with room for perspective and curvature.
+constexpr float coherent_extent = 8;
 
 Facing facing(const ReceiverBlock& r, const glm::vec3& light) {
   const Pack3<Float16> to_light{splat<Float16>(light.x) - load<Float16>(r.ax),
@@ -34,16 +40,17 @@ struct Range {
   Float16 low, high;
 };
 HWY_INLINE Range range_of(const PointSquare& square, const glm::dvec3& light, int axis) {
-  const auto base = static_cast<float>(static_cast<double>(square.base[axis]) - light[axis]);
+  const auto base = static_cast<float>(static_cast<double>(square.base.at[axis]) - light[axis]);
   const Float16 centre = splat<Float16>(base),
-                margin = splat<Float16>(5 * u * ((base < 0 ? -base : base) + square.radius));
+                margin = splat<Float16>(5 * u * ((base < 0 ? -base : base) + square.base.radius));
   return {centre + load<Float16>(square.low[axis]) - margin,
           centre + load<Float16>(square.high[axis]) + margin};
 }
 
 // The ranges are true bounds; the quotients are rounded by 2u: 6u of values up to face_limit. The boxes of
 // triangles are off by 5u of values up to face_limit: 16u. Together 32u.
-std::uint32_t project(const PointSquare& square, const glm::dvec3& light, int face, RayNode& node) {
+bool project(const PointSquare& square, std::uint32_t tiles, const glm::dvec3& light, int face, RayNode& node,
+             FaceBox& all) {
   const int axis = face / 2;
   const Range across[2] = {range_of(square, light, (axis + 1) % 3), range_of(square, light, (axis + 2) % 3)};
   Range z = range_of(square, light, axis);
@@ -51,9 +58,13 @@ std::uint32_t project(const PointSquare& square, const glm::dvec3& light, int fa
   if (face % 2 != 0) z = {zero - z.high, zero - z.low};
   const Float16 near_inverse = one / z.low, far_inverse = one / z.high;
   constexpr float margin = 32 * u;
+  const Truth<float, 16> asked = truth_of<float, 16>(tiles);
+  const Float16 top = splat<Float16>(off_the_face), bottom = zero - top;
   float* const low[2] = {node.u0, node.v0};
   float* const high[2] = {node.u1, node.v1};
-  Truth<float, 16> on = less(splat<Float16>(shortest_ray), z.low);
+  float* const bounds[2][2] = {{&all.u0, &all.u1}, {&all.v0, &all.v1}};
+  const float apart = coherent_extent / static_cast<float>(std::popcount(tiles));
+  bool fits = (tiles & ~less_bits(splat<Float16>(shortest_ray), z.low)) == 0;
   for (int k = 0; k < 2; ++k) {
     const Range r = across[k];
     const Float16 from = r.low * where_not_above(zero, r.low, far_inverse, near_inverse) -
@@ -61,11 +72,15 @@ std::uint32_t project(const PointSquare& square, const glm::dvec3& light, int fa
                   to = r.high * where_not_above(r.high, zero, far_inverse, near_inverse) +
                        splat<Float16>(margin);
     store(from, low[k]), store(to, high[k]);
-    on = on & not_above(splat<Float16>(-face_limit), from) & not_above(to, splat<Float16>(face_limit));
+    const float least_of_all = *bounds[k][0] = least(choose(asked, from, top)),
+                greatest_of_all = *bounds[k][1] = greatest(choose(asked, to, bottom));
+    fits &= least_of_all >= -face_limit && greatest_of_all <= face_limit &&
+            greatest_of_all - least_of_all <= total(choose(asked, to - from, zero)) * apart;
   }
-  store(far_inverse * splat<Float16>(1 - 16 * u), node.w);
-  store(near_inverse * splat<Float16>(1 + 16 * u), node.w1);
-  return square.filled & bits(on);
+  const Float16 w = far_inverse * splat<Float16>(1 - 16 * u), w1 = near_inverse * splat<Float16>(1 + 16 * u);
+  store(w, node.w), store(w1, node.w1);
+  all.w = least(choose(asked, w, top)), all.w1 = greatest(choose(asked, w1, zero));
+  return fits;
 }
 
 }  // namespace

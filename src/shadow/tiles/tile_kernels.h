@@ -20,13 +20,14 @@ struct Facing {
 /// Code for one instruction set.
 struct TileKernels {
   Facing (*facing)(const ReceiverBlock& receivers, const glm::vec3& light) = nullptr;
-  /// Boxes of a square's tiles on a face, widened, into `node`. Returns the bits of those all of whose points
-  /// are on the face (z > shortest_ray, within face_limit); the boxes of others mean nothing.
-  std::uint32_t (*project)(const PointSquare& square, const glm::dvec3& light, int face,
-                           RayNode& node) = nullptr;
-  /// The same for some lanes (not 0) of a tile, from the points themselves.
-  bool (*bound)(const PointTile& tile, std::uint32_t lanes, const glm::dvec3& light, int face,
-                FaceBox& box) = nullptr;
+  /// Boxes of a square's tiles on a face, widened, into `node`, and around those of `tiles` (not 0) into
+  /// `all`. False, with nothing of use in them, if not all points of `tiles` are on the face (z >
+  /// shortest_ray, within face_limit), or if these tiles are too far apart for a node.
+  bool (*project)(const PointSquare& square, std::uint32_t tiles, const glm::dvec3& light, int face,
+                  RayNode& node, FaceBox& all) = nullptr;
+  /// Box of some lanes (not 0) of a tile, from the points themselves; false if they are not all on the face.
+  bool (*bound)(const PointTile& tile, const PointBase& base, std::uint32_t lanes, const glm::dvec3& light,
+                int face, FaceBox& box) = nullptr;
 };
 TileKernels tile_kernels(SimdLevel level);
 

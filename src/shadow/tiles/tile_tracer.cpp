@@ -29,6 +29,7 @@ void TileTracer::descend(const Descent& descent, SimdLevel simd, TraceStats& sta
   const DescentKernels kernels = descent_kernels(simd);
   const std::size_t roots = forest_.levels[ray_levels - 1].size();
   scratch_.resize(std::max(scratch_.size(), static_cast<std::size_t>(thread_count())));
+  for (DescentScratch& scratch : scratch_) scratch.edge_on.clear();
   std::vector<TraceStats> parts(roots);
   parallel_tasks(static_cast<int>(roots), [&](int root) {
     kernels.descend(descent, static_cast<std::uint32_t>(root),
@@ -36,6 +37,13 @@ void TileTracer::descend(const Descent& descent, SimdLevel simd, TraceStats& sta
                     parts[static_cast<std::size_t>(root)]);
   });
   for (const TraceStats& part : parts) stats += part;
+  // Several roots may meet a triangle.
+  std::vector<std::uint32_t>& edge_on = scratch_.front().edge_on;
+  for (std::size_t i = 1; i < scratch_.size(); ++i)
+    edge_on.insert(edge_on.end(), scratch_[i].edge_on.begin(), scratch_[i].edge_on.end());
+  std::sort(edge_on.begin(), edge_on.end());
+  const auto different = std::unique(edge_on.begin(), edge_on.end()) - edge_on.begin();
+  stats.degenerate_triangles = clusters_.without_area() + static_cast<std::uint64_t>(different);
 }
 
 bool TileTracer::trace(const VisiblePoints& points, const ViewRays& view, const TriangleView& triangles,

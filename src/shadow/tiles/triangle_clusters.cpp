@@ -64,12 +64,13 @@ std::size_t ClusterTree::byte_count() const {
 }
 
 bool ClusterTree::same_order(const TriangleView& t) const {
-  return t.positions.size() == positions_.size() && t.triangles.size() == triangles_.size() &&
+  return t.positions.size() + 1 == positions_.size() && t.triangles.size() == triangles_.size() &&
          same_elements(t.casts_shadow, casts_) && same_elements(t.parts, parts_);
 }
 
 void ClusterTree::find_order(const TriangleView& t) {
   positions_.assign(t.positions.begin(), t.positions.end());
+  positions_.emplace_back(0.0f);
   triangles_.assign(t.triangles.begin(), t.triangles.end());
   casts_.assign(t.casts_shadow.begin(), t.casts_shadow.end());
   parts_.assign(t.parts.begin(), t.parts.end());
@@ -77,7 +78,8 @@ void ClusterTree::find_order(const TriangleView& t) {
                             : static_cast<std::uint64_t>(std::count_if(
                                   casts_.begin(), casts_.end(), [](auto casts) { return casts != 0; }));
   cluster_order(t, order_);
-  clusters_.resize(order_.size() / cluster_size);
+  clusters_.assign(order_.size() / cluster_size, {});
+  used_ = 0;
   corners_.resize(clusters_.size());
   origins_.resize(clusters_.size());
   levels_.clear();
@@ -127,6 +129,7 @@ void ClusterTree::find_corners(const TriangleView& t, std::size_t cluster) {
 void ClusterTree::refit(const TriangleView& t, SimdLevel simd, bool all) {
   if (levels_.empty()) return;
   const ClusterKernels kernels = cluster_kernels(simd);
+  std::vector<int> more_used(levels_[0].size());  // than before
   parallel_ranges(levels_[0].size(), 16, [&](std::size_t first, std::size_t last) {
     for (std::size_t node = first; node < last; ++node) {
       const std::size_t end = std::min(clusters_.size(), (node + 1) * cluster_size);
@@ -134,10 +137,13 @@ void ClusterTree::refit(const TriangleView& t, SimdLevel simd, bool all) {
         const bool other = all || triangles_changed(c);
         if (!other && !vertices_changed(c)) continue;
         if (other) find_corners(t, c);
-        kernels.follow(t.positions.data(), corners_[c], clusters_[c], levels_[0][node], c % cluster_size);
+        more_used[node] -= std::popcount(clusters_[c].used);
+        kernels.follow(positions_.data(), corners_[c], clusters_[c], levels_[0][node], c % cluster_size);
+        more_used[node] += std::popcount(clusters_[c].used);
       }
     }
   });
+  for (const int more : more_used) used_ += static_cast<std::uint64_t>(more);
   for (std::size_t k = 1; k < levels_.size(); ++k) {
     const auto& children = levels_[k - 1];
     for (std::size_t i = 0; i < children.size(); ++i)

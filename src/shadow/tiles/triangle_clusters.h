@@ -46,6 +46,8 @@ public:
   /// level k - 1. The last level has one node. Empty without casters.
   const std::vector<std::vector<BoxNode>>& levels() const { return levels_; }
   std::uint64_t casters() const { return casters_; }
+  /// Casters that are left out: two corners are the same vertex, or one is not finite.
+  std::uint64_t without_area() const { return casters_ - used_; }
   std::size_t byte_count() const;
 
 private:
@@ -68,9 +70,10 @@ private:
   std::vector<Origin> origins_;
   std::vector<std::vector<BoxNode>> levels_;
   std::uint64_t casters_ = 0;
+  std::uint64_t used_ = 0;  ///< of the casters
   std::uint64_t version_ = 0;
   // What the last frame looked like.
-  std::vector<glm::vec3> positions_;
+  std::vector<glm::vec3> positions_;  ///< and one more, so that all can be read in fours of floats
   std::vector<glm::uvec3> triangles_;
   std::vector<std::uint8_t> casts_;
   std::vector<std::uint32_t> parts_;
