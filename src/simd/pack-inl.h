@@ -504,13 +504,6 @@ HWY_INLINE std::uint32_t equal_bits(const std::uint32_t* sixteen, std::uint32_t 
                     splat<P>(static_cast<std::int32_t>(value))));
 }
 
-/// Sum of all lanes, in an order of the target's own.
-template <class T, int N>
-HWY_INLINE T total(Pack<T, N> a) {
-  for (int i = 1; i < a.registers; ++i) a.r[0] = hn::Add(a.r[0], a.r[i]);
-  return hn::GetLane(hn::SumOfLanes(typename Pack<T, N>::Tag(), a.r[0]));
-}
-
 /// Sixteen points by coordinate: point 4 i + k is x y z at lanes 4 i ... 4 i + 2 of p[k].
 HWY_INLINE Pack3<Float16> transposed(const Float16 (&p)[4]) {
   Pack3<Float16> t;
