@@ -143,7 +143,10 @@ std::string needs_section(const std::vector<NeedRow>& needs) {
                         timed ? short_number(n.with_ms) : "", timed ? short_number(n.all_ms) : "", n.shrunk,
                         n.same.value_or(true) ? "" : " (NOT the same bits)");
   }
-  return text + "\nWhere `ms` is not below `all`, the stage saves nothing on that view.\n";
+  return text +
+         "\nWhere `ms` is not below `all`, the stage saves nothing on that view. Boxes, order, tiles, fields "
+         "and whole "
+         "frames are timed by the clock.\n";
 }
 
 }  // namespace
