@@ -240,8 +240,8 @@ std::string footed_axis(const FootedScale& y, const std::string& label) {
   const auto line = [&](double at, const std::string& text) {
     svg += line_between(left, at, left + plot_width, at, "#dddddd") + text_at(left - 8, at + 4, "end", text);
   };
-  for (const double tick : y.scale.ticks) line(y.pixel(tick), fmt::format("{:.6g}", tick));
-  if (y.foot_px > 0) line(top + plot_height, y.floor > 0 ? fmt::format("\u2264 {:.6g}", y.floor) : "0");
+  for (const double tick : y.scale.ticks) line(y.pixel(tick), fmt::format("{:.7g}", tick));
+  if (y.foot_px > 0) line(top + plot_height, y.floor > 0 ? fmt::format("\u2264 {:.7g}", y.floor) : "0");
   svg += line_between(left, top, left, top + plot_height, "black");
   const double middle = top + plot_height / 2;
   return svg + text_at(20, middle, "middle", label, 13,
