@@ -114,7 +114,7 @@ public:
       const std::uint32_t pixel = pixels[i];
       fetch_ahead(frame, pixels, i);
       const bool whole = add_whole(frame, pixel);
-      if (!whole) solve_point(double_, frame, {pixels, {}, {}}, pixel);
+      if (!whole) solve_point(double_, frame, pixel);
       if (whole || frame.classes[pixel] == class_of(SoftClass::clip))
         frame.classes[pixel] = class_of(SoftClass::lit);
       if (whole_count_ == 8) finish_whole(frame);
@@ -167,7 +167,7 @@ private:
         clipped_ = order_.sorted(candidates_, rest_);
         p.clip.reset(candidates_, clipped_);
       }
-      solve_point(p, frame, task, pixel);
+      solve_point(p, frame, pixel);
       if (use_bsp_ && !frame.config.keep_trees) {
         note_tree();
         bsp_.reset(occluders_, frame.triangles, task.frame, frame.config.choice);
@@ -197,7 +197,7 @@ private:
   static bool wants_bsp(const SoftShadowConfig& config) { return config.solver == SoftSolver::bsp; }
 
   template <class T>
-  void solve_point(Precision<T>& p, const SoftFrame& frame, const GroupTask& task, std::uint32_t pixel) {
+  void solve_point(Precision<T>& p, const SoftFrame& frame, std::uint32_t pixel) {
     const std::uint32_t receiver = frame.points.triangles[pixel];
     if (receiver != receiver_.id) start_on(p, frame, receiver);
     const glm::dvec3 point = frame.points.positions[pixel];
