@@ -9,9 +9,9 @@
 //
 // The points come in tiles of 4x4 pixels, with boxes around them (points/point_tiles.h): nothing is read of
 // the points themselves before a triangle comes near them. A square of sixteen tiles without depth gaps is a
-// node of the lowest level as it stands; the groups of the others are sorted along a Hilbert curve on the
-// cube and joined anew. The nodes are then sorted along the same curve: thousands of them, where sorting all
-// rays is a million.
+// node of the lowest level as it stands, unless it is wide as seen from the light; the groups of the others
+// are sorted along a Hilbert curve on the cube and joined anew. The nodes are then sorted along the same
+// curve: thousands of them, where sorting all rays is a million.
 #pragma once
 
 #include <array>

@@ -39,8 +39,9 @@ struct Verdict {
 };
 
 /// Triangle i of a cluster. The points are off by 3u reach, the planes by u, products and sums by 5u of |p|
-/// (without fused ones), d by u and its difference by u more: below 12u (|p| + |d|). The own plane opens tau
-/// of the rays' own triangles later.
+/// (without fused ones), d by u and its difference by u more: below 12u (|p| + |d|), where |d| exceeds the
+/// triangle's reach by its tau only; if that is more than 5 (|p| + reach), the own plane is missed by far. The
+/// own plane opens tau of the rays' own triangles later.
 HWY_INLINE Verdict rough_verdict(const ClusterPlanes& c, int i, const RoughRays& rays, float tau) {
   const auto value = [&](int k) HWY_ATTR {
     return multiply_add(
