@@ -27,10 +27,6 @@ HWY_INLINE Double8 size_of(const Vector8& v) {
   return absolute(v.x) + absolute(v.y) + absolute(v.z);
 }
 
-/// Rounding of the sums of products here, relative to the sum of their magnitudes: fewer than 16 operations
-/// on inputs that carry one rounding each.
-inline constexpr double rounding = 0x1p-48;
-
 /// What eight triangles are to a group and its light.
 struct LaneResults {
   double corners[3][3][8];
@@ -105,7 +101,7 @@ private:
     const Double8 spread = absolute(n.x) * num(group.half.x) + absolute(n.y) * num(group.half.y) +
                            absolute(n.z) * num(group.half.z);
     const Double8 margin =
-        num(rounding) * length * (num(size_of(group.centre) + size_of(group.half)) + size_of(v[0]));
+        num(product_rounding) * length * (num(size_of(group.centre) + size_of(group.half)) + size_of(v[0]));
     const Double8 threshold = (tau + num(group.receiver_tau)) * length;
     const std::uint32_t sure = less_bits(threshold + margin, far - spread);
     const std::uint32_t above = less_bits(zero, height);
@@ -119,7 +115,7 @@ private:
   HWY_INLINE void find_light_sides(const LightFrame& light, const Vector8& v, const Vector8& n,
                                    Double8 length) {
     const Double8 zero = splat<Double8>(0.0);
-    const Double8 slack = splat<Double8>(rounding) * length, size = size_of(v);
+    const Double8 slack = splat<Double8>(product_rounding) * length, size = size_of(v);
     std::uint32_t positive = ~0u, negative = ~0u;
     for (const glm::dvec2& at : light.outline) {
       const glm::dvec3 vertex = light.point(at);
@@ -159,7 +155,7 @@ private:
       const Double8 height = along(axes.height, from[k]);
       const Double8 size = (size_of(v[k]) + num(around)) * num(unit);
       between &= less_bits(num(0x1p-16) * size, height - reach);
-      between &= less_bits(num(rounding) * size, top - height);
+      between &= less_bits(num(product_rounding) * size, top - height);
       store(along(axes.u, from[k]), lanes_.corners[k][0]);
       store(along(axes.v, from[k]), lanes_.corners[k][1]);
       store(height, lanes_.corners[k][2]);

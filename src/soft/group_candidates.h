@@ -18,6 +18,10 @@
 
 namespace tenebra {
 
+/// Rounding of sums of products in double, relative to the sum of their magnitudes: fewer than 16 operations
+/// on inputs that carry one rounding each.
+inline constexpr double product_rounding = 0x1p-48;
+
 /// What the points of a group share. World space.
 struct GroupFrame {
   glm::dvec3 centre{0.0}, half{0.0};         ///< box of the points
@@ -30,8 +34,8 @@ struct GroupFrame {
 struct LightAxes {
   glm::dvec3 u{0.0}, v{0.0}, height{0.0};  ///< rows of the map from world space
   glm::dvec3 centre{0.0};                  ///< world space; the origin of these axes
-  glm::dvec3 centre_uv{
-      0.0};         ///< its u and v from the light's origin, and the height of the light's plane over it
+  /// Its u and v from the light's origin, and the height of the light's plane over it.
+  glm::dvec3 centre_uv{0.0};
   double turn = 1;  ///< sign of the map's determinant
 
   /// A difference from the centre in these axes.
@@ -66,16 +70,16 @@ inline int blocking_sign(const PlaneHeight& plane, const glm::dvec3& d, double r
 struct Candidate {
   double corners[4][3];  ///< corner, coordinate in LightAxes; a triangle's fourth is its first
   double plane[3];  ///< (u, v, w) of the triangle's own plane; positive everywhere where it is not needed
-  double sign =
-      0;  ///< +-1: its lines times this are positive in its shadow, at all points; 0: see PlaneHeight
+  /// +-1: its lines times this are positive in its shadow, at all points; 0: see PlaneHeight.
+  double sign = 0;
   std::uint32_t triangle = 0;
-  std::int32_t size =
-      0;  ///< class of the solid angle at the group's centre: its binary logarithm, rounded down
+  /// Class of the solid angle at the group's centre: its binary logarithm, rounded down. Of a pair about so.
+  std::int32_t size = 0;
   std::uint32_t height = 0;  ///< index into GroupCandidates::heights where sign is 0
   bool has_plane = false;
   bool is_quad = false;
-  bool stands_between =
-      false;  ///< well apart from all points and the light's plane: its shadow there is finite
+  /// Well apart from all points and the light's plane: its shadow there is finite.
+  bool stands_between = false;
 };
 
 struct GroupCandidates {

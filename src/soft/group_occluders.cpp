@@ -12,10 +12,6 @@ namespace {
 using glm::dvec2;
 using glm::dvec3;
 
-// Rounding of the sums of products here, relative to the sum of their magnitudes: fewer than 16 operations on
-// inputs that carry one rounding each.
-constexpr double rounding = 0x1p-48;
-
 struct Triangle3 {
   dvec3 v[3];
   dvec3 normal;  // not unit
@@ -66,7 +62,7 @@ Side side_of(const MovingLine& line, const LightFrame& light, const dvec3& half)
       size += sum_of(line.c[k + 1]) * half[k];
     }
     const double value = glm::dot(line.c[0], vertex);
-    const double margin = spread + rounding * size;
+    const double margin = spread + product_rounding * size;
     positive &= value > margin;
     negative &= value < -margin;
   }

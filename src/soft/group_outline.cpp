@@ -49,7 +49,7 @@ struct ShadowRange {
       for (int axis = 0; axis < 2; ++axis) {
         const double middle = axes.centre_uv[axis] + r * corner[axis], reach = half[axis] * std::abs(1 - r);
         const double rounding =
-            0x1p-48 * (std::abs(axes.centre_uv[axis]) + std::abs(r * corner[axis]) + reach);
+            product_rounding * (std::abs(axes.centre_uv[axis]) + std::abs(r * corner[axis]) + reach);
         low[axis] = std::min(low[axis], middle - reach - rounding);
         high[axis] = std::max(high[axis], middle + reach + rounding);
       }

@@ -22,8 +22,8 @@ namespace tenebra {
 
 struct OutlineEdge {
   glm::dvec3 from, to;  ///< in LightAxes
-  int winding =
-      0;  ///< triangles that block all points: +1 one that runs through it this way, -1 the other way
+  /// Of triangles that block all points: +1 for one that runs through it this way, -1 for the other way.
+  int winding = 0;
 };
 
 /// A triangle that the points of the group lie on both sides of, or too near to: its part in the outline is

@@ -136,10 +136,10 @@ private:
       if (frame.config.solver == SoftSolver::automatic) {
         finder_.find(frame.light, frame.triangles, candidates_, outline_, rest_);
         drop_beside_light(task.frame, candidates_.axes, outline_);
+        pair_triangles(task.frame, candidates_, rest_);
       } else {
         take_all();
       }
-      if (frame.config.solver == SoftSolver::automatic) pair_triangles(task.frame, candidates_, rest_);
       clipped_ = order_.sorted(candidates_, rest_);
     }
   }

@@ -22,6 +22,17 @@ template <class T>
 inline constexpr LaneIndex<T> lane_numbers[polygon_capacity] = {0, 1, 2,  3,  4,  5,  6,  7,
                                                                 8, 9, 10, 11, 12, 13, 14, 15};
 
+/// 0, 1, ... 15, and the lanes below `count`.
+template <class T>
+HWY_INLINE Pack<T, 16> counted_lanes() {
+  constexpr T lanes[16] = {0, 1, 2, 3, 4, 5, 6, 7, 8, 9, 10, 11, 12, 13, 14, 15};
+  return load<Pack<T, 16>>(lanes);
+}
+template <class T>
+HWY_INLINE Truth<T, 16> lanes_below(std::size_t count) {
+  return less(counted_lanes<T>(), splat<Pack<T, 16>>(static_cast<T>(HWY_MIN(count, std::size_t{16}))));
+}
+
 /// Vertex k in lane k, counter-clockwise; lanes from `count` on repeat vertex 0.
 template <class T>
 struct LightPolygon {

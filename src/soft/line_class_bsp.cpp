@@ -11,8 +11,6 @@ namespace {
 
 using glm::dvec3;
 
-constexpr double rounding = 0x1p-48;  // of the sums of products below, relative to their magnitudes
-
 double sum_of(const dvec3& v) {
   return std::abs(v.x) + std::abs(v.y) + std::abs(v.z);
 }
@@ -52,8 +50,8 @@ LineClassBsp::Orientation LineClassBsp::orientation(std::uint32_t line, std::uin
     const double value = glm::dot(plane.normal, from);
     const double spread =
         std::abs(change.x) * half_.x + std::abs(change.y) * half_.y + std::abs(change.z) * half_.z;
-    const double margin = spread + rounding * (sum_of(plane.normal) * sum_of(from) +
-                                               sum_of(plane.along) * sum_of(from) * sum_of(half_));
+    const double margin = spread + product_rounding * (sum_of(plane.normal) * sum_of(from) +
+                                                       sum_of(plane.along) * sum_of(from) * sum_of(half_));
     positive &= value > margin;
     negative &= value < -margin;
   }

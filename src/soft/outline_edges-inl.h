@@ -9,21 +9,10 @@
 #include <algorithm>
 #include <vector>
 
-#include "simd/pack-inl.h"
+#include "soft/light_polygon-inl.h"
 
 HWY_BEFORE_NAMESPACE();
 namespace tenebra::HWY_NAMESPACE {
-
-/// 0, 1, ... 15, and the lanes below `count`.
-template <class T>
-HWY_INLINE Pack<T, 16> counted_lanes() {
-  constexpr T lanes[16] = {0, 1, 2, 3, 4, 5, 6, 7, 8, 9, 10, 11, 12, 13, 14, 15};
-  return load<Pack<T, 16>>(lanes);
-}
-template <class T>
-HWY_INLINE Truth<T, 16> lanes_below(std::size_t count) {
-  return less(counted_lanes<T>(), splat<Pack<T, 16>>(static_cast<T>(HWY_MIN(count, std::size_t{16}))));
-}
 
 /// An edge a lane.
 template <class T>

@@ -22,7 +22,7 @@ double size_of(const dvec3& v) {
 // might decide.
 bool turn_from_all(const dvec3& p, const dvec3& q, const dvec3& r, double sign, const dvec3& half) {
   const dvec3 n = glm::cross(q - p, r - p);
-  const double rounding = 0x1p-48 * size_of(q - p) * size_of(r - p) * (size_of(p) + size_of(half));
+  const double rounding = product_rounding * size_of(q - p) * size_of(r - p) * (size_of(p) + size_of(half));
   return sign * glm::dot(n, p) > glm::dot(glm::abs(n), half) + rounding;
 }
 

@@ -49,21 +49,18 @@ public:
   /// Appends those of 16 boxes in `lanes` that meet `box`. Their ids are first, first + 1 ...
   HWY_INLINE void append(const T (&sides)[4][16], std::size_t first, std::uint32_t lanes,
                          const LightBox<T>& box) {
-    constexpr LaneIndex<T> counted[16] = {0, 1, 2, 3, 4, 5, 6, 7, 8, 9, 10, 11, 12, 13, 14, 15};
     make_room(16);
     const T* from[4] = {sides[0], sides[1], sides[2], sides[3]};
-    append_meeting(from, load<Index>(counted) + splat<Index>(static_cast<LaneIndex<T>>(first)),
+    append_meeting(from, load<Index>(lane_numbers<T>) + splat<Index>(static_cast<LaneIndex<T>>(first)),
                    truth_of<T, 16>(lanes), box);
   }
 
   /// Appends those of the list [first, last) that meet `box`.
   HWY_NOINLINE void narrow(std::size_t first, std::size_t last, const LightBox<T>& box) {
-    constexpr T counted[16] = {0, 1, 2, 3, 4, 5, 6, 7, 8, 9, 10, 11, 12, 13, 14, 15};
     make_room(last - first);
     for (std::size_t i = first; i < last; i += 16) {
       const T* sides[4] = {&sides_[0][i], &sides_[1][i], &sides_[2][i], &sides_[3][i]};
-      const auto valid = less(load<Lanes>(counted), splat<Lanes>(static_cast<T>(HWY_MIN(last - i, 16u))));
-      append_meeting(sides, load<Index>(&ids_[i]), valid, box);
+      append_meeting(sides, load<Index>(&ids_[i]), lanes_below<T>(last - i), box);
     }
   }
 

@@ -81,7 +81,7 @@ std::string head(const TradeSession& session) {
   return fmt::format(
       "# What accuracy costs\n\n"
       "Written by `{}`; edit `tests/bench/trade_docs.cpp` and `trade_advice.cpp`, not this file.\n"
-      "Machine: {}; {}. Times in milliseconds a frame; two runs differ by some 10 %.\n\n"
+      "Machine: {}; {}. Times in milliseconds a frame.\n\n"
       "A setting is on the **Pareto front** of a view, its time bold, if no other is both as fast and as "
       "exact "
       "and better in one of the two. In the plots the front is dashed and its settings are ringed. Embree's "
