@@ -9,14 +9,14 @@ namespace tenebra {
 
 /// Wall-clock milliseconds a stage (steady clock, GL finished before and after), summed over the lights.
 struct FrameTimings {
-  double evaluate_ms = 0;    ///< Scene -> FrameGeometry
-  double raster_ms = 0;      ///< G-buffer and light buffers
-  double readback_ms = 0;    ///< triangle ids (or depth) to the CPU
-  double points_ms = 0;      ///< visible points from triangle ids
-  double rays_ms = 0;        ///< shadow rays of the pixels that the light reaches, triangle planes
-  double sort_ms = 0;        ///< keys and sort (0 for unsorted variants)
-  double build_ms = 0;       ///< the cone tree
-  double traverse_ms = 0;    ///< triangles through the cone tree, decisions included
+  double evaluate_ms = 0;  ///< Scene -> FrameGeometry
+  double raster_ms = 0;    ///< G-buffer and light buffers
+  double readback_ms = 0;  ///< triangle ids (or depth) to the CPU
+  double points_ms = 0;    ///< visible points from triangle ids, and the tiles that variant Tiles reads
+  double rays_ms = 0;      ///< rays of the pixels that the light reaches, triangle planes; Tiles: their trees
+  double sort_ms = 0;      ///< keys and sort (0 for unsorted variants and Tiles)
+  double build_ms = 0;     ///< the cone tree; Tiles: the clusters of triangles
+  double traverse_ms = 0;  ///< triangles through the tree of rays, decisions included
   double writeback_ms = 0;   ///< mask to the pixel grid and to OpenGL
   double composite_ms = 0;   ///< final picture and its read-back
   double shaft_ms = 0;       ///< soft: groups of points and the occluders in their shafts
@@ -30,7 +30,7 @@ struct FrameTimings {
 };
 
 /// Adds the stages of one light's shadows, or of a part of them; the frame's other stages are left alone.
-inline FrameTimings& operator+=(FrameTimings& to, const FrameTimings& from) {
+inline void add_shadow_stages(FrameTimings& to, const FrameTimings& from) {
   to.rays_ms += from.rays_ms;
   to.sort_ms += from.sort_ms;
   to.build_ms += from.build_ms;
@@ -40,7 +40,6 @@ inline FrameTimings& operator+=(FrameTimings& to, const FrameTimings& from) {
   to.init_ms += from.init_ms;
   to.query_ms += from.query_ms;
   to.irradiance_ms += from.irradiance_ms;
-  return to;
 }
 
 /// Work counted by the tracer of shadow rays, summed over the lights. Counts do not jitter.
@@ -56,7 +55,7 @@ struct TraceStats {
   std::uint64_t lit_pixels = 0;            ///< rays found free
   std::uint64_t degenerate_triangles = 0;  ///< zero area or edge-on to the light: they block nothing. Variant
                                            ///< Tiles: of those that came near rays, or have equal corners
-  std::uint64_t tree_bytes = 0;            ///< memory of the cone tree, largest of the lights
+  std::uint64_t tree_bytes = 0;  ///< memory of the cone tree (Tiles: of both trees), largest of the lights
 };
 
 /// Adds the work of another light, or of another part of one (triangles, tree_bytes: the larger).

@@ -18,7 +18,7 @@ namespace {
 
 using glm::dvec3;
 
-constexpr std::uint16_t no_receiver = 0xfffeu;  // faces away from the eye
+constexpr std::uint16_t no_receiver = 0xfffeu;  // none, or one edge-on to the eye or without area
 
 /// Makes one patch.
 class PatchMaker {
@@ -47,7 +47,7 @@ private:
   struct Seen {
     std::uint32_t lanes = 0;  ///< that have a point on a triangle that faces the eye
     bool one = false;         ///< all sixteen see the same triangle
-    TileReceivers receiver;
+    TileReceivers receiver{};
   };
 
   std::uint16_t receiver_of(std::uint32_t id);
@@ -118,7 +118,7 @@ void PatchMaker::find_receivers(std::uint32_t x, std::uint32_t y, Seen& seen, Po
     const std::uint32_t id = *ids_at(x, y);
     const std::uint16_t number = receiver_of(id);
     seen.receiver.fill(number);
-    std::fill(std::begin(tile.id), std::end(tile.id), id);
+    std::fill(std::begin(tile.id), std::end(tile.id), number == no_receiver ? no_triangle : id);
     seen.lanes = number == no_receiver ? 0 : 0xffffu;
     return;
   }
@@ -183,14 +183,6 @@ void PatchMaker::add_square(std::uint32_t x, std::uint32_t y, std::uint32_t firs
 }
 
 }  // namespace
-
-std::size_t PointTiles::byte_count() const {
-  std::size_t bytes = tiles.size() * sizeof(PointTile) + bases.size() * sizeof(PointBase);
-  for (const PointPatch& patch : patches)
-    bytes += patch.squares.size() * sizeof(PointSquare) + patch.receivers.size() * sizeof(ReceiverBlock) +
-             patch.mixed.size() * sizeof(TileReceivers);
-  return bytes;
-}
 
 void begin_point_tiles(int width, int height, const ViewRays& view, PointTiles& out) {
   const SquareGrid grid(width, height);

@@ -30,8 +30,8 @@ struct PointBase {
   float radius;  ///< >= |q| of all points of the square
 };
 
-/// Sixteen pixels, four rows of four. The point of lane i is base + q_i, q rounded to float. Lanes that face
-/// away from the eye or see nothing hold the q of another.
+/// Sixteen pixels, four rows of four. The point of lane i is base + q_i, q rounded to float. Lanes that see
+/// nothing, or a triangle edge-on, hold the q of another.
 struct alignas(64) PointTile {
   float qx[tile_points], qy[tile_points], qz[tile_points];
   std::uint32_t id[tile_points];  ///< of the triangle that the point lies on; no_triangle: there is no point
@@ -73,13 +73,13 @@ struct PointPatch {
 };
 
 struct PointTiles {
-  std::vector<PointTile> tiles;  ///< sixteen a square, squares row by row; those without points as they were
+  std::vector<PointTile>
+      tiles;  ///< sixteen a square, squares row by row; q of those without points as it was
   std::vector<PointBase> bases;  ///< one a square
   std::vector<PointPatch> patches;
   ViewRays view;  ///< whose eye the triangles face
 
   bool empty() const { return patches.empty(); }
-  std::size_t byte_count() const;
 };
 
 struct SquareGrid {

@@ -43,7 +43,7 @@ enum class PointLayout { rows, rows_and_tiles };
 
 /// Points where the pixels' rays meet the planes of their triangles, in double, clamped into the triangle
 /// (a rasteriser's id may lie just outside). `ids`: width * height, row 0 at the top; ids out of range count
-/// as no_triangle. Bits do not depend on threads or instruction set.
+/// as no_triangle. Bits do not depend on threads; those of rows not on the instruction set either.
 void compute_visible_points(std::span<const std::uint32_t> ids, int width, int height, const ViewRays& view,
                             const TriangleView& triangles, VisiblePoints& out,
                             PointLayout layout = PointLayout::rows);

@@ -6,6 +6,7 @@
 #include <cstdint>
 #include <glm/glm.hpp>
 
+#include "points/visible_points.h"
 #include "simd/simd_level.h"
 
 namespace tenebra {
@@ -13,7 +14,7 @@ namespace tenebra {
 /// What the pixels of one triangle share. Barycentric weights of a point p on the plane are
 /// u = du.(p - a), v = dv.(p - a), 1 - u - v.
 struct Receiver {
-  std::uint32_t id = 0xffffffffu;
+  std::uint32_t id = no_triangle;
   glm::dvec3 a, e1, e2, normal, du, dv;
   bool flat = false;  ///< no plane: zero area in double
 };

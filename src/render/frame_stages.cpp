@@ -81,7 +81,7 @@ Expected<void> Renderer::State::light_hard(const FrameInput& input, const DrawnL
                            shadow_light(light.light, light.placed), config, hard_mask);
   });
   result.stats += hard.stats();
-  result.timings += hard.timings();
+  add_shadow_stages(result.timings, hard.timings());
   LightMask& out = result.masks.emplace_back();
   out.light = light.number;
   out.mask = {gbuffer.width, gbuffer.height, 1, hard_mask};
@@ -120,10 +120,10 @@ Expected<void> Renderer::State::light_soft(const FrameInput& input, const DrawnL
   if (!done) return fail("stopped");
   if (settings.soft_points > 0) {
     result.stats += light_points.stats();
-    result.timings += light_points.timings();
+    add_shadow_stages(result.timings, light_points.timings());
   } else {
     result.soft += soft.stats();
-    result.timings += soft.timings();
+    add_shadow_stages(result.timings, soft.timings());
   }
   watch.lap_ms();
   LightMask& out = result.masks.emplace_back();

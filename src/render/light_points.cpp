@@ -115,7 +115,7 @@ bool LightPointShadows::trace(const VisiblePoints& points, std::span<const glm::
       if (stop_requested(stop)) return false;
       tracer_.trace_shadow_mask(points, view, triangles, {.position = some[k]}, config, masks_[k]);
       stats_ += tracer_.stats();
-      timings_ += tracer_.timings();
+      add_shadow_stages(timings_, tracer_.timings());
     }
     Stopwatch watch;
     PointsOfLight{some, masks_, light.normal, light.area_m2 / count, 1.0f / static_cast<float>(count)}.add(

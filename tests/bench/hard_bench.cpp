@@ -40,17 +40,11 @@ Expected<void> measure(const PartsArguments& arguments, const std::string& simd)
   if (auto written = session.report.write(parts_settings(arguments, *level)); !written) return written;
   std::printf("\n");
   for (const std::string& name : session.skipped) std::printf("%s: skipped, not there\n", name.c_str());
-  for (const std::string& note : session.notes) std::printf("note: %s.\n", note.c_str());
   print_headlines(session.headline);
   return {};
 }
 
 }  // namespace
-
-void print_hard_table(const std::string& title, const std::vector<std::vector<std::string>>& rows) {
-  std::printf("\n%s\n%s", title.c_str(), text_table(rows).c_str());
-  std::fflush(stdout);
-}
 
 void add_hard_command(CLI::App& program, Run& run) {
   const auto simd = std::make_shared<std::string>("auto");

@@ -19,8 +19,7 @@ constexpr int band = 8;  // rows of pixels that are given to a thread together
 bool faces(const Corners& c, const ViewRays& view, const ShadowLight& light) {
   const int lit = light.directional ? direction_side(c.v[0], c.v[1], c.v[2], light.to_light)
                                     : point_side(c.v[0], c.v[1], c.v[2], light.position);
-  const int seen = view.orthographic ? -direction_side(c.v[0], c.v[1], c.v[2], view.d0)
-                                     : point_side(c.v[0], c.v[1], c.v[2], view.eye);
+  const int seen = eye_side(c.v, view);
   return lit != 0 && lit == seen;
 }
 

@@ -74,13 +74,13 @@ Expected<void> measure_hard_frames(HardSession& session) {
     }
     return {};
   };
-  const auto frames = hard_frames(session.effort != HardEffort::full);
+  const auto frames = hard_frames(session.effort != Effort::full);
   if (auto done = for_each_view(session.options, frames, session.size(), session.skipped, measure); !done)
     return done;
   for (std::size_t i = 0; i < threads.size(); ++i) {
-    print_hard_table(fmt::format("Frames, {} thread{}: medians in ms{}", threads[i],
-                                 threads[i] == 1 ? "" : "s", threads[i] == 1 ? " of processor time" : ""),
-                     tables[i]);
+    print_table(fmt::format("Frames, {} thread{}: medians in ms{}", threads[i], threads[i] == 1 ? "" : "s",
+                            threads[i] == 1 ? " of processor time" : ""),
+                tables[i]);
     if (ratios[i].dynamic.empty()) continue;
     std::printf("geometric means of the frames of BART: %.3f of Embree dynamic, %.3f of Embree static\n",
                 geometric_mean(ratios[i].dynamic), geometric_mean(ratios[i].still));

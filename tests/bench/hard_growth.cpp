@@ -96,7 +96,7 @@ struct Series {
   }
   void conclude(const std::string& title, const std::string& axis) {
     if (rows.size() < 2) return;
-    print_hard_table(title, rows);
+    print_table(title, rows);
     session.report.add_plot(experiment, curve_plot(title, {axis, true}, {"time (ms)", true}, {ours, embree}));
   }
 };

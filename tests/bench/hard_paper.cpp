@@ -101,8 +101,8 @@ Expected<void> measure_robots(HardSession& session) {
   session.report.add_plot("figure7_time",
                           curve_plot("Figure 7: early accept, two passes", x, time, figure7.ms));
   session.report.add_plot("figure7_nodes", curve_plot("Figure 7: node tests", x, nodes, figure7.nodes));
-  print_hard_table("Figure 6: spheres and precise cones, sorted and not, over the robots", figure6.rows());
-  print_hard_table("Figure 7: early accept and two passes over the robots", figure7.rows());
+  print_table("Figure 6: spheres and precise cones, sorted and not, over the robots", figure6.rows());
+  print_table("Figure 7: early accept and two passes over the robots", figure7.rows());
   return {};
 }
 
@@ -111,7 +111,7 @@ Expected<void> measure_museum(HardSession& session) {
                                 Variant::precise, Variant::spheres};
   Rows table{{"museum5x64", "Tiles", "PreciseSorted", "SpheresSorted", "Precise", "Spheres"}};
   const std::vector<int> frames =
-      session.effort == HardEffort::full ? std::vector<int>{20, 100, 200} : std::vector<int>{20};
+      session.effort == Effort::full ? std::vector<int>{20, 100, 200} : std::vector<int>{20};
   const auto done = on_frames(session, "museum5x64", frames, [&](int frame, const HardView& view) {
     std::vector<std::string> times{fmt::format("{} ms", frame)}, nodes{fmt::format("{} M nodes", frame)};
     for (const Variant variant : variants) {
@@ -123,7 +123,7 @@ Expected<void> measure_museum(HardSession& session) {
     }
     table.push_back(times), table.push_back(nodes);
   });
-  if (done && table.size() > 1) print_hard_table("Table 2: views of the museum", table);
+  if (done && table.size() > 1) print_table("Table 2: views of the museum", table);
   return done;
 }
 

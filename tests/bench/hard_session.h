@@ -10,8 +10,6 @@
 
 namespace tenebra::bench {
 
-using HardEffort = Effort;
-
 /// The last lines; parts that were left out leave theirs empty.
 struct HardHeadline {
   std::optional<double> dynamic_geomean, static_geomean, dynamic_worst, static_worst;
@@ -20,26 +18,22 @@ struct HardHeadline {
 
 struct HardSession {
   BenchOptions options;
-  HardEffort effort = HardEffort::full;
+  Effort effort = Effort::full;
   SimdLevel simd = SimdLevel::automatic;  ///< of both contestants
   Report report;
   HardHeadline headline;
-  std::vector<std::string> notes;    ///< sentences: what was missing, replaced or out of bounds
   std::vector<std::string> skipped;  ///< scenes that are not there
 
   /// The value for this run's effort.
   template <class T>
   T by_effort(T tiny, T quick, T full) const {
-    return effort == HardEffort::tiny ? tiny : effort == HardEffort::quick ? quick : full;
+    return effort == Effort::tiny ? tiny : effort == Effort::quick ? quick : full;
   }
   PictureSize size() const {
-    if (effort == HardEffort::tiny) return {64, 64};
+    if (effort == Effort::tiny) return {64, 64};
     return {};
   }
 };
-
-/// Prints at once, for those who watch.
-void print_hard_table(const std::string& title, const std::vector<std::vector<std::string>>& rows);
 
 // The parts.
 Expected<void> measure_hard_frames(HardSession& session);    ///< the frames, against Embree

@@ -45,11 +45,11 @@ Expected<void> measure_hard_variance(HardSession& session) {
   if (!done || times.empty()) return done;
   const Summary summary = summarize(times);
   session.headline.p99_over_median = summary.percentile_99 / summary.median;
-  print_hard_table(fmt::format("Steadiness over {} frames of the robots", times.size()),
-                   {{"median ms", "95 %", "99 %", "worst", "99 % / median"},
-                    {fmt::format("{:.2f}", summary.median), fmt::format("{:.2f}", summary.percentile_95),
-                     fmt::format("{:.2f}", summary.percentile_99), fmt::format("{:.2f}", summary.worst),
-                     fmt::format("{:.2f}", *session.headline.p99_over_median)}});
+  print_table(fmt::format("Steadiness over {} frames of the robots", times.size()),
+              {{"median ms", "95 %", "99 %", "worst", "99 % / median"},
+               {fmt::format("{:.2f}", summary.median), fmt::format("{:.2f}", summary.percentile_95),
+                fmt::format("{:.2f}", summary.percentile_99), fmt::format("{:.2f}", summary.worst),
+                fmt::format("{:.2f}", *session.headline.p99_over_median)}});
   session.report.add_plot("variance",
                           curve_plot("The shadow pass over the robots", {"frame"}, {"time (ms)"}, {curve}));
   return {};

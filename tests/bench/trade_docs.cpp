@@ -1,6 +1,6 @@
 // docs/trade.md: tables, plots and the advice that follows from them. Every figure in it comes from the run
 // that writes it.
-#include <cmath>
+#include <algorithm>
 
 #include "base/machine.h"
 #include "base/output_file.h"

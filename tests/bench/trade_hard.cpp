@@ -1,7 +1,5 @@
 // The trade of hard shadows: the default, the paper's variants, front-face culling, samples from the depth
 // buffer, depth cubes and Embree's rays.
-#include <array>
-#include <cmath>
 #include <memory>
 
 #include "hard_embree.h"

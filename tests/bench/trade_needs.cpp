@@ -1,10 +1,10 @@
 // Only what a scene requires: what stages cost as frames need them, beside what they would cost if all of it
 // were done, with the same answer.
+#include <algorithm>
 #include <cmath>
 #include <limits>
 
 #include "ao_race.h"
-#include "bench_scenes.h"
 #include "gl/context.h"
 #include "hard_views.h"
 #include "render/renderer.h"

@@ -19,7 +19,7 @@ struct TradeOptions {
 /// What a stage that is not run, or shrunk, saves on one view.
 struct NeedRow {
   std::string stage, view;
-  std::string shrunk;              ///< what the frame's own needs leave: "1,204 of 4,096 tiles sorted"
+  std::string shrunk;              ///< what the frame's own needs leave: "985370 rays of 1048576 pixels"
   double with_ms = 0, all_ms = 0;  ///< as it is; were all of it done. 0: only counted
   std::optional<bool> same{};      ///< both gave the same bits; none: only one of them was run
 };

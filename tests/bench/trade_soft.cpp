@@ -1,6 +1,5 @@
 // The trade of soft shadows: the exact solvers, N points of the light with exact hard shadows, N rays of
 // Embree, and the same behind shaft culling.
-#include <cmath>
 #include <memory>
 
 #include "ao_race.h"

@@ -60,7 +60,7 @@ TEST(TradeTable, AdviceSaysWhereFiguresAreMissing) {
   const TradeTable table = table_of({{1, 9}});
   for (const std::string& text :
        {hard_advice({&table}), soft_advice({&table}), ao_advice({&table}), preset_section({}, {})})
-    EXPECT_NE(text.find('-'), std::string::npos);
+    EXPECT_NE(text.find(" - "), std::string::npos) << text;
   EXPECT_EQ(hard_advice({}).find("nan"), std::string::npos);
 }
 

@@ -1,10 +1,12 @@
 // Tiles say the same as the points in double that they are made of, or nothing.
 #include <gtest/gtest.h>
 
-#include <algorithm>
 #include <bit>
 #include <cmath>
+#include <cstddef>
 #include <cstring>
+#include <utility>
+#include <vector>
 
 #include "parallel/parallel.h"
 #include "points/contact_rule.h"
@@ -144,13 +146,16 @@ TEST(PointTiles, AreTheSameForAllThreads) {
   const TiledCase c = tiled_room(35, 130, 70);
   PointTiles again;
   with_threads(7, [&] { make_point_tiles(c.points, c.view, c.soup.view(), again); });
+  const std::vector<PointTile>& tiles = c.points.tiles.tiles;
+  ASSERT_EQ(again.tiles.size(), tiles.size());
+  EXPECT_EQ(std::memcmp(again.tiles.data(), tiles.data(), tiles.size() * sizeof(PointTile)), 0);
   ASSERT_EQ(again.patches.size(), c.points.tiles.patches.size());
   for (std::size_t i = 0; i < again.patches.size(); ++i) {
     const PointPatch &a = again.patches[i], &b = c.points.tiles.patches[i];
     ASSERT_EQ(a.squares.size(), b.squares.size());
     ASSERT_EQ(a.receiver_count, b.receiver_count);
     for (std::size_t k = 0; k < a.squares.size(); ++k)
-      EXPECT_EQ(std::memcmp(&a.squares[k], &b.squares[k], sizeof(PointSquare)), 0);
+      EXPECT_EQ(std::memcmp(&a.squares[k], &b.squares[k], offsetof(PointSquare, tau) + sizeof(float)), 0);
   }
 }
 

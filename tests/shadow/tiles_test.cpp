@@ -1,6 +1,5 @@
 // The variant Tiles beyond what all variants are tested for: buffers kept over moving frames, the order of
 // triangles, where the method does not apply, threads and instruction sets.
-#include <algorithm>
 
 #include "shadow/mask_case.h"
 #include "shadow/tiles/cluster_order.h"

@@ -125,9 +125,7 @@ HWY_INLINE void face_cluster(const ClusterPlanes& c, const Face& face, float tau
     store(load<Float16>(m[face.axes[1]][k]), out.my[k]);
     store(load<Float16>(m[face.axes[2]][k]) * splat<Float16>(face.sign), out.mz[k]);
   }
-  alignas(64) float narrow[16];
-  store_narrowed(load<Pack<double, 16>>(c.d), narrow);
-  const Float16 d = load<Float16>(narrow), rho = load<Float16>(c.rho), far = rho * load<Float16>(c.reach);
+  const Float16 d = load<Float16>(c.fd), rho = load<Float16>(c.rho), far = rho * load<Float16>(c.reach);
   store(multiply_add(splat<Float16>(4.5f), rho, splat<Float16>(23 * u)), out.edge_slack);
   store(multiply_add(splat<Float16>(4.5f), rho, splat<Float16>(28 * u)), out.own_slack);
   store(d - absolute(d) * splat<Float16>(8 * u) - far * splat<Float16>(1 + 8 * u), out.d);

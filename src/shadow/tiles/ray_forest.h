@@ -7,8 +7,9 @@
 // section with its apex at the light, and sixteen of them are tested in a few instructions. A face serves all
 // rays with |u|, |v| <= face_limit, so that few tiles straddle two.
 //
-// The points come in tiles of 4x4 pixels, with boxes around them (points/point_tiles.h): nothing is read of
-// the points themselves before a triangle comes near them. A square of sixteen tiles without depth gaps is a
+// The points come in tiles of 4x4 pixels, with boxes around them (points/point_tiles.h): of most squares
+// nothing more is read before a triangle comes near them (of lights with a range or a cone, and of tiles that
+// straddle gaps or are wide, their points too). A square of sixteen tiles without depth gaps is a
 // node of the lowest level as it stands, unless it is wide as seen from the light; the groups of the others
 // are sorted along a Hilbert curve on the cube and joined anew. The nodes are then sorted along the same
 // curve: thousands of them, where sorting all rays is a million.
@@ -16,7 +17,6 @@
 
 #include <array>
 #include <cstdint>
-#include <glm/glm.hpp>
 #include <vector>
 
 #include "points/point_tiles.h"

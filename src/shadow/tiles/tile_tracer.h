@@ -1,8 +1,9 @@
 // The variant Tiles: rays in tiles of neighbouring pixels, triangles in clusters of neighbouring triangles, a
-// tree over each, descended together. Against the paper's way it sorts thousands of tiles instead of a
+// tree over each, descended together. Against the paper's way it sorts thousands of squares instead of a
 // million rays, bounds them by boxes on a cube's faces (cones of rectangular section with their apex at the
-// light) instead of round cones, and looks at sixteen triangles or nodes at once. The last test, and with it
-// the mask, is the same: planes through the light in double, a float filter, double, exact signs.
+// light) instead of round cones, and looks at sixteen triangles or nodes at once. Floats alone decide
+// first, then planes through the light in double; the last stages, and with them the mask, are the same:
+// double, then exact signs.
 #pragma once
 
 #include "base/frame_timings.h"

@@ -1,9 +1,9 @@
 // Casting triangles in clusters of sixteen and an implicit sixteen-way tree of boxes over them: what the
 // variant Tiles descends together with its ray tree. The order is found once (classes of size, then part by
-// part along a Morton curve); from frame to frame boxes are refitted, of clusters with a changed vertex only.
+// part, cut in halves); from frame to frame boxes are refitted, of clusters with a changed vertex or
+// triangle.
 #pragma once
 
-#include <array>
 #include <cstdint>
 #include <glm/glm.hpp>
 #include <vector>
@@ -58,7 +58,6 @@ private:
 
   bool same_order(const TriangleView& triangles) const;
   void find_order(const TriangleView& triangles);
-  void note_changes(const TriangleView& triangles);
   bool triangles_changed(std::size_t cluster) const;
   bool vertices_changed(std::size_t cluster) const;
   void find_corners(const TriangleView& triangles, std::size_t cluster);
