@@ -56,26 +56,12 @@ public:
     const BlockAtPoint<T>& there = with_boxes(b);
     list.append(there.box, 16 * b, there.lanes & blocks_[b].lanes, box);
   }
-  /// Bits of the occluders of a block that may reach into `box`.
-  HWY_INLINE std::uint32_t meeting(std::size_t b, const LightBox<T>& box) {
-    const BlockAtPoint<T>& there = with_boxes(b);
-    const T* sides[4] = {there.box[0], there.box[1], there.box[2], there.box[3]};
-    return bits(ShadowList<T>::meets(sides, box)) & there.lanes & blocks_[b].lanes;
-  }
-
-  /// Appends those of the list [first, last) whose shadow may reach into `box`; false, and nothing appended,
-  /// if one of the largest among them covers it.
-  HWY_NOINLINE bool find_among(std::size_t first, std::size_t last, const LightBox<T>& box) {
-    const std::size_t from = list.count();
-    list.narrow(first, last, box);
-    const std::size_t largest_end = HWY_MIN(list.count(), from + looked_at);
-    for (std::size_t i = from; i < largest_end; ++i) {
-      if (!covers(list.id(i), box)) continue;
-      mark_useful(list.id(i));
-      list.shrink(from);
-      return false;
-    }
-    return true;
+  /// The occluders of block 0, and bits of those that may reach into `box`.
+  HWY_INLINE ShadowBoxes<T> first_block(const LightBox<T>& box, std::uint64_t& met) {
+    const BlockAtPoint<T>& there = with_boxes(0);
+    const ShadowBoxes<T> boxes{{there.box[0], there.box[1], there.box[2], there.box[3]}, lane_numbers<T>};
+    met = bits(meets(boxes, box)) & there.lanes & blocks_[0].lanes;
+    return boxes;
   }
 
   /// The lines around an occluder's shadow.
@@ -105,16 +91,6 @@ private:
     return there;
   }
 
-  HWY_INLINE bool covers(std::size_t id, const LightBox<T>& box) {
-    using Lanes = Pack<T, 4>;
-    const ShadowLines<T> lines = lines_of(id);
-    const Lanes u = load<Lanes>(lines.u), v = load<Lanes>(lines.v), w = load<Lanes>(lines.w);
-    const Lanes value = u * splat<Lanes>(box.cu) + v * splat<Lanes>(box.cv) + w;
-    const Lanes reach = absolute(u) * splat<Lanes>(box.hu) + absolute(v) * splat<Lanes>(box.hv);
-    return less_bits(reach, value) == all_lines;
-  }
-
-  static constexpr std::size_t looked_at = 4;  ///< occluders that may cover a part by themselves
   std::span<const PlaneHeight> heights_;
   std::vector<OccluderBlock> blocks_;
   std::vector<BlockAtPoint<T>> at_point_;

@@ -1,5 +1,5 @@
-// The visible part of the light by subtracting occluders from it, largest first; where many reach the light
-// it is halved, like a kd-tree, until few are left in a part.
+// The visible part of the light by subtracting occluders from it: from each fragment next the one that has
+// most in common with it, so that fragments stay few.
 //
 // What took light from one point mostly does so from the next: those occluders are kept apart and come first.
 // Only what they leave of the light meets the others, found through the bounds of their blocks: a point in
@@ -62,20 +62,18 @@ public:
 
 private:
   using Candidates = ClipCandidates<T>;
-  static constexpr std::size_t few = 24;      ///< occluders that are subtracted without more ado
-  static constexpr std::size_t handful = 32;  ///< occluders that are looked at for each part anew
-  static constexpr std::size_t largest = 8;   ///< occluders that go first where halving does not part them
-  static constexpr std::size_t many = 48;     ///< occluders from which on it pays to keep some apart
+  static constexpr std::size_t few = 64;   ///< occluders that are subtracted in the order of each part
+  static constexpr std::size_t many = 48;  ///< occluders from which on it pays to keep some apart
+  static constexpr int any_order = 4;      ///< occluders whose order does not matter
 
   bool has_many() const { return cold_.count() > many; }
 
   /// Where all occluders fit in one block, there is nothing to sort out.
   void subtract_block(const LightPolygon<T>& light, FragmentList<T>& out) {
-    const std::size_t from = out.size();
-    out.push(light);
-    std::uint32_t met = cold_.block_count() == 0 ? 0 : cold_.meeting(0, box_of(light));
-    for (; met != 0 && out.size() > from; met &= met - 1)
-      subtract_one(cold_.lines_of(static_cast<std::size_t>(std::countr_zero(met))), out, from);
+    if (cold_.block_count() == 0) return out.push(light);
+    std::uint64_t met = 0;
+    const ShadowBoxes<T> boxes = cold_.first_block(box_of(light), met);
+    subtract_few(cold_, boxes, met, light, out);
   }
 
   /// Puts those aside that took light from the last point; sorts out the others where they are more.
@@ -149,8 +147,9 @@ private:
   void subtract_list(const FragmentList<T>& parts, std::size_t begin, std::size_t end, const LightBox<T>& box,
                      std::size_t first, FragmentList<T>& out) {
     const std::size_t last = cold_.list.count();
-    if (last - first <= handful) {
-      for (std::size_t i = begin; i < end; ++i) subtract_handful(parts, i, first, last, out);
+    if (last - first <= few) {
+      for (std::size_t i = begin; i < end; ++i)
+        subtract_listed(cold_, first, last, loaded(parts[boxes_.part(i)]), out);
       return;
     }
     if (end - begin == 1) return solve(cold_, loaded(parts[boxes_.part(begin)]), first, out);
@@ -164,103 +163,58 @@ private:
     }
   }
 
-  /// Subtracts the occluders in the list [first, last), at most a handful, from one part.
-  HWY_INLINE void subtract_handful(const FragmentList<T>& parts, std::size_t place, std::size_t first,
-                                   std::size_t last, FragmentList<T>& out) {
-    const std::size_t from = out.size();
-    out.push(loaded(parts[boxes_.part(place)]));
-    if (first == last) return;
-    std::uint64_t met = cold_.list.meeting(first, last, boxes_.around(place, place + 1));
-    for (; met != 0 && out.size() > from; met &= met - 1) {
-      const std::size_t id = cold_.list.id(first + static_cast<std::size_t>(std::countr_zero(met)));
-      if (subtract_one(cold_.lines_of(id), out, from)) cold_.mark_useful(id);
-    }
-  }
-
-  /// Subtracts the occluders in the list from place `first` on from `part`.
+  /// Subtracts the occluders in the list from place `first` on from `part`: a few, and from each fragment of
+  /// what they leave those of the others that meet it.
   void solve(Candidates& c, const LightPolygon<T>& part, std::size_t first, FragmentList<T>& out) {
     const std::size_t last = c.list.count();
-    if (last - first <= few) return subtract_all(c, part, first, last, out);
-    if (halve_light(c, part, first, last, out)) return;
+    if (last - first <= few) return subtract_listed(c, first, last, part, out);
     FragmentList<T> left = take();
-    subtract_all(c, part, first, first + largest, left);
+    subtract_listed(c, first, first + few, part, left);
     for (std::size_t k = 0; k < left.size(); ++k) {
       const LightPolygon<T> fragment = loaded(left[k]);
-      const std::size_t from = c.list.count();
-      if (c.find_among(first + largest, last, box_of(fragment))) solve(c, fragment, from, out);
-      c.list.shrink(from);
+      c.list.narrow(first + few, last, box_of(fragment));
+      solve(c, fragment, last, out);
+      c.list.shrink(last);
     }
     give_back(std::move(left));
   }
 
-  /// Solves both halves of `part` if that parts the occluders: three quarters of them in only one half, at
-  /// least.
-  bool halve_light(Candidates& c, const LightPolygon<T>& part, std::size_t first, std::size_t last,
-                   FragmentList<T>& out) {
-    const LightBox<T> box = box_of(part);
-    if (HWY_MAX(box.hu, box.hv) < 4 * on_line<T>) return false;  // no line parts its vertices
-    const bool wide = box.hu >= box.hv;
-    LightBox<T> low = box;
-    (wide ? low.hu : low.hv) *= T(0.5);
-    LightBox<T> high = low;
-    (wide ? low.cu : low.cv) -= wide ? low.hu : low.hv;
-    (wide ? high.cu : high.cv) += wide ? low.hu : low.hv;
-    const bool low_lit = c.find_among(first, last, low);
-    const std::size_t middle = c.list.count();
-    const bool high_lit = c.find_among(first, last, high);
-    const std::size_t count = c.list.count() - last;
-    const bool parted = !low_lit || !high_lit || 4 * count < 5 * (last - first);
-    if (parted) {
-      const T sign = -1;
-      const LightLine<T> below = wide ? LightLine<T>{sign, 0, box.cu} : LightLine<T>{0, sign, box.cv};
-      const LightLine<T> above = wide ? LightLine<T>{1, 0, -box.cu} : LightLine<T>{0, 1, -box.cv};
-      LightPolygon<T> kept = part;
-      if (high_lit && keep_side(above, kept)) solve(c, kept, middle, out);
-      c.list.shrink(middle);
-      kept = part;
-      if (low_lit && keep_side(below, kept)) solve(c, kept, last, out);
+  /// Appends what the occluders in places [first, last), at most a few, leave of `part`.
+  void subtract_listed(Candidates& c, std::size_t first, std::size_t last, const LightPolygon<T>& part,
+                       FragmentList<T>& out) {
+    if (first == last) return out.push(part);
+    subtract_few(c, c.list.from(first), ~std::uint64_t{0} >> (64 - (last - first)), part, out);
+  }
+
+  /// Appends what the occluders of the bits of `left` leave of `part`. Each fragment chooses for itself which
+  /// is next: the one whose box has most in common with its own takes most away, and leaves the fewest
+  /// fragments.
+  HWY_NOINLINE void subtract_few(Candidates& c, const ShadowBoxes<T>& boxes, std::uint64_t left,
+                                 const LightPolygon<T>& part, FragmentList<T>& out) {
+    subtract_widest(c, boxes, left, part, out);
+    while (!todo_.empty()) {
+      left = todo_left_.back();
+      todo_left_.pop_back();
+      subtract_widest(c, boxes, left, todo_.pop(), out);
     }
-    c.list.shrink(last);
-    return parted;
   }
 
-  /// Cuts `polygon` to the line's positive side; false if nothing is left.
-  static HWY_NOINLINE bool keep_side(const LightLine<T>& line, LightPolygon<T>& polygon) {
-    const LineValues<T> values = evaluate(polygon, line);
-    if (values.positive == 0) return false;
-    if (values.negative == 0) return true;
-    LightPolygon<T> inside, outside;
-    split(polygon, values, inside, outside);
-    polygon = inside;
-    return true;
-  }
-
-  /// Appends what the occluders in places [first, last) leave of `part`.
-  HWY_NOINLINE void subtract_all(Candidates& c, const LightPolygon<T>& part, std::size_t first,
-                                 std::size_t last, FragmentList<T>& out) {
-    const std::size_t from = out.size();
+  /// Subtracts one of the occluders of the bits of `left` that has a share in `part`; for what is left of it,
+  /// the others are still to do.
+  HWY_INLINE void subtract_widest(Candidates& c, const ShadowBoxes<T>& boxes, std::uint64_t left,
+                                  const LightPolygon<T>& part, FragmentList<T>& out) {
+    int k = std::popcount(left) <= any_order ? std::countr_zero(left) : widest_of(boxes, left, box_of(part));
+    for (; left != 0; k = std::countr_zero(left)) {
+      left &= ~(std::uint64_t{1} << k);
+      const auto id = static_cast<std::size_t>(boxes.ids[k]);
+      const ShadowLines<T> lines = c.lines_of(id);
+      const LineSides sides = sides_of(part, lines);
+      if (sides.positive != all_lines) continue;
+      if (!subtract(part, lines, sides.negative, left == 0 ? out : todo_)) continue;
+      todo_left_.resize(todo_.size(), left);
+      return c.mark_useful(id);
+    }
     out.push(part);
-    for (std::size_t i = first; i < last && out.size() > from; ++i) {
-      if (subtract_one(c.lines_of(c.list.id(i)), out, from)) c.mark_useful(c.list.id(i));
-    }
-  }
-
-  /// Subtracts a shadow from the fragments from place `from` on; true if that took something.
-  static HWY_INLINE bool subtract_one(const ShadowLines<T>& lines, FragmentList<T>& fragments,
-                                      std::size_t from) {
-    bool taken = false;
-    std::size_t end = fragments.size();  // of those not yet subtracted from: what is left goes behind them
-    for (std::size_t k = from; k < end;) {
-      const LightPolygon<T> fragment = loaded(fragments[k]);
-      const LineSides sides = sides_of(fragment, lines);
-      if (sides.positive != all_lines || !subtract(fragment, lines, sides.negative, fragments)) {
-        ++k;
-        continue;
-      }
-      taken = true;
-      fragments.remove(k, end--);
-    }
-    return taken;
   }
 
   FragmentList<T> take() {
@@ -281,7 +235,9 @@ private:
   BlockBounds<T> bounds_;                        ///< of cold_
   ShadowList<T> blocks_;
   bool blocks_listed_ = false;
-  PartBoxes<T> boxes_;  ///< of what the hot ones leave
+  PartBoxes<T> boxes_;                    ///< of what the hot ones leave
+  FragmentList<T> todo_;                  ///< parts that are still to be subtracted from
+  std::vector<std::uint64_t> todo_left_;  ///< which occluders, of each
   std::vector<FragmentList<T>> spare_;
 };
 

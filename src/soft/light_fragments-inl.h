@@ -67,11 +67,6 @@ public:
     }
   }
   void shrink(std::size_t size) { size_ = size; }
-  /// Puts the last of the first `count` in its place, and the last of all in that one's.
-  HWY_INLINE void remove(std::size_t place, std::size_t count) {
-    polygons_[place] = polygons_[count - 1];
-    polygons_[count - 1] = polygons_[--size_];
-  }
   HWY_INLINE LightPolygon<T> pop() { return loaded(polygons_[--size_]); }
 
 private:

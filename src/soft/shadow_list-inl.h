@@ -27,52 +27,90 @@ HWY_INLINE LightBox<T> box_of(const LightPolygon<T>& polygon) {
   return {(low_u + high_u) / 2, (low_v + high_v) / 2, (high_u - low_u) / 2, (high_v - low_v) / 2};
 }
 
-/// A stack of lists: [first, count()) is the latest. Sides of boxes as in BlockAtPoint.
+/// Up to 64 boxes in a row. Sides as in BlockAtPoint; whole registers of sixteen can be read.
+template <class T>
+struct ShadowBoxes {
+  const T* sides[4];
+  const LaneIndex<T>* ids;
+
+  ShadowBoxes at(std::size_t k) const {
+    return {{sides[0] + k, sides[1] + k, sides[2] + k, sides[3] + k}, ids + k};
+  }
+};
+
+/// Of the first sixteen those that meet `box`.
+template <class T>
+HWY_INLINE Truth<T, 16> meets(const ShadowBoxes<T>& boxes, const LightBox<T>& box) {
+  using Lanes = Pack<T, 16>;
+  const auto below = [&](int k, T border) { return less(load<Lanes>(boxes.sides[k]), splat<Lanes>(border)); };
+  return below(0, box.cu + box.hu) & below(1, box.hu - box.cu) & below(2, box.cv + box.hv) &
+         below(3, box.hv - box.cv);
+}
+
+/// The area that each of the first sixteen has in common with `box`, if they meet.
+template <class T>
+HWY_INLINE Pack<T, 16> common_areas(const ShadowBoxes<T>& boxes, const LightBox<T>& box) {
+  using Lanes = Pack<T, 16>;
+  const auto beyond = [&](int k, T border) { return max(load<Lanes>(boxes.sides[k]), splat<Lanes>(border)); };
+  return (beyond(0, box.cu - box.hu) + beyond(1, -box.hu - box.cu)) *
+         (beyond(2, box.cv - box.hv) + beyond(3, -box.hv - box.cv));
+}
+
+/// The place of the box that has most in common with `box`, the first of several, among those of the bits of
+/// `left`. Takes those that do not meet `box` from `left`; 64 if those are all.
+template <class T>
+HWY_INLINE int widest_of(const ShadowBoxes<T>& boxes, std::uint64_t& left, const LightBox<T>& box) {
+  using Lanes = Pack<T, 16>;
+  T areas[64];
+  Lanes most = splat<Lanes>(T(-1));
+  std::uint64_t met = 0;
+  for (int k = 0; k < 64 && left >> k != 0; k += 16) {
+    const ShadowBoxes<T> sixteen = boxes.at(static_cast<std::size_t>(k));
+    const auto there = truth_of<T, 16>(static_cast<std::uint32_t>(left >> k) & 0xffffu) & meets(sixteen, box);
+    const Lanes area = choose(there, common_areas(sixteen, box), splat<Lanes>(T(-1)));
+    store(area, areas + k);
+    most = max(most, area);
+    met |= static_cast<std::uint64_t>(bits(there)) << k;
+  }
+  left = met;
+  const Lanes widest = splat<Lanes>(greatest(most));
+  std::uint64_t found = 0;
+  for (int k = 0; k < 64 && met >> k != 0; k += 16)
+    found |= static_cast<std::uint64_t>(bits(equal(load<Lanes>(areas + k), widest))) << k;
+  return std::countr_zero(found);
+}
+
+/// A stack of lists: [first, count()) is the latest.
 template <class T>
 class ShadowList {
 public:
   using Index = Pack<LaneIndex<T>, 16>;
   using Lanes = Pack<T, 16>;
 
-  /// Of sixteen boxes those that meet `box`.
-  static HWY_INLINE Truth<T, 16> meets(const T* const (&sides)[4], const LightBox<T>& box) {
-    const auto below = [&](int k, T border) { return less(load<Lanes>(sides[k]), splat<Lanes>(border)); };
-    return below(0, box.cu + box.hu) & below(1, box.hu - box.cu) & below(2, box.cv + box.hv) &
-           below(3, box.hv - box.cv);
-  }
-
   std::size_t count() const { return count_; }
   /// Forgets the places beyond.
   void shrink(std::size_t count) { count_ = count; }
   std::size_t id(std::size_t place) const { return static_cast<std::size_t>(ids_[place]); }
 
-  /// Appends those of 16 boxes in `lanes` that meet `box`. Their ids are first, first + 1 ...
+  /// Appends those of sixteen boxes in `lanes` that meet `box`. Their ids are first, first + 1 ...
   HWY_INLINE void append(const T (&sides)[4][16], std::size_t first, std::uint32_t lanes,
                          const LightBox<T>& box) {
     make_room(16);
-    const T* from[4] = {sides[0], sides[1], sides[2], sides[3]};
-    append_meeting(from, load<Index>(lane_numbers<T>) + splat<Index>(static_cast<LaneIndex<T>>(first)),
+    append_meeting({{sides[0], sides[1], sides[2], sides[3]}, nullptr},
+                   load<Index>(lane_numbers<T>) + splat<Index>(static_cast<LaneIndex<T>>(first)),
                    truth_of<T, 16>(lanes), box);
   }
 
   /// Appends those of the list [first, last) that meet `box`.
   HWY_NOINLINE void narrow(std::size_t first, std::size_t last, const LightBox<T>& box) {
     make_room(last - first);
-    for (std::size_t i = first; i < last; i += 16) {
-      const T* sides[4] = {&sides_[0][i], &sides_[1][i], &sides_[2][i], &sides_[3][i]};
-      append_meeting(sides, load<Index>(&ids_[i]), lanes_below<T>(last - i), box);
-    }
+    for (std::size_t i = first; i < last; i += 16)
+      append_meeting(from(i), load<Index>(&ids_[i]), lanes_below<T>(last - i), box);
   }
 
-  /// Bits of those of the list [first, last), at most 64, that meet `box`.
-  HWY_INLINE std::uint64_t meeting(std::size_t first, std::size_t last, const LightBox<T>& box) const {
-    std::uint64_t met = 0;
-    for (std::size_t i = first; i < last; i += 16) {
-      const T* sides[4] = {&sides_[0][i], &sides_[1][i], &sides_[2][i], &sides_[3][i]};
-      const std::uint32_t there = last - i < 16 ? (1u << (last - i)) - 1u : 0xffffu;
-      met |= static_cast<std::uint64_t>(bits(meets(sides, box)) & there) << (i - first);
-    }
-    return met;
+  /// The places from `first` on, until the list grows.
+  HWY_INLINE ShadowBoxes<T> from(std::size_t first) const {
+    return {{&sides_[0][first], &sides_[1][first], &sides_[2][first], &sides_[3][first]}, &ids_[first]};
   }
 
 private:
@@ -84,12 +122,12 @@ private:
     ids_.resize(2 * needed);
   }
 
-  HWY_INLINE void append_meeting(const T* const (&sides)[4], Index ids, Truth<T, 16> valid,
+  HWY_INLINE void append_meeting(const ShadowBoxes<T>& boxes, Index ids, Truth<T, 16> valid,
                                  const LightBox<T>& box) {
-    const auto chosen = valid & meets(sides, box);
+    const auto chosen = valid & meets(boxes, box);
     if (!any(chosen)) return;
     std::size_t added = 0;
-    for (int k = 0; k < 4; ++k) added = compress(chosen, load<Lanes>(sides[k]), &sides_[k][count_]);
+    for (int k = 0; k < 4; ++k) added = compress(chosen, load<Lanes>(boxes.sides[k]), &sides_[k][count_]);
     compress(chosen, ids, &ids_[count_]);
     count_ += added;
   }
