@@ -7,7 +7,7 @@
 #define TENEBRA_SOFT_BLOCK_BOUNDS_INL_H_
 #endif
 
-#include "soft/clip_candidates-inl.h"
+#include "soft/occluder_list-inl.h"
 
 HWY_BEFORE_NAMESPACE();
 namespace tenebra::HWY_NAMESPACE {
@@ -15,7 +15,7 @@ namespace tenebra::HWY_NAMESPACE {
 template <class T>
 class BlockBounds {
 public:
-  void find(ClipCandidates<T>& candidates) {
+  void find(auto& candidates) {
     count_ = candidates.block_count();
     bounds_.resize((count_ + 15) / 16);
     for (std::size_t b = 0; b < count_; ++b) {
@@ -32,7 +32,7 @@ public:
   }
 
   /// The list of blocks with shadows, from its beginning on.
-  HWY_NOINLINE void list_at(const GroupPoint& at, ShadowList<T>& list) const {
+  HWY_NOINLINE void list_at(const auto& at, ShadowList<T>& list) const {
     list.shrink(0);
     for (std::size_t from = 0; from < count_; from += 16) {
       T sides[4][16];
@@ -47,23 +47,43 @@ private:
     double low[3][16], high[3][16];  ///< in the light's axes
   };
 
-  /// A box with a part at or below the point's height may shadow all.
+  /// A box with a part at or below the height of a point may shadow all.
   static HWY_INLINE std::uint32_t find_boxes_of(const Bounds& bounds, const GroupPoint& at,
                                                 T (&sides)[4][16]) {
-    const Wide zero = wide(0), two = wide(2), minus = wide(-2);
+    const Wide zero = wide(0), one = wide(1), reach = wide(at.reach);
     const Wide lowest = load<Wide>(bounds.low[2]) - wide(at.in_axes.z);
     const Wide highest = load<Wide>(bounds.high[2]) - wide(at.in_axes.z);
     const auto boxed = less(zero, lowest);
-    const Wide near = wide(at.reach) / choose(boxed, lowest, wide(1));
-    const Wide far = wide(at.reach) / choose(boxed, highest, wide(1));
+    const Wide near = reach / choose(boxed, lowest, one), far = reach / choose(boxed, highest, one);
+    Wide low[2], high[2];
     for (int axis = 0; axis < 2; ++axis) {
       const Wide from = wide(at.in_light[axis]), place = wide(at.in_axes[axis]);
-      const Wide low = load<Wide>(bounds.low[axis]) - place, high = load<Wide>(bounds.high[axis]) - place;
-      const Wide least_at = from + min(low * near, low * far), most_at = from + max(high * near, high * far);
-      store_narrowed(max(choose(boxed, least_at, minus), minus), sides[2 * axis]);
-      store_narrowed(zero - min(choose(boxed, most_at, two), two), sides[2 * axis + 1]);
+      const Wide first = load<Wide>(bounds.low[axis]) - place, last = load<Wide>(bounds.high[axis]) - place;
+      low[axis] = from + min(first * near, first * far);
+      high[axis] = from + max(last * near, last * far);
     }
+    store_sides(boxed, low, high, sides);
     return less_bits(zero, highest);
+  }
+  static HWY_INLINE std::uint32_t find_boxes_of(const Bounds& bounds, const PointRange& at,
+                                                T (&sides)[4][16]) {
+    const Wide zero = wide(0), one = wide(1), far = wide(1e30);
+    const Wide bottom = load<Wide>(bounds.low[2]), top = load<Wide>(bounds.high[2]);
+    const auto boxed = less(zero, bottom - wide(at.high.z));
+    Wide t0 = far, t1 = zero;
+    for (const double z : {at.low.z, at.high.z}) {
+      const Wide reach = wide(at.light_height - z);
+      const Wide near = reach / choose(boxed, bottom - wide(z), one);
+      const Wide beyond = reach / choose(boxed, top - wide(z), one);
+      t0 = min(t0, min(near, beyond));
+      t1 = max(t1, max(near, beyond));
+    }
+    Wide low[2] = {far, far}, high[2] = {zero - far, zero - far};
+    for (int axis = 0; axis < 2; ++axis)
+      shadow_range(at, axis, load<Wide>(bounds.low[axis]), load<Wide>(bounds.high[axis]), t0, t1, low[axis],
+                   high[axis]);
+    store_sides(boxed, low, high, sides);
+    return less_bits(zero, top - wide(at.low.z));
   }
 
   std::vector<Bounds> bounds_;

@@ -14,14 +14,20 @@
 #include <algorithm>
 
 #include "soft/block_bounds-inl.h"
-#include "soft/light_fragments-inl.h"
 #include "soft/part_boxes-inl.h"
+#include "soft/point_occluders-inl.h"
 
 HWY_BEFORE_NAMESPACE();
 namespace tenebra::HWY_NAMESPACE {
 
-template <class T>
+/// For one point (OnePoint) or a packet of them (ManyPoints).
+template <class Sight>
 class ClipSolver {
+  using T = typename Sight::Number;
+  using Part = typename Sight::Part;
+  using Parts = typename Sight::Parts;
+  using Occluders = typename Sight::Occluders;
+
 public:
   /// Takes over the candidates of a group in places `order`, largest first.
   void reset(const GroupCandidates& group, std::span<const std::uint32_t> order) {
@@ -34,21 +40,21 @@ public:
     if (has_many()) bounds_.find(cold_);
   }
 
-  /// The next queries are about this point.
-  void move_to(const GroupPoint& at) {
-    at_ = at;
+  /// The next queries are about `at`, which stays where it is.
+  void move_to(typename Sight::At& at) {
+    range_ = range_of(at);
     if (has_many()) {
       choose_hot();
-      hot_.move_to(at_);
+      hot_.move_to(at);
     }
-    cold_.move_to(at_);
+    cold_.move_to(at);
     blocks_listed_ = false;
   }
 
   /// Appends the parts of `light` (convex, within |u|, |v| <= 1) visible from the point to `out`.
-  HWY_NOINLINE void query(const LightPolygon<T>& light, FragmentList<T>& out) {
+  HWY_NOINLINE void query(const Part& light, Parts& out) {
     if (cold_.block_count() <= 1) return subtract_block(light, out);
-    FragmentList<T> left = take();
+    Parts left = take();
     if (hot_.count() == 0) {
       left.push(light);
     } else {
@@ -61,15 +67,13 @@ public:
   }
 
 private:
-  using Candidates = ClipCandidates<T>;
   static constexpr std::size_t few = 64;   ///< occluders that are subtracted in the order of each part
   static constexpr std::size_t many = 48;  ///< occluders from which on it pays to keep some apart
-  static constexpr int any_order = 4;      ///< occluders whose order does not matter
 
   bool has_many() const { return cold_.count() > many; }
 
   /// Where all occluders fit in one block, there is nothing to sort out.
-  void subtract_block(const LightPolygon<T>& light, FragmentList<T>& out) {
+  void subtract_block(const Part& light, Parts& out) {
     if (cold_.block_count() == 0) return out.push(light);
     std::uint64_t met = 0;
     const ShadowBoxes<T> boxes = cold_.first_block(box_of(light), met);
@@ -107,7 +111,7 @@ private:
   }
 
   /// What the occluders that are not hot leave of `parts`.
-  void subtract_cold(const FragmentList<T>& parts, FragmentList<T>& out) {
+  void subtract_cold(const Parts& parts, Parts& out) {
     boxes_.reset(parts);
     const LightBox<T> box = boxes_.around(0, parts.size());
     if (!has_many()) {
@@ -116,7 +120,7 @@ private:
       return cold_.list.shrink(0);
     }
     if (!blocks_listed_) {
-      bounds_.list_at(at_, blocks_);
+      bounds_.list_at(range_, blocks_);
       blocks_listed_ = true;
     }
     const std::size_t last = blocks_.count();
@@ -126,8 +130,8 @@ private:
   /// Subtracts the blocks in places [first, last) from the parts in places [begin, end) of boxes_, which lie
   /// in `box`. The parts are sorted by halves, as in the building of a tree of boxes, until they are few for
   /// the blocks around them, and from there on with a list of the blocks' triangles.
-  void subtract_blocks(const FragmentList<T>& parts, std::size_t begin, std::size_t end,
-                       const LightBox<T>& box, std::size_t first, std::size_t last, FragmentList<T>& out) {
+  void subtract_blocks(const Parts& parts, std::size_t begin, std::size_t end, const LightBox<T>& box,
+                       std::size_t first, std::size_t last, Parts& out) {
     const std::size_t middle = 16 * (end - begin) < last - first ? boxes_.halve(begin, end, box) : begin;
     if (middle == begin || middle == end) {
       const std::size_t place = cold_.list.count();
@@ -144,8 +148,8 @@ private:
   }
 
   /// The same for the occluders in the list from place `first` on.
-  void subtract_list(const FragmentList<T>& parts, std::size_t begin, std::size_t end, const LightBox<T>& box,
-                     std::size_t first, FragmentList<T>& out) {
+  void subtract_list(const Parts& parts, std::size_t begin, std::size_t end, const LightBox<T>& box,
+                     std::size_t first, Parts& out) {
     const std::size_t last = cold_.list.count();
     if (last - first <= few) {
       for (std::size_t i = begin; i < end; ++i)
@@ -165,13 +169,13 @@ private:
 
   /// Subtracts the occluders in the list from place `first` on from `part`: a few, and from each fragment of
   /// what they leave those of the others that meet it.
-  void solve(Candidates& c, const LightPolygon<T>& part, std::size_t first, FragmentList<T>& out) {
+  void solve(Occluders& c, const Part& part, std::size_t first, Parts& out) {
     const std::size_t last = c.list.count();
     if (last - first <= few) return subtract_listed(c, first, last, part, out);
-    FragmentList<T> left = take();
+    Parts left = take();
     subtract_listed(c, first, first + few, part, left);
     for (std::size_t k = 0; k < left.size(); ++k) {
-      const LightPolygon<T> fragment = loaded(left[k]);
+      const Part fragment = loaded(left[k]);
       c.list.narrow(first + few, last, box_of(fragment));
       solve(c, fragment, last, out);
       c.list.shrink(last);
@@ -180,8 +184,7 @@ private:
   }
 
   /// Appends what the occluders in places [first, last), at most a few, leave of `part`.
-  void subtract_listed(Candidates& c, std::size_t first, std::size_t last, const LightPolygon<T>& part,
-                       FragmentList<T>& out) {
+  void subtract_listed(Occluders& c, std::size_t first, std::size_t last, const Part& part, Parts& out) {
     if (first == last) return out.push(part);
     subtract_few(c, c.list.from(first), ~std::uint64_t{0} >> (64 - (last - first)), part, out);
   }
@@ -189,8 +192,8 @@ private:
   /// Appends what the occluders of the bits of `left` leave of `part`. Each fragment chooses for itself which
   /// is next: the one whose box has most in common with its own takes most away, and leaves the fewest
   /// fragments.
-  HWY_NOINLINE void subtract_few(Candidates& c, const ShadowBoxes<T>& boxes, std::uint64_t left,
-                                 const LightPolygon<T>& part, FragmentList<T>& out) {
+  HWY_NOINLINE void subtract_few(Occluders& c, const ShadowBoxes<T>& boxes, std::uint64_t left,
+                                 const Part& part, Parts& out) {
     subtract_widest(c, boxes, left, part, out);
     while (!todo_.empty()) {
       left = todo_left_.back();
@@ -199,46 +202,46 @@ private:
     }
   }
 
-  /// Subtracts one of the occluders of the bits of `left` that has a share in `part`; for what is left of it,
+  /// Subtracts occluders of the bits of `left` from `part` until one has a share in it; for what that leaves,
   /// the others are still to do.
-  HWY_INLINE void subtract_widest(Candidates& c, const ShadowBoxes<T>& boxes, std::uint64_t left,
-                                  const LightPolygon<T>& part, FragmentList<T>& out) {
-    int k = std::popcount(left) <= any_order ? std::countr_zero(left) : widest_of(boxes, left, box_of(part));
+  HWY_INLINE void subtract_widest(Occluders& c, const ShadowBoxes<T>& boxes, std::uint64_t left,
+                                  typename Sight::OwnPart part, Parts& out) {
+    const bool in_order = std::popcount(left) <= Sight::any_order;
+    const auto bounds = in_order ? typename Sight::Bounds{} : bounds_of(part);
+    int k = in_order ? std::countr_zero(left) : widest_of(boxes, left, box_of(bounds));
     for (; left != 0; k = std::countr_zero(left)) {
       left &= ~(std::uint64_t{1} << k);
       const auto id = static_cast<std::size_t>(boxes.ids[k]);
-      const ShadowLines<T> lines = c.lines_of(id);
-      const LineSides sides = sides_of(part, lines);
-      if (sides.positive != all_lines) continue;
-      if (!subtract(part, lines, sides.negative, left == 0 ? out : todo_)) continue;
+      if (!c.subtract(id, bounds, part, left == 0 ? out : todo_)) continue;
       todo_left_.resize(todo_.size(), left);
-      return c.mark_useful(id);
+      c.mark_useful(id);
+      if (Sight::takes_all || part.empty()) return;
     }
     out.push(part);
   }
 
-  FragmentList<T> take() {
+  Parts take() {
     if (spare_.empty()) return {};
-    FragmentList<T> list = std::move(spare_.back());
+    Parts list = std::move(spare_.back());
     spare_.pop_back();
     list.clear();
     return list;
   }
-  void give_back(FragmentList<T> list) { spare_.push_back(std::move(list)); }
+  void give_back(Parts list) { spare_.push_back(std::move(list)); }
 
   const GroupCandidates* group_ = nullptr;
   std::span<const std::uint32_t> order_;
-  GroupPoint at_;
-  Candidates hot_;                               ///< what took light from the last points
-  Candidates cold_;                              ///< all; lanes of the hot ones are idle
+  typename Sight::Range range_;
+  Occluders hot_;                                ///< what took light from the last points
+  Occluders cold_;                               ///< all; lanes of the hot ones are idle
   std::vector<std::uint32_t> hot_ids_, useful_;  ///< ids in cold_
   BlockBounds<T> bounds_;                        ///< of cold_
   ShadowList<T> blocks_;
   bool blocks_listed_ = false;
   PartBoxes<T> boxes_;                    ///< of what the hot ones leave
-  FragmentList<T> todo_;                  ///< parts that are still to be subtracted from
+  Parts todo_;                            ///< parts that are still to be subtracted from
   std::vector<std::uint64_t> todo_left_;  ///< which occluders, of each
-  std::vector<FragmentList<T>> spare_;
+  std::vector<Parts> spare_;
 };
 
 }  // namespace tenebra::HWY_NAMESPACE

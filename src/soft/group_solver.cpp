@@ -9,6 +9,7 @@
 #include <algorithm>
 #include <cmath>
 #include <numeric>
+#include <utility>
 
 #include "base/stopwatch.h"
 #include "points/contact_rule.h"
@@ -17,6 +18,7 @@
 #include "soft/clip_solver-inl.h"
 #include "soft/line_class_query-inl.h"
 #include "soft/outline_solver-inl.h"
+#include "soft/packet_solver-inl.h"
 #include "soft/point_groups.h"
 #include "soft/quads.h"
 
@@ -73,7 +75,7 @@ ReceiverPlane receiver_plane(const SoftFrame& frame, std::uint32_t id) {
 template <class T>
 struct Precision {
   LineClassQuery<T> query;
-  ClipSolver<T> clip;
+  ClipSolver<OnePoint<T>> clip;
   OutlineSolver<T> outline;
   FragmentList<T> start, visible, scratch;
 };
@@ -87,14 +89,20 @@ public:
     receiver_ = {};
     set_up(frame, task);
     const bool wide = frame.config.precision == SoftPrecision::reference;
+    const bool packets = !wide && wants_packets(frame);
     if (wide) {
       reset(double_);
+    } else if (packets) {
+      packet_.reset(candidates_, clipped_);
+      clip_is_ready_ = false;
     } else {
       reset(float_);
     }
     times.init_ms += watch.lap_ms();
     if (wide) {
       solve_points(double_, frame, task);
+    } else if (packets) {
+      solve_packets(frame, task.pixels);
     } else {
       solve_points(float_, frame, task);
     }
@@ -113,6 +121,8 @@ public:
     for (std::size_t i = 0; i < pixels.size(); ++i) {
       const std::uint32_t pixel = pixels[i];
       fetch_ahead(frame, pixels, i);
+      if (frame.points.triangles[pixel] != receiver_.id)
+        start_on(double_, frame, frame.points.triangles[pixel]);
       const bool whole = add_whole(frame, pixel);
       if (!whole) solve_point(double_, frame, pixel);
       if (whole || frame.classes[pixel] == class_of(SoftClass::clip))
@@ -177,6 +187,59 @@ private:
     if (use_bsp_) note_tree();
   }
 
+  /// Sixteen points together. Cutting along an outline gains nothing by that: it has lanes enough.
+  bool wants_packets(const SoftFrame& frame) const {
+    return frame.config.solver == SoftSolver::automatic && outline_.empty() &&
+           clipped_.size() <= PacketSolver::most_occluders &&
+           frame.light.outline.size() <= PacketSolver::most_light_vertices;
+  }
+
+  void solve_packets(const SoftFrame& frame, std::span<const std::uint32_t> pixels) {
+    for (std::size_t i = 0; i < pixels.size(); ++i) {
+      fetch_ahead(frame, pixels, i);
+      const std::uint32_t pixel = pixels[i], receiver = frame.points.triangles[pixel];
+      if (receiver != receiver_.id) start_on(float_, frame, receiver);
+      const PointSight sight = sight_of(frame, pixel);
+      if (!(above_ > 0) || !is_in_front(frame, sight.to_origin)) {
+        solve_point(float_, frame, pixel);  // sees nothing: no solver is asked
+        continue;
+      }
+      packet_pixels_[packet_.count()] = pixel;
+      packet_above_[packet_.count()] = above_;
+      packet_.add(group_point(candidates_.axes, frame.points.positions[pixel], receiver, receiver_.tau),
+                  sight);
+      if (packet_.full()) finish_packet(frame);
+    }
+    finish_packet(frame);
+    finish_whole(frame);
+  }
+
+  void solve_alone(const SoftFrame& frame, std::uint32_t pixel) {
+    if (!std::exchange(clip_is_ready_, true)) float_.clip.reset(candidates_, clipped_);
+    solve_point(float_, frame, pixel);
+  }
+
+  void finish_packet(const SoftFrame& frame) {
+    if (packet_.count() == 0) return;
+    const bool solved = packet_.solve(frame.light);
+    for (std::size_t k = 0; k < packet_.count(); ++k) {
+      const std::uint32_t pixel = packet_pixels_[k];
+      if (!solved) {
+        solve_alone(frame, pixel);
+        continue;
+      }
+      if (!packet_.sees_all(k)) {
+        store(frame, pixel, packet_.area(k), packet_.irradiance(k), packet_above_[k]);
+        continue;
+      }
+      count_solver(frame, pixel);
+      add_whole(pixel, packet_.to_origin(k), packet_.normal(k));
+      if (whole_count_ == 8) finish_whole(frame);
+    }
+    if (solved) stats.fragments += packet_.fragments();
+    packet_.clear();
+  }
+
   /// Asks for what is read of a point some places behind place `i`.
   static HWY_INLINE void fetch_ahead(const SoftFrame& frame, std::span<const std::uint32_t> pixels,
                                      std::size_t i) {
@@ -224,23 +287,38 @@ private:
     above_ = receiver_.face == glm::dvec3(0.0) ? 0.0 : area_of(p.start);
   }
 
-  /// Puts aside a point that sees the whole light above its horizon, to be finished with seven others; false
-  /// if it is none.
+  /// That of a point on receiver_.
+  PointSight sight_of(const SoftFrame& frame, std::uint32_t pixel) const {
+    PointSight sight;
+    sight.to_origin = frame.light.origin - frame.points.positions[pixel];
+    sight.normal = frame.normals.empty() ? receiver_.face : glm::dvec3(frame.normals[pixel]);
+    const glm::dvec3 shading = shading_horizon(frame.light, sight.to_origin, sight.normal);
+    sight.receiver_horizon = line_of<float>(receiver_.horizon);
+    sight.shading_horizon = line_of<float>(shading);
+    sight.receiver_cuts = receiver_.cuts_light;
+    sight.normal_cuts = cuts(frame.light, shading);
+    return sight;
+  }
+
+  bool is_in_front(const SoftFrame& frame, const glm::dvec3& to_origin) const {
+    return glm::dot(to_origin, frame.light.normal) < 0;
+  }
+
+  /// Puts aside a point on receiver_ that nothing stands in front of, to be finished with seven others; false
+  /// if a horizon cuts the light.
   bool add_whole(const SoftFrame& frame, std::uint32_t pixel) {
-    const std::uint32_t receiver = frame.points.triangles[pixel];
-    if (receiver != receiver_.id) start_on(double_, frame, receiver);
-    const glm::dvec3 to_origin = frame.light.origin - frame.points.positions[pixel];
-    const glm::dvec3 normal = frame.normals.empty() ? receiver_.face : glm::dvec3(frame.normals[pixel]);
-    const bool in_front = glm::dot(to_origin, frame.light.normal) < 0;
-    if (!in_front || !(above_ > 0) || receiver_.cuts_light ||
-        cuts(frame.light, shading_horizon(frame.light, to_origin, normal)))
+    const PointSight sight = sight_of(frame, pixel);
+    if (!is_in_front(frame, sight.to_origin) || !(above_ > 0) || sight.receiver_cuts || sight.normal_cuts)
       return false;
+    add_whole(pixel, sight.to_origin, sight.normal);
+    return true;
+  }
+  void add_whole(std::uint32_t pixel, const glm::dvec3& to_origin, const glm::dvec3& normal) {
     for (int c = 0; c < 3; ++c) {
       whole_.to_origin[c][whole_count_] = to_origin[c];
       whole_.normal[c][whole_count_] = normal[c];
     }
     whole_pixels_[whole_count_++] = pixel;
-    return true;
   }
 
   void finish_whole(const SoftFrame& frame) {
@@ -322,9 +400,14 @@ private:
       sums = sum_edges(edges_, frame.light, at);
     }
     stats.fragments += p.visible.size();
+    store(frame, pixel, area, sums.irradiance, above);
+  }
+
+  /// `above`: area of the light above the horizon.
+  void store(const SoftFrame& frame, std::uint32_t pixel, double area, double irradiance, double above) {
     const double fraction = std::clamp(area / frame.light.area, 0.0, 1.0);
     frame.out.visible_fraction[pixel] = static_cast<float>(fraction);
-    frame.out.irradiance[pixel] = clamped(sums.irradiance);
+    frame.out.irradiance[pixel] = clamped(irradiance);
     count(above, area, frame, pixel);
   }
 
@@ -370,6 +453,10 @@ private:
   Precision<double> double_;
   ReceiverPlane receiver_;
   double above_ = 0;  ///< area of the light above its horizon
+  PacketSolver packet_;
+  std::uint32_t packet_pixels_[packet_size] = {};
+  double packet_above_[packet_size] = {};  ///< above_ of these
+  bool clip_is_ready_ = false;             ///< where packets are at work, whether points alone can be solved
   LightEdges edges_;
   ReceiverLanes whole_{};  ///< points put aside
   std::uint32_t whole_pixels_[8] = {};

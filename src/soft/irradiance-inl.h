@@ -52,6 +52,31 @@ HWY_INLINE Double8 angle_of(Double8 s, Double8 c) {
   return choose(less(c, num(0.0)), num(3.141592653589793) - angle, angle);
 }
 
+/// Not fused: the same bits on every target.
+HWY_INLINE Double8 product_of(const Pack3<Double8>& a, const Pack3<Double8>& b) {
+  return a.x * b.x + a.y * b.y + a.z * b.z;
+}
+
+/// The angle that an edge `e` from `r` on subtends times the cosine between normal and the plane of point and
+/// edge (Nishita and Nakamae 1985); 0 for an edge of no length, or seen end-on.
+HWY_INLINE Double8 contour_term(const Pack3<Double8>& r, const Pack3<Double8>& e,
+                                const Pack3<Double8>& normal) {
+  const Pack3<Double8> c = cross(r, e);
+  const Double8 sine = square_root(product_of(c, c)), cosine = product_of(r, r) + product_of(r, e);
+  const Double8 zero = splat<Double8>(0.0), one = splat<Double8>(1.0);
+  const auto none = less(sine, splat<Double8>(1e-300));
+  return choose(none, zero, product_of(normal, c) * angle_of(sine, cosine) / choose(none, one, sine));
+}
+
+/// origin + u ex + v ey.
+HWY_INLINE Pack3<Double8> on_light(const LightFrame& light, const Pack3<Double8>& origin, Double8 u,
+                                   Double8 v) {
+  const auto num = [](double value) { return splat<Double8>(value); };
+  return {origin.x + u * num(light.ex.x) + v * num(light.ey.x),
+          origin.y + u * num(light.ex.y) + v * num(light.ey.y),
+          origin.z + u * num(light.ex.z) + v * num(light.ey.z)};
+}
+
 /// A point as the light is seen from it: world space, metres.
 struct Receiver3 {
   glm::dvec3 to_origin{0.0};  ///< from the point to the light's origin
@@ -70,27 +95,15 @@ struct EdgeSums {
 /// The same bits on every target: sums run in the order of the edges.
 inline HWY_NOINLINE EdgeSums sum_edges(const LightEdges& edges, const LightFrame& light,
                                        const Receiver3& at) {
-  const auto num = [](double value) { return splat<Double8>(value); };
+  const auto all = [](const glm::dvec3& a) { return splat3<Double8>(a.x, a.y, a.z); };
+  const Pack3<Double8> origin = all(at.to_origin), normal = all(at.normal);
+  const Double8 zero = splat<Double8>(0.0);
   EdgeSums sums;
   for (std::size_t k = 0; k < edges.count; k += 8) {
     const Double8 u0 = load<Double8>(&edges.u0[k]), v0 = load<Double8>(&edges.v0[k]);
     const Double8 u1 = load<Double8>(&edges.u1[k]), v1 = load<Double8>(&edges.v1[k]);
-    const Double8 du = u1 - u0, dv = v1 - v0;
-    Pack3<Double8> r, e;
-    r.x = num(at.to_origin.x) + u0 * num(light.ex.x) + v0 * num(light.ey.x);
-    r.y = num(at.to_origin.y) + u0 * num(light.ex.y) + v0 * num(light.ey.y);
-    r.z = num(at.to_origin.z) + u0 * num(light.ex.z) + v0 * num(light.ey.z);
-    e.x = du * num(light.ex.x) + dv * num(light.ey.x);
-    e.y = du * num(light.ex.y) + dv * num(light.ey.y);
-    e.z = du * num(light.ex.z) + dv * num(light.ey.z);
-    const Double8 cx = r.y * e.z - r.z * e.y, cy = r.z * e.x - r.x * e.z, cz = r.x * e.y - r.y * e.x;
-    const Double8 sine = square_root(cx * cx + cy * cy + cz * cz);
-    const Double8 square = r.x * r.x + r.y * r.y + r.z * r.z;
-    const Double8 cosine = square + (r.x * e.x + r.y * e.y + r.z * e.z);
-    const Double8 upright = num(at.normal.x) * cx + num(at.normal.y) * cy + num(at.normal.z) * cz;
-    const auto none = less(sine, num(1e-300));  // an edge of no length, or seen end-on
-    const Double8 term =
-        choose(none, num(0.0), upright * angle_of(sine, cosine) / choose(none, num(1.0), sine));
+    const Double8 term = contour_term(on_light(light, origin, u0, v0),
+                                      on_light(light, {zero, zero, zero}, u1 - u0, v1 - v0), normal);
     double terms[8], areas[8];
     store(term, terms);
     store(u0 * v1 - u1 * v0, areas);
@@ -125,13 +138,7 @@ inline HWY_NOINLINE void irradiance_of_whole(const LightFrame& light, const Rece
                      along = (b.x - a.x) * light.ex + (b.y - a.y) * light.ey;
     const Pack3<Double8> r{origin.x + num(from.x), origin.y + num(from.y), origin.z + num(from.z)};
     const Pack3<Double8> e{num(along.x), num(along.y), num(along.z)};
-    const Pack3<Double8> c = cross(r, e);
-    const Double8 sine = square_root(dot(c, c));
-    const auto none = less(sine, num(1e-300));
-    const Double8 term =
-        choose(none, num(0.0),
-               dot(normal, c) * angle_of(sine, dot(r, r) + dot(r, e)) / choose(none, num(1.0), sine));
-    sum = sum - term;
+    sum = sum - contour_term(r, e, normal);
   }
   store(num(0.5) * sum, irradiance);
 }

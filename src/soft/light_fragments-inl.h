@@ -85,8 +85,8 @@ private:
 /// Adds what is left of `fragment` outside the shadow to `out`; false, and nothing added, if that is all of
 /// it. `crossing`: bits of the lines that have vertices on both sides; none is on the outside of a line.
 template <class T>
-HWY_NOINLINE bool subtract(const LightPolygon<T>& fragment, const ShadowLines<T>& lines,
-                           std::uint32_t crossing, FragmentList<T>& out) {
+HWY_NOINLINE bool subtract_shadow(const LightPolygon<T>& fragment, const ShadowLines<T>& lines,
+                                  std::uint32_t crossing, FragmentList<T>& out) {
   const std::size_t before = out.size();
   LightPolygon<T> rest = fragment;
   for (; crossing != 0; crossing &= crossing - 1) {

@@ -39,6 +39,8 @@ struct LightPolygon {
   using Lanes = Pack<T, polygon_capacity>;
   Lanes x, y;
   int count = 0;
+
+  bool empty() const { return count == 0; }
 };
 
 /// The points (x, y) with u x + v y + w > 0 are on the positive side.

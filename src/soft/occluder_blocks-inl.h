@@ -37,6 +37,16 @@ inline GroupPoint group_point(const LightAxes& axes, const glm::dvec3& position,
   return at;
 }
 
+/// A box around points of a group in the light's axes.
+struct PointRange {
+  glm::dvec3 low{0.0}, high{0.0};
+  glm::dvec2 light_from{0.0};  ///< u and v of the axes' origin from the light's
+  double light_height = 0;     ///< of the light's plane over the axes' origin
+};
+inline const GroupPoint& range_of(const GroupPoint& at) {
+  return at;
+}
+
 /// Sixteen occluders. Idle lanes hold anything.
 struct OccluderBlock {
   double corners[4][3][16];  ///< corner, coordinate, occluder
@@ -60,14 +70,12 @@ HWY_INLINE void put(const Candidate& c, OccluderBlock& block, std::size_t lane) 
   if (c.is_quad) block.quads |= 1u << lane;
 }
 
-/// A block at a point. Sides of boxes: least u, -greatest u, least v, -greatest v.
+/// Where the shadows of a block lie on the light's plane. Sides: least u, -greatest u, least v, -greatest v.
 template <class T>
-struct BlockAtPoint {
-  T box[4][16];
-  T u[16][4], v[16][4], w[16][4];            ///< occluder, line: the edges and the plane, if it needs one
-  double sign[16];                           ///< 0: blocks nothing at this point
-  std::uint32_t lanes = 0;                   ///< that may shadow something
-  std::uint32_t boxes_of = 0, lines_of = 0;  ///< number of the point that they are for
+struct BlockBoxes {
+  T sides[4][16];
+  std::uint32_t lanes = 0;     ///< that may shadow something
+  std::uint64_t boxes_of = 0;  ///< number of the place that they are for
 };
 
 using Wide = Pack<double, 16>;
@@ -76,85 +84,71 @@ HWY_INLINE Wide wide(double value) {
   return splat<Wide>(value);
 }
 
-/// Boxes of the shadows on the light's plane. An occluder all at or below the point's height shadows nothing;
-/// one that is partly so may shadow all.
+/// Least and greatest u (axis 0) or v (1) that a place between `low` and `high` is seen at from points of a
+/// range, where the way to the light's plane is t0 to t1 times that to the place. Linear in the point and in
+/// t: the extremes are at the ends.
+HWY_INLINE void shadow_range(const PointRange& at, int axis, Wide low, Wide high, Wide t0, Wide t1,
+                             Wide& least_at, Wide& most_at) {
+  for (const double place : {at.low[axis], at.high[axis]}) {
+    const Wide from = wide(at.light_from[axis] + place), near = low - wide(place), far = high - wide(place);
+    least_at = min(least_at, from + min(near * t0, near * t1));
+    most_at = max(most_at, from + max(far * t0, far * t1));
+  }
+}
+
+/// Sides of boxes, a shadow without bounds at most as wide as 2.
+template <class T, class Bounded>
+HWY_INLINE void store_sides(Bounded bounded, const Wide (&low)[2], const Wide (&high)[2], T (&sides)[4][16]) {
+  const Wide two = wide(2), minus = wide(-2), zero = wide(0);
+  for (int axis = 0; axis < 2; ++axis) {
+    store_narrowed(max(choose(bounded, low[axis], minus), minus), sides[2 * axis]);
+    store_narrowed(zero - min(choose(bounded, high[axis], two), two), sides[2 * axis + 1]);
+  }
+}
+
+/// Boxes of the shadows on the light's plane that a point sees. An occluder all at or below its height
+/// shadows nothing; one that is partly so may shadow all.
 template <class T>
-HWY_NOINLINE void find_boxes(const OccluderBlock& block, std::span<const PlaneHeight> heights,
-                             const GroupPoint& at, BlockAtPoint<T>& out) {
-  const Wide far = wide(1e30), zero = wide(0);
-  Wide low_u = far, low_v = far, high_u = wide(-1e30), high_v = high_u, lowest = far, highest = high_u;
-  const Wide pu = wide(at.in_light.x), pv = wide(at.in_light.y), reach = wide(at.reach);
-  const Wide x = wide(at.in_axes.x), y = wide(at.in_axes.y), z = wide(at.in_axes.z);
+HWY_NOINLINE void find_boxes(const OccluderBlock& block, const GroupPoint& at, BlockBoxes<T>& out) {
+  const Wide far = wide(1e30), zero = wide(0), one = wide(1), reach = wide(at.reach);
+  Wide low[2] = {far, far}, high[2] = {zero - far, zero - far}, lowest = far, highest = zero - far;
   for (int k = 0; k < (block.quads == 0 ? 3 : 4); ++k) {
     const auto& corner = block.corners[k];
-    const Wide rise = load<Wide>(corner[2]) - z;
+    const Wide rise = load<Wide>(corner[2]) - wide(at.in_axes.z);
     lowest = min(lowest, rise);
     highest = max(highest, rise);
-    const Wide t = reach / choose(less(zero, rise), rise, wide(1));
-    const Wide u = pu + (load<Wide>(corner[0]) - x) * t, v = pv + (load<Wide>(corner[1]) - y) * t;
-    low_u = min(low_u, u);
-    high_u = max(high_u, u);
-    low_v = min(low_v, v);
-    high_v = max(high_v, v);
+    const Wide t = reach / choose(less(zero, rise), rise, one);
+    for (int axis = 0; axis < 2; ++axis) {
+      const Wide seen = wide(at.in_light[axis]) + (load<Wide>(corner[axis]) - wide(at.in_axes[axis])) * t;
+      low[axis] = min(low[axis], seen);
+      high[axis] = max(high[axis], seen);
+    }
   }
-  const auto boxed = less(zero, lowest);
-  const Wide two = wide(2), minus = wide(-2);
-  store_narrowed(max(choose(boxed, low_u, minus), minus), out.box[0]);
-  store_narrowed(zero - min(choose(boxed, high_u, two), two), out.box[1]);
-  store_narrowed(max(choose(boxed, low_v, minus), minus), out.box[2]);
-  store_narrowed(zero - min(choose(boxed, high_v, two), two), out.box[3]);
+  store_sides(less(zero, lowest), low, high, out.sides);
   out.lanes = block.lanes & less_bits(zero, highest);
-  if ((block.indefinite & out.lanes) == 0) return;
-  for (int k = 0; k < 16; ++k) {
-    out.sign[k] = block.sign[k];
-    if (((block.indefinite & out.lanes) >> k & 1u) == 0) continue;
-    const bool itself = block.triangle[k] == at.receiver;
-    const PlaneHeight& plane = heights[block.height[k]];
-    out.sign[k] = itself ? 0 : at.turn * blocking_sign(plane, at.from_centre, at.receiver_tau);
-    if (out.sign[k] == 0) out.lanes &= ~(1u << k);
-  }
 }
 
-/// The lines of occluders first to first + 7 of a block.
+/// The same for the shadows that points of a range may see. An occluder all at or below the
+/// lowest point shadows nothing; one that is partly at or below the highest may shadow all.
 template <class T>
-HWY_INLINE void find_eight_lines(const OccluderBlock& block, const double* signs, const GroupPoint& at,
-                                 std::size_t first, BlockAtPoint<T>& out) {
-  using Doubles = Pack<double, 8>;
-  using Lanes = Pack<T, 8>;
-  const auto num = [](double value) { return splat<Doubles>(value); };
-  const auto corner = [&](int k) {
-    const auto of = [&](int axis) {
-      return load<Doubles>(block.corners[k][axis] + first) - num(at.in_axes[axis]);
-    };
-    return Pack3<Doubles>{of(0), of(1), of(2)};
-  };
-  const Doubles sign = load<Doubles>(signs + first);
-  Lanes u[4], v[4], w[4];
-  Pack3<Doubles> from = corner(0);
-  for (int k = 0; k < 4; ++k) {  // of triangles, corner 3 is corner 0, and the fourth line is none
-    const Pack3<Doubles> to = corner(k < 3 ? k + 1 : 0);
-    const Pack3<Doubles> n = cross(from, to - from);
-    u[k] = narrowed<T>(n.x * sign);
-    v[k] = narrowed<T>(n.y * sign);
-    w[k] = narrowed<T>((n.z * num(at.reach) - n.x * num(at.in_light.x) - n.y * num(at.in_light.y)) * sign);
-    from = to;
+HWY_NOINLINE void find_boxes(const OccluderBlock& block, const PointRange& at, BlockBoxes<T>& out) {
+  const Wide far = wide(1e30), zero = wide(0), one = wide(1);
+  Wide low[2] = {far, far}, high[2] = {zero - far, zero - far}, lowest = far, highest = zero - far;
+  const Wide reach_up = wide(at.light_height - at.low.z), reach = wide(at.light_height - at.high.z);
+  for (int k = 0; k < (block.quads == 0 ? 3 : 4); ++k) {
+    const auto& corner = block.corners[k];
+    const Wide z = load<Wide>(corner[2]), rise = z - wide(at.high.z), rise_up = z - wide(at.low.z);
+    lowest = min(lowest, rise);
+    highest = max(highest, rise_up);
+    const auto above = less(zero, rise);
+    const Wide t0 = reach / choose(above, rise, one), t1 = reach_up / choose(above, rise_up, one);
+    for (int axis = 0; axis < 2; ++axis) {
+      const Wide place = load<Wide>(corner[axis]);
+      shadow_range(at, axis, place, place, t0, t1, low[axis], high[axis]);
+    }
   }
-  const auto quads = truth_of<T, 8>(block.quads >> first);
-  const auto plane = [&](int k) { return narrowed<T>(load<Doubles>(block.plane[k] + first) * sign); };
-  u[3] = choose(quads, u[3], plane(0));
-  v[3] = choose(quads, v[3], plane(1));
-  w[3] = choose(quads, w[3], plane(2));
-  store_fours(u[0], u[1], u[2], u[3], out.u[first]);
-  store_fours(v[0], v[1], v[2], v[3], out.v[first]);
-  store_fours(w[0], w[1], w[2], w[3], out.w[first]);
-}
-
-/// The lines of a block whose boxes are there.
-template <class T>
-HWY_NOINLINE void find_lines(const OccluderBlock& block, const GroupPoint& at, BlockAtPoint<T>& out) {
-  const double* const signs = (block.indefinite & out.lanes) == 0 ? block.sign : out.sign;
-  find_eight_lines(block, signs, at, 0, out);
-  find_eight_lines(block, signs, at, 8, out);
+  store_sides(less(zero, lowest), low, high, out.sides);
+  out.lanes = block.lanes & less_bits(zero, highest);
 }
 
 }  // namespace tenebra::HWY_NAMESPACE

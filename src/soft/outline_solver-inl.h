@@ -13,10 +13,10 @@
 #include <utility>
 #include <vector>
 
-#include "soft/clip_candidates-inl.h"
 #include "soft/group_outline.h"
 #include "soft/inner_edges-inl.h"
 #include "soft/light_fragments-inl.h"
+#include "soft/occluder_blocks-inl.h"
 
 HWY_BEFORE_NAMESPACE();
 namespace tenebra::HWY_NAMESPACE {

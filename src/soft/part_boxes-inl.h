@@ -19,12 +19,12 @@ namespace tenebra::HWY_NAMESPACE {
 template <class T>
 class PartBoxes {
 public:
-  void reset(const FragmentList<T>& parts) {
+  void reset(const auto& parts) {
     sides_.clear();
     parts_.clear();
     for (std::uint32_t i = 0; i < parts.size(); ++i) {
-      const LightPolygon<T> p = loaded(parts[i]);
-      sides_.push_back({{least(p.x), -greatest(p.x), least(p.y), -greatest(p.y)}});
+      const LightBox<T> box = box_of(loaded(parts[i]));
+      sides_.push_back({{box.cu - box.hu, -box.cu - box.hu, box.cv - box.hv, -box.cv - box.hv}});
       parts_.push_back(i);
     }
   }

@@ -27,6 +27,15 @@ HWY_INLINE LightBox<T> box_of(const LightPolygon<T>& polygon) {
   return {(low_u + high_u) / 2, (low_v + high_v) / 2, (high_u - low_u) / 2, (high_v - low_v) / 2};
 }
 
+template <class T>
+HWY_INLINE LightBox<T> bounds_of(const LightPolygon<T>& polygon) {
+  return box_of(polygon);
+}
+template <class T>
+HWY_INLINE const LightBox<T>& box_of(const LightBox<T>& box) {
+  return box;
+}
+
 /// Up to 64 boxes in a row. Sides as in BlockAtPoint; whole registers of sixteen can be read.
 template <class T>
 struct ShadowBoxes {

@@ -1,10 +1,11 @@
-// Occluders of a group at one point: which of them reach a part of the light, and their lines. Blocks of
-// sixteen are moved to the point when they are first asked for. Included once per target.
-#if defined(TENEBRA_SOFT_CLIP_CANDIDATES_INL_H_) == defined(HWY_TARGET_TOGGLE)
-#ifdef TENEBRA_SOFT_CLIP_CANDIDATES_INL_H_
-#undef TENEBRA_SOFT_CLIP_CANDIDATES_INL_H_
+// Occluders of a group, and where the shadows that points of a range may see lie on the light: which of them
+// reach a part of it. Blocks of sixteen are looked at when they are first asked for. Included once per
+// target.
+#if defined(TENEBRA_SOFT_OCCLUDER_LIST_INL_H_) == defined(HWY_TARGET_TOGGLE)
+#ifdef TENEBRA_SOFT_OCCLUDER_LIST_INL_H_
+#undef TENEBRA_SOFT_OCCLUDER_LIST_INL_H_
 #else
-#define TENEBRA_SOFT_CLIP_CANDIDATES_INL_H_
+#define TENEBRA_SOFT_OCCLUDER_LIST_INL_H_
 #endif
 
 #include <utility>
@@ -15,26 +16,26 @@
 HWY_BEFORE_NAMESPACE();
 namespace tenebra::HWY_NAMESPACE {
 
-template <class T>
-class ClipCandidates {
+/// `Range`: GroupPoint or PointRange.
+template <class T, class Range>
+class OccluderList {
 public:
   /// `heights` of the occluders that will be added.
   void clear(std::span<const PlaneHeight> heights) {
     heights_ = heights;
     count_ = 0;
-    point_ = 0;
   }
   void add(const Candidate& candidate) {
     if (count_ % 16 == 0) {
       const std::size_t blocks = count_ / 16 + 1;
       if (blocks_.size() < blocks) {
         blocks_.resize(2 * blocks);
-        at_point_.resize(2 * blocks);
+        boxes_.resize(2 * blocks);
         useful_.resize(2 * blocks);
       }
       OccluderBlock& block = blocks_[blocks - 1];
       block.lanes = block.indefinite = block.quads = 0;
-      at_point_[blocks - 1].boxes_of = at_point_[blocks - 1].lines_of = 0;
+      boxes_[blocks - 1].boxes_of = 0;
       useful_[blocks - 1] = 0;
     }
     put(candidate, blocks_[count_ / 16], count_ % 16);
@@ -44,35 +45,25 @@ public:
   std::size_t block_count() const { return (count_ + 15) / 16; }
   OccluderBlock& block(std::size_t b) { return blocks_[b]; }
 
-  /// Forgets all lists. `at` stays where it is until the next.
-  void move_to(const GroupPoint& at) {
-    at_ = &at;
-    ++point_;
+  /// Forgets all lists; what follows is about points of `range`.
+  void move_to(const Range& range) {
+    range_ = range;
+    ++place_;
     list.shrink(0);
   }
 
   /// Appends to the list what may reach into `box`.
   HWY_INLINE void append_block(std::size_t b, const LightBox<T>& box) {
-    const BlockAtPoint<T>& there = with_boxes(b);
-    list.append(there.box, 16 * b, there.lanes & blocks_[b].lanes, box);
+    const BlockBoxes<T>& there = boxes_of(b);
+    list.append(there.sides, 16 * b, there.lanes & blocks_[b].lanes, box);
   }
   /// The occluders of block 0, and bits of those that may reach into `box`.
   HWY_INLINE ShadowBoxes<T> first_block(const LightBox<T>& box, std::uint64_t& met) {
-    const BlockAtPoint<T>& there = with_boxes(0);
-    const ShadowBoxes<T> boxes{{there.box[0], there.box[1], there.box[2], there.box[3]}, lane_numbers<T>};
+    const BlockBoxes<T>& there = boxes_of(0);
+    const auto& s = there.sides;
+    const ShadowBoxes<T> boxes{{s[0], s[1], s[2], s[3]}, lane_numbers<T>};
     met = bits(meets(boxes, box)) & there.lanes & blocks_[0].lanes;
     return boxes;
-  }
-
-  /// The lines around an occluder's shadow.
-  HWY_INLINE ShadowLines<T> lines_of(std::size_t id) {
-    const std::size_t b = id / 16, k = id % 16;
-    BlockAtPoint<T>& there = at_point_[b];
-    if (there.lines_of != point_) {
-      find_lines(blocks_[b], *at_, there);
-      there.lines_of = point_;
-    }
-    return {there.u[k], there.v[k], there.w[k]};
   }
 
   void mark_useful(std::size_t id) { useful_[id / 16] |= 1u << (id % 16); }
@@ -81,23 +72,27 @@ public:
 
   ShadowList<T> list;
 
+protected:
+  std::uint64_t place() const { return place_; }  ///< number of the range at hand, from 1; none comes twice
+  std::span<const PlaneHeight> heights() const { return heights_; }
+
 private:
-  HWY_INLINE const BlockAtPoint<T>& with_boxes(std::size_t b) {
-    BlockAtPoint<T>& there = at_point_[b];
-    if (there.boxes_of != point_) {
-      find_boxes(blocks_[b], heights_, *at_, there);
-      there.boxes_of = point_;
+  HWY_INLINE const BlockBoxes<T>& boxes_of(std::size_t b) {
+    BlockBoxes<T>& there = boxes_[b];
+    if (there.boxes_of != place_) {
+      find_boxes(blocks_[b], range_, there);
+      there.boxes_of = place_;
     }
     return there;
   }
 
   std::span<const PlaneHeight> heights_;
   std::vector<OccluderBlock> blocks_;
-  std::vector<BlockAtPoint<T>> at_point_;
+  std::vector<BlockBoxes<T>> boxes_;
   std::vector<std::uint32_t> useful_;
   std::size_t count_ = 0;
-  const GroupPoint* at_ = nullptr;
-  std::uint32_t point_ = 0;  ///< number of the point at hand, from 1
+  Range range_;
+  std::uint64_t place_ = 0;
 };
 
 }  // namespace tenebra::HWY_NAMESPACE
