@@ -12,7 +12,6 @@
 #include "shadow/tiles/cluster_planes-inl.h"
 #include "shadow/tiles/face_tests-inl.h"
 #include "shadow/tiles/ray_test-inl.h"
-#include "shadow/tiles/slot_tests-inl.h"
 #include "shadow/tiles/tile_bounds-inl.h"
 #include "simd/pack-inl.h"
 
@@ -30,6 +29,11 @@ struct RayRef {
   FaceBox box;
 };
 
+/// How wide a box is as seen from the light.
+HWY_INLINE float width(const FaceBox& box) {
+  return (box.u1 - box.u0) + (box.v1 - box.v0);
+}
+
 /// Asks for all of `what`, which is needed soon.
 template <class T>
 HWY_INLINE void fetch_all(const T& what) {
@@ -43,16 +47,6 @@ struct Waiting {
   std::uint16_t slot, triangles;
 };
 constexpr int most_waiting = 32;
-
-/// A node of tiles that is taken slot by slot.
-struct Scattered {
-  std::uint32_t node;
-  SlotRays rays;
-};
-
-HWY_INLINE float extent(const FaceBox& box) {
-  return (box.u1 - box.u0) + (box.v1 - box.v0);
-}
 
 class RootDescent {
 public:
@@ -80,15 +74,11 @@ private:
     ++n.tests;
     ++stats_.nodes;
   }
-  void enter(std::size_t level, std::size_t child, const RayRef& rays, const FaceBox& box);
-  void scatter(std::size_t level, std::size_t child, const RayRef& rays, const FaceBox& box);
-  void visit_slots(std::size_t level, std::size_t number, const Scattered& s, std::uint32_t slots);
-  void meet_slots(const TriangleCluster& cluster, const Scattered& s, std::uint32_t slots);
+  void enter(std::size_t level, std::size_t number, const RayRef& rays, const FaceBox& box);
   void fetch_nodes(const RayNode& n, int level, std::uint32_t slots) const;
   bool narrow(RayRef& rays, const FaceBox& box);
   void meet_cluster(const TriangleCluster& cluster, const RayRef& rays, const FaceBox& box);
   void descend_cluster(const RayRef& rays, std::uint32_t mask);
-  void set_up_planes();
   void set_up_cluster();
   FaceBox box_of(int i) const {
     return {lanes_[0][i], lanes_[1][i], lanes_[2][i], lanes_[3][i], lanes_[4][i]};
@@ -178,90 +168,25 @@ void RootDescent::visit(std::size_t level, std::size_t number, const RayRef& ray
   }
   for (; entered != 0; entered &= entered - 1) {
     const int i = std::countr_zero(entered);
-    enter(level, child_of(i), deeper[i], box_of_child(i));
+    if (level > 0) {
+      enter(level - 1, child_of(i), deeper[i], box_of_child(i));
+    } else {
+      meet_cluster(d_.clusters.clusters()[child_of(i)], deeper[i], box_of_child(i));
+    }
   }
 }
 
-// A child of a node of `level`. Of two trees the one that is wider there is descended.
-void RootDescent::enter(std::size_t level, std::size_t child, const RayRef& rays, const FaceBox& box) {
-  if (extent(rays.box) > extent(box)) {
-    scatter(level, child, rays, box);
-  } else if (level > 0) {
-    visit(level - 1, child, rays);
-  } else {
-    meet_cluster(d_.clusters.clusters()[child], rays, box);
-  }
-}
-
-void RootDescent::scatter(std::size_t level, std::size_t child, const RayRef& rays, const FaceBox& box) {
+// A node of clusters and its own bounds. Of the two nodes the wider one is descended: many triangles go down
+// to few rays among them as fast as many rays to few triangles. (Clusters meet all rays at once: what is
+// worked out for them is used for all.)
+void RootDescent::enter(std::size_t level, std::size_t number, const RayRef& rays, const FaceBox& box) {
+  if (rays.level == 0 || width(rays.box) <= width(box)) return visit(level, number, rays);
   RayNode& n = node(rays);
   note_test(n);
-  std::uint32_t met = children_met(n, box);
-  if (met == 0) return;
-  if (rays.level > 0) {
-    for (; met != 0; met &= met - 1) {
-      const int slot = std::countr_zero(met);
-      enter(level, child, {rays.level - 1, n.child[slot], n.box(slot)}, box);
-    }
-    return;
+  for (std::uint32_t met = children_met(n, box); met != 0; met &= met - 1) {
+    const int slot = std::countr_zero(met);
+    enter(level, number, {rays.level - 1, n.child[slot], n.box(slot)}, box);
   }
-  Scattered s;
-  s.node = rays.node;
-  aim_slots(n, s.rays);
-  if (level > 0) {
-    visit_slots(level - 1, child, s, met);
-  } else {
-    meet_slots(d_.clusters.clusters()[child], s, met);
-  }
-}
-
-void RootDescent::visit_slots(std::size_t level, std::size_t number, const Scattered& s,
-                              std::uint32_t slots) {
-  RayNode& n = node(0, s.node);
-  const FrontBoxes boxes = boxes_in_front(d_.clusters.levels()[level][number], light_, face_);
-  std::uint16_t met[16] = {};
-  std::uint32_t entered = 0;
-  for (slots &= n.live; slots != 0; slots &= slots - 1) {
-    const int slot = std::countr_zero(slots);
-    note_test(n);
-    std::uint32_t found = boxes_met(boxes, s.rays, slot);
-    entered |= found;
-    for (; found != 0; found &= found - 1)
-      met[std::countr_zero(found)] |= static_cast<std::uint16_t>(1u << slot);
-  }
-  const auto child_of = [&](int i) { return number * cluster_size + static_cast<std::size_t>(i); };
-  for (std::uint32_t left = entered; left != 0; left &= left - 1) {
-    const std::size_t child = child_of(std::countr_zero(left));
-    level > 0 ? fetch_all(d_.clusters.levels()[level - 1][child]) : fetch_all(d_.clusters.clusters()[child]);
-  }
-  for (; entered != 0; entered &= entered - 1) {
-    const int i = std::countr_zero(entered);
-    if (level > 0) {
-      visit_slots(level - 1, child_of(i), s, met[i]);
-    } else {
-      meet_slots(d_.clusters.clusters()[child_of(i)], s, met[i]);
-    }
-  }
-}
-
-void RootDescent::meet_slots(const TriangleCluster& cluster, const Scattered& s, std::uint32_t slots) {
-  RayNode& n = node(0, s.node);
-  slots &= n.live;
-  if (slots == 0) return;
-  cluster_ = &cluster;
-  set_up_ = false;
-  const FrontTriangles triangles = triangles_in_front(cluster, light_, face_);
-  for (; slots != 0; slots &= slots - 1) {
-    const int slot = std::countr_zero(slots);
-    note_test(n);
-    std::uint32_t found = cluster.used & triangles_met(triangles, s.rays, slot);
-    if (skip_own_) found &= ~equal_bits(cluster.ids, n.own[slot]);
-    if (found == 0) continue;
-    if (!set_up_) set_up_planes();
-    found &= scratch_.planes.valid;
-    if (found != 0) put_off(s.node, slot, found);
-  }
-  test_waiting();
 }
 
 void RootDescent::meet_cluster(const TriangleCluster& cluster, const RayRef& rays, const FaceBox& box) {
@@ -298,18 +223,14 @@ void RootDescent::descend_cluster(const RayRef& rays, std::uint32_t mask) {
 }
 
 // Planes in double are not needed before a triangle's box meets a node of tiles.
-void RootDescent::set_up_planes() {
-  set_up_ = true;
-  HWY_NAMESPACE::set_up_planes(*cluster_, d_.source, skip_own_, d_.cull_front, scratch_.planes);
-  for (std::uint32_t left = scratch_.planes.edge_on; left != 0; left &= left - 1)
-    scratch_.edge_on.push_back(cluster_->ids[std::countr_zero(left)]);
-}
-
 void RootDescent::set_up_cluster() {
-  set_up_planes();
+  set_up_ = true;
   store(boxes_.u0, lanes_[0]), store(boxes_.u1, lanes_[1]), store(boxes_.v0, lanes_[2]);
   store(boxes_.v1, lanes_[3]), store(boxes_.w, lanes_[4]);
+  set_up_planes(*cluster_, d_.source, skip_own_, d_.cull_front, scratch_.planes);
   face_cluster(scratch_.planes, face_, d_.forest.tau, on_face_);
+  for (std::uint32_t left = scratch_.planes.edge_on; left != 0; left &= left - 1)
+    scratch_.edge_on.push_back(cluster_->ids[std::countr_zero(left)]);
 }
 
 // Few tiles look for their triangles sixteen at a time, few triangles for their tiles.
