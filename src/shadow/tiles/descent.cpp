@@ -47,7 +47,7 @@ struct Waiting {
   std::uint16_t slot, triangles;
 };
 constexpr int most_waiting = 32;
-constexpr int most_sparse = 8;  // children of a node of rays that are met by a narrower box
+constexpr float much_wider = 6;  // as seen from the light
 
 class RootDescent {
 public:
@@ -179,14 +179,13 @@ void RootDescent::visit(std::size_t level, std::size_t number, const RayRef& ray
   }
 }
 
-// A node of clusters within `box`, and a node of rays that the box meets some children of. The wider of the
-// two is descended: where rays are sparse among many triangles, triangles far from all rays are then met once
-// by a node of rays, not one by one. Rays that are dense stay together, and what is worked out for triangles
-// serves all of them.
+// A node of clusters within `box`, and a node of rays that the box meets the children `met` of. Where the
+// rays lie much wider than the triangles they are descended first: triangles among sparse rays are then far
+// from nearly all of them and met by few. Else the triangles are: what is worked out for them serves all
+// rays.
 void RootDescent::enter(std::size_t level, std::size_t number, const FaceBox& box, const RayRef& rays,
                         std::uint32_t met) {
-  if (rays.level == 0 || std::popcount(met) > most_sparse || width(rays.box) <= width(box))
-    return visit(level, number, rays);
+  if (rays.level == 0 || width(rays.box) <= much_wider * width(box)) return visit(level, number, rays);
   const RayNode& n = node(rays);
   fetch_nodes(n, rays.level, met);
   for (; met != 0; met &= met - 1) {
