@@ -1,7 +1,7 @@
-// Triangles against rays: the tree of clusters and the forest of rays, descended together. Of a node of each
-// the triangles' is descended first, with the deepest node of rays that encloses all rays it may meet; where
-// these rays lie much wider than the triangles, the rays' node is. So the work follows the pairs that come
-// near each other, be triangles few and large among dense rays or many and tiny among sparse ones.
+// Triangles against rays: the tree of clusters and the forest of rays, descended together. Of two nodes
+// that meet, that of the triangles is descended, beside the deepest node of rays that holds all rays it may
+// meet; where these lie much wider than the triangles, that of the rays. So the work follows the pairs that
+// come near each other: few large triangles among dense rays, or many tiny ones among sparse rays.
 #pragma once
 
 #include "base/frame_timings.h"
