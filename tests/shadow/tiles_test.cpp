@@ -143,6 +143,35 @@ TEST(Tiles, AreSplitWhereTheyAreWideFromTheLight) {
   EXPECT_LT(static_cast<double>(tracer.stats().leaf_tests), 8 * rays);
 }
 
+// Points here and there on a layer of many tiny triangles, the light above it and between them: most
+// triangles are far from all rays and must be left behind many at a time. From above a ray takes 23 tests of
+// sixteen boxes; it takes 54 where triangles are always descended first.
+TEST(Tiles, ReachFewRaysAmongManyTriangles) {
+  Random random(80);
+  MaskCase c;
+  c.soup = random_soup(random, 60000, 0.01);
+  for (glm::vec3& p : c.soup.positions) p.y *= 0.01f;
+  c.points = points_on_triangles(c.soup, random, 256);
+  for (const double height : {4.0, 0.02}) {
+    c.light = point_light({0.4, height, 0.3});
+    c.view = view_from_light(c.light);
+    const ShadowMask expected = by_cone_tree(c);
+    for (const SimdLevel level : {SimdLevel::scalar, SimdLevel::avx2, SimdLevel::automatic}) {
+      if (!simd_level_supported(level)) continue;
+      c.config.simd = level;
+      for (const int threads : {1, 3}) {
+        ShadowTracer tracer;
+        with_threads(threads, [&] { EXPECT_TRUE(same_mask(c, traced(c, tracer), expected)) << threads; });
+        EXPECT_EQ(tracer.stats().rays, 256u);
+        EXPECT_GT(tracer.stats().shadowed_pixels, 20u);
+        if (height > 1) {
+          EXPECT_LT(tracer.stats().nodes, 256u * 16 * 36);
+        }
+      }
+    }
+  }
+}
+
 TEST(Tiles, GiveWayWhereTheyDoNotApply) {
   MaskCase c = room_case(75, 64, 64);
   c.light = sun({0.3, 1, 0.2});

@@ -29,6 +29,11 @@ struct RayRef {
   FaceBox box;
 };
 
+/// How wide a box is as seen from the light.
+HWY_INLINE float width(const FaceBox& box) {
+  return (box.u1 - box.u0) + (box.v1 - box.v0);
+}
+
 /// Asks for all of `what`, which is needed soon.
 template <class T>
 HWY_INLINE void fetch_all(const T& what) {
@@ -42,6 +47,7 @@ struct Waiting {
   std::uint16_t slot, triangles;
 };
 constexpr int most_waiting = 32;
+constexpr float much_wider = 6;  // as seen from the light
 
 class RootDescent {
 public:
@@ -69,8 +75,10 @@ private:
     ++n.tests;
     ++stats_.nodes;
   }
+  void enter(std::size_t level, std::size_t number, const FaceBox& box, const RayRef& rays,
+             std::uint32_t met);
   void fetch_nodes(const RayNode& n, int level, std::uint32_t slots) const;
-  bool narrow(RayRef& rays, const FaceBox& box);
+  std::uint32_t narrow(RayRef& rays, const FaceBox& box);
   void meet_cluster(const TriangleCluster& cluster, const RayRef& rays, const FaceBox& box);
   void descend_cluster(const RayRef& rays, std::uint32_t mask);
   void set_up_cluster();
@@ -125,14 +133,14 @@ void RootDescent::fetch_nodes(const RayNode& n, int level, std::uint32_t slots) 
   for (; slots != 0; slots &= slots - 1) fetch_all(below[n.child[std::countr_zero(slots)]]);
 }
 
-// Down to the deepest node that holds all rays which the box may meet; false: there are none.
-bool RootDescent::narrow(RayRef& rays, const FaceBox& box) {
+// Down to the deepest node that holds all rays which the box may meet; returns the bits of its children that
+// may have them, 0: there are none.
+std::uint32_t RootDescent::narrow(RayRef& rays, const FaceBox& box) {
   for (;;) {
     RayNode& n = node(rays);
     note_test(n);
     const std::uint32_t met = children_met(n, box);
-    if (met == 0) return false;
-    if (rays.level == 0 || (met & (met - 1)) != 0) return true;
+    if (rays.level == 0 || (met & (met - 1)) != 0 || met == 0) return met;
     const int slot = std::countr_zero(met);
     rays = {rays.level - 1, n.child[slot], n.box(slot)};
   }
@@ -151,11 +159,12 @@ void RootDescent::visit(std::size_t level, std::size_t number, const RayRef& ray
   const auto child_of = [&](int i) { return number * cluster_size + static_cast<std::size_t>(i); };
   const auto box_of_child = [&](int i) { return FaceBox{u0[i], u1[i], v0[i], v1[i], w[i]}; };
   RayRef deeper[16];
-  std::uint32_t entered = 0;
+  std::uint32_t children[16], entered = 0;
   for (; met != 0; met &= met - 1) {
     const int i = std::countr_zero(met);
     deeper[i] = rays;
-    if (!narrow(deeper[i], box_of_child(i))) continue;
+    children[i] = narrow(deeper[i], box_of_child(i));
+    if (children[i] == 0) continue;
     entered |= 1u << i;
     level > 0 ? fetch_all(d_.clusters.levels()[level - 1][child_of(i)])
               : fetch_all(d_.clusters.clusters()[child_of(i)]);
@@ -163,10 +172,27 @@ void RootDescent::visit(std::size_t level, std::size_t number, const RayRef& ray
   for (; entered != 0; entered &= entered - 1) {
     const int i = std::countr_zero(entered);
     if (level > 0) {
-      visit(level - 1, child_of(i), deeper[i]);
+      enter(level - 1, child_of(i), box_of_child(i), deeper[i], children[i]);
     } else {
       meet_cluster(d_.clusters.clusters()[child_of(i)], deeper[i], box_of_child(i));
     }
+  }
+}
+
+// A node of clusters within `box`, and a node of rays that the box meets the children `met` of. Where the
+// rays lie much wider than the triangles they are descended first: triangles among sparse rays are then far
+// from nearly all of them and met by few. Else the triangles are: what is worked out for them serves all
+// rays.
+void RootDescent::enter(std::size_t level, std::size_t number, const FaceBox& box, const RayRef& rays,
+                        std::uint32_t met) {
+  if (rays.level == 0 || width(rays.box) <= much_wider * width(box)) return visit(level, number, rays);
+  const RayNode& n = node(rays);
+  fetch_nodes(n, rays.level, met);
+  for (; met != 0; met &= met - 1) {
+    const int slot = std::countr_zero(met);
+    RayRef below{rays.level - 1, n.child[slot], n.box(slot)};
+    const std::uint32_t met_below = narrow(below, box);
+    if (met_below != 0) enter(level, number, box, below, met_below);
   }
 }
 

@@ -1,4 +1,7 @@
-// Triangles against rays: the tree of clusters and the forest of rays, descended together.
+// Triangles against rays: the tree of clusters and the forest of rays, descended together. Of two nodes
+// that meet, that of the triangles is descended, beside the deepest node of rays that holds all rays it may
+// meet; where these lie much wider than the triangles, that of the rays. So the work follows the pairs that
+// come near each other: few large triangles among dense rays, or many tiny ones among sparse rays.
 #pragma once
 
 #include "base/frame_timings.h"

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <bit>
+#include <numeric>
 
 #include "base/stopwatch.h"
 #include "parallel/parallel.h"
@@ -25,17 +26,30 @@ const PointTiles& TileTracer::tiles_of(const VisiblePoints& points, const ViewRa
   return own_tiles_;
 }
 
+// Those first that took most tests in the last call, so that no thread is left with one of them at the end:
+// roots are few. They lie in the order of a curve: the k-th of as many is about the same part of the picture.
+void TileTracer::order_roots(std::size_t roots) {
+  root_order_.resize(roots);
+  std::iota(root_order_.begin(), root_order_.end(), 0u);
+  if (root_tests_.empty()) return;
+  const auto tests = [&](std::uint32_t root) { return root_tests_[root * root_tests_.size() / roots]; };
+  std::stable_sort(root_order_.begin(), root_order_.end(),
+                   [&](std::uint32_t a, std::uint32_t b) { return tests(a) > tests(b); });
+}
+
 void TileTracer::descend(const Descent& descent, SimdLevel simd, TraceStats& stats) {
   const DescentKernels kernels = descent_kernels(simd);
   const std::size_t roots = forest_.levels[ray_levels - 1].size();
   scratch_.resize(std::max(scratch_.size(), static_cast<std::size_t>(thread_count())));
   for (DescentScratch& scratch : scratch_) scratch.edge_on.clear();
   std::vector<TraceStats> parts(roots);
-  parallel_tasks(static_cast<int>(roots), [&](int root) {
-    kernels.descend(descent, static_cast<std::uint32_t>(root),
-                    scratch_[static_cast<std::size_t>(thread_index())],
-                    parts[static_cast<std::size_t>(root)]);
+  order_roots(roots);
+  parallel_tasks(static_cast<int>(roots), [&](int i) {
+    const std::uint32_t root = root_order_[static_cast<std::size_t>(i)];
+    kernels.descend(descent, root, scratch_[static_cast<std::size_t>(thread_index())], parts[root]);
   });
+  root_tests_.clear();
+  for (const TraceStats& part : parts) root_tests_.push_back(part.nodes);
   for (const TraceStats& part : parts) stats += part;
   // Several roots may meet a triangle.
   std::vector<std::uint32_t>& edge_on = scratch_.front().edge_on;

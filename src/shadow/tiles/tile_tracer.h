@@ -28,6 +28,7 @@ public:
 private:
   const PointTiles& tiles_of(const VisiblePoints& points, const ViewRays& view,
                              const TriangleView& triangles);
+  void order_roots(std::size_t roots);
   void descend(const Descent& descent, SimdLevel simd, TraceStats& stats);
 
   PointTiles own_tiles_;  ///< of points that came without
@@ -36,6 +37,8 @@ private:
   RayForest forest_;
   ForestScratch forest_scratch_;
   std::vector<DescentScratch> scratch_;
+  std::vector<std::uint64_t> root_tests_;  ///< of the last call, one a root
+  std::vector<std::uint32_t> root_order_;  ///< in which they are descended
 };
 
 }  // namespace tenebra
