@@ -7,6 +7,7 @@
 #include <xmmintrin.h>
 
 #include <algorithm>
+#include <atomic>
 
 #ifdef TENEBRA_THREAD_SANITIZER
 extern "C" void __tsan_acquire(void*);
@@ -77,6 +78,13 @@ void parallel_ranges(std::size_t count, std::size_t grain,
 void parallel_tasks(int count, const std::function<void(int)>& body) {
   Loop loop;
   tbb::parallel_for(0, count, [&](int i) { loop.run([&] { body(i); }); });
+}
+
+void parallel_in_order(int count, const std::function<void(int)>& body) {
+  std::atomic<int> next{0};
+  parallel_tasks(std::min(count, thread_count()), [&](int) {
+    for (int i = next++; i < count; i = next++) body(i);
+  });
 }
 
 int thread_index() {

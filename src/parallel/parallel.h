@@ -33,6 +33,9 @@ void parallel_ranges(std::size_t count, std::size_t grain,
 /// Calls body(0) ... body(count - 1), possibly at once; may be nested.
 void parallel_tasks(int count, const std::function<void(int)>& body);
 
+/// The same; a thread that is free takes the next of them, in order. For few of uneven length, longest first.
+void parallel_in_order(int count, const std::function<void(int)>& body);
+
 /// Index of the calling thread among those of the loop, in 0..thread_count() - 1; for per-thread scratch.
 int thread_index();
 

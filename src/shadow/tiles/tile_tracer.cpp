@@ -44,7 +44,7 @@ void TileTracer::descend(const Descent& descent, SimdLevel simd, TraceStats& sta
   for (DescentScratch& scratch : scratch_) scratch.edge_on.clear();
   std::vector<TraceStats> parts(roots);
   order_roots(roots);
-  parallel_tasks(static_cast<int>(roots), [&](int i) {
+  parallel_in_order(static_cast<int>(roots), [&](int i) {
     const std::uint32_t root = root_order_[static_cast<std::size_t>(i)];
     kernels.descend(descent, root, scratch_[static_cast<std::size_t>(thread_index())], parts[root]);
   });
