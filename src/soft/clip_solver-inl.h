@@ -3,7 +3,8 @@
 //
 // What took light from one point mostly does so from the next: those occluders are kept apart and come first.
 // Only what they leave of the light meets the others, found through the bounds of their blocks: a point in
-// full shadow under a thousand leaves never looks at most of them. Included once per target.
+// full shadow under a thousand leaves never looks at most of them. The same for one point and for a packet of
+// them. Included once per target.
 #if defined(TENEBRA_SOFT_CLIP_SOLVER_INL_H_) == defined(HWY_TARGET_TOGGLE)
 #ifdef TENEBRA_SOFT_CLIP_SOLVER_INL_H_
 #undef TENEBRA_SOFT_CLIP_SOLVER_INL_H_

@@ -12,64 +12,19 @@
 #include <utility>
 
 #include "base/stopwatch.h"
-#include "points/contact_rule.h"
-#include "points/triangle_corners.h"
 #include "soft/candidate_order.h"
 #include "soft/clip_solver-inl.h"
 #include "soft/line_class_query-inl.h"
 #include "soft/outline_solver-inl.h"
 #include "soft/packet_solver-inl.h"
-#include "soft/point_groups.h"
 #include "soft/quads.h"
+#include "soft/receiver_plane-inl.h"
 
 HWY_BEFORE_NAMESPACE();
 namespace tenebra::HWY_NAMESPACE {
 
 /// Trees beyond this size are dropped, and the rest of the group is clipped.
 inline constexpr std::size_t largest_tree_bytes = std::size_t{4} << 20;
-
-template <class T>
-LightPolygon<T> polygon_of(std::span<const glm::dvec2> outline) {
-  T x[polygon_capacity], y[polygon_capacity];
-  for (std::size_t k = 0; k < polygon_capacity; ++k) {
-    const glm::dvec2 at = outline[k < outline.size() ? k : 0];
-    x[k] = static_cast<T>(at.x);
-    y[k] = static_cast<T>(at.y);
-  }
-  using Lanes = typename LightPolygon<T>::Lanes;
-  return {load<Lanes>(x), load<Lanes>(y), static_cast<int>(outline.size())};
-}
-
-template <class T>
-LightLine<T> line_of(const glm::dvec3& line) {
-  const double size = std::abs(line.x) + std::abs(line.y) + std::abs(line.z);
-  const glm::dvec3 scaled = size > 0 ? line / size : line;
-  return {static_cast<T>(scaled.x), static_cast<T>(scaled.y), static_cast<T>(scaled.z)};
-}
-
-/// The triangle a point lies on, as far as the light is concerned.
-struct ReceiverPlane {
-  std::uint32_t id = no_triangle;
-  double tau = 0;
-  glm::dvec3 horizon{0.0};  ///< line on the light's plane, positive above
-  glm::dvec3 face{0.0};     ///< unit normal on the seen side; 0: no area
-  bool cuts_light = true;   ///< part of the light is not above it
-};
-
-ReceiverPlane receiver_plane(const SoftFrame& frame, std::uint32_t id) {
-  const Corners c = corners_of(frame.triangles, id);
-  const glm::dvec3 a(c.v[0]);
-  const glm::dvec3 n = glm::cross(glm::dvec3(c.v[1]) - a, glm::dvec3(c.v[2]) - a);
-  const double length = std::sqrt(glm::dot(n, n));
-  const int side = seen_side(frame.triangles, id, frame.view);
-  ReceiverPlane plane;
-  plane.id = id;
-  plane.tau = rounding_tolerance(c.v);
-  if (!(length > 0) || side == 0) return plane;
-  plane.horizon = horizon_line(frame.light, frame.triangles, id, side);
-  plane.face = static_cast<double>(side) / length * n;
-  return plane;
-}
 
 /// The solvers for one precision and their buffers.
 template <class T>

@@ -36,7 +36,7 @@ HWY_INLINE const LightBox<T>& box_of(const LightBox<T>& box) {
   return box;
 }
 
-/// Up to 64 boxes in a row. Sides as in BlockAtPoint; whole registers of sixteen can be read.
+/// Up to 64 boxes in a row. Sides as in BlockBoxes; whole registers of sixteen can be read.
 template <class T>
 struct ShadowBoxes {
   const T* sides[4];
