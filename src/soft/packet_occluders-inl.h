@@ -199,7 +199,7 @@ private:
       if (cut == 0) continue;
       PacketPart& outside = out.add();
       outside.live = cut;
-      if (!split(*rest, values, cut, *inside, outside.polygon)) return give_up(part);
+      if (!split(*rest, values, cut, *inside, outside.polygon)) return give_up(before, part, out);
       compact_large(outside.polygon, cut);
       compact_large(*inside, met);
       std::swap(rest, inside);
@@ -210,9 +210,10 @@ private:
     at_->touched |= met;
     return met != 0;
   }
-  bool give_up(PacketPart& part) {
+  bool give_up(std::size_t before, PacketPart& part, PacketParts& out) {
     at_->failed = true;
     part.live = 0;
+    out.shrink(before);
     return true;
   }
 
