@@ -1,4 +1,4 @@
-// The order in which candidates are subtracted from the light.
+// The order in which candidates stand in blocks, and are subtracted where fragments do not choose.
 #pragma once
 
 #include <cstdint>

@@ -75,7 +75,7 @@ template <class T>
 struct BlockBoxes {
   T sides[4][16];
   std::uint32_t lanes = 0;     ///< that may shadow something
-  std::uint64_t boxes_of = 0;  ///< number of the place that they are for
+  std::uint64_t boxes_of = 0;  ///< number of the range that they are for
 };
 
 using Wide = Pack<double, 16>;

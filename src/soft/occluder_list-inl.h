@@ -48,7 +48,7 @@ public:
   /// Forgets all lists; what follows is about points of `range`.
   void move_to(const Range& range) {
     range_ = range;
-    ++place_;
+    ++number_;
     list.shrink(0);
   }
 
@@ -73,15 +73,15 @@ public:
   ShadowList<T> list;
 
 protected:
-  std::uint64_t place() const { return place_; }  ///< number of the range at hand, from 1; none comes twice
+  std::uint64_t number() const { return number_; }  ///< number of the range at hand, from 1; none comes twice
   std::span<const PlaneHeight> heights() const { return heights_; }
 
 private:
   HWY_INLINE const BlockBoxes<T>& boxes_of(std::size_t b) {
     BlockBoxes<T>& there = boxes_[b];
-    if (there.boxes_of != place_) {
+    if (there.boxes_of != number_) {
       find_boxes(blocks_[b], range_, there);
-      there.boxes_of = place_;
+      there.boxes_of = number_;
     }
     return there;
   }
@@ -92,7 +92,7 @@ private:
   std::vector<std::uint32_t> useful_;
   std::size_t count_ = 0;
   Range range_;
-  std::uint64_t place_ = 0;
+  std::uint64_t number_ = 0;
 };
 
 }  // namespace tenebra::HWY_NAMESPACE

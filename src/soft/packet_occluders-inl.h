@@ -219,9 +219,9 @@ private:
 
   const PacketShadow& shadow_of(std::size_t id) {
     Place& place = shadow_of_[id];
-    if (place.number != this->place()) {
+    if (place.range != number()) {
       if (shadow_count_ == shadows_.size()) shadows_.resize(2 * shadow_count_ + 16);
-      place = {this->place(), shadow_count_};
+      place = {number(), shadow_count_};
       move(block(id / 16), id % 16, shadows_[shadow_count_++]);
     }
     return shadows_[place.shadow];
@@ -264,11 +264,11 @@ private:
   }
 
   struct Place {
-    std::uint64_t number = 0;
+    std::uint64_t range = 0;  ///< number of the range that it is for
     std::size_t shadow = 0;
   };
   PacketPoints* at_ = nullptr;
-  std::vector<Place> shadow_of_;       ///< by id: which shadow, if it is of the place at hand
+  std::vector<Place> shadow_of_;       ///< by id: which shadow, if it is of the range at hand
   std::vector<PacketShadow> shadows_;  ///< those that were asked for
   std::size_t shadow_count_ = 0;
   PacketPolygon rest_, inside_;

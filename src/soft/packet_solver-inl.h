@@ -21,10 +21,12 @@ struct PointSight {
   bool receiver_cuts = false, normal_cuts = false;     ///< a part of the light is below
 };
 
+/// Points are added, up to sixteen, and solved together; then their answers can be asked for until clear().
 class PacketSolver {
 public:
+  /// Leaves room in packet_vertices for what cuts add.
   static constexpr std::size_t most_light_vertices = 8;
-  /// Of so many, neighbours see too different fragments (measured: clouds and trees).
+  /// Of more, in clouds and trees, neighbours see too different fragments (measured).
   static constexpr std::size_t most_occluders = 256;
 
   /// Takes over the candidates of a group in places `order`, largest first.

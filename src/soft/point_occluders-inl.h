@@ -17,7 +17,7 @@ namespace tenebra::HWY_NAMESPACE {
 template <class T>
 struct BlockLines {
   T u[16][4], v[16][4], w[16][4];  ///< occluder, line
-  std::uint64_t lines_of = 0;      ///< number of the place that they are for
+  std::uint64_t lines_of = 0;      ///< number of the range that they are for
 };
 
 /// 1, -1 or 0 times the lines: which side of an occluder of no certain sign blocks the point.
@@ -93,9 +93,9 @@ private:
   HWY_INLINE ShadowLines<T> lines_of(std::size_t id) {
     const std::size_t b = id / 16, k = id % 16;
     BlockLines<T>& there = lines_[b];
-    if (there.lines_of != this->place()) {
+    if (there.lines_of != this->number()) {
       find_lines(this->block(b), this->heights(), *at_, there);
-      there.lines_of = this->place();
+      there.lines_of = this->number();
     }
     return {there.u[k], there.v[k], there.w[k]};
   }

@@ -9,7 +9,7 @@
 namespace tenebra {
 namespace {
 
-TEST(Parallel, InOrderCallsEachOnceAndLaterOnesLater) {
+TEST(Parallel, InOrderCallsEachOnceAndOnOneThreadInOrder) {
   for (const int threads : {1, 2, 5}) {
     for (const int count : {0, 1, 3, 400}) {
       std::vector<int> begun;
