@@ -98,17 +98,14 @@ struct Part {
   std::uint32_t next = 0;  // place of the next point in PointGroups
 };
 
-void append_group(const ActivePoints& active, std::span<const Point> points, const PointBox& box, Part& part,
-                  PointGroups& out) {
+void append_group(std::span<const Point> points, const PointBox& box, Part& part, PointGroups& out) {
   PointGroup group;
   group.first = part.next;
   group.count = static_cast<std::uint32_t>(points.size());
   group.first_receiver = static_cast<std::uint32_t>(part.receivers.size());
   group.low = box.low, group.high = box.high;
   for (const Point& p : points) {
-    out.pixels[part.next] = p.pixel;
-    out.positions[part.next] = active.position(p.pixel);
-    out.triangles[part.next++] = p.receiver.triangle;
+    out.pixels[part.next++] = p.pixel;
     if (part.receivers.size() == group.first_receiver ||
         part.receivers.back().triangle != p.receiver.triangle)
       part.receivers.push_back(p.receiver);
@@ -145,7 +142,7 @@ void append_split(const ActivePoints& active, std::span<Point> points, Part& par
     }
   }
   if (gap == 0) {
-    append_group(active, points, box, part, out);
+    append_group(points, box, part, out);
     return;
   }
   const auto middle =
@@ -182,7 +179,7 @@ void group_by_triangle(std::span<const std::uint32_t> pixels, ActivePoints& acti
   std::vector<Point> taken;
   PointBox box;
   const auto close = [&] {
-    if (!taken.empty()) append_group(active, taken, box, part, out);
+    if (!taken.empty()) append_group(taken, box, part, out);
     taken.clear();
     box = {};
   };
@@ -232,12 +229,11 @@ int seen_side(const TriangleView& triangles, std::uint32_t id, const ViewRays& v
 void group_points(const VisiblePoints& points, const ViewRays& view, const TriangleView& triangles,
                   const AreaLight& light, SoftGrouping grouping, PointGroups& out) {
   const FloatEnvironment ieee;
+  out.points = &points;
   out.width = points.width;
   out.groups.clear();
   out.receivers.clear();
   out.pixels.resize(points.triangles.size());
-  out.positions.resize(points.triangles.size());
-  out.triangles.resize(points.triangles.size());
   if (grouping == SoftGrouping::triangle) {
     ActivePoints active(points, view, triangles, light);
     group_by_triangle(pixels_by_triangle(points, triangles.triangles.size()), active, out);

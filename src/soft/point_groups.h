@@ -25,7 +25,7 @@ struct Receiver {
 };
 
 struct PointGroup {
-  std::uint32_t first = 0, count = 0;                    ///< range of PointGroups::pixels and positions
+  std::uint32_t first = 0, count = 0;                    ///< range of PointGroups::pixels
   std::uint32_t first_receiver = 0, receiver_count = 0;  ///< range of PointGroups::receivers
   glm::dvec3 low{0.0}, high{0.0};                        ///< box of the points, world space, exact
 };
@@ -39,24 +39,17 @@ struct GroupNode {
 };
 
 struct PointGroups {
-  int width = 0;                   ///< pixels in a row of the picture
-  std::vector<GroupNode> nodes;    ///< node 0 is the root; none without groups
-  std::vector<PointGroup> groups;  ///< near ones in space near in the list
+  const VisiblePoints* points = nullptr;  ///< that were grouped; of the caller
+  int width = 0;                          ///< pixels in a row of the picture
+  std::vector<GroupNode> nodes;           ///< node 0 is the root; none without groups
+  std::vector<PointGroup> groups;         ///< near ones in space near in the list
   std::vector<std::uint32_t>
-      pixels;  ///< in the groups' ranges every active pixel once, between them nothing;
-               ///< in a neighbourhood along a Z curve: any range lies together
-  std::vector<glm::dvec3> positions;     ///< of these pixels, world space
-  std::vector<std::uint32_t> triangles;  ///< of these pixels
-  std::vector<Receiver> receivers;       ///< group after group; each triangle once a group, ascending
+      pixels;                       ///< in the groups' ranges every active pixel once, between them nothing;
+                                    ///< in a neighbourhood along a Z curve: any range lies together
+  std::vector<Receiver> receivers;  ///< group after group; each triangle once a group, ascending
 
   std::span<const std::uint32_t> pixels_of(const PointGroup& group) const {
     return {pixels.data() + group.first, group.count};
-  }
-  std::span<const glm::dvec3> positions_of(const PointGroup& group) const {
-    return {positions.data() + group.first, group.count};
-  }
-  std::span<const std::uint32_t> triangles_of(const PointGroup& group) const {
-    return {triangles.data() + group.first, group.count};
   }
   std::span<const Receiver> receivers_of(const PointGroup& group) const {
     return {receivers.data() + group.first_receiver, group.receiver_count};

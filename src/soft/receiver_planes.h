@@ -4,6 +4,7 @@
 
 #include <cstdint>
 #include <glm/glm.hpp>
+#include <span>
 #include <vector>
 
 #include "soft/point_groups.h"
@@ -24,10 +25,11 @@ struct ContactRange {
   double least = 0, most = 0;
 };
 
-/// One a receiver of the group.
-void find_receiver_planes(const PointGroups& groups, const PointGroup& group, const TriangleView& triangles,
-                          const LightShape& light, std::vector<ReceiverPlane>& out);
+/// One a receiver of the group with these points and this shaft.
+void find_receiver_planes(std::span<const Receiver> receivers, const PointLanes& points, const Shaft& shaft,
+                          const ShaftMaker& maker, const TriangleView& triangles,
+                          std::vector<ReceiverPlane>& out);
 
-ContactRange contact_range(const PointGroups& groups, const PointGroup& group, const TriangleView& triangles);
+ContactRange contact_range(std::span<const Receiver> receivers, const TriangleView& triangles);
 
 }  // namespace tenebra

@@ -129,19 +129,11 @@ HWY_INLINE Double8 theta_high(const TriangleBlock& block, const PlaneRange& r, d
   return tau_of(block, tau_most) * (r.normal_length * constant(1 + 0x1p-49) + r.size2 * constant(0x1p-48));
 }
 
-std::size_t cull(const Shaft& shaft, double tau_least, const TriangleBlock* blocks,
-                 std::span<const BlockRef> in, BlockRef* out) {
+std::size_t cull(const Shaft& shaft, const TriangleBlock* blocks, std::span<const BlockRef> in,
+                 BlockRef* out) {
   std::size_t count = 0;
-  const Double8 zero = constant(0.0);
   for (const BlockRef& ref : in) {
-    const TriangleBlock& block = blocks[ref.block];
-    const Triangles t = load_triangles(block, *shaft.light);
-    std::uint32_t lanes = inside(shaft, t, ref.lanes);
-    if (lanes == 0) continue;
-    const PlaneRange r = plane_range(shaft, block, t);
-    const Double8 theta = theta_low(block, r, tau_least);
-    lanes &= bits((less(theta, r.points_high) & less(r.light_low, zero)) |
-                  (less(theta, zero - r.points_low) & less(zero, r.light_high)));
+    const std::uint32_t lanes = inside(shaft, load_triangles(blocks[ref.block], *shaft.light), ref.lanes);
     if (lanes != 0) out[count++] = {ref.block, lanes};
   }
   return count;
