@@ -10,6 +10,8 @@
 
 #include "points/visible_points.h"
 #include "soft/area_light.h"
+#include "soft/receivers.h"
+#include "soft/shaft.h"
 #include "soft/soft_shadows.h"
 
 namespace tenebra {
@@ -17,17 +19,11 @@ namespace tenebra {
 /// Points of a neighbourhood group, at most.
 inline constexpr std::uint32_t largest_neighbourhood = 64;
 
-/// A triangle on which points of a group lie, and the side of it that the view sees: 1 in front (counter-
-/// clockwise), -1 behind.
-struct Receiver {
-  std::uint32_t triangle = no_triangle;
-  std::int32_t side = 0;
-};
-
 struct PointGroup {
   std::uint32_t first = 0, count = 0;                    ///< range of PointGroups::pixels
   std::uint32_t first_receiver = 0, receiver_count = 0;  ///< range of PointGroups::receivers
   glm::dvec3 low{0.0}, high{0.0};                        ///< box of the points, world space, exact
+  Cell cell;                                             ///< around the points, little larger than they need
 };
 
 /// A range of groups with the box of its points. Children follow each other; those of node 0 are the whole.
@@ -39,10 +35,9 @@ struct GroupNode {
 };
 
 struct PointGroups {
-  const VisiblePoints* points = nullptr;  ///< that were grouped; of the caller
-  int width = 0;                          ///< pixels in a row of the picture
-  std::vector<GroupNode> nodes;           ///< node 0 is the root; none without groups
-  std::vector<PointGroup> groups;         ///< near ones in space near in the list
+  int width = 0;                   ///< pixels in a row of the picture
+  std::vector<GroupNode> nodes;    ///< node 0 is the root; none without groups
+  std::vector<PointGroup> groups;  ///< near ones in space near in the list
   std::vector<std::uint32_t>
       pixels;                       ///< in the groups' ranges every active pixel once, between them nothing;
                                     ///< in a neighbourhood along a Z curve: any range lies together
@@ -56,13 +51,11 @@ struct PointGroups {
   }
 };
 
-/// Side of the triangle from which the view sees it, exact: 1, -1, or 0 if it is seen edge-on.
-int seen_side(const TriangleView& triangles, std::uint32_t id, const ViewRays& view);
-
 /// Groups the active points: those on a triangle that is not seen edge-on, in front of the light's plane, and
 /// with a part of the light on the seen side of their triangle's plane. Conservative: where double leaves
-/// either in doubt, the point is kept. The groups do not depend on the number of threads.
+/// either in doubt, the point is kept. The groups depend neither on threads nor on the instruction set.
 void group_points(const VisiblePoints& points, const ViewRays& view, const TriangleView& triangles,
-                  const AreaLight& light, SoftGrouping grouping, PointGroups& out);
+                  const AreaLight& light, SoftGrouping grouping, PointGroups& out,
+                  SimdLevel simd = SimdLevel::automatic);
 
 }  // namespace tenebra

@@ -10,7 +10,6 @@
 
 #include "simd/simd_level.h"
 #include "soft/area_light.h"
-#include "soft/point_lanes.h"
 
 namespace tenebra {
 
@@ -61,17 +60,8 @@ struct Shaft {
   int plane_count = 0;
 };
 
-/// Made of eight points, planes or edges at a time; the same bits on every instruction set.
-struct ShaftMaker {
-  /// A cell around points (relative to the light's centre; world space: low..high) whose first edges follow
-  /// the picture's rows and columns: for points of one plane it is flat, and little larger than their
-  /// outline. Falls back to the box where rows and columns have no two directions.
-  Cell (*fitted_cell)(const PointLanes& points, const glm::dvec3& low, const glm::dvec3& high,
-                      const LightShape& light) = nullptr;
-  Shaft (*shaft_around)(const Cell& cell, const LightShape& light) = nullptr;
-  /// The least m.p of the points on a triangle.
-  double (*lowest_point)(const PointLanes& points, std::uint32_t triangle, const glm::dvec3& m) = nullptr;
-};
+/// Planes are made eight at a time, the same bits on every instruction set.
+using ShaftMaker = Shaft (*)(const Cell& cell, const LightShape& light);
 ShaftMaker shaft_maker(SimdLevel level);
 
 }  // namespace tenebra

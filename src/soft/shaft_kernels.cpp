@@ -139,7 +139,7 @@ std::size_t cull(const Shaft& shaft, const TriangleBlock* blocks, std::span<cons
   return count;
 }
 
-std::size_t drop_behind(std::span<const ReceiverPlane> receivers, const LightShape& light,
+std::size_t drop_behind(std::span<const Receiver> receivers, const LightShape& light,
                         const TriangleBlock* blocks, std::span<const BlockRef> in, BlockRef* out) {
   std::size_t count = 0;
   for (const BlockRef& ref : in) {
@@ -147,7 +147,7 @@ std::size_t drop_behind(std::span<const ReceiverPlane> receivers, const LightSha
     const Triangles t = load_triangles(block, light);
     const Double8 margin = t.reach * constant(0x1p-49);
     std::uint32_t dropped = ref.lanes;
-    for (const ReceiverPlane& receiver : receivers) {
+    for (const Receiver& receiver : receivers) {
       const Vector8 m = constant(receiver.m);
       const Double8 top = most(product(m, t.v[0]), product(m, t.v[1]), product(m, t.v[2]));
       std::uint32_t harmless = bits(less(top + margin, constant(receiver.limit)));

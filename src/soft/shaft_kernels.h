@@ -7,7 +7,7 @@
 #include <span>
 
 #include "simd/simd_level.h"
-#include "soft/receiver_planes.h"
+#include "soft/receivers.h"
 #include "soft/shaft.h"
 #include "soft/triangle_blocks.h"
 
@@ -19,7 +19,7 @@ struct ShaftKernels {
   std::size_t (*cull)(const Shaft& shaft, const TriangleBlock* blocks, std::span<const BlockRef> in,
                       BlockRef* out) = nullptr;
   /// Drops what lies in the half-spaces of all receivers.
-  std::size_t (*drop_behind)(std::span<const ReceiverPlane> receivers, const LightShape& light,
+  std::size_t (*drop_behind)(std::span<const Receiver> receivers, const LightShape& light,
                              const TriangleBlock* blocks, std::span<const BlockRef> in,
                              BlockRef* out) = nullptr;
   /// Drops what all lines pass on the outer side of an edge (Theorem 1), and triangles whose own plane has

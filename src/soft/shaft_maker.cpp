@@ -1,5 +1,3 @@
-// Cells and shafts, eight points, planes or edges at a time. Products and sums are not fused: all instruction
-// sets make the same shafts.
 #undef HWY_DISABLED_TARGETS
 #define HWY_DISABLED_TARGETS (HWY_AVX3_DL | HWY_SSSE3)
 #undef HWY_TARGET_INCLUDE
@@ -20,6 +18,7 @@ using glm::dvec3;
 using Double8 = Pack<double, 8>;
 using Vector8 = Pack3<Double8>;
 
+// Products and sums are not fused: all instruction sets make the same shafts.
 HWY_INLINE Double8 all(double value) {
   return splat<Double8>(value);
 }
@@ -39,79 +38,6 @@ template <class Condition>
 HWY_INLINE Vector8 choose3(const Condition& t, const Vector8& a, const Vector8& b) {
   return {choose(t, a.x, b.x), choose(t, a.y, b.y), choose(t, a.z, b.z)};
 }
-HWY_INLINE Vector8 points_at(const PointLanes& points, std::size_t i) {
-  return {load<Double8>(&points.x[i]), load<Double8>(&points.y[i]), load<Double8>(&points.z[i])};
-}
-
-// Sums in one order everywhere.
-HWY_INLINE double sum_of(Double8 a) {
-  double v[8];
-  store(a, v);
-  return ((v[0] + v[1]) + (v[2] + v[3])) + ((v[4] + v[5]) + (v[6] + v[7]));
-}
-HWY_INLINE dvec3 sum_of(const Vector8& a) {
-  return {sum_of(a.x), sum_of(a.y), sum_of(a.z)};
-}
-
-// Slopes of the position along rows and columns, up to a factor.
-struct Slopes {
-  dvec3 row, column;
-};
-HWY_INLINE Slopes slopes_of(const PointLanes& points, const Vector8& base) {
-  Vector8 r = all(dvec3(0)), c = r;
-  for (std::size_t i = 0; i < points.count; i += 8) {
-    const Vector8 p = points_at(points, i) - base;
-    r = sum(r, scaled(load<Double8>(&points.column[i]), p));
-    c = sum(c, scaled(load<Double8>(&points.row[i]), p));
-  }
-  return {sum_of(r), sum_of(c)};
-}
-
-Cell fitted_cell(const PointLanes& points, const dvec3& low, const dvec3& high, const LightShape& light) {
-  const dvec3 base = 0.5 * (low + high) - light.origin;
-  auto [r, c] = slopes_of(points, all(base));
-  r /= std::sqrt(glm::dot(r, r)), c /= std::sqrt(glm::dot(c, c));
-  dvec3 n = glm::cross(r, c);
-  const double sine = std::sqrt(glm::dot(n, n));
-  if (!(sine > 0x1p-4)) return box_cell(low, high, light);
-  n /= sine;
-  // p = (p.dual_r) r + (p.dual_c) c + (p.n) n up to 2^-42 |p|: units within 4u, the normal within 2^-45.
-  const Vector8 dual_r = all(glm::cross(c, n) / sine), dual_c = all(glm::cross(n, r) / sine);
-  const Vector8 normal = all(n), from = all(base);
-  Vector8 low8 = all(dvec3(INFINITY)), high8 = all(dvec3(-INFINITY));
-  for (std::size_t i = 0; i < points.count; i += 8) {
-    const Vector8 p = points_at(points, i) - from;
-    const Double8 x = product(dual_r, p), y = product(dual_c, p), z = product(normal, p);
-    low8 = {min(low8.x, x), min(low8.y, y), min(low8.z, z)};
-    high8 = {max(high8.x, x), max(high8.y, y), max(high8.z, z)};
-  }
-  const dvec3 least_place(least(low8.x), least(low8.y), least(low8.z));
-  const dvec3 most_place(greatest(high8.x), greatest(high8.y), greatest(high8.z));
-  const dvec3 middle = 0.5 * (least_place + most_place), half = 0.5 * (most_place - least_place);
-  Cell cell;
-  cell.centre = base + middle.x * r + middle.y * c + middle.z * n;
-  cell.axis = {half.x * r, half.y * c, half.z * n};
-  const dvec3 size = high - low;
-  cell.slack =
-      0x1p-40 * (size.x + size.y + size.z) + 0x1p-49 * (largest(low) + largest(high) + largest(light.origin));
-  cell.reach = largest(cell.centre) + half.x + half.y + half.z + cell.slack;
-  return cell;
-}
-
-double lowest_point(const PointLanes& points, std::uint32_t triangle, const dvec3& m) {
-  const Vector8 along = all(m);
-  const Double8 none = all(INFINITY);
-  Double8 lowest = none;
-  for (std::size_t i = 0; i < points.count; i += 16) {
-    const std::uint32_t there = equal_bits(&points.triangles[i], triangle);
-    const auto eight = [&](std::size_t first, std::uint32_t lanes) {
-      return choose(truth_of<double, 8>(lanes), product(along, points_at(points, first)), none);
-    };
-    lowest = min(lowest, min(eight(i, there & 0xffu), eight(i + 8, there >> 8)));
-  }
-  return least(lowest);
-}
-
 // The corner of the cell, and the vertex of the light, farthest along m.
 HWY_INLINE Vector8 farthest(const Cell& cell, const Vector8& m) {
   Vector8 corner = all(cell.centre);
@@ -200,7 +126,7 @@ Shaft shaft_around(const Cell& cell, const LightShape& light) {
 }  // namespace
 
 ShaftMaker shaft_maker() {
-  return {fitted_cell, shaft_around, lowest_point};
+  return shaft_around;
 }
 
 }  // namespace tenebra::HWY_NAMESPACE

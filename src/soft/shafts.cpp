@@ -6,7 +6,7 @@
 
 #include "base/stopwatch.h"
 #include "parallel/parallel.h"
-#include "soft/receiver_planes.h"
+#include "soft/receivers.h"
 #include "soft/shaft_kernels.h"
 
 namespace tenebra {
@@ -27,8 +27,6 @@ constexpr std::uint64_t serial_work = 1 << 16;
 struct alignas(64) ThreadScratch {
   std::deque<BlockList> lists;
   std::size_t lists_used = 0;
-  PointLanes points;
-  std::vector<ReceiverPlane> planes;
   std::vector<std::uint32_t> ids;
   ShaftStats stats;
 };
@@ -64,13 +62,13 @@ void add(ShaftStats& to, const ShaftStats& from) {
 class Descent {
 public:
   Descent(const PointGroups& groups, const TriangleView& triangles, const LightShape& light,
-          const ShaftKernels& kernels, const ShaftMaker& maker, const StopFlag* stop, const GroupBody& body,
+          const ShaftKernels& kernels, ShaftMaker make_shaft, const StopFlag* stop, const GroupBody& body,
           std::vector<ThreadScratch>& scratch)
       : groups_(groups),
         triangles_(triangles),
         light_(light),
         kernels_(kernels),
-        maker_(maker),
+        make_shaft_(make_shaft),
         stop_(stop),
         body_(body),
         scratch_(scratch) {}
@@ -89,7 +87,7 @@ private:
   const TriangleView& triangles_;
   const LightShape& light_;
   const ShaftKernels& kernels_;
-  const ShaftMaker& maker_;
+  ShaftMaker make_shaft_;
   const StopFlag* stop_;
   const GroupBody& body_;
   std::vector<ThreadScratch>& scratch_;
@@ -114,7 +112,7 @@ void Descent::descend(const GroupNode& node, const BlockList& from, std::uint32_
   }
   ListLease list(scratch);
   Stopwatch watch;
-  const Shaft shaft = maker_.shaft_around(box_cell(node.low, node.high, light_), light_);
+  const Shaft shaft = make_shaft_(box_cell(node.low, node.high, light_), light_);
   filter(*list, from, [&](auto... rest) { return kernels_.cull(shaft, rest...); });
   list->compact();
   scratch.stats.seconds += watch.lap_ms() * 1e-3;
@@ -157,15 +155,12 @@ void Descent::decide(const PointGroup& group, const BlockList& from) {
 // Leaves in `list` what may block a line from the group; returns the triangle that blocks all, if one does.
 std::uint32_t Descent::cull(const PointGroup& group, const BlockList& from, ThreadScratch& scratch,
                             BlockList& list) const {
-  PointLanes& points = scratch.points;
-  points.take(groups_, group, light_.origin);
-  const Shaft shaft = maker_.shaft_around(maker_.fitted_cell(points, group.low, group.high, light_), light_);
+  const Shaft shaft = make_shaft_(group.cell, light_);
   filter(list, from, [&](auto... rest) { return kernels_.cull(shaft, rest...); });
   if (list.refs.empty()) return no_triangle;
   const auto receivers = groups_.receivers_of(group);
-  find_receiver_planes(receivers, points, shaft, maker_, triangles_, scratch.planes);
-  filter(list, list, [&](auto... rest) { return kernels_.drop_behind(scratch.planes, light_, rest...); });
-  const ContactRange contact = contact_range(receivers, triangles_);
+  filter(list, list, [&](auto... rest) { return kernels_.drop_behind(receivers, light_, rest...); });
+  const ContactRange contact = contact_range(receivers);
   std::uint32_t dark = no_triangle;
   filter(list, list, [&](auto... rest) { return kernels_.drop_beside(shaft, contact, rest..., dark); });
   for (const Receiver& receiver : receivers)
@@ -220,9 +215,8 @@ bool ShaftCuller::for_each_group(const PointGroups& groups, const TriangleView& 
   for (ThreadScratch& scratch : s.scratch) scratch.stats = {};
   s.stats.seconds = watch.lap_ms() * 1e-3;
   const ShaftKernels kernels = shaft_kernels(config.simd);
-  const ShaftMaker maker = shaft_maker(config.simd);
   if (!groups.nodes.empty())
-    Descent(groups, triangles, light, kernels, maker, stop, body, s.scratch)
+    Descent(groups, triangles, light, kernels, shaft_maker(config.simd), stop, body, s.scratch)
         .descend(groups.nodes[0], s.casters, groups.nodes[0].count);
   for (const ThreadScratch& scratch : s.scratch) add(s.stats, scratch.stats);
   return !stop_requested(stop);
