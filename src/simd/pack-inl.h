@@ -526,6 +526,13 @@ HWY_INLINE Pack3<Float16> transposed(const Float16 (&p)[4]) {
   return t;
 }
 
+/// Lane by lane, by 0..31.
+template <int N>
+HWY_INLINE Pack<std::int32_t, N> shift_left(Pack<std::int32_t, N> a, Pack<std::int32_t, N> by) {
+  for (int i = 0; i < a.registers; ++i) a.r[i] = hn::Shl(a.r[i], by.r[i]);
+  return a;
+}
+
 }  // namespace tenebra::HWY_NAMESPACE
 HWY_AFTER_NAMESPACE();
 
