@@ -189,9 +189,34 @@ HWY_INLINE SideRange side_range(const Shaft& shaft, const Vector8& e, const Vect
   return range;
 }
 
-// Lines cross T from its front (f >= 0 at all edges) or from its back (f <= 0).
-std::size_t drop_beside(const Shaft& shaft, ContactRange contact, const TriangleBlock* blocks,
-                        std::span<const BlockRef> in, BlockRef* out, std::uint32_t& dark) {
+// Lanes whose edges the line between the centres of cell and light passes on their inner sides.
+struct Sides {
+  std::uint32_t front, back;
+};
+HWY_INLINE Sides sides_of_centre(const Shaft& shaft, const Triangles& t) {
+  const Double8 zero = constant(0.0);
+  const Vector8 centre = constant(shaft.cell.centre);
+  const Double8 f[3] = {product(cross(t.v[0], t.v[1]), centre), product(cross(t.v[1], t.v[2]), centre),
+                        product(cross(t.v[2], t.v[0]), centre)};
+  return {less_bits(zero, least(f[0], f[1], f[2])), less_bits(most(f[0], f[1], f[2]), zero)};
+}
+
+// Of these lanes those that all lines between cell and light cross inside the edges: from the front (f > 0 at
+// all of them) or from the back.
+HWY_NOINLINE std::uint32_t crossed_by_all(const Shaft& shaft, const TriangleBlock& block, const Triangles& t,
+                                          Sides sides) {
+  const Double8 zero = constant(0.0), margin = side_margin(shaft, t);
+  for (int k = 0; k < 3 && (sides.front | sides.back) != 0; ++k) {
+    const Vector8 e = edge(block, k, (k + 1) % 3);
+    const SideRange f = side_range(shaft, e, cross(t.v[k], e));
+    sides.front &= less_bits(margin, f.low);
+    sides.back &= less_bits(f.high, zero - margin);
+  }
+  return sides.front | sides.back;
+}
+
+std::size_t drop_one_sided(const Shaft& shaft, ContactRange contact, const TriangleBlock* blocks,
+                           std::span<const BlockRef> in, BlockRef* out, std::uint32_t& dark) {
   std::size_t count = 0;
   const Double8 zero = constant(0.0);
   for (const BlockRef& ref : in) {
@@ -199,30 +224,19 @@ std::size_t drop_beside(const Shaft& shaft, ContactRange contact, const Triangle
     const Triangles t = load_triangles(block, *shaft.light);
     const PlaneRange plane = plane_range(shaft, block, t);
     const Double8 theta = theta_low(block, plane, contact.least);
-    std::uint32_t front = bits(less(theta, plane.points_high) & less(plane.light_low, zero)) & ref.lanes;
-    std::uint32_t back =
-        bits(less(theta, zero - plane.points_low) & less(zero, plane.light_high)) & ref.lanes;
+    const std::uint32_t lanes =
+        ref.lanes & bits((less(theta, plane.points_high) & less(plane.light_low, zero)) |
+                         (less(theta, zero - plane.points_low) & less(zero, plane.light_high)));
+    if (lanes == 0) continue;
+    out[count++] = {ref.block, lanes};
+    if (dark != no_triangle) continue;
+    Sides sides = sides_of_centre(shaft, t);
+    if (((sides.front | sides.back) & lanes) == 0) continue;
     const Double8 sure = theta_high(block, plane, contact.most);
-    std::uint32_t all_front = bits(less(sure, plane.points_low) & less(plane.light_high, zero)) & front;
-    std::uint32_t all_back = bits(less(sure, zero - plane.points_high) & less(zero, plane.light_low)) & back;
-    const Double8 margin = side_margin(shaft, t);
-    for (int k = 0; k < 3 && (front | back) != 0; ++k) {
-      const Vector8 e = edge(block, k, (k + 1) % 3);
-      const Vector8 moment = cross(t.v[k], e);
-      const SideRange at_centre = side_from(shaft, moment, zero);
-      // What the light's centre finds neither outer nor inner, its vertices do not either.
-      const std::uint32_t open = (front & bits(less(at_centre.high, zero))) |
-                                 (back & bits(less(zero, at_centre.low))) | all_front | all_back;
-      if (open == 0) continue;
-      const SideRange f = side_range(shaft, e, moment);
-      front &= ~bits(less(f.high, zero - margin));
-      back &= ~bits(less(margin, f.low));
-      all_front &= bits(less(margin, f.low));
-      all_back &= bits(less(f.high, zero - margin));
-    }
-    const std::uint32_t all = (all_front & front) | (all_back & back);
-    if (all != 0 && dark == no_triangle) dark = block.ids[std::countr_zero(all)];
-    if ((front | back) != 0) out[count++] = {ref.block, front | back};
+    sides.front &= lanes & bits(less(sure, plane.points_low) & less(plane.light_high, zero));
+    sides.back &= lanes & bits(less(sure, zero - plane.points_high) & less(zero, plane.light_low));
+    if (const std::uint32_t all = crossed_by_all(shaft, block, t, sides); all != 0)
+      dark = block.ids[std::countr_zero(all)];
   }
   return count;
 }
@@ -230,7 +244,7 @@ std::size_t drop_beside(const Shaft& shaft, ContactRange contact, const Triangle
 }  // namespace
 
 ShaftKernels shaft_kernels() {
-  return {cull, drop_behind, drop_beside};
+  return {cull, drop_behind, drop_one_sided};
 }
 
 }  // namespace tenebra::HWY_NAMESPACE
