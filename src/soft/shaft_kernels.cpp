@@ -59,6 +59,13 @@ HWY_INLINE Vector8 edge(const TriangleBlock& block, int from, int to) {
           load_widened<Double8>(block.v[to][2]) - load_widened<Double8>(block.v[from][2])};
 }
 
+// Lanes of the triangle `id`.
+HWY_INLINE std::uint32_t lanes_of(const TriangleBlock& block, std::uint32_t id) {
+  using Ids = Pack<std::int32_t, block_size>;
+  return bits(equal(load<Ids>(reinterpret_cast<const std::int32_t*>(block.ids)),
+                    splat<Ids>(static_cast<std::int32_t>(id))));
+}
+
 HWY_INLINE Double8 least(const Double8& a, const Double8& b, const Double8& c) {
   return min(a, min(b, c));
 }
@@ -129,10 +136,20 @@ HWY_INLINE Double8 theta_high(const TriangleBlock& block, const PlaneRange& r, d
   return tau_of(block, tau_most) * (r.normal_length * constant(1 + 0x1p-49) + r.size2 * constant(0x1p-48));
 }
 
+// Asks for the block of a reference some places on: lists of many triangles do not stay in the caches.
+HWY_INLINE void fetch_ahead(const TriangleBlock* blocks, std::span<const BlockRef> in, std::size_t i) {
+  constexpr std::size_t ahead = 4, line = 64;
+  if (i + ahead >= in.size()) return;
+  const auto* const block = reinterpret_cast<const unsigned char*>(&blocks[in[i + ahead].block]);
+  for (std::size_t at = 0; at < sizeof(TriangleBlock::v); at += line) fetch_soon(block + at);
+}
+
 std::size_t cull(const Shaft& shaft, const TriangleBlock* blocks, std::span<const BlockRef> in,
                  BlockRef* out) {
   std::size_t count = 0;
-  for (const BlockRef& ref : in) {
+  for (std::size_t i = 0; i < in.size(); ++i) {
+    const BlockRef ref = in[i];
+    fetch_ahead(blocks, in, i);
     const std::uint32_t lanes = inside(shaft, load_triangles(blocks[ref.block], *shaft.light), ref.lanes);
     if (lanes != 0) out[count++] = {ref.block, lanes};
   }
@@ -150,10 +167,7 @@ std::size_t drop_behind(std::span<const Receiver> receivers, const LightShape& l
     for (const Receiver& receiver : receivers) {
       const Vector8 m = constant(receiver.m);
       const Double8 top = most(product(m, t.v[0]), product(m, t.v[1]), product(m, t.v[2]));
-      std::uint32_t harmless = bits(less(top + margin, constant(receiver.limit)));
-      for (int lane = 0; lane < block_size; ++lane)
-        harmless |= static_cast<std::uint32_t>(block.ids[lane] == receiver.triangle) << lane;
-      dropped &= harmless;
+      dropped &= less_bits(top + margin, constant(receiver.limit)) | lanes_of(block, receiver.triangle);
       if (dropped == 0) break;
     }
     if (const std::uint32_t lanes = ref.lanes & ~dropped; lanes != 0) out[count++] = {ref.block, lanes};
@@ -201,22 +215,26 @@ HWY_INLINE Sides sides_of_centre(const Shaft& shaft, const Triangles& t) {
   return {less_bits(zero, least(f[0], f[1], f[2])), less_bits(most(f[0], f[1], f[2]), zero)};
 }
 
-// Of these lanes those that all lines between cell and light cross inside the edges: from the front (f > 0 at
-// all of them) or from the back.
-HWY_NOINLINE std::uint32_t crossed_by_all(const Shaft& shaft, const TriangleBlock& block, const Triangles& t,
-                                          Sides sides) {
+// What lines between cell and light do about the edges, of lanes that they cross from the front (f >= 0 at
+// all edges) or from the back (f <= 0).
+HWY_INLINE void keep_crossed(const Shaft& shaft, const TriangleBlock& block, const Triangles& t, Sides& some,
+                             Sides& all) {
   const Double8 zero = constant(0.0), margin = side_margin(shaft, t);
-  for (int k = 0; k < 3 && (sides.front | sides.back) != 0; ++k) {
+  for (int k = 0; k < 3 && (some.front | some.back) != 0; ++k) {
     const Vector8 e = edge(block, k, (k + 1) % 3);
     const SideRange f = side_range(shaft, e, cross(t.v[k], e));
-    sides.front &= less_bits(margin, f.low);
-    sides.back &= less_bits(f.high, zero - margin);
+    const std::uint32_t front = less_bits(margin, f.low), back = less_bits(f.high, zero - margin);
+    some.front &= ~back, all.front &= front;
+    some.back &= ~front, all.back &= back;
   }
-  return sides.front | sides.back;
 }
 
-std::size_t drop_one_sided(const Shaft& shaft, ContactRange contact, const TriangleBlock* blocks,
-                           std::span<const BlockRef> in, BlockRef* out, std::uint32_t& dark) {
+// Of more, the edges are not worth a test: next to nothing is dropped by it, and hardly ever all.
+constexpr std::size_t few_blocks = 4;
+
+std::size_t drop_beside(const Shaft& shaft, ContactRange contact, const TriangleBlock* blocks,
+                        std::span<const BlockRef> in, BlockRef* out, std::uint32_t& dark) {
+  const bool few = in.size() <= few_blocks;
   std::size_t count = 0;
   const Double8 zero = constant(0.0);
   for (const BlockRef& ref : in) {
@@ -224,19 +242,19 @@ std::size_t drop_one_sided(const Shaft& shaft, ContactRange contact, const Trian
     const Triangles t = load_triangles(block, *shaft.light);
     const PlaneRange plane = plane_range(shaft, block, t);
     const Double8 theta = theta_low(block, plane, contact.least);
-    const std::uint32_t lanes =
-        ref.lanes & bits((less(theta, plane.points_high) & less(plane.light_low, zero)) |
-                         (less(theta, zero - plane.points_low) & less(zero, plane.light_high)));
-    if (lanes == 0) continue;
-    out[count++] = {ref.block, lanes};
-    if (dark != no_triangle) continue;
-    Sides sides = sides_of_centre(shaft, t);
-    if (((sides.front | sides.back) & lanes) == 0) continue;
-    const Double8 sure = theta_high(block, plane, contact.most);
-    sides.front &= lanes & bits(less(sure, plane.points_low) & less(plane.light_high, zero));
-    sides.back &= lanes & bits(less(sure, zero - plane.points_high) & less(zero, plane.light_low));
-    if (const std::uint32_t all = crossed_by_all(shaft, block, t, sides); all != 0)
-      dark = block.ids[std::countr_zero(all)];
+    Sides some{ref.lanes & bits(less(theta, plane.points_high) & less(plane.light_low, zero)),
+               ref.lanes & bits(less(theta, zero - plane.points_low) & less(zero, plane.light_high))};
+    Sides all = sides_of_centre(shaft, t);
+    all.front &= some.front, all.back &= some.back;
+    if (dark != no_triangle) all = {0, 0};
+    if ((all.front | all.back) != 0) {
+      const Double8 sure = theta_high(block, plane, contact.most);
+      all.front &= bits(less(sure, plane.points_low) & less(plane.light_high, zero));
+      all.back &= bits(less(sure, zero - plane.points_high) & less(zero, plane.light_low));
+    }
+    if (few || (all.front | all.back) != 0) keep_crossed(shaft, block, t, some, all);
+    if ((all.front | all.back) != 0) dark = block.ids[std::countr_zero(all.front | all.back)];
+    if ((some.front | some.back) != 0) out[count++] = {ref.block, some.front | some.back};
   }
   return count;
 }
@@ -244,7 +262,7 @@ std::size_t drop_one_sided(const Shaft& shaft, ContactRange contact, const Trian
 }  // namespace
 
 ShaftKernels shaft_kernels() {
-  return {cull, drop_behind, drop_one_sided};
+  return {cull, drop_behind, drop_beside};
 }
 
 }  // namespace tenebra::HWY_NAMESPACE

@@ -162,7 +162,7 @@ std::uint32_t Descent::cull(const PointGroup& group, const BlockList& from, Thre
   filter(list, list, [&](auto... rest) { return kernels_.drop_behind(receivers, light_, rest...); });
   const ContactRange contact = contact_range(receivers);
   std::uint32_t dark = no_triangle;
-  filter(list, list, [&](auto... rest) { return kernels_.drop_one_sided(shaft, contact, rest..., dark); });
+  filter(list, list, [&](auto... rest) { return kernels_.drop_beside(shaft, contact, rest..., dark); });
   for (const Receiver& receiver : receivers)
     if (receiver.triangle == dark) return no_triangle;
   return dark;
