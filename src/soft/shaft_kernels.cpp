@@ -5,7 +5,7 @@
 #define HWY_TARGET_INCLUDE "soft/shaft_kernels.cpp"
 #include <hwy/foreach_target.h>
 // After foreach_target.h
-#include "simd/pack-inl.h"
+#include "soft/shaft_cull-inl.h"
 
 #include <algorithm>
 #include <bit>
@@ -73,24 +73,6 @@ HWY_INLINE Double8 most(const Double8& a, const Double8& b, const Double8& c) {
   return max(a, max(b, c));
 }
 
-// Lanes of triangles that may meet the shaft's box and the inner sides of its planes. m.v is off by 5 u reach
-// as |m|_1 <= 1.
-HWY_INLINE std::uint32_t inside(const Shaft& shaft, const Triangles& t, std::uint32_t lanes) {
-  const Double8 margin = t.reach * constant(0x1p-50);
-  const auto beyond = [&](const Double8& a, const Double8& b, const Double8& c, double low, double high) {
-    return less(constant(high) + margin, least(a, b, c)) | less(most(a, b, c) + margin, constant(low));
-  };
-  lanes &= ~bits(beyond(t.v[0].x, t.v[1].x, t.v[2].x, shaft.low.x, shaft.high.x) |
-                 beyond(t.v[0].y, t.v[1].y, t.v[2].y, shaft.low.y, shaft.high.y) |
-                 beyond(t.v[0].z, t.v[1].z, t.v[2].z, shaft.low.z, shaft.high.z));
-  for (int k = 0; k < shaft.plane_count && lanes != 0; ++k) {
-    const Vector8 m = constant(shaft.planes[k].m);
-    const Double8 nearest = least(product(m, t.v[0]), product(m, t.v[1]), product(m, t.v[2]));
-    lanes &= ~bits(less(constant(shaft.planes[k].limit) + margin, nearest));
-  }
-  return lanes;
-}
-
 // n.(x - A) over the points and over the light, n = (B - A) x (C - A), as least and greatest value, both
 // widened by their rounding: with edges off by u, n is off by 9 u size^2 a coordinate, and n.(x - A) by
 // (27 for n + 18 a product + 18 for x + 30 for sums) u size^2 (reach_A + reach_x).
@@ -134,26 +116,6 @@ HWY_INLINE Double8 theta_low(const TriangleBlock& block, const PlaneRange& r, do
 }
 HWY_INLINE Double8 theta_high(const TriangleBlock& block, const PlaneRange& r, double tau_most) {
   return tau_of(block, tau_most) * (r.normal_length * constant(1 + 0x1p-49) + r.size2 * constant(0x1p-48));
-}
-
-// Asks for the block of a reference some places on: lists of many triangles do not stay in the caches.
-HWY_INLINE void fetch_ahead(const TriangleBlock* blocks, std::span<const BlockRef> in, std::size_t i) {
-  constexpr std::size_t ahead = 4, line = 64;
-  if (i + ahead >= in.size()) return;
-  const auto* const block = reinterpret_cast<const unsigned char*>(&blocks[in[i + ahead].block]);
-  for (std::size_t at = 0; at < sizeof(TriangleBlock::v); at += line) fetch_soon(block + at);
-}
-
-std::size_t cull(const Shaft& shaft, const TriangleBlock* blocks, std::span<const BlockRef> in,
-                 BlockRef* out) {
-  std::size_t count = 0;
-  for (std::size_t i = 0; i < in.size(); ++i) {
-    const BlockRef ref = in[i];
-    fetch_ahead(blocks, in, i);
-    const std::uint32_t lanes = inside(shaft, load_triangles(blocks[ref.block], *shaft.light), ref.lanes);
-    if (lanes != 0) out[count++] = {ref.block, lanes};
-  }
-  return count;
 }
 
 std::size_t drop_behind(std::span<const Receiver> receivers, const LightShape& light,
