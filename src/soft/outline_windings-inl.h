@@ -7,6 +7,8 @@
 #define TENEBRA_SOFT_OUTLINE_WINDINGS_INL_H_
 #endif
 
+#include <utility>
+
 #include "soft/light_polygon-inl.h"
 #include "soft/outline_edges-inl.h"
 
@@ -44,19 +46,21 @@ struct RayEdges {
     compress(chosen, edges.number, &number[count]);
     count += compress(chosen, doubt_beside(edges.u, edges.v, slack), &margin[count]);
   }
-  HWY_INLINE void append_from(const RayEdges& from, std::size_t i, Lanes least_v, Lanes greatest_v, T slack) {
+  /// Takes those of `from` that rays from places between the two heights may meet.
+  HWY_NOINLINE void take(const RayEdges& from, T least_v, T greatest_v, T slack) {
     const Lanes near = splat<Lanes>(2 * on_line<T> + slack);
-    const Lanes l = load<Lanes>(&from.low[i]), h = load<Lanes>(&from.high[i]);
-    const auto chosen =
-        lanes_below<T>(from.count - i) & not_above(l, greatest_v + near) & not_above(least_v - near, h);
-    compress(chosen, load<Lanes>(&from.u[i]), &u[count]);
-    compress(chosen, load<Lanes>(&from.v[i]), &v[count]);
-    compress(chosen, load<Lanes>(&from.w[i]), &w[count]);
-    compress(chosen, l, &low[count]);
-    compress(chosen, h, &high[count]);
-    compress(chosen, load<Lanes>(&from.winding[i]), &winding[count]);
-    compress(chosen, load<Lanes>(&from.number[i]), &number[count]);
-    count += compress(chosen, load<Lanes>(&from.margin[i]), &margin[count]);
+    const Lanes bottom = splat<Lanes>(least_v) - near, top = splat<Lanes>(greatest_v) + near;
+    count = 0;
+    make_room(from.count);
+    for (std::size_t i = 0; i < from.count; i += 16) {
+      const auto chosen = lanes_below<T>(from.count - i) & not_above(load<Lanes>(&from.low[i]), top) &
+                          not_above(bottom, load<Lanes>(&from.high[i]));
+      for (const auto& [to, values] : {std::pair(&u, &from.u), std::pair(&v, &from.v), std::pair(&w, &from.w),
+                                       std::pair(&low, &from.low), std::pair(&high, &from.high),
+                                       std::pair(&winding, &from.winding), std::pair(&number, &from.number)})
+        compress(chosen, load<Lanes>(&(*values)[i]), &(*to)[count]);
+      count += compress(chosen, load<Lanes>(&from.margin[i]), &margin[count]);
+    }
   }
 };
 
