@@ -107,14 +107,13 @@ private:
       const Lanes u0 = num(on.from_u[i]), v0 = num(on.from_v[i]), u1 = num(on.to_u[i]), v1 = num(on.to_v[i]);
       const Lanes a = u * from_u + v * from_v + w, c = u * to_u + v * to_v + w;
       const Lanes f = e.u * u0 + e.v * v0 + e.w, g = e.u * u1 + e.v * v1 + e.w;
-      const auto maybe = maybe_parted(a, c, its_margin) & maybe_parted(f, g, margin) &
-                         not_above(low_u, max(u0, u1)) & not_above(min(u0, u1), high_u) &
-                         not_above(low_v, v1) & not_above(v0, high_v);
+      const auto maybe = maybe_parted(a, c, its_margin) & maybe_parted(f, g, margin);
       const std::size_t lanes = i - 16 * b;
       const std::uint32_t before = lanes < 16 ? (1u << lanes) - 1 : 0xffffu;
       std::uint32_t met = bits(maybe) & before & on.blocks[b].there;
       if (met == 0 || (on.blocks[i / 16].there >> (i % 16) & 1) == 0) continue;
-      met &= ~shares_corner(e, k);
+      met &= ~shares_corner(e, k) & bits(not_above(low_u, max(u0, u1)) & not_above(min(u0, u1), high_u) &
+                                         not_above(low_v, v1) & not_above(v0, high_v));
       if (met != 0) link(b, i, met, met & ~bits(parted(a, c, its_margin) & parted(f, g, margin)));
     }
   }
