@@ -533,6 +533,12 @@ HWY_INLINE Truth<T, N> unequal(Pack<T, N> a, Pack<T, N> b) {
   for (int i = 0; i < a.registers; ++i) t.r[i] = hn::Ne(a.r[i], b.r[i]);
   return t;
 }
+/// Lane by lane, by 0..31.
+template <int N>
+HWY_INLINE Pack<std::int32_t, N> shift_left(Pack<std::int32_t, N> a, Pack<std::int32_t, N> by) {
+  for (int i = 0; i < a.registers; ++i) a.r[i] = hn::Shl(a.r[i], by.r[i]);
+  return a;
+}
 
 }  // namespace tenebra::HWY_NAMESPACE
 HWY_AFTER_NAMESPACE();

@@ -3,6 +3,8 @@
 #include <algorithm>
 #include <span>
 
+#include "soft/point_lanes.h"
+
 namespace tenebra {
 
 namespace {

@@ -83,14 +83,17 @@ private:
 };
 
 /// Adds what is left of `fragment` outside the shadow to `out`; false, and nothing added, if that is all of
-/// it. `crossing`: bits of the lines that have vertices on both sides; none is on the outside of a line.
+/// it. `sides` of the lines; all have vertices on the positive one. Cut first along the line that takes most:
+/// others may then not cross the rest any more, and fragments stay few and round.
 template <class T>
 HWY_NOINLINE bool subtract_shadow(const LightPolygon<T>& fragment, const ShadowLines<T>& lines,
-                                  std::uint32_t crossing, FragmentList<T>& out) {
+                                  const LineSides<T>& sides, FragmentList<T>& out) {
   const std::size_t before = out.size();
   LightPolygon<T> rest = fragment;
-  for (; crossing != 0; crossing &= crossing - 1) {
-    const LineValues<T> values = evaluate(rest, lines[std::countr_zero(crossing)]);
+  for (std::uint32_t crossing = sides.negative; crossing != 0;) {
+    const int deepest = sides.deepest(crossing);
+    crossing &= ~(1u << deepest);
+    const LineValues<T> values = evaluate(rest, lines[deepest]);
     if (values.positive == 0) {
       out.shrink(before);
       return false;

@@ -82,31 +82,49 @@ struct ShadowLines {
 inline constexpr std::uint32_t all_lines = 15;
 
 /// Bit k: line k has vertices strictly on that side, by more than on_line.
+template <class T>
 struct LineSides {
   std::uint32_t positive = 0, negative = 0;
+  /// Lanes k, k + 4, k + 8 and k + 12: least values for line k of some of the vertices, in units of what counts
+  /// as on it; anything where u = v = 0.
+  Pack<T, polygon_capacity> lowest;
+
+  /// Of the lines of `among`, one at least, that with a vertex farthest on its negative side.
+  HWY_INLINE int deepest(std::uint32_t among) const {
+    T values[polygon_capacity];
+    store(lowest, values);
+    int best = std::countr_zero(among);
+    T least = std::numeric_limits<T>::max();
+    for (; among != 0; among &= among - 1) {
+      const int k = std::countr_zero(among);
+      const T value = HWY_MIN(HWY_MIN(values[k], values[k + 4]), HWY_MIN(values[k + 8], values[k + 12]));
+      best = value < least ? k : best;
+      least = HWY_MIN(value, least);
+    }
+    return best;
+  }
 };
 
 /// The same decisions as evaluate(), for four lines and four vertices at a time.
 template <class T>
-HWY_INLINE LineSides sides_of(const LightPolygon<T>& polygon, const ShadowLines<T>& lines) {
+HWY_INLINE LineSides<T> sides_of(const LightPolygon<T>& polygon, const ShadowLines<T>& lines) {
   using Lanes = Pack<T, polygon_capacity>;
   using Index = Pack<LaneIndex<T>, polygon_capacity>;
   constexpr LaneIndex<T> fours[polygon_capacity] = {0, 0, 0, 0, 1, 1, 1, 1, 2, 2, 2, 2, 3, 3, 3, 3};
   const Lanes u = load_four<Lanes>(lines.u), v = load_four<Lanes>(lines.v), w = load_four<Lanes>(lines.w);
   const Lanes near = splat<Lanes>(on_line<T>) * (absolute(u) + absolute(v));
-  const Lanes below = splat<Lanes>(T(0)) - near;
-  std::uint32_t positive = 0, negative = 0;
+  Lanes low = splat<Lanes>(std::numeric_limits<T>::max()), high = splat<Lanes>(T(0)) - low;
   for (int first = 0; first < polygon.count; first += 4) {
     const Index vertices = load<Index>(fours) + splat<Index>(static_cast<LaneIndex<T>>(first));
     const Lanes value = u * permute(polygon.x, vertices) + v * permute(polygon.y, vertices) + w;
-    positive |= less_bits(near, value);
-    negative |= less_bits(value, below);
+    low = min(low, value);
+    high = max(high, value);
   }
   const auto lines_of = [](std::uint32_t lanes) {
     lanes |= lanes >> 8;
     return (lanes | lanes >> 4) & all_lines;
   };
-  return {lines_of(positive), lines_of(negative)};
+  return {lines_of(less_bits(near, high)), lines_of(less_bits(low, splat<Lanes>(T(0)) - near)), low / near};
 }
 
 /// The vertices of one side: `length` vertices from `first` on, cyclic.

@@ -10,6 +10,8 @@
 
 #include "points/visible_points.h"
 #include "soft/area_light.h"
+#include "soft/receivers.h"
+#include "soft/shaft.h"
 #include "soft/soft_shadows.h"
 
 namespace tenebra {
@@ -17,17 +19,11 @@ namespace tenebra {
 /// Points of a neighbourhood group, at most.
 inline constexpr std::uint32_t largest_neighbourhood = 64;
 
-/// A triangle on which points of a group lie, and the side of it that the view sees: 1 in front (counter-
-/// clockwise), -1 behind.
-struct Receiver {
-  std::uint32_t triangle = no_triangle;
-  std::int32_t side = 0;
-};
-
 struct PointGroup {
-  std::uint32_t first = 0, count = 0;                    ///< range of PointGroups::pixels and positions
+  std::uint32_t first = 0, count = 0;                    ///< range of PointGroups::pixels
   std::uint32_t first_receiver = 0, receiver_count = 0;  ///< range of PointGroups::receivers
   glm::dvec3 low{0.0}, high{0.0};                        ///< box of the points, world space, exact
+  Cell cell;                                             ///< around the points, little larger than they need
 };
 
 /// A range of groups with the box of its points. Children follow each other; those of node 0 are the whole.
@@ -43,33 +39,23 @@ struct PointGroups {
   std::vector<GroupNode> nodes;    ///< node 0 is the root; none without groups
   std::vector<PointGroup> groups;  ///< near ones in space near in the list
   std::vector<std::uint32_t>
-      pixels;  ///< in the groups' ranges every active pixel once, between them nothing;
-               ///< in a neighbourhood along a Z curve: any range lies together
-  std::vector<glm::dvec3> positions;     ///< of these pixels, world space
-  std::vector<std::uint32_t> triangles;  ///< of these pixels
-  std::vector<Receiver> receivers;       ///< group after group; each triangle once a group, ascending
+      pixels;                       ///< in the groups' ranges every active pixel once, between them nothing;
+                                    ///< in a neighbourhood along a Z curve: any range lies together
+  std::vector<Receiver> receivers;  ///< group after group; each triangle once a group, ascending
 
   std::span<const std::uint32_t> pixels_of(const PointGroup& group) const {
     return {pixels.data() + group.first, group.count};
-  }
-  std::span<const glm::dvec3> positions_of(const PointGroup& group) const {
-    return {positions.data() + group.first, group.count};
-  }
-  std::span<const std::uint32_t> triangles_of(const PointGroup& group) const {
-    return {triangles.data() + group.first, group.count};
   }
   std::span<const Receiver> receivers_of(const PointGroup& group) const {
     return {receivers.data() + group.first_receiver, group.receiver_count};
   }
 };
 
-/// Side of the triangle from which the view sees it, exact: 1, -1, or 0 if it is seen edge-on.
-int seen_side(const TriangleView& triangles, std::uint32_t id, const ViewRays& view);
-
 /// Groups the active points: those on a triangle that is not seen edge-on, in front of the light's plane, and
 /// with a part of the light on the seen side of their triangle's plane. Conservative: where double leaves
-/// either in doubt, the point is kept. The groups do not depend on the number of threads.
+/// either in doubt, the point is kept. The groups depend neither on threads nor on the instruction set.
 void group_points(const VisiblePoints& points, const ViewRays& view, const TriangleView& triangles,
-                  const AreaLight& light, SoftGrouping grouping, PointGroups& out);
+                  const AreaLight& light, SoftGrouping grouping, PointGroups& out,
+                  SimdLevel simd = SimdLevel::automatic);
 
 }  // namespace tenebra

@@ -85,8 +85,8 @@ public:
   HWY_INLINE bool subtract(std::size_t id, const LightBox<T>&, const LightPolygon<T>& part,
                            FragmentList<T>& out) {
     const ShadowLines<T> lines = lines_of(id);
-    const LineSides sides = sides_of(part, lines);
-    return sides.positive == all_lines && subtract_shadow(part, lines, sides.negative, out);
+    const LineSides<T> sides = sides_of(part, lines);
+    return sides.positive == all_lines && subtract_shadow(part, lines, sides, out);
   }
 
 private:

@@ -3,15 +3,21 @@
 // centre, in double.
 #pragma once
 
+#include <algorithm>
 #include <array>
+#include <cmath>
 #include <glm/glm.hpp>
-#include <span>
 
+#include "simd/simd_level.h"
 #include "soft/area_light.h"
 
 namespace tenebra {
 
 inline constexpr int most_light_vertices = 14;
+
+inline double largest(const glm::dvec3& v) {
+  return std::max({std::abs(v.x), std::abs(v.y), std::abs(v.z)});
+}
 
 /// The light's polygon relative to its centre. Vertices are known within 2^-50 (reach + |centre|), which the
 /// margins of the tests hold.
@@ -22,7 +28,10 @@ struct LightShape {
   glm::dvec3 normal{0.0};
   std::array<glm::dvec3, most_light_vertices> vertices{};
   int count = 0;
-  double reach = 0;  ///< largest |coordinate|
+  double reach = 0;                ///< largest |coordinate|
+  glm::dvec3 low{0.0}, high{0.0};  ///< box of the vertices
+  /// Edge by edge: o, outwards in the light's plane, and o.x for its points x; 0 beyond the last.
+  double across[3][16] = {}, at_edge[16] = {};
 };
 
 /// A parallelepiped centre +- axis[0] +- axis[1] +- axis[2], around points. Every point lies within `slack`
@@ -37,12 +46,6 @@ struct Cell {
 /// The cell of the box low..high (world space).
 Cell box_cell(const glm::dvec3& low, const glm::dvec3& high, const LightShape& light);
 
-/// A cell around points of a picture `width` pixels wide whose first edges follow the picture's rows and
-/// columns: for points of one plane it is flat, and little larger than their outline. Falls back to
-/// the box where rows and columns have no two directions.
-Cell fitted_cell(std::span<const glm::dvec3> points, std::span<const std::uint32_t> pixels, int width,
-                 const glm::dvec3& low, const glm::dvec3& high, const LightShape& light);
-
 /// m.x <= limit for all x of the shaft; |m|_1 <= 1.
 struct ShaftPlane {
   glm::dvec3 m{0.0};
@@ -50,18 +53,15 @@ struct ShaftPlane {
 };
 
 struct Shaft {
-  Shaft(const Cell& cell, const LightShape& light);
-
   Cell cell;
   const LightShape* light;
-  glm::dvec3 low{0.0}, high{0.0};  ///< box of the shaft, rounded outwards
-  std::array<ShaftPlane, 7 + most_light_vertices> planes{};
+  glm::dvec3 low{0.0}, high{0.0};                          ///< box of the shaft, rounded outwards
+  std::array<ShaftPlane, 7 + most_light_vertices> planes;  ///< those that cut off most come first
   int plane_count = 0;
-
-private:
-  void add_plane(glm::dvec3 m);
-  void add_tangents(const glm::dvec3& along);
-  void add_light_edges();
 };
+
+/// Planes are made eight at a time, the same bits on every instruction set.
+using ShaftMaker = Shaft (*)(const Cell& cell, const LightShape& light);
+ShaftMaker shaft_maker(SimdLevel level);
 
 }  // namespace tenebra

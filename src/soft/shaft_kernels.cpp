@@ -129,25 +129,17 @@ HWY_INLINE Double8 theta_high(const TriangleBlock& block, const PlaneRange& r, d
   return tau_of(block, tau_most) * (r.normal_length * constant(1 + 0x1p-49) + r.size2 * constant(0x1p-48));
 }
 
-std::size_t cull(const Shaft& shaft, double tau_least, const TriangleBlock* blocks,
-                 std::span<const BlockRef> in, BlockRef* out) {
+std::size_t cull(const Shaft& shaft, const TriangleBlock* blocks, std::span<const BlockRef> in,
+                 BlockRef* out) {
   std::size_t count = 0;
-  const Double8 zero = constant(0.0);
   for (const BlockRef& ref : in) {
-    const TriangleBlock& block = blocks[ref.block];
-    const Triangles t = load_triangles(block, *shaft.light);
-    std::uint32_t lanes = inside(shaft, t, ref.lanes);
-    if (lanes == 0) continue;
-    const PlaneRange r = plane_range(shaft, block, t);
-    const Double8 theta = theta_low(block, r, tau_least);
-    lanes &= bits((less(theta, r.points_high) & less(r.light_low, zero)) |
-                  (less(theta, zero - r.points_low) & less(zero, r.light_high)));
+    const std::uint32_t lanes = inside(shaft, load_triangles(blocks[ref.block], *shaft.light), ref.lanes);
     if (lanes != 0) out[count++] = {ref.block, lanes};
   }
   return count;
 }
 
-std::size_t drop_behind(std::span<const ReceiverPlane> receivers, const LightShape& light,
+std::size_t drop_behind(std::span<const Receiver> receivers, const LightShape& light,
                         const TriangleBlock* blocks, std::span<const BlockRef> in, BlockRef* out) {
   std::size_t count = 0;
   for (const BlockRef& ref : in) {
@@ -155,7 +147,7 @@ std::size_t drop_behind(std::span<const ReceiverPlane> receivers, const LightSha
     const Triangles t = load_triangles(block, light);
     const Double8 margin = t.reach * constant(0x1p-49);
     std::uint32_t dropped = ref.lanes;
-    for (const ReceiverPlane& receiver : receivers) {
+    for (const Receiver& receiver : receivers) {
       const Vector8 m = constant(receiver.m);
       const Double8 top = most(product(m, t.v[0]), product(m, t.v[1]), product(m, t.v[2]));
       std::uint32_t harmless = bits(less(top + margin, constant(receiver.limit)));

@@ -7,23 +7,24 @@
 #include <span>
 
 #include "simd/simd_level.h"
-#include "soft/receiver_planes.h"
+#include "soft/receivers.h"
 #include "soft/shaft.h"
 #include "soft/triangle_blocks.h"
 
 namespace tenebra {
 
 struct ShaftKernels {
-  /// Triangles that may meet the shaft, and whose own plane may have points and light on two sides. Writes to
-  /// `out` (room for all of `in`), returns how many references it wrote.
-  std::size_t (*cull)(const Shaft& shaft, double tau_least, const TriangleBlock* blocks,
-                      std::span<const BlockRef> in, BlockRef* out) = nullptr;
+  /// Triangles that may meet the shaft. Writes to `out` (room for all of `in`), returns how many references
+  /// it wrote.
+  std::size_t (*cull)(const Shaft& shaft, const TriangleBlock* blocks, std::span<const BlockRef> in,
+                      BlockRef* out) = nullptr;
   /// Drops what lies in the half-spaces of all receivers.
-  std::size_t (*drop_behind)(std::span<const ReceiverPlane> receivers, const LightShape& light,
+  std::size_t (*drop_behind)(std::span<const Receiver> receivers, const LightShape& light,
                              const TriangleBlock* blocks, std::span<const BlockRef> in,
                              BlockRef* out) = nullptr;
-  /// Drops what all lines pass on the outer side of an edge (Theorem 1). `dark` gets the id of the first
-  /// triangle that blocks all lines for certain, if there is one; it may be a receiver.
+  /// Drops what all lines pass on the outer side of an edge (Theorem 1), and triangles whose own plane has
+  /// not points and light on two sides. `dark` gets the id of the first triangle that blocks all lines for
+  /// certain, if there is one; it may be a receiver.
   std::size_t (*drop_beside)(const Shaft& shaft, ContactRange contact, const TriangleBlock* blocks,
                              std::span<const BlockRef> in, BlockRef* out, std::uint32_t& dark) = nullptr;
 };

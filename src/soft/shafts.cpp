@@ -6,7 +6,7 @@
 
 #include "base/stopwatch.h"
 #include "parallel/parallel.h"
-#include "soft/receiver_planes.h"
+#include "soft/receivers.h"
 #include "soft/shaft_kernels.h"
 
 namespace tenebra {
@@ -14,7 +14,11 @@ namespace tenebra {
 namespace {
 
 // Nodes of fewer groups hand on what they were given: a cull pays from here on (measured).
-constexpr std::uint32_t fewest_groups = 4;
+constexpr std::uint32_t fewest_groups = 3;
+
+// The same for nodes of more than this part of the groups for which the last cull was: culling at each level
+// of the tree would drop a third of the triangles, at every second level the half.
+constexpr double most_groups = 0.4;
 
 // Points times triangles below which a subtree is not worth sharing out.
 constexpr std::uint64_t serial_work = 1 << 16;
@@ -23,7 +27,6 @@ constexpr std::uint64_t serial_work = 1 << 16;
 struct alignas(64) ThreadScratch {
   std::deque<BlockList> lists;
   std::size_t lists_used = 0;
-  std::vector<ReceiverPlane> planes;
   std::vector<std::uint32_t> ids;
   ShaftStats stats;
 };
@@ -59,21 +62,22 @@ void add(ShaftStats& to, const ShaftStats& from) {
 class Descent {
 public:
   Descent(const PointGroups& groups, const TriangleView& triangles, const LightShape& light,
-          const ShaftKernels& kernels, const StopFlag* stop, const GroupBody& body,
+          const ShaftKernels& kernels, ShaftMaker make_shaft, const StopFlag* stop, const GroupBody& body,
           std::vector<ThreadScratch>& scratch)
       : groups_(groups),
         triangles_(triangles),
         light_(light),
         kernels_(kernels),
+        make_shaft_(make_shaft),
         stop_(stop),
         body_(body),
         scratch_(scratch) {}
 
-  /// `from`: what may matter to the node.
-  void descend(const GroupNode& node, const BlockList& from);
+  /// `from`: what may matter to the node, found for a node of `groups` groups.
+  void descend(const GroupNode& node, const BlockList& from, std::uint32_t groups);
 
 private:
-  void descend_children(const GroupNode& node, const BlockList& list);
+  void descend_children(const GroupNode& node, const BlockList& list, std::uint32_t groups);
   void decide(const PointGroup& group, const BlockList& from);
   std::uint32_t cull(const PointGroup& group, const BlockList& from, ThreadScratch& scratch,
                      BlockList& list) const;
@@ -83,6 +87,7 @@ private:
   const TriangleView& triangles_;
   const LightShape& light_;
   const ShaftKernels& kernels_;
+  ShaftMaker make_shaft_;
   const StopFlag* stop_;
   const GroupBody& body_;
   std::vector<ThreadScratch>& scratch_;
@@ -94,33 +99,33 @@ void filter(BlockList& list, const BlockList& from, auto&& kernel) {
   list.refs.resize(kernel(list.blocks, std::span<const BlockRef>(from.refs), list.refs.data()));
 }
 
-void Descent::descend(const GroupNode& node, const BlockList& from) {
+void Descent::descend(const GroupNode& node, const BlockList& from, std::uint32_t groups) {
   if (stop_requested(stop_)) return;
   ThreadScratch& scratch = scratch_[static_cast<std::size_t>(thread_index())];
   if (node.children == 0) {
     decide(groups_.groups[node.first], from);
     return;
   }
-  if (from.refs.empty() || node.count < fewest_groups) {
-    descend_children(node, from);
+  if (from.refs.empty() || node.count < fewest_groups || node.count > most_groups * groups) {
+    descend_children(node, from, groups);
     return;
   }
   ListLease list(scratch);
   Stopwatch watch;
-  const Shaft shaft(box_cell(node.low, node.high, light_), light_);
-  filter(*list, from, [&](auto... rest) { return kernels_.cull(shaft, 0, rest...); });
+  const Shaft shaft = make_shaft_(box_cell(node.low, node.high, light_), light_);
+  filter(*list, from, [&](auto... rest) { return kernels_.cull(shaft, rest...); });
   list->compact();
   scratch.stats.seconds += watch.lap_ms() * 1e-3;
-  descend_children(node, *list);
+  descend_children(node, *list, node.count);
 }
 
-void Descent::descend_children(const GroupNode& node, const BlockList& list) {
+void Descent::descend_children(const GroupNode& node, const BlockList& list, std::uint32_t groups) {
   const GroupNode* children = &groups_.nodes[node.children];
   if (node.points * (block_size * list.refs.size() + 1) > serial_work) {
-    parallel_tasks(2, [&](int k) { descend(children[k], list); });
+    parallel_tasks(2, [&](int k) { descend(children[k], list, groups); });
   } else {
-    descend(children[0], list);
-    descend(children[1], list);
+    descend(children[0], list, groups);
+    descend(children[1], list, groups);
   }
 }
 
@@ -150,17 +155,15 @@ void Descent::decide(const PointGroup& group, const BlockList& from) {
 // Leaves in `list` what may block a line from the group; returns the triangle that blocks all, if one does.
 std::uint32_t Descent::cull(const PointGroup& group, const BlockList& from, ThreadScratch& scratch,
                             BlockList& list) const {
-  const Shaft shaft(fitted_cell(groups_.positions_of(group), groups_.pixels_of(group), groups_.width,
-                                group.low, group.high, light_),
-                    light_);
-  const ContactRange contact = contact_range(groups_, group, triangles_);
-  filter(list, from, [&](auto... rest) { return kernels_.cull(shaft, contact.least, rest...); });
+  const Shaft shaft = make_shaft_(group.cell, light_);
+  filter(list, from, [&](auto... rest) { return kernels_.cull(shaft, rest...); });
   if (list.refs.empty()) return no_triangle;
-  find_receiver_planes(groups_, group, triangles_, light_, scratch.planes);
-  filter(list, list, [&](auto... rest) { return kernels_.drop_behind(scratch.planes, light_, rest...); });
+  const auto receivers = groups_.receivers_of(group);
+  filter(list, list, [&](auto... rest) { return kernels_.drop_behind(receivers, light_, rest...); });
+  const ContactRange contact = contact_range(receivers);
   std::uint32_t dark = no_triangle;
   filter(list, list, [&](auto... rest) { return kernels_.drop_beside(shaft, contact, rest..., dark); });
-  for (const Receiver& receiver : groups_.receivers_of(group))
+  for (const Receiver& receiver : receivers)
     if (receiver.triangle == dark) return no_triangle;
   return dark;
 }
@@ -213,7 +216,8 @@ bool ShaftCuller::for_each_group(const PointGroups& groups, const TriangleView& 
   s.stats.seconds = watch.lap_ms() * 1e-3;
   const ShaftKernels kernels = shaft_kernels(config.simd);
   if (!groups.nodes.empty())
-    Descent(groups, triangles, light, kernels, stop, body, s.scratch).descend(groups.nodes[0], s.casters);
+    Descent(groups, triangles, light, kernels, shaft_maker(config.simd), stop, body, s.scratch)
+        .descend(groups.nodes[0], s.casters, groups.nodes[0].count);
   for (const ThreadScratch& scratch : s.scratch) add(s.stats, scratch.stats);
   return !stop_requested(stop);
 }

@@ -6,8 +6,6 @@
 
 #include "base/stopwatch.h"
 #include "parallel/parallel.h"
-#include "points/contact_rule.h"
-#include "points/triangle_corners.h"
 #include "soft/group_solver.h"
 #include "soft/light_frame.h"
 #include "soft/point_groups.h"
@@ -29,7 +27,7 @@ struct Worker {
   std::vector<std::uint32_t> receivers;
 };
 
-GroupFrame frame_of(const PointGroup& group, const PointGroups& groups, const TriangleView& triangles,
+GroupFrame frame_of(const PointGroup& group, const PointGroups& groups,
                     std::vector<std::uint32_t>& receivers) {
   GroupFrame frame;
   frame.centre = 0.5 * (group.low + group.high);
@@ -37,8 +35,7 @@ GroupFrame frame_of(const PointGroup& group, const PointGroups& groups, const Tr
   receivers.clear();
   for (const Receiver& receiver : groups.receivers_of(group)) {
     receivers.push_back(receiver.triangle);
-    frame.receiver_tau =
-        std::max(frame.receiver_tau, rounding_tolerance(corners_of(triangles, receiver.triangle).v));
+    frame.receiver_tau = std::max(frame.receiver_tau, receiver.tau);
   }
   frame.receivers = receivers;
   return frame;
@@ -102,7 +99,7 @@ void SoftShadowTracer::State::solve_group(const SoftFrame& frame, const PointGro
   } else if (kind == GroupClass::lit) {
     worker.solver->solve_lit(frame, pixels);
   } else {
-    const GroupFrame group_frame = frame_of(group, groups, frame.triangles, worker.receivers);
+    const GroupFrame group_frame = frame_of(group, groups, worker.receivers);
     worker.solver->stats.candidates += candidates.size();
     worker.solver->solve(frame, {pixels, group_frame, candidates});
   }
@@ -141,7 +138,7 @@ bool SoftShadowTracer::trace(const VisiblePoints& points, std::span<const glm::v
                                                                                 : SoftClass::below_horizon);
   }
   Stopwatch watch;
-  group_points(points, view, triangles, light, config.grouping, s.groups);
+  group_points(points, view, triangles, light, config.grouping, s.groups, config.simd);
   s.timings.shaft_ms = watch.lap_ms();
 
   const LightFrame frame_of_light = light_frame(light);

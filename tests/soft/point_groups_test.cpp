@@ -62,9 +62,7 @@ void expect_true_groups(const GroupCase& c, SoftGrouping grouping) {
     std::set<std::uint32_t> receivers, tiles;
     for (std::uint32_t i = 0; i < group.count; ++i) {
       const std::uint32_t pixel = groups.pixels_of(group)[i];
-      const dvec3 p = groups.positions_of(group)[i];
-      ASSERT_EQ(p, c.points.positions[pixel]);
-      ASSERT_EQ(groups.triangles_of(group)[i], c.points.triangles[pixel]);
+      const dvec3 p = c.points.positions[pixel];
       low = glm::min(low, p), high = glm::max(high, p);
       receivers.insert(c.points.triangles[pixel]);
       const auto width = static_cast<std::uint32_t>(c.points.width);

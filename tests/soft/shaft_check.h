@@ -120,7 +120,8 @@ private:
   }
 
   std::optional<Line> line_to(const PointGroup& group, std::uint32_t k, const dvec3& q) const {
-    const Line line{groups_.positions_of(group)[k], q, groups_.triangles_of(group)[k]};
+    const std::uint32_t pixel = groups_.pixels_of(group)[k];
+    const Line line{c_.points.positions[pixel], q, c_.points.triangles[pixel]};
     if (!(glm::dot(line.p - c_.light.centre, c_.light.normal) > 0)) return {};
     const int side = seen_side(c_.soup.view(), line.receiver, c_.view);
     if (reference::height_sign(corners_of(c_.soup.view(), line.receiver), line.q) != side) return {};
@@ -132,7 +133,7 @@ private:
   /// Through a vertex or a point of an edge of a caster, onto the light.
   std::optional<Line> aimed_line(const PointGroup& group, Random& random) const {
     const std::uint32_t k = random.index(group.count);
-    const dvec3 p = groups_.positions_of(group)[k];
+    const dvec3 p = c_.points.positions[groups_.pixels_of(group)[k]];
     for (int tries = 0; tries < 20; ++tries) {
       const auto id = random.index(static_cast<std::uint32_t>(c_.soup.triangles.size()));
       const auto corner = random.index(3);
