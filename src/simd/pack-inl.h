@@ -526,6 +526,13 @@ HWY_INLINE Pack3<Float16> transposed(const Float16 (&p)[4]) {
   return t;
 }
 
+/// a != b, lane by lane.
+template <class T, int N>
+HWY_INLINE Truth<T, N> unequal(Pack<T, N> a, Pack<T, N> b) {
+  Truth<T, N> t;
+  for (int i = 0; i < a.registers; ++i) t.r[i] = hn::Ne(a.r[i], b.r[i]);
+  return t;
+}
 /// Lane by lane, by 0..31.
 template <int N>
 HWY_INLINE Pack<std::int32_t, N> shift_left(Pack<std::int32_t, N> a, Pack<std::int32_t, N> by) {

@@ -17,17 +17,13 @@ using glm::vec3;
 constexpr std::size_t worthwhile = 32;    // triangles; fewer are subtracted one by one
 constexpr std::size_t look_after = 2048;  // triangles, and give up if hardly any edge has cancelled
 
-bool before(const vec3& a, const vec3& b) {
-  return a.x != b.x ? a.x < b.x : a.y != b.y ? a.y < b.y : a.z < b.z;
-}
-
 std::uint32_t hash_of(const vec3& v) {
-  std::uint32_t h = 0;
-  for (int k = 0; k < 3; ++k) {
-    h = (h ^ std::bit_cast<std::uint32_t>(v[k] + 0.0f)) * 0x9e3779b1u;  // -0 + 0 = +0
-    h ^= h >> 15;
-  }
-  return h;
+  const auto word = [](float value) -> std::uint64_t {
+    return std::bit_cast<std::uint32_t>(value + 0.0f);  // -0 + 0 = +0
+  };
+  const std::uint64_t h =
+      (word(v.x) | word(v.y) << 32) * 0x9e3779b97f4a7c15u ^ word(v.z) * 0xc2b2ae3d27d4eb4fu;
+  return static_cast<std::uint32_t>(h >> 32) ^ static_cast<std::uint32_t>(h);
 }
 
 // The solid angle of the light as Candidate::size gives it, were it seen face on.
@@ -79,36 +75,37 @@ void drop_beside_light(const GroupFrame& group, const LightAxes& axes, GroupOutl
   std::erase_if(outline.uses, [](const OutlineUse& use) { return use.edge == dropped; });
 }
 
-std::uint32_t OutlineFinder::edge_of(const vec3& from, const vec3& to) {
+// `hash`: the same for both directions.
+OutlineFinder::Edge& OutlineFinder::edge_of(const vec3& from, const vec3& to, std::uint32_t hash) {
   const std::size_t mask = table_.size() - 1;
-  std::size_t slot = (hash_of(from) * 31 + hash_of(to)) & mask;
-  while (table_[slot] != 0) {
-    const Edge& edge = edges_[table_[slot] - 1];
-    if (edge.from == from && edge.to == to) return table_[slot] - 1;
-    slot = (slot + 1) & mask;
+  std::size_t slot = hash & mask;
+  for (; table_[slot] != 0; slot = (slot + 1) & mask) {
+    Edge& edge = edges_[table_[slot] - 1];
+    if ((edge.from == from && edge.to == to) || (edge.from == to && edge.to == from)) return edge;
   }
-  edges_.push_back({from, to});
+  Edge& added = edges_.emplace_back();
+  added.from = from;
+  added.to = to;
   table_[slot] = static_cast<std::uint32_t>(edges_.size());
-  return table_[slot] - 1;
+  return added;
 }
 
 // `turn`: +1 if the corners run counter-clockwise in (u, v), else -1.
 void OutlineFinder::add_triangle(const vec3* corners, int turn, std::int32_t blocker, GroupOutline& out) {
+  const std::uint32_t hashes[3] = {hash_of(corners[0]), hash_of(corners[1]), hash_of(corners[2])};
   for (int k = 0; k < 3; ++k) {
-    const vec3 &a = corners[k], &b = corners[(k + 1) % 3];
-    const bool forward = before(a, b);
-    const std::uint32_t edge = forward ? edge_of(a, b) : edge_of(b, a);
-    const int winding = forward ? turn : -turn;
+    const int next = (k + 1) % 3;
+    Edge& edge = edge_of(corners[k], corners[next], hashes[k] + hashes[next]);
+    const int winding = edge.from == corners[k] ? turn : -turn;
+    count_left(edge, -1);
     if (blocker < 0) {
-      count_left(edges_[edge], -1);
-      edges_[edge].winding += winding;
-      count_left(edges_[edge], 1);
+      edge.winding += winding;
     } else {
-      count_left(edges_[edge], -1);
-      edges_[edge].used = true;
-      count_left(edges_[edge], 1);
-      out.uses.push_back({edge, static_cast<std::uint32_t>(blocker), winding});
+      edge.used = true;
+      out.uses.push_back(
+          {static_cast<std::uint32_t>(&edge - edges_.data()), static_cast<std::uint32_t>(blocker), winding});
     }
+    count_left(edge, 1);
   }
 }
 

@@ -66,7 +66,7 @@ public:
 
 private:
   struct Edge {
-    glm::vec3 from, to;  ///< from before to, by coordinates
+    glm::vec3 from, to;
     int winding = 0;
     bool used = false;  ///< by a triangle that blocks sometimes
   };
@@ -74,7 +74,7 @@ private:
   bool take(const LightFrame& light, const TriangleView& triangles, const GroupCandidates& candidates,
             GroupOutline& out, std::vector<std::uint32_t>& rest);
   void add_triangle(const glm::vec3* corners, int turn, std::int32_t blocker, GroupOutline& out);
-  std::uint32_t edge_of(const glm::vec3& from, const glm::vec3& to);
+  Edge& edge_of(const glm::vec3& from, const glm::vec3& to, std::uint32_t hash);
   void keep_outline(const LightAxes& axes, GroupOutline& out);
 
   void count_left(const Edge& edge, int change) {

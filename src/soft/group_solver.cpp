@@ -245,13 +245,18 @@ private:
     const glm::dvec3 point = frame.points.positions[pixel];
     const bool in_front = glm::dot(point - frame.light.origin, frame.light.normal) > 0;
     const double above = in_front ? above_ : 0.0;
+    const Receiver3 at{frame.light.origin - point, normal_at(frame, pixel)};
+    const glm::dvec3 horizon = shading_horizon(frame.light, at.to_origin, at.normal);
+    const bool horizon_cuts = cuts(frame.light, horizon);
     p.visible.clear();
-    if (above > 0) find_visible(p, group_point(candidates_.axes, point, receiver, receiver_.tau));
+    edges_.count = 0;
+    if (above > 0)
+      find_visible(p, group_point(candidates_.axes, point, receiver, receiver_.tau), horizon_cuts);
     if (above > 0 && p.visible == p.start && add_whole(frame, pixel)) {
       count_solver(frame, pixel);
       if (whole_.full()) finish_whole(frame);
     } else {
-      finish(p, frame, pixel, point, above);
+      finish(p, frame, pixel, at, above, horizon_cuts ? &horizon : nullptr);
     }
   }
 
@@ -313,8 +318,9 @@ private:
     return {glm::dot(normal, light.ex), glm::dot(normal, light.ey), glm::dot(normal, to_origin)};
   }
 
+  /// Finds what is visible: fragments, and where those will not be cut again, edges of the border of others.
   template <class T>
-  void find_visible(Precision<T>& p, const GroupPoint& at) {
+  void find_visible(Precision<T>& p, const GroupPoint& at, bool will_be_cut) {
     p.clip.move_to(at);
     for (std::size_t i = 0; i < p.start.size(); ++i) {
       const LightPolygon<T> part = loaded(p.start[i]);
@@ -327,7 +333,10 @@ private:
     if (use_bsp_ && !clipped_.empty()) refine(p, p.clip);
     if (outline_.empty() || p.visible.empty()) return;
     p.outline.move_to(at);
-    refine(p, p.outline);
+    p.scratch.clear();
+    for (std::size_t i = 0; i < p.visible.size(); ++i)
+      p.outline.query(loaded(p.visible[i]), will_be_cut ? nullptr : &edges_, p.scratch);
+    p.visible.swap(p.scratch);
   }
 
   /// Replaces the fragments found so far by what `solver` leaves of them.
@@ -353,17 +362,13 @@ private:
 
   /// Integrates what is visible. Its time is a part of the query's where points are solved one by one.
   template <class T>
-  void finish(Precision<T>& p, const SoftFrame& frame, std::uint32_t pixel, const glm::dvec3& point,
-              double above) {
-    const glm::dvec3 normal = normal_at(frame, pixel);
-    const Receiver3 at{frame.light.origin - point, normal};
-    edges_.count = 0;
+  void finish(Precision<T>& p, const SoftFrame& frame, std::uint32_t pixel, const Receiver3& at, double above,
+              const glm::dvec3* horizon) {
     append_edges(p.visible, edges_);
     EdgeSums sums = sum_edges(edges_, frame.light, at);
     const double area = sums.area;
-    const glm::dvec3 horizon = shading_horizon(frame.light, at.to_origin, normal);
-    if (cuts(frame.light, horizon)) {
-      keep_positive(p.visible, line_of<T>(horizon), p.scratch);
+    if (horizon != nullptr) {
+      keep_positive(p.visible, line_of<T>(*horizon), p.scratch);
       edges_.count = 0;
       append_edges(p.visible, edges_);
       sums = sum_edges(edges_, frame.light, at);

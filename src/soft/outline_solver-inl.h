@@ -14,9 +14,9 @@
 #include <vector>
 
 #include "soft/group_outline.h"
-#include "soft/inner_edges-inl.h"
 #include "soft/light_fragments-inl.h"
 #include "soft/occluder_blocks-inl.h"
+#include "soft/outline_border-inl.h"
 
 HWY_BEFORE_NAMESPACE();
 namespace tenebra::HWY_NAMESPACE {
@@ -40,20 +40,22 @@ public:
     around_.make_room(at_point_.size() * 16);
     crossing_.make_room(at_point_.size() * 16);
     for (std::size_t b = 0; b < at_point_.size(); ++b) gather(at_point_[b], static_cast<T>(16 * b));
-    if (crossing_.count >= several && crossing_.count <= many) drop_inner();
     crossing_light_ = crossing_.count;
   }
 
-  /// Appends the parts of `light` (convex, within |u|, |v| <= 1) visible from the point to `out`.
-  HWY_NOINLINE void query(const LightPolygon<T>& light, FragmentList<T>& out) {
-    crossing_.copy(0, crossing_light_);
-    branch(light, crossing_light_, out);
+  /// Finds the part of `light` (convex, within |u|, |v| <= 1) visible from the point: adds its border to
+  /// `border`, counter-clockwise; or where rounding might decide, or there is none, convex parts to `out`.
+  HWY_NOINLINE void query(const LightPolygon<T>& light, LightEdges* border, FragmentList<T>& out) {
+    const std::size_t first = crossing_light_;
+    crossing_.make_room(first);
+    keep_crossing(0, first, light, {0, 0, 1}, T(1), first);
+    find(light, first, border, out);
   }
 
 private:
   using Lanes = Pack<T, 16>;
   static constexpr std::size_t several = 4;  ///< edges; to cut along fewer is quicker than to ask first
-  static constexpr std::size_t many = 80;    ///< edges; to ask takes the square of their number
+  static constexpr std::size_t many = 64;    ///< edges; to ask takes the square of their number
   struct MovingBlock {
     double from[3][16], to[3][16];  ///< coordinate, edge
     double winding[16];
@@ -111,7 +113,7 @@ private:
   }
 
   /// Adds the block's edges to those around the light that count, and to those that may cross the square
-  /// around it.
+  /// around it; turned to rise.
   HWY_INLINE void gather(const Block& block, T first) {
     const Lanes zero = splat<Lanes>(T(0)), one = splat<Lanes>(T(1)), minus = splat<Lanes>(T(-1));
     const Lanes u = load<Lanes>(block.u), v = load<Lanes>(block.v), w = load<Lanes>(block.w);
@@ -121,29 +123,57 @@ private:
     const auto counts = less(zero, absolute(winding)) & less(minus, max(u0, u1)) & less(min(v0, v1), one) &
                         less(minus, max(v0, v1));
     if (!any(counts)) return;
-    compress(counts, u, &around_.u[around_.count]);
-    compress(counts, v, &around_.v[around_.count]);
-    compress(counts, w, &around_.w[around_.count]);
-    compress(counts, v0, &around_.from_v[around_.count]);
-    compress(counts, v1, &around_.to_v[around_.count]);
-    const Lanes number = counted_lanes<T>() + splat<Lanes>(first);
-    compress(counts, number, &around_.number[around_.count]);
-    around_.count += compress(counts, winding, &around_.winding[around_.count]);
-    crossing_.append(counts & less(min(u0, u1), one) & less(absolute(w), absolute(u) + absolute(v)),
-                     {u, v, w, u0, v0, u1, v1, winding, number});
+    const auto falls = less(v1, v0);
+    const auto turned = [&](Lanes value) { return choose(falls, zero - value, value); };
+    const OutlineLanes<T> edges{turned(u),
+                                turned(v),
+                                turned(w),
+                                choose(falls, u1, u0),
+                                min(v0, v1),
+                                choose(falls, u0, u1),
+                                max(v0, v1),
+                                turned(winding),
+                                counted_lanes<T>() + splat<Lanes>(first)};
+    around_.append(counts, edges, slack_);
+    crossing_.append(counts & less(min(u0, u1), one) & less(absolute(w), absolute(u) + absolute(v)), edges);
   }
 
-  struct Place {
-    T u, v;
-  };
-  /// Forgets the crossing edges that have shadow on both sides all along, sixteen at a time.
-  HWY_NOINLINE void drop_inner() {
-    kept_.clear();
-    for (std::size_t i = 0; i < crossing_.count; i += 16)
-      kept_.push_back(~inner_edges(around_, crossing_, slack_, crossing_.lanes_from(i)));
-    const std::size_t count = std::exchange(crossing_.count, 0);
-    for (std::size_t i = 0; i < count; i += 16)
-      crossing_.append(lanes_below<T>(count - i) & truth_of<T, 16>(kept_[i / 16]), crossing_.lanes_from(i));
+  /// The same for a part that the crossing edges from `first` on may cross; forgets those.
+  void find(const LightPolygon<T>& part, std::size_t first, LightEdges* border, FragmentList<T>& out) {
+    const std::size_t count = crossing_.count - first;
+    if (border != nullptr && count > many && greatest(part.y) - least(part.y) > T(1) / 16)
+      return find_in_halves(part, first, border, out);
+    if (count >= (border != nullptr ? 1 : several) && count <= many) {
+      border_.look_at(around_, crossing_, first, slack_, part);
+      if (border != nullptr && border_.append_to(*border)) {
+        crossing_.count = first;
+        return;
+      }
+      keep_bordering(first);
+    }
+    branch(part, first, out);
+  }
+
+  /// In two strips, which are as wide: rays meet the fewer edges, and the edges fewer others.
+  void find_in_halves(const LightPolygon<T>& part, std::size_t first, LightEdges* border,
+                      FragmentList<T>& out) {
+    const LightLine<T> line{0, 1, (greatest(part.y) + least(part.y)) / -2};
+    const LineValues<T> values = evaluate(part, line);
+    LightPolygon<T> above, below;
+    split(part, values, above, below);
+    const std::size_t last = crossing_.count;
+    crossing_.make_room(last - first);
+    keep_crossing(first, last, above, line, T(1), last);
+    find(above, last, border, out);
+    keep_crossing(first, last, below, line, T(-1), first);
+    find(below, first, border, out);
+  }
+
+  /// Forgets the crossing edges from `first` on without light beside them.
+  void keep_bordering(std::size_t first) {
+    const std::size_t last = std::exchange(crossing_.count, first);
+    for (std::size_t i = first; i < last; i += 16)
+      crossing_.append(truth_of<T, 16>(border_.kept((i - first) / 16)), crossing_.lanes_from(i));
   }
 
   /// Cuts `part` along the crossing edges from `first` on, and forgets those.
@@ -164,7 +194,7 @@ private:
       keep_crossing(first, last, rest, line, T(-1), first);
       if (rest.count > fragment_capacity) return branch(rest, first, out);
     }
-    if (winding_around(rest) == T(0)) out.push(rest);
+    if (winding_of(rest) == T(0)) out.push(rest);
   }
 
   /// The same for a polygon of any size.
@@ -205,47 +235,31 @@ private:
     }
   }
 
-  static Place middle_of(const LightPolygon<T>& part) {
+  /// How many triangles cover a part of the light that no edge crosses. Rounding can decide only where an
+  /// edge is as near to its middle, and so where the part is no wider than that.
+  T winding_of(const LightPolygon<T>& part) const {
     T x[polygon_capacity], y[polygon_capacity];
     store(part.x, x);
     store(part.y, y);
-    Place sum{0, 0};
+    T u = 0, v = 0;
     for (int k = 0; k < part.count; ++k) {
-      sum.u += x[k];
-      sum.v += y[k];
+      u += x[k];
+      v += y[k];
     }
-    return {sum.u / static_cast<T>(part.count), sum.v / static_cast<T>(part.count)};
-  }
-
-  /// How many triangles cover a part of the light that no edge crosses: the edges that a ray from its middle
-  /// towards +u crosses. Rounding can decide only where an edge is as near to the middle, and so where the
-  /// part is no wider than that.
-  HWY_NOINLINE T winding_around(const LightPolygon<T>& part) const {
-    const Place at = middle_of(part);
-    const Lanes zero = splat<Lanes>(T(0)), qu = splat<Lanes>(at.u), qv = splat<Lanes>(at.v);
-    Lanes sum = zero;
-    for (std::size_t i = 0; i < around_.count; i += 16) {
-      const Lanes value =
-          load<Lanes>(&around_.u[i]) * qu + load<Lanes>(&around_.v[i]) * qv + load<Lanes>(&around_.w[i]);
-      const Lanes turns = choose(lanes_below<T>(around_.count - i), load<Lanes>(&around_.winding[i]), zero);
-      const auto from_above = less(qv, load<Lanes>(&around_.from_v[i]));
-      const auto to_above = less(qv, load<Lanes>(&around_.to_v[i]));
-      const Lanes up = choose(from_above, zero, choose(less(zero, value), turns, zero));
-      const Lanes down = choose(from_above, choose(less(value, zero), zero - turns, zero), zero);
-      sum = sum + choose(to_above, up, down);
-    }
-    return total(sum);  // of whole numbers: exact in any order
+    const T count = static_cast<T>(part.count);
+    bool doubtful = false;
+    return winding_around(around_, slack_, u / count, v / count, doubtful);
   }
 
   const GroupOutline* outline_ = nullptr;
   std::vector<MovingBlock> moving_;
   std::vector<Block> at_point_;
-  OutlineEdges<T> around_;    ///< edges that a ray from the light towards +u may cross
+  RayEdges<T> around_;        ///< edges that a ray from the light towards +u may cross
   OutlineEdges<T> crossing_;  ///< edges that may cross the light, and behind them, the parts at hand
   std::size_t crossing_light_ = 0;
-  std::vector<std::uint32_t> kept_;  ///< bits of the crossing edges
-  std::vector<int> signs_;           ///< one a SometimesBlocker
-  T slack_ = 0;                      ///< what rounding the corners can amount to, units of the light
+  OutlineBorder<T> border_;
+  std::vector<int> signs_;  ///< one a SometimesBlocker
+  T slack_ = 0;             ///< what rounding the corners can amount to, units of the light
 };
 
 }  // namespace tenebra::HWY_NAMESPACE
