@@ -77,7 +77,6 @@ public:
     double_.clip.reset(candidates_, clipped_);
     for (std::size_t i = 0; i < pixels.size(); ++i) {
       const std::uint32_t pixel = pixels[i];
-      fetch_ahead(frame, pixels, i);
       if (frame.points.triangles[pixel] != receiver_.id)
         start_on(double_, frame, frame.points.triangles[pixel]);
       if (above_ > 0 && !receiver_.cuts_light) {
@@ -89,6 +88,19 @@ public:
     }
     finish_lit(frame);
     times.irradiance_ms += watch.lap_ms();
+  }
+
+  void expect(const SoftFrame& frame, std::span<const std::uint32_t> pixels,
+              std::span<const std::uint32_t> after) const override {
+    for (std::size_t i = 0; i < HWY_MIN(after.size(), std::size_t{largest_neighbourhood}); i += 16)
+      fetch_soon(&after[i]);
+    const std::size_t end = HWY_MIN(pixels.size(), std::size_t{largest_neighbourhood});
+    for (std::size_t i = 0; i < end; i += 2) {  // along the Z curve two of a row at a time
+      const std::uint32_t pixel = pixels[i];
+      fetch_soon(&frame.points.positions[pixel]);
+      fetch_soon(&frame.points.triangles[pixel]);
+      if (!frame.normals.empty()) fetch_soon(&frame.normals[pixel]);
+    }
   }
 
 private:
@@ -147,7 +159,6 @@ private:
   void solve_points(Precision<T>& p, const SoftFrame& frame, const GroupTask& task) {
     for (std::size_t i = 0; i < task.pixels.size(); ++i) {
       const std::uint32_t pixel = task.pixels[i];
-      fetch_ahead(frame, task.pixels, i);
       if (use_bsp_ && bsp_.bytes() > largest_tree_bytes) {
         note_tree();
         use_bsp_ = false;
@@ -174,7 +185,6 @@ private:
 
   void solve_packets(const SoftFrame& frame, std::span<const std::uint32_t> pixels) {
     for (std::size_t i = 0; i < pixels.size(); ++i) {
-      fetch_ahead(frame, pixels, i);
       const std::uint32_t pixel = pixels[i], receiver = frame.points.triangles[pixel];
       if (receiver != receiver_.id) start_on(float_, frame, receiver);
       const glm::dvec3& position = frame.points.positions[pixel];
@@ -215,18 +225,6 @@ private:
     }
     if (solved) stats.fragments += packet_.fragments();
     packet_.clear();
-  }
-
-  /// Asks for what is read of a point some places behind place `i`; at the first, of all up to there.
-  static HWY_INLINE void fetch_ahead(const SoftFrame& frame, std::span<const std::uint32_t> pixels,
-                                     std::size_t i) {
-    constexpr std::size_t ahead = largest_neighbourhood / 2;
-    const std::size_t end = HWY_MIN(i + ahead + 1, pixels.size());
-    for (std::size_t k = i == 0 ? 0 : i + ahead; k < end; ++k) {
-      fetch_soon(&frame.points.positions[pixels[k]]);
-      fetch_soon(&frame.points.triangles[pixels[k]]);
-      if (!frame.normals.empty()) fetch_soon(&frame.normals[pixels[k]]);
-    }
   }
 
   /// Counts a tree that is given up.

@@ -47,6 +47,11 @@ public:
   /// The same for a group that nothing stands in front of.
   virtual void solve_lit(const SoftFrame& frame, std::span<const std::uint32_t> pixels) = 0;
 
+  /// Asks memory for the points of the group that will be solved next (of many, the first), and for the list
+  /// of those `after` it.
+  virtual void expect(const SoftFrame& frame, std::span<const std::uint32_t> pixels,
+                      std::span<const std::uint32_t> after) const = 0;
+
   SoftStats stats;
   SolverTimes times;
 };

@@ -106,6 +106,9 @@ void SoftShadowTracer::State::solve_group(const SoftFrame& frame, const PointGro
                                           std::span<const std::uint32_t> candidates, GroupClass kind,
                                           Worker& worker) {
   const auto pixels = groups.pixels_of(group);
+  const auto behind = static_cast<std::size_t>(groups.groups.data() + groups.groups.size() - &group);
+  worker.solver->expect(frame, groups.pixels_of(behind > 1 ? *(&group + 1) : group),
+                        groups.pixels_of(behind > 2 ? *(&group + 2) : group));
   if (kind == GroupClass::dark) {
     for (const std::uint32_t pixel : pixels) classes[pixel] = static_cast<std::uint8_t>(SoftClass::dark);
     worker.solver->stats.points_dark += pixels.size();

@@ -54,6 +54,29 @@ void expect_partition(const GroupCase& c, SoftGrouping grouping) {
   }
 }
 
+/// No direction finds a point of the group farther than its cell.
+void expect_cell_around(const GroupCase& c, const PointGroups& groups, const PointGroup& group) {
+  const Cell& cell = group.cell;
+  std::vector<dvec3> directions;
+  for (int k = 0; k < 3; ++k) {
+    directions.push_back(glm::cross(cell.axis[k], cell.axis[(k + 1) % 3]));
+    directions.push_back(cell.axis[k]);
+  }
+  Random random(group.first);
+  for (int i = 0; i < 6; ++i) directions.push_back(random.direction());
+  for (const dvec3& m : directions) {
+    const double size = std::abs(m.x) + std::abs(m.y) + std::abs(m.z);
+    double reach = size * cell.slack;
+    for (const dvec3& a : cell.axis) reach += std::abs(glm::dot(m, a));
+    for (const std::uint32_t pixel : groups.pixels_of(group)) {
+      const dvec3 p = c.points.positions[pixel] - c.light.centre;
+      const double out = std::abs(glm::dot(m, p - cell.centre)) - reach;
+      ASSERT_LE(out, 0x1p-48 * size * (cell.reach + glm::length(c.light.centre))) << c.name;
+      ASSERT_LE(std::max({std::abs(p.x), std::abs(p.y), std::abs(p.z)}), cell.reach) << c.name;
+    }
+  }
+}
+
 void expect_true_groups(const GroupCase& c, SoftGrouping grouping) {
   const PointGroups groups = grouped(c, grouping);
   for (const PointGroup& group : groups.groups) {
@@ -70,6 +93,7 @@ void expect_true_groups(const GroupCase& c, SoftGrouping grouping) {
     }
     EXPECT_EQ(low, group.low);
     EXPECT_EQ(high, group.high);
+    expect_cell_around(c, groups, group);
     std::vector<std::uint32_t> listed;
     for (const Receiver& receiver : groups.receivers_of(group)) {
       listed.push_back(receiver.triangle);
@@ -217,22 +241,45 @@ TEST(PointGroups, KnowTheSeenSide) {
   EXPECT_EQ(seen_side(c.soup.view(), 0, c.view), 0);
 }
 
-TEST(PointGroups, AreTheSameForAnyNumberOfThreads) {
-  Random random(41);
-  GroupCase c = stage(200, 120);
-  c.soup.append(room(random, 100));
-  c.points = view_samples(c.soup.view(), c.view, 200, 120);
-  const auto list = [&] {
-    std::vector<std::vector<std::uint32_t>> all;
-    const PointGroups groups = grouped(c, SoftGrouping::neighbourhood);
-    for (const PointGroup& g : groups.groups) {
-      const auto pixels = groups.pixels_of(g);
-      all.emplace_back(pixels.begin(), pixels.end());
+/// All that is known of the groups, bit for bit.
+std::vector<double> numbers_of(const PointGroups& groups) {
+  std::vector<double> all;
+  const auto add = [&](const dvec3& v) { all.insert(all.end(), {v.x, v.y, v.z}); };
+  for (const PointGroup& g : groups.groups) {
+    all.insert(all.end(), {double(g.count), double(g.receiver_count), g.cell.slack, g.cell.reach});
+    for (const std::uint32_t pixel : groups.pixels_of(g)) all.push_back(pixel);
+    for (const dvec3& v : {g.low, g.high, g.cell.centre, g.cell.axis[0], g.cell.axis[1], g.cell.axis[2]})
+      add(v);
+    for (const Receiver& r : groups.receivers_of(g)) {
+      all.insert(all.end(), {double(r.triangle), double(r.side), r.tau, r.limit});
+      add(r.m);
     }
-    return all;
-  };
-  const auto expected = list();
-  for (const int threads : {1, 2, 3, 7}) with_threads(threads, [&] { EXPECT_EQ(list(), expected); });
+  }
+  for (const GroupNode& n : groups.nodes) {
+    all.insert(all.end(), {double(n.first), double(n.count), double(n.points), double(n.children)});
+    add(n.low), add(n.high);
+  }
+  return all;
+}
+
+TEST(PointGroups, AreTheSameForAnyNumberOfThreadsAndAnyInstructions) {
+  Random random(41);
+  GroupCase c = stage(404, 301);
+  c.soup.append(room(random, 100));
+  c.points = view_samples(c.soup.view(), c.view, 404, 301);
+  for (const SoftGrouping grouping : {SoftGrouping::neighbourhood, SoftGrouping::triangle}) {
+    const std::vector<double> expected = numbers_of(grouped(c, grouping));
+    EXPECT_GT(expected.size(), 10000u);
+    for (const SimdLevel level : {SimdLevel::scalar, SimdLevel::sse4, SimdLevel::avx2, SimdLevel::avx512}) {
+      if (!simd_level_supported(level)) continue;
+      for (const int threads : {1, 2, 3, 7})
+        with_threads(threads, [&] {
+          PointGroups groups;
+          group_points(c.points, c.view, c.soup.view(), c.light, grouping, groups, level);
+          EXPECT_EQ(numbers_of(groups), expected) << simd_level_name(level);
+        });
+    }
+  }
 }
 
 }  // namespace
