@@ -7,6 +7,7 @@
 #include <hwy/foreach_target.h>
 // After foreach_target.h
 #include <algorithm>
+#include <bit>
 #include <cmath>
 #include <numeric>
 #include <utility>
@@ -19,6 +20,7 @@
 #include "soft/packet_solver-inl.h"
 #include "soft/quads.h"
 #include "soft/receiver_plane-inl.h"
+#include "soft/whole_light-inl.h"
 
 HWY_BEFORE_NAMESPACE();
 namespace tenebra::HWY_NAMESPACE {
@@ -78,17 +80,38 @@ public:
       fetch_ahead(frame, pixels, i);
       if (frame.points.triangles[pixel] != receiver_.id)
         start_on(double_, frame, frame.points.triangles[pixel]);
-      const bool whole = add_whole(frame, pixel);
-      if (!whole) solve_point(double_, frame, pixel);
-      if (whole || frame.classes[pixel] == class_of(SoftClass::clip))
-        frame.classes[pixel] = class_of(SoftClass::lit);
-      if (whole_count_ == 8) finish_whole(frame);
+      if (above_ > 0 && !receiver_.cuts_light) {
+        whole_.add(pixel, frame.light.origin - frame.points.positions[pixel], normal_at(frame, pixel));
+        if (whole_.full()) finish_lit(frame);
+      } else {
+        solve_cut(frame, pixel);
+      }
     }
-    finish_whole(frame);
+    finish_lit(frame);
     times.irradiance_ms += watch.lap_ms();
   }
 
 private:
+  /// Of lit points: a horizon may cut the light.
+  void solve_cut(const SoftFrame& frame, std::uint32_t pixel) {
+    solve_point(double_, frame, pixel);
+    if (frame.classes[pixel] == class_of(SoftClass::clip)) frame.classes[pixel] = class_of(SoftClass::lit);
+  }
+
+  void finish_lit(const SoftFrame& frame) {
+    const std::size_t count = whole_.count;
+    std::uint32_t pixels[8];
+    std::copy_n(whole_.pixels, count, pixels);
+    const std::uint32_t seen = finish_whole(frame);
+    for (std::size_t k = 0; k < count; ++k) {
+      if ((seen >> k & 1u) != 0) {
+        frame.classes[pixels[k]] = class_of(SoftClass::lit);
+      } else {
+        solve_cut(frame, pixels[k]);
+      }
+    }
+  }
+
   void set_up(const SoftFrame& frame, const GroupTask& task) {
     outline_.clear();
     find_candidates_(frame.light, frame.triangles, task.frame, task.candidates, candidates_);
@@ -154,15 +177,14 @@ private:
       fetch_ahead(frame, pixels, i);
       const std::uint32_t pixel = pixels[i], receiver = frame.points.triangles[pixel];
       if (receiver != receiver_.id) start_on(float_, frame, receiver);
-      const PointSight sight = sight_of(frame, pixel);
-      if (!(above_ > 0) || !is_in_front(frame, sight.to_origin)) {
+      const glm::dvec3& position = frame.points.positions[pixel];
+      if (!(above_ > 0) || !is_in_front(frame, frame.light.origin - position)) {
         solve_point(float_, frame, pixel);  // sees nothing: no solver is asked
         continue;
       }
       packet_pixels_[packet_.count()] = pixel;
       packet_above_[packet_.count()] = above_;
-      packet_.add(group_point(candidates_.axes, frame.points.positions[pixel], receiver, receiver_.tau),
-                  sight);
+      packet_.add(position, normal_at(frame, pixel), receiver_);
       if (packet_.full()) finish_packet(frame);
     }
     finish_packet(frame);
@@ -176,7 +198,7 @@ private:
 
   void finish_packet(const SoftFrame& frame) {
     if (packet_.count() == 0) return;
-    const bool solved = packet_.solve(frame.light);
+    const bool solved = packet_.solve(frame.light, candidates_.axes);
     for (std::size_t k = 0; k < packet_.count(); ++k) {
       const std::uint32_t pixel = packet_pixels_[k];
       if (!solved) {
@@ -188,21 +210,23 @@ private:
         continue;
       }
       count_solver(frame, pixel);
-      add_whole(pixel, packet_.to_origin(k), packet_.normal(k));
-      if (whole_count_ == 8) finish_whole(frame);
+      whole_.add(pixel, packet_.to_origin(k), packet_.normal(k));
+      if (whole_.full()) finish_whole(frame);
     }
     if (solved) stats.fragments += packet_.fragments();
     packet_.clear();
   }
 
-  /// Asks for what is read of a point some places behind place `i`.
+  /// Asks for what is read of a point some places behind place `i`; at the first, of all up to there.
   static HWY_INLINE void fetch_ahead(const SoftFrame& frame, std::span<const std::uint32_t> pixels,
                                      std::size_t i) {
-    if (i + 8 >= pixels.size()) return;
-    const std::uint32_t pixel = pixels[i + 8];
-    fetch_soon(&frame.points.positions[pixel]);
-    fetch_soon(&frame.points.triangles[pixel]);
-    if (!frame.normals.empty()) fetch_soon(&frame.normals[pixel]);
+    constexpr std::size_t ahead = largest_neighbourhood / 2;
+    const std::size_t end = HWY_MIN(i + ahead + 1, pixels.size());
+    for (std::size_t k = i == 0 ? 0 : i + ahead; k < end; ++k) {
+      fetch_soon(&frame.points.positions[pixels[k]]);
+      fetch_soon(&frame.points.triangles[pixels[k]]);
+      if (!frame.normals.empty()) fetch_soon(&frame.normals[pixels[k]]);
+    }
   }
 
   /// Counts a tree that is given up.
@@ -221,8 +245,7 @@ private:
     const glm::dvec3 point = frame.points.positions[pixel];
     const bool in_front = glm::dot(point - frame.light.origin, frame.light.normal) > 0;
     const double above = in_front ? above_ : 0.0;
-    const Receiver3 at{frame.light.origin - point,
-                       frame.normals.empty() ? receiver_.face : glm::dvec3(frame.normals[pixel])};
+    const Receiver3 at{frame.light.origin - point, normal_at(frame, pixel)};
     const glm::dvec3 horizon = shading_horizon(frame.light, at.to_origin, at.normal);
     const bool horizon_cuts = cuts(frame.light, horizon);
     p.visible.clear();
@@ -231,7 +254,7 @@ private:
       find_visible(p, group_point(candidates_.axes, point, receiver, receiver_.tau), horizon_cuts);
     if (above > 0 && p.visible == p.start && add_whole(frame, pixel)) {
       count_solver(frame, pixel);
-      if (whole_count_ == 8) finish_whole(frame);
+      if (whole_.full()) finish_whole(frame);
     } else {
       finish(p, frame, pixel, at, above, horizon_cuts ? &horizon : nullptr);
     }
@@ -244,21 +267,13 @@ private:
     p.start.clear();
     p.start.push(polygon_of<T>(frame.light.outline));
     keep_positive(p.start, line_of<T>(receiver_.horizon), p.scratch);
+    receiver_.line = line_of<float>(receiver_.horizon);
     receiver_.cuts_light = cuts(frame.light, receiver_.horizon);
     above_ = receiver_.face == glm::dvec3(0.0) ? 0.0 : area_of(p.start);
   }
 
-  /// That of a point on receiver_.
-  PointSight sight_of(const SoftFrame& frame, std::uint32_t pixel) const {
-    PointSight sight;
-    sight.to_origin = frame.light.origin - frame.points.positions[pixel];
-    sight.normal = frame.normals.empty() ? receiver_.face : glm::dvec3(frame.normals[pixel]);
-    const glm::dvec3 shading = shading_horizon(frame.light, sight.to_origin, sight.normal);
-    sight.receiver_horizon = line_of<float>(receiver_.horizon);
-    sight.shading_horizon = line_of<float>(shading);
-    sight.receiver_cuts = receiver_.cuts_light;
-    sight.normal_cuts = cuts(frame.light, shading);
-    return sight;
+  glm::dvec3 normal_at(const SoftFrame& frame, std::uint32_t pixel) const {
+    return frame.normals.empty() ? receiver_.face : glm::dvec3(frame.normals[pixel]);
   }
 
   bool is_in_front(const SoftFrame& frame, const glm::dvec3& to_origin) const {
@@ -268,31 +283,29 @@ private:
   /// Puts aside a point on receiver_ that nothing stands in front of, to be finished with seven others; false
   /// if a horizon cuts the light.
   bool add_whole(const SoftFrame& frame, std::uint32_t pixel) {
-    const PointSight sight = sight_of(frame, pixel);
-    if (!is_in_front(frame, sight.to_origin) || !(above_ > 0) || sight.receiver_cuts || sight.normal_cuts)
+    const glm::dvec3 to_origin = frame.light.origin - frame.points.positions[pixel];
+    const glm::dvec3 normal = normal_at(frame, pixel);
+    if (receiver_.cuts_light || cuts(frame.light, shading_horizon(frame.light, to_origin, normal)))
       return false;
-    add_whole(pixel, sight.to_origin, sight.normal);
+    whole_.add(pixel, to_origin, normal);
     return true;
   }
-  void add_whole(std::uint32_t pixel, const glm::dvec3& to_origin, const glm::dvec3& normal) {
-    for (int c = 0; c < 3; ++c) {
-      whole_.to_origin[c][whole_count_] = to_origin[c];
-      whole_.normal[c][whole_count_] = normal[c];
-    }
-    whole_pixels_[whole_count_++] = pixel;
-  }
 
-  void finish_whole(const SoftFrame& frame) {
-    if (whole_count_ == 0) return;
+  /// Returns bits of those put aside that see the whole light, and forgets them all.
+  std::uint32_t finish_whole(const SoftFrame& frame) {
+    if (whole_.count == 0) return 0;
     double irradiance[8];
-    irradiance_of_whole(frame.light, whole_, irradiance);
-    for (std::size_t k = 0; k < whole_count_; ++k) {
-      frame.out.visible_fraction[whole_pixels_[k]] = 1.0f;
-      frame.out.irradiance[whole_pixels_[k]] = clamped(irradiance[k]);
+    const std::uint32_t seen = irradiance_of_whole(frame.light, whole_, irradiance);
+    for (std::size_t k = 0; k < whole_.count; ++k) {
+      if ((seen >> k & 1u) == 0) continue;
+      frame.out.visible_fraction[whole_.pixels[k]] = 1.0f;
+      frame.out.irradiance[whole_.pixels[k]] = clamped(irradiance[k]);
     }
-    stats.points_lit += whole_count_;
-    stats.fragments += whole_count_;
-    whole_count_ = 0;
+    const auto count = static_cast<std::uint64_t>(std::popcount(seen));
+    stats.points_lit += count;
+    stats.fragments += count;
+    whole_.count = 0;
+    return seen;
   }
 
   static float clamped(double irradiance) {
@@ -419,9 +432,7 @@ private:
   double packet_above_[packet_size] = {};  ///< above_ of these
   bool clip_is_ready_ = false;             ///< where packets are at work, whether points alone can be solved
   LightEdges edges_;
-  ReceiverLanes whole_{};  ///< points put aside
-  std::uint32_t whole_pixels_[8] = {};
-  std::size_t whole_count_ = 0;
+  WholePoints whole_;  ///< points put aside
 };
 
 std::unique_ptr<GroupSolver> make_solver(FindCandidates find_candidates) {

@@ -30,14 +30,17 @@ struct LightEdges {
   }
 };
 
-/// atan2(s, c) for s >= 0, not both 0; relative error below 1e-13.
-HWY_INLINE Double8 angle_of(Double8 s, Double8 c) {
+/// atan2(s, c) / s for s > 0, in one division; relative error below 1e-13. 0 where s |(s, c)| < 1e-290.
+HWY_INLINE Double8 angle_over_sine(Double8 s, Double8 c) {
   const auto num = [](double value) { return splat<Double8>(value); };
   const Double8 size = absolute(c);
   const Double8 low = min(s, size), high = max(s, size);
   // atan(low / high), beyond pi/8 by atan(q) = pi/4 + atan((q - 1) / (q + 1)).
   const auto steep = less(num(0.41421356237309503) * high, low);
-  const Double8 q = choose(steep, low - high, low) / choose(steep, low + high, high);
+  const Double8 below = choose(steep, low + high, high);
+  const auto none = less(below * s, num(1e-290));
+  const Double8 share = num(1.0) / choose(none, num(1.0), below * s);
+  const Double8 q = choose(steep, low - high, low) * (s * share);
   const Double8 y = q * q;
   // Chebyshev interpolation of atan(q) / q in y, 0 <= y <= tan(pi/8)^2.
   Double8 p = num(0.030662440370424447);
@@ -49,7 +52,8 @@ HWY_INLINE Double8 angle_of(Double8 s, Double8 c) {
   Double8 angle = q * p;
   angle = choose(steep, num(0.7853981633974483) + angle, angle);
   angle = choose(less(size, s), num(1.5707963267948966) - angle, angle);
-  return choose(less(c, num(0.0)), num(3.141592653589793) - angle, angle);
+  angle = choose(less(c, num(0.0)), num(3.141592653589793) - angle, angle);
+  return choose(none, num(0.0), angle * (below * share));
 }
 
 /// Not fused: the same bits on every target.
@@ -63,9 +67,7 @@ HWY_INLINE Double8 contour_term(const Pack3<Double8>& r, const Pack3<Double8>& e
                                 const Pack3<Double8>& normal) {
   const Pack3<Double8> c = cross(r, e);
   const Double8 sine = square_root(product_of(c, c)), cosine = product_of(r, r) + product_of(r, e);
-  const Double8 zero = splat<Double8>(0.0), one = splat<Double8>(1.0);
-  const auto none = less(sine, splat<Double8>(1e-300));
-  return choose(none, zero, product_of(normal, c) * angle_of(sine, cosine) / choose(none, one, sine));
+  return product_of(normal, c) * angle_over_sine(sine, cosine);
 }
 
 /// origin + u ex + v ey.
@@ -116,31 +118,6 @@ inline HWY_NOINLINE EdgeSums sum_edges(const LightEdges& edges, const LightFrame
   sums.irradiance *= 0.5;
   sums.area *= 0.5;
   return sums;
-}
-
-/// Eight points, a lane each.
-struct ReceiverLanes {
-  double to_origin[3][8], normal[3][8];
-};
-
-/// The irradiance that a whole light, its outline above the horizons of all points, sends to eight of them.
-inline HWY_NOINLINE void irradiance_of_whole(const LightFrame& light, const ReceiverLanes& at,
-                                             double* irradiance) {
-  const auto num = [](double value) { return splat<Double8>(value); };
-  const auto lanes = [](const double(&from)[3][8]) {
-    return Pack3<Double8>{load<Double8>(from[0]), load<Double8>(from[1]), load<Double8>(from[2])};
-  };
-  const Pack3<Double8> origin = lanes(at.to_origin), normal = lanes(at.normal);
-  Double8 sum = num(0.0);
-  for (std::size_t k = 0; k < light.outline.size(); ++k) {
-    const glm::dvec2 a = light.outline[k], b = light.outline[(k + 1) % light.outline.size()];
-    const glm::dvec3 from = a.x * light.ex + a.y * light.ey,
-                     along = (b.x - a.x) * light.ex + (b.y - a.y) * light.ey;
-    const Pack3<Double8> r{origin.x + num(from.x), origin.y + num(from.y), origin.z + num(from.z)};
-    const Pack3<Double8> e{num(along.x), num(along.y), num(along.z)};
-    sum = sum - contour_term(r, e, normal);
-  }
-  store(num(0.5) * sum, irradiance);
 }
 
 }  // namespace tenebra::HWY_NAMESPACE

@@ -7,6 +7,7 @@
 #define TENEBRA_SOFT_PACKET_OCCLUDERS_INL_H_
 #endif
 
+#include <algorithm>
 #include <vector>
 
 #include "soft/packet_polygon-inl.h"
@@ -15,35 +16,54 @@
 HWY_BEFORE_NAMESPACE();
 namespace tenebra::HWY_NAMESPACE {
 
-/// Up to sixteen points of a group.
+/// Up to sixteen points of a group, as GroupPoint has them. Lanes beyond the count are copies of the last.
 struct PacketPoints {
   std::size_t count = 0;
-  GroupPoint points[packet_size];
+  double position[3][packet_size] = {};  ///< world space
+  double receiver_tau[packet_size] = {};
+  std::uint32_t receiver[packet_size] = {};
   double in_axes[3][packet_size] = {}, in_light[2][packet_size] = {}, reach[packet_size] = {};
+  LightAxes axes;
 
   std::uint32_t touched = 0;  ///< bits of the points from which something was taken of the light
   bool failed = false;        ///< rounding asks for more care than is taken here
 
-  void add(const GroupPoint& at) {
-    points[count] = at;
-    for (int c = 0; c < 3; ++c) in_axes[c][count] = at.in_axes[c];
-    for (int c = 0; c < 2; ++c) in_light[c][count] = at.in_light[c];
-    reach[count++] = at.reach;
+  void add(const glm::dvec3& at, std::uint32_t on, double tau) {
+    for (int c = 0; c < 3; ++c) position[c][count] = at[c];
+    receiver[count] = on, receiver_tau[count] = tau;
+    ++count;
   }
   void clear() {
     count = 0;
     touched = 0;
     failed = false;
   }
+
+  /// Finds their places in these axes. Sums are not fused, as in group_point.
+  HWY_NOINLINE void place_in(const LightAxes& group_axes) {
+    axes = group_axes;
+    for (auto& from : position) std::fill(from + count, from + packet_size, from[count - 1]);
+    Wide way[3];
+    for (int c = 0; c < 3; ++c) way[c] = load<Wide>(position[c]) - wide(axes.centre[c]);
+    const auto along = [&](const glm::dvec3& a) {
+      return wide(a.x) * way[0] + wide(a.y) * way[1] + wide(a.z) * way[2];
+    };
+    const Wide u = along(axes.u), v = along(axes.v), height = along(axes.height);
+    store(u, in_axes[0]), store(v, in_axes[1]), store(height, in_axes[2]);
+    store(wide(axes.centre_uv.x) + u, in_light[0]);
+    store(wide(axes.centre_uv.y) + v, in_light[1]);
+    store(wide(axes.centre_uv.z) - height, reach);
+  }
+  GroupPoint point(std::size_t k) const {
+    return group_point(axes, {position[0][k], position[1][k], position[2][k]}, receiver[k], receiver_tau[k]);
+  }
 };
 
 inline PointRange range_of(const PacketPoints& at) {
-  const GroupPoint& first = at.points[0];
-  PointRange range{first.in_axes, first.in_axes, first.in_light - glm::dvec2(first.in_axes),
-                   first.reach + first.in_axes.z};
-  for (std::size_t k = 1; k < at.count; ++k) {
-    range.low = glm::min(range.low, at.points[k].in_axes);
-    range.high = glm::max(range.high, at.points[k].in_axes);
+  PointRange range{{}, {}, glm::dvec2(at.axes.centre_uv), at.axes.centre_uv.z};
+  for (int c = 0; c < 3; ++c) {
+    const Wide there = load<Wide>(at.in_axes[c]);
+    range.low[c] = least(there), range.high[c] = greatest(there);
   }
   return range;
 }
@@ -234,7 +254,7 @@ private:
     for (std::size_t k = 0; k < packet_size; ++k) signs[k] = block.sign[i];
     if ((block.indefinite >> i & 1u) != 0) {
       for (std::size_t k = 0; k < at.count; ++k)
-        signs[k] = sign_at(block.triangle[i], heights()[block.height[i]], at.points[k]);
+        signs[k] = sign_at(block.triangle[i], heights()[block.height[i]], at.point(k));
     }
     const Wide sign = load<Wide>(signs), reach = load<Wide>(at.reach);
     const Wide x = load<Wide>(at.in_axes[0]), y = load<Wide>(at.in_axes[1]), z = load<Wide>(at.in_axes[2]);

@@ -10,16 +10,11 @@
 #include "soft/clip_solver-inl.h"
 #include "soft/irradiance-inl.h"
 #include "soft/packet_occluders-inl.h"
+#include "soft/receiver_plane-inl.h"
+#include "soft/whole_light-inl.h"
 
 HWY_BEFORE_NAMESPACE();
 namespace tenebra::HWY_NAMESPACE {
-
-/// How a point sees the light.
-struct PointSight {
-  glm::dvec3 to_origin{0.0}, normal{0.0};              ///< as in Receiver3
-  LightLine<float> receiver_horizon, shading_horizon;  ///< positive above
-  bool receiver_cuts = false, normal_cuts = false;     ///< a part of the light is below
-};
 
 /// Points are added, up to sixteen, and solved together; then their answers can be asked for until clear().
 class PacketSolver {
@@ -37,16 +32,12 @@ public:
 
   std::size_t count() const { return points_.count; }
   bool full() const { return points_.count == packet_size; }
-  /// `sight`: how the point, on `at.receiver`, sees the light.
-  void add(const GroupPoint& at, const PointSight& sight) {
+  /// A point on `receiver`, in front of the light, with a unit shading normal.
+  void add(const glm::dvec3& position, const glm::dvec3& normal, const ReceiverPlane& receiver) {
     const std::size_t k = points_.count;
-    points_.add(at);
-    for (int c = 0; c < 3; ++c) {
-      to_origin_[c][k] = sight.to_origin[c];
-      normal_[c][k] = sight.normal[c];
-    }
-    receiver_horizon_.put(k, sight.receiver_horizon, sight.receiver_cuts);
-    shading_horizon_.put(k, sight.shading_horizon, sight.normal_cuts);
+    for (int c = 0; c < 3; ++c) normal_[c][k] = normal[c];
+    receiver_horizon_.put(k, receiver.line, receiver.cuts_light);
+    points_.add(position, receiver.id, receiver.tau);
   }
   void clear() { points_.clear(); }
   glm::dvec3 to_origin(std::size_t k) const { return {to_origin_[0][k], to_origin_[1][k], to_origin_[2][k]}; }
@@ -54,7 +45,10 @@ public:
 
   /// Finds what the points, at least one, see of the light; false, and nothing found, where rounding asks for
   /// more care than is taken here.
-  HWY_NOINLINE bool solve(const LightFrame& light) {
+  HWY_NOINLINE bool solve(const LightFrame& light, const LightAxes& axes) {
+    points_.place_in(axes);
+    find_sight(light, 0);
+    find_sight(light, 8);
     std::fill_n(area_, packet_size, 0.0);
     std::fill_n(irradiance_, packet_size, 0.0);
     fragments_ = 0;
@@ -88,8 +82,32 @@ private:
       w[k] = cuts_light ? line.w : 1.0f;
       cuts = (cuts & ~(1u << k)) | (cuts_light ? 1u << k : 0u);
     }
+    HWY_INLINE void put_eight(std::size_t first, const LightFrame& light, const HorizonLanes& line) {
+      const Double8 zero = splat<Double8>(0.0), one = splat<Double8>(1.0);
+      const std::uint32_t cut = line.cuts(light);
+      const auto there = truth_of<double, 8>(cut);
+      const Double8 size = absolute(line.u) + absolute(line.v) + absolute(line.w);
+      const Double8 scale = choose(there, one / choose(less(zero, size), size, one), zero);
+      store_narrowed(line.u * scale, u + first);
+      store_narrowed(line.v * scale, v + first);
+      store_narrowed(choose(there, line.w * scale, one), w + first);
+      cuts = (cuts & ~(0xffu << first)) | cut << first;
+    }
     PacketLine line() const { return {load<Float16>(u), load<Float16>(v), load<Float16>(w)}; }
   };
+
+  /// How the points of eight lanes see the light.
+  HWY_NOINLINE void find_sight(const LightFrame& light, std::size_t first) {
+    Pack3<Double8> way, normal;
+    const auto find = [&](int c, Double8& to) {
+      to = splat<Double8>(light.origin[c]) - load<Double8>(points_.position[c] + first);
+      store(to, to_origin_[c] + first);
+    };
+    find(0, way.x), find(1, way.y), find(2, way.z);
+    normal = {load<Double8>(normal_[0] + first), load<Double8>(normal_[1] + first),
+              load<Double8>(normal_[2] + first)};
+    shading_horizon_.put_eight(first, light, horizon_of(light, way, normal));
+  }
 
   /// The light above the receivers' planes; false if there is none.
   bool put_light(const LightFrame& light) {

@@ -208,13 +208,22 @@ PixelsByTriangle pixels_by_triangle(const VisiblePoints& points, std::size_t tri
   return by;
 }
 
-void append(const Part& part, PointGroups& to) {
-  const auto first_receiver = static_cast<std::uint32_t>(to.receivers.size());
-  for (PointGroup group : part.groups) {
-    group.first_receiver += first_receiver;
-    to.groups.push_back(group);
+// Takes over the groups of all parts, in the order of the tree.
+void join(std::span<Part> parts, PointGroups& out) {
+  std::size_t groups = 0, receivers = 0;
+  for (const Part& part : parts) groups += part.groups.size(), receivers += part.receivers.size();
+  std::vector<GroupKey> keys;
+  keys.reserve(groups);
+  out.receivers.reserve(receivers);
+  for (Part& part : parts) {
+    const auto first_receiver = static_cast<std::uint32_t>(out.receivers.size());
+    for (PointGroup& group : part.groups) {
+      group.first_receiver += first_receiver;
+      keys.push_back({glm::vec3(0.5 * (group.low + group.high)), &group});
+    }
+    out.receivers.insert(out.receivers.end(), part.receivers.begin(), part.receivers.end());
   }
-  to.receivers.insert(to.receivers.end(), part.receivers.begin(), part.receivers.end());
+  build_group_tree(keys, out);
 }
 
 // The active ones of a triangle's pixels, as one group.
@@ -262,7 +271,7 @@ void group_by_triangle(const Grouping& g) {
     const LitTriangle triangle = lit_triangle(g.triangles, id, g.view, g.light);
     if (triangle.light_above) append_triangle(g, pixels, triangle, lanes, part);
   }
-  append(part, g.out);
+  join({&part, 1}, g.out);
 }
 
 // Rows of tiles run in parallel; each has room for all of its pixels.
@@ -276,7 +285,7 @@ void group_tiles(const Grouping& g) {
     Tile here(g, part);
     for (std::uint32_t left = 0; left < width; left += tile) here.group(left, top);
   });
-  for (const Part& part : parts) append(part, g.out);
+  join(parts, g.out);
 }
 
 }  // namespace
@@ -285,7 +294,6 @@ void group_points(const VisiblePoints& points, const ViewRays& view, const Trian
                   const AreaLight& light, SoftGrouping grouping, PointGroups& out, SimdLevel simd) {
   const FloatEnvironment ieee;
   out.width = points.width;
-  out.groups.clear();
   out.receivers.clear();
   out.pixels.resize(points.triangles.size());
   const Grouping g{points, view, triangles, LightShape(light), point_kernels(simd), out};
@@ -294,7 +302,6 @@ void group_points(const VisiblePoints& points, const ViewRays& view, const Trian
   } else {
     group_tiles(g);
   }
-  build_group_tree(out);
 }
 
 }  // namespace tenebra

@@ -56,7 +56,9 @@ HWY_INLINE dvec3 sum_of(const Vector8& a) {
 
 // Least and greatest coordinates, lane by lane.
 struct Box8 {
-  Vector8 low = all(dvec3(INFINITY)), high = all(dvec3(-INFINITY));
+  Vector8 low, high;
+
+  HWY_INLINE Box8() : low(all(dvec3(INFINITY))), high(all(dvec3(-INFINITY))) {}
 
   HWY_INLINE void add(const Truth<double, 8>& there, const Vector8& p) {
     const Vector8 a = choose3(there, p, low), b = choose3(there, p, high);

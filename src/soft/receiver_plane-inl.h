@@ -44,6 +44,7 @@ struct ReceiverPlane {
   double tau = 0;
   glm::dvec3 horizon{0.0};  ///< line on the light's plane, positive above
   glm::dvec3 face{0.0};     ///< unit normal on the seen side; 0: no area
+  LightLine<float> line;    ///< the horizon, scaled
   bool cuts_light = true;   ///< part of the light is not above it
 };
 

@@ -5,7 +5,7 @@
 #define HWY_TARGET_INCLUDE "soft/shaft_kernels.cpp"
 #include <hwy/foreach_target.h>
 // After foreach_target.h
-#include "simd/pack-inl.h"
+#include "soft/shaft_cull-inl.h"
 
 #include <algorithm>
 #include <bit>
@@ -59,29 +59,18 @@ HWY_INLINE Vector8 edge(const TriangleBlock& block, int from, int to) {
           load_widened<Double8>(block.v[to][2]) - load_widened<Double8>(block.v[from][2])};
 }
 
+// Lanes of the triangle `id`.
+HWY_INLINE std::uint32_t lanes_of(const TriangleBlock& block, std::uint32_t id) {
+  using Ids = Pack<std::int32_t, block_size>;
+  return bits(equal(load<Ids>(reinterpret_cast<const std::int32_t*>(block.ids)),
+                    splat<Ids>(static_cast<std::int32_t>(id))));
+}
+
 HWY_INLINE Double8 least(const Double8& a, const Double8& b, const Double8& c) {
   return min(a, min(b, c));
 }
 HWY_INLINE Double8 most(const Double8& a, const Double8& b, const Double8& c) {
   return max(a, max(b, c));
-}
-
-// Lanes of triangles that may meet the shaft's box and the inner sides of its planes. m.v is off by 5 u reach
-// as |m|_1 <= 1.
-HWY_INLINE std::uint32_t inside(const Shaft& shaft, const Triangles& t, std::uint32_t lanes) {
-  const Double8 margin = t.reach * constant(0x1p-50);
-  const auto beyond = [&](const Double8& a, const Double8& b, const Double8& c, double low, double high) {
-    return less(constant(high) + margin, least(a, b, c)) | less(most(a, b, c) + margin, constant(low));
-  };
-  lanes &= ~bits(beyond(t.v[0].x, t.v[1].x, t.v[2].x, shaft.low.x, shaft.high.x) |
-                 beyond(t.v[0].y, t.v[1].y, t.v[2].y, shaft.low.y, shaft.high.y) |
-                 beyond(t.v[0].z, t.v[1].z, t.v[2].z, shaft.low.z, shaft.high.z));
-  for (int k = 0; k < shaft.plane_count && lanes != 0; ++k) {
-    const Vector8 m = constant(shaft.planes[k].m);
-    const Double8 nearest = least(product(m, t.v[0]), product(m, t.v[1]), product(m, t.v[2]));
-    lanes &= ~bits(less(constant(shaft.planes[k].limit) + margin, nearest));
-  }
-  return lanes;
 }
 
 // n.(x - A) over the points and over the light, n = (B - A) x (C - A), as least and greatest value, both
@@ -129,16 +118,6 @@ HWY_INLINE Double8 theta_high(const TriangleBlock& block, const PlaneRange& r, d
   return tau_of(block, tau_most) * (r.normal_length * constant(1 + 0x1p-49) + r.size2 * constant(0x1p-48));
 }
 
-std::size_t cull(const Shaft& shaft, const TriangleBlock* blocks, std::span<const BlockRef> in,
-                 BlockRef* out) {
-  std::size_t count = 0;
-  for (const BlockRef& ref : in) {
-    const std::uint32_t lanes = inside(shaft, load_triangles(blocks[ref.block], *shaft.light), ref.lanes);
-    if (lanes != 0) out[count++] = {ref.block, lanes};
-  }
-  return count;
-}
-
 std::size_t drop_behind(std::span<const Receiver> receivers, const LightShape& light,
                         const TriangleBlock* blocks, std::span<const BlockRef> in, BlockRef* out) {
   std::size_t count = 0;
@@ -150,10 +129,7 @@ std::size_t drop_behind(std::span<const Receiver> receivers, const LightShape& l
     for (const Receiver& receiver : receivers) {
       const Vector8 m = constant(receiver.m);
       const Double8 top = most(product(m, t.v[0]), product(m, t.v[1]), product(m, t.v[2]));
-      std::uint32_t harmless = bits(less(top + margin, constant(receiver.limit)));
-      for (int lane = 0; lane < block_size; ++lane)
-        harmless |= static_cast<std::uint32_t>(block.ids[lane] == receiver.triangle) << lane;
-      dropped &= harmless;
+      dropped &= less_bits(top + margin, constant(receiver.limit)) | lanes_of(block, receiver.triangle);
       if (dropped == 0) break;
     }
     if (const std::uint32_t lanes = ref.lanes & ~dropped; lanes != 0) out[count++] = {ref.block, lanes};
@@ -189,9 +165,38 @@ HWY_INLINE SideRange side_range(const Shaft& shaft, const Vector8& e, const Vect
   return range;
 }
 
-// Lines cross T from its front (f >= 0 at all edges) or from its back (f <= 0).
+// Lanes whose edges the line between the centres of cell and light passes on their inner sides.
+struct Sides {
+  std::uint32_t front, back;
+};
+HWY_INLINE Sides sides_of_centre(const Shaft& shaft, const Triangles& t) {
+  const Double8 zero = constant(0.0);
+  const Vector8 centre = constant(shaft.cell.centre);
+  const Double8 f[3] = {product(cross(t.v[0], t.v[1]), centre), product(cross(t.v[1], t.v[2]), centre),
+                        product(cross(t.v[2], t.v[0]), centre)};
+  return {less_bits(zero, least(f[0], f[1], f[2])), less_bits(most(f[0], f[1], f[2]), zero)};
+}
+
+// What lines between cell and light do about the edges, of lanes that they cross from the front (f >= 0 at
+// all edges) or from the back (f <= 0).
+HWY_INLINE void keep_crossed(const Shaft& shaft, const TriangleBlock& block, const Triangles& t, Sides& some,
+                             Sides& all) {
+  const Double8 zero = constant(0.0), margin = side_margin(shaft, t);
+  for (int k = 0; k < 3 && (some.front | some.back) != 0; ++k) {
+    const Vector8 e = edge(block, k, (k + 1) % 3);
+    const SideRange f = side_range(shaft, e, cross(t.v[k], e));
+    const std::uint32_t front = less_bits(margin, f.low), back = less_bits(f.high, zero - margin);
+    some.front &= ~back, all.front &= front;
+    some.back &= ~front, all.back &= back;
+  }
+}
+
+// Of more, the edges are not worth a test: next to nothing is dropped by it, and hardly ever all.
+constexpr std::size_t few_blocks = 4;
+
 std::size_t drop_beside(const Shaft& shaft, ContactRange contact, const TriangleBlock* blocks,
                         std::span<const BlockRef> in, BlockRef* out, std::uint32_t& dark) {
+  const bool few = in.size() <= few_blocks;
   std::size_t count = 0;
   const Double8 zero = constant(0.0);
   for (const BlockRef& ref : in) {
@@ -199,30 +204,19 @@ std::size_t drop_beside(const Shaft& shaft, ContactRange contact, const Triangle
     const Triangles t = load_triangles(block, *shaft.light);
     const PlaneRange plane = plane_range(shaft, block, t);
     const Double8 theta = theta_low(block, plane, contact.least);
-    std::uint32_t front = bits(less(theta, plane.points_high) & less(plane.light_low, zero)) & ref.lanes;
-    std::uint32_t back =
-        bits(less(theta, zero - plane.points_low) & less(zero, plane.light_high)) & ref.lanes;
-    const Double8 sure = theta_high(block, plane, contact.most);
-    std::uint32_t all_front = bits(less(sure, plane.points_low) & less(plane.light_high, zero)) & front;
-    std::uint32_t all_back = bits(less(sure, zero - plane.points_high) & less(zero, plane.light_low)) & back;
-    const Double8 margin = side_margin(shaft, t);
-    for (int k = 0; k < 3 && (front | back) != 0; ++k) {
-      const Vector8 e = edge(block, k, (k + 1) % 3);
-      const Vector8 moment = cross(t.v[k], e);
-      const SideRange at_centre = side_from(shaft, moment, zero);
-      // What the light's centre finds neither outer nor inner, its vertices do not either.
-      const std::uint32_t open = (front & bits(less(at_centre.high, zero))) |
-                                 (back & bits(less(zero, at_centre.low))) | all_front | all_back;
-      if (open == 0) continue;
-      const SideRange f = side_range(shaft, e, moment);
-      front &= ~bits(less(f.high, zero - margin));
-      back &= ~bits(less(margin, f.low));
-      all_front &= bits(less(margin, f.low));
-      all_back &= bits(less(f.high, zero - margin));
+    Sides some{ref.lanes & bits(less(theta, plane.points_high) & less(plane.light_low, zero)),
+               ref.lanes & bits(less(theta, zero - plane.points_low) & less(zero, plane.light_high))};
+    Sides all = sides_of_centre(shaft, t);
+    all.front &= some.front, all.back &= some.back;
+    if (dark != no_triangle) all = {0, 0};
+    if ((all.front | all.back) != 0) {
+      const Double8 sure = theta_high(block, plane, contact.most);
+      all.front &= bits(less(sure, plane.points_low) & less(plane.light_high, zero));
+      all.back &= bits(less(sure, zero - plane.points_high) & less(zero, plane.light_low));
     }
-    const std::uint32_t all = (all_front & front) | (all_back & back);
-    if (all != 0 && dark == no_triangle) dark = block.ids[std::countr_zero(all)];
-    if ((front | back) != 0) out[count++] = {ref.block, front | back};
+    if (few || (all.front | all.back) != 0) keep_crossed(shaft, block, t, some, all);
+    if ((all.front | all.back) != 0) dark = block.ids[std::countr_zero(all.front | all.back)];
+    if ((some.front | some.back) != 0) out[count++] = {ref.block, some.front | some.back};
   }
   return count;
 }

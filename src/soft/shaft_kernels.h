@@ -22,9 +22,9 @@ struct ShaftKernels {
   std::size_t (*drop_behind)(std::span<const Receiver> receivers, const LightShape& light,
                              const TriangleBlock* blocks, std::span<const BlockRef> in,
                              BlockRef* out) = nullptr;
-  /// Drops what all lines pass on the outer side of an edge (Theorem 1), and triangles whose own plane has
-  /// not points and light on two sides. `dark` gets the id of the first triangle that blocks all lines for
-  /// certain, if there is one; it may be a receiver.
+  /// Drops triangles whose own plane has not points and light on two sides and, where they are few, what all
+  /// lines pass on the outer side of an edge (Theorem 1). `dark` gets the id of the first triangle that
+  /// blocks all lines for certain, if there is one; it may be a receiver.
   std::size_t (*drop_beside)(const Shaft& shaft, ContactRange contact, const TriangleBlock* blocks,
                              std::span<const BlockRef> in, BlockRef* out, std::uint32_t& dark) = nullptr;
 };

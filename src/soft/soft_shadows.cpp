@@ -66,13 +66,14 @@ struct SoftShadowTracer::State {
   SoftStats stats;
   FrameTimings timings;
 
-  void prepare(const SoftShadowConfig& config, std::size_t pixels, SoftMask& out);
+  void prepare(const SoftShadowConfig& config);
+  void clear_pixels(const VisiblePoints& points, SoftMask& out);
   void solve_group(const SoftFrame& frame, const PointGroup& group, std::span<const std::uint32_t> candidates,
                    GroupClass kind, Worker& worker);
   void gather();
 };
 
-void SoftShadowTracer::State::prepare(const SoftShadowConfig& config, std::size_t pixels, SoftMask& out) {
+void SoftShadowTracer::State::prepare(const SoftShadowConfig& config) {
   if (workers.size() != static_cast<std::size_t>(thread_count()) || level != config.simd) {
     workers.clear();
     workers.resize(static_cast<std::size_t>(thread_count()));
@@ -85,8 +86,20 @@ void SoftShadowTracer::State::prepare(const SoftShadowConfig& config, std::size_
   }
   stats = {};
   timings = {};
-  out.visible_fraction.assign(pixels, 0.0f);
-  out.irradiance.assign(pixels, 0.0f);
+}
+
+void SoftShadowTracer::State::clear_pixels(const VisiblePoints& points, SoftMask& out) {
+  const std::size_t pixels = points.triangles.size();
+  out.visible_fraction.resize(pixels);
+  out.irradiance.resize(pixels);
+  classes.resize(pixels);
+  parallel_ranges(pixels, 1 << 16, [&](std::size_t first, std::size_t last) {
+    std::fill(&out.visible_fraction[first], &out.visible_fraction[0] + last, 0.0f);
+    std::fill(&out.irradiance[first], &out.irradiance[0] + last, 0.0f);
+    for (std::size_t i = first; i < last; ++i)
+      classes[i] = static_cast<std::uint8_t>(points.triangles[i] == no_triangle ? SoftClass::background
+                                                                                : SoftClass::below_horizon);
+  });
 }
 
 void SoftShadowTracer::State::solve_group(const SoftFrame& frame, const PointGroup& group,
@@ -131,12 +144,8 @@ bool SoftShadowTracer::trace(const VisiblePoints& points, std::span<const glm::v
                              const SoftShadowConfig& config, SoftMask& out, const StopFlag* stop) {
   const FloatEnvironment ieee;
   State& s = *state_;
-  s.prepare(config, points.triangles.size(), out);
-  s.classes.resize(points.triangles.size());
-  for (std::size_t i = 0; i < points.triangles.size(); ++i) {
-    s.classes[i] = static_cast<std::uint8_t>(points.triangles[i] == no_triangle ? SoftClass::background
-                                                                                : SoftClass::below_horizon);
-  }
+  s.prepare(config);
+  s.clear_pixels(points, out);
   Stopwatch watch;
   group_points(points, view, triangles, light, config.grouping, s.groups, config.simd);
   s.timings.shaft_ms = watch.lap_ms();
