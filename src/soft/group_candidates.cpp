@@ -171,7 +171,7 @@ private:
     c.triangle = id;
     const int points = is(l.in_front) ? 1 : is(l.behind) ? -1 : 0;
     if (points == 0 ||
-        std::find(group.receivers.begin(), group.receivers.end(), id) != group.receivers.end()) {
+        std::binary_search(group.receivers.begin(), group.receivers.end(), id)) {
       c.height = static_cast<std::uint32_t>(out.heights.size());
       c.has_plane = true;
       out.heights.push_back({l.height[i],
@@ -226,6 +226,16 @@ LightAxes light_axes(const LightFrame& light, const glm::dvec3& centre) {
   axes.centre_uv = {glm::dot(from, axes.u), glm::dot(from, axes.v), glm::dot(from, light.normal) / unit};
   axes.turn = glm::dot(glm::cross(light.ex, light.ey), axes.height) > 0 ? 1.0 : -1.0;
   return axes;
+}
+
+int certain_sign(const PlaneHeight& plane, const glm::dvec3& centre, const GroupFrame& group) {
+  const glm::dvec3 d = group.centre - centre, slope = glm::abs(plane.slope);
+  const auto sum = [](const glm::dvec3& v) { return std::abs(v.x) + std::abs(v.y) + std::abs(v.z); };
+  const double height = plane.height + glm::dot(d, plane.slope);
+  const double rounding =
+      product_rounding * (std::abs(plane.height) + sum(slope) * (sum(group.centre) + sum(centre) + sum(group.half)));
+  const double least = plane.threshold + group.receiver_tau * plane.length + glm::dot(slope, group.half) + rounding;
+  return height < -least ? 1 : height > least ? -1 : 0;
 }
 
 FindCandidates find_candidates_kernel(SimdLevel level) {

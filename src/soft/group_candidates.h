@@ -25,7 +25,7 @@ inline constexpr double product_rounding = 0x1p-48;
 /// What the points of a group share. World space.
 struct GroupFrame {
   glm::dvec3 centre{0.0}, half{0.0};         ///< box of the points
-  std::span<const std::uint32_t> receivers;  ///< triangles that the points lie on
+  std::span<const std::uint32_t> receivers;  ///< triangles that the points lie on, ascending
   double receiver_tau = 0;                   ///< largest rounding tolerance of these
 };
 
@@ -66,6 +66,9 @@ inline int blocking_sign(const PlaneHeight& plane, const glm::dvec3& d, double r
   return height < -threshold ? 1 : height > threshold ? -1 : 0;
 }
 
+/// blocking_sign() where it is the same for all points of `group`, `centre` + d each; 0 where it might not be.
+int certain_sign(const PlaneHeight& plane, const glm::dvec3& centre, const GroupFrame& group);
+
 /// A triangle that may block, or two that are seen as one quadrilateral (quads.h).
 struct Candidate {
   double corners[4][3];  ///< corner, coordinate in LightAxes; a triangle's fourth is its first
@@ -76,6 +79,7 @@ struct Candidate {
   /// Class of the solid angle at the group's centre: its binary logarithm, rounded down. Of a pair about so.
   std::int32_t size = 0;
   std::uint32_t height = 0;  ///< index into GroupCandidates::heights where sign is 0
+  std::uint32_t second = 0;  ///< place of a pair's other triangle in GroupCandidates::all
   bool has_plane = false;
   bool is_quad = false;
   /// Well apart from all points and the light's plane: its shadow there is finite.

@@ -9,6 +9,7 @@
 #include <algorithm>
 #include <bit>
 #include <cmath>
+#include <iterator>
 #include <numeric>
 #include <utility>
 
@@ -43,27 +44,30 @@ public:
 
   void solve(const SoftFrame& frame, const GroupTask& task) override {
     Stopwatch watch;
-    receiver_ = {};
     set_up(frame, task);
-    const bool wide = frame.config.precision == SoftPrecision::reference;
-    const bool packets = !wide && wants_packets(frame);
-    if (wide) {
-      reset(double_);
-    } else if (packets) {
-      packet_.reset(candidates_, clipped_);
-      clip_is_ready_ = false;
-    } else {
-      reset(float_);
-    }
     times.init_ms += watch.lap_ms();
-    if (wide) {
-      solve_points(double_, frame, task);
-    } else if (packets) {
-      solve_packets(frame, task.pixels);
-    } else {
-      solve_points(float_, frame, task);
+    solve_ready(frame, task);
+  }
+
+  void solve_together(const SoftFrame& frame, const GroupFrame& around,
+                      std::span<const GroupTask> tasks) override {
+    Stopwatch watch;
+    merge_candidates(tasks);
+    set_up(frame, {{}, around, ids_});
+    times.init_ms += watch.lap_ms();
+    const std::span<const std::uint32_t> all = clipped_;
+    const bool together = outline_.empty();  // else each had better have an outline of its own
+    for (const GroupTask& task : tasks) {
+      if (!together) {
+        solve(frame, task);
+        continue;
+      }
+      watch.lap_ms();
+      choose_own(task, all);
+      times.init_ms += watch.lap_ms();
+      solve_ready(frame, task);
+      for (const std::uint32_t place : decided_) candidates_.all[place].sign = 0;
     }
-    times.query_ms += watch.lap_ms();
   }
 
   void solve_lit(const SoftFrame& frame, std::span<const std::uint32_t> pixels) override {
@@ -104,6 +108,66 @@ public:
   }
 
 private:
+  /// After set_up().
+  void solve_ready(const SoftFrame& frame, const GroupTask& task) {
+    Stopwatch watch;
+    receiver_ = {};
+    const bool wide = frame.config.precision == SoftPrecision::reference;
+    const bool packets = !wide && wants_packets(frame);
+    if (wide) {
+      reset(double_);
+    } else if (packets) {
+      packet_.reset(candidates_, clipped_);
+      clip_is_ready_ = false;
+    } else {
+      reset(float_);
+    }
+    times.init_ms += watch.lap_ms();
+    if (wide) {
+      solve_points(double_, frame, task);
+    } else if (packets) {
+      solve_packets(frame, task.pixels);
+    } else {
+      solve_points(float_, frame, task);
+    }
+    times.query_ms += watch.lap_ms();
+  }
+
+  void merge_candidates(std::span<const GroupTask> tasks) {
+    ids_.clear();
+    for (const GroupTask& task : tasks) {
+      merged_.clear();
+      std::set_union(ids_.begin(), ids_.end(), task.candidates.begin(), task.candidates.end(),
+                     std::back_inserter(merged_));
+      ids_.swap(merged_);
+    }
+  }
+
+  /// Fills clipped_ with those of `places` that are the group's, and decides signs that are certain for it.
+  void choose_own(const GroupTask& task, std::span<const std::uint32_t> places) {
+    std::vector<Candidate>& all = candidates_.all;
+    is_own_.assign(all.size(), 0);
+    auto id = task.candidates.begin();
+    for (std::size_t i = 0; i < all.size(); ++i) {
+      while (id != task.candidates.end() && *id < all[i].triangle) ++id;
+      is_own_[i] = id != task.candidates.end() && *id == all[i].triangle;
+    }
+    own_.clear();
+    decided_.clear();
+    for (const std::uint32_t place : places) {
+      Candidate& c = all[place];
+      if (is_own_[place] == 0 && !(c.is_quad && is_own_[c.second] != 0)) continue;
+      own_.push_back(place);
+      if (c.sign != 0 ||
+          std::binary_search(task.frame.receivers.begin(), task.frame.receivers.end(), c.triangle))
+        continue;
+      c.sign = candidates_.axes.turn *
+               certain_sign(candidates_.heights[c.height], candidates_.axes.centre, task.frame);
+      if (c.sign != 0) decided_.push_back(place);
+    }
+    clipped_ = own_;
+  }
+
   /// Of lit points: a horizon may cut the light.
   void solve_cut(const SoftFrame& frame, std::uint32_t pixel) {
     solve_point(double_, frame, pixel);
@@ -414,6 +478,9 @@ private:
   FindCandidates find_candidates_;
   GroupCandidates candidates_;
   OutlineFinder finder_;
+  std::vector<std::uint32_t> ids_, merged_;  ///< candidates of several groups
+  std::vector<std::uint8_t> is_own_;         ///< of these, whether they are those of the group at hand
+  std::vector<std::uint32_t> own_, decided_;  ///< places; decided_ have a sign only for the group at hand
   GroupOutline outline_;
   std::vector<std::uint32_t> rest_;  ///< places of the candidates that the outline leaves
   CandidateOrder order_;

@@ -29,7 +29,7 @@ struct SoftFrame {
 struct GroupTask {
   std::span<const std::uint32_t> pixels;
   GroupFrame frame;
-  std::span<const std::uint32_t> candidates;  ///< triangles; all that block are among them
+  std::span<const std::uint32_t> candidates;  ///< triangles, ascending; all that block are among them
 };
 
 /// Times of one thread, milliseconds.
@@ -44,6 +44,10 @@ public:
 
   /// Fills out's pixels of the group. The result depends on the group alone.
   virtual void solve(const SoftFrame& frame, const GroupTask& task) = 0;
+  /// The same for groups that lie near each other, within `around`, and have many candidates: these are made
+  /// ready once for all.
+  virtual void solve_together(const SoftFrame& frame, const GroupFrame& around,
+                              std::span<const GroupTask> tasks) = 0;
   /// The same for a group that nothing stands in front of.
   virtual void solve_lit(const SoftFrame& frame, std::span<const std::uint32_t> pixels) = 0;
 

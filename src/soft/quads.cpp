@@ -67,7 +67,10 @@ void pair_triangles(const GroupFrame& group, GroupCandidates& candidates,
   const dvec3 half = candidates.axes.half_around(group.half);
   std::size_t kept = 0;
   for (const std::uint32_t place : places) {
-    if (kept > 0 && pair(candidates.all[places[kept - 1]], candidates.all[place], half)) continue;
+    if (kept > 0 && pair(candidates.all[places[kept - 1]], candidates.all[place], half)) {
+      candidates.all[places[kept - 1]].second = place;
+      continue;
+    }
     places[kept++] = place;
   }
   places.resize(kept);

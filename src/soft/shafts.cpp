@@ -63,7 +63,7 @@ class Descent {
 public:
   Descent(const PointGroups& groups, const TriangleView& triangles, const LightShape& light,
           const ShaftKernels& kernels, ShaftMaker make_shaft, const StopFlag* stop, const GroupBody& body,
-          std::vector<ThreadScratch>& scratch)
+          const FamilyEnd& end, std::vector<ThreadScratch>& scratch)
       : groups_(groups),
         triangles_(triangles),
         light_(light),
@@ -71,13 +71,15 @@ public:
         make_shaft_(make_shaft),
         stop_(stop),
         body_(body),
+        end_(end),
         scratch_(scratch) {}
 
   /// `from`: what may matter to the node, found for a node of `groups` groups.
   void descend(const GroupNode& node, const BlockList& from, std::uint32_t groups);
 
 private:
-  void descend_children(const GroupNode& node, const BlockList& list, std::uint32_t groups);
+  void narrow(const GroupNode& node, const BlockList& from, std::uint32_t groups, auto&& next);
+  void decide_all(const GroupNode& node, const BlockList& from, std::uint32_t groups);
   void decide(const PointGroup& group, const BlockList& from);
   std::uint32_t cull(const PointGroup& group, const BlockList& from, ThreadScratch& scratch,
                      BlockList& list) const;
@@ -90,6 +92,7 @@ private:
   ShaftMaker make_shaft_;
   const StopFlag* stop_;
   const GroupBody& body_;
+  const FamilyEnd& end_;
   std::vector<ThreadScratch>& scratch_;
 };
 
@@ -99,34 +102,49 @@ void filter(BlockList& list, const BlockList& from, auto&& kernel) {
   list.refs.resize(kernel(list.blocks, std::span<const BlockRef>(from.refs), list.refs.data()));
 }
 
-void Descent::descend(const GroupNode& node, const BlockList& from, std::uint32_t groups) {
-  if (stop_requested(stop_)) return;
-  ThreadScratch& scratch = scratch_[static_cast<std::size_t>(thread_index())];
-  if (node.children == 0) {
-    decide(groups_.groups[node.first], from);
-    return;
-  }
+// Calls `next` with what of `from` matters to the node, and the number of groups that this was found for.
+void Descent::narrow(const GroupNode& node, const BlockList& from, std::uint32_t groups, auto&& next) {
   if (from.refs.empty() || node.count < fewest_groups || node.count > most_groups * groups) {
-    descend_children(node, from, groups);
+    next(from, groups);
     return;
   }
+  ThreadScratch& scratch = scratch_[static_cast<std::size_t>(thread_index())];
   ListLease list(scratch);
   Stopwatch watch;
   const Shaft shaft = make_shaft_(box_cell(node.low, node.high, light_), light_);
   filter(*list, from, [&](auto... rest) { return kernels_.cull(shaft, rest...); });
   list->compact();
   scratch.stats.seconds += watch.lap_ms() * 1e-3;
-  descend_children(node, *list, node.count);
+  next(*list, node.count);
 }
 
-void Descent::descend_children(const GroupNode& node, const BlockList& list, std::uint32_t groups) {
-  const GroupNode* children = &groups_.nodes[node.children];
-  if (node.points * (block_size * list.refs.size() + 1) > serial_work) {
-    parallel_tasks(2, [&](int k) { descend(children[k], list, groups); });
-  } else {
-    descend(children[0], list, groups);
-    descend(children[1], list, groups);
+void Descent::descend(const GroupNode& node, const BlockList& from, std::uint32_t groups) {
+  if (stop_requested(stop_)) return;
+  if (node.count <= largest_family) {
+    decide_all(node, from, groups);
+    end_(thread_index());
+    return;
   }
+  narrow(node, from, groups, [&](const BlockList& list, std::uint32_t found_for) {
+    const GroupNode* children = &groups_.nodes[node.children];
+    if (node.points * (block_size * list.refs.size() + 1) > serial_work) {
+      parallel_tasks(2, [&](int k) { descend(children[k], list, found_for); });
+    } else {
+      descend(children[0], list, found_for);
+      descend(children[1], list, found_for);
+    }
+  });
+}
+
+void Descent::decide_all(const GroupNode& node, const BlockList& from, std::uint32_t groups) {
+  if (node.children == 0) {
+    decide(groups_.groups[node.first], from);
+    return;
+  }
+  narrow(node, from, groups, [&](const BlockList& list, std::uint32_t found_for) {
+    decide_all(groups_.nodes[node.children], list, found_for);
+    decide_all(groups_.nodes[node.children + 1], list, found_for);
+  });
 }
 
 void Descent::decide(const PointGroup& group, const BlockList& from) {
@@ -204,7 +222,7 @@ const ShaftStats& ShaftCuller::stats() const {
 
 bool ShaftCuller::for_each_group(const PointGroups& groups, const TriangleView& triangles,
                                  const AreaLight& area_light, const SoftShadowConfig& config,
-                                 const StopFlag* stop, const GroupBody& body) {
+                                 const StopFlag* stop, const GroupBody& body, const FamilyEnd& end) {
   State& s = *state_;
   s.stats = {};
   const FloatEnvironment ieee;
@@ -216,7 +234,7 @@ bool ShaftCuller::for_each_group(const PointGroups& groups, const TriangleView& 
   s.stats.seconds = watch.lap_ms() * 1e-3;
   const ShaftKernels kernels = shaft_kernels(config.simd);
   if (!groups.nodes.empty())
-    Descent(groups, triangles, light, kernels, shaft_maker(config.simd), stop, body, s.scratch)
+    Descent(groups, triangles, light, kernels, shaft_maker(config.simd), stop, body, end, s.scratch)
         .descend(groups.nodes[0], s.casters, groups.nodes[0].count);
   for (const ThreadScratch& scratch : s.scratch) add(s.stats, scratch.stats);
   return !stop_requested(stop);

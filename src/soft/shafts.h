@@ -25,6 +25,11 @@ enum class GroupClass : std::uint8_t {
 using GroupBody = std::function<void(const PointGroup& group, std::span<const std::uint32_t> candidates,
                                      GroupClass kind, int thread)>;
 
+/// Groups that lie near each other, a family, come to the body one after the other, all with the same
+/// `thread`; then this is called. Families do not depend on threads.
+using FamilyEnd = std::function<void(int thread)>;
+inline constexpr std::uint32_t largest_family = 6;  ///< groups
+
 /// Counts do not depend on threads.
 struct ShaftStats {
   std::uint64_t groups_lit = 0, groups_dark = 0, groups_mixed = 0;
@@ -43,11 +48,12 @@ public:
   ~ShaftCuller();
 
   /// Calls `body` once for each group, in parallel; subtrees with much work are shared out down to single
-  /// groups. A triangle is left out of a group's candidates only if it is certain that it blocks no line from
+  /// families. A triangle is left out of a group's candidates only if it is certain that it blocks no line from
   /// a point of the group to the light, by the rule of SoftShadowTracer::trace; the rest depends neither on
   /// threads nor on the instruction set. Returns false, with some groups left out, if `stop` was requested.
   bool for_each_group(const PointGroups& groups, const TriangleView& triangles, const AreaLight& light,
-                      const SoftShadowConfig& config, const StopFlag* stop, const GroupBody& body);
+                      const SoftShadowConfig& config, const StopFlag* stop, const GroupBody& body,
+                      const FamilyEnd& end = [](int) {});
 
   const ShaftStats& stats() const;  ///< of the last call
 

@@ -21,22 +21,36 @@ constexpr std::array<std::pair<SoftSolver, std::string_view>, 3> solver_names = 
     {SoftSolver::clip, "clip"},
 }};
 
-/// What one thread keeps: its solver and the receivers of the group at hand.
+/// Candidates of a group, on average, from which on those of a family are made ready together (measured).
+constexpr std::size_t many_candidates = 1024;
+
+/// What one thread keeps: its solver, and of the family at hand the groups that need it.
 struct Worker {
   std::unique_ptr<GroupSolver> solver;
-  std::vector<std::uint32_t> receivers;
+  std::vector<const PointGroup*> mixed;
+  std::vector<std::vector<std::uint32_t>> candidates, receivers;  ///< of each
+  std::vector<GroupTask> tasks;
 };
 
-GroupFrame frame_of(const PointGroup& group, const PointGroups& groups,
+/// The frame of several groups.
+GroupFrame frame_of(std::span<const PointGroup* const> of, const PointGroups& groups,
                     std::vector<std::uint32_t>& receivers) {
   GroupFrame frame;
-  frame.centre = 0.5 * (group.low + group.high);
-  frame.half = glm::max(group.high - frame.centre, frame.centre - group.low);
+  glm::dvec3 low = of[0]->low, high = of[0]->high;
   receivers.clear();
-  for (const Receiver& receiver : groups.receivers_of(group)) {
-    receivers.push_back(receiver.triangle);
-    frame.receiver_tau = std::max(frame.receiver_tau, receiver.tau);
+  for (const PointGroup* group : of) {
+    low = glm::min(low, group->low), high = glm::max(high, group->high);
+    for (const Receiver& receiver : groups.receivers_of(*group)) {
+      receivers.push_back(receiver.triangle);
+      frame.receiver_tau = std::max(frame.receiver_tau, receiver.tau);
+    }
   }
+  if (of.size() > 1) {
+    std::sort(receivers.begin(), receivers.end());
+    receivers.erase(std::unique(receivers.begin(), receivers.end()), receivers.end());
+  }
+  frame.centre = 0.5 * (low + high);
+  frame.half = glm::max(high - frame.centre, frame.centre - low);
   frame.receivers = receivers;
   return frame;
 }
@@ -70,6 +84,7 @@ struct SoftShadowTracer::State {
   void clear_pixels(const VisiblePoints& points, SoftMask& out);
   void solve_group(const SoftFrame& frame, const PointGroup& group, std::span<const std::uint32_t> candidates,
                    GroupClass kind, Worker& worker);
+  void solve_family(const SoftFrame& frame, Worker& worker);
   void gather();
 };
 
@@ -115,10 +130,31 @@ void SoftShadowTracer::State::solve_group(const SoftFrame& frame, const PointGro
   } else if (kind == GroupClass::lit) {
     worker.solver->solve_lit(frame, pixels);
   } else {
-    const GroupFrame group_frame = frame_of(group, groups, worker.receivers);
-    worker.solver->stats.candidates += candidates.size();
-    worker.solver->solve(frame, {pixels, group_frame, candidates});
+    const std::size_t i = worker.mixed.size();
+    worker.mixed.push_back(&group);
+    if (worker.candidates.size() == i) worker.candidates.emplace_back();
+    worker.candidates[i].assign(candidates.begin(), candidates.end());
   }
+}
+
+void SoftShadowTracer::State::solve_family(const SoftFrame& frame, Worker& worker) {
+  const std::size_t count = worker.mixed.size();
+  if (worker.receivers.size() < count + 1) worker.receivers.resize(count + 1);
+  std::size_t candidates = 0;
+  worker.tasks.clear();
+  for (std::size_t i = 0; i < count; ++i) {
+    worker.tasks.push_back({groups.pixels_of(*worker.mixed[i]),
+                            frame_of({&worker.mixed[i], 1}, groups, worker.receivers[i]),
+                            worker.candidates[i]});
+    candidates += worker.candidates[i].size();
+  }
+  worker.solver->stats.candidates += candidates;
+  if (frame.config.solver == SoftSolver::automatic && count > 1 && candidates > many_candidates * count) {
+    worker.solver->solve_together(frame, frame_of(worker.mixed, groups, worker.receivers[count]), worker.tasks);
+  } else {
+    for (const GroupTask& task : worker.tasks) worker.solver->solve(frame, task);
+  }
+  worker.mixed.clear();
 }
 
 void SoftShadowTracer::State::gather() {
@@ -159,7 +195,8 @@ bool SoftShadowTracer::trace(const VisiblePoints& points, std::span<const glm::v
       s.groups, triangles, light, config, stop,
       [&](const PointGroup& group, std::span<const std::uint32_t> candidates, GroupClass kind, int thread) {
         s.solve_group(frame, group, candidates, kind, s.workers[static_cast<std::size_t>(thread)]);
-      });
+      },
+      [&](int thread) { s.solve_family(frame, s.workers[static_cast<std::size_t>(thread)]); });
   s.gather();
   return done;
 }
