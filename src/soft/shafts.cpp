@@ -99,17 +99,22 @@ void filter(BlockList& list, const BlockList& from, auto&& kernel) {
   list.refs.resize(kernel(list.blocks, std::span<const BlockRef>(from.refs), list.refs.data()));
 }
 
+bool worth_sharing(const GroupNode& node, const BlockList& list) {
+  return node.points * (block_size * list.refs.size() + 1) > serial_work;
+}
+
 void Descent::descend(const GroupNode& node, const BlockList& from, std::uint32_t groups) {
   if (stop_requested(stop_)) return;
-  ThreadScratch& scratch = scratch_[static_cast<std::size_t>(thread_index())];
-  if (node.children == 0) {
-    decide(groups_.groups[node.first], from);
+  const bool hands_on = from.refs.empty() || node.count < fewest_groups;
+  if (node.children == 0 || (hands_on && !worth_sharing(node, from))) {
+    for (std::uint32_t i = 0; i < node.count; ++i) decide(groups_.groups[node.first + i], from);
     return;
   }
-  if (from.refs.empty() || node.count < fewest_groups || node.count > most_groups * groups) {
+  if (hands_on || node.count > most_groups * groups) {
     descend_children(node, from, groups);
     return;
   }
+  ThreadScratch& scratch = scratch_[static_cast<std::size_t>(thread_index())];
   ListLease list(scratch);
   Stopwatch watch;
   const Shaft shaft = make_shaft_(box_cell(node.low, node.high, light_), light_);
@@ -121,7 +126,7 @@ void Descent::descend(const GroupNode& node, const BlockList& from, std::uint32_
 
 void Descent::descend_children(const GroupNode& node, const BlockList& list, std::uint32_t groups) {
   const GroupNode* children = &groups_.nodes[node.children];
-  if (node.points * (block_size * list.refs.size() + 1) > serial_work) {
+  if (worth_sharing(node, list)) {
     parallel_tasks(2, [&](int k) { descend(children[k], list, groups); });
   } else {
     descend(children[0], list, groups);
