@@ -102,6 +102,10 @@ void filter(BlockList& list, const BlockList& from, auto&& kernel) {
   list.refs.resize(kernel(list.blocks, std::span<const BlockRef>(from.refs), list.refs.data()));
 }
 
+bool worth_sharing(const GroupNode& node, const BlockList& list) {
+  return node.points * (block_size * list.refs.size() + 1) > serial_work;
+}
+
 // Calls `next` with what of `from` matters to the node, and the number of groups that this was found for.
 void Descent::narrow(const GroupNode& node, const BlockList& from, std::uint32_t groups, auto&& next) {
   if (from.refs.empty() || node.count < fewest_groups || node.count > most_groups * groups) {
@@ -120,14 +124,14 @@ void Descent::narrow(const GroupNode& node, const BlockList& from, std::uint32_t
 
 void Descent::descend(const GroupNode& node, const BlockList& from, std::uint32_t groups) {
   if (stop_requested(stop_)) return;
-  if (node.count <= largest_family) {
+  if (node.count <= largest_family || (from.refs.empty() && !worth_sharing(node, from))) {
     decide_all(node, from, groups);
     end_(thread_index());
     return;
   }
   narrow(node, from, groups, [&](const BlockList& list, std::uint32_t found_for) {
     const GroupNode* children = &groups_.nodes[node.children];
-    if (node.points * (block_size * list.refs.size() + 1) > serial_work) {
+    if (worth_sharing(node, list)) {
       parallel_tasks(2, [&](int k) { descend(children[k], list, found_for); });
     } else {
       descend(children[0], list, found_for);
@@ -137,8 +141,8 @@ void Descent::descend(const GroupNode& node, const BlockList& from, std::uint32_
 }
 
 void Descent::decide_all(const GroupNode& node, const BlockList& from, std::uint32_t groups) {
-  if (node.children == 0) {
-    decide(groups_.groups[node.first], from);
+  if (from.refs.empty() || node.count < fewest_groups) {
+    for (std::uint32_t i = 0; i < node.count; ++i) decide(groups_.groups[node.first + i], from);
     return;
   }
   narrow(node, from, groups, [&](const BlockList& list, std::uint32_t found_for) {
