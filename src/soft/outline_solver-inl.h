@@ -1,7 +1,7 @@
-// The visible part of the light from the outline of meshes: it is cut along the edges that cross it, and a
-// part that no edge crosses any more is visible if the outline winds around it zero times. A part is dark,
-// and need not be cut, as soon as the edges that cross it cannot bring its winding down to zero. Included
-// once per target.
+// The visible part of the light from the outline of meshes: its border (outline_border-inl.h), for parts with
+// many edges strip by strip. Where rounding might decide, or a horizon is to cut what is found, the light is
+// cut along the edges that cross it, and a part that no edge crosses any more is visible if the outline winds
+// around it zero times. Included once per target.
 #if defined(TENEBRA_SOFT_OUTLINE_SOLVER_INL_H_) == defined(HWY_TARGET_TOGGLE)
 #ifdef TENEBRA_SOFT_OUTLINE_SOLVER_INL_H_
 #undef TENEBRA_SOFT_OUTLINE_SOLVER_INL_H_

@@ -66,6 +66,17 @@ Soup with(Soup a, const Soup& b) {
   return a;
 }
 
+// A part of the light that is cut, for doubt, leaves fragments; a border leaves none.
+TEST(SoftOutlineBorder, NeedsNoCutsButForDoubt) {
+  const Soup balls = with(sphere(8, 0.6, {0, 2, 0}), torus(40, 16, 0.7, 0.2).moved(1, {0.3, 1.6, 0.2}));
+  const SoftCase c = over_floor("ball and ring", balls.moved(0.97, {0.013, 0.05, 0.027}));
+  SoftStats stats;
+  traced(c, c.config, &stats);
+  EXPECT_GT(stats.points_outline, 1000u);
+  EXPECT_GT(stats.points_penumbra, 1000u);
+  EXPECT_LT(stats.fragments, stats.points_lit + stats.points_penumbra / 50);
+}
+
 TEST(SoftOutlineBorder, OutlinesThatNearlyCoincide) {
   const Soup ball = sphere(6, 0.5, {0, 2, 0}), boxes = box({-0.4, 1.9, -0.3}, {0.5, 2.2, 0.4});
   std::size_t between = 0, by_outline = 0;
