@@ -20,6 +20,11 @@ namespace {
 using Double8 = Pack<double, 8>;
 using Vector8 = Pack3<Double8>;
 
+/// Not fused: the same bits on every target.
+HWY_INLINE Double8 product(const Vector8& a, const Vector8& b) {
+  return a.x * b.x + a.y * b.y + a.z * b.z;
+}
+
 inline double size_of(const glm::dvec3& v) {
   return std::abs(v.x) + std::abs(v.y) + std::abs(v.z);
 }
@@ -70,7 +75,7 @@ private:
     const Vector8 v[3] = {corner(0), corner(1), corner(2)};
     const Vector8 centre = splat3<Double8>(group.centre.x, group.centre.y, group.centre.z);
     const Vector8 n = cross(v[1] - v[0], v[2] - v[0]);
-    const Double8 length = square_root(dot(n, n));
+    const Double8 length = square_root(product(n, n));
     const Vector8 from[3] = {v[0] - centre, v[1] - centre, v[2] - centre};
     find_sides(group, v, n, length, from[0]);
     find_light_sides(light, v[0], n, length);
@@ -86,7 +91,7 @@ private:
     const Double8 scale = num(axes.turn) / choose(less(num(0), size), size, num(1));
     store(along(light.ex) * scale, lanes_.plane[0]);
     store(along(light.ey) * scale, lanes_.plane[1]);
-    store(dot(n, to_origin) * scale, lanes_.plane[2]);
+    store(product(n, to_origin) * scale, lanes_.plane[2]);
   }
 
   HWY_INLINE void find_sides(const GroupFrame& group, const Vector8* v, const Vector8& n, Double8 length,
@@ -97,7 +102,7 @@ private:
     for (int k = 0; k < 3; ++k)
       largest = max(largest, max(absolute(v[k].x), max(absolute(v[k].y), absolute(v[k].z))));
     const Double8 tau = largest * num(1.7320508075688772 * 0x1p-24);
-    const Double8 height = zero - dot(n, from), far = absolute(height);
+    const Double8 height = zero - product(n, from), far = absolute(height);
     const Double8 spread = absolute(n.x) * num(group.half.x) + absolute(n.y) * num(group.half.y) +
                            absolute(n.z) * num(group.half.z);
     const Double8 margin =
@@ -119,7 +124,7 @@ private:
     std::uint32_t positive = ~0u, negative = ~0u;
     for (const glm::dvec2& at : light.outline) {
       const glm::dvec3 vertex = light.point(at);
-      const Double8 value = dot(n, splat3<Double8>(vertex.x, vertex.y, vertex.z) - v);
+      const Double8 value = product(n, splat3<Double8>(vertex.x, vertex.y, vertex.z) - v);
       const Double8 margin = slack * (splat<Double8>(size_of(vertex)) + size);
       positive &= less_bits(margin, value);
       negative &= less_bits(value, zero - margin);
@@ -133,9 +138,9 @@ private:
     const Vector8 sum{from[0].x + from[1].x + from[2].x, from[0].y + from[1].y + from[2].y,
                       from[0].z + from[1].z + from[2].z};
     const Vector8 middle{sum.x * third, sum.y * third, sum.z * third};
-    const Double8 square = dot(middle, middle), cube = square * square_root(square);
+    const Double8 square = product(middle, middle), cube = square * square_root(square);
     const auto near = less(splat<Double8>(0.0), cube);
-    store(choose(near, absolute(dot(n, from[0])) / choose(near, cube, third), splat<Double8>(0.0)),
+    store(choose(near, absolute(product(n, from[0])) / choose(near, cube, third), splat<Double8>(0.0)),
           lanes_.solid_angle);
   }
 

@@ -81,8 +81,7 @@ private:
   void narrow(const GroupNode& node, const BlockList& from, std::uint32_t groups, auto&& next);
   void decide_all(const GroupNode& node, const BlockList& from, std::uint32_t groups);
   void decide(const PointGroup& group, const BlockList& from);
-  std::uint32_t cull(const PointGroup& group, const BlockList& from, ThreadScratch& scratch,
-                     BlockList& list) const;
+  std::uint32_t cull(const PointGroup& group, const BlockList& from, BlockList& list) const;
   void hand_over(const PointGroup& group, GroupClass kind, ThreadScratch& scratch);
 
   const PointGroups& groups_;
@@ -161,7 +160,7 @@ void Descent::decide(const PointGroup& group, const BlockList& from) {
   }
   ListLease list(scratch);
   Stopwatch watch;
-  const std::uint32_t dark = cull(group, from, scratch, *list);
+  const std::uint32_t dark = cull(group, from, *list);
   if (dark != no_triangle)
     scratch.ids.push_back(dark);
   else
@@ -175,8 +174,7 @@ void Descent::decide(const PointGroup& group, const BlockList& from) {
 }
 
 // Leaves in `list` what may block a line from the group; returns the triangle that blocks all, if one does.
-std::uint32_t Descent::cull(const PointGroup& group, const BlockList& from, ThreadScratch& scratch,
-                            BlockList& list) const {
+std::uint32_t Descent::cull(const PointGroup& group, const BlockList& from, BlockList& list) const {
   const Shaft shaft = make_shaft_(group.cell, light_);
   filter(list, from, [&](auto... rest) { return kernels_.cull(shaft, rest...); });
   if (list.refs.empty()) return no_triangle;
