@@ -22,7 +22,7 @@ public:
   /// Leaves room in packet_vertices for what cuts add.
   static constexpr std::size_t most_light_vertices = 8;
   /// Of more, in clouds and trees, neighbours see too different fragments (measured).
-  static constexpr std::size_t most_occluders = 256;
+  static constexpr std::size_t most_occluders = 384;
 
   /// Takes over the candidates of a group in places `order`, largest first.
   void reset(const GroupCandidates& group, std::span<const std::uint32_t> order) {
