@@ -175,8 +175,7 @@ private:
     Candidate c;
     c.triangle = id;
     const int points = is(l.in_front) ? 1 : is(l.behind) ? -1 : 0;
-    if (points == 0 ||
-        std::binary_search(group.receivers.begin(), group.receivers.end(), id)) {
+    if (points == 0 || std::binary_search(group.receivers.begin(), group.receivers.end(), id)) {
       c.height = static_cast<std::uint32_t>(out.heights.size());
       c.has_plane = true;
       out.heights.push_back({l.height[i],
@@ -238,8 +237,10 @@ int certain_sign(const PlaneHeight& plane, const glm::dvec3& centre, const Group
   const auto sum = [](const glm::dvec3& v) { return std::abs(v.x) + std::abs(v.y) + std::abs(v.z); };
   const double height = plane.height + glm::dot(d, plane.slope);
   const double rounding =
-      product_rounding * (std::abs(plane.height) + sum(slope) * (sum(group.centre) + sum(centre) + sum(group.half)));
-  const double least = plane.threshold + group.receiver_tau * plane.length + glm::dot(slope, group.half) + rounding;
+      product_rounding *
+      (std::abs(plane.height) + sum(slope) * (sum(group.centre) + sum(centre) + sum(group.half)));
+  const double least =
+      plane.threshold + group.receiver_tau * plane.length + glm::dot(slope, group.half) + rounding;
   return height < -least ? 1 : height > least ? -1 : 0;
 }
 

@@ -66,7 +66,8 @@ inline int blocking_sign(const PlaneHeight& plane, const glm::dvec3& d, double r
   return height < -threshold ? 1 : height > threshold ? -1 : 0;
 }
 
-/// blocking_sign() where it is the same for all points of `group`, `centre` + d each; 0 where it might not be.
+/// blocking_sign() where it is the same for all points of `group`, `centre` + d each; 0 where it might not
+/// be.
 int certain_sign(const PlaneHeight& plane, const glm::dvec3& centre, const GroupFrame& group);
 
 /// A triangle that may block, or two that are seen as one quadrilateral (quads.h).

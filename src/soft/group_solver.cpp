@@ -9,13 +9,13 @@
 #include <algorithm>
 #include <bit>
 #include <cmath>
-#include <iterator>
 #include <numeric>
 #include <utility>
 
 #include "base/stopwatch.h"
 #include "soft/candidate_order.h"
 #include "soft/clip_solver-inl.h"
+#include "soft/family_candidates.h"
 #include "soft/line_class_query-inl.h"
 #include "soft/outline_solver-inl.h"
 #include "soft/packet_solver-inl.h"
@@ -52,8 +52,9 @@ public:
   void solve_together(const SoftFrame& frame, const GroupFrame& around,
                       std::span<const GroupTask> tasks) override {
     Stopwatch watch;
-    merge_candidates(tasks);
-    set_up(frame, {{}, around, ids_});
+    family_.clear();
+    for (const GroupTask& task : tasks) family_.add(task.candidates);
+    set_up(frame, {{}, around, family_.triangles()});
     times.init_ms += watch.lap_ms();
     const std::span<const std::uint32_t> all = clipped_;
     const bool together = outline_.empty();  // else each had better have an outline of its own
@@ -63,10 +64,10 @@ public:
         continue;
       }
       watch.lap_ms();
-      choose_own(task, all);
+      clipped_ = family_.choose(task.frame, task.candidates, all, candidates_);
       times.init_ms += watch.lap_ms();
       solve_ready(frame, task);
-      for (const std::uint32_t place : decided_) candidates_.all[place].sign = 0;
+      family_.restore(candidates_);
     }
   }
 
@@ -131,41 +132,6 @@ private:
       solve_points(float_, frame, task);
     }
     times.query_ms += watch.lap_ms();
-  }
-
-  void merge_candidates(std::span<const GroupTask> tasks) {
-    ids_.clear();
-    for (const GroupTask& task : tasks) {
-      merged_.clear();
-      std::set_union(ids_.begin(), ids_.end(), task.candidates.begin(), task.candidates.end(),
-                     std::back_inserter(merged_));
-      ids_.swap(merged_);
-    }
-  }
-
-  /// Fills clipped_ with those of `places` that are the group's, and decides signs that are certain for it.
-  void choose_own(const GroupTask& task, std::span<const std::uint32_t> places) {
-    std::vector<Candidate>& all = candidates_.all;
-    is_own_.assign(all.size(), 0);
-    auto id = task.candidates.begin();
-    for (std::size_t i = 0; i < all.size(); ++i) {
-      while (id != task.candidates.end() && *id < all[i].triangle) ++id;
-      is_own_[i] = id != task.candidates.end() && *id == all[i].triangle;
-    }
-    own_.clear();
-    decided_.clear();
-    for (const std::uint32_t place : places) {
-      Candidate& c = all[place];
-      if (is_own_[place] == 0 && !(c.is_quad && is_own_[c.second] != 0)) continue;
-      own_.push_back(place);
-      if (c.sign != 0 ||
-          std::binary_search(task.frame.receivers.begin(), task.frame.receivers.end(), c.triangle))
-        continue;
-      c.sign = candidates_.axes.turn *
-               certain_sign(candidates_.heights[c.height], candidates_.axes.centre, task.frame);
-      if (c.sign != 0) decided_.push_back(place);
-    }
-    clipped_ = own_;
   }
 
   /// Of lit points: a horizon may cut the light.
@@ -478,9 +444,7 @@ private:
   FindCandidates find_candidates_;
   GroupCandidates candidates_;
   OutlineFinder finder_;
-  std::vector<std::uint32_t> ids_, merged_;  ///< candidates of several groups
-  std::vector<std::uint8_t> is_own_;         ///< of these, whether they are those of the group at hand
-  std::vector<std::uint32_t> own_, decided_;  ///< places; decided_ have a sign only for the group at hand
+  FamilyCandidates family_;
   GroupOutline outline_;
   std::vector<std::uint32_t> rest_;  ///< places of the candidates that the outline leaves
   CandidateOrder order_;

@@ -48,12 +48,14 @@ public:
   ~ShaftCuller();
 
   /// Calls `body` once for each group, in parallel; subtrees with much work are shared out down to single
-  /// families. A triangle is left out of a group's candidates only if it is certain that it blocks no line from
-  /// a point of the group to the light, by the rule of SoftShadowTracer::trace; the rest depends neither on
-  /// threads nor on the instruction set. Returns false, with some groups left out, if `stop` was requested.
-  bool for_each_group(const PointGroups& groups, const TriangleView& triangles, const AreaLight& light,
-                      const SoftShadowConfig& config, const StopFlag* stop, const GroupBody& body,
-                      const FamilyEnd& end = [](int) {});
+  /// families. A triangle is left out of a group's candidates only if it is certain that it blocks no line
+  /// from a point of the group to the light, by the rule of SoftShadowTracer::trace; the rest depends neither
+  /// on threads nor on the instruction set. Returns false, with some groups left out, if `stop` was
+  /// requested.
+  bool for_each_group(
+      const PointGroups& groups, const TriangleView& triangles, const AreaLight& light,
+      const SoftShadowConfig& config, const StopFlag* stop, const GroupBody& body,
+      const FamilyEnd& end = [](int) {});
 
   const ShaftStats& stats() const;  ///< of the last call
 

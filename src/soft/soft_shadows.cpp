@@ -150,7 +150,8 @@ void SoftShadowTracer::State::solve_family(const SoftFrame& frame, Worker& worke
   }
   worker.solver->stats.candidates += candidates;
   if (frame.config.solver == SoftSolver::automatic && count > 1 && candidates > many_candidates * count) {
-    worker.solver->solve_together(frame, frame_of(worker.mixed, groups, worker.receivers[count]), worker.tasks);
+    worker.solver->solve_together(frame, frame_of(worker.mixed, groups, worker.receivers[count]),
+                                  worker.tasks);
   } else {
     for (const GroupTask& task : worker.tasks) worker.solver->solve(frame, task);
   }

@@ -56,5 +56,28 @@ TEST(SoftCloud, GivesWhatTheBspGives) {
   EXPECT_GT(dark, 40u);
 }
 
+// So many leaves, and halves of leaves, before each group of points that neighbours make them ready together.
+TEST(SoftCloud, GroupsTogetherSeeWhatEachSees) {
+  SoftCase c = below_cloud("5,000 leaves, seed 94", 5000, 0.1, 32, 94);
+  Random random(95);
+  for (int i = 0; i < 1500; ++i)
+    c.soup.quad(glm::dvec3(0, 2.5, 0) + random.in_cube(1), random.in_cube(0.06), random.in_cube(0.06));
+  c.config.solver = SoftSolver::clip;
+  c.config.precision = SoftPrecision::reference;
+  const SoftMask expected = traced(c, c.config);
+  std::size_t between = 0;
+  for (const SoftPrecision precision : {SoftPrecision::reference, SoftPrecision::fast}) {
+    c.config.solver = SoftSolver::automatic;
+    c.config.precision = precision;
+    const SoftMask mask = traced(c, c.config);
+    const double bound = precision == SoftPrecision::reference ? 1e-6 : fast_bound;
+    for (std::size_t i = 0; i < c.size(); ++i) {
+      between += expected.visible_fraction[i] > 0 && expected.visible_fraction[i] < 1;
+      EXPECT_NEAR(mask.visible_fraction[i], expected.visible_fraction[i], bound) << describe(c, i);
+    }
+  }
+  EXPECT_GT(between, 400u);
+}
+
 }  // namespace
 }  // namespace tenebra::testing
