@@ -11,19 +11,11 @@
 #include <cmath>
 
 #include "points/triangle_corners.h"
-#include "simd/pack-inl.h"
+#include "soft/vector_lanes-inl.h"
 
 HWY_BEFORE_NAMESPACE();
 namespace tenebra::HWY_NAMESPACE {
 namespace {
-
-using Double8 = Pack<double, 8>;
-using Vector8 = Pack3<Double8>;
-
-/// Not fused: the same bits on every target.
-HWY_INLINE Double8 product(const Vector8& a, const Vector8& b) {
-  return a.x * b.x + a.y * b.y + a.z * b.z;
-}
 
 inline double size_of(const glm::dvec3& v) {
   return std::abs(v.x) + std::abs(v.y) + std::abs(v.z);

@@ -6,8 +6,8 @@
 // After foreach_target.h
 #include <cmath>
 
-#include "simd/pack-inl.h"
 #include "soft/point_lanes.h"
+#include "soft/vector_lanes-inl.h"
 
 HWY_BEFORE_NAMESPACE();
 namespace tenebra::HWY_NAMESPACE {
@@ -15,35 +15,13 @@ namespace tenebra::HWY_NAMESPACE {
 namespace {
 
 using glm::dvec3;
-using Double8 = Pack<double, 8>;
-using Vector8 = Pack3<Double8>;
 
-// Products and sums are not fused: the same bits everywhere.
-HWY_INLINE Double8 all(double value) {
-  return splat<Double8>(value);
-}
-HWY_INLINE Vector8 all(const dvec3& v) {
-  return splat3<Double8>(v.x, v.y, v.z);
-}
-HWY_INLINE Double8 product(const Vector8& a, const Vector8& b) {
-  return a.x * b.x + a.y * b.y + a.z * b.z;
-}
-HWY_INLINE Vector8 operator+(const Vector8& a, const Vector8& b) {
-  return {a.x + b.x, a.y + b.y, a.z + b.z};
-}
-HWY_INLINE Vector8 operator*(Double8 s, const Vector8& a) {
-  return {s * a.x, s * a.y, s * a.z};
-}
 HWY_INLINE Vector8 eight_at(const PointLanes& points, std::size_t i) {
   return {load<Double8>(&points.x[8 * i]), load<Double8>(&points.y[8 * i]), load<Double8>(&points.z[8 * i])};
 }
 HWY_INLINE Truth<double, 8> lanes_of(PointSet set, std::size_t i) {
   return truth_of<double, 8>(set[i]);
 }
-HWY_INLINE Vector8 choose3(const Truth<double, 8>& t, const Vector8& a, const Vector8& b) {
-  return {choose(t, a.x, b.x), choose(t, a.y, b.y), choose(t, a.z, b.z)};
-}
-
 // In one order everywhere.
 HWY_INLINE double sum_of(Double8 a) {
   double v[8];

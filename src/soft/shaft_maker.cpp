@@ -6,8 +6,8 @@
 // After foreach_target.h
 #include <cmath>
 
-#include "simd/pack-inl.h"
 #include "soft/shaft.h"
+#include "soft/vector_lanes-inl.h"
 
 HWY_BEFORE_NAMESPACE();
 namespace tenebra::HWY_NAMESPACE {
@@ -15,35 +15,13 @@ namespace tenebra::HWY_NAMESPACE {
 namespace {
 
 using glm::dvec3;
-using Double8 = Pack<double, 8>;
-using Vector8 = Pack3<Double8>;
 
-// Products and sums are not fused: all instruction sets make the same shafts.
-HWY_INLINE Double8 all(double value) {
-  return splat<Double8>(value);
-}
-HWY_INLINE Vector8 all(const dvec3& v) {
-  return splat3<Double8>(v.x, v.y, v.z);
-}
-HWY_INLINE Double8 product(const Vector8& a, const Vector8& b) {
-  return a.x * b.x + a.y * b.y + a.z * b.z;
-}
-HWY_INLINE Vector8 sum(const Vector8& a, const Vector8& b) {
-  return {a.x + b.x, a.y + b.y, a.z + b.z};
-}
-HWY_INLINE Vector8 scaled(Double8 s, const Vector8& a) {
-  return {s * a.x, s * a.y, s * a.z};
-}
-template <class Condition>
-HWY_INLINE Vector8 choose3(const Condition& t, const Vector8& a, const Vector8& b) {
-  return {choose(t, a.x, b.x), choose(t, a.y, b.y), choose(t, a.z, b.z)};
-}
 // The corner of the cell, and the vertex of the light, farthest along m.
 HWY_INLINE Vector8 farthest(const Cell& cell, const Vector8& m) {
   Vector8 corner = all(cell.centre);
   for (const dvec3& a : cell.axis) {
     const Vector8 axis = all(a);
-    corner = sum(corner, choose3(less(all(0.0), product(m, axis)), axis, all(-a)));
+    corner = corner + choose3(less(all(0.0), product(m, axis)), axis, all(-a));
   }
   return corner;
 }
@@ -98,7 +76,7 @@ HWY_INLINE void add_planes(const Vector8& m_unscaled, Shaft& shaft) {
   const Double8 size = absolute(m_unscaled.x) + absolute(m_unscaled.y) + absolute(m_unscaled.z);
   const auto there = less(all(0x1p-900), size) & less(size, all(0x1p900));
   const Double8 scale = choose(there, all(1 - 0x1p-50) / choose(there, size, all(1)), all(0));
-  const Vector8 m = scaled(scale, m_unscaled);
+  const Vector8 m = scale * m_unscaled;
   Double8 most = product(m, all(shaft.cell.centre)) + all(shaft.cell.slack);
   for (const dvec3& a : shaft.cell.axis) most = most + absolute(product(m, all(a)));
   for (int k = 0; k < shaft.light->count; ++k) most = max(most, product(m, all(shaft.light->vertices[k])));
