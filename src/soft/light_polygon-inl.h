@@ -167,48 +167,48 @@ HWY_INLINE Pack<LaneIndex<T>, polygon_capacity> vertices_of(VertexRun run, int c
   return choose(greater(whole(run.length), lane), wrapped, whole(run.first));
 }
 
-/// The part of `polygon` at the vertices of `run`, on the positive side, closed by the points where the line
-/// crosses the edges that leave the run: behind its last vertex, then before its first.
+/// Where a line crosses edge k, from vertex k to the next, in lane k: anything where it does not.
 template <class T>
-HWY_INLINE LightPolygon<T> positive_part(const LightPolygon<T>& polygon,
-                                         const Pack<T, polygon_capacity>& values, VertexRun run) {
+struct EdgeCrossings {
+  Pack<T, polygon_capacity> x, y;
+};
+
+/// Found for all edges at once, before it is known which are crossed. Each place is seen from the end on the
+/// positive side. polygon.count < polygon_capacity.
+template <class T>
+HWY_INLINE EdgeCrossings<T> crossings_of(const LightPolygon<T>& polygon,
+                                         const Pack<T, polygon_capacity>& values) {
   using Lanes = Pack<T, polygon_capacity>;
   using Index = Pack<LaneIndex<T>, polygon_capacity>;
-  const int n = polygon.count;
-  const auto whole = [](int i) { return splat<Index>(static_cast<LaneIndex<T>>(i)); };
-  const auto cyclic = [n](int k) { return k < n ? k : k - n; };
-  const int last = cyclic(run.first + run.length - 1);
-  const Index lane = load<Index>(lane_numbers<T>);
-  const auto leaves = equal(lane, whole(run.length)), returns = equal(lane, whole(run.length + 1));
-  const Index within = choose(leaves, whole(last), vertices_of<T>(run, n));
-  const Index beyond =
-      choose(leaves, whole(cyclic(last + 1)), choose(returns, whole(cyclic(run.first + n - 1)), within));
-
+  constexpr LaneIndex<T> behind[polygon_capacity] = {1, 2, 3, 4, 5, 6, 7, 8, 9, 10, 11, 12, 13, 14, 15, 0};
+  const Index next = load<Index>(behind);
   const Lanes zero = splat<Lanes>(T(0)), one = splat<Lanes>(T(1));
-  const Lanes from = permute(values, within);
-  const Lanes drop = from - permute(values, beyond);
-  const Lanes share = min(max(from / choose(equal(drop, zero), one, drop), zero), one);
-  const Lanes t = choose(leaves, share, choose(returns, share, zero));
-  const Lanes x = permute(polygon.x, within), y = permute(polygon.y, within);
-  return {x + t * (permute(polygon.x, beyond) - x), y + t * (permute(polygon.y, beyond) - y), run.length + 2};
+  const Lanes next_values = permute(values, next);
+  const Lanes next_x = permute(polygon.x, next), next_y = permute(polygon.y, next);
+  const auto falls = less(next_values, values);
+  const Lanes from = max(values, next_values), drop = from - min(values, next_values);
+  const Lanes t = min(max(from / choose(equal(drop, zero), one, drop), zero), one);
+  const auto along = [&](Lanes here, Lanes there) {
+    const Lanes inside = choose(falls, here, there);
+    return inside + t * (choose(falls, there, here) - inside);
+  };
+  return {along(polygon.x, next_x), along(polygon.y, next_y)};
 }
 
-/// The other part: the vertices that are not of `run`, and the same two points.
+/// The vertices of `run`, and behind them where the line crosses the edges `leaving` and `returning`.
 template <class T>
-HWY_INLINE LightPolygon<T> negative_part(const LightPolygon<T>& polygon, VertexRun run,
-                                         const LightPolygon<T>& positive) {
-  using Lanes = Pack<T, polygon_capacity>;
+HWY_INLINE LightPolygon<T> part_of(const LightPolygon<T>& polygon, const EdgeCrossings<T>& crossings,
+                                   VertexRun run, int leaving, int returning) {
   using Index = Pack<LaneIndex<T>, polygon_capacity>;
-  const int n = polygon.count, behind = run.first + run.length, length = n - run.length;
   const auto whole = [](int i) { return splat<Index>(static_cast<LaneIndex<T>>(i)); };
   const Index lane = load<Index>(lane_numbers<T>);
-  const Index kept = vertices_of<T>({behind < n ? behind : behind - n, length}, n);
-  const auto crossings = greater(lane, whole(length - 1)) & greater(whole(length + 2), lane);
-  const Index points = choose(crossings, whole(n + 1) - lane, lane);
-  const auto part = [&](Lanes from, Lanes of_positive) {
-    return choose(crossings, permute(of_positive, points), permute(from, kept));
-  };
-  return {part(polygon.x, positive.x), part(polygon.y, positive.y), length + 2};
+  const auto leaves = equal(lane, whole(run.length));
+  const auto crosses = leaves | equal(lane, whole(run.length + 1));
+  const Index edge = choose(leaves, whole(leaving), whole(returning));
+  const Index vertex = vertices_of<T>(run, polygon.count);
+  return {choose(crosses, permute(crossings.x, edge), permute(polygon.x, vertex)),
+          choose(crosses, permute(crossings.y, edge), permute(polygon.y, vertex)),
+          run.length + 2};
 }
 
 /// Both parts of a polygon that has vertices on both sides. Vertices on the line go with the negative side.
@@ -217,9 +217,13 @@ template <class T>
 HWY_INLINE void split(const LightPolygon<T>& polygon, const LineValues<T>& line, LightPolygon<T>& positive,
                       LightPolygon<T>& negative) {
   assert(polygon.count < polygon_capacity);
+  const EdgeCrossings<T> crossings = crossings_of(polygon, line.value);
   const VertexRun run = run_of(line.positive, polygon.count, line.value);
-  const LightPolygon<T> inside = positive_part(polygon, line.value, run);
-  negative = negative_part(polygon, run, inside);
+  const int n = polygon.count, behind = run.first + run.length;
+  const int leaving = behind <= n ? behind - 1 : behind - 1 - n, returning = (run.first > 0 ? run.first : n) - 1;
+  const VertexRun others{behind < n ? behind : behind - n, n - run.length};
+  const LightPolygon<T> inside = part_of(polygon, crossings, run, leaving, returning);
+  negative = part_of(polygon, crossings, others, returning, leaving);
   positive = inside;
 }
 
