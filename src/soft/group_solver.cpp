@@ -45,8 +45,7 @@ public:
   void solve(const SoftFrame& frame, const GroupTask& task) override {
     Stopwatch watch;
     set_up(frame, task);
-    times.init_ms += watch.lap_ms();
-    solve_ready(frame, task);
+    solve_ready(frame, task, watch);
   }
 
   void solve_together(const SoftFrame& frame, const GroupFrame& around,
@@ -63,15 +62,13 @@ public:
         solve(frame, task);
         continue;
       }
-      watch.lap_ms();
       clipped_ = family_.choose(task.frame, task.candidates, all, candidates_);
-      times.init_ms += watch.lap_ms();
-      solve_ready(frame, task);
+      solve_ready(frame, task, watch);
       family_.restore(candidates_);
     }
   }
 
-  void solve_lit(const SoftFrame& frame, std::span<const std::uint32_t> pixels) override {
+  void solve_lit(const SoftFrame& frame, std::span<const std::span<const std::uint32_t>> groups) override {
     Stopwatch watch;
     receiver_ = {};
     use_bsp_ = false;
@@ -80,17 +77,7 @@ public:
     candidates_.axes = light_axes(frame.light, glm::dvec3(0.0));
     clipped_ = {};
     double_.clip.reset(candidates_, clipped_);
-    for (std::size_t i = 0; i < pixels.size(); ++i) {
-      const std::uint32_t pixel = pixels[i];
-      if (frame.points.triangles[pixel] != receiver_.id)
-        start_on(double_, frame, frame.points.triangles[pixel]);
-      if (above_ > 0 && !receiver_.cuts_light) {
-        whole_.add(pixel, frame.light.origin - frame.points.positions[pixel], normal_at(frame, pixel));
-        if (whole_.full()) finish_lit(frame);
-      } else {
-        solve_cut(frame, pixel);
-      }
-    }
+    for (const auto& pixels : groups) solve_lit(frame, pixels);
     finish_lit(frame);
     times.irradiance_ms += watch.lap_ms();
   }
@@ -109,9 +96,21 @@ public:
   }
 
 private:
-  /// After set_up().
-  void solve_ready(const SoftFrame& frame, const GroupTask& task) {
-    Stopwatch watch;
+  void solve_lit(const SoftFrame& frame, std::span<const std::uint32_t> pixels) {
+    for (const std::uint32_t pixel : pixels) {
+      if (frame.points.triangles[pixel] != receiver_.id)
+        start_on(double_, frame, frame.points.triangles[pixel]);
+      if (above_ > 0 && !receiver_.cuts_light) {
+        whole_.add(pixel, frame.light.origin - frame.points.positions[pixel], normal_at(frame, pixel));
+        if (whole_.full()) finish_lit(frame);
+      } else {
+        solve_cut(frame, pixel);
+      }
+    }
+  }
+
+  /// After set_up(), which `watch` has seen begin.
+  void solve_ready(const SoftFrame& frame, const GroupTask& task, Stopwatch& watch) {
     receiver_ = {};
     const bool wide = frame.config.precision == SoftPrecision::reference;
     const bool packets = !wide && wants_packets(frame);

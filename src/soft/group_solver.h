@@ -48,8 +48,8 @@ public:
   /// ready once for all.
   virtual void solve_together(const SoftFrame& frame, const GroupFrame& around,
                               std::span<const GroupTask> tasks) = 0;
-  /// The same for a group that nothing stands in front of.
-  virtual void solve_lit(const SoftFrame& frame, std::span<const std::uint32_t> pixels) = 0;
+  /// The same for groups that nothing stands in front of.
+  virtual void solve_lit(const SoftFrame& frame, std::span<const std::span<const std::uint32_t>> groups) = 0;
 
   /// Asks memory for the points of the group that will be solved next (of many, the first), and for the list
   /// of those `after` it.

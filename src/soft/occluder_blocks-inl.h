@@ -96,13 +96,22 @@ HWY_INLINE void shadow_range(const PointRange& at, int axis, Wide low, Wide high
   }
 }
 
-/// Sides of boxes, a shadow without bounds at most as wide as 2.
+/// Least and minus greatest values of shadows on an axis, of those without bounds at most 2.
+struct ShadowSides {
+  Wide low, minus_high;
+};
+template <class Bounded>
+HWY_INLINE ShadowSides sides_of(Bounded bounded, Wide low, Wide high) {
+  const Wide two = wide(2), minus = wide(-2);
+  return {max(choose(bounded, low, minus), minus), wide(0) - min(choose(bounded, high, two), two)};
+}
+
 template <class T, class Bounded>
 HWY_INLINE void store_sides(Bounded bounded, const Wide (&low)[2], const Wide (&high)[2], T (&sides)[4][16]) {
-  const Wide two = wide(2), minus = wide(-2), zero = wide(0);
   for (int axis = 0; axis < 2; ++axis) {
-    store_narrowed(max(choose(bounded, low[axis], minus), minus), sides[2 * axis]);
-    store_narrowed(zero - min(choose(bounded, high[axis], two), two), sides[2 * axis + 1]);
+    const ShadowSides side = sides_of(bounded, low[axis], high[axis]);
+    store_narrowed(side.low, sides[2 * axis]);
+    store_narrowed(side.minus_high, sides[2 * axis + 1]);
   }
 }
 

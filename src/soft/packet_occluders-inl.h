@@ -167,9 +167,10 @@ public:
     }
   }
   HWY_INLINE void store(Float16 (&sides)[4]) const {
-    float stored[4][16];
-    store_sides(less(wide(0), lowest_), low_, high_, stored);
-    for (int k = 0; k < 4; ++k) sides[k] = load<Float16>(stored[k]);
+    for (int axis = 0; axis < 2; ++axis) {
+      const ShadowSides side = sides_of(less(wide(0), lowest_), low_[axis], high_[axis]);
+      sides[2 * axis] = narrowed<float>(side.low), sides[2 * axis + 1] = narrowed<float>(side.minus_high);
+    }
   }
 
 private:

@@ -23,11 +23,19 @@ constexpr double most_groups = 0.4;
 // Points times triangles below which a subtree is not worth sharing out.
 constexpr std::uint64_t serial_work = 1 << 16;
 
+// What is to be said about a group.
+struct Decision {
+  const PointGroup* group;
+  GroupClass kind;
+  std::size_t ids_end;  ///< of its candidates, among those of the family
+};
+
 // What one thread uses. A thread that waits for a subtree may begin another on top of it: lists are a stack.
 struct alignas(64) ThreadScratch {
   std::deque<BlockList> lists;
   std::size_t lists_used = 0;
-  std::vector<std::uint32_t> ids;
+  std::vector<std::uint32_t> ids;    ///< candidates of the family at hand
+  std::vector<Decision> decisions;  ///< about its groups
   ShaftStats stats;
 };
 
@@ -78,11 +86,12 @@ public:
   void descend(const GroupNode& node, const BlockList& from, std::uint32_t groups);
 
 private:
-  void narrow(const GroupNode& node, const BlockList& from, std::uint32_t groups, auto&& next);
-  void decide_all(const GroupNode& node, const BlockList& from, std::uint32_t groups);
-  void decide(const PointGroup& group, const BlockList& from);
+  const BlockList& narrowed(const GroupNode& node, const BlockList& from, std::uint32_t& groups,
+                            BlockList& list) const;
+  void decide_all(const GroupNode& node, const BlockList& from, std::uint32_t groups, ThreadScratch& scratch);
+  void decide(const PointGroup& group, const BlockList& from, ThreadScratch& scratch);
   std::uint32_t cull(const PointGroup& group, const BlockList& from, BlockList& list) const;
-  void hand_over(const PointGroup& group, GroupClass kind, ThreadScratch& scratch);
+  void hand_over(ThreadScratch& scratch);
 
   const PointGroups& groups_;
   const TriangleView& triangles_;
@@ -105,72 +114,70 @@ bool worth_sharing(const GroupNode& node, const BlockList& list) {
   return node.points * (block_size * list.refs.size() + 1) > serial_work;
 }
 
-// Calls `next` with what of `from` matters to the node, and the number of groups that this was found for.
-void Descent::narrow(const GroupNode& node, const BlockList& from, std::uint32_t groups, auto&& next) {
-  if (from.refs.empty() || node.count < fewest_groups || node.count > most_groups * groups) {
-    next(from, groups);
-    return;
-  }
-  ThreadScratch& scratch = scratch_[static_cast<std::size_t>(thread_index())];
-  ListLease list(scratch);
-  Stopwatch watch;
+// What of `from`, found for a node of `groups` groups, matters to this one: `from` itself or, then found for
+// groups of this one, `list`.
+const BlockList& Descent::narrowed(const GroupNode& node, const BlockList& from, std::uint32_t& groups,
+                                   BlockList& list) const {
+  if (from.refs.empty() || node.count < fewest_groups || node.count > most_groups * groups) return from;
   const Shaft shaft = make_shaft_(box_cell(node.low, node.high, light_), light_);
-  filter(*list, from, [&](auto... rest) { return kernels_.cull(shaft, rest...); });
-  list->compact();
-  scratch.stats.seconds += watch.lap_ms() * 1e-3;
-  next(*list, node.count);
+  filter(list, from, [&](auto... rest) { return kernels_.cull(shaft, rest...); });
+  list.compact();
+  groups = node.count;
+  return list;
 }
 
 void Descent::descend(const GroupNode& node, const BlockList& from, std::uint32_t groups) {
   if (stop_requested(stop_)) return;
+  ThreadScratch& scratch = scratch_[static_cast<std::size_t>(thread_index())];
+  Stopwatch watch;
   if (node.count <= largest_family || (from.refs.empty() && !worth_sharing(node, from))) {
-    decide_all(node, from, groups);
+    scratch.ids.clear(), scratch.decisions.clear();
+    decide_all(node, from, groups, scratch);
+    scratch.stats.seconds += watch.lap_ms() * 1e-3;
+    hand_over(scratch);
     end_(thread_index());
     return;
   }
-  narrow(node, from, groups, [&](const BlockList& list, std::uint32_t found_for) {
-    const GroupNode* children = &groups_.nodes[node.children];
-    if (worth_sharing(node, list)) {
-      parallel_tasks(2, [&](int k) { descend(children[k], list, found_for); });
-    } else {
-      descend(children[0], list, found_for);
-      descend(children[1], list, found_for);
-    }
-  });
-}
-
-void Descent::decide_all(const GroupNode& node, const BlockList& from, std::uint32_t groups) {
-  if (from.refs.empty() || node.count < fewest_groups) {
-    for (std::uint32_t i = 0; i < node.count; ++i) decide(groups_.groups[node.first + i], from);
-    return;
-  }
-  narrow(node, from, groups, [&](const BlockList& list, std::uint32_t found_for) {
-    decide_all(groups_.nodes[node.children], list, found_for);
-    decide_all(groups_.nodes[node.children + 1], list, found_for);
-  });
-}
-
-void Descent::decide(const PointGroup& group, const BlockList& from) {
-  if (stop_requested(stop_)) return;
-  ThreadScratch& scratch = scratch_[static_cast<std::size_t>(thread_index())];
-  scratch.ids.clear();
-  if (from.refs.empty()) {
-    hand_over(group, GroupClass::lit, scratch);
-    return;
-  }
-  ListLease list(scratch);
-  Stopwatch watch;
-  const std::uint32_t dark = cull(group, from, *list);
-  if (dark != no_triangle)
-    scratch.ids.push_back(dark);
-  else
-    list->append_ids(scratch.ids);
+  const ListLease own(scratch);
+  const BlockList& list = narrowed(node, from, groups, *own);
   scratch.stats.seconds += watch.lap_ms() * 1e-3;
-  hand_over(group,
-            dark != no_triangle   ? GroupClass::dark
-            : scratch.ids.empty() ? GroupClass::lit
-                                  : GroupClass::mixed,
-            scratch);
+  const GroupNode* children = &groups_.nodes[node.children];
+  if (worth_sharing(node, list)) {
+    parallel_tasks(2, [&](int k) { descend(children[k], list, groups); });
+  } else {
+    descend(children[0], list, groups);
+    descend(children[1], list, groups);
+  }
+}
+
+void Descent::decide_all(const GroupNode& node, const BlockList& from, std::uint32_t groups,
+                         ThreadScratch& scratch) {
+  if (from.refs.empty() || node.count < fewest_groups) {
+    for (std::uint32_t i = 0; i < node.count; ++i) decide(groups_.groups[node.first + i], from, scratch);
+    return;
+  }
+  const ListLease own(scratch);
+  const BlockList& list = narrowed(node, from, groups, *own);
+  decide_all(groups_.nodes[node.children], list, groups, scratch);
+  decide_all(groups_.nodes[node.children + 1], list, groups, scratch);
+}
+
+void Descent::decide(const PointGroup& group, const BlockList& from, ThreadScratch& scratch) {
+  if (stop_requested(stop_)) return;
+  const std::size_t before = scratch.ids.size();
+  GroupClass kind = GroupClass::lit;
+  if (!from.refs.empty()) {
+    const ListLease list(scratch);
+    const std::uint32_t dark = cull(group, from, *list);
+    if (dark != no_triangle) {
+      kind = GroupClass::dark;
+      scratch.ids.push_back(dark);
+    } else {
+      list->append_ids(scratch.ids);
+      if (scratch.ids.size() > before) kind = GroupClass::mixed;
+    }
+  }
+  scratch.decisions.push_back({&group, kind, scratch.ids.size()});
 }
 
 // Leaves in `list` what may block a line from the group; returns the triangle that blocks all, if one does.
@@ -188,22 +195,28 @@ std::uint32_t Descent::cull(const PointGroup& group, const BlockList& from, Bloc
   return dark;
 }
 
-void Descent::hand_over(const PointGroup& group, GroupClass kind, ThreadScratch& scratch) {
+void Descent::hand_over(ThreadScratch& scratch) {
   ShaftStats& s = scratch.stats;
-  switch (kind) {
-    case GroupClass::lit:
-      ++s.groups_lit, s.points_lit += group.count;
-      break;
-    case GroupClass::dark:
-      ++s.groups_dark, s.points_dark += group.count;
-      break;
-    case GroupClass::mixed:
-      ++s.groups_mixed, s.points_mixed += group.count;
-      s.candidates += scratch.ids.size();
-      s.most_candidates = std::max<std::uint64_t>(s.most_candidates, scratch.ids.size());
-      break;
+  std::size_t first = 0;
+  for (const Decision& decision : scratch.decisions) {
+    const PointGroup& group = *decision.group;
+    const std::span<const std::uint32_t> ids(scratch.ids.data() + first, decision.ids_end - first);
+    first = decision.ids_end;
+    switch (decision.kind) {
+      case GroupClass::lit:
+        ++s.groups_lit, s.points_lit += group.count;
+        break;
+      case GroupClass::dark:
+        ++s.groups_dark, s.points_dark += group.count;
+        break;
+      case GroupClass::mixed:
+        ++s.groups_mixed, s.points_mixed += group.count;
+        s.candidates += ids.size();
+        s.most_candidates = std::max<std::uint64_t>(s.most_candidates, ids.size());
+        break;
+    }
+    body_(group, ids, decision.kind, thread_index());
   }
-  body_(group, scratch.ids, kind, thread_index());
 }
 
 }  // namespace

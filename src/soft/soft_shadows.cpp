@@ -25,8 +25,9 @@ constexpr std::array<std::pair<SoftSolver, std::string_view>, 3> solver_names = 
 constexpr std::size_t many_candidates = 1024;
 
 /// What one thread keeps: its solver, and of the family at hand the groups that need it.
-struct Worker {
+struct alignas(64) Worker {
   std::unique_ptr<GroupSolver> solver;
+  std::vector<std::span<const std::uint32_t>> lit;  ///< pixels of each
   std::vector<const PointGroup*> mixed;
   std::vector<std::vector<std::uint32_t>> candidates, receivers;  ///< of each
   std::vector<GroupTask> tasks;
@@ -128,7 +129,7 @@ void SoftShadowTracer::State::solve_group(const SoftFrame& frame, const PointGro
     for (const std::uint32_t pixel : pixels) classes[pixel] = static_cast<std::uint8_t>(SoftClass::dark);
     worker.solver->stats.points_dark += pixels.size();
   } else if (kind == GroupClass::lit) {
-    worker.solver->solve_lit(frame, pixels);
+    worker.lit.push_back(pixels);
   } else {
     const std::size_t i = worker.mixed.size();
     worker.mixed.push_back(&group);
@@ -138,7 +139,10 @@ void SoftShadowTracer::State::solve_group(const SoftFrame& frame, const PointGro
 }
 
 void SoftShadowTracer::State::solve_family(const SoftFrame& frame, Worker& worker) {
+  if (!worker.lit.empty()) worker.solver->solve_lit(frame, worker.lit);
+  worker.lit.clear();
   const std::size_t count = worker.mixed.size();
+  if (count == 0) return;
   if (worker.receivers.size() < count + 1) worker.receivers.resize(count + 1);
   std::size_t candidates = 0;
   worker.tasks.clear();

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <bit>
 #include <cmath>
+#include <limits>
 
 #include "parallel/parallel.h"
 #include "points/triangle_corners.h"
@@ -44,13 +45,21 @@ private:
   int used_ = 0;
 };
 
-float edge_size(const Corners& c) {
-  double size = 0;
-  for (int k = 0; k < 3; ++k) {
-    const glm::dvec3 edge = glm::abs(glm::dvec3(c.v[(k + 1) % 3]) - glm::dvec3(c.v[k]));
-    size = std::max({size, edge.x, edge.y, edge.z});
+// Sizes of the triangles whose corners are there.
+void find_sizes(TriangleBlock& block) {
+  for (int lane = 0; lane < block_size; ++lane) block.largest[lane] = block.size[lane] = 0;
+  for (int corner = 0; corner < 3; ++corner) {
+    for (int axis = 0; axis < 3; ++axis) {
+      const float* here = block.v[corner][axis];
+      const float* next = block.v[(corner + 1) % 3][axis];
+      for (int lane = 0; lane < block_size; ++lane) {
+        block.largest[lane] = std::max(block.largest[lane], std::abs(here[lane]));
+        block.size[lane] = std::max(block.size[lane], std::abs(next[lane] - here[lane]));
+      }
+    }
   }
-  return std::nextafter(static_cast<float>(size), INFINITY);
+  // Rounded to nearest; one more unit in the last place makes it a bound.
+  for (float& size : block.size) size *= 1 + std::numeric_limits<float>::epsilon();
 }
 
 // Triangles 8b to 8b + 7; returns the lanes of those that may block.
@@ -61,18 +70,13 @@ std::uint8_t gather_block(const TriangleView& triangles, std::size_t b, Triangle
     const bool exists = id < triangles.triangles.size();
     const Corners c = exists ? corners_of(triangles, id) : Corners{};
     block.ids[lane] = exists ? static_cast<std::uint32_t>(id) : no_triangle;
-    block.size[lane] = edge_size(c);
-    block.largest[lane] = 0;
-    for (int corner = 0; corner < 3; ++corner) {
-      for (int axis = 0; axis < 3; ++axis) {
-        block.v[corner][axis][lane] = c.v[corner][axis];
-        block.largest[lane] = std::max(block.largest[lane], std::abs(c.v[corner][axis]));
-      }
-    }
+    for (int corner = 0; corner < 3; ++corner)
+      for (int axis = 0; axis < 3; ++axis) block.v[corner][axis][lane] = c.v[corner][axis];
     const bool flat = c.v[0] == c.v[1] || c.v[1] == c.v[2] || c.v[2] == c.v[0];  // blocks nothing
     const bool casts = exists && (triangles.casts_shadow.empty() || triangles.casts_shadow[id] != 0);
     casting |= static_cast<std::uint32_t>(casts && !flat) << lane;
   }
+  find_sizes(block);
   return static_cast<std::uint8_t>(casting);
 }
 
