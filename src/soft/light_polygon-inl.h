@@ -85,8 +85,8 @@ inline constexpr std::uint32_t all_lines = 15;
 template <class T>
 struct LineSides {
   std::uint32_t positive = 0, negative = 0;
-  /// Lanes k, k + 4, k + 8 and k + 12: least values for line k of some of the vertices, in units of what counts
-  /// as on it; anything where u = v = 0.
+  /// Lanes k, k + 4, k + 8 and k + 12: least values for line k of some of the vertices, in units of what
+  /// counts as on it; anything where u = v = 0.
   Pack<T, polygon_capacity> lowest;
 
   /// Of the lines of `among`, one at least, that with a vertex farthest on its negative side.
@@ -207,8 +207,7 @@ HWY_INLINE LightPolygon<T> part_of(const LightPolygon<T>& polygon, const EdgeCro
   const Index edge = choose(leaves, whole(leaving), whole(returning));
   const Index vertex = vertices_of<T>(run, polygon.count);
   return {choose(crosses, permute(crossings.x, edge), permute(polygon.x, vertex)),
-          choose(crosses, permute(crossings.y, edge), permute(polygon.y, vertex)),
-          run.length + 2};
+          choose(crosses, permute(crossings.y, edge), permute(polygon.y, vertex)), run.length + 2};
 }
 
 /// Both parts of a polygon that has vertices on both sides. Vertices on the line go with the negative side.
@@ -220,7 +219,8 @@ HWY_INLINE void split(const LightPolygon<T>& polygon, const LineValues<T>& line,
   const EdgeCrossings<T> crossings = crossings_of(polygon, line.value);
   const VertexRun run = run_of(line.positive, polygon.count, line.value);
   const int n = polygon.count, behind = run.first + run.length;
-  const int leaving = behind <= n ? behind - 1 : behind - 1 - n, returning = (run.first > 0 ? run.first : n) - 1;
+  const int leaving = behind <= n ? behind - 1 : behind - 1 - n,
+            returning = (run.first > 0 ? run.first : n) - 1;
   const VertexRun others{behind < n ? behind : behind - n, n - run.length};
   const LightPolygon<T> inside = part_of(polygon, crossings, run, leaving, returning);
   negative = part_of(polygon, crossings, others, returning, leaving);

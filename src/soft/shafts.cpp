@@ -34,7 +34,7 @@ struct Decision {
 struct alignas(64) ThreadScratch {
   std::deque<BlockList> lists;
   std::size_t lists_used = 0;
-  std::vector<std::uint32_t> ids;    ///< candidates of the family at hand
+  std::vector<std::uint32_t> ids;   ///< candidates of the family at hand
   std::vector<Decision> decisions;  ///< about its groups
   ShaftStats stats;
 };
@@ -199,6 +199,7 @@ void Descent::hand_over(ThreadScratch& scratch) {
   ShaftStats& s = scratch.stats;
   std::size_t first = 0;
   for (const Decision& decision : scratch.decisions) {
+    if (stop_requested(stop_)) return;
     const PointGroup& group = *decision.group;
     const std::span<const std::uint32_t> ids(scratch.ids.data() + first, decision.ids_end - first);
     first = decision.ids_end;
