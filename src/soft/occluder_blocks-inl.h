@@ -101,15 +101,16 @@ struct ShadowSides {
   Wide low, minus_high;
 };
 template <class Bounded>
-HWY_INLINE ShadowSides sides_of(Bounded bounded, Wide low, Wide high) {
+HWY_INLINE ShadowSides bounded_sides(Bounded bounded, Wide low, Wide high) {
   const Wide two = wide(2), minus = wide(-2);
   return {max(choose(bounded, low, minus), minus), wide(0) - min(choose(bounded, high, two), two)};
 }
 
+/// Those of both axes, as BlockBoxes has them.
 template <class T, class Bounded>
 HWY_INLINE void store_sides(Bounded bounded, const Wide (&low)[2], const Wide (&high)[2], T (&sides)[4][16]) {
   for (int axis = 0; axis < 2; ++axis) {
-    const ShadowSides side = sides_of(bounded, low[axis], high[axis]);
+    const ShadowSides side = bounded_sides(bounded, low[axis], high[axis]);
     store_narrowed(side.low, sides[2 * axis]);
     store_narrowed(side.minus_high, sides[2 * axis + 1]);
   }

@@ -168,7 +168,7 @@ public:
   }
   HWY_INLINE void store(Float16 (&sides)[4]) const {
     for (int axis = 0; axis < 2; ++axis) {
-      const ShadowSides side = sides_of(less(wide(0), lowest_), low_[axis], high_[axis]);
+      const ShadowSides side = bounded_sides(less(wide(0), lowest_), low_[axis], high_[axis]);
       sides[2 * axis] = narrowed<float>(side.low), sides[2 * axis + 1] = narrowed<float>(side.minus_high);
     }
   }

@@ -65,8 +65,7 @@ TEST(SoftQuads, ARectangleIsOneOccluder) {
 TEST(SoftQuads, WhatIsNotConvexOrNotSeenFromOneSideStaysTwo) {
   const dvec3 a(-1, 2, -1), c(1, 2, 1), d(-1, 2, 1);
   const GroupFrame group = group_at_origin(0.2);
-  EXPECT_EQ(paired(two_triangles(a, {0.9, 2, -0.8}, c, {0.2, 2, -0.7}), group).places.size(), 2u)
-      << "a fold";
+  EXPECT_EQ(paired(two_triangles(a, {0.9, 2, -0.8}, c, {0.2, 2, -0.7}), group).places.size(), 2u) << "a fold";
   EXPECT_EQ(paired(two_triangles(a, {0.2, 2, -0.7}, {0.8, 2, 0.9}, {-3, 2, -2.6}), group).places.size(), 2u)
       << "an arrow head";
   EXPECT_EQ(paired(two_triangles(a, {1, 2, -1}, c, d), group_at_origin(2.5)).places.size(), 2u)

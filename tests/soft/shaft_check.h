@@ -12,8 +12,8 @@
 #include "parallel/parallel.h"
 #include "reference/exact_segment.h"
 #include "reference/triangle_boxes.h"
-#include "soft/shafts.h"
 #include "soft/group_case.h"
+#include "soft/shafts.h"
 
 namespace tenebra::testing {
 
