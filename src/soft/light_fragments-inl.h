@@ -131,16 +131,16 @@ template <class T>
 void append_edges(const FragmentList<T>& fragments, LightEdges& edges) {
   using Lanes = Pack<T, polygon_capacity>;
   using Index = Pack<LaneIndex<T>, polygon_capacity>;
-  constexpr LaneIndex<T> next[polygon_capacity] = {1, 2, 3, 4, 5, 6, 7, 8, 9, 10, 11, 12, 13, 14, 15, 15};
+  const Index next = load<Index>(next_lanes<T>);
   const auto widen = [](const T* from, std::vector<double>& to, std::size_t place) {
     store(load_widened<Pack<double, polygon_capacity>>(from), &to[place]);
   };
   for (std::size_t i = 0; i < fragments.size(); ++i) {
     const StoredPolygon<T>& p = fragments[i];
     edges.reserve(polygon_capacity);
-    T x[polygon_capacity], y[polygon_capacity];  // of the vertices behind; vertex 0 follows the last
-    store(permute(load<Lanes>(p.x), load<Index>(next)), x);
-    store(permute(load<Lanes>(p.y), load<Index>(next)), y);
+    T x[polygon_capacity], y[polygon_capacity];  // of the vertices behind
+    store(permute(load<Lanes>(p.x), next), x);
+    store(permute(load<Lanes>(p.y), next), y);
     widen(p.x, edges.u0, edges.count), widen(p.y, edges.v0, edges.count);
     widen(x, edges.u1, edges.count), widen(y, edges.v1, edges.count);
     edges.count += static_cast<std::size_t>(p.count);

@@ -21,6 +21,10 @@ inline constexpr int polygon_capacity = 16;
 template <class T>
 inline constexpr LaneIndex<T> lane_numbers[polygon_capacity] = {0, 1, 2,  3,  4,  5,  6,  7,
                                                                 8, 9, 10, 11, 12, 13, 14, 15};
+/// Behind the last vertex of a polygon of fewer than polygon_capacity follows a copy of vertex 0.
+template <class T>
+inline constexpr LaneIndex<T> next_lanes[polygon_capacity] = {1, 2,  3,  4,  5,  6,  7,  8,
+                                                              9, 10, 11, 12, 13, 14, 15, 0};
 
 /// 0, 1, ... 15, and the lanes below `count`.
 template <class T>
@@ -180,8 +184,7 @@ HWY_INLINE EdgeCrossings<T> crossings_of(const LightPolygon<T>& polygon,
                                          const Pack<T, polygon_capacity>& values) {
   using Lanes = Pack<T, polygon_capacity>;
   using Index = Pack<LaneIndex<T>, polygon_capacity>;
-  constexpr LaneIndex<T> behind[polygon_capacity] = {1, 2, 3, 4, 5, 6, 7, 8, 9, 10, 11, 12, 13, 14, 15, 0};
-  const Index next = load<Index>(behind);
+  const Index next = load<Index>(next_lanes<T>);
   const Lanes zero = splat<Lanes>(T(0)), one = splat<Lanes>(T(1));
   const Lanes next_values = permute(values, next);
   const Lanes next_x = permute(polygon.x, next), next_y = permute(polygon.y, next);

@@ -6,6 +6,7 @@
 #include <hwy/foreach_target.h>
 // After foreach_target.h
 #include "soft/shaft_cull-inl.h"
+#include "soft/vector_lanes-inl.h"
 
 #include <algorithm>
 #include <bit>
@@ -18,20 +19,8 @@ namespace {
 
 // u = 2^-53. Reaches bound |coordinates| relative to the light's centre, `size` those of the edges. Vectors
 // of three coordinates bounded by r and s have |a.b| <= 3 r s.
-using Double8 = Pack<double, block_size>;
-using Vector8 = Pack3<Double8>;
 
-HWY_INLINE Double8 constant(double value) {
-  return splat<Double8>(value);
-}
-HWY_INLINE Vector8 constant(const glm::dvec3& v) {
-  return splat3<Double8>(v.x, v.y, v.z);
-}
-
-// Not fused, so that all instruction sets keep the same triangles.
-HWY_INLINE Double8 product(const Vector8& a, const Vector8& b) {
-  return a.x * b.x + a.y * b.y + a.z * b.z;
-}
+static_assert(block_size == 8, "a block fills the lanes of a Double8");
 
 // Vertices relative to the light's centre: off by u |coordinate|.
 struct Triangles {
@@ -41,13 +30,12 @@ struct Triangles {
 HWY_INLINE Triangles load_triangles(const TriangleBlock& block, const LightShape& light) {
   Triangles t;
   for (int k = 0; k < 3; ++k) {
-    t.v[k].x = load_widened<Double8>(block.v[k][0]) - constant(light.origin.x);
-    t.v[k].y = load_widened<Double8>(block.v[k][1]) - constant(light.origin.y);
-    t.v[k].z = load_widened<Double8>(block.v[k][2]) - constant(light.origin.z);
+    t.v[k].x = load_widened<Double8>(block.v[k][0]) - all(light.origin.x);
+    t.v[k].y = load_widened<Double8>(block.v[k][1]) - all(light.origin.y);
+    t.v[k].z = load_widened<Double8>(block.v[k][2]) - all(light.origin.z);
   }
-  t.reach =
-      load_widened<Double8>(block.largest) +
-      constant(std::max({std::abs(light.origin.x), std::abs(light.origin.y), std::abs(light.origin.z)}));
+  t.reach = load_widened<Double8>(block.largest) +
+            all(std::max({std::abs(light.origin.x), std::abs(light.origin.y), std::abs(light.origin.z)}));
   t.size = load_widened<Double8>(block.size);
   return t;
 }
@@ -83,22 +71,22 @@ struct PlaneRange {
 HWY_INLINE PlaneRange plane_range(const Shaft& shaft, const TriangleBlock& block, const Triangles& t) {
   const Vector8 n = cross(edge(block, 0, 1), edge(block, 0, 2));
   const Double8 at_corner = product(n, t.v[0]);
-  const Double8 at_centre = product(n, constant(shaft.cell.centre)) - at_corner;
-  Double8 around = absolute(product(n, constant(shaft.cell.axis[0])));
-  around = around + absolute(product(n, constant(shaft.cell.axis[1])));
-  around = around + absolute(product(n, constant(shaft.cell.axis[2])));
+  const Double8 at_centre = product(n, all(shaft.cell.centre)) - at_corner;
+  Double8 around = absolute(product(n, all(shaft.cell.axis[0])));
+  around = around + absolute(product(n, all(shaft.cell.axis[1])));
+  around = around + absolute(product(n, all(shaft.cell.axis[2])));
   PlaneRange r;
   r.size2 = t.size * t.size;
   const Double8 margin =
-      r.size2 * ((t.reach + constant(shaft.cell.reach)) * constant(0x1p-46) + constant(6 * shaft.cell.slack));
+      r.size2 * ((t.reach + all(shaft.cell.reach)) * all(0x1p-46) + all(6 * shaft.cell.slack));
   around = around + margin;
   r.points_low = at_centre - around, r.points_high = at_centre + around;
-  r.light_low = r.light_high = product(n, constant(shaft.light->vertices[0]));
+  r.light_low = r.light_high = product(n, all(shaft.light->vertices[0]));
   for (int k = 1; k < shaft.light->count; ++k) {
-    const Double8 at = product(n, constant(shaft.light->vertices[k]));
+    const Double8 at = product(n, all(shaft.light->vertices[k]));
     r.light_low = min(r.light_low, at), r.light_high = max(r.light_high, at);
   }
-  const Double8 light_margin = r.size2 * (t.reach + constant(shaft.light->reach)) * constant(0x1p-46);
+  const Double8 light_margin = r.size2 * (t.reach + all(shaft.light->reach)) * all(0x1p-46);
   r.light_low = r.light_low - at_corner - light_margin;
   r.light_high = r.light_high - at_corner + light_margin;
   r.normal_length = square_root(product(n, n));
@@ -108,14 +96,13 @@ HWY_INLINE PlaneRange plane_range(const Shaft& shaft, const TriangleBlock& block
 // theta for a receiver's tau, from below and from above: |n| is off by 16 u size^2, here and in the
 // definition.
 HWY_INLINE Double8 tau_of(const TriangleBlock& block, double tau_receiver) {
-  return load_widened<Double8>(block.largest) * constant(1.7320508075688772 * 0x1p-24) +
-         constant(tau_receiver);
+  return load_widened<Double8>(block.largest) * all(1.7320508075688772 * 0x1p-24) + all(tau_receiver);
 }
 HWY_INLINE Double8 theta_low(const TriangleBlock& block, const PlaneRange& r, double tau_least) {
-  return tau_of(block, tau_least) * (r.normal_length * constant(1 - 0x1p-49) - r.size2 * constant(0x1p-48));
+  return tau_of(block, tau_least) * (r.normal_length * all(1 - 0x1p-49) - r.size2 * all(0x1p-48));
 }
 HWY_INLINE Double8 theta_high(const TriangleBlock& block, const PlaneRange& r, double tau_most) {
-  return tau_of(block, tau_most) * (r.normal_length * constant(1 + 0x1p-49) + r.size2 * constant(0x1p-48));
+  return tau_of(block, tau_most) * (r.normal_length * all(1 + 0x1p-49) + r.size2 * all(0x1p-48));
 }
 
 std::size_t drop_behind(std::span<const Receiver> receivers, const LightShape& light,
@@ -124,12 +111,12 @@ std::size_t drop_behind(std::span<const Receiver> receivers, const LightShape& l
   for (const BlockRef& ref : in) {
     const TriangleBlock& block = blocks[ref.block];
     const Triangles t = load_triangles(block, light);
-    const Double8 margin = t.reach * constant(0x1p-49);
+    const Double8 margin = t.reach * all(0x1p-49);
     std::uint32_t dropped = ref.lanes;
     for (const Receiver& receiver : receivers) {
-      const Vector8 m = constant(receiver.m);
+      const Vector8 m = all(receiver.m);
       const Double8 top = most(product(m, t.v[0]), product(m, t.v[1]), product(m, t.v[2]));
-      dropped &= less_bits(top + margin, constant(receiver.limit)) | lanes_of(block, receiver.triangle);
+      dropped &= less_bits(top + margin, all(receiver.limit)) | lanes_of(block, receiver.triangle);
       if (dropped == 0) break;
     }
     if (const std::uint32_t lanes = ref.lanes & ~dropped; lanes != 0) out[count++] = {ref.block, lanes};
@@ -145,20 +132,20 @@ struct SideRange {
 };
 HWY_INLINE Double8 side_margin(const Shaft& shaft, const Triangles& t) {
   const double light = shaft.light->reach, cell = shaft.cell.reach;
-  return t.size * (t.reach * constant((cell + light) * 0x1p-45 + 6 * shaft.cell.slack) +
-                   constant(light * (cell * 0x1p-45 + 6 * shaft.cell.slack)));
+  return t.size * (t.reach * all((cell + light) * 0x1p-45 + 6 * shaft.cell.slack) +
+                   all(light * (cell * 0x1p-45 + 6 * shaft.cell.slack)));
 }
 HWY_INLINE SideRange side_from(const Shaft& shaft, const Vector8& m, const Double8& at_light) {
-  const Double8 centre = product(m, constant(shaft.cell.centre)) - at_light;
-  Double8 around = absolute(product(m, constant(shaft.cell.axis[0])));
-  around = around + absolute(product(m, constant(shaft.cell.axis[1])));
-  around = around + absolute(product(m, constant(shaft.cell.axis[2])));
+  const Double8 centre = product(m, all(shaft.cell.centre)) - at_light;
+  Double8 around = absolute(product(m, all(shaft.cell.axis[0])));
+  around = around + absolute(product(m, all(shaft.cell.axis[1])));
+  around = around + absolute(product(m, all(shaft.cell.axis[2])));
   return {centre - around, centre + around};
 }
 HWY_INLINE SideRange side_range(const Shaft& shaft, const Vector8& e, const Vector8& moment) {
-  SideRange range{constant(INFINITY), constant(-INFINITY)};
+  SideRange range{all(INFINITY), all(-INFINITY)};
   for (int k = 0; k < shaft.light->count; ++k) {
-    const Vector8 q = constant(shaft.light->vertices[k]);
+    const Vector8 q = all(shaft.light->vertices[k]);
     const SideRange from = side_from(shaft, moment - cross(q, e), product(moment, q));
     range.low = min(range.low, from.low), range.high = max(range.high, from.high);
   }
@@ -170,8 +157,8 @@ struct Sides {
   std::uint32_t front, back;
 };
 HWY_INLINE Sides sides_of_centre(const Shaft& shaft, const Triangles& t) {
-  const Double8 zero = constant(0.0);
-  const Vector8 centre = constant(shaft.cell.centre);
+  const Double8 zero = all(0.0);
+  const Vector8 centre = all(shaft.cell.centre);
   const Double8 f[3] = {product(cross(t.v[0], t.v[1]), centre), product(cross(t.v[1], t.v[2]), centre),
                         product(cross(t.v[2], t.v[0]), centre)};
   return {less_bits(zero, least(f[0], f[1], f[2])), less_bits(most(f[0], f[1], f[2]), zero)};
@@ -180,14 +167,14 @@ HWY_INLINE Sides sides_of_centre(const Shaft& shaft, const Triangles& t) {
 // What lines between cell and light do about the edges, of lanes that they cross from the front (f >= 0 at
 // all edges) or from the back (f <= 0).
 HWY_INLINE void keep_crossed(const Shaft& shaft, const TriangleBlock& block, const Triangles& t, Sides& some,
-                             Sides& all) {
-  const Double8 zero = constant(0.0), margin = side_margin(shaft, t);
+                             Sides& every) {
+  const Double8 zero = all(0.0), margin = side_margin(shaft, t);
   for (int k = 0; k < 3 && (some.front | some.back) != 0; ++k) {
     const Vector8 e = edge(block, k, (k + 1) % 3);
     const SideRange f = side_range(shaft, e, cross(t.v[k], e));
     const std::uint32_t front = less_bits(margin, f.low), back = less_bits(f.high, zero - margin);
-    some.front &= ~back, all.front &= front;
-    some.back &= ~front, all.back &= back;
+    some.front &= ~back, every.front &= front;
+    some.back &= ~front, every.back &= back;
   }
 }
 
@@ -198,7 +185,7 @@ std::size_t drop_beside(const Shaft& shaft, ContactRange contact, const Triangle
                         std::span<const BlockRef> in, BlockRef* out, std::uint32_t& dark) {
   const bool few = in.size() <= few_blocks;
   std::size_t count = 0;
-  const Double8 zero = constant(0.0);
+  const Double8 zero = all(0.0);
   for (const BlockRef& ref : in) {
     const TriangleBlock& block = blocks[ref.block];
     const Triangles t = load_triangles(block, *shaft.light);
@@ -206,16 +193,16 @@ std::size_t drop_beside(const Shaft& shaft, ContactRange contact, const Triangle
     const Double8 theta = theta_low(block, plane, contact.least);
     Sides some{ref.lanes & bits(less(theta, plane.points_high) & less(plane.light_low, zero)),
                ref.lanes & bits(less(theta, zero - plane.points_low) & less(zero, plane.light_high))};
-    Sides all = sides_of_centre(shaft, t);
-    all.front &= some.front, all.back &= some.back;
-    if (dark != no_triangle) all = {0, 0};
-    if ((all.front | all.back) != 0) {
+    Sides every = sides_of_centre(shaft, t);
+    every.front &= some.front, every.back &= some.back;
+    if (dark != no_triangle) every = {0, 0};
+    if ((every.front | every.back) != 0) {
       const Double8 sure = theta_high(block, plane, contact.most);
-      all.front &= bits(less(sure, plane.points_low) & less(plane.light_high, zero));
-      all.back &= bits(less(sure, zero - plane.points_high) & less(zero, plane.light_low));
+      every.front &= bits(less(sure, plane.points_low) & less(plane.light_high, zero));
+      every.back &= bits(less(sure, zero - plane.points_high) & less(zero, plane.light_low));
     }
-    if (few || (all.front | all.back) != 0) keep_crossed(shaft, block, t, some, all);
-    if ((all.front | all.back) != 0) dark = block.ids[std::countr_zero(all.front | all.back)];
+    if (few || (every.front | every.back) != 0) keep_crossed(shaft, block, t, some, every);
+    if ((every.front | every.back) != 0) dark = block.ids[std::countr_zero(every.front | every.back)];
     if ((some.front | some.back) != 0) out[count++] = {ref.block, some.front | some.back};
   }
   return count;

@@ -83,8 +83,8 @@ struct SoftShadowTracer::State {
 
   void prepare(const SoftShadowConfig& config);
   void clear_pixels(const VisiblePoints& points, SoftMask& out);
-  void solve_group(const SoftFrame& frame, const PointGroup& group, std::span<const std::uint32_t> candidates,
-                   GroupClass kind, Worker& worker);
+  void take_group(const SoftFrame& frame, const PointGroup& group, std::span<const std::uint32_t> candidates,
+                  GroupClass kind, Worker& worker);
   void solve_family(const SoftFrame& frame, Worker& worker);
   void gather();
 };
@@ -118,9 +118,9 @@ void SoftShadowTracer::State::clear_pixels(const VisiblePoints& points, SoftMask
   });
 }
 
-void SoftShadowTracer::State::solve_group(const SoftFrame& frame, const PointGroup& group,
-                                          std::span<const std::uint32_t> candidates, GroupClass kind,
-                                          Worker& worker) {
+void SoftShadowTracer::State::take_group(const SoftFrame& frame, const PointGroup& group,
+                                         std::span<const std::uint32_t> candidates, GroupClass kind,
+                                         Worker& worker) {
   const auto pixels = groups.pixels_of(group);
   const auto behind = static_cast<std::size_t>(groups.groups.data() + groups.groups.size() - &group);
   worker.solver->expect(frame, groups.pixels_of(behind > 1 ? *(&group + 1) : group),
@@ -199,7 +199,7 @@ bool SoftShadowTracer::trace(const VisiblePoints& points, std::span<const glm::v
   const bool done = s.culler.for_each_group(
       s.groups, triangles, light, config, stop,
       [&](const PointGroup& group, std::span<const std::uint32_t> candidates, GroupClass kind, int thread) {
-        s.solve_group(frame, group, candidates, kind, s.workers[static_cast<std::size_t>(thread)]);
+        s.take_group(frame, group, candidates, kind, s.workers[static_cast<std::size_t>(thread)]);
       },
       [&](int thread) { s.solve_family(frame, s.workers[static_cast<std::size_t>(thread)]); });
   s.gather();

@@ -4,6 +4,7 @@
 #include <gtest/gtest.h>
 
 #include <cmath>
+#include <filesystem>
 
 #include "ao/field_lookup.h"
 #include "ao/objects.h"
@@ -181,8 +182,10 @@ void measure(const char* name, const Object& object) {
 }
 
 void measure_file(const char* name, const std::string& path) {
+  if (!std::filesystem::exists(path))
+    GTEST_SKIP() << path << " is missing: this scene is measured where it is there";
   const std::optional<Object> object = testing::object_of(path);
-  if (!object) GTEST_SKIP() << path << " is missing: this scene is measured where it is there";
+  ASSERT_TRUE(object) << path << " is there, but cannot be read";
   measure(name, *object);
 }
 

@@ -22,6 +22,23 @@ SoftCase below_cloud(const std::string& name, int count, double size, int pixels
   return c;
 }
 
+/// Points of each kind, by what is expected of them.
+struct Seen {
+  std::size_t between = 0, dark_on_floor = 0;
+};
+
+/// Traces with c's configuration; fractions are within the bound of its precision.
+void expect_near(const SoftCase& c, const SoftMask& expected, Seen& seen) {
+  const SoftMask mask = traced(c, c.config);
+  const double bound = c.config.precision == SoftPrecision::reference ? 1e-6 : fast_bound;
+  for (std::size_t i = 0; i < c.size(); ++i) {
+    const float e = expected.visible_fraction[i];
+    seen.between += e > 0 && e < 1;
+    seen.dark_on_floor += e == 0 && c.points.triangles[i] < 2;
+    EXPECT_NEAR(mask.visible_fraction[i], e, bound) << describe(c, i);
+  }
+}
+
 TEST(SoftCloud, IsExact) {
   Judgement sum;
   judge_all(below_cloud("400 leaves, seed 91", 400, 0.35, 16, 91), sum);
@@ -33,7 +50,7 @@ TEST(SoftCloud, IsExact) {
 // 3,000 leaves fill blocks by the hundred: clipping takes all its ways. The BSP shares none of them but for
 // the leaves that points lie on both sides of.
 TEST(SoftCloud, GivesWhatTheBspGives) {
-  std::size_t between = 0, dark = 0;
+  Seen seen;
   for (const auto& [count, size] : {std::pair(700, 0.5), std::pair(3000, 0.12)}) {
     SoftCase c = below_cloud("leaves, seed 93", count, size, 20, 93);
     c.config.precision = SoftPrecision::reference;
@@ -42,18 +59,11 @@ TEST(SoftCloud, GivesWhatTheBspGives) {
     for (const SoftPrecision precision : {SoftPrecision::reference, SoftPrecision::fast}) {
       c.config.solver = SoftSolver::clip;
       c.config.precision = precision;
-      const SoftMask mask = traced(c, c.config);
-      const double bound = precision == SoftPrecision::reference ? 1e-6 : fast_bound;
-      for (std::size_t i = 0; i < c.size(); ++i) {
-        const float e = expected.visible_fraction[i];
-        between += e > 0 && e < 1;
-        dark += e == 0 && c.points.triangles[i] < 2;
-        EXPECT_NEAR(mask.visible_fraction[i], e, bound) << describe(c, i);
-      }
+      expect_near(c, expected, seen);
     }
   }
-  EXPECT_GT(between, 400u);
-  EXPECT_GT(dark, 40u);
+  EXPECT_GT(seen.between, 400u);
+  EXPECT_GT(seen.dark_on_floor, 40u);
 }
 
 // So many leaves, and halves of leaves, before each group of points that neighbours make them ready together.
@@ -65,18 +75,13 @@ TEST(SoftCloud, GroupsTogetherSeeWhatEachSees) {
   c.config.solver = SoftSolver::clip;
   c.config.precision = SoftPrecision::reference;
   const SoftMask expected = traced(c, c.config);
-  std::size_t between = 0;
+  Seen seen;
   for (const SoftPrecision precision : {SoftPrecision::reference, SoftPrecision::fast}) {
     c.config.solver = SoftSolver::automatic;
     c.config.precision = precision;
-    const SoftMask mask = traced(c, c.config);
-    const double bound = precision == SoftPrecision::reference ? 1e-6 : fast_bound;
-    for (std::size_t i = 0; i < c.size(); ++i) {
-      between += expected.visible_fraction[i] > 0 && expected.visible_fraction[i] < 1;
-      EXPECT_NEAR(mask.visible_fraction[i], expected.visible_fraction[i], bound) << describe(c, i);
-    }
+    expect_near(c, expected, seen);
   }
-  EXPECT_GT(between, 400u);
+  EXPECT_GT(seen.between, 400u);
 }
 
 }  // namespace
