@@ -13,6 +13,7 @@
 #endif
 
 #include <algorithm>
+#include <type_traits>
 
 #include "soft/block_bounds-inl.h"
 #include "soft/part_boxes-inl.h"
@@ -60,7 +61,7 @@ public:
       left.push(light);
     } else {
       for (std::size_t b = 0; b < hot_.block_count(); ++b) hot_.append_block(b, box_of(light));
-      solve(hot_, light, 0, left);
+      subtract_listed(hot_, 0, hot_.list.count(), light, left);
       hot_.list.shrink(0);
     }
     if (!left.empty()) subtract_cold(left, out);
@@ -68,8 +69,8 @@ public:
   }
 
 private:
-  static constexpr std::size_t few = 64;   ///< occluders that are subtracted in the order of each part
-  static constexpr std::size_t many = 48;  ///< occluders from which on it pays to keep some apart
+  static constexpr std::size_t few = 64;   ///< occluders that one pass subtracts from a part
+  static constexpr std::size_t many = 48;  ///< occluders from which on it pays to keep a few apart
 
   bool has_many() const { return cold_.count() > many; }
 
@@ -106,6 +107,7 @@ private:
   }
 
   void add_hot(std::uint32_t id) {
+    if (hot_.count() == few) return;
     hot_ids_.push_back(id);
     hot_.add(group_->all[order_[id]]);
     cold_.block(id / 16).lanes &= ~(1u << (id % 16));
@@ -125,7 +127,9 @@ private:
       blocks_listed_ = true;
     }
     const std::size_t last = blocks_.count();
-    subtract_blocks(parts, 0, parts.size(), box, 0, last, out);
+    blocks_.narrow(0, last, box);
+    subtract_blocks(parts, 0, parts.size(), box, last, blocks_.count(), out);
+    blocks_.shrink(last);
   }
 
   /// Subtracts the blocks in places [first, last) from the parts in places [begin, end) of boxes_, which lie
@@ -133,7 +137,7 @@ private:
   /// the blocks around them, and from there on with a list of the blocks' triangles.
   void subtract_blocks(const Parts& parts, std::size_t begin, std::size_t end, const LightBox<T>& box,
                        std::size_t first, std::size_t last, Parts& out) {
-    const std::size_t middle = 16 * (end - begin) < last - first ? boxes_.halve(begin, end, box) : begin;
+    const std::size_t middle = 4 * (end - begin) < last - first ? boxes_.halve(begin, end, box) : begin;
     if (middle == begin || middle == end) {
       const std::size_t place = cold_.list.count();
       for (std::size_t i = first; i < last; ++i) cold_.append_block(blocks_.id(i), box);
@@ -154,10 +158,10 @@ private:
     const std::size_t last = cold_.list.count();
     if (last - first <= few) {
       for (std::size_t i = begin; i < end; ++i)
-        subtract_listed(cold_, first, last, loaded(parts[boxes_.part(i)]), out);
+        subtract_in_order(first, last, loaded(parts[boxes_.part(i)]), boxes_.around(i, i + 1), out);
       return;
     }
-    if (end - begin == 1) return solve(cold_, loaded(parts[boxes_.part(begin)]), first, out);
+    if (end - begin == 1) return subtract_long_list(loaded(parts[boxes_.part(begin)]), first, out);
     std::size_t middle = boxes_.halve(begin, end, box);
     if (middle == begin || middle == end) middle = begin + (end - begin) / 2;
     for (const auto& [from, to] : {std::pair(begin, middle), std::pair(middle, end)}) {
@@ -168,18 +172,26 @@ private:
     }
   }
 
-  /// Subtracts the occluders in the list from place `first` on from `part`: a few, and from each fragment of
-  /// what they leave those of the others that meet it.
-  void solve(Occluders& c, const Part& part, std::size_t first, Parts& out) {
-    const std::size_t last = c.list.count();
-    if (last - first <= few) return subtract_listed(c, first, last, part, out);
+  /// The same for one part: a few occluders, and from each fragment of what they leave the others.
+  void subtract_long_list(const Part& part, std::size_t first, Parts& out) {
+    const std::size_t last = cold_.list.count(), next = first + few;
     Parts left = take();
-    subtract_listed(c, first, first + few, part, left);
+    subtract_listed(cold_, first, next, part, left);
     for (std::size_t k = 0; k < left.size(); ++k) {
       const Part fragment = loaded(left[k]);
-      c.list.narrow(first + few, last, box_of(fragment));
-      solve(c, fragment, last, out);
-      c.list.shrink(last);
+      const LightBox<T> box = box_of(fragment);
+      if (last - next <= few) {
+        subtract_in_order(next, last, fragment, box, out);
+        continue;
+      }
+      cold_.list.narrow(next, last, box);
+      const std::size_t end = cold_.list.count();
+      if (end - last <= few) {
+        subtract_in_order(last, end, fragment, box, out);
+      } else {
+        subtract_long_list(fragment, last, out);
+      }
+      cold_.list.shrink(last);
     }
     give_back(std::move(left));
   }
@@ -187,8 +199,23 @@ private:
   /// Appends what the occluders in places [first, last), at most a few, leave of `part`.
   void subtract_listed(Occluders& c, std::size_t first, std::size_t last, const Part& part, Parts& out) {
     if (first == last) return out.push(part);
-    subtract_few(c, c.list.from(first), ~std::uint64_t{0} >> (64 - (last - first)), part, out);
+    subtract_few(c, c.list.from(first), lowest_bits(last - first), part, out);
   }
+
+  /// The same for those that are not hot and a part in `box`: most only stand near it, and none is chosen.
+  HWY_NOINLINE void subtract_in_order(std::size_t first, std::size_t last, const Part& part,
+                                      const LightBox<T>& box, Parts& out) {
+    if (first == last) return out.push(part);
+    const ShadowBoxes<T> boxes = cold_.list.from(first);
+    const std::uint64_t met = meeting(boxes, lowest_bits(last - first), box);
+    if (met == 0) return out.push(part);
+    typename Sight::OwnPart own = part;  // a copy for packets, which take lanes from it
+    subtract_next(cold_, boxes, met, std::countr_zero(met), bounds_of(part), own, out);
+    subtract_todo(cold_, boxes, out);
+  }
+
+  /// count: 1 to 64.
+  static std::uint64_t lowest_bits(std::size_t count) { return ~std::uint64_t{0} >> (64 - count); }
 
   /// Appends what the occluders of the bits of `left` leave of `part`. Each fragment chooses for itself which
   /// is next: the one whose box has most in common with its own takes most away, and leaves the fewest
@@ -196,20 +223,31 @@ private:
   HWY_NOINLINE void subtract_few(Occluders& c, const ShadowBoxes<T>& boxes, std::uint64_t left,
                                  const Part& part, Parts& out) {
     subtract_widest(c, boxes, left, part, out);
+    subtract_todo(c, boxes, out);
+  }
+
+  /// What is still to do, each with the occluders of `boxes` that are left for it.
+  HWY_INLINE void subtract_todo(Occluders& c, const ShadowBoxes<T>& boxes, Parts& out) {
     while (!todo_.empty()) {
-      left = todo_left_.back();
+      const std::uint64_t left = todo_left_.back();
       todo_left_.pop_back();
       subtract_widest(c, boxes, left, todo_.pop(), out);
     }
   }
 
-  /// Subtracts occluders of the bits of `left` from `part` until one has a share in it; for what that leaves,
-  /// the others are still to do.
   HWY_INLINE void subtract_widest(Occluders& c, const ShadowBoxes<T>& boxes, std::uint64_t left,
                                   typename Sight::OwnPart part, Parts& out) {
     const bool in_order = std::popcount(left) <= Sight::any_order;
     const auto bounds = in_order ? typename Sight::Bounds{} : bounds_of(part);
-    int k = in_order ? std::countr_zero(left) : widest_of(boxes, left, box_of(bounds));
+    const int k = in_order ? std::countr_zero(left) : widest_of(boxes, left, box_of(bounds));
+    subtract_next(c, boxes, left, k, bounds, part, out);
+  }
+
+  /// Subtracts occluders of the bits of `left`, first that of bit k, from `part` until one has a share in it;
+  /// for what that leaves, the others are still to do.
+  HWY_INLINE void subtract_next(Occluders& c, const ShadowBoxes<T>& boxes, std::uint64_t left, int k,
+                                const typename Sight::Bounds& bounds,
+                                std::remove_reference_t<typename Sight::OwnPart>& part, Parts& out) {
     for (; left != 0; k = std::countr_zero(left)) {
       left &= ~(std::uint64_t{1} << k);
       const auto id = static_cast<std::size_t>(boxes.ids[k]);

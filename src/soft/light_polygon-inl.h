@@ -95,6 +95,7 @@ struct LineSides {
 
   /// Of the lines of `among`, one at least, that with a vertex farthest on its negative side.
   HWY_INLINE int deepest(std::uint32_t among) const {
+    if (std::has_single_bit(among)) return std::countr_zero(among);
     T values[polygon_capacity];
     store(lowest, values);
     int best = std::countr_zero(among);

@@ -116,7 +116,7 @@ struct OnePoint {
   using Parts = FragmentList<T>;
   using Occluders = PointOccluders<T>;
   static constexpr bool takes_all = true;  ///< what is subtracted leaves nothing of a part where it was
-  static constexpr int any_order = 4;      ///< occluders whose order does not matter
+  static constexpr int any_order = 6;      ///< occluders whose order does not matter
 };
 
 }  // namespace tenebra::HWY_NAMESPACE

@@ -56,6 +56,15 @@ HWY_INLINE Truth<T, 16> meets(const ShadowBoxes<T>& boxes, const LightBox<T>& bo
          below(3, box.hv - box.cv);
 }
 
+/// Those of the bits of `left` whose boxes meet `box`.
+template <class T>
+HWY_INLINE std::uint64_t meeting(const ShadowBoxes<T>& boxes, std::uint64_t left, const LightBox<T>& box) {
+  std::uint64_t met = 0;
+  for (int k = 0; k < 64 && left >> k != 0; k += 16)
+    met |= static_cast<std::uint64_t>(bits(meets(boxes.at(static_cast<std::size_t>(k)), box))) << k;
+  return met & left;
+}
+
 /// The area that each of the first sixteen has in common with `box`, if they meet.
 template <class T>
 HWY_INLINE Pack<T, 16> common_areas(const ShadowBoxes<T>& boxes, const LightBox<T>& box) {
