@@ -38,7 +38,10 @@ public:
     hot_.clear(group.heights);
     hot_ids_.clear();
     cold_.clear(group.heights);
-    for (const std::uint32_t place : order) cold_.add(group.all[place]);
+    for (std::size_t i = 0; i < order.size(); ++i) {
+      if (i + 8 < order.size()) expect(group.all[order[i + 8]]);
+      cold_.add(group.all[order[i]]);
+    }
     if (has_many()) bounds_.find(cold_);
   }
 
@@ -71,6 +74,13 @@ public:
 private:
   static constexpr std::size_t few = 64;   ///< occluders that one pass subtracts from a part
   static constexpr std::size_t many = 48;  ///< occluders from which on it pays to keep a few apart
+
+  /// Asks for a candidate that will be added soon.
+  static HWY_INLINE void expect(const Candidate& c) {
+    fetch_soon(c.corners[0]);
+    fetch_soon(c.corners[3]);
+    fetch_soon(&c.second);
+  }
 
   bool has_many() const { return cold_.count() > many; }
 
@@ -119,7 +129,7 @@ private:
     const LightBox<T> box = boxes_.around(0, parts.size());
     if (!has_many()) {
       for (std::size_t b = 0; b < cold_.block_count(); ++b) cold_.append_block(b, box);
-      subtract_list(parts, 0, parts.size(), box, 0, out);
+      subtract_list(parts, boxes_, 0, parts.size(), box, 0, out);
       return cold_.list.shrink(0);
     }
     if (!blocks_listed_) {
@@ -141,7 +151,7 @@ private:
     if (middle == begin || middle == end) {
       const std::size_t place = cold_.list.count();
       for (std::size_t i = first; i < last; ++i) cold_.append_block(blocks_.id(i), box);
-      subtract_list(parts, begin, end, box, place, out);
+      subtract_list(parts, boxes_, begin, end, box, place, out);
       return cold_.list.shrink(place);
     }
     for (const auto& [from, to] : {std::pair(begin, middle), std::pair(middle, end)}) {
@@ -153,45 +163,34 @@ private:
   }
 
   /// The same for the occluders in the list from place `first` on.
-  void subtract_list(const Parts& parts, std::size_t begin, std::size_t end, const LightBox<T>& box,
-                     std::size_t first, Parts& out) {
+  void subtract_list(const Parts& parts, PartBoxes<T>& boxes, std::size_t begin, std::size_t end,
+                     const LightBox<T>& box, std::size_t first, Parts& out) {
     const std::size_t last = cold_.list.count();
     if (last - first <= few) {
       for (std::size_t i = begin; i < end; ++i)
-        subtract_in_order(first, last, loaded(parts[boxes_.part(i)]), boxes_.around(i, i + 1), out);
+        subtract_in_order(first, last, loaded(parts[boxes.part(i)]), boxes.around(i, i + 1), out);
       return;
     }
-    if (end - begin == 1) return subtract_long_list(loaded(parts[boxes_.part(begin)]), first, out);
-    std::size_t middle = boxes_.halve(begin, end, box);
+    if (end - begin == 1) return subtract_long_list(loaded(parts[boxes.part(begin)]), first, out);
+    std::size_t middle = boxes.halve(begin, end, box);
     if (middle == begin || middle == end) middle = begin + (end - begin) / 2;
     for (const auto& [from, to] : {std::pair(begin, middle), std::pair(middle, end)}) {
-      const LightBox<T> half = boxes_.around(from, to);
+      const LightBox<T> half = boxes.around(from, to);
       cold_.list.narrow(first, last, half);
-      subtract_list(parts, from, to, half, last, out);
+      subtract_list(parts, boxes, from, to, half, last, out);
       cold_.list.shrink(last);
     }
   }
 
-  /// The same for one part: a few occluders, and from each fragment of what they leave the others.
+  /// The same for one part: a few occluders, and from the fragments that they leave the others.
   void subtract_long_list(const Part& part, std::size_t first, Parts& out) {
-    const std::size_t last = cold_.list.count(), next = first + few;
     Parts left = take();
-    subtract_listed(cold_, first, next, part, left);
-    for (std::size_t k = 0; k < left.size(); ++k) {
-      const Part fragment = loaded(left[k]);
-      const LightBox<T> box = box_of(fragment);
-      if (last - next <= few) {
-        subtract_in_order(next, last, fragment, box, out);
-        continue;
-      }
-      cold_.list.narrow(next, last, box);
-      const std::size_t end = cold_.list.count();
-      if (end - last <= few) {
-        subtract_in_order(last, end, fragment, box, out);
-      } else {
-        subtract_long_list(fragment, last, out);
-      }
-      cold_.list.shrink(last);
+    subtract_listed(cold_, first, first + few, part, left);
+    if (!left.empty()) {
+      PartBoxes<T> boxes = take(spare_boxes_);
+      boxes.reset(left);
+      subtract_list(left, boxes, 0, left.size(), boxes.around(0, left.size()), first + few, out);
+      spare_boxes_.push_back(std::move(boxes));
     }
     give_back(std::move(left));
   }
@@ -259,10 +258,16 @@ private:
     out.push(part);
   }
 
+  /// A list with anything in it, and its memory if there is one to spare.
+  template <class List>
+  static List take(std::vector<List>& spare) {
+    if (spare.empty()) return {};
+    List list = std::move(spare.back());
+    spare.pop_back();
+    return list;
+  }
   Parts take() {
-    if (spare_.empty()) return {};
-    Parts list = std::move(spare_.back());
-    spare_.pop_back();
+    Parts list = take(spare_);
     list.clear();
     return list;
   }
@@ -281,6 +286,7 @@ private:
   Parts todo_;                            ///< parts that are still to be subtracted from
   std::vector<std::uint64_t> todo_left_;  ///< which occluders, of each
   std::vector<Parts> spare_;
+  std::vector<PartBoxes<T>> spare_boxes_;
 };
 
 }  // namespace tenebra::HWY_NAMESPACE

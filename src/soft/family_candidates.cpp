@@ -15,15 +15,22 @@ std::span<const std::uint32_t> FamilyCandidates::choose(const GroupFrame& group,
                                                         std::span<const std::uint32_t> triangles,
                                                         std::span<const std::uint32_t> places,
                                                         GroupCandidates& all) {
-  is_own_.assign(all.all.size(), 0);
+  if (briefs_.empty()) {
+    for (const Candidate& c : all.all) briefs_.push_back({c.triangle, !c.is_quad && c.sign != 0});
+  }
+  is_own_.assign(briefs_.size(), 0);
   auto id = triangles.begin();
-  for (std::size_t i = 0; i < all.all.size(); ++i) {
-    while (id != triangles.end() && *id < all.all[i].triangle) ++id;
-    is_own_[i] = id != triangles.end() && *id == all.all[i].triangle;
+  for (std::size_t i = 0; i < briefs_.size(); ++i) {
+    while (id != triangles.end() && *id < briefs_[i].triangle) ++id;
+    is_own_[i] = id != triangles.end() && *id == briefs_[i].triangle;
   }
   own_.clear();
   decided_.clear();
   for (const std::uint32_t place : places) {
+    if (briefs_[place].is_plain) {
+      if (is_own_[place] != 0) own_.push_back(place);
+      continue;
+    }
     Candidate& c = all.all[place];
     if (is_own_[place] == 0 && !(c.is_quad && is_own_[c.second] != 0)) continue;
     own_.push_back(place);

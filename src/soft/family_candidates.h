@@ -13,7 +13,10 @@ namespace tenebra {
 class FamilyCandidates {
 public:
   /// Takes up another family.
-  void clear() { ids_.clear(); }
+  void clear() {
+    ids_.clear();
+    briefs_.clear();
+  }
   /// Adds a group's triangles, ascending.
   void add(std::span<const std::uint32_t> triangles);
   /// All of them, ascending.
@@ -28,7 +31,14 @@ public:
   }
 
 private:
+  /// What is asked of all candidates for each group, close together.
+  struct Brief {
+    std::uint32_t triangle;
+    bool is_plain;  ///< no pair, and of a certain sign
+  };
+
   std::vector<std::uint32_t> ids_, merged_;
+  std::vector<Brief> briefs_;                 ///< of each candidate
   std::vector<std::uint8_t> is_own_;          ///< of each candidate
   std::vector<std::uint32_t> own_, decided_;  ///< places
 };

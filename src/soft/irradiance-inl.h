@@ -100,24 +100,23 @@ inline HWY_NOINLINE EdgeSums sum_edges(const LightEdges& edges, const LightFrame
   const auto all = [](const glm::dvec3& a) { return splat3<Double8>(a.x, a.y, a.z); };
   const Pack3<Double8> origin = all(at.to_origin), normal = all(at.normal);
   const Double8 zero = splat<Double8>(0.0);
-  EdgeSums sums;
+  Double8 irradiance = zero, area = zero;
   for (std::size_t k = 0; k < edges.count; k += 8) {
     const Double8 u0 = load<Double8>(&edges.u0[k]), v0 = load<Double8>(&edges.v0[k]);
     const Double8 u1 = load<Double8>(&edges.u1[k]), v1 = load<Double8>(&edges.v1[k]);
     const Double8 term = contour_term(on_light(light, origin, u0, v0),
                                       on_light(light, {zero, zero, zero}, u1 - u0, v1 - v0), normal);
-    double terms[8], areas[8];
-    store(term, terms);
-    store(u0 * v1 - u1 * v0, areas);
-    const std::size_t valid = HWY_MIN(std::size_t{8}, edges.count - k);
-    for (std::size_t i = 0; i < valid; ++i) {
-      sums.irradiance -= terms[i];
-      sums.area += areas[i];
-    }
+    const auto there = truth_of<double, 8>(edges.count - k < 8 ? (1u << (edges.count - k)) - 1u : 0xffu);
+    irradiance = irradiance - choose(there, term, zero);
+    area = area + choose(there, u0 * v1 - u1 * v0, zero);
   }
-  sums.irradiance *= 0.5;
-  sums.area *= 0.5;
-  return sums;
+  double i[8], a[8];
+  store(irradiance, i);
+  store(area, a);
+  const auto sum = [](const double* v) {
+    return ((v[0] + v[1]) + (v[2] + v[3])) + ((v[4] + v[5]) + (v[6] + v[7]));
+  };
+  return {sum(a) * 0.5, sum(i) * 0.5};
 }
 
 }  // namespace tenebra::HWY_NAMESPACE

@@ -132,8 +132,9 @@ void append_edges(const FragmentList<T>& fragments, LightEdges& edges) {
   using Lanes = Pack<T, polygon_capacity>;
   using Index = Pack<LaneIndex<T>, polygon_capacity>;
   const Index next = load<Index>(next_lanes<T>);
-  const auto widen = [](const T* from, std::vector<double>& to, std::size_t place) {
-    store(load_widened<Pack<double, polygon_capacity>>(from), &to[place]);
+  const auto widen = [](const T* from, int count, std::vector<double>& to, std::size_t place) {
+    store(load_widened<Pack<double, 8>>(from), &to[place]);
+    if (count > 8) store(load_widened<Pack<double, 8>>(from + 8), &to[place + 8]);
   };
   for (std::size_t i = 0; i < fragments.size(); ++i) {
     const StoredPolygon<T>& p = fragments[i];
@@ -141,8 +142,8 @@ void append_edges(const FragmentList<T>& fragments, LightEdges& edges) {
     T x[polygon_capacity], y[polygon_capacity];  // of the vertices behind
     store(permute(load<Lanes>(p.x), next), x);
     store(permute(load<Lanes>(p.y), next), y);
-    widen(p.x, edges.u0, edges.count), widen(p.y, edges.v0, edges.count);
-    widen(x, edges.u1, edges.count), widen(y, edges.v1, edges.count);
+    widen(p.x, p.count, edges.u0, edges.count), widen(p.y, p.count, edges.v0, edges.count);
+    widen(x, p.count, edges.u1, edges.count), widen(y, p.count, edges.v1, edges.count);
     edges.count += static_cast<std::size_t>(p.count);
   }
 }

@@ -55,7 +55,7 @@ public:
   /// Appends to the list what may reach into `box`.
   HWY_INLINE void append_block(std::size_t b, const LightBox<T>& box) {
     const BlockBoxes<T>& there = boxes_of(b);
-    list.append(there.sides, 16 * b, there.lanes & blocks_[b].lanes, box);
+    list.append(there.sides, 16 * b, there.lanes, box);
   }
   /// The occluders of block 0, and bits of those that may reach into `box`.
   HWY_INLINE ShadowBoxes<T> first_block(const LightBox<T>& box, std::uint64_t& met) {
