@@ -497,6 +497,13 @@ HWY_INLINE T total(Pack<T, N> a) {
   return hn::GetLane(hn::SumOfLanes(typename Pack<T, N>::Tag(), a.r[0]));
 }
 
+/// Sum of the lanes, in one order: the same bits on every target.
+HWY_INLINE double ordered_total(Pack<double, 8> a) {
+  double v[8];
+  store(a, v);
+  return ((v[0] + v[1]) + (v[2] + v[3])) + ((v[4] + v[5]) + (v[6] + v[7]));
+}
+
 /// Bits of the sixteen that equal `value`.
 HWY_INLINE std::uint32_t equal_bits(const std::uint32_t* sixteen, std::uint32_t value) {
   using P = Pack<std::int32_t, 16>;

@@ -1,5 +1,5 @@
 // The visible part of the light by subtracting occluders from it: from each fragment next the one that has
-// most in common with it, so that fragments stay few.
+// most in common with it, so that fragments stay few, where most take something from it.
 //
 // What took light from one point mostly does so from the next: those occluders are kept apart and come first.
 // Only what they leave of the light meets the others, found through the bounds of their blocks: a point in
@@ -39,7 +39,7 @@ public:
     hot_ids_.clear();
     cold_.clear(group.heights);
     for (std::size_t i = 0; i < order.size(); ++i) {
-      if (i + 8 < order.size()) expect(group.all[order[i + 8]]);
+      if (i + ahead < order.size()) expect(group.all[order[i + ahead]]);
       cold_.add(group.all[order[i]]);
     }
     if (has_many()) bounds_.find(cold_);
@@ -73,6 +73,7 @@ public:
 
 private:
   static constexpr std::size_t few = 64;   ///< occluders that one pass subtracts from a part
+  static constexpr std::size_t ahead = 8;  ///< candidates are fetched so many before they are added
   static constexpr std::size_t many = 48;  ///< occluders from which on it pays to keep a few apart
 
   /// Asks for a candidate that will be added soon.
@@ -234,6 +235,7 @@ private:
     }
   }
 
+  /// Chooses which of the bits of `left` is first where there are more than any order serves.
   HWY_INLINE void subtract_widest(Occluders& c, const ShadowBoxes<T>& boxes, std::uint64_t left,
                                   typename Sight::OwnPart part, Parts& out) {
     const bool in_order = std::popcount(left) <= Sight::any_order;

@@ -23,7 +23,8 @@ public:
   std::span<const std::uint32_t> triangles() const { return ids_; }
 
   /// Those of `places` in `all` that hold one of `triangles`, a pair with either of its two. Signs that
-  /// depend on the points of the family, but not on those of `group`, are set until restore().
+  /// depend on the points of the family, but not on those of `group`, are set until restore(). `all` is the
+  /// same for all groups of a family.
   std::span<const std::uint32_t> choose(const GroupFrame& group, std::span<const std::uint32_t> triangles,
                                         std::span<const std::uint32_t> places, GroupCandidates& all);
   void restore(GroupCandidates& all) const {

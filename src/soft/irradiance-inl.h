@@ -94,7 +94,7 @@ struct EdgeSums {
 /// that two polygons share cancel. Irradiance in Nishita and Nakamae's contour form (1985): -1/2 the sum over
 /// the edges of the angle an edge subtends times the cosine between normal and the plane of point and edge.
 /// The polygons lie above the receiver's horizon; the point not on the light's plane.
-/// The same bits on every target: sums run in the order of the edges.
+/// The same bits on every target: each lane sums every eighth edge, and the lanes are added in one order.
 inline HWY_NOINLINE EdgeSums sum_edges(const LightEdges& edges, const LightFrame& light,
                                        const Receiver3& at) {
   const auto all = [](const glm::dvec3& a) { return splat3<Double8>(a.x, a.y, a.z); };
@@ -110,13 +110,7 @@ inline HWY_NOINLINE EdgeSums sum_edges(const LightEdges& edges, const LightFrame
     irradiance = irradiance - choose(there, term, zero);
     area = area + choose(there, u0 * v1 - u1 * v0, zero);
   }
-  double i[8], a[8];
-  store(irradiance, i);
-  store(area, a);
-  const auto sum = [](const double* v) {
-    return ((v[0] + v[1]) + (v[2] + v[3])) + ((v[4] + v[5]) + (v[6] + v[7]));
-  };
-  return {sum(a) * 0.5, sum(i) * 0.5};
+  return {ordered_total(area) * 0.5, ordered_total(irradiance) * 0.5};
 }
 
 }  // namespace tenebra::HWY_NAMESPACE

@@ -43,6 +43,7 @@ public:
   }
   std::size_t count() const { return count_; }
   std::size_t block_count() const { return (count_ + 15) / 16; }
+  /// Its lanes may change before move_to(), not after it.
   OccluderBlock& block(std::size_t b) { return blocks_[b]; }
 
   /// Forgets all lists; what follows is about points of `range`.
@@ -62,7 +63,7 @@ public:
     const BlockBoxes<T>& there = boxes_of(0);
     const auto& s = there.sides;
     const ShadowBoxes<T> boxes{{s[0], s[1], s[2], s[3]}, lane_numbers<T>};
-    met = bits(meets(boxes, box)) & there.lanes & blocks_[0].lanes;
+    met = bits(meets(boxes, box)) & there.lanes;
     return boxes;
   }
 

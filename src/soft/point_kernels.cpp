@@ -22,14 +22,8 @@ HWY_INLINE Vector8 eight_at(const PointLanes& points, std::size_t i) {
 HWY_INLINE Truth<double, 8> lanes_of(PointSet set, std::size_t i) {
   return truth_of<double, 8>(set[i]);
 }
-// In one order everywhere.
-HWY_INLINE double sum_of(Double8 a) {
-  double v[8];
-  store(a, v);
-  return ((v[0] + v[1]) + (v[2] + v[3])) + ((v[4] + v[5]) + (v[6] + v[7]));
-}
 HWY_INLINE dvec3 sum_of(const Vector8& a) {
-  return {sum_of(a.x), sum_of(a.y), sum_of(a.z)};
+  return {ordered_total(a.x), ordered_total(a.y), ordered_total(a.z)};
 }
 
 // Least and greatest coordinates, lane by lane.
@@ -126,8 +120,8 @@ HWY_INLINE Slopes slopes_of(const PointLanes& points, PointSet set, const Vector
     x_sum = x_sum + choose(there, x, none), y_sum = y_sum + choose(there, y, none);
     count = count + choose(there, one, none);
   }
-  const dvec3 mean = sum_of(sum) / sum_of(count);
-  return {sum_of(x_p) - sum_of(x_sum) * mean, sum_of(y_p) - sum_of(y_sum) * mean};
+  const dvec3 mean = sum_of(sum) / ordered_total(count);
+  return {sum_of(x_p) - ordered_total(x_sum) * mean, sum_of(y_p) - ordered_total(y_sum) * mean};
 }
 
 Cell fitted_cell(const PointLanes& points, PointSet set, const PointBox& box, const LightShape& light) {
