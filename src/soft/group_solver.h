@@ -6,6 +6,7 @@
 #include <span>
 
 #include "base/frame_timings.h"
+#include "parallel/stop_flag.h"
 #include "points/visible_points.h"
 #include "soft/group_occluders.h"
 #include "soft/light_frame.h"
@@ -23,6 +24,7 @@ struct SoftFrame {
   const SoftShadowConfig& config;
   SoftMask& out;
   std::span<std::uint8_t> classes;
+  const StopFlag* stop;  ///< looked at for each point that needs a solver of its own; may be null
 };
 
 /// Points of one group, and what may stand between them and the light.

@@ -23,20 +23,33 @@ constexpr double most_groups = 0.4;
 // Points times triangles below which a subtree is not worth sharing out.
 constexpr std::uint64_t serial_work = 1 << 16;
 
+// A thread that keeps more candidates than these, 16 MB, hands its families over before all are decided.
+constexpr std::size_t most_ids = std::size_t{1} << 22;
+
 // What is to be said about a group.
-struct Decision {
+struct Decided {
   const PointGroup* group;
   GroupClass kind;
-  std::size_t ids_end;  ///< of its candidates, among those of the family
+  std::size_t ids_begin, ids_end;  ///< of its candidates, among those of the thread
+};
+
+struct Family {
+  int thread;
+  std::size_t begin, end;  ///< of its groups, among those that the thread decided
+  std::uint64_t work;      ///< points times candidates
 };
 
 // What one thread uses. A thread that waits for a subtree may begin another on top of it: lists are a stack.
 struct alignas(64) ThreadScratch {
   std::deque<BlockList> lists;
   std::size_t lists_used = 0;
-  std::vector<std::uint32_t> ids;   ///< candidates of the family at hand
-  std::vector<Decision> decisions;  ///< about its groups
+  std::vector<std::uint32_t> ids;  ///< candidates of the groups decided so far
+  std::vector<Decided> decided;
+  std::vector<Family> families;
+  std::vector<GroupDecision> family;  ///< the one at hand
   ShaftStats stats;
+
+  void forget() { ids.clear(), decided.clear(), families.clear(); }
 };
 
 // A list from the thread's stack, given back with its end.
@@ -57,6 +70,23 @@ private:
   BlockList* list_;
 };
 
+void count(const GroupDecision& decision, ShaftStats& s) {
+  const std::size_t points = decision.group->count, candidates = decision.candidates.size();
+  switch (decision.kind) {
+    case GroupClass::lit:
+      ++s.groups_lit, s.points_lit += points;
+      break;
+    case GroupClass::dark:
+      ++s.groups_dark, s.points_dark += points;
+      break;
+    case GroupClass::mixed:
+      ++s.groups_mixed, s.points_mixed += points;
+      s.candidates += candidates;
+      s.most_candidates = std::max<std::uint64_t>(s.most_candidates, candidates);
+      break;
+  }
+}
+
 void add(ShaftStats& to, const ShaftStats& from) {
   to.groups_lit += from.groups_lit, to.points_lit += from.points_lit;
   to.groups_dark += from.groups_dark, to.points_dark += from.points_dark;
@@ -66,12 +96,12 @@ void add(ShaftStats& to, const ShaftStats& from) {
   to.seconds += from.seconds;
 }
 
-// One call of for_each_group.
+// One call of for_each_family: decide() on all, then hand_over().
 class Descent {
 public:
   Descent(const PointGroups& groups, const TriangleView& triangles, const LightShape& light,
-          const ShaftKernels& kernels, ShaftMaker make_shaft, const StopFlag* stop, const GroupBody& body,
-          const FamilyEnd& end, std::vector<ThreadScratch>& scratch)
+          const ShaftKernels& kernels, ShaftMaker make_shaft, const StopFlag* stop, const FamilyBody& body,
+          std::vector<ThreadScratch>& scratch)
       : groups_(groups),
         triangles_(triangles),
         light_(light),
@@ -79,19 +109,24 @@ public:
         make_shaft_(make_shaft),
         stop_(stop),
         body_(body),
-        end_(end),
         scratch_(scratch) {}
 
   /// `from`: what may matter to the node, found for a node of `groups` groups.
-  void descend(const GroupNode& node, const BlockList& from, std::uint32_t groups);
+  void decide(const GroupNode& node, const BlockList& from, std::uint32_t groups);
+
+  /// What was decided, those with most work first.
+  void hand_over();
 
 private:
   const BlockList& narrowed(const GroupNode& node, const BlockList& from, std::uint32_t& groups,
                             BlockList& list) const;
+  void decide_family(const GroupNode& node, const BlockList& from, std::uint32_t groups,
+                     ThreadScratch& scratch);
   void decide_all(const GroupNode& node, const BlockList& from, std::uint32_t groups, ThreadScratch& scratch);
-  void decide(const PointGroup& group, const BlockList& from, ThreadScratch& scratch);
+  void decide_group(const PointGroup& group, const BlockList& from, ThreadScratch& scratch);
   std::uint32_t cull(const PointGroup& group, const BlockList& from, BlockList& list) const;
-  void hand_over(ThreadScratch& scratch);
+  void hand_over_kept(ThreadScratch& scratch);
+  void hand_over(const Family& family);
 
   const PointGroups& groups_;
   const TriangleView& triangles_;
@@ -99,8 +134,7 @@ private:
   const ShaftKernels& kernels_;
   ShaftMaker make_shaft_;
   const StopFlag* stop_;
-  const GroupBody& body_;
-  const FamilyEnd& end_;
+  const FamilyBody& body_;
   std::vector<ThreadScratch>& scratch_;
 };
 
@@ -126,16 +160,14 @@ const BlockList& Descent::narrowed(const GroupNode& node, const BlockList& from,
   return list;
 }
 
-void Descent::descend(const GroupNode& node, const BlockList& from, std::uint32_t groups) {
+void Descent::decide(const GroupNode& node, const BlockList& from, std::uint32_t groups) {
   if (stop_requested(stop_)) return;
   ThreadScratch& scratch = scratch_[static_cast<std::size_t>(thread_index())];
   Stopwatch watch;
   if (node.count <= largest_family || (from.refs.empty() && !worth_sharing(node, from))) {
-    scratch.ids.clear(), scratch.decisions.clear();
-    decide_all(node, from, groups, scratch);
+    decide_family(node, from, groups, scratch);
     scratch.stats.seconds += watch.lap_ms() * 1e-3;
-    hand_over(scratch);
-    end_(thread_index());
+    if (scratch.ids.size() > most_ids) hand_over_kept(scratch);
     return;
   }
   const ListLease own(scratch);
@@ -143,17 +175,30 @@ void Descent::descend(const GroupNode& node, const BlockList& from, std::uint32_
   scratch.stats.seconds += watch.lap_ms() * 1e-3;
   const GroupNode* children = &groups_.nodes[node.children];
   if (worth_sharing(node, list)) {
-    parallel_tasks(2, [&](int k) { descend(children[k], list, groups); });
+    parallel_tasks(2, [&](int k) { decide(children[k], list, groups); });
   } else {
-    descend(children[0], list, groups);
-    descend(children[1], list, groups);
+    decide(children[0], list, groups);
+    decide(children[1], list, groups);
   }
+}
+
+void Descent::decide_family(const GroupNode& node, const BlockList& from, std::uint32_t groups,
+                            ThreadScratch& scratch) {
+  Family family{thread_index(), scratch.decided.size(), 0, 0};
+  decide_all(node, from, groups, scratch);
+  family.end = scratch.decided.size();
+  for (std::size_t i = family.begin; i < family.end; ++i) {
+    const Decided& d = scratch.decided[i];
+    family.work += d.group->count * static_cast<std::uint64_t>(d.ids_end - d.ids_begin);
+  }
+  scratch.families.push_back(family);
 }
 
 void Descent::decide_all(const GroupNode& node, const BlockList& from, std::uint32_t groups,
                          ThreadScratch& scratch) {
   if (from.refs.empty() || node.count < fewest_groups) {
-    for (std::uint32_t i = 0; i < node.count; ++i) decide(groups_.groups[node.first + i], from, scratch);
+    for (std::uint32_t i = 0; i < node.count; ++i)
+      decide_group(groups_.groups[node.first + i], from, scratch);
     return;
   }
   const ListLease own(scratch);
@@ -162,7 +207,7 @@ void Descent::decide_all(const GroupNode& node, const BlockList& from, std::uint
   decide_all(groups_.nodes[node.children + 1], list, groups, scratch);
 }
 
-void Descent::decide(const PointGroup& group, const BlockList& from, ThreadScratch& scratch) {
+void Descent::decide_group(const PointGroup& group, const BlockList& from, ThreadScratch& scratch) {
   if (stop_requested(stop_)) return;
   const std::size_t before = scratch.ids.size();
   GroupClass kind = GroupClass::lit;
@@ -177,7 +222,7 @@ void Descent::decide(const PointGroup& group, const BlockList& from, ThreadScrat
       if (scratch.ids.size() > before) kind = GroupClass::mixed;
     }
   }
-  scratch.decisions.push_back({&group, kind, scratch.ids.size()});
+  scratch.decided.push_back({&group, kind, before, scratch.ids.size()});
 }
 
 // Leaves in `list` what may block a line from the group; returns the triangle that blocks all, if one does.
@@ -195,29 +240,33 @@ std::uint32_t Descent::cull(const PointGroup& group, const BlockList& from, Bloc
   return dark;
 }
 
-void Descent::hand_over(ThreadScratch& scratch) {
-  ShaftStats& s = scratch.stats;
-  std::size_t first = 0;
-  for (const Decision& decision : scratch.decisions) {
-    if (stop_requested(stop_)) return;
-    const PointGroup& group = *decision.group;
-    const std::span<const std::uint32_t> ids(scratch.ids.data() + first, decision.ids_end - first);
-    first = decision.ids_end;
-    switch (decision.kind) {
-      case GroupClass::lit:
-        ++s.groups_lit, s.points_lit += group.count;
-        break;
-      case GroupClass::dark:
-        ++s.groups_dark, s.points_dark += group.count;
-        break;
-      case GroupClass::mixed:
-        ++s.groups_mixed, s.points_mixed += group.count;
-        s.candidates += ids.size();
-        s.most_candidates = std::max<std::uint64_t>(s.most_candidates, ids.size());
-        break;
-    }
-    body_(group, ids, decision.kind, thread_index());
+void Descent::hand_over() {
+  std::vector<Family> families;
+  for (const ThreadScratch& scratch : scratch_)
+    families.insert(families.end(), scratch.families.begin(), scratch.families.end());
+  std::stable_sort(families.begin(), families.end(),
+                   [](const Family& a, const Family& b) { return a.work > b.work; });
+  parallel_in_order(static_cast<int>(families.size()),
+                    [&](int i) { hand_over(families[static_cast<std::size_t>(i)]); });
+}
+
+void Descent::hand_over_kept(ThreadScratch& scratch) {
+  for (const Family& family : scratch.families) hand_over(family);
+  scratch.forget();
+}
+
+void Descent::hand_over(const Family& family) {
+  if (stop_requested(stop_)) return;
+  const ThreadScratch& from = scratch_[static_cast<std::size_t>(family.thread)];
+  ThreadScratch& own = scratch_[static_cast<std::size_t>(thread_index())];
+  own.family.clear();
+  for (std::size_t i = family.begin; i < family.end; ++i) {
+    const Decided& d = from.decided[i];
+    const std::span<const std::uint32_t> ids(from.ids.data() + d.ids_begin, d.ids_end - d.ids_begin);
+    own.family.push_back({d.group, d.kind, ids});
+    count(own.family.back(), own.stats);
   }
+  body_(own.family, thread_index());
 }
 
 }  // namespace
@@ -236,9 +285,9 @@ const ShaftStats& ShaftCuller::stats() const {
   return state_->stats;
 }
 
-bool ShaftCuller::for_each_group(const PointGroups& groups, const TriangleView& triangles,
-                                 const AreaLight& area_light, const SoftShadowConfig& config,
-                                 const StopFlag* stop, const GroupBody& body, const FamilyEnd& end) {
+bool ShaftCuller::for_each_family(const PointGroups& groups, const TriangleView& triangles,
+                                  const AreaLight& area_light, const SoftShadowConfig& config,
+                                  const StopFlag* stop, const FamilyBody& body) {
   State& s = *state_;
   s.stats = {};
   const FloatEnvironment ieee;
@@ -246,12 +295,14 @@ bool ShaftCuller::for_each_group(const PointGroups& groups, const TriangleView& 
   const LightShape light(area_light);
   gather_casters(triangles, s.casters);
   s.scratch.resize(std::max(s.scratch.size(), static_cast<std::size_t>(thread_count())));
-  for (ThreadScratch& scratch : s.scratch) scratch.stats = {};
+  for (ThreadScratch& scratch : s.scratch) scratch.stats = {}, scratch.forget();
   s.stats.seconds = watch.lap_ms() * 1e-3;
   const ShaftKernels kernels = shaft_kernels(config.simd);
-  if (!groups.nodes.empty())
-    Descent(groups, triangles, light, kernels, shaft_maker(config.simd), stop, body, end, s.scratch)
-        .descend(groups.nodes[0], s.casters, groups.nodes[0].count);
+  if (!groups.nodes.empty()) {
+    Descent descent(groups, triangles, light, kernels, shaft_maker(config.simd), stop, body, s.scratch);
+    descent.decide(groups.nodes[0], s.casters, groups.nodes[0].count);
+    descent.hand_over();
+  }
   for (const ThreadScratch& scratch : s.scratch) add(s.stats, scratch.stats);
   return !stop_requested(stop);
 }

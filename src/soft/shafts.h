@@ -20,15 +20,18 @@ enum class GroupClass : std::uint8_t {
 };
 
 /// What is to be done with a group. `candidates`: ids of the triangles that may block, in an order that does
-/// not depend on threads (lit: none; dark: the triangle that blocks all). `thread`: 0..thread_count() - 1,
-/// for scratch; no other body runs with the same one meanwhile, as long as the body starts no parallel loop.
-using GroupBody = std::function<void(const PointGroup& group, std::span<const std::uint32_t> candidates,
-                                     GroupClass kind, int thread)>;
+/// not depend on threads (lit: none; dark: the triangle that blocks all).
+struct GroupDecision {
+  const PointGroup* group;
+  GroupClass kind;
+  std::span<const std::uint32_t> candidates;
+};
 
-/// Groups that lie near each other, a family, come to the body one after the other, all with the same
-/// `thread`; then this is called. Families do not depend on threads.
-using FamilyEnd = std::function<void(int thread)>;
-inline constexpr std::uint32_t largest_family = 6;  ///< groups
+/// Takes groups that lie near each other, a family; which they are does not depend on threads. `thread`:
+/// 0..thread_count() - 1, for scratch; no other body runs with the same one meanwhile, as long as the body
+/// starts no parallel loop.
+using FamilyBody = std::function<void(std::span<const GroupDecision> family, int thread)>;
+inline constexpr std::uint32_t largest_family = 16;  ///< groups, where anything may stand before them
 
 /// Counts do not depend on threads.
 struct ShaftStats {
@@ -47,15 +50,12 @@ public:
   ShaftCuller& operator=(ShaftCuller&&) noexcept;
   ~ShaftCuller();
 
-  /// Calls `body` once for each group, in parallel; subtrees with much work are shared out down to single
-  /// families. A triangle is left out of a group's candidates only if it is certain that it blocks no line
-  /// from a point of the group to the light, by the rule of SoftShadowTracer::trace; the rest depends neither
-  /// on threads nor on the instruction set. Returns false, with some groups left out, if `stop` was
-  /// requested.
-  bool for_each_group(
-      const PointGroups& groups, const TriangleView& triangles, const AreaLight& light,
-      const SoftShadowConfig& config, const StopFlag* stop, const GroupBody& body,
-      const FamilyEnd& end = [](int) {});
+  /// Calls `body` once for each family, in parallel, those with most points times candidates first. A
+  /// triangle is left out of a group's candidates only if it is certain that it blocks no line from a point
+  /// of the group to the light, by the rule of SoftShadowTracer::trace; the rest depends neither on threads
+  /// nor on the instruction set. Returns false, with some families left out, if `stop` was requested.
+  bool for_each_family(const PointGroups& groups, const TriangleView& triangles, const AreaLight& light,
+                       const SoftShadowConfig& config, const StopFlag* stop, const FamilyBody& body);
 
   const ShaftStats& stats() const;  ///< of the last call
 

@@ -29,7 +29,8 @@ struct alignas(64) Worker {
   std::unique_ptr<GroupSolver> solver;
   std::vector<std::span<const std::uint32_t>> lit;  ///< pixels of each
   std::vector<const PointGroup*> mixed;
-  std::vector<std::vector<std::uint32_t>> candidates, receivers;  ///< of each
+  std::vector<std::span<const std::uint32_t>> candidates;  ///< of each
+  std::vector<std::vector<std::uint32_t>> receivers;       ///< of each
   std::vector<GroupTask> tasks;
 };
 
@@ -83,9 +84,9 @@ struct SoftShadowTracer::State {
 
   void prepare(const SoftShadowConfig& config);
   void clear_pixels(const VisiblePoints& points, SoftMask& out);
-  void take_group(const SoftFrame& frame, const PointGroup& group, std::span<const std::uint32_t> candidates,
-                  GroupClass kind, Worker& worker);
-  void solve_family(const SoftFrame& frame, Worker& worker);
+  void solve_family(const SoftFrame& frame, std::span<const GroupDecision> family, Worker& worker);
+  void sort_out(const SoftFrame& frame, const GroupDecision& decision, Worker& worker);
+  void solve_mixed(const SoftFrame& frame, Worker& worker);
   void gather();
 };
 
@@ -118,31 +119,34 @@ void SoftShadowTracer::State::clear_pixels(const VisiblePoints& points, SoftMask
   });
 }
 
-void SoftShadowTracer::State::take_group(const SoftFrame& frame, const PointGroup& group,
-                                         std::span<const std::uint32_t> candidates, GroupClass kind,
-                                         Worker& worker) {
+void SoftShadowTracer::State::solve_family(const SoftFrame& frame, std::span<const GroupDecision> family,
+                                           Worker& worker) {
+  worker.lit.clear(), worker.mixed.clear(), worker.candidates.clear();
+  for (const GroupDecision& decision : family) sort_out(frame, decision, worker);
+  if (!worker.lit.empty()) worker.solver->solve_lit(frame, worker.lit);
+  if (!worker.mixed.empty()) solve_mixed(frame, worker);
+}
+
+void SoftShadowTracer::State::sort_out(const SoftFrame& frame, const GroupDecision& decision,
+                                       Worker& worker) {
+  const PointGroup& group = *decision.group;
   const auto pixels = groups.pixels_of(group);
   const auto behind = static_cast<std::size_t>(groups.groups.data() + groups.groups.size() - &group);
   worker.solver->expect(frame, groups.pixels_of(behind > 1 ? *(&group + 1) : group),
                         groups.pixels_of(behind > 2 ? *(&group + 2) : group));
-  if (kind == GroupClass::dark) {
+  if (decision.kind == GroupClass::dark) {
     for (const std::uint32_t pixel : pixels) classes[pixel] = static_cast<std::uint8_t>(SoftClass::dark);
     worker.solver->stats.points_dark += pixels.size();
-  } else if (kind == GroupClass::lit) {
+  } else if (decision.kind == GroupClass::lit) {
     worker.lit.push_back(pixels);
   } else {
-    const std::size_t i = worker.mixed.size();
     worker.mixed.push_back(&group);
-    if (worker.candidates.size() == i) worker.candidates.emplace_back();
-    worker.candidates[i].assign(candidates.begin(), candidates.end());
+    worker.candidates.push_back(decision.candidates);
   }
 }
 
-void SoftShadowTracer::State::solve_family(const SoftFrame& frame, Worker& worker) {
-  if (!worker.lit.empty()) worker.solver->solve_lit(frame, worker.lit);
-  worker.lit.clear();
+void SoftShadowTracer::State::solve_mixed(const SoftFrame& frame, Worker& worker) {
   const std::size_t count = worker.mixed.size();
-  if (count == 0) return;
   if (worker.receivers.size() < count + 1) worker.receivers.resize(count + 1);
   std::size_t candidates = 0;
   worker.tasks.clear();
@@ -159,7 +163,6 @@ void SoftShadowTracer::State::solve_family(const SoftFrame& frame, Worker& worke
   } else {
     for (const GroupTask& task : worker.tasks) worker.solver->solve(frame, task);
   }
-  worker.mixed.clear();
 }
 
 void SoftShadowTracer::State::gather() {
@@ -195,13 +198,11 @@ bool SoftShadowTracer::trace(const VisiblePoints& points, std::span<const glm::v
   s.timings.shaft_ms = watch.lap_ms();
 
   const LightFrame frame_of_light = light_frame(light);
-  const SoftFrame frame{points, normals, view, triangles, frame_of_light, config, out, s.classes};
-  const bool done = s.culler.for_each_group(
-      s.groups, triangles, light, config, stop,
-      [&](const PointGroup& group, std::span<const std::uint32_t> candidates, GroupClass kind, int thread) {
-        s.take_group(frame, group, candidates, kind, s.workers[static_cast<std::size_t>(thread)]);
-      },
-      [&](int thread) { s.solve_family(frame, s.workers[static_cast<std::size_t>(thread)]); });
+  const SoftFrame frame{points, normals, view, triangles, frame_of_light, config, out, s.classes, stop};
+  const bool done = s.culler.for_each_family(
+      s.groups, triangles, light, config, stop, [&](std::span<const GroupDecision> family, int thread) {
+        s.solve_family(frame, family, s.workers[static_cast<std::size_t>(thread)]);
+      });
   s.gather();
   return done;
 }

@@ -38,14 +38,16 @@ inline std::vector<Given> given(const GroupCase& c, const PointGroups& groups,
   ShaftCuller culler;
   SoftShadowConfig config;
   config.simd = simd;
-  EXPECT_TRUE(
-      culler.for_each_group(groups, c.soup.view(), c.light, config, nullptr,
-                            [&](const PointGroup& group, auto candidates, GroupClass kind, int thread) {
-                              const auto i = static_cast<std::size_t>(&group - groups.groups.data());
-                              all[i] = {kind, {candidates.begin(), candidates.end()}};
-                              ++calls[i];
-                              EXPECT_LT(thread, thread_count());
-                            }));
+  EXPECT_TRUE(culler.for_each_family(groups, c.soup.view(), c.light, config, nullptr,
+                                     [&](std::span<const GroupDecision> family, int thread) {
+                                       for (const auto& [group, kind, candidates] : family) {
+                                         const auto i =
+                                             static_cast<std::size_t>(group - groups.groups.data());
+                                         all[i] = {kind, {candidates.begin(), candidates.end()}};
+                                         ++calls[i];
+                                       }
+                                       EXPECT_LT(thread, thread_count());
+                                     }));
   EXPECT_EQ(std::count(calls.begin(), calls.end(), 1), static_cast<std::ptrdiff_t>(calls.size()));
   if (stats != nullptr) *stats = culler.stats();
   return all;

@@ -140,25 +140,71 @@ TEST(Shafts, CountWhatTheyGive) {
   EXPECT_GT(stats.seconds, 0);
 }
 
+// Points times candidates of the families, as they are handed over to one thread.
+std::vector<std::uint64_t> works_in_order(const GroupCase& c, const PointGroups& groups) {
+  std::vector<std::uint64_t> works;
+  with_threads(1, [&] {
+    ShaftCuller culler;
+    culler.for_each_family(groups, c.soup.view(), c.light, {}, nullptr,
+                           [&](std::span<const GroupDecision> family, int) {
+                             works.push_back(0);
+                             for (const GroupDecision& decision : family)
+                               works.back() += decision.group->count * decision.candidates.size();
+                           });
+  });
+  return works;
+}
+
+// What takes long is not left for the end, when other threads are idle.
+TEST(Shafts, HandOverTheFamiliesWithMostWorkFirst) {
+  const GroupCase c = room_case(35, 128);
+  const PointGroups groups = grouped(c);
+  const std::vector<std::uint64_t> works = works_in_order(c, groups);
+  EXPECT_TRUE(std::is_sorted(works.rbegin(), works.rend()));
+  EXPECT_GT(works.front(), works.back());
+  EXPECT_LT(works.size(), groups.groups.size() / 4) << "families are small";
+}
+
+// Of 30,000 triangles below the light most may block lines from any group: too many to keep.
+TEST(Shafts, HandOverBeforeAllAreDecidedWhereCandidatesAreMany) {
+  GroupCase c = room_case(36, 128);
+  Random random(36);
+  for (int i = 0; i < 30000; ++i) {
+    const dvec3 p = c.light.centre + dvec3(random.in(-0.3, 0.3), -0.2, random.in(-0.3, 0.3));
+    c.soup.add(p + random.in_cube(0.01), p + random.in_cube(0.01), p + random.in_cube(0.01));
+  }
+  c.points = view_samples(c.soup.view(), c.view, 128, 128);
+  const PointGroups groups = grouped(c);
+  const std::vector<std::uint64_t> works = works_in_order(c, groups);
+  EXPECT_FALSE(std::is_sorted(works.rbegin(), works.rend())) << "all were kept";
+  std::vector<Given> alone;
+  with_threads(1, [&] { alone = given(c, groups); });
+  with_threads(3, [&] { EXPECT_EQ(given(c, groups), alone); });
+}
+
 TEST(Shafts, EndEarlyWhenAsked) {
   const GroupCase c = room_case(34, 64);
   const PointGroups groups = grouped(c);
   ShaftCuller culler;
   StopFlag stop;
-  int calls = 0;
+  std::size_t families = 0, handed_over = 0;
+  const auto run = [&] {
+    return culler.for_each_family(groups, c.soup.view(), c.light, {}, &stop,
+                                  [&](std::span<const GroupDecision> family, int) {
+                                    handed_over += family.size();
+                                    if (++families == 3) stop.request();
+                                  });
+  };
   with_threads(1, [&] {
-    EXPECT_FALSE(culler.for_each_group(groups, c.soup.view(), c.light, {}, &stop, [&](auto&&...) {
-      if (++calls == 3) stop.request();
-    }));
-    EXPECT_EQ(calls, 3);
-    EXPECT_FALSE(
-        culler.for_each_group(groups, c.soup.view(), c.light, {}, &stop, [&](auto&&...) { ++calls; }));
-    EXPECT_EQ(calls, 3);
+    EXPECT_FALSE(run());
+    EXPECT_EQ(families, 3u);
+    EXPECT_FALSE(run());
+    EXPECT_EQ(families, 3u);
     stop.reset();
-    EXPECT_TRUE(
-        culler.for_each_group(groups, c.soup.view(), c.light, {}, &stop, [&](auto&&...) { ++calls; }));
+    handed_over = 0;
+    EXPECT_TRUE(run());
   });
-  EXPECT_EQ(calls, 3 + static_cast<int>(groups.groups.size()));
+  EXPECT_EQ(handed_over, groups.groups.size());
 }
 
 }  // namespace
