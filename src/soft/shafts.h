@@ -31,7 +31,7 @@ struct GroupDecision {
 /// 0..thread_count() - 1, for scratch; no other body runs with the same one meanwhile, as long as the body
 /// starts no parallel loop.
 using FamilyBody = std::function<void(std::span<const GroupDecision> family, int thread)>;
-inline constexpr std::uint32_t largest_family = 16;  ///< groups, where anything may stand before them
+inline constexpr std::uint32_t largest_family = 12;  ///< groups, where anything may stand before them
 
 /// Counts do not depend on threads.
 struct ShaftStats {

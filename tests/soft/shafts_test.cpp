@@ -165,11 +165,11 @@ TEST(Shafts, HandOverTheFamiliesWithMostWorkFirst) {
   EXPECT_LT(works.size(), groups.groups.size() / 4) << "families are small";
 }
 
-// Of 30,000 triangles below the light most may block lines from any group: too many to keep.
+// Of 60,000 triangles below the light most may block lines from any group: too many to keep.
 TEST(Shafts, HandOverBeforeAllAreDecidedWhereCandidatesAreMany) {
   GroupCase c = room_case(36, 128);
   Random random(36);
-  for (int i = 0; i < 30000; ++i) {
+  for (int i = 0; i < 60000; ++i) {
     const dvec3 p = c.light.centre + dvec3(random.in(-0.3, 0.3), -0.2, random.in(-0.3, 0.3));
     c.soup.add(p + random.in_cube(0.01), p + random.in_cube(0.01), p + random.in_cube(0.01));
   }
