@@ -1,45 +1,69 @@
 #include "soft/family_candidates.h"
 
 #include <algorithm>
-#include <iterator>
 
 namespace tenebra {
 
-void FamilyCandidates::add(std::span<const std::uint32_t> triangles) {
-  merged_.clear();
-  std::set_union(ids_.begin(), ids_.end(), triangles.begin(), triangles.end(), std::back_inserter(merged_));
-  ids_.swap(merged_);
+void FamilyCandidates::clear() {
+  count_ = 0;
+  ids_.clear();
+  groups_.clear();
 }
 
-std::span<const std::uint32_t> FamilyCandidates::choose(const GroupFrame& group,
-                                                        std::span<const std::uint32_t> triangles,
-                                                        std::span<const std::uint32_t> places,
-                                                        GroupCandidates& all) {
-  if (briefs_.empty()) {
-    for (const Candidate& c : all.all) briefs_.push_back({c.triangle, !c.is_quad && c.sign != 0});
+void FamilyCandidates::add(std::span<const std::uint32_t> triangles) {
+  const std::uint32_t bit = 1u << count_++;
+  merged_.clear();
+  joined_.clear();
+  auto next = triangles.begin();
+  const auto take = [&](std::uint32_t id, std::uint32_t groups) {
+    merged_.push_back(id);
+    joined_.push_back(groups);
+  };
+  for (std::size_t i = 0; i < ids_.size(); ++i) {
+    for (; next != triangles.end() && *next < ids_[i]; ++next) take(*next, bit);
+    const bool both = next != triangles.end() && *next == ids_[i];
+    if (both) ++next;
+    take(ids_[i], groups_[i] | (both ? bit : 0));
   }
-  is_own_.assign(briefs_.size(), 0);
-  auto id = triangles.begin();
-  for (std::size_t i = 0; i < briefs_.size(); ++i) {
-    while (id != triangles.end() && *id < briefs_[i].triangle) ++id;
-    is_own_[i] = id != triangles.end() && *id == briefs_[i].triangle;
+  for (; next != triangles.end(); ++next) take(*next, bit);
+  ids_.swap(merged_);
+  groups_.swap(joined_);
+}
+
+void FamilyCandidates::make_ready(const GroupCandidates& all, std::span<const std::uint32_t> places) {
+  std::vector<std::uint32_t>& groups = joined_;  // of each candidate
+  groups.clear();
+  std::size_t i = 0;
+  for (const Candidate& c : all.all) {
+    while (i < ids_.size() && ids_[i] < c.triangle) ++i;
+    groups.push_back(i < ids_.size() && ids_[i] == c.triangle ? groups_[i] : 0);
   }
-  own_.clear();
-  decided_.clear();
+  members_.clear();
+  doubtful_.clear();
   for (const std::uint32_t place : places) {
-    if (briefs_[place].is_plain) {
-      if (is_own_[place] != 0) own_.push_back(place);
-      continue;
-    }
-    Candidate& c = all.all[place];
-    if (is_own_[place] == 0 && !(c.is_quad && is_own_[c.second] != 0)) continue;
-    own_.push_back(place);
-    if (c.sign != 0 || std::binary_search(group.receivers.begin(), group.receivers.end(), c.triangle))
-      continue;
-    c.sign = all.axes.turn * certain_sign(all.heights[c.height], all.axes.centre, group);
-    if (c.sign != 0) decided_.push_back(place);
+    const Candidate& c = all.all[place];
+    members_.push_back({place, groups[place] | (c.is_quad ? groups[c.second] : 0)});
+    if (c.sign == 0) doubtful_.push_back(members_.back());
   }
-  return own_;
+}
+
+std::span<const std::uint32_t> FamilyCandidates::choose(std::size_t k, const GroupFrame& group,
+                                                        GroupCandidates& all) {
+  own_.resize(members_.size());
+  std::size_t count = 0;
+  for (const Member& member : members_) {
+    own_[count] = member.place;
+    count += member.groups >> k & 1u;
+  }
+  decided_.clear();
+  for (const Member& member : doubtful_) {
+    if ((member.groups >> k & 1u) == 0) continue;
+    Candidate& c = all.all[member.place];
+    if (std::binary_search(group.receivers.begin(), group.receivers.end(), c.triangle)) continue;
+    c.sign = all.axes.turn * certain_sign(all.heights[c.height], all.axes.centre, group);
+    if (c.sign != 0) decided_.push_back(member.place);
+  }
+  return {own_.data(), count};
 }
 
 }  // namespace tenebra

@@ -12,36 +12,37 @@ namespace tenebra {
 
 class FamilyCandidates {
 public:
+  static constexpr std::size_t most_groups = 32;
+
   /// Takes up another family.
-  void clear() {
-    ids_.clear();
-    briefs_.clear();
-  }
-  /// Adds a group's triangles, ascending.
+  void clear();
+  /// Adds a group's triangles, ascending: those of group 0, 1, ...
   void add(std::span<const std::uint32_t> triangles);
   /// All of them, ascending.
   std::span<const std::uint32_t> triangles() const { return ids_; }
 
-  /// Those of `places` in `all` that hold one of `triangles`, a pair with either of its two. Signs that
-  /// depend on the points of the family, but not on those of `group`, are set until restore(). `all` is the
-  /// same for all groups of a family.
-  std::span<const std::uint32_t> choose(const GroupFrame& group, std::span<const std::uint32_t> triangles,
-                                        std::span<const std::uint32_t> places, GroupCandidates& all);
+  /// What was made of all of them, and the places in it that groups choose from.
+  void make_ready(const GroupCandidates& all, std::span<const std::uint32_t> places);
+
+  /// Those of the places that hold one of the triangles of group `k`, which is `group`; a pair with either of
+  /// its two. Signs that depend on the points of the family, but not on those of the group, are set in `all`
+  /// until restore().
+  std::span<const std::uint32_t> choose(std::size_t k, const GroupFrame& group, GroupCandidates& all);
   void restore(GroupCandidates& all) const {
     for (const std::uint32_t place : decided_) all.all[place].sign = 0;
   }
 
 private:
-  /// What is asked of all candidates for each group, close together.
-  struct Brief {
-    std::uint32_t triangle;
-    bool is_plain;  ///< no pair, and of a certain sign
+  struct Member {
+    std::uint32_t place;
+    std::uint32_t groups;  ///< bits of those that have it
   };
 
-  std::vector<std::uint32_t> ids_, merged_;
-  std::vector<Brief> briefs_;                 ///< of each candidate
-  std::vector<std::uint8_t> is_own_;          ///< of each candidate
-  std::vector<std::uint32_t> own_, decided_;  ///< places
+  std::size_t count_ = 0;                       ///< of groups
+  std::vector<std::uint32_t> ids_, groups_;     ///< triangles, and bits of the groups of each
+  std::vector<std::uint32_t> merged_, joined_;  ///< the next of these
+  std::vector<Member> members_, doubtful_;      ///< all, in the order of the places, and those of no sign
+  std::vector<std::uint32_t> own_, decided_;    ///< places
 };
 
 }  // namespace tenebra

@@ -55,15 +55,14 @@ public:
     for (const GroupTask& task : tasks) family_.add(task.candidates);
     set_up(frame, {{}, around, family_.triangles()});
     times.init_ms += watch.lap_ms();
-    const std::span<const std::uint32_t> all = clipped_;
-    const bool together = outline_.empty();  // else each had better have an outline of its own
-    for (const GroupTask& task : tasks) {
-      if (!together) {
-        solve(frame, task);
-        continue;
-      }
-      clipped_ = family_.choose(task.frame, task.candidates, all, candidates_);
-      solve_ready(frame, task, watch);
+    if (!outline_.empty()) {  // each had better have an outline of its own
+      for (const GroupTask& task : tasks) solve(frame, task);
+      return;
+    }
+    family_.make_ready(candidates_, clipped_);
+    for (std::size_t k = 0; k < tasks.size(); ++k) {
+      clipped_ = family_.choose(k, tasks[k].frame, candidates_);
+      solve_ready(frame, tasks[k], watch);
       family_.restore(candidates_);
     }
   }

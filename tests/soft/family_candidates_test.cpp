@@ -43,15 +43,18 @@ TEST(FamilyCandidates, AreTheTrianglesOfAllGroupsOnceInOrder) {
 TEST(FamilyCandidates, APairIsChosenForEitherOfItsTriangles) {
   GroupCandidates all = with_pair();
   FamilyCandidates family;
-  const auto chosen = [&](const Places& triangles) {
-    return copy_of(family.choose({}, triangles, largest_first, all));
-  };
-  EXPECT_EQ(chosen({5}), Places{1});
-  EXPECT_EQ(chosen({7}), Places{1});
-  EXPECT_EQ(chosen({5, 7}), Places{1});
-  EXPECT_EQ(chosen({2, 9}), (Places{0, 3}));
-  EXPECT_EQ(chosen({2, 7, 9}), (Places{1, 0, 3}));
-  EXPECT_EQ(chosen({4, 6, 8}), Places{});
+  for (const Places& triangles :
+       {Places{5}, Places{7}, Places{5, 7}, Places{2, 9}, Places{2, 7, 9}, Places{4, 6, 8}})
+    family.add(triangles);
+  EXPECT_EQ(copy_of(family.triangles()), (Places{2, 4, 5, 6, 7, 8, 9}));
+  family.make_ready(all, largest_first);
+  const auto chosen = [&](std::size_t k) { return copy_of(family.choose(k, {}, all)); };
+  EXPECT_EQ(chosen(0), Places{1});
+  EXPECT_EQ(chosen(1), Places{1});
+  EXPECT_EQ(chosen(2), Places{1});
+  EXPECT_EQ(chosen(3), (Places{0, 3}));
+  EXPECT_EQ(chosen(4), (Places{1, 0, 3}));
+  EXPECT_EQ(chosen(5), Places{});
 }
 
 // Triangle 9 lies in y = 0: above it, at 2, it blocks with one sign, below with the other, near it depends.
@@ -61,12 +64,16 @@ TEST(FamilyCandidates, SignsAreThoseOfTheGroupUntilRestored) {
   all.heights.push_back({0.0, {0, 1, 0}, 1e-7, 1.0});
   all.all[3].sign = 0;
   FamilyCandidates family;
+  family.add(Places{2});
+  family.add(Places{9});
+  family.make_ready(all, largest_first);
   const auto sign_of_group = [&](double y, const Places& receivers) {
     GroupFrame group;
     group.centre = {0, y, 0}, group.half = glm::dvec3(0.5), group.receivers = receivers;
-    EXPECT_EQ(copy_of(family.choose(group, Places{9}, largest_first, all)), Places{3});
+    EXPECT_EQ(copy_of(family.choose(1, group, all)), Places{3});
     const double sign = all.all[3].sign;
     family.restore(all);
+    EXPECT_EQ(copy_of(family.choose(0, group, all)), Places{0});
     EXPECT_EQ(all.all[3].sign, 0);
     EXPECT_EQ(all.all[1].sign, 1);
     return sign;
