@@ -252,7 +252,7 @@ private:
     for (; left != 0; k = std::countr_zero(left)) {
       left &= ~(std::uint64_t{1} << k);
       const auto id = static_cast<std::size_t>(boxes.ids[k]);
-      if (!c.subtract(id, bounds, part, left == 0 ? out : todo_)) continue;
+      if (!c.subtract(id, bounds, part, boxes.ids, left, todo_, out)) continue;
       todo_left_.resize(todo_.size(), left);
       c.mark_useful(id);
       if (Sight::takes_all || part.empty()) return;

@@ -81,15 +81,35 @@ public:
     OccluderList<T, GroupPoint>::move_to(at);
   }
 
-  /// Subtracts an occluder from `part`: false if it has no share in it. What is left goes to `out`.
+  /// Subtracts an occluder from `part`: false if it has no share in it. What is left goes to `out`, or to
+  /// `rest` if others of `ids` are still to be subtracted from it: those of the bits of `left`, from which
+  /// these that only stand near the part are taken where they are few.
   HWY_INLINE bool subtract(std::size_t id, const LightBox<T>&, const LightPolygon<T>& part,
+                           const LaneIndex<T>* ids, std::uint64_t& left, FragmentList<T>& rest,
                            FragmentList<T>& out) {
     const ShadowLines<T> lines = lines_of(id);
     const LineSides<T> sides = sides_of(part, lines);
-    return sides.positive == all_lines && subtract_shadow(part, lines, sides, out);
+    if (sides.positive != all_lines) return false;
+    if (std::popcount(left) <= few_left) left = touching(ids, left, part);
+    return subtract_shadow(part, lines, sides, left == 0 ? out : rest);
   }
 
 private:
+  /// Of so many each is tested against a part once, and not against all fragments of it (measured).
+  static constexpr int few_left = 12;
+
+  /// Of the bits of `left` those whose occluders no line of their own parts from `part`.
+  HWY_INLINE std::uint64_t touching(const LaneIndex<T>* ids, std::uint64_t left,
+                                    const LightPolygon<T>& part) {
+    std::uint64_t found = 0;
+    for (; left != 0; left &= left - 1) {
+      const int k = std::countr_zero(left);
+      const LineSides<T> sides = sides_of(part, lines_of(static_cast<std::size_t>(ids[k])));
+      found |= static_cast<std::uint64_t>(sides.positive == all_lines) << k;
+    }
+    return found;
+  }
+
   HWY_INLINE ShadowLines<T> lines_of(std::size_t id) {
     const std::size_t b = id / 16, k = id % 16;
     BlockLines<T>& there = lines_[b];
@@ -116,7 +136,7 @@ struct OnePoint {
   using Parts = FragmentList<T>;
   using Occluders = PointOccluders<T>;
   static constexpr bool takes_all = true;  ///< what is subtracted leaves nothing of a part where it was
-  static constexpr int any_order = 6;      ///< occluders whose order does not matter
+  static constexpr int any_order = 4;      ///< occluders whose order does not matter
 };
 
 }  // namespace tenebra::HWY_NAMESPACE

@@ -31,7 +31,7 @@ struct Effort {
 };
 
 Effort effort(bool quick) {
-  if (quick) return {3, false, false, 64, {1, 9, 25, 100}, 1, {2, 12, 36}, 5000};
+  if (quick) return {7, false, false, 64, {1, 9, 25, 100}, 1, {2, 12, 36}, 5000};
   return {7, true, true, 16, {1, 2, 4, 9, 16, 25, 49, 100}, 3, {2, 4, 9, 12, 16, 24, 36}, 20000};
 }
 
