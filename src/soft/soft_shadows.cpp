@@ -6,6 +6,7 @@
 
 #include "base/stopwatch.h"
 #include "parallel/parallel.h"
+#include "soft/family_candidates.h"
 #include "soft/group_solver.h"
 #include "soft/light_frame.h"
 #include "soft/point_groups.h"
@@ -23,6 +24,7 @@ constexpr std::array<std::pair<SoftSolver, std::string_view>, 3> solver_names = 
 
 /// Candidates of a group, on average, from which on those of a family are made ready together (measured).
 constexpr std::size_t many_candidates = 1024;
+static_assert(largest_family <= FamilyCandidates::most_groups);
 
 /// What one thread keeps: its solver, and of the family at hand the groups that need it.
 struct alignas(64) Worker {
