@@ -187,7 +187,7 @@ private:
   void solve_points(Precision<T>& p, const SoftFrame& frame, const GroupTask& task) {
     for (std::size_t i = 0; i < task.pixels.size(); ++i) {
       const std::uint32_t pixel = task.pixels[i];
-      if (stop_requested(frame.stop)) return;
+      if (stop_requested(frame.stop)) break;
       if (use_bsp_ && bsp_.bytes() > largest_tree_bytes) {
         note_tree();
         use_bsp_ = false;

@@ -2,6 +2,9 @@
 // choices that decide the work but not the answer.
 #include <gtest/gtest.h>
 
+#include <chrono>
+#include <thread>
+
 #include "soft/soft_frames.h"
 
 namespace tenebra::testing {
@@ -308,6 +311,30 @@ TEST(SoftMetamorphic, AStopIsHeard) {
   stop.reset();
   EXPECT_TRUE(tracer.trace(c.points, c.normals, c.view, c.soup.view(), c.light, c.config, mask, &stop));
   EXPECT_TRUE(same_bits(mask, traced(c, c.config))) << "after a stop";
+}
+
+// A stop in the middle of a group leaves nothing behind that the next frame would finish.
+TEST(SoftMetamorphic, AStopAtAnyTimeLeavesNothingBehind) {
+  const SoftCase c = frame_case(bundled_frames[2], 320, 180), small = room_case(14);
+  SoftStats expected;
+  const SoftMask mask_of_small = traced(small, small.config, &expected);
+  SoftShadowTracer tracer;
+  SoftMask mask;
+  int stopped = 0;
+  for (int i = 0; i < 40; ++i) {
+    StopFlag stop;
+    std::thread asker([&] {
+      std::this_thread::sleep_for(std::chrono::microseconds(500 * i));
+      stop.request();
+    });
+    if (!tracer.trace(c.points, c.normals, c.view, c.soup.view(), c.light, c.config, mask, &stop)) ++stopped;
+    asker.join();
+    ASSERT_TRUE(tracer.trace(small.points, small.normals, small.view, small.soup.view(), small.light,
+                             small.config, mask));
+    EXPECT_TRUE(same_bits(mask, mask_of_small)) << "after " << 500 * i << " us";
+    EXPECT_EQ(tracer.stats().points_lit, expected.points_lit);
+  }
+  EXPECT_GT(stopped, 0);
 }
 
 TEST(SoftMetamorphic, EmptyInputsGiveEmptyMasks) {
