@@ -16,7 +16,7 @@ public:
 
   /// Takes up another family.
   void clear();
-  /// Adds a group's triangles, ascending: those of group 0, 1, ...
+  /// Adds a group's triangles, ascending: those of group 0, 1, ... most_groups - 1.
   void add(std::span<const std::uint32_t> triangles);
   /// All of them, ascending.
   std::span<const std::uint32_t> triangles() const { return ids_; }

@@ -44,7 +44,8 @@ class GroupSolver {
 public:
   virtual ~GroupSolver() = default;
 
-  /// Fills out's pixels of the group. The result depends on the group alone.
+  /// Fills out's pixels of the group, some of them if frame.stop was requested. The result depends on the
+  /// group alone.
   virtual void solve(const SoftFrame& frame, const GroupTask& task) = 0;
   /// The same for groups that lie near each other, within `around`, and have many candidates: these are made
   /// ready once for all.
@@ -53,8 +54,8 @@ public:
   /// The same for groups that nothing stands in front of.
   virtual void solve_lit(const SoftFrame& frame, std::span<const std::span<const std::uint32_t>> groups) = 0;
 
-  /// Asks memory for the points of the group that will be solved next (of many, the first), and for the list
-  /// of those `after` it.
+  /// Asks memory for the points of the group that is likely solved next (of many, the first), and for the
+  /// list of those `after` it.
   virtual void expect(const SoftFrame& frame, std::span<const std::uint32_t> pixels,
                       std::span<const std::uint32_t> after) const = 0;
 

@@ -26,7 +26,7 @@ constexpr std::uint64_t serial_work = 1 << 16;
 // A thread that keeps more candidates than these, 16 MB, hands its families over before all are decided.
 constexpr std::size_t most_ids = std::size_t{1} << 22;
 
-// What is to be said about a group.
+// A GroupDecision whose candidates may still move, as long as others are added behind them.
 struct Decided {
   const PointGroup* group;
   GroupClass kind;

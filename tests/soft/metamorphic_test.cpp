@@ -313,7 +313,7 @@ TEST(SoftMetamorphic, AStopIsHeard) {
   EXPECT_TRUE(same_bits(mask, traced(c, c.config))) << "after a stop";
 }
 
-// A stop in the middle of a group leaves nothing behind that the next frame would finish.
+// The frame after a stop is as if there had been none.
 TEST(SoftMetamorphic, AStopAtAnyTimeLeavesNothingBehind) {
   SoftCase c = frame_case(bundled_frames[2], 320, 180), small = frame_case(bundled_frames[2], 64, 36);
   c.config.solver = small.config.solver = SoftSolver::clip;  // point after point
