@@ -5,12 +5,14 @@ function(tenebra_library name)
   if(sources)
     add_library(tenebra_${name} STATIC ${sources})
     target_include_directories(tenebra_${name} PUBLIC
-      $<BUILD_INTERFACE:${CMAKE_SOURCE_DIR}/src> $<INSTALL_INTERFACE:include/tenebra>)
+      $<BUILD_INTERFACE:${CMAKE_SOURCE_DIR}/include> $<BUILD_INTERFACE:${CMAKE_SOURCE_DIR}/src>
+      $<INSTALL_INTERFACE:include>)
     target_link_libraries(tenebra_${name} ${ARGN})
   else()
     add_library(tenebra_${name} INTERFACE)
     target_include_directories(tenebra_${name} INTERFACE
-      $<BUILD_INTERFACE:${CMAKE_SOURCE_DIR}/src> $<INSTALL_INTERFACE:include/tenebra>)
+      $<BUILD_INTERFACE:${CMAKE_SOURCE_DIR}/include> $<BUILD_INTERFACE:${CMAKE_SOURCE_DIR}/src>
+      $<INSTALL_INTERFACE:include>)
     set(links ${ARGN})
     list(REMOVE_ITEM links PUBLIC PRIVATE)
     target_link_libraries(tenebra_${name} INTERFACE ${links})

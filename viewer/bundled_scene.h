@@ -3,7 +3,7 @@
 
 #include <filesystem>
 
-#include "base/expected.h"
+#include <tenebra/expected.h>
 
 namespace tenebra::viewer {
 

@@ -7,7 +7,7 @@
 #include <string>
 #include <string_view>
 
-#include "base/expected.h"
+#include "base/fail.h"
 #include "render/renderer.h"
 
 namespace tenebra::viewer {
@@ -18,11 +18,12 @@ struct Choice {
   T value;
 };
 
-inline constexpr std::array shadow_choices{Choice<ShadowMode>{"none", ShadowMode::none},
-                                           Choice<ShadowMode>{"hard", ShadowMode::hard},
-                                           Choice<ShadowMode>{"soft", ShadowMode::soft}};
-inline constexpr std::array sample_choices{Choice<SampleSource>{"ids", SampleSource::ids},
-                                           Choice<SampleSource>{"depth", SampleSource::depth}};
+inline constexpr std::array shadow_choices{Choice<render::ShadowMode>{"none", render::ShadowMode::none},
+                                           Choice<render::ShadowMode>{"hard", render::ShadowMode::hard},
+                                           Choice<render::ShadowMode>{"soft", render::ShadowMode::soft}};
+inline constexpr std::array sample_choices{
+    Choice<render::SampleSource>{"ids", render::SampleSource::ids},
+    Choice<render::SampleSource>{"depth", render::SampleSource::depth}};
 inline constexpr std::array solver_choices{Choice<SoftSolver>{"auto", SoftSolver::automatic},
                                            Choice<SoftSolver>{"bsp", SoftSolver::bsp},
                                            Choice<SoftSolver>{"clip", SoftSolver::clip}};
@@ -61,7 +62,7 @@ Expected<T> parse_choice(const std::array<Choice<T>, N>& choices, const std::str
   for (const Choice<T>& choice : choices) {
     if (choice.name == text) return choice.value;
   }
-  return fail("found {}, expected {}", text, choice_list(choices));
+  return base::fail("found {}, expected {}", text, choice_list(choices));
 }
 
 template <class T, std::size_t N>

@@ -4,7 +4,7 @@
 #include <CLI/CLI.hpp>
 #include <functional>
 
-#include "base/expected.h"
+#include <tenebra/expected.h>
 
 namespace tenebra::viewer {
 

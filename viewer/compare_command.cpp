@@ -1,6 +1,7 @@
 // tenebra compare: are two pictures the same?
 #include <memory>
 
+#include "base/fail.h"
 #include "base/image.h"
 #include "command.h"
 #include "console.h"
@@ -32,21 +33,22 @@ struct CompareOptions {
 };
 
 Expected<int> compare(const CompareOptions& options) {
-  const auto a = read_png(options.a);
+  const auto a = base::read_png(options.a);
   if (!a) return tl::unexpected(a.error());
-  const auto b = read_png(options.b);
+  const auto b = base::read_png(options.b);
   if (!b) return tl::unexpected(b.error());
   if (a->width != b->width || a->height != b->height) {
     print_out("different: sizes {}x{} and {}x{}{}\n", a->width, a->height, b->width, b->height,
               options.output.empty() ? "" : ", no picture of the difference");
     return different;
   }
-  Image8 marked;
+  base::Image8 marked;
   const PictureDifference result =
       compare_pictures(*a, *b, options.threshold, options.output.empty() ? nullptr : &marked);
   if (!options.output.empty()) {
     const StopSignals stop;
-    if (auto written = write_png(options.output, marked); !written) return tl::unexpected(written.error());
+    if (auto written = base::write_png(options.output, marked); !written)
+      return tl::unexpected(written.error());
   }
   print_out("{}: {} of {} pixels differ by more than {}, largest difference {} of 255\n",
             result.differing == 0 ? "same" : "different", result.differing, result.pixels, options.threshold,
@@ -56,7 +58,7 @@ Expected<int> compare(const CompareOptions& options) {
 
 Expected<int> parse_threshold(const std::string& text) {
   const auto threshold = parse_count(text);
-  if (!threshold || *threshold > largest_value) return fail("found {}, expected 0 to 255", text);
+  if (!threshold || *threshold > largest_value) return base::fail("found {}, expected 0 to 255", text);
   return threshold;
 }
 

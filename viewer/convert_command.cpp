@@ -1,6 +1,7 @@
 // tenebra convert: any scene file to a binary glTF file that other programs open.
 #include <memory>
 
+#include "base/fail.h"
 #include "command.h"
 #include "console.h"
 #include "option_values.h"
@@ -26,12 +27,13 @@ struct ConvertOptions {
 };
 
 Expected<int> convert(const ConvertOptions& options) {
-  if (!options.output.ends_with(".glb")) return fail("{}: expected a name that ends in .glb", options.output);
-  const auto scene = import_scene(options.input);
+  if (!options.output.ends_with(".glb"))
+    return base::fail("{}: expected a name that ends in .glb", options.output);
+  const auto scene = formats::import_scene(options.input);
   if (!scene) return tl::unexpected(scene.error());
   if (!options.quiet) print_warnings(scene->warnings);
   StopSignals stop;
-  const auto losses = export_glb(*scene, options.output, options.fps);
+  const auto losses = formats::export_glb(*scene, options.output, options.fps);
   if (!losses) return tl::unexpected(losses.error());
   if (!options.quiet) print_warnings(*losses);
   return stop.caught() != 0 ? exit_code_of(stop.caught()) : 0;

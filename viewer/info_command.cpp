@@ -1,4 +1,5 @@
 // tenebra info: what a scene file holds, as text or JSON.
+#include <fmt/core.h>
 #include <memory>
 #include <nlohmann/json.hpp>
 #include <numbers>
@@ -159,7 +160,7 @@ void print_text(const Json& json) {
 }
 
 Expected<int> info(const InfoOptions& options) {
-  const auto scene = import_scene(options.scene);
+  const auto scene = formats::import_scene(options.scene);
   if (!scene) return tl::unexpected(scene.error());
   const Json json = describe(*scene, options);
   if (options.json) {

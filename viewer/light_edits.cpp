@@ -2,6 +2,7 @@
 
 #include <sstream>
 
+#include "base/fail.h"
 #include "option_values.h"
 
 namespace tenebra::viewer {
@@ -27,11 +28,11 @@ Expected<void> apply(const std::string& key, const std::string& value, LightEdit
   if (key == "size") {
     const auto size = parse_light_size(value);
     if (!size || size->percent)
-      return fail("found size={}, expected W or WxH in metres, like 0.5x0.3", value);
+      return base::fail("found size={}, expected W or WxH in metres, like 0.5x0.3", value);
     edit.size_m = size->size;
     return {};
   }
-  return fail("found {}={}, expected on=0, on=1, intensity=FACTOR, move=X,Y,Z or size=WxH", key, value);
+  return base::fail("found {}={}, expected on=0, on=1, intensity=FACTOR, move=X,Y,Z or size=WxH", key, value);
 }
 
 /// " KEY=VALUE ..." of what the edit changes.
@@ -52,7 +53,8 @@ Expected<void> parse_light_edit(const std::string& text, LightEdits& edits) {
   std::string word;
   words >> word;
   const auto light = parse_count(word);
-  if (!light) return fail("found {}, expected the number of a light and KEY=VALUE, like \"0 on=0\"", text);
+  if (!light)
+    return base::fail("found {}, expected the number of a light and KEY=VALUE, like \"0 on=0\"", text);
   if (edits.size() <= static_cast<std::size_t>(*light)) edits.resize(static_cast<std::size_t>(*light) + 1);
   while (words >> word) {
     const auto sign = word.find('=');

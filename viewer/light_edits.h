@@ -6,8 +6,8 @@
 #include <string>
 #include <vector>
 
-#include "base/expected.h"
-#include "scene/frame_geometry.h"
+#include <tenebra/expected.h>
+#include <tenebra/frame_geometry.h>
 
 namespace tenebra::viewer {
 

@@ -1,5 +1,6 @@
 // The program `tenebra`: picks the command, and turns every failure into one sentence and an exit code.
 
+#include <fmt/core.h>
 #include <csignal>
 #include <cstdio>
 #include <exception>

@@ -1,5 +1,7 @@
 #include "method_arguments.h"
 
+#include <fmt/core.h>
+
 #include <algorithm>
 
 #include "choices.h"
@@ -29,7 +31,7 @@ private:
 
 void add_soft(Arguments& arguments, const MethodOptions& options) {
   const SoftShadowConfig& soft = options.render.soft;
-  const AreaLightSettings& lights = options.render.area_lights;
+  const render::AreaLightSettings& lights = options.render.area_lights;
   if (options.light_size) {
     const glm::vec2 size = options.light_size->size;
     arguments.add("--light-size",
@@ -43,7 +45,7 @@ void add_soft(Arguments& arguments, const MethodOptions& options) {
   arguments.choice("--soft-grouping", grouping_choices, soft.grouping, SoftShadowConfig{}.grouping);
   arguments.choice("--soft-choice", occluder_choices, soft.choice, SoftShadowConfig{}.choice);
   arguments.choice("--soft-precision", precision_choices, soft.precision, SoftShadowConfig{}.precision);
-  arguments.value("--soft-points", options.render.soft_points, RenderSettings{}.soft_points);
+  arguments.value("--soft-points", options.render.soft_points, render::RenderSettings{}.soft_points);
 }
 
 void add_ao(Arguments& arguments, const AoConfig& ao) {
@@ -77,8 +79,8 @@ std::string shell_word(const std::string& word) {
 }
 
 std::string method_arguments(const MethodOptions& options) {
-  const RenderSettings& render = options.render;
-  const RenderSettings standard;
+  const render::RenderSettings& render = options.render;
+  const render::RenderSettings standard;
   Arguments arguments;
   arguments.choice("--shadows", shadow_choices, render.shadows, standard.shadows);
   arguments.value("--light", render.light, standard.light);

@@ -1,5 +1,6 @@
 #include "method_options.h"
 
+#include "base/fail.h"
 #include "choices.h"
 
 namespace tenebra::viewer {
@@ -28,7 +29,7 @@ void set_group(std::initializer_list<CLI::Option*> options, const char* group) {
 
 Expected<Variant> parse_variant(const std::string& text) {
   if (const auto variant = variant_from_name(text)) return *variant;
-  return fail(
+  return base::fail(
       "found {}, expected Tiles, Precise, PreciseSorted, Spheres, SpheresSorted, PreciseSEA, PreciseEATP or "
       "PreciseSEATP",
       text);
@@ -36,9 +37,10 @@ Expected<Variant> parse_variant(const std::string& text) {
 
 Expected<SimdLevel> parse_simd(const std::string& text) {
   const auto level = simd_level_from_name(text);
-  if (!level) return fail("found {}, expected auto, scalar, sse4, avx2 or avx512", text);
+  if (!level) return base::fail("found {}, expected auto, scalar, sse4, avx2 or avx512", text);
   if (*level != SimdLevel::automatic && !simd_level_supported(*level)) {
-    return fail("this machine or build has no {}, its best is {}", text, simd_level_name(best_simd_level()));
+    return base::fail("this machine or build has no {}, its best is {}", text,
+                      simd_level_name(best_simd_level()));
   }
   return *level;
 }
@@ -46,19 +48,21 @@ Expected<SimdLevel> parse_simd(const std::string& text) {
 Expected<int> parse_light(const std::string& text) {
   if (text == "all") return -1;
   const auto number = parse_count(text);
-  return number ? number : fail("found {}, expected the number of a light, from 0, or all", text);
+  return number ? number : base::fail("found {}, expected the number of a light, from 0, or all", text);
 }
 
 Expected<int> parse_threads(const std::string& text) {
   const auto threads = parse_count(text);
-  if (!threads || *threads > 1024) return fail("found {}, expected 1 to 1024, or 0 for all cores", text);
+  if (!threads || *threads > 1024)
+    return base::fail("found {}, expected 1 to 1024, or 0 for all cores", text);
   return threads;
 }
 
 Expected<int> parse_points(const std::string& text) {
   const auto points = parse_count(text);
   if (!points || *points > most_soft_points) {
-    return fail("found {}, expected 1 to {} points, or 0 for the exact solution", text, most_soft_points);
+    return base::fail("found {}, expected 1 to {} points, or 0 for the exact solution", text,
+                      most_soft_points);
   }
   return points;
 }
@@ -66,28 +70,29 @@ Expected<int> parse_points(const std::string& text) {
 Expected<int> parse_downscale(const std::string& text) {
   const auto scale = parse_count(text);
   if (!scale || *scale < 1 || *scale > most_downscale)
-    return fail("found {}, expected 1 (every pixel) to {}", text, most_downscale);
+    return base::fail("found {}, expected 1 (every pixel) to {}", text, most_downscale);
   return scale;
 }
 
-Expected<Quality> parse_quality(const std::string& text) {
-  if (const auto quality = quality_from_name(text)) return *quality;
-  return fail("found {}, expected fast, balanced or exact", text);
+Expected<render::Quality> parse_quality(const std::string& text) {
+  if (const auto quality = render::quality_from_name(text)) return *quality;
+  return base::fail("found {}, expected fast, balanced or exact", text);
 }
 
 Expected<int> parse_bits(const std::string& text) {
   const auto bits = parse_count(text);
-  if (!bits || (*bits != 1 && *bits != 8 && *bits != 32)) return fail("found {}, expected 1, 8 or 32", text);
+  if (!bits || (*bits != 1 && *bits != 8 && *bits != 32))
+    return base::fail("found {}, expected 1, 8 or 32", text);
   return bits;
 }
 
 Expected<std::filesystem::path> parse_cache(const std::string& text) {
-  if (text.empty()) return fail("found an empty name, expected a folder or none");
+  if (text.empty()) return base::fail("found an empty name, expected a folder or none");
   return text == "none" ? std::filesystem::path() : std::filesystem::path(text);
 }
 
 void add_common(CLI::App& command, MethodOptions& options) {
-  RenderSettings& render = options.render;
+  render::RenderSettings& render = options.render;
   set_group(
       {add_value(
            command, quality_option, options.quality, parse_quality,
@@ -129,7 +134,7 @@ void add_hard(CLI::App& command, MethodOptions& options) {
 
 void add_soft(CLI::App& command, MethodOptions& options) {
   SoftShadowConfig& soft = options.render.soft;
-  AreaLightSettings& lights = options.render.area_lights;
+  render::AreaLightSettings& lights = options.render.area_lights;
   auto* size = add_value(command, "--light-size", options.light_size, parse_light_size,
                          "Makes point and spot lights rectangles of this size, in\nmetres or (4%) in percent "
                          "of the scene's diagonal,\nwith the light they had [they stay points]")
@@ -195,11 +200,11 @@ void add_ao(CLI::App& command, AoConfig& ao) {
 }
 
 /// Why the chosen methods do not look at `option`; empty if they do.
-std::string idle_for(const CLI::Option& option, const RenderSettings& render) {
+std::string idle_for(const CLI::Option& option, const render::RenderSettings& render) {
   const std::string &name = option.get_name(), &group = option.get_group();
-  const bool soft = render.shadows == ShadowMode::soft, ao = render.ao.mode != AoMode::none;
+  const bool soft = render.shadows == render::ShadowMode::soft, ao = render.ao.mode != AoMode::none;
   if (name == quality_option && !soft && !ao) return "without --shadows soft or --ao";
-  if (group == hard_group && render.shadows == ShadowMode::none) return "with --shadows none";
+  if (group == hard_group && render.shadows == render::ShadowMode::none) return "with --shadows none";
   if (group == soft_group && !soft) return "without --shadows soft";
   // --soft-solver, --soft-precision and their like.
   if (name.starts_with("--soft-") && name != points_option && render.soft_points > 0)
@@ -219,23 +224,23 @@ void add_method_options(CLI::App& command, MethodOptions& options) {
 
 void settle_quality(const CLI::App& command, MethodOptions& options) {
   if (!options.quality) return;
-  const RenderSettings given = options.render;
+  const render::RenderSettings given = options.render;
   const auto was_given = [&](const char* name) { return command.get_option(name)->count() > 0; };
-  apply_quality(*options.quality, options.render);
+  render::apply_quality(*options.quality, options.render);
   if (was_given(points_option)) options.render.soft_points = given.soft_points;
   if (was_given(rays_option)) options.render.ao.rays = given.ao.rays;
   if (was_given(downscale_option)) options.render.ao.downscale = given.ao.downscale;
 }
 
 Expected<void> check_method_options(const MethodOptions& options) {
-  const RenderSettings& render = options.render;
-  const bool soft = render.shadows == ShadowMode::soft;
-  if (render.samples == SampleSource::depth && (soft || render.ao.mode != AoMode::none)) {
-    return fail("--samples depth has no exact points, and {} needs them; expected --samples ids",
-                soft ? "--shadows soft" : "--ao");
+  const render::RenderSettings& render = options.render;
+  const bool soft = render.shadows == render::ShadowMode::soft;
+  if (render.samples == render::SampleSource::depth && (soft || render.ao.mode != AoMode::none)) {
+    return base::fail("--samples depth has no exact points, and {} needs them; expected --samples ids",
+                      soft ? "--shadows soft" : "--ao");
   }
   if (soft && options.cull_front.value_or(false)) {
-    return fail("--cull front is for hard shadows, and with --shadows soft every face casts");
+    return base::fail("--cull front is for hard shadows, and with --shadows soft every face casts");
   }
   return {};
 }
@@ -250,13 +255,13 @@ std::vector<std::string> idle_method_options(const CLI::App& command, const Meth
   return sentences;
 }
 
-RenderSettings method_settings(const MethodOptions& options, Size size) {
-  RenderSettings settings = options.render;
+render::RenderSettings method_settings(const MethodOptions& options, Size size) {
+  render::RenderSettings settings = options.render;
   settings.width = size.width;
   settings.height = size.height;
   // Points from the depth buffer lie off their triangles: only the paper's front-face culling keeps those
   // from shadowing their own points.
-  const bool from_depth = settings.samples == SampleSource::depth;
+  const bool from_depth = settings.samples == render::SampleSource::depth;
   settings.hard.cull_front = options.cull_front.value_or(from_depth);
   settings.hard.contact = from_depth ? ContactRule::none : ContactRule::triangle_ids;
   settings.soft.simd = settings.ao.simd = settings.hard.simd;

@@ -13,10 +13,10 @@
 namespace tenebra::viewer {
 
 struct MethodOptions {
-  RenderSettings render;                ///< but for its size
-  std::optional<Quality> quality;       ///< as given; settle_quality turns it into settings
-  std::optional<bool> cull_front;       ///< not given: as the samples need it
-  std::optional<LightSize> light_size;  ///< not given: points stay points
+  render::RenderSettings render;           ///< but for its size
+  std::optional<render::Quality> quality;  ///< as given; settle_quality turns it into settings
+  std::optional<bool> cull_front;          ///< not given: as the samples need it
+  std::optional<LightSize> light_size;     ///< not given: points stay points
 };
 
 /// Adds the options to `command`; they are read into `options`, which must live as long.
@@ -33,6 +33,6 @@ Expected<void> check_method_options(const MethodOptions& options);
 std::vector<std::string> idle_method_options(const CLI::App& command, const MethodOptions& options);
 
 /// The settings of a frame of `size`.
-RenderSettings method_settings(const MethodOptions& options, Size size);
+render::RenderSettings method_settings(const MethodOptions& options, Size size);
 
 }  // namespace tenebra::viewer

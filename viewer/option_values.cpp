@@ -1,5 +1,7 @@
 #include "option_values.h"
 
+#include "base/fail.h"
+
 #include <charconv>
 #include <cmath>
 #include <cstdlib>
@@ -65,7 +67,7 @@ Expected<Size> parse_size(const std::string& text) {
     return value && *value >= 1 && *value <= largest_side_px ? *value : 0;
   };
   if (parts.size() != 2 || side(0) == 0 || side(1) == 0) {
-    return fail("found {}, expected WxH with 1 to {} pixels each, like 800x600", text, largest_side_px);
+    return base::fail("found {}, expected WxH with 1 to {} pixels each, like 800x600", text, largest_side_px);
   }
   return Size{side(0), side(1)};
 }
@@ -74,7 +76,7 @@ Expected<FrameRange> parse_frame_range(const std::string& text) {
   if (text == "all") return FrameRange{};
   const auto parts = split(text, ':');
   const auto refuse = [&] {
-    return fail("found {}, expected A, A:B, A:B:STEP, A: or all, like 0:99:10", text);
+    return base::fail("found {}, expected A, A:B, A:B:STEP, A: or all, like 0:99:10", text);
   };
   if (parts.size() > 3) return refuse();
   const auto first = frame_from(parts[0]);
@@ -89,7 +91,7 @@ Expected<FrameRange> parse_frame_range(const std::string& text) {
     if (range.step < 1) return refuse();
   }
   if (range.last && *range.last < range.first) {
-    return fail("found {}, expected an end that is not before the begin", text);
+    return base::fail("found {}, expected an end that is not before the begin", text);
   }
   return range;
 }
@@ -103,42 +105,42 @@ Expected<glm::vec3> parse_vector(const std::string& text) {
     if (value) vector[i] = static_cast<float>(*value);
     is_vector = value && std::isfinite(vector[i]);
   }
-  if (!is_vector) return fail("found {}, expected three numbers X,Y,Z, like 0,1.5,-4", text);
+  if (!is_vector) return base::fail("found {}, expected three numbers X,Y,Z, like 0,1.5,-4", text);
   return vector;
 }
 
 Expected<double> parse_field_of_view(const std::string& text) {
   const auto degrees = finite_from(text);
   if (!degrees || *degrees <= 0 || *degrees >= half_turn_deg) {
-    return fail("found {}, expected degrees above 0 and below 180", text);
+    return base::fail("found {}, expected degrees above 0 and below 180", text);
   }
   return *degrees;
 }
 
 Expected<double> parse_positive(const std::string& text) {
   const auto number = finite_from(text);
-  if (!number || *number <= 0) return fail("found {}, expected a number above 0", text);
+  if (!number || *number <= 0) return base::fail("found {}, expected a number above 0", text);
   return *number;
 }
 
 Expected<float> parse_factor(const std::string& text) {
   const auto factor = parse_positive(text);
   if (!factor || static_cast<float>(*factor) == 0.0f || *factor > 1e30) {
-    return fail("found {}, expected a factor above 0, like 1.5", text);
+    return base::fail("found {}, expected a factor above 0, like 1.5", text);
   }
   return static_cast<float>(*factor);
 }
 
 Expected<double> parse_time(const std::string& text) {
   const auto seconds = finite_from(text);
-  if (!seconds) return fail("found {}, expected a time in seconds, like 1.5", text);
+  if (!seconds) return base::fail("found {}, expected a time in seconds, like 1.5", text);
   return *seconds;
 }
 
 Expected<int> parse_count(const std::string& text) {
   const auto count = number_from<int>(text);
   if (!count || *count < 0 || *count > largest_count) {
-    return fail("found {}, expected a whole number from 0 to {}", text, largest_count);
+    return base::fail("found {}, expected a whole number from 0 to {}", text, largest_count);
   }
   return *count;
 }
@@ -146,7 +148,7 @@ Expected<int> parse_count(const std::string& text) {
 Expected<int> parse_at_least_one(const std::string& text) {
   const auto count = parse_count(text);
   if (!count || *count < 1)
-    return fail("found {}, expected a whole number from 1 to {}", text, largest_count);
+    return base::fail("found {}, expected a whole number from 1 to {}", text, largest_count);
   return count;
 }
 
@@ -156,8 +158,8 @@ Expected<int> parse_square_count(const std::string& text) {
   for (const std::string_view part : parts) product *= number_from<int>(part).value_or(0);
   const bool whole = parts.size() <= 2 && product >= 1 && product <= largest_count;
   if (!whole || (parts.size() == 2 && parts[0].starts_with('-'))) {
-    return fail("found {}, expected a number from 1 to {}, or one as WxH, like 1024 or 32x32", text,
-                largest_count);
+    return base::fail("found {}, expected a number from 1 to {}, or one as WxH, like 1024 or 32x32", text,
+                      largest_count);
   }
   return static_cast<int>(product);
 }
@@ -172,7 +174,7 @@ Expected<LightSize> parse_light_size(const std::string& text) {
   result.size = {side(0), side(parts.size() - 1)};
   const bool usable = result.size.x > 0 && result.size.y > 0 && std::isfinite(result.size.x + result.size.y);
   if (parts.size() > 2 || !usable) {
-    return fail(
+    return base::fail(
         "found {}, expected W or WxH above 0, in metres or with % of the scene's diagonal, like 0.5, 1x0.4 "
         "or 4%",
         text);

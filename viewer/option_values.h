@@ -9,7 +9,7 @@
 #include <string>
 #include <utility>
 
-#include "base/expected.h"
+#include <tenebra/expected.h>
 
 namespace tenebra::viewer {
 

@@ -1,5 +1,7 @@
 #include "output_pattern.h"
 
+#include "base/fail.h"
+
 namespace tenebra::viewer {
 namespace {
 
@@ -27,13 +29,13 @@ int read_conversion(std::string_view text, std::size_t& at) {
 
 Expected<OutputPattern> OutputPattern::parse(const std::string& text) {
   if (text.ends_with(".png")) return parse_stem(text, ".png");
-  return fail("found {}, expected a name that ends in .png, like out/%04d.png", text);
+  return base::fail("found {}, expected a name that ends in .png, like out/%04d.png", text);
 }
 
 Expected<OutputPattern> OutputPattern::parse_mask(const std::string& text) {
   if (text.ends_with(".pfm")) return parse_stem(text, ".pfm");
   if (text.ends_with(".png")) return parse_stem(text, ".png");
-  return fail("found {}, expected a name that ends in .png or .pfm, like out/mask_%04d.png", text);
+  return base::fail("found {}, expected a name that ends in .png or .pfm, like out/mask_%04d.png", text);
 }
 
 Expected<OutputPattern> OutputPattern::parse_stem(const std::string& text, std::string_view extension) {
@@ -50,8 +52,8 @@ Expected<OutputPattern> OutputPattern::parse_stem(const std::string& text, std::
     }
     const int digits = read_conversion(stem, at);
     if (digits < 0 || pattern.is_numbered()) {
-      return fail("found {}, expected one frame number %d or %0Nd, like out/%04d.png (%% is a percent sign)",
-                  text);
+      return base::fail(
+          "found {}, expected one frame number %d or %0Nd, like out/%04d.png (%% is a percent sign)", text);
     }
     pattern.digits_ = digits;
   }
@@ -68,8 +70,10 @@ Expected<void> OutputPattern::prepare_folder() const {
   std::error_code error;
   if (folder.empty() || fs::is_directory(folder, error)) return {};
   fs::create_directory(folder, error);
-  if (error) return fail("cannot make the folder {} for {}: {}", folder.string(), text_, error.message());
-  if (!fs::is_directory(folder)) return fail("cannot write {}: {} is no folder", text_, folder.string());
+  if (error)
+    return base::fail("cannot make the folder {} for {}: {}", folder.string(), text_, error.message());
+  if (!fs::is_directory(folder))
+    return base::fail("cannot write {}: {} is no folder", text_, folder.string());
   return {};
 }
 

@@ -12,7 +12,7 @@ constexpr int largest_value = 255;
 using Pixel = std::array<int, 4>;
 
 /// Pixel `index` as red, green, blue, alpha.
-Pixel pixel_of(const Image8& image, std::size_t index) {
+Pixel pixel_of(const base::Image8& image, std::size_t index) {
   const std::uint8_t* values = image.pixels.data() + index * static_cast<std::size_t>(image.channels);
   switch (image.channels) {
     case 1:
@@ -34,7 +34,8 @@ int largest_difference(const Pixel& a, const Pixel& b) {
 
 }  // namespace
 
-PictureDifference compare_pictures(const Image8& a, const Image8& b, int threshold, Image8* marked) {
+PictureDifference compare_pictures(const base::Image8& a, const base::Image8& b, int threshold,
+                                   base::Image8* marked) {
   PictureDifference result;
   result.pixels = static_cast<std::size_t>(a.width) * static_cast<std::size_t>(a.height);
   if (marked) *marked = {a.width, a.height, 3, std::vector<std::uint8_t>(result.pixels * 3)};
@@ -53,8 +54,8 @@ PictureDifference compare_pictures(const Image8& a, const Image8& b, int thresho
   return result;
 }
 
-Image8 absolute_difference(const Image8& a, const Image8& b, int gain) {
-  Image8 out{a.width, a.height, a.channels, std::vector<std::uint8_t>(a.pixels.size())};
+base::Image8 absolute_difference(const base::Image8& a, const base::Image8& b, int gain) {
+  base::Image8 out{a.width, a.height, a.channels, std::vector<std::uint8_t>(a.pixels.size())};
   for (std::size_t i = 0; i < out.pixels.size(); ++i) {
     const int difference = std::abs(a.pixels[i] - b.pixels[i]) * gain;
     out.pixels[i] = static_cast<std::uint8_t>(std::min(difference, largest_value));

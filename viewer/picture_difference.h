@@ -15,9 +15,10 @@ struct PictureDifference {
 };
 
 /// Sizes must be equal. `marked`, if given: `a` dark and grey, differing pixels red.
-PictureDifference compare_pictures(const Image8& a, const Image8& b, int threshold, Image8* marked = nullptr);
+PictureDifference compare_pictures(const base::Image8& a, const base::Image8& b, int threshold,
+                                   base::Image8* marked = nullptr);
 
 /// |a - b| of each channel times `gain`, clamped to 255. Sizes and channels must be equal.
-Image8 absolute_difference(const Image8& a, const Image8& b, int gain);
+base::Image8 absolute_difference(const base::Image8& a, const base::Image8& b, int gain);
 
 }  // namespace tenebra::viewer

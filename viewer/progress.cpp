@@ -1,5 +1,7 @@
 #include "progress.h"
 
+#include <fmt/core.h>
+
 #include <unistd.h>
 
 #include <cstdio>

@@ -1,12 +1,13 @@
 // tenebra render: a scene file in, pictures, masks, a log and a trace out.
+#include <fmt/core.h>
 #include <chrono>
 #include <memory>
 #include <optional>
 
-#include "base/trace_json.h"
 #include "command.h"
 #include "console.h"
 #include "progress.h"
+#include "render/log/trace_json.h"
 #include "render_log.h"
 #include "render_plan.h"
 #include "scene_choice.h"
@@ -23,24 +24,25 @@ double milliseconds(Clock::duration duration) {
 
 /// The files that grow with the frames.
 struct Journals {
-  std::optional<FrameLog> log;
-  std::optional<FrameTrace> trace;
+  std::optional<render::FrameLog> log;
+  std::optional<render::FrameTrace> trace;
 
-  Expected<void> open(const RenderOptions& options, std::span<const LogSetting> settings) {
+  Expected<void> open(const RenderOptions& options, std::span<const render::LogSetting> settings) {
     if (!options.log.empty()) {
-      auto made = FrameLog::create(options.log, settings);
+      auto made = render::FrameLog::create(options.log, settings);
       if (!made) return tl::unexpected(made.error());
       log.emplace(std::move(*made));
     }
     if (!options.trace.empty()) {
-      auto made = FrameTrace::create(options.trace, settings);
+      auto made = render::FrameTrace::create(options.trace, settings);
       if (!made) return tl::unexpected(made.error());
       trace.emplace(std::move(*made));
     }
     return {};
   }
 
-  Expected<void> add(const FrameRecord& record, double begin_ms, const std::vector<std::string>& notes) {
+  Expected<void> add(const render::FrameRecord& record, double begin_ms,
+                     const std::vector<std::string>& notes) {
     if (log) {
       for (const std::string& note : notes) {
         if (auto noted = log->comment({"note", note}); !noted) return noted;
@@ -59,14 +61,15 @@ struct Journals {
 };
 
 Expected<void> write_pictures(const RenderPlan& plan, const RenderOptions& options, int frame,
-                              const FrameResult& result) {
+                              const render::FrameResult& result) {
   if (options.pictures) {
-    if (auto written = write_png(options.pictures->file(frame), result.image); !written) return written;
+    if (auto written = base::write_png(options.pictures->file(frame), result.image); !written) return written;
   }
   for (const OutputPattern& pattern : options.masks) {
-    for (const LightMask& mask : result.masks) {
+    for (const render::LightMask& mask : result.masks) {
       const auto file = pattern.file(frame, plan.several_lights ? fmt::format("_L{}", mask.light) : "");
-      auto written = pattern.is_pfm() ? write_pfm(file, mask.visible_fraction) : write_png(file, mask.mask);
+      auto written =
+          pattern.is_pfm() ? base::write_pfm(file, mask.visible_fraction) : base::write_png(file, mask.mask);
       if (!written) return written;
     }
   }
@@ -90,7 +93,7 @@ public:
   Expected<void> run(StopSignals& stop) {
     auto context = gl::Context::create(options_.context);
     if (!context) return tl::unexpected(context.error());
-    auto renderer = Renderer::create(std::move(*context), plan_.scene);
+    auto renderer = render::Renderer::create(std::move(*context), plan_.scene);
     if (!renderer) return tl::unexpected(renderer.error());
     FrameGeometry first_frame;
     evaluate_frame(plan_.scene, plan_.clip, plan_.frames.front().time_s, first_frame);
@@ -108,10 +111,10 @@ public:
     return journals_.finish();
   }
 
-  std::span<const FrameRecord> records() const { return records_; }
+  std::span<const render::FrameRecord> records() const { return records_; }
 
 private:
-  Expected<void> draw(Renderer& renderer, const PlannedFrame& planned, Progress& progress,
+  Expected<void> draw(render::Renderer& renderer, const PlannedFrame& planned, Progress& progress,
                       const StopFlag& stop) {
     const auto begin = Clock::now();
     evaluate_frame(plan_.scene, plan_.clip, planned.time_s, input_.geometry);
@@ -124,8 +127,8 @@ private:
       return drawn;
     if (!options_.quiet) progress.print_notes(result_.notes);
 
-    FrameRecord record{planned.frame, planned.time_s, result_.timings,
-                       result_.stats, result_.soft,   result_.ao};
+    render::FrameRecord record{planned.frame, planned.time_s, result_.timings,
+                               result_.stats, result_.soft,   result_.ao};
     record.timings.evaluate_ms = evaluate_ms;
     record.timings.total_ms = milliseconds(Clock::now() - begin);
     records_.push_back(record);
@@ -137,13 +140,13 @@ private:
   const RenderOptions& options_;
   const Clock::time_point begin_ = Clock::now();
   Journals journals_;
-  FrameInput input_;
-  FrameResult result_;
-  std::vector<FrameRecord> records_;
+  render::FrameInput input_;
+  render::FrameResult result_;
+  std::vector<render::FrameRecord> records_;
 };
 
 void print_summary(const RenderPlan& plan, const RenderOptions& options,
-                   std::span<const FrameRecord> records) {
+                   std::span<const render::FrameRecord> records) {
   print_out("{}", summary_table(records));
   print_out("{} of {} frames, {}x{} pixels", records.size(), plan.frames.size(), plan.settings.width,
             plan.settings.height);

@@ -1,5 +1,7 @@
 #include "render_log.h"
 
+#include <fmt/core.h>
+
 #include "base/machine.h"
 #include "base/statistics.h"
 #include "choices.h"
@@ -34,14 +36,14 @@ double shadow_ms(const FrameTimings& t) {
          t.irradiance_ms + t.writeback_ms;
 }
 
-std::string light_size_text(const AreaLightSettings& lights) {
+std::string light_size_text(const render::AreaLightSettings& lights) {
   if (lights.size.x <= 0) return "as the scene has it";
   return fmt::format("{}x{}{}", lights.size.x, lights.size.y, lights.percent_of_diagonal ? "%" : " m");
 }
 
-void describe_soft(const RenderSettings& settings, std::vector<LogSetting>& list) {
+void describe_soft(const render::RenderSettings& settings, std::vector<render::LogSetting>& list) {
   const SoftShadowConfig& soft = settings.soft;
-  const AreaLightSettings& lights = settings.area_lights;
+  const render::AreaLightSettings& lights = settings.area_lights;
   list.insert(
       list.end(),
       {{"soft_solver", choice_name(solver_choices, soft.solver)},
@@ -54,7 +56,7 @@ void describe_soft(const RenderSettings& settings, std::vector<LogSetting>& list
        {"emissive_lights", lights.emissive_quads ? "yes" : "no"}});
 }
 
-void describe_ao(const AoConfig& ao, std::vector<LogSetting>& list) {
+void describe_ao(const AoConfig& ao, std::vector<render::LogSetting>& list) {
   const std::string distance = ao.distance_m > 0 ? fmt::format("{} m", ao.distance_m) : "diagonal / 20";
   list.insert(list.end(), {{"ao_at", choice_name(place_choices, ao.place)},
                            {"ao_rays", fmt::format("{}", ao.rays)},
@@ -69,10 +71,10 @@ void describe_ao(const AoConfig& ao, std::vector<LogSetting>& list) {
                            {"ao_cache", ao.cache.empty() ? "none" : ao.cache.string()}});
 }
 
-std::string summary_row(std::string_view name, std::span<const FrameRecord> records, auto value) {
+std::string summary_row(std::string_view name, std::span<const render::FrameRecord> records, auto value) {
   std::vector<double> values;
-  for (const FrameRecord& record : records) values.push_back(value(record.timings));
-  const Summary summary = summarize(values);
+  for (const render::FrameRecord& record : records) values.push_back(value(record.timings));
+  const base::Summary summary = base::summarize(values);
   if (summary.worst <= 0) return "";
   return fmt::format("{:<20}{:>10.2f}{:>10.2f}{:>10.2f}{:>10.2f}   {}\n", name, summary.median,
                      summary.percentile_95, summary.percentile_99, summary.worst,
@@ -81,9 +83,9 @@ std::string summary_row(std::string_view name, std::span<const FrameRecord> reco
 
 }  // namespace
 
-std::vector<LogSetting> describe_method(const RenderSettings& settings) {
+std::vector<render::LogSetting> describe_method(const render::RenderSettings& settings) {
   const HardShadowConfig& hard = settings.hard;
-  std::vector<LogSetting> list{
+  std::vector<render::LogSetting> list{
       {"shadows", choice_name(shadow_choices, settings.shadows)},
       {"variant", std::string(variant_name(hard.variant))},
       {"samples", choice_name(sample_choices, settings.samples)},
@@ -92,24 +94,25 @@ std::vector<LogSetting> describe_method(const RenderSettings& settings) {
       {"exposure", fmt::format("{}", settings.exposure)},
       {"ao", choice_name(ao_choices, settings.ao.mode)},
   };
-  if (settings.shadows == ShadowMode::soft) describe_soft(settings, list);
+  if (settings.shadows == render::ShadowMode::soft) describe_soft(settings, list);
   if (settings.ao.mode != AoMode::none) describe_ao(settings.ao, list);
   return list;
 }
 
-std::vector<LogSetting> describe_render(const RenderPlan& plan, const RenderOptions& options,
-                                        const std::string& gl_renderer, const FrameGeometry& first_frame) {
-  const RenderSettings& settings = plan.settings;
+std::vector<render::LogSetting> describe_render(const RenderPlan& plan, const RenderOptions& options,
+                                                const std::string& gl_renderer,
+                                                const FrameGeometry& first_frame) {
+  const render::RenderSettings& settings = plan.settings;
   const SimdLevel asked = settings.hard.simd;
   const SimdLevel simd = asked == SimdLevel::automatic ? best_simd_level() : asked;
   const bool has_clip = plan.clip >= 0;
-  std::vector<LogSetting> list{
-      {"machine", machine_description()},
+  std::vector<render::LogSetting> list{
+      {"machine", base::machine_description()},
       {"renderer", gl_renderer},
       {"threads", settings.threads == 0 ? fmt::format("{} (all cores)", thread_count())
                                         : fmt::format("{}", settings.threads)},
       {"simd", std::string(simd_level_name(simd))},
-      {"LP_NUM_THREADS", environment_or("LP_NUM_THREADS", "not set")},
+      {"LP_NUM_THREADS", base::environment_or("LP_NUM_THREADS", "not set")},
       {"scene", options.scene.file},
       {"triangles", fmt::format("{}", first_frame.triangles.size())},
       {"dropped_non_finite", fmt::format("{}", first_frame.dropped_non_finite)},
@@ -119,7 +122,7 @@ std::vector<LogSetting> describe_render(const RenderPlan& plan, const RenderOpti
       {"size", fmt::format("{}x{}", settings.width, settings.height)},
       {"cone_sides", fmt::format("{}", options.scene.import.cone_sides)},
   };
-  for (LogSetting& setting : describe_method(settings)) list.push_back(std::move(setting));
+  for (render::LogSetting& setting : describe_method(settings)) list.push_back(std::move(setting));
   for (std::string& text : light_edit_texts(options.scene.lights)) {
     list.push_back({"set_light", std::move(text)});
   }
@@ -128,11 +131,11 @@ std::vector<LogSetting> describe_render(const RenderPlan& plan, const RenderOpti
   return list;
 }
 
-std::string summary_table(std::span<const FrameRecord> records) {
+std::string summary_table(std::span<const render::FrameRecord> records) {
   if (records.empty()) return "";
   std::string table = fmt::format("{:<20}{:>10}{:>10}{:>10}{:>10}   frame\n", "milliseconds", "median",
                                   "95 %", "99 %", "worst");
-  for (const auto& stage : frame_stages) {
+  for (const auto& stage : render::frame_stages) {
     table += summary_row(stage.name, records, [&](const FrameTimings& t) { return t.*stage.value; });
   }
   table += summary_row("shadows", records, shadow_ms);

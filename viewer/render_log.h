@@ -5,21 +5,22 @@
 #include <string>
 #include <vector>
 
-#include "base/frame_log.h"
+#include "render/log/frame_log.h"
 #include "render_plan.h"
 
 namespace tenebra::viewer {
 
 /// The settings of shadows and ambient occlusion, of the methods that are on.
-std::vector<LogSetting> describe_method(const RenderSettings& settings);
+std::vector<render::LogSetting> describe_method(const render::RenderSettings& settings);
 
 /// Machine, OpenGL renderer, threads, vector instructions, scene and every setting, as the log's comment
 /// lines. `first_frame`: geometry of the first frame, for its counts.
-std::vector<LogSetting> describe_render(const RenderPlan& plan, const RenderOptions& options,
-                                        const std::string& gl_renderer, const FrameGeometry& first_frame);
+std::vector<render::LogSetting> describe_render(const RenderPlan& plan, const RenderOptions& options,
+                                                const std::string& gl_renderer,
+                                                const FrameGeometry& first_frame);
 
 /// Median, 95th and 99th percentile and worst frame of the stages that took time, as a table; "" without
 /// frames.
-std::string summary_table(std::span<const FrameRecord> records);
+std::string summary_table(std::span<const render::FrameRecord> records);
 
 }  // namespace tenebra::viewer

@@ -1,5 +1,6 @@
 #include "render_options.h"
 
+#include "base/fail.h"
 #include "config_file.h"
 
 namespace tenebra::viewer {
@@ -29,7 +30,7 @@ constexpr const char* examples =
 
 Expected<gl::ContextKind> parse_context(const std::string& text) {
   if (const auto kind = gl::context_kind_from_name(text)) return *kind;
-  return fail("found {}, expected auto, egl or osmesa", text);
+  return base::fail("found {}, expected auto, egl or osmesa", text);
 }
 
 Expected<std::optional<OutputPattern>> parse_pictures(const std::string& text) {
@@ -75,21 +76,22 @@ bool draws_several_frames(const RenderOptions& options) {
 
 Expected<void> check_pattern(const OutputPattern& pattern, const char* option, bool several) {
   if (!several || pattern.is_numbered()) return {};
-  return fail(
+  return base::fail(
       "{} {} has no frame number, and several frames would overwrite each other; expected one like %04d",
       option, pattern.text());
 }
 
 Expected<void> check_masks(const RenderOptions& options, bool several) {
-  const ShadowMode shadows = options.method.render.shadows;
+  const render::ShadowMode shadows = options.method.render.shadows;
   for (const OutputPattern& mask : options.masks) {
     if (auto checked = check_pattern(mask, "--mask", several); !checked) return checked;
-    if (shadows == ShadowMode::none) return fail("--mask needs shadows, and --shadows none makes no mask");
-    if (mask.is_pfm() && shadows != ShadowMode::soft) {
-      return fail("--mask {} holds fractions of lights, and they need --shadows soft", mask.text());
+    if (shadows == render::ShadowMode::none)
+      return base::fail("--mask needs shadows, and --shadows none makes no mask");
+    if (mask.is_pfm() && shadows != render::ShadowMode::soft) {
+      return base::fail("--mask {} holds fractions of lights, and they need --shadows soft", mask.text());
     }
     if (options.pictures && mask.file(0) == options.pictures->file(0)) {
-      return fail("-o and --mask name the same file {}", mask.text());
+      return base::fail("-o and --mask name the same file {}", mask.text());
     }
   }
   return {};

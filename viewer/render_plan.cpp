@@ -2,6 +2,7 @@
 
 #include <algorithm>
 
+#include "base/fail.h"
 #include "scene_choice.h"
 
 namespace tenebra::viewer {
@@ -13,8 +14,8 @@ Expected<std::vector<PlannedFrame>> plan_frames(const ScenePlan& plan, const Ren
   const FrameRange range = options.frames.value_or(FrameRange{0, 0, 1});
   const int last = range.last.value_or(count - 1);
   if (range.first >= count || last >= count) {
-    return fail("--frames: frame {} does not exist, {} has frames 0 to {}", std::max(range.first, last),
-                plan.clip < 0 ? "the scene without animation" : "the animation", count - 1);
+    return base::fail("--frames: frame {} does not exist, {} has frames 0 to {}", std::max(range.first, last),
+                      plan.clip < 0 ? "the scene without animation" : "the animation", count - 1);
   }
   std::vector<PlannedFrame> frames;
   for (long long frame = range.first; frame <= last; frame += range.step) {

@@ -15,7 +15,7 @@ struct PlannedFrame {
 
 struct RenderPlan : ScenePlan {
   std::vector<PlannedFrame> frames;
-  RenderSettings settings;
+  render::RenderSettings settings;
   bool several_lights = false;  ///< masks carry the number of their light
 };
 

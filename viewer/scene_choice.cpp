@@ -1,6 +1,7 @@
 #include "scene_choice.h"
 
 #include <charconv>
+#include "base/fail.h"
 #include "console.h"
 
 namespace tenebra::viewer {
@@ -21,8 +22,8 @@ Expected<int> choose(const std::vector<Named>& list, const std::optional<std::st
   const auto [stopped, error] = std::from_chars(wanted->data(), end, index);
   const bool is_index = error == std::errc{} && stopped == end;
   if (is_index && index >= 0 && index < static_cast<int>(list.size())) return index;
-  return fail("the scene has no {} called or numbered {}, it has {}", kind, *wanted,
-              names.empty() ? "none" : names);
+  return base::fail("the scene has no {} called or numbered {}, it has {}", kind, *wanted,
+                    names.empty() ? "none" : names);
 }
 
 }  // namespace

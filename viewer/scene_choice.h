@@ -6,8 +6,8 @@
 #include <string>
 #include <vector>
 
-#include "base/expected.h"
-#include "import/import_scene.h"
+#include <tenebra/expected.h>
+#include "formats/import_scene.h"
 
 namespace tenebra::viewer {
 

@@ -1,5 +1,7 @@
 #include "scene_options.h"
 
+#include "base/fail.h"
+
 namespace tenebra::viewer {
 namespace {
 
@@ -8,7 +10,7 @@ constexpr const char* camera_group = "Camera";
 
 Expected<int> parse_cone_sides(const std::string& text) {
   const auto sides = parse_count(text);
-  if (!sides || *sides < 3 || *sides > 4096) return fail("found {}, expected 3 to 4096", text);
+  if (!sides || *sides < 3 || *sides > 4096) return base::fail("found {}, expected 3 to 4096", text);
   return sides;
 }
 
@@ -91,8 +93,9 @@ void add_scene_options(CLI::App& command, SceneOptions& options) {
 }
 
 Expected<void> check_scene_options(const SceneOptions& options) {
-  if (options.eye && *options.eye == options.look_at) return fail("--eye and --look-at are the same point");
-  if (options.eye && options.up == glm::vec3(0.0f)) return fail("--up is 0,0,0, expected a direction");
+  if (options.eye && *options.eye == options.look_at)
+    return base::fail("--eye and --look-at are the same point");
+  if (options.eye && options.up == glm::vec3(0.0f)) return base::fail("--up is 0,0,0, expected a direction");
   return {};
 }
 

@@ -7,7 +7,7 @@
 #include <string>
 #include <vector>
 
-#include "import/import_scene.h"
+#include "formats/import_scene.h"
 #include "light_edits.h"
 #include "option_values.h"
 
@@ -15,7 +15,7 @@ namespace tenebra::viewer {
 
 struct SceneOptions {
   std::string file;  ///< positional SCENE; empty: not given
-  ImportOptions import;
+  formats::ImportOptions import;
   std::vector<std::string> no_cast;
 
   std::optional<double> time_s;

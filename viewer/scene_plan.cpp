@@ -4,6 +4,7 @@
 #include <cmath>
 #include <numbers>
 
+#include "base/fail.h"
 #include "scene_choice.h"
 
 namespace tenebra::viewer {
@@ -30,7 +31,7 @@ Expected<void> apply_field_of_view(Scene& scene, int camera, const SceneOptions&
   if (!options.fov_deg || options.eye) return {};
   Camera& chosen = scene.cameras[static_cast<std::size_t>(camera)];
   if (chosen.projection == Projection::orthographic) {
-    return fail("--fov: camera {} ({}) is orthographic and has no field of view", camera, chosen.name);
+    return base::fail("--fov: camera {} ({}) is orthographic and has no field of view", camera, chosen.name);
   }
   chosen.vertical_fov_rad = radians(*options.fov_deg);
   return {};
@@ -51,19 +52,19 @@ void number_lights(Scene& scene) {
 }  // namespace
 
 Expected<ScenePlan> plan_scene(const SceneOptions& options) {
-  auto scene = import_scene(options.file, options.import);
+  auto scene = formats::import_scene(options.file, options.import);
   if (!scene) return tl::unexpected(scene.error());
   ScenePlan plan;
   plan.scene = std::move(*scene);
   std::string unmatched;
   if (!leave_out_casters(plan.scene, options.no_cast, unmatched)) {
-    return fail("--no-cast: {} names no mesh, material or FILE:LINE of the scene", unmatched);
+    return base::fail("--no-cast: {} names no mesh, material or FILE:LINE of the scene", unmatched);
   }
   add_missing_camera_and_light(plan.scene);
   number_lights(plan.scene);
   if (options.lights.size() > plan.scene.lights.size()) {
-    return fail("--set-light: found light {}, the scene has lights 0 to {}", options.lights.size() - 1,
-                static_cast<int>(plan.scene.lights.size()) - 1);
+    return base::fail("--set-light: found light {}, the scene has lights 0 to {}", options.lights.size() - 1,
+                      static_cast<int>(plan.scene.lights.size()) - 1);
   }
 
   const auto clip = choose_clip(plan.scene, options.clip);
@@ -90,7 +91,7 @@ ViewRays view_of(const ScenePlan& plan, const SceneOptions& options, double time
 
 Expected<int> check_light(const ScenePlan& plan, int light, double time_s) {
   const int count = static_cast<int>(evaluate_lights(plan.scene, plan.clip, time_s).size());
-  if (light >= count) return fail("--light: found {}, the scene has lights 0 to {}", light, count - 1);
+  if (light >= count) return base::fail("--light: found {}, the scene has lights 0 to {}", light, count - 1);
   return count;
 }
 

@@ -2,7 +2,7 @@
 // view` share it.
 #pragma once
 
-#include "scene/frame_geometry.h"
+#include <tenebra/frame_geometry.h>
 #include "scene_options.h"
 
 namespace tenebra::viewer {

@@ -5,7 +5,7 @@
 #include <optional>
 #include <vector>
 
-#include "scene/frame_geometry.h"
+#include <tenebra/frame_geometry.h>
 
 namespace tenebra::viewer {
 

@@ -5,7 +5,7 @@
 #include <csignal>
 #include <thread>
 
-#include "parallel/stop_flag.h"
+#include <tenebra/stop_flag.h>
 
 namespace tenebra::viewer {
 

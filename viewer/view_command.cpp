@@ -26,7 +26,7 @@ constexpr const char* examples =
 Expected<std::shared_ptr<const ScenePlan>> plan_with_lights(const ViewOptions& options) {
   auto plan = plan_scene(options.scene);
   if (!plan) return tl::unexpected(plan.error());
-  const RenderSettings& render = options.method.render;
+  const render::RenderSettings& render = options.method.render;
   const int light = render.area_lights.emissive_quads ? -1 : render.light;
   if (auto checked = check_light(*plan, light, options.scene.time_s.value_or(0)); !checked) {
     return tl::unexpected(checked.error());

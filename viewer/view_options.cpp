@@ -1,5 +1,6 @@
 #include "view_options.h"
 
+#include "base/fail.h"
 #include "choices.h"
 #include "config_file.h"
 
@@ -30,21 +31,22 @@ CLI::Option* add_choice(CLI::App& command, const char* name, Target& target, con
 Expected<double> parse_speed(const std::string& text) {
   const auto speed = parse_time(text);
   if (!speed || *speed < -fastest_speed || *speed > fastest_speed) {
-    return fail("found {}, expected a speed from -4 to 4", text);
+    return base::fail("found {}, expected a speed from -4 to 4", text);
   }
   return speed;
 }
 
 Expected<float> parse_wipe(const std::string& text) {
   const auto part = parse_time(text);
-  if (!part || *part < 0 || *part > 1) return fail("found {}, expected 0 to 1", text);
+  if (!part || *part < 0 || *part > 1) return base::fail("found {}, expected 0 to 1", text);
   return static_cast<float>(*part);
 }
 
 Expected<std::optional<OutputPattern>> parse_numbered(const std::string& text) {
   auto pattern = OutputPattern::parse(text);
   if (!pattern) return tl::unexpected(pattern.error());
-  if (!pattern->is_numbered()) return fail("found {}, expected a number in it, like out/%04d.png", text);
+  if (!pattern->is_numbered())
+    return base::fail("found {}, expected a number in it, like out/%04d.png", text);
   return std::optional<OutputPattern>(std::move(*pattern));
 }
 
@@ -60,11 +62,11 @@ Expected<MethodOptions> parse_method(const std::string& text, const MethodOption
   try {
     app.parse(text);
   } catch (const CLI::ParseError& error) {
-    return fail("--compare: {}", sentence_of(error));
+    return base::fail("--compare: {}", sentence_of(error));
   }
   settle_quality(app, method);
   if (auto checked = check_method_options(method); !checked)
-    return fail("--compare: {}", checked.error().message);
+    return base::fail("--compare: {}", checked.error().message);
   return method;
 }
 
@@ -121,7 +123,7 @@ void add_output_options(CLI::App& command, ViewOptions& options) {
             command, "--context", options.context,
             +[](const std::string& text) -> Expected<gl::ContextKind> {
               if (const auto kind = gl::context_kind_from_name(text)) return *kind;
-              return fail("found {}, expected auto, egl or osmesa", text);
+              return base::fail("found {}, expected auto, egl or osmesa", text);
             },
             "OpenGL of the pictures [auto: EGL, else OSMesa]")
             ->type_name("auto|egl|osmesa"));

@@ -10,10 +10,11 @@
 #include <string>
 #include <string_view>
 
+#include "base/fail.h"
 #include "base/output_file.h"
 #include "base/png_structure.h"
 
-namespace tenebra {
+namespace tenebra::base {
 namespace {
 
 constexpr std::uint64_t most_pixels = std::uint64_t{1} << 28;
@@ -110,4 +111,4 @@ Expected<void> write_pfm(const std::filesystem::path& path, const ImageF& image)
   return write_file(path, bytes);
 }
 
-}  // namespace tenebra
+}  // namespace tenebra::base

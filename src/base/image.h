@@ -5,9 +5,9 @@
 #include <filesystem>
 #include <vector>
 
-#include "base/expected.h"
+#include <tenebra/expected.h>
 
-namespace tenebra {
+namespace tenebra::base {
 
 /// `channels` interleaved values a pixel; pixels.size() == width * height * channels.
 template <class T>
@@ -29,4 +29,4 @@ Expected<Image8> read_png(const std::filesystem::path& path);
 /// Writes a 32-bit little-endian PFM (1 or 3 channels), whole or not at all.
 Expected<void> write_pfm(const std::filesystem::path& path, const ImageF& image);
 
-}  // namespace tenebra
+}  // namespace tenebra::base

@@ -6,7 +6,7 @@
 #include <cstdlib>
 #include <fstream>
 
-namespace tenebra {
+namespace tenebra::base {
 namespace {
 
 std::string processor_name() {
@@ -32,4 +32,4 @@ std::string environment_or(const char* name, const std::string& otherwise) {
   return value == nullptr ? otherwise : value;
 }
 
-}  // namespace tenebra
+}  // namespace tenebra::base

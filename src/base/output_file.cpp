@@ -1,5 +1,7 @@
 #include "base/output_file.h"
 
+#include "base/fail.h"
+
 #include <fcntl.h>
 #include <sys/stat.h>
 #include <unistd.h>
@@ -8,7 +10,7 @@
 #include <system_error>
 #include <utility>
 
-namespace tenebra {
+namespace tenebra::base {
 namespace {
 
 namespace fs = std::filesystem;
@@ -111,4 +113,4 @@ Expected<void> write_file(const fs::path& path, std::string_view bytes) {
   return file->commit();
 }
 
-}  // namespace tenebra
+}  // namespace tenebra::base

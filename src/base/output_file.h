@@ -5,9 +5,9 @@
 #include <string>
 #include <string_view>
 
-#include "base/expected.h"
+#include <tenebra/expected.h>
 
-namespace tenebra {
+namespace tenebra::base {
 
 /// A file being written. Bytes go to a temporary file in the folder of `path`; `commit` makes them appear
 /// under `path`, replacing an earlier file in one step. Without a successful commit the temporary file is
@@ -41,4 +41,4 @@ private:
 /// Writes `bytes` to `path` with the guarantees of OutputFile.
 Expected<void> write_file(const std::filesystem::path& path, std::string_view bytes);
 
-}  // namespace tenebra
+}  // namespace tenebra::base

@@ -1,9 +1,11 @@
 #include "base/png_structure.h"
 
+#include "base/fail.h"
+
 #include <array>
 #include <cstddef>
 
-namespace tenebra {
+namespace tenebra::base {
 namespace {
 
 constexpr std::string_view signature("\x89PNG\r\n\x1a\n", 8);
@@ -94,4 +96,4 @@ Expected<PngHeader> check_png_structure(std::string_view bytes) {
   return header;
 }
 
-}  // namespace tenebra
+}  // namespace tenebra::base

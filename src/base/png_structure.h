@@ -4,9 +4,9 @@
 #include <cstdint>
 #include <string_view>
 
-#include "base/expected.h"
+#include <tenebra/expected.h>
 
-namespace tenebra {
+namespace tenebra::base {
 
 struct PngHeader {
   std::uint32_t width = 0;
@@ -20,4 +20,4 @@ struct PngHeader {
 /// ("found ... where ..."), without the file's name.
 Expected<PngHeader> check_png_structure(std::string_view bytes);
 
-}  // namespace tenebra
+}  // namespace tenebra::base

@@ -4,7 +4,7 @@
 #include <algorithm>
 #include <vector>
 
-namespace tenebra {
+namespace tenebra::base {
 
 /// Ascending, each once.
 template <class T>
@@ -13,4 +13,4 @@ void sort_unique(std::vector<T>& values) {
   values.erase(std::unique(values.begin(), values.end()), values.end());
 }
 
-}  // namespace tenebra
+}  // namespace tenebra::base

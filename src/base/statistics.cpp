@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <vector>
 
-namespace tenebra {
+namespace tenebra::base {
 namespace {
 
 /// Nearest rank in whole numbers: no rounding decides which value it is.
@@ -30,4 +30,4 @@ Summary summarize(std::span<const double> values) {
   return summary;
 }
 
-}  // namespace tenebra
+}  // namespace tenebra::base

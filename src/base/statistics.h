@@ -4,7 +4,7 @@
 #include <cstddef>
 #include <span>
 
-namespace tenebra {
+namespace tenebra::base {
 
 struct Summary {
   std::size_t count = 0;
@@ -19,4 +19,4 @@ struct Summary {
 /// All zero for no values. Values are finite.
 Summary summarize(std::span<const double> values);
 
-}  // namespace tenebra
+}  // namespace tenebra::base

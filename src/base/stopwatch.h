@@ -3,7 +3,7 @@
 
 #include <chrono>
 
-namespace tenebra {
+namespace tenebra::base {
 
 /// Runs from its construction.
 class Stopwatch {
@@ -20,4 +20,4 @@ private:
   std::chrono::steady_clock::time_point lap_ = std::chrono::steady_clock::now();
 };
 
-}  // namespace tenebra
+}  // namespace tenebra::base

@@ -2,6 +2,7 @@
 
 #include <utility>
 
+#include "base/fail.h"
 #include "gl/backend.h"
 
 namespace tenebra::gl {
@@ -42,7 +43,7 @@ Expected<Context> Context::create(ContextKind kind, ContextOptions options) {
   if (egl) return egl;
   auto osmesa = finish(create_osmesa_backend(options), options);
   if (osmesa) return osmesa;
-  return fail("no OpenGL context: {}; {}", egl.error().message, osmesa.error().message);
+  return base::fail("no OpenGL context: {}; {}", egl.error().message, osmesa.error().message);
 }
 
 Expected<Context> Context::adopt(FunctionLoader loader) {
@@ -56,7 +57,7 @@ Context::~Context() = default;
 
 Expected<void> Context::make_current() {
   if (!backend_->make_current())
-    return fail("OpenGL context {}: found it cannot be made current", kind_name());
+    return base::fail("OpenGL context {}: found it cannot be made current", kind_name());
   return load_functions(*backend_);
 }
 

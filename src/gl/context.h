@@ -7,7 +7,7 @@
 #include <string_view>
 #include <vector>
 
-#include "base/expected.h"
+#include <tenebra/expected.h>
 
 namespace tenebra::gl {
 

@@ -7,6 +7,8 @@
 
 #include "gl/backend.h"
 
+#include "base/fail.h"
+
 namespace tenebra::gl {
 namespace {
 
@@ -77,17 +79,17 @@ EGLContext create_context(EGLDisplay display, ContextOptions options) {
 
 BackendResult create_on(const Platform& platform, ContextOptions options) {
   const EGLDisplay display = eglGetPlatformDisplay(platform.platform, platform.native, nullptr);
-  if (display == EGL_NO_DISPLAY) return fail("{}: no such platform", platform.name);
+  if (display == EGL_NO_DISPLAY) return base::fail("{}: no such platform", platform.name);
   if (!eglInitialize(display, nullptr, nullptr)) {
-    return fail("{}: not initialised (EGL error {:#x})", platform.name, eglGetError());
+    return base::fail("{}: not initialised (EGL error {:#x})", platform.name, eglGetError());
   }
   const EGLContext context = create_context(display, options);
   if (context == EGL_NO_CONTEXT) {
-    return fail("{}: no OpenGL 4.5 core context (EGL error {:#x})", platform.name, eglGetError());
+    return base::fail("{}: no OpenGL 4.5 core context (EGL error {:#x})", platform.name, eglGetError());
   }
   auto backend = std::make_unique<EglBackend>(display, context);
   if (!backend->make_current()) {
-    return fail("{}: no context without a surface (EGL error {:#x})", platform.name, eglGetError());
+    return base::fail("{}: no context without a surface (EGL error {:#x})", platform.name, eglGetError());
   }
   return backend;
 }
@@ -101,7 +103,7 @@ BackendResult create_egl_backend(ContextOptions options) {
     if (backend) return backend;
     lacks += (lacks.empty() ? "" : ", ") + backend.error().message;
   }
-  return fail("EGL offers no OpenGL 4.5 core context without a window ({})", lacks);
+  return base::fail("EGL offers no OpenGL 4.5 core context without a window ({})", lacks);
 }
 
 }  // namespace tenebra::gl

@@ -4,6 +4,8 @@
 
 #include "gl/backend.h"
 
+#include "base/fail.h"
+
 namespace tenebra::gl {
 namespace {
 
@@ -23,12 +25,12 @@ void GLAD_API_PTR on_message(GLenum, GLenum type, GLuint, GLenum severity, GLsiz
 
 Expected<void> load_functions(Context::Backend& backend) {
   const int version = gladLoadGL(backend.loader());
-  if (version == 0) return fail("OpenGL context {}: found no OpenGL functions", backend.kind_name());
+  if (version == 0) return base::fail("OpenGL context {}: found no OpenGL functions", backend.kind_name());
   backend.description = fmt::format("{}, OpenGL {}", gl_string(GL_RENDERER), gl_string(GL_VERSION));
   const int major = GLAD_VERSION_MAJOR(version), minor = GLAD_VERSION_MINOR(version);
   if (major > 4 || (major == 4 && minor >= 5)) return {};
-  return fail("OpenGL context {} ({}): found version {}.{}, expected 4.5 or newer", backend.kind_name(),
-              backend.description, major, minor);
+  return base::fail("OpenGL context {} ({}): found version {}.{}, expected 4.5 or newer", backend.kind_name(),
+                    backend.description, major, minor);
 }
 
 void collect_debug_messages(Context::Backend& backend) {

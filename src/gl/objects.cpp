@@ -1,5 +1,7 @@
 #include "gl/objects.h"
 
+#include "base/fail.h"
+
 #include <glad/gl.h>
 
 #include <cassert>
@@ -57,7 +59,7 @@ Expected<void> Buffer::upload(std::span<const std::byte> bytes) {
     glNamedBufferData(name(), static_cast<GLsizeiptr>(bytes.size()), bytes.data(), GL_STREAM_DRAW);
     if (glGetError() != GL_NO_ERROR) {
       capacity_ = 0;
-      return fail("OpenGL: found no memory for a buffer of {} bytes", bytes.size());
+      return base::fail("OpenGL: found no memory for a buffer of {} bytes", bytes.size());
     }
     capacity_ = bytes.size();
   } else if (!bytes.empty()) {
@@ -77,7 +79,7 @@ Expected<Texture> Texture::create(PixelFormat format, int width, int height) {
   Texture texture(name);
   glTextureStorage2D(name, 1, formats_of(format).internal, width, height);
   if (glGetError() != GL_NO_ERROR)
-    return fail("OpenGL: found no memory for a target of {}x{} pixels", width, height);
+    return base::fail("OpenGL: found no memory for a target of {}x{} pixels", width, height);
   // Without mipmaps a texture is complete only with a filter that wants none.
   glTextureParameteri(name, GL_TEXTURE_MIN_FILTER, GL_NEAREST);
   glTextureParameteri(name, GL_TEXTURE_MAG_FILTER, GL_NEAREST);
@@ -126,7 +128,7 @@ Expected<Framebuffer> Framebuffer::create(std::initializer_list<const Texture*> 
   glNamedFramebufferDrawBuffers(name, static_cast<GLsizei>(buffers.size()), buffers.data());
   const GLenum status = glCheckNamedFramebufferStatus(name, GL_DRAW_FRAMEBUFFER);
   if (status != GL_FRAMEBUFFER_COMPLETE)
-    return fail("OpenGL: found an incomplete framebuffer (status {:#x})", status);
+    return base::fail("OpenGL: found an incomplete framebuffer (status {:#x})", status);
   return framebuffer;
 }
 

@@ -9,7 +9,7 @@
 #include <utility>
 #include <vector>
 
-#include "base/expected.h"
+#include <tenebra/expected.h>
 
 namespace tenebra::gl {
 

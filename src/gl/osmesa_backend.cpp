@@ -6,6 +6,8 @@
 
 #include "gl/backend.h"
 
+#include "base/fail.h"
+
 namespace tenebra::gl {
 namespace {
 
@@ -37,7 +39,7 @@ Expected<Library> load_library() {
     handle = dlopen(file, RTLD_NOW | RTLD_LOCAL | RTLD_NODELETE);
     if (handle) break;
   }
-  if (!handle) return fail("OSMesa: found none of libOSMesa.so.8, libOSMesa.so.6, libOSMesa.so");
+  if (!handle) return base::fail("OSMesa: found none of libOSMesa.so.8, libOSMesa.so.6, libOSMesa.so");
   Library library;
   const bool complete = find(handle, "OSMesaCreateContextAttribs", library.create) &&
                         find(handle, "OSMesaDestroyContext", library.destroy) &&
@@ -46,7 +48,8 @@ Expected<Library> load_library() {
                         find(handle, "OSMesaGetProcAddress", library.loader);
   dlclose(handle);
   if (!complete)
-    return fail("OSMesa: found a library without OSMesaCreateContextAttribs, expected Mesa 12.0 or newer");
+    return base::fail(
+        "OSMesa: found a library without OSMesaCreateContextAttribs, expected Mesa 12.0 or newer");
   return library;
 }
 
@@ -76,7 +79,7 @@ BackendResult create_osmesa_backend(ContextOptions) {
   const int wants[] = {
       osmesa_format, gl_rgba, osmesa_profile, osmesa_core_profile, osmesa_major, 4, osmesa_minor, 5, 0};
   const OSMesaContext context = library->create(wants, nullptr);
-  if (!context) return fail("OSMesa offers no OpenGL 4.5 core context");
+  if (!context) return base::fail("OSMesa offers no OpenGL 4.5 core context");
   return std::make_unique<OsmesaBackend>(*library, context);
 }
 

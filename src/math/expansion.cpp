@@ -3,7 +3,7 @@
 #include <cmath>
 #include <utility>
 
-namespace tenebra {
+namespace tenebra::math {
 
 namespace {
 
@@ -90,4 +90,4 @@ Expansion dot(const ExactVector& a, const ExactVector& b) {
   return a.x * b.x + a.y * b.y + a.z * b.z;
 }
 
-}  // namespace tenebra
+}  // namespace tenebra::math

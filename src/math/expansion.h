@@ -6,7 +6,7 @@
 #include <glm/glm.hpp>
 #include <vector>
 
-namespace tenebra {
+namespace tenebra::math {
 
 /// Non-overlapping terms of ascending magnitude without zeros; no terms: zero.
 class Expansion {
@@ -41,4 +41,4 @@ ExactVector exact_vector(const glm::dvec3& a);
 ExactVector cross(const ExactVector& a, const ExactVector& b);
 Expansion dot(const ExactVector& a, const ExactVector& b);
 
-}  // namespace tenebra
+}  // namespace tenebra::math

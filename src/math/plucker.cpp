@@ -4,7 +4,7 @@
 
 #include "math/expansion.h"
 
-namespace tenebra {
+namespace tenebra::math {
 
 using glm::dvec3;
 
@@ -49,4 +49,4 @@ Orientation orientation(std::span<const dvec3> from, std::span<const dvec3> to, 
   return common > 0 ? Orientation::positive : common < 0 ? Orientation::negative : Orientation::mixed;
 }
 
-}  // namespace tenebra
+}  // namespace tenebra::math

@@ -5,7 +5,7 @@
 #include <glm/glm.hpp>
 #include <span>
 
-namespace tenebra {
+namespace tenebra::math {
 
 /// An oriented line: six homogeneous coordinates. As a hyperplane it holds the lines that meet it:
 /// side(hyperplane, line) = 0.
@@ -34,4 +34,4 @@ enum class Orientation { negative, mixed, positive };
 Orientation orientation(std::span<const glm::dvec3> from, std::span<const glm::dvec3> to, const glm::dvec3& a,
                         const glm::dvec3& b);
 
-}  // namespace tenebra
+}  // namespace tenebra::math

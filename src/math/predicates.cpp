@@ -4,7 +4,7 @@
 
 #include "math/expansion.h"
 
-namespace tenebra {
+namespace tenebra::math {
 
 namespace {
 
@@ -50,4 +50,4 @@ int direction_side(const vec3& a, const vec3& b, const vec3& c, const vec3& dire
   return sign != 0 ? sign : dot(exact_normal(a, b, c), exact_vector(direction)).sign();
 }
 
-}  // namespace tenebra
+}  // namespace tenebra::math

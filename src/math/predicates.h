@@ -4,7 +4,7 @@
 
 #include <glm/glm.hpp>
 
-namespace tenebra {
+namespace tenebra::math {
 
 /// Sign of det(a - l, b - l, p - l): on which side of the plane through l, a and b the point p lies.
 int edge_side(const glm::vec3& l, const glm::vec3& a, const glm::vec3& b, const glm::dvec3& p);
@@ -21,4 +21,4 @@ int point_side(const glm::vec3& a, const glm::vec3& b, const glm::vec3& c, const
 /// Sign of n.direction.
 int direction_side(const glm::vec3& a, const glm::vec3& b, const glm::vec3& c, const glm::vec3& direction);
 
-}  // namespace tenebra
+}  // namespace tenebra::math

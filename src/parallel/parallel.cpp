@@ -1,7 +1,5 @@
 #include "parallel/parallel.h"
 
-#include <tbb/blocked_range.h>
-#include <tbb/global_control.h>
 #include <tbb/parallel_for.h>
 #include <tbb/task_arena.h>
 #include <xmmintrin.h>
@@ -19,7 +17,7 @@ void __tsan_release(void*) {}
 }  // namespace
 #endif
 
-namespace tenebra {
+namespace tenebra::parallel {
 
 namespace {
 
@@ -52,20 +50,6 @@ FloatEnvironment::~FloatEnvironment() {
   _mm_setcsr(saved_);
 }
 
-void with_threads(int threads, const std::function<void()>& body) {
-  if (threads <= 0) {
-    body();
-    return;
-  }
-  tbb::global_control limit(tbb::global_control::max_allowed_parallelism, static_cast<std::size_t>(threads));
-  tbb::task_arena arena(threads);
-  arena.execute(body);
-}
-
-int thread_count() {
-  return tbb::this_task_arena::max_concurrency();
-}
-
 void parallel_ranges(std::size_t count, std::size_t grain,
                      const std::function<void(std::size_t, std::size_t)>& body) {
   const std::size_t ranges = (count + grain - 1) / grain;
@@ -91,4 +75,4 @@ int thread_index() {
   return std::max(0, tbb::this_task_arena::current_thread_index());
 }
 
-}  // namespace tenebra
+}  // namespace tenebra::parallel

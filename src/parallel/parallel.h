@@ -2,10 +2,11 @@
 // nearest, no flush to zero), whatever the caller's floating-point environment.
 #pragma once
 
+#include <tenebra/threads.h>
 #include <cstddef>
 #include <functional>
 
-namespace tenebra {
+namespace tenebra::parallel {
 
 /// Round to nearest and gradual underflow while it lives; the caller's settings come back with its end.
 class FloatEnvironment {
@@ -18,12 +19,6 @@ public:
 private:
   unsigned saved_;
 };
-
-/// Runs `body` so that the loops below use at most `threads` threads (0: all cores).
-void with_threads(int threads, const std::function<void()>& body);
-
-/// Threads that a loop started here may use.
-int thread_count();
 
 /// Calls body(first, last) on ranges that cover 0..count, at most `grain` long each. The ranges depend on
 /// `count` and `grain` only, never on the number of threads.
@@ -39,4 +34,4 @@ void parallel_in_order(int count, const std::function<void(int)>& body);
 /// Index of the calling thread among those of the loop, in 0..thread_count() - 1; for per-thread scratch.
 int thread_index();
 
-}  // namespace tenebra
+}  // namespace tenebra::parallel

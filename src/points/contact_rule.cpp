@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
-namespace tenebra {
+namespace tenebra::points {
 
 using glm::dvec3;
 using glm::vec3;
@@ -23,4 +23,4 @@ double contact_threshold(const vec3 occluder[3], double tau_occluder, double tau
   return (tau_occluder + tau_receiver) * std::sqrt(n.x * n.x + n.y * n.y + n.z * n.z);
 }
 
-}  // namespace tenebra
+}  // namespace tenebra::points

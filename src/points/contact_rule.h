@@ -4,7 +4,7 @@
 
 #include <glm/glm.hpp>
 
-namespace tenebra {
+namespace tenebra::points {
 
 /// tau_X = sqrt(3) 2^-24 M_X, M_X the largest |coordinate| of triangle X.
 double rounding_tolerance(const glm::vec3 triangle[3]);
@@ -13,4 +13,4 @@ double rounding_tolerance(const glm::vec3 triangle[3]);
 /// |n.(P - A)| > theta. In double and by these operations: this is the definition.
 double contact_threshold(const glm::vec3 occluder[3], double tau_occluder, double tau_receiver);
 
-}  // namespace tenebra
+}  // namespace tenebra::points

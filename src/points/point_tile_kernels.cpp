@@ -1,17 +1,19 @@
 #include "points/point_tile_kernels.h"
 
-#define HWY_DISABLED_TARGETS (HWY_AVX3_DL | HWY_SSSE3)
 #undef HWY_TARGET_INCLUDE
 #define HWY_TARGET_INCLUDE "points/point_tile_kernels.cpp"
 #include <hwy/foreach_target.h>
 // After foreach_target.h
+#include "simd/dispatch.h"
 #include "simd/pack-inl.h"
 
 #include <bit>
 #include <cmath>
 
 HWY_BEFORE_NAMESPACE();
-namespace tenebra::HWY_NAMESPACE {
+namespace tenebra::points::HWY_NAMESPACE {
+using namespace simd::HWY_NAMESPACE;
+using namespace simd::HWY_NAMESPACE;
 
 namespace {
 
@@ -85,30 +87,15 @@ PointTileKernels point_tile_kernels() {
   return {fill, beyond_gap, bound};
 }
 
-}  // namespace tenebra::HWY_NAMESPACE
+}  // namespace tenebra::points::HWY_NAMESPACE
 HWY_AFTER_NAMESPACE();
 
 #if HWY_ONCE
 
-namespace tenebra {
+namespace tenebra::points {
 
 PointTileKernels point_tile_kernels(SimdLevel level) {
-  switch (level == SimdLevel::automatic ? best_simd_level() : level) {
-#if HWY_TARGETS & HWY_AVX3
-    case SimdLevel::avx512:
-      return N_AVX3::point_tile_kernels();
-#endif
-#if HWY_TARGETS & HWY_AVX2
-    case SimdLevel::avx2:
-      return N_AVX2::point_tile_kernels();
-#endif
-#if HWY_TARGETS & HWY_SSE4
-    case SimdLevel::sse4:
-      return N_SSE4::point_tile_kernels();
-#endif
-    default:
-      return HWY_STATIC_DISPATCH(point_tile_kernels)();
-  }
+  return TENEBRA_DISPATCH(level, point_tile_kernels)();
 }
 
 TileRows::TileRows(const VisiblePoints& points, std::uint32_t x, std::uint32_t y) {
@@ -124,5 +111,5 @@ TileRows::TileRows(const VisiblePoints& points, std::uint32_t x, std::uint32_t y
   }
 }
 
-}  // namespace tenebra
+}  // namespace tenebra::points
 #endif

@@ -4,11 +4,11 @@
 #include <cstdint>
 #include <glm/glm.hpp>
 
+#include <tenebra/simd_level.h>
+#include <tenebra/visible_points.h>
 #include "points/point_tiles.h"
-#include "points/visible_points.h"
-#include "simd/simd_level.h"
 
-namespace tenebra {
+namespace tenebra::points {
 
 /// Where the four rows of a tile's points stand: in the picture, or, where that ends, in a copy.
 class TileRows {
@@ -37,4 +37,4 @@ struct PointTileKernels {
 };
 PointTileKernels point_tile_kernels(SimdLevel level);
 
-}  // namespace tenebra
+}  // namespace tenebra::points

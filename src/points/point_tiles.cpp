@@ -12,7 +12,7 @@
 #include "points/point_tile_kernels.h"
 #include "points/triangle_corners.h"
 
-namespace tenebra {
+namespace tenebra::points {
 
 namespace {
 
@@ -204,9 +204,9 @@ void make_point_patch(const VisiblePoints& points, const TriangleView& triangles
 void make_point_tiles(const VisiblePoints& points, const ViewRays& view, const TriangleView& triangles,
                       PointTiles& out) {
   begin_point_tiles(points.width, points.height, view, out);
-  parallel_tasks(static_cast<int>(out.patches.size()), [&](int patch) {
+  parallel::parallel_tasks(static_cast<int>(out.patches.size()), [&](int patch) {
     make_point_patch(points, triangles, static_cast<std::uint32_t>(patch), out);
   });
 }
 
-}  // namespace tenebra
+}  // namespace tenebra::points

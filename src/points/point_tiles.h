@@ -12,12 +12,9 @@
 #include <glm/glm.hpp>
 #include <vector>
 
-#include "scene/frame_geometry.h"
+#include <tenebra/visible_points.h>
 
-namespace tenebra {
-
-struct VisiblePoints;
-struct TriangleView;
+namespace tenebra::points {
 
 inline constexpr int tile_side = 4, tile_points = 16;
 inline constexpr std::uint32_t square_side = 16;
@@ -118,4 +115,4 @@ void make_point_patch(const VisiblePoints& points, const TriangleView& triangles
 void make_point_tiles(const VisiblePoints& points, const ViewRays& view, const TriangleView& triangles,
                       PointTiles& out);
 
-}  // namespace tenebra
+}  // namespace tenebra::points

@@ -1,9 +1,9 @@
 // Shading normals at visible points, interpolated as the rasteriser does, in double.
 #include <cmath>
 
+#include <tenebra/visible_points.h>
 #include "parallel/parallel.h"
 #include "points/triangle_corners.h"
-#include "points/visible_points.h"
 
 namespace tenebra {
 
@@ -18,7 +18,7 @@ struct Weights {
   bool flat = true;  // no area in double
 };
 
-Weights weights_of(const Corners& c) {
+Weights weights_of(const points::Corners& c) {
   Weights w;
   w.a = c.v[0];
   const dvec3 e1 = dvec3(c.v[1]) - w.a, e2 = dvec3(c.v[2]) - w.a;
@@ -41,16 +41,16 @@ vec3 unit_or_zero(const dvec3& v) {
 void compute_shading_normals(const VisiblePoints& points, std::span<const glm::vec3> normals,
                              const ViewRays& view, const TriangleView& triangles,
                              std::vector<glm::vec3>& out) {
-  const FloatEnvironment ieee;
+  const parallel::FloatEnvironment ieee;
   out.resize(points.positions.size());
-  parallel_ranges(out.size(), 4096, [&](std::size_t first, std::size_t last) {
+  parallel::parallel_ranges(out.size(), 4096, [&](std::size_t first, std::size_t last) {
     std::uint32_t known = no_triangle;
     Weights w;
     for (std::size_t i = first; i < last; ++i) {
       const std::uint32_t id = points.triangles[i];
       out[i] = vec3(0.0f);
       if (id == no_triangle) continue;
-      if (id != known) w = weights_of(corners_of(triangles, id));
+      if (id != known) w = weights_of(points::corners_of(triangles, id));
       known = id;
       if (w.flat) continue;
       const dvec3 p = points.positions[i];

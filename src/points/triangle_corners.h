@@ -4,10 +4,10 @@
 #include <cstddef>
 #include <glm/glm.hpp>
 
+#include <tenebra/visible_points.h>
 #include "math/predicates.h"
-#include "points/visible_points.h"
 
-namespace tenebra {
+namespace tenebra::points {
 
 struct Corners {
   glm::vec3 v[3];
@@ -21,8 +21,8 @@ inline Corners corners_of(const TriangleView& triangles, std::size_t id) {
 /// The side of the triangle that the eye is on: of (B - A) x (C - A) +1, else -1; 0: edge-on, no area. Exact;
 /// orthographic views: the eye is at infinity against d0.
 inline int eye_side(const glm::vec3 v[3], const ViewRays& view) {
-  return view.orthographic ? -direction_side(v[0], v[1], v[2], view.d0)
-                           : point_side(v[0], v[1], v[2], view.eye);
+  return view.orthographic ? -math::direction_side(v[0], v[1], v[2], view.d0)
+                           : math::point_side(v[0], v[1], v[2], view.eye);
 }
 
-}  // namespace tenebra
+}  // namespace tenebra::points

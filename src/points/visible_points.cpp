@@ -1,10 +1,11 @@
 // Visible points in double from triangle ids: no depth value enters, so no bias is needed.
-#include "points/visible_points.h"
+#include <tenebra/visible_points.h>
 
 #include <algorithm>
 #include <cmath>
 
 #include "parallel/parallel.h"
+#include "points/point_tiles.h"
 #include "points/visible_run.h"
 
 namespace tenebra {
@@ -13,9 +14,9 @@ namespace {
 
 using glm::dvec3;
 
-Receiver receiver_of(const TriangleView& triangles, std::uint32_t id) {
+points::Receiver receiver_of(const TriangleView& triangles, std::uint32_t id) {
   const glm::uvec3 t = triangles.triangles[id];
-  Receiver r;
+  points::Receiver r;
   r.id = id;
   r.a = triangles.positions[t.x];
   r.e1 = dvec3(triangles.positions[t.y]) - r.a;
@@ -32,7 +33,7 @@ Receiver receiver_of(const TriangleView& triangles, std::uint32_t id) {
 
 // Nearest admissible weights: negative ones to 0, renormalised. The point is then a double rounding off the
 // plane, far inside the contact rule's tolerance.
-dvec3 clamped(const Receiver& r, double u, double v) {
+dvec3 clamped(const points::Receiver& r, double u, double v) {
   const double w0 = std::max(0.0, 1 - u - v), w1 = std::max(0.0, u), w2 = std::max(0.0, v);
   const double sum = w0 + w1 + w2;
   return r.a + (w1 / sum) * r.e1 + (w2 / sum) * r.e2;
@@ -40,7 +41,7 @@ dvec3 clamped(const Receiver& r, double u, double v) {
 
 // Where origin + t direction meets the triangle's plane, in the triangle. A ray that misses the plane (the
 // rasteriser saw a triangle edge-on) gets the centroid.
-dvec3 visible_point(const Receiver& r, const dvec3& origin, const dvec3& direction) {
+dvec3 visible_point(const points::Receiver& r, const dvec3& origin, const dvec3& direction) {
   const double speed = glm::dot(r.normal, direction);
   const double t = glm::dot(r.normal, r.a - origin) / speed;
   if (r.flat || !(t > 0) || !std::isfinite(t)) return r.a + (r.e1 + r.e2) / 3.0;
@@ -52,8 +53,8 @@ dvec3 visible_point(const Receiver& r, const dvec3& origin, const dvec3& directi
 }
 
 /// Pixels x ... end - 1 of a row, all of which see `r`.
-void compute_run(const Receiver& r, const PixelRow& row, std::size_t x, std::size_t end,
-                 const VisibleRunKernels& kernels, dvec3* out) {
+void compute_run(const points::Receiver& r, const points::PixelRow& row, std::size_t x, std::size_t end,
+                 const points::VisibleRunKernels& kernels, dvec3* out) {
   while (x < end) {
     const std::size_t count = std::min<std::size_t>(8, end - x);
     dvec3 points[8];
@@ -69,11 +70,11 @@ void compute_run(const Receiver& r, const PixelRow& row, std::size_t x, std::siz
 void compute_rows(std::span<const std::uint32_t> ids, std::size_t first, std::size_t last,
                   const ViewRays& view, const TriangleView& triangles, VisiblePoints& out) {
   const dvec3 eye(view.eye), d0(view.d0), dx(view.dx), dy(view.dy);
-  const VisibleRunKernels kernels = visible_run_kernels(SimdLevel::automatic);
+  const points::VisibleRunKernels kernels = points::visible_run_kernels(SimdLevel::automatic);
   const auto width = static_cast<std::size_t>(out.width);
-  Receiver receiver;
+  points::Receiver receiver;
   for (std::size_t y = first; y < last; ++y) {
-    const PixelRow row{eye, d0, dx, (static_cast<double>(y) + 0.5) * dy};
+    const points::PixelRow row{eye, d0, dx, (static_cast<double>(y) + 0.5) * dy};
     for (std::size_t x = 0, end = 0; x < width; x = end) {
       const std::size_t pixel = y * width + x;
       while (end < width && ids[y * width + end] == ids[pixel]) ++end;
@@ -96,23 +97,23 @@ void compute_rows(std::span<const std::uint32_t> ids, std::size_t first, std::si
 
 void compute_visible_points(std::span<const std::uint32_t> ids, int width, int height, const ViewRays& view,
                             const TriangleView& triangles, VisiblePoints& out, PointLayout layout) {
-  const FloatEnvironment ieee;  // denormal floats of the view become doubles here
+  const parallel::FloatEnvironment ieee;  // denormal floats of the view become doubles here
   out.width = width;
   out.height = height;
   out.positions.resize(ids.size());
   out.triangles.resize(ids.size());
   const bool tiled = layout == PointLayout::rows_and_tiles;
-  if (!tiled) out.tiles = {};
-  if (tiled) begin_point_tiles(width, height, view, out.tiles);
-  const SquareGrid grid(width, height);
+  if (!tiled) out.tiles.clear();
+  if (tiled) points::begin_point_tiles(width, height, view, *out.tiles);
+  const points::SquareGrid grid(width, height);
   // Tiles are made of rows that are still near.
-  parallel_tasks(static_cast<int>(grid.rows), [&](int band) {
+  parallel::parallel_tasks(static_cast<int>(grid.rows), [&](int band) {
     const auto row = static_cast<std::uint32_t>(band);
-    compute_rows(ids, row * square_side,
-                 std::min<std::size_t>((row + 1) * square_side, static_cast<std::size_t>(height)), view,
-                 triangles, out);
+    compute_rows(ids, row * points::square_side,
+                 std::min<std::size_t>((row + 1) * points::square_side, static_cast<std::size_t>(height)),
+                 view, triangles, out);
     for (std::uint32_t part = 0; tiled && part < grid.row_patches; ++part)
-      make_point_patch(out, triangles, row * grid.row_patches + part, out.tiles);
+      points::make_point_patch(out, triangles, row * grid.row_patches + part, *out.tiles);
   });
 }
 

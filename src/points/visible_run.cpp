@@ -1,16 +1,17 @@
 #include "points/visible_run.h"
 
-#define HWY_DISABLED_TARGETS (HWY_AVX3_DL | HWY_SSSE3)
 #undef HWY_TARGET_INCLUDE
 #define HWY_TARGET_INCLUDE "points/visible_run.cpp"
 #include <hwy/foreach_target.h>
 // After foreach_target.h
+#include "simd/dispatch.h"
 #include "simd/pack-inl.h"
 
 #include <limits>
 
 HWY_BEFORE_NAMESPACE();
-namespace tenebra::HWY_NAMESPACE {
+namespace tenebra::points::HWY_NAMESPACE {
+using namespace simd::HWY_NAMESPACE;
 
 namespace {
 
@@ -56,31 +57,16 @@ VisibleRunKernels visible_run_kernels() {
   return {eight};
 }
 
-}  // namespace tenebra::HWY_NAMESPACE
+}  // namespace tenebra::points::HWY_NAMESPACE
 HWY_AFTER_NAMESPACE();
 
 #if HWY_ONCE
 
-namespace tenebra {
+namespace tenebra::points {
 
 VisibleRunKernels visible_run_kernels(SimdLevel level) {
-  switch (level == SimdLevel::automatic ? best_simd_level() : level) {
-#if HWY_TARGETS & HWY_AVX3
-    case SimdLevel::avx512:
-      return N_AVX3::visible_run_kernels();
-#endif
-#if HWY_TARGETS & HWY_AVX2
-    case SimdLevel::avx2:
-      return N_AVX2::visible_run_kernels();
-#endif
-#if HWY_TARGETS & HWY_SSE4
-    case SimdLevel::sse4:
-      return N_SSE4::visible_run_kernels();
-#endif
-    default:
-      return HWY_STATIC_DISPATCH(visible_run_kernels)();
-  }
+  return TENEBRA_DISPATCH(level, visible_run_kernels)();
 }
 
-}  // namespace tenebra
+}  // namespace tenebra::points
 #endif

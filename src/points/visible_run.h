@@ -6,10 +6,10 @@
 #include <cstdint>
 #include <glm/glm.hpp>
 
-#include "points/visible_points.h"
-#include "simd/simd_level.h"
+#include <tenebra/simd_level.h>
+#include <tenebra/visible_points.h>
 
-namespace tenebra {
+namespace tenebra::points {
 
 /// What the pixels of one triangle share. Barycentric weights of a point p on the plane are
 /// u = du.(p - a), v = dv.(p - a), 1 - u - v.
@@ -33,4 +33,4 @@ struct VisibleRunKernels {
 };
 VisibleRunKernels visible_run_kernels(SimdLevel level);
 
-}  // namespace tenebra
+}  // namespace tenebra::points

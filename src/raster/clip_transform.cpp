@@ -1,9 +1,11 @@
 #include "raster/clip_transform.h"
 
+#include "base/fail.h"
+
 #include <algorithm>
 #include <cmath>
 
-namespace tenebra {
+namespace tenebra::raster {
 namespace {
 
 /// t of the far plane of an orthographic view: just behind the corner of the box that is farthest along d0.
@@ -32,7 +34,7 @@ Expected<ClipTransform> clip_transform(const ViewRays& view, const Box& bounds, 
   const double near_t = view.near_m / depth;
   if (!std::isfinite(near_t) || !std::isfinite(1.0 / volume) || !(near_t > 0) ||
       !std::isfinite(glm::dot(glm::dvec3(view.eye), glm::dvec3(view.eye)))) {
-    return fail(
+    return base::fail(
         "camera: found rays that span no picture, expected finite width, height, depth and near plane");
   }
   // q = t d0 + a dx + b dy by Cramer's rule; in perspective a = t X, b = t Y of the window position (X, Y).
@@ -64,4 +66,4 @@ glm::dvec3 point_from_depth(const ViewRays& view, const ClipTransform& transform
   return glm::dvec3(view.eye) + near_t / depth * (glm::dvec3(view.d0) + across);
 }
 
-}  // namespace tenebra
+}  // namespace tenebra::raster

@@ -5,10 +5,10 @@
 
 #include <glm/glm.hpp>
 
-#include "base/expected.h"
-#include "scene/frame_geometry.h"
+#include <tenebra/expected.h>
+#include <tenebra/frame_geometry.h>
 
-namespace tenebra {
+namespace tenebra::raster {
 
 /// Smallest box around all finite positions of a frame; `min` > `max` if there are none.
 struct Box {
@@ -34,4 +34,4 @@ Expected<ClipTransform> clip_transform(const ViewRays& view, const Box& bounds, 
 /// exact as float depth is: too coarse to do without a bias.
 glm::dvec3 point_from_depth(const ViewRays& view, const ClipTransform& transform, int x, int y, float depth);
 
-}  // namespace tenebra
+}  // namespace tenebra::raster

@@ -8,7 +8,7 @@
 
 #include "raster/passes.h"
 
-namespace tenebra {
+namespace tenebra::raster {
 namespace {
 
 constexpr int use_factor_location = 0;  // of accumulate.frag
@@ -81,7 +81,7 @@ void Compositor::accumulate(const LightBuffer& light, const gl::Texture* factor)
 }
 
 void Compositor::finish(const GBuffer& gbuffer, const GeometryBuffers& geometry,
-                        const CompositeSettings& settings, Image8& out) {
+                        const CompositeSettings& settings, base::Image8& out) {
   assert(gbuffer.width == sum_.width() && gbuffer.height == sum_.height());
   if (!settings.openness.empty()) factor_.upload(std::as_bytes(settings.openness));
   begin_pass(picture_framebuffer_, composite_program_, gbuffer.width, gbuffer.height);
@@ -110,4 +110,4 @@ void Compositor::finish(const GBuffer& gbuffer, const GeometryBuffers& geometry,
   }
 }
 
-}  // namespace tenebra
+}  // namespace tenebra::raster

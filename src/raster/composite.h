@@ -11,7 +11,7 @@
 #include "raster/geometry_buffers.h"
 #include "raster/light_buffer.h"
 
-namespace tenebra {
+namespace tenebra::raster {
 
 struct CompositeSettings {
   glm::vec3 ambient_light{1.0f};
@@ -33,7 +33,7 @@ public:
   /// (ambient x ambient_light x openness + emissive + sum of lights) x exposure, clamped, as sRGB: within one
   /// level's rounding of the formula. `out` keeps its capacity.
   void finish(const GBuffer& gbuffer, const GeometryBuffers& geometry, const CompositeSettings& settings,
-              Image8& out);
+              base::Image8& out);
 
 private:
   void accumulate(const LightBuffer& light, const gl::Texture* factor);
@@ -45,4 +45,4 @@ private:
   std::vector<std::uint8_t> rgba_;
 };
 
-}  // namespace tenebra
+}  // namespace tenebra::raster

@@ -8,9 +8,10 @@
 #include <glm/gtc/type_ptr.hpp>
 #include <span>
 
+#include "base/fail.h"
 #include "raster/passes.h"
 
-namespace tenebra {
+namespace tenebra::raster {
 namespace {
 
 // A frame needs 57 bytes a pixel: 3.8 GB at this many.
@@ -49,18 +50,19 @@ void clear(const gl::Framebuffer& target) {
 }  // namespace
 
 Expected<void> check_picture_size(int width, int height) {
-  if (width < 1 || height < 1) return fail("picture: found size {}x{}, expected at least 1x1", width, height);
+  if (width < 1 || height < 1)
+    return base::fail("picture: found size {}x{}, expected at least 1x1", width, height);
   GLint texture = 0;
   std::array<GLint, 2> viewport{};
   glGetIntegerv(GL_MAX_TEXTURE_SIZE, &texture);
   glGetIntegerv(GL_MAX_VIEWPORT_DIMS, viewport.data());
   const int max_width = std::min(texture, viewport[0]), max_height = std::min(texture, viewport[1]);
   if (width > max_width || height > max_height) {
-    return fail("picture: found size {}x{}, expected at most {}x{} (the limit of this OpenGL)", width, height,
-                max_width, max_height);
+    return base::fail("picture: found size {}x{}, expected at most {}x{} (the limit of this OpenGL)", width,
+                      height, max_width, max_height);
   }
   if (std::int64_t{width} * height > max_pixels) {
-    return fail("picture: found size {}x{}, expected at most {} pixels", width, height, max_pixels);
+    return base::fail("picture: found size {}x{}, expected at most {} pixels", width, height, max_pixels);
   }
   return {};
 }
@@ -108,4 +110,4 @@ void read_depth(const GBuffer& gbuffer, std::vector<float>& depth) {
   gbuffer.depth.read(std::as_writable_bytes(std::span(depth)));
 }
 
-}  // namespace tenebra
+}  // namespace tenebra::raster

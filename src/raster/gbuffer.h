@@ -4,12 +4,12 @@
 #include <cstdint>
 #include <vector>
 
+#include <tenebra/frame_geometry.h>
 #include "gl/objects.h"
 #include "raster/clip_transform.h"
 #include "raster/geometry_buffers.h"
-#include "scene/frame_geometry.h"
 
-namespace tenebra {
+namespace tenebra::raster {
 
 /// Targets of one size, kept from frame to frame. Materials are not in it: the triangle's id leads to them.
 struct GBuffer {
@@ -43,4 +43,4 @@ private:
 void read_triangle_ids(const GBuffer& gbuffer, std::vector<std::uint32_t>& ids);
 void read_depth(const GBuffer& gbuffer, std::vector<float>& depth);  ///< 0 where no triangle is seen
 
-}  // namespace tenebra
+}  // namespace tenebra::raster

@@ -1,12 +1,14 @@
 #include "raster/geometry_buffers.h"
 
+#include "base/fail.h"
+
 #include <glad/gl.h>
 
 #include <algorithm>
 #include <cmath>
 #include <limits>
 
-namespace tenebra {
+namespace tenebra::raster {
 namespace {
 
 // Bindings and locations of the shaders.
@@ -90,7 +92,7 @@ Expected<void> GeometryBuffers::upload_materials(std::span<const Material> mater
 
 Expected<void> GeometryBuffers::upload(const FrameGeometry& geometry) {
   if (const std::size_t most = max_triangles(); geometry.triangles.size() > most) {
-    return fail("OpenGL: found {} triangles, expected at most {}", geometry.triangles.size(), most);
+    return base::fail("OpenGL: found {} triangles, expected at most {}", geometry.triangles.size(), most);
   }
   make_records(geometry, material_count_, records_);
   bounds_ = bounds_of(geometry.positions);
@@ -112,4 +114,4 @@ void GeometryBuffers::bind_records() const {
   glBindTextureUnit(material_unit, material_texture_.name());
 }
 
-}  // namespace tenebra
+}  // namespace tenebra::raster

@@ -5,12 +5,12 @@
 #include <span>
 #include <vector>
 
+#include <tenebra/frame_geometry.h>
+#include <tenebra/scene.h>
 #include "gl/objects.h"
 #include "raster/clip_transform.h"
-#include "scene/frame_geometry.h"
-#include "scene/scene.h"
 
-namespace tenebra {
+namespace tenebra::raster {
 
 /// What the passes behind the G-buffer look up by triangle id (shaders/triangles.glsl has the same layout).
 struct TriangleRecord {
@@ -42,4 +42,4 @@ private:
   Box bounds_;
 };
 
-}  // namespace tenebra
+}  // namespace tenebra::raster

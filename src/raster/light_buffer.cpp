@@ -10,7 +10,7 @@
 
 #include "raster/passes.h"
 
-namespace tenebra {
+namespace tenebra::raster {
 namespace {
 
 // Uniform locations of shaders/light.frag; 0 to 4 are those of shaders/view.glsl.
@@ -140,7 +140,7 @@ Expected<void> LightPass::draw(const GBuffer& gbuffer, const GeometryBuffers& ge
   return {};
 }
 
-void read_light_buffer(const LightBuffer& light_buffer, ImageF& out) {
+void read_light_buffer(const LightBuffer& light_buffer, base::ImageF& out) {
   const int width = light_buffer.light.width(), height = light_buffer.light.height();
   const std::size_t count = static_cast<std::size_t>(width) * static_cast<std::size_t>(height);
   std::vector<glm::vec4> texels(count);
@@ -154,4 +154,4 @@ void read_light_buffer(const LightBuffer& light_buffer, ImageF& out) {
   }
 }
 
-}  // namespace tenebra
+}  // namespace tenebra::raster

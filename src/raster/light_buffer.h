@@ -3,14 +3,14 @@
 
 #include <optional>
 
+#include <tenebra/frame_geometry.h>
+#include <tenebra/scene.h>
 #include "base/image.h"
 #include "gl/objects.h"
 #include "raster/gbuffer.h"
 #include "raster/geometry_buffers.h"
-#include "scene/frame_geometry.h"
-#include "scene/scene.h"
 
-namespace tenebra {
+namespace tenebra::raster {
 
 struct LightBuffer {
   gl::Texture light;  ///< linear RGB, 32-bit floats; 0 where no triangle is seen
@@ -48,6 +48,6 @@ private:
 };
 
 /// Three channels, row 0 at the top.
-void read_light_buffer(const LightBuffer& light_buffer, ImageF& out);
+void read_light_buffer(const LightBuffer& light_buffer, base::ImageF& out);
 
-}  // namespace tenebra
+}  // namespace tenebra::raster

@@ -2,7 +2,7 @@
 
 #include <glad/gl.h>
 
-namespace tenebra {
+namespace tenebra::raster {
 
 void begin_pass(const gl::Framebuffer& target, const gl::Program& program, int width, int height) {
   for (GLenum state :
@@ -33,4 +33,4 @@ void bind_texture(unsigned unit, const gl::Texture& texture) {
   glBindTextureUnit(unit, texture.name());
 }
 
-}  // namespace tenebra
+}  // namespace tenebra::raster

@@ -3,7 +3,7 @@
 
 #include "gl/objects.h"
 
-namespace tenebra {
+namespace tenebra::raster {
 
 /// Binds target and program and sets the state that a window's user may have changed.
 void begin_pass(const gl::Framebuffer& target, const gl::Program& program, int width, int height);
@@ -14,4 +14,4 @@ void end_pass();
 void draw_fullscreen(const gl::VertexArray& empty);
 void bind_texture(unsigned unit, const gl::Texture& texture);
 
-}  // namespace tenebra
+}  // namespace tenebra::raster

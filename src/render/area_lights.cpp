@@ -6,7 +6,7 @@
 
 #include "points/contact_rule.h"
 
-namespace tenebra {
+namespace tenebra::render {
 
 namespace {
 
@@ -59,11 +59,11 @@ double plane_tolerance(const AreaLight& light) {
   vec3 far(0.0f);
   for (const vec3& v : light.vertices) far = glm::max(far, glm::abs(v));
   const vec3 thrice[3] = {far, far, far};
-  return 4 * rounding_tolerance(thrice);
+  return 4 * points::rounding_tolerance(thrice);
 }
 
 bool within(const AreaLight& light, const vec3 corners[3], double light_tolerance) {
-  const double tolerance = light_tolerance + rounding_tolerance(corners);
+  const double tolerance = light_tolerance + points::rounding_tolerance(corners);
   for (int k = 0; k < 3; ++k) {
     if (!(std::abs(glm::dot(light.normal, dvec3(corners[k]) - light.centre)) <= tolerance)) return false;
   }
@@ -116,4 +116,4 @@ bool casters_off_plane(const FrameGeometry& geometry, const AreaLight& light,
   return found;
 }
 
-}  // namespace tenebra
+}  // namespace tenebra::render

@@ -6,10 +6,10 @@
 #include <optional>
 #include <vector>
 
+#include <tenebra/area_light.h>
 #include "render/renderer.h"
-#include "soft/area_light.h"
 
-namespace tenebra {
+namespace tenebra::render {
 
 /// Smallest box around the drawn triangles of a frame; `low` > `high` if there are none.
 struct SceneBox {
@@ -23,9 +23,9 @@ struct SceneBox {
 SceneBox box_of(const FrameGeometry& geometry);
 
 /// The polygon of a light: area lights as the file has them; point and spot lights as rectangles of the
-/// settings' size, or their own, about their place, facing `settings.facing`, else along a spot's axis or from a point
-/// towards the box's centre, their width level. None for directional lights and where no size is given.
-/// Fails with a sentence where the polygon is none: no area, not finite.
+/// settings' size, or their own, about their place, facing `settings.facing`, else along a spot's axis or
+/// from a point towards the box's centre, their width level. None for directional lights and where no size is
+/// given. Fails with a sentence where the polygon is none: no area, not finite.
 Expected<std::optional<AreaLight>> area_light_of(const Light& light, const WorldLight& placed,
                                                  const AreaLightSettings& settings, const SceneBox& box);
 
@@ -37,4 +37,4 @@ bool lies_in_plane(const AreaLight& light, const glm::vec3 corners[3]);
 /// any, else `out` is left alone.
 bool casters_off_plane(const FrameGeometry& geometry, const AreaLight& light, std::vector<std::uint8_t>& out);
 
-}  // namespace tenebra
+}  // namespace tenebra::render

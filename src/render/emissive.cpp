@@ -6,10 +6,11 @@
 #include <cmath>
 #include <optional>
 
+#include "base/fail.h"
 #include "points/contact_rule.h"
 #include "render/area_lights.h"
 
-namespace tenebra {
+namespace tenebra::render {
 
 namespace {
 
@@ -97,7 +98,7 @@ std::optional<std::vector<vec3>> outline_of(const Part& part, const FrameGeometr
     around += glm::length(hull[(i + 1) % hull.size()].at - hull[i].at);
   }
   const vec3 farthest[3] = {far, far, far};
-  if (std::abs(area_of(hull) - total) > rounding_tolerance(farthest) * around) return std::nullopt;
+  if (std::abs(area_of(hull) - total) > points::rounding_tolerance(farthest) * around) return std::nullopt;
   std::vector<vec3> outline;
   for (const Corner& corner : hull) outline.push_back(corner.world);
   return outline;
@@ -105,12 +106,12 @@ std::optional<std::vector<vec3>> outline_of(const Part& part, const FrameGeometr
 
 Expected<AreaLight> polygon_of(const Part& part, const FrameGeometry& geometry) {
   const auto outline = outline_of(part, geometry);
-  if (!outline) return fail("its triangles do not tile a convex polygon");
+  if (!outline) return base::fail("its triangles do not tile a convex polygon");
   auto area = make_area_light(*outline);
   if (!area) return area;
   for (const glm::uvec3& t : part) {
     const vec3 corners[3] = {geometry.positions[t.x], geometry.positions[t.y], geometry.positions[t.z]};
-    if (!lies_in_plane(*area, corners)) return fail("its triangles do not lie in one plane");
+    if (!lies_in_plane(*area, corners)) return base::fail("its triangles do not lie in one plane");
   }
   return area;
 }
@@ -158,4 +159,4 @@ std::vector<EmissivePolygon> emissive_polygons(const Scene& scene, const FrameGe
   return polygons;
 }
 
-}  // namespace tenebra
+}  // namespace tenebra::render

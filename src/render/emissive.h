@@ -6,11 +6,11 @@
 #include <string>
 #include <vector>
 
-#include "scene/frame_geometry.h"
-#include "scene/scene.h"
-#include "soft/area_light.h"
+#include <tenebra/area_light.h>
+#include <tenebra/frame_geometry.h>
+#include <tenebra/scene.h>
 
-namespace tenebra {
+namespace tenebra::render {
 
 struct EmissivePolygon {
   AreaLight area;
@@ -24,4 +24,4 @@ struct EmissivePolygon {
 std::vector<EmissivePolygon> emissive_polygons(const Scene& scene, const FrameGeometry& geometry,
                                                std::vector<std::string>& notes);
 
-}  // namespace tenebra
+}  // namespace tenebra::render

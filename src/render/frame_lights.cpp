@@ -2,9 +2,10 @@
 
 #include <fmt/format.h>
 
+#include "base/fail.h"
 #include "render/emissive.h"
 
-namespace tenebra {
+namespace tenebra::render {
 
 namespace {
 
@@ -81,7 +82,7 @@ Expected<std::vector<DrawnLight>> drawn_lights(const Scene& scene, const FrameIn
     if (settings.area_lights.emissive_quads) add_emissive(scene, input, lights, notes);
   }
   if (settings.light >= static_cast<int>(lights.size())) {
-    return fail("light {}: the scene has {} lights, counted from 0", settings.light, lights.size());
+    return base::fail("light {}: the scene has {} lights, counted from 0", settings.light, lights.size());
   }
   std::erase_if(lights, [&](const DrawnLight& drawn) {
     return drawn.light.intensity == 0 || (settings.light >= 0 && drawn.number != settings.light);
@@ -89,4 +90,4 @@ Expected<std::vector<DrawnLight>> drawn_lights(const Scene& scene, const FrameIn
   return lights;
 }
 
-}  // namespace tenebra
+}  // namespace tenebra::render

@@ -7,7 +7,7 @@
 
 #include "render/area_lights.h"
 
-namespace tenebra {
+namespace tenebra::render {
 
 struct DrawnLight {
   int number = -1;  ///< index into FrameInput::lights; emissive meshes follow them
@@ -23,4 +23,4 @@ Expected<std::vector<DrawnLight>> drawn_lights(const Scene& scene, const FrameIn
                                                const RenderSettings& settings,
                                                std::vector<std::string>& notes);
 
-}  // namespace tenebra
+}  // namespace tenebra::render

@@ -1,12 +1,13 @@
 // The stages of a frame: samples, ambient occlusion, one light.
 #include <cmath>
 
+#include "base/fail.h"
 #include "base/stopwatch.h"
 #include "parallel/parallel.h"
 #include "render/renderer_state.h"
 #include "render/shadow_lights.h"
 
-namespace tenebra {
+namespace tenebra::render {
 
 void Renderer::State::points_from_depth(const ViewRays& view) {
   const std::size_t width = static_cast<std::size_t>(gbuffer.width),
@@ -14,23 +15,23 @@ void Renderer::State::points_from_depth(const ViewRays& view) {
   points.width = gbuffer.width;
   points.height = gbuffer.height;
   points.triangles = ids;
-  points.tiles = {};
+  points.tiles.clear();
   points.positions.resize(width * height);
-  parallel_ranges(height, 16, [&](std::size_t first, std::size_t last) {
+  parallel::parallel_ranges(height, 16, [&](std::size_t first, std::size_t last) {
     for (std::size_t i = first * width; i < last * width; ++i) {
       if (depth[i] <= 0) points.triangles[i] = no_triangle;
       if (points.triangles[i] == no_triangle) continue;
-      points.positions[i] = point_from_depth(view, gbuffer.transform, static_cast<int>(i % width),
-                                             static_cast<int>(i / width), depth[i]);
+      points.positions[i] = raster::point_from_depth(view, gbuffer.transform, static_cast<int>(i % width),
+                                                     static_cast<int>(i / width), depth[i]);
     }
   });
 }
 
 void Renderer::State::read_samples(const FrameInput& input, const RenderSettings& settings,
                                    FrameTimings& timings) {
-  Stopwatch watch;
-  read_triangle_ids(gbuffer, ids);
-  if (settings.samples == SampleSource::depth) read_depth(gbuffer, depth);
+  base::Stopwatch watch;
+  raster::read_triangle_ids(gbuffer, ids);
+  if (settings.samples == SampleSource::depth) raster::read_depth(gbuffer, depth);
   timings.readback_ms = watch.lap_ms();
   const bool exact = settings.samples == SampleSource::ids;
   const bool traced = settings.shadows == ShadowMode::hard ||
@@ -64,7 +65,7 @@ Expected<void> Renderer::State::occlude_ambient(const FrameInput& input, const R
 
 Expected<void> Renderer::State::light_hard(const FrameInput& input, const DrawnLight& light,
                                            const RenderSettings& settings, FrameResult& result) {
-  Stopwatch watch;
+  base::Stopwatch watch;
   if (auto drawn = light_pass.draw(gbuffer, geometry, light.light, light.placed, light_buffer); !drawn)
     return drawn;
   result.timings.raster_ms += watch.lap_ms();
@@ -99,7 +100,7 @@ Expected<void> Renderer::State::light_hard(const FrameInput& input, const DrawnL
 Expected<void> Renderer::State::light_soft(const FrameInput& input, const DrawnLight& light,
                                            const RenderSettings& settings, FrameResult& result,
                                            const StopFlag* stop) {
-  Stopwatch watch;
+  base::Stopwatch watch;
   if (auto drawn = light_pass.draw_area(gbuffer, geometry, light.light, light.placed, light.area->area_m2,
                                         light_buffer);
       !drawn) {
@@ -117,7 +118,7 @@ Expected<void> Renderer::State::light_soft(const FrameInput& input, const DrawnL
                                     : soft.trace(points, normals, input.view, triangles, *light.area,
                                                  settings.soft, soft_mask, stop);
   });
-  if (!done) return fail("stopped");
+  if (!done) return base::fail("stopped");
   if (settings.soft_points > 0) {
     result.stats += light_points.stats();
     add_shadow_stages(result.timings, light_points.timings());
@@ -143,4 +144,4 @@ void Renderer::State::keep_new(std::vector<std::string>& notes) {
   std::erase_if(notes, [&](const std::string& note) { return !said.insert(note).second; });
 }
 
-}  // namespace tenebra
+}  // namespace tenebra::render

@@ -7,7 +7,7 @@
 #include "base/stopwatch.h"
 #include "parallel/parallel.h"
 
-namespace tenebra {
+namespace tenebra::render {
 
 namespace {
 
@@ -72,7 +72,7 @@ struct PointsOfLight {
     }
   }
   void add(const VisiblePoints& points, std::span<const glm::vec3> normals, SoftMask& out) const {
-    parallel_ranges(points.triangles.size(), 1 << 14, [&](std::size_t first, std::size_t last) {
+    parallel::parallel_ranges(points.triangles.size(), 1 << 14, [&](std::size_t first, std::size_t last) {
       for (std::size_t i = first; i < last; ++i) {
         if (points.triangles[i] != no_triangle) add_to_pixel(i, points.positions[i], dvec3(normals[i]), out);
       }
@@ -103,7 +103,7 @@ bool LightPointShadows::trace(const VisiblePoints& points, std::span<const glm::
                               const ViewRays& view, const TriangleView& triangles, const AreaLight& light,
                               int count, const HardShadowConfig& config, SoftMask& out,
                               const StopFlag* stop) {
-  const FloatEnvironment ieee;
+  const parallel::FloatEnvironment ieee;
   stats_ = {};
   timings_ = {};
   out.visible_fraction.assign(points.triangles.size(), 0.0f);
@@ -117,7 +117,7 @@ bool LightPointShadows::trace(const VisiblePoints& points, std::span<const glm::
       stats_ += tracer_.stats();
       add_shadow_stages(timings_, tracer_.timings());
     }
-    Stopwatch watch;
+    base::Stopwatch watch;
     PointsOfLight{some, masks_, light.normal, light.area_m2 / count, 1.0f / static_cast<float>(count)}.add(
         points, normals, out);
     timings_.irradiance_ms += watch.lap_ms();
@@ -126,4 +126,4 @@ bool LightPointShadows::trace(const VisiblePoints& points, std::span<const glm::
   return true;
 }
 
-}  // namespace tenebra
+}  // namespace tenebra::render

@@ -6,10 +6,10 @@
 #include <span>
 #include <vector>
 
-#include "shadow/mask.h"
-#include "soft/soft_shadows.h"
+#include <tenebra/hard_shadows.h>
+#include <tenebra/soft_shadows.h>
 
-namespace tenebra {
+namespace tenebra::render {
 
 /// `count` points on the light, spread evenly: each stands for the same area (a Fibonacci lattice).
 std::vector<glm::vec3> points_on_light(const AreaLight& light, int count);
@@ -35,4 +35,4 @@ private:
   FrameTimings timings_;
 };
 
-}  // namespace tenebra
+}  // namespace tenebra::render

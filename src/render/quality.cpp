@@ -1,6 +1,6 @@
 #include "render/quality.h"
 
-namespace tenebra {
+namespace tenebra::render {
 
 std::string_view quality_name(Quality quality) {
   switch (quality) {
@@ -40,4 +40,4 @@ void apply_quality(Quality quality, RenderSettings& settings) {
   settings.ao.downscale = chosen.ao_downscale;
 }
 
-}  // namespace tenebra
+}  // namespace tenebra::render

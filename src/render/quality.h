@@ -7,7 +7,7 @@
 
 #include "render/renderer.h"
 
-namespace tenebra {
+namespace tenebra::render {
 
 enum class Quality {
   fast,      ///< soft shadows of a few points of the light, ambient occlusion by few rays at half resolution
@@ -18,8 +18,8 @@ inline constexpr std::array qualities{Quality::fast, Quality::balanced, Quality:
 std::string_view quality_name(Quality quality);  ///< "fast"
 std::optional<Quality> quality_from_name(std::string_view name);
 
-/// What a preset sets. Hard shadows are exact in all of them: what inexact settings save is little beside what
-/// they get wrong (docs/trade.md).
+/// What a preset sets. Hard shadows are exact in all of them: what inexact settings save is little beside
+/// what they get wrong (docs/trade.md).
 struct QualitySettings {
   int soft_points = 0;   ///< RenderSettings::soft_points
   int ao_rays = 64;      ///< AoConfig::rays
@@ -30,4 +30,4 @@ QualitySettings quality_settings(Quality quality);
 /// Sets these and leaves all else alone: what is drawn, and how it is computed, stays the caller's.
 void apply_quality(Quality quality, RenderSettings& settings);
 
-}  // namespace tenebra
+}  // namespace tenebra::render

@@ -2,10 +2,11 @@
 
 #include <cassert>
 
+#include "base/fail.h"
 #include "base/stopwatch.h"
 #include "render/renderer_state.h"
 
-namespace tenebra {
+namespace tenebra::render {
 
 namespace {
 
@@ -23,10 +24,10 @@ Scene without_keyed_vertices(Scene scene) {
 Expected<void> check_settings(const RenderSettings& settings) {
   const bool needs_ids = settings.shadows == ShadowMode::soft || settings.ao.mode != AoMode::none;
   if (needs_ids && settings.samples == SampleSource::depth) {
-    return fail("samples from the depth buffer: {} needs the exact points from triangle ids",
-                settings.shadows == ShadowMode::soft ? "a soft shadow" : "ambient occlusion");
+    return base::fail("samples from the depth buffer: {} needs the exact points from triangle ids",
+                      settings.shadows == ShadowMode::soft ? "a soft shadow" : "ambient occlusion");
   }
-  return check_picture_size(settings.width, settings.height);
+  return raster::check_picture_size(settings.width, settings.height);
 }
 
 }  // namespace
@@ -37,11 +38,11 @@ Renderer& Renderer::operator=(Renderer&&) noexcept = default;
 Renderer::~Renderer() = default;
 
 Expected<Renderer> Renderer::create(gl::Context context, const Scene& scene) {
-  auto gbuffer_pass = GBufferPass::create();
+  auto gbuffer_pass = raster::GBufferPass::create();
   if (!gbuffer_pass) return tl::unexpected(gbuffer_pass.error());
-  auto light_pass = LightPass::create();
+  auto light_pass = raster::LightPass::create();
   if (!light_pass) return tl::unexpected(light_pass.error());
-  auto compositor = Compositor::create();
+  auto compositor = raster::Compositor::create();
   if (!compositor) return tl::unexpected(compositor.error());
   auto state = std::make_unique<State>(State{.context = std::move(context),
                                              .scene = without_keyed_vertices(scene),
@@ -71,11 +72,11 @@ std::vector<std::string> Renderer::take_debug_messages() {
 std::optional<glm::dvec3> Renderer::visible_point(const FrameInput& input, int x, int y) {
   State& s = *state_;
   if (x < 0 || y < 0 || x >= s.gbuffer.width || y >= s.gbuffer.height) return std::nullopt;
-  read_triangle_ids(s.gbuffer, s.ids);
+  raster::read_triangle_ids(s.gbuffer, s.ids);
   compute_visible_points(s.ids, s.gbuffer.width, s.gbuffer.height, input.view, triangle_view(input.geometry),
                          s.points);
-  const auto pixel = static_cast<std::size_t>(y) * static_cast<std::size_t>(s.gbuffer.width) +
-                     static_cast<std::size_t>(x);
+  const auto pixel =
+      static_cast<std::size_t>(y) * static_cast<std::size_t>(s.gbuffer.width) + static_cast<std::size_t>(x);
   if (s.points.triangles[pixel] == no_triangle) return std::nullopt;
   return s.points.positions[pixel];
 }
@@ -93,7 +94,7 @@ Expected<void> Renderer::render_frame(const FrameInput& input, const RenderSetti
   result.soft = {};
   result.ao = {};
   FrameTimings& timings = result.timings;
-  Stopwatch watch, whole;
+  base::Stopwatch watch, whole;
   if (auto checked = check_settings(settings); !checked) return checked;
   const auto lights = drawn_lights(s.scene, input, settings, result.notes);
   if (!lights) return tl::unexpected(lights.error());
@@ -112,13 +113,13 @@ Expected<void> Renderer::render_frame(const FrameInput& input, const RenderSetti
     if (auto done = s.occlude_ambient(input, settings, result, progress, stop); !done) return done;
   }
   for (const DrawnLight& light : *lights) {
-    if (stop_requested(stop)) return fail("stopped");
+    if (stop_requested(stop)) return base::fail("stopped");
     auto lit = light.area ? s.light_soft(input, light, settings, result, stop)
                           : s.light_hard(input, light, settings, result);
     if (!lit) return lit;
   }
   watch.lap_ms();
-  CompositeSettings composite{s.scene.ambient_light, s.scene.background, settings.exposure, {}};
+  raster::CompositeSettings composite{s.scene.ambient_light, s.scene.background, settings.exposure, {}};
   if (occlusion) composite.openness = s.openness;
   s.compositor.finish(s.gbuffer, s.geometry, composite, result.image);
   timings.composite_ms = watch.lap_ms();
@@ -127,4 +128,4 @@ Expected<void> Renderer::render_frame(const FrameInput& input, const RenderSetti
   return {};
 }
 
-}  // namespace tenebra
+}  // namespace tenebra::render

@@ -6,18 +6,18 @@
 #include <string>
 #include <vector>
 
-#include "ao/ambient_occlusion.h"
-#include "base/expected.h"
-#include "base/frame_timings.h"
+#include <tenebra/ambient_occlusion.h>
+#include <tenebra/expected.h>
+#include <tenebra/frame_geometry.h>
+#include <tenebra/frame_timings.h>
+#include <tenebra/hard_shadows.h>
+#include <tenebra/scene.h>
+#include <tenebra/soft_shadows.h>
+#include <tenebra/stop_flag.h>
 #include "base/image.h"
 #include "gl/context.h"
-#include "parallel/stop_flag.h"
-#include "scene/frame_geometry.h"
-#include "scene/scene.h"
-#include "shadow/mask.h"
-#include "soft/soft_shadows.h"
 
-namespace tenebra {
+namespace tenebra::render {
 
 enum class ShadowMode { none, hard, soft };
 
@@ -47,9 +47,9 @@ struct RenderSettings {
   int soft_points = 0;  ///< soft mode: 0 exact; else area lights are so many points (render/light_points.h)
   AreaLightSettings area_lights;
   AoConfig ao;
-  int light = -1;         ///< index into the frame's lights; -1: all
-  int threads = 0;        ///< 0: all cores
-  float exposure = 1.0f;  ///< factor of linear colour before it is clamped
+  int light = -1;            ///< index into the frame's lights; -1: all
+  int threads = 0;           ///< 0: all cores
+  float exposure = 1.0f;     ///< factor of linear colour before it is clamped
   bool diagnostics = false;  ///< fill LightMask::nodes; the picture is the same
 };
 
@@ -61,15 +61,16 @@ struct FrameInput {
 };
 
 struct LightMask {
-  int light = -1;  ///< index into FrameInput::lights; emissive meshes that shine follow them
-  Image8 mask;     ///< 255 lit, 0 shadowed, facing away, out of reach or background; soft: 255 x fraction
-  ImageF visible_fraction;  ///< soft mode: visible part of the light, 0..1 (0 or 1 of a point); else empty
-  std::vector<float> nodes;           ///< hard, with RenderSettings::diagnostics: ShadowTracer::pixel_nodes
+  int light = -1;     ///< index into FrameInput::lights; emissive meshes that shine follow them
+  base::Image8 mask;  ///< 255 lit, 0 shadowed, facing away, out of reach or background; soft: 255 x fraction
+  base::ImageF
+      visible_fraction;      ///< soft mode: visible part of the light, 0..1 (0 or 1 of a point); else empty
+  std::vector<float> nodes;  ///< hard, with RenderSettings::diagnostics: ShadowTracer::pixel_nodes
   std::vector<std::uint8_t> classes;  ///< exact soft shadows: a SoftClass a pixel, for display; else empty
 };
 
 struct FrameResult {
-  Image8 image;                  ///< RGB, sRGB-encoded
+  base::Image8 image;            ///< RGB, sRGB-encoded
   std::vector<LightMask> masks;  ///< one a light drawn, of those with an intensity; empty without shadows
   FrameTimings timings;
   TraceStats stats;
@@ -111,4 +112,4 @@ private:
   std::unique_ptr<State> state_;
 };
 
-}  // namespace tenebra
+}  // namespace tenebra::render

@@ -14,17 +14,17 @@
 #include "render/light_points.h"
 #include "render/renderer.h"
 
-namespace tenebra {
+namespace tenebra::render {
 
 struct Renderer::State {
   gl::Context context;
   Scene scene;  // as of without_keyed_vertices
-  GeometryBuffers geometry;
-  GBufferPass gbuffer_pass;
-  LightPass light_pass;
-  Compositor compositor;
-  GBuffer gbuffer{};
-  LightBuffer light_buffer{};
+  raster::GeometryBuffers geometry;
+  raster::GBufferPass gbuffer_pass;
+  raster::LightPass light_pass;
+  raster::Compositor compositor;
+  raster::GBuffer gbuffer{};
+  raster::LightBuffer light_buffer{};
 
   std::vector<std::uint32_t> ids{};
   std::vector<float> depth{};
@@ -55,4 +55,4 @@ struct Renderer::State {
   void keep_new(std::vector<std::string>& notes);
 };
 
-}  // namespace tenebra
+}  // namespace tenebra::render

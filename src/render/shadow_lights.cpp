@@ -2,7 +2,7 @@
 
 #include <cmath>
 
-namespace tenebra {
+namespace tenebra::render {
 
 ShadowLight shadow_light(const Light& light, const WorldLight& placed) {
   ShadowLight result;
@@ -27,4 +27,4 @@ ShadowLight shadow_light(const Light& light, const WorldLight& placed) {
   return result;
 }
 
-}  // namespace tenebra
+}  // namespace tenebra::render

@@ -4,7 +4,7 @@
 #include <algorithm>
 #include <cmath>
 
-#include "scene/frame_geometry.h"
+#include <tenebra/frame_geometry.h>
 #include "scene/view_basis.h"
 
 namespace tenebra {
@@ -57,7 +57,7 @@ void add_camera(Scene& scene, const Sphere& bounds) {
   Node node;
   node.name = "added camera";
   node.translation = bounds.center - towards * distance;
-  node.rotation = glm::quat_cast(view_basis(towards, {0, 1, 0}));
+  node.rotation = glm::quat_cast(scene::view_basis(towards, {0, 1, 0}));
   node.camera = static_cast<int>(scene.cameras.size());
   camera.near_m = static_cast<float>(0.1 * (distance - bounds.radius));
   scene.cameras.push_back(camera);

@@ -1,4 +1,4 @@
-#include "scene/animation.h"
+#include <tenebra/animation.h>
 
 #include <algorithm>
 #include <cmath>
@@ -61,8 +61,8 @@ void evaluate_track(const Track& track, double time_s, bool rotation, std::span<
     return;
   }
   if (track.interpolation == Interpolation::kochanek_bartels) {
-    if (rotation) return evaluate_kochanek_bartels_rotation(track, time_s, out);
-    return evaluate_kochanek_bartels(track, time_s, out);
+    if (rotation) return scene::evaluate_kochanek_bartels_rotation(track, time_s, out);
+    return scene::evaluate_kochanek_bartels(track, time_s, out);
   }
   const Place place = find_place(track.times_s, time_s);
   const bool cubic = track.interpolation == Interpolation::cubic_spline;

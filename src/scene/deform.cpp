@@ -2,7 +2,7 @@
 
 #include <algorithm>
 
-namespace tenebra {
+namespace tenebra::scene {
 namespace {
 
 using Floats = std::vector<glm::vec3>;
@@ -60,4 +60,4 @@ void evaluate_joints(const Skin& skin, const Pose& pose, DeformBuffers& out) {
   }
 }
 
-}  // namespace tenebra
+}  // namespace tenebra::scene

@@ -3,9 +3,9 @@
 
 #include <span>
 
-#include "scene/frame_geometry.h"
+#include <tenebra/frame_geometry.h>
 
-namespace tenebra {
+namespace tenebra::scene {
 
 /// True if the mesh's own positions are not what is drawn.
 inline bool deforms(const Mesh& mesh) {
@@ -18,4 +18,4 @@ void deform_mesh(const Mesh& mesh, std::span<const double> weights, double time_
 /// Fills out.joints: each takes a vertex at rest to world space.
 void evaluate_joints(const Skin& skin, const Pose& pose, DeformBuffers& out);
 
-}  // namespace tenebra
+}  // namespace tenebra::scene

@@ -1,15 +1,17 @@
-#include "scene/frame_geometry.h"
+#include <tenebra/frame_geometry.h>
 
 #include <algorithm>
 #include <cmath>
 #include <limits>
 
 #include "scene/deform.h"
+#include "scene/pose.h"
 
 namespace tenebra {
 namespace {
 
-constexpr double largest_coordinate = 1.8e18f;  // beyond it, products of coordinates leave the range of floats
+constexpr double largest_coordinate =
+    1.8e18f;  // beyond it, products of coordinates leave the range of floats
 constexpr float dropped = std::numeric_limits<float>::quiet_NaN();
 
 /// What to apply to normals for positions under `m`: its inverse transpose up to a positive factor, from
@@ -143,10 +145,10 @@ void clear_dropped(const Instance& instance, FrameGeometry& out) {
 
 void write_instance(const Scene& scene, const Instance& instance, std::span<const double> weights,
                     double time_s, FrameGeometry& out) {
-  if (instance.skin) evaluate_joints(*instance.skin, out.pose, out.deformed);
+  if (instance.skin) scene::evaluate_joints(*instance.skin, out.pose, out.deformed);
   std::size_t bad = 0;
-  if (deforms(instance.mesh)) {
-    deform_mesh(instance.mesh, weights, time_s, out.deformed);
+  if (scene::deforms(instance.mesh)) {
+    scene::deform_mesh(instance.mesh, weights, time_s, out.deformed);
     bad = place(instance, out.deformed.positions, out.deformed.normals, out);
   } else {
     bad = place(instance, instance.mesh.positions, instance.mesh.normals, out);
@@ -184,7 +186,7 @@ const Skin* skin_of(const Scene& scene, const Node& node, const Mesh& mesh) {
 void evaluate_frame(const Scene& scene, int clip, double time_s, FrameGeometry& out) {
   const bool at_rest = clip < 0 || static_cast<std::size_t>(clip) >= scene.clips.size();
   const double shape_time_s = at_rest ? -std::numeric_limits<double>::infinity() : time_s;
-  evaluate_pose(scene, clip, time_s, out.pose);
+  scene::evaluate_pose(scene, clip, time_s, out.pose);
   resize(scene, out);
   out.dropped_non_finite = 0;
   out.parts.clear();

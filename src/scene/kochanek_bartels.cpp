@@ -4,7 +4,7 @@
 #include <cmath>
 #include <glm/gtc/quaternion.hpp>
 
-namespace tenebra {
+namespace tenebra::scene {
 namespace {
 
 constexpr double small_sine = 1e-3;  // below it the authors' quaternion functions take their short cuts
@@ -152,4 +152,4 @@ void evaluate_kochanek_bartels_rotation(const Track& track, double time_s, std::
   out[0] = q.x, out[1] = q.y, out[2] = q.z, out[3] = q.w;
 }
 
-}  // namespace tenebra
+}  // namespace tenebra::scene

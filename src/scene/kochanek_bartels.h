@@ -4,9 +4,9 @@
 
 #include <span>
 
-#include "scene/animation.h"
+#include <tenebra/animation.h>
 
-namespace tenebra {
+namespace tenebra::scene {
 
 /// Position or scale. `out` has track.components values.
 void evaluate_kochanek_bartels(const Track& track, double time_s, std::span<double> out);
@@ -14,4 +14,4 @@ void evaluate_kochanek_bartels(const Track& track, double time_s, std::span<doub
 /// Rotation (x, y, z, w), unit. The keys' quaternions are used as stored, unit or not.
 void evaluate_kochanek_bartels_rotation(const Track& track, double time_s, std::span<double> out);
 
-}  // namespace tenebra
+}  // namespace tenebra::scene

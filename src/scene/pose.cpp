@@ -2,9 +2,9 @@
 
 #include <algorithm>
 
-#include "scene/scene.h"
+#include <tenebra/scene.h>
 
-namespace tenebra {
+namespace tenebra::scene {
 namespace {
 
 std::size_t morph_target_count(const Scene& scene, const Node& node) {
@@ -85,4 +85,4 @@ void evaluate_pose(const Scene& scene, int clip, double time_s, Pose& out) {
   }
 }
 
-}  // namespace tenebra
+}  // namespace tenebra::scene

@@ -3,7 +3,8 @@
 #include <cmath>
 #include <numbers>
 
-#include "scene/frame_geometry.h"
+#include <tenebra/frame_geometry.h>
+#include "scene/pose.h"
 #include "scene/view_basis.h"
 
 namespace tenebra {
@@ -55,7 +56,7 @@ WorldLight place_light(const Scene& scene, int node, const glm::dmat4& to_world)
   const Light& light = scene.lights[static_cast<std::size_t>(out.light)];
   const glm::dmat3 linear(to_world);
   out.position = glm::vec3(to_world[3]);
-  out.direction = glm::vec3(-view_basis(-linear[2], linear[1])[2]);
+  out.direction = glm::vec3(-scene::view_basis(-linear[2], linear[1])[2]);
   out.axis_x = glm::vec3(linear[0] * (0.5 * light.size_m.x));
   out.axis_y = glm::vec3(linear[1] * (0.5 * light.size_m.y));
   return out;
@@ -65,7 +66,7 @@ WorldLight place_light(const Scene& scene, int node, const glm::dmat4& to_world)
 
 std::vector<WorldLight> evaluate_lights(const Scene& scene, int clip, double time_s) {
   Pose pose;
-  evaluate_pose(scene, clip, time_s, pose);
+  scene::evaluate_pose(scene, clip, time_s, pose);
   std::vector<WorldLight> lights;
   for (std::size_t i = 0; i < scene.nodes.size(); ++i) {
     if (scene.nodes[i].light < 0 || !pose.nodes[i].visible) continue;
@@ -82,9 +83,9 @@ ViewRays evaluate_camera(const Scene& scene, int clip, double time_s, int camera
   for (std::size_t i = 0; i < scene.nodes.size(); ++i) {
     if (scene.nodes[i].camera != camera) continue;
     Pose pose;
-    evaluate_pose(scene, clip, time_s, pose);
+    scene::evaluate_pose(scene, clip, time_s, pose);
     const glm::dmat4& to_world = pose.nodes[i].to_world;
-    viewer = {glm::dvec3(to_world[3]), view_basis(-glm::dvec3(to_world[2]), glm::dvec3(to_world[1]))};
+    viewer = {glm::dvec3(to_world[3]), scene::view_basis(-glm::dvec3(to_world[2]), glm::dvec3(to_world[1]))};
     break;
   }
   if (c.projection == Projection::orthographic) {
@@ -95,7 +96,8 @@ ViewRays evaluate_camera(const Scene& scene, int clip, double time_s, int camera
 
 ViewRays look_at(glm::vec3 eye, glm::vec3 target, glm::vec3 up, float vertical_fov_rad, float near_m,
                  int width, int height) {
-  const Viewer viewer{glm::dvec3(eye), view_basis(glm::dvec3(target) - glm::dvec3(eye), glm::dvec3(up))};
+  const Viewer viewer{glm::dvec3(eye),
+                      scene::view_basis(glm::dvec3(target) - glm::dvec3(eye), glm::dvec3(up))};
   return perspective_rays(viewer, vertical_fov_rad, near_m, width, height);
 }
 

@@ -4,7 +4,7 @@
 #include <cmath>
 #include <initializer_list>
 
-namespace tenebra {
+namespace tenebra::scene {
 namespace {
 
 /// Unit vector of `v`, or zero if it has no direction. Scales first: squares of floats' extremes would
@@ -31,4 +31,4 @@ glm::dmat3 view_basis(glm::dvec3 forward, glm::dvec3 up) {
   return glm::dmat3(1.0);  // unreachable: a unit vector is not parallel to both Y and Z
 }
 
-}  // namespace tenebra
+}  // namespace tenebra::scene

@@ -1,7 +1,7 @@
 #include <array>
 #include <utility>
 
-#include "shadow/mask.h"
+#include <tenebra/hard_shadows.h>
 
 namespace tenebra {
 

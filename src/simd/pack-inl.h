@@ -14,7 +14,7 @@
 #include <cstdint>
 
 HWY_BEFORE_NAMESPACE();
-namespace tenebra::HWY_NAMESPACE {
+namespace tenebra::simd::HWY_NAMESPACE {
 
 namespace hn = hwy::HWY_NAMESPACE;
 
@@ -547,7 +547,7 @@ HWY_INLINE Pack<std::int32_t, N> shift_left(Pack<std::int32_t, N> a, Pack<std::i
   return a;
 }
 
-}  // namespace tenebra::HWY_NAMESPACE
+}  // namespace tenebra::simd::HWY_NAMESPACE
 HWY_AFTER_NAMESPACE();
 
 #endif

@@ -1,6 +1,5 @@
-#include "simd/simd_level.h"
+#include <tenebra/simd_level.h>
 
-#define HWY_DISABLED_TARGETS (HWY_AVX3_DL | HWY_SSSE3)  // as in the kernels: their targets are these
 #include <hwy/highway.h>
 
 #include <array>

@@ -1,11 +1,11 @@
 // Whole frames: against the reference by rays, and what must not change from frame to frame.
-#include "ao/ambient_occlusion.h"
+#include <tenebra/ambient_occlusion.h>
 
 #include <ostream>
 #include <set>
 
 #include "ao_case.h"
-#include "import/import_scene.h"
+#include "formats/import_scene.h"
 
 namespace tenebra {
 namespace {
@@ -328,7 +328,7 @@ TEST(AmbientOcclusion, OnlyObjectsInReachGetFields) {
 TEST(AmbientOcclusion, BuiltFieldsAreFoundAgainOnDisk) {
   const Scene scene = room_scene();
   const AoView frame(scene, 0.1, view, width, height);
-  test::TemporaryFolder folder;
+  testing::TemporaryFolder folder;
   AoConfig config = config_of(AoMode::field);
   config.cache = folder.path() / "fields";
   AmbientOcclusion first, second;
@@ -411,7 +411,7 @@ TEST_P(RealScenes, FollowTheReference) {
     file = std::filesystem::path(TENEBRA_SHARED_DIR) / "scenes" / GetParam().file;
     if (!std::filesystem::exists(file)) GTEST_SKIP() << file << " is not here";
   }
-  const auto scene = import_scene(file);
+  const auto scene = formats::import_scene(file);
   ASSERT_TRUE(scene);
   const ViewRays camera = evaluate_camera(*scene, 0, GetParam().time_s, 0, 96, 72);
   const AoView frame(*scene, GetParam().time_s, camera, 96, 72);

@@ -6,7 +6,7 @@
 #include <string>
 #include <vector>
 
-#include "ao/ambient_occlusion.h"
+#include <tenebra/ambient_occlusion.h>
 #include "parallel/parallel.h"
 #include "support/samples.h"
 #include "support/temporary_folder.h"

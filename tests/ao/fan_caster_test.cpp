@@ -1,5 +1,5 @@
 // Sixteen rays from one point against one ray at a time.
-#include "ao/fan_caster.h"
+#include "ao/cast/fan_caster.h"
 
 #include <gtest/gtest.h>
 
@@ -32,28 +32,29 @@ Triangles cloud(std::uint64_t seed, int count, double size) {
   return out;
 }
 
-RayBatch fan(Random& random, glm::vec3 origin) {
-  RayBatch rays;
-  for (int i = 0; i < batch_size; ++i) rays.set(i, origin, glm::vec3(random.direction()));
+ao::RayBatch fan(Random& random, glm::vec3 origin) {
+  ao::RayBatch rays;
+  for (int i = 0; i < ao::batch_size; ++i) rays.set(i, origin, glm::vec3(random.direction()));
   return rays;
 }
 
 TEST(FanCaster, AgreesWithOneRayAtATime) {
   for (const int count : {1, 7, 9, 100, 3000}) {
     const Triangles cloud = tenebra::cloud(static_cast<std::uint64_t>(count), count, count < 50 ? 1.5 : 0.2);
-    const TriangleBvh bvh = build_triangle_bvh(cloud.positions, cloud.triangles);
+    const ao::TriangleBvh bvh = ao::build_triangle_bvh(cloud.positions, cloud.triangles);
     Random random(5);
     int hits = 0;
     for (int n = 0; n < 200; ++n) {
-      const RayBatch rays = fan(random, glm::vec3(random.in_cube(1.5)));
+      const ao::RayBatch rays = fan(random, glm::vec3(random.in_cube(1.5)));
       const float reach = n % 2 == 0 ? 0.4f : 100.0f;
-      float distance[batch_size], facing[batch_size];
-      std::fill_n(distance, batch_size, reach);
-      closest_fan(SimdLevel::automatic)(bvh, rays, distance, facing);
-      for (int i = 0; i < batch_size; ++i) {
-        const CasterHit hit = bvh_kernels(SimdLevel::automatic)
-                                  .closest(bvh, {rays.origin(i), rays.direction(i), 0, reach, no_caster});
-        if (hit.triangle == no_caster) {
+      float distance[ao::batch_size], facing[ao::batch_size];
+      std::fill_n(distance, ao::batch_size, reach);
+      ao::closest_fan(SimdLevel::automatic)(bvh, rays, distance, facing);
+      for (int i = 0; i < ao::batch_size; ++i) {
+        const ao::CasterHit hit =
+            ao::bvh_kernels(SimdLevel::automatic)
+                .closest(bvh, {rays.origin(i), rays.direction(i), 0, reach, ao::no_caster});
+        if (hit.triangle == ao::no_caster) {
           EXPECT_EQ(distance[i], reach);
           EXPECT_EQ(facing[i], 0);
           continue;
@@ -72,19 +73,19 @@ TEST(FanCaster, AgreesWithOneRayAtATime) {
 
 TEST(FanCaster, SameBitsForEveryInstructionSet) {
   const Triangles cloud = tenebra::cloud(3, 500, 0.3);
-  const TriangleBvh bvh = build_triangle_bvh(cloud.positions, cloud.triangles);
+  const ao::TriangleBvh bvh = ao::build_triangle_bvh(cloud.positions, cloud.triangles);
   Random random(11);
   for (int n = 0; n < 100; ++n) {
-    const RayBatch rays = fan(random, glm::vec3(random.in_cube(1)));
-    float expected[batch_size], expected_facing[batch_size];
-    std::fill_n(expected, batch_size, 3.0f);
-    closest_fan(SimdLevel::scalar)(bvh, rays, expected, expected_facing);
+    const ao::RayBatch rays = fan(random, glm::vec3(random.in_cube(1)));
+    float expected[ao::batch_size], expected_facing[ao::batch_size];
+    std::fill_n(expected, ao::batch_size, 3.0f);
+    ao::closest_fan(SimdLevel::scalar)(bvh, rays, expected, expected_facing);
     for (const SimdLevel level : {SimdLevel::sse4, SimdLevel::avx2, SimdLevel::avx512}) {
       if (!simd_level_supported(level)) continue;
-      float distance[batch_size], facing[batch_size];
-      std::fill_n(distance, batch_size, 3.0f);
-      closest_fan(level)(bvh, rays, distance, facing);
-      for (int i = 0; i < batch_size; ++i) {
+      float distance[ao::batch_size], facing[ao::batch_size];
+      std::fill_n(distance, ao::batch_size, 3.0f);
+      ao::closest_fan(level)(bvh, rays, distance, facing);
+      for (int i = 0; i < ao::batch_size; ++i) {
         EXPECT_EQ(distance[i], expected[i]) << simd_level_name(level);
         EXPECT_EQ(facing[i], expected_facing[i]) << simd_level_name(level);
       }
@@ -111,31 +112,31 @@ TEST(FanCaster, LeavesNoGapBetweenNeighbours) {
       if (j > 0) triangles.push_back({a, b, b + n});
       if (j + 1 < n) triangles.push_back({a, b + n, a + n});
     }
-  const TriangleBvh bvh = build_triangle_bvh(positions, triangles);
+  const ao::TriangleBvh bvh = ao::build_triangle_bvh(positions, triangles);
   for (int round = 0; round < 300; ++round) {
     const glm::vec3 origin(random.in_cube(0.3));
-    RayBatch rays;
-    for (int i = 0; i < batch_size; ++i) {
+    ao::RayBatch rays;
+    for (int i = 0; i < ao::batch_size; ++i) {
       const glm::uvec3 t = triangles[random.index(static_cast<std::uint32_t>(triangles.size()))];
       const auto s = static_cast<float>(random.in(0.01, 0.99));
       rays.set(i, origin, positions[t.x] + s * (positions[t.y] - positions[t.x]) - origin);
     }
-    float distance[batch_size];
-    std::fill_n(distance, batch_size, infinity);
-    closest_fan(SimdLevel::automatic)(bvh, rays, distance, nullptr);
-    for (int i = 0; i < batch_size; ++i) EXPECT_LT(distance[i], 1.01f) << round << " " << i;
+    float distance[ao::batch_size];
+    std::fill_n(distance, ao::batch_size, infinity);
+    ao::closest_fan(SimdLevel::automatic)(bvh, rays, distance, nullptr);
+    for (int i = 0; i < ao::batch_size; ++i) EXPECT_LT(distance[i], 1.01f) << round << " " << i;
   }
 }
 
 TEST(FanCaster, AnEmptyTreeAndRaysWithoutDirectionMeetNothing) {
-  const TriangleBvh empty = build_triangle_bvh({}, {});
+  const ao::TriangleBvh empty = ao::build_triangle_bvh({}, {});
   const Triangles cloud = tenebra::cloud(3, 50, 0.5);
-  const TriangleBvh bvh = build_triangle_bvh(cloud.positions, cloud.triangles);
-  RayBatch rays{};
-  float distance[batch_size];
-  std::fill_n(distance, batch_size, 2.0f);
-  closest_fan(SimdLevel::automatic)(empty, rays, distance, nullptr);
-  closest_fan(SimdLevel::automatic)(bvh, rays, distance, nullptr);
+  const ao::TriangleBvh bvh = ao::build_triangle_bvh(cloud.positions, cloud.triangles);
+  ao::RayBatch rays{};
+  float distance[ao::batch_size];
+  std::fill_n(distance, ao::batch_size, 2.0f);
+  ao::closest_fan(SimdLevel::automatic)(empty, rays, distance, nullptr);
+  ao::closest_fan(SimdLevel::automatic)(bvh, rays, distance, nullptr);
   for (const float d : distance) EXPECT_EQ(d, 2.0f);
 }
 

@@ -6,9 +6,9 @@
 #include <cmath>
 #include <filesystem>
 
-#include "ao/field_lookup.h"
+#include "ao/cast/sphere_maps.h"
+#include "ao/field/field_lookup.h"
 #include "ao/objects.h"
-#include "ao/sphere_maps.h"
 #include "support/samples.h"
 #include "support/seeded_random.h"
 
@@ -28,11 +28,11 @@ struct Receiver {
 
 /// Cosine-weighted directions by the concentric map, turned by `angle`.
 std::vector<vec3> directions_at(const Receiver& r, int count, double angle) {
-  const Frame frame = frame_around(r.normal);
+  const ao::Frame frame = ao::frame_around(r.normal);
   const auto c = static_cast<float>(std::cos(angle)), s = static_cast<float>(std::sin(angle));
   std::vector<vec3> directions;
   for (int i = 0; i < count; ++i) {
-    const vec3 h = hemisphere_from_square(lattice_point(i, count));
+    const vec3 h = ao::hemisphere_from_square(ao::lattice_point(i, count));
     directions.push_back((h.x * c - h.y * s) * frame.x + (h.x * s + h.y * c) * frame.y + h.z * r.normal);
   }
   return directions;
@@ -79,15 +79,15 @@ private:
   testing::PeerTracer peer_;
 };
 
-double field_occlusion(const FieldInstance& instance, const Receiver& r, double distance, double angle) {
-  const FieldKernels kernels = field_kernels(SimdLevel::automatic);
+double field_occlusion(const ao::FieldInstance& instance, const Receiver& r, double distance, double angle) {
+  const ao::FieldKernels kernels = ao::field_kernels(SimdLevel::automatic);
   const std::vector<vec3> directions = directions_at(r, rays, angle);
   double sum = 0;
-  for (int i = 0; i < rays; i += batch_size) {
-    RayBatch batch;
-    float t[batch_size];
-    std::fill(t, t + batch_size, static_cast<float>(distance));
-    for (int k = 0; k < batch_size; ++k)
+  for (int i = 0; i < rays; i += ao::batch_size) {
+    ao::RayBatch batch;
+    float t[ao::batch_size];
+    std::fill(t, t + ao::batch_size, static_cast<float>(distance));
+    for (int k = 0; k < ao::batch_size; ++k)
       batch.set(k, r.position, directions[static_cast<std::size_t>(i + k)]);
     kernels.nearest_hits(instance, {&batch, 1}, t);
     for (const float d : t) sum += occlusion(d, distance);
@@ -96,7 +96,7 @@ double field_occlusion(const FieldInstance& instance, const Receiver& r, double 
 }
 
 /// A corner of three walls that touch the sphere, four radii wide.
-std::vector<Receiver> corner_receivers(const Ellipsoid& sphere, Random& random, int count) {
+std::vector<Receiver> corner_receivers(const ao::Ellipsoid& sphere, Random& random, int count) {
   std::vector<Receiver> receivers;
   for (int i = 0; i < count; ++i) {
     glm::dvec3 p, n(0);
@@ -109,7 +109,7 @@ std::vector<Receiver> corner_receivers(const Ellipsoid& sphere, Random& random, 
 }
 
 /// A floor on which the object stands, where it lies inside the sphere.
-std::vector<Receiver> floor_receivers(const Object& object, const Ellipsoid& sphere, Random& random,
+std::vector<Receiver> floor_receivers(const Object& object, const ao::Ellipsoid& sphere, Random& random,
                                       int count) {
   double lowest = HUGE_VAL;
   for (const glm::uvec3& t : object.triangles)
@@ -124,7 +124,7 @@ std::vector<Receiver> floor_receivers(const Object& object, const Ellipsoid& sph
 }
 
 /// Anywhere in the sphere, looking anywhere, not in the solid.
-std::vector<Receiver> air_receivers(const Reference& reference, const Ellipsoid& sphere, Random& random,
+std::vector<Receiver> air_receivers(const Reference& reference, const ao::Ellipsoid& sphere, Random& random,
                                     int count) {
   std::vector<Receiver> receivers;
   while (static_cast<int>(receivers.size()) < count) {
@@ -137,7 +137,7 @@ std::vector<Receiver> air_receivers(const Reference& reference, const Ellipsoid&
 }
 
 /// Root of the mean squared error in 1/255.
-double rms_255(const FieldInstance& instance, const Reference& reference,
+double rms_255(const ao::FieldInstance& instance, const Reference& reference,
                const std::vector<Receiver>& receivers, double distance) {
   Random random(99);
   double sum = 0;
@@ -153,17 +153,17 @@ double rms_255(const FieldInstance& instance, const Reference& reference,
 void measure(const char* name, const Object& object) {
   Random random(7);
   const Reference reference(object);
-  const TriangleBvh bvh = object.bvh();
-  const DisplacementField chords = object.field(), sparse = object.field(sparse_field);
-  const DisplacementField paper = object.field({FieldLayout::positions_directions, 4225, 1024, 8});
+  const ao::TriangleBvh bvh = object.bvh();
+  const ao::DisplacementField chords = object.field(), sparse = object.field(ao::sparse_field);
+  const ao::DisplacementField paper = object.field({FieldLayout::positions_directions, 4225, 1024, 8});
   const double distance = 2 * paper.bound.axes.x;
   const auto outside = corner_receivers(paper.bound, random, 300);
   const auto floor = floor_receivers(object, paper.bound, random, 80);
   const auto air = air_receivers(reference, paper.bound, random, 80);
-  const auto rms = [&](const DisplacementField& field, const auto& receivers,
-                       FieldEnds ends = FieldEnds::both) {
-    return rms_255(*place_field(field, ends == FieldEnds::both ? &bvh : nullptr, dmat4(1), ends), reference,
-                   receivers, distance);
+  const auto rms = [&](const ao::DisplacementField& field, const auto& receivers,
+                       ao::FieldEnds ends = ao::FieldEnds::both) {
+    return rms_255(*ao::place_field(field, ends == ao::FieldEnds::both ? &bvh : nullptr, dmat4(1), ends),
+                   reference, receivers, distance);
   };
   const double chords_outside = rms(chords, outside), paper_outside = rms(paper, outside);
   const double chords_floor = rms(chords, floor), paper_floor = rms(paper, floor);
@@ -178,7 +178,7 @@ void measure(const char* name, const Object& object) {
   EXPECT_LE(paper_outside, 1.5);
   EXPECT_LE(std::max({chords_floor, paper_floor, chords_air, paper_air}), 5);
   // What the paper's first hit alone makes of a receiver inside.
-  EXPECT_GT(rms(paper, air, FieldEnds::first), paper_air);
+  EXPECT_GT(rms(paper, air, ao::FieldEnds::first), paper_air);
 }
 
 void measure_file(const char* name, const std::string& path) {

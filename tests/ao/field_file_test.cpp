@@ -1,5 +1,5 @@
 // Fields on disk: what was saved comes back bit for bit; whatever else lies there is refused with a sentence.
-#include "ao/field_file.h"
+#include "ao/field/field_file.h"
 
 #include <gtest/gtest.h>
 
@@ -18,11 +18,11 @@ namespace fs = std::filesystem;
 
 constexpr FieldLayout paper = FieldLayout::positions_directions, chords = FieldLayout::chords;
 
-FieldKey key_of(const Object& object, const FieldSettings& settings) {
-  return field_key(object.positions, object.triangles, settings);
+ao::FieldKey key_of(const Object& object, const ao::FieldSettings& settings) {
+  return ao::field_key(object.positions, object.triangles, settings);
 }
 
-void expect_same(const DisplacementField& a, const DisplacementField& b) {
+void expect_same(const ao::DisplacementField& a, const ao::DisplacementField& b) {
   EXPECT_EQ(a.layout, b.layout);
   EXPECT_EQ(a.bits, b.bits);
   EXPECT_EQ(a.table, b.table);
@@ -33,19 +33,19 @@ void expect_same(const DisplacementField& a, const DisplacementField& b) {
 }
 
 TEST(FieldFile, GivesBackWhatWasSaved) {
-  const test::TemporaryFolder folder;
+  const testing::TemporaryFolder folder;
   const Object object = testing::table();
   for (const FieldLayout layout : {paper, chords}) {
     for (const int bits : {1, 8, 32}) {
-      const FieldSettings settings{layout, 625, 625, bits};
-      const DisplacementField field = object.field(settings);
-      const FieldKey key = key_of(object, settings);
-      ASSERT_TRUE(save_field(folder.path() / "new" / "folder", key, field));
-      const auto loaded = load_field(folder.path() / "new" / "folder", key, settings);
+      const ao::FieldSettings settings{layout, 625, 625, bits};
+      const ao::DisplacementField field = object.field(settings);
+      const ao::FieldKey key = key_of(object, settings);
+      ASSERT_TRUE(ao::save_field(folder.path() / "new" / "folder", key, field));
+      const auto loaded = ao::load_field(folder.path() / "new" / "folder", key, settings);
       ASSERT_TRUE(loaded) << loaded.error().message;
       expect_same(field, *loaded);
       // Compressed: most rays pass the table by.
-      EXPECT_LT(fs::file_size(field_path(folder.path() / "new" / "folder", key)), field.bytes() * 2 / 3);
+      EXPECT_LT(fs::file_size(ao::field_path(folder.path() / "new" / "folder", key)), field.bytes() * 2 / 3);
     }
   }
 }
@@ -54,8 +54,8 @@ TEST(FieldFile, TheKeyChangesWithEverythingThatMatters) {
   const Object object = testing::table();
   std::set<std::string> keys;
   int count = 0;
-  const auto add = [&](const Object& o, const FieldSettings& s) {
-    keys.insert(field_path("", key_of(o, s)).string());
+  const auto add = [&](const Object& o, const ao::FieldSettings& s) {
+    keys.insert(ao::field_path("", key_of(o, s)).string());
     ++count;
   };
   add(object, {});
@@ -77,18 +77,18 @@ TEST(FieldFile, TheKeyChangesWithEverythingThatMatters) {
 }
 
 TEST(FieldFile, RefusesWhatIsDamagedCutOrForeign) {
-  const test::TemporaryFolder folder;
+  const testing::TemporaryFolder folder;
   const Object object = testing::table();
-  const FieldSettings settings{chords, 121, 121, 8};
-  const FieldKey key = key_of(object, settings);
-  const fs::path path = field_path(folder.path(), key);
-  EXPECT_FALSE(load_field(folder.path(), key, settings));  // missing
-  ASSERT_TRUE(save_field(folder.path(), key, object.field(settings)));
-  const std::string good = test::read_text(path);
-  ASSERT_TRUE(load_field(folder.path(), key, settings));
+  const ao::FieldSettings settings{chords, 121, 121, 8};
+  const ao::FieldKey key = key_of(object, settings);
+  const fs::path path = ao::field_path(folder.path(), key);
+  EXPECT_FALSE(ao::load_field(folder.path(), key, settings));  // missing
+  ASSERT_TRUE(ao::save_field(folder.path(), key, object.field(settings)));
+  const std::string good = testing::read_text(path);
+  ASSERT_TRUE(ao::load_field(folder.path(), key, settings));
   const auto refused = [&](const std::string& bytes) {
-    test::write_text(path, bytes);
-    const auto loaded = load_field(folder.path(), key, settings);
+    testing::write_text(path, bytes);
+    const auto loaded = ao::load_field(folder.path(), key, settings);
     if (loaded) return bytes == good;
     EXPECT_NE(loaded.error().message.find(path.string()), std::string::npos);
     EXPECT_EQ(loaded.error().message.find('\n'), std::string::npos);
@@ -117,24 +117,24 @@ TEST(FieldFile, RefusesWhatIsDamagedCutOrForeign) {
     EXPECT_TRUE(refused(bytes));
   }
   // A whole field, but of something else: of other geometry, other settings.
-  const FieldSettings others[] = {{chords, 121, 121, 1}, {paper, 121, 121, 8}, {chords, 144, 144, 8}};
-  for (const FieldSettings& other : others) {
-    ASSERT_TRUE(save_field(folder.path(), key_of(object, other), object.field(other)));
-    EXPECT_TRUE(refused(test::read_text(field_path(folder.path(), key_of(object, other)))));
+  const ao::FieldSettings others[] = {{chords, 121, 121, 1}, {paper, 121, 121, 8}, {chords, 144, 144, 8}};
+  for (const ao::FieldSettings& other : others) {
+    ASSERT_TRUE(ao::save_field(folder.path(), key_of(object, other), object.field(other)));
+    EXPECT_TRUE(refused(testing::read_text(ao::field_path(folder.path(), key_of(object, other)))));
   }
   const Object ball = testing::ball({0, 0, 0}, {1, 1, 1}, 6);
-  ASSERT_TRUE(save_field(folder.path(), key_of(ball, settings), ball.field(settings)));
-  EXPECT_TRUE(refused(test::read_text(field_path(folder.path(), key_of(ball, settings)))));
-  test::write_text(path, good);
-  EXPECT_TRUE(load_field(folder.path(), key, settings));
+  ASSERT_TRUE(ao::save_field(folder.path(), key_of(ball, settings), ball.field(settings)));
+  EXPECT_TRUE(refused(testing::read_text(ao::field_path(folder.path(), key_of(ball, settings)))));
+  testing::write_text(path, good);
+  EXPECT_TRUE(ao::load_field(folder.path(), key, settings));
 }
 
 TEST(FieldFile, SaysWhyItCannotSave) {
-  const test::TemporaryFolder folder;
+  const testing::TemporaryFolder folder;
   const Object object = testing::table();
-  const FieldSettings settings{chords, 16, 16, 8};
-  test::write_text(folder / "file", "in the way");
-  const auto saved = save_field(folder / "file", key_of(object, settings), object.field(settings));
+  const ao::FieldSettings settings{chords, 16, 16, 8};
+  testing::write_text(folder / "file", "in the way");
+  const auto saved = ao::save_field(folder / "file", key_of(object, settings), object.field(settings));
   ASSERT_FALSE(saved);
   EXPECT_NE(saved.error().message.find("file"), std::string::npos);
 }

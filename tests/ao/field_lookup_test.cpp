@@ -1,6 +1,6 @@
 // Looking fields up: what is found lies where the object is, on every instruction set, under every transform,
 // from outside, on and inside the sphere, and whatever the ray.
-#include "ao/field_lookup.h"
+#include "ao/field/field_lookup.h"
 
 #include <gtest/gtest.h>
 
@@ -26,26 +26,27 @@ constexpr FieldLayout paper = FieldLayout::positions_directions, chords = FieldL
 
 /// Distances of sixteen rays; infinity: nothing met.
 struct Distances {
-  float t[batch_size];
+  float t[ao::batch_size];
 };
-Distances look(const FieldInstance& instance, const RayBatch& rays, SimdLevel level = SimdLevel::automatic,
-               float limit = infinity) {
+Distances look(const ao::FieldInstance& instance, const ao::RayBatch& rays,
+               SimdLevel level = SimdLevel::automatic, float limit = infinity) {
   Distances d;
-  std::fill(d.t, d.t + batch_size, limit);
-  field_kernels(level).nearest_hits(instance, {&rays, 1}, d.t);
+  std::fill(d.t, d.t + ao::batch_size, limit);
+  ao::field_kernels(level).nearest_hits(instance, {&rays, 1}, d.t);
   return d;
 }
-float look_one(const FieldInstance& instance, vec3 origin, vec3 direction, float limit = infinity) {
-  RayBatch rays{};
+float look_one(const ao::FieldInstance& instance, vec3 origin, vec3 direction, float limit = infinity) {
+  ao::RayBatch rays{};
   rays.set(5, origin, direction);
   const Distances d = look(instance, rays, SimdLevel::automatic, limit);
-  for (int i = 0; i < batch_size; ++i) EXPECT_TRUE(i == 5 || d.t[i] == limit) << "a lane without a ray";
+  for (int i = 0; i < ao::batch_size; ++i) EXPECT_TRUE(i == 5 || d.t[i] == limit) << "a lane without a ray";
   return d.t[5];
 }
 
-RayBatch random_rays(Random& random, double spread) {
-  RayBatch rays;
-  for (int i = 0; i < batch_size; ++i) rays.set(i, vec3(random.in_cube(spread)), vec3(random.direction()));
+ao::RayBatch random_rays(Random& random, double spread) {
+  ao::RayBatch rays;
+  for (int i = 0; i < ao::batch_size; ++i)
+    rays.set(i, vec3(random.in_cube(spread)), vec3(random.direction()));
   return rays;
 }
 
@@ -53,8 +54,8 @@ TEST(FieldLookup, FindsABallWhereItIs) {
   const Object ball = testing::ball({3, -2, 1}, vec3(2), 24);
   for (const FieldLayout layout : {paper, chords}) {
     for (const int bits : {8, 32}) {
-      const DisplacementField field = ball.field({layout, 1225, 784, bits});
-      const FieldInstance instance = *place_field(field, nullptr, dmat4(1));
+      const ao::DisplacementField field = ball.field({layout, 1225, 784, bits});
+      const ao::FieldInstance instance = *ao::place_field(field, nullptr, dmat4(1));
       // Through the middle, from outside, from on the sphere, from far away.
       for (const double from : {2.001, 2.5, 5.0, 100.0}) {
         Random random(1);
@@ -74,21 +75,22 @@ TEST(FieldLookup, FindsABallWhereItIs) {
 TEST(FieldLookup, GivesTheSameBitsOnEveryInstructionSet) {
   Random random(2);
   const Object object = testing::table();
-  const TriangleBvh bvh = object.bvh();
+  const ao::TriangleBvh bvh = object.bvh();
   const dmat4 world = glm::rotate(glm::translate(dmat4(1), dvec3(0.3, 0.1, -0.2)), 0.7, dvec3(1, 2, 3));
   for (const FieldLayout layout : {paper, chords}) {
     for (const int bits : {1, 8, 32}) {
-      const DisplacementField field = object.field({layout, 625, 625, bits});
-      for (const TriangleBvh* near : {static_cast<const TriangleBvh*>(nullptr), &bvh}) {
-        for (const FieldEnds ends : {FieldEnds::first, FieldEnds::both}) {
-          const FieldInstance instance = *place_field(field, near, world, ends);
+      const ao::DisplacementField field = object.field({layout, 625, 625, bits});
+      for (const ao::TriangleBvh* near : {static_cast<const ao::TriangleBvh*>(nullptr), &bvh}) {
+        for (const ao::FieldEnds ends : {ao::FieldEnds::first, ao::FieldEnds::both}) {
+          const ao::FieldInstance instance = *ao::place_field(field, near, world, ends);
           for (int i = 0; i < 300; ++i) {
-            const RayBatch rays = random_rays(random, i % 2 ? 3 : 1);
+            const ao::RayBatch rays = random_rays(random, i % 2 ? 3 : 1);
             const Distances expected = look(instance, rays, SimdLevel::scalar, i % 3 ? infinity : 1.0f);
             for (const SimdLevel level : levels) {
               if (!simd_level_supported(level)) continue;
               const Distances found = look(instance, rays, level, i % 3 ? infinity : 1.0f);
-              ASSERT_TRUE(std::equal(found.t, found.t + batch_size, expected.t)) << simd_level_name(level);
+              ASSERT_TRUE(std::equal(found.t, found.t + ao::batch_size, expected.t))
+                  << simd_level_name(level);
             }
           }
         }
@@ -102,18 +104,18 @@ TEST(FieldLookup, OneFieldServesAllInstances) {
   // changes nothing but the scale.
   Random random(3);
   const Object object = testing::table();
-  const TriangleBvh bvh = object.bvh();
-  const DisplacementField field = object.field();
+  const ao::TriangleBvh bvh = object.bvh();
+  const ao::DisplacementField field = object.field();
   const dmat4 moved = glm::translate(dmat4(1), dvec3(5, -7, 11));
   const dmat4 turned = glm::rotate(moved, 2.1, glm::normalize(dvec3(1, 2, -3)));
   dmat4 sheared = turned;
   sheared[1] += 0.5 * sheared[0];
-  for (const TriangleBvh* near : {static_cast<const TriangleBvh*>(nullptr), &bvh}) {
-    const FieldInstance here = *place_field(field, near, dmat4(1));
+  for (const ao::TriangleBvh* near : {static_cast<const ao::TriangleBvh*>(nullptr), &bvh}) {
+    const ao::FieldInstance here = *ao::place_field(field, near, dmat4(1));
     for (const dmat4& world :
          {moved, turned, glm::scale(turned, dvec3(1000)), glm::scale(dmat4(1), dvec3(1e-4)) * turned,
           glm::scale(turned, dvec3(1, 3, 0.2)), glm::scale(turned, dvec3(-1, 1, 1)), sheared}) {
-      const FieldInstance there = *place_field(field, near, world);
+      const ao::FieldInstance there = *ao::place_field(field, near, world);
       int hits = 0, differ = 0;
       for (int i = 0; i < 2000; ++i) {
         const dvec3 o = random.in_cube(2), d = random.direction();
@@ -132,8 +134,8 @@ TEST(FieldLookup, OneFieldServesAllInstances) {
 }
 
 TEST(FieldLookup, TakesDirectionsOfAnyLength) {
-  const DisplacementField field = testing::table().field();
-  const FieldInstance instance = *place_field(field, nullptr, dmat4(1));
+  const ao::DisplacementField field = testing::table().field();
+  const ao::FieldInstance instance = *ao::place_field(field, nullptr, dmat4(1));
   Random random(4);
   for (int i = 0; i < 500; ++i) {
     const vec3 o(random.in_cube(2)), d(random.direction());
@@ -144,15 +146,15 @@ TEST(FieldLookup, TakesDirectionsOfAnyLength) {
 }
 
 TEST(FieldLookup, NeverCrossesWhatWasFoundBefore) {
-  const DisplacementField field = testing::table().field();
-  const FieldInstance instance = *place_field(field, nullptr, dmat4(1));
+  const ao::DisplacementField field = testing::table().field();
+  const ao::FieldInstance instance = *ao::place_field(field, nullptr, dmat4(1));
   Random random(5);
   for (int i = 0; i < 500; ++i) {
-    const RayBatch rays = random_rays(random, 2);
+    const ao::RayBatch rays = random_rays(random, 2);
     const Distances all = look(instance, rays);
     for (const float limit : {0.0f, 0.3f, 1.0f, 5.0f}) {
       const Distances some = look(instance, rays, SimdLevel::automatic, limit);
-      for (int k = 0; k < batch_size; ++k) EXPECT_EQ(some.t[k], std::min(limit, all.t[k]));
+      for (int k = 0; k < ao::batch_size; ++k) EXPECT_EQ(some.t[k], std::min(limit, all.t[k]));
     }
   }
 }
@@ -160,23 +162,23 @@ TEST(FieldLookup, NeverCrossesWhatWasFoundBefore) {
 TEST(FieldLookup, IsNeverNanOrNegative) {
   Random random(6);
   const Object object = testing::table();
-  const TriangleBvh bvh = object.bvh();
+  const ao::TriangleBvh bvh = object.bvh();
   const float odd[] = {0.0f, -0.0f, 1e-42f, 1e-20f, 1.0f, -1.0f, 1e20f, 3e38f, infinity, -infinity, NAN};
   for (const FieldLayout layout : {paper, chords}) {
     for (const int bits : {1, 8, 32}) {
-      const DisplacementField field = object.field({layout, 100, 100, bits});
+      const ao::DisplacementField field = object.field({layout, 100, 100, bits});
       for (const dmat4& world :
            {dmat4(1), glm::scale(dmat4(1), dvec3(1e-15)), glm::scale(dmat4(1), dvec3(1e15))}) {
-        const FieldInstance instance = *place_field(field, &bvh, world);
+        const ao::FieldInstance instance = *ao::place_field(field, &bvh, world);
         for (int i = 0; i < 2000; ++i) {
-          RayBatch rays = random_rays(random, 1);
-          for (int k = 0; k < batch_size; ++k) {
+          ao::RayBatch rays = random_rays(random, 1);
+          for (int k = 0; k < ao::batch_size; ++k) {
             float* lanes[] = {rays.ox, rays.oy, rays.oz, rays.dx, rays.dy, rays.dz};
             lanes[random.index(6)][k] = odd[random.index(11)];
             if (random.chance(0.3)) lanes[random.index(6)][k] = odd[random.index(11)];
           }
           const Distances found = look(instance, rays);
-          for (int k = 0; k < batch_size; ++k) {
+          for (int k = 0; k < ao::batch_size; ++k) {
             ASSERT_GE(found.t[k], 0.0f);
             const vec3 o = rays.origin(k), d = rays.direction(k);
             if (!std::isfinite(o.x + o.y + o.z + d.x + d.y + d.z) || d == vec3(0)) {
@@ -190,22 +192,22 @@ TEST(FieldLookup, IsNeverNanOrNegative) {
 }
 
 TEST(FieldLookup, PlacesOnlyWhatHasVolume) {
-  const DisplacementField field = testing::table().field({chords, 16, 16, 8});
-  EXPECT_FALSE(place_field(field, nullptr, glm::scale(dmat4(1), dvec3(1, 0, 1))));
-  EXPECT_FALSE(place_field(field, nullptr, dmat4(0)));
-  EXPECT_FALSE(place_field(field, nullptr, glm::scale(dmat4(1), dvec3(NAN))));
-  EXPECT_TRUE(place_field(field, nullptr, glm::scale(dmat4(1), dvec3(1e-10))));
+  const ao::DisplacementField field = testing::table().field({chords, 16, 16, 8});
+  EXPECT_FALSE(ao::place_field(field, nullptr, glm::scale(dmat4(1), dvec3(1, 0, 1))));
+  EXPECT_FALSE(ao::place_field(field, nullptr, dmat4(0)));
+  EXPECT_FALSE(ao::place_field(field, nullptr, glm::scale(dmat4(1), dvec3(NAN))));
+  EXPECT_TRUE(ao::place_field(field, nullptr, glm::scale(dmat4(1), dvec3(1e-10))));
 }
 
 TEST(FieldLookup, KnowsTheSphereThatHoldsTheInstance) {
   Random random(7);
   const Object object = testing::table();
-  const DisplacementField field = object.field({chords, 16, 16, 8});
+  const ao::DisplacementField field = object.field({chords, 16, 16, 8});
   for (int i = 0; i < 100; ++i) {
     dmat4 world(1);
     for (int k = 0; k < 3; ++k) world[k] = glm::dvec4(random.in_cube(2), 0);
     world[3] = glm::dvec4(random.in_cube(10), 1);
-    const auto instance = place_field(field, nullptr, world);
+    const auto instance = ao::place_field(field, nullptr, world);
     ASSERT_TRUE(instance);
     for (const vec3 p : object.positions) {
       const dvec3 q(world * glm::dvec4(p, 1));
@@ -213,7 +215,7 @@ TEST(FieldLookup, KnowsTheSphereThatHoldsTheInstance) {
     }
   }
   const auto turned =
-      place_field(field, nullptr, glm::scale(glm::rotate(dmat4(1), 1.0, dvec3(0, 0, 1)), dvec3(3)));
+      ao::place_field(field, nullptr, glm::scale(glm::rotate(dmat4(1), 1.0, dvec3(0, 0, 1)), dvec3(3)));
   const dvec3 axes = field.bound.axes;
   EXPECT_NEAR(turned->world.radius, 3 * std::max({axes.x, axes.y, axes.z}), 1e-6);
 }
@@ -222,11 +224,11 @@ TEST(FieldLookup, SeesFromInsideTheSphere) {
   // Between the table's legs, below its plate. The paper's first hit along the chord is behind, under the
   // floor, beside: nothing.
   const Object object = testing::table();
-  const TriangleBvh bvh = object.bvh();
-  const DisplacementField field = object.field();
-  const FieldInstance both = *place_field(field, nullptr, dmat4(1));
-  const FieldInstance cast = *place_field(field, &bvh, dmat4(1));
-  const FieldInstance first = *place_field(field, nullptr, dmat4(1), FieldEnds::first);
+  const ao::TriangleBvh bvh = object.bvh();
+  const ao::DisplacementField field = object.field();
+  const ao::FieldInstance both = *ao::place_field(field, nullptr, dmat4(1));
+  const ao::FieldInstance cast = *ao::place_field(field, &bvh, dmat4(1));
+  const ao::FieldInstance first = *ao::place_field(field, nullptr, dmat4(1), ao::FieldEnds::first);
   EXPECT_NEAR(look_one(both, {0, 0.3f, 0}, {0, 1, 0}), 0.4f, 0.02f);      // the plate
   EXPECT_EQ(look_one(both, {0, 0.3f, 0}, {0, -1, 0}), infinity);          // the floor is not the table's
   EXPECT_EQ(look_one(both, {0, 0.9f, 0}, {0, 1, 0}), infinity);           // from above the plate upwards
@@ -239,20 +241,20 @@ TEST(FieldLookup, SeesFromInsideTheSphere) {
 
 TEST(FieldLookup, AnswersManyBatchesAsItDoesOne) {
   const Object object = testing::table();
-  const TriangleBvh bvh = object.bvh();
+  const ao::TriangleBvh bvh = object.bvh();
   Random random(9);
-  std::vector<RayBatch> rays;  // inside and outside, and some that meet nothing
-  for (int i = 0; i < 23; ++i) rays.push_back(i % 5 == 2 ? RayBatch{} : random_rays(random, i % 3 + 0.7));
-  const auto nearest_hits = field_kernels(SimdLevel::automatic).nearest_hits;
+  std::vector<ao::RayBatch> rays;  // inside and outside, and some that meet nothing
+  for (int i = 0; i < 23; ++i) rays.push_back(i % 5 == 2 ? ao::RayBatch{} : random_rays(random, i % 3 + 0.7));
+  const auto nearest_hits = ao::field_kernels(SimdLevel::automatic).nearest_hits;
   for (const FieldLayout layout : {paper, chords}) {
-    const DisplacementField field = object.field({layout, 400, 256, 8});
-    const FieldInstance instance = *place_field(field, &bvh, dmat4(1));
+    const ao::DisplacementField field = object.field({layout, 400, 256, 8});
+    const ao::FieldInstance instance = *ao::place_field(field, &bvh, dmat4(1));
     for (std::size_t count = 0; count <= rays.size(); ++count) {
-      std::vector<float> all(rays.size() * batch_size, 2.0f), single = all;
+      std::vector<float> all(rays.size() * ao::batch_size, 2.0f), single = all;
       const int casts = nearest_hits(instance, {rays.data(), count}, all.data());
       int casts_of_single = 0;
       for (std::size_t b = 0; b < count; ++b)
-        casts_of_single += nearest_hits(instance, {&rays[b], 1}, single.data() + b * batch_size);
+        casts_of_single += nearest_hits(instance, {&rays[b], 1}, single.data() + b * ao::batch_size);
       EXPECT_EQ(all, single) << count;
       EXPECT_EQ(casts, casts_of_single) << count;
       if (count == rays.size()) {
@@ -264,15 +266,15 @@ TEST(FieldLookup, AnswersManyBatchesAsItDoesOne) {
 
 TEST(FieldLookup, CastsOnlyRaysThatStartCloseToTheObject) {
   const Object object = testing::table();
-  const TriangleBvh bvh = object.bvh();
-  const DisplacementField field = object.field();
-  const FieldInstance instance = *place_field(field, &bvh, dmat4(1));
+  const ao::TriangleBvh bvh = object.bvh();
+  const ao::DisplacementField field = object.field();
+  const ao::FieldInstance instance = *ao::place_field(field, &bvh, dmat4(1));
   const auto casts = [&](vec3 origin) {
-    RayBatch rays{};
-    float distance[batch_size];
-    std::fill(distance, distance + batch_size, infinity);
+    ao::RayBatch rays{};
+    float distance[ao::batch_size];
+    std::fill(distance, distance + ao::batch_size, infinity);
     rays.set(0, origin, {0, 1, 0});
-    return field_kernels(SimdLevel::automatic).nearest_hits(instance, {&rays, 1}, distance);
+    return ao::field_kernels(SimdLevel::automatic).nearest_hits(instance, {&rays, 1}, distance);
   };
   EXPECT_EQ(casts({0, -3, 0}), 0);
   EXPECT_EQ(casts({0, 0.3f, 0}), 0);

@@ -5,9 +5,9 @@
 #include <atomic>
 #include <cstring>
 
-#include "ao/displacement_field.h"
-#include "ao/field_chords.h"
-#include "ao/near_cells.h"
+#include "ao/field/displacement_field.h"
+#include "ao/field/field_chords.h"
+#include "ao/field/near_cells.h"
 #include "ao/objects.h"
 #include "parallel/parallel.h"
 #include "support/seeded_random.h"
@@ -23,25 +23,28 @@ using testing::Random;
 constexpr FieldLayout paper = FieldLayout::positions_directions, chords = FieldLayout::chords;
 
 TEST(FieldShape, KeepsToTheMemoryPromised) {
-  const auto bytes = [](const FieldSettings& s) { return empty_field(s, *field_shape(s)).bytes(); };  // all
-  EXPECT_EQ(field_shape({paper, 4225, 1024, 8})->entries, 4225u * 1024);
+  const auto bytes = [](const ao::FieldSettings& s) {
+    return ao::empty_field(s, *ao::field_shape(s)).bytes();
+  };  // all
+  EXPECT_EQ(ao::field_shape({paper, 4225, 1024, 8})->entries, 4225u * 1024);
   EXPECT_LE(bytes({paper, 4225, 1024, 8}), 4'500'000u);
   EXPECT_LE(bytes({paper, 4225, 1024, 1}), 600'000u);
-  EXPECT_EQ(field_shape({chords, 4225, 1024, 8})->position_side, 45);
+  EXPECT_EQ(ao::field_shape({chords, 4225, 1024, 8})->position_side, 45);
   EXPECT_LE(bytes({chords, 4225, 1024, 8}), 4'500'000u);
   EXPECT_LE(bytes({chords, 4225, 1024, 1}), 600'000u);
-  EXPECT_EQ(field_shape(sparse_field)->position_side, 24);
-  EXPECT_LE(field_shape(sparse_field)->bytes, 350'000u);
-  EXPECT_LE(bytes(sparse_field), 370'000u);
-  EXPECT_EQ(field_shape({paper, 290, 256, 8})->position_side, 17);
+  EXPECT_EQ(ao::field_shape(ao::sparse_field)->position_side, 24);
+  EXPECT_LE(ao::field_shape(ao::sparse_field)->bytes, 350'000u);
+  EXPECT_LE(bytes(ao::sparse_field), 370'000u);
+  EXPECT_EQ(ao::field_shape({paper, 290, 256, 8})->position_side, 17);
 }
 
 TEST(FieldShape, RefusesWhatIsOutOfRange) {
-  for (const FieldSettings& settings :
-       {FieldSettings{paper, 3, 1024, 8}, FieldSettings{paper, 4225, 0, 8}, FieldSettings{paper, -1, 16, 8},
-        FieldSettings{paper, 4225, 1024, 16}, FieldSettings{chords, 1 << 20, 1 << 20, 8},
-        FieldSettings{paper, 1 << 21, 16, 1}, FieldSettings{chords, 4225, 1024, 0}}) {
-    const auto shape = field_shape(settings);
+  for (const ao::FieldSettings& settings :
+       {ao::FieldSettings{paper, 3, 1024, 8}, ao::FieldSettings{paper, 4225, 0, 8},
+        ao::FieldSettings{paper, -1, 16, 8}, ao::FieldSettings{paper, 4225, 1024, 16},
+        ao::FieldSettings{chords, 1 << 20, 1 << 20, 8}, ao::FieldSettings{paper, 1 << 21, 16, 1},
+        ao::FieldSettings{chords, 4225, 1024, 0}}) {
+    const auto shape = ao::field_shape(settings);
     ASSERT_FALSE(shape);
     EXPECT_NE(shape.error().message.find("expected"), std::string::npos);
   }
@@ -56,7 +59,7 @@ TEST(BoundingEllipsoid, HoldsTheObjectTightly) {
     for (std::uint32_t i = 0; i < 20; ++i) object.triangles.emplace_back(3 * i, 3 * i + 1, 3 * i + 2);
     object.positions.emplace_back(1e6f);  // belongs to no triangle
     for (const FieldLayout layout : {paper, chords}) {
-      const Ellipsoid e = bounding_ellipsoid(object.positions, object.triangles, layout);
+      const ao::Ellipsoid e = ao::bounding_ellipsoid(object.positions, object.triangles, layout);
       double farthest = 0;
       for (std::size_t i = 0; i < 60; ++i)
         farthest = std::max(farthest, glm::length((dvec3(object.positions[i]) - e.centre) / e.axes));
@@ -72,28 +75,28 @@ TEST(BoundingEllipsoid, HoldsTheObjectTightly) {
 }
 
 TEST(BoundingEllipsoid, IsNothingWithoutTriangles) {
-  EXPECT_EQ(bounding_ellipsoid({}, {}, chords).axes, dvec3(0));
+  EXPECT_EQ(ao::bounding_ellipsoid({}, {}, chords).axes, dvec3(0));
 }
 
-double stored_s(const DisplacementField& field, std::size_t entry) {
+double stored_s(const ao::DisplacementField& field, std::size_t entry) {
   if (field.bits == 32) {
     float s;
     std::memcpy(&s, &field.table[4 * entry], 4);
     return s;
   }
-  return field.table[entry] == 255 ? no_hit : field.table[entry] / 127.0 - 1;
+  return field.table[entry] == 255 ? ao::no_hit : field.table[entry] / 127.0 - 1;
 }
 
 TEST(Field, SaysWhatARayAlongEachChordMeets) {
   const Object object = testing::table();
-  const TriangleBvh bvh = object.bvh();
+  const ao::TriangleBvh bvh = object.bvh();
   for (const FieldLayout layout : {paper, chords}) {
     for (const int bits : {8, 32}) {
-      const DisplacementField field = object.field({layout, 81, 81, bits});
+      const ao::DisplacementField field = object.field({layout, 81, 81, bits});
       int hits = 0;
       for (std::size_t p = 0; p < 81; ++p) {
         for (std::size_t d = 0; d < 81; ++d) {
-          const Chord chord = sample_chord(field, p, d);
+          const ao::Chord chord = ao::sample_chord(field, p, d);
           const double s = stored_s(field, p * 81 + d), length = glm::length(chord.along);
           // In double against every triangle.
           const dvec3 o = field.bound.centre + field.bound.axes * dvec3(chord.entry);
@@ -113,7 +116,7 @@ TEST(Field, SaysWhatARayAlongEachChordMeets) {
           }
           if (margin < 1e-5 && length > 0) continue;
           if (nearest > 1 || length == 0) {
-            EXPECT_EQ(s, no_hit);
+            EXPECT_EQ(s, ao::no_hit);
           } else {
             EXPECT_NEAR(s, (nearest - 0.5) * length, bits == 8 ? 0.5 / 127 + 1e-4 : 1e-4);
             ++hits;
@@ -128,8 +131,8 @@ TEST(Field, SaysWhatARayAlongEachChordMeets) {
 TEST(Field, OneBitKeepsTheHitsOfEightAndTheirMean) {
   const Object object = testing::table();
   for (const FieldLayout layout : {paper, chords}) {
-    const DisplacementField one = object.field({layout, 49, 81, 1}),
-                            whole = object.field({layout, 49, 81, 32});
+    const ao::DisplacementField one = object.field({layout, 49, 81, 1}),
+                                whole = object.field({layout, 49, 81, 32});
     const std::size_t positions = whole.shape.positions(), directions = whole.shape.directions();
     for (std::size_t p = 0; p < positions; ++p) {
       double sum = 0;
@@ -148,7 +151,7 @@ TEST(Field, OneBitKeepsTheHitsOfEightAndTheirMean) {
 TEST(Field, IsTheSameForAnyNumberOfThreads) {
   const Object object = testing::table();
   for (const int bits : {1, 8}) {
-    DisplacementField fields[2];
+    ao::DisplacementField fields[2];
     for (const int threads : {1, 5})
       with_threads(threads, [&] { fields[threads > 1] = object.field({chords, 121, 121, bits}); });
     EXPECT_EQ(fields[0].table, fields[1].table);
@@ -159,7 +162,7 @@ TEST(Field, IsTheSameForAnyNumberOfThreads) {
 
 TEST(Field, DoesNotDependOnTheOrderOfTriangles) {
   Object object = testing::table();
-  const DisplacementField before = object.field({chords, 121, 121, 8});
+  const ao::DisplacementField before = object.field({chords, 121, 121, 8});
   std::reverse(object.triangles.begin(), object.triangles.end());
   EXPECT_EQ(before.table, object.field({chords, 121, 121, 8}).table);
 }
@@ -167,15 +170,15 @@ TEST(Field, DoesNotDependOnTheOrderOfTriangles) {
 TEST(Field, ReportsProgressAndStops) {
   const Object object = testing::table();
   std::vector<double> seen;
-  ASSERT_TRUE(build_field(object.positions, object.triangles, object.bvh(), {},
-                          [&](double done) { seen.push_back(done); }));
+  ASSERT_TRUE(ao::build_field(object.positions, object.triangles, object.bvh(), {},
+                              [&](double done) { seen.push_back(done); }));
   EXPECT_GE(seen.size(), 20u);
   EXPECT_TRUE(std::is_sorted(seen.begin(), seen.end()));
   EXPECT_EQ(seen.front(), 0);
   EXPECT_EQ(seen.back(), 1);
   StopFlag stop;
   int calls = 0;
-  const auto stopped = build_field(
+  const auto stopped = ao::build_field(
       object.positions, object.triangles, object.bvh(), {},
       [&](double) {
         if (++calls == 3) stop.request();
@@ -189,13 +192,13 @@ TEST(Field, ReportsProgressAndStops) {
 TEST(NearCells, HoldAllThatIsNearAndLittleElse) {
   Random random(8);
   for (const Object& object : {testing::table(), testing::ball({5, 6, 7}, {1, 2, 3}, 40)}) {
-    const Ellipsoid bound = bounding_ellipsoid(object.positions, object.triangles, chords);
+    const ao::Ellipsoid bound = ao::bounding_ellipsoid(object.positions, object.triangles, chords);
     constexpr float reach = 0.03f;
-    const std::vector<std::uint32_t> bits = close_cells(object.positions, object.triangles, bound, reach);
-    ASSERT_EQ(bits.size(), near_words);
+    const std::vector<std::uint32_t> bits = ao::close_cells(object.positions, object.triangles, bound, reach);
+    ASSERT_EQ(bits.size(), ao::near_words);
     const auto close = [&](dvec3 unit) {
-      const glm::ivec3 c = glm::clamp(glm::ivec3((unit + 1.0) * (near_side / 2.0)), 0, near_side - 1);
-      const int place = (c.z * near_side + c.y) * near_side + c.x;
+      const glm::ivec3 c = glm::clamp(glm::ivec3((unit + 1.0) * (ao::near_side / 2.0)), 0, ao::near_side - 1);
+      const int place = (c.z * ao::near_side + c.y) * ao::near_side + c.x;
       return (bits[static_cast<std::size_t>(place / 32)] >> place % 32 & 1) != 0;
     };
     const auto in_unit = [&](dvec3 p) { return (p - bound.centre) / bound.axes; };
@@ -209,13 +212,13 @@ TEST(NearCells, HoldAllThatIsNearAndLittleElse) {
       EXPECT_TRUE(close(near));
     }
     // Nothing within a tenth in any direction: not close.
-    const TriangleBvh bvh = object.bvh();
+    const ao::TriangleBvh bvh = object.bvh();
     int far = 0;
     for (int i = 0; i < 2000; ++i) {
       const dvec3 p = random.in_cube(0.57);
       bool free = true;
       for (int k = 0; k < 200 && free; ++k)
-        free = !bvh_kernels(SimdLevel::automatic)
+        free = !ao::bvh_kernels(SimdLevel::automatic)
                     .any(bvh, {vec3(bound.centre + bound.axes * p), vec3(bound.axes * random.direction()), 0,
                                0.15f});
       if (!free) continue;
@@ -229,15 +232,15 @@ TEST(NearCells, HoldAllThatIsNearAndLittleElse) {
 TEST(Field, RefusesAMeshWithoutArea) {
   const std::vector<vec3> positions{{0, 0, 0}, {1, 1, 1}, {2, 2, 2}};
   const std::vector<glm::uvec3> triangles{{0, 1, 2}};
-  EXPECT_FALSE(build_field(positions, triangles, build_triangle_bvh(positions, triangles), {}));
-  EXPECT_FALSE(build_field({}, {}, build_triangle_bvh({}, {}), {}));
+  EXPECT_FALSE(ao::build_field(positions, triangles, ao::build_triangle_bvh(positions, triangles), {}));
+  EXPECT_FALSE(ao::build_field({}, {}, ao::build_triangle_bvh({}, {}), {}));
 }
 
 TEST(Field, HoldsASingleFlatTriangle) {
   Object object;
   object.positions = {{0, 0, 0}, {1, 0, 0}, {0, 1, 0}};
   object.triangles = {{0, 1, 2}};
-  const DisplacementField field = object.field({chords, 121, 121, 8});
+  const ao::DisplacementField field = object.field({chords, 121, 121, 8});
   EXPECT_GT(field.bound.axes.z, 0.1);
   EXPECT_GT(std::count_if(field.table.begin(), field.table.end(), [](std::uint8_t s) { return s < 255; }),
             100);

@@ -7,9 +7,9 @@
 #include <optional>
 #include <vector>
 
-#include "ao/displacement_field.h"
-#include "import/import_scene.h"
-#include "scene/frame_geometry.h"
+#include <tenebra/frame_geometry.h>
+#include "ao/field/displacement_field.h"
+#include "formats/import_scene.h"
 
 namespace tenebra::testing {
 
@@ -17,9 +17,9 @@ struct Object {
   std::vector<glm::vec3> positions;
   std::vector<glm::uvec3> triangles;
 
-  TriangleBvh bvh() const { return build_triangle_bvh(positions, triangles); }
-  DisplacementField field(const FieldSettings& settings = {}) const {
-    return *build_field(positions, triangles, bvh(), settings);
+  ao::TriangleBvh bvh() const { return ao::build_triangle_bvh(positions, triangles); }
+  ao::DisplacementField field(const ao::FieldSettings& settings = {}) const {
+    return *ao::build_field(positions, triangles, bvh(), settings);
   }
 };
 
@@ -76,7 +76,7 @@ inline Object ball(glm::vec3 centre, glm::vec3 radii, int rings) {
 /// All triangles of a file at rest; nothing if there is no such file.
 inline std::optional<Object> object_of(const std::filesystem::path& path) {
   if (!std::filesystem::exists(path)) return std::nullopt;
-  const Expected<Scene> scene = import_scene(path);
+  const Expected<Scene> scene = formats::import_scene(path);
   if (!scene) return std::nullopt;
   FrameGeometry geometry;
   evaluate_frame(*scene, -1, 0, geometry);
@@ -85,7 +85,7 @@ inline std::optional<Object> object_of(const std::filesystem::path& path) {
 
 /// The mesh of most triangles in a file.
 inline std::optional<Object> largest_mesh_of(const std::filesystem::path& path) {
-  const Expected<Scene> scene = import_scene(path);
+  const Expected<Scene> scene = formats::import_scene(path);
   if (!scene || scene->meshes.empty()) return std::nullopt;
   const Mesh* largest = &scene->meshes.front();
   for (const Mesh& mesh : scene->meshes)

@@ -1,8 +1,8 @@
 // What moves as one, what shares a shape, and what is left to rays.
-#include "ao/scene_objects.h"
+#include "ao/objects/scene_objects.h"
 
 #include "ao_case.h"
-#include "import/import_scene.h"
+#include "formats/import_scene.h"
 
 namespace tenebra {
 namespace {
@@ -10,20 +10,20 @@ namespace {
 using testing::box_mesh;
 using testing::SceneMaker;
 
-SceneObjects found(const Scene& scene, double time_s = 0) {
+ao::SceneObjects found(const Scene& scene, double time_s = 0) {
   FrameGeometry geometry;
   evaluate_frame(scene, scene.clips.empty() ? -1 : 0, time_s, geometry);
-  return find_objects(scene, geometry);
+  return ao::find_objects(scene, geometry);
 }
 
 TEST(Objects, WhatNoClipMovesStands) {
   SceneMaker make;
   const int still = make.add(box_mesh({0, 0, 0}, {1, 1, 1}));
   make.animate(still, ChannelPath::translation, {0, 0, 0}, {0, 0, 0});  // a channel that changes nothing
-  const SceneObjects objects = found(make.scene);
+  const ao::SceneObjects objects = found(make.scene);
   EXPECT_TRUE(objects.objects.empty());
   EXPECT_EQ(objects.standing.triangles.size(), 12u);
-  EXPECT_EQ(objects.owners[11].object, TriangleOwner::standing);
+  EXPECT_EQ(objects.owners[11].object, ao::TriangleOwner::standing);
   EXPECT_EQ(objects.owners[11].triangle, 11u);
 }
 
@@ -34,7 +34,7 @@ TEST(Objects, MeshesBelowOneMovingNodeAreOneObject) {
   const int arm = make.place(0, {4, 0, 0}, body);
   make.move(body, {1, 0, 0});
   make.move(arm, {0, 1, 0});
-  const SceneObjects objects = found(make.scene, 0.25);
+  const ao::SceneObjects objects = found(make.scene, 0.25);
   ASSERT_EQ(objects.objects.size(), 2u);
   EXPECT_EQ(objects.shapes[static_cast<std::size_t>(objects.objects[0].shape)].triangles.size(), 24u);
   EXPECT_EQ(objects.shapes[static_cast<std::size_t>(objects.objects[1].shape)].triangles.size(), 12u);
@@ -52,10 +52,10 @@ TEST(Objects, ShapesPlacedInTheWorldAreTheFramesTriangles) {
   make.move(body, {1, 5, 0});
   FrameGeometry geometry;
   evaluate_frame(make.scene, 0, 0.5, geometry);
-  const SceneObjects objects = find_objects(make.scene, geometry);
+  const ao::SceneObjects objects = ao::find_objects(make.scene, geometry);
   ASSERT_EQ(objects.objects.size(), 1u);
-  const MovingObject& object = objects.objects[0];
-  const ObjectShape& shape = objects.shapes[0];
+  const ao::MovingObject& object = objects.objects[0];
+  const ao::ObjectShape& shape = objects.shapes[0];
   for (std::size_t id = 0; id < geometry.triangles.size(); ++id) {
     ASSERT_EQ(objects.owners[id].object, 0);
     glm::dvec3 placed(0), frame(0);  // centroids: a mirrored frame turns the corners' order round
@@ -78,7 +78,7 @@ TEST(Objects, InstancesShareAShapeWhateverTheirTurnAndSize) {
   make.place(0, {9, 0, 0});
   make.scene.nodes[2].scale = {1, 2, 1};  // of other proportions: a shape of its own
   for (int node = 0; node < 3; ++node) make.move(node, {0, 1, 0});
-  const SceneObjects objects = found(make.scene);
+  const ao::SceneObjects objects = found(make.scene);
   ASSERT_EQ(objects.objects.size(), 3u);
   EXPECT_EQ(objects.shapes.size(), 2u);
   EXPECT_EQ(objects.objects[0].shape, objects.objects[1].shape);
@@ -93,7 +93,7 @@ TEST(Objects, MeshesThatDeformAreNamed) {
     mesh.shapes = {{0, mesh.positions, {}}};
     make.add(mesh);
   }
-  const SceneObjects objects = found(make.scene);
+  const ao::SceneObjects objects = found(make.scene);
   EXPECT_EQ(objects.deforming.size(), 36u);
   EXPECT_EQ(objects.deforming_names, (std::vector<std::string>{"morph.aff:3", "blob"}));
   EXPECT_TRUE(objects.objects.empty());
@@ -106,13 +106,13 @@ TEST(Objects, WhatIsStretchedIsNotRigidForAWhile) {
   make.scene.nodes[0].scale = glm::dvec3(2);
   const int jitter = make.place(0, {8, 0, 0});
   make.animate(jitter, ChannelPath::scale, {1, 1, 1}, {1.0000001, 1, 1});  // an exporter's noise
-  SceneObjects objects = found(make.scene);
+  ao::SceneObjects objects = found(make.scene);
   ASSERT_EQ(objects.objects.size(), 2u);
   EXPECT_EQ(objects.shapes.size(), 1u);
   EXPECT_TRUE(objects.objects[0].rigid);
   FrameGeometry geometry;
   evaluate_frame(make.scene, 0, 1, geometry);
-  ASSERT_TRUE(move_objects(make.scene, geometry, objects));
+  ASSERT_TRUE(ao::move_objects(make.scene, geometry, objects));
   EXPECT_FALSE(objects.objects[0].rigid);
   EXPECT_NEAR(objects.objects[0].largest_scale, 4, 1e-9);
   EXPECT_TRUE(objects.objects[1].rigid);
@@ -123,20 +123,20 @@ TEST(Objects, FollowTheFrameUntilWhatStoodMoves) {
   const int body = make.add(box_mesh({0, 0, 0}, {1, 1, 1}));
   make.add(box_mesh({0, 0, 0}, {1, 1, 1}), {5, 0, 0});
   make.move(body, {8, 0, 0});
-  SceneObjects objects = found(make.scene);
+  ao::SceneObjects objects = found(make.scene);
   FrameGeometry geometry;
   evaluate_frame(make.scene, 0, 0.5, geometry);
-  EXPECT_TRUE(move_objects(make.scene, geometry, objects));
+  EXPECT_TRUE(ao::move_objects(make.scene, geometry, objects));
   EXPECT_EQ(objects.objects[0].to_world[3], glm::dvec4(4, 0, 0, 1));
   make.scene.nodes[1].translation.x = 6;
   evaluate_frame(make.scene, 0, 0.5, geometry);
-  EXPECT_FALSE(move_objects(make.scene, geometry, objects));
+  EXPECT_FALSE(ao::move_objects(make.scene, geometry, objects));
 }
 
 TEST(Objects, RobotsOfTheCityShareTheirLimbs) {
-  auto scene = import_scene(std::filesystem::path(TENEBRA_SCENES_DIR) / "city.glb");
+  auto scene = formats::import_scene(std::filesystem::path(TENEBRA_SCENES_DIR) / "city.glb");
   ASSERT_TRUE(scene);
-  const SceneObjects objects = found(*scene);
+  const ao::SceneObjects objects = found(*scene);
   EXPECT_EQ(objects.objects.size(), 130u) << "ten robots of thirteen limbs";
   EXPECT_EQ(objects.shapes.size(), 8u);
   EXPECT_TRUE(objects.deforming.empty());

@@ -14,13 +14,13 @@
 namespace tenebra {
 namespace {
 
-using test::read_text;
-using test::TemporaryFolder;
-using test::write_text;
+using testing::read_text;
+using testing::TemporaryFolder;
+using testing::write_text;
 
-Image8 random_image(int width, int height, int channels, unsigned seed) {
+base::Image8 random_image(int width, int height, int channels, unsigned seed) {
   std::mt19937 random(seed);
-  Image8 image{width, height, channels, {}};
+  base::Image8 image{width, height, channels, {}};
   image.pixels.resize(static_cast<std::size_t>(width) * height * channels);
   for (auto& value : image.pixels) value = static_cast<std::uint8_t>(random());
   return image;
@@ -58,7 +58,7 @@ std::string png_with_header(std::uint32_t width, std::uint32_t height, char bit_
 /// Reads `bytes` as a PNG file; the failure's sentence, which must name the file, or "" if it was read.
 std::string refusal_of(const TemporaryFolder& folder, const std::string& bytes) {
   write_text(folder / "bad.png", bytes);
-  const auto image = read_png(folder / "bad.png");
+  const auto image = base::read_png(folder / "bad.png");
   if (image) return "";
   EXPECT_NE(image.error().message.find("bad.png"), std::string::npos) << image.error().message;
   EXPECT_EQ(image.error().message.find('\n'), std::string::npos) << image.error().message;
@@ -69,9 +69,9 @@ TEST(Png, ReadsBackWhatItWrote) {
   const TemporaryFolder folder;
   for (const int channels : {1, 3, 4}) {
     for (const auto& [width, height] : {std::pair{1, 1}, {1, 97}, {97, 1}, {33, 31}, {640, 2}}) {
-      const Image8 image = random_image(width, height, channels, 1);
-      ASSERT_TRUE(write_png(folder / "a.png", image));
-      const auto read = read_png(folder / "a.png");
+      const base::Image8 image = random_image(width, height, channels, 1);
+      ASSERT_TRUE(base::write_png(folder / "a.png", image));
+      const auto read = base::read_png(folder / "a.png");
       ASSERT_TRUE(read) << read.error().message;
       EXPECT_EQ(*read, image) << width << " x " << height << " x " << channels;
     }
@@ -80,16 +80,16 @@ TEST(Png, ReadsBackWhatItWrote) {
 
 TEST(Png, RefusesToWriteWhatIsNoPicture) {
   const TemporaryFolder folder;
-  EXPECT_FALSE(write_png(folder / "a.png", Image8{}));
-  EXPECT_FALSE(write_png(folder / "a.png", Image8{2, 2, 3, std::vector<std::uint8_t>(11)}));
-  EXPECT_FALSE(write_png(folder / "a.png", Image8{2, 2, 2, std::vector<std::uint8_t>(8)}));
-  EXPECT_FALSE(write_png(folder / "a.png", Image8{-2, -2, 1, std::vector<std::uint8_t>(4)}));
+  EXPECT_FALSE(base::write_png(folder / "a.png", base::Image8{}));
+  EXPECT_FALSE(base::write_png(folder / "a.png", base::Image8{2, 2, 3, std::vector<std::uint8_t>(11)}));
+  EXPECT_FALSE(base::write_png(folder / "a.png", base::Image8{2, 2, 2, std::vector<std::uint8_t>(8)}));
+  EXPECT_FALSE(base::write_png(folder / "a.png", base::Image8{-2, -2, 1, std::vector<std::uint8_t>(4)}));
   EXPECT_TRUE(folder.names().empty());
 }
 
 TEST(Png, ReportsWhereItCannotWrite) {
   const TemporaryFolder folder;
-  const auto written = write_png(folder / "no/a.png", random_image(2, 2, 1, 1));
+  const auto written = base::write_png(folder / "no/a.png", random_image(2, 2, 1, 1));
   ASSERT_FALSE(written);
   EXPECT_NE(written.error().message.find("No such file or directory"), std::string::npos)
       << written.error().message;
@@ -101,13 +101,13 @@ TEST(Png, RefusesWhatIsNoPng) {
   EXPECT_NE(refusal_of(folder, "P5 1 1 255 x").find("no PNG signature"), std::string::npos);
   EXPECT_NE(refusal_of(folder, signature), "");
   EXPECT_NE(refusal_of(folder, signature + chunk("IDAT", "x")).find("first chunk"), std::string::npos);
-  EXPECT_FALSE(read_png(folder / "missing.png"));
-  EXPECT_FALSE(read_png(folder.path()));
+  EXPECT_FALSE(base::read_png(folder / "missing.png"));
+  EXPECT_FALSE(base::read_png(folder.path()));
 }
 
 TEST(Png, RefusesEveryTruncation) {
   const TemporaryFolder folder;
-  ASSERT_TRUE(write_png(folder / "a.png", random_image(13, 7, 3, 2)));
+  ASSERT_TRUE(base::write_png(folder / "a.png", random_image(13, 7, 3, 2)));
   const std::string whole = read_text(folder / "a.png");
   for (std::size_t size = 0; size < whole.size(); ++size) {
     ASSERT_NE(refusal_of(folder, whole.substr(0, size)), "") << size;
@@ -116,7 +116,7 @@ TEST(Png, RefusesEveryTruncation) {
 
 TEST(Png, RefusesEveryFlippedBit) {
   const TemporaryFolder folder;
-  ASSERT_TRUE(write_png(folder / "a.png", random_image(5, 7, 3, 3)));
+  ASSERT_TRUE(base::write_png(folder / "a.png", random_image(5, 7, 3, 3)));
   const std::string whole = read_text(folder / "a.png");
   for (std::size_t bit = 0; bit < whole.size() * 8; ++bit) {
     std::string broken = whole;
@@ -153,12 +153,12 @@ TEST(Png, RefusesSixteenBits) {
 
 TEST(Pfm, ReadsBackBitForBitBottomRowFirst) {
   const TemporaryFolder folder;
-  ImageF image{2, 3, 1, {1.0f, -0.0f, 1e-42f, INFINITY, NAN, 0.1f}};
+  base::ImageF image{2, 3, 1, {1.0f, -0.0f, 1e-42f, INFINITY, NAN, 0.1f}};
   for (const int channels : {1, 3}) {
     image.channels = channels;
     image.width = channels == 1 ? 2 : 1;
     image.height = channels == 1 ? 3 : 2;
-    ASSERT_TRUE(write_pfm(folder / "a.pfm", image));
+    ASSERT_TRUE(base::write_pfm(folder / "a.pfm", image));
     const std::string bytes = read_text(folder / "a.pfm");
     std::istringstream stream(bytes);
     std::string kind;
@@ -182,8 +182,8 @@ TEST(Pfm, ReadsBackBitForBitBottomRowFirst) {
 
 TEST(Pfm, RefusesToWriteWhatIsNoPicture) {
   const TemporaryFolder folder;
-  EXPECT_FALSE(write_pfm(folder / "a.pfm", ImageF{}));
-  EXPECT_FALSE(write_pfm(folder / "a.pfm", ImageF{1, 1, 4, std::vector<float>(4)}));
+  EXPECT_FALSE(base::write_pfm(folder / "a.pfm", base::ImageF{}));
+  EXPECT_FALSE(base::write_pfm(folder / "a.pfm", base::ImageF{1, 1, 4, std::vector<float>(4)}));
   EXPECT_TRUE(folder.names().empty());
 }
 

@@ -22,9 +22,9 @@ namespace tenebra {
 namespace {
 
 namespace fs = std::filesystem;
-using test::read_text;
-using test::run_in_child;
-using test::TemporaryFolder;
+using testing::read_text;
+using testing::run_in_child;
+using testing::TemporaryFolder;
 using Names = std::vector<std::string>;
 
 constexpr int skip_code = 77;
@@ -45,17 +45,17 @@ bool fails_with(const Expected<void>& result, const std::string& reason) {
 TEST(OutputFile, WritesWhatItIsGivenAndReplacesAnEarlierFile) {
   const TemporaryFolder folder;
   const std::string bytes("one\0two\n", 8);
-  ASSERT_TRUE(write_file(folder / "a.txt", "a longer earlier text"));
-  ASSERT_TRUE(write_file(folder / "a.txt", bytes));
+  ASSERT_TRUE(base::write_file(folder / "a.txt", "a longer earlier text"));
+  ASSERT_TRUE(base::write_file(folder / "a.txt", bytes));
   EXPECT_EQ(read_text(folder / "a.txt"), bytes);
-  ASSERT_TRUE(write_file(folder / "empty", ""));
+  ASSERT_TRUE(base::write_file(folder / "empty", ""));
   EXPECT_EQ(folder.names(), (Names{"a.txt", "empty"})) << "no temporary file may be left";
 }
 
 TEST(OutputFile, IsAbsentUntilCommit) {
   const TemporaryFolder folder;
   {
-    auto file = OutputFile::create(folder / "log.csv");
+    auto file = base::OutputFile::create(folder / "log.csv");
     ASSERT_TRUE(file);
     ASSERT_TRUE(file->write("row 1\n"));
     EXPECT_FALSE(fs::exists(folder / "log.csv"));
@@ -66,34 +66,35 @@ TEST(OutputFile, IsAbsentUntilCommit) {
 
 TEST(OutputFile, ReportsAFullDevice) {
   if (!fs::exists("/dev/full")) GTEST_SKIP() << "this system has no /dev/full";
-  expect_failure(write_file("/dev/full", "text"), "/dev/full", "No space left on device");
+  expect_failure(base::write_file("/dev/full", "text"), "/dev/full", "No space left on device");
   EXPECT_TRUE(fs::is_character_file("/dev/full")) << "the device must not be replaced";
 }
 
 TEST(OutputFile, ReportsAMissingFolder) {
   const TemporaryFolder folder;
-  expect_failure(write_file(folder / "no/a.txt", "text"), folder / "no/a.txt", "No such file or directory");
-  expect_failure(write_file("", "text"), "", "No such file or directory");
+  expect_failure(base::write_file(folder / "no/a.txt", "text"), folder / "no/a.txt",
+                 "No such file or directory");
+  expect_failure(base::write_file("", "text"), "", "No such file or directory");
 }
 
 TEST(OutputFile, ReportsAFolderAsTarget) {
   const TemporaryFolder folder;
   fs::create_directory(folder / "here");
-  expect_failure(write_file(folder / "here", "text"), folder / "here", "Is a directory");
+  expect_failure(base::write_file(folder / "here", "text"), folder / "here", "Is a directory");
   EXPECT_EQ(folder.names(), Names{"here"});
 }
 
 TEST(OutputFile, ReportsAFileUsedAsFolder) {
   const TemporaryFolder folder;
-  ASSERT_TRUE(write_file(folder / "file", "text"));
-  expect_failure(write_file(folder / "file/a.txt", "text"), folder / "file/a.txt", "Not a directory");
+  ASSERT_TRUE(base::write_file(folder / "file", "text"));
+  expect_failure(base::write_file(folder / "file/a.txt", "text"), folder / "file/a.txt", "Not a directory");
 }
 
 TEST(OutputFile, ReportsANameTooLongAndTakesTheLongestPossible) {
   const TemporaryFolder folder;
   const fs::path too_long = folder / std::string(256, 'n');
-  expect_failure(write_file(too_long, "text"), too_long, "File name too long");
-  EXPECT_TRUE(write_file(folder / std::string(255, 'n'), "text"));
+  expect_failure(base::write_file(too_long, "text"), too_long, "File name too long");
+  EXPECT_TRUE(base::write_file(folder / std::string(255, 'n'), "text"));
   EXPECT_EQ(folder.names(), Names{std::string(255, 'n')});
 }
 
@@ -104,7 +105,7 @@ TEST(OutputFile, ReportsAFolderThatIsNotWritable) {
   fs::permissions(folder / "locked", fs::perms(0555));
   const int code = run_in_child([&] {
     if (::geteuid() == 0 && ::setuid(nobody) != 0) return skip_code;  // root may write anywhere
-    return fails_with(write_file(folder / "locked/a.txt", "text"), "Permission denied") ? 0 : 1;
+    return fails_with(base::write_file(folder / "locked/a.txt", "text"), "Permission denied") ? 0 : 1;
   });
   if (code == skip_code) GTEST_SKIP() << "root here cannot become another user";
   EXPECT_EQ(code, 0);
@@ -113,12 +114,12 @@ TEST(OutputFile, ReportsAFolderThatIsNotWritable) {
 
 TEST(OutputFile, KeepsAReadOnlyFile) {
   const TemporaryFolder folder;
-  ASSERT_TRUE(write_file(folder / "a.txt", "earlier"));
+  ASSERT_TRUE(base::write_file(folder / "a.txt", "earlier"));
   fs::permissions(folder / "a.txt", fs::perms(0444));
   fs::permissions(folder.path(), fs::perms(0777));
   const int code = run_in_child([&] {
     if (::geteuid() == 0 && ::setuid(nobody) != 0) return skip_code;
-    return fails_with(write_file(folder / "a.txt", "text"), "Permission denied") ? 0 : 1;
+    return fails_with(base::write_file(folder / "a.txt", "text"), "Permission denied") ? 0 : 1;
   });
   if (code == skip_code) GTEST_SKIP() << "root here cannot become another user";
   EXPECT_EQ(code, 0);
@@ -134,8 +135,8 @@ TEST(OutputFile, ReportsAFullFileSystem) {
         ::mount("tmpfs", folder.path().c_str(), "tmpfs", 0, "size=64k") != 0) {
       return skip_code;
     }
-    if (!write_file(folder / "a.txt", "earlier")) return 2;
-    if (!fails_with(write_file(folder / "a.txt", std::string(1 << 20, 'x')), "No space left on device"))
+    if (!base::write_file(folder / "a.txt", "earlier")) return 2;
+    if (!fails_with(base::write_file(folder / "a.txt", std::string(1 << 20, 'x')), "No space left on device"))
       return 3;
     if (read_text(folder / "a.txt") != "earlier") return 4;
     return folder.names() == Names{"a.txt"} ? 0 : 5;
@@ -150,13 +151,13 @@ TEST(OutputFile, KeepsTheEarlierFileWhenAnyWriteFails) {
   const TemporaryFolder folder;
   const fs::path path = folder / "a.txt";
   for (rlim_t limit = 0; limit <= pieces * piece_bytes; limit += piece_bytes / 2) {
-    test::write_text(path, "earlier");
+    testing::write_text(path, "earlier");
     const bool fits = limit == pieces * piece_bytes;
     const int code = run_in_child([&] {
       std::signal(SIGXFSZ, SIG_IGN);
       const rlimit bound{limit, limit};
       if (::setrlimit(RLIMIT_FSIZE, &bound) != 0) return skip_code;
-      auto file = OutputFile::create(path);
+      auto file = base::OutputFile::create(path);
       if (!file) return 2;
       for (int i = 0; i < pieces; ++i) {
         const auto written = file->write(std::string(piece_bytes, 'x'));
@@ -174,7 +175,7 @@ TEST(OutputFile, KeepsTheEarlierFileWhenAnyWriteFails) {
 TEST(OutputFile, ReportsAFailedRename) {
   const TemporaryFolder folder;
   {
-    auto file = OutputFile::create(folder / "a.txt");
+    auto file = base::OutputFile::create(folder / "a.txt");
     ASSERT_TRUE(file && file->write("text"));
     fs::create_directory(folder / "a.txt");  // in the meantime
     expect_failure(file->commit(), folder / "a.txt", "Is a directory");
@@ -188,7 +189,7 @@ TEST(OutputFile, ReportsWhatOnlyFlushOrCloseFindsOut) {
     const int next = ::dup(STDIN_FILENO);  // the descriptor that the file will get
     ASSERT_GE(next, 0);
     ::close(next);
-    auto file = OutputFile::create(path);
+    auto file = base::OutputFile::create(path);
     ASSERT_TRUE(file && file->write("text"));
     ASSERT_EQ(::close(next), 0);
     expect_failure(file->commit(), path, "Bad file descriptor");
@@ -199,10 +200,10 @@ TEST(OutputFile, ReportsWhatOnlyFlushOrCloseFindsOut) {
 TEST(OutputFile, FollowsLinksAndKeepsTheMode) {
   const TemporaryFolder folder;
   fs::create_directory(folder / "deep");
-  ASSERT_TRUE(write_file(folder / "deep/real", "earlier"));
+  ASSERT_TRUE(base::write_file(folder / "deep/real", "earlier"));
   fs::permissions(folder / "deep/real", fs::perms(0640));
   fs::create_symlink("deep/real", folder / "link");
-  ASSERT_TRUE(write_file(folder / "link", "text"));
+  ASSERT_TRUE(base::write_file(folder / "link", "text"));
   EXPECT_TRUE(fs::is_symlink(folder / "link"));
   EXPECT_EQ(read_text(folder / "deep/real"), "text");
   EXPECT_EQ(fs::status(folder / "deep/real").permissions(), fs::perms(0640));
@@ -212,7 +213,7 @@ TEST(OutputFile, WritesIntoPipes) {
   const TemporaryFolder folder;
   ASSERT_EQ(::mkfifo((folder / "pipe").c_str(), 0600), 0);
   const pid_t writer = ::fork();
-  if (writer == 0) ::_exit(write_file(folder / "pipe", "through the pipe") ? 0 : 1);
+  if (writer == 0) ::_exit(base::write_file(folder / "pipe", "through the pipe") ? 0 : 1);
   EXPECT_EQ(read_text(folder / "pipe"), "through the pipe");
   int status = 0;
   ::waitpid(writer, &status, 0);
@@ -223,7 +224,7 @@ TEST(OutputFile, WritesIntoPipes) {
 /// Writes whole files of one letter again and again.
 [[noreturn]] void write_for_ever(const fs::path& path, char letter, std::size_t size) {
   for (;;) {
-    if (!write_file(path, std::string(size, letter))) ::_exit(1);
+    if (!base::write_file(path, std::string(size, letter))) ::_exit(1);
   }
 }
 
@@ -236,13 +237,13 @@ TEST(OutputFile, OneOfManyWritersWinsWhole) {
   constexpr int rounds = 100;
   const TemporaryFolder folder;
   const fs::path path = folder / "a.txt";
-  ASSERT_TRUE(write_file(path, std::string(size, '0')));
+  ASSERT_TRUE(base::write_file(path, std::string(size, '0')));
   std::vector<pid_t> writers;
   for (const char letter : {'a', 'b', 'c', 'd'}) {
     writers.push_back(::fork());
     if (writers.back() != 0) continue;
     for (int i = 0; i < rounds; ++i) {
-      if (!write_file(path, std::string(size, letter))) ::_exit(1);
+      if (!base::write_file(path, std::string(size, letter))) ::_exit(1);
     }
     ::_exit(0);
   }
@@ -264,7 +265,7 @@ TEST(OutputFile, StaysWholeWhenKilledAtRandomTimes) {
   constexpr int kills = 100;
   const TemporaryFolder folder;
   const fs::path path = folder / "a.txt";
-  ASSERT_TRUE(write_file(path, std::string(size, '0')));
+  ASSERT_TRUE(base::write_file(path, std::string(size, '0')));
   std::mt19937 random(1);  // the delays, not the moments within a write, are reproducible
   for (int i = 0; i < kills; ++i) {
     const pid_t writer = ::fork();

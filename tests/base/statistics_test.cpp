@@ -10,14 +10,14 @@ namespace tenebra {
 namespace {
 
 TEST(Summarize, IsZeroForNoFrames) {
-  const Summary summary = summarize({});
+  const base::Summary summary = base::summarize({});
   EXPECT_EQ(summary.count, 0u);
   EXPECT_EQ(summary.median, 0.0);
   EXPECT_EQ(summary.worst, 0.0);
 }
 
 TEST(Summarize, IsTheValueItselfForOneFrame) {
-  const Summary summary = summarize(std::vector<double>{7.5});
+  const base::Summary summary = base::summarize(std::vector<double>{7.5});
   EXPECT_EQ(summary.median, 7.5);
   EXPECT_EQ(summary.percentile_95, 7.5);
   EXPECT_EQ(summary.percentile_99, 7.5);
@@ -28,7 +28,7 @@ TEST(Summarize, IsTheValueItselfForOneFrame) {
 TEST(Summarize, GivesTheRanksOfAHundredFrames) {
   std::vector<double> values;
   for (int i = 100; i >= 1; --i) values.push_back(i);
-  const Summary summary = summarize(values);
+  const base::Summary summary = base::summarize(values);
   EXPECT_EQ(summary.median, 50.5);
   EXPECT_EQ(summary.percentile_95, 95.0);
   EXPECT_EQ(summary.percentile_99, 99.0);
@@ -37,7 +37,7 @@ TEST(Summarize, GivesTheRanksOfAHundredFrames) {
 }
 
 TEST(Summarize, NamesTheFirstOfEquallyBadFrames) {
-  EXPECT_EQ(summarize(std::vector<double>{1, 9, 2, 9}).worst_at, 1u);
+  EXPECT_EQ(base::summarize(std::vector<double>{1, 9, 2, 9}).worst_at, 1u);
 }
 
 TEST(Summarize, PercentilesAreTheSmallestValuesThatCoverTheirShare) {
@@ -45,7 +45,7 @@ TEST(Summarize, PercentilesAreTheSmallestValuesThatCoverTheirShare) {
   for (std::size_t count = 1; count <= 250; ++count) {
     std::vector<double> values(count);
     for (double& value : values) value = static_cast<double>(random() % 1000);
-    const Summary summary = summarize(values);
+    const base::Summary summary = base::summarize(values);
     const auto check = [&](double percentile, std::size_t percent) {
       const auto at_most = [&](double bound) {
         return std::count_if(values.begin(), values.end(), [&](double v) { return v <= bound; });

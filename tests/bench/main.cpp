@@ -2,7 +2,7 @@
 #include <cstdio>
 #include <string>
 
-#include "bench_command.h"
+#include "bench/common/bench_command.h"
 
 namespace tenebra::bench {
 

@@ -2,10 +2,11 @@
 #include <cstdio>
 #include <vector>
 
-#include "shadow/mask.h"
+#include <tenebra/hard_shadows.h>
 
 int main() {
-  const std::vector<glm::vec3> positions{{-9, 0, 9}, {9, 0, 9}, {9, 0, -9}, {-9, 0, -9}, {0, 1, 9}, {9, 1, 0}, {0, 1, -9}};
+  const std::vector<glm::vec3> positions{{-9, 0, 9}, {9, 0, 9}, {9, 0, -9}, {-9, 0, -9},
+                                         {0, 1, 9},  {9, 1, 0}, {0, 1, -9}};
   const std::vector<glm::uvec3> indices{{0, 1, 2}, {0, 2, 3}, {4, 5, 6}};
   const tenebra::TriangleView triangles{positions, indices, {}};
   // A picture of 2 x 1 pixels from above that sees the floor at x = -1 and x = 1 (below the third triangle).

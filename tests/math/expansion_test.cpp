@@ -31,11 +31,11 @@ int rational_edge_side(const vec3& l, const vec3& a, const vec3& b, const dvec3&
 }
 
 TEST(Expansion, SignOfASumThatCancelsInDouble) {
-  const Expansion big(1e30), small(1e-30);
+  const math::Expansion big(1e30), small(1e-30);
   EXPECT_EQ(((big + small) - big).sign(), 1);
   EXPECT_EQ(((big - small) - big).sign(), -1);
   EXPECT_EQ(((big + small) - big - small).sign(), 0);
-  EXPECT_EQ((Expansion::product(1 + 0x1p-52, 1 + 0x1p-52) - Expansion(1 + 0x1p-51)).sign(), 1);
+  EXPECT_EQ((math::Expansion::product(1 + 0x1p-52, 1 + 0x1p-52) - math::Expansion(1 + 0x1p-51)).sign(), 1);
 }
 
 TEST(Predicates, EdgeSideEqualsRationalArithmetic) {
@@ -48,7 +48,7 @@ TEST(Predicates, EdgeSideEqualsRationalArithmetic) {
     const dvec3 p = i % 4 == 0 ? dvec3(l) + random.unit() * (dvec3(a) - dvec3(l)) : dvec3(point());
     const int expected = rational_edge_side(l, a, b, p);
     zeros += expected == 0;
-    ASSERT_EQ(edge_side(l, a, b, p), expected) << "case " << i;
+    ASSERT_EQ(math::edge_side(l, a, b, p), expected) << "case " << i;
   }
   EXPECT_GT(zeros, 100) << "the degenerate half of the cases is missing";
 }
@@ -58,9 +58,9 @@ TEST(Predicates, PointSideEqualsRationalArithmetic) {
   for (int i = 0; i < 20000; ++i) {
     const auto point = [&] { return i % 2 == 0 ? vec3(random.wide(-99, 99)) : vec3(random.grid(3)); };
     const vec3 a = point(), b = point(), c = point(), p = point();
-    ASSERT_EQ(point_side(a, b, c, p), rational_edge_side(a, b, c, p)) << "case " << i;
-    ASSERT_EQ(plane_excess(a, b, c, p, 1, 0.0), rational_edge_side(a, b, c, p)) << "case " << i;
-    ASSERT_EQ(plane_excess(a, b, c, p, -1, 0.0), -rational_edge_side(a, b, c, p)) << "case " << i;
+    ASSERT_EQ(math::point_side(a, b, c, p), rational_edge_side(a, b, c, p)) << "case " << i;
+    ASSERT_EQ(math::plane_excess(a, b, c, p, 1, 0.0), rational_edge_side(a, b, c, p)) << "case " << i;
+    ASSERT_EQ(math::plane_excess(a, b, c, p, -1, 0.0), -rational_edge_side(a, b, c, p)) << "case " << i;
   }
 }
 

@@ -29,27 +29,33 @@ N paper_side(const dvec3& p, const dvec3& q, const dvec3& a, const dvec3& b) {
 
 // The x axis, and a line along y one above it: 1 * (-1) summed by hand.
 TEST(Plucker, SideOfTwoSkewLinesByHand) {
-  const PluckerLine x = line_through({0, 0, 0}, {1, 0, 0}), y = line_through({0, 0, 1}, {0, 1, 1});
+  const math::PluckerLine x = math::line_through({0, 0, 0}, {1, 0, 0}),
+                          y = math::line_through({0, 0, 1}, {0, 1, 1});
   EXPECT_EQ(x.moment, dvec3(0));
   EXPECT_EQ(y.moment, dvec3(-1, 0, 0));  // (0,0,1) x (0,1,1)
-  EXPECT_EQ(side(x, y), -1);
-  EXPECT_EQ(side(y, x), -1);
-  EXPECT_EQ(side(x, line_through({0, 1, 1}, {0, 0, 1})), 1) << "a line turned around changes sides";
-  EXPECT_EQ(side_sign({0, 0, 0}, {1, 0, 0}, {0, 0, 1}, {0, 1, 1}), -1);
+  EXPECT_EQ(math::side(x, y), -1);
+  EXPECT_EQ(math::side(y, x), -1);
+  EXPECT_EQ(math::side(x, math::line_through({0, 1, 1}, {0, 0, 1})), 1)
+      << "a line turned around changes sides";
+  EXPECT_EQ(math::side_sign({0, 0, 0}, {1, 0, 0}, {0, 0, 1}, {0, 1, 1}), -1);
 }
 
 TEST(Plucker, SideIsZeroWhereLinesMeetOrAreParallel) {
-  EXPECT_EQ(side(line_through({1, 2, 3}, {4, 5, 6}), line_through({1, 2, 3}, {-7, 2, 9})), 0);
-  EXPECT_EQ(side(line_through({1, 2, 3}, {2, 2, 3}), line_through({5, 0, 0}, {9, 0, 0})), 0);
-  EXPECT_EQ(side_sign({1, 2, 3}, {4, 5, 6}, {1, 2, 3}, {-7, 2, 9}), 0);
-  EXPECT_EQ(side_sign({1, 2, 3}, {2, 2, 3}, {5, 0, 0}, {9, 0, 0}), 0);
+  EXPECT_EQ(math::side(math::line_through({1, 2, 3}, {4, 5, 6}), math::line_through({1, 2, 3}, {-7, 2, 9})),
+            0);
+  EXPECT_EQ(math::side(math::line_through({1, 2, 3}, {2, 2, 3}), math::line_through({5, 0, 0}, {9, 0, 0})),
+            0);
+  EXPECT_EQ(math::side_sign({1, 2, 3}, {4, 5, 6}, {1, 2, 3}, {-7, 2, 9}), 0);
+  EXPECT_EQ(math::side_sign({1, 2, 3}, {2, 2, 3}, {5, 0, 0}, {9, 0, 0}), 0);
 }
 
 TEST(Plucker, SideIsThatOfThePaper) {
   testing::Random random(31);
   for (int i = 0; i < 2000; ++i) {
     const dvec3 p = random.grid(50), q = random.grid(50), a = random.grid(50), b = random.grid(50);
-    EXPECT_EQ(side(line_through(p, q), line_through(a, b)), (paper_side<double>(p, q, a, b))) << i;
+    EXPECT_EQ(math::side(math::line_through(p, q), math::line_through(a, b)),
+              (paper_side<double>(p, q, a, b)))
+        << i;
   }
 }
 
@@ -67,7 +73,7 @@ TEST(Plucker, SideSignIsExact) {
     }
     const int expected = paper_side<Dyadic>(v[0], v[1], v[2], v[3]).sign();
     zeros += expected == 0;
-    ASSERT_EQ(side_sign(v[0], v[1], v[2], v[3]), expected) << "case " << i;
+    ASSERT_EQ(math::side_sign(v[0], v[1], v[2], v[3]), expected) << "case " << i;
   }
   EXPECT_GT(zeros, 500);
   EXPECT_GT(close, 5000);
@@ -77,7 +83,7 @@ TEST(Plucker, MomentsKeepTheirBound) {
   testing::Random random(34);
   for (int i = 0; i < 20000; ++i) {
     const dvec3 p = random.wide(-30, 30), q = i % 2 == 0 ? random.wide(-30, 30) : p * random.in(0.5, 2);
-    const dvec3 moment = line_through(p, q).moment;
+    const dvec3 moment = math::line_through(p, q).moment;
     const double bound = 0x1p-52 * (std::abs(p.x) + std::abs(p.y) + std::abs(p.z)) *
                          (std::abs(q.x) + std::abs(q.y) + std::abs(q.z));
     for (int k = 0; k < 3; ++k) {
@@ -113,12 +119,12 @@ TEST(Plucker, VertexLinesDecideForAllLines) {
   for (int i = 0; i < 4000; ++i) {
     const auto from = polygon(random, i % 2), to = polygon(random, i % 2);
     const dvec3 a = 3.0 * random.in_cube(1), b = 3.0 * random.in_cube(1);
-    const Orientation all = orientation(from, to, a, b);
-    if (all == Orientation::mixed) {
+    const math::Orientation all = math::orientation(from, to, a, b);
+    if (all == math::Orientation::mixed) {
       bool negative = false, positive = false;
       for (const dvec3& p : from)
         for (const dvec3& q : to) {
-          const int sign = side_sign(p, q, a, b);
+          const int sign = math::side_sign(p, q, a, b);
           negative |= sign <= 0, positive |= sign >= 0;
         }
       EXPECT_TRUE(negative && positive) << "case " << i;
@@ -126,8 +132,8 @@ TEST(Plucker, VertexLinesDecideForAllLines) {
     }
     ++decided;
     for (int line = 0; line < 30; ++line)
-      ASSERT_EQ(side_sign(within(from, random), within(to, random), a, b),
-                all == Orientation::positive ? 1 : -1)
+      ASSERT_EQ(math::side_sign(within(from, random), within(to, random), a, b),
+                all == math::Orientation::positive ? 1 : -1)
           << "case " << i;
   }
   EXPECT_GT(decided, 300);
@@ -135,8 +141,9 @@ TEST(Plucker, VertexLinesDecideForAllLines) {
 
 TEST(Plucker, NoLinesHaveNoOrientation) {
   const std::vector<dvec3> one{dvec3(1, 2, 3)};
-  EXPECT_EQ(orientation({}, one, {0, 0, 0}, {1, 0, 0}), Orientation::mixed);
-  EXPECT_EQ(orientation(one, one, {0, 0, 0}, {1, 0, 0}), Orientation::mixed) << "a point is no line";
+  EXPECT_EQ(math::orientation({}, one, {0, 0, 0}, {1, 0, 0}), math::Orientation::mixed);
+  EXPECT_EQ(math::orientation(one, one, {0, 0, 0}, {1, 0, 0}), math::Orientation::mixed)
+      << "a point is no line";
 }
 
 }  // namespace

@@ -10,6 +10,7 @@
 
 #include "parallel/parallel.h"
 #include "points/contact_rule.h"
+#include "points/point_tiles.h"
 #include "points/triangle_corners.h"
 #include "support/samples.h"
 #include "support/seeded_random.h"
@@ -37,12 +38,12 @@ TiledCase tiled_room(std::uint64_t seed, int width, int height, double scale = 1
 }
 
 /// One tile of a square against the points of its pixels; `mixed`: what it lies on, if that is several.
-void check_tile(const TiledCase& c, const PointPatch& patch, const PointSquare& square, std::uint32_t t,
-                const TileReceivers* mixed) {
+void check_tile(const TiledCase& c, const points::PointPatch& patch, const points::PointSquare& square,
+                std::uint32_t t, const points::TileReceivers* mixed) {
   const std::uint32_t number = square.first_tile + t;
-  const PointTile& tile = c.points.tiles.tiles[number];
-  const TilePixels pixel_of(c.points.width, c.points.height);
-  EXPECT_EQ(std::memcmp(&c.points.tiles.bases[number / 16], &square.base, sizeof(PointBase)), 0);
+  const points::PointTile& tile = c.points.tiles->tiles[number];
+  const points::TilePixels pixel_of(c.points.width, c.points.height);
+  EXPECT_EQ(std::memcmp(&c.points.tiles->bases[number / 16], &square.base, sizeof(points::PointBase)), 0);
   for (std::uint32_t lane = 0; lane < 16; ++lane) {
     if (((square.lanes[t] >> lane) & 1u) == 0) {
       EXPECT_TRUE(tile.id[lane] == no_triangle);
@@ -55,7 +56,7 @@ void check_tile(const TiledCase& c, const PointPatch& patch, const PointSquare& 
     EXPECT_EQ(patch.receivers[receiver / 16].id[receiver % 16], id);
     EXPECT_EQ(tile.id[lane], id);
     EXPECT_EQ(square.own[t], mixed == nullptr ? id : no_triangle);
-    EXPECT_GE(square.tau, rounding_tolerance(corners_of(c.soup.view(), id).v));
+    EXPECT_GE(square.tau, points::rounding_tolerance(points::corners_of(c.soup.view(), id).v));
     const float q[3] = {tile.qx[lane], tile.qy[lane], tile.qz[lane]};
     double length2 = 0;
     for (int axis = 0; axis < 3; ++axis) {
@@ -72,12 +73,12 @@ void check_tile(const TiledCase& c, const PointPatch& patch, const PointSquare& 
 /// All tiles of a case; returns how many lie on several triangles.
 std::size_t check_tiles(const TiledCase& c) {
   std::size_t all_mixed = 0;
-  for (const PointPatch& patch : c.points.tiles.patches) {
+  for (const points::PointPatch& patch : c.points.tiles->patches) {
     std::size_t mixed = 0;
-    for (const PointSquare& square : patch.squares) {
+    for (const points::PointSquare& square : patch.squares) {
       for (std::uint32_t t = 0; t < 16; ++t) {
         if (((square.filled >> t) & 1u) == 0) continue;
-        const bool several = square.receiver[t] == several_receivers;
+        const bool several = square.receiver[t] == points::several_receivers;
         check_tile(c, patch, square, t, several ? &patch.mixed.at(mixed++) : nullptr);
       }
     }
@@ -90,11 +91,11 @@ std::size_t check_tiles(const TiledCase& c) {
 TEST(PointTiles, HoldThePointsThatFaceTheEye) {
   for (const auto& [width, height] : {std::pair{97, 61}, {16, 16}, {5, 3}, {1040, 18}}) {
     const TiledCase c = tiled_room(31, width, height);
-    const TilePixels pixel_of(width, height);
+    const points::TilePixels pixel_of(width, height);
     std::vector<int> met(c.points.triangles.size(), 0);
     EXPECT_GT(check_tiles(c), 0u);
-    for (const PointPatch& patch : c.points.tiles.patches) {
-      for (const PointSquare& square : patch.squares) {
+    for (const points::PointPatch& patch : c.points.tiles->patches) {
+      for (const points::PointSquare& square : patch.squares) {
         for (std::uint32_t t = 0; t < 16; ++t) {
           if (((square.filled >> t) & 1u) == 0) continue;
           for (std::uint32_t lanes = square.lanes[t]; lanes != 0; lanes &= lanes - 1)
@@ -104,7 +105,8 @@ TEST(PointTiles, HoldThePointsThatFaceTheEye) {
     }
     for (std::size_t i = 0; i < met.size(); ++i) {
       const std::uint32_t id = c.points.triangles[i];
-      const bool seen = id != no_triangle && eye_side(corners_of(c.soup.view(), id).v, c.view) != 0;
+      const bool seen =
+          id != no_triangle && points::eye_side(points::corners_of(c.soup.view(), id).v, c.view) != 0;
       EXPECT_EQ(met[i], seen ? 1 : 0) << i;
     }
   }
@@ -113,8 +115,8 @@ TEST(PointTiles, HoldThePointsThatFaceTheEye) {
 TEST(PointTiles, StayPreciseFarFromTheOrigin) {
   const TiledCase c = tiled_room(32, 64, 64, 1, 1e6);
   EXPECT_GT(check_tiles(c), 0u);
-  for (const PointPatch& patch : c.points.tiles.patches)
-    for (const PointSquare& square : patch.squares) EXPECT_LT(square.base.radius, 100);
+  for (const points::PointPatch& patch : c.points.tiles->patches)
+    for (const points::PointSquare& square : patch.squares) EXPECT_LT(square.base.radius, 100);
 }
 
 // What a receiver says of a light, beyond its slack, is what the exact sign says.
@@ -122,11 +124,11 @@ TEST(PointTiles, ReceiversKnowTheirSide) {
   const TiledCase c = tiled_room(33, 64, 64);
   Random random(34);
   int certain = 0;
-  for (const PointPatch& patch : c.points.tiles.patches) {
+  for (const points::PointPatch& patch : c.points.tiles->patches) {
     for (std::uint32_t number = 0; number < patch.receiver_count; ++number) {
-      const ReceiverBlock& b = patch.receivers[number / 16];
+      const points::ReceiverBlock& b = patch.receivers[number / 16];
       const std::uint32_t i = number % 16;
-      const Corners corners = corners_of(c.soup.view(), b.id[i]);
+      const points::Corners corners = points::corners_of(c.soup.view(), b.id[i]);
       for (int k = 0; k < 20; ++k) {
         const glm::dvec3 near = glm::mix(glm::dvec3(corners.v[0]), glm::dvec3(corners.v[1]), 0.3);
         const glm::vec3 p(near + random.in_cube(k % 2 == 0 ? 2.0 : 1e-6));
@@ -134,7 +136,7 @@ TEST(PointTiles, ReceiversKnowTheirSide) {
         const double value = glm::dot(glm::dvec3(b.nx[i], b.ny[i], b.nz[i]), away);
         if (std::abs(value) <= static_cast<double>(b.slack[i]) * glm::length(away)) continue;
         ++certain;
-        const int side = point_side(corners.v[0], corners.v[1], corners.v[2], p) * b.side[i];
+        const int side = math::point_side(corners.v[0], corners.v[1], corners.v[2], p) * b.side[i];
         EXPECT_EQ(side, value > 0 ? 1 : -1);
       }
     }
@@ -144,18 +146,19 @@ TEST(PointTiles, ReceiversKnowTheirSide) {
 
 TEST(PointTiles, AreTheSameForAllThreads) {
   const TiledCase c = tiled_room(35, 130, 70);
-  PointTiles again;
-  with_threads(7, [&] { make_point_tiles(c.points, c.view, c.soup.view(), again); });
-  const std::vector<PointTile>& tiles = c.points.tiles.tiles;
+  points::PointTiles again;
+  with_threads(7, [&] { points::make_point_tiles(c.points, c.view, c.soup.view(), again); });
+  const std::vector<points::PointTile>& tiles = c.points.tiles->tiles;
   ASSERT_EQ(again.tiles.size(), tiles.size());
-  EXPECT_EQ(std::memcmp(again.tiles.data(), tiles.data(), tiles.size() * sizeof(PointTile)), 0);
-  ASSERT_EQ(again.patches.size(), c.points.tiles.patches.size());
+  EXPECT_EQ(std::memcmp(again.tiles.data(), tiles.data(), tiles.size() * sizeof(points::PointTile)), 0);
+  ASSERT_EQ(again.patches.size(), c.points.tiles->patches.size());
   for (std::size_t i = 0; i < again.patches.size(); ++i) {
-    const PointPatch &a = again.patches[i], &b = c.points.tiles.patches[i];
+    const points::PointPatch &a = again.patches[i], &b = c.points.tiles->patches[i];
     ASSERT_EQ(a.squares.size(), b.squares.size());
     ASSERT_EQ(a.receiver_count, b.receiver_count);
     for (std::size_t k = 0; k < a.squares.size(); ++k)
-      EXPECT_EQ(std::memcmp(&a.squares[k], &b.squares[k], offsetof(PointSquare, tau) + sizeof(float)), 0);
+      EXPECT_EQ(std::memcmp(&a.squares[k], &b.squares[k], offsetof(points::PointSquare, tau) + sizeof(float)),
+                0);
   }
 }
 

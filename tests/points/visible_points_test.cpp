@@ -3,9 +3,9 @@
 #include <algorithm>
 #include <cmath>
 
+#include <tenebra/hard_shadows.h>
 #include "parallel/parallel.h"
 #include "points/visible_run.h"
-#include "shadow/mask.h"
 #include "support/seeded_random.h"
 
 namespace tenebra {
@@ -99,8 +99,8 @@ TEST(VisiblePoints, HaveTheSameBitsAloneAndInRuns) {
   for (int scene = 0; scene < 200; ++scene) {
     std::vector<vec3> corners(3);
     for (vec3& c : corners) c = vec3(random.in_cube(scene % 2 == 0 ? 2.0 : 20.0));
-    const Receiver receiver = [&] {
-      Receiver r;
+    const points::Receiver receiver = [&] {
+      points::Receiver r;
       r.a = corners[0], r.e1 = dvec3(corners[1]) - r.a, r.e2 = dvec3(corners[2]) - r.a;
       r.normal = glm::cross(r.e1, r.e2);
       const double area2 = glm::dot(r.normal, r.normal);
@@ -109,11 +109,11 @@ TEST(VisiblePoints, HaveTheSameBitsAloneAndInRuns) {
     }();
     const auto whole = points_of(std::vector<std::uint32_t>(8 * 8, 0), 8, 8, pinhole, corners);
     for (int y = 0; y < 8; ++y) {
-      const PixelRow row{pinhole.eye, pinhole.d0, pinhole.dx, (y + 0.5) * dvec3(pinhole.dy)};
+      const points::PixelRow row{pinhole.eye, pinhole.d0, pinhole.dx, (y + 0.5) * dvec3(pinhole.dy)};
       for (const SimdLevel level : {SimdLevel::scalar, SimdLevel::sse4, SimdLevel::avx2, SimdLevel::avx512}) {
         if (!simd_level_supported(level)) continue;
         dvec3 eight[8];
-        const std::uint32_t inside = visible_run_kernels(level).eight(receiver, row, 0, eight);
+        const std::uint32_t inside = points::visible_run_kernels(level).eight(receiver, row, 0, eight);
         for (int x = 0; x < 8; ++x) {
           if (((inside >> x) & 1u) == 0) continue;
           ++met;

@@ -23,7 +23,7 @@ class CompositeTest : public RasterTest {
 protected:
   /// A picture of one empty pixel in this colour.
   glm::ivec3 encode(glm::vec3 linear, float exposure = 1.0f) {
-    Image8 image;
+    base::Image8 image;
     EXPECT_TRUE(passes().compositor.begin(1, 1));
     passes().compositor.finish(passes().gbuffer, passes().geometry,
                                {.background = linear, .exposure = exposure}, image);
@@ -69,7 +69,7 @@ TEST_P(CompositeTest, SumsAmbientEmissiveAndLightsThroughTheirMasks) {
   constexpr int width = 6, height = 4;
   const Material material = make_material({0.5f, 0.25f, 0.125f}, {0.1f, 0.2f, 0.3f}, {0.01f, 0, 0.02f});
   draw(left_half(), forward_view({0, 0, 0}, 10.0f, width, height), width, height, {Material{}, material});
-  const CompositeSettings settings{
+  const raster::CompositeSettings settings{
       .ambient_light = {0.5f, 1.0f, 0.25f}, .background = {0.9f, 0.0f, 0.4f}, .exposure = 0.75f};
   const float intensities[3] = {0.5f, 0.25f, 1.0f};
   std::vector<std::vector<std::uint8_t>> masks(3, std::vector<std::uint8_t>(width * height));
@@ -85,7 +85,7 @@ TEST_P(CompositeTest, SumsAmbientEmissiveAndLightsThroughTheirMasks) {
         passes().light_pass.draw(passes().gbuffer, passes().geometry, light, {}, passes().light_buffer));
     passes().compositor.add_light(passes().light_buffer, masks[l]);
   }
-  Image8 image;
+  base::Image8 image;
   passes().compositor.finish(passes().gbuffer, passes().geometry, settings, image);
   ASSERT_EQ(image.width, width);
   ASSERT_EQ(image.height, height);
@@ -118,10 +118,11 @@ TEST_P(CompositeTest, AreaLightsCountByTheirIrradianceAndOpennessByTheAmbientTer
   }
   const Light area = make_light(LightType::area_rect, 2.0f);
   const Light sun = make_light(LightType::directional, 0.25f, Falloff::none);
-  const CompositeSettings open{.ambient_light = {0.5f, 1.0f, 0.25f}, .background = {0.9f, 0.0f, 0.4f}};
-  CompositeSettings closing = open;
+  const raster::CompositeSettings open{.ambient_light = {0.5f, 1.0f, 0.25f},
+                                       .background = {0.9f, 0.0f, 0.4f}};
+  raster::CompositeSettings closing = open;
   closing.openness = openness;
-  for (const CompositeSettings& settings : {open, closing}) {
+  for (const raster::CompositeSettings& settings : {open, closing}) {
     ASSERT_TRUE(passes().compositor.begin(width, height));
     ASSERT_TRUE(passes().light_pass.draw_area(passes().gbuffer, passes().geometry, area, {}, 1.0,
                                               passes().light_buffer));
@@ -129,7 +130,7 @@ TEST_P(CompositeTest, AreaLightsCountByTheirIrradianceAndOpennessByTheAmbientTer
     ASSERT_TRUE(
         passes().light_pass.draw(passes().gbuffer, passes().geometry, sun, {}, passes().light_buffer));
     passes().compositor.add_light(passes().light_buffer, {});  // no factor of the light before
-    Image8 image;
+    base::Image8 image;
     passes().compositor.finish(passes().gbuffer, passes().geometry, settings, image);
     for (int i = 0; i < width * height; ++i) {
       const auto at = static_cast<std::size_t>(i);
@@ -150,7 +151,7 @@ TEST_P(CompositeTest, AreaLightsCountByTheirIrradianceAndOpennessByTheAmbientTer
 TEST_P(CompositeTest, NegativeAmbientMeansTheBaseColour) {
   const Material material = make_material({0.5f, 0.25f, 0.125f});
   draw(left_half(), forward_view({0, 0, 0}, 10.0f, 2, 1), 2, 1, {Material{}, material});
-  Image8 image;
+  base::Image8 image;
   ASSERT_TRUE(passes().compositor.begin(2, 1));
   passes().compositor.finish(passes().gbuffer, passes().geometry, {}, image);
   for (std::size_t c = 0; c < 3; ++c) {
@@ -161,8 +162,8 @@ TEST_P(CompositeTest, NegativeAmbientMeansTheBaseColour) {
 TEST_P(CompositeTest, ALightsSumDoesNotLeakIntoTheNextFrame) {
   draw(left_half(), forward_view({0, 0, 0}, 10.0f, 4, 3), 4, 3, {Material{}, Material{}});
   const Light light = make_light(LightType::directional, 0.3f, Falloff::none);
-  Image8 frames[2];
-  for (Image8& frame : frames) {
+  base::Image8 frames[2];
+  for (base::Image8& frame : frames) {
     ASSERT_TRUE(passes().compositor.begin(4, 3));
     ASSERT_TRUE(
         passes().light_pass.draw(passes().gbuffer, passes().geometry, light, {}, passes().light_buffer));
@@ -177,32 +178,32 @@ TEST_P(CompositeTest, ALightsSumDoesNotLeakIntoTheNextFrame) {
 struct Frame {
   std::vector<std::uint32_t> ids;
   std::vector<float> depth;
-  ImageF light;
-  Image8 picture;
+  base::ImageF light;
+  base::Image8 picture;
 };
 
 Frame draw_frame(gl::ContextKind kind) {
   Frame frame;
   auto context = gl::Context::create(kind);
   EXPECT_TRUE(context);
-  auto gbuffer_pass = GBufferPass::create();
-  auto light_pass = LightPass::create();
-  auto compositor = Compositor::create();
-  GeometryBuffers geometry;
-  GBuffer gbuffer;
-  LightBuffer light_buffer;
+  auto gbuffer_pass = raster::GBufferPass::create();
+  auto light_pass = raster::LightPass::create();
+  auto compositor = raster::Compositor::create();
+  raster::GeometryBuffers geometry;
+  raster::GBuffer gbuffer;
+  raster::LightBuffer light_buffer;
   const std::vector<Material> materials(1);
   EXPECT_TRUE(geometry.upload_materials(materials) && geometry.upload(random_soup(25, {0, 0, -9}, 3.0f, 99)));
   EXPECT_TRUE(gbuffer_pass->draw(forward_view({0, 0, 0}, 200.0f, 257, 191), geometry, 257, 191, gbuffer));
-  read_triangle_ids(gbuffer, frame.ids);
-  read_depth(gbuffer, frame.depth);
+  raster::read_triangle_ids(gbuffer, frame.ids);
+  raster::read_depth(gbuffer, frame.depth);
   std::vector<std::uint8_t> mask(frame.ids.size());
   std::iota(mask.begin(), mask.end(), std::uint8_t{0});
   Light light = make_light(LightType::spot, 300.0f);
   light.range_m = 30.0f;
   EXPECT_TRUE(compositor->begin(257, 191));
   EXPECT_TRUE(light_pass->draw(gbuffer, geometry, light, {.position = {1, 1, 2}}, light_buffer));
-  read_light_buffer(light_buffer, frame.light);
+  raster::read_light_buffer(light_buffer, frame.light);
   compositor->add_light(light_buffer, mask);
   compositor->finish(gbuffer, geometry, {.ambient_light = glm::vec3(0.1f)}, frame.picture);
   return frame;

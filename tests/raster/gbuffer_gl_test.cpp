@@ -1,4 +1,6 @@
 // Ids and depths of the G-buffer against rays cast in double through the pixels' centres.
+#include <fmt/core.h>
+
 #include "raster/gbuffer.h"
 
 #include "raster/raster_fixture.h"
@@ -58,7 +60,7 @@ protected:
           ASSERT_EQ(depth[pixel], 0.0f);
           continue;
         }
-        const glm::dvec3 p = point_from_depth(view, passes().gbuffer.transform, x, y, depth[pixel]);
+        const glm::dvec3 p = raster::point_from_depth(view, passes().gbuffer.transform, x, y, depth[pixel]);
         const glm::dvec3 across = (x + 0.5) * glm::dvec3(view.dx) + (y + 0.5) * glm::dvec3(view.dy);
         const glm::dvec3 truth =
             glm::dvec3(view.eye) + across * (view.orthographic ? 1.0 : seen.t) + seen.t * glm::dvec3(view.d0);

@@ -56,8 +56,8 @@ protected:
     draw(g, view, width, height, {Material{}, material});
     EXPECT_TRUE(
         passes().light_pass.draw(passes().gbuffer, passes().geometry, light, placed, passes().light_buffer));
-    ImageF image;
-    read_light_buffer(passes().light_buffer, image);
+    base::ImageF image;
+    raster::read_light_buffer(passes().light_buffer, image);
     glm::dvec3 face = glm::normalize(glm::cross(glm::dvec3(b - a), glm::dvec3(c - a)));
     if (face.z < 0) face = -face;  // the eye is in front
     const glm::dvec3 shading = normal == glm::vec3(0.0f) ? face : glm::dvec3(normal);
@@ -146,13 +146,13 @@ TEST_P(LightBufferTest, AreaBuffersTimesTheIrradianceOfASmallLightAreThoseOfItsC
       light.range_m = 20.0f;
       light.inner_cone_rad = 0.3f;
       light.outer_cone_rad = 0.9f;
-      ImageF point, area;
+      base::ImageF point, area;
       ASSERT_TRUE(passes().light_pass.draw(passes().gbuffer, passes().geometry, light, placed,
                                            passes().light_buffer));
-      read_light_buffer(passes().light_buffer, point);
+      raster::read_light_buffer(passes().light_buffer, point);
       ASSERT_TRUE(passes().light_pass.draw_area(passes().gbuffer, passes().geometry, light, placed, area_m2,
                                                 passes().light_buffer));
-      read_light_buffer(passes().light_buffer, area);
+      raster::read_light_buffer(passes().light_buffer, area);
       int lit = 0;
       for (int i = 0; i < width * height; ++i) {
         const glm::dvec3 ray = glm::dvec3(perspective.d0) + (i % width + 0.5) * glm::dvec3(perspective.dx) +
@@ -201,8 +201,8 @@ TEST_P(LightBufferTest, LightOnTheSurfaceStaysFinite) {
     const WorldLight placed{.position = {0, 0, -4 + height_m}};
     ASSERT_TRUE(
         passes().light_pass.draw(passes().gbuffer, passes().geometry, light, placed, passes().light_buffer));
-    ImageF image;
-    read_light_buffer(passes().light_buffer, image);
+    base::ImageF image;
+    raster::read_light_buffer(passes().light_buffer, image);
     for (float value : image.pixels) EXPECT_TRUE(std::isfinite(value) && value >= 0) << value;
   }
 }
@@ -212,8 +212,8 @@ TEST_P(LightBufferTest, BackgroundStaysDark) {
   const Light light = make_light(LightType::directional);
   ASSERT_TRUE(
       passes().light_pass.draw(passes().gbuffer, passes().geometry, light, {}, passes().light_buffer));
-  ImageF image;
-  read_light_buffer(passes().light_buffer, image);
+  base::ImageF image;
+  raster::read_light_buffer(passes().light_buffer, image);
   EXPECT_EQ(image.pixels, std::vector<float>(3u * width * height, 0.0f));
 }
 

@@ -93,9 +93,9 @@ protected:
     auto created = gl::Context::create(GetParam(), {.debug = true});
     ASSERT_TRUE(created) << created.error().message;
     context_.emplace(std::move(*created));
-    auto gbuffer_pass = GBufferPass::create();
-    auto light_pass = LightPass::create();
-    auto compositor = Compositor::create();
+    auto gbuffer_pass = raster::GBufferPass::create();
+    auto light_pass = raster::LightPass::create();
+    auto compositor = raster::Compositor::create();
     ASSERT_TRUE(gbuffer_pass) << gbuffer_pass.error().message;
     ASSERT_TRUE(light_pass) << light_pass.error().message;
     ASSERT_TRUE(compositor) << compositor.error().message;
@@ -109,12 +109,12 @@ protected:
   }
 
   struct Passes {
-    GBufferPass gbuffer_pass;
-    LightPass light_pass;
-    Compositor compositor;
-    GeometryBuffers geometry;
-    GBuffer gbuffer;
-    LightBuffer light_buffer;
+    raster::GBufferPass gbuffer_pass;
+    raster::LightPass light_pass;
+    raster::Compositor compositor;
+    raster::GeometryBuffers geometry;
+    raster::GBuffer gbuffer;
+    raster::LightBuffer light_buffer;
   };
   Passes& passes() { return *passes_; }
   gl::Context& context() { return *context_; }
@@ -126,8 +126,8 @@ protected:
     ASSERT_TRUE(passes().geometry.upload(frame));
     const auto drawn = passes().gbuffer_pass.draw(view, passes().geometry, width, height, passes().gbuffer);
     ASSERT_TRUE(drawn) << drawn.error().message;
-    read_triangle_ids(passes().gbuffer, ids);
-    read_depth(passes().gbuffer, depth);
+    raster::read_triangle_ids(passes().gbuffer, ids);
+    raster::read_depth(passes().gbuffer, depth);
   }
 
   std::vector<std::uint32_t> ids;

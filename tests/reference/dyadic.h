@@ -36,8 +36,8 @@ public:
   /// Towards zero: within 2^-63 of the value, relatively.
   long double rounded() const {
     const long drop = static_cast<long>(mpz_sizeinbase(mantissa_.get_mpz_t(), 2)) - 64;
-    const mpz_class top = drop > 0 ? mpz_class(abs(mantissa_) >> static_cast<mp_bitcnt_t>(drop))
-                                   : mpz_class(abs(mantissa_));
+    const mpz_class top =
+        drop > 0 ? mpz_class(abs(mantissa_) >> static_cast<mp_bitcnt_t>(drop)) : mpz_class(abs(mantissa_));
     const long double size = std::ldexp(static_cast<long double>(top.get_ui()),
                                         static_cast<int>(exponent_ + (drop > 0 ? drop : 0)));
     return sgn(mantissa_) < 0 ? -size : size;

@@ -223,8 +223,9 @@ ShadowMask exact_mask(const VisiblePoints& points, const ViewRays& view, const T
   };
   constexpr std::size_t grain = 256;
   std::vector<ExactMaskStats> parts((mask.size() + grain - 1) / grain);
-  parallel_ranges(mask.size(), grain,
-                  [&](std::size_t first, std::size_t last) { parts[first / grain] = part(first, last); });
+  parallel::parallel_ranges(mask.size(), grain, [&](std::size_t first, std::size_t last) {
+    parts[first / grain] = part(first, last);
+  });
   const ExactMaskStats sum = std::accumulate(parts.begin(), parts.end(), ExactMaskStats{}, add);
   if (stats != nullptr) *stats = add(*stats, sum);
   return mask;

@@ -6,8 +6,8 @@
 #include <cstdint>
 #include <vector>
 
+#include <tenebra/hard_shadows.h>
 #include "reference/triangle_boxes.h"
-#include "shadow/mask.h"
 
 namespace tenebra::reference {
 

@@ -19,7 +19,7 @@ N determinant(const Vector<N>& a, const Vector<N>& b, const Vector<N>& c) {
 }
 
 template <class N>
-int height_as(const Corners& t, const glm::dvec3& x, double offset) {
+int height_as(const points::Corners& t, const glm::dvec3& x, double offset) {
   const glm::dvec3 a(t.v[0]);
   return (determinant(Vector<N>(t.v[1], a), Vector<N>(t.v[2], a), Vector<N>(x, a)) - N(offset)).sign();
 }
@@ -37,12 +37,12 @@ int turn(const glm::dvec3& p, const glm::dvec3& q, const glm::dvec3& a, const gl
 
 }  // namespace
 
-int height_sign(const Corners& triangle, const glm::dvec3& x, double offset) {
+int height_sign(const points::Corners& triangle, const glm::dvec3& x, double offset) {
   const int sign = height_as<Bounded>(triangle, x, offset);
   return sign != unknown_sign ? sign : height_as<Dyadic>(triangle, x, offset);
 }
 
-bool blocks(const Corners& triangle, double theta, const glm::dvec3& p, const glm::dvec3& q) {
+bool blocks(const points::Corners& triangle, double theta, const glm::dvec3& p, const glm::dvec3& q) {
   const int side = height_sign(triangle, p);
   if (side == 0 || height_sign(triangle, q) != -side) return false;
   if (side > 0 ? height_sign(triangle, p, theta) <= 0 : height_sign(triangle, p, -theta) >= 0) return false;

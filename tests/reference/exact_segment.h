@@ -9,10 +9,10 @@
 namespace tenebra::reference {
 
 /// Sign of n.(x - a) - offset with n = (b - a) x (c - a) of the triangle (a, b, c), exact.
-int height_sign(const Corners& triangle, const glm::dvec3& x, double offset = 0);
+int height_sign(const points::Corners& triangle, const glm::dvec3& x, double offset = 0);
 
 /// Whether the closed triangle meets the segment pq with p more than theta / |n| off its plane (theta: the
 /// threshold of n.(p - a), contact rule) and p, q strictly on different sides of it. Exact.
-bool blocks(const Corners& triangle, double theta, const glm::dvec3& p, const glm::dvec3& q);
+bool blocks(const points::Corners& triangle, double theta, const glm::dvec3& p, const glm::dvec3& q);
 
 }  // namespace tenebra::reference

@@ -6,9 +6,9 @@
 #include <cstdint>
 #include <vector>
 
+#include <tenebra/area_light.h>
 #include "reference/slab_difference.h"
 #include "reference/triangle_boxes.h"
-#include "soft/area_light.h"
 
 namespace tenebra::reference {
 

@@ -3,7 +3,7 @@
 // exact_mask.
 #pragma once
 
-#include "shadow/mask.h"
+#include <tenebra/hard_shadows.h>
 
 namespace tenebra::reference {
 

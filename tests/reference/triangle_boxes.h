@@ -6,7 +6,7 @@
 #include <glm/glm.hpp>
 #include <vector>
 
-#include "shadow/mask.h"
+#include <tenebra/hard_shadows.h>
 
 namespace tenebra::reference {
 

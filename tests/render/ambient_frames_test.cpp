@@ -43,24 +43,24 @@ Hidden hidden_by_plate(const glm::dvec3& p) {
   return hidden;
 }
 
-RenderSettings occluded(AoMode mode) {
-  RenderSettings settings{.width = width, .height = height, .shadows = ShadowMode::none};
+render::RenderSettings occluded(AoMode mode) {
+  render::RenderSettings settings{.width = width, .height = height, .shadows = render::ShadowMode::none};
   settings.ao.mode = mode;
   settings.ao.distance_m = reach;
   return settings;
 }
 
-class AmbientFrames : public testing::TestWithParam<AoMode> {};
+class AmbientFrames : public ::testing::TestWithParam<AoMode> {};
 
 // Rays spread evenly err by less than independent ones, whose mean has a standard deviation of
 // sqrt((square - share^2) / rays): four of those, and a level for rounding twice (the mask, the picture).
 TEST_P(AmbientFrames, DarkenTheFloorAroundThePlateByTheClosedForm) {
   Scene scene = corner_scene();
   scene.lights[0].intensity = 0;
-  RenderSettings settings = occluded(GetParam());
+  render::RenderSettings settings = occluded(GetParam());
   constexpr int rays = 256;  // as many as surface samples have
   settings.ao.rays = rays;
-  const FrameResult result = draw(scene, settings);
+  const render::FrameResult result = draw(scene, settings);
   const ViewRays view = frame_of(scene, width, height).view;
   int in_the_open = 0, below = 0;
   double squares = 0, darkest = 0;
@@ -98,20 +98,22 @@ TEST_P(AmbientFrames, DarkenTheFloorAroundThePlateByTheClosedForm) {
 TEST_P(AmbientFrames, LeaveDirectLightAlone) {
   Scene scene = corner_scene();
   scene.ambient_light = vec3(0.0f);
-  const FrameResult without = draw(scene, occluded(AoMode::none)), with = draw(scene, occluded(GetParam()));
+  const render::FrameResult without = draw(scene, occluded(AoMode::none)),
+                            with = draw(scene, occluded(GetParam()));
   EXPECT_EQ(with.image, without.image);
   EXPECT_GT(*std::max_element(with.image.pixels.begin(), with.image.pixels.end()), 60);
 }
 
 TEST_P(AmbientFrames, StandBesideEveryShadowMode) {
   const Scene scene = corner_scene();
-  RenderSettings settings = occluded(GetParam());
+  render::RenderSettings settings = occluded(GetParam());
   settings.area_lights.size = {1, 1};
-  for (const ShadowMode mode : {ShadowMode::none, ShadowMode::hard, ShadowMode::soft}) {
+  for (const render::ShadowMode mode :
+       {render::ShadowMode::none, render::ShadowMode::hard, render::ShadowMode::soft}) {
     settings.shadows = mode;
-    RenderSettings bright = settings;
+    render::RenderSettings bright = settings;
     bright.ao.mode = AoMode::none;
-    const FrameResult with = draw(scene, settings), without = draw(scene, bright);
+    const render::FrameResult with = draw(scene, settings), without = draw(scene, bright);
     int darker = 0;
     for (std::size_t i = 0; i < with.image.pixels.size(); ++i) {
       ASSERT_LE(with.image.pixels[i], without.image.pixels[i]);
@@ -127,8 +129,8 @@ TEST_P(AmbientFrames, StandBesideEveryShadowMode) {
 
 TEST_P(AmbientFrames, GiveTheSameBitsForEveryThreadCount) {
   const Scene scene = corner_scene();
-  RenderSettings settings = occluded(GetParam());
-  const Image8 expected = draw(scene, settings).image;
+  render::RenderSettings settings = occluded(GetParam());
+  const base::Image8 expected = draw(scene, settings).image;
   for (const int threads : {1, 2, 3}) {
     settings.threads = threads;
     EXPECT_EQ(draw(scene, settings).image, expected) << threads;
@@ -137,10 +139,10 @@ TEST_P(AmbientFrames, GiveTheSameBitsForEveryThreadCount) {
 
 TEST_P(AmbientFrames, StopWhenAskedTo) {
   const Scene scene = corner_scene();
-  Renderer renderer = renderer_for(scene);
+  render::Renderer renderer = renderer_for(scene);
   StopFlag stop;
   stop.request();
-  FrameResult result;
+  render::FrameResult result;
   const auto drawn =
       renderer.render_frame(frame_of(scene, width, height), occluded(GetParam()), result, {}, &stop);
   ASSERT_FALSE(drawn);
@@ -150,17 +152,17 @@ TEST_P(AmbientFrames, StopWhenAskedTo) {
 
 TEST(AmbientSettings, NeedExactPoints) {
   const Scene scene = corner_scene();
-  RenderSettings settings = occluded(AoMode::rays);
-  settings.samples = SampleSource::depth;
-  Renderer renderer = renderer_for(scene);
-  FrameResult result;
+  render::RenderSettings settings = occluded(AoMode::rays);
+  settings.samples = render::SampleSource::depth;
+  render::Renderer renderer = renderer_for(scene);
+  render::FrameResult result;
   const auto drawn = renderer.render_frame(frame_of(scene, width, height), settings, result);
   ASSERT_FALSE(drawn);
   EXPECT_EQ(drawn.error().message,
             "samples from the depth buffer: ambient occlusion needs the exact points from triangle ids");
 }
 
-INSTANTIATE_TEST_SUITE_P(, AmbientFrames, testing::Values(AoMode::field, AoMode::rays),
+INSTANTIATE_TEST_SUITE_P(, AmbientFrames, ::testing::Values(AoMode::field, AoMode::rays),
                          [](const auto& mode) { return mode.param == AoMode::field ? "field" : "rays"; });
 
 }  // namespace

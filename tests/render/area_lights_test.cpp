@@ -10,21 +10,21 @@ namespace {
 using glm::dvec3;
 using glm::vec3;
 
-const SceneBox box{dvec3(-1, 0, -1), dvec3(3, 4, 1)};
+const render::SceneBox box{dvec3(-1, 0, -1), dvec3(3, 4, 1)};
 
 void expect_near(const dvec3& found, const dvec3& expected, double slack = 1e-6) {
   for (int i = 0; i < 3; ++i) EXPECT_NEAR(found[i], expected[i], slack) << i;
 }
 
-AreaLight made(const Light& light, const WorldLight& placed, const AreaLightSettings& settings) {
-  const auto area = area_light_of(light, placed, settings, box);
+AreaLight made(const Light& light, const WorldLight& placed, const render::AreaLightSettings& settings) {
+  const auto area = render::area_light_of(light, placed, settings, box);
   EXPECT_TRUE(area && *area) << (area ? "no polygon" : area.error().message);
   return area && *area ? **area : AreaLight{};
 }
 
 TEST(AreaLights, PointLightsFaceTheCentreOfTheSceneOrWhatIsAskedFor) {
   const WorldLight placed{.position = {1, 9, 0}};
-  AreaLightSettings settings{.size = {2, 0.5f}};
+  render::AreaLightSettings settings{.size = {2, 0.5f}};
   const AreaLight light = made({}, placed, settings);
   expect_near(light.normal, {0, -1, 0});
   expect_near(light.centre, {1, 9, 0});
@@ -36,7 +36,7 @@ TEST(AreaLights, PointLightsFaceTheCentreOfTheSceneOrWhatIsAskedFor) {
 }
 
 TEST(AreaLights, WidthIsLevelAndHeightIsNot) {
-  AreaLightSettings settings{.size = {2, 0.5f}};
+  render::AreaLightSettings settings{.size = {2, 0.5f}};
   settings.facing = vec3(0, 0, 9);
   const AreaLight light = made({}, {.position = {0, 0, 0}}, settings);
   double wide = 0, high = 0;
@@ -52,14 +52,14 @@ TEST(AreaLights, SpotsFaceWhereTheyShine) {
   Light spot;
   spot.type = LightType::spot;
   const WorldLight placed{.position = {1, 9, 0}, .direction = {0.6f, -0.8f, 0}};
-  AreaLightSettings settings{.size = {1, 1}};
+  render::AreaLightSettings settings{.size = {1, 1}};
   expect_near(made(spot, placed, settings).normal, {0.6, -0.8, 0});
   settings.facing = vec3(1, 0, 0);
   expect_near(made(spot, placed, settings).normal, {0, -1, 0});
 }
 
 TEST(AreaLights, PercentCountsTheDiagonal) {
-  const AreaLightSettings settings{.size = {50, 50}, .percent_of_diagonal = true};
+  const render::AreaLightSettings settings{.size = {50, 50}, .percent_of_diagonal = true};
   EXPECT_NEAR(made({}, {.position = {1, 9, 0}}, settings).area_m2, 0.25 * 36, 1e-5);  // diagonal: 6
 }
 
@@ -82,12 +82,12 @@ TEST(AreaLights, TheFilesOwnShapesKeepPlaceAndSideWhateverTheirHandedness) {
 
 TEST(AreaLights, NoSizeNoPolygonAndNoAreaASentence) {
   Light light;
-  EXPECT_FALSE(area_light_of(light, {}, {}, box).value());
+  EXPECT_FALSE(render::area_light_of(light, {}, {}, box).value());
   light.type = LightType::directional;
-  EXPECT_FALSE(area_light_of(light, {}, {.size = {1, 1}}, box).value());
+  EXPECT_FALSE(render::area_light_of(light, {}, {.size = {1, 1}}, box).value());
   light.type = LightType::area_rect;
   const WorldLight flat{.axis_x = {1, 0, 0}, .axis_y = {2, 0, 0}};
-  const auto refused = area_light_of(light, flat, {}, box);
+  const auto refused = render::area_light_of(light, flat, {}, box);
   ASSERT_FALSE(refused);
   EXPECT_NE(refused.error().message, "");
 }
@@ -96,12 +96,12 @@ TEST(AreaLights, BoxHoldsDrawnTrianglesOnly) {
   FrameGeometry geometry;
   geometry.positions = {{0, 0, 0}, {1, 0, 0}, {0, 2, 0}, {99, 99, 99}};
   geometry.triangles = {{0, 1, 2}, {0, 0, 0}};
-  const SceneBox found = box_of(geometry);
+  const render::SceneBox found = render::box_of(geometry);
   EXPECT_EQ(found.low, dvec3(0));
   EXPECT_EQ(found.high, dvec3(1, 2, 0));
   geometry.triangles = {{0, 0, 0}};
-  EXPECT_TRUE(box_of(geometry).empty());
-  EXPECT_EQ(box_of(geometry).diagonal_m(), 0.0);
+  EXPECT_TRUE(render::box_of(geometry).empty());
+  EXPECT_EQ(render::box_of(geometry).diagonal_m(), 0.0);
 }
 
 TEST(AreaLights, CastersInTheLightsPlaneAreLeftOut) {
@@ -117,11 +117,11 @@ TEST(AreaLights, CastersInTheLightsPlaneAreLeftOut) {
   };
   add(0.01f);
   std::vector<std::uint8_t> casters{7};
-  EXPECT_FALSE(casters_off_plane(geometry, light, casters));
+  EXPECT_FALSE(render::casters_off_plane(geometry, light, casters));
   EXPECT_EQ(casters, std::vector<std::uint8_t>{7});
   add(0);
   add(-0.01f);
-  EXPECT_TRUE(casters_off_plane(geometry, light, casters));
+  EXPECT_TRUE(render::casters_off_plane(geometry, light, casters));
   EXPECT_EQ(casters, (std::vector<std::uint8_t>{1, 0, 1}));
 }
 
@@ -138,7 +138,9 @@ struct Shining {
     scene.nodes[0].scale = scale;
     evaluate_frame(scene, -1, 0, geometry);
   }
-  std::vector<EmissivePolygon> polygons() { return emissive_polygons(scene, geometry, notes); }
+  std::vector<render::EmissivePolygon> polygons() {
+    return render::emissive_polygons(scene, geometry, notes);
+  }
 };
 
 TEST(EmissiveMeshes, QuadsShineToTheirFrontAlsoWhereMirrored) {

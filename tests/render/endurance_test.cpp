@@ -7,7 +7,7 @@
 
 #include <fstream>
 
-#include "import/import_scene.h"
+#include "formats/import_scene.h"
 #include "render/renderer.h"
 
 namespace tenebra {
@@ -23,9 +23,9 @@ std::int64_t resident_bytes() {
 // Ten instants of the scene's clip, drawn over and over.
 class Loop {
 public:
-  Loop(const Scene& scene, const RenderSettings& settings) : scene_(scene), settings_(settings) {}
+  Loop(const Scene& scene, const render::RenderSettings& settings) : scene_(scene), settings_(settings) {}
 
-  void draw(Renderer& renderer, int times) {
+  void draw(render::Renderer& renderer, int times) {
     for (int i = 0; i < times; ++i) {
       const double time_s =
           scene_.clips[0].start_s + (i % 10) * 0.1 * (scene_.clips[0].end_s - scene_.clips[0].start_s);
@@ -39,21 +39,22 @@ public:
 
 private:
   const Scene& scene_;
-  const RenderSettings settings_;
-  FrameInput input_;
-  FrameResult result_;
+  const render::RenderSettings settings_;
+  render::FrameInput input_;
+  render::FrameResult result_;
 };
 
 /// Draws `scene` over and over; a round that takes no more memory than the one before ends it.
-void expect_memory_stands_still(const char* file, const RenderSettings& settings, int frames_a_round) {
+void expect_memory_stands_still(const char* file, const render::RenderSettings& settings,
+                                int frames_a_round) {
 #if defined(__SANITIZE_ADDRESS__) || defined(__SANITIZE_THREAD__)
   GTEST_SKIP() << "sanitizers keep freed memory for a while and need memory of their own";
 #endif
-  const auto scene = import_scene(file);
+  const auto scene = formats::import_scene(file);
   ASSERT_TRUE(scene) << scene.error().message;
   auto context = gl::Context::create(gl::ContextKind::automatic);
   ASSERT_TRUE(context) << context.error().message;
-  auto renderer = Renderer::create(std::move(*context), *scene);
+  auto renderer = render::Renderer::create(std::move(*context), *scene);
   ASSERT_TRUE(renderer) << renderer.error().message;
   Loop loop(*scene, settings);
   loop.draw(*renderer, 20);  // buffers reach their sizes, threads and shaders are there
@@ -72,7 +73,7 @@ TEST(Endurance, FiftyMoreFramesTakeNoMoreMemory) {
 }
 
 TEST(Endurance, TwentyMoreFramesWithSoftShadowsTakeNoMoreMemory) {
-  RenderSettings settings{.width = 120, .height = 90, .shadows = ShadowMode::soft};
+  render::RenderSettings settings{.width = 120, .height = 90, .shadows = render::ShadowMode::soft};
   settings.area_lights = {.size = glm::vec2(2.0f), .percent_of_diagonal = true};
   expect_memory_stands_still(TENEBRA_SCENES_DIR "/city.glb", settings, 20);
 }

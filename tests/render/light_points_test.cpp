@@ -1,6 +1,6 @@
 // Area lights as a few points: where they lie, and that their shadows go to the exact ones as they grow.
 #include "render/light_points.h"
-#include "parallel/stop_flag.h"
+#include <tenebra/stop_flag.h>
 #include "render/render_fixture.h"
 
 namespace tenebra {
@@ -44,7 +44,7 @@ TEST(LightPoints, StandForEqualAreas) {
   constexpr int count = 256;
   for (const AreaLight& light : lights()) {
     std::vector<dvec2> places;
-    for (const vec3& p : points_on_light(light, count)) {
+    for (const vec3& p : render::points_on_light(light, count)) {
       const glm::dvec3 from = glm::dvec3(p) - light.centre;
       EXPECT_NEAR(glm::dot(from, light.normal), 0, 1e-6);
       places.emplace_back(glm::dot(from, light.ex), glm::dot(from, light.ey));
@@ -68,7 +68,7 @@ TEST(LightPoints, StandForEqualAreas) {
 TEST(LightPoints, LieOnTheLightHoweverFew) {
   for (const AreaLight& light : lights()) {
     for (const int count : {1, 2, 3, 7}) {
-      for (const vec3& p : points_on_light(light, count)) {
+      for (const vec3& p : render::points_on_light(light, count)) {
         const glm::dvec3 from = glm::dvec3(p) - light.centre;
         const dvec2 q(glm::dot(from, light.ex), glm::dot(from, light.ey));
         for (std::size_t i = 0; i < light.outline.size(); ++i) {
@@ -88,13 +88,13 @@ Scene panel_scene() {
   return scene;
 }
 
-FrameResult with_points(int count) {
-  RenderSettings settings{.width = 121, .height = 91, .shadows = ShadowMode::soft};
+render::FrameResult with_points(int count) {
+  render::RenderSettings settings{.width = 121, .height = 91, .shadows = render::ShadowMode::soft};
   settings.soft_points = count;
   return draw(panel_scene(), settings);
 }
 
-double rms(const ImageF& a, const ImageF& b) {
+double rms(const base::ImageF& a, const base::ImageF& b) {
   double sum = 0;
   for (std::size_t i = 0; i < a.pixels.size(); ++i)
     sum += std::pow(double(a.pixels[i]) - double(b.pixels[i]), 2);
@@ -102,13 +102,13 @@ double rms(const ImageF& a, const ImageF& b) {
 }
 
 TEST(LightPoints, GoToTheExactShadowAsTheyGrow) {
-  const FrameResult exact = with_points(0);
+  const render::FrameResult exact = with_points(0);
   const double few = rms(with_points(8).masks[0].visible_fraction, exact.masks[0].visible_fraction),
                many = rms(with_points(512).masks[0].visible_fraction, exact.masks[0].visible_fraction);
   EXPECT_GT(few, 0.005) << "eight steps are no penumbra";
   EXPECT_LT(many, few / 16) << "less than independent samples would gain by a factor of two";
   int farthest = 0;
-  const FrameResult near = with_points(512);
+  const render::FrameResult near = with_points(512);
   for (std::size_t i = 0; i < exact.image.pixels.size(); ++i)
     farthest = std::max(farthest, std::abs(near.image.pixels[i] - exact.image.pixels[i]));
   EXPECT_LE(farthest, 4) << "irradiance as well as fractions";
@@ -120,10 +120,10 @@ TEST(LightPoints, ShowAllOrNothingWhereTheLightShowsAllOrNothing) {
   Mesh wall{.name = "wall"};
   add_quad(wall, {-6, 0, -3}, {12, 0, 0}, {0, 8, 0});
   add_mesh(scene, std::move(wall));
-  RenderSettings settings{.width = 121, .height = 91, .shadows = ShadowMode::soft};
-  const FrameResult exact = draw(scene, settings);
+  render::RenderSettings settings{.width = 121, .height = 91, .shadows = render::ShadowMode::soft};
+  const render::FrameResult exact = draw(scene, settings);
   settings.soft_points = 8;
-  const FrameResult points = draw(scene, settings);
+  const render::FrameResult points = draw(scene, settings);
   std::size_t all = 0, nothing = 0;
   for (std::size_t i = 0; i < exact.masks[0].visible_fraction.pixels.size(); ++i) {
     const float fraction = exact.masks[0].visible_fraction.pixels[i];
@@ -136,7 +136,7 @@ TEST(LightPoints, ShowAllOrNothingWhereTheLightShowsAllOrNothing) {
 }
 
 TEST(LightPoints, GiveSoManySteps) {
-  const FrameResult result = with_points(8);
+  const render::FrameResult result = with_points(8);
   for (const float fraction : result.masks[0].visible_fraction.pixels)
     ASSERT_EQ(fraction * 8, std::round(fraction * 8));
   EXPECT_GT(result.stats.rays, 0u);
@@ -145,9 +145,9 @@ TEST(LightPoints, GiveSoManySteps) {
 }
 
 TEST(LightPoints, AreTheSameBitsWhateverDoesTheWork) {
-  RenderSettings settings{.width = 121, .height = 91, .shadows = ShadowMode::soft};
+  render::RenderSettings settings{.width = 121, .height = 91, .shadows = render::ShadowMode::soft};
   settings.soft_points = 5;
-  const Image8 expected = draw(panel_scene(), settings).image;
+  const base::Image8 expected = draw(panel_scene(), settings).image;
   for (const int threads : {1, 3}) {
     settings.threads = threads;
     for (const Variant variant : {Variant::tiles, Variant::precise_seatp}) {
@@ -159,12 +159,12 @@ TEST(LightPoints, AreTheSameBitsWhateverDoesTheWork) {
 
 TEST(LightPoints, StopWhenAsked) {
   const Scene scene = panel_scene();
-  Renderer renderer = renderer_for(scene);
-  RenderSettings settings{.width = 32, .height = 24, .shadows = ShadowMode::soft};
+  render::Renderer renderer = renderer_for(scene);
+  render::RenderSettings settings{.width = 32, .height = 24, .shadows = render::ShadowMode::soft};
   settings.soft_points = 1000;
   StopFlag stop;
   stop.request();
-  FrameResult result;
+  render::FrameResult result;
   const auto drawn = renderer.render_frame(frame_of(scene, 32, 24), settings, result, {}, &stop);
   ASSERT_FALSE(drawn);
   EXPECT_EQ(drawn.error().message, "stopped");

@@ -1,7 +1,7 @@
 // Only what a scene requires: what is skipped, and that the picture is the same bits as if it were not.
 #include <array>
 
-#include "import/import_scene.h"
+#include "formats/import_scene.h"
 #include "render/render_fixture.h"
 
 namespace tenebra {
@@ -10,21 +10,22 @@ namespace {
 constexpr int width = 120, height = 90;
 
 Scene bundled(const char* file) {
-  auto scene = import_scene(std::filesystem::path(TENEBRA_SCENES_DIR) / file);
+  auto scene = formats::import_scene(std::filesystem::path(TENEBRA_SCENES_DIR) / file);
   EXPECT_TRUE(scene) << scene.error().message;
   return scene ? std::move(*scene) : Scene{};
 }
 
-FrameInput frame_at(const Scene& scene, double time_s) {
-  FrameInput input;
+render::FrameInput frame_at(const Scene& scene, double time_s) {
+  render::FrameInput input;
   evaluate_frame(scene, 0, time_s, input.geometry);
   input.lights = evaluate_lights(scene, 0, time_s);
   input.view = evaluate_camera(scene, 0, time_s, 0, width, height);
   return input;
 }
 
-FrameResult drawn(Renderer& renderer, const FrameInput& input, const RenderSettings& settings) {
-  FrameResult result;
+render::FrameResult drawn(render::Renderer& renderer, const render::FrameInput& input,
+                          const render::RenderSettings& settings) {
+  render::FrameResult result;
   const auto done = renderer.render_frame(input, settings, result);
   EXPECT_TRUE(done) << done.error().message;
   return result;
@@ -35,13 +36,13 @@ TEST(Needs, ALightThatIsOffIsNotTraced) {
   Scene scene = white_floor(true);
   add_light(scene, {.name = "on", .falloff = Falloff::none, .intensity = 0.5f}, {1, 4, 0});
   add_light(scene, {.name = "off", .falloff = Falloff::none, .intensity = 0}, {-3, 5, 1});
-  for (const ShadowMode mode : {ShadowMode::hard, ShadowMode::soft}) {
-    RenderSettings settings{.width = width, .height = height, .shadows = mode};
+  for (const render::ShadowMode mode : {render::ShadowMode::hard, render::ShadowMode::soft}) {
+    render::RenderSettings settings{.width = width, .height = height, .shadows = mode};
     settings.area_lights.size = {1, 1};
     scene.lights[1].intensity = 0;
-    const FrameResult off = draw(scene, settings);
+    const render::FrameResult off = draw(scene, settings);
     scene.lights[1].intensity = 1e-30f;
-    const FrameResult faint = draw(scene, settings);
+    const render::FrameResult faint = draw(scene, settings);
     EXPECT_EQ(off.image, faint.image);
     EXPECT_EQ(off.masks.size(), 1u);
     EXPECT_EQ(faint.masks.size(), 2u);
@@ -52,15 +53,15 @@ TEST(Needs, ALightThatIsOffIsNotTraced) {
 TEST(Needs, WithoutShadowsAndOcclusionNoPointIsComputed) {
   Scene scene = white_floor(true);
   add_light(scene, {.name = "lamp", .falloff = Falloff::none, .intensity = 0.5f}, {1, 40, 0});
-  RenderSettings settings{.width = width, .height = height, .shadows = ShadowMode::none};
-  const FrameResult plain = draw(scene, settings);
+  render::RenderSettings settings{.width = width, .height = height, .shadows = render::ShadowMode::none};
+  const render::FrameResult plain = draw(scene, settings);
   EXPECT_EQ(plain.timings.points_ms, 0);
   EXPECT_EQ(plain.timings.readback_ms, 0);
   EXPECT_TRUE(plain.masks.empty());
-  settings.shadows = ShadowMode::hard;
+  settings.shadows = render::ShadowMode::hard;
   scene.nodes[0].mesh = -1;  // nothing there: the same sky with shadows as without
-  const FrameResult sky = draw(scene, settings);
-  settings.shadows = ShadowMode::none;
+  const render::FrameResult sky = draw(scene, settings);
+  settings.shadows = render::ShadowMode::none;
   EXPECT_EQ(sky.image, draw(scene, settings).image);
   EXPECT_EQ(sky.stats.rays, 0u);
   EXPECT_EQ(sky.stats.nodes, 0u);
@@ -71,25 +72,25 @@ TEST(Needs, WithoutShadowsAndOcclusionNoPointIsComputed) {
 // animation draws what a new one draws, and one that has just met every vertex elsewhere.
 TEST(Needs, WhatStandsIsNotRefitted) {
   const Scene scene = bundled("city.glb");
-  const RenderSettings settings{.width = width, .height = height};
+  const render::RenderSettings settings{.width = width, .height = height};
   const std::array times_s{1.0, 1.1, 2.5};
-  std::vector<Image8> followed;
+  std::vector<base::Image8> followed;
   {
-    Renderer kept = renderer_for(scene);
+    render::Renderer kept = renderer_for(scene);
     for (const double t : times_s) followed.push_back(drawn(kept, frame_at(scene, t), settings).image);
   }
   {
-    Renderer shaken = renderer_for(scene);
+    render::Renderer shaken = renderer_for(scene);
     for (std::size_t i = 0; i < times_s.size(); ++i) {
-      const FrameInput input = frame_at(scene, times_s[i]);
-      FrameInput moved = input;
+      const render::FrameInput input = frame_at(scene, times_s[i]);
+      render::FrameInput moved = input;
       for (glm::vec3& p : moved.geometry.positions) p.x += 7;
       drawn(shaken, moved, settings);
       EXPECT_EQ(drawn(shaken, input, settings).image, followed[i]) << times_s[i];
     }
   }
   for (std::size_t i = 0; i < times_s.size(); ++i) {
-    Renderer fresh = renderer_for(scene);
+    render::Renderer fresh = renderer_for(scene);
     EXPECT_EQ(drawn(fresh, frame_at(scene, times_s[i]), settings).image, followed[i]) << times_s[i];
   }
 }
@@ -97,15 +98,15 @@ TEST(Needs, WhatStandsIsNotRefitted) {
 // Sorted or not, in one pass or two, with a tree over the triangles or without.
 TEST(Needs, SortAndPassesChangeTheWorkAndNotThePicture) {
   const Scene scene = bundled("city.glb");
-  const FrameInput input = frame_at(scene, 5);
-  Renderer renderer = renderer_for(scene);
-  RenderSettings settings{.width = width, .height = height};
-  const Image8 expected = drawn(renderer, input, settings).image;
+  const render::FrameInput input = frame_at(scene, 5);
+  render::Renderer renderer = renderer_for(scene);
+  render::RenderSettings settings{.width = width, .height = height};
+  const base::Image8 expected = drawn(renderer, input, settings).image;
   std::uint64_t nodes[2] = {};
   for (const Variant variant : {Variant::precise, Variant::precise_sorted, Variant::precise_sea,
                                 Variant::precise_eatp, Variant::precise_seatp}) {
     settings.hard.variant = variant;
-    const FrameResult result = drawn(renderer, input, settings);
+    const render::FrameResult result = drawn(renderer, input, settings);
     EXPECT_EQ(result.image, expected) << variant_name(variant);
     if (variant == Variant::precise) nodes[0] = result.stats.nodes;
     if (variant == Variant::precise_sorted) nodes[1] = result.stats.nodes;
@@ -117,14 +118,14 @@ TEST(Needs, SortAndPassesChangeTheWorkAndNotThePicture) {
 TEST(Needs, PointsOutOfALightsReachGetNoRay) {
   Scene scene = white_floor(true);
   add_light(scene, {.name = "lamp", .falloff = Falloff::none, .intensity = 0.5f}, {1, 4, 0});
-  RenderSettings settings{.width = width, .height = height};
-  const FrameResult all = draw(scene, settings);
+  render::RenderSettings settings{.width = width, .height = height};
+  const render::FrameResult all = draw(scene, settings);
   scene.lights[0].range_m = 6.0f;
-  const FrameResult few = draw(scene, settings);
+  const render::FrameResult few = draw(scene, settings);
   EXPECT_LT(few.stats.rays, all.stats.rays);
   const auto &with_rays = all.masks[0].mask.pixels, &without = few.masks[0].mask.pixels;
-  settings.shadows = ShadowMode::none;
-  const Image8 lit = draw(scene, settings).image;
+  settings.shadows = render::ShadowMode::none;
+  const base::Image8 lit = draw(scene, settings).image;
   std::size_t spared = 0;
   for (std::size_t i = 0; i < without.size(); ++i) {
     ASSERT_LE(without[i], with_rays[i]) << "a ray less blocks nothing";
@@ -141,13 +142,13 @@ TEST(Needs, WhatLiesOutsideEveryShaftCostsNoCandidate) {
   Scene scene = white_floor(true);
   add_light(scene, {.name = "panel", .type = LightType::area_rect, .intensity = 4, .size_m = {1, 1}},
             {0, 3, 0}, facing_down);
-  RenderSettings settings{.width = width, .height = height, .shadows = ShadowMode::soft};
-  const FrameResult before = draw(scene, settings);
+  render::RenderSettings settings{.width = width, .height = height, .shadows = render::ShadowMode::soft};
+  const render::FrameResult before = draw(scene, settings);
   Mesh below{.name = "below the floor"};
   for (int i = 0; i < 500; ++i)
     add_quad(below, {0.03f * static_cast<float>(i) - 7, -2, 1}, {0.02f, 0, 0}, {0, 0, -2});
   add_mesh(scene, std::move(below));
-  const FrameResult after = draw(scene, settings);
+  const render::FrameResult after = draw(scene, settings);
   EXPECT_EQ(after.image, before.image);
   EXPECT_EQ(after.masks[0].visible_fraction.pixels, before.masks[0].visible_fraction.pixels);
   EXPECT_EQ(after.soft.candidates, before.soft.candidates);
@@ -158,27 +159,27 @@ TEST(Needs, WhatLiesOutsideEveryShaftCostsNoCandidate) {
 // Fields and samples are made when something visible needs them; those made for other views change no bit.
 TEST(Needs, OcclusionOfAViewDoesNotDependOnWhatWasSeenBefore) {
   const Scene scene = bundled("city.glb");
-  RenderSettings settings{.width = width, .height = height, .shadows = ShadowMode::none};
+  render::RenderSettings settings{.width = width, .height = height, .shadows = render::ShadowMode::none};
   settings.ao.mode = AoMode::field;
   settings.ao.rays = 16;
   settings.ao.positions = settings.ao.directions = 64;
-  const FrameInput here = frame_at(scene, 5);
-  FrameInput sky = here;
+  const render::FrameInput here = frame_at(scene, 5);
+  render::FrameInput sky = here;
   sky.view.d0 = {0, 1, 0}, sky.view.dx = {1e-4f, 0, 0}, sky.view.dy = {0, 0, 1e-4f};
   sky.view.eye.y += 1000;
-  FrameResult expected;
+  render::FrameResult expected;
   {
-    Renderer fresh = renderer_for(scene);
+    render::Renderer fresh = renderer_for(scene);
     expected = drawn(fresh, here, settings);
   }
   EXPECT_GT(expected.ao.fields_built, 0u);
-  Renderer travelled = renderer_for(scene);
-  const FrameResult nothing = drawn(travelled, sky, settings);
+  render::Renderer travelled = renderer_for(scene);
+  const render::FrameResult nothing = drawn(travelled, sky, settings);
   EXPECT_EQ(nothing.ao.fields_built, 0u) << "nobody sees where they would matter";
   EXPECT_EQ(nothing.ao.cache_cells, 0u);
-  const FrameResult elsewhere = drawn(travelled, frame_at(scene, 1), settings);
+  const render::FrameResult elsewhere = drawn(travelled, frame_at(scene, 1), settings);
   EXPECT_GT(elsewhere.ao.cache_cells, 0u);
-  const FrameResult again = drawn(travelled, here, settings);
+  const render::FrameResult again = drawn(travelled, here, settings);
   EXPECT_EQ(again.image, expected.image);
   EXPECT_GE(again.ao.cache_cells, expected.ao.cache_cells);
   EXPECT_EQ(drawn(travelled, here, settings).ao.fields_built, 0u) << "kept";

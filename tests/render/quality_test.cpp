@@ -6,36 +6,39 @@ namespace tenebra {
 namespace {
 
 TEST(Quality, NamesLeadBackToPresets) {
-  for (const Quality quality : qualities) EXPECT_EQ(quality_from_name(quality_name(quality)), quality);
-  for (const char* name : {"", "Fast", "best", "exact "}) EXPECT_EQ(quality_from_name(name), std::nullopt);
+  for (const render::Quality quality : render::qualities)
+    EXPECT_EQ(render::quality_from_name(render::quality_name(quality)), quality);
+  for (const char* name : {"", "Fast", "best", "exact "})
+    EXPECT_EQ(render::quality_from_name(name), std::nullopt);
 }
 
 TEST(Quality, SetsWhatItStandsFor) {
-  RenderSettings settings;
-  apply_quality(Quality::fast, settings);
+  render::RenderSettings settings;
+  render::apply_quality(render::Quality::fast, settings);
   EXPECT_EQ(settings.soft_points, 8);
   EXPECT_EQ(settings.ao.rays, 16);
   EXPECT_EQ(settings.ao.downscale, 2);
-  apply_quality(Quality::exact, settings);
+  render::apply_quality(render::Quality::exact, settings);
   EXPECT_EQ(settings.soft_points, 0);
   EXPECT_EQ(settings.ao.rays, 256);
   EXPECT_EQ(settings.ao.downscale, 1);
-  apply_quality(Quality::balanced, settings);
-  EXPECT_EQ(settings.soft_points, RenderSettings{}.soft_points);
+  render::apply_quality(render::Quality::balanced, settings);
+  EXPECT_EQ(settings.soft_points, render::RenderSettings{}.soft_points);
   EXPECT_EQ(settings.ao.rays, AoConfig{}.rays);
   EXPECT_EQ(settings.ao.downscale, AoConfig{}.downscale);
 }
 
 TEST(Quality, LeavesAlone) {
-  RenderSettings settings{.width = 7, .height = 5, .shadows = ShadowMode::soft, .light = 3, .exposure = 2};
+  render::RenderSettings settings{
+      .width = 7, .height = 5, .shadows = render::ShadowMode::soft, .light = 3, .exposure = 2};
   settings.hard.variant = Variant::spheres;
   settings.soft.solver = SoftSolver::bsp;
   settings.ao.mode = AoMode::rays;
   settings.ao.positions = 99;
-  for (const Quality quality : qualities) {
-    apply_quality(quality, settings);
+  for (const render::Quality quality : render::qualities) {
+    render::apply_quality(quality, settings);
     EXPECT_EQ(settings.width, 7);
-    EXPECT_EQ(settings.shadows, ShadowMode::soft);
+    EXPECT_EQ(settings.shadows, render::ShadowMode::soft);
     EXPECT_EQ(settings.light, 3);
     EXPECT_EQ(settings.exposure, 2);
     EXPECT_EQ(settings.hard.variant, Variant::spheres);
@@ -52,21 +55,21 @@ Scene plate_scene() {
   return scene;
 }
 
-Image8 picture(const RenderSettings& settings) {
+base::Image8 picture(const render::RenderSettings& settings) {
   return draw(plate_scene(), settings).image;
 }
 
 TEST(Quality, ExactAndBalancedShadowsHaveTheBitsOfTheDefault) {
-  for (const ShadowMode mode : {ShadowMode::hard, ShadowMode::soft}) {
-    RenderSettings settings{.width = 121, .height = 91, .shadows = mode};
+  for (const render::ShadowMode mode : {render::ShadowMode::hard, render::ShadowMode::soft}) {
+    render::RenderSettings settings{.width = 121, .height = 91, .shadows = mode};
     settings.area_lights.size = {1, 1};
-    const Image8 expected = picture(settings);
-    for (const Quality quality : {Quality::exact, Quality::balanced}) {
-      apply_quality(quality, settings);
-      EXPECT_EQ(picture(settings), expected) << quality_name(quality);
+    const base::Image8 expected = picture(settings);
+    for (const render::Quality quality : {render::Quality::exact, render::Quality::balanced}) {
+      render::apply_quality(quality, settings);
+      EXPECT_EQ(picture(settings), expected) << render::quality_name(quality);
     }
-    apply_quality(Quality::fast, settings);
-    if (mode == ShadowMode::hard) {
+    render::apply_quality(render::Quality::fast, settings);
+    if (mode == render::ShadowMode::hard) {
       EXPECT_EQ(picture(settings), expected) << "hard shadows are exact in every preset";
     } else {
       EXPECT_NE(picture(settings), expected) << "fast has steps";
@@ -75,10 +78,10 @@ TEST(Quality, ExactAndBalancedShadowsHaveTheBitsOfTheDefault) {
 }
 
 TEST(Quality, BalancedOcclusionHasTheBitsOfTheDefault) {
-  RenderSettings settings{.width = 81, .height = 61, .shadows = ShadowMode::none};
+  render::RenderSettings settings{.width = 81, .height = 61, .shadows = render::ShadowMode::none};
   settings.ao.mode = AoMode::field;
-  const Image8 expected = picture(settings);
-  apply_quality(Quality::balanced, settings);
+  const base::Image8 expected = picture(settings);
+  render::apply_quality(render::Quality::balanced, settings);
   EXPECT_EQ(picture(settings), expected);
 }
 

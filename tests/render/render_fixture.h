@@ -46,26 +46,26 @@ inline Scene white_floor(bool with_plate) {
   return scene;
 }
 
-inline FrameInput frame_of(const Scene& scene, int width, int height, glm::vec3 eye = {0, 8, 8}) {
-  FrameInput input;
+inline render::FrameInput frame_of(const Scene& scene, int width, int height, glm::vec3 eye = {0, 8, 8}) {
+  render::FrameInput input;
   evaluate_frame(scene, -1, 0, input.geometry);
   input.lights = evaluate_lights(scene, -1, 0);
   input.view = look_at(eye, {0, 0, 0}, {0, 1, 0}, 0.8f, 0.1f, width, height);
   return input;
 }
 
-inline Renderer renderer_for(const Scene& scene, gl::ContextKind kind = gl::ContextKind::automatic) {
+inline render::Renderer renderer_for(const Scene& scene, gl::ContextKind kind = gl::ContextKind::automatic) {
   auto context = gl::Context::create(kind);
   EXPECT_TRUE(context) << context.error().message;
-  auto renderer = Renderer::create(std::move(*context), scene);
+  auto renderer = render::Renderer::create(std::move(*context), scene);
   EXPECT_TRUE(renderer) << renderer.error().message;
   return std::move(*renderer);
 }
 
-inline FrameResult draw(const Scene& scene, const RenderSettings& settings,
-                        gl::ContextKind kind = gl::ContextKind::automatic) {
-  Renderer renderer = renderer_for(scene, kind);
-  FrameResult result;
+inline render::FrameResult draw(const Scene& scene, const render::RenderSettings& settings,
+                                gl::ContextKind kind = gl::ContextKind::automatic) {
+  render::Renderer renderer = renderer_for(scene, kind);
+  render::FrameResult result;
   const auto drawn =
       renderer.render_frame(frame_of(scene, settings.width, settings.height), settings, result);
   EXPECT_TRUE(drawn) << drawn.error().message;

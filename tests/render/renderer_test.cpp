@@ -25,7 +25,7 @@ Scene plate_over_floor() {
   return scene;
 }
 
-int count_of(const Image8& mask, int value) {
+int count_of(const base::Image8& mask, int value) {
   return static_cast<int>(std::count(mask.pixels.begin(), mask.pixels.end(), value));
 }
 
@@ -33,9 +33,9 @@ int count_of(const Image8& mask, int value) {
 // < 1.25.
 TEST(Renderer, ShadowOfAPlateIsWhereGeometryPutsIt) {
   const Scene scene = plate_over_floor();
-  const RenderSettings settings{.width = 160, .height = 120, .light = 0};
-  const FrameResult result = draw(scene, settings);
-  const FrameInput input = frame_of(scene, 160, 120);
+  const render::RenderSettings settings{.width = 160, .height = 120, .light = 0};
+  const render::FrameResult result = draw(scene, settings);
+  const render::FrameInput input = frame_of(scene, 160, 120);
   ASSERT_EQ(result.masks.size(), 1u);
   int inside = 0, outside = 0;
   for (int y = 0; y < 120; ++y) {
@@ -60,9 +60,9 @@ TEST(Renderer, ShadowOfAPlateIsWhereGeometryPutsIt) {
 
 TEST(Renderer, MasksAndPicturesAreTheSameFromEglAndOsmesa) {
   const Scene scene = plate_over_floor();
-  const RenderSettings settings{.width = 161, .height = 97};
-  const FrameResult egl = draw(scene, settings, gl::ContextKind::egl),
-                    osmesa = draw(scene, settings, gl::ContextKind::osmesa);
+  const render::RenderSettings settings{.width = 161, .height = 97};
+  const render::FrameResult egl = draw(scene, settings, gl::ContextKind::egl),
+                            osmesa = draw(scene, settings, gl::ContextKind::osmesa);
   EXPECT_EQ(egl.image, osmesa.image);
   ASSERT_EQ(egl.masks.size(), 2u);
   ASSERT_EQ(osmesa.masks.size(), 2u);
@@ -71,8 +71,8 @@ TEST(Renderer, MasksAndPicturesAreTheSameFromEglAndOsmesa) {
 
 TEST(Renderer, EveryVariantAndThreadCountDrawsTheSamePicture) {
   const Scene scene = plate_over_floor();
-  RenderSettings settings{.width = 161, .height = 97};
-  const FrameResult expected = draw(scene, settings);
+  render::RenderSettings settings{.width = 161, .height = 97};
+  const render::FrameResult expected = draw(scene, settings);
   for (const char* name : {"Tiles", "Precise", "PreciseSorted", "Spheres", "SpheresSorted", "PreciseSEA",
                            "PreciseEATP", "PreciseSEATP"}) {
     settings.hard.variant = *variant_from_name(name);
@@ -83,11 +83,11 @@ TEST(Renderer, EveryVariantAndThreadCountDrawsTheSamePicture) {
 
 TEST(Renderer, WithoutShadowsTheLightReachesAll) {
   const Scene scene = plate_over_floor();
-  RenderSettings settings{.width = 80, .height = 60, .shadows = ShadowMode::none};
-  const FrameResult lit = draw(scene, settings);
+  render::RenderSettings settings{.width = 80, .height = 60, .shadows = render::ShadowMode::none};
+  const render::FrameResult lit = draw(scene, settings);
   EXPECT_TRUE(lit.masks.empty());
-  settings.shadows = ShadowMode::hard;
-  const FrameResult shadowed = draw(scene, settings);
+  settings.shadows = render::ShadowMode::hard;
+  const render::FrameResult shadowed = draw(scene, settings);
   int darker = 0;
   for (std::size_t i = 0; i < lit.image.pixels.size(); ++i) {
     ASSERT_LE(shadowed.image.pixels[i], lit.image.pixels[i]);
@@ -101,13 +101,13 @@ TEST(Renderer, WithoutShadowsTheLightReachesAll) {
 // none.
 TEST(Renderer, DepthSamplesComeFromTheDepthBuffer) {
   const Scene scene = plate_over_floor();
-  RenderSettings settings{.width = 160, .height = 120, .light = 0};
-  settings.samples = SampleSource::depth;
-  const FrameResult depth = draw(scene, settings);
+  render::RenderSettings settings{.width = 160, .height = 120, .light = 0};
+  settings.samples = render::SampleSource::depth;
+  const render::FrameResult depth = draw(scene, settings);
   settings.hard.cull_front = true;
-  const FrameResult culled = draw(scene, settings);
-  settings.samples = SampleSource::ids;
-  const FrameResult ids = draw(scene, settings);
+  const render::FrameResult culled = draw(scene, settings);
+  settings.samples = render::SampleSource::ids;
+  const render::FrameResult ids = draw(scene, settings);
   EXPECT_EQ(count_of(ids.masks[0].mask, 255), count_of(culled.masks[0].mask, 255));
   // Without culling and without ids a good part of the surfaces shadows itself: the acne that ids do away
   // with.
@@ -116,8 +116,8 @@ TEST(Renderer, DepthSamplesComeFromTheDepthBuffer) {
 
 TEST(Renderer, RefusesALightThatTheSceneLacks) {
   const Scene scene = plate_over_floor();
-  Renderer renderer = renderer_for(scene);
-  FrameResult result;
+  render::Renderer renderer = renderer_for(scene);
+  render::FrameResult result;
   const auto drawn =
       renderer.render_frame(frame_of(scene, 8, 8), {.width = 8, .height = 8, .light = 2}, result);
   ASSERT_FALSE(drawn);

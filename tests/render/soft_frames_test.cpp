@@ -1,7 +1,7 @@
 // Frames with soft shadows: pictures against closed forms, masks against geometry.
 #include <cstdint>
 
-#include "parallel/stop_flag.h"
+#include <tenebra/stop_flag.h>
 #include "render/render_fixture.h"
 
 namespace tenebra {
@@ -10,7 +10,7 @@ namespace {
 using glm::vec3;
 
 constexpr int width = 121, height = 91;
-const RenderSettings soft{.width = width, .height = height, .shadows = ShadowMode::soft};
+const render::RenderSettings soft{.width = width, .height = height, .shadows = render::ShadowMode::soft};
 
 Light rectangle_light(float nits, glm::vec2 size) {
   return {.name = "panel", .type = LightType::area_rect, .intensity = nits, .size_m = size};
@@ -19,15 +19,15 @@ Light point_light(float intensity, Falloff falloff = Falloff::inverse_square) {
   return {.name = "lamp", .type = LightType::point, .falloff = falloff, .intensity = intensity};
 }
 
-RenderSettings with_size(glm::vec2 size) {
-  RenderSettings settings = soft;
+render::RenderSettings with_size(glm::vec2 size) {
+  render::RenderSettings settings = soft;
   settings.area_lights.size = size;
   return settings;
 }
 
 /// Compares every pixel that sees the floor with the linear value of `expected(point on the floor)`.
 template <class Expected>
-void expect_floor(const FrameResult& result, const ViewRays& view, Expected expected) {
+void expect_floor(const render::FrameResult& result, const ViewRays& view, Expected expected) {
   int seen = 0;
   for (int y = 0; y < height; ++y) {
     for (int x = 0; x < width; ++x) {
@@ -51,7 +51,7 @@ double below_panel(const glm::dvec3& p) {
 TEST(SoftFrames, AFloorUnderARectangleHasTheIrradianceOfItsFormFactor) {
   Scene scene = white_floor(false);
   add_light(scene, rectangle_light(4, {2, 1}), {0, 3, 0}, facing_down);
-  const FrameResult result = draw(scene, soft);
+  const render::FrameResult result = draw(scene, soft);
   const double pi = std::acos(-1.0);
   // Below the centre: four corners with a = 1/3 and b = 1/6, by hand.
   EXPECT_NEAR(below_panel({0, 0, 0}) / pi, 4 * (0.049588 + 0.052230) / (2 * pi), 1e-5);
@@ -63,7 +63,7 @@ TEST(SoftFrames, AFloorUnderARectangleHasTheIrradianceOfItsFormFactor) {
 TEST(SoftFrames, APointLightMadeARectangleKeepsItsFlux) {
   Scene scene = white_floor(false);
   add_light(scene, point_light(8), {0, 3, 0});
-  const FrameResult result = draw(scene, with_size({2, 1}));
+  const render::FrameResult result = draw(scene, with_size({2, 1}));
   expect_floor(result, frame_of(scene, width, height).view, [&](const glm::dvec3& p) {
     return 8.0 / 2.0 * below_panel(p) / std::acos(-1.0);  // radiance = intensity / area
   });
@@ -72,7 +72,7 @@ TEST(SoftFrames, APointLightMadeARectangleKeepsItsFlux) {
 TEST(SoftFrames, ALightWithoutFalloffIsScaledByItsDistance) {
   Scene scene = white_floor(false);
   add_light(scene, point_light(0.7f, Falloff::none), {0, 3, 0});
-  const FrameResult result = draw(scene, with_size({2, 1}));
+  const render::FrameResult result = draw(scene, with_size({2, 1}));
   expect_floor(result, frame_of(scene, width, height).view, [&](const glm::dvec3& p) {
     const double squared = p.x * p.x + 9 + p.z * p.z;
     return 0.7 * squared / 2.0 * below_panel(p);
@@ -82,7 +82,7 @@ TEST(SoftFrames, ALightWithoutFalloffIsScaledByItsDistance) {
 TEST(SoftFrames, PercentMeansTheDiagonalOfTheScene) {
   Scene scene = white_floor(false);
   add_light(scene, point_light(8), {0, 3, 0});
-  RenderSettings percent = with_size({5, 2.5f});
+  render::RenderSettings percent = with_size({5, 2.5f});
   percent.area_lights.percent_of_diagonal = true;
   const float diagonal = std::sqrt(800.0f);
   EXPECT_EQ(draw(scene, percent).image, draw(scene, with_size({0.05f * diagonal, 0.025f * diagonal})).image);
@@ -93,10 +93,10 @@ TEST(SoftFrames, PercentMeansTheDiagonalOfTheScene) {
 TEST(SoftFrames, TheVisiblePartOfTheLightIsWhatGeometrySays) {
   Scene scene = white_floor(true);
   add_light(scene, rectangle_light(1, {1, 1}), {0, 5, 0}, facing_down);
-  const FrameResult result = draw(scene, soft);
+  const render::FrameResult result = draw(scene, soft);
   const ViewRays view = frame_of(scene, width, height).view;
   ASSERT_EQ(result.masks.size(), 1u);
-  const LightMask& mask = result.masks[0];
+  const render::LightMask& mask = result.masks[0];
   ASSERT_EQ(mask.visible_fraction.pixels.size(), std::size_t(width) * height);
   int lit = 0, dark = 0, penumbra = 0;
   for (int y = 0; y < height; ++y) {
@@ -127,9 +127,9 @@ TEST(SoftFrames, SmallLightsTendToHardShadows) {
   for (const Falloff falloff : {Falloff::inverse_square, Falloff::none}) {
     Scene scene = white_floor(true);
     add_light(scene, point_light(falloff == Falloff::none ? 0.6f : 5e5f, falloff), {0, 500, 0});
-    RenderSettings hard = soft;
-    hard.shadows = ShadowMode::hard;
-    const FrameResult by_area = draw(scene, with_size({1, 1})), by_point = draw(scene, hard);
+    render::RenderSettings hard = soft;
+    hard.shadows = render::ShadowMode::hard;
+    const render::FrameResult by_area = draw(scene, with_size({1, 1})), by_point = draw(scene, hard);
     int different = 0;
     for (std::size_t i = 0; i < by_area.image.pixels.size(); ++i) {
       different += std::abs(by_area.image.pixels[i] - by_point.image.pixels[i]) > 1;
@@ -144,13 +144,13 @@ TEST(SoftFrames, EachOfSeveralLightsHasItsOwnShadow) {
   add_light(scene, rectangle_light(2, {1, 1}), {0, 5, 0}, facing_down);
   add_light(scene, rectangle_light(3, {2, 0.5f}), {3, 4, 0}, facing_down);
   add_light(scene, point_light(5), {-3, 4, 1});
-  const FrameResult all = draw(scene, with_size({1, 0.5f}));
+  const render::FrameResult all = draw(scene, with_size({1, 0.5f}));
   ASSERT_EQ(all.masks.size(), 3u);
   std::vector<double> sum(all.image.pixels.size());
   for (int light = 0; light < 3; ++light) {
-    RenderSettings one = with_size({1, 0.5f});
+    render::RenderSettings one = with_size({1, 0.5f});
     one.light = light;
-    const FrameResult single = draw(scene, one);
+    const render::FrameResult single = draw(scene, one);
     ASSERT_EQ(single.masks.size(), 1u);
     EXPECT_EQ(single.masks[0].light, light);
     EXPECT_EQ(single.masks[0].visible_fraction, all.masks[static_cast<std::size_t>(light)].visible_fraction);
@@ -167,11 +167,11 @@ TEST(SoftFrames, EachOfSeveralLightsHasItsOwnShadow) {
 TEST(SoftFrames, TheSameBitsForEveryThreadCount) {
   Scene scene = white_floor(true);
   add_light(scene, rectangle_light(2, {1, 1}), {0.3f, 5, 0.1f}, facing_down);
-  const FrameResult expected = draw(scene, soft);
+  const render::FrameResult expected = draw(scene, soft);
   for (const int threads : {1, 2, 3, 7}) {
-    RenderSettings settings = soft;
+    render::RenderSettings settings = soft;
     settings.threads = threads;
-    const FrameResult found = draw(scene, settings);
+    const render::FrameResult found = draw(scene, settings);
     EXPECT_EQ(found.image, expected.image) << threads;
     EXPECT_EQ(found.masks[0].visible_fraction, expected.masks[0].visible_fraction) << threads;
   }
@@ -180,11 +180,11 @@ TEST(SoftFrames, TheSameBitsForEveryThreadCount) {
 TEST(SoftFrames, EverySolverGivesTheSamePicture) {
   Scene scene = white_floor(true);
   add_light(scene, rectangle_light(2, {1, 1}), {0.3f, 5, 0.1f}, facing_down);
-  const FrameResult expected = draw(scene, soft);
+  const render::FrameResult expected = draw(scene, soft);
   for (const SoftSolver solver : {SoftSolver::automatic, SoftSolver::bsp, SoftSolver::clip}) {
-    RenderSettings settings = soft;
+    render::RenderSettings settings = soft;
     settings.soft.solver = solver;
-    const FrameResult found = draw(scene, settings);
+    const render::FrameResult found = draw(scene, settings);
     for (std::size_t i = 0; i < expected.image.pixels.size(); ++i) {
       ASSERT_NEAR(found.image.pixels[i], expected.image.pixels[i], 1) << i;
     }
@@ -195,23 +195,24 @@ TEST(SoftFrames, LightsWithoutASizeKeepHardShadowsAndAreNamedOnce) {
   Scene scene = white_floor(true);
   add_light(scene, point_light(30), {0, 5, 0});
   add_light(scene, {.name = "sun", .type = LightType::directional}, {0, 5, 0}, facing_down);
-  Renderer renderer = renderer_for(scene);
-  const FrameInput input = frame_of(scene, width, height);
-  FrameResult result;
+  render::Renderer renderer = renderer_for(scene);
+  const render::FrameInput input = frame_of(scene, width, height);
+  render::FrameResult result;
   ASSERT_TRUE(renderer.render_frame(input, soft, result));
   ASSERT_EQ(result.notes.size(), 2u);
-  EXPECT_EQ(result.notes[0],
-            "light 0 (lamp) is a point and keeps hard shadows, until --light-size or --set-light gives it a size");
+  EXPECT_EQ(
+      result.notes[0],
+      "light 0 (lamp) is a point and keeps hard shadows, until --light-size or --set-light gives it a size");
   EXPECT_EQ(result.notes[1], "light 1 (sun) is directional and keeps hard shadows, for it has no size");
-  const Image8 image = result.image;
-  for (const LightMask& mask : result.masks) {
+  const base::Image8 image = result.image;
+  for (const render::LightMask& mask : result.masks) {
     ASSERT_EQ(mask.visible_fraction.pixels.size(), mask.mask.pixels.size());
     for (std::size_t i = 0; i < mask.mask.pixels.size(); ++i) {
       ASSERT_EQ(mask.visible_fraction.pixels[i], mask.mask.pixels[i] / 255.0f);
     }
   }
-  RenderSettings hard = soft;
-  hard.shadows = ShadowMode::hard;
+  render::RenderSettings hard = soft;
+  hard.shadows = render::ShadowMode::hard;
   ASSERT_TRUE(renderer.render_frame(input, soft, result));
   EXPECT_TRUE(result.notes.empty());
   ASSERT_TRUE(renderer.render_frame(input, hard, result));
@@ -229,9 +230,9 @@ Mesh panel(std::uint32_t material) {
 TEST(SoftFrames, TheFaceOfALampDoesNotHideItsLight) {
   Scene scene = white_floor(true);
   add_light(scene, rectangle_light(4, {2, 1}), {0, 3, 0}, facing_down);
-  const FrameResult bare = draw(scene, soft);
+  const render::FrameResult bare = draw(scene, soft);
   add_mesh(scene, panel(0));  // casts, and lies in the light
-  const FrameResult faced = draw(scene, soft);
+  const render::FrameResult faced = draw(scene, soft);
   const ViewRays view = frame_of(scene, width, height).view;
   int compared = 0;
   for (int y = 0; y < height; ++y) {
@@ -250,11 +251,11 @@ TEST(SoftFrames, EmissiveQuadsShineWhenAskedTo) {
   Scene scene = white_floor(false);
   scene.materials.push_back({.name = "glow", .base_color = vec3(0.0f), .emissive = vec3(4.0f)});
   add_mesh(scene, panel(1));
-  RenderSettings settings = soft;
-  const FrameResult without = draw(scene, settings);
+  render::RenderSettings settings = soft;
+  const render::FrameResult without = draw(scene, settings);
   EXPECT_TRUE(without.masks.empty());
   settings.area_lights.emissive_quads = true;
-  const FrameResult result = draw(scene, settings);
+  const render::FrameResult result = draw(scene, settings);
   ASSERT_EQ(result.masks.size(), 1u);
   EXPECT_EQ(result.masks[0].light, 0);
   const ViewRays view = frame_of(scene, width, height).view;
@@ -274,10 +275,10 @@ TEST(SoftFrames, AnEmissiveFaceOfAnAreaLightCountsOnce) {
   scene.materials.push_back({.name = "glow", .base_color = vec3(0.0f), .emissive = vec3(4.0f)});
   add_mesh(scene, panel(1));
   add_light(scene, rectangle_light(4, {2, 1}), {0, 3, 0}, facing_down);
-  RenderSettings settings = soft;
-  const FrameResult expected = draw(scene, settings);
+  render::RenderSettings settings = soft;
+  const render::FrameResult expected = draw(scene, settings);
   settings.area_lights.emissive_quads = true;
-  const FrameResult found = draw(scene, settings);
+  const render::FrameResult found = draw(scene, settings);
   EXPECT_EQ(found.image, expected.image);
   EXPECT_EQ(found.notes,
             std::vector<std::string>{"mesh lamp face is the face of an area light and counts once"});
@@ -286,11 +287,11 @@ TEST(SoftFrames, AnEmissiveFaceOfAnAreaLightCountsOnce) {
 TEST(SoftFrames, RefusesWhatItCannotDo) {
   Scene scene = white_floor(true);
   add_light(scene, rectangle_light(4, {2, 1}), {0, 3, 0}, facing_down);
-  Renderer renderer = renderer_for(scene);
-  const FrameInput input = frame_of(scene, width, height);
-  FrameResult result;
-  RenderSettings depth = soft;
-  depth.samples = SampleSource::depth;
+  render::Renderer renderer = renderer_for(scene);
+  const render::FrameInput input = frame_of(scene, width, height);
+  render::FrameResult result;
+  render::RenderSettings depth = soft;
+  depth.samples = render::SampleSource::depth;
   const auto from_depth = renderer.render_frame(input, depth, result);
   ASSERT_FALSE(from_depth);
   EXPECT_EQ(from_depth.error().message,
@@ -306,10 +307,10 @@ TEST(SoftFrames, RefusesWhatItCannotDo) {
 TEST(SoftFrames, NothingSeenAndNothingLitAreFrames) {
   Scene scene = white_floor(true);
   add_light(scene, rectangle_light(4, {2, 1}), {0, 3, 0}, facing_down);
-  Renderer renderer = renderer_for(scene);
-  FrameInput input = frame_of(scene, width, height);
+  render::Renderer renderer = renderer_for(scene);
+  render::FrameInput input = frame_of(scene, width, height);
   input.view = look_at({0, 8, 8}, {0, 16, 16}, {0, 1, 0}, 0.8f, 0.1f, width, height);
-  FrameResult result;
+  render::FrameResult result;
   ASSERT_TRUE(renderer.render_frame(input, soft, result));
   EXPECT_EQ(*std::max_element(result.masks[0].mask.pixels.begin(), result.masks[0].mask.pixels.end()), 0);
   input.lights.clear();

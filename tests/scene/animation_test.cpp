@@ -4,7 +4,7 @@
 #include <array>
 #include <cmath>
 
-#include "scene/animation.h"
+#include <tenebra/animation.h>
 
 namespace tenebra {
 namespace {

@@ -1,6 +1,6 @@
 // One instant of small scenes: hierarchies, mirrors, skins, morph targets, lights, cameras, and their
 // extremes.
-#include "scene/frame_geometry.h"
+#include <tenebra/frame_geometry.h>
 
 #include <gtest/gtest.h>
 

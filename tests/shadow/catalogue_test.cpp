@@ -1,5 +1,6 @@
 // Rows A to E of the catalogue of reliability.md that touch triangles, light, view, cones and numbers: a
 // hand-made or generated case a row, against the oracle.
+#include <fmt/core.h>
 #include <gtest/gtest.h>
 
 #include <algorithm>
@@ -52,8 +53,8 @@ TEST(ShadowMask, CatalogueA_CoplanarTJunctionsInterpenetrating) {
   expect_exact("interpenetrating", interpenetrating(random, 100), point_light(up_there));
 }
 
-// A needle's plane is so uncertain that a point computed on it may lie behind it by more than any tolerance: what
-// counts is that its own triangle never blocks it, neither ray by ray nor by early accept.
+// A needle's plane is so uncertain that a point computed on it may lie behind it by more than any tolerance:
+// what counts is that its own triangle never blocks it, neither ray by ray nor by early accept.
 TEST(ShadowMask, OwnTriangleNeverBlocksAPointBehindIt) {
   Random random(27);
   MaskCase c;

@@ -1,5 +1,6 @@
 // The mask is the exact answer: random and adversarial soups, lights where they hurt, views and chosen
 // points.
+#include <fmt/core.h>
 #include <gtest/gtest.h>
 
 #include "shadow/mask_case.h"

@@ -6,8 +6,8 @@
 #include <algorithm>
 #include <cmath>
 
+#include <tenebra/hard_shadows.h>
 #include "parallel/parallel.h"
-#include "shadow/mask.h"
 #include "support/seeded_random.h"
 
 namespace tenebra {
@@ -98,7 +98,7 @@ INSTANTIATE_TEST_SUITE_P(Units, FloatSettings, ::testing::Values(0, -128),
 TEST(FloatEnvironment, HoldsIeeeDefaultsAndGivesTheCallersBack) {
   const CallerSettings caller(all_of_them);
   {
-    const FloatEnvironment ieee;
+    const parallel::FloatEnvironment ieee;
     EXPECT_EQ(_mm_getcsr() & ~flags, to_nearest);
   }
   EXPECT_EQ(_mm_getcsr() & ~flags, all_of_them);
@@ -109,13 +109,14 @@ TEST(FloatEnvironment, EveryLoopBodyHasIeeeDefaults) {
   for (const int threads : {0, 1, 4}) {
     std::vector<unsigned> seen(1000, 0);
     with_threads(threads, [&] {
-      parallel_ranges(seen.size(), 1,
-                      [&](std::size_t first, std::size_t) { seen[first] = _mm_getcsr() & ~flags; });
+      parallel::parallel_ranges(seen.size(), 1,
+                                [&](std::size_t first, std::size_t) { seen[first] = _mm_getcsr() & ~flags; });
     });
     EXPECT_EQ(std::count(seen.begin(), seen.end(), to_nearest), 1000) << threads;
     seen.assign(seen.size(), 0);
     with_threads(threads, [&] {
-      parallel_tasks(1000, [&](int i) { seen[static_cast<std::size_t>(i)] = _mm_getcsr() & ~flags; });
+      parallel::parallel_tasks(1000,
+                               [&](int i) { seen[static_cast<std::size_t>(i)] = _mm_getcsr() & ~flags; });
     });
     EXPECT_EQ(std::count(seen.begin(), seen.end(), to_nearest), 1000) << threads;
   }

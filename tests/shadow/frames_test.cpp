@@ -1,11 +1,12 @@
 // The mask is the exact answer on frames of the bundled and the BART scenes; and where Embree says otherwise,
 // Embree is wrong.
+#include <fmt/core.h>
 #include <gtest/gtest.h>
 
 #include <filesystem>
 #include <span>
 
-#include "import/import_scene.h"
+#include "formats/import_scene.h"
 #include "shadow/mask_case.h"
 
 namespace tenebra::testing {
@@ -40,7 +41,7 @@ std::filesystem::path path_of(const SceneFrame& frame) {
 /// One case a light; points of the frame's own camera.
 std::vector<MaskCase> frame_cases(const SceneFrame& frame, int width, int height) {
   std::vector<MaskCase> cases;
-  Expected<Scene> scene = import_scene(path_of(frame));
+  Expected<Scene> scene = formats::import_scene(path_of(frame));
   if (!scene) {
     ADD_FAILURE() << scene.error().message;
     return cases;

@@ -7,9 +7,9 @@
 #include <string>
 #include <vector>
 
+#include <tenebra/hard_shadows.h>
 #include "parallel/parallel.h"
 #include "reference/exact_mask.h"
-#include "shadow/mask.h"
 #include "support/samples.h"
 #include "support/soup.h"
 

@@ -6,8 +6,8 @@
 #include <array>
 #include <cmath>
 
-#include "shadow/decide.h"
-#include "shadow/traverse.h"
+#include "shadow/cone_tree/traverse.h"
+#include "shadow/decision/decide.h"
 #include "support/seeded_random.h"
 
 namespace tenebra {
@@ -17,22 +17,22 @@ using glm::dvec3;
 using glm::vec3;
 using testing::Random;
 
-constexpr int ray_count = 4 * packet_size;
+constexpr int ray_count = 4 * shadow::packet_size;
 
 // Sixty-four rays around `centre` as seen from the source, and one triangle aimed at them.
 struct Arrangement {
   std::vector<vec3> corners;
   std::vector<glm::uvec3> triangles{{0, 1, 2}};
   std::vector<dvec3> points;
-  ShadowRays rays;
-  RaySource source;
+  shadow::ShadowRays rays;
+  shadow::RaySource source;
 };
 
 Arrangement arrangement(Random& random, double spread, bool directional) {
   Arrangement a;
   const dvec3 axis = random.direction();
   ShadowLight light{.directional = directional, .position = vec3(random.in_cube(3)), .to_light = vec3(-axis)};
-  a.source = ray_source(light);
+  a.source = shadow::ray_source(light);
   const double distance = std::pow(10.0, random.in(-1, 1));
   const auto beside =
       [&](double wider) {  // a place `wider` times the spread away from the axis, as seen from the light
@@ -55,38 +55,40 @@ Arrangement arrangement(Random& random, double spread, bool directional) {
   return a;
 }
 
-void check(const Arrangement& a, const TraversalKernels& kernels, bool spheres) {
+void check(const Arrangement& a, const shadow::TraversalKernels& kernels, bool spheres) {
   const TriangleView view{a.corners, a.triangles, {}};
-  TriangleSet set;
-  build_triangle_set(view, ViewRays{.eye = {9, 9, 9}}, a.source, {.contact = ContactRule::none}, set);
+  shadow::TriangleSet set;
+  shadow::build_triangle_set(view, ViewRays{.eye = {9, 9, 9}}, a.source, {.contact = ContactRule::none}, set);
   if (set.planes.empty()) return;
-  ConeTree tree;
-  build_cone_tree(a.rays, a.points, a.source, SimdLevel::automatic, tree);
-  const Traversal traversal{{spheres, true, a.source.directional},
-                            &set,
-                            &a.rays,
-                            &tree,
-                            &a.source,
-                            &view,
-                            a.points,
-                            ContactRule::none};
+  shadow::ConeTree tree;
+  shadow::build_cone_tree(a.rays, a.points, a.source, SimdLevel::automatic, tree);
+  const shadow::Traversal traversal{{spheres, true, a.source.directional},
+                                    &set,
+                                    &a.rays,
+                                    &tree,
+                                    &a.source,
+                                    &view,
+                                    a.points,
+                                    ContactRule::none};
 
   TraceStats stats;
   std::vector<bool> blocked(ray_count);
   for (int i = 0; i < ray_count; ++i) {
-    blocked[i] = decide(set.planes[0], a.points[i], no_triangle, a.source, view, ContactRule::none, stats);
+    blocked[i] =
+        shadow::decide(set.planes[0], a.points[i], no_triangle, a.source, view, ContactRule::none, stats);
   }
   const std::uint32_t place = 0;
   for (std::size_t level = 0; level < 2; ++level) {
-    ConeTree fresh = tree;
-    Traversal on_fresh = traversal;
+    shadow::ConeTree fresh = tree;
+    shadow::Traversal on_fresh = traversal;
     on_fresh.tree = &fresh;
     std::uint32_t storage[4][2];
     std::uint32_t* out[4] = {storage[0], storage[1], storage[2], storage[3]};
     std::size_t size[4];
     kernels.filter(on_fresh, level, 0, {&place, 1}, out, size, stats);
     for (int lane = 0; lane < (level == 0 ? 4 : 1); ++lane) {
-      const int first = lane * packet_size, last = level == 0 ? first + packet_size : ray_count;
+      const int first = lane * shadow::packet_size,
+                last = level == 0 ? first + shadow::packet_size : ray_count;
       const auto hits = std::count(blocked.begin() + first, blocked.begin() + last, true);
       const bool covered = fresh.levels[level][0].c[lane] < 0;
       if (covered) {
@@ -103,20 +105,20 @@ struct RootVerdict {
 };
 
 // The root of the tree (level 1 has one node) against the arrangement's triangle.
-RootVerdict filter_once(const Arrangement& a, const TraversalKernels& kernels) {
+RootVerdict filter_once(const Arrangement& a, const shadow::TraversalKernels& kernels) {
   const TriangleView view{a.corners, a.triangles, {}};
-  TriangleSet set;
-  build_triangle_set(view, ViewRays{.eye = {9, 9, 9}}, a.source, {.contact = ContactRule::none}, set);
-  ConeTree tree;
-  build_cone_tree(a.rays, a.points, a.source, SimdLevel::automatic, tree);
-  const Traversal traversal{{false, true, a.source.directional},
-                            &set,
-                            &a.rays,
-                            &tree,
-                            &a.source,
-                            &view,
-                            a.points,
-                            ContactRule::none};
+  shadow::TriangleSet set;
+  shadow::build_triangle_set(view, ViewRays{.eye = {9, 9, 9}}, a.source, {.contact = ContactRule::none}, set);
+  shadow::ConeTree tree;
+  shadow::build_cone_tree(a.rays, a.points, a.source, SimdLevel::automatic, tree);
+  const shadow::Traversal traversal{{false, true, a.source.directional},
+                                    &set,
+                                    &a.rays,
+                                    &tree,
+                                    &a.source,
+                                    &view,
+                                    a.points,
+                                    ContactRule::none};
   const std::uint32_t place = 0;
   std::uint32_t storage[4][2];
   std::uint32_t* out[4] = {storage[0], storage[1], storage[2], storage[3]};
@@ -157,7 +159,7 @@ class NodeTests : public ::testing::TestWithParam<SimdLevel> {};
 
 TEST_P(NodeTests, NeverRejectABlockerNorAcceptAGap) {
   if (!simd_level_supported(GetParam())) GTEST_SKIP() << "this machine lacks " << simd_level_name(GetParam());
-  const TraversalKernels kernels = traversal_kernels(GetParam());
+  const shadow::TraversalKernels kernels = shadow::traversal_kernels(GetParam());
   for (const bool directional : {false, true}) {
     for (const double spread : {1e-6, 1e-4, 1e-2, 0.3, 1.0, 3.0, 30.0}) {
       for (const bool spheres : {false, true}) {
@@ -176,10 +178,10 @@ TEST_P(NodeTests, NeverRejectABlockerNorAcceptAGap) {
 // The other side of the bounds: not so cautious as to be of no use. Corners in units of the spread, across
 // the axis.
 RootVerdict verdict_on(double spread, bool directional, const std::array<glm::dvec2, 3>& corners,
-                       const TraversalKernels& kernels) {
+                       const shadow::TraversalKernels& kernels) {
   Random random(5);
   Arrangement a;
-  a.source = ray_source({.directional = directional, .position = {0, 0, 0}, .to_light = {0, 0, 1}});
+  a.source = shadow::ray_source({.directional = directional, .position = {0, 0, 0}, .to_light = {0, 0, 1}});
   for (int i = 0; i < ray_count; ++i) {
     a.points.push_back(10.0 * dvec3(spread * random.in(-0.7, 0.7), spread * random.in(-0.7, 0.7), -1));
     a.rays.pixels.push_back(static_cast<std::uint32_t>(i));
@@ -194,7 +196,7 @@ RootVerdict verdict_on(double spread, bool directional, const std::array<glm::dv
 TEST(NodeTestsSlack, ATriangleThatPassesBesideIsRejected) {
   for (const double spread : {1e-5, 1e-4, 1e-3, 1e-2, 0.1}) {
     for (const bool directional : {false, true}) {
-      const TraversalKernels kernels = traversal_kernels(SimdLevel::automatic);
+      const shadow::TraversalKernels kernels = shadow::traversal_kernels(SimdLevel::automatic);
       EXPECT_TRUE(verdict_on(spread, directional, {{{1.3, -3}, {4, 0}, {1.3, 3}}}, kernels).rejected)
           << spread << directional;
       EXPECT_TRUE(verdict_on(spread, directional, {{{-30, -1.3}, {30, -1.3}, {0, -40}}}, kernels).rejected)
@@ -208,7 +210,7 @@ TEST(NodeTestsSlack, ATriangleThatPassesBesideIsRejected) {
 TEST(NodeTestsSlack, TheTriangleShadowIsRejected) {
   for (const double spread : {1e-4, 1e-3, 1e-2, 0.1}) {
     for (const bool directional : {false, true}) {
-      const TraversalKernels kernels = traversal_kernels(SimdLevel::automatic);
+      const shadow::TraversalKernels kernels = shadow::traversal_kernels(SimdLevel::automatic);
       EXPECT_TRUE(verdict_on(spread, directional, {{{1.5, 0}, {40, 4}, {40, -4}}}, kernels).rejected)
           << spread << directional;
     }
@@ -218,7 +220,7 @@ TEST(NodeTestsSlack, TheTriangleShadowIsRejected) {
 TEST(NodeTestsSlack, ALargeTriangleInFrontCovers) {
   for (const double spread : {1e-5, 1e-4, 1e-3, 1e-2, 0.1}) {
     for (const bool directional : {false, true}) {
-      const TraversalKernels kernels = traversal_kernels(SimdLevel::automatic);
+      const shadow::TraversalKernels kernels = shadow::traversal_kernels(SimdLevel::automatic);
       EXPECT_TRUE(verdict_on(spread, directional, {{{-4, -3}, {4, -3}, {0, 5}}}, kernels).covered)
           << spread << directional;
     }

@@ -1,6 +1,8 @@
 // The oracle itself: hand cases, and against a second oracle that is slow and obvious.
+#include <fmt/core.h>
 #include <gtest/gtest.h>
 
+#include "points/contact_rule.h"
 #include "reference/dyadic.h"
 #include "reference/rational_mask.h"
 #include "shadow/mask_case.h"
@@ -158,8 +160,8 @@ TEST(Oracle, UsesTheSameContactHeightAsTheTracer) {
       for (int k = 0; k < 3; ++k) p[k] = static_cast<float>(random.power_of_two(-30, 30));
     const glm::dvec3 a(t[0]), b(t[1]), c(t[2]);
     const double tau = reference::vertex_rounding(a, b, c), other = tau * random.unit();
-    ASSERT_EQ(rounding_tolerance(t), tau) << "seed 3, case " << i;
-    ASSERT_EQ(contact_threshold(t, tau, other), reference::contact_height(a, b, c, tau + other))
+    ASSERT_EQ(points::rounding_tolerance(t), tau) << "seed 3, case " << i;
+    ASSERT_EQ(points::contact_threshold(t, tau, other), reference::contact_height(a, b, c, tau + other))
         << "case " << i;
   }
 }

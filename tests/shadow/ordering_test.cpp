@@ -4,8 +4,8 @@
 #include <cstdlib>
 #include <vector>
 
-#include "shadow/ray_kernels.h"
-#include "shadow/shadow_rays.h"
+#include "shadow/rays/ray_kernels.h"
+#include "shadow/rays/shadow_rays.h"
 #include "support/seeded_random.h"
 
 namespace tenebra {
@@ -20,7 +20,7 @@ std::uint32_t key_of_cell(int x, int y, SimdLevel simd) {
     dy[i] = (static_cast<float>(y) + 0.5f) / 8192 - 1;
     dz[i] = 1;
   }
-  ray_kernels(simd).direction_keys(dx, dy, dz, keys);
+  shadow::ray_kernels(simd).direction_keys(dx, dy, dz, keys);
   return keys[0];
 }
 
@@ -58,7 +58,7 @@ TEST(DirectionKeys, NameTheCubeFace) {
   std::uint32_t keys[16];
   for (const SimdLevel simd : levels) {
     if (!simd_level_supported(simd)) continue;
-    ray_kernels(simd).direction_keys(x, y, z, keys);
+    shadow::ray_kernels(simd).direction_keys(x, y, z, keys);
     for (int i = 0; i < 9; ++i) EXPECT_EQ(keys[i] >> 28, faces[i]) << i << ' ' << simd_level_name(simd);
   }
 }
@@ -70,8 +70,8 @@ TEST(RadixSort, EqualsAStableSortByKey) {
     for (auto& key : keys) key = (random.bits() % 5000) << 41 | (random.bits() & 0xffffffffu);
     std::vector<std::uint64_t> expected = keys;
     std::stable_sort(expected.begin(), expected.end(), [](auto a, auto b) { return a >> 32 < b >> 32; });
-    RayKeys scratch;
-    radix_sort(keys, scratch);
+    shadow::RayKeys scratch;
+    shadow::radix_sort(keys, scratch);
     EXPECT_EQ(keys, expected) << size;
   }
 }

@@ -15,7 +15,7 @@ TEST(Parallel, InOrderCallsEachOnceAndOnOneThreadInOrder) {
       std::vector<int> begun;
       std::mutex mutex;
       with_threads(threads, [&] {
-        parallel_in_order(count, [&](int i) {
+        parallel::parallel_in_order(count, [&](int i) {
           const std::lock_guard lock(mutex);
           begun.push_back(i);
         });

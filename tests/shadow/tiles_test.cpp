@@ -1,6 +1,8 @@
 // The variant Tiles beyond what all variants are tested for: buffers kept over moving frames, the order of
 // triangles, where the method does not apply, threads and instruction sets.
 
+#include <fmt/core.h>
+
 #include "shadow/mask_case.h"
 #include "shadow/tiles/cluster_order.h"
 #include "shadow/tiles/triangle_clusters.h"
@@ -210,8 +212,8 @@ TEST(ClusterOrder, HoldsEveryCasterOnce) {
   const std::vector<std::uint32_t> parts{0, 12, 100};
   TriangleView view = soup.view();
   view.parts = parts;
-  cluster_order(view, order);
-  EXPECT_EQ(order.size() % cluster_size, 0u);
+  shadow::cluster_order(view, order);
+  EXPECT_EQ(order.size() % shadow::cluster_size, 0u);
   std::vector<int> met(soup.triangles.size(), 0);
   for (const std::uint32_t id : order)
     if (id != no_triangle) ++met[id];

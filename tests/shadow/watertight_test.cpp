@@ -1,5 +1,6 @@
 // Closed bodies leak nothing, plain surfaces do not shadow themselves, and answers follow what is done to a
 // scene.
+#include <fmt/core.h>
 #include <gtest/gtest.h>
 
 #include "shadow/mask_case.h"

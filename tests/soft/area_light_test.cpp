@@ -1,4 +1,4 @@
-#include "soft/area_light.h"
+#include <tenebra/area_light.h>
 
 #include <gtest/gtest.h>
 

@@ -1,5 +1,6 @@
 // Rows A, B and E of the catalogue of reliability.md for lights and occluders: generated and hand-made cases,
 // every point against the oracle, in both precisions and by both solvers.
+#include <fmt/core.h>
 #include <gtest/gtest.h>
 
 #include <cfenv>

@@ -1,5 +1,5 @@
 // The candidates of a family of groups: which of them, and with which signs, are those of one group.
-#include "soft/family_candidates.h"
+#include "soft/occluders/family_candidates.h"
 
 #include <gtest/gtest.h>
 
@@ -15,10 +15,10 @@ Places copy_of(std::span<const std::uint32_t> places) {
 }
 
 /// Triangles 2, 5, 7 and 9, of which 5 and 7 are a pair.
-GroupCandidates with_pair() {
-  GroupCandidates all;
+soft::GroupCandidates with_pair() {
+  soft::GroupCandidates all;
   for (const std::uint32_t triangle : {2u, 5u, 7u, 9u}) {
-    Candidate c{};
+    soft::Candidate c{};
     c.triangle = triangle;
     c.sign = 1;
     all.all.push_back(c);
@@ -30,7 +30,7 @@ GroupCandidates with_pair() {
 const Places largest_first = {1, 0, 3};  ///< the pair stands for its second triangle
 
 TEST(FamilyCandidates, AreTheTrianglesOfAllGroupsOnceInOrder) {
-  FamilyCandidates family;
+  soft::FamilyCandidates family;
   family.add(Places{2, 7});
   family.add(Places{5, 7, 9});
   family.add(Places{});
@@ -41,8 +41,8 @@ TEST(FamilyCandidates, AreTheTrianglesOfAllGroupsOnceInOrder) {
 }
 
 TEST(FamilyCandidates, APairIsChosenForEitherOfItsTriangles) {
-  GroupCandidates all = with_pair();
-  FamilyCandidates family;
+  soft::GroupCandidates all = with_pair();
+  soft::FamilyCandidates family;
   for (const Places& triangles :
        {Places{5}, Places{7}, Places{5, 7}, Places{2, 9}, Places{2, 7, 9}, Places{4, 6, 8}})
     family.add(triangles);
@@ -60,15 +60,15 @@ TEST(FamilyCandidates, APairIsChosenForEitherOfItsTriangles) {
 // Triangle 9 lies in y = 0: above it, at 2, it blocks with one sign, below with the other, near it depends.
 // A receiver does not block its own points, wherever they lie.
 TEST(FamilyCandidates, SignsAreThoseOfTheGroupUntilRestored) {
-  GroupCandidates all = with_pair();
+  soft::GroupCandidates all = with_pair();
   all.heights.push_back({0.0, {0, 1, 0}, 1e-7, 1.0});
   all.all[3].sign = 0;
-  FamilyCandidates family;
+  soft::FamilyCandidates family;
   family.add(Places{2});
   family.add(Places{9});
   family.make_ready(all, largest_first);
   const auto sign_of_group = [&](double y, const Places& receivers) {
-    GroupFrame group;
+    soft::GroupFrame group;
     group.centre = {0, y, 0}, group.half = glm::dvec3(0.5), group.receivers = receivers;
     EXPECT_EQ(copy_of(family.choose(1, group, all)), Places{3});
     const double sign = all.all[3].sign;

@@ -5,10 +5,10 @@
 #include <cmath>
 #include <string>
 
+#include <tenebra/area_light.h>
 #include "points/contact_rule.h"
 #include "points/triangle_corners.h"
-#include "soft/area_light.h"
-#include "soft/point_groups.h"
+#include "soft/groups/point_groups.h"
 #include "support/samples.h"
 #include "support/soup.h"
 
@@ -62,8 +62,9 @@ inline glm::dvec3 random_light_point(const AreaLight& light, Random& random) {
 }
 
 inline double theta_of(const TriangleView& triangles, std::uint32_t occluder, std::uint32_t receiver) {
-  const Corners t = corners_of(triangles, occluder), r = corners_of(triangles, receiver);
-  return contact_threshold(t.v, rounding_tolerance(t.v), rounding_tolerance(r.v));
+  const points::Corners t = points::corners_of(triangles, occluder),
+                        r = points::corners_of(triangles, receiver);
+  return points::contact_threshold(t.v, points::rounding_tolerance(t.v), points::rounding_tolerance(r.v));
 }
 
 /// A light somewhere about the soup: beside or inside it, facing its middle or anywhere, tiny to huge.

@@ -1,5 +1,6 @@
 // What must hold between masks without knowing any of them: row F of the catalogue of reliability.md, and the
 // choices that decide the work but not the answer.
+#include <fmt/core.h>
 #include <gtest/gtest.h>
 
 #include <chrono>

@@ -1,6 +1,7 @@
 // The border of what an outline leaves of the light, where edges lie on each other, on the light's sides, on
 // the sides of what something else left of it, or are so many that the light is taken in strips: clipping
 // gives the same.
+#include <fmt/core.h>
 #include <gtest/gtest.h>
 
 #include <cmath>

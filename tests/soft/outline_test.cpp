@@ -1,12 +1,13 @@
 // Outlines of meshes: which edges cancel, how often the rest winds around a place of the light, and that they
 // give what clipping gives.
+#include <fmt/core.h>
 #include <gtest/gtest.h>
 
 #include <cmath>
 #include <glm/gtc/matrix_transform.hpp>
 
-#include "soft/group_outline.h"
-#include "soft/light_frame.h"
+#include "soft/light/light_frame.h"
+#include "soft/silhouette/group_outline.h"
 #include "soft/soft_case.h"
 
 namespace tenebra::testing {
@@ -92,8 +93,8 @@ std::vector<SoftCase> mesh_cases() {
 }
 
 /// Points on the floor, below the mesh.
-GroupFrame floor_group() {
-  GroupFrame group;
+soft::GroupFrame floor_group() {
+  soft::GroupFrame group;
   group.centre = {0.2, 0, 0.1};
   group.half = {0.15, 0, 0.15};
   return group;
@@ -105,35 +106,36 @@ std::vector<std::uint32_t> mesh_of(const SoftCase& c) {
   return all;
 }
 
-GroupCandidates candidates_of(const SoftCase& c, const GroupFrame& group) {
-  GroupCandidates candidates;
-  find_candidates_kernel(SimdLevel::automatic)(light_frame(c.light), c.soup.view(), group, mesh_of(c),
-                                               candidates);
+soft::GroupCandidates candidates_of(const SoftCase& c, const soft::GroupFrame& group) {
+  soft::GroupCandidates candidates;
+  soft::find_candidates_kernel(SimdLevel::automatic)(soft::light_frame(c.light), c.soup.view(), group,
+                                                     mesh_of(c), candidates);
   return candidates;
 }
 
 TEST(SoftOutline, OfAClosedMeshIsItsSilhouette) {
   const SoftCase c = below("sphere", sphere(12, 0.8, {0.1, 1.4, 0}));
-  GroupFrame group = floor_group();
+  soft::GroupFrame group = floor_group();
   group.half *= 0.25;
-  GroupOutline outline;
+  soft::GroupOutline outline;
   std::vector<std::uint32_t> rest;
-  OutlineFinder().find(light_frame(c.light), c.soup.view(), candidates_of(c, group), outline, rest);
+  soft::OutlineFinder().find(soft::light_frame(c.light), c.soup.view(), candidates_of(c, group), outline,
+                             rest);
   EXPECT_TRUE(rest.empty());
   std::size_t always = 0;
-  for (const OutlineEdge& edge : outline.edges) always += edge.winding != 0;
+  for (const soft::OutlineEdge& edge : outline.edges) always += edge.winding != 0;
   EXPECT_GT(always, 24u);
   EXPECT_LT(outline.edges.size(), 300u) << "of " << c.soup.triangles.size() << " triangles";
-  for (const OutlineUse& use : outline.uses) EXPECT_LT(use.edge, outline.edges.size());
+  for (const soft::OutlineUse& use : outline.uses) EXPECT_LT(use.edge, outline.edges.size());
 }
 
 TEST(SoftOutline, LeavesLooseTrianglesAlone) {
   Random random(5);
   const SoftCase c = below("cloud", random_soup(random, 200, 0.2).moved(1, {0, 2, 0}));
-  GroupOutline outline;
+  soft::GroupOutline outline;
   std::vector<std::uint32_t> rest;
-  const GroupCandidates candidates = candidates_of(c, floor_group());
-  OutlineFinder().find(light_frame(c.light), c.soup.view(), candidates, outline, rest);
+  const soft::GroupCandidates candidates = candidates_of(c, floor_group());
+  soft::OutlineFinder().find(soft::light_frame(c.light), c.soup.view(), candidates, outline, rest);
   EXPECT_TRUE(outline.empty());
   EXPECT_EQ(rest.size(), candidates.all.size());
 }
@@ -145,11 +147,11 @@ double turn(dvec2 a, dvec2 b, dvec2 c) {
 }
 
 // The definition again, from projected corners: +1 an edge that the ray from q towards +u crosses upwards.
-double winding_around(dvec2 q, const GroupOutline& outline, const std::vector<int>& signs,
+double winding_around(dvec2 q, const soft::GroupOutline& outline, const std::vector<int>& signs,
                       double point_height, double light_height, dvec2 point, bool& sure) {
   std::vector<double> winding;
-  for (const OutlineEdge& edge : outline.edges) winding.push_back(edge.winding);
-  for (const OutlineUse& use : outline.uses) winding[use.edge] += use.winding * signs[use.blocker];
+  for (const soft::OutlineEdge& edge : outline.edges) winding.push_back(edge.winding);
+  for (const soft::OutlineUse& use : outline.uses) winding[use.edge] += use.winding * signs[use.blocker];
   double sum = 0;
   for (std::size_t i = 0; i < outline.edges.size(); ++i) {
     const auto projected = [&](dvec3 v) {
@@ -190,27 +192,27 @@ TEST(SoftOutline, WindsAroundAPlaceOnceForEachTriangleInFrontOfIt) {
   std::size_t compared = 0, covered = 0, dropped = 0;
   for (const Soup& mesh : {ball, ring, bowl(9), two_sided(bowl(8)), with(ball, ring)}) {
     const SoftCase c = below("mesh", mesh);
-    const LightFrame light = light_frame(c.light);
-    const GroupFrame group = floor_group();
-    GroupOutline outline;
+    const soft::LightFrame light = soft::light_frame(c.light);
+    const soft::GroupFrame group = floor_group();
+    soft::GroupOutline outline;
     std::vector<std::uint32_t> rest;
-    const GroupCandidates candidates = candidates_of(c, group);
-    OutlineFinder().find(light, c.soup.view(), candidates, outline, rest);
+    const soft::GroupCandidates candidates = candidates_of(c, group);
+    soft::OutlineFinder().find(light, c.soup.view(), candidates, outline, rest);
     for (std::uint32_t& place : rest) place = candidates.all[place].triangle;
     ASSERT_FALSE(outline.empty());
     ASSERT_LT(rest.size(), c.soup.triangles.size() / 4);
-    GroupOutline near = outline;
-    drop_beside_light(group, candidates.axes, near);
+    soft::GroupOutline near = outline;
+    soft::drop_beside_light(group, candidates.axes, near);
     dropped += outline.edges.size() - near.edges.size();
     for (int k = 0; k < 400; ++k) {
       const dvec3 p = group.centre + dvec3(2 * random.unit() - 1, 0, 2 * random.unit() - 1) * group.half;
       std::vector<int> signs;
-      for (const SometimesBlocker& blocker : outline.sometimes)
-        signs.push_back(blocking_sign(blocker.plane, p - group.centre, 0));
+      for (const soft::SometimesBlocker& blocker : outline.sometimes)
+        signs.push_back(soft::blocking_sign(blocker.plane, p - group.centre, 0));
       const dvec2 q(2 * random.unit() - 1, 2 * random.unit() - 1);
       const dvec3 at = candidates.axes.of(p - group.centre);
       bool sure = true;
-      const auto winding_of = [&](const GroupOutline& edges) {
+      const auto winding_of = [&](const soft::GroupOutline& edges) {
         return winding_around(q - dvec2(candidates.axes.centre_uv), edges, signs, at.z,
                               candidates.axes.centre_uv.z, dvec2(at), sure);
       };

@@ -1,5 +1,5 @@
 // Every active point is in one group; groups are small, lie together and know what they hold.
-#include "soft/point_groups.h"
+#include "soft/groups/point_groups.h"
 
 #include <fmt/format.h>
 #include <gtest/gtest.h>
@@ -15,9 +15,9 @@ namespace {
 
 using glm::dvec3;
 
-PointGroups grouped(const GroupCase& c, SoftGrouping grouping) {
-  PointGroups groups;
-  group_points(c.points, c.view, c.soup.view(), c.light, grouping, groups);
+soft::PointGroups grouped(const GroupCase& c, SoftGrouping grouping) {
+  soft::PointGroups groups;
+  soft::group_points(c.points, c.view, c.soup.view(), c.light, grouping, groups);
   return groups;
 }
 
@@ -25,16 +25,16 @@ PointGroups grouped(const GroupCase& c, SoftGrouping grouping) {
 /// Seen edge-on: never reached.
 double out_of_reach(const GroupCase& c, std::size_t pixel) {
   const std::uint32_t id = c.points.triangles[pixel];
-  if (id == no_triangle || seen_side(c.soup.view(), id, c.view) == 0) return INFINITY;
+  if (id == no_triangle || soft::seen_side(c.soup.view(), id, c.view) == 0) return INFINITY;
   const dvec3 p = c.points.positions[pixel];
   const double size = glm::length(p) + glm::length(c.light.centre);
   double out = -glm::dot(p - c.light.centre, c.light.normal) / size;
-  const Corners t = corners_of(c.soup.view(), id);
+  const points::Corners t = points::corners_of(c.soup.view(), id);
   const dvec3 a(t.v[0]), e(dvec3(t.v[1]) - a), f(dvec3(t.v[2]) - a);
   double below = INFINITY;
   for (const glm::dvec2& v : c.light.outline) {
     const dvec3 q = light_point(c.light, v);
-    const double height = glm::dot(glm::cross(e, f), q - a) * seen_side(c.soup.view(), id, c.view);
+    const double height = glm::dot(glm::cross(e, f), q - a) * soft::seen_side(c.soup.view(), id, c.view);
     below = std::min(below, -height / (glm::length(e) * glm::length(f) *
                                        (glm::length(q) + glm::length(a) + glm::length(c.light.centre))));
   }
@@ -42,9 +42,9 @@ double out_of_reach(const GroupCase& c, std::size_t pixel) {
 }
 
 void expect_partition(const GroupCase& c, SoftGrouping grouping) {
-  const PointGroups groups = grouped(c, grouping);
+  const soft::PointGroups groups = grouped(c, grouping);
   std::vector<int> times(c.points.triangles.size(), 0);
-  for (const PointGroup& group : groups.groups)
+  for (const soft::PointGroup& group : groups.groups)
     for (const std::uint32_t pixel : groups.pixels_of(group)) ++times[pixel];
   for (std::size_t i = 0; i < times.size(); ++i) {
     ASSERT_LE(times[i], 1) << c.name << ", pixel " << i;
@@ -55,8 +55,8 @@ void expect_partition(const GroupCase& c, SoftGrouping grouping) {
 }
 
 /// No direction finds a point of the group farther than its cell.
-void expect_cell_around(const GroupCase& c, const PointGroups& groups, const PointGroup& group) {
-  const Cell& cell = group.cell;
+void expect_cell_around(const GroupCase& c, const soft::PointGroups& groups, const soft::PointGroup& group) {
+  const soft::Cell& cell = group.cell;
   std::vector<dvec3> directions;
   for (int k = 0; k < 3; ++k) {
     directions.push_back(glm::cross(cell.axis[k], cell.axis[(k + 1) % 3]));
@@ -78,8 +78,8 @@ void expect_cell_around(const GroupCase& c, const PointGroups& groups, const Poi
 }
 
 void expect_true_groups(const GroupCase& c, SoftGrouping grouping) {
-  const PointGroups groups = grouped(c, grouping);
-  for (const PointGroup& group : groups.groups) {
+  const soft::PointGroups groups = grouped(c, grouping);
+  for (const soft::PointGroup& group : groups.groups) {
     ASSERT_GT(group.count, 0u);
     dvec3 low(INFINITY), high(-INFINITY);
     std::set<std::uint32_t> receivers, tiles;
@@ -95,25 +95,25 @@ void expect_true_groups(const GroupCase& c, SoftGrouping grouping) {
     EXPECT_EQ(high, group.high);
     expect_cell_around(c, groups, group);
     std::vector<std::uint32_t> listed;
-    for (const Receiver& receiver : groups.receivers_of(group)) {
+    for (const soft::Receiver& receiver : groups.receivers_of(group)) {
       listed.push_back(receiver.triangle);
-      EXPECT_EQ(receiver.side, seen_side(c.soup.view(), receiver.triangle, c.view));
+      EXPECT_EQ(receiver.side, soft::seen_side(c.soup.view(), receiver.triangle, c.view));
     }
     EXPECT_EQ(listed, std::vector<std::uint32_t>(receivers.begin(), receivers.end()));
     if (grouping == SoftGrouping::triangle) {
       EXPECT_EQ(receivers.size(), 1u);
     } else {
       EXPECT_EQ(tiles.size(), 1u);
-      EXPECT_LE(group.count, largest_neighbourhood);
+      EXPECT_LE(group.count, soft::largest_neighbourhood);
     }
   }
 }
 
-void expect_true_tree(const PointGroups& groups) {
+void expect_true_tree(const soft::PointGroups& groups) {
   ASSERT_EQ(groups.nodes.empty(), groups.groups.empty());
   if (groups.nodes.empty()) return;
   EXPECT_EQ(groups.nodes[0].count, groups.groups.size());
-  for (const GroupNode& node : groups.nodes) {
+  for (const soft::GroupNode& node : groups.nodes) {
     dvec3 low(INFINITY), high(-INFINITY);
     std::uint32_t points = 0;
     for (std::uint32_t g = node.first; g < node.first + node.count; ++g) {
@@ -125,7 +125,7 @@ void expect_true_tree(const PointGroups& groups) {
     ASSERT_EQ(points, node.points);
     ASSERT_EQ(node.children == 0, node.count == 1);
     if (node.children == 0) continue;
-    const GroupNode &a = groups.nodes[node.children], &b = groups.nodes[node.children + 1];
+    const soft::GroupNode &a = groups.nodes[node.children], &b = groups.nodes[node.children + 1];
     ASSERT_EQ(a.first, node.first);
     ASSERT_EQ(b.first, a.first + a.count);
     ASSERT_EQ(a.count + b.count, node.count);
@@ -173,7 +173,8 @@ TEST(PointGroups, CoverPicturesOfAnySize) {
       expect_true_groups(c, grouping);
     }
     std::uint32_t points = 0, expected = 0;
-    for (const PointGroup& group : grouped(c, SoftGrouping::neighbourhood).groups) points += group.count;
+    for (const soft::PointGroup& group : grouped(c, SoftGrouping::neighbourhood).groups)
+      points += group.count;
     for (const std::uint32_t id : c.points.triangles) expected += id != no_triangle;
     EXPECT_EQ(points, expected);
     EXPECT_GT(points, 0u);
@@ -184,7 +185,7 @@ TEST(PointGroups, OfNothingAreNone) {
   GroupCase c = stage(8, 8);
   c.points = {};
   for (const SoftGrouping grouping : {SoftGrouping::neighbourhood, SoftGrouping::triangle}) {
-    const PointGroups groups = grouped(c, grouping);
+    const soft::PointGroups groups = grouped(c, grouping);
     EXPECT_TRUE(groups.groups.empty() && groups.nodes.empty());
   }
 }
@@ -195,14 +196,14 @@ TEST(PointGroups, AreSplitAtGapsInDepth) {
   EXPECT_EQ(grouped(c, SoftGrouping::neighbourhood).groups.size(), 1u);
   c.soup.quad({-4, 2, 2}, {0, 0, 8}, {8, 0, 0});
   c.points = view_samples(c.soup.view(), c.view, 8, 8);
-  const PointGroups groups = grouped(c, SoftGrouping::neighbourhood);
+  const soft::PointGroups groups = grouped(c, SoftGrouping::neighbourhood);
   ASSERT_EQ(groups.groups.size(), 2u);
-  for (const PointGroup& group : groups.groups) EXPECT_LT(group.high.y - group.low.y, 1e-9);
+  for (const soft::PointGroup& group : groups.groups) EXPECT_LT(group.high.y - group.low.y, 1e-9);
 }
 
 // Any half of a full tile is a compact part of it, for solvers that take fewer points.
 TEST(PointGroups, OrderTheirPointsAlongAZCurve) {
-  const PointGroups groups = grouped(stage(8, 8), SoftGrouping::neighbourhood);
+  const soft::PointGroups groups = grouped(stage(8, 8), SoftGrouping::neighbourhood);
   ASSERT_EQ(groups.groups.size(), 1u);
   for (std::uint32_t part = 0; part < 4; ++part) {
     std::set<std::uint32_t> columns, rows;
@@ -221,7 +222,7 @@ TEST(PointGroups, LeaveOutWhatTheLightCannotReach) {
   EXPECT_TRUE(grouped(c, SoftGrouping::neighbourhood).groups.empty());
   c.light = regular_light({0, 0, -2}, {0, 0, 1}, 0.5, 4);  // half of it below; half of the floor behind it
   std::uint32_t points = 0, expected = 0;
-  for (const PointGroup& group : grouped(c, SoftGrouping::neighbourhood).groups) points += group.count;
+  for (const soft::PointGroup& group : grouped(c, SoftGrouping::neighbourhood).groups) points += group.count;
   for (const dvec3& p : c.points.positions) expected += p.z > -2;
   EXPECT_EQ(points, expected);
   EXPECT_GT(points, 0u);
@@ -229,33 +230,33 @@ TEST(PointGroups, LeaveOutWhatTheLightCannotReach) {
 
 TEST(PointGroups, KnowTheSeenSide) {
   GroupCase c = stage(4, 4);
-  EXPECT_EQ(seen_side(c.soup.view(), 0, c.view), 1);
+  EXPECT_EQ(soft::seen_side(c.soup.view(), 0, c.view), 1);
   c.view.eye.y = -1;
-  EXPECT_EQ(seen_side(c.soup.view(), 0, c.view), -1);
+  EXPECT_EQ(soft::seen_side(c.soup.view(), 0, c.view), -1);
   c.view.eye.y = 0;
-  EXPECT_EQ(seen_side(c.soup.view(), 0, c.view), 0);
+  EXPECT_EQ(soft::seen_side(c.soup.view(), 0, c.view), 0);
   c.view.orthographic = true;
   c.view.d0 = {0.3f, -0.1f, 0};
-  EXPECT_EQ(seen_side(c.soup.view(), 0, c.view), 1) << "rays that come down";
+  EXPECT_EQ(soft::seen_side(c.soup.view(), 0, c.view), 1) << "rays that come down";
   c.view.d0 = {1, 0, 1};
-  EXPECT_EQ(seen_side(c.soup.view(), 0, c.view), 0);
+  EXPECT_EQ(soft::seen_side(c.soup.view(), 0, c.view), 0);
 }
 
 /// All that is known of the groups, bit for bit.
-std::vector<double> numbers_of(const PointGroups& groups) {
+std::vector<double> numbers_of(const soft::PointGroups& groups) {
   std::vector<double> all;
   const auto add = [&](const dvec3& v) { all.insert(all.end(), {v.x, v.y, v.z}); };
-  for (const PointGroup& g : groups.groups) {
+  for (const soft::PointGroup& g : groups.groups) {
     all.insert(all.end(), {double(g.count), double(g.receiver_count), g.cell.slack, g.cell.reach});
     for (const std::uint32_t pixel : groups.pixels_of(g)) all.push_back(pixel);
     for (const dvec3& v : {g.low, g.high, g.cell.centre, g.cell.axis[0], g.cell.axis[1], g.cell.axis[2]})
       add(v);
-    for (const Receiver& r : groups.receivers_of(g)) {
+    for (const soft::Receiver& r : groups.receivers_of(g)) {
       all.insert(all.end(), {double(r.triangle), double(r.side), r.tau, r.limit});
       add(r.m);
     }
   }
-  for (const GroupNode& n : groups.nodes) {
+  for (const soft::GroupNode& n : groups.nodes) {
     all.insert(all.end(), {double(n.first), double(n.count), double(n.points), double(n.children)});
     add(n.low), add(n.high);
   }
@@ -274,8 +275,8 @@ TEST(PointGroups, AreTheSameForAnyNumberOfThreadsAndAnyInstructions) {
       if (!simd_level_supported(level)) continue;
       for (const int threads : {1, 2, 3, 7})
         with_threads(threads, [&] {
-          PointGroups groups;
-          group_points(c.points, c.view, c.soup.view(), c.light, grouping, groups, level);
+          soft::PointGroups groups;
+          soft::group_points(c.points, c.view, c.soup.view(), c.light, grouping, groups, level);
           EXPECT_EQ(numbers_of(groups), expected) << simd_level_name(level);
         });
     }

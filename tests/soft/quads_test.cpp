@@ -1,12 +1,12 @@
 // Pairs of triangles as one occluder: which are made, and that their shadow is that of both.
-#include "soft/quads.h"
+#include "soft/occluders/quads.h"
 
 #include <gtest/gtest.h>
 
 #include <cmath>
 #include <numeric>
 
-#include "soft/light_frame.h"
+#include "soft/light/light_frame.h"
 #include "soft/soft_case.h"
 
 namespace tenebra::testing {
@@ -15,8 +15,8 @@ namespace {
 using glm::dvec2;
 using glm::dvec3;
 
-GroupFrame group_at_origin(double half) {
-  GroupFrame group;
+soft::GroupFrame group_at_origin(double half) {
+  soft::GroupFrame group;
   group.half = {half, half, half};
   return group;
 }
@@ -26,19 +26,19 @@ AreaLight light_above() {
 }
 
 struct Paired {
-  GroupCandidates candidates;
+  soft::GroupCandidates candidates;
   std::vector<std::uint32_t> places;
 };
 
-Paired paired(const Soup& soup, const GroupFrame& group) {
+Paired paired(const Soup& soup, const soft::GroupFrame& group) {
   Paired p;
   std::vector<std::uint32_t> ids(soup.triangles.size());
   std::iota(ids.begin(), ids.end(), 0u);
-  find_candidates_kernel(SimdLevel::automatic)(light_frame(light_above()), soup.view(), group, ids,
-                                               p.candidates);
+  soft::find_candidates_kernel(SimdLevel::automatic)(soft::light_frame(light_above()), soup.view(), group,
+                                                     ids, p.candidates);
   p.places.resize(p.candidates.all.size());
   std::iota(p.places.begin(), p.places.end(), 0u);
-  pair_triangles(group, p.candidates, p.places);
+  soft::pair_triangles(group, p.candidates, p.places);
   return p;
 }
 
@@ -64,7 +64,7 @@ TEST(SoftQuads, ARectangleIsOneOccluder) {
 
 TEST(SoftQuads, WhatIsNotConvexOrNotSeenFromOneSideStaysTwo) {
   const dvec3 a(-1, 2, -1), c(1, 2, 1), d(-1, 2, 1);
-  const GroupFrame group = group_at_origin(0.2);
+  const soft::GroupFrame group = group_at_origin(0.2);
   EXPECT_EQ(paired(two_triangles(a, {0.9, 2, -0.8}, c, {0.2, 2, -0.7}), group).places.size(), 2u) << "a fold";
   EXPECT_EQ(paired(two_triangles(a, {0.2, 2, -0.7}, {0.8, 2, 0.9}, {-3, 2, -2.6}), group).places.size(), 2u)
       << "an arrow head";
@@ -88,7 +88,7 @@ bool passes(const Soup& soup, std::uint32_t id, dvec3 p, dvec3 q, bool& sure) {
 }
 
 /// The same for the lines of an occluder, which are positive in its shadow.
-bool in_shadow(const Candidate& c, dvec3 p, dvec3 q, bool& sure) {
+bool in_shadow(const soft::Candidate& c, dvec3 p, dvec3 q, bool& sure) {
   bool inside = true;
   for (int k = 0; k < 4; ++k) {
     const auto at = [&](int i) { return dvec3(c.corners[i][0], c.corners[i][1], c.corners[i][2]) - p; };
@@ -105,14 +105,14 @@ bool in_shadow(const Candidate& c, dvec3 p, dvec3 q, bool& sure) {
 TEST(SoftQuads, ShadeWhatTheirTrianglesShade) {
   Random random(91);
   std::size_t pairs = 0, refused = 0, compared = 0, covered = 0;
-  const LightFrame light = light_frame(light_above());
+  const soft::LightFrame light = soft::light_frame(light_above());
   for (int round = 0; round < 3000; ++round) {
     const dvec3 middle(random.in(-0.5, 0.5), random.in(2.5, 3.5), random.in(-0.5, 0.5));
     const auto corner = [&](double x, double z) {
       return middle + dvec3(x, 0, z) + random.in(0, 2) * random.in_cube(1);
     };
     const Soup soup = two_triangles(corner(-1, -1), corner(1, -1), corner(1, 1), corner(-1, 1));
-    const GroupFrame group = group_at_origin(random.chance(0.3) ? 0.05 : 0.9);
+    const soft::GroupFrame group = group_at_origin(random.chance(0.3) ? 0.05 : 0.9);
     const Paired p = paired(soup, group);
     if (p.candidates.all.size() != 2 || p.places.size() == 2) {
       ++refused;
@@ -125,7 +125,7 @@ TEST(SoftQuads, ShadeWhatTheirTrianglesShade) {
       const dvec3 to = light.point(uv);
       bool sure = true;
       const bool blocked = passes(soup, 0, from, to, sure) || passes(soup, 1, from, to, sure);
-      const LightAxes& axes = p.candidates.axes;
+      const soft::LightAxes& axes = p.candidates.axes;
       const bool shaded = in_shadow(p.candidates.all[p.places[0]], axes.of(from), axes.of(to), sure);
       if (!sure) continue;
       EXPECT_EQ(shaded, blocked) << "round " << round << ", from " << from.x << " " << from.y << " "

@@ -13,33 +13,33 @@
 #include "reference/exact_segment.h"
 #include "reference/triangle_boxes.h"
 #include "soft/group_case.h"
-#include "soft/shafts.h"
+#include "soft/shafts/shafts.h"
 
 namespace tenebra::testing {
 
 /// What a group was given.
 struct Given {
-  GroupClass kind = GroupClass::lit;
+  soft::GroupClass kind = soft::GroupClass::lit;
   std::vector<std::uint32_t> candidates;
   bool operator==(const Given&) const = default;
 };
 
-inline PointGroups grouped(const GroupCase& c, SoftGrouping grouping = SoftGrouping::neighbourhood) {
-  PointGroups groups;
-  group_points(c.points, c.view, c.soup.view(), c.light, grouping, groups);
+inline soft::PointGroups grouped(const GroupCase& c, SoftGrouping grouping = SoftGrouping::neighbourhood) {
+  soft::PointGroups groups;
+  soft::group_points(c.points, c.view, c.soup.view(), c.light, grouping, groups);
   return groups;
 }
 
 /// One a group; each group must be handed over exactly once.
-inline std::vector<Given> given(const GroupCase& c, const PointGroups& groups,
-                                SimdLevel simd = SimdLevel::automatic, ShaftStats* stats = nullptr) {
+inline std::vector<Given> given(const GroupCase& c, const soft::PointGroups& groups,
+                                SimdLevel simd = SimdLevel::automatic, soft::ShaftStats* stats = nullptr) {
   std::vector<Given> all(groups.groups.size());
   std::vector<int> calls(all.size(), 0);
-  ShaftCuller culler;
+  soft::ShaftCuller culler;
   SoftShadowConfig config;
   config.simd = simd;
   EXPECT_TRUE(culler.for_each_family(groups, c.soup.view(), c.light, config, nullptr,
-                                     [&](std::span<const GroupDecision> family, int thread) {
+                                     [&](std::span<const soft::GroupDecision> family, int thread) {
                                        for (const auto& [group, kind, candidates] : family) {
                                          const auto i =
                                              static_cast<std::size_t>(group - groups.groups.data());
@@ -81,7 +81,7 @@ public:
   ShaftCheck(const GroupCase& c, SoftGrouping grouping = SoftGrouping::neighbourhood)
       : c_(c), groups_(grouped(c, grouping)), given_(given(c, groups_)), boxes_(c.soup.view(), casters()) {}
 
-  const PointGroups& groups() const { return groups_; }
+  const soft::PointGroups& groups() const { return groups_; }
   const std::vector<Given>& all() const { return given_; }
 
   /// Every `step`-th group with `lines` random lines and as many that touch an edge or a vertex of a caster.
@@ -111,9 +111,11 @@ private:
   }
 
   void count(const Given& g, Tally& tally) {
-    ++(g.kind == GroupClass::lit ? tally.lit : g.kind == GroupClass::dark ? tally.dark : tally.mixed);
-    ASSERT_EQ(g.candidates.empty(), g.kind == GroupClass::lit);
-    ASSERT_TRUE(g.kind != GroupClass::dark || g.candidates.size() == 1);
+    ++(g.kind == soft::GroupClass::lit    ? tally.lit
+       : g.kind == soft::GroupClass::dark ? tally.dark
+                                          : tally.mixed);
+    ASSERT_EQ(g.candidates.empty(), g.kind == soft::GroupClass::lit);
+    ASSERT_TRUE(g.kind != soft::GroupClass::dark || g.candidates.size() == 1);
     std::vector<std::uint32_t> sorted = g.candidates;
     std::sort(sorted.begin(), sorted.end());
     ASSERT_EQ(std::adjacent_find(sorted.begin(), sorted.end()), sorted.end()) << "given twice";
@@ -121,19 +123,19 @@ private:
     tally.kept += sorted.size(), tally.dropped += casters().size() - sorted.size();
   }
 
-  std::optional<Line> line_to(const PointGroup& group, std::uint32_t k, const dvec3& q) const {
+  std::optional<Line> line_to(const soft::PointGroup& group, std::uint32_t k, const dvec3& q) const {
     const std::uint32_t pixel = groups_.pixels_of(group)[k];
     const Line line{c_.points.positions[pixel], q, c_.points.triangles[pixel]};
     if (!(glm::dot(line.p - c_.light.centre, c_.light.normal) > 0)) return {};
-    const int side = seen_side(c_.soup.view(), line.receiver, c_.view);
-    if (reference::height_sign(corners_of(c_.soup.view(), line.receiver), line.q) != side) return {};
+    const int side = soft::seen_side(c_.soup.view(), line.receiver, c_.view);
+    if (reference::height_sign(points::corners_of(c_.soup.view(), line.receiver), line.q) != side) return {};
     return line;
   }
-  std::optional<Line> random_line(const PointGroup& group, Random& random) const {
+  std::optional<Line> random_line(const soft::PointGroup& group, Random& random) const {
     return line_to(group, random.index(group.count), random_light_point(c_.light, random));
   }
   /// Through a vertex or a point of an edge of a caster, onto the light.
-  std::optional<Line> aimed_line(const PointGroup& group, Random& random) const {
+  std::optional<Line> aimed_line(const soft::PointGroup& group, Random& random) const {
     const std::uint32_t k = random.index(group.count);
     const dvec3 p = c_.points.positions[groups_.pixels_of(group)[k]];
     for (int tries = 0; tries < 20; ++tries) {
@@ -162,10 +164,10 @@ private:
     ++tally.lines;
     const TriangleView view = c_.soup.view();
     const auto blocks = [&](std::uint32_t id) {
-      return id != line.receiver &&
-             reference::blocks(corners_of(view, id), theta_of(view, id, line.receiver), line.p, line.q);
+      return id != line.receiver && reference::blocks(points::corners_of(view, id),
+                                                      theta_of(view, id, line.receiver), line.p, line.q);
     };
-    if (g.kind == GroupClass::dark) {
+    if (g.kind == soft::GroupClass::dark) {
       ASSERT_TRUE(blocks(g.candidates[0])) << "not dark: " << describe(line, g.candidates[0]);
       return;
     }
@@ -182,13 +184,13 @@ private:
     std::string text =
         fmt::format("{}: triangle {}, receiver {}, P {:a} {:a} {:a}, Q {:a} {:a} {:a}, corners", c_.name, id,
                     line.receiver, line.p.x, line.p.y, line.p.z, line.q.x, line.q.y, line.q.z);
-    for (const glm::vec3& v : corners_of(c_.soup.view(), id).v)
+    for (const glm::vec3& v : points::corners_of(c_.soup.view(), id).v)
       text += fmt::format(" ({:a} {:a} {:a})", v.x, v.y, v.z);
     return text;
   }
 
   const GroupCase& c_;
-  PointGroups groups_;
+  soft::PointGroups groups_;
   std::vector<Given> given_;
   reference::TriangleBoxes boxes_;
   std::vector<std::uint8_t> candidate_;

@@ -109,7 +109,7 @@ TEST(ShaftCases, AReceiverOfTheGroupDarkensNone) {
   }
   ShaftCheck check(c);
   ASSERT_EQ(check.all().size(), 1u);
-  EXPECT_EQ(check.all()[0], (Given{GroupClass::mixed, {0, 1}}));
+  EXPECT_EQ(check.all()[0], (Given{soft::GroupClass::mixed, {0, 1}}));
   Tally tally;
   check.run(tally, 20);
   EXPECT_EQ(tally.blocked, tally.lines);

@@ -1,10 +1,11 @@
 // Shafts on frames of the bundled and the BART scenes: nothing that blocks is left out, and little else is
 // kept.
+#include <fmt/core.h>
 #include <gtest/gtest.h>
 
 #include <filesystem>
 
-#include "import/import_scene.h"
+#include "formats/import_scene.h"
 #include "soft/shaft_check.h"
 
 namespace tenebra::testing {
@@ -40,7 +41,7 @@ AreaLight square_light(const Soup& soup, glm::vec3 centre) {
 GroupCase frame_case(const SceneFrame& frame, int width, int height) {
   GroupCase c;
   c.name = fmt::format("{} {}", frame.scene, frame.frame);
-  Expected<Scene> scene = import_scene(path_of(frame));
+  Expected<Scene> scene = formats::import_scene(path_of(frame));
   if (!scene) {
     ADD_FAILURE() << scene.error().message;
     return c;

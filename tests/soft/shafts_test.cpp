@@ -1,6 +1,8 @@
 // No triangle that blocks a line is ever left out, and no group is called lit or dark that is not: soups of
 // every kind, every scale, near and far from the origin.
-#include "soft/shafts.h"
+#include <fmt/core.h>
+
+#include "soft/shafts/shafts.h"
 
 #include <gtest/gtest.h>
 
@@ -99,13 +101,13 @@ TEST(Shafts, KeepTheSameTrianglesAtAnyPowerOfTwo) {
 
 TEST(Shafts, AreTheSameForAnyNumberOfThreadsAndAnyInstructions) {
   const GroupCase c = room_case(32, 96);
-  ShaftStats expected_stats;
+  soft::ShaftStats expected_stats;
   const std::vector<Given> expected = given(c, grouped(c), SimdLevel::scalar, &expected_stats);
   for (const int threads : {1, 2, 3, 7}) {
     for (const SimdLevel level : {SimdLevel::scalar, SimdLevel::sse4, SimdLevel::avx2, SimdLevel::avx512}) {
       if (!simd_level_supported(level)) continue;
       with_threads(threads, [&] {
-        ShaftStats stats;
+        soft::ShaftStats stats;
         EXPECT_EQ(given(c, grouped(c), level, &stats), expected)
             << threads << " threads, " << simd_level_name(level);
         EXPECT_EQ(stats.candidates, expected_stats.candidates);
@@ -117,14 +119,14 @@ TEST(Shafts, AreTheSameForAnyNumberOfThreadsAndAnyInstructions) {
 
 TEST(Shafts, CountWhatTheyGive) {
   const GroupCase c = room_case(33, 64);
-  const PointGroups groups = grouped(c);
-  ShaftStats stats;
+  const soft::PointGroups groups = grouped(c);
+  soft::ShaftStats stats;
   std::uint64_t points[3] = {}, numbers[3] = {}, candidates = 0, most = 0;
   const std::vector<Given> all = given(c, groups, SimdLevel::automatic, &stats);
   for (std::size_t i = 0; i < all.size(); ++i) {
     points[static_cast<int>(all[i].kind)] += groups.groups[i].count;
     ++numbers[static_cast<int>(all[i].kind)];
-    if (all[i].kind != GroupClass::mixed) continue;
+    if (all[i].kind != soft::GroupClass::mixed) continue;
     candidates += all[i].candidates.size();
     most = std::max<std::uint64_t>(most, all[i].candidates.size());
   }
@@ -141,14 +143,14 @@ TEST(Shafts, CountWhatTheyGive) {
 }
 
 // Points times candidates of the families, as they are handed over to one thread.
-std::vector<std::uint64_t> works_in_order(const GroupCase& c, const PointGroups& groups) {
+std::vector<std::uint64_t> works_in_order(const GroupCase& c, const soft::PointGroups& groups) {
   std::vector<std::uint64_t> works;
   with_threads(1, [&] {
-    ShaftCuller culler;
+    soft::ShaftCuller culler;
     culler.for_each_family(groups, c.soup.view(), c.light, {}, nullptr,
-                           [&](std::span<const GroupDecision> family, int) {
+                           [&](std::span<const soft::GroupDecision> family, int) {
                              works.push_back(0);
-                             for (const GroupDecision& decision : family)
+                             for (const soft::GroupDecision& decision : family)
                                works.back() += decision.group->count * decision.candidates.size();
                            });
   });
@@ -158,7 +160,7 @@ std::vector<std::uint64_t> works_in_order(const GroupCase& c, const PointGroups&
 // What takes long is not left for the end, when other threads are idle.
 TEST(Shafts, HandOverTheFamiliesWithMostWorkFirst) {
   const GroupCase c = room_case(35, 128);
-  const PointGroups groups = grouped(c);
+  const soft::PointGroups groups = grouped(c);
   const std::vector<std::uint64_t> works = works_in_order(c, groups);
   EXPECT_TRUE(std::is_sorted(works.rbegin(), works.rend()));
   EXPECT_GT(works.front(), works.back());
@@ -174,7 +176,7 @@ TEST(Shafts, HandOverBeforeAllAreDecidedWhereCandidatesAreMany) {
     c.soup.add(p + random.in_cube(0.01), p + random.in_cube(0.01), p + random.in_cube(0.01));
   }
   c.points = view_samples(c.soup.view(), c.view, 128, 128);
-  const PointGroups groups = grouped(c);
+  const soft::PointGroups groups = grouped(c);
   const std::vector<std::uint64_t> works = works_in_order(c, groups);
   EXPECT_FALSE(std::is_sorted(works.rbegin(), works.rend())) << "all were kept";
   std::vector<Given> alone;
@@ -184,13 +186,13 @@ TEST(Shafts, HandOverBeforeAllAreDecidedWhereCandidatesAreMany) {
 
 TEST(Shafts, EndEarlyWhenAsked) {
   const GroupCase c = room_case(34, 64);
-  const PointGroups groups = grouped(c);
-  ShaftCuller culler;
+  const soft::PointGroups groups = grouped(c);
+  soft::ShaftCuller culler;
   StopFlag stop;
   std::size_t families = 0, handed_over = 0;
   const auto run = [&] {
     return culler.for_each_family(groups, c.soup.view(), c.light, {}, &stop,
-                                  [&](std::span<const GroupDecision> family, int) {
+                                  [&](std::span<const soft::GroupDecision> family, int) {
                                     handed_over += family.size();
                                     if (++families == 3) stop.request();
                                   });

@@ -11,10 +11,10 @@
 #include <string>
 #include <vector>
 
-#include "import/import_scene.h"
+#include <tenebra/soft_shadows.h>
+#include "formats/import_scene.h"
 #include "parallel/parallel.h"
 #include "reference/exact_soft.h"
-#include "soft/soft_shadows.h"
 #include "support/samples.h"
 #include "support/scaled.h"
 #include "support/soup.h"
@@ -56,7 +56,7 @@ inline std::vector<reference::SoftAnswer> oracle(const SoftCase& c, const std::v
   const reference::ExactSoft exact(c.view, c.soup.view(), c.light);
   const std::size_t most = scaled(200) > 200 ? 2000 : 200;
   std::vector<reference::SoftAnswer> answers(pixels.size());
-  parallel_ranges(pixels.size(), 1, [&](std::size_t first, std::size_t last) {
+  parallel::parallel_ranges(pixels.size(), 1, [&](std::size_t first, std::size_t last) {
     for (std::size_t k = first; k < last; ++k)
       answers[k] = exact.answer(c.points.positions[pixels[k]], c.points.triangles[pixels[k]],
                                 c.normals.empty() ? glm::vec3(0) : c.normals[pixels[k]],

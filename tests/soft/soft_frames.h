@@ -1,6 +1,7 @@
 // Frames of the bundled and the BART scenes as cases of the soft shadows.
 #pragma once
 
+#include <fmt/core.h>
 #include "soft/soft_case.h"
 
 namespace tenebra::testing {
@@ -31,7 +32,7 @@ inline SoftCase frame_case(const SceneFrame& frame, int width, int height, doubl
                            std::size_t light = 0) {
   SoftCase c;
   c.name = fmt::format("{} frame {} light {} of {} %", frame.scene, frame.frame, light, percent);
-  Expected<Scene> scene = import_scene(path_of(frame));
+  Expected<Scene> scene = formats::import_scene(path_of(frame));
   if (!scene) throw std::runtime_error(scene.error().message);
   std::string unmatched;
   if (*frame.no_cast != 0 && !leave_out_casters(*scene, {frame.no_cast}, unmatched))

@@ -10,7 +10,7 @@
 #include <csignal>
 #include <stdexcept>
 
-namespace tenebra::test {
+namespace tenebra::testing {
 namespace {
 
 int exit_code_of(int status) {
@@ -108,4 +108,4 @@ ProgramResult run_program(const std::vector<std::string>& arguments, const std::
   return ChildProgram(arguments, prepare).wait();
 }
 
-}  // namespace tenebra::test
+}  // namespace tenebra::testing

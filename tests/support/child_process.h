@@ -7,7 +7,7 @@
 #include <string>
 #include <vector>
 
-namespace tenebra::test {
+namespace tenebra::testing {
 
 /// Exit code of `body` in a forked child; 128 + signal if a signal ended it. The child runs no exit handlers.
 int run_in_child(const std::function<int()>& body);
@@ -41,4 +41,4 @@ private:
 ProgramResult run_program(const std::vector<std::string>& arguments,
                           const std::function<void()>& prepare = {});
 
-}  // namespace tenebra::test
+}  // namespace tenebra::testing

@@ -7,7 +7,7 @@
 #include <string>
 #include <vector>
 
-#include "shadow/mask.h"
+#include <tenebra/hard_shadows.h>
 #include "support/seeded_random.h"
 
 namespace tenebra::testing {

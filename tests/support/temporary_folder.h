@@ -10,7 +10,7 @@
 #include <string>
 #include <vector>
 
-namespace tenebra::test {
+namespace tenebra::testing {
 
 class TemporaryFolder {
 public:
@@ -51,4 +51,4 @@ inline void write_text(const std::filesystem::path& path, const std::string& tex
   std::ofstream(path, std::ios::binary) << text;
 }
 
-}  // namespace tenebra::test
+}  // namespace tenebra::testing

@@ -5,7 +5,7 @@
 
 #include "viewer/viewer_test_scene.h"
 
-namespace tenebra::test {
+namespace tenebra::testing {
 namespace {
 
 using nlohmann::json;
@@ -106,4 +106,4 @@ TEST(ConvertCommand, ReportsWhatItCannotWrite) {
 }
 
 }  // namespace
-}  // namespace tenebra::test
+}  // namespace tenebra::testing

@@ -9,7 +9,7 @@ namespace tenebra::viewer {
 namespace {
 
 using glm::vec3;
-using test::TemporaryFolder;
+using testing::TemporaryFolder;
 
 TEST(LightEdits, ReadBackWhatTheyWrite) {
   LightEdits edits(4);
@@ -53,51 +53,51 @@ TEST(LightEdits, ChangeTheirLightAndNoOther) {
   EXPECT_EQ(edited_sizes_m(edits), (std::vector<std::optional<glm::vec2>>{std::nullopt, glm::vec2(6, 3)}));
 }
 
-Image8 rendered(const TemporaryFolder& folder, std::vector<std::string> arguments) {
+base::Image8 rendered(const TemporaryFolder& folder, std::vector<std::string> arguments) {
   arguments.insert(arguments.begin(), "render");
   arguments.insert(arguments.end(), {"--size", "80x60", "--quiet", "-o", folder / "picture.png"});
-  const auto result = test::tenebra(arguments);
+  const auto result = testing::tenebra(arguments);
   EXPECT_EQ(result.exit_code, 0) << result.errors;
-  auto image = read_png(folder / "picture.png");
+  auto image = base::read_png(folder / "picture.png");
   EXPECT_TRUE(image) << image.error().message;
-  return image ? std::move(*image) : Image8{};
+  return image ? std::move(*image) : base::Image8{};
 }
 
 TEST(SetLight, DrawsWhatTheOtherOptionsDraw) {
   const TemporaryFolder folder;
-  const std::string scene = test::write_moving_scene(folder, 2);
+  const std::string scene = testing::write_moving_scene(folder, 2);
   const auto soft = [&](std::vector<std::string> more) {
     more.insert(more.begin(), {scene, "--shadows", "soft"});
     return rendered(folder, more);
   };
-  const Image8 first = rendered(folder, {scene, "--light", "0"});
+  const base::Image8 first = rendered(folder, {scene, "--light", "0"});
   EXPECT_NE(rendered(folder, {scene}), first);
   EXPECT_EQ(rendered(folder, {scene, "--set-light", "1 on=0"}), first);
   EXPECT_EQ(rendered(folder, {scene, "--set-light", "0 move=1,0,0", "--light", "0"}),
             rendered(folder, {scene, "--light", "1"}))
       << "the second light stands a metre beside the first";
-  const Image8 sized = soft({"--light-size", "1x0.5"});
+  const base::Image8 sized = soft({"--light-size", "1x0.5"});
   EXPECT_EQ(soft({"--set-light", "0 size=1x0.5", "--set-light", "1 size=1x0.5"}), sized);
   EXPECT_EQ(soft({"--set-light", "1 size=1x0.5", "--light-size", "1x0.5"}), sized);
-  const Image8 one = soft({"--set-light", "1 size=1x0.5", "--light", "1"});
+  const base::Image8 one = soft({"--set-light", "1 size=1x0.5", "--light", "1"});
   EXPECT_EQ(soft({"--light-size", "1x0.5", "--light", "1"}), one) << "light 0 has no part in it";
   EXPECT_NE(soft({"--set-light", "1 size=2x0.5", "--light", "1"}), one);
 }
 
 TEST(SetLight, CountsEachPlaceOfASharedLight) {
   const TemporaryFolder folder;
-  const std::string scene = test::write_moving_scene(folder, 2);
-  const Image8 first = rendered(folder, {scene, "--light", "0"});
-  std::string text = test::read_text(scene);
+  const std::string scene = testing::write_moving_scene(folder, 2);
+  const base::Image8 first = rendered(folder, {scene, "--light", "0"});
+  std::string text = testing::read_text(scene);
   const auto second = text.find(R"("light":1)");
   ASSERT_NE(second, std::string::npos);
-  test::write_text(scene, text.replace(second, 9, R"("light":0)"));
+  testing::write_text(scene, text.replace(second, 9, R"("light":0)"));
   EXPECT_EQ(rendered(folder, {scene, "--set-light", "1 on=0"}), first);
 }
 
 TEST(SetLight, NumbersMasksAsTheSceneDoes) {
   const TemporaryFolder folder;
-  const std::string scene = test::write_moving_scene(folder, 2);
+  const std::string scene = testing::write_moving_scene(folder, 2);
   rendered(folder, {scene, "--set-light", "0 on=0", "--mask", folder / "mask.png"});
   EXPECT_FALSE(std::filesystem::exists(folder / "mask_L0.png"));
   EXPECT_TRUE(std::filesystem::exists(folder / "mask_L1.png"));
@@ -105,13 +105,14 @@ TEST(SetLight, NumbersMasksAsTheSceneDoes) {
 
 TEST(SetLight, OfALightThatTheSceneLacksIsRefusedBeforeAWindowOpens) {
   const TemporaryFolder folder;
-  const std::string scene = test::write_moving_scene(folder, 2);
+  const std::string scene = testing::write_moving_scene(folder, 2);
   for (const std::vector<std::string>& wrong :
        {std::vector<std::string>{"--light", "2"}, {"--set-light", "2 on=0"}, {"--set-light", "0 size=0"}}) {
     for (const char* command : {"render", "view"}) {
-      const auto result = test::tenebra({command, scene, wrong[0], wrong[1]}, [] { ::unsetenv("DISPLAY"); });
+      const auto result =
+          testing::tenebra({command, scene, wrong[0], wrong[1]}, [] { ::unsetenv("DISPLAY"); });
       EXPECT_EQ(result.exit_code, 1);
-      EXPECT_TRUE(test::is_one_sentence(result.errors)) << result.errors;
+      EXPECT_TRUE(testing::is_one_sentence(result.errors)) << result.errors;
       EXPECT_TRUE(result.errors.starts_with("tenebra: " + wrong[0] + ": found ")) << result.errors;
     }
   }

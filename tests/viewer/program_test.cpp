@@ -7,7 +7,7 @@
 #include "base/image.h"
 #include "viewer/viewer_test_scene.h"
 
-namespace tenebra::test {
+namespace tenebra::testing {
 namespace {
 
 TEST(Program, TeachesWithHelp) {
@@ -69,7 +69,7 @@ std::ostream& operator<<(std::ostream& stream, const BadUse& use) {
   return stream;
 }
 
-class BadOptions : public testing::TestWithParam<BadUse> {};
+class BadOptions : public ::testing::TestWithParam<BadUse> {};
 
 TEST_P(BadOptions, EndInOneSentence) {
   const TemporaryFolder folder;
@@ -214,7 +214,7 @@ std::vector<BadUse> bad_uses() {
   return uses;
 }
 
-INSTANTIATE_TEST_SUITE_P(Program, BadOptions, testing::ValuesIn(bad_uses()), [](const auto& use) {
+INSTANTIATE_TEST_SUITE_P(Program, BadOptions, ::testing::ValuesIn(bad_uses()), [](const auto& use) {
   std::string name = std::to_string(use.index);
   for (const std::string& argument : use.param.arguments) {
     name += "_";
@@ -251,7 +251,7 @@ TEST(Program, EndsInASentenceWithoutMemory) {
 #endif
   const TemporaryFolder folder;
   constexpr int side = 8192;  // 64 MiB decoded
-  ASSERT_TRUE(write_png(folder / "large.png", {side, side, 1, std::vector<std::uint8_t>(side * side)}));
+  ASSERT_TRUE(base::write_png(folder / "large.png", {side, side, 1, std::vector<std::uint8_t>(side * side)}));
   for (const rlim_t limit_mib : {100, 150, 200, 250}) {
     const auto result = tenebra({"compare", folder / "large.png", folder / "large.png"}, [&] {
       const rlimit bound{limit_mib << 20, limit_mib << 20};
@@ -264,4 +264,4 @@ TEST(Program, EndsInASentenceWithoutMemory) {
 }
 
 }  // namespace
-}  // namespace tenebra::test
+}  // namespace tenebra::testing

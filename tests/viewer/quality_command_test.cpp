@@ -10,7 +10,7 @@
 #include "view_options.h"
 #include "viewer/viewer_test_scene.h"
 
-namespace tenebra::test {
+namespace tenebra::testing {
 namespace {
 
 /// The method that options stand for, as text without what is default.
@@ -151,27 +151,27 @@ TEST(QualityOption, IsDocumentedWithTheErrorsThatWereMeasured) {
 }
 
 /// A picture with soft shadows.
-Image8 picture(const TemporaryFolder& folder, const std::string& scene, std::vector<std::string> more) {
+base::Image8 picture(const TemporaryFolder& folder, const std::string& scene, std::vector<std::string> more) {
   std::vector<std::string> arguments{"render",        scene,  "--time",       "5",   "--size",  "80x60",
                                      "--shadows",     "soft", "--light-size", "1.5", "--quiet", "-o",
                                      folder / "p.png"};
   arguments.insert(arguments.end(), more.begin(), more.end());
   const auto result = tenebra(arguments);
   EXPECT_EQ(result.exit_code, 0) << result.errors;
-  return read_png(folder / "p.png").value_or(Image8{});
+  return base::read_png(folder / "p.png").value_or(base::Image8{});
 }
 
 TEST(QualityOption, ExactIsTheDefaultExactPictureToTheBit) {
   const TemporaryFolder folder;
   const std::string scene = write_moving_scene(folder);
-  const Image8 standard = picture(folder, scene, {});
+  const base::Image8 standard = picture(folder, scene, {});
   EXPECT_EQ(picture(folder, scene, {"--quality", "exact"}), standard);
   EXPECT_EQ(picture(folder, scene, {"--quality", "balanced"}), standard);
-  const Image8 fast = picture(folder, scene, {"--quality", "fast"});
+  const base::Image8 fast = picture(folder, scene, {"--quality", "fast"});
   EXPECT_NE(fast, standard);
   EXPECT_EQ(picture(folder, scene, {"--soft-points", "8"}), fast);
   EXPECT_EQ(picture(folder, scene, {"--soft-points", "0", "--quality", "fast"}), standard);
 }
 
 }  // namespace
-}  // namespace tenebra::test
+}  // namespace tenebra::testing

@@ -13,19 +13,19 @@
 #include "base/image.h"
 #include "viewer/viewer_test_scene.h"
 
-namespace tenebra::test {
+namespace tenebra::testing {
 namespace {
 
 namespace fs = std::filesystem;
 using nlohmann::json;
 
-Image8 picture(const fs::path& path) {
-  auto image = read_png(path);
+base::Image8 picture(const fs::path& path) {
+  auto image = base::read_png(path);
   EXPECT_TRUE(image) << image.error().message;
-  return image.value_or(Image8{});
+  return image.value_or(base::Image8{});
 }
 
-std::size_t count_of(const Image8& image, std::uint8_t value) {
+std::size_t count_of(const base::Image8& image, std::uint8_t value) {
   return static_cast<std::size_t>(std::count(image.pixels.begin(), image.pixels.end(), value));
 }
 
@@ -53,7 +53,7 @@ TEST(RenderCommand, DrawsOneFrameToItsDefaultPlace) {
     if (::chdir(folder.path().c_str()) != 0) ::_exit(99);
   });
   ASSERT_EQ(result.exit_code, 0) << result.errors;
-  const Image8 image = picture(folder / "out/0000.png");
+  const base::Image8 image = picture(folder / "out/0000.png");
   EXPECT_EQ(image.width, 800);
   EXPECT_EQ(image.height, 600);
   EXPECT_EQ(image.channels, 3);
@@ -67,7 +67,7 @@ TEST(RenderCommand, WritesMasksOfZeroAndFullOnly) {
   ASSERT_EQ(result.exit_code, 0) << result.errors;
   EXPECT_EQ(result.output + result.errors, "");
   EXPECT_EQ(results_in(folder), std::vector<std::string>{"mask.png"});
-  const Image8 mask = picture(folder / "mask.png");
+  const base::Image8 mask = picture(folder / "mask.png");
   EXPECT_EQ(mask.channels, 1);
   EXPECT_GT(count_of(mask, 0), 500u) << "sky and shadow";
   EXPECT_GT(count_of(mask, 255), 500u) << "lit floor";
@@ -85,8 +85,8 @@ TEST(RenderCommand, DarkensWhatTheMaskSaysIsShadowed) {
   auto uncast = common;
   uncast.insert(uncast.end(), {folder / "uncast.png", "--no-cast", "blocker"});
   for (const auto& arguments : {with, without, uncast}) ASSERT_EQ(tenebra(arguments).exit_code, 0);
-  const Image8 shadowed = picture(folder / "with.png");
-  const Image8 plain = picture(folder / "without.png");
+  const base::Image8 shadowed = picture(folder / "with.png");
+  const base::Image8 plain = picture(folder / "without.png");
   EXPECT_EQ(picture(folder / "uncast.png"), plain) << "with the only blocker left out there is no shadow";
   std::size_t darker = 0;
   for (std::size_t i = 0; i < plain.pixels.size(); ++i) {
@@ -231,4 +231,4 @@ TEST(RenderCommand, LeavesOnlyWholePicturesWhenKilled) {
 }
 
 }  // namespace
-}  // namespace tenebra::test
+}  // namespace tenebra::testing

@@ -1,12 +1,13 @@
 // tenebra render with soft shadows and ambient occlusion: its options, masks, log and notes; --config.
 #include <gtest/gtest.h>
 
+#include <cmath>
 #include <cstring>
 
 #include "base/image.h"
 #include "viewer/viewer_test_scene.h"
 
-namespace tenebra::test {
+namespace tenebra::testing {
 namespace {
 
 namespace fs = std::filesystem;
@@ -55,7 +56,7 @@ TEST(SoftCommand, WritesTheVisibleFractionInEightAndThirtyTwoBits) {
                       folder / "mask.png", "--mask", folder / "mask.pfm", "--log", folder / "log.csv"}));
   ASSERT_EQ(result.exit_code, 0) << result.errors;
   EXPECT_EQ(result.errors, "");
-  const auto mask = read_png(folder / "mask.png");
+  const auto mask = base::read_png(folder / "mask.png");
   ASSERT_TRUE(mask) << mask.error().message;
   const std::vector<float> fraction = read_pfm(folder / "mask.pfm");
   int between = 0;
@@ -93,12 +94,12 @@ TEST(SoftCommand, EverySettingOfTheSolversDrawsTheSamePicture) {
                                                        {"--soft-precision", "reference"},
                                                        {"--threads", "1"},
                                                        {"--simd", "scalar"}};
-  Image8 expected;
+  base::Image8 expected;
   for (std::vector<std::string> more : settings) {
     more.insert(more.end(), {"--shadows", "soft", "--light-size", "20%", "--quiet", "-o", folder / "a.png"});
     const auto result = tenebra(render(scene, more));
     ASSERT_EQ(result.exit_code, 0) << result.errors;
-    const auto image = read_png(folder / "a.png");
+    const auto image = base::read_png(folder / "a.png");
     ASSERT_TRUE(image) << image.error().message;
     if (expected.pixels.empty()) expected = *image;
     for (std::size_t i = 0; i < expected.pixels.size(); ++i) {
@@ -147,16 +148,16 @@ TEST(Config, GivesOptionsThatTheCommandLineOverrules) {
     const auto result = tenebra(arguments);
     EXPECT_EQ(result.exit_code, 0) << result.errors;
     EXPECT_EQ(result.output + result.errors, "");
-    return read_png(folder / "a.png").value_or(Image8{});
+    return base::read_png(folder / "a.png").value_or(base::Image8{});
   };
-  const Image8 from_file = run({});
+  const base::Image8 from_file = run({});
   EXPECT_EQ(from_file.width, 40);
   EXPECT_EQ(run({"--size", "20x10"}).width, 20);
   ASSERT_EQ(tenebra({"render", scene, "--size", "40x30", "--eye", "0,5,1", "--look-at", "0,0,0", "--no-cast",
                      "floor", "--light-size", "30%", "--shadows", "soft", "-o", folder / "b.png"})
                 .exit_code,
             0);
-  EXPECT_EQ(from_file, *read_png(folder / "b.png"));
+  EXPECT_EQ(from_file, *base::read_png(folder / "b.png"));
 }
 
 TEST(Config, NamesFileAndWordOfWhatIsWrong) {
@@ -185,4 +186,4 @@ TEST(Config, NamesFileAndWordOfWhatIsWrong) {
 }
 
 }  // namespace
-}  // namespace tenebra::test
+}  // namespace tenebra::testing

@@ -7,7 +7,7 @@
 #include "view_options.h"
 #include "viewer_test_scene.h"
 
-namespace tenebra::test {
+namespace tenebra::testing {
 namespace {
 
 using viewer::MethodOptions;
@@ -100,8 +100,8 @@ TEST(MethodArguments, CoverEveryMethodOption) {
 }
 
 TEST(PictureDifference, CountsAndShowsWhatDiffers) {
-  const Image8 a{2, 1, 3, {10, 20, 30, 200, 200, 200}};
-  const Image8 b{2, 1, 3, {10, 25, 30, 200, 100, 201}};
+  const base::Image8 a{2, 1, 3, {10, 20, 30, 200, 200, 200}};
+  const base::Image8 b{2, 1, 3, {10, 25, 30, 200, 100, 201}};
   const auto difference = viewer::compare_pictures(a, b, 0);
   EXPECT_EQ(difference.pixels, 2u);
   EXPECT_EQ(difference.differing, 2u);
@@ -111,4 +111,4 @@ TEST(PictureDifference, CountsAndShowsWhatDiffers) {
 }
 
 }  // namespace
-}  // namespace tenebra::test
+}  // namespace tenebra::testing

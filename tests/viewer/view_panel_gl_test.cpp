@@ -15,7 +15,7 @@
 namespace tenebra::viewer {
 namespace {
 
-using test::TemporaryFolder;
+using testing::TemporaryFolder;
 
 /// A picture to draw on and a viewer that draws. Keys are GLFW's codes; a letter's is its capital.
 class HeadlessViewer {
@@ -52,7 +52,7 @@ public:
   HeadlessViewer& operator=(const HeadlessViewer&) = delete;
 
   Viewer& viewer() { return *viewer_; }
-  std::string report() const { return test::read_text(folder_ / "report.jsonl"); }
+  std::string report() const { return testing::read_text(folder_ / "report.jsonl"); }
   const TemporaryFolder& folder() const { return folder_; }
 
   void turn() {
@@ -103,7 +103,7 @@ public:
     ImGui::GetIO().AddInputCharacter(static_cast<unsigned>(character));
     turn();
   }
-  Image8 pixels() const { return gl_->read_window(window_.width, window_.height); }
+  base::Image8 pixels() const { return gl_->read_window(window_.width, window_.height); }
   std::vector<std::string> gl_messages() { return gl_->take_messages(); }
 
 private:
@@ -124,7 +124,7 @@ private:
   std::optional<Viewer> viewer_;
 };
 
-int pixels_unlike(const Image8& a, const Image8& b) {
+int pixels_unlike(const base::Image8& a, const base::Image8& b) {
   int count = 0;
   for (std::size_t i = 0; i < a.pixels.size(); ++i) count += a.pixels[i] != b.pixels[i] ? 1 : 0;
   return count;
@@ -132,16 +132,16 @@ int pixels_unlike(const Image8& a, const Image8& b) {
 
 TEST(ViewPanel, IsDrawnWithoutADisplay) {
   const TemporaryFolder folder;
-  HeadlessViewer headless(test::write_moving_scene(folder), {1280, 720});
+  HeadlessViewer headless(testing::write_moving_scene(folder), {1280, 720});
   ASSERT_TRUE(headless.wait_for_first_picture());
   headless.turn();
-  const Image8 before = headless.pixels();
+  const base::Image8 before = headless.pixels();
   for (const char* name :
        {"play", "scrubber", "shadows.soft", "variant", "graph", "overlay.nodes", "section.Lights"}) {
     EXPECT_EQ(headless.viewer().marks().count(name), 1u) << name;
   }
   headless.click("shadows.none");
-  EXPECT_EQ(headless.viewer().state().slots[0].render.shadows, ShadowMode::none);
+  EXPECT_EQ(headless.viewer().state().slots[0].render.shadows, render::ShadowMode::none);
   ASSERT_TRUE(headless.turn_until([&] { return headless.viewer().picture()->a.record.stats.rays == 0; }));
   headless.turn();
   EXPECT_GT(pixels_unlike(headless.pixels(), before), 1000) << "the picture lost its shadow, the panel a row";
@@ -150,10 +150,10 @@ TEST(ViewPanel, IsDrawnWithoutADisplay) {
 
 TEST(ViewPanel, BadFilesShowTheirMessageAndKeepTheScene) {
   const TemporaryFolder folder;
-  HeadlessViewer headless(test::write_moving_scene(folder), {1280, 720});
+  HeadlessViewer headless(testing::write_moving_scene(folder), {1280, 720});
   ASSERT_TRUE(headless.wait_for_first_picture());
   const auto scene = headless.viewer().state().scene;
-  test::write_text(folder / "broken.glb", "no scene at all");
+  testing::write_text(folder / "broken.glb", "no scene at all");
   for (const std::string& file : {(folder / "broken.glb").string(), (folder / "missing.gltf").string(),
                                   folder.path().string(), std::string("notes.txt")}) {
     const std::string before = headless.viewer().message();
@@ -194,7 +194,7 @@ TEST(ViewPanel, CancelsWhatTakesLong) {
 
 TEST(ViewPanel, SurvivesAnyHand) {
   const TemporaryFolder folder;
-  HeadlessViewer headless(test::write_moving_scene(folder, 2), {900, 640});
+  HeadlessViewer headless(testing::write_moving_scene(folder, 2), {900, 640});
   ASSERT_TRUE(headless.wait_for_first_picture());
   testing::Random random(11);
   std::set<std::string> used;
@@ -234,7 +234,7 @@ TEST(ViewPanel, SurvivesAnyHand) {
 
 TEST(ViewPanel, StaysUsableInSmallWindowsAndOnDenseDisplays) {
   const TemporaryFolder folder;
-  const auto scene = test::write_moving_scene(folder);
+  const auto scene = testing::write_moving_scene(folder);
   {
     HeadlessViewer small(scene, {300, 200});
     ASSERT_TRUE(small.wait_for_first_picture());

@@ -1,18 +1,19 @@
 // tenebra view under a virtual display, driven by real key and mouse events.
+#include <fmt/core.h>
 #include <gtest/gtest.h>
 
 #include "base/image.h"
 #include "window_driver.h"
 
-namespace tenebra::test {
+namespace tenebra::testing {
 namespace {
 
 namespace fs = std::filesystem;
 
-Image8 picture_of(const fs::path& file) {
-  auto image = read_png(file);
+base::Image8 picture_of(const fs::path& file) {
+  auto image = base::read_png(file);
   EXPECT_TRUE(image) << image.error().message;
-  return image ? std::move(*image) : Image8{};
+  return image ? std::move(*image) : base::Image8{};
 }
 
 /// Waits for the file of a screenshot.
@@ -23,9 +24,9 @@ fs::path shot_after(const ViewSession& session, const std::string& keys) {
 }
 
 /// The part of a picture of the window that shows the scene.
-Image8 cut(const Image8& window, const std::array<double, 4>& place) {
+base::Image8 cut(const base::Image8& window, const std::array<double, 4>& place) {
   const auto [left, top, right, bottom] = place;
-  Image8 out{static_cast<int>(right - left), static_cast<int>(bottom - top), window.channels, {}};
+  base::Image8 out{static_cast<int>(right - left), static_cast<int>(bottom - top), window.channels, {}};
   for (int y = static_cast<int>(top); y < static_cast<int>(bottom); ++y) {
     const auto row =
         window.pixels.begin() + (static_cast<std::ptrdiff_t>(y) * window.width + static_cast<int>(left)) * 3;
@@ -34,7 +35,7 @@ Image8 cut(const Image8& window, const std::array<double, 4>& place) {
   return out;
 }
 
-Image8 rendered(const TemporaryFolder& folder, std::vector<std::string> arguments) {
+base::Image8 rendered(const TemporaryFolder& folder, std::vector<std::string> arguments) {
   arguments.insert(arguments.begin(), "render");
   arguments.insert(arguments.end(), {"-o", folder / "rendered.png", "--quiet"});
   const auto result = tenebra(arguments);
@@ -314,7 +315,7 @@ TEST(ViewWindow, ShowsTheBitsOfRender) {
   for (const auto& method : methods) {
     std::vector<std::string> arguments{scene, "--time", "2.125", "--size", "400x300"};
     arguments.insert(arguments.end(), method.begin(), method.end());
-    const Image8 expected = rendered(folder, arguments);
+    const base::Image8 expected = rendered(folder, arguments);
     arguments.insert(arguments.end(), {"--shots", folder / "shot_%d.png"});
     const ViewSession session(display, folder, arguments);
     session.wait_for_picture();
@@ -324,7 +325,7 @@ TEST(ViewWindow, ShowsTheBitsOfRender) {
     session.move_to("scrubber");
     session.wait_for_picture();
     session.wait_until_gone("message");
-    const Image8 window = picture_of(shot_after(session, "shift+p"));
+    const base::Image8 window = picture_of(shot_after(session, "shift+p"));
     EXPECT_EQ(cut(window, session.place("picture")), expected) << "pixels of the window, " << method[1];
     EXPECT_EQ(picture_of(shot_after(session, "p")), expected) << method[1];
     quit(session);
@@ -455,4 +456,4 @@ TEST(ViewWindow, ScalesWithTheDisplay) {
 }
 
 }  // namespace
-}  // namespace tenebra::test
+}  // namespace tenebra::testing

@@ -14,7 +14,7 @@
 #include "support/child_process.h"
 #include "support/temporary_folder.h"
 
-namespace tenebra::test {
+namespace tenebra::testing {
 
 inline constexpr int moving_scene_frames = 301;  // 10 s at 30 frames a second, both ends included
 inline constexpr int moving_scene_triangles = 3;
@@ -75,4 +75,4 @@ inline bool is_one_sentence(const std::string& text) {
   return text.starts_with("tenebra: ") && text.ends_with("\n") && text.find('\n') == text.size() - 1;
 }
 
-}  // namespace tenebra::test
+}  // namespace tenebra::testing

@@ -2,6 +2,7 @@
 // screen; what the program says of itself comes from its --report.
 #pragma once
 
+#include <fmt/core.h>
 #include <gtest/gtest.h>
 
 #include <algorithm>
@@ -14,7 +15,7 @@
 
 #include "viewer_test_scene.h"
 
-namespace tenebra::test {
+namespace tenebra::testing {
 
 using Json = nlohmann::json;
 
@@ -226,4 +227,4 @@ private:
     if (!has_program(needed)) GTEST_SKIP() << needed << " is missing: tools/setup.sh --tests"; \
   }
 
-}  // namespace tenebra::test
+}  // namespace tenebra::testing

@@ -4,7 +4,7 @@
 
 #include <chrono>
 
-#include "scene/animation.h"
+#include <tenebra/animation.h>
 
 namespace tenebra::viewer {
 

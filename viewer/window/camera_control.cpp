@@ -23,7 +23,7 @@ std::string text_of(glm::vec3 v) {
 /// `direction` turned right about `up` and down about the view's right axis, kept off the poles.
 glm::dvec3 turned(glm::dvec3 direction, glm::dvec3 up, double right_rad, double down_rad) {
   up = glm::normalize(up);
-  const glm::dvec3 right = view_basis(direction, up)[0];
+  const glm::dvec3 right = scene::view_basis(direction, up)[0];
   const double length = glm::length(direction);
   const double angle = std::acos(std::clamp(glm::dot(direction, up) / length, -1.0, 1.0));
   const double wanted =
@@ -72,7 +72,7 @@ void look_around(FreeCamera& camera, float right_rad, float down_rad) {
 
 void pan(FreeCamera& camera, glm::vec2 pixels, int height) {
   const glm::dvec3 forward = glm::dvec3(camera.target) - glm::dvec3(camera.eye);
-  const glm::dmat3 basis = view_basis(forward, camera.up);
+  const glm::dmat3 basis = scene::view_basis(forward, camera.up);
   const double metres_a_pixel =
       2 * glm::length(forward) * std::tan(camera.fov_deg / 2 / degrees_per_radian) / height;
   const glm::vec3 moved =
@@ -88,7 +88,7 @@ void zoom(FreeCamera& camera, float steps) {
 }
 
 void fly(FreeCamera& camera, glm::vec3 right_up_forward_m) {
-  const glm::dmat3 basis = view_basis(glm::dvec3(camera.target) - glm::dvec3(camera.eye), camera.up);
+  const glm::dmat3 basis = scene::view_basis(glm::dvec3(camera.target) - glm::dvec3(camera.eye), camera.up);
   const glm::dvec3 m = right_up_forward_m;
   const glm::vec3 moved = basis[0] * m.x + basis[1] * m.y - basis[2] * m.z;
   camera.eye += moved;

@@ -4,7 +4,7 @@
 #include <glm/glm.hpp>
 #include <string>
 
-#include "scene/frame_geometry.h"
+#include <tenebra/frame_geometry.h>
 
 namespace tenebra::viewer {
 

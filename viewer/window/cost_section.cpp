@@ -1,4 +1,5 @@
 // What the frames cost: times as a graph, stages, counts, and pictures of where the work is.
+#include <fmt/core.h>
 #include <algorithm>
 #include <cmath>
 
@@ -15,7 +16,7 @@ constexpr std::array stage_colors{
     IM_COL32(236, 110, 84, 255),  IM_COL32(150, 96, 190, 255), IM_COL32(198, 150, 230, 255),
     IM_COL32(226, 96, 150, 255),  IM_COL32(150, 60, 110, 255), IM_COL32(180, 186, 196, 255),
     IM_COL32(84, 92, 108, 255)};
-static_assert(stage_colors.size() == frame_stages.size());
+static_assert(stage_colors.size() == render::frame_stages.size());
 
 constexpr ImU32 ground = IM_COL32(13, 14, 18, 255);  // of the graph
 
@@ -32,7 +33,7 @@ double axis_end(double value) {
   return 10 * decade;
 }
 
-void draw_marks_of(const Summary& summary, ImVec2 low, ImVec2 size, double top_ms, float font) {
+void draw_marks_of(const base::Summary& summary, ImVec2 low, ImVec2 size, double top_ms, float font) {
   ImDrawList& list = *ImGui::GetWindowDrawList();
   const struct {
     const char* name;
@@ -51,15 +52,15 @@ void draw_marks_of(const Summary& summary, ImVec2 low, ImVec2 size, double top_m
   list.AddText(nullptr, font * 0.85f, {low.x + 4, low.y + 2}, palette::dim, top.c_str());
 }
 
-void explain_frame(const FrameRecord& record) {
+void explain_frame(const render::FrameRecord& record) {
   ImGui::BeginTooltip();
   ImGui::TextUnformatted(
       fmt::format("frame {}   {} ms", record.frame, milliseconds(record.timings.total_ms)).c_str());
-  for (std::size_t i = 0; i < frame_stages.size(); ++i) {
-    const double ms = record.timings.*frame_stages[i].value;
+  for (std::size_t i = 0; i < render::frame_stages.size(); ++i) {
+    const double ms = record.timings.*render::frame_stages[i].value;
     if (ms <= 0) continue;
     ImGui::PushStyleColor(ImGuiCol_Text, stage_colors[i]);
-    ImGui::TextUnformatted(fmt::format("{:<12} {}", frame_stages[i].name, milliseconds(ms)).c_str());
+    ImGui::TextUnformatted(fmt::format("{:<12} {}", render::frame_stages[i].name, milliseconds(ms)).c_str());
     ImGui::PopStyleColor();
   }
   ImGui::EndTooltip();
@@ -76,7 +77,7 @@ void draw_graph(Ui& ui, const FrameHistory& history, const char* name) {
   ImDrawList& list = *ImGui::GetWindowDrawList();
   list.AddRectFilled(low, {low.x + size.x, low.y + size.y}, ground, 3);
   if (records.empty()) return;
-  const Summary summary = history.total_ms();
+  const base::Summary summary = history.total_ms();
   const double top_ms = axis_end(summary.percentile_99 * 1.05);
   const float step = size.x / static_cast<float>(FrameHistory::capacity);
   const float first = size.x - step * static_cast<float>(records.size());
@@ -90,8 +91,8 @@ void draw_graph(Ui& ui, const FrameHistory& history, const char* name) {
       list.AddRectFilled({x, low.y + size.y * static_cast<float>(1 - to)},
                          {x + std::max(1.0f, step), low.y + size.y * static_cast<float>(1 - from)}, color);
     };
-    for (std::size_t stage = 0; stage < frame_stages.size(); ++stage) {
-      bar(records[i].timings.*frame_stages[stage].value, stage_colors[stage]);
+    for (std::size_t stage = 0; stage < render::frame_stages.size(); ++stage) {
+      bar(records[i].timings.*render::frame_stages[stage].value, stage_colors[stage]);
     }
     bar(records[i].timings.total_ms - below_ms, IM_COL32(60, 62, 70, 255));
   }
@@ -103,7 +104,7 @@ void draw_graph(Ui& ui, const FrameHistory& history, const char* name) {
 }
 
 void draw_summary(const FrameHistory& history) {
-  const Summary summary = history.total_ms();
+  const base::Summary summary = history.total_ms();
   if (summary.count == 0) return;
   ImGui::TextUnformatted(fmt::format("median {}", milliseconds(summary.median)).c_str());
   ImGui::SameLine();
@@ -115,10 +116,11 @@ void draw_summary(const FrameHistory& history) {
 void draw_stages(Ui& ui, const FrameHistory& history) {
   const auto& records = history.records();
   ImDrawList& list = *ImGui::GetWindowDrawList();
-  for (std::size_t i = 0; i < frame_stages.size(); ++i) {
+  for (std::size_t i = 0; i < render::frame_stages.size(); ++i) {
     std::vector<double> values;
-    for (const FrameRecord& record : records) values.push_back(record.timings.*frame_stages[i].value);
-    const double median = summarize(values).median;
+    for (const render::FrameRecord& record : records)
+      values.push_back(record.timings.*render::frame_stages[i].value);
+    const double median = base::summarize(values).median;
     if (median <= 0) continue;
     const ImVec2 at = ImGui::GetCursorScreenPos();
     const float line = ImGui::GetTextLineHeight(), width = ImGui::GetContentRegionAvail().x;
@@ -130,7 +132,7 @@ void draw_stages(Ui& ui, const FrameHistory& history) {
     list.AddRectFilled({at.x, at.y + line * 0.3f}, {at.x + line * 0.5f, at.y + line * 0.8f}, stage_colors[i],
                        2);
     ImGui::SetCursorPosX(ImGui::GetCursorPosX() + line);
-    dim_text(std::string(frame_stages[i].name).c_str());
+    dim_text(std::string(render::frame_stages[i].name).c_str());
     const std::string text = milliseconds(median);
     ImGui::SameLine(ui.px(164) - ImGui::CalcTextSize(text.c_str()).x);
     ImGui::TextUnformatted(text.c_str());
@@ -157,7 +159,7 @@ void draw_counts(Ui& ui, const Picture& picture) {
                     ImGui::GetStyle().WindowPadding.x);
     ImGui::TextUnformatted(text.c_str());
   };
-  const auto line = [&](const CountColumn& column) {
+  const auto line = [&](const render::CountColumn& column) {
     const std::uint64_t a = column.value(picture.a.record), b = two ? column.value(picture.b->record) : 0;
     if (a == 0 && b == 0) return;
     dim_text(std::string(column.name).c_str());
@@ -169,8 +171,8 @@ void draw_counts(Ui& ui, const Picture& picture) {
     cell("A", right_a);
     cell("B", width);
   }
-  for (const CountColumn& column : count_columns) line(column);
-  for (const CountColumn& column : method_columns) line(column);
+  for (const render::CountColumn& column : render::count_columns) line(column);
+  for (const render::CountColumn& column : render::method_columns) line(column);
   (void)ui;
 }
 
@@ -185,10 +187,10 @@ void draw_overlay_choice(Ui& ui) {
   row(ui, "Opacity");
   ImGui::SliderFloat("##opacity", &ui.state.overlay_opacity, 0, 1, "%.2f", ImGuiSliderFlags_AlwaysClamp);
   ui.mark("opacity");
-  const ShadowMode shadows = ui.state.slots[ui.state.compare ? 0 : ui.state.active].render.shadows;
-  if (ui.state.overlay == Overlay::nodes && shadows != ShadowMode::hard)
+  const render::ShadowMode shadows = ui.state.slots[ui.state.compare ? 0 : ui.state.active].render.shadows;
+  if (ui.state.overlay == Overlay::nodes && shadows != render::ShadowMode::hard)
     dim_text("Only hard shadows have nodes to count.");
-  if (ui.state.overlay == Overlay::classes && shadows != ShadowMode::soft)
+  if (ui.state.overlay == Overlay::classes && shadows != render::ShadowMode::soft)
     dim_text("Only soft shadows have classes.");
 }
 

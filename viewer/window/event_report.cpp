@@ -4,6 +4,7 @@
 #include <cstring>
 #include <nlohmann/json.hpp>
 
+#include "base/fail.h"
 #include "method_arguments.h"
 
 namespace tenebra::viewer {
@@ -30,7 +31,7 @@ Expected<EventReport> EventReport::create(const std::string& path) {
   EventReport report;
   if (path.empty()) return report;
   report.file_.reset(std::fopen(path.c_str(), "w"));
-  if (!report.file_) return fail("--report {}: {}", path, std::strerror(errno));
+  if (!report.file_) return base::fail("--report {}: {}", path, std::strerror(errno));
   return report;
 }
 
@@ -58,7 +59,7 @@ void EventReport::request(const FrameRequest& request) {
 
 void EventReport::picture(const Picture& picture, std::uint64_t number) {
   if (!file_) return;
-  const FrameRecord& a = picture.a.record;
+  const render::FrameRecord& a = picture.a.record;
   Json json{{"event", "picture"},
             {"number", number},
             {"request", picture.request},

@@ -5,7 +5,7 @@
 #include <memory>
 #include <string>
 
-#include "base/expected.h"
+#include <tenebra/expected.h>
 #include "window/ui.h"
 
 namespace tenebra::viewer {

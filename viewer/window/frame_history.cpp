@@ -4,10 +4,10 @@
 
 namespace tenebra::viewer {
 
-Summary FrameHistory::total_ms() const {
+base::Summary FrameHistory::total_ms() const {
   std::vector<double> totals;
-  for (const FrameRecord& record : records_) totals.push_back(record.timings.total_ms);
-  return summarize(totals);
+  for (const render::FrameRecord& record : records_) totals.push_back(record.timings.total_ms);
+  return base::summarize(totals);
 }
 
 }  // namespace tenebra::viewer

@@ -3,8 +3,8 @@
 
 #include <deque>
 
-#include "base/frame_columns.h"
 #include "base/statistics.h"
+#include "render/log/frame_columns.h"
 
 namespace tenebra::viewer {
 
@@ -12,17 +12,17 @@ class FrameHistory {
 public:
   static constexpr std::size_t capacity = 240;
 
-  void add(const FrameRecord& record) {
+  void add(const render::FrameRecord& record) {
     if (records_.size() == capacity) records_.pop_front();
     records_.push_back(record);
   }
   void clear() { records_.clear(); }
 
-  const std::deque<FrameRecord>& records() const { return records_; }  ///< oldest first
-  Summary total_ms() const;                                            ///< of whole frames
+  const std::deque<render::FrameRecord>& records() const { return records_; }  ///< oldest first
+  base::Summary total_ms() const;                                              ///< of whole frames
 
 private:
-  std::deque<FrameRecord> records_;
+  std::deque<render::FrameRecord> records_;
 };
 
 }  // namespace tenebra::viewer

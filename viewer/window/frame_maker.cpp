@@ -29,21 +29,21 @@ Expected<void> FrameMaker::take_scene(const std::shared_ptr<const ScenePlan>& sc
   renderer_.reset();
   auto context = gl::Context::create(kind_, {.debug = debug_});
   if (!context) return tl::unexpected(context.error());
-  auto renderer = Renderer::create(std::move(*context), scene->scene);
+  auto renderer = render::Renderer::create(std::move(*context), scene->scene);
   if (!renderer) return tl::unexpected(renderer.error());
   renderer_.emplace(std::move(*renderer));
   scene_ = scene;
   return {};
 }
 
-Expected<Drawn> FrameMaker::draw(const FrameRequest& request, const RenderSettings& settings, double time_s,
-                                 const AoProgress& progress, const StopFlag& stop) {
+Expected<Drawn> FrameMaker::draw(const FrameRequest& request, const render::RenderSettings& settings,
+                                 double time_s, const AoProgress& progress, const StopFlag& stop) {
   Drawn drawn;
-  Stopwatch watch;
+  base::Stopwatch watch;
   if (auto done = renderer_->render_frame(input_, settings, drawn.result, progress, &stop); !done) {
     return tl::unexpected(done.error());
   }
-  const FrameResult& result = drawn.result;
+  const render::FrameResult& result = drawn.result;
   drawn.record = {.frame = request.clock.frame_of(time_s),
                   .time_s = time_s,
                   .timings = result.timings,
@@ -59,7 +59,7 @@ Expected<std::shared_ptr<Picture>> FrameMaker::make(const FrameRequest& request,
                                                     const AoProgress& progress, const StopFlag& stop) {
   if (auto taken = take_scene(request.scene); !taken) return tl::unexpected(taken.error());
   const Scene& scene = request.scene->scene;
-  Stopwatch watch;
+  base::Stopwatch watch;
   evaluate_frame(scene, request.clip, time_s, input_.geometry);
   input_.lights = edited_lights(evaluate_lights(scene, request.clip, time_s), request.lights);
   input_.view = view_of_request(request, time_s, request.a.width, request.a.height);
@@ -67,14 +67,14 @@ Expected<std::shared_ptr<Picture>> FrameMaker::make(const FrameRequest& request,
   renderer_->set_lights(edited_lights(scene.lights, request.lights));
 
   auto picture = std::make_shared<Picture>();
-  RenderSettings settings = request.a;
+  render::RenderSettings settings = request.a;
   settings.area_lights.own_size_m = edited_sizes_m(request.lights);
   settings.diagnostics = request.overlay != Overlay::none;
   auto a = draw(request, settings, time_s, progress, stop);
   if (!a) return tl::unexpected(a.error());
   picture->a = std::move(*a);
   if (request.b) {
-    RenderSettings settings_b = *request.b;
+    render::RenderSettings settings_b = *request.b;
     settings_b.area_lights.own_size_m = settings.area_lights.own_size_m;
     auto b = draw(request, settings_b, time_s, progress, stop);
     if (!b) return tl::unexpected(b.error());

@@ -28,14 +28,14 @@ public:
 
 private:
   Expected<void> take_scene(const std::shared_ptr<const ScenePlan>& scene);
-  Expected<Drawn> draw(const FrameRequest& request, const RenderSettings& settings, double time_s,
+  Expected<Drawn> draw(const FrameRequest& request, const render::RenderSettings& settings, double time_s,
                        const AoProgress& progress, const StopFlag& stop);
 
   gl::ContextKind kind_;
   bool debug_;
   std::shared_ptr<const ScenePlan> scene_;
-  std::optional<Renderer> renderer_;
-  FrameInput input_;
+  std::optional<render::Renderer> renderer_;
+  render::FrameInput input_;
   double evaluate_ms_ = 0;
 };
 

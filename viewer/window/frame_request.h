@@ -5,10 +5,10 @@
 #include <memory>
 #include <optional>
 
-#include "base/frame_columns.h"
 #include "light_edits.h"
 #include "output_pattern.h"
 #include "picture_difference.h"
+#include "render/log/frame_columns.h"
 #include "render/renderer.h"
 #include "scene_plan.h"
 #include "window/animation_clock.h"
@@ -29,23 +29,23 @@ struct FrameRequest {
   int camera = 0;                  ///< of the scene
   std::optional<FreeCamera> free;  ///< instead of the scene's camera
   LightEdits lights;
-  RenderSettings a;
-  int slot = 0;                     ///< of `a`: 0 for A, 1 for B (then b is empty)
-  std::optional<RenderSettings> b;  ///< to compare with
+  render::RenderSettings a;
+  int slot = 0;                             ///< of `a`: 0 for A, 1 for B (then b is empty)
+  std::optional<render::RenderSettings> b;  ///< to compare with
   Overlay overlay = Overlay::none;
   std::optional<OutputPattern> record;  ///< each picture (a) is written, numbered by its frame
 };
 
 /// One method's frame of a picture.
 struct Drawn {
-  FrameResult result;
-  FrameRecord record;
+  render::FrameResult result;
+  render::FrameRecord record;
 };
 
 /// An image of the size of the picture that explains it.
 struct OverlayImage {
   Overlay kind = Overlay::none;
-  Image8 image;                              ///< RGB
+  base::Image8 image;                        ///< RGB
   float highest = 0;                         ///< nodes: what the brightest colour stands for
   float peak = 0;                            ///< nodes: the most of any pixel
   double mean = 0;                           ///< nodes: of the pixels with a triangle

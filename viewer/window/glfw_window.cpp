@@ -9,6 +9,7 @@
 #include <filesystem>
 #include <memory>
 
+#include "base/fail.h"
 #include "stop_signals.h"
 #include "window/viewer.h"
 
@@ -27,8 +28,8 @@ std::string glfw_problem() {
 struct Library {
   static Expected<std::unique_ptr<Library>> start() {
     if (!glfwInit()) {
-      return fail("no window can be opened: found no display ({}), expected one in DISPLAY; {}",
-                  glfw_problem(), without_window);
+      return base::fail("no window can be opened: found no display ({}), expected one in DISPLAY; {}",
+                        glfw_problem(), without_window);
     }
     return std::make_unique<Library>();
   }
@@ -51,7 +52,7 @@ Expected<Window> open_window(const ViewOptions& options) {
   glfwWindowHint(GLFW_STENCIL_BITS, 0);
   Window window(glfwCreateWindow(options.window.width, options.window.height, "Tenebra", nullptr, nullptr));
   if (!window) {
-    return fail("no window with OpenGL 3.3 can be opened ({}); {}", glfw_problem(), without_window);
+    return base::fail("no window with OpenGL 3.3 can be opened ({}); {}", glfw_problem(), without_window);
   }
   glfwSetWindowSizeLimits(window.get(), 240, 180, GLFW_DONT_CARE, GLFW_DONT_CARE);
   glfwMakeContextCurrent(window.get());

@@ -63,10 +63,10 @@ void handle_time_keys(const Ui& ui) {
 
 void handle_method_keys(const Ui& ui) {
   ViewState& state = ui.state;
-  RenderSettings& render = state.method().render;
-  if (ui.pressed('1')) render.shadows = ShadowMode::none;
-  if (ui.pressed('2')) render.shadows = ShadowMode::hard;
-  if (ui.pressed('3')) render.shadows = ShadowMode::soft;
+  render::RenderSettings& render = state.method().render;
+  if (ui.pressed('1')) render.shadows = render::ShadowMode::none;
+  if (ui.pressed('2')) render.shadows = render::ShadowMode::hard;
+  if (ui.pressed('3')) render.shadows = render::ShadowMode::soft;
   if (ui.pressed('4')) render.ao.mode = static_cast<AoMode>((static_cast<int>(render.ao.mode) + 1) % 3);
   if (ui.pressed('V', true)) {
     constexpr int variants = 7;

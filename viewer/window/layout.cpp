@@ -1,5 +1,6 @@
 // Where the parts of the window go, the panel that holds the sections, and what shows over the picture while
 // something takes long.
+#include <fmt/core.h>
 #include <algorithm>
 #include <cmath>
 #include <filesystem>
@@ -46,7 +47,7 @@ void draw_progress(Ui& ui, Area view) {
   const WorkerStatus& status = ui.worker;
   const bool first = !ui.picture && status.elapsed_s > 0;
   if ((!status.loading && !status.drawing) || (!status.slow && !first)) return;
-  const bool soft = ui.state.method().render.shadows == ShadowMode::soft;
+  const bool soft = ui.state.method().render.shadows == render::ShadowMode::soft;
   std::string what = status.loading ? "Loading " + std::filesystem::path(status.stage).filename().string()
                      : !status.stage.empty() ? status.stage
                      : soft                  ? "Exact soft shadows"

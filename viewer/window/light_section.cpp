@@ -1,4 +1,5 @@
 // The lights, the camera, and the comparison of A and B.
+#include <fmt/core.h>
 #include <algorithm>
 
 #include "window/panels.h"

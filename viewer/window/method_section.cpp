@@ -1,4 +1,5 @@
 // Scene and method: what is looked at, how its light is computed.
+#include <fmt/core.h>
 #include <filesystem>
 
 #include "window/panels.h"
@@ -40,11 +41,11 @@ void edit_hard(Ui& ui, MethodOptions& method) {
   row(ui, "Samples",
       "Where rays start: exact points from triangle ids, or the paper's from the depth buffer.");
   choose(ui, "samples", sample_choices, method.render.samples);
-  if (method.render.samples == SampleSource::depth && method.render.ao.mode != AoMode::none) {
+  if (method.render.samples == render::SampleSource::depth && method.render.ao.mode != AoMode::none) {
     method.render.ao.mode = AoMode::none;
   }
   row(ui, "Cull", "front: only faces turned away from the light cast; for closed meshes.");
-  bool cull = method.cull_front.value_or(method.render.samples == SampleSource::depth);
+  bool cull = method.cull_front.value_or(method.render.samples == render::SampleSource::depth);
   if (choose(ui, "cull", cull_choices, cull)) method.cull_front = cull;
 }
 
@@ -81,7 +82,7 @@ void edit_light_size(Ui& ui, MethodOptions& method) {
 void edit_soft(Ui& ui, MethodOptions& method) {
   SoftShadowConfig& soft = method.render.soft;
   // What soft shadows have no use for must not stay behind from the hard ones.
-  method.render.samples = SampleSource::ids;
+  method.render.samples = render::SampleSource::ids;
   method.cull_front.reset();
   edit_light_size(ui, method);
   row(ui, "Emissive", "Flat convex meshes of an emissive material shine too.");
@@ -133,10 +134,10 @@ void edit_ao(Ui& ui, AoConfig& ao) {
 }
 
 /// Which preset the settings are; none where they are their own.
-std::optional<Quality> quality_of(const RenderSettings& render) {
-  for (const Quality quality : qualities) {
-    RenderSettings preset = render;
-    apply_quality(quality, preset);
+std::optional<render::Quality> quality_of(const render::RenderSettings& render) {
+  for (const render::Quality quality : render::qualities) {
+    render::RenderSettings preset = render;
+    render::apply_quality(quality, preset);
     if (preset.soft_points == render.soft_points && preset.ao.rays == render.ao.rays &&
         preset.ao.downscale == render.ao.downscale)
       return quality;
@@ -144,17 +145,18 @@ std::optional<Quality> quality_of(const RenderSettings& render) {
   return std::nullopt;
 }
 
-void choose_quality(Ui& ui, RenderSettings& render) {
+void choose_quality(Ui& ui, render::RenderSettings& render) {
   row(ui, "Quality", "What soft shadows and ambient occlusion may cost: sets points, rays and downscale.");
-  std::array<const char*, qualities.size()> names;
-  for (std::size_t i = 0; i < names.size(); ++i) names[i] = quality_name(qualities[i]).data();  // literals
+  std::array<const char*, render::qualities.size()> names;
+  for (std::size_t i = 0; i < names.size(); ++i)
+    names[i] = render::quality_name(render::qualities[i]).data();  // literals
   const auto now = quality_of(render);
   int chosen = now ? static_cast<int>(*now) : -1;
   if (segments(ui, "quality", names.data(), static_cast<int>(names.size()), chosen))
-    apply_quality(qualities[static_cast<std::size_t>(chosen)], render);
+    render::apply_quality(render::qualities[static_cast<std::size_t>(chosen)], render);
 }
 
-void edit_machine(Ui& ui, RenderSettings& render) {
+void edit_machine(Ui& ui, render::RenderSettings& render) {
   row(ui, "Exposure", "Factor of all light.");
   ImGui::SliderFloat("##exposure", &render.exposure, 0.01f, 100.0f, "%.3g", ImGuiSliderFlags_Logarithmic);
   ui.mark("exposure");
@@ -217,13 +219,13 @@ void draw_method_section(Ui& ui) {
   choose_quality(ui, method.render);
   row(ui, "Shadows");
   choose(ui, "shadows", shadow_choices, method.render.shadows);
-  if (method.render.shadows == ShadowMode::hard) edit_hard(ui, method);
-  if (method.render.shadows == ShadowMode::soft) edit_soft(ui, method);
+  if (method.render.shadows == render::ShadowMode::hard) edit_hard(ui, method);
+  if (method.render.shadows == render::ShadowMode::soft) edit_soft(ui, method);
   row(ui, "Occlusion",
       "Ambient occlusion: by displacement fields of rigid objects, or by rays to compare with.");
   choose(ui, "ao", ao_choices, method.render.ao.mode);
   if (method.render.ao.mode != AoMode::none) {
-    method.render.samples = SampleSource::ids;
+    method.render.samples = render::SampleSource::ids;
     edit_ao(ui, method.render.ao);
   }
   edit_machine(ui, method.render);

@@ -29,19 +29,19 @@ constexpr std::array<ClassLook, 7> class_looks{{{"background", {18, 18, 22}},
                                                 {"penumbra by clipping", {86, 170, 110}},
                                                 {"penumbra by outlines", {164, 108, 190}}}};
 
-void put(Image8& image, std::size_t pixel, glm::u8vec3 color) {
+void put(base::Image8& image, std::size_t pixel, glm::u8vec3 color) {
   for (int c = 0; c < 3; ++c) image.pixels[pixel * 3 + static_cast<std::size_t>(c)] = color[c];
 }
 
-Image8 empty_like(const Image8& picture) {
+base::Image8 empty_like(const base::Image8& picture) {
   const auto pixels = static_cast<std::size_t>(picture.width) * static_cast<std::size_t>(picture.height);
   return {picture.width, picture.height, 3, std::vector<std::uint8_t>(pixels * 3)};
 }
 
 /// Node tests of each pixel, all lights; empty if no light has any.
-std::vector<float> nodes_of(const FrameResult& result) {
+std::vector<float> nodes_of(const render::FrameResult& result) {
   std::vector<float> sum;
-  for (const LightMask& mask : result.masks) {
+  for (const render::LightMask& mask : result.masks) {
     sum.resize(std::max(sum.size(), mask.nodes.size()));
     for (std::size_t i = 0; i < mask.nodes.size(); ++i) sum[i] += mask.nodes[i];
   }
@@ -49,16 +49,16 @@ std::vector<float> nodes_of(const FrameResult& result) {
 }
 
 /// The highest SoftClass of each pixel, all lights: what cost most. Empty if no light has any.
-std::vector<std::uint8_t> classes_of(const FrameResult& result) {
+std::vector<std::uint8_t> classes_of(const render::FrameResult& result) {
   std::vector<std::uint8_t> highest;
-  for (const LightMask& mask : result.masks) {
+  for (const render::LightMask& mask : result.masks) {
     highest.resize(std::max(highest.size(), mask.classes.size()));
     for (std::size_t i = 0; i < mask.classes.size(); ++i) highest[i] = std::max(highest[i], mask.classes[i]);
   }
   return highest;
 }
 
-OverlayImage heat_map(const FrameResult& result, std::span<const float> pixel_nodes) {
+OverlayImage heat_map(const render::FrameResult& result, std::span<const float> pixel_nodes) {
   OverlayImage overlay{.kind = Overlay::nodes, .image = empty_like(result.image)};
   std::vector<float> visited;
   for (const float nodes : pixel_nodes) {
@@ -79,7 +79,7 @@ OverlayImage heat_map(const FrameResult& result, std::span<const float> pixel_no
   return overlay;
 }
 
-OverlayImage class_map(const FrameResult& result, std::span<const std::uint8_t> classes) {
+OverlayImage class_map(const render::FrameResult& result, std::span<const std::uint8_t> classes) {
   OverlayImage overlay{.kind = Overlay::classes, .image = empty_like(result.image)};
   for (std::size_t i = 0; i < classes.size(); ++i) {
     const auto index = std::min<std::size_t>(classes[i], class_looks.size() - 1);
@@ -107,7 +107,7 @@ const char* class_name(SoftClass soft_class) {
   return class_looks[static_cast<std::size_t>(soft_class)].name;
 }
 
-OverlayImage make_overlay(Overlay kind, const FrameResult& result) {
+OverlayImage make_overlay(Overlay kind, const render::FrameResult& result) {
   if (kind == Overlay::nodes) {
     const auto nodes = nodes_of(result);
     return nodes.empty() ? OverlayImage{} : heat_map(result, nodes);

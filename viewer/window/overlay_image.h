@@ -6,7 +6,7 @@
 namespace tenebra::viewer {
 
 /// The overlay of what `result`, drawn with diagnostics, holds; `kind` none where it has none of that kind.
-OverlayImage make_overlay(Overlay kind, const FrameResult& result);
+OverlayImage make_overlay(Overlay kind, const render::FrameResult& result);
 
 /// Colour of 0..1 of the heat map: dark violet over red to light yellow.
 glm::u8vec3 heat_color(double part);

@@ -139,7 +139,8 @@ void RenderWorker::draw(FrameMaker& maker, std::unique_lock<std::mutex>& lock) {
   };
   auto made = maker.make(request, time_s, progress, stop_);
   if (made && request.record) {
-    if (auto written = write_png(request.record->file((*made)->a.record.frame), (*made)->a.result.image);
+    if (auto written =
+            base::write_png(request.record->file((*made)->a.record.frame), (*made)->a.result.image);
         !written)
       made = tl::unexpected(written.error());
   }

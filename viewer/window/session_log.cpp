@@ -1,5 +1,7 @@
 #include "window/session_log.h"
 
+#include <fmt/format.h>
+
 #include "base/machine.h"
 #include "method_arguments.h"
 #include "parallel/parallel.h"
@@ -16,11 +18,11 @@ std::string SessionLog::key_of(const ViewState& state) {
 
 Expected<SessionLog> SessionLog::start(const std::string& path, const ViewState& state,
                                        const Picture& picture, const std::string& gl_renderer) {
-  const Image8& image = picture.a.result.image;
+  const base::Image8& image = picture.a.result.image;
   const MethodOptions& method = state.slots[static_cast<std::size_t>(picture.slot)];
   const bool follows = state.camera_mode == CameraMode::scene;
-  std::vector<LogSetting> settings{
-      {"machine", machine_description()},
+  std::vector<render::LogSetting> settings{
+      {"machine", base::machine_description()},
       {"renderer", gl_renderer},
       {"threads", method.render.threads == 0 ? fmt::format("{} (all cores)", thread_count())
                                              : fmt::format("{}", method.render.threads)},
@@ -32,7 +34,7 @@ Expected<SessionLog> SessionLog::start(const std::string& path, const ViewState&
       {"played", state.clock.fixed_step() ? "by fixed steps" : "by the clock, in the window"},
   };
   for (std::string& text : light_edit_texts(state.lights)) settings.push_back({"set_light", std::move(text)});
-  auto log = FrameLog::create(path, settings);
+  auto log = render::FrameLog::create(path, settings);
   if (!log) return tl::unexpected(log.error());
   return SessionLog(std::move(*log), path, key_of(state));
 }

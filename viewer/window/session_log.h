@@ -3,7 +3,7 @@
 
 #include <string>
 
-#include "base/frame_log.h"
+#include "render/log/frame_log.h"
 #include "window/frame_request.h"
 #include "window/view_state.h"
 
@@ -23,11 +23,11 @@ public:
   const std::string& path() const { return path_; }
 
 private:
-  SessionLog(FrameLog log, std::string path, std::string key)
+  SessionLog(render::FrameLog log, std::string path, std::string key)
       : log_(std::move(log)), path_(std::move(path)), key_(std::move(key)) {}
   static std::string key_of(const ViewState& state);
 
-  FrameLog log_;
+  render::FrameLog log_;
   std::string path_;
   std::string key_;
 };

@@ -1,5 +1,7 @@
 #include "window/shell_arguments.h"
 
+#include <fmt/core.h>
+
 #include <algorithm>
 
 #include "method_arguments.h"
@@ -25,7 +27,7 @@ std::string shell_arguments(const ViewState& state, double time_s, Size size) {
     text += fmt::format("{} {} ", name, shell_word(value));
   };
   for (const std::string& name : state.options.no_cast) add("--no-cast", name);
-  if (const int sides = state.options.import.cone_sides; sides != ImportOptions{}.cone_sides) {
+  if (const int sides = state.options.import.cone_sides; sides != formats::ImportOptions{}.cone_sides) {
     add("--cone-sides", fmt::format("{}", sides));
   }
   if (state.clip > 0) add("--clip", number_or_name(scene.clips, state.clip));

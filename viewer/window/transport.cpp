@@ -1,4 +1,5 @@
 // The bar under the picture: play, steps, the scrubber, speed.
+#include <fmt/core.h>
 #include <cmath>
 
 #include "window/panels.h"
@@ -92,8 +93,8 @@ void draw_scrubber(Ui& ui) {
 
 void draw_numbers(Ui& ui) {
   if (!ui.picture) return;
-  const FrameRecord& record = ui.picture->a.record;
-  const Image8& image = ui.picture->a.result.image;
+  const render::FrameRecord& record = ui.picture->a.record;
+  const base::Image8& image = ui.picture->a.result.image;
   const double ms = record.timings.total_ms + (ui.picture->b ? ui.picture->b->record.timings.total_ms : 0);
   const std::string text = fmt::format("{:.1f} ms   {}x{}", ms, image.width, image.height);
   const float width = ImGui::CalcTextSize(text.c_str()).x;

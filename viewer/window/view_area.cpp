@@ -1,4 +1,5 @@
 // The picture in the window, and the hand on it: orbit, fly, drag a light, wipe.
+#include <fmt/core.h>
 #include <algorithm>
 #include <cmath>
 
@@ -36,7 +37,7 @@ Area half_of(Area area, bool right) {
 class Stage {
 public:
   Stage(const Ui& ui, Area area) : ui_(ui), list_(*ImGui::GetWindowDrawList()) {
-    const Image8& image = ui.picture->a.result.image;
+    const base::Image8& image = ui.picture->a.result.image;
     side_ = both() && ui.state.show == CompareView::side_by_side;
     places_[0] = fit(side_ ? half_of(area, false) : area, image.width, image.height);
     places_[1] = side_ ? fit(half_of(area, true), image.width, image.height) : places_[0];
@@ -67,13 +68,13 @@ public:
   /// Pixel of the picture under `at`, in whichever of the places it is.
   glm::vec2 pixel_at(ImVec2 at) const {
     const Area& area = side_ && at.x >= places_[1].low.x ? places_[1] : places_[0];
-    const Image8& image = ui_.picture->a.result.image;
+    const base::Image8& image = ui_.picture->a.result.image;
     return {(at.x - area.low.x) / area.size.x * static_cast<float>(image.width),
             (at.y - area.low.y) / area.size.y * static_cast<float>(image.height)};
   }
   ImVec2 at_pixel(glm::dvec2 pixel, int place) const {
     const Area& area = places_[static_cast<std::size_t>(place)];
-    const Image8& image = ui_.picture->a.result.image;
+    const base::Image8& image = ui_.picture->a.result.image;
     return {area.low.x + static_cast<float>(pixel.x / image.width) * area.size.x,
             area.low.y + static_cast<float>(pixel.y / image.height) * area.size.y};
   }
@@ -297,7 +298,7 @@ void leave_scene_camera(Ui& ui, CameraMode mode) {
   ViewState& state = ui.state;
   if (!ui.picture) return;  // nothing to start from yet
   if (state.camera_mode == CameraMode::scene) {
-    const Image8& image = ui.picture->a.result.image;
+    const base::Image8& image = ui.picture->a.result.image;
     const ViewRays& view = ui.picture->view;
     const float distance = std::max(glm::distance(state.centre, view.eye), 1e-3f * state.diagonal_m);
     state.free = free_camera(view, image.width, image.height, distance);

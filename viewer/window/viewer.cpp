@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <filesystem>
 
+#include "base/fail.h"
 #include "console.h"
 #include "method_arguments.h"
 #include "scene_choice.h"
@@ -255,7 +256,7 @@ std::filesystem::path Viewer::next_shot() {
 void Viewer::save_picture() {
   if (!picture_) return;
   const auto file = next_shot();
-  const auto written = write_png(file, picture_->a.result.image);
+  const auto written = base::write_png(file, picture_->a.result.image);
   report_.note(written ? "shot" : "failure", written ? file.string() : written.error().message);
   say(written ? fmt::format("Picture saved to {}", file.string()) : written.error().message, !written);
 }
@@ -264,7 +265,7 @@ void Viewer::after_draw(int framebuffer_width, int framebuffer_height) {
   if (!window_shot_) return;
   window_shot_ = false;
   const auto file = next_shot();
-  const auto written = write_png(file, gl_.read_window(framebuffer_width, framebuffer_height));
+  const auto written = base::write_png(file, gl_.read_window(framebuffer_width, framebuffer_height));
   report_.note(written ? "shot" : "failure", written ? file.string() : written.error().message);
   say(written ? fmt::format("Window saved to {}", file.string()) : written.error().message, !written);
 }
@@ -331,7 +332,7 @@ Expected<void> Viewer::finish() {
   if (log_) {
     if (auto finished = log_->finish(); !finished) return finished;
   }
-  if (!failure_.empty()) return fail("{}", failure_);
+  if (!failure_.empty()) return base::fail("{}", failure_);
   return {};
 }
 
@@ -367,7 +368,7 @@ void Viewer::draw(float scale, float pixels_a_unit) {
   place_ = state_.size.value_or(picture_size(state_, layout.view, pixels_a_unit));
   if (picture_) {
     const Size shown = picture_size(state_, layout.view, pixels_a_unit);
-    const Image8& image = picture_->a.result.image;
+    const base::Image8& image = picture_->a.result.image;
     textures_.show(picture_, state_, image.width <= shown.width && image.height <= shown.height);
   }
   draw_view(ui, textures_, layout.view);

@@ -1,5 +1,7 @@
 #include "window/window_gl.h"
 
+#include "base/fail.h"
+
 #include <glad/gl.h>  // types and constants; the calls go through Functions
 
 #include <algorithm>
@@ -65,13 +67,14 @@ Expected<WindowGl> WindowGl::load(gl::FunctionLoader loader, bool debug) {
   find(loader, "glEnable", gl->enable);
   find(loader, "glDebugMessageCallback", gl->debug_message_callback);
   if (!gl->get_integer)
-    return fail("the window's OpenGL context has no functions; tenebra render needs no window");
+    return base::fail("the window's OpenGL context has no functions; tenebra render needs no window");
   GLint major = 0, minor = 0;
   gl->get_integer(GL_MAJOR_VERSION, &major);
   gl->get_integer(GL_MINOR_VERSION, &minor);
   if (major * 10 + minor < 33) {
-    return fail("the window's OpenGL is version {}.{}, expected 3.3 or newer; tenebra render needs no window",
-                major, minor);
+    return base::fail(
+        "the window's OpenGL is version {}.{}, expected 3.3 or newer; tenebra render needs no window", major,
+        minor);
   }
   if (debug && gl->debug_message_callback) {
     gl->enable(GL_DEBUG_OUTPUT);
@@ -87,9 +90,9 @@ void WindowGl::clear(int width, int height) {
   gl_->clear(GL_COLOR_BUFFER_BIT);
 }
 
-Image8 WindowGl::read_window(int width, int height) const {
+base::Image8 WindowGl::read_window(int width, int height) const {
   const auto row = static_cast<std::size_t>(width) * 3;
-  Image8 image{width, height, 3, std::vector<std::uint8_t>(row * static_cast<std::size_t>(height))};
+  base::Image8 image{width, height, 3, std::vector<std::uint8_t>(row * static_cast<std::size_t>(height))};
   gl_->pixel_store(GL_PACK_ALIGNMENT, 1);
   gl_->read_pixels(0, 0, width, height, GL_RGB, GL_UNSIGNED_BYTE, image.pixels.data());
   for (int y = 0; y < height / 2; ++y) {
@@ -110,7 +113,7 @@ void WindowGl::delete_texture(unsigned texture) {
   gl_->delete_textures(1, &texture);
 }
 
-void WindowGl::upload(unsigned texture, const Image8& image, bool smooth) {
+void WindowGl::upload(unsigned texture, const base::Image8& image, bool smooth) {
   const GLenum format = image.channels == 4 ? GL_RGBA : GL_RGB;
   const GLint filter = smooth ? GL_LINEAR : GL_NEAREST;
   gl_->bind_texture(GL_TEXTURE_2D, texture);

@@ -6,7 +6,7 @@
 #include <string>
 #include <vector>
 
-#include "base/expected.h"
+#include <tenebra/expected.h>
 #include "base/image.h"
 #include "gl/context.h"
 
@@ -21,12 +21,12 @@ public:
   WindowGl& operator=(WindowGl&&) noexcept;
   ~WindowGl();
 
-  void clear(int width, int height);                ///< of the framebuffer, in the window's dark
-  Image8 read_window(int width, int height) const;  ///< RGB, row 0 at the top, of what was last drawn
+  void clear(int width, int height);                      ///< of the framebuffer, in the window's dark
+  base::Image8 read_window(int width, int height) const;  ///< RGB, row 0 at the top, of what was last drawn
 
   unsigned create_texture();
   /// RGB or RGBA. `smooth`: for pictures that are shown larger or smaller than they are.
-  void upload(unsigned texture, const Image8& image, bool smooth);
+  void upload(unsigned texture, const base::Image8& image, bool smooth);
   void delete_texture(unsigned texture);
 
   std::vector<std::string> take_messages();  ///< errors since the last call, glGetError's too
@@ -45,7 +45,7 @@ public:
   PictureTexture(const PictureTexture&) = delete;
   PictureTexture& operator=(const PictureTexture&) = delete;
 
-  void show(const Image8& image, bool smooth) {
+  void show(const base::Image8& image, bool smooth) {
     gl_.upload(name_, image, smooth);
     width_ = image.width;
     height_ = image.height;

@@ -4,10 +4,10 @@
 #include <cstdint>
 #include <glm/glm.hpp>
 
+#include <tenebra/simd_level.h>
 #include "shadow/tiles/triangle_clusters.h"
-#include "simd/simd_level.h"
 
-namespace tenebra {
+namespace tenebra::shadow {
 
 /// Code for one instruction set; all give the same.
 struct ClusterKernels {
@@ -19,4 +19,4 @@ struct ClusterKernels {
 };
 ClusterKernels cluster_kernels(SimdLevel level);
 
-}  // namespace tenebra
+}  // namespace tenebra::shadow

@@ -8,7 +8,7 @@
 #include "points/triangle_corners.h"
 #include "shadow/tiles/triangle_clusters.h"
 
-namespace tenebra {
+namespace tenebra::shadow {
 
 namespace {
 
@@ -35,7 +35,7 @@ struct Item {
   vec3 centre;  ///< finite
 };
 
-Item item_of(std::uint32_t id, const Corners& c) {
+Item item_of(std::uint32_t id, const points::Corners& c) {
   const vec3 centre = c.v[0] / 3.0f + c.v[1] / 3.0f + c.v[2] / 3.0f;
   return {id, is_finite(centre) ? centre : vec3(0.0f)};
 }
@@ -71,7 +71,7 @@ std::vector<Part> parts_in_order(const TriangleView& t) {
   if (t.parts.empty()) return {{0, count}};
   std::vector<Item> items;
   for (std::uint32_t i = 0; i < t.parts.size(); ++i)
-    items.push_back(t.parts[i] < count ? item_of(i, corners_of(t, t.parts[i])) : Item{i, vec3(0.0f)});
+    items.push_back(t.parts[i] < count ? item_of(i, points::corners_of(t, t.parts[i])) : Item{i, vec3(0.0f)});
   cut_in_halves(items, 0, items.size(), 1, 1);
   std::vector<Part> parts;
   for (const Item& item : items) {
@@ -81,7 +81,7 @@ std::vector<Part> parts_in_order(const TriangleView& t) {
   return parts;
 }
 
-float longest_edge(const Corners& c) {
+float longest_edge(const points::Corners& c) {
   return std::max({glm::length(c.v[1] - c.v[0]), glm::length(c.v[2] - c.v[1]), glm::length(c.v[0] - c.v[2])});
 }
 
@@ -106,12 +106,12 @@ void cluster_order(const TriangleView& t, std::vector<std::uint32_t>& order) {
     for (SizeClass& c : classes) c.begins.push_back(c.items.size());
     for (std::uint32_t id = part.first; id < part.last; ++id) {
       if (!t.casts_shadow.empty() && t.casts_shadow[id] == 0) continue;
-      const Corners c = corners_of(t, id);
+      const points::Corners c = points::corners_of(t, id);
       const float size = longest_edge(c) / extent;
       classes[size > class_limits[0] ? 0 : size > class_limits[1] ? 1 : 2].items.push_back(item_of(id, c));
     }
   }
-  parallel_tasks(class_count, [&](int k) { sort_class(classes[k]); });
+  parallel::parallel_tasks(class_count, [&](int k) { sort_class(classes[k]); });
   order.clear();
   for (const SizeClass& c : classes) {
     if (!c.items.empty()) order.resize((order.size() + node_size - 1) / node_size * node_size, no_triangle);
@@ -120,4 +120,4 @@ void cluster_order(const TriangleView& t, std::vector<std::uint32_t>& order) {
   order.resize((order.size() + cluster_size - 1) / cluster_size * cluster_size, no_triangle);
 }
 
-}  // namespace tenebra
+}  // namespace tenebra::shadow

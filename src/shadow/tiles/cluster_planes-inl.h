@@ -14,7 +14,8 @@
 #include "simd/pack-inl.h"
 
 HWY_BEFORE_NAMESPACE();
-namespace tenebra::HWY_NAMESPACE {
+namespace tenebra::shadow::HWY_NAMESPACE {
+using namespace simd::HWY_NAMESPACE;
 
 using Double8 = Pack<double, 8>;
 using Vector8 = Pack3<Double8>;
@@ -119,7 +120,7 @@ HWY_INLINE void set_up_planes(const TriangleCluster& c, const RaySource& source,
   set_up_eight(c, 8, source, use_tau, cull_front, out);
 }
 
-}  // namespace tenebra::HWY_NAMESPACE
+}  // namespace tenebra::shadow::HWY_NAMESPACE
 HWY_AFTER_NAMESPACE();
 
 #endif

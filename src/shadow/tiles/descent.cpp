@@ -1,24 +1,25 @@
 // The two trees descended together, compiled once per instruction set.
 #include "shadow/tiles/descent.h"
 
-#define HWY_DISABLED_TARGETS (HWY_AVX3_DL | HWY_SSSE3)
 #undef HWY_TARGET_INCLUDE
 #define HWY_TARGET_INCLUDE "shadow/tiles/descent.cpp"
 #include <hwy/foreach_target.h>
 // After foreach_target.h
 #include "points/contact_rule.h"
 #include "points/triangle_corners.h"
-#include "shadow/decide.h"
+#include "shadow/decision/decide.h"
 #include "shadow/tiles/cluster_planes-inl.h"
 #include "shadow/tiles/face_tests-inl.h"
 #include "shadow/tiles/ray_test-inl.h"
 #include "shadow/tiles/tile_bounds-inl.h"
+#include "simd/dispatch.h"
 #include "simd/pack-inl.h"
 
 #include <bit>
 
 HWY_BEFORE_NAMESPACE();
-namespace tenebra::HWY_NAMESPACE {
+namespace tenebra::shadow::HWY_NAMESPACE {
+using namespace simd::HWY_NAMESPACE;
 
 namespace {
 
@@ -68,8 +69,10 @@ private:
   RayNode& node(int level, std::uint32_t number) {
     return d_.forest.levels[static_cast<std::size_t>(level)][number];
   }
-  const PointTile& tile(const RayNode& n, int slot) const { return d_.tiles.tiles[n.child[slot]]; }
-  const PointBase& base(const RayNode& n, int slot) const { return d_.tiles.bases[n.child[slot] / 16]; }
+  const points::PointTile& tile(const RayNode& n, int slot) const { return d_.tiles.tiles[n.child[slot]]; }
+  const points::PointBase& base(const RayNode& n, int slot) const {
+    return d_.tiles.bases[n.child[slot] / 16];
+  }
 
   void note_test(RayNode& n) {
     ++n.tests;
@@ -112,7 +115,7 @@ private:
   const Face face_;
   const glm::vec3 light_;
   const bool skip_own_;  ///< a triangle never blocks its own points
-  const TilePixels pixels_;
+  const points::TilePixels pixels_;
   DescentScratch& scratch_;
   TraceStats& stats_;
   // Of the cluster that is on its way down.
@@ -362,9 +365,9 @@ void RootDescent::tighten(const RayRef& rays) {
 
 /// Of the lanes of `open` those that are blocked: in double, then exactly.
 std::uint32_t RootDescent::blocked_lanes(std::uint32_t tile, std::uint32_t open, std::uint32_t id) {
-  const Corners corners = corners_of(d_.triangles, id);
+  const points::Corners corners = points::corners_of(d_.triangles, id);
   const TrianglePlanes planes = planes_of(corners.v, id, light_side(corners.v, d_.source), d_.source,
-                                          skip_own_ ? rounding_tolerance(corners.v) : 0.0);
+                                          skip_own_ ? points::rounding_tolerance(corners.v) : 0.0);
   std::uint32_t blocked = 0;
   for (; open != 0; open &= open - 1) {
     const int lane = std::countr_zero(open);
@@ -401,31 +404,16 @@ DescentKernels descent_kernels() {
   return {descend};
 }
 
-}  // namespace tenebra::HWY_NAMESPACE
+}  // namespace tenebra::shadow::HWY_NAMESPACE
 HWY_AFTER_NAMESPACE();
 
 #if HWY_ONCE
 
-namespace tenebra {
+namespace tenebra::shadow {
 
 DescentKernels descent_kernels(SimdLevel level) {
-  switch (level == SimdLevel::automatic ? best_simd_level() : level) {
-#if HWY_TARGETS & HWY_AVX3
-    case SimdLevel::avx512:
-      return N_AVX3::descent_kernels();
-#endif
-#if HWY_TARGETS & HWY_AVX2
-    case SimdLevel::avx2:
-      return N_AVX2::descent_kernels();
-#endif
-#if HWY_TARGETS & HWY_SSE4
-    case SimdLevel::sse4:
-      return N_SSE4::descent_kernels();
-#endif
-    default:
-      return HWY_STATIC_DISPATCH(descent_kernels)();
-  }
+  return TENEBRA_DISPATCH(level, descent_kernels)();
 }
 
-}  // namespace tenebra
+}  // namespace tenebra::shadow
 #endif

@@ -4,12 +4,12 @@
 // come near each other: few large triangles among dense rays, or many tiny ones among sparse rays.
 #pragma once
 
-#include "base/frame_timings.h"
-#include "shadow/mask.h"
+#include <tenebra/frame_timings.h>
+#include <tenebra/hard_config.h>
 #include "shadow/tiles/ray_forest.h"
 #include "shadow/tiles/triangle_clusters.h"
 
-namespace tenebra {
+namespace tenebra::shadow {
 
 /// What a descent reads, and the forest it writes to: live rays and counts of tests.
 struct Descent {
@@ -18,7 +18,7 @@ struct Descent {
   const RaySource& source;  ///< not directional
   const TriangleView& triangles;
   const VisiblePoints& points;
-  const PointTiles& tiles;  ///< of the same points
+  const points::PointTiles& tiles;  ///< of the same points
   ContactRule contact;
   bool cull_front;
   std::vector<std::array<std::uint32_t, 16>>* tile_tests;  ///< null, or counts: one a node of level 0
@@ -52,4 +52,4 @@ struct DescentKernels {
 /// `level`: one that simd_level_supported, or automatic.
 DescentKernels descent_kernels(SimdLevel level);
 
-}  // namespace tenebra
+}  // namespace tenebra::shadow

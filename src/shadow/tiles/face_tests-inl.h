@@ -11,7 +11,8 @@
 #include "simd/pack-inl.h"
 
 HWY_BEFORE_NAMESPACE();
-namespace tenebra::HWY_NAMESPACE {
+namespace tenebra::shadow::HWY_NAMESPACE {
+using namespace simd::HWY_NAMESPACE;
 
 constexpr float u = 0x1p-24f;
 constexpr float off_the_face = 1e30f;  // beyond face_limit, and its products with anything sane are finite
@@ -177,7 +178,7 @@ HWY_INLINE std::uint32_t children_covered(const RayNode& n, const FaceCluster& c
               less(splat<Float16>(c.cover[i]) * load<Float16>(n.w1), own));
 }
 
-}  // namespace tenebra::HWY_NAMESPACE
+}  // namespace tenebra::shadow::HWY_NAMESPACE
 HWY_AFTER_NAMESPACE();
 
 #endif

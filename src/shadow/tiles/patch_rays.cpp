@@ -6,7 +6,7 @@
 
 #include "points/triangle_corners.h"
 
-namespace tenebra {
+namespace tenebra::shadow {
 
 namespace {
 
@@ -45,7 +45,7 @@ void fetch(const T& what) {
 }
 
 /// The triangle that the points of some lanes lie on; no_triangle: several.
-std::uint32_t own_of(const PointTile& tile, std::uint32_t lanes) {
+std::uint32_t own_of(const points::PointTile& tile, std::uint32_t lanes) {
   const std::uint32_t first = tile.id[std::countr_zero(lanes)];
   for (std::uint32_t left = lanes; left != 0; left &= left - 1)
     if (tile.id[std::countr_zero(left)] != first) return no_triangle;
@@ -83,16 +83,17 @@ struct PatchRays::Work {
       : out(to), node_keys(kernels, to.node_keys), loose_keys(kernels, to.loose_keys) {}
   ForestScratch::Patch& out;
   Keys node_keys, loose_keys;
-  const PointPatch* patch = nullptr;
+  const points::PointPatch* patch = nullptr;
   std::size_t mixed = 0;  ///< tiles of several receivers so far
-  const PointSquare* square = nullptr;
+  const points::PointSquare* square = nullptr;
   std::uint16_t rays[16] = {};
   std::uint32_t present = 0;  ///< bits of tiles with rays
   std::uint32_t gaps = 0;     ///< bits of those with a gap between rays
 };
 
-PatchRays::PatchRays(const VisiblePoints& points, const PointTiles& tiles, const TriangleView& triangles,
-                     const ShadowLight& light, const RaySource& source, const HardShadowConfig& config)
+PatchRays::PatchRays(const VisiblePoints& points, const points::PointTiles& tiles,
+                     const TriangleView& triangles, const ShadowLight& light, const RaySource& source,
+                     const HardShadowConfig& config)
     : points_(points),
       tiles_(tiles),
       triangles_(triangles),
@@ -101,11 +102,11 @@ PatchRays::PatchRays(const VisiblePoints& points, const PointTiles& tiles, const
       pixels_(points.width, points.height),
       bounded_(light.range_m > 0 || light.spot_cos_outer > -1),
       kernels_(tile_kernels(config.simd)),
-      point_kernels_(point_tile_kernels(config.simd)),
+      point_kernels_(points::point_tile_kernels(config.simd)),
       ray_kernels_(ray_kernels(config.simd)) {}
 
 /// About the middle of a tile, relative to the light.
-dvec3 PatchRays::centre_of(const PointSquare& square, int tile) const {
+dvec3 PatchRays::centre_of(const points::PointSquare& square, int tile) const {
   dvec3 centre;
   for (int k = 0; k < 3; ++k) {
     const double middle =
@@ -115,21 +116,21 @@ dvec3 PatchRays::centre_of(const PointSquare& square, int tile) const {
   return centre;
 }
 
-dvec3 PatchRays::point_of(const PointSquare& square, const PointTile& tile, int lane) const {
+dvec3 PatchRays::point_of(const points::PointSquare& square, const points::PointTile& tile, int lane) const {
   return dvec3(square.base.at[0], square.base.at[1], square.base.at[2]) - source_.origin +
          dvec3(tile.qx[lane], tile.qy[lane], tile.qz[lane]);
 }
 
 /// For each receiver 1: the light is on the eye's side.
-void PatchRays::find_facing(const PointPatch& patch, std::vector<std::uint8_t>& facing) const {
+void PatchRays::find_facing(const points::PointPatch& patch, std::vector<std::uint8_t>& facing) const {
   facing.resize(patch.receivers.size() * 16);
   for (std::size_t b = 0; b < patch.receivers.size(); ++b) {
-    const ReceiverBlock& block = patch.receivers[b];
+    const points::ReceiverBlock& block = patch.receivers[b];
     Facing found = kernels_.facing(block, source_.light);
     for (std::uint32_t i = 0; i < 16; ++i) {
       const std::size_t number = b * 16 + i;
       if (((found.open >> i) & 1u) != 0 && number < patch.receiver_count) {
-        const int side = light_side(corners_of(triangles_, block.id[i]).v, source_);
+        const int side = light_side(points::corners_of(triangles_, block.id[i]).v, source_);
         found.facing |= side == -block.side[i] ? 1u << i : 0u;
       }
       facing[number] = static_cast<std::uint8_t>((found.facing >> i) & 1u);
@@ -138,7 +139,7 @@ void PatchRays::find_facing(const PointPatch& patch, std::vector<std::uint8_t>& 
 }
 
 /// Of lanes on several triangles those that face the light.
-std::uint32_t PatchRays::facing_lanes(const TileReceivers& receivers, std::uint32_t lanes,
+std::uint32_t PatchRays::facing_lanes(const points::TileReceivers& receivers, std::uint32_t lanes,
                                       const std::vector<std::uint8_t>& facing) const {
   std::uint32_t faced = 0;
   for (std::uint32_t left = lanes; left != 0; left &= left - 1) {
@@ -158,19 +159,19 @@ std::uint32_t PatchRays::in_reach_lanes(std::uint32_t tile, std::uint32_t lanes)
 }
 
 /// Points of tiles with gaps are looked at more closely.
-void PatchRays::fetch_gaps(const PointSquare& square) const {
+void PatchRays::fetch_gaps(const points::PointSquare& square) const {
   for (std::uint32_t left = square.gaps; left != 0; left &= left - 1)
     fetch(tiles_.tiles[square.first_tile + static_cast<std::uint32_t>(std::countr_zero(left))]);
 }
 
-void PatchRays::find_lanes(const PointSquare& square, Work& work) const {
+void PatchRays::find_lanes(const points::PointSquare& square, Work& work) const {
   work.square = &square;
   work.present = work.gaps = 0;
   for (std::uint32_t left = square.filled; left != 0; left &= left - 1) {
     const int t = std::countr_zero(left);
     const std::uint32_t number = square.first_tile + static_cast<std::uint32_t>(t);
     std::uint32_t lanes = square.lanes[t];
-    if (square.receiver[t] == several_receivers) {
+    if (square.receiver[t] == points::several_receivers) {
       lanes = facing_lanes(work.patch->mixed[work.mixed++], lanes, work.out.facing);
     } else if (work.out.facing[square.receiver[t]] == 0) {
       lanes = 0;
@@ -181,7 +182,7 @@ void PatchRays::find_lanes(const PointSquare& square, Work& work) const {
     work.present |= 1u << t;
     work.out.rays += lanes == 0xffffu ? 16u : static_cast<std::uint64_t>(std::popcount(lanes));
     // Points that are left out may leave a gap.
-    const bool fewer = square.receiver[t] == several_receivers && lanes != square.lanes[t];
+    const bool fewer = square.receiver[t] == points::several_receivers && lanes != square.lanes[t];
     const bool gap =
         fewer ? point_kernels_.beyond_gap(tiles_.tiles[number], lanes) != 0 : ((square.gaps >> t) & 1u) != 0;
     if (gap) work.gaps |= 1u << t;
@@ -190,7 +191,7 @@ void PatchRays::find_lanes(const PointSquare& square, Work& work) const {
 
 /// The next node, whose boxes are there, gets the square's tiles.
 void PatchRays::add_node(Work& work, std::uint8_t face) const {
-  const PointSquare& square = *work.square;
+  const points::PointSquare& square = *work.square;
   RayNode& node = work.out.nodes[work.out.count++];
   node.live = node.filled = node.wide = work.present;  // boxes along the axes: shrunk where that pays
   for (std::uint32_t i = 0; i < 16; ++i) node.child[i] = square.first_tile + i;
@@ -221,10 +222,10 @@ void PatchRays::add_ray(Work& work, int tile, int lane) const {
 
 /// Splits a tile at its gaps, and into single rays where it is off its face or wide.
 void PatchRays::add_parts(Work& work, int tile) const {
-  const PointSquare& square = *work.square;
+  const points::PointSquare& square = *work.square;
   const std::uint32_t number = square.first_tile + static_cast<std::uint32_t>(tile);
-  const PointTile& points = tiles_.tiles[number];
-  std::uint32_t parts[tile_points], size = 0;
+  const points::PointTile& points = tiles_.tiles[number];
+  std::uint32_t parts[points::tile_points], size = 0;
   parts[size++] = work.rays[tile];
   while (size > 0) {
     const std::uint32_t lanes = parts[--size];
@@ -240,7 +241,7 @@ void PatchRays::add_parts(Work& work, int tile) const {
     const std::uint8_t face = face_of(centre);
     FaceBox box{};
     if (kernels_.bound(points, square.base, lanes, source_.origin, face, box) && area(box) <= widest_tile) {
-      const bool one = square.receiver[tile] != several_receivers;
+      const bool one = square.receiver[tile] != points::several_receivers;
       work.out.loose.push_back({number, one ? square.own[tile] : own_of(points, lanes),
                                 static_cast<std::uint16_t>(lanes), square.tau, box});
       work.loose_keys.add(centre, face);
@@ -264,12 +265,12 @@ void PatchRays::place_square(Work& work) const {
     add_parts(work, std::countr_zero(left));
 }
 
-void PatchRays::find(const PointPatch& patch, ForestScratch::Patch& out) const {
+void PatchRays::find(const points::PointPatch& patch, ForestScratch::Patch& out) const {
   out.clear();
   find_facing(patch, out.facing);
   Work work(ray_kernels_, out);
   work.patch = &patch;
-  for (const PointSquare& square : patch.squares) {
+  for (const points::PointSquare& square : patch.squares) {
     const std::ptrdiff_t after = &patch.squares.back() - &square;
     if (after >= 2 * fetch_ahead) fetch(*(&square + 2 * fetch_ahead));
     if (after >= fetch_ahead) fetch_gaps(*(&square + fetch_ahead));
@@ -284,9 +285,9 @@ void PatchRays::find(const PointPatch& patch, ForestScratch::Patch& out) const {
     out.in_range &= farthest < longest_ray;
     if (out.in_range) place_square(work);
   }
-  for (std::size_t i = out.count; i < patch_squares; ++i) out.nodes[i].live = out.nodes[i].filled = 0;
+  for (std::size_t i = out.count; i < points::patch_squares; ++i) out.nodes[i].live = out.nodes[i].filled = 0;
   work.node_keys.flush();
   work.loose_keys.flush();
 }
 
-}  // namespace tenebra
+}  // namespace tenebra::shadow

@@ -5,49 +5,49 @@
 #include <vector>
 
 #include "points/point_tile_kernels.h"
-#include "shadow/ray_kernels.h"
+#include "shadow/rays/ray_kernels.h"
 #include "shadow/tiles/ray_forest.h"
 #include "shadow/tiles/tile_kernels.h"
 
-namespace tenebra {
+namespace tenebra::shadow {
 
 /// Finds the rays of a patch: which points face the light, and where they are on the cube around it. One for
 /// all threads.
 class PatchRays {
 public:
-  PatchRays(const VisiblePoints& points, const PointTiles& tiles, const TriangleView& triangles,
+  PatchRays(const VisiblePoints& points, const points::PointTiles& tiles, const TriangleView& triangles,
             const ShadowLight& light, const RaySource& source, const HardShadowConfig& config);
 
   /// Squares without gaps become nodes as they stand, other groups are loose. Both with keys along the curve.
-  void find(const PointPatch& patch, ForestScratch::Patch& out) const;
+  void find(const points::PointPatch& patch, ForestScratch::Patch& out) const;
 
 private:
   struct Keys;
   struct Work;
 
-  void find_facing(const PointPatch& patch, std::vector<std::uint8_t>& facing) const;
-  void fetch_gaps(const PointSquare& square) const;
-  void find_lanes(const PointSquare& square, Work& work) const;
-  std::uint32_t facing_lanes(const TileReceivers& receivers, std::uint32_t lanes,
+  void find_facing(const points::PointPatch& patch, std::vector<std::uint8_t>& facing) const;
+  void fetch_gaps(const points::PointSquare& square) const;
+  void find_lanes(const points::PointSquare& square, Work& work) const;
+  std::uint32_t facing_lanes(const points::TileReceivers& receivers, std::uint32_t lanes,
                              const std::vector<std::uint8_t>& facing) const;
   std::uint32_t in_reach_lanes(std::uint32_t tile, std::uint32_t lanes) const;
-  glm::dvec3 centre_of(const PointSquare& square, int tile) const;
-  glm::dvec3 point_of(const PointSquare& square, const PointTile& tile, int lane) const;
+  glm::dvec3 centre_of(const points::PointSquare& square, int tile) const;
+  glm::dvec3 point_of(const points::PointSquare& square, const points::PointTile& tile, int lane) const;
   void place_square(Work& work) const;
   void add_node(Work& work, std::uint8_t face) const;
   void add_parts(Work& work, int tile) const;
   void add_ray(Work& work, int tile, int lane) const;
 
   const VisiblePoints& points_;
-  const PointTiles& tiles_;
+  const points::PointTiles& tiles_;
   const TriangleView& triangles_;
   const ShadowLight& light_;
   const RaySource& source_;
-  TilePixels pixels_;
+  points::TilePixels pixels_;
   bool bounded_;  ///< by a cone or a range
   TileKernels kernels_;
-  PointTileKernels point_kernels_;
+  points::PointTileKernels point_kernels_;
   RayKernels ray_kernels_;
 };
 
-}  // namespace tenebra
+}  // namespace tenebra::shadow

@@ -8,7 +8,7 @@
 #include "parallel/parallel.h"
 #include "shadow/tiles/patch_rays.h"
 
-namespace tenebra {
+namespace tenebra::shadow {
 
 namespace {
 
@@ -31,7 +31,7 @@ std::uint64_t key_of(std::uint32_t curve, std::size_t place) {
   return static_cast<std::uint64_t>(curve) << 32 | place;
 }
 // A loose group by its patch and its place there.
-static_assert(patch_squares * 256 <= 0x10000);
+static_assert(points::patch_squares * 256 <= 0x10000);
 std::size_t loose_place(std::size_t patch, std::size_t i) {
   return patch << 16 | i;
 }
@@ -52,7 +52,7 @@ void gather_patches(ForestScratch& s, RayForest& out) {
     out.in_range &= patch.in_range;
   }
   s.node_keys.keys.resize(nodes), s.loose_keys.keys.resize(loose);
-  parallel_tasks(static_cast<int>(s.patches.size()), [&](int p) {
+  parallel::parallel_tasks(static_cast<int>(s.patches.size()), [&](int p) {
     const auto number = static_cast<std::size_t>(p);
     const ForestScratch::Patch& patch = s.patches[number];
     for (std::size_t i = 0; i < patch.count; ++i)
@@ -87,7 +87,7 @@ void group_loose(ForestScratch& s, std::vector<RayNode>& nodes) {
     const std::uint32_t place = place_of(keys[k]);
     return s.patches[place >> 16].loose[place & 0xffffu];
   };
-  parallel_ranges(count, grain, [&](std::size_t begin, std::size_t end) {
+  parallel::parallel_ranges(count, grain, [&](std::size_t begin, std::size_t end) {
     for (std::size_t i = begin; i < end; ++i) {
       RayNode& node = nodes[first + i] = {};
       for (std::size_t k = s.begins[i]; k < s.begins[i + 1]; ++k) {
@@ -116,7 +116,7 @@ void add_level(ForestScratch& s, RayForest& f, std::size_t level, std::size_t co
   cut_into_nodes(count, face_of_child, s.begins);
   std::vector<RayNode>& above = f.levels[level + 1];
   above.resize(s.begins.size() - 1);
-  parallel_ranges(above.size(), grain, [&](std::size_t begin, std::size_t end) {
+  parallel::parallel_ranges(above.size(), grain, [&](std::size_t begin, std::size_t end) {
     for (std::size_t i = begin; i < end; ++i) {
       RayNode& parent = above[i] = {};
       for (std::size_t k = s.begins[i]; k < s.begins[i + 1]; ++k) {
@@ -163,13 +163,15 @@ bool all_lit(const RayNode& node) {
 }
 
 void write_square(std::uint8_t* to, int width) {
-  for (std::uint32_t row = 0; row < square_side; ++row, to += width) std::memset(to, 255, square_side);
+  for (std::uint32_t row = 0; row < points::square_side; ++row, to += width)
+    std::memset(to, 255, points::square_side);
 }
 
 /// The pixels of a tile by the bits of `live`, and no other: threads share tiles.
 void write_tile(std::uint32_t live, std::uint8_t* to, int width) {
   if (live == 0xffffu) {
-    for (std::uint32_t row = 0; row < tile_side; ++row, to += width) std::memset(to, 255, tile_side);
+    for (std::uint32_t row = 0; row < points::tile_side; ++row, to += width)
+      std::memset(to, 255, points::tile_side);
     return;
   }
   for (; live != 0; live &= live - 1) {
@@ -202,18 +204,18 @@ std::size_t RayForest::byte_count() const {
   return bytes;
 }
 
-void build_ray_forest(const VisiblePoints& points, const PointTiles& tiles, const TriangleView& triangles,
-                      const ShadowLight& light, const RaySource& source, const HardShadowConfig& config,
-                      ForestScratch& scratch, RayForest& out) {
+void build_ray_forest(const VisiblePoints& points, const points::PointTiles& tiles,
+                      const TriangleView& triangles, const ShadowLight& light, const RaySource& source,
+                      const HardShadowConfig& config, ForestScratch& scratch, RayForest& out) {
   scratch.patches.resize(tiles.patches.size());
-  const std::size_t slots = tiles.patches.size() * patch_squares;
+  const std::size_t slots = tiles.patches.size() * points::patch_squares;
   out.levels[0].resize(slots), scratch.boxes.resize(slots);
   const PatchRays rays(points, tiles, triangles, light, source, config);
-  parallel_tasks(static_cast<int>(tiles.patches.size()), [&](int patch) {
+  parallel::parallel_tasks(static_cast<int>(tiles.patches.size()), [&](int patch) {
     const auto i = static_cast<std::size_t>(patch);
-    scratch.patches[i].first = i * patch_squares;
-    scratch.patches[i].nodes = &out.levels[0][i * patch_squares];
-    scratch.patches[i].boxes = &scratch.boxes[i * patch_squares];
+    scratch.patches[i].first = i * points::patch_squares;
+    scratch.patches[i].nodes = &out.levels[0][i * points::patch_squares];
+    scratch.patches[i].boxes = &scratch.boxes[i * points::patch_squares];
     rays.find(tiles.patches[i], scratch.patches[i]);
   });
   gather_patches(scratch, out);
@@ -225,9 +227,9 @@ void build_ray_forest(const VisiblePoints& points, const PointTiles& tiles, cons
 std::uint64_t write_live_rays(const RayForest& forest, int width, int height, ShadowMask& mask) {
   constexpr std::size_t grain = 256;
   const std::vector<RayNode>& nodes = forest.levels[0];
-  const TilePixels pixel_of(width, height);
+  const points::TilePixels pixel_of(width, height);
   std::vector<std::uint64_t> parts((nodes.size() + grain - 1) / grain);
-  parallel_ranges(nodes.size(), grain, [&](std::size_t first, std::size_t last) {
+  parallel::parallel_ranges(nodes.size(), grain, [&](std::size_t first, std::size_t last) {
     std::uint64_t count = 0;
     for (std::size_t i = first; i < last; ++i) {
       if (all_lit(nodes[i])) {
@@ -249,4 +251,4 @@ std::uint64_t write_live_rays(const RayForest& forest, int width, int height, Sh
   return sum;
 }
 
-}  // namespace tenebra
+}  // namespace tenebra::shadow

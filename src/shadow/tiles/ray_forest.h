@@ -19,12 +19,13 @@
 #include <cstdint>
 #include <vector>
 
+#include <tenebra/hard_config.h>
+#include <tenebra/visible_points.h>
 #include "points/point_tiles.h"
-#include "shadow/mask.h"
-#include "shadow/shadow_rays.h"
-#include "shadow/triangle_planes.h"
+#include "shadow/decision/triangle_planes.h"
+#include "shadow/rays/shadow_rays.h"
 
-namespace tenebra {
+namespace tenebra::shadow {
 
 inline constexpr float face_limit = 3;
 
@@ -109,11 +110,11 @@ struct ForestScratch {
 };
 
 /// Point and spot lights. `tiles`: of `points`.
-void build_ray_forest(const VisiblePoints& points, const PointTiles& tiles, const TriangleView& triangles,
-                      const ShadowLight& light, const RaySource& source, const HardShadowConfig& config,
-                      ForestScratch& scratch, RayForest& out);
+void build_ray_forest(const VisiblePoints& points, const points::PointTiles& tiles,
+                      const TriangleView& triangles, const ShadowLight& light, const RaySource& source,
+                      const HardShadowConfig& config, ForestScratch& scratch, RayForest& out);
 
 /// 255 where rays are left; the mask is zero elsewhere. Returns their number.
 std::uint64_t write_live_rays(const RayForest& forest, int width, int height, ShadowMask& mask);
 
-}  // namespace tenebra
+}  // namespace tenebra::shadow

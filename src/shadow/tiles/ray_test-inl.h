@@ -15,7 +15,8 @@
 #include "simd/pack-inl.h"
 
 HWY_BEFORE_NAMESPACE();
-namespace tenebra::HWY_NAMESPACE {
+namespace tenebra::shadow::HWY_NAMESPACE {
+using namespace simd::HWY_NAMESPACE;
 
 /// The points of a tile relative to the light, in float. The base is rounded, q is, and so is their sum: each
 /// coordinate is off by at most 3u (|base| + radius), the point by 3u reach.
@@ -24,7 +25,8 @@ struct RoughRays {
   float reach;  ///< >= |p|, and as above
 };
 
-HWY_INLINE RoughRays rough_rays(const PointTile& tile, const PointBase& from, const glm::dvec3& light) {
+HWY_INLINE RoughRays rough_rays(const points::PointTile& tile, const points::PointBase& from,
+                                const glm::dvec3& light) {
   float base[3];
   for (int k = 0; k < 3; ++k) base[k] = static_cast<float>(static_cast<double>(from.at[k]) - light[k]);
   return {{splat<Float16>(base[0]) + load<Float16>(tile.qx), splat<Float16>(base[1]) + load<Float16>(tile.qy),
@@ -40,8 +42,8 @@ struct Verdict {
 
 /// Triangle i of a cluster. The points are off by 3u reach, the planes by u, products and sums by 5u of |p|
 /// (without fused ones), d by u and its difference by u more: below 12u (|p| + |d|), where |d| exceeds the
-/// triangle's reach by its tau only; if that is more than 5 (|p| + reach), the own plane is missed by far. The
-/// own plane opens tau of the rays' own triangles later.
+/// triangle's reach by its tau only; if that is more than 5 (|p| + reach), the own plane is missed by far.
+/// The own plane opens tau of the rays' own triangles later.
 HWY_INLINE Verdict rough_verdict(const ClusterPlanes& c, int i, const RoughRays& rays, float tau) {
   const auto value = [&](int k) HWY_ATTR {
     return multiply_add(
@@ -78,7 +80,7 @@ struct Aim {
 
 // With r >= |q| a sum in floats is off by at most K = 10.1 u r + rho (R + reach), or cannot have the wrong
 // sign at all (|e0| > 2r); R <= |base| + r, by coordinates.
-HWY_INLINE Aim aim_at(const LeafTriangle& t, const PointBase& from, const glm::dvec3& light) {
+HWY_INLINE Aim aim_at(const LeafTriangle& t, const points::PointBase& from, const glm::dvec3& light) {
   using Double4 = Pack<double, 4>;
   double base[3];
   for (int k = 0; k < 3; ++k) base[k] = static_cast<double>(from.at[k]) - light[k];
@@ -93,8 +95,8 @@ HWY_INLINE Aim aim_at(const LeafTriangle& t, const PointBase& from, const glm::d
 }
 
 /// Again, where the rough verdict leaves something open.
-HWY_INLINE Verdict fine_verdict(const ClusterPlanes& c, int i, const PointTile& tile, const PointBase& from,
-                                const glm::dvec3& light, float tau) {
+HWY_INLINE Verdict fine_verdict(const ClusterPlanes& c, int i, const points::PointTile& tile,
+                                const points::PointBase& from, const glm::dvec3& light, float tau) {
   LeafTriangle t;
   take_triangle(c, i, t);
   const Aim aim = aim_at(t, from, light);
@@ -109,7 +111,7 @@ HWY_INLINE Verdict fine_verdict(const ClusterPlanes& c, int i, const PointTile& 
           less_bits(splat<Float16>(k), min(edges, own - splat<Float16>(tau)))};
 }
 
-}  // namespace tenebra::HWY_NAMESPACE
+}  // namespace tenebra::shadow::HWY_NAMESPACE
 HWY_AFTER_NAMESPACE();
 
 #endif

@@ -12,13 +12,14 @@
 #include "simd/pack-inl.h"
 
 HWY_BEFORE_NAMESPACE();
-namespace tenebra::HWY_NAMESPACE {
+namespace tenebra::shadow::HWY_NAMESPACE {
+using namespace simd::HWY_NAMESPACE;
 
 /// Box on a face of some lanes (not 0) of a tile, widened; false if a point is off the face. The base
 /// relative to the light is rounded by u, as q is and as their sum is: 3u (|base| + radius), 5u with the
 /// roundings here; so the quotient is off by (margin + face_limit margin of z) / z, by 6u for its own
 /// roundings and by 16u for those of the boxes of triangles.
-HWY_INLINE bool bound(const PointTile& tile, const PointBase& from, std::uint32_t lanes,
+HWY_INLINE bool bound(const points::PointTile& tile, const points::PointBase& from, std::uint32_t lanes,
                       const glm::dvec3& light, int face, FaceBox& box) {
   constexpr float u = 0x1p-24f;
   const float* const q[3] = {tile.qx, tile.qy, tile.qz};
@@ -44,7 +45,7 @@ HWY_INLINE bool bound(const PointTile& tile, const PointBase& from, std::uint32_
   return box.u0 >= -face_limit && box.u1 <= face_limit && box.v0 >= -face_limit && box.v1 <= face_limit;
 }
 
-}  // namespace tenebra::HWY_NAMESPACE
+}  // namespace tenebra::shadow::HWY_NAMESPACE
 HWY_AFTER_NAMESPACE();
 
 #endif

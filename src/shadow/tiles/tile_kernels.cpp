@@ -1,17 +1,18 @@
 #include "shadow/tiles/tile_kernels.h"
 
-#define HWY_DISABLED_TARGETS (HWY_AVX3_DL | HWY_SSSE3)
 #undef HWY_TARGET_INCLUDE
 #define HWY_TARGET_INCLUDE "shadow/tiles/tile_kernels.cpp"
 #include <hwy/foreach_target.h>
 // After foreach_target.h
 #include "shadow/tiles/tile_bounds-inl.h"
+#include "simd/dispatch.h"
 #include "simd/pack-inl.h"
 
 #include <bit>
 
 HWY_BEFORE_NAMESPACE();
-namespace tenebra::HWY_NAMESPACE {
+namespace tenebra::shadow::HWY_NAMESPACE {
+using namespace simd::HWY_NAMESPACE;
 
 namespace {
 
@@ -21,7 +22,7 @@ constexpr float off_the_face = 1e30f;
 // for a flat patch, with room for perspective and curvature.
 constexpr float coherent_extent = 8;
 
-Facing facing(const ReceiverBlock& r, const glm::vec3& light) {
+Facing facing(const points::ReceiverBlock& r, const glm::vec3& light) {
   const Pack3<Float16> to_light{splat<Float16>(light.x) - load<Float16>(r.ax),
                                 splat<Float16>(light.y) - load<Float16>(r.ay),
                                 splat<Float16>(light.z) - load<Float16>(r.az)};
@@ -39,7 +40,7 @@ Facing facing(const ReceiverBlock& r, const glm::vec3& light) {
 struct Range {
   Float16 low, high;
 };
-HWY_INLINE Range range_of(const PointSquare& square, const glm::dvec3& light, int axis) {
+HWY_INLINE Range range_of(const points::PointSquare& square, const glm::dvec3& light, int axis) {
   const auto base = static_cast<float>(static_cast<double>(square.base.at[axis]) - light[axis]);
   const Float16 centre = splat<Float16>(base),
                 margin = splat<Float16>(5 * u * ((base < 0 ? -base : base) + square.base.radius));
@@ -49,8 +50,8 @@ HWY_INLINE Range range_of(const PointSquare& square, const glm::dvec3& light, in
 
 // The ranges are true bounds; the quotients are rounded by 2u: 6u of values up to face_limit. The boxes of
 // triangles are off by 5u of values up to face_limit: 16u. Together 32u.
-bool project(const PointSquare& square, std::uint32_t tiles, const glm::dvec3& light, int face, RayNode& node,
-             FaceBox& all) {
+bool project(const points::PointSquare& square, std::uint32_t tiles, const glm::dvec3& light, int face,
+             RayNode& node, FaceBox& all) {
   const int axis = face / 2;
   const Range across[2] = {range_of(square, light, (axis + 1) % 3), range_of(square, light, (axis + 2) % 3)};
   Range z = range_of(square, light, axis);
@@ -89,31 +90,16 @@ TileKernels tile_kernels() {
   return {facing, project, bound};
 }
 
-}  // namespace tenebra::HWY_NAMESPACE
+}  // namespace tenebra::shadow::HWY_NAMESPACE
 HWY_AFTER_NAMESPACE();
 
 #if HWY_ONCE
 
-namespace tenebra {
+namespace tenebra::shadow {
 
 TileKernels tile_kernels(SimdLevel level) {
-  switch (level == SimdLevel::automatic ? best_simd_level() : level) {
-#if HWY_TARGETS & HWY_AVX3
-    case SimdLevel::avx512:
-      return N_AVX3::tile_kernels();
-#endif
-#if HWY_TARGETS & HWY_AVX2
-    case SimdLevel::avx2:
-      return N_AVX2::tile_kernels();
-#endif
-#if HWY_TARGETS & HWY_SSE4
-    case SimdLevel::sse4:
-      return N_SSE4::tile_kernels();
-#endif
-    default:
-      return HWY_STATIC_DISPATCH(tile_kernels)();
-  }
+  return TENEBRA_DISPATCH(level, tile_kernels)();
 }
 
-}  // namespace tenebra
+}  // namespace tenebra::shadow
 #endif

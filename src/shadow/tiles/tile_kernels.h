@@ -7,7 +7,7 @@
 
 #include "shadow/tiles/ray_forest.h"
 
-namespace tenebra {
+namespace tenebra::shadow {
 
 inline constexpr float shortest_ray = 1e-15f, longest_ray = 1e15f;
 
@@ -19,16 +19,16 @@ struct Facing {
 
 /// Code for one instruction set.
 struct TileKernels {
-  Facing (*facing)(const ReceiverBlock& receivers, const glm::vec3& light) = nullptr;
+  Facing (*facing)(const points::ReceiverBlock& receivers, const glm::vec3& light) = nullptr;
   /// Boxes of a square's tiles on a face, widened, into `node`, and around those of `tiles` (not 0) into
   /// `all`. False, with nothing of use in them, if not all points of `tiles` are on the face (z >
   /// shortest_ray, within face_limit), or if these tiles are too far apart for a node.
-  bool (*project)(const PointSquare& square, std::uint32_t tiles, const glm::dvec3& light, int face,
+  bool (*project)(const points::PointSquare& square, std::uint32_t tiles, const glm::dvec3& light, int face,
                   RayNode& node, FaceBox& all) = nullptr;
   /// Box of some lanes (not 0) of a tile, from the points themselves; false if they are not all on the face.
-  bool (*bound)(const PointTile& tile, const PointBase& base, std::uint32_t lanes, const glm::dvec3& light,
-                int face, FaceBox& box) = nullptr;
+  bool (*bound)(const points::PointTile& tile, const points::PointBase& base, std::uint32_t lanes,
+                const glm::dvec3& light, int face, FaceBox& box) = nullptr;
 };
 TileKernels tile_kernels(SimdLevel level);
 
-}  // namespace tenebra
+}  // namespace tenebra::shadow

@@ -7,7 +7,7 @@
 #include "base/stopwatch.h"
 #include "parallel/parallel.h"
 
-namespace tenebra {
+namespace tenebra::shadow {
 
 namespace {
 
@@ -19,10 +19,10 @@ bool same_eye(const ViewRays& a, const ViewRays& b) {
 
 }  // namespace
 
-const PointTiles& TileTracer::tiles_of(const VisiblePoints& points, const ViewRays& view,
-                                       const TriangleView& triangles) {
-  if (!points.tiles.empty() && same_eye(points.tiles.view, view)) return points.tiles;
-  make_point_tiles(points, view, triangles, own_tiles_);
+const points::PointTiles& TileTracer::tiles_of(const VisiblePoints& points, const ViewRays& view,
+                                               const TriangleView& triangles) {
+  if (!points.tiles.empty() && same_eye(points.tiles->view, view)) return *points.tiles;
+  points::make_point_tiles(points, view, triangles, own_tiles_);
   return own_tiles_;
 }
 
@@ -44,9 +44,9 @@ void TileTracer::descend(const Descent& descent, SimdLevel simd, TraceStats& sta
   for (DescentScratch& scratch : scratch_) scratch.edge_on.clear();
   std::vector<TraceStats> parts(roots);
   order_roots(roots);
-  parallel_in_order(static_cast<int>(roots), [&](int i) {
+  parallel::parallel_in_order(static_cast<int>(roots), [&](int i) {
     const std::uint32_t root = root_order_[static_cast<std::size_t>(i)];
-    kernels.descend(descent, root, scratch_[static_cast<std::size_t>(thread_index())], parts[root]);
+    kernels.descend(descent, root, scratch_[static_cast<std::size_t>(parallel::thread_index())], parts[root]);
   });
   root_tests_.clear();
   for (const TraceStats& part : parts) root_tests_.push_back(part.nodes);
@@ -65,8 +65,8 @@ bool TileTracer::trace(const VisiblePoints& points, const ViewRays& view, const 
                        TraceStats& stats, FrameTimings& timings) {
   const RaySource source = ray_source(light);
   if (source.directional || triangles.positions.size() > most_vertices) return false;
-  Stopwatch watch;
-  const PointTiles& tiles = tiles_of(points, view, triangles);
+  base::Stopwatch watch;
+  const points::PointTiles& tiles = tiles_of(points, view, triangles);
   build_ray_forest(points, tiles, triangles, light, source, config, forest_scratch_, forest_);
   timings.rays_ms = watch.lap_ms();
   if (!forest_.in_range) return false;
@@ -95,7 +95,7 @@ bool TileTracer::trace(const VisiblePoints& points, const ViewRays& view, const 
 // From the leaves up: rays below each node; from the roots down: the shares of all nodes above a tile.
 void TileTracer::spread_tests(int width, int height, std::vector<float>& out) const {
   out.assign(static_cast<std::size_t>(width) * static_cast<std::size_t>(height), 0);
-  const TilePixels pixel_of(width, height);
+  const points::TilePixels pixel_of(width, height);
   std::array<std::vector<double>, ray_levels> rays, shares;
   const auto& levels = forest_.levels;
   for (std::size_t level = 0; level < ray_levels; ++level) {
@@ -134,4 +134,4 @@ void TileTracer::spread_tests(int width, int height, std::vector<float>& out) co
   }
 }
 
-}  // namespace tenebra
+}  // namespace tenebra::shadow

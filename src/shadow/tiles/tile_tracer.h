@@ -6,11 +6,11 @@
 // double, then exact signs.
 #pragma once
 
-#include "base/frame_timings.h"
-#include "shadow/mask.h"
+#include <tenebra/frame_timings.h>
+#include <tenebra/hard_config.h>
 #include "shadow/tiles/descent.h"
 
-namespace tenebra {
+namespace tenebra::shadow {
 
 /// Buffers kept from frame to frame, the order of the triangles among them.
 class TileTracer {
@@ -26,12 +26,12 @@ public:
   void spread_tests(int width, int height, std::vector<float>& out) const;
 
 private:
-  const PointTiles& tiles_of(const VisiblePoints& points, const ViewRays& view,
-                             const TriangleView& triangles);
+  const points::PointTiles& tiles_of(const VisiblePoints& points, const ViewRays& view,
+                                     const TriangleView& triangles);
   void order_roots(std::size_t roots);
   void descend(const Descent& descent, SimdLevel simd, TraceStats& stats);
 
-  PointTiles own_tiles_;  ///< of points that came without
+  points::PointTiles own_tiles_;  ///< of points that came without
   std::vector<std::array<std::uint32_t, 16>> tile_tests_;
   ClusterTree clusters_;
   RayForest forest_;
@@ -41,4 +41,4 @@ private:
   std::vector<std::uint32_t> root_order_;  ///< in which they are descended
 };
 
-}  // namespace tenebra
+}  // namespace tenebra::shadow

@@ -10,7 +10,7 @@
 #include "shadow/tiles/cluster_kernels.h"
 #include "shadow/tiles/cluster_order.h"
 
-namespace tenebra {
+namespace tenebra::shadow {
 
 namespace {
 
@@ -29,7 +29,7 @@ template <class T>
 void copy_changes(std::span<const T> from, std::vector<T>& to, std::vector<std::uint32_t>& changed) {
   const std::size_t blocks = (from.size() + block - 1) / block;
   changed.resize(blocks + 1);
-  parallel_ranges(blocks, 64, [&](std::size_t first, std::size_t last) {
+  parallel::parallel_ranges(blocks, 64, [&](std::size_t first, std::size_t last) {
     for (std::size_t b = first; b < last; ++b) {
       const std::size_t begin = b * block, size = std::min(block, from.size() - begin);
       const bool differs = std::memcmp(&from[begin], &to[begin], size * sizeof(T)) != 0;
@@ -130,7 +130,7 @@ void ClusterTree::refit(const TriangleView& t, SimdLevel simd, bool all) {
   if (levels_.empty()) return;
   const ClusterKernels kernels = cluster_kernels(simd);
   std::vector<int> more_used(levels_[0].size());  // than before
-  parallel_ranges(levels_[0].size(), 16, [&](std::size_t first, std::size_t last) {
+  parallel::parallel_ranges(levels_[0].size(), 16, [&](std::size_t first, std::size_t last) {
     for (std::size_t node = first; node < last; ++node) {
       const std::size_t end = std::min(clusters_.size(), (node + 1) * cluster_size);
       for (std::size_t c = node * cluster_size; c < end; ++c) {
@@ -163,4 +163,4 @@ void ClusterTree::update(const TriangleView& t, SimdLevel simd) {
   if (changed_vertices_.back() + changed_triangles_.back() > 0) refit(t, simd, false);
 }
 
-}  // namespace tenebra
+}  // namespace tenebra::shadow

@@ -8,10 +8,10 @@
 #include <glm/glm.hpp>
 #include <vector>
 
-#include "points/visible_points.h"
-#include "simd/simd_level.h"
+#include <tenebra/simd_level.h>
+#include <tenebra/visible_points.h>
 
-namespace tenebra {
+namespace tenebra::shadow {
 
 inline constexpr std::uint32_t cluster_size = 16;
 inline constexpr std::size_t most_vertices =
@@ -80,4 +80,4 @@ private:
   std::vector<std::uint32_t> changed_vertices_, changed_triangles_;
 };
 
-}  // namespace tenebra
+}  // namespace tenebra::shadow

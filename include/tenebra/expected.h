@@ -1,0 +1,17 @@
+// Results of what the world can make fail: files, imports, contexts, shaders, output.
+#pragma once
+
+#include <string>
+#include <tl/expected.hpp>
+
+namespace tenebra {
+
+/// One sentence for a person: place (file, line or stage), what was found, what was expected.
+struct Error {
+  std::string message;
+};
+
+template <class T>
+using Expected = tl::expected<T, Error>;
+
+}  // namespace tenebra

@@ -1,0 +1,48 @@
+// The public entry of the hard shadows: visible points, triangles and a light in, a mask out. No OpenGL.
+// Olsson and Assarsson 2011, "Improved Ray Hierarchy Alias Free Shadows".
+#pragma once
+
+#include <tenebra/frame_timings.h>
+#include <tenebra/hard_config.h>
+#include <tenebra/visible_points.h>
+#include <memory>
+#include <span>
+
+namespace tenebra {
+
+/// Buffers kept from frame to frame, and what the last mask took.
+class ShadowTracer {
+public:
+  ShadowTracer();
+  ShadowTracer(ShadowTracer&&) noexcept;
+  ShadowTracer& operator=(ShadowTracer&&) noexcept;
+  ~ShadowTracer();
+
+  /// Steps 2 to 4 of the paper's section 3.1 for one light. The mask is the exact answer, the same bits for
+  /// any variant (without cull_front), thread count, instruction set and order of the triangles:
+  ///
+  /// A sample P on triangle R (id) is *active* iff R has an area and light and eye lie strictly on the same
+  /// side of R's plane (exact signs; orthographic views: the eye is at infinity against d0), and the spot's
+  /// cone and range hold P (these two in double). An active sample is lit unless some casting triangle T =
+  /// (A, B, C), T not R, blocks it:
+  ///   n = (B-A) x (C-A); s = sign n.(A-L) for a light at L, s = -sign n.l for one towards l; s = 0 blocks
+  ///   nothing; edges closed: s ((A-L) x (B-L)).(P-L) >= 0, or s ((B-A) x l).(P-A) >= 0, for AB, BC and CA;
+  ///   plane open:   s n.(P-A) > theta, theta = fl64((tau_T + tau_R) |n|), tau_X = sqrt(3) 2^-24 M_X,
+  ///                 M_X = largest |coordinate| of triangle X (contact rule `triangle_ids`; else theta = 0).
+  /// All signs are of real numbers: floats and the stored doubles are taken as exact.
+  void trace_shadow_mask(const VisiblePoints& points, const ViewRays& view, const TriangleView& triangles,
+                         const ShadowLight& light, const HardShadowConfig& config, ShadowMask& mask);
+
+  const TraceStats& stats() const;  ///< of the last call
+  const FrameTimings& timings()
+      const;  ///< of the last call: rays_ms, sort_ms, build_ms, traverse_ms, writeback_ms
+  /// Of the last call with count_pixel_nodes: node/triangle tests made for each pixel, those of a node shared
+  /// equally by the rays below it: they sum up to TraceStats::nodes. 0 without a ray; else empty.
+  std::span<const float> pixel_nodes() const;
+
+private:
+  struct State;
+  std::unique_ptr<State> state_;
+};
+
+}  // namespace tenebra

@@ -1,0 +1,129 @@
+// A scene as imported: plain tables and indices, no OpenGL, nothing evaluated yet.
+// Right-handed, Y up, metres where the file means metres, linear colour.
+#pragma once
+
+#include <cstdint>
+#include <glm/glm.hpp>
+#include <glm/gtc/quaternion.hpp>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include <tenebra/animation.h>
+
+namespace tenebra {
+
+struct Material {
+  std::string name;
+  glm::vec3 base_color{0.8f};  ///< diffuse reflectance, linear; BART may exceed 1
+  glm::vec3 ambient{-1.0f};    ///< factor of the scene's ambient light; negative: use base_color
+  glm::vec3 emissive{0.0f};
+  bool casts_shadow = true;
+};
+
+/// Displacements of every vertex of a mesh (glTF morph target).
+struct MorphTarget {
+  std::vector<glm::vec3> positions;  ///< size of Mesh::positions, or empty
+  std::vector<glm::vec3> normals;    ///< size of Mesh::normals, or empty
+};
+
+/// Triangles in the space of their node. All arrays of vertices have the size of `positions` or are empty.
+struct Mesh {
+  std::string name;    ///< glTF or OBJ name; may be empty
+  std::string source;  ///< where it stands, "city2.aff:69"; file name without folder
+  std::vector<glm::vec3> positions;
+  std::vector<glm::vec3> normals;        ///< unit; empty: the face normal
+  std::vector<glm::uvec3> triangles;     ///< counter-clockwise seen from the front; indices in range
+  std::vector<std::uint32_t> materials;  ///< one a triangle, index into Scene::materials
+
+  std::vector<glm::u16vec4> joints;  ///< skin: four joints a vertex, indices into Skin::joints
+  std::vector<glm::vec4> weights;    ///< skin: their weights, used as stored
+
+  std::vector<MorphTarget> morph_targets;  ///< added with the weights of the node
+  std::vector<float> default_weights;      ///< one a morph target
+
+  /// BART's animated triangles: whole positions and normals at each key time, linear between, clamped
+  /// outside.
+  struct Shape {
+    double time_s = 0;
+    std::vector<glm::vec3> positions;
+    std::vector<glm::vec3> normals;
+  };
+  std::vector<Shape> shapes;  ///< ascending times; if not empty, replaces positions and normals
+  bool casts_shadow = true;
+};
+
+struct Skin {
+  std::vector<int> joints;              ///< node indices
+  std::vector<glm::mat4> inverse_bind;  ///< one a joint
+};
+
+enum class LightType { point, spot, directional, area_rect, area_disk };
+enum class Falloff { none, inverse_square };  ///< BART: none; glTF: inverse_square
+
+/// A light in the space of its node: at its origin, shining along -Z.
+struct Light {
+  std::string name;
+  LightType type = LightType::point;
+  Falloff falloff = Falloff::inverse_square;
+  glm::vec3 color{1.0f};
+  float intensity = 1.0f;        ///< candela (point, spot), lux (directional), nits (area); BART: no unit
+  std::optional<float> range_m;  ///< no light beyond
+  float inner_cone_rad = 0.0f;   ///< spot half-angles
+  float outer_cone_rad = 0.785398163f;
+  glm::vec2 size_m{1.0f};  ///< area: width, height; a disk's diameter twice
+};
+
+enum class Projection { perspective, orthographic };
+
+/// A camera in the space of its node: at its origin, looking along -Z, +Y up.
+struct Camera {
+  std::string name;
+  Projection projection = Projection::perspective;
+  float vertical_fov_rad = 0.785398163f;  ///< full angle, bottom to top
+  float vertical_extent_m = 2.0f;         ///< orthographic: full height of the view
+  std::optional<float> aspect;            ///< width / height the file asks for; the picture's size decides
+  float near_m = 0.1f;
+};
+
+/// Local transform = translation * rotation * scale, or `matrix` where the file gives one that does not
+/// decompose.
+struct Node {
+  std::string name;
+  int parent = -1;  ///< smaller than the node's own index; -1 for roots
+  glm::dvec3 translation{0.0};
+  glm::dquat rotation{1.0, 0.0, 0.0, 0.0};
+  glm::dvec3 scale{1.0};
+  std::optional<glm::dmat4> matrix;  ///< if set, replaces the three above
+  int mesh = -1;
+  int skin = -1;
+  int light = -1;
+  int camera = -1;
+  bool visible = true;         ///< false hides the subtree
+  std::vector<float> weights;  ///< morph weights of this instance; empty: the mesh's
+};
+
+struct Scene {
+  std::string name;         ///< file name without folder
+  std::vector<Node> nodes;  ///< parents before children
+  std::vector<Mesh> meshes;
+  std::vector<Skin> skins;
+  std::vector<Material> materials;  ///< at least one if there is a triangle
+  std::vector<Light> lights;
+  std::vector<Camera> cameras;
+  std::vector<Clip> clips;
+  glm::vec3 background{0.0f};
+  glm::vec3 ambient_light{0.1f};      ///< times the materials' ambient; formats that state one set it
+  std::vector<std::string> warnings;  ///< sentences: what was skipped, guessed or added at import
+};
+
+/// Adds what a picture needs and the file lacks: a camera that sees everything, a light above the camera's
+/// shoulder; says so in scene.warnings.
+void add_missing_camera_and_light(Scene& scene);
+
+/// Takes casters out by name of mesh, name of material or FILE:LINE (Mesh::source). Each name must match
+/// something. Appends one sentence a name to scene.warnings with the number of triangles left out (instances
+/// counted). Returns false and names the first that matches nothing in `unmatched`.
+bool leave_out_casters(Scene& scene, const std::vector<std::string>& names, std::string& unmatched);
+
+}  // namespace tenebra

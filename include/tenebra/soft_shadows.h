@@ -1,0 +1,52 @@
+// The public entry of the exact soft shadows: visible points, triangles and an area light in; the visible
+// part of the light and its irradiance out, one a pixel, without noise. No OpenGL.
+// Mora, Aveneau, Apostu and Ghazanfarpour 2012, "Lazy visibility evaluation for exact soft shadows".
+#pragma once
+
+#include <tenebra/area_light.h>
+#include <tenebra/frame_timings.h>
+#include <tenebra/soft_config.h>
+#include <tenebra/stop_flag.h>
+#include <tenebra/visible_points.h>
+#include <memory>
+#include <span>
+
+namespace tenebra {
+
+/// Buffers kept from frame to frame, and what the last mask took.
+class SoftShadowTracer {
+public:
+  SoftShadowTracer();
+  SoftShadowTracer(SoftShadowTracer&&) noexcept;
+  SoftShadowTracer& operator=(SoftShadowTracer&&) noexcept;
+  ~SoftShadowTracer();
+
+  /// The visible part of `light` from each point, and the irradiance it sends onto a surface with the shading
+  /// normal `normals` (one a pixel, unit; empty: the triangle's face normal on the view's side).
+  ///
+  /// A point Q of the light (front side only) is visible from sample P on triangle R iff P lies in front of
+  /// the light's plane, Q on the side of R's plane from which the view sees R (strictly), and no casting
+  /// triangle T other than R meets the segment PQ with P more than theta off T's plane and P, Q on different
+  /// sides of it (theta: the contact rule of points/contact_rule.h, the same as for hard shadows).
+  /// visible_fraction is the area of those Q over the light's; irradiance is the integral over them, clamped
+  /// to the shading normal's hemisphere. Errors: `reference` 1e-6 of the fraction, or 2^-48 of the distance
+  /// over the light's size if that is more; `fast` 0.1/255 of the unoccluded irradiance (lights of at least
+  /// 1e-10 of their distance). The same bits for any thread count.
+  ///
+  /// Returns false, with `out` unspecified, if `stop` was requested before the end.
+  bool trace(const VisiblePoints& points, std::span<const glm::vec3> normals, const ViewRays& view,
+             const TriangleView& triangles, const AreaLight& light, const SoftShadowConfig& config,
+             SoftMask& out, const StopFlag* stop = nullptr);
+
+  const SoftStats& stats() const;       ///< of the last call
+  const FrameTimings& timings() const;  ///< of the last call: shaft_ms, init_ms, query_ms, irradiance_ms
+
+  /// How the last call classified and solved each pixel, for display: one of `SoftClass`.
+  std::span<const std::uint8_t> classes() const;
+
+private:
+  struct State;
+  std::unique_ptr<State> state_;
+};
+
+}  // namespace tenebra

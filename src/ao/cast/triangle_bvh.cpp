@@ -1,0 +1,224 @@
+#include "ao/cast/triangle_bvh.h"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <utility>
+
+namespace tenebra::ao {
+
+namespace {
+
+constexpr int bin_count = 16;
+constexpr int depth_to_halve = bvh_depth - 32;  ///< from here on 32 levels hold whatever is left
+constexpr float largest_coordinate = 1e18f;
+constexpr float infinity = std::numeric_limits<float>::infinity();
+
+struct Box {
+  glm::vec3 low{infinity};
+  glm::vec3 high{-infinity};
+
+  void add(const Box& other) {
+    low = glm::min(low, other.low);
+    high = glm::max(high, other.high);
+  }
+  /// Half of its surface, in double: squares of 1e18 stay in range.
+  double area() const {
+    if (!(low.x <= high.x)) return 0;
+    const glm::dvec3 size = glm::dvec3(high) - glm::dvec3(low);
+    return size.x * size.y + size.y * size.z + size.z * size.x;
+  }
+};
+
+struct Item {
+  Box box;
+  glm::vec3 middle;
+  std::uint32_t triangle;
+};
+
+/// Items first .. last - 1 and their box.
+struct Range {
+  std::uint32_t first, last;
+  Box box;
+  std::uint32_t size() const { return last - first; }
+};
+
+struct Split {
+  int axis = -1;
+  int bin = 0;  ///< the last bin of the left side
+  double cost = std::numeric_limits<double>::infinity();
+};
+
+class Builder {
+public:
+  Builder(std::span<const glm::vec3> positions, std::span<const glm::uvec3> triangles)
+      : positions_(positions), triangles_(triangles) {
+    collect();
+  }
+  TriangleBvh build();
+
+private:
+  struct Bins {
+    glm::vec3 low{infinity}, high{-infinity};  ///< of the middles
+    int bin(glm::vec3 middle, int axis) const {
+      const double at = (static_cast<double>(middle[axis]) - low[axis]) /
+                        (static_cast<double>(high[axis]) - low[axis]) * bin_count;
+      return std::clamp(static_cast<int>(at), 0, bin_count - 1);
+    }
+  };
+
+  void collect();
+  Range range(std::uint32_t first, std::uint32_t last) const;
+  Bins bins(const Range& range) const;
+  Split best_split(const Range& range, const Bins& bins) const;
+  std::pair<Range, Range> divide(const Range& range, int depth);
+  std::uint32_t add_node(const Range& range, int depth);
+  std::uint32_t add_block(const Range& range);
+
+  std::span<const glm::vec3> positions_;
+  std::span<const glm::uvec3> triangles_;
+  std::vector<Item> items_;
+  float margin_ = 0;
+  TriangleBvh bvh_;
+};
+
+bool usable(glm::vec3 p) {
+  return std::abs(p.x) <= largest_coordinate && std::abs(p.y) <= largest_coordinate &&
+         std::abs(p.z) <= largest_coordinate;
+}
+
+void Builder::collect() {
+  items_.reserve(triangles_.size());
+  for (std::size_t i = 0; i < triangles_.size(); ++i) {
+    const glm::uvec3 t = triangles_[i];
+    if (std::max({t.x, t.y, t.z}) >= positions_.size()) continue;
+    const glm::vec3 a = positions_[t.x], b = positions_[t.y], c = positions_[t.z];
+    if (!usable(a) || !usable(b) || !usable(c)) continue;
+    if (glm::cross(glm::dvec3(b) - glm::dvec3(a), glm::dvec3(c) - glm::dvec3(a)) == glm::dvec3(0)) continue;
+    const Box box{glm::min(a, glm::min(b, c)), glm::max(a, glm::max(b, c))};
+    items_.push_back({box, 0.5f * box.low + 0.5f * box.high, static_cast<std::uint32_t>(i)});
+    for (const glm::vec3 corner : {glm::abs(box.low), glm::abs(box.high)})
+      margin_ = std::max({margin_, corner.x, corner.y, corner.z});
+  }
+  // A hit that rounding puts beside its triangle still lies in the triangle's box: four units in the last
+  // place of the largest coordinate.
+  margin_ *= 0x1p-21f;
+}
+
+Range Builder::range(std::uint32_t first, std::uint32_t last) const {
+  Range range{first, last, {}};
+  for (std::uint32_t i = first; i < last; ++i) range.box.add(items_[i].box);
+  return range;
+}
+
+Builder::Bins Builder::bins(const Range& range) const {
+  Bins bins;
+  for (std::uint32_t i = range.first; i < range.last; ++i) {
+    bins.low = glm::min(bins.low, items_[i].middle);
+    bins.high = glm::max(bins.high, items_[i].middle);
+  }
+  return bins;
+}
+
+Split Builder::best_split(const Range& range, const Bins& bins) const {
+  Split best;
+  for (int axis = 0; axis < 3; ++axis) {
+    if (!(bins.low[axis] < bins.high[axis])) continue;
+    std::array<Box, bin_count> boxes;
+    std::array<std::uint32_t, bin_count> counts{};
+    for (std::uint32_t i = range.first; i < range.last; ++i) {
+      const auto bin = static_cast<std::size_t>(bins.bin(items_[i].middle, axis));
+      boxes[bin].add(items_[i].box);
+      ++counts[bin];
+    }
+    std::array<double, bin_count> right{};  // cost of bins i ..
+    Box box;
+    std::uint32_t count = 0;
+    // Triangles are met eight at a time.
+    const auto cost = [&] { return box.area() * ((count + bvh_width - 1) / bvh_width); };
+    for (std::size_t i = bin_count; i-- > 1;) {
+      box.add(boxes[i]);
+      count += counts[i];
+      right[i] = cost();
+    }
+    box = {};
+    count = 0;
+    for (std::size_t i = 0; i + 1 < bin_count; ++i) {
+      box.add(boxes[i]);
+      count += counts[i];
+      if (count == 0 || count == range.size()) continue;
+      if (const double c = cost() + right[i + 1]; c < best.cost) best = {axis, static_cast<int>(i), c};
+    }
+  }
+  return best;
+}
+
+std::pair<Range, Range> Builder::divide(const Range& whole, int depth) {
+  const Bins bins = this->bins(whole);
+  const Split split = depth < depth_to_halve ? best_split(whole, bins) : Split{};
+  const auto first = items_.begin() + whole.first, last = items_.begin() + whole.last;
+  std::uint32_t middle = whole.first + whole.size() / 2;  // all middles alike, or too deep: by order
+  if (split.axis >= 0) {
+    const auto left = [&](const Item& item) { return bins.bin(item.middle, split.axis) <= split.bin; };
+    middle = static_cast<std::uint32_t>(std::stable_partition(first, last, left) - items_.begin());
+  }
+  return {range(whole.first, middle), range(middle, whole.last)};
+}
+
+std::uint32_t Builder::add_block(const Range& range) {
+  TriangleBlock block{};
+  std::fill(std::begin(block.triangle), std::end(block.triangle), no_caster);
+  for (std::uint32_t i = range.first; i < range.last; ++i) {
+    const std::size_t lane = i - range.first;
+    block.triangle[lane] = items_[i].triangle;
+    const glm::uvec3 t = triangles_[items_[i].triangle];
+    for (int corner = 0; corner < 3; ++corner)
+      for (int axis = 0; axis < 3; ++axis) block.corner[corner][axis][lane] = positions_[t[corner]][axis];
+  }
+  bvh_.blocks.push_back(block);
+  return static_cast<std::uint32_t>(bvh_.blocks.size() - 1) | bvh_leaf;
+}
+
+std::uint32_t Builder::add_node(const Range& whole, int depth) {
+  std::vector<Range> children{whole};
+  while (children.size() < bvh_width) {
+    auto widest = children.end();
+    for (auto child = children.begin(); child != children.end(); ++child)
+      if (child->size() > bvh_width && (widest == children.end() || child->box.area() > widest->box.area()))
+        widest = child;
+    if (widest == children.end()) break;
+    const auto [left, right] = divide(*widest, depth);
+    *widest = left;
+    children.push_back(right);
+  }
+  const auto place = static_cast<std::uint32_t>(bvh_.nodes.size());
+  bvh_.nodes.emplace_back();
+  for (std::size_t lane = 0; lane < bvh_width; ++lane) {
+    const bool used = lane < children.size();
+    std::uint32_t child = bvh_leaf;
+    if (used)
+      child = children[lane].size() <= bvh_width ? add_block(children[lane])
+                                                 : add_node(children[lane], depth + 1);
+    BvhNode& node = bvh_.nodes[place];
+    node.child[lane] = child;
+    for (int axis = 0; axis < 3; ++axis) {
+      node.plane[axis][lane] = used ? children[lane].box.low[axis] - margin_ : infinity;
+      node.plane[axis + 3][lane] = used ? children[lane].box.high[axis] + margin_ : -infinity;
+    }
+  }
+  return place;
+}
+
+TriangleBvh Builder::build() {
+  bvh_.triangles = items_.size();
+  if (!items_.empty()) add_node(range(0, static_cast<std::uint32_t>(items_.size())), 0);
+  return std::move(bvh_);
+}
+
+}  // namespace
+
+TriangleBvh build_triangle_bvh(std::span<const glm::vec3> positions, std::span<const glm::uvec3> triangles) {
+  return Builder(positions, triangles).build();
+}
+
+}  // namespace tenebra::ao

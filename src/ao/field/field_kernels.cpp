@@ -1,0 +1,200 @@
+// Sixteen rays against one field. Without fused operations, so that every instruction set gives the same
+// bits.
+#include "ao/field/field_chords.h"
+#include "ao/field/field_lookup.h"
+#include "ao/field/near_cells.h"
+
+#undef HWY_TARGET_INCLUDE
+#define HWY_TARGET_INCLUDE "ao/field/field_kernels.cpp"
+#include <hwy/foreach_target.h>
+// After foreach_target.h
+#include "ao/cast/bvh_trace-inl.h"
+#include "ao/field/field_chords-inl.h"
+#include "simd/dispatch.h"
+
+#include <algorithm>
+#include <bit>
+
+HWY_BEFORE_NAMESPACE();
+namespace tenebra::ao::HWY_NAMESPACE {
+using namespace simd::HWY_NAMESPACE;
+
+namespace {
+
+// Batches looked up at once, so that what they need of the table arrives while others are worked on.
+constexpr std::size_t in_flight = 8;
+constexpr float half_diagonal = 0.70710678f;  // of a cell, in widths
+constexpr float cast_cells = 1;               // how far close rays are cast, in cells
+
+// Bits of those rays `inside` that start close to the object.
+HWY_INLINE std::uint32_t close_rays(const DisplacementField& field, const Chords& c, Truth16 inside) {
+  const Float16 half = splat<Float16>(0.5f * near_side), last = splat<Float16>(near_side - 1.0f);
+  const auto cell = [&](Float16 x) {
+    return truncate(min(max(choose(inside, x, half) * half + half, splat<Float16>(0.0f)), last));
+  };
+  const Int16 side = splat<Int16>(near_side);
+  const Int16 place = (cell(c.origin.z) * side + cell(c.origin.y)) * side + cell(c.origin.x);
+  const Int16 word = gather<std::int32_t>(field.close.data(), shift_left<2>(shift_right<5>(place)));
+  const Int16 bit = shift_right(word, place & splat<Int16>(31)) & splat<Int16>(1);
+  return bits(inside & less(splat<Float16>(0.0f), to_float(bit)));
+}
+
+// Casts the rays in `which` from t = from[i] to to[i]; to[i] becomes the distance of the hit if there is one.
+void cast(const FieldInstance& instance, const RayBatch& rays, std::uint32_t which, const float* from,
+          float* to) {
+  const auto& m = instance.object_from_world;
+  for (; which != 0; which &= which - 1) {
+    const int i = std::countr_zero(which);
+    const glm::vec3 o = rays.origin(i), d = rays.direction(i);
+    CasterRay ray{.from = from[i], .to = to[i]};
+    for (int k = 0; k < 3; ++k) {
+      ray.origin[k] = m[k][0] * o.x + m[k][1] * o.y + m[k][2] * o.z + m[k][3];
+      ray.direction[k] = m[k][0] * d.x + m[k][1] * d.y + m[k][2] * d.z;
+    }
+    to[i] = std::min(to[i], trace_ray<false>(*instance.near, ray).distance);
+  }
+}
+
+// The answer for rays from outside, and what is known of the others.
+struct Answer {
+  Truth16 live;    // rays that may still meet the object
+  Float16 start;   // from here on: 0, where the sphere begins, or as far as the ray was cast
+  Float16 before;  // what was found before or by casting
+};
+
+// Rays that start close to the object are cast for one cell's width.
+HWY_INLINE int cast_close(const FieldInstance& instance, const RayBatch& rays, const Chords& c,
+                          Truth16 inside, Answer& answer) {
+  const std::uint32_t close = close_rays(*instance.field, c, inside);
+  if (close == 0) return 0;
+  float from[batch_size] = {}, start[batch_size], reach[batch_size], before[batch_size];
+  store(answer.start, start);
+  store(answer.before, before);
+  store(splat<Float16>(cast_cells * instance.field->cell()) * c.per_unit, reach);
+  for (std::uint32_t rest = close; rest != 0; rest &= rest - 1) {
+    const int i = std::countr_zero(rest);
+    start[i] = reach[i];
+    reach[i] = std::min(reach[i], before[i]);
+  }
+  cast(instance, rays, close, from, reach);
+  for (std::uint32_t rest = close; rest != 0; rest &= rest - 1) {
+    const int i = std::countr_zero(rest);
+    if (reach[i] < start[i]) before[i] = std::min(before[i], reach[i]);
+  }
+  answer.start = load<Float16>(start);
+  answer.before = load<Float16>(before);
+  answer.live = answer.live & less(answer.start, answer.before);
+  return std::popcount(close);
+}
+
+// A ray that is in the open at t = start, between the first and the last hit of its chord. Next to one of
+// them, it is taken to lie before the first or behind the last. Else something may come before the last: it
+// is cast, or the last stands for it.
+HWY_INLINE int between(const FieldInstance& instance, const RayBatch& rays, const Answer& answer,
+                       Truth16 behind, Float16 first, Float16 last, Float16 tolerance, Float16& found) {
+  const Float16 none = splat<Float16>(no_distance);
+  const Float16 behind_first = answer.start - first, before_last = last - answer.start;
+  const Truth16 at_first = behind & less(behind_first, min(tolerance, before_last));
+  const Truth16 deep = behind & not_above(tolerance, before_last) & not_above(tolerance, behind_first);
+  found = choose(at_first, answer.start, choose(behind, choose(deep, last, none), found));
+  if (instance.near == nullptr) return 0;
+  const std::uint32_t which = bits(deep);
+  if (which == 0) return 0;
+  float from[batch_size], to[batch_size], limit[batch_size];
+  store(answer.start, from);
+  store(answer.before, limit);
+  std::copy(limit, limit + batch_size, to);
+  cast(instance, rays, which, from, to);
+  for (int i = 0; i < batch_size; ++i)
+    if (to[i] == limit[i]) to[i] = no_distance;
+  found = choose(deep, load<Float16>(to), found);
+  return std::popcount(which);
+}
+
+// Sixteen rays that wait for the table.
+struct Query {
+  Chords chords;
+  Answer answer;
+  Truth16 inside;  // live rays that start in the unit sphere
+  bool any;        // ray is live; else nothing below is set
+  Float16 exit;    // t where it ends
+  Looks looks;
+};
+
+HWY_INLINE void prefetch(const DisplacementField& field, Int16 entry) {
+  std::int32_t at[batch_size];
+  store(byte_of(field, entry), at);
+  for (const std::int32_t byte : at) fetch_soon(field.table.data() + byte);
+}
+
+// Asks for what the rays will need of the table.
+HWY_INLINE void begin(const FieldInstance& instance, const RayBatch& rays, const float* distance, Query& q) {
+  const Float16 zero = splat<Float16>(0.0f);
+  const Chords c = q.chords = chords_of(instance, rays);
+  const Float16 reach = c.half * c.per_unit, enter = c.at - reach;
+  q.exit = c.at + reach;
+  q.answer.start = max(enter, zero);
+  q.answer.before = load<Float16>(distance);
+  q.answer.live = c.met & less(zero, q.exit) & less(enter, q.answer.before);
+  q.any = any(q.answer.live);
+  if (!q.any) return;
+  q.inside = q.answer.live & less(enter, zero);
+  q.looks.begin(*instance.field, c);
+  prefetch(*instance.field, q.looks.from_enter().entry);
+}
+
+HWY_INLINE int finish(const FieldInstance& instance, const RayBatch& rays, Query& q, float* distance) {
+  const DisplacementField& field = *instance.field;
+  const Chords& c = q.chords;
+  if (!q.any) return 0;
+  int casts = 0;
+  if (instance.near != nullptr && any(q.inside)) {
+    casts = cast_close(instance, rays, c, q.inside, q.answer);
+    q.answer.live = q.answer.live & less(q.answer.start, q.exit);
+    q.inside = q.inside & q.answer.live;
+  }
+  const Float16 none = splat<Float16>(no_distance);
+  const Float16 first = first_hit(field, c, q.looks.from_enter(), none);
+  const Truth16 behind = q.inside & less(first, q.answer.start);
+  Float16 found = choose(behind, none, max(first, q.answer.start));
+  if (instance.ends == FieldEnds::both && any(behind)) {
+    const Float16 tolerance = splat<Float16>(half_diagonal * field.cell()) * c.per_unit;
+    const Float16 last = last_hit(field, c, q.looks.from_exit(field, c), first);
+    casts += between(instance, rays, q.answer, behind, first, last, tolerance, found);
+  }
+  store(choose(q.answer.live, min(found, q.answer.before), q.answer.before), distance);
+  return casts;
+}
+
+int nearest_hits(const FieldInstance& instance, std::span<const RayBatch> rays, float* distances) {
+  Query queries[in_flight];
+  int casts = 0;
+  for (; !rays.empty(); rays = rays.subspan(std::min(in_flight, rays.size()))) {
+    const std::size_t count = std::min(in_flight, rays.size());
+    for (std::size_t i = 0; i < count; ++i) begin(instance, rays[i], distances + i * batch_size, queries[i]);
+    for (std::size_t i = 0; i < count; ++i)
+      casts += finish(instance, rays[i], queries[i], distances + i * batch_size);
+    distances += count * batch_size;
+  }
+  return casts;
+}
+
+}  // namespace
+
+FieldKernels field_kernels() {
+  return {nearest_hits};
+}
+
+}  // namespace tenebra::ao::HWY_NAMESPACE
+HWY_AFTER_NAMESPACE();
+
+#if HWY_ONCE
+
+namespace tenebra::ao {
+
+FieldKernels field_kernels(SimdLevel level) {
+  return TENEBRA_DISPATCH(level, field_kernels)();
+}
+
+}  // namespace tenebra::ao
+#endif

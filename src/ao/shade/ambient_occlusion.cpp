@@ -1,0 +1,191 @@
+// Ambient occlusion of a frame, from its visible points to one value a pixel: what is kept of a scene from
+// frame to frame, and which receivers are asked for what.
+#include <tenebra/ambient_occlusion.h>
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+
+#include "ao/shade/field_pass.h"
+#include "ao/shade/ray_pass.h"
+#include "base/fail.h"
+#include "base/stopwatch.h"
+#include "parallel/parallel.h"
+
+namespace tenebra {
+namespace {
+
+using glm::dvec3;
+using glm::vec3;
+
+Expected<void> check(const AoConfig& config, const VisiblePoints& points, std::span<const vec3> normals) {
+  constexpr int most_rays = 1 << 16, most_downscale = 8;
+  if (config.rays < 1 || config.rays > most_rays)
+    return base::fail("ambient occlusion: {} rays a point, expected 1 to {}", config.rays, most_rays);
+  if (!(config.distance_m >= 0) || !std::isfinite(config.distance_m))
+    return base::fail("ambient occlusion: distance {}, expected a length or 0", config.distance_m);
+  if (config.downscale < 1 || config.downscale > most_downscale)
+    return base::fail("ambient occlusion: scale 1/{}, expected 1/1 to 1/{}", config.downscale,
+                      most_downscale);
+  const auto size = ao::field_shape({config.layout, config.positions, config.directions, config.bits});
+  if (!size) return tl::unexpected(size.error());
+  const std::size_t pixels = points.triangles.size();
+  if (points.positions.size() != pixels || normals.size() != pixels || points.width < 0 ||
+      points.height < 0 ||
+      static_cast<std::size_t>(points.width) * static_cast<std::size_t>(points.height) != pixels)
+    return base::fail("ambient occlusion: {} points and {} normals, expected one a pixel of {} x {}",
+                      points.positions.size(), normals.size(), points.width, points.height);
+  return {};
+}
+
+/// Of all that is drawn at the start of the first clip: the same for every frame.
+double scene_diagonal(const Scene& scene) {
+  FrameGeometry frame;
+  evaluate_frame(scene, scene.clips.empty() ? -1 : 0, scene.clips.empty() ? 0 : scene.clips.front().start_s,
+                 frame);
+  ao::PointBox box;
+  for (const glm::uvec3& t : frame.triangles) {
+    if (t == glm::uvec3(0)) continue;
+    for (int k = 0; k < 3; ++k) box.extend(dvec3(frame.positions[t[k]]));
+  }
+  const double diagonal = box.low.x <= box.high.x ? glm::length(box.high - box.low) : 0;
+  return diagonal > 0 ? diagonal : 1;
+}
+
+}  // namespace
+
+struct AmbientOcclusion::State {
+  ao::SceneObjects objects;
+  bool found = false;
+  double diagonal = 0;
+  double reach = 0;
+  ao::Occluders occluders;
+  ao::Bodies bodies;
+  ao::PointRays rays;
+  ao::AoKernels kernels;
+  std::vector<float> values;
+  std::vector<std::string> noted;  ///< deforming meshes already named
+
+  AoStats stats;
+  FrameTimings timings;
+  std::vector<std::string> notes;
+
+  void find(const Scene& scene, const FrameGeometry& geometry, const AoConfig& config);
+  void note_deforming(const AoConfig& config);
+  Expected<void> run(const ao::AoFrame& frame, const AoConfig& config, std::span<float> out,
+                     const AoProgress& progress, const StopFlag* stop);
+  Expected<void> from_rays(const ao::ReceiverSet& set, const FrameGeometry& geometry, const StopFlag* stop);
+};
+
+AmbientOcclusion::AmbientOcclusion() : state_(std::make_unique<State>()) {}
+AmbientOcclusion::AmbientOcclusion(AmbientOcclusion&&) noexcept = default;
+AmbientOcclusion& AmbientOcclusion::operator=(AmbientOcclusion&&) noexcept = default;
+AmbientOcclusion::~AmbientOcclusion() = default;
+
+const AoStats& AmbientOcclusion::stats() const {
+  return state_->stats;
+}
+const FrameTimings& AmbientOcclusion::timings() const {
+  return state_->timings;
+}
+const std::vector<std::string>& AmbientOcclusion::notes() const {
+  return state_->notes;
+}
+
+/// Brings objects and what hangs on them to this instant.
+void AmbientOcclusion::State::find(const Scene& scene, const FrameGeometry& geometry,
+                                   const AoConfig& config) {
+  const bool kept = found && ao::move_objects(scene, geometry, objects);
+  if (!kept) {
+    objects = ao::find_objects(scene, geometry);
+    occluders.reset(objects);
+    diagonal = scene_diagonal(scene);
+    found = true;
+  }
+  const double wanted = config.distance_m > 0 ? config.distance_m : diagonal / 20;
+  if (!kept || wanted != reach) bodies.reset(objects, wanted);
+  reach = wanted;
+  kernels = ao::ao_kernels(config.simd);
+  rays.begin_frame(objects, config.rays, reach, kernels);
+  occluders.begin_frame(objects, geometry, config, reach);
+  note_deforming(config);
+}
+
+void AmbientOcclusion::State::note_deforming(const AoConfig& config) {
+  for (const std::string& name : objects.deforming_names) {
+    if (std::find(noted.begin(), noted.end(), name) != noted.end()) continue;
+    noted.push_back(name);
+    notes.push_back(fmt::format("{} deforms, so it has no displacement field: {}.", name,
+                                config.deforming ? "rays meet it as it is" : "it hides no ambient light"));
+  }
+}
+
+Expected<void> AmbientOcclusion::State::from_rays(const ao::ReceiverSet& set, const FrameGeometry& geometry,
+                                                  const StopFlag* stop) {
+  base::Stopwatch watch;
+  const auto reference = ao::ReferenceRays::create(triangle_view(geometry));
+  if (!reference) return tl::unexpected(reference.error());
+  timings.ao_build_ms += watch.lap_ms();
+  stats.points = ao::cast_receivers(set, rays, *reference, values, stop);
+  stats.rays_cast = stats.points * static_cast<std::uint64_t>(rays.rays());
+  return stop_requested(stop) ? Expected<void>(base::fail("stopped")) : Expected<void>();
+}
+
+/// Moving things blur well, what stands does not: with a downscale only the others' part is computed at a
+/// fraction of the pixels.
+Expected<void> AmbientOcclusion::State::run(const ao::AoFrame& frame, const AoConfig& config,
+                                            std::span<float> out, const AoProgress& progress,
+                                            const StopFlag* stop) {
+  const auto solve = [&](const ao::ReceiverSet& set, ao::AoPart part) {
+    if (config.mode == AoMode::rays) return from_rays(set, frame.geometry, stop);
+    return ao::FieldPass{occluders, bodies, rays, kernels, stats, timings}.run(set, part, values, progress,
+                                                                               stop);
+  };
+  const auto length = static_cast<float>(reach);
+  if (config.place == AoPlace::vertices) {
+    const ao::VertexReceivers set(frame);
+    auto done = solve(set, ao::AoPart::all);
+    if (done) set.spread(values, out);
+    return done;
+  }
+  const bool split = config.downscale > 1 && config.mode == AoMode::field;
+  const ao::PixelReceivers set(frame, config.downscale, length);
+  if (auto done = solve(set, split ? ao::AoPart::others : ao::AoPart::all); !done) return done;
+  set.spread(values, out);
+  if (!split) return {};
+  const std::uint64_t points = stats.points;
+  if (auto done = solve(ao::PixelReceivers(frame, 1, length), ao::AoPart::own); !done) return done;
+  stats.points = points;
+  parallel::parallel_ranges(out.size(), 1 << 14, [&](std::size_t first, std::size_t last) {
+    for (std::size_t i = first; i < last; ++i) out[i] *= values[i];
+  });
+  return {};
+}
+
+Expected<void> AmbientOcclusion::compute(const Scene& scene, const FrameGeometry& geometry,
+                                         const VisiblePoints& points, std::span<const vec3> normals,
+                                         const AoConfig& config, std::vector<float>& out,
+                                         const AoProgress& progress, const StopFlag* stop) {
+  const parallel::FloatEnvironment ieee;
+  State& s = *state_;
+  s.stats = {};
+  s.timings = {};
+  if (auto checked = check(config, points, normals); !checked) return checked;
+  out.assign(points.triangles.size(), 1.0f);
+  if (config.mode == AoMode::none) return {};
+  base::Stopwatch watch;
+  s.find(scene, geometry, config);
+  const double found_ms = s.timings.ao_build_ms = watch.lap_ms();
+
+  if (auto done = s.run({geometry, points, normals, s.objects}, config, out, progress, stop); !done)
+    return done;
+  s.timings.ao_ms = watch.lap_ms() - (s.timings.ao_build_ms - found_ms);
+  s.stats.fields_built = s.occluders.fields_built();
+  s.stats.field_bytes = s.occluders.field_bytes();
+  s.stats.cache_cells = s.bodies.filled();
+  for (std::string& note : s.occluders.take_notes()) s.notes.push_back(std::move(note));
+  return {};
+}
+
+}  // namespace tenebra

@@ -1,0 +1,77 @@
+#include "ao/shade/field_pass.h"
+
+#include <numeric>
+
+#include "base/fail.h"
+#include "base/sort_unique.h"
+#include "base/stopwatch.h"
+#include "parallel/parallel.h"
+
+namespace tenebra::ao {
+
+/// Makes what the groups lack.
+Expected<void> FieldPass::supply(const std::vector<GroupReport>& reports, const AoProgress& progress,
+                                 const StopFlag* stop) {
+  std::vector<int> missing, without_samples;
+  std::vector<MissingSample> samples;
+  for (const GroupReport& report : reports) {
+    missing.insert(missing.end(), report.occluders.begin(), report.occluders.end());
+    without_samples.insert(without_samples.end(), report.bodies.begin(), report.bodies.end());
+    samples.insert(samples.end(), report.samples.begin(), report.samples.end());
+  }
+  base::sort_unique(samples);
+  const std::uint64_t before = bodies.filled();
+  if (auto filled = bodies.fill(samples, kernels, progress, stop); !filled) return filled;
+  stats.rays_cast += (bodies.filled() - before) * SurfaceRays::rays;
+  base::sort_unique(missing);
+  if (auto built = occluders.build(missing, progress, stop); !built) return built;
+  base::sort_unique(without_samples);
+  for (const int object : without_samples) bodies.make(object, occluders);
+  return {};
+}
+
+Expected<void> FieldPass::run(const ReceiverSet& set, AoPart part, std::vector<float>& values,
+                              const AoProgress& progress, const StopFlag* stop) {
+  values.assign(set.values(), 1.0f);
+  std::vector<int> pending(static_cast<std::size_t>(set.groups()));
+  std::iota(pending.begin(), pending.end(), 0);
+  std::vector<GroupShader> shaders(static_cast<std::size_t>(thread_count()),
+                                   GroupShader(occluders, bodies, rays, kernels));
+  std::vector<GroupReport> reports;
+  std::vector<int> reached;
+  base::Stopwatch watch;
+  constexpr int most_rounds = 8;  // bodies and occluders, three levels of samples, a cell and its samples
+  for (int round = 0; !pending.empty(); ++round) {
+    if (round == most_rounds)
+      return base::fail("ambient occlusion: what {} groups of points lack cannot be made", pending.size());
+    reports.assign(pending.size(), {});
+    parallel::parallel_tasks(static_cast<int>(pending.size()), [&](int i) {
+      if (stop_requested(stop)) return;
+      const auto at = static_cast<std::size_t>(i);
+      shaders[static_cast<std::size_t>(parallel::thread_index())].shade(set, part, pending[at], values,
+                                                                        reports[at]);
+    });
+    watch.lap_ms();
+    if (stop_requested(stop)) return base::fail("stopped");
+    std::vector<int> left;
+    for (std::size_t i = 0; i < pending.size(); ++i) {
+      const GroupReport& report = reports[i];
+      if (!report.complete()) left.push_back(pending[i]);
+      stats.points += report.points;
+      stats.lookups += report.counts.lookups;
+      stats.rays_cast += report.counts.rays_cast;
+      reached.insert(reached.end(), report.reached.begin(), report.reached.end());
+    }
+    base::sort_unique(reached);
+    pending = std::move(left);
+    if (!pending.empty()) {
+      if (auto supplied = supply(reports, progress, stop); !supplied) return supplied;
+    }
+    timings.ao_build_ms += watch.lap_ms();
+  }
+  stats.objects += static_cast<std::uint64_t>(
+      std::count_if(reached.begin(), reached.end(), [](int occluder) { return occluder >= 0; }));
+  return {};
+}
+
+}  // namespace tenebra::ao

@@ -1,0 +1,64 @@
+// The ambient light of a group of neighbouring receivers, from fields and samples that are there; what is not
+// is named, to be made before the group is asked again.
+//
+// A point is hidden by its own body (sampled on the surface once, self_occlusion.h) and by the rest, ray by
+// ray: moving objects through their fields, what stands and what deforms by rays (occluders.h). The two are
+// taken as independent: what is left is (1 - own) (1 - others).
+#pragma once
+
+#include "ao/shade/bodies.h"
+#include "ao/shade/point_rays.h"
+#include "ao/shade/receiver_sets.h"
+
+namespace tenebra::ao {
+
+/// What of a receiver's occlusion is computed.
+enum class AoPart {
+  all,
+  own,     ///< by its own body
+  others,  ///< by all but its own body
+};
+
+/// What one group of receivers asks for, and what it cost.
+struct GroupReport {
+  std::vector<int> bodies;  ///< objects (or standing) that have no samples yet
+  std::vector<MissingSample> samples;
+  std::vector<int> occluders;  ///< not ready
+  std::vector<int> reached;    ///< occluders that some receiver is in reach of
+  OccluderCounts counts;
+  std::uint64_t points = 0;
+  bool complete() const { return bodies.empty() && samples.empty() && occluders.empty(); }
+};
+
+/// For one thread.
+class GroupShader {
+public:
+  GroupShader(const Occluders& occluders, const Bodies& bodies, const PointRays& rays,
+              const AoKernels& kernels)
+      : occluders_(&occluders), bodies_(&bodies), rays_(&rays), kernels_(kernels) {}
+
+  /// Open shares, 0..1, to values[receiver.index], if the report is complete; else nothing.
+  void shade(const ReceiverSet& set, AoPart part, int group, std::span<float> values, GroupReport& report);
+
+private:
+  void find_own(GroupReport& report);
+  void find_near(GroupReport& report);
+  void cast_others(GroupReport& report);
+  void meet_near(std::span<const std::size_t> asked, GroupReport& report);
+
+  const Occluders* occluders_;
+  const Bodies* bodies_;
+  const PointRays* rays_;
+  AoKernels kernels_;
+  std::vector<Receiver> receivers_;
+  std::vector<float> own_, others_;  ///< hidden shares, one a receiver
+  std::vector<std::size_t> mixed_;   ///< receivers whose own body rays have to answer
+  std::vector<std::uint64_t> missing_;
+  std::vector<int> near_;              ///< occluders in reach of some receiver
+  std::vector<std::uint8_t> reached_;  ///< one an occluder and receiver
+  std::vector<std::size_t> asked_;     ///< receivers with something in reach
+  std::vector<RayBatch> batches_;
+  std::vector<float> distances_;
+};
+
+}  // namespace tenebra::ao

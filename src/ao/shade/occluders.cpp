@@ -1,0 +1,272 @@
+#include "ao/shade/occluders.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <unordered_map>
+
+#include "ao/field/field_file.h"
+#include "base/fail.h"
+
+namespace tenebra::ao {
+namespace {
+
+using glm::dvec3;
+using glm::vec3;
+
+std::vector<glm::uvec3> casting_triangles(const ObjectShape& shape) {
+  std::vector<glm::uvec3> triangles;
+  for (std::size_t t = 0; t < shape.triangles.size(); ++t) {
+    if (shape.casts[t]) triangles.push_back(shape.triangles[t]);
+  }
+  return triangles;
+}
+
+std::vector<glm::uvec3> deforming_triangles(const SceneObjects& objects, const FrameGeometry& geometry) {
+  std::vector<glm::uvec3> triangles;
+  for (const std::uint32_t id : objects.deforming) {
+    const glm::uvec3 t = geometry.triangles[id];
+    if (geometry.casts_shadow[id] && !(t.x == t.y && t.y == t.z)) triangles.push_back(t);
+  }
+  return triangles;
+}
+
+/// About the middle of their box.
+Sphere sphere_around(std::span<const vec3> positions, std::span<const glm::uvec3> triangles) {
+  dvec3 low(INFINITY), high(-INFINITY);
+  for (const glm::uvec3& t : triangles) {
+    for (int k = 0; k < 3; ++k) {
+      low = glm::min(low, dvec3(positions[t[k]]));
+      high = glm::max(high, dvec3(positions[t[k]]));
+    }
+  }
+  if (!(low.x <= high.x)) return {};
+  return {0.5 * (low + high), 0.5 * glm::length(high - low)};
+}
+
+double distance_to(const PointBox& box, const dvec3& p) {
+  return glm::length(glm::max(dvec3(0.0), glm::max(box.low - p, p - box.high)));
+}
+
+/// Sixteen rays moved into the space of an object; distances along them stay what they are.
+RayBatch moved(const RayBatch& rays, const glm::mat4x3& to_object) {
+  RayBatch out;
+  for (int i = 0; i < batch_size; ++i) {
+    out.set(i, to_object * glm::vec4(rays.origin(i), 1.0f), to_object * glm::vec4(rays.direction(i), 0.0f));
+  }
+  return out;
+}
+
+}  // namespace
+
+void Occluders::reset(const SceneObjects& objects) {
+  std::unordered_map<std::uint64_t, Shape> old;
+  for (Shape& shape : shapes_) old.emplace(shape.hash, std::move(shape));
+  shapes_.clear();
+  field_bytes_ = 0;
+  for (const ObjectShape& shape : objects.shapes) {
+    const auto kept = old.find(shape.hash);
+    if (kept != old.end()) {
+      shapes_.push_back(std::move(kept->second));
+      field_bytes_ += shapes_.back().field ? shapes_.back().field->bytes() : 0;
+    } else {
+      shapes_.emplace_back().hash = shape.hash;
+    }
+  }
+  standing_.reset();
+}
+
+void Occluders::begin_frame(const SceneObjects& objects, const FrameGeometry& geometry,
+                            const AoConfig& config, double reach) {
+  objects_ = &objects;
+  geometry_ = &geometry;
+  const FieldSettings settings{config.layout, config.positions, config.directions, config.bits};
+  const bool same = settings.layout == settings_.layout && settings.positions == settings_.positions &&
+                    settings.directions == settings_.directions && settings.bits == settings_.bits;
+  if (!same) {
+    for (Shape& shape : shapes_) shape.field.reset(), shape.by_rays = false;
+    field_bytes_ = 0;
+  }
+  settings_ = settings;
+  config_ = config;
+  kernels_ = ao_kernels(config.simd);
+  reach_ = reach;
+  fields_built_ = 0;
+  standing_sphere_ = {dvec3(objects.standing.center), objects.standing.radius};
+  deforming_.reset();
+  deforming_sphere_ = {};
+  if (config.deforming && !objects.deforming.empty())
+    deforming_sphere_ = sphere_around(geometry.positions, deforming_triangles(objects, geometry));
+  placed_.assign(objects.objects.size(), {});
+  by_x_.clear();
+  largest_radius_ = 0;
+  for (std::size_t i = 0; i < placed_.size(); ++i) place(i);
+  std::sort(by_x_.begin(), by_x_.end(), [&](std::size_t a, std::size_t b) {
+    const double x = placed_[a].sphere.centre.x, y = placed_[b].sphere.centre.x;
+    return x != y ? x < y : a < b;
+  });
+}
+
+void Occluders::place(std::size_t index) {
+  const MovingObject& object = objects_->objects[index];
+  const ObjectShape& shape = objects_->shapes[static_cast<std::size_t>(object.shape)];
+  Placed& placed = placed_[index];
+  placed.shape = object.shape;
+  placed.visible = object.visible && shape.radius > 0;
+  if (!placed.visible) return;
+  placed.sphere = {dvec3(object.to_world * glm::dvec4(dvec3(shape.center), 1.0)),
+                   shape.radius * object.largest_scale};
+  placed.to_object = glm::mat4x3(object.to_object);
+  const Shape& kept = shapes_[static_cast<std::size_t>(object.shape)];
+  if (kept.field) placed.instance = place_field(*kept.field, &*kept.casters, object.to_world);
+  by_x_.push_back(index);
+  largest_radius_ = std::max(largest_radius_, placed.sphere.radius);
+}
+
+void Occluders::near(const PointBox& box, std::vector<int>& out) const {
+  out.clear();
+  const auto first = std::partition_point(by_x_.begin(), by_x_.end(), [&](std::size_t i) {
+    return placed_[i].sphere.centre.x < box.low.x - reach_ - largest_radius_;
+  });
+  for (auto at = first; at != by_x_.end(); ++at) {
+    const Sphere& sphere = placed_[*at].sphere;
+    if (sphere.centre.x > box.high.x + reach_ + largest_radius_) break;
+    if (distance_to(box, sphere.centre) < sphere.radius + reach_) out.push_back(static_cast<int>(*at));
+  }
+  std::sort(out.begin(), out.end());
+  const auto add = [&](const Sphere& sphere, int occluder) {
+    if (sphere.radius > 0 && distance_to(box, sphere.centre) < sphere.radius + reach_)
+      out.push_back(occluder);
+  };
+  add(standing_sphere_, standing);
+  add(deforming_sphere_, deforming);
+}
+
+const Sphere& Occluders::sphere(int occluder) const {
+  if (occluder == standing) return standing_sphere_;
+  if (occluder == deforming) return deforming_sphere_;
+  return placed_[static_cast<std::size_t>(occluder)].sphere;
+}
+
+bool Occluders::reaches(int occluder, std::span<const Receiver> receivers, std::uint8_t* out) const {
+  const bool hides_itself = occluder == deforming ||
+                            (occluder >= 0 && !objects_->objects[static_cast<std::size_t>(occluder)].rigid);
+  const Sphere around = sphere(occluder);
+  const double farthest = around.radius + reach_;
+  bool any = false;
+  for (std::size_t i = 0; i < receivers.size(); ++i) {
+    const Receiver& receiver = receivers[i];
+    const dvec3 away = around.centre - receiver.position;
+    const bool reached = (hides_itself || occluder != receiver.owner.object) &&
+                         glm::dot(away, away) < farthest * farthest &&
+                         glm::dot(away, dvec3(receiver.normal)) > -around.radius &&
+                         glm::dot(away, dvec3(receiver.face)) > -around.radius;
+    out[i] = reached ? 1 : 0;
+    any |= reached;
+  }
+  return any;
+}
+
+bool Occluders::ready(int occluder) const {
+  if (occluder == standing) return standing_.has_value();
+  if (occluder == deforming) return deforming_.has_value();
+  const Placed& placed = placed_[static_cast<std::size_t>(occluder)];
+  return placed.instance || shapes_[static_cast<std::size_t>(placed.shape)].by_rays;
+}
+
+Expected<void> Occluders::build(std::span<const int> missing, const AoProgress& progress,
+                                const StopFlag* stop) {
+  for (const int occluder : missing) {
+    if (stop_requested(stop)) return base::fail("stopped");
+    if (occluder == standing) {
+      casters(standing);
+    } else if (occluder == deforming) {
+      deforming_ = build_triangle_bvh(geometry_->positions, deforming_triangles(*objects_, *geometry_));
+    } else if (auto built = build_object(static_cast<std::size_t>(occluder), progress, stop); !built) {
+      return built;
+    }
+  }
+  return {};
+}
+
+const TriangleBvh& Occluders::casters(int index) {
+  auto& tree = index < 0 ? standing_ : shapes_[static_cast<std::size_t>(index)].casters;
+  const ObjectShape& shape =
+      index < 0 ? objects_->standing : objects_->shapes[static_cast<std::size_t>(index)];
+  if (!tree) tree = build_triangle_bvh(shape.positions, casting_triangles(shape));
+  return *tree;
+}
+
+Expected<void> Occluders::build_object(std::size_t index, const AoProgress& progress, const StopFlag* stop) {
+  Placed& placed = placed_[index];
+  const auto number = static_cast<std::size_t>(placed.shape);
+  Shape& shape = shapes_[number];
+  const TriangleBvh& tree = casters(placed.shape);
+  if (!shape.field && !shape.by_rays) {
+    const auto size = field_shape(settings_);
+    if (!size) return tl::unexpected(size.error());
+    const bool full = field_bytes_ + size->bytes > most_field_bytes;
+    if (full)
+      notes_.push_back(
+          fmt::format("{} has no field: all fields together would take more than {} MiB; rays meet it.",
+                      objects_->objects[index].name, most_field_bytes >> 20));
+    if (full || tree.triangles <= few_triangles) {
+      shape.by_rays = true;
+      return {};
+    }
+    auto field = make_field(objects_->shapes[number], tree, progress, stop);
+    if (!field) return tl::unexpected(field.error());
+    shape.field = std::move(*field);
+    field_bytes_ += shape.field->bytes();
+  }
+  if (shape.field) placed.instance = place_field(*shape.field, &tree, objects_->objects[index].to_world);
+  if (!placed.instance) shape.by_rays = true;
+  return {};
+}
+
+Expected<DisplacementField> Occluders::make_field(const ObjectShape& shape, const TriangleBvh& tree,
+                                                  const AoProgress& progress, const StopFlag* stop) {
+  const std::vector<glm::uvec3> triangles = casting_triangles(shape);
+  FieldKey key;
+  if (!config_.cache.empty()) {
+    key = field_key(shape.positions, triangles, settings_);
+    if (auto loaded = load_field(config_.cache, key, settings_)) return loaded;
+  }
+  const FieldProgress report = [&](double done) {
+    if (progress) progress("displacement fields", done);
+  };
+  ++fields_built_;
+  auto field = build_field(shape.positions, triangles, tree, settings_, report, stop);
+  if (field && !config_.cache.empty()) {
+    if (auto saved = save_field(config_.cache, key, *field); !saved) notes_.push_back(saved.error().message);
+  }
+  return field;
+}
+
+void Occluders::meet(int occluder, std::int32_t owner, std::span<const RayBatch> rays, float* distances,
+                     OccluderCounts& counts) const {
+  const auto each = [&](const auto& hit) {
+    for (std::size_t b = 0; b < rays.size(); ++b) hit(rays[b], distances + b * batch_size);
+  };
+  const std::uint64_t all = rays.size() * batch_size;
+  if (occluder < 0) {
+    const TriangleBvh& tree = occluder == standing ? *standing_ : *deforming_;
+    counts.rays_cast += all;
+    return each([&](const RayBatch& batch, float* out) { kernels_.cast(tree, batch, out, nullptr); });
+  }
+  const Placed& placed = placed_[static_cast<std::size_t>(occluder)];
+  if (placed.instance && occluder != owner) {
+    counts.lookups += all;
+    counts.rays_cast +=
+        static_cast<std::uint64_t>(kernels_.field.nearest_hits(*placed.instance, rays, distances));
+    return;
+  }
+  const TriangleBvh& tree = *shapes_[static_cast<std::size_t>(placed.shape)].casters;
+  counts.rays_cast += all;
+  each([&](const RayBatch& batch, float* out) {
+    kernels_.cast(tree, moved(batch, placed.to_object), out, nullptr);
+  });
+}
+
+}  // namespace tenebra::ao

@@ -1,0 +1,108 @@
+// What can hide ambient light in a frame beyond the receiver's own body: rigid objects by their fields, what
+// stands and what deforms by rays. Made when first needed, kept while the objects stay what they are.
+//
+// What stands over what moves (floors under feet) is met by rays that end at the reach: exact at the contact,
+// where tables are not. Objects of few triangles are met by rays too: their tree is a block or two.
+#pragma once
+
+#include <memory>
+#include <optional>
+#include <span>
+#include <string>
+#include <utility>
+#include <vector>
+
+#include <tenebra/expected.h>
+#include "ao/cast/triangle_bvh.h"
+#include "ao/field/ao_kernels.h"
+#include "ao/field/displacement_field.h"
+#include "ao/objects/scene_objects.h"
+#include "ao/shade/receivers.h"
+
+namespace tenebra::ao {
+
+/// Work of one tile, added up in the order of the tiles.
+struct OccluderCounts {
+  std::uint64_t lookups = 0;
+  std::uint64_t rays_cast = 0;
+};
+
+/// Bounds of the receivers of one tile.
+struct PointBox {
+  glm::dvec3 low{INFINITY};
+  glm::dvec3 high{-INFINITY};
+  void extend(const glm::dvec3& p) { low = glm::min(low, p), high = glm::max(high, p); }
+};
+
+class Occluders {
+public:
+  static constexpr std::size_t few_triangles = 16;  ///< up to so many an object needs no field
+  static constexpr std::size_t most_field_bytes = std::size_t{2} << 30;  ///< objects beyond are met by rays
+  static constexpr int standing = -1, deforming = -2;                    ///< beside the indices of objects
+
+  /// Objects found anew. Fields of shapes that are still there stay.
+  void reset(const SceneObjects& objects);
+  /// The instant of `geometry`. Keeps references to both until the next call.
+  void begin_frame(const SceneObjects& objects, const FrameGeometry& geometry, const AoConfig& config,
+                   double reach);
+
+  /// What may come within the reach of a point in the box: objects in ascending order, then `standing`,
+  /// `deforming`.
+  void near(const PointBox& box, std::vector<int>& out) const;
+  /// out[i]: whether any part of it may lie above receiver i's planes, within the reach, and is not its own
+  /// body (but for an object that is stretched or sheared: samples of its surface would not hold). Returns
+  /// whether any is.
+  bool reaches(int occluder, std::span<const Receiver> receivers, std::uint8_t* out) const;
+  bool ready(int occluder) const;
+  /// Makes what `missing` (ascending, unique) lacks. Fails with "stopped".
+  Expected<void> build(std::span<const int> missing, const AoProgress& progress, const StopFlag* stop);
+
+  /// Shortens the distances of rays of points on object `owner` to where they hit `occluder`. The rays of a
+  /// batch start at one point.
+  void meet(int occluder, std::int32_t owner, std::span<const RayBatch> rays, float* distances,
+            OccluderCounts& counts) const;
+
+  /// The tree over the casting triangles of a shape, or of what stands (-1).
+  const TriangleBvh& casters(int shape);
+
+  std::uint64_t fields_built() const { return fields_built_; }  ///< since begin_frame
+  std::uint64_t field_bytes() const { return field_bytes_; }
+  std::vector<std::string> take_notes() { return std::exchange(notes_, {}); }
+
+private:
+  const Sphere& sphere(int occluder) const;
+  struct Shape {
+    std::uint64_t hash = 0;
+    std::optional<TriangleBvh> casters;
+    std::optional<DisplacementField> field;
+    bool by_rays = false;
+  };
+  struct Placed {
+    int shape = -1;
+    bool visible = false;
+    Sphere sphere;  ///< world
+    std::optional<FieldInstance> instance;
+    glm::mat4x3 to_object{1.0f};
+  };
+  Expected<void> build_object(std::size_t object, const AoProgress& progress, const StopFlag* stop);
+  Expected<DisplacementField> make_field(const ObjectShape& shape, const TriangleBvh& casters,
+                                         const AoProgress& progress, const StopFlag* stop);
+  void place(std::size_t object);
+
+  const SceneObjects* objects_ = nullptr;
+  const FrameGeometry* geometry_ = nullptr;
+  AoConfig config_;
+  FieldSettings settings_;
+  AoKernels kernels_;
+  double reach_ = 0;
+  std::vector<Shape> shapes_;
+  std::vector<Placed> placed_;     ///< one an object
+  std::vector<std::size_t> by_x_;  ///< visible objects by the middle of their spheres
+  double largest_radius_ = 0;
+  std::optional<TriangleBvh> standing_, deforming_;
+  Sphere standing_sphere_, deforming_sphere_;
+  std::uint64_t fields_built_ = 0, field_bytes_ = 0;
+  std::vector<std::string> notes_;
+};
+
+}  // namespace tenebra::ao

@@ -1,0 +1,31 @@
+// The rays of a frame's receivers, and what their hits add up to.
+#pragma once
+
+#include "ao/field/ao_kernels.h"
+#include "ao/shade/receivers.h"
+#include "ao/surface/surface_rays.h"
+
+namespace tenebra::ao {
+
+class PointRays {
+public:
+  /// `reach`: metres at which nothing occludes any more. Keeps a reference to `objects` until the next call.
+  void begin_frame(const SceneObjects& objects, int rays, double reach, const AoKernels& kernels);
+
+  float reach() const { return static_cast<float>(reach_); }
+  std::size_t batches() const { return pattern_.batches.size(); }  ///< a receiver
+  int rays() const { return pattern_.rays; }                       ///< a receiver
+  /// Batches of the receiver's rays: they belong to its place on its object, not to the camera.
+  void spread(const Receiver& receiver, RayBatch* out) const;
+  /// Hidden share, 0..1, by the distances of all batches; without a hit a distance is the reach.
+  float hidden(const float* distances) const;
+
+private:
+  const SceneObjects* objects_ = nullptr;
+  RayPattern pattern_;
+  AoKernels kernels_;
+  double reach_ = 0;
+  float lift_ = 0;
+};
+
+}  // namespace tenebra::ao

@@ -1,0 +1,36 @@
+#include "ao/shade/ray_pass.h"
+
+#include <numeric>
+
+#include "parallel/parallel.h"
+
+namespace tenebra::ao {
+
+std::uint64_t cast_receivers(const ReceiverSet& set, const PointRays& rays, const ReferenceRays& reference,
+                             std::vector<float>& values, const StopFlag* stop) {
+  struct Scratch {
+    std::vector<Receiver> receivers;
+    std::vector<RayBatch> batches;
+    std::vector<float> distances;
+  };
+  values.assign(set.values(), 1.0f);
+  std::vector<Scratch> scratch(static_cast<std::size_t>(thread_count()));
+  std::vector<std::uint64_t> points(static_cast<std::size_t>(set.groups()), 0);
+  parallel::parallel_tasks(set.groups(), [&](int group) {
+    if (stop_requested(stop)) return;
+    Scratch& own = scratch[static_cast<std::size_t>(parallel::thread_index())];
+    set.receivers(group, own.receivers);
+    points[static_cast<std::size_t>(group)] = own.receivers.size();
+    own.batches.resize(rays.batches());
+    for (const Receiver& receiver : own.receivers) {
+      rays.spread(receiver, own.batches.data());
+      own.distances.assign(rays.batches() * batch_size, rays.reach());
+      for (std::size_t b = 0; b < own.batches.size(); ++b)
+        reference.nearest_hits(own.batches[b], own.distances.data() + b * batch_size);
+      values[receiver.index] = 1 - rays.hidden(own.distances.data());
+    }
+  });
+  return std::accumulate(points.begin(), points.end(), std::uint64_t{0});
+}
+
+}  // namespace tenebra::ao

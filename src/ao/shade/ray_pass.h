@@ -1,0 +1,16 @@
+// Ambient occlusion of a set of receivers by the reference: their rays through all triangles of the frame.
+#pragma once
+
+#include <tenebra/stop_flag.h>
+#include "ao/cast/reference_rays.h"
+#include "ao/shade/point_rays.h"
+#include "ao/shade/receiver_sets.h"
+
+namespace tenebra::ao {
+
+/// Open shares, 0..1, one a receiver; 1 where there is none. Returns the number of receivers; ends early,
+/// with values missing, if `stop` is requested.
+std::uint64_t cast_receivers(const ReceiverSet& set, const PointRays& rays, const ReferenceRays& reference,
+                             std::vector<float>& values, const StopFlag* stop);
+
+}  // namespace tenebra::ao

@@ -1,0 +1,203 @@
+#include "ao/surface/self_occlusion.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include "ao/surface/surface_layout_inline.h"
+#include "base/sort_unique.h"
+#include "parallel/parallel.h"
+
+namespace tenebra::ao {
+namespace {
+
+// A value is unknown, or 8 x (0..most) + three flags: something is near by the measure of the wide grid, of
+// the half one; the sample is buried.
+using Value = std::uint16_t;
+constexpr Value unknown = 0xffff, near_wide = 1, near_half = 2, buried = 4;
+constexpr int flag_bits = 3;
+constexpr float most = 8190;
+constexpr float disagreement = 0.1f;  // neighbours that differ by more have their cell divided
+constexpr double near_steps = 1.5;    // closer things make samples come closer too
+
+// What is missing is a sample or
+constexpr std::uint64_t is_side = std::uint64_t{1} << 62;  // 2 x triangle + side: a small triangle's
+constexpr std::uint64_t is_cell = std::uint64_t{1} << 63;  // a cell's division
+
+/// The values of three samples.
+struct Values {
+  Value v[3];
+  bool lacking() const { return std::max({v[0], v[1], v[2]}) == unknown; }
+  int any() const { return v[0] | v[1] | v[2]; }
+  /// Some buried, some not.
+  bool mixed() const { return ((v[0] ^ v[1]) | (v[0] ^ v[2])) & buried; }
+  /// So much that straight lines between them do not hold.
+  bool disagree() const {
+    const int spread = std::max({v[0], v[1], v[2]}) - std::min({v[0], v[1], v[2]});
+    return mixed() || static_cast<float>(spread) > most * (1 << flag_bits) * disagreement;
+  }
+  float blend(const float weights[3]) const {
+    float sum = 0;
+    for (int k = 0; k < 3; ++k) sum += weights[k] * static_cast<float>(v[k] >> flag_bits);
+    return std::clamp(sum / most, 0.0f, 1.0f);
+  }
+  SelfOcclusion::Answer answer(const float weights[3]) const {
+    if (mixed()) return {SelfOcclusion::State::mixed, 0};
+    return {SelfOcclusion::State::known, blend(weights)};
+  }
+};
+
+/// Inside a side of a triangle.
+SurfacePoint middle_of(std::uint64_t side) {
+  return {static_cast<std::uint32_t>(side / 2), 0.25f, 0.25f, side % 2 == 0};
+}
+
+constexpr SelfOcclusion::Answer missing_answer{SelfOcclusion::State::missing, 0};
+
+}  // namespace
+
+SelfOcclusion::SelfOcclusion(const ObjectShape& shape, const TriangleBvh& casters, double reach,
+                             std::size_t cells)
+    : reach_(reach), layout_(shape, reach), rays_(shape, casters, reach), most_cells_(cells) {
+  values_.assign(layout_.samples(), unknown);
+  const auto count = static_cast<std::uint32_t>(shape.triangles.size());
+  bool any_small = false;
+  for (std::uint32_t t = 0; t < count && !any_small; ++t) any_small = layout_.is_small(t);
+  if (any_small) sides_.resize(std::size_t{2} * count);
+}
+
+SelfOcclusion::Answer SelfOcclusion::find(const SurfacePoint& point,
+                                          std::vector<std::uint64_t>& missing) const {
+  return layout_.is_small(point.triangle) ? find_small(point, missing) : find_large(point, missing);
+}
+
+SelfOcclusion::Answer SelfOcclusion::find_small(const SurfacePoint& point,
+                                                std::vector<std::uint64_t>& missing) const {
+  const std::size_t index = std::size_t{2} * point.triangle + (point.front ? 0 : 1);
+  const Side& side = sides_[index];
+  if (side.kind == Side::corners) {
+    const float v = std::clamp(point.v, 0.0f, 1.0f), w = std::clamp(point.w, 0.0f, 1.0f - v);
+    const float weights[3] = {1 - v - w, v, w};
+    return Values{{side.values[0], side.values[1], side.values[2]}}.answer(weights);
+  }
+  if (side.kind == Side::divided)
+    return find_in_cell(point, side.values[0] | std::uint32_t{side.values[1]} << 16, missing);
+  missing.push_back(is_side | index);
+  return missing_answer;
+}
+
+SelfOcclusion::Answer SelfOcclusion::find_large(const SurfacePoint& point,
+                                                std::vector<std::uint64_t>& missing) const {
+  for (int level = 0;; ++level) {
+    const SampleTriple around = layout_.around(point, level);
+    const Values values{{values_[around.at[0]], values_[around.at[1]], values_[around.at[2]]}};
+    if (values.lacking()) {
+      for (int k = 0; k < 3; ++k)
+        if (values.v[k] == unknown) missing.push_back(around.at[k]);
+      return missing_answer;
+    }
+    const bool last = level + 1 == layout_.levels(point.triangle);
+    const int too_near = last ? 0 : buried | (level == 0 ? near_wide : near_half);
+    if ((values.any() & too_near) == 0 && !values.disagree()) return values.answer(around.weights);
+    if (!last) continue;
+    const std::uint64_t key = layout_.cell_key(point);
+    const std::uint32_t cell = cells_.find(key);
+    if (cell != CellNumbers::none) return find_in_cell(point, cell, missing);
+    if (cells_.keys().size() >= most_cells_) return values.answer(around.weights);
+    missing.push_back(is_cell | key);
+    return missing_answer;
+  }
+}
+
+SelfOcclusion::Answer SelfOcclusion::find_in_cell(const SurfacePoint& point, std::uint32_t cell,
+                                                  std::vector<std::uint64_t>& missing) const {
+  const SampleTriple around = layout_.in_cell(point);
+  const std::size_t first = layout_.samples() + std::size_t{cell} * SurfaceLayout::cell_samples;
+  const Values values{
+      {values_[first + around.at[0]], values_[first + around.at[1]], values_[first + around.at[2]]}};
+  if (!values.lacking()) return values.answer(around.weights);
+  for (int k = 0; k < 3; ++k)
+    if (values.v[k] == unknown) missing.push_back(first + around.at[k]);
+  return missing_answer;
+}
+
+SurfacePoint SelfOcclusion::place(std::uint32_t sample) const {
+  if (sample < layout_.samples()) return layout_.place(sample);
+  const std::size_t number = sample - layout_.samples();
+  return layout_.place_in_cell(cells_.keys()[number / SurfaceLayout::cell_samples],
+                               static_cast<std::uint32_t>(number % SurfaceLayout::cell_samples));
+}
+
+/// False where there is no room.
+bool SelfOcclusion::add_cell(std::uint64_t key) {
+  if (cells_.find(key) != CellNumbers::none) return true;
+  if (cells_.keys().size() >= most_cells_) return false;
+  cells_.add(key);
+  values_.resize(values_.size() + SurfaceLayout::cell_samples, unknown);
+  return true;
+}
+
+/// Keeps what the corners of a small triangle say beside it, or divides it.
+void SelfOcclusion::settle(std::uint64_t index) {
+  Side& side = sides_[index];
+  const SurfacePoint middle = middle_of(index);
+  const SampleTriple corners = layout_.corners(middle);
+  const Values values{{values_[corners.at[0]], values_[corners.at[1]], values_[corners.at[2]]}};
+  const std::uint64_t key = layout_.cell_key(middle);
+  if (values.disagree() && add_cell(key)) {
+    const std::uint32_t number = cells_.find(key);
+    side = {{static_cast<Value>(number & 0xffff), static_cast<Value>(number >> 16), 0}, Side::divided};
+  } else {
+    side = {{values.v[0], values.v[1], values.v[2]}, Side::corners};
+  }
+}
+
+bool SelfOcclusion::fill(std::span<const std::uint64_t> missing, const AoKernels& kernels,
+                         const std::function<void(double)>& progress, const StopFlag* stop) {
+  const auto sides = std::lower_bound(missing.begin(), missing.end(), is_side);
+  const auto cells = std::lower_bound(sides, missing.end(), is_cell);
+  std::vector<std::uint32_t> samples;
+  const auto want = [&](std::uint32_t sample) {
+    const std::uint32_t shared = sample < layout_.samples() ? layout_.shared(sample) : sample;
+    if (values_[shared] == unknown) samples.push_back(shared);
+  };
+  for (auto sample = missing.begin(); sample != sides; ++sample) want(static_cast<std::uint32_t>(*sample));
+  for (auto side = sides; side != cells; ++side)
+    for (const std::uint32_t corner : layout_.corners(middle_of(*side & ~is_side)).at) want(corner);
+  base::sort_unique(samples);
+  if (!cast(samples, kernels, progress, stop)) return false;
+  for (auto sample = missing.begin(); sample != sides; ++sample)
+    if (*sample < layout_.samples())
+      values_[*sample] = values_[layout_.shared(static_cast<std::uint32_t>(*sample))];
+  for (auto side = sides; side != cells; ++side) settle(*side & ~is_side);
+  for (auto key = cells; key != missing.end(); ++key) add_cell(*key & ~is_cell);
+  return true;
+}
+
+bool SelfOcclusion::cast(const std::vector<std::uint32_t>& samples, const AoKernels& kernels,
+                         const std::function<void(double)>& progress, const StopFlag* stop) {
+  constexpr std::size_t step = 8192, grain = 32;
+  const double wide = near_steps * layout_.spacing();
+  const auto stored = [wide](const SurfaceRays::Seen& seen) {
+    return static_cast<Value>(std::lround(seen.occlusion * most) << flag_bits | (seen.buried ? buried : 0) |
+                              (seen.nearest < wide ? near_wide : 0) |
+                              (seen.nearest < wide / 2 ? near_half : 0));
+  };
+  for (std::size_t first = 0; first < samples.size(); first += step) {
+    if (stop_requested(stop)) return false;
+    if (progress) progress(static_cast<double>(first) / static_cast<double>(samples.size()));
+    const auto part = std::span(samples).subspan(first, std::min(step, samples.size() - first));
+    parallel::parallel_ranges(part.size(), grain, [&](std::size_t begin, std::size_t end) {
+      for (std::size_t i = begin; i < end && !stop_requested(stop); ++i)
+        values_[part[i]] = stored(rays_.look(place(part[i]), kernels));
+    });
+  }
+  filled_ += samples.size();
+  return !stop_requested(stop);
+}
+
+std::size_t SelfOcclusion::bytes() const {
+  return layout_.bytes() + values_.size() * sizeof(values_[0]) + sides_.size() * sizeof(sides_[0]) +
+         cells_.bytes();
+}
+
+}  // namespace tenebra::ao

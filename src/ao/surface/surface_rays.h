@@ -1,0 +1,37 @@
+// What rays from a point of a body's surface meet of the body itself.
+#pragma once
+
+#include "ao/cast/triangle_bvh.h"
+#include "ao/field/ao_kernels.h"
+#include "ao/surface/surface_layout.h"
+
+namespace tenebra::ao {
+
+/// How far off the surface rays start: beyond the rounding to float of the point, and of the corners of two
+/// triangles that touch (each at most sqrt(3)/2 ulp of its largest coordinate; one ulp more for the sums).
+float surface_lift(double largest_coordinate);
+double largest_coordinate(const ObjectShape& shape);
+
+class SurfaceRays {
+public:
+  static constexpr int rays = 256;  ///< a point, about its shading normal
+
+  /// `reach`: where occlusion has fallen off to nothing, in units of the shape. Keeps references to both.
+  SurfaceRays(const ObjectShape& shape, const TriangleBvh& casters, double reach);
+
+  struct Seen {
+    float occlusion = 0;  ///< 0..1
+    float nearest = 0;    ///< distance of what is hit first, at most the reach; low things are looked for
+    bool buried = false;  ///< most rays see the back of something
+  };
+  Seen look(const SurfacePoint& point, const AoKernels& kernels) const;
+
+private:
+  const ObjectShape& shape_;
+  const TriangleBvh& casters_;
+  float reach_;
+  float lift_;
+  RayPattern pattern_, grazing_;
+};
+
+}  // namespace tenebra::ao

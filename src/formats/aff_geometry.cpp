@@ -1,0 +1,282 @@
+// Meshes, polygons, animated triangles and round shapes.
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+
+#include "base/fail.h"
+#include "formats/aff_reader.h"
+#include "formats/aff_shapes.h"
+
+namespace tenebra::formats {
+namespace {
+
+constexpr std::string_view coordinate = "a coordinate of a vertex";
+constexpr std::string_view normal_coordinate = "a coordinate of a normal";
+
+glm::vec3 read_position(AffLexer& in) {
+  const float x = in.real(coordinate);
+  const float y = in.real(coordinate);
+  return {x, y, in.real(coordinate)};
+}
+
+/// A stored normal may have any length. Zero stays zero: the face normal.
+glm::vec3 read_normal(AffLexer& in) {
+  const double x = in.number(normal_coordinate);
+  const double y = in.number(normal_coordinate);
+  const glm::dvec3 n(x, y, in.number(normal_coordinate));
+  const double length = glm::length(n);
+  return length > 0.0 && std::isfinite(length) ? glm::vec3(n / length) : glm::vec3(0.0f);
+}
+
+/// Unnormalised, as the keys of animated triangles interpolate it.
+glm::vec3 read_raw_normal(AffLexer& in) {
+  const float x = in.real(normal_coordinate);
+  const float y = in.real(normal_coordinate);
+  return {x, y, in.real(normal_coordinate)};
+}
+
+template <class Read>
+std::vector<glm::vec3> read_list(AffLexer& in, std::string_view what, Read read) {
+  const std::size_t count = in.count(what);
+  std::vector<glm::vec3> list;
+  list.reserve(std::min(count, in.most_numbers_left() / 3));
+  for (std::size_t i = 0; i < count; ++i) list.push_back(read(in));
+  return list;
+}
+
+/// The tables of an `m`, each with its own indices.
+struct MeshTables {
+  std::vector<glm::vec3> positions;
+  std::vector<glm::vec3> normals;
+  bool has_normals = false;
+  std::size_t texture_coordinates = 0;
+  bool has_texture = false;
+};
+
+MeshTables read_tables(AffLexer& in) {
+  MeshTables tables;
+  in.expect("vertices");
+  tables.positions = read_list(in, "the number of vertices", read_position);
+  if (in.peek() == "normals") {
+    in.expect("normals");
+    tables.has_normals = true;
+    tables.normals = read_list(in, "the number of normals", read_normal);
+  }
+  if (in.peek() == "texturecoords") {
+    in.expect("texturecoords");
+    tables.has_texture = true;
+    tables.texture_coordinates = in.count("the number of texture coordinates");
+    in.word("the name of a texture");
+    for (std::size_t i = 0; i < 2 * tables.texture_coordinates; ++i) in.number("a texture coordinate");
+  }
+  return tables;
+}
+
+glm::uvec3 read_indices(AffLexer& in, std::size_t size, std::string_view what) {
+  const std::uint32_t a = in.index(size, what);
+  const std::uint32_t b = in.index(size, what);
+  return {a, b, in.index(size, what)};
+}
+
+/// Corners of the triangles: indices by kind.
+struct Corners {
+  std::vector<glm::uvec3> positions;
+  std::vector<glm::uvec3> normals;
+};
+
+Corners read_triangles(AffLexer& in, const MeshTables& tables) {
+  in.expect("triangles");
+  const std::size_t count = in.count("the number of triangles");
+  const std::size_t room = std::min(count, in.most_numbers_left() / (tables.has_normals ? 6 : 3));
+  Corners corners;
+  corners.positions.reserve(room);
+  if (tables.has_normals) corners.normals.reserve(room);
+  for (std::size_t t = 0; t < count; ++t) {
+    corners.positions.push_back(read_indices(in, tables.positions.size(), "a vertex index"));
+    if (tables.has_normals) {
+      corners.normals.push_back(read_indices(in, tables.normals.size(), "a normal index"));
+    }
+    if (tables.has_texture) read_indices(in, tables.texture_coordinates, "a texture index");
+  }
+  return corners;
+}
+
+/// One vertex for every pair of position and normal in use.
+void join_corners(const MeshTables& tables, const Corners& corners, Mesh& mesh) {
+  struct Use {
+    std::uint64_t pair;
+    std::uint32_t corner;
+  };
+  std::vector<Use> uses;
+  uses.reserve(3 * corners.positions.size());
+  for (std::size_t t = 0; t < corners.positions.size(); ++t) {
+    for (int k = 0; k < 3; ++k) {
+      const std::uint64_t pair = std::uint64_t{corners.positions[t][k]} << 32 | corners.normals[t][k];
+      uses.push_back({pair, static_cast<std::uint32_t>(uses.size())});
+    }
+  }
+  std::sort(uses.begin(), uses.end(), [](const Use& a, const Use& b) { return a.pair < b.pair; });
+  mesh.triangles.resize(corners.positions.size());
+  for (std::size_t i = 0; i < uses.size(); ++i) {
+    if (i == 0 || uses[i].pair != uses[i - 1].pair) {
+      mesh.positions.push_back(tables.positions[uses[i].pair >> 32]);
+      mesh.normals.push_back(tables.normals[uses[i].pair & 0xffffffffu]);
+    }
+    mesh.triangles[uses[i].corner / 3][static_cast<int>(uses[i].corner % 3)] =
+        static_cast<std::uint32_t>(mesh.positions.size() - 1);
+  }
+}
+
+std::size_t memory_of(const Mesh& mesh) {
+  return sizeof(glm::vec3) * (mesh.positions.size() + mesh.normals.size()) +
+         (sizeof(glm::uvec3) + sizeof(std::uint32_t)) * mesh.triangles.size();
+}
+
+}  // namespace
+
+std::uint32_t AffReader::current_material(AffLexer& in) {
+  if (!material_) {  // no scene of ours gives geometry before its first material
+    set_material(in, {-1.0}, Material{});
+  }
+  return *material_;
+}
+
+Mesh& AffReader::add_mesh(AffLexer& in, std::string source) {
+  charge(in, 2 * sizeof(Mesh) + source.size());
+  Node node;
+  node.mesh = static_cast<int>(scene_.meshes.size());
+  add_node(in, std::move(node));
+  Mesh& mesh = scene_.meshes.emplace_back();
+  mesh.source = std::move(source);
+  return mesh;
+}
+
+void AffReader::read_mesh(AffLexer& in) {
+  std::string source = in.place();
+  MeshTables tables = read_tables(in);
+  Corners corners = read_triangles(in, tables);
+  Mesh& mesh = add_mesh(in, std::move(source));
+  if (tables.has_normals) {
+    join_corners(tables, corners, mesh);
+  } else {
+    mesh.positions = std::move(tables.positions);
+    mesh.triangles = std::move(corners.positions);
+  }
+  mesh.materials.assign(mesh.triangles.size(), current_material(in));
+  charge(in, memory_of(mesh));
+}
+
+void AffReader::append_polygon(AffLexer& in, std::string source, std::size_t corners, bool normals,
+                               bool textured) {
+  if (run_.mesh < 0) {
+    add_mesh(in, std::move(source));
+    run_.mesh = static_cast<int>(scene_.meshes.size()) - 1;
+  }
+  Mesh& mesh = scene_.meshes[static_cast<std::size_t>(run_.mesh)];
+  const auto first = static_cast<std::uint32_t>(mesh.positions.size());
+  for (std::size_t i = 0; i < corners; ++i) {
+    mesh.positions.push_back(read_position(in));
+    if (normals) mesh.normals.push_back(read_normal(in));
+    if (textured) in.number("a texture coordinate"), in.number("a texture coordinate");
+  }
+  for (std::uint32_t i = 1; i + 1 < corners; ++i) {
+    mesh.triangles.emplace_back(first, first + i, first + i + 1);
+    mesh.materials.push_back(current_material(in));
+  }
+  charge(in, corners * (2 * sizeof(glm::vec3) + sizeof(glm::uvec3) + sizeof(std::uint32_t)));
+}
+
+void AffReader::read_polygon(AffLexer& in) {
+  std::string source = in.place();
+  const std::size_t corners = in.count("the number of corners");
+  if (corners < 3) in.fail(fmt::format("{} corners", corners), "at least 3");
+  append_polygon(in, std::move(source), corners, false, false);
+}
+
+void AffReader::read_polygon_with_normals(AffLexer& in) {
+  std::string source = in.place();
+  const std::size_t corners = in.count("the number of corners");
+  if (corners < 3) in.fail(fmt::format("{} corners", corners), "at least 3");
+  append_polygon(in, std::move(source), corners, true, false);
+}
+
+void AffReader::read_textured_triangle(AffLexer& in) {
+  std::string source = in.place();
+  in.word("the name of a texture");
+  append_polygon(in, std::move(source), 3, false, true);
+}
+
+void AffReader::read_textured_triangle_with_normals(AffLexer& in) {
+  std::string source = in.place();
+  in.word("the name of a texture");
+  append_polygon(in, std::move(source), 3, true, true);
+}
+
+void AffReader::read_animated_triangle(AffLexer& in) {
+  std::string source = in.place();
+  const std::size_t count = in.count("the number of keys");
+  if (count == 0) in.fail("0 keys", "at least one");
+  std::vector<Mesh::Shape> keys;
+  for (std::size_t i = 0; i < count; ++i) {
+    Mesh::Shape& key = keys.emplace_back();
+    key.time_s = in.number("the time of a key");
+    if (i > 0 && key.time_s < keys[i - 1].time_s) in.fail("a time before the last key's", "ascending times");
+    for (int corner = 0; corner < 3; ++corner) {
+      key.positions.push_back(read_position(in));
+      key.normals.push_back(read_raw_normal(in));
+    }
+  }
+  const auto same_time = [](const Mesh::Shape& a, const Mesh::Shape& b) { return a.time_s == b.time_s; };
+  const auto continues = [&](const Mesh& mesh) {
+    return std::equal(keys.begin(), keys.end(), mesh.shapes.begin(), mesh.shapes.end(), same_time);
+  };
+  if (run_.mesh < 0 || !continues(scene_.meshes[static_cast<std::size_t>(run_.mesh)])) {
+    charge(in, count * (sizeof(Mesh::Shape) + 64));
+    add_mesh(in, std::move(source)).shapes.resize(count);
+    run_.mesh = static_cast<int>(scene_.meshes.size()) - 1;
+  }
+  Mesh& mesh = scene_.meshes[static_cast<std::size_t>(run_.mesh)];
+  const auto first = static_cast<std::uint32_t>(mesh.positions.size());
+  charge(in, (count + 1) * 6 * sizeof(glm::vec3) + sizeof(glm::uvec4));
+  for (std::size_t i = 0; i < count; ++i) {
+    Mesh::Shape& shape = mesh.shapes[i];
+    shape.time_s = keys[i].time_s;
+    shape.positions.insert(shape.positions.end(), keys[i].positions.begin(), keys[i].positions.end());
+    shape.normals.insert(shape.normals.end(), keys[i].normals.begin(), keys[i].normals.end());
+  }
+  mesh.positions.insert(mesh.positions.end(), keys[0].positions.begin(), keys[0].positions.end());
+  mesh.normals.insert(mesh.normals.end(), keys[0].normals.begin(), keys[0].normals.end());
+  mesh.triangles.emplace_back(first, first + 1, first + 2);
+  mesh.materials.push_back(current_material(in));
+}
+
+void AffReader::add_round_shape(AffLexer& in, std::string source, Mesh shape) {
+  charge(in, 2 * memory_of(shape));
+  shape.source = source;
+  shape.materials.assign(shape.triangles.size(), current_material(in));
+  add_mesh(in, std::move(source)) = std::move(shape);
+}
+
+void AffReader::read_cone(AffLexer& in) {
+  std::string source = in.place();
+  std::array<double, 8> n{};
+  for (double& number : n) number = in.number("one of a cone's 8 numbers");
+  const glm::dvec3 base(n[0], n[1], n[2]), apex(n[4], n[5], n[6]);
+  const double base_radius = n[3], apex_radius = n[7];
+  if (base == apex) in.fail("a cone's base and apex at one point", "two points");
+  if (base_radius * apex_radius < 0.0) in.fail("radii of different signs", "both of one sign");
+  const int sides = std::clamp(options_.cone_sides, 3, 1 << 16);
+  const bool inside = base_radius < 0.0 || apex_radius < 0.0;
+  add_round_shape(in, std::move(source),
+                  make_cone(base, std::abs(base_radius), apex, std::abs(apex_radius), sides, inside));
+}
+
+void AffReader::read_sphere(AffLexer& in) {
+  std::string source = in.place();
+  std::array<double, 4> n{};
+  for (double& number : n) number = in.number("one of a sphere's 4 numbers");
+  add_round_shape(in, std::move(source), make_sphere({n[0], n[1], n[2]}, std::abs(n[3]), n[3] < 0.0));
+}
+
+}  // namespace tenebra::formats

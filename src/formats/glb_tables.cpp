@@ -1,0 +1,141 @@
+// Materials, lights, cameras and skins of a GLB.
+#include <fmt/core.h>
+#include <glm/gtc/constants.hpp>
+
+#include <tenebra/frame_geometry.h>
+#include "formats/glb_writer.h"
+
+namespace tenebra::formats {
+namespace {
+
+constexpr const char* light_names[] = {"point", "spot", "directional", "rect", "disk"};
+
+/// The largest of 1 and the components: glTF's colours end at 1.
+float peak_of(const glm::vec3& color) {
+  return std::max({color.x, color.y, color.z, 1.0f});
+}
+
+}  // namespace
+
+void GlbWriter::use(const char* extension) {
+  GlbJson& used = root_["extensionsUsed"];
+  if (std::find(used.begin(), used.end(), extension) == used.end()) used.push_back(extension);
+}
+
+void GlbWriter::write_materials() {
+  std::size_t bright = 0;
+  for (const Material& source : scene_.materials) {
+    const glm::vec3 color = glm::clamp(source.base_color, 0.0f, 1.0f);
+    GlbJson material = {{"name", source.name},
+                        {"pbrMetallicRoughness",
+                         {{"baseColorFactor", {color.x, color.y, color.z, 1.0}}, {"metallicFactor", 0}}}};
+    if (source.emissive != glm::vec3(0)) {
+      const float strength = peak_of(source.emissive);
+      material["emissiveFactor"] = to_json(source.emissive / strength);
+      if (strength > 1) {
+        material["extensions"]["KHR_materials_emissive_strength"]["emissiveStrength"] = strength;
+        use("KHR_materials_emissive_strength");
+      }
+    }
+    if (!source.casts_shadow) material["extras"]["casts_shadow"] = false;
+    if (source.ambient.x >= 0) material["extras"]["ambient"] = to_json(source.ambient);
+    if (color != source.base_color) {
+      material["extras"]["base_color"] = to_json(source.base_color);
+      ++bright;
+    }
+    root_["materials"].push_back(std::move(material));
+  }
+  if (bright > 0)
+    losses.push_back(fmt::format(
+        "{} materials reflect more than 1 or less than 0: other programs see them cut to that.", bright));
+}
+
+/// From each light to the middle of the scene where its first clip begins; at least a tenth of the scene's
+/// size.
+std::vector<double> GlbWriter::light_distances() const {
+  const int clip = scene_.clips.empty() ? -1 : 0;
+  const double time_s = scene_.clips.empty() ? 0 : scene_.clips[0].start_s;
+  FrameGeometry frame;
+  evaluate_frame(scene_, clip, time_s, frame);
+  if (frame.triangles.empty()) return std::vector<double>(scene_.lights.size(), 1.0);
+  glm::dvec3 low(INFINITY), high(-INFINITY);
+  for (const glm::uvec3& t : frame.triangles)
+    for (int c = 0; c < 3; ++c) {
+      low = glm::min(low, glm::dvec3(frame.positions[t[c]]));
+      high = glm::max(high, glm::dvec3(frame.positions[t[c]]));
+    }
+  std::vector<double> distances(scene_.lights.size(), 0.1 * glm::length(high - low));
+  for (const WorldLight& placed : evaluate_lights(scene_, clip, time_s)) {
+    double& distance = distances[static_cast<std::size_t>(placed.light)];
+    distance = std::max(distance, glm::length(glm::dvec3(placed.position) - 0.5 * (low + high)));
+  }
+  return distances;
+}
+
+void GlbWriter::write_lights() {
+  std::size_t without_falloff = 0;
+  std::vector<double> distances;  // found for the first light that needs them
+  for (std::size_t i = 0; i < scene_.lights.size(); ++i) {
+    const Light& light = scene_.lights[i];
+    const bool area = light.type >= LightType::area_rect;
+    const bool steady = light.falloff == Falloff::none && light.type != LightType::directional && !area;
+    const char* extension = area ? "EXT_lights_area" : "KHR_lights_punctual";
+    use(extension);
+    const float peak = peak_of(light.color);
+    if (steady && distances.empty()) distances = light_distances();
+    // Lambert's 1 / pi holds for lights with units only, here as in other programs.
+    const double candela_share = steady ? glm::pi<double>() * distances[i] * distances[i] : 1.0;
+    GlbJson written = {{"name", light.name},
+                       {"type", light_names[static_cast<int>(light.type)]},
+                       {"color", to_json(light.color / peak)},
+                       {"intensity", candela_share * light.intensity * peak}};
+    if (steady) {
+      written["extras"] = {{"falloff", "none"}, {"intensity", light.intensity * peak}};
+      ++without_falloff;
+    }
+    if (light.range_m) written["range"] = *light.range_m;
+    if (light.type == LightType::spot)
+      written["spot"] = {{"innerConeAngle", light.inner_cone_rad}, {"outerConeAngle", light.outer_cone_rad}};
+    if (area) written["size"] = light.size_m.y;
+    if (light.type == LightType::area_rect) written["rect"]["aspect"] = light.size_m.x / light.size_m.y;
+    GlbJson& table = root_["extensions"][extension]["lights"];
+    light_of_.push_back(static_cast<int>(table.size()));
+    table.push_back(std::move(written));
+  }
+  if (without_falloff > 0)
+    losses.push_back(
+        fmt::format("{} lights do not fade with distance: other programs see lights that do, as bright at "
+                    "the middle of the scene.",
+                    without_falloff));
+}
+
+void GlbWriter::write_cameras() {
+  for (const Camera& camera : scene_.cameras) {
+    const double aspect = camera.aspect.value_or(1.0f);
+    GlbJson written = {{"name", camera.name}};
+    if (camera.projection == Projection::perspective) {
+      written["type"] = "perspective";
+      written["perspective"] = {{"yfov", camera.vertical_fov_rad}, {"znear", camera.near_m}};
+      if (camera.aspect) written["perspective"]["aspectRatio"] = aspect;
+    } else {
+      written["type"] = "orthographic";
+      written["orthographic"] = {{"xmag", camera.vertical_extent_m / 2 * aspect},
+                                 {"ymag", camera.vertical_extent_m / 2},
+                                 {"znear", camera.near_m},
+                                 {"zfar", camera.near_m + 1e4}};
+    }
+    root_["cameras"].push_back(std::move(written));
+  }
+}
+
+void GlbWriter::write_skins() {
+  for (const Skin& skin : scene_.skins) {
+    std::vector<float> numbers;
+    for (const glm::mat4& m : skin.inverse_bind)
+      for (int i = 0; i < 16; ++i) numbers.push_back(m[i / 4][i % 4]);
+    root_["skins"].push_back(
+        {{"joints", skin.joints}, {"inverseBindMatrices", binary_.add_floats(numbers, 16, false)}});
+  }
+}
+
+}  // namespace tenebra::formats

@@ -1,0 +1,112 @@
+// What export_glb is made of: the JSON and binary chunk being built, one method a table of the file.
+#pragma once
+
+#include <algorithm>
+#include <cmath>
+#include <cstring>
+#include <map>
+#include <nlohmann/json.hpp>
+#include <string>
+#include <utility>
+#include <vector>
+
+#include <tenebra/scene.h>
+#include "formats/import_failure.h"
+
+namespace tenebra::formats {
+
+using GlbJson = nlohmann::ordered_json;
+
+inline GlbJson to_json(const glm::vec3& v) {
+  return GlbJson::array({v.x, v.y, v.z});
+}
+
+/// The binary chunk and the tables that describe it.
+struct GlbBinary {
+  static constexpr std::size_t max_bytes = 0xFFFFFFFF;  ///< lengths in a GLB are 32 bits
+
+  GlbJson& root;
+  std::string bytes;
+  std::size_t not_finite = 0;  ///< values written that glTF forbids
+
+  /// One accessor over elements of `components` values; bounds on request (positions, key times). Throws
+  /// ImportFailure when a GLB cannot hold it.
+  template <class T>
+  int add(const std::vector<T>& values, int components, int component_type, bool bounds) {
+    static const std::map<int, const char*> types = {{1, "SCALAR"}, {3, "VEC3"}, {4, "VEC4"}, {16, "MAT4"}};
+    bytes.resize((bytes.size() + 3) / 4 * 4, '\0');
+    const std::size_t offset = bytes.size(), size = values.size() * sizeof(T);
+    if (size > max_bytes - offset)
+      refuse("found more than {} bytes to write, expected at most that in a GLB", max_bytes);
+    bytes.resize(offset + size);
+    std::memcpy(bytes.data() + offset, values.data(), size);
+    root["bufferViews"].push_back({{"buffer", 0}, {"byteOffset", offset}, {"byteLength", size}});
+    GlbJson accessor = {{"bufferView", root["bufferViews"].size() - 1},
+                        {"componentType", component_type},
+                        {"count", values.size() / static_cast<std::size_t>(components)},
+                        {"type", types.at(components)}};
+    if (bounds) add_bounds(accessor, values, static_cast<std::size_t>(components));
+    root["accessors"].push_back(std::move(accessor));
+    return static_cast<int>(root["accessors"].size()) - 1;
+  }
+
+  int add_floats(const std::vector<float>& values, int components, bool bounds);
+  int add_vec3(const std::vector<glm::vec3>& values, bool bounds);
+
+private:
+  template <class T>
+  static void add_bounds(GlbJson& accessor, const std::vector<T>& values, std::size_t components) {
+    for (std::size_t c = 0; c < components; ++c) {
+      T low = std::numeric_limits<T>::max(), high = std::numeric_limits<T>::lowest();
+      for (std::size_t i = c; i < values.size(); i += components)
+        if (std::isfinite(values[i])) low = std::min(low, values[i]), high = std::max(high, values[i]);
+      accessor["min"].push_back(std::min(low, high));
+      accessor["max"].push_back(std::max(low, high));
+    }
+  }
+};
+
+/// One scene on its way into a GLB.
+class GlbWriter {
+public:
+  GlbWriter(const Scene& scene, double fps);
+
+  /// The file's bytes. Throws ImportFailure when a GLB cannot hold the scene.
+  std::string write();
+  /// What glTF cannot hold, a sentence each.
+  std::vector<std::string> losses;
+
+private:
+  // glb_tables.cpp
+  void write_materials();
+  void write_lights();
+  void write_cameras();
+  void write_skins();
+  std::vector<double> light_distances() const;
+  void use(const char* extension);
+
+  // glb_meshes.cpp
+  void write_meshes();
+  void write_primitives(const Mesh& mesh, GlbJson& written);
+
+  // glb_nodes.cpp
+  void find_hidden_nodes();
+  void write_transform(std::size_t index, GlbJson& written);
+  void write_contents(std::size_t index, GlbJson& written);
+  void write_nodes();
+  int written_mesh(std::size_t node) const;
+
+  // glb_animations.cpp
+  struct ClipWriter;
+  void write_clips();
+
+  const Scene& scene_;
+  double fps_;
+  GlbJson root_ = {{"asset", {{"version", "2.0"}, {"generator", "Tenebra"}}}};
+  GlbBinary binary_{root_, {}};
+  std::vector<int> mesh_of_;   ///< mesh of the file for each of the scene; -1: no triangles
+  std::vector<int> light_of_;  ///< index in its extension's table
+  std::vector<bool> hidden_;   ///< nodes that no clip ever shows
+};
+
+}  // namespace tenebra::formats

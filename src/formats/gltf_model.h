@@ -1,0 +1,88 @@
+// A glTF file in memory: tinygltf's tables, checked by check_gltf_schema, with the bytes of its buffers.
+// The only file that includes tinygltf; the readers of one table each are declared here too.
+#pragma once
+
+#include <tiny_gltf.h>
+
+#include <cstdint>
+#include <filesystem>
+#include <span>
+#include <string>
+#include <vector>
+
+#include <tenebra/scene.h>
+#include "formats/import_failure.h"
+
+namespace tenebra::formats::gltf {
+
+using Model = tinygltf::Model;
+using Accessor = tinygltf::Accessor;
+using Value = tinygltf::Value;
+
+/// Bytes that an import may still allocate: small files that claim gigabytes are refused.
+class Budget {
+public:
+  explicit Budget(std::uint64_t bytes) : left_(bytes) {}
+  /// Takes count * size bytes; throws ImportFailure naming `place` when they are not there.
+  void take(std::uint64_t count, std::uint64_t size, const std::string& place) {
+    if (count > left_ / size)
+      refuse("{}: found {} elements, expected no more than the file can fill", place, count);
+    left_ -= count * size;
+  }
+  /// Adds what the bytes of one more file allow.
+  void give(std::uint64_t bytes) { left_ += bytes; }
+
+private:
+  std::uint64_t left_;
+};
+
+struct Asset {
+  Model model;
+  std::vector<std::string> buffers;  ///< bytes of model.buffers
+  Budget budget{0};
+  Scene scene;  ///< what is being built; its warnings too
+};
+
+/// JSON text to model; `binary` is the GLB's chunk. Throws ImportFailure.
+void load_model(const std::filesystem::path& path, std::string_view bytes, Asset& asset);
+
+/// Ranges of all views and accessors, declared bounds, finite values. Throws ImportFailure.
+void check_accessors(Asset& asset);
+
+/// Values of an accessor as doubles, normalised integers mapped to [0,1] or [-1,1], sparse entries applied:
+/// count * components of them (columns of a matrix one after the other).
+std::vector<double> read_numbers(Asset& asset, int accessor);
+/// Values of an accessor of unsigned integers. `what` names the user.
+std::vector<std::uint32_t> read_indices(Asset& asset, int accessor, const std::string& what);
+int component_count(const Accessor& accessor);
+
+// One table each into asset.scene, in this order.
+void build_materials(Asset& asset);
+void build_cameras(Asset& asset);
+void build_lights(Asset& asset);
+void build_meshes(Asset& asset);
+/// Nodes of the default scene, parents first. Returns the scene's node of each node of the file, or -1.
+std::vector<int> build_nodes(Asset& asset);
+/// Ambient light and background from the default scene's extras, where it has them.
+void build_surroundings(Asset& asset);
+void build_skins(Asset& asset, const std::vector<int>& scene_node);
+void build_clips(Asset& asset, const std::vector<int>& scene_node);
+
+/// Member `name` of the object `value`, or nullptr.
+inline const Value* member(const Value& value, const char* name) {
+  return value.IsObject() && value.Has(name) ? &value.Get(name) : nullptr;
+}
+
+/// Number `name` of the object `value`, or `otherwise`.
+inline double number_or(const Value& value, const char* name, double otherwise) {
+  const Value* found = member(value, name);
+  return found ? found->GetNumberAsDouble() : otherwise;
+}
+
+/// Whether `extras.casts_shadow` is false.
+inline bool says_no_shadow(const Value& extras) {
+  const Value* found = member(extras, "casts_shadow");
+  return found && found->IsBool() && !found->Get<bool>();
+}
+
+}  // namespace tenebra::formats::gltf

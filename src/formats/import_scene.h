@@ -1,0 +1,33 @@
+// From a scene file to a Scene: BART's AFF (and NFF), glTF 2.0 (.gltf, .glb), Wavefront OBJ.
+#pragma once
+
+#include <filesystem>
+#include <string>
+#include <vector>
+
+#include <tenebra/expected.h>
+#include <tenebra/scene.h>
+
+namespace tenebra::formats {
+
+struct ImportOptions {
+  int cone_sides = 64;  ///< AFF `c`: sides of a cone or cylinder (the 2011 paper's count needs 8)
+};
+
+/// Imports by the file's extension (.aff .nff .gltf .glb .obj). Never crashes, hangs or leaves the scene's
+/// folder; what it cannot read whole it refuses in one sentence (file, line or JSON path, found, expected).
+/// Needs at most 256 MiB + 20 times the files' size. Does not add cameras or lights.
+Expected<Scene> import_scene(const std::filesystem::path& path, const ImportOptions& options = {});
+
+Expected<Scene> import_aff(const std::filesystem::path& path, const ImportOptions& options);
+Expected<Scene> import_gltf(const std::filesystem::path& path);
+Expected<Scene> import_obj(const std::filesystem::path& path);
+
+/// Writes `scene` with its animation as a binary glTF 2.0 file. BART's splines are baked to `fps` keys a
+/// second (the clip's own frames where it states them); shapes become morph targets. Returns what glTF cannot
+/// hold, a sentence each. What other programs do not read stands in `extras` for import_gltf: lights without
+/// falloff, ambient factors, reflectances above 1, shadow flags, ambient light, background.
+Expected<std::vector<std::string>> export_glb(const Scene& scene, const std::filesystem::path& path,
+                                              double fps = 30.0);
+
+}  // namespace tenebra::formats

@@ -1,0 +1,16 @@
+// Polygons of a file cut into triangles.
+#pragma once
+
+#include <cstdint>
+#include <glm/glm.hpp>
+#include <span>
+#include <vector>
+
+namespace tenebra::formats {
+
+/// Corner triples (indices into `corners`) of the polygon by ear clipping in its mean plane: concave polygons
+/// are not overrun; always corners.size() - 2 of them, turning as the polygon does. Self-crossing polygons
+/// get some triangulation. Adds the number of corner tests to `work`.
+std::vector<glm::uvec3> triangulate(std::span<const glm::vec3> corners, std::uint64_t& work);
+
+}  // namespace tenebra::formats

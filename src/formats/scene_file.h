@@ -1,0 +1,25 @@
+// Files of a scene, read whole under a size cap and never from outside the scene's folder.
+#pragma once
+
+#include <filesystem>
+#include <string>
+#include <string_view>
+
+namespace tenebra::formats {
+
+/// Largest scene file or buffer that is read.
+inline constexpr std::uintmax_t max_scene_file_bytes = std::uintmax_t{1} << 31;
+
+/// The bytes of a regular file. Throws ImportFailure: missing, not a file, too large, unreadable.
+std::string read_scene_file(const std::filesystem::path& path);
+
+/// `uri` with its %XX undone. Throws ImportFailure naming `place`.
+std::string undo_percent(std::string_view uri, std::string_view place);
+
+/// `uri` of a scene in `folder` as a path inside that folder, percent-encoding undone, links resolved. Throws
+/// ImportFailure naming `place` for schemes, absolute paths, `..`, control characters and links that lead
+/// out.
+std::filesystem::path confine(const std::filesystem::path& folder, std::string_view uri,
+                              std::string_view place, bool percent_encoded);
+
+}  // namespace tenebra::formats

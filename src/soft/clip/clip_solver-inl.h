@@ -1,0 +1,298 @@
+// The visible part of the light by subtracting occluders from it: from each fragment next the one that has
+// most in common with it, so that fragments stay few, where most take something from it.
+//
+// What took light from one point mostly does so from the next: those occluders are kept apart and come first.
+// Only what they leave of the light meets the others, found through the bounds of their blocks: a point in
+// full shadow under a thousand leaves never looks at most of them. The same for one point and for a packet of
+// them. Included once per target.
+#if defined(TENEBRA_SOFT_CLIP_SOLVER_INL_H_) == defined(HWY_TARGET_TOGGLE)
+#ifdef TENEBRA_SOFT_CLIP_SOLVER_INL_H_
+#undef TENEBRA_SOFT_CLIP_SOLVER_INL_H_
+#else
+#define TENEBRA_SOFT_CLIP_SOLVER_INL_H_
+#endif
+
+#include <algorithm>
+#include <type_traits>
+
+#include "soft/clip/part_boxes-inl.h"
+#include "soft/occluders/block_bounds-inl.h"
+#include "soft/occluders/point_occluders-inl.h"
+
+HWY_BEFORE_NAMESPACE();
+namespace tenebra::soft::HWY_NAMESPACE {
+using namespace simd::HWY_NAMESPACE;
+
+/// For one point (OnePoint) or a packet of them (ManyPoints).
+template <class Sight>
+class ClipSolver {
+  using T = typename Sight::Number;
+  using Part = typename Sight::Part;
+  using Parts = typename Sight::Parts;
+  using Occluders = typename Sight::Occluders;
+
+public:
+  /// Takes over the candidates of a group in places `order`, largest first.
+  void reset(const GroupCandidates& group, std::span<const std::uint32_t> order) {
+    group_ = &group;
+    order_ = order;
+    hot_.clear(group.heights);
+    hot_ids_.clear();
+    cold_.clear(group.heights);
+    for (std::size_t i = 0; i < order.size(); ++i) {
+      if (i + ahead < order.size()) expect(group.all[order[i + ahead]]);
+      cold_.add(group.all[order[i]]);
+    }
+    if (has_many()) bounds_.find(cold_);
+  }
+
+  /// The next queries are about `at`, which stays where it is.
+  void move_to(typename Sight::At& at) {
+    range_ = range_of(at);
+    if (has_many()) {
+      choose_hot();
+      hot_.move_to(at);
+    }
+    cold_.move_to(at);
+    blocks_listed_ = false;
+  }
+
+  /// Appends the parts of `light` (convex, within |u|, |v| <= 1) visible from the point to `out`.
+  HWY_NOINLINE void query(const Part& light, Parts& out) {
+    if (cold_.block_count() <= 1) return subtract_block(light, out);
+    Parts left = take();
+    if (hot_.count() == 0) {
+      left.push(light);
+    } else {
+      for (std::size_t b = 0; b < hot_.block_count(); ++b) hot_.append_block(b, box_of(light));
+      subtract_listed(hot_, 0, hot_.list.count(), light, left);
+      hot_.list.shrink(0);
+    }
+    if (!left.empty()) subtract_cold(left, out);
+    give_back(std::move(left));
+  }
+
+private:
+  static constexpr std::size_t few = 64;   ///< occluders that one pass subtracts from a part
+  static constexpr std::size_t ahead = 8;  ///< candidates are fetched so many before they are added
+  static constexpr std::size_t many = 48;  ///< occluders from which on it pays to keep a few apart
+
+  /// Asks for a candidate that will be added soon.
+  static HWY_INLINE void expect(const Candidate& c) {
+    fetch_soon(c.corners[0]);
+    fetch_soon(c.corners[3]);
+    fetch_soon(&c.second);
+  }
+
+  bool has_many() const { return cold_.count() > many; }
+
+  /// Where all occluders fit in one block, there is nothing to sort out.
+  void subtract_block(const Part& light, Parts& out) {
+    if (cold_.block_count() == 0) return out.push(light);
+    std::uint64_t met = 0;
+    const ShadowBoxes<T> boxes = cold_.first_block(box_of(light), met);
+    subtract_few(cold_, boxes, met, light, out);
+  }
+
+  /// Puts those aside that took light from the last point; sorts out the others where they are more.
+  void choose_hot() {
+    useful_.clear();
+    for (std::size_t b = 0; b < hot_.block_count(); ++b) {
+      for (std::uint32_t bits = hot_.take_useful(b); bits != 0; bits &= bits - 1)
+        useful_.push_back(hot_ids_[16 * b + static_cast<std::size_t>(std::countr_zero(bits))]);
+    }
+    const std::size_t old = useful_.size();
+    for (std::size_t b = 0; b < cold_.block_count(); ++b) {
+      for (std::uint32_t bits = cold_.take_useful(b); bits != 0; bits &= bits - 1)
+        useful_.push_back(static_cast<std::uint32_t>(16 * b) +
+                          static_cast<std::uint32_t>(std::countr_zero(bits)));
+    }
+    if (hot_.count() > 2 * old + 16) {
+      for (const std::uint32_t id : hot_ids_) cold_.block(id / 16).lanes |= 1u << (id % 16);
+      hot_ids_.clear();
+      hot_.clear(group_->heights);
+      std::sort(useful_.begin(), useful_.end());
+      for (const std::uint32_t id : useful_) add_hot(id);
+    } else {
+      for (std::size_t i = old; i < useful_.size(); ++i) add_hot(useful_[i]);
+    }
+  }
+
+  void add_hot(std::uint32_t id) {
+    if (hot_.count() == few) return;
+    hot_ids_.push_back(id);
+    hot_.add(group_->all[order_[id]]);
+    cold_.block(id / 16).lanes &= ~(1u << (id % 16));
+  }
+
+  /// What the occluders that are not hot leave of `parts`.
+  void subtract_cold(const Parts& parts, Parts& out) {
+    boxes_.reset(parts);
+    const LightBox<T> box = boxes_.around(0, parts.size());
+    if (!has_many()) {
+      for (std::size_t b = 0; b < cold_.block_count(); ++b) cold_.append_block(b, box);
+      subtract_list(parts, boxes_, 0, parts.size(), box, 0, out);
+      return cold_.list.shrink(0);
+    }
+    if (!blocks_listed_) {
+      bounds_.list_at(range_, blocks_);
+      blocks_listed_ = true;
+    }
+    const std::size_t last = blocks_.count();
+    blocks_.narrow(0, last, box);
+    subtract_blocks(parts, 0, parts.size(), box, last, blocks_.count(), out);
+    blocks_.shrink(last);
+  }
+
+  /// Subtracts the blocks in places [first, last) from the parts in places [begin, end) of boxes_, which lie
+  /// in `box`. The parts are sorted by halves, as in the building of a tree of boxes, until they are few for
+  /// the blocks around them, and from there on with a list of the blocks' triangles.
+  void subtract_blocks(const Parts& parts, std::size_t begin, std::size_t end, const LightBox<T>& box,
+                       std::size_t first, std::size_t last, Parts& out) {
+    const std::size_t middle = 4 * (end - begin) < last - first ? boxes_.halve(begin, end, box) : begin;
+    if (middle == begin || middle == end) {
+      const std::size_t place = cold_.list.count();
+      for (std::size_t i = first; i < last; ++i) cold_.append_block(blocks_.id(i), box);
+      subtract_list(parts, boxes_, begin, end, box, place, out);
+      return cold_.list.shrink(place);
+    }
+    for (const auto& [from, to] : {std::pair(begin, middle), std::pair(middle, end)}) {
+      const LightBox<T> half = boxes_.around(from, to);
+      blocks_.narrow(first, last, half);
+      subtract_blocks(parts, from, to, half, last, blocks_.count(), out);
+      blocks_.shrink(last);
+    }
+  }
+
+  /// The same for the occluders in the list from place `first` on.
+  void subtract_list(const Parts& parts, PartBoxes<T>& boxes, std::size_t begin, std::size_t end,
+                     const LightBox<T>& box, std::size_t first, Parts& out) {
+    const std::size_t last = cold_.list.count();
+    if (last - first <= few) {
+      for (std::size_t i = begin; i < end; ++i)
+        subtract_in_order(first, last, loaded(parts[boxes.part(i)]), boxes.around(i, i + 1), out);
+      return;
+    }
+    if (end - begin == 1) return subtract_long_list(loaded(parts[boxes.part(begin)]), first, out);
+    std::size_t middle = boxes.halve(begin, end, box);
+    if (middle == begin || middle == end) middle = begin + (end - begin) / 2;
+    for (const auto& [from, to] : {std::pair(begin, middle), std::pair(middle, end)}) {
+      const LightBox<T> half = boxes.around(from, to);
+      cold_.list.narrow(first, last, half);
+      subtract_list(parts, boxes, from, to, half, last, out);
+      cold_.list.shrink(last);
+    }
+  }
+
+  /// The same for one part: a few occluders, and from the fragments that they leave the others.
+  void subtract_long_list(const Part& part, std::size_t first, Parts& out) {
+    Parts left = take();
+    subtract_listed(cold_, first, first + few, part, left);
+    if (!left.empty()) {
+      PartBoxes<T> boxes = take(spare_boxes_);
+      boxes.reset(left);
+      subtract_list(left, boxes, 0, left.size(), boxes.around(0, left.size()), first + few, out);
+      spare_boxes_.push_back(std::move(boxes));
+    }
+    give_back(std::move(left));
+  }
+
+  /// Appends what the occluders in places [first, last), at most a few, leave of `part`.
+  void subtract_listed(Occluders& c, std::size_t first, std::size_t last, const Part& part, Parts& out) {
+    if (first == last) return out.push(part);
+    subtract_few(c, c.list.from(first), lowest_bits(last - first), part, out);
+  }
+
+  /// The same for those that are not hot and a part in `box`: most only stand near it, and none is chosen.
+  HWY_NOINLINE void subtract_in_order(std::size_t first, std::size_t last, const Part& part,
+                                      const LightBox<T>& box, Parts& out) {
+    if (first == last) return out.push(part);
+    const ShadowBoxes<T> boxes = cold_.list.from(first);
+    const std::uint64_t met = meeting(boxes, lowest_bits(last - first), box);
+    if (met == 0) return out.push(part);
+    typename Sight::OwnPart own = part;  // a copy for packets, which take lanes from it
+    subtract_next(cold_, boxes, met, std::countr_zero(met), bounds_of(part), own, out);
+    subtract_todo(cold_, boxes, out);
+  }
+
+  /// count: 1 to 64.
+  static std::uint64_t lowest_bits(std::size_t count) { return ~std::uint64_t{0} >> (64 - count); }
+
+  /// Appends what the occluders of the bits of `left` leave of `part`. Each fragment chooses for itself which
+  /// is next: the one whose box has most in common with its own takes most away, and leaves the fewest
+  /// fragments.
+  HWY_NOINLINE void subtract_few(Occluders& c, const ShadowBoxes<T>& boxes, std::uint64_t left,
+                                 const Part& part, Parts& out) {
+    subtract_widest(c, boxes, left, part, out);
+    subtract_todo(c, boxes, out);
+  }
+
+  /// What is still to do, each with the occluders of `boxes` that are left for it.
+  HWY_INLINE void subtract_todo(Occluders& c, const ShadowBoxes<T>& boxes, Parts& out) {
+    while (!todo_.empty()) {
+      const std::uint64_t left = todo_left_.back();
+      todo_left_.pop_back();
+      subtract_widest(c, boxes, left, todo_.pop(), out);
+    }
+  }
+
+  /// Chooses which of the bits of `left` is first where there are more than any order serves.
+  HWY_INLINE void subtract_widest(Occluders& c, const ShadowBoxes<T>& boxes, std::uint64_t left,
+                                  typename Sight::OwnPart part, Parts& out) {
+    const bool in_order = std::popcount(left) <= Sight::any_order;
+    const auto bounds = in_order ? typename Sight::Bounds{} : bounds_of(part);
+    const int k = in_order ? std::countr_zero(left) : widest_of(boxes, left, box_of(bounds));
+    subtract_next(c, boxes, left, k, bounds, part, out);
+  }
+
+  /// Subtracts occluders of the bits of `left`, first that of bit k, from `part` until one has a share in it;
+  /// for what that leaves, the others are still to do.
+  HWY_INLINE void subtract_next(Occluders& c, const ShadowBoxes<T>& boxes, std::uint64_t left, int k,
+                                const typename Sight::Bounds& bounds,
+                                std::remove_reference_t<typename Sight::OwnPart>& part, Parts& out) {
+    for (; left != 0; k = std::countr_zero(left)) {
+      left &= ~(std::uint64_t{1} << k);
+      const auto id = static_cast<std::size_t>(boxes.ids[k]);
+      if (!c.subtract(id, bounds, part, boxes.ids, left, todo_, out)) continue;
+      todo_left_.resize(todo_.size(), left);
+      c.mark_useful(id);
+      if (Sight::takes_all || part.empty()) return;
+    }
+    out.push(part);
+  }
+
+  /// A list with anything in it, and its memory if there is one to spare.
+  template <class List>
+  static List take(std::vector<List>& spare) {
+    if (spare.empty()) return {};
+    List list = std::move(spare.back());
+    spare.pop_back();
+    return list;
+  }
+  Parts take() {
+    Parts list = take(spare_);
+    list.clear();
+    return list;
+  }
+  void give_back(Parts list) { spare_.push_back(std::move(list)); }
+
+  const GroupCandidates* group_ = nullptr;
+  std::span<const std::uint32_t> order_;
+  typename Sight::Range range_;
+  Occluders hot_;                                ///< what took light from the last points
+  Occluders cold_;                               ///< all; lanes of the hot ones are idle
+  std::vector<std::uint32_t> hot_ids_, useful_;  ///< ids in cold_
+  BlockBounds<T> bounds_;                        ///< of cold_
+  ShadowList<T> blocks_;
+  bool blocks_listed_ = false;
+  PartBoxes<T> boxes_;                    ///< of what the hot ones leave
+  Parts todo_;                            ///< parts that are still to be subtracted from
+  std::vector<std::uint64_t> todo_left_;  ///< which occluders, of each
+  std::vector<Parts> spare_;
+  std::vector<PartBoxes<T>> spare_boxes_;
+};
+
+}  // namespace tenebra::soft::HWY_NAMESPACE
+HWY_AFTER_NAMESPACE();
+
+#endif

@@ -1,0 +1,180 @@
+// Convex polygons on the light's plane in lanes, one a point of a packet, and their split by a line that is
+// another one for each point: light_polygon-inl.h turned by a quarter. Included once per target.
+#if defined(TENEBRA_SOFT_PACKET_POLYGON_INL_H_) == defined(HWY_TARGET_TOGGLE)
+#ifdef TENEBRA_SOFT_PACKET_POLYGON_INL_H_
+#undef TENEBRA_SOFT_PACKET_POLYGON_INL_H_
+#else
+#define TENEBRA_SOFT_PACKET_POLYGON_INL_H_
+#endif
+
+#include "soft/polygon/light_polygon-inl.h"
+
+HWY_BEFORE_NAMESPACE();
+namespace tenebra::soft::HWY_NAMESPACE {
+using namespace simd::HWY_NAMESPACE;
+
+inline constexpr int packet_size = 16;      ///< points
+inline constexpr int packet_vertices = 12;  ///< of a polygon, at most
+
+using PacketTruth = Truth<float, packet_size>;
+
+/// Vertex k of the polygons in x[k] and y[k], counter-clockwise. The vertices of a lane that has fewer than
+/// `count` are repeated next to themselves.
+struct alignas(64) PacketPolygon {
+  int count = 0;
+  Float16 x[packet_vertices], y[packet_vertices];
+
+  void assign(const PacketPolygon& from) {
+    count = from.count;
+    int k = 0;
+    do {
+      x[k] = from.x[k];
+      y[k] = from.y[k];
+    } while (++k < count);
+  }
+  int behind(int k) const { return k + 1 < count ? k + 1 : 0; }
+  int before(int k) const { return k > 0 ? k - 1 : count - 1; }
+};
+
+/// A LightLine a lane.
+struct alignas(64) PacketLine {
+  Float16 u, v, w;
+
+  HWY_INLINE Float16 at(Float16 x, Float16 y) const { return u * x + v * y + w; }
+  /// Vertices of smaller values count as on the line (on_line).
+  HWY_INLINE Float16 near() const { return splat<Float16>(on_line<float>) * (absolute(u) + absolute(v)); }
+};
+
+struct PacketValues {
+  Float16 value[packet_vertices];
+  Float16 near;
+  std::uint32_t positive = 0, negative = 0;  ///< bits of the lanes that have vertices strictly on that side
+};
+
+HWY_INLINE PacketValues evaluate(const PacketPolygon& polygon, const PacketLine& line) {
+  PacketValues r;
+  r.near = line.near();
+  Float16 low = r.value[0] = line.at(polygon.x[0], polygon.y[0]), high = low;
+  for (int k = 1; k < polygon.count; ++k) {
+    r.value[k] = line.at(polygon.x[k], polygon.y[k]);
+    low = min(low, r.value[k]);
+    high = max(high, r.value[k]);
+  }
+  r.positive = less_bits(r.near, high);
+  r.negative = less_bits(low, splat<Float16>(0.0f) - r.near);
+  return r;
+}
+
+/// Bits of the lanes where some vertex lies strictly on the line's positive side.
+HWY_INLINE std::uint32_t reaching(const PacketPolygon& polygon, const PacketLine& line) {
+  Float16 high = line.at(polygon.x[0], polygon.y[0]);
+  for (int k = 1; k < polygon.count; ++k) high = max(high, line.at(polygon.x[k], polygon.y[k]));
+  return less_bits(line.near(), high);
+}
+
+/// A vertex with its value.
+struct PacketVertex {
+  Float16 x, y, value;
+
+  HWY_INLINE void take(PacketTruth where, const PacketPolygon& from, const PacketValues& line, int k) {
+    x = choose(where, from.x[k], x);
+    y = choose(where, from.y[k], y);
+    value = choose(where, line.value[k], value);
+  }
+};
+
+struct PacketPoint2 {
+  Float16 x, y;
+};
+
+/// Where the line crosses the way from a vertex on its positive side to one that is not.
+HWY_INLINE PacketPoint2 crossing_of(const PacketVertex& from, const PacketVertex& beyond) {
+  const Float16 zero = splat<Float16>(0.0f), one = splat<Float16>(1.0f);
+  const Float16 drop = from.value - beyond.value;
+  const Float16 t = min(max(from.value / choose(equal(drop, zero), one, drop), zero), one);
+  return {from.x + t * (beyond.x - from.x), from.y + t * (beyond.y - from.y)};
+}
+
+/// One side of a cut: the vertices where `kept`, and in the place of the run of others `first` and then
+/// `second`. A run of one vertex in a lane of `cut` makes room for both.
+HWY_INLINE void replace_run(const PacketPolygon& polygon, const PacketTruth (&kept)[packet_vertices],
+                            const PacketTruth (&dropped)[packet_vertices], PacketTruth cut,
+                            const PacketPoint2& first, const PacketPoint2& second, PacketPolygon& out) {
+  const int n = polygon.count;
+  PacketTruth alone[packet_vertices];    // a run of one vertex
+  PacketTruth reached[packet_vertices];  // there was one, here or before
+  PacketTruth some = kept[0] & dropped[0];
+  for (int k = 0; k < n; ++k) {
+    const PacketTruth begins = kept[polygon.before(k)] & dropped[k];
+    alone[k] = begins & kept[polygon.behind(k)] & cut;
+    reached[k] = some = some | alone[k];
+    out.x[k] = choose(dropped[k], choose(begins, first.x, second.x), polygon.x[k]);
+    out.y[k] = choose(dropped[k], choose(begins, first.y, second.y), polygon.y[k]);
+  }
+  out.count = n;
+  if (!any(some)) return;
+  out.x[n] = out.x[0];
+  out.y[n] = out.y[0];
+  for (int k = n; k > 0; --k) {
+    out.x[k] = choose(alone[k - 1], second.x, choose(reached[k - 1], out.x[k - 1], out.x[k]));
+    out.y[k] = choose(alone[k - 1], second.y, choose(reached[k - 1], out.y[k - 1], out.y[k]));
+  }
+  out.count = n + 1;
+}
+
+/// Both parts of the polygons in the lanes of `cut`, which have vertices strictly on both sides; vertices on
+/// the line go with the negative side. In the other lanes, `positive` is the polygon as it was, `negative`
+/// anything. False where rounding breaks the vertices of a thin polygon in more than two runs, or there are
+/// too many.
+HWY_INLINE bool split(const PacketPolygon& polygon, PacketValues& line, std::uint32_t cut,
+                      PacketPolygon& positive, PacketPolygon& negative) {
+  if (polygon.count == packet_vertices) return false;
+  const PacketTruth parted = truth_of<float, packet_size>(cut);
+  PacketTruth above[packet_vertices], below[packet_vertices];
+  for (int k = 0; k < polygon.count; ++k) {
+    line.value[k] = choose(parted, line.value[k], splat<Float16>(1e30f));
+    above[k] = less(line.near, line.value[k]);
+    below[k] = not_above(line.value[k], line.near);
+  }
+  PacketVertex last_above{polygon.x[0], polygon.y[0], line.value[0]};
+  PacketVertex first_below = last_above, last_below = last_above, first_above = last_above;
+  PacketTruth left = above[0] & below[0], twice = left;  // nowhere
+  for (int k = 0; k < polygon.count; ++k) {
+    const int j = polygon.before(k);
+    const PacketTruth leaves = above[j] & below[k], returns = below[j] & above[k];
+    twice = twice | (left & leaves);
+    left = left | leaves;
+    last_above.take(leaves, polygon, line, j), first_below.take(leaves, polygon, line, k);
+    last_below.take(returns, polygon, line, j), first_above.take(returns, polygon, line, k);
+  }
+  if (any(twice)) return false;
+  const PacketPoint2 leaving = crossing_of(last_above, first_below);
+  const PacketPoint2 returning = crossing_of(first_above, last_below);
+  replace_run(polygon, above, below, parted, leaving, returning, positive);
+  replace_run(polygon, below, above, parted, returning, leaving, negative);
+  return true;
+}
+
+/// Takes vertices out while each lane of `lanes` has one that is repeated.
+HWY_INLINE void compact(PacketPolygon& p, std::uint32_t lanes) {
+  while (p.count > 3) {
+    PacketTruth repeated[packet_vertices];
+    for (int k = 0; k < p.count; ++k)
+      repeated[k] = equal(p.x[k], p.x[p.behind(k)]) & equal(p.y[k], p.y[p.behind(k)]);
+    PacketTruth some = repeated[0];
+    for (int k = 1; k < p.count; ++k) some = some | repeated[k];
+    if ((lanes & ~bits(some)) != 0) return;
+    PacketTruth moved = repeated[0];
+    for (int k = 0; k + 1 < p.count; ++k) {
+      if (k > 0) moved = moved | repeated[k];
+      p.x[k] = choose(moved, p.x[k + 1], p.x[k]);
+      p.y[k] = choose(moved, p.y[k + 1], p.y[k]);
+    }
+    --p.count;
+  }
+}
+
+}  // namespace tenebra::soft::HWY_NAMESPACE
+HWY_AFTER_NAMESPACE();
+
+#endif

@@ -1,0 +1,81 @@
+#include "soft/groups/receivers.h"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+#include "points/contact_rule.h"
+#include "points/triangle_corners.h"
+
+namespace tenebra::soft {
+
+namespace {
+
+using glm::dvec3;
+
+constexpr double infinity = std::numeric_limits<double>::infinity();
+
+double sum(const dvec3& v) {
+  return std::abs(v.x) + std::abs(v.y) + std::abs(v.z);
+}
+
+}  // namespace
+
+int seen_side(const TriangleView& triangles, std::uint32_t id, const ViewRays& view) {
+  return points::eye_side(points::corners_of(triangles, id).v, view);
+}
+
+LitTriangle lit_triangle(const TriangleView& triangles, std::uint32_t id, const ViewRays& view,
+                         const LightShape& light) {
+  const points::Corners c = points::corners_of(triangles, id);
+  LitTriangle lit;
+  lit.receiver.triangle = id;
+  lit.receiver.side = points::eye_side(c.v, view);
+  lit.receiver.tau = points::rounding_tolerance(c.v);
+  if (lit.receiver.side == 0) return lit;
+  const dvec3 a(c.v[0]), e1 = dvec3(c.v[1]) - a, e2 = dvec3(c.v[2]) - a;
+  const dvec3 n = glm::cross(e1, e2) * static_cast<double>(lit.receiver.side);
+  const double length = std::sqrt(glm::dot(n, n));
+  if (length > 0) lit.receiver.m = n / length;
+  lit.level = glm::dot(lit.receiver.m, a - light.origin);
+  lit.light_height = infinity;
+  for (int k = 0; k < light.count; ++k) {
+    const dvec3 q = light.origin + light.vertices[k];
+    // Q is off by 2^-50 of its coordinates, n and the dot product as in predicates.cpp.
+    const double bound = 0x1p-46 * sum(e1) * sum(e2) * (sum(q - a) + sum(light.origin) + sum(q));
+    lit.light_above |= glm::dot(n, q - a) > -bound;
+    lit.light_height = std::min(lit.light_height, glm::dot(lit.receiver.m, light.vertices[k]));
+  }
+  return lit;
+}
+
+// A line from P to Q meets T at X, more than tau_R off P as T must be off P's side of its plane. With h the
+// height over the receiver's plane, h(X) >= h(P) + tau_R h(Q) / |PQ|: a triangle that stays below that blocks
+// nothing (but for slivers thinner than 2^-47 of their length, whose n is rounding). Where the light sinks
+// below the receiver's horizon only lines that rise count: h(X) >= h(P).
+Receiver receiver_of(const LitTriangle& triangle, double lowest_point, const Cell& cell,
+                     const LightShape& light) {
+  Receiver receiver = triangle.receiver;
+  if (receiver.m == dvec3(0)) {
+    receiver.limit = -infinity;
+    return receiver;
+  }
+  // tau over sqrt(3) 2^-24: the receiver's largest |coordinate|
+  const double margin = 0x1p-46 * (cell.reach + light.reach + largest(light.origin) + receiver.tau * 0x1p24);
+  const double light_height = triangle.light_height - triangle.level;
+  const double distance = 1.7320508075688774 * (cell.reach + light.reach) * (1 + 0x1p-40);
+  double rise = 0;
+  if (light_height > margin && distance > 0)
+    rise = receiver.tau * (light_height - margin) / distance * (1 - 0x1p-40);
+  receiver.limit = std::min(triangle.level, lowest_point) + rise - margin;
+  return receiver;
+}
+
+ContactRange contact_range(std::span<const Receiver> receivers) {
+  ContactRange range{infinity, 0};
+  for (const Receiver& receiver : receivers)
+    range.least = std::min(range.least, receiver.tau), range.most = std::max(range.most, receiver.tau);
+  return range;
+}
+
+}  // namespace tenebra::soft

@@ -1,0 +1,48 @@
+// The triangles on which a group's points lie, and what they say about its occluders: what lies behind a
+// receiver blocks nothing, nor does the receiver itself; and the contact rule's tolerances.
+#pragma once
+
+#include <cstdint>
+#include <glm/glm.hpp>
+#include <span>
+
+#include <tenebra/visible_points.h>
+#include "soft/groups/cell.h"
+
+namespace tenebra::soft {
+
+/// A triangle on which points of a group lie, the side of it that the view sees (1: in front, counter-
+/// clockwise; -1: behind), and the half-space of it that no line from its points in the group to the light
+/// enters: a triangle with m.(v - light's centre) <= limit for its vertices blocks none of them.
+struct Receiver {
+  std::uint32_t triangle = no_triangle;
+  std::int32_t side = 0;
+  double tau = 0;     ///< rounding tolerance (contact_rule.h)
+  glm::dvec3 m{0.0};  ///< unit
+  double limit = 0;
+};
+
+/// What a triangle is to a light, whichever points of it are seen.
+struct LitTriangle {
+  Receiver receiver;         ///< but for the limit
+  bool light_above = false;  ///< a part of the light may be on the seen side of the plane
+  double level = 0;          ///< m.(v - light's centre) of the plane
+  double light_height = 0;   ///< m.(v - light's centre) of the light's lowest vertex
+};
+LitTriangle lit_triangle(const TriangleView& triangles, std::uint32_t id, const ViewRays& view,
+                         const LightShape& light);
+
+/// The receiver of points of a cell whose least m.(p - light's centre) is `lowest_point`.
+Receiver receiver_of(const LitTriangle& triangle, double lowest_point, const Cell& cell,
+                     const LightShape& light);
+
+/// Side of the triangle from which the view sees it, exact: 1, -1, or 0 if it is seen edge-on.
+int seen_side(const TriangleView& triangles, std::uint32_t id, const ViewRays& view);
+
+/// Contact tolerances (tau_R) of the receivers of a group.
+struct ContactRange {
+  double least = 0, most = 0;
+};
+ContactRange contact_range(std::span<const Receiver> receivers);
+
+}  // namespace tenebra::soft

@@ -1,0 +1,78 @@
+#include <algorithm>
+#include <numeric>
+
+#include "soft/groups/group_parts.h"
+
+namespace tenebra::soft {
+
+namespace {
+
+// Pixels by triangle, each triangle's in row order (counting sort): those of triangle k end at ends[k].
+struct PixelsByTriangle {
+  std::vector<std::uint32_t> pixels, ends;
+};
+PixelsByTriangle pixels_by_triangle(const VisiblePoints& points, std::size_t triangle_count) {
+  PixelsByTriangle by;
+  by.ends.assign(triangle_count + 1, 0);
+  for (const std::uint32_t id : points.triangles)
+    if (id < triangle_count) ++by.ends[id + 1];
+  std::partial_sum(by.ends.begin(), by.ends.end(), by.ends.begin());
+  by.pixels.resize(by.ends.back());
+  for (std::size_t i = 0; i < points.triangles.size(); ++i) {
+    const std::uint32_t id = points.triangles[i];
+    if (id < triangle_count) by.pixels[by.ends[id]++] = static_cast<std::uint32_t>(i);
+  }
+  return by;
+}
+
+// The active ones of a triangle's pixels, as one group.
+void append_triangle(const Grouping& g, std::span<const std::uint32_t> pixels, const LitTriangle& triangle,
+                     PointLanes& lanes, GroupPart& part) {
+  const std::size_t packs = (pixels.size() + 63) / 64 * 8;
+  lanes.resize(8 * packs);
+  for (std::size_t i = 0; i < pixels.size(); ++i) {
+    lanes.put(i, g.points.positions[pixels[i]]);
+    lanes.column[i] = static_cast<float>(pixels[i] % static_cast<std::uint32_t>(g.points.width));
+    lanes.row[i] = static_cast<float>(pixels[i] / static_cast<std::uint32_t>(g.points.width));
+  }
+  std::vector<std::uint8_t> set;
+  PointGroup group;
+  group.first = part.next;
+  for (std::size_t first = 0; first < pixels.size(); first += 64) {
+    const std::size_t there = std::min<std::size_t>(64, pixels.size() - first);
+    const std::uint64_t active =
+        g.kernels.in_front(lanes, g.light, first) & (~std::uint64_t{0} >> (64 - there));
+    for (const std::uint8_t byte : bytes_of(active)) set.push_back(byte);
+    for (std::size_t k = 0; k < there; ++k)
+      if ((active >> k & 1) != 0) g.out.pixels[part.next++] = pixels[first + k];
+  }
+  group.count = part.next - group.first;
+  if (group.count == 0) return;
+  const PointBox box = g.kernels.box(lanes, set);
+  group.low = box.low, group.high = box.high;
+  group.cell = g.kernels.fitted_cell(lanes, set, box, g.light);
+  group.first_receiver = static_cast<std::uint32_t>(part.receivers.size());
+  group.receiver_count = 1;
+  const double lowest = g.kernels.lowest(lanes, set, triangle.receiver.m, g.light);
+  part.receivers.push_back(receiver_of(triangle, lowest, group.cell, g.light));
+  part.groups.push_back(group);
+}
+
+}  // namespace
+
+GroupPart group_by_triangle(const Grouping& g) {
+  const PixelsByTriangle by = pixels_by_triangle(g.points, g.triangles.triangles.size());
+  GroupPart part;
+  PointLanes lanes;
+  std::uint32_t first = 0;
+  for (std::uint32_t id = 0; id < g.triangles.triangles.size(); ++id) {
+    const std::span<const std::uint32_t> pixels(by.pixels.data() + first, by.ends[id] - first);
+    first = by.ends[id];
+    if (pixels.empty()) continue;
+    const LitTriangle triangle = lit_triangle(g.triangles, id, g.view, g.light);
+    if (triangle.light_above) append_triangle(g, pixels, triangle, lanes, part);
+  }
+  return part;
+}
+
+}  // namespace tenebra::soft

@@ -1,0 +1,48 @@
+// The candidates of groups that lie near each other, made ready once, and which of them are those of one
+// group.
+#pragma once
+
+#include <cstdint>
+#include <span>
+#include <vector>
+
+#include "soft/occluders/group_candidates.h"
+
+namespace tenebra::soft {
+
+class FamilyCandidates {
+public:
+  static constexpr std::size_t most_groups = 32;
+
+  /// Takes up another family.
+  void clear();
+  /// Adds a group's triangles, ascending: those of group 0, 1, ... most_groups - 1.
+  void add(std::span<const std::uint32_t> triangles);
+  /// All of them, ascending.
+  std::span<const std::uint32_t> triangles() const { return ids_; }
+
+  /// What was made of all of them, and the places in it that groups choose from.
+  void make_ready(const GroupCandidates& all, std::span<const std::uint32_t> places);
+
+  /// Those of the places that hold one of the triangles of group `k`, which is `group`; a pair with either of
+  /// its two. Signs that depend on the points of the family, but not on those of the group, are set in `all`
+  /// until restore().
+  std::span<const std::uint32_t> choose(std::size_t k, const GroupFrame& group, GroupCandidates& all);
+  void restore(GroupCandidates& all) const {
+    for (const std::uint32_t place : decided_) all.all[place].sign = 0;
+  }
+
+private:
+  struct Member {
+    std::uint32_t place;
+    std::uint32_t groups;  ///< bits of those that have it
+  };
+
+  std::size_t count_ = 0;                       ///< of groups
+  std::vector<std::uint32_t> ids_, groups_;     ///< triangles, and bits of the groups of each
+  std::vector<std::uint32_t> merged_, joined_;  ///< the next of these
+  std::vector<Member> members_, doubtful_;      ///< all, in the order of the places, and those of no sign
+  std::vector<std::uint32_t> own_, decided_;    ///< places
+};
+
+}  // namespace tenebra::soft

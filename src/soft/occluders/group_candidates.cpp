@@ -1,0 +1,244 @@
+#include "soft/occluders/group_candidates.h"
+
+#undef HWY_TARGET_INCLUDE
+#define HWY_TARGET_INCLUDE "soft/occluders/group_candidates.cpp"
+#include <hwy/foreach_target.h>
+// After foreach_target.h
+#include <algorithm>
+#include <bit>
+#include <cmath>
+#include "simd/dispatch.h"
+
+#include "points/triangle_corners.h"
+#include "soft/polygon/vector_lanes-inl.h"
+
+HWY_BEFORE_NAMESPACE();
+namespace tenebra::soft::HWY_NAMESPACE {
+using namespace simd::HWY_NAMESPACE;
+namespace {
+
+inline double size_of(const glm::dvec3& v) {
+  return std::abs(v.x) + std::abs(v.y) + std::abs(v.z);
+}
+HWY_INLINE Double8 size_of(const Vector8& v) {
+  return absolute(v.x) + absolute(v.y) + absolute(v.z);
+}
+
+/// What eight triangles are to a group and its light.
+struct LaneResults {
+  double corners[3][3][8];
+  double plane[3][8];
+  double normal[3][8], height[8], length[8], tau[8], solid_angle[8];
+  std::uint32_t never = 0, in_front = 0, behind = 0;   ///< of all points against the triangle
+  std::uint32_t light_in_front = 0, light_behind = 0;  ///< of all of the light
+  std::uint32_t stands_between = 0;
+};
+
+class CandidateLanes {
+public:
+  /// Fills `out` with those of `ids` that may block between the group's points and the light.
+  void find(const LightFrame& light, const TriangleView& triangles, const GroupFrame& group,
+            std::span<const std::uint32_t> ids, GroupCandidates& out) {
+    out.clear();
+    out.axes = light_axes(light, group.centre);
+    for (std::size_t from = 0; from < ids.size(); from += 8) {
+      const std::size_t count = std::min<std::size_t>(8, ids.size() - from);
+      load_corners(triangles, ids.subspan(from, count));
+      find_lanes(light, group, out.axes);
+      for (std::size_t i = 0; i < count; ++i) add(group, ids[from + i], i, out);
+    }
+  }
+
+private:
+  void load_corners(const TriangleView& triangles, std::span<const std::uint32_t> ids) {
+    for (std::size_t i = 0; i < 8; ++i) {
+      const points::Corners c = points::corners_of(triangles, ids[i < ids.size() ? i : 0]);
+      for (int k = 0; k < 3; ++k)
+        for (int axis = 0; axis < 3; ++axis) v_[k][axis][i] = c.v[k][axis];
+    }
+  }
+
+  HWY_INLINE Vector8 corner(int k) const {
+    return {load_widened<Double8>(v_[k][0]), load_widened<Double8>(v_[k][1]),
+            load_widened<Double8>(v_[k][2])};
+  }
+
+  HWY_NOINLINE void find_lanes(const LightFrame& light, const GroupFrame& group, const LightAxes& axes) {
+    const Vector8 v[3] = {corner(0), corner(1), corner(2)};
+    const Vector8 centre = splat3<Double8>(group.centre.x, group.centre.y, group.centre.z);
+    const Vector8 n = cross(v[1] - v[0], v[2] - v[0]);
+    const Double8 length = square_root(product(n, n));
+    const Vector8 from[3] = {v[0] - centre, v[1] - centre, v[2] - centre};
+    find_sides(group, v, n, length, from[0]);
+    find_light_sides(light, v[0], n, length);
+    find_size(from, n);
+    find_corners(light, group, axes, v, from);
+
+    const auto num = [](double value) { return splat<Double8>(value); };
+    const auto along = [&](const glm::dvec3& a) { return n.x * num(a.x) + n.y * num(a.y) + n.z * num(a.z); };
+    const glm::dvec3& o = light.origin;
+    const Vector8 to_origin = splat3<Double8>(o.x, o.y, o.z) - v[0];
+    const double unit = std::sqrt(glm::dot(light.ex, light.ex));
+    const Double8 size = length * num(unit);
+    const Double8 scale = num(axes.turn) / choose(less(num(0), size), size, num(1));
+    store(along(light.ex) * scale, lanes_.plane[0]);
+    store(along(light.ey) * scale, lanes_.plane[1]);
+    store(product(n, to_origin) * scale, lanes_.plane[2]);
+  }
+
+  HWY_INLINE void find_sides(const GroupFrame& group, const Vector8* v, const Vector8& n, Double8 length,
+                             const Vector8& from) {
+    const auto num = [](double value) { return splat<Double8>(value); };
+    const Double8 zero = num(0);
+    Double8 largest = zero;
+    for (int k = 0; k < 3; ++k)
+      largest = max(largest, max(absolute(v[k].x), max(absolute(v[k].y), absolute(v[k].z))));
+    const Double8 tau = largest * num(1.7320508075688772 * 0x1p-24);
+    const Double8 height = zero - product(n, from), far = absolute(height);
+    const Double8 spread = absolute(n.x) * num(group.half.x) + absolute(n.y) * num(group.half.y) +
+                           absolute(n.z) * num(group.half.z);
+    const Double8 margin =
+        num(product_rounding) * length * (num(size_of(group.centre) + size_of(group.half)) + size_of(v[0]));
+    const Double8 threshold = (tau + num(group.receiver_tau)) * length;
+    const std::uint32_t sure = less_bits(threshold + margin, far - spread);
+    const std::uint32_t above = less_bits(zero, height);
+    lanes_.in_front = sure & above;
+    lanes_.behind = sure & ~above;
+    lanes_.never = ~less_bits(zero, length) | less_bits(far + spread, tau * length - margin);
+    store(n.x, lanes_.normal[0]), store(n.y, lanes_.normal[1]), store(n.z, lanes_.normal[2]);
+    store(height, lanes_.height), store(length, lanes_.length), store(tau, lanes_.tau);
+  }
+
+  HWY_INLINE void find_light_sides(const LightFrame& light, const Vector8& v, const Vector8& n,
+                                   Double8 length) {
+    const Double8 zero = splat<Double8>(0.0);
+    const Double8 slack = splat<Double8>(product_rounding) * length, size = size_of(v);
+    std::uint32_t positive = ~0u, negative = ~0u;
+    for (const glm::dvec2& at : light.outline) {
+      const glm::dvec3 vertex = light.point(at);
+      const Double8 value = product(n, splat3<Double8>(vertex.x, vertex.y, vertex.z) - v);
+      const Double8 margin = slack * (splat<Double8>(size_of(vertex)) + size);
+      positive &= less_bits(margin, value);
+      negative &= less_bits(value, zero - margin);
+    }
+    lanes_.light_in_front = positive;
+    lanes_.light_behind = negative;
+  }
+
+  HWY_INLINE void find_size(const Vector8* from, const Vector8& n) {
+    const Double8 third = splat<Double8>(1.0 / 3);
+    const Vector8 sum{from[0].x + from[1].x + from[2].x, from[0].y + from[1].y + from[2].y,
+                      from[0].z + from[1].z + from[2].z};
+    const Vector8 middle{sum.x * third, sum.y * third, sum.z * third};
+    const Double8 square = product(middle, middle), cube = square * square_root(square);
+    const auto near = less(splat<Double8>(0.0), cube);
+    store(choose(near, absolute(product(n, from[0])) / choose(near, cube, third), splat<Double8>(0.0)),
+          lanes_.solid_angle);
+  }
+
+  /// Corners in the light's axes, and which triangles stand between: so far above the points that the
+  /// division by the height loses no more than 16 bits.
+  HWY_INLINE void find_corners(const LightFrame& light, const GroupFrame& group, const LightAxes& axes,
+                               const Vector8* v, const Vector8* from) {
+    const auto num = [](double value) { return splat<Double8>(value); };
+    const auto along = [&](const glm::dvec3& a, const Vector8& b) {
+      return num(a.x) * b.x + num(a.y) * b.y + num(a.z) * b.z;
+    };
+    const double unit = 1 / std::sqrt(glm::dot(light.ex, light.ex));
+    const Double8 reach = num(size_of(axes.height * group.half)), top = num(axes.centre_uv.z);
+    const double around = size_of(group.centre) + size_of(group.half) + size_of(light.origin);
+    std::uint32_t between = ~0u;
+    for (int k = 0; k < 3; ++k) {
+      const Double8 height = along(axes.height, from[k]);
+      const Double8 size = (size_of(v[k]) + num(around)) * num(unit);
+      between &= less_bits(num(0x1p-16) * size, height - reach);
+      between &= less_bits(num(product_rounding) * size, top - height);
+      store(along(axes.u, from[k]), lanes_.corners[k][0]);
+      store(along(axes.v, from[k]), lanes_.corners[k][1]);
+      store(height, lanes_.corners[k][2]);
+    }
+    lanes_.stands_between = between;
+  }
+
+  void add(const GroupFrame& group, std::uint32_t id, std::size_t i, GroupCandidates& out) const {
+    const auto is = [i](std::uint32_t set) { return ((set >> i) & 1u) != 0; };
+    const LaneResults& l = lanes_;
+    if (is(l.never)) return;
+    Candidate c;
+    c.triangle = id;
+    const int points = is(l.in_front) ? 1 : is(l.behind) ? -1 : 0;
+    if (points == 0 || std::binary_search(group.receivers.begin(), group.receivers.end(), id)) {
+      c.height = static_cast<std::uint32_t>(out.heights.size());
+      c.has_plane = true;
+      out.heights.push_back({l.height[i],
+                             {l.normal[0][i], l.normal[1][i], l.normal[2][i]},
+                             l.tau[i] * l.length[i],
+                             l.length[i]});
+    } else {
+      if (is(points > 0 ? l.light_in_front : l.light_behind)) return;
+      c.sign = -points * out.axes.turn;
+      c.has_plane = !is(l.light_in_front | l.light_behind);
+    }
+    for (int k = 0; k < 4; ++k)
+      for (int axis = 0; axis < 3; ++axis) c.corners[k][axis] = l.corners[k % 3][axis][i];
+    for (int k = 0; k < 3; ++k) c.plane[k] = c.has_plane ? l.plane[k][i] : k == 2 ? c.sign : 0.0;
+    // The exponent is the logarithm, rounded down (all tiny ones are one class).
+    c.size = static_cast<std::int32_t>(std::bit_cast<std::uint64_t>(l.solid_angle[i]) >> 52) - 1023;
+    c.stands_between = is(l.stands_between);
+    out.all.push_back(c);
+  }
+
+  float v_[3][3][8];
+  LaneResults lanes_;
+};
+
+void find_candidates(const LightFrame& light, const TriangleView& triangles, const GroupFrame& group,
+                     std::span<const std::uint32_t> ids, GroupCandidates& out) {
+  CandidateLanes lanes;
+  lanes.find(light, triangles, group, ids, out);
+}
+
+}  // namespace
+
+FindCandidates find_candidates_kernel() {
+  return find_candidates;
+}
+
+}  // namespace tenebra::soft::HWY_NAMESPACE
+HWY_AFTER_NAMESPACE();
+
+#if HWY_ONCE
+
+namespace tenebra::soft {
+
+LightAxes light_axes(const LightFrame& light, const glm::dvec3& centre) {
+  const double square = glm::dot(light.ex, light.ex), unit = std::sqrt(square);
+  LightAxes axes;
+  axes.u = light.ex / square;
+  axes.v = light.ey / square;
+  axes.height = -light.normal / unit;
+  axes.centre = centre;
+  const glm::dvec3 from = centre - light.origin;
+  axes.centre_uv = {glm::dot(from, axes.u), glm::dot(from, axes.v), glm::dot(from, light.normal) / unit};
+  axes.turn = glm::dot(glm::cross(light.ex, light.ey), axes.height) > 0 ? 1.0 : -1.0;
+  return axes;
+}
+
+int certain_sign(const PlaneHeight& plane, const glm::dvec3& centre, const GroupFrame& group) {
+  const glm::dvec3 d = group.centre - centre, slope = glm::abs(plane.slope);
+  const auto sum = [](const glm::dvec3& v) { return std::abs(v.x) + std::abs(v.y) + std::abs(v.z); };
+  const double height = plane.height + glm::dot(d, plane.slope);
+  const double rounding =
+      product_rounding *
+      (std::abs(plane.height) + sum(slope) * (sum(group.centre) + sum(centre) + sum(group.half)));
+  const double least =
+      plane.threshold + group.receiver_tau * plane.length + glm::dot(slope, group.half) + rounding;
+  return height < -least ? 1 : height > least ? -1 : 0;
+}
+
+FindCandidates find_candidates_kernel(SimdLevel level) {
+  return TENEBRA_DISPATCH(level, find_candidates_kernel)();
+}
+
+}  // namespace tenebra::soft
+#endif

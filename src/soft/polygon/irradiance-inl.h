@@ -1,0 +1,120 @@
+// Irradiance from polygons of uniform, diffuse light, and their area: one sum over edges. Included once per
+// target.
+#if defined(TENEBRA_SOFT_IRRADIANCE_INL_H_) == defined(HWY_TARGET_TOGGLE)
+#ifdef TENEBRA_SOFT_IRRADIANCE_INL_H_
+#undef TENEBRA_SOFT_IRRADIANCE_INL_H_
+#else
+#define TENEBRA_SOFT_IRRADIANCE_INL_H_
+#endif
+
+#include <vector>
+
+#include "simd/pack-inl.h"
+#include "soft/light/light_frame.h"
+
+HWY_BEFORE_NAMESPACE();
+namespace tenebra::soft::HWY_NAMESPACE {
+using namespace simd::HWY_NAMESPACE;
+
+using Double8 = Pack<double, 8>;
+
+/// Edges of polygons on the light's plane, from (u0, v0) to (u1, v1).
+struct LightEdges {
+  std::vector<double> u0, v0, u1, v1;
+  std::size_t count = 0;
+
+  /// Makes room for `more` edges and a full register behind them.
+  void reserve(std::size_t more) {
+    const std::size_t needed = count + more + 16;
+    if (u0.size() >= needed) return;
+    for (auto* values : {&u0, &v0, &u1, &v1}) values->resize(2 * needed);
+  }
+};
+
+/// atan2(s, c) / s for s > 0, in one division; relative error below 1e-13. 0 where s |(s, c)| < 1e-290.
+HWY_INLINE Double8 angle_over_sine(Double8 s, Double8 c) {
+  const auto num = [](double value) { return splat<Double8>(value); };
+  const Double8 size = absolute(c);
+  const Double8 low = min(s, size), high = max(s, size);
+  // atan(low / high), beyond pi/8 by atan(q) = pi/4 + atan((q - 1) / (q + 1)).
+  const auto steep = less(num(0.41421356237309503) * high, low);
+  const Double8 below = choose(steep, low + high, high);
+  const auto none = less(below * s, num(1e-290));
+  const Double8 share = num(1.0) / choose(none, num(1.0), below * s);
+  const Double8 q = choose(steep, low - high, low) * (s * share);
+  const Double8 y = q * q;
+  // Chebyshev interpolation of atan(q) / q in y, 0 <= y <= tan(pi/8)^2.
+  Double8 p = num(0.030662440370424447);
+  for (const double a :
+       {-0.05874505621307831, 0.07563703551915192, -0.09078392072943424, 0.11110385046148014,
+        -0.14285690423839287, 0.19999999604891977, -0.33333333330803444, 0.9999999999999732}) {
+    p = p * y + num(a);
+  }
+  Double8 angle = q * p;
+  angle = choose(steep, num(0.7853981633974483) + angle, angle);
+  angle = choose(less(size, s), num(1.5707963267948966) - angle, angle);
+  angle = choose(less(c, num(0.0)), num(3.141592653589793) - angle, angle);
+  return choose(none, num(0.0), angle * (below * share));
+}
+
+/// Not fused: the same bits on every target.
+HWY_INLINE Double8 product_of(const Pack3<Double8>& a, const Pack3<Double8>& b) {
+  return a.x * b.x + a.y * b.y + a.z * b.z;
+}
+
+/// The angle that an edge `e` from `r` on subtends times the cosine between normal and the plane of point and
+/// edge (Nishita and Nakamae 1985); 0 for an edge of no length, or seen end-on.
+HWY_INLINE Double8 contour_term(const Pack3<Double8>& r, const Pack3<Double8>& e,
+                                const Pack3<Double8>& normal) {
+  const Pack3<Double8> c = cross(r, e);
+  const Double8 sine = square_root(product_of(c, c)), cosine = product_of(r, r) + product_of(r, e);
+  return product_of(normal, c) * angle_over_sine(sine, cosine);
+}
+
+/// origin + u ex + v ey.
+HWY_INLINE Pack3<Double8> on_light(const LightFrame& light, const Pack3<Double8>& origin, Double8 u,
+                                   Double8 v) {
+  const auto num = [](double value) { return splat<Double8>(value); };
+  return {origin.x + u * num(light.ex.x) + v * num(light.ey.x),
+          origin.y + u * num(light.ex.y) + v * num(light.ey.y),
+          origin.z + u * num(light.ex.z) + v * num(light.ey.z)};
+}
+
+/// A point as the light is seen from it: world space, metres.
+struct Receiver3 {
+  glm::dvec3 to_origin{0.0};  ///< from the point to the light's origin
+  glm::dvec3 normal{0.0};     ///< unit
+};
+
+struct EdgeSums {
+  double area = 0;        ///< units of the light squared
+  double irradiance = 0;  ///< for radiance 1
+};
+
+/// Area and irradiance of the polygons with these edges, counter-clockwise seen from the light's front; edges
+/// that two polygons share cancel. Irradiance in Nishita and Nakamae's contour form (1985): -1/2 the sum over
+/// the edges of the angle an edge subtends times the cosine between normal and the plane of point and edge.
+/// The polygons lie above the receiver's horizon; the point not on the light's plane.
+/// The same bits on every target: each lane sums every eighth edge, and the lanes are added in one order.
+inline HWY_NOINLINE EdgeSums sum_edges(const LightEdges& edges, const LightFrame& light,
+                                       const Receiver3& at) {
+  const auto all = [](const glm::dvec3& a) { return splat3<Double8>(a.x, a.y, a.z); };
+  const Pack3<Double8> origin = all(at.to_origin), normal = all(at.normal);
+  const Double8 zero = splat<Double8>(0.0);
+  Double8 irradiance = zero, area = zero;
+  for (std::size_t k = 0; k < edges.count; k += 8) {
+    const Double8 u0 = load<Double8>(&edges.u0[k]), v0 = load<Double8>(&edges.v0[k]);
+    const Double8 u1 = load<Double8>(&edges.u1[k]), v1 = load<Double8>(&edges.v1[k]);
+    const Double8 term = contour_term(on_light(light, origin, u0, v0),
+                                      on_light(light, {zero, zero, zero}, u1 - u0, v1 - v0), normal);
+    const auto there = truth_of<double, 8>(edges.count - k < 8 ? (1u << (edges.count - k)) - 1u : 0xffu);
+    irradiance = irradiance - choose(there, term, zero);
+    area = area + choose(there, u0 * v1 - u1 * v0, zero);
+  }
+  return {ordered_total(area) * 0.5, ordered_total(irradiance) * 0.5};
+}
+
+}  // namespace tenebra::soft::HWY_NAMESPACE
+HWY_AFTER_NAMESPACE();
+
+#endif

@@ -1,0 +1,78 @@
+// Points that see the whole light, eight at a time. Included once per target.
+#if defined(TENEBRA_SOFT_WHOLE_LIGHT_INL_H_) == defined(HWY_TARGET_TOGGLE)
+#ifdef TENEBRA_SOFT_WHOLE_LIGHT_INL_H_
+#undef TENEBRA_SOFT_WHOLE_LIGHT_INL_H_
+#else
+#define TENEBRA_SOFT_WHOLE_LIGHT_INL_H_
+#endif
+
+#include "soft/polygon/irradiance-inl.h"
+
+HWY_BEFORE_NAMESPACE();
+namespace tenebra::soft::HWY_NAMESPACE {
+using namespace simd::HWY_NAMESPACE;
+
+/// The plane of a shading normal through points, met with the light's plane: a line a lane, positive above.
+struct HorizonLanes {
+  Double8 u, v, w;
+
+  /// Bits of the lanes where a part of the light is not above.
+  HWY_INLINE std::uint32_t cuts(const LightFrame& light) const {
+    const Double8 zero = splat<Double8>(0.0);
+    auto above = less(zero, splat<Double8>(1.0));
+    for (const glm::dvec2& at : light.outline)
+      above = above & less(zero, u * splat<Double8>(at.x) + v * splat<Double8>(at.y) + w);
+    return ~bits(above) & 0xffu;
+  }
+};
+HWY_INLINE HorizonLanes horizon_of(const LightFrame& light, const Pack3<Double8>& to_origin,
+                                   const Pack3<Double8>& normal) {
+  const auto all = [](const glm::dvec3& a) { return splat3<Double8>(a.x, a.y, a.z); };
+  return {product_of(normal, all(light.ex)), product_of(normal, all(light.ey)),
+          product_of(normal, to_origin)};
+}
+
+/// Up to eight points, a lane each.
+struct WholePoints {
+  std::size_t count = 0;
+  std::uint32_t pixels[8] = {};
+  double to_origin[3][8] = {}, normal[3][8] = {};  ///< as in Receiver3
+
+  bool full() const { return count == 8; }
+  void add(std::uint32_t pixel, const glm::dvec3& way, const glm::dvec3& n) {
+    for (int c = 0; c < 3; ++c) {
+      to_origin[c][count] = way[c];
+      normal[c][count] = n[c];
+    }
+    pixels[count++] = pixel;
+  }
+};
+
+/// The irradiance that a whole light sends to points, its outline above the planes that they lie on; bits of
+/// those for which this is so, as they are in front of the light, which is above their normals' horizons.
+inline HWY_NOINLINE std::uint32_t irradiance_of_whole(const LightFrame& light, const WholePoints& at,
+                                                      double* irradiance) {
+  const auto num = [](double value) { return splat<Double8>(value); };
+  const auto lanes = [](const double(&from)[3][8]) {
+    return Pack3<Double8>{load<Double8>(from[0]), load<Double8>(from[1]), load<Double8>(from[2])};
+  };
+  const Pack3<Double8> origin = lanes(at.to_origin), normal = lanes(at.normal);
+  Double8 sum = num(0.0);
+  for (std::size_t k = 0; k < light.outline.size(); ++k) {
+    const glm::dvec2 a = light.outline[k], b = light.outline[(k + 1) % light.outline.size()];
+    const glm::dvec3 from = a.x * light.ex + a.y * light.ey,
+                     along = (b.x - a.x) * light.ex + (b.y - a.y) * light.ey;
+    const Pack3<Double8> r{origin.x + num(from.x), origin.y + num(from.y), origin.z + num(from.z)};
+    const Pack3<Double8> e{num(along.x), num(along.y), num(along.z)};
+    sum = sum - contour_term(r, e, normal);
+  }
+  store(num(0.5) * sum, irradiance);
+  const glm::dvec3& n = light.normal;
+  const std::uint32_t in_front = less_bits(product_of(origin, splat3<Double8>(n.x, n.y, n.z)), num(0.0));
+  return in_front & ~horizon_of(light, origin, normal).cuts(light) & ((1u << at.count) - 1u);
+}
+
+}  // namespace tenebra::soft::HWY_NAMESPACE
+HWY_AFTER_NAMESPACE();
+
+#endif

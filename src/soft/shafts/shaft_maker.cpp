@@ -1,0 +1,122 @@
+#undef HWY_TARGET_INCLUDE
+#define HWY_TARGET_INCLUDE "soft/shafts/shaft_maker.cpp"
+#include <hwy/foreach_target.h>
+// After foreach_target.h
+#include <cmath>
+#include "simd/dispatch.h"
+
+#include "soft/polygon/vector_lanes-inl.h"
+#include "soft/shafts/shaft.h"
+
+HWY_BEFORE_NAMESPACE();
+namespace tenebra::soft::HWY_NAMESPACE {
+using namespace simd::HWY_NAMESPACE;
+
+namespace {
+
+using glm::dvec3;
+
+// The corner of the cell, and the vertex of the light, farthest along m.
+HWY_INLINE Vector8 farthest(const Cell& cell, const Vector8& m) {
+  Vector8 corner = all(cell.centre);
+  for (const dvec3& a : cell.axis) {
+    const Vector8 axis = all(a);
+    corner = corner + choose3(less(all(0.0), product(m, axis)), axis, all(-a));
+  }
+  return corner;
+}
+HWY_INLINE Vector8 farthest(const LightShape& light, const Vector8& m) {
+  Vector8 best = all(light.vertices[0]);
+  Double8 most = product(m, best);
+  for (int k = 1; k < light.count; ++k) {
+    const Vector8 vertex = all(light.vertices[k]);
+    const Double8 along = product(m, vertex);
+    const auto more = less(most, along);
+    best = choose3(more, vertex, best), most = choose(more, along, most);
+  }
+  return best;
+}
+
+// The two planes parallel to each edge of the cell that touch cell and light, and the light's own. The
+// touching corners are searched from the normal across the line between the centres; each step turns the
+// plane towards them.
+HWY_INLINE Vector8 tangents(const Cell& cell, const LightShape& light) {
+  double lanes[3][8] = {};
+  for (int k = 0; k < 3; ++k)
+    for (int axis = 0; axis < 3; ++axis) {
+      lanes[axis][2 * k] = cell.axis[k][axis];
+      lanes[axis][2 * k + 1] = -cell.axis[k][axis];
+    }
+  const Vector8 along{load<Double8>(lanes[0]), load<Double8>(lanes[1]), load<Double8>(lanes[2])};
+  Vector8 m = cross(along, all(cell.centre));
+  for (int step = 0; step < 2; ++step) m = cross(along, farthest(cell, m) - farthest(light, m));
+  const auto own = truth_of<double, 8>(1u << 6);
+  return choose3(own, all(-light.normal), m);
+}
+
+// The planes through edges `first` to first + 7 of the light that touch the cell: m = o - t normal, t the
+// largest (x.o) / (x.normal) of the corners x seen from the edge.
+HWY_INLINE Vector8 light_edges(const Cell& cell, const LightShape& light, int first) {
+  const Vector8 o{load<Double8>(light.across[0] + first), load<Double8>(light.across[1] + first),
+                  load<Double8>(light.across[2] + first)};
+  const Double8 at_edge = load<Double8>(light.at_edge + first);
+  Double8 t = all(-INFINITY);
+  for (int k = 0; k < 8; ++k) {
+    const dvec3 corner = cell.centre + (k & 1 ? cell.axis[0] : -cell.axis[0]) +
+                         (k & 2 ? cell.axis[1] : -cell.axis[1]) + (k & 4 ? cell.axis[2] : -cell.axis[2]);
+    const double height = glm::dot(corner, light.normal);
+    if (!(height > 0)) return all(dvec3(0));
+    t = max(t, (product(o, all(corner)) - at_edge) * all(1 / height));
+  }
+  return subtract_scaled(o, t, all(light.normal));
+}
+
+// Any m gives a valid plane: its limit is the farthest that the shaft reaches along m.
+HWY_INLINE void add_planes(const Vector8& m_unscaled, Shaft& shaft) {
+  const Double8 size = absolute(m_unscaled.x) + absolute(m_unscaled.y) + absolute(m_unscaled.z);
+  const auto there = less(all(0x1p-900), size) & less(size, all(0x1p900));
+  const Double8 scale = choose(there, all(1 - 0x1p-50) / choose(there, size, all(1)), all(0));
+  const Vector8 m = scale * m_unscaled;
+  Double8 most = product(m, all(shaft.cell.centre)) + all(shaft.cell.slack);
+  for (const dvec3& a : shaft.cell.axis) most = most + absolute(product(m, all(a)));
+  for (int k = 0; k < shaft.light->count; ++k) most = max(most, product(m, all(shaft.light->vertices[k])));
+  most = most + all(0x1p-49 * (shaft.cell.reach + shaft.light->reach + largest(shaft.light->origin)));
+  double x[8], y[8], z[8], limit[8];
+  store(m.x, x), store(m.y, y), store(m.z, z), store(most, limit);
+  const std::uint32_t valid = bits(there);
+  for (int k = 0; k < 8; ++k)
+    if ((valid >> k & 1) != 0) shaft.planes[shaft.plane_count++] = {{x[k], y[k], z[k]}, limit[k]};
+}
+
+Shaft shaft_around(const Cell& cell, const LightShape& light) {
+  Shaft shaft;
+  shaft.cell = cell;
+  shaft.light = &light;
+  const dvec3 half = glm::abs(cell.axis[0]) + glm::abs(cell.axis[1]) + glm::abs(cell.axis[2]);
+  const double margin = cell.slack + 0x1p-49 * (cell.reach + light.reach + largest(light.origin));
+  shaft.low = glm::min(light.low, cell.centre - half) - margin;
+  shaft.high = glm::max(light.high, cell.centre + half) + margin;
+  for (int first = 0; first < light.count; first += 8) add_planes(light_edges(cell, light, first), shaft);
+  add_planes(tangents(cell, light), shaft);
+  return shaft;
+}
+
+}  // namespace
+
+ShaftMaker shaft_maker() {
+  return shaft_around;
+}
+
+}  // namespace tenebra::soft::HWY_NAMESPACE
+HWY_AFTER_NAMESPACE();
+
+#if HWY_ONCE
+
+namespace tenebra::soft {
+
+ShaftMaker shaft_maker(SimdLevel level) {
+  return TENEBRA_DISPATCH(level, shaft_maker)();
+}
+
+}  // namespace tenebra::soft
+#endif

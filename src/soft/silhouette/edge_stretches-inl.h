@@ -1,0 +1,173 @@
+// The stretches of an outline's edges on a convex part of the light, and where they cross its sides. Included
+// once per target.
+#if defined(TENEBRA_SOFT_EDGE_STRETCHES_INL_H_) == defined(HWY_TARGET_TOGGLE)
+#ifdef TENEBRA_SOFT_EDGE_STRETCHES_INL_H_
+#undef TENEBRA_SOFT_EDGE_STRETCHES_INL_H_
+#else
+#define TENEBRA_SOFT_EDGE_STRETCHES_INL_H_
+#endif
+
+#include <algorithm>
+#include <bit>
+#include <cmath>
+#include <vector>
+
+#include "soft/silhouette/outline_windings-inl.h"
+
+HWY_BEFORE_NAMESPACE();
+namespace tenebra::soft::HWY_NAMESPACE {
+using namespace simd::HWY_NAMESPACE;
+
+/// Whether both ends lie on different sides of a line, as far as rounding cannot decide, by their values; and
+/// whether they might.
+template <class T>
+HWY_INLINE Truth<T, 16> parted(Pack<T, 16> a, Pack<T, 16> b, Pack<T, 16> margin) {
+  return less(min(a, b), splat<Pack<T, 16>>(T(0)) - margin) & less(margin, max(a, b));
+}
+template <class T>
+HWY_INLINE Truth<T, 16> maybe_parted(Pack<T, 16> a, Pack<T, 16> b, Pack<T, 16> margin) {
+  return less(min(a, b), margin) & less(splat<Pack<T, 16>>(T(0)) - margin, max(a, b));
+}
+
+/// Where the winding changes along an edge or a side.
+template <class T>
+struct WindingChange {
+  double share;  ///< of the way along it; of sides: behind their number
+  glm::dvec2 at;
+  T change;
+};
+template <class T>
+void sort_along(std::vector<WindingChange<T>>& changes) {
+  std::sort(changes.begin(), changes.end(),
+            [](const WindingChange<T>& a, const WindingChange<T>& b) { return a.share < b.share; });
+}
+
+/// Decisions are about the part without a seam along its sides that is wider than rounding, if the part is
+/// wider than a sixteenth: edges that run along a side, as where something next to the outline has been cut
+/// out, do not leave anything open. Places are on the part's own sides.
+template <class T>
+class EdgeStretches {
+public:
+  using Lanes = Pack<T, 16>;
+
+  std::vector<T> from_u, from_v, to_u, to_v;  ///< their ends
+  std::vector<T> margin;                      ///< doubt_beside the edges
+  /// Bits of a block of sixteen: edges with a stretch; and those where rounding might decide where it ends.
+  struct Block {
+    std::uint32_t there = 0, unsure = 0;
+  };
+  std::vector<Block> blocks;
+  std::vector<WindingChange<T>> side_changes;  ///< in order along the sides, counter-clockwise
+
+  /// Of the edges from place `first` on.
+  HWY_NOINLINE void find(const OutlineEdges<T>& edges, std::size_t first, T slack,
+                         const LightPolygon<T>& part) {
+    take_up(part, slack);
+    blocks.assign((edges.count - first + 15) / 16, {});
+    side_changes.clear();
+    if (const std::size_t room = 16 * blocks.size(); from_u.size() < room)
+      for (auto* values : {&from_u, &from_v, &to_u, &to_v, &margin}) values->resize(2 * room);
+    for (std::size_t b = 0; b < blocks.size(); ++b) {
+      const std::size_t i = first + 16 * b;
+      clip(edges.lanes_from(i), bits(lanes_below<T>(edges.count - i)), b);
+    }
+    sort_along(side_changes);
+  }
+
+  int sides() const { return sides_; }
+  glm::dvec2 vertex(int k) const { return {u_[k], v_[k]}; }
+  /// The place where the walk along the sides begins.
+  T begin_u() const { return inner_u_[0]; }
+  T begin_v() const { return inner_v_[0]; }
+
+  glm::dvec2 from(std::size_t i) const { return {from_u[i], from_v[i]}; }
+  glm::dvec2 to(std::size_t i) const { return {to_u[i], to_v[i]}; }
+
+private:
+  static HWY_INLINE Lanes num(T value) { return splat<Lanes>(value); }
+
+  void take_up(const LightPolygon<T>& part, T slack) {
+    near_ = on_line<T> + slack;
+    store(part.x, u_);
+    store(part.y, v_);
+    sides_ = part.count;
+    u_[sides_] = u_[0], v_[sides_] = v_[0];
+    T u = 0, v = 0;
+    for (int k = 0; k < sides_; ++k) {
+      u += u_[k];
+      v += v_[k];
+    }
+    const T seam = 32 * near_;  // of the way to the middle
+    for (int k = 0; k <= sides_; ++k) {
+      inner_u_[k] = u_[k] - seam * (u_[k] - u / static_cast<T>(sides_));
+      inner_v_[k] = v_[k] - seam * (v_[k] - v / static_cast<T>(sides_));
+    }
+  }
+
+  HWY_NOINLINE void clip(const OutlineLanes<T>& e, std::uint32_t lanes, std::size_t b) {
+    const Lanes zero = num(0), one = num(1), beside = doubt_beside(e.u, e.v, near_ - on_line<T>);
+    const Lanes far_u = max(absolute(e.from_u), absolute(e.to_u)) + one,
+                far_v = max(absolute(e.from_v), absolute(e.to_v)) + one;
+    OutlineLanes<T> s = e;
+    Lanes left = zero;  // how often a ray from the lower end towards +u leaves the part
+    std::uint32_t unsure = 0, met = 0;
+    Lanes here = value_at(e, inner_u_[0], inner_v_[0]);
+    for (int k = 0; k < sides_; ++k) {
+      const T u = inner_u_[k], v = inner_v_[k], next_v = inner_v_[k + 1], du = inner_u_[k + 1] - u,
+              dv = next_v - v;
+      const auto inside_of = [&](Lanes pu, Lanes pv) {
+        return num(du) * (pv - num(v)) - num(dv) * (pu - num(u));
+      };
+      const Lanes next = value_at(e, inner_u_[k + 1], next_v);
+      const Lanes f = inside_of(e.from_u, e.from_v), g = inside_of(e.to_u, e.to_v);
+      const Lanes reach = num(near_) * (num(std::abs(dv)) * far_u + num(std::abs(du)) * far_v);
+      const std::uint32_t crosses = lanes & bits(parted(here, next, beside) & parted(f, g, reach));
+      unsure |= lanes & ~crosses & bits(maybe_parted(here, next, beside) & maybe_parted(f, g, reach));
+      const auto rises = not_above(num(v), e.from_v) & less(e.from_v, num(next_v)) & less(zero, f);
+      const auto falls = not_above(num(next_v), e.from_v) & less(e.from_v, num(v)) & less(f, zero);
+      left = choose(rises | falls, left + one, left);
+      if (crosses != 0) end_at_side(k, e, crosses, crosses & less_bits(f, zero), s);
+      met |= crosses;
+      here = next;
+    }
+    store(s.from_u, &from_u[16 * b]), store(s.from_v, &from_v[16 * b]);
+    store(s.to_u, &to_u[16 * b]), store(s.to_v, &to_v[16 * b]);
+    store(beside, &margin[16 * b]);
+    blocks[b] = {(lanes & bits(equal(left, one))) | met | unsure, unsure};
+  }
+
+  static HWY_INLINE Lanes value_at(const OutlineLanes<T>& e, T u, T v) {
+    return e.u * num(u) + e.v * num(v) + e.w;
+  }
+
+  /// Lets the stretches `crosses` begin (`enters`) or end at side k.
+  HWY_INLINE void end_at_side(int k, const OutlineLanes<T>& e, std::uint32_t crosses, std::uint32_t enters,
+                              OutlineLanes<T>& stretches) {
+    const Lanes zero = num(0), here = value_at(e, u_[k], v_[k]), next = value_at(e, u_[k + 1], v_[k + 1]);
+    const Lanes share = min(max(here / (here - next), zero), num(1));
+    const Lanes u = num(u_[k]) + share * num(u_[k + 1] - u_[k]),
+                v = num(v_[k]) + share * num(v_[k + 1] - v_[k]);
+    const auto begins = truth_of<T, 16>(enters), ends = truth_of<T, 16>(crosses & ~enters);
+    stretches.from_u = choose(begins, u, stretches.from_u),
+    stretches.from_v = choose(begins, v, stretches.from_v);
+    stretches.to_u = choose(ends, u, stretches.to_u), stretches.to_v = choose(ends, v, stretches.to_v);
+    // Counter-clockwise, the side leads to the left of an edge that leaves the part.
+    T shares[16], us[16], vs[16], changes[16];
+    store(share, shares), store(u, us), store(v, vs);
+    store(choose(begins, zero - e.winding, e.winding), changes);
+    for (; crosses != 0; crosses &= crosses - 1) {
+      const int i = std::countr_zero(crosses);
+      side_changes.push_back({k + static_cast<double>(shares[i]), {us[i], vs[i]}, changes[i]});
+    }
+  }
+
+  T near_ = 0;  ///< what rounding can amount to, units of the light
+  int sides_ = 0;
+  T u_[polygon_capacity + 1], v_[polygon_capacity + 1];  ///< the part; its first vertex again
+  T inner_u_[polygon_capacity + 1], inner_v_[polygon_capacity + 1];
+};
+
+}  // namespace tenebra::soft::HWY_NAMESPACE
+HWY_AFTER_NAMESPACE();
+
+#endif

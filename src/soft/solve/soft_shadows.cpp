@@ -1,0 +1,223 @@
+#include <tenebra/soft_shadows.h>
+
+#include <algorithm>
+#include <array>
+#include <utility>
+
+#include "base/stopwatch.h"
+#include "parallel/parallel.h"
+#include "soft/groups/point_groups.h"
+#include "soft/light/light_frame.h"
+#include "soft/occluders/family_candidates.h"
+#include "soft/shafts/shafts.h"
+#include "soft/solve/group_solver.h"
+
+namespace tenebra {
+
+namespace {
+
+constexpr std::array<std::pair<SoftSolver, std::string_view>, 3> solver_names = {{
+    {SoftSolver::automatic, "auto"},
+    {SoftSolver::bsp, "bsp"},
+    {SoftSolver::clip, "clip"},
+}};
+
+/// Candidates of a group, on average, from which on those of a family are made ready together (measured).
+constexpr std::size_t many_candidates = 1024;
+static_assert(soft::largest_family <= soft::FamilyCandidates::most_groups);
+
+/// What one thread keeps: its solver, and of the family at hand the groups that need it.
+struct alignas(64) Worker {
+  std::unique_ptr<soft::GroupSolver> solver;
+  std::vector<std::span<const std::uint32_t>> lit;  ///< pixels of each
+  std::vector<const soft::PointGroup*> mixed;
+  std::vector<std::span<const std::uint32_t>> candidates;  ///< of each
+  std::vector<std::vector<std::uint32_t>> receivers;       ///< of each
+  std::vector<soft::GroupTask> tasks;
+};
+
+/// The frame of several groups.
+soft::GroupFrame frame_of(std::span<const soft::PointGroup* const> of, const soft::PointGroups& groups,
+                          std::vector<std::uint32_t>& receivers) {
+  soft::GroupFrame frame;
+  glm::dvec3 low = of[0]->low, high = of[0]->high;
+  receivers.clear();
+  for (const soft::PointGroup* group : of) {
+    low = glm::min(low, group->low), high = glm::max(high, group->high);
+    for (const soft::Receiver& receiver : groups.receivers_of(*group)) {
+      receivers.push_back(receiver.triangle);
+      frame.receiver_tau = std::max(frame.receiver_tau, receiver.tau);
+    }
+  }
+  if (of.size() > 1) {
+    std::sort(receivers.begin(), receivers.end());
+    receivers.erase(std::unique(receivers.begin(), receivers.end()), receivers.end());
+  }
+  frame.centre = 0.5 * (low + high);
+  frame.half = glm::max(high - frame.centre, frame.centre - low);
+  frame.receivers = receivers;
+  return frame;
+}
+
+}  // namespace
+
+std::string_view soft_solver_name(SoftSolver solver) {
+  for (const auto& [candidate, name] : solver_names) {
+    if (candidate == solver) return name;
+  }
+  return {};
+}
+
+std::optional<SoftSolver> soft_solver_from_name(std::string_view name) {
+  for (const auto& [solver, candidate] : solver_names) {
+    if (candidate == name) return solver;
+  }
+  return std::nullopt;
+}
+
+struct SoftShadowTracer::State {
+  soft::PointGroups groups;
+  soft::ShaftCuller culler;
+  std::vector<Worker> workers;
+  SimdLevel level = SimdLevel::automatic;
+  std::vector<std::uint8_t> classes;
+  SoftStats stats;
+  FrameTimings timings;
+
+  void prepare(const SoftShadowConfig& config);
+  void clear_pixels(const VisiblePoints& points, SoftMask& out);
+  void solve_family(const soft::SoftFrame& frame, std::span<const soft::GroupDecision> family,
+                    Worker& worker);
+  void sort_out(const soft::SoftFrame& frame, const soft::GroupDecision& decision, Worker& worker);
+  void solve_mixed(const soft::SoftFrame& frame, Worker& worker);
+  void gather();
+};
+
+void SoftShadowTracer::State::prepare(const SoftShadowConfig& config) {
+  if (workers.size() != static_cast<std::size_t>(thread_count()) || level != config.simd) {
+    workers.clear();
+    workers.resize(static_cast<std::size_t>(thread_count()));
+    level = config.simd;
+  }
+  for (Worker& worker : workers) {
+    if (!worker.solver) worker.solver = soft::make_group_solver(level);
+    worker.solver->stats = {};
+    worker.solver->times = {};
+  }
+  stats = {};
+  timings = {};
+}
+
+void SoftShadowTracer::State::clear_pixels(const VisiblePoints& points, SoftMask& out) {
+  const std::size_t pixels = points.triangles.size();
+  out.visible_fraction.resize(pixels);
+  out.irradiance.resize(pixels);
+  classes.resize(pixels);
+  parallel::parallel_ranges(pixels, 1 << 16, [&](std::size_t first, std::size_t last) {
+    std::fill(&out.visible_fraction[first], &out.visible_fraction[0] + last, 0.0f);
+    std::fill(&out.irradiance[first], &out.irradiance[0] + last, 0.0f);
+    for (std::size_t i = first; i < last; ++i)
+      classes[i] = static_cast<std::uint8_t>(points.triangles[i] == no_triangle ? SoftClass::background
+                                                                                : SoftClass::below_horizon);
+  });
+}
+
+void SoftShadowTracer::State::solve_family(const soft::SoftFrame& frame,
+                                           std::span<const soft::GroupDecision> family, Worker& worker) {
+  worker.lit.clear(), worker.mixed.clear(), worker.candidates.clear();
+  for (const soft::GroupDecision& decision : family) sort_out(frame, decision, worker);
+  if (!worker.lit.empty()) worker.solver->solve_lit(frame, worker.lit);
+  if (!worker.mixed.empty()) solve_mixed(frame, worker);
+}
+
+void SoftShadowTracer::State::sort_out(const soft::SoftFrame& frame, const soft::GroupDecision& decision,
+                                       Worker& worker) {
+  const soft::PointGroup& group = *decision.group;
+  const auto pixels = groups.pixels_of(group);
+  const auto behind = static_cast<std::size_t>(groups.groups.data() + groups.groups.size() - &group);
+  worker.solver->expect(frame, groups.pixels_of(behind > 1 ? *(&group + 1) : group),
+                        groups.pixels_of(behind > 2 ? *(&group + 2) : group));
+  if (decision.kind == soft::GroupClass::dark) {
+    for (const std::uint32_t pixel : pixels) classes[pixel] = static_cast<std::uint8_t>(SoftClass::dark);
+    worker.solver->stats.points_dark += pixels.size();
+  } else if (decision.kind == soft::GroupClass::lit) {
+    worker.lit.push_back(pixels);
+  } else {
+    worker.mixed.push_back(&group);
+    worker.candidates.push_back(decision.candidates);
+  }
+}
+
+void SoftShadowTracer::State::solve_mixed(const soft::SoftFrame& frame, Worker& worker) {
+  const std::size_t count = worker.mixed.size();
+  if (worker.receivers.size() < count + 1) worker.receivers.resize(count + 1);
+  std::size_t candidates = 0;
+  worker.tasks.clear();
+  for (std::size_t i = 0; i < count; ++i) {
+    worker.tasks.push_back({groups.pixels_of(*worker.mixed[i]),
+                            frame_of({&worker.mixed[i], 1}, groups, worker.receivers[i]),
+                            worker.candidates[i]});
+    candidates += worker.candidates[i].size();
+  }
+  worker.solver->stats.candidates += candidates;
+  if (frame.config.solver == SoftSolver::automatic && count > 1 && candidates > many_candidates * count) {
+    worker.solver->solve_together(frame, frame_of(worker.mixed, groups, worker.receivers[count]),
+                                  worker.tasks);
+  } else {
+    for (const soft::GroupTask& task : worker.tasks) worker.solver->solve(frame, task);
+  }
+}
+
+void SoftShadowTracer::State::gather() {
+  const double threads = std::max<double>(1, static_cast<double>(workers.size()));
+  std::uint64_t tree_bytes = 0;  // a thread holds one tree at a time
+  for (const Worker& worker : workers) {
+    stats += worker.solver->stats;
+    tree_bytes += worker.solver->stats.peak_tree_bytes;
+    timings.init_ms += worker.solver->times.init_ms / threads;
+    timings.query_ms += worker.solver->times.query_ms / threads;
+    timings.irradiance_ms += worker.solver->times.irradiance_ms / threads;
+  }
+  stats.peak_tree_bytes = tree_bytes;
+  stats.groups = groups.groups.size();
+  timings.shaft_ms += culler.stats().seconds * 1e3 / threads;
+}
+
+SoftShadowTracer::SoftShadowTracer() : state_(std::make_unique<State>()) {}
+SoftShadowTracer::SoftShadowTracer(SoftShadowTracer&&) noexcept = default;
+SoftShadowTracer& SoftShadowTracer::operator=(SoftShadowTracer&&) noexcept = default;
+SoftShadowTracer::~SoftShadowTracer() = default;
+
+// Mora et al. 2012, Algorithm 2, with groups of points in the place of visible triangles.
+bool SoftShadowTracer::trace(const VisiblePoints& points, std::span<const glm::vec3> normals,
+                             const ViewRays& view, const TriangleView& triangles, const AreaLight& light,
+                             const SoftShadowConfig& config, SoftMask& out, const StopFlag* stop) {
+  const parallel::FloatEnvironment ieee;
+  State& s = *state_;
+  s.prepare(config);
+  s.clear_pixels(points, out);
+  base::Stopwatch watch;
+  soft::group_points(points, view, triangles, light, config.grouping, s.groups, config.simd);
+  s.timings.shaft_ms = watch.lap_ms();
+
+  const soft::LightFrame frame_of_light = soft::light_frame(light);
+  const soft::SoftFrame frame{points, normals, view, triangles, frame_of_light, config, out, s.classes, stop};
+  const bool done = s.culler.for_each_family(
+      s.groups, triangles, light, config, stop, [&](std::span<const soft::GroupDecision> family, int thread) {
+        s.solve_family(frame, family, s.workers[static_cast<std::size_t>(thread)]);
+      });
+  s.gather();
+  return done;
+}
+
+const SoftStats& SoftShadowTracer::stats() const {
+  return state_->stats;
+}
+const FrameTimings& SoftShadowTracer::timings() const {
+  return state_->timings;
+}
+std::span<const std::uint8_t> SoftShadowTracer::classes() const {
+  return state_->classes;
+}
+
+}  // namespace tenebra

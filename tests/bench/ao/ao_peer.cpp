@@ -1,0 +1,80 @@
+#include "bench/ao/ao_peer.h"
+
+#include <embree3/rtcore.h>
+
+#include <algorithm>
+#include <cmath>
+
+namespace tenebra::bench {
+namespace {
+
+RTCRayHit ray_of(glm::vec3 o, glm::vec3 d, float from, float to) {
+  RTCRayHit ray{};
+  ray.ray = {o.x, o.y, o.z, from, d.x, d.y, d.z, 0, to, ~0u, 0, 0};
+  ray.hit.geomID = RTC_INVALID_GEOMETRY_ID;
+  ray.hit.instID[0] = RTC_INVALID_GEOMETRY_ID;
+  return ray;
+}
+
+void trace_single(RTCScene scene, const ao::RayBatch& rays, float from, float* distance) {
+  RTCIntersectContext context;
+  rtcInitIntersectContext(&context);
+  for (int i = 0; i < ao::batch_size; ++i) {
+    RTCRayHit ray = ray_of(rays.origin(i), rays.direction(i), from, distance[i]);
+    rtcIntersect1(scene, &context, &ray);
+    distance[i] = ray.ray.tfar;
+  }
+}
+
+void trace_packet(RTCScene scene, const ao::RayBatch& rays, float from, bool coherent, float* distance) {
+  RTCIntersectContext context;
+  rtcInitIntersectContext(&context);
+  if (coherent) context.flags = RTC_INTERSECT_CONTEXT_FLAG_COHERENT;
+  RTCRayHit16 packet;
+  alignas(64) int valid[ao::batch_size];
+  std::fill(valid, valid + ao::batch_size, -1);
+  const auto copy = [](const float* from_row, float* to) {
+    std::copy(from_row, from_row + ao::batch_size, to);
+  };
+  copy(rays.ox, packet.ray.org_x), copy(rays.oy, packet.ray.org_y), copy(rays.oz, packet.ray.org_z);
+  copy(rays.dx, packet.ray.dir_x), copy(rays.dy, packet.ray.dir_y), copy(rays.dz, packet.ray.dir_z);
+  copy(distance, packet.ray.tfar);
+  std::fill(packet.ray.tnear, packet.ray.tnear + ao::batch_size, from);
+  std::fill(packet.ray.time, packet.ray.time + ao::batch_size, 0.0f);
+  std::fill(packet.ray.mask, packet.ray.mask + ao::batch_size, ~0u);
+  std::fill(packet.ray.flags, packet.ray.flags + ao::batch_size, 0u);
+  std::fill(packet.hit.geomID, packet.hit.geomID + ao::batch_size, RTC_INVALID_GEOMETRY_ID);
+  std::fill(packet.hit.instID[0], packet.hit.instID[0] + ao::batch_size, RTC_INVALID_GEOMETRY_ID);
+  rtcIntersect16(valid, scene, &context, &packet);
+  copy(packet.ray.tfar, distance);
+}
+
+}  // namespace
+
+AoPeer::AoPeer(const Object& object) : AoPeer(TriangleView{object.positions, object.triangles, {}}) {}
+
+AoPeer::AoPeer(const TriangleView& triangles) : scene_(triangles, false), build_ms_(watch_.lap_ms()) {}
+
+PeerHit AoPeer::nearest(glm::vec3 origin, glm::vec3 direction) const {
+  RTCIntersectContext context;
+  rtcInitIntersectContext(&context);
+  RTCRayHit ray = ray_of(origin, direction, 0, std::numeric_limits<float>::infinity());
+  rtcIntersect1(scene_.get(), &context, &ray);
+  if (ray.hit.geomID == RTC_INVALID_GEOMETRY_ID) return {};
+  return {ray.ray.tfar, {ray.hit.Ng_x, ray.hit.Ng_y, ray.hit.Ng_z}};
+}
+
+Tracer AoPeer::single_rays(float from) const {
+  return [scene = scene_.get(), from](std::span<const ao::RayBatch> rays, float* t) {
+    for (std::size_t b = 0; b < rays.size(); ++b) trace_single(scene, rays[b], from, t + b * ao::batch_size);
+  };
+}
+
+Tracer AoPeer::packets(bool coherent, float from) const {
+  return [scene = scene_.get(), from, coherent](std::span<const ao::RayBatch> rays, float* t) {
+    for (std::size_t b = 0; b < rays.size(); ++b)
+      trace_packet(scene, rays[b], from, coherent, t + b * ao::batch_size);
+  };
+}
+
+}  // namespace tenebra::bench

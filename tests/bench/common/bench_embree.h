@@ -1,0 +1,36 @@
+// Embree's scenes for the contestants: all triangles of a frame, or those that cast shadows.
+#pragma once
+
+#include <embree3/rtcore.h>
+
+#include <cstdint>
+#include <vector>
+
+#include <tenebra/visible_points.h>
+
+namespace tenebra::bench {
+
+/// A device and one scene, built once at the highest quality (building is not measured). primID is the
+/// triangle's id in `ids`, or in the view where `ids` is empty.
+class EmbreeScene {
+public:
+  EmbreeScene(const TriangleView& triangles, bool only_casters);
+  ~EmbreeScene();
+  EmbreeScene(const EmbreeScene&) = delete;
+  EmbreeScene& operator=(const EmbreeScene&) = delete;
+
+  RTCScene get() const { return scene_; }
+  /// Id in the view of the triangle that Embree calls `prim`.
+  std::uint32_t id_of(std::uint32_t prim) const { return ids_[prim]; }
+
+private:
+  RTCDevice device_;
+  RTCScene scene_;
+  std::vector<std::uint32_t> ids_;
+};
+
+/// What each pixel's ray meets first beyond the near plane; no_triangle: nothing. On all threads.
+std::vector<std::uint32_t> nearest_triangles(const TriangleView& triangles, const ViewRays& view, int width,
+                                             int height);
+
+}  // namespace tenebra::bench

@@ -1,0 +1,68 @@
+#include <fmt/format.h>
+
+#include "bench/common/bench_parts.h"
+
+#include <cstdio>
+#include <memory>
+
+#include "base/fail.h"
+#include "base/machine.h"
+#include "parallel/parallel.h"
+
+namespace tenebra::bench {
+namespace {
+
+Expected<void> check(const PartsArguments& arguments, const std::vector<std::string>& names) {
+  const BenchOptions& o = arguments.options;
+  if (o.threads < 0) return base::fail("--threads: found {}, expected 0 (all cores) or more", o.threads);
+  std::error_code ignored;
+  if (!o.data.empty() && !std::filesystem::is_directory(o.data, ignored))
+    return base::fail("--data: {} is not a folder, expected the folder of robots, museum and kitchen",
+                      o.data.string());
+  for (const std::string& name : arguments.only) {
+    if (std::find(names.begin(), names.end(), name) == names.end())
+      return base::fail("--only: found {}, expected {}", name, fmt::join(names, ", "));
+  }
+  return Report(o.csv).check();
+}
+
+Expected<void> run_parts(const PartsArguments& arguments, const std::vector<std::string>& names,
+                         const std::function<Expected<void>(const PartsArguments&)>& measure) {
+  if (auto fine = check(arguments, names); !fine) return fine;
+  Expected<void> done;
+  with_threads(arguments.options.threads, [&] {
+    std::printf("%s; threads: %d, simd: %s\n", base::machine_description().c_str(), thread_count(),
+                std::string(simd_level_name(best_simd_level())).c_str());
+    done = measure(arguments);
+  });
+  return done;
+}
+
+}  // namespace
+
+CLI::App& add_parts_command(CLI::App& program, Run& run, CommandName name,
+                            const std::vector<std::string>& names,
+                            const std::function<Expected<void>(const PartsArguments&)>& measure) {
+  CLI::App* command = program.add_subcommand(name.name, name.help);
+  const auto arguments = std::make_shared<PartsArguments>();
+  add_bench_options(*command, arguments->options);
+  command->add_option("--only", arguments->only, fmt::format("Some parts: {} [all]", fmt::join(names, ", ")))
+      ->type_name("PART,...")
+      ->delimiter(',');
+  command->add_flag("--tiny", arguments->tiny, "Check that all parts run; the figures mean nothing");
+  command->callback(
+      [arguments, names, measure, &run] { run = [=] { return run_parts(*arguments, names, measure); }; });
+  return *command;
+}
+
+std::vector<std::string> parts_settings(const PartsArguments& arguments, SimdLevel simd) {
+  const SimdLevel level = simd == SimdLevel::automatic ? best_simd_level() : simd;
+  return {fmt::format("threads: {}", thread_count()), fmt::format("simd: {}", simd_level_name(level)),
+          fmt::format("quick: {}", arguments.options.quick)};
+}
+
+void print_headline(const std::string& name, const std::optional<double>& value, int digits) {
+  std::printf("%s: %s\n", name.c_str(), value ? fmt::format("{:.{}f}", *value, digits).c_str() : "nan");
+}
+
+}  // namespace tenebra::bench

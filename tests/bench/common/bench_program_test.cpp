@@ -1,0 +1,147 @@
+// tenebra-bench as a program: it starts, refuses what it cannot do in a sentence, and ends with the lines
+// that scripts read.
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cmath>
+#include <cstdlib>
+
+#include "support/child_process.h"
+#include "support/temporary_folder.h"
+
+namespace tenebra::bench {
+namespace {
+
+testing::ProgramResult bench(std::vector<std::string> arguments) {
+  arguments.insert(arguments.begin(), TENEBRA_BENCH);
+  return testing::run_program(arguments);
+}
+
+void expect_refusal(const std::vector<std::string>& arguments, const std::string& sentence) {
+  const auto result = bench(arguments);
+  EXPECT_NE(result.exit_code, 0);
+  EXPECT_LT(result.exit_code, 128) << "ended by a signal";
+  EXPECT_NE(result.errors.find(sentence), std::string::npos) << result.errors;
+  EXPECT_EQ(std::count(result.errors.begin(), result.errors.end(), '\n'), 1) << result.errors;
+}
+
+/// Value of the line "name: value"; NaN where it says nan or is missing.
+double figure(const std::string& output, const std::string& name, bool& found) {
+  const std::size_t at = output.find("\n" + name + ": ");
+  found = at != std::string::npos;
+  return found ? std::strtod(output.c_str() + at + name.size() + 3, nullptr) : NAN;
+}
+
+TEST(BenchProgram, RefusesInASentence) {
+  expect_refusal({}, "subcommand is required");
+  expect_refusal({"soft", "--bogus"}, "--bogus");
+  expect_refusal({"soft", "--threads", "-1"}, "--threads: found -1, expected 0 (all cores) or more");
+  expect_refusal({"soft", "--threads", "many"}, "many");
+  expect_refusal({"soft", "--csv"}, "--csv");
+  expect_refusal({"soft", "--data", "/nowhere/at/all"}, "--data: /nowhere/at/all is not a folder");
+  expect_refusal({"soft", "--pictures", "/nowhere/at/all"}, "--pictures: /nowhere/at/all is not a folder");
+  expect_refusal({"soft", "--csv", "/nowhere/at/all.csv"}, "/nowhere/at/all.csv");
+  expect_refusal({"soft", "--only", "atlantis"}, "--only: found atlantis, expected");
+}
+
+TEST(BenchProgram, HardRefusesInASentence) {
+  expect_refusal({"hard", "--threads", "-1"}, "--threads: found -1, expected 0 (all cores) or more");
+  expect_refusal({"hard", "--data", "/nowhere/at/all"}, "--data: /nowhere/at/all is not a folder");
+  expect_refusal({"hard", "--csv", "/nowhere/at/all.csv"}, "/nowhere/at/all.csv");
+  expect_refusal({"hard", "--only", "atlantis"},
+                 "--only: found atlantis, expected frames, growth, variance, paper");
+}
+
+TEST(BenchProgram, HardEndsWithItsFiguresWhereScenesAreMissing) {
+  const testing::TemporaryFolder folder;
+  const auto result =
+      bench({"hard", "--tiny", "--data", folder.path().string(), "--csv", (folder / "hard.csv").string()});
+  ASSERT_EQ(result.exit_code, 0) << result.errors;
+  EXPECT_NE(result.output.find("robots: skipped"), std::string::npos) << result.output;
+  bool found = false;
+  for (const char* name : {"hard.dynamic_geomean", "hard.static_geomean", "hard.dynamic_worst",
+                           "hard.static_worst", "hard.growth_static_1.8m", "hard.p99_over_median"}) {
+    EXPECT_TRUE(std::isnan(figure(result.output, name, found))) << name;
+    EXPECT_TRUE(found) << name;
+  }
+  EXPECT_NE(testing::read_text(folder / "hard.csv").find("\nframes,city 150,tenebra,"), std::string::npos);
+}
+
+TEST(BenchProgram, TradeRefusesInASentence) {
+  expect_refusal({"trade", "--threads", "-1"}, "--threads: found -1, expected 0 (all cores) or more");
+  expect_refusal({"trade", "--data", "/nowhere/at/all"}, "--data: /nowhere/at/all is not a folder");
+  expect_refusal({"trade", "--docs", "/nowhere/at/all"}, "--docs: /nowhere/at/all is not a folder");
+  expect_refusal({"trade", "--only", "atlantis"}, "--only: found atlantis, expected hard, soft, ao, needs");
+  const testing::TemporaryFolder folder;
+  expect_refusal({"trade", "--docs", folder.path().string(), "--only", "soft,ao"},
+                 "--docs: found --only soft,ao, expected all parts");
+  EXPECT_TRUE(folder.names().empty()) << "a page of some parts would replace that of all";
+  expect_refusal({"trade", "--docs", "/proc/self"}, "cannot write /proc/self/trade.md");
+}
+
+TEST(BenchProgram, TradeWritesItsPageFromBundledScenesAlone) {
+  const testing::TemporaryFolder folder;
+  const auto result = bench({"trade", "--tiny", "--data", folder.path().string(), "--docs",
+                             folder.path().string(), "--csv", (folder / "trade.csv").string()});
+  ASSERT_EQ(result.exit_code, 0) << result.errors;
+  EXPECT_NE(result.output.find("robots: skipped"), std::string::npos) << result.output;
+  bool found = false;
+  for (const char* name :
+       {"trade.hard_default_wrong_pixels", "trade.hard_variants_wrong_pixels", "trade.needs_differing"}) {
+    EXPECT_EQ(figure(result.output, name, found), 0) << name;
+    EXPECT_TRUE(found) << name;
+  }
+  EXPECT_LE(figure(result.output, "trade.soft_default_worst_255", found), 0.1);
+  EXPECT_TRUE(found);
+  const std::string page = testing::read_text(folder / "trade.md"),
+                    csv = testing::read_text(folder / "trade.csv");
+  for (const char* part : {"## Which to choose", "## Hard shadows", "## Soft shadows", "## Ambient occlusion",
+                           "## Only what a scene requires", "| default (Tiles) | "})
+    EXPECT_NE(page.find(part), std::string::npos) << part;
+  EXPECT_EQ(page.find("NOT the same"), std::string::npos);
+  for (const char* row : {"\ntrade hard,city 150,default (Tiles),,time,", "\ntrade soft,court 60,",
+                          "\ntrade ao,city 150,", "\ntrade needs,city 150,"})
+    EXPECT_NE(csv.find(row), std::string::npos) << row;
+  for (const char* name : {"trade_hard_city_150.svg", "trade_soft_court_60.svg", "trade_ao_city_150.svg"}) {
+    EXPECT_NE(page.find(name), std::string::npos) << name;
+    EXPECT_NE(testing::read_text(folder / name).find("</svg>"), std::string::npos) << name;
+  }
+}
+
+TEST(BenchProgram, HelpNamesTheOptions) {
+  const auto result = bench({"soft", "--help"});
+  EXPECT_EQ(result.exit_code, 0);
+  for (const char* option : {"--data", "--quick", "--threads", "--csv", "--pictures"})
+    EXPECT_NE(result.output.find(option), std::string::npos) << option;
+}
+
+TEST(BenchProgram, ATinyRunNamesWhatIsMissingAndEndsWithTheFigures) {
+  const testing::TemporaryFolder folder;
+  const auto result = bench({"soft", "--quick", "--data", folder.path().string(), "--size", "32", "24",
+                             "--csv", (folder / "soft.csv").string(), "--pictures", folder.path().string()});
+  ASSERT_EQ(result.exit_code, 0) << result.errors;
+  for (const char* scene : {"robots", "museum5", "kitchen", "museum5x64"})
+    EXPECT_NE(result.output.find(std::string(scene) + ": skipped"), std::string::npos) << scene;
+  bool found = false;
+  for (const char* name : {"soft.eq_geomean", "soft.eq_worst", "soft.fair_worst"}) {
+    EXPECT_TRUE(std::isnan(figure(result.output, name, found))) << "no counted view, no figure: " << name;
+    EXPECT_TRUE(found) << name;
+  }
+  EXPECT_LE(figure(result.output, "soft.max_error_255", found), 0.1);
+  EXPECT_LE(figure(result.output, "soft.peak_tree_mb", found), 64.0);
+  EXPECT_EQ(result.output.find('\n', result.output.find("\nsoft.peak_tree_mb: ") + 1),
+            result.output.size() - 1)
+      << "the last line";
+
+  const std::string csv = testing::read_text(folder / "soft.csv");
+  EXPECT_NE(csv.find("\nexperiment,view,contestant,parameter,quantity,value,unit\n"), std::string::npos);
+  for (const char* row : {"figure7,court", "figure8,court", "figure9,court", "figure10,court"})
+    EXPECT_NE(csv.find(row), std::string::npos) << row;
+  EXPECT_NE(testing::read_text(folder / "soft_figure9_time.svg").find("</svg>"), std::string::npos);
+  std::size_t pictures = 0;
+  for (const std::string& name : folder.names()) pictures += name.ends_with(".png") ? 1 : 0;
+  EXPECT_EQ(pictures, 2u);
+}
+
+}  // namespace
+}  // namespace tenebra::bench

@@ -1,0 +1,52 @@
+#include "bench/common/bench_scenes.h"
+
+#include <algorithm>
+#include <array>
+#include <cassert>
+
+#include "bench/common/bench_report.h"
+#include "support/child_process.h"
+
+namespace tenebra::bench {
+namespace {
+
+std::filesystem::path make_museum5x64(const std::filesystem::path& data,
+                                      std::unique_ptr<testing::TemporaryFolder>& made) {
+  const auto script = data / "make_museum5x64.py";
+  std::error_code ignored;
+  if (!std::filesystem::exists(script, ignored)) return {};
+  progress("museum5x64: made by " + script.string());
+  made = std::make_unique<testing::TemporaryFolder>();
+  const auto result = testing::run_program(
+      {"/usr/bin/env", "python3", script.string(), (made->path() / "museum5x64").string()});
+  if (result.exit_code == 0) return *made / "museum5x64/museum5x64.aff";
+  progress("museum5x64: " + result.errors);
+  return {};
+}
+
+}  // namespace
+
+const BenchScene& bench_scene(const std::string& name) {
+  // The two triangles of the robots' sky lie below its light.
+  static const std::array<BenchScene, 7> scenes{{{"robots", "robots/Robot.aff", false, {"city2.aff:69"}},
+                                                 {"museum5", "museum/museum5.aff", false, {}},
+                                                 {"kitchen", "kitchen/kitchen.aff", false, {}},
+                                                 {"museum5x64", "museum5x64/museum5x64.aff", false, {}},
+                                                 {"city", "city.glb", true, {}},
+                                                 {"gallery", "gallery.glb", true, {}},
+                                                 {"court", "court.glb", true, {}}}};
+  const auto found =
+      std::find_if(scenes.begin(), scenes.end(), [&](const BenchScene& s) { return s.name == name; });
+  assert(found != scenes.end());
+  return *found;
+}
+
+std::filesystem::path find_scene(const BenchScene& scene, const std::filesystem::path& data,
+                                 std::unique_ptr<testing::TemporaryFolder>& made) {
+  const auto folder = scene.bundled ? std::filesystem::path(TENEBRA_SCENES_DIR) : data;
+  std::error_code ignored;
+  if (std::filesystem::exists(folder / scene.file, ignored)) return folder / scene.file;
+  return scene.name == std::string("museum5x64") ? make_museum5x64(data, made) : std::filesystem::path();
+}
+
+}  // namespace tenebra::bench

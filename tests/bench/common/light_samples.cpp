@@ -1,0 +1,117 @@
+#include "bench/common/light_samples.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include "support/seeded_random.h"
+
+namespace tenebra::bench {
+namespace {
+
+using glm::dvec2;
+using glm::dvec3;
+
+double cross(dvec2 a, dvec2 b) {
+  return a.x * b.y - a.y * b.x;
+}
+
+/// Maps the unit square onto the light so that equal areas stay equal.
+class SquareToLight {
+public:
+  explicit SquareToLight(const AreaLight& light) : light_(light) {
+    const auto& o = light.outline;
+    double sum = 0;
+    for (std::size_t i = 2; i < o.size(); ++i) {
+      sum += 0.5 * cross(o[i - 1] - o[0], o[i] - o[0]);
+      area_up_to_.push_back(sum);
+    }
+    if (o.size() != 4) return;
+    const double size = glm::length(o[2] - o[0]);
+    parallelogram_ = glm::length(o[0] + o[2] - o[1] - o[3]) < 1e-5 * size;
+    long_side_first_ = glm::length(o[1] - o[0]) >= glm::length(o[3] - o[0]);
+  }
+
+  dvec3 at(double u, double v) const {
+    const dvec2 p = parallelogram_ ? on_parallelogram(u, v) : on_fan(u, v);
+    return light_.centre + p.x * light_.ex + p.y * light_.ey;
+  }
+
+private:
+  dvec2 on_parallelogram(double u, double v) const {
+    const auto& o = light_.outline;
+    if (!long_side_first_) std::swap(u, v);
+    return o[0] + u * (o[1] - o[0]) + v * (o[3] - o[0]);
+  }
+  /// u runs through the triangles of a fan by their areas and on across the triangle; v runs outwards.
+  dvec2 on_fan(double u, double v) const {
+    const auto& o = light_.outline;
+    const double area = u * area_up_to_.back();
+    std::size_t t = 0;
+    while (t + 1 < area_up_to_.size() && area >= area_up_to_[t]) ++t;
+    const double before = t == 0 ? 0 : area_up_to_[t - 1];
+    const double across = (area - before) / (area_up_to_[t] - before), out = std::sqrt(v);
+    return o[0] + out * ((o[t + 1] - o[0]) + across * (o[t + 2] - o[t + 1]));
+  }
+
+  const AreaLight& light_;
+  std::vector<double> area_up_to_;
+  bool parallelogram_ = false;
+  bool long_side_first_ = true;
+};
+
+struct Grid {
+  std::size_t columns, rows;
+};
+/// As square as a power of two allows.
+Grid grid_of(std::size_t cells) {
+  std::size_t rows = 1;
+  while (rows * rows * 4 <= cells) rows *= 2;
+  return {cells / rows, rows};
+}
+
+/// A jittered point of cell s, relative to the light's place in float's good range only if the scene is.
+void put(LightSamples& samples, std::size_t at, const SquareToLight& map, Grid grid, std::size_t cell,
+         testing::Random& random) {
+  const double u =
+      (static_cast<double>(cell % grid.columns) + random.unit()) / static_cast<double>(grid.columns);
+  const double v =
+      (static_cast<double>(cell / grid.columns) + random.unit()) / static_cast<double>(grid.rows);
+  const dvec3 q = map.at(u, v);
+  samples.x[at] = static_cast<float>(q.x);
+  samples.y[at] = static_cast<float>(q.y);
+  samples.z[at] = static_cast<float>(q.z);
+}
+
+LightSamples empty_samples(std::size_t per_pattern, std::size_t pattern_count, std::size_t places) {
+  LightSamples samples{per_pattern, pattern_count, {}, {}, {}};
+  for (auto* coordinate : {&samples.x, &samples.y, &samples.z}) coordinate->resize(places);
+  return samples;
+}
+
+constexpr std::size_t lanes = 16;
+constexpr std::uint64_t seed = 2012;
+
+}  // namespace
+
+LightSamples samples_by_pixel(const AreaLight& light, std::size_t per_pattern, std::size_t pattern_count) {
+  const std::size_t stride = std::max(per_pattern, lanes);
+  LightSamples samples = empty_samples(per_pattern, pattern_count, stride * pattern_count);
+  const SquareToLight map(light);
+  testing::Random random(seed);
+  for (std::size_t p = 0; p < pattern_count; ++p) {
+    for (std::size_t s = 0; s < stride; ++s)
+      put(samples, p * stride + s, map, grid_of(per_pattern), s < per_pattern ? s : 0, random);
+  }
+  return samples;
+}
+
+LightSamples samples_by_tile(const AreaLight& light, std::size_t per_pattern, std::size_t pattern_count) {
+  LightSamples samples = empty_samples(per_pattern, pattern_count, per_pattern * pattern_count);
+  const SquareToLight map(light);
+  testing::Random random(seed);
+  for (std::size_t i = 0; i < samples.x.size(); ++i)
+    put(samples, i, map, grid_of(per_pattern), i / lanes % per_pattern, random);
+  return samples;
+}
+
+}  // namespace tenebra::bench

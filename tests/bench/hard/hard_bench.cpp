@@ -1,0 +1,60 @@
+// tenebra-bench hard: the default hard shadows beside Embree's rays; growth, steadiness, and the experiments
+// of Olsson and Assarsson 2011.
+#include <array>
+#include <cstdio>
+#include <memory>
+
+#include "base/fail.h"
+#include "bench/common/bench_parts.h"
+#include "bench/hard/hard_session.h"
+
+namespace tenebra::bench {
+namespace {
+
+constexpr std::array parts{BenchPart<HardSession>{"frames", measure_hard_frames},
+                           BenchPart<HardSession>{"growth", measure_hard_growth},
+                           BenchPart<HardSession>{"variance", measure_hard_variance},
+                           BenchPart<HardSession>{"paper", measure_hard_paper}};
+const std::span<const BenchPart<HardSession>> all_parts(parts);
+
+void print_headlines(const HardHeadline& h) {
+  std::printf("\n");
+  print_headline("hard.dynamic_geomean", h.dynamic_geomean, 3);
+  print_headline("hard.static_geomean", h.static_geomean, 3);
+  print_headline("hard.dynamic_worst", h.dynamic_worst, 3);
+  print_headline("hard.static_worst", h.static_worst, 3);
+  print_headline("hard.growth_static_1.8m", h.growth_static_1_8m, 3);
+  print_headline("hard.p99_over_median", h.p99_over_median, 3);
+}
+
+/// `simd` is the name of the level that both contestants are kept to.
+Expected<void> measure(const PartsArguments& arguments, const std::string& simd) {
+  const auto level = simd_level_from_name(simd);
+  if (!level || (*level != SimdLevel::automatic && !simd_level_supported(*level)))
+    return base::fail(
+        "--simd: found {}, expected auto or a level of this machine: scalar, sse4, avx2, avx512", simd);
+  HardSession session{.options = arguments.options,
+                      .effort = arguments.effort(),
+                      .simd = *level,
+                      .report = Report(arguments.options.csv)};
+  if (auto done = measure_parts(arguments, all_parts, session); !done) return done;
+  if (auto written = session.report.write(parts_settings(arguments, *level)); !written) return written;
+  std::printf("\n");
+  for (const std::string& name : session.skipped) std::printf("%s: skipped, not there\n", name.c_str());
+  print_headlines(session.headline);
+  return {};
+}
+
+}  // namespace
+
+void add_hard_command(CLI::App& program, Run& run) {
+  const auto simd = std::make_shared<std::string>("auto");
+  CLI::App& command = add_parts_command(
+      program, run,
+      {"hard", "Hard shadows beside Embree's rays; the experiments of Olsson and Assarsson 2011"},
+      part_names(all_parts), [simd](const PartsArguments& arguments) { return measure(arguments, *simd); });
+  command.add_option("--simd", *simd, "Instructions that both contestants are kept to [auto]")
+      ->type_name("LEVEL");
+}
+
+}  // namespace tenebra::bench

@@ -1,0 +1,44 @@
+// One run of `tenebra-bench hard`: what its parts share and what they add to the last lines.
+#pragma once
+
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "bench/common/bench_parts.h"
+#include "bench/hard/hard_views.h"
+
+namespace tenebra::bench {
+
+/// The last lines; parts that were left out leave theirs empty.
+struct HardHeadline {
+  std::optional<double> dynamic_geomean, static_geomean, dynamic_worst, static_worst;
+  std::optional<double> growth_static_1_8m, p99_over_median;
+};
+
+struct HardSession {
+  BenchOptions options;
+  Effort effort = Effort::full;
+  SimdLevel simd = SimdLevel::automatic;  ///< of both contestants
+  Report report;
+  HardHeadline headline;
+  std::vector<std::string> skipped;  ///< scenes that are not there
+
+  /// The value for this run's effort.
+  template <class T>
+  T by_effort(T tiny, T quick, T full) const {
+    return effort == Effort::tiny ? tiny : effort == Effort::quick ? quick : full;
+  }
+  PictureSize size() const {
+    if (effort == Effort::tiny) return {64, 64};
+    return {};
+  }
+};
+
+// The parts.
+Expected<void> measure_hard_frames(HardSession& session);    ///< the frames, against Embree
+Expected<void> measure_hard_growth(HardSession& session);    ///< resolution, triangles, copies
+Expected<void> measure_hard_variance(HardSession& session);  ///< over a whole animation
+Expected<void> measure_hard_paper(HardSession& session);     ///< Figures 6 and 7, Table 2 of the paper
+
+}  // namespace tenebra::bench

@@ -1,0 +1,126 @@
+// tenebra-bench soft: the exact soft shadows beside Embree's shadow rays, and the experiments of Mora et al.
+// 2012.
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cstdio>
+#include <memory>
+
+#include "base/fail.h"
+#include "bench/common/bench_command.h"
+#include "bench/soft/soft_pictures.h"
+#include "bench/soft/soft_tables.h"
+#include "parallel/parallel.h"
+
+namespace tenebra::bench {
+namespace {
+
+struct SoftOptions : BenchOptions {
+  std::filesystem::path pictures;
+  std::vector<int> size{1280, 720};
+  std::vector<std::string> only;
+};
+
+/// How much is run.
+struct Effort {
+  int rounds;
+  bool whole_curve;
+  bool more_frames;
+  std::size_t fall_off_tiles;  ///< one of so many
+  std::vector<double> areas;
+  int area_rounds;
+  std::vector<std::size_t> lights;
+  std::size_t life_points;  ///< queries of Figure 11's tree, at most
+};
+
+Effort effort(bool quick) {
+  if (quick) return {7, false, false, 64, {1, 9, 25, 100}, 1, {2, 12, 36}, 5000};
+  return {7, true, true, 16, {1, 2, 4, 9, 16, 25, 49, 100}, 3, {2, 4, 9, 12, 16, 24, 36}, 20000};
+}
+
+Expected<void> check(const SoftOptions& options) {
+  std::error_code ignored;
+  if (options.threads < 0)
+    return base::fail("--threads: found {}, expected 0 (all cores) or more", options.threads);
+  if (!options.data.empty() && !std::filesystem::is_directory(options.data, ignored))
+    return base::fail("--data: {} is not a folder, expected the folder of robots, museum and kitchen",
+                      options.data.string());
+  const auto names = scene_names();
+  for (const std::string& name : options.only) {
+    if (std::find(names.begin(), names.end(), name) == names.end())
+      return base::fail("--only: found {}, expected {}", name, fmt::join(names, ", "));
+  }
+  if (options.size[0] < 16 || options.size[1] < 16 || options.size[0] > 8192 || options.size[1] > 8192)
+    return base::fail("--size: found {} {}, expected 16 to 8192 pixels each", options.size[0],
+                      options.size[1]);
+  if (!options.pictures.empty() && !std::filesystem::is_directory(options.pictures, ignored))
+    return base::fail("--pictures: {} is not a folder, expected one to write to", options.pictures.string());
+  return Report(options.csv).check();
+}
+
+/// Figures 9 and 10 want a furnished room as the paper's Conference: the kitchen, or what there is instead.
+bool shows_growth(const SoftView& view, const SoftResults& results) {
+  return results.areas.empty() && (view.name.starts_with("kitchen") || view.name.starts_with("court"));
+}
+
+Expected<void> measure_view(const SoftView& view, const SoftOptions& options, SoftResults& results,
+                            Report& report) {
+  const Effort how = effort(options.quick);
+  ContestPlan plan;
+  plan.rounds = how.rounds;
+  plan.whole_curve = how.whole_curve;
+  plan.pictures = !options.pictures.empty();
+  Contest contest = run_contest(view, plan, report);
+  if (plan.pictures) {
+    const auto written = write_pictures(contest, options.size[0], options.size[1], options.pictures);
+    if (!written) return written;
+  }
+  results.costs.push_back(measure_cost(view, contest, how.fall_off_tiles, report));
+  if (shows_growth(view, results)) {
+    results.areas = measure_areas(view, how.areas, how.area_rounds, report);
+    results.lights = measure_lights(view, how.lights, report);
+    results.life = measure_life(view, contest.penumbra, how.life_points, report);
+    results.growth_view = view.name;
+  }
+  results.contests.push_back(std::move(contest));
+  return {};
+}
+
+Expected<void> run_soft(const SoftOptions& options) {
+  if (auto checked = check(options); !checked) return checked;
+  Report report(options.csv);
+  SoftResults results;
+  const ViewChoice choice{options.size[0], options.size[1], effort(options.quick).more_frames, options.only};
+  Expected<void> done;
+  int threads = 0;
+  with_threads(options.threads, [&] {
+    threads = thread_count();
+    done = for_each_view(options, choice, results.skipped,
+                         [&](const SoftView& view) { return measure_view(view, options, results, report); });
+  });
+  if (!done) return done;
+  add_soft_plots(results, report);
+  const std::vector<std::string> settings{fmt::format("threads: {}", threads),
+                                          fmt::format("size: {}x{}", options.size[0], options.size[1]),
+                                          fmt::format("quick: {}", options.quick)};
+  if (auto written = report.write(settings); !written) return written;
+  std::printf("%s\n%s", soft_tables(results).c_str(), soft_summary(results).c_str());
+  return {};
+}
+
+}  // namespace
+
+void add_soft_command(CLI::App& program, Run& run) {
+  CLI::App* command = program.add_subcommand(
+      "soft", "Exact soft shadows beside Embree's shadow rays; the experiments of Mora et al. 2012");
+  const auto options = std::make_shared<SoftOptions>();
+  add_bench_options(*command, *options);
+  command->add_option("--pictures", options->pictures, "Write Tenebra's and Embree's pictures at equal time")
+      ->type_name("FOLDER");
+  command->add_option("--size", options->size, "Width and height")->expected(2)->group("");  // for tests
+  command->add_option("--only", options->only, "Scenes by name: robots, museum5, kitchen, museum5x64, court")
+      ->type_name("NAME");
+  command->callback([options, &run] { run = [options] { return run_soft(*options); }; });
+}
+
+}  // namespace tenebra::bench

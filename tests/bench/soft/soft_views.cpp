@@ -1,0 +1,98 @@
+#include "bench/soft/soft_views.h"
+
+#include <algorithm>
+#include <exception>
+
+#include "base/fail.h"
+#include "bench/common/bench_report.h"
+#include "bench/common/bench_scenes.h"
+#include "scene/view_basis.h"
+
+namespace tenebra::bench {
+namespace {
+
+constexpr double side_percent_of_diagonal = 4;
+
+struct SceneEntry {
+  std::string name;
+  std::vector<int> frames;  // the first is the one that the goals are stated for
+};
+
+const std::vector<SceneEntry>& scene_entries() {
+  static const std::vector<SceneEntry> entries{{"robots", {100, 400}},
+                                               {"museum5", {20, 100}},
+                                               {"kitchen", {100, 400}},
+                                               {"museum5x64", {20, 100}},
+                                               {"court", {60}}};
+  return entries;
+}
+
+bool chosen(const ViewChoice& choice, const std::string& name) {
+  return choice.only.empty() || std::find(choice.only.begin(), choice.only.end(), name) != choice.only.end();
+}
+
+/// The scene's own area light, or its first light made a square.
+Expected<AreaLight> light_of(const Scene& scene, const BenchFrame& frame) {
+  for (const WorldLight& placed : frame.lights) {
+    if (scene.lights[static_cast<std::size_t>(placed.light)].type != LightType::area_rect) continue;
+    const bool turned = glm::dot(glm::cross(placed.axis_x, placed.axis_y), placed.direction) < 0;
+    return make_rectangle_light(placed.position, placed.axis_x, turned ? -placed.axis_y : placed.axis_y);
+  }
+  return square_light(frame, side_percent_of_diagonal);
+}
+
+Expected<void> visit_frames(const SceneEntry& entry, const std::filesystem::path& file,
+                            const ViewChoice& choice,
+                            const std::function<Expected<void>(const SoftView&)>& body) {
+  const BenchScene& known = bench_scene(entry.name);
+  const auto scene = load_scene(file, known.no_cast);
+  if (!scene) return tl::unexpected(scene.error());
+  for (const int number : entry.frames) {
+    const bool first = number == entry.frames.front();
+    if (!first && !choice.more_frames) continue;
+    SoftView view{fmt::format("{} {}", entry.name, number), first && !known.bundled, {}, {}};
+    evaluate_bench_frame(*scene, number, choice.width, choice.height, view.frame);
+    auto light = light_of(*scene, view.frame);
+    if (!light) return base::fail("{}: {}", view.name, light.error().message);
+    view.light = std::move(*light);
+    if (auto done = body(view); !done) return done;
+  }
+  return {};
+}
+
+}  // namespace
+
+Expected<AreaLight> square_light(const BenchFrame& frame, double side_percent, glm::vec3 shift_m) {
+  const glm::vec3 place = frame.lights.front().position + shift_m;
+  const glm::dmat3 basis =
+      scene::view_basis(glm::dvec3(frame.centre) - glm::dvec3(place), glm::dvec3(0, 1, 0));
+  const double half_m = 0.005 * side_percent * static_cast<double>(frame.diagonal_m);
+  return make_rectangle_light(place, glm::vec3(half_m * basis[0]), glm::vec3(-half_m * basis[1]));
+}
+
+std::vector<std::string> scene_names() {
+  std::vector<std::string> names;
+  for (const SceneEntry& entry : scene_entries()) names.emplace_back(entry.name);
+  return names;
+}
+
+Expected<void> for_each_view(const BenchOptions& options, const ViewChoice& choice,
+                             std::vector<std::string>& skipped,
+                             const std::function<Expected<void>(const SoftView&)>& body) {
+  const auto data = bart_folder(options.data);
+  for (const SceneEntry& entry : scene_entries()) {
+    if (!chosen(choice, entry.name)) continue;
+    std::unique_ptr<testing::TemporaryFolder> made;
+    const auto file = find_scene(bench_scene(entry.name), data, made);
+    if (file.empty()) {
+      progress(fmt::format("{}: skipped, {} is not there", entry.name,
+                           (data / bench_scene(entry.name).file).string()));
+      skipped.emplace_back(entry.name);
+      continue;
+    }
+    if (auto done = visit_frames(entry, file, choice, body); !done) return done;
+  }
+  return {};
+}
+
+}  // namespace tenebra::bench

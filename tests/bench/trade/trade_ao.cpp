@@ -1,0 +1,246 @@
+// The trade of ambient occlusion: rays, tables (positions x directions x bits), resolution, against Embree's
+// rays.
+#include <fmt/core.h>
+#include <cmath>
+
+#include <tenebra/ambient_occlusion.h>
+#include "bench/ao/ao_crowd.h"
+#include "bench/ao/ao_race.h"
+#include "bench/common/bench_scenes.h"
+#include "bench/trade/trade_contest.h"
+#include "bench/trade/trade_session.h"
+#include "support/seeded_random.h"
+
+namespace tenebra::bench {
+namespace {
+
+/// The scene and the frame that settings are tried on.
+struct AoView {
+  std::string name;
+  const Scene& scene;
+  const BenchFrame& frame;
+  double reach_m;  // 0: a twentieth of the scene's diagonal
+  bool tables;     // tables of other sizes too
+};
+
+/// What one setting is called and is.
+struct AoSetting {
+  std::string family, name;
+  AoConfig config;
+};
+
+std::string table_name(const AoConfig& c) {
+  return fmt::format("{}x{}, {} bit{}, {} rays", c.positions, c.directions, c.bits, c.bits == 1 ? "" : "s",
+                     c.rays);
+}
+
+/// One view with all settings on it.
+class AoTrade {
+public:
+  AoTrade(TradeSession& session, const AoView& view) : session_(session), view_(view) {}
+  Expected<TradeTable> run();
+
+private:
+  AoConfig config(AoMode mode, int rays) const;
+  Expected<void> find_truth();
+  void add_rays();
+  void add_tables(FieldLayout layout, const char* family);
+  Expected<double> compute(const AoConfig& config);
+  Expected<std::vector<TradePoint>> measure(std::span<const AoSetting> same_tables);
+  std::vector<double> errors_of(std::span<const float> open) const;
+
+  TradeSession& session_;
+  const AoView& view_;
+  AmbientOcclusion ao_;
+  std::vector<std::size_t> pixels_;  // where the truth is known
+  std::vector<float> truth_, open_;
+  std::vector<AoSetting> settings_;
+};
+
+AoConfig AoTrade::config(AoMode mode, int rays) const {
+  AoConfig config{.mode = mode, .rays = rays, .distance_m = view_.reach_m};
+  if (session_.effort == Effort::tiny) config.positions = config.directions = 64;
+  return config;
+}
+
+/// By many rays at one pixel in each square of 8 x 8, at a place of its own.
+Expected<void> AoTrade::find_truth() {
+  const int stride = session_.by_effort(4, 8, 8);
+  const auto side = static_cast<std::uint32_t>(stride);
+  VisiblePoints few = view_.frame.points;
+  std::vector<std::uint8_t> kept(few.triangles.size(), 0);
+  testing::Random random(13);
+  const auto width = static_cast<std::size_t>(few.width);
+  for (int y = 0; y + stride <= few.height; y += stride) {
+    for (int x = 0; x + stride <= few.width; x += stride) {
+      const std::size_t i = (static_cast<std::size_t>(y) + random.index(side)) * width +
+                            static_cast<std::size_t>(x) + random.index(side);
+      if (few.triangles[i] == no_triangle) continue;
+      kept[i] = 1;
+      pixels_.push_back(i);
+    }
+  }
+  for (std::size_t i = 0; i < kept.size(); ++i) {
+    if (kept[i] == 0) few.triangles[i] = no_triangle;
+  }
+  AmbientOcclusion rays;
+  if (auto done = rays.compute(view_.scene, view_.frame.geometry, few, view_.frame.normals,
+                               config(AoMode::rays, session_.by_effort(64, 1024, 4096)), open_);
+      !done)
+    return done;
+  for (const std::size_t i : pixels_) truth_.push_back(open_[i]);
+  return {};
+}
+
+std::vector<double> AoTrade::errors_of(std::span<const float> open) const {
+  double sum = 0, worst = 0;
+  for (std::size_t k = 0; k < pixels_.size(); ++k) {
+    const double error = std::abs(static_cast<double>(open[pixels_[k]]) - static_cast<double>(truth_[k]));
+    sum += error * error;
+    worst = std::max(worst, error);
+  }
+  return {pixels_.empty() ? 0 : 255 * std::sqrt(sum / static_cast<double>(pixels_.size())), 255 * worst};
+}
+
+/// How many rays, at full and half resolution, and Embree's.
+void AoTrade::add_rays() {
+  const auto counts = session_.by_effort<std::vector<int>>({16}, {8, 16, 64, 256}, {8, 16, 32, 64, 128, 256});
+  for (const int downscale : {1, 2}) {
+    for (const int rays : counts) {
+      AoConfig c = config(AoMode::field, rays);
+      c.downscale = downscale;
+      settings_.push_back(
+          {downscale == 1 ? "field" : "field, half resolution", fmt::format("{} rays", rays), c});
+    }
+  }
+  for (const int rays : session_.by_effort<std::vector<int>>({8}, {4, 16, 64}, {4, 8, 16, 32, 64, 128, 256}))
+    settings_.push_back({"Embree rays", fmt::format("{} rays", rays), config(AoMode::rays, rays)});
+}
+
+/// What the tables' size and the bits of a distance do; in a quick run one at a time.
+void AoTrade::add_tables(FieldLayout layout, const char* family) {
+  const bool all = session_.effort == Effort::full && view_.tables;
+  for (const int positions : {289, 1089, 4225}) {
+    for (const int directions : {256, 1024, 4096}) {
+      for (const int bits : {1, 8, 32}) {
+        for (const int rays : {16, 64, 256}) {
+          const bool diagonal = bits == 8 && (positions == 289) == (directions == 256);
+          const bool usual = positions == 4225 && directions == 1024;
+          if (!all && (rays != 64 || !(usual || diagonal))) continue;
+          if (layout == FieldLayout::chords && usual && bits == 8) continue;  // the default
+          AoConfig c = config(AoMode::field, rays);
+          c.layout = layout, c.positions = positions, c.directions = directions, c.bits = bits;
+          settings_.push_back({family, table_name(c), c});
+        }
+      }
+    }
+  }
+}
+
+/// Once; its time. Of Embree's rays without the tree: it may be kept where nothing moves.
+Expected<double> AoTrade::compute(const AoConfig& config) {
+  const BenchFrame& frame = view_.frame;
+  CostClock clock;
+  if (auto done = ao_.compute(view_.scene, frame.geometry, frame.points, frame.normals, config, open_); !done)
+    return tl::unexpected(done.error());
+  return config.mode == AoMode::rays ? ao_.timings().ao_ms : clock.ms();
+}
+
+/// Settings that share tables, in turn; fields are built and samples cast before.
+Expected<std::vector<TradePoint>> AoTrade::measure(std::span<const AoSetting> same_tables) {
+  if (const auto built = compute(same_tables[0].config); !built) return tl::unexpected(built.error());
+  std::vector<Contestant> contestants;
+  for (const AoSetting& setting : same_tables) {
+    const bool rays = setting.config.mode == AoMode::rays;
+    contestants.push_back({setting.family, setting.name, rays ? 1 : session_.by_effort(1, 3, 5),
+                           [this, &setting] { return compute(setting.config); },
+                           [this] { return errors_of(open_); }});
+  }
+  return take_turns(contestants);
+}
+
+bool same_tables(const AoConfig& a, const AoConfig& b) {
+  return a.layout == b.layout && a.positions == b.positions && a.directions == b.directions &&
+         a.bits == b.bits;
+}
+
+Expected<TradeTable> AoTrade::run() {
+  if (auto found = find_truth(); !found) return tl::unexpected(found.error());
+  add_rays();
+  if (session_.effort != Effort::tiny && view_.tables) {
+    add_tables(FieldLayout::chords, "other tables");
+    add_tables(FieldLayout::positions_directions, "tables of the paper");
+  }
+  TradeTable table{"ao", view_.name, {{"RMS", "1/255"}, {"worst pixel", "1/255"}}, {}};
+  for (std::size_t first = 0, last = 0; first < settings_.size(); first = last) {
+    while (last < settings_.size() && same_tables(settings_[first].config, settings_[last].config)) ++last;
+    const auto points = measure(std::span(settings_).subspan(first, last - first));
+    if (!points) return tl::unexpected(points.error());
+    table.points.insert(table.points.end(), points->begin(), points->end());
+  }
+  const auto hidden = std::count_if(truth_.begin(), truth_.end(), [](float open) { return open < 1; });
+  table.remark = fmt::format("{}x{} pixels; of {} that were compared, ambient light is hidden in part at {}.",
+                             view_.frame.points.width, view_.frame.points.height, pixels_.size(), hidden);
+  return table;
+}
+
+void keep_headline(TradeSession& session, const TradeTable& table) {
+  if (const TradePoint* p = table.find("field, 64 rays"))
+    session.keep_largest("ao_default_rms_255", p->errors[0]);
+  if (const TradePoint* p = table.find("field, half resolution, 16 rays"))
+    session.keep_largest("ao_fast_rms_255", p->errors[0]);
+}
+
+Expected<void> try_view(TradeSession& session, const AoView& view) {
+  progress(view.name + ": ambient occlusion, what it costs");
+  auto table = AoTrade(session, view).run();
+  if (!table) return tl::unexpected(table.error());
+  keep_headline(session, *table);
+  session.finish(std::move(*table));
+  return {};
+}
+
+int picture_side(const TradeSession& session) {
+  return session.by_effort(64, 512, 1024);
+}
+
+Expected<void> try_crowd(TradeSession& session, const CrowdView& view, const std::vector<Object>& meshes) {
+  const Scene scene = make_crowd(meshes, session.by_effort(3, 50, 50), view.spacing_m);
+  BenchFrame frame;
+  see_crowd(scene, view, 3.7, picture_side(session), frame);
+  return try_view(session, {view.name == std::string(near_view.name) ? "crowd near" : "crowd far", scene,
+                            frame, 1.0, true});
+}
+
+Expected<void> try_scene(TradeSession& session, const std::string& name, int number) {
+  const BenchScene& known = bench_scene(name);
+  std::unique_ptr<testing::TemporaryFolder> made;
+  const auto file = find_scene(known, bart_folder(session.options.data), made);
+  if (file.empty()) {
+    session.skipped.push_back(name);
+    return {};
+  }
+  const auto scene = load_scene(file, known.no_cast);
+  if (!scene) return tl::unexpected(scene.error());
+  BenchFrame frame;
+  const int size = picture_side(session);
+  evaluate_bench_frame(*scene, number, size, size, frame);
+  return try_view(session, {fmt::format("{} {}", name, number), *scene, frame, 0, false});
+}
+
+}  // namespace
+
+Expected<void> measure_trade_ao(TradeSession& session) {
+  auto meshes = crowd_objects(session.options.data, session.notes);
+  if (session.effort == Effort::tiny) meshes.resize(1);
+  for (const CrowdView& view : {near_view, far_view}) {
+    if (session.effort == Effort::quick && view.name == std::string(far_view.name)) continue;
+    if (auto done = try_crowd(session, view, meshes); !done) return done;
+  }
+  for (const auto& [name, number] : {std::pair{"robots", 100}, std::pair{"city", 150}}) {
+    if (auto done = try_scene(session, name, number); !done) return done;
+  }
+  return {};
+}
+
+}  // namespace tenebra::bench

@@ -1,0 +1,74 @@
+// tenebra-bench trade: what accuracy costs, setting by setting, for every method; what frames do not need and
+// do not pay for; and the page of the documentation that tells it.
+#include <fmt/format.h>
+
+#include <array>
+#include <cstdio>
+#include <memory>
+
+#include "base/fail.h"
+#include "base/output_file.h"
+#include "bench/trade/trade_session.h"
+
+namespace tenebra::bench {
+namespace {
+
+constexpr std::array parts{
+    BenchPart<TradeSession>{"hard", measure_trade_hard}, BenchPart<TradeSession>{"soft", measure_trade_soft},
+    BenchPart<TradeSession>{"ao", measure_trade_ao}, BenchPart<TradeSession>{"needs", measure_trade_needs}};
+const std::span<const BenchPart<TradeSession>> all_parts(parts);
+
+/// Before minutes of measuring, not after them.
+Expected<void> check(const PartsArguments& arguments, const TradeOptions& options) {
+  if (options.docs.empty()) return {};
+  std::error_code ignored;
+  if (!std::filesystem::is_directory(options.docs, ignored))
+    return base::fail("--docs: {} is not a folder, expected one to write trade.md to", options.docs.string());
+  if (!arguments.only.empty())
+    return base::fail("--docs: found --only {}, expected all parts: the page tells of each",
+                      fmt::join(arguments.only, ","));
+  const auto page = base::OutputFile::create(options.docs / "trade.md");
+  return page ? Expected<void>() : tl::unexpected(page.error());
+}
+
+Expected<void> measure(const PartsArguments& arguments, const TradeOptions& options) {
+  if (auto fine = check(arguments, options); !fine) return fine;
+  TradeSession session{.options = arguments.options,
+                       .trade = options,
+                       .effort = arguments.effort(),
+                       .report = Report(arguments.options.csv)};
+  if (auto done = measure_parts(arguments, all_parts, session); !done) return done;
+  if (auto written = session.report.write(parts_settings(arguments)); !written) return written;
+  if (!options.docs.empty()) {
+    if (auto written = write_trade_page(session); !written) return written;
+  }
+  std::printf("\n");
+  for (const std::string& name : session.skipped) std::printf("%s: skipped, not there\n", name.c_str());
+  for (const std::string& note : session.notes) std::printf("note: %s.\n", note.c_str());
+  for (const auto& [name, value] : session.headline) print_headline("trade." + name, value, 3);
+  return {};
+}
+
+}  // namespace
+
+void TradeSession::finish(TradeTable table) {
+  mark_front(table.points, table.none_below);
+  add_figures(table, report);
+  report.add_plot(plot_name(table), trade_plot(table));
+  std::printf("\n%s, %s (* on the Pareto front)\n%s", method_title(table.method).c_str(), table.view.c_str(),
+              trade_text(table).c_str());
+  if (!table.remark.empty()) std::printf("%s\n", table.remark.c_str());
+  std::fflush(stdout);
+  tables.push_back(std::move(table));
+}
+
+void add_trade_command(CLI::App& program, Run& run) {
+  const auto options = std::make_shared<TradeOptions>();
+  add_parts_command(program, run, {"trade", "What accuracy costs, for every method and setting"},
+                    part_names(all_parts),
+                    [options](const PartsArguments& arguments) { return measure(arguments, *options); })
+      .add_option("--docs", options->docs, "Write trade.md and its plots, the page of the documentation")
+      ->type_name("FOLDER");
+}
+
+}  // namespace tenebra::bench

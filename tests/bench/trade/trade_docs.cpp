@@ -1,0 +1,171 @@
+// docs/trade.md: tables, plots and the advice that follows from them. Every figure in it comes from the run
+// that writes it.
+#include <fmt/core.h>
+#include <algorithm>
+
+#include "base/machine.h"
+#include "base/output_file.h"
+#include "bench/trade/trade_advice.h"
+#include "bench/trade/trade_session.h"
+#include "parallel/parallel.h"
+
+namespace tenebra::bench {
+namespace {
+
+std::vector<const TradeTable*> tables_of(const TradeSession& session, const std::string& method) {
+  std::vector<const TradeTable*> tables;
+  for (const TradeTable& table : session.tables) {
+    if (table.method == method) tables.push_back(&table);
+  }
+  return tables;
+}
+
+/// "12.5 · 3.1 · 54", time and errors `first` to `last`; the time bold on the front.
+std::string cell(const TradePoint& p, std::size_t first, std::size_t last, bool with_time) {
+  std::string text;
+  if (with_time) text = p.front ? fmt::format("**{}**", short_number(p.ms)) : short_number(p.ms);
+  for (std::size_t i = first; i < last; ++i) text += (text.empty() ? "" : " · ") + short_number(p.errors[i]);
+  return text;
+}
+
+/// Settings down, views across.
+std::string settings_table(const std::vector<const TradeTable*>& tables, std::size_t first, std::size_t last,
+                           bool with_time) {
+  std::string text = "| setting |", rule = "|---|";
+  std::vector<std::string> names;
+  for (const TradeTable* table : tables) {
+    text += fmt::format(" {} |", table->view);
+    rule += "---|";
+    for (const TradePoint& p : table->points) {
+      if (std::find(names.begin(), names.end(), p.name()) == names.end()) names.push_back(p.name());
+    }
+  }
+  text += "\n" + rule + "\n";
+  for (const std::string& name : names) {
+    text += fmt::format("| {} |", name);
+    for (const TradeTable* table : tables) {
+      const TradePoint* p = table->find(name);
+      text += p == nullptr ? " |" : fmt::format(" {} |", cell(*p, first, last, with_time));
+    }
+    text += "\n";
+  }
+  return text + "\n";
+}
+
+std::string plots(const std::vector<const TradeTable*>& tables) {
+  std::string text;
+  for (const TradeTable* table : tables) {
+    text += fmt::format("<img src=\"trade_{}.svg\" alt=\"{}, {}\" width=\"49%\"/>\n", plot_name(*table),
+                        method_title(table->method), table->view);
+  }
+  return text + "\n";
+}
+
+std::string remarks(const std::vector<const TradeTable*>& tables) {
+  std::string text;
+  for (const TradeTable* table : tables) {
+    if (!table->remark.empty()) text += fmt::format("- {}: {}\n", table->view, table->remark);
+  }
+  return text.empty() ? text : text + "\n";
+}
+
+/// The command that writes the page again.
+std::string command_line(const TradeSession& session) {
+  const int threads = session.options.threads;
+  return fmt::format("tenebra-bench trade{}{} --docs docs", session.by_effort(" --tiny", " --quick", ""),
+                     threads == 0 ? "" : fmt::format(" --threads {}", threads));
+}
+
+std::string head(const TradeSession& session) {
+  const std::string measured = thread_count() == 1 ? "1 thread, processor time"
+                                                   : fmt::format("{} threads, by the clock", thread_count());
+  return fmt::format(
+      "# What accuracy costs\n\n"
+      "Written by `{}`; edit `tests/bench/trade_docs.cpp` and `trade_advice.cpp`, not this file.\n"
+      "Machine: {}; {}. Times in milliseconds a frame.\n\n"
+      "A setting is on the **Pareto front** of a view, its time bold, if no other is both as fast and as "
+      "exact "
+      "and better in one of the two. In the plots the front is dashed and its settings are ringed. Embree's "
+      "rays are a peer to compare with, no setting of Tenebra's (but for `--ao rays`). RMS: root of the mean "
+      "square. Penumbra, shaft and other words: README, *Vocabulary*.\n\n",
+      command_line(session), base::machine_description(), measured);
+}
+
+std::string hard_section(const std::vector<const TradeTable*>& tables) {
+  return "## Hard shadows\n\n" + plots(tables) + hard_advice(tables) +
+         "\nTime (visible points included) · wrong pixels:\n\n" + settings_table(tables, 0, 1, true) +
+         "Pictures of 1024x1024, the first light. Wrong: not as the exact answer, which `PreciseSorted` gave "
+         "without vector instructions. Shadow maps are cubes "
+         "drawn by "
+         "Tenebra's own rasteriser, on this machine on the CPU and with ids and normals beside the depth; "
+         "the "
+         "bias (constant and slope-scaled, in widths of a texel) is the best of many for the very view, by "
+         "the "
+         "exact mask, which a user does not have. Tenebra offers no tracing at half resolution.\n\n" +
+         remarks(tables);
+}
+
+std::string soft_section(const std::vector<const TradeTable*>& tables) {
+  return "## Soft shadows\n\n" + plots(tables) + soft_advice(tables) +
+         "\nTime · RMS error over the penumbra · its worst pixel, in 1/255 of white:\n\n" +
+         settings_table(tables, 0, 2, true) + "The same over the whole picture: RMS · worst pixel:\n\n" +
+         settings_table(tables, 2, 4, false) +
+         "Pictures of 1280x720; a light of 4 % of the scene's diagonal, the court its own. Errors against "
+         "the "
+         "solver in double precision; up to 0.01/255 they count as none. White is the light that one pixel "
+         "of a "
+         "thousand has more of; errors of the visible part of the light (`--mask FILE.pfm`) are larger where "
+         "the light is weak. `clip`: `--soft-solver`; `bsp` takes part in runs without `--quick`. "
+         "Embree's rays are stratified, drawn beforehand, its tree is not counted.\n\n" +
+         remarks(tables);
+}
+
+std::string ao_section(const std::vector<const TradeTable*>& tables) {
+  return "## Ambient occlusion\n\n" + plots(tables) + ao_advice(tables) +
+         "\nTime of a frame whose fields and samples are there · RMS error · worst pixel, in 1/255:\n\n" +
+         settings_table(tables, 0, 2, true) +
+         "Tables are positions x directions. Errors against many rays (1,024 or more) at one pixel of 64. "
+         "Embree's "
+         "rays are `--ao rays`, without the time of its tree.\n\n" +
+         remarks(tables);
+}
+
+std::string needs_section(const std::vector<NeedRow>& needs) {
+  std::string text =
+      "## Only what a scene requires\n\n"
+      "What stages cost as the frame needs them, and what they would cost if all of it were done. Where both "
+      "were run, both gave the same bits, or the row says that they did not; rows without times only count. "
+      "(Behind shafts it is the dark points that are compared: at the others rays are as noisy as without.) "
+      "Tests hold the same: `tests/render/needs_test.cpp`.\n\n"
+      "| stage | view | ms | all, ms | what is left |\n|---|---|---|---|---|\n";
+  for (const NeedRow& n : needs) {
+    const bool timed = n.all_ms > 0;
+    text += fmt::format("| {} | {} | {} | {} | {}{} |\n", n.stage, n.view,
+                        timed ? short_number(n.with_ms) : "", timed ? short_number(n.all_ms) : "", n.shrunk,
+                        n.same.value_or(true) ? "" : " (NOT the same bits)");
+  }
+  return text +
+         "\nWhere `ms` is not below `all`, the stage saves nothing on that view. Boxes, order, tiles, fields "
+         "and whole "
+         "frames are timed by the clock.\n";
+}
+
+}  // namespace
+
+Expected<void> write_trade_page(const TradeSession& session) {
+  const std::filesystem::path& folder = session.trade.docs;
+  const auto hard = tables_of(session, "hard"), soft = tables_of(session, "soft"),
+             ao = tables_of(session, "ao");
+  std::string page = head(session) + preset_section(soft, ao);
+  if (!hard.empty()) page += hard_section(hard);
+  if (!soft.empty()) page += soft_section(soft);
+  if (!ao.empty()) page += ao_section(ao);
+  if (!session.needs.empty()) page += needs_section(session.needs);
+  for (const TradeTable& table : session.tables) {
+    const auto path = folder / fmt::format("trade_{}.svg", plot_name(table));
+    if (auto written = base::write_file(path, trade_plot(table)); !written) return written;
+  }
+  return base::write_file(folder / "trade.md", page);
+}
+
+}  // namespace tenebra::bench

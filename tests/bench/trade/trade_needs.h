@@ -1,0 +1,14 @@
+// Parts of the part `needs` of `tenebra-bench trade`.
+#pragma once
+
+#include "bench/common/bench_frame.h"
+#include "bench/trade/trade_session.h"
+
+namespace tenebra::bench {
+
+/// Fields only of objects that something visible can feel, built when it first does; samples of surfaces
+/// where they are seen; look-ups of what is in reach.
+Expected<void> need_fields(TradeSession& session, const std::string& name, const Scene& scene,
+                           const BenchFrame& frame);
+
+}  // namespace tenebra::bench

@@ -1,0 +1,60 @@
+// One run of `tenebra-bench trade`: what its parts share and what they add to the documentation.
+#pragma once
+
+#include <map>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "bench/common/bench_parts.h"
+#include "bench/trade/trade_table.h"
+
+namespace tenebra::bench {
+
+/// Where a script and a reader find what was measured.
+struct TradeOptions {
+  std::filesystem::path docs;  ///< folder of trade.md and its plots; empty: none
+};
+
+/// What a stage that is not run, or shrunk, saves on one view.
+struct NeedRow {
+  std::string stage, view;
+  std::string shrunk;              ///< what the frame's own needs leave: "985370 rays of 1048576 pixels"
+  double with_ms = 0, all_ms = 0;  ///< as it is; were all of it done. 0: only counted
+  std::optional<bool> same{};      ///< both gave the same bits; none: only one of them was run
+};
+
+struct TradeSession {
+  BenchOptions options;
+  TradeOptions trade;
+  Effort effort = Effort::full;
+  Report report;
+  std::vector<TradeTable> tables;
+  std::vector<NeedRow> needs;
+  std::map<std::string, double> headline;  ///< "hard_default_wrong_pixels"; the largest of the views
+  std::vector<std::string> notes;          ///< sentences
+  std::vector<std::string> skipped;        ///< scenes that are not there
+
+  /// The value for this run's effort.
+  template <class T>
+  T by_effort(T tiny, T quick, T full) const {
+    return effort == Effort::tiny ? tiny : effort == Effort::quick ? quick : full;
+  }
+  void keep_largest(const std::string& name, double value) {
+    const auto [kept, fresh] = headline.emplace(name, value);
+    if (!fresh) kept->second = std::max(kept->second, value);
+  }
+  /// Marks the front of `table`, prints it and keeps it.
+  void finish(TradeTable table);
+};
+
+/// trade.md and its plots, from what was measured. Fails where the folder cannot be written.
+Expected<void> write_trade_page(const TradeSession& session);
+
+// The parts.
+Expected<void> measure_trade_hard(TradeSession& session);
+Expected<void> measure_trade_soft(TradeSession& session);
+Expected<void> measure_trade_ao(TradeSession& session);
+Expected<void> measure_trade_needs(TradeSession& session);  ///< what frames do not need and do not pay for
+
+}  // namespace tenebra::bench

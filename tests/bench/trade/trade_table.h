@@ -1,0 +1,62 @@
+// What accuracy costs: settings of one method on one view as points (time, error), the Pareto front among
+// them, and how they are told: figures, tables, plots.
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "bench/common/bench_report.h"
+
+namespace tenebra::bench {
+
+/// One setting.
+struct TradePoint {
+  std::string family;          ///< "shadow map": settings of one family are one curve
+  std::string setting;         ///< "1024": with the family a name
+  double ms = 0;               ///< a frame
+  std::vector<double> errors;  ///< one a column of the table; the first is the one of the plot
+  bool front = false;          ///< no other is both as fast and as exact, and better in one
+
+  std::string name() const { return setting.empty() ? family : family + ", " + setting; }
+};
+
+struct ErrorColumn {
+  std::string name;  ///< "wrong pixels"
+  std::string unit;  ///< "1/255"; empty: a count
+};
+
+/// All settings of a method on one view.
+struct TradeTable {
+  std::string method;  ///< "hard"
+  std::string view;    ///< "robots 100"
+  std::vector<ErrorColumn> columns;
+  std::vector<TradePoint> points;
+  double none_below = 0;  ///< first errors up to this count as none: beneath what the method promises
+  std::string remark{};   ///< what a reader of the table has to know of this view, a sentence; may be empty
+
+  /// The setting of that name; null where it was not measured.
+  const TradePoint* find(const std::string& name) const;
+};
+
+/// "hard shadows" of "hard".
+std::string method_title(const std::string& method);
+
+/// Sets TradePoint::front by time and the first error; errors up to `none_below` are all alike.
+void mark_front(std::vector<TradePoint>& points, double none_below);
+
+/// Time, errors and "front" of each setting, as experiment "trade METHOD".
+void add_figures(const TradeTable& table, Report& report);
+
+/// The settings from the fastest to the slowest; those on the front with a star.
+std::string trade_text(const TradeTable& table);
+
+/// Time on x, the first error on y, both logarithmic; the front is a line, what has no error lies at the
+/// foot.
+std::string trade_plot(const TradeTable& table);
+/// "hard_robots_100"
+std::string plot_name(const TradeTable& table);
+
+/// A number with as many digits as a reader needs: three.
+std::string short_number(double value);
+
+}  // namespace tenebra::bench

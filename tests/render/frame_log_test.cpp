@@ -1,0 +1,179 @@
+// The frame log and the trace, read back as a spreadsheet and a trace viewer do.
+#include <fmt/core.h>
+
+#include "render/log/frame_log.h"
+
+#include <gtest/gtest.h>
+#include <array>
+#include <bit>
+
+#include <map>
+#include <nlohmann/json.hpp>
+#include <set>
+#include <sstream>
+
+#include "render/log/trace_json.h"
+#include "support/temporary_folder.h"
+
+namespace tenebra {
+namespace {
+
+using nlohmann::json;
+using testing::read_text;
+using testing::TemporaryFolder;
+
+/// A record in which every value is another one.
+render::FrameRecord numbered_record(int frame) {
+  render::FrameRecord record;
+  record.frame = frame;
+  record.time_s = frame / 3.0;
+  double milliseconds = 1.125;
+  for (const auto& stage : render::frame_stages) record.timings.*stage.value = milliseconds++;
+  record.timings.total_ms = 100.5;
+  std::uint64_t count = 1000;
+  std::array<std::uint64_t, sizeof(TraceStats) / 8> counts;
+  for (auto& value : counts) value = count++;
+  record.stats = std::bit_cast<TraceStats>(counts);
+  record.soft.groups = 77;
+  record.ao.cache_cells = 78;
+  record.stats.nodes = 0xffffffffffffffffu;
+  return record;
+}
+
+std::vector<std::string> split(const std::string& line) {
+  std::vector<std::string> fields;
+  std::istringstream stream(line);
+  for (std::string field; std::getline(stream, field, ',');) fields.push_back(field);
+  return fields;
+}
+
+TEST(FrameLog, HeaderBeginsAsPromised) {
+  const std::string promised =
+      "frame,time_s,raster_ms,readback_ms,rays_ms,sort_ms,build_ms,traverse_ms,writeback_ms,composite_ms,"
+      "total_ms,"
+      "rays,triangles,nodes,leaf_tests,shadowed_pixels,";
+  EXPECT_EQ(render::frame_log_header().substr(0, promised.size()), promised);
+}
+
+TEST(FrameLog, HasAColumnForEveryValueOfAFrame) {
+  const std::size_t values =
+      (sizeof(FrameTimings) + sizeof(TraceStats) + sizeof(SoftStats) + sizeof(AoStats)) /
+      8;  // all doubles and 64-bit counts
+  const auto names = split(render::frame_log_header());
+  EXPECT_EQ(names.size(), values + 2);
+  EXPECT_EQ(std::set<std::string>(names.begin(), names.end()).size(), names.size()) << "no name twice";
+}
+
+TEST(FrameLog, ReadsBackAsASpreadsheetDoes) {
+  const TemporaryFolder folder;
+  const std::vector<render::LogSetting> settings{{"machine", "a, b"}, {"scene", "two\nlines.glb"}};
+  auto log = render::FrameLog::create(folder / "frames.csv", settings);
+  ASSERT_TRUE(log);
+  ASSERT_TRUE(log->add(numbered_record(0)));
+  ASSERT_TRUE(log->add(numbered_record(7)));
+  EXPECT_FALSE(std::filesystem::exists(folder / "frames.csv"));
+  ASSERT_TRUE(log->finish());
+
+  std::istringstream stream(read_text(folder / "frames.csv"));
+  std::vector<std::string> comments;
+  std::vector<std::map<std::string, std::string>> rows;
+  std::vector<std::string> names;
+  for (std::string line; std::getline(stream, line);) {
+    if (line.starts_with('#')) {
+      EXPECT_TRUE(names.empty()) << "comments stand above the header";
+      comments.push_back(line);
+    } else if (names.empty()) {
+      names = split(line);
+    } else {
+      const auto fields = split(line);
+      ASSERT_EQ(fields.size(), names.size());
+      auto& row = rows.emplace_back();
+      for (std::size_t i = 0; i < names.size(); ++i) row[names[i]] = fields[i];
+    }
+  }
+  EXPECT_EQ(comments, (std::vector<std::string>{"# machine: a, b", "# scene: two lines.glb"}));
+  ASSERT_EQ(rows.size(), 2u);
+  EXPECT_EQ(rows[1]["frame"], "7");
+  EXPECT_EQ(rows[1]["time_s"], "2.33333333");
+  EXPECT_EQ(rows[0]["evaluate_ms"], "1.125");
+  EXPECT_EQ(rows[0]["composite_ms"],
+            fmt::format("{:.3f}", 0.125 + static_cast<double>(render::frame_stages.size())));
+  EXPECT_EQ(rows[0]["soft_groups"], "77");
+  EXPECT_EQ(rows[0]["ao_cache_cells"], "78");
+  EXPECT_EQ(rows[0]["total_ms"], "100.500");
+  EXPECT_EQ(rows[0]["rays"], "1000");
+  EXPECT_EQ(rows[0]["nodes"], "18446744073709551615");
+}
+
+TEST(FrameLog, LeavesNothingWhenDroppedAndReportsAFullDevice) {
+  const TemporaryFolder folder;
+  {
+    auto log = render::FrameLog::create(folder / "frames.csv", {});
+    ASSERT_TRUE(log && log->add(numbered_record(0)));
+  }
+  EXPECT_TRUE(folder.names().empty());
+  EXPECT_FALSE(render::FrameLog::create(folder / "no/frames.csv", {}));
+  if (!std::filesystem::exists("/dev/full")) GTEST_SKIP() << "this system has no /dev/full";
+  EXPECT_FALSE(render::FrameLog::create("/dev/full", {}));
+}
+
+TEST(FrameTrace, IsJsonWhoseStagesLieWithinTheirFrames) {
+  const TemporaryFolder folder;
+  const std::vector<render::LogSetting> settings{
+      {"scene", "quote \" back \\ tab \t \xc3\xa4 \xff \xed\xa0\x80 \xf0\x9f\x8c\x92"}};
+  auto trace = render::FrameTrace::create(folder / "trace.json", settings);
+  ASSERT_TRUE(trace);
+  render::FrameRecord short_total = numbered_record(1);
+  short_total.timings.total_ms = 0.5;  // rounding of clocks must not break the nesting
+  ASSERT_TRUE(trace->add(numbered_record(0), 10.0));
+  ASSERT_TRUE(trace->add(short_total, 200.0));
+  ASSERT_TRUE(trace->finish());
+
+  const json parsed = json::parse(read_text(folder / "trace.json"));
+  EXPECT_EQ(parsed["otherData"]["scene"], "quote \" back \\ tab \t \xc3\xa4 ? ??? \xf0\x9f\x8c\x92");
+  double frame_begin = 0;
+  double frame_end = 0;
+  double last_end = 0;
+  std::vector<std::string> names;
+  for (const json& event : parsed["traceEvents"]) {
+    if (event["ph"] != "X") continue;
+    const std::string name = event["name"];
+    const double begin = event["ts"];
+    const double end = begin + event["dur"].get<double>();
+    if (name.starts_with("frame ")) {
+      EXPECT_EQ(event["args"]["nodes"], 0xffffffffffffffffu);
+      EXPECT_GE(begin, frame_end);
+      frame_begin = last_end = begin;
+      frame_end = end;
+    } else {
+      EXPECT_GE(begin, frame_begin);
+      EXPECT_NEAR(begin, last_end, 1e-6);
+      EXPECT_LE(end, frame_end + 1e-6);
+      last_end = end;
+    }
+    names.push_back(name);
+  }
+  EXPECT_EQ(names.size(), 2 * (1 + render::frame_stages.size()));
+  EXPECT_EQ(names.front(), "frame 0");
+  EXPECT_EQ(names[1], "evaluate");
+}
+
+TEST(FrameTrace, IsWholeJsonWithoutFramesAndOmitsStagesThatDidNotRun) {
+  const TemporaryFolder folder;
+  auto trace = render::FrameTrace::create(folder / "trace.json", {});
+  ASSERT_TRUE(trace);
+  render::FrameRecord record;
+  record.timings.raster_ms = 1;
+  record.timings.total_ms = 2;
+  ASSERT_TRUE(trace->add(record, 0));
+  ASSERT_TRUE(trace->finish());
+  EXPECT_EQ(json::parse(read_text(folder / "trace.json"))["traceEvents"].size(), 3u)
+      << "process, frame, raster";
+
+  auto empty = render::FrameTrace::create(folder / "empty.json", {});
+  ASSERT_TRUE(empty && empty->finish());
+  EXPECT_TRUE(json::parse(read_text(folder / "empty.json"))["traceEvents"].is_array());
+}
+
+}  // namespace
+}  // namespace tenebra
