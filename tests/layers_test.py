@@ -7,22 +7,31 @@ import pathlib
 import re
 import sys
 
+# Folders of src, by the folders that each may include beside itself. The public headers, include/tenebra, stand
+# below all of them: any file may include one.
 MAY_INCLUDE = {
-    "base": {"base"},
-    "math": {"base", "math"},
-    "parallel": {"base", "parallel"},
-    "simd": {"base", "simd"},
-    "scene": {"base", "math", "scene"},
-    "import": {"base", "math", "scene", "import"},
-    "points": {"base", "math", "simd", "parallel", "scene", "points"},
-    "shadow": {"base", "math", "simd", "parallel", "scene", "points", "shadow"},
-    "soft": {"base", "math", "simd", "parallel", "scene", "points", "soft"},
-    "ao": {"base", "math", "simd", "parallel", "scene", "points", "ao"},
-    "gl": {"base", "gl"},
-    "raster": {"base", "math", "scene", "gl", "raster"},
-    "render": {"base", "math", "simd", "parallel", "scene", "import", "points", "shadow", "soft", "ao", "gl", "raster",
-               "render"},
+    "base": set(),
+    "math": {"base"},
+    "parallel": {"base"},
+    "simd": {"base"},
+    "scene": {"base", "math"},
+    "formats": {"base", "math", "scene"},
+    "points": {"base", "math", "simd", "parallel", "scene"},
+    "shadow": {"base", "math", "simd", "parallel", "scene", "points"},
+    "soft": {"base", "math", "simd", "parallel", "scene", "points"},
+    "ao": {"base", "math", "simd", "parallel", "scene", "points"},
+    "gl": {"base"},
+    "raster": {"base", "math", "scene", "gl"},
+    "render": {"base", "math", "simd", "parallel", "scene", "formats", "points", "shadow", "soft", "ao", "gl", "raster"},
 }
+
+# Rooms of a folder, lowest first: a room includes itself and rooms before it. "" is the folder's own files.
+ROOMS = {
+    "shadow": ["decision", "rays", "cone_tree", "tiles", ""],
+    "soft": ["light", "polygon", "groups", "shafts", "occluders", "clip", "silhouette", "bsp", "solve"],
+    "ao": ["objects", "cast", "field", "surface", "shade"],
+}
+APART = {("tiles", "cone_tree"), ("silhouette", "clip"), ("bsp", "clip"), ("bsp", "silhouette")}  # may not see each other
 
 # What may be named where: (pattern, what it is, folders or files that may).
 CONTAINED = [
@@ -30,10 +39,10 @@ CONTAINED = [
     (r"\bhn::|hwy::HWY_NAMESPACE", "a vector register", {"simd"}),
     (r"\bstd::(thread|jthread|mutex|atomic|condition_variable|barrier)\b|\btbb::", "a thread", {"parallel"}),
     (r"\bgl[A-Z]\w*\(", "an OpenGL call", {"gl", "raster"}),
-    (r"tiny_gltf|tinygltf::", "tinygltf", {"import"}),
-    (r"tinyobj::", "tinyobjloader", {"import"}),
+    (r"tiny_gltf|tinygltf::", "tinygltf", {"formats"}),
+    (r"tinyobj::", "tinyobjloader", {"formats"}),
     (r"\bImGui|GLFW", "the window", set()),
-    (r"\brtc[A-Z]\w*\(|embree", "the ray caster", {"ao/reference_rays.cpp"}),
+    (r"\brtc[A-Z]\w*\(|embree", "the ray caster", {"ao/cast/reference_rays.cpp"}),
 ]
 
 
@@ -56,19 +65,56 @@ def viewer_breaches(root):
                     yield f"viewer/{name}:{number}: names {what}, allowed only in {places or 'src/gl and src/raster'}"
 
 
+def include_breach(folder, room, line):
+    """Why a file of `room` in `folder` may not hold `line`, or None."""
+    include = re.match(r'\s*#include "(\w+)/(?:(\w+)/)?', line)
+    if not include:
+        return None
+    other, other_room = include.group(1), include.group(2) or ""
+    if other != folder:
+        return None if other in MAY_INCLUDE[folder] else f"{folder} may not include {other}"
+    rooms = ROOMS.get(folder)
+    if rooms is None:
+        return None
+    if other_room not in rooms:
+        return f"{folder} has no room {other_room or 'of its own files'}"
+    if rooms.index(other_room) > rooms.index(room) or (room, other_room) in APART:
+        return f"{folder}/{room} may not include {folder}/{other_room}"
+    return None
+
+
+def source_breaches(root, path):
+    parts = path.relative_to(root / "src").parts
+    folder, room = parts[0], parts[1] if len(parts) > 2 else ""
+    for number, line in enumerate(path.read_text(encoding="utf-8").splitlines(), 1):
+        where = f"{path.relative_to(root)}:{number}"
+        why = include_breach(folder, room, line)
+        if why:
+            yield f"{where}: {why}"
+        # One namespace a folder. A .cpp may also define what a public header declares.
+        space = re.match(r"namespace tenebra(?:::(\w+))?\b", line)
+        if space and space.group(1) != folder and (path.suffix == ".h" or space.group(1)):
+            yield f"{where}: expected namespace tenebra::{folder}"
+        code = line.split("//")[0]
+        for pattern, what, folders in CONTAINED:
+            if not {folder, str(path.relative_to(root / "src"))} & folders and re.search(pattern, code):
+                yield f"{where}: names {what}, allowed only in {sorted(folders) or 'viewer/window'}"
+
+
+def public_breaches(root):
+    for path in sorted((root / "include" / "tenebra").glob("*.h")):
+        for number, line in enumerate(path.read_text(encoding="utf-8").splitlines(), 1):
+            include = re.match(r'\s*#include ["<]([^">]+)', line)
+            if include and "/" in include.group(1) and not include.group(1).startswith(("tenebra/", "glm/", "tl/")):
+                yield f"{path.relative_to(root)}:{number}: a public header may not include {include.group(1)}"
+
+
 def breaches(root):
     yield from viewer_breaches(root)
+    yield from public_breaches(root)
     for path in sorted((root / "src").rglob("*.*")):
-        folder = path.relative_to(root / "src").parts[0]
-        for number, line in enumerate(path.read_text(encoding="utf-8").splitlines(), 1):
-            where = f"{path.relative_to(root)}:{number}"
-            include = re.match(r'\s*#include "(\w+)/', line)
-            if include and include.group(1) not in MAY_INCLUDE.get(folder, set()):
-                yield f"{where}: {folder} may not include {include.group(1)}"
-            code = line.split("//")[0]
-            for pattern, what, folders in CONTAINED:
-                if not {folder, str(path.relative_to(root / "src"))} & folders and re.search(pattern, code):
-                    yield f"{where}: names {what}, allowed only in {sorted(folders) or 'viewer/window'}"
+        if path.suffix in (".h", ".cpp"):
+            yield from source_breaches(root, path)
 
 
 def main():

@@ -4,7 +4,7 @@
 #include <cstdlib>
 #include <vector>
 
-#include "shadow/rays/ray_kernels.h"
+#include "shadow/rays/direction_keys.h"
 #include "shadow/rays/shadow_rays.h"
 #include "support/seeded_random.h"
 
@@ -20,7 +20,7 @@ std::uint32_t key_of_cell(int x, int y, SimdLevel simd) {
     dy[i] = (static_cast<float>(y) + 0.5f) / 8192 - 1;
     dz[i] = 1;
   }
-  shadow::ray_kernels(simd).direction_keys(dx, dy, dz, keys);
+  shadow::direction_keys_kernel(simd)(dx, dy, dz, keys);
   return keys[0];
 }
 
@@ -58,7 +58,7 @@ TEST(DirectionKeys, NameTheCubeFace) {
   std::uint32_t keys[16];
   for (const SimdLevel simd : levels) {
     if (!simd_level_supported(simd)) continue;
-    shadow::ray_kernels(simd).direction_keys(x, y, z, keys);
+    shadow::direction_keys_kernel(simd)(x, y, z, keys);
     for (int i = 0; i < 9; ++i) EXPECT_EQ(keys[i] >> 28, faces[i]) << i << ' ' << simd_level_name(simd);
   }
 }

@@ -6,7 +6,7 @@
 #include <limits>
 
 #include "parallel/parallel.h"
-#include "shadow/rays/ray_kernels.h"
+#include "shadow/cone_tree/cone_kernel.h"
 
 namespace tenebra::shadow {
 
@@ -212,7 +212,7 @@ std::array<std::size_t, 2> ConeTree::packet_range(std::size_t level, std::size_t
 
 void build_cone_tree(const ShadowRays& rays, std::span<const dvec3> positions, const RaySource& source,
                      SimdLevel simd, ConeTree& out) {
-  const RayKernels kernels = ray_kernels(simd);
+  const ConeAround cone_around = cone_around_kernel(simd);
   out.directional = source.directional;
   out.packets.resize((rays.pixels.size() + packet_size - 1) / packet_size);
   const std::span<const std::uint32_t> pixels(rays.pixels);
@@ -222,7 +222,7 @@ void build_cone_tree(const ShadowRays& rays, std::span<const dvec3> positions, c
     const std::size_t count = std::min<std::size_t>(packet_size, pixels.size() - begin);
     fill_packet(pixels.subspan(begin, count), positions, source.origin, packet);
     const bool ordinary = !source.directional && packet.reach > 1e-15f && packet.reach < 1e15f;
-    return ordinary ? kernels.cone_around(packet) : leaf_node(packet, source);
+    return ordinary ? cone_around(packet) : leaf_node(packet, source);
   });
 }
 

@@ -10,18 +10,12 @@
 #include <vector>
 
 #include "shadow/decision/triangle_planes.h"
+#include "shadow/rays/shadow_rays.h"
 
 namespace tenebra::shadow {
 
 inline constexpr int packet_size = 16;  ///< rays a leaf: the two lowest levels of four, tested at once
 inline constexpr int branching = 4;
-
-/// Rays of the pixels that the light reaches, in tree order.
-struct ShadowRays {
-  std::vector<std::uint32_t> pixels;
-  std::vector<std::uint32_t> triangles;  ///< own triangle of each
-  float tau_max = 0;                     ///< largest rounding tolerance of these triangles
-};
 
 /// A leaf: sixteen neighbouring rays. Point i = base + q_i relative to the source's origin, q rounded to
 /// float.

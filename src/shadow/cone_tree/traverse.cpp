@@ -12,6 +12,7 @@
 #include "shadow/decision/decide.h"
 #include "simd/dispatch.h"
 #include "simd/pack-inl.h"
+#include "simd/prefetch.h"
 
 #include <algorithm>
 #include <bit>
@@ -141,12 +142,6 @@ void count_tests(NodeTests& tests, std::size_t level, std::size_t block, std::ui
   }
 }
 
-// A record is two cache lines, and lists skip most records.
-HWY_INLINE void fetch_ahead(const TriangleBounds* bounds) {
-  __builtin_prefetch(bounds);
-  __builtin_prefetch(reinterpret_cast<const char*>(bounds) + 64);
-}
-
 void filter(const Traversal& s, std::size_t level, std::size_t block, TriangleList list,
             std::uint32_t* const out[4], std::size_t out_size[4], TraceStats& stats) {
   Nodes nodes = load_nodes(s.tree->levels[level][block]);
@@ -155,7 +150,7 @@ void filter(const Traversal& s, std::size_t level, std::size_t block, TriangleLi
   std::size_t i = 0;
   for (; i < list.size && nodes.empty != 15; ++i) {
     const std::uint32_t place = list.places[i];
-    if (i + 4 < list.size) fetch_ahead(&s.set->bounds[list.places[i + 4]]);
+    if (i + 4 < list.size) simd::prefetch_all(s.set->bounds[list.places[i + 4]]);
     const TriangleBounds& bounds = s.set->bounds[place];
     stats.nodes += static_cast<std::uint64_t>(std::popcount(15u & ~nodes.empty));
     const Verdict verdict = test_nodes(bounds, nodes, s.flags.spheres, s.flags.directional, s.rays->tau_max,

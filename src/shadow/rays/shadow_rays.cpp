@@ -6,7 +6,7 @@
 #include <utility>
 
 #include "parallel/parallel.h"
-#include "shadow/rays/ray_kernels.h"
+#include "shadow/rays/direction_keys.h"
 
 namespace tenebra::shadow {
 
@@ -165,21 +165,22 @@ void generate_shadow_rays(const VisiblePoints& points, const ShadowLight& light,
 
 void sort_shadow_rays(const VisiblePoints& points, const RaySource& source, SimdLevel simd, RayKeys& scratch,
                       ShadowRays& rays) {
-  const RayKernels kernels = ray_kernels(simd);
+  constexpr std::size_t at_once = 16;  // keys
+  const DirectionKeys direction_keys = direction_keys_kernel(simd);
   const Plane2 plane = source.directional ? plane_across(points, source, rays.pixels) : Plane2{};
   scratch.keys.resize(rays.pixels.size());
   parallel::parallel_ranges(rays.pixels.size(), 1 << 14, [&](std::size_t first, std::size_t last) {
-    float x[packet_size] = {}, y[packet_size] = {}, z[packet_size] = {};
-    std::uint32_t keys[packet_size];
-    for (std::size_t i = first; i < last; i += packet_size) {
-      const std::size_t count = std::min<std::size_t>(packet_size, last - i);
+    float x[at_once] = {}, y[at_once] = {}, z[at_once] = {};
+    std::uint32_t keys[at_once];
+    for (std::size_t i = first; i < last; i += at_once) {
+      const std::size_t count = std::min<std::size_t>(at_once, last - i);
       for (std::size_t k = 0; k < count; ++k) {
         const dvec3 p = points.positions[rays.pixels[i + k]] - source.origin;
         const dvec3 seen = source.directional ? plane.project(p) : p;
         x[k] = static_cast<float>(seen.x), y[k] = static_cast<float>(seen.y),
         z[k] = static_cast<float>(seen.z);
       }
-      kernels.direction_keys(x, y, z, keys);
+      direction_keys(x, y, z, keys);
       for (std::size_t k = 0; k < count; ++k)
         scratch.keys[i + k] = static_cast<std::uint64_t>(keys[k]) << 32 | rays.pixels[i + k];
     }

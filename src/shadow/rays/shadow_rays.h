@@ -7,10 +7,16 @@
 
 #include <tenebra/hard_config.h>
 #include <tenebra/visible_points.h>
-#include "shadow/cone_tree/cone_tree.h"
 #include "shadow/decision/triangle_planes.h"
 
 namespace tenebra::shadow {
+
+/// Rays of the pixels that the light reaches, in tree order.
+struct ShadowRays {
+  std::vector<std::uint32_t> pixels;
+  std::vector<std::uint32_t> triangles;  ///< own triangle of each
+  float tau_max = 0;                     ///< largest rounding tolerance of these triangles
+};
 
 /// Whether `p`, relative to a point or spot light, is within its cone and range: the part of a light's reach
 /// that is not a matter of facing. Double, in one order of operations.

@@ -14,6 +14,7 @@
 #include "shadow/tiles/tile_bounds-inl.h"
 #include "simd/dispatch.h"
 #include "simd/pack-inl.h"
+#include "simd/prefetch.h"
 
 #include <bit>
 
@@ -33,13 +34,6 @@ struct RayRef {
 /// How wide a box is as seen from the light.
 HWY_INLINE float width(const FaceBox& box) {
   return (box.u1 - box.u0) + (box.v1 - box.v0);
-}
-
-/// Asks for all of `what`, which is needed soon.
-template <class T>
-HWY_INLINE void fetch_all(const T& what) {
-  const auto* at = reinterpret_cast<const char*>(&what);
-  for (std::size_t line = 0; line < sizeof(T); line += 64) fetch_soon(at + line);
 }
 
 /// A slot of a node of tiles, and triangles of the cluster that it is to be tested with.
@@ -133,7 +127,7 @@ private:
 void RootDescent::fetch_nodes(const RayNode& n, int level, std::uint32_t slots) const {
   if ((slots & (slots - 1)) == 0) return;
   const std::vector<RayNode>& below = d_.forest.levels[static_cast<std::size_t>(level) - 1];
-  for (; slots != 0; slots &= slots - 1) fetch_all(below[n.child[std::countr_zero(slots)]]);
+  for (; slots != 0; slots &= slots - 1) simd::prefetch_all(below[n.child[std::countr_zero(slots)]]);
 }
 
 // Down to the deepest node that holds all rays which the box may meet; returns the bits of its children that
@@ -169,8 +163,8 @@ void RootDescent::visit(std::size_t level, std::size_t number, const RayRef& ray
     children[i] = narrow(deeper[i], box_of_child(i));
     if (children[i] == 0) continue;
     entered |= 1u << i;
-    level > 0 ? fetch_all(d_.clusters.levels()[level - 1][child_of(i)])
-              : fetch_all(d_.clusters.clusters()[child_of(i)]);
+    level > 0 ? simd::prefetch_all(d_.clusters.levels()[level - 1][child_of(i)])
+              : simd::prefetch_all(d_.clusters.clusters()[child_of(i)]);
   }
   for (; entered != 0; entered &= entered - 1) {
     const int i = std::countr_zero(entered);
@@ -290,7 +284,7 @@ void RootDescent::by_triangles(std::uint32_t number, std::uint32_t mask) {
 
 // What is to be tested is asked for at once, and tested when it has had time to come.
 void RootDescent::put_off(std::uint32_t number, int slot, std::uint32_t triangles) {
-  fetch_all(tile(node(0, number), slot));
+  simd::prefetch_all(tile(node(0, number), slot));
   waiting_[waiting_count_++] = {number, static_cast<std::uint16_t>(slot),
                                 static_cast<std::uint16_t>(triangles)};
   if (waiting_count_ == most_waiting) test_waiting();

@@ -5,6 +5,7 @@
 #include <cmath>
 
 #include "points/triangle_corners.h"
+#include "simd/prefetch.h"
 
 namespace tenebra::shadow {
 
@@ -37,13 +38,6 @@ float area(const FaceBox& box) {
   return (box.u1 - box.u0) * (box.v1 - box.v0);
 }
 
-/// Asks for all of `what`, which is needed in a while.
-template <class T>
-void fetch(const T& what) {
-  const auto* const at = reinterpret_cast<const char*>(&what);
-  for (std::size_t line = 0; line < sizeof(T); line += 64) __builtin_prefetch(at + line);
-}
-
 /// The triangle that the points of some lanes lie on; no_triangle: several.
 std::uint32_t own_of(const points::PointTile& tile, std::uint32_t lanes) {
   const std::uint32_t first = tile.id[std::countr_zero(lanes)];
@@ -56,8 +50,8 @@ std::uint32_t own_of(const points::PointTile& tile, std::uint32_t lanes) {
 
 /// Curve keys, worked out sixteen at a time.
 struct PatchRays::Keys {
-  Keys(const RayKernels& k, std::vector<std::uint32_t>& to) : kernels(k), out(to) {}
-  const RayKernels& kernels;
+  Keys(DirectionKeys kernel, std::vector<std::uint32_t>& to) : direction_keys(kernel), out(to) {}
+  DirectionKeys direction_keys;
   std::vector<std::uint32_t>& out;
   float x[16] = {}, y[16] = {}, z[16] = {};
   std::uint8_t faces[16] = {};
@@ -70,7 +64,7 @@ struct PatchRays::Keys {
   }
   void flush() {
     std::uint32_t keys[16];
-    kernels.direction_keys(x, y, z, keys);
+    direction_keys(x, y, z, keys);
     for (int i = 0; i < size; ++i)
       out.push_back((keys[i] & 0x0fffffffu) | static_cast<std::uint32_t>(faces[i]) << 28);
     size = 0;
@@ -79,8 +73,8 @@ struct PatchRays::Keys {
 
 /// A square and where its rays go.
 struct PatchRays::Work {
-  Work(const RayKernels& kernels, ForestScratch::Patch& to)
-      : out(to), node_keys(kernels, to.node_keys), loose_keys(kernels, to.loose_keys) {}
+  Work(DirectionKeys keys, ForestScratch::Patch& to)
+      : out(to), node_keys(keys, to.node_keys), loose_keys(keys, to.loose_keys) {}
   ForestScratch::Patch& out;
   Keys node_keys, loose_keys;
   const points::PointPatch* patch = nullptr;
@@ -103,7 +97,7 @@ PatchRays::PatchRays(const VisiblePoints& points, const points::PointTiles& tile
       bounded_(light.range_m > 0 || light.spot_cos_outer > -1),
       kernels_(tile_kernels(config.simd)),
       point_kernels_(points::point_tile_kernels(config.simd)),
-      ray_kernels_(ray_kernels(config.simd)) {}
+      direction_keys_(direction_keys_kernel(config.simd)) {}
 
 /// About the middle of a tile, relative to the light.
 dvec3 PatchRays::centre_of(const points::PointSquare& square, int tile) const {
@@ -161,7 +155,7 @@ std::uint32_t PatchRays::in_reach_lanes(std::uint32_t tile, std::uint32_t lanes)
 /// Points of tiles with gaps are looked at more closely.
 void PatchRays::fetch_gaps(const points::PointSquare& square) const {
   for (std::uint32_t left = square.gaps; left != 0; left &= left - 1)
-    fetch(tiles_.tiles[square.first_tile + static_cast<std::uint32_t>(std::countr_zero(left))]);
+    simd::prefetch_all(tiles_.tiles[square.first_tile + static_cast<std::uint32_t>(std::countr_zero(left))]);
 }
 
 void PatchRays::find_lanes(const points::PointSquare& square, Work& work) const {
@@ -268,11 +262,11 @@ void PatchRays::place_square(Work& work) const {
 void PatchRays::find(const points::PointPatch& patch, ForestScratch::Patch& out) const {
   out.clear();
   find_facing(patch, out.facing);
-  Work work(ray_kernels_, out);
+  Work work(direction_keys_, out);
   work.patch = &patch;
   for (const points::PointSquare& square : patch.squares) {
     const std::ptrdiff_t after = &patch.squares.back() - &square;
-    if (after >= 2 * fetch_ahead) fetch(*(&square + 2 * fetch_ahead));
+    if (after >= 2 * fetch_ahead) simd::prefetch_all(*(&square + 2 * fetch_ahead));
     if (after >= fetch_ahead) fetch_gaps(*(&square + fetch_ahead));
     find_lanes(square, work);
     if (work.present == 0) continue;

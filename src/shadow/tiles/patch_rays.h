@@ -5,7 +5,7 @@
 #include <vector>
 
 #include "points/point_tile_kernels.h"
-#include "shadow/rays/ray_kernels.h"
+#include "shadow/rays/direction_keys.h"
 #include "shadow/tiles/ray_forest.h"
 #include "shadow/tiles/tile_kernels.h"
 
@@ -47,7 +47,7 @@ private:
   bool bounded_;  ///< by a cone or a range
   TileKernels kernels_;
   points::PointTileKernels point_kernels_;
-  RayKernels ray_kernels_;
+  DirectionKeys direction_keys_;
 };
 
 }  // namespace tenebra::shadow

@@ -6,6 +6,7 @@
 #include <limits>
 
 #include "parallel/parallel.h"
+#include "simd/prefetch.h"
 #include "shadow/tiles/patch_rays.h"
 
 namespace tenebra::shadow {
@@ -91,7 +92,7 @@ void group_loose(ForestScratch& s, std::vector<RayNode>& nodes) {
     for (std::size_t i = begin; i < end; ++i) {
       RayNode& node = nodes[first + i] = {};
       for (std::size_t k = s.begins[i]; k < s.begins[i + 1]; ++k) {
-        if (k + 16 < keys.size()) __builtin_prefetch(&loose_at(k + 16));
+        if (k + 16 < keys.size()) simd::prefetch(&loose_at(k + 16));
         const ForestScratch::Loose& loose = loose_at(k);
         const std::size_t slot = k - s.begins[i];
         node.child[slot] = loose.tile;

@@ -1,14 +1,13 @@
-#include "shadow/rays/ray_kernels.h"
+#include "shadow/rays/direction_keys.h"
 
 #undef HWY_TARGET_INCLUDE
-#define HWY_TARGET_INCLUDE "shadow/rays/ray_kernels.cpp"
+#define HWY_TARGET_INCLUDE "shadow/rays/direction_keys.cpp"
 #include <hwy/foreach_target.h>
 // After foreach_target.h
 #include "simd/dispatch.h"
 #include "simd/pack-inl.h"
 
 #include <algorithm>
-#include <cmath>
 
 HWY_BEFORE_NAMESPACE();
 namespace tenebra::shadow::HWY_NAMESPACE {
@@ -62,43 +61,10 @@ void direction_keys(const float* px, const float* py, const float* pz, std::uint
   std::copy(out, out + 16, keys);
 }
 
-// Chord cone around sixteen directions. In units of the packet's reach, so that squares stay in range. A
-// float position base + q is off by 2 sqrt(3) u (|p| + r) at most, its direction after normalising by 12u +
-// 4u r / |p|; lengths by a factor 1 +- 16u and 4u r.
-ConeNode cone_around(const RayPacket& packet) {
-  constexpr float u = 0x1p-24f;
-  const float inverse = 1 / packet.reach;
-  const Float16 scale = splat<Float16>(inverse);
-  const Pack3<Float16> p{
-      (splat<Float16>(static_cast<float>(packet.base_x)) + load<Float16>(packet.qx)) * scale,
-      (splat<Float16>(static_cast<float>(packet.base_y)) + load<Float16>(packet.qy)) * scale,
-      (splat<Float16>(static_cast<float>(packet.base_z)) + load<Float16>(packet.qz)) * scale};
-  const Float16 length = square_root(dot(p, p));
-  const float shortest = least(length), longest = greatest(length);
-  const float r = packet.radius * inverse;
-
-  ConeNode node;
-  node.near = std::max(0.0f, (shortest * (1 - 16 * u) - 4 * u * r) * packet.reach * (1 - 4 * u));
-  node.far = (longest * (1 + 16 * u) + 4 * u * r) * packet.reach * (1 + 4 * u);
-  node.w = glm::vec3(1, 0, 0);
-  node.c = 4;                            // more than any chord: bounds nothing, but is finite
-  if (!(shortest > 1e-6f)) return node;  // a ray next to the light, in a packet that is not
-
-  const Pack3<Float16> d{p.x / length, p.y / length, p.z / length};
-  const glm::vec3 centre(least(d.x) + greatest(d.x), least(d.y) + greatest(d.y), least(d.z) + greatest(d.z));
-  const float centre_length = std::sqrt(centre.x * centre.x + centre.y * centre.y + centre.z * centre.z);
-  if (centre_length > 1e-3f) node.w = centre / centre_length;
-  const Pack3<Float16> apart{d.x - splat<Float16>(node.w.x), d.y - splat<Float16>(node.w.y),
-                             d.z - splat<Float16>(node.w.z)};
-  const float widest = std::sqrt(greatest(dot(apart, apart)));
-  node.c = std::min(node.c, (1 + 8 * u) * widest + 12 * u + 4 * u * r / shortest);
-  return node;
-}
-
 }  // namespace
 
-RayKernels ray_kernels() {
-  return {direction_keys, cone_around};
+DirectionKeys direction_keys_kernel() {
+  return direction_keys;
 }
 
 }  // namespace tenebra::shadow::HWY_NAMESPACE
@@ -108,8 +74,8 @@ HWY_AFTER_NAMESPACE();
 
 namespace tenebra::shadow {
 
-RayKernels ray_kernels(SimdLevel level) {
-  return TENEBRA_DISPATCH(level, ray_kernels)();
+DirectionKeys direction_keys_kernel(SimdLevel level) {
+  return TENEBRA_DISPATCH(level, direction_keys_kernel)();
 }
 
 }  // namespace tenebra::shadow

@@ -1,0 +1,70 @@
+#include "shadow/cone_tree/cone_kernel.h"
+
+#undef HWY_TARGET_INCLUDE
+#define HWY_TARGET_INCLUDE "shadow/cone_tree/cone_kernel.cpp"
+#include <hwy/foreach_target.h>
+// After foreach_target.h
+#include "simd/dispatch.h"
+#include "simd/pack-inl.h"
+
+#include <algorithm>
+#include <cmath>
+
+HWY_BEFORE_NAMESPACE();
+namespace tenebra::shadow::HWY_NAMESPACE {
+using namespace simd::HWY_NAMESPACE;
+
+namespace {
+
+// Chord cone around sixteen directions. In units of the packet's reach, so that squares stay in range. A
+// float position base + q is off by 2 sqrt(3) u (|p| + r) at most, its direction after normalising by 12u +
+// 4u r / |p|; lengths by a factor 1 +- 16u and 4u r.
+ConeNode cone_around(const RayPacket& packet) {
+  constexpr float u = 0x1p-24f;
+  const float inverse = 1 / packet.reach;
+  const Float16 scale = splat<Float16>(inverse);
+  const Pack3<Float16> p{
+      (splat<Float16>(static_cast<float>(packet.base_x)) + load<Float16>(packet.qx)) * scale,
+      (splat<Float16>(static_cast<float>(packet.base_y)) + load<Float16>(packet.qy)) * scale,
+      (splat<Float16>(static_cast<float>(packet.base_z)) + load<Float16>(packet.qz)) * scale};
+  const Float16 length = square_root(dot(p, p));
+  const float shortest = least(length), longest = greatest(length);
+  const float r = packet.radius * inverse;
+
+  ConeNode node;
+  node.near = std::max(0.0f, (shortest * (1 - 16 * u) - 4 * u * r) * packet.reach * (1 - 4 * u));
+  node.far = (longest * (1 + 16 * u) + 4 * u * r) * packet.reach * (1 + 4 * u);
+  node.w = glm::vec3(1, 0, 0);
+  node.c = 4;                            // more than any chord: bounds nothing, but is finite
+  if (!(shortest > 1e-6f)) return node;  // a ray next to the light, in a packet that is not
+
+  const Pack3<Float16> d{p.x / length, p.y / length, p.z / length};
+  const glm::vec3 centre(least(d.x) + greatest(d.x), least(d.y) + greatest(d.y), least(d.z) + greatest(d.z));
+  const float centre_length = std::sqrt(centre.x * centre.x + centre.y * centre.y + centre.z * centre.z);
+  if (centre_length > 1e-3f) node.w = centre / centre_length;
+  const Pack3<Float16> apart{d.x - splat<Float16>(node.w.x), d.y - splat<Float16>(node.w.y),
+                             d.z - splat<Float16>(node.w.z)};
+  const float widest = std::sqrt(greatest(dot(apart, apart)));
+  node.c = std::min(node.c, (1 + 8 * u) * widest + 12 * u + 4 * u * r / shortest);
+  return node;
+}
+
+}  // namespace
+
+ConeAround cone_around_kernel() {
+  return cone_around;
+}
+
+}  // namespace tenebra::shadow::HWY_NAMESPACE
+HWY_AFTER_NAMESPACE();
+
+#if HWY_ONCE
+
+namespace tenebra::shadow {
+
+ConeAround cone_around_kernel(SimdLevel level) {
+  return TENEBRA_DISPATCH(level, cone_around_kernel)();
+}
+
+}  // namespace tenebra::shadow
+#endif

@@ -1,0 +1,22 @@
+// Asks memory for what is needed in a while. Any address will do: a wrong one costs time, nothing else.
+#pragma once
+
+#include <hwy/cache_control.h>
+
+#include <cstddef>
+
+namespace tenebra::simd {
+
+/// The cache line of `at`.
+inline void prefetch(const void* at) {
+  hwy::Prefetch(static_cast<const unsigned char*>(at));
+}
+
+/// All cache lines of `what`.
+template <class T>
+void prefetch_all(const T& what) {
+  const auto* const at = reinterpret_cast<const unsigned char*>(&what);
+  for (std::size_t line = 0; line < sizeof(T); line += 64) prefetch(at + line);
+}
+
+}  // namespace tenebra::simd
