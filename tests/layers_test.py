@@ -42,7 +42,7 @@ CONTAINED = [
     (r"tiny_gltf|tinygltf::", "tinygltf", {"formats"}),
     (r"tinyobj::", "tinyobjloader", {"formats"}),
     (r"\bImGui|GLFW", "the window", set()),
-    (r"\brtc[A-Z]\w*\(|embree", "the ray caster", {"ao/cast/reference_rays.cpp"}),
+    (r"\brtc[A-Z]\w*\(|embree", "the ray caster", {"ao/cast/embree.h", "ao/cast/reference_rays.cpp"}),
 ]
 
 

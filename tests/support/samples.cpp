@@ -70,17 +70,13 @@ std::uint32_t PeerTracer::nearest(glm::vec3 origin, glm::vec3 direction, float f
   hit.ray = {origin.x,    origin.y, origin.z,  from, direction.x, direction.y,
              direction.z, 0,        HUGE_VALF, ~0u,  0,           0};
   hit.hit.geomID = RTC_INVALID_GEOMETRY_ID;
-  RTCIntersectContext context;
-  rtcInitIntersectContext(&context);
-  rtcIntersect1(scene_, &context, &hit);
+  ao::EmbreeQuery().intersect1(scene_, hit);
   return hit.hit.geomID == RTC_INVALID_GEOMETRY_ID ? no_triangle : hit.hit.primID;
 }
 
 bool PeerTracer::occluded(glm::vec3 origin, glm::vec3 direction, float from, float to) const {
   RTCRay ray{origin.x, origin.y, origin.z, from, direction.x, direction.y, direction.z, 0, to, ~0u, 0, 0};
-  RTCIntersectContext context;
-  rtcInitIntersectContext(&context);
-  rtcOccluded1(scene_, &context, &ray);
+  ao::EmbreeQuery().occluded1(scene_, ray);
   return ray.tfar < 0;
 }
 

@@ -1,12 +1,11 @@
 // Samples for the tests of visibility: views through a pinhole, and points chosen to hurt.
 #pragma once
 
-#include <embree3/rtcore.h>
-
 #include <cstdint>
 #include <memory>
 #include <vector>
 
+#include "ao/cast/embree.h"
 #include "support/soup.h"
 
 namespace tenebra::testing {

@@ -3,9 +3,9 @@
 #include "base/fail.h"
 
 #ifdef TENEBRA_EMBREE
-#include <embree3/rtcore.h>
-
 #include <cstring>
+
+#include "ao/cast/embree.h"
 
 namespace tenebra::ao {
 
@@ -77,9 +77,7 @@ void ReferenceRays::nearest_hits(const RayBatch& rays, float* distances) const {
     hits.ray.mask[i] = ~0u, hits.ray.flags[i] = 0, hits.ray.id[i] = 0;
     hits.hit.geomID[i] = RTC_INVALID_GEOMETRY_ID;
   }
-  RTCIntersectContext context;
-  rtcInitIntersectContext(&context);
-  rtcIntersect16(valid, state_->scene, &context, &hits);
+  EmbreeQuery().intersect16(valid, state_->scene, hits);
   for (int i = 0; i < batch_size; ++i) {
     if (hits.hit.geomID[i] != RTC_INVALID_GEOMETRY_ID) distances[i] = hits.ray.tfar[i];
   }
@@ -95,8 +93,8 @@ struct ReferenceRays::State {};
 
 Expected<ReferenceRays> ReferenceRays::create(const TriangleView&) {
   return base::fail(
-      "ambient occlusion by rays: this build has no ray caster, Embree 3 was expected when it was "
-      "configured");
+      "ambient occlusion by rays: this build has no ray caster; install Embree 3 or 4 (package "
+      "libembree-dev), then configure and build again");
 }
 void ReferenceRays::nearest_hits(const RayBatch&, float*) const {}
 

@@ -1,7 +1,5 @@
 #include "bench/ao/ao_peer.h"
 
-#include <embree3/rtcore.h>
-
 #include <algorithm>
 #include <cmath>
 
@@ -17,19 +15,15 @@ RTCRayHit ray_of(glm::vec3 o, glm::vec3 d, float from, float to) {
 }
 
 void trace_single(RTCScene scene, const ao::RayBatch& rays, float from, float* distance) {
-  RTCIntersectContext context;
-  rtcInitIntersectContext(&context);
+  ao::EmbreeQuery query;
   for (int i = 0; i < ao::batch_size; ++i) {
     RTCRayHit ray = ray_of(rays.origin(i), rays.direction(i), from, distance[i]);
-    rtcIntersect1(scene, &context, &ray);
+    query.intersect1(scene, ray);
     distance[i] = ray.ray.tfar;
   }
 }
 
 void trace_packet(RTCScene scene, const ao::RayBatch& rays, float from, bool coherent, float* distance) {
-  RTCIntersectContext context;
-  rtcInitIntersectContext(&context);
-  if (coherent) context.flags = RTC_INTERSECT_CONTEXT_FLAG_COHERENT;
   RTCRayHit16 packet;
   alignas(64) int valid[ao::batch_size];
   std::fill(valid, valid + ao::batch_size, -1);
@@ -45,7 +39,8 @@ void trace_packet(RTCScene scene, const ao::RayBatch& rays, float from, bool coh
   std::fill(packet.ray.flags, packet.ray.flags + ao::batch_size, 0u);
   std::fill(packet.hit.geomID, packet.hit.geomID + ao::batch_size, RTC_INVALID_GEOMETRY_ID);
   std::fill(packet.hit.instID[0], packet.hit.instID[0] + ao::batch_size, RTC_INVALID_GEOMETRY_ID);
-  rtcIntersect16(valid, scene, &context, &packet);
+  ao::EmbreeQuery(coherent ? ao::EmbreeQuery::coherent : ao::EmbreeQuery::incoherent)
+      .intersect16(valid, scene, packet);
   copy(packet.ray.tfar, distance);
 }
 
@@ -56,10 +51,8 @@ AoPeer::AoPeer(const Object& object) : AoPeer(TriangleView{object.positions, obj
 AoPeer::AoPeer(const TriangleView& triangles) : scene_(triangles, false), build_ms_(watch_.lap_ms()) {}
 
 PeerHit AoPeer::nearest(glm::vec3 origin, glm::vec3 direction) const {
-  RTCIntersectContext context;
-  rtcInitIntersectContext(&context);
   RTCRayHit ray = ray_of(origin, direction, 0, std::numeric_limits<float>::infinity());
-  rtcIntersect1(scene_.get(), &context, &ray);
+  ao::EmbreeQuery().intersect1(scene_.get(), ray);
   if (ray.hit.geomID == RTC_INVALID_GEOMETRY_ID) return {};
   return {ray.ray.tfar, {ray.hit.Ng_x, ray.hit.Ng_y, ray.hit.Ng_z}};
 }

@@ -39,8 +39,7 @@ std::vector<std::uint32_t> nearest_triangles(const TriangleView& triangles, cons
   const glm::vec3 axis = glm::normalize(glm::cross(view.dx, view.dy));
   std::vector<std::uint32_t> ids(static_cast<std::size_t>(width) * static_cast<std::size_t>(height));
   parallel::parallel_ranges(static_cast<std::size_t>(height), 8, [&](std::size_t first, std::size_t last) {
-    RTCIntersectContext context;
-    rtcInitIntersectContext(&context);
+    ao::EmbreeQuery query;
     for (std::size_t i = first * static_cast<std::size_t>(width); i < last * static_cast<std::size_t>(width);
          ++i) {
       const float x = static_cast<float>(i % static_cast<std::size_t>(width)) + 0.5f;
@@ -63,7 +62,7 @@ std::vector<std::uint32_t> nearest_triangles(const TriangleView& triangles, cons
                  0,
                  0};
       hit.hit.geomID = RTC_INVALID_GEOMETRY_ID;
-      rtcIntersect1(scene.get(), &context, &hit);
+      query.intersect1(scene.get(), hit);
       ids[i] = hit.hit.geomID == RTC_INVALID_GEOMETRY_ID ? no_triangle : scene.id_of(hit.hit.primID);
     }
   });

@@ -1,12 +1,12 @@
 // Embree's scenes for the contestants: all triangles of a frame, or those that cast shadows.
 #pragma once
 
-#include <embree3/rtcore.h>
-
 #include <cstdint>
 #include <vector>
 
 #include <tenebra/visible_points.h>
+
+#include "ao/cast/embree.h"
 
 namespace tenebra::bench {
 

@@ -2,7 +2,7 @@
 // asked, sums afterwards. In vector code, so that their time is Embree's own.
 #pragma once
 
-#include <embree3/rtcore.h>
+#include "ao/cast/embree.h"
 
 namespace tenebra::bench {
 

@@ -141,12 +141,12 @@ void HardPeer::build() {
   rtcCommitScene(scene_);
 }
 
-void HardPeer::occluded(const std::int32_t* valid, RTCIntersectContext& context, RTCRay16& rays) const {
-  if (sixteen_) return rtcOccluded16(valid, scene_, &context, &rays);
+void HardPeer::occluded(const std::int32_t* valid, ao::EmbreeQuery& query, RTCRay16& rays) const {
+  if (sixteen_) return query.occluded16(valid, scene_, rays);
   for (int first = 0; first < 16; first += 8) {
     alignas(32) RTCRay8 half;
     copy_half(rays, first, half);
-    rtcOccluded8(valid + first, scene_, &context, &half);
+    query.occluded8(valid + first, scene_, half);
     std::copy_n(half.tfar, 8, rays.tfar + first);
   }
 }
@@ -158,9 +158,7 @@ void HardPeer::trace(const PeerPoints& points, const ShadowLight& light, PacketT
   mask.resize(points.x.size());
   const float end = light.directional ? std::numeric_limits<float>::infinity() : 1.0f;
   parallel::parallel_tasks(points.height / band, [&](int part) {
-    RTCIntersectContext context;
-    rtcInitIntersectContext(&context);
-    context.flags = RTC_INTERSECT_CONTEXT_FLAG_COHERENT;
+    ao::EmbreeQuery query(ao::EmbreeQuery::coherent);
     alignas(64) RTCRay16 rays{};
     alignas(64) std::int32_t valid[16];
     std::fill(rays.mask, rays.mask + 16, ~0u);
@@ -172,7 +170,7 @@ void HardPeer::trace(const PeerPoints& points, const ShadowLight& light, PacketT
         take(points.y, first, width, shape, rays.org_y);
         take(points.z, first, width, shape, rays.org_z);
         aim(light, end, rays);
-        occluded(valid, context, rays);
+        occluded(valid, query, rays);
         for (int i = 0; i < 16; ++i) {
           const auto row = static_cast<std::size_t>(i / shape.columns);
           const auto column = static_cast<std::size_t>(i % shape.columns);

@@ -1,11 +1,10 @@
 // The contestant: hard shadows by Embree's occlusion rays, sixteen coherent ones at a time.
 #pragma once
 
-#include <embree3/rtcore.h>
-
 #include <cstdint>
 #include <vector>
 
+#include "ao/cast/embree.h"
 #include "bench/hard/hard_views.h"
 
 namespace tenebra::bench {
@@ -40,7 +39,7 @@ public:
   void trace(const PeerPoints& points, const ShadowLight& light, PacketTile tile, ShadowMask& mask) const;
 
 private:
-  void occluded(const std::int32_t* valid, RTCIntersectContext& context, RTCRay16& rays) const;
+  void occluded(const std::int32_t* valid, ao::EmbreeQuery& query, RTCRay16& rays) const;
 
   bool sixteen_;  ///< packets of sixteen are native; else eights are
   RTCDevice device_;

@@ -99,9 +99,7 @@ void SoftSampler::trace(const EmbreeScene& casters, std::span<const SampledRecei
 }
 
 void SoftSampler::trace_pixels(const Job& job, std::size_t first, std::size_t last) const {
-  RTCIntersectContext context;
-  rtcInitIntersectContext(&context);
-  context.flags = RTC_INTERSECT_CONTEXT_FLAG_COHERENT;
+  ao::EmbreeQuery query(ao::EmbreeQuery::coherent);
   ReceiverPacket from;
   RayPacket16 packet;
   const std::size_t stride = std::max(samples_.per_pattern, lanes);
@@ -121,7 +119,7 @@ void SoftSampler::trace_pixels(const Job& job, std::size_t first, std::size_t la
         packet.valid[lane] = 0;
         packet.weight[lane] = 0;
       }
-      rtcOccluded16(packet.valid, job.casters, &context, &packet.rays);
+      query.occluded16(packet.valid, job.casters, packet.rays);
       kernels_.gather(packet, sums);
     }
     float sum = 0;
@@ -131,9 +129,7 @@ void SoftSampler::trace_pixels(const Job& job, std::size_t first, std::size_t la
 }
 
 void SoftSampler::trace_tiles(const Job& job, std::size_t first, std::size_t last) const {
-  RTCIntersectContext context;
-  rtcInitIntersectContext(&context);
-  context.flags = RTC_INTERSECT_CONTEXT_FLAG_COHERENT;
+  ao::EmbreeQuery query(ao::EmbreeQuery::coherent);
   RayPacket16 packet;
   const std::size_t columns = (job.width + tile_side - 1) / tile_side;
   for (std::size_t tile = first; tile < last; ++tile) {
@@ -157,7 +153,7 @@ void SoftSampler::trace_tiles(const Job& job, std::size_t first, std::size_t las
       if (!kernels_.aim(from, &samples_.x[s], &samples_.y[s], &samples_.z[s], normal_.x, normal_.y, normal_.z,
                         packet))
         continue;
-      rtcOccluded16(packet.valid, job.casters, &context, &packet.rays);
+      query.occluded16(packet.valid, job.casters, packet.rays);
       kernels_.gather(packet, sums);
     }
     for (std::size_t lane = 0; lane < lanes; ++lane) {
