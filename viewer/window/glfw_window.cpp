@@ -72,7 +72,7 @@ public:
   Gui(GLFWwindow* window) {
     ImGui::CreateContext();
     ImGui::GetIO().IniFilename = nullptr;
-    ImGui_ImplGlfw_InitForOpenGL(window, true);
+    take_events(window);
     ImGui_ImplOpenGL3_Init("#version 330 core");
     apply_style(scale_of(window));
   }
@@ -83,6 +83,20 @@ public:
   }
   Gui(const Gui&) = delete;
   Gui& operator=(const Gui&) = delete;
+
+private:
+  /// Dear ImGui hears of everything but the mouse's buttons, which come from the viewer's MouseQueue, and
+  /// takes in one frame all that it has heard: the queue that it has itself (1.87 and later) would hold back
+  /// what follows.
+  static void take_events(GLFWwindow* window) {
+    const GLFWmousebuttonfun own = glfwSetMouseButtonCallback(window, nullptr);
+    glfwSetMouseButtonCallback(window, own);
+    ImGui_ImplGlfw_InitForOpenGL(window, true);
+    glfwSetMouseButtonCallback(window, own);
+#if IMGUI_VERSION_NUM >= 18700
+    ImGui::GetIO().ConfigInputTrickleEventQueue = false;
+#endif
+  }
 };
 
 /// Null before and after its session.

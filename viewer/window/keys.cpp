@@ -89,12 +89,22 @@ void handle_camera_keys(Ui& ui) {
   state.free = state.start;
 }
 
+/// The key of a capital letter: by name for Dear ImGui 1.87 and later, by the window system's code before.
+ImGuiKey key_of(char letter) {
+#if IMGUI_VERSION_NUM >= 18700
+  return static_cast<ImGuiKey>(ImGuiKey_A + (letter - 'A'));
+#else
+  return letter;
+#endif
+}
+
 void fly_by_keys(Ui& ui, float seconds) {
   const ImGuiIO& io = ImGui::GetIO();
   if (!flies(io) || !ui.picture) return;
   if (ui.state.camera_mode != CameraMode::fly) leave_scene_camera(ui, CameraMode::fly);
-  const auto axis = [](int positive, int negative) {
-    return static_cast<float>(ImGui::IsKeyDown(positive)) - static_cast<float>(ImGui::IsKeyDown(negative));
+  const auto axis = [](char positive, char negative) {
+    return static_cast<float>(ImGui::IsKeyDown(key_of(positive))) -
+           static_cast<float>(ImGui::IsKeyDown(key_of(negative)));
   };
   const float metres = ui.state.fly_speed * seconds * (io.KeyShift ? 4.0f : 1.0f);
   fly(ui.state.free, glm::vec3(axis('D', 'A'), axis('E', 'Q'), axis('W', 'S')) * metres);
@@ -139,7 +149,7 @@ void help_column(const char* lines) {
 bool flies(const ImGuiIO& io) {
   if (io.WantTextInput || io.KeyCtrl) return false;
   constexpr std::array keys{'W', 'A', 'S', 'D', 'Q', 'E'};
-  return std::any_of(keys.begin(), keys.end(), [](char key) { return ImGui::IsKeyDown(key); });
+  return std::any_of(keys.begin(), keys.end(), [](char key) { return ImGui::IsKeyDown(key_of(key)); });
 }
 
 void flip_slots(ViewState& state) {

@@ -20,6 +20,17 @@ public:
 
   /// Before ImGui::NewFrame, after the window system has filled `io`: gives it the next press or release.
   void feed(ImGuiIO& io) {
+#if IMGUI_VERSION_NUM >= 18700  // takes the mouse by events, and keeps the place until it is told another
+    if (waits() || elsewhere_) {
+      const ImVec2 at = waits() ? waiting_.front().at : at_;
+      io.AddMousePosEvent(at.x, at.y);
+    }
+    elsewhere_ = waits();
+    if (!waits()) return;
+    const Event event = waiting_.front();
+    waiting_.pop_front();
+    io.AddMouseButtonEvent(event.button, event.down);
+#else
     if (waits()) {
       const Event event = waiting_.front();
       waiting_.pop_front();
@@ -27,6 +38,7 @@ public:
       down_[static_cast<std::size_t>(event.button)] = event.down;
     }
     for (std::size_t i = 0; i < down_.size(); ++i) io.MouseDown[i] = down_[i];
+#endif
   }
 
 private:
@@ -37,6 +49,9 @@ private:
   };
   ImVec2 at_{0, 0};
   std::array<bool, 3> down_{};  // as Dear ImGui has been told
+#if IMGUI_VERSION_NUM >= 18700
+  bool elsewhere_ = false;  // it was told a place where the mouse may be no more
+#endif
   std::deque<Event> waiting_;
 };
 
