@@ -2,10 +2,14 @@
 
 #include <tbb/parallel_for.h>
 #include <tbb/task_arena.h>
-#include <xmmintrin.h>
 
 #include <algorithm>
 #include <atomic>
+#include <cstdint>
+
+#ifdef __SSE__
+#include <xmmintrin.h>
+#endif
 
 #ifdef TENEBRA_THREAD_SANITIZER
 extern "C" void __tsan_acquire(void*);
@@ -21,7 +25,25 @@ namespace tenebra::parallel {
 
 namespace {
 
+#ifdef __SSE__
 constexpr unsigned ieee_defaults = 0x1f80;  // MXCSR: all exceptions masked, to nearest, no FTZ, no DAZ
+unsigned float_settings() {
+  return _mm_getcsr();
+}
+void set_float_settings(unsigned settings) {
+  _mm_setcsr(settings);
+}
+#elif defined(__aarch64__)
+constexpr unsigned ieee_defaults = 0;  // FPCR: no traps, to nearest, no FZ; its upper half is not in use
+unsigned float_settings() {
+  std::uint64_t settings = 0;
+  asm volatile("mrs %0, fpcr" : "=r"(settings));
+  return static_cast<unsigned>(settings);
+}
+void set_float_settings(unsigned settings) {
+  asm volatile("msr fpcr, %0" : : "r"(std::uint64_t{settings}));
+}
+#endif
 
 // What a loop is to the thread sanitizer: libtbb is not instrumented, nor is this file, so the order that
 // they keep (the caller before each body, each body before the caller goes on) has to be said.
@@ -43,11 +65,11 @@ public:
 
 }  // namespace
 
-FloatEnvironment::FloatEnvironment() : saved_(_mm_getcsr()) {
-  _mm_setcsr(ieee_defaults);
+FloatEnvironment::FloatEnvironment() : saved_(float_settings()) {
+  set_float_settings(ieee_defaults);
 }
 FloatEnvironment::~FloatEnvironment() {
-  _mm_setcsr(saved_);
+  set_float_settings(saved_);
 }
 
 void parallel_ranges(std::size_t count, std::size_t grain,

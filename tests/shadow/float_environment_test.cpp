@@ -1,5 +1,6 @@
 // The caller's floating-point settings: neither do they reach the results, nor do they get lost. Rounding
 // upwards, flushing results to zero and taking denormals as zero, each on any number of threads.
+#ifdef __SSE__  // the settings that it makes are MXCSR's
 #include <gtest/gtest.h>
 #include <xmmintrin.h>
 
@@ -125,3 +126,4 @@ TEST(FloatEnvironment, EveryLoopBodyHasIeeeDefaults) {
 
 }  // namespace
 }  // namespace tenebra
+#endif
