@@ -7,17 +7,21 @@
 #include <cstddef>
 
 #include "gl/objects.h"
+#include "support/contexts.h"
 
 namespace tenebra::gl {
 namespace {
 
-TEST(Context, IsCreatedByEglAndByOsmesa) {
-  for (const char* name : {"egl", "osmesa"}) {
-    auto context = Context::create(*context_kind_from_name(name));
-    ASSERT_TRUE(context) << context.error().message;
-    EXPECT_EQ(context->kind_name(), name);
-    EXPECT_NE(context->description().find("OpenGL 4."), std::string::npos) << context->description();
-  }
+class ContextOfKind : public ::testing::TestWithParam<ContextKind> {
+protected:
+  void SetUp() override { TENEBRA_NEEDS_CONTEXT(GetParam()); }
+};
+
+TEST_P(ContextOfKind, IsCreated) {
+  auto context = Context::create(GetParam());
+  ASSERT_TRUE(context) << context.error().message;
+  EXPECT_EQ(context_kind_from_name(context->kind_name()), GetParam());
+  EXPECT_NE(context->description().find("OpenGL 4."), std::string::npos) << context->description();
 }
 
 TEST(Context, AutomaticPrefersEgl) {
@@ -35,6 +39,7 @@ TEST(Context, KindNamesAreThoseOfTheCommandLine) {
 }
 
 TEST(Context, TakesTurnsWithAnotherKind) {
+  TENEBRA_NEEDS_CONTEXT(ContextKind::osmesa);
   auto egl = Context::create(ContextKind::egl);
   auto osmesa = Context::create(ContextKind::osmesa);
   ASSERT_TRUE(egl && osmesa);
@@ -53,7 +58,7 @@ TEST(Context, TakesTurnsWithAnotherKind) {
 /// The functions of the context that is current, but for a version of long ago.
 Function load_from_old_driver(const char* name) {
   static FunctionLoader real = nullptr;
-  if (!real) real = Context::create(ContextKind::osmesa)->function_loader();
+  if (!real) real = Context::create(test::any_kind())->function_loader();
   using GetString = const unsigned char* (*)(unsigned);
   const GetString old_version = [](unsigned) { return reinterpret_cast<const unsigned char*>("3.3 (old)"); };
   if (std::string_view(name) == "glGetString") return reinterpret_cast<Function>(old_version);
@@ -62,7 +67,7 @@ Function load_from_old_driver(const char* name) {
 
 TEST(Context, BelowFourFiveIsRefusedWithASentence) {
   ASSERT_NE(load_from_old_driver("glGetError"), nullptr);
-  auto window = Context::create(ContextKind::osmesa);
+  auto window = Context::create(test::any_kind());
   ASSERT_TRUE(window);
   const auto refused = Context::adopt(load_from_old_driver);
   ASSERT_FALSE(refused);
@@ -71,7 +76,7 @@ TEST(Context, BelowFourFiveIsRefusedWithASentence) {
 }
 
 TEST(Context, AdoptsACurrentOneAndLeavesItAlone) {
-  auto window = Context::create(ContextKind::osmesa);
+  auto window = Context::create(test::any_kind());
   ASSERT_TRUE(window);
   const FunctionLoader no_functions = [](const char*) -> Function { return nullptr; };
   const auto refused = Context::adopt(no_functions);
@@ -86,18 +91,19 @@ TEST(Context, AdoptsACurrentOneAndLeavesItAlone) {
   EXPECT_TRUE(Texture::create(PixelFormat::rgba8, 3, 3));
 }
 
-TEST(Context, ReportsErrorsWhenDebuggingAndOnlyThen) {
-  for (ContextKind kind : {ContextKind::egl, ContextKind::osmesa}) {
-    for (bool debug : {true, false}) {
-      auto context = Context::create(kind, {.debug = debug});
-      ASSERT_TRUE(context);
-      EXPECT_TRUE(context->take_debug_messages().empty());
-      EXPECT_FALSE(Texture::create(PixelFormat::rgba8, 1 << 30, 1));
-      EXPECT_EQ(!context->take_debug_messages().empty(), debug) << context->kind_name();
-      EXPECT_TRUE(context->take_debug_messages().empty());
-    }
+TEST_P(ContextOfKind, ReportsErrorsWhenDebuggingAndOnlyThen) {
+  for (bool debug : {true, false}) {
+    auto context = Context::create(GetParam(), {.debug = debug});
+    ASSERT_TRUE(context);
+    EXPECT_TRUE(context->take_debug_messages().empty());
+    EXPECT_FALSE(Texture::create(PixelFormat::rgba8, 1 << 30, 1));
+    EXPECT_EQ(!context->take_debug_messages().empty(), debug);
+    EXPECT_TRUE(context->take_debug_messages().empty());
   }
 }
+
+INSTANTIATE_TEST_SUITE_P(, ContextOfKind, ::testing::Values(ContextKind::egl, ContextKind::osmesa),
+                         [](const auto& kind) { return kind.param == ContextKind::egl ? "egl" : "osmesa"; });
 
 }  // namespace
 }  // namespace tenebra::gl

@@ -7,6 +7,7 @@
 #include <cstring>
 
 #include "gl/context.h"
+#include "support/contexts.h"
 
 namespace tenebra::gl {
 namespace {
@@ -14,6 +15,7 @@ namespace {
 class Objects : public ::testing::TestWithParam<ContextKind> {
 protected:
   void SetUp() override {
+    TENEBRA_NEEDS_CONTEXT(GetParam());
     auto created = Context::create(GetParam(), {.debug = true});
     ASSERT_TRUE(created) << created.error().message;
     context_.emplace(std::move(*created));

@@ -210,6 +210,7 @@ Frame draw_frame(gl::ContextKind kind) {
 }
 
 TEST(Raster, SameBitsFromEglAndOsmesa) {
+  TENEBRA_NEEDS_CONTEXT(gl::ContextKind::osmesa);
   const Frame egl = draw_frame(gl::ContextKind::egl), osmesa = draw_frame(gl::ContextKind::osmesa);
   EXPECT_EQ(egl.ids, osmesa.ids);
   EXPECT_EQ(egl.depth, osmesa.depth);

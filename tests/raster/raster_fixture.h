@@ -16,6 +16,7 @@
 #include "raster/gbuffer.h"
 #include "raster/geometry_buffers.h"
 #include "raster/light_buffer.h"
+#include "support/contexts.h"
 
 namespace tenebra {
 
@@ -90,6 +91,7 @@ inline FrameGeometry random_soup(int count, glm::vec3 centre, float size, unsign
 class RasterTest : public ::testing::TestWithParam<gl::ContextKind> {
 protected:
   void SetUp() override {
+    TENEBRA_NEEDS_CONTEXT(GetParam());
     auto created = gl::Context::create(GetParam(), {.debug = true});
     ASSERT_TRUE(created) << created.error().message;
     context_.emplace(std::move(*created));

@@ -1,4 +1,5 @@
 #include "render/render_fixture.h"
+#include "support/contexts.h"
 
 namespace tenebra {
 namespace {
@@ -59,6 +60,7 @@ TEST(Renderer, ShadowOfAPlateIsWhereGeometryPutsIt) {
 }
 
 TEST(Renderer, MasksAndPicturesAreTheSameFromEglAndOsmesa) {
+  TENEBRA_NEEDS_CONTEXT(gl::ContextKind::osmesa);
   const Scene scene = plate_over_floor();
   const render::RenderSettings settings{.width = 161, .height = 97};
   const render::FrameResult egl = draw(scene, settings, gl::ContextKind::egl),
