@@ -14,7 +14,7 @@ Expected<fs::path> bundled_scene(const std::string& name) {
     const fs::path file = (folder / name).lexically_normal();
     if (fs::is_regular_file(file, error)) return file;
   }
-  return base::fail("no scene was given, and the bundled {} is not there; name a scene file", name);
+  return base::fail("no scene was given, and the bundled {} is missing; name a scene file", name);
 }
 
 }  // namespace tenebra::viewer

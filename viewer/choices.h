@@ -1,4 +1,4 @@
-// Options whose value is one of a few words: one table a kind serves reading, messages and logs.
+// Options whose value is one of a few words: one table per kind serves reading, messages and logs.
 #pragma once
 
 #include <fmt/format.h>

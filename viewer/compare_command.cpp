@@ -16,9 +16,9 @@ constexpr const char* examples =
     "Examples:\n"
     "  tenebra compare a.png b.png\n"
     "  tenebra compare a.png b.png --threshold 2 -o diff.png\n"
-    "      differences of up to 2 of 255 a channel are no difference; the others are red in diff.png\n"
+    "      differences of up to 2 of 255 in each channel do not count; the others are red in diff.png\n"
     "\n"
-    "Grey counts as equal red, green and blue, and a picture without alpha as opaque.\n"
+    "Grey counts as equal red, green and blue; a picture without alpha counts as opaque.\n"
     "Exit code: 0 same, 1 different, 2 failed (one sentence says why).";
 
 constexpr int same = 0;
@@ -65,14 +65,15 @@ Expected<int> parse_threshold(const std::string& text) {
 }  // namespace
 
 void add_compare_command(CLI::App& program, Run& run) {
-  CLI::App* command = program.add_subcommand("compare", "Whether two pictures are the same");
+  CLI::App* command = program.add_subcommand("compare", "Say whether two pictures are the same");
   const auto options = std::make_shared<CompareOptions>();
   command->footer(examples);
-  command->add_option("A", options->a, "A picture, PNG")->required();
+  command->add_option("A", options->a, "A PNG picture")->required();
   command->add_option("B", options->b, "Another of the same size")->required();
-  command->add_option("-o,--output", options->output, "Picture of the differences")->type_name("FILE.png");
+  command->add_option("-o,--output", options->output, "Picture of the differences to write")
+      ->type_name("FILE.png");
   add_value(*command, "--threshold", options->threshold, parse_threshold,
-            "Largest difference of a channel that counts as the same, 0 to 255 [0]")
+            "Largest difference in a channel that does not count, 0 to\n255 [0]")
       ->type_name("T");
   command->callback([options, &run] { run = [options] { return compare(*options); }; });
 }

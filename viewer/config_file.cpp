@@ -60,7 +60,7 @@ void add_config_option(CLI::App& command) {
   command
       .add_option_function<std::string>(
           "--config", [&command](const std::string& path) { read_config(command, path); },
-          "Options from a file: lines like size = 800x600;\nwhat the command line says counts more")
+          "Read options from a file with lines like size = 800x600;\noptions on the command line win")
       ->type_name("FILE");
 }
 

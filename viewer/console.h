@@ -1,5 +1,5 @@
 // Text for the user. Never throws: a failed write to standard output is found by main at the end, and with
-// standard error gone there is nobody left to tell.
+// standard error gone there is no one left to tell.
 #pragma once
 
 #include <fmt/format.h>

@@ -15,9 +15,9 @@ constexpr const char* examples =
     "Example:\n"
     "  tenebra convert bart/robots/Robot.aff robots.glb --fps 24\n"
     "\n"
-    "BART's splines become keys at --fps a second, or at the file's own frames where it states them; "
-    "animated\n"
-    "triangles become morph targets. OUT is whole or absent.";
+    "BART's splines become --fps keys per second, or one key for each of the file's own frames where it "
+    "numbers\n"
+    "them; animated triangles become morph targets. OUT is either whole or absent.";
 
 struct ConvertOptions {
   std::string input;
@@ -42,12 +42,13 @@ Expected<int> convert(const ConvertOptions& options) {
 }  // namespace
 
 void add_convert_command(CLI::App& program, Run& run) {
-  CLI::App* command = program.add_subcommand("convert", "A scene with its animation as binary glTF 2.0");
+  CLI::App* command =
+      program.add_subcommand("convert", "Write a scene, with its animation, as binary glTF 2.0");
   const auto options = std::make_shared<ConvertOptions>();
   command->footer(examples);
   command->add_option("IN", options->input, "Scene file: .gltf .glb .aff .nff .obj")->required();
   command->add_option("OUT", options->output, "File to write, .glb")->required();
-  add_value(*command, "--fps", options->fps, parse_positive, "Keys a second for baked splines [30]")
+  add_value(*command, "--fps", options->fps, parse_positive, "Keys per second for baked splines [30]")
       ->type_name("F");
   command->add_flag("--quiet", options->quiet, "No warnings");
   command->callback([options, &run] { run = [options] { return convert(*options); }; });

@@ -20,9 +20,8 @@ constexpr const char* examples =
     "  tenebra info scenes/city.glb\n"
     "  tenebra info scenes/city.glb --json | python3 -m json.tool\n"
     "\n"
-    "Triangles and bounds are those of the first frame, in world space; frames are counted at --fps where "
-    "the file\n"
-    "does not state them.";
+    "Triangles and bounds are those of the first frame, in world space. Where the file does not number its\n"
+    "frames, they are counted at --fps.";
 
 struct InfoOptions {
   std::string scene;
@@ -175,13 +174,13 @@ Expected<int> info(const InfoOptions& options) {
 }  // namespace
 
 void add_info_command(CLI::App& program, Run& run) {
-  CLI::App* command =
-      program.add_subcommand("info", "What a scene holds: counts, bounds, lights, cameras, animations");
+  CLI::App* command = program.add_subcommand(
+      "info", "Say what a scene contains: counts, bounds, lights, cameras, animations");
   const auto options = std::make_shared<InfoOptions>();
   command->footer(examples);
   command->add_option("SCENE", options->scene, "Scene file: .gltf .glb .aff .nff .obj")->required();
-  command->add_flag("--json", options->json, "As JSON");
-  add_value(*command, "--fps", options->fps, parse_positive, "Frames a second, to count frames [30]")
+  command->add_flag("--json", options->json, "Print JSON");
+  add_value(*command, "--fps", options->fps, parse_positive, "Frames per second, to count frames [30]")
       ->type_name("F");
   command->callback([options, &run] { run = [options] { return info(*options); }; });
 }

@@ -21,7 +21,7 @@ struct LightEdit {
   bool operator==(const LightEdit&) const = default;
 };
 
-/// One a light of Scene::lights; lights beyond the end are as the scene has them.
+/// One for each light of Scene::lights; lights beyond the end are as the scene has them.
 using LightEdits = std::vector<LightEdit>;
 
 /// "N KEY=VALUE ...": `1 on=0`, `0 intensity=2 move=0,1.5,0 size=0.5x0.3`. The edit of light N in `edits`,

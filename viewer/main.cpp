@@ -19,11 +19,11 @@ constexpr int failure = 1;
 constexpr int comparison_failure = 2;  // `tenebra compare` says with 1 that pictures differ
 
 constexpr const char* about =
-    "tenebra: ray-traced, alias-free shadows for animated scenes, on the CPU beside OpenGL\n";
+    "tenebra: exact, alias-free shadows for animated scenes, on the CPU beside OpenGL\n";
 constexpr const char* first_steps =
     "First steps:\n"
     "  tenebra view                                      a window on the bundled city\n"
-    "  tenebra info scenes/city.glb                      what a scene holds\n"
+    "  tenebra info scenes/city.glb                      what a scene contains\n"
     "  tenebra render scenes/city.glb                    its first frame, to out/0000.png\n"
     "  tenebra render scenes/city.glb --frames all       the whole animation\n"
     "  tenebra COMMAND --help                            the options of a command, with examples\n"
@@ -39,7 +39,7 @@ int report(const std::string& sentence, int code) {
 /// What a command printed counts only once it is out: a full disk or a closed pipe shows here.
 int flush_output(int code) {
   if (std::fflush(stdout) == 0 && std::ferror(stdout) == 0) return code;
-  return report("cannot write standard output: no space left, or nobody reads it any more", failure);
+  return report("cannot write standard output: no space left, or its reader is gone", failure);
 }
 
 int parse_and_run(CLI::App& program, Run& run, int argc, char** argv) {
@@ -84,7 +84,7 @@ int main(int argc, char** argv) {
   try {
     CLI::App program{about, "tenebra"};
     program.footer(first_steps);
-    program.set_version_flag("--version", "tenebra 0.1.0");
+    program.set_version_flag("--version", "tenebra " TENEBRA_VERSION);
     program.get_formatter()->column_width(34);
     Run run;
     tenebra::viewer::add_view_command(program, run);

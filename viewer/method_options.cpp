@@ -98,69 +98,74 @@ void add_common(CLI::App& command, MethodOptions& options) {
            command, quality_option, options.quality, parse_quality,
            "What soft shadows and ambient occlusion may cost.\nfast: --soft-points 8 --ao-rays 16 "
            "--ao-downscale 2\n(penumbrae off by 3 to 8/255 RMS, occlusion by 3 to 7);\nbalanced: the "
-           "defaults (exact; occlusion by 2 to 6);\nexact: --ao-rays 256 (2 to 5); docs/trade.md has it "
-           "all.\nAn option that is given itself wins")
+           "defaults (exact; occlusion by 2 to 6);\nexact: --ao-rays 256 (2 to 5); docs/trade.md has all\n"
+           "figures. An option that is given itself wins")
            ->type_name("fast|balanced|exact"),
        add_choice<shadow_choices>(command, "--shadows", render.shadows,
-                                  "hard: of the lights' centres; soft: of their areas,\nboth exact and "
+                                  "hard: each light as a point; soft: with its area;\nboth exact and "
                                   "without noise [hard]"),
-       add_value(command, "--light", render.light, parse_light, "One light, by number, or all [all]")
+       add_value(command, "--light", render.light, parse_light,
+                 "Light with this light alone, by number, or with all [all]")
            ->type_name("N|all"),
-       add_value(command, "--exposure", render.exposure, parse_factor, "Factor of the light [1]")
+       add_value(command, "--exposure", render.exposure, parse_factor,
+                 "Multiplies all light by this factor [1]")
            ->type_name("E"),
        add_value(command, "--threads", render.threads, parse_threads,
-                 "Threads of shadows and ambient occlusion [0: all cores]")
+                 "Threads for shadows and ambient occlusion [0: all cores]")
            ->type_name("N"),
        add_value(command, "--simd", render.hard.simd, parse_simd,
-                 "Vector instructions: auto, scalar, sse4, avx2 or avx512;\nthe same masks with each "
-                 "[auto]")
+                 "Vector instructions: auto, scalar, sse4, avx2 or avx512;\nthe masks are the same with "
+                 "each [auto]")
            ->type_name("LEVEL")},
       shadow_group);
 }
 
 void add_hard(CLI::App& command, MethodOptions& options) {
-  set_group({add_value(command, "--variant", options.render.hard.variant, parse_variant,
-                       "Tiles, Precise, PreciseSorted, Spheres, SpheresSorted, PreciseSEA,\nPreciseEATP or "
-                       "PreciseSEATP: the same mask by other work [Tiles]")
-                 ->type_name("V"),
-             add_choice<sample_choices>(command, "--samples", options.render.samples,
-                                        "Where shadow rays start: exact points from triangle\nids, or the "
-                                        "paper's from the depth buffer [ids]"),
-             add_choice<cull_choices>(command, "--cull", options.cull_front,
-                                      "front: only faces turned away from the light cast;\nfor closed meshes "
-                                      "[none; front with depth samples]")},
-            hard_group);
+  set_group(
+      {add_value(command, "--variant", options.render.hard.variant, parse_variant,
+                 "Method: Tiles, or the paper's Precise, PreciseSorted, Spheres,\nSpheresSorted, PreciseSEA, "
+                 "PreciseEATP or PreciseSEATP;\nthe mask is the same with each [Tiles]")
+           ->type_name("V"),
+       add_choice<sample_choices>(command, "--samples", options.render.samples,
+                                  "Where shadow rays start: at exact points, from triangle\nids, or as in "
+                                  "the paper from the depth buffer [ids]"),
+       add_choice<cull_choices>(command, "--cull", options.cull_front,
+                                "front: only faces turned away from the light cast\nshadows; for closed "
+                                "meshes [none; front with\n--samples depth]")},
+      hard_group);
 }
 
 void add_soft(CLI::App& command, MethodOptions& options) {
   SoftShadowConfig& soft = options.render.soft;
   render::AreaLightSettings& lights = options.render.area_lights;
-  auto* size = add_value(command, "--light-size", options.light_size, parse_light_size,
-                         "Makes point and spot lights rectangles of this size, in\nmetres or (4%) in percent "
-                         "of the scene's diagonal,\nwith the light they had [they stay points]")
-                   ->type_name("W[xH][%]");
-  auto* facing = add_value(command, "--light-facing", lights.facing, parse_vector,
-                           "What those rectangles face [the scene's centre;\nspot lights: where they shine]")
-                     ->type_name("X,Y,Z")
-                     ->needs(size);
+  auto* size =
+      add_value(command, "--light-size", options.light_size, parse_light_size,
+                "Turns point and spot lights into rectangles of this size,\nin metres, or (4%) in percent "
+                "of the scene's diagonal;\nthey keep their light [they stay points]")
+          ->type_name("W[xH][%]");
+  auto* facing =
+      add_value(command, "--light-facing", lights.facing, parse_vector,
+                "Point that those rectangles face [the scene's centre;\nspot lights: where they shine]")
+          ->type_name("X,Y,Z")
+          ->needs(size);
   auto* emissive = command.add_flag("--emissive-lights", lights.emissive_quads,
-                                    "Flat convex meshes of an emissive material shine too");
+                                    "Flat convex meshes with an emissive material are lights too");
   set_group(
       {size, facing, emissive,
        add_choice<solver_choices>(command, "--soft-solver", soft.solver,
-                                  "What finds the visible part of a light: the lazy BSP\nof the paper, "
-                                  "clipping, or auto: meshes by their\noutline, the rest clipped; the same "
-                                  "picture [auto]"),
+                                  "How the visible part of a light is found: by the paper's\nlazy BSP, by "
+                                  "clipping, or (auto) meshes by their\nsilhouettes and the rest by "
+                                  "clipping; the picture is\nthe same [auto]"),
        add_choice<grouping_choices>(command, "--soft-grouping", soft.grouping,
-                                    "Points that share a BSP: neighbours, or as in the\npaper's "
-                                    "Algorithm 2 those of a triangle [neighbourhood]"),
+                                    "Points that are solved together: neighbours, or as in\nthe paper's "
+                                    "Algorithm 2 those of a triangle\n[neighbourhood]"),
        add_choice<occluder_choices>(command, "--soft-choice", soft.choice,
-                                    "Occluder that the BSP takes next; the paper's: random [largest]"),
+                                    "Occluder that the BSP takes next; in the paper: random\n[largest]"),
        add_choice<precision_choices>(command, "--soft-precision", soft.precision,
-                                     "reference: double throughout [fast]"),
+                                     "reference: double precision throughout [fast]"),
        add_value(command, points_option, options.render.soft_points, parse_points,
-                 "Instead of all that: lights are so many points, each\nwith exact hard shadows; steps "
-                 "in the penumbra [0: exact]")
+                 "Replaces each area light by N points with exact hard\nshadows: quicker, but with steps "
+                 "in the penumbra\n[0: exact]")
            ->type_name("N")},
       soft_group);
 }
@@ -169,32 +174,33 @@ void add_ao(CLI::App& command, AoConfig& ao) {
   ao.cache = default_cache_folder();
   set_group(
       {add_choice<ao_choices>(command, "--ao", ao.mode,
-                              "field: from displacement fields of the rigid objects;\nrays: by ray casting, "
+                              "field: by displacement fields of the rigid objects;\nrays: by casting rays, "
                               "to compare with [none]"),
        add_choice<place_choices>(command, "--ao-at", ao.place,
-                                 "Where it is computed; vertices as in the paper [pixels]"),
+                                 "Where it is computed; in the paper: vertices [pixels]"),
        add_choice<layout_choices>(command, "--ao-layout", ao.layout,
-                                  "What a field stores: chords from entry to exit, or the\npaper's positions "
-                                  "x directions [chords]"),
-       add_value(command, rays_option, ao.rays, parse_at_least_one, "Rays a point [64]")->type_name("N"),
+                                  "What a field stores: chords from entry to exit, or as in\nthe paper "
+                                  "positions x directions [chords]"),
+       add_value(command, rays_option, ao.rays, parse_at_least_one, "Rays per point [64]")->type_name("N"),
        add_value(command, downscale_option, ao.downscale, parse_downscale,
-                 "Of N x N pixels one is computed, the rest blurred\nfrom those that resemble it [1: all]")
+                 "Computes one of N x N pixels and blurs the others from\nsimilar ones [1: every pixel]")
            ->type_name("N"),
        add_value(command, "--ao-distance", ao.distance_m, parse_positive,
-                 "Metres at which nothing occludes any more [a\ntwentieth of the scene's diagonal]")
+                 "Distance in metres beyond which nothing occludes [a\ntwentieth of the scene's diagonal]")
            ->type_name("D"),
        add_value(command, "--ao-positions", ao.positions, parse_at_least_one,
                  "Samples on an object's bounding sphere [4225]")
            ->type_name("P"),
        add_value(command, "--ao-directions", ao.directions, parse_square_count,
-                 "Directions a sample, 1024 or 32x32 [1024]")
+                 "Directions per sample, 1024 or 32x32 [1024]")
            ->type_name("D"),
-       add_value(command, "--ao-bits", ao.bits, parse_bits, "Bits of a stored distance [8]")
+       add_value(command, "--ao-bits", ao.bits, parse_bits, "Bits per stored distance [8]")
            ->type_name("1|8|32"),
        add_choice<deforming_choices>(command, "--ao-deforming", ao.deforming,
-                                     "Objects that deform and have no field: by rays, or not\nat all [rays]"),
-       add_value(command, "--ao-cache", ao.cache, parse_cache,
-                 "Folder where built fields are kept\n[$XDG_CACHE_HOME/tenebra or ~/.cache/tenebra]")
+                                     "What deforms has no field: meet it by rays, or leave it\nout [rays]"),
+       add_value(
+           command, "--ao-cache", ao.cache, parse_cache,
+           "Folder that keeps built fields for the next run\n[$XDG_CACHE_HOME/tenebra or ~/.cache/tenebra]")
            ->type_name("FOLDER|none")},
       ao_group);
 }

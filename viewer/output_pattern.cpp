@@ -73,7 +73,7 @@ Expected<void> OutputPattern::prepare_folder() const {
   if (error)
     return base::fail("cannot make the folder {} for {}: {}", folder.string(), text_, error.message());
   if (!fs::is_directory(folder))
-    return base::fail("cannot write {}: {} is no folder", text_, folder.string());
+    return base::fail("cannot write {}: {} is not a folder", text_, folder.string());
   return {};
 }
 

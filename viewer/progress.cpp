@@ -34,7 +34,7 @@ void Progress::show(int done) {
   if (!shown_ || done < 1) return;
   const std::chrono::duration<double> spent = std::chrono::steady_clock::now() - begin_;
   const double seconds_a_frame = spent.count() / done;
-  print_error("{}frame {} of {}, {:.0f} ms a frame, {} left", clear_line, done, frames_,
+  print_error("{}frame {} of {}, {:.0f} ms per frame, {} left", clear_line, done, frames_,
               seconds_a_frame * 1e3, duration(seconds_a_frame * (frames_ - done)));
   std::fflush(stderr);
 }

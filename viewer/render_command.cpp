@@ -181,7 +181,7 @@ Expected<int> render(const RenderOptions& options) {
 
 void add_render_command(CLI::App& program, Run& run) {
   CLI::App* command =
-      program.add_subcommand("render", "Pictures with shadows, masks and a log of frame times");
+      program.add_subcommand("render", "Write pictures with shadows, masks and a log of frame times");
   const auto options = std::make_shared<RenderOptions>();
   add_render_options(*command, *options);
   command->callback([options, command, &run] {

@@ -27,7 +27,7 @@ std::string camera_text(const ScenePlan& plan, const SceneOptions& options) {
 std::string frames_text(const RenderPlan& plan, double fps) {
   const PlannedFrame& first = plan.frames.front();
   const PlannedFrame& last = plan.frames.back();
-  return fmt::format("{}, from {} ({} s) to {} ({} s), {} a second where the scene states none",
+  return fmt::format("{}, from {} ({} s) to {} ({} s), {} per second where the scene states none",
                      plan.frames.size(), first.frame, first.time_s, last.frame, last.time_s, fps);
 }
 

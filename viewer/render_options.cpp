@@ -11,21 +11,21 @@ constexpr const char* examples =
     "  tenebra render scenes/city.glb\n"
     "      the first frame at 800x600, to out/0000.png\n"
     "  tenebra render scenes/city.glb --frames 0:99 -o walk/%04d.png --log walk.csv\n"
-    "      a hundred frames and what each took\n"
+    "      a hundred frames, and how long each took\n"
     "  tenebra render Robot.aff --no-cast city2.aff:69 --frames 160 --size 1024x1024 --mask mask.png -o "
     "none\n"
-    "      only the shadow mask: 255 lit, 0 shadowed\n"
+    "      the shadow mask alone: 255 lit, 0 in shadow\n"
     "  tenebra render room.glb --eye 0,1.6,4 --look-at 0,1,0 --fov 50 --light 0\n"
     "      another camera, one light\n"
     "  tenebra render scenes/court.glb --shadows soft --mask visible.png --mask visible.pfm\n"
-    "      exact soft shadows of its area light, and the visible part of the light at each pixel\n"
+    "      exact soft shadows of its area light, and how much of the light each pixel sees\n"
     "  tenebra render scenes/city.glb --shadows soft --light-size 2% --ao field --frames 0:9\n"
-    "      point lights made squares, and ambient occlusion\n"
+    "      point lights turned into squares, and ambient occlusion\n"
     "\n"
-    "Frames count from 0; A:B includes B; A: and all run to the end. Ctrl-C drops the frame at hand and "
-    "leaves\n"
-    "those before it, with the log whole. Files are whole or absent; the last folder of a picture's name is "
-    "made if it is missing.\n"
+    "Frames count from 0; A:B includes B; A: and all run to the end. Ctrl-C drops the frame being drawn and\n"
+    "keeps those before it and the whole log. A file is either whole or absent. The last folder of a "
+    "picture's\n"
+    "name is made if it is missing.\n"
     "Exit code: 0 done, 1 failed (one sentence says why), 130 or 143 stopped by a signal.";
 
 Expected<gl::ContextKind> parse_context(const std::string& text) {
@@ -52,21 +52,22 @@ void read_masks(const std::vector<std::string>& names, std::vector<OutputPattern
 void add_output_options(CLI::App& command, RenderOptions& options) {
   options.pictures = OutputPattern::parse("out/%04d.png").value();
   add_value(command, "-o,--output", options.pictures, parse_pictures,
-            "Pictures, %04d is the frame; none: no pictures [out/%04d.png]")
+            "Names of the pictures, %04d is the frame; none: no\npictures [out/%04d.png]")
       ->type_name("FILE.png");
   command
       .add_option_function<std::vector<std::string>>(
           "--mask", [&options](const std::vector<std::string>& names) { read_masks(names, options.masks); },
-          "Shadow masks: 255 lit, 0 shadowed, turned away or background,\nsoft: between them the visible "
-          "part "
-          "of the light; as .pfm in\n32 bits; several lights add _L0, _L1, ...; may be repeated")
+          "Shadow masks: 255 lit; 0 in shadow, facing away or\nbackground; soft: in between, by how much of "
+          "the "
+          "light is\nvisible; .pfm: in 32 bits; several lights add _L0, _L1,\n...; may be repeated")
       ->allow_extra_args(false)
       ->type_name("FILE.png|FILE.pfm");
-  command.add_option("--log", options.log, "Time and work of each frame")->type_name("FILE.csv");
-  command.add_option("--trace", options.trace, "The same for Perfetto or chrome://tracing")
+  command.add_option("--log", options.log, "Log: times and counts of each frame")->type_name("FILE.csv");
+  command.add_option("--trace", options.trace, "The same times for Perfetto or chrome://tracing")
       ->type_name("FILE.json");
   command.add_flag("--quiet", options.quiet, "No progress, warnings or summary");
-  add_value(command, "--context", options.context, parse_context, "Offscreen OpenGL [auto: EGL, else OSMesa]")
+  add_value(command, "--context", options.context, parse_context,
+            "Offscreen OpenGL to use [auto: EGL, else OSMesa]")
       ->type_name("auto|egl|osmesa");
 }
 
@@ -88,7 +89,7 @@ Expected<void> check_masks(const RenderOptions& options, bool several) {
     if (shadows == render::ShadowMode::none)
       return base::fail("--mask needs shadows, and --shadows none makes no mask");
     if (mask.is_pfm() && shadows != render::ShadowMode::soft) {
-      return base::fail("--mask {} holds fractions of lights, and they need --shadows soft", mask.text());
+      return base::fail("--mask {} has fractions of a light's area, which need --shadows soft", mask.text());
     }
     if (options.pictures && mask.file(0) == options.pictures->file(0)) {
       return base::fail("-o and --mask name the same file {}", mask.text());
@@ -104,7 +105,7 @@ void add_render_options(CLI::App& command, RenderOptions& options) {
   add_scene_options(command, options.scene);
   command.get_option("SCENE")->required();
   add_value(command, "--frames", options.frames, parse_frame_range,
-            "Frames to render, 0:99:10 for every tenth [0, the first]")
+            "Frames to render; 0:99:10 for every tenth [0, the first]")
       ->type_name("A:B[:STEP]|all")
       ->excludes(command.get_option("--time"));
   add_method_options(command, options.method);

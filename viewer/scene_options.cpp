@@ -18,12 +18,12 @@ void add_files(CLI::App& command, SceneOptions& options) {
   command.add_option("SCENE", options.file, "Scene file: .gltf .glb .aff .nff .obj");
   command
       .add_option("--no-cast", options.no_cast,
-                  "Mesh, material or (AFF) FILE:LINE that casts no shadow; may be repeated")
+                  "Keeps a mesh, material or (AFF) FILE:LINE from casting\nshadows; may be repeated")
       ->type_name("NAME")
       ->allow_extra_args(false)
       ->group(scene_group);
   add_value(command, "--cone-sides", options.import.cone_sides, parse_cone_sides,
-            "AFF: sides of cones and cylinders [64; the paper's count needs 8]")
+            "AFF: sides of cones and cylinders [64; 8 for the paper's\nnumber of triangles]")
       ->type_name("N")
       ->group(scene_group);
 }
@@ -40,22 +40,21 @@ void add_lights(CLI::App& command, SceneOptions& options) {
             }
           },
           "\"N KEY=VALUE ...\" changes light N: on=0,\nintensity=FACTOR, move=X,Y,Z (metres), size=WxH "
-          "(metres, "
-          "of\nsoft shadows); may be repeated")
+          "(metres,\nfor soft shadows); may be repeated")
       ->type_name("TEXT")
       ->allow_extra_args(false)
       ->group(scene_group);
 }
 
 void add_moment(CLI::App& command, SceneOptions& options) {
-  add_value(command, "--time", options.time_s, parse_time, "This time of the animation")
+  add_value(command, "--time", options.time_s, parse_time, "Time of the animation to show, in seconds")
       ->type_name("S")
       ->group(scene_group);
   add_value(command, "--fps", options.fps, parse_positive,
-            "Frames a second where the scene does not state\nits frames (glTF) [30]")
+            "Frames per second where the scene does not number its\nframes itself (glTF) [30]")
       ->type_name("F")
       ->group(scene_group);
-  command.add_option("--clip", options.clip, "Animation, by name or number [the first]")
+  command.add_option("--clip", options.clip, "Animation to play, by name or number [the first]")
       ->type_name("NAME|N")
       ->group(scene_group);
 }
@@ -65,12 +64,13 @@ void add_camera(CLI::App& command, SceneOptions& options) {
       command.add_option("--camera", options.camera, "Camera of the scene, by name or number [the first]")
           ->type_name("NAME|N");
   auto* eye =
-      add_value(command, "--eye", options.eye, parse_vector, "Camera at this place instead, in world space")
+      add_value(command, "--eye", options.eye, parse_vector, "A camera at this place instead, in world space")
           ->type_name("X,Y,Z")
           ->excludes(camera);
-  auto* look_at =
-      add_value(command, "--look-at", options.look_at, parse_vector, "What it looks at")->type_name("X,Y,Z");
-  auto* up = add_value(command, "--up", options.up, parse_vector, "What is up [0,1,0]")->type_name("X,Y,Z");
+  auto* look_at = add_value(command, "--look-at", options.look_at, parse_vector, "Point that it looks at")
+                      ->type_name("X,Y,Z");
+  auto* up = add_value(command, "--up", options.up, parse_vector, "Direction that is up [0,1,0]")
+                 ->type_name("X,Y,Z");
   eye->needs(look_at);
   look_at->needs(eye);
   up->needs(eye);
@@ -78,7 +78,7 @@ void add_camera(CLI::App& command, SceneOptions& options) {
                         "Full vertical field of view in degrees [the camera's; 45 with --eye]")
                   ->type_name("D");
   auto* size = add_value(command, "--size", options.size, parse_size,
-                         "Size in pixels [800x600, or 800 wide with the camera's aspect]")
+                         "Size of the picture in pixels [800x600, or 800 wide with\nthe camera's aspect]")
                    ->type_name("WxH");
   for (CLI::Option* option : {camera, eye, look_at, up, fov, size}) option->group(camera_group);
 }

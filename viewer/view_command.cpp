@@ -14,13 +14,13 @@ constexpr const char* examples =
     "  tenebra view\n"
     "      the bundled city; ? shows the keys\n"
     "  tenebra view scenes/gallery.glb --play --overlay nodes\n"
-    "      where the tracer's work goes\n"
+    "      where the work of hard shadows goes\n"
     "  tenebra view scenes/court.glb --shadows soft --compare=\"--shadows hard\"\n"
-    "      soft against hard shadows, with a line to wipe between them\n"
+    "      soft and hard shadows, with a line to wipe between them\n"
     "  tenebra view scenes/city.glb --size 1280x720 --record out/%04d.png --exit-after 300\n"
     "      the first 300 frames as pictures, the same bits as tenebra render\n"
     "\n"
-    "The window needs a display with OpenGL 3.3; tenebra render needs none.";
+    "The window needs a display with OpenGL 3.3; tenebra render needs no display.";
 
 /// The scene, where options speak of its lights: what it does not have is said before a window opens.
 Expected<std::shared_ptr<const ScenePlan>> plan_with_lights(const ViewOptions& options) {
@@ -52,7 +52,8 @@ Expected<int> view(ViewOptions options) {
 }  // namespace
 
 void add_view_command(CLI::App& program, Run& run) {
-  CLI::App* command = program.add_subcommand("view", "A window: watch, switch methods, see what each costs");
+  CLI::App* command =
+      program.add_subcommand("view", "Open a window: watch, switch methods, see what each costs");
   const auto options = std::make_shared<ViewOptions>();
   command->footer(examples);
   add_view_options(*command, *options);

@@ -74,31 +74,31 @@ void add_window_options(CLI::App& command, ViewOptions& options) {
   const auto group = [](CLI::Option* option) { option->group(window_group); };
   group(add_value(command, "--window", options.window, parse_size, "Size of the window [1280x720]")
             ->type_name("WxH"));
-  group(command.add_flag("--panel,!--no-panel", options.panel, "The panel at the right [yes]"));
+  group(command.add_flag("--panel,!--no-panel", options.panel, "Show the panel at the right [yes]"));
   group(command.add_flag("--play", options.play, "Start playing"));
-  group(add_value(command, "--speed", options.speed, parse_speed, "Of playing; below 0: backwards [1]")
+  group(add_value(command, "--speed", options.speed, parse_speed, "Speed of playing; below 0: backwards [1]")
             ->type_name("-4..4"));
-  group(command.add_flag("--loop,!--no-loop", options.loop, "Begin again at the end [yes]"));
-  group(command.add_flag(
-      "--fixed-step", options.fixed_step,
-      "Every picture is the next frame, however long it takes,\ninstead of time by the clock"));
+  group(command.add_flag("--loop,!--no-loop", options.loop, "Start again at the end [yes]"));
+  group(command.add_flag("--fixed-step", options.fixed_step,
+                         "Shows every frame, however long it takes, instead of\nfollowing the clock"));
   group(add_choice<navigate_choices>(
       command, "--navigate", options.navigate,
-      "Whose camera: the scene's, or one that orbits or flies\n[scene; orbit with --eye]"));
+      "Camera: the scene's, or one that orbits or flies\n[scene; orbit with --eye]"));
 }
 
 void add_compare_options(CLI::App& command, ViewOptions& options) {
   const auto group = [](CLI::Option* option) { option->group(compare_group); };
   group(command
-            .add_option(
-                "--compare", options.compare_text,
-                "--compare=\"OPTIONS\": a second method B, this one (A) with\nother shadow or ao options")
+            .add_option("--compare", options.compare_text,
+                        "--compare=\"OPTIONS\": a second method, B, which is this one\n(A) with these shadow "
+                        "or ao options")
             ->type_name("TEXT"));
   group(add_choice<show_choices>(command, "--show", options.show, "How A and B are shown [wipe]"));
-  group(add_value(command, "--wipe", options.wipe, parse_wipe, "Where the wipe stands [0.5]")
+  group(add_value(command, "--wipe", options.wipe, parse_wipe, "Place of the wipe, 0 left to 1 right [0.5]")
             ->type_name("0..1"));
   group(add_choice<overlay_choices>(command, "--overlay", options.overlay,
-                                    "nodes visited for each pixel, or classes of the soft\nshadows [none]"));
+                                    "nodes: how many node tests each pixel took; classes: how\nsoft shadows "
+                                    "found each pixel's answer [none]"));
 }
 
 void add_output_options(CLI::App& command, ViewOptions& options) {
@@ -108,24 +108,26 @@ void add_output_options(CLI::App& command, ViewOptions& options) {
       add_value(command, "--shots", options.shots, parse_numbered, "Names of screenshots [tenebra_%04d.png]")
           ->type_name("FILE.png"));
   group(add_value(command, "--record", options.record, parse_numbered,
-                  "Plays the animation once by fixed steps and writes every\npicture, %04d is the frame")
+                  "Plays the animation once, frame by frame, and writes every\npicture; %04d is the frame")
             ->type_name("FILE.png"));
-  group(command.add_option("--log", options.log, "Time and work of each frame, as of tenebra render")
+  group(command
+            .add_option("--log", options.log,
+                        "Log: times and counts of each frame, as tenebra render\nwrites it")
             ->type_name("FILE.csv"));
-  group(add_value(command, "--exit-after", options.exit_after, parse_count,
-                  "Quit after so many pictures [0: stay]")
-            ->type_name("N"));
-  group(command.add_option("--report", options.report, "What happened, one JSON object a line; for scripts")
-            ->type_name("FILE"));
   group(
-      command.add_flag("--gl-debug", options.gl_debug, "OpenGL debug contexts; complaints go to the report"));
+      add_value(command, "--exit-after", options.exit_after, parse_count, "Quit after N pictures [0: never]")
+          ->type_name("N"));
+  group(command.add_option("--report", options.report, "What happens, for scripts: one JSON object per line")
+            ->type_name("FILE"));
+  group(command.add_flag("--gl-debug", options.gl_debug,
+                         "Use OpenGL debug contexts; their messages go to the report"));
   group(add_value(
             command, "--context", options.context,
             +[](const std::string& text) -> Expected<gl::ContextKind> {
               if (const auto kind = gl::context_kind_from_name(text)) return *kind;
               return base::fail("found {}, expected auto, egl or osmesa", text);
             },
-            "OpenGL of the pictures [auto: EGL, else OSMesa]")
+            "OpenGL that draws the pictures [auto: EGL, else OSMesa]")
             ->type_name("auto|egl|osmesa"));
 }
 

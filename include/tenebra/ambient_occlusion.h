@@ -1,6 +1,6 @@
-// The public entry of ambient occlusion from displacement fields: objects and visible points in, one value a
-// pixel out. No OpenGL.
-// Gaitatzes, Chrysanthou and Papaioannou 2010, "Presampled Visibility for Ambient Occlusion".
+// The public entry of ambient occlusion from displacement fields: objects and visible points in, one value
+// per pixel out. No OpenGL. Gaitatzes, Chrysanthou and Papaioannou 2010, "Presampled Visibility for Ambient
+// Occlusion".
 #pragma once
 
 #include <tenebra/ao_config.h>
@@ -17,7 +17,8 @@
 
 namespace tenebra {
 
-/// Fields, baked self-occlusion and the cache of static surroundings of one scene, kept from frame to frame.
+/// Computes ambient occlusion. Keeps the fields and surface samples of one scene from frame to frame, so use
+/// one object for all frames of a scene.
 class AmbientOcclusion {
 public:
   AmbientOcclusion();
@@ -25,17 +26,18 @@ public:
   AmbientOcclusion& operator=(AmbientOcclusion&&) noexcept;
   ~AmbientOcclusion();
 
-  /// Ambient light that reaches each point: 1 open .. 0 closed, one a pixel; 1 where no triangle is seen.
-  /// `normals`: one a pixel, unit, on the seen side. The same bits for any thread count; never NaN.
-  /// Builds what the frame needs and lacks. Fails, with one sentence, on settings out of range, on `rays`
-  /// in a build without a ray caster, and with "stopped" if `stop` was requested.
+  /// Fills `out` with the share of the ambient light that reaches each point, one value per pixel: 1 open,
+  /// 0 closed, 1 where no triangle is seen; never NaN. `normals`: one per pixel, unit, on the seen side.
+  /// The bits are the same for any number of threads. Builds the fields and samples that the frame needs and
+  /// that are not there yet. Fails, with one sentence, if a setting is out of range, if the mode is `rays` in
+  /// a build without a ray caster, and with "stopped" if `stop` was requested.
   Expected<void> compute(const Scene& scene, const FrameGeometry& geometry, const VisiblePoints& points,
                          std::span<const glm::vec3> normals, const AoConfig& config, std::vector<float>& out,
                          const AoProgress& progress = {}, const StopFlag* stop = nullptr);
 
   const AoStats& stats() const;                   ///< of the last call
   const FrameTimings& timings() const;            ///< of the last call: ao_build_ms, ao_ms
-  const std::vector<std::string>& notes() const;  ///< sentences on objects without a field, new since create
+  const std::vector<std::string>& notes() const;  ///< on objects without a field; each sentence once
 
 private:
   struct State;

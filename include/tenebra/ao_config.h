@@ -20,32 +20,31 @@ struct AoConfig {
   AoMode mode = AoMode::none;
   AoPlace place = AoPlace::pixels;
   FieldLayout layout = FieldLayout::chords;
-  int rays = 64;  ///< a point, cosine-weighted
-  int downscale =
-      1;  ///< pixels: computed at one of so many squared, the rest blurred from those that resemble it
+  int rays = 64;      ///< per point, cosine-weighted
+  int downscale = 1;  ///< pixels: N computes one of N x N pixels; the others are blurred from similar ones
   double distance_m =
-      0;  ///< where occlusion has fallen off to nothing; 0: a twentieth of the scene's diagonal
-  int positions = 4225;   ///< samples on the bounding sphere, rounded to what the map offers
-  int directions = 1024;  ///< inward directions a position, rounded to a square
-  int bits = 8;           ///< of a stored distance: 1, 8 or 32
+      0;  ///< at which occlusion has fallen off to nothing; 0: a twentieth of the scene's diagonal
+  int positions = 4225;   ///< on the bounding sphere, rounded to a number that the map offers
+  int directions = 1024;  ///< inward, per position; rounded to a square number
+  int bits = 8;           ///< per stored distance: 1, 8 or 32
   bool deforming =
-      true;  ///< objects that deform have no field: true: rays meet them as they are; false: left out
-  std::filesystem::path cache;  ///< folder of built fields; empty: none is kept
+      true;  ///< what deforms has no field: rays meet it as it is (true), or it is left out (false)
+  std::filesystem::path cache;  ///< folder where built fields are kept; empty: nowhere
   SimdLevel simd = SimdLevel::automatic;
 };
 
-/// Called now and then with 0..1 while something long is built.
+/// Called now and then while something long is built: what it is, and how much of it is done, 0..1.
 using AoProgress = std::function<void(std::string_view what, double done)>;
 
-/// Work of ambient occlusion.
+/// The work that ambient occlusion did.
 struct AoStats {
   std::uint64_t points = 0;        ///< points or vertices computed
   std::uint64_t objects = 0;       ///< rigid objects in reach of a visible point
   std::uint64_t fields_built = 0;  ///< in this frame
-  std::uint64_t field_bytes = 0;   ///< all tables in memory
+  std::uint64_t field_bytes = 0;   ///< memory of all tables
   std::uint64_t lookups = 0;       ///< rays answered by a field
   std::uint64_t rays_cast = 0;     ///< rays answered by casting
-  std::uint64_t cache_cells = 0;   ///< cells of the cache of static surroundings
+  std::uint64_t cache_cells = 0;   ///< surface samples in memory
 };
 
 }  // namespace tenebra

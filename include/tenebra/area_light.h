@@ -9,26 +9,26 @@
 
 namespace tenebra {
 
-/// World space. The vertices are floats, taken as exact; the light's plane and frame are derived from them in
-/// double, with the same operations on every machine.
+/// In world space; made by the functions below. The vertices are floats, taken as exact. The light's plane
+/// and frame are derived from them in double, with the same operations on every machine.
 struct AreaLight {
-  std::vector<glm::vec3> vertices;  ///< 3 to 14, convex, counter-clockwise seen from where it shines
+  std::vector<glm::vec3> vertices;  ///< 3 to 14, convex, counter-clockwise seen from the lit side
   glm::dvec3 centre{0.0};           ///< centroid of the polygon's area; origin of the frame below
   glm::dvec3 ex{1, 0, 0};           ///< unit; with ey and normal a right-handed frame
   glm::dvec3 ey{0, 1, 0};           ///< unit
-  glm::dvec3 normal{0, 0, 1};       ///< unit, the side that shines
+  glm::dvec3 normal{0, 0, 1};       ///< unit, towards the lit side
   std::vector<glm::dvec2> outline;  ///< the vertices in (ex, ey), metres: the polygon that is computed with
   double area_m2 = 0;               ///< of the outline
 };
 
-/// Checks and completes a light: 3 to 14 finite vertices, planar up to the rounding of their coordinates,
-/// convex, not self-crossing, with an area. Collinear and repeated vertices are dropped. The error says which
-/// vertex breaks which rule and by how much.
+/// Makes a light of a polygon: 3 to 14 finite vertices, in a plane up to the rounding of their coordinates,
+/// convex, not crossing itself, with an area. Collinear and repeated vertices are dropped. If a rule is
+/// broken, the error says which, by which vertex, and by how much.
 Expected<AreaLight> make_area_light(std::span<const glm::vec3> vertices);
 
-/// centre +- half_x +- half_y, shining along cross(half_x, half_y).
+/// A rectangle with the corners centre +- half_x +- half_y, shining along cross(half_x, half_y).
 Expected<AreaLight> make_rectangle_light(glm::vec3 centre, glm::vec3 half_x, glm::vec3 half_y);
-/// The regular 12-gon with the disc's area, so that its flux is the disc's.
+/// A disc, as the regular 12-gon of the same area, so that it sends the same amount of light.
 Expected<AreaLight> make_disc_light(glm::vec3 centre, glm::vec3 half_x, glm::vec3 half_y);
 
 }  // namespace tenebra

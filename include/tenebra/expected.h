@@ -1,4 +1,4 @@
-// Results of what the world can make fail: files, imports, contexts, shaders, output.
+// The result of whatever the world can make fail: files, imports, contexts, shaders, output.
 #pragma once
 
 #include <string>
@@ -6,11 +6,12 @@
 
 namespace tenebra {
 
-/// One sentence for a person: place (file, line or stage), what was found, what was expected.
+/// One sentence for a person to read: the place (file, line or stage), what was found, what was expected.
 struct Error {
   std::string message;
 };
 
+/// A value, or the error that stands in its place.
 template <class T>
 using Expected = tl::expected<T, Error>;
 

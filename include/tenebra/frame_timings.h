@@ -1,32 +1,32 @@
-// What one frame cost: stage times. One row of the log, one set of slices of the trace; the same
-// names in the CSV, the user interface and the documentation.
+// What one frame cost, stage by stage: a row of the log, a set of slices of the trace. The names are the same
+// in the CSV, the window and the documentation.
 #pragma once
 
 namespace tenebra {
 
-/// Wall-clock milliseconds a stage (steady clock, GL finished before and after), summed over the lights.
+/// Wall-clock milliseconds of each stage, summed over the lights. OpenGL has finished before and after each.
 struct FrameTimings {
-  double evaluate_ms = 0;  ///< Scene -> FrameGeometry
-  double raster_ms = 0;    ///< G-buffer and light buffers
-  double readback_ms = 0;  ///< triangle ids (or depth) to the CPU
-  double points_ms = 0;    ///< visible points from triangle ids, and the tiles that variant Tiles reads
-  double rays_ms = 0;      ///< rays of the pixels that the light reaches, triangle planes; Tiles: their trees
-  double sort_ms = 0;      ///< keys and sort (0 for unsorted variants and Tiles)
-  double build_ms = 0;     ///< the cone tree; Tiles: the clusters of triangles
-  double traverse_ms = 0;  ///< triangles through the tree of rays, decisions included
+  double evaluate_ms = 0;    ///< Scene -> FrameGeometry
+  double raster_ms = 0;      ///< G-buffer and light buffers
+  double readback_ms = 0;    ///< triangle ids (or depth) to the CPU
+  double points_ms = 0;      ///< visible points from triangle ids, and their tiles for variant Tiles
+  double rays_ms = 0;        ///< shadow rays and the planes of triangles; Tiles: the trees over rays
+  double sort_ms = 0;        ///< keys and sort (0 for unsorted variants and Tiles)
+  double build_ms = 0;       ///< the cone tree; Tiles: the clusters of triangles
+  double traverse_ms = 0;    ///< triangles through the tree of rays, decisions included
   double writeback_ms = 0;   ///< mask to the pixel grid and to OpenGL
   double composite_ms = 0;   ///< final picture and its read-back
   double shaft_ms = 0;       ///< soft: groups of points and the occluders in their shafts
   double init_ms = 0;        ///< soft: occluders made ready for the solvers (*)
   double query_ms = 0;       ///< soft: visible part of the light from each point (*)
   double irradiance_ms = 0;  ///< soft: integrals over the visible parts (*)
-                             ///< (*) groups run in parallel: the threads' times, summed, over their number
+                             ///< (*) groups run in parallel: the mean of the threads' times
   double ao_build_ms = 0;    ///< ao: fields, bakes and caches built in this frame
   double ao_ms = 0;          ///< ao: look-ups (or rays), all points
   double total_ms = 0;       ///< the whole frame
 };
 
-/// Adds the stages of one light's shadows, or of a part of them; the frame's other stages are left alone.
+/// Adds the stages of one light's shadows, or of a part of them. Leaves the frame's other stages alone.
 inline void add_shadow_stages(FrameTimings& to, const FrameTimings& from) {
   to.rays_ms += from.rays_ms;
   to.sort_ms += from.sort_ms;

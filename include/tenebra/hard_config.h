@@ -1,5 +1,4 @@
-// What hard shadows are asked for: the light, the variant of the method, the contact rule; and the work that
-// they report.
+// What hard shadows are asked for (the light, the variant, the contact rule), and the work that they report.
 #pragma once
 
 #include <tenebra/simd_level.h>
@@ -12,7 +11,8 @@
 
 namespace tenebra {
 
-/// What the rays of a light share: their end (point and spot lights) or their direction (directional lights).
+/// A light without an area: what its shadow rays share, which is their end or, of directional lights, their
+/// direction.
 struct ShadowLight {
   bool directional = false;
   glm::vec3 position{0.0f};       ///< point and spot: taken as exact
@@ -22,11 +22,11 @@ struct ShadowLight {
   float range_m = 0.0f;           ///< points farther away get no ray and mask 0; 0: unbounded
 };
 
-/// Ours, and the seven variants of the paper's Table 1. All give the same mask; they differ in the work they
-/// need.
+/// How the mask is found: our own way, or one of the seven variants of the paper's Table 1. All give the same
+/// mask; they differ in the work that it takes.
 enum class Variant {
-  tiles,  ///< tiles of rays against clusters of triangles (tiles/tile_tracer.h); where it does not apply,
-          ///< precise_sorted
+  tiles,  ///< tiles of rays against clusters of triangles; precise_sorted takes its place for directional
+          ///< lights and where points are not 1e-15 to 1e15 from the light
   precise,
   precise_sorted,
   spheres,
@@ -38,43 +38,45 @@ enum class Variant {
 std::string_view variant_name(Variant variant);  ///< the paper's name: "PreciseSorted"
 std::optional<Variant> variant_from_name(std::string_view name);
 
-/// What decides that a point does not see the light.
+/// When a triangle between a point and the light counts as blocking.
 enum class ContactRule {
-  triangle_ids,  ///< exact: the own triangle never blocks, others block beyond the rounding of both
-                 ///< triangles' vertices
-  none,  ///< every triangle in between blocks: for points without ids, with front-face culling (the paper's
-         ///< way)
+  triangle_ids,  ///< exact: a triangle never blocks its own points, and others' points only if they lie
+                 ///< farther behind its plane than the rounding of both triangles' vertices
+  none,          ///< always: for points that do not lie on their triangles, with front-face culling (the
+                 ///< paper's way)
 };
 
 struct HardShadowConfig {
   Variant variant = Variant::tiles;
   bool cull_front =
-      false;  ///< section 3.6: only triangles that face away from the light cast (closed meshes only)
+      false;  ///< only triangles that face away from the light cast (section 3.6); for closed meshes
   ContactRule contact = ContactRule::triangle_ids;
   SimdLevel simd = SimdLevel::automatic;
   bool count_pixel_nodes = false;  ///< fill ShadowTracer::pixel_nodes, for display; the mask is the same
 };
 
-/// One a pixel: 255 the point sees the light; 0 blocked, facing away, out of reach, or no triangle.
+/// One value per pixel: 255 where the point sees the light; 0 where it is blocked, faces away or is out of
+/// reach, or where there is no triangle.
 using ShadowMask = std::vector<std::uint8_t>;
 
-/// Work counted by the tracer of shadow rays, summed over the lights. Counts do not jitter.
+/// The work that hard shadows did, summed over the lights. The counts are the same in every run.
 struct TraceStats {
-  std::uint64_t rays = 0;            ///< shadow rays traced: visible points that the light can reach
-  std::uint64_t triangles = 0;       ///< casting triangles of the frame (not summed over the lights)
-  std::uint64_t nodes = 0;           ///< node/triangle tests
-  std::uint64_t leaf_tests = 0;      ///< ray/triangle tests
-  std::uint64_t early_accepts = 0;   ///< nodes found covered by one triangle
-  std::uint64_t float_unknown = 0;   ///< ray/triangle pairs that the float filter left open and that mattered
-  std::uint64_t double_unknown = 0;  ///< of these, pairs that double precision left open: decided exactly
-  std::uint64_t shadowed_pixels = 0;       ///< rays found blocked
-  std::uint64_t lit_pixels = 0;            ///< rays found free
-  std::uint64_t degenerate_triangles = 0;  ///< zero area or edge-on to the light: they block nothing. Variant
-                                           ///< Tiles: of those that came near rays, or have equal corners
-  std::uint64_t tree_bytes = 0;  ///< memory of the cone tree (Tiles: of both trees), largest of the lights
+  std::uint64_t rays = 0;             ///< shadow rays traced: visible points that the light can reach
+  std::uint64_t triangles = 0;        ///< casting triangles of the frame (not summed over the lights)
+  std::uint64_t nodes = 0;            ///< tests of a node with a triangle
+  std::uint64_t leaf_tests = 0;       ///< tests of a ray with a triangle
+  std::uint64_t early_accepts = 0;    ///< nodes found covered by one triangle
+  std::uint64_t float_unknown = 0;    ///< of those, pairs that float left open and that mattered
+  std::uint64_t double_unknown = 0;   ///< of these, pairs that double left open too: decided exactly
+  std::uint64_t shadowed_pixels = 0;  ///< rays found blocked
+  std::uint64_t lit_pixels = 0;       ///< rays found free
+  /// Without an area, or edge-on to the light: they block nothing. Variant Tiles counts only those that came
+  /// near rays or that have equal corners.
+  std::uint64_t degenerate_triangles = 0;
+  std::uint64_t tree_bytes = 0;  ///< of the cone tree (Tiles: of both trees); of the light that took most
 };
 
-/// Adds the work of another light, or of another part of one (triangles, tree_bytes: the larger).
+/// Adds the work of another light, or of another part of one; of triangles and tree_bytes the larger counts.
 inline TraceStats& operator+=(TraceStats& to, const TraceStats& from) {
   to.rays += from.rays;
   to.triangles = std::max(to.triangles, from.triangles);

@@ -1,4 +1,4 @@
-// The public entry of the hard shadows: visible points, triangles and a light in, a mask out. No OpenGL.
+// The public entry of hard shadows: visible points, triangles and a light in, a mask out. No OpenGL.
 // Olsson and Assarsson 2011, "Improved Ray Hierarchy Alias Free Shadows".
 #pragma once
 
@@ -10,7 +10,7 @@
 
 namespace tenebra {
 
-/// Buffers kept from frame to frame, and what the last mask took.
+/// Computes hard shadows. Keeps its buffers from frame to frame, and what the last mask took.
 class ShadowTracer {
 public:
   ShadowTracer();
@@ -18,8 +18,9 @@ public:
   ShadowTracer& operator=(ShadowTracer&&) noexcept;
   ~ShadowTracer();
 
-  /// Steps 2 to 4 of the paper's section 3.1 for one light. The mask is the exact answer, the same bits for
-  /// any variant (without cull_front), thread count, instruction set and order of the triangles:
+  /// Fills `mask` for one light (steps 2 to 4 of the paper's section 3.1). The mask is the exact answer, the
+  /// same bits for any variant (without cull_front), number of threads, instruction set and order of the
+  /// triangles:
   ///
   /// A sample P on triangle R (id) is *active* iff R has an area and light and eye lie strictly on the same
   /// side of R's plane (exact signs; orthographic views: the eye is at infinity against d0), and the spot's
@@ -34,10 +35,11 @@ public:
                          const ShadowLight& light, const HardShadowConfig& config, ShadowMask& mask);
 
   const TraceStats& stats() const;  ///< of the last call
-  const FrameTimings& timings()
-      const;  ///< of the last call: rays_ms, sort_ms, build_ms, traverse_ms, writeback_ms
-  /// Of the last call with count_pixel_nodes: node/triangle tests made for each pixel, those of a node shared
-  /// equally by the rays below it: they sum up to TraceStats::nodes. 0 without a ray; else empty.
+  /// Of the last call: rays_ms, sort_ms, build_ms, traverse_ms, writeback_ms.
+  const FrameTimings& timings() const;
+  /// Of the last call with count_pixel_nodes (else empty): how many node tests were made for each pixel, 0
+  /// where there was no ray. Those of a node are shared equally by the rays below it, so that the sum is
+  /// TraceStats::nodes.
   std::span<const float> pixel_nodes() const;
 
 private:

@@ -13,10 +13,11 @@
 
 namespace tenebra {
 
+/// How a surface reflects light and whether it shines itself.
 struct Material {
   std::string name;
   glm::vec3 base_color{0.8f};  ///< diffuse reflectance, linear; BART may exceed 1
-  glm::vec3 ambient{-1.0f};    ///< factor of the scene's ambient light; negative: use base_color
+  glm::vec3 ambient{-1.0f};    ///< reflectance of the scene's ambient light; negative: base_color
   glm::vec3 emissive{0.0f};
   bool casts_shadow = true;
 };
@@ -30,17 +31,17 @@ struct MorphTarget {
 /// Triangles in the space of their node. All arrays of vertices have the size of `positions` or are empty.
 struct Mesh {
   std::string name;    ///< glTF or OBJ name; may be empty
-  std::string source;  ///< where it stands, "city2.aff:69"; file name without folder
+  std::string source;  ///< where the file has it: "city2.aff:69", without the folder
   std::vector<glm::vec3> positions;
   std::vector<glm::vec3> normals;        ///< unit; empty: the face normal
   std::vector<glm::uvec3> triangles;     ///< counter-clockwise seen from the front; indices in range
-  std::vector<std::uint32_t> materials;  ///< one a triangle, index into Scene::materials
+  std::vector<std::uint32_t> materials;  ///< one for each triangle, an index into Scene::materials
 
-  std::vector<glm::u16vec4> joints;  ///< skin: four joints a vertex, indices into Skin::joints
+  std::vector<glm::u16vec4> joints;  ///< skin: four for each vertex, indices into Skin::joints
   std::vector<glm::vec4> weights;    ///< skin: their weights, used as stored
 
   std::vector<MorphTarget> morph_targets;  ///< added with the weights of the node
-  std::vector<float> default_weights;      ///< one a morph target
+  std::vector<float> default_weights;      ///< one for each morph target
 
   /// BART's animated triangles: whole positions and normals at each key time, linear between, clamped
   /// outside.
@@ -53,13 +54,15 @@ struct Mesh {
   bool casts_shadow = true;
 };
 
+/// The nodes that carry a mesh's vertices.
 struct Skin {
   std::vector<int> joints;              ///< node indices
-  std::vector<glm::mat4> inverse_bind;  ///< one a joint
+  std::vector<glm::mat4> inverse_bind;  ///< one for each joint
 };
 
 enum class LightType { point, spot, directional, area_rect, area_disk };
-enum class Falloff { none, inverse_square };  ///< BART: none; glTF: inverse_square
+/// Whether light gets weaker with the distance: BART's lights do not, glTF's do.
+enum class Falloff { none, inverse_square };
 
 /// A light in the space of its node: at its origin, shining along -Z.
 struct Light {
@@ -71,7 +74,7 @@ struct Light {
   std::optional<float> range_m;  ///< no light beyond
   float inner_cone_rad = 0.0f;   ///< spot half-angles
   float outer_cone_rad = 0.785398163f;
-  glm::vec2 size_m{1.0f};  ///< area: width, height; a disk's diameter twice
+  glm::vec2 size_m{1.0f};  ///< area: width and height; of a disc its diameter, twice
 };
 
 enum class Projection { perspective, orthographic };
@@ -86,8 +89,8 @@ struct Camera {
   float near_m = 0.1f;
 };
 
-/// Local transform = translation * rotation * scale, or `matrix` where the file gives one that does not
-/// decompose.
+/// A place in the tree of the scene, and what stands there. The transform to its parent's space is
+/// translation * rotation * scale, or `matrix` where the file gives one that does not decompose.
 struct Node {
   std::string name;
   int parent = -1;  ///< smaller than the node's own index; -1 for roots
@@ -103,27 +106,28 @@ struct Node {
   std::vector<float> weights;  ///< morph weights of this instance; empty: the mesh's
 };
 
+/// Everything that was imported.
 struct Scene {
   std::string name;         ///< file name without folder
   std::vector<Node> nodes;  ///< parents before children
   std::vector<Mesh> meshes;
   std::vector<Skin> skins;
-  std::vector<Material> materials;  ///< at least one if there is a triangle
+  std::vector<Material> materials;  ///< at least one if there is any triangle
   std::vector<Light> lights;
   std::vector<Camera> cameras;
   std::vector<Clip> clips;
   glm::vec3 background{0.0f};
   glm::vec3 ambient_light{0.1f};      ///< times the materials' ambient; formats that state one set it
-  std::vector<std::string> warnings;  ///< sentences: what was skipped, guessed or added at import
+  std::vector<std::string> warnings;  ///< what was skipped, guessed or added at import, a sentence each
 };
 
-/// Adds what a picture needs and the file lacks: a camera that sees everything, a light above the camera's
-/// shoulder; says so in scene.warnings.
+/// Adds what a picture needs if the file lacks it: a camera that sees everything, and a light above the
+/// camera's shoulder. Says so in scene.warnings.
 void add_missing_camera_and_light(Scene& scene);
 
-/// Takes casters out by name of mesh, name of material or FILE:LINE (Mesh::source). Each name must match
-/// something. Appends one sentence a name to scene.warnings with the number of triangles left out (instances
-/// counted). Returns false and names the first that matches nothing in `unmatched`.
+/// Keeps meshes from casting shadows, by name of mesh, name of material or FILE:LINE (Mesh::source). For each
+/// name scene.warnings gets a sentence with the number of triangles, instances counted. Returns false if a
+/// name matches nothing; `unmatched` is then the first such name.
 bool leave_out_casters(Scene& scene, const std::vector<std::string>& names, std::string& unmatched);
 
 }  // namespace tenebra

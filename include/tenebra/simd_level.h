@@ -1,4 +1,4 @@
-// Which vector instructions to use: the results do not depend on it, the time does.
+// Which vector instructions to use. The time depends on it; the results do not.
 #pragma once
 
 #include <optional>
@@ -6,6 +6,7 @@
 
 namespace tenebra {
 
+/// Higher levels have wider vectors. A level can be used where the build and the machine have it.
 enum class SimdLevel { automatic, scalar, sse4, avx2, avx512 };
 std::string_view simd_level_name(SimdLevel level);  ///< "avx2"
 std::optional<SimdLevel> simd_level_from_name(std::string_view name);

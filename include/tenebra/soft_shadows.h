@@ -1,5 +1,5 @@
-// The public entry of the exact soft shadows: visible points, triangles and an area light in; the visible
-// part of the light and its irradiance out, one a pixel, without noise. No OpenGL.
+// The public entry of exact soft shadows: visible points, triangles and an area light in; for each pixel the
+// visible part of the light and its irradiance out, without noise. No OpenGL.
 // Mora, Aveneau, Apostu and Ghazanfarpour 2012, "Lazy visibility evaluation for exact soft shadows".
 #pragma once
 
@@ -13,7 +13,7 @@
 
 namespace tenebra {
 
-/// Buffers kept from frame to frame, and what the last mask took.
+/// Computes soft shadows. Keeps its buffers from frame to frame, and what the last mask took.
 class SoftShadowTracer {
 public:
   SoftShadowTracer();
@@ -21,17 +21,18 @@ public:
   SoftShadowTracer& operator=(SoftShadowTracer&&) noexcept;
   ~SoftShadowTracer();
 
-  /// The visible part of `light` from each point, and the irradiance it sends onto a surface with the shading
-  /// normal `normals` (one a pixel, unit; empty: the triangle's face normal on the view's side).
+  /// Fills `out` with the visible part of `light` from each point, and the irradiance that it sends onto a
+  /// surface with the shading normal `normals` (one per pixel, unit; empty: the triangle's face normal on the
+  /// view's side).
   ///
   /// A point Q of the light (front side only) is visible from sample P on triangle R iff P lies in front of
   /// the light's plane, Q on the side of R's plane from which the view sees R (strictly), and no casting
   /// triangle T other than R meets the segment PQ with P more than theta off T's plane and P, Q on different
-  /// sides of it (theta: the contact rule of points/contact_rule.h, the same as for hard shadows).
+  /// sides of it (theta: the contact rule of hard_shadows.h).
   /// visible_fraction is the area of those Q over the light's; irradiance is the integral over them, clamped
   /// to the shading normal's hemisphere. Errors: `reference` 1e-6 of the fraction, or 2^-48 of the distance
   /// over the light's size if that is more; `fast` 0.1/255 of the unoccluded irradiance (lights of at least
-  /// 1e-10 of their distance). The same bits for any thread count.
+  /// 1e-10 of their distance). The bits are the same for any number of threads.
   ///
   /// Returns false, with `out` unspecified, if `stop` was requested before the end.
   bool trace(const VisiblePoints& points, std::span<const glm::vec3> normals, const ViewRays& view,
@@ -41,7 +42,7 @@ public:
   const SoftStats& stats() const;       ///< of the last call
   const FrameTimings& timings() const;  ///< of the last call: shaft_ms, init_ms, query_ms, irradiance_ms
 
-  /// How the last call classified and solved each pixel, for display: one of `SoftClass`.
+  /// How the last call found each pixel's answer, for display: values of `SoftClass`.
   std::span<const std::uint8_t> classes() const;
 
 private:

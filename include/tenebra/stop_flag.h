@@ -5,8 +5,8 @@
 
 namespace tenebra {
 
-/// Set by one thread, read by those that work: a computation that is given a flag looks at it at least every
-/// few milliseconds, drops what it has and says so in its result.
+/// Set by one thread, read by those that work. A computation that is given a flag looks at it every few
+/// milliseconds at least; if it is set, the computation drops what it has and says so in its result.
 class StopFlag {
 public:
   void request() { requested_.store(true, std::memory_order_relaxed); }

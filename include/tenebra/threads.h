@@ -5,10 +5,10 @@
 
 namespace tenebra {
 
-/// Runs `body` so that the loops below use at most `threads` threads (0: all cores).
+/// Runs `body`; whatever it calls in this library uses at most `threads` threads (0: all cores).
 void with_threads(int threads, const std::function<void()>& body);
 
-/// Threads that a loop started here may use.
+/// How many threads a computation that is started here may use.
 int thread_count();
 
 }  // namespace tenebra

@@ -1,5 +1,5 @@
-// The samples of a frame: points on triangles, one a pixel. What hard shadows, soft shadows and ambient
-// occlusion start from; no OpenGL.
+// The samples of a frame: for each pixel a point on a triangle. Hard shadows, soft shadows and ambient
+// occlusion start from them. No OpenGL.
 #pragma once
 
 #include <tenebra/frame_geometry.h>
@@ -18,21 +18,21 @@ struct PointTiles;
 /// Id of a pixel where no triangle is seen.
 inline constexpr std::uint32_t no_triangle = 0xffffffffu;
 
-/// Triangles of one instant: float vertices, taken as exact. Receivers and occluders alike, known by their
-/// index.
+/// Triangles of one instant that somebody else owns, receivers and occluders alike. Vertices are floats,
+/// taken as exact; a triangle's id is its index.
 struct TriangleView {
   std::span<const glm::vec3> positions;
   std::span<const glm::uvec3> triangles;
-  std::span<const std::uint8_t> casts_shadow;  ///< one a triangle; empty: all cast
+  std::span<const std::uint8_t> casts_shadow;  ///< one for each triangle; empty: all cast
   std::span<const std::uint32_t>
-      parts;                  ///< a hint: first triangle of each group that moves as one, ascending
-  std::uint64_t version = 0;  ///< not 0: the caller's word that views of one number are the same throughout
+      parts;                  ///< a hint, ascending: the first triangle of each run that moves as one
+  std::uint64_t version = 0;  ///< if not 0: the caller's word that views with the same number are equal
 };
 inline TriangleView triangle_view(const FrameGeometry& geometry) {
   return {geometry.positions, geometry.triangles, geometry.casts_shadow, geometry.parts};
 }
 
-/// The visible points once more, in the form that hard shadows read; opaque. A copy is deep.
+/// The visible points once more, in the form that hard shadows read. Opaque; copies are deep.
 class PointTileStore {
 public:
   PointTileStore();
@@ -44,7 +44,7 @@ public:
 
   bool empty() const;
   void clear();
-  points::PointTiles& operator*();                                       ///< made where there are none
+  points::PointTiles& operator*();                                       ///< made if there are none
   const points::PointTiles& operator*() const { return *tiles_; }        ///< if not empty()
   const points::PointTiles* operator->() const { return tiles_.get(); }  ///< if not empty()
 
@@ -52,29 +52,30 @@ private:
   std::unique_ptr<points::PointTiles> tiles_;
 };
 
-/// Samples, one a pixel, row 0 at the top: a point, taken as exact, and the triangle it lies on.
+/// For each pixel, row 0 at the top, a point and the triangle that it lies on. The points are taken as exact.
 struct VisiblePoints {
   int width = 0;
   int height = 0;
   std::vector<glm::dvec3> positions;     ///< width * height; meaningless where the id is no_triangle
   std::vector<std::uint32_t> triangles;  ///< width * height ids, or no_triangle
-  PointTileStore tiles;  ///< empty, or the same points again: to be cleared by whoever changes them
+  PointTileStore tiles;  ///< empty, or the same points again: clear them if you change the points
 };
 
-/// Hard shadows read tiles; where there are none they make their own, of points in rows.
+/// Whether tiles are made too. Hard shadows read tiles, and make their own if there are none.
 enum class PointLayout { rows, rows_and_tiles };
 
-/// Points where the pixels' rays meet the planes of their triangles, in double, clamped into the triangle
-/// (a rasteriser's id may lie just outside). `ids`: width * height, row 0 at the top; ids out of range count
-/// as no_triangle. Bits do not depend on threads; those of rows not on the instruction set either.
+/// Finds where the pixels' rays meet the planes of their triangles, in double, clamped into the triangle (a
+/// rasteriser's id may belong to a triangle that the ray just misses). `ids`: width * height, row 0 at the
+/// top; ids out of range count as no_triangle. The bits do not depend on the number of threads, and those of
+/// rows not on the instruction set either.
 void compute_visible_points(std::span<const std::uint32_t> ids, int width, int height, const ViewRays& view,
                             const TriangleView& triangles, VisiblePoints& out,
                             PointLayout layout = PointLayout::rows);
 
-/// Unit shading normals at the points, one a pixel: `normals` (one a vertex of `triangles`; empty: face
-/// normals) interpolated in double, turned to the side from which `view` sees the triangle; the face normal
-/// where the interpolated one vanishes; zero where no triangle is seen or it has no area. Bits do not depend
-/// on threads or instruction set.
+/// Fills `out` with unit shading normals, one per pixel: `normals` (one for each vertex of `triangles`;
+/// empty: face normals) interpolated in double and turned to the side from which `view` sees the triangle.
+/// Where the interpolated normal vanishes it is the face normal; where no triangle is seen, or one without an
+/// area, it is zero. The bits do not depend on the number of threads or the instruction set.
 void compute_shading_normals(const VisiblePoints& points, std::span<const glm::vec3> normals,
                              const ViewRays& view, const TriangleView& triangles,
                              std::vector<glm::vec3>& out);

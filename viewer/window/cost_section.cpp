@@ -66,7 +66,7 @@ void explain_frame(const render::FrameRecord& record) {
   ImGui::EndTooltip();
 }
 
-/// One column a frame, its stages stacked from the bottom in the order they run; the rest of the frame is
+/// One column per frame, its stages stacked from the bottom in the order they run; the rest of the frame is
 /// grey.
 void draw_graph(Ui& ui, const FrameHistory& history, const char* name) {
   const auto& records = history.records();
@@ -179,8 +179,8 @@ void draw_counts(Ui& ui, const Picture& picture) {
 void draw_overlay_choice(Ui& ui) {
   constexpr const char* kinds[] = {"none", "nodes", "classes"};
   row(ui, "Overlay",
-      "nodes: a heat map of node tests for each pixel (hard shadows); classes: what the soft shadows made "
-      "of each pixel.");
+      "nodes: a heat map of the node tests for each pixel (hard shadows); classes: how soft shadows found "
+      "each pixel's answer.");
   int kind = static_cast<int>(ui.state.overlay);
   if (segments(ui, "overlay", kinds, 3, kind)) ui.state.overlay = static_cast<Overlay>(kind);
   if (ui.state.overlay == Overlay::none) return;
@@ -209,7 +209,7 @@ void draw_cost_section(Ui& ui) {
   }
   draw_overlay_choice(ui);
   row(ui, "Log",
-      "A row a frame, with the columns of tenebra render --log; it ends where the settings change.");
+      "One row per frame, with the columns of tenebra render --log. The log ends where the settings change.");
   if (ImGui::Button(ui.log.empty() ? "Start (T)" : fmt::format("End {} (T)", ui.log).c_str(), {-1, 0})) {
     ui.actions.toggle_log = true;
   }

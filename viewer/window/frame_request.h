@@ -16,7 +16,7 @@
 
 namespace tenebra::viewer {
 
-/// Drawn over the picture: how many nodes were visited for each pixel, or what the soft shadows made of it.
+/// Drawn over the picture: how many nodes were visited for each pixel, or how soft shadows found its answer.
 enum class Overlay { none, nodes, classes };
 
 /// Everything that decides a picture. While its clock plays it stands for picture after picture.

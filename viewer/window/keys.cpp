@@ -9,18 +9,18 @@
 namespace tenebra::viewer {
 namespace {
 
-/// What the overlay says: a line a key, below titles; "key: what it does".
+/// What the overlay says: one line per key, below titles; "key: what it does".
 constexpr const char* time_and_camera =
     "Time\n"
     "Space: play, pause\n"
-    "Left, Right: one frame back or on\n"
+    "Left, Right: one frame back or forward\n"
     "Home, End: first, last frame\n"
     "[  ]: slower, faster; past zero backwards\n"
     "L: loop\n"
     "T: start or end the log of frame times\n"
     "Camera\n"
     "drag: orbit, or look around while flying\n"
-    "right drag: move sideways\n"
+    "right drag: pan\n"
     "wheel: nearer, farther; flying: speed\n"
     "W A S D Q E: fly; Shift: faster\n"
     "F, double click: look at this point and orbit it\n"

@@ -28,7 +28,8 @@ glm::vec2 size_without_edit_m(const Ui& ui, int index, const Light& light) {
 
 void edit_light_size(Ui& ui, int index, const Light& light, LightEdit& edit) {
   row(ui, "  Size",
-      "Width and height in metres, of soft shadows; a point's until it is changed: the method's.");
+      "Width and height in metres, for soft shadows. A point light has the method's size until you change "
+      "it.");
   glm::vec2 size_m = edit.size_m.value_or(size_without_edit_m(ui, index, light));
   if (ImGui::DragFloat2("##size", &size_m.x, 0.01f, 0.0f, 1000.0f, "%.2f m")) {
     // Both sides at once where one alone would leave the light without an area.
@@ -54,13 +55,14 @@ void edit_light(Ui& ui, int index, const Light& light) {
     if (ImGui::SmallButton("reset")) edit = {};
     ui.mark(fmt::format("light.{}.reset", index));
   }
-  row(ui, "  Intensity", "Factor of the scene's.");
+  row(ui, "  Intensity", "Multiplies the scene's intensity.");
   ImGui::SliderFloat("##intensity", &edit.intensity, 0.01f, 100.0f, "x %.3g", ImGuiSliderFlags_Logarithmic);
   ui.mark(fmt::format("light.{}.intensity", index));
   if (!(edit.intensity > 0)) edit.intensity = 1;
   if (light.type != LightType::directional) {
     edit_light_size(ui, index, light, edit);
-    row(ui, "  Moved", "From where the animation has it, in metres; or drag its circle in the view.");
+    row(ui, "  Moved",
+        "Away from where the animation has it, in metres. You can also drag its circle in the view.");
     ImGui::DragFloat3("##move", &edit.move.x, 0.02f, 0, 0, "%.2f");
   }
   ImGui::PopID();
@@ -82,7 +84,7 @@ void draw_camera_section(Ui& ui) {
   if (!ui.state.scene || !section(ui, "Camera", false)) return;
   ViewState& state = ui.state;
   constexpr const char* modes[] = {"scene", "orbit", "fly"};
-  row(ui, "Moves", "The scene's animated camera; one that circles a point; one that flies (W A S D Q E).");
+  row(ui, "Moves", "The scene's animated camera, one that orbits a point, or one that flies (W A S D Q E).");
   int mode = static_cast<int>(state.camera_mode);
   if (segments(ui, "camera", modes, 3, mode)) leave_scene_camera(ui, static_cast<CameraMode>(mode));
   const auto& cameras = state.scene->scene.cameras;
@@ -125,7 +127,7 @@ void draw_camera_section(Ui& ui) {
   ImGui::SameLine();
   if (ImGui::Button("Copy arguments", {half, 0})) ui.actions.copy_arguments = true;
   ui.mark("copy arguments");
-  tooltip("Camera, method and lights as options of tenebra render, to the clipboard (Ctrl+C).");
+  tooltip("Copies camera, method and lights to the clipboard, as options of tenebra render (Ctrl+C).");
 }
 
 void draw_compare_section(Ui& ui) {
@@ -144,7 +146,7 @@ void draw_compare_section(Ui& ui) {
     ui.mark("wipe slider");
   }
   if (state.show == CompareView::difference) {
-    row(ui, "Brighter by", "Factor of the difference as it is shown.");
+    row(ui, "Brighter by", "Multiplies the difference that is shown.");
     ImGui::SliderInt("##gain", &state.gain, 1, 64, "%d",
                      ImGuiSliderFlags_Logarithmic | ImGuiSliderFlags_AlwaysClamp);
   }

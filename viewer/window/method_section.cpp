@@ -27,7 +27,7 @@ bool number(Ui& ui, const char* name, int& value, int low, int high, int step) {
 void edit_hard(Ui& ui, MethodOptions& method) {
   HardShadowConfig& hard = method.render.hard;
   row(ui, "Variant",
-      "Tiles, ours, and the seven of Olsson and Assarsson's Table 1: the same mask by other work.");
+      "Tiles (ours) or one of the seven of Olsson and Assarsson's Table 1; the mask is the same with each.");
   if (ImGui::BeginCombo("##variant", std::string(variant_name(hard.variant)).c_str())) {
     for (const Variant variant : variants) {
       const std::string name =
@@ -39,19 +39,19 @@ void edit_hard(Ui& ui, MethodOptions& method) {
   }
   ui.mark("variant");
   row(ui, "Samples",
-      "Where rays start: exact points from triangle ids, or the paper's from the depth buffer.");
+      "Where rays start: at exact points, from triangle ids, or as in the paper from the depth buffer.");
   choose(ui, "samples", sample_choices, method.render.samples);
   if (method.render.samples == render::SampleSource::depth && method.render.ao.mode != AoMode::none) {
     method.render.ao.mode = AoMode::none;
   }
-  row(ui, "Cull", "front: only faces turned away from the light cast; for closed meshes.");
+  row(ui, "Cull", "front: only faces turned away from the light cast shadows; for closed meshes.");
   bool cull = method.cull_front.value_or(method.render.samples == render::SampleSource::depth);
   if (choose(ui, "cull", cull_choices, cull)) method.cull_front = cull;
 }
 
 void edit_light_size(Ui& ui, MethodOptions& method) {
   row(ui, "Light size",
-      "Makes point and spot lights rectangles with the light they had; 0: they stay points.");
+      "Turns point and spot lights into rectangles; they keep their light. 0: they stay points.");
   LightSize size = method.light_size.value_or(LightSize{});
   float metres[2] = {size.size.x, size.size.y};
   bool changed =
@@ -85,48 +85,48 @@ void edit_soft(Ui& ui, MethodOptions& method) {
   method.render.samples = render::SampleSource::ids;
   method.cull_front.reset();
   edit_light_size(ui, method);
-  row(ui, "Emissive", "Flat convex meshes of an emissive material shine too.");
+  row(ui, "Emissive", "Flat convex meshes with an emissive material are lights too.");
   ImGui::Checkbox("quads shine##emissive", &method.render.area_lights.emissive_quads);
   row(ui, "Solver",
-      "What finds the visible part of the light: the lazy BSP of Mora et al., clipping, or by need.");
+      "How the visible part of the light is found: the lazy BSP of Mora et al., clipping, or automatic.");
   choose(ui, "solver", solver_choices, soft.solver);
-  row(ui, "Groups", "Points that share a BSP.");
+  row(ui, "Groups", "Points that are solved together.");
   choose(ui, "grouping", grouping_choices, soft.grouping);
-  row(ui, "Occluder", "Which the BSP takes next.");
+  row(ui, "Occluder", "Which occluder the BSP takes next.");
   choose(ui, "occluder", occluder_choices, soft.choice);
-  row(ui, "Precision", "reference: double throughout.");
+  row(ui, "Precision", "reference: double precision throughout.");
   choose(ui, "precision", precision_choices, soft.precision);
-  row(ui, "Points", "Instead of all that: the light as so many points with exact hard shadows; 0: exact.");
+  row(ui, "Points", "Replaces the light by so many points with exact hard shadows. 0: exact soft shadows.");
   number(ui, "soft points", method.render.soft_points, 0, 4096, 4);
 }
 
 void edit_ao(Ui& ui, AoConfig& ao) {
-  row(ui, "At", "Where it is computed; vertices as in the paper.");
+  row(ui, "At", "Where it is computed; in the paper: at vertices.");
   choose(ui, "place", place_choices, ao.place);
-  row(ui, "Rays", "A point, weighted by the cosine.");
+  row(ui, "Rays", "Per point, weighted by the cosine.");
   number(ui, "ao rays", ao.rays, 1, 65536, 16);
-  row(ui, "Downscale",
-      "Of so many pixels squared one is computed, the rest blurred from those that resemble it.");
+  row(ui, "Downscale", "N computes one of N x N pixels; the others are blurred from similar ones.");
   number(ui, "ao downscale", ao.downscale, 1, 8, 1);
-  row(ui, "Distance", "Where nothing occludes any more; 0: a twentieth of the scene's diagonal.");
+  row(ui, "Distance", "Beyond it nothing occludes, in metres. 0: a twentieth of the scene's diagonal.");
   ImGui::InputDouble("##distance", &ao.distance_m, 0, 0, ao.distance_m > 0 ? "%.3f m" : "automatic",
                      ImGuiInputTextFlags_EnterReturnsTrue);
   ui.mark("ao distance");
   if (!(ao.distance_m >= 0)) ao.distance_m = 0;
   if (ao.mode != AoMode::field) return;
-  row(ui, "Layout", "What a field stores: chords from entry to exit, or the paper's positions x directions.");
+  row(ui, "Layout",
+      "What a field stores: chords from entry to exit, or as in the paper positions x directions.");
   choose(ui, "layout", layout_choices, ao.layout);
   row(ui, "Positions", "Samples on an object's bounding sphere.");
   number(ui, "ao positions", ao.positions, 1, 1 << 20, 256);
-  row(ui, "Directions", "A sample, a square number.");
+  row(ui, "Directions", "Per position; a square number.");
   int side = static_cast<int>(std::lround(std::sqrt(ao.directions)));
   if (number(ui, "ao directions", side, 1, 1024, 4)) ao.directions = side * side;
-  tooltip("The side of the square: 32 are 1024 directions.");
-  row(ui, "Bits", "Of a stored distance.");
+  tooltip("The side of the square: 32 stands for 1024 directions.");
+  row(ui, "Bits", "Per stored distance.");
   choose(ui, "bits", bit_choices, ao.bits);
-  row(ui, "Deforming", "Objects that deform have no field: rays meet them, or they are left out.");
+  row(ui, "Deforming", "What deforms has no field: rays meet it, or it is left out.");
   choose(ui, "deforming", deforming_choices, ao.deforming);
-  row(ui, "Cache", "Folder of built fields.");
+  row(ui, "Cache", "Folder that keeps built fields for the next run.");
   bool kept = !ao.cache.empty();
   if (ImGui::Checkbox("keep built fields", &kept))
     ao.cache = kept ? default_cache_folder() : std::filesystem::path();
@@ -146,7 +146,7 @@ std::optional<render::Quality> quality_of(const render::RenderSettings& render) 
 }
 
 void choose_quality(Ui& ui, render::RenderSettings& render) {
-  row(ui, "Quality", "What soft shadows and ambient occlusion may cost: sets points, rays and downscale.");
+  row(ui, "Quality", "What soft shadows and ambient occlusion may cost. Sets points, rays and downscale.");
   std::array<const char*, render::qualities.size()> names;
   for (std::size_t i = 0; i < names.size(); ++i)
     names[i] = render::quality_name(render::qualities[i]).data();  // literals
@@ -157,13 +157,13 @@ void choose_quality(Ui& ui, render::RenderSettings& render) {
 }
 
 void edit_machine(Ui& ui, render::RenderSettings& render) {
-  row(ui, "Exposure", "Factor of all light.");
+  row(ui, "Exposure", "Multiplies all light.");
   ImGui::SliderFloat("##exposure", &render.exposure, 0.01f, 100.0f, "%.3g", ImGuiSliderFlags_Logarithmic);
   ui.mark("exposure");
   if (!(render.exposure > 0)) render.exposure = 1;
   row(ui, "Threads", "0: all cores.");
   number(ui, "threads", render.threads, 0, 1024, 1);
-  row(ui, "SIMD", "Vector instructions: the same masks with each.");
+  row(ui, "SIMD", "Vector instructions; the masks are the same with each.");
   if (ImGui::BeginCombo("##simd", std::string(simd_level_name(render.hard.simd)).c_str())) {
     for (const SimdLevel level : levels) {
       if (level != SimdLevel::automatic && !simd_level_supported(level)) continue;
@@ -211,7 +211,7 @@ void draw_method_section(Ui& ui) {
   if (!section(ui, "Method", true)) return;
   ViewState& state = ui.state;
   constexpr const char* slots[] = {"A", "B"};
-  row(ui, "Slot", "Two methods with their settings; X flips between them, Compare shows both.");
+  row(ui, "Slot", "Two methods with their settings. X flips between them; Compare shows both.");
   if (segments(ui, "slot", slots, 2, state.active) && state.compare && state.show <= CompareView::b) {
     state.show = state.active == 0 ? CompareView::a : CompareView::b;
   }
@@ -222,7 +222,7 @@ void draw_method_section(Ui& ui) {
   if (method.render.shadows == render::ShadowMode::hard) edit_hard(ui, method);
   if (method.render.shadows == render::ShadowMode::soft) edit_soft(ui, method);
   row(ui, "Occlusion",
-      "Ambient occlusion: by displacement fields of rigid objects, or by rays to compare with.");
+      "Ambient occlusion: by displacement fields of rigid objects, or by rays, to compare with.");
   choose(ui, "ao", ao_choices, method.render.ao.mode);
   if (method.render.ao.mode != AoMode::none) {
     method.render.samples = render::SampleSource::ids;

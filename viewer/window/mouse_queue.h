@@ -1,4 +1,4 @@
-// The mouse between two frames of the window. Dear ImGui looks at it once a frame; here every press and
+// The mouse between two frames of the window. Dear ImGui looks at it once per frame; here every press and
 // release gets a frame of its own, at the place where it happened, however long frames take.
 #pragma once
 

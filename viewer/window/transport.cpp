@@ -46,7 +46,7 @@ void draw_buttons(Ui& ui) {
   tooltip("One frame back (Left)");
   ImGui::SameLine(0, gap);
   if (sign_button(ui, "step forward", Sign::forward)) state.clock.step(now(), 1);
-  tooltip("One frame on (Right)");
+  tooltip("One frame forward (Right)");
 }
 
 void draw_speed(Ui& ui) {
@@ -60,7 +60,7 @@ void draw_speed(Ui& ui) {
     clock.set_speed(now(), std::round(speed * 20) / 20.0);
   }
   ui.mark("speed");
-  tooltip("Seconds of the animation a second; below zero it runs backwards. Ctrl-click to type.");
+  tooltip("Seconds of the animation per second of yours; below zero it runs backwards. Ctrl-click to type.");
   ImGui::SameLine();
   bool loop = clock.loop();
   if (ImGui::Checkbox("loop", &loop)) clock.set_loop(now(), loop);
@@ -69,8 +69,7 @@ void draw_speed(Ui& ui) {
   bool fixed_step = clock.fixed_step();
   if (ImGui::Checkbox("fixed step", &fixed_step)) clock.set_fixed_step(now(), fixed_step);
   ui.mark("fixed step");
-  tooltip(
-      "Every picture is the next frame, however long it takes: for measuring. Else time runs by the clock.");
+  tooltip("Shows every frame, however long it takes, for measuring. Otherwise time follows the clock.");
 }
 
 void draw_scrubber(Ui& ui) {

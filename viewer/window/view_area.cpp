@@ -142,7 +142,7 @@ void draw_heat_legend(Ui& ui, Area place) {
     list.AddRectFilled({x, bar.y}, {x + ui.px(5), bar.y + ui.px(12)}, IM_COL32(c.r, c.g, c.b, 255));
   }
   list.AddText(low + ImVec2(ui.px(10), ui.px(5)), palette::text,
-               fmt::format("node tests a pixel, mean {:.1f}", overlay.mean).c_str());
+               fmt::format("node tests per pixel, mean {:.1f}", overlay.mean).c_str());
   list.AddText(bar + ImVec2(0, ui.px(14)), palette::dim, "0");
   const std::string right = fmt::format("{:.1f} (most {:.1f})", overlay.highest, overlay.peak);
   list.AddText(bar + ImVec2(ui.px(200) - ImGui::CalcTextSize(right.c_str()).x, ui.px(14)), palette::dim,

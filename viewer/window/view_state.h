@@ -24,7 +24,7 @@ struct ViewState {
   int camera = 0;
   FreeCamera free;
   FreeCamera start;     ///< where `reset` goes
-  float fly_speed = 1;  ///< metres a second
+  float fly_speed = 1;  ///< metres per second
 
   std::array<MethodOptions, 2> slots;  ///< A and B
   int active = 0;                      ///< the slot that the panel edits

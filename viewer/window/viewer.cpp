@@ -158,7 +158,7 @@ void Viewer::take_picture(const std::shared_ptr<const Picture>& picture) {
 }
 
 void Viewer::take_pick(const std::optional<glm::vec3>& point) {
-  if (!point) return say("Nothing there to focus on: this pixel shows the background.");
+  if (!point) return say("There is nothing to focus on: this pixel shows the background.");
   Ui ui{state_, actions_, marks_, picture_.get(), history_, {}, {}, {}, 1};
   leave_scene_camera(ui, CameraMode::orbit);
   focus(state_.free, *point);
