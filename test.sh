@@ -5,7 +5,7 @@ set -euo pipefail
 cd "$(dirname "$0")"
 
 tools/setup.sh --tests
-cmake --preset release -DTENEBRA_TESTS=ON > /dev/null
+cmake --preset release -DTENEBRA_TESTS=ON ${CI:+-DCMAKE_COMPILE_WARNING_AS_ERROR=ON} > /dev/null
 cmake --build --preset release
 
 code=0
