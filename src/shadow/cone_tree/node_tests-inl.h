@@ -44,7 +44,7 @@ HWY_INLINE Nodes load_nodes(const NodeBlock& b) {
   return n;
 }
 
-struct Verdict {
+struct NodeVerdict {
   std::uint32_t rejected;
   std::uint32_t covered;
 };
@@ -95,7 +95,7 @@ HWY_INLINE std::uint32_t in_complementary_cone(const TriangleBounds& t, const No
   return outside;
 }
 
-HWY_INLINE Verdict precise_cone_test(const TriangleBounds& t, const Nodes& n, float tau, bool early_accept) {
+HWY_INLINE NodeVerdict precise_cone_test(const TriangleBounds& t, const Nodes& n, float tau, bool early_accept) {
   const Float4 slack = splat<Float4>(5.2f * u + t.rho);
   Float4 lowest = splat<Float4>(4.0f);
   for (int k = 0; k < 3; ++k) lowest = min(lowest, dot(splat3<Float4>(t.mx[k], t.my[k], t.mz[k]), n.w));
@@ -109,7 +109,7 @@ HWY_INLINE Verdict precise_cone_test(const TriangleBounds& t, const Nodes& n, fl
   // The plane may come near the light where the triangle does not: not in the paper, a fifth to a half of the
   // nodes of wide unsorted cones.
   rejected = rejected | less(n.far, splat<Float4>(t.sphere_near));
-  Verdict v{n.empty | bits(rejected), 0};
+  NodeVerdict v{n.empty | bits(rejected), 0};
   if (v.rejected == 15) return v;
 
   v.rejected |= bits(beyond_separating_plane(t, n)) | in_complementary_cone(t, n);
@@ -125,7 +125,7 @@ HWY_INLINE Verdict precise_cone_test(const TriangleBounds& t, const Nodes& n, fl
 
 // The earlier work: the triangle's bounding sphere. Its cap of directions has the chord sphere_chord, so a
 // common direction needs |w - s| <= c + chord.
-HWY_INLINE Verdict sphere_cone_test(const TriangleBounds& t, const Nodes& n) {
+HWY_INLINE NodeVerdict sphere_cone_test(const TriangleBounds& t, const Nodes& n) {
   const Vector4 apart{splat<Float4>(t.sx) - n.w.x, splat<Float4>(t.sy) - n.w.y, splat<Float4>(t.sz) - n.w.z};
   const Float4 sum = n.c + splat<Float4>(t.sphere_chord + 8 * u);
   // A light inside the sphere sees it everywhere.
@@ -168,12 +168,12 @@ HWY_INLINE std::uint32_t beyond_separating_line(const TriangleBounds& t, const N
   return beyond;
 }
 
-HWY_INLINE Verdict precise_cylinder_test(const TriangleBounds& t, const Nodes& n, float tau,
+HWY_INLINE NodeVerdict precise_cylinder_test(const TriangleBounds& t, const Nodes& n, float tau,
                                          bool early_accept) {
   const Float4 scale = cylinder_scale(t, n);
   const Float4 slack = scale * splat<Float4>(10 * u + t.rho) + splat<Float4>(tiny);
   Float4 lowest = min(plane_value(t, 0, n), min(plane_value(t, 1, n), plane_value(t, 2, n)));
-  Verdict v{n.empty, 0};
+  NodeVerdict v{n.empty, 0};
   v.rejected |= less_bits(lowest + n.c + slack, splat<Float4>(0.0f));
 
   const Float4 plane_slack = scale * splat<Float4>(10 * u + t.rho) + splat<Float4>(tiny);
@@ -191,12 +191,12 @@ HWY_INLINE Verdict precise_cylinder_test(const TriangleBounds& t, const Nodes& n
   return v;
 }
 
-HWY_INLINE Verdict sphere_cylinder_test(const TriangleBounds& t, const Nodes& n) {
+HWY_INLINE NodeVerdict sphere_cylinder_test(const TriangleBounds& t, const Nodes& n) {
   const Vector4 apart{splat<Float4>(t.sx) - n.w.x, splat<Float4>(t.sy) - n.w.y, splat<Float4>(t.sz) - n.w.z};
   const Float4 slack = cylinder_scale(t, n) * splat<Float4>(10 * u) + splat<Float4>(tiny);
   const Float4 sum = n.c + splat<Float4>(t.sphere_chord) + slack;
   const Float4 length2 = dot(apart, apart);
-  Verdict v{n.empty, 0};
+  NodeVerdict v{n.empty, 0};
   v.rejected |=
       less_bits(sum * sum * splat<Float4>(1 + 16 * u), length2) & less_bits(splat<Float4>(1e-28f), length2);
   v.rejected |= less_bits(n.far, splat<Float4>(t.sphere_near) - slack);
@@ -207,7 +207,7 @@ HWY_INLINE Verdict sphere_cylinder_test(const TriangleBounds& t, const Nodes& n)
 
 /// Bits of the four nodes that triangle `t` misses for sure, and of those it covers for sure (early_accept
 /// only). `tau`: largest rounding tolerance of the rays' own triangles.
-HWY_INLINE Verdict test_nodes(const TriangleBounds& t, const Nodes& n, bool spheres, bool directional,
+HWY_INLINE NodeVerdict test_nodes(const TriangleBounds& t, const Nodes& n, bool spheres, bool directional,
                               float tau, bool early_accept) {
   if (directional)
     return spheres ? sphere_cylinder_test(t, n) : precise_cylinder_test(t, n, tau, early_accept);

@@ -153,7 +153,7 @@ void filter(const Traversal& s, std::size_t level, std::size_t block, TriangleLi
     if (i + 4 < list.size) simd::prefetch_all(s.set->bounds[list.places[i + 4]]);
     const TriangleBounds& bounds = s.set->bounds[place];
     stats.nodes += static_cast<std::uint64_t>(std::popcount(15u & ~nodes.empty));
-    const Verdict verdict = test_nodes(bounds, nodes, s.flags.spheres, s.flags.directional, s.rays->tau_max,
+    const NodeVerdict verdict = test_nodes(bounds, nodes, s.flags.spheres, s.flags.directional, s.rays->tau_max,
                                        s.flags.early_accept);
     for (int lane = 0; lane < branching; ++lane) {
       out[lane][size[lane]] = place;

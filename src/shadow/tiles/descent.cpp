@@ -324,7 +324,7 @@ bool RootDescent::test_triangle(const Waiting& w, const RoughRays& rough, int i)
   if (d_.tile_tests != nullptr) ++(*d_.tile_tests)[w.node][w.slot];
   ++stats_.nodes;
   stats_.leaf_tests += static_cast<std::uint64_t>(std::popcount(rays));
-  Verdict verdict = rough_verdict(scratch_.planes, i, rough, n.tau);
+  TileVerdict verdict = rough_verdict(scratch_.planes, i, rough, n.tau);
   if ((rays & verdict.near & ~verdict.sure) != 0)
     verdict = fine_verdict(scratch_.planes, i, tile(n, w.slot), base(n, w.slot), d_.source.origin, n.tau);
   const std::uint32_t near = rays & verdict.near, open = near & ~verdict.sure;

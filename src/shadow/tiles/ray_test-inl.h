@@ -35,7 +35,7 @@ HWY_INLINE RoughRays rough_rays(const points::PointTile& tile, const points::Poi
 }
 
 /// Lanes of a tile.
-struct Verdict {
+struct TileVerdict {
   std::uint32_t near;  ///< not missed for sure
   std::uint32_t sure;  ///< blocked for sure, of those that are near
 };
@@ -44,7 +44,7 @@ struct Verdict {
 /// (without fused ones), d by u and its difference by u more: below 12u (|p| + |d|), where |d| exceeds the
 /// triangle's reach by its tau only; if that is more than 5 (|p| + reach), the own plane is missed by far.
 /// The own plane opens tau of the rays' own triangles later.
-HWY_INLINE Verdict rough_verdict(const ClusterPlanes& c, int i, const RoughRays& rays, float tau) {
+HWY_INLINE TileVerdict rough_verdict(const ClusterPlanes& c, int i, const RoughRays& rays, float tau) {
   const auto value = [&](int k) HWY_ATTR {
     return multiply_add(
         splat<Float16>(c.fz[k][i]), rays.p.z,
@@ -95,7 +95,7 @@ HWY_INLINE Aim aim_at(const LeafTriangle& t, const points::PointBase& from, cons
 }
 
 /// Again, where the rough verdict leaves something open.
-HWY_INLINE Verdict fine_verdict(const ClusterPlanes& c, int i, const points::PointTile& tile,
+HWY_INLINE TileVerdict fine_verdict(const ClusterPlanes& c, int i, const points::PointTile& tile,
                                 const points::PointBase& from, const glm::dvec3& light, float tau) {
   LeafTriangle t;
   take_triangle(c, i, t);
