@@ -18,17 +18,17 @@ namespace {
 using Double8 = Pack<double, 8>;
 using Vector8 = Pack3<Double8>;
 
-HWY_INLINE Vector8 same(const glm::dvec3& v) {
+SIMD_INLINE Vector8 same(const glm::dvec3& v) {
   return splat3<Double8>(v.x, v.y, v.z);
 }
 /// Not fused, in the order of glm::dot.
-HWY_INLINE Double8 plain_dot(const Vector8& a, const Vector8& b) {
+SIMD_INLINE Double8 plain_dot(const Vector8& a, const Vector8& b) {
   return (a.x * b.x + a.y * b.y) + a.z * b.z;
 }
-HWY_INLINE Vector8 scaled(Double8 s, const Vector8& v) {
+SIMD_INLINE Vector8 scaled(Double8 s, const Vector8& v) {
   return {s * v.x, s * v.y, s * v.z};
 }
-HWY_INLINE Vector8 sum(const Vector8& a, const Vector8& b) {
+SIMD_INLINE Vector8 sum(const Vector8& a, const Vector8& b) {
   return {a.x + b.x, a.y + b.y, a.z + b.z};
 }
 

@@ -13,6 +13,15 @@
 
 #include <cstdint>
 
+// Small functions are always inlined, but where a pack is a row of scalars: that target is there to compare with,
+// and with its loops inlined everywhere one file took five minutes to compile.
+#undef SIMD_INLINE
+#if HWY_TARGET == HWY_SCALAR
+#define SIMD_INLINE inline
+#else
+#define SIMD_INLINE HWY_INLINE
+#endif
+
 HWY_BEFORE_NAMESPACE();
 namespace tenebra::simd::HWY_NAMESPACE {
 
@@ -29,85 +38,85 @@ using Float4 = Pack<float, 4>;
 using Float16 = Pack<float, 16>;
 
 template <class P, class T>
-HWY_INLINE P splat(T value) {
+SIMD_INLINE P splat(T value) {
   P p;
   for (int i = 0; i < P::registers; ++i) p.r[i] = hn::Set(typename P::Tag(), value);
   return p;
 }
 
 template <class P, class T>
-HWY_INLINE P load(const T* from) {
+SIMD_INLINE P load(const T* from) {
   P p;
   for (int i = 0; i < P::registers; ++i) p.r[i] = hn::LoadU(typename P::Tag(), from + i * P::width);
   return p;
 }
 
 template <class T, int N>
-HWY_INLINE Pack<T, N> operator+(Pack<T, N> a, Pack<T, N> b) {
+SIMD_INLINE Pack<T, N> operator+(Pack<T, N> a, Pack<T, N> b) {
   for (int i = 0; i < a.registers; ++i) a.r[i] = hn::Add(a.r[i], b.r[i]);
   return a;
 }
 template <class T, int N>
-HWY_INLINE Pack<T, N> operator-(Pack<T, N> a, Pack<T, N> b) {
+SIMD_INLINE Pack<T, N> operator-(Pack<T, N> a, Pack<T, N> b) {
   for (int i = 0; i < a.registers; ++i) a.r[i] = hn::Sub(a.r[i], b.r[i]);
   return a;
 }
 template <class T, int N>
-HWY_INLINE Pack<T, N> operator*(Pack<T, N> a, Pack<T, N> b) {
+SIMD_INLINE Pack<T, N> operator*(Pack<T, N> a, Pack<T, N> b) {
   for (int i = 0; i < a.registers; ++i) a.r[i] = hn::Mul(a.r[i], b.r[i]);
   return a;
 }
 template <class T, int N>
-HWY_INLINE Pack<T, N> operator/(Pack<T, N> a, Pack<T, N> b) {
+SIMD_INLINE Pack<T, N> operator/(Pack<T, N> a, Pack<T, N> b) {
   for (int i = 0; i < a.registers; ++i) a.r[i] = hn::Div(a.r[i], b.r[i]);
   return a;
 }
 /// a * b + c, fused where the target fuses: callers' bounds hold for both.
 template <class T, int N>
-HWY_INLINE Pack<T, N> multiply_add(Pack<T, N> a, Pack<T, N> b, Pack<T, N> c) {
+SIMD_INLINE Pack<T, N> multiply_add(Pack<T, N> a, Pack<T, N> b, Pack<T, N> c) {
   for (int i = 0; i < a.registers; ++i) a.r[i] = hn::MulAdd(a.r[i], b.r[i], c.r[i]);
   return a;
 }
 template <class T, int N>
-HWY_INLINE Pack<T, N> min(Pack<T, N> a, Pack<T, N> b) {
+SIMD_INLINE Pack<T, N> min(Pack<T, N> a, Pack<T, N> b) {
   for (int i = 0; i < a.registers; ++i) a.r[i] = hn::Min(a.r[i], b.r[i]);
   return a;
 }
 template <class T, int N>
-HWY_INLINE Pack<T, N> square_root(Pack<T, N> a) {
+SIMD_INLINE Pack<T, N> square_root(Pack<T, N> a) {
   for (int i = 0; i < a.registers; ++i) a.r[i] = hn::Sqrt(a.r[i]);
   return a;
 }
 
 template <class T, int N>
-HWY_INLINE Pack<T, N> max(Pack<T, N> a, Pack<T, N> b) {
+SIMD_INLINE Pack<T, N> max(Pack<T, N> a, Pack<T, N> b) {
   for (int i = 0; i < a.registers; ++i) a.r[i] = hn::Max(a.r[i], b.r[i]);
   return a;
 }
 template <class T, int N>
-HWY_INLINE Pack<T, N> absolute(Pack<T, N> a) {
+SIMD_INLINE Pack<T, N> absolute(Pack<T, N> a) {
   for (int i = 0; i < a.registers; ++i) a.r[i] = hn::Abs(a.r[i]);
   return a;
 }
 template <class T, int N>
-HWY_INLINE void store(Pack<T, N> a, T* to) {
+SIMD_INLINE void store(Pack<T, N> a, T* to) {
   for (int i = 0; i < a.registers; ++i) hn::StoreU(a.r[i], typename Pack<T, N>::Tag(), to + i * a.width);
 }
 /// Least and greatest lane.
 template <class T, int N>
-HWY_INLINE T least(Pack<T, N> a) {
+SIMD_INLINE T least(Pack<T, N> a) {
   for (int i = 1; i < a.registers; ++i) a.r[0] = hn::Min(a.r[0], a.r[i]);
   return hn::GetLane(hn::MinOfLanes(typename Pack<T, N>::Tag(), a.r[0]));
 }
 template <class T, int N>
-HWY_INLINE T greatest(Pack<T, N> a) {
+SIMD_INLINE T greatest(Pack<T, N> a) {
   for (int i = 1; i < a.registers; ++i) a.r[0] = hn::Max(a.r[0], a.r[i]);
   return hn::GetLane(hn::MaxOfLanes(typename Pack<T, N>::Tag(), a.r[0]));
 }
 
 /// Lanes of `a` where x <= y, of `b` elsewhere.
 template <class T, int N>
-HWY_INLINE Pack<T, N> where_not_above(Pack<float, N> x, Pack<float, N> y, Pack<T, N> a, Pack<T, N> b) {
+SIMD_INLINE Pack<T, N> where_not_above(Pack<float, N> x, Pack<float, N> y, Pack<T, N> a, Pack<T, N> b) {
   for (int i = 0; i < a.registers; ++i) {
     a.r[i] =
         hn::IfThenElse(hn::RebindMask(typename Pack<T, N>::Tag(), hn::Le(x.r[i], y.r[i])), a.r[i], b.r[i]);
@@ -117,33 +126,33 @@ HWY_INLINE Pack<T, N> where_not_above(Pack<float, N> x, Pack<float, N> y, Pack<T
 
 // Whole numbers, for keys.
 template <int N>
-HWY_INLINE Pack<std::int32_t, N> truncate(Pack<float, N> a) {
+SIMD_INLINE Pack<std::int32_t, N> truncate(Pack<float, N> a) {
   Pack<std::int32_t, N> r;
   for (int i = 0; i < a.registers; ++i) r.r[i] = hn::ConvertTo(typename Pack<std::int32_t, N>::Tag(), a.r[i]);
   return r;
 }
 template <int N>
-HWY_INLINE Pack<std::int32_t, N> operator^(Pack<std::int32_t, N> a, Pack<std::int32_t, N> b) {
+SIMD_INLINE Pack<std::int32_t, N> operator^(Pack<std::int32_t, N> a, Pack<std::int32_t, N> b) {
   for (int i = 0; i < a.registers; ++i) a.r[i] = hn::Xor(a.r[i], b.r[i]);
   return a;
 }
 template <int N>
-HWY_INLINE Pack<std::int32_t, N> operator&(Pack<std::int32_t, N> a, Pack<std::int32_t, N> b) {
+SIMD_INLINE Pack<std::int32_t, N> operator&(Pack<std::int32_t, N> a, Pack<std::int32_t, N> b) {
   for (int i = 0; i < a.registers; ++i) a.r[i] = hn::And(a.r[i], b.r[i]);
   return a;
 }
 template <int N>
-HWY_INLINE Pack<std::int32_t, N> operator|(Pack<std::int32_t, N> a, Pack<std::int32_t, N> b) {
+SIMD_INLINE Pack<std::int32_t, N> operator|(Pack<std::int32_t, N> a, Pack<std::int32_t, N> b) {
   for (int i = 0; i < a.registers; ++i) a.r[i] = hn::Or(a.r[i], b.r[i]);
   return a;
 }
 template <int Bits, int N>
-HWY_INLINE Pack<std::int32_t, N> shift_left(Pack<std::int32_t, N> a) {
+SIMD_INLINE Pack<std::int32_t, N> shift_left(Pack<std::int32_t, N> a) {
   for (int i = 0; i < a.registers; ++i) a.r[i] = hn::ShiftLeft<Bits>(a.r[i]);
   return a;
 }
 template <int Bits, int N>
-HWY_INLINE Pack<std::int32_t, N> shift_right(Pack<std::int32_t, N> a) {
+SIMD_INLINE Pack<std::int32_t, N> shift_right(Pack<std::int32_t, N> a) {
   for (int i = 0; i < a.registers; ++i) a.r[i] = hn::ShiftRight<Bits>(a.r[i]);
   return a;
 }
@@ -157,24 +166,24 @@ using Truth4 = Truth<float, 4>;
 
 /// a < b; false where either is NaN.
 template <class T, int N>
-HWY_INLINE Truth<T, N> less(Pack<T, N> a, Pack<T, N> b) {
+SIMD_INLINE Truth<T, N> less(Pack<T, N> a, Pack<T, N> b) {
   Truth<T, N> t;
   for (int i = 0; i < a.registers; ++i) t.r[i] = hn::Lt(a.r[i], b.r[i]);
   return t;
 }
 template <class T, int N>
-HWY_INLINE Truth<T, N> operator|(Truth<T, N> a, Truth<T, N> b) {
+SIMD_INLINE Truth<T, N> operator|(Truth<T, N> a, Truth<T, N> b) {
   for (int i = 0; i < Pack<T, N>::registers; ++i) a.r[i] = hn::Or(a.r[i], b.r[i]);
   return a;
 }
 template <class T, int N>
-HWY_INLINE Truth<T, N> operator&(Truth<T, N> a, Truth<T, N> b) {
+SIMD_INLINE Truth<T, N> operator&(Truth<T, N> a, Truth<T, N> b) {
   for (int i = 0; i < Pack<T, N>::registers; ++i) a.r[i] = hn::And(a.r[i], b.r[i]);
   return a;
 }
 /// Bit i is lane i. Costs a trip through memory on some targets: once a decision, not once a comparison.
 template <class T, int N>
-HWY_INLINE std::uint32_t bits(Truth<T, N> a) {
+SIMD_INLINE std::uint32_t bits(Truth<T, N> a) {
   using P = Pack<T, N>;
   std::uint32_t result = 0;
   for (int i = 0; i < P::registers; ++i) {
@@ -189,7 +198,7 @@ HWY_INLINE std::uint32_t bits(Truth<T, N> a) {
   return result;
 }
 template <class T, int N>
-HWY_INLINE std::uint32_t less_bits(Pack<T, N> a, Pack<T, N> b) {
+SIMD_INLINE std::uint32_t less_bits(Pack<T, N> a, Pack<T, N> b) {
   return bits(less(a, b));
 }
 
@@ -199,21 +208,21 @@ struct Pack3 {
   P x, y, z;
 };
 template <class P>
-HWY_INLINE P dot(const Pack3<P>& a, const Pack3<P>& b) {
+SIMD_INLINE P dot(const Pack3<P>& a, const Pack3<P>& b) {
   return multiply_add(a.z, b.z, multiply_add(a.y, b.y, a.x * b.x));
 }
 template <class P, class T>
-HWY_INLINE Pack3<P> splat3(T x, T y, T z) {
+SIMD_INLINE Pack3<P> splat3(T x, T y, T z) {
   return {splat<P>(x), splat<P>(y), splat<P>(z)};
 }
 /// a - s b, lane by lane.
 template <class P>
-HWY_INLINE Pack3<P> subtract_scaled(const Pack3<P>& a, P s, const Pack3<P>& b) {
+SIMD_INLINE Pack3<P> subtract_scaled(const Pack3<P>& a, P s, const Pack3<P>& b) {
   return {a.x - s * b.x, a.y - s * b.y, a.z - s * b.z};
 }
 
 /// out[k] = m.p - d for k = 0..3 in double; fused or not.
-HWY_INLINE void four_planes(const double* mx, const double* my, const double* mz, const double* d, double px,
+SIMD_INLINE void four_planes(const double* mx, const double* my, const double* mz, const double* d, double px,
                             double py, double pz, double* out) {
   using Double4 = Pack<double, 4>;
   Double4 e = load<Double4>(mx) * splat<Double4>(px) - load<Double4>(d);
@@ -228,7 +237,7 @@ using LaneIndex = hwy::MakeSigned<T>;
 
 /// Lane k is a's lane index[k]; 0 <= index < N.
 template <class T, int N>
-HWY_INLINE Pack<T, N> permute(Pack<T, N> a, Pack<LaneIndex<T>, N> index) {
+SIMD_INLINE Pack<T, N> permute(Pack<T, N> a, Pack<LaneIndex<T>, N> index) {
   using P = Pack<T, N>;
   using I = Pack<LaneIndex<T>, N>;
   P p;
@@ -256,21 +265,21 @@ HWY_INLINE Pack<T, N> permute(Pack<T, N> a, Pack<LaneIndex<T>, N> index) {
 
 /// a > b, lane by lane, of whole numbers.
 template <class T, int N>
-HWY_INLINE Truth<T, N> greater(Pack<T, N> a, Pack<T, N> b) {
+SIMD_INLINE Truth<T, N> greater(Pack<T, N> a, Pack<T, N> b) {
   Truth<T, N> t;
   for (int i = 0; i < a.registers; ++i) t.r[i] = hn::Gt(a.r[i], b.r[i]);
   return t;
 }
 /// a == b, lane by lane.
 template <class T, int N>
-HWY_INLINE Truth<T, N> equal(Pack<T, N> a, Pack<T, N> b) {
+SIMD_INLINE Truth<T, N> equal(Pack<T, N> a, Pack<T, N> b) {
   Truth<T, N> t;
   for (int i = 0; i < a.registers; ++i) t.r[i] = hn::Eq(a.r[i], b.r[i]);
   return t;
 }
 /// Lanes of `a` where `t` holds, of `b` elsewhere; `t` may come from lanes of another kind and the same size.
 template <class U, class T, int N>
-HWY_INLINE Pack<T, N> choose(Truth<U, N> t, Pack<T, N> a, Pack<T, N> b) {
+SIMD_INLINE Pack<T, N> choose(Truth<U, N> t, Pack<T, N> a, Pack<T, N> b) {
   for (int i = 0; i < a.registers; ++i) {
     a.r[i] = hn::IfThenElse(hn::RebindMask(typename Pack<T, N>::Tag(), t.r[i]), a.r[i], b.r[i]);
   }
@@ -279,7 +288,7 @@ HWY_INLINE Pack<T, N> choose(Truth<U, N> t, Pack<T, N> a, Pack<T, N> b) {
 
 /// N floats as doubles.
 template <class P>
-HWY_INLINE P load_widened(const float* from) {
+SIMD_INLINE P load_widened(const float* from) {
   const hn::Rebind<float, typename P::Tag> narrow;
   P p;
   for (int i = 0; i < P::registers; ++i)
@@ -287,15 +296,15 @@ HWY_INLINE P load_widened(const float* from) {
   return p;
 }
 template <class P>
-HWY_INLINE P load_widened(const double* from) {
+SIMD_INLINE P load_widened(const double* from) {
   return load<P>(from);
 }
 template <class P>
-HWY_INLINE Pack3<P> operator-(const Pack3<P>& a, const Pack3<P>& b) {
+SIMD_INLINE Pack3<P> operator-(const Pack3<P>& a, const Pack3<P>& b) {
   return {a.x - b.x, a.y - b.y, a.z - b.z};
 }
 template <class P>
-HWY_INLINE Pack3<P> cross(const Pack3<P>& a, const Pack3<P>& b) {
+SIMD_INLINE Pack3<P> cross(const Pack3<P>& a, const Pack3<P>& b) {
   return {a.y * b.z - a.z * b.y, a.z * b.x - a.x * b.z, a.x * b.y - a.y * b.x};
 }
 
@@ -305,25 +314,25 @@ using Int16 = Pack<std::int32_t, 16>;
 
 /// |a| with the sign of b.
 template <int N>
-HWY_INLINE Pack<float, N> copy_sign(Pack<float, N> a, Pack<float, N> b) {
+SIMD_INLINE Pack<float, N> copy_sign(Pack<float, N> a, Pack<float, N> b) {
   for (int i = 0; i < a.registers; ++i) a.r[i] = hn::CopySign(a.r[i], b.r[i]);
   return a;
 }
 template <int N>
-HWY_INLINE Pack<float, N> to_float(Pack<std::int32_t, N> a) {
+SIMD_INLINE Pack<float, N> to_float(Pack<std::int32_t, N> a) {
   Pack<float, N> r;
   for (int i = 0; i < a.registers; ++i) r.r[i] = hn::ConvertTo(typename Pack<float, N>::Tag(), a.r[i]);
   return r;
 }
 /// Lane by lane, by 0..31.
 template <int N>
-HWY_INLINE Pack<std::int32_t, N> shift_right(Pack<std::int32_t, N> a, Pack<std::int32_t, N> by) {
+SIMD_INLINE Pack<std::int32_t, N> shift_right(Pack<std::int32_t, N> a, Pack<std::int32_t, N> by) {
   for (int i = 0; i < a.registers; ++i) a.r[i] = hn::Shr(a.r[i], by.r[i]);
   return a;
 }
 /// The T that starts `bytes` bytes after `from`, lane by lane; any alignment.
 template <class T, int N>
-HWY_INLINE Pack<T, N> gather(const void* from, Pack<std::int32_t, N> bytes) {
+SIMD_INLINE Pack<T, N> gather(const void* from, Pack<std::int32_t, N> bytes) {
   Pack<T, N> r;
   for (int i = 0; i < r.registers; ++i)
     r.r[i] = hn::GatherOffset(typename Pack<T, N>::Tag(), static_cast<const T*>(from), bytes.r[i]);
@@ -331,13 +340,13 @@ HWY_INLINE Pack<T, N> gather(const void* from, Pack<std::int32_t, N> bytes) {
 }
 /// a <= b; false where either is NaN.
 template <class T, int N>
-HWY_INLINE Truth<T, N> not_above(Pack<T, N> a, Pack<T, N> b) {
+SIMD_INLINE Truth<T, N> not_above(Pack<T, N> a, Pack<T, N> b) {
   Truth<T, N> t;
   for (int i = 0; i < a.registers; ++i) t.r[i] = hn::Le(a.r[i], b.r[i]);
   return t;
 }
 template <class T, int N>
-HWY_INLINE bool any(Truth<T, N> t) {
+SIMD_INLINE bool any(Truth<T, N> t) {
   for (int i = 0; i < Pack<T, N>::registers; ++i)
     if (!hn::AllFalse(typename Pack<T, N>::Tag(), t.r[i])) return true;
   return false;
@@ -362,7 +371,7 @@ inline constexpr CompressTable<T, Width> compress_table;
 /// Writes the lanes where t is true one after another; returns their number. `to` has room for all N. (Where
 /// the target has no instruction for it, Highway's tables are copied to the stack at each use by GCC 12.)
 template <class T, int N, class U>
-HWY_INLINE std::size_t compress(Truth<U, N> t, Pack<T, N> a, T* to) {
+SIMD_INLINE std::size_t compress(Truth<U, N> t, Pack<T, N> a, T* to) {
   using P = Pack<T, N>;
   const typename P::Tag tag;
   std::size_t count = 0;
@@ -384,13 +393,13 @@ HWY_INLINE std::size_t compress(Truth<U, N> t, Pack<T, N> a, T* to) {
 }
 
 /// Asks for the cache line of `at`, which is needed in a while; any address will do.
-HWY_INLINE void fetch_soon(const void* at) {
+SIMD_INLINE void fetch_soon(const void* at) {
   hwy::Prefetch(static_cast<const unsigned char*>(at));
 }
 
 /// Lanes 0 ... N - 1 of a truth value from the bits of `bits`.
 template <class T, int N>
-HWY_INLINE Truth<T, N> truth_of(std::uint32_t bits) {
+SIMD_INLINE Truth<T, N> truth_of(std::uint32_t bits) {
   using P = Pack<T, N>;
   Truth<T, N> t;
   for (int i = 0; i < P::registers; ++i) {
@@ -406,7 +415,7 @@ HWY_INLINE Truth<T, N> truth_of(std::uint32_t bits) {
 }
 /// N triples x y z x y z ...
 template <class P, class T>
-HWY_INLINE Pack3<P> load3(const T* from) {
+SIMD_INLINE Pack3<P> load3(const T* from) {
   Pack3<P> p;
   for (int i = 0; i < P::registers; ++i)
     hn::LoadInterleaved3(typename P::Tag(), from + 3 * i * P::width, p.x.r[i], p.y.r[i], p.z.r[i]);
@@ -414,18 +423,18 @@ HWY_INLINE Pack3<P> load3(const T* from) {
 }
 /// Doubles rounded to nearest.
 template <int N>
-HWY_INLINE void store_narrowed(Pack<double, N> a, float* to) {
+SIMD_INLINE void store_narrowed(Pack<double, N> a, float* to) {
   const hn::Rebind<float, typename Pack<double, N>::Tag> narrow;
   for (int i = 0; i < a.registers; ++i) hn::StoreU(hn::DemoteTo(narrow, a.r[i]), narrow, to + i * a.width);
 }
 template <int N>
-HWY_INLINE void store_narrowed(Pack<double, N> a, double* to) {
+SIMD_INLINE void store_narrowed(Pack<double, N> a, double* to) {
   store(a, to);
 }
 
 /// Doubles as floats, rounded to nearest, without a trip through memory.
 template <int N>
-HWY_INLINE Pack<float, N> demoted(Pack<double, N> a) {
+SIMD_INLINE Pack<float, N> demoted(Pack<double, N> a) {
   using P = Pack<float, N>;
   P p;
   if constexpr (Pack<double, N>::registers == P::registers) {
@@ -443,7 +452,7 @@ HWY_INLINE Pack<float, N> demoted(Pack<double, N> a) {
   return p;
 }
 /// Four fours, one after another.
-HWY_INLINE Float16 joined(const Float4 (&a)[4]) {
+SIMD_INLINE Float16 joined(const Float4 (&a)[4]) {
   Float16 p;
 #if HWY_TARGET <= HWY_AVX2
   const hn::CappedTag<float, 8> eight;
@@ -461,7 +470,7 @@ HWY_INLINE Float16 joined(const Float4 (&a)[4]) {
 
 /// Doubles as T, rounded to nearest.
 template <class T, int N>
-HWY_INLINE Pack<T, N> narrowed(Pack<double, N> a) {
+SIMD_INLINE Pack<T, N> narrowed(Pack<double, N> a) {
   if constexpr (sizeof(T) == sizeof(double)) {
     return a;
   } else {
@@ -471,13 +480,13 @@ HWY_INLINE Pack<T, N> narrowed(Pack<double, N> a) {
 
 /// Lane after lane, the four packs' values in turn.
 template <class T, int N>
-HWY_INLINE void store_fours(Pack<T, N> a, Pack<T, N> b, Pack<T, N> c, Pack<T, N> d, T* to) {
+SIMD_INLINE void store_fours(Pack<T, N> a, Pack<T, N> b, Pack<T, N> c, Pack<T, N> d, T* to) {
   for (int i = 0; i < a.registers; ++i)
     hn::StoreInterleaved4(a.r[i], b.r[i], c.r[i], d.r[i], typename Pack<T, N>::Tag(), to + 4 * i * a.width);
 }
 /// The same four values again and again.
 template <class P, class T>
-HWY_INLINE P load_four(const T* from) {
+SIMD_INLINE P load_four(const T* from) {
   if constexpr (sizeof(T) == 4 && P::width >= 4) {
     P p;
     for (int i = 0; i < P::registers; ++i) p.r[i] = hn::LoadDup128(typename P::Tag(), from);
@@ -492,27 +501,27 @@ HWY_INLINE P load_four(const T* from) {
 
 /// Sum of the lanes, in the target's order: the same bits everywhere only where all sums are exact.
 template <class T, int N>
-HWY_INLINE T total(Pack<T, N> a) {
+SIMD_INLINE T total(Pack<T, N> a) {
   for (int i = 1; i < a.registers; ++i) a.r[0] = hn::Add(a.r[0], a.r[i]);
   return hn::GetLane(hn::SumOfLanes(typename Pack<T, N>::Tag(), a.r[0]));
 }
 
 /// Sum of the lanes, in one order: the same bits on every target.
-HWY_INLINE double ordered_total(Pack<double, 8> a) {
+SIMD_INLINE double ordered_total(Pack<double, 8> a) {
   double v[8];
   store(a, v);
   return ((v[0] + v[1]) + (v[2] + v[3])) + ((v[4] + v[5]) + (v[6] + v[7]));
 }
 
 /// Bits of the sixteen that equal `value`.
-HWY_INLINE std::uint32_t equal_bits(const std::uint32_t* sixteen, std::uint32_t value) {
+SIMD_INLINE std::uint32_t equal_bits(const std::uint32_t* sixteen, std::uint32_t value) {
   using P = Pack<std::int32_t, 16>;
   return bits(equal(load<P>(reinterpret_cast<const std::int32_t*>(sixteen)),
                     splat<P>(static_cast<std::int32_t>(value))));
 }
 
 /// Sixteen points by coordinate: point 4 i + k is x y z at lanes 4 i ... 4 i + 2 of p[k].
-HWY_INLINE Pack3<Float16> transposed(const Float16 (&p)[4]) {
+SIMD_INLINE Pack3<Float16> transposed(const Float16 (&p)[4]) {
   Pack3<Float16> t;
 #if HWY_TARGET == HWY_SCALAR
   for (int i = 0; i < 16; ++i) {
@@ -535,14 +544,14 @@ HWY_INLINE Pack3<Float16> transposed(const Float16 (&p)[4]) {
 
 /// a != b, lane by lane.
 template <class T, int N>
-HWY_INLINE Truth<T, N> unequal(Pack<T, N> a, Pack<T, N> b) {
+SIMD_INLINE Truth<T, N> unequal(Pack<T, N> a, Pack<T, N> b) {
   Truth<T, N> t;
   for (int i = 0; i < a.registers; ++i) t.r[i] = hn::Ne(a.r[i], b.r[i]);
   return t;
 }
 /// Lane by lane, by 0..31.
 template <int N>
-HWY_INLINE Pack<std::int32_t, N> shift_left(Pack<std::int32_t, N> a, Pack<std::int32_t, N> by) {
+SIMD_INLINE Pack<std::int32_t, N> shift_left(Pack<std::int32_t, N> a, Pack<std::int32_t, N> by) {
   for (int i = 0; i < a.registers; ++i) a.r[i] = hn::Shl(a.r[i], by.r[i]);
   return a;
 }

@@ -43,7 +43,7 @@ inline Slabs slabs_of(const CasterRay& ray) {
 
 // Bits of the children that the ray may meet, and where it enters them. Rounding loses at most three parts
 // in 2^24 of each end: the last end is moved out by more.
-HWY_INLINE std::uint32_t meet_boxes(const BvhNode& node, const Slabs& ray, float* enter) {
+SIMD_INLINE std::uint32_t meet_boxes(const BvhNode& node, const Slabs& ray, float* enter) {
   Float8 first = splat<Float8>(ray.from), last = splat<Float8>(ray.to);
   for (int axis = 0; axis < 3; ++axis) {
     const Float8 origin = splat<Float8>(ray.origin[axis]), inverse = splat<Float8>(ray.inverse[axis]);
@@ -72,7 +72,7 @@ inline Shear shear_along(glm::vec3 d) {
 // Distances to the eight triangles, no_distance where there is no hit. In the plane, an edge's side is the
 // sign of a difference of two products: rounding may make it zero, never turn it over. Zero counts as inside,
 // so that neighbours leave no gap, at vertices neither.
-HWY_INLINE Float8 meet_triangles(const TriangleBlock& block, const CasterRay& ray, const Shear& shear) {
+SIMD_INLINE Float8 meet_triangles(const TriangleBlock& block, const CasterRay& ray, const Shear& shear) {
   const Float8 to_x = splat<Float8>(shear.to_x), to_y = splat<Float8>(shear.to_y);
   Pack3<Float8> p[3];
   for (int k = 0; k < 3; ++k) {

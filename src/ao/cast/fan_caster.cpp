@@ -21,10 +21,10 @@ namespace {
 
 // Products and sums apart, never fused: the bits are the same on all targets.
 template <class P>
-HWY_INLINE P inner(const Pack3<P>& a, const Pack3<P>& b) {
+SIMD_INLINE P inner(const Pack3<P>& a, const Pack3<P>& b) {
   return (a.x * b.x + a.y * b.y) + a.z * b.z;
 }
-HWY_INLINE Float16 inverse(Float16 d) {
+SIMD_INLINE Float16 inverse(Float16 d) {
   const Float16 tiny = splat<Float16>(1e-18f);
   return splat<Float16>(1.0f) / copy_sign(max(absolute(d), tiny), d);
 }
@@ -38,7 +38,7 @@ struct Fan {
 };
 
 // Squares of the distances from the origin to the boxes.
-HWY_INLINE void box_distances(const BvhNode& node, const Fan& fan, float* out) {
+SIMD_INLINE void box_distances(const BvhNode& node, const Fan& fan, float* out) {
   const Float8 zero = splat<Float8>(0.0f);
   Float8 square = zero;
   for (int axis = 0; axis < 3; ++axis) {
@@ -50,7 +50,7 @@ HWY_INLINE void box_distances(const BvhNode& node, const Fan& fan, float* out) {
   store(square, out);
 }
 
-HWY_INLINE bool meets_box(const BvhNode& node, int child, const Fan& fan) {
+SIMD_INLINE bool meets_box(const BvhNode& node, int child, const Fan& fan) {
   Float16 first = splat<Float16>(0.0f), last = fan.distance;
   const Float16* inverted[3] = {&fan.inverted.x, &fan.inverted.y, &fan.inverted.z};
   for (int axis = 0; axis < 3; ++axis) {
@@ -69,7 +69,7 @@ struct EdgePlanes {
   std::uint32_t near;                    // triangles whose planes are within the reach
 };
 
-HWY_INLINE void edge_planes(const TriangleBlock& block, const Fan& fan, EdgePlanes& out) {
+SIMD_INLINE void edge_planes(const TriangleBlock& block, const Fan& fan, EdgePlanes& out) {
   Pack3<Float8> p[3];
   for (int k = 0; k < 3; ++k) {
     p[k] = {load<Float8>(block.corner[k][0]) - splat<Float8>(fan.origin[0]),
@@ -87,7 +87,7 @@ HWY_INLINE void edge_planes(const TriangleBlock& block, const Fan& fan, EdgePlan
   out.near = bits(not_above(volume * volume, farthest * farthest * inner(normal, normal)));
 }
 
-HWY_INLINE void meet_block(const TriangleBlock& block, Fan& fan) {
+SIMD_INLINE void meet_block(const TriangleBlock& block, Fan& fan) {
   EdgePlanes planes;
   edge_planes(block, fan, planes);
   const Float16 zero = splat<Float16>(0.0f);
@@ -110,7 +110,7 @@ HWY_INLINE void meet_block(const TriangleBlock& block, Fan& fan) {
 
 // Square of the reach with room for rounding; finite, so that the boxes of empty places (infinitely far) stay
 // out.
-HWY_INLINE float limit(const Fan& fan) {
+SIMD_INLINE float limit(const Fan& fan) {
   return std::min(fan.reach * fan.reach * (1 + 0x1p-18f), std::numeric_limits<float>::max());
 }
 

@@ -13,7 +13,7 @@ using namespace simd::HWY_NAMESPACE;
 namespace {
 
 // Products and sums apart, never fused: the bits are the same on all targets.
-HWY_INLINE Float16 component(const Pack3<Float16>& d, float x, float y, float z) {
+SIMD_INLINE Float16 component(const Pack3<Float16>& d, float x, float y, float z) {
   return d.x * splat<Float16>(x) + d.y * splat<Float16>(y) + d.z * splat<Float16>(z);
 }
 

@@ -16,7 +16,7 @@ struct Square16 {
   Float16 u, v;
 };
 
-HWY_INLINE Float16 octant_angle(Float16 t) {
+SIMD_INLINE Float16 octant_angle(Float16 t) {
   const Float16 s = t * t;
   Float16 p = splat<Float16>(0.00973818667f);
   p = p * s + splat<Float16>(-0.0462955384f);
@@ -28,7 +28,7 @@ HWY_INLINE Float16 octant_angle(Float16 t) {
   return p * t;
 }
 
-HWY_INLINE Square16 square_from_direction(const Pack3<Float16>& d) {
+SIMD_INLINE Square16 square_from_direction(const Pack3<Float16>& d) {
   const Float16 zero = splat<Float16>(0.0f), one = splat<Float16>(1.0f), tiny = splat<Float16>(1e-37f);
   const Float16 x = absolute(d.x), y = absolute(d.y);
   const Float16 r = square_root(max(one - absolute(d.z), zero));
@@ -40,7 +40,7 @@ HWY_INLINE Square16 square_from_direction(const Pack3<Float16>& d) {
           copy_sign(where_not_above(zero, d.z, v, one - u), d.y)};
 }
 
-HWY_INLINE Pack3<Float16> direction_from_square(const Square16& square) {
+SIMD_INLINE Pack3<Float16> direction_from_square(const Square16& square) {
   const auto constant = [](float x) { return splat<Float16>(x); };
   const Float16 one = constant(1.0f), u = absolute(square.u), v = absolute(square.v);
   const Float16 above = one - (u + v), r = one - absolute(above);
@@ -57,7 +57,7 @@ HWY_INLINE Pack3<Float16> direction_from_square(const Square16& square) {
           copy_sign(one - r * r, above)};
 }
 
-HWY_INLINE Square16 square_from_disk(Float16 dx, Float16 dy) {
+SIMD_INLINE Square16 square_from_disk(Float16 dx, Float16 dy) {
   const Float16 x = absolute(dx), y = absolute(dy);
   const Float16 larger = max(x, y), smaller = min(x, y);
   const Float16 r = square_root(dx * dx + dy * dy);
@@ -69,17 +69,17 @@ struct Cell16 {
   Int16 column, row;
 };
 
-HWY_INLINE Cell16 cell_of(const Square16& square, int side) {
+SIMD_INLINE Cell16 cell_of(const Square16& square, int side) {
   const Float16 half = splat<Float16>(0.5f * static_cast<float>(side)), zero = splat<Float16>(0.0f);
   const Float16 last = splat<Float16>(static_cast<float>(side - 1));
   return {truncate(min(max(square.u * half + half, zero), last)),
           truncate(min(max(square.v * half + half, zero), last))};
 }
-HWY_INLINE Int16 cell_index(const Cell16& cell, int side) {
+SIMD_INLINE Int16 cell_index(const Cell16& cell, int side) {
   return cell.row * splat<Int16>(side) + cell.column;
 }
 /// Its centre.
-HWY_INLINE Square16 cell_point(const Cell16& cell, int side) {
+SIMD_INLINE Square16 cell_point(const Cell16& cell, int side) {
   const Float16 scale = splat<Float16>(2 / static_cast<float>(side)), half = splat<Float16>(0.5f),
                 one = splat<Float16>(1.0f);
   return {(to_float(cell.column) + half) * scale - one, (to_float(cell.row) + half) * scale - one};

@@ -18,10 +18,10 @@ using namespace simd::HWY_NAMESPACE;
 
 using Truth16 = Truth<float, 16>;
 
-HWY_INLINE Float16 inner(const Pack3<Float16>& a, const Pack3<Float16>& b) {
+SIMD_INLINE Float16 inner(const Pack3<Float16>& a, const Pack3<Float16>& b) {
   return (a.x * b.x + a.y * b.y) + a.z * b.z;
 }
-HWY_INLINE Pack3<Float16> along(const Pack3<Float16>& a, Float16 s, const Pack3<Float16>& b) {
+SIMD_INLINE Pack3<Float16> along(const Pack3<Float16>& a, Float16 s, const Pack3<Float16>& b) {
   return {a.x + s * b.x, a.y + s * b.y, a.z + s * b.z};
 }
 
@@ -36,16 +36,16 @@ struct Chords {
   Float16 per_unit;       // t of one unit of length
 };
 
-HWY_INLINE Float16 row_times(const float row[4], const Pack3<Float16>& v) {
+SIMD_INLINE Float16 row_times(const float row[4], const Pack3<Float16>& v) {
   return (splat<Float16>(row[0]) * v.x + splat<Float16>(row[1]) * v.y) + splat<Float16>(row[2]) * v.z;
 }
-HWY_INLINE Pack3<Float16> moved(const float rows[3][4], const Pack3<Float16>& p) {
+SIMD_INLINE Pack3<Float16> moved(const float rows[3][4], const Pack3<Float16>& p) {
   return {row_times(rows[0], p) + splat<Float16>(rows[0][3]),
           row_times(rows[1], p) + splat<Float16>(rows[1][3]),
           row_times(rows[2], p) + splat<Float16>(rows[2][3])};
 }
 
-HWY_INLINE Chords chords_of(const FieldInstance& f, const RayBatch& rays) {
+SIMD_INLINE Chords chords_of(const FieldInstance& f, const RayBatch& rays) {
   const Float16 one = splat<Float16>(1.0f), zero = splat<Float16>(0.0f);
   const Pack3<Float16> d{load<Float16>(rays.dx), load<Float16>(rays.dy), load<Float16>(rays.dz)};
   const Pack3<Float16> direction{row_times(f.unit_from_world[0], d), row_times(f.unit_from_world[1], d),
@@ -68,12 +68,12 @@ HWY_INLINE Chords chords_of(const FieldInstance& f, const RayBatch& rays) {
 }
 
 // Where in the table an entry stands, in bytes.
-HWY_INLINE Int16 byte_of(const DisplacementField& field, Int16 entry) {
+SIMD_INLINE Int16 byte_of(const DisplacementField& field, Int16 entry) {
   return field.bits == 32 ? shift_left<2>(entry) : field.bits == 8 ? entry : shift_right<3>(entry);
 }
 
 // s of an entry, which belongs to `position`; no_hit where there is none.
-HWY_INLINE Float16 sample(const DisplacementField& field, Int16 position, Int16 entry) {
+SIMD_INLINE Float16 sample(const DisplacementField& field, Int16 position, Int16 entry) {
   const Int16 at = byte_of(field, entry);
   if (field.bits == 32) return gather<float>(field.table.data(), at);
   const Float16 none = splat<Float16>(no_hit);
@@ -88,7 +88,7 @@ HWY_INLINE Float16 sample(const DisplacementField& field, Int16 position, Int16 
 }
 
 // The paper's second discretisation: the direction to the chord's middle, seen from the position sample.
-HWY_INLINE Int16 direction_cell(const FieldShape& shape, const Cell16& position,
+SIMD_INLINE Int16 direction_cell(const FieldShape& shape, const Cell16& position,
                                 const Pack3<Float16>& middle) {
   const Float16 zero = splat<Float16>(0.0f), one = splat<Float16>(1.0f);
   const Pack3<Float16> a = direction_from_square(cell_point(position, shape.position_side));
@@ -113,7 +113,7 @@ struct Look {
 // Both looks, once `begin` has been called.
 class Looks {
 public:
-  HWY_INLINE void begin(const DisplacementField& field, const Chords& c) {
+  SIMD_INLINE void begin(const DisplacementField& field, const Chords& c) {
     paper_ = field.layout == FieldLayout::positions_directions;
     const Cell16 enter = end_cell(field, c, splat<Float16>(0.0f) - c.half);
     from_enter_.position = cell_index(enter, field.shape.position_side);
@@ -124,8 +124,8 @@ public:
       from_enter_.entry = entry(field, from_enter_.position, exit_);
     }
   }
-  HWY_INLINE const Look& from_enter() const { return from_enter_; }
-  HWY_INLINE Look from_exit(const DisplacementField& field, const Chords& c) const {
+  SIMD_INLINE const Look& from_enter() const { return from_enter_; }
+  SIMD_INLINE Look from_exit(const DisplacementField& field, const Chords& c) const {
     if (!paper_) return {exit_, entry(field, exit_, from_enter_.position)};
     const Cell16 exit = end_cell(field, c, c.half);
     const Int16 position = cell_index(exit, field.shape.position_side);
@@ -134,10 +134,10 @@ public:
 
 private:
   // The cell of the point of the chord that lies s beyond its middle.
-  HWY_INLINE static Cell16 end_cell(const DisplacementField& field, const Chords& c, Float16 s) {
+  SIMD_INLINE static Cell16 end_cell(const DisplacementField& field, const Chords& c, Float16 s) {
     return cell_of(square_from_direction(along(c.middle, s, c.unit)), field.shape.position_side);
   }
-  HWY_INLINE static Int16 entry(const DisplacementField& field, Int16 position, Int16 direction) {
+  SIMD_INLINE static Int16 entry(const DisplacementField& field, Int16 position, Int16 direction) {
     const int directions = field.shape.direction_side * field.shape.direction_side;
     return position * splat<Int16>(directions) + direction;
   }
@@ -149,12 +149,12 @@ private:
 
 // t of the first hit seen from the entry, and of the first seen from the exit, which is the last along the
 // ray. `none` where there is no hit.
-HWY_INLINE Float16 first_hit(const DisplacementField& field, const Chords& c, const Look& from_enter,
+SIMD_INLINE Float16 first_hit(const DisplacementField& field, const Chords& c, const Look& from_enter,
                              Float16 none) {
   const Float16 s = sample(field, from_enter.position, from_enter.entry);
   return choose(less(s, splat<Float16>(no_hit)), c.at + s * c.per_unit, none);
 }
-HWY_INLINE Float16 last_hit(const DisplacementField& field, const Chords& c, const Look& from_exit,
+SIMD_INLINE Float16 last_hit(const DisplacementField& field, const Chords& c, const Look& from_exit,
                             Float16 none) {
   const Float16 s = sample(field, from_exit.position, from_exit.entry);
   return choose(less(s, splat<Float16>(no_hit)), c.at - s * c.per_unit, none);

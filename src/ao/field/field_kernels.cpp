@@ -27,7 +27,7 @@ constexpr float half_diagonal = 0.70710678f;  // of a cell, in widths
 constexpr float cast_cells = 1;               // how far close rays are cast, in cells
 
 // Bits of those rays `inside` that start close to the object.
-HWY_INLINE std::uint32_t close_rays(const DisplacementField& field, const Chords& c, Truth16 inside) {
+SIMD_INLINE std::uint32_t close_rays(const DisplacementField& field, const Chords& c, Truth16 inside) {
   const Float16 half = splat<Float16>(0.5f * near_side), last = splat<Float16>(near_side - 1.0f);
   const auto cell = [&](Float16 x) {
     return truncate(min(max(choose(inside, x, half) * half + half, splat<Float16>(0.0f)), last));
@@ -63,7 +63,7 @@ struct Answer {
 };
 
 // Rays that start close to the object are cast for one cell's width.
-HWY_INLINE int cast_close(const FieldInstance& instance, const RayBatch& rays, const Chords& c,
+SIMD_INLINE int cast_close(const FieldInstance& instance, const RayBatch& rays, const Chords& c,
                           Truth16 inside, Answer& answer) {
   const std::uint32_t close = close_rays(*instance.field, c, inside);
   if (close == 0) return 0;
@@ -90,7 +90,7 @@ HWY_INLINE int cast_close(const FieldInstance& instance, const RayBatch& rays, c
 // A ray that is in the open at t = start, between the first and the last hit of its chord. Next to one of
 // them, it is taken to lie before the first or behind the last. Else something may come before the last: it
 // is cast, or the last stands for it.
-HWY_INLINE int between(const FieldInstance& instance, const RayBatch& rays, const Answer& answer,
+SIMD_INLINE int between(const FieldInstance& instance, const RayBatch& rays, const Answer& answer,
                        Truth16 behind, Float16 first, Float16 last, Float16 tolerance, Float16& found) {
   const Float16 none = splat<Float16>(no_distance);
   const Float16 behind_first = answer.start - first, before_last = last - answer.start;
@@ -121,14 +121,14 @@ struct Query {
   Looks looks;
 };
 
-HWY_INLINE void prefetch(const DisplacementField& field, Int16 entry) {
+SIMD_INLINE void prefetch(const DisplacementField& field, Int16 entry) {
   std::int32_t at[batch_size];
   store(byte_of(field, entry), at);
   for (const std::int32_t byte : at) fetch_soon(field.table.data() + byte);
 }
 
 // Asks for what the rays will need of the table.
-HWY_INLINE void begin(const FieldInstance& instance, const RayBatch& rays, const float* distance, Query& q) {
+SIMD_INLINE void begin(const FieldInstance& instance, const RayBatch& rays, const float* distance, Query& q) {
   const Float16 zero = splat<Float16>(0.0f);
   const Chords c = q.chords = chords_of(instance, rays);
   const Float16 reach = c.half * c.per_unit, enter = c.at - reach;
@@ -143,7 +143,7 @@ HWY_INLINE void begin(const FieldInstance& instance, const RayBatch& rays, const
   prefetch(*instance.field, q.looks.from_enter().entry);
 }
 
-HWY_INLINE int finish(const FieldInstance& instance, const RayBatch& rays, Query& q, float* distance) {
+SIMD_INLINE int finish(const FieldInstance& instance, const RayBatch& rays, Query& q, float* distance) {
   const DisplacementField& field = *instance.field;
   const Chords& c = q.chords;
   if (!q.any) return 0;

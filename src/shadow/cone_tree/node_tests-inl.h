@@ -30,7 +30,7 @@ struct Nodes {
   std::uint32_t narrow;  // bits of lanes below narrow_chord
 };
 
-HWY_INLINE Nodes load_nodes(const NodeBlock& b) {
+SIMD_INLINE Nodes load_nodes(const NodeBlock& b) {
   Nodes n{{load<Float4>(b.wx), load<Float4>(b.wy), load<Float4>(b.wz)},
           load<Float4>(b.c),
           load<Float4>(b.near),
@@ -55,7 +55,7 @@ struct NodeVerdict {
 // all corners lie beyond it, no ray of the cone meets the triangle. n = t - s |t| w with t = the part of the
 // corner across w. For every ray d of the cone n.d <= |t.w| + |t| sine - s |t| cosine <= 0 by the choice of
 // the slope s.
-HWY_INLINE Truth4 beyond_separating_plane(const TriangleBounds& t, const Nodes& n) {
+SIMD_INLINE Truth4 beyond_separating_plane(const TriangleBounds& t, const Nodes& n) {
   const Float4 least_length = splat<Float4>(64 * u);
   Vector4 corner[3];
   Float4 along[3];
@@ -81,7 +81,7 @@ HWY_INLINE Truth4 beyond_separating_plane(const TriangleBounds& t, const Nodes& 
 // Section 3.2, last paragraph: cones near and past 90 degrees, rounded up to 90. If all corners lie in the
 // complementary cone, which is convex, so does the triangle. Outside of the cone chords to the axis are
 // longer than c.
-HWY_INLINE std::uint32_t in_complementary_cone(const TriangleBounds& t, const Nodes& n) {
+SIMD_INLINE std::uint32_t in_complementary_cone(const TriangleBounds& t, const Nodes& n) {
   const std::uint32_t wide = 15u & ~n.narrow;
   if (wide == 0) return 0;
   const Float4 c = max(n.c, splat<Float4>(hemisphere_chord)) + splat<Float4>(8 * u);
@@ -95,7 +95,7 @@ HWY_INLINE std::uint32_t in_complementary_cone(const TriangleBounds& t, const No
   return outside;
 }
 
-HWY_INLINE NodeVerdict precise_cone_test(const TriangleBounds& t, const Nodes& n, float tau, bool early_accept) {
+SIMD_INLINE NodeVerdict precise_cone_test(const TriangleBounds& t, const Nodes& n, float tau, bool early_accept) {
   const Float4 slack = splat<Float4>(5.2f * u + t.rho);
   Float4 lowest = splat<Float4>(4.0f);
   for (int k = 0; k < 3; ++k) lowest = min(lowest, dot(splat3<Float4>(t.mx[k], t.my[k], t.mz[k]), n.w));
@@ -125,7 +125,7 @@ HWY_INLINE NodeVerdict precise_cone_test(const TriangleBounds& t, const Nodes& n
 
 // The earlier work: the triangle's bounding sphere. Its cap of directions has the chord sphere_chord, so a
 // common direction needs |w - s| <= c + chord.
-HWY_INLINE NodeVerdict sphere_cone_test(const TriangleBounds& t, const Nodes& n) {
+SIMD_INLINE NodeVerdict sphere_cone_test(const TriangleBounds& t, const Nodes& n) {
   const Vector4 apart{splat<Float4>(t.sx) - n.w.x, splat<Float4>(t.sy) - n.w.y, splat<Float4>(t.sz) - n.w.z};
   const Float4 sum = n.c + splat<Float4>(t.sphere_chord + 8 * u);
   // A light inside the sphere sees it everywhere.
@@ -135,12 +135,12 @@ HWY_INLINE NodeVerdict sphere_cone_test(const TriangleBounds& t, const Nodes& n)
 
 // --- Directional lights: cylinders along the light --------------------------------------------------------
 
-HWY_INLINE Float4 plane_value(const TriangleBounds& t, int k, const Nodes& n) {
+SIMD_INLINE Float4 plane_value(const TriangleBounds& t, int k, const Nodes& n) {
   return dot(splat3<Float4>(t.mx[k], t.my[k], t.mz[k]), n.w) - splat<Float4>(t.d[k]);
 }
 
 // Coordinates near the cylinder's are of this size; every rounding is relative to it.
-HWY_INLINE Float4 cylinder_scale(const TriangleBounds& t, const Nodes& n) {
+SIMD_INLINE Float4 cylinder_scale(const TriangleBounds& t, const Nodes& n) {
   const Float4 zero = splat<Float4>(0.0f);
   const auto magnitude = [&](Float4 a) HWY_ATTR { return zero - min(a, zero - a); };
   Float4 scale = magnitude(n.w.x) + magnitude(n.w.y) + magnitude(n.w.z) + n.c;
@@ -150,7 +150,7 @@ HWY_INLINE Float4 cylinder_scale(const TriangleBounds& t, const Nodes& n) {
   return scale + splat<Float4>(d);
 }
 
-HWY_INLINE std::uint32_t beyond_separating_line(const TriangleBounds& t, const Nodes& n, Float4 slack) {
+SIMD_INLINE std::uint32_t beyond_separating_line(const TriangleBounds& t, const Nodes& n, Float4 slack) {
   std::uint32_t beyond = 0;
   Vector4 apart[3];
   for (int k = 0; k < 3; ++k) {
@@ -168,7 +168,7 @@ HWY_INLINE std::uint32_t beyond_separating_line(const TriangleBounds& t, const N
   return beyond;
 }
 
-HWY_INLINE NodeVerdict precise_cylinder_test(const TriangleBounds& t, const Nodes& n, float tau,
+SIMD_INLINE NodeVerdict precise_cylinder_test(const TriangleBounds& t, const Nodes& n, float tau,
                                          bool early_accept) {
   const Float4 scale = cylinder_scale(t, n);
   const Float4 slack = scale * splat<Float4>(10 * u + t.rho) + splat<Float4>(tiny);
@@ -191,7 +191,7 @@ HWY_INLINE NodeVerdict precise_cylinder_test(const TriangleBounds& t, const Node
   return v;
 }
 
-HWY_INLINE NodeVerdict sphere_cylinder_test(const TriangleBounds& t, const Nodes& n) {
+SIMD_INLINE NodeVerdict sphere_cylinder_test(const TriangleBounds& t, const Nodes& n) {
   const Vector4 apart{splat<Float4>(t.sx) - n.w.x, splat<Float4>(t.sy) - n.w.y, splat<Float4>(t.sz) - n.w.z};
   const Float4 slack = cylinder_scale(t, n) * splat<Float4>(10 * u) + splat<Float4>(tiny);
   const Float4 sum = n.c + splat<Float4>(t.sphere_chord) + slack;
@@ -207,7 +207,7 @@ HWY_INLINE NodeVerdict sphere_cylinder_test(const TriangleBounds& t, const Nodes
 
 /// Bits of the four nodes that triangle `t` misses for sure, and of those it covers for sure (early_accept
 /// only). `tau`: largest rounding tolerance of the rays' own triangles.
-HWY_INLINE NodeVerdict test_nodes(const TriangleBounds& t, const Nodes& n, bool spheres, bool directional,
+SIMD_INLINE NodeVerdict test_nodes(const TriangleBounds& t, const Nodes& n, bool spheres, bool directional,
                               float tau, bool early_accept) {
   if (directional)
     return spheres ? sphere_cylinder_test(t, n) : precise_cylinder_test(t, n, tau, early_accept);

@@ -41,7 +41,7 @@ struct PacketVerdict {
 // differs from the exact value by at most K = 10.1 u r + rho (R + reach), or cannot have the wrong sign at
 // all
 // (|e0| > 2r). The own plane opens tau of the rays' triangles later.
-HWY_INLINE PacketVerdict test_packet(const RayPacket& packet, const TrianglePlanes& t, float tau) {
+SIMD_INLINE PacketVerdict test_packet(const RayPacket& packet, const TrianglePlanes& t, float tau) {
   double e0[4];
   four_planes(t.mx, t.my, t.mz, t.d, packet.base_x, packet.base_y, packet.base_z, e0);
   const double rho = HWY_MAX(HWY_MAX(t.rho[0], t.rho[1]), HWY_MAX(t.rho[2], t.rho[3]));

@@ -19,7 +19,7 @@ constexpr int curve_bits = 14;
 
 // Hilbert index of cells x, y, highest bits first. `swapped` and `flipped` are all ones where from here on
 // the curve runs with x and y exchanged, or through their complements.
-HWY_INLINE Int16 hilbert_index(Int16 x, Int16 y) {
+SIMD_INLINE Int16 hilbert_index(Int16 x, Int16 y) {
   const Int16 zero = splat<Int16>(0), ones = splat<Int16>(-1), one = splat<Int16>(1);
   Int16 swapped = zero, flipped = zero, index = zero;
   x = shift_left<32 - curve_bits>(x);
@@ -38,7 +38,7 @@ HWY_INLINE Int16 hilbert_index(Int16 x, Int16 y) {
   return index;
 }
 
-HWY_INLINE Int16 cell_of(Float16 coordinate) {
+SIMD_INLINE Int16 cell_of(Float16 coordinate) {
   constexpr float half = 1 << (curve_bits - 1);
   const Float16 scaled = multiply_add(coordinate, splat<Float16>(half), splat<Float16>(half));
   return truncate(min(max(scaled, splat<Float16>(0.0f)), splat<Float16>(2 * half - 1)));

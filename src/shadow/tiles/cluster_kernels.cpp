@@ -16,7 +16,7 @@ using namespace simd::HWY_NAMESPACE;
 namespace {
 
 /// Corner k of all triangles.
-HWY_INLINE Pack3<Float16> corners_at(const glm::vec3* positions, const ClusterCorners& corners, int k) {
+SIMD_INLINE Pack3<Float16> corners_at(const glm::vec3* positions, const ClusterCorners& corners, int k) {
   const char* const from = reinterpret_cast<const char*>(&positions[corners.first]);
   const auto corner = [&](int i) HWY_ATTR {
     return load<Float4>(reinterpret_cast<const float*>(from + corners.offset[k][i]));

@@ -27,7 +27,7 @@ struct Eight {
   Double8 largest;  // |coordinate| of the corners in world space
 };
 
-HWY_INLINE Eight load_eight(const TriangleCluster& c, int at, const glm::dvec3& light) {
+SIMD_INLINE Eight load_eight(const TriangleCluster& c, int at, const glm::dvec3& light) {
   Eight t;
   const Vector8 origin = splat3<Double8>(light.x, light.y, light.z);
   t.largest = splat<Double8>(0.0);
@@ -42,7 +42,7 @@ HWY_INLINE Eight load_eight(const TriangleCluster& c, int at, const glm::dvec3& 
 
 /// Stores plane `k`, turned to the side of `side`; returns the square of rho / 2^-48. 1 / 0 gives no plane
 /// and an infinite error: all is left to the exact stage.
-HWY_INLINE Double8 store_plane(ClusterPlanes& out, int k, int at, const Vector8& m, Double8 side,
+SIMD_INLINE Double8 store_plane(ClusterPlanes& out, int k, int at, const Vector8& m, Double8 side,
                                Double8 squares, Vector8& unit) {
   const Double8 zero = splat<Double8>(0.0), length2 = dot(m, m);
   const Truth<double, 8> real = less(zero, length2);
@@ -56,7 +56,7 @@ HWY_INLINE Double8 store_plane(ClusterPlanes& out, int k, int at, const Vector8&
 }
 
 /// Side of the light: sign of n.(A - L) where the error bound of the product allows, else 0.
-HWY_INLINE Double8 certain_side(const Vector8& n, const Vector8& a, Double8 squares) {
+SIMD_INLINE Double8 certain_side(const Vector8& n, const Vector8& a, Double8 squares) {
   const Double8 value = dot(n, a);
   const Double8 bound2 = splat<Double8>(0x1p-92) * squares * dot(a, a);
   const Double8 one = splat<Double8>(1.0);
@@ -79,7 +79,7 @@ inline std::uint32_t settle_sides(const TriangleCluster& c, int at, std::uint32_
 }
 
 /// Planes of triangles at ... at + 7, whose bits of `valid` and `edge_on` are added.
-HWY_INLINE void set_up_eight(const TriangleCluster& c, int at, const RaySource& source, bool use_tau,
+SIMD_INLINE void set_up_eight(const TriangleCluster& c, int at, const RaySource& source, bool use_tau,
                              bool cull_front, ClusterPlanes& out) {
   Eight t = load_eight(c, at, source.origin);
   const Vector8 e1 = t.a[1] - t.a[0], e2 = t.a[2] - t.a[0], n = cross(e1, e2);
@@ -113,7 +113,7 @@ HWY_INLINE void set_up_eight(const TriangleCluster& c, int at, const RaySource& 
   out.edge_on |= edge_on << at;
 }
 
-HWY_INLINE void set_up_planes(const TriangleCluster& c, const RaySource& source, bool use_tau,
+SIMD_INLINE void set_up_planes(const TriangleCluster& c, const RaySource& source, bool use_tau,
                               bool cull_front, ClusterPlanes& out) {
   out.valid = out.edge_on = 0;
   set_up_eight(c, 0, source, use_tau, cull_front, out);

@@ -32,7 +32,7 @@ struct RayRef {
 };
 
 /// How wide a box is as seen from the light.
-HWY_INLINE float width(const FaceBox& box) {
+SIMD_INLINE float width(const FaceBox& box) {
   return (box.u1 - box.u0) + (box.v1 - box.v0);
 }
 

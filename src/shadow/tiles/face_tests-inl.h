@@ -23,7 +23,7 @@ struct Face {
   int axes[3];
   float sign;  ///< of z along its axis
 };
-HWY_INLINE Face face_axes(int face) {
+SIMD_INLINE Face face_axes(int face) {
   const int axis = face / 2;
   return {{(axis + 1) % 3, (axis + 2) % 3, axis}, face % 2 == 0 ? 1.0f : -1.0f};
 }
@@ -34,7 +34,7 @@ struct FaceBoxes {
 };
 
 /// Bits of the boxes that meet `rays`; NaN counts as meeting.
-HWY_INLINE std::uint32_t boxes_met(const FaceBoxes& b, const FaceBox& rays) {
+SIMD_INLINE std::uint32_t boxes_met(const FaceBoxes& b, const FaceBox& rays) {
   const auto missed = less(splat<Float16>(rays.u1), b.u0) | less(b.u1, splat<Float16>(rays.u0)) |
                       less(splat<Float16>(rays.v1), b.v0) | less(b.v1, splat<Float16>(rays.v0)) |
                       less(b.w, splat<Float16>(rays.w));
@@ -42,7 +42,7 @@ HWY_INLINE std::uint32_t boxes_met(const FaceBoxes& b, const FaceBox& rays) {
 }
 
 /// Bits of the node's children that a box meets and that have rays left.
-HWY_INLINE std::uint32_t children_met(const RayNode& n, const FaceBox& box) {
+SIMD_INLINE std::uint32_t children_met(const RayNode& n, const FaceBox& box) {
   const auto missed =
       less(splat<Float16>(box.u1), load<Float16>(n.u0)) | less(load<Float16>(n.u1), splat<Float16>(box.u0)) |
       less(splat<Float16>(box.v1), load<Float16>(n.v0)) | less(load<Float16>(n.v1), splat<Float16>(box.v0)) |
@@ -52,16 +52,16 @@ HWY_INLINE std::uint32_t children_met(const RayNode& n, const FaceBox& box) {
 
 /// Lower end of x/z for x >= low and z in (z0, z1], given 1/z0 and 1/z1; `pull` is off_the_face where z0 <=
 /// 0.
-HWY_INLINE Float16 lower_end(Float16 low, Float16 near_inverse, Float16 far_inverse, Float16 pull) {
+SIMD_INLINE Float16 lower_end(Float16 low, Float16 near_inverse, Float16 far_inverse, Float16 pull) {
   return where_not_above(splat<Float16>(0.0f), low, low * far_inverse, low * near_inverse - pull);
 }
-HWY_INLINE Float16 upper_end(Float16 high, Float16 near_inverse, Float16 far_inverse, Float16 pull) {
+SIMD_INLINE Float16 upper_end(Float16 high, Float16 near_inverse, Float16 far_inverse, Float16 pull) {
   return where_not_above(high, splat<Float16>(0.0f), high * far_inverse, high * near_inverse + pull);
 }
 
 /// World-space boxes on a face of the cube around `light`; returns the bits of those that reach in front of
 /// it. Differences of floats are off by u, quotients and products by 4u more.
-HWY_INLINE std::uint32_t project_boxes(const BoxNode& node, const glm::vec3& light, const Face& face,
+SIMD_INLINE std::uint32_t project_boxes(const BoxNode& node, const glm::vec3& light, const Face& face,
                                        FaceBoxes& out) {
   Float16 low[3], high[3];
   for (int k = 0; k < 3; ++k) {
@@ -84,7 +84,7 @@ HWY_INLINE std::uint32_t project_boxes(const BoxNode& node, const glm::vec3& lig
 
 /// Boxes of a cluster's triangles themselves: tighter than its box by far. Triangles that reach behind the
 /// face's plane get `all`. Returns the bits of those that reach in front of it. Errors as project_boxes.
-HWY_INLINE std::uint32_t project_triangles(const TriangleCluster& c, const glm::vec3& light, const Face& face,
+SIMD_INLINE std::uint32_t project_triangles(const TriangleCluster& c, const glm::vec3& light, const Face& face,
                                            const FaceBox& all, FaceBoxes& out) {
   const float(*const corners[3])[16] = {c.x, c.y, c.z};
   const Float16 one = splat<Float16>(1.0f), sign = splat<Float16>(face.sign);
@@ -119,7 +119,7 @@ struct FaceCluster {
   float cover[16];  ///< d and the rays' own tolerance, rounded up
 };
 
-HWY_INLINE void face_cluster(const ClusterPlanes& c, const Face& face, float tau, FaceCluster& out) {
+SIMD_INLINE void face_cluster(const ClusterPlanes& c, const Face& face, float tau, FaceCluster& out) {
   const float(*const m[3])[16] = {c.fx, c.fy, c.fz};
   for (int k = 0; k < 4; ++k) {
     store(load<Float16>(m[face.axes[0]][k]), out.mx[k]);
@@ -134,7 +134,7 @@ HWY_INLINE void face_cluster(const ClusterPlanes& c, const Face& face, float tau
 }
 
 /// Bits of the triangles that may block rays of a box: its corner that is farthest inside each plane.
-HWY_INLINE std::uint32_t triangles_met(const FaceCluster& c, const FaceBox& box) {
+SIMD_INLINE std::uint32_t triangles_met(const FaceCluster& c, const FaceBox& box) {
   const auto most = [&](int k) HWY_ATTR {
     const Float16 mx = load<Float16>(c.mx[k]), my = load<Float16>(c.my[k]);
     return max(mx * splat<Float16>(box.u0), mx * splat<Float16>(box.u1)) +
@@ -147,20 +147,20 @@ HWY_INLINE std::uint32_t triangles_met(const FaceCluster& c, const FaceBox& box)
 }
 
 /// Plane k of triangle i over the boxes of a node: its largest value.
-HWY_INLINE Float16 most(const RayNode& n, const FaceCluster& c, int k, int i) {
+SIMD_INLINE Float16 most(const RayNode& n, const FaceCluster& c, int k, int i) {
   const Float16 mx = splat<Float16>(c.mx[k][i]), my = splat<Float16>(c.my[k][i]);
   return max(mx * load<Float16>(n.u0), mx * load<Float16>(n.u1)) +
          (max(my * load<Float16>(n.v0), my * load<Float16>(n.v1)) + splat<Float16>(c.mz[k][i]));
 }
 /// Its smallest.
-HWY_INLINE Float16 fewest(const RayNode& n, const FaceCluster& c, int k, int i) {
+SIMD_INLINE Float16 fewest(const RayNode& n, const FaceCluster& c, int k, int i) {
   const Float16 mx = splat<Float16>(c.mx[k][i]), my = splat<Float16>(c.my[k][i]);
   return min(mx * load<Float16>(n.u0), mx * load<Float16>(n.u1)) +
          (min(my * load<Float16>(n.v0), my * load<Float16>(n.v1)) + splat<Float16>(c.mz[k][i]));
 }
 
 /// Bits of the node's children that triangle i, whose box is `box`, may block rays of.
-HWY_INLINE std::uint32_t children_met(const RayNode& n, const FaceCluster& c, int i, const FaceBox& box) {
+SIMD_INLINE std::uint32_t children_met(const RayNode& n, const FaceCluster& c, int i, const FaceBox& box) {
   const std::uint32_t met = children_met(n, box);
   if (met == 0) return 0;
   const Float16 edges = min(most(n, c, 0, i), min(most(n, c, 1, i), most(n, c, 2, i)));
@@ -171,7 +171,7 @@ HWY_INLINE std::uint32_t children_met(const RayNode& n, const FaceCluster& c, in
 }
 
 /// Bits of the node's children all of whose rays triangle i blocks for sure, but for its own.
-HWY_INLINE std::uint32_t children_covered(const RayNode& n, const FaceCluster& c, int i) {
+SIMD_INLINE std::uint32_t children_covered(const RayNode& n, const FaceCluster& c, int i) {
   const Float16 edges = min(fewest(n, c, 0, i), min(fewest(n, c, 1, i), fewest(n, c, 2, i)));
   const Float16 own = fewest(n, c, 3, i) - splat<Float16>(c.own_slack[i]);
   return bits(less(splat<Float16>(c.edge_slack[i]), edges) &

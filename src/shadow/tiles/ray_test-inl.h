@@ -25,7 +25,7 @@ struct RoughRays {
   float reach;  ///< >= |p|, and as above
 };
 
-HWY_INLINE RoughRays rough_rays(const points::PointTile& tile, const points::PointBase& from,
+SIMD_INLINE RoughRays rough_rays(const points::PointTile& tile, const points::PointBase& from,
                                 const glm::dvec3& light) {
   float base[3];
   for (int k = 0; k < 3; ++k) base[k] = static_cast<float>(static_cast<double>(from.at[k]) - light[k]);
@@ -44,7 +44,7 @@ struct TileVerdict {
 /// (without fused ones), d by u and its difference by u more: below 12u (|p| + |d|), where |d| exceeds the
 /// triangle's reach by its tau only; if that is more than 5 (|p| + reach), the own plane is missed by far.
 /// The own plane opens tau of the rays' own triangles later.
-HWY_INLINE TileVerdict rough_verdict(const ClusterPlanes& c, int i, const RoughRays& rays, float tau) {
+SIMD_INLINE TileVerdict rough_verdict(const ClusterPlanes& c, int i, const RoughRays& rays, float tau) {
   const auto value = [&](int k) HWY_ATTR {
     return multiply_add(
         splat<Float16>(c.fz[k][i]), rays.p.z,
@@ -63,7 +63,7 @@ struct LeafTriangle {
   float rho, reach;
 };
 
-HWY_INLINE void take_triangle(const ClusterPlanes& c, int i, LeafTriangle& t) {
+SIMD_INLINE void take_triangle(const ClusterPlanes& c, int i, LeafTriangle& t) {
   for (int k = 0; k < 4; ++k) {
     t.mx[k] = c.mx[k][i], t.my[k] = c.my[k][i], t.mz[k] = c.mz[k][i];
     t.d[k] = k == 3 ? c.d[i] : 0.0;
@@ -80,7 +80,7 @@ struct Aim {
 
 // With r >= |q| a sum in floats is off by at most K = 10.1 u r + rho (R + reach), or cannot have the wrong
 // sign at all (|e0| > 2r); R <= |base| + r, by coordinates.
-HWY_INLINE Aim aim_at(const LeafTriangle& t, const points::PointBase& from, const glm::dvec3& light) {
+SIMD_INLINE Aim aim_at(const LeafTriangle& t, const points::PointBase& from, const glm::dvec3& light) {
   using Double4 = Pack<double, 4>;
   double base[3];
   for (int k = 0; k < 3; ++k) base[k] = static_cast<double>(from.at[k]) - light[k];
@@ -95,7 +95,7 @@ HWY_INLINE Aim aim_at(const LeafTriangle& t, const points::PointBase& from, cons
 }
 
 /// Again, where the rough verdict leaves something open.
-HWY_INLINE TileVerdict fine_verdict(const ClusterPlanes& c, int i, const points::PointTile& tile,
+SIMD_INLINE TileVerdict fine_verdict(const ClusterPlanes& c, int i, const points::PointTile& tile,
                                 const points::PointBase& from, const glm::dvec3& light, float tau) {
   LeafTriangle t;
   take_triangle(c, i, t);

@@ -19,7 +19,7 @@ using namespace simd::HWY_NAMESPACE;
 /// relative to the light is rounded by u, as q is and as their sum is: 3u (|base| + radius), 5u with the
 /// roundings here; so the quotient is off by (margin + face_limit margin of z) / z, by 6u for its own
 /// roundings and by 16u for those of the boxes of triangles.
-HWY_INLINE bool bound(const points::PointTile& tile, const points::PointBase& from, std::uint32_t lanes,
+SIMD_INLINE bool bound(const points::PointTile& tile, const points::PointBase& from, std::uint32_t lanes,
                       const glm::dvec3& light, int face, FaceBox& box) {
   constexpr float u = 0x1p-24f;
   const float* const q[3] = {tile.qx, tile.qy, tile.qz};

@@ -40,7 +40,7 @@ Facing facing(const points::ReceiverBlock& r, const glm::vec3& light) {
 struct Range {
   Float16 low, high;
 };
-HWY_INLINE Range range_of(const points::PointSquare& square, const glm::dvec3& light, int axis) {
+SIMD_INLINE Range range_of(const points::PointSquare& square, const glm::dvec3& light, int axis) {
   const auto base = static_cast<float>(static_cast<double>(square.base.at[axis]) - light[axis]);
   const Float16 centre = splat<Float16>(base),
                 margin = splat<Float16>(5 * u * ((base < 0 ? -base : base) + square.base.radius));

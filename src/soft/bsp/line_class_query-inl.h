@@ -19,7 +19,7 @@ using namespace simd::HWY_NAMESPACE;
 
 /// The line of a hyperplane as it meets the light from the point centre + d.
 template <class T>
-HWY_INLINE LightLine<T> line_at(const MovingLine& line, const glm::dvec3& d) {
+SIMD_INLINE LightLine<T> line_at(const MovingLine& line, const glm::dvec3& d) {
   const glm::dvec3 at = line.c[0] + d.x * line.c[1] + d.y * line.c[2] + d.z * line.c[3];
   return {static_cast<T>(at.x), static_cast<T>(at.y), static_cast<T>(at.z)};
 }
@@ -66,12 +66,12 @@ private:
     int side;
   };
 
-  static HWY_INLINE BspChild at(const LineClassBsp& bsp, const Place& place) {
+  static SIMD_INLINE BspChild at(const LineClassBsp& bsp, const Place& place) {
     return place.parent < 0 ? bsp.root() : bsp.nodes()[place.parent].child[place.side];
   }
 
   /// A polygon that is too large goes in halves, each with its place.
-  HWY_INLINE void push(std::int32_t parent, int side, const LightPolygon<T>& polygon) {
+  SIMD_INLINE void push(std::int32_t parent, int side, const LightPolygon<T>& polygon) {
     const std::size_t before = polygons_.size();
     polygons_.push(polygon);
     for (std::size_t i = before; i < polygons_.size(); ++i) places_.push_back({parent, side});

@@ -78,7 +78,7 @@ private:
   static constexpr std::size_t many = 48;  ///< occluders from which on it pays to keep a few apart
 
   /// Asks for a candidate that will be added soon.
-  static HWY_INLINE void expect(const Candidate& c) {
+  static SIMD_INLINE void expect(const Candidate& c) {
     fetch_soon(c.corners[0]);
     fetch_soon(c.corners[3]);
     fetch_soon(&c.second);
@@ -228,7 +228,7 @@ private:
   }
 
   /// What is still to do, each with the occluders of `boxes` that are left for it.
-  HWY_INLINE void subtract_todo(Occluders& c, const ShadowBoxes<T>& boxes, Parts& out) {
+  SIMD_INLINE void subtract_todo(Occluders& c, const ShadowBoxes<T>& boxes, Parts& out) {
     while (!todo_.empty()) {
       const std::uint64_t left = todo_left_.back();
       todo_left_.pop_back();
@@ -237,7 +237,7 @@ private:
   }
 
   /// Chooses which of the bits of `left` is first where there are more than any order serves.
-  HWY_INLINE void subtract_widest(Occluders& c, const ShadowBoxes<T>& boxes, std::uint64_t left,
+  SIMD_INLINE void subtract_widest(Occluders& c, const ShadowBoxes<T>& boxes, std::uint64_t left,
                                   typename Sight::OwnPart part, Parts& out) {
     const bool in_order = std::popcount(left) <= Sight::any_order;
     const auto bounds = in_order ? typename Sight::Bounds{} : bounds_of(part);
@@ -247,7 +247,7 @@ private:
 
   /// Subtracts occluders of the bits of `left`, first that of bit k, from `part` until one has a share in it;
   /// for what that leaves, the others are still to do.
-  HWY_INLINE void subtract_next(Occluders& c, const ShadowBoxes<T>& boxes, std::uint64_t left, int k,
+  SIMD_INLINE void subtract_next(Occluders& c, const ShadowBoxes<T>& boxes, std::uint64_t left, int k,
                                 const typename Sight::Bounds& bounds,
                                 std::remove_reference_t<typename Sight::OwnPart>& part, Parts& out) {
     for (; left != 0; k = std::countr_zero(left)) {

@@ -89,7 +89,7 @@ inline const PacketPart& loaded(const PacketPart& part) {
 }
 
 /// Takes repeated vertices out of a polygon that has many.
-HWY_INLINE void compact_large(PacketPolygon& polygon, std::uint32_t lanes) {
+SIMD_INLINE void compact_large(PacketPolygon& polygon, std::uint32_t lanes) {
   constexpr int large = 6;  // vertices
   if (polygon.count > large) compact(polygon, lanes);
 }
@@ -99,7 +99,7 @@ struct alignas(64) PacketReach {
   Float16 side[4];
 };
 
-HWY_INLINE PacketReach bounds_of(const PacketPart& part) {
+SIMD_INLINE PacketReach bounds_of(const PacketPart& part) {
   const PacketPolygon& p = part.polygon;
   Float16 low_u = p.x[0], high_u = low_u, low_v = p.y[0], high_v = low_v;
   for (int k = 1; k < p.count; ++k) {
@@ -113,12 +113,12 @@ HWY_INLINE PacketReach bounds_of(const PacketPart& part) {
 }
 
 /// Around all lanes.
-HWY_INLINE LightBox<float> box_of(const PacketReach& reach) {
+SIMD_INLINE LightBox<float> box_of(const PacketReach& reach) {
   const float u1 = greatest(reach.side[0]), u0 = -greatest(reach.side[1]);
   const float v1 = greatest(reach.side[2]), v0 = -greatest(reach.side[3]);
   return {(u0 + u1) / 2, (v0 + v1) / 2, (u1 - u0) / 2, (v1 - v0) / 2};
 }
-HWY_INLINE LightBox<float> box_of(const PacketPart& part) {
+SIMD_INLINE LightBox<float> box_of(const PacketPart& part) {
   return box_of(bounds_of(part));
 }
 
@@ -157,7 +157,7 @@ public:
       : reach_(load<Wide>(at.reach)), from_{load<Wide>(at.in_light[0]), load<Wide>(at.in_light[1])} {}
 
   /// `way`: from the points to a corner.
-  HWY_INLINE void add(const Pack3<Wide>& way) {
+  SIMD_INLINE void add(const Pack3<Wide>& way) {
     const Wide zero = wide(0);
     lowest_ = min(lowest_, way.z);
     const Wide t = reach_ / choose(less(zero, way.z), way.z, wide(1));
@@ -167,7 +167,7 @@ public:
       high_[axis] = max(high_[axis], seen[axis]);
     }
   }
-  HWY_INLINE void store(Float16 (&sides)[4]) const {
+  SIMD_INLINE void store(Float16 (&sides)[4]) const {
     for (int axis = 0; axis < 2; ++axis) {
       const ShadowSides side = bounded_sides(less(wide(0), lowest_), low_[axis], high_[axis]);
       sides[2 * axis] = narrowed<float>(side.low), sides[2 * axis + 1] = narrowed<float>(side.minus_high);
@@ -192,7 +192,7 @@ public:
 
   /// Subtracts an occluder from `part`: false if it has no share in it at any point. Lanes where it has leave
   /// the part; what they keep goes to `out`, or to `rest` if others, `left` bits, are still to be subtracted.
-  HWY_INLINE bool subtract(std::size_t id, const PacketReach& reach, PacketPart& part,
+  SIMD_INLINE bool subtract(std::size_t id, const PacketReach& reach, PacketPart& part,
                            const LaneIndex<float>*, std::uint64_t left, PacketParts& rest, PacketParts& out) {
     const PacketShadow& shadow = shadow_of(id);
     std::uint32_t met = part.live & meeting(reach, shadow);
@@ -202,7 +202,7 @@ public:
 
 private:
   /// Bits of the lanes where the boxes around fragment and shadow meet.
-  static HWY_INLINE std::uint32_t meeting(const PacketReach& reach, const PacketShadow& shadow) {
+  static SIMD_INLINE std::uint32_t meeting(const PacketReach& reach, const PacketShadow& shadow) {
     const auto below = [&](int k) { return less(shadow.sides[k], reach.side[k]); };
     return bits(below(0) & below(1) & below(2) & below(3));
   }

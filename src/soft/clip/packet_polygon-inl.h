@@ -40,9 +40,9 @@ struct alignas(64) PacketPolygon {
 struct alignas(64) PacketLine {
   Float16 u, v, w;
 
-  HWY_INLINE Float16 at(Float16 x, Float16 y) const { return u * x + v * y + w; }
+  SIMD_INLINE Float16 at(Float16 x, Float16 y) const { return u * x + v * y + w; }
   /// Vertices of smaller values count as on the line (on_line).
-  HWY_INLINE Float16 near() const { return splat<Float16>(on_line<float>) * (absolute(u) + absolute(v)); }
+  SIMD_INLINE Float16 near() const { return splat<Float16>(on_line<float>) * (absolute(u) + absolute(v)); }
 };
 
 struct PacketValues {
@@ -51,7 +51,7 @@ struct PacketValues {
   std::uint32_t positive = 0, negative = 0;  ///< bits of the lanes that have vertices strictly on that side
 };
 
-HWY_INLINE PacketValues evaluate(const PacketPolygon& polygon, const PacketLine& line) {
+SIMD_INLINE PacketValues evaluate(const PacketPolygon& polygon, const PacketLine& line) {
   PacketValues r;
   r.near = line.near();
   Float16 low = r.value[0] = line.at(polygon.x[0], polygon.y[0]), high = low;
@@ -66,7 +66,7 @@ HWY_INLINE PacketValues evaluate(const PacketPolygon& polygon, const PacketLine&
 }
 
 /// Bits of the lanes where some vertex lies strictly on the line's positive side.
-HWY_INLINE std::uint32_t reaching(const PacketPolygon& polygon, const PacketLine& line) {
+SIMD_INLINE std::uint32_t reaching(const PacketPolygon& polygon, const PacketLine& line) {
   Float16 high = line.at(polygon.x[0], polygon.y[0]);
   for (int k = 1; k < polygon.count; ++k) high = max(high, line.at(polygon.x[k], polygon.y[k]));
   return less_bits(line.near(), high);
@@ -76,7 +76,7 @@ HWY_INLINE std::uint32_t reaching(const PacketPolygon& polygon, const PacketLine
 struct PacketVertex {
   Float16 x, y, value;
 
-  HWY_INLINE void take(PacketTruth where, const PacketPolygon& from, const PacketValues& line, int k) {
+  SIMD_INLINE void take(PacketTruth where, const PacketPolygon& from, const PacketValues& line, int k) {
     x = choose(where, from.x[k], x);
     y = choose(where, from.y[k], y);
     value = choose(where, line.value[k], value);
@@ -88,7 +88,7 @@ struct PacketPoint2 {
 };
 
 /// Where the line crosses the way from a vertex on its positive side to one that is not.
-HWY_INLINE PacketPoint2 crossing_of(const PacketVertex& from, const PacketVertex& beyond) {
+SIMD_INLINE PacketPoint2 crossing_of(const PacketVertex& from, const PacketVertex& beyond) {
   const Float16 zero = splat<Float16>(0.0f), one = splat<Float16>(1.0f);
   const Float16 drop = from.value - beyond.value;
   const Float16 t = min(max(from.value / choose(equal(drop, zero), one, drop), zero), one);
@@ -97,7 +97,7 @@ HWY_INLINE PacketPoint2 crossing_of(const PacketVertex& from, const PacketVertex
 
 /// One side of a cut: the vertices where `kept`, and in the place of the run of others `first` and then
 /// `second`. A run of one vertex in a lane of `cut` makes room for both.
-HWY_INLINE void replace_run(const PacketPolygon& polygon, const PacketTruth (&kept)[packet_vertices],
+SIMD_INLINE void replace_run(const PacketPolygon& polygon, const PacketTruth (&kept)[packet_vertices],
                             const PacketTruth (&dropped)[packet_vertices], PacketTruth cut,
                             const PacketPoint2& first, const PacketPoint2& second, PacketPolygon& out) {
   const int n = polygon.count;
@@ -126,7 +126,7 @@ HWY_INLINE void replace_run(const PacketPolygon& polygon, const PacketTruth (&ke
 /// the line go with the negative side. In the other lanes, `positive` is the polygon as it was, `negative`
 /// anything. False where rounding breaks the vertices of a thin polygon in more than two runs, or there are
 /// too many.
-HWY_INLINE bool split(const PacketPolygon& polygon, PacketValues& line, std::uint32_t cut,
+SIMD_INLINE bool split(const PacketPolygon& polygon, PacketValues& line, std::uint32_t cut,
                       PacketPolygon& positive, PacketPolygon& negative) {
   if (polygon.count == packet_vertices) return false;
   const PacketTruth parted = truth_of<float, packet_size>(cut);
@@ -156,7 +156,7 @@ HWY_INLINE bool split(const PacketPolygon& polygon, PacketValues& line, std::uin
 }
 
 /// Takes vertices out while each lane of `lanes` has one that is repeated.
-HWY_INLINE void compact(PacketPolygon& p, std::uint32_t lanes) {
+SIMD_INLINE void compact(PacketPolygon& p, std::uint32_t lanes) {
   while (p.count > 3) {
     PacketTruth repeated[packet_vertices];
     for (int k = 0; k < p.count; ++k)

@@ -83,7 +83,7 @@ private:
       w[k] = cuts_light ? line.w : 1.0f;
       cuts = (cuts & ~(1u << k)) | (cuts_light ? 1u << k : 0u);
     }
-    HWY_INLINE void put_eight(std::size_t first, const LightFrame& light, const HorizonLanes& line) {
+    SIMD_INLINE void put_eight(std::size_t first, const LightFrame& light, const HorizonLanes& line) {
       const Double8 zero = splat<Double8>(0.0), one = splat<Double8>(1.0);
       const std::uint32_t cut = line.cuts(light);
       const auto there = truth_of<double, 8>(cut);
@@ -124,7 +124,7 @@ private:
   }
 
   /// Leaves of a part what is above the horizons of its points.
-  HWY_INLINE void keep_above(const Horizon& horizon, PacketPart& part) {
+  SIMD_INLINE void keep_above(const Horizon& horizon, PacketPart& part) {
     if ((horizon.cuts & part.live) == 0) return;
     PacketValues values = evaluate(part.polygon, horizon.line());
     part.live &= values.positive;
@@ -138,7 +138,7 @@ private:
   }
 
   /// Adds area and irradiance of a fragment to its lanes' sums.
-  HWY_INLINE void add_visible(const LightFrame& light, PacketPart& part) {
+  SIMD_INLINE void add_visible(const LightFrame& light, PacketPart& part) {
     fragments_ += static_cast<std::uint64_t>(std::popcount(part.live));
     for (int first = 0; first < packet_size; first += 8) add_area(part, first);
     keep_above(shading_horizon_, part);
@@ -183,7 +183,7 @@ private:
           irradiance_ + first);
   }
 
-  static HWY_INLINE Double8 widened(Float16 from, int first) {
+  static SIMD_INLINE Double8 widened(Float16 from, int first) {
     float lanes[packet_size];
     store(from, lanes);
     return load_widened<Double8>(lanes + first);

@@ -16,13 +16,13 @@ namespace {
 
 using glm::dvec3;
 
-HWY_INLINE Vector8 eight_at(const PointLanes& points, std::size_t i) {
+SIMD_INLINE Vector8 eight_at(const PointLanes& points, std::size_t i) {
   return {load<Double8>(&points.x[8 * i]), load<Double8>(&points.y[8 * i]), load<Double8>(&points.z[8 * i])};
 }
-HWY_INLINE Truth<double, 8> lanes_of(PointSet set, std::size_t i) {
+SIMD_INLINE Truth<double, 8> lanes_of(PointSet set, std::size_t i) {
   return truth_of<double, 8>(set[i]);
 }
-HWY_INLINE dvec3 sum_of(const Vector8& a) {
+SIMD_INLINE dvec3 sum_of(const Vector8& a) {
   return {ordered_total(a.x), ordered_total(a.y), ordered_total(a.z)};
 }
 
@@ -30,14 +30,14 @@ HWY_INLINE dvec3 sum_of(const Vector8& a) {
 struct Box8 {
   Vector8 low, high;
 
-  HWY_INLINE Box8() : low(all(dvec3(INFINITY))), high(all(dvec3(-INFINITY))) {}
+  SIMD_INLINE Box8() : low(all(dvec3(INFINITY))), high(all(dvec3(-INFINITY))) {}
 
-  HWY_INLINE void add(const Truth<double, 8>& there, const Vector8& p) {
+  SIMD_INLINE void add(const Truth<double, 8>& there, const Vector8& p) {
     const Vector8 a = choose3(there, p, low), b = choose3(there, p, high);
     low = {min(low.x, a.x), min(low.y, a.y), min(low.z, a.z)};
     high = {max(high.x, b.x), max(high.y, b.y), max(high.z, b.z)};
   }
-  HWY_INLINE PointBox box() const {
+  SIMD_INLINE PointBox box() const {
     PointBox b;
     b.low = {least(low.x), least(low.y), least(low.z)};
     b.high = {greatest(high.x), greatest(high.y), greatest(high.z)};
@@ -74,7 +74,7 @@ PointBox box(const PointLanes& points, PointSet set) {
   return around.box();
 }
 
-HWY_INLINE Double8 places(const PointLanes& points, const Slices& slices, std::size_t i) {
+SIMD_INLINE Double8 places(const PointLanes& points, const Slices& slices, std::size_t i) {
   const std::vector<double>& from = slices.axis == 0 ? points.x : slices.axis == 1 ? points.y : points.z;
   return (load<Double8>(&from[8 * i]) - all(slices.low)) * all(slices.scale);
 }
@@ -106,7 +106,7 @@ std::uint64_t below(const PointLanes& points, const Slices& slices, int end) {
 struct Slopes {
   dvec3 row, column;
 };
-HWY_INLINE Slopes slopes_of(const PointLanes& points, PointSet set, const Vector8& base) {
+SIMD_INLINE Slopes slopes_of(const PointLanes& points, PointSet set, const Vector8& base) {
   const Vector8 zero = all(dvec3(0));
   const Double8 none = all(0), one = all(1);
   Vector8 x_p = zero, y_p = zero, sum = zero;

@@ -49,7 +49,7 @@ private:
   };
 
   /// A box with a part at or below the height of a point may shadow all.
-  static HWY_INLINE std::uint32_t find_boxes_of(const Bounds& bounds, const GroupPoint& at,
+  static SIMD_INLINE std::uint32_t find_boxes_of(const Bounds& bounds, const GroupPoint& at,
                                                 T (&sides)[4][16]) {
     const Wide zero = wide(0), one = wide(1), reach = wide(at.reach);
     const Wide lowest = load<Wide>(bounds.low[2]) - wide(at.in_axes.z);
@@ -66,7 +66,7 @@ private:
     store_sides(boxed, low, high, sides);
     return less_bits(zero, highest);
   }
-  static HWY_INLINE std::uint32_t find_boxes_of(const Bounds& bounds, const PointRange& at,
+  static SIMD_INLINE std::uint32_t find_boxes_of(const Bounds& bounds, const PointRange& at,
                                                 T (&sides)[4][16]) {
     const Wide zero = wide(0), one = wide(1), far = wide(1e30);
     const Wide bottom = load<Wide>(bounds.low[2]), top = load<Wide>(bounds.high[2]);

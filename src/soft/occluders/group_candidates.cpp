@@ -20,7 +20,7 @@ namespace {
 inline double size_of(const glm::dvec3& v) {
   return std::abs(v.x) + std::abs(v.y) + std::abs(v.z);
 }
-HWY_INLINE Double8 size_of(const Vector8& v) {
+SIMD_INLINE Double8 size_of(const Vector8& v) {
   return absolute(v.x) + absolute(v.y) + absolute(v.z);
 }
 
@@ -58,7 +58,7 @@ private:
     }
   }
 
-  HWY_INLINE Vector8 corner(int k) const {
+  SIMD_INLINE Vector8 corner(int k) const {
     return {load_widened<Double8>(v_[k][0]), load_widened<Double8>(v_[k][1]),
             load_widened<Double8>(v_[k][2])};
   }
@@ -86,7 +86,7 @@ private:
     store(product(n, to_origin) * scale, lanes_.plane[2]);
   }
 
-  HWY_INLINE void find_sides(const GroupFrame& group, const Vector8* v, const Vector8& n, Double8 length,
+  SIMD_INLINE void find_sides(const GroupFrame& group, const Vector8* v, const Vector8& n, Double8 length,
                              const Vector8& from) {
     const auto num = [](double value) { return splat<Double8>(value); };
     const Double8 zero = num(0);
@@ -109,7 +109,7 @@ private:
     store(height, lanes_.height), store(length, lanes_.length), store(tau, lanes_.tau);
   }
 
-  HWY_INLINE void find_light_sides(const LightFrame& light, const Vector8& v, const Vector8& n,
+  SIMD_INLINE void find_light_sides(const LightFrame& light, const Vector8& v, const Vector8& n,
                                    Double8 length) {
     const Double8 zero = splat<Double8>(0.0);
     const Double8 slack = splat<Double8>(product_rounding) * length, size = size_of(v);
@@ -125,7 +125,7 @@ private:
     lanes_.light_behind = negative;
   }
 
-  HWY_INLINE void find_size(const Vector8* from, const Vector8& n) {
+  SIMD_INLINE void find_size(const Vector8* from, const Vector8& n) {
     const Double8 third = splat<Double8>(1.0 / 3);
     const Vector8 sum{from[0].x + from[1].x + from[2].x, from[0].y + from[1].y + from[2].y,
                       from[0].z + from[1].z + from[2].z};
@@ -138,7 +138,7 @@ private:
 
   /// Corners in the light's axes, and which triangles stand between: so far above the points that the
   /// division by the height loses no more than 16 bits.
-  HWY_INLINE void find_corners(const LightFrame& light, const GroupFrame& group, const LightAxes& axes,
+  SIMD_INLINE void find_corners(const LightFrame& light, const GroupFrame& group, const LightAxes& axes,
                                const Vector8* v, const Vector8* from) {
     const auto num = [](double value) { return splat<Double8>(value); };
     const auto along = [&](const glm::dvec3& a, const Vector8& b) {

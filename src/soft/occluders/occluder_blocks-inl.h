@@ -40,7 +40,7 @@ struct OccluderBlock {
   std::uint32_t quads = 0;       ///< and of those with four corners
 };
 
-HWY_INLINE void put(const Candidate& c, OccluderBlock& block, std::size_t lane) {
+SIMD_INLINE void put(const Candidate& c, OccluderBlock& block, std::size_t lane) {
   for (int k = 0; k < 4; ++k)
     for (int axis = 0; axis < 3; ++axis) block.corners[k][axis][lane] = c.corners[k][axis];
   for (int k = 0; k < 3; ++k) block.plane[k][lane] = c.plane[k];
@@ -62,14 +62,14 @@ struct BlockBoxes {
 
 using Wide = Pack<double, 16>;
 
-HWY_INLINE Wide wide(double value) {
+SIMD_INLINE Wide wide(double value) {
   return splat<Wide>(value);
 }
 
 /// Least and greatest u (axis 0) or v (1) that a place between `low` and `high` is seen at from points of a
 /// range, where the way to the light's plane is t0 to t1 times that to the place. Linear in the point and in
 /// t: the extremes are at the ends.
-HWY_INLINE void shadow_range(const PointRange& at, int axis, Wide low, Wide high, Wide t0, Wide t1,
+SIMD_INLINE void shadow_range(const PointRange& at, int axis, Wide low, Wide high, Wide t0, Wide t1,
                              Wide& least_at, Wide& most_at) {
   for (const double place : {at.low[axis], at.high[axis]}) {
     const Wide from = wide(at.light_from[axis] + place), near = low - wide(place), far = high - wide(place);
@@ -83,14 +83,14 @@ struct ShadowSides {
   Wide low, minus_high;
 };
 template <class Bounded>
-HWY_INLINE ShadowSides bounded_sides(Bounded bounded, Wide low, Wide high) {
+SIMD_INLINE ShadowSides bounded_sides(Bounded bounded, Wide low, Wide high) {
   const Wide two = wide(2), minus = wide(-2);
   return {max(choose(bounded, low, minus), minus), wide(0) - min(choose(bounded, high, two), two)};
 }
 
 /// Those of both axes, as BlockBoxes has them.
 template <class T, class Bounded>
-HWY_INLINE void store_sides(Bounded bounded, const Wide (&low)[2], const Wide (&high)[2], T (&sides)[4][16]) {
+SIMD_INLINE void store_sides(Bounded bounded, const Wide (&low)[2], const Wide (&high)[2], T (&sides)[4][16]) {
   for (int axis = 0; axis < 2; ++axis) {
     const ShadowSides side = bounded_sides(bounded, low[axis], high[axis]);
     store_narrowed(side.low, sides[2 * axis]);

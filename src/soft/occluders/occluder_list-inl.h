@@ -55,12 +55,12 @@ public:
   }
 
   /// Appends to the list what may reach into `box`.
-  HWY_INLINE void append_block(std::size_t b, const LightBox<T>& box) {
+  SIMD_INLINE void append_block(std::size_t b, const LightBox<T>& box) {
     const BlockBoxes<T>& there = boxes_of(b);
     list.append(there.sides, 16 * b, there.lanes, box);
   }
   /// The occluders of block 0, and bits of those that may reach into `box`.
-  HWY_INLINE ShadowBoxes<T> first_block(const LightBox<T>& box, std::uint64_t& met) {
+  SIMD_INLINE ShadowBoxes<T> first_block(const LightBox<T>& box, std::uint64_t& met) {
     const BlockBoxes<T>& there = boxes_of(0);
     const auto& s = there.sides;
     const ShadowBoxes<T> boxes{{s[0], s[1], s[2], s[3]}, lane_numbers<T>};
@@ -79,7 +79,7 @@ protected:
   std::span<const PlaneHeight> heights() const { return heights_; }
 
 private:
-  HWY_INLINE const BlockBoxes<T>& boxes_of(std::size_t b) {
+  SIMD_INLINE const BlockBoxes<T>& boxes_of(std::size_t b) {
     BlockBoxes<T>& there = boxes_[b];
     if (there.boxes_of != number_) {
       find_boxes(blocks_[b], range_, there);

@@ -28,7 +28,7 @@ inline double sign_at(std::uint32_t triangle, const PlaneHeight& plane, const Gr
 
 /// The lines of occluders first to first + 7 of a block.
 template <class T>
-HWY_INLINE void find_eight_lines(const OccluderBlock& block, const double* signs, const GroupPoint& at,
+SIMD_INLINE void find_eight_lines(const OccluderBlock& block, const double* signs, const GroupPoint& at,
                                  std::size_t first, BlockLines<T>& out) {
   using Doubles = Pack<double, 8>;
   using Lanes = Pack<T, 8>;
@@ -85,7 +85,7 @@ public:
   /// Subtracts an occluder from `part`: false if it has no share in it. What is left goes to `out`, or to
   /// `rest` if others of `ids` are still to be subtracted from it: those of the bits of `left`, from which
   /// these that only stand near the part are taken where they are few.
-  HWY_INLINE bool subtract(std::size_t id, const LightBox<T>&, const LightPolygon<T>& part,
+  SIMD_INLINE bool subtract(std::size_t id, const LightBox<T>&, const LightPolygon<T>& part,
                            const LaneIndex<T>* ids, std::uint64_t& left, FragmentList<T>& rest,
                            FragmentList<T>& out) {
     const ShadowLines<T> lines = lines_of(id);
@@ -100,7 +100,7 @@ private:
   static constexpr int few_left = 12;
 
   /// Of the bits of `left` those whose occluders no line of their own parts from `part`.
-  HWY_INLINE std::uint64_t touching(const LaneIndex<T>* ids, std::uint64_t left,
+  SIMD_INLINE std::uint64_t touching(const LaneIndex<T>* ids, std::uint64_t left,
                                     const LightPolygon<T>& part) {
     std::uint64_t found = 0;
     for (; left != 0; left &= left - 1) {
@@ -111,7 +111,7 @@ private:
     return found;
   }
 
-  HWY_INLINE ShadowLines<T> lines_of(std::size_t id) {
+  SIMD_INLINE ShadowLines<T> lines_of(std::size_t id) {
     const std::size_t b = id / 16, k = id % 16;
     BlockLines<T>& there = lines_[b];
     if (there.lines_of != this->number()) {

@@ -22,18 +22,18 @@ struct LightBox {
 };
 
 template <class T>
-HWY_INLINE LightBox<T> box_of(const LightPolygon<T>& polygon) {
+SIMD_INLINE LightBox<T> box_of(const LightPolygon<T>& polygon) {
   const T low_u = least(polygon.x), high_u = greatest(polygon.x);
   const T low_v = least(polygon.y), high_v = greatest(polygon.y);
   return {(low_u + high_u) / 2, (low_v + high_v) / 2, (high_u - low_u) / 2, (high_v - low_v) / 2};
 }
 
 template <class T>
-HWY_INLINE LightBox<T> bounds_of(const LightPolygon<T>& polygon) {
+SIMD_INLINE LightBox<T> bounds_of(const LightPolygon<T>& polygon) {
   return box_of(polygon);
 }
 template <class T>
-HWY_INLINE const LightBox<T>& box_of(const LightBox<T>& box) {
+SIMD_INLINE const LightBox<T>& box_of(const LightBox<T>& box) {
   return box;
 }
 
@@ -50,7 +50,7 @@ struct ShadowBoxes {
 
 /// Of the first sixteen those that meet `box`.
 template <class T>
-HWY_INLINE Truth<T, 16> meets(const ShadowBoxes<T>& boxes, const LightBox<T>& box) {
+SIMD_INLINE Truth<T, 16> meets(const ShadowBoxes<T>& boxes, const LightBox<T>& box) {
   using Lanes = Pack<T, 16>;
   const auto below = [&](int k, T border) { return less(load<Lanes>(boxes.sides[k]), splat<Lanes>(border)); };
   return below(0, box.cu + box.hu) & below(1, box.hu - box.cu) & below(2, box.cv + box.hv) &
@@ -59,7 +59,7 @@ HWY_INLINE Truth<T, 16> meets(const ShadowBoxes<T>& boxes, const LightBox<T>& bo
 
 /// Those of the bits of `left` whose boxes meet `box`.
 template <class T>
-HWY_INLINE std::uint64_t meeting(const ShadowBoxes<T>& boxes, std::uint64_t left, const LightBox<T>& box) {
+SIMD_INLINE std::uint64_t meeting(const ShadowBoxes<T>& boxes, std::uint64_t left, const LightBox<T>& box) {
   std::uint64_t met = 0;
   for (int k = 0; k < 64 && left >> k != 0; k += 16)
     met |= static_cast<std::uint64_t>(bits(meets(boxes.at(static_cast<std::size_t>(k)), box))) << k;
@@ -68,7 +68,7 @@ HWY_INLINE std::uint64_t meeting(const ShadowBoxes<T>& boxes, std::uint64_t left
 
 /// The area that each of the first sixteen has in common with `box`, if they meet.
 template <class T>
-HWY_INLINE Pack<T, 16> common_areas(const ShadowBoxes<T>& boxes, const LightBox<T>& box) {
+SIMD_INLINE Pack<T, 16> common_areas(const ShadowBoxes<T>& boxes, const LightBox<T>& box) {
   using Lanes = Pack<T, 16>;
   const auto beyond = [&](int k, T border) { return max(load<Lanes>(boxes.sides[k]), splat<Lanes>(border)); };
   return (beyond(0, box.cu - box.hu) + beyond(1, -box.hu - box.cu)) *
@@ -78,7 +78,7 @@ HWY_INLINE Pack<T, 16> common_areas(const ShadowBoxes<T>& boxes, const LightBox<
 /// The place of the box that has most in common with `box`, the first of several, among those of the bits of
 /// `left`. Takes those that do not meet `box` from `left`; 64 if those are all.
 template <class T>
-HWY_INLINE int widest_of(const ShadowBoxes<T>& boxes, std::uint64_t& left, const LightBox<T>& box) {
+SIMD_INLINE int widest_of(const ShadowBoxes<T>& boxes, std::uint64_t& left, const LightBox<T>& box) {
   using Lanes = Pack<T, 16>;
   T areas[64];
   Lanes most = splat<Lanes>(T(-1));
@@ -112,7 +112,7 @@ public:
   std::size_t id(std::size_t place) const { return static_cast<std::size_t>(ids_[place]); }
 
   /// Appends those of sixteen boxes in `lanes` that meet `box`. Their ids are first, first + 1 ...
-  HWY_INLINE void append(const T (&sides)[4][16], std::size_t first, std::uint32_t lanes,
+  SIMD_INLINE void append(const T (&sides)[4][16], std::size_t first, std::uint32_t lanes,
                          const LightBox<T>& box) {
     make_room(16);
     append_meeting({{sides[0], sides[1], sides[2], sides[3]}, nullptr},
@@ -128,20 +128,20 @@ public:
   }
 
   /// The places from `first` on, until the list grows.
-  HWY_INLINE ShadowBoxes<T> from(std::size_t first) const {
+  SIMD_INLINE ShadowBoxes<T> from(std::size_t first) const {
     return {{&sides_[0][first], &sides_[1][first], &sides_[2][first], &sides_[3][first]}, &ids_[first]};
   }
 
 private:
   /// Room for `more` places and a full register behind them.
-  HWY_INLINE void make_room(std::size_t more) {
+  SIMD_INLINE void make_room(std::size_t more) {
     const std::size_t needed = count_ + more + 16;
     if (ids_.size() >= needed) return;
     for (auto& side : sides_) side.resize(2 * needed);
     ids_.resize(2 * needed);
   }
 
-  HWY_INLINE void append_meeting(const ShadowBoxes<T>& boxes, Index ids, Truth<T, 16> valid,
+  SIMD_INLINE void append_meeting(const ShadowBoxes<T>& boxes, Index ids, Truth<T, 16> valid,
                                  const LightBox<T>& box) {
     const auto chosen = valid & meets(boxes, box);
     if (!any(chosen)) return;

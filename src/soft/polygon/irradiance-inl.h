@@ -32,7 +32,7 @@ struct LightEdges {
 };
 
 /// atan2(s, c) / s for s > 0, in one division; relative error below 1e-13. 0 where s |(s, c)| < 1e-290.
-HWY_INLINE Double8 angle_over_sine(Double8 s, Double8 c) {
+SIMD_INLINE Double8 angle_over_sine(Double8 s, Double8 c) {
   const auto num = [](double value) { return splat<Double8>(value); };
   const Double8 size = absolute(c);
   const Double8 low = min(s, size), high = max(s, size);
@@ -58,13 +58,13 @@ HWY_INLINE Double8 angle_over_sine(Double8 s, Double8 c) {
 }
 
 /// Not fused: the same bits on every target.
-HWY_INLINE Double8 product_of(const Pack3<Double8>& a, const Pack3<Double8>& b) {
+SIMD_INLINE Double8 product_of(const Pack3<Double8>& a, const Pack3<Double8>& b) {
   return a.x * b.x + a.y * b.y + a.z * b.z;
 }
 
 /// The angle that an edge `e` from `r` on subtends times the cosine between normal and the plane of point and
 /// edge (Nishita and Nakamae 1985); 0 for an edge of no length, or seen end-on.
-HWY_INLINE Double8 contour_term(const Pack3<Double8>& r, const Pack3<Double8>& e,
+SIMD_INLINE Double8 contour_term(const Pack3<Double8>& r, const Pack3<Double8>& e,
                                 const Pack3<Double8>& normal) {
   const Pack3<Double8> c = cross(r, e);
   const Double8 sine = square_root(product_of(c, c)), cosine = product_of(r, r) + product_of(r, e);
@@ -72,7 +72,7 @@ HWY_INLINE Double8 contour_term(const Pack3<Double8>& r, const Pack3<Double8>& e
 }
 
 /// origin + u ex + v ey.
-HWY_INLINE Pack3<Double8> on_light(const LightFrame& light, const Pack3<Double8>& origin, Double8 u,
+SIMD_INLINE Pack3<Double8> on_light(const LightFrame& light, const Pack3<Double8>& origin, Double8 u,
                                    Double8 v) {
   const auto num = [](double value) { return splat<Double8>(value); };
   return {origin.x + u * num(light.ex.x) + v * num(light.ey.x),

@@ -30,7 +30,7 @@ struct alignas(64) StoredPolygon {
 };
 
 template <class T>
-HWY_INLINE LightPolygon<T> loaded(const StoredPolygon<T>& from) {
+SIMD_INLINE LightPolygon<T> loaded(const StoredPolygon<T>& from) {
   using Lanes = Pack<T, polygon_capacity>;
   return {load<Lanes>(from.x), load<Lanes>(from.y), from.count};
 }
@@ -57,7 +57,7 @@ public:
   }
 
   /// Halved until it fits.
-  HWY_INLINE void push(const LightPolygon<T>& polygon) {
+  SIMD_INLINE void push(const LightPolygon<T>& polygon) {
     if (polygon.count > fragment_capacity) {
       LightPolygon<T> low, high;
       halve(polygon, low, high);
@@ -68,10 +68,10 @@ public:
     }
   }
   void shrink(std::size_t size) { size_ = size; }
-  HWY_INLINE LightPolygon<T> pop() { return loaded(polygons_[--size_]); }
+  SIMD_INLINE LightPolygon<T> pop() { return loaded(polygons_[--size_]); }
 
 private:
-  HWY_INLINE void push_small(const LightPolygon<T>& polygon) {
+  SIMD_INLINE void push_small(const LightPolygon<T>& polygon) {
     if (size_ == polygons_.size()) polygons_.resize(2 * size_ + 16);
     StoredPolygon<T>& to = polygons_[size_++];
     store(polygon.x, to.x);

@@ -29,12 +29,12 @@ inline constexpr LaneIndex<T> next_lanes[polygon_capacity] = {1, 2,  3,  4,  5, 
 
 /// 0, 1, ... 15, and the lanes below `count`.
 template <class T>
-HWY_INLINE Pack<T, 16> counted_lanes() {
+SIMD_INLINE Pack<T, 16> counted_lanes() {
   constexpr T lanes[16] = {0, 1, 2, 3, 4, 5, 6, 7, 8, 9, 10, 11, 12, 13, 14, 15};
   return load<Pack<T, 16>>(lanes);
 }
 template <class T>
-HWY_INLINE Truth<T, 16> lanes_below(std::size_t count) {
+SIMD_INLINE Truth<T, 16> lanes_below(std::size_t count) {
   return less(counted_lanes<T>(), splat<Pack<T, 16>>(static_cast<T>(HWY_MIN(count, std::size_t{16}))));
 }
 
@@ -67,7 +67,7 @@ struct LineValues {
 };
 
 template <class T>
-HWY_INLINE LineValues<T> evaluate(const LightPolygon<T>& polygon, const LightLine<T>& line) {
+SIMD_INLINE LineValues<T> evaluate(const LightPolygon<T>& polygon, const LightLine<T>& line) {
   using Lanes = Pack<T, polygon_capacity>;
   LineValues<T> r;
   r.value = splat<Lanes>(line.u) * polygon.x + splat<Lanes>(line.v) * polygon.y + splat<Lanes>(line.w);
@@ -95,7 +95,7 @@ struct LineSides {
   Pack<T, polygon_capacity> lowest;
 
   /// Of the lines of `among`, one at least, that with a vertex farthest on its negative side.
-  HWY_INLINE int deepest(std::uint32_t among) const {
+  SIMD_INLINE int deepest(std::uint32_t among) const {
     if (std::has_single_bit(among)) return std::countr_zero(among);
     T values[polygon_capacity];
     store(lowest, values);
@@ -113,7 +113,7 @@ struct LineSides {
 
 /// The same decisions as evaluate(), for four lines and four vertices at a time.
 template <class T>
-HWY_INLINE LineSides<T> sides_of(const LightPolygon<T>& polygon, const ShadowLines<T>& lines) {
+SIMD_INLINE LineSides<T> sides_of(const LightPolygon<T>& polygon, const ShadowLines<T>& lines) {
   using Lanes = Pack<T, polygon_capacity>;
   using Index = Pack<LaneIndex<T>, polygon_capacity>;
   constexpr LaneIndex<T> fours[polygon_capacity] = {0, 0, 0, 0, 1, 1, 1, 1, 2, 2, 2, 2, 3, 3, 3, 3};
@@ -142,7 +142,7 @@ struct VertexRun {
 /// in pieces: then the one around the vertex farthest on the positive side; values fall from there on both
 /// sides, so that what other pieces hold lies within rounding of the line.
 template <class T>
-HWY_INLINE VertexRun run_of(std::uint32_t set, int count, const Pack<T, polygon_capacity>& values) {
+SIMD_INLINE VertexRun run_of(std::uint32_t set, int count, const Pack<T, polygon_capacity>& values) {
   const std::uint32_t all = (1u << count) - 1u;
   set &= all;
   const std::uint32_t starts = set & ~(((set << 1) | (set >> (count - 1))) & all);
@@ -165,7 +165,7 @@ HWY_INLINE VertexRun run_of(std::uint32_t set, int count, const Pack<T, polygon_
 
 /// Numbers of the vertices of `run`, repeating its first vertex behind them.
 template <class T>
-HWY_INLINE Pack<LaneIndex<T>, polygon_capacity> vertices_of(VertexRun run, int count) {
+SIMD_INLINE Pack<LaneIndex<T>, polygon_capacity> vertices_of(VertexRun run, int count) {
   using Index = Pack<LaneIndex<T>, polygon_capacity>;
   const auto whole = [](int i) { return splat<Index>(static_cast<LaneIndex<T>>(i)); };
   const Index lane = load<Index>(lane_numbers<T>), straight = lane + whole(run.first);
@@ -182,7 +182,7 @@ struct EdgeCrossings {
 /// Found for all edges at once, before it is known which are crossed. Each place is seen from the end on the
 /// positive side. polygon.count < polygon_capacity.
 template <class T>
-HWY_INLINE EdgeCrossings<T> crossings_of(const LightPolygon<T>& polygon,
+SIMD_INLINE EdgeCrossings<T> crossings_of(const LightPolygon<T>& polygon,
                                          const Pack<T, polygon_capacity>& values) {
   using Lanes = Pack<T, polygon_capacity>;
   using Index = Pack<LaneIndex<T>, polygon_capacity>;
@@ -202,7 +202,7 @@ HWY_INLINE EdgeCrossings<T> crossings_of(const LightPolygon<T>& polygon,
 
 /// The vertices of `run`, and behind them where the line crosses the edges `leaving` and `returning`.
 template <class T>
-HWY_INLINE LightPolygon<T> part_of(const LightPolygon<T>& polygon, const EdgeCrossings<T>& crossings,
+SIMD_INLINE LightPolygon<T> part_of(const LightPolygon<T>& polygon, const EdgeCrossings<T>& crossings,
                                    VertexRun run, int leaving, int returning) {
   using Index = Pack<LaneIndex<T>, polygon_capacity>;
   const auto whole = [](int i) { return splat<Index>(static_cast<LaneIndex<T>>(i)); };
@@ -218,7 +218,7 @@ HWY_INLINE LightPolygon<T> part_of(const LightPolygon<T>& polygon, const EdgeCro
 /// Both parts of a polygon that has vertices on both sides. Vertices on the line go with the negative side.
 /// polygon.count < polygon_capacity.
 template <class T>
-HWY_INLINE void split(const LightPolygon<T>& polygon, const LineValues<T>& line, LightPolygon<T>& positive,
+SIMD_INLINE void split(const LightPolygon<T>& polygon, const LineValues<T>& line, LightPolygon<T>& positive,
                       LightPolygon<T>& negative) {
   assert(polygon.count < polygon_capacity);
   const EdgeCrossings<T> crossings = crossings_of(polygon, line.value);
@@ -234,7 +234,7 @@ HWY_INLINE void split(const LightPolygon<T>& polygon, const LineValues<T>& line,
 
 /// Two polygons for one, along a diagonal: vertices 0 to count / 2, and the others with both ends.
 template <class T>
-HWY_INLINE void halve(const LightPolygon<T>& polygon, LightPolygon<T>& low, LightPolygon<T>& high) {
+SIMD_INLINE void halve(const LightPolygon<T>& polygon, LightPolygon<T>& low, LightPolygon<T>& high) {
   using Index = Pack<LaneIndex<T>, polygon_capacity>;
   LaneIndex<T> first[polygon_capacity], second[polygon_capacity];
   const int middle = polygon.count / 2;

@@ -18,22 +18,22 @@ using namespace simd::HWY_NAMESPACE;
 using Double8 = Pack<double, 8>;
 using Vector8 = Pack3<Double8>;
 
-HWY_INLINE Double8 all(double value) {
+SIMD_INLINE Double8 all(double value) {
   return splat<Double8>(value);
 }
-HWY_INLINE Vector8 all(const glm::dvec3& v) {
+SIMD_INLINE Vector8 all(const glm::dvec3& v) {
   return splat3<Double8>(v.x, v.y, v.z);
 }
-HWY_INLINE Double8 product(const Vector8& a, const Vector8& b) {
+SIMD_INLINE Double8 product(const Vector8& a, const Vector8& b) {
   return a.x * b.x + a.y * b.y + a.z * b.z;
 }
-HWY_INLINE Vector8 operator+(const Vector8& a, const Vector8& b) {
+SIMD_INLINE Vector8 operator+(const Vector8& a, const Vector8& b) {
   return {a.x + b.x, a.y + b.y, a.z + b.z};
 }
-HWY_INLINE Vector8 operator*(Double8 s, const Vector8& a) {
+SIMD_INLINE Vector8 operator*(Double8 s, const Vector8& a) {
   return {s * a.x, s * a.y, s * a.z};
 }
-HWY_INLINE Vector8 choose3(const Truth<double, 8>& t, const Vector8& a, const Vector8& b) {
+SIMD_INLINE Vector8 choose3(const Truth<double, 8>& t, const Vector8& a, const Vector8& b) {
   return {choose(t, a.x, b.x), choose(t, a.y, b.y), choose(t, a.z, b.z)};
 }
 

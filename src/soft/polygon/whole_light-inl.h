@@ -17,7 +17,7 @@ struct HorizonLanes {
   Double8 u, v, w;
 
   /// Bits of the lanes where a part of the light is not above.
-  HWY_INLINE std::uint32_t cuts(const LightFrame& light) const {
+  SIMD_INLINE std::uint32_t cuts(const LightFrame& light) const {
     const Double8 zero = splat<Double8>(0.0);
     auto above = less(zero, splat<Double8>(1.0));
     for (const glm::dvec2& at : light.outline)
@@ -25,7 +25,7 @@ struct HorizonLanes {
     return ~bits(above) & 0xffu;
   }
 };
-HWY_INLINE HorizonLanes horizon_of(const LightFrame& light, const Pack3<Double8>& to_origin,
+SIMD_INLINE HorizonLanes horizon_of(const LightFrame& light, const Pack3<Double8>& to_origin,
                                    const Pack3<Double8>& normal) {
   const auto all = [](const glm::dvec3& a) { return splat3<Double8>(a.x, a.y, a.z); };
   return {product_of(normal, all(light.ex)), product_of(normal, all(light.ey)),

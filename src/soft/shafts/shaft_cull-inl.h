@@ -48,7 +48,7 @@ struct CullingShaft {
 };
 
 template <class T>
-HWY_INLINE Pack<T, block_size> eight_as(const float* from) {
+SIMD_INLINE Pack<T, block_size> eight_as(const float* from) {
   if constexpr (sizeof(T) == sizeof(float)) {
     return load<Pack<T, block_size>>(from);
   } else {
@@ -58,7 +58,7 @@ HWY_INLINE Pack<T, block_size> eight_as(const float* from) {
 
 // Lanes of triangles that may meet the shaft's box and the inner sides of its planes.
 template <class T>
-HWY_INLINE std::uint32_t inside(const CullingShaft<T>& shaft, const TriangleBlock& block,
+SIMD_INLINE std::uint32_t inside(const CullingShaft<T>& shaft, const TriangleBlock& block,
                                 std::uint32_t lanes) {
   using Lanes = Pack<T, block_size>;
   const auto all = [](T value) { return splat<Lanes>(value); };
@@ -85,7 +85,7 @@ HWY_INLINE std::uint32_t inside(const CullingShaft<T>& shaft, const TriangleBloc
 }
 
 // Asks for the block of a reference some places on: lists of many triangles do not stay in the caches.
-HWY_INLINE void fetch_ahead(const TriangleBlock* blocks, std::span<const BlockRef> in, std::size_t i) {
+SIMD_INLINE void fetch_ahead(const TriangleBlock* blocks, std::span<const BlockRef> in, std::size_t i) {
   constexpr std::size_t ahead = 4, line = 64;
   if (i + ahead >= in.size()) return;
   const auto* const block = reinterpret_cast<const unsigned char*>(&blocks[in[i + ahead].block]);

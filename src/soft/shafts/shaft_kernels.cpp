@@ -28,7 +28,7 @@ struct Triangles {
   Vector8 v[3];
   Double8 reach, size;
 };
-HWY_INLINE Triangles load_triangles(const TriangleBlock& block, const LightShape& light) {
+SIMD_INLINE Triangles load_triangles(const TriangleBlock& block, const LightShape& light) {
   Triangles t;
   for (int k = 0; k < 3; ++k) {
     t.v[k].x = load_widened<Double8>(block.v[k][0]) - all(light.origin.x);
@@ -42,23 +42,23 @@ HWY_INLINE Triangles load_triangles(const TriangleBlock& block, const LightShape
 }
 
 // An edge's vector from the vertices' floats, so that the light's distance costs it nothing.
-HWY_INLINE Vector8 edge(const TriangleBlock& block, int from, int to) {
+SIMD_INLINE Vector8 edge(const TriangleBlock& block, int from, int to) {
   return {load_widened<Double8>(block.v[to][0]) - load_widened<Double8>(block.v[from][0]),
           load_widened<Double8>(block.v[to][1]) - load_widened<Double8>(block.v[from][1]),
           load_widened<Double8>(block.v[to][2]) - load_widened<Double8>(block.v[from][2])};
 }
 
 // Lanes of the triangle `id`.
-HWY_INLINE std::uint32_t lanes_of(const TriangleBlock& block, std::uint32_t id) {
+SIMD_INLINE std::uint32_t lanes_of(const TriangleBlock& block, std::uint32_t id) {
   using Ids = Pack<std::int32_t, block_size>;
   return bits(equal(load<Ids>(reinterpret_cast<const std::int32_t*>(block.ids)),
                     splat<Ids>(static_cast<std::int32_t>(id))));
 }
 
-HWY_INLINE Double8 least(const Double8& a, const Double8& b, const Double8& c) {
+SIMD_INLINE Double8 least(const Double8& a, const Double8& b, const Double8& c) {
   return min(a, min(b, c));
 }
-HWY_INLINE Double8 most(const Double8& a, const Double8& b, const Double8& c) {
+SIMD_INLINE Double8 most(const Double8& a, const Double8& b, const Double8& c) {
   return max(a, max(b, c));
 }
 
@@ -69,7 +69,7 @@ struct PlaneRange {
   Double8 points_low, points_high, light_low, light_high;
   Double8 normal_length, size2;
 };
-HWY_INLINE PlaneRange plane_range(const Shaft& shaft, const TriangleBlock& block, const Triangles& t) {
+SIMD_INLINE PlaneRange plane_range(const Shaft& shaft, const TriangleBlock& block, const Triangles& t) {
   const Vector8 n = cross(edge(block, 0, 1), edge(block, 0, 2));
   const Double8 at_corner = product(n, t.v[0]);
   const Double8 at_centre = product(n, all(shaft.cell.centre)) - at_corner;
@@ -96,13 +96,13 @@ HWY_INLINE PlaneRange plane_range(const Shaft& shaft, const TriangleBlock& block
 
 // theta for a receiver's tau, from below and from above: |n| is off by 16 u size^2, here and in the
 // definition.
-HWY_INLINE Double8 tau_of(const TriangleBlock& block, double tau_receiver) {
+SIMD_INLINE Double8 tau_of(const TriangleBlock& block, double tau_receiver) {
   return load_widened<Double8>(block.largest) * all(1.7320508075688772 * 0x1p-24) + all(tau_receiver);
 }
-HWY_INLINE Double8 theta_low(const TriangleBlock& block, const PlaneRange& r, double tau_least) {
+SIMD_INLINE Double8 theta_low(const TriangleBlock& block, const PlaneRange& r, double tau_least) {
   return tau_of(block, tau_least) * (r.normal_length * all(1 - 0x1p-49) - r.size2 * all(0x1p-48));
 }
-HWY_INLINE Double8 theta_high(const TriangleBlock& block, const PlaneRange& r, double tau_most) {
+SIMD_INLINE Double8 theta_high(const TriangleBlock& block, const PlaneRange& r, double tau_most) {
   return tau_of(block, tau_most) * (r.normal_length * all(1 + 0x1p-49) + r.size2 * all(0x1p-48));
 }
 
@@ -131,19 +131,19 @@ std::size_t drop_behind(std::span<const Receiver> receivers, const LightShape& l
 struct SideRange {
   Double8 low, high;
 };
-HWY_INLINE Double8 side_margin(const Shaft& shaft, const Triangles& t) {
+SIMD_INLINE Double8 side_margin(const Shaft& shaft, const Triangles& t) {
   const double light = shaft.light->reach, cell = shaft.cell.reach;
   return t.size * (t.reach * all((cell + light) * 0x1p-45 + 6 * shaft.cell.slack) +
                    all(light * (cell * 0x1p-45 + 6 * shaft.cell.slack)));
 }
-HWY_INLINE SideRange side_from(const Shaft& shaft, const Vector8& m, const Double8& at_light) {
+SIMD_INLINE SideRange side_from(const Shaft& shaft, const Vector8& m, const Double8& at_light) {
   const Double8 centre = product(m, all(shaft.cell.centre)) - at_light;
   Double8 around = absolute(product(m, all(shaft.cell.axis[0])));
   around = around + absolute(product(m, all(shaft.cell.axis[1])));
   around = around + absolute(product(m, all(shaft.cell.axis[2])));
   return {centre - around, centre + around};
 }
-HWY_INLINE SideRange side_range(const Shaft& shaft, const Vector8& e, const Vector8& moment) {
+SIMD_INLINE SideRange side_range(const Shaft& shaft, const Vector8& e, const Vector8& moment) {
   SideRange range{all(INFINITY), all(-INFINITY)};
   for (int k = 0; k < shaft.light->count; ++k) {
     const Vector8 q = all(shaft.light->vertices[k]);
@@ -157,7 +157,7 @@ HWY_INLINE SideRange side_range(const Shaft& shaft, const Vector8& e, const Vect
 struct Sides {
   std::uint32_t front, back;
 };
-HWY_INLINE Sides sides_of_centre(const Shaft& shaft, const Triangles& t) {
+SIMD_INLINE Sides sides_of_centre(const Shaft& shaft, const Triangles& t) {
   const Double8 zero = all(0.0);
   const Vector8 centre = all(shaft.cell.centre);
   const Double8 f[3] = {product(cross(t.v[0], t.v[1]), centre), product(cross(t.v[1], t.v[2]), centre),
@@ -167,7 +167,7 @@ HWY_INLINE Sides sides_of_centre(const Shaft& shaft, const Triangles& t) {
 
 // What lines between cell and light do about the edges, of lanes that they cross from the front (f >= 0 at
 // all edges) or from the back (f <= 0).
-HWY_INLINE void keep_crossed(const Shaft& shaft, const TriangleBlock& block, const Triangles& t, Sides& some,
+SIMD_INLINE void keep_crossed(const Shaft& shaft, const TriangleBlock& block, const Triangles& t, Sides& some,
                              Sides& every) {
   const Double8 zero = all(0.0), margin = side_margin(shaft, t);
   for (int k = 0; k < 3 && (some.front | some.back) != 0; ++k) {

@@ -17,7 +17,7 @@ namespace {
 using glm::dvec3;
 
 // The corner of the cell, and the vertex of the light, farthest along m.
-HWY_INLINE Vector8 farthest(const Cell& cell, const Vector8& m) {
+SIMD_INLINE Vector8 farthest(const Cell& cell, const Vector8& m) {
   Vector8 corner = all(cell.centre);
   for (const dvec3& a : cell.axis) {
     const Vector8 axis = all(a);
@@ -25,7 +25,7 @@ HWY_INLINE Vector8 farthest(const Cell& cell, const Vector8& m) {
   }
   return corner;
 }
-HWY_INLINE Vector8 farthest(const LightShape& light, const Vector8& m) {
+SIMD_INLINE Vector8 farthest(const LightShape& light, const Vector8& m) {
   Vector8 best = all(light.vertices[0]);
   Double8 most = product(m, best);
   for (int k = 1; k < light.count; ++k) {
@@ -40,7 +40,7 @@ HWY_INLINE Vector8 farthest(const LightShape& light, const Vector8& m) {
 // The two planes parallel to each edge of the cell that touch cell and light, and the light's own. The
 // touching corners are searched from the normal across the line between the centres; each step turns the
 // plane towards them.
-HWY_INLINE Vector8 tangents(const Cell& cell, const LightShape& light) {
+SIMD_INLINE Vector8 tangents(const Cell& cell, const LightShape& light) {
   double lanes[3][8] = {};
   for (int k = 0; k < 3; ++k)
     for (int axis = 0; axis < 3; ++axis) {
@@ -56,7 +56,7 @@ HWY_INLINE Vector8 tangents(const Cell& cell, const LightShape& light) {
 
 // The planes through edges `first` to first + 7 of the light that touch the cell: m = o - t normal, t the
 // largest (x.o) / (x.normal) of the corners x seen from the edge.
-HWY_INLINE Vector8 light_edges(const Cell& cell, const LightShape& light, int first) {
+SIMD_INLINE Vector8 light_edges(const Cell& cell, const LightShape& light, int first) {
   const Vector8 o{load<Double8>(light.across[0] + first), load<Double8>(light.across[1] + first),
                   load<Double8>(light.across[2] + first)};
   const Double8 at_edge = load<Double8>(light.at_edge + first);
@@ -72,7 +72,7 @@ HWY_INLINE Vector8 light_edges(const Cell& cell, const LightShape& light, int fi
 }
 
 // Any m gives a valid plane: its limit is the farthest that the shaft reaches along m.
-HWY_INLINE void add_planes(const Vector8& m_unscaled, Shaft& shaft) {
+SIMD_INLINE void add_planes(const Vector8& m_unscaled, Shaft& shaft) {
   const Double8 size = absolute(m_unscaled.x) + absolute(m_unscaled.y) + absolute(m_unscaled.z);
   const auto there = less(all(0x1p-900), size) & less(size, all(0x1p900));
   const Double8 scale = choose(there, all(1 - 0x1p-50) / choose(there, size, all(1)), all(0));

@@ -21,11 +21,11 @@ using namespace simd::HWY_NAMESPACE;
 /// Whether both ends lie on different sides of a line, as far as rounding cannot decide, by their values; and
 /// whether they might.
 template <class T>
-HWY_INLINE Truth<T, 16> parted(Pack<T, 16> a, Pack<T, 16> b, Pack<T, 16> margin) {
+SIMD_INLINE Truth<T, 16> parted(Pack<T, 16> a, Pack<T, 16> b, Pack<T, 16> margin) {
   return less(min(a, b), splat<Pack<T, 16>>(T(0)) - margin) & less(margin, max(a, b));
 }
 template <class T>
-HWY_INLINE Truth<T, 16> maybe_parted(Pack<T, 16> a, Pack<T, 16> b, Pack<T, 16> margin) {
+SIMD_INLINE Truth<T, 16> maybe_parted(Pack<T, 16> a, Pack<T, 16> b, Pack<T, 16> margin) {
   return less(min(a, b), margin) & less(splat<Pack<T, 16>>(T(0)) - margin, max(a, b));
 }
 
@@ -84,7 +84,7 @@ public:
   glm::dvec2 to(std::size_t i) const { return {to_u[i], to_v[i]}; }
 
 private:
-  static HWY_INLINE Lanes num(T value) { return splat<Lanes>(value); }
+  static SIMD_INLINE Lanes num(T value) { return splat<Lanes>(value); }
 
   void take_up(const LightPolygon<T>& part, T slack) {
     near_ = on_line<T> + slack;
@@ -136,12 +136,12 @@ private:
     blocks[b] = {(lanes & bits(equal(left, one))) | met | unsure, unsure};
   }
 
-  static HWY_INLINE Lanes value_at(const OutlineLanes<T>& e, T u, T v) {
+  static SIMD_INLINE Lanes value_at(const OutlineLanes<T>& e, T u, T v) {
     return e.u * num(u) + e.v * num(v) + e.w;
   }
 
   /// Lets the stretches `crosses` begin (`enters`) or end at side k.
-  HWY_INLINE void end_at_side(int k, const OutlineLanes<T>& e, std::uint32_t crosses, std::uint32_t enters,
+  SIMD_INLINE void end_at_side(int k, const OutlineLanes<T>& e, std::uint32_t crosses, std::uint32_t enters,
                               OutlineLanes<T>& stretches) {
     const Lanes zero = num(0), here = value_at(e, u_[k], v_[k]), next = value_at(e, u_[k + 1], v_[k + 1]);
     const Lanes share = min(max(here / (here - next), zero), num(1));

@@ -78,7 +78,7 @@ private:
   struct Link {
     std::uint32_t other, before;
   };
-  static HWY_INLINE Lanes num(T value) { return splat<Lanes>(value); }
+  static SIMD_INLINE Lanes num(T value) { return splat<Lanes>(value); }
 
   void count_windings(std::size_t b) {
     const OutlineLanes<T> e = edges_->lanes_from(first_ + 16 * b);
@@ -119,7 +119,7 @@ private:
     }
   }
   /// Edges that share a corner do not cross.
-  HWY_INLINE std::uint32_t shares_corner(const OutlineLanes<T>& e, std::size_t k) const {
+  SIMD_INLINE std::uint32_t shares_corner(const OutlineLanes<T>& e, std::size_t k) const {
     const auto at = [&](Lanes u, Lanes v) {
       return (equal(u, num(edges_->from_u[k])) & equal(v, num(edges_->from_v[k]))) |
              (equal(u, num(edges_->to_u[k])) & equal(v, num(edges_->to_v[k])));

@@ -46,7 +46,7 @@ struct OutlineEdges {
       (*values)[place] = (*values)[count];
   }
   /// Appends the edges where `chosen`; there is room.
-  HWY_INLINE void append(Truth<T, 16> chosen, const OutlineLanes<T>& edges) {
+  SIMD_INLINE void append(Truth<T, 16> chosen, const OutlineLanes<T>& edges) {
     compress(chosen, edges.u, &u[count]);
     compress(chosen, edges.v, &v[count]);
     compress(chosen, edges.w, &w[count]);
@@ -58,7 +58,7 @@ struct OutlineEdges {
     count += compress(chosen, edges.to_v, &to_v[count]);
   }
   /// Sixteen from place i on.
-  HWY_INLINE OutlineLanes<T> lanes_from(std::size_t i) const {
+  SIMD_INLINE OutlineLanes<T> lanes_from(std::size_t i) const {
     return {load<Pack<T, 16>>(&u[i]),      load<Pack<T, 16>>(&v[i]),       load<Pack<T, 16>>(&w[i]),
             load<Pack<T, 16>>(&from_u[i]), load<Pack<T, 16>>(&from_v[i]),  load<Pack<T, 16>>(&to_u[i]),
             load<Pack<T, 16>>(&to_v[i]),   load<Pack<T, 16>>(&winding[i]), load<Pack<T, 16>>(&number[i])};

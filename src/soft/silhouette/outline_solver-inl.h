@@ -78,14 +78,14 @@ private:
   }
 
   /// u and v where the line from the point along `way` meets the light's plane.
-  static HWY_INLINE void project(const GroupPoint& at, const Pack3<Wide>& way, T* u, T* v) {
+  static SIMD_INLINE void project(const GroupPoint& at, const Pack3<Wide>& way, T* u, T* v) {
     const Wide t = wide(at.reach) / way.z;
     store_narrowed(wide(at.in_light.x) + way.x * t, u);
     store_narrowed(wide(at.in_light.y) + way.y * t, v);
   }
 
   /// Lines are positive to the left of the way from `from` to `to`.
-  HWY_INLINE void move_block(const GroupPoint& at, std::size_t b) {
+  SIMD_INLINE void move_block(const GroupPoint& at, std::size_t b) {
     const MovingBlock& block = moving_[b];
     Block& to = at_point_[b];
     const Wide x = wide(at.in_axes.x), y = wide(at.in_axes.y), z = wide(at.in_axes.z);
@@ -115,7 +115,7 @@ private:
 
   /// Adds the block's edges to those around the light that count, and to those that may cross the square
   /// around it; turned to rise.
-  HWY_INLINE void gather(const Block& block, T first) {
+  SIMD_INLINE void gather(const Block& block, T first) {
     const Lanes zero = splat<Lanes>(T(0)), one = splat<Lanes>(T(1)), minus = splat<Lanes>(T(-1));
     const Lanes u = load<Lanes>(block.u), v = load<Lanes>(block.v), w = load<Lanes>(block.w);
     const Lanes u0 = load<Lanes>(block.from_u), u1 = load<Lanes>(block.to_u);

@@ -19,7 +19,7 @@ using namespace simd::HWY_NAMESPACE;
 /// Nearer to an edge than this, in the measure of its line, rounding might decide on which side a place on
 /// the light is. `slack`: what rounding the corners can amount to, units of the light.
 template <class T>
-HWY_INLINE Pack<T, 16> doubt_beside(Pack<T, 16> u, Pack<T, 16> v, T slack) {
+SIMD_INLINE Pack<T, 16> doubt_beside(Pack<T, 16> u, Pack<T, 16> v, T slack) {
   return splat<Pack<T, 16>>(on_line<T> + slack) * (absolute(u) + absolute(v));
 }
 
@@ -37,7 +37,7 @@ struct RayEdges {
     for (auto* values : {&u, &v, &w, &low, &high, &winding, &number, &margin}) values->resize(2 * needed);
   }
   /// Appends the edges where `chosen`; there is room.
-  HWY_INLINE void append(Truth<T, 16> chosen, const OutlineLanes<T>& edges, T slack) {
+  SIMD_INLINE void append(Truth<T, 16> chosen, const OutlineLanes<T>& edges, T slack) {
     compress(chosen, edges.u, &u[count]);
     compress(chosen, edges.v, &v[count]);
     compress(chosen, edges.w, &w[count]);
