@@ -1,5 +1,5 @@
 // The oracle of the soft shadows: the part of an area light that a point sees, by the definition in
-// soft/soft_shadows.h. Lines and signs are exact; the area of the visible part is found by a sweep over the
+// tenebra/soft_shadows.h. Lines and signs are exact; the area of the visible part is found by a sweep over the
 // light's polygon, in rationals or in long doubles with a bound of the error. Shares no code with src/soft.
 #pragma once
 
