@@ -27,7 +27,7 @@ using LightEdits = std::vector<LightEdit>;
 /// "N KEY=VALUE ...": `1 on=0`, `0 intensity=2 move=0,1.5,0 size=0.5x0.3`. The edit of light N in `edits`,
 /// which grows as needed.
 Expected<void> parse_light_edit(const std::string& text, LightEdits& edits);
-/// The same as text, one an edit that changes something.
+/// The same as text, one per edit that changes something.
 std::vector<std::string> light_edit_texts(const LightEdits& edits);
 
 /// The edit of light `light`; one that changes nothing where `edits` has none.

@@ -9,7 +9,7 @@
 
 namespace tenebra::base {
 
-/// `channels` interleaved values a pixel; pixels.size() == width * height * channels.
+/// `channels` interleaved values per pixel; pixels.size() == width * height * channels.
 template <class T>
 struct Image {
   int width = 0;

@@ -43,7 +43,7 @@ Expected<OutputFile> OutputFile::create(const fs::path& path) {
     return file;
   }
   if (exists) {
-    // Renaming would replace a file that its owner made read-only; nobody expects that.
+    // Renaming would replace a file that its owner made read-only; no one expects that.
     if (::access(path.c_str(), W_OK) != 0) return file.system_failure(errno);
     std::error_code error;
     file.target_ = fs::canonical(path, error);

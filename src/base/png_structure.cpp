@@ -87,7 +87,7 @@ Expected<PngHeader> check_png_structure(std::string_view bytes) {
     if (chunk->type == "IDAT") compressed += chunk->content.size();
     at += chunk_overhead + chunk->content.size();
   }
-  // At least one bit a pixel and a filter byte a row must come out of the compressed bytes.
+  // At least one bit per pixel and a filter byte per row must come out of the compressed bytes.
   const std::uint64_t least = (std::uint64_t{header->width} + 7) / 8 * header->height;
   if (least / largest_expansion > compressed) {
     return fail("found {} compressed bytes, too few for {} x {} pixels", compressed, header->width,

@@ -7,7 +7,7 @@
 
 namespace tenebra::formats {
 
-/// An open cone or cylinder between two circles: 2 * sides triangles (one a side towards a radius of zero),
+/// An open cone or cylinder between two circles: 2 * sides triangles (one per side towards a radius of zero),
 /// smooth normals. `base` and `apex` must differ. `inside`: its front faces the axis.
 Mesh make_cone(glm::dvec3 base, double base_radius, glm::dvec3 apex, double apex_radius, int sides,
                bool inside);

@@ -60,7 +60,7 @@ struct ClipBuilder {
       refuse("{}.input: found 1 key, expected at least 2 for CUBICSPLINE", where);
   }
 
-  /// The track of sampler `s` with `components` values a key.
+  /// The track of sampler `s` with `components` values per key.
   int track(int s, int components) {
     const auto [found, fresh] = track_of.try_emplace({s, components}, static_cast<int>(clip.tracks.size()));
     if (!fresh) return found->second;

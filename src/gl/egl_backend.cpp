@@ -14,7 +14,7 @@ namespace {
 
 struct EglBackend final : Context::Backend {
   EglBackend(EGLDisplay display, EGLContext context) : display_(display), context_(context) {}
-  // The display stays initialised: EGL has one a process, and other contexts may live on it.
+  // The display stays initialised: EGL has one per process, and other contexts may live on it.
   ~EglBackend() override {
     if (eglGetCurrentContext() == context_) {
       eglMakeCurrent(display_, EGL_NO_SURFACE, EGL_NO_SURFACE, EGL_NO_CONTEXT);

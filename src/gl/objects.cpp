@@ -102,7 +102,7 @@ void Texture::read(std::span<std::byte> pixels) const {
   assert(pixels.size() ==
          formats.bytes * static_cast<std::size_t>(width_) * static_cast<std::size_t>(height_));
   glPixelStorei(GL_PACK_ALIGNMENT, 1);
-  // The size is the buffer's capacity: a GLsizei holds it up to the largest picture (see raster/limits.h).
+  // The size is the buffer's capacity: a GLsizei holds it up to the largest picture (see check_picture_size).
   glGetTextureImage(name(), 0, formats.external, formats.type, static_cast<GLsizei>(pixels.size()),
                     pixels.data());
 }

@@ -72,7 +72,7 @@ struct PointPatch {
 struct PointTiles {
   std::vector<PointTile>
       tiles;  ///< sixteen a square, squares row by row; q of those without points as it was
-  std::vector<PointBase> bases;  ///< one a square
+  std::vector<PointBase> bases;  ///< one per square
   std::vector<PointPatch> patches;
   ViewRays view;  ///< whose eye the triangles face
 

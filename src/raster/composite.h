@@ -17,10 +17,10 @@ struct CompositeSettings {
   glm::vec3 ambient_light{1.0f};
   glm::vec3 background{0.0f};       ///< linear, where no triangle is seen
   float exposure = 1.0f;            ///< factor of all linear colour, background too
-  std::span<const float> openness;  ///< ambient occlusion, 1 open .. 0 closed, one a pixel; empty: all open
+  std::span<const float> openness;  ///< ambient occlusion, 1 open .. 0 closed, one per pixel; empty: all open
 };
 
-/// begin, add_light or add_area_light for each light, finish: once a frame, in this order.
+/// begin, add_light or add_area_light for each light, finish: once per frame, in this order.
 class Compositor {
 public:
   static Expected<Compositor> create();

@@ -24,7 +24,7 @@ public:
 
   /// Once a scene.
   Expected<void> upload_materials(std::span<const Material> materials);
-  /// Once a frame, after the materials. Fails on more triangles than OpenGL can index.
+  /// Once per frame, after the materials. Fails on more triangles than OpenGL can index.
   Expected<void> upload(const FrameGeometry& geometry);
 
   std::size_t triangle_count() const { return records_.size(); }

@@ -54,7 +54,7 @@ std::vector<Slab> slabs_of(const std::vector<dvec2>& outline) {
 /// What some points of the light, each of which stands for `area_m2` of it, send to the pixels that see them.
 struct PointsOfLight {
   std::span<const glm::vec3> places;
-  std::span<const ShadowMask> masks;  // one a place
+  std::span<const ShadowMask> masks;  // one per place
   dvec3 normal;
   double area_m2;
   float fraction;

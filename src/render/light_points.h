@@ -17,8 +17,8 @@ std::vector<glm::vec3> points_on_light(const AreaLight& light, int count);
 /// Buffers kept from frame to frame.
 class LightPointShadows {
 public:
-  /// As SoftShadowTracer::trace with `light` as `count` points; `normals`: one a pixel. The same bits for any
-  /// thread count, instruction set and variant. Returns false, with `out` unspecified, if `stop` was
+  /// As SoftShadowTracer::trace with `light` as `count` points; `normals`: one per pixel. The same bits for
+  /// any thread count, instruction set and variant. Returns false, with `out` unspecified, if `stop` was
   /// requested before the end.
   bool trace(const VisiblePoints& points, std::span<const glm::vec3> normals, const ViewRays& view,
              const TriangleView& triangles, const AreaLight& light, int count, const HardShadowConfig& config,

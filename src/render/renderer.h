@@ -71,7 +71,7 @@ struct LightMask {
 
 struct FrameResult {
   base::Image8 image;            ///< RGB, sRGB-encoded
-  std::vector<LightMask> masks;  ///< one a light drawn, of those with an intensity; empty without shadows
+  std::vector<LightMask> masks;  ///< one per light drawn, of those with an intensity; empty without shadows
   FrameTimings timings;
   TraceStats stats;
   SoftStats soft;

@@ -89,7 +89,7 @@ double frame_time_s(const Clip& clip, int frame, double fps) {
 }
 
 int frame_count(const Clip& clip, double fps) {
-  constexpr double rounding = 1e-6;  // 0.7 s at 30 frames a second are 21 steps, not 20.999...
+  constexpr double rounding = 1e-6;  // 0.7 s at 30 frames per second are 21 steps, not 20.999...
   constexpr double most = 1e9;
   if (clip.frame_count > 0) return clip.frame_count;
   const double steps = std::floor((clip.end_s - clip.start_s) * fps + rounding);

@@ -30,7 +30,7 @@ const char* file_of(Bart which) {
   return "museum/museum5.aff";
 }
 
-/// Each scene is read once a test program.
+/// Each scene is read once per test program.
 const Scene& scene_of(Bart which) {
   static std::map<Bart, Scene> scenes;
   const auto found = scenes.find(which);

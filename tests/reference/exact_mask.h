@@ -1,4 +1,4 @@
-// The oracle of the hard shadows: the exact answer by the definition in shadow/mask.h, decided for all
+// The oracle of the hard shadows: the exact answer by the definition in tenebra/hard_shadows.h, decided for all
 // triangles that a ray could meet. Signs come from doubles with carried error bounds, and from unbounded
 // integers where those cannot tell. Shares no code with src/.
 #pragma once
@@ -58,7 +58,7 @@ ShadowMask exact_mask(const VisiblePoints& points, const ViewRays& view, const T
                       const ShadowLight& light, const HardShadowConfig& config,
                       ExactMaskStats* stats = nullptr);
 
-/// tau of a triangle and theta of a pair, by the formulas of shadow/mask.h.
+/// tau of a triangle and theta of a pair, by the formulas of tenebra/hard_shadows.h.
 double vertex_rounding(const glm::dvec3& a, const glm::dvec3& b, const glm::dvec3& c);
 double contact_height(const glm::dvec3& a, const glm::dvec3& b, const glm::dvec3& c, double tau_sum);
 

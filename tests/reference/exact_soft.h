@@ -1,6 +1,7 @@
 // The oracle of the soft shadows: the part of an area light that a point sees, by the definition in
-// soft/soft_shadows.h. Lines and signs are exact; the area of the visible part is found by a sweep over the
-// light's polygon, in rationals or in long doubles with a bound of the error. Shares no code with src/soft.
+// tenebra/soft_shadows.h. Lines and signs are exact; the area of the visible part is found by a sweep over
+// the light's polygon, in rationals or in long doubles with a bound of the error. Shares no code with
+// src/soft.
 #pragma once
 
 #include <cstdint>
@@ -13,7 +14,7 @@
 namespace tenebra::reference {
 
 enum class SweepNumbers {
-  rational,    ///< exact up to the rounding of the sum; some ms a point with ten occluders
+  rational,    ///< exact up to the rounding of the sum; some ms per point with ten occluders
   long_double  ///< error within SoftAnswer::error_bound
 };
 

@@ -1,4 +1,4 @@
-// Node tests a pixel: what the viewer's heat map shows.
+// Node tests per pixel: what the viewer's heat map shows.
 #include <algorithm>
 #include <numeric>
 

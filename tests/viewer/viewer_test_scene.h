@@ -16,7 +16,7 @@
 
 namespace tenebra::testing {
 
-inline constexpr int moving_scene_frames = 301;  // 10 s at 30 frames a second, both ends included
+inline constexpr int moving_scene_frames = 301;  // 10 s at 30 frames per second, both ends included
 inline constexpr int moving_scene_triangles = 3;
 
 /// floor (2 triangles) at y = 0, blocker (1 triangle) at y = 1; camera "eye"; `lights` point lights 3 m

@@ -73,7 +73,7 @@ struct DisplacementField {
       table;                ///< entry (p, d) at p * directions + d; 1 bit: 1 a hit; 8 bits: 0..254 for
                             ///< -1..1, 255 no hit; 32: a float, 2 no hit. Three bytes more at the end.
   std::vector<float> mean;  ///< 1 bit: what all hits from position p stand for; else empty
-  std::vector<std::uint32_t> close;  ///< one bit a cell of the cube around the unit sphere (near_cells.h):
+  std::vector<std::uint32_t> close;  ///< one bit per cell of the cube around the unit sphere (near_cells.h):
                                      ///< set next to the object, at least within a quarter of `cell()`
 
   /// Width of a cell of the unit sphere, were all of the table's entries chords: what the field resolves.

@@ -11,7 +11,7 @@ namespace {
 constexpr double cell_size = 2.0 / near_side;
 const double half_diagonal = 0.5 * std::sqrt(3.0) * cell_size;
 
-using Grid = std::vector<std::uint8_t>;  // one a cell
+using Grid = std::vector<std::uint8_t>;  // one per cell
 using Corners = std::array<glm::dvec3, 3>;
 
 std::size_t place(glm::ivec3 c) {

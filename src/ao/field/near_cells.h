@@ -1,4 +1,4 @@
-// Which places are too close to an object for its field to resolve: one bit a cell of a grid in unit space.
+// Which places are too close to an object for its field to resolve: one bit per cell of a grid in unit space.
 #pragma once
 
 #include <cstdint>

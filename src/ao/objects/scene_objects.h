@@ -20,7 +20,7 @@ struct ObjectShape {
   std::vector<glm::vec3> positions;
   std::vector<glm::vec3> normals;     ///< size of positions; unit, or zero: the face normal
   std::vector<glm::uvec3> triangles;  ///< one with equal corners is not there
-  std::vector<std::uint8_t> casts;    ///< one a triangle: occludes
+  std::vector<std::uint8_t> casts;    ///< one per triangle: occludes
   glm::vec3 center{0.0f};             ///< a sphere about the casting triangles
   float radius = 0;                   ///< 0: none casts
   std::uint64_t hash = 0;             ///< of the geometry
@@ -51,7 +51,7 @@ struct SceneObjects {
   ObjectShape standing;
   std::vector<ObjectShape> shapes;
   std::vector<MovingObject> objects;
-  std::vector<TriangleOwner> owners;         ///< one a triangle of the frame
+  std::vector<TriangleOwner> owners;         ///< one per triangle of the frame
   std::vector<std::uint32_t> deforming;      ///< ids of triangles that deform
   std::vector<std::string> deforming_names;  ///< of their meshes, each once
   NodeMotion motion;

@@ -22,7 +22,7 @@ using glm::vec3;
 Expected<void> check(const AoConfig& config, const VisiblePoints& points, std::span<const vec3> normals) {
   constexpr int most_rays = 1 << 16, most_downscale = 8;
   if (config.rays < 1 || config.rays > most_rays)
-    return base::fail("ambient occlusion: {} rays a point, expected 1 to {}", config.rays, most_rays);
+    return base::fail("ambient occlusion: {} rays per point, expected 1 to {}", config.rays, most_rays);
   if (!(config.distance_m >= 0) || !std::isfinite(config.distance_m))
     return base::fail("ambient occlusion: distance {}, expected a length or 0", config.distance_m);
   if (config.downscale < 1 || config.downscale > most_downscale)
@@ -34,7 +34,7 @@ Expected<void> check(const AoConfig& config, const VisiblePoints& points, std::s
   if (points.positions.size() != pixels || normals.size() != pixels || points.width < 0 ||
       points.height < 0 ||
       static_cast<std::size_t>(points.width) * static_cast<std::size_t>(points.height) != pixels)
-    return base::fail("ambient occlusion: {} points and {} normals, expected one a pixel of {} x {}",
+    return base::fail("ambient occlusion: {} points and {} normals, expected one per pixel of {} x {}",
                       points.positions.size(), normals.size(), points.width, points.height);
   return {};
 }

@@ -48,7 +48,7 @@ private:
   const SceneObjects* objects_ = nullptr;
   double reach_ = 0;
   std::vector<Body> bodies_;
-  std::vector<int> at_;  ///< one an object, the last of what stands; -1 until made
+  std::vector<int> at_;  ///< one per object, the last of what stands; -1 until made
 };
 
 }  // namespace tenebra::ao

@@ -16,7 +16,7 @@ struct FieldPass {
   AoStats& stats;
   FrameTimings& timings;
 
-  /// Open shares, 0..1, one a receiver; 1 where there is none. Fails with "stopped".
+  /// Open shares, 0..1, one per receiver; 1 where there is none. Fails with "stopped".
   Expected<void> run(const ReceiverSet& set, AoPart part, std::vector<float>& values,
                      const AoProgress& progress, const StopFlag* stop);
 

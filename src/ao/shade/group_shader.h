@@ -51,11 +51,11 @@ private:
   const PointRays* rays_;
   AoKernels kernels_;
   std::vector<Receiver> receivers_;
-  std::vector<float> own_, others_;  ///< hidden shares, one a receiver
+  std::vector<float> own_, others_;  ///< hidden shares, one per receiver
   std::vector<std::size_t> mixed_;   ///< receivers whose own body rays have to answer
   std::vector<std::uint64_t> missing_;
   std::vector<int> near_;              ///< occluders in reach of some receiver
-  std::vector<std::uint8_t> reached_;  ///< one an occluder and receiver
+  std::vector<std::uint8_t> reached_;  ///< one per occluder and receiver
   std::vector<std::size_t> asked_;     ///< receivers with something in reach
   std::vector<RayBatch> batches_;
   std::vector<float> distances_;

@@ -36,7 +36,7 @@ struct PointBox {
 
 class Occluders {
 public:
-  static constexpr std::size_t few_triangles = 16;  ///< up to so many an object needs no field
+  static constexpr std::size_t few_triangles = 16;  ///< an object of up to so many needs no field
   static constexpr std::size_t most_field_bytes = std::size_t{2} << 30;  ///< objects beyond are met by rays
   static constexpr int standing = -1, deforming = -2;                    ///< beside the indices of objects
 
@@ -96,7 +96,7 @@ private:
   AoKernels kernels_;
   double reach_ = 0;
   std::vector<Shape> shapes_;
-  std::vector<Placed> placed_;     ///< one an object
+  std::vector<Placed> placed_;     ///< one per object
   std::vector<std::size_t> by_x_;  ///< visible objects by the middle of their spheres
   double largest_radius_ = 0;
   std::optional<TriangleBvh> standing_, deforming_;

@@ -8,7 +8,7 @@
 
 namespace tenebra::ao {
 
-/// Open shares, 0..1, one a receiver; 1 where there is none. Returns the number of receivers; ends early,
+/// Open shares, 0..1, one per receiver; 1 where there is none. Returns the number of receivers; ends early,
 /// with values missing, if `stop` is requested.
 std::uint64_t cast_receivers(const ReceiverSet& set, const PointRays& rays, const ReferenceRays& reference,
                              std::vector<float>& values, const StopFlag* stop);

@@ -25,7 +25,7 @@ public:
   virtual int groups() const = 0;
   virtual std::size_t values() const = 0;
   virtual void receivers(int group, std::vector<Receiver>& out) const = 0;
-  /// One a pixel from one a receiver; 1 where there is no receiver.
+  /// One per pixel from one per receiver; 1 where there is no receiver.
   virtual void spread(std::span<const float> values, std::span<float> pixels) const = 0;
 };
 

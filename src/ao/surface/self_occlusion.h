@@ -78,7 +78,7 @@ private:
   SurfaceLayout layout_;
   SurfaceRays rays_;
   std::size_t most_cells_;
-  std::vector<Side> sides_;    ///< two a triangle; empty if all are large
+  std::vector<Side> sides_;    ///< two per triangle; empty if all are large
   std::vector<Value> values_;  ///< of the layout's samples, then of divided cells
   CellNumbers cells_;          ///< divided ones, in the order of their values
   std::uint64_t filled_ = 0;

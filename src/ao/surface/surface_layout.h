@@ -80,7 +80,7 @@ private:
   const ObjectShape& shape_;
   double spacing_;
   std::size_t places_ = 0;
-  std::vector<Grid> grids_;             ///< one a triangle
+  std::vector<Grid> grids_;             ///< one per triangle
   std::vector<std::uint32_t> corners_;  ///< places of all triangles' corners
   std::vector<std::uint32_t> shared_;   ///< place -> triangle * 3 + corner
   std::vector<std::uint32_t> large_;    ///< triangles with grids, by ascending first place

@@ -1,4 +1,4 @@
-// The frame log: a CSV file with one row a frame, and comment lines above that say what was measured where.
+// The frame log: a CSV file with one row per frame, and comment lines above that say what was measured where.
 #pragma once
 
 #include <filesystem>

@@ -21,7 +21,7 @@ struct Descent {
   const points::PointTiles& tiles;  ///< of the same points
   ContactRule contact;
   bool cull_front;
-  std::vector<std::array<std::uint32_t, 16>>* tile_tests;  ///< null, or counts: one a node of level 0
+  std::vector<std::array<std::uint32_t, 16>>* tile_tests;  ///< null, or counts: one per node of level 0
 };
 
 /// A cluster's triangles as seen from the light: planes m.p - d relative to the light as in TrianglePlanes,

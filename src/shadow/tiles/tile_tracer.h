@@ -22,7 +22,7 @@ public:
              const ShadowLight& light, const HardShadowConfig& config, ShadowMask& mask, TraceStats& stats,
              FrameTimings& timings);
 
-  /// Of the last call: node tests a pixel, those of a node shared equally by the rays below it.
+  /// Of the last call: node tests per pixel, those of a node shared equally by the rays below it.
   void spread_tests(int width, int height, std::vector<float>& out) const;
 
 private:
@@ -37,7 +37,7 @@ private:
   RayForest forest_;
   ForestScratch forest_scratch_;
   std::vector<DescentScratch> scratch_;
-  std::vector<std::uint64_t> root_tests_;  ///< of the last call, one a root
+  std::vector<std::uint64_t> root_tests_;  ///< of the last call, one per root
   std::vector<std::uint32_t> root_order_;  ///< in which they are descended
 };
 

@@ -32,7 +32,8 @@ int pixel_of(const ViewRays& view, const glm::dvec3& point, int width, int heigh
 struct Carried {
   VisiblePoints points;
   std::vector<glm::vec3> normals;
-  std::vector<std::size_t> from;  ///< pixel of the frame before, one a pixel; meaningless without a triangle
+  std::vector<std::size_t>
+      from;  ///< pixel of the frame before, one per pixel; meaningless without a triangle
 };
 Carried carry(const BenchFrame& now, const std::vector<bool>& moves, const ViewRays& next_view) {
   Carried c;

@@ -63,9 +63,9 @@ Expected<void> measure_many(AoSession& session) {
     field.points.emplace_back(count, cost->field_ms);
     embree.points.emplace_back(count, cost->embree_ms);
   }
-  print_table(fmt::format("Figure 8, multiple objects: frames of {} rays a point for both", rays), rows);
+  print_table(fmt::format("Figure 8, multiple objects: frames of {} rays per point for both", rays), rows);
   session.report.add_plot("figure8_objects",
-                          curve_plot("Cost of a frame, 64 rays a point for both", {"objects", false},
+                          curve_plot("Cost of a frame, 64 rays per point for both", {"objects", false},
                                      {"time (ms)", true}, {field, embree}));
   return {};
 }

@@ -37,7 +37,7 @@ private:
 /// left as it is.
 using Tracer = std::function<void(std::span<const ao::RayBatch>, float* distances)>;
 
-/// 1 closed .. 0 open, one a receiver, with linear fall-off to nothing at `distance`. On all threads; the
+/// 1 closed .. 0 open, one per receiver, with linear fall-off to nothing at `distance`. On all threads; the
 /// same bits for any number.
 std::vector<float> occlusion(std::span<const Receiver> receivers, const CosineRays& rays, float distance,
                              const Tracer& tracer);

@@ -37,7 +37,7 @@ private:
   };
   std::uint8_t shade(const Seen& seen, std::span<const float> values, bool difference) const;
 
-  std::vector<Seen> seen_;  // one a pixel of a cell
+  std::vector<Seen> seen_;  // one per pixel of a cell
   std::vector<float> truth_;
   std::vector<Cell> cells_;
 };

@@ -20,7 +20,7 @@ struct BenchFrame {
   std::vector<WorldLight> lights;
   ViewRays view;
   VisiblePoints points;
-  std::vector<glm::vec3> normals;  ///< shading normals, one a pixel
+  std::vector<glm::vec3> normals;  ///< shading normals, one per pixel
   glm::vec3 centre{0.0f};          ///< of the box around all triangles
   float diagonal_m = 0;            ///< of that box
 

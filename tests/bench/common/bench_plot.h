@@ -30,7 +30,7 @@ std::string scatter_plot(const std::string& title, const std::string& x_label, c
 
 struct Bars {
   std::string name;
-  std::vector<double> values;  ///< one a category
+  std::vector<double> values;  ///< one per category
 };
 
 /// Groups of bars side by side (`stacked`: one above the other), the value written above each.

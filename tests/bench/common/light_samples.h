@@ -22,7 +22,7 @@ struct LightSamples {
 /// sixteen places; where it has fewer points than that the rest repeats the first.
 LightSamples samples_by_pixel(const AreaLight& light, std::size_t per_pattern, std::size_t pattern_count);
 
-/// Sixteen patterns side by side, one a lane: the points of cell s of block b (sixteen patterns) stand at
+/// Sixteen patterns side by side, one per lane: the points of cell s of block b (sixteen patterns) stand at
 /// (b * per_pattern + s) * 16 + lane. `pattern_count` is a multiple of sixteen.
 LightSamples samples_by_tile(const AreaLight& light, std::size_t per_pattern, std::size_t pattern_count);
 

@@ -22,7 +22,7 @@ struct ContestPlan {
   bool pictures = false;                           ///< keep the irradiance at equal time
 };
 
-/// What so many rays a pixel give and cost.
+/// What so many rays per pixel give and cost.
 struct SampledPoint {
   std::size_t rays = 0;
   double rmse_255 = 0;
@@ -53,7 +53,7 @@ struct Contest {
   std::vector<float> embree_equal_time;  ///< with the fewest rays that take at least as long; pictures only
   SampledPoint equal_time;               ///< what that took
   double white = 1;
-  std::vector<std::uint8_t> penumbra;  ///< one a pixel, 1: sees a part of the light
+  std::vector<std::uint8_t> penumbra;  ///< one per pixel, 1: sees a part of the light
 };
 
 /// Runs the contest and adds every measurement to `report`.

@@ -20,7 +20,7 @@ enum class Packing {
 };
 const char* packing_name(Packing packing);
 
-/// One a pixel: where its rays start. What all sampling contestants are given.
+/// One per pixel: where its rays start. What all sampling contestants are given.
 struct SampledReceiver {
   glm::vec3 position;          ///< lifted off the triangle by `lift_of_diagonal` of the scene's diagonal
   glm::vec3 normal;            ///< shading; zero: no rays

@@ -39,7 +39,7 @@ std::string contest_table(const std::vector<Contest>& contests) {
                      fmt::format("{:.4f}", c.max_error_255), rays_at_eq(c)});
   }
   return fmt::format(
-      "Equal quality: Embree's stratified rays a pixel with a penumbra RMSE under {}/255 (Figure 7)\n{}",
+      "Equal quality: Embree's stratified rays per pixel with a penumbra RMSE under {}/255 (Figure 7)\n{}",
       equal_quality_255, text_table(table));
 }
 

@@ -19,7 +19,7 @@ struct SoftResults {
   std::vector<std::string> skipped;  ///< scenes that are not there
 };
 
-/// Readable tables, one an experiment.
+/// Readable tables, one per experiment.
 std::string soft_tables(const SoftResults& results);
 void add_soft_plots(const SoftResults& results, Report& report);
 

@@ -81,8 +81,8 @@ std::string head(const TradeSession& session) {
                                                    : fmt::format("{} threads, by the clock", thread_count());
   return fmt::format(
       "# What accuracy costs\n\n"
-      "Written by `{}`; edit `tests/bench/trade_docs.cpp` and `trade_advice.cpp`, not this file.\n"
-      "Machine: {}; {}. Times in milliseconds a frame.\n\n"
+      "Written by `{}`; edit `tests/bench/trade/trade_docs.cpp` and `trade_advice.cpp`, not this file.\n"
+      "Machine: {}; {}. Times in milliseconds per frame.\n\n"
       "A setting is on the **Pareto front** of a view, its time bold, if no other is both as fast and as "
       "exact "
       "and better in one of the two. In the plots the front is dashed and its settings are ringed. Embree's "

@@ -57,7 +57,7 @@ Expected<void> need_fields(TradeSession& session, const std::string& name, const
   const double rays = static_cast<double>(first.points) * config.rays;
   session.needs.push_back(
       {"look-ups of objects in reach", name,
-       fmt::format("{} a ray, of {} objects",
+       fmt::format("{} per ray, of {} objects",
                    short_number(rays > 0 ? static_cast<double>(ambient.stats().lookups) / rays : 0.0),
                    objects.objects.size())});
   return {};

@@ -14,7 +14,7 @@ struct TradePoint {
   std::string family;          ///< "shadow map": settings of one family are one curve
   std::string setting;         ///< "1024": with the family a name
   double ms = 0;               ///< a frame
-  std::vector<double> errors;  ///< one a column of the table; the first is the one of the plot
+  std::vector<double> errors;  ///< one per column of the table; the first is the one of the plot
   bool front = false;          ///< no other is both as fast and as exact, and better in one
 
   std::string name() const { return setting.empty() ? family : family + ", " + setting; }
