@@ -15,6 +15,7 @@
 #include <algorithm>
 #include <type_traits>
 
+#include "simd/prefetch.h"
 #include "soft/clip/part_boxes-inl.h"
 #include "soft/occluders/block_bounds-inl.h"
 #include "soft/occluders/point_occluders-inl.h"
@@ -79,9 +80,9 @@ private:
 
   /// Asks for a candidate that will be added soon.
   static SIMD_INLINE void expect(const Candidate& c) {
-    fetch_soon(c.corners[0]);
-    fetch_soon(c.corners[3]);
-    fetch_soon(&c.second);
+    simd::prefetch(c.corners[0]);
+    simd::prefetch(c.corners[3]);
+    simd::prefetch(&c.second);
   }
 
   bool has_many() const { return cold_.count() > many; }
@@ -228,7 +229,7 @@ private:
   }
 
   /// What is still to do, each with the occluders of `boxes` that are left for it.
-  SIMD_INLINE void subtract_todo(Occluders& c, const ShadowBoxes<T>& boxes, Parts& out) {
+  HWY_NOINLINE void subtract_todo(Occluders& c, const ShadowBoxes<T>& boxes, Parts& out) {
     while (!todo_.empty()) {
       const std::uint64_t left = todo_left_.back();
       todo_left_.pop_back();

@@ -133,12 +133,14 @@ public:
   void push(const PacketPart& part) { add() = part; }
   /// Valid until the list grows.
   PacketPart& add() {
-    if (size_ == parts_.size()) parts_.resize(2 * size_ + 16);
+    if (size_ == parts_.size()) grow();
     return parts_[size_++];
   }
   const PacketPart& pop() { return parts_[--size_]; }
 
 private:
+  HWY_NOINLINE void grow() { parts_.resize(2 * size_ + 16); }
+
   std::vector<PacketPart> parts_;
   std::size_t size_ = 0;
 };

@@ -20,11 +20,6 @@ using namespace simd::HWY_NAMESPACE;
 /// Points are added, up to sixteen, and solved together; then their answers can be asked for until clear().
 class PacketSolver {
 public:
-  /// Leaves room in packet_vertices for what cuts add.
-  static constexpr std::size_t most_light_vertices = 8;
-  /// Of more, in clouds and trees, neighbours see too different fragments (measured).
-  static constexpr std::size_t most_occluders = 384;
-
   /// Takes over the candidates of a group in places `order`, largest first.
   void reset(const GroupCandidates& group, std::span<const std::uint32_t> order) {
     clip_.reset(group, order);

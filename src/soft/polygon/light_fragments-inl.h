@@ -58,21 +58,24 @@ public:
 
   /// Halved until it fits.
   SIMD_INLINE void push(const LightPolygon<T>& polygon) {
-    if (polygon.count > fragment_capacity) {
-      LightPolygon<T> low, high;
-      halve(polygon, low, high);
-      push_small(low);
-      push_small(high);
-    } else {
-      push_small(polygon);
-    }
+    if (polygon.count > fragment_capacity) return push_halves(polygon);
+    push_small(polygon);
   }
   void shrink(std::size_t size) { size_ = size; }
   SIMD_INLINE LightPolygon<T> pop() { return loaded(polygons_[--size_]); }
 
 private:
+  // Rare, and kept out of the many places that push.
+  HWY_NOINLINE void push_halves(const LightPolygon<T>& polygon) {
+    LightPolygon<T> low, high;
+    halve(polygon, low, high);
+    push_small(low);
+    push_small(high);
+  }
+  HWY_NOINLINE void grow() { polygons_.resize(2 * size_ + 16); }
+
   SIMD_INLINE void push_small(const LightPolygon<T>& polygon) {
-    if (size_ == polygons_.size()) polygons_.resize(2 * size_ + 16);
+    if (size_ == polygons_.size()) grow();
     StoredPolygon<T>& to = polygons_[size_++];
     store(polygon.x, to.x);
     store(polygon.y, to.y);
@@ -122,7 +125,7 @@ HWY_NOINLINE void keep_positive(FragmentList<T>& fragments, const LightLine<T>& 
       continue;
     }
     LightPolygon<T> inside, outside;
-    split(fragment, values, inside, outside);
+    split_apart(fragment, values, inside, outside);
     scratch.push(inside);
   }
   fragments.swap(scratch);

@@ -138,6 +138,23 @@ struct VertexRun {
   int first = 0, length = 0;
 };
 
+/// The run of vertices of `set` around the one with the greatest of `values`.
+template <class T>
+HWY_NOINLINE VertexRun farthest_run(std::uint32_t set, int count, const T* values) {
+  int farthest = 0;
+  for (int k = 1; k < count; ++k) {
+    if (values[k] > values[farthest]) farthest = k;
+  }
+  const auto positive = [&](int k) { return (set >> ((k + count) % count) & 1u) != 0; };
+  VertexRun run{farthest, 1};
+  while (run.length < count - 1 && positive(farthest + run.length)) ++run.length;
+  while (run.length < count - 1 && positive(run.first - 1)) {
+    run.first = (run.first - 1 + count) % count;
+    ++run.length;
+  }
+  return run;
+}
+
 /// The vertices of `set` among the lowest `count` bits as a run. Rounding can break the run of a thin polygon
 /// in pieces: then the one around the vertex farthest on the positive side; values fall from there on both
 /// sides, so that what other pieces hold lies within rounding of the line.
@@ -149,18 +166,7 @@ SIMD_INLINE VertexRun run_of(std::uint32_t set, int count, const Pack<T, polygon
   if (std::has_single_bit(starts)) return {std::countr_zero(starts), std::popcount(set)};
   T lanes[polygon_capacity];
   store(values, lanes);
-  int farthest = 0;
-  for (int k = 1; k < count; ++k) {
-    if (lanes[k] > lanes[farthest]) farthest = k;
-  }
-  const auto positive = [&](int k) { return (set >> ((k + count) % count) & 1u) != 0; };
-  VertexRun run{farthest, 1};
-  while (run.length < count - 1 && positive(farthest + run.length)) ++run.length;
-  while (run.length < count - 1 && positive(run.first - 1)) {
-    run.first = (run.first - 1 + count) % count;
-    ++run.length;
-  }
-  return run;
+  return farthest_run(set, count, lanes);
 }
 
 /// Numbers of the vertices of `run`, repeating its first vertex behind them.
@@ -230,6 +236,13 @@ SIMD_INLINE void split(const LightPolygon<T>& polygon, const LineValues<T>& line
   const LightPolygon<T> inside = part_of(polygon, crossings, run, leaving, returning);
   negative = part_of(polygon, crossings, others, returning, leaving);
   positive = inside;
+}
+
+/// The same out of line, where it is not at the heart of a loop.
+template <class T>
+HWY_NOINLINE void split_apart(const LightPolygon<T>& polygon, const LineValues<T>& line,
+                              LightPolygon<T>& positive, LightPolygon<T>& negative) {
+  split(polygon, line, positive, negative);
 }
 
 /// Two polygons for one, along a diagonal: vertices 0 to count / 2, and the others with both ends.

@@ -11,6 +11,7 @@
 #include <tuple>
 
 #include "simd/pack-inl.h"
+#include "simd/prefetch.h"
 #include "soft/shafts/shaft.h"
 #include "soft/shafts/triangle_blocks.h"
 
@@ -89,7 +90,7 @@ SIMD_INLINE void fetch_ahead(const TriangleBlock* blocks, std::span<const BlockR
   constexpr std::size_t ahead = 4, line = 64;
   if (i + ahead >= in.size()) return;
   const auto* const block = reinterpret_cast<const unsigned char*>(&blocks[in[i + ahead].block]);
-  for (std::size_t at = 0; at < sizeof(TriangleBlock::v); at += line) fetch_soon(block + at);
+  for (std::size_t at = 0; at < sizeof(TriangleBlock::v); at += line) simd::prefetch(block + at);
 }
 
 template <class T>

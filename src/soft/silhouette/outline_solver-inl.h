@@ -161,7 +161,7 @@ private:
     const LightLine<T> line{0, 1, (greatest(part.y) + least(part.y)) / -2};
     const LineValues<T> values = evaluate(part, line);
     LightPolygon<T> above, below;
-    split(part, values, above, below);
+    split_apart(part, values, above, below);
     const std::size_t last = crossing_.count;
     crossing_.make_room(last - first);
     keep_crossing(first, last, above, line, T(1), last);
@@ -201,6 +201,9 @@ private:
   /// The same for a polygon of any size.
   void branch(const LightPolygon<T>& part, std::size_t first, FragmentList<T>& out) {
     if (part.count <= fragment_capacity) return solve(part, first, out);
+    solve_halves(part, first, out);
+  }
+  HWY_NOINLINE void solve_halves(const LightPolygon<T>& part, std::size_t first, FragmentList<T>& out) {
     LightPolygon<T> low, high;
     halve(part, low, high);
     const std::size_t last = crossing_.count;

@@ -1,68 +1,51 @@
-// From the points of one group and the occluders in its shaft to visible fractions and irradiance.
+// Solves groups of points: each is made ready and handed to the solver that suits it.
 #pragma once
 
 #include <cstdint>
 #include <memory>
 #include <span>
 
-#include <tenebra/frame_timings.h>
-#include <tenebra/soft_config.h>
-#include <tenebra/stop_flag.h>
-#include <tenebra/visible_points.h>
-#include "soft/bsp/group_occluders.h"
-#include "soft/light/light_frame.h"
+#include "base/stopwatch.h"
+#include "soft/solve/solvers.h"
 
 namespace tenebra::soft {
-
-/// What all groups of a frame and light share.
-struct SoftFrame {
-  const VisiblePoints& points;
-  std::span<const glm::vec3> normals;  ///< one a pixel, or empty
-  const ViewRays& view;
-  const TriangleView& triangles;
-  const LightFrame& light;
-  const SoftShadowConfig& config;
-  SoftMask& out;
-  std::span<std::uint8_t> classes;
-  const StopFlag* stop;  ///< looked at for each point that needs a solver of its own; may be null
-};
-
-/// Points of one group, and what may stand between them and the light.
-struct GroupTask {
-  std::span<const std::uint32_t> pixels;
-  GroupFrame frame;
-  std::span<const std::uint32_t> candidates;  ///< triangles, ascending; all that block are among them
-};
 
 /// Times of one thread, milliseconds.
 struct SolverTimes {
   double init_ms = 0, query_ms = 0, irradiance_ms = 0;
 };
 
-/// Solves group after group with buffers of its own: one a thread.
+/// Solves group after group with buffers of its own: each thread has one.
 class GroupSolver {
 public:
-  virtual ~GroupSolver() = default;
+  explicit GroupSolver(SimdLevel level);
 
   /// Fills out's pixels of the group, some of them if frame.stop was requested. The result depends on the
   /// group alone.
-  virtual void solve(const SoftFrame& frame, const GroupTask& task) = 0;
+  void solve(const SoftFrame& frame, const GroupTask& task);
   /// The same for groups that lie near each other, within `around`, and have many candidates: these are made
   /// ready once for all.
-  virtual void solve_together(const SoftFrame& frame, const GroupFrame& around,
-                              std::span<const GroupTask> tasks) = 0;
+  void solve_together(const SoftFrame& frame, const GroupFrame& around, std::span<const GroupTask> tasks);
   /// The same for groups that nothing stands in front of.
-  virtual void solve_lit(const SoftFrame& frame, std::span<const std::span<const std::uint32_t>> groups) = 0;
-
+  void solve_lit(const SoftFrame& frame, std::span<const std::span<const std::uint32_t>> groups);
   /// Asks memory for the points of the group that is likely solved next (of many, the first), and for the
   /// list of those `after` it.
-  virtual void expect(const SoftFrame& frame, std::span<const std::uint32_t> pixels,
-                      std::span<const std::uint32_t> after) const = 0;
+  static void expect(const SoftFrame& frame, std::span<const std::uint32_t> pixels,
+                     std::span<const std::uint32_t> after);
 
   SoftStats stats;
   SolverTimes times;
-};
 
-std::unique_ptr<GroupSolver> make_group_solver(SimdLevel level);
+private:
+  void solve_prepared(const SoftFrame& frame, const PreparedGroup& group,
+                      std::span<const std::uint32_t> pixels, base::Stopwatch& watch);
+  PointsSolver& solver_of(const SoftFrame& frame, const PreparedGroup& group);
+
+  SimdLevel level_;
+  GroupPreparer preparer_;
+  std::unique_ptr<LitSolver> lit_;
+  /// Each is made when it is first asked for.
+  std::unique_ptr<PointsSolver> points_, packets_, bsp_, reference_, reference_bsp_;
+};
 
 }  // namespace tenebra::soft

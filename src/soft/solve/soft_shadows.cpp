@@ -100,7 +100,7 @@ void SoftShadowTracer::State::prepare(const SoftShadowConfig& config) {
     level = config.simd;
   }
   for (Worker& worker : workers) {
-    if (!worker.solver) worker.solver = soft::make_group_solver(level);
+    if (!worker.solver) worker.solver = std::make_unique<soft::GroupSolver>(level);
     worker.solver->stats = {};
     worker.solver->times = {};
   }
@@ -135,8 +135,8 @@ void SoftShadowTracer::State::sort_out(const soft::SoftFrame& frame, const soft:
   const soft::PointGroup& group = *decision.group;
   const auto pixels = groups.pixels_of(group);
   const auto behind = static_cast<std::size_t>(groups.groups.data() + groups.groups.size() - &group);
-  worker.solver->expect(frame, groups.pixels_of(behind > 1 ? *(&group + 1) : group),
-                        groups.pixels_of(behind > 2 ? *(&group + 2) : group));
+  soft::GroupSolver::expect(frame, groups.pixels_of(behind > 1 ? *(&group + 1) : group),
+                            groups.pixels_of(behind > 2 ? *(&group + 2) : group));
   if (decision.kind == soft::GroupClass::dark) {
     for (const std::uint32_t pixel : pixels) classes[pixel] = static_cast<std::uint8_t>(SoftClass::dark);
     worker.solver->stats.points_dark += pixels.size();

@@ -1,0 +1,13 @@
+// What packets of points are worth their while for.
+#pragma once
+
+#include <cstddef>
+
+namespace tenebra::soft {
+
+/// Leaves room in packet_vertices for what cuts add.
+inline constexpr std::size_t most_packet_light_vertices = 8;
+/// Of more, in clouds and trees, neighbours see too different fragments (measured).
+inline constexpr std::size_t most_packet_occluders = 384;
+
+}  // namespace tenebra::soft

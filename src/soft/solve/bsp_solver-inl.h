@@ -1,0 +1,118 @@
+// Points by the paper's BSP of line classes, and by clipping what has no certain side, or all if the tree
+// grows too large. Included once per target.
+#if defined(TENEBRA_SOFT_BSP_SOLVER_INL_H_) == defined(HWY_TARGET_TOGGLE)
+#ifdef TENEBRA_SOFT_BSP_SOLVER_INL_H_
+#undef TENEBRA_SOFT_BSP_SOLVER_INL_H_
+#else
+#define TENEBRA_SOFT_BSP_SOLVER_INL_H_
+#endif
+
+#include "soft/bsp/line_class_query-inl.h"
+#include "soft/clip/clip_solver-inl.h"
+#include "soft/solve/point_sight-inl.h"
+#include "soft/solve/solvers.h"
+
+HWY_BEFORE_NAMESPACE();
+namespace tenebra::soft::HWY_NAMESPACE {
+using namespace simd::HWY_NAMESPACE;
+
+/// Trees beyond this size are dropped, and the rest of the group is clipped.
+inline constexpr std::size_t largest_tree_bytes = std::size_t{4} << 20;
+
+template <class T>
+class BspSolver final : public PointsSolver {
+public:
+  void begin(const SoftFrame& frame, const PreparedGroup& group) override {
+    receiver_.plane = {};
+    set_up_occluders(frame.light, frame.triangles, group.frame, group.candidates, occluders_);
+    start_tree(frame, group);
+    use_tree_ = true;
+    clip(group.candidates, occluders_.indefinite);
+  }
+
+  void solve(const SoftFrame& frame, const PreparedGroup& group, std::span<const std::uint32_t> pixels,
+             PixelWriter& writer) override {
+    for (const std::uint32_t pixel : pixels) {
+      if (stop_requested(frame.stop)) break;
+      if (use_tree_ && bsp_.bytes() > largest_tree_bytes) drop_tree(group, writer);
+      solve_point(frame, group, pixel, writer);
+      if (use_tree_ && !frame.config.keep_trees) {
+        note_tree(writer.stats());
+        start_tree(frame, group);
+      }
+    }
+    finish_whole(frame, whole_, writer);
+    if (use_tree_) note_tree(writer.stats());
+  }
+
+private:
+  void start_tree(const SoftFrame& frame, const PreparedGroup& group) {
+    bsp_.reset(occluders_, frame.triangles, group.frame, frame.config.choice);
+  }
+  void drop_tree(const PreparedGroup& group, PixelWriter& writer) {
+    note_tree(writer.stats());
+    use_tree_ = false;
+    writer.answer_by(SoftClass::clip);
+    take_all(group.candidates, all_);
+    clip(group.candidates, all_);
+  }
+  void clip(const GroupCandidates& candidates, std::span<const std::uint32_t> places) {
+    clipped_ = order_.sorted(candidates, places);
+    clip_.reset(candidates, clipped_);
+  }
+  /// Counts a tree that is given up.
+  void note_tree(SoftStats& stats) const {
+    stats.tree_nodes += bsp_.node_count();
+    stats.peak_tree_bytes = std::max<std::uint64_t>(stats.peak_tree_bytes, bsp_.bytes());
+  }
+
+  void solve_point(const SoftFrame& frame, const PreparedGroup& group, std::uint32_t pixel,
+                   PixelWriter& writer) {
+    receiver_.take_up(frame, frame.points.triangles[pixel]);
+    const PointSight sight = sight_of(frame, receiver_, pixel);
+    visible_.clear();
+    if (sight.above > 0) find_visible(frame, group, pixel);
+    if (sight.above > 0 && visible_.fragments == receiver_.light && !receiver_.plane.cuts_light &&
+        !sight.horizon_cuts) {
+      writer.count_solver(pixel);
+      whole_.add(pixel, sight.at.to_origin, sight.at.normal);
+      if (whole_.full()) finish_whole(frame, whole_, writer);
+    } else {
+      visible_.integrate(frame, sight, writer);
+    }
+  }
+
+  void find_visible(const SoftFrame& frame, const PreparedGroup& group, std::uint32_t pixel) {
+    const GroupPoint at = group_point(group.candidates.axes, frame.points.positions[pixel],
+                                      receiver_.plane.id, receiver_.plane.tau);
+    clip_.move_to(at);
+    const FragmentList<T>& light = receiver_.light;
+    if (!use_tree_) return clip_all(light, visible_.fragments);
+    for (std::size_t i = 0; i < light.size(); ++i)
+      query_.query(bsp_, occluders_.lines.data(), loaded(light[i]), at.from_centre, visible_.fragments);
+    if (clipped_.empty()) return;
+    visible_.scratch.clear();
+    clip_all(visible_.fragments, visible_.scratch);
+    visible_.fragments.swap(visible_.scratch);
+  }
+  void clip_all(const FragmentList<T>& parts, FragmentList<T>& out) {
+    for (std::size_t i = 0; i < parts.size(); ++i) clip_.query(loaded(parts[i]), out);
+  }
+
+  GroupOccluders occluders_;
+  LineClassBsp bsp_;
+  bool use_tree_ = false;
+  LineClassQuery<T> query_;
+  CandidateOrder order_;
+  std::vector<std::uint32_t> all_;
+  std::span<const std::uint32_t> clipped_;
+  ClipSolver<OnePoint<T>> clip_;
+  ReceiverSight<T> receiver_;
+  VisibleLight<T> visible_;
+  WholePoints whole_;
+};
+
+}  // namespace tenebra::soft::HWY_NAMESPACE
+HWY_AFTER_NAMESPACE();
+
+#endif

@@ -1,0 +1,132 @@
+// What the solvers of single points share: how a point sees the light before anything stands before it, and
+// the integrals over what it sees in the end. Included once per target.
+#if defined(TENEBRA_SOFT_POINT_SIGHT_INL_H_) == defined(HWY_TARGET_TOGGLE)
+#ifdef TENEBRA_SOFT_POINT_SIGHT_INL_H_
+#undef TENEBRA_SOFT_POINT_SIGHT_INL_H_
+#else
+#define TENEBRA_SOFT_POINT_SIGHT_INL_H_
+#endif
+
+#include "soft/polygon/light_fragments-inl.h"
+#include "soft/polygon/receiver_plane-inl.h"
+#include "soft/polygon/whole_light-inl.h"
+#include "soft/solve/pixel_writer.h"
+
+HWY_BEFORE_NAMESPACE();
+namespace tenebra::soft::HWY_NAMESPACE {
+using namespace simd::HWY_NAMESPACE;
+
+/// Whether part of the light is not above the line.
+inline bool cuts(const LightFrame& light, const glm::dvec3& line) {
+  for (const glm::dvec2& at : light.outline) {
+    if (!(line.x * at.x + line.y * at.y + line.z > 0)) return true;
+  }
+  return false;
+}
+
+template <class T>
+double area_of(const FragmentList<T>& fragments) {
+  double area = 0;
+  for (std::size_t i = 0; i < fragments.size(); ++i) {
+    const StoredPolygon<T>& f = fragments[i];
+    for (int k = 0; k < f.count; ++k) {
+      const int next = k + 1 < f.count ? k + 1 : 0;
+      area += (double(f.x[k]) * double(f.y[next]) - double(f.x[next]) * double(f.y[k])) / 2;
+    }
+  }
+  return area;
+}
+
+/// The receiver at hand and the part of the light above its plane, the same for all its points.
+template <class T>
+struct ReceiverSight {
+  ReceiverPlane plane;
+  FragmentList<T> light;
+  double above = 0;  ///< area of `light`
+
+  void take_up(const SoftFrame& frame, std::uint32_t receiver) {
+    if (receiver != plane.id) start_on(frame, receiver);
+  }
+  glm::dvec3 normal_at(const SoftFrame& frame, std::uint32_t pixel) const {
+    return frame.normals.empty() ? plane.face : glm::dvec3(frame.normals[pixel]);
+  }
+
+private:
+  HWY_NOINLINE void start_on(const SoftFrame& frame, std::uint32_t receiver) {
+    plane = receiver_plane(frame.light, frame.view, frame.triangles, receiver);
+    light.clear();
+    light.push(polygon_of<T>(frame.light.outline));
+    keep_positive(light, line_of<T>(plane.horizon), scratch_);
+    plane.line = line_of<float>(plane.horizon);
+    plane.cuts_light = cuts(frame.light, plane.horizon);
+    above = plane.face == glm::dvec3(0.0) ? 0.0 : area_of(light);
+  }
+
+  FragmentList<T> scratch_;
+};
+
+/// A point and its horizons.
+struct PointSight {
+  std::uint32_t pixel = 0;
+  Receiver3 at;
+  double above = 0;  ///< area of the light above its receiver's plane; 0 from behind the light
+  glm::dvec3 horizon{0.0};
+  bool horizon_cuts = false;  ///< that of its shading normal, the light
+};
+
+template <class T>
+PointSight sight_of(const SoftFrame& frame, const ReceiverSight<T>& receiver, std::uint32_t pixel) {
+  const glm::dvec3 point = frame.points.positions[pixel];
+  const bool in_front = glm::dot(point - frame.light.origin, frame.light.normal) > 0;
+  PointSight sight;
+  sight.pixel = pixel;
+  sight.at = {frame.light.origin - point, receiver.normal_at(frame, pixel)};
+  sight.above = in_front ? receiver.above : 0.0;
+  sight.horizon = line_of_plane(frame.light, sight.at.normal, sight.at.to_origin);
+  sight.horizon_cuts = cuts(frame.light, sight.horizon);
+  return sight;
+}
+
+/// What a point sees of the light: convex fragments, and edges of the border of other parts.
+template <class T>
+struct VisibleLight {
+  FragmentList<T> fragments, scratch;
+  LightEdges edges;
+
+  void clear() {
+    fragments.clear();
+    edges.count = 0;
+  }
+
+  /// Integrates over it. Where the horizon cuts, there are fragments alone.
+  HWY_NOINLINE void integrate(const SoftFrame& frame, const PointSight& sight, PixelWriter& writer) {
+    append_edges(fragments, edges);
+    EdgeSums sums = sum_edges(edges, frame.light, sight.at);
+    const double area = sums.area;
+    if (sight.horizon_cuts) {
+      keep_positive(fragments, line_of<T>(sight.horizon), scratch);
+      edges.count = 0;
+      append_edges(fragments, edges);
+      sums = sum_edges(edges, frame.light, sight.at);
+    }
+    writer.stats().fragments += fragments.size();
+    writer.write(sight.pixel, area, sums.irradiance, sight.above);
+  }
+};
+
+/// Writes the points put aside that see the whole light, and forgets them all; returns the bits of those
+/// that see it.
+inline std::uint32_t finish_whole(const SoftFrame& frame, WholePoints& whole, PixelWriter& writer) {
+  if (whole.count == 0) return 0;
+  double irradiance[8];
+  const std::uint32_t seen = irradiance_of_whole(frame.light, whole, irradiance);
+  for (std::size_t k = 0; k < whole.count; ++k)
+    if ((seen >> k & 1u) != 0) writer.write_whole(whole.pixels[k], irradiance[k]);
+  whole.count = 0;
+  return seen;
+}
+
+}  // namespace tenebra::soft::HWY_NAMESPACE
+HWY_AFTER_NAMESPACE();
+
+#endif

@@ -1,0 +1,54 @@
+// Groups made ready for the solvers: their candidates, sorted into the outline of meshes and what is clipped.
+#pragma once
+
+#include <cstdint>
+#include <span>
+#include <vector>
+
+#include "soft/occluders/candidate_order.h"
+#include "soft/occluders/family_candidates.h"
+#include "soft/silhouette/group_outline.h"
+#include "soft/solve/soft_frame.h"
+
+namespace tenebra::soft {
+
+/// A group that the solvers can begin with.
+struct PreparedGroup {
+  const GroupFrame& frame;
+  const GroupCandidates& candidates;
+  const GroupOutline& outline;             ///< empty where no meshes are worth one
+  std::span<const std::uint32_t> clipped;  ///< places of the candidates that are clipped, largest first
+};
+
+/// Prepares one group after the other in buffers of its own.
+class GroupPreparer {
+public:
+  explicit GroupPreparer(SimdLevel level) : find_candidates_(find_candidates_kernel(level)) {}
+
+  /// Valid until the next call, like all that is returned here.
+  PreparedGroup prepare(const SoftFrame& frame, const GroupTask& task);
+
+  /// Prepares groups that lie near each other, within `around`, at once. False where their meshes have an
+  /// outline: then each had better have one of its own, by prepare().
+  bool prepare_family(const SoftFrame& frame, const GroupFrame& around, std::span<const GroupTask> tasks);
+  /// Group `k` of the family, until restore().
+  PreparedGroup choose(std::size_t k, const GroupTask& task);
+  void restore() { family_.restore(candidates_); }
+
+private:
+  std::span<const std::uint32_t> sort_out(const SoftFrame& frame, const GroupFrame& group,
+                                          std::span<const std::uint32_t> triangles);
+
+  FindCandidates find_candidates_;
+  GroupCandidates candidates_;
+  OutlineFinder finder_;
+  GroupOutline outline_;
+  std::vector<std::uint32_t> rest_;  ///< places of the candidates that the outline leaves
+  CandidateOrder order_;
+  FamilyCandidates family_;
+};
+
+/// The places of all candidates.
+void take_all(const GroupCandidates& candidates, std::vector<std::uint32_t>& places);
+
+}  // namespace tenebra::soft

@@ -1,0 +1,34 @@
+#include "soft/solve/reference_targets.h"
+
+#include "soft/solve/solvers.h"
+
+#undef HWY_TARGET_INCLUDE
+#define HWY_TARGET_INCLUDE "soft/solve/reference_bsp_solver.cpp"
+#include <hwy/foreach_target.h>
+// After foreach_target.h
+#include "simd/dispatch.h"
+
+#include "soft/solve/bsp_solver-inl.h"
+
+HWY_BEFORE_NAMESPACE();
+namespace tenebra::soft::HWY_NAMESPACE {
+
+extern template class ClipSolver<OnePoint<double>>;  // reference_solver.cpp
+
+std::unique_ptr<PointsSolver> make_reference_bsp() {
+  return std::make_unique<BspSolver<double>>();
+}
+
+}  // namespace tenebra::soft::HWY_NAMESPACE
+HWY_AFTER_NAMESPACE();
+
+#if HWY_ONCE
+
+namespace tenebra::soft {
+
+std::unique_ptr<PointsSolver> make_reference_bsp_solver(SimdLevel level) {
+  return TENEBRA_DISPATCH(reference_level(level), make_reference_bsp)();
+}
+
+}  // namespace tenebra::soft
+#endif
