@@ -9,7 +9,7 @@ namespace tenebra::bench {
 namespace {
 
 constexpr double frames_a_second = 30.0;  // of clips that state no frames, as in `tenebra render`
-constexpr std::array pictures{HashPicture::hard, HashPicture::soft, HashPicture::ambient};
+constexpr std::array pictures{HashPicture::hard, HashPicture::wide, HashPicture::soft, HashPicture::ambient};
 
 }  // namespace
 
@@ -38,7 +38,7 @@ std::vector<HashSetting> few_hash_settings() {
 }
 
 HashSize hash_size(HashPicture picture, int scale) {
-  constexpr std::array<HashSize, 3> sizes{{{64, 64}, {32, 18}, {24, 14}}};
+  constexpr std::array<HashSize, 4> sizes{{{48, 48}, {256, 256}, {32, 18}, {24, 14}}};
   const HashSize size = sizes[static_cast<std::size_t>(picture)];
   return {size.width * scale, size.height * scale};
 }

@@ -23,8 +23,8 @@ std::vector<HashSetting> hash_settings();
 /// All vector levels, on one thread and on two in turn.
 std::vector<HashSetting> few_hash_settings();
 
-/// Pictures are smaller where a pixel takes longer.
-enum class HashPicture { hard, soft, ambient };
+/// Pictures are smaller where a pixel takes longer; `wide` has hard shadows by the fast variants only.
+enum class HashPicture { hard, wide, soft, ambient };
 struct HashSize {
   int width, height;
 };
@@ -35,7 +35,7 @@ HashSize hash_size(HashPicture picture, int scale);
 struct HashFrame {
   int number = 0;
   int scale = 1;
-  std::array<std::vector<std::uint32_t>, 3> ids;
+  std::array<std::vector<std::uint32_t>, 4> ids;
 };
 HashFrame make_hash_frame(const Scene& scene, int number, int scale);
 

@@ -1,6 +1,7 @@
 // The bits of the bundled scenes are those of tests/reference/hashes.txt, at every vector level of this
 // machine and on one thread and two.
 #include <fmt/format.h>
+
 #include <gtest/gtest.h>
 
 #include <algorithm>
@@ -99,7 +100,9 @@ TEST(PlainRaster, SeesTheNearestAndOfEqualOnesTheFirst) {
       const std::uint32_t id = ids[static_cast<std::size_t>(i * size + k)];
       const int up = size - 1 - i;
       EXPECT_TRUE(id == 2 || id == 3) << k << " " << i << ": " << id;
-      if (k != up) EXPECT_EQ(id, k > up ? 2u : 3u) << k << " " << i;
+      if (k != up) {
+        EXPECT_EQ(id, k > up ? 2u : 3u) << k << " " << i;
+      }
     }
   }
 }

@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <array>
 
 #include "base/fail.h"
 #include "bench/hash/hash_bits.h"
@@ -23,6 +24,7 @@ constexpr int table_positions = 81, table_directions = 64;
 constexpr std::array variants{Variant::tiles,        Variant::precise,        Variant::precise_sorted,
                               Variant::spheres,      Variant::spheres_sorted, Variant::precise_sea,
                               Variant::precise_eatp, Variant::precise_seatp};
+constexpr std::array fast_variants{Variant::tiles, Variant::precise_sorted};
 
 void add_view(const ViewRays& view, BitHash& hash) {
   for (const glm::vec3& v : {view.eye, view.d0, view.dx, view.dy}) hash.add_value(v);
@@ -50,7 +52,7 @@ void SceneHasher::see(const HashFrame& frame, HashPicture picture) {
   const auto [clip, time_s] = hash_instant(scene_, frame.number);
   const auto [width, height] = hash_size(picture, frame.scale);
   frame_.view = evaluate_camera(scene_, clip, time_s, 0, width, height);
-  const bool tiled = picture == HashPicture::hard;
+  const bool tiled = picture == HashPicture::hard || picture == HashPicture::wide;
   compute_visible_points(frame.ids[static_cast<std::size_t>(picture)], width, height, frame_.view,
                          frame_.triangles(), frame_.points,
                          tiled ? PointLayout::rows_and_tiles : PointLayout::rows);
@@ -76,28 +78,35 @@ void SceneHasher::hash_geometry(const HashFrame& frame) {
   add("view", view.value());
 }
 
-void SceneHasher::hash_masks(const std::string& light_name, const ShadowLight& light,
+void SceneHasher::hash_masks(const std::string& name, const ShadowLight& light,
                              std::span<const Variant> traced) {
-  const auto trace = [&](const std::string& name, const HardShadowConfig& config) {
+  const auto trace = [&](std::string_view variant, const HardShadowConfig& config) {
     hard_.trace_shadow_mask(frame_.points, frame_.view, frame_.triangles(), light, config, mask_);
-    add(fmt::format("hard.{}.{}", light_name, name), hash_of(mask_));
+    add(fmt::format("{}.{}", name, variant), hash_of(mask_));
   };
   for (const Variant variant : traced)
-    trace(std::string(variant_name(variant)), {.variant = variant, .simd = setting_.level});
+    trace(variant_name(variant), {.variant = variant, .simd = setting_.level});
   trace("culled", {.cull_front = true, .contact = ContactRule::none, .simd = setting_.level});
 }
 
-void SceneHasher::hash_hard(const HashFrame& frame) {
-  see(frame, HashPicture::hard);
-  add_points("hard");
+/// The first lights of the scene, and a sun.
+void SceneHasher::hash_lights(const char* prefix, std::span<const Variant> traced) {
+  add_points(prefix);
   for (std::size_t i = 0; i < std::min(most_lights, frame_.lights.size()); ++i) {
     const WorldLight& placed = frame_.lights[i];
     const Light& light = scene_.lights[static_cast<std::size_t>(placed.light)];
     // Of other lights the variants do what they do for the first.
-    hash_masks(std::to_string(i), render::shadow_light(light, placed),
-               std::span(variants).first(i == 0 ? 8 : 1));
+    hash_masks(fmt::format("{}.{}", prefix, i), render::shadow_light(light, placed),
+               i == 0 ? traced : traced.first(1));
   }
-  hash_masks("sun", {.directional = true, .to_light = to_sun}, variants);
+  hash_masks(fmt::format("{}.sun", prefix), {.directional = true, .to_light = to_sun}, traced);
+}
+
+void SceneHasher::hash_hard(const HashFrame& frame) {
+  see(frame, HashPicture::hard);
+  hash_lights("hard", variants);
+  see(frame, HashPicture::wide);
+  hash_lights("wide", fast_variants);
 }
 
 /// The first light that has an area or can be given one.

@@ -31,7 +31,8 @@ private:
   void add(std::string what, std::uint64_t hash) { items_.push_back({std::move(what), hash}); }
   void add_points(const char* prefix);
   void hash_geometry(const HashFrame& frame);
-  void hash_masks(const std::string& light_name, const ShadowLight& light, std::span<const Variant> traced);
+  void hash_masks(const std::string& name, const ShadowLight& light, std::span<const Variant> traced);
+  void hash_lights(const char* prefix, std::span<const Variant> traced);
   void hash_hard(const HashFrame& frame);
   Expected<AreaLight> area_light() const;
   Expected<void> hash_soft(const HashFrame& frame);
