@@ -1,8 +1,6 @@
 // Options whose value is one of a few words: one table per kind serves reading, messages and logs.
 #pragma once
 
-#include <fmt/format.h>
-
 #include <array>
 #include <string>
 #include <string_view>

@@ -1,10 +1,7 @@
 // What main and the commands of `tenebra` agree on.
 #pragma once
 
-#include <CLI/CLI.hpp>
-#include <functional>
-
-#include <tenebra/expected.h>
+#include "command_line.h"
 
 namespace tenebra::viewer {
 

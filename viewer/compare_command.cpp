@@ -65,17 +65,17 @@ Expected<int> parse_threshold(const std::string& text) {
 }  // namespace
 
 void add_compare_command(CLI::App& program, Run& run) {
-  CLI::App* command = program.add_subcommand("compare", "Say whether two pictures are the same");
+  CLI::App& command = add_command(program, "compare", "Say whether two pictures are the same");
   const auto options = std::make_shared<CompareOptions>();
-  command->footer(examples);
-  command->add_option("A", options->a, "A PNG picture")->required();
-  command->add_option("B", options->b, "Another of the same size")->required();
-  command->add_option("-o,--output", options->output, "Picture of the differences to write")
-      ->type_name("FILE.png");
-  add_value(*command, "--threshold", options->threshold, parse_threshold,
+  set_examples(command, examples);
+  add_text(command, "A", options->a, "A PNG picture").required();
+  add_text(command, "B", options->b, "Another of the same size").required();
+  add_text(command, "-o,--output", options->output, "Picture of the differences to write")
+      .type_name("FILE.png");
+  add_value(command, "--threshold", options->threshold, parse_threshold,
             "Largest difference in a channel that does not count, 0 to\n255 [0]")
-      ->type_name("T");
-  command->callback([options, &run] { run = [options] { return compare(*options); }; });
+      .type_name("T");
+  when_chosen(command, [options, &run] { run = [options] { return compare(*options); }; });
 }
 
 }  // namespace tenebra::viewer

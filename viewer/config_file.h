@@ -1,7 +1,9 @@
 // --config FILE: options of a command from a file.
 #pragma once
 
-#include <CLI/CLI.hpp>
+namespace CLI {
+class App;
+}
 
 namespace tenebra::viewer {
 

@@ -2,7 +2,7 @@
 // standard error gone there is no one left to tell.
 #pragma once
 
-#include <fmt/format.h>
+#include <fmt/core.h>
 
 #include <cstdio>
 #include <string>

@@ -42,16 +42,16 @@ Expected<int> convert(const ConvertOptions& options) {
 }  // namespace
 
 void add_convert_command(CLI::App& program, Run& run) {
-  CLI::App* command =
-      program.add_subcommand("convert", "Write a scene, with its animation, as binary glTF 2.0");
+  CLI::App& command =
+      add_command(program, "convert", "Write a scene, with its animation, as binary glTF 2.0");
   const auto options = std::make_shared<ConvertOptions>();
-  command->footer(examples);
-  command->add_option("IN", options->input, "Scene file: .gltf .glb .aff .nff .obj")->required();
-  command->add_option("OUT", options->output, "File to write, .glb")->required();
-  add_value(*command, "--fps", options->fps, parse_positive, "Keys per second for baked splines [30]")
-      ->type_name("F");
-  command->add_flag("--quiet", options->quiet, "No warnings");
-  command->callback([options, &run] { run = [options] { return convert(*options); }; });
+  set_examples(command, examples);
+  add_text(command, "IN", options->input, "Scene file: .gltf .glb .aff .nff .obj").required();
+  add_text(command, "OUT", options->output, "File to write, .glb").required();
+  add_value(command, "--fps", options->fps, parse_positive, "Keys per second for baked splines [30]")
+      .type_name("F");
+  add_flag(command, "--quiet", options->quiet, "No warnings");
+  when_chosen(command, [options, &run] { run = [options] { return convert(*options); }; });
 }
 
 }  // namespace tenebra::viewer

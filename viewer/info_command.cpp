@@ -3,6 +3,7 @@
 #include <memory>
 #include <nlohmann/json.hpp>
 #include <numbers>
+#include <string_view>
 
 #include "command.h"
 #include "console.h"
@@ -174,15 +175,15 @@ Expected<int> info(const InfoOptions& options) {
 }  // namespace
 
 void add_info_command(CLI::App& program, Run& run) {
-  CLI::App* command = program.add_subcommand(
-      "info", "Say what a scene contains: counts, bounds, lights, cameras, animations");
+  CLI::App& command =
+      add_command(program, "info", "Say what a scene contains: counts, bounds, lights, cameras, animations");
   const auto options = std::make_shared<InfoOptions>();
-  command->footer(examples);
-  command->add_option("SCENE", options->scene, "Scene file: .gltf .glb .aff .nff .obj")->required();
-  command->add_flag("--json", options->json, "Print JSON");
-  add_value(*command, "--fps", options->fps, parse_positive, "Frames per second, to count frames [30]")
-      ->type_name("F");
-  command->callback([options, &run] { run = [options] { return info(*options); }; });
+  set_examples(command, examples);
+  add_text(command, "SCENE", options->scene, "Scene file: .gltf .glb .aff .nff .obj").required();
+  add_flag(command, "--json", options->json, "Print JSON");
+  add_value(command, "--fps", options->fps, parse_positive, "Frames per second, to count frames [30]")
+      .type_name("F");
+  when_chosen(command, [options, &run] { run = [options] { return info(*options); }; });
 }
 
 }  // namespace tenebra::viewer

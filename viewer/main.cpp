@@ -1,6 +1,8 @@
 // The program `tenebra`: picks the command, and turns every failure into one sentence and an exit code.
 
 #include <fmt/core.h>
+
+#include <CLI/CLI.hpp>
 #include <csignal>
 #include <cstdio>
 #include <exception>
@@ -9,7 +11,6 @@
 
 #include "command.h"
 #include "console.h"
-#include "option_values.h"
 
 namespace {
 

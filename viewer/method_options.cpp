@@ -1,5 +1,7 @@
 #include "method_options.h"
 
+#include <initializer_list>
+
 #include "base/fail.h"
 #include "choices.h"
 
@@ -18,13 +20,13 @@ constexpr const char* rays_option = "--ao-rays";
 constexpr const char* downscale_option = "--ao-downscale";
 
 template <const auto& choices, class Target>
-CLI::Option* add_choice(CLI::App& command, const char* name, Target& target, const char* help) {
+AddedOption add_choice(CLI::App& command, const char* name, Target& target, const char* help) {
   const auto parse = +[](const std::string& text) { return parse_choice(choices, text); };
-  return add_value(command, name, target, parse, help)->type_name(choice_list(choices, "|"));
+  return add_value(command, name, target, parse, help).type_name(choice_list(choices, "|"));
 }
 
-void set_group(std::initializer_list<CLI::Option*> options, const char* group) {
-  for (CLI::Option* option : options) option->group(group);
+void set_group(std::initializer_list<AddedOption> options, const char* group) {
+  for (const AddedOption option : options) option.group(group);
 }
 
 Expected<Variant> parse_variant(const std::string& text) {
@@ -100,23 +102,23 @@ void add_common(CLI::App& command, MethodOptions& options) {
            "--ao-downscale 2\n(penumbrae off by 3 to 8/255 RMS, occlusion by 3 to 7);\nbalanced: the "
            "defaults (exact; occlusion by 2 to 6);\nexact: --ao-rays 256 (2 to 5); docs/trade.md has all\n"
            "figures. An option that is given itself wins")
-           ->type_name("fast|balanced|exact"),
+           .type_name("fast|balanced|exact"),
        add_choice<shadow_choices>(command, "--shadows", render.shadows,
                                   "hard: each light as a point; soft: with its area;\nboth exact and "
                                   "without noise [hard]"),
        add_value(command, "--light", render.light, parse_light,
                  "Light with this light alone, by number, or with all [all]")
-           ->type_name("N|all"),
+           .type_name("N|all"),
        add_value(command, "--exposure", render.exposure, parse_factor,
                  "Multiplies all light by this factor [1]")
-           ->type_name("E"),
+           .type_name("E"),
        add_value(command, "--threads", render.threads, parse_threads,
                  "Threads for shadows and ambient occlusion [0: all cores]")
-           ->type_name("N"),
+           .type_name("N"),
        add_value(command, "--simd", render.hard.simd, parse_simd,
                  "Vector instructions: auto, scalar, sse4, avx2 or avx512;\nthe masks are the same with "
                  "each [auto]")
-           ->type_name("LEVEL")},
+           .type_name("LEVEL")},
       shadow_group);
 }
 
@@ -125,7 +127,7 @@ void add_hard(CLI::App& command, MethodOptions& options) {
       {add_value(command, "--variant", options.render.hard.variant, parse_variant,
                  "Method: Tiles, or the paper's Precise, PreciseSorted, Spheres,\nSpheresSorted, PreciseSEA, "
                  "PreciseEATP or PreciseSEATP;\nthe mask is the same with each [Tiles]")
-           ->type_name("V"),
+           .type_name("V"),
        add_choice<sample_choices>(command, "--samples", options.render.samples,
                                   "Where shadow rays start: at exact points, from triangle\nids, or as in "
                                   "the paper from the depth buffer [ids]"),
@@ -138,18 +140,18 @@ void add_hard(CLI::App& command, MethodOptions& options) {
 void add_soft(CLI::App& command, MethodOptions& options) {
   SoftShadowConfig& soft = options.render.soft;
   render::AreaLightSettings& lights = options.render.area_lights;
-  auto* size =
+  const auto size =
       add_value(command, "--light-size", options.light_size, parse_light_size,
                 "Turns point and spot lights into rectangles of this size,\nin metres, or (4%) in percent "
                 "of the scene's diagonal;\nthey keep their light [they stay points]")
-          ->type_name("W[xH][%]");
-  auto* facing =
+          .type_name("W[xH][%]");
+  const auto facing =
       add_value(command, "--light-facing", lights.facing, parse_vector,
                 "Point that those rectangles face [the scene's centre;\nspot lights: where they shine]")
-          ->type_name("X,Y,Z")
-          ->needs(size);
-  auto* emissive = command.add_flag("--emissive-lights", lights.emissive_quads,
-                                    "Flat convex meshes with an emissive material are lights too");
+          .type_name("X,Y,Z")
+          .needs(size);
+  const auto emissive = add_flag(command, "--emissive-lights", lights.emissive_quads,
+                                 "Flat convex meshes with an emissive material are lights too");
   set_group(
       {size, facing, emissive,
        add_choice<solver_choices>(command, "--soft-solver", soft.solver,
@@ -166,7 +168,7 @@ void add_soft(CLI::App& command, MethodOptions& options) {
        add_value(command, points_option, options.render.soft_points, parse_points,
                  "Replaces each area light by N points with exact hard\nshadows: quicker, but with steps "
                  "in the penumbra\n[0: exact]")
-           ->type_name("N")},
+           .type_name("N")},
       soft_group);
 }
 
@@ -181,33 +183,33 @@ void add_ao(CLI::App& command, AoConfig& ao) {
        add_choice<layout_choices>(command, "--ao-layout", ao.layout,
                                   "What a field stores: chords from entry to exit, or as in\nthe paper "
                                   "positions x directions [chords]"),
-       add_value(command, rays_option, ao.rays, parse_at_least_one, "Rays per point [64]")->type_name("N"),
+       add_value(command, rays_option, ao.rays, parse_at_least_one, "Rays per point [64]").type_name("N"),
        add_value(command, downscale_option, ao.downscale, parse_downscale,
                  "Computes one of N x N pixels and blurs the others from\nsimilar ones [1: every pixel]")
-           ->type_name("N"),
+           .type_name("N"),
        add_value(command, "--ao-distance", ao.distance_m, parse_positive,
                  "Distance in metres beyond which nothing occludes [a\ntwentieth of the scene's diagonal]")
-           ->type_name("D"),
+           .type_name("D"),
        add_value(command, "--ao-positions", ao.positions, parse_at_least_one,
                  "Samples on an object's bounding sphere [4225]")
-           ->type_name("P"),
+           .type_name("P"),
        add_value(command, "--ao-directions", ao.directions, parse_square_count,
                  "Directions per sample, 1024 or 32x32 [1024]")
-           ->type_name("D"),
+           .type_name("D"),
        add_value(command, "--ao-bits", ao.bits, parse_bits, "Bits per stored distance [8]")
-           ->type_name("1|8|32"),
+           .type_name("1|8|32"),
        add_choice<deforming_choices>(command, "--ao-deforming", ao.deforming,
                                      "What deforms has no field: meet it by rays, or leave it\nout [rays]"),
        add_value(
            command, "--ao-cache", ao.cache, parse_cache,
            "Folder that keeps built fields for the next run\n[$XDG_CACHE_HOME/tenebra or ~/.cache/tenebra]")
-           ->type_name("FOLDER|none")},
+           .type_name("FOLDER|none")},
       ao_group);
 }
 
 /// Why the chosen methods do not look at `option`; empty if they do.
-std::string idle_for(const CLI::Option& option, const render::RenderSettings& render) {
-  const std::string &name = option.get_name(), &group = option.get_group();
+std::string idle_for(const GivenOption& option, const render::RenderSettings& render) {
+  const auto& [name, group] = option;
   const bool soft = render.shadows == render::ShadowMode::soft, ao = render.ao.mode != AoMode::none;
   if (name == quality_option && !soft && !ao) return "without --shadows soft or --ao";
   if (group == hard_group && render.shadows == render::ShadowMode::none) return "with --shadows none";
@@ -231,11 +233,10 @@ void add_method_options(CLI::App& command, MethodOptions& options) {
 void settle_quality(const CLI::App& command, MethodOptions& options) {
   if (!options.quality) return;
   const render::RenderSettings given = options.render;
-  const auto was_given = [&](const char* name) { return command.get_option(name)->count() > 0; };
   render::apply_quality(*options.quality, options.render);
-  if (was_given(points_option)) options.render.soft_points = given.soft_points;
-  if (was_given(rays_option)) options.render.ao.rays = given.ao.rays;
-  if (was_given(downscale_option)) options.render.ao.downscale = given.ao.downscale;
+  if (was_given(command, points_option)) options.render.soft_points = given.soft_points;
+  if (was_given(command, rays_option)) options.render.ao.rays = given.ao.rays;
+  if (was_given(command, downscale_option)) options.render.ao.downscale = given.ao.downscale;
 }
 
 Expected<void> check_method_options(const MethodOptions& options) {
@@ -253,10 +254,9 @@ Expected<void> check_method_options(const MethodOptions& options) {
 
 std::vector<std::string> idle_method_options(const CLI::App& command, const MethodOptions& options) {
   std::vector<std::string> sentences;
-  for (const CLI::Option* option : command.get_options()) {
-    if (option->count() == 0) continue;
-    if (const std::string lack = idle_for(*option, options.render); !lack.empty())
-      sentences.push_back(fmt::format("{} does nothing {}", option->get_name(), lack));
+  for (const GivenOption& option : given_options(command)) {
+    if (const std::string lack = idle_for(option, options.render); !lack.empty())
+      sentences.push_back(fmt::format("{} does nothing {}", option.name, lack));
   }
   return sentences;
 }

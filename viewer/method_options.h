@@ -2,11 +2,11 @@
 // and `tenebra view` share them.
 #pragma once
 
-#include <CLI/CLI.hpp>
 #include <optional>
 #include <string>
 #include <vector>
 
+#include "command_line.h"
 #include "option_values.h"
 #include "render/quality.h"
 

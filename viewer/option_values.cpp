@@ -4,6 +4,7 @@
 
 #include <charconv>
 #include <cmath>
+#include <cstdint>
 #include <cstdlib>
 #include <string_view>
 #include <vector>
@@ -45,20 +46,6 @@ std::optional<int> frame_from(std::string_view text) {
 }
 
 }  // namespace
-
-std::string sentence_of(const CLI::ParseError& error) {
-  std::string text = error.what();
-  constexpr std::string_view required = ": 1 required ", missing = " missing";
-  const std::size_t at = text.find(required);
-  if (at == std::string::npos || !text.ends_with(missing)) return text;
-  text.resize(text.size() - missing.size());
-  return text.replace(at, required.size(), ": found no value, expected ");
-}
-
-std::string without_gap(std::string sentence) {
-  constexpr std::string_view gap = "found , ";
-  return sentence.starts_with(gap) ? sentence.replace(0, gap.size(), "found nothing, ") : sentence;
-}
 
 Expected<Size> parse_size(const std::string& text) {
   const auto parts = split(text, 'x');

@@ -2,12 +2,10 @@
 // expected.
 #pragma once
 
-#include <CLI/CLI.hpp>
 #include <filesystem>
 #include <glm/glm.hpp>
 #include <optional>
 #include <string>
-#include <utility>
 
 #include <tenebra/expected.h>
 
@@ -47,28 +45,5 @@ Expected<LightSize> parse_light_size(const std::string& text);    ///< W, WxH, W
 /// Folder for files that can be made again, by the XDG rules: $XDG_CACHE_HOME/tenebra, else
 /// $HOME/.cache/tenebra; empty where neither is set.
 std::filesystem::path default_cache_folder();
-
-/// CLI11's "--size: 1 required WxH missing" in the words of all other refusals, the rest as it stands.
-std::string sentence_of(const CLI::ParseError& error);
-
-/// "found , expected ..." of an empty text as "found nothing, expected ...".
-std::string without_gap(std::string sentence);
-
-/// Adds an option whose value `parse` reads into `target`; its failure becomes "NAME: sentence".
-/// Given twice, the last counts. `target` must live as long as `command`.
-template <class Target, class Value>
-CLI::Option* add_value(CLI::App& command, const std::string& name, Target& target,
-                       Expected<Value> (*parse)(const std::string&), const std::string& help) {
-  return command
-      .add_option_function<std::string>(
-          name,
-          [&target, parse, name](const std::string& text) {
-            auto value = parse(text);
-            if (!value) throw CLI::ValidationError(name, without_gap(value.error().message));
-            target = std::move(*value);
-          },
-          help)
-      ->take_last();
-}
 
 }  // namespace tenebra::viewer

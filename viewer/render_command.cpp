@@ -180,13 +180,13 @@ Expected<int> render(const RenderOptions& options) {
 }  // namespace
 
 void add_render_command(CLI::App& program, Run& run) {
-  CLI::App* command =
-      program.add_subcommand("render", "Write pictures with shadows, masks and a log of frame times");
+  CLI::App& command =
+      add_command(program, "render", "Write pictures with shadows, masks and a log of frame times");
   const auto options = std::make_shared<RenderOptions>();
-  add_render_options(*command, *options);
-  command->callback([options, command, &run] {
-    settle_quality(*command, options->method);
-    options->warnings = idle_method_options(*command, options->method);
+  add_render_options(command, *options);
+  when_chosen(command, [options, &command, &run] {
+    settle_quality(command, options->method);
+    options->warnings = idle_method_options(command, options->method);
     run = [options] { return render(*options); };
   });
 }

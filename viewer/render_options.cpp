@@ -40,35 +40,35 @@ Expected<std::optional<OutputPattern>> parse_pictures(const std::string& text) {
   return std::optional<OutputPattern>(std::move(*pattern));
 }
 
-void read_masks(const std::vector<std::string>& names, std::vector<OutputPattern>& masks) {
+Expected<void> read_masks(const std::vector<std::string>& names, std::vector<OutputPattern>& masks) {
   masks.clear();
   for (const std::string& name : names) {
     auto pattern = OutputPattern::parse_mask(name);
-    if (!pattern) throw CLI::ValidationError("--mask", pattern.error().message);
+    if (!pattern) return tl::unexpected(pattern.error());
     masks.push_back(std::move(*pattern));
   }
+  return {};
 }
 
 void add_output_options(CLI::App& command, RenderOptions& options) {
   options.pictures = OutputPattern::parse("out/%04d.png").value();
   add_value(command, "-o,--output", options.pictures, parse_pictures,
             "Names of the pictures, %04d is the frame; none: no\npictures [out/%04d.png]")
-      ->type_name("FILE.png");
-  command
-      .add_option_function<std::vector<std::string>>(
-          "--mask", [&options](const std::vector<std::string>& names) { read_masks(names, options.masks); },
-          "Shadow masks: 255 lit; 0 in shadow, facing away or\nbackground; soft: in between, by how much of "
-          "the "
-          "light is\nvisible; .pfm: in 32 bits; several lights add _L0, _L1,\n...; may be repeated")
-      ->allow_extra_args(false)
-      ->type_name("FILE.png|FILE.pfm");
-  command.add_option("--log", options.log, "Log: times and counts of each frame")->type_name("FILE.csv");
-  command.add_option("--trace", options.trace, "The same times for Perfetto or chrome://tracing")
-      ->type_name("FILE.json");
-  command.add_flag("--quiet", options.quiet, "No progress, warnings or summary");
+      .type_name("FILE.png");
+  add_texts(
+      command, "--mask",
+      [&options](const std::vector<std::string>& names) { return read_masks(names, options.masks); },
+      "Shadow masks: 255 lit; 0 in shadow, facing away or\nbackground; soft: in between, by how much of "
+      "the "
+      "light is\nvisible; .pfm: in 32 bits; several lights add _L0, _L1,\n...; may be repeated")
+      .type_name("FILE.png|FILE.pfm");
+  add_text(command, "--log", options.log, "Log: times and counts of each frame").type_name("FILE.csv");
+  add_text(command, "--trace", options.trace, "The same times for Perfetto or chrome://tracing")
+      .type_name("FILE.json");
+  add_flag(command, "--quiet", options.quiet, "No progress, warnings or summary");
   add_value(command, "--context", options.context, parse_context,
             "Offscreen OpenGL to use [auto: EGL, else OSMesa]")
-      ->type_name("auto|egl|osmesa");
+      .type_name("auto|egl|osmesa");
 }
 
 bool draws_several_frames(const RenderOptions& options) {
@@ -101,13 +101,13 @@ Expected<void> check_masks(const RenderOptions& options, bool several) {
 }  // namespace
 
 void add_render_options(CLI::App& command, RenderOptions& options) {
-  command.footer(examples);
+  set_examples(command, examples);
   add_scene_options(command, options.scene);
-  command.get_option("SCENE")->required();
+  option_of(command, "SCENE").required();
   add_value(command, "--frames", options.frames, parse_frame_range,
             "Frames to render; 0:99:10 for every tenth [0, the first]")
-      ->type_name("A:B[:STEP]|all")
-      ->excludes(command.get_option("--time"));
+      .type_name("A:B[:STEP]|all")
+      .excludes(option_of(command, "--time"));
   add_method_options(command, options.method);
   add_output_options(command, options);
   add_config_option(command);

@@ -1,7 +1,6 @@
 // The options of `tenebra render`: scene and method as every command has them, and the files it writes.
 #pragma once
 
-#include <CLI/CLI.hpp>
 #include <optional>
 #include <string>
 #include <vector>

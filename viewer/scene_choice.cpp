@@ -1,6 +1,7 @@
 #include "scene_choice.h"
 
 #include <charconv>
+#include <string_view>
 #include "base/fail.h"
 #include "console.h"
 

@@ -15,72 +15,68 @@ Expected<int> parse_cone_sides(const std::string& text) {
 }
 
 void add_files(CLI::App& command, SceneOptions& options) {
-  command.add_option("SCENE", options.file, "Scene file: .gltf .glb .aff .nff .obj");
-  command
-      .add_option("--no-cast", options.no_cast,
-                  "Keeps a mesh, material or (AFF) FILE:LINE from casting\nshadows; may be repeated")
-      ->type_name("NAME")
-      ->allow_extra_args(false)
-      ->group(scene_group);
+  add_text(command, "SCENE", options.file, "Scene file: .gltf .glb .aff .nff .obj");
+  add_texts(command, "--no-cast", options.no_cast,
+            "Keeps a mesh, material or (AFF) FILE:LINE from casting\nshadows; may be repeated")
+      .type_name("NAME")
+      .group(scene_group);
   add_value(command, "--cone-sides", options.import.cone_sides, parse_cone_sides,
             "AFF: sides of cones and cylinders [64; 8 for the paper's\nnumber of triangles]")
-      ->type_name("N")
-      ->group(scene_group);
+      .type_name("N")
+      .group(scene_group);
 }
 
 void add_lights(CLI::App& command, SceneOptions& options) {
-  command
-      .add_option_function<std::vector<std::string>>(
-          "--set-light",
-          [&options](const std::vector<std::string>& texts) {
-            for (const std::string& text : texts) {
-              if (auto parsed = parse_light_edit(text, options.lights); !parsed) {
-                throw CLI::ValidationError("--set-light", parsed.error().message);
-              }
-            }
-          },
-          "\"N KEY=VALUE ...\" changes light N: on=0,\nintensity=FACTOR, move=X,Y,Z (metres), size=WxH "
-          "(metres,\nfor soft shadows); may be repeated")
-      ->type_name("TEXT")
-      ->allow_extra_args(false)
-      ->group(scene_group);
+  const auto read = [&options](const std::vector<std::string>& texts) -> Expected<void> {
+    for (const std::string& text : texts) {
+      if (auto parsed = parse_light_edit(text, options.lights); !parsed) return parsed;
+    }
+    return {};
+  };
+  add_texts(command, "--set-light", read,
+            "\"N KEY=VALUE ...\" changes light N: on=0,\nintensity=FACTOR, move=X,Y,Z (metres), size=WxH "
+            "(metres,\nfor soft shadows); may be repeated")
+      .type_name("TEXT")
+      .group(scene_group);
 }
 
 void add_moment(CLI::App& command, SceneOptions& options) {
   add_value(command, "--time", options.time_s, parse_time, "Time of the animation to show, in seconds")
-      ->type_name("S")
-      ->group(scene_group);
+      .type_name("S")
+      .group(scene_group);
   add_value(command, "--fps", options.fps, parse_positive,
             "Frames per second where the scene does not number its\nframes itself (glTF) [30]")
-      ->type_name("F")
-      ->group(scene_group);
-  command.add_option("--clip", options.clip, "Animation to play, by name or number [the first]")
-      ->type_name("NAME|N")
-      ->group(scene_group);
+      .type_name("F")
+      .group(scene_group);
+  add_text(command, "--clip", options.clip, "Animation to play, by name or number [the first]")
+      .type_name("NAME|N")
+      .group(scene_group);
 }
 
 void add_camera(CLI::App& command, SceneOptions& options) {
-  auto* camera =
-      command.add_option("--camera", options.camera, "Camera of the scene, by name or number [the first]")
-          ->type_name("NAME|N");
-  auto* eye =
+  const auto camera =
+      add_text(command, "--camera", options.camera, "Camera of the scene, by name or number [the first]")
+          .type_name("NAME|N");
+  const auto eye =
       add_value(command, "--eye", options.eye, parse_vector, "A camera at this place instead, in world space")
-          ->type_name("X,Y,Z")
-          ->excludes(camera);
-  auto* look_at = add_value(command, "--look-at", options.look_at, parse_vector, "Point that it looks at")
-                      ->type_name("X,Y,Z");
-  auto* up = add_value(command, "--up", options.up, parse_vector, "Direction that is up [0,1,0]")
-                 ->type_name("X,Y,Z");
-  eye->needs(look_at);
-  look_at->needs(eye);
-  up->needs(eye);
-  auto* fov = add_value(command, "--fov", options.fov_deg, parse_field_of_view,
-                        "Full vertical field of view in degrees [the camera's; 45 with --eye]")
-                  ->type_name("D");
-  auto* size = add_value(command, "--size", options.size, parse_size,
-                         "Size of the picture in pixels [800x600, or 800 wide with\nthe camera's aspect]")
-                   ->type_name("WxH");
-  for (CLI::Option* option : {camera, eye, look_at, up, fov, size}) option->group(camera_group);
+          .type_name("X,Y,Z")
+          .excludes(camera);
+  const auto look_at =
+      add_value(command, "--look-at", options.look_at, parse_vector, "Point that it looks at")
+          .type_name("X,Y,Z");
+  const auto up =
+      add_value(command, "--up", options.up, parse_vector, "Direction that is up [0,1,0]").type_name("X,Y,Z");
+  eye.needs(look_at);
+  look_at.needs(eye);
+  up.needs(eye);
+  const auto fov = add_value(command, "--fov", options.fov_deg, parse_field_of_view,
+                             "Full vertical field of view in degrees [the camera's; 45 with --eye]")
+                       .type_name("D");
+  const auto size =
+      add_value(command, "--size", options.size, parse_size,
+                "Size of the picture in pixels [800x600, or 800 wide with\nthe camera's aspect]")
+          .type_name("WxH");
+  for (const AddedOption option : {camera, eye, look_at, up, fov, size}) option.group(camera_group);
 }
 
 }  // namespace

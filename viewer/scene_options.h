@@ -2,11 +2,11 @@
 // view` share them.
 #pragma once
 
-#include <CLI/CLI.hpp>
 #include <optional>
 #include <string>
 #include <vector>
 
+#include "command_line.h"
 #include "formats/import_scene.h"
 #include "light_edits.h"
 #include "option_values.h"
@@ -34,7 +34,7 @@ struct SceneOptions {
 
 /// Adds SCENE, --no-cast, --cone-sides, --set-light, --time, --fps, --clip and those of the camera, --size
 /// too; they are read into `options`, which must live as long. A command makes SCENE required with
-/// command.get_option("SCENE")->required().
+/// option_of(command, "SCENE").required().
 void add_scene_options(CLI::App& command, SceneOptions& options);
 
 /// What single options cannot check: combinations.

@@ -52,13 +52,13 @@ Expected<int> view(ViewOptions options) {
 }  // namespace
 
 void add_view_command(CLI::App& program, Run& run) {
-  CLI::App* command =
-      program.add_subcommand("view", "Open a window: watch, switch methods, see what each costs");
+  CLI::App& command =
+      add_command(program, "view", "Open a window: watch, switch methods, see what each costs");
   const auto options = std::make_shared<ViewOptions>();
-  command->footer(examples);
-  add_view_options(*command, *options);
-  command->callback([options, command, &run] {
-    settle_quality(*command, options->method);
+  set_examples(command, examples);
+  add_view_options(command, *options);
+  when_chosen(command, [options, &command, &run] {
+    settle_quality(command, options->method);
     run = [options] { return view(*options); };
   });
 }

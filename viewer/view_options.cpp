@@ -23,9 +23,9 @@ constexpr std::array navigate_choices{Choice<CameraMode>{"scene", CameraMode::sc
                                       Choice<CameraMode>{"fly", CameraMode::fly}};
 
 template <const auto& choices, class Target>
-CLI::Option* add_choice(CLI::App& command, const char* name, Target& target, const char* help) {
+AddedOption add_choice(CLI::App& command, const char* name, Target& target, const char* help) {
   const auto parse = +[](const std::string& text) { return parse_choice(choices, text); };
-  return add_value(command, name, target, parse, help)->type_name(choice_list(choices, "|"));
+  return add_value(command, name, target, parse, help).type_name(choice_list(choices, "|"));
 }
 
 Expected<double> parse_speed(const std::string& text) {
@@ -53,74 +53,68 @@ Expected<std::optional<OutputPattern>> parse_numbered(const std::string& text) {
 /// Slot B from the text of its options, on top of slot A's.
 Expected<MethodOptions> parse_method(const std::string& text, const MethodOptions& base) {
   MethodOptions method = base;
-  method.quality.reset();  // what it stands for is in the settings
-  CLI::App app;
-  app.set_help_flag();  // --help is no method
-  add_method_options(app, method);
+  method.quality.reset();               // what it stands for is in the settings
+  const auto command = lone_command();  // --help is no method
+  add_method_options(*command, method);
   const auto cache = base.render.ao.cache;  // add_method_options sets its default
   method.render.ao.cache = cache;
-  try {
-    app.parse(text);
-  } catch (const CLI::ParseError& error) {
-    return base::fail("--compare: {}", sentence_of(error));
-  }
-  settle_quality(app, method);
+  if (auto parsed = parse_arguments(*command, text); !parsed)
+    return base::fail("--compare: {}", parsed.error().message);
+  settle_quality(*command, method);
   if (auto checked = check_method_options(method); !checked)
     return base::fail("--compare: {}", checked.error().message);
   return method;
 }
 
 void add_window_options(CLI::App& command, ViewOptions& options) {
-  const auto group = [](CLI::Option* option) { option->group(window_group); };
+  const auto group = [](AddedOption option) { option.group(window_group); };
   group(add_value(command, "--window", options.window, parse_size, "Size of the window [1280x720]")
-            ->type_name("WxH"));
-  group(command.add_flag("--panel,!--no-panel", options.panel, "Show the panel at the right [yes]"));
-  group(command.add_flag("--play", options.play, "Start playing"));
+            .type_name("WxH"));
+  group(add_flag(command, "--panel,!--no-panel", options.panel, "Show the panel at the right [yes]"));
+  group(add_flag(command, "--play", options.play, "Start playing"));
   group(add_value(command, "--speed", options.speed, parse_speed, "Speed of playing; below 0: backwards [1]")
-            ->type_name("-4..4"));
-  group(command.add_flag("--loop,!--no-loop", options.loop, "Start again at the end [yes]"));
-  group(command.add_flag("--fixed-step", options.fixed_step,
-                         "Shows every frame, however long it takes, instead of\nfollowing the clock"));
+            .type_name("-4..4"));
+  group(add_flag(command, "--loop,!--no-loop", options.loop, "Start again at the end [yes]"));
+  group(add_flag(command, "--fixed-step", options.fixed_step,
+                 "Shows every frame, however long it takes, instead of\nfollowing the clock"));
   group(add_choice<navigate_choices>(
       command, "--navigate", options.navigate,
       "Camera: the scene's, or one that orbits or flies\n[scene; orbit with --eye]"));
 }
 
 void add_compare_options(CLI::App& command, ViewOptions& options) {
-  const auto group = [](CLI::Option* option) { option->group(compare_group); };
-  group(command
-            .add_option("--compare", options.compare_text,
-                        "--compare=\"OPTIONS\": a second method, B, which is this one\n(A) with these shadow "
-                        "or ao options")
-            ->type_name("TEXT"));
+  const auto group = [](AddedOption option) { option.group(compare_group); };
+  group(add_text(command, "--compare", options.compare_text,
+                 "--compare=\"OPTIONS\": a second method, B, which is this one\n(A) with these shadow "
+                 "or ao options")
+            .type_name("TEXT"));
   group(add_choice<show_choices>(command, "--show", options.show, "How A and B are shown [wipe]"));
   group(add_value(command, "--wipe", options.wipe, parse_wipe, "Place of the wipe, 0 left to 1 right [0.5]")
-            ->type_name("0..1"));
+            .type_name("0..1"));
   group(add_choice<overlay_choices>(command, "--overlay", options.overlay,
                                     "nodes: how many node tests each pixel took; classes: how\nsoft shadows "
                                     "found each pixel's answer [none]"));
 }
 
 void add_output_options(CLI::App& command, ViewOptions& options) {
-  const auto group = [](CLI::Option* option) { option->group(output_group); };
+  const auto group = [](AddedOption option) { option.group(output_group); };
   options.shots = OutputPattern::parse("tenebra_%04d.png").value();
   group(
       add_value(command, "--shots", options.shots, parse_numbered, "Names of screenshots [tenebra_%04d.png]")
-          ->type_name("FILE.png"));
+          .type_name("FILE.png"));
   group(add_value(command, "--record", options.record, parse_numbered,
                   "Plays the animation once, frame by frame, and writes every\npicture; %04d is the frame")
-            ->type_name("FILE.png"));
-  group(command
-            .add_option("--log", options.log,
-                        "Log: times and counts of each frame, as tenebra render\nwrites it")
-            ->type_name("FILE.csv"));
+            .type_name("FILE.png"));
+  group(add_text(command, "--log", options.log,
+                 "Log: times and counts of each frame, as tenebra render\nwrites it")
+            .type_name("FILE.csv"));
   group(
       add_value(command, "--exit-after", options.exit_after, parse_count, "Quit after N pictures [0: never]")
-          ->type_name("N"));
-  group(command.add_option("--report", options.report, "What happens, for scripts: one JSON object per line")
-            ->type_name("FILE"));
-  group(command.add_flag("--gl-debug", options.gl_debug,
-                         "Use OpenGL debug contexts; their messages go to the report"));
+          .type_name("N"));
+  group(add_text(command, "--report", options.report, "What happens, for scripts: one JSON object per line")
+            .type_name("FILE"));
+  group(add_flag(command, "--gl-debug", options.gl_debug,
+                 "Use OpenGL debug contexts; their messages go to the report"));
   group(add_value(
             command, "--context", options.context,
             +[](const std::string& text) -> Expected<gl::ContextKind> {
@@ -128,7 +122,7 @@ void add_output_options(CLI::App& command, ViewOptions& options) {
               return base::fail("found {}, expected auto, egl or osmesa", text);
             },
             "OpenGL that draws the pictures [auto: EGL, else OSMesa]")
-            ->type_name("auto|egl|osmesa"));
+            .type_name("auto|egl|osmesa"));
 }
 
 }  // namespace

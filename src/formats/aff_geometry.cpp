@@ -1,5 +1,5 @@
 // Meshes, polygons, animated triangles and round shapes.
-#include <fmt/format.h>
+#include <fmt/core.h>
 
 #include <algorithm>
 #include <cmath>

@@ -2,7 +2,7 @@
 
 #include "base/fail.h"
 
-#include <fmt/format.h>
+#include <fmt/core.h>
 
 #include <cmath>
 #include <glm/gtc/quaternion.hpp>

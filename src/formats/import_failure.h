@@ -1,7 +1,7 @@
 // How the readers of this folder give up: one sentence thrown inside, caught where the folder's API begins.
 #pragma once
 
-#include <fmt/format.h>
+#include <fmt/core.h>
 
 #include <stdexcept>
 #include <utility>

@@ -1,6 +1,6 @@
 #include "render/emissive.h"
 
-#include <fmt/format.h>
+#include <fmt/core.h>
 
 #include <algorithm>
 #include <cmath>

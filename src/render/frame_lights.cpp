@@ -1,6 +1,6 @@
 #include "render/frame_lights.h"
 
-#include <fmt/format.h>
+#include <fmt/core.h>
 
 #include "base/fail.h"
 #include "render/emissive.h"

@@ -1,5 +1,5 @@
 // What is added to a scene that lacks a camera or a light, and what is taken out of its casters.
-#include <fmt/format.h>
+#include <fmt/core.h>
 
 #include <algorithm>
 #include <cmath>

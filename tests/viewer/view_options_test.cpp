@@ -2,6 +2,8 @@
 // way to their arguments and back.
 #include <gtest/gtest.h>
 
+#include <CLI/CLI.hpp>
+
 #include "method_arguments.h"
 #include "picture_difference.h"
 #include "view_options.h"

@@ -1,6 +1,6 @@
 #include "window/camera_control.h"
 
-#include <fmt/format.h>
+#include <fmt/core.h>
 
 #include <algorithm>
 #include <cmath>

@@ -1,5 +1,6 @@
 // Scene and method: what is looked at, how its light is computed.
 #include <fmt/core.h>
+#include <cmath>
 #include <filesystem>
 
 #include "window/panels.h"

@@ -1,6 +1,7 @@
 #include "window/render_worker.h"
 
 #include <algorithm>
+#include <iterator>
 
 namespace tenebra::viewer {
 namespace {

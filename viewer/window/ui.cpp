@@ -1,6 +1,7 @@
 #include "window/ui.h"
 
 #include <algorithm>
+#include <cmath>
 #include <filesystem>
 #include <vector>
 

@@ -1,5 +1,7 @@
 #include "window/viewer.h"
 
+#include <fmt/format.h>
+
 #include <algorithm>
 #include <filesystem>
 
