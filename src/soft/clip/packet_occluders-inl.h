@@ -195,7 +195,8 @@ public:
   /// Subtracts an occluder from `part`: false if it has no share in it at any point. Lanes where it has leave
   /// the part; what they keep goes to `out`, or to `rest` if others, `left` bits, are still to be subtracted.
   SIMD_INLINE bool subtract(std::size_t id, const PacketReach& reach, PacketPart& part,
-                           const LaneIndex<float>*, std::uint64_t left, PacketParts& rest, PacketParts& out) {
+                            const LaneIndex<float>*, std::uint64_t left, PacketParts& rest,
+                            PacketParts& out) {
     const PacketShadow& shadow = shadow_of(id);
     std::uint32_t met = part.live & meeting(reach, shadow);
     for (int l = 0; l < shadow.line_count && met != 0; ++l) met &= reaching(part.polygon, shadow.lines[l]);
