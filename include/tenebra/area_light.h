@@ -17,8 +17,8 @@ struct AreaLight {
   glm::dvec3 ex{1, 0, 0};           ///< unit; with ey and normal a right-handed frame
   glm::dvec3 ey{0, 1, 0};           ///< unit
   glm::dvec3 normal{0, 0, 1};       ///< unit, towards the lit side
-  std::vector<glm::dvec2> outline;  ///< the vertices in (ex, ey), metres: the polygon that is computed with
-  double area_m2 = 0;               ///< of the outline
+  std::vector<glm::dvec2> polygon;  ///< the vertices in (ex, ey), metres: the polygon that is computed with
+  double area_m2 = 0;               ///< of the polygon
 };
 
 /// Makes a light of a polygon: 3 to 14 finite vertices, in a plane up to the rounding of their coordinates,

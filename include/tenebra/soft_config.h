@@ -50,21 +50,21 @@ struct SoftMask {
 };
 
 /// How a pixel's answer was found, for display.
-enum class SoftClass : std::uint8_t { background, below_horizon, lit, dark, bsp, clip, outline };
+enum class SoftClass : std::uint8_t { background, below_horizon, lit, dark, bsp, clip, silhouette };
 
 /// The work that soft shadows did, summed over the lights.
 struct SoftStats {
-  std::uint64_t groups = 0;           ///< groups of points
-  std::uint64_t points_lit = 0;       ///< points that see all of the light's part above their horizon
-  std::uint64_t points_dark = 0;      ///< points that see none of it
-  std::uint64_t points_penumbra = 0;  ///< points that see a part
-  std::uint64_t candidates = 0;       ///< occluders that the shafts leave, summed over the groups
-  std::uint64_t points_bsp = 0;       ///< points solved by a BSP
-  std::uint64_t points_clip = 0;      ///< points solved by clipping alone
-  std::uint64_t points_outline = 0;   ///< points solved by silhouettes of meshes, and clipping
-  std::uint64_t fragments = 0;        ///< convex parts of the light handed to the integrals
-  std::uint64_t tree_nodes = 0;       ///< BSP nodes made
-  std::uint64_t peak_tree_bytes = 0;  ///< memory of all BSPs alive at one time, at most
+  std::uint64_t groups = 0;             ///< groups of points
+  std::uint64_t points_lit = 0;         ///< points that see all of the light's part above their horizon
+  std::uint64_t points_dark = 0;        ///< points that see none of it
+  std::uint64_t points_penumbra = 0;    ///< points that see a part
+  std::uint64_t candidates = 0;         ///< occluders that the shafts leave, summed over the groups
+  std::uint64_t points_bsp = 0;         ///< points solved by a BSP
+  std::uint64_t points_clip = 0;        ///< points solved by clipping alone
+  std::uint64_t points_silhouette = 0;  ///< points solved by silhouettes of meshes, and clipping
+  std::uint64_t fragments = 0;          ///< convex parts of the light handed to the integrals
+  std::uint64_t tree_nodes = 0;         ///< BSP nodes made
+  std::uint64_t peak_tree_bytes = 0;    ///< memory of all BSPs alive at one time, at most
 };
 inline SoftStats& operator+=(SoftStats& to, const SoftStats& from) {
   to.groups += from.groups;
@@ -74,7 +74,7 @@ inline SoftStats& operator+=(SoftStats& to, const SoftStats& from) {
   to.candidates += from.candidates;
   to.points_bsp += from.points_bsp;
   to.points_clip += from.points_clip;
-  to.points_outline += from.points_outline;
+  to.points_silhouette += from.points_silhouette;
   to.fragments += from.fragments;
   to.tree_nodes += from.tree_nodes;
   to.peak_tree_bytes = std::max(to.peak_tree_bytes, from.peak_tree_bytes);

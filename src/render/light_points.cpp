@@ -83,7 +83,7 @@ struct PointsOfLight {
 }  // namespace
 
 std::vector<glm::vec3> points_on_light(const AreaLight& light, int count) {
-  const std::vector<Slab> slabs = slabs_of(light.outline);
+  const std::vector<Slab> slabs = slabs_of(light.polygon);
   double total = 0;
   for (const Slab& slab : slabs) total += slab.area();
   std::vector<glm::vec3> points;
@@ -92,7 +92,7 @@ std::vector<glm::vec3> points_on_light(const AreaLight& light, int count) {
     std::size_t k = 0;
     while (k + 1 < slabs.size() && part > slabs[k].area()) part -= slabs[k++].area();
     const double x = std::clamp(slabs[k].x_at(part), slabs[k].x, slabs[k].x + slabs[k].step);
-    const dvec2 chord = chord_at(light.outline, x);
+    const dvec2 chord = chord_at(light.polygon, x);
     const double y = std::lerp(chord.x, chord.y, std::fmod((i + 0.5) / std::numbers::phi, 1.0));
     points.emplace_back(light.centre + x * light.ex + y * light.ey);
   }

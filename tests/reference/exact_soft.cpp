@@ -152,7 +152,7 @@ class Shaft {
 public:
   Shaft(const AreaLight& light, const glm::dvec3& point) : point_(point) {
     std::vector<glm::dvec3> rays;
-    for (const glm::dvec2& p : light.outline) {
+    for (const glm::dvec2& p : light.polygon) {
       const glm::dvec3 corner = light.centre + p.x * light.ex + p.y * light.ey;
       rays.push_back(corner - point);
       reach_ = std::max(reach_, glm::length(rays.back()));
@@ -260,7 +260,7 @@ SoftAnswer ExactSoft::solve(const glm::dvec3& position, std::uint32_t id, glm::v
   const auto own = corners_of(triangles_, id);
   const ExactVec own_normal = plane_normal(own);
   Polygon<N> outline;
-  for (const glm::dvec2& p : light_.outline) outline.push_back({N(p.x), N(p.y)});
+  for (const glm::dvec2& p : light_.polygon) outline.push_back({N(p.x), N(p.y)});
   const Polygon<N> base = clipped(outline, frame.half_plane<N>(own_normal, exact(own[0]), side));
   const double tau = vertex_rounding(glm::dvec3(own[0]), glm::dvec3(own[1]), glm::dvec3(own[2]));
   std::vector<Polygon<N>> holes;
@@ -286,7 +286,7 @@ SoftAnswer ExactSoft::solve(const glm::dvec3& position, std::uint32_t id, glm::v
   const long double area = to_long_double(N(doubled_area(outline) / 2));
   answer.visible_fraction = static_cast<double>(std::clamp(visible / area, 0.0L, 1.0L));
   Polygon<long double> rounded;
-  for (const glm::dvec2& p : light_.outline) rounded.push_back({p.x, p.y});
+  for (const glm::dvec2& p : light_.polygon) rounded.push_back({p.x, p.y});
   answer.error_bound = rounding_bound(rounded, holes.size()) + 0x1p-53;
   Vector3l up{normal.x, normal.y, normal.z};
   if (normal == glm::vec3(0)) {

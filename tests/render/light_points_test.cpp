@@ -58,8 +58,8 @@ TEST(LightPoints, StandForEqualAreas) {
                                           [&](const dvec2& p) { return glm::dot(p, direction) > offset; });
         // The discrepancy of such lattices for half planes: some sqrt(count) / 2 at most.
         EXPECT_NEAR(static_cast<double>(beyond),
-                    count * area_beyond(light.outline, direction, offset) / light.area_m2, 8)
-            << light.outline.size() << " vertices, " << i << ' ' << offset;
+                    count * area_beyond(light.polygon, direction, offset) / light.area_m2, 8)
+            << light.polygon.size() << " vertices, " << i << ' ' << offset;
       }
     }
   }
@@ -71,8 +71,8 @@ TEST(LightPoints, LieOnTheLightHoweverFew) {
       for (const vec3& p : render::points_on_light(light, count)) {
         const glm::dvec3 from = glm::dvec3(p) - light.centre;
         const dvec2 q(glm::dot(from, light.ex), glm::dot(from, light.ey));
-        for (std::size_t i = 0; i < light.outline.size(); ++i) {
-          const dvec2 a = light.outline[i], along = light.outline[(i + 1) % light.outline.size()] - a;
+        for (std::size_t i = 0; i < light.polygon.size(); ++i) {
+          const dvec2 a = light.polygon[i], along = light.polygon[(i + 1) % light.polygon.size()] - a;
           EXPECT_GE(along.x * (q.y - a.y) - along.y * (q.x - a.x), -1e-6) << count;
         }
       }

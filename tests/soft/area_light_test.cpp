@@ -57,8 +57,8 @@ double tau_of(const std::vector<vec3>& vertices) {
 
 /// What every light must be, whatever it was made from.
 void expect_sound(const AreaLight& light) {
-  ASSERT_EQ(light.vertices.size(), light.outline.size());
-  ASSERT_GE(light.outline.size(), 3u);
+  ASSERT_EQ(light.vertices.size(), light.polygon.size());
+  ASSERT_GE(light.polygon.size(), 3u);
   const double unit = 1e-15;
   EXPECT_NEAR(glm::length(light.ex), 1, 8 * unit);
   EXPECT_NEAR(glm::length(light.ey), 1, 8 * unit);
@@ -68,17 +68,17 @@ void expect_sound(const AreaLight& light) {
   const double tau = tau_of(light.vertices);
   double doubled = 0;
   dvec2 moment(0.0);
-  const std::size_t count = light.outline.size();
+  const std::size_t count = light.polygon.size();
   for (std::size_t i = 0; i < count; ++i) {
-    const dvec2 p = light.outline[i], q = light.outline[(i + 1) % count];
+    const dvec2 p = light.polygon[i], q = light.polygon[(i + 1) % count];
     const dvec3 world = light.centre + p.x * light.ex + p.y * light.ey;
     EXPECT_LE(glm::length(world - dvec3(light.vertices[i])), 6.001 * tau) << "vertex " << i;
-    EXPECT_GT(cross(q - p, light.outline[(i + 2) % count] - q), 0) << "vertex " << i;
+    EXPECT_GT(cross(q - p, light.polygon[(i + 2) % count] - q), 0) << "vertex " << i;
     doubled += cross(p, q);
     moment += cross(p, q) * (p + q);
   }
   EXPECT_NEAR(light.area_m2, 0.5 * doubled, 1e-12 * light.area_m2);
-  const double size = std::sqrt(doubled) + glm::length(light.outline[0]);
+  const double size = std::sqrt(doubled) + glm::length(light.polygon[0]);
   EXPECT_LE(glm::length(moment / (3 * doubled)), 1e-12 * size + 1e-2 * tau);
 }
 
@@ -97,7 +97,7 @@ TEST(AreaLight, SquareHasItsFrame) {
   EXPECT_EQ(light->centre, dvec3(2, 3, 3));
   EXPECT_EQ(light->normal, dvec3(0, 0, 1));
   EXPECT_EQ(light->ex, dvec3(1, 0, 0));
-  EXPECT_EQ(light->outline, (std::vector<dvec2>{{-1, -1}, {1, -1}, {1, 1}, {-1, 1}}));
+  EXPECT_EQ(light->polygon, (std::vector<dvec2>{{-1, -1}, {1, -1}, {1, 1}, {-1, 1}}));
   EXPECT_EQ(light->area_m2, 4);
 }
 
@@ -120,7 +120,7 @@ TEST(AreaLight, DiscsHaveTheDiscsArea) {
   const auto light = make_disc_light({5, 6, 7}, {2, 0, 0}, {0, 3, 0});
   ASSERT_TRUE(light);
   expect_sound(*light);
-  EXPECT_EQ(light->outline.size(), 12u);
+  EXPECT_EQ(light->polygon.size(), 12u);
   EXPECT_NEAR(light->area_m2, 6 * std::numbers::pi, 1e-5);
   EXPECT_NEAR(light->normal.z, 1, 1e-6);
 }
@@ -156,7 +156,7 @@ TEST(AreaLight, RectanglesAndDiscsAreAcceptedFarFromTheOrigin) {
     const vec3 x(size * frame.x), y(size * random.in(0.1, 1) * frame.y);
     const auto rectangle = make_rectangle_light(centre, x, y);
     ASSERT_TRUE(rectangle) << "case " << i << ": " << rectangle.error().message;
-    EXPECT_EQ(rectangle->outline.size(), 4u);
+    EXPECT_EQ(rectangle->polygon.size(), 4u);
     expect_sound(*rectangle);
     const auto disc = make_disc_light(centre, x, y);
     ASSERT_TRUE(disc) << "case " << i << ": " << disc.error().message;
@@ -187,7 +187,7 @@ TEST(AreaLight, CollinearAndRepeatedVerticesAreDropped) {
     const dvec3 offset = random.in_cube(std::exp2(random.in(0, 12)));
     const auto light = make_area_light(placed(with_extra, frame, offset, 1));
     ASSERT_TRUE(light) << light.error().message;
-    EXPECT_EQ(light->outline.size(), 4u) << "case " << i;
+    EXPECT_EQ(light->polygon.size(), 4u) << "case " << i;
     expect_sound(*light);
   }
 }
@@ -264,7 +264,7 @@ TEST(AreaLight, ScalingByPowersOfTwoKeepsTheBits) {
     EXPECT_EQ(other->normal, light->normal);
     EXPECT_EQ(other->ex, light->ex);
     EXPECT_EQ(other->centre, light->centre * std::ldexp(1.0, k));
-    EXPECT_EQ(other->outline[5], light->outline[5] * std::ldexp(1.0, k));
+    EXPECT_EQ(other->polygon[5], light->polygon[5] * std::ldexp(1.0, k));
   }
 }
 

@@ -125,7 +125,7 @@ TEST_F(BartSoft, CrowdedPointsAgreeWithShadowRays) {
     int seen = 0;
     for (int k = 0; k < side * side; ++k) {
       const glm::dvec2 at((k % side + random.unit()) / side, (k / side + random.unit()) / side);
-      const auto& o = c.light.outline;
+      const auto& o = c.light.polygon;
       const glm::dvec2 uv = o[0] + at.x * (o[1] - o[0]) + at.y * (o[3] - o[0]);
       ShadowLight end;
       end.position = glm::vec3(c.light.centre + uv.x * c.light.ex + uv.y * c.light.ey);

@@ -32,9 +32,9 @@ inline AreaLight regular_light(glm::dvec3 centre, glm::dvec3 normal, double radi
   light.ey = glm::cross(light.normal, light.ex);
   for (int k = 0; k < sides; ++k) {
     const double angle = 6.283185307179586 * k / sides;
-    light.outline.emplace_back(radius * std::cos(angle), radius * std::sin(angle));
-    light.vertices.emplace_back(centre + light.outline.back().x * light.ex +
-                                light.outline.back().y * light.ey);
+    light.polygon.emplace_back(radius * std::cos(angle), radius * std::sin(angle));
+    light.vertices.emplace_back(centre + light.polygon.back().x * light.ex +
+                                light.polygon.back().y * light.ey);
   }
   light.area_m2 = 0.5 * sides * radius * radius * std::sin(6.283185307179586 / sides);
   return light;
@@ -46,9 +46,9 @@ inline glm::dvec3 light_point(const AreaLight& light, glm::dvec2 at) {
 
 /// Somewhere on the light: a vertex, a point of an edge, the centre or inside.
 inline glm::dvec3 random_light_point(const AreaLight& light, Random& random) {
-  const auto count = static_cast<std::uint32_t>(light.outline.size());
+  const auto count = static_cast<std::uint32_t>(light.polygon.size());
   const std::uint32_t k = random.index(count);
-  const glm::dvec2 a = light.outline[k], b = light.outline[(k + 1) % count];
+  const glm::dvec2 a = light.polygon[k], b = light.polygon[(k + 1) % count];
   switch (random.index(4)) {
     case 0:
       return light_point(light, a);

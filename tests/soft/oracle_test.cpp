@@ -277,8 +277,8 @@ TEST(SoftOracle, RationalsAndLongDoublesAgree) {
 
 /// By more than rounding.
 bool inside_outline(const AreaLight& light, dvec2 p) {
-  for (std::size_t k = 0; k < light.outline.size(); ++k) {
-    const dvec2 a = light.outline[k], e = light.outline[(k + 1) % light.outline.size()] - a;
+  for (std::size_t k = 0; k < light.polygon.size(); ++k) {
+    const dvec2 a = light.polygon[k], e = light.polygon[(k + 1) % light.polygon.size()] - a;
     if (!(e.x * (p.y - a.y) - e.y * (p.x - a.x) > 1e-9 * light.area_m2)) return false;
   }
   return true;
@@ -349,7 +349,7 @@ RayCount compare_with_rays(const SoupCase& c, Random& random, int ends) {
   for (std::size_t i = 0; i < c.points.positions.size(); ++i)
     answers.push_back(oracle.answer(c.points.positions[i], c.points.triangles[i]));
   for (int k = 0; k < ends; ++k) {
-    const dvec2 aimed = random_point_of(c.light.outline, random);
+    const dvec2 aimed = random_point_of(c.light.polygon, random);
     ShadowLight end;
     end.position = vec3(c.light.centre + aimed.x * c.light.ex + aimed.y * c.light.ey);
     const dvec3 offset = dvec3(end.position) - c.light.centre;

@@ -32,7 +32,7 @@ double out_of_reach(const GroupCase& c, std::size_t pixel) {
   const points::Corners t = points::corners_of(c.soup.view(), id);
   const dvec3 a(t.v[0]), e(dvec3(t.v[1]) - a), f(dvec3(t.v[2]) - a);
   double below = INFINITY;
-  for (const glm::dvec2& v : c.light.outline) {
+  for (const glm::dvec2& v : c.light.polygon) {
     const dvec3 q = light_point(c.light, v);
     const double height = glm::dot(glm::cross(e, f), q - a) * soft::seen_side(c.soup.view(), id, c.view);
     below = std::min(below, -height / (glm::length(e) * glm::length(f) *

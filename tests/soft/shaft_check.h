@@ -153,8 +153,8 @@ private:
   }
   static bool within(const AreaLight& light, const dvec3& q) {
     const glm::dvec2 at(glm::dot(q - light.centre, light.ex), glm::dot(q - light.centre, light.ey));
-    for (std::size_t k = 0; k < light.outline.size(); ++k) {
-      const glm::dvec2 a = light.outline[k], e = light.outline[(k + 1) % light.outline.size()] - a;
+    for (std::size_t k = 0; k < light.polygon.size(); ++k) {
+      const glm::dvec2 a = light.polygon[k], e = light.polygon[(k + 1) % light.polygon.size()] - a;
       if (e.x * (at.y - a.y) - e.y * (at.x - a.x) < 0) return false;
     }
     return true;

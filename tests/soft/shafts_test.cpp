@@ -92,7 +92,7 @@ TEST(Shafts, KeepTheSameTrianglesAtAnyPowerOfTwo) {
     const double scale = std::ldexp(1.0, k);
     for (glm::vec3& v : scaled.soup.positions) v *= static_cast<float>(scale);
     for (glm::dvec3& p : scaled.points.positions) p *= scale;
-    for (glm::dvec2& v : scaled.light.outline) v *= scale;
+    for (glm::dvec2& v : scaled.light.polygon) v *= scale;
     scaled.light.centre *= scale;
     scaled.view.eye *= static_cast<float>(scale);
     EXPECT_EQ(given(scaled, grouped(scaled)), expected) << "2^" << k;

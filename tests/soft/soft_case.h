@@ -81,7 +81,7 @@ inline double white_of(const SoftCase& c, const SoftMask& mask) {
 inline constexpr double reference_bound = 1e-6;
 inline double reference_promise(const SoftCase& c) {
   double distance = 0, size = 0;
-  for (const glm::dvec2& v : c.light.outline) size = std::max({size, std::abs(v.x), std::abs(v.y)});
+  for (const glm::dvec2& v : c.light.polygon) size = std::max({size, std::abs(v.x), std::abs(v.y)});
   for (std::size_t i = 0; i < c.size(); ++i)
     if (c.points.triangles[i] != no_triangle)
       distance = std::max(distance, glm::length(c.points.positions[i] - c.light.centre));
@@ -207,7 +207,7 @@ inline void place_in_penumbra(SoftCase& c, Random& random, int count) {
   std::vector<std::pair<glm::dvec3, std::uint32_t>> found;
   for (int part = 0; part < 3; ++part) {
     const glm::dvec2 at = 0.9 * random.unit() *
-                          c.light.outline[random.index(static_cast<std::uint32_t>(c.light.outline.size()))];
+                          c.light.polygon[random.index(static_cast<std::uint32_t>(c.light.polygon.size()))];
     ShadowLight from;
     from.position = glm::vec3(c.light.centre + at.x * c.light.ex + at.y * c.light.ey);
     const VisiblePoints points = points_behind_edges(c.soup, from, random, (count + 2) / 3);

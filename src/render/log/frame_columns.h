@@ -70,7 +70,7 @@ inline constexpr std::array method_columns{
     CountColumn{"soft_candidates", [](const FrameRecord& r) { return r.soft.candidates; }},
     CountColumn{"soft_points_bsp", [](const FrameRecord& r) { return r.soft.points_bsp; }},
     CountColumn{"soft_points_clip", [](const FrameRecord& r) { return r.soft.points_clip; }},
-    CountColumn{"soft_points_outline", [](const FrameRecord& r) { return r.soft.points_outline; }},
+    CountColumn{"soft_points_outline", [](const FrameRecord& r) { return r.soft.points_silhouette; }},
     CountColumn{"soft_fragments", [](const FrameRecord& r) { return r.soft.fragments; }},
     CountColumn{"soft_tree_nodes", [](const FrameRecord& r) { return r.soft.tree_nodes; }},
     CountColumn{"soft_peak_tree_bytes", [](const FrameRecord& r) { return r.soft.peak_tree_bytes; }},

@@ -48,7 +48,7 @@ enum class Side { negative, mixed, positive };
 // margins cover the rounding of double.
 Side side_of(const MovingLine& line, const LightFrame& light, const dvec3& half) {
   bool positive = true, negative = true;
-  for (const dvec2& at : light.outline) {
+  for (const dvec2& at : light.polygon) {
     double spread = 0, size = sum_of(line.c[0]);
     const dvec3 vertex(at, 1.0);
     for (int k = 0; k < 3; ++k) {

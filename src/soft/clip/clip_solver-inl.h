@@ -239,7 +239,7 @@ private:
 
   /// Chooses which of the bits of `left` is first where there are more than any order serves.
   SIMD_INLINE void subtract_widest(Occluders& c, const ShadowBoxes<T>& boxes, std::uint64_t left,
-                                  typename Sight::OwnPart part, Parts& out) {
+                                   typename Sight::OwnPart part, Parts& out) {
     const bool in_order = std::popcount(left) <= Sight::any_order;
     const auto bounds = in_order ? typename Sight::Bounds{} : bounds_of(part);
     const int k = in_order ? std::countr_zero(left) : widest_of(boxes, left, box_of(bounds));
@@ -249,8 +249,8 @@ private:
   /// Subtracts occluders of the bits of `left`, first that of bit k, from `part` until one has a share in it;
   /// for what that leaves, the others are still to do.
   SIMD_INLINE void subtract_next(Occluders& c, const ShadowBoxes<T>& boxes, std::uint64_t left, int k,
-                                const typename Sight::Bounds& bounds,
-                                std::remove_reference_t<typename Sight::OwnPart>& part, Parts& out) {
+                                 const typename Sight::Bounds& bounds,
+                                 std::remove_reference_t<typename Sight::OwnPart>& part, Parts& out) {
     for (; left != 0; k = std::countr_zero(left)) {
       left &= ~(std::uint64_t{1} << k);
       const auto id = static_cast<std::size_t>(boxes.ids[k]);

@@ -7,143 +7,13 @@
 #define TENEBRA_SOFT_PACKET_OCCLUDERS_INL_H_
 #endif
 
-#include <algorithm>
 #include <vector>
 
-#include "soft/clip/packet_polygon-inl.h"
-#include "soft/occluders/point_occluders-inl.h"
+#include "soft/clip/packet_parts-inl.h"
 
 HWY_BEFORE_NAMESPACE();
 namespace tenebra::soft::HWY_NAMESPACE {
 using namespace simd::HWY_NAMESPACE;
-
-/// Up to sixteen points of a group, as GroupPoint has them. Lanes beyond the count are copies of the last.
-struct PacketPoints {
-  std::size_t count = 0;
-  double position[3][packet_size] = {};  ///< world space
-  double receiver_tau[packet_size] = {};
-  std::uint32_t receiver[packet_size] = {};
-  double in_axes[3][packet_size] = {}, in_light[2][packet_size] = {}, reach[packet_size] = {};
-  LightAxes axes;
-
-  std::uint32_t touched = 0;  ///< bits of the points from which something was taken of the light
-  bool failed = false;        ///< rounding asks for more care than is taken here
-
-  void add(const glm::dvec3& at, std::uint32_t on, double tau) {
-    for (int c = 0; c < 3; ++c) position[c][count] = at[c];
-    receiver[count] = on, receiver_tau[count] = tau;
-    ++count;
-  }
-  void clear() {
-    count = 0;
-    touched = 0;
-    failed = false;
-  }
-
-  /// Finds their places in these axes. Sums are not fused, as in group_point.
-  HWY_NOINLINE void place_in(const LightAxes& group_axes) {
-    axes = group_axes;
-    for (auto& from : position) std::fill(from + count, from + packet_size, from[count - 1]);
-    Wide way[3];
-    for (int c = 0; c < 3; ++c) way[c] = load<Wide>(position[c]) - wide(axes.centre[c]);
-    const auto along = [&](const glm::dvec3& a) {
-      return wide(a.x) * way[0] + wide(a.y) * way[1] + wide(a.z) * way[2];
-    };
-    const Wide u = along(axes.u), v = along(axes.v), height = along(axes.height);
-    store(u, in_axes[0]), store(v, in_axes[1]), store(height, in_axes[2]);
-    store(wide(axes.centre_uv.x) + u, in_light[0]);
-    store(wide(axes.centre_uv.y) + v, in_light[1]);
-    store(wide(axes.centre_uv.z) - height, reach);
-  }
-  GroupPoint point(std::size_t k) const {
-    return group_point(axes, {position[0][k], position[1][k], position[2][k]}, receiver[k], receiver_tau[k]);
-  }
-};
-
-inline PointRange range_of(const PacketPoints& at) {
-  PointRange range{{}, {}, glm::dvec2(at.axes.centre_uv), at.axes.centre_uv.z};
-  for (int c = 0; c < 3; ++c) {
-    const Wide there = load<Wide>(at.in_axes[c]);
-    range.low[c] = least(there), range.high[c] = greatest(there);
-  }
-  return range;
-}
-
-/// A fragment of the light that the points of the lanes `live` see.
-struct alignas(64) PacketPart {
-  PacketPolygon polygon;
-  std::uint32_t live = 0;
-
-  PacketPart() = default;
-  PacketPart(const PacketPart& from) { *this = from; }
-  PacketPart& operator=(const PacketPart& from) {
-    polygon.assign(from.polygon);
-    live = from.live;
-    return *this;
-  }
-  bool empty() const { return live == 0; }
-};
-
-inline const PacketPart& loaded(const PacketPart& part) {
-  return part;
-}
-
-/// Takes repeated vertices out of a polygon that has many.
-SIMD_INLINE void compact_large(PacketPolygon& polygon, std::uint32_t lanes) {
-  constexpr int large = 6;  // vertices
-  if (polygon.count > large) compact(polygon, lanes);
-}
-
-/// Greatest u, -least u, greatest v, -least v of the fragments of live lanes; of others, beyond the light.
-struct alignas(64) PacketReach {
-  Float16 side[4];
-};
-
-SIMD_INLINE PacketReach bounds_of(const PacketPart& part) {
-  const PacketPolygon& p = part.polygon;
-  Float16 low_u = p.x[0], high_u = low_u, low_v = p.y[0], high_v = low_v;
-  for (int k = 1; k < p.count; ++k) {
-    low_u = min(low_u, p.x[k]), high_u = max(high_u, p.x[k]);
-    low_v = min(low_v, p.y[k]), high_v = max(high_v, p.y[k]);
-  }
-  const Float16 zero = splat<Float16>(0.0f), none = splat<Float16>(-4.0f);
-  const auto live = truth_of<float, packet_size>(part.live);
-  return {{choose(live, high_u, none), choose(live, zero - low_u, none), choose(live, high_v, none),
-           choose(live, zero - low_v, none)}};
-}
-
-/// Around all lanes.
-SIMD_INLINE LightBox<float> box_of(const PacketReach& reach) {
-  const float u1 = greatest(reach.side[0]), u0 = -greatest(reach.side[1]);
-  const float v1 = greatest(reach.side[2]), v0 = -greatest(reach.side[3]);
-  return {(u0 + u1) / 2, (v0 + v1) / 2, (u1 - u0) / 2, (v1 - v0) / 2};
-}
-SIMD_INLINE LightBox<float> box_of(const PacketPart& part) {
-  return box_of(bounds_of(part));
-}
-
-class PacketParts {
-public:
-  void clear() { size_ = 0; }
-  bool empty() const { return size_ == 0; }
-  std::size_t size() const { return size_; }
-  PacketPart& operator[](std::size_t i) { return parts_[i]; }
-  const PacketPart& operator[](std::size_t i) const { return parts_[i]; }
-  void shrink(std::size_t size) { size_ = size; }
-  void push(const PacketPart& part) { add() = part; }
-  /// Valid until the list grows.
-  PacketPart& add() {
-    if (size_ == parts_.size()) grow();
-    return parts_[size_++];
-  }
-  const PacketPart& pop() { return parts_[--size_]; }
-
-private:
-  HWY_NOINLINE void grow() { parts_.resize(2 * size_ + 16); }
-
-  std::vector<PacketPart> parts_;
-  std::size_t size_ = 0;
-};
 
 /// Up to four lines a lane that bound a convex shadow, positive inside.
 struct alignas(64) PacketShadow {
@@ -195,7 +65,8 @@ public:
   /// Subtracts an occluder from `part`: false if it has no share in it at any point. Lanes where it has leave
   /// the part; what they keep goes to `out`, or to `rest` if others, `left` bits, are still to be subtracted.
   SIMD_INLINE bool subtract(std::size_t id, const PacketReach& reach, PacketPart& part,
-                           const LaneIndex<float>*, std::uint64_t left, PacketParts& rest, PacketParts& out) {
+                            const LaneIndex<float>*, std::uint64_t left, PacketParts& rest,
+                            PacketParts& out) {
     const PacketShadow& shadow = shadow_of(id);
     std::uint32_t met = part.live & meeting(reach, shadow);
     for (int l = 0; l < shadow.line_count && met != 0; ++l) met &= reaching(part.polygon, shadow.lines[l]);

@@ -98,8 +98,8 @@ SIMD_INLINE PacketPoint2 crossing_of(const PacketVertex& from, const PacketVerte
 /// One side of a cut: the vertices where `kept`, and in the place of the run of others `first` and then
 /// `second`. A run of one vertex in a lane of `cut` makes room for both.
 SIMD_INLINE void replace_run(const PacketPolygon& polygon, const PacketTruth (&kept)[packet_vertices],
-                            const PacketTruth (&dropped)[packet_vertices], PacketTruth cut,
-                            const PacketPoint2& first, const PacketPoint2& second, PacketPolygon& out) {
+                             const PacketTruth (&dropped)[packet_vertices], PacketTruth cut,
+                             const PacketPoint2& first, const PacketPoint2& second, PacketPolygon& out) {
   const int n = polygon.count;
   PacketTruth alone[packet_vertices];    // a run of one vertex
   PacketTruth reached[packet_vertices];  // there was one, here or before
@@ -127,7 +127,7 @@ SIMD_INLINE void replace_run(const PacketPolygon& polygon, const PacketTruth (&k
 /// anything. False where rounding breaks the vertices of a thin polygon in more than two runs, or there are
 /// too many.
 SIMD_INLINE bool split(const PacketPolygon& polygon, PacketValues& line, std::uint32_t cut,
-                      PacketPolygon& positive, PacketPolygon& negative) {
+                       PacketPolygon& positive, PacketPolygon& negative) {
   if (polygon.count == packet_vertices) return false;
   const PacketTruth parted = truth_of<float, packet_size>(cut);
   PacketTruth above[packet_vertices], below[packet_vertices];

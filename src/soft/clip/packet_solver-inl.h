@@ -108,9 +108,9 @@ private:
   /// The light above the receivers' planes; false if there is none.
   bool put_light(const LightFrame& light) {
     light_.live = (1u << points_.count) - 1u;
-    light_.polygon.count = static_cast<int>(light.outline.size());
+    light_.polygon.count = static_cast<int>(light.polygon.size());
     for (int k = 0; k < light_.polygon.count; ++k) {
-      const glm::dvec2 at = light.outline[static_cast<std::size_t>(k)];
+      const glm::dvec2 at = light.polygon[static_cast<std::size_t>(k)];
       light_.polygon.x[k] = splat<Float16>(static_cast<float>(at.x));
       light_.polygon.y[k] = splat<Float16>(static_cast<float>(at.y));
     }

@@ -58,7 +58,7 @@ struct PointKernels {
   /// Bit k: whether point k of 64 lies below the slice `end`.
   std::uint64_t (*below)(const PointLanes& points, const Slices& slices, int end) = nullptr;
   /// A cell around points with the box low..high, whose first edges follow the picture's rows and columns:
-  /// for points of one plane it is flat, and little larger than their outline. Falls back to the box where
+  /// for points of one plane it is flat, and little larger than their hull. Falls back to the box where
   /// rows and columns have no two directions.
   Cell (*fitted_cell)(const PointLanes& points, PointSet set, const PointBox& box,
                       const LightShape& light) = nullptr;

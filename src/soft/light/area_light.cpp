@@ -140,20 +140,20 @@ std::optional<Bend> worst_bend(const std::vector<dvec2>& points, const std::vect
   return worst;
 }
 
-/// Moves the origin of `outline` to its centroid and returns where that lay; sets the area.
-dvec2 centre_outline(std::vector<dvec2>& outline, double& area) {
-  const dvec2 origin = outline[0];
+/// Moves the origin of `polygon` to its centroid and returns where that lay; sets the area.
+dvec2 centre_polygon(std::vector<dvec2>& polygon, double& area) {
+  const dvec2 origin = polygon[0];
   dvec2 moment(0.0);
   double doubled = 0;
-  for (std::size_t i = 1; i + 1 < outline.size(); ++i) {
-    const dvec2 b = outline[i] - origin, c = outline[i + 1] - origin;
+  for (std::size_t i = 1; i + 1 < polygon.size(); ++i) {
+    const dvec2 b = polygon[i] - origin, c = polygon[i + 1] - origin;
     const double part = cross(b, c);
     doubled += part;
     moment += part / 3 * (b + c);
   }
   area = 0.5 * doubled;
   const dvec2 centroid = origin + moment / doubled;
-  for (dvec2& p : outline) p -= centroid;
+  for (dvec2& p : polygon) p -= centroid;
   return centroid;
 }
 
@@ -172,10 +172,10 @@ Expected<AreaLight> finish(AreaLight light, double tau) {
   std::vector<vec3> vertices;
   for (const std::size_t i : corners) {
     vertices.push_back(light.vertices[i]);
-    light.outline.push_back(points[i]);
+    light.polygon.push_back(points[i]);
   }
   light.vertices = std::move(vertices);
-  const dvec2 centroid = centre_outline(light.outline, light.area_m2);
+  const dvec2 centroid = centre_polygon(light.polygon, light.area_m2);
   light.centre += centroid.x * light.ex + centroid.y * light.ey;
   return light;
 }

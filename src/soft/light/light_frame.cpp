@@ -7,11 +7,11 @@ namespace tenebra::soft {
 
 LightFrame light_frame(const AreaLight& light) {
   double unit = 0;
-  for (const glm::dvec2& v : light.outline) unit = std::max({unit, std::abs(v.x), std::abs(v.y)});
+  for (const glm::dvec2& v : light.polygon) unit = std::max({unit, std::abs(v.x), std::abs(v.y)});
   LightFrame frame{light.centre, unit * light.ex, unit * light.ey, light.normal, {}, 0};
-  for (const glm::dvec2& v : light.outline) frame.outline.push_back(v / unit);
-  for (std::size_t k = 0; k < frame.outline.size(); ++k) {
-    const glm::dvec2 &a = frame.outline[k], &b = frame.outline[(k + 1) % frame.outline.size()];
+  for (const glm::dvec2& v : light.polygon) frame.polygon.push_back(v / unit);
+  for (std::size_t k = 0; k < frame.polygon.size(); ++k) {
+    const glm::dvec2 &a = frame.polygon[k], &b = frame.polygon[(k + 1) % frame.polygon.size()];
     frame.area += (a.x * b.y - b.x * a.y) / 2;
   }
   return frame;

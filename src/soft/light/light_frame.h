@@ -13,8 +13,8 @@ namespace tenebra::soft {
 struct LightFrame {
   glm::dvec3 origin{0.0}, ex{0.0}, ey{0.0},
       normal{0.0};                  ///< ex, ey orthogonal and of one length; normal unit
-  std::vector<glm::dvec2> outline;  ///< counter-clockwise seen from the front
-  double area = 0;                  ///< of the outline, units of the light squared
+  std::vector<glm::dvec2> polygon;  ///< counter-clockwise seen from the front
+  double area = 0;                  ///< of the polygon, units of the light squared
 
   glm::dvec3 point(glm::dvec2 at) const { return origin + at.x * ex + at.y * ey; }
 };

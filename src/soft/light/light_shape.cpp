@@ -7,7 +7,7 @@ namespace tenebra::soft {
 using glm::dvec3;
 
 LightShape::LightShape(const AreaLight& light) : origin(light.centre), normal(light.normal) {
-  for (const glm::dvec2& v : light.outline) {
+  for (const glm::dvec2& v : light.polygon) {
     assert(count < most_light_vertices);
     vertices[count] = v.x * light.ex + v.y * light.ey;
     reach = std::max(reach, largest(vertices[count]));

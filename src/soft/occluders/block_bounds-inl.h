@@ -50,7 +50,7 @@ private:
 
   /// A box with a part at or below the height of a point may shadow all.
   static SIMD_INLINE std::uint32_t find_boxes_of(const Bounds& bounds, const GroupPoint& at,
-                                                T (&sides)[4][16]) {
+                                                 T (&sides)[4][16]) {
     const Wide zero = wide(0), one = wide(1), reach = wide(at.reach);
     const Wide lowest = load<Wide>(bounds.low[2]) - wide(at.in_axes.z);
     const Wide highest = load<Wide>(bounds.high[2]) - wide(at.in_axes.z);
@@ -67,7 +67,7 @@ private:
     return less_bits(zero, highest);
   }
   static SIMD_INLINE std::uint32_t find_boxes_of(const Bounds& bounds, const PointRange& at,
-                                                T (&sides)[4][16]) {
+                                                 T (&sides)[4][16]) {
     const Wide zero = wide(0), one = wide(1), far = wide(1e30);
     const Wide bottom = load<Wide>(bounds.low[2]), top = load<Wide>(bounds.high[2]);
     const auto boxed = less(zero, bottom - wide(at.high.z));

@@ -87,7 +87,7 @@ private:
   }
 
   SIMD_INLINE void find_sides(const GroupFrame& group, const Vector8* v, const Vector8& n, Double8 length,
-                             const Vector8& from) {
+                              const Vector8& from) {
     const auto num = [](double value) { return splat<Double8>(value); };
     const Double8 zero = num(0);
     Double8 largest = zero;
@@ -110,11 +110,11 @@ private:
   }
 
   SIMD_INLINE void find_light_sides(const LightFrame& light, const Vector8& v, const Vector8& n,
-                                   Double8 length) {
+                                    Double8 length) {
     const Double8 zero = splat<Double8>(0.0);
     const Double8 slack = splat<Double8>(product_rounding) * length, size = size_of(v);
     std::uint32_t positive = ~0u, negative = ~0u;
-    for (const glm::dvec2& at : light.outline) {
+    for (const glm::dvec2& at : light.polygon) {
       const glm::dvec3 vertex = light.point(at);
       const Double8 value = product(n, splat3<Double8>(vertex.x, vertex.y, vertex.z) - v);
       const Double8 margin = slack * (splat<Double8>(size_of(vertex)) + size);
@@ -139,7 +139,7 @@ private:
   /// Corners in the light's axes, and which triangles stand between: so far above the points that the
   /// division by the height loses no more than 16 bits.
   SIMD_INLINE void find_corners(const LightFrame& light, const GroupFrame& group, const LightAxes& axes,
-                               const Vector8* v, const Vector8* from) {
+                                const Vector8* v, const Vector8* from) {
     const auto num = [](double value) { return splat<Double8>(value); };
     const auto along = [&](const glm::dvec3& a, const Vector8& b) {
       return num(a.x) * b.x + num(a.y) * b.y + num(a.z) * b.z;

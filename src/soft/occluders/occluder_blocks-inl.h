@@ -70,7 +70,7 @@ SIMD_INLINE Wide wide(double value) {
 /// range, where the way to the light's plane is t0 to t1 times that to the place. Linear in the point and in
 /// t: the extremes are at the ends.
 SIMD_INLINE void shadow_range(const PointRange& at, int axis, Wide low, Wide high, Wide t0, Wide t1,
-                             Wide& least_at, Wide& most_at) {
+                              Wide& least_at, Wide& most_at) {
   for (const double place : {at.low[axis], at.high[axis]}) {
     const Wide from = wide(at.light_from[axis] + place), near = low - wide(place), far = high - wide(place);
     least_at = min(least_at, from + min(near * t0, near * t1));
@@ -90,7 +90,8 @@ SIMD_INLINE ShadowSides bounded_sides(Bounded bounded, Wide low, Wide high) {
 
 /// Those of both axes, as BlockBoxes has them.
 template <class T, class Bounded>
-SIMD_INLINE void store_sides(Bounded bounded, const Wide (&low)[2], const Wide (&high)[2], T (&sides)[4][16]) {
+SIMD_INLINE void store_sides(Bounded bounded, const Wide (&low)[2], const Wide (&high)[2],
+                             T (&sides)[4][16]) {
   for (int axis = 0; axis < 2; ++axis) {
     const ShadowSides side = bounded_sides(bounded, low[axis], high[axis]);
     store_narrowed(side.low, sides[2 * axis]);

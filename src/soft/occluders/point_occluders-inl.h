@@ -29,7 +29,7 @@ inline double sign_at(std::uint32_t triangle, const PlaneHeight& plane, const Gr
 /// The lines of occluders first to first + 7 of a block.
 template <class T>
 SIMD_INLINE void find_eight_lines(const OccluderBlock& block, const double* signs, const GroupPoint& at,
-                                 std::size_t first, BlockLines<T>& out) {
+                                  std::size_t first, BlockLines<T>& out) {
   using Doubles = Pack<double, 8>;
   using Lanes = Pack<T, 8>;
   const auto num = [](double value) { return splat<Doubles>(value); };
@@ -86,8 +86,8 @@ public:
   /// `rest` if others of `ids` are still to be subtracted from it: those of the bits of `left`, from which
   /// these that only stand near the part are taken where they are few.
   SIMD_INLINE bool subtract(std::size_t id, const LightBox<T>&, const LightPolygon<T>& part,
-                           const LaneIndex<T>* ids, std::uint64_t& left, FragmentList<T>& rest,
-                           FragmentList<T>& out) {
+                            const LaneIndex<T>* ids, std::uint64_t& left, FragmentList<T>& rest,
+                            FragmentList<T>& out) {
     const ShadowLines<T> lines = lines_of(id);
     const LineSides<T> sides = sides_of(part, lines);
     if (sides.positive != all_lines) return false;
@@ -101,7 +101,7 @@ private:
 
   /// Of the bits of `left` those whose occluders no line of their own parts from `part`.
   SIMD_INLINE std::uint64_t touching(const LaneIndex<T>* ids, std::uint64_t left,
-                                    const LightPolygon<T>& part) {
+                                     const LightPolygon<T>& part) {
     std::uint64_t found = 0;
     for (; left != 0; left &= left - 1) {
       const int k = std::countr_zero(left);

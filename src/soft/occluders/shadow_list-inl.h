@@ -113,7 +113,7 @@ public:
 
   /// Appends those of sixteen boxes in `lanes` that meet `box`. Their ids are first, first + 1 ...
   SIMD_INLINE void append(const T (&sides)[4][16], std::size_t first, std::uint32_t lanes,
-                         const LightBox<T>& box) {
+                          const LightBox<T>& box) {
     make_room(16);
     append_meeting({{sides[0], sides[1], sides[2], sides[3]}, nullptr},
                    load<Index>(lane_numbers<T>) + splat<Index>(static_cast<LaneIndex<T>>(first)),
@@ -142,7 +142,7 @@ private:
   }
 
   SIMD_INLINE void append_meeting(const ShadowBoxes<T>& boxes, Index ids, Truth<T, 16> valid,
-                                 const LightBox<T>& box) {
+                                  const LightBox<T>& box) {
     const auto chosen = valid & meets(boxes, box);
     if (!any(chosen)) return;
     std::size_t added = 0;

@@ -65,7 +65,7 @@ SIMD_INLINE Double8 product_of(const Pack3<Double8>& a, const Pack3<Double8>& b)
 /// The angle that an edge `e` from `r` on subtends times the cosine between normal and the plane of point and
 /// edge (Nishita and Nakamae 1985); 0 for an edge of no length, or seen end-on.
 SIMD_INLINE Double8 contour_term(const Pack3<Double8>& r, const Pack3<Double8>& e,
-                                const Pack3<Double8>& normal) {
+                                 const Pack3<Double8>& normal) {
   const Pack3<Double8> c = cross(r, e);
   const Double8 sine = square_root(product_of(c, c)), cosine = product_of(r, r) + product_of(r, e);
   return product_of(normal, c) * angle_over_sine(sine, cosine);
@@ -73,7 +73,7 @@ SIMD_INLINE Double8 contour_term(const Pack3<Double8>& r, const Pack3<Double8>& 
 
 /// origin + u ex + v ey.
 SIMD_INLINE Pack3<Double8> on_light(const LightFrame& light, const Pack3<Double8>& origin, Double8 u,
-                                   Double8 v) {
+                                    Double8 v) {
   const auto num = [](double value) { return splat<Double8>(value); };
   return {origin.x + u * num(light.ex.x) + v * num(light.ey.x),
           origin.y + u * num(light.ex.y) + v * num(light.ey.y),

@@ -189,7 +189,7 @@ struct EdgeCrossings {
 /// positive side. polygon.count < polygon_capacity.
 template <class T>
 SIMD_INLINE EdgeCrossings<T> crossings_of(const LightPolygon<T>& polygon,
-                                         const Pack<T, polygon_capacity>& values) {
+                                          const Pack<T, polygon_capacity>& values) {
   using Lanes = Pack<T, polygon_capacity>;
   using Index = Pack<LaneIndex<T>, polygon_capacity>;
   const Index next = load<Index>(next_lanes<T>);
@@ -209,7 +209,7 @@ SIMD_INLINE EdgeCrossings<T> crossings_of(const LightPolygon<T>& polygon,
 /// The vertices of `run`, and behind them where the line crosses the edges `leaving` and `returning`.
 template <class T>
 SIMD_INLINE LightPolygon<T> part_of(const LightPolygon<T>& polygon, const EdgeCrossings<T>& crossings,
-                                   VertexRun run, int leaving, int returning) {
+                                    VertexRun run, int leaving, int returning) {
   using Index = Pack<LaneIndex<T>, polygon_capacity>;
   const auto whole = [](int i) { return splat<Index>(static_cast<LaneIndex<T>>(i)); };
   const Index lane = load<Index>(lane_numbers<T>);
@@ -225,7 +225,7 @@ SIMD_INLINE LightPolygon<T> part_of(const LightPolygon<T>& polygon, const EdgeCr
 /// polygon.count < polygon_capacity.
 template <class T>
 SIMD_INLINE void split(const LightPolygon<T>& polygon, const LineValues<T>& line, LightPolygon<T>& positive,
-                      LightPolygon<T>& negative) {
+                       LightPolygon<T>& negative) {
   assert(polygon.count < polygon_capacity);
   const EdgeCrossings<T> crossings = crossings_of(polygon, line.value);
   const VertexRun run = run_of(line.positive, polygon.count, line.value);

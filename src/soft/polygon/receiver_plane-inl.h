@@ -20,15 +20,15 @@ namespace tenebra::soft::HWY_NAMESPACE {
 using namespace simd::HWY_NAMESPACE;
 
 template <class T>
-LightPolygon<T> polygon_of(std::span<const glm::dvec2> outline) {
+LightPolygon<T> polygon_of(std::span<const glm::dvec2> polygon) {
   T x[polygon_capacity], y[polygon_capacity];
   for (std::size_t k = 0; k < polygon_capacity; ++k) {
-    const glm::dvec2 at = outline[k < outline.size() ? k : 0];
+    const glm::dvec2 at = polygon[k < polygon.size() ? k : 0];
     x[k] = static_cast<T>(at.x);
     y[k] = static_cast<T>(at.y);
   }
   using Lanes = typename LightPolygon<T>::Lanes;
-  return {load<Lanes>(x), load<Lanes>(y), static_cast<int>(outline.size())};
+  return {load<Lanes>(x), load<Lanes>(y), static_cast<int>(polygon.size())};
 }
 
 template <class T>

@@ -20,13 +20,13 @@ struct HorizonLanes {
   SIMD_INLINE std::uint32_t cuts(const LightFrame& light) const {
     const Double8 zero = splat<Double8>(0.0);
     auto above = less(zero, splat<Double8>(1.0));
-    for (const glm::dvec2& at : light.outline)
+    for (const glm::dvec2& at : light.polygon)
       above = above & less(zero, u * splat<Double8>(at.x) + v * splat<Double8>(at.y) + w);
     return ~bits(above) & 0xffu;
   }
 };
 SIMD_INLINE HorizonLanes horizon_of(const LightFrame& light, const Pack3<Double8>& to_origin,
-                                   const Pack3<Double8>& normal) {
+                                    const Pack3<Double8>& normal) {
   const auto all = [](const glm::dvec3& a) { return splat3<Double8>(a.x, a.y, a.z); };
   return {product_of(normal, all(light.ex)), product_of(normal, all(light.ey)),
           product_of(normal, to_origin)};
@@ -48,7 +48,7 @@ struct WholePoints {
   }
 };
 
-/// The irradiance that a whole light sends to points, its outline above the planes that they lie on; bits of
+/// The irradiance that a whole light sends to points, its polygon above the planes that they lie on; bits of
 /// those for which this is so, as they are in front of the light, which is above their normals' horizons.
 inline HWY_NOINLINE std::uint32_t irradiance_of_whole(const LightFrame& light, const WholePoints& at,
                                                       double* irradiance) {
@@ -58,8 +58,8 @@ inline HWY_NOINLINE std::uint32_t irradiance_of_whole(const LightFrame& light, c
   };
   const Pack3<Double8> origin = lanes(at.to_origin), normal = lanes(at.normal);
   Double8 sum = num(0.0);
-  for (std::size_t k = 0; k < light.outline.size(); ++k) {
-    const glm::dvec2 a = light.outline[k], b = light.outline[(k + 1) % light.outline.size()];
+  for (std::size_t k = 0; k < light.polygon.size(); ++k) {
+    const glm::dvec2 a = light.polygon[k], b = light.polygon[(k + 1) % light.polygon.size()];
     const glm::dvec3 from = a.x * light.ex + a.y * light.ey,
                      along = (b.x - a.x) * light.ex + (b.y - a.y) * light.ey;
     const Pack3<Double8> r{origin.x + num(from.x), origin.y + num(from.y), origin.z + num(from.z)};

@@ -60,7 +60,7 @@ SIMD_INLINE Pack<T, block_size> eight_as(const float* from) {
 // Lanes of triangles that may meet the shaft's box and the inner sides of its planes.
 template <class T>
 SIMD_INLINE std::uint32_t inside(const CullingShaft<T>& shaft, const TriangleBlock& block,
-                                std::uint32_t lanes) {
+                                 std::uint32_t lanes) {
   using Lanes = Pack<T, block_size>;
   const auto all = [](T value) { return splat<Lanes>(value); };
   const Lanes margin = (eight_as<T>(block.largest) + all(shaft.origin_size)) *

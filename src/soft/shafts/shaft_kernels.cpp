@@ -168,7 +168,7 @@ SIMD_INLINE Sides sides_of_centre(const Shaft& shaft, const Triangles& t) {
 // What lines between cell and light do about the edges, of lanes that they cross from the front (f >= 0 at
 // all edges) or from the back (f <= 0).
 SIMD_INLINE void keep_crossed(const Shaft& shaft, const TriangleBlock& block, const Triangles& t, Sides& some,
-                             Sides& every) {
+                              Sides& every) {
   const Double8 zero = all(0.0), margin = side_margin(shaft, t);
   for (int k = 0; k < 3 && (some.front | some.back) != 0; ++k) {
     const Vector8 e = edge(block, k, (k + 1) % 3);

@@ -1,5 +1,5 @@
-// The stretches of an outline's edges on a convex part of the light, and where they cross its sides. Included
-// once per target.
+// The stretches of a silhouette's edges on a convex part of the light, and where they cross its sides.
+// Included once per target.
 #if defined(TENEBRA_SOFT_EDGE_STRETCHES_INL_H_) == defined(HWY_TARGET_TOGGLE)
 #ifdef TENEBRA_SOFT_EDGE_STRETCHES_INL_H_
 #undef TENEBRA_SOFT_EDGE_STRETCHES_INL_H_
@@ -12,7 +12,7 @@
 #include <cmath>
 #include <vector>
 
-#include "soft/silhouette/outline_windings-inl.h"
+#include "soft/silhouette/silhouette_windings-inl.h"
 
 HWY_BEFORE_NAMESPACE();
 namespace tenebra::soft::HWY_NAMESPACE {
@@ -43,8 +43,8 @@ void sort_along(std::vector<WindingChange<T>>& changes) {
 }
 
 /// Decisions are about the part without a seam along its sides that is wider than rounding, if the part is
-/// wider than a sixteenth: edges that run along a side, as where something next to the outline has been cut
-/// out, do not leave anything open. Places are on the part's own sides.
+/// wider than a sixteenth: edges that run along a side, as where something next to the silhouette has been
+/// cut out, do not leave anything open. Places are on the part's own sides.
 template <class T>
 class EdgeStretches {
 public:
@@ -60,7 +60,7 @@ public:
   std::vector<WindingChange<T>> side_changes;  ///< in order along the sides, counter-clockwise
 
   /// Of the edges from place `first` on.
-  HWY_NOINLINE void find(const OutlineEdges<T>& edges, std::size_t first, T slack,
+  HWY_NOINLINE void find(const SilhouetteEdges<T>& edges, std::size_t first, T slack,
                          const LightPolygon<T>& part) {
     take_up(part, slack);
     blocks.assign((edges.count - first + 15) / 16, {});
@@ -104,11 +104,11 @@ private:
     }
   }
 
-  HWY_NOINLINE void clip(const OutlineLanes<T>& e, std::uint32_t lanes, std::size_t b) {
+  HWY_NOINLINE void clip(const SilhouetteLanes<T>& e, std::uint32_t lanes, std::size_t b) {
     const Lanes zero = num(0), one = num(1), beside = doubt_beside(e.u, e.v, near_ - on_line<T>);
     const Lanes far_u = max(absolute(e.from_u), absolute(e.to_u)) + one,
                 far_v = max(absolute(e.from_v), absolute(e.to_v)) + one;
-    OutlineLanes<T> s = e;
+    SilhouetteLanes<T> s = e;
     Lanes left = zero;  // how often a ray from the lower end towards +u leaves the part
     std::uint32_t unsure = 0, met = 0;
     Lanes here = value_at(e, inner_u_[0], inner_v_[0]);
@@ -136,13 +136,13 @@ private:
     blocks[b] = {(lanes & bits(equal(left, one))) | met | unsure, unsure};
   }
 
-  static SIMD_INLINE Lanes value_at(const OutlineLanes<T>& e, T u, T v) {
+  static SIMD_INLINE Lanes value_at(const SilhouetteLanes<T>& e, T u, T v) {
     return e.u * num(u) + e.v * num(v) + e.w;
   }
 
   /// Lets the stretches `crosses` begin (`enters`) or end at side k.
-  SIMD_INLINE void end_at_side(int k, const OutlineLanes<T>& e, std::uint32_t crosses, std::uint32_t enters,
-                              OutlineLanes<T>& stretches) {
+  SIMD_INLINE void end_at_side(int k, const SilhouetteLanes<T>& e, std::uint32_t crosses,
+                               std::uint32_t enters, SilhouetteLanes<T>& stretches) {
     const Lanes zero = num(0), here = value_at(e, u_[k], v_[k]), next = value_at(e, u_[k + 1], v_[k + 1]);
     const Lanes share = min(max(here / (here - next), zero), num(1));
     const Lanes u = num(u_[k]) + share * num(u_[k + 1] - u_[k]),

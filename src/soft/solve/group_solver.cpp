@@ -17,22 +17,21 @@ PointsSolver& made(std::unique_ptr<PointsSolver>& solver, MakeSolver make, SimdL
   return *solver;
 }
 
-/// Cutting along an outline gains nothing by packets: it has lanes enough.
+/// Cutting along a silhouette gains nothing by packets: it has lanes enough.
 bool wants_packets(const SoftFrame& frame, const PreparedGroup& group) {
-  return frame.config.solver == SoftSolver::automatic && group.outline.empty() &&
+  return frame.config.solver == SoftSolver::automatic && group.silhouette.empty() &&
          group.clipped.size() <= most_packet_occluders &&
-         frame.light.outline.size() <= most_packet_light_vertices;
+         frame.light.polygon.size() <= most_packet_light_vertices;
 }
 
 SoftClass class_of(const SoftFrame& frame, const PreparedGroup& group) {
   if (frame.config.solver == SoftSolver::bsp) return SoftClass::bsp;
-  return group.outline.empty() ? SoftClass::clip : SoftClass::outline;
+  return group.silhouette.empty() ? SoftClass::clip : SoftClass::silhouette;
 }
 
 }  // namespace
 
-GroupSolver::GroupSolver(SimdLevel level)
-    : level_(level), preparer_(level), lit_(make_lit_solver(level)) {}
+GroupSolver::GroupSolver(SimdLevel level) : level_(level), preparer_(level), lit_(make_lit_solver(level)) {}
 
 void GroupSolver::solve(const SoftFrame& frame, const GroupTask& task) {
   base::Stopwatch watch;

@@ -37,9 +37,9 @@ void PixelWriter::count(std::uint32_t pixel, double area, double above) {
 }
 
 void PixelWriter::count_solver(std::uint32_t pixel) {
-  ++(solver_ == SoftClass::bsp       ? stats_.points_bsp
-     : solver_ == SoftClass::outline ? stats_.points_outline
-                                     : stats_.points_clip);
+  ++(solver_ == SoftClass::bsp          ? stats_.points_bsp
+     : solver_ == SoftClass::silhouette ? stats_.points_silhouette
+                                        : stats_.points_clip);
   frame_.classes[pixel] = static_cast<std::uint8_t>(solver_);
 }
 

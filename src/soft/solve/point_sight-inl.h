@@ -18,7 +18,7 @@ using namespace simd::HWY_NAMESPACE;
 
 /// Whether part of the light is not above the line.
 inline bool cuts(const LightFrame& light, const glm::dvec3& line) {
-  for (const glm::dvec2& at : light.outline) {
+  for (const glm::dvec2& at : light.polygon) {
     if (!(line.x * at.x + line.y * at.y + line.z > 0)) return true;
   }
   return false;
@@ -55,7 +55,7 @@ private:
   HWY_NOINLINE void start_on(const SoftFrame& frame, std::uint32_t receiver) {
     plane = receiver_plane(frame.light, frame.view, frame.triangles, receiver);
     light.clear();
-    light.push(polygon_of<T>(frame.light.outline));
+    light.push(polygon_of<T>(frame.light.polygon));
     keep_positive(light, line_of<T>(plane.horizon), scratch_);
     plane.line = line_of<float>(plane.horizon);
     plane.cuts_light = cuts(frame.light, plane.horizon);

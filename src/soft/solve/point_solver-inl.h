@@ -1,4 +1,4 @@
-// Points one by one: occluders are clipped from the light, and then what the outline of meshes hides.
+// Points one by one: occluders are clipped from the light, and then what the silhouette of meshes hides.
 // Included once per target.
 #if defined(TENEBRA_SOFT_POINT_SOLVER_INL_H_) == defined(HWY_TARGET_TOGGLE)
 #ifdef TENEBRA_SOFT_POINT_SOLVER_INL_H_
@@ -8,7 +8,7 @@
 #endif
 
 #include "soft/clip/clip_solver-inl.h"
-#include "soft/silhouette/outline_solver-inl.h"
+#include "soft/silhouette/silhouette_solver-inl.h"
 #include "soft/solve/point_sight-inl.h"
 #include "soft/solve/solvers.h"
 
@@ -22,7 +22,7 @@ public:
   void begin(const SoftFrame&, const PreparedGroup& group) override {
     receiver_.plane = {};
     clip_.reset(group.candidates, group.clipped);
-    if (!group.outline.empty()) outline_.reset(group.outline);
+    if (!group.silhouette.empty()) silhouette_.reset(group.silhouette);
   }
 
   void solve(const SoftFrame& frame, const PreparedGroup& group, std::span<const std::uint32_t> pixels,
@@ -58,16 +58,16 @@ private:
     FragmentList<T>& found = visible_.fragments;
     clip_.move_to(at);
     for (std::size_t i = 0; i < receiver_.light.size(); ++i) clip_.query(loaded(receiver_.light[i]), found);
-    if (group.outline.empty() || found.empty()) return;
-    outline_.move_to(at);
+    if (group.silhouette.empty() || found.empty()) return;
+    silhouette_.move_to(at);
     visible_.scratch.clear();
     for (std::size_t i = 0; i < found.size(); ++i)
-      outline_.query(loaded(found[i]), sight.horizon_cuts ? nullptr : &visible_.edges, visible_.scratch);
+      silhouette_.query(loaded(found[i]), sight.horizon_cuts ? nullptr : &visible_.edges, visible_.scratch);
     found.swap(visible_.scratch);
   }
 
   ClipSolver<OnePoint<T>> clip_;
-  OutlineSolver<T> outline_;
+  SilhouetteSolver<T> silhouette_;
   ReceiverSight<T> receiver_;
   VisibleLight<T> visible_;
   WholePoints whole_;  ///< points put aside

@@ -12,7 +12,7 @@ void take_all(const GroupCandidates& candidates, std::vector<std::uint32_t>& pla
 }
 
 PreparedGroup GroupPreparer::prepare(const SoftFrame& frame, const GroupTask& task) {
-  return {task.frame, candidates_, outline_, sort_out(frame, task.frame, task.candidates)};
+  return {task.frame, candidates_, silhouette_, sort_out(frame, task.frame, task.candidates)};
 }
 
 bool GroupPreparer::prepare_family(const SoftFrame& frame, const GroupFrame& around,
@@ -20,24 +20,24 @@ bool GroupPreparer::prepare_family(const SoftFrame& frame, const GroupFrame& aro
   family_.clear();
   for (const GroupTask& task : tasks) family_.add(task.candidates);
   const auto clipped = sort_out(frame, around, family_.triangles());
-  if (!outline_.empty()) return false;
+  if (!silhouette_.empty()) return false;
   family_.make_ready(candidates_, clipped);
   return true;
 }
 
 PreparedGroup GroupPreparer::choose(std::size_t k, const GroupTask& task) {
-  return {task.frame, candidates_, outline_, family_.choose(k, task.frame, candidates_)};
+  return {task.frame, candidates_, silhouette_, family_.choose(k, task.frame, candidates_)};
 }
 
 /// Returns what is to be clipped. The BSP takes the candidates as they are.
 std::span<const std::uint32_t> GroupPreparer::sort_out(const SoftFrame& frame, const GroupFrame& group,
                                                        std::span<const std::uint32_t> triangles) {
-  outline_.clear();
+  silhouette_.clear();
   find_candidates_(frame.light, frame.triangles, group, triangles, candidates_);
   if (frame.config.solver == SoftSolver::bsp) return {};
   if (frame.config.solver == SoftSolver::automatic) {
-    finder_.find(frame.light, frame.triangles, candidates_, outline_, rest_);
-    drop_beside_light(group, candidates_.axes, outline_);
+    finder_.find(frame.light, frame.triangles, candidates_, silhouette_, rest_);
+    drop_beside_light(group, candidates_.axes, silhouette_);
     pair_triangles(group, candidates_, rest_);
   } else {
     take_all(candidates_, rest_);

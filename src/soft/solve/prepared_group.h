@@ -1,4 +1,5 @@
-// Groups made ready for the solvers: their candidates, sorted into the outline of meshes and what is clipped.
+// Groups made ready for the solvers: their candidates, sorted into the silhouette of meshes and what is
+// clipped.
 #pragma once
 
 #include <cstdint>
@@ -7,7 +8,7 @@
 
 #include "soft/occluders/candidate_order.h"
 #include "soft/occluders/family_candidates.h"
-#include "soft/silhouette/group_outline.h"
+#include "soft/silhouette/group_silhouette.h"
 #include "soft/solve/soft_frame.h"
 
 namespace tenebra::soft {
@@ -16,7 +17,7 @@ namespace tenebra::soft {
 struct PreparedGroup {
   const GroupFrame& frame;
   const GroupCandidates& candidates;
-  const GroupOutline& outline;             ///< empty where no meshes are worth one
+  const GroupSilhouette& silhouette;       ///< empty where no meshes are worth one
   std::span<const std::uint32_t> clipped;  ///< places of the candidates that are clipped, largest first
 };
 
@@ -29,7 +30,7 @@ public:
   PreparedGroup prepare(const SoftFrame& frame, const GroupTask& task);
 
   /// Prepares groups that lie near each other, within `around`, at once. False where their meshes have an
-  /// outline: then each had better have one of its own, by prepare().
+  /// silhouette: then each had better have one of its own, by prepare().
   bool prepare_family(const SoftFrame& frame, const GroupFrame& around, std::span<const GroupTask> tasks);
   /// Group `k` of the family, until restore().
   PreparedGroup choose(std::size_t k, const GroupTask& task);
@@ -41,9 +42,9 @@ private:
 
   FindCandidates find_candidates_;
   GroupCandidates candidates_;
-  OutlineFinder finder_;
-  GroupOutline outline_;
-  std::vector<std::uint32_t> rest_;  ///< places of the candidates that the outline leaves
+  SilhouetteFinder finder_;
+  GroupSilhouette silhouette_;
+  std::vector<std::uint32_t> rest_;  ///< places of the candidates that the silhouette leaves
   CandidateOrder order_;
   FamilyCandidates family_;
 };

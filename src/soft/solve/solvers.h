@@ -22,7 +22,7 @@ public:
                      std::span<const std::uint32_t> pixels, PixelWriter& writer) = 0;
 };
 
-/// Point by point: occluders are clipped from the light, and then what the outline of meshes hides.
+/// Point by point: occluders are clipped from the light, and then what the silhouette of meshes hides.
 std::unique_ptr<PointsSolver> make_point_solver(SimdLevel level);
 /// Sixteen points together, where few occluders stand before them.
 std::unique_ptr<PointsSolver> make_packet_solver(SimdLevel level);

@@ -19,7 +19,7 @@ double cross(dvec2 a, dvec2 b) {
 class SquareToLight {
 public:
   explicit SquareToLight(const AreaLight& light) : light_(light) {
-    const auto& o = light.outline;
+    const auto& o = light.polygon;
     double sum = 0;
     for (std::size_t i = 2; i < o.size(); ++i) {
       sum += 0.5 * cross(o[i - 1] - o[0], o[i] - o[0]);
@@ -38,13 +38,13 @@ public:
 
 private:
   dvec2 on_parallelogram(double u, double v) const {
-    const auto& o = light_.outline;
+    const auto& o = light_.polygon;
     if (!long_side_first_) std::swap(u, v);
     return o[0] + u * (o[1] - o[0]) + v * (o[3] - o[0]);
   }
   /// u runs through the triangles of a fan by their areas and on across the triangle; v runs outwards.
   dvec2 on_fan(double u, double v) const {
-    const auto& o = light_.outline;
+    const auto& o = light_.polygon;
     const double area = u * area_up_to_.back();
     std::size_t t = 0;
     while (t + 1 < area_up_to_.size() && area >= area_up_to_[t]) ++t;

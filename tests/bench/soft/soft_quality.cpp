@@ -67,7 +67,7 @@ Unoccluded unoccluded(const AreaLight& light, const dvec3& point, const dvec3& n
                       const dvec3& geometric) {
   if (!(glm::dot(light.normal, point - light.centre) > 0)) return {};
   Polygon polygon;
-  for (const glm::dvec2& v : light.outline)
+  for (const glm::dvec2& v : light.polygon)
     polygon.push_back(light.centre - point + v.x * light.ex + v.y * light.ey);
   polygon = above(polygon, geometric);
   const double fraction = area(polygon) / light.area_m2;

@@ -1,5 +1,5 @@
-// Outlines of meshes: which edges cancel, how often the rest winds around a place of the light, and that they
-// give what clipping gives.
+// Silhouettes of meshes: which edges cancel, how often the rest winds around a place of the light, and that
+// they give what clipping gives.
 #include <fmt/core.h>
 #include <gtest/gtest.h>
 
@@ -7,7 +7,7 @@
 #include <glm/gtc/matrix_transform.hpp>
 
 #include "soft/light/light_frame.h"
-#include "soft/silhouette/group_outline.h"
+#include "soft/silhouette/group_silhouette.h"
 #include "soft/soft_case.h"
 
 namespace tenebra::testing {
@@ -77,7 +77,7 @@ std::vector<SoftCase> mesh_cases() {
     boxes.append(box(low, low + dvec3(0.3)));
   }
   for (int k = 0; k < 4; ++k) shells.append(sphere(6, 0.4 + 0.15 * k, {0.1 * k, 1.4, 0}));
-  for (int heap = 0; heap < 4; ++heap) {  // outlines behind outlines
+  for (int heap = 0; heap < 4; ++heap) {  // silhouettes behind silhouettes
     Soup balls;
     for (int k = 0; k < 16; ++k) {
       const dvec3 centre(1.6 * random.unit() - 0.8, 0.9 + 1.2 * random.unit(), 1.6 * random.unit() - 0.8);
@@ -113,30 +113,30 @@ soft::GroupCandidates candidates_of(const SoftCase& c, const soft::GroupFrame& g
   return candidates;
 }
 
-TEST(SoftOutline, OfAClosedMeshIsItsSilhouette) {
+TEST(SoftSilhouette, OfAClosedMeshIsItsSilhouette) {
   const SoftCase c = below("sphere", sphere(12, 0.8, {0.1, 1.4, 0}));
   soft::GroupFrame group = floor_group();
   group.half *= 0.25;
-  soft::GroupOutline outline;
+  soft::GroupSilhouette silhouette;
   std::vector<std::uint32_t> rest;
-  soft::OutlineFinder().find(soft::light_frame(c.light), c.soup.view(), candidates_of(c, group), outline,
-                             rest);
+  soft::SilhouetteFinder().find(soft::light_frame(c.light), c.soup.view(), candidates_of(c, group),
+                                silhouette, rest);
   EXPECT_TRUE(rest.empty());
   std::size_t always = 0;
-  for (const soft::OutlineEdge& edge : outline.edges) always += edge.winding != 0;
+  for (const soft::SilhouetteEdge& edge : silhouette.edges) always += edge.winding != 0;
   EXPECT_GT(always, 24u);
-  EXPECT_LT(outline.edges.size(), 300u) << "of " << c.soup.triangles.size() << " triangles";
-  for (const soft::OutlineUse& use : outline.uses) EXPECT_LT(use.edge, outline.edges.size());
+  EXPECT_LT(silhouette.edges.size(), 300u) << "of " << c.soup.triangles.size() << " triangles";
+  for (const soft::SilhouetteUse& use : silhouette.uses) EXPECT_LT(use.edge, silhouette.edges.size());
 }
 
-TEST(SoftOutline, LeavesLooseTrianglesAlone) {
+TEST(SoftSilhouette, LeavesLooseTrianglesAlone) {
   Random random(5);
   const SoftCase c = below("cloud", random_soup(random, 200, 0.2).moved(1, {0, 2, 0}));
-  soft::GroupOutline outline;
+  soft::GroupSilhouette silhouette;
   std::vector<std::uint32_t> rest;
   const soft::GroupCandidates candidates = candidates_of(c, floor_group());
-  soft::OutlineFinder().find(soft::light_frame(c.light), c.soup.view(), candidates, outline, rest);
-  EXPECT_TRUE(outline.empty());
+  soft::SilhouetteFinder().find(soft::light_frame(c.light), c.soup.view(), candidates, silhouette, rest);
+  EXPECT_TRUE(silhouette.empty());
   EXPECT_EQ(rest.size(), candidates.all.size());
 }
 
@@ -147,17 +147,18 @@ double turn(dvec2 a, dvec2 b, dvec2 c) {
 }
 
 // The definition again, from projected corners: +1 an edge that the ray from q towards +u crosses upwards.
-double winding_around(dvec2 q, const soft::GroupOutline& outline, const std::vector<int>& signs,
+double winding_around(dvec2 q, const soft::GroupSilhouette& silhouette, const std::vector<int>& signs,
                       double point_height, double light_height, dvec2 point, bool& sure) {
   std::vector<double> winding;
-  for (const soft::OutlineEdge& edge : outline.edges) winding.push_back(edge.winding);
-  for (const soft::OutlineUse& use : outline.uses) winding[use.edge] += use.winding * signs[use.blocker];
+  for (const soft::SilhouetteEdge& edge : silhouette.edges) winding.push_back(edge.winding);
+  for (const soft::SilhouetteUse& use : silhouette.uses)
+    winding[use.edge] += use.winding * signs[use.blocker];
   double sum = 0;
-  for (std::size_t i = 0; i < outline.edges.size(); ++i) {
+  for (std::size_t i = 0; i < silhouette.edges.size(); ++i) {
     const auto projected = [&](dvec3 v) {
       return point + (dvec2(v) - point) * ((light_height - point_height) / (v.z - point_height));
     };
-    const dvec2 a = projected(outline.edges[i].from), b = projected(outline.edges[i].to);
+    const dvec2 a = projected(silhouette.edges[i].from), b = projected(silhouette.edges[i].to);
     if ((a.y > q.y) == (b.y > q.y)) continue;
     const double left = turn(a, b, q);
     sure &= left != 0;
@@ -186,7 +187,7 @@ int covering(const SoftCase& c, const std::vector<std::uint32_t>& left_out, dvec
   return count;
 }
 
-TEST(SoftOutline, WindsAroundAPlaceOnceForEachTriangleInFrontOfIt) {
+TEST(SoftSilhouette, WindsAroundAPlaceOnceForEachTriangleInFrontOfIt) {
   const Soup ball = sphere(10, 0.8, {0.1, 1.4, 0}), ring = torus(48, 18, 0.9, 0.3).moved(1, {0, 1.1, 0.2});
   Random random(72);
   std::size_t compared = 0, covered = 0, dropped = 0;
@@ -194,29 +195,29 @@ TEST(SoftOutline, WindsAroundAPlaceOnceForEachTriangleInFrontOfIt) {
     const SoftCase c = below("mesh", mesh);
     const soft::LightFrame light = soft::light_frame(c.light);
     const soft::GroupFrame group = floor_group();
-    soft::GroupOutline outline;
+    soft::GroupSilhouette silhouette;
     std::vector<std::uint32_t> rest;
     const soft::GroupCandidates candidates = candidates_of(c, group);
-    soft::OutlineFinder().find(light, c.soup.view(), candidates, outline, rest);
+    soft::SilhouetteFinder().find(light, c.soup.view(), candidates, silhouette, rest);
     for (std::uint32_t& place : rest) place = candidates.all[place].triangle;
-    ASSERT_FALSE(outline.empty());
+    ASSERT_FALSE(silhouette.empty());
     ASSERT_LT(rest.size(), c.soup.triangles.size() / 4);
-    soft::GroupOutline near = outline;
+    soft::GroupSilhouette near = silhouette;
     soft::drop_beside_light(group, candidates.axes, near);
-    dropped += outline.edges.size() - near.edges.size();
+    dropped += silhouette.edges.size() - near.edges.size();
     for (int k = 0; k < 400; ++k) {
       const dvec3 p = group.centre + dvec3(2 * random.unit() - 1, 0, 2 * random.unit() - 1) * group.half;
       std::vector<int> signs;
-      for (const soft::SometimesBlocker& blocker : outline.sometimes)
+      for (const soft::SometimesBlocker& blocker : silhouette.sometimes)
         signs.push_back(soft::blocking_sign(blocker.plane, p - group.centre, 0));
       const dvec2 q(2 * random.unit() - 1, 2 * random.unit() - 1);
       const dvec3 at = candidates.axes.of(p - group.centre);
       bool sure = true;
-      const auto winding_of = [&](const soft::GroupOutline& edges) {
+      const auto winding_of = [&](const soft::GroupSilhouette& edges) {
         return winding_around(q - dvec2(candidates.axes.centre_uv), edges, signs, at.z,
                               candidates.axes.centre_uv.z, dvec2(at), sure);
       };
-      const double winding = winding_of(outline), winding_near = winding_of(near);
+      const double winding = winding_of(silhouette), winding_near = winding_of(near);
       const int count = covering(c, rest, p, light.point(q), sure);
       if (!sure) continue;
       EXPECT_EQ(winding_near, winding) << "without the edges beside the light";
@@ -231,8 +232,8 @@ TEST(SoftOutline, WindsAroundAPlaceOnceForEachTriangleInFrontOfIt) {
   EXPECT_GT(dropped, 100u);
 }
 
-TEST(SoftOutline, GivesWhatClippingGives) {
-  std::size_t between = 0, by_outline = 0;
+TEST(SoftSilhouette, GivesWhatClippingGives) {
+  std::size_t between = 0, by_silhouette = 0;
   for (SoftCase& c : mesh_cases()) {
     SoftStats stats;
     SoftShadowConfig config;
@@ -241,7 +242,7 @@ TEST(SoftOutline, GivesWhatClippingGives) {
     const SoftMask expected = traced(c, config);
     config.solver = SoftSolver::automatic;
     const SoftMask precise = traced(c, config, &stats);
-    by_outline += stats.points_outline;
+    by_silhouette += stats.points_silhouette;
     const SoftMask fast = traced(c, SoftPrecision::fast);
     const double white = white_of(c, expected);
     for (std::size_t i = 0; i < c.size(); ++i) {
@@ -253,10 +254,10 @@ TEST(SoftOutline, GivesWhatClippingGives) {
     }
   }
   EXPECT_GT(between, 1500u);
-  EXPECT_GT(by_outline, 1500u);
+  EXPECT_GT(by_silhouette, 1500u);
 }
 
-TEST(SoftOutline, IsExact) {
+TEST(SoftSilhouette, IsExact) {
   Judgement sum;
   judge_all(below("small sphere", sphere(3, 0.8, {0.1, 1.4, 0}), 24), sum);
   judge_all(below("small torus", torus(14, 6, 0.9, 0.3).moved(1, {0, 1.1, 0.2}), 24), sum);
@@ -264,12 +265,12 @@ TEST(SoftOutline, IsExact) {
   Soup shells;
   for (int k = 0; k < 3; ++k) shells.append(sphere(2, 0.4 + 0.2 * k, {0.1 * k, 1.4, 0}));
   judge_all(below("spheres in spheres", shells, 24), sum);
-  sum.print("outlines");
+  sum.print("silhouettes");
   EXPECT_GT(sum.penumbra, 300u);
 }
 
 // Found in BART's kitchen: a part of the light thinner than rounding was halved without end.
-TEST(SoftOutline, ThinPartsUnderManyOccludersEnd) {
+TEST(SoftSilhouette, ThinPartsUnderManyOccludersEnd) {
   Soup stack;
   for (int k = 0; k < 80; ++k) {
     const double y = 1 + 0.01 * k;
@@ -287,9 +288,9 @@ TEST(SoftOutline, ThinPartsUnderManyOccludersEnd) {
 
 // The silhouette of a sheet beside the light runs along the ray on which windings are counted, level with the
 // middle of the light: rounding of a turned scene decides which of its edges the ray seems to meet.
-TEST(SoftOutline, SeesPastEdgesLevelWithTheMiddleOfTheLight) {
+TEST(SoftSilhouette, SeesPastEdgesLevelWithTheMiddleOfTheLight) {
   Random random(94);
-  std::size_t by_outline = 0;
+  std::size_t by_silhouette = 0;
   for (int round = 0; round < 60; ++round) {
     const dvec3 axis(2 * random.unit() - 1, 2 * random.unit() - 1, 2 * random.unit() - 1);
     const glm::dmat3 turn(glm::rotate(glm::dmat4(1.0), 6.28 * random.unit(), glm::normalize(axis)));
@@ -310,13 +311,13 @@ TEST(SoftOutline, SeesPastEdgesLevelWithTheMiddleOfTheLight) {
     }
     SoftStats stats;
     const SoftMask mask = traced(c, c.config, &stats);
-    by_outline += stats.points_outline;
+    by_silhouette += stats.points_silhouette;
     for (std::size_t i = 0; i < c.size(); ++i) {
       const double width = std::max(0.0, 0.06 * static_cast<double>(i % 8) - 0.2);
       EXPECT_NEAR(mask.visible_fraction[i], 1 - width / 4, 1e-6) << describe(c, i);
     }
   }
-  EXPECT_GT(by_outline, 1000u);
+  EXPECT_GT(by_silhouette, 1000u);
 }
 
 }  // namespace

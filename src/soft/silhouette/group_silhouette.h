@@ -1,11 +1,11 @@
-// The outline of the meshes that stand between a group of points and the light: only the edges at which the
-// number of triangles in the way may change.
+// The silhouette of the meshes that stand between a group of points and the light: only the edges at which
+// the number of triangles in the way may change.
 //
 // Every triangle is turned to show its points one and the same orientation. Where two neighbours share an
 // edge, they run through it in opposite directions, and the edge cancels: what is left of a closed mesh is
 // its silhouette, as seen from the points. How many triangles cover a place of the light is then the winding
-// number of this outline around it (the same for all triangles as for their outline, by the linearity of
-// boundaries), and the light is visible where it is zero. No assumption on the meshes: open, two-sided or
+// number of this silhouette around it (the same for all triangles as for their silhouette, by the linearity
+// of boundaries), and the light is visible where it is zero. No assumption on the meshes: open, two-sided or
 // crossing ones only cancel less.
 #pragma once
 
@@ -20,29 +20,29 @@
 
 namespace tenebra::soft {
 
-struct OutlineEdge {
+struct SilhouetteEdge {
   glm::dvec3 from, to;  ///< in LightAxes
   /// Of triangles that block all points: +1 for one that runs through it this way, -1 for the other way.
   int winding = 0;
 };
 
-/// A triangle that the points of the group lie on both sides of, or too near to: its part in the outline is
-/// its blocking_sign at the point times its uses.
+/// A triangle that the points of the group lie on both sides of, or too near to: its part in the silhouette
+/// is its blocking_sign at the point times its uses.
 struct SometimesBlocker {
   std::uint32_t triangle = 0;
   PlaneHeight plane;
 };
 
 /// What such a triangle adds to the winding of an edge where its blocking_sign is +1.
-struct OutlineUse {
+struct SilhouetteUse {
   std::uint32_t edge = 0, blocker = 0;
   int winding = 0;
 };
 
-struct GroupOutline {
-  std::vector<OutlineEdge> edges;
+struct GroupSilhouette {
+  std::vector<SilhouetteEdge> edges;
   std::vector<SometimesBlocker> sometimes;
-  std::vector<OutlineUse> uses;
+  std::vector<SilhouetteUse> uses;
 
   bool empty() const { return edges.empty(); }
   void clear() {
@@ -53,16 +53,16 @@ struct GroupOutline {
 };
 
 /// Drops the edges that no ray from a place of the light towards +u meets, from any point of the group: the
-/// winding around places of the light stays. `outline` stands between all points and the light's plane.
-void drop_beside_light(const GroupFrame& group, const LightAxes& axes, GroupOutline& outline);
+/// winding around places of the light stays. `silhouette` stands between all points and the light's plane.
+void drop_beside_light(const GroupFrame& group, const LightAxes& axes, GroupSilhouette& silhouette);
 
-/// Finds outlines, with a table of edges of its own.
-class OutlineFinder {
+/// Finds silhouettes, with a table of edges of its own.
+class SilhouetteFinder {
 public:
   /// Fills `out` from those of `candidates` that stand between the group's points and the light, and leaves
   /// the places of the others in `rest`. Where too few edges cancel, `out` is empty and all are left.
   void find(const LightFrame& light, const TriangleView& triangles, const GroupCandidates& candidates,
-            GroupOutline& out, std::vector<std::uint32_t>& rest);
+            GroupSilhouette& out, std::vector<std::uint32_t>& rest);
 
 private:
   struct Edge {
@@ -72,10 +72,10 @@ private:
   };
 
   bool take(const LightFrame& light, const TriangleView& triangles, const GroupCandidates& candidates,
-            GroupOutline& out, std::vector<std::uint32_t>& rest);
-  void add_triangle(const glm::vec3* corners, int turn, std::int32_t blocker, GroupOutline& out);
+            GroupSilhouette& out, std::vector<std::uint32_t>& rest);
+  void add_triangle(const glm::vec3* corners, int turn, std::int32_t blocker, GroupSilhouette& out);
   Edge& edge_of(const glm::vec3& from, const glm::vec3& to, std::uint32_t hash);
-  void keep_outline(const LightAxes& axes, GroupOutline& out);
+  void keep_silhouette(const LightAxes& axes, GroupSilhouette& out);
 
   void count_left(const Edge& edge, int change) {
     if (edge.winding != 0 || edge.used) left_ += static_cast<std::size_t>(change);

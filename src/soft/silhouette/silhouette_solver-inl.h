@@ -1,12 +1,12 @@
-// The visible part of the light from the outline of meshes: its border (outline_border-inl.h), for parts with
-// many edges strip by strip. Where rounding might decide, or a horizon is to cut what is found, the light is
-// cut along the edges that cross it, and a part that no edge crosses any more is visible if the outline winds
-// around it zero times. Included once per target.
-#if defined(TENEBRA_SOFT_OUTLINE_SOLVER_INL_H_) == defined(HWY_TARGET_TOGGLE)
-#ifdef TENEBRA_SOFT_OUTLINE_SOLVER_INL_H_
-#undef TENEBRA_SOFT_OUTLINE_SOLVER_INL_H_
+// The visible part of the light from the silhouette of meshes: its border (silhouette_border-inl.h), for
+// parts with many edges strip by strip. Where rounding might decide, or a horizon is to cut what is found,
+// the light is cut along the edges that cross it, and a part that no edge crosses any more is visible if the
+// silhouette winds around it zero times. Included once per target.
+#if defined(TENEBRA_SOFT_SILHOUETTE_SOLVER_INL_H_) == defined(HWY_TARGET_TOGGLE)
+#ifdef TENEBRA_SOFT_SILHOUETTE_SOLVER_INL_H_
+#undef TENEBRA_SOFT_SILHOUETTE_SOLVER_INL_H_
 #else
-#define TENEBRA_SOFT_OUTLINE_SOLVER_INL_H_
+#define TENEBRA_SOFT_SILHOUETTE_SOLVER_INL_H_
 #endif
 
 #include <algorithm>
@@ -15,19 +15,19 @@
 
 #include "soft/occluders/occluder_blocks-inl.h"
 #include "soft/polygon/light_fragments-inl.h"
-#include "soft/silhouette/group_outline.h"
-#include "soft/silhouette/outline_border-inl.h"
+#include "soft/silhouette/group_silhouette.h"
+#include "soft/silhouette/silhouette_border-inl.h"
 
 HWY_BEFORE_NAMESPACE();
 namespace tenebra::soft::HWY_NAMESPACE {
 using namespace simd::HWY_NAMESPACE;
 
 template <class T>
-class OutlineSolver {
+class SilhouetteSolver {
 public:
-  void reset(const GroupOutline& outline) {
-    outline_ = &outline;
-    moving_.resize((outline.edges.size() + 15) / 16);
+  void reset(const GroupSilhouette& silhouette) {
+    silhouette_ = &silhouette;
+    moving_.resize((silhouette.edges.size() + 15) / 16);
     at_point_.resize(moving_.size());
     for (std::size_t i = 0; i < 16 * moving_.size(); ++i) fill(i);
   }
@@ -68,8 +68,8 @@ private:
   void fill(std::size_t i) {
     MovingBlock& block = moving_[i / 16];
     const std::size_t k = i % 16;
-    const OutlineEdge none{glm::dvec3(0, 0, 1), glm::dvec3(0, 0, 1), 0};
-    const OutlineEdge& edge = i < outline_->edges.size() ? outline_->edges[i] : none;
+    const SilhouetteEdge none{glm::dvec3(0, 0, 1), glm::dvec3(0, 0, 1), 0};
+    const SilhouetteEdge& edge = i < silhouette_->edges.size() ? silhouette_->edges[i] : none;
     for (int c = 0; c < 3; ++c) {
       block.from[c][k] = edge.from[c];
       block.to[c][k] = edge.to[c];
@@ -104,11 +104,11 @@ private:
 
   void add_sometimes(const GroupPoint& at) {
     signs_.clear();
-    for (const SometimesBlocker& blocker : outline_->sometimes) {
+    for (const SometimesBlocker& blocker : silhouette_->sometimes) {
       const bool itself = blocker.triangle == at.receiver;
       signs_.push_back(itself ? 0 : blocking_sign(blocker.plane, at.from_centre, at.receiver_tau));
     }
-    for (const OutlineUse& use : outline_->uses) {
+    for (const SilhouetteUse& use : silhouette_->uses) {
       at_point_[use.edge / 16].winding[use.edge % 16] += static_cast<T>(signs_[use.blocker] * use.winding);
     }
   }
@@ -126,15 +126,15 @@ private:
     if (!any(counts)) return;
     const auto falls = less(v1, v0);
     const auto turned = [&](Lanes value) { return choose(falls, zero - value, value); };
-    const OutlineLanes<T> edges{turned(u),
-                                turned(v),
-                                turned(w),
-                                choose(falls, u1, u0),
-                                min(v0, v1),
-                                choose(falls, u0, u1),
-                                max(v0, v1),
-                                turned(winding),
-                                counted_lanes<T>() + splat<Lanes>(first)};
+    const SilhouetteLanes<T> edges{turned(u),
+                                   turned(v),
+                                   turned(w),
+                                   choose(falls, u1, u0),
+                                   min(v0, v1),
+                                   choose(falls, u0, u1),
+                                   max(v0, v1),
+                                   turned(winding),
+                                   counted_lanes<T>() + splat<Lanes>(first)};
     around_.append(counts, edges, slack_);
     crossing_.append(counts & less(min(u0, u1), one) & less(absolute(w), absolute(u) + absolute(v)), edges);
   }
@@ -228,7 +228,7 @@ private:
     };
     crossing_.count = to;
     for (std::size_t i = first; i < last; i += 16) {
-      const OutlineLanes<T> e = crossing_.lanes_from(i);
+      const SilhouetteLanes<T> e = crossing_.lanes_from(i);
       const auto meets = lanes_below<T>(last - i) & not_above(min(e.from_u, e.to_u), num(high_u)) &
                          not_above(num(low_u), max(e.from_u, e.to_u)) &
                          not_above(min(e.from_v, e.to_v), num(high_v)) &
@@ -255,13 +255,13 @@ private:
     return winding_around(around_, slack_, u / count, v / count, doubtful);
   }
 
-  const GroupOutline* outline_ = nullptr;
+  const GroupSilhouette* silhouette_ = nullptr;
   std::vector<MovingBlock> moving_;
   std::vector<Block> at_point_;
-  RayEdges<T> around_;        ///< edges that a ray from the light towards +u may cross
-  OutlineEdges<T> crossing_;  ///< edges that may cross the light, and behind them, the parts at hand
+  RayEdges<T> around_;           ///< edges that a ray from the light towards +u may cross
+  SilhouetteEdges<T> crossing_;  ///< edges that may cross the light, and behind them, the parts at hand
   std::size_t crossing_light_ = 0;
-  OutlineBorder<T> border_;
+  SilhouetteBorder<T> border_;
   std::vector<int> signs_;  ///< one a SometimesBlocker
   T slack_ = 0;             ///< what rounding the corners can amount to, units of the light
 };

@@ -1,14 +1,14 @@
-// The border of what an outline leaves of a part of the light, without cutting the part: the stretches of the
-// outline's edges and of the part's sides that have a winding of zero on one side only. Windings are counted
-// at one place of every edge, and change where others cross it. Included once per target.
+// The border of what a silhouette leaves of a part of the light, without cutting the part: the stretches of
+// the silhouette's edges and of the part's sides that have a winding of zero on one side only. Windings are
+// counted at one place of every edge, and change where others cross it. Included once per target.
 //
 // All decisions are of signs that rounding cannot change, or the border is not given and the part is to be
 // cut. Two edges meet in one and the same place for both: the border is closed but for the rounding of sums.
-#if defined(TENEBRA_SOFT_OUTLINE_BORDER_INL_H_) == defined(HWY_TARGET_TOGGLE)
-#ifdef TENEBRA_SOFT_OUTLINE_BORDER_INL_H_
-#undef TENEBRA_SOFT_OUTLINE_BORDER_INL_H_
+#if defined(TENEBRA_SOFT_SILHOUETTE_BORDER_INL_H_) == defined(HWY_TARGET_TOGGLE)
+#ifdef TENEBRA_SOFT_SILHOUETTE_BORDER_INL_H_
+#undef TENEBRA_SOFT_SILHOUETTE_BORDER_INL_H_
 #else
-#define TENEBRA_SOFT_OUTLINE_BORDER_INL_H_
+#define TENEBRA_SOFT_SILHOUETTE_BORDER_INL_H_
 #endif
 
 #include "soft/polygon/irradiance-inl.h"
@@ -19,11 +19,11 @@ namespace tenebra::soft::HWY_NAMESPACE {
 using namespace simd::HWY_NAMESPACE;
 
 template <class T>
-class OutlineBorder {
+class SilhouetteBorder {
 public:
   /// Finds out about the edges from place `first` on, on a convex part of the light. They stay where they
   /// are.
-  HWY_NOINLINE void look_at(const RayEdges<T>& around, const OutlineEdges<T>& edges, std::size_t first,
+  HWY_NOINLINE void look_at(const RayEdges<T>& around, const SilhouetteEdges<T>& edges, std::size_t first,
                             T slack, const LightPolygon<T>& part) {
     edges_ = &edges;
     first_ = first;
@@ -81,7 +81,7 @@ private:
   static SIMD_INLINE Lanes num(T value) { return splat<Lanes>(value); }
 
   void count_windings(std::size_t b) {
-    const OutlineLanes<T> e = edges_->lanes_from(first_ + 16 * b);
+    const SilhouetteLanes<T> e = edges_->lanes_from(first_ + 16 * b);
     const Lanes half = num(T(0.5));
     const Lanes u = (load<Lanes>(&stretches_.from_u[16 * b]) + load<Lanes>(&stretches_.to_u[16 * b])) * half;
     const Lanes v = (load<Lanes>(&stretches_.from_v[16 * b]) + load<Lanes>(&stretches_.to_v[16 * b])) * half;
@@ -94,9 +94,9 @@ private:
 
   /// Those of the edges of block b by others of it and behind it.
   HWY_NOINLINE void find_crossings(std::size_t b) {
-    const OutlineEdges<T>& its = *edges_;
+    const SilhouetteEdges<T>& its = *edges_;
     const EdgeStretches<T>& on = stretches_;
-    const OutlineLanes<T> e = its.lanes_from(first_ + 16 * b);
+    const SilhouetteLanes<T> e = its.lanes_from(first_ + 16 * b);
     const Lanes from_u = load<Lanes>(&on.from_u[16 * b]), from_v = load<Lanes>(&on.from_v[16 * b]);
     const Lanes to_u = load<Lanes>(&on.to_u[16 * b]), to_v = load<Lanes>(&on.to_v[16 * b]);
     const Lanes margin = load<Lanes>(&on.margin[16 * b]), near = num(on_line<T> + slack_);
@@ -119,7 +119,7 @@ private:
     }
   }
   /// Edges that share a corner do not cross.
-  SIMD_INLINE std::uint32_t shares_corner(const OutlineLanes<T>& e, std::size_t k) const {
+  SIMD_INLINE std::uint32_t shares_corner(const SilhouetteLanes<T>& e, std::size_t k) const {
     const auto at = [&](Lanes u, Lanes v) {
       return (equal(u, num(edges_->from_u[k])) & equal(v, num(edges_->from_v[k]))) |
              (equal(u, num(edges_->to_u[k])) & equal(v, num(edges_->to_v[k])));
@@ -230,7 +230,7 @@ private:
 
   const RayEdges<T>* around_ = nullptr;
   RayEdges<T> rays_;  ///< those at the height of the part
-  const OutlineEdges<T>* edges_ = nullptr;
+  const SilhouetteEdges<T>* edges_ = nullptr;
   std::size_t first_ = 0, count_ = 0;  ///< the edges at hand
   T slack_ = 0;
   EdgeStretches<T> stretches_;

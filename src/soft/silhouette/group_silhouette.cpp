@@ -1,4 +1,4 @@
-#include "soft/silhouette/group_outline.h"
+#include "soft/silhouette/group_silhouette.h"
 
 #include <algorithm>
 #include <bit>
@@ -57,26 +57,26 @@ struct ShadowRange {
 
 }  // namespace
 
-void drop_beside_light(const GroupFrame& group, const LightAxes& axes, GroupOutline& outline) {
+void drop_beside_light(const GroupFrame& group, const LightAxes& axes, GroupSilhouette& silhouette) {
   const dvec3 half = axes.half_around(group.half);
   constexpr std::uint32_t dropped = ~0u;
-  std::vector<std::uint32_t> places(outline.edges.size(), dropped);
+  std::vector<std::uint32_t> places(silhouette.edges.size(), dropped);
   std::uint32_t count = 0;
-  for (std::size_t i = 0; i < outline.edges.size(); ++i) {
-    const OutlineEdge edge = outline.edges[i];
+  for (std::size_t i = 0; i < silhouette.edges.size(); ++i) {
+    const SilhouetteEdge edge = silhouette.edges[i];
     ShadowRange range;
     range.add(axes, half, edge.from), range.add(axes, half, edge.to);
     if (range.beside_light()) continue;
     places[i] = count;
-    outline.edges[count++] = edge;
+    silhouette.edges[count++] = edge;
   }
-  outline.edges.resize(count);
-  for (OutlineUse& use : outline.uses) use.edge = places[use.edge];
-  std::erase_if(outline.uses, [](const OutlineUse& use) { return use.edge == dropped; });
+  silhouette.edges.resize(count);
+  for (SilhouetteUse& use : silhouette.uses) use.edge = places[use.edge];
+  std::erase_if(silhouette.uses, [](const SilhouetteUse& use) { return use.edge == dropped; });
 }
 
 // `hash`: the same for both directions.
-OutlineFinder::Edge& OutlineFinder::edge_of(const vec3& from, const vec3& to, std::uint32_t hash) {
+SilhouetteFinder::Edge& SilhouetteFinder::edge_of(const vec3& from, const vec3& to, std::uint32_t hash) {
   const std::size_t mask = table_.size() - 1;
   std::size_t slot = hash & mask;
   for (; table_[slot] != 0; slot = (slot + 1) & mask) {
@@ -91,7 +91,8 @@ OutlineFinder::Edge& OutlineFinder::edge_of(const vec3& from, const vec3& to, st
 }
 
 // `turn`: +1 if the corners run counter-clockwise in (u, v), else -1.
-void OutlineFinder::add_triangle(const vec3* corners, int turn, std::int32_t blocker, GroupOutline& out) {
+void SilhouetteFinder::add_triangle(const vec3* corners, int turn, std::int32_t blocker,
+                                    GroupSilhouette& out) {
   const std::uint32_t hashes[3] = {hash_of(corners[0]), hash_of(corners[1]), hash_of(corners[2])};
   for (int k = 0; k < 3; ++k) {
     const int next = (k + 1) % 3;
@@ -110,7 +111,7 @@ void OutlineFinder::add_triangle(const vec3* corners, int turn, std::int32_t blo
 }
 
 // Drops the edges that cancel.
-void OutlineFinder::keep_outline(const LightAxes& axes, GroupOutline& out) {
+void SilhouetteFinder::keep_silhouette(const LightAxes& axes, GroupSilhouette& out) {
   kept_.assign(edges_.size(), 0);
   for (std::size_t i = 0; i < edges_.size(); ++i) {
     const Edge& edge = edges_[i];
@@ -119,13 +120,13 @@ void OutlineFinder::keep_outline(const LightAxes& axes, GroupOutline& out) {
     out.edges.push_back(
         {axes.of(dvec3(edge.from) - axes.centre), axes.of(dvec3(edge.to) - axes.centre), edge.winding});
   }
-  for (OutlineUse& use : out.uses) use.edge = kept_[use.edge];
+  for (SilhouetteUse& use : out.uses) use.edge = kept_[use.edge];
 }
 
 // Adds up the edges of what `candidates` can give; false if too few of them cancel.
-bool OutlineFinder::take(const LightFrame& light, const TriangleView& triangles,
-                         const GroupCandidates& candidates, GroupOutline& out,
-                         std::vector<std::uint32_t>& rest) {
+bool SilhouetteFinder::take(const LightFrame& light, const TriangleView& triangles,
+                            const GroupCandidates& candidates, GroupSilhouette& out,
+                            std::vector<std::uint32_t>& rest) {
   const int facing = static_cast<int>(candidates.axes.turn);
   const int large = light_class(light, candidates.axes.centre) - 2;
   std::size_t taken = 0;
@@ -146,9 +147,9 @@ bool OutlineFinder::take(const LightFrame& light, const TriangleView& triangles,
   return taken >= worthwhile && 5 * left_ <= 6 * taken;
 }
 
-void OutlineFinder::find(const LightFrame& light, const TriangleView& triangles,
-                         const GroupCandidates& candidates, GroupOutline& out,
-                         std::vector<std::uint32_t>& rest) {
+void SilhouetteFinder::find(const LightFrame& light, const TriangleView& triangles,
+                            const GroupCandidates& candidates, GroupSilhouette& out,
+                            std::vector<std::uint32_t>& rest) {
   out.clear();
   rest.clear();
   const std::size_t count = candidates.all.size();
@@ -156,7 +157,7 @@ void OutlineFinder::find(const LightFrame& light, const TriangleView& triangles,
     edges_.clear();
     left_ = 0;
     table_.assign(std::bit_ceil(6 * count), 0);
-    if (take(light, triangles, candidates, out, rest)) return keep_outline(candidates.axes, out);
+    if (take(light, triangles, candidates, out, rest)) return keep_silhouette(candidates.axes, out);
   }
   out.clear();
   rest.resize(count);

@@ -1,9 +1,9 @@
-// Edges of an outline as a point sees them on the light's plane. Included once per target.
-#if defined(TENEBRA_SOFT_OUTLINE_EDGES_INL_H_) == defined(HWY_TARGET_TOGGLE)
-#ifdef TENEBRA_SOFT_OUTLINE_EDGES_INL_H_
-#undef TENEBRA_SOFT_OUTLINE_EDGES_INL_H_
+// Edges of a silhouette as a point sees them on the light's plane. Included once per target.
+#if defined(TENEBRA_SOFT_SILHOUETTE_EDGES_INL_H_) == defined(HWY_TARGET_TOGGLE)
+#ifdef TENEBRA_SOFT_SILHOUETTE_EDGES_INL_H_
+#undef TENEBRA_SOFT_SILHOUETTE_EDGES_INL_H_
 #else
-#define TENEBRA_SOFT_OUTLINE_EDGES_INL_H_
+#define TENEBRA_SOFT_SILHOUETTE_EDGES_INL_H_
 #endif
 
 #include <algorithm>
@@ -17,13 +17,13 @@ using namespace simd::HWY_NAMESPACE;
 
 /// An edge a lane.
 template <class T>
-struct OutlineLanes {
+struct SilhouetteLanes {
   Pack<T, 16> u, v, w, from_u, from_v, to_u, to_v, winding, number;
 };
 
 /// Edges without gaps, one array a quantity.
 template <class T>
-struct OutlineEdges {
+struct SilhouetteEdges {
   std::vector<T> u, v, w, from_u, from_v, to_u, to_v, winding, number;
   std::size_t count = 0;
 
@@ -46,7 +46,7 @@ struct OutlineEdges {
       (*values)[place] = (*values)[count];
   }
   /// Appends the edges where `chosen`; there is room.
-  SIMD_INLINE void append(Truth<T, 16> chosen, const OutlineLanes<T>& edges) {
+  SIMD_INLINE void append(Truth<T, 16> chosen, const SilhouetteLanes<T>& edges) {
     compress(chosen, edges.u, &u[count]);
     compress(chosen, edges.v, &v[count]);
     compress(chosen, edges.w, &w[count]);
@@ -58,7 +58,7 @@ struct OutlineEdges {
     count += compress(chosen, edges.to_v, &to_v[count]);
   }
   /// Sixteen from place i on.
-  SIMD_INLINE OutlineLanes<T> lanes_from(std::size_t i) const {
+  SIMD_INLINE SilhouetteLanes<T> lanes_from(std::size_t i) const {
     return {load<Pack<T, 16>>(&u[i]),      load<Pack<T, 16>>(&v[i]),       load<Pack<T, 16>>(&w[i]),
             load<Pack<T, 16>>(&from_u[i]), load<Pack<T, 16>>(&from_v[i]),  load<Pack<T, 16>>(&to_u[i]),
             load<Pack<T, 16>>(&to_v[i]),   load<Pack<T, 16>>(&winding[i]), load<Pack<T, 16>>(&number[i])};

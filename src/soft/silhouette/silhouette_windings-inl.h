@@ -1,16 +1,16 @@
-// How often an outline winds around places of the light: by the edges that a ray towards +u crosses, and how
-// much of that rounding might change. Included once per target.
-#if defined(TENEBRA_SOFT_OUTLINE_WINDINGS_INL_H_) == defined(HWY_TARGET_TOGGLE)
-#ifdef TENEBRA_SOFT_OUTLINE_WINDINGS_INL_H_
-#undef TENEBRA_SOFT_OUTLINE_WINDINGS_INL_H_
+// How often a silhouette winds around places of the light: by the edges that a ray towards +u crosses, and
+// how much of that rounding might change. Included once per target.
+#if defined(TENEBRA_SOFT_SILHOUETTE_WINDINGS_INL_H_) == defined(HWY_TARGET_TOGGLE)
+#ifdef TENEBRA_SOFT_SILHOUETTE_WINDINGS_INL_H_
+#undef TENEBRA_SOFT_SILHOUETTE_WINDINGS_INL_H_
 #else
-#define TENEBRA_SOFT_OUTLINE_WINDINGS_INL_H_
+#define TENEBRA_SOFT_SILHOUETTE_WINDINGS_INL_H_
 #endif
 
 #include <utility>
 
 #include "soft/polygon/light_polygon-inl.h"
-#include "soft/silhouette/outline_edges-inl.h"
+#include "soft/silhouette/silhouette_edges-inl.h"
 
 HWY_BEFORE_NAMESPACE();
 namespace tenebra::soft::HWY_NAMESPACE {
@@ -37,7 +37,7 @@ struct RayEdges {
     for (auto* values : {&u, &v, &w, &low, &high, &winding, &number, &margin}) values->resize(2 * needed);
   }
   /// Appends the edges where `chosen`; there is room.
-  SIMD_INLINE void append(Truth<T, 16> chosen, const OutlineLanes<T>& edges, T slack) {
+  SIMD_INLINE void append(Truth<T, 16> chosen, const SilhouetteLanes<T>& edges, T slack) {
     compress(chosen, edges.u, &u[count]);
     compress(chosen, edges.v, &v[count]);
     compress(chosen, edges.w, &w[count]);
