@@ -14,7 +14,7 @@ double rounding_tolerance(const vec3 triangle[3]) {
     for (int axis = 0; axis < 3; ++axis)
       largest = std::max(largest, std::abs(static_cast<double>(triangle[k][axis])));
   }
-  return 1.7320508075688772 * 0x1p-24 * largest;
+  return contact_tau * largest;
 }
 
 double contact_threshold(const vec3 occluder[3], double tau_occluder, double tau_receiver) {

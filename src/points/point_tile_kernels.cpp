@@ -27,43 +27,46 @@ Vector16 points_of(const PointTile& tile) {
 // q is rounded by u, the sum of squares by 4u: 2^-20 covers both many times over. Where squares leave the
 // range of floats, by coordinates.
 float radius_of(const Vector16& q) {
-  const float largest2 = greatest(dot(q, q));
+  const float largest2 = reduce_max(dot(q, q));
   if (largest2 > 1e-30f && largest2 < 1e36f) return std::sqrt(largest2) * (1 + 0x1p-20f);
-  const float largest = greatest(max(absolute(q.x), max(absolute(q.y), absolute(q.z))));
+  const float largest = reduce_max(max(abs(q.x), max(abs(q.y), abs(q.z))));
   return largest * 1.7320509f * (1 + 0x1p-20f) + 0x1p-126f;
 }
 
 float fill(const TileRows& rows, const glm::vec3& base, std::uint32_t lanes, PointTile& tile) {
-  const Pack3<Double4> centre =
-      splat3<Double4>(static_cast<double>(base.x), static_cast<double>(base.y), static_cast<double>(base.z));
+  const Pack3<Double4> centre = broadcast3<Double4>(static_cast<double>(base.x), static_cast<double>(base.y),
+                                                    static_cast<double>(base.z));
   const glm::dvec3& other = rows.point(std::countr_zero(lanes));
   Float4 x[4], y[4], z[4];
   for (int row = 0; row < 4; ++row) {
     Pack3<Double4> p = load3<Double4>(&rows[row]->x);
     const std::uint32_t there = (lanes >> (4 * row)) & 15u;
     if (there != 15u) {
-      const Truth<double, 4> is_there = truth_of<double, 4>(there);
-      p = {choose(is_there, p.x, splat<Double4>(other.x)), choose(is_there, p.y, splat<Double4>(other.y)),
-           choose(is_there, p.z, splat<Double4>(other.z))};
+      const Mask<double, 4> is_there = mask_of_bits<double, 4>(there);
+      p = {select(is_there, p.x, broadcast<Double4>(other.x)),
+           select(is_there, p.y, broadcast<Double4>(other.y)),
+           select(is_there, p.z, broadcast<Double4>(other.z))};
     }
     p = p - centre;
     x[row] = demoted(p.x), y[row] = demoted(p.y), z[row] = demoted(p.z);
   }
-  const Vector16 q{joined(x), joined(y), joined(z)};
+  const Vector16 q{combine(x), combine(y), combine(z)};
   store(q.x, tile.qx), store(q.y, tile.qy), store(q.z, tile.qz);
   return radius_of(q);
 }
 
 std::uint32_t beyond_gap(const PointTile& tile, std::uint32_t lanes) {
   const int first = std::countr_zero(lanes);
-  const Vector16 apart = points_of(tile) - splat3<Float16>(tile.qx[first], tile.qy[first], tile.qz[first]);
-  const Float16 distance2 = choose(truth_of<float, 16>(lanes), dot(apart, apart), splat<Float16>(0.0f));
-  const float farthest2 = greatest(distance2);
+  const Vector16 apart =
+      points_of(tile) - broadcast3<Float16>(tile.qx[first], tile.qy[first], tile.qz[first]);
+  const Float16 distance2 =
+      select(mask_of_bits<float, 16>(lanes), dot(apart, apart), broadcast<Float16>(0.0f));
+  const float farthest2 = reduce_max(distance2);
   if (!(farthest2 > 0)) return 0;
   std::uint32_t nearer[9];
   for (int k = 1; k <= 8; ++k) {
     const float limit = farthest2 * static_cast<float>(k * k) / 64.0f;
-    nearer[k] = less_bits(distance2, splat<Float16>(limit)) & lanes;
+    nearer[k] = lt_bits(distance2, broadcast<Float16>(limit)) & lanes;
   }
   for (int k = 1; k <= 4; ++k)
     if (nearer[k] == nearer[k + 4]) return lanes & ~nearer[k];
@@ -72,12 +75,12 @@ std::uint32_t beyond_gap(const PointTile& tile, std::uint32_t lanes) {
 
 void bound(const PointTile& tile, std::uint32_t lanes, int place, PointSquare& square) {
   const float* const q[3] = {tile.qx, tile.qy, tile.qz};
-  const Truth<float, 16> there = truth_of<float, 16>(lanes);
+  const Mask<float, 16> there = mask_of_bits<float, 16>(lanes);
   const int first = std::countr_zero(lanes);
   for (int axis = 0; axis < 3; ++axis) {
-    const Float16 all = choose(there, load<Float16>(q[axis]), splat<Float16>(q[axis][first]));
-    square.low[axis][place] = least(all);
-    square.high[axis][place] = greatest(all);
+    const Float16 all = select(there, load<Float16>(q[axis]), broadcast<Float16>(q[axis][first]));
+    square.low[axis][place] = reduce_min(all);
+    square.high[axis][place] = reduce_max(all);
   }
 }
 

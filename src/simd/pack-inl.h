@@ -8,13 +8,12 @@
 #define TENEBRA_SIMD_PACK_INL_H_
 #endif
 
-#include <hwy/cache_control.h>
 #include <hwy/highway.h>
 
 #include <cstdint>
 
-// Small functions are always inlined, but where a pack is a row of scalars: that target is there to compare with,
-// and with its loops inlined everywhere one file took five minutes to compile.
+// Small functions are always inlined, but where a pack is a row of scalars: that target is there to compare
+// with, and with its loops inlined everywhere one file took five minutes to compile.
 #undef SIMD_INLINE
 #if HWY_TARGET == HWY_SCALAR
 #define SIMD_INLINE inline
@@ -38,7 +37,7 @@ using Float4 = Pack<float, 4>;
 using Float16 = Pack<float, 16>;
 
 template <class P, class T>
-SIMD_INLINE P splat(T value) {
+SIMD_INLINE P broadcast(T value) {
   P p;
   for (int i = 0; i < P::registers; ++i) p.r[i] = hn::Set(typename P::Tag(), value);
   return p;
@@ -73,7 +72,7 @@ SIMD_INLINE Pack<T, N> operator/(Pack<T, N> a, Pack<T, N> b) {
 }
 /// a * b + c, fused where the target fuses: callers' bounds hold for both.
 template <class T, int N>
-SIMD_INLINE Pack<T, N> multiply_add(Pack<T, N> a, Pack<T, N> b, Pack<T, N> c) {
+SIMD_INLINE Pack<T, N> mul_add(Pack<T, N> a, Pack<T, N> b, Pack<T, N> c) {
   for (int i = 0; i < a.registers; ++i) a.r[i] = hn::MulAdd(a.r[i], b.r[i], c.r[i]);
   return a;
 }
@@ -83,7 +82,7 @@ SIMD_INLINE Pack<T, N> min(Pack<T, N> a, Pack<T, N> b) {
   return a;
 }
 template <class T, int N>
-SIMD_INLINE Pack<T, N> square_root(Pack<T, N> a) {
+SIMD_INLINE Pack<T, N> sqrt(Pack<T, N> a) {
   for (int i = 0; i < a.registers; ++i) a.r[i] = hn::Sqrt(a.r[i]);
   return a;
 }
@@ -94,7 +93,7 @@ SIMD_INLINE Pack<T, N> max(Pack<T, N> a, Pack<T, N> b) {
   return a;
 }
 template <class T, int N>
-SIMD_INLINE Pack<T, N> absolute(Pack<T, N> a) {
+SIMD_INLINE Pack<T, N> abs(Pack<T, N> a) {
   for (int i = 0; i < a.registers; ++i) a.r[i] = hn::Abs(a.r[i]);
   return a;
 }
@@ -104,19 +103,19 @@ SIMD_INLINE void store(Pack<T, N> a, T* to) {
 }
 /// Least and greatest lane.
 template <class T, int N>
-SIMD_INLINE T least(Pack<T, N> a) {
+SIMD_INLINE T reduce_min(Pack<T, N> a) {
   for (int i = 1; i < a.registers; ++i) a.r[0] = hn::Min(a.r[0], a.r[i]);
   return hn::GetLane(hn::MinOfLanes(typename Pack<T, N>::Tag(), a.r[0]));
 }
 template <class T, int N>
-SIMD_INLINE T greatest(Pack<T, N> a) {
+SIMD_INLINE T reduce_max(Pack<T, N> a) {
   for (int i = 1; i < a.registers; ++i) a.r[0] = hn::Max(a.r[0], a.r[i]);
   return hn::GetLane(hn::MaxOfLanes(typename Pack<T, N>::Tag(), a.r[0]));
 }
 
 /// Lanes of `a` where x <= y, of `b` elsewhere.
 template <class T, int N>
-SIMD_INLINE Pack<T, N> where_not_above(Pack<float, N> x, Pack<float, N> y, Pack<T, N> a, Pack<T, N> b) {
+SIMD_INLINE Pack<T, N> select_le(Pack<float, N> x, Pack<float, N> y, Pack<T, N> a, Pack<T, N> b) {
   for (int i = 0; i < a.registers; ++i) {
     a.r[i] =
         hn::IfThenElse(hn::RebindMask(typename Pack<T, N>::Tag(), hn::Le(x.r[i], y.r[i])), a.r[i], b.r[i]);
@@ -159,31 +158,31 @@ SIMD_INLINE Pack<std::int32_t, N> shift_right(Pack<std::int32_t, N> a) {
 
 /// A truth value a lane.
 template <class T, int N>
-struct Truth {
+struct Mask {
   hn::Mask<typename Pack<T, N>::Tag> r[Pack<T, N>::registers];
 };
-using Truth4 = Truth<float, 4>;
+using Mask4 = Mask<float, 4>;
 
 /// a < b; false where either is NaN.
 template <class T, int N>
-SIMD_INLINE Truth<T, N> less(Pack<T, N> a, Pack<T, N> b) {
-  Truth<T, N> t;
+SIMD_INLINE Mask<T, N> lt(Pack<T, N> a, Pack<T, N> b) {
+  Mask<T, N> t;
   for (int i = 0; i < a.registers; ++i) t.r[i] = hn::Lt(a.r[i], b.r[i]);
   return t;
 }
 template <class T, int N>
-SIMD_INLINE Truth<T, N> operator|(Truth<T, N> a, Truth<T, N> b) {
+SIMD_INLINE Mask<T, N> operator|(Mask<T, N> a, Mask<T, N> b) {
   for (int i = 0; i < Pack<T, N>::registers; ++i) a.r[i] = hn::Or(a.r[i], b.r[i]);
   return a;
 }
 template <class T, int N>
-SIMD_INLINE Truth<T, N> operator&(Truth<T, N> a, Truth<T, N> b) {
+SIMD_INLINE Mask<T, N> operator&(Mask<T, N> a, Mask<T, N> b) {
   for (int i = 0; i < Pack<T, N>::registers; ++i) a.r[i] = hn::And(a.r[i], b.r[i]);
   return a;
 }
 /// Bit i is lane i. Costs a trip through memory on some targets: once a decision, not once a comparison.
 template <class T, int N>
-SIMD_INLINE std::uint32_t bits(Truth<T, N> a) {
+SIMD_INLINE std::uint32_t bits(Mask<T, N> a) {
   using P = Pack<T, N>;
   std::uint32_t result = 0;
   for (int i = 0; i < P::registers; ++i) {
@@ -198,8 +197,8 @@ SIMD_INLINE std::uint32_t bits(Truth<T, N> a) {
   return result;
 }
 template <class T, int N>
-SIMD_INLINE std::uint32_t less_bits(Pack<T, N> a, Pack<T, N> b) {
-  return bits(less(a, b));
+SIMD_INLINE std::uint32_t lt_bits(Pack<T, N> a, Pack<T, N> b) {
+  return bits(lt(a, b));
 }
 
 /// Three coordinates of N points or vectors.
@@ -209,11 +208,11 @@ struct Pack3 {
 };
 template <class P>
 SIMD_INLINE P dot(const Pack3<P>& a, const Pack3<P>& b) {
-  return multiply_add(a.z, b.z, multiply_add(a.y, b.y, a.x * b.x));
+  return mul_add(a.z, b.z, mul_add(a.y, b.y, a.x * b.x));
 }
 template <class P, class T>
-SIMD_INLINE Pack3<P> splat3(T x, T y, T z) {
-  return {splat<P>(x), splat<P>(y), splat<P>(z)};
+SIMD_INLINE Pack3<P> broadcast3(T x, T y, T z) {
+  return {broadcast<P>(x), broadcast<P>(y), broadcast<P>(z)};
 }
 /// a - s b, lane by lane.
 template <class P>
@@ -223,11 +222,11 @@ SIMD_INLINE Pack3<P> subtract_scaled(const Pack3<P>& a, P s, const Pack3<P>& b) 
 
 /// out[k] = m.p - d for k = 0..3 in double; fused or not.
 SIMD_INLINE void four_planes(const double* mx, const double* my, const double* mz, const double* d, double px,
-                            double py, double pz, double* out) {
+                             double py, double pz, double* out) {
   using Double4 = Pack<double, 4>;
-  Double4 e = load<Double4>(mx) * splat<Double4>(px) - load<Double4>(d);
-  e = multiply_add(load<Double4>(my), splat<Double4>(py), e);
-  e = multiply_add(load<Double4>(mz), splat<Double4>(pz), e);
+  Double4 e = load<Double4>(mx) * broadcast<Double4>(px) - load<Double4>(d);
+  e = mul_add(load<Double4>(my), broadcast<Double4>(py), e);
+  e = mul_add(load<Double4>(mz), broadcast<Double4>(pz), e);
   for (int i = 0; i < e.registers; ++i) hn::StoreU(e.r[i], typename Double4::Tag(), out + i * e.width);
 }
 
@@ -265,21 +264,21 @@ SIMD_INLINE Pack<T, N> permute(Pack<T, N> a, Pack<LaneIndex<T>, N> index) {
 
 /// a > b, lane by lane, of whole numbers.
 template <class T, int N>
-SIMD_INLINE Truth<T, N> greater(Pack<T, N> a, Pack<T, N> b) {
-  Truth<T, N> t;
+SIMD_INLINE Mask<T, N> gt(Pack<T, N> a, Pack<T, N> b) {
+  Mask<T, N> t;
   for (int i = 0; i < a.registers; ++i) t.r[i] = hn::Gt(a.r[i], b.r[i]);
   return t;
 }
 /// a == b, lane by lane.
 template <class T, int N>
-SIMD_INLINE Truth<T, N> equal(Pack<T, N> a, Pack<T, N> b) {
-  Truth<T, N> t;
+SIMD_INLINE Mask<T, N> eq(Pack<T, N> a, Pack<T, N> b) {
+  Mask<T, N> t;
   for (int i = 0; i < a.registers; ++i) t.r[i] = hn::Eq(a.r[i], b.r[i]);
   return t;
 }
 /// Lanes of `a` where `t` holds, of `b` elsewhere; `t` may come from lanes of another kind and the same size.
 template <class U, class T, int N>
-SIMD_INLINE Pack<T, N> choose(Truth<U, N> t, Pack<T, N> a, Pack<T, N> b) {
+SIMD_INLINE Pack<T, N> select(Mask<U, N> t, Pack<T, N> a, Pack<T, N> b) {
   for (int i = 0; i < a.registers; ++i) {
     a.r[i] = hn::IfThenElse(hn::RebindMask(typename Pack<T, N>::Tag(), t.r[i]), a.r[i], b.r[i]);
   }
@@ -340,13 +339,13 @@ SIMD_INLINE Pack<T, N> gather(const void* from, Pack<std::int32_t, N> bytes) {
 }
 /// a <= b; false where either is NaN.
 template <class T, int N>
-SIMD_INLINE Truth<T, N> not_above(Pack<T, N> a, Pack<T, N> b) {
-  Truth<T, N> t;
+SIMD_INLINE Mask<T, N> le(Pack<T, N> a, Pack<T, N> b) {
+  Mask<T, N> t;
   for (int i = 0; i < a.registers; ++i) t.r[i] = hn::Le(a.r[i], b.r[i]);
   return t;
 }
 template <class T, int N>
-SIMD_INLINE bool any(Truth<T, N> t) {
+SIMD_INLINE bool any(Mask<T, N> t) {
   for (int i = 0; i < Pack<T, N>::registers; ++i)
     if (!hn::AllFalse(typename Pack<T, N>::Tag(), t.r[i])) return true;
   return false;
@@ -371,7 +370,7 @@ inline constexpr CompressTable<T, Width> compress_table;
 /// Writes the lanes where t is true one after another; returns their number. `to` has room for all N. (Where
 /// the target has no instruction for it, Highway's tables are copied to the stack at each use by GCC 12.)
 template <class T, int N, class U>
-SIMD_INLINE std::size_t compress(Truth<U, N> t, Pack<T, N> a, T* to) {
+SIMD_INLINE std::size_t compress(Mask<U, N> t, Pack<T, N> a, T* to) {
   using P = Pack<T, N>;
   const typename P::Tag tag;
   std::size_t count = 0;
@@ -392,16 +391,11 @@ SIMD_INLINE std::size_t compress(Truth<U, N> t, Pack<T, N> a, T* to) {
   return count;
 }
 
-/// Asks for the cache line of `at`, which is needed in a while; any address will do.
-SIMD_INLINE void fetch_soon(const void* at) {
-  hwy::Prefetch(static_cast<const unsigned char*>(at));
-}
-
 /// Lanes 0 ... N - 1 of a truth value from the bits of `bits`.
 template <class T, int N>
-SIMD_INLINE Truth<T, N> truth_of(std::uint32_t bits) {
+SIMD_INLINE Mask<T, N> mask_of_bits(std::uint32_t bits) {
   using P = Pack<T, N>;
-  Truth<T, N> t;
+  Mask<T, N> t;
   for (int i = 0; i < P::registers; ++i) {
     const std::uint32_t part = bits >> (i * P::width);
 #if HWY_TARGET <= HWY_AVX3
@@ -452,7 +446,7 @@ SIMD_INLINE Pack<float, N> demoted(Pack<double, N> a) {
   return p;
 }
 /// Four fours, one after another.
-SIMD_INLINE Float16 joined(const Float4 (&a)[4]) {
+SIMD_INLINE Float16 combine(const Float4 (&a)[4]) {
   Float16 p;
 #if HWY_TARGET <= HWY_AVX2
   const hn::CappedTag<float, 8> eight;
@@ -501,23 +495,23 @@ SIMD_INLINE P load_four(const T* from) {
 
 /// Sum of the lanes, in the target's order: the same bits everywhere only where all sums are exact.
 template <class T, int N>
-SIMD_INLINE T total(Pack<T, N> a) {
+SIMD_INLINE T reduce_add(Pack<T, N> a) {
   for (int i = 1; i < a.registers; ++i) a.r[0] = hn::Add(a.r[0], a.r[i]);
   return hn::GetLane(hn::SumOfLanes(typename Pack<T, N>::Tag(), a.r[0]));
 }
 
 /// Sum of the lanes, in one order: the same bits on every target.
-SIMD_INLINE double ordered_total(Pack<double, 8> a) {
+SIMD_INLINE double reduce_add_in_order(Pack<double, 8> a) {
   double v[8];
   store(a, v);
   return ((v[0] + v[1]) + (v[2] + v[3])) + ((v[4] + v[5]) + (v[6] + v[7]));
 }
 
 /// Bits of the sixteen that equal `value`.
-SIMD_INLINE std::uint32_t equal_bits(const std::uint32_t* sixteen, std::uint32_t value) {
+SIMD_INLINE std::uint32_t eq_bits(const std::uint32_t* sixteen, std::uint32_t value) {
   using P = Pack<std::int32_t, 16>;
-  return bits(equal(load<P>(reinterpret_cast<const std::int32_t*>(sixteen)),
-                    splat<P>(static_cast<std::int32_t>(value))));
+  return bits(eq(load<P>(reinterpret_cast<const std::int32_t*>(sixteen)),
+                 broadcast<P>(static_cast<std::int32_t>(value))));
 }
 
 /// Sixteen points by coordinate: point 4 i + k is x y z at lanes 4 i ... 4 i + 2 of p[k].
@@ -544,8 +538,8 @@ SIMD_INLINE Pack3<Float16> transposed(const Float16 (&p)[4]) {
 
 /// a != b, lane by lane.
 template <class T, int N>
-SIMD_INLINE Truth<T, N> unequal(Pack<T, N> a, Pack<T, N> b) {
-  Truth<T, N> t;
+SIMD_INLINE Mask<T, N> ne(Pack<T, N> a, Pack<T, N> b) {
+  Mask<T, N> t;
   for (int i = 0; i < a.registers; ++i) t.r[i] = hn::Ne(a.r[i], b.r[i]);
   return t;
 }

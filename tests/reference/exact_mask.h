@@ -1,5 +1,5 @@
-// The oracle of the hard shadows: the exact answer by the definition in tenebra/hard_shadows.h, decided for all
-// triangles that a ray could meet. Signs come from doubles with carried error bounds, and from unbounded
+// The oracle of the hard shadows: the exact answer by the definition in tenebra/hard_shadows.h, decided for
+// all triangles that a ray could meet. Signs come from doubles with carried error bounds, and from unbounded
 // integers where those cannot tell. Shares no code with src/.
 #pragma once
 

@@ -44,15 +44,15 @@ inline Slabs slabs_of(const CasterRay& ray) {
 // Bits of the children that the ray may meet, and where it enters them. Rounding loses at most three parts
 // in 2^24 of each end: the last end is moved out by more.
 SIMD_INLINE std::uint32_t meet_boxes(const BvhNode& node, const Slabs& ray, float* enter) {
-  Float8 first = splat<Float8>(ray.from), last = splat<Float8>(ray.to);
+  Float8 first = broadcast<Float8>(ray.from), last = broadcast<Float8>(ray.to);
   for (int axis = 0; axis < 3; ++axis) {
-    const Float8 origin = splat<Float8>(ray.origin[axis]), inverse = splat<Float8>(ray.inverse[axis]);
+    const Float8 origin = broadcast<Float8>(ray.origin[axis]), inverse = broadcast<Float8>(ray.inverse[axis]);
     first = max(first, (load<Float8>(node.plane[ray.near[axis]]) - origin) * inverse);
-    last = min(
-        last, (load<Float8>(node.plane[ray.far[axis]]) - origin) * inverse * splat<Float8>(1 + 8 * 0x1p-24f));
+    last = min(last, (load<Float8>(node.plane[ray.far[axis]]) - origin) * inverse *
+                         broadcast<Float8>(1 + 8 * 0x1p-24f));
   }
   store(first, enter);
-  return bits(not_above(first, last));
+  return bits(le(first, last));
 }
 
 // The frame in which the ray runs along its longest axis and everything is sheared onto the plane across
@@ -73,22 +73,22 @@ inline Shear shear_along(glm::vec3 d) {
 // sign of a difference of two products: rounding may make it zero, never turn it over. Zero counts as inside,
 // so that neighbours leave no gap, at vertices neither.
 SIMD_INLINE Float8 meet_triangles(const TriangleBlock& block, const CasterRay& ray, const Shear& shear) {
-  const Float8 to_x = splat<Float8>(shear.to_x), to_y = splat<Float8>(shear.to_y);
+  const Float8 to_x = broadcast<Float8>(shear.to_x), to_y = broadcast<Float8>(shear.to_y);
   Pack3<Float8> p[3];
   for (int k = 0; k < 3; ++k) {
-    const Float8 z = load<Float8>(block.corner[k][shear.z]) - splat<Float8>(ray.origin[shear.z]);
-    p[k] = {load<Float8>(block.corner[k][shear.x]) - splat<Float8>(ray.origin[shear.x]) - to_x * z,
-            load<Float8>(block.corner[k][shear.y]) - splat<Float8>(ray.origin[shear.y]) - to_y * z, z};
+    const Float8 z = load<Float8>(block.corner[k][shear.z]) - broadcast<Float8>(ray.origin[shear.z]);
+    p[k] = {load<Float8>(block.corner[k][shear.x]) - broadcast<Float8>(ray.origin[shear.x]) - to_x * z,
+            load<Float8>(block.corner[k][shear.y]) - broadcast<Float8>(ray.origin[shear.y]) - to_y * z, z};
   }
   const Float8 u = p[2].x * p[1].y - p[2].y * p[1].x, v = p[0].x * p[2].y - p[0].y * p[2].x,
                w = p[1].x * p[0].y - p[1].y * p[0].x;
-  const Float8 zero = splat<Float8>(0.0f), none = splat<Float8>(no_distance);
-  const Float8 scale = splat<Float8>(1.0f) / ((u + v) + w);  // divided by first: products stay in range
+  const Float8 zero = broadcast<Float8>(0.0f), none = broadcast<Float8>(no_distance);
+  const Float8 scale = broadcast<Float8>(1.0f) / ((u + v) + w);  // divided by first: products stay in range
   const Float8 t =
-      ((u * scale * p[0].z + v * scale * p[1].z) + w * scale * p[2].z) * splat<Float8>(shear.to_z);
-  const auto inside = not_above(zero, min(u, min(v, w))) | not_above(max(u, max(v, w)), zero);
-  const auto ahead = less(splat<Float8>(ray.from), t) & less(t, splat<Float8>(ray.to));
-  return choose(inside & ahead, t, none);
+      ((u * scale * p[0].z + v * scale * p[1].z) + w * scale * p[2].z) * broadcast<Float8>(shear.to_z);
+  const auto inside = le(zero, min(u, min(v, w))) | le(max(u, max(v, w)), zero);
+  const auto ahead = lt(broadcast<Float8>(ray.from), t) & lt(t, broadcast<Float8>(ray.to));
+  return select(inside & ahead, t, none);
 }
 
 inline bool usable(const CasterRay& ray) {
@@ -120,7 +120,7 @@ CasterHit trace_ray(const TriangleBvh& bvh, CasterRay ray) {
     if (entry.child & bvh_leaf) {
       const TriangleBlock& block = bvh.blocks[entry.child & ~bvh_leaf];
       const Float8 t = meet_triangles(block, ray, shear);
-      std::uint32_t met = bits(not_above(t, splat<Float8>(std::min(hit.distance, largest_distance))));
+      std::uint32_t met = bits(le(t, broadcast<Float8>(std::min(hit.distance, largest_distance))));
       if (met == 0) continue;
       float distance[bvh_width];
       store(t, distance);

@@ -25,8 +25,8 @@ SIMD_INLINE P inner(const Pack3<P>& a, const Pack3<P>& b) {
   return (a.x * b.x + a.y * b.y) + a.z * b.z;
 }
 SIMD_INLINE Float16 inverse(Float16 d) {
-  const Float16 tiny = splat<Float16>(1e-18f);
-  return splat<Float16>(1.0f) / copy_sign(max(absolute(d), tiny), d);
+  const Float16 tiny = broadcast<Float16>(1e-18f);
+  return broadcast<Float16>(1.0f) / copy_sign(max(abs(d), tiny), d);
 }
 
 struct Fan {
@@ -39,10 +39,10 @@ struct Fan {
 
 // Squares of the distances from the origin to the boxes.
 SIMD_INLINE void box_distances(const BvhNode& node, const Fan& fan, float* out) {
-  const Float8 zero = splat<Float8>(0.0f);
+  const Float8 zero = broadcast<Float8>(0.0f);
   Float8 square = zero;
   for (int axis = 0; axis < 3; ++axis) {
-    const Float8 o = splat<Float8>(fan.origin[axis]);
+    const Float8 o = broadcast<Float8>(fan.origin[axis]);
     const Float8 off =
         max(zero, max(load<Float8>(node.plane[axis]) - o, o - load<Float8>(node.plane[3 + axis])));
     square = square + off * off;
@@ -51,15 +51,15 @@ SIMD_INLINE void box_distances(const BvhNode& node, const Fan& fan, float* out) 
 }
 
 SIMD_INLINE bool meets_box(const BvhNode& node, int child, const Fan& fan) {
-  Float16 first = splat<Float16>(0.0f), last = fan.distance;
+  Float16 first = broadcast<Float16>(0.0f), last = fan.distance;
   const Float16* inverted[3] = {&fan.inverted.x, &fan.inverted.y, &fan.inverted.z};
   for (int axis = 0; axis < 3; ++axis) {
-    const Float16 a = splat<Float16>(node.plane[axis][child] - fan.origin[axis]) * *inverted[axis];
-    const Float16 b = splat<Float16>(node.plane[3 + axis][child] - fan.origin[axis]) * *inverted[axis];
+    const Float16 a = broadcast<Float16>(node.plane[axis][child] - fan.origin[axis]) * *inverted[axis];
+    const Float16 b = broadcast<Float16>(node.plane[3 + axis][child] - fan.origin[axis]) * *inverted[axis];
     first = max(first, min(a, b));
-    last = min(last, max(a, b) * splat<Float16>(1 + 8 * 0x1p-24f));  // rounding loses at most three parts
+    last = min(last, max(a, b) * broadcast<Float16>(1 + 8 * 0x1p-24f));  // rounding loses at most three parts
   }
-  return any(not_above(first, last));
+  return any(le(first, last));
 }
 
 // Planes through the origin and the edges of eight triangles.
@@ -72,9 +72,9 @@ struct EdgePlanes {
 SIMD_INLINE void edge_planes(const TriangleBlock& block, const Fan& fan, EdgePlanes& out) {
   Pack3<Float8> p[3];
   for (int k = 0; k < 3; ++k) {
-    p[k] = {load<Float8>(block.corner[k][0]) - splat<Float8>(fan.origin[0]),
-            load<Float8>(block.corner[k][1]) - splat<Float8>(fan.origin[1]),
-            load<Float8>(block.corner[k][2]) - splat<Float8>(fan.origin[2])};
+    p[k] = {load<Float8>(block.corner[k][0]) - broadcast<Float8>(fan.origin[0]),
+            load<Float8>(block.corner[k][1]) - broadcast<Float8>(fan.origin[1]),
+            load<Float8>(block.corner[k][2]) - broadcast<Float8>(fan.origin[2])};
   }
   const Pack3<Float8> n[3] = {cross(p[1], p[2]), cross(p[2], p[0]), cross(p[0], p[1])};
   for (int k = 0; k < 3; ++k)
@@ -83,28 +83,28 @@ SIMD_INLINE void edge_planes(const TriangleBlock& block, const Fan& fan, EdgePla
                                      Pack3<Float8>{p[2].x - p[0].x, p[2].y - p[0].y, p[2].z - p[0].z});
   const Float8 volume = inner(normal, p[0]);
   store(volume, out.volume);
-  const Float8 farthest = splat<Float8>(fan.reach * (1 + 0x1p-10f));
-  out.near = bits(not_above(volume * volume, farthest * farthest * inner(normal, normal)));
+  const Float8 farthest = broadcast<Float8>(fan.reach * (1 + 0x1p-10f));
+  out.near = bits(le(volume * volume, farthest * farthest * inner(normal, normal)));
 }
 
 SIMD_INLINE void meet_block(const TriangleBlock& block, Fan& fan) {
   EdgePlanes planes;
   edge_planes(block, fan, planes);
-  const Float16 zero = splat<Float16>(0.0f);
+  const Float16 zero = broadcast<Float16>(0.0f);
   for (std::uint32_t left = planes.near; left != 0; left &= left - 1) {
     const int i = std::countr_zero(left);
     const auto side = [&](int edge) {
-      return (fan.direction.x * splat<Float16>(planes.n[edge][0][i]) +
-              fan.direction.y * splat<Float16>(planes.n[edge][1][i])) +
-             fan.direction.z * splat<Float16>(planes.n[edge][2][i]);
+      return (fan.direction.x * broadcast<Float16>(planes.n[edge][0][i]) +
+              fan.direction.y * broadcast<Float16>(planes.n[edge][1][i])) +
+             fan.direction.z * broadcast<Float16>(planes.n[edge][2][i]);
     };
     const Float16 u = side(0), v = side(1), w = side(2);
-    const auto inside = not_above(zero, min(u, min(v, w))) | not_above(max(u, max(v, w)), zero);
+    const auto inside = le(zero, min(u, min(v, w))) | le(max(u, max(v, w)), zero);
     if (!any(inside)) continue;
-    const Float16 sum = (u + v) + w, t = splat<Float16>(planes.volume[i]) / sum;
-    const auto hit = inside & less(zero, t) & less(t, fan.distance);
-    fan.distance = choose(hit, t, fan.distance);
-    fan.facing = choose(hit, zero - sum, fan.facing);
+    const Float16 sum = (u + v) + w, t = broadcast<Float16>(planes.volume[i]) / sum;
+    const auto hit = inside & lt(zero, t) & lt(t, fan.distance);
+    fan.distance = select(hit, t, fan.distance);
+    fan.facing = select(hit, zero - sum, fan.facing);
   }
 }
 
@@ -125,8 +125,8 @@ void closest_fan(const TriangleBvh& bvh, const RayBatch& rays, float* distance, 
   const Pack3<Float16> d{load<Float16>(rays.dx), load<Float16>(rays.dy), load<Float16>(rays.dz)};
   Fan fan{
       {origin.x, origin.y, origin.z}, d, {inverse(d.x), inverse(d.y), inverse(d.z)}, load<Float16>(distance),
-      splat<Float16>(0.0f),           0};
-  fan.reach = greatest(fan.distance);
+      broadcast<Float16>(0.0f),       0};
+  fan.reach = reduce_max(fan.distance);
   Entry stack[bvh_depth * (bvh_width - 1) + 1];
   int size = 0;
   stack[size++] = {0, 0};
@@ -135,7 +135,7 @@ void closest_fan(const TriangleBvh& bvh, const RayBatch& rays, float* distance, 
     if (!(entry.square <= limit(fan))) continue;
     if (entry.child & bvh_leaf) {
       meet_block(bvh.blocks[entry.child & ~bvh_leaf], fan);
-      fan.reach = greatest(fan.distance);
+      fan.reach = reduce_max(fan.distance);
       continue;
     }
     const BvhNode& node = bvh.nodes[entry.child];

@@ -14,21 +14,22 @@ namespace {
 
 // Products and sums apart, never fused: the bits are the same on all targets.
 SIMD_INLINE Float16 component(const Pack3<Float16>& d, float x, float y, float z) {
-  return d.x * splat<Float16>(x) + d.y * splat<Float16>(y) + d.z * splat<Float16>(z);
+  return d.x * broadcast<Float16>(x) + d.y * broadcast<Float16>(y) + d.z * broadcast<Float16>(z);
 }
 
 void spread(const RayPattern& pattern, const RayAxes& axes, const glm::vec3& face, const glm::vec3& origin,
             RayBatch* out) {
-  const Float16 zero = splat<Float16>(0.0f), two = splat<Float16>(2.0f);
-  const Float16 ox = splat<Float16>(origin.x), oy = splat<Float16>(origin.y), oz = splat<Float16>(origin.z);
+  const Float16 zero = broadcast<Float16>(0.0f), two = broadcast<Float16>(2.0f);
+  const Float16 ox = broadcast<Float16>(origin.x), oy = broadcast<Float16>(origin.y),
+                oz = broadcast<Float16>(origin.z);
   for (const RayPattern::Batch& batch : pattern.batches) {
     const Pack3<Float16> local{load<Float16>(batch.x), load<Float16>(batch.y), load<Float16>(batch.z)};
     const Pack3<Float16> d{component(local, axes.x.x, axes.y.x, axes.z.x),
                            component(local, axes.x.y, axes.y.y, axes.z.y),
                            component(local, axes.x.z, axes.y.z, axes.z.z)};
     const Float16 below = two * min(component(d, face.x, face.y, face.z), zero);
-    const Pack3<Float16> mirrored =
-        subtract_scaled(d, below, {splat<Float16>(face.x), splat<Float16>(face.y), splat<Float16>(face.z)});
+    const Pack3<Float16> mirrored = subtract_scaled(
+        d, below, {broadcast<Float16>(face.x), broadcast<Float16>(face.y), broadcast<Float16>(face.z)});
     store(ox, out->ox), store(oy, out->oy), store(oz, out->oz);
     store(mirrored.x, out->dx), store(mirrored.y, out->dy), store(mirrored.z, out->dz);
     ++out;
@@ -36,7 +37,8 @@ void spread(const RayPattern& pattern, const RayAxes& axes, const glm::vec3& fac
 }
 
 float fall_off(const float* distances, int batches, float reach) {
-  const Float16 one = splat<Float16>(1.0f), zero = splat<Float16>(0.0f), inverse = splat<Float16>(1 / reach);
+  const Float16 one = broadcast<Float16>(1.0f), zero = broadcast<Float16>(0.0f),
+                inverse = broadcast<Float16>(1 / reach);
   Float16 sum = zero;
   for (int b = 0; b < batches; ++b)
     sum = sum + max(zero, one - load<Float16>(distances + b * batch_size) * inverse);

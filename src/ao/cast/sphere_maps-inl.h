@@ -18,32 +18,32 @@ struct Square16 {
 
 SIMD_INLINE Float16 octant_angle(Float16 t) {
   const Float16 s = t * t;
-  Float16 p = splat<Float16>(0.00973818667f);
-  p = p * s + splat<Float16>(-0.0462955384f);
-  p = p * s + splat<Float16>(0.105839887f);
-  p = p * s + splat<Float16>(-0.171223523f);
-  p = p * s + splat<Float16>(0.253018675f);
-  p = p * s + splat<Float16>(-0.424315711f);
-  p = p * s + splat<Float16>(1.27323856f);
+  Float16 p = broadcast<Float16>(0.00973818667f);
+  p = p * s + broadcast<Float16>(-0.0462955384f);
+  p = p * s + broadcast<Float16>(0.105839887f);
+  p = p * s + broadcast<Float16>(-0.171223523f);
+  p = p * s + broadcast<Float16>(0.253018675f);
+  p = p * s + broadcast<Float16>(-0.424315711f);
+  p = p * s + broadcast<Float16>(1.27323856f);
   return p * t;
 }
 
 SIMD_INLINE Square16 square_from_direction(const Pack3<Float16>& d) {
-  const Float16 zero = splat<Float16>(0.0f), one = splat<Float16>(1.0f), tiny = splat<Float16>(1e-37f);
-  const Float16 x = absolute(d.x), y = absolute(d.y);
-  const Float16 r = square_root(max(one - absolute(d.z), zero));
+  const Float16 zero = broadcast<Float16>(0.0f), one = broadcast<Float16>(1.0f),
+                tiny = broadcast<Float16>(1e-37f);
+  const Float16 x = abs(d.x), y = abs(d.y);
+  const Float16 r = sqrt(max(one - abs(d.z), zero));
   const Float16 larger = max(x, y), smaller = min(x, y);
-  const Float16 angle = splat<Float16>(0.5f) * octant_angle(smaller / max(larger, tiny));
-  const Float16 v = where_not_above(y, x, angle, one - angle) * r;
+  const Float16 angle = broadcast<Float16>(0.5f) * octant_angle(smaller / max(larger, tiny));
+  const Float16 v = select_le(y, x, angle, one - angle) * r;
   const Float16 u = r - v;
-  return {copy_sign(where_not_above(zero, d.z, u, one - v), d.x),
-          copy_sign(where_not_above(zero, d.z, v, one - u), d.y)};
+  return {copy_sign(select_le(zero, d.z, u, one - v), d.x), copy_sign(select_le(zero, d.z, v, one - u), d.y)};
 }
 
 SIMD_INLINE Pack3<Float16> direction_from_square(const Square16& square) {
-  const auto constant = [](float x) { return splat<Float16>(x); };
-  const Float16 one = constant(1.0f), u = absolute(square.u), v = absolute(square.v);
-  const Float16 above = one - (u + v), r = one - absolute(above);
+  const auto constant = [](float x) { return broadcast<Float16>(x); };
+  const Float16 one = constant(1.0f), u = abs(square.u), v = abs(square.v);
+  const Float16 above = one - (u + v), r = one - abs(above);
   const Float16 q = (v - u) / max(r, constant(1e-37f)), s = q * q;
   const Float16 sine =
       (((constant(-2.54235228e-05f) * s + constant(0.00176070069f)) * s + constant(-0.0570956444f)) * s +
@@ -52,17 +52,17 @@ SIMD_INLINE Pack3<Float16> direction_from_square(const Square16& square) {
   const Float16 cosine =
       ((constant(-0.000225480425f) * s + constant(0.0112075793f)) * s + constant(-0.21808888f)) * s +
       constant(0.707106762f);
-  const Float16 out = r * square_root(constant(2.0f) - r * r);
+  const Float16 out = r * sqrt(constant(2.0f) - r * r);
   return {copy_sign((cosine - sine) * out, square.u), copy_sign((cosine + sine) * out, square.v),
           copy_sign(one - r * r, above)};
 }
 
 SIMD_INLINE Square16 square_from_disk(Float16 dx, Float16 dy) {
-  const Float16 x = absolute(dx), y = absolute(dy);
+  const Float16 x = abs(dx), y = abs(dy);
   const Float16 larger = max(x, y), smaller = min(x, y);
-  const Float16 r = square_root(dx * dx + dy * dy);
-  const Float16 across = r * octant_angle(smaller / max(larger, splat<Float16>(1e-37f)));
-  return {copy_sign(where_not_above(y, x, r, across), dx), copy_sign(where_not_above(y, x, across, r), dy)};
+  const Float16 r = sqrt(dx * dx + dy * dy);
+  const Float16 across = r * octant_angle(smaller / max(larger, broadcast<Float16>(1e-37f)));
+  return {copy_sign(select_le(y, x, r, across), dx), copy_sign(select_le(y, x, across, r), dy)};
 }
 
 struct Cell16 {
@@ -70,18 +70,18 @@ struct Cell16 {
 };
 
 SIMD_INLINE Cell16 cell_of(const Square16& square, int side) {
-  const Float16 half = splat<Float16>(0.5f * static_cast<float>(side)), zero = splat<Float16>(0.0f);
-  const Float16 last = splat<Float16>(static_cast<float>(side - 1));
+  const Float16 half = broadcast<Float16>(0.5f * static_cast<float>(side)), zero = broadcast<Float16>(0.0f);
+  const Float16 last = broadcast<Float16>(static_cast<float>(side - 1));
   return {truncate(min(max(square.u * half + half, zero), last)),
           truncate(min(max(square.v * half + half, zero), last))};
 }
 SIMD_INLINE Int16 cell_index(const Cell16& cell, int side) {
-  return cell.row * splat<Int16>(side) + cell.column;
+  return cell.row * broadcast<Int16>(side) + cell.column;
 }
 /// Its centre.
 SIMD_INLINE Square16 cell_point(const Cell16& cell, int side) {
-  const Float16 scale = splat<Float16>(2 / static_cast<float>(side)), half = splat<Float16>(0.5f),
-                one = splat<Float16>(1.0f);
+  const Float16 scale = broadcast<Float16>(2 / static_cast<float>(side)), half = broadcast<Float16>(0.5f),
+                one = broadcast<Float16>(1.0f);
   return {(to_float(cell.column) + half) * scale - one, (to_float(cell.row) + half) * scale - one};
 }
 

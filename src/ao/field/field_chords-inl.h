@@ -16,7 +16,7 @@ HWY_BEFORE_NAMESPACE();
 namespace tenebra::ao::HWY_NAMESPACE {
 using namespace simd::HWY_NAMESPACE;
 
-using Truth16 = Truth<float, 16>;
+using Truth16 = Mask<float, 16>;
 
 SIMD_INLINE Float16 inner(const Pack3<Float16>& a, const Pack3<Float16>& b) {
   return (a.x * b.x + a.y * b.y) + a.z * b.z;
@@ -37,16 +37,17 @@ struct Chords {
 };
 
 SIMD_INLINE Float16 row_times(const float row[4], const Pack3<Float16>& v) {
-  return (splat<Float16>(row[0]) * v.x + splat<Float16>(row[1]) * v.y) + splat<Float16>(row[2]) * v.z;
+  return (broadcast<Float16>(row[0]) * v.x + broadcast<Float16>(row[1]) * v.y) +
+         broadcast<Float16>(row[2]) * v.z;
 }
 SIMD_INLINE Pack3<Float16> moved(const float rows[3][4], const Pack3<Float16>& p) {
-  return {row_times(rows[0], p) + splat<Float16>(rows[0][3]),
-          row_times(rows[1], p) + splat<Float16>(rows[1][3]),
-          row_times(rows[2], p) + splat<Float16>(rows[2][3])};
+  return {row_times(rows[0], p) + broadcast<Float16>(rows[0][3]),
+          row_times(rows[1], p) + broadcast<Float16>(rows[1][3]),
+          row_times(rows[2], p) + broadcast<Float16>(rows[2][3])};
 }
 
 SIMD_INLINE Chords chords_of(const FieldInstance& f, const RayBatch& rays) {
-  const Float16 one = splat<Float16>(1.0f), zero = splat<Float16>(0.0f);
+  const Float16 one = broadcast<Float16>(1.0f), zero = broadcast<Float16>(0.0f);
   const Pack3<Float16> d{load<Float16>(rays.dx), load<Float16>(rays.dy), load<Float16>(rays.dz)};
   const Pack3<Float16> direction{row_times(f.unit_from_world[0], d), row_times(f.unit_from_world[1], d),
                                  row_times(f.unit_from_world[2], d)};
@@ -54,16 +55,16 @@ SIMD_INLINE Chords chords_of(const FieldInstance& f, const RayBatch& rays) {
   c.origin =
       moved(f.unit_from_world, {load<Float16>(rays.ox), load<Float16>(rays.oy), load<Float16>(rays.oz)});
   const Float16 square = inner(direction, direction);
-  c.per_unit = one / square_root(square);
+  c.per_unit = one / sqrt(square);
   c.unit = {direction.x * c.per_unit, direction.y * c.per_unit, direction.z * c.per_unit};
   const Float16 ahead = zero - inner(c.origin, c.unit);
   c.at = ahead * c.per_unit;
   const Pack3<Float16> middle = along(c.origin, ahead, c.unit);
   const Float16 half_square = one - inner(middle, middle);
   c.met =
-      less(zero, half_square) & less(splat<Float16>(1e-30f), square) & less(square, splat<Float16>(1e30f));
-  c.half = square_root(max(half_square, zero));
-  c.middle = {choose(c.met, middle.x, zero), choose(c.met, middle.y, zero), choose(c.met, middle.z, zero)};
+      lt(zero, half_square) & lt(broadcast<Float16>(1e-30f), square) & lt(square, broadcast<Float16>(1e30f));
+  c.half = sqrt(max(half_square, zero));
+  c.middle = {select(c.met, middle.x, zero), select(c.met, middle.y, zero), select(c.met, middle.z, zero)};
   return c;
 }
 
@@ -76,28 +77,29 @@ SIMD_INLINE Int16 byte_of(const DisplacementField& field, Int16 entry) {
 SIMD_INLINE Float16 sample(const DisplacementField& field, Int16 position, Int16 entry) {
   const Int16 at = byte_of(field, entry);
   if (field.bits == 32) return gather<float>(field.table.data(), at);
-  const Float16 none = splat<Float16>(no_hit);
+  const Float16 none = broadcast<Float16>(no_hit);
   const Int16 word = gather<std::int32_t>(field.table.data(), at);
   if (field.bits == 8) {
-    const Float16 s = to_float(word & splat<Int16>(255)) * splat<Float16>(1 / 127.0f) - splat<Float16>(1.0f);
-    return where_not_above(splat<Float16>(1.0f + 0.5f / 127), s, none, s);
+    const Float16 s =
+        to_float(word & broadcast<Int16>(255)) * broadcast<Float16>(1 / 127.0f) - broadcast<Float16>(1.0f);
+    return select_le(broadcast<Float16>(1.0f + 0.5f / 127), s, none, s);
   }
-  const Int16 bit = shift_right(word, entry & splat<Int16>(7)) & splat<Int16>(1);
-  return where_not_above(splat<Float16>(1.0f), to_float(bit),
-                         gather<float>(field.mean.data(), shift_left<2>(position)), none);
+  const Int16 bit = shift_right(word, entry & broadcast<Int16>(7)) & broadcast<Int16>(1);
+  return select_le(broadcast<Float16>(1.0f), to_float(bit),
+                   gather<float>(field.mean.data(), shift_left<2>(position)), none);
 }
 
 // The paper's second discretisation: the direction to the chord's middle, seen from the position sample.
 SIMD_INLINE Int16 direction_cell(const FieldShape& shape, const Cell16& position,
-                                const Pack3<Float16>& middle) {
-  const Float16 zero = splat<Float16>(0.0f), one = splat<Float16>(1.0f);
+                                 const Pack3<Float16>& middle) {
+  const Float16 zero = broadcast<Float16>(0.0f), one = broadcast<Float16>(1.0f);
   const Pack3<Float16> a = direction_from_square(cell_point(position, shape.position_side));
   const Pack3<Float16> n{zero - a.x, zero - a.y, zero - a.z};  // inwards
   const Pack3<Float16> to{middle.x + n.x, middle.y + n.y, middle.z + n.z};
-  const Float16 scale = one / square_root(inner(to, to));
+  const Float16 scale = one / sqrt(inner(to, to));
   // frame_around(n)
   const Float16 sign = copy_sign(one, n.z);
-  const Float16 k = splat<Float16>(-1.0f) / (sign + n.z), b = n.x * n.y * k;
+  const Float16 k = broadcast<Float16>(-1.0f) / (sign + n.z), b = n.x * n.y * k;
   const Pack3<Float16> x{one + sign * (n.x * n.x * k), sign * b, (zero - sign) * n.x};
   const Pack3<Float16> y{b, sign + n.y * n.y * k, zero - n.y};
   const Square16 square = square_from_disk(inner(to, x) * scale, inner(to, y) * scale);
@@ -115,7 +117,7 @@ class Looks {
 public:
   SIMD_INLINE void begin(const DisplacementField& field, const Chords& c) {
     paper_ = field.layout == FieldLayout::positions_directions;
-    const Cell16 enter = end_cell(field, c, splat<Float16>(0.0f) - c.half);
+    const Cell16 enter = end_cell(field, c, broadcast<Float16>(0.0f) - c.half);
     from_enter_.position = cell_index(enter, field.shape.position_side);
     if (paper_) {
       from_enter_.entry = entry(field, from_enter_.position, direction_cell(field.shape, enter, c.middle));
@@ -139,7 +141,7 @@ private:
   }
   SIMD_INLINE static Int16 entry(const DisplacementField& field, Int16 position, Int16 direction) {
     const int directions = field.shape.direction_side * field.shape.direction_side;
-    return position * splat<Int16>(directions) + direction;
+    return position * broadcast<Int16>(directions) + direction;
   }
 
   bool paper_;
@@ -150,14 +152,14 @@ private:
 // t of the first hit seen from the entry, and of the first seen from the exit, which is the last along the
 // ray. `none` where there is no hit.
 SIMD_INLINE Float16 first_hit(const DisplacementField& field, const Chords& c, const Look& from_enter,
-                             Float16 none) {
+                              Float16 none) {
   const Float16 s = sample(field, from_enter.position, from_enter.entry);
-  return choose(less(s, splat<Float16>(no_hit)), c.at + s * c.per_unit, none);
+  return select(lt(s, broadcast<Float16>(no_hit)), c.at + s * c.per_unit, none);
 }
 SIMD_INLINE Float16 last_hit(const DisplacementField& field, const Chords& c, const Look& from_exit,
-                            Float16 none) {
+                             Float16 none) {
   const Float16 s = sample(field, from_exit.position, from_exit.entry);
-  return choose(less(s, splat<Float16>(no_hit)), c.at - s * c.per_unit, none);
+  return select(lt(s, broadcast<Float16>(no_hit)), c.at - s * c.per_unit, none);
 }
 
 }  // namespace tenebra::ao::HWY_NAMESPACE

@@ -11,6 +11,7 @@
 #include "ao/cast/bvh_trace-inl.h"
 #include "ao/field/field_chords-inl.h"
 #include "simd/dispatch.h"
+#include "simd/prefetch.h"
 
 #include <algorithm>
 #include <bit>
@@ -28,15 +29,15 @@ constexpr float cast_cells = 1;               // how far close rays are cast, in
 
 // Bits of those rays `inside` that start close to the object.
 SIMD_INLINE std::uint32_t close_rays(const DisplacementField& field, const Chords& c, Truth16 inside) {
-  const Float16 half = splat<Float16>(0.5f * near_side), last = splat<Float16>(near_side - 1.0f);
+  const Float16 half = broadcast<Float16>(0.5f * near_side), last = broadcast<Float16>(near_side - 1.0f);
   const auto cell = [&](Float16 x) {
-    return truncate(min(max(choose(inside, x, half) * half + half, splat<Float16>(0.0f)), last));
+    return truncate(min(max(select(inside, x, half) * half + half, broadcast<Float16>(0.0f)), last));
   };
-  const Int16 side = splat<Int16>(near_side);
+  const Int16 side = broadcast<Int16>(near_side);
   const Int16 place = (cell(c.origin.z) * side + cell(c.origin.y)) * side + cell(c.origin.x);
   const Int16 word = gather<std::int32_t>(field.close.data(), shift_left<2>(shift_right<5>(place)));
-  const Int16 bit = shift_right(word, place & splat<Int16>(31)) & splat<Int16>(1);
-  return bits(inside & less(splat<Float16>(0.0f), to_float(bit)));
+  const Int16 bit = shift_right(word, place & broadcast<Int16>(31)) & broadcast<Int16>(1);
+  return bits(inside & lt(broadcast<Float16>(0.0f), to_float(bit)));
 }
 
 // Casts the rays in `which` from t = from[i] to to[i]; to[i] becomes the distance of the hit if there is one.
@@ -64,13 +65,13 @@ struct Answer {
 
 // Rays that start close to the object are cast for one cell's width.
 SIMD_INLINE int cast_close(const FieldInstance& instance, const RayBatch& rays, const Chords& c,
-                          Truth16 inside, Answer& answer) {
+                           Truth16 inside, Answer& answer) {
   const std::uint32_t close = close_rays(*instance.field, c, inside);
   if (close == 0) return 0;
   float from[batch_size] = {}, start[batch_size], reach[batch_size], before[batch_size];
   store(answer.start, start);
   store(answer.before, before);
-  store(splat<Float16>(cast_cells * instance.field->cell()) * c.per_unit, reach);
+  store(broadcast<Float16>(cast_cells * instance.field->cell()) * c.per_unit, reach);
   for (std::uint32_t rest = close; rest != 0; rest &= rest - 1) {
     const int i = std::countr_zero(rest);
     start[i] = reach[i];
@@ -83,7 +84,7 @@ SIMD_INLINE int cast_close(const FieldInstance& instance, const RayBatch& rays, 
   }
   answer.start = load<Float16>(start);
   answer.before = load<Float16>(before);
-  answer.live = answer.live & less(answer.start, answer.before);
+  answer.live = answer.live & lt(answer.start, answer.before);
   return std::popcount(close);
 }
 
@@ -91,12 +92,12 @@ SIMD_INLINE int cast_close(const FieldInstance& instance, const RayBatch& rays, 
 // them, it is taken to lie before the first or behind the last. Else something may come before the last: it
 // is cast, or the last stands for it.
 SIMD_INLINE int between(const FieldInstance& instance, const RayBatch& rays, const Answer& answer,
-                       Truth16 behind, Float16 first, Float16 last, Float16 tolerance, Float16& found) {
-  const Float16 none = splat<Float16>(no_distance);
+                        Truth16 behind, Float16 first, Float16 last, Float16 tolerance, Float16& found) {
+  const Float16 none = broadcast<Float16>(no_distance);
   const Float16 behind_first = answer.start - first, before_last = last - answer.start;
-  const Truth16 at_first = behind & less(behind_first, min(tolerance, before_last));
-  const Truth16 deep = behind & not_above(tolerance, before_last) & not_above(tolerance, behind_first);
-  found = choose(at_first, answer.start, choose(behind, choose(deep, last, none), found));
+  const Truth16 at_first = behind & lt(behind_first, min(tolerance, before_last));
+  const Truth16 deep = behind & le(tolerance, before_last) & le(tolerance, behind_first);
+  found = select(at_first, answer.start, select(behind, select(deep, last, none), found));
   if (instance.near == nullptr) return 0;
   const std::uint32_t which = bits(deep);
   if (which == 0) return 0;
@@ -107,7 +108,7 @@ SIMD_INLINE int between(const FieldInstance& instance, const RayBatch& rays, con
   cast(instance, rays, which, from, to);
   for (int i = 0; i < batch_size; ++i)
     if (to[i] == limit[i]) to[i] = no_distance;
-  found = choose(deep, load<Float16>(to), found);
+  found = select(deep, load<Float16>(to), found);
   return std::popcount(which);
 }
 
@@ -124,21 +125,21 @@ struct Query {
 SIMD_INLINE void prefetch(const DisplacementField& field, Int16 entry) {
   std::int32_t at[batch_size];
   store(byte_of(field, entry), at);
-  for (const std::int32_t byte : at) fetch_soon(field.table.data() + byte);
+  for (const std::int32_t byte : at) simd::prefetch(field.table.data() + byte);
 }
 
 // Asks for what the rays will need of the table.
 SIMD_INLINE void begin(const FieldInstance& instance, const RayBatch& rays, const float* distance, Query& q) {
-  const Float16 zero = splat<Float16>(0.0f);
+  const Float16 zero = broadcast<Float16>(0.0f);
   const Chords c = q.chords = chords_of(instance, rays);
   const Float16 reach = c.half * c.per_unit, enter = c.at - reach;
   q.exit = c.at + reach;
   q.answer.start = max(enter, zero);
   q.answer.before = load<Float16>(distance);
-  q.answer.live = c.met & less(zero, q.exit) & less(enter, q.answer.before);
+  q.answer.live = c.met & lt(zero, q.exit) & lt(enter, q.answer.before);
   q.any = any(q.answer.live);
   if (!q.any) return;
-  q.inside = q.answer.live & less(enter, zero);
+  q.inside = q.answer.live & lt(enter, zero);
   q.looks.begin(*instance.field, c);
   prefetch(*instance.field, q.looks.from_enter().entry);
 }
@@ -150,19 +151,19 @@ SIMD_INLINE int finish(const FieldInstance& instance, const RayBatch& rays, Quer
   int casts = 0;
   if (instance.near != nullptr && any(q.inside)) {
     casts = cast_close(instance, rays, c, q.inside, q.answer);
-    q.answer.live = q.answer.live & less(q.answer.start, q.exit);
+    q.answer.live = q.answer.live & lt(q.answer.start, q.exit);
     q.inside = q.inside & q.answer.live;
   }
-  const Float16 none = splat<Float16>(no_distance);
+  const Float16 none = broadcast<Float16>(no_distance);
   const Float16 first = first_hit(field, c, q.looks.from_enter(), none);
-  const Truth16 behind = q.inside & less(first, q.answer.start);
-  Float16 found = choose(behind, none, max(first, q.answer.start));
+  const Truth16 behind = q.inside & lt(first, q.answer.start);
+  Float16 found = select(behind, none, max(first, q.answer.start));
   if (instance.ends == FieldEnds::both && any(behind)) {
-    const Float16 tolerance = splat<Float16>(half_diagonal * field.cell()) * c.per_unit;
+    const Float16 tolerance = broadcast<Float16>(half_diagonal * field.cell()) * c.per_unit;
     const Float16 last = last_hit(field, c, q.looks.from_exit(field, c), first);
     casts += between(instance, rays, q.answer, behind, first, last, tolerance, found);
   }
-  store(choose(q.answer.live, min(found, q.answer.before), q.answer.before), distance);
+  store(select(q.answer.live, min(found, q.answer.before), q.answer.before), distance);
   return casts;
 }
 

@@ -22,13 +22,13 @@ namespace {
 ConeNode cone_around(const RayPacket& packet) {
   constexpr float u = 0x1p-24f;
   const float inverse = 1 / packet.reach;
-  const Float16 scale = splat<Float16>(inverse);
+  const Float16 scale = broadcast<Float16>(inverse);
   const Pack3<Float16> p{
-      (splat<Float16>(static_cast<float>(packet.base_x)) + load<Float16>(packet.qx)) * scale,
-      (splat<Float16>(static_cast<float>(packet.base_y)) + load<Float16>(packet.qy)) * scale,
-      (splat<Float16>(static_cast<float>(packet.base_z)) + load<Float16>(packet.qz)) * scale};
-  const Float16 length = square_root(dot(p, p));
-  const float shortest = least(length), longest = greatest(length);
+      (broadcast<Float16>(static_cast<float>(packet.base_x)) + load<Float16>(packet.qx)) * scale,
+      (broadcast<Float16>(static_cast<float>(packet.base_y)) + load<Float16>(packet.qy)) * scale,
+      (broadcast<Float16>(static_cast<float>(packet.base_z)) + load<Float16>(packet.qz)) * scale};
+  const Float16 length = sqrt(dot(p, p));
+  const float shortest = reduce_min(length), longest = reduce_max(length);
   const float r = packet.radius * inverse;
 
   ConeNode node;
@@ -39,12 +39,13 @@ ConeNode cone_around(const RayPacket& packet) {
   if (!(shortest > 1e-6f)) return node;  // a ray next to the light, in a packet that is not
 
   const Pack3<Float16> d{p.x / length, p.y / length, p.z / length};
-  const glm::vec3 centre(least(d.x) + greatest(d.x), least(d.y) + greatest(d.y), least(d.z) + greatest(d.z));
+  const glm::vec3 centre(reduce_min(d.x) + reduce_max(d.x), reduce_min(d.y) + reduce_max(d.y),
+                         reduce_min(d.z) + reduce_max(d.z));
   const float centre_length = std::sqrt(centre.x * centre.x + centre.y * centre.y + centre.z * centre.z);
   if (centre_length > 1e-3f) node.w = centre / centre_length;
-  const Pack3<Float16> apart{d.x - splat<Float16>(node.w.x), d.y - splat<Float16>(node.w.y),
-                             d.z - splat<Float16>(node.w.z)};
-  const float widest = std::sqrt(greatest(dot(apart, apart)));
+  const Pack3<Float16> apart{d.x - broadcast<Float16>(node.w.x), d.y - broadcast<Float16>(node.w.y),
+                             d.z - broadcast<Float16>(node.w.z)};
+  const float widest = std::sqrt(reduce_max(dot(apart, apart)));
   node.c = std::min(node.c, (1 + 8 * u) * widest + 12 * u + 4 * u * r / shortest);
   return node;
 }

@@ -52,17 +52,17 @@ SIMD_INLINE PacketVerdict test_packet(const RayPacket& packet, const TrianglePla
   if (lowest < -(static_cast<double>(packet.radius) + k)) return {0, 0};
 
   const Pack3<Float16> q{load<Float16>(packet.qx), load<Float16>(packet.qy), load<Float16>(packet.qz)};
-  Float16 edges = splat<Float16>(std::numeric_limits<float>::infinity());
+  Float16 edges = broadcast<Float16>(std::numeric_limits<float>::infinity());
   Float16 own = edges;
   for (int i = 0; i < 4; ++i) {
-    const Pack3<Float16> m = splat3<Float16>(static_cast<float>(t.mx[i]), static_cast<float>(t.my[i]),
-                                             static_cast<float>(t.mz[i]));
-    const Float16 e = multiply_add(
-        m.z, q.z, multiply_add(m.y, q.y, multiply_add(m.x, q.x, splat<Float16>(static_cast<float>(e0[i])))));
+    const Pack3<Float16> m = broadcast3<Float16>(static_cast<float>(t.mx[i]), static_cast<float>(t.my[i]),
+                                                 static_cast<float>(t.mz[i]));
+    const Float16 e = mul_add(
+        m.z, q.z, mul_add(m.y, q.y, mul_add(m.x, q.x, broadcast<Float16>(static_cast<float>(e0[i])))));
     (i < 3 ? edges : own) = min(e, i < 3 ? edges : own);
   }
-  const std::uint32_t blocked = less_bits(splat<Float16>(k), min(edges, own - splat<Float16>(tau)));
-  const std::uint32_t missed = less_bits(min(edges, own), splat<Float16>(-k));
+  const std::uint32_t blocked = lt_bits(broadcast<Float16>(k), min(edges, own - broadcast<Float16>(tau)));
+  const std::uint32_t missed = lt_bits(min(edges, own), broadcast<Float16>(-k));
   return {blocked, 0xffffu & ~blocked & ~missed};
 }
 
@@ -153,8 +153,8 @@ void filter(const Traversal& s, std::size_t level, std::size_t block, TriangleLi
     if (i + 4 < list.size) simd::prefetch_all(s.set->bounds[list.places[i + 4]]);
     const TriangleBounds& bounds = s.set->bounds[place];
     stats.nodes += static_cast<std::uint64_t>(std::popcount(15u & ~nodes.empty));
-    const NodeVerdict verdict = test_nodes(bounds, nodes, s.flags.spheres, s.flags.directional, s.rays->tau_max,
-                                       s.flags.early_accept);
+    const NodeVerdict verdict = test_nodes(bounds, nodes, s.flags.spheres, s.flags.directional,
+                                           s.rays->tau_max, s.flags.early_accept);
     for (int lane = 0; lane < branching; ++lane) {
       out[lane][size[lane]] = place;
       size[lane] += ~(verdict.rejected >> lane) & 1u;

@@ -1,8 +1,8 @@
 // Where rays stand in the order in which they are kept: by direction, along a curve over the faces of a cube.
 #pragma once
 
-#include <cstdint>
 #include <tenebra/simd_level.h>
+#include <cstdint>
 
 namespace tenebra::shadow {
 

@@ -10,15 +10,13 @@
 
 #include <cmath>
 
+#include "points/contact_rule.h"
 #include "shadow/tiles/descent.h"
-#include "simd/pack-inl.h"
+#include "simd/double8-inl.h"
 
 HWY_BEFORE_NAMESPACE();
 namespace tenebra::shadow::HWY_NAMESPACE {
 using namespace simd::HWY_NAMESPACE;
-
-using Double8 = Pack<double, 8>;
-using Vector8 = Pack3<Double8>;
 
 /// Eight triangles in double, relative to the light.
 struct Eight {
@@ -29,12 +27,12 @@ struct Eight {
 
 SIMD_INLINE Eight load_eight(const TriangleCluster& c, int at, const glm::dvec3& light) {
   Eight t;
-  const Vector8 origin = splat3<Double8>(light.x, light.y, light.z);
-  t.largest = splat<Double8>(0.0);
+  const Vector8 origin = broadcast3<Double8>(light.x, light.y, light.z);
+  t.largest = broadcast<Double8>(0.0);
   for (int k = 0; k < 3; ++k) {
     const Vector8 p{load_widened<Double8>(c.x[k] + at), load_widened<Double8>(c.y[k] + at),
                     load_widened<Double8>(c.z[k] + at)};
-    t.largest = max(t.largest, max(absolute(p.x), max(absolute(p.y), absolute(p.z))));
+    t.largest = max(t.largest, max(abs(p.x), max(abs(p.y), abs(p.z))));
     t.a[k] = p - origin;
   }
   return t;
@@ -43,25 +41,25 @@ SIMD_INLINE Eight load_eight(const TriangleCluster& c, int at, const glm::dvec3&
 /// Stores plane `k`, turned to the side of `side`; returns the square of rho / 2^-48. 1 / 0 gives no plane
 /// and an infinite error: all is left to the exact stage.
 SIMD_INLINE Double8 store_plane(ClusterPlanes& out, int k, int at, const Vector8& m, Double8 side,
-                               Double8 squares, Vector8& unit) {
-  const Double8 zero = splat<Double8>(0.0), length2 = dot(m, m);
-  const Truth<double, 8> real = less(zero, length2);
-  const Double8 inverse = choose(real, splat<Double8>(1.0) / square_root(length2), zero);
+                                Double8 squares, Vector8& unit) {
+  const Double8 zero = broadcast<Double8>(0.0), length2 = dot(m, m);
+  const Mask<double, 8> real = lt(zero, length2);
+  const Double8 inverse = select(real, broadcast<Double8>(1.0) / sqrt(length2), zero);
   const Double8 factor = inverse * side;
   unit = {m.x * factor, m.y * factor, m.z * factor};
   store(unit.x, out.mx[k] + at), store(unit.y, out.my[k] + at), store(unit.z, out.mz[k] + at);
   store_narrowed(unit.x, out.fx[k] + at), store_narrowed(unit.y, out.fy[k] + at);
   store_narrowed(unit.z, out.fz[k] + at);
-  return choose(real, squares * inverse * inverse, splat<Double8>(HUGE_VAL));
+  return select(real, squares * inverse * inverse, broadcast<Double8>(HUGE_VAL));
 }
 
 /// Side of the light: sign of n.(A - L) where the error bound of the product allows, else 0.
 SIMD_INLINE Double8 certain_side(const Vector8& n, const Vector8& a, Double8 squares) {
   const Double8 value = dot(n, a);
-  const Double8 bound2 = splat<Double8>(0x1p-92) * squares * dot(a, a);
-  const Double8 one = splat<Double8>(1.0);
-  const Double8 sign = choose(less(splat<Double8>(0.0), value), one, splat<Double8>(-1.0));
-  return choose(less(bound2, value * value), sign, splat<Double8>(0.0));
+  const Double8 bound2 = broadcast<Double8>(0x1p-92) * squares * dot(a, a);
+  const Double8 one = broadcast<Double8>(1.0);
+  const Double8 sign = select(lt(broadcast<Double8>(0.0), value), one, broadcast<Double8>(-1.0));
+  return select(lt(bound2, value * value), sign, broadcast<Double8>(0.0));
 }
 
 /// Exact sides of the lanes in `lanes` whose side is 0; returns the lanes that are 0 indeed.
@@ -80,7 +78,7 @@ inline std::uint32_t settle_sides(const TriangleCluster& c, int at, std::uint32_
 
 /// Planes of triangles at ... at + 7, whose bits of `valid` and `edge_on` are added.
 SIMD_INLINE void set_up_eight(const TriangleCluster& c, int at, const RaySource& source, bool use_tau,
-                             bool cull_front, ClusterPlanes& out) {
+                              bool cull_front, ClusterPlanes& out) {
   Eight t = load_eight(c, at, source.origin);
   const Vector8 e1 = t.a[1] - t.a[0], e2 = t.a[2] - t.a[0], n = cross(e1, e2);
   const Double8 own_squares = dot(e1, e1) * dot(e2, e2);
@@ -96,7 +94,7 @@ SIMD_INLINE void set_up_eight(const TriangleCluster& c, int at, const RaySource&
   t.side = load<Double8>(side);
 
   Vector8 unit;
-  Double8 worst = splat<Double8>(0.0), reach2 = worst;
+  Double8 worst = broadcast<Double8>(0.0), reach2 = worst;
   for (int k = 0; k < 3; ++k) {
     const Vector8 edge = t.a[(k + 1) % 3] - t.a[k];
     const Double8 from2 = dot(t.a[k], t.a[k]);
@@ -104,17 +102,17 @@ SIMD_INLINE void set_up_eight(const TriangleCluster& c, int at, const RaySource&
     reach2 = max(reach2, from2);
   }
   worst = max(worst, store_plane(out, 3, at, n, t.side, own_squares, unit));
-  const Double8 tau = t.largest * splat<Double8>(use_tau ? 1.7320508075688772 * 0x1p-24 : 0.0);
+  const Double8 tau = t.largest * broadcast<Double8>(use_tau ? points::contact_tau : 0.0);
   const Double8 d = dot(unit, t.a[0]) + tau;
   store(d, out.d + at), store_narrowed(d, out.fd + at);
-  store_narrowed(square_root(worst) * splat<Double8>(0x1p-48 * (1 + 0x1p-20)), out.rho + at);
-  store_narrowed(square_root(reach2) * splat<Double8>(1 + 0x1p-20), out.reach + at);
+  store_narrowed(sqrt(worst) * broadcast<Double8>(0x1p-48 * (1 + 0x1p-20)), out.rho + at);
+  store_narrowed(sqrt(reach2) * broadcast<Double8>(1 + 0x1p-20), out.reach + at);
   out.valid |= valid << at;
   out.edge_on |= edge_on << at;
 }
 
 SIMD_INLINE void set_up_planes(const TriangleCluster& c, const RaySource& source, bool use_tau,
-                              bool cull_front, ClusterPlanes& out) {
+                               bool cull_front, ClusterPlanes& out) {
   out.valid = out.edge_on = 0;
   set_up_eight(c, 0, source, use_tau, cull_front, out);
   set_up_eight(c, 8, source, use_tau, cull_front, out);

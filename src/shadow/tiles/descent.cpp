@@ -99,7 +99,7 @@ private:
   }
   /// Lanes of a slot whose points lie on a triangle, which never blocks those.
   std::uint32_t own_lanes(const RayNode& n, int slot, std::uint32_t id) const {
-    return n.own[slot] == no_triangle && skip_own_ ? equal_bits(tile(n, slot).id, id) : 0;
+    return n.own[slot] == no_triangle && skip_own_ ? eq_bits(tile(n, slot).id, id) : 0;
   }
   std::uint32_t blocked_lanes(std::uint32_t tile, std::uint32_t open, std::uint32_t id);
   void retire(int level, std::uint32_t number);
@@ -256,7 +256,7 @@ void RootDescent::by_tiles(std::uint32_t number, std::uint32_t met, std::uint32_
     note_test(n);
     const FaceBox box = n.box(slot);
     std::uint32_t found = mask & boxes_met(boxes_, box);
-    if (skip_own_) found &= ~equal_bits(cluster_->ids, n.own[slot]);
+    if (skip_own_) found &= ~eq_bits(cluster_->ids, n.own[slot]);
     if (found != 0) found &= triangles_met(on_face_, box);
     if (found != 0) put_off(number, slot, found);
   }
@@ -270,7 +270,7 @@ void RootDescent::by_triangles(std::uint32_t number, std::uint32_t mask) {
     const int i = std::countr_zero(mask);
     note_test(n);
     std::uint32_t met = children_met(n, on_face_, i, box_of(i));
-    if (skip_own_) met &= ~equal_bits(n.own, cluster_->ids[i]);
+    if (skip_own_) met &= ~eq_bits(n.own, cluster_->ids[i]);
     if (met != 0) met = cover_tiles(n, i, met);
     tested |= met;
     for (; met != 0; met &= met - 1) found[std::countr_zero(met)] |= static_cast<std::uint16_t>(1u << i);

@@ -35,61 +35,62 @@ struct FaceBoxes {
 
 /// Bits of the boxes that meet `rays`; NaN counts as meeting.
 SIMD_INLINE std::uint32_t boxes_met(const FaceBoxes& b, const FaceBox& rays) {
-  const auto missed = less(splat<Float16>(rays.u1), b.u0) | less(b.u1, splat<Float16>(rays.u0)) |
-                      less(splat<Float16>(rays.v1), b.v0) | less(b.v1, splat<Float16>(rays.v0)) |
-                      less(b.w, splat<Float16>(rays.w));
+  const auto missed = lt(broadcast<Float16>(rays.u1), b.u0) | lt(b.u1, broadcast<Float16>(rays.u0)) |
+                      lt(broadcast<Float16>(rays.v1), b.v0) | lt(b.v1, broadcast<Float16>(rays.v0)) |
+                      lt(b.w, broadcast<Float16>(rays.w));
   return 0xffffu & ~bits(missed);
 }
 
 /// Bits of the node's children that a box meets and that have rays left.
 SIMD_INLINE std::uint32_t children_met(const RayNode& n, const FaceBox& box) {
-  const auto missed =
-      less(splat<Float16>(box.u1), load<Float16>(n.u0)) | less(load<Float16>(n.u1), splat<Float16>(box.u0)) |
-      less(splat<Float16>(box.v1), load<Float16>(n.v0)) | less(load<Float16>(n.v1), splat<Float16>(box.v0)) |
-      less(splat<Float16>(box.w), load<Float16>(n.w));
+  const auto missed = lt(broadcast<Float16>(box.u1), load<Float16>(n.u0)) |
+                      lt(load<Float16>(n.u1), broadcast<Float16>(box.u0)) |
+                      lt(broadcast<Float16>(box.v1), load<Float16>(n.v0)) |
+                      lt(load<Float16>(n.v1), broadcast<Float16>(box.v0)) |
+                      lt(broadcast<Float16>(box.w), load<Float16>(n.w));
   return n.live & ~bits(missed);
 }
 
 /// Lower end of x/z for x >= low and z in (z0, z1], given 1/z0 and 1/z1; `pull` is off_the_face where z0 <=
 /// 0.
 SIMD_INLINE Float16 lower_end(Float16 low, Float16 near_inverse, Float16 far_inverse, Float16 pull) {
-  return where_not_above(splat<Float16>(0.0f), low, low * far_inverse, low * near_inverse - pull);
+  return select_le(broadcast<Float16>(0.0f), low, low * far_inverse, low * near_inverse - pull);
 }
 SIMD_INLINE Float16 upper_end(Float16 high, Float16 near_inverse, Float16 far_inverse, Float16 pull) {
-  return where_not_above(high, splat<Float16>(0.0f), high * far_inverse, high * near_inverse + pull);
+  return select_le(high, broadcast<Float16>(0.0f), high * far_inverse, high * near_inverse + pull);
 }
 
 /// World-space boxes on a face of the cube around `light`; returns the bits of those that reach in front of
 /// it. Differences of floats are off by u, quotients and products by 4u more.
 SIMD_INLINE std::uint32_t project_boxes(const BoxNode& node, const glm::vec3& light, const Face& face,
-                                       FaceBoxes& out) {
+                                        FaceBoxes& out) {
   Float16 low[3], high[3];
   for (int k = 0; k < 3; ++k) {
     const int axis = face.axes[k];
-    low[k] = load<Float16>(node.low[axis]) - splat<Float16>(light[axis]);
-    high[k] = load<Float16>(node.high[axis]) - splat<Float16>(light[axis]);
+    low[k] = load<Float16>(node.low[axis]) - broadcast<Float16>(light[axis]);
+    high[k] = load<Float16>(node.high[axis]) - broadcast<Float16>(light[axis]);
   }
-  const Float16 zero = splat<Float16>(0.0f);
+  const Float16 zero = broadcast<Float16>(0.0f);
   const Float16 z0 = face.sign > 0 ? low[2] : zero - high[2], z1 = face.sign > 0 ? high[2] : zero - low[2];
-  const Float16 closest = splat<Float16>(next_to_the_light), one = splat<Float16>(1.0f);
+  const Float16 closest = broadcast<Float16>(next_to_the_light), one = broadcast<Float16>(1.0f);
   const Float16 near_inverse = one / max(z0, closest), far_inverse = one / z1;
-  const Float16 pull = where_not_above(z0, closest, splat<Float16>(off_the_face), zero);
+  const Float16 pull = select_le(z0, closest, broadcast<Float16>(off_the_face), zero);
   out.u0 = lower_end(low[0], near_inverse, far_inverse, pull);
   out.u1 = upper_end(high[0], near_inverse, far_inverse, pull);
   out.v0 = lower_end(low[1], near_inverse, far_inverse, pull);
   out.v1 = upper_end(high[1], near_inverse, far_inverse, pull);
   out.w = near_inverse;
-  return less_bits(zero, z1);
+  return lt_bits(zero, z1);
 }
 
 /// Boxes of a cluster's triangles themselves: tighter than its box by far. Triangles that reach behind the
 /// face's plane get `all`. Returns the bits of those that reach in front of it. Errors as project_boxes.
-SIMD_INLINE std::uint32_t project_triangles(const TriangleCluster& c, const glm::vec3& light, const Face& face,
-                                           const FaceBox& all, FaceBoxes& out) {
+SIMD_INLINE std::uint32_t project_triangles(const TriangleCluster& c, const glm::vec3& light,
+                                            const Face& face, const FaceBox& all, FaceBoxes& out) {
   const float(*const corners[3])[16] = {c.x, c.y, c.z};
-  const Float16 one = splat<Float16>(1.0f), sign = splat<Float16>(face.sign);
+  const Float16 one = broadcast<Float16>(1.0f), sign = broadcast<Float16>(face.sign);
   const Pack3<Float16> origin =
-      splat3<Float16>(light[face.axes[0]], light[face.axes[1]], light[face.axes[2]]);
+      broadcast3<Float16>(light[face.axes[0]], light[face.axes[1]], light[face.axes[2]]);
   Float16 z0, z1;
   for (int k = 0; k < 3; ++k) {
     const Float16 z = (load<Float16>(corners[face.axes[2]][k]) - origin.z) * sign;
@@ -100,13 +101,13 @@ SIMD_INLINE std::uint32_t project_triangles(const TriangleCluster& c, const glm:
     out.u0 = k == 0 ? pu : min(out.u0, pu), out.u1 = k == 0 ? pu : max(out.u1, pu);
     out.v0 = k == 0 ? pv : min(out.v0, pv), out.v1 = k == 0 ? pv : max(out.v1, pv);
   }
-  const Float16 closest = splat<Float16>(next_to_the_light);
-  out.u0 = where_not_above(z0, closest, splat<Float16>(all.u0), out.u0);
-  out.u1 = where_not_above(z0, closest, splat<Float16>(all.u1), out.u1);
-  out.v0 = where_not_above(z0, closest, splat<Float16>(all.v0), out.v0);
-  out.v1 = where_not_above(z0, closest, splat<Float16>(all.v1), out.v1);
-  out.w = where_not_above(z0, closest, splat<Float16>(all.w), one / max(z0, closest));
-  return c.used & less_bits(splat<Float16>(0.0f), z1);
+  const Float16 closest = broadcast<Float16>(next_to_the_light);
+  out.u0 = select_le(z0, closest, broadcast<Float16>(all.u0), out.u0);
+  out.u1 = select_le(z0, closest, broadcast<Float16>(all.u1), out.u1);
+  out.v0 = select_le(z0, closest, broadcast<Float16>(all.v0), out.v0);
+  out.v1 = select_le(z0, closest, broadcast<Float16>(all.v1), out.v1);
+  out.w = select_le(z0, closest, broadcast<Float16>(all.w), one / max(z0, closest));
+  return c.used & lt_bits(broadcast<Float16>(0.0f), z1);
 }
 
 /// A cluster's triangles on a face. Plane k at the point (u, v, w) of a ray: m.(u, v, 1) - d w, the plane's
@@ -124,39 +125,39 @@ SIMD_INLINE void face_cluster(const ClusterPlanes& c, const Face& face, float ta
   for (int k = 0; k < 4; ++k) {
     store(load<Float16>(m[face.axes[0]][k]), out.mx[k]);
     store(load<Float16>(m[face.axes[1]][k]), out.my[k]);
-    store(load<Float16>(m[face.axes[2]][k]) * splat<Float16>(face.sign), out.mz[k]);
+    store(load<Float16>(m[face.axes[2]][k]) * broadcast<Float16>(face.sign), out.mz[k]);
   }
   const Float16 d = load<Float16>(c.fd), rho = load<Float16>(c.rho), far = rho * load<Float16>(c.reach);
-  store(multiply_add(splat<Float16>(4.5f), rho, splat<Float16>(23 * u)), out.edge_slack);
-  store(multiply_add(splat<Float16>(4.5f), rho, splat<Float16>(28 * u)), out.own_slack);
-  store(d - absolute(d) * splat<Float16>(8 * u) - far * splat<Float16>(1 + 8 * u), out.d);
-  store((d + far + splat<Float16>(tau)) * splat<Float16>(1 + 16 * u), out.cover);
+  store(mul_add(broadcast<Float16>(4.5f), rho, broadcast<Float16>(23 * u)), out.edge_slack);
+  store(mul_add(broadcast<Float16>(4.5f), rho, broadcast<Float16>(28 * u)), out.own_slack);
+  store(d - abs(d) * broadcast<Float16>(8 * u) - far * broadcast<Float16>(1 + 8 * u), out.d);
+  store((d + far + broadcast<Float16>(tau)) * broadcast<Float16>(1 + 16 * u), out.cover);
 }
 
 /// Bits of the triangles that may block rays of a box: its corner that is farthest inside each plane.
 SIMD_INLINE std::uint32_t triangles_met(const FaceCluster& c, const FaceBox& box) {
   const auto most = [&](int k) HWY_ATTR {
     const Float16 mx = load<Float16>(c.mx[k]), my = load<Float16>(c.my[k]);
-    return max(mx * splat<Float16>(box.u0), mx * splat<Float16>(box.u1)) +
-           (max(my * splat<Float16>(box.v0), my * splat<Float16>(box.v1)) + load<Float16>(c.mz[k]));
+    return max(mx * broadcast<Float16>(box.u0), mx * broadcast<Float16>(box.u1)) +
+           (max(my * broadcast<Float16>(box.v0), my * broadcast<Float16>(box.v1)) + load<Float16>(c.mz[k]));
   };
   const Float16 edges = min(most(0), min(most(1), most(2))) + load<Float16>(c.edge_slack);
   const Float16 own = most(3) + load<Float16>(c.own_slack);
   return 0xffffu &
-         ~bits(less(edges, splat<Float16>(0.0f)) | less(own, load<Float16>(c.d) * splat<Float16>(box.w)));
+         ~bits(lt(edges, broadcast<Float16>(0.0f)) | lt(own, load<Float16>(c.d) * broadcast<Float16>(box.w)));
 }
 
 /// Plane k of triangle i over the boxes of a node: its largest value.
 SIMD_INLINE Float16 most(const RayNode& n, const FaceCluster& c, int k, int i) {
-  const Float16 mx = splat<Float16>(c.mx[k][i]), my = splat<Float16>(c.my[k][i]);
+  const Float16 mx = broadcast<Float16>(c.mx[k][i]), my = broadcast<Float16>(c.my[k][i]);
   return max(mx * load<Float16>(n.u0), mx * load<Float16>(n.u1)) +
-         (max(my * load<Float16>(n.v0), my * load<Float16>(n.v1)) + splat<Float16>(c.mz[k][i]));
+         (max(my * load<Float16>(n.v0), my * load<Float16>(n.v1)) + broadcast<Float16>(c.mz[k][i]));
 }
 /// Its smallest.
 SIMD_INLINE Float16 fewest(const RayNode& n, const FaceCluster& c, int k, int i) {
-  const Float16 mx = splat<Float16>(c.mx[k][i]), my = splat<Float16>(c.my[k][i]);
+  const Float16 mx = broadcast<Float16>(c.mx[k][i]), my = broadcast<Float16>(c.my[k][i]);
   return min(mx * load<Float16>(n.u0), mx * load<Float16>(n.u1)) +
-         (min(my * load<Float16>(n.v0), my * load<Float16>(n.v1)) + splat<Float16>(c.mz[k][i]));
+         (min(my * load<Float16>(n.v0), my * load<Float16>(n.v1)) + broadcast<Float16>(c.mz[k][i]));
 }
 
 /// Bits of the node's children that triangle i, whose box is `box`, may block rays of.
@@ -164,18 +165,18 @@ SIMD_INLINE std::uint32_t children_met(const RayNode& n, const FaceCluster& c, i
   const std::uint32_t met = children_met(n, box);
   if (met == 0) return 0;
   const Float16 edges = min(most(n, c, 0, i), min(most(n, c, 1, i), most(n, c, 2, i)));
-  const Float16 own = most(n, c, 3, i) + splat<Float16>(c.own_slack[i]);
-  const auto missed =
-      less(edges, splat<Float16>(-c.edge_slack[i])) | less(own, splat<Float16>(c.d[i]) * load<Float16>(n.w));
+  const Float16 own = most(n, c, 3, i) + broadcast<Float16>(c.own_slack[i]);
+  const auto missed = lt(edges, broadcast<Float16>(-c.edge_slack[i])) |
+                      lt(own, broadcast<Float16>(c.d[i]) * load<Float16>(n.w));
   return met & ~bits(missed);
 }
 
 /// Bits of the node's children all of whose rays triangle i blocks for sure, but for its own.
 SIMD_INLINE std::uint32_t children_covered(const RayNode& n, const FaceCluster& c, int i) {
   const Float16 edges = min(fewest(n, c, 0, i), min(fewest(n, c, 1, i), fewest(n, c, 2, i)));
-  const Float16 own = fewest(n, c, 3, i) - splat<Float16>(c.own_slack[i]);
-  return bits(less(splat<Float16>(c.edge_slack[i]), edges) &
-              less(splat<Float16>(c.cover[i]) * load<Float16>(n.w1), own));
+  const Float16 own = fewest(n, c, 3, i) - broadcast<Float16>(c.own_slack[i]);
+  return bits(lt(broadcast<Float16>(c.edge_slack[i]), edges) &
+              lt(broadcast<Float16>(c.cover[i]) * load<Float16>(n.w1), own));
 }
 
 }  // namespace tenebra::shadow::HWY_NAMESPACE

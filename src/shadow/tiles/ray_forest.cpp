@@ -6,8 +6,8 @@
 #include <limits>
 
 #include "parallel/parallel.h"
-#include "simd/prefetch.h"
 #include "shadow/tiles/patch_rays.h"
+#include "simd/prefetch.h"
 
 namespace tenebra::shadow {
 

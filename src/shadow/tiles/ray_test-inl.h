@@ -26,11 +26,12 @@ struct RoughRays {
 };
 
 SIMD_INLINE RoughRays rough_rays(const points::PointTile& tile, const points::PointBase& from,
-                                const glm::dvec3& light) {
+                                 const glm::dvec3& light) {
   float base[3];
   for (int k = 0; k < 3; ++k) base[k] = static_cast<float>(static_cast<double>(from.at[k]) - light[k]);
-  return {{splat<Float16>(base[0]) + load<Float16>(tile.qx), splat<Float16>(base[1]) + load<Float16>(tile.qy),
-           splat<Float16>(base[2]) + load<Float16>(tile.qz)},
+  return {{broadcast<Float16>(base[0]) + load<Float16>(tile.qx),
+           broadcast<Float16>(base[1]) + load<Float16>(tile.qy),
+           broadcast<Float16>(base[2]) + load<Float16>(tile.qz)},
           std::abs(base[0]) + std::abs(base[1]) + std::abs(base[2]) + 2 * from.radius};
 }
 
@@ -46,14 +47,14 @@ struct TileVerdict {
 /// The own plane opens tau of the rays' own triangles later.
 SIMD_INLINE TileVerdict rough_verdict(const ClusterPlanes& c, int i, const RoughRays& rays, float tau) {
   const auto value = [&](int k) HWY_ATTR {
-    return multiply_add(
-        splat<Float16>(c.fz[k][i]), rays.p.z,
-        multiply_add(splat<Float16>(c.fy[k][i]), rays.p.y, splat<Float16>(c.fx[k][i]) * rays.p.x));
+    return mul_add(
+        broadcast<Float16>(c.fz[k][i]), rays.p.z,
+        mul_add(broadcast<Float16>(c.fy[k][i]), rays.p.y, broadcast<Float16>(c.fx[k][i]) * rays.p.x));
   };
-  const Float16 edges = min(value(0), min(value(1), value(2))), own = value(3) - splat<Float16>(c.fd[i]);
+  const Float16 edges = min(value(0), min(value(1), value(2))), own = value(3) - broadcast<Float16>(c.fd[i]);
   const float k = (12 * u + c.rho[i]) * (1 + 8 * u) * (rays.reach + c.reach[i]) + 2.5f * u * tau + 0x1p-122f;
-  return {0xffffu & ~less_bits(min(edges, own), splat<Float16>(-k)),
-          less_bits(splat<Float16>(k), min(edges, own - splat<Float16>(tau)))};
+  return {0xffffu & ~lt_bits(min(edges, own), broadcast<Float16>(-k)),
+          lt_bits(broadcast<Float16>(k), min(edges, own - broadcast<Float16>(tau)))};
 }
 
 /// One of a cluster's triangles, its four planes side by side.
@@ -84,10 +85,10 @@ SIMD_INLINE Aim aim_at(const LeafTriangle& t, const points::PointBase& from, con
   using Double4 = Pack<double, 4>;
   double base[3];
   for (int k = 0; k < 3; ++k) base[k] = static_cast<double>(from.at[k]) - light[k];
-  Double4 e = load<Double4>(t.mx) * splat<Double4>(base[0]) - load<Double4>(t.d);
-  e = multiply_add(load<Double4>(t.my), splat<Double4>(base[1]), e);
+  Double4 e = load<Double4>(t.mx) * broadcast<Double4>(base[0]) - load<Double4>(t.d);
+  e = mul_add(load<Double4>(t.my), broadcast<Double4>(base[1]), e);
   Aim aim;
-  store(demoted(multiply_add(load<Double4>(t.mz), splat<Double4>(base[2]), e)), aim.e0);
+  store(demoted(mul_add(load<Double4>(t.mz), broadcast<Double4>(base[2]), e)), aim.e0);
   const auto reach =
       static_cast<float>(std::abs(base[0]) + std::abs(base[1]) + std::abs(base[2])) + from.radius;
   aim.sure = (10.1f * u * from.radius + t.rho * (reach + t.reach)) * (1 + 32 * u) + 0x1p-122f;
@@ -96,19 +97,19 @@ SIMD_INLINE Aim aim_at(const LeafTriangle& t, const points::PointBase& from, con
 
 /// Again, where the rough verdict leaves something open.
 SIMD_INLINE TileVerdict fine_verdict(const ClusterPlanes& c, int i, const points::PointTile& tile,
-                                const points::PointBase& from, const glm::dvec3& light, float tau) {
+                                     const points::PointBase& from, const glm::dvec3& light, float tau) {
   LeafTriangle t;
   take_triangle(c, i, t);
   const Aim aim = aim_at(t, from, light);
   const Pack3<Float16> q{load<Float16>(tile.qx), load<Float16>(tile.qy), load<Float16>(tile.qz)};
   const auto value = [&](int k) HWY_ATTR {
-    const Pack3<Float16> m = splat3<Float16>(t.fx[k], t.fy[k], t.fz[k]);
-    return multiply_add(m.z, q.z, multiply_add(m.y, q.y, multiply_add(m.x, q.x, splat<Float16>(aim.e0[k]))));
+    const Pack3<Float16> m = broadcast3<Float16>(t.fx[k], t.fy[k], t.fz[k]);
+    return mul_add(m.z, q.z, mul_add(m.y, q.y, mul_add(m.x, q.x, broadcast<Float16>(aim.e0[k]))));
   };
   const Float16 edges = min(value(0), min(value(1), value(2))), own = value(3);
   const float k = aim.sure + 2.5f * u * tau;
-  return {0xffffu & ~less_bits(min(edges, own), splat<Float16>(-k)),
-          less_bits(splat<Float16>(k), min(edges, own - splat<Float16>(tau)))};
+  return {0xffffu & ~lt_bits(min(edges, own), broadcast<Float16>(-k)),
+          lt_bits(broadcast<Float16>(k), min(edges, own - broadcast<Float16>(tau)))};
 }
 
 }  // namespace tenebra::shadow::HWY_NAMESPACE

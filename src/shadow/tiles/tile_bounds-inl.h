@@ -20,10 +20,10 @@ using namespace simd::HWY_NAMESPACE;
 /// roundings here; so the quotient is off by (margin + face_limit margin of z) / z, by 6u for its own
 /// roundings and by 16u for those of the boxes of triangles.
 SIMD_INLINE bool bound(const points::PointTile& tile, const points::PointBase& from, std::uint32_t lanes,
-                      const glm::dvec3& light, int face, FaceBox& box) {
+                       const glm::dvec3& light, int face, FaceBox& box) {
   constexpr float u = 0x1p-24f;
   const float* const q[3] = {tile.qx, tile.qy, tile.qz};
-  const Truth<float, 16> there = truth_of<float, 16>(lanes);
+  const Mask<float, 16> there = mask_of_bits<float, 16>(lanes);
   const int first = std::countr_zero(lanes);
   float margins[3];
   Float16 p[3];
@@ -31,17 +31,18 @@ SIMD_INLINE bool bound(const points::PointTile& tile, const points::PointBase& f
     const int axis = (face / 2 + 1 + k) % 3;
     const auto base = static_cast<float>(static_cast<double>(from.at[axis]) - light[axis]);
     margins[k] = 5 * u * ((base < 0 ? -base : base) + from.radius);
-    p[k] = splat<Float16>(base) + choose(there, load<Float16>(q[axis]), splat<Float16>(q[axis][first]));
+    p[k] =
+        broadcast<Float16>(base) + select(there, load<Float16>(q[axis]), broadcast<Float16>(q[axis][first]));
   }
-  if (face % 2 != 0) p[2] = splat<Float16>(0.0f) - p[2];
-  const float nearest = least(p[2]) - margins[2], farthest = greatest(p[2]) + margins[2];
+  if (face % 2 != 0) p[2] = broadcast<Float16>(0.0f) - p[2];
+  const float nearest = reduce_min(p[2]) - margins[2], farthest = reduce_max(p[2]) + margins[2];
   if (!(nearest > shortest_ray)) return false;
-  const Float16 w = splat<Float16>(1.0f) / p[2], pu = p[0] * w, pv = p[1] * w;
+  const Float16 w = broadcast<Float16>(1.0f) / p[2], pu = p[0] * w, pv = p[1] * w;
   const float near_inverse = 1 / nearest, off = (1 + 16 * u) * near_inverse;
   const float u_margin = (margins[0] + 3.1f * margins[2]) * off + 32 * u,
               v_margin = (margins[1] + 3.1f * margins[2]) * off + 32 * u;
-  box = {least(pu) - u_margin,    greatest(pu) + u_margin, least(pv) - v_margin,
-         greatest(pv) + v_margin, (1 - 16 * u) / farthest, near_inverse * (1 + 16 * u)};
+  box = {reduce_min(pu) - u_margin, reduce_max(pu) + u_margin, reduce_min(pv) - v_margin,
+         reduce_max(pv) + v_margin, (1 - 16 * u) / farthest,   near_inverse * (1 + 16 * u)};
   return box.u0 >= -face_limit && box.u1 <= face_limit && box.v0 >= -face_limit && box.v1 <= face_limit;
 }
 

@@ -23,15 +23,14 @@ constexpr float off_the_face = 1e30f;
 constexpr float coherent_extent = 8;
 
 Facing facing(const points::ReceiverBlock& r, const glm::vec3& light) {
-  const Pack3<Float16> to_light{splat<Float16>(light.x) - load<Float16>(r.ax),
-                                splat<Float16>(light.y) - load<Float16>(r.ay),
-                                splat<Float16>(light.z) - load<Float16>(r.az)};
+  const Pack3<Float16> to_light{broadcast<Float16>(light.x) - load<Float16>(r.ax),
+                                broadcast<Float16>(light.y) - load<Float16>(r.ay),
+                                broadcast<Float16>(light.z) - load<Float16>(r.az)};
   const Pack3<Float16> n{load<Float16>(r.nx), load<Float16>(r.ny), load<Float16>(r.nz)};
   const Float16 value = dot(n, to_light);
-  const Float16 bound =
-      load<Float16>(r.slack) * (absolute(to_light.x) + absolute(to_light.y) + absolute(to_light.z));
-  const std::uint32_t before = less_bits(bound, value),
-                      behind = less_bits(bound, splat<Float16>(0.0f) - value);
+  const Float16 bound = load<Float16>(r.slack) * (abs(to_light.x) + abs(to_light.y) + abs(to_light.z));
+  const std::uint32_t before = lt_bits(bound, value),
+                      behind = lt_bits(bound, broadcast<Float16>(0.0f) - value);
   return {before, 0xffffu & ~(before | behind)};
 }
 
@@ -42,8 +41,8 @@ struct Range {
 };
 SIMD_INLINE Range range_of(const points::PointSquare& square, const glm::dvec3& light, int axis) {
   const auto base = static_cast<float>(static_cast<double>(square.base.at[axis]) - light[axis]);
-  const Float16 centre = splat<Float16>(base),
-                margin = splat<Float16>(5 * u * ((base < 0 ? -base : base) + square.base.radius));
+  const Float16 centre = broadcast<Float16>(base),
+                margin = broadcast<Float16>(5 * u * ((base < 0 ? -base : base) + square.base.radius));
   return {centre + load<Float16>(square.low[axis]) - margin,
           centre + load<Float16>(square.high[axis]) + margin};
 }
@@ -55,32 +54,33 @@ bool project(const points::PointSquare& square, std::uint32_t tiles, const glm::
   const int axis = face / 2;
   const Range across[2] = {range_of(square, light, (axis + 1) % 3), range_of(square, light, (axis + 2) % 3)};
   Range z = range_of(square, light, axis);
-  const Float16 zero = splat<Float16>(0.0f), one = splat<Float16>(1.0f);
+  const Float16 zero = broadcast<Float16>(0.0f), one = broadcast<Float16>(1.0f);
   if (face % 2 != 0) z = {zero - z.high, zero - z.low};
   const Float16 near_inverse = one / z.low, far_inverse = one / z.high;
   constexpr float margin = 32 * u;
-  const Truth<float, 16> asked = truth_of<float, 16>(tiles);
-  const Float16 top = splat<Float16>(off_the_face), bottom = zero - top;
+  const Mask<float, 16> asked = mask_of_bits<float, 16>(tiles);
+  const Float16 top = broadcast<Float16>(off_the_face), bottom = zero - top;
   float* const low[2] = {node.u0, node.v0};
   float* const high[2] = {node.u1, node.v1};
   float* const bounds[2][2] = {{&all.u0, &all.u1}, {&all.v0, &all.v1}};
   const float apart = coherent_extent / static_cast<float>(std::popcount(tiles));
-  bool fits = (tiles & ~less_bits(splat<Float16>(shortest_ray), z.low)) == 0;
+  bool fits = (tiles & ~lt_bits(broadcast<Float16>(shortest_ray), z.low)) == 0;
   for (int k = 0; k < 2; ++k) {
     const Range r = across[k];
-    const Float16 from = r.low * where_not_above(zero, r.low, far_inverse, near_inverse) -
-                         splat<Float16>(margin),
-                  to = r.high * where_not_above(r.high, zero, far_inverse, near_inverse) +
-                       splat<Float16>(margin);
+    const Float16 from =
+                      r.low * select_le(zero, r.low, far_inverse, near_inverse) - broadcast<Float16>(margin),
+                  to = r.high * select_le(r.high, zero, far_inverse, near_inverse) +
+                       broadcast<Float16>(margin);
     store(from, low[k]), store(to, high[k]);
-    const float least_of_all = *bounds[k][0] = least(choose(asked, from, top)),
-                greatest_of_all = *bounds[k][1] = greatest(choose(asked, to, bottom));
+    const float least_of_all = *bounds[k][0] = reduce_min(select(asked, from, top)),
+                greatest_of_all = *bounds[k][1] = reduce_max(select(asked, to, bottom));
     fits &= least_of_all >= -face_limit && greatest_of_all <= face_limit &&
-            greatest_of_all - least_of_all <= total(choose(asked, to - from, zero)) * apart;
+            greatest_of_all - least_of_all <= reduce_add(select(asked, to - from, zero)) * apart;
   }
-  const Float16 w = far_inverse * splat<Float16>(1 - 16 * u), w1 = near_inverse * splat<Float16>(1 + 16 * u);
+  const Float16 w = far_inverse * broadcast<Float16>(1 - 16 * u),
+                w1 = near_inverse * broadcast<Float16>(1 + 16 * u);
   store(w, node.w), store(w1, node.w1);
-  all.w = least(choose(asked, w, top)), all.w1 = greatest(choose(asked, w1, zero));
+  all.w = reduce_min(select(asked, w, top)), all.w1 = reduce_max(select(asked, w1, zero));
   return fits;
 }
 

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "math/l1_norm.h"
 #include "points/triangle_corners.h"
 
 namespace tenebra::soft {
@@ -25,10 +26,6 @@ Triangle3 triangle_in_double(const TriangleView& triangles, std::uint32_t id) {
   return r;
 }
 
-double sum_of(const dvec3& v) {
-  return std::abs(v.x) + std::abs(v.y) + std::abs(v.z);
-}
-
 // The line of the edge from a to b, times `sign`.
 MovingLine edge_line(const LightFrame& light, const dvec3& centre, const dvec3& a, const dvec3& b,
                      double sign) {
@@ -49,11 +46,11 @@ enum class Side { negative, mixed, positive };
 Side side_of(const MovingLine& line, const LightFrame& light, const dvec3& half) {
   bool positive = true, negative = true;
   for (const dvec2& at : light.polygon) {
-    double spread = 0, size = sum_of(line.c[0]);
+    double spread = 0, size = math::l1_norm(line.c[0]);
     const dvec3 vertex(at, 1.0);
     for (int k = 0; k < 3; ++k) {
       spread += std::abs(glm::dot(line.c[k + 1], vertex)) * half[k];
-      size += sum_of(line.c[k + 1]) * half[k];
+      size += math::l1_norm(line.c[k + 1]) * half[k];
     }
     const double value = glm::dot(line.c[0], vertex);
     const double margin = spread + product_rounding * size;
@@ -65,8 +62,8 @@ Side side_of(const MovingLine& line, const LightFrame& light, const dvec3& half)
 
 // Largest sum of coefficients over the group's box, at most.
 double size_of(const MovingLine& line, const dvec3& half) {
-  double size = sum_of(line.c[0]);
-  for (int k = 0; k < 3; ++k) size += sum_of(line.c[k + 1]) * half[k];
+  double size = math::l1_norm(line.c[0]);
+  for (int k = 0; k < 3; ++k) size += math::l1_norm(line.c[k + 1]) * half[k];
   return size;
 }
 

@@ -3,6 +3,7 @@
 #include <cmath>
 #include <numeric>
 
+#include "math/l1_norm.h"
 #include "points/triangle_corners.h"
 
 namespace tenebra::soft {
@@ -10,10 +11,6 @@ namespace tenebra::soft {
 namespace {
 
 using glm::dvec3;
-
-double sum_of(const dvec3& v) {
-  return std::abs(v.x) + std::abs(v.y) + std::abs(v.z);
-}
 
 }  // namespace
 
@@ -50,8 +47,9 @@ LineClassBsp::Orientation LineClassBsp::orientation(std::uint32_t line, std::uin
     const double value = glm::dot(plane.normal, from);
     const double spread =
         std::abs(change.x) * half_.x + std::abs(change.y) * half_.y + std::abs(change.z) * half_.z;
-    const double margin = spread + product_rounding * (sum_of(plane.normal) * sum_of(from) +
-                                                       sum_of(plane.along) * sum_of(from) * sum_of(half_));
+    const double margin =
+        spread + product_rounding * (math::l1_norm(plane.normal) * math::l1_norm(from) +
+                                     math::l1_norm(plane.along) * math::l1_norm(from) * math::l1_norm(half_));
     positive &= value > margin;
     negative &= value < -margin;
   }

@@ -32,7 +32,7 @@ public:
   SIMD_INLINE void add(const Pack3<Wide>& way) {
     const Wide zero = wide(0);
     lowest_ = min(lowest_, way.z);
-    const Wide t = reach_ / choose(less(zero, way.z), way.z, wide(1));
+    const Wide t = reach_ / select(lt(zero, way.z), way.z, wide(1));
     const Wide seen[2] = {from_[0] + way.x * t, from_[1] + way.y * t};
     for (int axis = 0; axis < 2; ++axis) {
       low_[axis] = min(low_[axis], seen[axis]);
@@ -41,7 +41,7 @@ public:
   }
   SIMD_INLINE void store(Float16 (&sides)[4]) const {
     for (int axis = 0; axis < 2; ++axis) {
-      const ShadowSides side = bounded_sides(less(wide(0), lowest_), low_[axis], high_[axis]);
+      const ShadowSides side = bounded_sides(lt(wide(0), lowest_), low_[axis], high_[axis]);
       sides[2 * axis] = narrowed<float>(side.low), sides[2 * axis + 1] = narrowed<float>(side.minus_high);
     }
   }
@@ -76,7 +76,7 @@ public:
 private:
   /// Bits of the lanes where the boxes around fragment and shadow meet.
   static SIMD_INLINE std::uint32_t meeting(const PacketReach& reach, const PacketShadow& shadow) {
-    const auto below = [&](int k) { return less(shadow.sides[k], reach.side[k]); };
+    const auto below = [&](int k) { return lt(shadow.sides[k], reach.side[k]); };
     return bits(below(0) & below(1) & below(2) & below(3));
   }
 

@@ -64,7 +64,7 @@ inline PointRange range_of(const PacketPoints& at) {
   PointRange range{{}, {}, glm::dvec2(at.axes.centre_uv), at.axes.centre_uv.z};
   for (int c = 0; c < 3; ++c) {
     const Wide there = load<Wide>(at.in_axes[c]);
-    range.low[c] = least(there), range.high[c] = greatest(there);
+    range.low[c] = reduce_min(there), range.high[c] = reduce_max(there);
   }
   return range;
 }
@@ -106,16 +106,16 @@ SIMD_INLINE PacketReach bounds_of(const PacketPart& part) {
     low_u = min(low_u, p.x[k]), high_u = max(high_u, p.x[k]);
     low_v = min(low_v, p.y[k]), high_v = max(high_v, p.y[k]);
   }
-  const Float16 zero = splat<Float16>(0.0f), none = splat<Float16>(-4.0f);
-  const auto live = truth_of<float, packet_size>(part.live);
-  return {{choose(live, high_u, none), choose(live, zero - low_u, none), choose(live, high_v, none),
-           choose(live, zero - low_v, none)}};
+  const Float16 zero = broadcast<Float16>(0.0f), none = broadcast<Float16>(-4.0f);
+  const auto live = mask_of_bits<float, packet_size>(part.live);
+  return {{select(live, high_u, none), select(live, zero - low_u, none), select(live, high_v, none),
+           select(live, zero - low_v, none)}};
 }
 
 /// Around all lanes.
 SIMD_INLINE LightBox<float> box_of(const PacketReach& reach) {
-  const float u1 = greatest(reach.side[0]), u0 = -greatest(reach.side[1]);
-  const float v1 = greatest(reach.side[2]), v0 = -greatest(reach.side[3]);
+  const float u1 = reduce_max(reach.side[0]), u0 = -reduce_max(reach.side[1]);
+  const float v1 = reduce_max(reach.side[2]), v0 = -reduce_max(reach.side[3]);
   return {(u0 + u1) / 2, (v0 + v1) / 2, (u1 - u0) / 2, (v1 - v0) / 2};
 }
 SIMD_INLINE LightBox<float> box_of(const PacketPart& part) {

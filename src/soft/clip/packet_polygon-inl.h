@@ -16,7 +16,7 @@ using namespace simd::HWY_NAMESPACE;
 inline constexpr int packet_size = 16;      ///< points
 inline constexpr int packet_vertices = 12;  ///< of a polygon, at most
 
-using PacketTruth = Truth<float, packet_size>;
+using PacketTruth = Mask<float, packet_size>;
 
 /// Vertex k of the polygons in x[k] and y[k], counter-clockwise. The vertices of a lane that has fewer than
 /// `count` are repeated next to themselves.
@@ -42,7 +42,7 @@ struct alignas(64) PacketLine {
 
   SIMD_INLINE Float16 at(Float16 x, Float16 y) const { return u * x + v * y + w; }
   /// Vertices of smaller values count as on the line (on_line).
-  SIMD_INLINE Float16 near() const { return splat<Float16>(on_line<float>) * (absolute(u) + absolute(v)); }
+  SIMD_INLINE Float16 near() const { return broadcast<Float16>(on_line<float>) * (abs(u) + abs(v)); }
 };
 
 struct PacketValues {
@@ -60,8 +60,8 @@ SIMD_INLINE PacketValues evaluate(const PacketPolygon& polygon, const PacketLine
     low = min(low, r.value[k]);
     high = max(high, r.value[k]);
   }
-  r.positive = less_bits(r.near, high);
-  r.negative = less_bits(low, splat<Float16>(0.0f) - r.near);
+  r.positive = lt_bits(r.near, high);
+  r.negative = lt_bits(low, broadcast<Float16>(0.0f) - r.near);
   return r;
 }
 
@@ -69,7 +69,7 @@ SIMD_INLINE PacketValues evaluate(const PacketPolygon& polygon, const PacketLine
 SIMD_INLINE std::uint32_t reaching(const PacketPolygon& polygon, const PacketLine& line) {
   Float16 high = line.at(polygon.x[0], polygon.y[0]);
   for (int k = 1; k < polygon.count; ++k) high = max(high, line.at(polygon.x[k], polygon.y[k]));
-  return less_bits(line.near(), high);
+  return lt_bits(line.near(), high);
 }
 
 /// A vertex with its value.
@@ -77,9 +77,9 @@ struct PacketVertex {
   Float16 x, y, value;
 
   SIMD_INLINE void take(PacketTruth where, const PacketPolygon& from, const PacketValues& line, int k) {
-    x = choose(where, from.x[k], x);
-    y = choose(where, from.y[k], y);
-    value = choose(where, line.value[k], value);
+    x = select(where, from.x[k], x);
+    y = select(where, from.y[k], y);
+    value = select(where, line.value[k], value);
   }
 };
 
@@ -89,9 +89,9 @@ struct PacketPoint2 {
 
 /// Where the line crosses the way from a vertex on its positive side to one that is not.
 SIMD_INLINE PacketPoint2 crossing_of(const PacketVertex& from, const PacketVertex& beyond) {
-  const Float16 zero = splat<Float16>(0.0f), one = splat<Float16>(1.0f);
+  const Float16 zero = broadcast<Float16>(0.0f), one = broadcast<Float16>(1.0f);
   const Float16 drop = from.value - beyond.value;
-  const Float16 t = min(max(from.value / choose(equal(drop, zero), one, drop), zero), one);
+  const Float16 t = min(max(from.value / select(eq(drop, zero), one, drop), zero), one);
   return {from.x + t * (beyond.x - from.x), from.y + t * (beyond.y - from.y)};
 }
 
@@ -108,16 +108,16 @@ SIMD_INLINE void replace_run(const PacketPolygon& polygon, const PacketTruth (&k
     const PacketTruth begins = kept[polygon.before(k)] & dropped[k];
     alone[k] = begins & kept[polygon.behind(k)] & cut;
     reached[k] = some = some | alone[k];
-    out.x[k] = choose(dropped[k], choose(begins, first.x, second.x), polygon.x[k]);
-    out.y[k] = choose(dropped[k], choose(begins, first.y, second.y), polygon.y[k]);
+    out.x[k] = select(dropped[k], select(begins, first.x, second.x), polygon.x[k]);
+    out.y[k] = select(dropped[k], select(begins, first.y, second.y), polygon.y[k]);
   }
   out.count = n;
   if (!any(some)) return;
   out.x[n] = out.x[0];
   out.y[n] = out.y[0];
   for (int k = n; k > 0; --k) {
-    out.x[k] = choose(alone[k - 1], second.x, choose(reached[k - 1], out.x[k - 1], out.x[k]));
-    out.y[k] = choose(alone[k - 1], second.y, choose(reached[k - 1], out.y[k - 1], out.y[k]));
+    out.x[k] = select(alone[k - 1], second.x, select(reached[k - 1], out.x[k - 1], out.x[k]));
+    out.y[k] = select(alone[k - 1], second.y, select(reached[k - 1], out.y[k - 1], out.y[k]));
   }
   out.count = n + 1;
 }
@@ -129,12 +129,12 @@ SIMD_INLINE void replace_run(const PacketPolygon& polygon, const PacketTruth (&k
 SIMD_INLINE bool split(const PacketPolygon& polygon, PacketValues& line, std::uint32_t cut,
                        PacketPolygon& positive, PacketPolygon& negative) {
   if (polygon.count == packet_vertices) return false;
-  const PacketTruth parted = truth_of<float, packet_size>(cut);
+  const PacketTruth parted = mask_of_bits<float, packet_size>(cut);
   PacketTruth above[packet_vertices], below[packet_vertices];
   for (int k = 0; k < polygon.count; ++k) {
-    line.value[k] = choose(parted, line.value[k], splat<Float16>(1e30f));
-    above[k] = less(line.near, line.value[k]);
-    below[k] = not_above(line.value[k], line.near);
+    line.value[k] = select(parted, line.value[k], broadcast<Float16>(1e30f));
+    above[k] = lt(line.near, line.value[k]);
+    below[k] = le(line.value[k], line.near);
   }
   PacketVertex last_above{polygon.x[0], polygon.y[0], line.value[0]};
   PacketVertex first_below = last_above, last_below = last_above, first_above = last_above;
@@ -160,15 +160,15 @@ SIMD_INLINE void compact(PacketPolygon& p, std::uint32_t lanes) {
   while (p.count > 3) {
     PacketTruth repeated[packet_vertices];
     for (int k = 0; k < p.count; ++k)
-      repeated[k] = equal(p.x[k], p.x[p.behind(k)]) & equal(p.y[k], p.y[p.behind(k)]);
+      repeated[k] = eq(p.x[k], p.x[p.behind(k)]) & eq(p.y[k], p.y[p.behind(k)]);
     PacketTruth some = repeated[0];
     for (int k = 1; k < p.count; ++k) some = some | repeated[k];
     if ((lanes & ~bits(some)) != 0) return;
     PacketTruth moved = repeated[0];
     for (int k = 0; k + 1 < p.count; ++k) {
       if (k > 0) moved = moved | repeated[k];
-      p.x[k] = choose(moved, p.x[k + 1], p.x[k]);
-      p.y[k] = choose(moved, p.y[k + 1], p.y[k]);
+      p.x[k] = select(moved, p.x[k + 1], p.x[k]);
+      p.y[k] = select(moved, p.y[k + 1], p.y[k]);
     }
     --p.count;
   }

@@ -79,14 +79,14 @@ private:
       cuts = (cuts & ~(1u << k)) | (cuts_light ? 1u << k : 0u);
     }
     SIMD_INLINE void put_eight(std::size_t first, const LightFrame& light, const HorizonLanes& line) {
-      const Double8 zero = splat<Double8>(0.0), one = splat<Double8>(1.0);
+      const Double8 zero = broadcast<Double8>(0.0), one = broadcast<Double8>(1.0);
       const std::uint32_t cut = line.cuts(light);
-      const auto there = truth_of<double, 8>(cut);
-      const Double8 size = absolute(line.u) + absolute(line.v) + absolute(line.w);
-      const Double8 scale = choose(there, one / choose(less(zero, size), size, one), zero);
+      const auto there = mask_of_bits<double, 8>(cut);
+      const Double8 size = abs(line.u) + abs(line.v) + abs(line.w);
+      const Double8 scale = select(there, one / select(lt(zero, size), size, one), zero);
       store_narrowed(line.u * scale, u + first);
       store_narrowed(line.v * scale, v + first);
-      store_narrowed(choose(there, line.w * scale, one), w + first);
+      store_narrowed(select(there, line.w * scale, one), w + first);
       cuts = (cuts & ~(0xffu << first)) | cut << first;
     }
     PacketLine line() const { return {load<Float16>(u), load<Float16>(v), load<Float16>(w)}; }
@@ -96,7 +96,7 @@ private:
   HWY_NOINLINE void find_sight(const LightFrame& light, std::size_t first) {
     Pack3<Double8> way, normal;
     const auto find = [&](int c, Double8& to) {
-      to = splat<Double8>(light.origin[c]) - load<Double8>(points_.position[c] + first);
+      to = broadcast<Double8>(light.origin[c]) - load<Double8>(points_.position[c] + first);
       store(to, to_origin_[c] + first);
     };
     find(0, way.x), find(1, way.y), find(2, way.z);
@@ -111,8 +111,8 @@ private:
     light_.polygon.count = static_cast<int>(light.polygon.size());
     for (int k = 0; k < light_.polygon.count; ++k) {
       const glm::dvec2 at = light.polygon[static_cast<std::size_t>(k)];
-      light_.polygon.x[k] = splat<Float16>(static_cast<float>(at.x));
-      light_.polygon.y[k] = splat<Float16>(static_cast<float>(at.y));
+      light_.polygon.x[k] = broadcast<Float16>(static_cast<float>(at.x));
+      light_.polygon.y[k] = broadcast<Float16>(static_cast<float>(at.y));
     }
     keep_above(receiver_horizon_, light_);
     return !light_.empty();
@@ -145,7 +145,7 @@ private:
     const PacketPolygon& p = part.polygon;
     const std::uint32_t live = part.live >> first & 0xffu;
     if (live == 0) return;
-    const Double8 zero = splat<Double8>(0.0);
+    const Double8 zero = broadcast<Double8>(0.0);
     Double8 sum = zero;
     Double8 u0 = widened(p.x[p.count - 1], first), v0 = widened(p.y[p.count - 1], first);
     for (int k = 0; k < p.count; ++k) {
@@ -153,7 +153,7 @@ private:
       sum = sum + (u0 * v1 - u1 * v0);
       u0 = u1, v0 = v1;
     }
-    store(load<Double8>(area_ + first) + choose(truth_of<double, 8>(live), sum, zero), area_ + first);
+    store(load<Double8>(area_ + first) + select(mask_of_bits<double, 8>(live), sum, zero), area_ + first);
   }
 
   HWY_NOINLINE void add_irradiance(const LightFrame& light, const PacketPart& part, int first) {
@@ -165,7 +165,7 @@ private:
                             load<Double8>(from[2] + first)};
     };
     const Pack3<Double8> origin = eight(to_origin_), normal = eight(normal_);
-    const Double8 zero = splat<Double8>(0.0);
+    const Double8 zero = broadcast<Double8>(0.0);
     Double8 sum = zero;
     Double8 u0 = widened(p.x[p.count - 1], first), v0 = widened(p.y[p.count - 1], first);
     for (int k = 0; k < p.count; ++k) {
@@ -174,7 +174,7 @@ private:
                                on_light(light, {zero, zero, zero}, u1 - u0, v1 - v0), normal);
       u0 = u1, v0 = v1;
     }
-    store(load<Double8>(irradiance_ + first) + choose(truth_of<double, 8>(live), sum, zero),
+    store(load<Double8>(irradiance_ + first) + select(mask_of_bits<double, 8>(live), sum, zero),
           irradiance_ + first);
   }
 

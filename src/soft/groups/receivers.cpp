@@ -4,6 +4,7 @@
 #include <cmath>
 #include <limits>
 
+#include "math/l1_norm.h"
 #include "points/contact_rule.h"
 #include "points/triangle_corners.h"
 
@@ -14,10 +15,6 @@ namespace {
 using glm::dvec3;
 
 constexpr double infinity = std::numeric_limits<double>::infinity();
-
-double sum(const dvec3& v) {
-  return std::abs(v.x) + std::abs(v.y) + std::abs(v.z);
-}
 
 }  // namespace
 
@@ -42,7 +39,8 @@ LitTriangle lit_triangle(const TriangleView& triangles, std::uint32_t id, const 
   for (int k = 0; k < light.count; ++k) {
     const dvec3 q = light.origin + light.vertices[k];
     // Q is off by 2^-50 of its coordinates, n and the dot product as in predicates.cpp.
-    const double bound = 0x1p-46 * sum(e1) * sum(e2) * (sum(q - a) + sum(light.origin) + sum(q));
+    const double bound = 0x1p-46 * math::l1_norm(e1) * math::l1_norm(e2) *
+                         (math::l1_norm(q - a) + math::l1_norm(light.origin) + math::l1_norm(q));
     lit.light_above |= glm::dot(n, q - a) > -bound;
     lit.light_height = std::min(lit.light_height, glm::dot(lit.receiver.m, light.vertices[k]));
   }

@@ -21,13 +21,13 @@ public:
     bounds_.resize((count_ + 15) / 16);
     for (std::size_t b = 0; b < count_; ++b) {
       const OccluderBlock& block = candidates.block(b);
-      const auto there = truth_of<double, 16>(block.lanes);
+      const auto there = mask_of_bits<double, 16>(block.lanes);
       for (int axis = 0; axis < 3; ++axis) {
         const Wide v0 = load<Wide>(block.corners[0][axis]), v1 = load<Wide>(block.corners[1][axis]);
         const Wide v2 = load<Wide>(block.corners[2][axis]), v3 = load<Wide>(block.corners[3][axis]);
         const Wide low = min(min(v0, v1), min(v2, v3)), high = max(max(v0, v1), max(v2, v3));
-        bounds_[b / 16].low[axis][b % 16] = least(choose(there, low, wide(1e300)));
-        bounds_[b / 16].high[axis][b % 16] = greatest(choose(there, high, wide(-1e300)));
+        bounds_[b / 16].low[axis][b % 16] = reduce_min(select(there, low, wide(1e300)));
+        bounds_[b / 16].high[axis][b % 16] = reduce_max(select(there, high, wide(-1e300)));
       }
     }
   }
@@ -54,8 +54,8 @@ private:
     const Wide zero = wide(0), one = wide(1), reach = wide(at.reach);
     const Wide lowest = load<Wide>(bounds.low[2]) - wide(at.in_axes.z);
     const Wide highest = load<Wide>(bounds.high[2]) - wide(at.in_axes.z);
-    const auto boxed = less(zero, lowest);
-    const Wide near = reach / choose(boxed, lowest, one), far = reach / choose(boxed, highest, one);
+    const auto boxed = lt(zero, lowest);
+    const Wide near = reach / select(boxed, lowest, one), far = reach / select(boxed, highest, one);
     Wide low[2], high[2];
     for (int axis = 0; axis < 2; ++axis) {
       const Wide from = wide(at.in_light[axis]), place = wide(at.in_axes[axis]);
@@ -64,18 +64,18 @@ private:
       high[axis] = from + max(last * near, last * far);
     }
     store_sides(boxed, low, high, sides);
-    return less_bits(zero, highest);
+    return lt_bits(zero, highest);
   }
   static SIMD_INLINE std::uint32_t find_boxes_of(const Bounds& bounds, const PointRange& at,
                                                  T (&sides)[4][16]) {
     const Wide zero = wide(0), one = wide(1), far = wide(1e30);
     const Wide bottom = load<Wide>(bounds.low[2]), top = load<Wide>(bounds.high[2]);
-    const auto boxed = less(zero, bottom - wide(at.high.z));
+    const auto boxed = lt(zero, bottom - wide(at.high.z));
     Wide t0 = far, t1 = zero;
     for (const double z : {at.low.z, at.high.z}) {
       const Wide reach = wide(at.light_height - z);
-      const Wide near = reach / choose(boxed, bottom - wide(z), one);
-      const Wide beyond = reach / choose(boxed, top - wide(z), one);
+      const Wide near = reach / select(boxed, bottom - wide(z), one);
+      const Wide beyond = reach / select(boxed, top - wide(z), one);
       t0 = min(t0, min(near, beyond));
       t1 = max(t1, max(near, beyond));
     }
@@ -84,7 +84,7 @@ private:
       shadow_range(at, axis, load<Wide>(bounds.low[axis]), load<Wide>(bounds.high[axis]), t0, t1, low[axis],
                    high[axis]);
     store_sides(boxed, low, high, sides);
-    return less_bits(zero, top - wide(at.low.z));
+    return lt_bits(zero, top - wide(at.low.z));
   }
 
   std::vector<Bounds> bounds_;

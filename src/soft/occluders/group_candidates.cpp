@@ -7,22 +7,17 @@
 #include <algorithm>
 #include <bit>
 #include <cmath>
+#include "points/contact_rule.h"
 #include "simd/dispatch.h"
 
+#include "math/l1_norm.h"
 #include "points/triangle_corners.h"
-#include "soft/polygon/vector_lanes-inl.h"
+#include "simd/double8-inl.h"
 
 HWY_BEFORE_NAMESPACE();
 namespace tenebra::soft::HWY_NAMESPACE {
 using namespace simd::HWY_NAMESPACE;
 namespace {
-
-inline double size_of(const glm::dvec3& v) {
-  return std::abs(v.x) + std::abs(v.y) + std::abs(v.z);
-}
-SIMD_INLINE Double8 size_of(const Vector8& v) {
-  return absolute(v.x) + absolute(v.y) + absolute(v.z);
-}
 
 /// What eight triangles are to a group and its light.
 struct LaneResults {
@@ -65,74 +60,73 @@ private:
 
   HWY_NOINLINE void find_lanes(const LightFrame& light, const GroupFrame& group, const LightAxes& axes) {
     const Vector8 v[3] = {corner(0), corner(1), corner(2)};
-    const Vector8 centre = splat3<Double8>(group.centre.x, group.centre.y, group.centre.z);
+    const Vector8 centre = broadcast3<Double8>(group.centre.x, group.centre.y, group.centre.z);
     const Vector8 n = cross(v[1] - v[0], v[2] - v[0]);
-    const Double8 length = square_root(product(n, n));
+    const Double8 length = sqrt(dot_unfused(n, n));
     const Vector8 from[3] = {v[0] - centre, v[1] - centre, v[2] - centre};
     find_sides(group, v, n, length, from[0]);
     find_light_sides(light, v[0], n, length);
     find_size(from, n);
     find_corners(light, group, axes, v, from);
 
-    const auto num = [](double value) { return splat<Double8>(value); };
+    const auto num = [](double value) { return broadcast<Double8>(value); };
     const auto along = [&](const glm::dvec3& a) { return n.x * num(a.x) + n.y * num(a.y) + n.z * num(a.z); };
     const glm::dvec3& o = light.origin;
-    const Vector8 to_origin = splat3<Double8>(o.x, o.y, o.z) - v[0];
+    const Vector8 to_origin = broadcast3<Double8>(o.x, o.y, o.z) - v[0];
     const double unit = std::sqrt(glm::dot(light.ex, light.ex));
     const Double8 size = length * num(unit);
-    const Double8 scale = num(axes.turn) / choose(less(num(0), size), size, num(1));
+    const Double8 scale = num(axes.turn) / select(lt(num(0), size), size, num(1));
     store(along(light.ex) * scale, lanes_.plane[0]);
     store(along(light.ey) * scale, lanes_.plane[1]);
-    store(product(n, to_origin) * scale, lanes_.plane[2]);
+    store(dot_unfused(n, to_origin) * scale, lanes_.plane[2]);
   }
 
   SIMD_INLINE void find_sides(const GroupFrame& group, const Vector8* v, const Vector8& n, Double8 length,
                               const Vector8& from) {
-    const auto num = [](double value) { return splat<Double8>(value); };
+    const auto num = [](double value) { return broadcast<Double8>(value); };
     const Double8 zero = num(0);
     Double8 largest = zero;
-    for (int k = 0; k < 3; ++k)
-      largest = max(largest, max(absolute(v[k].x), max(absolute(v[k].y), absolute(v[k].z))));
-    const Double8 tau = largest * num(1.7320508075688772 * 0x1p-24);
-    const Double8 height = zero - product(n, from), far = absolute(height);
-    const Double8 spread = absolute(n.x) * num(group.half.x) + absolute(n.y) * num(group.half.y) +
-                           absolute(n.z) * num(group.half.z);
-    const Double8 margin =
-        num(product_rounding) * length * (num(size_of(group.centre) + size_of(group.half)) + size_of(v[0]));
+    for (int k = 0; k < 3; ++k) largest = max(largest, max(abs(v[k].x), max(abs(v[k].y), abs(v[k].z))));
+    const Double8 tau = largest * num(points::contact_tau);
+    const Double8 height = zero - dot_unfused(n, from), far = abs(height);
+    const Double8 spread =
+        abs(n.x) * num(group.half.x) + abs(n.y) * num(group.half.y) + abs(n.z) * num(group.half.z);
+    const Double8 margin = num(product_rounding) * length *
+                           (num(math::l1_norm(group.centre) + math::l1_norm(group.half)) + l1_norm(v[0]));
     const Double8 threshold = (tau + num(group.receiver_tau)) * length;
-    const std::uint32_t sure = less_bits(threshold + margin, far - spread);
-    const std::uint32_t above = less_bits(zero, height);
+    const std::uint32_t sure = lt_bits(threshold + margin, far - spread);
+    const std::uint32_t above = lt_bits(zero, height);
     lanes_.in_front = sure & above;
     lanes_.behind = sure & ~above;
-    lanes_.never = ~less_bits(zero, length) | less_bits(far + spread, tau * length - margin);
+    lanes_.never = ~lt_bits(zero, length) | lt_bits(far + spread, tau * length - margin);
     store(n.x, lanes_.normal[0]), store(n.y, lanes_.normal[1]), store(n.z, lanes_.normal[2]);
     store(height, lanes_.height), store(length, lanes_.length), store(tau, lanes_.tau);
   }
 
   SIMD_INLINE void find_light_sides(const LightFrame& light, const Vector8& v, const Vector8& n,
                                     Double8 length) {
-    const Double8 zero = splat<Double8>(0.0);
-    const Double8 slack = splat<Double8>(product_rounding) * length, size = size_of(v);
+    const Double8 zero = broadcast<Double8>(0.0);
+    const Double8 slack = broadcast<Double8>(product_rounding) * length, size = l1_norm(v);
     std::uint32_t positive = ~0u, negative = ~0u;
     for (const glm::dvec2& at : light.polygon) {
       const glm::dvec3 vertex = light.point(at);
-      const Double8 value = product(n, splat3<Double8>(vertex.x, vertex.y, vertex.z) - v);
-      const Double8 margin = slack * (splat<Double8>(size_of(vertex)) + size);
-      positive &= less_bits(margin, value);
-      negative &= less_bits(value, zero - margin);
+      const Double8 value = dot_unfused(n, broadcast3<Double8>(vertex.x, vertex.y, vertex.z) - v);
+      const Double8 margin = slack * (broadcast<Double8>(math::l1_norm(vertex)) + size);
+      positive &= lt_bits(margin, value);
+      negative &= lt_bits(value, zero - margin);
     }
     lanes_.light_in_front = positive;
     lanes_.light_behind = negative;
   }
 
   SIMD_INLINE void find_size(const Vector8* from, const Vector8& n) {
-    const Double8 third = splat<Double8>(1.0 / 3);
+    const Double8 third = broadcast<Double8>(1.0 / 3);
     const Vector8 sum{from[0].x + from[1].x + from[2].x, from[0].y + from[1].y + from[2].y,
                       from[0].z + from[1].z + from[2].z};
     const Vector8 middle{sum.x * third, sum.y * third, sum.z * third};
-    const Double8 square = product(middle, middle), cube = square * square_root(square);
-    const auto near = less(splat<Double8>(0.0), cube);
-    store(choose(near, absolute(product(n, from[0])) / choose(near, cube, third), splat<Double8>(0.0)),
+    const Double8 square = dot_unfused(middle, middle), cube = square * sqrt(square);
+    const auto near = lt(broadcast<Double8>(0.0), cube);
+    store(select(near, abs(dot_unfused(n, from[0])) / select(near, cube, third), broadcast<Double8>(0.0)),
           lanes_.solid_angle);
   }
 
@@ -140,19 +134,20 @@ private:
   /// division by the height loses no more than 16 bits.
   SIMD_INLINE void find_corners(const LightFrame& light, const GroupFrame& group, const LightAxes& axes,
                                 const Vector8* v, const Vector8* from) {
-    const auto num = [](double value) { return splat<Double8>(value); };
+    const auto num = [](double value) { return broadcast<Double8>(value); };
     const auto along = [&](const glm::dvec3& a, const Vector8& b) {
       return num(a.x) * b.x + num(a.y) * b.y + num(a.z) * b.z;
     };
     const double unit = 1 / std::sqrt(glm::dot(light.ex, light.ex));
-    const Double8 reach = num(size_of(axes.height * group.half)), top = num(axes.centre_uv.z);
-    const double around = size_of(group.centre) + size_of(group.half) + size_of(light.origin);
+    const Double8 reach = num(math::l1_norm(axes.height * group.half)), top = num(axes.centre_uv.z);
+    const double around =
+        math::l1_norm(group.centre) + math::l1_norm(group.half) + math::l1_norm(light.origin);
     std::uint32_t between = ~0u;
     for (int k = 0; k < 3; ++k) {
       const Double8 height = along(axes.height, from[k]);
-      const Double8 size = (size_of(v[k]) + num(around)) * num(unit);
-      between &= less_bits(num(0x1p-16) * size, height - reach);
-      between &= less_bits(num(product_rounding) * size, top - height);
+      const Double8 size = (l1_norm(v[k]) + num(around)) * num(unit);
+      between &= lt_bits(num(0x1p-16) * size, height - reach);
+      between &= lt_bits(num(product_rounding) * size, top - height);
       store(along(axes.u, from[k]), lanes_.corners[k][0]);
       store(along(axes.v, from[k]), lanes_.corners[k][1]);
       store(height, lanes_.corners[k][2]);
@@ -226,11 +221,11 @@ LightAxes light_axes(const LightFrame& light, const glm::dvec3& centre) {
 
 int certain_sign(const PlaneHeight& plane, const glm::dvec3& centre, const GroupFrame& group) {
   const glm::dvec3 d = group.centre - centre, slope = glm::abs(plane.slope);
-  const auto sum = [](const glm::dvec3& v) { return std::abs(v.x) + std::abs(v.y) + std::abs(v.z); };
   const double height = plane.height + glm::dot(d, plane.slope);
   const double rounding =
       product_rounding *
-      (std::abs(plane.height) + sum(slope) * (sum(group.centre) + sum(centre) + sum(group.half)));
+      (std::abs(plane.height) + math::l1_norm(slope) * (math::l1_norm(group.centre) + math::l1_norm(centre) +
+                                                        math::l1_norm(group.half)));
   const double least =
       plane.threshold + group.receiver_tau * plane.length + glm::dot(slope, group.half) + rounding;
   return height < -least ? 1 : height > least ? -1 : 0;

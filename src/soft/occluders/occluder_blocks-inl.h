@@ -63,7 +63,7 @@ struct BlockBoxes {
 using Wide = Pack<double, 16>;
 
 SIMD_INLINE Wide wide(double value) {
-  return splat<Wide>(value);
+  return broadcast<Wide>(value);
 }
 
 /// Least and greatest u (axis 0) or v (1) that a place between `low` and `high` is seen at from points of a
@@ -85,7 +85,7 @@ struct ShadowSides {
 template <class Bounded>
 SIMD_INLINE ShadowSides bounded_sides(Bounded bounded, Wide low, Wide high) {
   const Wide two = wide(2), minus = wide(-2);
-  return {max(choose(bounded, low, minus), minus), wide(0) - min(choose(bounded, high, two), two)};
+  return {max(select(bounded, low, minus), minus), wide(0) - min(select(bounded, high, two), two)};
 }
 
 /// Those of both axes, as BlockBoxes has them.
@@ -110,15 +110,15 @@ HWY_NOINLINE void find_boxes(const OccluderBlock& block, const GroupPoint& at, B
     const Wide rise = load<Wide>(corner[2]) - wide(at.in_axes.z);
     lowest = min(lowest, rise);
     highest = max(highest, rise);
-    const Wide t = reach / choose(less(zero, rise), rise, one);
+    const Wide t = reach / select(lt(zero, rise), rise, one);
     for (int axis = 0; axis < 2; ++axis) {
       const Wide seen = wide(at.in_light[axis]) + (load<Wide>(corner[axis]) - wide(at.in_axes[axis])) * t;
       low[axis] = min(low[axis], seen);
       high[axis] = max(high[axis], seen);
     }
   }
-  store_sides(less(zero, lowest), low, high, out.sides);
-  out.lanes = block.lanes & less_bits(zero, highest);
+  store_sides(lt(zero, lowest), low, high, out.sides);
+  out.lanes = block.lanes & lt_bits(zero, highest);
 }
 
 /// The same for the shadows that points of a range may see. An occluder all at or below the
@@ -133,15 +133,15 @@ HWY_NOINLINE void find_boxes(const OccluderBlock& block, const PointRange& at, B
     const Wide z = load<Wide>(corner[2]), rise = z - wide(at.high.z), rise_up = z - wide(at.low.z);
     lowest = min(lowest, rise);
     highest = max(highest, rise_up);
-    const auto above = less(zero, rise);
-    const Wide t0 = reach / choose(above, rise, one), t1 = reach_up / choose(above, rise_up, one);
+    const auto above = lt(zero, rise);
+    const Wide t0 = reach / select(above, rise, one), t1 = reach_up / select(above, rise_up, one);
     for (int axis = 0; axis < 2; ++axis) {
       const Wide place = load<Wide>(corner[axis]);
       shadow_range(at, axis, place, place, t0, t1, low[axis], high[axis]);
     }
   }
-  store_sides(less(zero, lowest), low, high, out.sides);
-  out.lanes = block.lanes & less_bits(zero, highest);
+  store_sides(lt(zero, lowest), low, high, out.sides);
+  out.lanes = block.lanes & lt_bits(zero, highest);
 }
 
 }  // namespace tenebra::soft::HWY_NAMESPACE

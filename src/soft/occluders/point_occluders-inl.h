@@ -32,7 +32,7 @@ SIMD_INLINE void find_eight_lines(const OccluderBlock& block, const double* sign
                                   std::size_t first, BlockLines<T>& out) {
   using Doubles = Pack<double, 8>;
   using Lanes = Pack<T, 8>;
-  const auto num = [](double value) { return splat<Doubles>(value); };
+  const auto num = [](double value) { return broadcast<Doubles>(value); };
   const auto corner = [&](int k) {
     const auto of = [&](int axis) {
       return load<Doubles>(block.corners[k][axis] + first) - num(at.in_axes[axis]);
@@ -50,11 +50,11 @@ SIMD_INLINE void find_eight_lines(const OccluderBlock& block, const double* sign
     w[k] = narrowed<T>((n.z * num(at.reach) - n.x * num(at.in_light.x) - n.y * num(at.in_light.y)) * sign);
     from = to;
   }
-  const auto quads = truth_of<T, 8>(block.quads >> first);
+  const auto quads = mask_of_bits<T, 8>(block.quads >> first);
   const auto plane = [&](int k) { return narrowed<T>(load<Doubles>(block.plane[k] + first) * sign); };
-  u[3] = choose(quads, u[3], plane(0));
-  v[3] = choose(quads, v[3], plane(1));
-  w[3] = choose(quads, w[3], plane(2));
+  u[3] = select(quads, u[3], plane(0));
+  v[3] = select(quads, v[3], plane(1));
+  w[3] = select(quads, w[3], plane(2));
   store_fours(u[0], u[1], u[2], u[3], out.u[first]);
   store_fours(v[0], v[1], v[2], v[3], out.v[first]);
   store_fours(w[0], w[1], w[2], w[3], out.w[first]);

@@ -1,5 +1,7 @@
 #include "soft/occluders/quads.h"
 
+#include "math/l1_norm.h"
+
 #include <algorithm>
 #include <cmath>
 #include <optional>
@@ -14,15 +16,12 @@ dvec3 corner_of(const Candidate& c, int k) {
   return {c.corners[k % 3][0], c.corners[k % 3][1], c.corners[k % 3][2]};
 }
 
-double size_of(const dvec3& v) {
-  return std::abs(v.x) + std::abs(v.y) + std::abs(v.z);
-}
-
 // Whether p, q and r turn the way of `sign` as seen from all points of a box around 0; false where rounding
 // might decide.
 bool turn_from_all(const dvec3& p, const dvec3& q, const dvec3& r, double sign, const dvec3& half) {
   const dvec3 n = glm::cross(q - p, r - p);
-  const double rounding = product_rounding * size_of(q - p) * size_of(r - p) * (size_of(p) + size_of(half));
+  const double rounding = product_rounding * math::l1_norm(q - p) * math::l1_norm(r - p) *
+                          (math::l1_norm(p) + math::l1_norm(half));
   return sign * glm::dot(n, p) > glm::dot(glm::abs(n), half) + rounding;
 }
 

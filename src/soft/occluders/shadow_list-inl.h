@@ -23,8 +23,8 @@ struct LightBox {
 
 template <class T>
 SIMD_INLINE LightBox<T> box_of(const LightPolygon<T>& polygon) {
-  const T low_u = least(polygon.x), high_u = greatest(polygon.x);
-  const T low_v = least(polygon.y), high_v = greatest(polygon.y);
+  const T low_u = reduce_min(polygon.x), high_u = reduce_max(polygon.x);
+  const T low_v = reduce_min(polygon.y), high_v = reduce_max(polygon.y);
   return {(low_u + high_u) / 2, (low_v + high_v) / 2, (high_u - low_u) / 2, (high_v - low_v) / 2};
 }
 
@@ -50,9 +50,11 @@ struct ShadowBoxes {
 
 /// Of the first sixteen those that meet `box`.
 template <class T>
-SIMD_INLINE Truth<T, 16> meets(const ShadowBoxes<T>& boxes, const LightBox<T>& box) {
+SIMD_INLINE Mask<T, 16> meets(const ShadowBoxes<T>& boxes, const LightBox<T>& box) {
   using Lanes = Pack<T, 16>;
-  const auto below = [&](int k, T border) { return less(load<Lanes>(boxes.sides[k]), splat<Lanes>(border)); };
+  const auto below = [&](int k, T border) {
+    return lt(load<Lanes>(boxes.sides[k]), broadcast<Lanes>(border));
+  };
   return below(0, box.cu + box.hu) & below(1, box.hu - box.cu) & below(2, box.cv + box.hv) &
          below(3, box.hv - box.cv);
 }
@@ -70,7 +72,9 @@ SIMD_INLINE std::uint64_t meeting(const ShadowBoxes<T>& boxes, std::uint64_t lef
 template <class T>
 SIMD_INLINE Pack<T, 16> common_areas(const ShadowBoxes<T>& boxes, const LightBox<T>& box) {
   using Lanes = Pack<T, 16>;
-  const auto beyond = [&](int k, T border) { return max(load<Lanes>(boxes.sides[k]), splat<Lanes>(border)); };
+  const auto beyond = [&](int k, T border) {
+    return max(load<Lanes>(boxes.sides[k]), broadcast<Lanes>(border));
+  };
   return (beyond(0, box.cu - box.hu) + beyond(1, -box.hu - box.cu)) *
          (beyond(2, box.cv - box.hv) + beyond(3, -box.hv - box.cv));
 }
@@ -81,21 +85,22 @@ template <class T>
 SIMD_INLINE int widest_of(const ShadowBoxes<T>& boxes, std::uint64_t& left, const LightBox<T>& box) {
   using Lanes = Pack<T, 16>;
   T areas[64];
-  Lanes most = splat<Lanes>(T(-1));
+  Lanes most = broadcast<Lanes>(T(-1));
   std::uint64_t met = 0;
   for (int k = 0; k < 64 && left >> k != 0; k += 16) {
     const ShadowBoxes<T> sixteen = boxes.at(static_cast<std::size_t>(k));
-    const auto there = truth_of<T, 16>(static_cast<std::uint32_t>(left >> k) & 0xffffu) & meets(sixteen, box);
-    const Lanes area = choose(there, common_areas(sixteen, box), splat<Lanes>(T(-1)));
+    const auto there =
+        mask_of_bits<T, 16>(static_cast<std::uint32_t>(left >> k) & 0xffffu) & meets(sixteen, box);
+    const Lanes area = select(there, common_areas(sixteen, box), broadcast<Lanes>(T(-1)));
     store(area, areas + k);
     most = max(most, area);
     met |= static_cast<std::uint64_t>(bits(there)) << k;
   }
   left = met;
-  const Lanes widest = splat<Lanes>(greatest(most));
+  const Lanes widest = broadcast<Lanes>(reduce_max(most));
   std::uint64_t found = 0;
   for (int k = 0; k < 64 && met >> k != 0; k += 16)
-    found |= static_cast<std::uint64_t>(bits(equal(load<Lanes>(areas + k), widest))) << k;
+    found |= static_cast<std::uint64_t>(bits(eq(load<Lanes>(areas + k), widest))) << k;
   return std::countr_zero(found);
 }
 
@@ -116,8 +121,8 @@ public:
                           const LightBox<T>& box) {
     make_room(16);
     append_meeting({{sides[0], sides[1], sides[2], sides[3]}, nullptr},
-                   load<Index>(lane_numbers<T>) + splat<Index>(static_cast<LaneIndex<T>>(first)),
-                   truth_of<T, 16>(lanes), box);
+                   load<Index>(lane_numbers<T>) + broadcast<Index>(static_cast<LaneIndex<T>>(first)),
+                   mask_of_bits<T, 16>(lanes), box);
   }
 
   /// Appends those of the list [first, last) that meet `box`.
@@ -141,7 +146,7 @@ private:
     ids_.resize(2 * needed);
   }
 
-  SIMD_INLINE void append_meeting(const ShadowBoxes<T>& boxes, Index ids, Truth<T, 16> valid,
+  SIMD_INLINE void append_meeting(const ShadowBoxes<T>& boxes, Index ids, Mask<T, 16> valid,
                                   const LightBox<T>& box) {
     const auto chosen = valid & meets(boxes, box);
     if (!any(chosen)) return;

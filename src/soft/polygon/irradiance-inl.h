@@ -33,15 +33,15 @@ struct LightEdges {
 
 /// atan2(s, c) / s for s > 0, in one division; relative error below 1e-13. 0 where s |(s, c)| < 1e-290.
 SIMD_INLINE Double8 angle_over_sine(Double8 s, Double8 c) {
-  const auto num = [](double value) { return splat<Double8>(value); };
-  const Double8 size = absolute(c);
+  const auto num = [](double value) { return broadcast<Double8>(value); };
+  const Double8 size = abs(c);
   const Double8 low = min(s, size), high = max(s, size);
   // atan(low / high), beyond pi/8 by atan(q) = pi/4 + atan((q - 1) / (q + 1)).
-  const auto steep = less(num(0.41421356237309503) * high, low);
-  const Double8 below = choose(steep, low + high, high);
-  const auto none = less(below * s, num(1e-290));
-  const Double8 share = num(1.0) / choose(none, num(1.0), below * s);
-  const Double8 q = choose(steep, low - high, low) * (s * share);
+  const auto steep = lt(num(0.41421356237309503) * high, low);
+  const Double8 below = select(steep, low + high, high);
+  const auto none = lt(below * s, num(1e-290));
+  const Double8 share = num(1.0) / select(none, num(1.0), below * s);
+  const Double8 q = select(steep, low - high, low) * (s * share);
   const Double8 y = q * q;
   // Chebyshev interpolation of atan(q) / q in y, 0 <= y <= tan(pi/8)^2.
   Double8 p = num(0.030662440370424447);
@@ -51,10 +51,10 @@ SIMD_INLINE Double8 angle_over_sine(Double8 s, Double8 c) {
     p = p * y + num(a);
   }
   Double8 angle = q * p;
-  angle = choose(steep, num(0.7853981633974483) + angle, angle);
-  angle = choose(less(size, s), num(1.5707963267948966) - angle, angle);
-  angle = choose(less(c, num(0.0)), num(3.141592653589793) - angle, angle);
-  return choose(none, num(0.0), angle * (below * share));
+  angle = select(steep, num(0.7853981633974483) + angle, angle);
+  angle = select(lt(size, s), num(1.5707963267948966) - angle, angle);
+  angle = select(lt(c, num(0.0)), num(3.141592653589793) - angle, angle);
+  return select(none, num(0.0), angle * (below * share));
 }
 
 /// Not fused: the same bits on every target.
@@ -67,14 +67,14 @@ SIMD_INLINE Double8 product_of(const Pack3<Double8>& a, const Pack3<Double8>& b)
 SIMD_INLINE Double8 contour_term(const Pack3<Double8>& r, const Pack3<Double8>& e,
                                  const Pack3<Double8>& normal) {
   const Pack3<Double8> c = cross(r, e);
-  const Double8 sine = square_root(product_of(c, c)), cosine = product_of(r, r) + product_of(r, e);
+  const Double8 sine = sqrt(product_of(c, c)), cosine = product_of(r, r) + product_of(r, e);
   return product_of(normal, c) * angle_over_sine(sine, cosine);
 }
 
 /// origin + u ex + v ey.
 SIMD_INLINE Pack3<Double8> on_light(const LightFrame& light, const Pack3<Double8>& origin, Double8 u,
                                     Double8 v) {
-  const auto num = [](double value) { return splat<Double8>(value); };
+  const auto num = [](double value) { return broadcast<Double8>(value); };
   return {origin.x + u * num(light.ex.x) + v * num(light.ey.x),
           origin.y + u * num(light.ex.y) + v * num(light.ey.y),
           origin.z + u * num(light.ex.z) + v * num(light.ey.z)};
@@ -98,20 +98,20 @@ struct EdgeSums {
 /// The same bits on every target: each lane sums every eighth edge, and the lanes are added in one order.
 inline HWY_NOINLINE EdgeSums sum_edges(const LightEdges& edges, const LightFrame& light,
                                        const Receiver3& at) {
-  const auto all = [](const glm::dvec3& a) { return splat3<Double8>(a.x, a.y, a.z); };
+  const auto all = [](const glm::dvec3& a) { return broadcast3<Double8>(a.x, a.y, a.z); };
   const Pack3<Double8> origin = all(at.to_origin), normal = all(at.normal);
-  const Double8 zero = splat<Double8>(0.0);
+  const Double8 zero = broadcast<Double8>(0.0);
   Double8 irradiance = zero, area = zero;
   for (std::size_t k = 0; k < edges.count; k += 8) {
     const Double8 u0 = load<Double8>(&edges.u0[k]), v0 = load<Double8>(&edges.v0[k]);
     const Double8 u1 = load<Double8>(&edges.u1[k]), v1 = load<Double8>(&edges.v1[k]);
     const Double8 term = contour_term(on_light(light, origin, u0, v0),
                                       on_light(light, {zero, zero, zero}, u1 - u0, v1 - v0), normal);
-    const auto there = truth_of<double, 8>(edges.count - k < 8 ? (1u << (edges.count - k)) - 1u : 0xffu);
-    irradiance = irradiance - choose(there, term, zero);
-    area = area + choose(there, u0 * v1 - u1 * v0, zero);
+    const auto there = mask_of_bits<double, 8>(edges.count - k < 8 ? (1u << (edges.count - k)) - 1u : 0xffu);
+    irradiance = irradiance - select(there, term, zero);
+    area = area + select(there, u0 * v1 - u1 * v0, zero);
   }
-  return {ordered_total(area) * 0.5, ordered_total(irradiance) * 0.5};
+  return {reduce_add_in_order(area) * 0.5, reduce_add_in_order(irradiance) * 0.5};
 }
 
 }  // namespace tenebra::soft::HWY_NAMESPACE

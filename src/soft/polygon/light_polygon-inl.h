@@ -34,8 +34,8 @@ SIMD_INLINE Pack<T, 16> counted_lanes() {
   return load<Pack<T, 16>>(lanes);
 }
 template <class T>
-SIMD_INLINE Truth<T, 16> lanes_below(std::size_t count) {
-  return less(counted_lanes<T>(), splat<Pack<T, 16>>(static_cast<T>(HWY_MIN(count, std::size_t{16}))));
+SIMD_INLINE Mask<T, 16> lanes_below(std::size_t count) {
+  return lt(counted_lanes<T>(), broadcast<Pack<T, 16>>(static_cast<T>(HWY_MIN(count, std::size_t{16}))));
 }
 
 /// Vertex k in lane k, counter-clockwise; lanes from `count` on repeat vertex 0.
@@ -70,10 +70,11 @@ template <class T>
 SIMD_INLINE LineValues<T> evaluate(const LightPolygon<T>& polygon, const LightLine<T>& line) {
   using Lanes = Pack<T, polygon_capacity>;
   LineValues<T> r;
-  r.value = splat<Lanes>(line.u) * polygon.x + splat<Lanes>(line.v) * polygon.y + splat<Lanes>(line.w);
-  const Lanes near = splat<Lanes>(on_line<T> * (HWY_MAX(line.u, -line.u) + HWY_MAX(line.v, -line.v)));
-  r.positive = less_bits(near, r.value);
-  r.negative = less_bits(r.value, splat<Lanes>(T(0)) - near);
+  r.value =
+      broadcast<Lanes>(line.u) * polygon.x + broadcast<Lanes>(line.v) * polygon.y + broadcast<Lanes>(line.w);
+  const Lanes near = broadcast<Lanes>(on_line<T> * (HWY_MAX(line.u, -line.u) + HWY_MAX(line.v, -line.v)));
+  r.positive = lt_bits(near, r.value);
+  r.negative = lt_bits(r.value, broadcast<Lanes>(T(0)) - near);
   return r;
 }
 
@@ -118,10 +119,10 @@ SIMD_INLINE LineSides<T> sides_of(const LightPolygon<T>& polygon, const ShadowLi
   using Index = Pack<LaneIndex<T>, polygon_capacity>;
   constexpr LaneIndex<T> fours[polygon_capacity] = {0, 0, 0, 0, 1, 1, 1, 1, 2, 2, 2, 2, 3, 3, 3, 3};
   const Lanes u = load_four<Lanes>(lines.u), v = load_four<Lanes>(lines.v), w = load_four<Lanes>(lines.w);
-  const Lanes near = splat<Lanes>(on_line<T>) * (absolute(u) + absolute(v));
-  Lanes low = splat<Lanes>(std::numeric_limits<T>::max()), high = splat<Lanes>(T(0)) - low;
+  const Lanes near = broadcast<Lanes>(on_line<T>) * (abs(u) + abs(v));
+  Lanes low = broadcast<Lanes>(std::numeric_limits<T>::max()), high = broadcast<Lanes>(T(0)) - low;
   for (int first = 0; first < polygon.count; first += 4) {
-    const Index vertices = load<Index>(fours) + splat<Index>(static_cast<LaneIndex<T>>(first));
+    const Index vertices = load<Index>(fours) + broadcast<Index>(static_cast<LaneIndex<T>>(first));
     const Lanes value = u * permute(polygon.x, vertices) + v * permute(polygon.y, vertices) + w;
     low = min(low, value);
     high = max(high, value);
@@ -130,7 +131,7 @@ SIMD_INLINE LineSides<T> sides_of(const LightPolygon<T>& polygon, const ShadowLi
     lanes |= lanes >> 8;
     return (lanes | lanes >> 4) & all_lines;
   };
-  return {lines_of(less_bits(near, high)), lines_of(less_bits(low, splat<Lanes>(T(0)) - near)), low / near};
+  return {lines_of(lt_bits(near, high)), lines_of(lt_bits(low, broadcast<Lanes>(T(0)) - near)), low / near};
 }
 
 /// The vertices of one side: `length` vertices from `first` on, cyclic.
@@ -173,10 +174,10 @@ SIMD_INLINE VertexRun run_of(std::uint32_t set, int count, const Pack<T, polygon
 template <class T>
 SIMD_INLINE Pack<LaneIndex<T>, polygon_capacity> vertices_of(VertexRun run, int count) {
   using Index = Pack<LaneIndex<T>, polygon_capacity>;
-  const auto whole = [](int i) { return splat<Index>(static_cast<LaneIndex<T>>(i)); };
+  const auto whole = [](int i) { return broadcast<Index>(static_cast<LaneIndex<T>>(i)); };
   const Index lane = load<Index>(lane_numbers<T>), straight = lane + whole(run.first);
-  const Index wrapped = choose(greater(straight, whole(count - 1)), straight - whole(count), straight);
-  return choose(greater(whole(run.length), lane), wrapped, whole(run.first));
+  const Index wrapped = select(gt(straight, whole(count - 1)), straight - whole(count), straight);
+  return select(gt(whole(run.length), lane), wrapped, whole(run.first));
 }
 
 /// Where a line crosses edge k, from vertex k to the next, in lane k: anything where it does not.
@@ -193,15 +194,15 @@ SIMD_INLINE EdgeCrossings<T> crossings_of(const LightPolygon<T>& polygon,
   using Lanes = Pack<T, polygon_capacity>;
   using Index = Pack<LaneIndex<T>, polygon_capacity>;
   const Index next = load<Index>(next_lanes<T>);
-  const Lanes zero = splat<Lanes>(T(0)), one = splat<Lanes>(T(1));
+  const Lanes zero = broadcast<Lanes>(T(0)), one = broadcast<Lanes>(T(1));
   const Lanes next_values = permute(values, next);
   const Lanes next_x = permute(polygon.x, next), next_y = permute(polygon.y, next);
-  const auto falls = less(next_values, values);
+  const auto falls = lt(next_values, values);
   const Lanes from = max(values, next_values), drop = from - min(values, next_values);
-  const Lanes t = min(max(from / choose(equal(drop, zero), one, drop), zero), one);
+  const Lanes t = min(max(from / select(eq(drop, zero), one, drop), zero), one);
   const auto along = [&](Lanes here, Lanes there) {
-    const Lanes inside = choose(falls, here, there);
-    return inside + t * (choose(falls, there, here) - inside);
+    const Lanes inside = select(falls, here, there);
+    return inside + t * (select(falls, there, here) - inside);
   };
   return {along(polygon.x, next_x), along(polygon.y, next_y)};
 }
@@ -211,14 +212,14 @@ template <class T>
 SIMD_INLINE LightPolygon<T> part_of(const LightPolygon<T>& polygon, const EdgeCrossings<T>& crossings,
                                     VertexRun run, int leaving, int returning) {
   using Index = Pack<LaneIndex<T>, polygon_capacity>;
-  const auto whole = [](int i) { return splat<Index>(static_cast<LaneIndex<T>>(i)); };
+  const auto whole = [](int i) { return broadcast<Index>(static_cast<LaneIndex<T>>(i)); };
   const Index lane = load<Index>(lane_numbers<T>);
-  const auto leaves = equal(lane, whole(run.length));
-  const auto crosses = leaves | equal(lane, whole(run.length + 1));
-  const Index edge = choose(leaves, whole(leaving), whole(returning));
+  const auto leaves = eq(lane, whole(run.length));
+  const auto crosses = leaves | eq(lane, whole(run.length + 1));
+  const Index edge = select(leaves, whole(leaving), whole(returning));
   const Index vertex = vertices_of<T>(run, polygon.count);
-  return {choose(crosses, permute(crossings.x, edge), permute(polygon.x, vertex)),
-          choose(crosses, permute(crossings.y, edge), permute(polygon.y, vertex)), run.length + 2};
+  return {select(crosses, permute(crossings.x, edge), permute(polygon.x, vertex)),
+          select(crosses, permute(crossings.y, edge), permute(polygon.y, vertex)), run.length + 2};
 }
 
 /// Both parts of a polygon that has vertices on both sides. Vertices on the line go with the negative side.

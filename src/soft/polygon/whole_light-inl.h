@@ -18,16 +18,16 @@ struct HorizonLanes {
 
   /// Bits of the lanes where a part of the light is not above.
   SIMD_INLINE std::uint32_t cuts(const LightFrame& light) const {
-    const Double8 zero = splat<Double8>(0.0);
-    auto above = less(zero, splat<Double8>(1.0));
+    const Double8 zero = broadcast<Double8>(0.0);
+    auto above = lt(zero, broadcast<Double8>(1.0));
     for (const glm::dvec2& at : light.polygon)
-      above = above & less(zero, u * splat<Double8>(at.x) + v * splat<Double8>(at.y) + w);
+      above = above & lt(zero, u * broadcast<Double8>(at.x) + v * broadcast<Double8>(at.y) + w);
     return ~bits(above) & 0xffu;
   }
 };
 SIMD_INLINE HorizonLanes horizon_of(const LightFrame& light, const Pack3<Double8>& to_origin,
                                     const Pack3<Double8>& normal) {
-  const auto all = [](const glm::dvec3& a) { return splat3<Double8>(a.x, a.y, a.z); };
+  const auto all = [](const glm::dvec3& a) { return broadcast3<Double8>(a.x, a.y, a.z); };
   return {product_of(normal, all(light.ex)), product_of(normal, all(light.ey)),
           product_of(normal, to_origin)};
 }
@@ -52,7 +52,7 @@ struct WholePoints {
 /// those for which this is so, as they are in front of the light, which is above their normals' horizons.
 inline HWY_NOINLINE std::uint32_t irradiance_of_whole(const LightFrame& light, const WholePoints& at,
                                                       double* irradiance) {
-  const auto num = [](double value) { return splat<Double8>(value); };
+  const auto num = [](double value) { return broadcast<Double8>(value); };
   const auto lanes = [](const double(&from)[3][8]) {
     return Pack3<Double8>{load<Double8>(from[0]), load<Double8>(from[1]), load<Double8>(from[2])};
   };
@@ -68,7 +68,7 @@ inline HWY_NOINLINE std::uint32_t irradiance_of_whole(const LightFrame& light, c
   }
   store(num(0.5) * sum, irradiance);
   const glm::dvec3& n = light.normal;
-  const std::uint32_t in_front = less_bits(product_of(origin, splat3<Double8>(n.x, n.y, n.z)), num(0.0));
+  const std::uint32_t in_front = lt_bits(product_of(origin, broadcast3<Double8>(n.x, n.y, n.z)), num(0.0));
   return in_front & ~horizon_of(light, origin, normal).cuts(light) & ((1u << at.count) - 1u);
 }
 

@@ -4,8 +4,9 @@
 #define HWY_TARGET_INCLUDE "soft/shafts/shaft_kernels.cpp"
 #include <hwy/foreach_target.h>
 // After foreach_target.h
+#include "points/contact_rule.h"
 #include "simd/dispatch.h"
-#include "soft/polygon/vector_lanes-inl.h"
+#include "simd/double8-inl.h"
 #include "soft/shafts/shaft_cull-inl.h"
 
 #include <algorithm>
@@ -31,12 +32,13 @@ struct Triangles {
 SIMD_INLINE Triangles load_triangles(const TriangleBlock& block, const LightShape& light) {
   Triangles t;
   for (int k = 0; k < 3; ++k) {
-    t.v[k].x = load_widened<Double8>(block.v[k][0]) - all(light.origin.x);
-    t.v[k].y = load_widened<Double8>(block.v[k][1]) - all(light.origin.y);
-    t.v[k].z = load_widened<Double8>(block.v[k][2]) - all(light.origin.z);
+    t.v[k].x = load_widened<Double8>(block.v[k][0]) - broadcast8(light.origin.x);
+    t.v[k].y = load_widened<Double8>(block.v[k][1]) - broadcast8(light.origin.y);
+    t.v[k].z = load_widened<Double8>(block.v[k][2]) - broadcast8(light.origin.z);
   }
-  t.reach = load_widened<Double8>(block.largest) +
-            all(std::max({std::abs(light.origin.x), std::abs(light.origin.y), std::abs(light.origin.z)}));
+  t.reach =
+      load_widened<Double8>(block.largest) +
+      broadcast8(std::max({std::abs(light.origin.x), std::abs(light.origin.y), std::abs(light.origin.z)}));
   t.size = load_widened<Double8>(block.size);
   return t;
 }
@@ -51,11 +53,11 @@ SIMD_INLINE Vector8 edge(const TriangleBlock& block, int from, int to) {
 // Lanes of the triangle `id`.
 SIMD_INLINE std::uint32_t lanes_of(const TriangleBlock& block, std::uint32_t id) {
   using Ids = Pack<std::int32_t, block_size>;
-  return bits(equal(load<Ids>(reinterpret_cast<const std::int32_t*>(block.ids)),
-                    splat<Ids>(static_cast<std::int32_t>(id))));
+  return bits(eq(load<Ids>(reinterpret_cast<const std::int32_t*>(block.ids)),
+                 broadcast<Ids>(static_cast<std::int32_t>(id))));
 }
 
-SIMD_INLINE Double8 least(const Double8& a, const Double8& b, const Double8& c) {
+SIMD_INLINE Double8 reduce_min(const Double8& a, const Double8& b, const Double8& c) {
   return min(a, min(b, c));
 }
 SIMD_INLINE Double8 most(const Double8& a, const Double8& b, const Double8& c) {
@@ -71,39 +73,41 @@ struct PlaneRange {
 };
 SIMD_INLINE PlaneRange plane_range(const Shaft& shaft, const TriangleBlock& block, const Triangles& t) {
   const Vector8 n = cross(edge(block, 0, 1), edge(block, 0, 2));
-  const Double8 at_corner = product(n, t.v[0]);
-  const Double8 at_centre = product(n, all(shaft.cell.centre)) - at_corner;
-  Double8 around = absolute(product(n, all(shaft.cell.axis[0])));
-  around = around + absolute(product(n, all(shaft.cell.axis[1])));
-  around = around + absolute(product(n, all(shaft.cell.axis[2])));
+  const Double8 at_corner = dot_unfused(n, t.v[0]);
+  const Double8 at_centre = dot_unfused(n, broadcast8(shaft.cell.centre)) - at_corner;
+  Double8 around = abs(dot_unfused(n, broadcast8(shaft.cell.axis[0])));
+  around = around + abs(dot_unfused(n, broadcast8(shaft.cell.axis[1])));
+  around = around + abs(dot_unfused(n, broadcast8(shaft.cell.axis[2])));
   PlaneRange r;
   r.size2 = t.size * t.size;
-  const Double8 margin =
-      r.size2 * ((t.reach + all(shaft.cell.reach)) * all(0x1p-46) + all(6 * shaft.cell.slack));
+  const Double8 margin = r.size2 * ((t.reach + broadcast8(shaft.cell.reach)) * broadcast8(0x1p-46) +
+                                    broadcast8(6 * shaft.cell.slack));
   around = around + margin;
   r.points_low = at_centre - around, r.points_high = at_centre + around;
-  r.light_low = r.light_high = product(n, all(shaft.light->vertices[0]));
+  r.light_low = r.light_high = dot_unfused(n, broadcast8(shaft.light->vertices[0]));
   for (int k = 1; k < shaft.light->count; ++k) {
-    const Double8 at = product(n, all(shaft.light->vertices[k]));
+    const Double8 at = dot_unfused(n, broadcast8(shaft.light->vertices[k]));
     r.light_low = min(r.light_low, at), r.light_high = max(r.light_high, at);
   }
-  const Double8 light_margin = r.size2 * (t.reach + all(shaft.light->reach)) * all(0x1p-46);
+  const Double8 light_margin = r.size2 * (t.reach + broadcast8(shaft.light->reach)) * broadcast8(0x1p-46);
   r.light_low = r.light_low - at_corner - light_margin;
   r.light_high = r.light_high - at_corner + light_margin;
-  r.normal_length = square_root(product(n, n));
+  r.normal_length = sqrt(dot_unfused(n, n));
   return r;
 }
 
 // theta for a receiver's tau, from below and from above: |n| is off by 16 u size^2, here and in the
 // definition.
 SIMD_INLINE Double8 tau_of(const TriangleBlock& block, double tau_receiver) {
-  return load_widened<Double8>(block.largest) * all(1.7320508075688772 * 0x1p-24) + all(tau_receiver);
+  return load_widened<Double8>(block.largest) * broadcast8(points::contact_tau) + broadcast8(tau_receiver);
 }
 SIMD_INLINE Double8 theta_low(const TriangleBlock& block, const PlaneRange& r, double tau_least) {
-  return tau_of(block, tau_least) * (r.normal_length * all(1 - 0x1p-49) - r.size2 * all(0x1p-48));
+  return tau_of(block, tau_least) *
+         (r.normal_length * broadcast8(1 - 0x1p-49) - r.size2 * broadcast8(0x1p-48));
 }
 SIMD_INLINE Double8 theta_high(const TriangleBlock& block, const PlaneRange& r, double tau_most) {
-  return tau_of(block, tau_most) * (r.normal_length * all(1 + 0x1p-49) + r.size2 * all(0x1p-48));
+  return tau_of(block, tau_most) *
+         (r.normal_length * broadcast8(1 + 0x1p-49) + r.size2 * broadcast8(0x1p-48));
 }
 
 std::size_t drop_behind(std::span<const Receiver> receivers, const LightShape& light,
@@ -112,12 +116,12 @@ std::size_t drop_behind(std::span<const Receiver> receivers, const LightShape& l
   for (const BlockRef& ref : in) {
     const TriangleBlock& block = blocks[ref.block];
     const Triangles t = load_triangles(block, light);
-    const Double8 margin = t.reach * all(0x1p-49);
+    const Double8 margin = t.reach * broadcast8(0x1p-49);
     std::uint32_t dropped = ref.lanes;
     for (const Receiver& receiver : receivers) {
-      const Vector8 m = all(receiver.m);
-      const Double8 top = most(product(m, t.v[0]), product(m, t.v[1]), product(m, t.v[2]));
-      dropped &= less_bits(top + margin, all(receiver.limit)) | lanes_of(block, receiver.triangle);
+      const Vector8 m = broadcast8(receiver.m);
+      const Double8 top = most(dot_unfused(m, t.v[0]), dot_unfused(m, t.v[1]), dot_unfused(m, t.v[2]));
+      dropped &= lt_bits(top + margin, broadcast8(receiver.limit)) | lanes_of(block, receiver.triangle);
       if (dropped == 0) break;
     }
     if (const std::uint32_t lanes = ref.lanes & ~dropped; lanes != 0) out[count++] = {ref.block, lanes};
@@ -133,21 +137,21 @@ struct SideRange {
 };
 SIMD_INLINE Double8 side_margin(const Shaft& shaft, const Triangles& t) {
   const double light = shaft.light->reach, cell = shaft.cell.reach;
-  return t.size * (t.reach * all((cell + light) * 0x1p-45 + 6 * shaft.cell.slack) +
-                   all(light * (cell * 0x1p-45 + 6 * shaft.cell.slack)));
+  return t.size * (t.reach * broadcast8((cell + light) * 0x1p-45 + 6 * shaft.cell.slack) +
+                   broadcast8(light * (cell * 0x1p-45 + 6 * shaft.cell.slack)));
 }
 SIMD_INLINE SideRange side_from(const Shaft& shaft, const Vector8& m, const Double8& at_light) {
-  const Double8 centre = product(m, all(shaft.cell.centre)) - at_light;
-  Double8 around = absolute(product(m, all(shaft.cell.axis[0])));
-  around = around + absolute(product(m, all(shaft.cell.axis[1])));
-  around = around + absolute(product(m, all(shaft.cell.axis[2])));
+  const Double8 centre = dot_unfused(m, broadcast8(shaft.cell.centre)) - at_light;
+  Double8 around = abs(dot_unfused(m, broadcast8(shaft.cell.axis[0])));
+  around = around + abs(dot_unfused(m, broadcast8(shaft.cell.axis[1])));
+  around = around + abs(dot_unfused(m, broadcast8(shaft.cell.axis[2])));
   return {centre - around, centre + around};
 }
 SIMD_INLINE SideRange side_range(const Shaft& shaft, const Vector8& e, const Vector8& moment) {
-  SideRange range{all(INFINITY), all(-INFINITY)};
+  SideRange range{broadcast8(INFINITY), broadcast8(-INFINITY)};
   for (int k = 0; k < shaft.light->count; ++k) {
-    const Vector8 q = all(shaft.light->vertices[k]);
-    const SideRange from = side_from(shaft, moment - cross(q, e), product(moment, q));
+    const Vector8 q = broadcast8(shaft.light->vertices[k]);
+    const SideRange from = side_from(shaft, moment - cross(q, e), dot_unfused(moment, q));
     range.low = min(range.low, from.low), range.high = max(range.high, from.high);
   }
   return range;
@@ -158,22 +162,23 @@ struct Sides {
   std::uint32_t front, back;
 };
 SIMD_INLINE Sides sides_of_centre(const Shaft& shaft, const Triangles& t) {
-  const Double8 zero = all(0.0);
-  const Vector8 centre = all(shaft.cell.centre);
-  const Double8 f[3] = {product(cross(t.v[0], t.v[1]), centre), product(cross(t.v[1], t.v[2]), centre),
-                        product(cross(t.v[2], t.v[0]), centre)};
-  return {less_bits(zero, least(f[0], f[1], f[2])), less_bits(most(f[0], f[1], f[2]), zero)};
+  const Double8 zero = broadcast8(0.0);
+  const Vector8 centre = broadcast8(shaft.cell.centre);
+  const Double8 f[3] = {dot_unfused(cross(t.v[0], t.v[1]), centre),
+                        dot_unfused(cross(t.v[1], t.v[2]), centre),
+                        dot_unfused(cross(t.v[2], t.v[0]), centre)};
+  return {lt_bits(zero, reduce_min(f[0], f[1], f[2])), lt_bits(most(f[0], f[1], f[2]), zero)};
 }
 
 // What lines between cell and light do about the edges, of lanes that they cross from the front (f >= 0 at
 // all edges) or from the back (f <= 0).
 SIMD_INLINE void keep_crossed(const Shaft& shaft, const TriangleBlock& block, const Triangles& t, Sides& some,
                               Sides& every) {
-  const Double8 zero = all(0.0), margin = side_margin(shaft, t);
+  const Double8 zero = broadcast8(0.0), margin = side_margin(shaft, t);
   for (int k = 0; k < 3 && (some.front | some.back) != 0; ++k) {
     const Vector8 e = edge(block, k, (k + 1) % 3);
     const SideRange f = side_range(shaft, e, cross(t.v[k], e));
-    const std::uint32_t front = less_bits(margin, f.low), back = less_bits(f.high, zero - margin);
+    const std::uint32_t front = lt_bits(margin, f.low), back = lt_bits(f.high, zero - margin);
     some.front &= ~back, every.front &= front;
     some.back &= ~front, every.back &= back;
   }
@@ -186,21 +191,21 @@ std::size_t drop_beside(const Shaft& shaft, ContactRange contact, const Triangle
                         std::span<const BlockRef> in, BlockRef* out, std::uint32_t& dark) {
   const bool few = in.size() <= few_blocks;
   std::size_t count = 0;
-  const Double8 zero = all(0.0);
+  const Double8 zero = broadcast8(0.0);
   for (const BlockRef& ref : in) {
     const TriangleBlock& block = blocks[ref.block];
     const Triangles t = load_triangles(block, *shaft.light);
     const PlaneRange plane = plane_range(shaft, block, t);
     const Double8 theta = theta_low(block, plane, contact.least);
-    Sides some{ref.lanes & bits(less(theta, plane.points_high) & less(plane.light_low, zero)),
-               ref.lanes & bits(less(theta, zero - plane.points_low) & less(zero, plane.light_high))};
+    Sides some{ref.lanes & bits(lt(theta, plane.points_high) & lt(plane.light_low, zero)),
+               ref.lanes & bits(lt(theta, zero - plane.points_low) & lt(zero, plane.light_high))};
     Sides every = sides_of_centre(shaft, t);
     every.front &= some.front, every.back &= some.back;
     if (dark != no_triangle) every = {0, 0};
     if ((every.front | every.back) != 0) {
       const Double8 sure = theta_high(block, plane, contact.most);
-      every.front &= bits(less(sure, plane.points_low) & less(plane.light_high, zero));
-      every.back &= bits(less(sure, zero - plane.points_high) & less(zero, plane.light_low));
+      every.front &= bits(lt(sure, plane.points_low) & lt(plane.light_high, zero));
+      every.back &= bits(lt(sure, zero - plane.points_high) & lt(zero, plane.light_low));
     }
     if (few || (every.front | every.back) != 0) keep_crossed(shaft, block, t, some, every);
     if ((every.front | every.back) != 0) dark = block.ids[std::countr_zero(every.front | every.back)];

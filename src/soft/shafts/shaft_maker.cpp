@@ -5,7 +5,7 @@
 #include <cmath>
 #include "simd/dispatch.h"
 
-#include "soft/polygon/vector_lanes-inl.h"
+#include "simd/double8-inl.h"
 #include "soft/shafts/shaft.h"
 
 HWY_BEFORE_NAMESPACE();
@@ -18,21 +18,21 @@ using glm::dvec3;
 
 // The corner of the cell, and the vertex of the light, farthest along m.
 SIMD_INLINE Vector8 farthest(const Cell& cell, const Vector8& m) {
-  Vector8 corner = all(cell.centre);
+  Vector8 corner = broadcast8(cell.centre);
   for (const dvec3& a : cell.axis) {
-    const Vector8 axis = all(a);
-    corner = corner + choose3(less(all(0.0), product(m, axis)), axis, all(-a));
+    const Vector8 axis = broadcast8(a);
+    corner = corner + select3(lt(broadcast8(0.0), dot_unfused(m, axis)), axis, broadcast8(-a));
   }
   return corner;
 }
 SIMD_INLINE Vector8 farthest(const LightShape& light, const Vector8& m) {
-  Vector8 best = all(light.vertices[0]);
-  Double8 most = product(m, best);
+  Vector8 best = broadcast8(light.vertices[0]);
+  Double8 most = dot_unfused(m, best);
   for (int k = 1; k < light.count; ++k) {
-    const Vector8 vertex = all(light.vertices[k]);
-    const Double8 along = product(m, vertex);
-    const auto more = less(most, along);
-    best = choose3(more, vertex, best), most = choose(more, along, most);
+    const Vector8 vertex = broadcast8(light.vertices[k]);
+    const Double8 along = dot_unfused(m, vertex);
+    const auto more = lt(most, along);
+    best = select3(more, vertex, best), most = select(more, along, most);
   }
   return best;
 }
@@ -48,10 +48,10 @@ SIMD_INLINE Vector8 tangents(const Cell& cell, const LightShape& light) {
       lanes[axis][2 * k + 1] = -cell.axis[k][axis];
     }
   const Vector8 along{load<Double8>(lanes[0]), load<Double8>(lanes[1]), load<Double8>(lanes[2])};
-  Vector8 m = cross(along, all(cell.centre));
+  Vector8 m = cross(along, broadcast8(cell.centre));
   for (int step = 0; step < 2; ++step) m = cross(along, farthest(cell, m) - farthest(light, m));
-  const auto own = truth_of<double, 8>(1u << 6);
-  return choose3(own, all(-light.normal), m);
+  const auto own = mask_of_bits<double, 8>(1u << 6);
+  return select3(own, broadcast8(-light.normal), m);
 }
 
 // The planes through edges `first` to first + 7 of the light that touch the cell: m = o - t normal, t the
@@ -60,27 +60,29 @@ SIMD_INLINE Vector8 light_edges(const Cell& cell, const LightShape& light, int f
   const Vector8 o{load<Double8>(light.across[0] + first), load<Double8>(light.across[1] + first),
                   load<Double8>(light.across[2] + first)};
   const Double8 at_edge = load<Double8>(light.at_edge + first);
-  Double8 t = all(-INFINITY);
+  Double8 t = broadcast8(-INFINITY);
   for (int k = 0; k < 8; ++k) {
     const dvec3 corner = cell.centre + (k & 1 ? cell.axis[0] : -cell.axis[0]) +
                          (k & 2 ? cell.axis[1] : -cell.axis[1]) + (k & 4 ? cell.axis[2] : -cell.axis[2]);
     const double height = glm::dot(corner, light.normal);
-    if (!(height > 0)) return all(dvec3(0));
-    t = max(t, (product(o, all(corner)) - at_edge) * all(1 / height));
+    if (!(height > 0)) return broadcast8(dvec3(0));
+    t = max(t, (dot_unfused(o, broadcast8(corner)) - at_edge) * broadcast8(1 / height));
   }
-  return subtract_scaled(o, t, all(light.normal));
+  return subtract_scaled(o, t, broadcast8(light.normal));
 }
 
 // Any m gives a valid plane: its limit is the farthest that the shaft reaches along m.
 SIMD_INLINE void add_planes(const Vector8& m_unscaled, Shaft& shaft) {
-  const Double8 size = absolute(m_unscaled.x) + absolute(m_unscaled.y) + absolute(m_unscaled.z);
-  const auto there = less(all(0x1p-900), size) & less(size, all(0x1p900));
-  const Double8 scale = choose(there, all(1 - 0x1p-50) / choose(there, size, all(1)), all(0));
+  const Double8 size = l1_norm(m_unscaled);
+  const auto there = lt(broadcast8(0x1p-900), size) & lt(size, broadcast8(0x1p900));
+  const Double8 scale =
+      select(there, broadcast8(1 - 0x1p-50) / select(there, size, broadcast8(1)), broadcast8(0));
   const Vector8 m = scale * m_unscaled;
-  Double8 most = product(m, all(shaft.cell.centre)) + all(shaft.cell.slack);
-  for (const dvec3& a : shaft.cell.axis) most = most + absolute(product(m, all(a)));
-  for (int k = 0; k < shaft.light->count; ++k) most = max(most, product(m, all(shaft.light->vertices[k])));
-  most = most + all(0x1p-49 * (shaft.cell.reach + shaft.light->reach + largest(shaft.light->origin)));
+  Double8 most = dot_unfused(m, broadcast8(shaft.cell.centre)) + broadcast8(shaft.cell.slack);
+  for (const dvec3& a : shaft.cell.axis) most = most + abs(dot_unfused(m, broadcast8(a)));
+  for (int k = 0; k < shaft.light->count; ++k)
+    most = max(most, dot_unfused(m, broadcast8(shaft.light->vertices[k])));
+  most = most + broadcast8(0x1p-49 * (shaft.cell.reach + shaft.light->reach + largest(shaft.light->origin)));
   double x[8], y[8], z[8], limit[8];
   store(m.x, x), store(m.y, y), store(m.z, z), store(most, limit);
   const std::uint32_t valid = bits(there);

@@ -21,12 +21,12 @@ using namespace simd::HWY_NAMESPACE;
 /// Whether both ends lie on different sides of a line, as far as rounding cannot decide, by their values; and
 /// whether they might.
 template <class T>
-SIMD_INLINE Truth<T, 16> parted(Pack<T, 16> a, Pack<T, 16> b, Pack<T, 16> margin) {
-  return less(min(a, b), splat<Pack<T, 16>>(T(0)) - margin) & less(margin, max(a, b));
+SIMD_INLINE Mask<T, 16> parted(Pack<T, 16> a, Pack<T, 16> b, Pack<T, 16> margin) {
+  return lt(min(a, b), broadcast<Pack<T, 16>>(T(0)) - margin) & lt(margin, max(a, b));
 }
 template <class T>
-SIMD_INLINE Truth<T, 16> maybe_parted(Pack<T, 16> a, Pack<T, 16> b, Pack<T, 16> margin) {
-  return less(min(a, b), margin) & less(splat<Pack<T, 16>>(T(0)) - margin, max(a, b));
+SIMD_INLINE Mask<T, 16> maybe_parted(Pack<T, 16> a, Pack<T, 16> b, Pack<T, 16> margin) {
+  return lt(min(a, b), margin) & lt(broadcast<Pack<T, 16>>(T(0)) - margin, max(a, b));
 }
 
 /// Where the winding changes along an edge or a side.
@@ -84,7 +84,7 @@ public:
   glm::dvec2 to(std::size_t i) const { return {to_u[i], to_v[i]}; }
 
 private:
-  static SIMD_INLINE Lanes num(T value) { return splat<Lanes>(value); }
+  static SIMD_INLINE Lanes num(T value) { return broadcast<Lanes>(value); }
 
   void take_up(const LightPolygon<T>& part, T slack) {
     near_ = on_line<T> + slack;
@@ -106,8 +106,7 @@ private:
 
   HWY_NOINLINE void clip(const SilhouetteLanes<T>& e, std::uint32_t lanes, std::size_t b) {
     const Lanes zero = num(0), one = num(1), beside = doubt_beside(e.u, e.v, near_ - on_line<T>);
-    const Lanes far_u = max(absolute(e.from_u), absolute(e.to_u)) + one,
-                far_v = max(absolute(e.from_v), absolute(e.to_v)) + one;
+    const Lanes far_u = max(abs(e.from_u), abs(e.to_u)) + one, far_v = max(abs(e.from_v), abs(e.to_v)) + one;
     SilhouetteLanes<T> s = e;
     Lanes left = zero;  // how often a ray from the lower end towards +u leaves the part
     std::uint32_t unsure = 0, met = 0;
@@ -123,17 +122,17 @@ private:
       const Lanes reach = num(near_) * (num(std::abs(dv)) * far_u + num(std::abs(du)) * far_v);
       const std::uint32_t crosses = lanes & bits(parted(here, next, beside) & parted(f, g, reach));
       unsure |= lanes & ~crosses & bits(maybe_parted(here, next, beside) & maybe_parted(f, g, reach));
-      const auto rises = not_above(num(v), e.from_v) & less(e.from_v, num(next_v)) & less(zero, f);
-      const auto falls = not_above(num(next_v), e.from_v) & less(e.from_v, num(v)) & less(f, zero);
-      left = choose(rises | falls, left + one, left);
-      if (crosses != 0) end_at_side(k, e, crosses, crosses & less_bits(f, zero), s);
+      const auto rises = le(num(v), e.from_v) & lt(e.from_v, num(next_v)) & lt(zero, f);
+      const auto falls = le(num(next_v), e.from_v) & lt(e.from_v, num(v)) & lt(f, zero);
+      left = select(rises | falls, left + one, left);
+      if (crosses != 0) end_at_side(k, e, crosses, crosses & lt_bits(f, zero), s);
       met |= crosses;
       here = next;
     }
     store(s.from_u, &from_u[16 * b]), store(s.from_v, &from_v[16 * b]);
     store(s.to_u, &to_u[16 * b]), store(s.to_v, &to_v[16 * b]);
     store(beside, &margin[16 * b]);
-    blocks[b] = {(lanes & bits(equal(left, one))) | met | unsure, unsure};
+    blocks[b] = {(lanes & bits(eq(left, one))) | met | unsure, unsure};
   }
 
   static SIMD_INLINE Lanes value_at(const SilhouetteLanes<T>& e, T u, T v) {
@@ -147,14 +146,14 @@ private:
     const Lanes share = min(max(here / (here - next), zero), num(1));
     const Lanes u = num(u_[k]) + share * num(u_[k + 1] - u_[k]),
                 v = num(v_[k]) + share * num(v_[k + 1] - v_[k]);
-    const auto begins = truth_of<T, 16>(enters), ends = truth_of<T, 16>(crosses & ~enters);
-    stretches.from_u = choose(begins, u, stretches.from_u),
-    stretches.from_v = choose(begins, v, stretches.from_v);
-    stretches.to_u = choose(ends, u, stretches.to_u), stretches.to_v = choose(ends, v, stretches.to_v);
+    const auto begins = mask_of_bits<T, 16>(enters), ends = mask_of_bits<T, 16>(crosses & ~enters);
+    stretches.from_u = select(begins, u, stretches.from_u),
+    stretches.from_v = select(begins, v, stretches.from_v);
+    stretches.to_u = select(ends, u, stretches.to_u), stretches.to_v = select(ends, v, stretches.to_v);
     // Counter-clockwise, the side leads to the left of an edge that leaves the part.
     T shares[16], us[16], vs[16], changes[16];
     store(share, shares), store(u, us), store(v, vs);
-    store(choose(begins, zero - e.winding, e.winding), changes);
+    store(select(begins, zero - e.winding, e.winding), changes);
     for (; crosses != 0; crosses &= crosses - 1) {
       const int i = std::countr_zero(crosses);
       side_changes.push_back({k + static_cast<double>(shares[i]), {us[i], vs[i]}, changes[i]});

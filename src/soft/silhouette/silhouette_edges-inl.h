@@ -46,7 +46,7 @@ struct SilhouetteEdges {
       (*values)[place] = (*values)[count];
   }
   /// Appends the edges where `chosen`; there is room.
-  SIMD_INLINE void append(Truth<T, 16> chosen, const SilhouetteLanes<T>& edges) {
+  SIMD_INLINE void append(Mask<T, 16> chosen, const SilhouetteLanes<T>& edges) {
     compress(chosen, edges.u, &u[count]);
     compress(chosen, edges.v, &v[count]);
     compress(chosen, edges.w, &w[count]);

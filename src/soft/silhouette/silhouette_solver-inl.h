@@ -1,4 +1,4 @@
-// The visible part of the light from the silhouette of meshes: its border (silhouette_border-inl.h), for
+// The visible part of the light from the silhouette of meshes: its border (silhouette_boundary-inl.h), for
 // parts with many edges strip by strip. Where rounding might decide, or a horizon is to cut what is found,
 // the light is cut along the edges that cross it, and a part that no edge crosses any more is visible if the
 // silhouette winds around it zero times. Included once per target.
@@ -16,7 +16,7 @@
 #include "soft/occluders/occluder_blocks-inl.h"
 #include "soft/polygon/light_fragments-inl.h"
 #include "soft/silhouette/group_silhouette.h"
-#include "soft/silhouette/silhouette_border-inl.h"
+#include "soft/silhouette/silhouette_boundary-inl.h"
 
 HWY_BEFORE_NAMESPACE();
 namespace tenebra::soft::HWY_NAMESPACE {
@@ -116,33 +116,33 @@ private:
   /// Adds the block's edges to those around the light that count, and to those that may cross the square
   /// around it; turned to rise.
   SIMD_INLINE void gather(const Block& block, T first) {
-    const Lanes zero = splat<Lanes>(T(0)), one = splat<Lanes>(T(1)), minus = splat<Lanes>(T(-1));
+    const Lanes zero = broadcast<Lanes>(T(0)), one = broadcast<Lanes>(T(1)), minus = broadcast<Lanes>(T(-1));
     const Lanes u = load<Lanes>(block.u), v = load<Lanes>(block.v), w = load<Lanes>(block.w);
     const Lanes u0 = load<Lanes>(block.from_u), u1 = load<Lanes>(block.to_u);
     const Lanes v0 = load<Lanes>(block.from_v), v1 = load<Lanes>(block.to_v);
     const Lanes winding = load<Lanes>(block.winding);
-    const auto counts = less(zero, absolute(winding)) & less(minus, max(u0, u1)) & less(min(v0, v1), one) &
-                        less(minus, max(v0, v1));
+    const auto counts =
+        lt(zero, abs(winding)) & lt(minus, max(u0, u1)) & lt(min(v0, v1), one) & lt(minus, max(v0, v1));
     if (!any(counts)) return;
-    const auto falls = less(v1, v0);
-    const auto turned = [&](Lanes value) { return choose(falls, zero - value, value); };
+    const auto falls = lt(v1, v0);
+    const auto turned = [&](Lanes value) { return select(falls, zero - value, value); };
     const SilhouetteLanes<T> edges{turned(u),
                                    turned(v),
                                    turned(w),
-                                   choose(falls, u1, u0),
+                                   select(falls, u1, u0),
                                    min(v0, v1),
-                                   choose(falls, u0, u1),
+                                   select(falls, u0, u1),
                                    max(v0, v1),
                                    turned(winding),
-                                   counted_lanes<T>() + splat<Lanes>(first)};
+                                   counted_lanes<T>() + broadcast<Lanes>(first)};
     around_.append(counts, edges, slack_);
-    crossing_.append(counts & less(min(u0, u1), one) & less(absolute(w), absolute(u) + absolute(v)), edges);
+    crossing_.append(counts & lt(min(u0, u1), one) & lt(abs(w), abs(u) + abs(v)), edges);
   }
 
   /// The same for a part that the crossing edges from `first` on may cross; forgets those.
   void find(const LightPolygon<T>& part, std::size_t first, LightEdges* border, FragmentList<T>& out) {
     const std::size_t count = crossing_.count - first;
-    if (border != nullptr && count > many && greatest(part.y) - least(part.y) > T(1) / 16)
+    if (border != nullptr && count > many && reduce_max(part.y) - reduce_min(part.y) > T(1) / 16)
       return find_in_halves(part, first, border, out);
     if (count >= (border != nullptr ? 1 : several) && count <= many) {
       border_.look_at(around_, crossing_, first, slack_, part);
@@ -158,7 +158,7 @@ private:
   /// In two strips, which are as wide: rays meet the fewer edges, and the edges fewer others.
   void find_in_halves(const LightPolygon<T>& part, std::size_t first, LightEdges* border,
                       FragmentList<T>& out) {
-    const LightLine<T> line{0, 1, (greatest(part.y) + least(part.y)) / -2};
+    const LightLine<T> line{0, 1, (reduce_max(part.y) + reduce_min(part.y)) / -2};
     const LineValues<T> values = evaluate(part, line);
     LightPolygon<T> above, below;
     split_apart(part, values, above, below);
@@ -174,7 +174,7 @@ private:
   void keep_bordering(std::size_t first) {
     const std::size_t last = std::exchange(crossing_.count, first);
     for (std::size_t i = first; i < last; i += 16)
-      crossing_.append(truth_of<T, 16>(border_.kept((i - first) / 16)), crossing_.lanes_from(i));
+      crossing_.append(mask_of_bits<T, 16>(border_.kept((i - first) / 16)), crossing_.lanes_from(i));
   }
 
   /// Cuts `part` along the crossing edges from `first` on, and forgets those.
@@ -216,25 +216,23 @@ private:
   /// `line`, to `to` (first or last), and forgets what lies behind.
   HWY_NOINLINE void keep_crossing(std::size_t first, std::size_t last, const LightPolygon<T>& part,
                                   const LightLine<T>& line, T sign, std::size_t to) {
-    const T low_u = least(part.x), high_u = greatest(part.x), low_v = least(part.y),
-            high_v = greatest(part.y);
-    const auto num = [](T value) { return splat<Lanes>(value); };
+    const T low_u = reduce_min(part.x), high_u = reduce_max(part.x), low_v = reduce_min(part.y),
+            high_v = reduce_max(part.y);
+    const auto num = [](T value) { return broadcast<Lanes>(value); };
     const Lanes cu = num((low_u + high_u) / 2), cv = num((low_v + high_v) / 2);
     const Lanes hu = num((high_u - low_u) / 2), hv = num((high_v - low_v) / 2);
     const Lanes lu = num(sign * line.u), lv = num(sign * line.v), lw = num(sign * line.w);
     const auto beyond = [&](Lanes u, Lanes v) {
       const Lanes a = lu * u, b = lv * v;
-      return less(num(on_line<T>) * (absolute(a) + absolute(b) + absolute(lw)), a + b + lw);
+      return lt(num(on_line<T>) * (abs(a) + abs(b) + abs(lw)), a + b + lw);
     };
     crossing_.count = to;
     for (std::size_t i = first; i < last; i += 16) {
       const SilhouetteLanes<T> e = crossing_.lanes_from(i);
-      const auto meets = lanes_below<T>(last - i) & not_above(min(e.from_u, e.to_u), num(high_u)) &
-                         not_above(num(low_u), max(e.from_u, e.to_u)) &
-                         not_above(min(e.from_v, e.to_v), num(high_v)) &
-                         not_above(num(low_v), max(e.from_v, e.to_v));
-      const auto crosses =
-          not_above(absolute(e.u * cu + e.v * cv + e.w), absolute(e.u) * hu + absolute(e.v) * hv);
+      const auto meets = lanes_below<T>(last - i) & le(min(e.from_u, e.to_u), num(high_u)) &
+                         le(num(low_u), max(e.from_u, e.to_u)) & le(min(e.from_v, e.to_v), num(high_v)) &
+                         le(num(low_v), max(e.from_v, e.to_v));
+      const auto crosses = le(abs(e.u * cu + e.v * cv + e.w), abs(e.u) * hu + abs(e.v) * hv);
       crossing_.append(meets & crosses & (beyond(e.from_u, e.from_v) | beyond(e.to_u, e.to_v)), e);
     }
   }
@@ -261,7 +259,7 @@ private:
   RayEdges<T> around_;           ///< edges that a ray from the light towards +u may cross
   SilhouetteEdges<T> crossing_;  ///< edges that may cross the light, and behind them, the parts at hand
   std::size_t crossing_light_ = 0;
-  SilhouetteBorder<T> border_;
+  SilhouetteBoundary<T> border_;
   std::vector<int> signs_;  ///< one a SometimesBlocker
   T slack_ = 0;             ///< what rounding the corners can amount to, units of the light
 };

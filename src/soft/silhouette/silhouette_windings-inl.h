@@ -20,7 +20,7 @@ using namespace simd::HWY_NAMESPACE;
 /// the light is. `slack`: what rounding the corners can amount to, units of the light.
 template <class T>
 SIMD_INLINE Pack<T, 16> doubt_beside(Pack<T, 16> u, Pack<T, 16> v, T slack) {
-  return splat<Pack<T, 16>>(on_line<T> + slack) * (absolute(u) + absolute(v));
+  return broadcast<Pack<T, 16>>(on_line<T> + slack) * (abs(u) + abs(v));
 }
 
 /// The edges that rays meet, from below (least v) to above, without gaps, one array a quantity.
@@ -37,7 +37,7 @@ struct RayEdges {
     for (auto* values : {&u, &v, &w, &low, &high, &winding, &number, &margin}) values->resize(2 * needed);
   }
   /// Appends the edges where `chosen`; there is room.
-  SIMD_INLINE void append(Truth<T, 16> chosen, const SilhouetteLanes<T>& edges, T slack) {
+  SIMD_INLINE void append(Mask<T, 16> chosen, const SilhouetteLanes<T>& edges, T slack) {
     compress(chosen, edges.u, &u[count]);
     compress(chosen, edges.v, &v[count]);
     compress(chosen, edges.w, &w[count]);
@@ -49,13 +49,13 @@ struct RayEdges {
   }
   /// Takes those of `from` that rays from places between the two heights may meet.
   HWY_NOINLINE void take(const RayEdges& from, T least_v, T greatest_v, T slack) {
-    const Lanes near = splat<Lanes>(2 * on_line<T> + slack);
-    const Lanes bottom = splat<Lanes>(least_v) - near, top = splat<Lanes>(greatest_v) + near;
+    const Lanes near = broadcast<Lanes>(2 * on_line<T> + slack);
+    const Lanes bottom = broadcast<Lanes>(least_v) - near, top = broadcast<Lanes>(greatest_v) + near;
     count = 0;
     make_room(from.count);
     for (std::size_t i = 0; i < from.count; i += 16) {
-      const auto chosen = lanes_below<T>(from.count - i) & not_above(load<Lanes>(&from.low[i]), top) &
-                          not_above(bottom, load<Lanes>(&from.high[i]));
+      const auto chosen = lanes_below<T>(from.count - i) & le(load<Lanes>(&from.low[i]), top) &
+                          le(bottom, load<Lanes>(&from.high[i]));
       for (const auto& [to, values] : {std::pair(&u, &from.u), std::pair(&v, &from.v), std::pair(&w, &from.w),
                                        std::pair(&low, &from.low), std::pair(&high, &from.high),
                                        std::pair(&winding, &from.winding), std::pair(&number, &from.number)})
@@ -76,18 +76,17 @@ template <class T>
 HWY_NOINLINE Windings<T> windings_right_of(const RayEdges<T>& around, T slack, Pack<T, 16> number,
                                            Pack<T, 16> at_u, Pack<T, 16> at_v) {
   using Lanes = Pack<T, 16>;
-  const auto num = [](T value) { return splat<Lanes>(value); };
+  const auto num = [](T value) { return broadcast<Lanes>(value); };
   const Lanes zero = num(0), near = num(on_line<T> + slack), over = at_v + near, under = at_v - near;
   Lanes sum = zero, doubt = zero;  // in registers: not yet in what is returned
   for (std::size_t i = 0; i < around.count; ++i) {
     const Lanes value = num(around.u[i]) * at_u + num(around.v[i]) * at_v + num(around.w[i]);
     const Lanes low = num(around.low[i]), high = num(around.high[i]), turns = num(around.winding[i]);
-    const auto other = unequal(number, num(around.number[i]));
-    const auto met = other & not_above(low, at_v) & less(at_v, high) & less(zero, value);
-    const auto near_it =
-        other & not_above(low, over) & not_above(under, high) & less(absolute(value), num(around.margin[i]));
-    sum = choose(met, sum + turns, sum);
-    doubt = choose(near_it, doubt + absolute(turns), doubt);
+    const auto other = ne(number, num(around.number[i]));
+    const auto met = other & le(low, at_v) & lt(at_v, high) & lt(zero, value);
+    const auto near_it = other & le(low, over) & le(under, high) & lt(abs(value), num(around.margin[i]));
+    sum = select(met, sum + turns, sum);
+    doubt = select(near_it, doubt + abs(turns), doubt);
   }
   return {sum, doubt};
 }
@@ -96,8 +95,8 @@ HWY_NOINLINE Windings<T> windings_right_of(const RayEdges<T>& around, T slack, P
 template <class T>
 HWY_NOINLINE T winding_around(const RayEdges<T>& around, T slack, T at_u, T at_v, bool& doubtful) {
   using Lanes = Pack<T, 16>;
-  const Lanes zero = splat<Lanes>(T(0)), u = splat<Lanes>(at_u), v = splat<Lanes>(at_v),
-              near = splat<Lanes>(on_line<T> + slack);
+  const Lanes zero = broadcast<Lanes>(T(0)), u = broadcast<Lanes>(at_u), v = broadcast<Lanes>(at_v),
+              near = broadcast<Lanes>(on_line<T> + slack);
   Lanes sum = zero;
   std::uint32_t doubt = 0;
   for (std::size_t i = 0; i < around.count; i += 16) {
@@ -105,13 +104,13 @@ HWY_NOINLINE T winding_around(const RayEdges<T>& around, T slack, T at_u, T at_v
         load<Lanes>(&around.u[i]) * u + load<Lanes>(&around.v[i]) * v + load<Lanes>(&around.w[i]);
     const Lanes low = load<Lanes>(&around.low[i]), high = load<Lanes>(&around.high[i]);
     const auto there = lanes_below<T>(around.count - i);
-    const auto met = there & not_above(low, v) & less(v, high) & less(zero, value);
-    sum = sum + choose(met, load<Lanes>(&around.winding[i]), zero);
-    doubt |= bits(there & not_above(low, v + near) & not_above(v - near, high) &
-                  less(absolute(value), load<Lanes>(&around.margin[i])));
+    const auto met = there & le(low, v) & lt(v, high) & lt(zero, value);
+    sum = sum + select(met, load<Lanes>(&around.winding[i]), zero);
+    doubt |=
+        bits(there & le(low, v + near) & le(v - near, high) & lt(abs(value), load<Lanes>(&around.margin[i])));
   }
   doubtful = doubt != 0;
-  return total(sum);  // of whole numbers: exact in any order
+  return reduce_add(sum);  // of whole numbers: exact in any order
 }
 
 }  // namespace tenebra::soft::HWY_NAMESPACE

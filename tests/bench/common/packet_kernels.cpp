@@ -25,24 +25,24 @@ bool aim(const bench::ReceiverPacket& from, const float* x, const float* y, cons
                          load<Float16>(z) - load<Float16>(from.z)};
   const Pack3<Float16> n{load<Float16>(from.nx), load<Float16>(from.ny), load<Float16>(from.nz)};
   const Pack3<Float16> g{load<Float16>(from.gx), load<Float16>(from.gy), load<Float16>(from.gz)};
-  const Float16 zero = splat<Float16>(0.0f);
-  const Float16 square = dot(d, d), received = dot(n, d), sent = zero - dot(splat3<Float16>(lx, ly, lz), d);
+  const Float16 zero = broadcast<Float16>(0.0f);
+  const Float16 square = dot(d, d), received = dot(n, d),
+                sent = zero - dot(broadcast3<Float16>(lx, ly, lz), d);
   const Float16 weight = received * sent / (square * square);
   const Float16 least_side = min(min(received, sent), dot(g, d));
-  store(where_not_above(least_side, zero, zero, weight), out.weight);
-  store(where_not_above(least_side, zero, splat<Int16>(0), splat<Int16>(-1)), out.valid);
+  store(select_le(least_side, zero, zero, weight), out.weight);
+  store(select_le(least_side, zero, broadcast<Int16>(0), broadcast<Int16>(-1)), out.valid);
   store(d.x, out.rays.dir_x);
   store(d.y, out.rays.dir_y);
   store(d.z, out.rays.dir_z);
-  store(splat<Float16>(almost_at_the_light), out.rays.tfar);
-  return greatest(least_side) > 0;
+  store(broadcast<Float16>(almost_at_the_light), out.rays.tfar);
+  return reduce_max(least_side) > 0;
 }
 
 /// Embree sets tfar of a blocked ray to -infinity.
 void gather(const bench::RayPacket16& traced, float* sums) {
-  const Float16 zero = splat<Float16>(0.0f);
-  const Float16 seen =
-      where_not_above(load<Float16>(traced.rays.tfar), zero, zero, load<Float16>(traced.weight));
+  const Float16 zero = broadcast<Float16>(0.0f);
+  const Float16 seen = select_le(load<Float16>(traced.rays.tfar), zero, zero, load<Float16>(traced.weight));
   store(load<Float16>(sums) + seen, sums);
 }
 

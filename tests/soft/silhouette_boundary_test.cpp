@@ -68,7 +68,7 @@ Soup with(Soup a, const Soup& b) {
 }
 
 // A part of the light that is cut, for doubt, leaves fragments; a border leaves none.
-TEST(SoftSilhouetteBorder, NeedsNoCutsButForDoubt) {
+TEST(SoftSilhouetteBoundary, NeedsNoCutsButForDoubt) {
   const Soup balls = with(sphere(8, 0.6, {0, 2, 0}), torus(40, 16, 0.7, 0.2).moved(1, {0.3, 1.6, 0.2}));
   const SoftCase c = over_floor("ball and ring", balls.moved(0.97, {0.013, 0.05, 0.027}));
   SoftStats stats;
@@ -78,7 +78,7 @@ TEST(SoftSilhouetteBorder, NeedsNoCutsButForDoubt) {
   EXPECT_LT(stats.fragments, stats.points_lit + stats.points_penumbra / 50);
 }
 
-TEST(SoftSilhouetteBorder, SilhouettesThatNearlyCoincide) {
+TEST(SoftSilhouetteBoundary, SilhouettesThatNearlyCoincide) {
   const Soup ball = sphere(6, 0.5, {0, 2, 0}), boxes = box({-0.4, 1.9, -0.3}, {0.5, 2.2, 0.4});
   std::size_t between = 0, by_silhouette = 0;
   for (const double apart : {0.0, 1e-8, 1e-7, 1e-6, 1e-5}) {
@@ -96,7 +96,7 @@ TEST(SoftSilhouetteBorder, SilhouettesThatNearlyCoincide) {
 }
 
 // The edges of neighbours lie on each other without an end in common.
-TEST(SoftSilhouetteBorder, SheetsOfUnlikeCellsSideBySide) {
+TEST(SoftSilhouetteBoundary, SheetsOfUnlikeCellsSideBySide) {
   std::size_t between = 0, by_silhouette = 0;
   for (const double gap : {0.0, 1e-7, -1e-7, 1e-6}) {
     Soup sheets = sheet({-0.75, 2, -0.5}, 6, 8, 0.125);
@@ -109,7 +109,7 @@ TEST(SoftSilhouetteBorder, SheetsOfUnlikeCellsSideBySide) {
 }
 
 // A large triangle is clipped, and the fine mesh next to it is not: its silhouette runs along what is left.
-TEST(SoftSilhouetteBorder, RunsAlongWhatIsCutOut) {
+TEST(SoftSilhouetteBoundary, RunsAlongWhatIsCutOut) {
   std::size_t between = 0, by_silhouette = 0;
   for (const double turn : {0.0, 0.3}) {
     Soup wall = sheet({0, 2, -1}, 10, 16, 0.125);
@@ -124,7 +124,7 @@ TEST(SoftSilhouetteBorder, RunsAlongWhatIsCutOut) {
   EXPECT_GT(by_silhouette, 1000u);
 }
 
-TEST(SoftSilhouetteBorder, OfHundredsOfEdges) {
+TEST(SoftSilhouetteBoundary, OfHundredsOfEdges) {
   Random random(17);
   std::size_t between = 0, by_silhouette = 0;
   Soup grains;

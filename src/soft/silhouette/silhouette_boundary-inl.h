@@ -4,11 +4,11 @@
 //
 // All decisions are of signs that rounding cannot change, or the border is not given and the part is to be
 // cut. Two edges meet in one and the same place for both: the border is closed but for the rounding of sums.
-#if defined(TENEBRA_SOFT_SILHOUETTE_BORDER_INL_H_) == defined(HWY_TARGET_TOGGLE)
-#ifdef TENEBRA_SOFT_SILHOUETTE_BORDER_INL_H_
-#undef TENEBRA_SOFT_SILHOUETTE_BORDER_INL_H_
+#if defined(TENEBRA_SOFT_SILHOUETTE_BOUNDARY_INL_H_) == defined(HWY_TARGET_TOGGLE)
+#ifdef TENEBRA_SOFT_SILHOUETTE_BOUNDARY_INL_H_
+#undef TENEBRA_SOFT_SILHOUETTE_BOUNDARY_INL_H_
 #else
-#define TENEBRA_SOFT_SILHOUETTE_BORDER_INL_H_
+#define TENEBRA_SOFT_SILHOUETTE_BOUNDARY_INL_H_
 #endif
 
 #include "soft/polygon/irradiance-inl.h"
@@ -19,7 +19,7 @@ namespace tenebra::soft::HWY_NAMESPACE {
 using namespace simd::HWY_NAMESPACE;
 
 template <class T>
-class SilhouetteBorder {
+class SilhouetteBoundary {
 public:
   /// Finds out about the edges from place `first` on, on a convex part of the light. They stay where they
   /// are.
@@ -31,7 +31,7 @@ public:
     slack_ = slack;
     around_ = &around;
     if (around.count > many_rays) {
-      rays_.take(around, least(part.y), greatest(part.y), slack);
+      rays_.take(around, reduce_min(part.y), reduce_max(part.y), slack);
       around_ = &rays_;
     }
     stretches_.find(edges, first, slack, part);
@@ -45,7 +45,7 @@ public:
 
   /// Bits of the edges of block b that may have light beside them: only along these the part need be cut.
   std::uint32_t kept(std::size_t b) const {
-    const std::uint32_t dark = less_bits(num(0), load<Lanes>(&least_[16 * b])) & ~blocks_[b].level;
+    const std::uint32_t dark = lt_bits(num(0), load<Lanes>(&least_[16 * b])) & ~blocks_[b].level;
     return stretches_.blocks[b].there & ~(dark & ~stretches_.blocks[b].unsure);
   }
 
@@ -78,7 +78,7 @@ private:
   struct Link {
     std::uint32_t other, before;
   };
-  static SIMD_INLINE Lanes num(T value) { return splat<Lanes>(value); }
+  static SIMD_INLINE Lanes num(T value) { return broadcast<Lanes>(value); }
 
   void count_windings(std::size_t b) {
     const SilhouetteLanes<T> e = edges_->lanes_from(first_ + 16 * b);
@@ -88,8 +88,8 @@ private:
     const Windings<T> beside = windings_right_of(*around_, slack_, e.number, u, v);
     store(beside.winding, blocks_[b].right);
     store(beside.winding + min(e.winding, num(0)) - beside.doubt, &least_[16 * b]);
-    blocks_[b].level = ~bits(not_above(e.from_v, v) & less(v, e.to_v));
-    blocks_[b].doubtful = less_bits(num(0), beside.doubt) | blocks_[b].level;
+    blocks_[b].level = ~bits(le(e.from_v, v) & lt(v, e.to_v));
+    blocks_[b].doubtful = lt_bits(num(0), beside.doubt) | blocks_[b].level;
   }
 
   /// Those of the edges of block b by others of it and behind it.
@@ -113,16 +113,16 @@ private:
       const std::uint32_t before = lanes < 16 ? (1u << lanes) - 1 : 0xffffu;
       std::uint32_t met = bits(maybe) & before & on.blocks[b].there;
       if (met == 0 || (on.blocks[i / 16].there >> (i % 16) & 1) == 0) continue;
-      met &= ~shares_corner(e, k) & bits(not_above(low_u, max(u0, u1)) & not_above(min(u0, u1), high_u) &
-                                         not_above(low_v, v1) & not_above(v0, high_v));
+      met &= ~shares_corner(e, k) &
+             bits(le(low_u, max(u0, u1)) & le(min(u0, u1), high_u) & le(low_v, v1) & le(v0, high_v));
       if (met != 0) link(b, i, met, met & ~bits(parted(a, c, its_margin) & parted(f, g, margin)));
     }
   }
   /// Edges that share a corner do not cross.
   SIMD_INLINE std::uint32_t shares_corner(const SilhouetteLanes<T>& e, std::size_t k) const {
     const auto at = [&](Lanes u, Lanes v) {
-      return (equal(u, num(edges_->from_u[k])) & equal(v, num(edges_->from_v[k]))) |
-             (equal(u, num(edges_->to_u[k])) & equal(v, num(edges_->to_v[k])));
+      return (eq(u, num(edges_->from_u[k])) & eq(v, num(edges_->from_v[k]))) |
+             (eq(u, num(edges_->to_u[k])) & eq(v, num(edges_->to_v[k])));
     };
     return bits(at(e.from_u, e.from_v) | at(e.to_u, e.to_v));
   }
@@ -167,14 +167,14 @@ private:
   void append_edges(std::size_t b, LightEdges& edges) {
     const EdgeStretches<T>& on = stretches_;
     const Lanes zero = num(0), right = load<Lanes>(blocks_[b].right);
-    const auto left_is_lit = equal(right + load<Lanes>(&edges_->winding[first_ + 16 * b]), zero);
-    const std::uint32_t lit = kept(b) & ~blocks_[b].crossed & bits(left_is_lit | equal(right, zero));
+    const auto left_is_lit = eq(right + load<Lanes>(&edges_->winding[first_ + 16 * b]), zero);
+    const std::uint32_t lit = kept(b) & ~blocks_[b].crossed & bits(left_is_lit | eq(right, zero));
     const Lanes from_u = load<Lanes>(&on.from_u[16 * b]), from_v = load<Lanes>(&on.from_v[16 * b]);
     const Lanes to_u = load<Lanes>(&on.to_u[16 * b]), to_v = load<Lanes>(&on.to_v[16 * b]);
     edges.reserve(16);
     const auto append = [&](Lanes where_left, Lanes where_right, std::vector<double>& values) {
       T packed[16];
-      compress(truth_of<T, 16>(lit), choose(left_is_lit, where_left, where_right), packed);
+      compress(mask_of_bits<T, 16>(lit), select(left_is_lit, where_left, where_right), packed);
       store(load_widened<Pack<double, 16>>(packed), &values[edges.count]);
     };
     append(from_u, to_u, edges.u0), append(from_v, to_v, edges.v0);
