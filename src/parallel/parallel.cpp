@@ -11,6 +11,7 @@
 #include <xmmintrin.h>
 #endif
 
+// The names are the sanitizer's. NOLINTBEGIN(bugprone-reserved-identifier,cert-dcl37-c,cert-dcl51-cpp)
 #ifdef TENEBRA_THREAD_SANITIZER
 extern "C" void __tsan_acquire(void*);
 extern "C" void __tsan_release(void*);
@@ -20,6 +21,7 @@ void __tsan_acquire(void*) {}
 void __tsan_release(void*) {}
 }  // namespace
 #endif
+// NOLINTEND(bugprone-reserved-identifier,cert-dcl37-c,cert-dcl51-cpp)
 
 namespace tenebra::parallel {
 
