@@ -100,6 +100,7 @@ TEST(FrameLog, ReadsBackAsASpreadsheetDoes) {
             fmt::format("{:.3f}", 0.125 + static_cast<double>(render::frame_stages.size())));
   EXPECT_EQ(rows[0]["soft_groups"], "77");
   EXPECT_EQ(rows[0]["ao_cache_cells"], "78");
+  EXPECT_EQ(rows[0]["soft_points_outline"], rows[0]["soft_points_silhouette"]) << "the old name, until 0.3";
   EXPECT_EQ(rows[0]["total_ms"], "100.500");
   EXPECT_EQ(rows[0]["rays"], "1000");
   EXPECT_EQ(rows[0]["nodes"], "18446744073709551615");

@@ -70,7 +70,7 @@ inline constexpr std::array method_columns{
     CountColumn{"soft_candidates", [](const FrameRecord& r) { return r.soft.candidates; }},
     CountColumn{"soft_points_bsp", [](const FrameRecord& r) { return r.soft.points_bsp; }},
     CountColumn{"soft_points_clip", [](const FrameRecord& r) { return r.soft.points_clip; }},
-    CountColumn{"soft_points_outline", [](const FrameRecord& r) { return r.soft.points_silhouette; }},
+    CountColumn{"soft_points_silhouette", [](const FrameRecord& r) { return r.soft.points_silhouette; }},
     CountColumn{"soft_fragments", [](const FrameRecord& r) { return r.soft.fragments; }},
     CountColumn{"soft_tree_nodes", [](const FrameRecord& r) { return r.soft.tree_nodes; }},
     CountColumn{"soft_peak_tree_bytes", [](const FrameRecord& r) { return r.soft.peak_tree_bytes; }},
@@ -81,6 +81,8 @@ inline constexpr std::array method_columns{
     CountColumn{"ao_lookups", [](const FrameRecord& r) { return r.ao.lookups; }},
     CountColumn{"ao_rays_cast", [](const FrameRecord& r) { return r.ao.rays_cast; }},
     CountColumn{"ao_cache_cells", [](const FrameRecord& r) { return r.ao.cache_cells; }},
+    // The old name of soft_points_silhouette, for readers of logs: goes with 0.3.
+    CountColumn{"soft_points_outline", [](const FrameRecord& r) { return r.soft.points_silhouette; }},
 };
 
 /// Times that close a row of the log, after the counts.
