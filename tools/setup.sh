@@ -17,9 +17,9 @@ packages=(
 where_known=()  # taken where this release has them
 [[ "${1:-}" == --window || "${1:-}" == --tests ]] && packages+=(libgl1 libglx-mesa0 fonts-dejavu-core)
 if [[ "${1:-}" == --tests ]]; then
-  packages+=(libgtest-dev libgmock-dev libbenchmark-dev libembree-dev libgmp-dev
+  packages+=(libgtest-dev libembree-dev libgmp-dev
     xvfb xauth xdotool imagemagick x11-xserver-utils)
-  where_known+=(libosmesa6)  # Mesa 25.1 and later have none: EGL is enough
+  where_known+=(libosmesa6 clang-format-14)  # Mesa 25.1 and later have no OSMesa: EGL is enough
 fi
 
 if ! command -v dpkg-query apt-get > /dev/null; then

@@ -229,7 +229,7 @@ private:
   }
 
   /// What is still to do, each with the occluders of `boxes` that are left for it.
-  HWY_NOINLINE void subtract_todo(Occluders& c, const ShadowBoxes<T>& boxes, Parts& out) {
+  SIMD_INLINE void subtract_todo(Occluders& c, const ShadowBoxes<T>& boxes, Parts& out) {
     while (!todo_.empty()) {
       const std::uint64_t left = todo_left_.back();
       todo_left_.pop_back();

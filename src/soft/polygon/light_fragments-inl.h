@@ -125,7 +125,7 @@ HWY_NOINLINE void keep_positive(FragmentList<T>& fragments, const LightLine<T>& 
       continue;
     }
     LightPolygon<T> inside, outside;
-    split_apart(fragment, values, inside, outside);
+    split(fragment, values, inside, outside);
     scratch.push(inside);
   }
   fragments.swap(scratch);

@@ -239,13 +239,6 @@ SIMD_INLINE void split(const LightPolygon<T>& polygon, const LineValues<T>& line
   positive = inside;
 }
 
-/// The same out of line, where it is not at the heart of a loop.
-template <class T>
-HWY_NOINLINE void split_apart(const LightPolygon<T>& polygon, const LineValues<T>& line,
-                              LightPolygon<T>& positive, LightPolygon<T>& negative) {
-  split(polygon, line, positive, negative);
-}
-
 /// Two polygons for one, along a diagonal: vertices 0 to count / 2, and the others with both ends.
 template <class T>
 SIMD_INLINE void halve(const LightPolygon<T>& polygon, LightPolygon<T>& low, LightPolygon<T>& high) {

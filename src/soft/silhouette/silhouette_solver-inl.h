@@ -161,7 +161,7 @@ private:
     const LightLine<T> line{0, 1, (reduce_max(part.y) + reduce_min(part.y)) / -2};
     const LineValues<T> values = evaluate(part, line);
     LightPolygon<T> above, below;
-    split_apart(part, values, above, below);
+    split(part, values, above, below);
     const std::size_t last = crossing_.count;
     crossing_.make_room(last - first);
     keep_crossing(first, last, above, line, T(1), last);

@@ -1,5 +1,3 @@
-#include "soft/solve/reference_targets.h"
-
 #include "soft/solve/solvers.h"
 
 #undef HWY_TARGET_INCLUDE
@@ -27,7 +25,7 @@ HWY_AFTER_NAMESPACE();
 namespace tenebra::soft {
 
 std::unique_ptr<PointsSolver> make_reference_bsp_solver(SimdLevel level) {
-  return TENEBRA_DISPATCH(reference_level(level), make_reference_bsp)();
+  return TENEBRA_DISPATCH(level, make_reference_bsp)();
 }
 
 }  // namespace tenebra::soft
