@@ -4,6 +4,7 @@
 #   lto-odr   links the programs with link-time optimisation: two definitions of one name are an error
 #   clang     builds everything with clang++, warnings are errors, and runs all tests
 #   roots     builds and tests on other systems (ROOTS="debian13 ubuntu24.04"); needs root and mmdebstrap or debootstrap
+#   debug     runs the libraries' unit tests as the debug preset builds them
 #   asan      runs all tests with the address and undefined-behaviour sanitizers
 #   tsan      runs all tests with the thread sanitizer
 #   all       every part, one after the other
@@ -11,7 +12,7 @@
 # JOBS=N: how many jobs at once [all cores].
 set -uo pipefail
 cd "$(dirname "$0")/.."
-parts=(lto-odr clang roots asan tsan)
+parts=(lto-odr clang roots debug asan tsan)
 jobs=${JOBS:-$(nproc)}
 
 has() {
@@ -53,6 +54,7 @@ run_preset() {
     ctest --preset "$1" -j "$jobs"
 }
 
+run_debug() { tools/setup.sh --tests && tools/test_debug.sh; }
 run_asan() { run_preset asan; }
 run_tsan() { run_preset tsan; }
 
