@@ -2,6 +2,7 @@
 #pragma once
 
 #include <tenebra/scene.h>
+#include <array>
 #include <cstdint>
 #include <glm/glm.hpp>
 #include <glm/gtc/quaternion.hpp>
@@ -42,12 +43,22 @@ struct FrameGeometry {
   std::vector<glm::uvec3> triangles;       ///< triangle id -> vertices; (0,0,0) for dropped ones
   std::vector<std::uint32_t> materials;    ///< one for each triangle
   std::vector<std::uint8_t> casts_shadow;  ///< one for each triangle, 0 or 1
-  std::vector<std::uint32_t> parts;        ///< first triangle of each mesh at its node
-  std::uint32_t dropped_non_finite = 0;    ///< triangles with a NaN or infinite vertex, or beyond 1.8e18
-                                           ///< (such a vertex is stored as zero: all positions are finite)
-  Pose pose;                               ///< the nodes at this instant
-  DeformBuffers deformed;                  ///< scratch
+  std::vector<std::uint8_t> see_through;   ///< one for each triangle, 0 or 1: cast no opaque shadow, and are
+                                          ///< drawn over what is behind them; empty: none is
+  std::vector<std::uint32_t> parts;      ///< first triangle of each mesh at its node
+  std::uint32_t dropped_non_finite = 0;  ///< triangles with a NaN or infinite vertex, or beyond 1.8e18
+                                         ///< (such a vertex is stored as zero: all positions are finite)
+  Pose pose;                             ///< the nodes at this instant
+  DeformBuffers deformed;                ///< scratch
 };
+
+/// What does not change from instant to instant: texture coordinates and colours of FrameGeometry's vertices,
+/// in the same order. Empty lists where no mesh has any.
+struct SurfaceCoordinates {
+  std::array<std::vector<glm::vec2>, 2> texture_coordinates;
+  std::vector<glm::vec4> colors;  ///< white where a mesh has none
+};
+SurfaceCoordinates surface_coordinates(const Scene& scene);
 
 /// A light of one instant in world space.
 struct WorldLight {

@@ -1,7 +1,8 @@
 // A scene as imported: plain tables and indices, no OpenGL, nothing evaluated yet.
-// Right-handed, Y up, metres where the file means metres, linear colour.
+// Right-handed, Y up, metres where the file means metres; colours as Scene::transfer says.
 #pragma once
 
+#include <array>
 #include <cstdint>
 #include <glm/glm.hpp>
 #include <glm/gtc/quaternion.hpp>
@@ -10,17 +11,9 @@
 #include <vector>
 
 #include <tenebra/animation.h>
+#include <tenebra/material.h>
 
 namespace tenebra {
-
-/// How a surface reflects light and whether it shines itself.
-struct Material {
-  std::string name;
-  glm::vec3 base_color{0.8f};  ///< diffuse reflectance, linear; BART may exceed 1
-  glm::vec3 ambient{-1.0f};    ///< reflectance of the scene's ambient light; negative: base_color
-  glm::vec3 emissive{0.0f};
-  bool casts_shadow = true;
-};
 
 /// Displacements of every vertex of a mesh (glTF morph target).
 struct MorphTarget {
@@ -37,8 +30,13 @@ struct Mesh {
   std::vector<glm::uvec3> triangles;     ///< counter-clockwise seen from the front; indices in range
   std::vector<std::uint32_t> materials;  ///< one for each triangle, an index into Scene::materials
 
-  std::vector<glm::u16vec4> joints;  ///< skin: four for each vertex, indices into Skin::joints
-  std::vector<glm::vec4> weights;    ///< skin: their weights, used as stored
+  std::array<std::vector<glm::vec2>, 2> texture_coordinates;  ///< glTF's sense: (0,0) the picture's top left
+  std::vector<glm::vec4> colors;                              ///< linear factor of base colour and alpha
+
+  std::vector<glm::u16vec4> joints;       ///< skin: four for each vertex, indices into Skin::joints
+  std::vector<glm::vec4> weights;         ///< skin: their weights, used as stored
+  std::vector<glm::u16vec4> more_joints;  ///< the fifth to eighth; empty where no vertex has them
+  std::vector<glm::vec4> more_weights;
 
   std::vector<MorphTarget> morph_targets;  ///< added with the weights of the node
   std::vector<float> default_weights;      ///< one for each morph target
@@ -113,9 +111,11 @@ struct Scene {
   std::vector<Mesh> meshes;
   std::vector<Skin> skins;
   std::vector<Material> materials;  ///< at least one if there is any triangle
+  std::vector<TextureImage> images;
   std::vector<Light> lights;
   std::vector<Camera> cameras;
   std::vector<Clip> clips;
+  Transfer transfer = Transfer::srgb;
   glm::vec3 background{0.0f};
   glm::vec3 ambient_light{0.1f};      ///< times the materials' ambient; formats that state one set it
   std::vector<std::string> warnings;  ///< what was skipped, guessed or added at import, a sentence each

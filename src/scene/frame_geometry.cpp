@@ -80,10 +80,14 @@ std::size_t place_skinned(const Instance& instance, const std::vector<Vector>& p
   std::size_t bad = 0;
   for (std::size_t v = 0; v < positions.size(); ++v) {
     glm::dmat4 blend(0.0);
-    for (int k = 0; k < 4; ++k) {
-      const double weight = mesh.weights[v][k];
-      if (weight != 0.0) blend += out.deformed.joints[mesh.joints[v][k]] * weight;
-    }
+    const auto add = [&](const glm::u16vec4& joints, const glm::vec4& weights) {
+      for (int k = 0; k < 4; ++k) {
+        const double weight = weights[k];
+        if (weight != 0.0) blend += out.deformed.joints[joints[k]] * weight;
+      }
+    };
+    add(mesh.joints[v], mesh.weights[v]);
+    if (!mesh.more_joints.empty()) add(mesh.more_joints[v], mesh.more_weights[v]);
     const glm::dvec3 p(blend * glm::dvec4(glm::dvec3(positions[v]), 1.0));
     bad += !store_position(p, out.positions[instance.first_vertex + v]);
     if (normals.empty()) continue;
@@ -128,10 +132,13 @@ void write_triangles(const Instance& instance, bool mirrored, bool has_bad_verti
 
 void write_materials(const Scene& scene, const Instance& instance, FrameGeometry& out) {
   for (std::size_t t = 0; t < instance.mesh.triangles.size(); ++t) {
-    const std::uint32_t material = instance.mesh.materials[t];
-    out.materials[instance.first_triangle + t] = material;
-    out.casts_shadow[instance.first_triangle + t] =
-        instance.mesh.casts_shadow && scene.materials[material].casts_shadow;
+    const std::uint32_t index = instance.mesh.materials[t];
+    const Material& material = scene.materials[index];
+    const std::size_t triangle = instance.first_triangle + t;
+    out.materials[triangle] = index;
+    out.casts_shadow[triangle] =
+        instance.mesh.casts_shadow && material.casts_shadow && !material.see_through();
+    if (!out.see_through.empty()) out.see_through[triangle] = material.see_through();
   }
 }
 
@@ -173,6 +180,9 @@ void resize(const Scene& scene, FrameGeometry& out) {
   out.triangles.resize(triangles);
   out.materials.resize(triangles);
   out.casts_shadow.resize(triangles);
+  const bool any_see_through = std::any_of(scene.materials.begin(), scene.materials.end(),
+                                           [](const Material& m) { return m.see_through(); });
+  out.see_through.resize(any_see_through ? triangles : 0);
 }
 
 const Skin* skin_of(const Scene& scene, const Node& node, const Mesh& mesh) {
@@ -205,6 +215,28 @@ void evaluate_frame(const Scene& scene, int clip, double time_s, FrameGeometry& 
     vertex += mesh.positions.size();
     triangle += mesh.triangles.size();
   }
+}
+
+SurfaceCoordinates surface_coordinates(const Scene& scene) {
+  SurfaceCoordinates result;
+  std::size_t vertices = 0;
+  // One list after the other; a list begins with the first mesh that has it, and is filled up to there.
+  const auto append = [&](auto& list, const auto& of_mesh, std::size_t count, auto otherwise) {
+    if (of_mesh.empty() && list.empty()) return;
+    list.resize(vertices, otherwise);
+    list.insert(list.end(), of_mesh.begin(), of_mesh.end());
+    list.resize(vertices + count, otherwise);
+  };
+  for (const Node& node : scene.nodes) {
+    if (node.mesh < 0) continue;
+    const Mesh& mesh = scene.meshes[static_cast<std::size_t>(node.mesh)];
+    const std::size_t count = mesh.positions.size();
+    for (std::size_t set = 0; set < 2; ++set)
+      append(result.texture_coordinates[set], mesh.texture_coordinates[set], count, glm::vec2(0.0f));
+    append(result.colors, mesh.colors, count, glm::vec4(1.0f));
+    vertices += count;
+  }
+  return result;
 }
 
 }  // namespace tenebra

@@ -1,0 +1,98 @@
+// What surfaces are made of: how they reflect, what shines or shows through them, and their pictures.
+#pragma once
+
+#include <array>
+#include <cstdint>
+#include <glm/glm.hpp>
+#include <string>
+#include <vector>
+
+namespace tenebra {
+
+/// A decoded picture. Values as its file stores them: colour encoded (sRGB in glTF, display values in BART).
+struct TextureImage {
+  std::string name;  ///< file name, or where the scene's file has it: "images[3]"
+  int width = 0;
+  int height = 0;
+  std::vector<std::uint8_t>
+      rgba;  ///< four values for each pixel, row 0 at the top; alpha 255 where it has none
+};
+
+/// What stands beyond texture coordinates 0 to 1.
+enum class Wrap { repeat, clamp_to_edge, mirrored_repeat };
+/// How a texture's pixels are made smaller or larger; the names are those of glTF.
+enum class Filter { nearest, linear };
+enum class MipFilter { none, nearest, linear };
+
+/// A picture on a surface: which, by which coordinates, and how it is sampled.
+struct TextureMap {
+  int image = -1;  ///< index into Scene::images; -1: none
+  int uv_set = 0;  ///< index into Mesh::texture_coordinates
+  /// Applied to the coordinates, (0,0) the top left corner of the picture: transform * (u, v, 1).
+  glm::mat3x2 transform{1, 0, 0, 1, 0, 0};
+  Wrap wrap_u = Wrap::repeat;
+  Wrap wrap_v = Wrap::repeat;
+  Filter magnify = Filter::linear;
+  Filter minify = Filter::linear;
+  MipFilter mip = MipFilter::linear;
+
+  explicit operator bool() const { return image >= 0; }
+};
+
+/// Which formula reflects light (docs/materials.md).
+enum class SurfaceModel {
+  phong,                ///< BART and OBJ: base_color diffuse, specular with phong_exponent
+  metallic_roughness,   ///< glTF
+  specular_glossiness,  ///< KHR_materials_pbrSpecularGlossiness: base_color diffuse, specular, roughness
+  unlit                 ///< KHR_materials_unlit: base_color as it is
+};
+
+/// What the alpha of base colour, its texture and the vertices means.
+enum class AlphaMode {
+  opaque,  ///< nothing
+  mask,    ///< the surface ends where alpha falls below the cutoff
+  blend    ///< the share of the surface that is there
+};
+
+/// How a surface reflects light, what passes through it, and whether it shines itself.
+struct Material {
+  std::string name;
+  glm::vec3 base_color{
+      0.8f};                 ///< diffuse reflectance, linear (Transfer::display: as shown); BART may exceed 1
+  glm::vec3 ambient{-1.0f};  ///< reflectance of the scene's ambient light; negative: base_color
+  glm::vec3 emissive{0.0f};
+  bool casts_shadow = true;
+
+  SurfaceModel model = SurfaceModel::phong;
+  glm::vec3 specular{
+      0.0f};  ///< phong: reflectance (BART's ks); specular_glossiness: reflectance at 0 degrees
+  float phong_exponent = 1.0f;
+  float metallic = 0.0f;
+  float roughness = 1.0f;  ///< as glTF's: the square root of GGX's alpha
+  bool double_sided = true;
+
+  AlphaMode alpha_mode = AlphaMode::opaque;
+  float alpha = 1.0f;         ///< factor of the texture's and the vertices'
+  float alpha_cutoff = 0.5f;  ///< AlphaMode::mask
+  /// Share of light that passes a surface that is there: BART's T, glTF's transmission. Times base_color
+  /// where `tinted` (glTF); nothing refracts.
+  float transmission = 0.0f;
+  bool tinted_transmission = false;
+
+  TextureMap base_color_map;          ///< colour and alpha
+  TextureMap emissive_map;            ///< colour
+  TextureMap metallic_roughness_map;  ///< linear: roughness in green, metallic in blue
+  TextureMap specular_map;            ///< specular_glossiness: colour, and glossiness in alpha
+  TextureMap transmission_map;        ///< linear: red
+
+  /// Whether light passes through some of it, so that it casts no opaque shadow.
+  bool see_through() const { return alpha_mode == AlphaMode::blend || transmission > 0; }
+};
+
+/// What the colours of a scene are, and so how a picture of it is written.
+enum class Transfer {
+  srgb,    ///< linear light; pictures are sRGB-encoded, colour textures decoded (glTF, OBJ)
+  display  ///< display values, lit and written as they are (AFF and NFF, of 1999)
+};
+
+}  // namespace tenebra
