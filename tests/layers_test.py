@@ -16,13 +16,14 @@ MAY_INCLUDE = {
     "simd": {"base"},
     "scene": {"base", "math"},
     "formats": {"base", "math", "scene"},
+    "texture": {"base", "math", "scene"},
     "points": {"base", "math", "simd", "parallel", "scene"},
     "shadow": {"base", "math", "simd", "parallel", "scene", "points"},
     "soft": {"base", "math", "simd", "parallel", "scene", "points"},
     "ao": {"base", "math", "simd", "parallel", "scene", "points"},
     "gl": {"base"},
     "raster": {"base", "math", "scene", "gl"},
-    "render": {"base", "math", "simd", "parallel", "scene", "formats", "points", "shadow", "soft", "ao", "gl", "raster"},
+    "render": {"base", "math", "simd", "parallel", "scene", "formats", "points", "shadow", "soft", "ao", "gl", "raster", "texture"},
 }
 
 # Rooms of a folder, lowest first: a room includes itself and rooms before it. "" is the folder's own files.
