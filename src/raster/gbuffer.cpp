@@ -14,7 +14,7 @@
 namespace tenebra::raster {
 namespace {
 
-// A frame needs 57 bytes a pixel: 3.8 GB at this many.
+// A frame needs 57 bytes for each pixel: 3.8 GB at this many.
 constexpr std::int64_t max_pixels = std::int64_t{1} << 26;
 constexpr GLuint no_triangle_id = 0xffffffffu;
 constexpr int eye_location = 0, clip_from_offset_location = 1, clip_offset_location = 2;

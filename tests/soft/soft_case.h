@@ -28,7 +28,7 @@ struct SoftCase {
   AreaLight light;
   ViewRays view;
   VisiblePoints points;
-  std::vector<glm::vec3> normals;  ///< one a pixel, or empty
+  std::vector<glm::vec3> normals;  ///< one for each pixel, or empty
   SoftShadowConfig config;
 
   std::size_t size() const { return points.positions.size(); }

@@ -1,5 +1,5 @@
-// Convex polygons on the light's plane in lanes, one a point of a packet, and their split by a line that is
-// another one for each point: light_polygon-inl.h turned by a quarter. Included once per target.
+// Convex polygons on the light's plane in lanes, one for each point of a packet, and their split by a line
+// that is another one for each point: light_polygon-inl.h turned by a quarter. Included once per target.
 #if defined(TENEBRA_SOFT_PACKET_POLYGON_INL_H_) == defined(HWY_TARGET_TOGGLE)
 #ifdef TENEBRA_SOFT_PACKET_POLYGON_INL_H_
 #undef TENEBRA_SOFT_PACKET_POLYGON_INL_H_

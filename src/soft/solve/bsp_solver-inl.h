@@ -20,7 +20,7 @@ using namespace simd::HWY_NAMESPACE;
 inline constexpr std::size_t largest_tree_bytes = std::size_t{4} << 20;
 
 template <class T>
-class BspSolver final : public PointsSolver {
+class BspSolver final : public Solver {
 public:
   void begin(const SoftFrame& frame, const PreparedGroup& group) override {
     receiver_.plane = {};

@@ -13,7 +13,7 @@ namespace tenebra::soft::HWY_NAMESPACE {
 
 extern template class ClipSolver<OnePoint<float>>;  // point_solver.cpp
 
-std::unique_ptr<PointsSolver> make_bsp() {
+std::unique_ptr<Solver> make_bsp() {
   return std::make_unique<BspSolver<float>>();
 }
 
@@ -24,7 +24,7 @@ HWY_AFTER_NAMESPACE();
 
 namespace tenebra::soft {
 
-std::unique_ptr<PointsSolver> make_bsp_solver(SimdLevel level) {
+std::unique_ptr<Solver> make_bsp_solver(SimdLevel level) {
   return TENEBRA_DISPATCH(level, make_bsp)();
 }
 

@@ -10,9 +10,9 @@ namespace tenebra::soft {
 
 namespace {
 
-using MakeSolver = std::unique_ptr<PointsSolver> (*)(SimdLevel);
+using MakeSolver = std::unique_ptr<Solver> (*)(SimdLevel);
 
-PointsSolver& made(std::unique_ptr<PointsSolver>& solver, MakeSolver make, SimdLevel level) {
+Solver& made(std::unique_ptr<Solver>& solver, MakeSolver make, SimdLevel level) {
   if (!solver) solver = make(level);
   return *solver;
 }
@@ -75,7 +75,7 @@ void GroupSolver::expect(const SoftFrame& frame, std::span<const std::uint32_t> 
 /// `watch` has seen the preparation begin.
 void GroupSolver::solve_prepared(const SoftFrame& frame, const PreparedGroup& group,
                                  std::span<const std::uint32_t> pixels, base::Stopwatch& watch) {
-  PointsSolver& solver = solver_of(frame, group);
+  Solver& solver = solver_of(frame, group);
   solver.begin(frame, group);
   times.init_ms += watch.lap_ms();
   PixelWriter writer(frame, class_of(frame, group), stats);
@@ -84,7 +84,7 @@ void GroupSolver::solve_prepared(const SoftFrame& frame, const PreparedGroup& gr
 }
 
 /// Clipping was faster than the BSP on every frame measured (by 1.0 to 2 times): the BSP is there by name.
-PointsSolver& GroupSolver::solver_of(const SoftFrame& frame, const PreparedGroup& group) {
+Solver& GroupSolver::solver_of(const SoftFrame& frame, const PreparedGroup& group) {
   const bool reference = frame.config.precision == SoftPrecision::reference;
   if (frame.config.solver == SoftSolver::bsp)
     return reference ? made(reference_bsp_, make_reference_bsp_solver, level_)

@@ -39,13 +39,13 @@ public:
 private:
   void solve_prepared(const SoftFrame& frame, const PreparedGroup& group,
                       std::span<const std::uint32_t> pixels, base::Stopwatch& watch);
-  PointsSolver& solver_of(const SoftFrame& frame, const PreparedGroup& group);
+  Solver& solver_of(const SoftFrame& frame, const PreparedGroup& group);
 
   SimdLevel level_;
   GroupPreparer preparer_;
   std::unique_ptr<LitSolver> lit_;
   /// Each is made when it is first asked for.
-  std::unique_ptr<PointsSolver> points_, packets_, bsp_, reference_, reference_bsp_;
+  std::unique_ptr<Solver> points_, packets_, bsp_, reference_, reference_bsp_;
 };
 
 }  // namespace tenebra::soft

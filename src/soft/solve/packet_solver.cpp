@@ -13,9 +13,9 @@ HWY_BEFORE_NAMESPACE();
 namespace tenebra::soft::HWY_NAMESPACE {
 using namespace simd::HWY_NAMESPACE;
 
-class PacketsSolver final : public PointsSolver {
+class PacketGroupSolver final : public Solver {
 public:
-  explicit PacketsSolver(std::unique_ptr<PointsSolver> alone) : alone_(std::move(alone)) {}
+  explicit PacketGroupSolver(std::unique_ptr<Solver> alone) : alone_(std::move(alone)) {}
 
   void begin(const SoftFrame&, const PreparedGroup& group) override {
     receiver_.plane = {};
@@ -66,14 +66,14 @@ private:
   PacketSolver packet_;
   std::uint32_t pixels_[packet_size] = {};
   double above_[packet_size] = {};  ///< area of the light above the receivers' planes
-  std::unique_ptr<PointsSolver> alone_;
+  std::unique_ptr<Solver> alone_;
   bool alone_is_ready_ = false;  ///< has taken up the group
   ReceiverSight<float> receiver_;
   WholePoints whole_;  ///< points put aside
 };
 
-std::unique_ptr<PointsSolver> make_packets(std::unique_ptr<PointsSolver> alone) {
-  return std::make_unique<PacketsSolver>(std::move(alone));
+std::unique_ptr<Solver> make_packets(std::unique_ptr<Solver> alone) {
+  return std::make_unique<PacketGroupSolver>(std::move(alone));
 }
 
 }  // namespace tenebra::soft::HWY_NAMESPACE
@@ -83,7 +83,7 @@ HWY_AFTER_NAMESPACE();
 
 namespace tenebra::soft {
 
-std::unique_ptr<PointsSolver> make_packet_solver(SimdLevel level) {
+std::unique_ptr<Solver> make_packet_solver(SimdLevel level) {
   return TENEBRA_DISPATCH(level, make_packets)(make_point_solver(level));
 }
 

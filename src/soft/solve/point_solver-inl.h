@@ -17,7 +17,7 @@ namespace tenebra::soft::HWY_NAMESPACE {
 using namespace simd::HWY_NAMESPACE;
 
 template <class T>
-class PointSolver final : public PointsSolver {
+class PointSolver final : public Solver {
 public:
   void begin(const SoftFrame&, const PreparedGroup& group) override {
     receiver_.plane = {};

@@ -13,7 +13,7 @@ namespace tenebra::soft::HWY_NAMESPACE {
 
 template class ClipSolver<OnePoint<float>>;  // the BSP solver's, too
 
-std::unique_ptr<PointsSolver> make_points() {
+std::unique_ptr<Solver> make_points() {
   return std::make_unique<PointSolver<float>>();
 }
 
@@ -24,7 +24,7 @@ HWY_AFTER_NAMESPACE();
 
 namespace tenebra::soft {
 
-std::unique_ptr<PointsSolver> make_point_solver(SimdLevel level) {
+std::unique_ptr<Solver> make_point_solver(SimdLevel level) {
   return TENEBRA_DISPATCH(level, make_points)();
 }
 

@@ -13,7 +13,7 @@ namespace tenebra::soft::HWY_NAMESPACE {
 
 extern template class ClipSolver<OnePoint<double>>;  // reference_solver.cpp
 
-std::unique_ptr<PointsSolver> make_reference_bsp() {
+std::unique_ptr<Solver> make_reference_bsp() {
   return std::make_unique<BspSolver<double>>();
 }
 
@@ -24,7 +24,7 @@ HWY_AFTER_NAMESPACE();
 
 namespace tenebra::soft {
 
-std::unique_ptr<PointsSolver> make_reference_bsp_solver(SimdLevel level) {
+std::unique_ptr<Solver> make_reference_bsp_solver(SimdLevel level) {
   return TENEBRA_DISPATCH(level, make_reference_bsp)();
 }
 

@@ -13,7 +13,7 @@ namespace tenebra::soft::HWY_NAMESPACE {
 
 template class ClipSolver<OnePoint<double>>;  // the BSP solver's, too
 
-std::unique_ptr<PointsSolver> make_reference_points() {
+std::unique_ptr<Solver> make_reference_points() {
   return std::make_unique<PointSolver<double>>();
 }
 
@@ -24,7 +24,7 @@ HWY_AFTER_NAMESPACE();
 
 namespace tenebra::soft {
 
-std::unique_ptr<PointsSolver> make_reference_solver(SimdLevel level) {
+std::unique_ptr<Solver> make_reference_solver(SimdLevel level) {
   return TENEBRA_DISPATCH(level, make_reference_points)();
 }
 

@@ -11,9 +11,9 @@
 namespace tenebra::soft {
 
 /// Solves the points of a group, with buffers of its own.
-class PointsSolver {
+class Solver {
 public:
-  virtual ~PointsSolver() = default;
+  virtual ~Solver() = default;
 
   /// Takes up a group.
   virtual void begin(const SoftFrame& frame, const PreparedGroup& group) = 0;
@@ -23,15 +23,15 @@ public:
 };
 
 /// Point by point: occluders are clipped from the light, and then what the silhouette of meshes hides.
-std::unique_ptr<PointsSolver> make_point_solver(SimdLevel level);
+std::unique_ptr<Solver> make_point_solver(SimdLevel level);
 /// Sixteen points together, where few occluders stand before them.
-std::unique_ptr<PointsSolver> make_packet_solver(SimdLevel level);
+std::unique_ptr<Solver> make_packet_solver(SimdLevel level);
 /// The paper's BSP of line classes.
-std::unique_ptr<PointsSolver> make_bsp_solver(SimdLevel level);
+std::unique_ptr<Solver> make_bsp_solver(SimdLevel level);
 
 /// The point and the BSP solver in double throughout (SoftPrecision::reference).
-std::unique_ptr<PointsSolver> make_reference_solver(SimdLevel level);
-std::unique_ptr<PointsSolver> make_reference_bsp_solver(SimdLevel level);
+std::unique_ptr<Solver> make_reference_solver(SimdLevel level);
+std::unique_ptr<Solver> make_reference_bsp_solver(SimdLevel level);
 
 /// Points that nothing stands in front of: only a horizon may cut the light.
 class LitSolver {

@@ -78,7 +78,7 @@ CostRow measure_cost(const SoftView& view, const Contest& contest, std::size_t e
   note("", "candidates", static_cast<double>(s.candidates), "");
   note("", "points by bsp", static_cast<double>(s.points_bsp), "");
   note("", "points by clip", static_cast<double>(s.points_clip), "");
-  note("", "points by outlines", static_cast<double>(s.points_silhouette), "");
+  note("", "points by silhouettes", static_cast<double>(s.points_silhouette), "");
   note("", "fragments", static_cast<double>(s.fragments), "");
   note("", "tree nodes", static_cast<double>(s.tree_nodes), "");
   const std::string tiles = fmt::format("solver=bsp tiles=1/{}", every);
