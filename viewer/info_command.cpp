@@ -160,8 +160,9 @@ void print_text(const Json& json) {
 }
 
 Expected<int> info(const InfoOptions& options) {
-  const auto scene = formats::import_scene(options.scene);
+  auto scene = formats::import_scene(options.scene);
   if (!scene) return tl::unexpected(scene.error());
+  leave_out_covers(*scene);
   const Json json = describe(*scene, options);
   if (options.json) {
     // File names and names in files may hold bytes that are not UTF-8, which JSON cannot.

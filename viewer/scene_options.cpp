@@ -20,6 +20,9 @@ void add_files(CLI::App& command, SceneOptions& options) {
             "Keeps a mesh, material or (AFF) FILE:LINE from casting\nshadows; may be repeated")
       .type_name("NAME")
       .group(scene_group);
+  add_flag(command, "--cast-all", options.cast_all,
+           "Lets a sky that hides a light from the whole scene cast\nits shadow")
+      .group(scene_group);
   add_value(command, "--cone-sides", options.import.cone_sides, parse_cone_sides,
             "AFF: sides of cones and cylinders [64; 8 for the paper's\nnumber of triangles]")
       .type_name("N")

@@ -17,6 +17,7 @@ struct SceneOptions {
   std::string file;  ///< positional SCENE; empty: not given
   formats::ImportOptions import;
   std::vector<std::string> no_cast;
+  bool cast_all = false;  ///< skies cast shadows too
 
   std::optional<double> time_s;
   double fps = 30.0;
@@ -32,7 +33,7 @@ struct SceneOptions {
   LightEdits lights;
 };
 
-/// Adds SCENE, --no-cast, --cone-sides, --set-light, --time, --fps, --clip and those of the camera, --size
+/// Adds SCENE, --no-cast, --cast-all, --cone-sides, --set-light, --time, --fps, --clip and those of the camera, --size
 /// too; they are read into `options`, which must live as long. A command makes SCENE required with
 /// option_of(command, "SCENE").required().
 void add_scene_options(CLI::App& command, SceneOptions& options);

@@ -62,6 +62,7 @@ Expected<ScenePlan> plan_scene(const SceneOptions& options) {
   }
   add_missing_camera_and_light(plan.scene);
   number_lights(plan.scene);
+  if (!options.cast_all) leave_out_covers(plan.scene);
   if (options.lights.size() > plan.scene.lights.size()) {
     return base::fail("--set-light: found light {}, the scene has lights 0 to {}", options.lights.size() - 1,
                       static_cast<int>(plan.scene.lights.size()) - 1);

@@ -43,8 +43,9 @@ struct FrameGeometry {
   std::vector<glm::uvec3> triangles;       ///< triangle id -> vertices; (0,0,0) for dropped ones
   std::vector<std::uint32_t> materials;    ///< one for each triangle
   std::vector<std::uint8_t> casts_shadow;  ///< one for each triangle, 0 or 1
-  std::vector<std::uint8_t> see_through;   ///< one for each triangle, 0 or 1: cast no opaque shadow, and are
-                                          ///< drawn over what is behind them; empty: none is
+  /// One for each triangle; empty: all 0, opaque. 1 and 2 are see-through: drawn over what is behind them,
+  /// with casts_shadow 0. 1 dims and tints the light that passes; 2 would, if it cast shadows.
+  std::vector<std::uint8_t> see_through;
   std::vector<std::uint32_t> parts;      ///< first triangle of each mesh at its node
   std::uint32_t dropped_non_finite = 0;  ///< triangles with a NaN or infinite vertex, or beyond 1.8e18
                                          ///< (such a vertex is stored as zero: all positions are finite)

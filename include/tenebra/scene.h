@@ -72,7 +72,8 @@ struct Light {
   std::optional<float> range_m;  ///< no light beyond
   float inner_cone_rad = 0.0f;   ///< spot half-angles
   float outer_cone_rad = 0.785398163f;
-  glm::vec2 size_m{1.0f};  ///< area: width and height; of a disc its diameter, twice
+  glm::vec2 size_m{1.0f};           ///< area: width and height; of a disc its diameter, twice
+  std::vector<int> left_out_nodes;  ///< whose meshes cast no shadow from this light (leave_out_covers)
 };
 
 enum class Projection { perspective, orthographic };
@@ -129,5 +130,11 @@ void add_missing_camera_and_light(Scene& scene);
 /// name scene.warnings gets a sentence with the number of triangles, instances counted. Returns false if a
 /// name matches nothing; `unmatched` is then the first such name.
 bool leave_out_casters(Scene& scene, const std::vector<std::string>& names, std::string& unmatched);
+
+/// Leaves covers out of the casters of the lights that they hide: a flat or open mesh, such as a sky, that
+/// lies outside the bounds of all other casters, faces them, and alone shadows all of them from a light at
+/// the start of the first clip. Adds to Light::left_out_nodes, and a sentence for each to scene.warnings.
+/// Lights must not be shared by nodes.
+void leave_out_covers(Scene& scene);
 
 }  // namespace tenebra

@@ -136,9 +136,9 @@ void write_materials(const Scene& scene, const Instance& instance, FrameGeometry
     const Material& material = scene.materials[index];
     const std::size_t triangle = instance.first_triangle + t;
     out.materials[triangle] = index;
-    out.casts_shadow[triangle] =
-        instance.mesh.casts_shadow && material.casts_shadow && !material.see_through();
-    if (!out.see_through.empty()) out.see_through[triangle] = material.see_through();
+    const bool casts = instance.mesh.casts_shadow && material.casts_shadow;
+    out.casts_shadow[triangle] = casts && !material.see_through();
+    if (!out.see_through.empty()) out.see_through[triangle] = !material.see_through() ? 0 : casts ? 1 : 2;
   }
 }
 

@@ -282,5 +282,73 @@ TEST(Casters, AreLeftOutByMeshOrMaterialOrSource) {
   }
 }
 
+/// A floor, a roof of the same size above it that looks down, and a light above both.
+Scene covered_floor() {
+  Scene scene;
+  scene.materials.resize(1);
+  const auto add_square = [&](float y, float half, bool up) {
+    Mesh& mesh = scene.meshes.emplace_back();
+    mesh.name = up ? "floor" : "roof";
+    mesh.positions = {{-half, y, -half}, {half, y, -half}, {half, y, half}, {-half, y, half}};
+    mesh.triangles = {{0, 2, 1}, {0, 3, 2}};
+    if (!up) mesh.triangles = {{0, 1, 2}, {0, 2, 3}};
+    mesh.materials = {0, 0};
+    scene.nodes.push_back({.mesh = static_cast<int>(scene.meshes.size()) - 1});
+  };
+  add_square(0, 5, true);
+  add_square(8, 5, false);
+  scene.lights.emplace_back().name = "lamp";
+  scene.nodes.push_back({.translation = {0, 20, 0}, .light = 0});
+  return scene;
+}
+
+TEST(Covers, SkyIsLeftOutOfTheCastersOfTheLightItHides) {
+  Scene scene = covered_floor();
+  leave_out_covers(scene);
+  EXPECT_EQ(scene.lights[0].left_out_nodes, std::vector<int>{1});
+  ASSERT_EQ(scene.warnings.size(), 1u);
+  EXPECT_NE(scene.warnings[0].find("roof hides light 0 (lamp)"), std::string::npos) << scene.warnings[0];
+}
+
+TEST(Covers, WhatHidesALittleLessIsNone) {
+  Scene small = covered_floor();
+  for (glm::vec3& p : small.meshes[1].positions) p *= glm::vec3(0.59f, 1, 0.59f);  // 0.6 would do
+  leave_out_covers(small);
+  EXPECT_TRUE(small.lights[0].left_out_nodes.empty());
+  Scene beside = covered_floor();
+  beside.nodes[2].translation = {40, 20, 0};
+  leave_out_covers(beside);
+  EXPECT_TRUE(beside.lights[0].left_out_nodes.empty());
+  Scene below = covered_floor();
+  below.nodes[2].translation = {0, 4, 0};
+  leave_out_covers(below);
+  EXPECT_TRUE(below.lights[0].left_out_nodes.empty());
+}
+
+TEST(Covers, WhatFacesAwayIsClosedOrAmongTheOthersIsNone) {
+  Scene away = covered_floor();
+  away.meshes[1].triangles = {{0, 2, 1}, {0, 3, 2}};
+  leave_out_covers(away);
+  EXPECT_TRUE(away.lights[0].left_out_nodes.empty());
+  Scene closed = covered_floor();
+  closed.meshes[1].triangles = {{0, 1, 2}, {0, 2, 3}, {0, 2, 1}, {0, 3, 2}};  // a plate with two sides
+  closed.meshes[1].materials.resize(4, 0);
+  leave_out_covers(closed);
+  EXPECT_TRUE(closed.lights[0].left_out_nodes.empty());
+  Scene among = covered_floor();
+  among.nodes.push_back({.translation = {0, 9, 0}, .scale = {0.5, 1, 0.5}, .mesh = 0});
+  leave_out_covers(among);
+  EXPECT_TRUE(among.lights[0].left_out_nodes.empty());
+}
+
+TEST(Covers, SunIsHiddenByWhatIsAsLargeAsTheScene) {
+  Scene scene = covered_floor();
+  scene.lights[0].type = LightType::directional;
+  scene.nodes[2].rotation = glm::angleAxis(glm::radians(-90.0), glm::dvec3(1, 0, 0));  // straight down
+  for (glm::vec3& p : scene.meshes[1].positions) p *= glm::vec3(1.01f, 1, 1.01f);
+  leave_out_covers(scene);
+  EXPECT_EQ(scene.lights[0].left_out_nodes, std::vector<int>{1});
+}
+
 }  // namespace
 }  // namespace tenebra

@@ -1,0 +1,22 @@
+// What hides a light from everything else in a scene: a sky between the city and its sun.
+#pragma once
+
+#include <span>
+#include <vector>
+
+#include <tenebra/frame_geometry.h>
+
+namespace tenebra::scene {
+
+struct LightCover {
+  std::size_t light = 0;  ///< index into the lights
+  int node = -1;          ///< whose mesh it is
+};
+
+/// Covers of `lights` in a frame: flat or open meshes outside the bounds of all other casters, facing them,
+/// that alone cross the ways from each of their vertices to the light. Where these are very many, from
+/// vertices spread evenly among them. See-through triangles count as casters.
+std::vector<LightCover> find_light_covers(const Scene& scene, const FrameGeometry& frame,
+                                          std::span<const WorldLight> lights);
+
+}  // namespace tenebra::scene
