@@ -11,7 +11,6 @@ namespace tenebra {
 namespace scene {
 namespace {
 
-constexpr std::size_t most_cover_triangles = 4096;
 constexpr std::size_t most_tests = 50'000'000;  // of a way to a light with a triangle: well below a second
 
 struct Bounds {
@@ -155,18 +154,32 @@ std::vector<LightCover> find_light_covers(const Scene& scene, const FrameGeometr
   const std::vector<Bounds> others = bounds_of_others(parts);
   for (std::size_t i = 0; i < parts.size(); ++i) {
     const Part& part = parts[i];
-    if (part.triangles.empty() || part.triangles.size() > most_cover_triangles || others[i].empty()) continue;
-    if (!part.bounds.apart(others[i]) || !is_open(part, frame)) continue;
-    if (!faces(part, frame, 0.5 * (others[i].low + others[i].high))) continue;
+    if (part.triangles.empty() || others[i].empty()) continue;
     for (std::size_t k = 0; k < lights.size(); ++k) {
       const Light& light = scene.lights[static_cast<std::size_t>(lights[k].light)];
-      if (hides(part, parts, frame, lights[k], light)) covers.push_back({k, part.node});
+      if (!hides(part, parts, frame, lights[k], light)) continue;
+      const glm::dvec3 middle = 0.5 * (others[i].low + others[i].high);
+      const bool is_sky = part.bounds.apart(others[i]) && is_open(part, frame) && faces(part, frame, middle);
+      covers.push_back({k, part.node, is_sky});
     }
   }
   return covers;
 }
 
 }  // namespace scene
+
+namespace {
+
+/// As --no-cast takes it where the file has a name for it.
+std::string name_of_mesh(const Scene& scene, int node_index) {
+  const Node& node = scene.nodes[static_cast<std::size_t>(node_index)];
+  const Mesh& mesh = scene.meshes[static_cast<std::size_t>(node.mesh)];
+  if (!mesh.source.empty()) return mesh.source;
+  if (!mesh.name.empty()) return mesh.name;
+  return fmt::format("The mesh of node {}{}", node_index, node.name.empty() ? "" : " (" + node.name + ")");
+}
+
+}  // namespace
 
 void leave_out_covers(Scene& scene) {
   const int clip = scene.clips.empty() ? -1 : 0;
@@ -175,17 +188,22 @@ void leave_out_covers(Scene& scene) {
   evaluate_frame(scene, clip, time_s, frame);
   const std::vector<WorldLight> lights = evaluate_lights(scene, clip, time_s);
   for (const scene::LightCover& cover : scene::find_light_covers(scene, frame, lights)) {
-    Light& light = scene.lights[static_cast<std::size_t>(lights[cover.light].light)];
+    const int number = lights[cover.light].light;
+    Light& light = scene.lights[static_cast<std::size_t>(number)];
+    const std::string what = name_of_mesh(scene, cover.node);
+    const std::string whom = light.name.empty() ? fmt::format("light {}", number)
+                                                : fmt::format("light {} ({})", number, light.name);
+    if (!cover.is_sky) {
+      scene.warnings.push_back(fmt::format(
+          "{} hides {} from everything else: nothing else is lit by it, until --no-cast leaves it out.", what,
+          whom));
+      continue;
+    }
     light.left_out_nodes.push_back(cover.node);
-    const Node& node = scene.nodes[static_cast<std::size_t>(cover.node)];
-    const Mesh& mesh = scene.meshes[static_cast<std::size_t>(node.mesh)];
-    const std::string& name = !mesh.source.empty() ? mesh.source : !mesh.name.empty() ? mesh.name : node.name;
     scene.warnings.push_back(
-        fmt::format("{} hides light {}{} from all that casts shadows, like a sky; it casts none from that "
-                    "light (--cast-all: it "
-                    "does).",
-                    name.empty() ? fmt::format("The mesh of node {}", cover.node) : name, cover.light,
-                    light.name.empty() ? "" : fmt::format(" ({})", light.name)));
+        fmt::format("{} hides {} from everything else, like a sky: it casts no shadow from that light (with "
+                    "--cast-all it does).",
+                    what, whom));
   }
 }
 

@@ -11,11 +11,11 @@ namespace tenebra::scene {
 struct LightCover {
   std::size_t light = 0;  ///< index into the lights
   int node = -1;          ///< whose mesh it is
+  bool is_sky = false;    ///< flat or open, outside the bounds of all other casters, and facing them
 };
 
-/// Covers of `lights` in a frame: flat or open meshes outside the bounds of all other casters, facing them,
-/// that alone cross the ways from each of their vertices to the light. Where these are very many, from
-/// vertices spread evenly among them. See-through triangles count as casters.
+/// Meshes at their nodes that alone cross the ways from the vertices of all other casters to one of `lights`;
+/// where these are very many, from vertices spread evenly among them. See-through triangles count as casters.
 std::vector<LightCover> find_light_covers(const Scene& scene, const FrameGeometry& frame,
                                           std::span<const WorldLight> lights);
 
