@@ -330,6 +330,9 @@ TEST(Covers, WhatFacesAwayIsClosedOrAmongTheOthersIsNone) {
   away.meshes[1].triangles = {{0, 2, 1}, {0, 3, 2}};
   leave_out_covers(away);
   EXPECT_TRUE(away.lights[0].left_out_nodes.empty());
+  ASSERT_EQ(away.warnings.size(), 1u);
+  EXPECT_NE(away.warnings[0].find("roof hides light 0 (lamp)"), std::string::npos) << away.warnings[0];
+  EXPECT_NE(away.warnings[0].find("--no-cast"), std::string::npos) << away.warnings[0];
   Scene closed = covered_floor();
   closed.meshes[1].triangles = {{0, 1, 2}, {0, 2, 3}, {0, 2, 1}, {0, 3, 2}};  // a plate with two sides
   closed.meshes[1].materials.resize(4, 0);
