@@ -11,26 +11,15 @@ namespace tenebra {
 namespace scene {
 namespace {
 
+/// Of the vertices of all other casters: BART's city has a frame about its sky, and a moon above it.
+constexpr double nearly_all = 0.99;
+constexpr std::size_t first_look = 16;          // corners: most meshes hide next to nothing
 constexpr std::size_t most_tests = 50'000'000;  // of a way to a light with a triangle: well below a second
-
-struct Bounds {
-  glm::dvec3 low{INFINITY};
-  glm::dvec3 high{-INFINITY};
-
-  bool empty() const { return !(low.x <= high.x); }
-  void add(const glm::dvec3& p) { low = glm::min(low, p), high = glm::max(high, p); }
-  void add(const Bounds& other) { low = glm::min(low, other.low), high = glm::max(high, other.high); }
-  /// Whether a plane along two axes parts the two: touching counts as apart.
-  bool apart(const Bounds& other) const {
-    return glm::any(glm::lessThanEqual(high, other.low)) || glm::any(glm::lessThanEqual(other.high, low));
-  }
-};
 
 /// The casting triangles of a mesh at its node.
 struct Part {
   int node = -1;
   std::vector<glm::uvec3> triangles;
-  Bounds bounds;
 };
 
 std::vector<Part> parts_of(const Scene& scene, const FrameGeometry& frame) {
@@ -47,7 +36,6 @@ std::vector<Part> parts_of(const Scene& scene, const FrameGeometry& frame) {
           frame.casts_shadow[t] != 0 || (!frame.see_through.empty() && frame.see_through[t] == 1);
       if (!casts || frame.triangles[t] == glm::uvec3(0)) continue;
       part.triangles.push_back(frame.triangles[t]);
-      for (int k = 0; k < 3; ++k) part.bounds.add(glm::dvec3(frame.positions[frame.triangles[t][k]]));
     }
   }
   return parts;
@@ -75,18 +63,28 @@ bool is_open(const Part& part, const FrameGeometry& frame) {
   return false;
 }
 
-/// Whether its front, by area, is turned to `towards`.
-bool faces(const Part& part, const FrameGeometry& frame, const glm::dvec3& towards) {
-  double facing = 0;
+/// What lies in front of a part: n.p > limit, by the mean of its normals and the foremost of its vertices.
+struct Front {
+  glm::dvec3 n{0.0};
+  double limit = -INFINITY;
+
+  bool contains(const glm::dvec3& p) const { return glm::dot(n, p) > limit; }
+};
+
+Front front_of(const Part& part, const FrameGeometry& frame) {
+  Front front;
   for (const glm::uvec3& t : part.triangles) {
     const glm::dvec3 a(frame.positions[t.x]), b(frame.positions[t.y]), c(frame.positions[t.z]);
-    glm::dvec3 twice_area = glm::cross(b - a, c - a);
+    const glm::dvec3 twice_area = glm::cross(b - a, c - a);
     // Shading normals say which side is meant where triangles are wound the other way.
-    const glm::dvec3 n(frame.normals[t.x] + frame.normals[t.y] + frame.normals[t.z]);
-    if (glm::dot(n, twice_area) < 0) twice_area = -twice_area;
-    facing += glm::dot(twice_area, towards - a);
+    const glm::dvec3 shading(frame.normals[t.x] + frame.normals[t.y] + frame.normals[t.z]);
+    front.n += glm::dot(shading, twice_area) < 0 ? -twice_area : twice_area;
   }
-  return facing > 0;
+  for (const glm::uvec3& t : part.triangles) {
+    for (int k = 0; k < 3; ++k)
+      front.limit = std::max(front.limit, glm::dot(front.n, glm::dvec3(frame.positions[t[k]])));
+  }
+  return front;
 }
 
 /// The way from a vertex to a light: p + t d, 0 < t < length.
@@ -112,37 +110,59 @@ bool crosses(const Way& way, const glm::dvec3& a, const glm::dvec3& b, const glm
   return u >= 0 && v >= 0 && u + v <= glm::dot(normal, normal);
 }
 
-bool hides(const Part& cover, const std::vector<Part>& parts, const FrameGeometry& frame,
-           const WorldLight& placed, const Light& light) {
-  std::size_t corners = 0;
-  for (const Part& part : parts) corners += 3 * part.triangles.size();
-  const std::size_t stride = 1 + corners * cover.triangles.size() / most_tests;
-  std::size_t i = 0;
-  for (const Part& part : parts) {
-    if (&part == &cover) continue;
-    for (const glm::uvec3& t : part.triangles) {
-      for (int k = 0; k < 3; ++k) {
-        if (i++ % stride != 0) continue;
-        const Way way = way_to(placed, light, glm::dvec3(frame.positions[t[k]]));
-        const bool hidden =
-            std::any_of(cover.triangles.begin(), cover.triangles.end(), [&](const glm::uvec3& over) {
-              return crosses(way, glm::dvec3(frame.positions[over.x]), glm::dvec3(frame.positions[over.y]),
-                             glm::dvec3(frame.positions[over.z]));
-            });
-        if (!hidden) return false;
-      }
-    }
-  }
-  return i > 0;
+bool covered(const Part& cover, const FrameGeometry& frame, const Way& way) {
+  return std::any_of(cover.triangles.begin(), cover.triangles.end(), [&](const glm::uvec3& t) {
+    return crosses(way, glm::dvec3(frame.positions[t.x]), glm::dvec3(frame.positions[t.y]),
+                   glm::dvec3(frame.positions[t.z]));
+  });
 }
 
-/// Bounds of all parts before and of all parts behind each.
-std::vector<Bounds> bounds_of_others(const std::vector<Part>& parts) {
-  std::vector<Bounds> others(parts.size());
-  Bounds before, behind;
-  for (std::size_t i = 0; i < parts.size(); ++i) others[i] = before, before.add(parts[i].bounds);
-  for (std::size_t i = parts.size(); i-- > 0;) others[i].add(behind), behind.add(parts[i].bounds);
-  return others;
+/// The corners of all parts, one triangle after the other.
+struct Corners {
+  std::vector<glm::dvec3> places;
+  std::vector<std::size_t> parts;
+};
+
+Corners corners_of(const std::vector<Part>& parts, const FrameGeometry& frame) {
+  Corners corners;
+  for (std::size_t i = 0; i < parts.size(); ++i) {
+    for (const glm::uvec3& t : parts[i].triangles) {
+      for (int k = 0; k < 3; ++k) corners.places.emplace_back(frame.positions[t[k]]);
+      corners.parts.insert(corners.parts.end(), 3, i);
+    }
+  }
+  return corners;
+}
+
+/// Corners of other parts, and how many of them a part hides from a light.
+struct Count {
+  std::size_t all = 0, hidden = 0;
+  std::size_t in_front = 0, hidden_in_front = 0;
+
+  bool hides(double share) const {
+    return hidden > 0 && static_cast<double>(hidden) >= share * static_cast<double>(all);
+  }
+  bool is_over(double share) const {
+    return hidden_in_front > 0 && static_cast<double>(in_front) >= share * static_cast<double>(all) &&
+           static_cast<double>(hidden_in_front) >= share * static_cast<double>(in_front);
+  }
+};
+
+/// Looks at about `most` corners, evenly spread.
+Count count_hidden(const std::vector<Part>& parts, std::size_t cover, const FrameGeometry& frame,
+                   const Corners& corners, const WorldLight& placed, const Light& light, std::size_t most) {
+  const Front front = front_of(parts[cover], frame);
+  const std::size_t stride = 1 + corners.places.size() / std::max<std::size_t>(most, 1);
+  Count count;
+  for (std::size_t i = 0; i < corners.places.size(); i += stride) {
+    if (corners.parts[i] == cover) continue;
+    const glm::dvec3& at = corners.places[i];
+    const bool in_front = front.contains(at),
+               hidden = covered(parts[cover], frame, way_to(placed, light, at));
+    ++count.all, count.in_front += in_front;
+    count.hidden += hidden, count.hidden_in_front += in_front && hidden;
+  }
+  return count;
 }
 
 }  // namespace
@@ -151,16 +171,18 @@ std::vector<LightCover> find_light_covers(const Scene& scene, const FrameGeometr
                                           std::span<const WorldLight> lights) {
   std::vector<LightCover> covers;
   const std::vector<Part> parts = parts_of(scene, frame);
-  const std::vector<Bounds> others = bounds_of_others(parts);
+  const Corners corners = corners_of(parts, frame);
   for (std::size_t i = 0; i < parts.size(); ++i) {
-    const Part& part = parts[i];
-    if (part.triangles.empty() || others[i].empty()) continue;
+    if (parts[i].triangles.empty()) continue;
     for (std::size_t k = 0; k < lights.size(); ++k) {
       const Light& light = scene.lights[static_cast<std::size_t>(lights[k].light)];
-      if (!hides(part, parts, frame, lights[k], light)) continue;
-      const glm::dvec3 middle = 0.5 * (others[i].low + others[i].high);
-      const bool is_sky = part.bounds.apart(others[i]) && is_open(part, frame) && faces(part, frame, middle);
-      covers.push_back({k, part.node, is_sky});
+      const auto count = [&](std::size_t most) {
+        return count_hidden(parts, i, frame, corners, lights[k], light, most);
+      };
+      if (const Count few = count(first_look); !few.hides(0.5) && !few.is_over(0.5)) continue;
+      const Count seen = count(most_tests / parts[i].triangles.size());
+      const bool is_sky = seen.is_over(nearly_all) && is_open(parts[i], frame);
+      if (is_sky || seen.hides(nearly_all)) covers.push_back({k, parts[i].node, is_sky});
     }
   }
   return covers;

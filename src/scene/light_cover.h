@@ -11,11 +11,12 @@ namespace tenebra::scene {
 struct LightCover {
   std::size_t light = 0;  ///< index into the lights
   int node = -1;          ///< whose mesh it is
-  bool is_sky = false;    ///< flat or open, outside the bounds of all other casters, and facing them
+  bool is_sky = false;    ///< flat or open, and nearly all other casters stand in front of it
 };
 
-/// Meshes at their nodes that alone cross the ways from the vertices of all other casters to one of `lights`;
-/// where these are very many, from vertices spread evenly among them. See-through triangles count as casters.
+/// Meshes at their nodes that alone cross the ways from nearly all (99 %) vertices of all other casters, or
+/// of those in front of a sky, to one of `lights`; where vertices are very many, of some spread evenly among
+/// them. See-through triangles count as casters.
 std::vector<LightCover> find_light_covers(const Scene& scene, const FrameGeometry& frame,
                                           std::span<const WorldLight> lights);
 
