@@ -17,13 +17,14 @@ MAY_INCLUDE = {
     "scene": {"base", "math"},
     "formats": {"base", "math", "scene"},
     "texture": {"base", "math", "scene"},
+    "cutout": {"base", "math", "parallel", "scene", "texture"},
     "points": {"base", "math", "simd", "parallel", "scene"},
     "shadow": {"base", "math", "simd", "parallel", "scene", "points"},
     "soft": {"base", "math", "simd", "parallel", "scene", "points"},
     "ao": {"base", "math", "simd", "parallel", "scene", "points"},
     "gl": {"base"},
     "raster": {"base", "math", "scene", "gl"},
-    "render": {"base", "math", "simd", "parallel", "scene", "formats", "points", "shadow", "soft", "ao", "gl", "raster", "texture"},
+    "render": {"base", "math", "simd", "parallel", "scene", "formats", "points", "shadow", "soft", "ao", "gl", "raster", "texture", "cutout"},
 }
 
 # Rooms of a folder, lowest first: a room includes itself and rooms before it. "" is the folder's own files.

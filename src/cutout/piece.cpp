@@ -1,0 +1,399 @@
+#include "cutout/piece.h"
+
+#include <algorithm>
+#include <array>
+#include <optional>
+
+namespace tenebra::cutout {
+namespace {
+
+/// What bounds a piece: sides 0 to 2 are the triangle's edges, 3 to 6 the leaf's x = low, x = high, y = low,
+/// y = high.
+constexpr int side_count = 7;
+constexpr int leaf_side = 3;
+
+struct RingPoint {
+  Spot spot;
+  int side;  ///< that runs from here to the next
+};
+
+/// The leaf, where its tile stands.
+struct Rectangle {
+  glm::dvec2 low, high;
+
+  int axis(int side) const { return (side - leaf_side) / 2; }
+  bool is_low(int side) const { return (side - leaf_side) % 2 == 0; }
+  double line(int side) const { return (is_low(side) ? low : high)[axis(side)]; }
+};
+
+Rectangle place_leaf(const Leaf& leaf, const Tile& tile) {
+  const glm::dvec2 a = tile.offset + tile.sign * leaf.low, b = tile.offset + tile.sign * leaf.high;
+  return {glm::min(a, b), glm::max(a, b)};
+}
+
+using Ring = std::vector<RingPoint>;
+
+/// Triangle and rectangle, counter-clockwise: the triangle, cut at one side of the rectangle after the other.
+class RingCutter {
+public:
+  RingCutter(const PlaneTriangle& triangle, const Rectangle& leaf) : triangle_(triangle), leaf_(leaf) {}
+
+  Ring run() {
+    Ring ring;
+    for (int k = 0; k < 3; ++k) ring.push_back({triangle_.corner_spot(k), k});
+    for (int side = leaf_side; side < side_count && !ring.empty(); ++side) ring = cut(ring, side);
+    return ring;
+  }
+
+private:
+  bool keeps(int side, glm::dvec2 place) const {
+    const double at = place[leaf_.axis(side)];
+    return leaf_.is_low(side) ? at >= leaf_.line(side) : at <= leaf_.line(side);
+  }
+
+  Spot meet(const RingPoint& point, int side) const {
+    if (point.side < leaf_side) return triangle_.edge_spot(point.side, leaf_.axis(side), leaf_.line(side));
+    glm::dvec2 corner;
+    corner[leaf_.axis(side)] = leaf_.line(side);
+    corner[leaf_.axis(point.side)] = leaf_.line(point.side);
+    return triangle_.spot(corner);
+  }
+
+  Ring cut(const Ring& ring, int side) const {
+    Ring out;
+    for (std::size_t i = 0; i < ring.size(); ++i) {
+      const bool here = keeps(side, ring[i].spot.at);
+      const bool there = keeps(side, ring[(i + 1) % ring.size()].spot.at);
+      if (here) out.push_back(ring[i]);
+      if (here != there) out.push_back({meet(ring[i], side), here ? side : ring[i].side});
+    }
+    return without_doubles(out);
+  }
+
+  /// Of two points in one place the side of the second counts.
+  static Ring without_doubles(const Ring& ring) {
+    Ring out;
+    for (std::size_t i = 0; i < ring.size(); ++i)
+      if (!(ring[i].spot == ring[(i + 1) % ring.size()].spot)) out.push_back(ring[i]);
+    return out.size() < 3 ? Ring{} : out;
+  }
+
+  const PlaneTriangle& triangle_;
+  const Rectangle& leaf_;
+};
+
+/// Where a segment of the outline enters or leaves the ring.
+struct Event {
+  Spot spot;
+  int side;
+  bool enters;
+  std::size_t ring_index = 0;  ///< the ring's side on which it lies
+  double key = 0;              ///< along it
+  std::size_t partner = 0;     ///< of one that leaves: the event at which the region's border comes back
+};
+
+/// The part of a segment within the ring. Events are indices, or -1 where its end lies inside.
+struct Stretch {
+  std::uint32_t from, to;  ///< points of the outline
+  int entry, exit;
+  glm::dvec2 start;        ///< the segment's first point
+};
+
+class PieceCutter {
+public:
+  PieceCutter(const PlaneTriangle& triangle, const Outline& outline, const Leaf& leaf, const Tile& tile)
+      : triangle_(triangle), outline_(outline), leaf_(leaf), tile_(tile), bounds_(place_leaf(leaf, tile)) {}
+
+  PieceKind run(std::vector<std::vector<Spot>>& loops) {
+    if (!overlaps()) return PieceKind::nothing;
+    ring_ = RingCutter(triangle_, bounds_).run();
+    if (ring_.empty()) return PieceKind::nothing;
+    for (const std::uint32_t segment : leaf_.segments) add_stretch(segment);
+    std::sort(by_start_.begin(), by_start_.end());
+    used_.assign(stretches_.size(), false);
+    const std::size_t first = loops.size();
+    if (!events_.empty()) {
+      insert_leaf_corners();
+      join_events();
+      follow_events(loops);
+    }
+    const std::size_t closed = loops.size();
+    follow_loops(loops);
+    if (events_.empty() && surrounds(loops, closed)) {
+      const bool whole = loops.size() == closed;
+      insert_leaf_corners();
+      loops.push_back(ring_spots());
+      if (whole) return PieceKind::whole;
+    }
+    return loops.size() == first ? PieceKind::nothing : PieceKind::cut;
+  }
+
+private:
+  bool overlaps() const {
+    for (int axis = 0; axis < 2; ++axis) {
+      const auto [low, high] = std::minmax(
+          {triangle_.corners()[0][axis], triangle_.corners()[1][axis], triangle_.corners()[2][axis]});
+      if (high < bounds_.low[axis] || low > bounds_.high[axis]) return false;
+    }
+    return true;
+  }
+
+  glm::dvec2 place(std::uint32_t point) const { return tile_.offset + tile_.sign * outline_.points[point]; }
+
+  /// A point of the outline, and which sides it lies beyond: the same answer for all segments that meet in
+  /// it, and for the triangle or leaf beyond the side the opposite one.
+  struct End {
+    std::uint32_t point;
+    glm::dvec2 at;
+    std::array<double, 3> edge;
+    unsigned beyond = 0;
+  };
+  End make_end(std::uint32_t point) const {
+    End end{point, place(point), {}, 0};
+    for (int e = 0; e < 3; ++e) {
+      end.edge[static_cast<std::size_t>(e)] = triangle_.side(e, end.at);
+      if (!triangle_.inside(e, end.edge[static_cast<std::size_t>(e)])) end.beyond |= 1u << e;
+    }
+    for (int s = leaf_side; s < side_count; ++s) {
+      const double at = end.at[bounds_.axis(s)];
+      if (bounds_.is_low(s) ? at < bounds_.line(s) : at >= bounds_.line(s)) end.beyond |= 1u << s;
+    }
+    return end;
+  }
+
+  double share(int side, const End& a, const End& b) const {
+    const auto e = static_cast<std::size_t>(side);
+    if (side < leaf_side) return a.edge[e] / (a.edge[e] - b.edge[e]);
+    const int axis = bounds_.axis(side);
+    return (bounds_.line(side) - a.at[axis]) / (b.at[axis] - a.at[axis]);
+  }
+
+  void add_stretch(std::uint32_t segment) {
+    const bool reversed = tile_.sign.x * tile_.sign.y < 0;
+    const std::uint32_t from = reversed ? outline_.next[segment] : segment;
+    const std::uint32_t to = reversed ? segment : outline_.next[segment];
+    if (misses(place(from), place(to))) return;
+    const End a = make_end(from), b = make_end(to);
+    if ((a.beyond & b.beyond) != 0) return;
+    double enter = 0, leave = 1;
+    int entry_side = -1, exit_side = -1;
+    for (int s = 0; s < side_count; ++s) {
+      const bool a_beyond = (a.beyond >> s & 1u) != 0, b_beyond = (b.beyond >> s & 1u) != 0;
+      if (a_beyond == b_beyond) continue;
+      const double at = share(s, a, b);
+      if (a_beyond && (entry_side < 0 || at > enter)) enter = at, entry_side = s;
+      if (b_beyond && (exit_side < 0 || at < leave)) leave = at, exit_side = s;
+    }
+    if (entry_side >= 0 && exit_side >= 0 && !(enter < leave)) return;
+    Stretch stretch{from, to, -1, -1, a.at};
+    if (entry_side >= 0) stretch.entry = add_event(entry_side, a, b, enter, true);
+    if (exit_side >= 0) stretch.exit = add_event(exit_side, a, b, leave, false);
+    if (stretch.entry < 0) by_start_.emplace_back(from, stretches_.size());
+    stretches_.push_back(stretch);
+  }
+
+  bool misses(glm::dvec2 a, glm::dvec2 b) const {
+    for (int axis = 0; axis < 2; ++axis) {
+      const auto [low, high] = std::minmax(
+          {triangle_.corners()[0][axis], triangle_.corners()[1][axis], triangle_.corners()[2][axis]});
+      if (std::max(a[axis], b[axis]) < low || std::min(a[axis], b[axis]) > high) return true;
+    }
+    return false;
+  }
+
+  int add_event(int side, const End& a, const End& b, double at, bool enters) {
+    Event event{{}, side, enters};
+    if (side < leaf_side) {
+      const auto e = static_cast<std::size_t>(side);
+      event.spot = triangle_.edge_spot(side, a.at, b.at, a.edge[e], b.edge[e]);
+    } else {
+      glm::dvec2 place = a.at + at * (b.at - a.at);
+      place[bounds_.axis(side)] = bounds_.line(side);
+      event.spot = triangle_.spot(place);
+    }
+    events_.push_back(event);
+    return static_cast<int>(events_.size()) - 1;
+  }
+
+  /// Corners of neighbouring leaves on this one's sides become points of the ring.
+  void insert_leaf_corners() {
+    Ring out;
+    for (std::size_t i = 0; i < ring_.size(); ++i) {
+      out.push_back(ring_[i]);
+      if (ring_[i].side >= leaf_side) insert_between(ring_[i], ring_[(i + 1) % ring_.size()].spot.at, out);
+    }
+    ring_ = std::move(out);
+  }
+  void insert_between(const RingPoint& point, glm::dvec2 end, Ring& out) const {
+    const int axis = bounds_.axis(point.side), along = 1 - axis;
+    const bool low_in_leaf = bounds_.is_low(point.side) == (tile_.sign[axis] > 0);
+    const auto& corners = leaf_.corners_on_side[static_cast<std::size_t>(2 * axis + (low_in_leaf ? 0 : 1))];
+    const double from = point.spot.at[along], to = end[along];
+    std::vector<double> between;
+    for (const double corner : corners) {
+      const double at = tile_.offset[along] + tile_.sign[along] * corner;
+      if (at > std::min(from, to) && at < std::max(from, to)) between.push_back(at);
+    }
+    std::sort(between.begin(), between.end());
+    if (to < from) std::reverse(between.begin(), between.end());
+    for (const double at : between) {
+      glm::dvec2 place;
+      place[axis] = bounds_.line(point.side), place[along] = at;
+      out.push_back({triangle_.spot(place), point.side});
+    }
+  }
+
+  /// Events in their order around the ring.
+  void place_event(Event& event) const {
+    double nearest = 0;
+    bool found = false;
+    for (std::size_t i = 0; i < ring_.size(); ++i) {
+      const glm::dvec2 from = ring_[i].spot.at, way = ring_[(i + 1) % ring_.size()].spot.at - from;
+      const double length = glm::dot(way, way);
+      const double key = length > 0 ? glm::dot(event.spot.at - from, way) / length : 0.0;
+      const glm::dvec2 off = event.spot.at - (from + way * std::clamp(key, 0.0, 1.0));
+      double distance = glm::dot(off, off);
+      if (ring_[i].side != event.side) distance += 1e30;  // only if rounding left nothing of its side
+      if (found && distance >= nearest) continue;
+      nearest = distance, found = true;
+      event.ring_index = i, event.key = key;
+    }
+  }
+
+  /// Each event that leaves is joined to the next that enters, as brackets are: where rounding has put two
+  /// that leave beside each other, two that enter follow.
+  void join_events() {
+    for (Event& event : events_) place_event(event);
+    std::vector<std::size_t> order(events_.size());
+    for (std::size_t i = 0; i < order.size(); ++i) order[i] = i;
+    std::stable_sort(order.begin(), order.end(), [&](std::size_t a, std::size_t b) {
+      const Event &p = events_[a], &q = events_[b];
+      return p.ring_index != q.ring_index ? p.ring_index < q.ring_index : p.key < q.key;
+    });
+    rank_.resize(order.size());
+    for (std::size_t i = 0; i < order.size(); ++i) rank_[order[i]] = i;
+    std::vector<std::size_t> open;
+    std::vector<bool> joined(events_.size(), false);
+    for (std::size_t i = 0; i < 2 * order.size(); ++i) {
+      const std::size_t e = order[i % order.size()];
+      if (joined[e]) continue;
+      if (!events_[e].enters) {
+        if (i < order.size()) open.push_back(e);
+      } else if (!open.empty()) {
+        events_[open.back()].partner = e;
+        joined[open.back()] = joined[e] = true;
+        open.pop_back();
+      }
+    }
+  }
+
+  std::optional<std::size_t> stretch_from(std::uint32_t point) const {
+    const auto at = std::lower_bound(by_start_.begin(), by_start_.end(), std::pair(point, std::size_t{0}));
+    if (at == by_start_.end() || at->first != point) return std::nullopt;
+    return at->second;
+  }
+
+  /// Follows the outline from a stretch on; the event at which it leaves, or -1 where it closes.
+  int follow(std::size_t stretch, std::vector<Spot>& loop) {
+    for (;;) {
+      used_[stretch] = true;
+      const Stretch& s = stretches_[stretch];
+      add_spot(loop, s.entry >= 0 ? events_[static_cast<std::size_t>(s.entry)].spot : triangle_.spot(s.start));
+      if (s.exit >= 0) {
+        add_spot(loop, events_[static_cast<std::size_t>(s.exit)].spot);
+        return s.exit;
+      }
+      const auto next = stretch_from(s.to);
+      if (!next || used_[*next]) return -1;
+      stretch = *next;
+    }
+  }
+
+  void follow_events(std::vector<std::vector<Spot>>& loops) {
+    std::vector<std::size_t> entered(events_.size(), 0);
+    for (std::size_t i = 0; i < stretches_.size(); ++i)
+      if (stretches_[i].entry >= 0) entered[static_cast<std::size_t>(stretches_[i].entry)] = i;
+    for (std::size_t i = 0; i < stretches_.size(); ++i) {
+      if (stretches_[i].entry < 0 || used_[i]) continue;
+      std::vector<Spot> loop;
+      for (std::size_t at = i; !used_[at];) {
+        const int exit = follow(at, loop);
+        if (exit < 0) break;
+        const std::size_t partner = events_[static_cast<std::size_t>(exit)].partner;
+        walk_ring(static_cast<std::size_t>(exit), partner, loop);
+        at = entered[partner];
+      }
+      finish(loop, loops);
+    }
+  }
+
+  void walk_ring(std::size_t exit, std::size_t entry, std::vector<Spot>& loop) const {
+    const Event &from = events_[exit], &to = events_[entry];
+    if (from.ring_index == to.ring_index && rank_[exit] < rank_[entry]) return;
+    std::size_t i = from.ring_index;
+    do {
+      i = (i + 1) % ring_.size();
+      add_spot(loop, ring_[i].spot);
+    } while (i != to.ring_index);
+  }
+
+  void follow_loops(std::vector<std::vector<Spot>>& loops) {
+    for (std::size_t i = 0; i < stretches_.size(); ++i) {
+      if (used_[i]) continue;
+      std::vector<Spot> loop;
+      follow(i, loop);
+      finish(loop, loops);
+    }
+  }
+
+  static void add_spot(std::vector<Spot>& loop, const Spot& spot) {
+    if (loop.empty() || !(loop.back() == spot)) loop.push_back(spot);
+  }
+  static void finish(std::vector<Spot>& loop, std::vector<std::vector<Spot>>& loops) {
+    while (loop.size() > 1 && loop.back() == loop.front()) loop.pop_back();
+    if (loop.size() >= 3) loops.push_back(std::move(loop));
+  }
+
+  std::vector<Spot> ring_spots() const {
+    std::vector<Spot> spots;
+    for (const RingPoint& point : ring_) spots.push_back(point.spot);
+    return spots;
+  }
+
+  /// Where nothing crosses the ring: whether it lies in the region. The middle is asked, less what the closed
+  /// loops within the ring make of it.
+  bool surrounds(const std::vector<std::vector<Spot>>& loops, std::size_t first) const {
+    glm::dvec2 middle(0.0);
+    for (const RingPoint& point : ring_) middle += point.spot.at / static_cast<double>(ring_.size());
+    bool inside = is_inside(outline_, leaf_, tile_.sign * (middle - tile_.offset));
+    for (std::size_t l = first; l < loops.size(); ++l) {
+      for (std::size_t i = 0; i < loops[l].size(); ++i) {
+        const glm::dvec2 a = loops[l][i].at, b = loops[l][(i + 1) % loops[l].size()].at;
+        if ((a.y > middle.y) == (b.y > middle.y)) continue;
+        inside ^= middle.x < a.x + (middle.y - a.y) * ((b.x - a.x) / (b.y - a.y));
+      }
+    }
+    return inside;
+  }
+
+  const PlaneTriangle& triangle_;
+  const Outline& outline_;
+  const Leaf& leaf_;
+  const Tile& tile_;
+  const Rectangle bounds_;
+  Ring ring_;
+  std::vector<Stretch> stretches_;
+  std::vector<std::pair<std::uint32_t, std::size_t>> by_start_;  ///< stretches that begin inside, by point
+  std::vector<Event> events_;
+  std::vector<std::size_t> rank_;  ///< of an event, in the order around the ring
+  std::vector<bool> used_;
+};
+
+}  // namespace
+
+PieceKind cut_piece(const PlaneTriangle& triangle, const Outline& outline, const Leaf& leaf, const Tile& tile,
+                    std::vector<std::vector<Spot>>& loops) {
+  return PieceCutter(triangle, outline, leaf, tile).run(loops);
+}
+
+}  // namespace tenebra::cutout
