@@ -22,9 +22,10 @@ MAY_INCLUDE = {
     "shadow": {"base", "math", "simd", "parallel", "scene", "points"},
     "soft": {"base", "math", "simd", "parallel", "scene", "points"},
     "ao": {"base", "math", "simd", "parallel", "scene", "points"},
+    "shade": {"base", "math", "simd", "parallel", "scene", "texture", "points"},
     "gl": {"base"},
     "raster": {"base", "math", "scene", "gl"},
-    "render": {"base", "math", "simd", "parallel", "scene", "formats", "points", "shadow", "soft", "ao", "gl", "raster", "texture", "cutout"},
+    "render": {"base", "math", "simd", "parallel", "scene", "formats", "points", "shadow", "soft", "ao", "gl", "raster", "texture", "cutout", "shade"},
 }
 
 # Rooms of a folder, lowest first: a room includes itself and rooms before it. "" is the folder's own files.

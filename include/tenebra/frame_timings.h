@@ -7,15 +7,15 @@ namespace tenebra {
 /// Wall-clock milliseconds of each stage, summed over the lights. OpenGL has finished before and after each.
 struct FrameTimings {
   double evaluate_ms = 0;    ///< Scene -> FrameGeometry
-  double raster_ms = 0;      ///< G-buffer and light buffers
+  double raster_ms = 0;      ///< triangles to OpenGL, and the G-buffer
   double readback_ms = 0;    ///< triangle ids (or depth) to the CPU
   double points_ms = 0;      ///< visible points from triangle ids, and their tiles for variant Tiles
   double rays_ms = 0;        ///< shadow rays and the planes of triangles; Tiles: the trees over rays
   double sort_ms = 0;        ///< keys and sort (0 for unsorted variants and Tiles)
   double build_ms = 0;       ///< the cone tree; Tiles: the clusters of triangles
   double traverse_ms = 0;    ///< triangles through the tree of rays, decisions included
-  double writeback_ms = 0;   ///< mask to the pixel grid and to OpenGL
-  double composite_ms = 0;   ///< final picture and its read-back
+  double writeback_ms = 0;   ///< masks to the pixel grid and into the result
+  double composite_ms = 0;   ///< shading: all lights, ambient light and encoding, one pass
   double shaft_ms = 0;       ///< soft: groups of points and the occluders in their shafts
   double init_ms = 0;        ///< soft: occluders made ready for the solvers (*)
   double query_ms = 0;       ///< soft: visible part of the light from each point (*)

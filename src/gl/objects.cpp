@@ -107,13 +107,6 @@ void Texture::read(std::span<std::byte> pixels) const {
                     pixels.data());
 }
 
-BufferTexture BufferTexture::create(const Buffer& buffer) {
-  GLuint name = 0;
-  glCreateTextures(GL_TEXTURE_BUFFER, 1, &name);
-  glTextureBuffer(name, GL_RGBA32F, buffer.name());
-  return BufferTexture(name);
-}
-
 Expected<Framebuffer> Framebuffer::create(std::initializer_list<const Texture*> colors,
                                           const Texture* depth) {
   GLuint name = 0;

@@ -70,13 +70,6 @@ private:
   int height_ = 0;
 };
 
-/// Reads a buffer of four floats a texel, with any index up to GL_MAX_TEXTURE_BUFFER_SIZE.
-class BufferTexture : public Object<delete_texture> {
-public:
-  using Object::Object;
-  static BufferTexture create(const Buffer& buffer);
-};
-
 class Framebuffer : public Object<delete_framebuffer> {
 public:
   using Object::Object;

@@ -14,7 +14,7 @@
 namespace tenebra::raster {
 namespace {
 
-// A frame needs 57 bytes for each pixel: 3.8 GB at this many.
+// A frame with a hard shadow needs about 60 bytes for each pixel: 4 GB at this many.
 constexpr std::int64_t max_pixels = std::int64_t{1} << 26;
 constexpr GLuint no_triangle_id = 0xffffffffu;
 constexpr int eye_location = 0, clip_from_offset_location = 1, clip_offset_location = 2;
@@ -23,15 +23,13 @@ Expected<void> make_targets(int width, int height, GBuffer& out) {
   if (out.framebuffer && out.width == width && out.height == height) return {};
   auto depth = gl::Texture::create(gl::PixelFormat::depth32f, width, height);
   auto ids = gl::Texture::create(gl::PixelFormat::r32ui, width, height);
-  auto normals = gl::Texture::create(gl::PixelFormat::r32ui, width, height);
-  for (auto* target : {&depth, &ids, &normals}) {
+  for (auto* target : {&depth, &ids}) {
     if (!*target) return tl::unexpected(std::move(target->error()));
   }
-  auto framebuffer = gl::Framebuffer::create({&*ids, &*normals}, &*depth);
+  auto framebuffer = gl::Framebuffer::create({&*ids}, &*depth);
   if (!framebuffer) return tl::unexpected(std::move(framebuffer.error()));
   out.depth = std::move(*depth);
   out.ids = std::move(*ids);
-  out.normals = std::move(*normals);
   out.framebuffer = std::move(*framebuffer);
   out.width = width;
   out.height = height;
@@ -40,10 +38,8 @@ Expected<void> make_targets(int width, int height, GBuffer& out) {
 
 void clear(const gl::Framebuffer& target) {
   const GLuint background[4] = {no_triangle_id, 0, 0, 0};
-  const GLuint nothing[4] = {};
   const GLfloat infinitely_far = 0.0f;
   glClearNamedFramebufferuiv(target.name(), GL_COLOR, 0, background);
-  glClearNamedFramebufferuiv(target.name(), GL_COLOR, 1, nothing);
   glClearNamedFramebufferfv(target.name(), GL_DEPTH, 0, &infinitely_far);
 }
 
@@ -68,8 +64,7 @@ Expected<void> check_picture_size(int width, int height) {
 }
 
 Expected<GBufferPass> GBufferPass::create() {
-  auto program =
-      gl::Program::build("gbuffer", {shaders::gbuffer_vert}, {shaders::normals_glsl, shaders::gbuffer_frag});
+  auto program = gl::Program::build("gbuffer", {shaders::gbuffer_vert}, {shaders::gbuffer_frag});
   if (!program) return tl::unexpected(std::move(program.error()));
   GBufferPass pass;
   pass.program_ = std::move(*program);

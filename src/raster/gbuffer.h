@@ -1,4 +1,4 @@
-// The G-buffer: which triangle each pixel sees, how far away, and the normal to shade it with.
+// The G-buffer: which triangle each pixel sees, and how far away.
 #pragma once
 
 #include <cstdint>
@@ -11,15 +11,15 @@
 
 namespace tenebra::raster {
 
-/// Targets of one size, kept from frame to frame. Materials are not in it: the triangle's id leads to them.
+/// Targets of one size, kept from frame to frame. Normals and materials are not in it: the triangle's id
+/// leads to them.
 struct GBuffer {
   int width = 0;
   int height = 0;
   ViewRays view;  ///< what it was drawn with
   ClipTransform transform;
-  gl::Texture depth;    ///< 32-bit float; see ClipTransform
-  gl::Texture ids;      ///< triangle ids; 0xffffffff where none is seen
-  gl::Texture normals;  ///< packed shading normals (shaders/normals.glsl)
+  gl::Texture depth;  ///< 32-bit float; see ClipTransform
+  gl::Texture ids;    ///< triangle ids; 0xffffffff where none is seen
   gl::Framebuffer framebuffer;
 };
 

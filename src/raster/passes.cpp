@@ -23,14 +23,4 @@ void end_pass() {
   gl::finish();
 }
 
-void draw_fullscreen(const gl::VertexArray& empty) {
-  glBindVertexArray(empty.name());
-  glDrawArrays(GL_TRIANGLES, 0, 3);
-  glBindVertexArray(0);
-}
-
-void bind_texture(unsigned unit, const gl::Texture& texture) {
-  glBindTextureUnit(unit, texture.name());
-}
-
 }  // namespace tenebra::raster

@@ -1,4 +1,4 @@
-// What all passes do before and after they draw. Internal to raster.
+// What a pass does before and after it draws. Internal to raster.
 #pragma once
 
 #include "gl/objects.h"
@@ -9,9 +9,5 @@ namespace tenebra::raster {
 void begin_pass(const gl::Framebuffer& target, const gl::Program& program, int width, int height);
 /// Unbinds them and waits until the drawing is done.
 void end_pass();
-
-/// One triangle over the whole target, without depth test, for shaders/fullscreen.vert.
-void draw_fullscreen(const gl::VertexArray& empty);
-void bind_texture(unsigned unit, const gl::Texture& texture);
 
 }  // namespace tenebra::raster

@@ -1,4 +1,4 @@
-// The stages of a frame: samples, ambient occlusion, one light.
+// The stages of a frame: ids, points, ambient occlusion, lights, colours.
 #include <cmath>
 
 #include "base/fail.h"
@@ -27,12 +27,16 @@ void Renderer::State::points_from_depth(const ViewRays& view) {
   });
 }
 
-void Renderer::State::read_samples(const FrameInput& input, const RenderSettings& settings,
-                                   FrameTimings& timings) {
+void Renderer::State::read_ids(const RenderSettings& settings, FrameTimings& timings) {
   base::Stopwatch watch;
   raster::read_triangle_ids(gbuffer, ids);
   if (settings.samples == SampleSource::depth) raster::read_depth(gbuffer, depth);
   timings.readback_ms = watch.lap_ms();
+}
+
+void Renderer::State::find_points(const FrameInput& input, const RenderSettings& settings,
+                                  FrameTimings& timings) {
+  base::Stopwatch watch;
   const bool exact = settings.samples == SampleSource::ids;
   const bool traced = settings.shadows == ShadowMode::hard ||
                       (settings.shadows == ShadowMode::soft && settings.soft_points > 0);
@@ -63,17 +67,8 @@ Expected<void> Renderer::State::occlude_ambient(const FrameInput& input, const R
   return {};
 }
 
-Expected<void> Renderer::State::light_hard(const FrameInput& input, const DrawnLight& light,
-                                           const RenderSettings& settings, FrameResult& result) {
-  base::Stopwatch watch;
-  if (auto drawn = light_pass.draw(gbuffer, geometry, light.light, light.placed, light_buffer); !drawn)
-    return drawn;
-  result.timings.raster_ms += watch.lap_ms();
-  if (settings.shadows == ShadowMode::none) {
-    compositor.add_light(light_buffer, {});
-    result.timings.writeback_ms += watch.lap_ms();
-    return {};
-  }
+void Renderer::State::trace_hard(const FrameInput& input, const DrawnLight& light,
+                                 const RenderSettings& settings, FrameResult& result) {
   HardShadowConfig config = settings.hard;
   if (settings.samples == SampleSource::depth) config.contact = ContactRule::none;
   config.count_pixel_nodes = settings.diagnostics;
@@ -83,6 +78,7 @@ Expected<void> Renderer::State::light_hard(const FrameInput& input, const DrawnL
   });
   result.stats += hard.stats();
   add_shadow_stages(result.timings, hard.timings());
+  base::Stopwatch watch;
   LightMask& out = result.masks.emplace_back();
   out.light = light.number;
   out.mask = {gbuffer.width, gbuffer.height, 1, hard_mask};
@@ -91,22 +87,13 @@ Expected<void> Renderer::State::light_hard(const FrameInput& input, const DrawnL
     out.visible_fraction = {gbuffer.width, gbuffer.height, 1, {}};
     for (const std::uint8_t lit : hard_mask) out.visible_fraction.pixels.push_back(lit != 0 ? 1.0f : 0.0f);
   }
-  watch.lap_ms();
-  compositor.add_light(light_buffer, hard_mask);
   result.timings.writeback_ms += watch.lap_ms();
-  return {};
 }
 
-Expected<void> Renderer::State::light_soft(const FrameInput& input, const DrawnLight& light,
+Expected<void> Renderer::State::trace_soft(const FrameInput& input, const DrawnLight& light,
                                            const RenderSettings& settings, FrameResult& result,
-                                           const StopFlag* stop) {
+                                           std::vector<float>& irradiance_out, const StopFlag* stop) {
   base::Stopwatch watch;
-  if (auto drawn = light_pass.draw_area(gbuffer, geometry, light.light, light.placed, light.area->area_m2,
-                                        light_buffer);
-      !drawn) {
-    return drawn;
-  }
-  result.timings.raster_ms += watch.lap_ms();
   TriangleView triangles = triangle_view(input.geometry);
   if (casters_off_plane(input.geometry, *light.area, casters)) triangles.casts_shadow = casters;
   result.timings.shaft_ms += watch.lap_ms();
@@ -135,9 +122,46 @@ Expected<void> Renderer::State::light_soft(const FrameInput& input, const DrawnL
     out.mask.pixels.push_back(static_cast<std::uint8_t>(std::lround(255.0f * fraction)));
   }
   if (settings.soft_points == 0) out.classes.assign(soft.classes().begin(), soft.classes().end());
-  compositor.add_area_light(light_buffer, soft_mask.irradiance);
+  std::swap(irradiance_out, soft_mask.irradiance);
   result.timings.writeback_ms += watch.lap_ms();
   return {};
+}
+
+Expected<void> Renderer::State::trace_lights(const FrameInput& input, const std::vector<DrawnLight>& lights,
+                                             const RenderSettings& settings, FrameResult& result,
+                                             const StopFlag* stop) {
+  if (irradiance.size() < lights.size()) irradiance.resize(lights.size());
+  for (std::size_t i = 0; i < lights.size(); ++i) {
+    if (stop_requested(stop)) return base::fail("stopped");
+    if (lights[i].area) {
+      if (auto done = trace_soft(input, lights[i], settings, result, irradiance[i], stop); !done) return done;
+    } else if (settings.shadows != ShadowMode::none) {
+      trace_hard(input, lights[i], settings, result);
+    }
+  }
+  return {};
+}
+
+void Renderer::State::shade_pixels(const FrameInput& input, const std::vector<DrawnLight>& lights,
+                                   const RenderSettings& settings, FrameResult& result) {
+  std::vector<shade::PlacedLight> placed;
+  std::vector<shade::LightFactors> factors(lights.size());
+  for (std::size_t i = 0; i < lights.size(); ++i) {
+    const DrawnLight& light = lights[i];
+    placed.push_back({light.light, light.placed, light.area ? &*light.area : nullptr});
+    if (light.area) {
+      factors[i].irradiance = irradiance[i];
+    } else if (settings.shadows != ShadowMode::none) {
+      factors[i].mask = result.masks[i].mask.pixels;  // every light has one
+    }
+  }
+  const shade::Subject subject{input.geometry, input.view, surfaces};
+  const shade::Lighting lighting{placed, scene.ambient_light, scene.background};
+  shade::PixelSamples pixels{gbuffer.width, gbuffer.height, ids, factors, {}};
+  if (settings.ao.mode != AoMode::none) pixels.openness = openness;
+  with_threads(settings.threads, [&] {
+    shade::shade_picture(subject, lighting, pixels, settings.exposure, Transfer::srgb, result.image);
+  });
 }
 
 void Renderer::State::keep_new(std::vector<std::string>& notes) {

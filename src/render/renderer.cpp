@@ -40,19 +40,11 @@ Renderer::~Renderer() = default;
 Expected<Renderer> Renderer::create(gl::Context context, const Scene& scene) {
   auto gbuffer_pass = raster::GBufferPass::create();
   if (!gbuffer_pass) return tl::unexpected(gbuffer_pass.error());
-  auto light_pass = raster::LightPass::create();
-  if (!light_pass) return tl::unexpected(light_pass.error());
-  auto compositor = raster::Compositor::create();
-  if (!compositor) return tl::unexpected(compositor.error());
   auto state = std::make_unique<State>(State{.context = std::move(context),
                                              .scene = without_keyed_vertices(scene),
                                              .geometry = {},
                                              .gbuffer_pass = std::move(*gbuffer_pass),
-                                             .light_pass = std::move(*light_pass),
-                                             .compositor = std::move(*compositor)});
-  if (auto uploaded = state->geometry.upload_materials(scene.materials); !uploaded) {
-    return tl::unexpected(uploaded.error());
-  }
+                                             .surfaces = shade::SurfaceTable(scene.materials)});
   return Renderer(std::move(state));
 }
 
@@ -81,9 +73,11 @@ std::optional<glm::dvec3> Renderer::visible_point(const FrameInput& input, int x
   return s.points.positions[pixel];
 }
 
-// Olsson and Assarsson 2011, section 3.1: (1) rasterise, direct light apart; (2) rays and their hierarchy
-// from what is seen; (3) triangles through the hierarchy; (4) blocked pixels lose the light; (5) add it up.
-// Soft shadows put groups of what is seen and the light's visible parts in the place of (2) to (4).
+// Olsson and Assarsson 2011, section 3.1: (1) rasterise; (2) rays and their hierarchy from what is seen;
+// (3) triangles through the hierarchy; (4) blocked pixels lose the light; (5) add it up. The paper draws the
+// light of (1) into buffers that (4) and (5) read; here it is computed where it is added, in one pass over
+// all lights. Soft shadows put groups of what is seen and the light's visible parts in the place of (2) to
+// (4).
 Expected<void> Renderer::render_frame(const FrameInput& input, const RenderSettings& settings,
                                       FrameResult& result, const AoProgress& progress, const StopFlag* stop) {
   State& s = *state_;
@@ -103,25 +97,18 @@ Expected<void> Renderer::render_frame(const FrameInput& input, const RenderSetti
   if (auto drawn = s.gbuffer_pass.draw(input.view, s.geometry, settings.width, settings.height, s.gbuffer);
       !drawn)
     return drawn;
-  if (auto begun = s.compositor.begin(settings.width, settings.height); !begun) return begun;
   timings.raster_ms = watch.lap_ms();
 
   const bool occlusion = settings.ao.mode != AoMode::none;
   const bool shadows = settings.shadows != ShadowMode::none && !lights->empty();
-  if (shadows || occlusion) s.read_samples(input, settings, timings);
+  s.read_ids(settings, timings);
+  if (shadows || occlusion) s.find_points(input, settings, timings);
   if (occlusion) {
     if (auto done = s.occlude_ambient(input, settings, result, progress, stop); !done) return done;
   }
-  for (const DrawnLight& light : *lights) {
-    if (stop_requested(stop)) return base::fail("stopped");
-    auto lit = light.area ? s.light_soft(input, light, settings, result, stop)
-                          : s.light_hard(input, light, settings, result);
-    if (!lit) return lit;
-  }
+  if (auto traced = s.trace_lights(input, *lights, settings, result, stop); !traced) return traced;
   watch.lap_ms();
-  raster::CompositeSettings composite{s.scene.ambient_light, s.scene.background, settings.exposure, {}};
-  if (occlusion) composite.openness = s.openness;
-  s.compositor.finish(s.gbuffer, s.geometry, composite, result.image);
+  s.shade_pixels(input, *lights, settings, result);
   timings.composite_ms = watch.lap_ms();
   timings.total_ms = whole.lap_ms();
   s.keep_new(result.notes);

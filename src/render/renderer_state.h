@@ -6,13 +6,12 @@
 #include <unordered_set>
 #include <vector>
 
-#include "raster/composite.h"
 #include "raster/gbuffer.h"
 #include "raster/geometry_buffers.h"
-#include "raster/light_buffer.h"
 #include "render/frame_lights.h"
 #include "render/light_points.h"
 #include "render/renderer.h"
+#include "shade/shading.h"
 
 namespace tenebra::render {
 
@@ -21,10 +20,8 @@ struct Renderer::State {
   Scene scene;  // as of without_keyed_vertices
   raster::GeometryBuffers geometry;
   raster::GBufferPass gbuffer_pass;
-  raster::LightPass light_pass;
-  raster::Compositor compositor;
+  shade::SurfaceTable surfaces;
   raster::GBuffer gbuffer{};
-  raster::LightBuffer light_buffer{};
 
   std::vector<std::uint32_t> ids{};
   std::vector<float> depth{};
@@ -38,19 +35,28 @@ struct Renderer::State {
   std::vector<std::uint8_t> casters{};
   AmbientOcclusion ambient{};
   std::vector<float> openness{};
-  std::unordered_set<std::string> said{};  // notes of earlier frames
+  std::vector<std::vector<float>> irradiance{};  // of the drawn lights; empty without an area
+  std::unordered_set<std::string> said{};        // notes of earlier frames
 
-  /// Visible points and, for what shades on the CPU, their normals.
-  void read_samples(const FrameInput& input, const RenderSettings& settings, FrameTimings& timings);
+  /// What each pixel sees.
+  void read_ids(const RenderSettings& settings, FrameTimings& timings);
+  /// Visible points and, for soft shadows and occlusion, their normals.
+  void find_points(const FrameInput& input, const RenderSettings& settings, FrameTimings& timings);
   void points_from_depth(const ViewRays& view);
   Expected<void> occlude_ambient(const FrameInput& input, const RenderSettings& settings, FrameResult& result,
                                  const AoProgress& progress, const StopFlag* stop);
-  /// One light as a point, with hard shadows or with none.
-  Expected<void> light_hard(const FrameInput& input, const DrawnLight& light, const RenderSettings& settings,
-                            FrameResult& result);
-  /// One light as a polygon: the visible part from each point and its irradiance.
-  Expected<void> light_soft(const FrameInput& input, const DrawnLight& light, const RenderSettings& settings,
-                            FrameResult& result, const StopFlag* stop);
+  /// Adds the mask of one light as a point.
+  void trace_hard(const FrameInput& input, const DrawnLight& light, const RenderSettings& settings,
+                  FrameResult& result);
+  /// Adds the mask of one light as a polygon: the visible part from each point, and its irradiance.
+  Expected<void> trace_soft(const FrameInput& input, const DrawnLight& light, const RenderSettings& settings,
+                            FrameResult& result, std::vector<float>& irradiance_out, const StopFlag* stop);
+  /// Adds the masks of all lights, one after the other.
+  Expected<void> trace_lights(const FrameInput& input, const std::vector<DrawnLight>& lights,
+                              const RenderSettings& settings, FrameResult& result, const StopFlag* stop);
+  /// The picture, from all of the above.
+  void shade_pixels(const FrameInput& input, const std::vector<DrawnLight>& lights,
+                    const RenderSettings& settings, FrameResult& result);
   /// Drops the notes that earlier frames gave.
   void keep_new(std::vector<std::string>& notes);
 };

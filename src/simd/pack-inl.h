@@ -550,6 +550,20 @@ SIMD_INLINE Pack<std::int32_t, N> shift_left(Pack<std::int32_t, N> a, Pack<std::
   return a;
 }
 
+/// The bits of floats as whole numbers, and back.
+template <int N>
+SIMD_INLINE Pack<std::int32_t, N> bits_of(Pack<float, N> a) {
+  Pack<std::int32_t, N> r;
+  for (int i = 0; i < a.registers; ++i) r.r[i] = hn::BitCast(typename Pack<std::int32_t, N>::Tag(), a.r[i]);
+  return r;
+}
+template <int N>
+SIMD_INLINE Pack<float, N> float_of_bits(Pack<std::int32_t, N> a) {
+  Pack<float, N> r;
+  for (int i = 0; i < a.registers; ++i) r.r[i] = hn::BitCast(typename Pack<float, N>::Tag(), a.r[i]);
+  return r;
+}
+
 }  // namespace tenebra::simd::HWY_NAMESPACE
 HWY_AFTER_NAMESPACE();
 

@@ -3,6 +3,8 @@
 
 #include "raster/gbuffer.h"
 
+#include <algorithm>
+
 #include "raster/raster_fixture.h"
 
 namespace tenebra {
@@ -156,7 +158,7 @@ TEST_P(GBufferTest, DroppedAndDegenerateTrianglesHideNothing) {
 }
 
 TEST_P(GBufferTest, EmptySceneIsAllBackground) {
-  draw({}, forward_view({0, 0, 0}, 9.0f, 7, 5), 7, 5, {});
+  draw({}, forward_view({0, 0, 0}, 9.0f, 7, 5), 7, 5);
   for (std::uint32_t id : ids) EXPECT_EQ(id, background_id);
   EXPECT_EQ(ids.size(), 35u);
 }
@@ -198,6 +200,33 @@ TEST_P(GBufferTest, RaysThatSpanNoPictureAreRefused) {
   for (const ViewRays& view : {flat, parallel, not_a_number, no_near}) {
     EXPECT_FALSE(passes().gbuffer_pass.draw(view, passes().geometry, 8, 8, passes().gbuffer));
   }
+}
+
+struct DrawnIds {
+  std::vector<std::uint32_t> ids;
+  std::vector<float> depth;
+};
+
+DrawnIds draw_soup(gl::ContextKind kind) {
+  DrawnIds drawn;
+  auto context = gl::Context::create(kind);
+  EXPECT_TRUE(context);
+  auto pass = raster::GBufferPass::create();
+  raster::GeometryBuffers geometry;
+  raster::GBuffer gbuffer;
+  EXPECT_TRUE(geometry.upload(random_soup(25, {0, 0, -9}, 3.0f, 99)));
+  EXPECT_TRUE(pass->draw(forward_view({0, 0, 0}, 200.0f, 257, 191), geometry, 257, 191, gbuffer));
+  raster::read_triangle_ids(gbuffer, drawn.ids);
+  raster::read_depth(gbuffer, drawn.depth);
+  return drawn;
+}
+
+TEST(Raster, SameBitsFromEglAndOsmesa) {
+  TENEBRA_NEEDS_CONTEXT(gl::ContextKind::osmesa);
+  const DrawnIds egl = draw_soup(gl::ContextKind::egl), osmesa = draw_soup(gl::ContextKind::osmesa);
+  EXPECT_EQ(egl.ids, osmesa.ids);
+  EXPECT_EQ(egl.depth, osmesa.depth);
+  EXPECT_GT(std::count(egl.ids.begin(), egl.ids.end(), background_id), 100);
 }
 
 TENEBRA_BOTH_CONTEXTS(GBufferTest);

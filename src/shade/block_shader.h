@@ -1,0 +1,50 @@
+// Shades samples, one block of neighbours after another. Internal to shade; each thread has its own.
+#pragma once
+
+#include <cstdint>
+#include <span>
+#include <vector>
+
+#include "shade/kernels.h"
+#include "shade/shading.h"
+
+namespace tenebra::shade {
+
+/// What all blocks of a frame share.
+struct FrameTerms {
+  FrameTerms(const Subject& of, const Lighting& lit_by);
+
+  Subject subject;
+  Lighting lighting;
+  std::vector<LightTerms> lights;
+  std::vector<Surface> surfaces;  ///< ambient times the ambient light
+  Kernels code;
+};
+
+class BlockShader {
+public:
+  explicit BlockShader(const FrameTerms& frame) : frame_(frame) {}
+
+  /// Begins a block of up to SampleBlock::capacity samples at window places (x, y), arrays of
+  /// SampleBlock::room. Ids beyond the triangles are background.
+  void place(std::span<const std::uint32_t> ids, const float* x, const float* y);
+
+  /// The block's linear colours from what stands at `first` ... of the factors and the openness (empty: 1).
+  void shade(std::span<const LightFactors> factors, std::span<const float> openness, std::size_t first);
+  /// One light alone, before shadows.
+  void shade_light(std::size_t light);
+
+  const SampleBlock& block() const { return block_; }
+
+private:
+  void place_run(std::uint32_t id, const float* x, const float* y, std::size_t first, std::size_t count);
+  void add_light(std::size_t light, const LightFactors& factors, std::size_t first);
+
+  const FrameTerms& frame_;
+  SetupCache setups_;
+  SampleBlock block_{};
+  bool anything_seen_ = false;
+  alignas(64) float factor_[SampleBlock::room] = {};
+};
+
+}  // namespace tenebra::shade

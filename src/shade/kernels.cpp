@@ -1,0 +1,152 @@
+#include "shade/kernels.h"
+
+#include <bit>
+#include <cstring>
+
+static_assert(std::endian::native == std::endian::little);
+
+#undef HWY_TARGET_INCLUDE
+#define HWY_TARGET_INCLUDE "shade/kernels.cpp"
+#include <hwy/foreach_target.h>
+// After foreach_target.h
+#include "shade/diffuse-inl.h"
+#include "simd/dispatch.h"
+
+HWY_BEFORE_NAMESPACE();
+namespace tenebra::shade::HWY_NAMESPACE {
+using namespace simd::HWY_NAMESPACE;
+
+namespace {
+
+using Int16 = Pack<std::int32_t, 16>;
+
+Float16 at(const Plane& plane, Float16 dx, Float16 dy) {
+  return broadcast<Float16>(plane.value) + broadcast<Float16>(plane.dx) * dx +
+         broadcast<Float16>(plane.dy) * dy;
+}
+
+/// Weights of the second and third vertex: where the ray meets the plane, moved into the triangle.
+struct Weights {
+  Float16 u, v, depth;
+};
+Weights weights_of(const TriangleSetup& setup, Float16 x, Float16 y) {
+  const Float16 third = broadcast<Float16>(1.0f / 3.0f), zero = broadcast<Float16>(0.0f),
+                one = broadcast<Float16>(1.0f);
+  if (setup.flat) return {third, third, zero};
+  const Float16 dx = x - broadcast<Float16>(setup.origin.x), dy = y - broadcast<Float16>(setup.origin.y);
+  Weights w{at(setup.u, dx, dy), at(setup.v, dx, dy), one};
+  Mask<float, 16> inside = le(zero, one);
+  if (setup.in_perspective) {
+    const Float16 depth = at(setup.depth, dx, dy);
+    inside = lt(zero, depth);
+    w.depth = one / depth;
+    w.u = w.u * w.depth;
+    w.v = w.v * w.depth;
+  }
+  const Float16 rest = one - w.u - w.v;
+  const Mask<float, 16> in_front = inside;
+  inside = inside & le(zero, w.u) & le(zero, w.v) & le(zero, rest);
+  if (bits(inside) == 0xffff) return w;
+  const Float16 u = max(w.u, zero), v = max(w.v, zero), sum = u + v + max(rest, zero);
+  const Mask<float, 16> usable = in_front & lt(zero, sum) & lt(sum, broadcast<Float16>(1e30f));
+  w.u = select(inside, w.u, select(usable, u / sum, third));
+  w.v = select(inside, w.v, select(usable, v / sum, third));
+  w.depth = select(in_front & lt(w.depth, broadcast<Float16>(1e30f)), w.depth, zero);
+  return w;
+}
+
+Vector16 normal_at(const TriangleSetup& setup, const Weights& w) {
+  const Vector16 face = broadcast16(setup.face);
+  const Vector16 n =
+      broadcast16(setup.normal) + w.u * broadcast16(setup.to_second) + w.v * broadcast16(setup.to_third);
+  const Float16 size = abs(n.x) + abs(n.y) + abs(n.z);
+  const Float16 length = sqrt(dot_unfused(n, n));
+  const Float16 towards = dot_unfused(n, face);
+  const Float16 scale = broadcast<Float16>(1.0f) / select(lt(towards, broadcast<Float16>(0.0f)),
+                                                          broadcast<Float16>(0.0f) - length, length);
+  return select3(lt(broadcast<Float16>(1e-6f), size), scale * n, face);
+}
+
+void place(const TriangleSetup& setup, const Surface& surface, const float* x, const float* y,
+           std::size_t first, std::size_t count, SampleBlock& b) {
+  for (std::size_t i = first; i < first + count; i += 16) {
+    const Weights w = weights_of(setup, load<Float16>(x + i), load<Float16>(y + i));
+    store(w.u, b.u + i);
+    store(w.v, b.v + i);
+    store(w.depth, b.depth + i);
+    store3(broadcast16(setup.a) + w.u * broadcast16(setup.e1) + w.v * broadcast16(setup.e2), b.point, i);
+    store3(broadcast16(setup.face), b.face, i);
+    store3(setup.smooth ? normal_at(setup, w) : broadcast16(setup.normal), b.normal, i);
+    store3(broadcast16(surface.base), b.base, i);
+    store3(broadcast16(surface.ambient), b.ambient, i);
+    store3(broadcast16(surface.emissive), b.emissive, i);
+  }
+}
+
+void begin(const float* openness, SampleBlock& b) {
+  for (std::size_t i = 0; i < b.count; i += 16) {
+    Vector16 ambient = load3(b.ambient, i);
+    if (openness != nullptr) ambient = load<Float16>(openness + i) * ambient;
+    store3(ambient + load3(b.emissive, i), b.color, i);
+  }
+}
+
+void light(const LightTerms& terms, const float* factor, SampleBlock& b) {
+  for (std::size_t i = 0; i < b.count; i += 16) {
+    const Incident incident = incident_light(terms, b, i);
+    Vector16 shown = diffuse_light(terms, incident, b, i);
+    if (factor != nullptr) shown = load<Float16>(factor + i) * shown;
+    store3(load3(b.color, i) + shown, b.color, i);
+  }
+}
+
+/// Levels of sixteen values.
+Int16 levels(const LevelTable& table, Float16 value) {
+  // Clamped so that NaN gives 0.
+  const Float16 zero = broadcast<Float16>(0.0f);
+  const Float16 clamped = select(lt(zero, value), min(value, broadcast<Float16>(1.0f)), zero);
+  const Int16 bucket = shift_right<LevelTable::shift>(bits_of(clamped)) - broadcast<Int16>(table.first);
+  const Int16 place = shift_left<2>(max(bucket, broadcast<Int16>(0)));
+  const Float16 threshold = gather<float>(table.threshold.data(), place);
+  const Int16 level = gather<std::int32_t>(table.level.data(), place);
+  return select(le(threshold, clamped), level + broadcast<Int16>(1), level);
+}
+
+void encode_block(const LevelTable& table, float exposure, const SampleBlock& b, std::uint8_t* rgb) {
+  for (std::size_t i = 0; i < b.count; i += 16) {
+    const Vector16 color = broadcast<Float16>(exposure) * load3(b.color, i);
+    std::int32_t level[16];
+    store(levels(table, color.x) | shift_left<8>(levels(table, color.y)) |
+              shift_left<16>(levels(table, color.z)),
+          level);
+    const std::size_t count = b.count - i < 16 ? b.count - i : 16;
+    for (std::size_t k = 0; k < count; ++k) {
+      // Four bytes at once; the fourth is the next sample's, but behind the last one.
+      if (i + k + 1 < b.count) {
+        std::memcpy(rgb + 3 * (i + k), &level[k], 4);
+      } else {
+        std::memcpy(rgb + 3 * (i + k), &level[k], 3);
+      }
+    }
+  }
+}
+
+}  // namespace
+
+Kernels kernels() {
+  return {place, begin, light, encode_block};
+}
+
+}  // namespace tenebra::shade::HWY_NAMESPACE
+HWY_AFTER_NAMESPACE();
+
+#if HWY_ONCE
+
+namespace tenebra::shade {
+
+Kernels kernels(SimdLevel level) {
+  return TENEBRA_DISPATCH(level, kernels)();
+}
+
+}  // namespace tenebra::shade
+#endif

@@ -1,0 +1,44 @@
+// A light as shading sees it: constants of a frame.
+#pragma once
+
+#include <cstdint>
+#include <glm/glm.hpp>
+#include <span>
+
+#include <tenebra/area_light.h>
+#include <tenebra/frame_geometry.h>
+#include <tenebra/scene.h>
+
+namespace tenebra::shade {
+
+/// A light of a frame, placed. `area`: it shines as this polygon, and its samples come with their
+/// irradiance; none: as a point, or from a direction.
+struct PlacedLight {
+  Light light;
+  WorldLight placed;
+  const AreaLight* area = nullptr;
+};
+
+/// What is left of a light at each sample.
+struct LightFactors {
+  std::span<const std::uint8_t> mask;  ///< without area: 255 lit to 0 dark; empty: all lit
+  std::span<const float> irradiance;   ///< with an area: of a light of radiance 1
+};
+
+/// What the kernels need of a light. What a white diffuse surface that faces it shows is color * fade; fade
+/// is made of distance and angle.
+struct LightTerms {
+  glm::vec3 color{0.0f};
+  glm::vec3 from_eye{0.0f};    ///< place relative to the eye: far from the origin absolute floats are coarse
+  glm::vec3 direction{0.0f};   ///< unit, the way it shines
+  glm::vec2 cone{0.0f, 1.0f};  ///< scale and offset of the cosine
+  float range_m = 0;           ///< 0: unbounded
+  int distance_power = 0;      ///< -2, 0 or 2
+  bool directional = false;
+  bool spot = false;
+  bool cosine_emitter = false;
+  bool by_irradiance = false;  ///< the cosine at the surface comes with the irradiance
+};
+LightTerms light_terms(const PlacedLight& light, const ViewRays& view);
+
+}  // namespace tenebra::shade

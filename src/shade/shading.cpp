@@ -1,0 +1,89 @@
+#include "shade/shading.h"
+
+#include <algorithm>
+#include <functional>
+
+#include "parallel/parallel.h"
+#include "shade/block_shader.h"
+
+namespace tenebra::shade {
+namespace {
+
+constexpr std::size_t rows_at_once = 16;  // neighbouring rows see the same triangles
+
+/// Calls work(shader, first) for each block of pixels from `first` on, placed.
+void for_each_block(const FrameTerms& frame, const PixelSamples& pixels,
+                    const std::function<void(BlockShader&, std::size_t)>& work) {
+  const auto width = static_cast<std::size_t>(pixels.width), height = static_cast<std::size_t>(pixels.height);
+  parallel::parallel_ranges(height, rows_at_once, [&](std::size_t top, std::size_t bottom) {
+    BlockShader shader(frame);
+    float x[SampleBlock::room] = {}, y[SampleBlock::room] = {};
+    for (std::size_t row = top; row < bottom; ++row) {
+      std::fill_n(y, SampleBlock::room, static_cast<float>(row) + 0.5f);
+      for (std::size_t column = 0; column < width; column += SampleBlock::capacity) {
+        const std::size_t count = std::min(SampleBlock::capacity, width - column);
+        for (std::size_t i = 0; i < count; ++i) x[i] = static_cast<float>(column + i) + 0.5f;
+        const std::size_t first = row * width + column;
+        shader.place(pixels.ids.subspan(first, count), x, y);
+        work(shader, first);
+      }
+    }
+  });
+}
+
+template <class T>
+void resize(const PixelSamples& pixels, base::Image<T>& out) {
+  out.width = pixels.width;
+  out.height = pixels.height;
+  out.channels = 3;
+  out.pixels.resize(3 * static_cast<std::size_t>(pixels.width) * static_cast<std::size_t>(pixels.height));
+}
+
+}  // namespace
+
+void shade_samples(const Subject& subject, const Lighting& lighting, const Samples& samples,
+                   std::vector<ShadedSample>& out) {
+  const FrameTerms frame(subject, lighting);
+  out.resize(samples.ids.size());
+  parallel::parallel_ranges(out.size(), SampleBlock::capacity, [&](std::size_t first, std::size_t last) {
+    BlockShader shader(frame);
+    float x[SampleBlock::room] = {}, y[SampleBlock::room] = {};
+    for (std::size_t i = first; i < last; ++i) {
+      x[i - first] = samples.places[i].x;
+      y[i - first] = samples.places[i].y;
+    }
+    shader.place(samples.ids.subspan(first, last - first), x, y);
+    shader.shade(samples.factors, samples.openness, first);
+    const SampleBlock& block = shader.block();
+    for (std::size_t i = first; i < last; ++i) {
+      const std::size_t k = i - first;
+      out[i].color = {block.color[0][k], block.color[1][k], block.color[2][k]};
+    }
+  });
+}
+
+void shade_picture(const Subject& subject, const Lighting& lighting, const PixelSamples& pixels,
+                   float exposure, Transfer transfer, base::Image8& out) {
+  const FrameTerms frame(subject, lighting);
+  const LevelTable& table = level_table(transfer);
+  resize(pixels, out);
+  for_each_block(frame, pixels, [&](BlockShader& shader, std::size_t first) {
+    shader.shade(pixels.factors, pixels.openness, first);
+    frame.code.encode(table, exposure, shader.block(), &out.pixels[3 * first]);
+  });
+}
+
+void light_buffer(const Subject& subject, const Lighting& lighting, std::size_t light,
+                  const PixelSamples& pixels, base::ImageF& out) {
+  const FrameTerms frame(subject, lighting);
+  resize(pixels, out);
+  for_each_block(frame, pixels, [&](BlockShader& shader, std::size_t first) {
+    shader.shade_light(light);
+    const SampleBlock& block = shader.block();
+    for (std::size_t i = 0; i < block.count; ++i) {
+      for (std::size_t c = 0; c < 3; ++c) out.pixels[3 * (first + i) + c] = block.color[c][i];
+    }
+  });
+}
+
+}  // namespace tenebra::shade
