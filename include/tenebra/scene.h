@@ -131,9 +131,10 @@ void add_missing_camera_and_light(Scene& scene);
 /// name matches nothing; `unmatched` is then the first such name.
 bool leave_out_casters(Scene& scene, const std::vector<std::string>& names, std::string& unmatched);
 
-/// Leaves covers out of the casters of the lights that they hide: a flat or open mesh, such as a sky, that
-/// lies outside the bounds of all other casters, faces them, and alone shadows all of them from a light at
-/// the start of the first clip. Adds to Light::left_out_nodes, and a sentence for each to scene.warnings.
+/// Leaves skies out of the casters of the lights that they hide: a sky is a flat or open mesh that has nearly
+/// all other casters (99 % of their vertices) in front of it and alone shadows nearly all of these from a
+/// light, at the start of the first clip. Adds to Light::left_out_nodes, and a sentence for each to
+/// scene.warnings; any other mesh that hides a light from nearly all is named there too.
 /// Lights must not be shared by nodes.
 void leave_out_covers(Scene& scene);
 

@@ -4,6 +4,7 @@
 #include "base/fail.h"
 #include "base/stopwatch.h"
 #include "parallel/parallel.h"
+#include "render/light_casters.h"
 #include "render/renderer_state.h"
 #include "render/shadow_lights.h"
 
@@ -72,9 +73,10 @@ void Renderer::State::trace_hard(const FrameInput& input, const DrawnLight& ligh
   HardShadowConfig config = settings.hard;
   if (settings.samples == SampleSource::depth) config.contact = ContactRule::none;
   config.count_pixel_nodes = settings.diagnostics;
+  const TriangleView triangles = casters_of(scene, input.geometry, light, casters);
   with_threads(settings.threads, [&] {
-    hard.trace_shadow_mask(points, input.view, triangle_view(input.geometry),
-                           shadow_light(light.light, light.placed), config, hard_mask);
+    hard.trace_shadow_mask(points, input.view, triangles, shadow_light(light.light, light.placed), config,
+                           hard_mask);
   });
   result.stats += hard.stats();
   add_shadow_stages(result.timings, hard.timings());
@@ -94,8 +96,7 @@ Expected<void> Renderer::State::trace_soft(const FrameInput& input, const DrawnL
                                            const RenderSettings& settings, FrameResult& result,
                                            std::vector<float>& irradiance_out, const StopFlag* stop) {
   base::Stopwatch watch;
-  TriangleView triangles = triangle_view(input.geometry);
-  if (casters_off_plane(input.geometry, *light.area, casters)) triangles.casts_shadow = casters;
+  const TriangleView triangles = casters_of(scene, input.geometry, light, casters);
   result.timings.shaft_ms += watch.lap_ms();
   const HardShadowConfig of_points{.variant = settings.hard.variant, .simd = settings.hard.simd};
   bool done = false;

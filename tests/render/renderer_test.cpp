@@ -101,6 +101,27 @@ TEST(Renderer, WithoutShadowsTheLightReachesAll) {
 // The paper's samples are off their surface by the depth buffer's rounding; with the front faces culled, a
 // one-sided plate seen from its front casts nothing, so only compare what must hold: no light where ids say
 // none.
+TEST(Renderer, WhatIsLeftOutOfALightsCastersBlocksTheOthersOnly) {
+  Scene scene = white_floor(false);
+  Mesh plate{.name = "plate"};
+  add_quad(plate, {-1, 1, 1}, {2, 0, 0}, {0, 0, -2});
+  add_mesh(scene, std::move(plate));
+  add_light(scene, {}, {0, 5, 0}).left_out_nodes = {1};
+  add_light(scene, {}, {0, 5, 0});
+  add_light(scene, {.type = LightType::area_rect, .size_m = {0.1f, 0.1f}}, {0, 5, 0}, facing_down)
+      .left_out_nodes = {1};
+  for (const render::ShadowMode shadows : {render::ShadowMode::hard, render::ShadowMode::soft}) {
+    const render::FrameResult result = draw(scene, {.width = 64, .height = 48, .shadows = shadows});
+    ASSERT_EQ(result.masks.size(), 3u);
+    const auto dark = [&](std::size_t light) {
+      const auto& mask = result.masks[light].mask.pixels;
+      return std::count(mask.begin(), mask.end(), std::uint8_t{0});
+    };
+    EXPECT_GT(dark(1), dark(0) + 20);
+    EXPECT_EQ(dark(2), dark(0));
+  }
+}
+
 TEST(Renderer, DepthSamplesComeFromTheDepthBuffer) {
   const Scene scene = plate_over_floor();
   render::RenderSettings settings{.width = 160, .height = 120, .light = 0};
