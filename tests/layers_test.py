@@ -21,11 +21,12 @@ MAY_INCLUDE = {
     "points": {"base", "math", "simd", "parallel", "scene"},
     "shadow": {"base", "math", "simd", "parallel", "scene", "points"},
     "soft": {"base", "math", "simd", "parallel", "scene", "points"},
-    "ao": {"base", "math", "simd", "parallel", "scene", "points"},
+    "tint": {"base", "math", "simd", "parallel", "scene", "texture", "points", "shadow", "soft"},
+    "ao": {"base", "math", "simd", "parallel", "scene", "texture", "points"},
     "shade": {"base", "math", "simd", "parallel", "scene", "texture", "points"},
     "gl": {"base"},
     "raster": {"base", "math", "scene", "gl"},
-    "render": {"base", "math", "simd", "parallel", "scene", "formats", "points", "shadow", "soft", "ao", "gl", "raster", "texture", "cutout", "shade"},
+    "render": {"base", "math", "simd", "parallel", "scene", "formats", "points", "shadow", "soft", "ao", "tint", "gl", "raster", "texture", "cutout", "shade"},
 }
 
 # Rooms of a folder, lowest first: a room includes itself and rooms before it. "" is the folder's own files.

@@ -19,6 +19,9 @@ struct Choice {
 inline constexpr std::array shadow_choices{Choice<render::ShadowMode>{"none", render::ShadowMode::none},
                                            Choice<render::ShadowMode>{"hard", render::ShadowMode::hard},
                                            Choice<render::ShadowMode>{"soft", render::ShadowMode::soft}};
+inline constexpr std::array see_through_choices{Choice<SeeThrough>{"tint", SeeThrough::tint},
+                                                Choice<SeeThrough>{"cast", SeeThrough::cast},
+                                                Choice<SeeThrough>{"ignore", SeeThrough::ignore}};
 inline constexpr std::array sample_choices{
     Choice<render::SampleSource>{"ids", render::SampleSource::ids},
     Choice<render::SampleSource>{"depth", render::SampleSource::depth}};

@@ -83,6 +83,7 @@ std::string method_arguments(const MethodOptions& options) {
   const render::RenderSettings standard;
   Arguments arguments;
   arguments.choice("--shadows", shadow_choices, render.shadows, standard.shadows);
+  arguments.choice("--see-through", see_through_choices, render.see_through, standard.see_through);
   arguments.value("--light", render.light, standard.light);
   arguments.value("--exposure", render.exposure, standard.exposure);
   arguments.value("--threads", render.threads, standard.threads);

@@ -106,6 +106,9 @@ void add_common(CLI::App& command, MethodOptions& options) {
        add_choice<shadow_choices>(command, "--shadows", render.shadows,
                                   "hard: each light as a point; soft: with its area;\nboth exact and "
                                   "without noise [hard]"),
+       add_choice<see_through_choices>(command, "--see-through", render.see_through,
+                                       "Glass and blended surfaces colour the light behind them,\ncast black "
+                                       "shadows, or none [tint]"),
        add_value(command, "--light", render.light, parse_light,
                  "Light with this light alone, by number, or with all [all]")
            .type_name("N|all"),

@@ -8,6 +8,7 @@
 #include "console.h"
 #include "progress.h"
 #include "render/log/trace_json.h"
+#include "render/mask_colour.h"
 #include "render_log.h"
 #include "render_plan.h"
 #include "scene_choice.h"
@@ -73,11 +74,20 @@ Expected<void> write_pictures(const RenderPlan& plan, const RenderOptions& optio
       if (!written) return written;
     }
   }
+  for (const OutputPattern& pattern : options.mask_colours) {
+    for (const render::LightMask& mask : result.masks) {
+      const auto file = pattern.file(frame, plan.several_lights ? fmt::format("_L{}", mask.light) : "");
+      auto written = pattern.is_pfm() ? base::write_pfm(file, render::mask_colour(mask))
+                                      : base::write_png(file, render::mask_colour8(mask));
+      if (!written) return written;
+    }
+  }
   return {};
 }
 
 Expected<void> prepare_folders(const RenderOptions& options) {
   std::vector<OutputPattern> patterns = options.masks;
+  patterns.insert(patterns.end(), options.mask_colours.begin(), options.mask_colours.end());
   if (options.pictures) patterns.push_back(*options.pictures);
   for (const OutputPattern& pattern : patterns) {
     if (auto prepared = pattern.prepare_folder(); !prepared) return prepared;
@@ -152,6 +162,7 @@ void print_summary(const RenderPlan& plan, const RenderOptions& options,
             plan.settings.height);
   if (options.pictures) print_out(", pictures in {}", options.pictures->text());
   for (const OutputPattern& mask : options.masks) print_out(", masks in {}", mask.text());
+  for (const OutputPattern& mask : options.mask_colours) print_out(", coloured masks in {}", mask.text());
   if (!options.log.empty()) print_out(", log in {}", options.log);
   if (!options.trace.empty()) print_out(", trace in {}", options.trace);
   print_out("\n");

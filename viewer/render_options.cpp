@@ -62,6 +62,11 @@ void add_output_options(CLI::App& command, RenderOptions& options) {
       "the "
       "light is\nvisible; .pfm: in 32 bits; several lights add _L0, _L1,\n...; may be repeated")
       .type_name("FILE.png|FILE.pfm");
+  add_texts(
+      command, "--mask-colour",
+      [&options](const std::vector<std::string>& names) { return read_masks(names, options.mask_colours); },
+      "The same in colour: masks times what glass and blended\nsurfaces leave of red, green and blue")
+      .type_name("FILE.png|FILE.pfm");
   add_text(command, "--log", options.log, "Log: times and counts of each frame").type_name("FILE.csv");
   add_text(command, "--trace", options.trace, "The same times for Perfetto or chrome://tracing")
       .type_name("FILE.json");
@@ -82,18 +87,28 @@ Expected<void> check_pattern(const OutputPattern& pattern, const char* option, b
       option, pattern.text());
 }
 
+Expected<void> check_mask(const RenderOptions& options, const OutputPattern& mask, const char* option,
+                          bool several) {
+  if (auto checked = check_pattern(mask, option, several); !checked) return checked;
+  if (options.method.render.shadows == render::ShadowMode::none)
+    return base::fail("{} needs shadows, and --shadows none makes no mask", option);
+  if (options.pictures && mask.file(0) == options.pictures->file(0))
+    return base::fail("-o and {} name the same file {}", option, mask.text());
+  return {};
+}
+
 Expected<void> check_masks(const RenderOptions& options, bool several) {
-  const render::ShadowMode shadows = options.method.render.shadows;
   for (const OutputPattern& mask : options.masks) {
-    if (auto checked = check_pattern(mask, "--mask", several); !checked) return checked;
-    if (shadows == render::ShadowMode::none)
-      return base::fail("--mask needs shadows, and --shadows none makes no mask");
-    if (mask.is_pfm() && shadows != render::ShadowMode::soft) {
+    if (auto checked = check_mask(options, mask, "--mask", several); !checked) return checked;
+    if (mask.is_pfm() && options.method.render.shadows != render::ShadowMode::soft) {
       return base::fail("--mask {} has fractions of a light's area, which need --shadows soft", mask.text());
     }
-    if (options.pictures && mask.file(0) == options.pictures->file(0)) {
-      return base::fail("-o and --mask name the same file {}", mask.text());
-    }
+  }
+  for (const OutputPattern& mask : options.mask_colours) {
+    if (auto checked = check_mask(options, mask, "--mask-colour", several); !checked) return checked;
+    for (const OutputPattern& other : options.masks)
+      if (mask.file(0) == other.file(0))
+        return base::fail("--mask and --mask-colour name the same file {}", mask.text());
   }
   return {};
 }

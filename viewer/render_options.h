@@ -18,8 +18,9 @@ struct RenderOptions {
   std::optional<FrameRange> frames;
   gl::ContextKind context = gl::ContextKind::automatic;
 
-  std::optional<OutputPattern> pictures;  ///< none: no pictures
-  std::vector<OutputPattern> masks;       ///< .png or .pfm
+  std::optional<OutputPattern> pictures;    ///< none: no pictures
+  std::vector<OutputPattern> masks;         ///< .png or .pfm
+  std::vector<OutputPattern> mask_colours;  ///< the same, of masks times what see-through surfaces leave
   std::string log;
   std::string trace;
   bool quiet = false;

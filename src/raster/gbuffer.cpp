@@ -36,11 +36,39 @@ Expected<void> make_targets(int width, int height, GBuffer& out) {
   return {};
 }
 
-void clear(const gl::Framebuffer& target) {
+Expected<void> make_layer(GBuffer& out) {
+  if (out.layer && out.layer_ids.width() == out.width && out.layer_ids.height() == out.height) return {};
+  auto depth = gl::Texture::create(gl::PixelFormat::depth32f, out.width, out.height);
+  auto ids = gl::Texture::create(gl::PixelFormat::r32ui, out.width, out.height);
+  for (auto* target : {&depth, &ids}) {
+    if (!*target) return tl::unexpected(std::move(target->error()));
+  }
+  auto framebuffer = gl::Framebuffer::create({&*ids}, &*depth);
+  if (!framebuffer) return tl::unexpected(std::move(framebuffer.error()));
+  out.layer_depth = std::move(*depth);
+  out.layer_ids = std::move(*ids);
+  out.layer = std::move(*framebuffer);
+  return {};
+}
+
+void clear_ids(const gl::Framebuffer& target) {
   const GLuint background[4] = {no_triangle_id, 0, 0, 0};
-  const GLfloat infinitely_far = 0.0f;
   glClearNamedFramebufferuiv(target.name(), GL_COLOR, 0, background);
+}
+
+void clear(const gl::Framebuffer& target) {
+  const GLfloat infinitely_far = 0.0f;
+  clear_ids(target);
   glClearNamedFramebufferfv(target.name(), GL_DEPTH, 0, &infinitely_far);
+}
+
+/// Between begin_pass and end_pass of the opaque triangles, whose depths it begins with.
+void draw_layer(const GeometryBuffers& geometry, const GBuffer& gbuffer) {
+  glCopyImageSubData(gbuffer.depth.name(), GL_TEXTURE_2D, 0, 0, 0, 0, gbuffer.layer_depth.name(),
+                     GL_TEXTURE_2D, 0, 0, 0, 0, gbuffer.width, gbuffer.height, 1);
+  clear_ids(gbuffer.layer);
+  glBindFramebuffer(GL_DRAW_FRAMEBUFFER, gbuffer.layer.name());
+  geometry.draw_see_through();
 }
 
 }  // namespace
@@ -77,6 +105,10 @@ Expected<void> GBufferPass::draw(const ViewRays& view, const GeometryBuffers& ge
   auto transform = clip_transform(view, geometry.bounds(), width, height);
   if (!transform) return tl::unexpected(std::move(transform.error()));
   if (auto made = make_targets(width, height, out); !made) return made;
+  out.has_layer = geometry.has_see_through();
+  if (out.has_layer) {
+    if (auto made = make_layer(out); !made) return made;
+  }
   out.view = view;
   out.transform = *transform;
   begin_pass(out.framebuffer, program_, width, height);
@@ -89,6 +121,7 @@ Expected<void> GBufferPass::draw(const ViewRays& view, const GeometryBuffers& ge
   glUniformMatrix3x4fv(clip_from_offset_location, 1, GL_FALSE, glm::value_ptr(transform->clip_from_offset));
   glUniform4fv(clip_offset_location, 1, glm::value_ptr(transform->clip_offset));
   geometry.draw();
+  if (out.has_layer) draw_layer(geometry, out);
   glClipControl(GL_LOWER_LEFT, GL_NEGATIVE_ONE_TO_ONE);
   glDisable(GL_DEPTH_TEST);
   end_pass();
@@ -98,6 +131,11 @@ Expected<void> GBufferPass::draw(const ViewRays& view, const GeometryBuffers& ge
 void read_triangle_ids(const GBuffer& gbuffer, std::vector<std::uint32_t>& ids) {
   ids.resize(static_cast<std::size_t>(gbuffer.width) * static_cast<std::size_t>(gbuffer.height));
   gbuffer.ids.read(std::as_writable_bytes(std::span(ids)));
+}
+
+void read_layer_ids(const GBuffer& gbuffer, std::vector<std::uint32_t>& ids) {
+  ids.resize(static_cast<std::size_t>(gbuffer.width) * static_cast<std::size_t>(gbuffer.height));
+  gbuffer.layer_ids.read(std::as_writable_bytes(std::span(ids)));
 }
 
 void read_depth(const GBuffer& gbuffer, std::vector<float>& depth) {

@@ -21,6 +21,12 @@ struct GBuffer {
   gl::Texture depth;  ///< 32-bit float; see ClipTransform
   gl::Texture ids;    ///< triangle ids; 0xffffffff where none is seen
   gl::Framebuffer framebuffer;
+
+  /// The nearest see-through triangles before the opaque ones; of scenes that have any.
+  gl::Texture layer_depth;
+  gl::Texture layer_ids;
+  gl::Framebuffer layer;
+  bool has_layer = false;  ///< the last draw had any
 };
 
 /// Fails with a sentence on sizes below 1 or beyond what this OpenGL or a picture in one piece can hold.
@@ -30,8 +36,10 @@ class GBufferPass {
 public:
   static Expected<GBufferPass> create();
 
-  /// Draws all triangles, two-sided, cut by the near plane. Where depths are equal the smaller id is seen.
-  /// Done when it returns. Fails on sizes that check_picture_size refuses and on rays that span no picture.
+  /// Draws all opaque triangles, two-sided, cut by the near plane. Where depths are equal the smaller id is
+  /// seen. Where there are see-through triangles, the nearest of them go to the layer, if before what is
+  /// opaque. Done when it returns. Fails on sizes that check_picture_size refuses and on rays that span no
+  /// picture.
   Expected<void> draw(const ViewRays& view, const GeometryBuffers& geometry, int width, int height,
                       GBuffer& out) const;
 
@@ -41,6 +49,8 @@ private:
 
 /// width * height values, row 0 at the top.
 void read_triangle_ids(const GBuffer& gbuffer, std::vector<std::uint32_t>& ids);
+/// The same of GBuffer::layer, if has_layer.
+void read_layer_ids(const GBuffer& gbuffer, std::vector<std::uint32_t>& ids);
 void read_depth(const GBuffer& gbuffer, std::vector<float>& depth);  ///< 0 where no triangle is seen
 
 }  // namespace tenebra::raster

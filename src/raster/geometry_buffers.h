@@ -2,6 +2,7 @@
 #pragma once
 
 #include <cstddef>
+#include <vector>
 
 #include <tenebra/frame_geometry.h>
 #include "gl/objects.h"
@@ -17,14 +18,19 @@ public:
   Expected<void> upload(const FrameGeometry& geometry);
 
   std::size_t triangle_count() const { return triangle_count_; }
+  bool has_see_through() const { return has_see_through_; }
   const Box& bounds() const { return bounds_; }
 
-  void draw() const;  ///< all triangles in one call: gl_PrimitiveID is the triangle id
+  /// All opaque triangles, or all see-through ones, in one call: gl_PrimitiveID is the triangle id.
+  void draw() const;
+  void draw_see_through() const;
 
 private:
-  gl::Buffer positions_, indices_;
-  gl::VertexArray vertices_;
+  gl::Buffer positions_, indices_, see_through_indices_;  ///< the triangles of the other kind are points
+  gl::VertexArray vertices_, see_through_;
+  std::vector<glm::uvec3> sorted_;  ///< scratch
   std::size_t triangle_count_ = 0;
+  bool has_see_through_ = false;
   Box bounds_;
 };
 

@@ -92,21 +92,28 @@ void Renderer::State::trace_hard(const FrameInput& input, const DrawnLight& ligh
   result.timings.writeback_ms += watch.lap_ms();
 }
 
+Expected<void> Renderer::State::trace_area(const FrameInput& input, const DrawnLight& light,
+                                           const RenderSettings& settings, const VisiblePoints& at,
+                                           std::span<const glm::vec3> shading_normals, SoftMask& out,
+                                           const StopFlag* stop) {
+  const TriangleView triangles = casters_of(scene, input.geometry, light, casters);
+  const HardShadowConfig of_points{.variant = settings.hard.variant, .simd = settings.hard.simd};
+  bool done = false;
+  with_threads(settings.threads, [&] {
+    done =
+        settings.soft_points > 0
+            ? light_points.trace(at, shading_normals, input.view, triangles, *light.area,
+                                 settings.soft_points, of_points, out, stop)
+            : soft.trace(at, shading_normals, input.view, triangles, *light.area, settings.soft, out, stop);
+  });
+  return done ? Expected<void>() : Expected<void>(base::fail("stopped"));
+}
+
 Expected<void> Renderer::State::trace_soft(const FrameInput& input, const DrawnLight& light,
                                            const RenderSettings& settings, FrameResult& result,
                                            std::vector<float>& irradiance_out, const StopFlag* stop) {
   base::Stopwatch watch;
-  const TriangleView triangles = casters_of(scene, input.geometry, light, casters);
-  result.timings.shaft_ms += watch.lap_ms();
-  const HardShadowConfig of_points{.variant = settings.hard.variant, .simd = settings.hard.simd};
-  bool done = false;
-  with_threads(settings.threads, [&] {
-    done = settings.soft_points > 0 ? light_points.trace(points, normals, input.view, triangles, *light.area,
-                                                         settings.soft_points, of_points, soft_mask, stop)
-                                    : soft.trace(points, normals, input.view, triangles, *light.area,
-                                                 settings.soft, soft_mask, stop);
-  });
-  if (!done) return base::fail("stopped");
+  if (auto done = trace_area(input, light, settings, points, normals, soft_mask, stop); !done) return done;
   if (settings.soft_points > 0) {
     result.stats += light_points.stats();
     add_shadow_stages(result.timings, light_points.timings());
@@ -123,6 +130,10 @@ Expected<void> Renderer::State::trace_soft(const FrameInput& input, const DrawnL
     out.mask.pixels.push_back(static_cast<std::uint8_t>(std::lround(255.0f * fraction)));
   }
   if (settings.soft_points == 0) out.classes.assign(soft.classes().begin(), soft.classes().end());
+  if (!input.geometry.see_through.empty()) {
+    if (auto done = trace_tint(input, light, settings, points, normals, {}, soft_mask, out.tint, stop); !done)
+      return done;
+  }
   std::swap(irradiance_out, soft_mask.irradiance);
   result.timings.writeback_ms += watch.lap_ms();
   return {};
@@ -138,13 +149,19 @@ Expected<void> Renderer::State::trace_lights(const FrameInput& input, const std:
       if (auto done = trace_soft(input, lights[i], settings, result, irradiance[i], stop); !done) return done;
     } else if (settings.shadows != ShadowMode::none) {
       trace_hard(input, lights[i], settings, result);
+      if (input.geometry.see_through.empty()) continue;
+      LightMask& hard_lit = result.masks.back();
+      if (auto done = trace_tint(input, lights[i], settings, points, {}, hard_mask, {}, hard_lit.tint, stop);
+          !done)
+        return done;
     }
   }
   return {};
 }
 
-void Renderer::State::shade_pixels(const FrameInput& input, const std::vector<DrawnLight>& lights,
-                                   const RenderSettings& settings, FrameResult& result) {
+Expected<void> Renderer::State::shade_pixels(const FrameInput& input, const std::vector<DrawnLight>& lights,
+                                             const RenderSettings& settings, FrameResult& result,
+                                             const StopFlag* stop) {
   std::vector<shade::PlacedLight> placed;
   std::vector<shade::LightFactors> factors(lights.size());
   for (std::size_t i = 0; i < lights.size(); ++i) {
@@ -155,6 +172,11 @@ void Renderer::State::shade_pixels(const FrameInput& input, const std::vector<Dr
     } else if (settings.shadows != ShadowMode::none) {
       factors[i].mask = result.masks[i].mask.pixels;  // every light has one
     }
+    if (input.geometry.see_through.empty() || settings.shadows == ShadowMode::none) continue;
+    if (tints.size() < lights.size()) tints.resize(lights.size());
+    tints[i].begin(ids.size());
+    tints[i].set(result.masks[i].tint);
+    factors[i].tint = tints[i].factors();
   }
   const shade::Subject subject{input.geometry, input.view, surfaces};
   const shade::Lighting lighting{placed, scene.ambient_light, scene.background};
@@ -163,6 +185,7 @@ void Renderer::State::shade_pixels(const FrameInput& input, const std::vector<Dr
   with_threads(settings.threads, [&] {
     shade::shade_picture(subject, lighting, pixels, settings.exposure, Transfer::srgb, result.image);
   });
+  return draw_see_through(input, lights, subject, lighting, pixels, settings, result, stop);
 }
 
 void Renderer::State::keep_new(std::vector<std::string>& notes) {

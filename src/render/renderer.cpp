@@ -45,6 +45,7 @@ Expected<Renderer> Renderer::create(gl::Context context, const Scene& scene) {
                                              .geometry = {},
                                              .gbuffer_pass = std::move(*gbuffer_pass),
                                              .surfaces = shade::SurfaceTable(scene.materials)});
+  state->coordinates = surface_coordinates(state->scene);
   return Renderer(std::move(state));
 }
 
@@ -78,9 +79,10 @@ std::optional<glm::dvec3> Renderer::visible_point(const FrameInput& input, int x
 // light of (1) into buffers that (4) and (5) read; here it is computed where it is added, in one pass over
 // all lights. Soft shadows put groups of what is seen and the light's visible parts in the place of (2) to
 // (4).
-Expected<void> Renderer::render_frame(const FrameInput& input, const RenderSettings& settings,
+Expected<void> Renderer::render_frame(const FrameInput& given, const RenderSettings& settings,
                                       FrameResult& result, const AoProgress& progress, const StopFlag* stop) {
   State& s = *state_;
+  const FrameInput& input = s.cast_as(settings.see_through, given);
   result.masks.clear();
   result.notes.clear();
   result.timings = {};
@@ -108,7 +110,7 @@ Expected<void> Renderer::render_frame(const FrameInput& input, const RenderSetti
   }
   if (auto traced = s.trace_lights(input, *lights, settings, result, stop); !traced) return traced;
   watch.lap_ms();
-  s.shade_pixels(input, *lights, settings, result);
+  if (auto shaded = s.shade_pixels(input, *lights, settings, result, stop); !shaded) return shaded;
   timings.composite_ms = watch.lap_ms();
   timings.total_ms = whole.lap_ms();
   s.keep_new(result.notes);

@@ -14,6 +14,7 @@
 #include <tenebra/scene.h>
 #include <tenebra/soft_shadows.h>
 #include <tenebra/stop_flag.h>
+#include <tenebra/tint.h>
 #include "base/image.h"
 #include "gl/context.h"
 
@@ -46,6 +47,8 @@ struct RenderSettings {
   SoftShadowConfig soft;
   int soft_points = 0;  ///< soft mode: 0 exact; else area lights are so many points (render/light_points.h)
   AreaLightSettings area_lights;
+  SeeThrough see_through =
+      SeeThrough::tint;  ///< what see-through surfaces do to light; they are drawn anyway
   AoConfig ao;
   int light = -1;            ///< index into the frame's lights; -1: all
   int threads = 0;           ///< 0: all cores
@@ -67,6 +70,7 @@ struct LightMask {
       visible_fraction;      ///< soft mode: visible part of the light, 0..1 (0 or 1 of a point); else empty
   std::vector<float> nodes;  ///< hard, with RenderSettings::diagnostics: ShadowTracer::pixel_nodes
   std::vector<std::uint8_t> classes;  ///< exact soft shadows: a SoftClass a pixel, for display; else empty
+  TintMask tint;  ///< what see-through surfaces leave of the light's colours; the mask is of opaque casters
 };
 
 struct FrameResult {

@@ -11,6 +11,7 @@
 #include "render/frame_lights.h"
 #include "render/light_points.h"
 #include "render/renderer.h"
+#include "render/see_through_layer.h"
 #include "shade/shading.h"
 
 namespace tenebra::render {
@@ -38,6 +39,15 @@ struct Renderer::State {
   std::vector<std::vector<float>> irradiance{};  // of the drawn lights; empty without an area
   std::unordered_set<std::string> said{};        // notes of earlier frames
 
+  SurfaceCoordinates coordinates{};  // of scenes with see-through surfaces
+  FrameInput recast{};               // the input as RenderSettings::see_through wants it
+  TintTracer tint{};
+  std::vector<LightTint> tints{};  // of the drawn lights
+  LayerSamples layer{};
+  VisiblePoints behind{};  // the opaque samples, as the eye sees them
+  EyeTint eye_tint{};
+  TintMask passes{};
+
   /// What each pixel sees.
   void read_ids(const RenderSettings& settings, FrameTimings& timings);
   /// Visible points and, for soft shadows and occlusion, their normals.
@@ -54,9 +64,27 @@ struct Renderer::State {
   /// Adds the masks of all lights, one after the other.
   Expected<void> trace_lights(const FrameInput& input, const std::vector<DrawnLight>& lights,
                               const RenderSettings& settings, FrameResult& result, const StopFlag* stop);
+  /// What see-through surfaces leave of the light at samples with this mask, or of an area this irradiance.
+  Expected<void> trace_tint(const FrameInput& input, const DrawnLight& light, const RenderSettings& settings,
+                            const VisiblePoints& at, std::span<const glm::vec3> shading_normals,
+                            const ShadowMask& mask, const SoftMask& soft_lit, TintMask& out,
+                            const StopFlag* stop);
+  /// The visible part of an area light at points, as the settings want it.
+  Expected<void> trace_area(const FrameInput& input, const DrawnLight& light, const RenderSettings& settings,
+                            const VisiblePoints& at, std::span<const glm::vec3> shading_normals,
+                            SoftMask& out, const StopFlag* stop);
+  Expected<void> light_layer(const FrameInput& input, const std::vector<DrawnLight>& lights,
+                             const RenderSettings& settings, const StopFlag* stop);
+  /// The nearest see-through surfaces, shaded like any, over the picture.
+  Expected<void> draw_see_through(const FrameInput& input, const std::vector<DrawnLight>& lights,
+                                  const shade::Subject& subject, const shade::Lighting& lighting,
+                                  const shade::PixelSamples& opaque, const RenderSettings& settings,
+                                  FrameResult& result, const StopFlag* stop);
+  /// `input`, or a copy whose see-through surfaces cast as the settings say.
+  const FrameInput& cast_as(SeeThrough see_through, const FrameInput& input);
   /// The picture, from all of the above.
-  void shade_pixels(const FrameInput& input, const std::vector<DrawnLight>& lights,
-                    const RenderSettings& settings, FrameResult& result);
+  Expected<void> shade_pixels(const FrameInput& input, const std::vector<DrawnLight>& lights,
+                              const RenderSettings& settings, FrameResult& result, const StopFlag* stop);
   /// Drops the notes that earlier frames gave.
   void keep_new(std::vector<std::string>& notes);
 };

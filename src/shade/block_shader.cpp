@@ -1,6 +1,7 @@
 #include "shade/block_shader.h"
 
 #include <algorithm>
+#include <cstring>
 
 namespace tenebra::shade {
 namespace {
@@ -66,7 +67,29 @@ void BlockShader::add_light(std::size_t light, const LightFactors& factors, std:
       factor_[i] = static_cast<float>(mask[i]) / 255.0f;
     if (all != 255) factor = factor_;
   }
+  if (is_coloured(factors.tint, first)) {
+    add_coloured(light, factor, factors.tint.factors.subspan(first, block_.count));
+  } else {
+    frame_.code.light(frame_.lights[light], factor, block_);
+  }
+}
+
+bool BlockShader::is_coloured(const TintFactors& tint, std::size_t first) const {
+  if (tint.factors.empty()) return false;
+  const std::size_t last = first + block_.count - 1;
+  for (std::size_t run = first / TintFactors::run; run <= last / TintFactors::run; ++run)
+    if (tint.coloured[run] != 0) return true;
+  return false;
+}
+
+/// The light alone, coloured, and then added: the same bits as by itself where the tint is white.
+void BlockShader::add_coloured(std::size_t light, const float* factor, std::span<const glm::vec3> tint) {
+  std::memcpy(before_, block_.color, sizeof(before_));
+  std::memset(block_.color, 0, sizeof(before_));
   frame_.code.light(frame_.lights[light], factor, block_);
+  for (int c = 0; c < 3; ++c)
+    for (std::size_t i = 0; i < tint.size(); ++i)
+      block_.color[c][i] = before_[c][i] + block_.color[c][i] * tint[i][c];
 }
 
 void BlockShader::shade_light(std::size_t light) {

@@ -39,12 +39,15 @@ public:
 private:
   void place_run(std::uint32_t id, const float* x, const float* y, std::size_t first, std::size_t count);
   void add_light(std::size_t light, const LightFactors& factors, std::size_t first);
+  bool is_coloured(const TintFactors& tint, std::size_t first) const;
+  void add_coloured(std::size_t light, const float* factor, std::span<const glm::vec3> tint);
 
   const FrameTerms& frame_;
   SetupCache setups_;
   SampleBlock block_{};
   bool anything_seen_ = false;
   alignas(64) float factor_[SampleBlock::room] = {};
+  SampleBlock::Channel before_[3] = {};  ///< colours without a coloured light
 };
 
 }  // namespace tenebra::shade

@@ -126,8 +126,9 @@ bool is_point(const glm::uvec3& t) {
   return t.x == t.y && t.y == t.z;
 }
 
-/// Appends a mesh as it lies in the object's space.
-void append(const Scene& scene, const Mesh& mesh, const dmat4& to_object, ObjectShape& shape) {
+/// Appends a part's mesh as it lies in the object's space.
+void append(const FrameGeometry& geometry, const Part& part, const dmat4& to_object, ObjectShape& shape) {
+  const Mesh& mesh = *part.mesh;
   const auto base = static_cast<std::uint32_t>(shape.positions.size());
   const glm::dmat3 linear(to_object);
   const glm::dmat3 turn(glm::cross(linear[1], linear[2]), glm::cross(linear[2], linear[0]),
@@ -139,7 +140,7 @@ void append(const Scene& scene, const Mesh& mesh, const dmat4& to_object, Object
   }
   for (std::size_t t = 0; t < mesh.triangles.size(); ++t) {
     shape.triangles.push_back(mesh.triangles[t] + base);
-    shape.casts.push_back(mesh.casts_shadow && scene.materials[mesh.materials[t]].casts_shadow);
+    shape.casts.push_back(geometry.casts_shadow[part.first_triangle + t]);
   }
 }
 
@@ -279,7 +280,7 @@ private:
     ObjectShape shape;
     for (const Part& part : parts) {
       own(part, static_cast<std::int32_t>(out_.objects.size()), shape.triangles.size());
-      append(scene_, *part.mesh, to_object(part.node, object), shape);
+      append(geometry_, part, to_object(part.node, object), shape);
     }
     finish(shape);
     object.shape = index_of(std::move(shape));

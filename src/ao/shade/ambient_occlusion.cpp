@@ -9,6 +9,7 @@
 
 #include "ao/shade/field_pass.h"
 #include "ao/shade/ray_pass.h"
+#include "ao/shade/see_through.h"
 #include "base/fail.h"
 #include "base/stopwatch.h"
 #include "parallel/parallel.h"
@@ -62,6 +63,7 @@ struct AmbientOcclusion::State {
   double reach = 0;
   ao::Occluders occluders;
   ao::Bodies bodies;
+  ao::SeeThroughOccluders see_through;
   ao::PointRays rays;
   ao::AoKernels kernels;
   std::vector<float> values;
@@ -109,6 +111,7 @@ void AmbientOcclusion::State::find(const Scene& scene, const FrameGeometry& geom
   kernels = ao::ao_kernels(config.simd);
   rays.begin_frame(objects, config.rays, reach, kernels);
   occluders.begin_frame(objects, geometry, config, reach);
+  see_through.begin_frame(scene, geometry);
   note_deforming(config);
 }
 
@@ -138,9 +141,16 @@ Expected<void> AmbientOcclusion::State::run(const ao::AoFrame& frame, const AoCo
                                             std::span<float> out, const AoProgress& progress,
                                             const StopFlag* stop) {
   const auto solve = [&](const ao::ReceiverSet& set, ao::AoPart part) {
-    if (config.mode == AoMode::rays) return from_rays(set, frame.geometry, stop);
-    return ao::FieldPass{occluders, bodies, rays, kernels, stats, timings}.run(set, part, values, progress,
-                                                                               stop);
+    Expected<void> done;
+    if (config.mode == AoMode::rays) {
+      done = from_rays(set, frame.geometry, stop);
+    } else {
+      done = ao::FieldPass{occluders, bodies, rays, kernels, stats, timings}.run(set, part, values, progress,
+                                                                                 stop);
+    }
+    if (done && part != ao::AoPart::own && !see_through.empty())
+      see_through.darken(set, rays, kernels, values, stats, stop);
+    return done && stop_requested(stop) ? Expected<void>(base::fail("stopped")) : done;
   };
   const auto length = static_cast<float>(reach);
   if (config.place == AoPlace::vertices) {

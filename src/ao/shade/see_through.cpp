@@ -1,0 +1,80 @@
+#include "ao/shade/see_through.h"
+
+#include <cmath>
+#include <numeric>
+
+#include "parallel/parallel.h"
+#include "texture/transmittance.h"
+
+namespace tenebra::ao {
+namespace {
+
+bool apart(const PointBox& a, const PointBox& b, double reach) {
+  for (int k = 0; k < 3; ++k)
+    if (a.low[k] > b.high[k] + reach || b.low[k] > a.high[k] + reach) return true;
+  return false;
+}
+
+}  // namespace
+
+void SeeThroughOccluders::begin_frame(const Scene& scene, const FrameGeometry& geometry) {
+  layers_.clear();
+  if (geometry.see_through.empty()) return;
+  std::vector<int> steps;  // of each material
+  for (const Material& material : scene.materials) {
+    const glm::vec3 passed = texture::mean_transmittance(scene, material);
+    const float opacity = 1 - (passed.x + passed.y + passed.z) / 3;
+    steps.push_back(static_cast<int>(std::lround(opacity * opacity_steps)));
+  }
+  std::vector<std::vector<glm::uvec3>> of_step(opacity_steps + 1);
+  for (std::size_t id = 0; id < geometry.triangles.size(); ++id) {
+    const glm::uvec3 t = geometry.triangles[id];
+    if (geometry.see_through[id] == 1 && !(t.x == t.y && t.y == t.z))
+      of_step[static_cast<std::size_t>(steps[geometry.materials[id]])].push_back(t);
+  }
+  for (int step = 1; step <= opacity_steps; ++step)
+    add_layer(step, of_step[static_cast<std::size_t>(step)], geometry);
+}
+
+void SeeThroughOccluders::add_layer(int step, const std::vector<glm::uvec3>& triangles,
+                                    const FrameGeometry& geometry) {
+  if (triangles.empty()) return;
+  Layer& layer = layers_.emplace_back();
+  layer.opacity = static_cast<float>(step) / opacity_steps;
+  for (const glm::uvec3& t : triangles)
+    for (int k = 0; k < 3; ++k) layer.box.extend(glm::dvec3(geometry.positions[t[k]]));
+  layer.triangles = build_triangle_bvh(geometry.positions, triangles);
+}
+
+void SeeThroughOccluders::darken(const ReceiverSet& set, const PointRays& rays, const AoKernels& kernels,
+                                 std::span<float> values, AoStats& stats, const StopFlag* stop) const {
+  struct Scratch {
+    std::vector<Receiver> receivers;
+    std::vector<RayBatch> batches;
+    std::vector<float> distances;
+  };
+  std::vector<Scratch> scratch(static_cast<std::size_t>(thread_count()));
+  std::vector<std::uint64_t> cast(static_cast<std::size_t>(set.groups()), 0);
+  parallel::parallel_tasks(set.groups(), [&](int group) {
+    if (stop_requested(stop)) return;
+    Scratch& own = scratch[static_cast<std::size_t>(parallel::thread_index())];
+    set.receivers(group, own.receivers);
+    PointBox box;
+    for (const Receiver& receiver : own.receivers) box.extend(receiver.position);
+    own.batches.resize(rays.batches());
+    for (const Layer& layer : layers_) {
+      if (own.receivers.empty() || apart(box, layer.box, rays.reach())) continue;
+      for (const Receiver& receiver : own.receivers) {
+        rays.spread(receiver, own.batches.data());
+        own.distances.assign(rays.batches() * batch_size, rays.reach());
+        for (std::size_t b = 0; b < own.batches.size(); ++b)
+          kernels.cast(layer.triangles, own.batches[b], own.distances.data() + b * batch_size, nullptr);
+        values[receiver.index] *= 1 - layer.opacity * rays.hidden(own.distances.data());
+        cast[static_cast<std::size_t>(group)] += static_cast<std::uint64_t>(rays.rays());
+      }
+    }
+  });
+  stats.rays_cast += std::accumulate(cast.begin(), cast.end(), std::uint64_t{0});
+}
+
+}  // namespace tenebra::ao

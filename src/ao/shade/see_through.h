@@ -1,0 +1,43 @@
+// What see-through triangles hide of the ambient light: as much as opaque ones times (1 - T), T the mean over
+// channels of their material's transmittance, textures by their mean. Receivers' rays meet them apart from
+// all else, each share of opacity by itself, and what is left is multiplied, as if they hid independently of
+// what is opaque and of each other.
+#pragma once
+
+#include <cstdint>
+#include <span>
+#include <vector>
+
+#include <tenebra/ao_config.h>
+#include <tenebra/scene.h>
+#include <tenebra/stop_flag.h>
+#include "ao/shade/occluders.h"
+#include "ao/shade/point_rays.h"
+#include "ao/shade/receiver_sets.h"
+
+namespace tenebra::ao {
+
+class SeeThroughOccluders {
+public:
+  /// The instant of `geometry`.
+  void begin_frame(const Scene& scene, const FrameGeometry& geometry);
+  bool empty() const { return layers_.empty(); }
+
+  /// Multiplies the values of receivers by what these leave of their light.
+  void darken(const ReceiverSet& set, const PointRays& rays, const AoKernels& kernels,
+              std::span<float> values, AoStats& stats, const StopFlag* stop) const;
+
+private:
+  static constexpr int opacity_steps = 64;  ///< 1 - T is rounded to one of these
+
+  struct Layer {
+    float opacity = 0;
+    PointBox box;
+    TriangleBvh triangles;
+  };
+  void add_layer(int step, const std::vector<glm::uvec3>& triangles, const FrameGeometry& geometry);
+
+  std::vector<Layer> layers_;  ///< one for each opacity
+};
+
+}  // namespace tenebra::ao

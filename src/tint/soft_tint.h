@@ -1,0 +1,77 @@
+// Area lights: the share of the irradiance that see-through triangles let pass.
+#pragma once
+
+#include <cstdint>
+#include <memory>
+#include <span>
+#include <vector>
+
+#include <tenebra/tint.h>
+#include "soft/shafts/shafts.h"
+#include "soft/solve/prepared_group.h"
+#include "tint/surfaces.h"
+#include "tint/triangle_tree.h"
+
+namespace tenebra::tint {
+
+/// What all groups of a light share.
+struct SoftTintFrame {
+  const soft::SoftFrame& soft;  ///< opaque casters; its `out` is not written
+  const SoftMask& mask;
+  const Surfaces& surfaces;
+  double plane_tolerance = 0;  ///< metres off the light's plane that its own rounding amounts to
+  bool own_irradiance = false;
+};
+
+/// Points of one group, and what may stand between them and the light.
+struct SoftTintTask {
+  const soft::PreparedGroup& group;
+  std::span<const std::uint32_t> pixels;
+  std::span<const std::uint32_t> numbers;  ///< of the see-through triangles, in Surfaces
+};
+
+/// Triangles before a point from which on places are counted instead of pieces cut.
+inline constexpr std::size_t most_cut = 24;
+inline constexpr int grid_side = 64;  ///< of the cells around the light, with a place in each
+
+/// Buffers kept from group to group.
+class SoftTintSolver {
+public:
+  virtual ~SoftTintSolver() = default;
+  /// Appends to `found` what is not 1.
+  virtual void solve(const SoftTintFrame& frame, const SoftTintTask& task, TintMask& found,
+                     TintStats& stats) = 0;
+};
+std::unique_ptr<SoftTintSolver> make_soft_tint_solver(SimdLevel level);
+
+/// Buffers kept from frame to frame.
+class SoftTint {
+public:
+  /// TintTracer::trace for an area light. False if it was stopped.
+  bool trace(const VisiblePoints& points, std::span<const glm::vec3> normals, const ViewRays& view,
+             const TriangleView& triangles, const Surfaces& surfaces, const TriangleTree& tree,
+             const AreaLight& light, const SoftMask& mask, const TintConfig& config, TintMask& out,
+             TintStats& stats, const StopFlag* stop);
+
+private:
+  struct Worker {
+    std::unique_ptr<soft::GroupPreparer> preparer;
+    std::unique_ptr<SoftTintSolver> solver;
+    std::vector<TriangleTree::Found> near;
+    std::vector<std::uint32_t> numbers, receivers;
+    TintMask found;
+    TintStats stats;
+  };
+  void choose_groups(const TriangleTree& tree, const Box& light, const SoftMask& mask);
+  void solve_group(const SoftTintFrame& frame, const TriangleTree& tree, const Box& light,
+                   const soft::GroupDecision& decision, Worker& worker);
+  void gather(TintMask& out, TintStats& stats) const;
+
+  soft::PointGroups all_, groups_;  ///< groups_: those that may see the light through something
+  soft::ShaftCuller culler_;
+  std::vector<Worker> workers_;
+  SimdLevel level_ = SimdLevel::automatic;
+  SoftMask unused_;
+};
+
+}  // namespace tenebra::tint

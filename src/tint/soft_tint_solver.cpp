@@ -1,0 +1,377 @@
+// The points of a group, one by one: the light cut along the shadows of see-through triangles, or 4,096
+// places of it.
+#include "tint/soft_tint.h"
+
+#undef HWY_TARGET_INCLUDE
+#define HWY_TARGET_INCLUDE "tint/soft_tint_solver.cpp"
+#include <hwy/foreach_target.h>
+// After foreach_target.h
+#include "simd/dispatch.h"
+
+#include "soft/clip/clip_solver-inl.h"
+#include "soft/silhouette/silhouette_solver-inl.h"
+#include "soft/solve/point_sight-inl.h"
+
+HWY_BEFORE_NAMESPACE();
+namespace tenebra {
+extern template class soft::HWY_NAMESPACE::ClipSolver<
+    soft::HWY_NAMESPACE::OnePoint<float>>;  // soft/solve/point_solver.cpp
+}
+namespace tenebra::tint::HWY_NAMESPACE {
+namespace {
+using namespace soft::HWY_NAMESPACE;
+using glm::dvec2;
+using glm::dvec3;
+using glm::vec3;
+using soft::GroupPoint;
+using soft::LightFrame;
+using soft::line_of_plane;
+using soft::SoftFrame;
+
+using Polygon = LightPolygon<float>;
+using Fragments = FragmentList<float>;
+
+constexpr std::size_t places = std::size_t{grid_side} * grid_side;
+
+/// The shadow of a see-through triangle on the light: the places that are positive for all four lines.
+struct TintShadow {
+  dvec3 lines[4];
+  std::uint32_t number = 0;
+};
+
+/// A box of cells of the grid.
+struct Cells {
+  int first_column = 0, last_column = -1, first_row = 0, last_row = -1;
+};
+
+class Solver final : public SoftTintSolver {
+public:
+  Solver() : at_(places), weight_(places), passed_(places) {
+    for (std::size_t i = 0; i < places; ++i) {  // Roberts's sequence in two dimensions
+      const double n = static_cast<double>(i), x = n * 0.7548776662466927, y = n * 0.5698402909980532;
+      const dvec2 within(x - std::floor(x), y - std::floor(y));
+      const dvec2 cell(static_cast<double>(i % grid_side), static_cast<double>(i / grid_side));
+      at_[i] = 2.0 / grid_side * (cell + within) - 1.0;
+    }
+  }
+
+  void solve(const SoftTintFrame& frame, const SoftTintTask& task, TintMask& found,
+             TintStats& stats) override {
+    frame_ = &frame;
+    task_ = &task;
+    receiver_.plane = {};
+    clip_.reset(task.group.candidates, task.group.clipped);
+    if (!task.group.silhouette.empty()) silhouette_.reset(task.group.silhouette);
+    for (const std::uint32_t pixel : task.pixels) {
+      if (stop_requested(frame.soft.stop)) return;
+      if (frame.mask.irradiance[pixel] > 0) solve_point(pixel, found, stats);
+    }
+  }
+
+private:
+  void solve_point(std::uint32_t pixel, TintMask& found, TintStats& stats) {
+    const SoftFrame& soft = frame_->soft;
+    receiver_.take_up(soft, soft.points.triangles[pixel]);
+    sight_ = sight_of(soft, receiver_, pixel);
+    if (!(sight_.above > 0)) return;
+    const bool cuts = find_shadows(soft.points.positions[pixel]);
+    stats.tests += shadows_.size();
+    if (shadows_.empty()) return;
+    point_ = group_point(task_->group.candidates.axes, soft.points.positions[pixel], receiver_.plane.id,
+                         receiver_.plane.tau);
+    clip_.move_to(point_);
+    if (!task_->group.silhouette.empty()) silhouette_.move_to(point_);
+    if (!cuts) ++stats.numeric;
+    const vec3 factor = cuts ? by_pieces(frame_->mask.irradiance[pixel]) : by_places();
+    if (factor == vec3(1.0f)) return;
+    found.pixels.push_back(pixel);
+    found.factors.push_back(factor);
+  }
+
+  /// Fills shadows_; returns whether they are few and of one transmittance each.
+  bool find_shadows(const dvec3& point) {
+    shadows_.clear();
+    bool constant = true;
+    for (const std::uint32_t number : task_->numbers) {
+      TintShadow shadow;
+      if (!shadow_of(number, point, shadow)) continue;
+      shadows_.push_back(shadow);
+      constant &= !frame_->surfaces.varies(number);
+    }
+    return constant && shadows_.size() <= most_cut;
+  }
+
+  /// False: none falls on the light. The rule of SoftShadowTracer::trace.
+  bool shadow_of(std::uint32_t number, const dvec3& point, TintShadow& out) const {
+    const LightFrame& light = frame_->soft.light;
+    const std::uint32_t id = frame_->surfaces.ids()[number];
+    if (id == receiver_.plane.id) return false;
+    const points::Corners c = points::corners_of(frame_->soft.triangles, id);
+    const double tau = points::rounding_tolerance(c.v);
+    const dvec3 a(c.v[0]), n = glm::cross(dvec3(c.v[1]) - a, dvec3(c.v[2]) - a);
+    const double height = glm::dot(n, point - a);
+    if (!(std::abs(height) > (tau + receiver_.plane.tau) * std::sqrt(glm::dot(n, n)))) return false;
+    double off = 0;
+    for (const vec3& v : c.v) off = std::max(off, std::abs(glm::dot(light.normal, dvec3(v) - light.origin)));
+    if (off <= frame_->plane_tolerance + tau) return false;  // the face of the lamp itself
+    const double side = height > 0 ? -1 : 1;
+    const dvec3 to_light = light.origin - point;
+    for (int k = 0; k < 3; ++k) {
+      const dvec3 from = dvec3(c.v[k]) - point, to = dvec3(c.v[(k + 1) % 3]) - point;
+      out.lines[k] = side * line_of_plane(light, glm::cross(from, to), to_light);
+    }
+    out.lines[3] = side * line_of_plane(light, n, light.origin - a);
+    out.number = number;
+    for (const dvec3& line : out.lines)
+      if (std::none_of(light.polygon.begin(), light.polygon.end(),
+                       [&](const dvec2& at) { return value(line, at) > 0; }))
+        return false;
+    return true;
+  }
+
+  static double value(const dvec3& line, const dvec2& at) { return line.x * at.x + line.y * at.y + line.z; }
+
+  // Pieces.
+
+  vec3 by_pieces(double whole) {
+    pieces_.clear();
+    factors_.clear();
+    for (std::size_t i = 0; i < receiver_.light.size(); ++i) pieces_.push(loaded(receiver_.light[i]));
+    factors_.assign(pieces_.size(), vec3(1.0f));
+    for (const TintShadow& shadow : shadows_) cut_all(shadow);
+    dvec3 lost(0.0);
+    if (frame_->own_irradiance) whole = 0;
+    for (std::size_t i = 0; i < pieces_.size(); ++i) {
+      const bool clear = factors_[i] == vec3(1.0f);
+      if (clear && !frame_->own_irradiance) continue;
+      const double light = seen_of(loaded(pieces_[i]));
+      if (frame_->own_irradiance) whole += light;
+      lost += light * dvec3(1.0f - factors_[i]);
+    }
+    if (!(whole > 0)) return vec3(1.0f);
+    return vec3(glm::clamp(1.0 - lost / whole, 0.0, 1.0));
+  }
+
+  void cut_all(const TintShadow& shadow) {
+    const vec3 factor = frame_->surfaces.constant(shadow.number);
+    LightLine<float> lines[4];
+    for (int k = 0; k < 4; ++k) lines[k] = line_of<float>(shadow.lines[k]);
+    next_.clear();
+    next_factors_.clear();
+    for (std::size_t i = 0; i < pieces_.size(); ++i) cut(loaded(pieces_[i]), factors_[i], lines, factor);
+    pieces_.swap(next_);
+    factors_.swap(next_factors_);
+  }
+
+  void cut(const Polygon& piece, const vec3& before, const LightLine<float> (&lines)[4], const vec3& factor) {
+    const std::size_t first = next_.size();
+    Polygon rest = piece;
+    for (const LightLine<float>& line : lines) {
+      const LineValues<float> values = evaluate(rest, line);
+      if (values.positive == 0) {  // none of it is in the shadow
+        next_.shrink(first);
+        return push(piece, before);
+      }
+      if (values.negative == 0) continue;
+      Polygon inside, outside;
+      split(rest, values, inside, outside);
+      next_.push(outside);
+      rest = inside;
+    }
+    next_factors_.resize(next_.size(), before);
+    push(rest, before * factor);
+  }
+
+  void push(const Polygon& piece, const vec3& factor) {
+    next_.push(piece);
+    next_factors_.resize(next_.size(), factor);
+  }
+
+  /// Fills found_ with what the opaque casters and the horizon leave of a part of the light.
+  void find_visible(const Polygon& part) {
+    clip_.query(part, found_);
+    if (!task_->group.silhouette.empty() && !found_.empty()) {
+      scratch_.clear();
+      for (std::size_t i = 0; i < found_.size(); ++i) silhouette_.query(loaded(found_[i]), nullptr, scratch_);
+      found_.swap(scratch_);
+    }
+    if (sight_.horizon_cuts) keep_positive(found_, line_of<float>(sight_.horizon), scratch_);
+  }
+
+  double seen_of(const Polygon& part) {
+    found_.clear();
+    find_visible(part);
+    edges_.count = 0;
+    append_edges(found_, edges_);
+    return std::max(0.0, sum_edges(edges_, frame_->soft.light, sight_.at).irradiance);
+  }
+
+  // Places.
+
+  vec3 by_places() {
+    std::fill(weight_.begin(), weight_.end(), 0.0);
+    std::fill(passed_.begin(), passed_.end(), vec3(1.0f));
+    visible_.clear();
+    for (std::size_t i = 0; i < receiver_.light.size(); ++i) {
+      found_.clear();
+      find_visible(loaded(receiver_.light[i]));
+      for (std::size_t k = 0; k < found_.size(); ++k) visible_.push(loaded(found_[k]));
+    }
+    double sum = 0;
+    for (std::size_t i = 0; i < visible_.size(); ++i) sum += weigh(visible_[i]);
+    if (!(sum > 0)) return by_middles();
+    for (const TintShadow& shadow : shadows_) pass(shadow);
+    dvec3 light(0.0);
+    for (std::size_t i = 0; i < places; ++i)
+      if (weight_[i] > 0) light += weight_[i] * dvec3(passed_[i]);
+    return vec3(glm::clamp(light / sum, 0.0, 1.0));
+  }
+
+  static Cells cells_around(const StoredPolygon<float>& polygon) {
+    float low_x = polygon.x[0], high_x = low_x, low_y = polygon.y[0], high_y = low_y;
+    for (int k = 1; k < polygon.count; ++k) {
+      low_x = std::min(low_x, polygon.x[k]), high_x = std::max(high_x, polygon.x[k]);
+      low_y = std::min(low_y, polygon.y[k]), high_y = std::max(high_y, polygon.y[k]);
+    }
+    const auto cell = [](float at, float beyond) {
+      const float scaled = std::floor((at + beyond + 1) * (grid_side / 2));
+      return static_cast<int>(std::clamp(scaled, 0.0f, static_cast<float>(grid_side - 1)));
+    };
+    return {cell(low_x, -1e-5f), cell(high_x, 1e-5f), cell(low_y, -1e-5f), cell(high_y, 1e-5f)};
+  }
+
+  template <class Body>
+  static void for_each_place(const Cells& cells, const Body& body) {
+    for (int row = cells.first_row; row <= cells.last_row; ++row)
+      for (int column = cells.first_column; column <= cells.last_column; ++column)
+        body(static_cast<std::size_t>(row * grid_side + column));
+  }
+
+  /// Weighs the places in a visible fragment; returns the sum.
+  double weigh(const StoredPolygon<float>& fragment) {
+    double sum = 0;
+    for_each_place(cells_around(fragment), [&](std::size_t i) {
+      if (weight_[i] > 0 || !holds(fragment, at_[i])) return;
+      weight_[i] = weight_at(at_[i]);
+      sum += weight_[i];
+    });
+    return sum;
+  }
+
+  /// An edge of no length but for rounding says nothing.
+  static bool holds(const StoredPolygon<float>& polygon, const dvec2& at) {
+    for (int k = 0; k < polygon.count; ++k) {
+      const int next = k + 1 < polygon.count ? k + 1 : 0;
+      const dvec2 a(polygon.x[k], polygon.y[k]), along = dvec2(polygon.x[next], polygon.y[next]) - a;
+      if (along.x * (at.y - a.y) - along.y * (at.x - a.x) < -1e-6) return false;
+    }
+    return true;
+  }
+
+  dvec3 way_to(const dvec2& at) const {
+    const LightFrame& light = frame_->soft.light;
+    return sight_.at.to_origin + at.x * light.ex + at.y * light.ey;
+  }
+
+  /// The form factor's kernel, in units of the light.
+  double weight_at(const dvec2& at) const {
+    const LightFrame& light = frame_->soft.light;
+    const dvec3 way = way_to(at);
+    const double square = glm::dot(way, way), scale = glm::dot(light.ex, light.ex);
+    const double here = std::max(0.0, glm::dot(sight_.at.normal, way));
+    const double there = std::max(0.0, -glm::dot(light.normal, way));
+    return here * there / (square * square) * scale;
+  }
+
+  void pass(const TintShadow& shadow) {
+    Polygon rest = polygon_of<float>(frame_->soft.light.polygon);
+    for (const dvec3& line : shadow.lines) {
+      const LineValues<float> values = evaluate(rest, line_of<float>(line));
+      if (values.positive == 0) return;
+      if (values.negative == 0) continue;
+      Polygon inside, outside;
+      split(rest, values, inside, outside);
+      rest = inside;
+      if (rest.count >= polygon_capacity) break;  // what is left lies around the shadow
+    }
+    StoredPolygon<float> around;
+    store(rest.x, around.x);
+    store(rest.y, around.y);
+    around.count = rest.count;
+    for_each_place(cells_around(around), [&](std::size_t i) {
+      if (weight_[i] > 0 && in_shadow(shadow, at_[i])) passed_[i] *= transmittance(shadow, at_[i]);
+    });
+  }
+
+  static bool in_shadow(const TintShadow& shadow, const dvec2& at) {
+    for (const dvec3& line : shadow.lines)
+      if (!(value(line, at) > 0)) return false;
+    return true;
+  }
+
+  vec3 transmittance(const TintShadow& shadow, const dvec2& at) const {
+    const Surfaces& surfaces = frame_->surfaces;
+    if (!surfaces.varies(shadow.number)) return surfaces.constant(shadow.number);
+    const points::Corners c = points::corners_of(frame_->soft.triangles, surfaces.ids()[shadow.number]);
+    return surfaces.transmittance(
+        shadow.number, weights_where(c.v, frame_->soft.points.positions[sight_.pixel], way_to(at)));
+  }
+
+  /// Where the visible parts fall between all places: the middle of each stands for it.
+  vec3 by_middles() const {
+    dvec3 light(0.0);
+    double sum = 0;
+    for (std::size_t i = 0; i < visible_.size(); ++i) {
+      const StoredPolygon<float>& f = visible_[i];
+      dvec2 middle(0.0);
+      double area = 0;
+      for (int k = 0; k < f.count; ++k) {
+        const int next = k + 1 < f.count ? k + 1 : 0;
+        middle += dvec2(f.x[k], f.y[k]) / static_cast<double>(f.count);
+        area += 0.5 * (double(f.x[k]) * double(f.y[next]) - double(f.x[next]) * double(f.y[k]));
+      }
+      const double weight = std::max(0.0, area) * weight_at(middle);
+      vec3 passed(1.0f);
+      for (const TintShadow& shadow : shadows_)
+        if (in_shadow(shadow, middle)) passed *= transmittance(shadow, middle);
+      sum += weight;
+      light += weight * dvec3(passed);
+    }
+    return sum > 0 ? vec3(glm::clamp(light / sum, 0.0, 1.0)) : vec3(1.0f);
+  }
+
+  const SoftTintFrame* frame_ = nullptr;
+  const SoftTintTask* task_ = nullptr;
+  ClipSolver<OnePoint<float>> clip_;
+  SilhouetteSolver<float> silhouette_;
+  ReceiverSight<float> receiver_;
+  PointSight sight_;
+  GroupPoint point_;  ///< clip_ refers to it
+  std::vector<TintShadow> shadows_;
+  Fragments pieces_, next_, found_, scratch_, visible_;
+  std::vector<vec3> factors_, next_factors_;  ///< of each piece
+  LightEdges edges_;
+  std::vector<dvec2> at_;       ///< places of the light, the same for all points
+  std::vector<double> weight_;  ///< of each place; 0: not visible
+  std::vector<vec3> passed_;
+};
+
+}  // namespace
+
+std::unique_ptr<SoftTintSolver> make_solver() {
+  return std::make_unique<Solver>();
+}
+
+}  // namespace tenebra::tint::HWY_NAMESPACE
+HWY_AFTER_NAMESPACE();
+
+#if HWY_ONCE
+
+namespace tenebra::tint {
+
+std::unique_ptr<SoftTintSolver> make_soft_tint_solver(SimdLevel level) {
+  return TENEBRA_DISPATCH(level, make_solver)();
+}
+
+}  // namespace tenebra::tint
+#endif

@@ -1,0 +1,121 @@
+#include <tenebra/tint.h>
+
+#include <array>
+#include <cassert>
+#include <utility>
+
+#include "base/stopwatch.h"
+#include "parallel/parallel.h"
+#include "tint/hard_tint.h"
+#include "tint/soft_tint.h"
+
+namespace tenebra {
+
+namespace {
+
+constexpr std::array<std::pair<SeeThrough, std::string_view>, 3> names = {{
+    {SeeThrough::tint, "tint"},
+    {SeeThrough::cast, "cast"},
+    {SeeThrough::ignore, "ignore"},
+}};
+
+bool same_eye(const ViewRays& a, const ViewRays& b) {
+  return a.orthographic == b.orthographic && (a.orthographic ? a.d0 == b.d0 : a.eye == b.eye);
+}
+
+}  // namespace
+
+std::string_view see_through_name(SeeThrough see_through) {
+  for (const auto& [candidate, name] : names) {
+    if (candidate == see_through) return name;
+  }
+  return {};
+}
+
+std::optional<SeeThrough> see_through_from_name(std::string_view name) {
+  for (const auto& [see_through, candidate] : names) {
+    if (candidate == name) return see_through;
+  }
+  return std::nullopt;
+}
+
+void cast_see_through(SeeThrough see_through, FrameGeometry& geometry) {
+  if (see_through == SeeThrough::tint) return;
+  for (std::size_t i = 0; i < geometry.see_through.size(); ++i) {
+    if (geometry.see_through[i] != 1) continue;
+    geometry.see_through[i] = 2;
+    geometry.casts_shadow[i] = see_through == SeeThrough::cast;
+  }
+}
+
+SeeThroughSurfaces see_through_surfaces(const Scene& scene, const FrameGeometry& geometry,
+                                        const SurfaceCoordinates& coordinates) {
+  return {&scene,
+          geometry.see_through,
+          geometry.materials,
+          {coordinates.texture_coordinates[0], coordinates.texture_coordinates[1]},
+          coordinates.colors};
+}
+
+struct TintTracer::State {
+  tint::Surfaces surfaces;
+  tint::TriangleTree tree;
+  tint::HardTint hard;
+  tint::SoftTint soft;
+  points::PointTiles own_tiles;  ///< of points that came without
+  TintStats stats;
+
+  /// False: nothing is see-through.
+  bool begin(const SeeThroughSurfaces& from, const TriangleView& triangles, TintMask& out);
+};
+
+bool TintTracer::State::begin(const SeeThroughSurfaces& from, const TriangleView& triangles, TintMask& out) {
+  assert(from.see_through.empty() || from.see_through.size() == triangles.triangles.size());
+  out.pixels.clear();
+  out.factors.clear();
+  surfaces.reset(from, triangles);
+  stats = {};
+  stats.triangles = surfaces.ids().size();
+  if (surfaces.ids().empty()) return false;
+  tree.update(surfaces.ids(), triangles);
+  return true;
+}
+
+TintTracer::TintTracer() : state_(std::make_unique<State>()) {}
+TintTracer::TintTracer(TintTracer&&) noexcept = default;
+TintTracer& TintTracer::operator=(TintTracer&&) noexcept = default;
+TintTracer::~TintTracer() = default;
+
+const TintStats& TintTracer::stats() const {
+  return state_->stats;
+}
+
+void TintTracer::trace(const VisiblePoints& points, const ViewRays& view, const TriangleView& triangles,
+                       const SeeThroughSurfaces& surfaces, const ShadowLight& light, const ShadowMask& mask,
+                       const TintConfig& config, TintMask& out) {
+  const parallel::FloatEnvironment ieee;
+  State& s = *state_;
+  base::Stopwatch watch;
+  if (!s.begin(surfaces, triangles, out)) return;
+  const bool ready = !points.tiles.empty() && same_eye(points.tiles->view, view);
+  if (!ready) points::make_point_tiles(points, view, triangles, s.own_tiles);
+  s.hard.trace(points, ready ? *points.tiles : s.own_tiles, triangles, s.surfaces, s.tree, light, mask,
+               config.contact, out, s.stats);
+  s.stats.ms = watch.lap_ms();
+}
+
+bool TintTracer::trace(const VisiblePoints& points, std::span<const glm::vec3> normals, const ViewRays& view,
+                       const TriangleView& triangles, const SeeThroughSurfaces& surfaces,
+                       const AreaLight& light, const SoftMask& mask, const TintConfig& config, TintMask& out,
+                       const StopFlag* stop) {
+  const parallel::FloatEnvironment ieee;
+  State& s = *state_;
+  base::Stopwatch watch;
+  if (!s.begin(surfaces, triangles, out)) return true;
+  const bool done = s.soft.trace(points, normals, view, triangles, s.surfaces, s.tree, light, mask, config,
+                                 out, s.stats, stop);
+  s.stats.ms = watch.lap_ms();
+  return done;
+}
+
+}  // namespace tenebra

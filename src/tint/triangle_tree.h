@@ -1,0 +1,46 @@
+// A tree of boxes, eight children a node, over the see-through triangles.
+#pragma once
+
+#include <cstdint>
+#include <span>
+#include <vector>
+
+#include <tenebra/visible_points.h>
+#include "tint/shaft.h"
+
+namespace tenebra::tint {
+
+class TriangleTree {
+public:
+  /// Triangles `ids` as they lie now. Their order in the tree is kept while the ids stay what they are.
+  void update(std::span<const std::uint32_t> ids, const TriangleView& triangles);
+
+  bool empty() const { return order_.empty(); }
+  const Box& box() const { return box_; }
+
+  /// A leaf of up to eight triangles, with the bits of those that may meet a shaft.
+  struct Found {
+    std::uint32_t leaf = 0, met = 0;
+  };
+  /// Appends the leaves with triangles that may meet the shaft: none that does is left out.
+  void find(const Shaft& shaft, std::vector<Found>& out) const;
+  /// Of the triangles found by a wider shaft those that may meet this one.
+  std::uint32_t narrowed(const Found& found, const Shaft& shaft) const {
+    return found.met & boxes_met(levels_[0][found.leaf], shaft);
+  }
+  /// Place in `ids` of triangle `lane` of a leaf.
+  std::uint32_t number(std::uint32_t leaf, int lane) const {
+    return order_[leaf * box_lanes + static_cast<std::uint32_t>(lane)];
+  }
+
+private:
+  void order(const TriangleView& triangles);
+  void find_below(std::size_t level, std::uint32_t node, const Shaft& shaft, std::vector<Found>& out) const;
+
+  std::vector<std::uint32_t> ids_;
+  std::vector<std::uint32_t> order_;             ///< places in ids
+  std::vector<std::vector<EightBoxes>> levels_;  ///< of triangles, then of the nodes of the level before
+  Box box_;
+};
+
+}  // namespace tenebra::tint

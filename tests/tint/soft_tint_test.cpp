@@ -1,0 +1,203 @@
+// Area lights through glass, against thousands of Embree's rays a point.
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <numeric>
+
+#include "parallel/parallel.h"
+#include "tint/glass_case.h"
+
+namespace tenebra::testing {
+namespace {
+
+using glm::dvec3;
+using glm::vec3;
+
+AreaLight rectangle(vec3 centre, vec3 half_x, vec3 half_y) {
+  auto light = make_rectangle_light(centre, half_x, half_y);
+  EXPECT_TRUE(light.has_value());
+  return *light;
+}
+
+Soup square(dvec3 corner, dvec3 u, dvec3 v) {
+  Soup soup;
+  soup.quad(corner, u, v);
+  return soup;
+}
+
+const ViewRays above = pinhole({0.3, 6, 5}, {0, 0, 0}, 0.4, 24, 24);
+const AreaLight ceiling = rectangle({0.1f, 5, -0.2f}, {1, 0, 0}, {0, 0, 1});  // shines down
+
+struct SoftAnswers {
+  SoftMask mask;
+  TintMask tint;
+  TintStats stats;
+};
+
+SoftAnswers traced(const Glass& glass, const VisiblePoints& points, const AreaLight& light,
+                   const TintConfig& config = {}) {
+  SoftAnswers a;
+  SoftShadowConfig soft;
+  soft.simd = config.simd;
+  SoftShadowTracer shadows;
+  EXPECT_TRUE(shadows.trace(points, {}, above, glass.soup.view(), light, soft, a.mask));
+  TintTracer tracer;
+  EXPECT_TRUE(
+      tracer.trace(points, {}, above, glass.soup.view(), glass.surfaces(), light, a.mask, config, a.tint));
+  a.stats = tracer.stats();
+  return a;
+}
+
+/// Irradiance by side x side rays to places of the light's rectangle, one in the middle of a turned lattice's
+/// cell each.
+dvec3 by_rays(GlassPeer& peer, const AreaLight& light, const dvec3& p, const dvec3& normal, std::uint32_t own,
+              int side) {
+  const dvec3 corner(light.vertices[0]), u = dvec3(light.vertices[1]) - corner,
+                                         v = dvec3(light.vertices[3]) - corner;
+  dvec3 sum(0.0);
+  for (int i = 0; i < side * side; ++i) {
+    const double x = i * 0.41421356237309515 + 0.3, y = i * 0.7320508075688772 + 0.1;
+    const double a = (i % side + x - std::floor(x)) / side, b = (i / side + y - std::floor(y)) / side;
+    const dvec3 way = corner + a * u + b * v - p;
+    const double square = glm::dot(way, way);
+    const double weight = std::max(0.0, glm::dot(normal, way)) * std::max(0.0, -glm::dot(light.normal, way)) /
+                          (square * square);
+    if (weight > 0) sum += weight * peer.passed(p, way, own);
+  }
+  return sum * light.area_m2 / static_cast<double>(side * side);
+}
+
+/// Every `every`-th pixel within `bound` of the brightest.
+void compare(const Glass& glass, const AreaLight& light, double bound, bool numeric, int every = 1) {
+  const VisiblePoints points = glass.samples(above, 24, 24);
+  const SoftAnswers a = traced(glass, points, light);
+  EXPECT_GT(a.tint.pixels.size(), 60u);
+  EXPECT_EQ(a.stats.numeric > 0, numeric);
+  const std::vector<vec3> factors = spread(a.tint, points.triangles.size());
+  const double white = *std::max_element(a.mask.irradiance.begin(), a.mask.irradiance.end());
+  GlassPeer peer(glass);
+  double worst = 0;
+  for (std::size_t i = 0; i < points.triangles.size(); i += static_cast<std::size_t>(every)) {
+    if (points.triangles[i] == no_triangle || !(a.mask.irradiance[i] > 0)) continue;
+    const glm::uvec3 t = glass.soup.triangles[points.triangles[i]];
+    dvec3 n = glm::normalize(glm::cross(dvec3(glass.soup.positions[t.y]) - dvec3(glass.soup.positions[t.x]),
+                                        dvec3(glass.soup.positions[t.z]) - dvec3(glass.soup.positions[t.x])));
+    if (glm::dot(n, dvec3(above.eye) - points.positions[i]) < 0) n = -n;
+    const dvec3 expected = by_rays(peer, light, points.positions[i], n, points.triangles[i], 96);
+    const dvec3 found = static_cast<double>(a.mask.irradiance[i]) * dvec3(factors[i]);
+    const dvec3 off = glm::abs(found - expected) / white;
+    if (std::max({off.x, off.y, off.z}) > bound) {
+      ADD_FAILURE() << "pixel " << i << " at " << points.positions[i].x << ' ' << points.positions[i].z
+                    << ": irradiance " << a.mask.irradiance[i] << " of " << white << ", found " << found.x
+                    << ' ' << found.y << ' ' << found.z << ", expected " << expected.x << ' ' << expected.y
+                    << ' ' << expected.z;
+    }
+    worst = std::max({worst, off.x, off.y, off.z});
+  }
+  std::printf("worst: %.3f / 255 of white; %zu points, %llu by places\n", 255 * worst, a.tint.pixels.size(),
+              static_cast<unsigned long long>(a.stats.numeric));
+  EXPECT_LE(worst, bound);
+}
+
+Glass room_with_panes() {
+  Glass glass;
+  glass.add(square({-4, 0, 4}, {8, 0, 0}, {0, 0, -8}), Material{});
+  glass.add(box({-0.6, 0, -0.5}, {0.3, 0.8, 0.5}), Material{});
+  glass.add(box({0.5, 1.2, -0.4}, {1.0, 1.6, 0.4}), Material{});
+  glass.add(square({-1, 1, 1}, {2, 0, 0}, {0, 0, -2}), pane({0.9f, 0.3f, 0.2f}, 0.8f));
+  glass.add(square({-0.5, 1.7, 1.5}, {2, 0, 0}, {0, 0.2, -2}), pane({0.1f, 0.8f, 0.9f}, 1.0f));
+  glass.add(square({-1.5, 2, 0.5}, {2, 0.3, 0}, {0, 0, -2}), blend(0.4f));
+  return glass;
+}
+
+TEST(SoftTint, PanesAreWithinHalfAStepOfRays) {
+  compare(room_with_panes(), ceiling, 0.5 / 255, false);
+}
+
+TEST(SoftTint, SmallLightsToo) {
+  compare(room_with_panes(), rectangle({0.5f, 4, 0.4f}, {0.15f, 0, 0}, {0, 0, 0.15f}), 0.5 / 255, false);
+}
+
+TEST(SoftTint, TexturedPanesAreWithinHalfAStepOfRays) {
+  Glass glass = room_with_panes();
+  glass.scene.images.push_back(waves(32));
+  Material leaf = blend(0.9f);
+  leaf.base_color_map.image = 0;
+  glass.add(square({-1.5, 2.5, 1}, {2.5, 0, 0}, {0, 0, -2}), leaf,
+            [](vec3 p) { return glm::vec2(0.7f * p.x, 0.9f * p.z); });
+  compare(glass, ceiling, 0.5 / 255, true);
+}
+
+TEST(SoftTint, GlassOfManyTrianglesIsWithinHalfAStepOfRays) {
+  Glass glass = room_with_panes();
+  glass.add(sphere(6, 0.6, {-0.8, 1.6, 0.6}), pane({0.6f, 0.9f, 0.7f}, 0.8f));
+  compare(glass, ceiling, 0.5 / 255, true, 2);
+}
+
+TEST(SoftTint, APaneBeforeAllOfTheLightIsItsTransmittance) {
+  Glass glass;
+  glass.add(square({-4, 0, 4}, {8, 0, 0}, {0, 0, -8}), Material{});
+  glass.add(square({-9, 2, 9}, {18, 0, 0}, {0, 0, -18}), pane({0.5f, 0.25f, 0.75f}, 1));
+  const VisiblePoints points = glass.samples(above, 24, 24);
+  const SoftAnswers a = traced(glass, points, ceiling);
+  std::size_t seen = 0;
+  for (const float irradiance : a.mask.irradiance) seen += irradiance > 0;
+  EXPECT_EQ(a.tint.pixels.size(), seen);
+  for (const vec3& f : a.tint.factors) {
+    EXPECT_NEAR(f.x, 0.5, 1e-4);
+    EXPECT_NEAR(f.y, 0.25, 1e-4);
+    EXPECT_NEAR(f.z, 0.75, 1e-4);
+  }
+}
+
+TEST(SoftTint, NeitherThreadsNorLevelsChangeABit) {
+  Glass glass = room_with_panes();
+  glass.add(sphere(4, 0.6, {-0.8, 1.6, 0.6}), pane({0.6f, 0.9f, 0.7f}, 0.8f));
+  const VisiblePoints points = glass.samples(above, 24, 24);
+  const std::vector<vec3> expected = spread(traced(glass, points, ceiling).tint, points.triangles.size());
+  for (const int threads : {1, 2, 5}) {
+    SoftAnswers a;
+    with_threads(threads, [&] { a = traced(glass, points, ceiling); });
+    EXPECT_EQ(spread(a.tint, points.triangles.size()), expected) << threads;
+  }
+  for (const SimdLevel level : {SimdLevel::scalar, SimdLevel::sse4, SimdLevel::avx2, SimdLevel::avx512}) {
+    if (!simd_level_supported(level)) continue;
+    TintConfig config;
+    config.simd = level;
+    EXPECT_EQ(spread(traced(glass, points, ceiling, config).tint, points.triangles.size()), expected)
+        << simd_level_name(level);
+  }
+}
+
+TEST(SoftTint, OrderChangesNoMoreThanRounding) {
+  Glass glass = room_with_panes();
+  const VisiblePoints points = glass.samples(above, 24, 24);
+  const std::vector<vec3> expected = spread(traced(glass, points, ceiling).tint, points.triangles.size());
+  Glass other = glass;
+  std::reverse(other.soup.triangles.end() - 6, other.soup.triangles.end());
+  std::reverse(other.materials.end() - 6, other.materials.end());
+  const std::vector<vec3> found = spread(traced(other, points, ceiling).tint, points.triangles.size());
+  for (std::size_t i = 0; i < found.size(); ++i)
+    for (int c = 0; c < 3; ++c) EXPECT_NEAR(found[i][c], expected[i][c], 1e-4);
+}
+
+TEST(SoftTint, AnEstimatedMaskIsNotNeeded) {
+  const Glass glass = room_with_panes();
+  const VisiblePoints points = glass.samples(above, 24, 24);
+  const SoftAnswers a = traced(glass, points, ceiling);
+  TintConfig config;
+  config.own_irradiance = true;
+  TintMask own;
+  TintTracer tracer;
+  SoftMask rough = a.mask;
+  for (float& irradiance : rough.irradiance) irradiance *= 0.7f;
+  ASSERT_TRUE(
+      tracer.trace(points, {}, above, glass.soup.view(), glass.surfaces(), ceiling, rough, config, own));
+  const std::vector<vec3> x = spread(own, points.triangles.size()),
+                          y = spread(a.tint, points.triangles.size());
+  for (std::size_t i = 0; i < x.size(); ++i)
+    for (int c = 0; c < 3; ++c) EXPECT_NEAR(x[i][c], y[i][c], 0.002);
+}
+
+}  // namespace
+}  // namespace tenebra::testing
