@@ -9,6 +9,8 @@ namespace {
 using Segments = std::vector<std::uint32_t>;
 
 constexpr std::size_t leaf_size = 384;
+/// Cuts lie beside medians, which vertices of regular pictures share, so that few vertices lie on a cut.
+constexpr double beside = 0.0123456789;
 
 /// Segments that cross the line coordinate[axis] = at, between `low` and `high` along it: even or odd.
 bool odd_crossings(const Outline& outline, const Segments& segments, int axis, double at, double low,
@@ -65,7 +67,7 @@ private:
                    [&](std::uint32_t s) { return middle(s)[axis]; });
     const auto median = places.begin() + static_cast<std::ptrdiff_t>(places.size() / 2);
     std::nth_element(places.begin(), median, places.end());
-    return {axis, *median};
+    return {axis, *median + beside};
   }
 
   Leaf part(const Leaf& leaf, int axis, double at, bool upper) const {

@@ -117,11 +117,10 @@ public:
       join_events();
       follow_events(loops);
     }
-    const std::size_t closed = loops.size();
     follow_loops(loops);
-    if (events_.empty() && surrounds(loops, closed)) {
-      const bool whole = loops.size() == closed;
-      insert_leaf_corners();
+    if (!walked_ && surrounds(loops, first)) {
+      const bool whole = loops.size() == first;
+      if (events_.empty()) insert_leaf_corners();
       loops.push_back(ring_spots());
       if (whole) return PieceKind::whole;
     }
@@ -258,17 +257,22 @@ private:
       nearest = distance, found = true;
       event.ring_index = i, event.key = key;
     }
+    if (event.spot == ring_[(event.ring_index + 1) % ring_.size()].spot)
+      event.ring_index = (event.ring_index + 1) % ring_.size();
+    if (event.spot == ring_[event.ring_index].spot) event.key = 0;
   }
 
   /// Each event that leaves is joined to the next that enters, as brackets are: where rounding has put two
-  /// that leave beside each other, two that enter follow.
+  /// that leave beside each other, two that enter follow. In one place those that leave come first, so that
+  /// a line that only touches the ring is joined to itself.
   void join_events() {
     for (Event& event : events_) place_event(event);
     std::vector<std::size_t> order(events_.size());
     for (std::size_t i = 0; i < order.size(); ++i) order[i] = i;
     std::stable_sort(order.begin(), order.end(), [&](std::size_t a, std::size_t b) {
       const Event &p = events_[a], &q = events_[b];
-      return p.ring_index != q.ring_index ? p.ring_index < q.ring_index : p.key < q.key;
+      if (p.ring_index != q.ring_index) return p.ring_index < q.ring_index;
+      return p.key != q.key ? p.key < q.key : p.enters < q.enters;
     });
     rank_.resize(order.size());
     for (std::size_t i = 0; i < order.size(); ++i) rank_[order[i]] = i;
@@ -327,8 +331,10 @@ private:
     }
   }
 
-  void walk_ring(std::size_t exit, std::size_t entry, std::vector<Spot>& loop) const {
+  void walk_ring(std::size_t exit, std::size_t entry, std::vector<Spot>& loop) {
     const Event &from = events_[exit], &to = events_[entry];
+    if (from.spot == to.spot) return;
+    walked_ = true;
     if (from.ring_index == to.ring_index && rank_[exit] < rank_[entry]) return;
     std::size_t i = from.ring_index;
     do {
@@ -360,11 +366,17 @@ private:
     return spots;
   }
 
-  /// Where nothing crosses the ring: whether it lies in the region. The middle is asked, less what the closed
-  /// loops within the ring make of it.
+  /// Where nothing crosses the ring: whether it lies in the region. A place in the middle is asked, less what
+  /// the closed loops within the ring make of it; beside the very middle, where regular pictures have lines.
   bool surrounds(const std::vector<std::vector<Spot>>& loops, std::size_t first) const {
     glm::dvec2 middle(0.0);
-    for (const RingPoint& point : ring_) middle += point.spot.at / static_cast<double>(ring_.size());
+    double weights = 0, weight = 1;
+    for (const RingPoint& point : ring_) {
+      middle += weight * point.spot.at;
+      weights += weight;
+      weight += 0.137;
+    }
+    middle /= weights;
     bool inside = is_inside(outline_, leaf_, tile_.sign * (middle - tile_.offset));
     for (std::size_t l = first; l < loops.size(); ++l) {
       for (std::size_t i = 0; i < loops[l].size(); ++i) {
@@ -387,6 +399,7 @@ private:
   std::vector<Event> events_;
   std::vector<std::size_t> rank_;  ///< of an event, in the order around the ring
   std::vector<bool> used_;
+  bool walked_ = false;  ///< a part of the ring bounds the region
 };
 
 }  // namespace

@@ -35,6 +35,13 @@ bool contains(Points points, const Loop& loop, glm::dvec2 p) {
   return inside;
 }
 
+/// Whether a hole lies in a loop: most of its vertices do. Some may lie on the loop itself.
+bool contains(Points points, const Loop& loop, const Loop& hole) {
+  const auto count = std::count_if(hole.begin(), hole.end(),
+                                   [&](std::uint32_t v) { return contains(points, loop, points[v]); });
+  return 2 * static_cast<std::size_t>(count) > hole.size();
+}
+
 /// Whether `p` lies on the way into the loop at its vertex `i`.
 bool opens_to(Points points, const Loop& loop, std::size_t i, glm::dvec2 p) {
   const glm::dvec2 at = points[loop[i]], next = points[loop[(i + 1) % loop.size()]];
@@ -45,11 +52,21 @@ bool opens_to(Points points, const Loop& loop, std::size_t i, glm::dvec2 p) {
                                        : left_of_next || right_of_previous;
 }
 
+bool boxes_meet(glm::dvec2 a, glm::dvec2 b, glm::dvec2 p, glm::dvec2 q) {
+  const glm::dvec2 low = glm::max(glm::min(a, b), glm::min(p, q));
+  const glm::dvec2 high = glm::min(glm::max(a, b), glm::max(p, q));
+  return low.x <= high.x && low.y <= high.y;
+}
+
+/// Whether the segment meets the loop anywhere but in vertices at its own ends, or with its first.
 bool crosses(Points points, const Loop& loop, glm::dvec2 p, glm::dvec2 q) {
   for (std::size_t i = 0; i < loop.size(); ++i) {
     const glm::dvec2 a = points[loop[i]], b = points[loop[(i + 1) % loop.size()]];
     if (a == p || a == q || b == p || b == q) continue;
-    if ((turn(p, q, a) > 0) != (turn(p, q, b) > 0) && (turn(a, b, p) > 0) != (turn(a, b, q) > 0)) return true;
+    const double of_a = turn(p, q, a), of_b = turn(p, q, b), of_p = turn(a, b, p), of_q = turn(a, b, q);
+    const bool apart = (of_a > 0 && of_b > 0) || (of_a < 0 && of_b < 0) || (of_p > 0 && of_q > 0) ||
+                       (of_p < 0 && of_q < 0) || of_p == 0;
+    if (!apart && boxes_meet(a, b, p, q)) return true;
   }
   return false;
 }
@@ -201,7 +218,7 @@ std::vector<glm::uvec3> triangulate(Points points, std::vector<Loop> loops) {
     std::size_t owner = loops.size();
     for (std::size_t i = 0; i < loops.size(); ++i) {
       if (area[i] > 0 && (owner == loops.size() || area[i] < area[owner]) &&
-          contains(points, loops[i], points[loops[h].front()]))
+          contains(points, loops[i], loops[h]))
         owner = i;
     }
     if (owner < loops.size()) holes[owner].push_back(loops[h]);
