@@ -66,6 +66,16 @@ std::size_t farthest(const std::vector<Gate>& loop, std::size_t from, std::size_
   return best;
 }
 
+/// Whether all of a loop lies within a square of this side.
+bool is_speck(const std::vector<Gate>& loop, double side) {
+  glm::dvec2 low = loop.front().at, high = low;
+  for (const Gate& gate : loop) {
+    low = glm::min(low, gate.at);
+    high = glm::max(high, gate.at);
+  }
+  return high.x - low.x < side && high.y - low.y < side;
+}
+
 /// Begins at a vertex that must stay, if there is one. Greedy: each segment is as long as the gates allow.
 void simplify(std::vector<Gate>& loop, Outline& out) {
   const auto forced = std::find_if(loop.begin(), loop.end(), [](const Gate& gate) { return gate.forced; });
@@ -95,7 +105,7 @@ Outline trace_outline(const AlphaSheet& sheet, double threshold, double toleranc
   for (std::uint32_t g = 0; g < net.gates.size(); ++g) {
     if (seen[g]) continue;
     std::vector<Gate> loop = collect_loop(net, g, seen);
-    simplify(loop, outline);
+    if (!is_speck(loop, 0.5 * tolerance)) simplify(loop, outline);
   }
   return outline;
 }

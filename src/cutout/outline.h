@@ -22,7 +22,8 @@ struct Outline {
 constexpr std::size_t most_gates = std::size_t{1} << 21;
 
 /// The level line within `tolerance` (in the sheet's units, that is pixels): no point of a loop is farther
-/// from the line where alpha equals `threshold`, and no point of that line is farther from a loop.
+/// from the line where alpha equals `threshold`, and no point of that line is farther from a loop, but for
+/// loops that fit into a square of half the tolerance: these are left out.
 Outline trace_outline(const AlphaSheet& sheet, double threshold, double tolerance);
 
 }  // namespace tenebra::cutout

@@ -80,6 +80,7 @@ bool is_near_line(const Scene& scene, const Place& place, double pixels) {
   const glm::dmat3x2 transform(scene.materials[0].base_color_map.transform);
   const glm::dmat2 to_place(transform[0], transform[1]);
   const bool here = alpha_over(scene, place.uv) >= 0;
+  if (std::abs(alpha_over(scene, place.uv)) < 1e-4) return true;
   for (int ring = 1; ring <= 4; ++ring) {
     for (int i = 0; i < 48; ++i) {
       const double angle = i * 6.283185307 / 48;
