@@ -7,6 +7,7 @@
 
 #include "command.h"
 #include "console.h"
+#include "cutout/cutout.h"
 #include "option_values.h"
 #include "scene_choice.h"
 #include "scene_summary.h"
@@ -159,11 +160,21 @@ void print_text(const Json& json) {
   for (const char* key : {"lights", "cameras", "clips", "warnings"}) print_list(json, key);
 }
 
+/// What alpha cuts out, last: the scene is cut for it, as it is for drawing.
+void add_cutout(Scene& scene, Json& json) {
+  const std::size_t said = scene.warnings.size();
+  const cutout::CutoutCounts counts = cutout::cut_out_masks(scene);
+  json["counts"]["cut_out_triangles"] = counts.triangles;
+  json["counts"]["drawn_in_their_place"] = counts.left;
+  for (std::size_t i = said; i < scene.warnings.size(); ++i) json["warnings"].push_back(scene.warnings[i]);
+}
+
 Expected<int> info(const InfoOptions& options) {
   auto scene = formats::import_scene(options.scene);
   if (!scene) return tl::unexpected(scene.error());
   leave_out_covers(*scene);
-  const Json json = describe(*scene, options);
+  Json json = describe(*scene, options);
+  add_cutout(*scene, json);
   if (options.json) {
     // File names and names in files may hold bytes that are not UTF-8, which JSON cannot.
     print_out("{}\n", json.dump(2, ' ', false, Json::error_handler_t::replace));

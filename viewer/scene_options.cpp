@@ -27,6 +27,10 @@ void add_files(CLI::App& command, SceneOptions& options) {
             "AFF: sides of cones and cylinders [64; 8 for the paper's\nnumber of triangles]")
       .type_name("N")
       .group(scene_group);
+  add_value(command, "--cutout-limit", options.cutout_limit, parse_count,
+            "Triangles that may be added where alpha cuts a surface\nout; coarser if it takes more [1000000]")
+      .type_name("N")
+      .group(scene_group);
 }
 
 void add_lights(CLI::App& command, SceneOptions& options) {

@@ -9,8 +9,8 @@
 
 namespace tenebra::cutout {
 
-/// Alpha of a picture's pixels, 0 to 255, or of a smaller copy of it. Level 0 is the picture; each further one
-/// is half as wide and high (rounded up), its pixels the means of up to four.
+/// Alpha of a picture's pixels, 0 to 255, or of a smaller copy of it. Level 0 is the picture; each further
+/// one is half as wide and high (rounded up), its pixels the means of up to four.
 struct AlphaGrid {
   int width = 0;
   int height = 0;

@@ -113,7 +113,8 @@ bool cut_triangle(const std::array<glm::dvec2, 3>& corners, const Region& region
   std::array<TileRange, 2> range;
   for (int axis = 0; axis < 2; ++axis) {
     const auto [low, high] = std::minmax({corners[0][axis], corners[1][axis], corners[2][axis]});
-    range[static_cast<std::size_t>(axis)] = tiles_of(region.tiling[static_cast<std::size_t>(axis)], low, high);
+    range[static_cast<std::size_t>(axis)] =
+        tiles_of(region.tiling[static_cast<std::size_t>(axis)], low, high);
   }
   if (range[0].count() * range[1].count() > most_tiles) return false;
   TriangleCutter cutter(triangle, order, out);

@@ -45,7 +45,8 @@ std::vector<std::vector<MaskedTriangle>> masked_triangles(const Scene& scene) {
   return lists;
 }
 
-std::vector<Task> make_tasks(const Scene& scene, const std::vector<std::size_t>& instances, double tolerance_px) {
+std::vector<Task> make_tasks(const Scene& scene, const std::vector<std::size_t>& instances,
+                             double tolerance_px) {
   std::vector<Task> tasks;
   std::vector<std::vector<MaskedTriangle>> lists = masked_triangles(scene);
   for (std::size_t m = 0; m < lists.size(); ++m) {

@@ -9,7 +9,7 @@
 namespace tenebra::cutout {
 
 struct CutoutLimits {
-  double tolerance_px = 1.0 / 8;        ///< pixels of the texture, 1/64 or more
+  double tolerance_px = 1.0 / 8;       ///< pixels of the texture, 1/64 or more
   std::size_t most_added = 1'000'000;  ///< triangles of the scene, instances counted
 };
 

@@ -9,7 +9,7 @@ namespace tenebra::cutout {
 namespace {
 
 constexpr std::uint32_t none = std::numeric_limits<std::uint32_t>::max();
-constexpr double saddle_gap = 1.0 / 64;   // of the way to its corner: keeps two arcs of one cell apart
+constexpr double saddle_gap = 1.0 / 64;  // of the way to its corner: keeps two arcs of one cell apart
 
 /// The sheet within one more line on each side, at the place of the border line, where alpha is nothing: so
 /// every loop closes. Lines are counted from -1.
@@ -103,8 +103,8 @@ private:
 
   /// `side`: from grid point k to k + 1, counter-clockwise from (column, row).
   void march_cell(int column, int row, const std::array<std::uint32_t, 4>& side) {
-    const std::array<double, 4> corner{value(column, row), value(column + 1, row),
-                                       value(column + 1, row + 1), value(column, row + 1)};
+    const std::array<double, 4> corner{value(column, row), value(column + 1, row), value(column + 1, row + 1),
+                                       value(column, row + 1)};
     std::array<int, 2> out_side{}, in_side{};
     int pieces = 0, ends = 0;
     for (int k = 0; k < 4; ++k) {
@@ -147,8 +147,7 @@ private:
     bend_hyperbola(cell.corner, cell.low, cell.high, net_.gates[begin].at, net_.gates[end].at,
                    half_tolerance_ * (1 - saddle_gap), net_.bends);
     if (around >= 0) pull_to_corner(cell, around, first);
-    if (around >= 0 || net_.bends.size() > first)
-      net_.gates[begin].forced = net_.gates[end].forced = true;
+    if (around >= 0 || net_.bends.size() > first) net_.gates[begin].forced = net_.gates[end].forced = true;
     if (net_.bends.size() > first)
       pieces_.push_back({begin, first, static_cast<std::uint32_t>(net_.bends.size())});
   }
@@ -162,8 +161,7 @@ private:
 
   /// From the order in which cells were met to the order of gates.
   void sort_bends() {
-    std::sort(pieces_.begin(), pieces_.end(),
-              [](const Bends& a, const Bends& b) { return a.gate < b.gate; });
+    std::sort(pieces_.begin(), pieces_.end(), [](const Bends& a, const Bends& b) { return a.gate < b.gate; });
     std::vector<glm::dvec2> sorted;
     sorted.reserve(net_.bends.size());
     net_.first_bend.assign(net_.gates.size() + 1, 0);

@@ -114,7 +114,8 @@ bool MaskMaterial::cut_one(const Sampled& sampled, double tolerance, CutTriangle
   // The least and the most that any place can have; factors may be negative.
   const auto [least, most] = std::minmax({low * least_, low * most_, high * least_, high * most_});
   if (least >= cutoff || most < cutoff) return keep(least >= cutoff, out), true;
-  if (!sampled.is_placed || least_ == most_ || !has_area(sampled.place)) return cut_flat(sampled, tolerance, out);
+  if (!sampled.is_placed || least_ == most_ || !has_area(sampled.place))
+    return cut_flat(sampled, tolerance, out);
   const auto region = sampled.varies() ? regions_.end() : regions_.find(threshold(sampled));
   if (region == regions_.end() || !(low > 0)) return cut_varying(sampled, tolerance, out);
   return !region->second.tree.outline.too_long && cut_triangle(sampled.place, region->second, out);

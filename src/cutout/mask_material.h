@@ -24,7 +24,7 @@ struct Fineness {
 
   int level() const { return step < 2 ? 0 : step - 1; }
   double grid_tolerance() const { return step == 0 ? tolerance_px : 0.5; }  ///< in pixels of the level
-  double texture_tolerance() const;                                        ///< in pixels of the picture
+  double texture_tolerance() const;                                         ///< in pixels of the picture
 };
 
 class MaskMaterial {
@@ -45,9 +45,9 @@ public:
 private:
   /// A triangle's alpha but for the texture's, and where it lies in the texture.
   struct Sampled {
-    std::array<double, 3> factor{1, 1, 1};    ///< of the material and the vertices
-    std::array<glm::dvec2, 3> place;          ///< in pixels of the grid
-    bool is_placed = false;                   ///< coordinates are finite and within 2^31 pixels
+    std::array<double, 3> factor{1, 1, 1};  ///< of the material and the vertices
+    std::array<glm::dvec2, 3> place;        ///< in pixels of the grid
+    bool is_placed = false;                 ///< coordinates are finite and within 2^31 pixels
     bool varies() const { return factor[0] != factor[1] || factor[0] != factor[2]; }
   };
 

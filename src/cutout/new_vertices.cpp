@@ -36,7 +36,8 @@ using Influences = std::vector<std::pair<double, std::uint16_t>>;
 void add_influences(const glm::u16vec4& joints, const glm::vec4& weights, double share, Influences& out) {
   for (int k = 0; k < 4; ++k) {
     if (weights[k] == 0.0f) continue;
-    const auto known = std::find_if(out.begin(), out.end(), [&](const auto& i) { return i.second == joints[k]; });
+    const auto known =
+        std::find_if(out.begin(), out.end(), [&](const auto& i) { return i.second == joints[k]; });
     if (known != out.end()) {
       known->first += share * weights[k];
     } else {

@@ -7,7 +7,8 @@
 namespace tenebra::cutout {
 namespace {
 
-constexpr std::size_t look_ahead = 512;  // gates that one segment may pass: bounds the work on a straight line
+constexpr std::size_t look_ahead =
+    512;  // gates that one segment may pass: bounds the work on a straight line
 
 double cross(glm::dvec2 a, glm::dvec2 b) {
   return a.x * b.y - a.y * b.x;

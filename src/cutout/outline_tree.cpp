@@ -110,7 +110,8 @@ void collect_corners(std::vector<Leaf>& leaves) {
     std::vector<std::pair<double, double>> corners;  // on lines across `axis`: the line, the place along it
     for (const Leaf& leaf : leaves)
       for (const glm::dvec2& corner : {leaf.low, leaf.high})
-        for (const double other : {leaf.low[along], leaf.high[along]}) corners.emplace_back(corner[axis], other);
+        for (const double other : {leaf.low[along], leaf.high[along]})
+          corners.emplace_back(corner[axis], other);
     std::sort(corners.begin(), corners.end());
     corners.erase(std::unique(corners.begin(), corners.end()), corners.end());
     for (Leaf& leaf : leaves) {

@@ -96,7 +96,7 @@ struct Event {
 struct Stretch {
   std::uint32_t from, to;  ///< points of the outline
   int entry, exit;
-  glm::dvec2 start;        ///< the segment's first point
+  glm::dvec2 start;  ///< the segment's first point
 };
 
 class PieceCutter {
@@ -302,7 +302,8 @@ private:
     for (;;) {
       used_[stretch] = true;
       const Stretch& s = stretches_[stretch];
-      add_spot(loop, s.entry >= 0 ? events_[static_cast<std::size_t>(s.entry)].spot : triangle_.spot(s.start));
+      add_spot(loop,
+               s.entry >= 0 ? events_[static_cast<std::size_t>(s.entry)].spot : triangle_.spot(s.start));
       if (s.exit >= 0) {
         add_spot(loop, events_[static_cast<std::size_t>(s.exit)].spot);
         return s.exit;

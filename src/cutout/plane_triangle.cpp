@@ -14,7 +14,8 @@ double cross(glm::dvec2 a, glm::dvec2 b) {
 
 PlaneTriangle::PlaneTriangle(const std::array<glm::dvec2, 3>& corners) : corners_(corners) {
   for (int e = 0; e < 3; ++e) {
-    const glm::dvec2 a = corners[static_cast<std::size_t>(e)], b = corners[static_cast<std::size_t>((e + 1) % 3)];
+    const glm::dvec2 a = corners[static_cast<std::size_t>(e)],
+                     b = corners[static_cast<std::size_t>((e + 1) % 3)];
     first_end_[static_cast<std::size_t>(e)] = (a.x != b.x ? a.x < b.x : a.y < b.y) ? e : (e + 1) % 3;
   }
 }

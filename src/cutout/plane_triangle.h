@@ -10,8 +10,8 @@ namespace tenebra::cutout {
 struct Spot {
   glm::dvec2 at{0.0};
   int corner = -1;
-  int edge = -1;      ///< edge e runs between corners e and e + 1
-  double along = 0;   ///< 0 to 1 from the edge's first end (PlaneTriangle::first_end) to its other
+  int edge = -1;     ///< edge e runs between corners e and e + 1
+  double along = 0;  ///< 0 to 1 from the edge's first end (PlaneTriangle::first_end) to its other
 
   bool operator==(const Spot& other) const {
     if (corner >= 0 || other.corner >= 0) return corner == other.corner;

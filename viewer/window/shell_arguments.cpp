@@ -27,6 +27,8 @@ std::string shell_arguments(const ViewState& state, double time_s, Size size) {
     text += fmt::format("{} {} ", name, shell_word(value));
   };
   for (const std::string& name : state.options.no_cast) add("--no-cast", name);
+  if (const int limit = state.options.cutout_limit; limit != SceneOptions{}.cutout_limit)
+    add("--cutout-limit", fmt::format("{}", limit));
   if (const int sides = state.options.import.cone_sides; sides != formats::ImportOptions{}.cone_sides) {
     add("--cone-sides", fmt::format("{}", sides));
   }
