@@ -74,4 +74,22 @@ inline double alpha_over(const Scene& scene, glm::vec2 uv) {
   return static_cast<double>(texel.a) * material.alpha - material.alpha_cutoff;
 }
 
+/// Whether alpha passes the cutoff within `pixels` of a place of the texture.
+inline bool is_near_line(const Scene& scene, glm::vec2 uv, double pixels) {
+  const TextureImage& image = scene.images[0];
+  const glm::dmat3x2 transform(scene.materials[0].base_color_map.transform);
+  const glm::dmat2 from_place = glm::inverse(glm::dmat2(transform[0], transform[1]));
+  const double here = alpha_over(scene, uv);
+  if (std::abs(here) < 1e-4) return true;
+  for (int ring = 1; ring <= 4; ++ring) {
+    for (int i = 0; i < 48; ++i) {
+      const double angle = i * 6.283185307 / 48;
+      const glm::dvec2 step =
+          glm::dvec2(std::cos(angle) / image.width, std::sin(angle) / image.height) * (pixels * ring / 4);
+      if ((alpha_over(scene, uv + glm::vec2(from_place * step)) >= 0) != (here >= 0)) return true;
+    }
+  }
+  return false;
+}
+
 }  // namespace tenebra::testing
