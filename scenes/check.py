@@ -10,9 +10,9 @@ import sys
 
 import generate
 
-SIZE_LIMIT = 2_000_000
+SIZE_LIMIT = 4_000_000
 FORMATS = {5121: "B", 5123: "H", 5125: "I", 5126: "f"}
-WIDTHS = {"SCALAR": 1, "VEC3": 3, "VEC4": 4, "MAT4": 16}
+WIDTHS = {"SCALAR": 1, "VEC2": 2, "VEC3": 3, "VEC4": 4, "MAT4": 16}
 LEAST_AREA = 1e-9  # square metres
 PATH_WIDTHS = {"translation": 3, "rotation": 4, "scale": 3}
 

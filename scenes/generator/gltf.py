@@ -3,10 +3,13 @@
 import json
 import struct
 
+from . import finish
+from . import picture
+
 ARRAY_BUFFER, ELEMENT_ARRAY_BUFFER = 34962, 34963
 UNSIGNED_BYTE, UNSIGNED_SHORT, UNSIGNED_INT, FLOAT = 5121, 5123, 5125, 5126
 FORMATS = {UNSIGNED_BYTE: "B", UNSIGNED_SHORT: "H", UNSIGNED_INT: "I", FLOAT: "f"}
-TYPES = {1: "SCALAR", 3: "VEC3", 4: "VEC4", 16: "MAT4"}
+TYPES = {1: "SCALAR", 2: "VEC2", 3: "VEC3", 4: "VEC4", 16: "MAT4"}
 GENERATOR = "Tenebra scenes/generate.py"
 
 
@@ -25,6 +28,8 @@ class Document:
         self._buckets = {}    # (component type, stride, target) -> [bytes]; one bufferView each
         self._accessors = {}  # (content, layout) -> index, so that equal data is stored once
         self._samplers = {}
+        self._textures = {}   # name of a picture -> index
+        self._finishes = []   # of each material
 
     def table(self, key):
         return self.json.setdefault(key, [])
@@ -76,16 +81,53 @@ class Document:
 
     # Looks
 
+    def texture(self, name, clamped=False):
+        """The picture of that name (picture.py), stored once."""
+        if name not in self._textures:
+            view = self._append("bufferViews", {"buffer": 0, "name": name})
+            self._buckets[name] = (view, bytearray(picture.of(name)))
+            image = self._append("images", {"name": name, "mimeType": "image/png", "bufferView": view})
+            wrap = 33071 if clamped else 10497
+            sampler = self._append("samplers", {"wrapS": wrap, "wrapT": wrap, "magFilter": 9729, "minFilter": 9987})
+            self._textures[name] = self._append("textures", {"source": image, "sampler": sampler})
+        return self._textures[name]
+
     def material(self, name, color, emissive=None, double_sided=False, extras=None):
-        """A rough, matt surface of the linear reflectance `color`."""
-        entry = {"name": name, "pbrMetallicRoughness": {
-            "baseColorFactor": rounded(color) + [1.0], "metallicFactor": 0.0, "roughnessFactor": 0.9}}
+        """A surface of the linear reflectance `color`; finish.py says what else it is made of."""
+        made_of = finish.of(name)
+        surface = {"baseColorFactor": rounded(color) + [1.0], "metallicFactor": made_of.metallic,
+                   "roughnessFactor": made_of.roughness}
+        if made_of.picture:
+            surface["baseColorTexture"] = {"index": self.texture(made_of.picture)}
+        entry = {"name": name, "pbrMetallicRoughness": surface}
         if emissive:
             entry["emissiveFactor"] = rounded(emissive)
         if double_sided:
             entry["doubleSided"] = True
         if extras:
             entry["extras"] = extras
+        self._finishes.append(made_of)
+        return self._append("materials", entry)
+
+    def cutout_material(self, name, texture, color, cutoff=0.5):
+        """Both sides of a card, cut out where the picture's alpha is below `cutoff`."""
+        self._finishes.append(finish.MATT)
+        return self._append("materials", {
+            "name": name, "alphaMode": "MASK", "alphaCutoff": cutoff, "doubleSided": True, "pbrMetallicRoughness": {
+                "baseColorFactor": rounded(color) + [1.0], "baseColorTexture": {"index": self.texture(texture, True)},
+                "metallicFactor": 0.0, "roughnessFactor": 0.8}})
+
+    def glass_material(self, name, color, alpha=None, transmission=None):
+        """Seen through by its alpha (BLEND) or by transmission."""
+        self._finishes.append(finish.MATT)
+        entry = {"name": name, "doubleSided": True, "pbrMetallicRoughness": {
+            "baseColorFactor": rounded(color) + [1.0 if alpha is None else alpha], "metallicFactor": 0.0,
+            "roughnessFactor": 0.1}}
+        if alpha is not None:
+            entry["alphaMode"] = "BLEND"
+        if transmission is not None:
+            self.use_extension("KHR_materials_transmission")
+            entry["extensions"] = {"KHR_materials_transmission": {"transmissionFactor": transmission}}
         return self._append("materials", entry)
 
     # Shapes
@@ -101,10 +143,21 @@ class Document:
         attributes = {"POSITION": self.accessor(surface.positions, FLOAT, ARRAY_BUFFER, bounds=True)}
         if surface.normals:
             attributes["NORMAL"] = self.accessor(surface.normals, FLOAT, ARRAY_BUFFER)
+        if self._finishes[material].picture:
+            coordinates = self._finishes[material].coordinates(surface.positions)
+            attributes["TEXCOORD_0"] = self.accessor(coordinates, FLOAT, ARRAY_BUFFER)
         small = len(surface.positions) < 65535
         indices = [(i,) for triangle in surface.triangles for i in triangle]
         return {"attributes": attributes, "material": material, "mode": 4,
                 "indices": self.accessor(indices, UNSIGNED_SHORT if small else UNSIGNED_INT, ELEMENT_ARRAY_BUFFER)}
+
+    def card_mesh(self, name, positions, coordinates, triangles, material):
+        """Flat triangles with texture coordinates of their own."""
+        attributes = {"POSITION": self.accessor(positions, FLOAT, ARRAY_BUFFER, bounds=True),
+                      "TEXCOORD_0": self.accessor(coordinates, FLOAT, ARRAY_BUFFER)}
+        indices = self.accessor([(i,) for t in triangles for i in t], UNSIGNED_SHORT, ELEMENT_ARRAY_BUFFER)
+        return self._append("meshes", {"name": name, "primitives": [
+            {"attributes": attributes, "material": material, "mode": 4, "indices": indices}]})
 
     def skinned_mesh(self, name, positions, joints, weights, material):
         """Unindexed triangles; four joints a vertex with weights in 255ths."""
@@ -177,7 +230,7 @@ class Document:
         buffer = bytearray()
         for view_index, content in self._buckets.values():
             self.json["bufferViews"][view_index].update(byteOffset=len(buffer), byteLength=len(content))
-            buffer.extend(content)
+            buffer.extend(content + b"\0" * (-len(content) % 4))
         self.json["buffers"] = [{"byteLength": len(buffer)}]
         text = json.dumps(self.json, separators=(",", ":"), sort_keys=True).encode("ascii")
         text += b" " * (-len(text) % 4)
