@@ -114,7 +114,8 @@ INSTANTIATE_TEST_SUITE_P(Whole, ExportScenes,
                                            Exported{"bart/kitchen/kitchen.aff", 1e-4, 20},
                                            Exported{"bart/museum/museum5.aff", 1e-6, 6},
                                            Exported{"city.glb", 1e-6, 10}, Exported{"court.glb", 1e-6, 10},
-                                           Exported{"gallery.glb", 1e-6, 12}));
+                                           Exported{"gallery.glb", 1e-6, 12},
+                                           Exported{"square.glb", 1e-6, 9.6}));
 
 TEST(ExportSecondReader, AcceptsTheSharedGltfFiles) {
   const fs::path shared = fs::path(TENEBRA_SHARED_DIR) / "scenes/extra/gltf";
