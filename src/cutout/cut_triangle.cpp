@@ -30,6 +30,12 @@ void place_axis(const AxisTiling& tiling, double index, int axis, Tile& tile) {
   tile.offset[axis] = reflected ? 2 * tiling.first + (index + 1) * tiling.period : index * tiling.period;
 }
 
+/// About one for each vertex of the outline in an area of the plane, if the outline repeats both ways.
+double expected_triangles(const Region& region, double area) {
+  const double tile = region.tiling[0].period * region.tiling[1].period;
+  return tile > 0 ? static_cast<double>(region.tree.outline.points.size()) * area / tile : 0.0;
+}
+
 /// Gathers the pieces of one triangle.
 class TriangleCutter {
 public:
@@ -105,7 +111,8 @@ private:
 
 }  // namespace
 
-bool cut_triangle(const std::array<glm::dvec2, 3>& corners, const Region& region, CutTriangle& out) {
+bool cut_triangle(const std::array<glm::dvec2, 3>& corners, const Region& region, std::size_t most_triangles,
+                  CutTriangle& out) {
   const glm::dvec2 u = corners[1] - corners[0], v = corners[2] - corners[0];
   const bool turned = u.x * v.y - u.y * v.x < 0;
   const std::array<int, 3> order{0, turned ? 2 : 1, turned ? 1 : 2};
@@ -117,6 +124,8 @@ bool cut_triangle(const std::array<glm::dvec2, 3>& corners, const Region& region
         tiles_of(region.tiling[static_cast<std::size_t>(axis)], low, high);
   }
   if (range[0].count() * range[1].count() > most_tiles) return false;
+  if (expected_triangles(region, 0.5 * std::abs(u.x * v.y - u.y * v.x)) > static_cast<double>(most_triangles))
+    return false;
   TriangleCutter cutter(triangle, order, out);
   for (double y = range[1].first; y <= range[1].last; ++y) {
     for (double x = range[0].first; x <= range[0].last; ++x) {
@@ -125,6 +134,7 @@ bool cut_triangle(const std::array<glm::dvec2, 3>& corners, const Region& region
       place_axis(region.tiling[1], y, 1, tile);
       cutter.add(region.tree, tile);
       if (out.whole) return true;
+      if (out.triangles.size() > most_triangles) return false;
     }
   }
   return true;

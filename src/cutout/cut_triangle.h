@@ -32,7 +32,9 @@ struct CutTriangle {
 /// A triangle over more copies of the outline than this is not cut.
 constexpr double most_tiles = 16384;
 
-/// `corners`: finite, and not on one line. False if it covers too many tiles.
-bool cut_triangle(const std::array<glm::dvec2, 3>& corners, const Region& region, CutTriangle& out);
+/// `corners`: finite, and not on one line. False if it covers too many tiles, or more than `most_triangles`
+/// are needed or, by its area, to be expected.
+bool cut_triangle(const std::array<glm::dvec2, 3>& corners, const Region& region, std::size_t most_triangles,
+                  CutTriangle& out);
 
 }  // namespace tenebra::cutout

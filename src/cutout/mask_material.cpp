@@ -107,7 +107,7 @@ void MaskMaterial::prepare_regions(double tolerance) {
   }
 }
 
-bool MaskMaterial::cut_one(const Sampled& sampled, double tolerance, CutTriangle& out) const {
+bool MaskMaterial::cut_one(const Sampled& sampled, const Bounds& bounds, CutTriangle& out) const {
   const double cutoff = full * material_.alpha_cutoff;
   const auto [low, high] = std::minmax({sampled.factor[0], sampled.factor[1], sampled.factor[2]});
   if (!std::isfinite(low) || !std::isfinite(high) || std::isnan(cutoff)) return keep(true, out), true;
@@ -115,20 +115,21 @@ bool MaskMaterial::cut_one(const Sampled& sampled, double tolerance, CutTriangle
   const auto [least, most] = std::minmax({low * least_, low * most_, high * least_, high * most_});
   if (least >= cutoff || most < cutoff) return keep(least >= cutoff, out), true;
   if (!sampled.is_placed || least_ == most_ || !has_area(sampled.place))
-    return cut_flat(sampled, tolerance, out);
+    return cut_flat(sampled, bounds, out);
   const auto region = sampled.varies() ? regions_.end() : regions_.find(threshold(sampled));
-  if (region == regions_.end() || !(low > 0)) return cut_varying(sampled, tolerance, out);
-  return !region->second.tree.outline.too_long && cut_triangle(sampled.place, region->second, out);
+  if (region == regions_.end() || !(low > 0)) return cut_varying(sampled, bounds, out);
+  return !region->second.tree.outline.too_long &&
+         cut_triangle(sampled.place, region->second, bounds.most_triangles, out);
 }
 
 /// An outline of its own: alpha times the factor, which is linear over the triangle, at the grid's lines
 /// around the triangle and at lines between them.
-bool MaskMaterial::cut_varying(const Sampled& sampled, double tolerance, CutTriangle& out) const {
+bool MaskMaterial::cut_varying(const Sampled& sampled, const Bounds& bounds, CutTriangle& out) const {
   const auto& p = sampled.place;
   const glm::dvec2 low = glm::floor(glm::min(p[0], glm::min(p[1], p[2]))) - 1.0;
   const glm::dvec2 high = glm::ceil(glm::max(p[0], glm::max(p[1], p[2]))) + 1.0;
   const glm::dvec2 size = high - low;
-  if (size.x * size.y > most_cells) return !can_be_coarser() && cut_flat(sampled, tolerance, out);
+  if (size.x * size.y > most_cells) return !can_be_coarser() && cut_flat(sampled, bounds, out);
   const int between = size.x * size.y * 16 <= 65536 ? 4 : 1;
   const double area = cross(p[1] - p[0], p[2] - p[0]);
   const TextureMap& map = material_.base_color_map;
@@ -140,12 +141,12 @@ bool MaskMaterial::cut_varying(const Sampled& sampled, double tolerance, CutTria
   };
   AlphaSheet sheet = sample_sheet(lines(low.x, high.x, static_cast<int>(size.x) * between),
                                   lines(low.y, high.y, static_cast<int>(size.y) * between), value);
-  Region region{build_tree(trace_outline(sheet, full * material_.alpha_cutoff, tolerance)), {}};
-  return !region.tree.outline.too_long && cut_triangle(p, region, out);
+  Region region{build_tree(trace_outline(sheet, full * material_.alpha_cutoff, bounds.tolerance)), {}};
+  return !region.tree.outline.too_long && cut_triangle(p, region, bounds.most_triangles, out);
 }
 
 /// A triangle without area in its texture, or without texture: its own corners span the plane.
-bool MaskMaterial::cut_flat(const Sampled& sampled, double tolerance, CutTriangle& out) const {
+bool MaskMaterial::cut_flat(const Sampled& sampled, const Bounds& bounds, CutTriangle& out) const {
   const auto& p = sampled.place;
   const TextureMap& map = material_.base_color_map;
   const bool constant = !sampled.is_placed || least_ == most_;
@@ -161,8 +162,10 @@ bool MaskMaterial::cut_flat(const Sampled& sampled, double tolerance, CutTriangl
   };
   if (constant && !sampled.varies()) return keep(value(0, 0) >= full * material_.alpha_cutoff, out), true;
   AlphaSheet sheet = sample_sheet(lines(0, 1, count), lines(0, 1, count), value);
-  Region region{build_tree(trace_outline(sheet, full * material_.alpha_cutoff, tolerance / count)), {}};
-  return cut_triangle({glm::dvec2(0, 0), glm::dvec2(1, 0), glm::dvec2(0, 1)}, region, out);
+  Region region{build_tree(trace_outline(sheet, full * material_.alpha_cutoff, bounds.tolerance / count)),
+                {}};
+  return cut_triangle({glm::dvec2(0, 0), glm::dvec2(1, 0), glm::dvec2(0, 1)}, region, bounds.most_triangles,
+                      out);
 }
 
 std::size_t MaskMaterial::added(std::size_t first, std::size_t last) const {
@@ -184,8 +187,11 @@ bool MaskMaterial::cut(const Fineness& fineness, std::size_t most_added) {
   for (std::size_t first = 0; first < triangles_.size(); first += batch) {
     const std::size_t count = std::min(batch, triangles_.size() - first);
     parallel::parallel_ranges(count, 8, [&](std::size_t a, std::size_t b) {
-      for (std::size_t i = first + a; i < first + b; ++i)
-        failed[i] = !cut_one(sample(triangles_[i]), tolerance, results_[i]);
+      for (std::size_t i = first + a; i < first + b; ++i) {
+        const std::size_t instances = std::max<std::size_t>(1, instances_[triangles_[i].mesh]);
+        const Bounds bounds{tolerance, can_be_coarser() ? most_added / instances + 1 : most_gates};
+        failed[i] = !cut_one(sample(triangles_[i]), bounds, results_[i]);
+      }
     });
     const auto begin = failed.begin() + static_cast<std::ptrdiff_t>(first);
     if (std::find(begin, begin + static_cast<std::ptrdiff_t>(count), 1) !=

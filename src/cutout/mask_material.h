@@ -51,13 +51,18 @@ private:
     bool varies() const { return factor[0] != factor[1] || factor[0] != factor[2]; }
   };
 
+  struct Bounds {
+    double tolerance;            ///< pixels of the grid
+    std::size_t most_triangles;  ///< that one may become
+  };
+
   void load_grid(int level);
   Sampled sample(const MaskedTriangle& masked) const;
   double threshold(const Sampled& sampled) const;
   void prepare_regions(double tolerance);
-  bool cut_one(const Sampled& sampled, double tolerance, CutTriangle& out) const;
-  bool cut_varying(const Sampled& sampled, double tolerance, CutTriangle& out) const;
-  bool cut_flat(const Sampled& sampled, double tolerance, CutTriangle& out) const;
+  bool cut_one(const Sampled& sampled, const Bounds& bounds, CutTriangle& out) const;
+  bool cut_varying(const Sampled& sampled, const Bounds& bounds, CutTriangle& out) const;
+  bool cut_flat(const Sampled& sampled, const Bounds& bounds, CutTriangle& out) const;
   std::size_t added(std::size_t first, std::size_t last) const;
 
   const Scene& scene_;

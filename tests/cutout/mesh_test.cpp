@@ -177,6 +177,9 @@ TEST(CutMesh, LimitMakesItCoarserAndSaysSo) {
 }
 
 TEST(CutMesh, ManyRepeatsEnd) {
+  Scene hundred = card(fence(64), {0, 0}, {100, 100});  // 35 million triangles at full fineness
+  EXPECT_LE(cutout::cut_out_masks(hundred, {.most_added = 50'000}).left, 50'002u);
+  EXPECT_EQ(hundred.warnings.size(), 1u);
   Scene scene = card(leaf(16), {0, 0}, {1e5f, 1e5f});
   EXPECT_LE(cutout::cut_out_masks(scene).left, 2u);
   EXPECT_EQ(scene.warnings.size(), 1u);
