@@ -1,4 +1,5 @@
-// Pixel grids on the CPU, row 0 at the top, and their files (PNG for 8 bits, PFM for floats).
+// Pixel grids on the CPU, row 0 at the top, and their files (PNG for 8 bits; PFM, and Radiance to read, for
+// floats).
 #pragma once
 
 #include <cstdint>
@@ -26,6 +27,8 @@ using ImageF = Image<float>;         ///< linear values
 Expected<void> write_png(const std::filesystem::path& path, const Image8& image);
 /// Reads an 8-bit PNG as stored (1 to 4 channels). Refuses what is not a PNG and more than 2^28 pixels.
 Expected<Image8> read_png(const std::filesystem::path& path);
+/// Reads a Radiance picture (.hdr): three linear channels. Refuses what is none and more than 2^26 pixels.
+Expected<ImageF> read_hdr(const std::filesystem::path& path);
 /// Writes a 32-bit little-endian PFM (1 or 3 channels), whole or not at all.
 Expected<void> write_pfm(const std::filesystem::path& path, const ImageF& image);
 

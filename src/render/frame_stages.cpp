@@ -179,11 +179,12 @@ Expected<void> Renderer::State::shade_pixels(const FrameInput& input, const std:
     factors[i].tint = tints[i].factors();
   }
   const shade::Subject subject{input.geometry, input.view, surfaces};
-  const shade::Lighting lighting{placed, scene.ambient_light, scene.background};
+  const shade::Lighting lighting{placed, scene.ambient_light, scene.background,
+                                 environment ? &*environment : nullptr};
   shade::PixelSamples pixels{gbuffer.width, gbuffer.height, ids, factors, {}};
   if (settings.ao.mode != AoMode::none) pixels.openness = openness;
   with_threads(settings.threads, [&] {
-    shade::shade_picture(subject, lighting, pixels, settings.exposure, Transfer::srgb, result.image);
+    shade::shade_picture(subject, lighting, pixels, settings.exposure, scene.transfer, result.image);
   });
   return draw_see_through(input, lights, subject, lighting, pixels, settings, result, stop);
 }

@@ -1,5 +1,6 @@
 #include "render/renderer.h"
 
+#include <algorithm>
 #include <cassert>
 
 #include "base/fail.h"
@@ -10,13 +11,17 @@ namespace tenebra::render {
 
 namespace {
 
-/// The scene but for the vertices of deforming meshes at their key times: FrameGeometry has them of each
-/// frame, and they are most of a large animation.
+/// The scene but for the vertices of deforming meshes at their key times (FrameGeometry has them of each
+/// frame, and they are most of a large animation) and, where nothing is see-through, images: the surfaces hold
+/// what they need.
 Scene without_keyed_vertices(Scene scene) {
   for (Mesh& mesh : scene.meshes) {
     for (MorphTarget& target : mesh.morph_targets) target = {};
     for (Mesh::Shape& shape : mesh.shapes) shape = {shape.time_s, {}, {}};
   }
+  const bool see_through = std::any_of(scene.materials.begin(), scene.materials.end(),
+                                       [](const Material& material) { return material.see_through(); });
+  if (!see_through) scene.images.clear();
   return scene;
 }
 
@@ -44,7 +49,7 @@ Expected<Renderer> Renderer::create(gl::Context context, const Scene& scene) {
                                              .scene = without_keyed_vertices(scene),
                                              .geometry = {},
                                              .gbuffer_pass = std::move(*gbuffer_pass),
-                                             .surfaces = shade::SurfaceTable(scene.materials)});
+                                             .surfaces = shade::SurfaceTable(scene)});
   state->coordinates = surface_coordinates(state->scene);
   return Renderer(std::move(state));
 }
@@ -56,6 +61,10 @@ const std::string& Renderer::gl_renderer() const {
 void Renderer::set_lights(std::vector<Light> lights) {
   assert(lights.size() == state_->scene.lights.size());
   state_->scene.lights = std::move(lights);
+}
+
+void Renderer::set_environment(const base::ImageF& picture) {
+  state_->environment.emplace(picture);
 }
 
 std::vector<std::string> Renderer::take_debug_messages() {

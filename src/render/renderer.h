@@ -52,7 +52,7 @@ struct RenderSettings {
   AoConfig ao;
   int light = -1;            ///< index into the frame's lights; -1: all
   int threads = 0;           ///< 0: all cores
-  float exposure = 1.0f;     ///< factor of linear colour before it is clamped
+  float exposure = 1.0f;     ///< factor of colour before it is clamped
   bool diagnostics = false;  ///< fill LightMask::nodes; the picture is the same
 };
 
@@ -74,7 +74,7 @@ struct LightMask {
 };
 
 struct FrameResult {
-  base::Image8 image;            ///< RGB, sRGB-encoded
+  base::Image8 image;            ///< RGB, encoded as Scene::transfer says
   std::vector<LightMask> masks;  ///< one per light drawn, of those with an intensity; empty without shadows
   FrameTimings timings;
   TraceStats stats;
@@ -100,6 +100,9 @@ public:
 
   /// Replaces Scene::lights (colour, intensity, size): a viewer's sliders. As many as the scene has.
   void set_lights(std::vector<Light> lights);
+
+  /// What stands around the scene, in place of its background and ambient light: shade/environment.h.
+  void set_environment(const base::ImageF& picture);
 
   /// What pixel (x, y), row 0 at the top, of the last frame sees, in world space; none: background. `input`:
   /// that frame's.

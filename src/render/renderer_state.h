@@ -2,6 +2,7 @@
 #pragma once
 
 #include <cstdint>
+#include <optional>
 #include <string>
 #include <unordered_set>
 #include <vector>
@@ -22,6 +23,7 @@ struct Renderer::State {
   raster::GeometryBuffers geometry;
   raster::GBufferPass gbuffer_pass;
   shade::SurfaceTable surfaces;
+  std::optional<shade::Environment> environment{};
   raster::GBuffer gbuffer{};
 
   std::vector<std::uint32_t> ids{};

@@ -105,7 +105,7 @@ Expected<void> Renderer::State::draw_see_through(
     compute_visible_points(ids, gbuffer.width, gbuffer.height, input.view, triangles, behind,
                            PointLayout::rows_and_tiles);
     eye_tint.trace(behind, layer, input.view, triangles, surfaces, passes);
-    draw_layer({subject, lighting, opaque, layer, surfaces, passes, settings.exposure, Transfer::srgb},
+    draw_layer({subject, lighting, opaque, layer, surfaces, passes, settings.exposure, scene.transfer},
                result.image);
   });
   return {};

@@ -11,33 +11,77 @@ const float* copied(std::span<const float> values, std::size_t first, std::size_
   return to;
 }
 
+glm::vec3 at(const SampleBlock::Channel (&channels)[3], std::size_t i) {
+  return {channels[0][i], channels[1][i], channels[2][i]};
+}
+void put(const glm::vec3& value, SampleBlock::Channel (&channels)[3], std::size_t i) {
+  for (int c = 0; c < 3; ++c) channels[c][i] = value[c];
+}
+
+/// Sample `i`'s place on its triangle.
+SurfacePlace place_of(const TriangleSetup& setup, const SampleBlock& block, std::size_t i) {
+  const glm::vec2 w(block.u[i], block.v[i]);
+  const float depth = block.depth[i];
+  return {w, depth * (glm::vec2(setup.u.dx, setup.v.dx) - setup.depth.dx * w),
+          depth * (glm::vec2(setup.u.dy, setup.v.dy) - setup.depth.dy * w)};
+}
+
 }  // namespace
 
 FrameTerms::FrameTerms(const Subject& of, const Lighting& lit_by)
     : subject(of), lighting(lit_by), code(kernels(SimdLevel::automatic)) {
+  if (lighting.environment == nullptr) ambient_light = lighting.ambient_light;
   for (const PlacedLight& light : lighting.lights) lights.push_back(light_terms(light, subject.view));
   for (std::size_t i = 0; i < subject.surfaces.size(); ++i) {
     surfaces.push_back(subject.surfaces[i]);
-    surfaces.back().ambient *= lighting.ambient_light;
+    surfaces.back().ambient *= ambient_light;
+  }
+}
+
+void BlockShader::place_background(const float* x, const float* y, std::size_t first, std::size_t count) {
+  const Surface background{.emissive = frame_.lighting.background};
+  frame_.code.place({}, background, x, y, first, count, block_);
+  if (frame_.lighting.environment == nullptr) return;
+  const ViewRays& view = frame_.subject.view;
+  for (std::size_t i = first; i < first + count; ++i) {
+    const glm::vec3 across = view.orthographic ? glm::vec3(0.0f) : x[i] * view.dx + y[i] * view.dy;
+    put(frame_.lighting.environment->mirrored(glm::normalize(view.d0 + across), 0.0f), block_.emissive, i);
+  }
+}
+
+void BlockShader::vary(const TriangleSetup& setup, std::size_t material, std::size_t first,
+                       std::size_t count) {
+  const Subject& subject = frame_.subject;
+  const glm::uvec3 corners = subject.geometry.triangles[setup.id];
+  for (std::size_t i = first; i < first + count; ++i) {
+    const Surface s = subject.surfaces.at(material, corners, place_of(setup, block_, i));
+    put(s.base, block_.base, i);
+    put(s.ambient * frame_.ambient_light, block_.ambient, i);
+    put(s.emissive, block_.emissive, i);
+    block_.alpha[i] = s.alpha;
+    put(s.specular, block_.specular, i);
+    block_.roughness[i] = s.roughness;
+    block_.exponent[i] = s.exponent;
   }
 }
 
 void BlockShader::place_run(std::uint32_t id, const float* x, const float* y, std::size_t first,
                             std::size_t count) {
   const Subject& subject = frame_.subject;
-  if (id >= subject.geometry.triangles.size()) {
-    const Surface background{.emissive = frame_.lighting.background};
-    frame_.code.place({}, background, x, y, first, count, block_);
-    return;
-  }
+  if (id >= subject.geometry.triangles.size()) return place_background(x, y, first, count);
   anything_seen_ = true;
   const TriangleSetup& setup = setups_.find(subject.geometry, subject.view, id, {x[first], y[first]});
   const std::size_t material = subject.surfaces.held(subject.geometry.materials[id]);
-  frame_.code.place(setup, frame_.surfaces[material], x, y, first, count, block_);
+  const Surface& surface = frame_.surfaces[material];
+  frame_.code.place(setup, surface, x, y, first, count, block_);
+  block_.glossy = block_.glossy || surface.is_glossy();
+  if (subject.surfaces.varies(material)) vary(setup, material, first, count);
 }
 
 void BlockShader::place(std::span<const std::uint32_t> ids, const float* x, const float* y) {
   block_.count = ids.size();
+  block_.keeps_gloss = frame_.subject.surfaces.any_glossy();
+  block_.glossy = false;
   anything_seen_ = false;
   for (std::size_t i = 0, end = 0; i < ids.size(); i = end) {
     while (end < ids.size() && ids[end] == ids[i]) ++end;
@@ -45,8 +89,34 @@ void BlockShader::place(std::span<const std::uint32_t> ids, const float* x, cons
   }
 }
 
+void BlockShader::surround() {
+  const Lighting& lighting = frame_.lighting;
+  const ViewRays& view = frame_.subject.view;
+  if (block_.glossy) {
+    const glm::vec3 towards = -glm::normalize(view.d0);
+    frame_.code.look(view.orthographic ? &towards : nullptr, block_);
+  }
+  const glm::vec3 brighter = glm::max(lighting.background - lighting.ambient_light, glm::vec3(0.0f));
+  for (std::size_t i = 0; i < block_.count; ++i) {
+    const glm::vec3 normal = at(block_.normal, i);
+    if (lighting.environment != nullptr && normal != glm::vec3(0.0f)) {
+      put(at(block_.ambient, i) * lighting.environment->diffuse(normal), block_.ambient, i);
+    }
+    const float roughness = block_.glossy ? block_.roughness[i] : -1.0f;
+    if (roughness < 0) continue;
+    if (lighting.environment == nullptr) {
+      put(lighting.ambient_light + (1 - roughness) * brighter, block_.reflected, i);
+    } else {
+      const glm::vec3 to_eye = at(block_.to_eye, i);
+      put(lighting.environment->mirrored(2 * glm::dot(normal, to_eye) * normal - to_eye, roughness),
+          block_.reflected, i);
+    }
+  }
+}
+
 void BlockShader::shade(std::span<const LightFactors> factors, std::span<const float> openness,
                         std::size_t first) {
+  if (anything_seen_ && (block_.glossy || frame_.lighting.environment != nullptr)) surround();
   frame_.code.begin(openness.empty() ? nullptr : copied(openness, first, block_.count, factor_), block_);
   for (std::size_t i = 0; anything_seen_ && i < frame_.lights.size(); ++i) add_light(i, factors[i], first);
 }
@@ -94,6 +164,7 @@ void BlockShader::add_coloured(std::size_t light, const float* factor, std::span
 
 void BlockShader::shade_light(std::size_t light) {
   for (auto& channel : block_.color) std::fill_n(channel, SampleBlock::room, 0.0f);
+  block_.glossy = false;  // the paper's light buffer is diffuse
   if (anything_seen_) frame_.code.light(frame_.lights[light], nullptr, block_);
 }
 

@@ -17,6 +17,7 @@ struct FrameTerms {
   Subject subject;
   Lighting lighting;
   std::vector<LightTerms> lights;
+  glm::vec3 ambient_light{1.0f};  ///< with an environment: 1, and it is multiplied in later
   std::vector<Surface> surfaces;  ///< ambient times the ambient light
   Kernels code;
 };
@@ -37,6 +38,11 @@ public:
   const SampleBlock& block() const { return block_; }
 
 private:
+  void place_background(const float* x, const float* y, std::size_t first, std::size_t count);
+  /// Textures and vertex colours.
+  void vary(const TriangleSetup& setup, std::size_t material, std::size_t first, std::size_t count);
+  /// What is mirrored, and the light of an environment.
+  void surround();
   void place_run(std::uint32_t id, const float* x, const float* y, std::size_t first, std::size_t count);
   void add_light(std::size_t light, const LightFactors& factors, std::size_t first);
   bool is_coloured(const TintFactors& tint, std::size_t first) const;

@@ -9,7 +9,7 @@ static_assert(std::endian::native == std::endian::little);
 #define HWY_TARGET_INCLUDE "shade/kernels.cpp"
 #include <hwy/foreach_target.h>
 // After foreach_target.h
-#include "shade/diffuse-inl.h"
+#include "shade/gloss-inl.h"
 #include "simd/dispatch.h"
 
 HWY_BEFORE_NAMESPACE();
@@ -80,12 +80,25 @@ void place(const TriangleSetup& setup, const Surface& surface, const float* x, c
     store3(broadcast16(surface.base), b.base, i);
     store3(broadcast16(surface.ambient), b.ambient, i);
     store3(broadcast16(surface.emissive), b.emissive, i);
+    store(broadcast<Float16>(surface.alpha), b.alpha + i);
+    if (!b.keeps_gloss) continue;
+    store3(broadcast16(surface.specular), b.specular, i);
+    store(broadcast<Float16>(surface.roughness), b.roughness + i);
+    store(broadcast<Float16>(surface.exponent), b.exponent + i);
+  }
+}
+
+void look(const glm::vec3* towards, SampleBlock& b) {
+  for (std::size_t i = 0; i < b.count; i += 16) {
+    const Vector16 point = load3(b.point, i);
+    store3(towards != nullptr ? broadcast16(*towards) : unit(broadcast16(glm::vec3(0.0f)) - point), b.to_eye,
+           i);
   }
 }
 
 void begin(const float* openness, SampleBlock& b) {
   for (std::size_t i = 0; i < b.count; i += 16) {
-    Vector16 ambient = load3(b.ambient, i);
+    Vector16 ambient = b.glossy ? glossy_ambient(b, i) : load3(b.ambient, i);
     if (openness != nullptr) ambient = load<Float16>(openness + i) * ambient;
     store3(ambient + load3(b.emissive, i), b.color, i);
   }
@@ -94,7 +107,7 @@ void begin(const float* openness, SampleBlock& b) {
 void light(const LightTerms& terms, const float* factor, SampleBlock& b) {
   for (std::size_t i = 0; i < b.count; i += 16) {
     const Incident incident = incident_light(terms, b, i);
-    Vector16 shown = diffuse_light(terms, incident, b, i);
+    Vector16 shown = b.glossy ? glossy_light(terms, incident, b, i) : diffuse_light(terms, incident, b, i);
     if (factor != nullptr) shown = load<Float16>(factor + i) * shown;
     store3(load3(b.color, i) + shown, b.color, i);
   }
@@ -134,7 +147,7 @@ void encode_block(const LevelTable& table, float exposure, const SampleBlock& b,
 }  // namespace
 
 Kernels kernels() {
-  return {place, begin, light, encode_block};
+  return {place, look, begin, light, encode_block};
 }
 
 }  // namespace tenebra::shade::HWY_NAMESPACE

@@ -16,7 +16,10 @@ struct Kernels {
   /// all of one triangle and its surface. May write up to fifteen samples behind them.
   void (*place)(const TriangleSetup& setup, const Surface& surface, const float* x, const float* y,
                 std::size_t first, std::size_t count, SampleBlock& block) = nullptr;
-  /// color = ambient * openness + emissive; `openness`: one for each sample, or null: all open.
+  /// Fills to_eye; `towards`: the same unit direction for all (orthographic views), or null.
+  void (*look)(const glm::vec3* towards, SampleBlock& block) = nullptr;
+  /// color = ambient * openness + emissive; `openness`: one for each sample, or null: all open. What
+  /// is glossy mirrors `reflected`, as open.
   void (*begin)(const float* openness, SampleBlock& block) = nullptr;
   /// Adds a light; `factor`: one for each sample, or null: 1.
   void (*light)(const LightTerms& terms, const float* factor, SampleBlock& block) = nullptr;

@@ -40,6 +40,17 @@ glm::vec2 cone_fade(const Light& light) {
   return {scale, -cos_outer * scale};
 }
 
+void set_polygon(const AreaLight& area, const ViewRays& view, LightTerms& terms) {
+  terms.area_from_eye = area.centre - glm::dvec3(view.eye);
+  terms.area_normal = area.normal;
+  terms.axis_x = area.ex;
+  terms.axis_y = area.ey;
+  terms.corner_count = static_cast<int>(std::min(area.polygon.size(), terms.corners.size()));
+  for (int i = 0; i < terms.corner_count; ++i)
+    terms.corners[static_cast<std::size_t>(i)] = area.polygon[static_cast<std::size_t>(i)];
+  terms.radius_m = static_cast<float>(std::sqrt(area.area_m2 / glm::pi<double>()));
+}
+
 }  // namespace
 
 LightTerms light_terms(const PlacedLight& drawn, const ViewRays& view) {
@@ -52,6 +63,7 @@ LightTerms light_terms(const PlacedLight& drawn, const ViewRays& view) {
   if (terms.spot) terms.cone = cone_fade(drawn.light);
   terms.range_m = drawn.light.range_m.value_or(0.0f);
   terms.by_irradiance = drawn.area != nullptr;
+  if (drawn.area != nullptr) set_polygon(*drawn.area, view, terms);
   terms.distance_power = power_of_distance(drawn.light, terms.by_irradiance);
   terms.cosine_emitter = is_area(drawn.light.type) && !terms.by_irradiance;
   return terms;

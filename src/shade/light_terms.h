@@ -1,6 +1,7 @@
 // A light as shading sees it: constants of a frame.
 #pragma once
 
+#include <array>
 #include <cstdint>
 #include <glm/glm.hpp>
 #include <span>
@@ -46,6 +47,14 @@ struct LightTerms {
   bool spot = false;
   bool cosine_emitter = false;
   bool by_irradiance = false;  ///< the cosine at the surface comes with the irradiance
+
+  // By irradiance: the polygon, for what mirrors it.
+  glm::vec3 area_from_eye{0.0f};  ///< its centre relative to the eye
+  glm::vec3 area_normal{0.0f};
+  glm::vec3 axis_x{0.0f}, axis_y{0.0f};  ///< unit
+  int corner_count = 0;
+  std::array<glm::vec2, 14> corners{};  ///< along the axes, metres, counter-clockwise
+  float radius_m = 0;                   ///< of the disc of the same area
 };
 LightTerms light_terms(const PlacedLight& light, const ViewRays& view);
 

@@ -13,7 +13,8 @@ struct SampleBlock {
   using Channel = float[room];
 
   std::size_t count = 0;
-  bool glossy = false;  ///< some sample reflects more than diffusely: the channels of gloss below are filled
+  bool keeps_gloss = false;  ///< the channels of gloss below are filled
+  bool glossy = false;       ///< some sample reflects more than diffusely
 
   alignas(64) Channel u, v;        ///< weights of the triangle's second and third vertex, 0 to 1
   alignas(64) Channel depth;       ///< factor of what u and v change by from pixel to pixel

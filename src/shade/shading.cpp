@@ -9,6 +9,7 @@
 namespace tenebra::shade {
 namespace {
 
+constexpr std::size_t samples_at_once = 64 * SampleBlock::capacity;
 constexpr std::size_t rows_at_once = 16;  // neighbouring rows see the same triangles
 
 /// Calls work(shader, first) for each block of pixels from `first` on, placed.
@@ -45,19 +46,21 @@ void shade_samples(const Subject& subject, const Lighting& lighting, const Sampl
                    std::vector<ShadedSample>& out) {
   const FrameTerms frame(subject, lighting);
   out.resize(samples.ids.size());
-  parallel::parallel_ranges(out.size(), SampleBlock::capacity, [&](std::size_t first, std::size_t last) {
+  parallel::parallel_ranges(out.size(), samples_at_once, [&](std::size_t begin, std::size_t end) {
     BlockShader shader(frame);
     float x[SampleBlock::room] = {}, y[SampleBlock::room] = {};
-    for (std::size_t i = first; i < last; ++i) {
-      x[i - first] = samples.places[i].x;
-      y[i - first] = samples.places[i].y;
-    }
-    shader.place(samples.ids.subspan(first, last - first), x, y);
-    shader.shade(samples.factors, samples.openness, first);
-    const SampleBlock& block = shader.block();
-    for (std::size_t i = first; i < last; ++i) {
-      const std::size_t k = i - first;
-      out[i].color = {block.color[0][k], block.color[1][k], block.color[2][k]};
+    for (std::size_t first = begin; first < end; first += SampleBlock::capacity) {
+      const std::size_t count = std::min(SampleBlock::capacity, end - first);
+      for (std::size_t k = 0; k < count; ++k) {
+        x[k] = samples.places[first + k].x;
+        y[k] = samples.places[first + k].y;
+      }
+      shader.place(samples.ids.subspan(first, count), x, y);
+      shader.shade(samples.factors, samples.openness, first);
+      const SampleBlock& block = shader.block();
+      for (std::size_t k = 0; k < count; ++k) {
+        out[first + k] = {{block.color[0][k], block.color[1][k], block.color[2][k]}, block.alpha[k]};
+      }
     }
   });
 }

@@ -10,6 +10,7 @@
 
 #include <tenebra/frame_geometry.h>
 #include "base/image.h"
+#include "shade/environment.h"
 #include "shade/light_terms.h"
 #include "shade/surfaces.h"
 
@@ -25,7 +26,8 @@ struct Subject {
 struct Lighting {
   std::span<const PlacedLight> lights;
   glm::vec3 ambient_light{1.0f};
-  glm::vec3 background{0.0f};  ///< linear, where no triangle is seen
+  glm::vec3 background{0.0f};                ///< linear, where no triangle is seen
+  const Environment* environment = nullptr;  ///< in place of ambient_light and background
 };
 
 /// Samples of a view, pixels or not. Which point a sample is follows from its triangle and its place: where
@@ -38,9 +40,10 @@ struct Samples {
 };
 
 /// A sample's linear colour, before exposure: ambient * ambient_light * openness + emissive + the sum of
-/// light * mask / 255 or light * irradiance over the lights.
+/// light * mask / 255 or light * irradiance over the lights; docs/materials.md has what reflects how.
 struct ShadedSample {
   glm::vec3 color{0.0f};
+  float alpha = 1;  ///< share of the surface that is there (AlphaMode::blend, mask)
 };
 void shade_samples(const Subject& subject, const Lighting& lighting, const Samples& samples,
                    std::vector<ShadedSample>& out);

@@ -109,7 +109,8 @@ const TriangleSetup& SetupCache::find(const FrameGeometry& geometry, const ViewR
     slot = static_cast<std::uint16_t>(setups_.size());
   }
   TriangleSetup& setup = setups_[slot - std::size_t{1}];
-  if (setup.id != id) setup = set_up(geometry, view, id, place);
+  // A first sample that just misses the triangle's plane makes its setup flat, but not those that follow.
+  if (setup.id != id || setup.flat) setup = set_up(geometry, view, id, place);
   return setup;
 }
 
