@@ -105,6 +105,7 @@ public:
     if (!context) return tl::unexpected(context.error());
     auto renderer = render::Renderer::create(std::move(*context), plan_.scene);
     if (!renderer) return tl::unexpected(renderer.error());
+    if (plan_.environment) renderer->set_environment(*plan_.environment);
     FrameGeometry first_frame;
     evaluate_frame(plan_.scene, plan_.clip, plan_.frames.front().time_s, first_frame);
     const auto settings = describe_render(plan_, options_, renderer->gl_renderer(), first_frame);

@@ -121,6 +121,8 @@ std::vector<render::LogSetting> describe_render(const RenderPlan& plan, const Re
       {"camera", camera_text(plan, options.scene)},
       {"size", fmt::format("{}x{}", settings.width, settings.height)},
       {"cone_sides", fmt::format("{}", options.scene.import.cone_sides)},
+      {"transfer", plan.scene.transfer == Transfer::srgb ? "srgb" : "display"},
+      {"environment", options.scene.environment.empty() ? "none" : options.scene.environment},
   };
   for (render::LogSetting& setting : describe_method(settings)) list.push_back(std::move(setting));
   for (std::string& text : light_edit_texts(options.scene.lights)) {

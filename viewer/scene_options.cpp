@@ -33,6 +33,26 @@ void add_files(CLI::App& command, SceneOptions& options) {
       .group(scene_group);
 }
 
+Expected<Transfer> parse_transfer(const std::string& text) {
+  if (text == "srgb") return Transfer::srgb;
+  if (text == "display") return Transfer::display;
+  return base::fail("found {}, expected srgb or display", text);
+}
+
+void add_looks(CLI::App& command, SceneOptions& options) {
+  add_value(
+      command, "--transfer", options.transfer, parse_transfer,
+      "srgb: colours are linear light, pictures encoded; display:\ncolours are shown as they are, as in "
+      "1999 [display for AFF\nand NFF, srgb for the others]")
+      .type_name("srgb|display")
+      .group(scene_group);
+  add_text(command, "--environment", options.environment,
+           "Radiance picture (.hdr, equirectangular) of what stands\naround the scene: its background, its "
+           "ambient light and\nwhat metals mirror")
+      .type_name("FILE")
+      .group(scene_group);
+}
+
 void add_lights(CLI::App& command, SceneOptions& options) {
   const auto read = [&options](const std::vector<std::string>& texts) -> Expected<void> {
     for (const std::string& text : texts) {
@@ -90,6 +110,7 @@ void add_camera(CLI::App& command, SceneOptions& options) {
 
 void add_scene_options(CLI::App& command, SceneOptions& options) {
   add_files(command, options);
+  add_looks(command, options);
   add_lights(command, options);
   add_moment(command, options);
   add_camera(command, options);

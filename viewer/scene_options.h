@@ -17,8 +17,10 @@ struct SceneOptions {
   std::string file;  ///< positional SCENE; empty: not given
   formats::ImportOptions import;
   std::vector<std::string> no_cast;
-  int cutout_limit = 1'000'000;  ///< triangles that cutting out alpha may add
-  bool cast_all = false;         ///< skies cast shadows too
+  int cutout_limit = 1'000'000;      ///< triangles that cutting out alpha may add
+  bool cast_all = false;             ///< skies cast shadows too
+  std::optional<Transfer> transfer;  ///< none: the format's own
+  std::string environment;           ///< a Radiance picture; empty: none
 
   std::optional<double> time_s;
   double fps = 30.0;
@@ -34,9 +36,9 @@ struct SceneOptions {
   LightEdits lights;
 };
 
-/// Adds SCENE, --no-cast, --cast-all, --cone-sides, --set-light, --time, --fps, --clip and those of the
-/// camera, --size too; they are read into `options`, which must live as long. A command makes SCENE required
-/// with option_of(command, "SCENE").required().
+/// Adds SCENE, --no-cast, --cast-all, --cone-sides, --transfer, --environment, --set-light, --time, --fps,
+/// --clip and those of the camera, --size too; they are read into `options`, which must live as long. A
+/// command makes SCENE required with option_of(command, "SCENE").required().
 void add_scene_options(CLI::App& command, SceneOptions& options);
 
 /// What single options cannot check: combinations.

@@ -61,6 +61,12 @@ Expected<ScenePlan> plan_scene(const SceneOptions& options) {
   if (!leave_out_casters(plan.scene, options.no_cast, unmatched)) {
     return base::fail("--no-cast: {} names no mesh, material or FILE:LINE of the scene", unmatched);
   }
+  if (options.transfer) plan.scene.transfer = *options.transfer;
+  if (!options.environment.empty()) {
+    auto picture = base::read_hdr(options.environment);
+    if (!picture) return base::fail("--environment: {}", picture.error().message);
+    plan.environment = std::move(*picture);
+  }
   add_missing_camera_and_light(plan.scene);
   number_lights(plan.scene);
   cutout::cut_out_masks(plan.scene, {.most_added = static_cast<std::size_t>(options.cutout_limit)});

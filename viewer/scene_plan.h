@@ -3,6 +3,7 @@
 #pragma once
 
 #include <tenebra/frame_geometry.h>
+#include "base/image.h"
 #include "scene_options.h"
 
 namespace tenebra::viewer {
@@ -13,6 +14,7 @@ struct ScenePlan {
   int clip = -1;
   int camera = 0;  ///< index into scene.cameras; unused with --eye
   Size size;       ///< --size, or what the camera asks for
+  std::optional<base::ImageF> environment;
 };
 
 /// Imports the scene and fits the options to it. Fails on what the scene does not have.

@@ -12,8 +12,8 @@ namespace tenebra::render {
 namespace {
 
 /// The scene but for the vertices of deforming meshes at their key times (FrameGeometry has them of each
-/// frame, and they are most of a large animation) and, where nothing is see-through, images: the surfaces hold
-/// what they need.
+/// frame, and they are most of a large animation) and, where nothing is see-through, images: the surfaces
+/// hold what they need.
 Scene without_keyed_vertices(Scene scene) {
   for (Mesh& mesh : scene.meshes) {
     for (MorphTarget& target : mesh.morph_targets) target = {};

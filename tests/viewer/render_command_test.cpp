@@ -5,6 +5,7 @@
 
 #include <algorithm>
 #include <chrono>
+#include <cmath>
 #include <csignal>
 #include <nlohmann/json.hpp>
 #include <sstream>
@@ -94,6 +95,38 @@ TEST(RenderCommand, DarkensWhatTheMaskSaysIsShadowed) {
     darker += shadowed.pixels[i] < plain.pixels[i] ? 1 : 0;
   }
   EXPECT_GT(darker, 100u);
+}
+
+// Of the same colours, shown as they are and encoded: level 137 is a quarter of the light, 64 its display
+// value.
+TEST(RenderCommand, TransfersAndEnvironmentsArePutIntoThePicture) {
+  const TemporaryFolder folder;
+  const std::string scene = write_moving_scene(folder);
+  write_text(folder / "grey.hdr", "#?RADIANCE\nFORMAT=32-bit_rle_rgbe\n\n-Y 1 +X 1\n\x80\x80\x80\x7f");
+  const auto drawn = [&](std::vector<std::string> more) {
+    std::vector<std::string> arguments{"render", scene, "--size", "64x48", "-o", folder / "a.png", "--quiet"};
+    arguments.insert(arguments.end(), more.begin(), more.end());
+    const auto result = tenebra(arguments);
+    EXPECT_EQ(result.exit_code, 0) << result.errors;
+    return picture(folder / "a.png");
+  };
+  const base::Image8 srgb = drawn({}), display = drawn({"--transfer", "display"});
+  int brighter = 0;
+  for (std::size_t i = 0; i < srgb.pixels.size(); ++i) {
+    const double x = display.pixels[i] / 255.0;
+    const double encoded = x <= 0.0031308 ? 12.92 * x : 1.055 * std::pow(x, 1 / 2.4) - 0.055;
+    const double slope = x <= 0.0031308 ? 12.92 : 1.055 / 2.4 * std::pow(x, 1 / 2.4 - 1);
+    EXPECT_NEAR(srgb.pixels[i], 255 * encoded, 0.5 + 0.6 * slope) << i;
+    brighter += srgb.pixels[i] > display.pixels[i];
+  }
+  EXPECT_GT(brighter, 100);
+  const std::string picture_of_all = folder / "grey.hdr";
+  const base::Image8 black = drawn({"--environment", picture_of_all, "--exposure", "1e-6"});
+  EXPECT_EQ(count_of(black, 0), black.pixels.size());
+  const base::Image8 grey = drawn({"--environment", picture_of_all});
+  EXPECT_GT(count_of(grey, 137), count_of(srgb, 137) + 300);
+  const base::Image8 grey_display = drawn({"--environment", picture_of_all, "--transfer", "display"});
+  EXPECT_GT(count_of(grey_display, 64), count_of(display, 64) + 300);
 }
 
 TEST(RenderCommand, NumbersFramesAndLights) {

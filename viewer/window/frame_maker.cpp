@@ -31,6 +31,7 @@ Expected<void> FrameMaker::take_scene(const std::shared_ptr<const ScenePlan>& sc
   if (!context) return tl::unexpected(context.error());
   auto renderer = render::Renderer::create(std::move(*context), scene->scene);
   if (!renderer) return tl::unexpected(renderer.error());
+  if (scene->environment) renderer->set_environment(*scene->environment);
   renderer_.emplace(std::move(*renderer));
   scene_ = scene;
   return {};

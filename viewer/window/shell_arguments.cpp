@@ -32,6 +32,9 @@ std::string shell_arguments(const ViewState& state, double time_s, Size size) {
   if (const int sides = state.options.import.cone_sides; sides != formats::ImportOptions{}.cone_sides) {
     add("--cone-sides", fmt::format("{}", sides));
   }
+  if (const auto transfer = state.options.transfer)
+    add("--transfer", *transfer == Transfer::srgb ? "srgb" : "display");
+  if (!state.options.environment.empty()) add("--environment", state.options.environment);
   if (state.clip > 0) add("--clip", number_or_name(scene.clips, state.clip));
   if (state.camera_mode == CameraMode::scene) {
     add("--camera", number_or_name(scene.cameras, state.camera));
