@@ -97,6 +97,7 @@ std::vector<WorldLight> edited_lights(std::vector<WorldLight> lights, const Ligh
   for (WorldLight& light : lights) {
     const LightEdit edit = edit_of(edits, light.light);
     light.position += edit.move;
+    if (light.intensity) *light.intensity *= edit.on ? edit.intensity : 0.0f;
     if (!edit.size_m) continue;
     resize(light.axis_x, edit.size_m->x);
     resize(light.axis_y, edit.size_m->y);

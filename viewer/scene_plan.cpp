@@ -35,6 +35,8 @@ Expected<void> apply_field_of_view(Scene& scene, int camera, const SceneOptions&
     return base::fail("--fov: camera {} ({}) is orthographic and has no field of view", camera, chosen.name);
   }
   chosen.vertical_fov_rad = radians(*options.fov_deg);
+  for (Clip& clip : scene.clips)
+    std::erase_if(clip.channels, [](const Channel& c) { return c.path == ChannelPath::camera_fov; });
   return {};
 }
 

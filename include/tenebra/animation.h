@@ -19,16 +19,39 @@ enum class Interpolation {
 /// Keys of one animated quantity. Not sorted: BART needs the file's order (see evaluate_track).
 struct Track {
   Interpolation interpolation = Interpolation::linear;
-  int components =
-      0;  ///< numbers per key: 3 translation or scale, 4 rotation (x, y, z, w), 1 visibility, N weights
+  int components = 0;  ///< numbers per key: 3 translation or scale, 4 rotation (x, y, z, w), 1 visibility, N
+                       ///< weights; see ChannelPath
   std::vector<double> times_s;
   std::vector<double> values;   ///< times_s.size() * components (three times that for cubic_spline)
   std::vector<glm::dvec3> tcb;  ///< tension, continuity, bias of each key; kochanek_bartels only
 };
 
-enum class ChannelPath { translation, rotation, scale, weights, visibility };
+/// Which property a channel drives. Those from light_color on are of the node's light or camera; their values
+/// are in the units of Light and Camera.
+enum class ChannelPath {
+  translation,
+  rotation,
+  scale,
+  weights,
+  visibility,
+  light_color,       ///< 3 numbers
+  light_intensity,   ///< this and all below: 1 number
+  light_range,       ///< metres
+  light_inner_cone,  ///< radians
+  light_outer_cone,
+  light_size,     ///< metres: the height of a rectangle, whose width keeps its share, or a disc's diameter
+  camera_fov,     ///< radians, bottom to top
+  camera_extent,  ///< metres, full height
+  camera_near     ///< metres
+};
 
-/// Ties a track to one property of one node. Several channels may share a track (BART's names are global).
+/// Whether `path` is a property of where a node is and what it shows, not of its light or camera.
+constexpr bool drives_node(ChannelPath path) {
+  return path <= ChannelPath::visibility;
+}
+
+/// Ties a track to one property of one node, or of the light or camera there. Several channels may share a
+/// track (BART's names are global).
 struct Channel {
   int node = -1;
   ChannelPath path = ChannelPath::translation;

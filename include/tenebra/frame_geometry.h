@@ -6,6 +6,7 @@
 #include <cstdint>
 #include <glm/glm.hpp>
 #include <glm/gtc/quaternion.hpp>
+#include <optional>
 #include <vector>
 
 namespace tenebra {
@@ -69,7 +70,17 @@ struct WorldLight {
   glm::vec3 direction{0, 0, -1};  ///< unit, the way that spot, directional and area lights shine
   glm::vec3 axis_x{1, 0, 0};      ///< area lights: half of the width
   glm::vec3 axis_y{0, 1, 0};      ///< area lights: half of the height
+
+  // What the clip says of the light at this instant, in place of the scene's; empty: nothing.
+  std::optional<glm::vec3> color;
+  std::optional<float> intensity;
+  std::optional<float> range_m;
+  std::optional<float> inner_cone_rad;
+  std::optional<float> outer_cone_rad;
 };
+
+/// The scene's light with what the clip changes of it at that instant.
+Light light_at(const Scene& scene, const WorldLight& placed);
 
 /// A camera at one instant, as the rays through its pixels. The ray through the centre of pixel (x, y), row 0
 /// at the top, starts at `eye` and runs along d0 + (x + 0.5) dx + (y + 0.5) dy; in orthographic views it

@@ -70,7 +70,7 @@ Expected<std::vector<DrawnLight>> drawn_lights(const Scene& scene, const FrameIn
   std::vector<DrawnLight> lights;
   for (const WorldLight& placed : input.lights) {
     const int number = static_cast<int>(lights.size());
-    lights.push_back({number, scene.lights[static_cast<std::size_t>(placed.light)], placed, std::nullopt});
+    lights.push_back({number, light_at(scene, placed), placed, std::nullopt});
   }
   if (settings.shadows == ShadowMode::soft) {
     const SceneBox box = box_of(input.geometry);

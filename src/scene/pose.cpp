@@ -54,6 +54,8 @@ void apply_channel(const Scene& scene, const Channel& channel, const Track& trac
       std::copy_n(v.begin(), count, out.weights.begin() + static_cast<std::ptrdiff_t>(node.first_weight));
       break;
     }
+    default:
+      break;  // of a light or camera: view.cpp
   }
 }
 
@@ -72,6 +74,7 @@ void evaluate_pose(const Scene& scene, int clip, double time_s, Pose& out) {
   if (clip >= 0 && static_cast<std::size_t>(clip) < scene.clips.size()) {
     const Clip& animation = scene.clips[static_cast<std::size_t>(clip)];
     for (const Channel& channel : animation.channels) {
+      if (!drives_node(channel.path)) continue;
       apply_channel(scene, channel, animation.tracks[static_cast<std::size_t>(channel.track)], time_s, out);
     }
   }

@@ -1,7 +1,9 @@
 // Lights and cameras of one instant.
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <numbers>
+#include <span>
 
 #include <tenebra/frame_geometry.h>
 #include "scene/pose.h"
@@ -51,9 +53,85 @@ ViewRays orthographic_rays(const Viewer& viewer, double extent_m, float near_m, 
           .near_m = near_m};
 }
 
-WorldLight place_light(const Scene& scene, int node, const glm::dmat4& to_world) {
+/// The channels of `clip` that drive lights or cameras; most clips have none.
+class PropertyValues {
+public:
+  PropertyValues(const Scene& scene, int clip, double time_s) : time_s_(time_s) {
+    if (clip >= 0 && static_cast<std::size_t>(clip) < scene.clips.size())
+      clip_ = &scene.clips[static_cast<std::size_t>(clip)];
+  }
+
+  /// Calls set(path, values) for each channel of `node`'s light or camera; values[0] to [2] are there.
+  template <class Set>
+  void for_each(int node, Set set) const {
+    if (clip_ == nullptr) return;
+    for (const Channel& channel : clip_->channels) {
+      if (drives_node(channel.path) || channel.node != node) continue;
+      const Track& track = clip_->tracks[static_cast<std::size_t>(channel.track)];
+      std::array<double, 3> values{};
+      if (track.components < 1 || track.components > 3 || track.times_s.empty()) continue;
+      const std::span<double> written(values.data(), static_cast<std::size_t>(track.components));
+      evaluate_track(track, time_s_, false, written);
+      set(channel.path, values);
+    }
+  }
+
+private:
+  const Clip* clip_ = nullptr;
+  double time_s_;
+};
+
+/// Splines overshoot: what may not fall below zero is cut there.
+float not_negative(double value) {
+  return static_cast<float>(std::max(value, 0.0));
+}
+
+void apply_light_value(ChannelPath path, const std::array<double, 3>& v, WorldLight& out, Light& light) {
+  const auto angle = [&] { return static_cast<float>(std::clamp(v[0], 0.0, std::numbers::pi / 2)); };
+  switch (path) {
+    case ChannelPath::light_color:
+      out.color = glm::vec3(not_negative(v[0]), not_negative(v[1]), not_negative(v[2]));
+      break;
+    case ChannelPath::light_intensity:
+      out.intensity = not_negative(v[0]);
+      break;
+    case ChannelPath::light_range:
+      if (light.type != LightType::directional) out.range_m = not_negative(v[0]);
+      break;
+    case ChannelPath::light_inner_cone:
+      out.inner_cone_rad = angle();
+      break;
+    case ChannelPath::light_outer_cone:
+      out.outer_cone_rad = angle();
+      break;
+    case ChannelPath::light_size: {
+      const float width = light.size_m.y > 0 ? light.size_m.x / light.size_m.y : 1.0f;
+      light.size_m = glm::vec2(width, 1.0f) * not_negative(v[0]);
+      break;
+    }
+    default:
+      break;
+  }
+}
+
+void apply_camera_value(ChannelPath path, double value, Camera& camera) {
+  constexpr double least = 1e-6;
+  const auto number = static_cast<float>(std::max(value, least));
+  if (path == ChannelPath::camera_fov) camera.vertical_fov_rad = number;
+  if (path == ChannelPath::camera_extent) camera.vertical_extent_m = number;
+  if (path == ChannelPath::camera_near) camera.near_m = number;
+}
+
+WorldLight place_light(const Scene& scene, int node, const glm::dmat4& to_world,
+                       const PropertyValues& values) {
   WorldLight out{.light = scene.nodes[static_cast<std::size_t>(node)].light, .node = node};
-  const Light& light = scene.lights[static_cast<std::size_t>(out.light)];
+  Light light;
+  const Light& source = scene.lights[static_cast<std::size_t>(out.light)];
+  light.type = source.type;
+  light.size_m = source.size_m;
+  values.for_each(node, [&](ChannelPath path, const std::array<double, 3>& v) {
+    apply_light_value(path, v, out, light);
+  });
   const glm::dmat3 linear(to_world);
   out.position = glm::vec3(to_world[3]);
   out.direction = glm::vec3(-scene::view_basis(-linear[2], linear[1])[2]);
@@ -67,23 +145,40 @@ WorldLight place_light(const Scene& scene, int node, const glm::dmat4& to_world)
 std::vector<WorldLight> evaluate_lights(const Scene& scene, int clip, double time_s) {
   Pose pose;
   scene::evaluate_pose(scene, clip, time_s, pose);
+  const PropertyValues values(scene, clip, time_s);
   std::vector<WorldLight> lights;
   for (std::size_t i = 0; i < scene.nodes.size(); ++i) {
     if (scene.nodes[i].light < 0 || !pose.nodes[i].visible) continue;
-    const WorldLight light = place_light(scene, static_cast<int>(i), pose.nodes[i].to_world);
+    const WorldLight light = place_light(scene, static_cast<int>(i), pose.nodes[i].to_world, values);
     if (is_finite(light.position) && is_finite(light.axis_x) && is_finite(light.axis_y))
       lights.push_back(light);
   }
   return lights;
 }
 
+Light light_at(const Scene& scene, const WorldLight& placed) {
+  Light light = scene.lights[static_cast<std::size_t>(placed.light)];
+  if (placed.color) light.color = *placed.color;
+  if (placed.intensity) light.intensity = *placed.intensity;
+  if (placed.range_m) light.range_m = *placed.range_m > 0 ? placed.range_m : std::nullopt;
+  if (placed.inner_cone_rad) light.inner_cone_rad = *placed.inner_cone_rad;
+  if (placed.outer_cone_rad) light.outer_cone_rad = *placed.outer_cone_rad;
+  if (placed.inner_cone_rad || placed.outer_cone_rad)
+    light.inner_cone_rad = std::min(light.inner_cone_rad, light.outer_cone_rad);
+  return light;
+}
+
 ViewRays evaluate_camera(const Scene& scene, int clip, double time_s, int camera, int width, int height) {
-  const Camera& c = scene.cameras[static_cast<std::size_t>(camera)];
+  Camera c = scene.cameras[static_cast<std::size_t>(camera)];
   Viewer viewer;
   for (std::size_t i = 0; i < scene.nodes.size(); ++i) {
     if (scene.nodes[i].camera != camera) continue;
     Pose pose;
     scene::evaluate_pose(scene, clip, time_s, pose);
+    PropertyValues(scene, clip, time_s)
+        .for_each(static_cast<int>(i), [&](ChannelPath path, const std::array<double, 3>& v) {
+          apply_camera_value(path, v[0], c);
+        });
     const glm::dmat4& to_world = pose.nodes[i].to_world;
     viewer = {glm::dvec3(to_world[3]), scene::view_basis(-glm::dvec3(to_world[2]), glm::dvec3(to_world[1]))};
     break;

@@ -32,7 +32,8 @@ NodeMotion find_motion(const Scene& scene) {
       const auto index = static_cast<std::size_t>(channel.node);
       const Track& track = clip.tracks[static_cast<std::size_t>(channel.track)];
       const bool fixed = scene.nodes[index].matrix && channel.path != ChannelPath::visibility;
-      if (fixed || channel.path == ChannelPath::weights || track.components < 1) continue;
+      if (fixed || !drives_node(channel.path) || channel.path == ChannelPath::weights || track.components < 1)
+        continue;
       const double change = variation(track);
       if (change > 0) moves[index] = true;
       if (change > 0 && channel.path == ChannelPath::scale) motion.resized[index] = true;
