@@ -1,6 +1,7 @@
 // Clips of a GLB. Tracks that glTF knows keep their keys; BART's splines and visibility are baked at frames.
 #include <fmt/core.h>
 #include <functional>
+#include <set>
 #include <span>
 
 #include "formats/glb_writer.h"
@@ -31,6 +32,7 @@ struct GlbWriter::ClipWriter {
   int frames_accessor = -1;
   std::map<std::pair<int, ChannelPath>, int> sampler_of_track;
   std::map<int, int> sampler_of_mesh;
+  std::set<std::string> pointers;  ///< written already: nodes may share a light
   std::map<std::pair<int, ChannelPath>, const Channel*> channel_of;  ///< by node and path
 
   const Scene& scene() const { return writer.scene_; }
@@ -90,14 +92,21 @@ struct GlbWriter::ClipWriter {
     animation["channels"].push_back({{"sampler", sampler}, {"target", {{"node", node}, {"path", path}}}});
   }
 
-  int baked_sampler(const Track& track, ChannelPath path, int components) {
-    const int input = frames_input();
-    std::vector<float> values;
-    std::vector<double> value(static_cast<std::size_t>(track.components));
+  /// Values at all frames.
+  std::vector<double> baked_values(const Track& track, bool rotation) {
+    if (frames.empty()) find_frames();
+    std::vector<double> values, value(static_cast<std::size_t>(track.components));
     for (const float time : frames) {
-      evaluate_track(track, double{time} - delay_s, path == ChannelPath::rotation, value);
+      evaluate_track(track, double{time} - delay_s, rotation, value);
       values.insert(values.end(), value.begin(), value.end());
     }
+    return values;
+  }
+
+  int baked_sampler(const Track& track, ChannelPath path, int components) {
+    const int input = frames_input();
+    const std::vector<double> numbers = baked_values(track, path == ChannelPath::rotation);
+    const std::vector<float> values(numbers.begin(), numbers.end());
     return add_sampler(input, track.interpolation == Interpolation::step ? "STEP" : "LINEAR", values,
                        components);
   }
@@ -123,12 +132,73 @@ struct GlbWriter::ClipWriter {
     const auto node = static_cast<std::size_t>(channel.node);
     if (track_of(channel).times_s.empty()) return;
     if (channel.path == ChannelPath::visibility) return write_visibility(channel);
+    if (!drives_node(channel.path)) return write_pointer(channel);
     const bool in_visibility =
         channel.path == ChannelPath::scale && other(channel.node, ChannelPath::visibility);
     const bool without_effect = channel.path == ChannelPath::weights ? writer.written_mesh(node) < 0
                                                                      : scene().nodes[node].matrix.has_value();
     if (in_visibility || without_effect) return;
     add_channel(sampler_for(channel), channel.node, paths[static_cast<int>(channel.path)]);
+  }
+
+  /// Where the file has what a channel of a light or camera drives, and the file's numbers for one of the
+  /// scene's.
+  std::pair<std::string, double> pointer_of(const Channel& channel) const {
+    const Node& node = scene().nodes[static_cast<std::size_t>(channel.node)];
+    if (channel.path >= ChannelPath::camera_fov) {
+      if (node.camera < 0) return {};
+      const Camera& camera = scene().cameras[static_cast<std::size_t>(node.camera)];
+      const bool perspective = camera.projection == Projection::perspective;
+      if (channel.path != ChannelPath::camera_near &&
+          perspective != (channel.path == ChannelPath::camera_fov))
+        return {};
+      const char* name = channel.path == ChannelPath::camera_fov      ? "yfov"
+                         : channel.path == ChannelPath::camera_extent ? "ymag"
+                                                                      : "znear";
+      return {
+          fmt::format("/cameras/{}/{}/{}", node.camera, perspective ? "perspective" : "orthographic", name),
+          channel.path == ChannelPath::camera_extent ? 0.5 : 1.0};
+    }
+    if (node.light < 0) return {};
+    const auto light = static_cast<std::size_t>(node.light);
+    const LightType type = scene().lights[light].type;
+    const bool area = type >= LightType::area_rect, spot = type == LightType::spot;
+    const std::string place =
+        fmt::format("/extensions/{}/lights/{}/", area ? "EXT_lights_area" : "KHR_lights_punctual",
+                    writer.light_of_[light]);
+    switch (channel.path) {
+      case ChannelPath::light_color:
+        return {place + "color", writer.color_factor_[light]};
+      case ChannelPath::light_intensity:
+        return {place + "intensity", writer.intensity_factor_[light]};
+      case ChannelPath::light_range:
+        return {area ? "" : place + "range", 1};
+      case ChannelPath::light_inner_cone:
+        return {spot ? place + "spot/innerConeAngle" : "", 1};
+      case ChannelPath::light_outer_cone:
+        return {spot ? place + "spot/outerConeAngle" : "", 1};
+      default:
+        return {area ? place + "size" : "", 1};
+    }
+  }
+
+  /// Keys of a light or camera, for programs that know KHR_animation_pointer.
+  void write_pointer(const Channel& channel) {
+    const auto [pointer, factor] = pointer_of(channel);
+    if (pointer.empty() || !pointers.insert(pointer).second) return;
+    const Track& track = track_of(channel);
+    const bool keeps = keeps_keys(track);
+    const int input = keeps ? writer.binary_.add_floats(delayed(track.times_s), 1, true) : frames_input();
+    std::vector<double> numbers = keeps ? track.values : baked_values(track, false);
+    std::vector<float> values;
+    for (const double number : numbers) values.push_back(static_cast<float>(number * factor));
+    const char* how = keeps ? name_of(track.interpolation) : "LINEAR";
+    const int sampler = add_sampler(input, how, values, track.components);
+    animation["channels"].push_back(
+        {{"sampler", sampler},
+         {"target",
+          {{"path", "pointer"}, {"extensions", {{"KHR_animation_pointer", {{"pointer", pointer}}}}}}}});
+    writer.use("KHR_animation_pointer");
   }
 
   /// Hidden frames have scale 0; a track of scales of the same node is baked in.

@@ -28,6 +28,8 @@ std::string GlbWriter::write() {
   std::string& binary = binary_.bytes;
   binary.resize((binary.size() + 3) / 4 * 4, '\0');
   if (!binary.empty()) root_["buffers"].push_back({{"byteLength", binary.size()}});
+  for (auto table = root_.begin(); table != root_.end();)
+    table = table.value().is_null() ? root_.erase(table) : std::next(table);
   std::string json = root_.dump(-1, ' ', false, GlbJson::error_handler_t::replace);
   json.resize((json.size() + 3) / 4 * 4, ' ');
   const std::size_t chunk = binary.empty() ? 0 : 8 + binary.size();

@@ -63,20 +63,26 @@ std::vector<glm::vec3> pick(const std::vector<glm::vec3>& values, const Part& pa
   return picked;
 }
 
-GlbJson write_attributes(const Mesh& mesh, const Part& part, const std::vector<glm::vec3>& normals,
-                         GlbBinary& binary) {
-  GlbJson attributes = {{"POSITION", binary.add_vec3(pick(rest_positions(mesh), part), true)}};
-  if (!normals.empty()) attributes["NORMAL"] = binary.add_vec3(pick(normals, part), false);
-  if (mesh.joints.empty()) return attributes;
+void write_influences(const std::vector<glm::u16vec4>& all_joints, const std::vector<glm::vec4>& all_weights,
+                      const Part& part, const std::string& set, GlbJson& attributes, GlbBinary& binary) {
   std::vector<std::uint16_t> joints;
   std::vector<float> weights;
   for (const std::uint32_t v : part.vertices)
     for (int c = 0; c < 4; ++c) {
-      joints.push_back(mesh.weights[v][c] == 0 ? std::uint16_t{0} : mesh.joints[v][c]);
-      weights.push_back(mesh.weights[v][c]);
+      joints.push_back(all_weights[v][c] == 0 ? std::uint16_t{0} : all_joints[v][c]);
+      weights.push_back(all_weights[v][c]);
     }
-  attributes["JOINTS_0"] = binary.add(joints, 4, 5123, false);
-  attributes["WEIGHTS_0"] = binary.add_floats(weights, 4, false);
+  attributes["JOINTS_" + set] = binary.add(joints, 4, 5123, false);
+  attributes["WEIGHTS_" + set] = binary.add_floats(weights, 4, false);
+}
+
+GlbJson write_attributes(const Mesh& mesh, const Part& part, const std::vector<glm::vec3>& normals,
+                         GlbBinary& binary) {
+  GlbJson attributes = {{"POSITION", binary.add_vec3(pick(rest_positions(mesh), part), true)}};
+  if (!normals.empty()) attributes["NORMAL"] = binary.add_vec3(pick(normals, part), false);
+  if (!mesh.joints.empty()) write_influences(mesh.joints, mesh.weights, part, "0", attributes, binary);
+  if (!mesh.more_joints.empty())
+    write_influences(mesh.more_joints, mesh.more_weights, part, "1", attributes, binary);
   return attributes;
 }
 

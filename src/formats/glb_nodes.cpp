@@ -48,7 +48,8 @@ void GlbWriter::write_contents(std::size_t index, GlbJson& written) {
   const Node& node = scene_.nodes[index];
   if (const int mesh = written_mesh(index); mesh >= 0) {
     written["mesh"] = mesh;
-    if (node.skin >= 0) written["skin"] = node.skin;
+    if (node.skin >= 0 && skin_of_[static_cast<std::size_t>(node.skin)] >= 0)
+      written["skin"] = skin_of_[static_cast<std::size_t>(node.skin)];
     if (!node.weights.empty()) written["weights"] = node.weights;
   }
   if (node.camera >= 0) written["camera"] = node.camera;

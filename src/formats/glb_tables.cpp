@@ -89,6 +89,8 @@ void GlbWriter::write_lights() {
                        {"type", light_names[static_cast<int>(light.type)]},
                        {"color", to_json(light.color / peak)},
                        {"intensity", candela_share * light.intensity * peak}};
+    intensity_factor_.push_back(candela_share * peak);
+    color_factor_.push_back(1.0 / peak);
     if (steady) {
       written["extras"] = {{"falloff", "none"}, {"intensity", light.intensity * peak}};
       ++without_falloff;
@@ -129,12 +131,21 @@ void GlbWriter::write_cameras() {
 }
 
 void GlbWriter::write_skins() {
-  for (const Skin& skin : scene_.skins) {
+  std::vector<bool> used(scene_.skins.size(), false);
+  for (const Node& node : scene_.nodes)
+    if (node.skin >= 0) used[static_cast<std::size_t>(node.skin)] = true;
+  for (std::size_t s = 0; s < scene_.skins.size(); ++s) {
+    skin_of_.push_back(-1);
+    const Skin& skin = scene_.skins[s];
+    const bool whole = std::none_of(skin.joints.begin(), skin.joints.end(), [](int j) { return j < 0; });
+    if (!used[s] || skin.joints.empty() || !whole) continue;
     std::vector<float> numbers;
     for (const glm::mat4& m : skin.inverse_bind)
       for (int i = 0; i < 16; ++i) numbers.push_back(m[i / 4][i % 4]);
-    root_["skins"].push_back(
-        {{"joints", skin.joints}, {"inverseBindMatrices", binary_.add_floats(numbers, 16, false)}});
+    const int matrices = binary_.add_floats(numbers, 16, false);
+    GlbJson written = {{"joints", skin.joints}, {"inverseBindMatrices", matrices}};
+    skin_of_.back() = static_cast<int>(root_["skins"].size());
+    root_["skins"].push_back(std::move(written));
   }
 }
 

@@ -21,6 +21,17 @@ inline GlbJson to_json(const glm::vec3& v) {
   return GlbJson::array({v.x, v.y, v.z});
 }
 
+/// All tables of a file, each null until something is in it. They stand from the start, so that a reference
+/// to one is not moved by a new one beside it.
+inline GlbJson empty_tables() {
+  GlbJson root = {{"asset", {{"version", "2.0"}, {"generator", "Tenebra"}}}};
+  for (const char* name : {"extensionsUsed", "extensionsRequired", "scene", "scenes", "nodes", "meshes",
+                           "accessors", "bufferViews", "buffers", "materials", "textures", "images",
+                           "samplers", "cameras", "skins", "animations", "extensions"})
+    root[name] = nullptr;
+  return root;
+}
+
 /// The binary chunk and the tables that describe it.
 struct GlbBinary {
   static constexpr std::size_t max_bytes = 0xFFFFFFFF;  ///< lengths in a GLB are 32 bits
@@ -102,11 +113,13 @@ private:
 
   const Scene& scene_;
   double fps_;
-  GlbJson root_ = {{"asset", {{"version", "2.0"}, {"generator", "Tenebra"}}}};
+  GlbJson root_ = empty_tables();
   GlbBinary binary_{root_, {}};
   std::vector<int> mesh_of_;   ///< mesh of the file for each of the scene; -1: no triangles
   std::vector<int> light_of_;  ///< index in its extension's table
-  std::vector<bool> hidden_;   ///< nodes that no clip ever shows
+  std::vector<int> skin_of_;   ///< skin of the file for each of the scene; -1: none, as no node uses it
+  std::vector<double> intensity_factor_, color_factor_;  ///< of each light, from the scene's to the file's
+  std::vector<bool> hidden_;                             ///< nodes that no clip ever shows
 };
 
 }  // namespace tenebra::formats

@@ -5,6 +5,7 @@
 
 #include <algorithm>
 #include <filesystem>
+#include <fstream>
 
 #include <tenebra/frame_geometry.h>
 #include "formats/import_scene.h"
@@ -110,6 +111,43 @@ TEST(ExportGlb, SharedScenesComeBackWithTheSameTrianglesAtAllTimes) {
     ASSERT_EQ(back->clips.size(), scene->clips.size());
     for (const double time : {0.0, 0.7, 1.3}) expect_same_geometry(*scene, *back, 0, time, 1e-5f);
   }
+}
+
+// The tables of the file move when new ones come beside them: references into them must not.
+TEST(Export, OfASceneOfSkinsAloneKeepsThem) {
+  const fs::path in = scratch("skins.gltf"), out = scratch("skins.glb");
+  std::ofstream(in) << R"({"asset":{"version":"2.0"},"nodes":[{}],"skins":[{"joints":[0]}]})";
+  const auto unused = formats::import_gltf(in);
+  ASSERT_TRUE(unused.has_value()) << unused.error().message;
+  ASSERT_TRUE(formats::export_glb(*unused, out).has_value());
+  const auto without = formats::import_gltf(out);
+  ASSERT_TRUE(without.has_value()) << without.error().message;
+  EXPECT_TRUE(without->skins.empty());  // no node uses it
+
+  Scene scene;
+  scene.materials.resize(1);
+  scene.meshes.resize(1);
+  Mesh& mesh = scene.meshes[0];
+  mesh.positions = {{0, 0, 0}, {1, 0, 0}, {0, 1, 0}};
+  mesh.triangles = {{0, 1, 2}};
+  mesh.materials = {0};
+  mesh.joints.resize(3, glm::u16vec4(0));
+  mesh.weights.resize(3, glm::vec4(1, 0, 0, 0));
+  for (int s = 0; s < 5; ++s) {
+    Node node;
+    node.translation.x = s;
+    node.mesh = 0;
+    node.skin = s;
+    scene.nodes.push_back(node);
+    scene.skins.push_back({{s}, {glm::mat4(1)}});
+  }
+  ASSERT_TRUE(formats::export_glb(scene, out).has_value());
+  const auto again = formats::import_gltf(out);
+  ASSERT_TRUE(again.has_value()) << again.error().message;
+  ASSERT_EQ(again->skins.size(), 5u);
+  for (int s = 0; s < 5; ++s) EXPECT_EQ(again->skins[static_cast<std::size_t>(s)].joints, std::vector{s});
+  fs::remove(in);
+  fs::remove(out);
 }
 
 }  // namespace
