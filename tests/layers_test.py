@@ -45,6 +45,8 @@ CONTAINED = [
     (r"\bgl[A-Z]\w*\(", "an OpenGL call", {"gl", "raster"}),
     (r"tiny_gltf|tinygltf::", "tinygltf", {"formats"}),
     (r"tinyobj::", "tinyobjloader", {"formats"}),
+    (r"\bmeshopt_|meshoptimizer\.h", "meshoptimizer", {"formats/gltf_meshopt.cpp"}),
+    (r"\bdraco::|<draco/", "Draco", {"formats/draco_decoder.cpp"}),
     (r"\bImGui|GLFW", "the window", set()),
     (r"\brtc[A-Z]\w*\(|embree", "the ray caster", {"ao/cast/embree.h", "ao/cast/reference_rays.cpp"}),
 ]

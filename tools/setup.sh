@@ -3,7 +3,7 @@
 # Usage: tools/setup.sh [--window | --tests]
 #   without an option   what building takes, and drawing without a display: all that ./demo.sh needs
 #   --window            also the font of `tenebra view`
-#   --tests             also what the tests need; with it, Embree for --ao rays
+#   --tests             also what the tests need; with it, Embree for --ao rays and compressed glTF files
 set -euo pipefail
 
 packages=(
@@ -18,6 +18,7 @@ where_known=()  # taken where this release has them
 [[ "${1:-}" == --window || "${1:-}" == --tests ]] && packages+=(libgl1 libglx-mesa0 fonts-dejavu-core)
 if [[ "${1:-}" == --tests ]]; then
   packages+=(libgtest-dev libembree-dev libgmp-dev
+    libmeshoptimizer-dev libdraco-dev
     xvfb xauth xdotool imagemagick x11-xserver-utils)
   where_known+=(libosmesa6 clang-format-14)  # Mesa 25.1 and later have no OSMesa: EGL is enough
 fi

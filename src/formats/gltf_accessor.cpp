@@ -180,9 +180,47 @@ std::vector<double> read_unbudgeted(const Asset& asset, int index) {
   return values;
 }
 
+/// What normalised integers of that type are divided by; 1 for floats.
+double scale_of(const Accessor& accessor) {
+  if (!accessor.normalized) return 1;
+  switch (accessor.componentType) {
+    case TINYGLTF_COMPONENT_TYPE_BYTE:
+      return 127;
+    case TINYGLTF_COMPONENT_TYPE_UNSIGNED_BYTE:
+      return 255;
+    case TINYGLTF_COMPONENT_TYPE_SHORT:
+      return 32767;
+    case TINYGLTF_COMPONENT_TYPE_UNSIGNED_SHORT:
+      return 65535;
+    default:
+      return 1;
+  }
+}
+
+/// Whether the bounds that the accessor states are those of its values, as floats or stored integers.
+bool bounds_are_exact(const Accessor& accessor, const std::vector<double>& values) {
+  const std::size_t components = static_cast<std::size_t>(component_count(accessor));
+  if (accessor.minValues.size() != components || accessor.maxValues.size() != components) return true;
+  const double scale = scale_of(accessor);
+  for (std::size_t c = 0; c < components; ++c) {
+    double low = INFINITY, high = -INFINITY;
+    for (std::size_t i = c; i < values.size(); i += components) {
+      low = std::min(low, values[i]);
+      high = std::max(high, values[i]);
+    }
+    // -128 and -127 are both -1 as normalised bytes.
+    const auto differ = [&](double stated, double found) {
+      const double stored = scale > 1 ? std::round(found * scale) : found;
+      return static_cast<float>(stated) != static_cast<float>(stored) && !(scale > 1 && stated < -scale);
+    };
+    if (differ(accessor.minValues[c], low) || differ(accessor.maxValues[c], high)) return false;
+  }
+  return true;
+}
+
 /// Compares with the declared bounds; integers as stored, floats to their precision. A difference is
-/// harmless.
-void check_bounds(Asset& asset, std::size_t index, const std::vector<double>& values) {
+/// harmless. Returns whether there is one that the warnings do not name.
+bool check_bounds(Asset& asset, std::size_t index, const std::vector<double>& values) {
   const Accessor& accessor = asset.model.accessors[index];
   const std::size_t components = static_cast<std::size_t>(component_count(accessor));
   std::size_t outside = 0, not_finite = 0;
@@ -204,6 +242,7 @@ void check_bounds(Asset& asset, std::size_t index, const std::vector<double>& va
     warnings.push_back(fmt::format(
         "accessors[{}]: found {} values that are not finite; triangles that use them are dropped.", index,
         not_finite));
+  return outside == 0 && not_finite == 0 && !bounds_are_exact(accessor, values);
 }
 
 void check_view(const Asset& asset, std::size_t index) {
@@ -233,6 +272,7 @@ void check_accessors(Asset& asset) {
       20'000'000;  // a good file has fewer than bytes; overlapping views could have more
   for (const std::string& buffer : asset.buffers) most_elements += buffer.size();
   Budget work(most_elements);
+  std::size_t loose = 0, first_loose = 0;
   for (std::size_t i = 0; i < asset.model.accessors.size(); ++i) {
     const Accessor& accessor = asset.model.accessors[i];
     // A count of 0 marks an accessor of unknown type: refused when used.
@@ -245,8 +285,12 @@ void check_accessors(Asset& asset) {
     Budget passing = asset.budget;  // the values live only for the check
     passing.take(accessor.count, 8 * static_cast<std::uint64_t>(component_count(accessor)),
                  fmt::format("accessors[{}].count", i));
-    check_bounds(asset, i, read_unbudgeted(asset, static_cast<int>(i)));
+    if (check_bounds(asset, i, read_unbudgeted(asset, static_cast<int>(i))) && loose++ == 0) first_loose = i;
   }
+  if (loose > 0)
+    asset.scene.warnings.push_back(
+        fmt::format("accessors[{}]{}: found a min or max that is not that of its values; kept as they are.",
+                    first_loose, loose > 1 ? fmt::format(" and {} more", loose - 1) : ""));
 }
 
 std::vector<double> read_numbers(Asset& asset, int index) {

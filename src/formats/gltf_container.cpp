@@ -40,10 +40,12 @@ GltfContainer split_glb(std::string_view bytes) {
   if (bytes.size() < 12) refuse("GLB header: found {} bytes, expected at least 12", bytes.size());
   if (word(bytes, 0) != glb_magic) refuse("GLB header: found magic {:#010x}, expected glTF", word(bytes, 0));
   if (word(bytes, 4) != 2) refuse("GLB header: found version {}, expected 2", word(bytes, 4));
-  if (word(bytes, 8) != bytes.size())
+  if (word(bytes, 8) > bytes.size() || word(bytes, 8) < 12)
     refuse("GLB header: found a stated length of {}, expected the file's {} bytes", word(bytes, 8),
            bytes.size());
   GltfContainer result;
+  result.bytes_behind = bytes.size() - word(bytes, 8);
+  bytes = bytes.substr(0, word(bytes, 8));
   result.is_glb = true;
   std::size_t offset = 12;
   for (int index = 0; offset < bytes.size(); ++index) {

@@ -11,6 +11,7 @@ struct GltfContainer {
   std::string_view json;
   std::optional<std::string_view> binary;  ///< the BIN chunk of a GLB
   bool is_glb = false;
+  std::size_t bytes_behind = 0;  ///< of the file after the end that a GLB states; not read
 };
 
 /// Splits `bytes` (views into it). Throws ImportFailure on what the GLB layout forbids.

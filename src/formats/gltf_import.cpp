@@ -9,13 +9,14 @@
 namespace tenebra::formats {
 namespace {
 
-Scene read_gltf(const std::filesystem::path& path) {
+Scene read_gltf(const std::filesystem::path& path, const ImportOptions& options) {
   const std::string bytes = read_scene_file(path);
   gltf::Asset asset;
   asset.scene.name = path.filename().string();
   constexpr std::uint64_t least = std::uint64_t{96} << 20;  // of the 256 MiB that a file of any size may take
   asset.budget = gltf::Budget(least + 8 * bytes.size());
   gltf::load_model(path, bytes, asset);
+  gltf::choose_scene(asset, options.scene);
   gltf::check_accessors(asset);
   gltf::build_materials(asset);
   gltf::build_cameras(asset);
@@ -30,9 +31,9 @@ Scene read_gltf(const std::filesystem::path& path) {
 
 }  // namespace
 
-Expected<Scene> import_gltf(const std::filesystem::path& path) {
+Expected<Scene> import_gltf(const std::filesystem::path& path, const ImportOptions& options) {
   try {
-    return read_gltf(path);
+    return read_gltf(path, options);
   } catch (const ImportFailure& failure) {
     return base::fail("{}: {}.", path.string(), failure.what());
   } catch (const std::bad_alloc&) {

@@ -12,9 +12,42 @@ namespace tenebra::formats::gltf {
 namespace {
 
 const std::set<std::string> understood_extensions = {
-    "KHR_lights_punctual",  "EXT_lights_area",     "KHR_mesh_quantization",
-    "KHR_materials_unlit",  "KHR_node_visibility", "KHR_materials_emissive_strength",
-    "KHR_texture_transform"};
+    "KHR_lights_punctual",     "EXT_lights_area",         "KHR_mesh_quantization",
+    "KHR_materials_unlit",     "KHR_node_visibility",     "KHR_materials_emissive_strength",
+    "KHR_texture_transform",   "EXT_meshopt_compression", "KHR_draco_mesh_compression",
+    "EXT_mesh_gpu_instancing", "KHR_animation_pointer"};
+
+/// Whether geometry and animation are the same without extension `name`: it is about how surfaces look, or
+/// about sound, tools and descriptions.
+bool leaves_geometry(std::string_view name) {
+  static const std::set<std::string_view> others = {"ADOBE_materials_clearcoat_specular",
+                                                    "ADOBE_materials_clearcoat_tint",
+                                                    "ADOBE_materials_thin_transparency",
+                                                    "AGI_stk_metadata",
+                                                    "CESIUM_primitive_outline",
+                                                    "EXT_instance_features",
+                                                    "EXT_lights_ies",
+                                                    "EXT_lights_image_based",
+                                                    "EXT_mesh_features",
+                                                    "EXT_structural_metadata",
+                                                    "FB_geometry_metadata",
+                                                    "KHR_audio_emitter",
+                                                    "KHR_environment_map",
+                                                    "KHR_lights_environment",
+                                                    "KHR_node_hoverability",
+                                                    "KHR_node_selectability",
+                                                    "KHR_techniques_webgl",
+                                                    "KHR_xmp",
+                                                    "KHR_xmp_json_ld",
+                                                    "MSFT_packing_normalRoughnessMetallic",
+                                                    "MSFT_packing_occlusionRoughnessMetallic",
+                                                    "NV_materials_mdl"};
+  if (others.contains(name)) return true;
+  const std::size_t vendor = name.find('_');
+  if (vendor == std::string_view::npos) return false;
+  const std::string_view rest = name.substr(vendor + 1);
+  return rest.starts_with("materials_") || rest.starts_with("texture_");
+}
 
 void check_version(Asset& asset) {
   const std::string& version = asset.model.asset.version;
@@ -86,6 +119,14 @@ struct BufferSource {
   }
 };
 
+bool is_fallback(const Value& buffer) {
+  const Value* extensions = member(buffer, "extensions");
+  const Value* meshopt = extensions ? member(*extensions, "EXT_meshopt_compression") : nullptr;
+  const Value* fallback = meshopt ? member(*meshopt, "fallback") : nullptr;
+  if (!fallback || !fallback->Get<bool>()) return false;
+  return has_meshopt() || !member(buffer, "uri");
+}
+
 // tinygltf would fetch the buffers itself; here they stay under root "extras" so that it does not.
 void load_buffers(const BufferSource& source) {
   const Value* buffers = member(source.asset.model.extras, "buffers");
@@ -94,19 +135,53 @@ void load_buffers(const BufferSource& source) {
     const Value& buffer = buffers->Get(i);
     const auto length = static_cast<std::uint64_t>(number_or(buffer, "byteLength", 0));
     if (length == 0) refuse("buffers[{}].byteLength: found 0, expected 1 or more", i);
+    if (is_fallback(buffer)) {  // its views hold compressed copies of what would be in it
+      source.asset.buffers.emplace_back();
+      continue;
+    }
     std::string bytes = source.read(buffer, i, length);
     if (bytes.size() < length)
       refuse("buffers[{}].byteLength: found {}, expected at most the {} bytes that are there", i, length,
              bytes.size());
+    const Value* uri = member(buffer, "uri");
+    if (bytes.size() > length && uri && uri->Get<std::string>().starts_with("data:"))
+      source.asset.scene.warnings.push_back(fmt::format(
+          "buffers[{}].byteLength: found {}, expected the {} bytes of its uri; the others are not used.", i,
+          length, bytes.size()));
     bytes.resize(length);
+    source.asset.decoded_allowed += 16 * bytes.size();
     source.asset.buffers.push_back(std::move(bytes));
   }
 }
 
-void check_required_extensions(const Model& model) {
-  for (const std::string& name : model.extensionsRequired)
-    if (!understood_extensions.contains(name))
-      refuse("extensionsRequired: found {}, expected only extensions that Tenebra reads", name);
+void check_extensions(Asset& asset) {
+  const Model& model = asset.model;
+  auto& warnings = asset.scene.warnings;
+  std::set<std::string> unread;
+  for (const std::string& name : model.extensionsRequired) {
+    if (understood_extensions.contains(name)) continue;
+    if (!leaves_geometry(name))
+      refuse(
+          "extensionsRequired: found {}, which may change the geometry and is not read; expected only "
+          "extensions that are read or that touch looks alone",
+          name);
+    unread.insert(name);
+    warnings.push_back(fmt::format(
+        "extensionsRequired: {} is not read; the geometry is whole, but surfaces may look different.", name));
+  }
+  std::string names;
+  for (const std::string& name : model.extensionsUsed)
+    if (!understood_extensions.contains(name) && unread.insert(name).second)
+      names += (names.empty() ? "" : ", ") + name;
+  if (!names.empty()) warnings.push_back(fmt::format("extensionsUsed: {}: not read.", names));
+}
+
+/// What hide_indices_without_view of the schema put aside.
+void restore_indices(Model& model) {
+  for (auto& mesh : model.meshes)
+    for (auto& primitive : mesh.primitives)
+      if (const Value* indices = member(primitive.extras, "indices"))
+        primitive.indices = indices->GetNumberAsInt();
 }
 
 bool no_file_exists(const std::string&, void*) {
@@ -131,6 +206,9 @@ bool load_no_image(tinygltf::Image*, const int, std::string*, std::string*, int,
 void load_model(const std::filesystem::path& path, std::string_view bytes, Asset& asset) {
   const GltfContainer container = split_gltf(bytes, path.extension() == ".glb");
   check_json_size(container.json);
+  if (container.bytes_behind > 0)
+    asset.scene.warnings.push_back(fmt::format(
+        "GLB: found {} bytes behind the end that its header states; not read.", container.bytes_behind));
   const std::string json = check_gltf_schema(container.json, asset.scene.warnings);
   tinygltf::TinyGLTF reader;
   reader.SetFsCallbacks({no_file_exists, no_path, read_no_file, write_no_file, nullptr});
@@ -139,9 +217,12 @@ void load_model(const std::filesystem::path& path, std::string_view bytes, Asset
   if (!reader.LoadASCIIFromString(&asset.model, &error, &warning, json.data(),
                                   static_cast<unsigned>(json.size()), ""))
     refuse("JSON: found a fault ({}), expected glTF 2.0", error.substr(0, error.find('\n')));
+  restore_indices(asset.model);
   check_version(asset);
-  check_required_extensions(asset.model);
+  check_extensions(asset);
   load_buffers({path.parent_path(), container, asset});
+  decode_meshopt(asset);
+  decode_draco(asset);
 }
 
 }  // namespace tenebra::formats::gltf

@@ -12,7 +12,7 @@ struct MeshBuilder {
   Asset& asset;
   std::size_t index;
   Mesh mesh;
-  std::size_t non_unit = 0, lines = 0, no_positions = 0;
+  std::size_t non_unit = 0, lines = 0, no_positions = 0, mended_weights = 0, repeated_joints = 0;
   bool ignored_sets = false, any_normals = false, any_joints = false, all_joints = true;
 
   std::string place(std::size_t primitive) const {
@@ -55,8 +55,9 @@ struct MeshBuilder {
       if (!known)
         asset.scene.warnings.push_back(
             fmt::format("{}.attributes: found unknown '{}', left unread.", place(p), name));
-      ignored_sets |= name.starts_with("JOINTS_") && name != "JOINTS_0";
+      ignored_sets |= name.starts_with("JOINTS_") && name != "JOINTS_0" && name != "JOINTS_1";
       if (name.starts_with("COLOR_")) check_colors(i, p, name);
+      if (name == "TANGENT") check_tangents(i, p);
     }
   }
 
@@ -65,6 +66,22 @@ struct MeshBuilder {
     if (std::any_of(values.begin(), values.end(), [](double v) { return v < 0 || v > 1; }))
       asset.scene.warnings.push_back(fmt::format(
           "{}.attributes.{}: found values outside 0 to 1; vertex colours are not read.", place(p), name));
+  }
+
+  void check_tangents(int i, std::size_t p) {
+    if (accessor(i).type != TINYGLTF_TYPE_VEC4) return;
+    Budget kept = asset.budget;  // they are looked at and forgotten
+    const std::vector<double> t = read_numbers(asset, i);
+    asset.budget = kept;
+    std::size_t odd = 0;
+    for (std::size_t k = 0; k + 4 <= t.size(); k += 4) {
+      const double length = std::sqrt(t[k] * t[k] + t[k + 1] * t[k + 1] + t[k + 2] * t[k + 2]);
+      odd += !(std::abs(length - 1) <= 2e-2) || std::abs(t[k + 3]) != 1;
+    }
+    if (odd > 0)
+      asset.scene.warnings.push_back(fmt::format(
+          "{}.attributes.TANGENT: found {} not of unit length or with a sign other than 1 and -1; not read.",
+          place(p), odd));
   }
 
   void add_normals(const tinygltf::Primitive& primitive, std::size_t p) {
@@ -84,27 +101,22 @@ struct MeshBuilder {
   }
 
   void add_joints(const tinygltf::Primitive& primitive, std::size_t p) {
-    const auto joints = primitive.attributes.find("JOINTS_0"),
-               weights = primitive.attributes.find("WEIGHTS_0");
-    const auto end = primitive.attributes.end();
-    if ((joints == end) != (weights == end))
-      refuse("{}.attributes: found JOINTS_0 or WEIGHTS_0 alone, expected both", place(p));
-    all_joints &= joints != end;
-    if (joints == end) return;
+    Influences read = read_influences(asset, primitive, place(p));
+    all_joints &= !read.joints.empty();
+    if (read.joints.empty()) return;
     any_joints = true;
-    const int type = accessor(joints->second).componentType;
-    if (type != TINYGLTF_COMPONENT_TYPE_UNSIGNED_BYTE && type != TINYGLTF_COMPONENT_TYPE_UNSIGNED_SHORT)
-      refuse("{}.attributes.JOINTS_0: found component type {}, expected 5121 or 5123", place(p), type);
-    const auto indices = read(joints->second, TINYGLTF_TYPE_VEC4, true, place(p) + ".attributes.JOINTS_0");
-    const auto values = read(weights->second, TINYGLTF_TYPE_VEC4, true, place(p) + ".attributes.WEIGHTS_0");
-    const std::size_t start = mesh.positions.size() - indices.size() / 4;
-    mesh.joints.resize(mesh.positions.size());
-    mesh.weights.resize(mesh.positions.size(), glm::vec4(0));
-    for (std::size_t i = 0; i < indices.size() / 4; ++i)
-      for (int c = 0; c < 4; ++c) {
-        mesh.joints[start + i][c] = static_cast<std::uint16_t>(indices[4 * i + c]);
-        mesh.weights[start + i][c] = static_cast<float>(values[4 * i + c]);
-      }
+    mended_weights += read.mended;
+    repeated_joints += read.repeated;
+    const std::size_t start = mesh.positions.size() - read.joints.size();
+    const auto append = [start](auto& list, auto& added, auto zero) {
+      if (list.empty() && added.empty()) return;
+      list.resize(start, zero);
+      list.insert(list.end(), added.begin(), added.end());
+    };
+    append(mesh.joints, read.joints, glm::u16vec4(0));
+    append(mesh.weights, read.weights, glm::vec4(0));
+    append(mesh.more_joints, read.more_joints, glm::u16vec4(0));
+    append(mesh.more_weights, read.more_weights, glm::vec4(0));
   }
 
   void add_targets(const tinygltf::Primitive& primitive, std::size_t p, std::size_t count) {
@@ -179,8 +191,11 @@ struct MeshBuilder {
   }
 
   void add_primitive(const tinygltf::Primitive& primitive, std::size_t p) {
-    if (primitive.mode < -1 || primitive.mode > TINYGLTF_MODE_TRIANGLE_FAN)
-      refuse("{}.mode: found {}, expected 0 to 6", place(p), primitive.mode);
+    if (primitive.mode < -1 || primitive.mode > TINYGLTF_MODE_TRIANGLE_FAN) {
+      asset.scene.warnings.push_back(
+          fmt::format("{}.mode: found {}, expected 0 to 6; skipped.", place(p), primitive.mode));
+      return;
+    }
     const int mode = primitive.mode < 0 ? TINYGLTF_MODE_TRIANGLES : primitive.mode;
     const auto position = primitive.attributes.find("POSITION");
     if (position == primitive.attributes.end()) {
@@ -207,6 +222,8 @@ struct MeshBuilder {
     const std::size_t count = mesh.positions.size();
     if (any_normals) mesh.normals.resize(count, glm::vec3(0));
     if (any_joints && !all_joints) mesh.joints.clear(), mesh.weights.clear();
+    mesh.more_joints.resize(mesh.more_joints.empty() ? 0 : mesh.joints.size(), glm::u16vec4(0));
+    mesh.more_weights.resize(mesh.more_joints.size(), glm::vec4(0));
     for (MorphTarget& target : mesh.morph_targets) {
       if (!target.positions.empty()) target.positions.resize(count, glm::vec3(0));
       if (mesh.normals.empty()) target.normals.clear();
@@ -223,9 +240,15 @@ struct MeshBuilder {
       warnings.push_back(fmt::format("{}: skipped {} primitives of points or lines.", here, lines));
     if (no_positions > 0)
       warnings.push_back(fmt::format("{}: skipped {} primitives without POSITION.", here, no_positions));
+    if (mended_weights > 0)
+      warnings.push_back(fmt::format("{}: found {} vertices whose skin weights do not sum to 1; made so.",
+                                     here, mended_weights));
+    if (repeated_joints > 0)
+      warnings.push_back(
+          fmt::format("{}: found {} vertices with the same joint twice; added up.", here, repeated_joints));
     if (ignored_sets)
       warnings.push_back(
-          fmt::format("{}: found more than four joints a vertex; the first four are used.", here));
+          fmt::format("{}: found more than eight joints a vertex; the first eight are used.", here));
   }
 
   Mesh build() {

@@ -6,8 +6,10 @@
 
 #include <cstdint>
 #include <filesystem>
+#include <map>
 #include <span>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include <tenebra/scene.h>
@@ -40,11 +42,28 @@ struct Asset {
   Model model;
   std::vector<std::string> buffers;  ///< bytes of model.buffers
   Budget budget{0};
+  std::uint64_t decoded_allowed = 0;  ///< bytes of decoded geometry that may still count as the file's own
+  bool scene_chosen = false;          ///< by the user
+  /// Nodes of the scene, the first and how many, that show the instances of one.
+  std::map<int, std::pair<int, int>> instances;
   Scene scene;  ///< what is being built; its warnings too
 };
 
 /// JSON text to model; `binary` is the GLB's chunk. Throws ImportFailure.
 void load_model(const std::filesystem::path& path, std::string_view bytes, Asset& asset);
+
+// Compressed geometry becomes buffers, views and accessors like any other. Throw ImportFailure for broken
+// data, for more of it than the budget allows, and where the library that decodes it was not there when
+// Tenebra was built.
+void decode_meshopt(Asset& asset);  ///< EXT_meshopt_compression, by libmeshoptimizer
+void decode_draco(Asset& asset);    ///< KHR_draco_mesh_compression, by libdraco
+bool has_meshopt();
+
+/// Adds `bytes` as a buffer of its own and makes `view` all of it.
+void set_view(Asset& asset, tinygltf::BufferView& view, std::string bytes);
+/// Takes `decoded` bytes from the budget and adds what they allow, as if the file had them uncompressed; no
+/// more than 16 times the `stored` bytes count. Throws ImportFailure naming `place`.
+void pay_for_decoded(Asset& asset, std::uint64_t stored, std::uint64_t decoded, const std::string& place);
 
 /// Ranges of all views and accessors, declared bounds, finite values. Throws ImportFailure.
 void check_accessors(Asset& asset);
@@ -56,14 +75,29 @@ std::vector<double> read_numbers(Asset& asset, int accessor);
 std::vector<std::uint32_t> read_indices(Asset& asset, int accessor, const std::string& what);
 int component_count(const Accessor& accessor);
 
+/// Joints and weights of a primitive's vertices: four of each, and the fifth to eighth where it has them.
+/// Empty lists: the primitive has none.
+struct Influences {
+  std::vector<glm::u16vec4> joints, more_joints;
+  std::vector<glm::vec4> weights, more_weights;  ///< their sum is 1
+  std::size_t mended = 0;                        ///< vertices whose weights had another sum
+  std::size_t repeated = 0;                      ///< vertices that have a joint twice
+};
+Influences read_influences(Asset& asset, const tinygltf::Primitive& primitive, const std::string& place);
+
 // One table each into asset.scene, in this order.
 void build_materials(Asset& asset);
 void build_cameras(Asset& asset);
 void build_lights(Asset& asset);
 void build_meshes(Asset& asset);
-/// Nodes of the default scene, parents first. Returns the scene's node of each node of the file, or -1.
+/// Makes the scene of that name, else of that number, the one that is shown; empty: the file's default.
+void choose_scene(Asset& asset, const std::string& wanted);
+/// Nodes of the scene that is shown, parents first. Returns the scene's node of each node of the file, or -1.
 std::vector<int> build_nodes(Asset& asset);
-/// Ambient light and background from the default scene's extras, where it has them.
+/// EXT_mesh_gpu_instancing of the file's node `index`: its mesh moves from the scene's node `self` to a
+/// node below it for each instance.
+void add_instances(Asset& asset, int index, int self);
+/// Ambient light and background from the shown scene's extras, where it has them.
 void build_surroundings(Asset& asset);
 void build_skins(Asset& asset, const std::vector<int>& scene_node);
 void build_clips(Asset& asset, const std::vector<int>& scene_node);

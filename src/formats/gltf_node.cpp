@@ -58,9 +58,11 @@ std::vector<int> default_roots(Asset& asset, const std::vector<int>& parents) {
     if (!roots.empty()) warnings.push_back("The file has no scenes: all root nodes are shown.");
     return roots;
   }
+  if (asset.scene_chosen) return model.scenes[static_cast<std::size_t>(model.defaultScene)].nodes;
   if (model.defaultScene < 0) warnings.push_back("The file names no default scene: the first is shown.");
   if (model.scenes.size() > 1)
-    warnings.push_back(fmt::format("The file has {} scenes: one is shown.", model.scenes.size()));
+    warnings.push_back(fmt::format("The file has {} scenes: number {} is shown, --scene shows another.",
+                                   model.scenes.size(), std::max(model.defaultScene, 0)));
   return model.scenes[static_cast<std::size_t>(std::max(model.defaultScene, 0))].nodes;
 }
 
@@ -182,6 +184,20 @@ void leave_out(Asset& asset, Node& node, std::vector<int>& silent_mesh) {
   node.mesh = copy;
 }
 
+/// A mesh can stand at any number of nodes: the frame that is made of them must have an end.
+void check_size(const Scene& scene) {
+  constexpr std::size_t most = 50'000'000;
+  std::size_t triangles = 0, vertices = 0;
+  for (const Node& node : scene.nodes) {
+    if (node.mesh < 0) continue;
+    triangles += scene.meshes[static_cast<std::size_t>(node.mesh)].triangles.size();
+    vertices += scene.meshes[static_cast<std::size_t>(node.mesh)].positions.size();
+  }
+  if (triangles > most || vertices > most)
+    refuse("nodes: found {} triangles and {} vertices, instances counted, expected at most {} of each",
+           triangles, vertices, most);
+}
+
 }  // namespace
 
 std::vector<int> build_nodes(Asset& asset) {
@@ -214,7 +230,30 @@ std::vector<int> build_nodes(Asset& asset) {
     }
   }
   asset.scene.warnings.resize(warned);  // the first reading has said it
+  for (std::size_t i = 0; i < scene_node.size(); ++i)
+    if (scene_node[i] >= 0) add_instances(asset, static_cast<int>(i), scene_node[i]);
+  check_size(asset.scene);
   return scene_node;
+}
+
+void choose_scene(Asset& asset, const std::string& wanted) {
+  if (wanted.empty()) return;
+  const auto& scenes = asset.model.scenes;
+  std::string list;
+  std::size_t chosen = scenes.size();
+  for (std::size_t i = scenes.size(); i-- > 0;) {
+    list = fmt::format("{} '{}'{}{}", i, scenes[i].name, list.empty() ? "" : ", ", list);
+    if (wanted == std::to_string(i)) chosen = i;
+  }
+  for (std::size_t i = scenes.size(); i-- > 0;)
+    if (scenes[i].name == wanted) chosen = i;
+  constexpr std::size_t longest = 400;
+  if (list.size() > longest) list = list.substr(0, longest) + "...";
+  if (chosen == scenes.size())
+    refuse("scenes: found none called or numbered '{}', expected {}", wanted,
+           scenes.empty() ? "no choice, as the file has none" : "one of " + list);
+  asset.model.defaultScene = static_cast<int>(chosen);
+  asset.scene_chosen = true;
 }
 
 namespace {
@@ -242,12 +281,23 @@ void check_joints_in_range(const Asset& asset) {
     if (node.skin < 0) continue;
     const Mesh& mesh = asset.scene.meshes[static_cast<std::size_t>(node.mesh)];
     const std::size_t joints = asset.scene.skins[static_cast<std::size_t>(node.skin)].joints.size();
-    for (const glm::u16vec4& vertex : mesh.joints)
-      for (int c = 0; c < 4; ++c)
-        if (vertex[c] >= joints)
-          refuse("{} JOINTS_0: found joint {}, expected less than the {} of skins[{}]", mesh.source,
-                 vertex[c], joints, node.skin);
+    for (const auto* list : {&mesh.joints, &mesh.more_joints})
+      for (const glm::u16vec4& vertex : *list)
+        for (int c = 0; c < 4; ++c)
+          if (vertex[c] >= joints)
+            refuse("{} JOINTS_{}: found joint {}, expected less than the {} of skins[{}]", mesh.source,
+                   list == &mesh.joints ? 0 : 1, vertex[c], joints, node.skin);
   }
+}
+
+void check_last_rows(Asset& asset, const std::vector<double>& matrices, std::size_t skin) {
+  std::size_t odd = 0;
+  for (std::size_t i = 0; i + 16 <= matrices.size(); i += 16)
+    odd += matrices[i + 3] != 0 || matrices[i + 7] != 0 || matrices[i + 11] != 0 || matrices[i + 15] != 1;
+  if (odd > 0)
+    asset.scene.warnings.push_back(fmt::format(
+        "skins[{}].inverseBindMatrices: found {} with a last row that is not 0 0 0 1; used as they stand.",
+        skin, odd));
 }
 
 }  // namespace
@@ -277,6 +327,7 @@ void build_skins(Asset& asset, const std::vector<int>& scene_node) {
       if (numbers.size() < 16 * skin.joints.size())
         refuse("skins[{}].inverseBindMatrices: found {}, expected one for each of {} joints", s,
                numbers.size() / 16, skin.joints.size());
+      check_last_rows(asset, numbers, s);
       for (std::size_t i = 0; i < 16 * skin.joints.size(); ++i)
         skin.inverse_bind[i / 16][static_cast<int>(i % 16 / 4)][static_cast<int>(i % 4)] =
             static_cast<float>(numbers[i]);

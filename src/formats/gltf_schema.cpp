@@ -8,6 +8,7 @@
 #include <set>
 #include <span>
 
+#include "formats/gltf_rules.h"
 #include "formats/import_failure.h"
 
 namespace tenebra::formats {
@@ -27,6 +28,7 @@ enum class Kind {
   object,
   objects,
   attributes,
+  ids,  ///< an object of integers
   targets
 };
 
@@ -57,7 +59,9 @@ constexpr Field scene_fields[] = {name_field,
                                   {"nodes", Kind::refs, false, "nodes"}};
 constexpr Field light_link_fields[] = {{"light", Kind::integer, required}};
 constexpr Field visibility_fields[] = {{"visible", Kind::boolean}};
+constexpr Field instancing_fields[] = {{"attributes", Kind::attributes, required}};
 constexpr Field node_extension_fields[] = {
+    {"EXT_mesh_gpu_instancing", Kind::object, false, "", 0, instancing_fields},
     {"KHR_lights_punctual", Kind::object, false, "", 0, light_link_fields},
     {"EXT_lights_area", Kind::object, false, "", 0, light_link_fields},
     {"KHR_node_visibility", Kind::object, false, "", 0, visibility_fields}};
@@ -73,7 +77,12 @@ constexpr Field node_fields[] = {name_field,
                                  {"translation", Kind::numbers, false, "", 3},
                                  {"weights", Kind::numbers},
                                  {"extensions", Kind::object, false, "", 0, node_extension_fields}};
-constexpr Field primitive_fields[] = {{"attributes", Kind::attributes, required},
+constexpr Field draco_fields[] = {{"bufferView", Kind::ref, required, "bufferViews"},
+                                  {"attributes", Kind::ids, required}};
+constexpr Field primitive_extension_fields[] = {
+    {"KHR_draco_mesh_compression", Kind::object, false, "", 0, draco_fields}};
+constexpr Field primitive_fields[] = {{"extensions", Kind::object, false, "", 0, primitive_extension_fields},
+                                      {"attributes", Kind::attributes, required},
                                       {"indices", Kind::ref, false, "accessors"},
                                       {"material", Kind::ref, false, "materials"},
                                       {"mode", Kind::integer},
@@ -100,12 +109,27 @@ constexpr Field accessor_fields[] = {name_field,
                                      {"max", Kind::numbers},
                                      {"min", Kind::numbers},
                                      {"sparse", Kind::object, false, "", 0, sparse_fields}};
-constexpr Field view_fields[] = {{"buffer", Kind::ref, required, "buffers"},
+constexpr Field meshopt_fields[] = {{"buffer", Kind::ref, required, "buffers"},
+                                    {"byteOffset", Kind::integer},
+                                    {"byteLength", Kind::integer, required},
+                                    {"byteStride", Kind::integer, required},
+                                    {"count", Kind::integer, required},
+                                    {"mode", Kind::string, required},
+                                    {"filter", Kind::string}};
+constexpr Field view_extension_fields[] = {
+    {"EXT_meshopt_compression", Kind::object, false, "", 0, meshopt_fields}};
+constexpr Field view_fields[] = {{"extensions", Kind::object, false, "", 0, view_extension_fields},
+                                 {"buffer", Kind::ref, required, "buffers"},
                                  {"byteOffset", Kind::integer},
                                  {"byteLength", Kind::integer, required},
                                  {"byteStride", Kind::integer},
                                  {"target", Kind::integer}};
-constexpr Field buffer_fields[] = {{"uri", Kind::string}, {"byteLength", Kind::integer, required}};
+constexpr Field fallback_fields[] = {{"fallback", Kind::boolean}};
+constexpr Field buffer_extension_fields[] = {
+    {"EXT_meshopt_compression", Kind::object, false, "", 0, fallback_fields}};
+constexpr Field buffer_fields[] = {{"uri", Kind::string},
+                                   {"byteLength", Kind::integer, required},
+                                   {"extensions", Kind::object, false, "", 0, buffer_extension_fields}};
 constexpr Field texture_info_fields[] = {{"index", Kind::ref, required, "textures"}};
 constexpr Field pbr_fields[] = {
     {"baseColorFactor", Kind::numbers, false, "", 4},
@@ -138,7 +162,12 @@ constexpr Field skin_fields[] = {name_field,
                                  {"inverseBindMatrices", Kind::ref, false, "accessors"},
                                  {"joints", Kind::refs, required, "nodes"},
                                  {"skeleton", Kind::ref, false, "nodes"}};
-constexpr Field target_fields[] = {{"node", Kind::ref, false, "nodes"}, {"path", Kind::string, required}};
+constexpr Field pointer_fields[] = {{"pointer", Kind::string, required}};
+constexpr Field target_extension_fields[] = {
+    {"KHR_animation_pointer", Kind::object, false, "", 0, pointer_fields}};
+constexpr Field target_fields[] = {{"node", Kind::ref, false, "nodes"},
+                                   {"path", Kind::string, required},
+                                   {"extensions", Kind::object, false, "", 0, target_extension_fields}};
 constexpr Field channel_fields[] = {{"sampler", Kind::integer, required},
                                     {"target", Kind::object, required, "", 0, target_fields}};
 constexpr Field sampler_fields[] = {{"input", Kind::ref, required, "accessors"},
@@ -275,6 +304,11 @@ private:
     for (auto& [name, accessor] : value.items()) check_ref(accessor, place + "." + name, "accessors");
   }
 
+  void check_ids(Json& value, const std::string& place) {
+    if (!value.is_object()) refuse("{}: found {}, expected an object", place, value.type_name());
+    for (auto& [name, id] : value.items()) check_integer(id, place + "." + name);
+  }
+
   template <class Check>
   void check_items(Json& value, const std::string& place, Check check) {
     if (!value.is_array()) refuse("{}: found {}, expected an array", place, shorten(value));
@@ -327,6 +361,8 @@ private:
                            [&](Json& item, const std::string& at) { check_object(item, at, field.fields); });
       case Kind::attributes:
         return check_attributes(value, place);
+      case Kind::ids:
+        return check_ids(value, place);
       case Kind::targets:
         return check_items(value, place,
                            [&](Json& item, const std::string& at) { check_attributes(item, at); });
@@ -378,10 +414,50 @@ void blank_unknown_accessors(Json& root, std::vector<std::string>& warnings) {
   if (!root.contains("accessors")) return;
   for (std::size_t i = 0; i < root["accessors"].size(); ++i) {
     Json& accessor = root["accessors"][i];
-    if (types.contains(accessor["type"].get<std::string>())) continue;
-    warnings.push_back(fmt::format("accessors[{}].type: found an unknown type, left unread.", i));
+    const auto component = accessor["componentType"].get<std::uint64_t>();
+    const bool known_component =
+        (component >= 5120 && component <= 5123) || component == 5125 || component == 5126;
+    const bool known_type = types.contains(accessor["type"].get<std::string>());
+    if (known_type && known_component) continue;
+    warnings.push_back(fmt::format("accessors[{}].{}: found an unknown type, left unread.", i,
+                                   known_type ? "componentType" : "type"));
     accessor = {{"type", "SCALAR"}, {"componentType", 5126}, {"count", 0}};
   }
+}
+
+/// A camera of a type that this version of glTF does not know leaves its place in the table to another.
+void replace_unknown_cameras(Json& root, std::vector<std::string>& warnings) {
+  if (!root.contains("cameras")) return;
+  for (std::size_t i = 0; i < root["cameras"].size(); ++i) {
+    Json& camera = root["cameras"][i];
+    const std::string type = camera["type"].get<std::string>();
+    if (type == "perspective" || type == "orthographic") continue;
+    warnings.push_back(
+        fmt::format("cameras[{}].type: found '{}', expected perspective or orthographic; a "
+                    "perspective camera takes its place.",
+                    i, type.substr(0, 40)));
+    camera = {{"type", "perspective"}, {"perspective", {{"yfov", 0.8}, {"znear", 0.1}}}};
+  }
+}
+
+/// tinygltf refuses indices without a bufferView (zeros, or compressed ones): they pass it under `extras`.
+void hide_indices_without_view(Json& root) {
+  if (!root.contains("meshes") || !root.contains("accessors")) return;
+  for (Json& mesh : root["meshes"])
+    for (Json& primitive : mesh["primitives"]) {
+      if (!primitive.contains("indices")) continue;
+      if (root["accessors"][primitive["indices"].get<std::size_t>()].contains("bufferView")) continue;
+      primitive["extras"]["indices"] = primitive["indices"];
+      primitive.erase("indices");
+    }
+}
+
+/// tinygltf drops channels without a node in silence, and those of KHR_animation_pointer have none.
+void mark_channels_without_nodes(Json& root) {
+  if (!root.contains("animations")) return;
+  for (Json& animation : root["animations"])
+    for (Json& channel : animation["channels"])
+      if (!channel["target"].contains("node")) channel["target"]["node"] = -1;
 }
 
 }  // namespace
@@ -395,8 +471,12 @@ std::string check_gltf_schema(std::string_view json, std::vector<std::string>& w
   } catch (const Json::out_of_range&) {
     refuse("JSON: found a number beyond the range of double, expected a smaller one");
   }
+  check_gltf_rules(root, warnings);
   SchemaCheck(root, warnings).run();
   blank_unknown_accessors(root, warnings);
+  replace_unknown_cameras(root, warnings);
+  mark_channels_without_nodes(root);
+  hide_indices_without_view(root);
   // tinygltf fetches what stands under "buffers" by itself; under "extras" it leaves it to its caller.
   if (root.contains("buffers")) root["extras"]["buffers"] = std::move(root["buffers"]);
   root.erase("buffers");

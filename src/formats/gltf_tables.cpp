@@ -52,7 +52,8 @@ void read_spot(const tinygltf::SpotLight& spot, const std::string& place, Light&
   light.outer_cone_rad = static_cast<float>(spot.outerConeAngle);
 }
 
-Light read_punctual_light(const tinygltf::Light& source, const std::string& place) {
+Light read_punctual_light(const tinygltf::Light& source, const std::string& place,
+                          std::vector<std::string>& warnings) {
   Light light;
   light.name = source.name;
   light.color = vec3_or(source.color, glm::vec3(1));
@@ -68,18 +69,25 @@ Light read_punctual_light(const tinygltf::Light& source, const std::string& plac
     read_spot(source.spot, place, light);
   else if (source.type == "directional")
     light.type = LightType::directional;
-  else if (source.type != "point")
-    refuse("{}.type: found '{}', expected point, spot or directional", place, source.type);
+  else if (source.type != "point") {
+    warnings.push_back(fmt::format("{}.type: found '{}', expected point, spot or directional; it stays dark.",
+                                   place, source.type.substr(0, 40)));
+    light.intensity = 0;
+  }
   return light;
 }
 
-void read_perspective(const tinygltf::PerspectiveCamera& source, const std::string& place, Camera& camera) {
-  if (!(source.yfov > 0 && source.yfov < std::numbers::pi))
-    refuse("{}.yfov: found {}, expected more than 0 and less than pi", place, source.yfov);
+void read_perspective(const tinygltf::PerspectiveCamera& source, const std::string& place, Camera& camera,
+                      std::vector<std::string>& warnings) {
+  constexpr double widest = 3.1;
+  if (!(source.yfov > 0)) refuse("{}.yfov: found {}, expected more than 0", place, source.yfov);
+  if (source.yfov >= std::numbers::pi)
+    warnings.push_back(
+        fmt::format("{}.yfov: found {}, expected less than pi; made {}.", place, source.yfov, widest));
   if (source.znear <= 0) refuse("{}.znear: found {}, expected more than 0", place, source.znear);
   if (source.zfar != 0 && source.zfar <= source.znear)
     refuse("{}.zfar: found {}, expected more than znear {}", place, source.zfar, source.znear);
-  camera.vertical_fov_rad = static_cast<float>(source.yfov);
+  camera.vertical_fov_rad = static_cast<float>(source.yfov < std::numbers::pi ? source.yfov : widest);
   camera.near_m = static_cast<float>(source.znear);
   if (source.aspectRatio > 0) camera.aspect = static_cast<float>(source.aspectRatio);
 }
@@ -120,7 +128,7 @@ void build_cameras(Asset& asset) {
     Camera camera;
     camera.name = source.name;
     if (source.type == "perspective")
-      read_perspective(source.perspective, place + ".perspective", camera);
+      read_perspective(source.perspective, place + ".perspective", camera, asset.scene.warnings);
     else if (source.type == "orthographic")
       read_orthographic(source.orthographic, place + ".orthographic", camera);
     else
@@ -133,7 +141,8 @@ void build_cameras(Asset& asset) {
 void build_lights(Asset& asset) {
   for (std::size_t i = 0; i < asset.model.lights.size(); ++i)
     asset.scene.lights.push_back(read_punctual_light(
-        asset.model.lights[i], fmt::format("extensions.KHR_lights_punctual.lights[{}]", i)));
+        asset.model.lights[i], fmt::format("extensions.KHR_lights_punctual.lights[{}]", i),
+        asset.scene.warnings));
   const auto area = asset.model.extensions.find("EXT_lights_area");
   const Value* lights = area == asset.model.extensions.end() ? nullptr : member(area->second, "lights");
   for (std::size_t i = 0; lights && i < lights->ArrayLen(); ++i)

@@ -10,8 +10,12 @@ Expected<Scene> import_scene(const std::filesystem::path& path, const ImportOpti
   std::string extension = path.extension().string();
   std::transform(extension.begin(), extension.end(), extension.begin(),
                  [](char c) { return c >= 'A' && c <= 'Z' ? static_cast<char>(c - 'A' + 'a') : c; });
+  const bool gltf = extension == ".gltf" || extension == ".glb";
+  if (!options.scene.empty() && !gltf)
+    return base::fail("{}: found no scenes to choose from, expected a glTF file for scene '{}'.",
+                      path.string(), options.scene);
   if (extension == ".aff" || extension == ".nff") return import_aff(path, options);
-  if (extension == ".gltf" || extension == ".glb") return import_gltf(path);
+  if (gltf) return import_gltf(path, options);
   if (extension == ".obj") return import_obj(path);
   return base::fail("{}: found the extension '{}', expected .aff, .nff, .gltf, .glb or .obj.", path.string(),
                     extension);

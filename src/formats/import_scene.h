@@ -12,15 +12,17 @@ namespace tenebra::formats {
 
 struct ImportOptions {
   int cone_sides = 64;  ///< AFF `c`: sides of a cone or cylinder (the 2011 paper's count needs 8)
+  std::string scene;  ///< glTF: which of the file's scenes, by name or number; empty: the one it shows first
 };
 
 /// Imports by the file's extension (.aff .nff .gltf .glb .obj). Never crashes, hangs or leaves the scene's
 /// folder; what it cannot read whole it refuses in one sentence (file, line or JSON path, found, expected).
-/// Needs at most 256 MiB + 20 times the files' size. Does not add cameras or lights.
+/// Needs at most 256 MiB + 20 times the files' size; compressed geometry counts as what it decodes to, up to
+/// 16 times its size. Does not add cameras or lights.
 Expected<Scene> import_scene(const std::filesystem::path& path, const ImportOptions& options = {});
 
 Expected<Scene> import_aff(const std::filesystem::path& path, const ImportOptions& options);
-Expected<Scene> import_gltf(const std::filesystem::path& path);
+Expected<Scene> import_gltf(const std::filesystem::path& path, const ImportOptions& options = {});
 Expected<Scene> import_obj(const std::filesystem::path& path);
 
 /// Writes `scene` with its animation as a binary glTF 2.0 file. BART's splines are baked to `fps` keys a
