@@ -22,6 +22,7 @@ constexpr const char* examples =
 struct ConvertOptions {
   std::string input;
   std::string output;
+  formats::ImportOptions import;
   double fps = 30.0;
   bool quiet = false;
 };
@@ -29,7 +30,7 @@ struct ConvertOptions {
 Expected<int> convert(const ConvertOptions& options) {
   if (!options.output.ends_with(".glb"))
     return base::fail("{}: expected a name that ends in .glb", options.output);
-  const auto scene = formats::import_scene(options.input);
+  const auto scene = formats::import_scene(options.input, options.import);
   if (!scene) return tl::unexpected(scene.error());
   if (!options.quiet) print_warnings(scene->warnings);
   StopSignals stop;
@@ -48,6 +49,8 @@ void add_convert_command(CLI::App& program, Run& run) {
   set_examples(command, examples);
   add_text(command, "IN", options->input, "Scene file: .gltf .glb .aff .nff .obj").required();
   add_text(command, "OUT", options->output, "File to write, .glb").required();
+  add_text(command, "--scene", options->import.scene, "glTF: which scene of the file, by name or number")
+      .type_name("NAME|N");
   add_value(command, "--fps", options->fps, parse_positive, "Keys per second for baked splines [30]")
       .type_name("F");
   add_flag(command, "--quiet", options->quiet, "No warnings");

@@ -27,6 +27,7 @@ constexpr const char* examples =
 
 struct InfoOptions {
   std::string scene;
+  formats::ImportOptions import;
   double fps = 30.0;
   bool json = false;
 };
@@ -170,7 +171,7 @@ void add_cutout(Scene& scene, Json& json) {
 }
 
 Expected<int> info(const InfoOptions& options) {
-  auto scene = formats::import_scene(options.scene);
+  auto scene = formats::import_scene(options.scene, options.import);
   if (!scene) return tl::unexpected(scene.error());
   leave_out_covers(*scene);
   Json json = describe(*scene, options);
@@ -192,6 +193,8 @@ void add_info_command(CLI::App& program, Run& run) {
   const auto options = std::make_shared<InfoOptions>();
   set_examples(command, examples);
   add_text(command, "SCENE", options->scene, "Scene file: .gltf .glb .aff .nff .obj").required();
+  add_text(command, "--scene", options->import.scene, "glTF: which scene of the file, by name or number")
+      .type_name("NAME|N");
   add_flag(command, "--json", options->json, "Print JSON");
   add_value(command, "--fps", options->fps, parse_positive, "Frames per second, to count frames [30]")
       .type_name("F");

@@ -128,6 +128,7 @@ std::vector<render::LogSetting> describe_render(const RenderPlan& plan, const Re
   for (std::string& text : light_edit_texts(options.scene.lights)) {
     list.push_back({"set_light", std::move(text)});
   }
+  if (!options.scene.import.scene.empty()) list.push_back({"scene_of_file", options.scene.import.scene});
   for (const std::string& name : options.scene.no_cast) list.push_back({"no_cast", name});
   for (const std::string& warning : plan.scene.warnings) list.push_back({"warning", warning});
   return list;

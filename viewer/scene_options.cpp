@@ -16,6 +16,10 @@ Expected<int> parse_cone_sides(const std::string& text) {
 
 void add_files(CLI::App& command, SceneOptions& options) {
   add_text(command, "SCENE", options.file, "Scene file: .gltf .glb .aff .nff .obj");
+  add_text(command, "--scene", options.import.scene,
+           "glTF: which scene of the file, by name or number\n[the one that the file shows first]")
+      .type_name("NAME|N")
+      .group(scene_group);
   add_texts(command, "--no-cast", options.no_cast,
             "Keeps a mesh, material or (AFF) FILE:LINE from casting\nshadows; may be repeated")
       .type_name("NAME")

@@ -36,7 +36,8 @@ struct SceneOptions {
   LightEdits lights;
 };
 
-/// Adds SCENE, --no-cast, --cast-all, --cone-sides, --transfer, --environment, --set-light, --time, --fps,
+/// Adds SCENE, --scene, --no-cast, --cast-all, --cone-sides, --transfer, --environment, --set-light, --time,
+/// --fps,
 /// --clip and those of the camera, --size too; they are read into `options`, which must live as long. A
 /// command makes SCENE required with option_of(command, "SCENE").required().
 void add_scene_options(CLI::App& command, SceneOptions& options);

@@ -26,6 +26,7 @@ std::string shell_arguments(const ViewState& state, double time_s, Size size) {
   const auto add = [&](const char* name, const std::string& value) {
     text += fmt::format("{} {} ", name, shell_word(value));
   };
+  if (!state.options.import.scene.empty()) add("--scene", state.options.import.scene);
   for (const std::string& name : state.options.no_cast) add("--no-cast", name);
   if (const int limit = state.options.cutout_limit; limit != SceneOptions{}.cutout_limit)
     add("--cutout-limit", fmt::format("{}", limit));
