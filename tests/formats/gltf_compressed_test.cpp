@@ -162,14 +162,14 @@ void expect_mutants_survive(const GltfBuilder& good, int count) {
 
 TEST(Meshopt, SurvivesBrokenData) {
   if (!testing::has_meshopt()) GTEST_SKIP() << "built without meshoptimizer (package libmeshoptimizer-dev)";
-  expect_mutants_survive(testing::meshopt_file(Grid(12), "TRIANGLES", 4), 1500);
-  expect_mutants_survive(testing::meshopt_file(Grid(12), "INDICES", 2), 1500);
+  expect_mutants_survive(testing::meshopt_file(Grid(12), "TRIANGLES", 4), 500);
+  expect_mutants_survive(testing::meshopt_file(Grid(12), "INDICES", 2), 500);
 }
 
 TEST(Draco, SurvivesBrokenData) {
   if (!testing::has_draco()) GTEST_SKIP() << "built without Draco (package libdraco-dev)";
-  expect_mutants_survive(testing::draco_file(Grid(12), false), 1500);
-  expect_mutants_survive(testing::draco_file(Grid(12), true), 1500);
+  expect_mutants_survive(testing::draco_file(Grid(12), false), 500);
+  expect_mutants_survive(testing::draco_file(Grid(12), true), 500);
 }
 
 // The garden of the samples once with EXT_meshopt_compression and once without.
