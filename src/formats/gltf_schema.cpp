@@ -109,15 +109,15 @@ constexpr Field accessor_fields[] = {name_field,
                                      {"max", Kind::numbers},
                                      {"min", Kind::numbers},
                                      {"sparse", Kind::object, false, "", 0, sparse_fields}};
-constexpr Field meshopt_fields[] = {{"buffer", Kind::ref, required, "buffers"},
-                                    {"byteOffset", Kind::integer},
-                                    {"byteLength", Kind::integer, required},
-                                    {"byteStride", Kind::integer, required},
-                                    {"count", Kind::integer, required},
-                                    {"mode", Kind::string, required},
-                                    {"filter", Kind::string}};
+constexpr Field compressed_view_fields[] = {{"buffer", Kind::ref, required, "buffers"},
+                                            {"byteOffset", Kind::integer},
+                                            {"byteLength", Kind::integer, required},
+                                            {"byteStride", Kind::integer, required},
+                                            {"count", Kind::integer, required},
+                                            {"mode", Kind::string, required},
+                                            {"filter", Kind::string}};
 constexpr Field view_extension_fields[] = {
-    {"EXT_meshopt_compression", Kind::object, false, "", 0, meshopt_fields}};
+    {"EXT_meshopt_compression", Kind::object, false, "", 0, compressed_view_fields}};
 constexpr Field view_fields[] = {{"extensions", Kind::object, false, "", 0, view_extension_fields},
                                  {"buffer", Kind::ref, required, "buffers"},
                                  {"byteOffset", Kind::integer},

@@ -35,6 +35,7 @@ TEST(Program, ExplainsEveryOptionOfRender) {
                              "--samples",
                              "--cull",
                              "--light",
+                             "--scene",
                              "--camera",
                              "--eye",
                              "--look-at",
