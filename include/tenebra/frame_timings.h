@@ -23,7 +23,9 @@ struct FrameTimings {
                              ///< (*) groups run in parallel: the mean of the threads' times
   double ao_build_ms = 0;    ///< ao: fields, bakes and caches built in this frame
   double ao_ms = 0;          ///< ao: look-ups (or rays), all points
-  double total_ms = 0;       ///< the whole frame
+  double tint_ms = 0;        ///< what see-through surfaces leave of the lights
+  double layer_ms = 0;  ///< the nearest see-through surfaces: their shadows and their share of the picture
+  double total_ms = 0;  ///< the whole frame
 };
 
 /// Adds the stages of one light's shadows, or of a part of them. Leaves the frame's other stages alone.

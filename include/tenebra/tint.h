@@ -95,7 +95,7 @@ public:
   /// Up to 24 triangles of constant transmittance before a point: the visible part is cut along their shadows
   /// and each piece is integrated exactly, in the precision of SoftPrecision::fast. More of them, or textures
   /// and vertex colours that vary: 4,096 places of the light, one in each cell of a 64 x 64 grid around it
-  /// (docs/materials.md says how exact that is).
+  /// (docs/see_through.md says how exact that is).
   ///
   /// The bits are the same for any number of threads. Returns false, with `out` unspecified, if `stop` was
   /// requested before the end.

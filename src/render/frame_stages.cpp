@@ -133,6 +133,8 @@ Expected<void> Renderer::State::trace_soft(const FrameInput& input, const DrawnL
   if (!input.geometry.see_through.empty()) {
     if (auto done = trace_tint(input, light, settings, points, normals, {}, soft_mask, out.tint, stop); !done)
       return done;
+    result.timings.tint_ms += tint.stats().ms;
+    watch.lap_ms();
   }
   std::swap(irradiance_out, soft_mask.irradiance);
   result.timings.writeback_ms += watch.lap_ms();
@@ -151,9 +153,11 @@ Expected<void> Renderer::State::trace_lights(const FrameInput& input, const std:
       trace_hard(input, lights[i], settings, result);
       if (input.geometry.see_through.empty()) continue;
       LightMask& hard_lit = result.masks.back();
+      base::Stopwatch watch;
       if (auto done = trace_tint(input, lights[i], settings, points, {}, hard_mask, {}, hard_lit.tint, stop);
           !done)
         return done;
+      result.timings.tint_ms += watch.lap_ms();
     }
   }
   return {};

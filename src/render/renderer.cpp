@@ -120,7 +120,7 @@ Expected<void> Renderer::render_frame(const FrameInput& given, const RenderSetti
   if (auto traced = s.trace_lights(input, *lights, settings, result, stop); !traced) return traced;
   watch.lap_ms();
   if (auto shaded = s.shade_pixels(input, *lights, settings, result, stop); !shaded) return shaded;
-  timings.composite_ms = watch.lap_ms();
+  timings.composite_ms = watch.lap_ms() - timings.layer_ms;
   timings.total_ms = whole.lap_ms();
   s.keep_new(result.notes);
   return {};

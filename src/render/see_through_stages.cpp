@@ -94,6 +94,7 @@ Expected<void> Renderer::State::draw_see_through(
     const shade::Lighting& lighting, const shade::PixelSamples& opaque, const RenderSettings& settings,
     FrameResult& result, const StopFlag* stop) {
   if (!gbuffer.has_layer) return {};
+  base::Stopwatch watch;
   raster::read_layer_ids(gbuffer, layer.ids);
   if (std::all_of(layer.ids.begin(), layer.ids.end(), [](std::uint32_t id) { return id == no_triangle; }))
     return {};
@@ -108,6 +109,7 @@ Expected<void> Renderer::State::draw_see_through(
     draw_layer({subject, lighting, opaque, layer, surfaces, passes, settings.exposure, scene.transfer},
                result.image);
   });
+  result.timings.layer_ms = watch.lap_ms();
   return {};
 }
 

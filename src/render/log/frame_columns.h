@@ -95,6 +95,8 @@ inline constexpr std::array closing_timings{
     TimingColumn{"irradiance_ms", &FrameTimings::irradiance_ms},
     TimingColumn{"ao_build_ms", &FrameTimings::ao_build_ms},
     TimingColumn{"ao_ms", &FrameTimings::ao_ms},
+    TimingColumn{"tint_ms", &FrameTimings::tint_ms},
+    TimingColumn{"layer_ms", &FrameTimings::layer_ms},
 };
 
 /// The stages in the order in which a frame runs them; their names are those of FrameTimings without the
@@ -114,8 +116,10 @@ inline constexpr std::array frame_stages{
     TimingColumn{"init", &FrameTimings::init_ms},
     TimingColumn{"query", &FrameTimings::query_ms},
     TimingColumn{"irradiance", &FrameTimings::irradiance_ms},
+    TimingColumn{"tint", &FrameTimings::tint_ms},
     TimingColumn{"writeback", &FrameTimings::writeback_ms},
     TimingColumn{"composite", &FrameTimings::composite_ms},
+    TimingColumn{"layer", &FrameTimings::layer_ms},
 };
 
 }  // namespace tenebra::render
