@@ -47,6 +47,8 @@ CONTAINED = [
     (r"tinyobj::", "tinyobjloader", {"formats"}),
     (r"\bmeshopt_|meshoptimizer\.h", "meshoptimizer", {"formats/gltf_meshopt.cpp"}),
     (r"\bdraco::|<draco/", "Draco", {"formats/draco_decoder.cpp"}),
+    (r"\bstbi_|stb/stb_image", "stb_image", {"base/image.cpp"}),
+    (r"\bWebP[A-Z]|webp/", "libwebp", {"formats/image_webp.cpp"}),
     (r"\bImGui|GLFW", "the window", set()),
     (r"\brtc[A-Z]\w*\(|embree", "the ray caster", {"ao/cast/embree.h", "ao/cast/reference_rays.cpp"}),
 ]

@@ -20,7 +20,8 @@ if [[ "${1:-}" == --tests ]]; then
   packages+=(libgtest-dev libembree-dev libgmp-dev
     libmeshoptimizer-dev libdraco-dev
     xvfb xauth xdotool imagemagick x11-xserver-utils)
-  where_known+=(libosmesa6 clang-format-14)  # Mesa 25.1 and later have no OSMesa: EGL is enough
+  # Mesa 25.1 and later have no OSMesa: EGL is enough. libwebp: pictures in WebP.
+  where_known+=(libosmesa6 clang-format-14 libwebp-dev)
 fi
 
 if ! command -v dpkg-query apt-get > /dev/null; then

@@ -55,18 +55,74 @@ Expected<std::string> read_bytes(const std::filesystem::path& path) {
   return bytes;
 }
 
+bool is_jpeg(std::string_view bytes) {
+  return bytes.starts_with("\xff\xd8\xff");
+}
+
+const stbi_uc* as_stb(std::string_view bytes) {
+  return reinterpret_cast<const stbi_uc*>(bytes.data());
+}
+
+/// Why stb_image gave up. None is stated where its own thread-local state had no memory.
+std::string_view reason_of_stb() {
+  const char* const stated = stbi_failure_reason();
+  const std::string_view reason = stated == nullptr ? "outofmem" : stated;
+  return reason == "outofmem" ? "not enough memory" : reason;
+}
+
 }  // namespace
 
-Expected<void> write_png(const std::filesystem::path& path, const Image8& image) {
+Expected<std::string> encode_png(const Image8& image) {
   const bool has_png_channels = image.channels == 1 || image.channels == 3 || image.channels == 4;
-  if (!has_png_channels || !has_consistent_size(image)) return refuse_size(path, image);
+  if (!has_png_channels || !has_consistent_size(image)) {
+    return fail("found a picture of {} x {} with {} channels and {} values", image.width, image.height,
+                image.channels, image.pixels.size());
+  }
   std::string bytes;
   if (stbi_write_png_to_func(append_to_string, &bytes, image.width, image.height, image.channels,
                              image.pixels.data(), image.width * image.channels) == 0) {
-    return fail("cannot write {}: not enough memory to compress {} x {} pixels", path.string(), image.width,
-                image.height);
+    return fail("not enough memory to compress {} x {} pixels", image.width, image.height);
   }
-  return write_file(path, bytes);
+  return bytes;
+}
+
+Expected<void> write_png(const std::filesystem::path& path, const Image8& image) {
+  const auto bytes = encode_png(image);
+  if (!bytes) return fail("cannot write {}: {}", path.string(), bytes.error().message);
+  return write_file(path, *bytes);
+}
+
+bool is_png_or_jpeg(std::string_view bytes) {
+  return bytes.starts_with("\x89PNG") || is_jpeg(bytes);
+}
+
+Expected<ImageSize> stated_size(std::string_view bytes) {
+  if (bytes.size() > most_file_bytes) return fail("found {} bytes, expected at most 1 GiB", bytes.size());
+  if (!is_jpeg(bytes)) {
+    const auto header = check_png_structure(bytes);
+    if (!header) return tl::unexpected(header.error());
+    return ImageSize{header->width, header->height};
+  }
+  int width = 0, height = 0, channels = 0;
+  if (stbi_info_from_memory(as_stb(bytes), static_cast<int>(bytes.size()), &width, &height, &channels) == 0)
+    return fail("found no size in its header ({})", reason_of_stb());
+  return ImageSize{static_cast<std::uint64_t>(width), static_cast<std::uint64_t>(height)};
+}
+
+Expected<Image8> decode_rgba(std::string_view bytes) {
+  const auto size = stated_size(bytes);
+  if (!size) return tl::unexpected(size.error());
+  Image8 image;
+  int stored_channels = 0;
+  const std::unique_ptr<stbi_uc, void (*)(void*)> decoded(
+      stbi_load_from_memory(as_stb(bytes), static_cast<int>(bytes.size()), &image.width, &image.height,
+                            &stored_channels, 4),
+      stbi_image_free);
+  if (decoded == nullptr)
+    return fail("cannot decode its {} x {} pixels ({})", size->width, size->height, reason_of_stb());
+  image.channels = 4;
+  image.pixels.assign(decoded.get(), decoded.get() + std::size_t{4} * image.width * image.height);
+  return image;
 }
 
 Expected<Image8> read_png(const std::filesystem::path& path) {
@@ -87,10 +143,8 @@ Expected<Image8> read_png(const std::filesystem::path& path) {
                             &image.width, &image.height, &image.channels, 0),
       stbi_image_free);
   if (decoded == nullptr) {
-    const char* const stated = stbi_failure_reason();  // none where its own thread-local state had no memory
-    const std::string_view reason = stated == nullptr ? "outofmem" : stated;
     return fail("{}: cannot decode its {} x {} pixels ({})", path.string(), header->width, header->height,
-                reason == "outofmem" ? "not enough memory" : reason);
+                reason_of_stb());
   }
   const std::size_t count = static_cast<std::size_t>(image.width) * image.height * image.channels;
   image.pixels.assign(decoded.get(), decoded.get() + count);

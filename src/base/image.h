@@ -4,6 +4,8 @@
 
 #include <cstdint>
 #include <filesystem>
+#include <string>
+#include <string_view>
 #include <vector>
 
 #include <tenebra/expected.h>
@@ -29,6 +31,21 @@ Expected<void> write_png(const std::filesystem::path& path, const Image8& image)
 Expected<Image8> read_png(const std::filesystem::path& path);
 /// Reads a Radiance picture (.hdr): three linear channels. Refuses what is none and more than 2^26 pixels.
 Expected<ImageF> read_hdr(const std::filesystem::path& path);
+/// The same bytes that write_png writes.
+Expected<std::string> encode_png(const Image8& image);
+
+struct ImageSize {
+  std::uint64_t width = 0;
+  std::uint64_t height = 0;
+};
+/// Whether `bytes` begin as a PNG or a JPEG does: what the two functions below read.
+bool is_png_or_jpeg(std::string_view bytes);
+/// The size that the header of a PNG or JPEG states; nothing is decoded. Fails with a phrase.
+Expected<ImageSize> stated_size(std::string_view bytes);
+/// A PNG or JPEG in four channels as stored, of 16 bits the upper eight; alpha 255 where it has none. Fails
+/// with a phrase: refuse what stated_size finds too large first.
+Expected<Image8> decode_rgba(std::string_view bytes);
+
 /// Writes a 32-bit little-endian PFM (1 or 3 channels), whole or not at all.
 Expected<void> write_pfm(const std::filesystem::path& path, const ImageF& image);
 
