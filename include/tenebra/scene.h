@@ -105,6 +105,12 @@ struct Node {
   std::vector<float> weights;  ///< morph weights of this instance; empty: the mesh's
 };
 
+/// Something that a scene file holds and nothing uses: "normalTexture", "KHR_materials_clearcoat".
+struct UnusedContent {
+  std::string name;  ///< as the file calls it
+  std::size_t count = 0;
+};
+
 /// Everything that was imported.
 struct Scene {
   std::string name;         ///< file name without folder
@@ -118,8 +124,10 @@ struct Scene {
   std::vector<Clip> clips;
   Transfer transfer = Transfer::srgb;
   glm::vec3 background{0.0f};
-  glm::vec3 ambient_light{0.1f};      ///< times the materials' ambient; formats that state one set it
-  std::vector<std::string> warnings;  ///< what was skipped, guessed or added at import, a sentence each
+  glm::vec3 ambient_light{0.1f};        ///< times the materials' ambient; formats that state one set it
+  std::vector<std::string> extensions;  ///< that the file says it uses (glTF)
+  std::vector<UnusedContent> unused;    ///< each stands in a warning too
+  std::vector<std::string> warnings;    ///< what was skipped, guessed or added at import, a sentence each
 };
 
 /// Adds what a picture needs if the file lacks it: a camera that sees everything, and a light above the

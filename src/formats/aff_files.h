@@ -26,6 +26,8 @@ public:
   /// Looks beside `from`, then in the top file's folder.
   AffFile& open_include(std::string_view name, const AffFile& from);
   std::uint64_t bytes_read() const { return bytes_read_; }
+  /// The top file's folder, canonical.
+  const std::filesystem::path& root() const { return root_; }
 
 private:
   AffFile& load(const std::filesystem::path& canonical);

@@ -2,6 +2,7 @@
 #include <fmt/core.h>
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 
 #include "base/fail.h"
@@ -45,12 +46,21 @@ std::vector<glm::vec3> read_list(AffLexer& in, std::string_view what, Read read)
   return list;
 }
 
+/// The first row of a picture is at v = 0, as in glTF: BART's paintings and its garden hang upright so, and
+/// the garden agrees with the published picture.
+glm::vec2 read_texture_coordinates(AffLexer& in) {
+  const float u = in.real("a texture coordinate");
+  return {u, in.real("a texture coordinate")};
+}
+
 /// The tables of an `m`, each with its own indices.
 struct MeshTables {
   std::vector<glm::vec3> positions;
   std::vector<glm::vec3> normals;
+  std::vector<glm::vec2> texture_coordinates;
+  std::string texture;
+  std::string texture_place;  ///< where it is named
   bool has_normals = false;
-  std::size_t texture_coordinates = 0;
   bool has_texture = false;
 };
 
@@ -66,9 +76,12 @@ MeshTables read_tables(AffLexer& in) {
   if (in.peek() == "texturecoords") {
     in.expect("texturecoords");
     tables.has_texture = true;
-    tables.texture_coordinates = in.count("the number of texture coordinates");
-    in.word("the name of a texture");
-    for (std::size_t i = 0; i < 2 * tables.texture_coordinates; ++i) in.number("a texture coordinate");
+    const std::size_t count = in.count("the number of texture coordinates");
+    tables.texture = in.word("the name of a texture");
+    tables.texture_place = in.place();
+    tables.texture_coordinates.reserve(std::min(count, in.most_numbers_left() / 2));
+    for (std::size_t i = 0; i < count; ++i)
+      tables.texture_coordinates.push_back(read_texture_coordinates(in));
   }
   return tables;
 }
@@ -79,49 +92,58 @@ glm::uvec3 read_indices(AffLexer& in, std::size_t size, std::string_view what) {
   return {a, b, in.index(size, what)};
 }
 
-/// Corners of the triangles: indices by kind.
+/// Corners of the triangles: indices by kind; those of kinds that the mesh lacks are empty.
 struct Corners {
   std::vector<glm::uvec3> positions;
   std::vector<glm::uvec3> normals;
+  std::vector<glm::uvec3> texture_coordinates;
 };
 
 Corners read_triangles(AffLexer& in, const MeshTables& tables) {
   in.expect("triangles");
   const std::size_t count = in.count("the number of triangles");
-  const std::size_t room = std::min(count, in.most_numbers_left() / (tables.has_normals ? 6 : 3));
+  const std::size_t numbers = 3 + (tables.has_normals ? 3 : 0) + (tables.has_texture ? 3 : 0);
+  const std::size_t room = std::min(count, in.most_numbers_left() / numbers);
   Corners corners;
   corners.positions.reserve(room);
   if (tables.has_normals) corners.normals.reserve(room);
+  if (tables.has_texture) corners.texture_coordinates.reserve(room);
   for (std::size_t t = 0; t < count; ++t) {
     corners.positions.push_back(read_indices(in, tables.positions.size(), "a vertex index"));
     if (tables.has_normals) {
       corners.normals.push_back(read_indices(in, tables.normals.size(), "a normal index"));
     }
-    if (tables.has_texture) read_indices(in, tables.texture_coordinates, "a texture index");
+    if (tables.has_texture) {
+      corners.texture_coordinates.push_back(
+          read_indices(in, tables.texture_coordinates.size(), "a texture index"));
+    }
   }
   return corners;
 }
 
-/// One vertex for every pair of position and normal in use.
+/// One vertex for every combination of position, normal and texture coordinates in use.
 void join_corners(const MeshTables& tables, const Corners& corners, Mesh& mesh) {
   struct Use {
-    std::uint64_t pair;
+    std::array<std::uint32_t, 3> kinds;  ///< indices into the tables
     std::uint32_t corner;
   };
   std::vector<Use> uses;
   uses.reserve(3 * corners.positions.size());
   for (std::size_t t = 0; t < corners.positions.size(); ++t) {
     for (int k = 0; k < 3; ++k) {
-      const std::uint64_t pair = std::uint64_t{corners.positions[t][k]} << 32 | corners.normals[t][k];
-      uses.push_back({pair, static_cast<std::uint32_t>(uses.size())});
+      uses.push_back({{corners.positions[t][k], tables.has_normals ? corners.normals[t][k] : 0,
+                       tables.has_texture ? corners.texture_coordinates[t][k] : 0},
+                      static_cast<std::uint32_t>(uses.size())});
     }
   }
-  std::sort(uses.begin(), uses.end(), [](const Use& a, const Use& b) { return a.pair < b.pair; });
+  std::sort(uses.begin(), uses.end(), [](const Use& a, const Use& b) { return a.kinds < b.kinds; });
   mesh.triangles.resize(corners.positions.size());
   for (std::size_t i = 0; i < uses.size(); ++i) {
-    if (i == 0 || uses[i].pair != uses[i - 1].pair) {
-      mesh.positions.push_back(tables.positions[uses[i].pair >> 32]);
-      mesh.normals.push_back(tables.normals[uses[i].pair & 0xffffffffu]);
+    const auto& kinds = uses[i].kinds;
+    if (i == 0 || kinds != uses[i - 1].kinds) {
+      mesh.positions.push_back(tables.positions[kinds[0]]);
+      if (tables.has_normals) mesh.normals.push_back(tables.normals[kinds[1]]);
+      if (tables.has_texture) mesh.texture_coordinates[0].push_back(tables.texture_coordinates[kinds[2]]);
     }
     mesh.triangles[uses[i].corner / 3][static_cast<int>(uses[i].corner % 3)] =
         static_cast<std::uint32_t>(mesh.positions.size() - 1);
@@ -130,6 +152,7 @@ void join_corners(const MeshTables& tables, const Corners& corners, Mesh& mesh) 
 
 std::size_t memory_of(const Mesh& mesh) {
   return sizeof(glm::vec3) * (mesh.positions.size() + mesh.normals.size()) +
+         sizeof(glm::vec2) * mesh.texture_coordinates[0].size() +
          (sizeof(glm::uvec3) + sizeof(std::uint32_t)) * mesh.triangles.size();
 }
 
@@ -140,6 +163,22 @@ std::uint32_t AffReader::current_material(AffLexer& in) {
     set_material(in, {-1.0}, Material{});
   }
   return *material_;
+}
+
+std::uint32_t AffReader::textured_material(AffLexer& in, const std::string& texture,
+                                           const std::string& place) {
+  const std::uint32_t plain = current_material(in);
+  const int image = images_->find(texture, place);
+  if (image < 0) return plain;
+  const auto next = static_cast<std::uint32_t>(scene_.materials.size());
+  const auto [entry, is_new] = textured_materials_.try_emplace({plain, image}, next);
+  if (is_new) {
+    charge(in, 2 * sizeof(Material) + 2 * sizeof(*entry));
+    Material material = scene_.materials[plain];
+    material.base_color_map.image = image;
+    scene_.materials.push_back(std::move(material));
+  }
+  return entry->second;
 }
 
 Mesh& AffReader::add_mesh(AffLexer& in, std::string source) {
@@ -156,19 +195,23 @@ void AffReader::read_mesh(AffLexer& in) {
   std::string source = in.place();
   MeshTables tables = read_tables(in);
   Corners corners = read_triangles(in, tables);
+  const std::uint32_t material =
+      tables.has_texture ? textured_material(in, tables.texture, tables.texture_place) : current_material(in);
+  tables.has_texture = scene_.materials[material].base_color_map.image >= 0;
   Mesh& mesh = add_mesh(in, std::move(source));
-  if (tables.has_normals) {
+  if (tables.has_normals || tables.has_texture) {
     join_corners(tables, corners, mesh);
   } else {
     mesh.positions = std::move(tables.positions);
     mesh.triangles = std::move(corners.positions);
   }
-  mesh.materials.assign(mesh.triangles.size(), current_material(in));
+  mesh.materials.assign(mesh.triangles.size(), material);
   charge(in, memory_of(mesh));
 }
 
 void AffReader::append_polygon(AffLexer& in, std::string source, std::size_t corners, bool normals,
-                               bool textured) {
+                               const std::string* texture) {
+  const std::uint32_t material = texture ? textured_material(in, *texture, in.place()) : current_material(in);
   if (run_.mesh < 0) {
     add_mesh(in, std::move(source));
     run_.mesh = static_cast<int>(scene_.meshes.size()) - 1;
@@ -178,39 +221,40 @@ void AffReader::append_polygon(AffLexer& in, std::string source, std::size_t cor
   for (std::size_t i = 0; i < corners; ++i) {
     mesh.positions.push_back(read_position(in));
     if (normals) mesh.normals.push_back(read_normal(in));
-    if (textured) in.number("a texture coordinate"), in.number("a texture coordinate");
+    if (texture) mesh.texture_coordinates[0].push_back(read_texture_coordinates(in));
   }
   for (std::uint32_t i = 1; i + 1 < corners; ++i) {
     mesh.triangles.emplace_back(first, first + i, first + i + 1);
-    mesh.materials.push_back(current_material(in));
+    mesh.materials.push_back(material);
   }
-  charge(in, corners * (2 * sizeof(glm::vec3) + sizeof(glm::uvec3) + sizeof(std::uint32_t)));
+  charge(in,
+         corners * (2 * sizeof(glm::vec3) + sizeof(glm::vec2) + sizeof(glm::uvec3) + sizeof(std::uint32_t)));
 }
 
 void AffReader::read_polygon(AffLexer& in) {
   std::string source = in.place();
   const std::size_t corners = in.count("the number of corners");
   if (corners < 3) in.fail(fmt::format("{} corners", corners), "at least 3");
-  append_polygon(in, std::move(source), corners, false, false);
+  append_polygon(in, std::move(source), corners, false, nullptr);
 }
 
 void AffReader::read_polygon_with_normals(AffLexer& in) {
   std::string source = in.place();
   const std::size_t corners = in.count("the number of corners");
   if (corners < 3) in.fail(fmt::format("{} corners", corners), "at least 3");
-  append_polygon(in, std::move(source), corners, true, false);
+  append_polygon(in, std::move(source), corners, true, nullptr);
 }
 
 void AffReader::read_textured_triangle(AffLexer& in) {
   std::string source = in.place();
-  in.word("the name of a texture");
-  append_polygon(in, std::move(source), 3, false, true);
+  const std::string texture(in.word("the name of a texture"));
+  append_polygon(in, std::move(source), 3, false, &texture);
 }
 
 void AffReader::read_textured_triangle_with_normals(AffLexer& in) {
   std::string source = in.place();
-  in.word("the name of a texture");
-  append_polygon(in, std::move(source), 3, true, true);
+  const std::string texture(in.word("the name of a texture"));
+  append_polygon(in, std::move(source), 3, true, &texture);
 }
 
 void AffReader::read_animated_triangle(AffLexer& in) {

@@ -61,6 +61,7 @@ const AffReader::Directive AffReader::directives[] = {
 
 Scene AffReader::read(const std::filesystem::path& path) {
   scene_.ambient_light = glm::vec3(1.0f);  // until `am` says otherwise
+  scene_.transfer = Transfer::display;     // the format and its scenes are of 1999 and before
   AffFile* top = nullptr;
   try {
     top = &files_.open_top(path);
@@ -68,6 +69,7 @@ Scene AffReader::read(const std::filesystem::path& path) {
     throw AffFailure{fmt::format("{}: found {}, expected an AFF file.", path.string(), failure.message)};
   }
   scene_.name = top->name;
+  images_.emplace(scene_, files_.root(), options_.texture_paths);
   read_file(*top);
   finish();
   return std::move(scene_);

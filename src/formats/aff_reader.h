@@ -11,6 +11,7 @@
 #include "formats/aff_keys.h"
 #include "formats/aff_lexer.h"
 #include "formats/import_scene.h"
+#include "formats/scene_images.h"
 
 namespace tenebra::formats {
 
@@ -55,10 +56,14 @@ private:
   void read_animated_triangle(AffLexer& in);
   void read_cone(AffLexer& in);
   void read_sphere(AffLexer& in);
-  void append_polygon(AffLexer& in, std::string source, std::size_t corners, bool normals, bool textured);
+  /// `texture`: the picture that the corners have coordinates of, or nullptr.
+  void append_polygon(AffLexer& in, std::string source, std::size_t corners, bool normals,
+                      const std::string* texture);
   Mesh& add_mesh(AffLexer& in, std::string source);
   void add_round_shape(AffLexer& in, std::string source, Mesh shape);
   std::uint32_t current_material(AffLexer& in);
+  /// The current material with a picture on it; without one where there is no such picture.
+  std::uint32_t textured_material(AffLexer& in, const std::string& texture, const std::string& place);
 
   // aff_finish.cpp: what is known only at the end
   void finish();
@@ -100,6 +105,8 @@ private:
   std::int64_t detail_level_ = 0;
   std::optional<std::uint32_t> material_;
   std::map<std::array<double, 12>, std::uint32_t> known_materials_;
+  std::optional<SceneImages> images_;
+  std::map<std::pair<std::uint32_t, int>, std::uint32_t> textured_materials_;  ///< by material and image
   std::optional<View> view_;
   std::map<std::string, AffKeys, std::less<>> keys_;
   std::vector<Animated> animated_;

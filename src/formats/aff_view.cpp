@@ -1,6 +1,7 @@
 // Cameras, lights, materials and the interval of the animation.
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <cmath>
 #include <glm/gtc/quaternion.hpp>
 
@@ -18,6 +19,14 @@ glm::dvec3 read_named_vector(AffLexer& in, std::string_view keyword) {
 
 glm::vec3 color(const std::array<double, 12>& numbers, std::size_t first) {
   return {numbers[first], numbers[first + 1], numbers[first + 2]};
+}
+
+/// What follows the diffuse colour in `fm`: the specular one, Phong's exponent, the transmittance, and the
+/// index of refraction, which nothing uses.
+void set_gloss(const std::array<double, 12>& numbers, Material& material) {
+  material.specular = glm::max(color(numbers, 6), glm::vec3(0.0f));
+  material.phong_exponent = static_cast<float>(std::max(numbers[9], 0.0));
+  material.transmission = static_cast<float>(std::clamp(numbers[10], 0.0, 1.0));
 }
 
 }  // namespace
@@ -85,6 +94,7 @@ void AffReader::read_material(AffLexer& in) {
   for (double& number : numbers) number = in.number("one of a material's 12 numbers");
   material.ambient = color(numbers, 0);
   material.base_color = color(numbers, 3);
+  set_gloss(numbers, material);
   set_material(in, numbers, material);
 }
 
@@ -99,10 +109,10 @@ void AffReader::read_fill(AffLexer& in) {
   const glm::dvec3 ambient = ambient_share * fill, diffuse = f[3] * fill;
   material.ambient = glm::vec3(ambient);
   material.base_color = glm::vec3(diffuse);
-  set_material(
-      in,
-      {ambient.x, ambient.y, ambient.z, diffuse.x, diffuse.y, diffuse.z, f[4], f[4], f[4], f[5], f[6], f[7]},
-      material);
+  const std::array<double, 12> numbers{ambient.x, ambient.y, ambient.z, diffuse.x, diffuse.y, diffuse.z,
+                                       f[4],      f[4],      f[4],      f[5],      f[6],      f[7]};
+  set_gloss(numbers, material);
+  set_material(in, numbers, material);
 }
 
 void AffReader::read_animation(AffLexer& in) {

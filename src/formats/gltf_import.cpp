@@ -18,7 +18,7 @@ Scene read_gltf(const std::filesystem::path& path, const ImportOptions& options)
   gltf::load_model(path, bytes, asset);
   gltf::choose_scene(asset, options.scene);
   gltf::check_accessors(asset);
-  gltf::build_materials(asset);
+  gltf::build_materials(asset, path.parent_path(), options.texture_paths);
   gltf::build_cameras(asset);
   gltf::build_lights(asset);
   gltf::build_meshes(asset);

@@ -12,10 +12,13 @@ namespace tenebra::formats::gltf {
 namespace {
 
 const std::set<std::string> understood_extensions = {
-    "KHR_lights_punctual",     "EXT_lights_area",         "KHR_mesh_quantization",
-    "KHR_materials_unlit",     "KHR_node_visibility",     "KHR_materials_emissive_strength",
-    "KHR_texture_transform",   "EXT_meshopt_compression", "KHR_draco_mesh_compression",
-    "EXT_mesh_gpu_instancing", "KHR_animation_pointer"};
+    "KHR_lights_punctual",        "EXT_lights_area",
+    "KHR_mesh_quantization",      "KHR_materials_unlit",
+    "KHR_node_visibility",        "KHR_materials_emissive_strength",
+    "KHR_texture_transform",      "EXT_meshopt_compression",
+    "KHR_draco_mesh_compression", "EXT_mesh_gpu_instancing",
+    "KHR_animation_pointer",      "KHR_materials_transmission",
+    "EXT_texture_webp",           "KHR_materials_pbrSpecularGlossiness"};
 
 /// Whether geometry and animation are the same without extension `name`: it is about how surfaces look, or
 /// about sound, tools and descriptions.
@@ -63,34 +66,6 @@ int base64_digit(char c) {
   if (c >= 'a' && c <= 'z') return c - 'a' + 26;
   if (c >= '0' && c <= '9') return c - '0' + 52;
   return c == '+' ? 62 : c == '/' ? 63 : -1;
-}
-
-std::string decode_data_uri(const std::string& uri, const std::string& place) {
-  static constexpr std::string_view marker = ";base64,";
-  const std::size_t start = uri.find(marker);
-  if (start == std::string::npos) {
-    const std::size_t comma = uri.find(',');
-    if (comma == std::string::npos) refuse("{}: found no comma, expected data:TYPE,BYTES", place);
-    return undo_percent(std::string_view(uri).substr(comma + 1), place);
-  }
-  if (uri[start - 1] == ';')
-    refuse("{}: found '{}', expected data:TYPE;base64,...", place, uri.substr(0, 40));
-  std::string_view text = std::string_view(uri).substr(start + marker.size());
-  while (!text.empty() && text.back() == '=') text.remove_suffix(1);
-  std::string bytes;
-  bytes.reserve(text.size() / 4 * 3 + 3);
-  std::uint32_t bits = 0;
-  int bit_count = 0;
-  for (const char c : text) {
-    const int digit = base64_digit(c);
-    if (digit < 0) refuse("{}: found a character outside base64, expected base64", place);
-    bits = bits << 6 | static_cast<std::uint32_t>(digit);
-    bit_count += 6;
-    if (bit_count < 8) continue;
-    bit_count -= 8;
-    bytes += static_cast<char>(bits >> bit_count & 0xFF);
-  }
-  return bytes;
 }
 
 struct BufferSource {
@@ -169,9 +144,13 @@ void check_extensions(Asset& asset) {
     warnings.push_back(fmt::format(
         "extensionsRequired: {} is not read; the geometry is whole, but surfaces may look different.", name));
   }
+  const auto is_counted = [&](const std::string& name) {  // and has a sentence of its own
+    return std::any_of(asset.scene.unused.begin(), asset.scene.unused.end(),
+                       [&](const UnusedContent& content) { return content.name == name; });
+  };
   std::string names;
   for (const std::string& name : model.extensionsUsed)
-    if (!understood_extensions.contains(name) && unread.insert(name).second)
+    if (!understood_extensions.contains(name) && !is_counted(name) && unread.insert(name).second)
       names += (names.empty() ? "" : ", ") + name;
   if (!names.empty()) warnings.push_back(fmt::format("extensionsUsed: {}: not read.", names));
 }
@@ -203,13 +182,41 @@ bool load_no_image(tinygltf::Image*, const int, std::string*, std::string*, int,
 
 }  // namespace
 
+std::string decode_data_uri(const std::string& uri, const std::string& place) {
+  static constexpr std::string_view marker = ";base64,";
+  const std::size_t start = uri.find(marker);
+  if (start == std::string::npos) {
+    const std::size_t comma = uri.find(',');
+    if (comma == std::string::npos) refuse("{}: found no comma, expected data:TYPE,BYTES", place);
+    return undo_percent(std::string_view(uri).substr(comma + 1), place);
+  }
+  if (uri[start - 1] == ';')
+    refuse("{}: found '{}', expected data:TYPE;base64,...", place, uri.substr(0, 40));
+  std::string_view text = std::string_view(uri).substr(start + marker.size());
+  while (!text.empty() && text.back() == '=') text.remove_suffix(1);
+  std::string bytes;
+  bytes.reserve(text.size() / 4 * 3 + 3);
+  std::uint32_t bits = 0;
+  int bit_count = 0;
+  for (const char c : text) {
+    const int digit = base64_digit(c);
+    if (digit < 0) refuse("{}: found a character outside base64, expected base64", place);
+    bits = bits << 6 | static_cast<std::uint32_t>(digit);
+    bit_count += 6;
+    if (bit_count < 8) continue;
+    bit_count -= 8;
+    bytes += static_cast<char>(bits >> bit_count & 0xFF);
+  }
+  return bytes;
+}
+
 void load_model(const std::filesystem::path& path, std::string_view bytes, Asset& asset) {
   const GltfContainer container = split_gltf(bytes, path.extension() == ".glb");
   check_json_size(container.json);
   if (container.bytes_behind > 0)
     asset.scene.warnings.push_back(fmt::format(
         "GLB: found {} bytes behind the end that its header states; not read.", container.bytes_behind));
-  const std::string json = check_gltf_schema(container.json, asset.scene.warnings);
+  const std::string json = check_gltf_schema(container.json, asset.scene.warnings, asset.scene.unused);
   tinygltf::TinyGLTF reader;
   reader.SetFsCallbacks({no_file_exists, no_path, read_no_file, write_no_file, nullptr});
   reader.SetImageLoader(load_no_image, nullptr);
@@ -218,6 +225,7 @@ void load_model(const std::filesystem::path& path, std::string_view bytes, Asset
                                   static_cast<unsigned>(json.size()), ""))
     refuse("JSON: found a fault ({}), expected glTF 2.0", error.substr(0, error.find('\n')));
   restore_indices(asset.model);
+  asset.scene.extensions = asset.model.extensionsUsed;
   check_version(asset);
   check_extensions(asset);
   load_buffers({path.parent_path(), container, asset});

@@ -56,16 +56,8 @@ struct MeshBuilder {
         asset.scene.warnings.push_back(
             fmt::format("{}.attributes: found unknown '{}', left unread.", place(p), name));
       ignored_sets |= name.starts_with("JOINTS_") && name != "JOINTS_0" && name != "JOINTS_1";
-      if (name.starts_with("COLOR_")) check_colors(i, p, name);
       if (name == "TANGENT") check_tangents(i, p);
     }
-  }
-
-  void check_colors(int i, std::size_t p, const std::string& name) {
-    const std::vector<double> values = read_numbers(asset, i);
-    if (std::any_of(values.begin(), values.end(), [](double v) { return v < 0 || v > 1; }))
-      asset.scene.warnings.push_back(fmt::format(
-          "{}.attributes.{}: found values outside 0 to 1; vertex colours are not read.", place(p), name));
   }
 
   void check_tangents(int i, std::size_t p) {
@@ -212,6 +204,7 @@ struct MeshBuilder {
     const auto base = static_cast<std::uint32_t>(mesh.positions.size());
     mesh.positions.insert(mesh.positions.end(), positions.begin(), positions.end());
     add_normals(primitive, p);
+    add_coordinates(asset, primitive, place(p), positions.size(), mesh);
     add_joints(primitive, p);
     add_targets(primitive, p, positions.size());
     add_triangles(corners, mode, base, material_of(primitive));
@@ -221,6 +214,7 @@ struct MeshBuilder {
   void even_out() {
     const std::size_t count = mesh.positions.size();
     if (any_normals) mesh.normals.resize(count, glm::vec3(0));
+    even_out_coordinates(mesh);
     if (any_joints && !all_joints) mesh.joints.clear(), mesh.weights.clear();
     mesh.more_joints.resize(mesh.more_joints.empty() ? 0 : mesh.joints.size(), glm::u16vec4(0));
     mesh.more_weights.resize(mesh.more_joints.size(), glm::vec4(0));
@@ -277,13 +271,12 @@ void build_meshes(Asset& asset) {
     asset.scene.meshes.push_back(builder.build());
     asset.scene.meshes.back().source = fmt::format("{}:meshes[{}]", asset.scene.name, i);
   }
-  const auto default_material = static_cast<std::uint32_t>(asset.model.materials.size());
+  const auto without = static_cast<std::uint32_t>(asset.model.materials.size());
   const auto uses_default = [&](const Mesh& mesh) {
-    return std::find(mesh.materials.begin(), mesh.materials.end(), default_material) != mesh.materials.end();
+    return std::find(mesh.materials.begin(), mesh.materials.end(), without) != mesh.materials.end();
   };
   if (std::any_of(asset.scene.meshes.begin(), asset.scene.meshes.end(), uses_default)) {
-    asset.scene.materials.emplace_back();
-    asset.scene.materials.back().base_color = glm::vec3(1);
+    asset.scene.materials.push_back(default_material());
   }
 }
 

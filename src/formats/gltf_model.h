@@ -84,9 +84,22 @@ struct Influences {
   std::size_t repeated = 0;                      ///< vertices that have a joint twice
 };
 Influences read_influences(Asset& asset, const tinygltf::Primitive& primitive, const std::string& place);
+/// The bytes of a data URI. Throws ImportFailure naming `place`.
+std::string decode_data_uri(const std::string& uri, const std::string& place);
+
+/// Texture coordinates and colours of `primitive`, the last `count` vertices of `mesh`. What cannot be read
+/// is a warning.
+void add_coordinates(Asset& asset, const tinygltf::Primitive& primitive, const std::string& place,
+                     std::size_t count, Mesh& mesh);
+/// Gives the vertices of primitives that lack coordinates or colours zeros and white, where others have some.
+void even_out_coordinates(Mesh& mesh);
 
 // One table each into asset.scene, in this order.
-void build_materials(Asset& asset);
+/// With the pictures that they use, from `folder` or the texture paths.
+void build_materials(Asset& asset, const std::filesystem::path& folder,
+                     const std::vector<std::filesystem::path>& texture_paths);
+/// glTF's material for triangles without one.
+Material default_material();
 void build_cameras(Asset& asset);
 void build_lights(Asset& asset);
 void build_meshes(Asset& asset);
@@ -111,6 +124,20 @@ inline const Value* member(const Value& value, const char* name) {
 inline double number_or(const Value& value, const char* name, double otherwise) {
   const Value* found = member(value, name);
   return found ? found->GetNumberAsDouble() : otherwise;
+}
+
+/// The numbers `name` of the object `value`, as many as `color` has, if they are there.
+template <class Color>
+void read_color(const Value& value, const char* name, Color& color) {
+  const Value* found = member(value, name);
+  if (!found) return;
+  for (int k = 0; k < color.length(); ++k) color[k] = static_cast<float>(found->Get(k).GetNumberAsDouble());
+}
+
+/// Whether the string `name` of the object `value` is `text`.
+inline bool says(const Value& value, const char* name, const char* text) {
+  const Value* found = member(value, name);
+  return found && found->IsString() && found->Get<std::string>() == text;
 }
 
 /// Whether `extras.casts_shadow` is false.

@@ -9,6 +9,7 @@
 #include <span>
 
 #include "formats/gltf_rules.h"
+#include "formats/gltf_unused.h"
 #include "formats/import_failure.h"
 
 namespace tenebra::formats {
@@ -48,12 +49,18 @@ constexpr Field extras_field{"extras", Kind::object, false, "", 0, extras_fields
 
 constexpr Field material_extras_fields[] = {{"casts_shadow", Kind::boolean},
                                             {"ambient", Kind::numbers, false, "", 3},
-                                            {"base_color", Kind::numbers, false, "", 3}};
+                                            {"base_color", Kind::numbers, false, "", 3},
+                                            {"emissive", Kind::numbers, false, "", 3},
+                                            {"model", Kind::string},
+                                            {"specular", Kind::numbers, false, "", 3},
+                                            {"phong_exponent", Kind::number},
+                                            {"transmission", Kind::number}};
 constexpr Field light_extras_fields[] = {{"falloff", Kind::string}, {"intensity", Kind::number}};
 
 constexpr Field asset_fields[] = {{"version", Kind::string, required}, {"minVersion", Kind::string}};
 constexpr Field scene_extras_fields[] = {{"ambient_light", Kind::numbers, false, "", 3},
-                                         {"background", Kind::numbers, false, "", 3}};
+                                         {"background", Kind::numbers, false, "", 3},
+                                         {"transfer", Kind::string}};
 constexpr Field scene_fields[] = {name_field,
                                   {"extras", Kind::object, false, "", 0, scene_extras_fields},
                                   {"nodes", Kind::refs, false, "nodes"}};
@@ -130,14 +137,37 @@ constexpr Field buffer_extension_fields[] = {
 constexpr Field buffer_fields[] = {{"uri", Kind::string},
                                    {"byteLength", Kind::integer, required},
                                    {"extensions", Kind::object, false, "", 0, buffer_extension_fields}};
-constexpr Field texture_info_fields[] = {{"index", Kind::ref, required, "textures"}};
+constexpr Field transform_fields[] = {{"offset", Kind::numbers, false, "", 2},
+                                      {"rotation", Kind::number},
+                                      {"scale", Kind::numbers, false, "", 2},
+                                      {"texCoord", Kind::integer}};
+constexpr Field texture_info_extension_fields[] = {
+    {"KHR_texture_transform", Kind::object, false, "", 0, transform_fields}};
+constexpr Field texture_info_fields[] = {
+    {"index", Kind::ref, required, "textures"},
+    {"texCoord", Kind::integer},
+    {"extensions", Kind::object, false, "", 0, texture_info_extension_fields}};
 constexpr Field pbr_fields[] = {
     {"baseColorFactor", Kind::numbers, false, "", 4},
+    {"metallicFactor", Kind::number},
+    {"roughnessFactor", Kind::number},
     {"baseColorTexture", Kind::object, false, "", 0, texture_info_fields},
     {"metallicRoughnessTexture", Kind::object, false, "", 0, texture_info_fields}};
 constexpr Field strength_fields[] = {{"emissiveStrength", Kind::number}};
+constexpr Field glossiness_fields[] = {
+    {"diffuseFactor", Kind::numbers, false, "", 4},
+    {"specularFactor", Kind::numbers, false, "", 3},
+    {"glossinessFactor", Kind::number},
+    {"diffuseTexture", Kind::object, false, "", 0, texture_info_fields},
+    {"specularGlossinessTexture", Kind::object, false, "", 0, texture_info_fields}};
+constexpr Field transmission_fields[] = {
+    {"transmissionFactor", Kind::number},
+    {"transmissionTexture", Kind::object, false, "", 0, texture_info_fields}};
 constexpr Field material_extension_fields[] = {
-    {"KHR_materials_emissive_strength", Kind::object, false, "", 0, strength_fields}};
+    {"KHR_materials_emissive_strength", Kind::object, false, "", 0, strength_fields},
+    {"KHR_materials_unlit", Kind::object},
+    {"KHR_materials_pbrSpecularGlossiness", Kind::object, false, "", 0, glossiness_fields},
+    {"KHR_materials_transmission", Kind::object, false, "", 0, transmission_fields}};
 constexpr Field material_fields[] = {name_field,
                                      {"extras", Kind::object, false, "", 0, material_extras_fields},
                                      {"pbrMetallicRoughness", Kind::object, false, "", 0, pbr_fields},
@@ -145,6 +175,9 @@ constexpr Field material_fields[] = {name_field,
                                      {"occlusionTexture", Kind::object, false, "", 0, texture_info_fields},
                                      {"emissiveTexture", Kind::object, false, "", 0, texture_info_fields},
                                      {"emissiveFactor", Kind::numbers, false, "", 3},
+                                     {"alphaMode", Kind::string},
+                                     {"alphaCutoff", Kind::number},
+                                     {"doubleSided", Kind::boolean},
                                      {"extensions", Kind::object, false, "", 0, material_extension_fields}};
 constexpr Field perspective_fields[] = {{"aspectRatio", Kind::number},
                                         {"yfov", Kind::number, required},
@@ -190,10 +223,21 @@ constexpr Field light_fields[] = {name_field,
 constexpr Field lights_fields[] = {{"lights", Kind::objects, required, "", 0, light_fields}};
 constexpr Field root_extension_fields[] = {{"KHR_lights_punctual", Kind::object, false, "", 0, lights_fields},
                                            {"EXT_lights_area", Kind::object, false, "", 0, lights_fields}};
+constexpr Field source_fields[] = {{"source", Kind::ref, required, "images"}};
+constexpr Field texture_extension_fields[] = {
+    {"EXT_texture_webp", Kind::object, false, "", 0, source_fields},
+    {"KHR_texture_basisu", Kind::object, false, "", 0, source_fields}};
 constexpr Field texture_fields[] = {{"source", Kind::ref, false, "images"},
-                                    {"sampler", Kind::ref, false, "samplers"}};
-constexpr Field image_fields[] = {{"uri", Kind::string}, {"bufferView", Kind::ref, false, "bufferViews"}};
-constexpr Field any_fields[] = {name_field};
+                                    {"sampler", Kind::ref, false, "samplers"},
+                                    {"extensions", Kind::object, false, "", 0, texture_extension_fields}};
+constexpr Field image_fields[] = {name_field,
+                                  {"uri", Kind::string},
+                                  {"mimeType", Kind::string},
+                                  {"bufferView", Kind::ref, false, "bufferViews"}};
+constexpr Field texture_sampler_fields[] = {{"magFilter", Kind::integer},
+                                            {"minFilter", Kind::integer},
+                                            {"wrapS", Kind::integer},
+                                            {"wrapT", Kind::integer}};
 constexpr Field root_fields[] = {{"asset", Kind::object, required, "", 0, asset_fields},
                                  {"extensionsUsed", Kind::strings},
                                  {"extensionsRequired", Kind::strings},
@@ -210,12 +254,16 @@ constexpr Field root_fields[] = {{"asset", Kind::object, required, "", 0, asset_
                                  {"animations", Kind::objects, false, "", 0, animation_fields},
                                  {"textures", Kind::objects, false, "", 0, texture_fields},
                                  {"images", Kind::objects, false, "", 0, image_fields},
-                                 {"samplers", Kind::objects, false, "", 0, any_fields},
+                                 {"samplers", Kind::objects, false, "", 0, texture_sampler_fields},
                                  {"extensions", Kind::object, false, "", 0, root_extension_fields}};
 
-/// Tables that only textures use: Tenebra reads none, so their faults are no harm.
-bool is_about_textures(std::string_view name) {
-  return name == "textures" || name == "images" || name == "samplers" || name.ends_with("Texture");
+/// What only looks depend on: a fault there costs the texture or the extension, never the scene.
+bool is_about_looks(std::string_view name) {
+  static const std::set<std::string_view> plain = {"textures",       "images",         "samplers",
+                                                   "alphaMode",      "alphaCutoff",    "doubleSided",
+                                                   "metallicFactor", "roughnessFactor"};
+  return plain.contains(name) || name.ends_with("Texture") || name.starts_with("KHR_materials_") ||
+         name.starts_with("KHR_texture_") || name == "EXT_texture_webp";
 }
 
 class SchemaCheck {
@@ -225,9 +273,6 @@ public:
   void run() {
     if (!root_.is_object()) refuse("JSON: found {}, expected an object", root_.type_name());
     check_object(root_, "", root_fields);
-    for (const char* table : {"textures", "images", "samplers"}) root_.erase(table);
-    if (skipped_textures_)
-      warnings_.emplace_back("Textures and images are not read: factors alone colour the surfaces.");
   }
 
 private:
@@ -242,27 +287,39 @@ private:
         continue;
       }
       // Samplers of animations share their name with the samplers of textures.
-      const bool harmless = is_about_textures(field.name) && !path.starts_with("animations");
-      if (harmless) {
-        check_harmless(*found, place, field);
+      if (is_about_looks(field.name) && !path.starts_with("animations")) {
+        if (check_harmless(*found, place, field)) kept.insert(field.name);
       } else if (!drop_if_empty(*found, place, field)) {
         check_value(*found, place, field);
         kept.insert(field.name);
       }
-      if (harmless && path.empty()) kept.insert(field.name);  // referred to until the end of the check
     }
     for (auto it = object.begin(); it != object.end();)
       it = kept.contains(it.key()) ? ++it : object.erase(it);
   }
 
-  void check_harmless(Json& value, const std::string& place, const Field& field) {
-    skipped_textures_ = true;
+  /// Whether `value` may be used. Faulty entries of a table become empty objects, so that indices stay right.
+  bool check_harmless(Json& value, const std::string& place, const Field& field) {
+    if (drop_if_empty(value, place, field)) return false;
+    if (field.kind == Kind::objects && value.is_array()) {
+      for (std::size_t i = 0; i < value.size(); ++i) {
+        const bool whole = is_whole(fmt::format("{}[{}]", place, i),
+                                    [&](const std::string& at) { check_object(value[i], at, field.fields); });
+        if (!whole) value[i] = Json::object();
+      }
+      return true;
+    }
+    return is_whole(place, [&](const std::string& at) { check_value(value, at, field); });
+  }
+
+  template <class Check>
+  bool is_whole(const std::string& place, Check check) {
     try {
-      if (!drop_if_empty(value, place, field)) check_value(value, place, field);
+      check(place);
+      return true;
     } catch (const ImportFailure& failure) {
-      warnings_.push_back(
-          fmt::format("{}; it only matters to textures, which are not read.", failure.what()));
-      value = Json::array();
+      warnings_.push_back(fmt::format("{}; it only matters to looks and is left out.", failure.what()));
+      return false;
     }
   }
 
@@ -405,7 +462,6 @@ private:
 
   Json& root_;
   std::vector<std::string>& warnings_;
-  bool skipped_textures_ = false;
 };
 
 /// An accessor of a type that this version of glTF does not know is allowed, but nothing may use it.
@@ -462,7 +518,8 @@ void mark_channels_without_nodes(Json& root) {
 
 }  // namespace
 
-std::string check_gltf_schema(std::string_view json, std::vector<std::string>& warnings) {
+std::string check_gltf_schema(std::string_view json, std::vector<std::string>& warnings,
+                              std::vector<UnusedContent>& unused) {
   Json root;
   try {
     root = Json::parse(json.begin(), json.end());
@@ -472,14 +529,23 @@ std::string check_gltf_schema(std::string_view json, std::vector<std::string>& w
     refuse("JSON: found a number beyond the range of double, expected a smaller one");
   }
   check_gltf_rules(root, warnings);
+  name_unused_looks(root, warnings, unused);
   SchemaCheck(root, warnings).run();
   blank_unknown_accessors(root, warnings);
   replace_unknown_cameras(root, warnings);
   mark_channels_without_nodes(root);
   hide_indices_without_view(root);
-  // tinygltf fetches what stands under "buffers" by itself; under "extras" it leaves it to its caller.
+  // tinygltf fetches what stands under "buffers" by itself; under "extras" it leaves it to its caller. Images
+  // too.
   if (root.contains("buffers")) root["extras"]["buffers"] = std::move(root["buffers"]);
   root.erase("buffers");
+  if (root.contains("images")) {
+    // It drops empty objects from lists, which would give the images after them other numbers.
+    for (Json& image : root["images"])
+      if (image.empty()) image["name"] = "";
+    root["extras"]["images"] = std::move(root["images"]);
+  }
+  root.erase("images");
   return root.dump(-1, ' ', false, Json::error_handler_t::replace);
 }
 

@@ -5,11 +5,14 @@
 #include <string_view>
 #include <vector>
 
+#include <tenebra/scene.h>
+
 namespace tenebra::formats {
 
 /// JSON reduced to the properties that Tenebra reads, each of the right type, every reference in range.
 /// Throws ImportFailure with the JSON path of the first fault; harmless faults (textures, empty lists) add to
-/// `warnings`.
-std::string check_gltf_schema(std::string_view json, std::vector<std::string>& warnings);
+/// `warnings`, and so does what only looks depend on and is not read, which `unused` counts.
+std::string check_gltf_schema(std::string_view json, std::vector<std::string>& warnings,
+                              std::vector<UnusedContent>& unused);
 
 }  // namespace tenebra::formats

@@ -1,4 +1,4 @@
-// Materials, cameras and lights of a glTF file.
+// Cameras, lights and surroundings of a glTF file.
 #include <fmt/core.h>
 #include <algorithm>
 #include <cmath>
@@ -16,13 +16,6 @@ glm::vec3 vec3_or(const std::vector<double>& numbers, glm::vec3 otherwise) {
 double at_least_zero(double value, const std::string& place) {
   if (value < 0) refuse("{}: found {}, expected 0 or more", place, value);
   return value;
-}
-
-/// The three numbers `name` of `extras`, if they are there.
-void read_color(const Value& extras, const char* name, glm::vec3& color) {
-  const Value* found = member(extras, name);
-  if (!found) return;
-  for (int k = 0; k < 3; ++k) color[k] = static_cast<float>(found->Get(k).GetNumberAsDouble());
 }
 
 Light read_area_light(const Value& value, const std::string& place) {
@@ -105,22 +98,6 @@ void read_orthographic(const tinygltf::OrthographicCamera& source, const std::st
 
 }  // namespace
 
-void build_materials(Asset& asset) {
-  for (const auto& source : asset.model.materials) {
-    Material material;
-    material.name = source.name;
-    material.base_color = vec3_or(source.pbrMetallicRoughness.baseColorFactor, glm::vec3(1));
-    material.emissive = vec3_or(source.emissiveFactor, glm::vec3(0));
-    const auto strength = source.extensions.find("KHR_materials_emissive_strength");
-    if (strength != source.extensions.end())
-      material.emissive *= static_cast<float>(number_or(strength->second, "emissiveStrength", 1));
-    material.casts_shadow = !says_no_shadow(source.extras);
-    read_color(source.extras, "ambient", material.ambient);
-    read_color(source.extras, "base_color", material.base_color);
-    asset.scene.materials.push_back(std::move(material));
-  }
-}
-
 void build_cameras(Asset& asset) {
   for (std::size_t i = 0; i < asset.model.cameras.size(); ++i) {
     const auto& source = asset.model.cameras[i];
@@ -156,6 +133,7 @@ void build_surroundings(Asset& asset) {
   const Value& extras = model.scenes[static_cast<std::size_t>(std::max(model.defaultScene, 0))].extras;
   read_color(extras, "ambient_light", asset.scene.ambient_light);
   read_color(extras, "background", asset.scene.background);
+  if (says(extras, "transfer", "display")) asset.scene.transfer = Transfer::display;
 }
 
 }  // namespace tenebra::formats::gltf

@@ -16,7 +16,7 @@ Expected<Scene> import_scene(const std::filesystem::path& path, const ImportOpti
                       path.string(), options.scene);
   if (extension == ".aff" || extension == ".nff") return import_aff(path, options);
   if (gltf) return import_gltf(path, options);
-  if (extension == ".obj") return import_obj(path);
+  if (extension == ".obj") return import_obj(path, options);
   return base::fail("{}: found the extension '{}', expected .aff, .nff, .gltf, .glb or .obj.", path.string(),
                     extension);
 }

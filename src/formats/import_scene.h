@@ -13,22 +13,27 @@ namespace tenebra::formats {
 struct ImportOptions {
   int cone_sides = 64;  ///< AFF `c`: sides of a cone or cylinder (the 2011 paper's count needs 8)
   std::string scene;  ///< glTF: which of the file's scenes, by name or number; empty: the one it shows first
+  /// Where pictures are looked for that are not beside the scene.
+  std::vector<std::filesystem::path> texture_paths;
 };
 
 /// Imports by the file's extension (.aff .nff .gltf .glb .obj). Never crashes, hangs or leaves the scene's
 /// folder; what it cannot read whole it refuses in one sentence (file, line or JSON path, found, expected).
-/// Needs at most 256 MiB + 20 times the files' size; compressed geometry counts as what it decodes to, up to
-/// 16 times its size. Does not add cameras or lights.
+/// Pictures are read from the scene's folder, its folders textures and TextureFiles, and the texture paths;
+/// one that is missing, broken or too large is a warning. Needs at most 256 MiB + 20 times the files' size
+/// (compressed geometry counts as what it decodes to, up to 16 times its size), and four bytes a pixel of the
+/// pictures used (2^26 pixels each, 2^27 together, at most; image_decode.h). Does not add cameras or lights.
 Expected<Scene> import_scene(const std::filesystem::path& path, const ImportOptions& options = {});
 
 Expected<Scene> import_aff(const std::filesystem::path& path, const ImportOptions& options);
 Expected<Scene> import_gltf(const std::filesystem::path& path, const ImportOptions& options = {});
-Expected<Scene> import_obj(const std::filesystem::path& path);
+Expected<Scene> import_obj(const std::filesystem::path& path, const ImportOptions& options = {});
 
 /// Writes `scene` with its animation as a binary glTF 2.0 file. BART's splines are baked to `fps` keys a
 /// second (the clip's own frames where it states them); shapes become morph targets. Returns what glTF cannot
 /// hold, a sentence each. What other programs do not read stands in `extras` for import_gltf: lights without
-/// falloff, ambient factors, reflectances above 1, shadow flags, ambient light, background.
+/// falloff, ambient factors, reflectances above 1, Phong's specular, untinted transmission, what colours are,
+/// shadow flags, ambient light, background. Pictures are embedded as PNG.
 Expected<std::vector<std::string>> export_glb(const Scene& scene, const std::filesystem::path& path,
                                               double fps = 30.0);
 

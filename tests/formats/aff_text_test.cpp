@@ -78,7 +78,7 @@ TEST_F(AffText, PolygonsAreFansAndConsecutiveOnesShareAMesh) {
   EXPECT_EQ(s.meshes[1].source, "a.aff:3");
 }
 
-TEST_F(AffText, TexturedTrianglesDropTheirCoordinates) {
+TEST_F(AffText, TexturedTrianglesWithoutTheirPictureAreTriangles) {
   const Scene s = scene(
       "tt a.ppm 0 0 0 0 0 1 0 0 1 0 0 1 0 0 1\nttp a.ppm 0 0 0 0 0 1 0 0 1 0 0 0 0 1 1 0 0 1 0 0 0 1 0 1\n");
   ASSERT_EQ(s.meshes.size(), 2u);
