@@ -63,6 +63,27 @@ std::vector<glm::vec3> pick(const std::vector<glm::vec3>& values, const Part& pa
   return picked;
 }
 
+/// Texture coordinates and colours. glTF counts sets from 0 on: where only the second is there, the first is
+/// zeros.
+void write_coordinates(const Mesh& mesh, const Part& part, GlbBinary& binary, GlbJson& attributes) {
+  const auto& sets = mesh.texture_coordinates;
+  for (std::size_t s = 0; s < sets.size(); ++s) {
+    const bool stands_in = s == 0 && sets[0].empty() && !sets[1].empty();
+    if (sets[s].empty() && !stands_in) continue;
+    std::vector<float> values;
+    for (const std::uint32_t v : part.vertices) {
+      const glm::vec2 uv = stands_in ? glm::vec2(0) : sets[s][v];
+      values.insert(values.end(), {uv.x, uv.y});
+    }
+    attributes[s == 0 ? "TEXCOORD_0" : "TEXCOORD_1"] = binary.add_floats(values, 2, false);
+  }
+  if (mesh.colors.empty()) return;
+  std::vector<float> values;
+  for (const std::uint32_t v : part.vertices)
+    for (int c = 0; c < 4; ++c) values.push_back(mesh.colors[v][c]);
+  attributes["COLOR_0"] = binary.add_floats(values, 4, false);
+}
+
 void write_influences(const std::vector<glm::u16vec4>& all_joints, const std::vector<glm::vec4>& all_weights,
                       const Part& part, const std::string& set, GlbJson& attributes, GlbBinary& binary) {
   std::vector<std::uint16_t> joints;
@@ -80,6 +101,7 @@ GlbJson write_attributes(const Mesh& mesh, const Part& part, const std::vector<g
                          GlbBinary& binary) {
   GlbJson attributes = {{"POSITION", binary.add_vec3(pick(rest_positions(mesh), part), true)}};
   if (!normals.empty()) attributes["NORMAL"] = binary.add_vec3(pick(normals, part), false);
+  write_coordinates(mesh, part, binary, attributes);
   if (!mesh.joints.empty()) write_influences(mesh.joints, mesh.weights, part, "0", attributes, binary);
   if (!mesh.more_joints.empty())
     write_influences(mesh.more_joints, mesh.more_weights, part, "1", attributes, binary);

@@ -77,6 +77,7 @@ void GlbWriter::write_nodes() {
   GlbJson shown = roots.empty() ? GlbJson::object() : GlbJson{{"nodes", roots}};
   shown["extras"] = {{"ambient_light", to_json(scene_.ambient_light)},
                      {"background", to_json(scene_.background)}};
+  if (scene_.transfer == Transfer::display) shown["extras"]["transfer"] = "display";
   root_["scenes"].push_back(std::move(shown));
 }
 

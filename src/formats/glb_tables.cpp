@@ -1,4 +1,4 @@
-// Materials, lights, cameras and skins of a GLB.
+// Lights, cameras and skins of a GLB.
 #include <fmt/core.h>
 #include <glm/gtc/constants.hpp>
 
@@ -10,44 +10,11 @@ namespace {
 
 constexpr const char* light_names[] = {"point", "spot", "directional", "rect", "disk"};
 
-/// The largest of 1 and the components: glTF's colours end at 1.
-float peak_of(const glm::vec3& color) {
-  return std::max({color.x, color.y, color.z, 1.0f});
-}
-
 }  // namespace
 
 void GlbWriter::use(const char* extension) {
   GlbJson& used = root_["extensionsUsed"];
   if (std::find(used.begin(), used.end(), extension) == used.end()) used.push_back(extension);
-}
-
-void GlbWriter::write_materials() {
-  std::size_t bright = 0;
-  for (const Material& source : scene_.materials) {
-    const glm::vec3 color = glm::clamp(source.base_color, 0.0f, 1.0f);
-    GlbJson material = {{"name", source.name},
-                        {"pbrMetallicRoughness",
-                         {{"baseColorFactor", {color.x, color.y, color.z, 1.0}}, {"metallicFactor", 0}}}};
-    if (source.emissive != glm::vec3(0)) {
-      const float strength = peak_of(source.emissive);
-      material["emissiveFactor"] = to_json(source.emissive / strength);
-      if (strength > 1) {
-        material["extensions"]["KHR_materials_emissive_strength"]["emissiveStrength"] = strength;
-        use("KHR_materials_emissive_strength");
-      }
-    }
-    if (!source.casts_shadow) material["extras"]["casts_shadow"] = false;
-    if (source.ambient.x >= 0) material["extras"]["ambient"] = to_json(source.ambient);
-    if (color != source.base_color) {
-      material["extras"]["base_color"] = to_json(source.base_color);
-      ++bright;
-    }
-    root_["materials"].push_back(std::move(material));
-  }
-  if (bright > 0)
-    losses.push_back(fmt::format(
-        "{} materials reflect more than 1 or less than 0: other programs see them cut to that.", bright));
 }
 
 /// From each light to the middle of the scene where its first clip begins; at least a tenth of the scene's

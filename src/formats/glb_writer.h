@@ -2,6 +2,7 @@
 #pragma once
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <cstring>
 #include <map>
@@ -32,6 +33,11 @@ inline GlbJson empty_tables() {
   return root;
 }
 
+/// The largest of 1 and the components: glTF's colours end at 1.
+inline float peak_of(const glm::vec3& color) {
+  return std::max({color.x, color.y, color.z, 1.0f});
+}
+
 /// The binary chunk and the tables that describe it.
 struct GlbBinary {
   static constexpr std::size_t max_bytes = 0xFFFFFFFF;  ///< lengths in a GLB are 32 bits
@@ -44,21 +50,27 @@ struct GlbBinary {
   /// ImportFailure when a GLB cannot hold it.
   template <class T>
   int add(const std::vector<T>& values, int components, int component_type, bool bounds) {
-    static const std::map<int, const char*> types = {{1, "SCALAR"}, {3, "VEC3"}, {4, "VEC4"}, {16, "MAT4"}};
-    bytes.resize((bytes.size() + 3) / 4 * 4, '\0');
-    const std::size_t offset = bytes.size(), size = values.size() * sizeof(T);
-    if (size > max_bytes - offset)
-      refuse("found more than {} bytes to write, expected at most that in a GLB", max_bytes);
-    bytes.resize(offset + size);
-    std::memcpy(bytes.data() + offset, values.data(), size);
-    root["bufferViews"].push_back({{"buffer", 0}, {"byteOffset", offset}, {"byteLength", size}});
-    GlbJson accessor = {{"bufferView", root["bufferViews"].size() - 1},
+    static const std::map<int, const char*> types = {
+        {1, "SCALAR"}, {2, "VEC2"}, {3, "VEC3"}, {4, "VEC4"}, {16, "MAT4"}};
+    GlbJson accessor = {{"bufferView", add_view(values.data(), values.size() * sizeof(T))},
                         {"componentType", component_type},
                         {"count", values.size() / static_cast<std::size_t>(components)},
                         {"type", types.at(components)}};
     if (bounds) add_bounds(accessor, values, static_cast<std::size_t>(components));
     root["accessors"].push_back(std::move(accessor));
     return static_cast<int>(root["accessors"].size()) - 1;
+  }
+
+  /// A view of its own over a copy of `size` bytes. Throws as add() does.
+  std::size_t add_view(const void* data, std::size_t size) {
+    bytes.resize((bytes.size() + 3) / 4 * 4, '\0');
+    const std::size_t offset = bytes.size();
+    if (size > max_bytes - offset)
+      refuse("found more than {} bytes to write, expected at most that in a GLB", max_bytes);
+    bytes.resize(offset + size);
+    std::memcpy(bytes.data() + offset, data, size);
+    root["bufferViews"].push_back({{"buffer", 0}, {"byteOffset", offset}, {"byteLength", size}});
+    return root["bufferViews"].size() - 1;
   }
 
   int add_floats(const std::vector<float>& values, int components, bool bounds);
@@ -88,8 +100,23 @@ public:
   std::vector<std::string> losses;
 
 private:
-  // glb_tables.cpp
+  // glb_materials.cpp
   void write_materials();
+  GlbJson write_material(const Material& source);
+  void write_reflection(const Material& source, GlbJson& material);
+  void write_emission(const Material& source, GlbJson& material);
+  void write_transmission(const Material& source, GlbJson& material);
+  void name_what_others_miss();
+
+  // glb_textures.cpp
+  /// Adds a reference to the picture as member `name` of `object`, if there is one.
+  void write_map(const TextureMap& map, const char* name, GlbJson& object);
+  void write_transform(const glm::mat3x2& transform, GlbJson& info);
+  int texture_of(const TextureMap& map);
+  int sampler_of(const TextureMap& map);
+  int image_of(int image);
+
+  // glb_tables.cpp
   void write_lights();
   void write_cameras();
   void write_skins();
@@ -120,6 +147,10 @@ private:
   std::vector<int> skin_of_;   ///< skin of the file for each of the scene; -1: none, as no node uses it
   std::vector<double> intensity_factor_, color_factor_;  ///< of each light, from the scene's to the file's
   std::vector<bool> hidden_;                             ///< nodes that no clip ever shows
+  std::map<int, int> image_of_;                          ///< image of the file by that of the scene
+  std::map<std::array<int, 4>, int> sampler_of_;         ///< by its four numbers in the file
+  std::map<std::pair<int, int>, int> texture_of_;        ///< by image and sampler in the file
+  std::size_t skewed_ = 0;                               ///< transforms of textures that glTF cannot say
 };
 
 }  // namespace tenebra::formats
