@@ -6,6 +6,7 @@
 #include "console.h"
 #include "option_values.h"
 #include "scene_choice.h"
+#include "scene_options.h"
 #include "stop_signals.h"
 
 namespace tenebra::viewer {
@@ -17,7 +18,8 @@ constexpr const char* examples =
     "\n"
     "BART's splines become --fps keys per second, or one key for each of the file's own frames where it "
     "numbers\n"
-    "them; animated triangles become morph targets. OUT is either whole or absent.";
+    "them; animated triangles become morph targets. Pictures are embedded as PNG; what glTF cannot say of\n"
+    "surfaces stands in extras, where tenebra finds it again. OUT is either whole or absent.";
 
 struct ConvertOptions {
   std::string input;
@@ -53,6 +55,7 @@ void add_convert_command(CLI::App& program, Run& run) {
       .type_name("NAME|N");
   add_value(command, "--fps", options->fps, parse_positive, "Keys per second for baked splines [30]")
       .type_name("F");
+  add_texture_path(command, options->import);
   add_flag(command, "--quiet", options->quiet, "No warnings");
   when_chosen(command, [options, &run] { run = [options] { return convert(*options); }; });
 }

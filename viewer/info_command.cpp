@@ -10,6 +10,7 @@
 #include "cutout/cutout.h"
 #include "option_values.h"
 #include "scene_choice.h"
+#include "scene_options.h"
 #include "scene_summary.h"
 
 namespace tenebra::viewer {
@@ -64,7 +65,37 @@ Json counts_of(const Scene& scene, const SceneSummary& summary) {
           {"nodes", scene.nodes.size()},
           {"meshes", scene.meshes.size()},
           {"materials", scene.materials.size()},
-          {"skins", scene.skins.size()}};
+          {"skins", scene.skins.size()},
+          {"instances", summary.instances},
+          {"channels", summary.channels}};
+}
+
+/// Triangles of the first frame by what their materials say.
+Json surfaces_of(const SurfaceCounts& counts) {
+  return {{"textured", counts.textured},
+          {"specular", counts.specular},
+          {"metallic", counts.metallic},
+          {"emissive", counts.emissive},
+          {"unlit", counts.unlit},
+          {"vertex_colors", counts.colored},
+          {"alpha_mask", counts.alpha_mask},
+          {"alpha_blend", counts.alpha_blend},
+          {"transmission", counts.transmission},
+          {"see_through", counts.see_through}};
+}
+
+Json images_of(const Scene& scene) {
+  Json images = Json::array();
+  for (const TextureImage& image : scene.images)
+    images.push_back({{"name", image.name}, {"size_px", {image.width, image.height}}});
+  return images;
+}
+
+Json unused_of(const Scene& scene) {
+  Json unused = Json::array();
+  for (const UnusedContent& content : scene.unused)
+    unused.push_back({{"name", content.name}, {"count", content.count}});
+  return unused;
 }
 
 Json lights_of(const Scene& scene, const SceneSummary& summary) {
@@ -119,6 +150,11 @@ Json describe(const Scene& scene, const InfoOptions& options) {
   json["bounds_m"] = nullptr;
   if (summary.bounds)
     json["bounds_m"] = {{"low", list(summary.bounds->low)}, {"high", list(summary.bounds->high)}};
+  json["triangles_with"] = surfaces_of(summary.surfaces);
+  json["colors"] = scene.transfer == Transfer::display ? "display values" : "linear, shown as sRGB";
+  json["images"] = images_of(scene);
+  json["extensions"] = scene.extensions;
+  json["unused"] = unused_of(scene);
   json["lights"] = lights_of(scene, summary);
   json["cameras"] = cameras_of(scene);
   json["clips"] = clips_of(scene, options.fps);
@@ -158,7 +194,10 @@ void print_text(const Json& json) {
   print_out("{}\n", json["file"].get<std::string>());
   for (const auto& [key, value] : json["counts"].items()) print_out("{}: {}\n", key, value.dump());
   print_out("bounds_m: {}\n", json["bounds_m"].is_null() ? "none" : line_of(json["bounds_m"]));
-  for (const char* key : {"lights", "cameras", "clips", "warnings"}) print_list(json, key);
+  print_out("triangles_with: {}\n", line_of(json["triangles_with"]));
+  print_out("colors: {}\n", json["colors"].get<std::string>());
+  for (const char* key : {"images", "extensions", "unused", "lights", "cameras", "clips", "warnings"})
+    print_list(json, key);
 }
 
 /// What alpha cuts out, last: the scene is cut for it, as it is for drawing.
@@ -195,6 +234,7 @@ void add_info_command(CLI::App& program, Run& run) {
   add_text(command, "SCENE", options->scene, "Scene file: .gltf .glb .aff .nff .obj").required();
   add_text(command, "--scene", options->import.scene, "glTF: which scene of the file, by name or number")
       .type_name("NAME|N");
+  add_texture_path(command, options->import);
   add_flag(command, "--json", options->json, "Print JSON");
   add_value(command, "--fps", options->fps, parse_positive, "Frames per second, to count frames [30]")
       .type_name("F");

@@ -130,6 +130,8 @@ std::vector<render::LogSetting> describe_render(const RenderPlan& plan, const Re
   }
   if (!options.scene.import.scene.empty()) list.push_back({"scene_of_file", options.scene.import.scene});
   for (const std::string& name : options.scene.no_cast) list.push_back({"no_cast", name});
+  for (const auto& folder : options.scene.import.texture_paths)
+    list.push_back({"texture_path", folder.string()});
   for (const std::string& warning : plan.scene.warnings) list.push_back({"warning", warning});
   return list;
 }

@@ -35,6 +35,7 @@ void add_files(CLI::App& command, SceneOptions& options) {
             "Triangles that may be added where alpha cuts a surface\nout; coarser if it takes more [1000000]")
       .type_name("N")
       .group(scene_group);
+  add_texture_path(command, options.import);
 }
 
 Expected<Transfer> parse_transfer(const std::string& text) {
@@ -111,6 +112,17 @@ void add_camera(CLI::App& command, SceneOptions& options) {
 }
 
 }  // namespace
+
+void add_texture_path(CLI::App& command, formats::ImportOptions& options) {
+  const auto read = [&options](const std::vector<std::string>& folders) -> Expected<void> {
+    options.texture_paths.assign(folders.begin(), folders.end());
+    return {};
+  };
+  add_texts(command, "--texture-path", read,
+            "Folder to look in for pictures that are not beside the\nscene; may be repeated")
+      .type_name("DIR")
+      .group(scene_group);
+}
 
 void add_scene_options(CLI::App& command, SceneOptions& options) {
   add_files(command, options);

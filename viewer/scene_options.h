@@ -42,6 +42,9 @@ struct SceneOptions {
 /// command makes SCENE required with option_of(command, "SCENE").required().
 void add_scene_options(CLI::App& command, SceneOptions& options);
 
+/// Adds --texture-path; for commands without the options above.
+void add_texture_path(CLI::App& command, formats::ImportOptions& options);
+
 /// What single options cannot check: combinations.
 Expected<void> check_scene_options(const SceneOptions& options);
 

@@ -1,6 +1,7 @@
 // tenebra info and tenebra convert: what a scene holds, before and after conversion.
 #include <gtest/gtest.h>
 
+#include <filesystem>
 #include <nlohmann/json.hpp>
 
 #include "viewer/viewer_test_scene.h"
@@ -83,6 +84,39 @@ TEST(InfoCommand, ReadsAnObjWithoutLightsOrCameras) {
   EXPECT_EQ(info["bounds_m"]["high"], json({2.0, 3.0, 0.0}));
   EXPECT_TRUE(info["lights"].empty());
   EXPECT_TRUE(info["cameras"].empty());
+}
+
+TEST(InfoCommand, CountsSurfacesAndNamesPictures) {
+  const TemporaryFolder folder;
+  std::filesystem::create_directories(folder / "pictures");
+  write_text(folder / "pictures/t.ppm", std::string("P6 2 1 255\n") + "abcdef");
+  const std::string triangle = " 0 0 0 0 0  1 0 0 1 0  0 1 0 0 1\n";
+  write_text(folder / "a.aff", "fm 0 0 0 1 1 1 .5 .5 .5 20 0 1\ntt t.ppm" + triangle + "tt t.ppm" + triangle +
+                                   "fm 0 0 0 1 1 1 0 0 0 20 .5 1\np 3 0 0 0 1 0 0 0 1 0\n");
+  const auto result = tenebra({"info", folder / "a.aff", "--json", "--texture-path", folder / "pictures"});
+  ASSERT_EQ(result.exit_code, 0) << result.errors;
+  const json info = json::parse(result.output);
+  EXPECT_EQ(info["triangles_with"]["textured"], 2);
+  EXPECT_EQ(info["triangles_with"]["specular"], 2);
+  EXPECT_EQ(info["triangles_with"]["transmission"], 1);
+  EXPECT_EQ(info["triangles_with"]["alpha_mask"], 0);
+  EXPECT_EQ(info["colors"], "display values");
+  EXPECT_EQ(info["images"], json::array({{{"name", "t.ppm"}, {"size_px", {2, 1}}}}));
+  EXPECT_TRUE(info["warnings"].empty());
+  const auto without = tenebra({"info", folder / "a.aff"});
+  EXPECT_NE(without.output.find("triangles_with: textured 0, specular 2"), std::string::npos)
+      << without.output;
+  EXPECT_NE(without.output.find("texture 't.ppm'"), std::string::npos) << without.output;
+}
+
+TEST(InfoCommand, NamesExtensionsAndWhatIsNotUsed) {
+  const TemporaryFolder folder;
+  write_text(folder / "a.gltf", R"({"asset":{"version":"2.0"},"extensionsUsed":["KHR_materials_sheen"],
+"materials":[{"extensions":{"KHR_materials_sheen":{}}},{"extensions":{"KHR_materials_sheen":{}}}]})");
+  const json info = info_of(folder / "a.gltf");
+  EXPECT_EQ(info["extensions"], json::array({"KHR_materials_sheen"}));
+  EXPECT_EQ(info["unused"], json::array({{{"name", "KHR_materials_sheen"}, {"count", 2}}}));
+  EXPECT_EQ(info["warnings"].size(), 1u);
 }
 
 TEST(ConvertCommand, KeepsTheSceneAndItsAnimation) {

@@ -36,6 +36,7 @@ std::string shell_arguments(const ViewState& state, double time_s, Size size) {
   if (const auto transfer = state.options.transfer)
     add("--transfer", *transfer == Transfer::srgb ? "srgb" : "display");
   if (!state.options.environment.empty()) add("--environment", state.options.environment);
+  for (const auto& folder : state.options.import.texture_paths) add("--texture-path", folder.string());
   if (state.clip > 0) add("--clip", number_or_name(scene.clips, state.clip));
   if (state.camera_mode == CameraMode::scene) {
     add("--camera", number_or_name(scene.cameras, state.camera));
