@@ -97,7 +97,7 @@ TEST(FrameLog, ReadsBackAsASpreadsheetDoes) {
   EXPECT_EQ(rows[1]["frame"], "7");
   EXPECT_EQ(rows[1]["time_s"], "2.33333333");
   EXPECT_EQ(rows[0]["evaluate_ms"], "1.125");
-  EXPECT_EQ(rows[0]["composite_ms"],
+  EXPECT_EQ(rows[0]["layer_ms"],  // the last of the stages
             fmt::format("{:.3f}", 0.125 + static_cast<double>(render::frame_stages.size())));
   EXPECT_EQ(rows[0]["soft_groups"], "77");
   EXPECT_EQ(rows[0]["ao_cache_cells"], "78");
