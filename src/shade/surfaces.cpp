@@ -19,6 +19,7 @@ struct Inputs {
   vec4 base;
   vec3 emissive, specular;
   float metallic, roughness;
+  vec4 pattern{1.0f};  ///< what `base` was multiplied with: colours of vertices and of the base texture
 };
 
 Inputs factors_of(const Material& m) {
@@ -50,12 +51,9 @@ Surface resolved(const Material& m, const Inputs& in) {
       s.base = vec3(0.0f);
       return s;
   }
-  // A stated ambient reflectance has no texture of its own: it is textured as the base colour is.
-  const vec3 of_base(m.base_color);
-  const auto textured = [&](int c) {
-    return of_base[c] > 0 ? m.ambient[c] * in.base[c] / of_base[c] : m.ambient[c];
-  };
-  s.ambient = m.ambient.x < 0 ? s.base : vec3(textured(0), textured(1), textured(2));
+  // A stated ambient reflectance has no texture of its own: it is textured as the base colour is, even where
+  // that is black (BART's garden).
+  s.ambient = m.ambient.x < 0 ? s.base : m.ambient * vec3(in.pattern);
   return s;
 }
 
@@ -125,10 +123,11 @@ Surface SurfaceTable::at(std::size_t material, const glm::uvec3& corners, const 
   Inputs in = factors_of(m);
   if (const auto most = std::max({corners.x, corners.y, corners.z}); most < colors_.size()) {
     const float first = 1 - place.weights.x - place.weights.y;
-    in.base *= first * colors_[corners.x] + place.weights.x * colors_[corners.y] +
-               place.weights.y * colors_[corners.z];
+    in.pattern = first * colors_[corners.x] + place.weights.x * colors_[corners.y] +
+                 place.weights.y * colors_[corners.z];
   }
-  if (maps.base >= 0) in.base *= read(maps.base, m.base_color_map, corners, place);
+  if (maps.base >= 0) in.pattern *= read(maps.base, m.base_color_map, corners, place);
+  in.base *= in.pattern;
   if (maps.emissive >= 0) in.emissive *= vec3(read(maps.emissive, m.emissive_map, corners, place));
   if (maps.metallic_roughness >= 0) {
     const vec4 value = read(maps.metallic_roughness, m.metallic_roughness_map, corners, place);

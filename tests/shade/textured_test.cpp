@@ -165,6 +165,23 @@ TEST_F(Textured, WithoutImageOrCoordinatesTheFactorStandsAlone) {
   expect_factor();
 }
 
+// BART's garden: lit by ambient light alone.
+TEST_F(Textured, AnAmbientColourIsTexturedWhereTheBaseIsBlack) {
+  Material& m = scene.materials[0];
+  m.model = SurfaceModel::phong;
+  m.base_color = glm::vec3(0.0f);
+  m.ambient = {0.5f, 0.25f, 1.0f};
+  scene.meshes[0].colors.assign(4, {1, 1, 0.5f, 1});
+  const auto found = shaded(near_view, {.ambient_light = {2, 1, 1}});
+  const glm::vec3 factor{1, 0.25f, 0.5f};
+  for (std::size_t i = 0; i < found.size(); ++i) {
+    const double x = double(i % width) + 0.5, y = double(i / width) + 0.5;
+    const glm::vec4 value =
+        texture::sample_bilinear(scene.images[0], m.base_color_map, coordinates(near_view, x, y));
+    for (int c = 0; c < 3; ++c) EXPECT_NEAR(found[i].color[c], factor[c] * value[c], 1e-3) << i;
+  }
+}
+
 TEST_F(Textured, MetalsAndEmissiveColoursAreTextured) {
   Material& m = scene.materials[0];
   m.model = SurfaceModel::metallic_roughness;
