@@ -9,6 +9,7 @@
 #include "console.h"
 #include "cutout/cutout.h"
 #include "option_values.h"
+#include "scene/looks.h"
 #include "scene_choice.h"
 #include "scene_options.h"
 #include "scene_summary.h"
@@ -200,9 +201,10 @@ void print_text(const Json& json) {
     print_list(json, key);
 }
 
-/// What alpha cuts out, last: the scene is cut for it, as it is for drawing.
-void add_cutout(Scene& scene, Json& json) {
+/// What drawing changes, last: emission that is left out, and what alpha cuts out.
+void add_changes(Scene& scene, Json& json) {
   const std::size_t said = scene.warnings.size();
+  leave_out_blank_emission(scene);
   const cutout::CutoutCounts counts = cutout::cut_out_masks(scene);
   json["counts"]["cut_out_triangles"] = counts.triangles;
   json["counts"]["drawn_in_their_place"] = counts.left;
@@ -214,7 +216,7 @@ Expected<int> info(const InfoOptions& options) {
   if (!scene) return tl::unexpected(scene.error());
   leave_out_covers(*scene);
   Json json = describe(*scene, options);
-  add_cutout(*scene, json);
+  add_changes(*scene, json);
   if (options.json) {
     // File names and names in files may hold bytes that are not UTF-8, which JSON cannot.
     print_out("{}\n", json.dump(2, ' ', false, Json::error_handler_t::replace));

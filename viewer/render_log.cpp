@@ -122,6 +122,7 @@ std::vector<render::LogSetting> describe_render(const RenderPlan& plan, const Re
       {"size", fmt::format("{}x{}", settings.width, settings.height)},
       {"cone_sides", fmt::format("{}", options.scene.import.cone_sides)},
       {"transfer", plan.scene.transfer == Transfer::srgb ? "srgb" : "display"},
+      {"surfaces", options.scene.plain ? "plain" : "full"},
       {"environment", options.scene.environment.empty() ? "none" : options.scene.environment},
   };
   for (render::LogSetting& setting : describe_method(settings)) list.push_back(std::move(setting));

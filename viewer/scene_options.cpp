@@ -44,6 +44,12 @@ Expected<Transfer> parse_transfer(const std::string& text) {
   return base::fail("found {}, expected srgb or display", text);
 }
 
+Expected<bool> parse_surfaces(const std::string& text) {
+  if (text == "full") return false;
+  if (text == "plain") return true;
+  return base::fail("found {}, expected full or plain", text);
+}
+
 void add_looks(CLI::App& command, SceneOptions& options) {
   add_value(
       command, "--transfer", options.transfer, parse_transfer,
@@ -55,6 +61,10 @@ void add_looks(CLI::App& command, SceneOptions& options) {
            "Radiance picture (.hdr, equirectangular) of what stands\naround the scene: its background, its "
            "ambient light and\nwhat metals mirror")
       .type_name("FILE")
+      .group(scene_group);
+  add_value(command, "--surfaces", options.plain, parse_surfaces,
+            "plain: without textures, gloss and colours of vertices;\nmasks stay the same [full]")
+      .type_name("full|plain")
       .group(scene_group);
 }
 
@@ -130,6 +140,20 @@ void add_scene_options(CLI::App& command, SceneOptions& options) {
   add_lights(command, options);
   add_moment(command, options);
   add_camera(command, options);
+}
+
+SceneOptions options_for(const std::string& file, const SceneOptions& before) {
+  SceneOptions options;
+  options.file = file;
+  options.import = before.import;
+  options.import.scene.clear();
+  options.cutout_limit = before.cutout_limit;
+  options.cast_all = before.cast_all;
+  options.transfer = before.transfer;
+  options.environment = before.environment;
+  options.plain = before.plain;
+  options.fps = before.fps;
+  return options;
 }
 
 Expected<void> check_scene_options(const SceneOptions& options) {

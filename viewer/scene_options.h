@@ -21,6 +21,7 @@ struct SceneOptions {
   bool cast_all = false;             ///< skies cast shadows too
   std::optional<Transfer> transfer;  ///< none: the format's own
   std::string environment;           ///< a Radiance picture; empty: none
+  bool plain = false;                ///< surfaces without textures and gloss (make_plain)
 
   std::optional<double> time_s;
   double fps = 30.0;
@@ -36,14 +37,17 @@ struct SceneOptions {
   LightEdits lights;
 };
 
-/// Adds SCENE, --scene, --no-cast, --cast-all, --cone-sides, --transfer, --environment, --set-light, --time,
-/// --fps,
-/// --clip and those of the camera, --size too; they are read into `options`, which must live as long. A
-/// command makes SCENE required with option_of(command, "SCENE").required().
+/// Adds SCENE, --scene, --no-cast, --cast-all, --cone-sides, --transfer, --environment, --surfaces,
+/// --set-light,
+/// --time, --fps, --clip and those of the camera, --size too; they are read into `options`, which must live
+/// as long. A command makes SCENE required with option_of(command, "SCENE").required().
 void add_scene_options(CLI::App& command, SceneOptions& options);
 
 /// Adds --texture-path; for commands without the options above.
 void add_texture_path(CLI::App& command, formats::ImportOptions& options);
+
+/// The options for another file in the place of this one: what speaks of no part of a scene stays.
+SceneOptions options_for(const std::string& file, const SceneOptions& before);
 
 /// What single options cannot check: combinations.
 Expected<void> check_scene_options(const SceneOptions& options);

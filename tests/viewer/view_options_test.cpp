@@ -113,5 +113,28 @@ TEST(PictureDifference, CountsAndShowsWhatDiffers) {
   EXPECT_EQ(viewer::absolute_difference(a, b, 4).pixels, (std::vector<std::uint8_t>{0, 20, 0, 0, 255, 4}));
 }
 
+TEST(ViewCommand, AnotherFileKeepsWhatSpeaksOfNoPartOfTheScene) {
+  viewer::SceneOptions options;
+  options.file = "a.glb";
+  options.import.scene = "second";
+  options.import.texture_paths = {"pictures"};
+  options.transfer = Transfer::display;
+  options.environment = "sky.hdr";
+  options.plain = options.cast_all = true;
+  options.cutout_limit = 7;
+  options.camera = "near";
+  options.clip = "walk";
+  options.no_cast = {"sky"};
+  const viewer::SceneOptions other = viewer::options_for("b.glb", options);
+  EXPECT_EQ(other.file, "b.glb");
+  EXPECT_EQ(other.import.texture_paths, options.import.texture_paths);
+  EXPECT_EQ(other.transfer, Transfer::display);
+  EXPECT_EQ(other.environment, "sky.hdr");
+  EXPECT_TRUE(other.plain && other.cast_all);
+  EXPECT_EQ(other.cutout_limit, 7);
+  EXPECT_TRUE(other.import.scene.empty() && other.no_cast.empty());
+  EXPECT_FALSE(other.camera || other.clip);
+}
+
 }  // namespace
 }  // namespace tenebra::testing

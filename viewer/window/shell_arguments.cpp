@@ -28,6 +28,8 @@ std::string shell_arguments(const ViewState& state, double time_s, Size size) {
   };
   if (!state.options.import.scene.empty()) add("--scene", state.options.import.scene);
   for (const std::string& name : state.options.no_cast) add("--no-cast", name);
+  if (state.options.cast_all) text += "--cast-all ";
+  if (state.options.plain) add("--surfaces", "plain");
   if (const int limit = state.options.cutout_limit; limit != SceneOptions{}.cutout_limit)
     add("--cutout-limit", fmt::format("{}", limit));
   if (const int sides = state.options.import.cone_sides; sides != formats::ImportOptions{}.cone_sides) {

@@ -320,11 +320,7 @@ void Viewer::act() {
 void Viewer::drop(const std::vector<std::string>& files) {
   if (files.empty()) return;
   report_.note("drop", files.front());
-  SceneOptions options;
-  options.file = files.front();
-  options.import = options_.scene.import;
-  options.fps = options_.scene.fps;
-  worker_.open(std::move(options));
+  worker_.open(options_for(files.front(), options_.scene));
   if (files.size() > 1) say(fmt::format("{} files were dropped; the first is opened.", files.size()));
 }
 
