@@ -280,8 +280,9 @@ struct ClipBuilder {
       warnings.push_back(
           fmt::format("animations[{}]: found {} rotations not of unit length; made so.", index, not_unit));
     if (aimless > 0)
-      warnings.push_back(fmt::format(
-          "animations[{}]: skipped {} channels without a node or without key times.", index, aimless));
+      warnings.push_back(
+          fmt::format("animations[{}]: skipped {} channel{} without a node or without key times.", index,
+                      aimless, aimless == 1 ? "" : "s"));
     return std::move(clip);
   }
 };

@@ -80,8 +80,13 @@ struct MaterialReader {
     if (const Value* strength = extension("KHR_materials_emissive_strength"))
       material.emissive *= static_cast<float>(std::max(number_or(*strength, "emissiveStrength", 1), 0.0));
     read_color(source.extras, "emissive", material.emissive);
-    if (material.emissive != glm::vec3(0))
-      material.emissive_map = textures.map(source.emissiveTexture, place + ".emissiveTexture");
+    if (material.emissive == glm::vec3(0)) return;
+    material.emissive_map = textures.map(source.emissiveTexture, place + ".emissiveTexture");
+    if (source.emissiveTexture.index < 0 || material.emissive_map) return;
+    // Such pictures are black but for a few places; the factor alone would shine from all of the surface.
+    material.emissive = glm::vec3(0);
+    warnings.push_back(
+        fmt::format("{}.emissiveTexture: without its picture the surface does not shine.", place));
   }
 
   void read_alpha() {

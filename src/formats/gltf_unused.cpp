@@ -46,12 +46,14 @@ void count_primitive(const Json& primitive, Counts& counts) {
     ++counts["KHR_materials_variants"];
 }
 
+/// `where`: one of what is counted, "material".
 void report(const Counts& counts, const char* where, std::vector<std::string>& warnings,
             std::vector<UnusedContent>& unused) {
   for (const auto& [name, count] : counts) {
     const std::string shown = Json(name).dump(-1, ' ', true, Json::error_handler_t::replace);
     const std::string plain = shown.substr(1, std::min<std::size_t>(shown.size() - 2, 60));
-    warnings.push_back(fmt::format("{}: found in {} {}, where it is not used.", plain, count, where));
+    warnings.push_back(fmt::format("{}: found in {} {}{}, where it is not used.", plain, count, where,
+                                   count == 1 ? "" : "s"));
     unused.push_back({plain, count});
   }
 }
@@ -74,8 +76,8 @@ void name_unused_looks(const Json& root, std::vector<std::string>& warnings,
   constexpr std::size_t most_names = 100;
   while (of_materials.size() > most_names) of_materials.erase(std::prev(of_materials.end()));
   while (of_primitives.size() > most_names) of_primitives.erase(std::prev(of_primitives.end()));
-  report(of_materials, "materials", warnings, unused);
-  report(of_primitives, "primitives", warnings, unused);
+  report(of_materials, "material", warnings, unused);
+  report(of_primitives, "primitive", warnings, unused);
 }
 
 }  // namespace tenebra::formats

@@ -210,6 +210,8 @@ Material read_material(const tinyobj::material_t& source, SceneImages& images) {
   if (material.emissive != glm::vec3(0))
     material.emissive_map =
         map_of(source.emissive_texname, source.emissive_texopt, place + ", map_Ke", images);
+  // Without its picture the factor alone would shine from all of the surface.
+  if (!source.emissive_texname.empty() && !material.emissive_map) material.emissive = glm::vec3(0);
   if (source.illum != diffuse_only) material.specular = color_of(source.specular);
   material.phong_exponent = at_least_zero(source.shininess, 1);
   material.alpha = std::clamp(at_least_zero(source.dissolve, 1), 0.0f, 1.0f);
@@ -236,7 +238,8 @@ void name_unused(const std::vector<tinyobj::material_t>& sources, Scene& scene) 
       return !(source.*field).empty();
     });
     if (count == 0) continue;
-    scene.warnings.push_back(fmt::format("{}: found in {} materials, where it is not used.", name, count));
+    scene.warnings.push_back(
+        fmt::format("{}: found in {} material{}, where it is not used.", name, count, count == 1 ? "" : "s"));
     scene.unused.push_back({name, static_cast<std::size_t>(count)});
   }
 }

@@ -415,6 +415,18 @@ TEST(GltfLooks, APictureThatCannotBeReadCostsItsTextureAlone) {
   }
 }
 
+TEST(GltfLooks, WithoutThePictureOfItsEmissionNothingShines) {
+  File file;
+  file.texture();
+  file.root["images"][0] = {{"uri", "missing.png"}};
+  file.material()["emissiveTexture"] = {{"index", 0}};
+  file.material()["emissiveFactor"] = {1, 1, 1};
+  const Scene scene = file.scene();
+  expect_warning(scene, "missing.png");
+  expect_warning(scene, "materials[0].emissiveTexture: without its picture the surface does not shine.");
+  EXPECT_EQ(scene.materials[0].emissive, glm::vec3(0));
+}
+
 TEST(GltfLooks, ABrokenEntryLeavesTheNumbersOfThoseAfterIt) {
   File file;
   file.texture(0);

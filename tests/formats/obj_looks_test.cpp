@@ -97,7 +97,7 @@ TEST_F(ObjLooks, WhatIsMissingOrNotUsedIsNamed) {
   const Scene scene = read("newmtl m\nKd 1 0 0\nmap_Kd none.png\nmap_bump b.png\n", textured_square);
   ASSERT_EQ(scene.warnings.size(), 2u);
   EXPECT_NE(scene.warnings[0].find("none.png"), std::string::npos) << scene.warnings[0];
-  EXPECT_NE(scene.warnings[1].find("map_bump: found in 1 materials"), std::string::npos) << scene.warnings[1];
+  EXPECT_NE(scene.warnings[1].find("map_bump: found in 1 material,"), std::string::npos) << scene.warnings[1];
   EXPECT_EQ(scene.materials[0].base_color, glm::vec3(1, 0, 0));
   ASSERT_EQ(scene.unused.size(), 1u);
   EXPECT_EQ(scene.unused[0].name, "map_bump");
