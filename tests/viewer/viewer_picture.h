@@ -1,0 +1,29 @@
+// One picture of a scene as `tenebra render` draws it, in this process.
+#pragma once
+
+#include <gtest/gtest.h>
+
+#include "render/renderer.h"
+#include "scene_plan.h"
+
+namespace tenebra::testing {
+
+inline base::Image8 picture_of(const viewer::ScenePlan& plan, const viewer::SceneOptions& options,
+                               double time_s, render::RenderSettings settings = {}) {
+  auto context = gl::Context::create(gl::ContextKind::automatic);
+  EXPECT_TRUE(context) << context.error().message;
+  auto renderer = render::Renderer::create(std::move(*context), plan.scene);
+  EXPECT_TRUE(renderer) << renderer.error().message;
+  render::FrameInput input;
+  evaluate_frame(plan.scene, plan.clip, time_s, input.geometry);
+  input.lights = evaluate_lights(plan.scene, plan.clip, time_s);
+  input.view = viewer::view_of(plan, options, time_s, plan.size);
+  settings.width = plan.size.width;
+  settings.height = plan.size.height;
+  render::FrameResult result;
+  const auto drawn = renderer->render_frame(input, settings, result);
+  EXPECT_TRUE(drawn) << drawn.error().message;
+  return std::move(result.image);
+}
+
+}  // namespace tenebra::testing
