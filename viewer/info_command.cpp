@@ -59,6 +59,8 @@ double degrees(float radians) {
 }
 
 Json counts_of(const Scene& scene, const SceneSummary& summary) {
+  std::size_t morph_targets = 0;
+  for (const Mesh& mesh : scene.meshes) morph_targets += mesh.morph_targets.size();
   return {{"triangles", summary.triangles},
           {"casting_triangles", summary.casting_triangles},
           {"dropped_non_finite", summary.dropped_non_finite},
@@ -67,6 +69,7 @@ Json counts_of(const Scene& scene, const SceneSummary& summary) {
           {"meshes", scene.meshes.size()},
           {"materials", scene.materials.size()},
           {"skins", scene.skins.size()},
+          {"morph_targets", morph_targets},
           {"instances", summary.instances},
           {"channels", summary.channels}};
 }
