@@ -207,7 +207,7 @@ void print_text(const Json& json) {
 /// What drawing changes, last: emission that is left out, and what alpha cuts out.
 void add_changes(Scene& scene, Json& json) {
   const std::size_t said = scene.warnings.size();
-  leave_out_blank_emission(scene);
+  scene::leave_out_blank_emission(scene);
   const cutout::CutoutCounts counts = cutout::cut_out_masks(scene);
   json["counts"]["cut_out_triangles"] = counts.triangles;
   json["counts"]["drawn_in_their_place"] = counts.left;

@@ -21,7 +21,7 @@ struct SceneOptions {
   bool cast_all = false;             ///< skies cast shadows too
   std::optional<Transfer> transfer;  ///< none: the format's own
   std::string environment;           ///< a Radiance picture; empty: none
-  bool plain = false;                ///< surfaces without textures and gloss (make_plain)
+  bool plain = false;                ///< surfaces without textures and gloss (scene::make_plain)
 
   std::optional<double> time_s;
   double fps = 30.0;

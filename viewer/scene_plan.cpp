@@ -73,8 +73,8 @@ Expected<ScenePlan> plan_scene(const SceneOptions& options) {
   add_missing_camera_and_light(plan.scene);
   number_lights(plan.scene);
   cutout::cut_out_masks(plan.scene, {.most_added = static_cast<std::size_t>(options.cutout_limit)});
-  leave_out_blank_emission(plan.scene);
-  if (options.plain) make_plain(plan.scene);
+  scene::leave_out_blank_emission(plan.scene);
+  if (options.plain) scene::make_plain(plan.scene);
   if (!options.cast_all) leave_out_covers(plan.scene);
   if (options.lights.size() > plan.scene.lights.size()) {
     return base::fail("--set-light: found light {}, the scene has lights 0 to {}", options.lights.size() - 1,

@@ -2,7 +2,7 @@
 
 #include <algorithm>
 
-namespace tenebra {
+namespace tenebra::scene {
 namespace {
 
 const Material& material_of(const Scene& scene, std::uint32_t index) {
@@ -51,4 +51,4 @@ void leave_out_blank_emission(Scene& scene) {
       "none of them shines.");
 }
 
-}  // namespace tenebra
+}  // namespace tenebra::scene

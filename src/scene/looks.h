@@ -3,7 +3,7 @@
 
 #include <tenebra/scene.h>
 
-namespace tenebra {
+namespace tenebra::scene {
 
 /// Takes pictures, gloss and colours of vertices from all surfaces: they are diffuse in their factors, and
 /// those whose emission had a picture shine no more. See-through surfaces keep what light passes through them
@@ -15,4 +15,4 @@ void make_plain(Scene& scene);
 /// scene.warnings.
 void leave_out_blank_emission(Scene& scene);
 
-}  // namespace tenebra
+}  // namespace tenebra::scene

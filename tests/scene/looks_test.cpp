@@ -3,7 +3,7 @@
 
 #include <gtest/gtest.h>
 
-namespace tenebra {
+namespace tenebra::scene {
 namespace {
 
 /// A triangle of each material.
@@ -72,4 +72,4 @@ TEST(Looks, LampsShine) {
 }
 
 }  // namespace
-}  // namespace tenebra
+}  // namespace tenebra::scene
