@@ -96,7 +96,9 @@ void EyeTint::trace(const VisiblePoints& opaque, const LayerSamples& layer, cons
   SeeThroughSurfaces every = surfaces;
   every.see_through = all_;
   lit_.resize(opaque.triangles.size());
-  for (std::size_t i = 0; i < lit_.size(); ++i) lit_[i] = opaque.triangles[i] == no_triangle ? 0 : 255;
+  // Where the layer has no sample, nothing see-through stands before what is opaque.
+  for (std::size_t i = 0; i < lit_.size(); ++i)
+    lit_[i] = opaque.triangles[i] != no_triangle && layer.points.triangles[i] != no_triangle ? 255 : 0;
   ShadowLight eye;
   eye.directional = view.orthographic;
   eye.position = view.eye;

@@ -82,18 +82,22 @@ std::uint32_t Worker::lit_lanes(std::uint32_t tile, std::uint32_t lanes) const {
 void Worker::take_square(const points::PointSquare& square) {
   const auto corner = [](const float(&at)[3][16], int i) { return dvec3(at[0][i], at[1][i], at[2][i]); };
   dvec3 low(INFINITY), high(-INFINITY);
+  std::uint32_t lit[16] = {}, any_lit = 0;
   for (std::uint32_t left = square.filled; left != 0; left &= left - 1) {
     const int i = std::countr_zero(left);
+    lit[i] = lit_lanes(square.first_tile + static_cast<std::uint32_t>(i), square.lanes[i]);
+    if (lit[i] == 0) continue;
+    any_lit |= 1u << i;
     low = glm::min(low, corner(square.low, i)), high = glm::max(high, corner(square.high, i));
   }
+  if (any_lit == 0) return;
   near_.clear();
   f_.tree.find(shaft_of(square, low, high), near_);
   if (near_.empty()) return;
-  for (std::uint32_t left = square.filled; left != 0; left &= left - 1) {
-    const int i = std::countr_zero(left);
-    const std::uint32_t tile = square.first_tile + static_cast<std::uint32_t>(i);
-    const std::uint32_t lit = lit_lanes(tile, square.lanes[i]);
-    if (lit != 0) take_tile(tile, lit, shaft_of(square, corner(square.low, i), corner(square.high, i)));
+  for (; any_lit != 0; any_lit &= any_lit - 1) {
+    const int i = std::countr_zero(any_lit);
+    take_tile(square.first_tile + static_cast<std::uint32_t>(i), lit[i],
+              shaft_of(square, corner(square.low, i), corner(square.high, i)));
   }
 }
 
