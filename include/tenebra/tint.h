@@ -51,8 +51,9 @@ struct TintMask {
 
 struct TintConfig {
   ContactRule contact = ContactRule::triangle_ids;
-  SimdLevel simd = SimdLevel::automatic;  ///< of soft shadows; the rest is the same code for all
+  SimdLevel simd = SimdLevel::automatic;
   bool own_irradiance = false;  ///< soft: the mask's irradiance is an estimate; find it again, exactly
+  bool same_surfaces = false;   ///< triangles and surfaces are those of the last call, and lie as they did
 };
 
 /// The work of the last call.

@@ -145,6 +145,7 @@ Expected<void> Renderer::State::trace_lights(const FrameInput& input, const std:
                                              const RenderSettings& settings, FrameResult& result,
                                              const StopFlag* stop) {
   if (irradiance.size() < lights.size()) irradiance.resize(lights.size());
+  tint_has_surfaces = false;
   for (std::size_t i = 0; i < lights.size(); ++i) {
     if (stop_requested(stop)) return base::fail("stopped");
     if (lights[i].area) {

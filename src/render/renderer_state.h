@@ -44,9 +44,10 @@ struct Renderer::State {
   SurfaceCoordinates coordinates{};  // of scenes with see-through surfaces
   FrameInput recast{};               // the input as RenderSettings::see_through wants it
   TintTracer tint{};
+  bool tint_has_surfaces = false;  // of this frame
   std::vector<LightTint> tints{};  // of the drawn lights
   LayerSamples layer{};
-  VisiblePoints behind{};  // the opaque samples, as the eye sees them
+  VisiblePoints behind{};  // the opaque samples as the eye sees them, where `points` are others
   EyeTint eye_tint{};
   TintMask passes{};
 

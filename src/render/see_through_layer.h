@@ -25,9 +25,9 @@ struct LayerSamples {
 };
 
 /// What passes on the way from what is opaque to the eye: the transmittances of all see-through surfaces
-/// between, at the pixels where it is not 1. By TintTracer, as if the eye were a light, so by exact
-/// crossings; in pixels that see nothing opaque, and where the surface of the layer was not crossed (it was
-/// seen by the rasteriser's own rule), the transmittance of the layer alone.
+/// between, at the pixels of the layer where it is not 1. By TintTracer, as if the eye were a light, so by
+/// exact crossings; in pixels that see nothing opaque, and where the surface of the layer was not crossed (it
+/// was seen by the rasteriser's own rule), the transmittance of the layer alone.
 class EyeTint {
 public:
   void trace(const VisiblePoints& opaque, const LayerSamples& layer, const ViewRays& view,

@@ -27,6 +27,7 @@ Expected<void> Renderer::State::trace_tint(const FrameInput& input, const DrawnL
   TintConfig config;
   config.simd = settings.hard.simd;
   config.own_irradiance = settings.soft_points > 0;
+  config.same_surfaces = std::exchange(tint_has_surfaces, true);
   if (settings.samples == SampleSource::depth) config.contact = ContactRule::none;
   bool done = true;
   with_threads(settings.threads, [&] {
@@ -103,9 +104,14 @@ Expected<void> Renderer::State::draw_see_through(
   const SeeThroughSurfaces surfaces = see_through_surfaces(scene, input.geometry, coordinates);
   with_threads(settings.threads, [&] {
     // The points that shadows start from may be those of the depth buffer, or none.
-    compute_visible_points(ids, gbuffer.width, gbuffer.height, input.view, triangles, behind,
-                           PointLayout::rows_and_tiles);
-    eye_tint.trace(behind, layer, input.view, triangles, surfaces, passes);
+    const bool found =
+        settings.ao.mode != AoMode::none || (settings.shadows != ShadowMode::none && !lights.empty());
+    const bool there = found && settings.samples == SampleSource::ids;
+    if (!there) {
+      compute_visible_points(ids, gbuffer.width, gbuffer.height, input.view, triangles, behind,
+                             PointLayout::rows_and_tiles);
+    }
+    eye_tint.trace(there ? points : behind, layer, input.view, triangles, surfaces, passes);
     draw_layer({subject, lighting, opaque, layer, surfaces, passes, settings.exposure, scene.transfer},
                result.image);
   });

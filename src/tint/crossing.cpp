@@ -1,6 +1,6 @@
 #include "tint/crossing.h"
 
-#include <algorithm>
+#include <bit>
 #include <cmath>
 
 #include "math/predicates.h"
@@ -59,41 +59,21 @@ bool crosses(const CrossingFrame& frame, const shadow::TrianglePlanes& planes, c
   return math::plane_excess(c.v[0], c.v[1], c.v[2], point, planes.side, threshold) > 0;
 }
 
-// The bound is that of shadow::decide.
 std::uint32_t lanes_crossing(const CrossingFrame& frame, const shadow::TrianglePlanes& planes,
-                             const SampleTile& tile, std::uint64_t& exact) {
-  double least[tile_samples];   // of value + bound: below 0, the ray misses
-  double surest[tile_samples];  // of value - bound: above 0, it crosses
-  for (int i = 0; i < tile_samples; ++i) least[i] = surest[i] = 1;
-  for (int k = 0; k < 4; ++k) {
-    const double mx = planes.mx[k], my = planes.my[k], mz = planes.mz[k], d = planes.d[k];
-    const double rho = planes.rho[k], fixed = rho * planes.reach + 0x1p-50 * std::abs(d) + 0x1p-1000;
-    const double own = k == 3 ? 1 : 0;
-    for (int i = 0; i < tile_samples; ++i) {
-      const double slack = own * tile.tau[i];
-      const double value = mx * tile.x[i] + my * tile.y[i] + mz * tile.z[i] - d - slack;
-      const double bound = (rho + 0x1p-50) * tile.size[i] + 0x1p-50 * slack + fixed;
-      least[i] = std::min(least[i], value + bound);
-      surest[i] = std::min(surest[i], value - bound);
+                             const SampleTile& tile, const LanesFound& found, std::uint64_t& exact) {
+  std::uint32_t sure = found.sure;
+  if (frame.contact == ContactRule::triangle_ids) {
+    for (std::uint32_t left = sure; left != 0; left &= left - 1) {
+      const int i = std::countr_zero(left);
+      if (tile.own[i] == planes.triangle) sure &= ~(1u << i);
     }
   }
-  std::uint32_t found = 0, open = 0;
-  for (int i = 0; i < tile_samples; ++i) {
-    found |= static_cast<std::uint32_t>(surest[i] > 0) << i;
-    open |= static_cast<std::uint32_t>(!(least[i] < 0) && !(surest[i] > 0)) << i;
-  }
-  if (frame.contact == ContactRule::triangle_ids) {
-    std::uint32_t others = 0;
-    for (int i = 0; i < tile_samples; ++i)
-      others |= static_cast<std::uint32_t>(tile.own[i] != planes.triangle) << i;
-    found &= others, open &= others;
-  }
-  for (open &= tile.lanes; open != 0; open &= open - 1) {
-    const int i = __builtin_ctz(open);
+  for (std::uint32_t open = found.open; open != 0; open &= open - 1) {
+    const int i = std::countr_zero(open);
     ++exact;
-    if (crosses(frame, planes, tile.points[i], tile.own[i])) found |= 1u << i;
+    if (crosses(frame, planes, tile.points[i], tile.own[i])) sure |= 1u << i;
   }
-  return found & tile.lanes;
+  return sure;
 }
 
 }  // namespace tenebra::tint

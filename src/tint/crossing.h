@@ -20,7 +20,6 @@ struct alignas(64) SampleTile {
   double tau[tile_samples];                                  ///< rounding tolerance of the sample's triangle
   glm::dvec3 points[tile_samples];                           ///< exact
   std::uint32_t own[tile_samples];                           ///< the triangle that it lies on
-  std::uint32_t lanes = 0;                                   ///< that ask
 };
 
 /// What all samples of a light share.
@@ -30,9 +29,15 @@ struct CrossingFrame {
   ContactRule contact;
 };
 
-/// The lanes of the tile whose rays cross the triangle. Adds to `exact` those that doubles left open.
+/// Lanes of a tile, by what doubles say of a triangle.
+struct LanesFound {
+  std::uint32_t sure = 0;  ///< that cross it
+  std::uint32_t open = 0;  ///< that may
+};
+
+/// Of the lanes found those whose rays cross the triangle. Adds to `exact` those that doubles left open.
 std::uint32_t lanes_crossing(const CrossingFrame& frame, const shadow::TrianglePlanes& planes,
-                             const SampleTile& tile, std::uint64_t& exact);
+                             const SampleTile& tile, const LanesFound& found, std::uint64_t& exact);
 
 /// The same for one sample, decided by exact signs alone.
 bool crosses(const CrossingFrame& frame, const shadow::TrianglePlanes& planes, const glm::dvec3& point,

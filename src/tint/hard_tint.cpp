@@ -19,16 +19,26 @@ struct Frame {
   const points::PointTiles& tiles;
   const Surfaces& surfaces;
   const TriangleTree& tree;
-  const std::vector<shadow::TrianglePlanes>& planes;
+  LazyPlanes& planes;
   const ShadowMask& mask;
   CrossingFrame crossing;
   points::TilePixels pixels;
+  TintKernels kernels;
 };
 
 /// A triangle that rays of a tile cross.
 struct Crossed {
   std::uint32_t number, lanes;
 };
+
+/// Parts of a block of four by four: of tiles in a square, or of samples in a tile.
+constexpr std::uint32_t quarter(int i) {
+  return 0x33u << (8 * (i / 2) + 2 * (i % 2));
+}
+
+// Fewer triangles than this are tested, more are sought again for each part of the samples: a test of sixteen
+// rays takes as long as one or two of eight boxes.
+constexpr int few_for_tiles = 8, few_for_samples = 40;
 
 /// Work of one range of squares.
 class Worker {
@@ -41,26 +51,30 @@ public:
   TintStats stats;
 
 private:
-  Shaft shaft_of(const points::PointSquare& square, const glm::dvec3& low, const glm::dvec3& high) const;
+  Shaft shaft_to_light(const Box& box) const;
+  Shaft shaft_of(const points::PointSquare& square, std::uint32_t tiles) const;
+  Shaft shaft_of_lanes(std::uint32_t lanes) const;
+  int seek(const Shaft& shaft);
   std::uint32_t lit_lanes(std::uint32_t tile, std::uint32_t lanes) const;
-  void take_tile(std::uint32_t tile, std::uint32_t lanes, const Shaft& shaft);
+  void take_tiles(const points::PointSquare& square, std::uint32_t tiles);
+  void take_tile(std::uint32_t tile, std::uint32_t lanes);
+  void take_lanes(std::uint32_t lanes);
+  void test(std::uint32_t lanes);
   void load(std::uint32_t tile, std::uint32_t lanes);
   void multiply(std::uint32_t tile);
   glm::vec3 product(int lane);
 
   const Frame& f_;
+  std::uint32_t lit_[16] = {};  ///< lanes of the square's tiles that ask
   std::vector<TriangleTree::Found> near_;
   std::vector<Crossed> crossed_;
   std::vector<float> factors_[3];
   SampleTile tile_;
+  shadow::TrianglePlanes room_{};
 };
 
-/// From points in a box, relative to the square's base, to the light. A point's q is rounded.
-Shaft Worker::shaft_of(const points::PointSquare& square, const dvec3& low, const dvec3& high) const {
-  const dvec3 base(square.base.at[0], square.base.at[1], square.base.at[2]);
-  const dvec3 most = glm::abs(base) + double{square.base.radius};
-  const double rounding = 0x1p-22 * square.base.radius + 0x1p-50 * std::max({most.x, most.y, most.z});
-  const Box box{base + low - rounding, base + high + rounding};
+/// From points in a box to the light.
+Shaft Worker::shaft_to_light(const Box& box) const {
   const shadow::RaySource& source = f_.crossing.source;
   if (!source.directional) return shaft_between(box, {dvec3(source.light), dvec3(source.light)});
   // Towards the light until all triangles are passed.
@@ -68,6 +82,39 @@ Shaft Worker::shaft_of(const points::PointSquare& square, const dvec3& low, cons
   const dvec3 way = glm::max(glm::abs(all.high - box.low), glm::abs(box.high - all.low));
   const dvec3 far = -source.travel * (1.0000001 * std::sqrt(glm::dot(way, way)));
   return shaft_between(box, {box.low + far, box.high + far});
+}
+
+/// From tiles of a square. Their boxes are relative to its base, and a point's q is rounded.
+Shaft Worker::shaft_of(const points::PointSquare& square, std::uint32_t tiles) const {
+  dvec3 low(INFINITY), high(-INFINITY);
+  for (; tiles != 0; tiles &= tiles - 1) {
+    const int i = std::countr_zero(tiles);
+    low = glm::min(low, dvec3(square.low[0][i], square.low[1][i], square.low[2][i]));
+    high = glm::max(high, dvec3(square.high[0][i], square.high[1][i], square.high[2][i]));
+  }
+  const dvec3 base(square.base.at[0], square.base.at[1], square.base.at[2]);
+  const dvec3 most = glm::abs(base) + double{square.base.radius};
+  const double rounding = 0x1p-22 * square.base.radius + 0x1p-50 * std::max({most.x, most.y, most.z});
+  return shaft_to_light({base + low - rounding, base + high + rounding});
+}
+
+/// From samples of the tile that is loaded.
+Shaft Worker::shaft_of_lanes(std::uint32_t lanes) const {
+  Box box{dvec3(INFINITY), dvec3(-INFINITY)};
+  for (; lanes != 0; lanes &= lanes - 1) {
+    const dvec3& point = tile_.points[std::countr_zero(lanes)];
+    box = {glm::min(box.low, point), glm::max(box.high, point)};
+  }
+  return shaft_to_light(box);
+}
+
+/// Fills near_; returns the number of its triangles.
+int Worker::seek(const Shaft& shaft) {
+  near_.clear();
+  f_.tree.find(shaft, near_);
+  int triangles = 0;
+  for (const TriangleTree::Found& leaf : near_) triangles += std::popcount(leaf.met);
+  return triangles;
 }
 
 std::uint32_t Worker::lit_lanes(std::uint32_t tile, std::uint32_t lanes) const {
@@ -80,48 +127,73 @@ std::uint32_t Worker::lit_lanes(std::uint32_t tile, std::uint32_t lanes) const {
 }
 
 void Worker::take_square(const points::PointSquare& square) {
-  const auto corner = [](const float(&at)[3][16], int i) { return dvec3(at[0][i], at[1][i], at[2][i]); };
-  dvec3 low(INFINITY), high(-INFINITY);
-  std::uint32_t lit[16] = {}, any_lit = 0;
+  if (!f_.tree.meets(shaft_of(square, square.filled))) return;
+  std::uint32_t asking = 0;
   for (std::uint32_t left = square.filled; left != 0; left &= left - 1) {
     const int i = std::countr_zero(left);
-    lit[i] = lit_lanes(square.first_tile + static_cast<std::uint32_t>(i), square.lanes[i]);
-    if (lit[i] == 0) continue;
-    any_lit |= 1u << i;
-    low = glm::min(low, corner(square.low, i)), high = glm::max(high, corner(square.high, i));
+    lit_[i] = lit_lanes(square.first_tile + static_cast<std::uint32_t>(i), square.lanes[i]);
+    asking |= static_cast<std::uint32_t>(lit_[i] != 0) << i;
   }
-  if (any_lit == 0) return;
-  near_.clear();
-  f_.tree.find(shaft_of(square, low, high), near_);
-  if (near_.empty()) return;
-  for (; any_lit != 0; any_lit &= any_lit - 1) {
-    const int i = std::countr_zero(any_lit);
-    take_tile(square.first_tile + static_cast<std::uint32_t>(i), lit[i],
-              shaft_of(square, corner(square.low, i), corner(square.high, i)));
+  for (int i = 0; i < 4; ++i)
+    if ((asking & quarter(i)) != 0) take_tiles(square, asking & quarter(i));
+}
+
+void Worker::take_tiles(const points::PointSquare& square, std::uint32_t tiles) {
+  const Shaft around = shaft_of(square, tiles);
+  const int triangles = seek(around);
+  if (triangles == 0) return;
+  for (const std::uint32_t all = tiles; tiles != 0; tiles &= tiles - 1) {
+    const int i = std::countr_zero(tiles);
+    const std::uint32_t tile = square.first_tile + static_cast<std::uint32_t>(i), alone = 1u << i;
+    if (triangles > few_for_tiles && all != alone && seek(shaft_of(square, alone)) == 0) continue;
+    take_tile(tile, lit_[i]);
   }
 }
 
-void Worker::take_tile(std::uint32_t tile, std::uint32_t lanes, const Shaft& shaft) {
+/// With the triangles of near_.
+void Worker::take_tile(std::uint32_t tile, std::uint32_t lanes) {
   crossed_.clear();
-  bool loaded = false;
-  for (const TriangleTree::Found& leaf : near_) {
-    for (std::uint32_t met = f_.tree.narrowed(leaf, shaft); met != 0; met &= met - 1) {
-      const std::uint32_t number = f_.tree.number(leaf.leaf, std::countr_zero(met));
-      if (f_.planes[number].side == 0) continue;
-      if (!loaded) load(tile, lanes);
-      loaded = true;
-      ++stats.tests;
-      const std::uint32_t crossing = lanes_crossing(f_.crossing, f_.planes[number], tile_, stats.exact);
-      stats.crossings += static_cast<std::uint64_t>(std::popcount(crossing));
-      if (crossing != 0) crossed_.push_back({number, crossing});
-    }
+  load(tile, lanes);
+  int triangles = 0;
+  for (const TriangleTree::Found& leaf : near_) triangles += std::popcount(leaf.met);
+  if (triangles <= few_for_samples) {
+    test(lanes);
+  } else {
+    for (int i = 0; i < 4; ++i)
+      if (const std::uint32_t part = lanes & quarter(i); part != 0) take_lanes(part);
   }
   if (!crossed_.empty()) multiply(tile);
 }
 
+/// Up to four samples, those of near_ or fewer: each by itself where that many may be before them.
+void Worker::take_lanes(std::uint32_t lanes) {
+  if (seek(shaft_of_lanes(lanes)) <= few_for_samples) return test(lanes);
+  for (; lanes != 0; lanes &= lanes - 1) {
+    const std::uint32_t alone = lanes & -lanes;
+    seek(shaft_of_lanes(alone));
+    test(alone);
+  }
+}
+
+/// Adds to crossed_ what rays of `lanes` cross of near_.
+void Worker::test(std::uint32_t lanes) {
+  for (const TriangleTree::Found& leaf : near_) {
+    for (std::uint32_t met = leaf.met; met != 0; met &= met - 1) {
+      const std::uint32_t number = f_.tree.number(leaf.leaf, std::countr_zero(met));
+      const shadow::TrianglePlanes& planes = f_.planes.of(number, f_.crossing, room_);
+      if (planes.side == 0) continue;
+      ++stats.tests;
+      LanesFound found_lanes = f_.kernels.rays_crossing(planes, tile_);
+      found_lanes.sure &= lanes, found_lanes.open &= lanes;
+      const std::uint32_t crossing = lanes_crossing(f_.crossing, planes, tile_, found_lanes, stats.exact);
+      stats.crossings += static_cast<std::uint64_t>(std::popcount(crossing));
+      if (crossing != 0) crossed_.push_back({number, crossing});
+    }
+  }
+}
+
 /// Lanes that do not ask hold a place all the same: the light's.
 void Worker::load(std::uint32_t tile, std::uint32_t lanes) {
-  tile_.lanes = lanes;
   std::uint32_t own = no_triangle;
   double tau = 0;
   for (int lane = 0; lane < tile_samples; ++lane) {
@@ -151,7 +223,7 @@ glm::vec3 Worker::product(int lane) {
     glm::vec3 passed = f_.surfaces.constant(c.number);
     if (f_.surfaces.varies(c.number)) {
       const shadow::RaySource& source = f_.crossing.source;
-      const points::Corners corners = points::corners_of(f_.crossing.triangles, f_.planes[c.number].triangle);
+      const points::Corners corners = points::corners_of(f_.crossing.triangles, f_.surfaces.ids()[c.number]);
       const dvec3& from = tile_.points[lane];
       passed = f_.surfaces.transmittance(
           c.number,
@@ -181,38 +253,51 @@ void Worker::multiply(std::uint32_t tile) {
   }
 }
 
-void set_up_planes(const Surfaces& surfaces, const TriangleView& triangles, const shadow::RaySource& source,
-                   ContactRule contact, std::vector<shadow::TrianglePlanes>& out) {
-  out.resize(surfaces.ids().size());
-  parallel::parallel_ranges(out.size(), 512, [&](std::size_t first, std::size_t last) {
-    for (std::size_t i = first; i < last; ++i) {
-      const std::uint32_t id = surfaces.ids()[i];
-      const points::Corners c = points::corners_of(triangles, id);
-      const int side = shadow::light_side(c.v, source);
-      out[i] = {};
-      if (side == 0) continue;
-      const double tau = contact == ContactRule::triangle_ids ? points::rounding_tolerance(c.v) : 0.0;
-      out[i] = shadow::planes_of(c.v, id, side, source, tau);
-    }
-  });
+shadow::TrianglePlanes planes_seen(std::uint32_t id, const CrossingFrame& frame) {
+  const points::Corners c = points::corners_of(frame.triangles, id);
+  const int side = shadow::light_side(c.v, frame.source);
+  if (side == 0) return {};
+  const double tau = frame.contact == ContactRule::triangle_ids ? points::rounding_tolerance(c.v) : 0.0;
+  return shadow::planes_of(c.v, id, side, frame.source, tau);
 }
 
 }  // namespace
 
+void LazyPlanes::reset(std::span<const std::uint32_t> ids) {
+  ids_ = ids;
+  planes_.resize(ids.size());
+  if (states_.size() != ids.size()) states_ = std::vector<std::atomic<std::uint8_t>>(ids.size());
+  for (std::atomic<std::uint8_t>& state : states_) state.store(unknown, std::memory_order_relaxed);
+}
+
+const shadow::TrianglePlanes& LazyPlanes::of(std::uint32_t number, const CrossingFrame& frame,
+                                             shadow::TrianglePlanes& room) {
+  std::atomic<std::uint8_t>& state = states_[number];
+  if (state.load(std::memory_order_acquire) == ready) return planes_[number];
+  room = planes_seen(ids_[number], frame);
+  std::uint8_t expected = unknown;
+  if (state.compare_exchange_strong(expected, busy, std::memory_order_relaxed)) {
+    planes_[number] = room;
+    state.store(ready, std::memory_order_release);
+  }
+  return room;
+}
+
 void HardTint::trace(const VisiblePoints& points, const points::PointTiles& tiles,
                      const TriangleView& triangles, const Surfaces& surfaces, const TriangleTree& tree,
-                     const ShadowLight& light, const ShadowMask& mask, ContactRule contact, TintMask& out,
-                     TintStats& stats) {
+                     const ShadowLight& light, const ShadowMask& mask, const TintConfig& config,
+                     TintMask& out, TintStats& stats) {
   const shadow::RaySource source = shadow::ray_source(light);
-  set_up_planes(surfaces, triangles, source, contact, planes_);
+  planes_.reset(surfaces.ids());
   const Frame frame{points,
                     tiles,
                     surfaces,
                     tree,
                     planes_,
                     mask,
-                    {triangles, source, contact},
-                    points::TilePixels(points.width, points.height)};
+                    {triangles, source, config.contact},
+                    points::TilePixels(points.width, points.height),
+                    tint_kernels(config.simd)};
   std::vector<Worker> workers(tiles.patches.size(), Worker(frame));
   parallel::parallel_in_order(static_cast<int>(workers.size()), [&](int i) {
     Worker& worker = workers[static_cast<std::size_t>(i)];

@@ -1,6 +1,8 @@
 // Lights without an area: the see-through triangles between each sample and the light, multiplied.
 #pragma once
 
+#include <atomic>
+#include <span>
 #include <vector>
 
 #include <tenebra/tint.h>
@@ -12,17 +14,31 @@
 
 namespace tenebra::tint {
 
+/// Planes of see-through triangles as one light sees them, made when they are first asked for.
+class LazyPlanes {
+public:
+  void reset(std::span<const std::uint32_t> ids);
+  /// Of the triangle with this place in `ids`; side 0: crossed by none. May be in `room`. From any thread.
+  const shadow::TrianglePlanes& of(std::uint32_t number, const CrossingFrame& frame,
+                                   shadow::TrianglePlanes& room);
+
+private:
+  enum State : std::uint8_t { unknown, busy, ready };
+  std::span<const std::uint32_t> ids_;
+  std::vector<shadow::TrianglePlanes> planes_;
+  std::vector<std::atomic<std::uint8_t>> states_;
+};
+
 /// Buffers kept from frame to frame.
 class HardTint {
 public:
   /// TintTracer::trace for a light without an area. `tiles` are of `points`.
   void trace(const VisiblePoints& points, const points::PointTiles& tiles, const TriangleView& triangles,
              const Surfaces& surfaces, const TriangleTree& tree, const ShadowLight& light,
-             const ShadowMask& mask, ContactRule contact, TintMask& out, TintStats& stats);
+             const ShadowMask& mask, const TintConfig& config, TintMask& out, TintStats& stats);
 
 private:
-  std::vector<shadow::TrianglePlanes>
-      planes_;  ///< one for each see-through triangle; side 0: crossed by none
+  LazyPlanes planes_;
 };
 
 }  // namespace tenebra::tint

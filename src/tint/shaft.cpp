@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 
 namespace tenebra::tint {
 namespace {
@@ -40,24 +41,29 @@ Shaft shaft_between(const Box& a, const Box& b) {
   return shaft;
 }
 
-std::uint32_t boxes_met(const EightBoxes& boxes, const Shaft& shaft) {
-  double beyond[box_lanes];  // > 0: apart from the shaft
-  for (int k = 0; k < box_lanes; ++k) beyond[k] = -1;
+namespace {
+
+constexpr double most = std::numeric_limits<float>::max();
+
+float rounded_up(double x) {
+  const float f = static_cast<float>(std::clamp(x, -most, most));
+  return double{f} < std::min(x, most) ? std::nextafter(f, INFINITY) : f;
+}
+
+}  // namespace
+
+// |m| + |n| is 1 but for rounding: the value of a plane rounds by less than 2^-21 of the reach.
+FloatShaft::FloatShaft(const Shaft& shaft, double reach) : count(shaft.count) {
   for (int axis = 0; axis < 3; ++axis) {
-    const double low = shaft.box.low[axis], high = shaft.box.high[axis];
-    for (int k = 0; k < box_lanes; ++k)
-      beyond[k] = std::max({beyond[k], boxes.low[axis][k] - high, low - boxes.high[axis][k]});
+    low[axis] = -rounded_up(-shaft.box.low[axis]);
+    high[axis] = rounded_up(shaft.box.high[axis]);
   }
-  for (int p = 0; p < shaft.count; ++p) {
+  for (int p = 0; p < count; ++p) {
     const ShaftPlane& plane = shaft.planes[p];
-    const float* at_i = plane.m > 0 ? boxes.low[plane.i] : boxes.high[plane.i];
-    const float* at_j = plane.n > 0 ? boxes.low[plane.j] : boxes.high[plane.j];
-    const double m = plane.m, n = plane.n, limit = plane.limit;
-    for (int k = 0; k < box_lanes; ++k) beyond[k] = std::max(beyond[k], m * at_i[k] + n * at_j[k] - limit);
+    planes[p] = {plane.m > 0 ? plane.i : 3 + plane.i, plane.n > 0 ? plane.j : 3 + plane.j,
+                 static_cast<float>(plane.m), static_cast<float>(plane.n),
+                 rounded_up(plane.limit + 0x1p-20 * reach + 0x1p-120)};
   }
-  std::uint32_t met = 0;
-  for (int k = 0; k < box_lanes; ++k) met |= static_cast<std::uint32_t>(!(beyond[k] > 0)) << k;
-  return met;
 }
 
 }  // namespace tenebra::tint

@@ -24,13 +24,19 @@ struct Shaft {
 };
 Shaft shaft_between(const Box& a, const Box& b);
 
-/// Boxes of eight triangles or of eight nodes; those left over hold nothing.
-inline constexpr int box_lanes = 8;
-struct alignas(64) EightBoxes {
-  float low[3][box_lanes], high[3][box_lanes];
-};
+/// The same in floats, for boxes with coordinates of at most `reach`: wider by more than all sums round.
+struct FloatShaft {
+  FloatShaft(const Shaft& shaft, double reach);
 
-/// Bits of the boxes that may meet the shaft: conservative.
-std::uint32_t boxes_met(const EightBoxes& boxes, const Shaft& shaft);
+  float low[3], high[3];
+  /// at[i] m + at[j] n <= limit for the place of a box that is deepest within; i and j are rows of
+  /// EightBoxes.
+  struct Plane {
+    int i, j;
+    float m, n, limit;
+  };
+  Plane planes[12];
+  int count = 0;
+};
 
 }  // namespace tenebra::tint

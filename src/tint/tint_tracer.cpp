@@ -66,19 +66,23 @@ struct TintTracer::State {
   TintStats stats;
 
   /// False: nothing is see-through.
-  bool begin(const SeeThroughSurfaces& from, const TriangleView& triangles, TintMask& out);
+  bool begin(const SeeThroughSurfaces& from, const TriangleView& triangles, const TintConfig& config,
+             TintMask& out);
 };
 
-bool TintTracer::State::begin(const SeeThroughSurfaces& from, const TriangleView& triangles, TintMask& out) {
+bool TintTracer::State::begin(const SeeThroughSurfaces& from, const TriangleView& triangles,
+                              const TintConfig& config, TintMask& out) {
   assert(from.see_through.empty() || from.see_through.size() == triangles.triangles.size());
   out.pixels.clear();
   out.factors.clear();
-  surfaces.reset(from, triangles);
+  if (!config.same_surfaces) {
+    surfaces.reset(from, triangles);
+    tree.update(surfaces.ids(), triangles);
+  }
+  tree.use(tint::tint_kernels(config.simd));
   stats = {};
   stats.triangles = surfaces.ids().size();
-  if (surfaces.ids().empty()) return false;
-  tree.update(surfaces.ids(), triangles);
-  return true;
+  return !surfaces.ids().empty();
 }
 
 TintTracer::TintTracer() : state_(std::make_unique<State>()) {}
@@ -96,11 +100,11 @@ void TintTracer::trace(const VisiblePoints& points, const ViewRays& view, const 
   const parallel::FloatEnvironment ieee;
   State& s = *state_;
   base::Stopwatch watch;
-  if (!s.begin(surfaces, triangles, out)) return;
+  if (!s.begin(surfaces, triangles, config, out)) return;
   const bool ready = !points.tiles.empty() && same_eye(points.tiles->view, view);
   if (!ready) points::make_point_tiles(points, view, triangles, s.own_tiles);
   s.hard.trace(points, ready ? *points.tiles : s.own_tiles, triangles, s.surfaces, s.tree, light, mask,
-               config.contact, out, s.stats);
+               config, out, s.stats);
   s.stats.ms = watch.lap_ms();
 }
 
@@ -111,7 +115,7 @@ bool TintTracer::trace(const VisiblePoints& points, std::span<const glm::vec3> n
   const parallel::FloatEnvironment ieee;
   State& s = *state_;
   base::Stopwatch watch;
-  if (!s.begin(surfaces, triangles, out)) return true;
+  if (!s.begin(surfaces, triangles, config, out)) return true;
   const bool done = s.soft.trace(points, normals, view, triangles, s.surfaces, s.tree, light, mask, config,
                                  out, s.stats, stop);
   s.stats.ms = watch.lap_ms();

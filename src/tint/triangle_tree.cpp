@@ -13,15 +13,15 @@ constexpr float nothing = std::numeric_limits<float>::infinity();
 
 void clear(EightBoxes& boxes) {
   for (int axis = 0; axis < 3; ++axis) {
-    std::fill_n(boxes.low[axis], box_lanes, nothing);
-    std::fill_n(boxes.high[axis], box_lanes, -nothing);
+    std::fill_n(boxes.rows[axis], box_lanes, nothing);
+    std::fill_n(boxes.rows[3 + axis], box_lanes, -nothing);
   }
 }
 
 void widen(EightBoxes& boxes, std::size_t lane, const glm::vec3& low, const glm::vec3& high) {
   for (int axis = 0; axis < 3; ++axis) {
-    boxes.low[axis][lane] = std::min(boxes.low[axis][lane], low[axis]);
-    boxes.high[axis][lane] = std::max(boxes.high[axis][lane], high[axis]);
+    boxes.rows[axis][lane] = std::min(boxes.rows[axis][lane], low[axis]);
+    boxes.rows[3 + axis][lane] = std::max(boxes.rows[3 + axis][lane], high[axis]);
   }
 }
 
@@ -74,8 +74,8 @@ void TriangleTree::update(std::span<const std::uint32_t> ids, const TriangleView
   const auto box_of = [](const EightBoxes& boxes, glm::vec3& low, glm::vec3& high) {
     low = glm::vec3(nothing), high = -low;
     for (int k = 0; k < box_lanes; ++k) {
-      low = glm::min(low, glm::vec3(boxes.low[0][k], boxes.low[1][k], boxes.low[2][k]));
-      high = glm::max(high, glm::vec3(boxes.high[0][k], boxes.high[1][k], boxes.high[2][k]));
+      low = glm::min(low, glm::vec3(boxes.rows[0][k], boxes.rows[1][k], boxes.rows[2][k]));
+      high = glm::max(high, glm::vec3(boxes.rows[3][k], boxes.rows[4][k], boxes.rows[5][k]));
     }
   };
   glm::vec3 low, high;
@@ -90,19 +90,33 @@ void TriangleTree::update(std::span<const std::uint32_t> ids, const TriangleView
   }
   box_of(levels_.back()[0], low, high);
   box_ = {low, high};
+  const glm::vec3 most = glm::max(glm::abs(low), glm::abs(high));
+  reach_ = std::max({most.x, most.y, most.z});
 }
 
 void TriangleTree::find(const Shaft& shaft, std::vector<Found>& out) const {
-  if (!levels_.empty()) find_below(levels_.size() - 1, 0, shaft, out);
+  if (!levels_.empty()) find_below(levels_.size() - 1, 0, FloatShaft(shaft, reach_), out);
 }
 
-void TriangleTree::find_below(std::size_t level, std::uint32_t node, const Shaft& shaft,
+void TriangleTree::find_below(std::size_t level, std::uint32_t node, const FloatShaft& shaft,
                               std::vector<Found>& out) const {
-  std::uint32_t met = boxes_met(levels_[level][node], shaft);
+  std::uint32_t met = boxes_met_(levels_[level][node], shaft);
   if (met == 0) return;
   if (level == 0) return out.push_back({node, met});
   for (std::uint32_t lane = 0; met != 0; ++lane, met >>= 1)
     if ((met & 1u) != 0) find_below(level - 1, node * box_lanes + lane, shaft, out);
+}
+
+bool TriangleTree::meets(const Shaft& shaft) const {
+  return !levels_.empty() && meets_below(levels_.size() - 1, 0, FloatShaft(shaft, reach_));
+}
+
+bool TriangleTree::meets_below(std::size_t level, std::uint32_t node, const FloatShaft& shaft) const {
+  std::uint32_t met = boxes_met_(levels_[level][node], shaft);
+  if (met == 0 || level == 0) return met != 0;
+  for (std::uint32_t lane = 0; met != 0; ++lane, met >>= 1)
+    if ((met & 1u) != 0 && meets_below(level - 1, node * box_lanes + lane, shaft)) return true;
+  return false;
 }
 
 }  // namespace tenebra::tint

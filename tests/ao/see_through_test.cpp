@@ -36,6 +36,8 @@ std::vector<float> openness(const Scene& scene, AoMode mode, VisiblePoints* poin
 TEST(SeeThroughOcclusion, APaneHidesWhatAnOpaqueOneHidesTimesItsOpacity) {
   for (const bool moves : {false, true}) {
     for (const AoMode mode : {AoMode::rays, AoMode::field}) {
+      // What is opaque is looked up in fields; what is see-through is found by rays in both.
+      const float tolerance = mode == AoMode::rays ? 0.005f : 0.03f;
       VisiblePoints points;
       const auto opaque = openness(pane_over_floor(0, moves), mode, &points);
       const auto half = openness(pane_over_floor(0.5f, moves), mode);
@@ -44,10 +46,10 @@ TEST(SeeThroughOcclusion, APaneHidesWhatAnOpaqueOneHidesTimesItsOpacity) {
       for (std::size_t i = 0; i < opaque.size(); ++i) {
         if (points.triangles[i] >= ground_triangles) continue;
         hidden += opaque[i] < 0.8f;
-        ASSERT_NEAR(half[i], 1 - 0.5f * (1 - opaque[i]), 0.01f) << i << ", moves " << moves;
+        ASSERT_NEAR(half[i], 1 - 0.5f * (1 - opaque[i]), tolerance) << i << ", moves " << moves;
         ASSERT_EQ(clear[i], 1.0f) << i;
       }
-      EXPECT_GT(hidden, 200u);
+      EXPECT_GT(hidden, 100u);
     }
   }
 }
