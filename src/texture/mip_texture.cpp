@@ -79,11 +79,18 @@ FloatLevel halved(const FloatLevel& from) {
   return to;
 }
 
+/// std::floor without a call: the baseline has no instruction for it. From 2^52 on all doubles are whole.
+double floored(double x) {
+  if (!(std::abs(x) < 0x1p52)) return x;
+  const auto towards_zero = static_cast<double>(static_cast<std::int64_t>(x));
+  return towards_zero > x ? towards_zero - 1 : towards_zero;
+}
+
 /// The coordinate in the picture, 0 to 1, that `coordinate` stands for.
 double folded(double coordinate, Wrap mode) {
   if (mode == Wrap::clamp_to_edge) return std::clamp(coordinate, 0.0, 1.0);
-  if (mode == Wrap::repeat) return coordinate - std::floor(coordinate);
-  const double within = coordinate - 2 * std::floor(coordinate / 2);
+  if (mode == Wrap::repeat) return coordinate - floored(coordinate);
+  const double within = coordinate - 2 * floored(coordinate / 2);
   return within > 1 ? 2 - within : within;
 }
 
@@ -146,10 +153,8 @@ MipTexture::MipTexture(const TextureImage& image, Content content)
 
 vec4 MipTexture::pixel(std::size_t level, int x, int y) const {
   const Level& from = levels_[level];
-  const std::uint8_t* const p =
-      from.rgba.data() +
-      4 * (static_cast<std::size_t>(y) * static_cast<std::size_t>(from.width) + static_cast<std::size_t>(x));
-  return {decode_[p[0]], decode_[p[1]], decode_[p[2]], static_cast<float>(p[3]) * (1.0f / 255.0f)};
+  return decoded(from.rgba.data() + 4 * (static_cast<std::size_t>(y) * static_cast<std::size_t>(from.width) +
+                                         static_cast<std::size_t>(x)));
 }
 
 vec4 MipTexture::at_level(std::size_t level, Filter filter, const TextureMap& map, const dvec2& place) const {
@@ -158,13 +163,18 @@ vec4 MipTexture::at_level(std::size_t level, Filter filter, const TextureMap& ma
   if (filter == Filter::nearest) {
     return pixel(level, std::min(static_cast<int>(x), w - 1), std::min(static_cast<int>(y), h - 1));
   }
-  const double x0 = std::floor(x - 0.5), y0 = std::floor(y - 0.5);
+  const double x0 = floored(x - 0.5), y0 = floored(y - 0.5);
   const auto column = static_cast<int>(x0), row = static_cast<int>(y0);
   const auto fx = static_cast<float>(x - 0.5 - x0), fy = static_cast<float>(y - 0.5 - y0);
   const int left = neighbour(column, w, map.wrap_u), right = neighbour(column + 1, w, map.wrap_u);
   const int top = neighbour(row, h, map.wrap_v), bottom = neighbour(row + 1, h, map.wrap_v);
-  const vec4 upper = glm::mix(pixel(level, left, top), pixel(level, right, top), fx);
-  const vec4 lower = glm::mix(pixel(level, left, bottom), pixel(level, right, bottom), fx);
+  const std::uint8_t* const first = levels_[level].rgba.data();
+  const auto at = [&](int i, int j) {
+    return decoded(first + 4 * (static_cast<std::size_t>(j) * static_cast<std::size_t>(w) +
+                                static_cast<std::size_t>(i)));
+  };
+  const vec4 upper = glm::mix(at(left, top), at(right, top), fx);
+  const vec4 lower = glm::mix(at(left, bottom), at(right, bottom), fx);
   return glm::mix(upper, lower, fy);
 }
 

@@ -48,6 +48,10 @@ public:
   glm::vec4 pixel(std::size_t level, int x, int y) const;  ///< linear
 
 private:
+  glm::vec4 decoded(const std::uint8_t* rgba) const {
+    return {decode_[rgba[0]], decode_[rgba[1]], decode_[rgba[2]],
+            static_cast<float>(rgba[3]) * (1.0f / 255.0f)};
+  }
   struct Level {
     int width = 0, height = 0;
     std::vector<std::uint8_t> rgba;

@@ -72,12 +72,8 @@ void SoftTint::solve_group(const SoftTintFrame& frame, const TriangleTree& tree,
   if (decision.kind == soft::GroupClass::dark) return;
   const soft::PointGroup& group = *decision.group;
   worker.near.clear();
-  worker.numbers.clear();
   tree.find(shaft_between({group.low, group.high}, light), worker.near);
-  for (const TriangleTree::Found& leaf : worker.near)
-    for (int lane = 0; lane < box_lanes; ++lane)
-      if ((leaf.met >> lane & 1u) != 0) worker.numbers.push_back(tree.number(leaf.leaf, lane));
-  std::sort(worker.numbers.begin(), worker.numbers.end());
+  tree.numbers_of(worker.near, worker.numbers);
   const soft::GroupTask task{groups_.pixels_of(group), frame_of(group, groups_, worker.receivers),
                              decision.candidates};
   const soft::PreparedGroup prepared = worker.preparer->prepare(frame.soft, task);
@@ -123,7 +119,7 @@ bool SoftTint::trace(const VisiblePoints& points, std::span<const glm::vec3> nor
   const soft::LightFrame light_frame = soft::light_frame(light);
   const soft::SoftFrame soft_frame{points,      normals, view, triangles, light_frame,
                                    soft_config, unused_, {},   stop};
-  const SoftTintFrame frame{soft_frame, mask, surfaces, tolerance, config.own_irradiance};
+  const SoftTintFrame frame{soft_frame, mask, surfaces, tree, light_box, tolerance, config.own_irradiance};
   const bool done = culler_.for_each_family(groups_, triangles, light, soft_config, stop,
                                             [&](std::span<const soft::GroupDecision> family, int thread) {
                                               for (const soft::GroupDecision& decision : family)

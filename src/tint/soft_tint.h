@@ -19,6 +19,8 @@ struct SoftTintFrame {
   const soft::SoftFrame& soft;  ///< opaque casters; its `out` is not written
   const SoftMask& mask;
   const Surfaces& surfaces;
+  const TriangleTree& tree;
+  Box light_box;               ///< holds the light
   double plane_tolerance = 0;  ///< metres off the light's plane that its own rounding amounts to
   bool own_irradiance = false;
 };

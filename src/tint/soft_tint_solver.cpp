@@ -31,6 +31,7 @@ using soft::SoftFrame;
 using Polygon = LightPolygon<float>;
 using Fragments = FragmentList<float>;
 
+constexpr std::size_t few_numbers = 32;  // of a group: each point looks at all
 constexpr std::size_t places = std::size_t{grid_side} * grid_side;
 
 /// The shadow of a see-through triangle on the light: the places that are positive for all four lines.
@@ -88,11 +89,20 @@ private:
     found.factors.push_back(factor);
   }
 
+  /// The task's triangles, or of many of them those that may stand between the point and the light.
+  std::span<const std::uint32_t> numbers_before(const dvec3& point) {
+    if (task_->numbers.size() <= few_numbers) return task_->numbers;
+    near_.clear();
+    frame_->tree.find(shaft_between({point, point}, frame_->light_box), near_);
+    frame_->tree.numbers_of(near_, numbers_);
+    return numbers_;
+  }
+
   /// Fills shadows_; returns whether they are few and of one transmittance each.
   bool find_shadows(const dvec3& point) {
     shadows_.clear();
     bool constant = true;
-    for (const std::uint32_t number : task_->numbers) {
+    for (const std::uint32_t number : numbers_before(point)) {
       TintShadow shadow;
       if (!shadow_of(number, point, shadow)) continue;
       shadows_.push_back(shadow);
@@ -347,6 +357,8 @@ private:
   ReceiverSight<float> receiver_;
   PointSight sight_;
   GroupPoint point_;  ///< clip_ refers to it
+  std::vector<TriangleTree::Found> near_;
+  std::vector<std::uint32_t> numbers_;
   std::vector<TintShadow> shadows_;
   Fragments pieces_, next_, found_, scratch_, visible_;
   std::vector<vec3> factors_, next_factors_;  ///< of each piece

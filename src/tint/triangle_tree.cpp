@@ -1,6 +1,7 @@
 #include "tint/triangle_tree.h"
 
 #include <algorithm>
+#include <bit>
 #include <limits>
 #include <numeric>
 
@@ -105,6 +106,14 @@ void TriangleTree::find_below(std::size_t level, std::uint32_t node, const Float
   if (level == 0) return out.push_back({node, met});
   for (std::uint32_t lane = 0; met != 0; ++lane, met >>= 1)
     if ((met & 1u) != 0) find_below(level - 1, node * box_lanes + lane, shaft, out);
+}
+
+void TriangleTree::numbers_of(std::span<const Found> found, std::vector<std::uint32_t>& out) const {
+  out.clear();
+  for (const Found& leaf : found)
+    for (std::uint32_t met = leaf.met; met != 0; met &= met - 1)
+      out.push_back(number(leaf.leaf, std::countr_zero(met)));
+  std::sort(out.begin(), out.end());
 }
 
 bool TriangleTree::meets(const Shaft& shaft) const {

@@ -29,6 +29,8 @@ public:
   void find(const Shaft& shaft, std::vector<Found>& out) const;
   /// Whether there are any such.
   bool meets(const Shaft& shaft) const;
+  /// Fills `out` with the places in `ids` of the triangles found, in order.
+  void numbers_of(std::span<const Found> found, std::vector<std::uint32_t>& out) const;
   /// Place in `ids` of triangle `lane` of a leaf.
   std::uint32_t number(std::uint32_t leaf, int lane) const {
     return order_[leaf * box_lanes + static_cast<std::uint32_t>(lane)];
