@@ -38,7 +38,7 @@ constexpr std::uint32_t quarter(int i) {
 
 // Fewer triangles than this are tested, more are sought again for each part of the samples: a test of sixteen
 // rays takes as long as one or two of eight boxes.
-constexpr int few_for_tiles = 8, few_for_samples = 40;
+constexpr int few_for_tiles = 16, few_for_samples = 64;
 
 /// Work of one range of squares.
 class Worker {
