@@ -266,19 +266,16 @@ shadow::TrianglePlanes planes_seen(std::uint32_t id, const CrossingFrame& frame)
 void LazyPlanes::reset(std::span<const std::uint32_t> ids) {
   ids_ = ids;
   planes_.resize(ids.size());
-  if (states_.size() != ids.size()) states_ = std::vector<std::atomic<std::uint8_t>>(ids.size());
-  for (std::atomic<std::uint8_t>& state : states_) state.store(unknown, std::memory_order_relaxed);
+  made_.reset(ids.size());
 }
 
 const shadow::TrianglePlanes& LazyPlanes::of(std::uint32_t number, const CrossingFrame& frame,
                                              shadow::TrianglePlanes& room) {
-  std::atomic<std::uint8_t>& state = states_[number];
-  if (state.load(std::memory_order_acquire) == ready) return planes_[number];
+  if (made_.ready(number)) return planes_[number];
   room = planes_seen(ids_[number], frame);
-  std::uint8_t expected = unknown;
-  if (state.compare_exchange_strong(expected, busy, std::memory_order_relaxed)) {
+  if (made_.claim(number)) {
     planes_[number] = room;
-    state.store(ready, std::memory_order_release);
+    made_.publish(number);
   }
   return room;
 }

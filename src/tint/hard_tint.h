@@ -1,11 +1,11 @@
 // Lights without an area: the see-through triangles between each sample and the light, multiplied.
 #pragma once
 
-#include <atomic>
 #include <span>
 #include <vector>
 
 #include <tenebra/tint.h>
+#include "parallel/made_once.h"
 #include "points/point_tiles.h"
 #include "shadow/decision/triangle_planes.h"
 #include "tint/crossing.h"
@@ -23,10 +23,9 @@ public:
                                    shadow::TrianglePlanes& room);
 
 private:
-  enum State : std::uint8_t { unknown, busy, ready };
   std::span<const std::uint32_t> ids_;
   std::vector<shadow::TrianglePlanes> planes_;
-  std::vector<std::atomic<std::uint8_t>> states_;
+  parallel::MadeOnce made_;
 };
 
 /// Buffers kept from frame to frame.
