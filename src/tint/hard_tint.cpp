@@ -127,13 +127,13 @@ std::uint32_t Worker::lit_lanes(std::uint32_t tile, std::uint32_t lanes) const {
 }
 
 void Worker::take_square(const points::PointSquare& square) {
-  if (!f_.tree.meets(shaft_of(square, square.filled))) return;
   std::uint32_t asking = 0;
   for (std::uint32_t left = square.filled; left != 0; left &= left - 1) {
     const int i = std::countr_zero(left);
     lit_[i] = lit_lanes(square.first_tile + static_cast<std::uint32_t>(i), square.lanes[i]);
     asking |= static_cast<std::uint32_t>(lit_[i] != 0) << i;
   }
+  if (asking == 0 || !f_.tree.meets(shaft_of(square, asking))) return;
   for (int i = 0; i < 4; ++i)
     if ((asking & quarter(i)) != 0) take_tiles(square, asking & quarter(i));
 }
