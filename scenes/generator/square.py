@@ -124,7 +124,8 @@ def add_lights(document, looks):
     document.node("pavilion lamp", translation=v.add(PAVILION, (0, 2.3, 0)), extensions=lamp)
     silent = {"casts_shadow": False}
     looks["panel"] = document.material("lit panel", (0.0, 0.0, 0.0), emissive=(0.75, 0.85, 1.0), extras=silent)
-    root = document.node("sign", translation=(-6.2, 4.6, 1.0), rotation=v.look_rotation((-6.2, 4.6, 1.0), (-1.5, 0.6, 0.4)))
+    at, towards = (1.0, 4.6, 1.2), (4.6, 0.2, 4.4)  # the tree stands behind it: its leaves are for hard shadows
+    root = document.node("sign", translation=at, rotation=v.look_rotation(at, towards))
     document.node("sign light", root, extensions=document.rect_light("sign light", (0.75, 0.85, 1.0), 45.0, 1.8, 1.0))
     face = s.Model().add("panel", s.panel((0.9, -0.5, 0), (-1.8, 0, 0), (0, 1.0, 0)))
     document.node("sign face", root, mesh=face.to_mesh(document, "sign face", looks, silent))

@@ -69,7 +69,7 @@ private:
   std::vector<TriangleTree::Found> near_;
   std::vector<Crossed> crossed_;
   std::vector<float> factors_[3];
-  SampleTile tile_;
+  SampleTile tile_{};
   shadow::TrianglePlanes room_{};
 };
 
