@@ -151,6 +151,17 @@ Expected<Image8> read_png(const std::filesystem::path& path) {
   return image;
 }
 
+namespace {
+
+/// Fewer bytes than this cannot hold the rows of a Radiance picture: 4 for each pixel, or for rows of 8 to
+/// 32767 pixels runs of up to 127 values in each of four channels.
+std::uint64_t least_hdr_bytes(std::uint64_t width, std::uint64_t height) {
+  const bool has_runs = width >= 8 && width < 32768;
+  return height * (has_runs ? std::min(4 * width, 4 + 8 * ((width + 126) / 127)) : 4 * width);
+}
+
+}  // namespace
+
 Expected<ImageF> read_hdr(const std::filesystem::path& path) {
   const auto bytes = read_bytes(path);
   if (!bytes) return tl::unexpected(bytes.error());
@@ -168,6 +179,12 @@ Expected<ImageF> read_hdr(const std::filesystem::path& path) {
       static_cast<std::uint64_t>(image.width) * static_cast<std::uint64_t>(image.height);
   if (image.width < 1 || image.height < 1 || count > most_hdr_pixels) {
     return fail("{}: found {} x {} pixels, expected 1 to 2^26", path.string(), image.width, image.height);
+  }
+  if (const std::uint64_t least =
+          least_hdr_bytes(static_cast<std::uint64_t>(image.width), static_cast<std::uint64_t>(image.height));
+      bytes->size() < least) {
+    return fail("{}: found {} bytes, expected at least {} for its {} x {} pixels", path.string(),
+                bytes->size(), least, image.width, image.height);
   }
   const std::unique_ptr<float, void (*)(void*)> decoded(
       stbi_loadf_from_memory(data, size, &image.width, &image.height, &channels, 3), stbi_image_free);

@@ -205,13 +205,10 @@ TEST(Hdr, RefusesWhatIsNoneAndWhatIsTooLarge) {
   write_text(folder / "bomb.hdr", "#?RADIANCE\nFORMAT=32-bit_rle_rgbe\n\n-Y 20000 +X 20000\n");
   write_text(folder / "short.hdr", "#?RADIANCE\nFORMAT=32-bit_rle_rgbe\n\n-Y 100 +X 100\nab");
   EXPECT_TRUE(base::write_png(folder / "a.png", random_image(2, 2, 3, 1)));
-  for (const char* name : {"text.hdr", "empty.hdr", "bomb.hdr", "a.png", "missing.hdr"}) {
+  for (const char* name : {"text.hdr", "empty.hdr", "bomb.hdr", "short.hdr", "a.png", "missing.hdr"}) {
     const auto image = base::read_hdr(folder / name);
     ASSERT_FALSE(image) << name;
     EXPECT_NE(image.error().message.find(name), std::string::npos) << image.error().message;
-  }
-  if (const auto image = base::read_hdr(folder / "short.hdr")) {  // what is missing is black
-    EXPECT_EQ(image->pixels.size(), 30000u);
   }
 }
 
