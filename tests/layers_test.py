@@ -54,11 +54,14 @@ CONTAINED = [
 ]
 
 
+# Rooms of the program, lowest first, as above; main.cpp stands above them all.
+VIEWER_ROOMS = ["shell", "options", "shared", "window", "commands", ""]
+
 # The same for the program: folders or files below viewer/ that may name it.
 CONTAINED_IN_VIEWER = [
     (r"\bImGui\b|imgui|GLFW|glfw", "the window", ("window/",)),
     (r"GLFW|glfw[A-Z3]", "GLFW", ("window/glfw_window.cpp",)),
-    (r"\bstd::(thread|jthread|mutex|atomic|condition_variable|barrier)\b", "a thread", ("window/render_worker.", "stop_signals.")),
+    (r"\bstd::(thread|jthread|mutex|atomic|condition_variable|barrier)\b", "a thread", ("window/render_worker.", "shell/stop_signals.")),
     (r"\bgl[A-Z]\w*\(", "an OpenGL call", ()),
 ]
 
@@ -66,7 +69,11 @@ CONTAINED_IN_VIEWER = [
 def viewer_breaches(root):
     for path in sorted((root / "viewer").rglob("*.*")):
         name = path.relative_to(root / "viewer").as_posix()
+        room = name.split("/")[0] if "/" in name else ""
         for number, line in enumerate(path.read_text(encoding="utf-8").splitlines(), 1):
+            other = re.match(r'\s*#include "(\w+)/', line)
+            if other and VIEWER_ROOMS.index(room) < (VIEWER_ROOMS.index(other[1]) if other[1] in VIEWER_ROOMS else 0):
+                yield f"viewer/{name}:{number}: viewer/{room} may not include viewer/{other[1]}"
             code = line.split("//")[0]
             for pattern, what, places in CONTAINED_IN_VIEWER:
                 if re.search(pattern, code) and "window/glfw_window.h" not in code and not name.startswith(places):

@@ -9,8 +9,8 @@
 #include <new>
 #include <string>
 
-#include "command.h"
-#include "console.h"
+#include "commands/command.h"
+#include "shell/console.h"
 
 namespace {
 

@@ -2,7 +2,7 @@
 #include <gtest/gtest.h>
 
 #include "base/image.h"
-#include "light_edits.h"
+#include "options/light_edits.h"
 #include "viewer_test_scene.h"
 
 namespace tenebra::viewer {

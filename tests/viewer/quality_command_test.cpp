@@ -6,10 +6,10 @@
 #include <cstdio>
 
 #include "base/image.h"
-#include "config_file.h"
-#include "method_arguments.h"
-#include "view_options.h"
+#include "options/config_file.h"
+#include "options/method_arguments.h"
 #include "viewer/viewer_test_scene.h"
+#include "window/view_options.h"
 
 namespace tenebra::testing {
 namespace {

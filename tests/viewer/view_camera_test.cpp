@@ -3,7 +3,7 @@
 
 #include <numbers>
 
-#include "light_edits.h"
+#include "options/light_edits.h"
 #include "support/seeded_random.h"
 #include "window/camera_control.h"
 

@@ -4,10 +4,10 @@
 
 #include <CLI/CLI.hpp>
 
-#include "method_arguments.h"
-#include "picture_difference.h"
-#include "view_options.h"
+#include "options/method_arguments.h"
+#include "shared/picture_difference.h"
 #include "viewer_test_scene.h"
+#include "window/view_options.h"
 
 namespace tenebra::testing {
 namespace {

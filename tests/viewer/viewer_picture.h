@@ -4,7 +4,7 @@
 #include <gtest/gtest.h>
 
 #include "render/renderer.h"
-#include "scene_plan.h"
+#include "shared/scene_plan.h"
 
 namespace tenebra::testing {
 

@@ -5,7 +5,7 @@
 #include <nlohmann/json.hpp>
 
 #include "base/fail.h"
-#include "method_arguments.h"
+#include "options/method_arguments.h"
 
 namespace tenebra::viewer {
 namespace {

@@ -6,7 +6,7 @@
 #include <string>
 
 #include <tenebra/expected.h>
-#include "window/ui.h"
+#include "window/panels/ui.h"
 
 namespace tenebra::viewer {
 

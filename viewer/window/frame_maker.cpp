@@ -1,7 +1,7 @@
 #include "window/frame_maker.h"
 
 #include "base/stopwatch.h"
-#include "window/overlay_image.h"
+#include "window/panels/overlay_image.h"
 
 namespace tenebra::viewer {
 namespace {

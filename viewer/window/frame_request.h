@@ -5,12 +5,12 @@
 #include <memory>
 #include <optional>
 
-#include "light_edits.h"
-#include "output_pattern.h"
-#include "picture_difference.h"
+#include "options/light_edits.h"
+#include "options/output_pattern.h"
 #include "render/log/frame_columns.h"
 #include "render/renderer.h"
-#include "scene_plan.h"
+#include "shared/picture_difference.h"
+#include "shared/scene_plan.h"
 #include "window/animation_clock.h"
 #include "window/camera_control.h"
 

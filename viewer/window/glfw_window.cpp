@@ -10,7 +10,7 @@
 #include <memory>
 
 #include "base/fail.h"
-#include "stop_signals.h"
+#include "shell/stop_signals.h"
 #include "window/viewer.h"
 
 namespace tenebra::viewer {

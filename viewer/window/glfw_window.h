@@ -1,7 +1,7 @@
 // The window itself: GLFW, its OpenGL context and Dear ImGui on it. The only place that knows GLFW.
 #pragma once
 
-#include "view_options.h"
+#include "window/view_options.h"
 
 namespace tenebra::viewer {
 

@@ -4,7 +4,7 @@
 #include <sstream>
 #include <string>
 
-#include "window/panels.h"
+#include "window/panels/panels.h"
 
 namespace tenebra::viewer {
 namespace {

@@ -3,7 +3,7 @@
 #include <fmt/format.h>
 
 #include "base/machine.h"
-#include "method_arguments.h"
+#include "options/method_arguments.h"
 #include "parallel/parallel.h"
 
 namespace tenebra::viewer {

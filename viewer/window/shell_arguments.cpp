@@ -4,7 +4,7 @@
 
 #include <algorithm>
 
-#include "method_arguments.h"
+#include "options/method_arguments.h"
 
 namespace tenebra::viewer {
 namespace {

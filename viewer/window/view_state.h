@@ -6,8 +6,8 @@
 #include <optional>
 #include <string>
 
-#include "method_options.h"
-#include "scene_plan.h"
+#include "options/method_options.h"
+#include "shared/scene_plan.h"
 #include "window/frame_request.h"
 
 namespace tenebra::viewer {

@@ -6,10 +6,10 @@
 #include <filesystem>
 
 #include "base/fail.h"
-#include "console.h"
-#include "method_arguments.h"
-#include "scene_choice.h"
-#include "scene_summary.h"
+#include "options/method_arguments.h"
+#include "shared/scene_choice.h"
+#include "shared/scene_summary.h"
+#include "shell/console.h"
 #include "window/shell_arguments.h"
 
 namespace tenebra::viewer {

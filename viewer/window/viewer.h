@@ -3,11 +3,11 @@
 
 #include <deque>
 
-#include "view_options.h"
 #include "window/event_report.h"
 #include "window/mouse_queue.h"
-#include "window/panels.h"
+#include "window/panels/panels.h"
 #include "window/session_log.h"
+#include "window/view_options.h"
 
 namespace tenebra::viewer {
 

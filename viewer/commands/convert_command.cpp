@@ -1,0 +1,63 @@
+// tenebra convert: any scene file to a binary glTF file that other programs open.
+#include <memory>
+
+#include "base/fail.h"
+#include "commands/command.h"
+#include "options/option_values.h"
+#include "options/scene_options.h"
+#include "shared/scene_choice.h"
+#include "shell/console.h"
+#include "shell/stop_signals.h"
+
+namespace tenebra::viewer {
+namespace {
+
+constexpr const char* examples =
+    "Example:\n"
+    "  tenebra convert bart/robots/Robot.aff robots.glb --fps 24\n"
+    "\n"
+    "BART's splines become --fps keys per second, or one key for each of the file's own frames where it "
+    "numbers\n"
+    "them; animated triangles become morph targets. Pictures are embedded as PNG; what glTF cannot say of\n"
+    "surfaces stands in extras, where tenebra finds it again. OUT is either whole or absent.";
+
+struct ConvertOptions {
+  std::string input;
+  std::string output;
+  formats::ImportOptions import;
+  double fps = 30.0;
+  bool quiet = false;
+};
+
+Expected<int> convert(const ConvertOptions& options) {
+  if (!options.output.ends_with(".glb"))
+    return base::fail("{}: expected a name that ends in .glb", options.output);
+  const auto scene = formats::import_scene(options.input, options.import);
+  if (!scene) return tl::unexpected(scene.error());
+  if (!options.quiet) print_warnings(scene->warnings);
+  StopSignals stop;
+  const auto losses = formats::export_glb(*scene, options.output, options.fps);
+  if (!losses) return tl::unexpected(losses.error());
+  if (!options.quiet) print_warnings(*losses);
+  return stop.caught() != 0 ? exit_code_of(stop.caught()) : 0;
+}
+
+}  // namespace
+
+void add_convert_command(CLI::App& program, Run& run) {
+  CLI::App& command =
+      add_command(program, "convert", "Write a scene, with its animation, as binary glTF 2.0");
+  const auto options = std::make_shared<ConvertOptions>();
+  set_examples(command, examples);
+  add_text(command, "IN", options->input, "Scene file: .gltf .glb .aff .nff .obj").required();
+  add_text(command, "OUT", options->output, "File to write, .glb").required();
+  add_text(command, "--scene", options->import.scene, "glTF: which scene of the file, by name or number")
+      .type_name("NAME|N");
+  add_value(command, "--fps", options->fps, parse_positive, "Keys per second for baked splines [30]")
+      .type_name("F");
+  add_texture_path(command, options->import);
+  add_flag(command, "--quiet", options->quiet, "No warnings");
+  when_chosen(command, [options, &run] { run = [options] { return convert(*options); }; });
+}
+
+}  // namespace tenebra::viewer

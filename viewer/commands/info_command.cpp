@@ -1,0 +1,249 @@
+// tenebra info: what a scene file holds, as text or JSON.
+#include <fmt/core.h>
+#include <memory>
+#include <nlohmann/json.hpp>
+#include <numbers>
+#include <string_view>
+
+#include "commands/command.h"
+#include "cutout/cutout.h"
+#include "options/option_values.h"
+#include "options/scene_options.h"
+#include "scene/looks.h"
+#include "shared/scene_choice.h"
+#include "shared/scene_summary.h"
+#include "shell/console.h"
+
+namespace tenebra::viewer {
+namespace {
+
+using Json = nlohmann::ordered_json;
+
+constexpr const char* examples =
+    "Examples:\n"
+    "  tenebra info scenes/city.glb\n"
+    "  tenebra info scenes/city.glb --json | python3 -m json.tool\n"
+    "\n"
+    "Triangles and bounds are those of the first frame, in world space. Where the file does not number its\n"
+    "frames, they are counted at --fps.";
+
+struct InfoOptions {
+  std::string scene;
+  formats::ImportOptions import;
+  double fps = 30.0;
+  bool json = false;
+};
+
+std::string_view name_of(LightType type) {
+  switch (type) {
+    case LightType::point:
+      return "point";
+    case LightType::spot:
+      return "spot";
+    case LightType::directional:
+      return "directional";
+    case LightType::area_rect:
+      return "area_rect";
+    case LightType::area_disk:
+      return "area_disk";
+  }
+  return "";
+}
+
+Json list(glm::vec3 v) {
+  return {v.x, v.y, v.z};
+}
+
+double degrees(float radians) {
+  return radians * 180.0 / std::numbers::pi;
+}
+
+Json counts_of(const Scene& scene, const SceneSummary& summary) {
+  std::size_t morph_targets = 0;
+  for (const Mesh& mesh : scene.meshes) morph_targets += mesh.morph_targets.size();
+  return {{"triangles", summary.triangles},
+          {"casting_triangles", summary.casting_triangles},
+          {"dropped_non_finite", summary.dropped_non_finite},
+          {"vertices", summary.vertices},
+          {"nodes", scene.nodes.size()},
+          {"meshes", scene.meshes.size()},
+          {"materials", scene.materials.size()},
+          {"skins", scene.skins.size()},
+          {"morph_targets", morph_targets},
+          {"instances", summary.instances},
+          {"channels", summary.channels}};
+}
+
+/// Triangles of the first frame by what their materials say.
+Json surfaces_of(const SurfaceCounts& counts) {
+  return {{"textured", counts.textured},
+          {"specular", counts.specular},
+          {"metallic", counts.metallic},
+          {"emissive", counts.emissive},
+          {"unlit", counts.unlit},
+          {"vertex_colors", counts.colored},
+          {"alpha_mask", counts.alpha_mask},
+          {"alpha_blend", counts.alpha_blend},
+          {"transmission", counts.transmission},
+          {"see_through", counts.see_through}};
+}
+
+Json images_of(const Scene& scene) {
+  Json images = Json::array();
+  for (const TextureImage& image : scene.images)
+    images.push_back({{"name", image.name}, {"size_px", {image.width, image.height}}});
+  return images;
+}
+
+Json unused_of(const Scene& scene) {
+  Json unused = Json::array();
+  for (const UnusedContent& content : scene.unused)
+    unused.push_back({{"name", content.name}, {"count", content.count}});
+  return unused;
+}
+
+Json lights_of(const Scene& scene, const SceneSummary& summary) {
+  Json lights = Json::array();
+  for (const WorldLight& placed : summary.lights) {
+    const Light& light = scene.lights[static_cast<std::size_t>(placed.light)];
+    Json entry{{"name", light.name}, {"type", name_of(light.type)}};
+    if (light.type != LightType::directional) entry["position_m"] = list(placed.position);
+    if (light.type != LightType::point) entry["direction"] = list(placed.direction);
+    entry["color"] = list(light.color);
+    entry["intensity"] = light.intensity;
+    if (light.type == LightType::spot) {
+      entry["half_angles_deg"] = {degrees(light.inner_cone_rad), degrees(light.outer_cone_rad)};
+    }
+    if (light.type == LightType::area_rect || light.type == LightType::area_disk) {
+      entry["size_m"] = {2 * glm::length(placed.axis_x), 2 * glm::length(placed.axis_y)};
+    }
+    if (light.range_m) entry["range_m"] = *light.range_m;
+    lights.push_back(entry);
+  }
+  return lights;
+}
+
+Json cameras_of(const Scene& scene) {
+  Json cameras = Json::array();
+  for (const Camera& camera : scene.cameras) {
+    const bool perspective = camera.projection == Projection::perspective;
+    Json entry{{"name", camera.name}, {"projection", perspective ? "perspective" : "orthographic"}};
+    if (perspective) entry["vertical_fov_deg"] = degrees(camera.vertical_fov_rad);
+    if (!perspective) entry["vertical_extent_m"] = camera.vertical_extent_m;
+    if (camera.aspect) entry["aspect"] = *camera.aspect;
+    cameras.push_back(entry);
+  }
+  return cameras;
+}
+
+Json clips_of(const Scene& scene, double fps) {
+  Json clips = Json::array();
+  for (const Clip& clip : scene.clips) {
+    clips.push_back({{"name", clip.name},
+                     {"start_s", clip.start_s},
+                     {"end_s", clip.end_s},
+                     {"frames", frame_count(clip, fps)},
+                     {"channels", clip.channels.size()}});
+  }
+  return clips;
+}
+
+Json describe(const Scene& scene, const InfoOptions& options) {
+  const SceneSummary summary = summarize_scene(scene);
+  Json json{{"file", options.scene}, {"name", scene.name}, {"counts", counts_of(scene, summary)}};
+  json["bounds_m"] = nullptr;
+  if (summary.bounds)
+    json["bounds_m"] = {{"low", list(summary.bounds->low)}, {"high", list(summary.bounds->high)}};
+  json["triangles_with"] = surfaces_of(summary.surfaces);
+  json["colors"] = scene.transfer == Transfer::display ? "display values" : "linear, shown as sRGB";
+  json["images"] = images_of(scene);
+  json["extensions"] = scene.extensions;
+  json["unused"] = unused_of(scene);
+  json["lights"] = lights_of(scene, summary);
+  json["cameras"] = cameras_of(scene);
+  json["clips"] = clips_of(scene, options.fps);
+  json["warnings"] = scene.warnings;
+  return json;
+}
+
+/// For people: numbers to six digits and without a negative zero, texts unquoted, vectors in parentheses.
+std::string text_of(const Json& value) {
+  if (value == "") return "-";
+  if (value.is_string()) return value.get<std::string>();
+  if (value.is_number_float()) return fmt::format("{:.6g}", value.get<double>() + 0.0);
+  if (!value.is_array()) return value.dump();
+  std::string text;
+  for (const Json& entry : value) text += (text.empty() ? "(" : ", ") + text_of(entry);
+  return text + ")";
+}
+
+/// One line: "name value, name value, ...".
+std::string line_of(const Json& object) {
+  std::string line;
+  for (const auto& [key, value] : object.items()) {
+    line += fmt::format("{}{} {}", line.empty() ? "" : ", ", key, text_of(value));
+  }
+  return line;
+}
+
+void print_list(const Json& json, const char* key) {
+  const Json& entries = json[key];
+  print_out("{}: {}\n", key, entries.size());
+  for (std::size_t i = 0; i < entries.size(); ++i) {
+    print_out("  {}: {}\n", i, entries[i].is_object() ? line_of(entries[i]) : text_of(entries[i]));
+  }
+}
+
+void print_text(const Json& json) {
+  print_out("{}\n", json["file"].get<std::string>());
+  for (const auto& [key, value] : json["counts"].items()) print_out("{}: {}\n", key, value.dump());
+  print_out("bounds_m: {}\n", json["bounds_m"].is_null() ? "none" : line_of(json["bounds_m"]));
+  print_out("triangles_with: {}\n", line_of(json["triangles_with"]));
+  print_out("colors: {}\n", json["colors"].get<std::string>());
+  for (const char* key : {"images", "extensions", "unused", "lights", "cameras", "clips", "warnings"})
+    print_list(json, key);
+}
+
+/// What drawing changes, last: emission that is left out, and what alpha cuts out.
+void add_changes(Scene& scene, Json& json) {
+  const std::size_t said = scene.warnings.size();
+  scene::leave_out_blank_emission(scene);
+  const cutout::CutoutCounts counts = cutout::cut_out_masks(scene);
+  json["counts"]["cut_out_triangles"] = counts.triangles;
+  json["counts"]["drawn_in_their_place"] = counts.left;
+  for (std::size_t i = said; i < scene.warnings.size(); ++i) json["warnings"].push_back(scene.warnings[i]);
+}
+
+Expected<int> info(const InfoOptions& options) {
+  auto scene = formats::import_scene(options.scene, options.import);
+  if (!scene) return tl::unexpected(scene.error());
+  leave_out_covers(*scene);
+  Json json = describe(*scene, options);
+  add_changes(*scene, json);
+  if (options.json) {
+    // File names and names in files may hold bytes that are not UTF-8, which JSON cannot.
+    print_out("{}\n", json.dump(2, ' ', false, Json::error_handler_t::replace));
+  } else {
+    print_text(json);
+  }
+  return 0;
+}
+
+}  // namespace
+
+void add_info_command(CLI::App& program, Run& run) {
+  CLI::App& command =
+      add_command(program, "info", "Say what a scene contains: counts, bounds, lights, cameras, animations");
+  const auto options = std::make_shared<InfoOptions>();
+  set_examples(command, examples);
+  add_text(command, "SCENE", options->scene, "Scene file: .gltf .glb .aff .nff .obj").required();
+  add_text(command, "--scene", options->import.scene, "glTF: which scene of the file, by name or number")
+      .type_name("NAME|N");
+  add_texture_path(command, options->import);
+  add_flag(command, "--json", options->json, "Print JSON");
+  add_value(command, "--fps", options->fps, parse_positive, "Frames per second, to count frames [30]")
+      .type_name("F");
+  when_chosen(command, [options, &run] { run = [options] { return info(*options); }; });
+}
+
+}  // namespace tenebra::viewer

@@ -1,0 +1,206 @@
+// tenebra render: a scene file in, pictures, masks, a log and a trace out.
+#include <fmt/core.h>
+#include <chrono>
+#include <memory>
+#include <optional>
+
+#include "commands/command.h"
+#include "commands/render_log.h"
+#include "render/log/trace_json.h"
+#include "render/mask_colour.h"
+#include "shared/render_plan.h"
+#include "shared/scene_choice.h"
+#include "shell/console.h"
+#include "shell/progress.h"
+#include "shell/stop_signals.h"
+
+namespace tenebra::viewer {
+namespace {
+
+using Clock = std::chrono::steady_clock;
+
+double milliseconds(Clock::duration duration) {
+  return std::chrono::duration<double, std::milli>(duration).count();
+}
+
+/// The files that grow with the frames.
+struct Journals {
+  std::optional<render::FrameLog> log;
+  std::optional<render::FrameTrace> trace;
+
+  Expected<void> open(const RenderOptions& options, std::span<const render::LogSetting> settings) {
+    if (!options.log.empty()) {
+      auto made = render::FrameLog::create(options.log, settings);
+      if (!made) return tl::unexpected(made.error());
+      log.emplace(std::move(*made));
+    }
+    if (!options.trace.empty()) {
+      auto made = render::FrameTrace::create(options.trace, settings);
+      if (!made) return tl::unexpected(made.error());
+      trace.emplace(std::move(*made));
+    }
+    return {};
+  }
+
+  Expected<void> add(const render::FrameRecord& record, double begin_ms,
+                     const std::vector<std::string>& notes) {
+    if (log) {
+      for (const std::string& note : notes) {
+        if (auto noted = log->comment({"note", note}); !noted) return noted;
+      }
+      if (auto added = log->add(record); !added) return added;
+    }
+    return trace ? trace->add(record, begin_ms) : Expected<void>();
+  }
+
+  Expected<void> finish() {
+    if (log) {
+      if (auto finished = log->finish(); !finished) return finished;
+    }
+    return trace ? trace->finish() : Expected<void>();
+  }
+};
+
+Expected<void> write_pictures(const RenderPlan& plan, const RenderOptions& options, int frame,
+                              const render::FrameResult& result) {
+  if (options.pictures) {
+    if (auto written = base::write_png(options.pictures->file(frame), result.image); !written) return written;
+  }
+  for (const OutputPattern& pattern : options.masks) {
+    for (const render::LightMask& mask : result.masks) {
+      const auto file = pattern.file(frame, plan.several_lights ? fmt::format("_L{}", mask.light) : "");
+      auto written =
+          pattern.is_pfm() ? base::write_pfm(file, mask.visible_fraction) : base::write_png(file, mask.mask);
+      if (!written) return written;
+    }
+  }
+  for (const OutputPattern& pattern : options.mask_colours) {
+    for (const render::LightMask& mask : result.masks) {
+      const auto file = pattern.file(frame, plan.several_lights ? fmt::format("_L{}", mask.light) : "");
+      auto written = pattern.is_pfm() ? base::write_pfm(file, render::mask_colour(mask))
+                                      : base::write_png(file, render::mask_colour8(mask));
+      if (!written) return written;
+    }
+  }
+  return {};
+}
+
+Expected<void> prepare_folders(const RenderOptions& options) {
+  std::vector<OutputPattern> patterns = options.masks;
+  patterns.insert(patterns.end(), options.mask_colours.begin(), options.mask_colours.end());
+  if (options.pictures) patterns.push_back(*options.pictures);
+  for (const OutputPattern& pattern : patterns) {
+    if (auto prepared = pattern.prepare_folder(); !prepared) return prepared;
+  }
+  return {};
+}
+
+/// One render from the first frame to the last or to a signal.
+class FrameLoop {
+public:
+  FrameLoop(const RenderPlan& plan, const RenderOptions& options) : plan_(plan), options_(options) {}
+
+  Expected<void> run(StopSignals& stop) {
+    auto context = gl::Context::create(options_.context);
+    if (!context) return tl::unexpected(context.error());
+    auto renderer = render::Renderer::create(std::move(*context), plan_.scene);
+    if (!renderer) return tl::unexpected(renderer.error());
+    if (plan_.environment) renderer->set_environment(*plan_.environment);
+    FrameGeometry first_frame;
+    evaluate_frame(plan_.scene, plan_.clip, plan_.frames.front().time_s, first_frame);
+    const auto settings = describe_render(plan_, options_, renderer->gl_renderer(), first_frame);
+    if (auto opened = journals_.open(options_, settings); !opened) return opened;
+
+    Progress progress(static_cast<int>(plan_.frames.size()), options_.quiet);
+    for (const PlannedFrame& frame : plan_.frames) {
+      const auto drawn = draw(*renderer, frame, progress, stop.flag());
+      if (!drawn && drawn.error().message == "stopped") break;
+      if (!drawn) return drawn;
+      progress.show(static_cast<int>(records_.size()));
+      if (stop.caught() != 0) break;
+    }
+    return journals_.finish();
+  }
+
+  std::span<const render::FrameRecord> records() const { return records_; }
+
+private:
+  Expected<void> draw(render::Renderer& renderer, const PlannedFrame& planned, Progress& progress,
+                      const StopFlag& stop) {
+    const auto begin = Clock::now();
+    evaluate_frame(plan_.scene, plan_.clip, planned.time_s, input_.geometry);
+    input_.lights =
+        edited_lights(evaluate_lights(plan_.scene, plan_.clip, planned.time_s), options_.scene.lights);
+    input_.view = view_of(plan_, options_.scene, planned.time_s, plan_.size);
+    const double evaluate_ms = milliseconds(Clock::now() - begin);
+    const auto on_progress = [&](std::string_view what, double done) { progress.show_building(what, done); };
+    if (auto drawn = renderer.render_frame(input_, plan_.settings, result_, on_progress, &stop); !drawn)
+      return drawn;
+    if (!options_.quiet) progress.print_notes(result_.notes);
+
+    render::FrameRecord record{planned.frame, planned.time_s, result_.timings,
+                               result_.stats, result_.soft,   result_.ao};
+    record.timings.evaluate_ms = evaluate_ms;
+    record.timings.total_ms = milliseconds(Clock::now() - begin);
+    records_.push_back(record);
+    if (auto added = journals_.add(record, milliseconds(begin - begin_), result_.notes); !added) return added;
+    return write_pictures(plan_, options_, planned.frame, result_);
+  }
+
+  const RenderPlan& plan_;
+  const RenderOptions& options_;
+  const Clock::time_point begin_ = Clock::now();
+  Journals journals_;
+  render::FrameInput input_;
+  render::FrameResult result_;
+  std::vector<render::FrameRecord> records_;
+};
+
+void print_summary(const RenderPlan& plan, const RenderOptions& options,
+                   std::span<const render::FrameRecord> records) {
+  print_out("{}", summary_table(records));
+  print_out("{} of {} frames, {}x{} pixels", records.size(), plan.frames.size(), plan.settings.width,
+            plan.settings.height);
+  if (options.pictures) print_out(", pictures in {}", options.pictures->text());
+  for (const OutputPattern& mask : options.masks) print_out(", masks in {}", mask.text());
+  for (const OutputPattern& mask : options.mask_colours) print_out(", coloured masks in {}", mask.text());
+  if (!options.log.empty()) print_out(", log in {}", options.log);
+  if (!options.trace.empty()) print_out(", trace in {}", options.trace);
+  print_out("\n");
+}
+
+Expected<int> render(const RenderOptions& options) {
+  if (auto checked = check_render_options(options); !checked) return tl::unexpected(checked.error());
+  const auto plan = plan_render(options);
+  if (!plan) return tl::unexpected(plan.error());
+  if (!options.quiet) {
+    print_warnings(options.warnings);
+    print_warnings(plan->scene.warnings);
+  }
+  if (auto prepared = prepare_folders(options); !prepared) return tl::unexpected(prepared.error());
+
+  StopSignals stop;
+  FrameLoop loop(*plan, options);
+  if (auto done = loop.run(stop); !done) return tl::unexpected(done.error());
+  if (!options.quiet) print_summary(*plan, options, loop.records());
+  const bool stopped = loop.records().size() < plan->frames.size();
+  if (stopped)
+    print_error("tenebra: stopped after {} of {} frames\n", loop.records().size(), plan->frames.size());
+  return stopped ? exit_code_of(stop.caught()) : 0;
+}
+
+}  // namespace
+
+void add_render_command(CLI::App& program, Run& run) {
+  CLI::App& command =
+      add_command(program, "render", "Write pictures with shadows, masks and a log of frame times");
+  const auto options = std::make_shared<RenderOptions>();
+  add_render_options(command, *options);
+  when_chosen(command, [options, &command, &run] {
+    settle_quality(command, options->method);
+    options->warnings = idle_method_options(command, options->method);
+    run = [options] { return render(*options); };
+  });
+}
+
+}  // namespace tenebra::viewer

@@ -1,0 +1,157 @@
+#include "commands/render_log.h"
+
+#include <fmt/core.h>
+
+#include "base/machine.h"
+#include "base/statistics.h"
+#include "options/choices.h"
+#include "parallel/parallel.h"
+
+namespace tenebra::viewer {
+namespace {
+
+std::string vector(glm::vec3 v) {
+  return fmt::format("{},{},{}", v.x, v.y, v.z);
+}
+
+std::string camera_text(const ScenePlan& plan, const SceneOptions& options) {
+  std::string text =
+      fmt::format("{} ({})", plan.camera, plan.scene.cameras[static_cast<std::size_t>(plan.camera)].name);
+  if (options.eye) {
+    text = fmt::format("eye {} look-at {} up {}", vector(*options.eye), vector(options.look_at),
+                       vector(options.up));
+  }
+  return options.fov_deg ? fmt::format("{}, fov {} degrees", text, *options.fov_deg) : text;
+}
+
+std::string frames_text(const RenderPlan& plan, double fps) {
+  const PlannedFrame& first = plan.frames.front();
+  const PlannedFrame& last = plan.frames.back();
+  return fmt::format("{}, from {} ({} s) to {} ({} s), {} per second where the scene states none",
+                     plan.frames.size(), first.frame, first.time_s, last.frame, last.time_s, fps);
+}
+
+double shadow_ms(const FrameTimings& t) {
+  return t.rays_ms + t.sort_ms + t.build_ms + t.traverse_ms + t.shaft_ms + t.init_ms + t.query_ms +
+         t.irradiance_ms + t.writeback_ms;
+}
+
+std::string light_size_text(const render::AreaLightSettings& lights) {
+  if (lights.size.x <= 0) return "as the scene has it";
+  return fmt::format("{}x{}{}", lights.size.x, lights.size.y, lights.percent_of_diagonal ? "%" : " m");
+}
+
+void describe_soft(const render::RenderSettings& settings, std::vector<render::LogSetting>& list) {
+  const SoftShadowConfig& soft = settings.soft;
+  const render::AreaLightSettings& lights = settings.area_lights;
+  list.insert(
+      list.end(),
+      {{"soft_solver", choice_name(solver_choices, soft.solver)},
+       {"soft_grouping", choice_name(grouping_choices, soft.grouping)},
+       {"soft_choice", choice_name(occluder_choices, soft.choice)},
+       {"soft_precision", choice_name(precision_choices, soft.precision)},
+       {"soft_points", settings.soft_points == 0 ? "none, exact" : fmt::format("{}", settings.soft_points)},
+       {"light_size", light_size_text(lights)},
+       {"light_facing", lights.facing ? vector(*lights.facing) : "the scene's centre"},
+       {"emissive_lights", lights.emissive_quads ? "yes" : "no"}});
+}
+
+void describe_ao(const AoConfig& ao, std::vector<render::LogSetting>& list) {
+  const std::string distance = ao.distance_m > 0 ? fmt::format("{} m", ao.distance_m) : "diagonal / 20";
+  list.insert(list.end(), {{"ao_at", choice_name(place_choices, ao.place)},
+                           {"ao_rays", fmt::format("{}", ao.rays)},
+                           {"ao_downscale", fmt::format("{}", ao.downscale)},
+                           {"ao_distance", distance}});
+  if (ao.mode != AoMode::field) return;
+  list.insert(list.end(), {{"ao_layout", choice_name(layout_choices, ao.layout)},
+                           {"ao_positions", fmt::format("{}", ao.positions)},
+                           {"ao_directions", fmt::format("{}", ao.directions)},
+                           {"ao_bits", fmt::format("{}", ao.bits)},
+                           {"ao_deforming", choice_name(deforming_choices, ao.deforming)},
+                           {"ao_cache", ao.cache.empty() ? "none" : ao.cache.string()}});
+}
+
+std::string summary_row(std::string_view name, std::span<const render::FrameRecord> records, auto value) {
+  std::vector<double> values;
+  for (const render::FrameRecord& record : records) values.push_back(value(record.timings));
+  const base::Summary summary = base::summarize(values);
+  if (summary.worst <= 0) return "";
+  return fmt::format("{:<20}{:>10.2f}{:>10.2f}{:>10.2f}{:>10.2f}   {}\n", name, summary.median,
+                     summary.percentile_95, summary.percentile_99, summary.worst,
+                     records[summary.worst_at].frame);
+}
+
+}  // namespace
+
+std::vector<render::LogSetting> describe_method(const render::RenderSettings& settings) {
+  const HardShadowConfig& hard = settings.hard;
+  std::vector<render::LogSetting> list{
+      {"shadows", choice_name(shadow_choices, settings.shadows)},
+      {"variant", std::string(variant_name(hard.variant))},
+      {"samples", choice_name(sample_choices, settings.samples)},
+      {"cull", choice_name(cull_choices, hard.cull_front)},
+      {"see_through", choice_name(see_through_choices, settings.see_through)},
+      {"light", settings.light < 0 ? "all" : fmt::format("{}", settings.light)},
+      {"exposure", fmt::format("{}", settings.exposure)},
+      {"ao", choice_name(ao_choices, settings.ao.mode)},
+  };
+  if (settings.shadows == render::ShadowMode::soft) describe_soft(settings, list);
+  if (settings.ao.mode != AoMode::none) describe_ao(settings.ao, list);
+  return list;
+}
+
+std::vector<render::LogSetting> describe_render(const RenderPlan& plan, const RenderOptions& options,
+                                                const std::string& gl_renderer,
+                                                const FrameGeometry& first_frame) {
+  const render::RenderSettings& settings = plan.settings;
+  const SimdLevel asked = settings.hard.simd;
+  const SimdLevel simd = asked == SimdLevel::automatic ? best_simd_level() : asked;
+  const bool has_clip = plan.clip >= 0;
+  std::vector<render::LogSetting> list{
+      {"machine", base::machine_description()},
+      {"renderer", gl_renderer},
+      {"threads", settings.threads == 0 ? fmt::format("{} (all cores)", thread_count())
+                                        : fmt::format("{}", settings.threads)},
+      {"simd", std::string(simd_level_name(simd))},
+      {"LP_NUM_THREADS", base::environment_or("LP_NUM_THREADS", "not set")},
+      {"scene", options.scene.file},
+      {"triangles", fmt::format("{}", first_frame.triangles.size())},
+      {"dropped_non_finite", fmt::format("{}", first_frame.dropped_non_finite)},
+      {"clip", has_clip ? plan.scene.clips[static_cast<std::size_t>(plan.clip)].name : "none"},
+      {"frames", frames_text(plan, options.scene.fps)},
+      {"camera", camera_text(plan, options.scene)},
+      {"size", fmt::format("{}x{}", settings.width, settings.height)},
+      {"cone_sides", fmt::format("{}", options.scene.import.cone_sides)},
+      {"transfer", plan.scene.transfer == Transfer::srgb ? "srgb" : "display"},
+      {"cast_all", options.scene.cast_all ? "yes" : "no"},
+      {"cutout_limit", fmt::format("{}", options.scene.cutout_limit)},
+      {"surfaces", options.scene.plain ? "plain" : "full"},
+      {"environment", options.scene.environment.empty() ? "none" : options.scene.environment},
+  };
+  for (render::LogSetting& setting : describe_method(settings)) list.push_back(std::move(setting));
+  for (std::string& text : light_edit_texts(options.scene.lights)) {
+    list.push_back({"set_light", std::move(text)});
+  }
+  if (!options.scene.import.scene.empty()) list.push_back({"scene_of_file", options.scene.import.scene});
+  for (const std::string& name : options.scene.no_cast) list.push_back({"no_cast", name});
+  for (const auto& folder : options.scene.import.texture_paths)
+    list.push_back({"texture_path", folder.string()});
+  for (const std::string& warning : plan.scene.warnings) list.push_back({"warning", warning});
+  return list;
+}
+
+std::string summary_table(std::span<const render::FrameRecord> records) {
+  if (records.empty()) return "";
+  std::string table = fmt::format("{:<20}{:>10}{:>10}{:>10}{:>10}   frame\n", "milliseconds", "median",
+                                  "95 %", "99 %", "worst");
+  for (const auto& stage : render::frame_stages) {
+    table += summary_row(stage.name, records, [&](const FrameTimings& t) { return t.*stage.value; });
+  }
+  table += summary_row("shadows", records, shadow_ms);
+  table += summary_row("shadows and points", records,
+                       [](const FrameTimings& t) { return shadow_ms(t) + t.points_ms; });
+  table += summary_row("total", records, [](const FrameTimings& t) { return t.total_ms; });
+  return table;
+}
+
+}  // namespace tenebra::viewer

@@ -1,0 +1,26 @@
+// What a render says of itself: the settings above the log, and the summary at the end.
+#pragma once
+
+#include <span>
+#include <string>
+#include <vector>
+
+#include "render/log/frame_log.h"
+#include "shared/render_plan.h"
+
+namespace tenebra::viewer {
+
+/// The settings of shadows and ambient occlusion, of the methods that are on.
+std::vector<render::LogSetting> describe_method(const render::RenderSettings& settings);
+
+/// Machine, OpenGL renderer, threads, vector instructions, scene and every setting, as the log's comment
+/// lines. `first_frame`: geometry of the first frame, for its counts.
+std::vector<render::LogSetting> describe_render(const RenderPlan& plan, const RenderOptions& options,
+                                                const std::string& gl_renderer,
+                                                const FrameGeometry& first_frame);
+
+/// Median, 95th and 99th percentile and worst frame of the stages that took time, as a table; "" without
+/// frames.
+std::string summary_table(std::span<const render::FrameRecord> records);
+
+}  // namespace tenebra::viewer

@@ -1,0 +1,284 @@
+#include "options/method_options.h"
+
+#include <initializer_list>
+
+#include "base/fail.h"
+#include "options/choices.h"
+
+namespace tenebra::viewer {
+namespace {
+
+constexpr const char* shadow_group = "Shadows";
+constexpr const char* hard_group = "Hard shadows";
+constexpr const char* soft_group = "Soft shadows";
+constexpr const char* ao_group = "Ambient occlusion";
+constexpr int most_soft_points = 4096, most_downscale = 8;
+
+constexpr const char* quality_option = "--quality";
+constexpr const char* points_option = "--soft-points";
+constexpr const char* rays_option = "--ao-rays";
+constexpr const char* downscale_option = "--ao-downscale";
+
+template <const auto& choices, class Target>
+AddedOption add_choice(CLI::App& command, const char* name, Target& target, const char* help) {
+  const auto parse = +[](const std::string& text) { return parse_choice(choices, text); };
+  return add_value(command, name, target, parse, help).type_name(choice_list(choices, "|"));
+}
+
+void set_group(std::initializer_list<AddedOption> options, const char* group) {
+  for (const AddedOption option : options) option.group(group);
+}
+
+Expected<Variant> parse_variant(const std::string& text) {
+  if (const auto variant = variant_from_name(text)) return *variant;
+  return base::fail(
+      "found {}, expected Tiles, Precise, PreciseSorted, Spheres, SpheresSorted, PreciseSEA, PreciseEATP or "
+      "PreciseSEATP",
+      text);
+}
+
+Expected<SimdLevel> parse_simd(const std::string& text) {
+  const auto level = simd_level_from_name(text);
+  if (!level) return base::fail("found {}, expected auto, scalar, sse4, avx2 or avx512", text);
+  if (*level != SimdLevel::automatic && !simd_level_supported(*level)) {
+    return base::fail("this machine or build has no {}, its best is {}", text,
+                      simd_level_name(best_simd_level()));
+  }
+  return *level;
+}
+
+Expected<int> parse_light(const std::string& text) {
+  if (text == "all") return -1;
+  const auto number = parse_count(text);
+  return number ? number : base::fail("found {}, expected the number of a light, from 0, or all", text);
+}
+
+Expected<int> parse_threads(const std::string& text) {
+  const auto threads = parse_count(text);
+  if (!threads || *threads > 1024)
+    return base::fail("found {}, expected 1 to 1024, or 0 for all cores", text);
+  return threads;
+}
+
+Expected<int> parse_points(const std::string& text) {
+  const auto points = parse_count(text);
+  if (!points || *points > most_soft_points) {
+    return base::fail("found {}, expected 1 to {} points, or 0 for the exact solution", text,
+                      most_soft_points);
+  }
+  return points;
+}
+
+Expected<int> parse_downscale(const std::string& text) {
+  const auto scale = parse_count(text);
+  if (!scale || *scale < 1 || *scale > most_downscale)
+    return base::fail("found {}, expected 1 (every pixel) to {}", text, most_downscale);
+  return scale;
+}
+
+Expected<render::Quality> parse_quality(const std::string& text) {
+  if (const auto quality = render::quality_from_name(text)) return *quality;
+  return base::fail("found {}, expected fast, balanced or exact", text);
+}
+
+Expected<int> parse_bits(const std::string& text) {
+  const auto bits = parse_count(text);
+  if (!bits || (*bits != 1 && *bits != 8 && *bits != 32))
+    return base::fail("found {}, expected 1, 8 or 32", text);
+  return bits;
+}
+
+Expected<std::filesystem::path> parse_cache(const std::string& text) {
+  if (text.empty()) return base::fail("found an empty name, expected a folder or none");
+  return text == "none" ? std::filesystem::path() : std::filesystem::path(text);
+}
+
+void add_common(CLI::App& command, MethodOptions& options) {
+  render::RenderSettings& render = options.render;
+  set_group(
+      {add_value(
+           command, quality_option, options.quality, parse_quality,
+           "What soft shadows and ambient occlusion may cost.\nfast: --soft-points 8 --ao-rays 16 "
+           "--ao-downscale 2\n(penumbrae off by 3 to 8/255 RMS, occlusion by 3 to 7);\nbalanced: the "
+           "defaults (exact; occlusion by 2 to 6);\nexact: --ao-rays 256 (2 to 5); docs/trade.md has all\n"
+           "figures. An option that is given itself wins")
+           .type_name("fast|balanced|exact"),
+       add_choice<shadow_choices>(command, "--shadows", render.shadows,
+                                  "hard: each light as a point; soft: with its area;\nboth exact and "
+                                  "without noise [hard]"),
+       add_choice<see_through_choices>(command, "--see-through", render.see_through,
+                                       "Glass and blended surfaces colour the light behind them,\ncast black "
+                                       "shadows, or none [tint]"),
+       add_value(command, "--light", render.light, parse_light,
+                 "Light with this light alone, by number, or with all [all]")
+           .type_name("N|all"),
+       add_value(command, "--exposure", render.exposure, parse_factor,
+                 "Multiplies all light by this factor [1]")
+           .type_name("E"),
+       add_value(command, "--threads", render.threads, parse_threads,
+                 "Threads for shadows and ambient occlusion [0: all cores]")
+           .type_name("N"),
+       add_value(command, "--simd", render.hard.simd, parse_simd,
+                 "Vector instructions: auto, scalar, sse4, avx2 or avx512;\nthe masks are the same with "
+                 "each [auto]")
+           .type_name("LEVEL")},
+      shadow_group);
+}
+
+void add_hard(CLI::App& command, MethodOptions& options) {
+  set_group(
+      {add_value(command, "--variant", options.render.hard.variant, parse_variant,
+                 "Method: Tiles, or the paper's Precise, PreciseSorted, Spheres,\nSpheresSorted, PreciseSEA, "
+                 "PreciseEATP or PreciseSEATP;\nthe mask is the same with each [Tiles]")
+           .type_name("V"),
+       add_choice<sample_choices>(command, "--samples", options.render.samples,
+                                  "Where shadow rays start: at exact points, from triangle\nids, or as in "
+                                  "the paper from the depth buffer [ids]"),
+       add_choice<cull_choices>(command, "--cull", options.cull_front,
+                                "front: only faces turned away from the light cast\nshadows; for closed "
+                                "meshes [none; front with\n--samples depth]")},
+      hard_group);
+}
+
+void add_soft(CLI::App& command, MethodOptions& options) {
+  SoftShadowConfig& soft = options.render.soft;
+  render::AreaLightSettings& lights = options.render.area_lights;
+  const auto size =
+      add_value(command, "--light-size", options.light_size, parse_light_size,
+                "Turns point and spot lights into rectangles of this size,\nin metres, or (4%) in percent "
+                "of the scene's diagonal;\nthey keep their light [they stay points]")
+          .type_name("W[xH][%]");
+  const auto facing =
+      add_value(command, "--light-facing", lights.facing, parse_vector,
+                "Point that those rectangles face [the scene's centre;\nspot lights: where they shine]")
+          .type_name("X,Y,Z")
+          .needs(size);
+  const auto emissive = add_flag(command, "--emissive-lights", lights.emissive_quads,
+                                 "Flat convex meshes with an emissive material are lights too");
+  set_group(
+      {size, facing, emissive,
+       add_choice<solver_choices>(command, "--soft-solver", soft.solver,
+                                  "How the visible part of a light is found: by the paper's\nlazy BSP, by "
+                                  "clipping, or (auto) meshes by their\nsilhouettes and the rest by "
+                                  "clipping; the picture is\nthe same [auto]"),
+       add_choice<grouping_choices>(command, "--soft-grouping", soft.grouping,
+                                    "Points that are solved together: neighbours, or as in\nthe paper's "
+                                    "Algorithm 2 those of a triangle\n[neighbourhood]"),
+       add_choice<occluder_choices>(command, "--soft-choice", soft.choice,
+                                    "Occluder that the BSP takes next; in the paper: random\n[largest]"),
+       add_choice<precision_choices>(command, "--soft-precision", soft.precision,
+                                     "reference: double precision throughout [fast]"),
+       add_value(command, points_option, options.render.soft_points, parse_points,
+                 "Replaces each area light by N points with exact hard\nshadows: quicker, but with steps "
+                 "in the penumbra\n[0: exact]")
+           .type_name("N")},
+      soft_group);
+}
+
+void add_ao(CLI::App& command, AoConfig& ao) {
+  ao.cache = default_cache_folder();
+  set_group(
+      {add_choice<ao_choices>(command, "--ao", ao.mode,
+                              "field: by displacement fields of the rigid objects;\nrays: by casting rays, "
+                              "to compare with [none]"),
+       add_choice<place_choices>(command, "--ao-at", ao.place,
+                                 "Where it is computed; in the paper: vertices [pixels]"),
+       add_choice<layout_choices>(command, "--ao-layout", ao.layout,
+                                  "What a field stores: chords from entry to exit, or as in\nthe paper "
+                                  "positions x directions [chords]"),
+       add_value(command, rays_option, ao.rays, parse_at_least_one, "Rays per point [64]").type_name("N"),
+       add_value(command, downscale_option, ao.downscale, parse_downscale,
+                 "Computes one of N x N pixels and blurs the others from\nsimilar ones [1: every pixel]")
+           .type_name("N"),
+       add_value(command, "--ao-distance", ao.distance_m, parse_positive,
+                 "Distance in metres beyond which nothing occludes [a\ntwentieth of the scene's diagonal]")
+           .type_name("D"),
+       add_value(command, "--ao-positions", ao.positions, parse_at_least_one,
+                 "Samples on an object's bounding sphere [4225]")
+           .type_name("P"),
+       add_value(command, "--ao-directions", ao.directions, parse_square_count,
+                 "Directions per sample, 1024 or 32x32 [1024]")
+           .type_name("D"),
+       add_value(command, "--ao-bits", ao.bits, parse_bits, "Bits per stored distance [8]")
+           .type_name("1|8|32"),
+       add_choice<deforming_choices>(command, "--ao-deforming", ao.deforming,
+                                     "What deforms has no field: meet it by rays, or leave it\nout [rays]"),
+       add_value(
+           command, "--ao-cache", ao.cache, parse_cache,
+           "Folder that keeps built fields for the next run\n[$XDG_CACHE_HOME/tenebra or ~/.cache/tenebra]")
+           .type_name("FOLDER|none")},
+      ao_group);
+}
+
+/// Why the chosen methods do not look at `option`; empty if they do.
+std::string idle_for(const GivenOption& option, const render::RenderSettings& render) {
+  const auto& [name, group] = option;
+  const bool soft = render.shadows == render::ShadowMode::soft, ao = render.ao.mode != AoMode::none;
+  if (name == quality_option && !soft && !ao) return "without --shadows soft or --ao";
+  if (group == hard_group && render.shadows == render::ShadowMode::none) return "with --shadows none";
+  if (group == soft_group && !soft) return "without --shadows soft";
+  // --soft-solver, --soft-precision and their like.
+  if (name.starts_with("--soft-") && name != points_option && render.soft_points > 0)
+    return fmt::format("where lights are {} points", render.soft_points);
+  if (group == ao_group && !ao && name != "--ao") return "without --ao";
+  return {};
+}
+
+}  // namespace
+
+void add_method_options(CLI::App& command, MethodOptions& options) {
+  add_common(command, options);
+  add_hard(command, options);
+  add_soft(command, options);
+  add_ao(command, options.render.ao);
+}
+
+void settle_quality(const CLI::App& command, MethodOptions& options) {
+  if (!options.quality) return;
+  const render::RenderSettings given = options.render;
+  render::apply_quality(*options.quality, options.render);
+  if (was_given(command, points_option)) options.render.soft_points = given.soft_points;
+  if (was_given(command, rays_option)) options.render.ao.rays = given.ao.rays;
+  if (was_given(command, downscale_option)) options.render.ao.downscale = given.ao.downscale;
+}
+
+Expected<void> check_method_options(const MethodOptions& options) {
+  const render::RenderSettings& render = options.render;
+  const bool soft = render.shadows == render::ShadowMode::soft;
+  if (render.samples == render::SampleSource::depth && (soft || render.ao.mode != AoMode::none)) {
+    return base::fail("--samples depth has no exact points, and {} needs them; expected --samples ids",
+                      soft ? "--shadows soft" : "--ao");
+  }
+  if (soft && options.cull_front.value_or(false)) {
+    return base::fail("--cull front is for hard shadows, and with --shadows soft every face casts");
+  }
+  return {};
+}
+
+std::vector<std::string> idle_method_options(const CLI::App& command, const MethodOptions& options) {
+  std::vector<std::string> sentences;
+  for (const GivenOption& option : given_options(command)) {
+    if (const std::string lack = idle_for(option, options.render); !lack.empty())
+      sentences.push_back(fmt::format("{} does nothing {}", option.name, lack));
+  }
+  return sentences;
+}
+
+render::RenderSettings method_settings(const MethodOptions& options, Size size) {
+  render::RenderSettings settings = options.render;
+  settings.width = size.width;
+  settings.height = size.height;
+  // Points from the depth buffer lie off their triangles: only the paper's front-face culling keeps those
+  // from shadowing their own points.
+  const bool from_depth = settings.samples == render::SampleSource::depth;
+  settings.hard.cull_front = options.cull_front.value_or(from_depth);
+  settings.hard.contact = from_depth ? ContactRule::none : ContactRule::triangle_ids;
+  settings.soft.simd = settings.ao.simd = settings.hard.simd;
+  if (options.light_size) {
+    settings.area_lights.size = options.light_size->size;
+    settings.area_lights.percent_of_diagonal = options.light_size->percent;
+  }
+  return settings;
+}
+
+}  // namespace tenebra::viewer

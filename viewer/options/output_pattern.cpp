@@ -1,0 +1,80 @@
+#include "options/output_pattern.h"
+
+#include "base/fail.h"
+
+namespace tenebra::viewer {
+namespace {
+
+namespace fs = std::filesystem;
+
+bool is_digit(char c) {
+  return c >= '0' && c <= '9';
+}
+
+/// Digits asked for by the conversion after the percent sign at `at`, which moves past it; -1: not a
+/// conversion.
+int read_conversion(std::string_view text, std::size_t& at) {
+  std::size_t i = at + 1;
+  int digits = 0;
+  if (i + 1 < text.size() && text[i] == '0' && is_digit(text[i + 1])) {
+    digits = text[i + 1] - '0';
+    i += 2;
+  }
+  if (i >= text.size() || text[i] != 'd') return -1;
+  at = i + 1;
+  return digits;
+}
+
+}  // namespace
+
+Expected<OutputPattern> OutputPattern::parse(const std::string& text) {
+  if (text.ends_with(".png")) return parse_stem(text, ".png");
+  return base::fail("found {}, expected a name that ends in .png, like out/%04d.png", text);
+}
+
+Expected<OutputPattern> OutputPattern::parse_mask(const std::string& text) {
+  if (text.ends_with(".pfm")) return parse_stem(text, ".pfm");
+  if (text.ends_with(".png")) return parse_stem(text, ".png");
+  return base::fail("found {}, expected a name that ends in .png or .pfm, like out/mask_%04d.png", text);
+}
+
+Expected<OutputPattern> OutputPattern::parse_stem(const std::string& text, std::string_view extension) {
+  OutputPattern pattern;
+  pattern.text_ = text;
+  pattern.extension_ = extension;
+  const std::string_view stem = std::string_view(text).substr(0, text.size() - extension.size());
+  for (std::size_t at = 0; at < stem.size();) {
+    std::string& part = pattern.is_numbered() ? pattern.after_ : pattern.before_;
+    if (stem[at] != '%' || stem.substr(at).starts_with("%%")) {
+      at += stem[at] == '%' ? 1 : 0;
+      part += stem[at++];
+      continue;
+    }
+    const int digits = read_conversion(stem, at);
+    if (digits < 0 || pattern.is_numbered()) {
+      return base::fail(
+          "found {}, expected one frame number %d or %0Nd, like out/%04d.png (%% is a percent sign)", text);
+    }
+    pattern.digits_ = digits;
+  }
+  return pattern;
+}
+
+fs::path OutputPattern::file(int frame, std::string_view suffix) const {
+  const std::string number = is_numbered() ? fmt::format("{:0{}}", frame, digits_) : "";
+  return fmt::format("{}{}{}{}{}", before_, number, after_, suffix, extension_);
+}
+
+Expected<void> OutputPattern::prepare_folder() const {
+  const fs::path folder = file(0).parent_path();
+  std::error_code error;
+  if (folder.empty() || fs::is_directory(folder, error)) return {};
+  fs::create_directory(folder, error);
+  if (error)
+    return base::fail("cannot make the folder {} for {}: {}", folder.string(), text_, error.message());
+  if (!fs::is_directory(folder))
+    return base::fail("cannot write {}: {} is not a folder", text_, folder.string());
+  return {};
+}
+
+}  // namespace tenebra::viewer

@@ -1,0 +1,141 @@
+#include "options/render_options.h"
+
+#include "base/fail.h"
+#include "options/config_file.h"
+
+namespace tenebra::viewer {
+namespace {
+
+constexpr const char* examples =
+    "Examples:\n"
+    "  tenebra render scenes/city.glb\n"
+    "      the first frame at 800x600, to out/0000.png\n"
+    "  tenebra render scenes/city.glb --frames 0:99 -o walk/%04d.png --log walk.csv\n"
+    "      a hundred frames, and how long each took\n"
+    "  tenebra render Robot.aff --no-cast city2.aff:69 --frames 160 --size 1024x1024 --mask mask.png -o "
+    "none\n"
+    "      the shadow mask alone: 255 lit, 0 in shadow\n"
+    "  tenebra render room.glb --eye 0,1.6,4 --look-at 0,1,0 --fov 50 --light 0\n"
+    "      another camera, one light\n"
+    "  tenebra render scenes/court.glb --shadows soft --mask visible.png --mask visible.pfm\n"
+    "      exact soft shadows of its area light, and how much of the light each pixel sees\n"
+    "  tenebra render scenes/city.glb --shadows soft --light-size 2% --ao field --frames 0:9\n"
+    "      point lights turned into squares, and ambient occlusion\n"
+    "\n"
+    "Frames count from 0; A:B includes B; A: and all run to the end. Ctrl-C drops the frame being drawn and\n"
+    "keeps those before it and the whole log. A file is either whole or absent. The last folder of a "
+    "picture's\n"
+    "name is made if it is missing.\n"
+    "Exit code: 0 done, 1 failed (one sentence says why), 130 or 143 stopped by a signal.";
+
+Expected<gl::ContextKind> parse_context(const std::string& text) {
+  if (const auto kind = gl::context_kind_from_name(text)) return *kind;
+  return base::fail("found {}, expected auto, egl or osmesa", text);
+}
+
+Expected<std::optional<OutputPattern>> parse_pictures(const std::string& text) {
+  if (text == "none") return std::optional<OutputPattern>();
+  auto pattern = OutputPattern::parse(text);
+  if (!pattern) return tl::unexpected(pattern.error());
+  return std::optional<OutputPattern>(std::move(*pattern));
+}
+
+Expected<void> read_masks(const std::vector<std::string>& names, std::vector<OutputPattern>& masks) {
+  masks.clear();
+  for (const std::string& name : names) {
+    auto pattern = OutputPattern::parse_mask(name);
+    if (!pattern) return tl::unexpected(pattern.error());
+    masks.push_back(std::move(*pattern));
+  }
+  return {};
+}
+
+void add_output_options(CLI::App& command, RenderOptions& options) {
+  options.pictures = OutputPattern::parse("out/%04d.png").value();
+  add_value(command, "-o,--output", options.pictures, parse_pictures,
+            "Names of the pictures, %04d is the frame; none: no\npictures [out/%04d.png]")
+      .type_name("FILE.png");
+  add_texts(
+      command, "--mask",
+      [&options](const std::vector<std::string>& names) { return read_masks(names, options.masks); },
+      "Shadow masks: 255 lit; 0 in shadow, facing away or\nbackground; soft: in between, by how much of "
+      "the "
+      "light is\nvisible; .pfm: in 32 bits; several lights add _L0, _L1,\n...; may be repeated")
+      .type_name("FILE.png|FILE.pfm");
+  add_texts(
+      command, "--mask-colour",
+      [&options](const std::vector<std::string>& names) { return read_masks(names, options.mask_colours); },
+      "The same in colour: masks times what glass and blended\nsurfaces leave of red, green and blue")
+      .type_name("FILE.png|FILE.pfm");
+  add_text(command, "--log", options.log, "Log: times and counts of each frame").type_name("FILE.csv");
+  add_text(command, "--trace", options.trace, "The same times for Perfetto or chrome://tracing")
+      .type_name("FILE.json");
+  add_flag(command, "--quiet", options.quiet, "No progress, warnings or summary");
+  add_value(command, "--context", options.context, parse_context,
+            "Offscreen OpenGL to use [auto: EGL, else OSMesa]")
+      .type_name("auto|egl|osmesa");
+}
+
+bool draws_several_frames(const RenderOptions& options) {
+  return options.frames && options.frames->last != options.frames->first;
+}
+
+Expected<void> check_pattern(const OutputPattern& pattern, const char* option, bool several) {
+  if (!several || pattern.is_numbered()) return {};
+  return base::fail(
+      "{} {} has no frame number, and several frames would overwrite each other; expected one like %04d",
+      option, pattern.text());
+}
+
+Expected<void> check_mask(const RenderOptions& options, const OutputPattern& mask, const char* option,
+                          bool several) {
+  if (auto checked = check_pattern(mask, option, several); !checked) return checked;
+  if (options.method.render.shadows == render::ShadowMode::none)
+    return base::fail("{} needs shadows, and --shadows none makes no mask", option);
+  if (options.pictures && mask.file(0) == options.pictures->file(0))
+    return base::fail("-o and {} name the same file {}", option, mask.text());
+  return {};
+}
+
+Expected<void> check_masks(const RenderOptions& options, bool several) {
+  for (const OutputPattern& mask : options.masks) {
+    if (auto checked = check_mask(options, mask, "--mask", several); !checked) return checked;
+    if (mask.is_pfm() && options.method.render.shadows != render::ShadowMode::soft) {
+      return base::fail("--mask {} has fractions of a light's area, which need --shadows soft", mask.text());
+    }
+  }
+  for (const OutputPattern& mask : options.mask_colours) {
+    if (auto checked = check_mask(options, mask, "--mask-colour", several); !checked) return checked;
+    for (const OutputPattern& other : options.masks)
+      if (mask.file(0) == other.file(0))
+        return base::fail("--mask and --mask-colour name the same file {}", mask.text());
+  }
+  return {};
+}
+
+}  // namespace
+
+void add_render_options(CLI::App& command, RenderOptions& options) {
+  set_examples(command, examples);
+  add_scene_options(command, options.scene);
+  option_of(command, "SCENE").required();
+  add_value(command, "--frames", options.frames, parse_frame_range,
+            "Frames to render; 0:99:10 for every tenth [0, the first]")
+      .type_name("A:B[:STEP]|all")
+      .excludes(option_of(command, "--time"));
+  add_method_options(command, options.method);
+  add_output_options(command, options);
+  add_config_option(command);
+}
+
+Expected<void> check_render_options(const RenderOptions& options) {
+  const bool several = draws_several_frames(options);
+  if (options.pictures) {
+    if (auto checked = check_pattern(*options.pictures, "-o", several); !checked) return checked;
+  }
+  if (auto checked = check_masks(options, several); !checked) return checked;
+  if (auto checked = check_scene_options(options.scene); !checked) return checked;
+  return check_method_options(options.method);
+}
+
+}  // namespace tenebra::viewer

@@ -1,0 +1,36 @@
+// The options of `tenebra render`: scene and method as every command has them, and the files it writes.
+#pragma once
+
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "gl/context.h"
+#include "options/method_options.h"
+#include "options/output_pattern.h"
+#include "options/scene_options.h"
+
+namespace tenebra::viewer {
+
+struct RenderOptions {
+  SceneOptions scene;
+  MethodOptions method;
+  std::optional<FrameRange> frames;
+  gl::ContextKind context = gl::ContextKind::automatic;
+
+  std::optional<OutputPattern> pictures;    ///< none: no pictures
+  std::vector<OutputPattern> masks;         ///< .png or .pfm
+  std::vector<OutputPattern> mask_colours;  ///< the same, of masks times what see-through surfaces leave
+  std::string log;
+  std::string trace;
+  bool quiet = false;
+  std::vector<std::string> warnings;  ///< options that do nothing with the others
+};
+
+/// Adds the options to `command`; they are read into `options`, which must live as long.
+void add_render_options(CLI::App& command, RenderOptions& options);
+
+/// What single options cannot check: combinations.
+Expected<void> check_render_options(const RenderOptions& options);
+
+}  // namespace tenebra::viewer

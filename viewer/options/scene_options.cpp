@@ -1,0 +1,166 @@
+#include "options/scene_options.h"
+
+#include "base/fail.h"
+
+namespace tenebra::viewer {
+namespace {
+
+constexpr const char* scene_group = "Scene and moment";
+constexpr const char* camera_group = "Camera";
+
+Expected<int> parse_cone_sides(const std::string& text) {
+  const auto sides = parse_count(text);
+  if (!sides || *sides < 3 || *sides > 4096) return base::fail("found {}, expected 3 to 4096", text);
+  return sides;
+}
+
+void add_files(CLI::App& command, SceneOptions& options) {
+  add_text(command, "SCENE", options.file, "Scene file: .gltf .glb .aff .nff .obj");
+  add_text(command, "--scene", options.import.scene,
+           "glTF: which scene of the file, by name or number\n[the one that the file shows first]")
+      .type_name("NAME|N")
+      .group(scene_group);
+  add_texts(command, "--no-cast", options.no_cast,
+            "Keeps a mesh, material or (AFF) FILE:LINE from casting\nshadows; may be repeated")
+      .type_name("NAME")
+      .group(scene_group);
+  add_flag(command, "--cast-all", options.cast_all,
+           "Lets a sky that hides a light from the whole scene cast\nits shadow")
+      .group(scene_group);
+  add_value(command, "--cone-sides", options.import.cone_sides, parse_cone_sides,
+            "AFF: sides of cones and cylinders [64; 8 for the paper's\nnumber of triangles]")
+      .type_name("N")
+      .group(scene_group);
+  add_value(command, "--cutout-limit", options.cutout_limit, parse_count,
+            "Triangles that may be added where alpha cuts a surface\nout; coarser if it takes more [1000000]")
+      .type_name("N")
+      .group(scene_group);
+  add_texture_path(command, options.import);
+}
+
+Expected<Transfer> parse_transfer(const std::string& text) {
+  if (text == "srgb") return Transfer::srgb;
+  if (text == "display") return Transfer::display;
+  return base::fail("found {}, expected srgb or display", text);
+}
+
+Expected<bool> parse_surfaces(const std::string& text) {
+  if (text == "full") return false;
+  if (text == "plain") return true;
+  return base::fail("found {}, expected full or plain", text);
+}
+
+void add_looks(CLI::App& command, SceneOptions& options) {
+  add_value(
+      command, "--transfer", options.transfer, parse_transfer,
+      "srgb: colours are linear light, pictures encoded; display:\ncolours are shown as they are, as in "
+      "1999 [display for AFF\nand NFF, srgb for the others]")
+      .type_name("srgb|display")
+      .group(scene_group);
+  add_text(command, "--environment", options.environment,
+           "Radiance picture (.hdr, equirectangular) of what stands\naround the scene: its background, its "
+           "ambient light and\nwhat metals mirror")
+      .type_name("FILE")
+      .group(scene_group);
+  add_value(command, "--surfaces", options.plain, parse_surfaces,
+            "plain: without textures, gloss and colours of vertices;\nmasks stay the same [full]")
+      .type_name("full|plain")
+      .group(scene_group);
+}
+
+void add_lights(CLI::App& command, SceneOptions& options) {
+  const auto read = [&options](const std::vector<std::string>& texts) -> Expected<void> {
+    for (const std::string& text : texts) {
+      if (auto parsed = parse_light_edit(text, options.lights); !parsed) return parsed;
+    }
+    return {};
+  };
+  add_texts(command, "--set-light", read,
+            "\"N KEY=VALUE ...\" changes light N: on=0,\nintensity=FACTOR, move=X,Y,Z (metres), size=WxH "
+            "(metres,\nfor soft shadows); may be repeated")
+      .type_name("TEXT")
+      .group(scene_group);
+}
+
+void add_moment(CLI::App& command, SceneOptions& options) {
+  add_value(command, "--time", options.time_s, parse_time, "Time of the animation to show, in seconds")
+      .type_name("S")
+      .group(scene_group);
+  add_value(command, "--fps", options.fps, parse_positive,
+            "Frames per second where the scene does not number its\nframes itself (glTF) [30]")
+      .type_name("F")
+      .group(scene_group);
+  add_text(command, "--clip", options.clip, "Animation to play, by name or number [the first]")
+      .type_name("NAME|N")
+      .group(scene_group);
+}
+
+void add_camera(CLI::App& command, SceneOptions& options) {
+  const auto camera =
+      add_text(command, "--camera", options.camera, "Camera of the scene, by name or number [the first]")
+          .type_name("NAME|N");
+  const auto eye =
+      add_value(command, "--eye", options.eye, parse_vector, "A camera at this place instead, in world space")
+          .type_name("X,Y,Z")
+          .excludes(camera);
+  const auto look_at =
+      add_value(command, "--look-at", options.look_at, parse_vector, "Point that it looks at")
+          .type_name("X,Y,Z");
+  const auto up =
+      add_value(command, "--up", options.up, parse_vector, "Direction that is up [0,1,0]").type_name("X,Y,Z");
+  eye.needs(look_at);
+  look_at.needs(eye);
+  up.needs(eye);
+  const auto fov = add_value(command, "--fov", options.fov_deg, parse_field_of_view,
+                             "Full vertical field of view in degrees [the camera's; 45 with --eye]")
+                       .type_name("D");
+  const auto size =
+      add_value(command, "--size", options.size, parse_size,
+                "Size of the picture in pixels [800x600, or 800 wide with\nthe camera's aspect]")
+          .type_name("WxH");
+  for (const AddedOption option : {camera, eye, look_at, up, fov, size}) option.group(camera_group);
+}
+
+}  // namespace
+
+void add_texture_path(CLI::App& command, formats::ImportOptions& options) {
+  const auto read = [&options](const std::vector<std::string>& folders) -> Expected<void> {
+    options.texture_paths.assign(folders.begin(), folders.end());
+    return {};
+  };
+  add_texts(command, "--texture-path", read,
+            "Folder to look in for pictures that are not beside the\nscene; may be repeated")
+      .type_name("DIR")
+      .group(scene_group);
+}
+
+void add_scene_options(CLI::App& command, SceneOptions& options) {
+  add_files(command, options);
+  add_looks(command, options);
+  add_lights(command, options);
+  add_moment(command, options);
+  add_camera(command, options);
+}
+
+SceneOptions options_for(const std::string& file, const SceneOptions& before) {
+  SceneOptions options;
+  options.file = file;
+  options.import = before.import;
+  options.import.scene.clear();
+  options.cutout_limit = before.cutout_limit;
+  options.cast_all = before.cast_all;
+  options.transfer = before.transfer;
+  options.environment = before.environment;
+  options.plain = before.plain;
+  options.fps = before.fps;
+  return options;
+}
+
+Expected<void> check_scene_options(const SceneOptions& options) {
+  if (options.eye && *options.eye == options.look_at)
+    return base::fail("--eye and --look-at are the same point");
+  if (options.eye && options.up == glm::vec3(0.0f)) return base::fail("--up is 0,0,0, expected a direction");
+  return {};
+}
+
+}  // namespace tenebra::viewer

@@ -1,0 +1,55 @@
+// The options that choose what is looked at: scene, lights, moment, camera. `tenebra render` and `tenebra
+// view` share them.
+#pragma once
+
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "formats/import_scene.h"
+#include "options/light_edits.h"
+#include "options/option_values.h"
+#include "shell/command_line.h"
+
+namespace tenebra::viewer {
+
+struct SceneOptions {
+  std::string file;  ///< positional SCENE; empty: not given
+  formats::ImportOptions import;
+  std::vector<std::string> no_cast;
+  int cutout_limit = 1'000'000;      ///< triangles that cutting out alpha may add
+  bool cast_all = false;             ///< skies cast shadows too
+  std::optional<Transfer> transfer;  ///< none: the format's own
+  std::string environment;           ///< a Radiance picture; empty: none
+  bool plain = false;                ///< surfaces without textures and gloss (scene::make_plain)
+
+  std::optional<double> time_s;
+  double fps = 30.0;
+  std::optional<std::string> clip;
+
+  std::optional<std::string> camera;
+  std::optional<glm::vec3> eye;
+  glm::vec3 look_at{0.0f};
+  glm::vec3 up{0, 1, 0};
+  std::optional<double> fov_deg;
+  std::optional<Size> size;
+
+  LightEdits lights;
+};
+
+/// Adds SCENE, --scene, --no-cast, --cast-all, --cone-sides, --transfer, --environment, --surfaces,
+/// --set-light,
+/// --time, --fps, --clip and those of the camera, --size too; they are read into `options`, which must live
+/// as long. A command makes SCENE required with option_of(command, "SCENE").required().
+void add_scene_options(CLI::App& command, SceneOptions& options);
+
+/// Adds --texture-path; for commands without the options above.
+void add_texture_path(CLI::App& command, formats::ImportOptions& options);
+
+/// The options for another file in the place of this one: what speaks of no part of a scene stays.
+SceneOptions options_for(const std::string& file, const SceneOptions& before);
+
+/// What single options cannot check: combinations.
+Expected<void> check_scene_options(const SceneOptions& options);
+
+}  // namespace tenebra::viewer

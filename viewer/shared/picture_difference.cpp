@@ -1,0 +1,67 @@
+#include "shared/picture_difference.h"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <cstdlib>
+
+namespace tenebra::viewer {
+namespace {
+
+constexpr int largest_value = 255;
+
+using Pixel = std::array<int, 4>;
+
+/// Pixel `index` as red, green, blue, alpha.
+Pixel pixel_of(const base::Image8& image, std::size_t index) {
+  const std::uint8_t* values = image.pixels.data() + index * static_cast<std::size_t>(image.channels);
+  switch (image.channels) {
+    case 1:
+      return {values[0], values[0], values[0], largest_value};
+    case 2:
+      return {values[0], values[0], values[0], values[1]};
+    case 3:
+      return {values[0], values[1], values[2], largest_value};
+    default:
+      return {values[0], values[1], values[2], values[3]};
+  }
+}
+
+int largest_difference(const Pixel& a, const Pixel& b) {
+  int largest = 0;
+  for (std::size_t i = 0; i < a.size(); ++i) largest = std::max(largest, std::abs(a[i] - b[i]));
+  return largest;
+}
+
+}  // namespace
+
+PictureDifference compare_pictures(const base::Image8& a, const base::Image8& b, int threshold,
+                                   base::Image8* marked) {
+  PictureDifference result;
+  result.pixels = static_cast<std::size_t>(a.width) * static_cast<std::size_t>(a.height);
+  if (marked) *marked = {a.width, a.height, 3, std::vector<std::uint8_t>(result.pixels * 3)};
+  for (std::size_t i = 0; i < result.pixels; ++i) {
+    const Pixel in_a = pixel_of(a, i);
+    const int difference = largest_difference(in_a, pixel_of(b, i));
+    result.largest = std::max(result.largest, difference);
+    const bool differs = difference > threshold;
+    result.differing += differs ? 1 : 0;
+    if (!marked) continue;
+    const auto grey = static_cast<std::uint8_t>((in_a[0] + in_a[1] + in_a[2]) / 12);
+    std::uint8_t* out = marked->pixels.data() + i * 3;
+    out[0] = differs ? largest_value : grey;
+    out[1] = out[2] = differs ? 0 : grey;
+  }
+  return result;
+}
+
+base::Image8 absolute_difference(const base::Image8& a, const base::Image8& b, int gain) {
+  base::Image8 out{a.width, a.height, a.channels, std::vector<std::uint8_t>(a.pixels.size())};
+  for (std::size_t i = 0; i < out.pixels.size(); ++i) {
+    const int difference = std::abs(a.pixels[i] - b.pixels[i]) * gain;
+    out.pixels[i] = static_cast<std::uint8_t>(std::min(difference, largest_value));
+  }
+  return out;
+}
+
+}  // namespace tenebra::viewer

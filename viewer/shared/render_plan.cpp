@@ -1,0 +1,49 @@
+#include "shared/render_plan.h"
+
+#include <algorithm>
+
+#include "base/fail.h"
+#include "shared/scene_choice.h"
+
+namespace tenebra::viewer {
+namespace {
+
+Expected<std::vector<PlannedFrame>> plan_frames(const ScenePlan& plan, const RenderOptions& options) {
+  if (options.scene.time_s) return std::vector<PlannedFrame>{{0, *options.scene.time_s}};
+  const int count = frames_of_clip(plan.scene, plan.clip, options.scene.fps);
+  const FrameRange range = options.frames.value_or(FrameRange{0, 0, 1});
+  const int last = range.last.value_or(count - 1);
+  if (range.first >= count || last >= count) {
+    return base::fail("--frames: frame {} does not exist, {} has frames 0 to {}", std::max(range.first, last),
+                      plan.clip < 0 ? "the scene without animation" : "the animation", count - 1);
+  }
+  std::vector<PlannedFrame> frames;
+  for (long long frame = range.first; frame <= last; frame += range.step) {
+    const int number = static_cast<int>(frame);
+    frames.push_back({number, time_of_frame(plan.scene, plan.clip, number, options.scene.fps)});
+  }
+  return frames;
+}
+
+}  // namespace
+
+Expected<RenderPlan> plan_render(const RenderOptions& options) {
+  auto scene = plan_scene(options.scene);
+  if (!scene) return tl::unexpected(scene.error());
+  RenderPlan plan{std::move(*scene), {}, {}, false};
+  auto frames = plan_frames(plan, options);
+  if (!frames) return tl::unexpected(frames.error());
+  plan.frames = std::move(*frames);
+  plan.settings = method_settings(options.method, plan.size);
+  plan.settings.area_lights.own_size_m = edited_sizes_m(options.scene.lights);
+  plan.scene.lights = edited_lights(std::move(plan.scene.lights), options.scene.lights);
+  const int light = plan.settings.light;
+  // Emissive meshes follow the scene's lights; the renderer, which finds them, checks their number.
+  const bool emissive = plan.settings.area_lights.emissive_quads;
+  const auto lights = check_light(plan, emissive ? -1 : light, plan.frames.front().time_s);
+  if (!lights) return tl::unexpected(lights.error());
+  plan.several_lights = light < 0 && (*lights > 1 || emissive);
+  return plan;
+}
+
+}  // namespace tenebra::viewer

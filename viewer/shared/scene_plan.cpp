@@ -1,0 +1,112 @@
+#include "shared/scene_plan.h"
+
+#include <algorithm>
+#include <cmath>
+#include <numbers>
+
+#include "base/fail.h"
+#include "cutout/cutout.h"
+#include "scene/looks.h"
+#include "shared/scene_choice.h"
+
+namespace tenebra::viewer {
+namespace {
+
+constexpr Size default_size{800, 600};
+constexpr double default_fov_deg = 45.0;
+/// With --eye the near plane lies at this part of the way to the point looked at.
+constexpr float near_of_distance = 1e-3f;
+
+float radians(double degrees) {
+  return static_cast<float>(degrees * std::numbers::pi / 180.0);
+}
+
+Size plan_size(const Scene& scene, int camera, const SceneOptions& options) {
+  if (options.size) return *options.size;
+  const auto aspect = scene.cameras[static_cast<std::size_t>(camera)].aspect;
+  if (options.eye || !aspect || !(*aspect > 0)) return default_size;
+  const double height = std::clamp<double>(default_size.width / *aspect, 1.0, largest_side_px);
+  return {default_size.width, static_cast<int>(std::lround(height))};
+}
+
+Expected<void> apply_field_of_view(Scene& scene, int camera, const SceneOptions& options) {
+  if (!options.fov_deg || options.eye) return {};
+  Camera& chosen = scene.cameras[static_cast<std::size_t>(camera)];
+  if (chosen.projection == Projection::orthographic) {
+    return base::fail("--fov: camera {} ({}) is orthographic and has no field of view", camera, chosen.name);
+  }
+  chosen.vertical_fov_rad = radians(*options.fov_deg);
+  for (Clip& clip : scene.clips)
+    std::erase_if(clip.channels, [](const Channel& c) { return c.path == ChannelPath::camera_fov; });
+  return {};
+}
+
+/// Nodes may share a light: each gets its own, so that a light has the same number for --light, for
+/// --set-light and in the viewer's list.
+void number_lights(Scene& scene) {
+  std::vector<Light> lights;
+  for (Node& node : scene.nodes) {
+    if (node.light < 0) continue;
+    lights.push_back(scene.lights[static_cast<std::size_t>(node.light)]);
+    node.light = static_cast<int>(lights.size()) - 1;
+  }
+  scene.lights = std::move(lights);
+}
+
+}  // namespace
+
+Expected<ScenePlan> plan_scene(const SceneOptions& options) {
+  auto scene = formats::import_scene(options.file, options.import);
+  if (!scene) return tl::unexpected(scene.error());
+  ScenePlan plan;
+  plan.scene = std::move(*scene);
+  std::string unmatched;
+  if (!leave_out_casters(plan.scene, options.no_cast, unmatched)) {
+    return base::fail("--no-cast: {} names no mesh, material or FILE:LINE of the scene", unmatched);
+  }
+  if (options.transfer) plan.scene.transfer = *options.transfer;
+  if (!options.environment.empty()) {
+    auto picture = base::read_hdr(options.environment);
+    if (!picture) return base::fail("--environment: {}", picture.error().message);
+    plan.environment = std::move(*picture);
+  }
+  add_missing_camera_and_light(plan.scene);
+  number_lights(plan.scene);
+  cutout::cut_out_masks(plan.scene, {.most_added = static_cast<std::size_t>(options.cutout_limit)});
+  scene::leave_out_blank_emission(plan.scene);
+  if (options.plain) scene::make_plain(plan.scene);
+  if (!options.cast_all) leave_out_covers(plan.scene);
+  if (options.lights.size() > plan.scene.lights.size()) {
+    return base::fail("--set-light: found light {}, the scene has lights 0 to {}", options.lights.size() - 1,
+                      static_cast<int>(plan.scene.lights.size()) - 1);
+  }
+
+  const auto clip = choose_clip(plan.scene, options.clip);
+  if (!clip) return tl::unexpected(clip.error());
+  plan.clip = *clip;
+  const auto camera = choose_camera(plan.scene, options.camera);
+  if (!camera) return tl::unexpected(camera.error());
+  plan.camera = *camera;
+  plan.size = plan_size(plan.scene, plan.camera, options);
+  if (auto applied = apply_field_of_view(plan.scene, plan.camera, options); !applied) {
+    return tl::unexpected(applied.error());
+  }
+  return plan;
+}
+
+ViewRays view_of(const ScenePlan& plan, const SceneOptions& options, double time_s, Size size) {
+  if (!options.eye) {
+    return evaluate_camera(plan.scene, plan.clip, time_s, plan.camera, size.width, size.height);
+  }
+  const float near_m = near_of_distance * glm::distance(*options.eye, options.look_at);
+  return look_at(*options.eye, options.look_at, options.up,
+                 radians(options.fov_deg.value_or(default_fov_deg)), near_m, size.width, size.height);
+}
+
+Expected<int> check_light(const ScenePlan& plan, int light, double time_s) {
+  const int count = static_cast<int>(evaluate_lights(plan.scene, plan.clip, time_s).size());
+  if (light >= count) return base::fail("--light: found {}, the scene has lights 0 to {}", light, count - 1);
+  return count;
+}
+
+}  // namespace tenebra::viewer

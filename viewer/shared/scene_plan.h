@@ -1,0 +1,29 @@
+// A scene made ready for drawing: loaded, with its clip and camera chosen. `tenebra render` and `tenebra
+// view` share it.
+#pragma once
+
+#include <tenebra/frame_geometry.h>
+#include "base/image.h"
+#include "options/scene_options.h"
+
+namespace tenebra::viewer {
+
+struct ScenePlan {
+  Scene scene;  ///< with cameras and lights added and casters left out; Scene::lights in the order of the
+                ///< nodes that have them, each node its own
+  int clip = -1;
+  int camera = 0;  ///< index into scene.cameras; unused with --eye
+  Size size;       ///< --size, or what the camera asks for
+  std::optional<base::ImageF> environment;
+};
+
+/// Imports the scene and fits the options to it. Fails on what the scene does not have.
+Expected<ScenePlan> plan_scene(const SceneOptions& options);
+
+/// The camera of the options at one instant, for a picture of `size`.
+ViewRays view_of(const ScenePlan& plan, const SceneOptions& options, double time_s, Size size);
+
+/// Fails if the scene lacks light `light` (-1: all) at `time_s`; else the number of its lights.
+Expected<int> check_light(const ScenePlan& plan, int light, double time_s);
+
+}  // namespace tenebra::viewer

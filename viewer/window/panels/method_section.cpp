@@ -1,0 +1,235 @@
+// Scene and method: what is looked at, how its light is computed.
+#include <fmt/core.h>
+#include <cmath>
+#include <filesystem>
+
+#include "window/panels/panels.h"
+
+namespace tenebra::viewer {
+namespace {
+
+constexpr std::array variants{Variant::tiles,        Variant::precise,        Variant::precise_sorted,
+                              Variant::spheres,      Variant::spheres_sorted, Variant::precise_sea,
+                              Variant::precise_eatp, Variant::precise_seatp};
+constexpr std::array levels{SimdLevel::automatic, SimdLevel::scalar, SimdLevel::sse4, SimdLevel::avx2,
+                            SimdLevel::avx512};
+constexpr std::array bit_choices{Choice<int>{"1", 1}, Choice<int>{"8", 8}, Choice<int>{"32", 32}};
+
+bool number(Ui& ui, const char* name, int& value, int low, int high, int step) {
+  ImGui::PushID(name);
+  const bool changed =
+      ImGui::InputInt("##value", &value, step, step * 8, ImGuiInputTextFlags_EnterReturnsTrue);
+  ImGui::PopID();
+  ui.mark(name);
+  if (changed) value = std::clamp(value, low, high);
+  return changed;
+}
+
+void edit_hard(Ui& ui, MethodOptions& method) {
+  HardShadowConfig& hard = method.render.hard;
+  row(ui, "Variant",
+      "Tiles (ours) or one of the seven of Olsson and Assarsson's Table 1; the mask is the same with each.");
+  if (ImGui::BeginCombo("##variant", std::string(variant_name(hard.variant)).c_str())) {
+    for (const Variant variant : variants) {
+      const std::string name =
+          std::string(variant_name(variant)) + (variant == HardShadowConfig{}.variant ? "  (default)" : "");
+      if (ImGui::Selectable(name.c_str(), variant == hard.variant)) hard.variant = variant;
+      ui.mark("variant." + std::string(variant_name(variant)));
+    }
+    ImGui::EndCombo();
+  }
+  ui.mark("variant");
+  row(ui, "Samples",
+      "Where rays start: at exact points, from triangle ids, or as in the paper from the depth buffer.");
+  choose(ui, "samples", sample_choices, method.render.samples);
+  if (method.render.samples == render::SampleSource::depth && method.render.ao.mode != AoMode::none) {
+    method.render.ao.mode = AoMode::none;
+  }
+  row(ui, "Cull", "front: only faces turned away from the light cast shadows; for closed meshes.");
+  bool cull = method.cull_front.value_or(method.render.samples == render::SampleSource::depth);
+  if (choose(ui, "cull", cull_choices, cull)) method.cull_front = cull;
+}
+
+void edit_light_size(Ui& ui, MethodOptions& method) {
+  row(ui, "Light size",
+      "Turns point and spot lights into rectangles; they keep their light. 0: they stay points.");
+  LightSize size = method.light_size.value_or(LightSize{});
+  float metres[2] = {size.size.x, size.size.y};
+  bool changed =
+      ImGui::DragFloat2("##light size", metres, 0.01f, 0, 1000, size.percent ? "%.2f %%" : "%.2f m");
+  ui.mark("light size");
+  row(ui, "");
+  changed |= ImGui::Checkbox("% of the scene's diagonal", &size.percent);
+  if (changed) {
+    size.size = {std::max(metres[0], 0.0f), std::max(metres[1], 0.0f)};
+    method.light_size.reset();
+    if (size.size.x > 0 && size.size.y > 0) method.light_size = size;
+    if (!method.light_size) method.render.area_lights.facing.reset();
+  }
+  if (!method.light_size) return;
+  row(ui, "Facing", "What those rectangles face: the scene's centre, or this point.");
+  std::optional<glm::vec3>& facing = method.render.area_lights.facing;
+  bool own = facing.has_value();
+  if (ImGui::Checkbox("a point", &own)) {
+    facing.reset();
+    if (own) facing = ui.state.centre;
+  }
+  if (facing) {
+    row(ui, "");
+    ImGui::DragFloat3("##facing", &facing->x, 0.05f, 0, 0, "%.2f");
+  }
+}
+
+void edit_soft(Ui& ui, MethodOptions& method) {
+  SoftShadowConfig& soft = method.render.soft;
+  // What soft shadows have no use for must not stay behind from the hard ones.
+  method.render.samples = render::SampleSource::ids;
+  method.cull_front.reset();
+  edit_light_size(ui, method);
+  row(ui, "Emissive", "Flat convex meshes with an emissive material are lights too.");
+  ImGui::Checkbox("quads shine##emissive", &method.render.area_lights.emissive_quads);
+  row(ui, "Solver",
+      "How the visible part of the light is found: the lazy BSP of Mora et al., clipping, or automatic.");
+  choose(ui, "solver", solver_choices, soft.solver);
+  row(ui, "Groups", "Points that are solved together.");
+  choose(ui, "grouping", grouping_choices, soft.grouping);
+  row(ui, "Occluder", "Which occluder the BSP takes next.");
+  choose(ui, "occluder", occluder_choices, soft.choice);
+  row(ui, "Precision", "reference: double precision throughout.");
+  choose(ui, "precision", precision_choices, soft.precision);
+  row(ui, "Points", "Replaces the light by so many points with exact hard shadows. 0: exact soft shadows.");
+  number(ui, "soft points", method.render.soft_points, 0, 4096, 4);
+}
+
+void edit_ao(Ui& ui, AoConfig& ao) {
+  row(ui, "At", "Where it is computed; in the paper: at vertices.");
+  choose(ui, "place", place_choices, ao.place);
+  row(ui, "Rays", "Per point, weighted by the cosine.");
+  number(ui, "ao rays", ao.rays, 1, 65536, 16);
+  row(ui, "Downscale", "N computes one of N x N pixels; the others are blurred from similar ones.");
+  number(ui, "ao downscale", ao.downscale, 1, 8, 1);
+  row(ui, "Distance", "Beyond it nothing occludes, in metres. 0: a twentieth of the scene's diagonal.");
+  ImGui::InputDouble("##distance", &ao.distance_m, 0, 0, ao.distance_m > 0 ? "%.3f m" : "automatic",
+                     ImGuiInputTextFlags_EnterReturnsTrue);
+  ui.mark("ao distance");
+  if (!(ao.distance_m >= 0)) ao.distance_m = 0;
+  if (ao.mode != AoMode::field) return;
+  row(ui, "Layout",
+      "What a field stores: chords from entry to exit, or as in the paper positions x directions.");
+  choose(ui, "layout", layout_choices, ao.layout);
+  row(ui, "Positions", "Samples on an object's bounding sphere.");
+  number(ui, "ao positions", ao.positions, 1, 1 << 20, 256);
+  row(ui, "Directions", "Per position; a square number.");
+  int side = static_cast<int>(std::lround(std::sqrt(ao.directions)));
+  if (number(ui, "ao directions", side, 1, 1024, 4)) ao.directions = side * side;
+  tooltip("The side of the square: 32 stands for 1024 directions.");
+  row(ui, "Bits", "Per stored distance.");
+  choose(ui, "bits", bit_choices, ao.bits);
+  row(ui, "Deforming", "What deforms has no field: rays meet it, or it is left out.");
+  choose(ui, "deforming", deforming_choices, ao.deforming);
+  row(ui, "Cache", "Folder that keeps built fields for the next run.");
+  bool kept = !ao.cache.empty();
+  if (ImGui::Checkbox("keep built fields", &kept))
+    ao.cache = kept ? default_cache_folder() : std::filesystem::path();
+  if (kept) tooltip(ao.cache.c_str());
+}
+
+/// Which preset the settings are; none where they are their own.
+std::optional<render::Quality> quality_of(const render::RenderSettings& render) {
+  for (const render::Quality quality : render::qualities) {
+    render::RenderSettings preset = render;
+    render::apply_quality(quality, preset);
+    if (preset.soft_points == render.soft_points && preset.ao.rays == render.ao.rays &&
+        preset.ao.downscale == render.ao.downscale)
+      return quality;
+  }
+  return std::nullopt;
+}
+
+void choose_quality(Ui& ui, render::RenderSettings& render) {
+  row(ui, "Quality", "What soft shadows and ambient occlusion may cost. Sets points, rays and downscale.");
+  std::array<const char*, render::qualities.size()> names;
+  for (std::size_t i = 0; i < names.size(); ++i)
+    names[i] = render::quality_name(render::qualities[i]).data();  // literals
+  const auto now = quality_of(render);
+  int chosen = now ? static_cast<int>(*now) : -1;
+  if (segments(ui, "quality", names.data(), static_cast<int>(names.size()), chosen))
+    render::apply_quality(render::qualities[static_cast<std::size_t>(chosen)], render);
+}
+
+void edit_machine(Ui& ui, render::RenderSettings& render) {
+  row(ui, "Exposure", "Multiplies all light.");
+  ImGui::SliderFloat("##exposure", &render.exposure, 0.01f, 100.0f, "%.3g", ImGuiSliderFlags_Logarithmic);
+  ui.mark("exposure");
+  if (!(render.exposure > 0)) render.exposure = 1;
+  row(ui, "Threads", "0: all cores.");
+  number(ui, "threads", render.threads, 0, 1024, 1);
+  row(ui, "SIMD", "Vector instructions; the masks are the same with each.");
+  if (ImGui::BeginCombo("##simd", std::string(simd_level_name(render.hard.simd)).c_str())) {
+    for (const SimdLevel level : levels) {
+      if (level != SimdLevel::automatic && !simd_level_supported(level)) continue;
+      if (ImGui::Selectable(std::string(simd_level_name(level)).c_str(), level == render.hard.simd)) {
+        render.hard.simd = level;
+      }
+    }
+    ImGui::EndCombo();
+  }
+  ui.mark("simd");
+}
+
+}  // namespace
+
+void draw_scene_section(Ui& ui) {
+  if (!ui.state.scene) return;
+  const Scene& scene = ui.state.scene->scene;
+  const std::string name = std::filesystem::path(ui.state.options.file).filename().string();
+  ImGui::TextUnformatted(name.c_str());
+  tooltip(fmt::format("{}\n{} nodes, {} meshes, {} lights. Drop a scene file on the window to open it.",
+                      ui.state.options.file, scene.nodes.size(), scene.meshes.size(), scene.lights.size())
+              .c_str());
+  ImGui::SameLine(ImGui::GetContentRegionMax().x - ImGui::CalcTextSize("? keys").x);
+  dim_text("? keys");
+  if (ImGui::IsItemClicked()) ui.state.help = true;
+  if (scene.clips.size() < 2) return;
+  row(ui, "Animation");
+  const auto clip_name = [&](int clip) {
+    const std::string& own = scene.clips[static_cast<std::size_t>(clip)].name;
+    return own.empty() ? fmt::format("animation {}", clip) : own;
+  };
+  if (ImGui::BeginCombo("##clip", clip_name(ui.state.clip).c_str())) {
+    for (int i = 0; i < static_cast<int>(scene.clips.size()); ++i) {
+      ImGui::PushID(i);
+      if (ImGui::Selectable(clip_name(i).c_str(), i == ui.state.clip)) choose_clip(ui.state, i);
+      ui.mark(fmt::format("clip.{}", i));
+      ImGui::PopID();
+    }
+    ImGui::EndCombo();
+  }
+  ui.mark("clip");
+}
+
+void draw_method_section(Ui& ui) {
+  if (!section(ui, "Method", true)) return;
+  ViewState& state = ui.state;
+  constexpr const char* slots[] = {"A", "B"};
+  row(ui, "Slot", "Two methods with their settings. X flips between them; Compare shows both.");
+  if (segments(ui, "slot", slots, 2, state.active) && state.compare && state.show <= CompareView::b) {
+    state.show = state.active == 0 ? CompareView::a : CompareView::b;
+  }
+  MethodOptions& method = state.method();
+  choose_quality(ui, method.render);
+  row(ui, "Shadows");
+  choose(ui, "shadows", shadow_choices, method.render.shadows);
+  if (method.render.shadows == render::ShadowMode::hard) edit_hard(ui, method);
+  if (method.render.shadows == render::ShadowMode::soft) edit_soft(ui, method);
+  row(ui, "Occlusion",
+      "Ambient occlusion: by displacement fields of rigid objects, or by rays, to compare with.");
+  choose(ui, "ao", ao_choices, method.render.ao.mode);
+  if (method.render.ao.mode != AoMode::none) {
+    method.render.samples = render::SampleSource::ids;
+    edit_ao(ui, method.render.ao);
+  }
+  edit_machine(ui, method.render);
+}
+
+}  // namespace tenebra::viewer

@@ -1,0 +1,47 @@
+// The parts of the window, each drawn by one function in a file of its own. They change the state and ask for
+// actions; none touches the worker, the files or the window system.
+#pragma once
+
+#include "window/panels/ui.h"
+#include "window/view_textures.h"
+
+namespace tenebra::viewer {
+
+struct Area {
+  ImVec2 low, size;
+};
+
+/// Where the picture, the panel and the transport bar go in a window of `window`: the panel only where there
+/// is room for it.
+struct Layout {
+  Area view, panel, transport;
+  bool has_panel = false;
+};
+Layout layout_of(const Ui& ui, ImVec2 window);
+
+/// Pixels that a picture has there, if its size is not fixed: half of the width side by side.
+Size picture_size(const ViewState& state, Area view, float pixels_a_unit);
+
+void draw_view(Ui& ui, const ViewTextures& textures, Area area);  ///< the picture, and the hand on it
+void draw_transport(Ui& ui, Area area);                           ///< play, scrubber, speed
+void draw_panel(Ui& ui, Area area);                               ///< all sections below
+void draw_scene_section(Ui& ui);
+void draw_method_section(Ui& ui);
+void draw_light_section(Ui& ui);
+void draw_camera_section(Ui& ui);
+void draw_compare_section(Ui& ui);
+void draw_cost_section(Ui& ui);
+void draw_help(Ui& ui, ImVec2 window);  ///< the overlay of keys
+void draw_progress(Ui& ui, Area view);  ///< what takes long, and its cancel button
+
+/// Keys that act wherever the pointer is; `seconds` since the last call moves a flying camera.
+void handle_keys(Ui& ui, float seconds);
+bool flies(const ImGuiIO& io);  ///< a key that moves the camera is down
+
+/// Changes that several parts offer.
+void toggle_playing(ViewState& state);
+void leave_scene_camera(Ui& ui, CameraMode mode);
+void flip_slots(ViewState& state);
+void choose_clip(ViewState& state, int clip);
+
+}  // namespace tenebra::viewer

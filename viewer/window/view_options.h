@@ -1,0 +1,49 @@
+// The options of `tenebra view`: scene and method as every command has them, and what its window can be set
+// to.
+#pragma once
+
+#include <optional>
+#include <string>
+
+#include "gl/context.h"
+#include "options/method_options.h"
+#include "options/output_pattern.h"
+#include "options/scene_options.h"
+#include "window/view_state.h"
+
+namespace tenebra::viewer {
+
+struct ViewOptions {
+  SceneOptions scene;
+  MethodOptions method;
+  gl::ContextKind context = gl::ContextKind::automatic;
+
+  Size window{1280, 720};
+  bool panel = true;
+  bool play = false;
+  double speed = 1;
+  bool loop = true;
+  bool fixed_step = false;
+  CameraMode navigate = CameraMode::scene;
+  std::shared_ptr<const ScenePlan> plan;  ///< of `scene`, if it is there already
+  std::optional<std::string> compare_text;
+  std::optional<MethodOptions> compare;  ///< slot B, of compare_text
+  CompareView show = CompareView::wipe;
+  float wipe = 0.5f;
+  Overlay overlay = Overlay::none;
+
+  std::optional<OutputPattern> shots;  ///< names of screenshots
+  std::optional<OutputPattern> record;
+  std::string log;
+  int exit_after = 0;  ///< pictures; 0: stay
+  std::string report;
+  bool gl_debug = false;
+};
+
+/// Adds the options to `command`; they are read into `options`, which must live as long.
+void add_view_options(CLI::App& command, ViewOptions& options);
+
+/// What single options cannot check, and what follows from combinations of them.
+Expected<void> settle_view_options(ViewOptions& options);
+
+}  // namespace tenebra::viewer
