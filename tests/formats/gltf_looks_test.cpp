@@ -11,7 +11,7 @@
 #include <nlohmann/json.hpp>
 #include <set>
 
-#include "formats/image_decode.h"
+#include "formats/images/decode.h"
 #include "formats/import_scene.h"
 #include "pictures.h"
 #include "support/temporary_folder.h"

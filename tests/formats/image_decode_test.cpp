@@ -1,7 +1,7 @@
 // Pictures of all kinds, whole, broken, and larger than they may be.
 #include <gtest/gtest.h>
 
-#include "formats/image_decode.h"
+#include "formats/images/decode.h"
 #include "formats/import_failure.h"
 #include "pictures.h"
 

@@ -1,0 +1,46 @@
+// import_gltf: the stages in their order; the only place that knows them all.
+#include <exception>
+
+#include "base/fail.h"
+#include "formats/gltf/model.h"
+#include "formats/import_scene.h"
+#include "formats/scene_file.h"
+
+namespace tenebra::formats {
+namespace {
+
+Scene read_gltf(const std::filesystem::path& path, const ImportOptions& options) {
+  const std::string bytes = read_scene_file(path);
+  gltf::Asset asset;
+  asset.scene.name = path.filename().string();
+  constexpr std::uint64_t least = std::uint64_t{96} << 20;  // of the 256 MiB that a file of any size may take
+  asset.budget = gltf::Budget(least + 8 * bytes.size());
+  gltf::load_model(path, bytes, asset);
+  gltf::choose_scene(asset, options.scene);
+  gltf::check_accessors(asset);
+  gltf::build_materials(asset, path.parent_path(), options.texture_paths);
+  gltf::build_cameras(asset);
+  gltf::build_lights(asset);
+  gltf::build_meshes(asset);
+  const std::vector<int> scene_node = gltf::build_nodes(asset);
+  gltf::build_surroundings(asset);
+  gltf::build_skins(asset, scene_node);
+  gltf::build_clips(asset, scene_node);
+  return std::move(asset.scene);
+}
+
+}  // namespace
+
+Expected<Scene> import_gltf(const std::filesystem::path& path, const ImportOptions& options) {
+  try {
+    return read_gltf(path, options);
+  } catch (const ImportFailure& failure) {
+    return base::fail("{}: {}.", path.string(), failure.what());
+  } catch (const std::bad_alloc&) {
+    return base::fail("{}: found more than the memory can hold, expected a smaller scene.", path.string());
+  } catch (const std::exception& error) {
+    return base::fail("{}: found a fault ({}), expected a glTF file.", path.string(), error.what());
+  }
+}
+
+}  // namespace tenebra::formats

@@ -1,0 +1,340 @@
+// Nodes and skins of a glTF file: a strict forest, flattened without recursion.
+#include <fmt/core.h>
+#include <algorithm>
+#include <cmath>
+
+#include "formats/gltf/model.h"
+
+namespace tenebra::formats::gltf {
+namespace {
+
+std::vector<int> find_parents(const Model& model) {
+  std::vector<int> parents(model.nodes.size(), -1);
+  for (std::size_t i = 0; i < model.nodes.size(); ++i)
+    for (const int child : model.nodes[i].children) {
+      int& parent = parents[static_cast<std::size_t>(child)];
+      if (parent >= 0)
+        refuse("nodes[{}].children: found node {} with parent {} already, expected one parent", i, child,
+               parent);
+      parent = static_cast<int>(i);
+    }
+  return parents;
+}
+
+/// Depth-first from `roots`, parents before children; nodes on a cycle are never reached from a root.
+std::vector<int> order_from(const Model& model, const std::vector<int>& roots) {
+  std::vector<int> order, stack(roots.rbegin(), roots.rend());
+  while (!stack.empty()) {
+    const int node = stack.back();
+    stack.pop_back();
+    order.push_back(node);
+    const auto& children = model.nodes[static_cast<std::size_t>(node)].children;
+    stack.insert(stack.end(), children.rbegin(), children.rend());
+  }
+  return order;
+}
+
+void check_reached(const std::vector<int>& order, std::size_t count) {
+  std::vector<bool> reached(count, false);
+  for (const int node : order) reached[static_cast<std::size_t>(node)] = true;
+  const auto lost = std::find(reached.begin(), reached.end(), false);
+  if (lost != reached.end())
+    refuse("nodes[{}]: found it in or below a loop of children, expected every node to hang from a root",
+           lost - reached.begin());
+}
+
+std::vector<int> default_roots(Asset& asset, const std::vector<int>& parents) {
+  const Model& model = asset.model;
+  std::vector<int> roots;
+  for (std::size_t i = 0; i < parents.size(); ++i)
+    if (parents[i] < 0) roots.push_back(static_cast<int>(i));
+  check_reached(order_from(model, roots), model.nodes.size());
+  for (std::size_t s = 0; s < model.scenes.size(); ++s)
+    for (const int node : model.scenes[s].nodes)
+      if (parents[static_cast<std::size_t>(node)] >= 0)
+        refuse("scenes[{}].nodes: found node {} which is a child, expected root nodes", s, node);
+  auto& warnings = asset.scene.warnings;
+  if (model.scenes.empty()) {
+    if (!roots.empty()) warnings.push_back("The file has no scenes: all root nodes are shown.");
+    return roots;
+  }
+  if (asset.scene_chosen) return model.scenes[static_cast<std::size_t>(model.defaultScene)].nodes;
+  if (model.defaultScene < 0) warnings.push_back("The file names no default scene: the first is shown.");
+  if (model.scenes.size() > 1)
+    warnings.push_back(fmt::format("The file has {} scenes: number {} is shown, --scene shows another.",
+                                   model.scenes.size(), std::max(model.defaultScene, 0)));
+  return model.scenes[static_cast<std::size_t>(std::max(model.defaultScene, 0))].nodes;
+}
+
+glm::dmat4 to_matrix(const std::vector<double>& m) {
+  glm::dmat4 result;
+  for (int i = 0; i < 16; ++i) result[i / 4][i % 4] = m[static_cast<std::size_t>(i)];
+  return result;
+}
+
+/// Splits a matrix into translation, rotation and scale where its columns are at right angles.
+bool decompose(const glm::dmat4& m, Node& node) {
+  glm::dvec3 x(m[0]), y(m[1]), z(m[2]);
+  glm::dvec3 scale(glm::length(x), glm::length(y), glm::length(z));
+  constexpr double slack = 1e-6;  // relative to the lengths: matrices in files have six or more digits
+  if (std::min({scale.x, scale.y, scale.z}) <= 0) return false;
+  if (std::abs(glm::dot(x, y)) > slack * scale.x * scale.y ||
+      std::abs(glm::dot(y, z)) > slack * scale.y * scale.z ||
+      std::abs(glm::dot(z, x)) > slack * scale.z * scale.x)
+    return false;
+  if (glm::dot(glm::cross(x, y), z) < 0) scale.x = -scale.x;
+  node.translation = glm::dvec3(m[3]);
+  node.rotation = glm::normalize(glm::quat_cast(glm::dmat3(x / scale.x, y / scale.y, z / scale.z)));
+  node.scale = scale;
+  return true;
+}
+
+void set_matrix(Asset& asset, const tinygltf::Node& source, int index, Node& node) {
+  if (!source.translation.empty() || !source.rotation.empty() || !source.scale.empty())
+    refuse("nodes[{}].matrix: found beside translation, rotation or scale, expected one or the other", index);
+  const auto& m = source.matrix;
+  if (m[3] != 0 || m[7] != 0 || m[11] != 0 || m[15] != 1)
+    refuse("nodes[{}].matrix: found a last row that is not 0 0 0 1, expected an affine matrix", index);
+  node.matrix = to_matrix(m);
+  if (decompose(*node.matrix, node)) {
+    node.matrix.reset();
+  } else {
+    asset.scene.warnings.push_back(fmt::format(
+        "nodes[{}].matrix: found no product of translation, rotation and scale; used as it stands.", index));
+  }
+}
+
+void set_transform(Asset& asset, const tinygltf::Node& source, int index, Node& node) {
+  if (!source.matrix.empty()) return set_matrix(asset, source, index, node);
+  const auto vec3 = [](const std::vector<double>& v) { return glm::dvec3(v[0], v[1], v[2]); };
+  if (!source.translation.empty()) node.translation = vec3(source.translation);
+  if (!source.scale.empty()) node.scale = vec3(source.scale);
+  if (source.rotation.empty()) return;
+  const auto& r = source.rotation;
+  const glm::dquat rotation(r[3], r[0], r[1], r[2]);
+  const double length = glm::length(rotation);
+  if (length == 0) refuse("nodes[{}].rotation: found zeros, expected a unit quaternion", index);
+  if (std::abs(length - 1) > 5e-3)
+    asset.scene.warnings.push_back(
+        fmt::format("nodes[{}].rotation: found length {}; made 1.", index, length));
+  node.rotation = rotation / length;
+}
+
+void set_mesh(const Asset& asset, const tinygltf::Node& source, int index, Node& node) {
+  node.mesh = source.mesh;
+  node.skin = source.skin;
+  if (source.skin >= 0 && source.mesh < 0)
+    refuse("nodes[{}].skin: found no mesh beside it, expected one", index);
+  if (source.skin >= 0 && asset.scene.meshes[static_cast<std::size_t>(source.mesh)].joints.empty() &&
+      !asset.scene.meshes[static_cast<std::size_t>(source.mesh)].triangles.empty())
+    refuse("nodes[{}].skin: found a mesh without JOINTS_0 in all primitives, expected them", index);
+  if (source.weights.empty()) return;
+  const std::size_t targets =
+      source.mesh < 0 ? 0 : asset.scene.meshes[static_cast<std::size_t>(source.mesh)].morph_targets.size();
+  if (source.weights.size() != targets)
+    refuse("nodes[{}].weights: found {}, expected the {} morph targets of its mesh", index,
+           source.weights.size(), targets);
+  node.weights.assign(source.weights.begin(), source.weights.end());
+}
+
+/// Lights of a node: punctual ones come first in Scene::lights, area lights after them.
+std::vector<int> lights_of(const Asset& asset, const tinygltf::Node& source, int index) {
+  std::vector<int> lights;
+  const std::size_t punctual = asset.model.lights.size();
+  const auto add = [&](const char* extension, std::size_t first, std::size_t count) {
+    const auto found = source.extensions.find(extension);
+    if (found == source.extensions.end()) return;
+    const double light = number_or(found->second, "light", 0);
+    if (!(light < static_cast<double>(count)))
+      refuse("nodes[{}].extensions.{}.light: found reference {}, expected one of the {} lights", index,
+             extension, light, count);
+    lights.push_back(static_cast<int>(first + static_cast<std::size_t>(light)));
+  };
+  add("KHR_lights_punctual", 0, punctual);
+  add("EXT_lights_area", punctual, asset.scene.lights.size() - punctual);
+  return lights;
+}
+
+Node read_node(Asset& asset, int index) {
+  const auto& source = asset.model.nodes[static_cast<std::size_t>(index)];
+  Node node;
+  node.name = source.name;
+  set_transform(asset, source, index, node);
+  set_mesh(asset, source, index, node);
+  node.camera = source.camera;
+  const auto visibility = source.extensions.find("KHR_node_visibility");
+  if (visibility != source.extensions.end())
+    if (const Value* visible = member(visibility->second, "visible")) node.visible = visible->Get<bool>();
+  return node;
+}
+
+/// `extras.casts_shadow: false` on a node goes to a copy of its mesh, shared by all nodes that say so.
+void leave_out(Asset& asset, Node& node, std::vector<int>& silent_mesh) {
+  if (node.mesh < 0) return;
+  int& copy = silent_mesh[static_cast<std::size_t>(node.mesh)];
+  auto& meshes = asset.scene.meshes;
+  if (copy < 0) {
+    copy = static_cast<int>(meshes.size());
+    const Mesh& mesh = meshes[static_cast<std::size_t>(node.mesh)];
+    asset.budget.take(mesh.positions.size() * (1 + mesh.morph_targets.size()) + mesh.triangles.size(), 48,
+                      mesh.source);
+    meshes.push_back(Mesh(mesh));
+    meshes.back().casts_shadow = false;
+  }
+  node.mesh = copy;
+}
+
+/// A mesh can stand at any number of nodes: the frame that is made of them must have an end.
+void check_size(const Scene& scene) {
+  constexpr std::size_t most = 50'000'000;
+  std::size_t triangles = 0, vertices = 0;
+  for (const Node& node : scene.nodes) {
+    if (node.mesh < 0) continue;
+    triangles += scene.meshes[static_cast<std::size_t>(node.mesh)].triangles.size();
+    vertices += scene.meshes[static_cast<std::size_t>(node.mesh)].positions.size();
+  }
+  if (triangles > most || vertices > most)
+    refuse("nodes: found {} triangles and {} vertices, instances counted, expected at most {} of each",
+           triangles, vertices, most);
+}
+
+}  // namespace
+
+std::vector<int> build_nodes(Asset& asset) {
+  const Model& model = asset.model;
+  const std::vector<int> parents = find_parents(model);
+  const std::vector<int> order = order_from(model, default_roots(asset, parents));
+  std::vector<int> scene_node(model.nodes.size(), -1);
+  std::vector<int> silent_mesh(asset.scene.meshes.size(), -1);
+  for (std::size_t i = 0; i < model.nodes.size(); ++i) {  // nodes that are not shown must be right too
+    Node checked = read_node(asset, static_cast<int>(i));
+    lights_of(asset, model.nodes[i], static_cast<int>(i));
+  }
+  const std::size_t warned = asset.scene.warnings.size();
+  for (const int index : order) {
+    Node node = read_node(asset, index);
+    const auto& source = model.nodes[static_cast<std::size_t>(index)];
+    const int parent = parents[static_cast<std::size_t>(index)];
+    node.parent = parent < 0 ? -1 : scene_node[static_cast<std::size_t>(parent)];
+    if (says_no_shadow(source.extras)) leave_out(asset, node, silent_mesh);
+    const std::vector<int> lights = lights_of(asset, source, index);
+    if (!lights.empty()) node.light = lights[0];
+    const int self = static_cast<int>(asset.scene.nodes.size());
+    scene_node[static_cast<std::size_t>(index)] = self;
+    asset.scene.nodes.push_back(std::move(node));
+    if (lights.size() > 1) {
+      Node second;
+      second.parent = self;
+      second.light = lights[1];
+      asset.scene.nodes.push_back(std::move(second));
+    }
+  }
+  asset.scene.warnings.resize(warned);  // the first reading has said it
+  for (std::size_t i = 0; i < scene_node.size(); ++i)
+    if (scene_node[i] >= 0) add_instances(asset, static_cast<int>(i), scene_node[i]);
+  check_size(asset.scene);
+  return scene_node;
+}
+
+void choose_scene(Asset& asset, const std::string& wanted) {
+  if (wanted.empty()) return;
+  const auto& scenes = asset.model.scenes;
+  std::string list;
+  std::size_t chosen = scenes.size();
+  for (std::size_t i = scenes.size(); i-- > 0;) {
+    list = fmt::format("{} '{}'{}{}", i, scenes[i].name, list.empty() ? "" : ", ", list);
+    if (wanted == std::to_string(i)) chosen = i;
+  }
+  for (std::size_t i = scenes.size(); i-- > 0;)
+    if (scenes[i].name == wanted) chosen = i;
+  constexpr std::size_t longest = 400;
+  if (list.size() > longest) list = list.substr(0, longest) + "...";
+  if (chosen == scenes.size())
+    refuse("scenes: found none called or numbered '{}', expected {}", wanted,
+           scenes.empty() ? "no choice, as the file has none" : "one of " + list);
+  asset.model.defaultScene = static_cast<int>(chosen);
+  asset.scene_chosen = true;
+}
+
+namespace {
+
+void check_common_root(const std::vector<int>& joints, const std::vector<int>& parents, std::size_t skin) {
+  std::vector<int> root(parents.size(), -1);  // known roots, so that long chains are climbed once
+  int common = -1;
+  for (const int joint : joints) {
+    int top = joint;
+    while (parents[static_cast<std::size_t>(top)] >= 0 && root[static_cast<std::size_t>(top)] < 0)
+      top = parents[static_cast<std::size_t>(top)];
+    if (root[static_cast<std::size_t>(top)] >= 0) top = root[static_cast<std::size_t>(top)];
+    for (int node = joint; node >= 0 && root[static_cast<std::size_t>(node)] < 0;
+         node = parents[static_cast<std::size_t>(node)])
+      root[static_cast<std::size_t>(node)] = top;
+    if (common >= 0 && top != common)
+      refuse("skins[{}].joints: found joints under different roots, expected one", skin);
+    common = top;
+  }
+}
+
+void check_joints_in_range(const Asset& asset) {
+  for (std::size_t n = 0; n < asset.scene.nodes.size(); ++n) {
+    const Node& node = asset.scene.nodes[n];
+    if (node.skin < 0) continue;
+    const Mesh& mesh = asset.scene.meshes[static_cast<std::size_t>(node.mesh)];
+    const std::size_t joints = asset.scene.skins[static_cast<std::size_t>(node.skin)].joints.size();
+    for (const auto* list : {&mesh.joints, &mesh.more_joints})
+      for (const glm::u16vec4& vertex : *list)
+        for (int c = 0; c < 4; ++c)
+          if (vertex[c] >= joints)
+            refuse("{} JOINTS_{}: found joint {}, expected less than the {} of skins[{}]", mesh.source,
+                   list == &mesh.joints ? 0 : 1, vertex[c], joints, node.skin);
+  }
+}
+
+void check_last_rows(Asset& asset, const std::vector<double>& matrices, std::size_t skin) {
+  std::size_t odd = 0;
+  for (std::size_t i = 0; i + 16 <= matrices.size(); i += 16)
+    odd += matrices[i + 3] != 0 || matrices[i + 7] != 0 || matrices[i + 11] != 0 || matrices[i + 15] != 1;
+  if (odd > 0)
+    asset.scene.warnings.push_back(fmt::format(
+        "skins[{}].inverseBindMatrices: found {} with a last row that is not 0 0 0 1; used as they stand.",
+        skin, odd));
+}
+
+}  // namespace
+
+void build_skins(Asset& asset, const std::vector<int>& scene_node) {
+  const std::vector<int> parents = find_parents(asset.model);
+  std::vector<bool> used(asset.model.skins.size(), false);
+  for (const Node& node : asset.scene.nodes)
+    if (node.skin >= 0) used[static_cast<std::size_t>(node.skin)] = true;
+  for (std::size_t s = 0; s < asset.model.skins.size(); ++s) {
+    const auto& source = asset.model.skins[s];
+    Skin skin;
+    check_common_root(source.joints, parents, s);
+    for (const int joint : source.joints) {
+      skin.joints.push_back(scene_node[static_cast<std::size_t>(joint)]);
+      if (used[s] && skin.joints.back() < 0)
+        refuse("skins[{}].joints: found node {} outside the scene that is shown, expected it inside", s,
+               joint);
+    }
+    asset.budget.take(skin.joints.size(), 64, fmt::format("skins[{}]", s));
+    skin.inverse_bind.assign(skin.joints.size(), glm::mat4(1));
+    if (source.inverseBindMatrices >= 0) {
+      const Accessor& accessor = asset.model.accessors[static_cast<std::size_t>(source.inverseBindMatrices)];
+      if (accessor.type != TINYGLTF_TYPE_MAT4 || accessor.componentType != TINYGLTF_COMPONENT_TYPE_FLOAT)
+        refuse("skins[{}].inverseBindMatrices: found another format, expected MAT4 of floats", s);
+      const auto numbers = read_numbers(asset, source.inverseBindMatrices);
+      if (numbers.size() < 16 * skin.joints.size())
+        refuse("skins[{}].inverseBindMatrices: found {}, expected one for each of {} joints", s,
+               numbers.size() / 16, skin.joints.size());
+      check_last_rows(asset, numbers, s);
+      for (std::size_t i = 0; i < 16 * skin.joints.size(); ++i)
+        skin.inverse_bind[i / 16][static_cast<int>(i % 16 / 4)][static_cast<int>(i % 4)] =
+            static_cast<float>(numbers[i]);
+    }
+    asset.scene.skins.push_back(std::move(skin));
+  }
+  check_joints_in_range(asset);
+}
+
+}  // namespace tenebra::formats::gltf

@@ -1,0 +1,104 @@
+#include "formats/images/scene_images.h"
+
+#include <fmt/core.h>
+
+#include "formats/import_failure.h"
+#include "formats/scene_file.h"
+
+namespace tenebra::formats {
+namespace fs = std::filesystem;
+namespace {
+
+constexpr std::uintmax_t most_picture_bytes = std::uintmax_t{1} << 28;
+
+/// What stands after the last slash of either kind: names in OBJ files may be paths of another machine.
+std::string last_part(const std::string& name) {
+  const std::size_t slash = name.find_last_of("/\\");
+  return slash == std::string::npos ? name : name.substr(slash + 1);
+}
+
+/// For a warning: a name may be long (data URIs) or hold control characters.
+std::string shown(const std::string& name) {
+  std::string text = name.substr(0, 80);
+  for (char& c : text)
+    if (static_cast<unsigned char>(c) < 0x20 || c == 0x7F) c = '?';
+  return text.size() < name.size() ? text + "..." : text;
+}
+
+}  // namespace
+
+SceneImages::SceneImages(Scene& scene, fs::path folder, std::vector<fs::path> texture_paths)
+    : scene_(scene), folders_{folder, folder / "textures", folder / "TextureFiles"} {
+  folders_.insert(folders_.end(), texture_paths.begin(), texture_paths.end());
+}
+
+int SceneImages::fail(const std::string& name, const std::string& why) {
+  scene_.warnings.push_back(
+      fmt::format("texture '{}': {}; its surfaces have their factors alone.", shown(name), why));
+  return -1;
+}
+
+/// Where the picture lies; empty if nowhere.
+fs::path SceneImages::search(const std::string& name, const std::string& place, bool percent_encoded) {
+  std::string refusal;
+  for (const fs::path& folder : folders_) {
+    try {
+      const fs::path file = confine(folder, name, place, percent_encoded);
+      std::error_code error;
+      if (fs::exists(file, error)) return file;
+    } catch (const ImportFailure& failure) {
+      if (refusal.empty()) refusal = failure.what();
+    }
+  }
+  const std::string last = last_part(name);
+  if (!percent_encoded && last != name && !last.empty()) return search(last, place, false);
+  if (!refusal.empty()) throw ImportFailure(refusal);
+  return {};
+}
+
+int SceneImages::load(const std::string& name, const std::string& place, bool percent_encoded) {
+  const fs::path file = search(name, place, percent_encoded);
+  if (file.empty())
+    refuse(
+        "{}: found no such file beside the scene, in its folders textures or TextureFiles, or in a "
+        "--texture-path, expected a picture",
+        place);
+  if (const auto known = index_of_file_.find(file); known != index_of_file_.end()) return known->second;
+  std::error_code error;
+  if (const auto bytes = fs::file_size(file, error); !error && bytes > most_picture_bytes)
+    refuse("{}: found {} bytes, expected at most {}", place, bytes, most_picture_bytes);
+  TextureImage image = decode_image(read_scene_file(file), file.filename().string(), pixels_left_);
+  scene_.images.push_back(std::move(image));
+  return index_of_file_[file] = static_cast<int>(scene_.images.size()) - 1;
+}
+
+int SceneImages::find(const std::string& name, const std::string& place) {
+  const auto [entry, is_new] = index_of_.try_emplace(name, -1);
+  if (!is_new) return entry->second;
+  try {
+    return entry->second = load(name, place, false);
+  } catch (const ImportFailure& failure) {
+    return fail(name, failure.what());
+  }
+}
+
+int SceneImages::find_uri(const std::string& uri, const std::string& place) {
+  const auto [entry, is_new] = index_of_.try_emplace(uri, -1);
+  if (!is_new) return entry->second;
+  try {
+    return entry->second = load(uri, place, true);
+  } catch (const ImportFailure& failure) {
+    return fail(uri, failure.what());
+  }
+}
+
+int SceneImages::add(std::string_view bytes, const std::string& name) {
+  try {
+    scene_.images.push_back(decode_image(bytes, name, pixels_left_));
+    return static_cast<int>(scene_.images.size()) - 1;
+  } catch (const ImportFailure& failure) {
+    return fail(name, failure.what());
+  }
+}
+
+}  // namespace tenebra::formats
