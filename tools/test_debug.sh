@@ -6,8 +6,9 @@ set -euo pipefail
 cd "$(dirname "$0")/.."
 
 folders=(base math points scene texture cutout shadow soft tint ao shade)
-# Those that take many seconds each: exact answers for whole masks, catalogues, soups.
-slow='ShadowMask\.|NodeTests|SoftCatalogue|SoftCloud|Oracle|Exact|EverySoup|StaysWholeWhenKilled'
+# Those that take many seconds each: exact answers for whole masks, catalogues, soups, whole frames.
+slow='ShadowMask\.|NodeTests|SoftCatalogue|SoftCloud|Oracle|Exact|EverySoup|StaysWholeWhenKilled|SoftMetamorphic'
+slow+='|^Bart|SoftPackets|ShaftFrames|NeverLeaveOut|HandOver|AreaIsThatOf|Tiles\.AreTheSame'
 cmake --preset debug -DTENEBRA_TESTS=ON -DCMAKE_COMPILE_WARNING_AS_ERROR=ON > /dev/null
 cmake --build --preset debug --target "${folders[@]/#/tests_}"
 labels=$(IFS='|'; echo "${folders[*]}")

@@ -56,13 +56,17 @@ private:
 struct VisiblePoints {
   int width = 0;
   int height = 0;
-  std::vector<glm::dvec3> positions;     ///< width * height; meaningless where the id is no_triangle
+  std::vector<glm::dvec3> positions;     ///< width * height; meaningless where the id is no_triangle.
+                                         ///< Empty: visible_position() says where they are
   std::vector<std::uint32_t> triangles;  ///< width * height ids, or no_triangle
   PointTileStore tiles;  ///< empty, or the same points again: clear them if you change the points
+  ViewRays view;         ///< where `positions` is empty: what the pixels are seen by
 };
 
-/// Whether tiles are made too. Hard shadows read tiles, and make their own if there are none.
-enum class PointLayout { rows, rows_and_tiles };
+/// What is made of the points. Hard shadows read tiles, and make their own if there are none; the few
+/// positions that they need beside them are worked out again. Soft shadows and occlusion read rows of
+/// positions, and make their own likewise.
+enum class PointLayout { rows, rows_and_tiles, tiles };
 
 /// Finds where the pixels' rays meet the planes of their triangles, in double, clamped into the triangle (a
 /// rasteriser's id may belong to a triangle that the ray just misses). `ids`: width * height, row 0 at the
@@ -71,6 +75,10 @@ enum class PointLayout { rows, rows_and_tiles };
 void compute_visible_points(std::span<const std::uint32_t> ids, int width, int height, const ViewRays& view,
                             const TriangleView& triangles, VisiblePoints& out,
                             PointLayout layout = PointLayout::rows);
+
+/// The point of a pixel whose id is not no_triangle: from `positions` or, where that is empty, worked out
+/// from id, pixel and `points.view`. The same bits both ways.
+glm::dvec3 visible_position(const VisiblePoints& points, const TriangleView& triangles, std::size_t pixel);
 
 /// Fills `out` with unit shading normals, one per pixel: `normals` (one for each vertex of `triangles`;
 /// empty: face normals) interpolated in double and turned to the side from which `view` sees the triangle.

@@ -101,16 +101,13 @@ PointTileKernels point_tile_kernels(SimdLevel level) {
   return TENEBRA_DISPATCH(level, point_tile_kernels)();
 }
 
-TileRows::TileRows(const VisiblePoints& points, std::uint32_t x, std::uint32_t y) {
-  const auto width = static_cast<std::uint32_t>(points.width),
-             height = static_cast<std::uint32_t>(points.height);
-  const std::size_t first = static_cast<std::size_t>(y) * width + x;
-  const bool inside = x + tile_side <= width && y + tile_side <= height;
+TileRows::TileRows(const glm::dvec3* first, glm::uvec2 size, glm::uvec2 at) {
+  const bool inside = at.x + tile_side <= size.x && at.y + tile_side <= size.y;
   for (std::uint32_t row = 0; row < tile_side; ++row) {
-    const glm::dvec3* const from = points.positions.data() + first + static_cast<std::size_t>(row) * width;
+    const glm::dvec3* const from = first + std::size_t{row} * size.x + at.x;
     rows_[row] = inside ? from : copies_[row];
     for (std::uint32_t column = 0; !inside && column < tile_side; ++column)
-      copies_[row][column] = x + column < width && y + row < height ? from[column] : glm::dvec3(0.0);
+      copies_[row][column] = at.x + column < size.x && at.y + row < size.y ? from[column] : glm::dvec3(0.0);
   }
 }
 

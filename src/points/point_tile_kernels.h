@@ -13,7 +13,9 @@ namespace tenebra::points {
 /// Where the four rows of a tile's points stand: in the picture, or, where that ends, in a copy.
 class TileRows {
 public:
-  TileRows(const VisiblePoints& points, std::uint32_t x, std::uint32_t y);
+  /// `first`: position of the first pixel of `at`'s row; `size`: of the picture; `at`: the tile's first
+  /// pixel.
+  TileRows(const glm::dvec3* first, glm::uvec2 size, glm::uvec2 at);
   TileRows(const TileRows&) = delete;
   TileRows& operator=(const TileRows&) = delete;
 

@@ -23,8 +23,10 @@ constexpr std::uint16_t no_receiver = 0xfffeu;  // none, or one edge-on to the e
 /// Makes one patch.
 class PatchMaker {
 public:
-  PatchMaker(const VisiblePoints& points, const TriangleView& triangles, PointTiles& out, PointPatch& patch)
+  PatchMaker(const VisiblePoints& points, const dvec3* rows, const TriangleView& triangles, PointTiles& out,
+             PointPatch& patch)
       : points_(points),
+        rows_(rows),
         triangles_(triangles),
         out_(out),
         patch_(patch),
@@ -60,6 +62,7 @@ private:
   void note_owners(const Seen& seen, int place, PointSquare& square) const;
 
   const VisiblePoints& points_;
+  const dvec3* const rows_;  ///< positions, from the top of the row of squares on
   const TriangleView& triangles_;
   PointTiles& out_;
   PointPatch& patch_;
@@ -162,7 +165,7 @@ void PatchMaker::add_square(std::uint32_t x, std::uint32_t y, std::uint32_t firs
     PointTile& tile = out_.tiles[first + t];
     find_receivers(tile_x, tile_y, seen, tile);
     if (seen.lanes == 0) continue;
-    const TileRows rows(points_, tile_x, tile_y);
+    const TileRows rows(rows_ + std::size_t{tile_y - y} * width_, {width_, height_}, {tile_x, tile_y});
     if (square.filled == 0) base = rows.point(std::countr_zero(seen.lanes));
     square.filled |= 1u << t;
     square.lanes[t] = static_cast<std::uint16_t>(seen.lanes);
@@ -192,10 +195,10 @@ void begin_point_tiles(int width, int height, const ViewRays& view, PointTiles& 
   out.view = view;
 }
 
-void make_point_patch(const VisiblePoints& points, const TriangleView& triangles, std::uint32_t patch,
-                      PointTiles& out) {
+void make_point_patch(const VisiblePoints& points, const dvec3* rows, const TriangleView& triangles,
+                      std::uint32_t patch, PointTiles& out) {
   const SquareGrid grid(points.width, points.height);
-  const auto maker = std::make_unique<PatchMaker>(points, triangles, out, out.patches[patch]);
+  const auto maker = std::make_unique<PatchMaker>(points, rows, triangles, out, out.patches[patch]);
   const std::uint32_t row = patch / grid.row_patches, first = patch % grid.row_patches * patch_squares;
   for (std::uint32_t column = first; column < std::min(first + patch_squares, grid.columns); ++column)
     maker->add_square(column * square_side, row * square_side, (row * grid.columns + column) * 16);
@@ -204,8 +207,12 @@ void make_point_patch(const VisiblePoints& points, const TriangleView& triangles
 void make_point_tiles(const VisiblePoints& points, const ViewRays& view, const TriangleView& triangles,
                       PointTiles& out) {
   begin_point_tiles(points.width, points.height, view, out);
-  parallel::parallel_tasks(static_cast<int>(out.patches.size()), [&](int patch) {
-    make_point_patch(points, triangles, static_cast<std::uint32_t>(patch), out);
+  const SquareGrid grid(points.width, points.height);
+  const std::size_t square_row = square_side * static_cast<std::size_t>(points.width);
+  parallel::parallel_tasks(static_cast<int>(out.patches.size()), [&](int p) {
+    const auto patch = static_cast<std::uint32_t>(p);
+    const dvec3* const rows = points.positions.data() + patch / grid.row_patches * square_row;
+    make_point_patch(points, rows, triangles, patch, out);
   });
 }
 

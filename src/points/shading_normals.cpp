@@ -3,6 +3,7 @@
 
 #include <tenebra/visible_points.h>
 #include "parallel/parallel.h"
+#include "points/positions.h"
 #include "points/triangle_corners.h"
 
 namespace tenebra {
@@ -42,7 +43,9 @@ void compute_shading_normals(const VisiblePoints& points, std::span<const glm::v
                              const ViewRays& view, const TriangleView& triangles,
                              std::vector<glm::vec3>& out) {
   const parallel::FloatEnvironment ieee;
-  out.resize(points.positions.size());
+  VisiblePoints made;
+  const std::vector<dvec3>& positions = points::with_positions(points, triangles, made).positions;
+  out.resize(positions.size());
   parallel::parallel_ranges(out.size(), 4096, [&](std::size_t first, std::size_t last) {
     std::uint32_t known = no_triangle;
     Weights w;
@@ -53,7 +56,7 @@ void compute_shading_normals(const VisiblePoints& points, std::span<const glm::v
       if (id != known) w = weights_of(points::corners_of(triangles, id));
       known = id;
       if (w.flat) continue;
-      const dvec3 p = points.positions[i];
+      const dvec3 p = positions[i];
       const dvec3 to_eye = view.orthographic ? -dvec3(view.d0) : dvec3(view.eye) - p;
       const dvec3 face = glm::dot(w.normal, to_eye) < 0 ? -w.normal : w.normal;
       dvec3 n = face;

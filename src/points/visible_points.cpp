@@ -6,6 +6,7 @@
 
 #include "parallel/parallel.h"
 #include "points/point_tiles.h"
+#include "points/positions.h"
 #include "points/visible_run.h"
 
 namespace tenebra {
@@ -66,14 +67,14 @@ void compute_run(const points::Receiver& r, const points::PixelRow& row, std::si
   }
 }
 
-/// Rows first ... last - 1 of the picture.
+/// Rows first ... last - 1 of the picture: ids to `out`, positions to `rows`.
 void compute_rows(std::span<const std::uint32_t> ids, std::size_t first, std::size_t last,
-                  const ViewRays& view, const TriangleView& triangles, VisiblePoints& out) {
+                  const ViewRays& view, const TriangleView& triangles, VisiblePoints& out, dvec3* rows) {
   const dvec3 eye(view.eye), d0(view.d0), dx(view.dx), dy(view.dy);
   const points::VisibleRunKernels kernels = points::visible_run_kernels(SimdLevel::automatic);
   const auto width = static_cast<std::size_t>(out.width);
   points::Receiver receiver;
-  for (std::size_t y = first; y < last; ++y) {
+  for (std::size_t y = first; y < last; ++y, rows += width) {
     const points::PixelRow row{eye, d0, dx, (static_cast<double>(y) + 0.5) * dy};
     for (std::size_t x = 0, end = 0; x < width; x = end) {
       const std::size_t pixel = y * width + x;
@@ -83,12 +84,11 @@ void compute_rows(std::span<const std::uint32_t> ids, std::size_t first, std::si
       if (id == no_triangle) continue;
       if (id != receiver.id) receiver = receiver_of(triangles, id);
       if (!view.orthographic) {
-        compute_run(receiver, row, x, end, kernels, &out.positions[y * width]);
+        compute_run(receiver, row, x, end, kernels, rows);
         continue;
       }
       for (std::size_t i = x; i < end; ++i)
-        out.positions[y * width + i] =
-            visible_point(receiver, eye + ((static_cast<double>(i) + 0.5) * dx + row.row), d0);
+        rows[i] = visible_point(receiver, eye + ((static_cast<double>(i) + 0.5) * dx + row.row), d0);
     }
   }
 }
@@ -98,23 +98,56 @@ void compute_rows(std::span<const std::uint32_t> ids, std::size_t first, std::si
 void compute_visible_points(std::span<const std::uint32_t> ids, int width, int height, const ViewRays& view,
                             const TriangleView& triangles, VisiblePoints& out, PointLayout layout) {
   const parallel::FloatEnvironment ieee;  // denormal floats of the view become doubles here
+  const bool kept = layout != PointLayout::tiles, tiled = layout != PointLayout::rows;
   out.width = width;
   out.height = height;
-  out.positions.resize(ids.size());
+  out.view = view;
+  out.positions.resize(kept ? ids.size() : 0);
   out.triangles.resize(ids.size());
-  const bool tiled = layout == PointLayout::rows_and_tiles;
   if (!tiled) out.tiles.clear();
   if (tiled) points::begin_point_tiles(width, height, view, *out.tiles);
   const points::SquareGrid grid(width, height);
+  const auto columns = static_cast<std::size_t>(width), last = static_cast<std::size_t>(height);
+  std::vector<std::vector<dvec3>> bands(kept ? 0 : static_cast<std::size_t>(thread_count()));
   // Tiles are made of rows that are still near.
   parallel::parallel_tasks(static_cast<int>(grid.rows), [&](int band) {
     const auto row = static_cast<std::uint32_t>(band);
-    compute_rows(ids, row * points::square_side,
-                 std::min<std::size_t>((row + 1) * points::square_side, static_cast<std::size_t>(height)),
-                 view, triangles, out);
+    const std::size_t top = row * points::square_side;
+    dvec3* rows = nullptr;
+    if (kept) {
+      rows = &out.positions[top * columns];
+    } else {
+      std::vector<dvec3>& own = bands[static_cast<std::size_t>(parallel::thread_index())];
+      own.resize(points::square_side * columns);
+      rows = own.data();
+    }
+    compute_rows(ids, top, std::min(top + points::square_side, last), view, triangles, out, rows);
     for (std::uint32_t part = 0; tiled && part < grid.row_patches; ++part)
-      points::make_point_patch(out, triangles, row * grid.row_patches + part, *out.tiles);
+      points::make_point_patch(out, rows, triangles, row * grid.row_patches + part, *out.tiles);
   });
 }
+
+dvec3 visible_position(const VisiblePoints& points, const TriangleView& triangles, std::size_t pixel) {
+  if (!points.positions.empty()) return points.positions[pixel];
+  const auto width = static_cast<std::size_t>(points.width);
+  const ViewRays& view = points.view;
+  const dvec3 eye(view.eye), d0(view.d0), dx(view.dx), dy(view.dy);
+  const double x = static_cast<double>(pixel % width) + 0.5, y = static_cast<double>(pixel / width) + 0.5;
+  const dvec3 across = x * dx + y * dy;
+  const points::Receiver receiver = receiver_of(triangles, points.triangles[pixel]);
+  return view.orthographic ? visible_point(receiver, eye + across, d0)
+                           : visible_point(receiver, eye, d0 + across);
+}
+
+namespace points {
+
+const VisiblePoints& with_positions(const VisiblePoints& points, const TriangleView& triangles,
+                                    VisiblePoints& scratch) {
+  if (!points.positions.empty() || points.triangles.empty()) return points;
+  compute_visible_points(points.triangles, points.width, points.height, points.view, triangles, scratch);
+  return scratch;
+}
+
+}  // namespace points
 
 }  // namespace tenebra

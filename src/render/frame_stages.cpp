@@ -43,11 +43,14 @@ void Renderer::State::find_points(const FrameInput& input, const RenderSettings&
                       (settings.shadows == ShadowMode::soft && settings.soft_points > 0);
   const bool tiled = traced && settings.hard.variant == Variant::tiles;
   const bool shaded = settings.shadows == ShadowMode::soft || settings.ao.mode != AoMode::none;
+  const bool positions = shaded || !tiled || !input.geometry.see_through.empty();
   const TriangleView triangles = triangle_view(input.geometry);
   with_threads(settings.threads, [&] {
     if (!exact) return points_from_depth(input.view);
     compute_visible_points(ids, gbuffer.width, gbuffer.height, input.view, triangles, points,
-                           tiled ? PointLayout::rows_and_tiles : PointLayout::rows);
+                           !tiled      ? PointLayout::rows
+                           : positions ? PointLayout::rows_and_tiles
+                                       : PointLayout::tiles);
     if (shaded) compute_shading_normals(points, input.geometry.normals, input.view, triangles, normals);
   });
   timings.points_ms = watch.lap_ms();

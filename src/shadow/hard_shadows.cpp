@@ -5,6 +5,7 @@
 
 #include "base/stopwatch.h"
 #include "parallel/parallel.h"
+#include "points/positions.h"
 #include "shadow/cone_tree/cone_tree.h"
 #include "shadow/cone_tree/traverse.h"
 #include "shadow/decision/triangle_planes.h"
@@ -57,6 +58,7 @@ std::uint64_t live_rays(const shadow::ConeTree& tree) {
 
 struct ShadowTracer::State {
   shadow::TileTracer tiles;
+  VisiblePoints positions;  ///< where those that are given have none
   shadow::TriangleSet set;
   shadow::ShadowRays rays;
   shadow::RayKeys keys;
@@ -147,7 +149,7 @@ std::span<const float> ShadowTracer::pixel_nodes() const {
   return state_->pixel_nodes;
 }
 
-void ShadowTracer::trace_shadow_mask(const VisiblePoints& points, const ViewRays& view,
+void ShadowTracer::trace_shadow_mask(const VisiblePoints& seen, const ViewRays& view,
                                      const TriangleView& triangles, const ShadowLight& light,
                                      const HardShadowConfig& config, ShadowMask& mask) {
   const parallel::FloatEnvironment ieee;
@@ -156,14 +158,15 @@ void ShadowTracer::trace_shadow_mask(const VisiblePoints& points, const ViewRays
   s.timings = {};
   s.pixel_nodes.clear();
   if (config.variant == Variant::tiles &&
-      s.tiles.trace(points, view, triangles, light, config, mask, s.stats, s.timings)) {
-    if (config.count_pixel_nodes) s.tiles.spread_tests(points.width, points.height, s.pixel_nodes);
+      s.tiles.trace(seen, view, triangles, light, config, mask, s.stats, s.timings)) {
+    if (config.count_pixel_nodes) s.tiles.spread_tests(seen.width, seen.height, s.pixel_nodes);
     return;
   }
   const shadow::RaySource source = shadow::ray_source(light);
   const VariantParts parts = parts_of(config.variant);
   base::Stopwatch watch;
 
+  const VisiblePoints& points = points::with_positions(seen, triangles, s.positions);
   shadow::build_triangle_set(triangles, view, source, config, s.set);
   shadow::generate_shadow_rays(points, light, source, s.set, s.keys, s.rays, s.at_light);
   s.timings.rays_ms = watch.lap_ms();

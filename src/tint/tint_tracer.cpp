@@ -6,6 +6,7 @@
 
 #include "base/stopwatch.h"
 #include "parallel/parallel.h"
+#include "points/positions.h"
 #include "tint/hard_tint.h"
 #include "tint/soft_tint.h"
 
@@ -63,6 +64,7 @@ struct TintTracer::State {
   tint::HardTint hard;
   tint::SoftTint soft;
   points::PointTiles own_tiles;  ///< of points that came without
+  VisiblePoints positions;       ///< where those that are given have none
   TintStats stats;
 
   /// False: nothing is see-through.
@@ -94,13 +96,14 @@ const TintStats& TintTracer::stats() const {
   return state_->stats;
 }
 
-void TintTracer::trace(const VisiblePoints& points, const ViewRays& view, const TriangleView& triangles,
+void TintTracer::trace(const VisiblePoints& seen, const ViewRays& view, const TriangleView& triangles,
                        const SeeThroughSurfaces& surfaces, const ShadowLight& light, const ShadowMask& mask,
                        const TintConfig& config, TintMask& out) {
   const parallel::FloatEnvironment ieee;
   State& s = *state_;
   base::Stopwatch watch;
   if (!s.begin(surfaces, triangles, config, out)) return;
+  const VisiblePoints& points = points::with_positions(seen, triangles, s.positions);
   const bool ready = !points.tiles.empty() && same_eye(points.tiles->view, view);
   if (!ready) points::make_point_tiles(points, view, triangles, s.own_tiles);
   s.hard.trace(points, ready ? *points.tiles : s.own_tiles, triangles, s.surfaces, s.tree, light, mask,
@@ -108,7 +111,7 @@ void TintTracer::trace(const VisiblePoints& points, const ViewRays& view, const 
   s.stats.ms = watch.lap_ms();
 }
 
-bool TintTracer::trace(const VisiblePoints& points, std::span<const glm::vec3> normals, const ViewRays& view,
+bool TintTracer::trace(const VisiblePoints& seen, std::span<const glm::vec3> normals, const ViewRays& view,
                        const TriangleView& triangles, const SeeThroughSurfaces& surfaces,
                        const AreaLight& light, const SoftMask& mask, const TintConfig& config, TintMask& out,
                        const StopFlag* stop) {
@@ -116,6 +119,7 @@ bool TintTracer::trace(const VisiblePoints& points, std::span<const glm::vec3> n
   State& s = *state_;
   base::Stopwatch watch;
   if (!s.begin(surfaces, triangles, config, out)) return true;
+  const VisiblePoints& points = points::with_positions(seen, triangles, s.positions);
   const bool done = s.soft.trace(points, normals, view, triangles, s.surfaces, s.tree, light, mask, config,
                                  out, s.stats, stop);
   s.stats.ms = watch.lap_ms();

@@ -3,15 +3,14 @@
 
 #include <filesystem>
 
-#include "formats/import_scene.h"
-#include "glb_second_reader.h"
 #include "pictures.h"
-#include "support/temporary_folder.h"
+#include "round_trip.h"
 
 namespace tenebra {
 namespace {
 
 namespace fs = std::filesystem;
+using testing::RoundTrip;
 
 TextureImage image_of(const std::string& name, const base::Image8& picture) {
   TextureImage image;
@@ -80,22 +79,11 @@ void expect_same(const Material& a, const Material& b) {
   expect_same(a.transmission_map, b.transmission_map);
 }
 
-struct Trip {
-  Scene back;
-  std::vector<std::string> losses;
-  nlohmann::json root;
-};
-
-Trip round_trip(const Scene& scene) {
-  const testing::TemporaryFolder folder;
-  auto losses = formats::export_glb(scene, folder / "out.glb");
-  EXPECT_TRUE(losses.has_value()) << losses.error().message;
-  const testing::SecondReader reader(testing::read_text(folder / "out.glb"));
-  reader.check();
-  auto back = formats::import_gltf(folder / "out.glb");
-  EXPECT_TRUE(back.has_value()) << back.error().message;
-  EXPECT_TRUE(back->warnings.empty()) << back->warnings[0];
-  return {std::move(*back), std::move(*losses), reader.root};
+/// As it went, without a warning.
+RoundTrip clean_round_trip(const Scene& scene) {
+  RoundTrip trip = testing::round_trip(scene);
+  EXPECT_TRUE(trip.back.warnings.empty()) << trip.back.warnings[0];
+  return trip;
 }
 
 /// The maps of a material, to give their pictures other numbers.
@@ -120,7 +108,7 @@ Material renumbered(Material material, const Scene& scene, const Scene& other) {
 Material expect_back(const Material& material, std::vector<std::string>* losses = nullptr) {
   Scene scene = coloured_triangle();
   scene.materials = {material};
-  Trip trip = round_trip(scene);
+  RoundTrip trip = clean_round_trip(scene);
   expect_same(renumbered(material, scene, trip.back), trip.back.materials.at(0));
   if (losses) *losses = trip.losses;
   return trip.back.materials.at(0);
@@ -235,7 +223,7 @@ TEST(ExportLooks, ASkewedTransformIsNamed) {
   scene.materials = {metal()};
   scene.materials[0].base_color_map.image = 0;
   scene.materials[0].base_color_map.transform = {1, 0, 1, 1, 0, 0};
-  const Trip trip = round_trip(scene);
+  const RoundTrip trip = clean_round_trip(scene);
   ASSERT_EQ(trip.losses.size(), 1u);
   EXPECT_NE(trip.losses[0].find("skewed"), std::string::npos);
 }
@@ -245,7 +233,7 @@ TEST(ExportLooks, PicturesCoordinatesAndColoursComeBack) {
   scene.materials = {metal()};
   scene.materials[0].base_color_map.image = 0;
   scene.materials[0].metallic_roughness_map.image = 1;
-  const Trip trip = round_trip(scene);
+  const RoundTrip trip = clean_round_trip(scene);
   ASSERT_EQ(trip.back.images.size(), 2u);
   for (std::size_t i = 0; i < 2; ++i) {
     EXPECT_EQ(trip.back.images[i].name, scene.images[i].name);
@@ -260,7 +248,7 @@ TEST(ExportLooks, TheSecondSetAloneComesBackAsTheSecond) {
   Scene scene = coloured_triangle();
   scene.materials = {metal()};
   scene.meshes[0].texture_coordinates[0].clear();
-  const Trip trip = round_trip(scene);
+  const RoundTrip trip = clean_round_trip(scene);
   EXPECT_EQ(trip.back.meshes[0].texture_coordinates[1], scene.meshes[0].texture_coordinates[1]);
 }
 
@@ -269,7 +257,7 @@ TEST(ExportLooks, DisplayValuesComeBackAndAreLinearForOthers) {
   scene.materials = {metal()};
   scene.materials[0].base_color = {0.5f, 0, 1};
   scene.transfer = Transfer::display;
-  const Trip trip = round_trip(scene);
+  const RoundTrip trip = clean_round_trip(scene);
   EXPECT_EQ(trip.back.transfer, Transfer::display);
   EXPECT_EQ(trip.back.materials[0].base_color, glm::vec3(0.5f, 0, 1));
   const auto& factor = trip.root["materials"][0]["pbrMetallicRoughness"]["baseColorFactor"];
@@ -303,10 +291,10 @@ std::vector<std::string> triangles_of(const Scene& scene) {
 
 TEST_P(ExportLooksOfScenes, ComeBack) {
   const fs::path file = fs::path(TENEBRA_SHARED_DIR) / "scenes" / GetParam();
-  if (!fs::exists(file)) GTEST_SKIP() << "The scenes beside the checkout are not there.";
+  if (!fs::exists(file)) GTEST_SKIP() << "No scenes here: " << file;
   const auto scene = formats::import_scene(file);
   ASSERT_TRUE(scene.has_value()) << scene.error().message;
-  const Trip trip = round_trip(*scene);
+  const RoundTrip trip = clean_round_trip(*scene);
   EXPECT_EQ(trip.back.transfer, scene->transfer);
   ASSERT_EQ(trip.back.images.size(), scene->images.size());
   ASSERT_GE(trip.back.materials.size(), scene->materials.size());

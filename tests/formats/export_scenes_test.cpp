@@ -6,14 +6,14 @@
 #include <filesystem>
 
 #include <tenebra/frame_geometry.h>
-#include "formats/import_scene.h"
-#include "glb_second_reader.h"
-#include "support/temporary_folder.h"
+#include "round_trip.h"
 
 namespace tenebra {
 namespace {
 
 namespace fs = std::filesystem;
+using testing::round_trip;
+using testing::RoundTrip;
 
 /// Corners of all triangles, sorted on each axis: the same whatever the order of the triangles.
 std::array<std::vector<float>, 3> corners(const Scene& scene, double time_s) {
@@ -64,7 +64,7 @@ protected:
 };
 
 TEST_P(ExportScenes, ComeBackWhole) {
-  if (!fs::exists(path())) GTEST_SKIP() << "The scenes beside the checkout are not there.";
+  if (!fs::exists(path())) GTEST_SKIP() << "No scene here: " << path();
   const auto scene = formats::import_scene(path());
   ASSERT_TRUE(scene.has_value()) << scene.error().message;
   const testing::TemporaryFolder folder;
@@ -119,7 +119,7 @@ INSTANTIATE_TEST_SUITE_P(Whole, ExportScenes,
 
 TEST(ExportSecondReader, AcceptsTheSharedGltfFiles) {
   const fs::path shared = fs::path(TENEBRA_SHARED_DIR) / "scenes/extra/gltf";
-  if (!fs::exists(shared)) GTEST_SKIP() << "The scenes beside the checkout are not there.";
+  if (!fs::exists(shared)) GTEST_SKIP() << "No scenes here: " << shared;
   const testing::TemporaryFolder folder;
   for (const char* name : {"BoxAnimated.glb", "CesiumMan.glb", "AnimatedMorphCube.glb", "Fox.glb",
                            "HotelRoom.glb", "khronos_blender_io_03_all_animations/03_all_animations.gltf"}) {
@@ -146,24 +146,7 @@ Scene small_scene() {
   return scene;
 }
 
-struct Trip {
-  Scene back;
-  std::vector<std::string> losses;
-  nlohmann::json root;
-};
-
-Trip round_trip(const Scene& scene) {
-  const testing::TemporaryFolder folder;
-  auto losses = formats::export_glb(scene, folder / "out.glb");
-  EXPECT_TRUE(losses.has_value()) << losses.error().message;
-  const testing::SecondReader reader(testing::read_text(folder / "out.glb"));
-  reader.check();
-  auto back = formats::import_gltf(folder / "out.glb");
-  EXPECT_TRUE(back.has_value()) << back.error().message;
-  return {std::move(*back), std::move(*losses), reader.root};
-}
-
-void expect_loss(const Trip& trip, const char* words) {
+void expect_loss(const RoundTrip& trip, const char* words) {
   ASSERT_EQ(trip.losses.size(), 1u);
   EXPECT_NE(trip.losses[0].find(words), std::string::npos) << trip.losses[0];
 }
@@ -178,7 +161,7 @@ TEST(ExportLosses, HiddenNodesStayHiddenWithAllBelowThem) {
   scene.nodes[1].parent = 0;
   scene.nodes.push_back(scene.nodes[0]);
   scene.nodes[0].visible = false;
-  const Trip trip = round_trip(scene);
+  const RoundTrip trip = round_trip(scene);
   expect_loss(trip, "2 hidden nodes");
   ASSERT_EQ(trip.back.nodes.size(), 3u);
   FrameGeometry frame;
@@ -194,7 +177,7 @@ TEST(ExportLosses, LightsWithoutFalloffAreAsBrightAtTheMiddle) {
   scene.nodes.emplace_back();
   scene.nodes[1].light = 0;
   scene.nodes[1].translation = {0.5, 0.5, 10};
-  const Trip trip = round_trip(scene);
+  const RoundTrip trip = round_trip(scene);
   expect_loss(trip, "fade");
   EXPECT_EQ(trip.back.lights[0].falloff, Falloff::none);
   EXPECT_EQ(trip.back.lights[0].intensity, 0.25f);
@@ -207,7 +190,7 @@ TEST(ExportLosses, MatricesThatShearAreNamed) {
   Scene scene = small_scene();
   scene.nodes[0].matrix = glm::dmat4(1);
   (*scene.nodes[0].matrix)[1][0] = 1;
-  const Trip trip = round_trip(scene);
+  const RoundTrip trip = round_trip(scene);
   expect_loss(trip, "nodes[0]");
   EXPECT_LT(difference(scene, trip.back, 0, 0), 1e-7);
 }
@@ -221,7 +204,7 @@ TEST(ExportLosses, VisibilityOfAMatrixNodeIsNamed) {
   clip.tracks.push_back({Interpolation::step, 1, {0, 0.5}, {1, 0}, {}});
   clip.channels.push_back({0, ChannelPath::visibility, 0});
   scene.clips.push_back(clip);
-  const Trip trip = round_trip(scene);
+  const RoundTrip trip = round_trip(scene);
   ASSERT_EQ(trip.losses.size(), 2u);
   EXPECT_NE(trip.losses[1].find("shown always"), std::string::npos) << trip.losses[1];
 }
@@ -235,7 +218,7 @@ TEST(ExportLosses, VisibilityBecomesScale) {
   clip.tracks.push_back({Interpolation::step, 1, {0, 0.5}, {0, 1}, {}});
   clip.channels.push_back({0, ChannelPath::visibility, 0});
   scene.clips.push_back(clip);
-  const Trip trip = round_trip(scene);
+  const RoundTrip trip = round_trip(scene);
   EXPECT_TRUE(trip.losses.empty());
   const auto width = [&](double time_s) { return corners(trip.back, time_s)[0].back(); };
   EXPECT_EQ(width(0), 0);
@@ -247,7 +230,7 @@ TEST(ExportLosses, BrightMaterialsAreCutForOthersAndKeptForUs) {
   Scene scene = small_scene();
   scene.materials[0].base_color = {2, 0.5f, 0.25f};
   scene.materials[0].ambient = {3, 0, 0};
-  const Trip trip = round_trip(scene);
+  const RoundTrip trip = round_trip(scene);
   expect_loss(trip, "1 materials");
   EXPECT_EQ(trip.back.materials[0].base_color, glm::vec3(2, 0.5f, 0.25f));
   EXPECT_EQ(trip.back.materials[0].ambient, glm::vec3(3, 0, 0));
@@ -263,7 +246,7 @@ TEST(ExportLosses, AClipThatStartsBeforeZeroIsWrittenLater) {
   clip.tracks.push_back({Interpolation::linear, 3, {-2, 1}, {0, 0, 0, 3, 0, 0}, {}});
   clip.channels.push_back({0, ChannelPath::translation, 0});
   scene.clips.push_back(clip);
-  const Trip trip = round_trip(scene);
+  const RoundTrip trip = round_trip(scene);
   expect_loss(trip, "-2 s");
   EXPECT_LT(difference(scene, trip.back, -1, 1), 1e-7);
 }

@@ -4,6 +4,7 @@
 #include <fmt/core.h>
 
 #include "shadow/mask_case.h"
+#include "shadow/rays/shadow_rays.h"
 #include "shadow/tiles/cluster_order.h"
 #include "shadow/tiles/triangle_clusters.h"
 
@@ -19,6 +20,17 @@ MaskCase room_case(std::uint64_t seed, int width, int height) {
   c.view = pinhole({-1.8, 1.5, -1.7}, {0, 0, 0}, 0.9, width, height);
   c.points = view_samples(c.soup.view(), c.view, width, height);
   return c;
+}
+
+/// An orthographic view of the same things.
+ViewRays parallel_view(ViewRays v, int width, int height) {
+  const glm::vec3 to_middle =
+      0.5f * static_cast<float>(width) * v.dx + 0.5f * static_cast<float>(height) * v.dy;
+  v.eye -= 2.0f * to_middle;
+  v.d0 += to_middle;
+  v.dx *= 2.0f, v.dy *= 2.0f;
+  v.orthographic = true;
+  return v;
 }
 
 /// What the paper's way says, from buffers of its own.
@@ -97,6 +109,59 @@ TEST(Tiles, ReadPointsThatComeInTiles) {
     c.view.eye = c.light.position;
     EXPECT_TRUE(same_mask(c, traced(c), oracle(c))) << size.x;
   }
+}
+
+// Without positions in rows, the few that are asked for are worked out again: the same bits, for every
+// variant and for lights that reach a part of what is seen.
+TEST(Tiles, WorkOutThePositionsTheyAskFor) {
+  for (const bool orthographic : {false, true}) {
+    MaskCase c = room_case(80, 161, 97);
+    if (orthographic) {
+      c.view = parallel_view(c.view, 161, 97);
+      c.points = view_samples(c.soup.view(), c.view, 161, 97);
+    }
+    compute_visible_points(std::vector<std::uint32_t>(c.points.triangles), 161, 97, c.view, c.soup.view(),
+                           c.points, PointLayout::rows_and_tiles);
+    MaskCase bare = c;
+    compute_visible_points(c.points.triangles, 161, 97, c.view, c.soup.view(), bare.points,
+                           PointLayout::tiles);
+    ASSERT_TRUE(bare.points.positions.empty());
+    for (std::size_t i = 0; i < c.points.positions.size(); ++i) {
+      if (c.points.triangles[i] == no_triangle) continue;
+      ASSERT_EQ(visible_position(bare.points, c.soup.view(), i), c.points.positions[i]) << i;
+    }
+    Random random(81);
+    for (int light = 0; light < 12; ++light) {
+      c.light.range_m = light % 3 == 1 ? static_cast<float>(random.in(0.5, 3)) : 0.0f;
+      c.light.spot_cos_outer = light % 3 == 2 ? static_cast<float>(random.in(-0.9, 0.95)) : -1.0f;
+      c.light.spot_axis = glm::vec3(random.direction());
+      for (const Variant variant : {Variant::tiles, Variant::precise_sorted}) {
+        c.config.variant = bare.config.variant = variant;
+        bare.light = c.light;
+        EXPECT_TRUE(same_mask(c, traced(bare), oracle(c))) << light;
+      }
+    }
+  }
+}
+
+TEST(Tiles, ReachOfABallHoldsForItsPoints) {
+  Random random(82);
+  int found[3] = {};
+  for (int i = 0; i < 3000; ++i) {
+    ShadowLight light{.position = glm::vec3(0.0f)};
+    if (random.chance(0.7)) light.range_m = static_cast<float>(random.in(0.2, 4));
+    if (random.chance(0.7)) light.spot_cos_outer = static_cast<float>(random.in(-1, 1));
+    light.spot_axis = glm::vec3(random.direction());
+    const glm::dvec3 centre = random.in(0, 3) * random.direction();
+    const double radius = std::pow(10.0, random.in(-4, 0.3));
+    const shadow::Reach reach = shadow::reach_of_ball(centre, radius, light);
+    ++found[static_cast<int>(reach)];
+    for (int k = 0; reach != shadow::Reach::some && k < 50; ++k) {
+      const glm::dvec3 p = centre + radius * random.direction();
+      ASSERT_EQ(shadow::in_reach(p, light), reach == shadow::Reach::all) << i;
+    }
+  }
+  for (const int count : found) EXPECT_GT(count, 200);
 }
 
 // Counted once each, however many roots meet them, and taken back when they get an area.

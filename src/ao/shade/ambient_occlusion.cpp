@@ -13,6 +13,7 @@
 #include "base/fail.h"
 #include "base/stopwatch.h"
 #include "parallel/parallel.h"
+#include "points/positions.h"
 
 namespace tenebra {
 namespace {
@@ -32,11 +33,12 @@ Expected<void> check(const AoConfig& config, const VisiblePoints& points, std::s
   const auto size = ao::field_shape({config.layout, config.positions, config.directions, config.bits});
   if (!size) return tl::unexpected(size.error());
   const std::size_t pixels = points.triangles.size();
-  if (points.positions.size() != pixels || normals.size() != pixels || points.width < 0 ||
+  const bool made = points.positions.empty();  // worked out from the triangles
+  if ((!made && points.positions.size() != pixels) || normals.size() != pixels || points.width < 0 ||
       points.height < 0 ||
       static_cast<std::size_t>(points.width) * static_cast<std::size_t>(points.height) != pixels)
     return base::fail("ambient occlusion: {} points and {} normals, expected one per pixel of {} x {}",
-                      points.positions.size(), normals.size(), points.width, points.height);
+                      made ? pixels : points.positions.size(), normals.size(), points.width, points.height);
   return {};
 }
 
@@ -57,6 +59,7 @@ double scene_diagonal(const Scene& scene) {
 }  // namespace
 
 struct AmbientOcclusion::State {
+  VisiblePoints positions;  ///< where those that are given have none
   ao::SceneObjects objects;
   bool found = false;
   double diagonal = 0;
@@ -174,16 +177,17 @@ Expected<void> AmbientOcclusion::State::run(const ao::AoFrame& frame, const AoCo
 }
 
 Expected<void> AmbientOcclusion::compute(const Scene& scene, const FrameGeometry& geometry,
-                                         const VisiblePoints& points, std::span<const vec3> normals,
+                                         const VisiblePoints& seen, std::span<const vec3> normals,
                                          const AoConfig& config, std::vector<float>& out,
                                          const AoProgress& progress, const StopFlag* stop) {
   const parallel::FloatEnvironment ieee;
   State& s = *state_;
   s.stats = {};
   s.timings = {};
-  if (auto checked = check(config, points, normals); !checked) return checked;
-  out.assign(points.triangles.size(), 1.0f);
+  if (auto checked = check(config, seen, normals); !checked) return checked;
+  out.assign(seen.triangles.size(), 1.0f);
   if (config.mode == AoMode::none) return {};
+  const VisiblePoints& points = points::with_positions(seen, triangle_view(geometry), s.positions);
   base::Stopwatch watch;
   s.find(scene, geometry, config);
   const double found_ms = s.timings.ao_build_ms = watch.lap_ms();

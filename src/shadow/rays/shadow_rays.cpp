@@ -107,6 +107,27 @@ bool in_reach(const dvec3& p, const ShadowLight& light) {
   return along >= light.spot_cos_outer * std::sqrt(distance2);
 }
 
+// Both tests of in_reach ask for the sign of a function that is at most so steep: 1 (range), |axis| +
+// |cosine| (cone). Doubles are off by far less than 2^-40 of what they add up.
+Reach reach_of_ball(const dvec3& centre, double radius, const ShadowLight& light) {
+  if (light.directional) return Reach::all;
+  const double distance = glm::length(centre);
+  bool all = true;
+  const auto nothing_reached = [&](double value, double steepness) {
+    const double change = steepness * (radius + 0x1p-40 * (distance + radius));
+    all &= value > change;
+    return value < -change;
+  };
+  if (light.range_m > 0 && nothing_reached(double{light.range_m} - distance, 1)) return Reach::none;
+  if (light.spot_cos_outer > -1) {
+    const dvec3 axis(light.spot_axis);
+    const double cosine = light.spot_cos_outer;
+    if (nothing_reached(glm::dot(centre, axis) - cosine * distance, glm::length(axis) + std::abs(cosine)))
+      return Reach::none;
+  }
+  return all ? Reach::all : Reach::some;
+}
+
 void generate_shadow_rays(const VisiblePoints& points, const ShadowLight& light, const RaySource& source,
                           const TriangleSet& triangles, RayKeys& scratch, ShadowRays& out,
                           std::vector<std::uint32_t>& at_light) {

@@ -22,6 +22,10 @@ struct ShadowRays {
 /// that is not a matter of facing. Double, in one order of operations.
 bool in_reach(const glm::dvec3& p, const ShadowLight& light);
 
+/// How much of a ball, its centre relative to the light, is in_reach: all and none for sure, some perhaps.
+enum class Reach : std::uint8_t { none, some, all };
+Reach reach_of_ball(const glm::dvec3& centre, double radius, const ShadowLight& light);
+
 /// Scratch of generate_shadow_rays and sort_shadow_rays.
 struct RayKeys {
   std::vector<std::uint64_t> keys;  ///< key << 32 | pixel

@@ -143,11 +143,26 @@ std::uint32_t PatchRays::facing_lanes(const points::TileReceivers& receivers, st
   return faced;
 }
 
-std::uint32_t PatchRays::in_reach_lanes(std::uint32_t tile, std::uint32_t lanes) const {
+/// How much of a square the light reaches.
+Reach PatchRays::reach_of(const points::PointSquare& square) const {
+  if (!bounded_) return Reach::all;
+  const dvec3 base(square.base.at[0], square.base.at[1], square.base.at[2]);
+  return reach_of_ball(base - source_.origin, square.base.radius, light_);
+}
+
+std::uint32_t PatchRays::in_reach_lanes(const points::PointSquare& square, int t, std::uint32_t lanes) const {
+  const dvec3 extent(square.high[0][t] - square.low[0][t], square.high[1][t] - square.low[1][t],
+                     square.high[2][t] - square.low[2][t]);
+  // Half of the diagonal, and what the roundings of q, which its square's radius bounds, add.
+  const double radius = 0.5 * glm::length(extent) + 0x1p-20 * double{square.base.radius};
+  const Reach reach = reach_of_ball(centre_of(square, t), radius, light_);
+  if (reach != Reach::some) return reach == Reach::all ? lanes : 0;
+  const std::uint32_t tile = square.first_tile + static_cast<std::uint32_t>(t);
   std::uint32_t reached = lanes;
   for (std::uint32_t left = lanes; left != 0; left &= left - 1) {
     const int lane = std::countr_zero(left);
-    if (!in_reach(points_.positions[pixels_(tile, lane)] - source_.origin, light_)) reached &= ~(1u << lane);
+    const dvec3 p = visible_position(points_, triangles_, pixels_(tile, lane)) - source_.origin;
+    if (!in_reach(p, light_)) reached &= ~(1u << lane);
   }
   return reached;
 }
@@ -161,6 +176,7 @@ void PatchRays::fetch_gaps(const points::PointSquare& square) const {
 void PatchRays::find_lanes(const points::PointSquare& square, Work& work) const {
   work.square = &square;
   work.present = work.gaps = 0;
+  const Reach reach = reach_of(square);
   for (std::uint32_t left = square.filled; left != 0; left &= left - 1) {
     const int t = std::countr_zero(left);
     const std::uint32_t number = square.first_tile + static_cast<std::uint32_t>(t);
@@ -170,7 +186,8 @@ void PatchRays::find_lanes(const points::PointSquare& square, Work& work) const 
     } else if (work.out.facing[square.receiver[t]] == 0) {
       lanes = 0;
     }
-    if (bounded_ && lanes != 0) lanes = in_reach_lanes(number, lanes);
+    if (reach == Reach::none) lanes = 0;
+    if (reach == Reach::some && lanes != 0) lanes = in_reach_lanes(square, t, lanes);
     work.rays[t] = static_cast<std::uint16_t>(lanes);
     if (lanes == 0) continue;
     work.present |= 1u << t;
@@ -200,7 +217,7 @@ void PatchRays::add_node(Work& work, std::uint8_t face) const {
 void PatchRays::add_ray(Work& work, int tile, int lane) const {
   const std::uint32_t number = work.square->first_tile + static_cast<std::uint32_t>(tile);
   const std::size_t pixel = pixels_(number, lane);
-  const dvec3 p = points_.positions[pixel] - source_.origin;
+  const dvec3 p = visible_position(points_, triangles_, pixel) - source_.origin;
   const double size = std::max({std::abs(p.x), std::abs(p.y), std::abs(p.z)});
   if (size == 0) {
     work.out.at_light.push_back(static_cast<std::uint32_t>(pixel));

@@ -6,6 +6,7 @@
 
 #include "points/point_tile_kernels.h"
 #include "shadow/rays/direction_keys.h"
+#include "shadow/rays/shadow_rays.h"
 #include "shadow/tiles/ray_forest.h"
 #include "shadow/tiles/tile_kernels.h"
 
@@ -30,7 +31,8 @@ private:
   void find_lanes(const points::PointSquare& square, Work& work) const;
   std::uint32_t facing_lanes(const points::TileReceivers& receivers, std::uint32_t lanes,
                              const std::vector<std::uint8_t>& facing) const;
-  std::uint32_t in_reach_lanes(std::uint32_t tile, std::uint32_t lanes) const;
+  Reach reach_of(const points::PointSquare& square) const;
+  std::uint32_t in_reach_lanes(const points::PointSquare& square, int tile, std::uint32_t lanes) const;
   glm::dvec3 centre_of(const points::PointSquare& square, int tile) const;
   glm::dvec3 point_of(const points::PointSquare& square, const points::PointTile& tile, int lane) const;
   void place_square(Work& work) const;

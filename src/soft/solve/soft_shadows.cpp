@@ -6,6 +6,7 @@
 
 #include "base/stopwatch.h"
 #include "parallel/parallel.h"
+#include "points/positions.h"
 #include "soft/groups/point_groups.h"
 #include "soft/light/light_frame.h"
 #include "soft/occluders/family_candidates.h"
@@ -76,6 +77,7 @@ std::optional<SoftSolver> soft_solver_from_name(std::string_view name) {
 }
 
 struct SoftShadowTracer::State {
+  VisiblePoints positions;  ///< where those that are given have none
   soft::PointGroups groups;
   soft::ShaftCuller culler;
   std::vector<Worker> workers;
@@ -189,11 +191,12 @@ SoftShadowTracer& SoftShadowTracer::operator=(SoftShadowTracer&&) noexcept = def
 SoftShadowTracer::~SoftShadowTracer() = default;
 
 // Mora et al. 2012, Algorithm 2, with groups of points in the place of visible triangles.
-bool SoftShadowTracer::trace(const VisiblePoints& points, std::span<const glm::vec3> normals,
+bool SoftShadowTracer::trace(const VisiblePoints& seen, std::span<const glm::vec3> normals,
                              const ViewRays& view, const TriangleView& triangles, const AreaLight& light,
                              const SoftShadowConfig& config, SoftMask& out, const StopFlag* stop) {
   const parallel::FloatEnvironment ieee;
   State& s = *state_;
+  const VisiblePoints& points = points::with_positions(seen, triangles, s.positions);
   s.prepare(config);
   s.clear_pixels(points, out);
   base::Stopwatch watch;
