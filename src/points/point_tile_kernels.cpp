@@ -5,14 +5,15 @@
 #include <hwy/foreach_target.h>
 // After foreach_target.h
 #include "simd/dispatch.h"
+#include "simd/double8-inl.h"
 #include "simd/pack-inl.h"
 
 #include <bit>
 #include <cmath>
+#include <limits>
 
 HWY_BEFORE_NAMESPACE();
 namespace tenebra::points::HWY_NAMESPACE {
-using namespace simd::HWY_NAMESPACE;
 using namespace simd::HWY_NAMESPACE;
 
 namespace {
@@ -33,14 +34,75 @@ float radius_of(const Vector16& q) {
   return largest * 1.7320509f * (1 + 0x1p-20f) + 0x1p-126f;
 }
 
-float fill(const TileRows& rows, const glm::vec3& base, std::uint32_t lanes, PointTile& tile) {
+/// What eight lanes see.
+struct Receivers8 {
+  Vector8 normal, a, du, dv;
+};
+
+SIMD_INLINE Receivers8 alike(const Receiver& r) {
+  return {broadcast8(r.normal), broadcast8(r.a), broadcast8(r.du), broadcast8(r.dv)};
+}
+
+SIMD_INLINE Receivers8 each(const Receiver* const* of) {
+  alignas(64) double v[4][3][8];
+  for (int i = 0; i < 8; ++i) {
+    const Receiver& r = *of[i];
+    const glm::dvec3* const from[4] = {&r.normal, &r.a, &r.du, &r.dv};
+    for (int k = 0; k < 4; ++k) v[k][0][i] = from[k]->x, v[k][1][i] = from[k]->y, v[k][2][i] = from[k]->z;
+  }
+  const auto vector = [&](int k) HWY_ATTR {
+    return Vector8{load<Double8>(v[k][0]), load<Double8>(v[k][1]), load<Double8>(v[k][2])};
+  };
+  return {vector(0), vector(1), vector(2), vector(3)};
+}
+
+/// Two rows of a tile, from pixel (x, y) on.
+SIMD_INLINE std::uint32_t see_eight(const Receivers8& r, const PixelRays& rays, glm::uvec2 at, double* x,
+                                    double* y, double* z) {
+  double px[8], py[8];
+  for (std::uint32_t i = 0; i < 8; ++i)
+    px[i] = static_cast<double>(at.x + i % tile_side) + 0.5,
+    py[i] = static_cast<double>(at.y + i / tile_side) + 0.5;
+  const Vector8 across = load<Double8>(px) * broadcast8(rays.dx) + load<Double8>(py) * broadcast8(rays.dy);
+  const Vector8 eye = broadcast8(rays.eye), d0 = broadcast8(rays.d0);
+  const Vector8 origin = rays.orthographic ? eye + across : eye,
+                direction = rays.orthographic ? d0 : d0 + across;
+  const Double8 t = dot_unfused(r.normal, r.a - origin) / dot_unfused(r.normal, direction);
+  const Vector8 p = origin + t * direction, from = p - r.a;
+  const Double8 u = dot_unfused(r.du, from), v = dot_unfused(r.dv, from);
+  const Double8 zero = broadcast<Double8>(0.0), one = broadcast<Double8>(1.0);
+  store(p.x, x), store(p.y, y), store(p.z, z);
+  return bits(lt(zero, t) & lt(t, broadcast<Double8>(std::numeric_limits<double>::infinity())) & le(zero, u) &
+              le(zero, v) & le(u + v, one));
+}
+
+std::uint32_t see_one(const Receiver& receiver, const PixelRays& rays, glm::uvec2 at, TilePoints& out) {
+  if (receiver.flat) return 0;
+  const Receivers8 r = alike(receiver);
+  const std::uint32_t upper = see_eight(r, rays, at, out.x, out.y, out.z);
+  return upper | see_eight(r, rays, at + glm::uvec2(0, 2), out.x + 8, out.y + 8, out.z + 8) << 8;
+}
+
+std::uint32_t see_several(const Receiver* const of[tile_points], const PixelRays& rays, glm::uvec2 at,
+                          TilePoints& out) {
+  std::uint32_t flat = 0;
+  for (int i = 0; i < tile_points; ++i) flat |= of[i]->flat ? 1u << i : 0u;
+  const std::uint32_t upper = see_eight(each(of), rays, at, out.x, out.y, out.z),
+                      lower = see_eight(each(of + 8), rays, at + glm::uvec2(0, 2), out.x + 8, out.y + 8,
+                                        out.z + 8);
+  return (upper | lower << 8) & ~flat;
+}
+
+float fill(const TilePoints& points, const glm::vec3& base, std::uint32_t lanes, PointTile& tile) {
   const Pack3<Double4> centre = broadcast3<Double4>(static_cast<double>(base.x), static_cast<double>(base.y),
                                                     static_cast<double>(base.z));
-  const glm::dvec3& other = rows.point(std::countr_zero(lanes));
+  const glm::dvec3 other = points.at(std::countr_zero(lanes));
   Float4 x[4], y[4], z[4];
   for (int row = 0; row < 4; ++row) {
-    Pack3<Double4> p = load3<Double4>(&rows[row]->x);
-    const std::uint32_t there = (lanes >> (4 * row)) & 15u;
+    const int first = tile_side * row;
+    Pack3<Double4> p{load<Double4>(points.x + first), load<Double4>(points.y + first),
+                     load<Double4>(points.z + first)};
+    const std::uint32_t there = (lanes >> first) & 15u;
     if (there != 15u) {
       const Mask<double, 4> is_there = mask_of_bits<double, 4>(there);
       p = {select(is_there, p.x, broadcast<Double4>(other.x)),
@@ -87,7 +149,7 @@ void bound(const PointTile& tile, std::uint32_t lanes, int place, PointSquare& s
 }  // namespace
 
 PointTileKernels point_tile_kernels() {
-  return {fill, beyond_gap, bound};
+  return {see_one, see_several, fill, beyond_gap, bound};
 }
 
 }  // namespace tenebra::points::HWY_NAMESPACE
@@ -99,16 +161,6 @@ namespace tenebra::points {
 
 PointTileKernels point_tile_kernels(SimdLevel level) {
   return TENEBRA_DISPATCH(level, point_tile_kernels)();
-}
-
-TileRows::TileRows(const glm::dvec3* first, glm::uvec2 size, glm::uvec2 at) {
-  const bool inside = at.x + tile_side <= size.x && at.y + tile_side <= size.y;
-  for (std::uint32_t row = 0; row < tile_side; ++row) {
-    const glm::dvec3* const from = first + std::size_t{row} * size.x + at.x;
-    rows_[row] = inside ? from : copies_[row];
-    for (std::uint32_t column = 0; !inside && column < tile_side; ++column)
-      copies_[row][column] = at.x + column < size.x && at.y + row < size.y ? from[column] : glm::dvec3(0.0);
-  }
 }
 
 }  // namespace tenebra::points

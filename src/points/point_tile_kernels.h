@@ -7,30 +7,30 @@
 #include <tenebra/simd_level.h>
 #include <tenebra/visible_points.h>
 #include "points/point_tiles.h"
+#include "points/receiver.h"
 
 namespace tenebra::points {
 
-/// Where the four rows of a tile's points stand: in the picture, or, where that ends, in a copy.
-class TileRows {
-public:
-  /// `first`: position of the first pixel of `at`'s row; `size`: of the picture; `at`: the tile's first
-  /// pixel.
-  TileRows(const glm::dvec3* first, glm::uvec2 size, glm::uvec2 at);
-  TileRows(const TileRows&) = delete;
-  TileRows& operator=(const TileRows&) = delete;
+/// The points of a tile's lanes.
+struct alignas(64) TilePoints {
+  double x[tile_points], y[tile_points], z[tile_points];
 
-  const glm::dvec3* operator[](int row) const { return rows_[row]; }
-  const glm::dvec3& point(int lane) const { return rows_[(lane / 4) & 3][lane % 4]; }
-
-private:
-  const glm::dvec3* rows_[4];
-  glm::dvec3 copies_[4][4];
+  glm::dvec3 at(int lane) const { return {x[lane], y[lane], z[lane]}; }
+  void set(int lane, const glm::dvec3& p) { x[lane] = p.x, y[lane] = p.y, z[lane] = p.z; }
 };
 
 /// Code for one instruction set.
 struct PointTileKernels {
+  /// Points of the tile whose first pixel is `at`, all on one triangle or each on its own. Returns the bits
+  /// of those that lie inside of their triangles; the others are left to PixelRays::point_on. The operations
+  /// of the scalar code in the same order, so the same bits.
+  std::uint32_t (*see_one)(const Receiver& receiver, const PixelRays& rays, glm::uvec2 at,
+                           TilePoints& out) = nullptr;
+  std::uint32_t (*see_several)(const Receiver* const of[tile_points], const PixelRays& rays, glm::uvec2 at,
+                               TilePoints& out) = nullptr;
   /// q from the points of the lanes in `lanes` (not 0). Returns a radius: >= |q| of all.
-  float (*fill)(const TileRows& rows, const glm::vec3& base, std::uint32_t lanes, PointTile& tile) = nullptr;
+  float (*fill)(const TilePoints& points, const glm::vec3& base, std::uint32_t lanes,
+                PointTile& tile) = nullptr;
   /// Lanes of `lanes` (not 0) beyond a gap: farther from the first of them than the others by half of the
   /// extent.
   std::uint32_t (*beyond_gap)(const PointTile& tile, std::uint32_t lanes) = nullptr;

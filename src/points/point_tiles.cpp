@@ -10,6 +10,7 @@
 #include "parallel/parallel.h"
 #include "points/contact_rule.h"
 #include "points/point_tile_kernels.h"
+#include "points/receiver.h"
 #include "points/triangle_corners.h"
 
 namespace tenebra::points {
@@ -23,10 +24,9 @@ constexpr std::uint16_t no_receiver = 0xfffeu;  // none, or one edge-on to the e
 /// Makes one patch.
 class PatchMaker {
 public:
-  PatchMaker(const VisiblePoints& points, const dvec3* rows, const TriangleView& triangles, PointTiles& out,
-             PointPatch& patch)
+  PatchMaker(const VisiblePoints& points, const TriangleView& triangles, PointTiles& out, PointPatch& patch)
       : points_(points),
-        rows_(rows),
+        rays_(points.view),
         triangles_(triangles),
         out_(out),
         patch_(patch),
@@ -59,15 +59,17 @@ private:
   }
   bool one_receiver(std::uint32_t x, std::uint32_t y) const;
   void find_receivers(std::uint32_t x, std::uint32_t y, Seen& seen, PointTile& tile);
+  void see(const Seen& seen, glm::uvec2 at, TilePoints& points) const;
   void note_owners(const Seen& seen, int place, PointSquare& square) const;
 
   const VisiblePoints& points_;
-  const dvec3* const rows_;  ///< positions, from the top of the row of squares on
+  const PixelRays rays_;
   const TriangleView& triangles_;
   PointTiles& out_;
   PointPatch& patch_;
   const PointTileKernels kernels_;
   const std::uint32_t width_, height_;
+  std::vector<Receiver> receivers_;  // by their numbers, where points have no positions
   std::array<Known, 4096> known_{};  // of the triangles that pixels nearby lie on
 };
 
@@ -93,6 +95,7 @@ std::uint16_t PatchMaker::add_receiver(std::uint32_t id) {
   block.tau[i] = std::nextafter(static_cast<float>(rounding_tolerance(c.v)), INFINITY);
   block.id[i] = id;
   block.side[i] = static_cast<std::int8_t>(side);
+  if (points_.positions.empty()) receivers_.push_back(points::receiver_of(triangles_, id));
   return static_cast<std::uint16_t>(number);
 }
 
@@ -154,22 +157,49 @@ void PatchMaker::note_owners(const Seen& seen, int place, PointSquare& square) c
   }
 }
 
+/// The points of the tile's lanes (there are some); the others are undefined.
+void PatchMaker::see(const Seen& seen, glm::uvec2 at, TilePoints& points) const {
+  const auto pixel_of = [&](int lane) { return at + glm::uvec2(lane % tile_side, lane / tile_side); };
+  if (!points_.positions.empty()) {
+    for (std::uint32_t left = seen.lanes; left != 0; left &= left - 1) {
+      const int lane = std::countr_zero(left);
+      const glm::uvec2 pixel = pixel_of(lane);
+      points.set(lane, points_.positions[std::size_t{pixel.y} * width_ + pixel.x]);
+    }
+    return;
+  }
+  const int first = std::countr_zero(seen.lanes);
+  const Receiver* of[tile_points];
+  for (int lane = 0; lane < tile_points; ++lane) {
+    const bool there = ((seen.lanes >> lane) & 1u) != 0;
+    of[lane] = &receivers_[seen.receiver[static_cast<std::size_t>(there ? lane : first)]];
+  }
+  const std::uint32_t inside =
+      seen.one ? kernels_.see_one(*of[0], rays_, at, points) : kernels_.see_several(of, rays_, at, points);
+  for (std::uint32_t left = seen.lanes & ~inside; left != 0; left &= left - 1) {
+    const int lane = std::countr_zero(left);
+    const glm::uvec2 pixel = pixel_of(lane);
+    points.set(lane, rays_.point_on(*of[lane], pixel.x, pixel.y));
+  }
+}
+
 void PatchMaker::add_square(std::uint32_t x, std::uint32_t y, std::uint32_t first) {
   PointSquare square{};
   square.first_tile = first;
   glm::vec3 base(0.0f);
   Seen seen;
+  TilePoints points;
   for (std::uint32_t t = 0; t < 16; ++t) {
     const std::uint32_t tile_x = x + t % 4 * tile_side, tile_y = y + t / 4 * tile_side;
     const int place = static_cast<int>(t);
     PointTile& tile = out_.tiles[first + t];
     find_receivers(tile_x, tile_y, seen, tile);
     if (seen.lanes == 0) continue;
-    const TileRows rows(rows_ + std::size_t{tile_y - y} * width_, {width_, height_}, {tile_x, tile_y});
-    if (square.filled == 0) base = rows.point(std::countr_zero(seen.lanes));
+    see(seen, {tile_x, tile_y}, points);
+    if (square.filled == 0) base = points.at(std::countr_zero(seen.lanes));
     square.filled |= 1u << t;
     square.lanes[t] = static_cast<std::uint16_t>(seen.lanes);
-    square.base.radius = std::max(square.base.radius, kernels_.fill(rows, base, seen.lanes, tile));
+    square.base.radius = std::max(square.base.radius, kernels_.fill(points, base, seen.lanes, tile));
     kernels_.bound(tile, seen.lanes, place, square);
     note_owners(seen, place, square);
     if (square.receiver[t] != several_receivers) continue;
@@ -195,10 +225,10 @@ void begin_point_tiles(int width, int height, const ViewRays& view, PointTiles& 
   out.view = view;
 }
 
-void make_point_patch(const VisiblePoints& points, const dvec3* rows, const TriangleView& triangles,
-                      std::uint32_t patch, PointTiles& out) {
+void make_point_patch(const VisiblePoints& points, const TriangleView& triangles, std::uint32_t patch,
+                      PointTiles& out) {
   const SquareGrid grid(points.width, points.height);
-  const auto maker = std::make_unique<PatchMaker>(points, rows, triangles, out, out.patches[patch]);
+  const auto maker = std::make_unique<PatchMaker>(points, triangles, out, out.patches[patch]);
   const std::uint32_t row = patch / grid.row_patches, first = patch % grid.row_patches * patch_squares;
   for (std::uint32_t column = first; column < std::min(first + patch_squares, grid.columns); ++column)
     maker->add_square(column * square_side, row * square_side, (row * grid.columns + column) * 16);
@@ -207,12 +237,8 @@ void make_point_patch(const VisiblePoints& points, const dvec3* rows, const Tria
 void make_point_tiles(const VisiblePoints& points, const ViewRays& view, const TriangleView& triangles,
                       PointTiles& out) {
   begin_point_tiles(points.width, points.height, view, out);
-  const SquareGrid grid(points.width, points.height);
-  const std::size_t square_row = square_side * static_cast<std::size_t>(points.width);
-  parallel::parallel_tasks(static_cast<int>(out.patches.size()), [&](int p) {
-    const auto patch = static_cast<std::uint32_t>(p);
-    const dvec3* const rows = points.positions.data() + patch / grid.row_patches * square_row;
-    make_point_patch(points, rows, triangles, patch, out);
+  parallel::parallel_tasks(static_cast<int>(out.patches.size()), [&](int patch) {
+    make_point_patch(points, triangles, static_cast<std::uint32_t>(patch), out);
   });
 }
 

@@ -7,17 +7,9 @@
 #include <glm/glm.hpp>
 
 #include <tenebra/simd_level.h>
-#include <tenebra/visible_points.h>
+#include "points/receiver.h"
 
 namespace tenebra::points {
-
-/// What the pixels of one triangle share. Barycentric weights of a point p on the plane are
-/// u = du.(p - a), v = dv.(p - a), 1 - u - v.
-struct Receiver {
-  std::uint32_t id = no_triangle;
-  glm::dvec3 a, e1, e2, normal, du, dv;
-  bool flat = false;  ///< no plane: zero area in double
-};
 
 /// Pixels of a row of a perspective view: directions d0 + ((x + 0.5) dx + row) from the eye.
 struct PixelRow {

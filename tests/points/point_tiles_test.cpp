@@ -10,6 +10,7 @@
 
 #include "parallel/parallel.h"
 #include "points/contact_rule.h"
+#include "points/point_tile_kernels.h"
 #include "points/point_tiles.h"
 #include "points/triangle_corners.h"
 #include "support/samples.h"
@@ -144,21 +145,85 @@ TEST(PointTiles, ReceiversKnowTheirSide) {
   EXPECT_GT(certain, 1000);
 }
 
+bool same_tiles(const points::PointTiles& a, const points::PointTiles& b) {
+  const auto same = [](const auto& x, const auto& y, std::size_t bytes) {
+    bool equal = x.size() == y.size();
+    for (std::size_t i = 0; equal && i < x.size(); ++i) equal = std::memcmp(&x[i], &y[i], bytes) == 0;
+    return equal;
+  };
+  bool equal = same(a.tiles, b.tiles, sizeof(points::PointTile)) && a.patches.size() == b.patches.size();
+  for (std::size_t i = 0; equal && i < a.patches.size(); ++i) {
+    const points::PointPatch &pa = a.patches[i], &pb = b.patches[i];
+    equal = pa.receiver_count == pb.receiver_count && pa.mixed == pb.mixed &&
+            same(pa.squares, pb.squares, offsetof(points::PointSquare, tau) + sizeof(float));
+  }
+  return equal;
+}
+
 TEST(PointTiles, AreTheSameForAllThreads) {
   const TiledCase c = tiled_room(35, 130, 70);
   points::PointTiles again;
   with_threads(7, [&] { points::make_point_tiles(c.points, c.view, c.soup.view(), again); });
-  const std::vector<points::PointTile>& tiles = c.points.tiles->tiles;
-  ASSERT_EQ(again.tiles.size(), tiles.size());
-  EXPECT_EQ(std::memcmp(again.tiles.data(), tiles.data(), tiles.size() * sizeof(points::PointTile)), 0);
-  ASSERT_EQ(again.patches.size(), c.points.tiles->patches.size());
-  for (std::size_t i = 0; i < again.patches.size(); ++i) {
-    const points::PointPatch &a = again.patches[i], &b = c.points.tiles->patches[i];
-    ASSERT_EQ(a.squares.size(), b.squares.size());
-    ASSERT_EQ(a.receiver_count, b.receiver_count);
-    for (std::size_t k = 0; k < a.squares.size(); ++k)
-      EXPECT_EQ(std::memcmp(&a.squares[k], &b.squares[k], offsetof(points::PointSquare, tau) + sizeof(float)),
-                0);
+  EXPECT_TRUE(same_tiles(again, *c.points.tiles));
+}
+
+// From ids and a view, without positions in between: the same bits, also where a rasteriser's id is that of a
+// triangle which the ray just misses, or which has no area.
+TEST(PointTiles, AreTheSameWithoutPositions) {
+  for (int scene = 0; scene < 24; ++scene) {
+    const double scale = scene % 4 == 1 ? 1e-12 : scene % 4 == 2 ? 1e9 : 1;
+    const int width = scene % 5 == 0 ? 1040 : 61 + scene, height = 37 - scene;
+    TiledCase c =
+        tiled_room(50 + static_cast<std::uint64_t>(scene), width, height, scale, scene % 4 == 3 ? 1e5 : 0);
+    Random random(80 + static_cast<std::uint64_t>(scene));
+    std::vector<std::uint32_t> ids = c.points.triangles;
+    for (std::uint32_t& id : ids) {
+      const auto count = static_cast<std::uint32_t>(c.soup.triangles.size());
+      if (scene % 3 != 0 && random.chance(0.1)) id = random.index(count + 2);  // some of none
+    }
+    for (std::size_t t = 0; t < c.soup.triangles.size(); t += 7)
+      c.soup.triangles[t].z = c.soup.triangles[t].y;
+    c.view.orthographic = scene % 2 == 1;
+    VisiblePoints whole, bare;  // tiles without points keep what was there before: both begin with nothing
+    compute_visible_points(ids, width, height, c.view, c.soup.view(), whole, PointLayout::rows_and_tiles);
+    compute_visible_points(ids, width, height, c.view, c.soup.view(), bare, PointLayout::tiles);
+    EXPECT_EQ(bare.triangles, whole.triangles);
+    EXPECT_TRUE(same_tiles(*bare.tiles, *whole.tiles)) << scene;
+  }
+}
+
+TEST(PointTiles, SeeTheSameWithAllInstructionSets) {
+  Random random(90);
+  for (int scene = 0; scene < 400; ++scene) {
+    ViewRays view = pinhole(random.in_cube(3), random.in_cube(1), 0.9, 40, 40);
+    view.orthographic = scene % 2 == 1;
+    std::vector<glm::vec3> corners;
+    for (int i = 0; i < 48; ++i) corners.emplace_back(random.in_cube(scene % 3 == 0 ? 20.0 : 2.0));
+    std::vector<points::Receiver> receivers;
+    const points::Receiver* of[16];
+    const std::vector<glm::uvec3> triangles = [] {
+      std::vector<glm::uvec3> t;
+      for (std::uint32_t i = 0; i < 16; ++i) t.emplace_back(3 * i, 3 * i + 1, i == 5 ? 3 * i + 1 : 3 * i + 2);
+      return t;
+    }();
+    for (std::uint32_t i = 0; i < 16; ++i)
+      receivers.push_back(points::receiver_of({.positions = corners, .triangles = triangles}, i));
+    for (int i = 0; i < 16; ++i) of[i] = &receivers[scene % 5 == 0 ? 0 : i];
+    const points::PixelRays rays(view);
+    const glm::uvec2 at(4 * random.index(10), 4 * random.index(10));
+    for (const SimdLevel level : {SimdLevel::scalar, SimdLevel::sse4, SimdLevel::avx2, SimdLevel::avx512}) {
+      if (!simd_level_supported(level)) continue;
+      const points::PointTileKernels kernels = points::point_tile_kernels(level);
+      points::TilePoints found;
+      const std::uint32_t inside = scene % 5 == 0 ? kernels.see_one(*of[0], rays, at, found)
+                                                  : kernels.see_several(of, rays, at, found);
+      for (int lane = 0; lane < 16; ++lane) {
+        const glm::dvec3 expected = rays.point_on(*of[lane], at.x + lane % 4, at.y + lane / 4);
+        if (((inside >> lane) & 1u) != 0) {
+          EXPECT_EQ(found.at(lane), expected) << scene << " " << lane;
+        }
+      }
+    }
   }
 }
 

@@ -6,7 +6,6 @@
 
 #include "base/stopwatch.h"
 #include "parallel/parallel.h"
-#include "points/positions.h"
 
 namespace tenebra::shadow {
 
@@ -23,7 +22,7 @@ bool same_eye(const ViewRays& a, const ViewRays& b) {
 const points::PointTiles& TileTracer::tiles_of(const VisiblePoints& points, const ViewRays& view,
                                                const TriangleView& triangles) {
   if (!points.tiles.empty() && same_eye(points.tiles->view, view)) return *points.tiles;
-  points::make_point_tiles(points::with_positions(points, triangles, positions_), view, triangles, own_tiles_);
+  points::make_point_tiles(points, view, triangles, own_tiles_);
   return own_tiles_;
 }
 

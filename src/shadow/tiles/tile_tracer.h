@@ -32,7 +32,6 @@ private:
   void descend(const Descent& descent, SimdLevel simd, TraceStats& stats);
 
   points::PointTiles own_tiles_;
-  VisiblePoints positions_;  ///< that own tiles are made of, where the points have none  ///< of points that came without
   std::vector<std::array<std::uint32_t, 16>> tile_tests_;
   ClusterTree clusters_;
   RayForest forest_;
