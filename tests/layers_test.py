@@ -16,7 +16,7 @@ MAY_INCLUDE = {
     "simd": {"base"},
     "scene": {"base", "math"},
     "formats": {"base", "math", "scene"},
-    "texture": {"base", "math", "scene"},
+    "texture": {"base", "math", "simd", "scene"},
     "cutout": {"base", "math", "parallel", "scene", "texture"},
     "points": {"base", "math", "simd", "parallel", "scene"},
     "shadow": {"base", "math", "simd", "parallel", "scene", "points"},

@@ -18,14 +18,6 @@ void put(const glm::vec3& value, SampleBlock::Channel (&channels)[3], std::size_
   for (int c = 0; c < 3; ++c) channels[c][i] = value[c];
 }
 
-/// Sample `i`'s place on its triangle.
-SurfacePlace place_of(const TriangleSetup& setup, const SampleBlock& block, std::size_t i) {
-  const glm::vec2 w(block.u[i], block.v[i]);
-  const float depth = block.depth[i];
-  return {w, depth * (glm::vec2(setup.u.dx, setup.v.dx) - setup.depth.dx * w),
-          depth * (glm::vec2(setup.u.dy, setup.v.dy) - setup.depth.dy * w)};
-}
-
 }  // namespace
 
 FrameTerms::FrameTerms(const Subject& of, const Lighting& lit_by)
@@ -40,7 +32,8 @@ FrameTerms::FrameTerms(const Subject& of, const Lighting& lit_by)
 
 void BlockShader::place_background(const float* x, const float* y, std::size_t first, std::size_t count) {
   const Surface background{.emissive = frame_.lighting.background};
-  frame_.code.place({}, background, x, y, first, count, block_);
+  frame_.code.place({}, x, y, first, count, block_);
+  frame_.code.cover(background, first, count, block_);
   if (frame_.lighting.environment == nullptr) return;
   const ViewRays& view = frame_.subject.view;
   for (std::size_t i = first; i < first + count; ++i) {
@@ -49,33 +42,65 @@ void BlockShader::place_background(const float* x, const float* y, std::size_t f
   }
 }
 
-void BlockShader::vary(const TriangleSetup& setup, std::size_t material, std::size_t first,
-                       std::size_t count) {
-  const Subject& subject = frame_.subject;
-  const glm::uvec3 corners = subject.geometry.triangles[setup.id];
-  for (std::size_t i = first; i < first + count; ++i) {
-    const Surface s = subject.surfaces.at(material, corners, place_of(setup, block_, i));
-    put(s.base, block_.base, i);
-    put(s.ambient * frame_.ambient_light, block_.ambient, i);
-    put(s.emissive, block_.emissive, i);
-    block_.alpha[i] = s.alpha;
-    put(s.specular, block_.specular, i);
-    block_.roughness[i] = s.roughness;
-    block_.exponent[i] = s.exponent;
+void BlockShader::locate_run(const TriangleSetup& setup, std::size_t material, const glm::uvec3& corners,
+                             std::size_t first, std::size_t count) {
+  const SurfaceTable& surfaces = frame_.subject.surfaces;
+  if (stretch_.count == 0) stretch_ = {material, first, 0};
+  stretch_.count += count;
+  texture::TexturePlaces* places = places_;
+  for (const CoordinateRule& rule : surfaces.maps(material).rules)
+    frame_.code.locate(setup, surfaces.coordinates(rule, corners), block_, first, count, *places++);
+  if (const auto& colors = surfaces.colors(); !colors.empty()) {
+    const glm::vec4 of_corners[3] = {colors[corners.x], colors[corners.y], colors[corners.z]};
+    frame_.code.blend(of_corners, block_, first, count, vertices_);
   }
 }
 
+const texture::TextureValues* BlockShader::sampled(const MapUse& use, const TextureMap& map,
+                                                   texture::TextureValues& to) {
+  if (!use) return nullptr;
+  frame_.code.sample(frame_.subject.surfaces.texture(use), map,
+                     places_[static_cast<std::size_t>(use.coordinates)], stretch_.first, stretch_.count, to);
+  return &to;
+}
+
+void BlockShader::finish_stretch() {
+  if (stretch_.count == 0) return;
+  const SurfaceTable& surfaces = frame_.subject.surfaces;
+  const Material& m = surfaces.material(stretch_.material);
+  const SurfaceMaps& maps = surfaces.maps(stretch_.material);
+  SurfaceInputs in;
+  if (!surfaces.colors().empty()) in.vertices = &vertices_;
+  in.base = sampled(maps.base, m.base_color_map, base_values_);
+  in.emissive = sampled(maps.emissive, m.emissive_map, emissive_values_);
+  in.metallic_roughness = sampled(maps.metallic_roughness, m.metallic_roughness_map, gloss_values_);
+  in.specular = sampled(maps.specular, m.specular_map, gloss_values_);  // a material has one or the other
+  frame_.code.resolve(m, in, frame_.ambient_light, stretch_.first, stretch_.count, block_);
+  stretch_.count = 0;
+}
+
+/// A stretch is finished before the next run is placed: what is written behind it has no meaning yet.
 void BlockShader::place_run(std::uint32_t id, const float* x, const float* y, std::size_t first,
                             std::size_t count) {
   const Subject& subject = frame_.subject;
-  if (id >= subject.geometry.triangles.size()) return place_background(x, y, first, count);
+  if (id >= subject.geometry.triangles.size()) {
+    finish_stretch();
+    return place_background(x, y, first, count);
+  }
   anything_seen_ = true;
-  const TriangleSetup& setup = setups_.find(subject.geometry, subject.view, id, {x[first], y[first]});
   const std::size_t material = subject.surfaces.held(subject.geometry.materials[id]);
+  const glm::uvec3& corners = subject.geometry.triangles[id];
+  const bool varies = subject.surfaces.varies(material, corners);
+  if (!varies || material != stretch_.material) finish_stretch();
+  const TriangleSetup& setup = setups_.find(subject.geometry, subject.view, id, {x[first], y[first]});
   const Surface& surface = frame_.surfaces[material];
-  frame_.code.place(setup, surface, x, y, first, count, block_);
+  frame_.code.place(setup, x, y, first, count, block_);
   block_.glossy = block_.glossy || surface.is_glossy();
-  if (subject.surfaces.varies(material)) vary(setup, material, first, count);
+  if (varies) {
+    locate_run(setup, material, corners, first, count);
+  } else {
+    frame_.code.cover(surface, first, count, block_);
+  }
 }
 
 void BlockShader::place(std::span<const std::uint32_t> ids, const float* x, const float* y) {
@@ -87,6 +112,7 @@ void BlockShader::place(std::span<const std::uint32_t> ids, const float* x, cons
     while (end < ids.size() && ids[end] == ids[i]) ++end;
     place_run(ids[i], x, y, i, end - i);
   }
+  finish_stretch();
 }
 
 void BlockShader::surround() {
@@ -96,21 +122,19 @@ void BlockShader::surround() {
     const glm::vec3 towards = -glm::normalize(view.d0);
     frame_.code.look(view.orthographic ? &towards : nullptr, block_);
   }
-  const glm::vec3 brighter = glm::max(lighting.background - lighting.ambient_light, glm::vec3(0.0f));
+  if (lighting.environment == nullptr) {
+    const glm::vec3 brighter = glm::max(lighting.background - lighting.ambient_light, glm::vec3(0.0f));
+    return frame_.code.reflect(lighting.ambient_light, brighter, block_);
+  }
   for (std::size_t i = 0; i < block_.count; ++i) {
     const glm::vec3 normal = at(block_.normal, i);
-    if (lighting.environment != nullptr && normal != glm::vec3(0.0f)) {
+    if (normal != glm::vec3(0.0f))
       put(at(block_.ambient, i) * lighting.environment->diffuse(normal), block_.ambient, i);
-    }
     const float roughness = block_.glossy ? block_.roughness[i] : -1.0f;
     if (roughness < 0) continue;
-    if (lighting.environment == nullptr) {
-      put(lighting.ambient_light + (1 - roughness) * brighter, block_.reflected, i);
-    } else {
-      const glm::vec3 to_eye = at(block_.to_eye, i);
-      put(lighting.environment->mirrored(2 * glm::dot(normal, to_eye) * normal - to_eye, roughness),
-          block_.reflected, i);
-    }
+    const glm::vec3 to_eye = at(block_.to_eye, i);
+    put(lighting.environment->mirrored(2 * glm::dot(normal, to_eye) * normal - to_eye, roughness),
+        block_.reflected, i);
   }
 }
 

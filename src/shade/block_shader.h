@@ -39,8 +39,12 @@ public:
 
 private:
   void place_background(const float* x, const float* y, std::size_t first, std::size_t count);
-  /// Textures and vertex colours.
-  void vary(const TriangleSetup& setup, std::size_t material, std::size_t first, std::size_t count);
+  /// Textures and vertex colours, of neighbouring triangles of one material at once: `locate` begins or
+  /// continues a stretch of samples, `finish` gives it its surfaces.
+  void locate_run(const TriangleSetup& setup, std::size_t material, const glm::uvec3& corners,
+                  std::size_t first, std::size_t count);
+  void finish_stretch();
+  const texture::TextureValues* sampled(const MapUse& use, const TextureMap& map, texture::TextureValues& to);
   /// What is mirrored, and the light of an environment.
   void surround();
   void place_run(std::uint32_t id, const float* x, const float* y, std::size_t first, std::size_t count);
@@ -53,6 +57,13 @@ private:
   SampleBlock block_{};
   bool anything_seen_ = false;
   alignas(64) float factor_[SampleBlock::room] = {};
+  struct Stretch {
+    std::size_t material = 0, first = 0, count = 0;  // count 0: none
+  };
+  static constexpr std::size_t most_rules = 4;  // of SurfaceMaps
+  Stretch stretch_;
+  texture::TexturePlaces places_[most_rules] = {};
+  texture::TextureValues vertices_{}, base_values_{}, emissive_values_{}, gloss_values_{};
   SampleBlock::Channel before_[3] = {};  ///< colours without a coloured light
 };
 

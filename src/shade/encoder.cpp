@@ -4,13 +4,15 @@
 #include <cmath>
 #include <limits>
 
+#include "math/srgb.h"
+
 namespace tenebra::shade {
 namespace {
 
 double value_of_level(Transfer transfer, double level) {
   const double y = level / 255.0;
   if (transfer == Transfer::display) return y;
-  return y <= 12.92 * 0.0031308 ? y / 12.92 : std::pow((y + 0.055) / 1.055, 2.4);
+  return math::linear_of_srgb(y);
 }
 
 /// The least float that is `value` or more.

@@ -10,6 +10,7 @@ static_assert(std::endian::native == std::endian::little);
 #include <hwy/foreach_target.h>
 // After foreach_target.h
 #include "shade/gloss-inl.h"
+#include "shade/resolve-inl.h"
 #include "simd/dispatch.h"
 
 HWY_BEFORE_NAMESPACE();
@@ -67,8 +68,8 @@ Vector16 normal_at(const TriangleSetup& setup, const Weights& w) {
   return select3(lt(broadcast<Float16>(1e-6f), size), scale * n, face);
 }
 
-void place(const TriangleSetup& setup, const Surface& surface, const float* x, const float* y,
-           std::size_t first, std::size_t count, SampleBlock& b) {
+void place(const TriangleSetup& setup, const float* x, const float* y, std::size_t first, std::size_t count,
+           SampleBlock& b) {
   for (std::size_t i = first; i < first + count; i += 16) {
     const Weights w = weights_of(setup, load<Float16>(x + i), load<Float16>(y + i));
     store(w.u, b.u + i);
@@ -77,6 +78,11 @@ void place(const TriangleSetup& setup, const Surface& surface, const float* x, c
     store3(broadcast16(setup.a) + w.u * broadcast16(setup.e1) + w.v * broadcast16(setup.e2), b.point, i);
     store3(broadcast16(setup.face), b.face, i);
     store3(setup.smooth ? normal_at(setup, w) : broadcast16(setup.normal), b.normal, i);
+  }
+}
+
+void cover(const Surface& surface, std::size_t first, std::size_t count, SampleBlock& b) {
+  for (std::size_t i = first; i < first + count; i += 16) {
     store3(broadcast16(surface.base), b.base, i);
     store3(broadcast16(surface.ambient), b.ambient, i);
     store3(broadcast16(surface.emissive), b.emissive, i);
@@ -93,6 +99,13 @@ void look(const glm::vec3* towards, SampleBlock& b) {
     const Vector16 point = load3(b.point, i);
     store3(towards != nullptr ? broadcast16(*towards) : unit(broadcast16(glm::vec3(0.0f)) - point), b.to_eye,
            i);
+  }
+}
+
+void reflect(const glm::vec3& around, const glm::vec3& brighter, SampleBlock& b) {
+  for (std::size_t i = 0; i < b.count; i += 16) {
+    const Float16 smooth = number(1.0f) - load<Float16>(b.roughness + i);
+    store3(broadcast16(around) + smooth * broadcast16(brighter), b.reflected, i);
   }
 }
 
@@ -147,7 +160,7 @@ void encode_block(const LevelTable& table, float exposure, const SampleBlock& b,
 }  // namespace
 
 Kernels kernels() {
-  return {place, look, begin, light, encode_block};
+  return {place, cover, locate, blend, resolve, nullptr, look, reflect, begin, light, encode_block};
 }
 
 }  // namespace tenebra::shade::HWY_NAMESPACE
@@ -158,7 +171,9 @@ HWY_AFTER_NAMESPACE();
 namespace tenebra::shade {
 
 Kernels kernels(SimdLevel level) {
-  return TENEBRA_DISPATCH(level, kernels)();
+  Kernels found = TENEBRA_DISPATCH(level, kernels)();
+  found.sample = texture::sampler(level);
+  return found;
 }
 
 }  // namespace tenebra::shade

@@ -7,17 +7,46 @@
 #include "shade/sample_block.h"
 #include "shade/surfaces.h"
 #include "shade/triangle_setup.h"
+#include "texture/sampler.h"
 
 namespace tenebra::shade {
 
+static_assert(SampleBlock::room == texture::TexturePlaces::room);
+
+/// What a material's factors are multiplied with at each sample; null: 1.
+struct SurfaceInputs {
+  const texture::TextureValues* vertices = nullptr;
+  const texture::TextureValues* base = nullptr;
+  const texture::TextureValues* emissive = nullptr;
+  const texture::TextureValues* metallic_roughness = nullptr;
+  const texture::TextureValues* specular = nullptr;
+};
+
 /// Code for one instruction set; all give the same bits.
 struct Kernels {
-  /// Fills places, normals and colours of samples `first` ... `first + count - 1`, at window places (x, y),
-  /// all of one triangle and its surface. May write up to fifteen samples behind them.
-  void (*place)(const TriangleSetup& setup, const Surface& surface, const float* x, const float* y,
-                std::size_t first, std::size_t count, SampleBlock& block) = nullptr;
+  // These fill samples `first` ... `first + count - 1`, and may write up to fifteen samples behind them.
+
+  /// Places and normals at window places (x, y), all of one triangle.
+  void (*place)(const TriangleSetup& setup, const float* x, const float* y, std::size_t first,
+                std::size_t count, SampleBlock& block) = nullptr;
+  /// The same surface everywhere.
+  void (*cover)(const Surface& surface, std::size_t first, std::size_t count, SampleBlock& block) = nullptr;
+  /// Places on textures, of placed samples of one triangle.
+  void (*locate)(const TriangleSetup& setup, const CoordinatePlane& plane, const SampleBlock& block,
+                 std::size_t first, std::size_t count, texture::TexturePlaces& places) = nullptr;
+  /// Between the colours of a triangle's vertices.
+  void (*blend)(const glm::vec4* colors, const SampleBlock& block, std::size_t first, std::size_t count,
+                texture::TextureValues& out) = nullptr;
+  /// The surface of a material with its textures.
+  void (*resolve)(const Material& material, const SurfaceInputs& inputs, const glm::vec3& ambient_light,
+                  std::size_t first, std::size_t count, SampleBlock& block) = nullptr;
+  texture::Sampler sample = nullptr;
+
   /// Fills to_eye; `towards`: the same unit direction for all (orthographic views), or null.
   void (*look)(const glm::vec3* towards, SampleBlock& block) = nullptr;
+  /// Fills reflected where the surroundings are the same on all sides but for `brighter`, which smooth
+  /// surfaces see more of.
+  void (*reflect)(const glm::vec3& around, const glm::vec3& brighter, SampleBlock& block) = nullptr;
   /// color = ambient * openness + emissive; `openness`: one for each sample, or null: all open. What
   /// is glossy mirrors `reflected`, as open.
   void (*begin)(const float* openness, SampleBlock& block) = nullptr;

@@ -1,71 +1,66 @@
 #include "shade/surfaces.h"
 
 #include <algorithm>
+#include <cmath>
+#include <compare>
 #include <map>
+#include <memory>
 #include <optional>
 #include <utility>
 
 #include "parallel/parallel.h"
+#include "shade/kernels.h"
 
 namespace tenebra::shade {
 namespace {
 
-using glm::vec3;
-using glm::vec4;
 using texture::Content;
 
-/// A material's factors times what its textures hold at a place.
-struct Inputs {
-  vec4 base;
-  vec3 emissive, specular;
-  float metallic, roughness;
-  vec4 pattern{1.0f};  ///< what `base` was multiplied with: colours of vertices and of the base texture
-};
-
-Inputs factors_of(const Material& m) {
-  return {vec4(m.base_color, m.alpha), m.emissive, m.specular, m.metallic, m.roughness};
+/// The material without its textures.
+Surface plain_surface(const Kernels& code, const Material& material) {
+  auto block = std::make_unique<SampleBlock>();
+  block->keeps_gloss = true;
+  code.resolve(material, {}, glm::vec3(1.0f), 0, 1, *block);
+  const auto at = [](const SampleBlock::Channel(&of)[3]) { return glm::vec3(of[0][0], of[1][0], of[2][0]); };
+  return {at(block->base),     at(block->ambient),  at(block->emissive), block->alpha[0],
+          at(block->specular), block->roughness[0], block->exponent[0]};
 }
 
-constexpr float dielectric = 0.04f;  // reflectance at 0 degrees of glTF's surfaces that are no metal
+/// What identifies a texture: pictures are kept once for each use of their values, with what stands beyond
+/// their edges.
+struct TextureKey {
+  int image;
+  Content content;
+  Wrap wrap_u, wrap_v;
+  auto operator<=>(const TextureKey&) const = default;
+};
 
-Surface resolved(const Material& m, const Inputs& in) {
-  Surface s{.base = vec3(in.base), .emissive = in.emissive};
-  s.alpha = m.alpha_mode == AlphaMode::opaque ? 1.0f : in.base.a;
-  switch (m.model) {
-    case SurfaceModel::phong:
-      s.specular = in.specular;
-      s.exponent = std::max(m.phong_exponent, 0.0f);
-      break;
-    case SurfaceModel::metallic_roughness:
-      s.specular = glm::mix(vec3(dielectric), s.base, in.metallic);
-      s.base *= 1 - in.metallic;
-      s.roughness = std::clamp(in.roughness, 0.0f, 1.0f);
-      break;
-    case SurfaceModel::specular_glossiness:
-      s.specular = in.specular;
-      s.base *= 1 - std::max({in.specular.x, in.specular.y, in.specular.z});
-      s.roughness = std::clamp(in.roughness, 0.0f, 1.0f);
-      break;
-    case SurfaceModel::unlit:
-      s.emissive += s.base;
-      s.base = vec3(0.0f);
-      return s;
+/// The material's rule for `map`, added if it is new.
+int rule_of(const TextureMap& map, std::vector<CoordinateRule>& rules) {
+  const auto period = [](Wrap wrap) {
+    return wrap == Wrap::clamp_to_edge ? 0.0 : wrap == Wrap::repeat ? 1.0 : 2.0;
+  };
+  const CoordinateRule wanted{
+      map.uv_set, glm::dmat3x2(map.transform), {period(map.wrap_u), period(map.wrap_v)}};
+  for (std::size_t i = 0; i < rules.size(); ++i) {
+    const CoordinateRule& rule = rules[i];
+    if (rule.set == wanted.set && rule.transform == wanted.transform && rule.period == wanted.period)
+      return static_cast<int>(i);
   }
-  // A stated ambient reflectance has no texture of its own: it is textured as the base colour is, even where
-  // that is black (BART's garden).
-  s.ambient = m.ambient.x < 0 ? s.base : m.ambient * vec3(in.pattern);
-  return s;
+  rules.push_back(wanted);
+  return static_cast<int>(rules.size()) - 1;
 }
 
 }  // namespace
 
 SurfaceTable::SurfaceTable(std::span<const Material> materials) {
   if (materials.empty()) return;
+  const Kernels code = kernels(SimdLevel::automatic);
   materials_.assign(materials.begin(), materials.end());
   surfaces_.clear();
   maps_.assign(materials.size(), {});
   for (const Material& m : materials) {
-    surfaces_.push_back(resolved(m, factors_of(m)));
+    surfaces_.push_back(plain_surface(code, m));
     any_glossy_ = any_glossy_ || surfaces_.back().is_glossy();
   }
 }
@@ -78,68 +73,57 @@ SurfaceTable::SurfaceTable(const Scene& scene) : SurfaceTable(std::span(scene.ma
 }
 
 void SurfaceTable::add_textures(const Scene& scene) {
-  std::map<std::pair<int, Content>, int> numbers;
-  std::vector<std::pair<int, Content>> wanted;
+  std::map<TextureKey, int> numbers;
+  std::vector<TextureKey> wanted;
   const bool curved = scene.transfer == Transfer::srgb;
-  const auto number_of = [&](const TextureMap& map, Content content) {
+  const auto use_of = [&](const TextureMap& map, Content content, SurfaceMaps& maps) -> MapUse {
     const auto image = static_cast<std::size_t>(map.image), set = static_cast<std::size_t>(map.uv_set);
-    if (!map || image >= scene.images.size() || scene.images[image].rgba.empty()) return -1;
-    if (set >= coordinates_.size() || coordinates_[set].empty()) return -1;
-    const auto [found, is_new] = numbers.try_emplace({map.image, content}, static_cast<int>(wanted.size()));
-    if (is_new) wanted.emplace_back(map.image, content);
-    return found->second;
+    if (!map || image >= scene.images.size() || scene.images[image].rgba.empty()) return {};
+    if (set >= coordinates_.size() || coordinates_[set].empty()) return {};
+    const TextureKey key{map.image, content, map.wrap_u, map.wrap_v};
+    const auto [found, is_new] = numbers.try_emplace(key, static_cast<int>(wanted.size()));
+    if (is_new) wanted.push_back(key);
+    return {found->second, rule_of(map, maps.rules)};
   };
   const Content color = curved ? Content::srgb_color : Content::display_color;
   for (std::size_t i = 0; i < scene.materials.size(); ++i) {
     const Material& m = scene.materials[i];
-    maps_[i] = {.base = number_of(m.base_color_map, color), .emissive = number_of(m.emissive_map, color)};
-    if (m.model == SurfaceModel::metallic_roughness)
-      maps_[i].metallic_roughness = number_of(m.metallic_roughness_map, Content::data);
+    SurfaceMaps& maps = maps_[i];
+    maps.base = use_of(m.base_color_map, color, maps);
+    if (m.emissive != glm::vec3(0.0f)) maps.emissive = use_of(m.emissive_map, color, maps);
+    if (m.model == SurfaceModel::metallic_roughness && (m.metallic != 0 || m.roughness != 0))
+      maps.metallic_roughness = use_of(m.metallic_roughness_map, Content::data, maps);
     if (m.model == SurfaceModel::specular_glossiness)
-      maps_[i].specular = number_of(m.specular_map, curved ? Content::srgb_beside_data : Content::data);
+      maps.specular = use_of(m.specular_map, curved ? Content::srgb_beside_data : Content::data, maps);
   }
   std::vector<std::optional<texture::MipTexture>> made(wanted.size());
   parallel::parallel_in_order(static_cast<int>(wanted.size()), [&](int i) {
-    const auto [image, content] = wanted[static_cast<std::size_t>(i)];
-    made[static_cast<std::size_t>(i)].emplace(scene.images[static_cast<std::size_t>(image)], content);
+    const TextureKey& key = wanted[static_cast<std::size_t>(i)];
+    made[static_cast<std::size_t>(i)].emplace(scene.images[static_cast<std::size_t>(key.image)], key.content,
+                                              key.wrap_u, key.wrap_v);
   });
   for (auto& texture : made) textures_.push_back(std::move(*texture));
 }
 
-vec4 SurfaceTable::read(int texture, const TextureMap& map, const glm::uvec3& corners,
-                        const SurfacePlace& place) const {
-  const std::vector<glm::vec2>& at = coordinates_[static_cast<std::size_t>(map.uv_set)];
-  if (std::max({corners.x, corners.y, corners.z}) >= at.size()) return vec4(1.0f);
-  const glm::vec2 origin = at[corners.x], second = at[corners.y] - origin, third = at[corners.z] - origin;
-  const auto along = [&](const glm::vec2& w) { return w.x * second + w.y * third; };
-  return textures_[static_cast<std::size_t>(texture)].sample(map, origin + along(place.weights),
-                                                             {along(place.by_x), along(place.by_y)});
+bool SurfaceTable::varies(std::size_t material, const glm::uvec3& corners) const {
+  const SurfaceMaps& maps = maps_[material];
+  const std::size_t most = std::max({corners.x, corners.y, corners.z});
+  for (const CoordinateRule& rule : maps.rules)
+    if (most >= coordinates_[static_cast<std::size_t>(rule.set)].size()) return false;
+  return maps.any() || most < colors_.size();
 }
 
-Surface SurfaceTable::at(std::size_t material, const glm::uvec3& corners, const SurfacePlace& place) const {
-  const std::size_t index = held(material);
-  const Material& m = materials_[index];
-  const SurfaceMaps& maps = maps_[index];
-  Inputs in = factors_of(m);
-  if (const auto most = std::max({corners.x, corners.y, corners.z}); most < colors_.size()) {
-    const float first = 1 - place.weights.x - place.weights.y;
-    in.pattern = first * colors_[corners.x] + place.weights.x * colors_[corners.y] +
-                 place.weights.y * colors_[corners.z];
+CoordinatePlane SurfaceTable::coordinates(const CoordinateRule& rule, const glm::uvec3& corners) const {
+  const std::vector<glm::vec2>& at = coordinates_[static_cast<std::size_t>(rule.set)];
+  const auto placed = [&](std::uint32_t vertex) { return rule.transform * glm::dvec3(at[vertex], 1.0); };
+  // In double, and less whole periods: far from 0 floats would lose a repeated texture's fractions.
+  const glm::dvec2 first = placed(corners.x);
+  glm::dvec2 held = first;
+  for (int c = 0; c < 2; ++c) {
+    const double period = rule.period[c];
+    if (period > 0) held[c] -= period * std::floor(first[c] / period);
   }
-  if (maps.base >= 0) in.pattern *= read(maps.base, m.base_color_map, corners, place);
-  in.base *= in.pattern;
-  if (maps.emissive >= 0) in.emissive *= vec3(read(maps.emissive, m.emissive_map, corners, place));
-  if (maps.metallic_roughness >= 0) {
-    const vec4 value = read(maps.metallic_roughness, m.metallic_roughness_map, corners, place);
-    in.roughness *= value.g;
-    in.metallic *= value.b;
-  }
-  if (maps.specular >= 0) {
-    const vec4 value = read(maps.specular, m.specular_map, corners, place);
-    in.specular *= vec3(value);
-    in.roughness = 1 - (1 - in.roughness) * value.a;
-  }
-  return resolved(m, in);
+  return {held, placed(corners.y) - first, placed(corners.z) - first};
 }
 
 }  // namespace tenebra::shade

@@ -26,17 +26,27 @@ struct Surface {
   bool is_glossy() const { return roughness >= 0 || specular != glm::vec3(0.0f); }
 };
 
-/// A material's textures: indices into SurfaceTable's; -1: none.
+/// How a material's texture is read: which (-1: none), and by which of the material's coordinates.
+struct MapUse {
+  int texture = -1;
+  int coordinates = 0;
+  explicit operator bool() const { return texture >= 0; }
+};
+/// Coordinates that textures of a material share: a set of the vertices', and a transform.
+struct CoordinateRule {
+  int set = 0;
+  glm::dmat3x2 transform{1, 0, 0, 1, 0, 0};
+  glm::dvec2 period{2.0};  ///< what coordinates may change by unseen: 0 where the picture ends at its edges
+};
 struct SurfaceMaps {
-  int base = -1, emissive = -1, metallic_roughness = -1, specular = -1;
-  bool any() const { return base >= 0 || emissive >= 0 || metallic_roughness >= 0 || specular >= 0; }
+  MapUse base, emissive, metallic_roughness, specular;
+  std::vector<CoordinateRule> rules;  ///< at most four
+  bool any() const { return !rules.empty(); }
 };
 
-/// A place on a triangle: the weights of its second and third vertex, and what these change by from pixel to
-/// pixel.
-struct SurfacePlace {
-  glm::vec2 weights{0.0f};
-  glm::vec2 by_x{0.0f}, by_y{0.0f};
+/// Coordinates over a triangle: at its first vertex, and what the weights of the others change them by.
+struct CoordinatePlane {
+  glm::vec2 first{0.0f}, by_second{0.0f}, by_third{0.0f};
 };
 
 /// Made once a scene.
@@ -53,17 +63,22 @@ public:
   const Surface& operator[](std::size_t material) const { return surfaces_[held(material)]; }
   std::size_t held(std::size_t material) const { return std::min(material, surfaces_.size() - 1); }
   std::size_t size() const { return surfaces_.size(); }
-  /// Whether a triangle's surface changes over it: the functions below then have it.
-  bool varies(std::size_t material) const { return !colors_.empty() || maps_[held(material)].any(); }
+  /// Whether the surface of triangles with these vertices, of FrameGeometry's, changes over them.
+  bool varies(std::size_t material, const glm::uvec3& corners) const;
   /// Whether some material reflects more than diffusely.
   bool any_glossy() const { return any_glossy_; }
 
-  /// A material at a place of a triangle with vertices `corners`, of FrameGeometry's.
-  Surface at(std::size_t material, const glm::uvec3& corners, const SurfacePlace& place) const;
+  // Where it does, of a held material:
+  const Material& material(std::size_t held) const { return materials_[held]; }
+  const SurfaceMaps& maps(std::size_t held) const { return maps_[held]; }
+  const texture::MipTexture& texture(const MapUse& use) const {
+    return textures_[static_cast<std::size_t>(use.texture)];
+  }
+  CoordinatePlane coordinates(const CoordinateRule& rule, const glm::uvec3& corners) const;
+  /// By FrameGeometry's vertices; empty: all white.
+  const std::vector<glm::vec4>& colors() const { return colors_; }
 
 private:
-  glm::vec4 read(int texture, const TextureMap& map, const glm::uvec3& corners,
-                 const SurfacePlace& place) const;
   void add_textures(const Scene& scene);
 
   std::vector<Material> materials_{1};

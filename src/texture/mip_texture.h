@@ -1,10 +1,9 @@
-// A picture with its smaller copies, and what a pixel of the screen sees of it.
+// A picture with its smaller copies, as sampler.h reads it.
 #pragma once
 
 #include <array>
 #include <cstdint>
 #include <glm/glm.hpp>
-#include <span>
 #include <vector>
 
 #include <tenebra/material.h>
@@ -13,54 +12,45 @@ namespace tenebra::texture {
 
 /// What the values of a picture are.
 enum class Content {
-  srgb_color,        ///< encoded by the sRGB curve; decoded where it is read and averaged
+  srgb_color,        ///< encoded by the sRGB curve; decoded here
   srgb_beside_data,  ///< the same, beside an alpha that is no share of a surface
   display_color,     ///< taken as they are
   data               ///< taken as they are, alpha too
 };
 
-/// The pixel's footprint: what the texture coordinates, before TextureMap::transform, change by from this
-/// pixel to the next in x and in y.
-struct Footprint {
-  glm::vec2 dx{0.0f};
-  glm::vec2 dy{0.0f};
-};
-
 /// Level 0 is the picture; each next level is half as wide and half as high, rounded down, to 1x1. A pixel of
 /// it is the mean of what it covers, of odd sizes in proportion, in linear light; colours count by their
-/// alpha, so that what is see-through does not shine through. Levels above 0 are kept at 8 bits too, rounded
-/// once from floats.
+/// alpha, so that what is see-through does not shine through. All levels are kept linear, at 16 bits, rounded
+/// once, and with a border of one pixel: what stands beyond the edges by the two ways to wrap.
 class MipTexture {
 public:
-  static constexpr int most_taps = 16;
+  static constexpr int most_levels = 32;
+  static constexpr float one = 65535;  ///< the stored value of 1
 
-  MipTexture(const TextureImage& image, Content content);
+  MipTexture(const TextureImage& image, Content content, Wrap wrap_u, Wrap wrap_v);
 
-  /// The texture's four values at `uv`, 0 to 1, colours linear: of level 0 by `magnify` where the picture is
-  /// enlarged; else by `minify` and `mip` from as many places along the longer axis of the footprint as it
-  /// is longer than the shorter one, at most `most_taps`, each as large as the shorter axis. Coordinates that
-  /// are not finite give the first pixel.
-  glm::vec4 sample(const TextureMap& map, glm::vec2 uv, const Footprint& footprint) const;
+  int level_count() const { return level_count_; }
+  int width(int level = 0) const { return std::max(1, width_ >> level); }
+  int height(int level = 0) const { return std::max(1, height_ >> level); }
+  Wrap wrap_u() const { return wrap_u_; }
+  Wrap wrap_v() const { return wrap_v_; }
+  glm::vec4 pixel(int level, int x, int y) const;  ///< linear, 0 to 1; x from -1 to the width, y likewise
 
-  std::size_t level_count() const { return levels_.size(); }
-  int width(std::size_t level = 0) const { return levels_[level].width; }
-  int height(std::size_t level = 0) const { return levels_[level].height; }
-  glm::vec4 pixel(std::size_t level, int x, int y) const;  ///< linear
+  /// The pixels, four values each. Rows of a level stand `width + 2` pixels apart.
+  const std::uint16_t* texels() const { return texels_.data(); }
+  /// For each level the number of its pixel (0, 0).
+  const std::array<std::int32_t, most_levels>& starts() const { return starts_; }
 
 private:
-  glm::vec4 decoded(const std::uint8_t* rgba) const {
-    return {decode_[rgba[0]], decode_[rgba[1]], decode_[rgba[2]],
-            static_cast<float>(rgba[3]) * (1.0f / 255.0f)};
-  }
-  struct Level {
-    int width = 0, height = 0;
-    std::vector<std::uint8_t> rgba;
-  };
-  glm::vec4 at_level(std::size_t level, Filter filter, const TextureMap& map, const glm::dvec2& place) const;
-  glm::vec4 at_detail(const TextureMap& map, float detail, const glm::dvec2& place) const;
+  struct FloatLevel;
+  void store(const FloatLevel& level, bool weighted);
+  void add_border(int level);
+  std::uint16_t* texel(int level, int x, int y);
 
-  std::vector<Level> levels_;
-  const float* decode_;  // of 256 levels of colour
+  int width_ = 0, height_ = 0, level_count_ = 0;
+  Wrap wrap_u_, wrap_v_;
+  std::vector<std::uint16_t> texels_;
+  std::array<std::int32_t, most_levels> starts_{};
 };
 
 }  // namespace tenebra::texture

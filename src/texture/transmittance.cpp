@@ -1,20 +1,17 @@
 #include "texture/transmittance.h"
 
 #include <algorithm>
-#include <cmath>
 
+#include "math/srgb.h"
 #include "texture/bilinear.h"
 
 namespace tenebra::texture {
 namespace {
 
-float linear(float encoded) {
-  return encoded <= 0.04045f ? encoded / 12.92f : std::pow((encoded + 0.055f) / 1.055f, 2.4f);
-}
-
 glm::vec4 decoded(glm::vec4 stored, Transfer transfer) {
   if (transfer == Transfer::display) return stored;
-  return {linear(stored.x), linear(stored.y), linear(stored.z), stored.w};
+  return {math::linear_of_srgb(stored.x), math::linear_of_srgb(stored.y), math::linear_of_srgb(stored.z),
+          stored.w};
 }
 
 /// The picture of `map`; null: there is none.

@@ -7,6 +7,7 @@
 
 #include "shade/shading.h"
 #include "support/hand_made.h"
+#include "support/sample_one.h"
 #include "texture/bilinear.h"
 
 namespace tenebra {
@@ -110,19 +111,20 @@ TEST_F(Textured, TransformsAndTheSecondSetAreUsed) {
 
 // The footprint from differences of a thousandth of a pixel, in double.
 TEST_F(Textured, FootprintsAreTheDerivativesOverThePlane) {
-  const texture::MipTexture picture(scene.images[0], texture::Content::display_color);
   const Material& m = scene.materials[0];
+  const texture::MipTexture picture(scene.images[0], texture::Content::display_color, m.base_color_map.wrap_u,
+                                    m.base_color_map.wrap_v);
   for (const ViewRays& view : {far_view, flat_view}) {
     const auto found = shaded(view);
     int smaller = 0;
     for (std::size_t i = 0; i < found.size(); ++i) {
       const double x = double(i % width) + 0.5, y = double(i / width) + 0.5, h = 1e-3;
       const glm::dvec2 at = seen(view, x, y);
-      const texture::Footprint footprint{20.0 / h * (seen(view, x + h, y) - at),
-                                         20.0 / h * (seen(view, x, y + h) - at)};
+      const Footprint footprint{20.0 / h * (seen(view, x + h, y) - at),
+                                20.0 / h * (seen(view, x, y + h) - at)};
       if (!(glm::length(footprint.dx) < 1e3f && std::abs(at.x) < 1 && std::abs(at.y) < 1)) continue;
       smaller += glm::length(footprint.dx) > 2.0f / 24;
-      const glm::vec4 value = picture.sample(m.base_color_map, coordinates(view, x, y), footprint);
+      const glm::vec4 value = sample_one(picture, m.base_color_map, coordinates(view, x, y), footprint);
       for (int c = 0; c < 3; ++c) EXPECT_NEAR(found[i].color[c], m.base_color[c] * value[c], 0.02) << i;
     }
     EXPECT_GT(smaller, 50);

@@ -3,14 +3,14 @@
 #include <fmt/core.h>
 
 #include "formats/glb/writer.h"
+#include "math/srgb.h"
 
 namespace tenebra::formats {
 namespace {
 
 /// sRGB's curve undone: display values as other programs will show them.
 glm::vec3 to_linear(const glm::vec3& shown) {
-  const glm::vec3 curved = glm::pow((shown + 0.055f) / 1.055f, glm::vec3(2.4f));
-  return glm::mix(curved, shown / 12.92f, glm::lessThanEqual(shown, glm::vec3(0.04045f)));
+  return {math::linear_of_srgb(shown.x), math::linear_of_srgb(shown.y), math::linear_of_srgb(shown.z)};
 }
 
 /// The roughness whose highlight is about as wide as Phong's.
