@@ -69,6 +69,8 @@ SurfaceTable::SurfaceTable(const Scene& scene) : SurfaceTable(std::span(scene.ma
   SurfaceCoordinates coordinates = surface_coordinates(scene);
   coordinates_ = std::move(coordinates.texture_coordinates);
   colors_ = std::move(coordinates.colors);
+  for (const std::size_t held : {coordinates_[0].size(), coordinates_[1].size(), colors_.size()})
+    coordinates_end_ = std::max(coordinates_end_, held);  // the lists that are not empty are of one size
   if (!scene.materials.empty()) add_textures(scene);
 }
 
@@ -105,17 +107,11 @@ void SurfaceTable::add_textures(const Scene& scene) {
   for (auto& texture : made) textures_.push_back(std::move(*texture));
 }
 
-bool SurfaceTable::varies(std::size_t material, const glm::uvec3& corners) const {
-  const SurfaceMaps& maps = maps_[material];
-  const std::size_t most = std::max({corners.x, corners.y, corners.z});
-  for (const CoordinateRule& rule : maps.rules)
-    if (most >= coordinates_[static_cast<std::size_t>(rule.set)].size()) return false;
-  return maps.any() || most < colors_.size();
-}
-
 CoordinatePlane SurfaceTable::coordinates(const CoordinateRule& rule, const glm::uvec3& corners) const {
   const std::vector<glm::vec2>& at = coordinates_[static_cast<std::size_t>(rule.set)];
-  const auto placed = [&](std::uint32_t vertex) { return rule.transform * glm::dvec3(at[vertex], 1.0); };
+  const auto placed = [&](std::uint32_t vertex) {
+    return rule.moves ? rule.transform * glm::dvec3(at[vertex], 1.0) : glm::dvec2(at[vertex]);
+  };
   // In double, and less whole periods: far from 0 floats would lose a repeated texture's fractions.
   const glm::dvec2 first = placed(corners.x);
   glm::dvec2 held = first;

@@ -36,7 +36,8 @@ struct MapUse {
 struct CoordinateRule {
   int set = 0;
   glm::dmat3x2 transform{1, 0, 0, 1, 0, 0};
-  glm::dvec2 period{2.0};  ///< what coordinates may change by unseen: 0 where the picture ends at its edges
+  glm::dvec2 period{0.0};  ///< what coordinates may change by unseen: 0 where the picture ends at its edges
+  bool moves = false;      ///< the transform is not the identity
 };
 struct SurfaceMaps {
   MapUse base, emissive, metallic_roughness, specular;
@@ -64,7 +65,10 @@ public:
   std::size_t held(std::size_t material) const { return std::min(material, surfaces_.size() - 1); }
   std::size_t size() const { return surfaces_.size(); }
   /// Whether the surface of triangles with these vertices, of FrameGeometry's, changes over them.
-  bool varies(std::size_t material, const glm::uvec3& corners) const;
+  bool varies(std::size_t material, const glm::uvec3& corners) const {
+    if (!maps_[material].any() && colors_.empty()) return false;
+    return std::max({corners.x, corners.y, corners.z}) < coordinates_end_;
+  }
   /// Whether some material reflects more than diffusely.
   bool any_glossy() const { return any_glossy_; }
 
@@ -87,6 +91,7 @@ private:
   std::vector<texture::MipTexture> textures_;
   std::array<std::vector<glm::vec2>, 2> coordinates_;
   std::vector<glm::vec4> colors_;
+  std::size_t coordinates_end_ = 0;  ///< vertices that have coordinates and colours
   bool any_glossy_ = false;
 };
 

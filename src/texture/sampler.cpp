@@ -1,7 +1,6 @@
 #include "texture/sampler.h"
 
 #include <algorithm>
-#include <bit>
 
 #undef HWY_TARGET_INCLUDE
 #define HWY_TARGET_INCLUDE "texture/sampler.cpp"
@@ -107,11 +106,25 @@ SIMD_INLINE Levels levels_of(const MipTexture& texture, Int16 level) {
           to_float(width), to_float(height)};
 }
 
-/// Where the four pixels around sixteen places stand, and where the places lie between them.
+/// Where the four pixels around sixteen places of a level stand, and where the places lie between them.
 struct Corners {
   alignas(64) std::int32_t first[16];  ///< number of the upper left one
+  alignas(64) float across[16];        ///< 0 at the left ones, 1 at the right ones
+  alignas(64) float down[16];          ///< 0 at the upper ones
+};
+
+/// The same for all of a sample's places on one level.
+struct LevelCorners {
   alignas(64) std::int32_t stride[16];
-  alignas(64) float across[16], down[16];  ///< 0 at the left and upper ones
+  Corners of_tap[most_taps];
+};
+
+/// What sixteen samples read.
+struct Reads {
+  alignas(64) std::int32_t taps[16];
+  alignas(64) float part[16];   ///< share of the upper level
+  alignas(64) float scale[16];  ///< what a sum over all places is multiplied with
+  LevelCorners lower, upper;    ///< `upper`: where `part` is not 0
 };
 
 /// The coordinate in the picture, 0 to 1, that `x` stands for.
@@ -131,57 +144,68 @@ SIMD_INLINE void find_corners(const Levels& level, Float16 u, Float16 v, Float16
   store(select(between, x - column, number(0.0f)), out.across);
   store(select(between, y - row, number(0.0f)), out.down);
   store(level.start + truncate(row) * level.stride + truncate(column), out.first);
-  store(level.stride, out.stride);
 }
 
-SIMD_INLINE Float4 between_corners(const std::uint16_t* texels, const Corners& corners, unsigned k) {
+SIMD_INLINE Float4 between_corners(const std::uint16_t* texels, const LevelCorners& level, int tap,
+                                   std::size_t k) {
+  const Corners& corners = level.of_tap[tap];
   const std::uint16_t* const upper = texels + 4 * std::ptrdiff_t{corners.first[k]};
-  const Float8 top = load_whole16(upper),
-               bottom = load_whole16(upper + 4 * std::ptrdiff_t{corners.stride[k]});
+  const std::uint16_t* const lower = upper + 4 * std::ptrdiff_t{level.stride[k]};
+  const Float8 top = load_whole16(upper), bottom = load_whole16(lower);
   const Float8 both = top + broadcast<Float8>(corners.down[k]) * (bottom - top);
   const Float4 left = lower_half(both);
   return left + broadcast<Float4>(corners.across[k]) * (upper_half(both) - left);
 }
 
-SIMD_INLINE void sample_sixteen(const MipTexture& texture, const TextureMap& map, const TexturePlaces& at,
-                                std::size_t i, std::uint32_t wanted, TextureValues& out) {
+void plan_reads(const MipTexture& texture, const TextureMap& map, const TexturePlaces& at, std::size_t i,
+                Reads& out) {
   const Plan plan = plan_of(texture, map, at, i);
+  store(truncate(plan.taps), out.taps);
+  store(plan.part, out.part);
+  store(plan.inverse * number(1 / MipTexture::one), out.scale);
   const Levels lower = levels_of(texture, plan.lower);
+  store(lower.stride, out.lower.stride);
   const bool two_levels = any(lt(number(0.0f), plan.part));
   const Levels upper = two_levels ? levels_of(texture, plan.upper) : lower;
-  Corners sharp, blurred;
-  alignas(64) float of_sharp[16], of_blurred[16], sums[64] = {};
-  store(number(1.0f) - plan.part, of_sharp);
-  store(plan.part, of_blurred);
-  const std::uint16_t* const texels = texture.texels();
-  for (int tap = 0; tap < most_taps; ++tap) {
-    std::uint32_t left = wanted & lt_bits(number(static_cast<float>(tap)), plan.taps);
-    if (left == 0) break;
+  store(upper.stride, out.upper.stride);
+  const int taps = static_cast<int>(reduce_max(plan.taps));
+  for (int tap = 0; tap < taps; ++tap) {
     const Float16 along = number(static_cast<float>(tap) + 0.5f) * plan.inverse - number(0.5f);
     const Float16 u = folded(plan.u + along * plan.step_u, texture.wrap_u()),
                   v = folded(plan.v + along * plan.step_v, texture.wrap_v());
-    find_corners(lower, u, v, plan.half, sharp);
-    if (two_levels) find_corners(upper, u, v, plan.half, blurred);
-    for (; left != 0; left &= left - 1) {
-      const auto k = static_cast<unsigned>(std::countr_zero(left));
-      Float4 sum =
-          load<Float4>(sums + 4 * k) + broadcast<Float4>(of_sharp[k]) * between_corners(texels, sharp, k);
-      if (of_blurred[k] > 0)
-        sum = sum + broadcast<Float4>(of_blurred[k]) * between_corners(texels, blurred, k);
-      store(sum, sums + 4 * k);
+    find_corners(lower, u, v, plan.half, out.lower.of_tap[tap]);
+    if (two_levels) find_corners(upper, u, v, plan.half, out.upper.of_tap[tap]);
+  }
+}
+
+void read(const std::uint16_t* texels, const Reads& reads, std::size_t i, std::size_t count,
+          TextureValues& out) {
+  alignas(64) float found[64] = {};
+  for (std::size_t k = 0; k < count; ++k) {
+    const int taps = reads.taps[k];
+    const float part = reads.part[k];
+    Float4 sharp = between_corners(texels, reads.lower, 0, k);
+    for (int tap = 1; tap < taps; ++tap) sharp = sharp + between_corners(texels, reads.lower, tap, k);
+    if (part > 0) {
+      Float4 blurred = between_corners(texels, reads.upper, 0, k);
+      for (int tap = 1; tap < taps; ++tap) blurred = blurred + between_corners(texels, reads.upper, tap, k);
+      sharp = sharp + broadcast<Float4>(part) * (blurred - sharp);
     }
+    store(broadcast<Float4>(reads.scale[k]) * sharp, found + 4 * k);
   }
   Float16 channels[4];
-  load_fours(sums, channels);
-  const Float16 scale = plan.inverse * number(1 / MipTexture::one);
-  for (int c = 0; c < 4; ++c) store(min(channels[c] * scale, number(1.0f)), out.channel[c] + i);
+  load_fours(found, channels);
+  for (int c = 0; c < 4; ++c) store(min(channels[c], number(1.0f)), out.channel[c] + i);
 }
 
 void sample(const MipTexture& texture, const TextureMap& map, const TexturePlaces& at, std::size_t first,
             std::size_t count, TextureValues& out) {
-  for (std::size_t i = 0; i < count; i += 16) {
-    const std::uint32_t wanted = count - i < 16 ? (1u << (count - i)) - 1 : 0xffffu;
-    sample_sixteen(texture, map, at, first + i, wanted, out);
+  // The next reads are planned before these are done, so that no read waits for its address.
+  Reads reads[2];
+  if (count > 0) plan_reads(texture, map, at, first, reads[0]);
+  for (std::size_t i = 0, turn = 0; i < count; i += 16, turn ^= 1) {
+    if (i + 16 < count) plan_reads(texture, map, at, first + i + 16, reads[turn ^ 1]);
+    read(texture.texels(), reads[turn], first + i, std::min<std::size_t>(count - i, 16), out);
   }
 }
 
