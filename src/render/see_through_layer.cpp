@@ -131,7 +131,7 @@ void draw_layer(const LayerPicture& picture, base::Image8& out) {
         const SurfacePlace place =
             place_of(picture.surfaces, triangles, id, picture.layer.points.positions[pixel]);
         color += before[i].color *
-                 texture::reflecting_share(*picture.surfaces.scene, place.material, place.uv, place.vertex);
+                 texture::shown_share(*picture.surfaces.scene, place.material, place.uv, place.vertex);
       }
       for (int c = 0; c < 3; ++c)
         out.pixels[3 * std::size_t{pixel} + static_cast<std::size_t>(c)] =

@@ -75,6 +75,7 @@ void BlockShader::finish_stretch() {
   in.emissive = sampled(maps.emissive, m.emissive_map, emissive_values_);
   in.metallic_roughness = sampled(maps.metallic_roughness, m.metallic_roughness_map, gloss_values_);
   in.specular = sampled(maps.specular, m.specular_map, gloss_values_);  // a material has one or the other
+  in.transmission = sampled(maps.transmission, m.transmission_map, passing_values_);
   frame_.code.resolve(m, in, frame_.ambient_light, stretch_.first, stretch_.count, block_);
   stretch_.count = 0;
 }

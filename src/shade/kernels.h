@@ -20,6 +20,7 @@ struct SurfaceInputs {
   const texture::TextureValues* emissive = nullptr;
   const texture::TextureValues* metallic_roughness = nullptr;
   const texture::TextureValues* specular = nullptr;
+  const texture::TextureValues* transmission = nullptr;
 };
 
 /// Code for one instruction set; all give the same bits.

@@ -94,6 +94,12 @@ SIMD_INLINE Surfaces resolved(const Material& m, const SurfaceInputs& in, const 
       s.base = none;
       return s;
   }
+  // What passes is taken from what is diffuse, not from what is mirrored (KHR_materials_transmission); BART's
+  // materials state their parts apart.
+  if (m.tinted_transmission && m.transmission > 0) {
+    const Float16 passing = clamped(number(m.transmission) * channel_of(in.transmission, 0, i), 0.0f, 1.0f);
+    s.base = (one - passing) * s.base;
+  }
   // A stated ambient reflectance has no texture of its own: it is textured as the base colour is, even where
   // that is black (BART's garden).
   const Vector16 ambient = m.ambient.x < 0 ? s.base : times(broadcast16(m.ambient), pattern);

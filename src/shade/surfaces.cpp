@@ -40,8 +40,10 @@ int rule_of(const TextureMap& map, std::vector<CoordinateRule>& rules) {
   const auto period = [](Wrap wrap) {
     return wrap == Wrap::clamp_to_edge ? 0.0 : wrap == Wrap::repeat ? 1.0 : 2.0;
   };
-  const CoordinateRule wanted{
-      map.uv_set, glm::dmat3x2(map.transform), {period(map.wrap_u), period(map.wrap_v)}};
+  const CoordinateRule wanted{.set = map.uv_set,
+                              .transform = glm::dmat3x2(map.transform),
+                              .period = {period(map.wrap_u), period(map.wrap_v)},
+                              .moves = map.transform != TextureMap{}.transform};
   for (std::size_t i = 0; i < rules.size(); ++i) {
     const CoordinateRule& rule = rules[i];
     if (rule.set == wanted.set && rule.transform == wanted.transform && rule.period == wanted.period)
@@ -97,6 +99,8 @@ void SurfaceTable::add_textures(const Scene& scene) {
       maps.metallic_roughness = use_of(m.metallic_roughness_map, Content::data, maps);
     if (m.model == SurfaceModel::specular_glossiness)
       maps.specular = use_of(m.specular_map, curved ? Content::srgb_beside_data : Content::data, maps);
+    if (m.tinted_transmission && m.transmission > 0)
+      maps.transmission = use_of(m.transmission_map, Content::data, maps);
   }
   std::vector<std::optional<texture::MipTexture>> made(wanted.size());
   parallel::parallel_in_order(static_cast<int>(wanted.size()), [&](int i) {

@@ -40,8 +40,8 @@ struct CoordinateRule {
   bool moves = false;      ///< the transform is not the identity
 };
 struct SurfaceMaps {
-  MapUse base, emissive, metallic_roughness, specular;
-  std::vector<CoordinateRule> rules;  ///< at most four
+  MapUse base, emissive, metallic_roughness, specular, transmission;
+  std::vector<CoordinateRule> rules;  ///< at most five
   bool any() const { return !rules.empty(); }
 };
 

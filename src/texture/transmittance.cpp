@@ -72,17 +72,11 @@ bool uses_transmission_map(const Scene& scene, const Material& material) {
   return material.transmission > 0 && image_of(scene, material.transmission_map) != nullptr;
 }
 
-float reflecting_share(const Scene& scene, const Material& material, const glm::vec2 uv[2],
-                       const glm::vec4& vertex) {
-  float shown = 1;
-  if (material.alpha_mode == AlphaMode::blend) {
-    const float alpha = uses_base_map(scene, material) ? sample(scene, material.base_color_map, uv).w : 1.0f;
-    shown = share(material.alpha * alpha * vertex.w);
-  }
-  if (!material.tinted_transmission) return shown;
-  const float map =
-      uses_transmission_map(scene, material) ? sample(scene, material.transmission_map, uv).x : 1.0f;
-  return shown * (1 - share(material.transmission * map));
+float shown_share(const Scene& scene, const Material& material, const glm::vec2 uv[2],
+                  const glm::vec4& vertex) {
+  if (material.alpha_mode != AlphaMode::blend) return 1;
+  const float alpha = uses_base_map(scene, material) ? sample(scene, material.base_color_map, uv).w : 1.0f;
+  return share(material.alpha * alpha * vertex.w);
 }
 
 glm::vec3 transmittance_at(const Scene& scene, const Material& material, const glm::vec2 uv[2],

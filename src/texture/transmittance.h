@@ -27,11 +27,10 @@ bool uses_vertex_colors(const Material& material);
 glm::vec3 transmittance_at(const Scene& scene, const Material& material, const glm::vec2 uv[2],
                            const glm::vec4& vertex);
 
-/// The share of what an opaque surface of `material` would show that a see-through one shows: alpha, as
-/// above, times 1 - transmission where that is tinted (glTF: what passes is taken from what is diffuse;
-/// BART's materials state their parts apart).
-float reflecting_share(const Scene& scene, const Material& material, const glm::vec2 uv[2],
-                       const glm::vec4& vertex);
+/// The share of a surface of `material` that is there: alpha as above. What passes where it is there is taken
+/// from its diffuse reflectance alone, by shading.
+float shown_share(const Scene& scene, const Material& material, const glm::vec2 uv[2],
+                  const glm::vec4& vertex);
 
 /// transmittance() for the mean of each texture's pixels and white vertices.
 glm::vec3 mean_transmittance(const Scene& scene, const Material& material);

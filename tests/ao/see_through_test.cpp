@@ -33,23 +33,26 @@ std::vector<float> openness(const Scene& scene, AoMode mode, VisiblePoints* poin
   return occlude(scene, frame, config);
 }
 
+// What is see-through is found by the same rays in both modes, and they are those of the mode `rays`, where
+// an opaque pane's hits are Embree's: two intersections of the same float ray with the same triangle. A
+// distance of at most 2 m is off by a few roundings of 2^-23 m in each, so each ray's share by less than
+// 1e-6, and so their mean; times (1 - T) it is rounded twice more. A ray that only one of them lets pass at
+// the pane's edge would be off by up to 1/128, and there is none here.
 TEST(SeeThroughOcclusion, APaneHidesWhatAnOpaqueOneHidesTimesItsOpacity) {
   for (const bool moves : {false, true}) {
+    VisiblePoints points;
+    const auto opaque = openness(pane_over_floor(0, moves), AoMode::rays, &points);
     for (const AoMode mode : {AoMode::rays, AoMode::field}) {
-      // What is opaque is looked up in fields; what is see-through is found by rays in both.
-      const float tolerance = mode == AoMode::rays ? 0.005f : 0.03f;
-      VisiblePoints points;
-      const auto opaque = openness(pane_over_floor(0, moves), mode, &points);
       const auto half = openness(pane_over_floor(0.5f, moves), mode);
       const auto clear = openness(pane_over_floor(1, moves), mode);
       std::size_t hidden = 0;
       for (std::size_t i = 0; i < opaque.size(); ++i) {
         if (points.triangles[i] >= ground_triangles) continue;
         hidden += opaque[i] < 0.8f;
-        ASSERT_NEAR(half[i], 1 - 0.5f * (1 - opaque[i]), tolerance) << i << ", moves " << moves;
+        ASSERT_NEAR(half[i], 1 - 0.5f * (1 - opaque[i]), 2e-6f) << i << ", moves " << moves;
         ASSERT_EQ(clear[i], 1.0f) << i;
       }
-      EXPECT_GT(hidden, 100u);
+      EXPECT_GT(hidden, 200u);
     }
   }
 }

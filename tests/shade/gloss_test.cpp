@@ -92,6 +92,36 @@ TEST_F(Gloss, MetallicRoughnessIsThatOfGltf) {
   }
 }
 
+// KHR_materials_transmission: what passes is taken from the diffuse part; the mirror image stays whole.
+TEST_F(Gloss, WhatPassesIsTakenFromWhatIsDiffuseAlone) {
+  const Light lamp = make_light(LightType::point, 30.0f);
+  const std::vector<shade::PlacedLight> lights{{lamp, {.position = {1, 0.5f, -2}}}};
+  const std::vector<shade::LightFactors> lit(1);
+  const shade::Lighting lighting{.lights = lights, .ambient_light = glm::vec3(0.3f)};
+  Material m = metal_or_not({0.9f, 0.5f, 0.2f}, 0, 0.4f);
+  m.ambient = glm::vec3(-1.0f);
+  const auto opaque = shaded(m, lighting, lit);
+  m.tinted_transmission = true;
+  m.transmission = 1;
+  const auto clear = shaded(m, lighting, lit);
+  m.base_color = glm::vec3(0.0f);
+  m.transmission = 0;
+  const auto black = shaded(m, lighting, lit);  // f0 is 0.04 whatever the colour: the mirror image alone
+  m.base_color = {0.9f, 0.5f, 0.2f};
+  m.transmission = 0.75f;
+  const auto dim = shaded(m, lighting, lit);
+  float brightest = 0;
+  for (std::size_t i = 0; i < opaque.size(); ++i) {
+    brightest = std::max(brightest, black[i].color.x);
+    for (int c = 0; c < 3; ++c) {
+      EXPECT_EQ(clear[i].color[c], black[i].color[c]);
+      const float expected = black[i].color[c] + 0.25f * (opaque[i].color[c] - black[i].color[c]);
+      EXPECT_NEAR(dim[i].color[c], expected, 1e-6f * opaque[i].color[c]);
+    }
+  }
+  EXPECT_GT(brightest, 0.5f);
+}
+
 TEST_F(Gloss, PhongsHighlightIsAPowerOfTheMirroredRaysCosine) {
   Material m = make_material({0.3f, 0.2f, 0.1f}, glm::vec3(0.0f));
   m.specular = {0.5f, 0.25f, 1.0f};
