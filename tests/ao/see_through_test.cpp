@@ -52,7 +52,7 @@ TEST(SeeThroughOcclusion, APaneHidesWhatAnOpaqueOneHidesTimesItsOpacity) {
         ASSERT_NEAR(half[i], 1 - 0.5f * (1 - opaque[i]), 2e-6f) << i << ", moves " << moves;
         ASSERT_EQ(clear[i], 1.0f) << i;
       }
-      EXPECT_GT(hidden, 200u);
+      EXPECT_EQ(hidden, 125u);  // of the floor's pixels, as many in both modes: they are the rays' own
     }
   }
 }

@@ -98,7 +98,7 @@ TEST_F(Gloss, WhatPassesIsTakenFromWhatIsDiffuseAlone) {
   const std::vector<shade::PlacedLight> lights{{lamp, {.position = {1, 0.5f, -2}}}};
   const std::vector<shade::LightFactors> lit(1);
   const shade::Lighting lighting{.lights = lights, .ambient_light = glm::vec3(0.3f)};
-  Material m = metal_or_not({0.9f, 0.5f, 0.2f}, 0, 0.4f);
+  Material m = metal_or_not({0.9f, 0.5f, 0.2f}, 0, 0.3f);
   m.ambient = glm::vec3(-1.0f);
   const auto opaque = shaded(m, lighting, lit);
   m.tinted_transmission = true;
