@@ -38,8 +38,9 @@ void BlockShader::place_background(const float* x, const float* y, std::size_t f
   const ViewRays& view = frame_.subject.view;
   for (std::size_t i = first; i < first + count; ++i) {
     const glm::vec3 across = view.orthographic ? glm::vec3(0.0f) : x[i] * view.dx + y[i] * view.dy;
-    put(frame_.lighting.environment->mirrored(glm::normalize(view.d0 + across), 0.0f), block_.emissive, i);
+    put(glm::normalize(view.d0 + across), before_, i);  // scratch that no light uses yet
   }
+  frame_.code.see(frame_.lighting.environment->radiance(), before_, nullptr, first, count, block_.emissive);
 }
 
 void BlockShader::locate_run(const TriangleSetup& setup, std::size_t material, const glm::uvec3& corners,
@@ -127,16 +128,7 @@ void BlockShader::surround() {
     const glm::vec3 brighter = glm::max(lighting.background - lighting.ambient_light, glm::vec3(0.0f));
     return frame_.code.reflect(lighting.ambient_light, brighter, block_);
   }
-  for (std::size_t i = 0; i < block_.count; ++i) {
-    const glm::vec3 normal = at(block_.normal, i);
-    if (normal != glm::vec3(0.0f))
-      put(at(block_.ambient, i) * lighting.environment->diffuse(normal), block_.ambient, i);
-    const float roughness = block_.glossy ? block_.roughness[i] : -1.0f;
-    if (roughness < 0) continue;
-    const glm::vec3 to_eye = at(block_.to_eye, i);
-    put(lighting.environment->mirrored(2 * glm::dot(normal, to_eye) * normal - to_eye, roughness),
-        block_.reflected, i);
-  }
+  frame_.code.surround(lighting.environment->irradiance(), lighting.environment->radiance(), block_);
 }
 
 void BlockShader::shade(std::span<const LightFactors> factors, std::span<const float> openness,

@@ -25,21 +25,16 @@ vec3 usable(const float* rgb) {
   return {one(rgb[0]), one(rgb[1]), one(rgb[2])};
 }
 
-}  // namespace
+struct Level {
+  int width = 0, height = 0;
+  std::vector<vec3> pixels;
+  const vec3& at(int x, int y) const {
+    return pixels[static_cast<std::size_t>(y) * static_cast<std::size_t>(width) +
+                  static_cast<std::size_t>(x)];
+  }
+};
 
-vec3 Environment::Level::sample(const vec3& d) const {
-  const float across = std::atan2(d.x, -d.z) / (2 * std::numbers::pi_v<float>)+0.5f;
-  const float down = std::acos(std::clamp(d.y, -1.0f, 1.0f)) / std::numbers::pi_v<float>;
-  const float x = across * static_cast<float>(width) - 0.5f, y = down * static_cast<float>(height) - 0.5f;
-  const float x0 = std::floor(x), y0 = std::floor(y);
-  const auto column = static_cast<int>(x0), row = static_cast<int>(y0);
-  const int left = (column + width) % width, right = (column + 1) % width;
-  const int top = std::clamp(row, 0, height - 1), bottom = std::clamp(row + 1, 0, height - 1);
-  return glm::mix(glm::mix(at(left, top), at(right, top), x - x0),
-                  glm::mix(at(left, bottom), at(right, bottom), x - x0), y - y0);
-}
-
-Environment::Level Environment::halved(const Level& from) {
+Level halved(const Level& from) {
   Level to{std::max(1, from.width / 2), std::max(1, from.height / 2), {}};
   for (int y = 0; y < to.height; ++y) {
     const int first_row = y * from.height / to.height, last_row = (y + 1) * from.height / to.height;
@@ -60,7 +55,7 @@ Environment::Level Environment::halved(const Level& from) {
   return to;
 }
 
-Environment::Level Environment::diffused(const Level& from) {
+Level diffused(const Level& from) {
   Level to{32, 16, {}};
   for (int y = 0; y < to.height; ++y) {
     for (int x = 0; x < to.width; ++x) {
@@ -82,29 +77,30 @@ Environment::Level Environment::diffused(const Level& from) {
   return to;
 }
 
+void add_level(const Level& level, Panorama& to) {
+  if (to.level_count == 0) to.width = level.width, to.height = level.height;
+  const int stride = level.width + 2;
+  to.starts[static_cast<std::size_t>(to.level_count++)] =
+      static_cast<std::int32_t>(to.pixels.size()) + stride + 1;
+  for (int y = -1; y <= level.height; ++y) {
+    for (int x = -1; x <= level.width; ++x)
+      to.pixels.emplace_back(level.at((x + level.width) % level.width, std::clamp(y, 0, level.height - 1)),
+                             0.0f);
+  }
+}
+
+}  // namespace
+
 Environment::Environment(const base::ImageF& picture) {
-  Level& all = levels_.emplace_back(Level{picture.width, picture.height, {}});
+  Level level{picture.width, picture.height, {}};
   for (std::size_t i = 0; i + 2 < picture.pixels.size(); i += 3)
-    all.pixels.push_back(usable(&picture.pixels[i]));
-  while (levels_.back().width > 1 || levels_.back().height > 1) levels_.push_back(halved(levels_.back()));
-  const auto small = std::find_if(levels_.begin(), levels_.end(),
-                                  [](const Level& level) { return level.width <= 64 && level.height <= 32; });
-  diffuse_ = diffused(*small);
-}
-
-vec3 Environment::mirrored(const vec3& direction, float roughness) const {
-  const float widest = 2 * roughness * roughness;  // radians
-  const float pixels = widest * static_cast<float>(levels_[0].width) / (2 * std::numbers::pi_v<float>);
-  const float level =
-      std::clamp(std::log2(std::max(pixels, 1.0f)), 0.0f, static_cast<float>(levels_.size() - 1));
-  const auto lower = static_cast<std::size_t>(level);
-  const float part = level - static_cast<float>(lower);
-  const vec3 sharp = levels_[lower].sample(direction);
-  return part > 0 ? glm::mix(sharp, levels_[lower + 1].sample(direction), part) : sharp;
-}
-
-vec3 Environment::diffuse(const vec3& normal) const {
-  return diffuse_.sample(normal);
+    level.pixels.push_back(usable(&picture.pixels[i]));
+  for (;; level = halved(level)) {
+    add_level(level, radiance_);
+    const bool small = level.width <= 64 && level.height <= 32;
+    if (small && irradiance_.level_count == 0) add_level(diffused(level), irradiance_);
+    if (level.width == 1 && level.height == 1) break;
+  }
 }
 
 }  // namespace tenebra::shade

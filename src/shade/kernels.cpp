@@ -10,6 +10,7 @@ static_assert(std::endian::native == std::endian::little);
 #include <hwy/foreach_target.h>
 // After foreach_target.h
 #include "shade/gloss-inl.h"
+#include "shade/panorama-inl.h"
 #include "shade/resolve-inl.h"
 #include "simd/dispatch.h"
 
@@ -109,6 +110,25 @@ void reflect(const glm::vec3& around, const glm::vec3& brighter, SampleBlock& b)
   }
 }
 
+void see(const Panorama& picture, const SampleBlock::Channel (&towards)[3], const float* roughness,
+         std::size_t first, std::size_t count, SampleBlock::Channel (&out)[3]) {
+  for (std::size_t i = first; i < first + count; i += 16) {
+    const Float16 rough = roughness == nullptr ? number(0.0f) : load<Float16>(roughness + i);
+    store3(seen(picture, load3(towards, i), max(rough, number(0.0f))), out, i);
+  }
+}
+
+void surround(const Panorama& irradiance, const Panorama& radiance, SampleBlock& b) {
+  for (std::size_t i = 0; i < b.count; i += 16) {
+    const Vector16 normal = load3(b.normal, i), ambient = load3(b.ambient, i);
+    const Mask<float, 16> faces = lt(number(0.0f), abs(normal.x) + abs(normal.y) + abs(normal.z));
+    store3(select3(faces, times(ambient, seen(irradiance, normal, number(0.0f))), ambient), b.ambient, i);
+    if (!b.glossy) continue;
+    const Gloss g = gloss_of(b, i);
+    if (any(g.ggx)) store3(seen(radiance, mirrored(g), g.roughness), b.reflected, i);
+  }
+}
+
 void begin(const float* openness, SampleBlock& b) {
   for (std::size_t i = 0; i < b.count; i += 16) {
     Vector16 ambient = b.glossy ? glossy_ambient(b, i) : load3(b.ambient, i);
@@ -160,7 +180,8 @@ void encode_block(const LevelTable& table, float exposure, const SampleBlock& b,
 }  // namespace
 
 Kernels kernels() {
-  return {place, cover, locate, blend, resolve, nullptr, look, reflect, begin, light, encode_block};
+  return {place,   cover, locate,   blend, resolve, nullptr,     look,
+          reflect, see,   surround, begin, light,   encode_block};
 }
 
 }  // namespace tenebra::shade::HWY_NAMESPACE

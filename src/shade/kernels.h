@@ -4,6 +4,7 @@
 #include <tenebra/simd_level.h>
 #include "shade/encoder.h"
 #include "shade/light_terms.h"
+#include "shade/panorama.h"
 #include "shade/sample_block.h"
 #include "shade/surfaces.h"
 #include "shade/triangle_setup.h"
@@ -48,6 +49,11 @@ struct Kernels {
   /// Fills reflected where the surroundings are the same on all sides but for `brighter`, which smooth
   /// surfaces see more of.
   void (*reflect)(const glm::vec3& around, const glm::vec3& brighter, SampleBlock& block) = nullptr;
+  /// What stands around in the unit directions `towards`, through lobes of `roughness` (null: 0).
+  void (*see)(const Panorama& picture, const SampleBlock::Channel (&towards)[3], const float* roughness,
+              std::size_t first, std::size_t count, SampleBlock::Channel (&out)[3]) = nullptr;
+  /// The same with `irradiance` and `radiance` all around, for ambient and reflected.
+  void (*surround)(const Panorama& irradiance, const Panorama& radiance, SampleBlock& block) = nullptr;
   /// color = ambient * openness + emissive; `openness`: one for each sample, or null: all open. What
   /// is glossy mirrors `reflected`, as open.
   void (*begin)(const float* openness, SampleBlock& block) = nullptr;

@@ -7,6 +7,7 @@
 #include <random>
 #include <vector>
 
+#include "shade/kernels.h"
 #include "shade/shading.h"
 #include "support/hand_made.h"
 
@@ -242,6 +243,72 @@ TEST_F(Gloss, UniformSurroundingsAreReflectedWithoutGain) {
   }
 }
 
+/// Up to 64 directions at once.
+std::vector<glm::vec3> seen_in(const shade::Panorama& picture, const std::vector<glm::vec3>& towards,
+                               const std::vector<float>& roughness, SimdLevel level) {
+  shade::SampleBlock::Channel from[3] = {}, out[3] = {}, rough = {};
+  for (std::size_t i = 0; i < towards.size(); ++i) {
+    for (int c = 0; c < 3; ++c) from[c][i] = towards[i][c];
+    rough[i] = roughness[i];
+  }
+  shade::kernels(level).see(picture, from, rough, 0, towards.size(), out);
+  std::vector<glm::vec3> result;
+  for (std::size_t i = 0; i < towards.size(); ++i) result.emplace_back(out[0][i], out[1][i], out[2][i]);
+  return result;
+}
+
+/// The definition, in double: bilinear in angles, between two copies.
+glm::dvec3 definition(const shade::Panorama& picture, const glm::dvec3& d, double roughness) {
+  const auto at_level = [&](int level) {
+    const int w = picture.width_of(level), h = picture.height_of(level);
+    const double x = (std::atan2(d.x, -d.z) / (2 * pi) + 0.5) * w - 0.5;
+    const double y = std::acos(std::clamp(d.y / glm::length(d), -1.0, 1.0)) / pi * h - 0.5;
+    const auto pixel = [&](double column, double row) {
+      const int i = (static_cast<int>(column) + w) % w, j = std::clamp(static_cast<int>(row), 0, h - 1);
+      return dvec3(picture.pixels[static_cast<std::size_t>(picture.starts[static_cast<std::size_t>(level)] +
+                                                           j * (w + 2) + i)]);
+    };
+    const double c = std::floor(x), r = std::floor(y);
+    return glm::mix(glm::mix(pixel(c, r), pixel(c + 1, r), x - c),
+                    glm::mix(pixel(c, r + 1), pixel(c + 1, r + 1), x - c), y - r);
+  };
+  const double wide = 2 * roughness * roughness * picture.width / (2 * pi);
+  const double level = std::clamp(std::log2(std::max(wide, 1.0)), 0.0, picture.level_count - 1.0);
+  const int lower = static_cast<int>(level), upper = std::min(lower + 1, picture.level_count - 1);
+  return glm::mix(at_level(lower), at_level(upper), level - lower);
+}
+
+// An angle is off by less than 1e-6 after its roundings (eight of 2^-24 of at most pi), which is 1e-6 / pi of
+// the height and half of that of the width; values of at most 2 change by at most 2 from pixel to pixel.
+TEST(Environment, IsSeenByItsDefinitionOnAllVectorLevels) {
+  std::mt19937 random(11);
+  const auto uniform = [&] { return static_cast<float>(random() >> 8) / 16777216.0f; };
+  for (const auto& [w, h] : {std::pair{1, 1}, {5, 3}, {64, 32}, {300, 131}}) {
+    base::ImageF picture{w, h, 3, {}};
+    for (int i = 0; i < 3 * w * h; ++i) picture.pixels.push_back(2 * uniform());
+    const shade::Environment around(picture);
+    for (int round = 0; round < 20; ++round) {
+      std::vector<glm::vec3> towards{{0, 1, 0}, {0, -1, 0}, {0, 0, 1}, {0, 0, -1}, {1, 0, 0}, {-1, 0, 0}};
+      std::vector<float> roughness(64);
+      for (float& value : roughness) value = uniform();
+      while (towards.size() < 64) {
+        const glm::vec3 d(2 * uniform() - 1, 2 * uniform() - 1, 2 * uniform() - 1);
+        if (glm::length(d) > 0.1f) towards.push_back(glm::normalize(d));
+      }
+      const auto expected = seen_in(around.radiance(), towards, roughness, SimdLevel::scalar);
+      for (std::size_t i = 0; i < towards.size(); ++i) {
+        const dvec3 exact = definition(around.radiance(), towards[i], roughness[i]);
+        for (int c = 0; c < 3; ++c)
+          ASSERT_NEAR(expected[i][c], exact[c], 1e-5 + 2 * 1e-6 / pi * (h + 0.5 * w)) << i;
+      }
+      for (const SimdLevel level : {SimdLevel::sse4, SimdLevel::avx2, SimdLevel::avx512})
+        if (simd_level_supported(level)) {
+          ASSERT_EQ(seen_in(around.radiance(), towards, roughness, level), expected);
+        }
+    }
+  }
+}
+
 TEST_F(Gloss, MirrorsShowTheEnvironmentBehindTheEye) {
   base::ImageF picture{64, 32, 3, std::vector<float>(64 * 32 * 3, 0.0f)};
   for (std::size_t y = 0; y < 32; ++y) {
@@ -252,11 +319,14 @@ TEST_F(Gloss, MirrorsShowTheEnvironmentBehindTheEye) {
     }
   }
   const shade::Environment around(picture);
-  EXPECT_EQ(around.mirrored(glm::normalize(glm::vec3(0.5f, 0.5f, 0.7f)), 0), glm::vec3(1, 1, 1));
-  EXPECT_EQ(around.mirrored(glm::normalize(glm::vec3(-0.5f, -0.5f, -0.7f)), 0), glm::vec3(0, 0, 0));
-  EXPECT_NEAR(around.mirrored({0, 0, 1}, 1.0f).x, 0.5f, 0.05f);
-  EXPECT_NEAR(around.diffuse({0, 1, 0}).x, 1.0f, 0.02f);
-  EXPECT_NEAR(around.diffuse({0, 0, 1}).x, 0.5f, 0.02f);
+  const auto seen = [](const shade::Panorama& in, const glm::vec3& towards, float roughness) {
+    return seen_in(in, std::vector<glm::vec3>{towards}, {roughness}, SimdLevel::automatic)[0];
+  };
+  EXPECT_EQ(seen(around.radiance(), glm::normalize(glm::vec3(0.5f, 0.5f, 0.7f)), 0), glm::vec3(1, 1, 1));
+  EXPECT_EQ(seen(around.radiance(), glm::normalize(glm::vec3(-0.5f, -0.5f, -0.7f)), 0), glm::vec3(0, 0, 0));
+  EXPECT_NEAR(seen(around.radiance(), {0, 0, 1}, 1.0f).x, 0.5f, 0.05f);
+  EXPECT_NEAR(seen(around.irradiance(), {0, 1, 0}, 0).x, 1.0f, 0.02f);
+  EXPECT_NEAR(seen(around.irradiance(), {0, 0, 1}, 0).x, 0.5f, 0.02f);
   Material mirror = metal_or_not(glm::vec3(1.0f), 1, 0);
   const auto found = shaded(mirror, {.environment = &around}, {});
   const auto& upper_right = found[5 * width + 30].color;
