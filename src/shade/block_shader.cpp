@@ -11,9 +11,6 @@ const float* copied(std::span<const float> values, std::size_t first, std::size_
   return to;
 }
 
-glm::vec3 at(const SampleBlock::Channel (&channels)[3], std::size_t i) {
-  return {channels[0][i], channels[1][i], channels[2][i]};
-}
 void put(const glm::vec3& value, SampleBlock::Channel (&channels)[3], std::size_t i) {
   for (int c = 0; c < 3; ++c) channels[c][i] = value[c];
 }
@@ -21,7 +18,7 @@ void put(const glm::vec3& value, SampleBlock::Channel (&channels)[3], std::size_
 }  // namespace
 
 FrameTerms::FrameTerms(const Subject& of, const Lighting& lit_by)
-    : subject(of), lighting(lit_by), code(kernels(SimdLevel::automatic)) {
+    : subject(of), lighting(lit_by), code(kernels(lit_by.simd)) {
   if (lighting.environment == nullptr) ambient_light = lighting.ambient_light;
   for (const PlacedLight& light : lighting.lights) lights.push_back(light_terms(light, subject.view));
   for (std::size_t i = 0; i < subject.surfaces.size(); ++i) {

@@ -9,6 +9,7 @@
 #include <vector>
 
 #include <tenebra/frame_geometry.h>
+#include <tenebra/simd_level.h>
 #include "base/image.h"
 #include "shade/environment.h"
 #include "shade/light_terms.h"
@@ -28,6 +29,7 @@ struct Lighting {
   glm::vec3 ambient_light{1.0f};
   glm::vec3 background{0.0f};                ///< linear, where no triangle is seen
   const Environment* environment = nullptr;  ///< in place of ambient_light and background
+  SimdLevel simd = SimdLevel::automatic;     ///< the same bits with each
 };
 
 /// Samples of a view, pixels or not. Which point a sample is follows from its triangle and its place: where

@@ -3,8 +3,10 @@
 
 #include <cmath>
 #include <random>
+#include <set>
 #include <vector>
 
+#include "parallel/parallel.h"
 #include "shade/shading.h"
 #include "support/hand_made.h"
 #include "support/sample_one.h"
@@ -208,6 +210,51 @@ TEST_F(Textured, SrgbTexturesAreDecodedAndDisplayOnesNot) {
     EXPECT_NEAR(shaded(view)[40].color.x, 188 / 255.0, 1e-5);
     scene.transfer = Transfer::srgb;
     EXPECT_NEAR(shaded(view)[40].color.x, std::pow((188 / 255.0 + 0.055) / 1.055, 2.4), 1e-5);
+  }
+}
+
+// Textures of two sizes and transforms, gloss, colours of vertices, lights and an environment.
+TEST_F(Textured, AllVectorLevelsAndThreadCountsGiveTheSameBits) {
+  scene.meshes[0].colors = {{1, 0, 0, 1}, {0, 1, 0, 0.5f}, {0, 0, 1, 0}, {1, 1, 1, 1}};
+  scene.images.push_back({"plain", 3, 5, std::vector<std::uint8_t>(60, 77)});
+  Material& m = scene.materials[0];
+  m.model = SurfaceModel::metallic_roughness;
+  m.metallic = 0.5f;
+  m.emissive = {0.1f, 0.2f, 0.3f};
+  m.emissive_map = {.image = 1, .uv_set = 1, .wrap_u = Wrap::clamp_to_edge, .magnify = Filter::nearest};
+  m.metallic_roughness_map = {.image = 0, .transform = {0.5f, 0.25f, -0.25f, 0.5f, 0.1f, 0.2f}};
+  base::ImageF sky{7, 4, 3, {}};
+  for (int i = 0; i < 84; ++i) sky.pixels.push_back(0.01f * static_cast<float>(i));
+  const shade::Environment environment(sky);
+  const std::vector<shade::PlacedLight> lights{
+      {make_light(LightType::point, 900.0f), {.position = {1, 5, -12}}},
+      {make_light(LightType::directional, 0.5f), {.direction = glm::normalize(glm::vec3(1, -2, 0.5f))}}};
+  const std::vector<shade::LightFactors> factors(2);
+  FrameGeometry geometry;
+  evaluate_frame(scene, -1, 0, geometry);
+  const shade::SurfaceTable surfaces(scene);
+  for (const ViewRays& view : {near_view, far_view, flat_view}) {
+    std::vector<std::uint32_t> ids;
+    for (int i = 0; i < width * height; ++i)
+      ids.push_back(i % 11 == 0 ? background_id : id(view, double(i % width) + 0.5, double(i / width) + 0.5));
+    for (const shade::Environment* around : {static_cast<const shade::Environment*>(nullptr), &environment}) {
+      const auto drawn = [&](SimdLevel level, int threads) {
+        base::Image8 image;
+        with_threads(threads, [&] {
+          shade::shade_picture({geometry, view, surfaces},
+                               {.lights = lights, .environment = around, .simd = level},
+                               {width, height, ids, factors, {}}, 1.0f, Transfer::srgb, image);
+        });
+        return image.pixels;
+      };
+      const auto expected = drawn(SimdLevel::scalar, 1);
+      EXPECT_GT(std::set<std::uint8_t>(expected.begin(), expected.end()).size(), 10u);
+      for (const SimdLevel level : {SimdLevel::scalar, SimdLevel::sse4, SimdLevel::avx2, SimdLevel::avx512})
+        for (const int threads : {1, 2, 5})
+          if (simd_level_supported(level)) {
+            EXPECT_EQ(drawn(level, threads), expected) << simd_level_name(level) << " " << threads;
+          }
+    }
   }
 }
 
