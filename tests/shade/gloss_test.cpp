@@ -257,11 +257,11 @@ std::vector<glm::vec3> seen_in(const shade::Panorama& picture, const std::vector
   return result;
 }
 
-/// The definition, in double: bilinear in angles, between two copies.
+/// The definition, in double: bilinear in angles, between two copies. Up and down have the angle 0 around.
 glm::dvec3 definition(const shade::Panorama& picture, const glm::dvec3& d, double roughness) {
   const auto at_level = [&](int level) {
     const int w = picture.width_of(level), h = picture.height_of(level);
-    const double x = (std::atan2(d.x, -d.z) / (2 * pi) + 0.5) * w - 0.5;
+    const double x = (std::atan2(d.x, 0.0 - d.z) / (2 * pi) + 0.5) * w - 0.5;
     const double y = std::acos(std::clamp(d.y / glm::length(d), -1.0, 1.0)) / pi * h - 0.5;
     const auto pixel = [&](double column, double row) {
       const int i = (static_cast<int>(column) + w) % w, j = std::clamp(static_cast<int>(row), 0, h - 1);
