@@ -25,8 +25,8 @@ struct ShadowLight {
 /// How the mask is found: our own way, or one of the seven variants of the paper's Table 1. All give the same
 /// mask; they differ in the work that it takes.
 enum class Variant {
-  tiles,  ///< tiles of rays against clusters of triangles; precise_sorted takes its place for directional
-          ///< lights and where points are not 1e-15 to 1e15 from the light
+  tiles,  ///< tiles of rays against clusters of triangles; precise_sorted takes its place where points are
+          ///< less than 1e-15 from the light or more than 1e15 apart
   precise,
   precise_sorted,
   spheres,
@@ -73,7 +73,9 @@ struct TraceStats {
   /// Without an area, or edge-on to the light: they block nothing. Variant Tiles counts only those that came
   /// near rays or that have equal corners.
   std::uint64_t degenerate_triangles = 0;
-  std::uint64_t tree_bytes = 0;  ///< of the cone tree (Tiles: of both trees); of the light that took most
+  std::uint64_t tree_bytes = 0;    ///< of the cone tree (Tiles: of both trees); of the light that took most
+  std::uint64_t lights_tiles = 0;  ///< lights that variant Tiles traced
+  std::uint64_t lights_cones = 0;  ///< lights that one of the paper's variants traced
 };
 
 /// Adds the work of another light, or of another part of one; of triangles and tree_bytes the larger counts.
@@ -89,6 +91,8 @@ inline TraceStats& operator+=(TraceStats& to, const TraceStats& from) {
   to.lit_pixels += from.lit_pixels;
   to.degenerate_triangles += from.degenerate_triangles;
   to.tree_bytes = std::max(to.tree_bytes, from.tree_bytes);
+  to.lights_tiles += from.lights_tiles;
+  to.lights_cones += from.lights_cones;
   return to;
 }
 

@@ -4,6 +4,7 @@
 
 #include <tenebra/frame_timings.h>
 #include <tenebra/hard_config.h>
+#include <tenebra/stop_flag.h>
 #include <tenebra/visible_points.h>
 #include <memory>
 #include <span>
@@ -31,10 +32,15 @@ public:
   ///   plane open:   s n.(P-A) > theta, theta = fl64((tau_T + tau_R) |n|), tau_X = sqrt(3) 2^-24 M_X,
   ///                 M_X = largest |coordinate| of triangle X (contact rule `triangle_ids`; else theta = 0).
   /// All signs are of real numbers: floats and the stored doubles are taken as exact.
-  void trace_shadow_mask(const VisiblePoints& points, const ViewRays& view, const TriangleView& triangles,
-                         const ShadowLight& light, const HardShadowConfig& config, ShadowMask& mask);
+  ///
+  /// Returns false, with `mask` unspecified, if `stop` was requested before the end.
+  bool trace_shadow_mask(const VisiblePoints& points, const ViewRays& view, const TriangleView& triangles,
+                         const ShadowLight& light, const HardShadowConfig& config, ShadowMask& mask,
+                         const StopFlag* stop = nullptr);
 
   const TraceStats& stats() const;  ///< of the last call
+  /// The method that ran in the last call: HardShadowConfig::variant, or what took its place.
+  Variant ran() const;
   /// Of the last call: rays_ms, sort_ms, build_ms, traverse_ms, writeback_ms.
   const FrameTimings& timings() const;
   /// Of the last call with count_pixel_nodes (else empty): how many node tests were made for each pixel, 0

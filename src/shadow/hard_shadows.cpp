@@ -69,6 +69,7 @@ struct ShadowTracer::State {
   std::vector<shadow::TraversalScratch> scratch;
   shadow::NodeTests node_tests;
   std::vector<float> pixel_nodes;
+  Variant ran = Variant::tiles;
   TraceStats stats;
   FrameTimings timings;
 
@@ -142,6 +143,9 @@ ShadowTracer::~ShadowTracer() = default;
 const TraceStats& ShadowTracer::stats() const {
   return state_->stats;
 }
+Variant ShadowTracer::ran() const {
+  return state_->ran;
+}
 const FrameTimings& ShadowTracer::timings() const {
   return state_->timings;
 }
@@ -149,19 +153,24 @@ std::span<const float> ShadowTracer::pixel_nodes() const {
   return state_->pixel_nodes;
 }
 
-void ShadowTracer::trace_shadow_mask(const VisiblePoints& seen, const ViewRays& view,
+bool ShadowTracer::trace_shadow_mask(const VisiblePoints& seen, const ViewRays& view,
                                      const TriangleView& triangles, const ShadowLight& light,
-                                     const HardShadowConfig& config, ShadowMask& mask) {
+                                     const HardShadowConfig& config, ShadowMask& mask, const StopFlag* stop) {
   const parallel::FloatEnvironment ieee;
   State& s = *state_;
   s.stats = {};
   s.timings = {};
   s.pixel_nodes.clear();
   if (config.variant == Variant::tiles &&
-      s.tiles.trace(seen, view, triangles, light, config, mask, s.stats, s.timings)) {
+      s.tiles.trace(seen, view, triangles, light, config, mask, s.stats, s.timings, stop)) {
     if (config.count_pixel_nodes) s.tiles.spread_tests(seen.width, seen.height, s.pixel_nodes);
-    return;
+    s.ran = Variant::tiles;
+    s.stats.lights_tiles = 1;
+    return true;
   }
+  if (stop_requested(stop)) return false;
+  s.ran = config.variant == Variant::tiles ? Variant::precise_sorted : config.variant;
+  s.stats = {.lights_cones = 1};
   const shadow::RaySource source = shadow::ray_source(light);
   const VariantParts parts = parts_of(config.variant);
   base::Stopwatch watch;
@@ -188,12 +197,14 @@ void ShadowTracer::trace_shadow_mask(const VisiblePoints& seen, const ViewRays& 
                                       &triangles,
                                       points.positions,
                                       config.contact,
-                                      config.count_pixel_nodes ? &s.node_tests : nullptr};
+                                      config.count_pixel_nodes ? &s.node_tests : nullptr,
+                                      stop};
     if (config.count_pixel_nodes) s.begin_node_tests();
     const shadow::TraversalKernels kernels = shadow::traversal_kernels(config.simd);
     parts.two_pass ? s.trace_two_passes(traversal, kernels) : s.trace_one_pass(traversal, kernels);
     s.stats.tree_bytes = s.tree.byte_count();
   }
+  if (stop_requested(stop)) return false;
   s.timings.traverse_ms = watch.lap_ms();
   s.pixel_nodes.clear();
   if (config.count_pixel_nodes) s.spread_node_tests(points.triangles.size());
@@ -205,6 +216,7 @@ void ShadowTracer::trace_shadow_mask(const VisiblePoints& seen, const ViewRays& 
   s.stats.lit_pixels = live_rays(s.tree) + s.at_light.size();
   s.stats.shadowed_pixels = s.stats.rays - s.stats.lit_pixels;
   s.timings.writeback_ms = watch.lap_ms();
+  return true;
 }
 
 }  // namespace tenebra

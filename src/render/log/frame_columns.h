@@ -59,6 +59,8 @@ inline constexpr std::array count_columns{
     CountColumn{"double_unknown", [](const FrameRecord& r) { return r.stats.double_unknown; }},
     CountColumn{"degenerate_triangles", [](const FrameRecord& r) { return r.stats.degenerate_triangles; }},
     CountColumn{"tree_bytes", [](const FrameRecord& r) { return r.stats.tree_bytes; }},
+    CountColumn{"lights_tiles", [](const FrameRecord& r) { return r.stats.lights_tiles; }},
+    CountColumn{"lights_cones", [](const FrameRecord& r) { return r.stats.lights_cones; }},
 };
 
 /// Counts of the other methods, after all times.

@@ -68,7 +68,7 @@ SIMD_INLINE PacketVerdict test_packet(const RayPacket& packet, const TrianglePla
 
 void settle_open(const Traversal& s, std::size_t index, RayPacket& packet, const OpenPairs& open,
                  TraceStats& stats) {
-  for (int i = 0; i < open.size; ++i) {
+  for (int i = 0; i < open.size && !stop_requested(s.stop); ++i) {
     for (std::uint32_t rays = open.rays[i] & packet.live; rays != 0; rays &= rays - 1) {
       const int lane = std::countr_zero(rays);
       const std::size_t ray = index * packet_size + static_cast<std::size_t>(lane);
@@ -93,7 +93,7 @@ std::uint32_t without_own(const Traversal& s, std::size_t index, std::uint32_t r
 void trace_packet(const Traversal& s, std::size_t index, TriangleList list, TraceStats& stats) {
   RayPacket& packet = s.tree->packets[index];
   OpenPairs open;
-  for (std::size_t i = 0; i < list.size && packet.live != 0; ++i) {
+  for (std::size_t i = 0; i < list.size && packet.live != 0 && !stop_requested(s.stop); ++i) {
     const TrianglePlanes& planes = s.set->planes[list.places[i]];
     stats.leaf_tests += static_cast<std::uint64_t>(std::popcount(packet.live));
     const PacketVerdict verdict = test_packet(packet, planes, s.rays->tau_max);
@@ -175,7 +175,7 @@ void filter(const Traversal& s, std::size_t level, std::size_t block, TriangleLi
 
 void descend(const Traversal& s, std::size_t level, std::size_t node, TriangleList list,
              TraversalScratch& scratch, TraceStats& stats) {
-  if (list.size == 0) return;
+  if (list.size == 0 || stop_requested(s.stop)) return;
   if (level == 0) return trace_packet(s, node, list, stats);
   std::uint32_t* out[4];
   std::size_t size[4];

@@ -7,6 +7,7 @@
 
 #include <tenebra/frame_timings.h>
 #include <tenebra/hard_config.h>
+#include <tenebra/stop_flag.h>
 #include <tenebra/visible_points.h>
 #include "shadow/cone_tree/cone_tree.h"
 #include "shadow/decision/triangle_planes.h"
@@ -34,6 +35,7 @@ struct Traversal {
   std::span<const glm::dvec3> positions;
   ContactRule contact = ContactRule::triangle_ids;
   NodeTests* node_tests = nullptr;  ///< added to if given; of the size of the tree
+  const StopFlag* stop = nullptr;   ///< if it is requested, what is left is not done
 };
 
 /// Places in TriangleSet::planes. A list's storage has room for one more than it holds.

@@ -21,6 +21,7 @@ struct Job {
 // Tests one block's nodes and takes what passes further down; its four subtrees run side by side.
 TraceStats descend_block(const Job& job, std::size_t level, std::size_t block,
                          std::span<const std::uint32_t> places) {
+  if (stop_requested(job.traversal.stop)) return {};
   std::array<std::vector<std::uint32_t>, branching> lists;
   std::uint32_t* out[branching];
   std::size_t size[branching];

@@ -42,7 +42,9 @@ void set_plane(TrianglePlanes& t, int k, const dvec3& m, double d, double rho) {
 // Plane through the light and the edge a-b. The ends are taken in canonical order so that triangles that
 // share the edge get the same bits. rho: A x (B - A) has an error of 4 sqrt(3) v |a||e|; with the
 // normalisation and the evaluation 18 v |a||e| / |m| < 2^-48 |a||e| / |m| (v = 2^-53). An edge that points at
-// the light has rho = inf.
+// the light has rho = inf. Where positions are relative to another point than the light, the plane goes
+// through a: its normal is off by 11 v |a||e| / |m| with a relative to the light, hence m.(p - a) by that
+// much of |p - a|, d = m.a and m.p by 5 v |a| and 5 v |p| more: the same rho, times |p| + reach.
 void set_edge(TrianglePlanes& t, int k, vec3 a, vec3 b, const RaySource& source, double side) {
   if (!lexicographically_less(a, b)) {
     std::swap(a, b);
@@ -50,16 +52,18 @@ void set_edge(TrianglePlanes& t, int k, vec3 a, vec3 b, const RaySource& source,
   }
   const dvec3 edge = dvec3(b) - dvec3(a);
   const dvec3 from = dvec3(a) - source.origin;
-  const dvec3 m = source.directional ? glm::cross(edge, dvec3(source.light)) : glm::cross(from, edge);
+  const dvec3 other = source.directional ? dvec3(source.light)
+                      : source.distant   ? dvec3(a) - dvec3(source.light)
+                                         : from;
+  const dvec3 m = source.directional ? glm::cross(edge, other) : glm::cross(other, edge);
   const double length = std::sqrt(glm::dot(m, m));
   if (!(length > 0)) {
     set_plane(t, k, dvec3(0), 0, std::numeric_limits<double>::infinity());
     return;
   }
   const dvec3 unit = m * (side / length);
-  const dvec3 other = source.directional ? dvec3(source.light) : from;
   const double rho = 0x1p-48 * std::sqrt(glm::dot(other, other)) * std::sqrt(glm::dot(edge, edge)) / length;
-  set_plane(t, k, unit, source.directional ? glm::dot(unit, from) : 0.0, rho);
+  set_plane(t, k, unit, source.directional || source.distant ? glm::dot(unit, from) : 0.0, rho);
 }
 
 void set_own_plane(TrianglePlanes& t, const vec3 v[3], const dvec3& origin, double tau) {

@@ -11,10 +11,11 @@
 
 namespace tenebra::shadow {
 
-/// Where the rays of a light come from. Positions are taken relative to `origin`: the light, or 0 for
-/// directional lights.
+/// Where the rays of a light come from. Positions are taken relative to `origin`: the light, 0 for
+/// directional lights, or a point amid the rays.
 struct RaySource {
   bool directional = false;
+  bool distant = false;   ///< `origin` is a point amid the rays
   glm::vec3 light{0.0f};  ///< position, or direction towards the light
   glm::dvec3 origin{0.0};
   glm::dvec3 travel{0.0};  ///< directional: unit direction of the light's travel, rounded
@@ -26,7 +27,7 @@ RaySource ray_source(const ShadowLight& light);
 /// plane k differs from the one computed in double by at most rho[k] (|p| + reach).
 struct TrianglePlanes {
   double mx[4], my[4], mz[4];  ///< 0..2: edges AB, BC, CA; 3: own plane
-  double d[4];                 ///< 0 for edges of point lights; plane 3 holds tau of the triangle
+  double d[4];  ///< 0 for edges where the origin is the light; plane 3 holds tau of the triangle
   double rho[4];
   double reach;            ///< largest |vertex - origin|
   std::uint32_t triangle;  ///< id

@@ -1,6 +1,8 @@
 // Planes of a cluster's sixteen triangles through the light, in double. The same quantities and error bounds
 // as planes_of: A x (B - A) has an error of 4 sqrt(3) v |a||e|; with the normalisation and the evaluation it
-// stays below rho (|p| + reach), rho = 2^-48 |a||e| / |m| (v = 2^-53). Included once per target.
+// stays below rho (|p| + reach), rho = 2^-48 |a||e| / |m| (v = 2^-53). Of distant lights (RaySource::distant)
+// as well: there a is the corner relative to the light, or the light's direction, and d = m.a that of the
+// corner relative to the origin. Included once per target.
 #if defined(TENEBRA_CLUSTER_PLANES_INL_H_) == defined(HWY_TARGET_TOGGLE)
 #ifdef TENEBRA_CLUSTER_PLANES_INL_H_
 #undef TENEBRA_CLUSTER_PLANES_INL_H_
@@ -18,24 +20,30 @@ HWY_BEFORE_NAMESPACE();
 namespace tenebra::shadow::HWY_NAMESPACE {
 using namespace simd::HWY_NAMESPACE;
 
-/// Eight triangles in double, relative to the light.
+/// Eight triangles in double.
 struct Eight {
-  Vector8 a[3];
+  Vector8 p[3];     // corners, world space
+  Vector8 a[3];     // relative to the origin
   Double8 side;     // +1, -1; 0 where double cannot tell
   Double8 largest;  // |coordinate| of the corners in world space
 };
 
-SIMD_INLINE Eight load_eight(const TriangleCluster& c, int at, const glm::dvec3& light) {
+SIMD_INLINE Eight load_eight(const TriangleCluster& c, int at, const glm::dvec3& origin) {
   Eight t;
-  const Vector8 origin = broadcast3<Double8>(light.x, light.y, light.z);
   t.largest = broadcast<Double8>(0.0);
   for (int k = 0; k < 3; ++k) {
-    const Vector8 p{load_widened<Double8>(c.x[k] + at), load_widened<Double8>(c.y[k] + at),
-                    load_widened<Double8>(c.z[k] + at)};
-    t.largest = max(t.largest, max(abs(p.x), max(abs(p.y), abs(p.z))));
-    t.a[k] = p - origin;
+    t.p[k] = {load_widened<Double8>(c.x[k] + at), load_widened<Double8>(c.y[k] + at),
+              load_widened<Double8>(c.z[k] + at)};
+    t.largest = max(t.largest, max(abs(t.p[k].x), max(abs(t.p[k].y), abs(t.p[k].z))));
+    t.a[k] = t.p[k] - broadcast8(origin);
   }
   return t;
+}
+
+/// From the light to corner k, or the way that a directional light travels.
+SIMD_INLINE Vector8 ray_to(const Eight& t, int k, const RaySource& source) {
+  if (source.directional) return broadcast8(-glm::dvec3(source.light));
+  return source.distant ? t.p[k] - broadcast8(glm::dvec3(source.light)) : t.a[k];
 }
 
 /// Stores plane `k`, turned to the side of `side`; returns the square of rho / 2^-48. 1 / 0 gives no plane
@@ -80,9 +88,9 @@ inline std::uint32_t settle_sides(const TriangleCluster& c, int at, std::uint32_
 SIMD_INLINE void set_up_eight(const TriangleCluster& c, int at, const RaySource& source, bool use_tau,
                               bool cull_front, ClusterPlanes& out) {
   Eight t = load_eight(c, at, source.origin);
-  const Vector8 e1 = t.a[1] - t.a[0], e2 = t.a[2] - t.a[0], n = cross(e1, e2);
+  const Vector8 e1 = t.p[1] - t.p[0], e2 = t.p[2] - t.p[0], n = cross(e1, e2);
   const Double8 own_squares = dot(e1, e1) * dot(e2, e2);
-  t.side = certain_side(n, t.a[0], own_squares);
+  t.side = certain_side(n, ray_to(t, 0, source), own_squares);
   std::uint32_t valid = (c.used >> at) & 255u;
   double side[8];
   store(t.side, side);
@@ -95,17 +103,24 @@ SIMD_INLINE void set_up_eight(const TriangleCluster& c, int at, const RaySource&
 
   Vector8 unit;
   Double8 worst = broadcast<Double8>(0.0), reach2 = worst;
+  const Double8 zero = broadcast<Double8>(0.0);
+  const bool through_origin = !source.directional && !source.distant;
   for (int k = 0; k < 3; ++k) {
-    const Vector8 edge = t.a[(k + 1) % 3] - t.a[k];
-    const Double8 from2 = dot(t.a[k], t.a[k]);
-    worst = max(worst, store_plane(out, k, at, cross(t.a[k], edge), t.side, from2 * dot(edge, edge), unit));
-    reach2 = max(reach2, from2);
+    const Vector8 edge = t.p[(k + 1) % 3] - t.p[k], ray = ray_to(t, k, source);
+    const Double8 squares = dot(ray, ray) * dot(edge, edge);
+    worst = max(worst, store_plane(out, k, at, cross(ray, edge), t.side, squares, unit));
+    const Double8 d = through_origin ? zero : dot(unit, t.a[k]);
+    store(d, out.d[k] + at), store_narrowed(d, out.fd[k] + at);
+    reach2 = max(reach2, dot(t.a[k], t.a[k]));
   }
-  worst = max(worst, store_plane(out, 3, at, n, t.side, own_squares, unit));
+  const Double8 own_worst = store_plane(out, 3, at, n, t.side, own_squares, unit);
   const Double8 tau = t.largest * broadcast<Double8>(use_tau ? points::contact_tau : 0.0);
   const Double8 d = dot(unit, t.a[0]) + tau;
-  store(d, out.d + at), store_narrowed(d, out.fd + at);
-  store_narrowed(sqrt(worst) * broadcast<Double8>(0x1p-48 * (1 + 0x1p-20)), out.rho + at);
+  store(d, out.d[3] + at), store_narrowed(d, out.fd[3] + at);
+  store_narrowed(tau * broadcast<Double8>(1 + 0x1p-20), out.tau + at);
+  const Double8 rho = broadcast<Double8>(0x1p-48 * (1 + 0x1p-20));
+  store_narrowed(sqrt(max(worst, own_worst)) * rho, out.rho + at);
+  store_narrowed(sqrt(own_worst) * rho, out.own_rho + at);
   store_narrowed(sqrt(reach2) * broadcast<Double8>(1 + 0x1p-20), out.reach + at);
   out.valid |= valid << at;
   out.edge_on |= edge_on << at;

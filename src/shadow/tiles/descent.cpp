@@ -9,6 +9,7 @@
 #include "points/triangle_corners.h"
 #include "shadow/decision/decide.h"
 #include "shadow/tiles/cluster_planes-inl.h"
+#include "shadow/tiles/distant_tests-inl.h"
 #include "shadow/tiles/face_tests-inl.h"
 #include "shadow/tiles/ray_test-inl.h"
 #include "shadow/tiles/tile_bounds-inl.h"
@@ -44,13 +45,63 @@ struct Waiting {
 constexpr int most_waiting = 32;
 constexpr float much_wider = 6;  // as seen from the light
 
+/// A face of the cube, as a descent asks for it.
+class CubeSide {
+public:
+  static constexpr bool anchored = false;  ///< planes through edges have a d
+  CubeSide(const RaySource& source, int face)
+      : number_(face), face_(face_axes(face)), light_(source.light), origin_(source.origin) {}
+
+  std::uint32_t project(const BoxNode& node, FaceBoxes& out) const {
+    return project_boxes(node, light_, face_, out);
+  }
+  std::uint32_t project(const TriangleCluster& c, const FaceBox& all, FaceBoxes& out) const {
+    return project_triangles(c, light_, face_, all, out);
+  }
+  void place(const ClusterPlanes& planes, float tau, FaceCluster& out) const {
+    face_cluster(planes, face_, tau, out);
+  }
+  bool bound_rays(const points::PointTile& tile, const points::PointBase& base, std::uint32_t lanes,
+                  FaceBox& box) const {
+    return bound(tile, base, lanes, origin_, number_, box);
+  }
+
+private:
+  const int number_;
+  const Face face_;
+  const glm::vec3 light_;
+  const glm::dvec3 origin_;
+};
+
+/// The distant one.
+class DistantSide {
+public:
+  static constexpr bool anchored = true;
+  explicit DistantSide(const DistantFace& face) : face_(face) {}
+
+  std::uint32_t project(const BoxNode& node, FaceBoxes& out) const { return project_boxes(node, face_, out); }
+  std::uint32_t project(const TriangleCluster& c, const FaceBox& all, FaceBoxes& out) const {
+    return project_triangles(c, face_, all, out);
+  }
+  void place(const ClusterPlanes& planes, float tau, FaceCluster& out) const {
+    face_cluster(planes, face_, tau, out);
+  }
+  bool bound_rays(const points::PointTile& tile, const points::PointBase& base, std::uint32_t lanes,
+                  FaceBox& box) const {
+    bound(tile, base, lanes, face_, box);
+    return true;
+  }
+
+private:
+  const DistantFace face_;
+};
+
+template <class Side>
 class RootDescent {
 public:
-  RootDescent(const Descent& d, std::uint32_t root, DescentScratch& scratch, TraceStats& stats)
+  RootDescent(const Descent& d, const Side& side, DescentScratch& scratch, TraceStats& stats)
       : d_(d),
-        root_(root),
-        face_(face_axes(d.forest.faces[root])),
-        light_(d.source.light),
+        side_(side),
         skip_own_(d.contact == ContactRule::triangle_ids),
         pixels_(d.points.width, d.points.height),
         scratch_(scratch),
@@ -105,9 +156,7 @@ private:
   void retire(int level, std::uint32_t number);
 
   const Descent& d_;
-  const std::uint32_t root_;
-  const Face face_;
-  const glm::vec3 light_;
+  const Side side_;
   const bool skip_own_;  ///< a triangle never blocks its own points
   const points::TilePixels pixels_;
   DescentScratch& scratch_;
@@ -124,7 +173,8 @@ private:
 };
 
 // Asks for nodes that are about to be met.
-void RootDescent::fetch_nodes(const RayNode& n, int level, std::uint32_t slots) const {
+template <class Side>
+void RootDescent<Side>::fetch_nodes(const RayNode& n, int level, std::uint32_t slots) const {
   if ((slots & (slots - 1)) == 0) return;
   const std::vector<RayNode>& below = d_.forest.levels[static_cast<std::size_t>(level) - 1];
   for (; slots != 0; slots &= slots - 1) simd::prefetch_all(below[n.child[std::countr_zero(slots)]]);
@@ -132,7 +182,8 @@ void RootDescent::fetch_nodes(const RayNode& n, int level, std::uint32_t slots) 
 
 // Down to the deepest node that holds all rays which the box may meet; returns the bits of its children that
 // may have them, 0: there are none.
-std::uint32_t RootDescent::narrow(RayRef& rays, const FaceBox& box) {
+template <class Side>
+std::uint32_t RootDescent<Side>::narrow(RayRef& rays, const FaceBox& box) {
   for (;;) {
     RayNode& n = node(rays);
     note_test(n);
@@ -143,12 +194,13 @@ std::uint32_t RootDescent::narrow(RayRef& rays, const FaceBox& box) {
   }
 }
 
-void RootDescent::visit(std::size_t level, std::size_t number, const RayRef& rays) {
+template <class Side>
+void RootDescent<Side>::visit(std::size_t level, std::size_t number, const RayRef& rays) {
   RayNode& n = node(rays);
-  if (n.live == 0) return;
+  if (n.live == 0 || stop_requested(d_.stop)) return;
   note_test(n);
   FaceBoxes boxes;
-  std::uint32_t met = project_boxes(d_.clusters.levels()[level][number], light_, face_, boxes);
+  std::uint32_t met = side_.project(d_.clusters.levels()[level][number], boxes);
   met &= boxes_met(boxes, rays.box);
   if (met == 0) return;
   alignas(64) float u0[16], u1[16], v0[16], v1[16], w[16];
@@ -180,8 +232,9 @@ void RootDescent::visit(std::size_t level, std::size_t number, const RayRef& ray
 // rays lie much wider than the triangles they are descended first: triangles among sparse rays are then far
 // from nearly all of them and met by few. Else the triangles are: what is worked out for them serves all
 // rays.
-void RootDescent::enter(std::size_t level, std::size_t number, const FaceBox& box, const RayRef& rays,
-                        std::uint32_t met) {
+template <class Side>
+void RootDescent<Side>::enter(std::size_t level, std::size_t number, const FaceBox& box, const RayRef& rays,
+                              std::uint32_t met) {
   if (rays.level == 0 || width(rays.box) <= much_wider * width(box)) return visit(level, number, rays);
   const RayNode& n = node(rays);
   fetch_nodes(n, rays.level, met);
@@ -193,9 +246,9 @@ void RootDescent::enter(std::size_t level, std::size_t number, const FaceBox& bo
   }
 }
 
-void RootDescent::meet_cluster(const TriangleCluster& cluster, const RayRef& rays, const FaceBox& box) {
-  const std::uint32_t ahead =
-      project_triangles(cluster, light_, face_, box, boxes_) & boxes_met(boxes_, rays.box);
+template <class Side>
+void RootDescent<Side>::meet_cluster(const TriangleCluster& cluster, const RayRef& rays, const FaceBox& box) {
+  const std::uint32_t ahead = side_.project(cluster, box, boxes_) & boxes_met(boxes_, rays.box);
   if (ahead == 0) return;
   cluster_ = &cluster;
   cluster_box_ = box;
@@ -205,7 +258,8 @@ void RootDescent::meet_cluster(const TriangleCluster& cluster, const RayRef& ray
 }
 
 // The triangles of `mask` meet the box of `rays`. What children need is asked for before the first is met.
-void RootDescent::descend_cluster(const RayRef& rays, std::uint32_t mask) {
+template <class Side>
+void RootDescent<Side>::descend_cluster(const RayRef& rays, std::uint32_t mask) {
   RayNode& n = node(rays);
   note_test(n);
   const std::uint32_t met = children_met(n, cluster_box_);
@@ -227,18 +281,20 @@ void RootDescent::descend_cluster(const RayRef& rays, std::uint32_t mask) {
 }
 
 // Planes in double are not needed before a triangle's box meets a node of tiles.
-void RootDescent::set_up_cluster() {
+template <class Side>
+void RootDescent<Side>::set_up_cluster() {
   set_up_ = true;
   store(boxes_.u0, lanes_[0]), store(boxes_.u1, lanes_[1]), store(boxes_.v0, lanes_[2]);
   store(boxes_.v1, lanes_[3]), store(boxes_.w, lanes_[4]);
   set_up_planes(*cluster_, d_.source, skip_own_, d_.cull_front, scratch_.planes);
-  face_cluster(scratch_.planes, face_, d_.forest.tau, on_face_);
+  side_.place(scratch_.planes, d_.forest.tau, on_face_);
   for (std::uint32_t left = scratch_.planes.edge_on; left != 0; left &= left - 1)
     scratch_.edge_on.push_back(cluster_->ids[std::countr_zero(left)]);
 }
 
 // Few tiles look for their triangles sixteen at a time, few triangles for their tiles.
-void RootDescent::meet_tiles(const RayRef& rays, std::uint32_t met, std::uint32_t mask) {
+template <class Side>
+void RootDescent<Side>::meet_tiles(const RayRef& rays, std::uint32_t met, std::uint32_t mask) {
   if (!set_up_) set_up_cluster();
   mask &= scratch_.planes.valid & triangles_met(on_face_, rays.box);
   if (mask == 0) return;
@@ -249,7 +305,8 @@ void RootDescent::meet_tiles(const RayRef& rays, std::uint32_t met, std::uint32_
   }
 }
 
-void RootDescent::by_tiles(std::uint32_t number, std::uint32_t met, std::uint32_t mask) {
+template <class Side>
+void RootDescent<Side>::by_tiles(std::uint32_t number, std::uint32_t met, std::uint32_t mask) {
   RayNode& n = node(0, number);
   for (; met != 0; met &= met - 1) {
     const int slot = std::countr_zero(met);
@@ -262,7 +319,8 @@ void RootDescent::by_tiles(std::uint32_t number, std::uint32_t met, std::uint32_
   }
 }
 
-void RootDescent::by_triangles(std::uint32_t number, std::uint32_t mask) {
+template <class Side>
+void RootDescent<Side>::by_triangles(std::uint32_t number, std::uint32_t mask) {
   RayNode& n = node(0, number);
   std::uint16_t found[16] = {};
   std::uint32_t tested = 0;
@@ -283,20 +341,23 @@ void RootDescent::by_triangles(std::uint32_t number, std::uint32_t mask) {
 }
 
 // What is to be tested is asked for at once, and tested when it has had time to come.
-void RootDescent::put_off(std::uint32_t number, int slot, std::uint32_t triangles) {
+template <class Side>
+void RootDescent<Side>::put_off(std::uint32_t number, int slot, std::uint32_t triangles) {
   simd::prefetch_all(tile(node(0, number), slot));
   waiting_[waiting_count_++] = {number, static_cast<std::uint16_t>(slot),
                                 static_cast<std::uint16_t>(triangles)};
   if (waiting_count_ == most_waiting) test_waiting();
 }
 
-void RootDescent::test_waiting() {
-  for (int k = 0; k < waiting_count_; ++k) test_tile(waiting_[k]);
+template <class Side>
+void RootDescent<Side>::test_waiting() {
+  for (int k = 0; k < waiting_count_ && !stop_requested(d_.stop); ++k) test_tile(waiting_[k]);
   waiting_count_ = 0;
 }
 
 // Early accept: tiles that the triangle covers are done with, unread. Returns those that must be tested.
-std::uint32_t RootDescent::cover_tiles(RayNode& n, int i, std::uint32_t met) {
+template <class Side>
+std::uint32_t RootDescent<Side>::cover_tiles(RayNode& n, int i, std::uint32_t met) {
   for (std::uint32_t left = met & children_covered(n, on_face_, i); left != 0; left &= left - 1) {
     const int slot = std::countr_zero(left);
     if ((n.rays[slot] & own_lanes(n, slot, cluster_->ids[i])) != 0) continue;
@@ -307,7 +368,8 @@ std::uint32_t RootDescent::cover_tiles(RayNode& n, int i, std::uint32_t met) {
   return met;
 }
 
-void RootDescent::test_tile(const Waiting& w) {
+template <class Side>
+void RootDescent<Side>::test_tile(const Waiting& w) {
   RayNode& n = node(0, w.node);
   const RoughRays rough = rough_rays(tile(n, w.slot), base(n, w.slot), d_.source.origin);
   bool missed = false;
@@ -318,13 +380,14 @@ void RootDescent::test_tile(const Waiting& w) {
 }
 
 // The rays of a tile against triangle i; false: all are missed.
-bool RootDescent::test_triangle(const Waiting& w, const RoughRays& rough, int i) {
+template <class Side>
+bool RootDescent<Side>::test_triangle(const Waiting& w, const RoughRays& rough, int i) {
   RayNode& n = node(0, w.node);
   const std::uint32_t id = cluster_->ids[i], rays = n.rays[w.slot] & ~own_lanes(n, w.slot, id);
   if (d_.tile_tests != nullptr) ++(*d_.tile_tests)[w.node][w.slot];
   ++stats_.nodes;
   stats_.leaf_tests += static_cast<std::uint64_t>(std::popcount(rays));
-  TileVerdict verdict = rough_verdict(scratch_.planes, i, rough, n.tau);
+  TileVerdict verdict = rough_verdict<Side::anchored>(scratch_.planes, i, rough, n.tau);
   if ((rays & verdict.near & ~verdict.sure) != 0)
     verdict = fine_verdict(scratch_.planes, i, tile(n, w.slot), base(n, w.slot), d_.source.origin, n.tau);
   const std::uint32_t near = rays & verdict.near, open = near & ~verdict.sure;
@@ -338,16 +401,17 @@ bool RootDescent::test_triangle(const Waiting& w, const RoughRays& rough, int i)
 }
 
 // What missed all rays may have met the box only: of all points, or of rays that are blocked by now.
-void RootDescent::shrink(RayNode& n, int slot) {
+template <class Side>
+void RootDescent<Side>::shrink(RayNode& n, int slot) {
   FaceBox box{};
-  if (bound(tile(n, slot), base(n, slot), n.rays[slot], d_.source.origin, d_.forest.faces[root_], box))
-    n.set_box(slot, box);
+  if (side_.bound_rays(tile(n, slot), base(n, slot), n.rays[slot], box)) n.set_box(slot, box);
   n.wide &= ~(1u << slot);
   node(1, n.parent).wide |= 1u << n.slot;
 }
 
 // What missed all children may have met the node's box only, which may be that of rays blocked by now.
-void RootDescent::tighten(const RayRef& rays) {
+template <class Side>
+void RootDescent<Side>::tighten(const RayRef& rays) {
   if (rays.level + 1 == ray_levels) return;
   RayNode& n = node(rays);
   RayNode& parent = node(rays.level + 1, n.parent);
@@ -358,7 +422,8 @@ void RootDescent::tighten(const RayRef& rays) {
 }
 
 /// Of the lanes of `open` those that are blocked: in double, then exactly.
-std::uint32_t RootDescent::blocked_lanes(std::uint32_t tile, std::uint32_t open, std::uint32_t id) {
+template <class Side>
+std::uint32_t RootDescent<Side>::blocked_lanes(std::uint32_t tile, std::uint32_t open, std::uint32_t id) {
   const points::Corners corners = points::corners_of(d_.triangles, id);
   const TrianglePlanes planes = planes_of(corners.v, id, light_side(corners.v, d_.source), d_.source,
                                           skip_own_ ? points::rounding_tolerance(corners.v) : 0.0);
@@ -374,7 +439,8 @@ std::uint32_t RootDescent::blocked_lanes(std::uint32_t tile, std::uint32_t open,
 }
 
 // A node whose rays are all blocked is met by nothing more.
-void RootDescent::retire(int level, std::uint32_t number) {
+template <class Side>
+void RootDescent<Side>::retire(int level, std::uint32_t number) {
   while (level + 1 < ray_levels) {
     const RayNode& n = node(level, number);
     RayNode& parent = node(level + 1, n.parent);
@@ -388,14 +454,47 @@ void RootDescent::retire(int level, std::uint32_t number) {
 void descend(const Descent& d, std::uint32_t root, DescentScratch& scratch, TraceStats& stats) {
   const auto& levels = d.clusters.levels();
   if (levels.empty()) return;
-  RootDescent(d, root, scratch, stats)
-      .visit(levels.size() - 1, 0, {ray_levels - 1, root, d.forest.root_boxes[root]});
+  const RayRef rays{ray_levels - 1, root, d.forest.root_boxes[root]};
+  if (d.forest.distant)
+    return RootDescent(d, DistantSide(*d.forest.distant), scratch, stats).visit(levels.size() - 1, 0, rays);
+  RootDescent(d, CubeSide(d.source, d.forest.faces[root]), scratch, stats).visit(levels.size() - 1, 0, rays);
+}
+
+template <class Side>
+ClusterVerdict meet_on(const Side& side, const TriangleCluster& cluster, const BoxNode& boxes,
+                       const RaySource& source, const FaceBox& rays, float tau) {
+  FaceBoxes of_clusters, of_triangles;
+  if ((side.project(boxes, of_clusters) & boxes_met(of_clusters, rays) & 1u) == 0) return {0, 0};
+  alignas(64) float u0[16], u1[16], v0[16], v1[16], w[16];
+  store(of_clusters.u0, u0), store(of_clusters.u1, u1), store(of_clusters.v0, v0);
+  store(of_clusters.v1, v1), store(of_clusters.w, w);
+  const FaceBox all{u0[0], u1[0], v0[0], v1[0], w[0]};
+  std::uint32_t met = side.project(cluster, all, of_triangles) & boxes_met(of_triangles, rays);
+  ClusterPlanes planes;
+  set_up_planes(cluster, source, tau > 0, false, planes);
+  FaceCluster on_face;
+  side.place(planes, tau, on_face);
+  met &= planes.valid & triangles_met(on_face, rays);
+  RayNode node;
+  for (int slot = 0; slot < 16; ++slot) node.set_box(slot, rays);
+  ClusterVerdict verdict{met, 0};
+  for (std::uint32_t left = met; left != 0; left &= left - 1) {
+    const int i = std::countr_zero(left);
+    if ((children_covered(node, on_face, i) & 1u) != 0) verdict.covered |= 1u << i;
+  }
+  return verdict;
+}
+
+ClusterVerdict meet(const TriangleCluster& cluster, const BoxNode& boxes, const RaySource& source, int face,
+                    const DistantFace* distant, const FaceBox& rays, float tau) {
+  return distant != nullptr ? meet_on(DistantSide(*distant), cluster, boxes, source, rays, tau)
+                            : meet_on(CubeSide(source, face), cluster, boxes, source, rays, tau);
 }
 
 }  // namespace
 
 DescentKernels descent_kernels() {
-  return {descend};
+  return {descend, meet};
 }
 
 }  // namespace tenebra::shadow::HWY_NAMESPACE

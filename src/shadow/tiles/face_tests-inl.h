@@ -1,5 +1,6 @@
-// Boxes and triangles against nodes of rays on a cube's face, sixteen at a time, in float. Conservative: what
-// is rejected can block no ray of the node. u = 2^-24 below. Included once per target.
+// Boxes and triangles against nodes of rays on a face, sixteen at a time, in float; and what is done to them
+// on a cube's face (of the distant one: distant_tests-inl.h). Conservative: what is rejected can block no ray
+// of the node. u = 2^-24 below. Included once per target.
 #if defined(TENEBRA_FACE_TESTS_INL_H_) == defined(HWY_TARGET_TOGGLE)
 #ifdef TENEBRA_FACE_TESTS_INL_H_
 #undef TENEBRA_FACE_TESTS_INL_H_
@@ -116,8 +117,9 @@ SIMD_INLINE std::uint32_t project_triangles(const TriangleCluster& c, const glm:
 struct FaceCluster {
   alignas(64) float mx[4][16], my[4][16], mz[4][16];
   float edge_slack[16], own_slack[16];
-  float d[16];      ///< rounded down
-  float cover[16];  ///< d and the rays' own tolerance, rounded up
+  float d[16];            ///< rounded down
+  float cover[16];        ///< d and the rays' own tolerance, rounded up
+  float cover_slack[16];  ///< with it
 };
 
 SIMD_INLINE void face_cluster(const ClusterPlanes& c, const Face& face, float tau, FaceCluster& out) {
@@ -127,9 +129,10 @@ SIMD_INLINE void face_cluster(const ClusterPlanes& c, const Face& face, float ta
     store(load<Float16>(m[face.axes[1]][k]), out.my[k]);
     store(load<Float16>(m[face.axes[2]][k]) * broadcast<Float16>(face.sign), out.mz[k]);
   }
-  const Float16 d = load<Float16>(c.fd), rho = load<Float16>(c.rho), far = rho * load<Float16>(c.reach);
+  const Float16 d = load<Float16>(c.fd[3]), rho = load<Float16>(c.rho), far = rho * load<Float16>(c.reach);
   store(mul_add(broadcast<Float16>(4.5f), rho, broadcast<Float16>(23 * u)), out.edge_slack);
-  store(mul_add(broadcast<Float16>(4.5f), rho, broadcast<Float16>(28 * u)), out.own_slack);
+  const Float16 own_slack = mul_add(broadcast<Float16>(4.5f), rho, broadcast<Float16>(28 * u));
+  store(own_slack, out.own_slack), store(own_slack, out.cover_slack);
   store(d - abs(d) * broadcast<Float16>(8 * u) - far * broadcast<Float16>(1 + 8 * u), out.d);
   store((d + far + broadcast<Float16>(tau)) * broadcast<Float16>(1 + 16 * u), out.cover);
 }
@@ -174,7 +177,7 @@ SIMD_INLINE std::uint32_t children_met(const RayNode& n, const FaceCluster& c, i
 /// Bits of the node's children all of whose rays triangle i blocks for sure, but for its own.
 SIMD_INLINE std::uint32_t children_covered(const RayNode& n, const FaceCluster& c, int i) {
   const Float16 edges = min(fewest(n, c, 0, i), min(fewest(n, c, 1, i), fewest(n, c, 2, i)));
-  const Float16 own = fewest(n, c, 3, i) - broadcast<Float16>(c.own_slack[i]);
+  const Float16 own = fewest(n, c, 3, i) - broadcast<Float16>(c.cover_slack[i]);
   return bits(lt(broadcast<Float16>(c.edge_slack[i]), edges) &
               lt(broadcast<Float16>(c.cover[i]) * load<Float16>(n.w1), own));
 }

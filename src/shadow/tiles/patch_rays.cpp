@@ -13,18 +13,18 @@ namespace {
 
 using glm::dvec3;
 
-// Boxes on a face with a larger area (a face has 36) are met by too many triangles: such squares are taken
-// tile by tile, such tiles ray by ray. Near the light pixels side by side may lie in all directions.
-constexpr float widest_square = 1.0f / 64, widest_tile = widest_square / 64;
+// Boxes with a larger share of a face are met by too many triangles: such squares are taken tile by tile,
+// such tiles ray by ray. Near the light pixels side by side may lie in all directions.
+constexpr float widest_square = 1.0f / 2304, widest_tile = widest_square / 64;
 constexpr std::ptrdiff_t fetch_ahead = 4;  // squares: the time that memory takes
 
-std::uint8_t face_of(const dvec3& p) {
+std::uint8_t cube_face_of(const dvec3& p) {
   const double x = std::abs(p.x), y = std::abs(p.y), z = std::abs(p.z), largest = std::max({x, y, z});
   const int axis = largest <= x ? 0 : largest <= y ? 1 : 2;
   return static_cast<std::uint8_t>(2 * axis + (p[axis] < 0 ? 1 : 0));
 }
 
-/// Box of a single point on its own face, with the margins of TileKernels::project.
+/// Box of a single point on its own face of the cube, with the margins of TileKernels::project.
 FaceBox box_of(const dvec3& p, std::uint8_t face) {
   const int axis = face / 2;
   const double z = std::abs(p[axis]);
@@ -32,10 +32,6 @@ FaceBox box_of(const dvec3& p, std::uint8_t face) {
   const auto pu = static_cast<float>(p[(axis + 1) % 3] / z), pv = static_cast<float>(p[(axis + 2) % 3] / z);
   const auto w = static_cast<float>(1 / z);
   return {pu - 32 * u, pu + 32 * u, pv - 32 * u, pv + 32 * u, w * (1 - 16 * u), w * (1 + 16 * u)};
-}
-
-float area(const FaceBox& box) {
-  return (box.u1 - box.u0) * (box.v1 - box.v0);
 }
 
 /// The triangle that the points of some lanes lie on; no_triangle: several.
@@ -50,14 +46,22 @@ std::uint32_t own_of(const points::PointTile& tile, std::uint32_t lanes) {
 
 /// Curve keys, worked out sixteen at a time.
 struct PatchRays::Keys {
-  Keys(DirectionKeys kernel, std::vector<std::uint32_t>& to) : direction_keys(kernel), out(to) {}
+  Keys(DirectionKeys kernel, const DistantFace* face, std::vector<std::uint32_t>& to)
+      : direction_keys(kernel), distant(face), out(to) {}
   DirectionKeys direction_keys;
+  const DistantFace* distant;
   std::vector<std::uint32_t>& out;
   float x[16] = {}, y[16] = {}, z[16] = {};
   std::uint8_t faces[16] = {};
   int size = 0;
 
-  void add(const dvec3& p, std::uint8_t face) {
+  void add(const dvec3& from_origin, std::uint8_t face) {
+    dvec3 p = from_origin;
+    if (distant != nullptr) {  // as a direction through the cube's +Z face
+      const dvec3 at = distant->place(p);
+      p = {at.x * static_cast<double>(distant->per_extent) / 2.5,
+           at.y * static_cast<double>(distant->per_extent) / 2.5, 1};
+    }
     x[size] = static_cast<float>(p.x), y[size] = static_cast<float>(p.y), z[size] = static_cast<float>(p.z);
     faces[size] = face;
     if (++size == 16) flush();
@@ -73,8 +77,8 @@ struct PatchRays::Keys {
 
 /// A square and where its rays go.
 struct PatchRays::Work {
-  Work(DirectionKeys keys, ForestScratch::Patch& to)
-      : out(to), node_keys(keys, to.node_keys), loose_keys(keys, to.loose_keys) {}
+  Work(DirectionKeys keys, const DistantFace* distant, ForestScratch::Patch& to)
+      : out(to), node_keys(keys, distant, to.node_keys), loose_keys(keys, distant, to.loose_keys) {}
   ForestScratch::Patch& out;
   Keys node_keys, loose_keys;
   const points::PointPatch* patch = nullptr;
@@ -87,19 +91,43 @@ struct PatchRays::Work {
 
 PatchRays::PatchRays(const VisiblePoints& points, const points::PointTiles& tiles,
                      const TriangleView& triangles, const ShadowLight& light, const RaySource& source,
-                     const HardShadowConfig& config)
+                     const HardShadowConfig& config, const DistantFace* distant)
     : points_(points),
       tiles_(tiles),
       triangles_(triangles),
       light_(light),
       source_(source),
+      distant_(distant),
+      facing_light_(facing_light(light)),
       pixels_(points.width, points.height),
-      bounded_(light.range_m > 0 || light.spot_cos_outer > -1),
+      bounded_(!light.directional && (light.range_m > 0 || light.spot_cos_outer > -1)),
       kernels_(tile_kernels(config.simd)),
       point_kernels_(points::point_tile_kernels(config.simd)),
       direction_keys_(direction_keys_kernel(config.simd)) {}
 
-/// About the middle of a tile, relative to the light.
+std::uint8_t PatchRays::face_of(const dvec3& p) const {
+  return distant_ != nullptr ? distant_face_number : cube_face_of(p);
+}
+
+bool PatchRays::project(const points::PointSquare& square, std::uint32_t tiles, std::uint8_t face,
+                        RayNode& node, FaceBox& all) const {
+  return distant_ != nullptr ? kernels_.project_distant(square, tiles, *distant_, node, all)
+                             : kernels_.project(square, tiles, source_.origin, face, node, all);
+}
+
+bool PatchRays::bound(const points::PointTile& tile, const points::PointBase& base, std::uint32_t lanes,
+                      std::uint8_t face, FaceBox& box) const {
+  if (distant_ == nullptr) return kernels_.bound(tile, base, lanes, source_.origin, face, box);
+  kernels_.bound_distant(tile, base, lanes, *distant_, box);
+  return true;
+}
+
+float PatchRays::area(const FaceBox& box) const {
+  const float per_side = distant_ != nullptr ? distant_->per_extent / 2 : 1 / (2 * face_limit);
+  return (box.u1 - box.u0) * per_side * ((box.v1 - box.v0) * per_side);
+}
+
+/// About the middle of a tile, relative to the origin.
 dvec3 PatchRays::centre_of(const points::PointSquare& square, int tile) const {
   dvec3 centre;
   for (int k = 0; k < 3; ++k) {
@@ -120,7 +148,7 @@ void PatchRays::find_facing(const points::PointPatch& patch, std::vector<std::ui
   facing.resize(patch.receivers.size() * 16);
   for (std::size_t b = 0; b < patch.receivers.size(); ++b) {
     const points::ReceiverBlock& block = patch.receivers[b];
-    Facing found = kernels_.facing(block, source_.light);
+    Facing found = kernels_.facing(block, facing_light_);
     for (std::uint32_t i = 0; i < 16; ++i) {
       const std::size_t number = b * 16 + i;
       if (((found.open >> i) & 1u) != 0 && number < patch.receiver_count) {
@@ -147,7 +175,7 @@ std::uint32_t PatchRays::facing_lanes(const points::TileReceivers& receivers, st
 Reach PatchRays::reach_of(const points::PointSquare& square) const {
   if (!bounded_) return Reach::all;
   const dvec3 base(square.base.at[0], square.base.at[1], square.base.at[2]);
-  return reach_of_ball(base - source_.origin, square.base.radius, light_);
+  return reach_of_ball(base - dvec3(light_.position), square.base.radius, light_);
 }
 
 std::uint32_t PatchRays::in_reach_lanes(const points::PointSquare& square, int t, std::uint32_t lanes) const {
@@ -155,13 +183,14 @@ std::uint32_t PatchRays::in_reach_lanes(const points::PointSquare& square, int t
                      square.high[2][t] - square.low[2][t]);
   // Half of the diagonal, and what the roundings of q, which its square's radius bounds, add.
   const double radius = 0.5 * glm::length(extent) + 0x1p-20 * double{square.base.radius};
-  const Reach reach = reach_of_ball(centre_of(square, t), radius, light_);
+  const dvec3 centre = centre_of(square, t) + (source_.origin - dvec3(light_.position));
+  const Reach reach = reach_of_ball(centre, radius, light_);
   if (reach != Reach::some) return reach == Reach::all ? lanes : 0;
   const std::uint32_t tile = square.first_tile + static_cast<std::uint32_t>(t);
   std::uint32_t reached = lanes;
   for (std::uint32_t left = lanes; left != 0; left &= left - 1) {
     const int lane = std::countr_zero(left);
-    const dvec3 p = visible_position(points_, triangles_, pixels_(tile, lane)) - source_.origin;
+    const dvec3 p = visible_position(points_, triangles_, pixels_(tile, lane)) - dvec3(light_.position);
     if (!in_reach(p, light_)) reached &= ~(1u << lane);
   }
   return reached;
@@ -217,6 +246,14 @@ void PatchRays::add_node(Work& work, std::uint8_t face) const {
 void PatchRays::add_ray(Work& work, int tile, int lane) const {
   const std::uint32_t number = work.square->first_tile + static_cast<std::uint32_t>(tile);
   const std::size_t pixel = pixels_(number, lane);
+  if (distant_ != nullptr) {
+    const points::PointTile& from = tiles_.tiles[number];
+    FaceBox box{};
+    bound(from, work.square->base, 1u << lane, distant_face_number, box);
+    work.out.loose.push_back(
+        {number, work.square->own[tile], static_cast<std::uint16_t>(1u << lane), work.square->tau, box});
+    return work.loose_keys.add(point_of(*work.square, from, lane), distant_face_number);
+  }
   const dvec3 p = visible_position(points_, triangles_, pixel) - source_.origin;
   const double size = std::max({std::abs(p.x), std::abs(p.y), std::abs(p.z)});
   if (size == 0) {
@@ -251,7 +288,7 @@ void PatchRays::add_parts(Work& work, int tile) const {
                                 point_of(square, points, 31 - std::countl_zero(lanes)));
     const std::uint8_t face = face_of(centre);
     FaceBox box{};
-    if (kernels_.bound(points, square.base, lanes, source_.origin, face, box) && area(box) <= widest_tile) {
+    if (bound(points, square.base, lanes, face, box) && area(box) <= widest_tile) {
       const bool one = square.receiver[tile] != points::several_receivers;
       work.out.loose.push_back({number, one ? square.own[tile] : own_of(points, lanes),
                                 static_cast<std::uint16_t>(lanes), square.tau, box});
@@ -266,8 +303,7 @@ void PatchRays::place_square(Work& work) const {
   if (work.gaps == 0) {
     const std::uint8_t face = face_of(centre_of(*work.square, std::countr_zero(work.present)));
     FaceBox& box = work.out.boxes[work.out.count];
-    if (kernels_.project(*work.square, work.present, source_.origin, face, work.out.nodes[work.out.count],
-                         box) &&
+    if (project(*work.square, work.present, face, work.out.nodes[work.out.count], box) &&
         area(box) <= widest_square) {
       return add_node(work, face);
     }
@@ -279,7 +315,7 @@ void PatchRays::place_square(Work& work) const {
 void PatchRays::find(const points::PointPatch& patch, ForestScratch::Patch& out) const {
   out.clear();
   find_facing(patch, out.facing);
-  Work work(direction_keys_, out);
+  Work work(direction_keys_, distant_, out);
   work.patch = &patch;
   for (const points::PointSquare& square : patch.squares) {
     const std::ptrdiff_t after = &patch.squares.back() - &square;
@@ -293,7 +329,7 @@ void PatchRays::find(const points::PointPatch& patch, ForestScratch::Patch& out)
       const double base = std::abs(static_cast<double>(square.base.at[k]) - source_.origin[k]);
       farthest = std::max(farthest, base + static_cast<double>(square.base.radius));
     }
-    out.in_range &= farthest < longest_ray;
+    out.in_range &= distant_ != nullptr || farthest < longest_ray;
     if (out.in_range) place_square(work);
   }
   for (std::size_t i = out.count; i < points::patch_squares; ++i) out.nodes[i].live = out.nodes[i].filled = 0;

@@ -17,7 +17,8 @@ namespace tenebra::shadow {
 class PatchRays {
 public:
   PatchRays(const VisiblePoints& points, const points::PointTiles& tiles, const TriangleView& triangles,
-            const ShadowLight& light, const RaySource& source, const HardShadowConfig& config);
+            const ShadowLight& light, const RaySource& source, const HardShadowConfig& config,
+            const DistantFace* distant);
 
   /// Squares without gaps become nodes as they stand, other groups are loose. Both with keys along the curve.
   void find(const points::PointPatch& patch, ForestScratch::Patch& out) const;
@@ -36,6 +37,13 @@ private:
   glm::dvec3 centre_of(const points::PointSquare& square, int tile) const;
   glm::dvec3 point_of(const points::PointSquare& square, const points::PointTile& tile, int lane) const;
   void place_square(Work& work) const;
+  std::uint8_t face_of(const glm::dvec3& p) const;
+  bool project(const points::PointSquare& square, std::uint32_t tiles, std::uint8_t face, RayNode& node,
+               FaceBox& all) const;
+  bool bound(const points::PointTile& tile, const points::PointBase& base, std::uint32_t lanes,
+             std::uint8_t face, FaceBox& box) const;
+  /// Share of the whole face.
+  float area(const FaceBox& box) const;
   void add_node(Work& work, std::uint8_t face) const;
   void add_parts(Work& work, int tile) const;
   void add_ray(Work& work, int tile, int lane) const;
@@ -45,6 +53,8 @@ private:
   const TriangleView& triangles_;
   const ShadowLight& light_;
   const RaySource& source_;
+  const DistantFace* distant_;  ///< null: the cube
+  FacingLight facing_light_;
   points::TilePixels pixels_;
   bool bounded_;  ///< by a cone or a range
   TileKernels kernels_;

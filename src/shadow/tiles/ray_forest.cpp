@@ -184,7 +184,7 @@ void write_tile(std::uint32_t live, std::uint8_t* to, int width) {
 }  // namespace
 
 FaceBox bounds_of(const RayNode& node) {
-  FaceBox box{infinity, -infinity, infinity, -infinity, infinity, 0};
+  FaceBox box{infinity, -infinity, infinity, -infinity, infinity, -infinity};
   for (std::uint32_t live = node.live; live != 0; live &= live - 1)
     widen(box, node.box(std::countr_zero(live)));
   return box;
@@ -211,7 +211,8 @@ void build_ray_forest(const VisiblePoints& points, const points::PointTiles& til
   scratch.patches.resize(tiles.patches.size());
   const std::size_t slots = tiles.patches.size() * points::patch_squares;
   out.levels[0].resize(slots), scratch.boxes.resize(slots);
-  const PatchRays rays(points, tiles, triangles, light, source, config);
+  const PatchRays rays(points, tiles, triangles, light, source, config,
+                       out.distant ? &*out.distant : nullptr);
   parallel::parallel_tasks(static_cast<int>(tiles.patches.size()), [&](int patch) {
     const auto i = static_cast<std::size_t>(patch);
     scratch.patches[i].first = i * points::patch_squares;

@@ -5,7 +5,8 @@
 // Rays are points of (u, v), a triangle with corners z > 0 is a triangle there, and of all that lies over a
 // ray the nearer to the light has the larger w. A box of (u, v, smallest w) is thus a cone of rectangular
 // section with its apex at the light, and sixteen of them are tested in a few instructions. A face serves all
-// rays with |u|, |v| <= face_limit, so that few tiles straddle two.
+// rays with |u|, |v| <= face_limit, so that few tiles straddle two. Of directional and of far lights all rays
+// are on one face more: distant_face.h.
 //
 // The points come in tiles of 4x4 pixels, with boxes around them (points/point_tiles.h): of most squares
 // nothing more is read before a triangle comes near them (of lights with a range or a cone, and of tiles that
@@ -24,6 +25,7 @@
 #include "points/point_tiles.h"
 #include "shadow/decision/triangle_planes.h"
 #include "shadow/rays/shadow_rays.h"
+#include "shadow/tiles/distant_face.h"
 
 namespace tenebra::shadow {
 
@@ -66,12 +68,13 @@ struct RayForest {
   /// [0]: over tiles, patch_squares a patch as far as needed (others are empty), then those joined of loose
   /// groups; [2]: the roots.
   std::array<std::vector<RayNode>, ray_levels> levels;
-  std::vector<std::uint8_t> faces;  ///< of each root: axis * 2, + 1 for the negative side
+  std::vector<std::uint8_t> faces;     ///< of each root: axis * 2, + 1 for the negative side; or distant
+  std::optional<DistantFace> distant;  ///< then all roots are of that face
   std::vector<FaceBox> root_boxes;
   std::vector<std::uint32_t> at_light;  ///< pixels whose point is the light: lit
   std::uint64_t rays = 0;
   float tau = 0;         ///< largest of the tiles'
-  bool in_range = true;  ///< all points are 1e-15 ... 1e15 from the light; else the forest is not to be used
+  bool in_range = true;  ///< distant, or all points are 1e-15 ... 1e15 from the light; else not to be used
 
   std::size_t byte_count() const;
 };
@@ -109,7 +112,8 @@ struct ForestScratch {
   std::vector<std::uint8_t> faces;  ///< of the nodes of level 1
 };
 
-/// Point and spot lights. `tiles`: of `points`.
+/// `tiles`: of `points`. Distant or not is what `out` says; `source`: with positions relative to that face's
+/// origin. Directional lights have to be distant.
 void build_ray_forest(const VisiblePoints& points, const points::PointTiles& tiles,
                       const TriangleView& triangles, const ShadowLight& light, const RaySource& source,
                       const HardShadowConfig& config, ForestScratch& scratch, RayForest& out);

@@ -8,6 +8,7 @@
 
 #include <bit>
 
+#include "shadow/tiles/distant_tests-inl.h"
 #include "shadow/tiles/tile_kernels.h"
 #include "simd/pack-inl.h"
 
@@ -44,6 +45,31 @@ SIMD_INLINE bool bound(const points::PointTile& tile, const points::PointBase& f
   box = {reduce_min(pu) - u_margin, reduce_max(pu) + u_margin, reduce_min(pv) - v_margin,
          reduce_max(pv) + v_margin, (1 - 16 * u) / farthest,   near_inverse * (1 + 16 * u)};
   return box.u0 >= -face_limit && box.u1 <= face_limit && box.v0 >= -face_limit && box.v1 <= face_limit;
+}
+
+/// The same on the distant face, which holds all points. Their coordinates are off by 3u (|base| + radius).
+SIMD_INLINE void bound(const points::PointTile& tile, const points::PointBase& from, std::uint32_t lanes,
+                       const DistantFace& f, FaceBox& box) {
+  const float* const q[3] = {tile.qx, tile.qy, tile.qz};
+  const Mask<float, 16> there = mask_of_bits<float, 16>(lanes);
+  const int first = std::countr_zero(lanes);
+  float size[3];
+  Float16 p[3];
+  for (int k = 0; k < 3; ++k) {
+    const int axis = f.axes[k];
+    const auto base =
+        static_cast<float>(static_cast<double>(from.at[axis]) - static_cast<double>(f.origin[axis]));
+    size[k] = std::abs(base) + from.radius;
+    p[k] =
+        broadcast<Float16>(base) + select(there, load<Float16>(q[axis]), broadcast<Float16>(q[axis][first]));
+  }
+  const Float16 z = p[2] * broadcast<Float16>(f.sign), one = broadcast<Float16>(1.0f);
+  const Float16 inverse = one / (one - broadcast<Float16>(f.k) * z);
+  const Float16 pu = (p[0] - broadcast<Float16>(f.s) * z) * inverse,
+                pv = (p[1] - broadcast<Float16>(f.t) * z) * inverse, w = z * inverse;
+  const TileMargins off = tile_margins(size, f);
+  box = {reduce_min(pu) - off.u, reduce_max(pu) + off.u, reduce_min(pv) - off.v,
+         reduce_max(pv) + off.v, reduce_min(w) - off.w,  reduce_max(w) + off.w};
 }
 
 }  // namespace tenebra::shadow::HWY_NAMESPACE

@@ -8,7 +8,9 @@
 #include "simd/dispatch.h"
 #include "simd/pack-inl.h"
 
+#include <algorithm>
 #include <bit>
+#include <cmath>
 
 HWY_BEFORE_NAMESPACE();
 namespace tenebra::shadow::HWY_NAMESPACE {
@@ -22,10 +24,12 @@ constexpr float off_the_face = 1e30f;
 // for a flat patch, with room for perspective and curvature.
 constexpr float coherent_extent = 8;
 
-Facing facing(const points::ReceiverBlock& r, const glm::vec3& light) {
-  const Pack3<Float16> to_light{broadcast<Float16>(light.x) - load<Float16>(r.ax),
-                                broadcast<Float16>(light.y) - load<Float16>(r.ay),
-                                broadcast<Float16>(light.z) - load<Float16>(r.az)};
+// The slack has room for more roundings of to_light than one.
+Facing facing(const points::ReceiverBlock& r, const FacingLight& light) {
+  const Float16 scale = broadcast<Float16>(light.scale);
+  const Pack3<Float16> to_light{broadcast<Float16>(light.at.x) - load<Float16>(r.ax) * scale,
+                                broadcast<Float16>(light.at.y) - load<Float16>(r.ay) * scale,
+                                broadcast<Float16>(light.at.z) - load<Float16>(r.az) * scale};
   const Pack3<Float16> n{load<Float16>(r.nx), load<Float16>(r.ny), load<Float16>(r.nz)};
   const Float16 value = dot(n, to_light);
   const Float16 bound = load<Float16>(r.slack) * (abs(to_light.x) + abs(to_light.y) + abs(to_light.z));
@@ -84,10 +88,47 @@ bool project(const points::PointSquare& square, std::uint32_t tiles, const glm::
   return fits;
 }
 
+// All ranges are true bounds; what is rounded here is in the margins.
+bool project_distant(const points::PointSquare& square, std::uint32_t tiles, const DistantFace& f,
+                     RayNode& node, FaceBox& all) {
+  const TileRange x = tile_range(square, f, 0), y = tile_range(square, f, 1), z = tile_range(square, f, 2);
+  const Nearness n = nearness_of(z.at, f);
+  const float sizes[3] = {x.size, y.size, z.size};
+  const TileMargins off = tile_margins(sizes, f);
+  const Mask<float, 16> asked = mask_of_bits<float, 16>(tiles);
+  const Float16 top = broadcast<Float16>(farthest_coordinate),
+                bottom = broadcast<Float16>(-farthest_coordinate), zero = broadcast<Float16>(0.0f);
+  const float apart = coherent_extent / static_cast<float>(std::popcount(tiles));
+  const DistantRange across[2] = {sheared(x.at, z.at, f.s, n), sheared(y.at, z.at, f.t, n)};
+  const float margins[2] = {off.u, off.v};
+  float* const low[2] = {node.u0, node.v0};
+  float* const high[2] = {node.u1, node.v1};
+  float* const bounds[2][2] = {{&all.u0, &all.u1}, {&all.v0, &all.v1}};
+  bool fits = true;
+  for (int k = 0; k < 2; ++k) {
+    const Float16 from = across[k].low - broadcast<Float16>(margins[k]),
+                  to = across[k].high + broadcast<Float16>(margins[k]);
+    store(from, low[k]), store(to, high[k]);
+    const float least_of_all = *bounds[k][0] = reduce_min(select(asked, from, top)),
+                greatest_of_all = *bounds[k][1] = reduce_max(select(asked, to, bottom));
+    fits &= greatest_of_all - least_of_all <= reduce_add(select(asked, to - from, zero)) * apart;
+  }
+  const Float16 w = z.at.low * n.far_inverse - broadcast<Float16>(off.w),
+                w1 = z.at.high * n.near_inverse + broadcast<Float16>(off.w);
+  store(w, node.w), store(w1, node.w1);
+  all.w = reduce_min(select(asked, w, top)), all.w1 = reduce_max(select(asked, w1, bottom));
+  return fits;
+}
+
+void bound_distant(const points::PointTile& tile, const points::PointBase& from, std::uint32_t lanes,
+                   const DistantFace& f, FaceBox& box) {
+  bound(tile, from, lanes, f, box);
+}
+
 }  // namespace
 
 TileKernels tile_kernels() {
-  return {facing, project, bound};
+  return {facing, project, bound, project_distant, bound_distant};
 }
 
 }  // namespace tenebra::shadow::HWY_NAMESPACE
@@ -96,6 +137,14 @@ HWY_AFTER_NAMESPACE();
 #if HWY_ONCE
 
 namespace tenebra::shadow {
+
+FacingLight facing_light(const ShadowLight& light) {
+  const glm::dvec3 at = light.directional ? light.to_light : light.position;
+  const double size = std::max({std::abs(at.x), std::abs(at.y), std::abs(at.z)});
+  if (light.directional) return {glm::vec3(at / size), 0.0f};
+  // Corners become too small to count beside a light that far away, never too large.
+  return size > 0x1p100 ? FacingLight{glm::vec3(at * 0x1p-64), 0x1p-64f} : FacingLight{light.position, 1.0f};
+}
 
 TileKernels tile_kernels(SimdLevel level) {
   return TENEBRA_DISPATCH(level, tile_kernels)();

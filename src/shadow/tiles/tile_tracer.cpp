@@ -62,11 +62,14 @@ void TileTracer::descend(const Descent& descent, SimdLevel simd, TraceStats& sta
 
 bool TileTracer::trace(const VisiblePoints& points, const ViewRays& view, const TriangleView& triangles,
                        const ShadowLight& light, const HardShadowConfig& config, ShadowMask& mask,
-                       TraceStats& stats, FrameTimings& timings) {
-  const RaySource source = ray_source(light);
-  if (source.directional || triangles.positions.size() > most_vertices) return false;
+                       TraceStats& stats, FrameTimings& timings, const StopFlag* stop) {
+  if (triangles.positions.size() > most_vertices) return false;
   base::Stopwatch watch;
   const points::PointTiles& tiles = tiles_of(points, view, triangles);
+  forest_.distant = distant_face(light, tiles);
+  if (light.directional && !forest_.distant) return false;
+  const RaySource source =
+      forest_.distant ? distant_source(ray_source(light), *forest_.distant) : ray_source(light);
   build_ray_forest(points, tiles, triangles, light, source, config, forest_scratch_, forest_);
   timings.rays_ms = watch.lap_ms();
   if (!forest_.in_range) return false;
@@ -74,8 +77,9 @@ bool TileTracer::trace(const VisiblePoints& points, const ViewRays& view, const 
   timings.build_ms = watch.lap_ms();
   tile_tests_.assign(config.count_pixel_nodes ? forest_.levels[0].size() : 0, {});
   descend({clusters_, forest_, source, triangles, points, tiles, config.contact, config.cull_front,
-           config.count_pixel_nodes ? &tile_tests_ : nullptr},
+           config.count_pixel_nodes ? &tile_tests_ : nullptr, stop},
           config.simd, stats);
+  if (stop_requested(stop)) return false;
   timings.traverse_ms = watch.lap_ms();
 
   mask.assign(points.triangles.size(), 0);

@@ -8,6 +8,7 @@
 
 #include <tenebra/frame_timings.h>
 #include <tenebra/hard_config.h>
+#include <tenebra/stop_flag.h>
 #include "shadow/tiles/descent.h"
 
 namespace tenebra::shadow {
@@ -16,11 +17,11 @@ namespace tenebra::shadow {
 class TileTracer {
 public:
   /// Fills `mask`, `stats` and `timings` as ShadowTracer does. False, with nothing of use in them, where the
-  /// method does not apply: directional lights, points that are not 1e-15 ... 1e15 from the light, and more
-  /// than most_vertices.
+  /// method does not apply: points that are less than 1e-15 from the light or 1e15 and more apart, and more
+  /// than most_vertices; or if `stop` was requested.
   bool trace(const VisiblePoints& points, const ViewRays& view, const TriangleView& triangles,
              const ShadowLight& light, const HardShadowConfig& config, ShadowMask& mask, TraceStats& stats,
-             FrameTimings& timings);
+             FrameTimings& timings, const StopFlag* stop);
 
   /// Of the last call: node tests per pixel, those of a node shared equally by the rays below it.
   void spread_tests(int width, int height, std::vector<float>& out) const;
