@@ -71,16 +71,20 @@ Expected<void> Renderer::State::occlude_ambient(const FrameInput& input, const R
   return {};
 }
 
-void Renderer::State::trace_hard(const FrameInput& input, const DrawnLight& light,
-                                 const RenderSettings& settings, FrameResult& result) {
+Expected<void> Renderer::State::trace_hard(const FrameInput& input, const DrawnLight& light,
+                                           const RenderSettings& settings, FrameResult& result,
+                                           const StopFlag* stop) {
   HardShadowConfig config = settings.hard;
   if (settings.samples == SampleSource::depth) config.contact = ContactRule::none;
   config.count_pixel_nodes = settings.diagnostics;
   const TriangleView triangles = casters_of(scene, input.geometry, light, casters);
+  bool done = false;
   with_threads(settings.threads, [&] {
-    hard.trace_shadow_mask(points, input.view, triangles, shadow_light(light.light, light.placed), config,
-                           hard_mask);
+    done = hard.trace_shadow_mask(points, input.view, triangles, shadow_light(light.light, light.placed),
+                                  config, hard_mask, stop);
   });
+  if (!done) return base::fail("stopped");
+  result.methods.push_back({light.number, hard.ran()});
   result.stats += hard.stats();
   add_shadow_stages(result.timings, hard.timings());
   base::Stopwatch watch;
@@ -93,6 +97,7 @@ void Renderer::State::trace_hard(const FrameInput& input, const DrawnLight& ligh
     for (const std::uint8_t lit : hard_mask) out.visible_fraction.pixels.push_back(lit != 0 ? 1.0f : 0.0f);
   }
   result.timings.writeback_ms += watch.lap_ms();
+  return {};
 }
 
 Expected<void> Renderer::State::trace_area(const FrameInput& input, const DrawnLight& light,
@@ -154,7 +159,7 @@ Expected<void> Renderer::State::trace_lights(const FrameInput& input, const std:
     if (lights[i].area) {
       if (auto done = trace_soft(input, lights[i], settings, result, irradiance[i], stop); !done) return done;
     } else if (settings.shadows != ShadowMode::none) {
-      trace_hard(input, lights[i], settings, result);
+      if (auto done = trace_hard(input, lights[i], settings, result, stop); !done) return done;
       if (input.geometry.see_through.empty()) continue;
       LightMask& hard_lit = result.masks.back();
       base::Stopwatch watch;

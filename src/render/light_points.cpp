@@ -112,8 +112,8 @@ bool LightPointShadows::trace(const VisiblePoints& points, std::span<const glm::
   for (std::size_t first = 0; first < places_.size(); first += masks_.size()) {
     const auto some = std::span(places_).subspan(first, std::min(masks_.size(), places_.size() - first));
     for (std::size_t k = 0; k < some.size(); ++k) {
-      if (stop_requested(stop)) return false;
-      tracer_.trace_shadow_mask(points, view, triangles, {.position = some[k]}, config, masks_[k]);
+      if (!tracer_.trace_shadow_mask(points, view, triangles, {.position = some[k]}, config, masks_[k], stop))
+        return false;
       stats_ += tracer_.stats();
       add_shadow_stages(timings_, tracer_.timings());
     }

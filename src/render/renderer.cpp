@@ -93,6 +93,7 @@ Expected<void> Renderer::render_frame(const FrameInput& given, const RenderSetti
   State& s = *state_;
   const FrameInput& input = s.cast_as(settings.see_through, given);
   result.masks.clear();
+  result.methods.clear();
   result.notes.clear();
   result.timings = {};
   result.stats = {};

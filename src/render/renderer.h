@@ -73,9 +73,16 @@ struct LightMask {
   TintMask tint;  ///< what see-through surfaces leave of the light's colours; the mask is of opaque casters
 };
 
+/// What traced a light without an area.
+struct LightMethod {
+  int light = -1;  ///< as LightMask::light
+  Variant ran = Variant::tiles;
+};
+
 struct FrameResult {
   base::Image8 image;            ///< RGB, encoded as Scene::transfer says
   std::vector<LightMask> masks;  ///< one per light drawn, of those with an intensity; empty without shadows
+  std::vector<LightMethod> methods;  ///< of the lights that had hard shadows
   FrameTimings timings;
   TraceStats stats;
   SoftStats soft;

@@ -59,8 +59,8 @@ struct Renderer::State {
   Expected<void> occlude_ambient(const FrameInput& input, const RenderSettings& settings, FrameResult& result,
                                  const AoProgress& progress, const StopFlag* stop);
   /// Adds the mask of one light as a point.
-  void trace_hard(const FrameInput& input, const DrawnLight& light, const RenderSettings& settings,
-                  FrameResult& result);
+  Expected<void> trace_hard(const FrameInput& input, const DrawnLight& light, const RenderSettings& settings,
+                            FrameResult& result, const StopFlag* stop);
   /// Adds the mask of one light as a polygon: the visible part from each point, and its irradiance.
   Expected<void> trace_soft(const FrameInput& input, const DrawnLight& light, const RenderSettings& settings,
                             FrameResult& result, std::vector<float>& irradiance_out, const StopFlag* stop);

@@ -62,13 +62,15 @@ Expected<void> Renderer::State::light_layer(const FrameInput& input, const std::
       if (auto done = trace_area(input, lights[i], settings, layer.points, layer.normals, lit, stop); !done)
         return done;
     } else {
+      bool done = false;
       with_threads(settings.threads, [&] {
         HardShadowConfig config = settings.hard;
         config.contact = ContactRule::triangle_ids;
-        hard.trace_shadow_mask(layer.points, input.view,
-                               casters_of(scene, input.geometry, lights[i], casters),
-                               shadow_light(lights[i].light, lights[i].placed), config, layer.masks[i]);
+        done = hard.trace_shadow_mask(
+            layer.points, input.view, casters_of(scene, input.geometry, lights[i], casters),
+            shadow_light(lights[i].light, lights[i].placed), config, layer.masks[i], stop);
       });
+      if (!done) return base::fail("stopped");
     }
     TintMask found;
     RenderSettings exact = settings;

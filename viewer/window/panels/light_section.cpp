@@ -41,6 +41,17 @@ void edit_light_size(Ui& ui, int index, const Light& light, LightEdit& edit) {
   ui.mark(fmt::format("light.{}.size", index));
 }
 
+/// What traced the light in the picture that is shown; empty where nothing did, or soft shadows.
+std::string method_of(const Ui& ui, int index) {
+  if (!ui.picture) return "";
+  for (const render::LightMethod& method : ui.picture->a.result.methods) {
+    const auto number = static_cast<std::size_t>(method.light);
+    if (number < ui.picture->lights.size() && ui.picture->lights[number].light == index)
+      return std::string(variant_name(method.ran));
+  }
+  return "";
+}
+
 void edit_light(Ui& ui, int index, const Light& light) {
   LightEdit edit = edit_of(ui.state.lights, index);
   const LightEdit before = edit;
@@ -54,6 +65,11 @@ void edit_light(Ui& ui, int index, const Light& light) {
     ImGui::SameLine(ImGui::GetWindowWidth() - ui.px(64));
     if (ImGui::SmallButton("reset")) edit = {};
     ui.mark(fmt::format("light.{}.reset", index));
+  }
+  if (const std::string method = method_of(ui, index); !method.empty()) {
+    row(ui, "  Traced by",
+        "What found its hard shadows in this picture: the variant, or what took its place.");
+    ImGui::TextUnformatted(method.c_str());
   }
   row(ui, "  Intensity", "Multiplies the scene's intensity.");
   ImGui::SliderFloat("##intensity", &edit.intensity, 0.01f, 100.0f, "x %.3g", ImGuiSliderFlags_Logarithmic);
