@@ -7,6 +7,7 @@
 #include "parallel/parallel.h"
 #include "points/contact_rule.h"
 #include "points/triangle_corners.h"
+#include "shadow/tiles/distant_face.h"
 
 namespace tenebra::tint {
 namespace {
@@ -73,15 +74,26 @@ private:
   shadow::TrianglePlanes room_{};
 };
 
+/// Of a box from a point, at most: along the axis on which it is farthest.
+double least_distance(const Box& box, const dvec3& p) {
+  const dvec3 d = glm::max(box.low - p, p - box.high);
+  return std::max({d.x, d.y, d.z});
+}
+
 /// From points in a box to the light.
 Shaft Worker::shaft_to_light(const Box& box) const {
   const shadow::RaySource& source = f_.crossing.source;
-  if (!source.directional) return shaft_between(box, {dvec3(source.light), dvec3(source.light)});
+  const dvec3 light(source.light);
+  if (!source.directional && !source.distant) return shaft_between(box, {light, light});
   // Towards the light until all triangles are passed.
   const Box& all = f_.tree.box();
   const dvec3 way = glm::max(glm::abs(all.high - box.low), glm::abs(box.high - all.low));
-  const dvec3 far = -source.travel * (1.0000001 * std::sqrt(glm::dot(way, way)));
-  return shaft_between(box, {box.low + far, box.high + far});
+  const double length = 1.0000001 * std::sqrt(glm::dot(way, way));
+  if (source.directional)
+    return shaft_between(box, {box.low - source.travel * length, box.high - source.travel * length});
+  const double share = length / least_distance(box, light);
+  if (!(share < 1)) return shaft_between(box, {light, light});
+  return shaft_between(box, {box.low + share * (light - box.low), box.high + share * (light - box.high)});
 }
 
 /// From tiles of a square. Their boxes are relative to its base, and a point's q is rounded.
@@ -227,7 +239,7 @@ glm::vec3 Worker::product(int lane) {
       const dvec3& from = tile_.points[lane];
       passed = f_.surfaces.transmittance(
           c.number,
-          weights_where(corners.v, from, source.directional ? -source.travel : source.origin - from));
+          weights_where(corners.v, from, source.directional ? -source.travel : dvec3(source.light) - from));
     }
     for (int k = 0; k < 3; ++k) factors_[k].push_back(passed[k]);
   }
@@ -284,7 +296,9 @@ void HardTint::trace(const VisiblePoints& points, const points::PointTiles& tile
                      const TriangleView& triangles, const Surfaces& surfaces, const TriangleTree& tree,
                      const ShadowLight& light, const ShadowMask& mask, const TintConfig& config,
                      TintMask& out, TintStats& stats) {
-  const shadow::RaySource source = shadow::ray_source(light);
+  shadow::RaySource source = shadow::ray_source(light);
+  if (const auto face = shadow::distant_face(light, tiles); face && !light.directional)
+    source = shadow::distant_source(source, *face);
   planes_.reset(surfaces.ids());
   const Frame frame{points,
                     tiles,
