@@ -382,6 +382,29 @@ TEST(ShadowMaskFarLight, GrazesWithAFewCloseCallsARay) {
   }
 }
 
+// Its cone and its range end amid the room; points with and without rows of positions.
+TEST(ShadowMaskFarLight, KeepsItsConeAndRange) {
+  for (const double distance : {100.0, 1e4, 1e6}) {
+    MaskCase c = far_case(distance, 1, 88, 120);
+    const dvec3 from(c.light.position);
+    c.light.spot_axis = vec3(glm::normalize(dvec3(0.5, 0.1, 0.3) - from));
+    c.light.spot_cos_outer = static_cast<float>(std::cos(0.8 / distance));
+    c.name = fmt::format("spot {} m away, seed 88", distance);
+    for (const float range_m : {0.0f, static_cast<float>(glm::length(from))}) {
+      c.light.range_m = range_m;
+      c.points = view_samples(c.soup.view(), c.view, 120, 120);
+      const ShadowMask expected = oracle(c);
+      EXPECT_TRUE(same_mask(c, traced(c), expected)) << range_m;
+      const std::vector<std::uint32_t> ids = c.points.triangles;
+      compute_visible_points(ids, 120, 120, c.view, c.soup.view(), c.points, PointLayout::tiles);
+      ShadowTracer tracer;
+      const ShadowMask mask = traced(c, tracer);
+      EXPECT_EQ(tracer.ran(), Variant::tiles);
+      EXPECT_EQ(differences(mask, expected).size(), 0u) << distance << " " << range_m;
+    }
+  }
+}
+
 TEST(ShadowMaskSun, IsTracedByTiles) {
   MaskCase c = far_case(0, 0, 84, 64);
   c.light = sun({0.3, 1, 0.2});
@@ -390,6 +413,11 @@ TEST(ShadowMaskSun, IsTracedByTiles) {
   EXPECT_EQ(tracer.ran(), Variant::tiles);
   EXPECT_EQ(tracer.stats().lights_tiles, 1u);
   EXPECT_EQ(tracer.stats().lights_cones, 0u);
+  const ShadowMask expected = oracle(c);
+  const std::vector<std::uint32_t> ids = c.points.triangles;
+  compute_visible_points(ids, 64, 64, c.view, c.soup.view(), c.points, PointLayout::tiles);
+  ASSERT_TRUE(c.points.positions.empty());
+  EXPECT_EQ(differences(traced(c, tracer), expected).size(), 0u);
   c.config.variant = Variant::spheres;
   traced(c, tracer);
   EXPECT_EQ(tracer.ran(), Variant::spheres);

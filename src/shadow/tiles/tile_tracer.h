@@ -32,7 +32,7 @@ private:
   void order_roots(std::size_t roots);
   void descend(const Descent& descent, SimdLevel simd, TraceStats& stats);
 
-  points::PointTiles own_tiles_;
+  points::PointTiles own_tiles_;  ///< of points that came without
   std::vector<std::array<std::uint32_t, 16>> tile_tests_;
   ClusterTree clusters_;
   RayForest forest_;
