@@ -15,7 +15,8 @@ using glm::dvec3;
 
 // Boxes with a larger share of a face are met by too many triangles: such squares are taken tile by tile,
 // such tiles ray by ray. Near the light pixels side by side may lie in all directions.
-constexpr float widest_square = 1.0f / 2304, widest_tile = widest_square / 64;
+// Of a distant light they do only where a picture's pixels are wide themselves.
+constexpr float widest_square = 1.0f / 2304, widest_distant_square = 1.0f / 256, tile_share = 1.0f / 64;
 constexpr std::ptrdiff_t fetch_ahead = 4;  // squares: the time that memory takes
 
 std::uint8_t cube_face_of(const dvec3& p) {
@@ -98,6 +99,7 @@ PatchRays::PatchRays(const VisiblePoints& points, const points::PointTiles& tile
       light_(light),
       source_(source),
       distant_(distant),
+      widest_square_(distant != nullptr ? widest_distant_square : widest_square),
       facing_light_(facing_light(light)),
       pixels_(points.width, points.height),
       bounded_(!light.directional && (light.range_m > 0 || light.spot_cos_outer > -1)),
@@ -288,7 +290,7 @@ void PatchRays::add_parts(Work& work, int tile) const {
                                 point_of(square, points, 31 - std::countl_zero(lanes)));
     const std::uint8_t face = face_of(centre);
     FaceBox box{};
-    if (bound(points, square.base, lanes, face, box) && area(box) <= widest_tile) {
+    if (bound(points, square.base, lanes, face, box) && area(box) <= widest_square_ * tile_share) {
       const bool one = square.receiver[tile] != points::several_receivers;
       work.out.loose.push_back({number, one ? square.own[tile] : own_of(points, lanes),
                                 static_cast<std::uint16_t>(lanes), square.tau, box});
@@ -304,7 +306,7 @@ void PatchRays::place_square(Work& work) const {
     const std::uint8_t face = face_of(centre_of(*work.square, std::countr_zero(work.present)));
     FaceBox& box = work.out.boxes[work.out.count];
     if (project(*work.square, work.present, face, work.out.nodes[work.out.count], box) &&
-        area(box) <= widest_square) {
+        area(box) <= widest_square_) {
       return add_node(work, face);
     }
   }

@@ -54,6 +54,7 @@ private:
   const ShadowLight& light_;
   const RaySource& source_;
   const DistantFace* distant_;  ///< null: the cube
+  float widest_square_;         ///< share of the face
   FacingLight facing_light_;
   points::TilePixels pixels_;
   bool bounded_;  ///< by a cone or a range
