@@ -25,8 +25,9 @@ MAY_INCLUDE = {
     "ao": {"base", "math", "simd", "parallel", "scene", "texture", "points"},
     "shade": {"base", "math", "simd", "parallel", "scene", "texture", "points"},
     "gl": {"base"},
-    "raster": {"base", "math", "scene", "gl"},
-    "render": {"base", "math", "simd", "parallel", "scene", "formats", "points", "shadow", "soft", "ao", "tint", "gl", "raster", "texture", "cutout", "shade"},
+    "visibility": {"base", "math", "simd", "parallel", "scene"},
+    "raster": {"base", "math", "scene", "gl", "visibility"},
+    "render": {"base", "math", "simd", "parallel", "scene", "formats", "points", "shadow", "soft", "ao", "tint", "gl", "raster", "visibility", "texture", "cutout", "shade"},
 }
 
 # Rooms of a folder, lowest first: a room includes itself and rooms before it. "" is the folder's own files.

@@ -102,7 +102,7 @@ Expected<GBufferPass> GBufferPass::create() {
 Expected<void> GBufferPass::draw(const ViewRays& view, const GeometryBuffers& geometry, int width, int height,
                                  GBuffer& out) const {
   if (auto size = check_picture_size(width, height); !size) return size;
-  auto transform = clip_transform(view, geometry.bounds(), width, height);
+  auto transform = visibility::clip_transform(view, geometry.bounds(), width, height);
   if (!transform) return tl::unexpected(std::move(transform.error()));
   if (auto made = make_targets(width, height, out); !made) return made;
   out.has_layer = geometry.has_see_through();

@@ -6,8 +6,8 @@
 
 #include <tenebra/frame_geometry.h>
 #include "gl/objects.h"
-#include "raster/clip_transform.h"
 #include "raster/geometry_buffers.h"
+#include "visibility/clip_transform.h"
 
 namespace tenebra::raster {
 
@@ -17,8 +17,8 @@ struct GBuffer {
   int width = 0;
   int height = 0;
   ViewRays view;  ///< what it was drawn with
-  ClipTransform transform;
-  gl::Texture depth;  ///< 32-bit float; see ClipTransform
+  visibility::ClipTransform transform;
+  gl::Texture depth;  ///< 32-bit float; see visibility::ClipTransform
   gl::Texture ids;    ///< triangle ids; 0xffffffff where none is seen
   gl::Framebuffer framebuffer;
 

@@ -5,7 +5,6 @@
 #include <glad/gl.h>
 
 #include <algorithm>
-#include <cmath>
 #include <limits>
 #include <span>
 #include <vector>
@@ -15,17 +14,6 @@ namespace {
 
 constexpr unsigned position_location = 0;  // of shaders/gbuffer.vert
 constexpr std::size_t max_triangles = std::numeric_limits<GLsizei>::max() / 3;
-
-Box bounds_of(std::span<const glm::vec3> positions) {
-  const float huge = std::numeric_limits<float>::max();
-  Box box{glm::vec3(huge), glm::vec3(-huge)};
-  for (const glm::vec3& p : positions) {
-    if (!std::isfinite(p.x) || !std::isfinite(p.y) || !std::isfinite(p.z)) continue;
-    box.min = glm::min(box.min, p);
-    box.max = glm::max(box.max, p);
-  }
-  return box;
-}
 
 template <class T>
 Expected<void> send(gl::Buffer& buffer, const std::vector<T>& values) {
@@ -59,7 +47,7 @@ Expected<void> GeometryBuffers::upload(const FrameGeometry& geometry) {
                       max_triangles);
   }
   triangle_count_ = geometry.triangles.size();
-  bounds_ = bounds_of(geometry.positions);
+  bounds_ = visibility::bounds_of(geometry.positions);
   if (auto sent = send(positions_, geometry.positions); !sent) return sent;
   has_see_through_ = std::any_of(geometry.see_through.begin(), geometry.see_through.end(),
                                  [](std::uint8_t through) { return through != 0; });

@@ -6,7 +6,7 @@
 
 #include <tenebra/frame_geometry.h>
 #include "gl/objects.h"
-#include "raster/clip_transform.h"
+#include "visibility/clip_transform.h"
 
 namespace tenebra::raster {
 
@@ -19,7 +19,7 @@ public:
 
   std::size_t triangle_count() const { return triangle_count_; }
   bool has_see_through() const { return has_see_through_; }
-  const Box& bounds() const { return bounds_; }
+  const visibility::Box& bounds() const { return bounds_; }
 
   /// All opaque triangles, or all see-through ones, in one call: gl_PrimitiveID is the triangle id.
   void draw() const;
@@ -31,7 +31,7 @@ private:
   std::vector<glm::uvec3> sorted_;  ///< scratch
   std::size_t triangle_count_ = 0;
   bool has_see_through_ = false;
-  Box bounds_;
+  visibility::Box bounds_;
 };
 
 }  // namespace tenebra::raster

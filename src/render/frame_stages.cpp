@@ -11,28 +11,31 @@
 namespace tenebra::render {
 
 void Renderer::State::points_from_depth(const ViewRays& view) {
-  const std::size_t width = static_cast<std::size_t>(gbuffer.width),
-                    height = static_cast<std::size_t>(gbuffer.height);
-  points.width = gbuffer.width;
-  points.height = gbuffer.height;
-  points.triangles = ids;
+  const std::size_t width = static_cast<std::size_t>(seen.width),
+                    height = static_cast<std::size_t>(seen.height);
+  points.width = seen.width;
+  points.height = seen.height;
+  points.triangles = seen.ids;
   points.tiles.clear();
   points.positions.resize(width * height);
   parallel::parallel_ranges(height, 16, [&](std::size_t first, std::size_t last) {
     for (std::size_t i = first * width; i < last * width; ++i) {
-      if (depth[i] <= 0) points.triangles[i] = no_triangle;
+      if (seen.depth[i] <= 0) points.triangles[i] = no_triangle;
       if (points.triangles[i] == no_triangle) continue;
-      points.positions[i] = raster::point_from_depth(view, gbuffer.transform, static_cast<int>(i % width),
-                                                     static_cast<int>(i / width), depth[i]);
+      points.positions[i] = visibility::point_from_depth(view, seen.transform, static_cast<int>(i % width),
+                                                         static_cast<int>(i / width), seen.depth[i]);
     }
   });
 }
 
-void Renderer::State::read_ids(const RenderSettings& settings, FrameTimings& timings) {
-  base::Stopwatch watch;
-  raster::read_triangle_ids(gbuffer, ids);
-  if (settings.samples == SampleSource::depth) raster::read_depth(gbuffer, depth);
-  timings.readback_ms = watch.lap_ms();
+Expected<void> Renderer::State::find_ids(const FrameInput& input, const RenderSettings& settings,
+                                         FrameTimings& timings) {
+  const FrameRaster::Wish wish{.width = settings.width,
+                               .height = settings.height,
+                               .with_depth = settings.samples == SampleSource::depth,
+                               .threads = settings.threads,
+                               .simd = settings.hard.simd};
+  return raster.draw(input.geometry, input.view, wish, seen, timings);
 }
 
 void Renderer::State::find_points(const FrameInput& input, const RenderSettings& settings,
@@ -47,7 +50,7 @@ void Renderer::State::find_points(const FrameInput& input, const RenderSettings&
   const TriangleView triangles = triangle_view(input.geometry);
   with_threads(settings.threads, [&] {
     if (!exact) return points_from_depth(input.view);
-    compute_visible_points(ids, gbuffer.width, gbuffer.height, input.view, triangles, points,
+    compute_visible_points(seen.ids, seen.width, seen.height, input.view, triangles, points,
                            !tiled      ? PointLayout::rows
                            : positions ? PointLayout::rows_and_tiles
                                        : PointLayout::tiles);
@@ -90,10 +93,10 @@ Expected<void> Renderer::State::trace_hard(const FrameInput& input, const DrawnL
   base::Stopwatch watch;
   LightMask& out = result.masks.emplace_back();
   out.light = light.number;
-  out.mask = {gbuffer.width, gbuffer.height, 1, hard_mask};
+  out.mask = {seen.width, seen.height, 1, hard_mask};
   out.nodes.assign(hard.pixel_nodes().begin(), hard.pixel_nodes().end());
   if (settings.shadows == ShadowMode::soft) {
-    out.visible_fraction = {gbuffer.width, gbuffer.height, 1, {}};
+    out.visible_fraction = {seen.width, seen.height, 1, {}};
     for (const std::uint8_t lit : hard_mask) out.visible_fraction.pixels.push_back(lit != 0 ? 1.0f : 0.0f);
   }
   result.timings.writeback_ms += watch.lap_ms();
@@ -132,8 +135,8 @@ Expected<void> Renderer::State::trace_soft(const FrameInput& input, const DrawnL
   watch.lap_ms();
   LightMask& out = result.masks.emplace_back();
   out.light = light.number;
-  out.visible_fraction = {gbuffer.width, gbuffer.height, 1, soft_mask.visible_fraction};
-  out.mask = {gbuffer.width, gbuffer.height, 1, {}};
+  out.visible_fraction = {seen.width, seen.height, 1, soft_mask.visible_fraction};
+  out.mask = {seen.width, seen.height, 1, {}};
   for (const float fraction : soft_mask.visible_fraction) {
     out.mask.pixels.push_back(static_cast<std::uint8_t>(std::lround(255.0f * fraction)));
   }
@@ -187,14 +190,14 @@ Expected<void> Renderer::State::shade_pixels(const FrameInput& input, const std:
     }
     if (input.geometry.see_through.empty() || settings.shadows == ShadowMode::none) continue;
     if (tints.size() < lights.size()) tints.resize(lights.size());
-    tints[i].begin(ids.size());
+    tints[i].begin(seen.ids.size());
     tints[i].set(result.masks[i].tint);
     factors[i].tint = tints[i].factors();
   }
   const shade::Subject subject{input.geometry, input.view, surfaces};
   const shade::Lighting lighting{placed, scene.ambient_light, scene.background,
                                  environment ? &*environment : nullptr};
-  shade::PixelSamples pixels{gbuffer.width, gbuffer.height, ids, factors, {}};
+  shade::PixelSamples pixels{seen.width, seen.height, seen.ids, factors, {}};
   if (settings.ao.mode != AoMode::none) pixels.openness = openness;
   with_threads(settings.threads, [&] {
     shade::shade_picture(subject, lighting, pixels, settings.exposure, scene.transfer, result.image);

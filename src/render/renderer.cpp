@@ -32,7 +32,7 @@ Expected<void> check_settings(const RenderSettings& settings) {
     return base::fail("samples from the depth buffer: {} needs the exact points from triangle ids",
                       settings.shadows == ShadowMode::soft ? "a soft shadow" : "ambient occlusion");
   }
-  return raster::check_picture_size(settings.width, settings.height);
+  return {};
 }
 
 }  // namespace
@@ -42,20 +42,22 @@ Renderer::Renderer(Renderer&&) noexcept = default;
 Renderer& Renderer::operator=(Renderer&&) noexcept = default;
 Renderer::~Renderer() = default;
 
-Expected<Renderer> Renderer::create(gl::Context context, const Scene& scene) {
-  auto gbuffer_pass = raster::GBufferPass::create();
-  if (!gbuffer_pass) return tl::unexpected(gbuffer_pass.error());
-  auto state = std::make_unique<State>(State{.context = std::move(context),
+Renderer Renderer::create(FrameRaster raster, const Scene& scene) {
+  auto state = std::make_unique<State>(State{.raster = std::move(raster),
                                              .scene = without_keyed_vertices(scene),
-                                             .geometry = {},
-                                             .gbuffer_pass = std::move(*gbuffer_pass),
                                              .surfaces = shade::SurfaceTable(scene)});
   state->coordinates = surface_coordinates(state->scene);
   return Renderer(std::move(state));
 }
 
-const std::string& Renderer::gl_renderer() const {
-  return state_->context.description();
+Expected<Renderer> Renderer::create(gl::Context context, const Scene& scene) {
+  auto raster = FrameRaster::create(std::move(context));
+  if (!raster) return tl::unexpected(raster.error());
+  return create(std::move(*raster), scene);
+}
+
+const FrameRaster& Renderer::raster() const {
+  return state_->raster;
 }
 
 void Renderer::set_lights(std::vector<Light> lights) {
@@ -68,17 +70,16 @@ void Renderer::set_environment(const base::ImageF& picture) {
 }
 
 std::vector<std::string> Renderer::take_debug_messages() {
-  return state_->context.take_debug_messages();
+  return state_->raster.take_debug_messages();
 }
 
 std::optional<glm::dvec3> Renderer::visible_point(const FrameInput& input, int x, int y) {
   State& s = *state_;
-  if (x < 0 || y < 0 || x >= s.gbuffer.width || y >= s.gbuffer.height) return std::nullopt;
-  raster::read_triangle_ids(s.gbuffer, s.ids);
-  compute_visible_points(s.ids, s.gbuffer.width, s.gbuffer.height, input.view, triangle_view(input.geometry),
+  if (x < 0 || y < 0 || x >= s.seen.width || y >= s.seen.height) return std::nullopt;
+  compute_visible_points(s.seen.ids, s.seen.width, s.seen.height, input.view, triangle_view(input.geometry),
                          s.points);
   const auto pixel =
-      static_cast<std::size_t>(y) * static_cast<std::size_t>(s.gbuffer.width) + static_cast<std::size_t>(x);
+      static_cast<std::size_t>(y) * static_cast<std::size_t>(s.seen.width) + static_cast<std::size_t>(x);
   if (s.points.triangles[pixel] == no_triangle) return std::nullopt;
   return s.points.positions[pixel];
 }
@@ -102,18 +103,13 @@ Expected<void> Renderer::render_frame(const FrameInput& given, const RenderSetti
   FrameTimings& timings = result.timings;
   base::Stopwatch watch, whole;
   if (auto checked = check_settings(settings); !checked) return checked;
+  if (auto checked = s.raster.check_picture_size(settings.width, settings.height); !checked) return checked;
   const auto lights = drawn_lights(s.scene, input, settings, result.notes);
   if (!lights) return tl::unexpected(lights.error());
 
-  if (auto uploaded = s.geometry.upload(input.geometry); !uploaded) return uploaded;
-  if (auto drawn = s.gbuffer_pass.draw(input.view, s.geometry, settings.width, settings.height, s.gbuffer);
-      !drawn)
-    return drawn;
-  timings.raster_ms = watch.lap_ms();
-
+  if (auto drawn = s.find_ids(input, settings, timings); !drawn) return drawn;
   const bool occlusion = settings.ao.mode != AoMode::none;
   const bool shadows = settings.shadows != ShadowMode::none && !lights->empty();
-  s.read_ids(settings, timings);
   if (shadows || occlusion) s.find_points(input, settings, timings);
   if (occlusion) {
     if (auto done = s.occlude_ambient(input, settings, result, progress, stop); !done) return done;

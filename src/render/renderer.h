@@ -1,4 +1,4 @@
-// The whole frame: OpenGL passes and shadow masks in the order of the 2011 paper's section 3.1.
+// The whole frame: what is seen and shadow masks in the order of the 2011 paper's section 3.1.
 #pragma once
 
 #include <cstdint>
@@ -16,7 +16,7 @@
 #include <tenebra/stop_flag.h>
 #include <tenebra/tint.h>
 #include "base/image.h"
-#include "gl/context.h"
+#include "render/frame_raster.h"
 
 namespace tenebra::render {
 
@@ -90,17 +90,18 @@ struct FrameResult {
   std::vector<std::string> notes;  ///< sentences a user should see once, new with this frame
 };
 
-/// Owns the OpenGL objects of one scene. Use it on the thread that created its context.
+/// Owns what frames of one scene need. Use it on the thread that created its context, if it has one.
 class Renderer {
 public:
-  /// Fails with a sentence if the context lacks OpenGL 4.5 core or a shader does not build. Keeps what it
-  /// needs of `scene`.
+  /// Keeps what it needs of `scene`.
+  static Renderer create(FrameRaster raster, const Scene& scene);
+  /// By OpenGL. Fails with a sentence if the context lacks OpenGL 4.5 core or a shader does not build.
   static Expected<Renderer> create(gl::Context context, const Scene& scene);
   Renderer(Renderer&&) noexcept;
   Renderer& operator=(Renderer&&) noexcept;
   ~Renderer();
 
-  /// One frame; `result` keeps its capacity. Fails on sizes OpenGL cannot draw or a lost context.
+  /// One frame; `result` keeps its capacity. Fails on sizes that cannot be drawn or a lost context.
   /// With `stop` requested from another thread it fails soon, with "stopped".
   Expected<void> render_frame(const FrameInput& input, const RenderSettings& settings, FrameResult& result,
                               const AoProgress& progress = {}, const StopFlag* stop = nullptr);
@@ -118,7 +119,7 @@ public:
   /// What the driver complained about since the last call (contexts made with ContextOptions::debug).
   std::vector<std::string> take_debug_messages();
 
-  const std::string& gl_renderer() const;  ///< GL_RENDERER and GL_VERSION of the context
+  const FrameRaster& raster() const;  ///< which way, and GL_RENDERER
 
 private:
   struct State;

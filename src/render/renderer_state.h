@@ -7,9 +7,8 @@
 #include <unordered_set>
 #include <vector>
 
-#include "raster/gbuffer.h"
-#include "raster/geometry_buffers.h"
 #include "render/frame_lights.h"
+#include "render/frame_raster.h"
 #include "render/light_points.h"
 #include "render/renderer.h"
 #include "render/see_through_layer.h"
@@ -18,16 +17,12 @@
 namespace tenebra::render {
 
 struct Renderer::State {
-  gl::Context context;
+  FrameRaster raster;
   Scene scene;  // as of without_keyed_vertices
-  raster::GeometryBuffers geometry;
-  raster::GBufferPass gbuffer_pass;
   shade::SurfaceTable surfaces;
   std::optional<shade::Environment> environment{};
-  raster::GBuffer gbuffer{};
 
-  std::vector<std::uint32_t> ids{};
-  std::vector<float> depth{};
+  visibility::VisibleIds seen{};
   VisiblePoints points{};
   std::vector<glm::vec3> normals{};
   ShadowTracer hard{};
@@ -52,7 +47,7 @@ struct Renderer::State {
   TintMask passes{};
 
   /// What each pixel sees.
-  void read_ids(const RenderSettings& settings, FrameTimings& timings);
+  Expected<void> find_ids(const FrameInput& input, const RenderSettings& settings, FrameTimings& timings);
   /// Visible points and, for soft shadows and occlusion, their normals.
   void find_points(const FrameInput& input, const RenderSettings& settings, FrameTimings& timings);
   void points_from_depth(const ViewRays& view);

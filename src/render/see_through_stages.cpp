@@ -46,7 +46,7 @@ Expected<void> Renderer::State::light_layer(const FrameInput& input, const std::
                                             const RenderSettings& settings, const StopFlag* stop) {
   const TriangleView triangles = triangle_view(input.geometry);
   with_threads(settings.threads, [&] {
-    compute_visible_points(layer.ids, gbuffer.width, gbuffer.height, input.view, triangles, layer.points,
+    compute_visible_points(layer.ids, seen.width, seen.height, input.view, triangles, layer.points,
                            PointLayout::rows_and_tiles);
     compute_shading_normals(layer.points, input.geometry.normals, input.view, triangles, layer.normals);
   });
@@ -96,9 +96,9 @@ Expected<void> Renderer::State::draw_see_through(
     const FrameInput& input, const std::vector<DrawnLight>& lights, const shade::Subject& subject,
     const shade::Lighting& lighting, const shade::PixelSamples& opaque, const RenderSettings& settings,
     FrameResult& result, const StopFlag* stop) {
-  if (!gbuffer.has_layer) return {};
+  if (!seen.has_layer) return {};
   base::Stopwatch watch;
-  raster::read_layer_ids(gbuffer, layer.ids);
+  layer.ids.swap(seen.layer);
   if (std::all_of(layer.ids.begin(), layer.ids.end(), [](std::uint32_t id) { return id == no_triangle; }))
     return {};
   if (auto lit = light_layer(input, lights, settings, stop); !lit) return lit;
@@ -110,7 +110,7 @@ Expected<void> Renderer::State::draw_see_through(
         settings.ao.mode != AoMode::none || (settings.shadows != ShadowMode::none && !lights.empty());
     const bool there = found && settings.samples == SampleSource::ids;
     if (!there) {
-      compute_visible_points(ids, gbuffer.width, gbuffer.height, input.view, triangles, behind,
+      compute_visible_points(seen.ids, seen.width, seen.height, input.view, triangles, behind,
                              PointLayout::rows_and_tiles);
     }
     eye_tint.trace(there ? points : behind, layer, input.view, triangles, surfaces, passes);

@@ -62,7 +62,8 @@ protected:
           ASSERT_EQ(depth[pixel], 0.0f);
           continue;
         }
-        const glm::dvec3 p = raster::point_from_depth(view, passes().gbuffer.transform, x, y, depth[pixel]);
+        const glm::dvec3 p =
+            visibility::point_from_depth(view, passes().gbuffer.transform, x, y, depth[pixel]);
         const glm::dvec3 across = (x + 0.5) * glm::dvec3(view.dx) + (y + 0.5) * glm::dvec3(view.dy);
         const glm::dvec3 truth =
             glm::dvec3(view.eye) + across * (view.orthographic ? 1.0 : seen.t) + seen.t * glm::dvec3(view.d0);

@@ -101,19 +101,18 @@ public:
   FrameLoop(const RenderPlan& plan, const RenderOptions& options) : plan_(plan), options_(options) {}
 
   Expected<void> run(StopSignals& stop) {
-    auto context = gl::Context::create(options_.context);
-    if (!context) return tl::unexpected(context.error());
-    auto renderer = render::Renderer::create(std::move(*context), plan_.scene);
-    if (!renderer) return tl::unexpected(renderer.error());
-    if (plan_.environment) renderer->set_environment(*plan_.environment);
+    auto raster = render::FrameRaster::create(options_.raster);
+    if (!raster) return tl::unexpected(raster.error());
+    render::Renderer renderer = render::Renderer::create(std::move(*raster), plan_.scene);
+    if (plan_.environment) renderer.set_environment(*plan_.environment);
     FrameGeometry first_frame;
     evaluate_frame(plan_.scene, plan_.clip, plan_.frames.front().time_s, first_frame);
-    const auto settings = describe_render(plan_, options_, renderer->gl_renderer(), first_frame);
+    const auto settings = describe_render(plan_, options_, raster_names(renderer.raster()), first_frame);
     if (auto opened = journals_.open(options_, settings); !opened) return opened;
 
     Progress progress(static_cast<int>(plan_.frames.size()), options_.quiet);
     for (const PlannedFrame& frame : plan_.frames) {
-      const auto drawn = draw(*renderer, frame, progress, stop.flag());
+      const auto drawn = draw(renderer, frame, progress, stop.flag());
       if (!drawn && drawn.error().message == "stopped") break;
       if (!drawn) return drawn;
       progress.show(static_cast<int>(records_.size()));

@@ -101,15 +101,15 @@ std::vector<render::LogSetting> describe_method(const render::RenderSettings& se
 }
 
 std::vector<render::LogSetting> describe_render(const RenderPlan& plan, const RenderOptions& options,
-                                                const std::string& gl_renderer,
-                                                const FrameGeometry& first_frame) {
+                                                const RasterNames& raster, const FrameGeometry& first_frame) {
   const render::RenderSettings& settings = plan.settings;
   const SimdLevel asked = settings.hard.simd;
   const SimdLevel simd = asked == SimdLevel::automatic ? best_simd_level() : asked;
   const bool has_clip = plan.clip >= 0;
   std::vector<render::LogSetting> list{
       {"machine", base::machine_description()},
-      {"renderer", gl_renderer},
+      {"renderer", raster.renderer},
+      {"raster", raster.raster},
       {"threads", settings.threads == 0 ? fmt::format("{} (all cores)", thread_count())
                                         : fmt::format("{}", settings.threads)},
       {"simd", std::string(simd_level_name(simd))},

@@ -5,6 +5,7 @@
 #include <string>
 #include <vector>
 
+#include "options/raster_options.h"
 #include "render/log/frame_log.h"
 #include "shared/render_plan.h"
 
@@ -16,8 +17,7 @@ std::vector<render::LogSetting> describe_method(const render::RenderSettings& se
 /// Machine, OpenGL renderer, threads, vector instructions, scene and every setting, as the log's comment
 /// lines. `first_frame`: geometry of the first frame, for its counts.
 std::vector<render::LogSetting> describe_render(const RenderPlan& plan, const RenderOptions& options,
-                                                const std::string& gl_renderer,
-                                                const FrameGeometry& first_frame);
+                                                const RasterNames& raster, const FrameGeometry& first_frame);
 
 /// Median, 95th and 99th percentile and worst frame of the stages that took time, as a table; "" without
 /// frames.

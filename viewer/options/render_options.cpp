@@ -2,6 +2,7 @@
 
 #include "base/fail.h"
 #include "options/config_file.h"
+#include "options/raster_options.h"
 
 namespace tenebra::viewer {
 namespace {
@@ -27,11 +28,6 @@ constexpr const char* examples =
     "picture's\n"
     "name is made if it is missing.\n"
     "Exit code: 0 done, 1 failed (one sentence says why), 130 or 143 stopped by a signal.";
-
-Expected<gl::ContextKind> parse_context(const std::string& text) {
-  if (const auto kind = gl::context_kind_from_name(text)) return *kind;
-  return base::fail("found {}, expected auto, egl or osmesa", text);
-}
 
 Expected<std::optional<OutputPattern>> parse_pictures(const std::string& text) {
   if (text == "none") return std::optional<OutputPattern>();
@@ -71,9 +67,7 @@ void add_output_options(CLI::App& command, RenderOptions& options) {
   add_text(command, "--trace", options.trace, "The same times for Perfetto or chrome://tracing")
       .type_name("FILE.json");
   add_flag(command, "--quiet", options.quiet, "No progress, warnings or summary");
-  add_value(command, "--context", options.context, parse_context,
-            "Offscreen OpenGL to use [auto: EGL, else OSMesa]")
-      .type_name("auto|egl|osmesa");
+  add_raster_options(command, options.raster);
 }
 
 bool draws_several_frames(const RenderOptions& options) {

@@ -5,7 +5,6 @@
 #include <string>
 #include <vector>
 
-#include "gl/context.h"
 #include "options/method_options.h"
 #include "options/output_pattern.h"
 #include "options/scene_options.h"
@@ -16,7 +15,7 @@ struct RenderOptions {
   SceneOptions scene;
   MethodOptions method;
   std::optional<FrameRange> frames;
-  gl::ContextKind context = gl::ContextKind::automatic;
+  render::RasterChoice raster;
 
   std::optional<OutputPattern> pictures;    ///< none: no pictures
   std::vector<OutputPattern> masks;         ///< .png or .pfm

@@ -27,12 +27,10 @@ Expected<void> FrameMaker::take_scene(const std::shared_ptr<const ScenePlan>& sc
   if (renderer_ && scene == scene_) return {};
   // The old renderer goes while its context is current, before a new context takes its place.
   renderer_.reset();
-  auto context = gl::Context::create(kind_, {.debug = debug_});
-  if (!context) return tl::unexpected(context.error());
-  auto renderer = render::Renderer::create(std::move(*context), scene->scene);
-  if (!renderer) return tl::unexpected(renderer.error());
-  if (scene->environment) renderer->set_environment(*scene->environment);
-  renderer_.emplace(std::move(*renderer));
+  auto raster = render::FrameRaster::create(raster_);
+  if (!raster) return tl::unexpected(raster.error());
+  renderer_.emplace(render::Renderer::create(std::move(*raster), scene->scene));
+  if (scene->environment) renderer_->set_environment(*scene->environment);
   scene_ = scene;
   return {};
 }

@@ -5,15 +5,13 @@
 #include <memory>
 #include <optional>
 
-#include "gl/context.h"
 #include "window/frame_request.h"
 
 namespace tenebra::viewer {
 
 class FrameMaker {
 public:
-  /// `debug`: collect what OpenGL complains about.
-  FrameMaker(gl::ContextKind kind, bool debug) : kind_(kind), debug_(debug) {}
+  explicit FrameMaker(const render::RasterChoice& raster) : raster_(raster) {}
 
   /// Draws the request at `time_s` of its animation. A stop ends in the error "stopped"; the next call starts
   /// afresh.
@@ -23,7 +21,8 @@ public:
   /// What a pixel of the last picture sees; none: background, or no picture yet.
   std::optional<glm::vec3> visible_point(int x, int y);
 
-  std::string gl_renderer() const { return renderer_ ? renderer_->gl_renderer() : ""; }
+  /// Null before the first picture.
+  const render::FrameRaster* raster() const { return renderer_ ? &renderer_->raster() : nullptr; }
   std::vector<std::string> take_debug_messages();
 
 private:
@@ -31,8 +30,7 @@ private:
   Expected<Drawn> draw(const FrameRequest& request, const render::RenderSettings& settings, double time_s,
                        const AoProgress& progress, const StopFlag& stop);
 
-  gl::ContextKind kind_;
-  bool debug_;
+  render::RasterChoice raster_;
   std::shared_ptr<const ScenePlan> scene_;
   std::optional<render::Renderer> renderer_;
   render::FrameInput input_;

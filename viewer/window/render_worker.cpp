@@ -24,8 +24,8 @@ double seconds(Clock::duration duration) {
 
 }  // namespace
 
-RenderWorker::RenderWorker(gl::ContextKind kind, bool debug, std::function<void()> wake)
-    : wake_(std::move(wake)), thread_([this, kind, debug] { run(kind, debug); }) {}
+RenderWorker::RenderWorker(const render::RasterChoice& raster, std::function<void()> wake)
+    : wake_(std::move(wake)), thread_([this, raster] { run(raster); }) {}
 
 RenderWorker::~RenderWorker() {
   {
@@ -86,9 +86,9 @@ WorkerResults RenderWorker::take_results() {
   return results;
 }
 
-std::string RenderWorker::gl_renderer() const {
+RasterNames RenderWorker::raster() const {
   const std::lock_guard lock(mutex_);
-  return gl_renderer_;
+  return raster_;
 }
 
 /// Something to draw, and room for it.
@@ -149,7 +149,7 @@ void RenderWorker::draw(FrameMaker& maker, std::unique_lock<std::mutex>& lock) {
 
   lock.lock();
   status_ = {};
-  gl_renderer_ = maker.gl_renderer();
+  if (maker.raster() != nullptr) raster_ = raster_names(*maker.raster());
   std::move(messages.begin(), messages.end(), std::back_inserter(results_.gl_messages));
   if (over && !fresh_) request_.reset();
   finish(std::move(made), request, newly_asked);
@@ -173,8 +173,8 @@ void RenderWorker::finish(Expected<std::shared_ptr<Picture>> made, const FrameRe
   results_.pictures.push_back(std::move(*made));
 }
 
-void RenderWorker::run(gl::ContextKind kind, bool debug) {
-  FrameMaker maker(kind, debug);
+void RenderWorker::run(const render::RasterChoice& raster) {
+  FrameMaker maker(raster);
   std::unique_lock lock(mutex_);
   while (!quit_) {
     if (to_open_) {

@@ -11,6 +11,7 @@
 #include <thread>
 #include <vector>
 
+#include "options/raster_options.h"
 #include "window/frame_maker.h"
 
 namespace tenebra::viewer {
@@ -41,7 +42,7 @@ struct WorkerResults {
 class RenderWorker {
 public:
   /// `wake` is called on the worker's thread whenever there are new results.
-  RenderWorker(gl::ContextKind kind, bool debug, std::function<void()> wake);
+  RenderWorker(const render::RasterChoice& raster, std::function<void()> wake);
   ~RenderWorker();  ///< stops what is under way and waits for it
   RenderWorker(const RenderWorker&) = delete;
   RenderWorker& operator=(const RenderWorker&) = delete;
@@ -57,11 +58,11 @@ public:
 
   WorkerStatus status() const;
   WorkerResults take_results();
-  std::string gl_renderer() const;
+  RasterNames raster() const;
 
 private:
   using Wall = AnimationClock::Wall;
-  void run(gl::ContextKind kind, bool debug);
+  void run(const render::RasterChoice& raster);
   bool can_draw() const;
   void load(std::unique_lock<std::mutex>& lock);
   void draw(FrameMaker& maker, std::unique_lock<std::mutex>& lock);
@@ -82,7 +83,7 @@ private:
   Wall begun_{};
   Wall last_picture_{};
   double last_frame_s_ = 0;
-  std::string gl_renderer_;
+  RasterNames raster_;
   WorkerResults results_;
 
   std::thread thread_;  // last: it uses all of the above

@@ -17,13 +17,14 @@ std::string SessionLog::key_of(const ViewState& state) {
 }
 
 Expected<SessionLog> SessionLog::start(const std::string& path, const ViewState& state,
-                                       const Picture& picture, const std::string& gl_renderer) {
+                                       const Picture& picture, const RasterNames& raster) {
   const base::Image8& image = picture.a.result.image;
   const MethodOptions& method = state.slots[static_cast<std::size_t>(picture.slot)];
   const bool follows = state.camera_mode == CameraMode::scene;
   std::vector<render::LogSetting> settings{
       {"machine", base::machine_description()},
-      {"renderer", gl_renderer},
+      {"renderer", raster.renderer},
+      {"raster", raster.raster},
       {"threads", method.render.threads == 0 ? fmt::format("{} (all cores)", thread_count())
                                              : fmt::format("{}", method.render.threads)},
       {"scene", state.options.file},

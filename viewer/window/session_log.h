@@ -3,6 +3,7 @@
 
 #include <string>
 
+#include "options/raster_options.h"
 #include "render/log/frame_log.h"
 #include "window/frame_request.h"
 #include "window/view_state.h"
@@ -14,7 +15,7 @@ class SessionLog {
 public:
   /// `settings`: what the frames have in common, as the comment lines above the rows.
   static Expected<SessionLog> start(const std::string& path, const ViewState& state, const Picture& picture,
-                                    const std::string& gl_renderer);
+                                    const RasterNames& raster);
 
   /// False if the picture was made with other settings: it does not belong here.
   bool belongs(const ViewState& state) const { return key_of(state) == key_; }

@@ -3,6 +3,7 @@
 #include "base/fail.h"
 #include "options/choices.h"
 #include "options/config_file.h"
+#include "options/raster_options.h"
 
 namespace tenebra::viewer {
 namespace {
@@ -115,14 +116,7 @@ void add_output_options(CLI::App& command, ViewOptions& options) {
             .type_name("FILE"));
   group(add_flag(command, "--gl-debug", options.gl_debug,
                  "Use OpenGL debug contexts; their messages go to the report"));
-  group(add_value(
-            command, "--context", options.context,
-            +[](const std::string& text) -> Expected<gl::ContextKind> {
-              if (const auto kind = gl::context_kind_from_name(text)) return *kind;
-              return base::fail("found {}, expected auto, egl or osmesa", text);
-            },
-            "OpenGL that draws the pictures [auto: EGL, else OSMesa]")
-            .type_name("auto|egl|osmesa"));
+  for (const AddedOption option : add_raster_options(command, options.raster)) group(option);
 }
 
 }  // namespace

@@ -5,7 +5,6 @@
 #include <optional>
 #include <string>
 
-#include "gl/context.h"
 #include "options/method_options.h"
 #include "options/output_pattern.h"
 #include "options/scene_options.h"
@@ -16,7 +15,7 @@ namespace tenebra::viewer {
 struct ViewOptions {
   SceneOptions scene;
   MethodOptions method;
-  gl::ContextKind context = gl::ContextKind::automatic;
+  render::RasterChoice raster;
 
   Size window{1280, 720};
   bool panel = true;

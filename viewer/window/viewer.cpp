@@ -41,6 +41,13 @@ std::string unused_name(const std::filesystem::path& name) {
   return file.string();
 }
 
+/// With --gl-debug contexts collect what OpenGL complains about.
+render::RasterChoice worker_raster(const ViewOptions& options) {
+  render::RasterChoice choice = options.raster;
+  choice.options.debug = options.gl_debug;
+  return choice;
+}
+
 FreeCamera start_camera(const SceneOptions& options) {
   return {*options.eye, options.look_at, options.up, options.fov_deg.value_or(FreeCamera{}.fov_deg)};
 }
@@ -52,7 +59,7 @@ Viewer::Viewer(ViewOptions options, WindowGl& gl, EventReport report, std::funct
       gl_(gl),
       report_(std::move(report)),
       textures_(gl),
-      worker_(options_.context, options_.gl_debug, std::move(wake)) {
+      worker_(worker_raster(options_), std::move(wake)) {
   state_.slots = {options_.method, options_.compare.value_or(options_.method)};
   state_.compare = options_.compare.has_value();
   state_.show = options_.show;
@@ -282,7 +289,7 @@ void Viewer::toggle_log() {
   if (!picture_) return;
   const std::string path =
       options_.log.empty() ? unused_name("tenebra_frames.csv") : std::exchange(options_.log, "");
-  auto log = SessionLog::start(path, state_, *picture_, worker_.gl_renderer());
+  auto log = SessionLog::start(path, state_, *picture_, worker_.raster());
   if (!log) return say(log.error().message, true);
   log_.emplace(std::move(*log));
   say(fmt::format("Logging frames to {}", path));

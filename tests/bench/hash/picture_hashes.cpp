@@ -104,8 +104,8 @@ Expected<std::vector<std::string>> hash_pictures(const Scene& scene, const Hashe
   auto pass = raster::GBufferPass::create();
   if (!pass) return tl::unexpected(pass.error());
   progress(fmt::format("{}: pictures by {}", chosen.name, kind));
-  std::vector<std::string> lines{
-      fmt::format("# Drawn by {}, {}; another driver may draw other bits.", kind, renderer->gl_renderer())};
+  std::vector<std::string> lines{fmt::format("# Drawn by {}, {}; another driver may draw other bits.", kind,
+                                             renderer->raster().gl_renderer())};
   PictureHasher hasher(scene, chosen.name, kind, std::move(*renderer), IdDrawing(std::move(*pass)));
   for (const int number : chosen.frames) {
     for (const PictureMode& mode : picture_modes(scale)) {

@@ -79,8 +79,8 @@ void HardTrade::points_from_depth(VisiblePoints& out) const {
     for (std::size_t i = first; i < last; ++i) {
       if (out.triangles[i] == no_triangle) continue;
       out.positions[i] =
-          raster::point_from_depth(view_.frame.view, raster_.transform(), static_cast<int>(i % width),
-                                   static_cast<int>(i / width), depth_[i]);
+          visibility::point_from_depth(view_.frame.view, raster_.transform(), static_cast<int>(i % width),
+                                       static_cast<int>(i / width), depth_[i]);
     }
   });
 }

@@ -57,7 +57,7 @@ Expected<void> TradeRaster::draw(const FrameGeometry& geometry, const ViewRays& 
   return {};
 }
 
-const raster::ClipTransform& TradeRaster::transform() const {
+const visibility::ClipTransform& TradeRaster::transform() const {
   return state_->view.transform;
 }
 

@@ -40,7 +40,7 @@ public:
   /// Ids and depth of `view`; what point_from_depth needs is kept in transform().
   Expected<void> draw(const FrameGeometry& geometry, const ViewRays& view, int width, int height,
                       std::vector<std::uint32_t>& ids, std::vector<float>& depth);
-  const raster::ClipTransform& transform() const;
+  const visibility::ClipTransform& transform() const;
 
   /// Only casters, two-sided, from `near_m` on.
   Expected<void> draw_cube(const FrameGeometry& geometry, glm::vec3 light, float near_m, int size,

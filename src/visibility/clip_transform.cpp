@@ -1,11 +1,12 @@
-#include "raster/clip_transform.h"
+#include "visibility/clip_transform.h"
 
 #include "base/fail.h"
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 
-namespace tenebra::raster {
+namespace tenebra::visibility {
 namespace {
 
 /// t of the far plane of an orthographic view: just behind the corner of the box that is farthest along d0.
@@ -25,6 +26,17 @@ double far_parameter(const ViewRays& view, const Box& bounds, const glm::dvec3& 
 }
 
 }  // namespace
+
+Box bounds_of(std::span<const glm::vec3> positions) {
+  const float huge = std::numeric_limits<float>::max();
+  Box box{glm::vec3(huge), glm::vec3(-huge)};
+  for (const glm::vec3& p : positions) {
+    if (!std::isfinite(p.x) || !std::isfinite(p.y) || !std::isfinite(p.z)) continue;
+    box.min = glm::min(box.min, p);
+    box.max = glm::max(box.max, p);
+  }
+  return box;
+}
 
 Expected<ClipTransform> clip_transform(const ViewRays& view, const Box& bounds, int width, int height) {
   const glm::dvec3 d0(view.d0), dx(view.dx), dy(view.dy);
@@ -66,4 +78,4 @@ glm::dvec3 point_from_depth(const ViewRays& view, const ClipTransform& transform
   return glm::dvec3(view.eye) + near_t / depth * (glm::dvec3(view.d0) + across);
 }
 
-}  // namespace tenebra::raster
+}  // namespace tenebra::visibility

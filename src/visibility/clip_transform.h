@@ -1,20 +1,23 @@
-// The pixel rays of a view as OpenGL needs them: the same floats that define the rays make the clip
-// coordinates, so that what the rasteriser finds at a pixel is what the ray through the pixel's centre meets.
+// The pixel rays of a view as rasterisers need them: the same floats that define the rays make the clip
+// coordinates, so that what a rasteriser finds at a pixel is what the ray through the pixel's centre meets.
 // Window y runs down the picture: row 0, the top one, is at window y = 0, and nothing is ever flipped.
 #pragma once
 
 #include <glm/glm.hpp>
+#include <span>
 
 #include <tenebra/expected.h>
 #include <tenebra/frame_geometry.h>
 
-namespace tenebra::raster {
+namespace tenebra::visibility {
 
 /// Smallest box around all finite positions of a frame; `min` > `max` if there are none.
 struct Box {
   glm::vec3 min{1.0f};
   glm::vec3 max{-1.0f};
 };
+
+Box bounds_of(std::span<const glm::vec3> positions);
 
 /// Of a world position p, with q = p - eye: clip coordinates are clip_from_offset * q + clip_offset, made for
 /// depth 0..1. Depth is reversed, 1 at the near plane, so that floats are dense far away where depths crowd.
@@ -34,4 +37,4 @@ Expected<ClipTransform> clip_transform(const ViewRays& view, const Box& bounds, 
 /// exact as float depth is: too coarse to do without a bias.
 glm::dvec3 point_from_depth(const ViewRays& view, const ClipTransform& transform, int x, int y, float depth);
 
-}  // namespace tenebra::raster
+}  // namespace tenebra::visibility

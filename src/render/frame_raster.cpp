@@ -1,0 +1,95 @@
+#include "render/frame_raster.h"
+
+#include <algorithm>
+#include <array>
+
+#include "base/stopwatch.h"
+#include "parallel/parallel.h"
+#include "raster/gbuffer.h"
+#include "raster/geometry_buffers.h"
+
+namespace tenebra::render {
+
+struct FrameRaster::Gl {
+  gl::Context context;  // first: it goes last
+  raster::GBufferPass pass;
+  raster::GeometryBuffers geometry;
+  raster::GBuffer gbuffer{};
+};
+
+FrameRaster::FrameRaster() = default;
+FrameRaster::FrameRaster(FrameRaster&&) noexcept = default;
+FrameRaster& FrameRaster::operator=(FrameRaster&&) noexcept = default;
+FrameRaster::~FrameRaster() = default;
+
+bool is_software_renderer(std::string_view gl_renderer) {
+  constexpr std::array<std::string_view, 5> names{"llvmpipe", "softpipe", "swrast", "SWR",
+                                                  "Software Rasterizer"};
+  return std::any_of(names.begin(), names.end(),
+                     [&](std::string_view name) { return gl_renderer.find(name) != std::string_view::npos; });
+}
+
+Expected<FrameRaster> FrameRaster::create(gl::Context context) {
+  auto pass = raster::GBufferPass::create();
+  if (!pass) return tl::unexpected(pass.error());
+  FrameRaster result;
+  result.gl_.reset(new Gl{.context = std::move(context), .pass = std::move(*pass), .geometry = {}});
+  return result;
+}
+
+Expected<FrameRaster> FrameRaster::create(const RasterChoice& choice) {
+  if (choice.kind == RasterKind::cpu) return FrameRaster();
+  auto context = gl::Context::create(choice.context, choice.options);
+  if (choice.kind == RasterKind::gl) {
+    if (!context) return tl::unexpected(context.error());
+    return create(std::move(*context));
+  }
+  if (!context || is_software_renderer(context->description())) return FrameRaster();
+  return create(std::move(*context));
+}
+
+bool FrameRaster::is_gl() const {
+  return gl_ != nullptr;
+}
+
+const std::string& FrameRaster::gl_renderer() const {
+  static const std::string none = "none";
+  return gl_ ? gl_->context.description() : none;
+}
+
+std::vector<std::string> FrameRaster::take_debug_messages() {
+  return gl_ ? gl_->context.take_debug_messages() : std::vector<std::string>();
+}
+
+Expected<void> FrameRaster::check_picture_size(int width, int height) const {
+  return gl_ ? raster::check_picture_size(width, height) : visibility::check_picture_size(width, height);
+}
+
+Expected<void> FrameRaster::draw(const FrameGeometry& geometry, const ViewRays& view, const Wish& wish,
+                                 visibility::VisibleIds& out, FrameTimings& timings) {
+  base::Stopwatch watch;
+  if (!gl_) {
+    Expected<void> drawn;
+    with_threads(wish.threads, [&] {
+      drawn = cpu_.draw(geometry, view, wish.width, wish.height, wish.with_depth, wish.simd, out);
+    });
+    timings.raster_ms = watch.lap_ms();
+    return drawn;
+  }
+  Gl& gl = *gl_;
+  if (auto uploaded = gl.geometry.upload(geometry); !uploaded) return uploaded;
+  if (auto drawn = gl.pass.draw(view, gl.geometry, wish.width, wish.height, gl.gbuffer); !drawn) return drawn;
+  timings.raster_ms = watch.lap_ms();
+  out.width = wish.width, out.height = wish.height;
+  out.transform = gl.gbuffer.transform;
+  out.has_layer = gl.gbuffer.has_layer;
+  raster::read_triangle_ids(gl.gbuffer, out.ids);
+  out.depth.clear();
+  if (wish.with_depth) raster::read_depth(gl.gbuffer, out.depth);
+  out.layer.clear();
+  if (out.has_layer) raster::read_layer_ids(gl.gbuffer, out.layer);
+  timings.readback_ms = watch.lap_ms();
+  return {};
+}
+
+}  // namespace tenebra::render

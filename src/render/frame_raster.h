@@ -1,0 +1,70 @@
+// What finds the triangle that each pixel sees: OpenGL, or the CPU where OpenGL is software or missing.
+#pragma once
+
+#include <memory>
+#include <optional>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include <tenebra/expected.h>
+#include <tenebra/frame_geometry.h>
+#include <tenebra/frame_timings.h>
+#include <tenebra/simd_level.h>
+#include "gl/context.h"
+#include "visibility/visibility.h"
+
+namespace tenebra::render {
+
+enum class RasterKind { automatic, gl, cpu };
+
+/// How pictures are to be rasterised, and the OpenGL context for it.
+struct RasterChoice {
+  RasterKind kind = RasterKind::automatic;
+  gl::ContextKind context = gl::ContextKind::automatic;
+  gl::ContextOptions options;
+};
+
+/// Finds what pixels see, by one of the two ways; ids differ only where a pixel's centre is on an edge, but
+/// for OpenGL's rounding of vertices, and where depths tie. Keeps its buffers.
+class FrameRaster {
+public:
+  /// gl: by OpenGL. cpu: without any context. automatic: by OpenGL if there is a context and it draws by more
+  /// than software. Fails with a sentence if there is no context, it lacks OpenGL 4.5 core or a shader does
+  /// not build.
+  static Expected<FrameRaster> create(const RasterChoice& choice);
+  /// By OpenGL in this context, whatever draws there.
+  static Expected<FrameRaster> create(gl::Context context);
+  FrameRaster(FrameRaster&&) noexcept;
+  FrameRaster& operator=(FrameRaster&&) noexcept;
+  ~FrameRaster();
+
+  bool is_gl() const;
+  /// GL_RENDERER and GL_VERSION; "none" on the CPU.
+  const std::string& gl_renderer() const;
+  std::vector<std::string> take_debug_messages();
+
+  Expected<void> check_picture_size(int width, int height) const;
+
+  struct Wish {
+    int width = 0;
+    int height = 0;
+    bool with_depth = false;
+    int threads = 0;  ///< 0: all
+    SimdLevel simd = SimdLevel::automatic;
+  };
+  /// Fills raster_ms and readback_ms too.
+  Expected<void> draw(const FrameGeometry& geometry, const ViewRays& view, const Wish& wish,
+                      visibility::VisibleIds& out, FrameTimings& timings);
+
+private:
+  struct Gl;
+  FrameRaster();
+  std::unique_ptr<Gl> gl_;  ///< null: on the CPU
+  visibility::VisibilityPass cpu_;
+};
+
+/// Whether GL_RENDERER names a renderer that runs on the CPU.
+bool is_software_renderer(std::string_view gl_renderer);
+
+}  // namespace tenebra::render

@@ -1,0 +1,183 @@
+#include "visibility/tile_kernels.h"
+
+#include <algorithm>
+#include <bit>
+#include <cmath>
+
+#undef HWY_TARGET_INCLUDE
+#define HWY_TARGET_INCLUDE "visibility/tile_kernels.cpp"
+#include <hwy/foreach_target.h>
+// After foreach_target.h
+#include "simd/dispatch.h"
+#include "simd/float16-inl.h"
+#include "simd/prefetch.h"
+
+HWY_BEFORE_NAMESPACE();
+namespace tenebra::visibility::HWY_NAMESPACE {
+using namespace simd::HWY_NAMESPACE;
+
+namespace {
+
+constexpr float column_of_lane[16] = {0, 1, 2, 3, 0, 1, 2, 3, 0, 1, 2, 3, 0, 1, 2, 3};
+constexpr float row_of_lane[16] = {0, 0, 0, 0, 1, 1, 1, 1, 2, 2, 2, 2, 3, 3, 3, 3};
+
+/// A record's functions at the pixels of a block, but for where the block is.
+///
+/// Roundings of an edge's float value, where it may be near 0: |value| <= 134, slopes <= 1, offsets <= 66. In
+/// units of 2^-24: value 134, slopes and their products with the block's place 66 each, their sum 132, with
+/// the value 266, the lanes' products 3 each and sum 6, the last sum 272: 1080. With most_doubt, 512, and
+/// what the double values lose to their last rounding that is 1592, below the 2048 of edge_band.
+struct Lanes {
+  SIMD_INLINE explicit Lanes(const TileRecord& record) : r(record) {
+    const Float16 column = load<Float16>(column_of_lane), row = load<Float16>(row_of_lane);
+    for (int k = 0; k < 4; ++k)
+      within[k] = broadcast<Float16>(r.along_x[k]) * column + broadcast<Float16>(r.along_y[k]) * row;
+  }
+  /// Value of function k at the first pixel of a block.
+  SIMD_INLINE float corner(int k, int block_x, int block_y) const {
+    const float x = static_cast<float>(block_side * block_x - r.x0),
+                y = static_cast<float>(block_side * block_y - r.y0);
+    return r.value[k] + (r.along_x[k] * x + r.along_y[k] * y);
+  }
+  SIMD_INLINE Float16 at(int k, int block_x, int block_y) const {
+    return broadcast<Float16>(corner(k, block_x, block_y)) + within[k];
+  }
+
+  const TileRecord& r;
+  Float16 within[4];
+};
+
+/// Bits of a block's pixels that the record's box holds.
+std::uint32_t box_bits(const TileRecord& r, int block_x, int block_y) {
+  std::uint32_t set = 0;
+  for (int lane = 0; lane < 16; ++lane) {
+    const int x = block_side * block_x + lane % block_side, y = block_side * block_y + lane / block_side;
+    if (x >= r.x0 && x <= r.x1 && y >= r.y0 && y <= r.y1) set |= 1u << lane;
+  }
+  return set;
+}
+
+class TileDrawing {
+public:
+  TileDrawing(int left, int top, const CloseCalls& close, Tile& tile)
+      : left_(left), top_(top), close_(close), tile_(tile) {}
+
+  SIMD_INLINE void draw(const TileRecord& r) {
+    const Lanes lanes(r);
+    const int first_x = r.x0 / block_side, last_x = r.x1 / block_side, first_y = r.y0 / block_side,
+              last_y = r.y1 / block_side;
+    if ((last_x - first_x + 1) * (last_y - first_y + 1) > few_blocks && !(r.id & doubtful_bit))
+      return draw_regions(lanes, first_x, last_x, first_y, last_y);
+    for (int y = first_y; y <= last_y; ++y)
+      for (int x = first_x; x <= last_x; ++x) draw_block(lanes, x, y);
+  }
+
+private:
+  static constexpr int few_blocks = 6;
+
+  /// What is certain of `value` and what is not: the pixels that the triangle covers.
+  SIMD_INLINE Mask<float, 16> decided(const Lanes& lanes, Float16 inside, int x, int y) const {
+    const Float16 band = broadcast<Float16>(edge_band);
+    const auto covered = lt(band, inside);
+    const bool doubtful = (lanes.r.id & doubtful_bit) != 0;
+    if (!doubtful && !any(le(abs(inside), band))) return covered;
+    std::uint32_t set = doubtful ? 0 : bits(covered);
+    std::uint32_t open = doubtful ? box_bits(lanes.r, x, y) : bits(le(abs(inside), band));
+    for (; open != 0; open &= open - 1) {
+      const int lane = std::countr_zero(open);
+      if (close_.covers(lanes.r.id & ~doubtful_bit, left_ + block_side * x + lane % block_side,
+                        top_ + block_side * y + lane / block_side))
+        set |= 1u << lane;
+    }
+    return mask_of_bits<float, 16>(set);
+  }
+
+  SIMD_INLINE void draw_block(const Lanes& lanes, int x, int y) {
+    const TileRecord& r = lanes.r;
+    const int block = block_index(x, y);
+    if (r.near_depth < tile_.far_depth[block]) return;
+    const Float16 inside = min(min(lanes.at(0, x, y), lanes.at(1, x, y)), lanes.at(2, x, y));
+    const auto covered = decided(lanes, inside, x, y);
+    if (!any(covered)) return;
+    float* const depths = tile_.depth + 16 * block;
+    std::int32_t* const ids = tile_.ids + 16 * block;
+    const Float16 depth =
+        min(max(lanes.at(3, x, y), broadcast<Float16>(r.far_depth)), broadcast<Float16>(r.near_depth));
+    const auto shown = covered & le(depth, broadcast<Float16>(1.0f));  // cut by the near plane
+    const Float16 offered = select(shown, depth, broadcast<Float16>(-1.0f));
+    const Float16 old = load<Float16>(depths);
+    const Int16 old_id = load<Int16>(ids),
+                id = broadcast<Int16>(static_cast<std::int32_t>(r.id & ~doubtful_bit));
+    const Int16 rival = select(eq(offered, old), old_id, broadcast<Int16>(std::int32_t{-1}));
+    const Int16 kept = select(gt(rival, id), id, old_id);
+    const Float16 nearest = max(offered, old);
+    store(nearest, depths);
+    store(select(lt(old, offered), id, kept), ids);
+    tile_.far_depth[block] = reduce_min(nearest);
+  }
+
+  /// Regions of sixteen blocks: which of these the triangle can reach and be seen in, all at once.
+  SIMD_INLINE void draw_regions(const Lanes& lanes, int first_x, int last_x, int first_y, int last_y) {
+    const TileRecord& r = lanes.r;
+    Float16 best[4];  // largest value in a block, but for where the region is
+    const float last_pixel = block_side - 1, side = block_side;
+    for (int k = 0; k < 4; ++k) {
+      const float most =
+          std::max(r.along_x[k], 0.0f) * last_pixel + std::max(r.along_y[k], 0.0f) * last_pixel;
+      best[k] = lanes.within[k] * broadcast<Float16>(side) + broadcast<Float16>(most);
+    }
+    // Values of edges and depths of pixels are not above these, but for roundings: of edges fewer than those
+    // of Lanes, of depths sixteen at most of numbers as large as `size`.
+    const float size = std::abs(r.value[3]) + 66 * (std::abs(r.along_x[3]) + std::abs(r.along_y[3]));
+    best[3] = best[3] + broadcast<Float16>(size * 0x1p-20f);
+    for (int region_y = first_y / 4; region_y <= last_y / 4; ++region_y) {
+      for (int region_x = first_x / 4; region_x <= last_x / 4; ++region_x) {
+        const auto corner = [&](int k) {
+          return broadcast<Float16>(lanes.corner(k, 4 * region_x, 4 * region_y));
+        };
+        const Float16 inside = min(min(best[0] + corner(0), best[1] + corner(1)), best[2] + corner(2));
+        const Float16 depth =
+            min(max(best[3] + corner(3), broadcast<Float16>(r.far_depth)), broadcast<Float16>(r.near_depth));
+        const Float16 seen = load<Float16>(tile_.far_depth + block_index(4 * region_x, 4 * region_y));
+        const auto reached = le(broadcast<Float16>(-2 * edge_band), inside) & le(seen, depth);
+        for (std::uint32_t open = bits(reached); open != 0; open &= open - 1) {
+          const int lane = std::countr_zero(open), x = 4 * region_x + lane % 4, y = 4 * region_y + lane / 4;
+          if (x >= first_x && x <= last_x && y >= first_y && y <= last_y) draw_block(lanes, x, y);
+        }
+      }
+    }
+  }
+
+  int left_, top_;
+  const CloseCalls& close_;
+  Tile& tile_;
+};
+
+}  // namespace
+
+void draw(const TileRecord* records, const std::uint32_t* order, std::size_t count, int left, int top,
+          const CloseCalls& close, Tile& tile) {
+  constexpr std::size_t ahead = 8;
+  TileDrawing drawing(left, top, close, tile);
+  for (std::size_t i = 0; i < count; ++i) {
+    if (i + ahead < count) simd::prefetch(&records[order[i + ahead]]);
+    drawing.draw(records[order[i]]);
+  }
+}
+
+TileKernels own_tile_kernels() {
+  return {draw};
+}
+
+}  // namespace tenebra::visibility::HWY_NAMESPACE
+HWY_AFTER_NAMESPACE();
+
+#if HWY_ONCE
+namespace tenebra::visibility {
+
+TileKernels tile_kernels(SimdLevel level) {
+  return TENEBRA_DISPATCH(level, own_tile_kernels)();
+}
+
+}  // namespace tenebra::visibility
+#endif

@@ -1,0 +1,40 @@
+#include "options/raster_options.h"
+
+#include "base/fail.h"
+#include "options/choices.h"
+#include "options/option_values.h"
+
+namespace tenebra::viewer {
+namespace {
+
+constexpr std::array raster_choices{Choice<render::RasterKind>{"auto", render::RasterKind::automatic},
+                                    Choice<render::RasterKind>{"gl", render::RasterKind::gl},
+                                    Choice<render::RasterKind>{"cpu", render::RasterKind::cpu}};
+
+Expected<render::RasterKind> parse_raster(const std::string& text) {
+  return parse_choice(raster_choices, text);
+}
+
+Expected<gl::ContextKind> parse_context(const std::string& text) {
+  if (const auto kind = gl::context_kind_from_name(text)) return *kind;
+  return base::fail("found {}, expected auto, egl or osmesa", text);
+}
+
+}  // namespace
+
+std::array<AddedOption, 2> add_raster_options(CLI::App& command, render::RasterChoice& choice) {
+  return {
+      add_value(command, "--raster", choice.kind, parse_raster,
+                "What finds the triangle that each pixel sees: OpenGL, or\nthe CPU, exactly and without any "
+                "OpenGL [auto: OpenGL on a\nGPU, else the CPU]")
+          .type_name("auto|gl|cpu"),
+      add_value(command, "--context", choice.context, parse_context,
+                "Offscreen OpenGL for it [auto: EGL, else OSMesa]")
+          .type_name("auto|egl|osmesa")};
+}
+
+RasterNames raster_names(const render::FrameRaster& raster) {
+  return {raster.is_gl() ? "gl" : "cpu", raster.gl_renderer()};
+}
+
+}  // namespace tenebra::viewer

@@ -1,0 +1,23 @@
+// The options that choose what finds the triangle that each pixel sees. `tenebra render` and `tenebra view`
+// share them.
+#pragma once
+
+#include <array>
+#include <string>
+
+#include "render/frame_raster.h"
+#include "shell/command_line.h"
+
+namespace tenebra::viewer {
+
+/// Adds --raster and --context to `command`; they are read into `choice`, which must live as long.
+std::array<AddedOption, 2> add_raster_options(CLI::App& command, render::RasterChoice& choice);
+
+/// What drew, for logs.
+struct RasterNames {
+  std::string raster;    ///< "gl" or "cpu"
+  std::string renderer;  ///< FrameRaster::gl_renderer
+};
+RasterNames raster_names(const render::FrameRaster& raster);
+
+}  // namespace tenebra::viewer
