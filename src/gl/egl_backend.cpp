@@ -1,5 +1,8 @@
-// Contexts without a window by EGL: Mesa's surfaceless platform, else the devices of a GPU server.
+// Contexts without a window by EGL: Mesa's surfaceless platform, else the devices of a GPU server. Loaded at
+// run time: what draws on the CPU needs no EGL.
 #define EGL_NO_X11
+#include <dlfcn.h>
+
 #include <EGL/egl.h>
 #include <EGL/eglext.h>
 
@@ -12,24 +15,69 @@
 namespace tenebra::gl {
 namespace {
 
+/// Functions of libEGL.
+struct Egl {
+  decltype(&eglBindAPI) bind_api = nullptr;
+  decltype(&eglChooseConfig) choose_config = nullptr;
+  decltype(&eglCreateContext) create_context = nullptr;
+  decltype(&eglDestroyContext) destroy_context = nullptr;
+  decltype(&eglGetCurrentContext) current_context = nullptr;
+  decltype(&eglGetError) error = nullptr;
+  decltype(&eglGetPlatformDisplay) platform_display = nullptr;
+  decltype(&eglGetProcAddress) function = nullptr;
+  decltype(&eglInitialize) initialize = nullptr;
+  decltype(&eglMakeCurrent) make_current = nullptr;
+};
+
+template <class Pointer>
+bool find(void* library, const char* name, Pointer& function) {
+  function = reinterpret_cast<Pointer>(dlsym(library, name));
+  return function != nullptr;
+}
+
+Expected<Egl> load_egl() {
+  // Never unloaded: its threads and its exit handlers outlive the contexts.
+  void* const handle = dlopen("libEGL.so.1", RTLD_NOW | RTLD_LOCAL | RTLD_NODELETE);
+  if (handle == nullptr) return base::fail("EGL: found no libEGL.so.1");
+  Egl egl;
+  const bool complete =
+      find(handle, "eglBindAPI", egl.bind_api) && find(handle, "eglChooseConfig", egl.choose_config) &&
+      find(handle, "eglCreateContext", egl.create_context) &&
+      find(handle, "eglDestroyContext", egl.destroy_context) &&
+      find(handle, "eglGetCurrentContext", egl.current_context) && find(handle, "eglGetError", egl.error) &&
+      find(handle, "eglGetPlatformDisplay", egl.platform_display) &&
+      find(handle, "eglGetProcAddress", egl.function) && find(handle, "eglInitialize", egl.initialize) &&
+      find(handle, "eglMakeCurrent", egl.make_current);
+  dlclose(handle);
+  if (!complete) return base::fail("EGL: found a library older than EGL 1.5");
+  return egl;
+}
+
+/// eglGetProcAddress of the library that is loaded: a FunctionLoader holds no state.
+Function egl_function(const char* name) {
+  static const auto loaded = load_egl();
+  return loaded ? loaded->function(name) : nullptr;
+}
+
 struct EglBackend final : Context::Backend {
-  EglBackend(EGLDisplay display, EGLContext context) : display_(display), context_(context) {}
+  EglBackend(const Egl& egl, EGLDisplay display, EGLContext context)
+      : egl_(egl), display_(display), context_(context) {}
   // The display stays initialised: EGL has one per process, and other contexts may live on it.
   ~EglBackend() override {
-    if (eglGetCurrentContext() == context_) {
-      eglMakeCurrent(display_, EGL_NO_SURFACE, EGL_NO_SURFACE, EGL_NO_CONTEXT);
+    if (egl_.current_context() == context_) {
+      egl_.make_current(display_, EGL_NO_SURFACE, EGL_NO_SURFACE, EGL_NO_CONTEXT);
     }
-    eglDestroyContext(display_, context_);
+    egl_.destroy_context(display_, context_);
   }
   bool make_current() override {
-    return eglBindAPI(EGL_OPENGL_API) && eglMakeCurrent(display_, EGL_NO_SURFACE, EGL_NO_SURFACE, context_);
+    return egl_.bind_api(EGL_OPENGL_API) &&
+           egl_.make_current(display_, EGL_NO_SURFACE, EGL_NO_SURFACE, context_);
   }
-  FunctionLoader loader() const override {
-    return [](const char* name) { return eglGetProcAddress(name); };
-  }
+  FunctionLoader loader() const override { return egl_function; }
   std::string_view kind_name() const override { return "egl"; }
 
 private:
+  Egl egl_;
   EGLDisplay display_;
   EGLContext context_;
 };
@@ -40,11 +88,10 @@ struct Platform {
   void* native;
 };
 
-std::vector<Platform> platforms() {
+std::vector<Platform> platforms(const Egl& egl) {
   std::vector<Platform> result{
       {"surfaceless", EGL_PLATFORM_SURFACELESS_MESA, reinterpret_cast<void*>(EGL_DEFAULT_DISPLAY)}};
-  const auto query_devices =
-      reinterpret_cast<PFNEGLQUERYDEVICESEXTPROC>(eglGetProcAddress("eglQueryDevicesEXT"));
+  const auto query_devices = reinterpret_cast<PFNEGLQUERYDEVICESEXTPROC>(egl.function("eglQueryDevicesEXT"));
   constexpr int max_devices = 32;
   std::array<EGLDeviceEXT, max_devices> devices{};
   EGLint count = 0;
@@ -56,13 +103,13 @@ std::vector<Platform> platforms() {
   return result;
 }
 
-EGLContext create_context(EGLDisplay display, ContextOptions options) {
+EGLContext create_context(const Egl& egl, EGLDisplay display, ContextOptions options) {
   // No surface is ever drawn to: any configuration that OpenGL can use will do.
   const EGLint config_wants[] = {EGL_SURFACE_TYPE, 0, EGL_RENDERABLE_TYPE, EGL_OPENGL_BIT, EGL_NONE};
   EGLConfig config = nullptr;
   EGLint config_count = 0;
-  if (!eglBindAPI(EGL_OPENGL_API)) return EGL_NO_CONTEXT;
-  if (!eglChooseConfig(display, config_wants, &config, 1, &config_count) || config_count == 0) {
+  if (!egl.bind_api(EGL_OPENGL_API)) return EGL_NO_CONTEXT;
+  if (!egl.choose_config(display, config_wants, &config, 1, &config_count) || config_count == 0) {
     return EGL_NO_CONTEXT;
   }
   const EGLint wants[] = {EGL_CONTEXT_MAJOR_VERSION,
@@ -74,22 +121,22 @@ EGLContext create_context(EGLDisplay display, ContextOptions options) {
                           EGL_CONTEXT_OPENGL_DEBUG,
                           options.debug ? EGL_TRUE : EGL_FALSE,
                           EGL_NONE};
-  return eglCreateContext(display, config, EGL_NO_CONTEXT, wants);
+  return egl.create_context(display, config, EGL_NO_CONTEXT, wants);
 }
 
-BackendResult create_on(const Platform& platform, ContextOptions options) {
-  const EGLDisplay display = eglGetPlatformDisplay(platform.platform, platform.native, nullptr);
+BackendResult create_on(const Egl& egl, const Platform& platform, ContextOptions options) {
+  const EGLDisplay display = egl.platform_display(platform.platform, platform.native, nullptr);
   if (display == EGL_NO_DISPLAY) return base::fail("{}: no such platform", platform.name);
-  if (!eglInitialize(display, nullptr, nullptr)) {
-    return base::fail("{}: not initialised (EGL error {:#x})", platform.name, eglGetError());
+  if (!egl.initialize(display, nullptr, nullptr)) {
+    return base::fail("{}: not initialised (EGL error {:#x})", platform.name, egl.error());
   }
-  const EGLContext context = create_context(display, options);
+  const EGLContext context = create_context(egl, display, options);
   if (context == EGL_NO_CONTEXT) {
-    return base::fail("{}: no OpenGL 4.5 core context (EGL error {:#x})", platform.name, eglGetError());
+    return base::fail("{}: no OpenGL 4.5 core context (EGL error {:#x})", platform.name, egl.error());
   }
-  auto backend = std::make_unique<EglBackend>(display, context);
+  auto backend = std::make_unique<EglBackend>(egl, display, context);
   if (!backend->make_current()) {
-    return base::fail("{}: no context without a surface (EGL error {:#x})", platform.name, eglGetError());
+    return base::fail("{}: no context without a surface (EGL error {:#x})", platform.name, egl.error());
   }
   return backend;
 }
@@ -97,9 +144,11 @@ BackendResult create_on(const Platform& platform, ContextOptions options) {
 }  // namespace
 
 BackendResult create_egl_backend(ContextOptions options) {
+  const auto egl = load_egl();
+  if (!egl) return tl::unexpected(egl.error());
   std::string lacks;
-  for (const Platform& platform : platforms()) {
-    auto backend = create_on(platform, options);
+  for (const Platform& platform : platforms(*egl)) {
+    auto backend = create_on(*egl, platform, options);
     if (backend) return backend;
     lacks += (lacks.empty() ? "" : ", ") + backend.error().message;
   }
