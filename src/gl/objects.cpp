@@ -68,6 +68,12 @@ Expected<void> Buffer::upload(std::span<const std::byte> bytes) {
   return {};
 }
 
+void Buffer::update(std::size_t offset, std::span<const std::byte> bytes) {
+  assert(offset + bytes.size() <= capacity_);
+  glNamedBufferSubData(name(), static_cast<GLintptr>(offset), static_cast<GLsizeiptr>(bytes.size()),
+                       bytes.data());
+}
+
 std::size_t bytes_per_pixel(PixelFormat format) {
   return formats_of(format).bytes;
 }

@@ -46,6 +46,8 @@ public:
   static Buffer create();
   /// Replaces the contents; storage grows and is kept. Fails if there is no memory for it.
   Expected<void> upload(std::span<const std::byte> bytes);
+  /// Replaces the bytes from `offset` on; the contents reach as far already.
+  void update(std::size_t offset, std::span<const std::byte> bytes);
 
 private:
   std::size_t capacity_ = 0;

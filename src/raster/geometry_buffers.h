@@ -14,7 +14,7 @@ class GeometryBuffers {
 public:
   GeometryBuffers();
 
-  /// Once per frame. Fails on more triangles than OpenGL can index.
+  /// Once per frame; sends what changed since the last. Fails on more triangles than OpenGL can index.
   Expected<void> upload(const FrameGeometry& geometry);
 
   std::size_t triangle_count() const { return triangle_count_; }
@@ -28,6 +28,8 @@ public:
 private:
   gl::Buffer positions_, indices_, see_through_indices_;  ///< the triangles of the other kind are points
   gl::VertexArray vertices_, see_through_;
+  std::vector<glm::vec3> sent_positions_;  ///< what the buffers hold
+  std::vector<glm::uvec3> sent_indices_, sent_see_through_;
   std::vector<glm::uvec3> sorted_;  ///< scratch
   std::size_t triangle_count_ = 0;
   bool has_see_through_ = false;

@@ -173,6 +173,32 @@ TEST_P(GBufferTest, TargetsAndBuffersFollowGrowingAndShrinkingFrames) {
   expect_ids_and_depths(large, forward_view({0, 0, 0}, 30.0f, 20, 50), 20, 50, checked);
 }
 
+TEST_P(GBufferTest, WhatMovesIsSentAndWhatDoesNotStays) {
+  FrameGeometry frame = random_soup(5000, {0, 0, -8}, 3.0f, 3);
+  const ViewRays view = forward_view({0, 0, 0}, 60.0f, 80, 60);
+  const auto as_drawn_anew = [&] {
+    raster::GeometryBuffers fresh;
+    EXPECT_TRUE(fresh.upload(frame));
+    EXPECT_TRUE(passes().gbuffer_pass.draw(view, fresh, 80, 60, passes().gbuffer));
+    std::vector<std::uint32_t> expected;
+    raster::read_triangle_ids(passes().gbuffer, expected);
+    return expected;
+  };
+  for (const std::size_t moved : {std::size_t{0}, std::size_t{4095}, std::size_t{9000}, std::size_t{14999}}) {
+    for (std::size_t i = moved; i < std::min<std::size_t>(moved + 3000, frame.positions.size()); ++i)
+      frame.positions[i] += glm::vec3(0.5f, -0.25f, 0.125f);
+    std::swap(frame.triangles[moved / 3], frame.triangles[moved / 7]);
+    draw(frame, view, 80, 60);
+    const auto seen = ids;
+    EXPECT_EQ(seen, as_drawn_anew()) << moved;
+  }
+  frame.see_through.assign(frame.triangles.size(), 0);
+  for (std::size_t i = 0; i < frame.see_through.size(); i += 3) frame.see_through[i] = 1;
+  draw(frame, view, 80, 60);
+  const auto seen = ids;
+  EXPECT_EQ(seen, as_drawn_anew());
+}
+
 TEST_P(GBufferTest, SizesThatCannotBeDrawnAreRefused) {
   const std::pair<int, int> sizes[] = {{0, 5}, {5, 0}, {-1, 5}, {1 << 20, 1}, {1, 1 << 20}, {16000, 16000}};
   for (const auto& [width, height] : sizes) {
