@@ -1,7 +1,6 @@
 #include "base/image.h"
 
 #include <stb/stb_image.h>
-#include <stb/stb_image_write.h>
 
 #include <bit>
 #include <cstring>
@@ -13,6 +12,7 @@
 #include "base/fail.h"
 #include "base/output_file.h"
 #include "base/png_structure.h"
+#include "base/png_writer.h"
 
 namespace tenebra::base {
 namespace {
@@ -31,10 +31,6 @@ template <class T>
 tl::unexpected<Error> refuse_size(const std::filesystem::path& path, const Image<T>& image) {
   return fail("cannot write {}: found a picture of {} x {} with {} channels and {} values", path.string(),
               image.width, image.height, image.channels, image.pixels.size());
-}
-
-void append_to_string(void* text, void* bytes, int size) {
-  static_cast<std::string*>(text)->append(static_cast<const char*>(bytes), static_cast<std::size_t>(size));
 }
 
 Expected<std::string> read_bytes(const std::filesystem::path& path) {
@@ -78,12 +74,7 @@ Expected<std::string> encode_png(const Image8& image) {
     return fail("found a picture of {} x {} with {} channels and {} values", image.width, image.height,
                 image.channels, image.pixels.size());
   }
-  std::string bytes;
-  if (stbi_write_png_to_func(append_to_string, &bytes, image.width, image.height, image.channels,
-                             image.pixels.data(), image.width * image.channels) == 0) {
-    return fail("not enough memory to compress {} x {} pixels", image.width, image.height);
-  }
-  return bytes;
+  return png_of_pixels(image);
 }
 
 Expected<void> write_png(const std::filesystem::path& path, const Image8& image) {
