@@ -1,11 +1,13 @@
 // tenebra render: a scene file in, pictures, masks, a log and a trace out.
 #include <fmt/core.h>
+#include <array>
 #include <chrono>
 #include <memory>
 #include <optional>
 
 #include "commands/command.h"
 #include "commands/render_log.h"
+#include "parallel/job_queue.h"
 #include "render/log/trace_json.h"
 #include "render/mask_colour.h"
 #include "shared/render_plan.h"
@@ -95,7 +97,8 @@ Expected<void> prepare_folders(const RenderOptions& options) {
   return {};
 }
 
-/// One render from the first frame to the last or to a signal.
+/// One render from the first frame to the last or to a signal. Files are written while the next frames are
+/// computed, at most `most_waiting` frames behind.
 class FrameLoop {
 public:
   FrameLoop(const RenderPlan& plan, const RenderOptions& options) : plan_(plan), options_(options) {}
@@ -110,40 +113,51 @@ public:
     const auto settings = describe_render(plan_, options_, raster_names(renderer.raster()), first_frame);
     if (auto opened = journals_.open(options_, settings); !opened) return opened;
 
+    parallel::JobQueue files(most_waiting);
     Progress progress(static_cast<int>(plan_.frames.size()), options_.quiet);
     for (const PlannedFrame& frame : plan_.frames) {
-      const auto drawn = draw(renderer, frame, progress, stop.flag());
+      const auto drawn = draw(renderer, frame, progress, stop.flag(), files);
       if (!drawn && drawn.error().message == "stopped") break;
       if (!drawn) return drawn;
       progress.show(static_cast<int>(records_.size()));
       if (stop.caught() != 0) break;
     }
+    if (auto written = files.finish(); !written) return written;
     return journals_.finish();
   }
 
   std::span<const render::FrameRecord> records() const { return records_; }
 
 private:
+  // Results that are still written, the one that is computed and the one that waits for room.
+  static constexpr std::size_t most_waiting = 2, results = most_waiting + 2;
+
   Expected<void> draw(render::Renderer& renderer, const PlannedFrame& planned, Progress& progress,
-                      const StopFlag& stop) {
+                      const StopFlag& stop, parallel::JobQueue& files) {
     const auto begin = Clock::now();
+    render::FrameResult& result = results_[records_.size() % results];
     evaluate_frame(plan_.scene, plan_.clip, planned.time_s, input_.geometry);
     input_.lights =
         edited_lights(evaluate_lights(plan_.scene, plan_.clip, planned.time_s), options_.scene.lights);
     input_.view = view_of(plan_, options_.scene, planned.time_s, plan_.size);
     const double evaluate_ms = milliseconds(Clock::now() - begin);
     const auto on_progress = [&](std::string_view what, double done) { progress.show_building(what, done); };
-    if (auto drawn = renderer.render_frame(input_, plan_.settings, result_, on_progress, &stop); !drawn)
+    if (auto drawn = renderer.render_frame(input_, plan_.settings, result, on_progress, &stop); !drawn)
       return drawn;
-    if (!options_.quiet) progress.print_notes(result_.notes);
+    if (!options_.quiet) progress.print_notes(result.notes);
 
-    render::FrameRecord record{planned.frame, planned.time_s, result_.timings,
-                               result_.stats, result_.soft,   result_.ao};
+    render::FrameRecord record{planned.frame, planned.time_s, result.timings,
+                               result.stats,  result.soft,    result.ao};
     record.timings.evaluate_ms = evaluate_ms;
     record.timings.total_ms = milliseconds(Clock::now() - begin);
     records_.push_back(record);
-    if (auto added = journals_.add(record, milliseconds(begin - begin_), result_.notes); !added) return added;
-    return write_pictures(plan_, options_, planned.frame, result_);
+    return files.add([this, record, begin, &result] { return write(record, begin, result); });
+  }
+
+  Expected<void> write(const render::FrameRecord& record, Clock::time_point begin,
+                       const render::FrameResult& result) {
+    if (auto added = journals_.add(record, milliseconds(begin - begin_), result.notes); !added) return added;
+    return write_pictures(plan_, options_, record.frame, result);
   }
 
   const RenderPlan& plan_;
@@ -151,7 +165,7 @@ private:
   const Clock::time_point begin_ = Clock::now();
   Journals journals_;
   render::FrameInput input_;
-  render::FrameResult result_;
+  std::array<render::FrameResult, results> results_;
   std::vector<render::FrameRecord> records_;
 };
 
