@@ -146,7 +146,9 @@ Expected<void> VisibilityPass::draw(const FrameGeometry& geometry, const ViewRay
   drawing.tiles_y = (height + tile_side - 1) / tile_side;
   const TileKernels kernels = tile_kernels(simd);
   buffers_->place(drawing);
-  const auto as_signed = [](std::vector<std::uint32_t>& ids) { return reinterpret_cast<std::int32_t*>(ids.data()); };
+  const auto as_signed = [](std::vector<std::uint32_t>& ids) {
+    return reinterpret_cast<std::int32_t*>(ids.data());
+  };
   const Planes opaque{as_signed(out.ids), with_depth ? out.depth.data() : nullptr};
   buffers_->draw_all(drawing, kernels, out.has_layer, opaque);
   if (!out.has_layer) return {};

@@ -168,6 +168,28 @@ TEST(RenderCommand, LogsEveryFrameAndHowItWasMade) {
   }
 }
 
+TEST(RenderCommand, RastersOnTheCpuWithoutAnyOpenGl) {
+  const TemporaryFolder folder;
+  const std::string scene = write_moving_scene(folder);
+  const auto by = [&](const std::string& raster) {
+    const auto result = tenebra({"render", scene, "--size", "160x120", "-o", folder / (raster + ".png"),
+                                 "--log", folder / (raster + ".csv"), "--raster", raster, "--context", "egl"},
+                                [] { ::setenv("__EGL_VENDOR_LIBRARY_DIRS", "/nowhere", 1); });
+    return result;
+  };
+  for (const char* raster : {"cpu", "auto"}) {
+    const auto result = by(raster);
+    ASSERT_EQ(result.exit_code, 0) << result.errors;
+    const std::string log = read_text(folder / (std::string(raster) + ".csv"));
+    EXPECT_NE(log.find("# raster: cpu\n"), std::string::npos) << log;
+    EXPECT_NE(log.find("# renderer: none\n"), std::string::npos) << log;
+  }
+  EXPECT_EQ(read_text(folder / "cpu.png"), read_text(folder / "auto.png"));
+  const auto without = by("gl");
+  EXPECT_EQ(without.exit_code, 1);
+  EXPECT_TRUE(is_one_sentence(without.errors)) << without.errors;
+}
+
 TEST(RenderCommand, SeesTheSameFromACameraGivenByHand) {
   const TemporaryFolder folder;
   const std::string scene = write_moving_scene(folder);

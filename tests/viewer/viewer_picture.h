@@ -10,10 +10,9 @@ namespace tenebra::testing {
 
 inline base::Image8 picture_of(const viewer::ScenePlan& plan, const viewer::SceneOptions& options,
                                double time_s, render::RenderSettings settings = {}) {
-  auto context = gl::Context::create(gl::ContextKind::automatic);
-  EXPECT_TRUE(context) << context.error().message;
-  auto renderer = render::Renderer::create(std::move(*context), plan.scene);
-  EXPECT_TRUE(renderer) << renderer.error().message;
+  auto raster = render::FrameRaster::create(render::RasterChoice{});
+  EXPECT_TRUE(raster) << raster.error().message;
+  render::Renderer renderer = render::Renderer::create(std::move(*raster), plan.scene);
   render::FrameInput input;
   evaluate_frame(plan.scene, plan.clip, time_s, input.geometry);
   input.lights = evaluate_lights(plan.scene, plan.clip, time_s);
@@ -21,7 +20,7 @@ inline base::Image8 picture_of(const viewer::ScenePlan& plan, const viewer::Scen
   settings.width = plan.size.width;
   settings.height = plan.size.height;
   render::FrameResult result;
-  const auto drawn = renderer->render_frame(input, settings, result);
+  const auto drawn = renderer.render_frame(input, settings, result);
   EXPECT_TRUE(drawn) << drawn.error().message;
   return std::move(result.image);
 }
