@@ -7,6 +7,7 @@
 #include <algorithm>
 #include <filesystem>
 #include <limits>
+#include <random>
 
 #include "formats/import_scene.h"
 #include "reference/exact_sight.h"
@@ -208,6 +209,29 @@ TEST(Visibility, EdgesAndVerticesOnPixelCentresHaveNoCracksEither) {
   }
 }
 
+// A fan of needles between centres of pixels, or a millionth of a pixel beside them: floats cannot say on
+// which side of an edge the centres along it are.
+TEST(Visibility, EdgesNextToPixelCentresAreDecidedExactly) {
+  constexpr int size = 66;
+  ViewRays view = forward_view({0, 0, 0}, 66.0f, size, size);
+  std::mt19937 random(5);
+  const auto centre = [&](int x, int y) {
+    const auto shift = [&] { return static_cast<float>(static_cast<int>(random() % 9) - 4) * 0x1p-20f; };
+    return 3.0f * (view.d0 + (static_cast<float>(x) + 0.5f + shift()) * view.dx +
+                   (static_cast<float>(y) + 0.5f + shift()) * view.dy);
+  };
+  FrameGeometry g;
+  g.positions.push_back(centre(1, 1));
+  for (int i = 0; i <= 63; ++i) g.positions.push_back(centre(65, 1 + i));
+  for (int i = 63; i-- > 0;) g.positions.push_back(centre(1 + i, 65));
+  for (std::uint32_t i = 1; i + 1 < g.positions.size(); ++i) g.triangles.emplace_back(0, i, i + 1);
+  g.casts_shadow.assign(g.triangles.size(), 1);
+  EXPECT_GT(expect_exact(g, view, size, size).covered, 63 * 63 - 200);
+  const visibility::VisibleIds drawn = seen_in(g, view, size, size);
+  for (int y = 2; y < 64; ++y)
+    for (int x = 2; x < 64; ++x) ASSERT_NE(drawn.ids[static_cast<std::size_t>(size * y + x)], background_id);
+}
+
 TEST(Visibility, AFloorAroundTheEyeFillsTheLowerHalf) {
   FrameGeometry g = sheet(40, 0.0f);
   for (vec3& p : g.positions) p = vec3(1e4f * p.x, -1.0f, 1e4f * p.y);
@@ -312,8 +336,12 @@ TEST(Visibility, ManyLargeTrianglesAreDrawnInRounds) {
     const float z = -1.0f - 1e-3f * static_cast<float>(i * 7919 % count), wide = -40 * z;
     add_triangle(g, {-wide, -wide, z}, {wide, -wide, z}, {0, 2 * wide, z});
   }
+  // Nearest of all, and equally near: the smaller id comes in a later round than the larger.
+  const vec3 corners[3] = {{-40, -20, -0.5f}, {40, -20, -0.5f}, {0, 60, -0.5f}};
+  for (const std::size_t id : {1040, 20960})
+    for (std::size_t k = 0; k < 3; ++k) g.positions[3 * id + k] = corners[k];
   const visibility::VisibleIds drawn = seen_in(g, forward_view({0, 0, 0}, 300.0f, 640, 640), 640, 640);
-  for (const std::uint32_t id : drawn.ids) ASSERT_EQ(id, 0u);
+  for (const std::uint32_t id : drawn.ids) ASSERT_EQ(id, 1040u);
 }
 
 TEST(Visibility, BundledScenesAreSeenAsExactRaysSeeThem) {
