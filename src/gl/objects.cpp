@@ -5,6 +5,7 @@
 #include <glad/gl.h>
 
 #include <cassert>
+#include <utility>
 
 namespace tenebra::gl {
 namespace {
@@ -111,6 +112,43 @@ void Texture::read(std::span<std::byte> pixels) const {
   // The size is the buffer's capacity: a GLsizei holds it up to the largest picture (see check_picture_size).
   glGetTextureImage(name(), 0, formats.external, formats.type, static_cast<GLsizei>(pixels.size()),
                     pixels.data());
+}
+
+Readback::~Readback() {
+  if (fence_ != nullptr) glDeleteSync(static_cast<GLsync>(fence_));
+}
+
+Expected<void> Readback::start(const Texture& texture) {
+  const Formats formats = formats_of(texture.format());
+  const std::size_t bytes =
+      formats.bytes * static_cast<std::size_t>(texture.width()) * static_cast<std::size_t>(texture.height());
+  if (bytes != held_) {
+    glGetError();  // an older error is not ours
+    glNamedBufferData(buffer_.name(), static_cast<GLsizeiptr>(bytes), nullptr, GL_STREAM_READ);
+    held_ = glGetError() == GL_NO_ERROR ? bytes : 0;
+    if (held_ == 0) return base::fail("OpenGL: found no memory for a buffer of {} bytes", bytes);
+  }
+  glPixelStorei(GL_PACK_ALIGNMENT, 1);
+  glBindBuffer(GL_PIXEL_PACK_BUFFER, buffer_.name());
+  glGetTextureImage(texture.name(), 0, formats.external, formats.type, static_cast<GLsizei>(bytes), nullptr);
+  glBindBuffer(GL_PIXEL_PACK_BUFFER, 0);
+  if (fence_ != nullptr) glDeleteSync(static_cast<GLsync>(fence_));
+  fence_ = glFenceSync(GL_SYNC_GPU_COMMANDS_COMPLETE, 0);
+  glFlush();
+  return {};
+}
+
+Expected<void> Readback::finish(std::span<std::byte> pixels) {
+  assert(pixels.size() == held_ && fence_ != nullptr);
+  constexpr GLuint64 second_ns = 1000000000;
+  GLenum state = GL_TIMEOUT_EXPIRED;
+  while (state == GL_TIMEOUT_EXPIRED) {
+    state = glClientWaitSync(static_cast<GLsync>(fence_), GL_SYNC_FLUSH_COMMANDS_BIT, second_ns);
+  }
+  glDeleteSync(static_cast<GLsync>(std::exchange(fence_, nullptr)));
+  if (state == GL_WAIT_FAILED) return base::fail("OpenGL: found a lost context while reading back pixels");
+  glGetNamedBufferSubData(buffer_.name(), 0, static_cast<GLsizeiptr>(pixels.size()), pixels.data());
+  return {};
 }
 
 Expected<Framebuffer> Framebuffer::create(std::initializer_list<const Texture*> colors,

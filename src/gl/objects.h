@@ -65,11 +65,32 @@ public:
   void read(std::span<std::byte> pixels) const;    ///< the same; waits for the drawing before it
   int width() const { return width_; }
   int height() const { return height_; }
+  PixelFormat format() const { return format_; }
 
 private:
   PixelFormat format_ = PixelFormat::rgba8;
   int width_ = 0;
   int height_ = 0;
+};
+
+/// A texture's pixels on their way from the GPU, without anybody waiting: a buffer and a fence behind the
+/// copy.
+class Readback {
+public:
+  Readback() : buffer_(Buffer::create()) {}
+  Readback(Readback&& other) noexcept
+      : buffer_(std::move(other.buffer_)), fence_(std::exchange(other.fence_, nullptr)), held_(other.held_) {}
+  ~Readback();
+
+  /// Copies all pixels as they are once the drawing before is done. Fails if there is no memory for it.
+  Expected<void> start(const Texture& texture);
+  /// Waits for what start began, and gives it: as many bytes as the texture has.
+  Expected<void> finish(std::span<std::byte> pixels);
+
+private:
+  Buffer buffer_;
+  void* fence_ = nullptr;  // a GLsync
+  std::size_t held_ = 0;   // bytes that the buffer has room for
 };
 
 class Framebuffer : public Object<delete_framebuffer> {

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <array>
+#include <span>
 
 #include "base/stopwatch.h"
 #include "parallel/parallel.h"
@@ -15,7 +16,39 @@ struct FrameRaster::Gl {
   raster::GBufferPass pass;
   raster::GeometryBuffers geometry;
   raster::GBuffer gbuffer{};
+  gl::Readback ids{}, depth{}, layer{};
+
+  Expected<void> read(visibility::VisibleIds& out, bool with_depth);
 };
+
+namespace {
+
+template <class T>
+Expected<void> finish(gl::Readback& readback, std::size_t pixels, std::vector<T>& out) {
+  out.resize(pixels);
+  return readback.finish(std::as_writable_bytes(std::span(out)));
+}
+
+}  // namespace
+
+/// All copies are under way before the first is waited for.
+Expected<void> FrameRaster::Gl::read(visibility::VisibleIds& out, bool with_depth) {
+  const std::size_t pixels = static_cast<std::size_t>(out.width) * static_cast<std::size_t>(out.height);
+  if (auto begun = ids.start(gbuffer.ids); !begun) return begun;
+  if (with_depth) {
+    if (auto begun = depth.start(gbuffer.depth); !begun) return begun;
+  }
+  if (out.has_layer) {
+    if (auto begun = layer.start(gbuffer.layer_ids); !begun) return begun;
+  }
+  out.depth.clear();
+  out.layer.clear();
+  if (auto got = finish(ids, pixels, out.ids); !got) return got;
+  if (with_depth) {
+    if (auto got = finish(depth, pixels, out.depth); !got) return got;
+  }
+  return out.has_layer ? finish(layer, pixels, out.layer) : Expected<void>();
+}
 
 FrameRaster::FrameRaster() = default;
 FrameRaster::FrameRaster(FrameRaster&&) noexcept = default;
@@ -83,13 +116,9 @@ Expected<void> FrameRaster::draw(const FrameGeometry& geometry, const ViewRays& 
   out.width = wish.width, out.height = wish.height;
   out.transform = gl.gbuffer.transform;
   out.has_layer = gl.gbuffer.has_layer;
-  raster::read_triangle_ids(gl.gbuffer, out.ids);
-  out.depth.clear();
-  if (wish.with_depth) raster::read_depth(gl.gbuffer, out.depth);
-  out.layer.clear();
-  if (out.has_layer) raster::read_layer_ids(gl.gbuffer, out.layer);
+  auto got = gl.read(out, wish.with_depth);
   timings.readback_ms = watch.lap_ms();
-  return {};
+  return got;
 }
 
 }  // namespace tenebra::render

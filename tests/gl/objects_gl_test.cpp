@@ -56,6 +56,23 @@ TEST_P(Objects, TexturesGiveBackTheBitsOfEveryFormat) {
   EXPECT_TRUE(complaints().empty());
 }
 
+TEST_P(Objects, ReadbacksGiveWhatTheTextureHeldWhenTheyBegan) {
+  Readback readback;
+  for (const auto& [width, height] : {std::pair{3, 5}, std::pair{64, 33}, std::pair{64, 33}}) {
+    auto texture = Texture::create(PixelFormat::r32ui, width, height);
+    ASSERT_TRUE(texture) << texture.error().message;
+    std::vector<std::uint32_t> sent(static_cast<std::size_t>(width * height)), later(sent.size(), 7),
+        received(sent.size());
+    for (std::size_t i = 0; i < sent.size(); ++i) sent[i] = static_cast<std::uint32_t>(i * 2654435761u);
+    texture->upload(std::as_bytes(std::span(sent)));
+    ASSERT_TRUE(readback.start(*texture));
+    texture->upload(std::as_bytes(std::span(later)));
+    ASSERT_TRUE(readback.finish(std::as_writable_bytes(std::span(received))));
+    EXPECT_EQ(sent, received);
+  }
+  EXPECT_TRUE(complaints().empty());
+}
+
 TEST_P(Objects, ShadersThatDoNotCompileNameThemselvesTheStageAndTheLog) {
   const auto broken = Program::build("sunset", {good_vertex}, {"void main() { unheard_of = 1.0; }\n"});
   ASSERT_FALSE(broken);
