@@ -59,8 +59,13 @@ void Bin::add_eight(const Drawing& drawing, std::size_t first, std::size_t count
       for (int axis = 0; axis < 3; ++axis) corners[corner][axis][k] = p[axis];
     }
   }
+  double x0[8], y0[8];
+  for (std::size_t k = 0; k < 8; ++k) {
+    x0[k] = candidates_.x0[first + std::min(k, count - 1)];
+    y0[k] = candidates_.y0[first + std::min(k, count - 1)];
+  }
   TriangleSetup8 setup;
-  drawing.kernels.set_up(drawing.window, corners, setup);
+  drawing.kernels.set_up(drawing.window, corners, x0, y0, setup);
   for (std::size_t k = 0; k < count; ++k) add(drawing, first + k, setup, static_cast<int>(k));
 }
 
@@ -77,13 +82,28 @@ void Bin::add(const Drawing& drawing, std::size_t candidate, const TriangleSetup
   }
   const int first_x = candidates_.x0[candidate] / tile_side, last_x = candidates_.x1[candidate] / tile_side;
   const int first_y = candidates_.y0[candidate] / tile_side, last_y = candidates_.y1[candidate] / tile_side;
-  const bool alone = first_x == last_x && first_y == last_y;
+  if (first_x == last_x && first_y == last_y && turn == 1)
+    return add_alone(id, candidate, setup, k, first_x, first_y, drawing);
   for (int y = first_y; y <= last_y; ++y)
-    for (int x = first_x; x <= last_x; ++x) add_to_tile(id, candidate, setup, k, turn, x, y, drawing, alone);
+    for (int x = first_x; x <= last_x; ++x) add_to_tile(id, candidate, setup, k, turn, x, y, drawing);
+}
+
+void Bin::add_alone(std::uint32_t id, std::size_t candidate, const TriangleSetup8& setup, int k, int tile_x,
+                    int tile_y, const Drawing& drawing) {
+  TileRecord record;
+  for (int f = 0; f < 4; ++f) {
+    record.value[f] = setup.value_at_box[f][k];
+    record.along_x[f] = setup.step_x[f][k];
+    record.along_y[f] = setup.step_y[f][k];
+  }
+  finish_record(record, id, candidate, (setup.doubtful >> k & 1u) != 0,
+                {candidates_.x0[candidate], candidates_.y0[candidate], candidates_.x1[candidate],
+                 candidates_.y1[candidate]},
+                tile_x, tile_y, drawing);
 }
 
 void Bin::add_to_tile(std::uint32_t id, std::size_t candidate, const TriangleSetup8& setup, int k, int turn,
-                      int tile_x, int tile_y, const Drawing& drawing, bool alone) {
+                      int tile_x, int tile_y, const Drawing& drawing) {
   const int left = tile_x * tile_side, top = tile_y * tile_side;
   const int x0 = std::max(candidates_.x0[candidate], left), y0 = std::max(candidates_.y0[candidate], top);
   const int x1 = std::min(candidates_.x1[candidate], left + tile_side - 1),
@@ -96,19 +116,25 @@ void Bin::add_to_tile(std::uint32_t id, std::size_t candidate, const TriangleSet
     const double value = (sign * setup.at_origin[f][k] + (x0 + 0.5) * along_x) + (y0 + 0.5) * along_y;
     // Outside of an edge at the corner that is farthest inside.
     const double most = value + std::max(along_x, 0.0) * (x1 - x0) + std::max(along_y, 0.0) * (y1 - y0);
-    if (f < 3 && !alone && !doubtful && most < -2.0 * double{edge_band}) return;
-    const double limit = f < 3 ? double{farthest_edge} : 1e30;
+    if (f < 3 && !doubtful && most < -2.0 * double{edge_band}) return;
+    const double limit = f < 3 ? farthest_edge : steepest_depth;
     record.value[f] = bounded(value, limit);
     record.along_x[f] = bounded(along_x, limit);
     record.along_y[f] = bounded(along_y, limit);
   }
+  finish_record(record, id, candidate, doubtful, {x0, y0, x1, y1}, tile_x, tile_y, drawing);
+}
+
+void Bin::finish_record(TileRecord& record, std::uint32_t id, std::size_t candidate, bool doubtful,
+                        const PixelBox& box, int tile_x, int tile_y, const Drawing& drawing) {
+  const int left = tile_x * tile_side, top = tile_y * tile_side;
   record.near_depth = candidates_.near_depth[candidate];
   record.far_depth = candidates_.far_depth[candidate];
   record.id = doubtful ? id | doubtful_bit : id;
-  record.x0 = static_cast<std::uint8_t>(x0 - left);
-  record.y0 = static_cast<std::uint8_t>(y0 - top);
-  record.x1 = static_cast<std::uint8_t>(x1 - left);
-  record.y1 = static_cast<std::uint8_t>(y1 - top);
+  record.x0 = static_cast<std::uint8_t>(box.x0 - left);
+  record.y0 = static_cast<std::uint8_t>(box.y0 - top);
+  record.x1 = static_cast<std::uint8_t>(box.x1 - left);
+  record.y1 = static_cast<std::uint8_t>(box.y1 - top);
   records_.push_back(record);
   tiles_.push_back(static_cast<std::uint32_t>(tile_y * drawing.tiles_x + tile_x));
 }

@@ -44,7 +44,15 @@ private:
   void add_eight(const Drawing& drawing, std::size_t first, std::size_t count);
   void add(const Drawing& drawing, std::size_t candidate, const TriangleSetup8& setup, int k);
   void add_to_tile(std::uint32_t id, std::size_t candidate, const TriangleSetup8& setup, int k, int turn,
-                   int tile_x, int tile_y, const Drawing& drawing, bool alone);
+                   int tile_x, int tile_y, const Drawing& drawing);
+  /// A triangle that is in one tile alone.
+  void add_alone(std::uint32_t id, std::size_t candidate, const TriangleSetup8& setup, int k, int tile_x,
+                 int tile_y, const Drawing& drawing);
+  struct PixelBox {
+    int x0, y0, x1, y1;
+  };
+  void finish_record(TileRecord& record, std::uint32_t id, std::size_t candidate, bool doubtful,
+                     const PixelBox& box, int tile_x, int tile_y, const Drawing& drawing);
   void sort(std::size_t tiles);
 
   std::size_t next_ = 0, last_ = 0;

@@ -41,6 +41,10 @@ struct TriangleSetup8 {
   double at_origin[4][8];
   double along_x[4][8];
   double along_y[4][8];
+  /// The same in float and bounded, as TileRecord has them, from the first pixel of the triangle's box on.
+  float value_at_box[4][8];
+  float step_x[4][8];
+  float step_y[4][8];
   /// Bit k: what `Window::reach` bounds is more than 2^-15 pixels for an edge of triangle k; and: the side it
   /// shows is not certain.
   std::uint32_t doubtful = 0;
@@ -51,7 +55,8 @@ struct TriangleSetup8 {
 /// Sign of an edge within 2^-13 pixels of it is for ExactCoverage to say. Derived in tile_kernels.cpp.
 constexpr float edge_band = 0x1p-13f;
 constexpr double most_doubt = 0x1p-15;
-constexpr float farthest_edge = 1000.0f;  ///< pixels; edges are no farther from where a record begins
+/// What a record's numbers are bounded by, where the sign alone counts: of edges pixels, of depths.
+constexpr double farthest_edge = 1000.0, steepest_depth = 1e30;
 
 /// A triangle in a tile. Functions as those of TriangleSetup8, in float, of the offset from the centre of
 /// pixel (x0, y0).

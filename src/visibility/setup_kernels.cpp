@@ -113,19 +113,37 @@ std::size_t choose(const Window& window, const WindowVertices& vertices, const g
   return compress(kept, load<Int16>(lanes), reinterpret_cast<std::int32_t*>(&out.ids[begin]));
 }
 
+/// Not a number (a plane that rounding left without a height) becomes -most.
+Double8 bounded(Double8 value, double most) {
+  const Double8 least = broadcast8(-most);
+  return select(le(least, value), min(value, broadcast8(most)), least);
+}
+
+/// Where the centres of the boxes' first pixels are.
+struct BoxCorner {
+  Double8 x, y;
+};
+
 /// A function of the window's place, times `scale`.
 void keep(const Double8& at_origin, const Double8& along_x, const Double8& along_y, const Double8& scale,
-          int k, TriangleSetup8& out) {
-  store(at_origin * scale, out.at_origin[k]);
-  store(along_x * scale, out.along_x[k]);
-  store(along_y * scale, out.along_y[k]);
+          const BoxCorner& corner, int k, TriangleSetup8& out) {
+  const double most = k < 3 ? farthest_edge : steepest_depth;
+  const Double8 value = at_origin * scale, x = along_x * scale, y = along_y * scale;
+  store(value, out.at_origin[k]);
+  store(x, out.along_x[k]);
+  store(y, out.along_y[k]);
+  store_narrowed(bounded((value + corner.x * x) + corner.y * y, most), out.value_at_box[k]);
+  store_narrowed(bounded(x, most), out.step_x[k]);
+  store_narrowed(bounded(y, most), out.step_y[k]);
 }
 
 /// Roundings of an edge's value at a pixel, relative to the sum of all products' sizes: 1 for each of the two
 /// vectors from the eye, 2 for their cross product, 3 for the product with d0, dx or dy, 4 for the sum of the
 /// three and the product with the place: 11, and 3 for the quotient by the slope: at most 14 u. The bound
 /// takes 20 u, which also covers that it is computed in double itself.
-void set_up(const Window& window, const float (&corners)[3][3][8], TriangleSetup8& out) {
+void set_up(const Window& window, const float (&corners)[3][3][8], const double (&x0)[8],
+            const double (&y0)[8], TriangleSetup8& out) {
+  const BoxCorner corner{load<Double8>(x0) + broadcast8(0.5), load<Double8>(y0) + broadcast8(0.5)};
   const Double8 zero = broadcast8(0.0), one = broadcast8(1.0), unit = broadcast8(20 * 0x1p-53);
   const Double8 reach = broadcast8(window.reach), shift = broadcast8(window.shift);
   const Vector8 d0 = broadcast8(window.d0), dx = broadcast8(window.dx), dy = broadcast8(window.dy);
@@ -155,7 +173,7 @@ void set_up(const Window& window, const float (&corners)[3][3][8], TriangleSetup
     const Double8 along_x = dot_unfused(dx, slope), along_y = dot_unfused(dy, slope);
     const Double8 steepest = max(max(abs(along_x), abs(along_y)), broadcast8(1e-280));
     const Double8 scale = turn / steepest;
-    keep(at_origin, along_x, along_y, scale, k, out);
+    keep(at_origin, along_x, along_y, scale, corner, k, out);
     doubtful = doubtful | lt(broadcast8(most_doubt), unit * size[a] * size[b] * reach / steepest);
   }
   out.doubtful = bits(doubtful);
@@ -166,9 +184,10 @@ void set_up(const Window& window, const float (&corners)[3][3][8], TriangleSetup
   const Double8 along_x = dot_unfused(normal, dx), along_y = dot_unfused(normal, dy);
   if (window.orthographic) {
     const Double8 range = broadcast8(window.far_t - window.near_t);
-    keep(broadcast8(window.far_t) - at_origin * over, along_x * over, along_y * over, one / range, 3, out);
+    keep(broadcast8(window.far_t) - at_origin * over, along_x * over, along_y * over, one / range, corner, 3,
+         out);
   } else {
-    keep(at_origin, along_x, along_y, over * broadcast8(window.near_t), 3, out);
+    keep(at_origin, along_x, along_y, over * broadcast8(window.near_t), corner, 3, out);
   }
 }
 

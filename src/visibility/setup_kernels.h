@@ -21,8 +21,9 @@ struct SetupKernels {
   /// how many.
   std::size_t (*choose)(const Window& window, const WindowVertices& vertices, const glm::uvec3* triangles,
                         std::uint32_t id, std::uint32_t wanted, std::size_t begin, Candidates& out) = nullptr;
-  /// `corners`: [corner][coordinate][triangle].
-  void (*set_up)(const Window& window, const float (&corners)[3][3][8], TriangleSetup8& out) = nullptr;
+  /// `corners`: [corner][coordinate][triangle]; `x0`, `y0`: first pixels of the triangles' boxes.
+  void (*set_up)(const Window& window, const float (&corners)[3][3][8], const double (&x0)[8],
+                 const double (&y0)[8], TriangleSetup8& out) = nullptr;
 };
 SetupKernels setup_kernels(SimdLevel level);
 
