@@ -49,7 +49,7 @@ TEST(BenchProgram, HardRefusesInASentence) {
   expect_refusal({"hard", "--data", "/nowhere/at/all"}, "--data: /nowhere/at/all is not a folder");
   expect_refusal({"hard", "--csv", "/nowhere/at/all.csv"}, "/nowhere/at/all.csv");
   expect_refusal({"hard", "--only", "atlantis"},
-                 "--only: found atlantis, expected frames, growth, variance, paper");
+                 "--only: found atlantis, expected frames, whole, sun, growth, variance, paper");
 }
 
 TEST(BenchProgram, HardEndsWithItsFiguresWhereScenesAreMissing) {
@@ -64,7 +64,43 @@ TEST(BenchProgram, HardEndsWithItsFiguresWhereScenesAreMissing) {
     EXPECT_TRUE(std::isnan(figure(result.output, name, found))) << name;
     EXPECT_TRUE(found) << name;
   }
-  EXPECT_NE(testing::read_text(folder / "hard.csv").find("\nframes,city 150,tenebra,"), std::string::npos);
+  for (const char* name : {"hard.whole_moved_geomean", "hard.whole_moved_worst", "hard.whole_static_geomean",
+                           "hard.whole_static_worst", "hard.sun_geomean", "hard.sun_worst"}) {
+    EXPECT_GT(figure(result.output, name, found), 0) << "city counts: " << name;
+    EXPECT_TRUE(found) << name;
+  }
+  const std::string csv = testing::read_text(folder / "hard.csv");
+  for (const char* row : {"\nframes,city 150,tenebra,", "\nwhole,city 150,tenebra,lights=1,moved_ratio,",
+                          "\nsun,city 150,tenebra,lights=1,still_ratio,"})
+    EXPECT_NE(csv.find(row), std::string::npos) << row;
+}
+
+TEST(BenchProgram, FrameRefusesInASentence) {
+  expect_refusal({"frame", "--threads", "-1"}, "--threads: found -1, expected 0 (all cores) or more");
+  expect_refusal({"frame", "--data", "/nowhere/at/all"}, "--data: /nowhere/at/all is not a folder");
+  expect_refusal({"frame", "--csv", "/nowhere/at/all.csv"}, "/nowhere/at/all.csv");
+  expect_refusal({"frame", "--only", "atlantis"}, "--only: found atlantis, expected scenes, files");
+}
+
+TEST(BenchProgram, FrameEndsWithItsFigures) {
+  const testing::TemporaryFolder folder;
+  const auto result =
+      bench({"frame", "--tiny", "--data", folder.path().string(), "--csv", (folder / "frame.csv").string()});
+  ASSERT_EQ(result.exit_code, 0) << result.errors;
+  EXPECT_NE(result.output.find("robots: skipped"), std::string::npos) << result.output;
+  bool found = false;
+  for (const char* name : {"frame.ratio_geomean", "frame.ratio_worst", "frame.city_per_second"}) {
+    EXPECT_GT(figure(result.output, name, found), 0) << name;
+    EXPECT_TRUE(found) << name;
+  }
+  const double files = figure(result.output, "frame.render_over_frames", found);
+  EXPECT_TRUE(found);
+  EXPECT_TRUE(files > 0 || result.output.find("files: skipped") != std::string::npos) << result.output;
+  const std::string csv = testing::read_text(folder / "frame.csv");
+  for (const char* row :
+       {"\nframe,city 150,tenebra,64x64,raster_time,", "\nframe,city 150,embree,72x40,time,",
+        "\nframe,court 60,both,64x64,differing_share,"})
+    EXPECT_NE(csv.find(row), std::string::npos) << row;
 }
 
 TEST(BenchProgram, TradeRefusesInASentence) {

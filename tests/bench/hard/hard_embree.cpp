@@ -1,10 +1,9 @@
 #include "bench/hard/hard_embree.h"
 
-#include <fmt/format.h>
-
 #include <cstring>
 #include <limits>
 
+#include "bench/common/embree_tree.h"
 #include "math/predicates.h"
 #include "parallel/parallel.h"
 #include "points/triangle_corners.h"
@@ -49,22 +48,6 @@ void aim(const ShadowLight& light, float length_of_no_end, RTCRay16& rays) {
   }
 }
 
-const char* isa_option(SimdLevel simd) {
-  switch (simd) {
-    case SimdLevel::avx512:
-      return ",isa=avx512";
-    case SimdLevel::avx2:
-      return ",isa=avx2";
-    case SimdLevel::sse4:
-      return ",isa=sse4.2";
-    case SimdLevel::scalar:  // Embree has none
-      return ",isa=sse2";
-    case SimdLevel::automatic:
-      break;
-  }
-  return "";
-}
-
 /// Half of a packet.
 void copy_half(const RTCRay16& from, int first, RTCRay8& to) {
   const auto copy = [&](const float* plane, float* out) { std::copy_n(plane + first, 8, out); };
@@ -106,7 +89,7 @@ PeerPoints peer_points(const HardView& view) {
 }
 
 HardPeer::HardPeer(const TriangleView& triangles, RTCBuildQuality quality, int threads, SimdLevel simd)
-    : device_(rtcNewDevice(fmt::format("threads={}{}", threads, isa_option(simd)).c_str())),
+    : device_(rtcNewDevice(embree_settings(threads, simd).c_str())),
       scene_(rtcNewScene(device_)),
       mesh_(rtcNewGeometry(device_, RTC_GEOMETRY_TYPE_TRIANGLE)) {
   sixteen_ = rtcGetDeviceProperty(device_, RTC_DEVICE_PROPERTY_NATIVE_RAY16_SUPPORTED) != 0;

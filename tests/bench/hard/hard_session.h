@@ -14,6 +14,8 @@ namespace tenebra::bench {
 struct HardHeadline {
   std::optional<double> dynamic_geomean, static_geomean, dynamic_worst, static_worst;
   std::optional<double> growth_static_1_8m, p99_over_median;
+  std::optional<double> whole_moved_geomean, whole_moved_worst, whole_static_geomean, whole_static_worst;
+  std::optional<double> sun_geomean, sun_worst;
 };
 
 struct HardSession {
@@ -36,8 +38,10 @@ struct HardSession {
 };
 
 // The parts.
-Expected<void> measure_hard_frames(HardSession& session);    ///< the frames, against Embree
-Expected<void> measure_hard_growth(HardSession& session);    ///< resolution, triangles, copies
+Expected<void> measure_hard_frames(HardSession& session);  ///< the frames, against Embree
+Expected<void> measure_hard_whole(HardSession& session);   ///< from ids to masks, against all that Embree has
+Expected<void> measure_hard_sun(HardSession& session);     ///< the same with directional lights
+Expected<void> measure_hard_growth(HardSession& session);  ///< resolution, triangles, copies
 Expected<void> measure_hard_variance(HardSession& session);  ///< over a whole animation
 Expected<void> measure_hard_paper(HardSession& session);     ///< Figures 6 and 7, Table 2 of the paper
 

@@ -1,0 +1,127 @@
+#include "bench/frame/embree_renderer.h"
+
+#include <numeric>
+
+#include "base/stopwatch.h"
+#include "parallel/parallel.h"
+#include "render/area_lights.h"
+#include "render/frame_lights.h"
+#include "render/shadow_lights.h"
+#include "shade/shading.h"
+
+namespace tenebra::bench {
+namespace {
+
+constexpr double frames_a_second = 30.0;  // of clips that state no frames, as in `tenebra render`
+
+int clip_of(const Scene& scene) {
+  return scene.clips.empty() ? -1 : 0;
+}
+
+/// Of each vertex whether it moves between the frames.
+std::vector<std::uint8_t> moving_vertices(const Scene& scene, int first, int last) {
+  FrameGeometry start, now;
+  evaluate_frame(scene, clip_of(scene), task_time_s(scene, first), start);
+  std::vector<std::uint8_t> moving(start.positions.size());
+  for (int frame = first + 1; frame <= last; ++frame) {
+    evaluate_frame(scene, clip_of(scene), task_time_s(scene, frame), now);
+    const auto moved = moved_vertices(start.positions, now.positions);
+    for (std::size_t i = 0; i < moved.size(); ++i) moving[i] |= moved[i];
+  }
+  return moving;
+}
+
+}  // namespace
+
+double task_time_s(const Scene& scene, int frame) {
+  return scene.clips.empty() ? 0.0 : frame_time_s(scene.clips[0], frame, frames_a_second);
+}
+
+EmbreeRenderer::EmbreeRenderer(const FrameTask& task, TreeKind kind, int first, int last)
+    : task_(task), kind_(kind) {
+  const auto moving = moving_vertices(task.scene, first, last);
+  geometry_.positions.reserve(moving.size() + 1);  // Embree reads a float behind the last vertex
+  evaluate_frame(task.scene, clip_of(task.scene), task_time_s(task.scene, first), geometry_);
+  tree_ = std::make_unique<EmbreeTree>(geometry_.positions.data(), triangle_view(geometry_), moving,
+                                       EmbreeTree::Settings{kind, task.threads, SimdLevel::automatic, false});
+  wide_m_ = static_cast<float>(render::box_of(geometry_).diagonal_m());
+  ids_.resize(static_cast<std::size_t>(task.width) * static_cast<std::size_t>(task.height));
+}
+
+void EmbreeRenderer::trace_row(const TileGrid& grid, int row, std::span<const LightAim> lights,
+                               PacketTracer& tracer, Shares* shares) {
+  TilePlanes planes[16];
+  TilePoints points[16];
+  base::Stopwatch watch;
+  for (int column = 0; column < grid.square_columns(); ++column) {
+    for (int tile = 0; tile < 16; ++tile) {
+      const glm::ivec2 at = grid.first({column, row}, tile);
+      std::uint32_t ids[16];
+      tracer.look(view_, static_cast<float>(at.x), static_cast<float>(at.y), ids, planes[tile], points[tile]);
+      grid.put(ids, at, ids_.data());
+    }
+    if (shares != nullptr) shares->primary += watch.lap_ms();
+    for (std::size_t i = 0; i < lights.size(); ++i) {
+      for (int tile = 0; tile < 16; ++tile)
+        grid.put_bits(tracer.lit(planes[tile], points[tile], lights[i]), grid.first({column, row}, tile),
+                      masks_[i].data());
+    }
+    if (shares != nullptr) shares->shadows += watch.lap_ms();
+  }
+}
+
+void EmbreeRenderer::trace(std::span<const LightAim> lights, std::vector<Shares>* shares) {
+  const TileGrid grid(task_.width, task_.height, plan_.shape);
+  if (shares != nullptr) shares->resize(static_cast<std::size_t>(grid.square_rows()));
+  parallel::parallel_tasks(grid.square_rows(), [&](int row) {
+    PacketTracer tracer(*tree_, plan_, SimdLevel::automatic);
+    trace_row(grid, row, lights, tracer,
+              shares != nullptr ? &(*shares)[static_cast<std::size_t>(row)] : nullptr);
+  });
+}
+
+EmbreeFrameTimes EmbreeRenderer::draw(int frame, bool split) {
+  const Scene& scene = task_.scene;
+  const double time_s = task_time_s(scene, frame);
+  base::Stopwatch watch, whole;
+  EmbreeFrameTimes times;
+  evaluate_frame(scene, clip_of(scene), time_s, geometry_);
+  render::FrameInput input;  // lights alone: it holds its geometry by value
+  input.lights = evaluate_lights(scene, clip_of(scene), time_s);
+  view_ = evaluate_camera(scene, clip_of(scene), time_s, 0, task_.width, task_.height);
+  times.evaluate = watch.lap_ms();
+
+  tree_->follow();
+  times.tree = watch.lap_ms();
+
+  std::vector<std::string> notes;
+  const auto lights = render::drawn_lights(scene, input, {}, notes);  // never fails: all are asked for
+  std::vector<LightAim> aims;
+  std::vector<shade::PlacedLight> placed;
+  masks_.resize(lights->size());
+  std::vector<shade::LightFactors> factors(lights->size());
+  for (std::size_t i = 0; i < lights->size(); ++i) {
+    const render::DrawnLight& light = (*lights)[i];
+    aims.push_back(aim_at(render::shadow_light(light.light, light.placed), view_.eye, plan_.way, wide_m_));
+    placed.push_back({light.light, light.placed, nullptr});
+    masks_[i].resize(ids_.size());
+    factors[i].mask = masks_[i];
+  }
+  std::vector<Shares> shares;
+  trace(aims, split ? &shares : nullptr);
+  const double traced = watch.lap_ms();
+  double primary = 0, both = 0;
+  for (const Shares& row : shares) primary += row.primary, both += row.primary + row.shadows;
+  times.primary = both > 0 ? traced * primary / both : traced;
+  times.shadows = traced - times.primary;
+
+  const shade::Subject subject{geometry_, view_, task_.surfaces};
+  const shade::Lighting lighting{placed, scene.ambient_light, scene.background, nullptr};
+  const shade::PixelSamples pixels{task_.width, task_.height, ids_, factors, {}};
+  shade::shade_picture(subject, lighting, pixels, 1.0f, scene.transfer, image_);
+  times.shade = watch.lap_ms();
+  times.total = whole.lap_ms();
+  return times;
+}
+
+}  // namespace tenebra::bench

@@ -1,0 +1,46 @@
+// tenebra-bench frame: from a scene and a time to a picture, beside the renderer that one would write on
+// Embree; and what writing the pictures adds.
+#include <array>
+#include <cstdio>
+
+#include "bench/frame/frame_session.h"
+
+namespace tenebra::bench {
+namespace {
+
+constexpr std::array parts{BenchPart<FrameSession>{"scenes", measure_frames},
+                           BenchPart<FrameSession>{"files", measure_frame_files}};
+const std::span<const BenchPart<FrameSession>> all_parts(parts);
+
+Expected<void> measure(const PartsArguments& arguments) {
+  FrameSession session{
+      .options = arguments.options, .effort = arguments.effort(), .report = Report(arguments.options.csv)};
+  if (auto done = measure_parts(arguments, all_parts, session); !done) return done;
+  if (auto written = session.report.write(parts_settings(arguments)); !written) return written;
+  std::printf("\n");
+  for (const std::string& sentence : session.skipped) std::printf("%s\n", sentence.c_str());
+  const FrameHeadline& h = session.headline;
+  print_headline("frame.ratio_geomean", h.ratio_geomean, 3);
+  print_headline("frame.ratio_worst", h.ratio_worst, 3);
+  print_headline("frame.city_per_second", h.city_per_second, 2);
+  print_headline("frame.render_over_frames", h.render_over_frames, 3);
+  return {};
+}
+
+}  // namespace
+
+void add_frame_command(CLI::App& program, Run& run) {
+  CLI::App& command = add_parts_command(
+      program, run, {"frame", "Whole frames, from a time to a picture, beside a renderer on Embree"},
+      part_names(all_parts), measure);
+  command.footer(
+      "ratio: Tenebra's time for a frame over the opponent's, from evaluating the scene to the picture in\n"
+      "memory, as consecutive frames move, hard shadows of all lights, glass as opaque on both sides. The\n"
+      "opponent traces packets of 4, 8 or 16 primary rays and, from each, shadow rays of all lights through\n"
+      "one of Embree's trees, built anew, refitted or in two levels: whatever is fastest on the view. Both\n"
+      "sides shade by the same code, which is counted on both. Pictures must agree but for a small share of\n"
+      "the pixels. city_per_second: Tenebra's frames of city at 1024x1024. render_over_frames: the time of\n"
+      "`tenebra render scenes/city.glb --frames 0:60 --size 1024x1024` with pictures over that without.");
+}
+
+}  // namespace tenebra::bench

@@ -1,0 +1,173 @@
+#include "bench/frame/frame_contest.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cstdlib>
+
+#include "base/fail.h"
+#include "base/stopwatch.h"
+#include "bench/common/bench_report.h"
+#include "parallel/parallel.h"
+#include "render/renderer.h"
+
+namespace tenebra::bench {
+namespace {
+
+constexpr int visible_step = 16;  // of 255: where pictures count as different
+
+/// Tenebra's side: what `tenebra render` does for a frame, but for files.
+class OurRenderer {
+public:
+  static Expected<OurRenderer> create(const FrameTask& task) {
+    auto context = gl::Context::create(gl::ContextKind::automatic);
+    if (!context) return tl::unexpected(context.error());
+    auto renderer = render::Renderer::create(std::move(*context), task.scene);
+    if (!renderer) return tl::unexpected(renderer.error());
+    return OurRenderer(task, std::move(*renderer));
+  }
+
+  Expected<TenebraFrameTimes> draw(int frame) {
+    const Scene& scene = task_.scene;
+    const int clip = scene.clips.empty() ? -1 : 0;
+    const double time_s = task_time_s(scene, frame);
+    base::Stopwatch watch, whole;
+    evaluate_frame(scene, clip, time_s, input_.geometry);
+    input_.lights = evaluate_lights(scene, clip, time_s);
+    input_.view = evaluate_camera(scene, clip, time_s, 0, task_.width, task_.height);
+    TenebraFrameTimes times;
+    times.evaluate = watch.lap_ms();
+    const render::RenderSettings settings{
+        .width = task_.width, .height = task_.height, .threads = task_.threads};
+    if (auto drawn = renderer_.render_frame(input_, settings, result_); !drawn)
+      return tl::unexpected(drawn.error());
+    times.total = whole.lap_ms();
+    const FrameTimings& t = result_.timings;
+    times.raster = t.raster_ms + t.readback_ms;
+    times.points = t.points_ms;
+    times.shadows = t.rays_ms + t.sort_ms + t.build_ms + t.traverse_ms + t.writeback_ms;
+    times.shade = t.composite_ms;
+    return times;
+  }
+  const render::FrameResult& result() const { return result_; }
+
+private:
+  OurRenderer(const FrameTask& task, render::Renderer renderer)
+      : task_(task), renderer_(std::move(renderer)) {}
+
+  FrameTask task_;
+  render::Renderer renderer_;
+  render::FrameInput input_;
+  render::FrameResult result_;
+};
+
+/// The least time of the last frame after the others.
+double try_out(EmbreeRenderer& renderer, const PacketPlan& plan, const std::vector<int>& frames) {
+  renderer.set_plan(plan);
+  double least = 0;
+  for (int i = 0; i < 2; ++i) {
+    const int last = static_cast<int>(frames.size()) - 1;
+    renderer.draw(frames[static_cast<std::size_t>(last - 1)]);
+    const double ms = renderer.draw(frames[static_cast<std::size_t>(last)]).total;
+    least = i == 0 ? ms : std::min(least, ms);
+  }
+  return least;
+}
+
+/// The best packets on the tree that is built anew, then the best tree with these.
+std::unique_ptr<EmbreeRenderer> choose(const FrameTask& task, const FrameContest& contest) {
+  const int first = contest.frames.front(), last = contest.frames.back();
+  auto best = std::make_unique<EmbreeRenderer>(task, TreeKind::rebuild, first, last);
+  PacketPlan plan;
+  double least = 0;
+  for (const PacketPlan& tried : packet_plans()) {
+    const double ms = try_out(*best, tried, contest.frames);
+    if (least > 0 && ms >= least) continue;
+    least = ms;
+    plan = tried;
+  }
+  best->set_plan(plan);
+  for (const TreeKind kind : moving_trees) {
+    if (kind == TreeKind::rebuild) continue;
+    auto other = std::make_unique<EmbreeRenderer>(task, kind, first, last);
+    const double ms = try_out(*other, plan, contest.frames);
+    if (ms >= least) continue;
+    least = ms;
+    best = std::move(other);
+  }
+  return best;
+}
+
+double differing_share(const base::Image8& a, const base::Image8& b) {
+  std::size_t differing = 0;
+  const std::size_t pixels = a.pixels.size() / 3;
+  for (std::size_t i = 0; i < pixels; ++i) {
+    int step = 0;
+    for (std::size_t c = 0; c < 3; ++c)
+      step = std::max(step, std::abs(int{a.pixels[3 * i + c]} - int{b.pixels[3 * i + c]}));
+    differing += step > visible_step ? 1 : 0;
+  }
+  return static_cast<double>(differing) / static_cast<double>(pixels);
+}
+
+template <class Times>
+double median_of(const std::vector<Times>& all, double Times::*stage) {
+  std::vector<double> values;
+  for (const Times& times : all) values.push_back(times.*stage);
+  return median(values);
+}
+TenebraFrameTimes medians(const std::vector<TenebraFrameTimes>& all) {
+  using T = TenebraFrameTimes;
+  return {median_of(all, &T::evaluate), median_of(all, &T::raster), median_of(all, &T::points),
+          median_of(all, &T::shadows),  median_of(all, &T::shade),  median_of(all, &T::total)};
+}
+EmbreeFrameTimes medians(const std::vector<EmbreeFrameTimes>& all) {
+  using T = EmbreeFrameTimes;
+  return {median_of(all, &T::evaluate), median_of(all, &T::tree),  median_of(all, &T::primary),
+          median_of(all, &T::shadows),  median_of(all, &T::shade), median_of(all, &T::total)};
+}
+
+}  // namespace
+
+Expected<FrameContestResult> run_frame_contest(const FrameTask& task, const FrameContest& contest) {
+  auto ours = OurRenderer::create(task);
+  if (!ours) return tl::unexpected(ours.error());
+  FrameContestResult result;
+  std::vector<TenebraFrameTimes> our_times;
+  std::vector<EmbreeFrameTimes> their_times, split_times;
+  Expected<void> done;
+  with_threads(task.threads, [&] {
+    const std::unique_ptr<EmbreeRenderer> theirs = choose(task, contest);
+    result.embree_by = fmt::format("{}, {}", tree_name(theirs->kind()), packet_plan_name(theirs->plan()));
+    for (int round = 0; round < contest.rounds && done; ++round) {
+      for (const int frame : contest.frames) {
+        const auto drawn = ours->draw(frame);
+        if (!drawn) done = tl::unexpected(drawn.error());
+        if (!done) return;
+        const EmbreeFrameTimes times = theirs->draw(frame);
+        result.differing = std::max(result.differing, differing_share(ours->result().image, theirs->image()));
+        if (frame == contest.frames.front()) continue;  // it comes after the last
+        our_times.push_back(*drawn);
+        their_times.push_back(times);
+      }
+    }
+    for (const int frame : contest.frames) split_times.push_back(theirs->draw(frame, true));
+  });
+  if (!done) return tl::unexpected(done.error());
+  if (result.differing > most_differing) {
+    return base::fail("{}, {}x{}: {:.2f} % of the pixels differ by more than {}/255, expected at most {} %",
+                      contest.name, task.width, task.height, 100 * result.differing, visible_step,
+                      100 * most_differing);
+  }
+  result.ours = medians(our_times);
+  result.theirs = medians(their_times);
+  // Of frames that time both: their shares.
+  const EmbreeFrameTimes split = medians(split_times);
+  const double traced = result.theirs.primary + result.theirs.shadows;
+  result.theirs.primary = traced * split.primary / (split.primary + split.shadows);
+  result.theirs.shadows = traced - result.theirs.primary;
+  result.lights = ours->result().masks.size();
+  return result;
+}
+
+}  // namespace tenebra::bench

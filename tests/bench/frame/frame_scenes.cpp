@@ -1,0 +1,167 @@
+// The frames of the goals, at two sizes, against the renderer on Embree.
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cstdio>
+
+#include "base/fail.h"
+#include "bench/common/bench_frame.h"
+#include "bench/common/bench_scenes.h"
+#include "bench/frame/frame_contest.h"
+#include "bench/frame/frame_session.h"
+#include "cutout/cutout.h"
+#include "parallel/parallel.h"
+#include "scene/looks.h"
+
+namespace tenebra::bench {
+namespace {
+
+using Rows = std::vector<std::vector<std::string>>;
+
+struct Place {
+  const char* scene;
+  int frame;
+};
+constexpr Place places[] = {{"city", 150}, {"robots", 100}, {"kitchen", 100}, {"museum5", 20}, {"court", 60}};
+struct Size {
+  int width, height;
+};
+
+/// As the program prepares it, but that glass is opaque: Embree's side would need a renderer of its own for
+/// it.
+void prepare(Scene& scene) {
+  for (Material& material : scene.materials) {
+    if (!material.see_through()) continue;
+    material.alpha_mode = AlphaMode::opaque;
+    material.alpha = 1;
+    material.transmission = 0;
+    material.transmission_map = {};
+  }
+  cutout::cut_out_masks(scene);
+  scene::leave_out_blank_emission(scene);
+}
+
+Rows head() {
+  return {{"view", "size", "Tenebra", "evaluate", "raster", "points", "shadows", "shade", "Embree",
+           "evaluate", "tree", "primary", "shadows", "shade", "by", "ratio", "unshaded", "differing"}};
+}
+
+std::vector<std::string> row(const FrameContest& contest, Size size, const FrameContestResult& r) {
+  const auto ms = [](double value) { return fmt::format("{:.1f}", value); };
+  const TenebraFrameTimes& a = r.ours;
+  const EmbreeFrameTimes& b = r.theirs;
+  return {contest.name,
+          fmt::format("{}x{}", size.width, size.height),
+          ms(a.total),
+          ms(a.evaluate),
+          ms(a.raster),
+          ms(a.points),
+          ms(a.shadows),
+          ms(a.shade),
+          ms(b.total),
+          ms(b.evaluate),
+          ms(b.tree),
+          ms(b.primary),
+          ms(b.shadows),
+          ms(b.shade),
+          r.embree_by,
+          fmt::format("{:.3f}", r.ratio()),
+          fmt::format("{:.3f}", (a.total - a.shade) / (b.total - b.shade)),
+          fmt::format("{:.2f} %", 100 * r.differing)};
+}
+
+void report(const FrameContest& contest, Size size, const FrameContestResult& r, Report& report) {
+  const std::string where = fmt::format("{}x{}", size.width, size.height);
+  const auto add = [&](const char* contestant, const char* quantity, double value, const char* unit) {
+    report.add({"frame", contest.name, contestant, where, quantity, value, unit});
+  };
+  const TenebraFrameTimes& a = r.ours;
+  add("tenebra", "time", a.total, "ms");
+  add("tenebra", "evaluate_time", a.evaluate, "ms");
+  add("tenebra", "raster_time", a.raster, "ms");
+  add("tenebra", "points_time", a.points, "ms");
+  add("tenebra", "shadows_time", a.shadows, "ms");
+  add("tenebra", "shade_time", a.shade, "ms");
+  const EmbreeFrameTimes& b = r.theirs;
+  add("embree", "time", b.total, "ms");
+  add("embree", "evaluate_time", b.evaluate, "ms");
+  add("embree", "tree_time", b.tree, "ms");
+  add("embree", "primary_time", b.primary, "ms");
+  add("embree", "shadows_time", b.shadows, "ms");
+  add("embree", "shade_time", b.shade, "ms");
+  add("tenebra", "ratio", r.ratio(), "");
+  add("both", "differing_share", r.differing, "");
+  add("both", "lights", static_cast<double>(r.lights), "");
+}
+
+class Measurement {
+public:
+  explicit Measurement(FrameSession& session) : session_(session) {}
+
+  Expected<void> measure(const Place& place, const Scene& scene, Size size);
+  void conclude() const;
+
+private:
+  FrameSession& session_;
+  Rows table_ = head();
+  std::vector<double> ratios_;
+};
+
+Expected<void> Measurement::measure(const Place& place, const Scene& scene, Size size) {
+  FrameContest contest{fmt::format("{} {}", place.scene, place.frame), {}, session_.by_effort(1, 3, 7)};
+  const int around = session_.by_effort(1, 1, 2);
+  for (int frame = place.frame - around - 1; frame <= place.frame + around; ++frame)
+    contest.frames.push_back(frame);
+  const shade::SurfaceTable surfaces(scene);
+  const auto result = run_frame_contest({scene, surfaces, size.width, size.height, thread_count()}, contest);
+  if (!result) return tl::unexpected(result.error());
+  ratios_.push_back(result->ratio());
+  if (place.scene == std::string("city") && size.width == size.height)
+    session_.headline.city_per_second = 1e3 / result->ours.total;
+  report(contest, size, *result, session_.report);
+  table_.push_back(row(contest, size, *result));
+  progress(fmt::format("{}, {}x{}: {:.1f} ms, {:.3f} of Embree", contest.name, size.width, size.height,
+                       result->ours.total, result->ratio()));
+  return {};
+}
+
+void Measurement::conclude() const {
+  if (ratios_.empty()) return;
+  print_table("Whole frames without files, medians in ms (\"unshaded\": the ratio without the shading)",
+              table_);
+  session_.headline.ratio_geomean = geometric_mean(ratios_);
+  session_.headline.ratio_worst = *std::max_element(ratios_.begin(), ratios_.end());
+}
+
+}  // namespace
+
+Expected<void> measure_frames(FrameSession& session) {
+  if (!has_ray_masks()) {
+    session.skipped.push_back("scenes: skipped, this Embree was built without ray masks");
+    return {};
+  }
+  const std::vector<Size> sizes = session.effort == Effort::tiny
+                                      ? std::vector<Size>{{64, 64}, {72, 40}}
+                                      : std::vector<Size>{{1024, 1024}, {1920, 1080}};
+  const auto data = bart_folder(session.options.data);
+  Measurement measurement(session);
+  for (const Place& place : places) {
+    const BenchScene& known = bench_scene(place.scene);
+    std::unique_ptr<testing::TemporaryFolder> made;
+    const auto file = find_scene(known, data, made);
+    if (file.empty()) {
+      session.skipped.push_back(fmt::format("{}: skipped, not there", place.scene));
+      continue;
+    }
+    auto scene = load_scene(file, known.no_cast);
+    if (!scene) return tl::unexpected(scene.error());
+    prepare(*scene);
+    for (const Size size : sizes) {
+      if (auto done = measurement.measure(place, *scene, size); !done) return done;
+    }
+  }
+  measurement.conclude();
+  return {};
+}
+
+}  // namespace tenebra::bench

@@ -1,0 +1,157 @@
+// From ids to masks against the harder opponent: the lights of the scenes, and directional lights.
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cstdio>
+
+#include "bench/hard/hard_session.h"
+#include "bench/hard/hard_whole.h"
+#include "parallel/parallel.h"
+#include "render/frame_lights.h"
+#include "render/shadow_lights.h"
+
+namespace tenebra::bench {
+namespace {
+
+using Rows = std::vector<std::vector<std::string>>;
+
+// BART has no directional light: this one, towards the light, y up, stands in for it in all frames.
+constexpr glm::vec3 bart_sun{0.1f, 1.0f, 0.5f};
+
+std::vector<HardFrames> whole_frames(Effort effort) {
+  if (effort == Effort::tiny)
+    return {{"robots", {100}}, {"museum5", {20}}, {"kitchen", {100}}, {"city", {150}}};
+  return {{"robots", {100, 160, 400, 640}},
+          {"museum5", {20, 100, 200}},
+          {"museum5x64", {20, 100, 200}},
+          {"kitchen", {100, 400}},
+          {"city", {30, 150, 250}}};
+}
+
+/// The lights that a frame is drawn with, those with a place or those from a direction.
+std::vector<ShadowLight> lights_of(const Scene& scene, const HardView& view, bool directional) {
+  render::FrameInput input;
+  input.lights = view.frame.lights;
+  std::vector<std::string> notes;
+  std::vector<ShadowLight> lights;
+  const auto drawn_lights = render::drawn_lights(scene, input, {}, notes);  // never fails: all are asked for
+  for (const render::DrawnLight& drawn : *drawn_lights) {
+    const ShadowLight light = render::shadow_light(drawn.light, drawn.placed);
+    if (light.directional == directional) lights.push_back(light);
+  }
+  if (directional && view.counted) {  // BART
+    ShadowLight sun;
+    sun.directional = true;
+    sun.to_light = bart_sun;
+    lights = {sun};
+  }
+  return lights;
+}
+
+/// Ratios of all frames.
+struct Ratios {
+  std::vector<double> moved, still;
+
+  std::vector<double> both() const {
+    std::vector<double> all = moved;
+    all.insert(all.end(), still.begin(), still.end());
+    return all;
+  }
+};
+double worst(const std::vector<double>& ratios) {
+  return *std::max_element(ratios.begin(), ratios.end());
+}
+
+void report(const char* experiment, const HardView& view, const WholeTask& task, const WholeResult& r,
+            Report& report) {
+  const auto add = [&](const char* contestant, const std::string& quantity, double value, const char* unit) {
+    report.add({experiment, view.name, contestant, fmt::format("lights={}", task.lights.size()), quantity,
+                value, unit});
+  };
+  for (const auto& [name, times] : {std::pair{"moved", r.moved}, std::pair{"still", r.still}}) {
+    add("tenebra", fmt::format("{}_time", name), times.ours, "ms");
+    report.add(
+        {experiment, view.name, "embree", times.embree_by, fmt::format("{}_time", name), times.embree, "ms"});
+    add("tenebra", fmt::format("{}_ratio", name), times.ratio(), "");
+  }
+  add("embree", "build_time", r.moved.embree_build, "ms");
+  add("tenebra", "points_time", r.points, "ms");
+  add("tenebra", "tiled_points_time", r.tiles, "ms");
+  add("embree", "differing_samples", static_cast<double>(r.differing), "");
+}
+
+Rows head() {
+  return {{"frame", "lights", "moved", "E. moved", "of it built", "ratio", "E. by", "still", "E. still",
+           "ratio", "E. by", "points", "tiled", "lit", "differing"}};
+}
+std::vector<std::string> row(const HardView& view, const WholeTask& task, const WholeResult& r) {
+  const auto ms = [](double value) { return fmt::format("{:.2f}", value); };
+  return {view.name,
+          fmt::format("{}", task.lights.size()),
+          ms(r.moved.ours),
+          ms(r.moved.embree),
+          ms(r.moved.embree_build),
+          fmt::format("{:.3f}", r.moved.ratio()),
+          r.moved.embree_by,
+          ms(r.still.ours),
+          ms(r.still.embree),
+          fmt::format("{:.3f}", r.still.ratio()),
+          r.still.embree_by,
+          ms(r.points),
+          ms(r.tiles),
+          fmt::format("{:.0f} %", 100.0 * static_cast<double>(r.lit) / static_cast<double>(r.samples)),
+          fmt::format("{}", r.differing)};
+}
+
+/// Measures all frames with their lights; frames without such a light are passed over.
+Expected<Ratios> measure(HardSession& session, const char* experiment, bool directional) {
+  Ratios ratios;
+  Rows table = head();
+  const auto one = [&](const Scene& scene, const HardView& view) -> Expected<void> {
+    const WholeTask task{view, lights_of(scene, view, directional), thread_count(),
+                         session.by_effort(1, 5, 15), session.simd};
+    if (task.lights.empty()) return {};
+    const WholeResult result = run_whole_contest(task);
+    ratios.moved.push_back(result.moved.ratio());
+    ratios.still.push_back(result.still.ratio());
+    report(experiment, view, task, result, session.report);
+    table.push_back(row(view, task, result));
+    progress(fmt::format("{}, {}: {:.3f} of Embree moved, {:.3f} still", experiment, view.name,
+                         result.moved.ratio(), result.still.ratio()));
+    return {};
+  };
+  auto done =
+      for_each_view(session.options, whole_frames(session.effort), session.size(), session.skipped, one);
+  if (!done) return tl::unexpected(done.error());
+  if (ratios.moved.empty()) return ratios;
+  print_table(fmt::format("{}: from ids to the masks of all lights, medians in ms", experiment), table);
+  std::printf("geometric means: %.3f moved, %.3f still; worst: %.3f moved, %.3f still\n",
+              geometric_mean(ratios.moved), geometric_mean(ratios.still), worst(ratios.moved),
+              worst(ratios.still));
+  return ratios;
+}
+
+}  // namespace
+
+Expected<void> measure_hard_whole(HardSession& session) {
+  const auto ratios = measure(session, "whole", false);
+  if (!ratios) return tl::unexpected(ratios.error());
+  if (ratios->moved.empty()) return {};
+  HardHeadline& h = session.headline;
+  h.whole_moved_geomean = geometric_mean(ratios->moved);
+  h.whole_moved_worst = worst(ratios->moved);
+  h.whole_static_geomean = geometric_mean(ratios->still);
+  h.whole_static_worst = worst(ratios->still);
+  return {};
+}
+
+Expected<void> measure_hard_sun(HardSession& session) {
+  const auto ratios = measure(session, "sun", true);
+  if (!ratios) return tl::unexpected(ratios.error());
+  if (ratios->moved.empty()) return {};
+  session.headline.sun_geomean = geometric_mean(ratios->both());
+  session.headline.sun_worst = worst(ratios->both());
+  return {};
+}
+
+}  // namespace tenebra::bench
