@@ -65,7 +65,8 @@ TEST(BenchProgram, HardEndsWithItsFiguresWhereScenesAreMissing) {
     EXPECT_TRUE(found) << name;
   }
   for (const char* name : {"hard.whole_moved_geomean", "hard.whole_moved_worst", "hard.whole_static_geomean",
-                           "hard.whole_static_worst", "hard.sun_geomean", "hard.sun_worst"}) {
+                           "hard.whole_static_worst", "hard.whole_first_moved_worst",
+                           "hard.whole_first_static_worst", "hard.sun_geomean", "hard.sun_worst"}) {
     EXPECT_GT(figure(result.output, name, found), 0) << "city counts: " << name;
     EXPECT_TRUE(found) << name;
   }

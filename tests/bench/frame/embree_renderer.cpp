@@ -37,8 +37,9 @@ double task_time_s(const Scene& scene, int frame) {
   return scene.clips.empty() ? 0.0 : frame_time_s(scene.clips[0], frame, frames_a_second);
 }
 
-EmbreeRenderer::EmbreeRenderer(const FrameTask& task, TreeKind kind, int first, int last)
-    : task_(task), kind_(kind) {
+EmbreeRenderer::EmbreeRenderer(const FrameTask& task, TreeKind kind, const PacketPlan& plan, int first,
+                               int last)
+    : task_(task), kind_(kind), plan_(plan) {
   const auto moving = moving_vertices(task.scene, first, last);
   geometry_.positions.reserve(moving.size() + 1);  // Embree reads a float behind the last vertex
   evaluate_frame(task.scene, clip_of(task.scene), task_time_s(task.scene, first), geometry_);
@@ -70,7 +71,9 @@ void EmbreeRenderer::trace_row(const TileGrid& grid, int row, std::span<const Li
   }
 }
 
-void EmbreeRenderer::trace(std::span<const LightAim> lights, std::vector<Shares>* shares) {
+void EmbreeRenderer::trace(std::vector<Shares>* shares) {
+  std::vector<LightAim> lights;
+  for (const ShadowLight& light : lights_) lights.push_back(aim_at(light, view_.eye, plan_.way, wide_m_));
   const TileGrid grid(task_.width, task_.height, plan_.shape);
   if (shares != nullptr) shares->resize(static_cast<std::size_t>(grid.square_rows()));
   parallel::parallel_tasks(grid.square_rows(), [&](int row) {
@@ -78,6 +81,13 @@ void EmbreeRenderer::trace(std::span<const LightAim> lights, std::vector<Shares>
     trace_row(grid, row, lights, tracer,
               shares != nullptr ? &(*shares)[static_cast<std::size_t>(row)] : nullptr);
   });
+}
+
+double EmbreeRenderer::retrace(const PacketPlan& plan) {
+  plan_ = plan;
+  base::Stopwatch watch;
+  trace(nullptr);
+  return watch.lap_ms();
 }
 
 EmbreeFrameTimes EmbreeRenderer::draw(int frame, bool split) {
@@ -96,19 +106,19 @@ EmbreeFrameTimes EmbreeRenderer::draw(int frame, bool split) {
 
   std::vector<std::string> notes;
   const auto lights = render::drawn_lights(scene, input, {}, notes);  // never fails: all are asked for
-  std::vector<LightAim> aims;
+  lights_.clear();
   std::vector<shade::PlacedLight> placed;
   masks_.resize(lights->size());
   std::vector<shade::LightFactors> factors(lights->size());
   for (std::size_t i = 0; i < lights->size(); ++i) {
     const render::DrawnLight& light = (*lights)[i];
-    aims.push_back(aim_at(render::shadow_light(light.light, light.placed), view_.eye, plan_.way, wide_m_));
+    lights_.push_back(render::shadow_light(light.light, light.placed));
     placed.push_back({light.light, light.placed, nullptr});
     masks_[i].resize(ids_.size());
     factors[i].mask = masks_[i];
   }
   std::vector<Shares> shares;
-  trace(aims, split ? &shares : nullptr);
+  trace(split ? &shares : nullptr);
   const double traced = watch.lap_ms();
   double primary = 0, both = 0;
   for (const Shares& row : shares) primary += row.primary, both += row.primary + row.shadows;

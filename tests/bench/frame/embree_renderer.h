@@ -34,11 +34,12 @@ double task_time_s(const Scene& scene, int frame);
 class EmbreeRenderer {
 public:
   /// `first`, `last`: frames between which vertices move, from which two-level trees know what stands still.
-  EmbreeRenderer(const FrameTask& task, TreeKind kind, int first, int last);
+  EmbreeRenderer(const FrameTask& task, TreeKind kind, const PacketPlan& plan, int first, int last);
 
-  void set_plan(const PacketPlan& plan) { plan_ = plan; }
   /// A frame after the one before. `split`: primary and shadow rays are timed apart, which takes time itself.
   EmbreeFrameTimes draw(int frame, bool split = false);
+  /// What the rays of the frame drawn last take by another plan, which is kept. Milliseconds.
+  double retrace(const PacketPlan& plan);
   const base::Image8& image() const { return image_; }
   TreeKind kind() const { return kind_; }
   const PacketPlan& plan() const { return plan_; }
@@ -47,7 +48,8 @@ private:
   struct Shares {
     double primary = 0, shadows = 0;
   };
-  void trace(std::span<const LightAim> lights, std::vector<Shares>* shares);
+  /// Ids and masks of the frame.
+  void trace(std::vector<Shares>* shares);
   void trace_row(const TileGrid& grid, int row, std::span<const LightAim> lights, PacketTracer& tracer,
                  Shares* shares);
 
@@ -57,6 +59,7 @@ private:
   FrameGeometry geometry_;
   std::unique_ptr<EmbreeTree> tree_;
   ViewRays view_;
+  std::vector<ShadowLight> lights_;
   float wide_m_ = 0;
   std::vector<std::uint32_t> ids_;
   std::vector<std::vector<std::uint8_t>> masks_;  // of each light

@@ -61,36 +61,46 @@ private:
   render::FrameResult result_;
 };
 
-/// The least time of the last frame after the others.
-double try_out(EmbreeRenderer& renderer, const PacketPlan& plan, const std::vector<int>& frames) {
-  renderer.set_plan(plan);
+constexpr int tries = 2;
+
+/// The fastest packets on the last frame.
+PacketPlan choose_plan(EmbreeRenderer& renderer) {
+  PacketPlan best;
   double least = 0;
-  for (int i = 0; i < 2; ++i) {
-    const int last = static_cast<int>(frames.size()) - 1;
-    renderer.draw(frames[static_cast<std::size_t>(last - 1)]);
-    const double ms = renderer.draw(frames[static_cast<std::size_t>(last)]).total;
+  for (int i = 0; i < tries; ++i) {
+    for (const PacketPlan& plan : packet_plans()) {
+      const double ms = renderer.retrace(plan);
+      if (least > 0 && ms >= least) continue;
+      least = ms;
+      best = plan;
+    }
+  }
+  return best;
+}
+
+/// The least time of the last frame after the one before.
+double try_out(EmbreeRenderer& renderer, const std::vector<int>& frames) {
+  double least = 0;
+  for (int i = 0; i < tries; ++i) {
+    renderer.draw(frames[frames.size() - 2]);
+    const double ms = renderer.draw(frames.back()).total;
     least = i == 0 ? ms : std::min(least, ms);
   }
   return least;
 }
 
 /// The best packets on the tree that is built anew, then the best tree with these.
-std::unique_ptr<EmbreeRenderer> choose(const FrameTask& task, const FrameContest& contest) {
-  const int first = contest.frames.front(), last = contest.frames.back();
-  auto best = std::make_unique<EmbreeRenderer>(task, TreeKind::rebuild, first, last);
-  PacketPlan plan;
-  double least = 0;
-  for (const PacketPlan& tried : packet_plans()) {
-    const double ms = try_out(*best, tried, contest.frames);
-    if (least > 0 && ms >= least) continue;
-    least = ms;
-    plan = tried;
-  }
-  best->set_plan(plan);
+std::unique_ptr<EmbreeRenderer> choose(const FrameTask& task, const std::vector<int>& frames) {
+  auto best =
+      std::make_unique<EmbreeRenderer>(task, TreeKind::rebuild, PacketPlan{}, frames.front(), frames.back());
+  best->draw(frames.back());
+  const PacketPlan plan = choose_plan(*best);
+  best->retrace(plan);
+  double least = try_out(*best, frames);
   for (const TreeKind kind : moving_trees) {
     if (kind == TreeKind::rebuild) continue;
-    auto other = std::make_unique<EmbreeRenderer>(task, kind, first, last);
-    const double ms = try_out(*other, plan, contest.frames);
+    auto other = std::make_unique<EmbreeRenderer>(task, kind, plan, frames.front(), frames.back());
+    const double ms = try_out(*other, frames);
     if (ms >= least) continue;
     least = ms;
     best = std::move(other);
@@ -137,7 +147,7 @@ Expected<FrameContestResult> run_frame_contest(const FrameTask& task, const Fram
   std::vector<EmbreeFrameTimes> their_times, split_times;
   Expected<void> done;
   with_threads(task.threads, [&] {
-    const std::unique_ptr<EmbreeRenderer> theirs = choose(task, contest);
+    const std::unique_ptr<EmbreeRenderer> theirs = choose(task, contest.frames);
     result.embree_by = fmt::format("{}, {}", tree_name(theirs->kind()), packet_plan_name(theirs->plan()));
     for (int round = 0; round < contest.rounds && done; ++round) {
       for (const int frame : contest.frames) {

@@ -98,7 +98,8 @@ class Measurement {
 public:
   explicit Measurement(FrameSession& session) : session_(session) {}
 
-  Expected<void> measure(const Place& place, const Scene& scene, Size size);
+  Expected<void> measure(const Place& place, const Scene& scene, const shade::SurfaceTable& surfaces,
+                         Size size);
   void conclude() const;
 
 private:
@@ -107,12 +108,12 @@ private:
   std::vector<double> ratios_;
 };
 
-Expected<void> Measurement::measure(const Place& place, const Scene& scene, Size size) {
+Expected<void> Measurement::measure(const Place& place, const Scene& scene,
+                                    const shade::SurfaceTable& surfaces, Size size) {
   FrameContest contest{fmt::format("{} {}", place.scene, place.frame), {}, session_.by_effort(1, 3, 7)};
   const int around = session_.by_effort(1, 1, 2);
   for (int frame = place.frame - around - 1; frame <= place.frame + around; ++frame)
     contest.frames.push_back(frame);
-  const shade::SurfaceTable surfaces(scene);
   const auto result = run_frame_contest({scene, surfaces, size.width, size.height, thread_count()}, contest);
   if (!result) return tl::unexpected(result.error());
   ratios_.push_back(result->ratio());
@@ -156,8 +157,9 @@ Expected<void> measure_frames(FrameSession& session) {
     auto scene = load_scene(file, known.no_cast);
     if (!scene) return tl::unexpected(scene.error());
     prepare(*scene);
+    const shade::SurfaceTable surfaces(*scene);
     for (const Size size : sizes) {
-      if (auto done = measurement.measure(place, *scene, size); !done) return done;
+      if (auto done = measurement.measure(place, *scene, surfaces, size); !done) return done;
     }
   }
   measurement.conclude();

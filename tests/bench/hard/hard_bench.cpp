@@ -31,6 +31,10 @@ void print_headlines(const HardHeadline& h) {
   print_headline("hard.whole_moved_worst", h.whole_moved_worst, 3);
   print_headline("hard.whole_static_geomean", h.whole_static_geomean, 3);
   print_headline("hard.whole_static_worst", h.whole_static_worst, 3);
+  print_headline("hard.whole_first_moved_geomean", h.first_moved_geomean, 3);
+  print_headline("hard.whole_first_moved_worst", h.first_moved_worst, 3);
+  print_headline("hard.whole_first_static_geomean", h.first_static_geomean, 3);
+  print_headline("hard.whole_first_static_worst", h.first_static_worst, 3);
   print_headline("hard.sun_geomean", h.sun_geomean, 3);
   print_headline("hard.sun_worst", h.sun_worst, 3);
 }
@@ -62,17 +66,14 @@ void add_hard_command(CLI::App& program, Run& run) {
       {"hard", "Hard shadows beside Embree's rays; the experiments of Olsson and Assarsson 2011"},
       part_names(all_parts), [simd](const PartsArguments& arguments) { return measure(arguments, *simd); });
   command.footer(
-      "dynamic, static: the mask of one light from visible points that are there, with and without the "
-      "build.\n"
-      "whole_moved: from triangle ids to the masks of all lights of a frame whose triangles moved since the\n"
-      "frame before (points, tiles, rays, build or refit, trace; Embree at the best of its builds, packets "
-      "of\n"
-      "4, 8 and 16, and both directions of rays). whole_static: the same where nothing moved, Embree's "
-      "trees\n"
-      "built before at medium and high quality. Over twelve frames of BART with all their lights and city "
-      "30,\n"
-      "150 and 250 with its point light. sun: the same with city's sun, and in BART with one from\n"
-      "(0.1, 1, 0.5), over moved and static together.");
+      "dynamic, static: the mask of one light from visible points that are there, with the build and\n"
+      "without. whole_moved: from triangle ids to the masks of all lights of a frame whose triangles\n"
+      "moved since the frame before (points, tiles, rays, build or refit, trace; Embree at the best of\n"
+      "its builds, packets of 4, 8 and 16, and both directions of rays). whole_static: the same where\n"
+      "nothing moved, Embree's trees built before at medium and high quality. Over twelve frames of BART\n"
+      "with all their lights, and city 30, 150 and 250 with its point light. whole_first: the first light\n"
+      "of each frame alone. sun: as whole, with city's sun, and in BART with one from (0.1, 1, 0.5), over\n"
+      "moved and static together.");
   command.add_option("--simd", *simd, "Instructions that both contestants are kept to [auto]")
       ->type_name("LEVEL");
 }

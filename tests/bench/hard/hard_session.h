@@ -15,6 +15,7 @@ struct HardHeadline {
   std::optional<double> dynamic_geomean, static_geomean, dynamic_worst, static_worst;
   std::optional<double> growth_static_1_8m, p99_over_median;
   std::optional<double> whole_moved_geomean, whole_moved_worst, whole_static_geomean, whole_static_worst;
+  std::optional<double> first_moved_geomean, first_moved_worst, first_static_geomean, first_static_worst;
   std::optional<double> sun_geomean, sun_worst;
 };
 

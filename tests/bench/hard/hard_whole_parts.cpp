@@ -103,54 +103,94 @@ std::vector<std::string> row(const HardView& view, const WholeTask& task, const 
           fmt::format("{}", r.differing)};
 }
 
-/// Measures all frames with their lights; frames without such a light are passed over.
-Expected<Ratios> measure(HardSession& session, const char* experiment, bool directional) {
-  Ratios ratios;
-  Rows table = head();
-  const auto one = [&](const Scene& scene, const HardView& view) -> Expected<void> {
-    const WholeTask task{view, lights_of(scene, view, directional), thread_count(),
-                         session.by_effort(1, 5, 15), session.simd};
-    if (task.lights.empty()) return {};
-    const WholeResult result = run_whole_contest(task);
-    ratios.moved.push_back(result.moved.ratio());
-    ratios.still.push_back(result.still.ratio());
-    report(experiment, view, task, result, session.report);
-    table.push_back(row(view, task, result));
-    progress(fmt::format("{}, {}: {:.3f} of Embree moved, {:.3f} still", experiment, view.name,
-                         result.moved.ratio(), result.still.ratio()));
+class Measurement {
+public:
+  Measurement(HardSession& session, const char* experiment) : session_(session), experiment_(experiment) {}
+
+  /// All frames with their lights; frames without such a light are passed over.
+  Expected<void> measure(bool directional);
+
+  Ratios all;    ///< with all lights of the frames
+  Ratios first;  ///< with the first of them alone
+
+private:
+  void one(const Scene& scene, const HardView& view, bool directional);
+  void add(const HardView& view, const WholeTask& task, Ratios& ratios);
+  void conclude() const;
+
+  HardSession& session_;
+  const char* experiment_;
+  Rows table_ = head();
+};
+
+void Measurement::add(const HardView& view, const WholeTask& task, Ratios& ratios) {
+  const WholeResult result = run_whole_contest(task);
+  ratios.moved.push_back(result.moved.ratio());
+  ratios.still.push_back(result.still.ratio());
+  report(experiment_, view, task, result, session_.report);
+  table_.push_back(row(view, task, result));
+  progress(fmt::format("{}, {}, {} lights: {:.3f} of Embree moved, {:.3f} still", experiment_, view.name,
+                       task.lights.size(), result.moved.ratio(), result.still.ratio()));
+}
+
+void Measurement::one(const Scene& scene, const HardView& view, bool directional) {
+  WholeTask task{view, lights_of(scene, view, directional), thread_count(), session_.by_effort(1, 5, 15),
+                 session_.simd};
+  if (task.lights.empty()) return;
+  add(view, task, all);
+  if (task.lights.size() == 1) {
+    first.moved.push_back(all.moved.back());
+    first.still.push_back(all.still.back());
+    return;
+  }
+  task.lights.resize(1);
+  add(view, task, first);
+}
+
+Expected<void> Measurement::measure(bool directional) {
+  const auto body = [&](const Scene& scene, const HardView& view) -> Expected<void> {
+    one(scene, view, directional);
     return {};
   };
   auto done =
-      for_each_view(session.options, whole_frames(session.effort), session.size(), session.skipped, one);
-  if (!done) return tl::unexpected(done.error());
-  if (ratios.moved.empty()) return ratios;
-  print_table(fmt::format("{}: from ids to the masks of all lights, medians in ms", experiment), table);
-  std::printf("geometric means: %.3f moved, %.3f still; worst: %.3f moved, %.3f still\n",
-              geometric_mean(ratios.moved), geometric_mean(ratios.still), worst(ratios.moved),
-              worst(ratios.still));
-  return ratios;
+      for_each_view(session_.options, whole_frames(session_.effort), session_.size(), session_.skipped, body);
+  if (done && !all.moved.empty()) conclude();
+  return done;
+}
+
+void Measurement::conclude() const {
+  print_table(fmt::format("{}: from ids to the masks of all lights, medians in ms", experiment_), table_);
+  for (const auto& [name, ratios] : {std::pair{"all lights", all}, std::pair{"first light alone", first}}) {
+    std::printf("%s: geometric means %.3f moved, %.3f still; worst %.3f moved, %.3f still\n", name,
+                geometric_mean(ratios.moved), geometric_mean(ratios.still), worst(ratios.moved),
+                worst(ratios.still));
+  }
 }
 
 }  // namespace
 
 Expected<void> measure_hard_whole(HardSession& session) {
-  const auto ratios = measure(session, "whole", false);
-  if (!ratios) return tl::unexpected(ratios.error());
-  if (ratios->moved.empty()) return {};
+  Measurement whole(session, "whole");
+  auto done = whole.measure(false);
+  if (!done || whole.all.moved.empty()) return done;
   HardHeadline& h = session.headline;
-  h.whole_moved_geomean = geometric_mean(ratios->moved);
-  h.whole_moved_worst = worst(ratios->moved);
-  h.whole_static_geomean = geometric_mean(ratios->still);
-  h.whole_static_worst = worst(ratios->still);
+  h.whole_moved_geomean = geometric_mean(whole.all.moved);
+  h.whole_moved_worst = worst(whole.all.moved);
+  h.whole_static_geomean = geometric_mean(whole.all.still);
+  h.whole_static_worst = worst(whole.all.still);
+  h.first_moved_geomean = geometric_mean(whole.first.moved);
+  h.first_moved_worst = worst(whole.first.moved);
+  h.first_static_geomean = geometric_mean(whole.first.still);
+  h.first_static_worst = worst(whole.first.still);
   return {};
 }
 
 Expected<void> measure_hard_sun(HardSession& session) {
-  const auto ratios = measure(session, "sun", true);
-  if (!ratios) return tl::unexpected(ratios.error());
-  if (ratios->moved.empty()) return {};
-  session.headline.sun_geomean = geometric_mean(ratios->both());
-  session.headline.sun_worst = worst(ratios->both());
+  Measurement sun(session, "sun");
+  auto done = sun.measure(true);
+  if (!done || sun.all.moved.empty()) return done;
+  session.headline.sun_geomean = geometric_mean(sun.all.both());
+  session.headline.sun_worst = worst(sun.all.both());
   return {};
 }
 
