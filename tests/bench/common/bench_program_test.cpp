@@ -90,7 +90,8 @@ TEST(BenchProgram, FrameEndsWithItsFigures) {
   ASSERT_EQ(result.exit_code, 0) << result.errors;
   EXPECT_NE(result.output.find("robots: skipped"), std::string::npos) << result.output;
   bool found = false;
-  for (const char* name : {"frame.ratio_geomean", "frame.ratio_worst", "frame.city_per_second"}) {
+  for (const char* name : {"frame.ratio_geomean", "frame.ratio_worst", "frame.unshaded_geomean",
+                           "frame.unshaded_worst", "frame.city_per_second"}) {
     EXPECT_GT(figure(result.output, name, found), 0) << name;
     EXPECT_TRUE(found) << name;
   }

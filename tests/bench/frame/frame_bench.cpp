@@ -20,6 +20,8 @@ Expected<void> measure(const PartsArguments& arguments) {
   std::printf("\n");
   for (const std::string& sentence : session.skipped) std::printf("%s\n", sentence.c_str());
   const FrameHeadline& h = session.headline;
+  print_headline("frame.unshaded_geomean", h.unshaded_geomean, 3);
+  print_headline("frame.unshaded_worst", h.unshaded_worst, 3);
   print_headline("frame.ratio_geomean", h.ratio_geomean, 3);
   print_headline("frame.ratio_worst", h.ratio_worst, 3);
   print_headline("frame.city_per_second", h.city_per_second, 2);
@@ -38,9 +40,10 @@ void add_frame_command(CLI::App& program, Run& run) {
       "memory, as consecutive frames move, hard shadows of all lights, glass as opaque on both sides. The\n"
       "opponent traces packets of 4, 8 or 16 primary rays and, from each, shadow rays of all lights through\n"
       "one of Embree's trees, built anew, refitted or in two levels: whatever is fastest on the view. Both\n"
-      "sides shade by the same code, which is counted on both. Pictures must agree but for a small share of\n"
-      "the pixels. city_per_second: Tenebra's frames of city at 1024x1024. render_over_frames: the time of\n"
-      "`tenebra render scenes/city.glb --frames 0:60 --size 1024x1024` with pictures over that without.");
+      "sides shade by the same code, which is counted on both; unshaded is the ratio without it. Pictures\n"
+      "must agree but for a small share of the pixels. city_per_second: Tenebra's frames of city at\n"
+      "1024x1024. render_over_frames: the time of `tenebra render scenes/city.glb --frames 0:60 --size\n"
+      "1024x1024` with pictures over that without.");
 }
 
 }  // namespace tenebra::bench

@@ -66,7 +66,7 @@ std::vector<std::string> row(const FrameContest& contest, Size size, const Frame
           ms(b.shade),
           r.embree_by,
           fmt::format("{:.3f}", r.ratio()),
-          fmt::format("{:.3f}", (a.total - a.shade) / (b.total - b.shade)),
+          fmt::format("{:.3f}", r.unshaded_ratio()),
           fmt::format("{:.2f} %", 100 * r.differing)};
 }
 
@@ -90,6 +90,7 @@ void report(const FrameContest& contest, Size size, const FrameContestResult& r,
   add("embree", "shadows_time", b.shadows, "ms");
   add("embree", "shade_time", b.shade, "ms");
   add("tenebra", "ratio", r.ratio(), "");
+  add("tenebra", "unshaded_ratio", r.unshaded_ratio(), "");
   add("both", "differing_share", r.differing, "");
   add("both", "lights", static_cast<double>(r.lights), "");
 }
@@ -105,18 +106,18 @@ public:
 private:
   FrameSession& session_;
   Rows table_ = head();
-  std::vector<double> ratios_;
+  std::vector<double> ratios_, unshaded_;
 };
 
 Expected<void> Measurement::measure(const Place& place, const Scene& scene,
                                     const shade::SurfaceTable& surfaces, Size size) {
   FrameContest contest{fmt::format("{} {}", place.scene, place.frame), {}, session_.by_effort(1, 3, 7)};
-  const int around = session_.by_effort(1, 1, 2);
-  for (int frame = place.frame - around - 1; frame <= place.frame + around; ++frame)
-    contest.frames.push_back(frame);
+  const int after = session_.by_effort(0, 1, 2);
+  for (int frame = place.frame - 1; frame <= place.frame + after; ++frame) contest.frames.push_back(frame);
   const auto result = run_frame_contest({scene, surfaces, size.width, size.height, thread_count()}, contest);
   if (!result) return tl::unexpected(result.error());
   ratios_.push_back(result->ratio());
+  unshaded_.push_back(result->unshaded_ratio());
   if (place.scene == std::string("city") && size.width == size.height)
     session_.headline.city_per_second = 1e3 / result->ours.total;
   report(contest, size, *result, session_.report);
@@ -132,6 +133,8 @@ void Measurement::conclude() const {
               table_);
   session_.headline.ratio_geomean = geometric_mean(ratios_);
   session_.headline.ratio_worst = *std::max_element(ratios_.begin(), ratios_.end());
+  session_.headline.unshaded_geomean = geometric_mean(unshaded_);
+  session_.headline.unshaded_worst = *std::max_element(unshaded_.begin(), unshaded_.end());
 }
 
 }  // namespace

@@ -11,7 +11,8 @@ namespace tenebra::bench {
 
 /// The last lines; parts that were left out leave theirs empty.
 struct FrameHeadline {
-  std::optional<double> ratio_geomean, ratio_worst, city_per_second, render_over_frames;
+  std::optional<double> ratio_geomean, ratio_worst, unshaded_geomean, unshaded_worst, city_per_second,
+      render_over_frames;
 };
 
 struct FrameSession {
