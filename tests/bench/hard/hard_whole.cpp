@@ -76,20 +76,20 @@ private:
   }
   std::vector<Entrant> choose(std::span<const TreeKind> kinds, bool moved);
   void round(std::vector<Entrant>& entrants, bool moved);
-  double find_points(PointLayout layout) {
-    const BenchFrame& f = task_.view.frame;
-    return cost_ms([&] {
-      compute_visible_points(f.points.triangles, f.points.width, f.points.height, f.view, f.triangles(),
-                             points_, layout);
-    });
-  }
+  /// The tiles of this frame's ids on `triangles`, and the masks.
   double trace_ours(TriangleView triangles, std::uint64_t version) {
+    const BenchFrame& f = task_.view.frame;
     triangles.version = version;
-    return cost_ms([&] {
-      for (std::size_t i = 0; i < task_.lights.size(); ++i)
-        tracer_.trace_shadow_mask(points_, task_.view.frame.view, triangles, task_.lights[i],
-                                  {.simd = task_.simd}, tracer_masks_[i]);
+    const double tiles = cost_ms([&] {
+      compute_visible_points(f.points.triangles, f.points.width, f.points.height, f.view, triangles, points_,
+                             PointLayout::tiles);
     });
+    tiles_ms_.push_back(tiles);
+    return tiles + cost_ms([&] {
+             for (std::size_t i = 0; i < task_.lights.size(); ++i)
+               tracer_.trace_shadow_mask(points_, f.view, triangles, task_.lights[i], {.simd = task_.simd},
+                                         tracer_masks_[i]);
+           });
   }
   void round_ours();
   static WholeTimes best(const std::vector<Entrant>& entrants, const std::vector<double>& ours);
@@ -101,7 +101,7 @@ private:
   ShadowTracer tracer_;
   VisiblePoints points_;
   std::uint64_t version_ = 0;
-  std::vector<double> ours_moved_, ours_still_, points_ms_, tiles_ms_;
+  std::vector<double> ours_moved_, ours_still_, tiles_ms_;
 };
 
 /// The fastest of all trees and packets: all are tried once, those that came near the first once more.
@@ -139,12 +139,9 @@ void Contest::round(std::vector<Entrant>& entrants, bool moved) {
 
 void Contest::round_ours() {
   trace_ours(before_, ++version_);
-  const double tiles = find_points(PointLayout::rows_and_tiles);
-  ours_moved_.push_back(tiles + trace_ours(now_, ++version_));
+  ours_moved_.push_back(trace_ours(now_, ++version_));
   // The caller's word that nothing moved: what an application gives that knows its scene.
-  const double again = find_points(PointLayout::rows_and_tiles);
-  ours_still_.push_back(again + trace_ours(now_, version_));
-  tiles_ms_.push_back(std::min(tiles, again));
+  ours_still_.push_back(trace_ours(now_, version_));
 }
 
 WholeTimes Contest::best(const std::vector<Entrant>& entrants, const std::vector<double>& ours) {
@@ -155,7 +152,6 @@ WholeTimes Contest::best(const std::vector<Entrant>& entrants, const std::vector
 }
 
 WholeResult Contest::run() {
-  find_points(PointLayout::rows_and_tiles);
   std::vector<Entrant> moving = choose(moving_trees, true), still = choose(still_trees, false);
   round_ours();
   ours_moved_.clear(), ours_still_.clear(), tiles_ms_.clear();
@@ -163,11 +159,8 @@ WholeResult Contest::run() {
     round_ours();
     round(moving, true);
     round(still, false);
-    points_ms_.push_back(find_points(PointLayout::rows));
-    find_points(PointLayout::rows_and_tiles);
   }
   WholeResult result{best(moving, ours_moved_), best(still, ours_still_)};
-  result.points = median(points_ms_);
   result.tiles = median(tiles_ms_);
   for (std::size_t i = 0; i < masks_.size(); ++i) {
     for (std::size_t k = 0; k < masks_[i].size(); ++k) {

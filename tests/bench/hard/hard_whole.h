@@ -27,12 +27,12 @@ struct WholeTimes {
   double ratio() const { return ours / embree; }
 };
 struct WholeResult {
-  WholeTimes moved;              ///< triangles moved since the frame before: building or refitting is counted
-  WholeTimes still;              ///< nothing moved
-  double points = 0, tiles = 0;  ///< of ours: the points, and with their tiles
-  std::size_t differing = 0;     ///< samples of all lights where the masks differ
-  std::size_t lit = 0;           ///< of ours
-  std::size_t samples = 0;       ///< visible points times lights
+  WholeTimes moved;           ///< triangles moved since the frame before: building or refitting is counted
+  WholeTimes still;           ///< nothing moved
+  double tiles = 0;           ///< of ours: from ids to tiles of points
+  std::size_t differing = 0;  ///< samples of all lights where the masks differ
+  std::size_t lit = 0;        ///< of ours
+  std::size_t samples = 0;    ///< visible points times lights
 };
 
 WholeResult run_whole_contest(const WholeTask& task);

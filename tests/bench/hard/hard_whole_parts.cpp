@@ -75,14 +75,13 @@ void report(const char* experiment, const HardView& view, const WholeTask& task,
     add("tenebra", fmt::format("{}_ratio", name), times.ratio(), "");
   }
   add("embree", "build_time", r.moved.embree_build, "ms");
-  add("tenebra", "points_time", r.points, "ms");
-  add("tenebra", "tiled_points_time", r.tiles, "ms");
+  add("tenebra", "tiles_time", r.tiles, "ms");
   add("embree", "differing_samples", static_cast<double>(r.differing), "");
 }
 
 Rows head() {
   return {{"frame", "lights", "moved", "E. moved", "of it built", "ratio", "E. by", "still", "E. still",
-           "ratio", "E. by", "points", "tiled", "lit", "differing"}};
+           "ratio", "E. by", "tiles", "lit", "differing"}};
 }
 std::vector<std::string> row(const HardView& view, const WholeTask& task, const WholeResult& r) {
   const auto ms = [](double value) { return fmt::format("{:.2f}", value); };
@@ -97,7 +96,6 @@ std::vector<std::string> row(const HardView& view, const WholeTask& task, const 
           ms(r.still.embree),
           fmt::format("{:.3f}", r.still.ratio()),
           r.still.embree_by,
-          ms(r.points),
           ms(r.tiles),
           fmt::format("{:.0f} %", 100.0 * static_cast<double>(r.lit) / static_cast<double>(r.samples)),
           fmt::format("{}", r.differing)};
