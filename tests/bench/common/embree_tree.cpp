@@ -127,6 +127,13 @@ EmbreeTree::~EmbreeTree() {
   rtcReleaseDevice(device_);
 }
 
+bool EmbreeTree::takes_packets_of(int rays) const {
+  const RTCDeviceProperty property = rays == 16  ? RTC_DEVICE_PROPERTY_NATIVE_RAY16_SUPPORTED
+                                     : rays == 8 ? RTC_DEVICE_PROPERTY_NATIVE_RAY8_SUPPORTED
+                                                 : RTC_DEVICE_PROPERTY_NATIVE_RAY4_SUPPORTED;
+  return rtcGetDeviceProperty(device_, property) != 0;
+}
+
 void EmbreeTree::follow() {
   for (RTCGeometry mesh : moving_) {
     rtcUpdateGeometryBuffer(mesh, RTC_BUFFER_TYPE_VERTEX, 0);

@@ -59,6 +59,9 @@ public:
   /// After the vertices have moved.
   void follow();
   RTCScene get() const { return scene_; }
+  /// Whether packets of so many rays are traced as such. Embree takes wider ones for streams, which do not
+  /// know which rays are valid.
+  bool takes_packets_of(int rays) const;
   /// Triangle `prim` of Embree's geometry `geometry`.
   std::uint32_t id_of(unsigned geometry, unsigned prim) const { return ids_[first_[geometry] + prim]; }
 

@@ -38,7 +38,7 @@ const auto& code_of(const RayTileKernels& k, const RTCRay4&) {
 
 }  // namespace
 
-std::vector<PacketPlan> packet_plans() {
+std::vector<PacketPlan> packet_plans(const EmbreeTree& tree) {
   std::vector<PacketPlan> plans;
   for (const RayWay way : {RayWay::to_light, RayWay::from_light}) {
     plans.push_back({16, TileShape::square, way});
@@ -46,6 +46,7 @@ std::vector<PacketPlan> packet_plans() {
     plans.push_back({8, TileShape::square, way});
     plans.push_back({4, TileShape::square, way});
   }
+  std::erase_if(plans, [&](const PacketPlan& plan) { return !tree.takes_packets_of(plan.size); });
   return plans;
 }
 

@@ -11,12 +11,13 @@ namespace tenebra::bench {
 
 /// How a tile's rays are handed to Embree.
 struct PacketPlan {
-  int size = 16;  ///< rays a packet: 4, 8 or 16
+  int size = 4;  ///< rays a packet: 4, 8 or 16
   TileShape shape = TileShape::square;
   RayWay way = RayWay::to_light;  ///< of shadow rays
 };
-/// All that are worth trying: packets of 16 as 4x4 and 8x2, of 8 as 4x2, of 4 as 2x2, both ways each.
-std::vector<PacketPlan> packet_plans();
+/// All that are worth trying with a tree: packets of 16 as 4x4 and 8x2, of 8 as 4x2, of 4 as 2x2, both ways
+/// each; those that its device takes.
+std::vector<PacketPlan> packet_plans(const EmbreeTree& tree);
 std::string packet_plan_name(const PacketPlan& plan);  ///< "4x4 from" the light
 
 class PacketTracer {

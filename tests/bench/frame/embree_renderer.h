@@ -43,6 +43,7 @@ public:
   const base::Image8& image() const { return image_; }
   TreeKind kind() const { return kind_; }
   const PacketPlan& plan() const { return plan_; }
+  const EmbreeTree& tree() const { return *tree_; }
 
 private:
   struct Shares {

@@ -68,7 +68,7 @@ PacketPlan choose_plan(EmbreeRenderer& renderer) {
   PacketPlan best;
   double least = 0;
   for (int i = 0; i < tries; ++i) {
-    for (const PacketPlan& plan : packet_plans()) {
+    for (const PacketPlan& plan : packet_plans(renderer.tree())) {
       const double ms = renderer.retrace(plan);
       if (least > 0 && ms >= least) continue;
       least = ms;

@@ -37,12 +37,13 @@ protected:
     }
   }
 
-  void expect_masks(const EmbreeTree& tree, const PacketPlan& plan) const {
+  void expect_masks(const EmbreeTree& tree, const PacketPlan& plan,
+                    SimdLevel simd = SimdLevel::automatic) const {
     const BenchFrame& f = view_.frame;
     std::vector<ShadowMask> found(lights_.size());
-    trace_masks({f.points.triangles, size.width, size.height, f.view, f.triangles(), lights_, f.diagonal_m,
-                 SimdLevel::automatic},
-                tree, plan, found);
+    trace_masks(
+        {f.points.triangles, size.width, size.height, f.view, f.triangles(), lights_, f.diagonal_m, simd},
+        tree, plan, found);
     for (std::size_t i = 0; i < found.size(); ++i) {
       std::size_t differing = 0;
       for (std::size_t k = 0; k < found[i].size(); ++k) differing += found[i][k] != masks_[i][k] ? 1 : 0;
@@ -70,10 +71,16 @@ TEST_F(HardOpponent, FindsOurMasksByEveryTreeAfterAMove) {
   }
 }
 
-TEST_F(HardOpponent, FindsOurMasksByEveryPacket) {
+TEST_F(HardOpponent, FindsOurMasksByEveryPacketAtEveryVectorLevel) {
   const TreeVertices vertices(view_.frame.geometry.positions);
-  const EmbreeTree tree(vertices.data(), view_.frame.triangles(), {}, {.kind = TreeKind::medium});
-  for (const PacketPlan& plan : packet_plans()) expect_masks(tree, plan);
+  for (const SimdLevel level : {SimdLevel::scalar, SimdLevel::sse4, SimdLevel::avx2, SimdLevel::avx512}) {
+    if (!simd_level_supported(level)) continue;
+    SCOPED_TRACE(simd_level_name(level));
+    const EmbreeTree tree(vertices.data(), view_.frame.triangles(), {},
+                          {.kind = TreeKind::medium, .simd = level});
+    EXPECT_FALSE(packet_plans(tree).empty());
+    for (const PacketPlan& plan : packet_plans(tree)) expect_masks(tree, plan, level);
+  }
 }
 
 // What primary packets see is what a single ray sees, and what is known of it agrees with the ids.
@@ -83,7 +90,7 @@ TEST_F(HardOpponent, SeesWhatSingleRaysSee) {
   const EmbreeTree tree(vertices.data(), view_.frame.triangles(), {},
                         {.kind = TreeKind::medium, .only_casters = false});
   const std::vector<std::uint32_t>& expected = view_.frame.points.triangles;
-  for (const PacketPlan& plan : packet_plans()) {
+  for (const PacketPlan& plan : packet_plans(tree)) {
     const TileGrid grid(size.width, size.height, plan.shape);
     PacketTracer tracer(tree, plan, SimdLevel::automatic);
     std::vector<std::uint32_t> ids(expected.size(), 0);

@@ -115,7 +115,7 @@ std::vector<Entrant> Contest::choose(std::span<const TreeKind> kinds, bool moved
       build = i == 0 ? ms : std::min(build, ms);
     }
     trace(tree(kind), {});  // warms up
-    for (const PacketPlan& plan : packet_plans())
+    for (const PacketPlan& plan : packet_plans(tree(kind).embree))
       all.push_back({kind, plan, build, build + trace(tree(kind), plan)});
   }
   const double near = near_first * std::min_element(all.begin(), all.end(), faster)->least_ms;
