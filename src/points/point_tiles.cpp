@@ -34,6 +34,7 @@ public:
         width_(static_cast<std::uint32_t>(points.width)),
         height_(static_cast<std::uint32_t>(points.height)) {
     patch_.squares.clear(), patch_.receivers.clear(), patch_.mixed.clear();
+    receivers_.reserve(256);
     patch_.receiver_count = 0;
   }
 
@@ -58,9 +59,10 @@ private:
     return &points_.triangles[static_cast<std::size_t>(y) * width_ + x];
   }
   bool one_receiver(std::uint32_t x, std::uint32_t y) const;
-  void find_receivers(std::uint32_t x, std::uint32_t y, Seen& seen, PointTile& tile);
+  void find_receivers(std::uint32_t x, std::uint32_t y, Seen& seen);
   void see(const Seen& seen, glm::uvec2 at, TilePoints& points) const;
   void note_owners(const Seen& seen, int place, PointSquare& square) const;
+  void note_ids(const Seen& seen, PointTile& tile) const;
 
   const VisiblePoints& points_;
   const PixelRays rays_;
@@ -118,24 +120,21 @@ bool PatchMaker::one_receiver(std::uint32_t x, std::uint32_t y) const {
   return different == 0;
 }
 
-void PatchMaker::find_receivers(std::uint32_t x, std::uint32_t y, Seen& seen, PointTile& tile) {
+void PatchMaker::find_receivers(std::uint32_t x, std::uint32_t y, Seen& seen) {
   seen.one = one_receiver(x, y);
   if (seen.one) {
     const std::uint32_t id = *ids_at(x, y);
     const std::uint16_t number = receiver_of(id);
     seen.receiver.fill(number);
-    std::fill(std::begin(tile.id), std::end(tile.id), number == no_receiver ? no_triangle : id);
     seen.lanes = number == no_receiver ? 0 : 0xffffu;
     return;
   }
   seen.lanes = 0;
-  std::fill(std::begin(tile.id), std::end(tile.id), no_triangle);
   for (std::uint32_t row = 0; row < tile_side && y + row < height_; ++row) {
     for (std::uint32_t column = 0; column < tile_side && x + column < width_; ++column) {
       const std::uint32_t lane = tile_side * row + column, id = *ids_at(x + column, y + row);
       seen.receiver[lane] = receiver_of(id);
       if (seen.receiver[lane] == no_receiver) continue;
-      tile.id[lane] = id;
       seen.lanes |= 1u << lane;
     }
   }
@@ -154,6 +153,15 @@ void PatchMaker::note_owners(const Seen& seen, int place, PointSquare& square) c
     square.own[place] = no_triangle;
     square.receiver[place] = several_receivers;
     square.tau = std::max(square.tau, patch_.receivers[number / 16].tau[number % 16]);
+  }
+}
+
+void PatchMaker::note_ids(const Seen& seen, PointTile& tile) const {
+  std::fill(std::begin(tile.id), std::end(tile.id), no_triangle);
+  for (std::uint32_t left = seen.lanes; left != 0; left &= left - 1) {
+    const auto lane = static_cast<std::size_t>(std::countr_zero(left));
+    const std::uint16_t number = seen.receiver[lane];
+    tile.id[lane] = patch_.receivers[number / 16].id[number % 16];
   }
 }
 
@@ -193,7 +201,7 @@ void PatchMaker::add_square(std::uint32_t x, std::uint32_t y, std::uint32_t firs
     const std::uint32_t tile_x = x + t % 4 * tile_side, tile_y = y + t / 4 * tile_side;
     const int place = static_cast<int>(t);
     PointTile& tile = out_.tiles[first + t];
-    find_receivers(tile_x, tile_y, seen, tile);
+    find_receivers(tile_x, tile_y, seen);
     if (seen.lanes == 0) continue;
     see(seen, {tile_x, tile_y}, points);
     if (square.filled == 0) base = points.at(std::countr_zero(seen.lanes));
@@ -203,6 +211,7 @@ void PatchMaker::add_square(std::uint32_t x, std::uint32_t y, std::uint32_t firs
     kernels_.bound(tile, seen.lanes, place, square);
     note_owners(seen, place, square);
     if (square.receiver[t] != several_receivers) continue;
+    note_ids(seen, tile);
     patch_.mixed.push_back(seen.receiver);
     if (kernels_.beyond_gap(tile, seen.lanes) != 0) square.gaps |= 1u << t;
   }

@@ -31,7 +31,8 @@ struct PointBase {
 /// nothing, or a triangle edge-on, hold the q of another.
 struct alignas(64) PointTile {
   float qx[tile_points], qy[tile_points], qz[tile_points];
-  std::uint32_t id[tile_points];  ///< of the triangle that the point lies on; no_triangle: there is no point
+  std::uint32_t id[tile_points];  ///< where the square's receiver is several: of the triangle that the point
+                                  ///< lies on, or no_triangle
 };
 static_assert(sizeof(PointTile) == 256);
 

@@ -431,8 +431,8 @@ std::uint32_t RootDescent<Side>::blocked_lanes(std::uint32_t tile, std::uint32_t
   for (; open != 0; open &= open - 1) {
     const int lane = std::countr_zero(open);
     const std::size_t pixel = pixels_(tile, lane);
-    if (decide(planes, visible_position(d_.points, d_.triangles, pixel), d_.points.triangles[pixel],
-               d_.source, d_.triangles, d_.contact, stats_))
+    const glm::dvec3& at = scratch_.positions.at(d_.points, d_.triangles, tile, lane, pixel);
+    if (decide(planes, at, d_.points.triangles[pixel], d_.source, d_.triangles, d_.contact, stats_))
       blocked |= 1u << lane;
   }
   return blocked;

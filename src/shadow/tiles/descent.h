@@ -7,6 +7,7 @@
 #include <tenebra/frame_timings.h>
 #include <tenebra/hard_config.h>
 #include <tenebra/stop_flag.h>
+#include "shadow/tiles/position_cache.h"
 #include "shadow/tiles/ray_forest.h"
 #include "shadow/tiles/triangle_clusters.h"
 
@@ -45,6 +46,12 @@ struct alignas(64) ClusterPlanes {
 struct DescentScratch {
   ClusterPlanes planes;
   std::vector<std::uint32_t> edge_on;  ///< triangles that were found so, as often as they were
+  PositionCache positions;
+
+  void begin_trace() {
+    edge_on.clear();
+    positions.clear();
+  }
 };
 
 /// What a cluster's triangles do to the rays of one box. Bits of triangles.

@@ -41,7 +41,7 @@ void TileTracer::descend(const Descent& descent, SimdLevel simd, TraceStats& sta
   const DescentKernels kernels = descent_kernels(simd);
   const std::size_t roots = forest_.levels[ray_levels - 1].size();
   scratch_.resize(std::max(scratch_.size(), static_cast<std::size_t>(thread_count())));
-  for (DescentScratch& scratch : scratch_) scratch.edge_on.clear();
+  for (DescentScratch& scratch : scratch_) scratch.begin_trace();
   std::vector<TraceStats> parts(roots);
   order_roots(roots);
   parallel::parallel_in_order(static_cast<int>(roots), [&](int i) {
