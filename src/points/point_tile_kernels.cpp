@@ -56,14 +56,19 @@ SIMD_INLINE Receivers8 each(const Receiver* const* of) {
   return {vector(0), vector(1), vector(2), vector(3)};
 }
 
-/// Two rows of a tile, from pixel (x, y) on.
-SIMD_INLINE std::uint32_t see_eight(const Receivers8& r, const PixelRays& rays, glm::uvec2 at, double* x,
-                                    double* y, double* z) {
-  double px[8], py[8];
-  for (std::uint32_t i = 0; i < 8; ++i)
-    px[i] = static_cast<double>(at.x + i % tile_side) + 0.5,
-    py[i] = static_cast<double>(at.y + i / tile_side) + 0.5;
-  const Vector8 across = load<Double8>(px) * broadcast8(rays.dx) + load<Double8>(py) * broadcast8(rays.dy);
+/// Points of eight lanes, and the bits of those that lie inside of their triangles.
+struct Seen8 {
+  Vector8 p;
+  std::uint32_t inside;
+};
+
+/// Two rows of a tile, from pixel `at` on.
+SIMD_INLINE Seen8 see_eight(const Receivers8& r, const PixelRays& rays, glm::uvec2 at) {
+  alignas(64) static constexpr double column[8] = {0.5, 1.5, 2.5, 3.5, 0.5, 1.5, 2.5, 3.5},
+                                      row[8] = {0.5, 0.5, 0.5, 0.5, 1.5, 1.5, 1.5, 1.5};
+  const Double8 px = load<Double8>(column) + broadcast8(static_cast<double>(at.x)),
+                py = load<Double8>(row) + broadcast8(static_cast<double>(at.y));
+  const Vector8 across = px * broadcast8(rays.dx) + py * broadcast8(rays.dy);
   const Vector8 eye = broadcast8(rays.eye), d0 = broadcast8(rays.d0);
   const Vector8 origin = rays.orthographic ? eye + across : eye,
                 direction = rays.orthographic ? d0 : d0 + across;
@@ -71,9 +76,15 @@ SIMD_INLINE std::uint32_t see_eight(const Receivers8& r, const PixelRays& rays, 
   const Vector8 p = origin + t * direction, from = p - r.a;
   const Double8 u = dot_unfused(r.du, from), v = dot_unfused(r.dv, from);
   const Double8 zero = broadcast<Double8>(0.0), one = broadcast<Double8>(1.0);
-  store(p.x, x), store(p.y, y), store(p.z, z);
-  return bits(lt(zero, t) & lt(t, broadcast<Double8>(std::numeric_limits<double>::infinity())) & le(zero, u) &
-              le(zero, v) & le(u + v, one));
+  return {p, bits(lt(zero, t) & lt(t, broadcast<Double8>(std::numeric_limits<double>::infinity())) &
+                  le(zero, u) & le(zero, v) & le(u + v, one))};
+}
+
+SIMD_INLINE std::uint32_t see_eight(const Receivers8& r, const PixelRays& rays, glm::uvec2 at, double* x,
+                                    double* y, double* z) {
+  const Seen8 seen = see_eight(r, rays, at);
+  store(seen.p.x, x), store(seen.p.y, y), store(seen.p.z, z);
+  return seen.inside;
 }
 
 std::uint32_t see_one(const Receiver& receiver, const PixelRays& rays, glm::uvec2 at, TilePoints& out) {
@@ -135,21 +146,54 @@ std::uint32_t beyond_gap(const PointTile& tile, std::uint32_t lanes) {
   return 0;
 }
 
+SIMD_INLINE void set_bounds(const Vector16& q, int place, PointSquare& square) {
+  const Float16* const axes[3] = {&q.x, &q.y, &q.z};
+  for (int axis = 0; axis < 3; ++axis) {
+    square.low[axis][place] = reduce_min(*axes[axis]);
+    square.high[axis][place] = reduce_max(*axes[axis]);
+  }
+}
+
 void bound(const PointTile& tile, std::uint32_t lanes, int place, PointSquare& square) {
   const float* const q[3] = {tile.qx, tile.qy, tile.qz};
   const Mask<float, 16> there = mask_of_bits<float, 16>(lanes);
   const int first = std::countr_zero(lanes);
-  for (int axis = 0; axis < 3; ++axis) {
-    const Float16 all = select(there, load<Float16>(q[axis]), broadcast<Float16>(q[axis][first]));
-    square.low[axis][place] = reduce_min(all);
-    square.high[axis][place] = reduce_max(all);
-  }
+  const auto all = [&](int axis) HWY_ATTR {
+    return select(there, load<Float16>(q[axis]), broadcast<Float16>(q[axis][first]));
+  };
+  set_bounds({all(0), all(1), all(2)}, place, square);
+}
+
+/// Doubles as floats, rounded to nearest: eight and eight.
+SIMD_INLINE Float16 demoted(Double8 first, Double8 second) {
+  const Float8 low = simd::HWY_NAMESPACE::demoted(first), high = simd::HWY_NAMESPACE::demoted(second);
+  Float16 p;
+#if HWY_TARGET <= HWY_AVX3
+  p.r[0] = hwy::HWY_NAMESPACE::Combine(Float16::Tag(), high.r[0], low.r[0]);
+#else
+  for (int i = 0; i < low.registers; ++i) p.r[i] = low.r[i], p.r[i + low.registers] = high.r[i];
+#endif
+  return p;
+}
+
+float see_whole(const Receiver& receiver, const PixelRays& rays, glm::uvec2 at, const glm::vec3& base,
+                PointTile& tile, int place, PointSquare& square) {
+  if (receiver.flat) return -1;
+  const Receivers8 r = alike(receiver);
+  const Seen8 upper = see_eight(r, rays, at), lower = see_eight(r, rays, at + glm::uvec2(0, 2));
+  if ((upper.inside & lower.inside) != 0xffu) return -1;
+  const Vector8 centre = broadcast8(glm::dvec3(base));
+  const Vector8 high = upper.p - centre, low = lower.p - centre;
+  const Vector16 q{demoted(high.x, low.x), demoted(high.y, low.y), demoted(high.z, low.z)};
+  store(q.x, tile.qx), store(q.y, tile.qy), store(q.z, tile.qz);
+  set_bounds(q, place, square);
+  return radius_of(q);
 }
 
 }  // namespace
 
 PointTileKernels point_tile_kernels() {
-  return {see_one, see_several, fill, beyond_gap, bound};
+  return {see_whole, see_one, see_several, fill, beyond_gap, bound};
 }
 
 }  // namespace tenebra::points::HWY_NAMESPACE

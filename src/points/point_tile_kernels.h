@@ -21,6 +21,10 @@ struct alignas(64) TilePoints {
 
 /// Code for one instruction set.
 struct PointTileKernels {
+  /// The tile whose first pixel is `at`, all points of which lie on one triangle: q, its box as that of tile
+  /// `place` of the square, and the radius. Below zero: nothing is said, as not all lie inside of it.
+  float (*see_whole)(const Receiver& receiver, const PixelRays& rays, glm::uvec2 at, const glm::vec3& base,
+                     PointTile& tile, int place, PointSquare& square) = nullptr;
   /// Points of the tile whose first pixel is `at`, all on one triangle or each on its own. Returns the bits
   /// of those that lie inside of their triangles; the others are left to PixelRays::point_on. The operations
   /// of the scalar code in the same order, so the same bits.

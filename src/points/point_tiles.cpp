@@ -24,8 +24,10 @@ constexpr std::uint16_t no_receiver = 0xfffeu;  // none, or one edge-on to the e
 /// Makes one patch.
 class PatchMaker {
 public:
-  PatchMaker(const VisiblePoints& points, const TriangleView& triangles, PointTiles& out, PointPatch& patch)
+  PatchMaker(const VisiblePoints& points, bool from_view, const TriangleView& triangles, PointTiles& out,
+             PointPatch& patch)
       : points_(points),
+        from_view_(from_view),
         rays_(points.view),
         triangles_(triangles),
         out_(out),
@@ -65,13 +67,15 @@ private:
   void note_ids(const Seen& seen, PointTile& tile) const;
 
   const VisiblePoints& points_;
+  const bool from_view_;  ///< else from positions
   const PixelRays rays_;
   const TriangleView& triangles_;
   PointTiles& out_;
   PointPatch& patch_;
   const PointTileKernels kernels_;
   const std::uint32_t width_, height_;
-  std::vector<Receiver> receivers_;  // by their numbers, where points have no positions
+  std::vector<Receiver> receivers_;  // by their numbers; from_view only
+  Known last_;
   std::array<Known, 4096> known_{};  // of the triangles that pixels nearby lie on
 };
 
@@ -97,14 +101,16 @@ std::uint16_t PatchMaker::add_receiver(std::uint32_t id) {
   block.tau[i] = std::nextafter(static_cast<float>(rounding_tolerance(c.v)), INFINITY);
   block.id[i] = id;
   block.side[i] = static_cast<std::int8_t>(side);
-  if (points_.positions.empty()) receivers_.push_back(points::receiver_of(triangles_, id));
+  if (from_view_) receivers_.push_back(points::receiver_of(triangles_, id));
   return static_cast<std::uint16_t>(number);
 }
 
 std::uint16_t PatchMaker::receiver_of(std::uint32_t id) {
   if (id >= triangles_.triangles.size()) return no_receiver;
+  if (last_.id == id) return last_.number;
   Known& known = known_[id % known_.size()];
   if (known.id != id) known = {id, add_receiver(id)};
+  last_ = known;
   return known.number;
 }
 
@@ -168,7 +174,7 @@ void PatchMaker::note_ids(const Seen& seen, PointTile& tile) const {
 /// The points of the tile's lanes (there are some); the others are undefined.
 void PatchMaker::see(const Seen& seen, glm::uvec2 at, TilePoints& points) const {
   const auto pixel_of = [&](int lane) { return at + glm::uvec2(lane % tile_side, lane / tile_side); };
-  if (!points_.positions.empty()) {
+  if (!from_view_) {
     for (std::uint32_t left = seen.lanes; left != 0; left &= left - 1) {
       const int lane = std::countr_zero(left);
       const glm::uvec2 pixel = pixel_of(lane);
@@ -178,7 +184,8 @@ void PatchMaker::see(const Seen& seen, glm::uvec2 at, TilePoints& points) const 
   }
   const int first = std::countr_zero(seen.lanes);
   const Receiver* of[tile_points];
-  for (int lane = 0; lane < tile_points; ++lane) {
+  of[0] = &receivers_[seen.receiver[static_cast<std::size_t>(first)]];
+  for (int lane = 0; !seen.one && lane < tile_points; ++lane) {
     const bool there = ((seen.lanes >> lane) & 1u) != 0;
     of[lane] = &receivers_[seen.receiver[static_cast<std::size_t>(there ? lane : first)]];
   }
@@ -187,12 +194,12 @@ void PatchMaker::see(const Seen& seen, glm::uvec2 at, TilePoints& points) const 
   for (std::uint32_t left = seen.lanes & ~inside; left != 0; left &= left - 1) {
     const int lane = std::countr_zero(left);
     const glm::uvec2 pixel = pixel_of(lane);
-    points.set(lane, rays_.point_on(*of[lane], pixel.x, pixel.y));
+    points.set(lane, rays_.point_on(*of[seen.one ? 0 : lane], pixel.x, pixel.y));
   }
 }
 
 void PatchMaker::add_square(std::uint32_t x, std::uint32_t y, std::uint32_t first) {
-  PointSquare square{};
+  PointSquare& square = patch_.squares.emplace_back();
   square.first_tile = first;
   glm::vec3 base(0.0f);
   Seen seen;
@@ -203,25 +210,31 @@ void PatchMaker::add_square(std::uint32_t x, std::uint32_t y, std::uint32_t firs
     PointTile& tile = out_.tiles[first + t];
     find_receivers(tile_x, tile_y, seen);
     if (seen.lanes == 0) continue;
-    see(seen, {tile_x, tile_y}, points);
-    if (square.filled == 0) base = points.at(std::countr_zero(seen.lanes));
+    float radius = -1;
+    if (from_view_ && seen.one && square.filled != 0)
+      radius = kernels_.see_whole(receivers_[seen.receiver[0]], rays_, {tile_x, tile_y}, base, tile, place,
+                                  square);
+    if (radius < 0) {
+      see(seen, {tile_x, tile_y}, points);
+      if (square.filled == 0) base = points.at(std::countr_zero(seen.lanes));
+      radius = kernels_.fill(points, base, seen.lanes, tile);
+      kernels_.bound(tile, seen.lanes, place, square);
+    }
     square.filled |= 1u << t;
     square.lanes[t] = static_cast<std::uint16_t>(seen.lanes);
-    square.base.radius = std::max(square.base.radius, kernels_.fill(points, base, seen.lanes, tile));
-    kernels_.bound(tile, seen.lanes, place, square);
+    square.base.radius = std::max(square.base.radius, radius);
     note_owners(seen, place, square);
     if (square.receiver[t] != several_receivers) continue;
     note_ids(seen, tile);
     patch_.mixed.push_back(seen.receiver);
     if (kernels_.beyond_gap(tile, seen.lanes) != 0) square.gaps |= 1u << t;
   }
-  if (square.filled == 0) return;
+  if (square.filled == 0) return patch_.squares.pop_back();
   // What leaves the range of floats is for others to look at (not NaN: max takes what is finite).
   const bool finite = std::isfinite(base.x) && std::isfinite(base.y) && std::isfinite(base.z);
   if (!finite) square.base.radius = std::numeric_limits<float>::infinity();
   for (int k = 0; k < 3; ++k) square.base.at[k] = base[k];
   out_.bases[first / 16] = square.base;
-  patch_.squares.push_back(square);
 }
 
 }  // namespace
@@ -234,10 +247,10 @@ void begin_point_tiles(int width, int height, const ViewRays& view, PointTiles& 
   out.view = view;
 }
 
-void make_point_patch(const VisiblePoints& points, const TriangleView& triangles, std::uint32_t patch,
-                      PointTiles& out) {
+void make_point_patch(const VisiblePoints& points, bool from_view, const TriangleView& triangles,
+                      std::uint32_t patch, PointTiles& out) {
   const SquareGrid grid(points.width, points.height);
-  const auto maker = std::make_unique<PatchMaker>(points, triangles, out, out.patches[patch]);
+  const auto maker = std::make_unique<PatchMaker>(points, from_view, triangles, out, out.patches[patch]);
   const std::uint32_t row = patch / grid.row_patches, first = patch % grid.row_patches * patch_squares;
   for (std::uint32_t column = first; column < std::min(first + patch_squares, grid.columns); ++column)
     maker->add_square(column * square_side, row * square_side, (row * grid.columns + column) * 16);
@@ -247,7 +260,7 @@ void make_point_tiles(const VisiblePoints& points, const ViewRays& view, const T
                       PointTiles& out) {
   begin_point_tiles(points.width, points.height, view, out);
   parallel::parallel_tasks(static_cast<int>(out.patches.size()), [&](int patch) {
-    make_point_patch(points, triangles, static_cast<std::uint32_t>(patch), out);
+    make_point_patch(points, points.positions.empty(), triangles, static_cast<std::uint32_t>(patch), out);
   });
 }
 
