@@ -104,6 +104,14 @@ std::uint32_t see_several(const Receiver* const of[tile_points], const PixelRays
   return (upper | lower << 8) & ~flat;
 }
 
+void take(const glm::dvec3* first, std::size_t width, TilePoints& out) {
+  for (int row = 0; row < tile_side; ++row, first += width) {
+    const Pack3<Double4> p = load3<Double4>(&first->x);
+    const int lane = tile_side * row;
+    store(p.x, out.x + lane), store(p.y, out.y + lane), store(p.z, out.z + lane);
+  }
+}
+
 float fill(const TilePoints& points, const glm::vec3& base, std::uint32_t lanes, PointTile& tile) {
   const Pack3<Double4> centre = broadcast3<Double4>(static_cast<double>(base.x), static_cast<double>(base.y),
                                                     static_cast<double>(base.z));
@@ -193,7 +201,7 @@ float see_whole(const Receiver& receiver, const PixelRays& rays, glm::uvec2 at, 
 }  // namespace
 
 PointTileKernels point_tile_kernels() {
-  return {see_whole, see_one, see_several, fill, beyond_gap, bound};
+  return {see_whole, see_one, see_several, take, fill, beyond_gap, bound};
 }
 
 }  // namespace tenebra::points::HWY_NAMESPACE

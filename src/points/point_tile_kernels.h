@@ -32,6 +32,8 @@ struct PointTileKernels {
                            TilePoints& out) = nullptr;
   std::uint32_t (*see_several)(const Receiver* const of[tile_points], const PixelRays& rays, glm::uvec2 at,
                                TilePoints& out) = nullptr;
+  /// Points from four rows of positions, `width` apart.
+  void (*take)(const glm::dvec3* first, std::size_t width, TilePoints& out) = nullptr;
   /// q from the points of the lanes in `lanes` (not 0). Returns a radius: >= |q| of all.
   float (*fill)(const TilePoints& points, const glm::vec3& base, std::uint32_t lanes,
                 PointTile& tile) = nullptr;

@@ -24,10 +24,9 @@ constexpr std::uint16_t no_receiver = 0xfffeu;  // none, or one edge-on to the e
 /// Makes one patch.
 class PatchMaker {
 public:
-  PatchMaker(const VisiblePoints& points, bool from_view, const TriangleView& triangles, PointTiles& out,
-             PointPatch& patch)
+  PatchMaker(const VisiblePoints& points, const TriangleView& triangles, PointTiles& out, PointPatch& patch)
       : points_(points),
-        from_view_(from_view),
+        from_view_(points.positions.empty()),
         rays_(points.view),
         triangles_(triangles),
         out_(out),
@@ -175,10 +174,12 @@ void PatchMaker::note_ids(const Seen& seen, PointTile& tile) const {
 void PatchMaker::see(const Seen& seen, glm::uvec2 at, TilePoints& points) const {
   const auto pixel_of = [&](int lane) { return at + glm::uvec2(lane % tile_side, lane / tile_side); };
   if (!from_view_) {
+    const dvec3* const from = &points_.positions[std::size_t{at.y} * width_ + at.x];
+    if (at.x + tile_side <= width_ && at.y + tile_side <= height_) return kernels_.take(from, width_, points);
     for (std::uint32_t left = seen.lanes; left != 0; left &= left - 1) {
       const int lane = std::countr_zero(left);
-      const glm::uvec2 pixel = pixel_of(lane);
-      points.set(lane, points_.positions[std::size_t{pixel.y} * width_ + pixel.x]);
+      points.set(lane, from[static_cast<std::size_t>(lane / tile_side) * width_ +
+                            static_cast<std::size_t>(lane % tile_side)]);
     }
     return;
   }
@@ -247,10 +248,10 @@ void begin_point_tiles(int width, int height, const ViewRays& view, PointTiles& 
   out.view = view;
 }
 
-void make_point_patch(const VisiblePoints& points, bool from_view, const TriangleView& triangles,
-                      std::uint32_t patch, PointTiles& out) {
+void make_point_patch(const VisiblePoints& points, const TriangleView& triangles, std::uint32_t patch,
+                      PointTiles& out) {
   const SquareGrid grid(points.width, points.height);
-  const auto maker = std::make_unique<PatchMaker>(points, from_view, triangles, out, out.patches[patch]);
+  const auto maker = std::make_unique<PatchMaker>(points, triangles, out, out.patches[patch]);
   const std::uint32_t row = patch / grid.row_patches, first = patch % grid.row_patches * patch_squares;
   for (std::uint32_t column = first; column < std::min(first + patch_squares, grid.columns); ++column)
     maker->add_square(column * square_side, row * square_side, (row * grid.columns + column) * 16);
@@ -260,7 +261,7 @@ void make_point_tiles(const VisiblePoints& points, const ViewRays& view, const T
                       PointTiles& out) {
   begin_point_tiles(points.width, points.height, view, out);
   parallel::parallel_tasks(static_cast<int>(out.patches.size()), [&](int patch) {
-    make_point_patch(points, points.positions.empty(), triangles, static_cast<std::uint32_t>(patch), out);
+    make_point_patch(points, triangles, static_cast<std::uint32_t>(patch), out);
   });
 }
 

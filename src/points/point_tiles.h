@@ -110,9 +110,9 @@ private:
 /// Makes room for the tiles of a picture; patches are then made one by one, in any order.
 void begin_point_tiles(int width, int height, const ViewRays& view, PointTiles& out);
 /// Makes patch `patch` (row of squares * row_patches + part of the row) of points whose ids are there, from
-/// what their view sees (as compute_visible_points does: the same bits) or from their positions.
-void make_point_patch(const VisiblePoints& points, bool from_view, const TriangleView& triangles,
-                      std::uint32_t patch, PointTiles& out);
+/// their positions or, where they have none, from their view: the same bits both ways.
+void make_point_patch(const VisiblePoints& points, const TriangleView& triangles, std::uint32_t patch,
+                      PointTiles& out);
 /// All of it. `view`: the eye that saw the points.
 void make_point_tiles(const VisiblePoints& points, const ViewRays& view, const TriangleView& triangles,
                       PointTiles& out);

@@ -77,7 +77,7 @@ void compute_visible_points(std::span<const std::uint32_t> ids, int width, int h
   if (tiled) points::begin_point_tiles(width, height, view, *out.tiles);
   const points::SquareGrid grid(width, height);
   const auto columns = static_cast<std::size_t>(width);
-  // Tiles are made of ids that are still near.
+  // Tiles are made of ids and positions that are still near.
   parallel::parallel_tasks(static_cast<int>(grid.rows), [&](int band) {
     const auto row = static_cast<std::uint32_t>(band);
     const std::size_t top = row * points::square_side,
@@ -89,7 +89,7 @@ void compute_visible_points(std::span<const std::uint32_t> ids, int width, int h
       copy_ids(ids, top * columns, end * columns, triangles.triangles.size(), out);
     }
     for (std::uint32_t part = 0; tiled && part < grid.row_patches; ++part)
-      points::make_point_patch(out, true, triangles, row * grid.row_patches + part, *out.tiles);
+      points::make_point_patch(out, triangles, row * grid.row_patches + part, *out.tiles);
   });
 }
 
