@@ -4,6 +4,7 @@
 #define HWY_TARGET_INCLUDE "points/point_tile_kernels.cpp"
 #include <hwy/foreach_target.h>
 // After foreach_target.h
+#include "simd/demote16-inl.h"
 #include "simd/dispatch.h"
 #include "simd/double8-inl.h"
 #include "simd/pack-inl.h"
@@ -170,18 +171,6 @@ void bound(const PointTile& tile, std::uint32_t lanes, int place, PointSquare& s
     return select(there, load<Float16>(q[axis]), broadcast<Float16>(q[axis][first]));
   };
   set_bounds({all(0), all(1), all(2)}, place, square);
-}
-
-/// Doubles as floats, rounded to nearest: eight and eight.
-SIMD_INLINE Float16 demoted(Double8 first, Double8 second) {
-  const Float8 low = simd::HWY_NAMESPACE::demoted(first), high = simd::HWY_NAMESPACE::demoted(second);
-  Float16 p;
-#if HWY_TARGET <= HWY_AVX3
-  p.r[0] = hwy::HWY_NAMESPACE::Combine(Float16::Tag(), high.r[0], low.r[0]);
-#else
-  for (int i = 0; i < low.registers; ++i) p.r[i] = low.r[i], p.r[i + low.registers] = high.r[i];
-#endif
-  return p;
 }
 
 float see_whole(const Receiver& receiver, const PixelRays& rays, glm::uvec2 at, const glm::vec3& base,
