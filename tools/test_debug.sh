@@ -5,10 +5,12 @@
 set -euo pipefail
 cd "$(dirname "$0")/.."
 
-folders=(base math points scene texture cutout shadow soft tint ao shade)
+folders=(base math parallel points scene texture cutout visibility shadow soft tint ao shade)
 # Those that take many seconds each: exact answers for whole masks, catalogues, soups, whole frames.
 slow='ShadowMask\.|NodeTests|SoftCatalogue|SoftCloud|Oracle|Exact|EverySoup|StaysWholeWhenKilled|SoftMetamorphic'
-slow+='|^Bart|SoftPackets|ShaftFrames|NeverLeaveOut|HandOver|AreaIsThatOf|Tiles\.AreTheSame'
+slow+='|^Bart|SoftPackets|ShaftFrames|NeverLeaveOut|HandOver|AreaIsThatOf|Tiles\.AreTheSame|Tiles\.WorkOut'
+slow+='|DistantFaceBounds|OfHundredsOfEdges|NearlyCoincide|SheetsOf|GivesWhatClipping|FieldAccuracy|FindsABall'
+slow+='|AmbientOcclusion\.(SameBits|BothLayouts|DoesNotDepend|HalfTheResolution|AtVertices)'
 cmake --preset debug -DTENEBRA_TESTS=ON -DCMAKE_COMPILE_WARNING_AS_ERROR=ON > /dev/null
 cmake --build --preset debug --target "${folders[@]/#/tests_}"
 labels=$(IFS='|'; echo "${folders[*]}")
