@@ -20,11 +20,9 @@ constexpr int visible_step = 16;  // of 255: where pictures count as different
 class OurRenderer {
 public:
   static Expected<OurRenderer> create(const FrameTask& task) {
-    auto context = gl::Context::create(gl::ContextKind::automatic);
-    if (!context) return tl::unexpected(context.error());
-    auto renderer = render::Renderer::create(std::move(*context), task.scene);
-    if (!renderer) return tl::unexpected(renderer.error());
-    return OurRenderer(task, std::move(*renderer));
+    auto raster = render::FrameRaster::create(render::RasterChoice{});  // as tenebra render chooses
+    if (!raster) return tl::unexpected(raster.error());
+    return OurRenderer(task, render::Renderer::create(std::move(*raster), task.scene));
   }
 
   Expected<TenebraFrameTimes> draw(int frame) {
