@@ -58,8 +58,9 @@ void expect_memory_stands_still(const char* file, const render::RenderSettings& 
   ASSERT_TRUE(renderer) << renderer.error().message;
   Loop loop(*scene, settings);
   loop.draw(*renderer, 20);  // buffers reach their sizes, threads and shaders are there
-  // A leak grows with every round; what a thread touches late (stack, libraries, scratch for the heaviest task,
-  // which on a busy machine it may be given only now) comes once: of 72 rounds beside others 13 took pages.
+  // A leak grows with every round; what a thread touches late (stack, libraries, scratch for the heaviest
+  // task, which on a busy machine it may be given only now) comes once: of 72 rounds beside others 13 took
+  // pages.
   std::int64_t least_growth = INT64_MAX;
   for (int round = 0; round < 12 && least_growth > 0; ++round) {
     const std::int64_t warm = resident_bytes();
