@@ -291,7 +291,7 @@ std::vector<std::string> triangles_of(const Scene& scene) {
 
 TEST_P(ExportLooksOfScenes, ComeBack) {
   const fs::path file = fs::path(TENEBRA_SHARED_DIR) / "scenes" / GetParam();
-  if (!fs::exists(file)) GTEST_SKIP() << "No scenes here: " << file;
+  if (!fs::exists(file)) GTEST_SKIP() << "The scenes are not at " << file << ".";
   const auto scene = formats::import_scene(file);
   ASSERT_TRUE(scene.has_value()) << scene.error().message;
   const RoundTrip trip = clean_round_trip(*scene);

@@ -64,7 +64,7 @@ protected:
 };
 
 TEST_P(ExportScenes, ComeBackWhole) {
-  if (!fs::exists(path())) GTEST_SKIP() << "No scene here: " << path();
+  if (!fs::exists(path())) GTEST_SKIP() << "The scene is not at " << path() << ".";
   const auto scene = formats::import_scene(path());
   ASSERT_TRUE(scene.has_value()) << scene.error().message;
   const testing::TemporaryFolder folder;
@@ -119,7 +119,7 @@ INSTANTIATE_TEST_SUITE_P(Whole, ExportScenes,
 
 TEST(ExportSecondReader, AcceptsTheSharedGltfFiles) {
   const fs::path shared = fs::path(TENEBRA_SHARED_DIR) / "scenes/extra/gltf";
-  if (!fs::exists(shared)) GTEST_SKIP() << "No scenes here: " << shared;
+  if (!fs::exists(shared)) GTEST_SKIP() << "The scenes are not at " << shared << ".";
   const testing::TemporaryFolder folder;
   for (const char* name : {"BoxAnimated.glb", "CesiumMan.glb", "AnimatedMorphCube.glb", "Fox.glb",
                            "HotelRoom.glb", "khronos_blender_io_03_all_animations/03_all_animations.gltf"}) {

@@ -430,21 +430,7 @@ TEST(ShadowMaskSun, IsTheSameForThreadsAndInstructionSets) {
   for (const dvec3 direction : {dvec3(0.3, 1, 0.2), dvec3(-1, 0.01, 0), dvec3(0, 1, 0)}) {
     c.light = sun(direction);
     const ShadowMask expected = oracle(c);
-    std::uint64_t nodes = 0, leaf_tests = 0;
-    for (const SimdLevel level : levels) {
-      if (!simd_level_supported(level)) continue;
-      c.config.simd = level;
-      for (const int threads : {1, 3, 16}) {
-        ShadowTracer tracer;
-        with_threads(threads, [&] { EXPECT_TRUE(same_mask(c, traced(c, tracer), expected)) << threads; });
-        if (threads > 1) {
-          EXPECT_EQ(tracer.stats().nodes, nodes);
-          EXPECT_EQ(tracer.stats().leaf_tests, leaf_tests);
-        }
-        nodes = tracer.stats().nodes, leaf_tests = tracer.stats().leaf_tests;
-      }
-    }
-    c.config.simd = SimdLevel::automatic;
+    expect_same_at_levels_and_threads(c, expected);
     c.config.variant = Variant::precise_sorted;
     EXPECT_TRUE(same_mask(c, traced(c), expected));
     c.config.variant = Variant::tiles;

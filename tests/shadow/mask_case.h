@@ -145,4 +145,23 @@ inline ShadowLight sun(glm::dvec3 to_light) {
   return light;
 }
 
+/// The same mask at every vector level and for any number of threads, which do the same work.
+inline void expect_same_at_levels_and_threads(MaskCase c, const ShadowMask& expected) {
+  std::uint64_t nodes = 0, leaf_tests = 0;
+  for (const SimdLevel level :
+       {SimdLevel::scalar, SimdLevel::sse4, SimdLevel::avx2, SimdLevel::avx512, SimdLevel::automatic}) {
+    if (!simd_level_supported(level)) continue;
+    c.config.simd = level;
+    for (const int threads : {1, 3, 16}) {
+      ShadowTracer tracer;
+      with_threads(threads, [&] { EXPECT_TRUE(same_mask(c, traced(c, tracer), expected)) << threads; });
+      if (threads > 1) {
+        EXPECT_EQ(tracer.stats().nodes, nodes);
+        EXPECT_EQ(tracer.stats().leaf_tests, leaf_tests);
+      }
+      nodes = tracer.stats().nodes, leaf_tests = tracer.stats().leaf_tests;
+    }
+  }
+}
+
 }  // namespace tenebra::testing

@@ -75,23 +75,8 @@ TEST(Tiles, TakeTheCallersWordThatNothingMoved) {
 }
 
 TEST(Tiles, AreTheSameForThreadsAndInstructionSets) {
-  MaskCase c = room_case(74, 333, 211);
-  const ShadowMask expected = oracle(c);
-  std::uint64_t nodes = 0, leaf_tests = 0;
-  for (const SimdLevel level :
-       {SimdLevel::scalar, SimdLevel::sse4, SimdLevel::avx2, SimdLevel::avx512, SimdLevel::automatic}) {
-    if (!simd_level_supported(level)) continue;
-    c.config.simd = level;
-    for (const int threads : {1, 3, 16}) {
-      ShadowTracer tracer;
-      with_threads(threads, [&] { EXPECT_TRUE(same_mask(c, traced(c, tracer), expected)) << threads; });
-      if (threads > 1) {
-        EXPECT_EQ(tracer.stats().nodes, nodes);
-        EXPECT_EQ(tracer.stats().leaf_tests, leaf_tests);
-      }
-      nodes = tracer.stats().nodes, leaf_tests = tracer.stats().leaf_tests;
-    }
-  }
+  const MaskCase c = room_case(74, 333, 211);
+  expect_same_at_levels_and_threads(c, oracle(c));
 }
 
 TEST(Tiles, ReadPointsThatComeInTiles) {
