@@ -199,9 +199,8 @@ Expected<void> Renderer::State::shade_pixels(const FrameInput& input, const std:
                                  environment ? &*environment : nullptr};
   shade::PixelSamples pixels{seen.width, seen.height, seen.ids, factors, {}};
   if (settings.ao.mode != AoMode::none) pixels.openness = openness;
-  with_threads(settings.threads, [&] {
-    shade::shade_picture(subject, lighting, pixels, settings.exposure, scene.transfer, result.image);
-  });
+  with_threads(settings.threads,
+               [&] { shade::shade_picture(subject, lighting, pixels, display_of(settings), result.image); });
   return draw_see_through(input, lights, subject, lighting, pixels, settings, result, stop);
 }
 

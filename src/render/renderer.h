@@ -17,6 +17,7 @@
 #include <tenebra/tint.h>
 #include "base/image.h"
 #include "render/frame_raster.h"
+#include "shade/display.h"
 
 namespace tenebra::render {
 
@@ -50,9 +51,10 @@ struct RenderSettings {
   SeeThrough see_through =
       SeeThrough::tint;  ///< what see-through surfaces do to light; they are drawn anyway
   AoConfig ao;
-  int light = -1;            ///< index into the frame's lights; -1: all
-  int threads = 0;           ///< 0: all cores
-  float exposure = 1.0f;     ///< factor of colour before it is clamped
+  int light = -1;         ///< index into the frame's lights; -1: all
+  int threads = 0;        ///< 0: all cores
+  float exposure = 1.0f;  ///< factor of linear colour, before the tone
+  shade::Tone tone = shade::Tone::none;
   bool diagnostics = false;  ///< fill LightMask::nodes; the picture is the same
 };
 

@@ -80,6 +80,9 @@ struct Renderer::State {
                                   FrameResult& result, const StopFlag* stop);
   /// `input`, or a copy whose see-through surfaces cast as the settings say.
   const FrameInput& cast_as(SeeThrough see_through, const FrameInput& input);
+  shade::Display display_of(const RenderSettings& settings) const {
+    return {settings.exposure, settings.tone, scene.transfer};
+  }
   /// The picture, from all of the above.
   Expected<void> shade_pixels(const FrameInput& input, const std::vector<DrawnLight>& lights,
                               const RenderSettings& settings, FrameResult& result, const StopFlag* stop);

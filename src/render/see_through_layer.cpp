@@ -4,7 +4,6 @@
 
 #include "parallel/parallel.h"
 #include "points/triangle_corners.h"
-#include "shade/encoder.h"
 #include "texture/transmittance.h"
 #include "tint/surfaces.h"
 
@@ -122,7 +121,6 @@ void draw_layer(const LayerPicture& picture, base::Image8& out) {
   const auto before =
       shaded(picture, picture.layer.ids, picture.layer.factors(), picture.layer.openness, pixels);
   const TriangleView triangles = triangle_view(picture.subject.geometry);
-  const shade::LevelTable& table = shade::level_table(picture.transfer);
   parallel::parallel_ranges(pixels.size(), 1024, [&](std::size_t first, std::size_t last) {
     for (std::size_t i = first; i < last; ++i) {
       const std::uint32_t pixel = pixels[i], id = picture.layer.points.triangles[pixel];
@@ -133,9 +131,7 @@ void draw_layer(const LayerPicture& picture, base::Image8& out) {
         color += before[i].color *
                  texture::shown_share(*picture.surfaces.scene, place.material, place.uv, place.vertex);
       }
-      for (int c = 0; c < 3; ++c)
-        out.pixels[3 * std::size_t{pixel} + static_cast<std::size_t>(c)] =
-            shade::encode(table, picture.exposure * color[c]);
+      encode_shown(picture.display, shown(picture.display, color), &out.pixels[3 * std::size_t{pixel}]);
     }
   });
 }

@@ -50,8 +50,7 @@ struct LayerPicture {
   const LayerSamples& layer;
   const SeeThroughSurfaces& surfaces;
   const TintMask& passes;
-  float exposure = 1;
-  Transfer transfer = Transfer::srgb;
+  shade::Display display;
 };
 void draw_layer(const LayerPicture& picture, base::Image8& out);
 

@@ -9,6 +9,7 @@ static_assert(std::endian::native == std::endian::little);
 #define HWY_TARGET_INCLUDE "shade/kernels.cpp"
 #include <hwy/foreach_target.h>
 // After foreach_target.h
+#include "shade/display-inl.h"
 #include "shade/gloss-inl.h"
 #include "shade/panorama-inl.h"
 #include "shade/resolve-inl.h"
@@ -146,21 +147,22 @@ void light(const LightTerms& terms, const float* factor, SampleBlock& b) {
   }
 }
 
-/// Levels of sixteen values.
+void show(const Display& display, SampleBlock& b) {
+  for (std::size_t i = 0; i < b.count; i += 16) store3(shown(display, load3(b.color, i)), b.color, i);
+}
+
+/// Levels of sixteen values from 0 to 1.
 Int16 levels(const LevelTable& table, Float16 value) {
-  // Clamped so that NaN gives 0.
-  const Float16 zero = broadcast<Float16>(0.0f);
-  const Float16 clamped = select(lt(zero, value), min(value, broadcast<Float16>(1.0f)), zero);
-  const Int16 bucket = shift_right<LevelTable::shift>(bits_of(clamped)) - broadcast<Int16>(table.first);
+  const Int16 bucket = shift_right<LevelTable::shift>(bits_of(value)) - broadcast<Int16>(table.first);
   const Int16 place = shift_left<2>(max(bucket, broadcast<Int16>(0)));
   const Float16 threshold = gather<float>(table.threshold.data(), place);
   const Int16 level = gather<std::int32_t>(table.level.data(), place);
-  return select(le(threshold, clamped), level + broadcast<Int16>(1), level);
+  return select(le(threshold, value), level + broadcast<Int16>(1), level);
 }
 
-void encode_block(const LevelTable& table, float exposure, const SampleBlock& b, std::uint8_t* rgb) {
+void encode_block(const LevelTable& table, const Display& display, const SampleBlock& b, std::uint8_t* rgb) {
   for (std::size_t i = 0; i < b.count; i += 16) {
-    const Vector16 color = broadcast<Float16>(exposure) * load3(b.color, i);
+    const Vector16 color = shown(display, load3(b.color, i));
     std::int32_t level[16];
     store(levels(table, color.x) | shift_left<8>(levels(table, color.y)) |
               shift_left<16>(levels(table, color.z)),
@@ -180,8 +182,8 @@ void encode_block(const LevelTable& table, float exposure, const SampleBlock& b,
 }  // namespace
 
 Kernels kernels() {
-  return {place,   cover, locate,   blend, resolve, nullptr,     look,
-          reflect, see,   surround, begin, light,   encode_block};
+  return {place,   cover, locate,   blend, resolve, nullptr, look,
+          reflect, see,   surround, begin, light,   show,    encode_block};
 }
 
 }  // namespace tenebra::shade::HWY_NAMESPACE

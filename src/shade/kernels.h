@@ -2,6 +2,7 @@
 #pragma once
 
 #include <tenebra/simd_level.h>
+#include "shade/display.h"
 #include "shade/encoder.h"
 #include "shade/light_terms.h"
 #include "shade/panorama.h"
@@ -59,8 +60,10 @@ struct Kernels {
   void (*begin)(const float* openness, SampleBlock& block) = nullptr;
   /// Adds a light; `factor`: one for each sample, or null: 1.
   void (*light)(const LightTerms& terms, const float* factor, SampleBlock& block) = nullptr;
-  /// color * exposure as levels, three for each sample.
-  void (*encode)(const LevelTable& table, float exposure, const SampleBlock& block,
+  /// color as it is shown (shade/display.h), 0 to 1.
+  void (*show)(const Display& display, SampleBlock& block) = nullptr;
+  /// What is shown of color as levels, three for each sample; `table`: of display.transfer.
+  void (*encode)(const LevelTable& table, const Display& display, const SampleBlock& block,
                  std::uint8_t* rgb) = nullptr;
 };
 Kernels kernels(SimdLevel level);

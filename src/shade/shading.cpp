@@ -66,13 +66,13 @@ void shade_samples(const Subject& subject, const Lighting& lighting, const Sampl
 }
 
 void shade_picture(const Subject& subject, const Lighting& lighting, const PixelSamples& pixels,
-                   float exposure, Transfer transfer, base::Image8& out) {
+                   const Display& display, base::Image8& out) {
   const FrameTerms frame(subject, lighting);
-  const LevelTable& table = level_table(transfer);
+  const LevelTable& table = level_table(display.transfer);
   resize(pixels, out);
   for_each_block(frame, pixels, [&](BlockShader& shader, std::size_t first) {
     shader.shade(pixels.factors, pixels.openness, first);
-    frame.code.encode(table, exposure, shader.block(), &out.pixels[3 * first]);
+    frame.code.encode(table, display, shader.block(), &out.pixels[3 * first]);
   });
 }
 

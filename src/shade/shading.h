@@ -11,6 +11,7 @@
 #include <tenebra/frame_geometry.h>
 #include <tenebra/simd_level.h>
 #include "base/image.h"
+#include "shade/display.h"
 #include "shade/environment.h"
 #include "shade/light_terms.h"
 #include "shade/surfaces.h"
@@ -59,9 +60,9 @@ struct PixelSamples {
   std::span<const float> openness;
 };
 
-/// Their colours times `exposure`, clamped to 0..1 and encoded. `out` keeps its capacity.
+/// What is shown of their colours, encoded. `out` keeps its capacity.
 void shade_picture(const Subject& subject, const Lighting& lighting, const PixelSamples& pixels,
-                   float exposure, Transfer transfer, base::Image8& out);
+                   const Display& display, base::Image8& out);
 
 /// The light buffer: direct diffuse light that light `light` of `lighting` would send from the seen triangles
 /// to the eye if nothing were in between; three channels, zero where no triangle is seen. Zero where light

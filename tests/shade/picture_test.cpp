@@ -27,8 +27,8 @@ glm::ivec3 encoded(glm::vec3 linear, float exposure = 1.0f, Transfer transfer = 
   const std::vector<std::uint32_t> ids{background_id};
   const shade::SurfaceTable surfaces;
   base::Image8 image;
-  shade::shade_picture({{}, {}, surfaces}, {.background = linear}, {1, 1, ids, {}, {}}, exposure, transfer,
-                       image);
+  shade::shade_picture({{}, {}, surfaces}, {.background = linear}, {1, 1, ids, {}, {}},
+                       {.exposure = exposure, .transfer = transfer}, image);
   return {image.pixels.at(0), image.pixels.at(1), image.pixels.at(2)};
 }
 
@@ -84,7 +84,7 @@ protected:
     const shade::SurfaceTable surfaces(std::vector<Material>{Material{}, material});
     base::Image8 image;
     shade::shade_picture({geometry, view, surfaces}, lighting, {width, height, ids, factors, openness},
-                         exposure, Transfer::srgb, image);
+                         {.exposure = exposure}, image);
     EXPECT_EQ(image.width, width);
     EXPECT_EQ(image.height, height);
     EXPECT_EQ(image.channels, 3);

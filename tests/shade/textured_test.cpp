@@ -243,7 +243,7 @@ TEST_F(Textured, AllVectorLevelsAndThreadCountsGiveTheSameBits) {
         with_threads(threads, [&] {
           shade::shade_picture({geometry, view, surfaces},
                                {.lights = lights, .environment = around, .simd = level},
-                               {width, height, ids, factors, {}}, 1.0f, Transfer::srgb, image);
+                               {width, height, ids, factors, {}}, {}, image);
         });
         return image.pixels;
       };

@@ -128,7 +128,7 @@ EmbreeFrameTimes EmbreeRenderer::draw(int frame, bool split) {
   const shade::Subject subject{geometry_, view_, task_.surfaces};
   const shade::Lighting lighting{placed, scene.ambient_light, scene.background, nullptr};
   const shade::PixelSamples pixels{task_.width, task_.height, ids_, factors, {}};
-  shade::shade_picture(subject, lighting, pixels, 1.0f, scene.transfer, image_);
+  shade::shade_picture(subject, lighting, pixels, {.transfer = scene.transfer}, image_);
   times.shade = watch.lap_ms();
   times.total = whole.lap_ms();
   return times;
