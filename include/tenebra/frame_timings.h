@@ -25,7 +25,8 @@ struct FrameTimings {
   double ao_ms = 0;          ///< ao: look-ups (or rays), all points
   double tint_ms = 0;        ///< what see-through surfaces leave of the lights
   double layer_ms = 0;  ///< the nearest see-through surfaces: their shadows and their share of the picture
-  double total_ms = 0;  ///< the whole frame
+  double antialias_ms = 0;  ///< further samples of pixels that need them: all that is done for them
+  double total_ms = 0;      ///< the whole frame
 };
 
 /// Adds the stages of one light's shadows, or of a part of them. Leaves the frame's other stages alone.

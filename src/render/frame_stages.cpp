@@ -199,9 +199,14 @@ Expected<void> Renderer::State::shade_pixels(const FrameInput& input, const std:
                                  environment ? &*environment : nullptr};
   shade::PixelSamples pixels{seen.width, seen.height, seen.ids, factors, {}};
   if (settings.ao.mode != AoMode::none) pixels.openness = openness;
-  with_threads(settings.threads,
-               [&] { shade::shade_picture(subject, lighting, pixels, display_of(settings), result.image); });
-  return draw_see_through(input, lights, subject, lighting, pixels, settings, result, stop);
+  if (settings.antialias == 1) colors.clear();
+  with_threads(settings.threads, [&] {
+    shade::shade_picture(subject, lighting, pixels, display_of(settings), result.image,
+                         settings.antialias > 1 ? &colors : nullptr);
+  });
+  if (auto drawn = draw_see_through(input, lights, subject, lighting, pixels, settings, result, stop); !drawn)
+    return drawn;
+  return antialias(input, lights, settings, subject, lighting, result, stop);
 }
 
 void Renderer::State::keep_new(std::vector<std::string>& notes) {

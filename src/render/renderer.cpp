@@ -5,6 +5,7 @@
 
 #include "base/fail.h"
 #include "base/stopwatch.h"
+#include "render/antialias/pattern.h"
 #include "render/renderer_state.h"
 
 namespace tenebra::render {
@@ -32,6 +33,13 @@ Expected<void> check_settings(const RenderSettings& settings) {
     return base::fail("samples from the depth buffer: {} needs the exact points from triangle ids",
                       settings.shadows == ShadowMode::soft ? "a soft shadow" : "ambient occlusion");
   }
+  if (!is_sample_count(settings.antialias))
+    return base::fail("anti-aliasing: found {} samples a pixel, expected 1, 2, 4, 8 or 16",
+                      settings.antialias);
+  if (settings.antialias > 16 && !settings.antialias_everywhere)
+    return base::fail(
+        "anti-aliasing: {} samples a pixel are for comparisons, everywhere; expected at most 16",
+        settings.antialias);
   return {};
 }
 
@@ -100,6 +108,7 @@ Expected<void> Renderer::render_frame(const FrameInput& given, const RenderSetti
   result.stats = {};
   result.soft = {};
   result.ao = {};
+  result.antialias = {};
   FrameTimings& timings = result.timings;
   base::Stopwatch watch, whole;
   if (auto checked = check_settings(settings); !checked) return checked;
@@ -117,7 +126,7 @@ Expected<void> Renderer::render_frame(const FrameInput& given, const RenderSetti
   if (auto traced = s.trace_lights(input, *lights, settings, result, stop); !traced) return traced;
   watch.lap_ms();
   if (auto shaded = s.shade_pixels(input, *lights, settings, result, stop); !shaded) return shaded;
-  timings.composite_ms = watch.lap_ms() - timings.layer_ms;
+  timings.composite_ms = watch.lap_ms() - timings.layer_ms - timings.antialias_ms;
   timings.total_ms = whole.lap_ms();
   s.keep_new(result.notes);
   return {};

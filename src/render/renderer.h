@@ -16,6 +16,7 @@
 #include <tenebra/stop_flag.h>
 #include <tenebra/tint.h>
 #include "base/image.h"
+#include "render/antialias/antialias_stats.h"
 #include "render/frame_raster.h"
 #include "shade/display.h"
 
@@ -56,6 +57,11 @@ struct RenderSettings {
   float exposure = 1.0f;  ///< factor of linear colour, before the tone
   shade::Tone tone = shade::Tone::none;
   bool diagnostics = false;  ///< fill LightMask::nodes; the picture is the same
+
+  // Anti-aliasing: antialias/pattern.h has the places, antialias/pixel_choice.h which pixels need them.
+  int antialias = 1;                  ///< samples of a pixel that needs more than one: 1, 2, 4, 8, 16 or 256
+  bool antialias_everywhere = false;  ///< every pixel gets all of them; 256 need it
+  bool sample_masks = false;          ///< fill LightMask::samples
 };
 
 /// What is drawn: one instant of a scene from one camera.
@@ -73,6 +79,11 @@ struct LightMask {
   std::vector<float> nodes;  ///< hard, with RenderSettings::diagnostics: ShadowTracer::pixel_nodes
   std::vector<std::uint8_t> classes;  ///< exact soft shadows: a SoftClass a pixel, for display; else empty
   TintMask tint;  ///< what see-through surfaces leave of the light's colours; the mask is of opaque casters
+
+  // With RenderSettings::antialias above 1. All else here is of the pixels' centres.
+  base::ImageF mean;                  ///< visible fraction, 0..1, mean over the pixel's samples
+  std::vector<base::Image8> samples;  ///< with sample_masks: `mask` of each sample, the centre first if it
+                                      ///< counts; a pixel that needs but one has its centre's everywhere
 };
 
 /// What traced a light without an area.
@@ -82,13 +93,14 @@ struct LightMethod {
 };
 
 struct FrameResult {
-  base::Image8 image;            ///< RGB, encoded as Scene::transfer says
+  base::Image8 image;            ///< RGB, encoded as Scene::transfer says; the mean of what the samples show
   std::vector<LightMask> masks;  ///< one per light drawn, of those with an intensity; empty without shadows
   std::vector<LightMethod> methods;  ///< of the lights that had hard shadows
   FrameTimings timings;
   TraceStats stats;
   SoftStats soft;
   AoStats ao;
+  AntialiasStats antialias;
   std::vector<std::string> notes;  ///< sentences a user should see once, new with this frame
 };
 

@@ -7,9 +7,11 @@
 #include <unordered_set>
 #include <vector>
 
+#include "render/antialias/sample_picture.h"
 #include "render/frame_lights.h"
 #include "render/frame_raster.h"
 #include "render/light_points.h"
+#include "render/lit_samples.h"
 #include "render/renderer.h"
 #include "render/see_through_layer.h"
 #include "shade/shading.h"
@@ -41,10 +43,20 @@ struct Renderer::State {
   TintTracer tint{};
   bool tint_has_surfaces = false;  // of this frame
   std::vector<LightTint> tints{};  // of the drawn lights
-  LayerSamples layer{};
+  LitSamples layer{};
   VisiblePoints behind{};  // the opaque samples as the eye sees them, where `points` are others
   EyeTint eye_tint{};
   TintMask passes{};
+
+  // Of anti-aliasing.
+  std::vector<glm::vec3> colors{};  // linear, of the pixels' centres; empty without
+  visibility::VisibleIds seen_there{};
+  std::vector<SampleIds> further{};
+  SamplePicture samples{};
+  LitSamples at_samples{}, layer_at_samples{}, own_soft{};
+  std::vector<std::uint32_t> soft_from{};  // pixel of the frame; or first_own + 1 + index in own_slots
+  std::vector<std::uint32_t> own_slots{};
+  std::vector<shade::ShadedSample> shaded{};
 
   /// What each pixel sees.
   Expected<void> find_ids(const FrameInput& input, const RenderSettings& settings, FrameTimings& timings);
@@ -71,8 +83,10 @@ struct Renderer::State {
   Expected<void> trace_area(const FrameInput& input, const DrawnLight& light, const RenderSettings& settings,
                             const VisiblePoints& at, std::span<const glm::vec3> shading_normals,
                             SoftMask& out, const StopFlag* stop);
-  Expected<void> light_layer(const FrameInput& input, const std::vector<DrawnLight>& lights,
-                             const RenderSettings& settings, const StopFlag* stop);
+  enum class LightKinds { all, points, areas };
+  Expected<void> light_samples(const FrameInput& input, const std::vector<DrawnLight>& lights,
+                               const RenderSettings& settings, LightKinds kinds, LitSamples& at,
+                               const StopFlag* stop);
   /// The nearest see-through surfaces, shaded like any, over the picture.
   Expected<void> draw_see_through(const FrameInput& input, const std::vector<DrawnLight>& lights,
                                   const shade::Subject& subject, const shade::Lighting& lighting,
@@ -86,6 +100,24 @@ struct Renderer::State {
   /// The picture, from all of the above.
   Expected<void> shade_pixels(const FrameInput& input, const std::vector<DrawnLight>& lights,
                               const RenderSettings& settings, FrameResult& result, const StopFlag* stop);
+
+  /// What the picture, and the means of masks, get from further samples (antialias_stages.cpp).
+  Expected<void> antialias(const FrameInput& input, const std::vector<DrawnLight>& lights,
+                           const RenderSettings& settings, const shade::Subject& subject,
+                           const shade::Lighting& lighting, FrameResult& result, const StopFlag* stop);
+  Expected<void> find_sample_ids(const FrameInput& input, const RenderSettings& settings,
+                                 std::span<const glm::vec2> offsets);
+  Expected<void> light_packed(const FrameInput& input, const std::vector<DrawnLight>& lights,
+                              const RenderSettings& settings, const FrameResult& result,
+                              const StopFlag* stop);
+  Expected<void> light_softly(const FrameInput& input, const std::vector<DrawnLight>& lights,
+                              const RenderSettings& settings, const FrameResult& result,
+                              const StopFlag* stop);
+  void borrow_soft(const FrameInput& input);
+  Expected<void> shade_packed(const FrameInput& input, const std::vector<DrawnLight>& lights,
+                              const RenderSettings& settings, const shade::Subject& subject,
+                              const shade::Lighting& lighting, const StopFlag* stop);
+
   /// Drops the notes that earlier frames gave.
   void keep_new(std::vector<std::string>& notes);
 };

@@ -67,7 +67,9 @@ std::vector<shade::ShadedSample> shaded(const LayerPicture& picture, std::span<c
   std::vector<float> open;
   for (const std::uint32_t pixel : pixels) {
     own_ids.push_back(ids[pixel]);
-    places.emplace_back(static_cast<float>(pixel % width) + 0.5f, static_cast<float>(pixel / width) + 0.5f);
+    places.push_back(picture.places.empty() ? glm::vec2(static_cast<float>(pixel % width) + 0.5f,
+                                                        static_cast<float>(pixel / width) + 0.5f)
+                                            : picture.places[pixel]);
     if (!openness.empty()) open.push_back(openness[pixel]);
   }
   std::vector<Gathered> gathered;
@@ -81,13 +83,13 @@ std::vector<shade::ShadedSample> shaded(const LayerPicture& picture, std::span<c
 
 }  // namespace
 
-std::vector<shade::LightFactors> LayerSamples::factors() const {
+std::vector<shade::LightFactors> LitSamples::factors() const {
   std::vector<shade::LightFactors> out(masks.size());
   for (std::size_t i = 0; i < masks.size(); ++i) out[i] = {masks[i], irradiance[i], tints[i].factors()};
   return out;
 }
 
-void EyeTint::trace(const VisiblePoints& opaque, const LayerSamples& layer, const ViewRays& view,
+void EyeTint::trace(const VisiblePoints& opaque, const LitSamples& layer, const ViewRays& view,
                     const TriangleView& triangles, const SeeThroughSurfaces& surfaces, TintMask& out) {
   // To the eye each see-through surface is one, whether it colours light or not.
   all_.assign(surfaces.see_through.begin(), surfaces.see_through.end());
@@ -114,26 +116,26 @@ void EyeTint::trace(const VisiblePoints& opaque, const LayerSamples& layer, cons
   }
 }
 
-void draw_layer(const LayerPicture& picture, base::Image8& out) {
+std::vector<glm::vec3> layer_colors(const LayerPicture& picture) {
   const std::span<const std::uint32_t> pixels = picture.passes.pixels;
   const auto behind =
       shaded(picture, picture.opaque.ids, picture.opaque.factors, picture.opaque.openness, pixels);
-  const auto before =
-      shaded(picture, picture.layer.ids, picture.layer.factors(), picture.layer.openness, pixels);
+  const auto before = shaded(picture, picture.layer.points.triangles, picture.layer.factors(),
+                             picture.layer.openness, pixels);
   const TriangleView triangles = triangle_view(picture.subject.geometry);
+  std::vector<glm::vec3> colors(pixels.size());
   parallel::parallel_ranges(pixels.size(), 1024, [&](std::size_t first, std::size_t last) {
     for (std::size_t i = first; i < last; ++i) {
       const std::uint32_t pixel = pixels[i], id = picture.layer.points.triangles[pixel];
-      glm::vec3 color = behind[i].color * picture.passes.factors[i];
-      if (id != no_triangle) {
-        const SurfacePlace place =
-            place_of(picture.surfaces, triangles, id, picture.layer.points.positions[pixel]);
-        color += before[i].color *
-                 texture::shown_share(*picture.surfaces.scene, place.material, place.uv, place.vertex);
-      }
-      encode_shown(picture.display, shown(picture.display, color), &out.pixels[3 * std::size_t{pixel}]);
+      colors[i] = behind[i].color * picture.passes.factors[i];
+      if (id == no_triangle) continue;
+      const SurfacePlace place =
+          place_of(picture.surfaces, triangles, id, picture.layer.points.positions[pixel]);
+      colors[i] += before[i].color *
+                   texture::shown_share(*picture.surfaces.scene, place.material, place.uv, place.vertex);
     }
   });
+  return colors;
 }
 
 }  // namespace tenebra::render

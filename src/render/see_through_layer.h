@@ -5,24 +5,10 @@
 #include <vector>
 
 #include <tenebra/tint.h>
-#include "render/light_tints.h"
+#include "render/lit_samples.h"
 #include "shade/shading.h"
 
 namespace tenebra::render {
-
-/// Samples of the nearest see-through surface, and what is left of each light at them. Pixels of the whole
-/// picture, as those of the opaque samples.
-struct LayerSamples {
-  std::vector<std::uint32_t> ids;  ///< no_triangle where nothing see-through stands before what is opaque
-  VisiblePoints points;
-  std::vector<glm::vec3> normals;
-  std::vector<ShadowMask> masks;  ///< of each light; empty of those with an area, and without shadows
-  std::vector<std::vector<float>> irradiance;  ///< of each light; empty without an area
-  std::vector<LightTint> tints;                ///< of each light
-  std::vector<float> openness;                 ///< empty without ambient occlusion
-
-  std::vector<shade::LightFactors> factors() const;
-};
 
 /// What passes on the way from what is opaque to the eye: the transmittances of all see-through surfaces
 /// between, at the pixels of the layer where it is not 1. By TintTracer, as if the eye were a light, so by
@@ -30,7 +16,7 @@ struct LayerSamples {
 /// was seen by the rasteriser's own rule), the transmittance of the layer alone.
 class EyeTint {
 public:
-  void trace(const VisiblePoints& opaque, const LayerSamples& layer, const ViewRays& view,
+  void trace(const VisiblePoints& opaque, const LitSamples& layer, const ViewRays& view,
              const TriangleView& triangles, const SeeThroughSurfaces& surfaces, TintMask& out);
 
 private:
@@ -47,11 +33,12 @@ struct LayerPicture {
   const shade::Subject& subject;
   const shade::Lighting& lighting;
   const shade::PixelSamples& opaque;
-  const LayerSamples& layer;
+  std::span<const glm::vec2> places;  ///< in the window, by pixel of `opaque`; empty: the pixels' centres
+  const LitSamples& layer;
   const SeeThroughSurfaces& surfaces;
   const TintMask& passes;
-  shade::Display display;
 };
-void draw_layer(const LayerPicture& picture, base::Image8& out);
+/// Linear colours of the pixels that `passes` names, in their order.
+std::vector<glm::vec3> layer_colors(const LayerPicture& picture);
 
 }  // namespace tenebra::render

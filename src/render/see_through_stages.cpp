@@ -41,25 +41,24 @@ Expected<void> Renderer::State::trace_tint(const FrameInput& input, const DrawnL
   return done ? Expected<void>() : Expected<void>(base::fail("stopped"));
 }
 
-/// The layer's samples, and what is left of each light at them.
-Expected<void> Renderer::State::light_layer(const FrameInput& input, const std::vector<DrawnLight>& lights,
-                                            const RenderSettings& settings, const StopFlag* stop) {
-  const TriangleView triangles = triangle_view(input.geometry);
-  with_threads(settings.threads, [&] {
-    compute_visible_points(layer.ids, seen.width, seen.height, input.view, triangles, layer.points,
-                           PointLayout::rows_and_tiles);
-    compute_shading_normals(layer.points, input.geometry.normals, input.view, triangles, layer.normals);
-  });
-  layer.masks.assign(lights.size(), {});
-  layer.irradiance.assign(lights.size(), {});
-  layer.tints.resize(lights.size());
+/// What is left of each light at samples whose points (and, for areas and occlusion, normals) are there.
+Expected<void> Renderer::State::light_samples(const FrameInput& input, const std::vector<DrawnLight>& lights,
+                                              const RenderSettings& settings, LightKinds kinds,
+                                              LitSamples& samples, const StopFlag* stop) {
+  samples.masks.assign(lights.size(), {});
+  samples.irradiance.assign(lights.size(), {});
+  samples.visible_fraction.assign(lights.size(), {});
+  samples.tints.resize(lights.size());
+  const bool coloured = !input.geometry.see_through.empty();
   for (std::size_t i = 0; i < lights.size(); ++i) {
     if (stop_requested(stop)) return base::fail("stopped");
-    layer.tints[i].begin(layer.ids.size());
+    samples.tints[i].begin(coloured ? samples.points.triangles.size() : 0);
     if (settings.shadows == ShadowMode::none) continue;
+    if (kinds == (lights[i].area ? LightKinds::points : LightKinds::areas)) continue;
     SoftMask lit;
     if (lights[i].area) {
-      if (auto done = trace_area(input, lights[i], settings, layer.points, layer.normals, lit, stop); !done)
+      if (auto done = trace_area(input, lights[i], settings, samples.points, samples.normals, lit, stop);
+          !done)
         return done;
     } else {
       bool done = false;
@@ -67,27 +66,30 @@ Expected<void> Renderer::State::light_layer(const FrameInput& input, const std::
         HardShadowConfig config = settings.hard;
         config.contact = ContactRule::triangle_ids;
         done = hard.trace_shadow_mask(
-            layer.points, input.view, casters_of(scene, input.geometry, lights[i], casters),
-            shadow_light(lights[i].light, lights[i].placed), config, layer.masks[i], stop);
+            samples.points, input.view, casters_of(scene, input.geometry, lights[i], casters),
+            shadow_light(lights[i].light, lights[i].placed), config, samples.masks[i], stop);
       });
       if (!done) return base::fail("stopped");
     }
-    TintMask found;
-    RenderSettings exact = settings;
-    exact.samples = SampleSource::ids;
-    if (auto done = trace_tint(input, lights[i], exact, layer.points, layer.normals, layer.masks[i], lit,
-                               found, stop);
-        !done)
-      return done;
-    layer.tints[i].set(found);
-    layer.irradiance[i] = std::move(lit.irradiance);
+    if (coloured) {
+      TintMask found;
+      RenderSettings exact = settings;
+      exact.samples = SampleSource::ids;
+      if (auto done = trace_tint(input, lights[i], exact, samples.points, samples.normals, samples.masks[i],
+                                 lit, found, stop);
+          !done)
+        return done;
+      samples.tints[i].set(found);
+    }
+    samples.irradiance[i] = std::move(lit.irradiance);
+    samples.visible_fraction[i] = std::move(lit.visible_fraction);
   }
-  layer.openness.clear();
-  if (settings.ao.mode == AoMode::none) return {};
+  samples.openness.clear();
+  if (settings.ao.mode == AoMode::none || kinds == LightKinds::points) return {};
   Expected<void> done;
   with_threads(settings.threads, [&] {
-    done = ambient.compute(scene, input.geometry, layer.points, layer.normals, settings.ao, layer.openness,
-                           {}, stop);
+    done = ambient.compute(scene, input.geometry, samples.points, samples.normals, settings.ao,
+                           samples.openness, {}, stop);
   });
   return done;
 }
@@ -98,11 +100,15 @@ Expected<void> Renderer::State::draw_see_through(
     FrameResult& result, const StopFlag* stop) {
   if (!seen.has_layer) return {};
   base::Stopwatch watch;
-  layer.ids.swap(seen.layer);
-  if (std::all_of(layer.ids.begin(), layer.ids.end(), [](std::uint32_t id) { return id == no_triangle; }))
+  if (std::all_of(seen.layer.begin(), seen.layer.end(), [](std::uint32_t id) { return id == no_triangle; }))
     return {};
-  if (auto lit = light_layer(input, lights, settings, stop); !lit) return lit;
   const TriangleView triangles = triangle_view(input.geometry);
+  with_threads(settings.threads, [&] {
+    compute_visible_points(seen.layer, seen.width, seen.height, input.view, triangles, layer.points,
+                           PointLayout::rows_and_tiles);
+    compute_shading_normals(layer.points, input.geometry.normals, input.view, triangles, layer.normals);
+  });
+  if (auto lit = light_samples(input, lights, settings, LightKinds::all, layer, stop); !lit) return lit;
   const SeeThroughSurfaces surfaces = see_through_surfaces(scene, input.geometry, coordinates);
   with_threads(settings.threads, [&] {
     // The points that shadows start from may be those of the depth buffer, or none.
@@ -114,7 +120,15 @@ Expected<void> Renderer::State::draw_see_through(
                              PointLayout::rows_and_tiles);
     }
     eye_tint.trace(there ? points : behind, layer, input.view, triangles, surfaces, passes);
-    draw_layer({subject, lighting, opaque, layer, surfaces, passes, display_of(settings)}, result.image);
+    const auto drawn = layer_colors({subject, lighting, opaque, {}, layer, surfaces, passes});
+    const shade::Display display = display_of(settings);
+    parallel::parallel_ranges(drawn.size(), 1024, [&](std::size_t first, std::size_t last) {
+      for (std::size_t i = first; i < last; ++i) {
+        const std::size_t pixel = passes.pixels[i];
+        if (!colors.empty()) colors[pixel] = drawn[i];
+        encode_shown(display, shown(display, drawn[i]), &result.image.pixels[3 * pixel]);
+      }
+    });
   });
   result.timings.layer_ms = watch.lap_ms();
   return {};

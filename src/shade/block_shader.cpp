@@ -62,11 +62,22 @@ const texture::TextureValues* BlockShader::sampled(const MapUse& use, const Text
   return &to;
 }
 
+/// From one sample to the next it is less far than from pixel to pixel.
+void BlockShader::narrow_places(std::size_t rules) {
+  for (texture::TexturePlaces* places = places_; places != places_ + rules; ++places) {
+    for (auto* channels : {places->by_x, places->by_y})
+      for (int axis = 0; axis < 2; ++axis)
+        for (std::size_t i = stretch_.first; i < stretch_.first + stretch_.count; ++i)
+          channels[axis][i] *= width_px_;
+  }
+}
+
 void BlockShader::finish_stretch() {
   if (stretch_.count == 0) return;
   const SurfaceTable& surfaces = frame_.subject.surfaces;
   const Material& m = surfaces.material(stretch_.material);
   const SurfaceMaps& maps = surfaces.maps(stretch_.material);
+  if (width_px_ != 1) narrow_places(maps.rules.size());
   SurfaceInputs in;
   if (!surfaces.colors().empty()) in.vertices = &vertices_;
   in.base = sampled(maps.base, m.base_color_map, base_values_);

@@ -24,7 +24,8 @@ struct FrameTerms {
 
 class BlockShader {
 public:
-  explicit BlockShader(const FrameTerms& frame) : frame_(frame) {}
+  /// `width_px`: of what a sample stands for.
+  explicit BlockShader(const FrameTerms& frame, float width_px = 1) : frame_(frame), width_px_(width_px) {}
 
   /// Begins a block of up to SampleBlock::capacity samples at window places (x, y), arrays of
   /// SampleBlock::room. Ids beyond the triangles are background.
@@ -44,6 +45,7 @@ private:
   void locate_run(const TriangleSetup& setup, std::size_t material, const glm::uvec3& corners,
                   std::size_t first, std::size_t count);
   void finish_stretch();
+  void narrow_places(std::size_t rules);
   const texture::TextureValues* sampled(const MapUse& use, const TextureMap& map, texture::TextureValues& to);
   /// What is mirrored, and the light of an environment.
   void surround();
@@ -53,6 +55,7 @@ private:
   void add_coloured(std::size_t light, const float* factor, std::span<const glm::vec3> tint);
 
   const FrameTerms& frame_;
+  float width_px_;
   SetupCache setups_;
   SampleBlock block_{};
   bool anything_seen_ = false;

@@ -47,7 +47,7 @@ void shade_samples(const Subject& subject, const Lighting& lighting, const Sampl
   const FrameTerms frame(subject, lighting);
   out.resize(samples.ids.size());
   parallel::parallel_ranges(out.size(), samples_at_once, [&](std::size_t begin, std::size_t end) {
-    BlockShader shader(frame);
+    BlockShader shader(frame, samples.width_px);
     float x[SampleBlock::room] = {}, y[SampleBlock::room] = {};
     for (std::size_t first = begin; first < end; first += SampleBlock::capacity) {
       const std::size_t count = std::min(SampleBlock::capacity, end - first);
@@ -66,13 +66,18 @@ void shade_samples(const Subject& subject, const Lighting& lighting, const Sampl
 }
 
 void shade_picture(const Subject& subject, const Lighting& lighting, const PixelSamples& pixels,
-                   const Display& display, base::Image8& out) {
+                   const Display& display, base::Image8& out, std::vector<glm::vec3>* colors) {
   const FrameTerms frame(subject, lighting);
   const LevelTable& table = level_table(display.transfer);
   resize(pixels, out);
+  if (colors != nullptr) colors->resize(out.pixels.size() / 3);
   for_each_block(frame, pixels, [&](BlockShader& shader, std::size_t first) {
     shader.shade(pixels.factors, pixels.openness, first);
-    frame.code.encode(table, display, shader.block(), &out.pixels[3 * first]);
+    const SampleBlock& block = shader.block();
+    frame.code.encode(table, display, block, &out.pixels[3 * first]);
+    if (colors == nullptr) return;
+    for (std::size_t i = 0; i < block.count; ++i)
+      (*colors)[first + i] = {block.color[0][i], block.color[1][i], block.color[2][i]};
   });
 }
 

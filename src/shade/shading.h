@@ -40,6 +40,7 @@ struct Samples {
   std::span<const glm::vec2> places;      ///< in pixels; (0.5, 0.5) is the centre of the top left one
   std::span<const LightFactors> factors;  ///< one for each of Lighting::lights, by sample
   std::span<const float> openness;        ///< ambient occlusion, 1 open to 0 closed; empty: all open
+  float width_px = 1;                     ///< of what a sample stands for: textures are smoothed over it
 };
 
 /// A sample's linear colour, before exposure: ambient * ambient_light * openness + emissive + the sum of
@@ -60,9 +61,10 @@ struct PixelSamples {
   std::span<const float> openness;
 };
 
-/// What is shown of their colours, encoded. `out` keeps its capacity.
+/// What is shown of their colours, encoded. `out` keeps its capacity. `colors`, if not null, gets the linear
+/// colours.
 void shade_picture(const Subject& subject, const Lighting& lighting, const PixelSamples& pixels,
-                   const Display& display, base::Image8& out);
+                   const Display& display, base::Image8& out, std::vector<glm::vec3>* colors = nullptr);
 
 /// The light buffer: direct diffuse light that light `light` of `lighting` would send from the seen triangles
 /// to the eye if nothing were in between; three channels, zero where no triangle is seen. Zero where light

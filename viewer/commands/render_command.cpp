@@ -2,6 +2,7 @@
 #include <fmt/core.h>
 #include <array>
 #include <chrono>
+#include <cmath>
 #include <memory>
 #include <optional>
 
@@ -63,6 +64,31 @@ struct Journals {
   }
 };
 
+base::Image8 in_levels(const base::ImageF& fractions) {
+  base::Image8 out{fractions.width, fractions.height, fractions.channels, {}};
+  for (const float fraction : fractions.pixels)
+    out.pixels.push_back(static_cast<std::uint8_t>(std::lround(255.0f * fraction)));
+  return out;
+}
+
+Expected<void> write_sample_masks(const RenderPlan& plan, const RenderOptions& options, int frame,
+                                  const render::LightMask& mask) {
+  const std::string light = plan.several_lights ? fmt::format("_L{}", mask.light) : "";
+  for (const OutputPattern& pattern : options.mask_means) {
+    const auto file = pattern.file(frame, light);
+    auto written =
+        pattern.is_pfm() ? base::write_pfm(file, mask.mean) : base::write_png(file, in_levels(mask.mean));
+    if (!written) return written;
+  }
+  for (const OutputPattern& pattern : options.mask_samples) {
+    for (std::size_t k = 0; k < mask.samples.size(); ++k) {
+      const auto file = pattern.file(frame, fmt::format("{}_S{}", light, k));
+      if (auto written = base::write_png(file, mask.samples[k]); !written) return written;
+    }
+  }
+  return {};
+}
+
 Expected<void> write_pictures(const RenderPlan& plan, const RenderOptions& options, int frame,
                               const render::FrameResult& result) {
   if (options.pictures) {
@@ -76,6 +102,8 @@ Expected<void> write_pictures(const RenderPlan& plan, const RenderOptions& optio
       if (!written) return written;
     }
   }
+  for (const render::LightMask& mask : result.masks)
+    if (auto written = write_sample_masks(plan, options, frame, mask); !written) return written;
   for (const OutputPattern& pattern : options.mask_colours) {
     for (const render::LightMask& mask : result.masks) {
       const auto file = pattern.file(frame, plan.several_lights ? fmt::format("_L{}", mask.light) : "");
@@ -89,7 +117,8 @@ Expected<void> write_pictures(const RenderPlan& plan, const RenderOptions& optio
 
 Expected<void> prepare_folders(const RenderOptions& options) {
   std::vector<OutputPattern> patterns = options.masks;
-  patterns.insert(patterns.end(), options.mask_colours.begin(), options.mask_colours.end());
+  for (const auto* more : {&options.mask_colours, &options.mask_means, &options.mask_samples})
+    patterns.insert(patterns.end(), more->begin(), more->end());
   if (options.pictures) patterns.push_back(*options.pictures);
   for (const OutputPattern& pattern : patterns) {
     if (auto prepared = pattern.prepare_folder(); !prepared) return prepared;
@@ -146,8 +175,8 @@ private:
       return drawn;
     if (!options_.quiet) progress.print_notes(result.notes);
 
-    render::FrameRecord record{planned.frame, planned.time_s, result.timings,
-                               result.stats,  result.soft,    result.ao};
+    render::FrameRecord record{planned.frame, planned.time_s, result.timings,  result.stats,
+                               result.soft,   result.ao,      result.antialias};
     record.timings.evaluate_ms = evaluate_ms;
     record.timings.total_ms = milliseconds(Clock::now() - begin);
     records_.push_back(record);
@@ -177,6 +206,8 @@ void print_summary(const RenderPlan& plan, const RenderOptions& options,
   if (options.pictures) print_out(", pictures in {}", options.pictures->text());
   for (const OutputPattern& mask : options.masks) print_out(", masks in {}", mask.text());
   for (const OutputPattern& mask : options.mask_colours) print_out(", coloured masks in {}", mask.text());
+  for (const OutputPattern& mask : options.mask_means) print_out(", means of masks in {}", mask.text());
+  for (const OutputPattern& mask : options.mask_samples) print_out(", masks of samples in {}", mask.text());
   if (!options.log.empty()) print_out(", log in {}", options.log);
   if (!options.trace.empty()) print_out(", trace in {}", options.trace);
   print_out("\n");

@@ -92,6 +92,7 @@ std::vector<render::LogSetting> describe_method(const render::RenderSettings& se
       {"cull", choice_name(cull_choices, hard.cull_front)},
       {"see_through", choice_name(see_through_choices, settings.see_through)},
       {"light", settings.light < 0 ? "all" : fmt::format("{}", settings.light)},
+      {"antialias", fmt::format("{}", settings.antialias)},
       {"exposure", fmt::format("{}", settings.exposure)},
       {"ao", choice_name(ao_choices, settings.ao.mode)},
   };

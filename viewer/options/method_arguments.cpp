@@ -86,6 +86,7 @@ std::string method_arguments(const MethodOptions& options) {
   arguments.choice("--see-through", see_through_choices, render.see_through, standard.see_through);
   arguments.value("--light", render.light, standard.light);
   arguments.value("--exposure", render.exposure, standard.exposure);
+  arguments.value("--antialias", render.antialias, standard_antialias);
   arguments.value("--threads", render.threads, standard.threads);
   if (render.hard.simd != standard.hard.simd) {
     arguments.add("--simd", std::string(simd_level_name(render.hard.simd)));

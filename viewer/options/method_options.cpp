@@ -4,6 +4,7 @@
 
 #include "base/fail.h"
 #include "options/choices.h"
+#include "render/antialias/pattern.h"
 
 namespace tenebra::viewer {
 namespace {
@@ -60,6 +61,13 @@ Expected<int> parse_threads(const std::string& text) {
   return threads;
 }
 
+Expected<int> parse_samples(const std::string& text) {
+  const auto samples = parse_count(text);
+  if (!samples || *samples > 16 || !render::is_sample_count(*samples))
+    return base::fail("found {}, expected 1, 2, 4, 8 or 16 samples a pixel", text);
+  return samples;
+}
+
 Expected<int> parse_points(const std::string& text) {
   const auto points = parse_count(text);
   if (!points || *points > most_soft_points) {
@@ -95,6 +103,7 @@ Expected<std::filesystem::path> parse_cache(const std::string& text) {
 
 void add_common(CLI::App& command, MethodOptions& options) {
   render::RenderSettings& render = options.render;
+  render.antialias = standard_antialias;
   set_group(
       {add_value(
            command, quality_option, options.quality, parse_quality,
@@ -115,6 +124,11 @@ void add_common(CLI::App& command, MethodOptions& options) {
        add_value(command, "--exposure", render.exposure, parse_factor,
                  "Multiplies all light by this factor [1]")
            .type_name("E"),
+       add_value(
+           command, "--antialias", render.antialias, parse_samples,
+           "Samples of pixels with an edge, a shadow's edge or a fine\ntexture, each with its own exact "
+           "shadow: 1, 2, 4, 8 or 16;\nall others have one [4]")
+           .type_name("N"),
        add_value(command, "--threads", render.threads, parse_threads,
                  "Threads for shadows and ambient occlusion [0: all cores]")
            .type_name("N"),

@@ -12,6 +12,9 @@
 
 namespace tenebra::viewer {
 
+/// Samples a pixel of pictures; RenderSettings has 1, for those who ask for masks.
+inline constexpr int standard_antialias = 4;
+
 struct MethodOptions {
   render::RenderSettings render;           ///< but for its size
   std::optional<render::Quality> quality;  ///< as given; settle_quality turns it into settings

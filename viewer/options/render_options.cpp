@@ -63,6 +63,17 @@ void add_output_options(CLI::App& command, RenderOptions& options) {
       [&options](const std::vector<std::string>& names) { return read_masks(names, options.mask_colours); },
       "The same in colour: masks times what glass and blended\nsurfaces leave of red, green and blue")
       .type_name("FILE.png|FILE.pfm");
+  add_texts(
+      command, "--mask-mean",
+      [&options](const std::vector<std::string>& names) { return read_masks(names, options.mask_means); },
+      "The mean of the masks over each pixel's samples\n(--antialias); --mask is of the sample at its centre")
+      .type_name("FILE.png|FILE.pfm");
+  add_texts(
+      command, "--mask-samples",
+      [&options](const std::vector<std::string>& names) { return read_masks(names, options.mask_samples); },
+      "The mask of each sample, which adds _S0, _S1, ...: the\ncentre's first, then the others; a pixel with "
+      "one sample\nhas that one in all of them")
+      .type_name("FILE.png");
   add_text(command, "--log", options.log, "Log: times and counts of each frame").type_name("FILE.csv");
   add_text(command, "--trace", options.trace, "The same times for Perfetto or chrome://tracing")
       .type_name("FILE.json");
@@ -91,6 +102,25 @@ Expected<void> check_mask(const RenderOptions& options, const OutputPattern& mas
   return {};
 }
 
+Expected<void> check_sample_masks(const RenderOptions& options, bool several) {
+  const auto check = [&](const std::vector<OutputPattern>& masks, const char* option) -> Expected<void> {
+    if (!masks.empty() && options.method.render.antialias == 1)
+      return base::fail("{} is of several samples a pixel; expected --antialias 2, 4, 8 or 16 with it",
+                        option);
+    for (const OutputPattern& mask : masks) {
+      if (auto checked = check_mask(options, mask, option, several); !checked) return checked;
+      for (const OutputPattern& other : options.masks)
+        if (mask.file(0) == other.file(0))
+          return base::fail("--mask and {} name the same file {}", option, mask.text());
+    }
+    return {};
+  };
+  if (auto checked = check(options.mask_means, "--mask-mean"); !checked) return checked;
+  for (const OutputPattern& mask : options.mask_samples)
+    if (mask.is_pfm()) return base::fail("--mask-samples {} are masks of 8 bits; expected .png", mask.text());
+  return check(options.mask_samples, "--mask-samples");
+}
+
 Expected<void> check_masks(const RenderOptions& options, bool several) {
   for (const OutputPattern& mask : options.masks) {
     if (auto checked = check_mask(options, mask, "--mask", several); !checked) return checked;
@@ -98,6 +128,7 @@ Expected<void> check_masks(const RenderOptions& options, bool several) {
       return base::fail("--mask {} has fractions of a light's area, which need --shadows soft", mask.text());
     }
   }
+  if (auto checked = check_sample_masks(options, several); !checked) return checked;
   for (const OutputPattern& mask : options.mask_colours) {
     if (auto checked = check_mask(options, mask, "--mask-colour", several); !checked) return checked;
     for (const OutputPattern& other : options.masks)

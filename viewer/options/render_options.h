@@ -20,6 +20,8 @@ struct RenderOptions {
   std::optional<OutputPattern> pictures;    ///< none: no pictures
   std::vector<OutputPattern> masks;         ///< .png or .pfm
   std::vector<OutputPattern> mask_colours;  ///< the same, of masks times what see-through surfaces leave
+  std::vector<OutputPattern> mask_means;    ///< of the samples of --antialias
+  std::vector<OutputPattern> mask_samples;  ///< .png: each of them
   std::string log;
   std::string trace;
   bool quiet = false;

@@ -35,6 +35,7 @@ Expected<RenderPlan> plan_render(const RenderOptions& options) {
   if (!frames) return tl::unexpected(frames.error());
   plan.frames = std::move(*frames);
   plan.settings = method_settings(options.method, plan.size);
+  plan.settings.sample_masks = !options.mask_samples.empty();
   plan.settings.area_lights.own_size_m = edited_sizes_m(options.scene.lights);
   plan.scene.lights = edited_lights(std::move(plan.scene.lights), options.scene.lights);
   const int light = plan.settings.light;

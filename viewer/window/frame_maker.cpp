@@ -48,7 +48,8 @@ Expected<Drawn> FrameMaker::draw(const FrameRequest& request, const render::Rend
                   .timings = result.timings,
                   .stats = result.stats,
                   .soft = result.soft,
-                  .ao = result.ao};
+                  .ao = result.ao,
+                  .antialias = result.antialias};
   drawn.record.timings.evaluate_ms = evaluate_ms_;
   drawn.record.timings.total_ms = watch.lap_ms() + evaluate_ms_;
   return drawn;

@@ -10,6 +10,7 @@
 #include <tenebra/frame_timings.h>
 #include <tenebra/hard_config.h>
 #include <tenebra/soft_config.h>
+#include "render/antialias/antialias_stats.h"
 
 namespace tenebra::render {
 
@@ -21,6 +22,7 @@ struct FrameRecord {
   TraceStats stats;
   SoftStats soft;
   AoStats ao;
+  AntialiasStats antialias;
 };
 
 struct TimingColumn {
@@ -83,6 +85,8 @@ inline constexpr std::array method_columns{
     CountColumn{"ao_lookups", [](const FrameRecord& r) { return r.ao.lookups; }},
     CountColumn{"ao_rays_cast", [](const FrameRecord& r) { return r.ao.rays_cast; }},
     CountColumn{"ao_cache_cells", [](const FrameRecord& r) { return r.ao.cache_cells; }},
+    CountColumn{"antialias_pixels", [](const FrameRecord& r) { return r.antialias.pixels; }},
+    CountColumn{"antialias_samples", [](const FrameRecord& r) { return r.antialias.samples; }},
     // The old name of soft_points_silhouette, for readers of logs: goes with 0.3.
     CountColumn{"soft_points_outline", [](const FrameRecord& r) { return r.soft.points_silhouette; }},
 };
@@ -99,6 +103,7 @@ inline constexpr std::array closing_timings{
     TimingColumn{"ao_ms", &FrameTimings::ao_ms},
     TimingColumn{"tint_ms", &FrameTimings::tint_ms},
     TimingColumn{"layer_ms", &FrameTimings::layer_ms},
+    TimingColumn{"antialias_ms", &FrameTimings::antialias_ms},
 };
 
 /// The stages in the order in which a frame runs them; their names are those of FrameTimings without the
@@ -122,6 +127,7 @@ inline constexpr std::array frame_stages{
     TimingColumn{"writeback", &FrameTimings::writeback_ms},
     TimingColumn{"composite", &FrameTimings::composite_ms},
     TimingColumn{"layer", &FrameTimings::layer_ms},
+    TimingColumn{"antialias", &FrameTimings::antialias_ms},
 };
 
 }  // namespace tenebra::render

@@ -99,11 +99,10 @@ void add(ShaftStats& to, const ShaftStats& from) {
 // One call of for_each_family: decide() on all, then hand_over().
 class Descent {
 public:
-  Descent(const PointGroups& groups, const TriangleView& triangles, const LightShape& light,
-          const ShaftKernels& kernels, ShaftMaker make_shaft, const StopFlag* stop, const FamilyBody& body,
+  Descent(const PointGroups& groups, const LightShape& light, const ShaftKernels& kernels,
+          ShaftMaker make_shaft, const StopFlag* stop, const FamilyBody& body,
           std::vector<ThreadScratch>& scratch)
       : groups_(groups),
-        triangles_(triangles),
         light_(light),
         kernels_(kernels),
         make_shaft_(make_shaft),
@@ -129,7 +128,6 @@ private:
   void hand_over(const Family& family);
 
   const PointGroups& groups_;
-  const TriangleView& triangles_;
   const LightShape& light_;
   const ShaftKernels& kernels_;
   ShaftMaker make_shaft_;
@@ -299,7 +297,7 @@ bool ShaftCuller::for_each_family(const PointGroups& groups, const TriangleView&
   s.stats.seconds = watch.lap_ms() * 1e-3;
   const ShaftKernels kernels = shaft_kernels(config.simd);
   if (!groups.nodes.empty()) {
-    Descent descent(groups, triangles, light, kernels, shaft_maker(config.simd), stop, body, s.scratch);
+    Descent descent(groups, light, kernels, shaft_maker(config.simd), stop, body, s.scratch);
     descent.decide(groups.nodes[0], s.casters, groups.nodes[0].count);
     descent.hand_over();
   }

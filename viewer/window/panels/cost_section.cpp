@@ -15,7 +15,8 @@ constexpr std::array stage_colors{
     IM_COL32(122, 196, 120, 255), IM_COL32(70, 140, 76, 255),  IM_COL32(190, 220, 110, 255),
     IM_COL32(236, 110, 84, 255),  IM_COL32(150, 96, 190, 255), IM_COL32(198, 150, 230, 255),
     IM_COL32(226, 96, 150, 255),  IM_COL32(150, 60, 110, 255), IM_COL32(180, 186, 196, 255),
-    IM_COL32(84, 92, 108, 255),   IM_COL32(64, 150, 170, 255), IM_COL32(140, 200, 190, 255)};
+    IM_COL32(84, 92, 108, 255),   IM_COL32(64, 150, 170, 255), IM_COL32(140, 200, 190, 255),
+    IM_COL32(214, 196, 140, 255)};
 static_assert(stage_colors.size() == render::frame_stages.size());
 
 constexpr ImU32 ground = IM_COL32(13, 14, 18, 255);  // of the graph

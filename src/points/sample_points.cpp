@@ -1,0 +1,61 @@
+#include "points/sample_points.h"
+
+#include <algorithm>
+
+#include "parallel/parallel.h"
+#include "points/point_tiles.h"
+#include "points/receiver.h"
+
+namespace tenebra::points {
+
+using glm::dvec3;
+
+SampleGrid::SampleGrid(std::size_t count) {
+  const std::size_t squares = std::max<std::size_t>(1, (count + 255) / 256);
+  squares_ = std::min<std::size_t>(squares, patch_squares);
+  height_ = 16 * static_cast<int>((squares + squares_ - 1) / squares_);
+}
+
+void compute_sample_points(std::span<const std::uint32_t> ids, std::span<const glm::vec2> places,
+                           std::size_t count, const ViewRays& view, const TriangleView& triangles,
+                           VisiblePoints& out) {
+  const parallel::FloatEnvironment ieee;
+  const SampleGrid grid(count);
+  out.width = grid.width();
+  out.height = grid.height();
+  out.view = view;
+  out.tiles.clear();
+  out.triangles.assign(grid.pixels(), no_triangle);
+  out.positions.resize(grid.pixels());
+  const dvec3 eye(view.eye), d0(view.d0), dx(view.dx), dy(view.dy);
+  parallel::parallel_ranges(count, 4096, [&](std::size_t first, std::size_t last) {
+    Receiver receiver;
+    for (std::size_t i = first; i < last; ++i) {
+      const std::size_t pixel = grid.pixel(i);
+      const std::uint32_t id = ids[pixel];
+      if (id >= triangles.triangles.size()) continue;
+      if (id != receiver.id) receiver = receiver_of(triangles, id);
+      const glm::dvec2 place(places[pixel]);
+      const dvec3 across = place.x * dx + place.y * dy;
+      out.triangles[pixel] = id;
+      out.positions[pixel] = view.orthographic ? visible_point(receiver, eye + across, d0)
+                                               : visible_point(receiver, eye, d0 + across);
+    }
+  });
+}
+
+void take_points(const VisiblePoints& from, std::span<const std::uint32_t> pixels, VisiblePoints& out) {
+  const SampleGrid grid(pixels.size());
+  out.width = grid.width();
+  out.height = grid.height();
+  out.view = from.view;
+  out.tiles.clear();
+  out.triangles.assign(grid.pixels(), no_triangle);
+  out.positions.resize(grid.pixels());
+  for (std::size_t i = 0; i < pixels.size(); ++i) {
+    out.triangles[grid.pixel(i)] = from.triangles[pixels[i]];
+    out.positions[grid.pixel(i)] = from.positions[pixels[i]];
+  }
+}
+
+}  // namespace tenebra::points

@@ -1,0 +1,13 @@
+// The work of anti-aliasing, for results and the log.
+#pragma once
+
+#include <cstdint>
+
+namespace tenebra::render {
+
+struct AntialiasStats {
+  std::uint64_t pixels = 0;   ///< that needed more than the sample at their centre
+  std::uint64_t samples = 0;  ///< lit and shaded for them, beside the centres'
+};
+
+}  // namespace tenebra::render

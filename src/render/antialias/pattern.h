@@ -1,0 +1,34 @@
+// Where the samples of a pixel lie.
+#pragma once
+
+#include <glm/glm.hpp>
+#include <span>
+#include <vector>
+
+#include <tenebra/frame_geometry.h>
+
+namespace tenebra::render {
+
+/// The samples of a pixel beside its centre. A pixel's value is the mean over them and, where it counts, the
+/// centre: a box filter one pixel wide, since the places fill the pixel evenly.
+struct SamplePattern {
+  std::span<const glm::vec2> offsets;  ///< from the centre in pixels, less than 0.5 each way, exact in 1/64
+  bool centre_counts = true;
+
+  std::size_t count() const { return offsets.size() + (centre_counts ? 1 : 0); }
+};
+
+/// The numbers of samples that a pixel may have: 1, 2, 4, 8, 16, and 256 to compare with.
+bool is_sample_count(int samples);
+
+/// The pattern of so many samples. Those of up to sixteen were found by a search for the least mean square
+/// error of the coverage of a pixel by half planes, over all their directions and distances; the centre is
+/// fixed, so that what the pixels' centres see serves every count, but for two, of which it is none. 256 are
+/// Hammersley's points.
+SamplePattern sample_pattern(int samples);
+
+/// The view whose pixels' centres are places at `offset` from those of `view`. Its rays are rounded to float
+/// once more: beside the place by about a ten-thousandth of a pixel of a picture a thousand pixels wide.
+ViewRays shifted_view(const ViewRays& view, glm::vec2 offset);
+
+}  // namespace tenebra::render

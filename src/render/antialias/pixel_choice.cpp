@@ -1,0 +1,156 @@
+#include "render/antialias/pixel_choice.h"
+
+#include <algorithm>
+#include <cstdlib>
+
+#include "parallel/parallel.h"
+
+namespace tenebra::render {
+namespace {
+
+constexpr std::size_t square_side = 16, block_side = 4;
+
+class Chooser {
+public:
+  Chooser(const CentrePicture& centre, std::span<const glm::vec2> offsets, std::span<const SampleIds> seen,
+          const SurfaceMatch& match)
+      : centre_(centre),
+        offsets_(offsets),
+        seen_(seen),
+        match_(match),
+        width_(static_cast<std::size_t>(centre.width)),
+        height_(static_cast<std::size_t>(centre.height)),
+        chosen_(width_ * height_) {}
+
+  std::vector<std::uint8_t> run(bool everywhere) && {
+    if (everywhere) return std::vector<std::uint8_t>(chosen_.size(), 1);
+    parallel::parallel_ranges(height_, 16, [&](std::size_t first, std::size_t last) {
+      for (std::size_t y = first; y < last; ++y) {
+        by_geometry(y);
+        by_contrast(y);
+      }
+    });
+    return std::move(chosen_);
+  }
+
+private:
+  glm::vec2 centre_of(std::size_t pixel) const {
+    return {static_cast<float>(pixel % width_) + 0.5f, static_cast<float>(pixel / width_) + 0.5f};
+  }
+
+  /// Marks pixels of a row whose samples see other ids first: nearly always, all are the same.
+  void by_geometry(std::size_t y) {
+    const std::size_t first = y * width_, last = first + width_;
+    std::vector<std::uint32_t> other(width_);
+    for (const SampleIds& sample : seen_) {
+      for (std::size_t i = first; i < last; ++i) other[i - first] |= sample.ids[i] ^ centre_.ids[i];
+      if (sample.layer.empty()) continue;
+      for (std::size_t i = first; i < last; ++i) other[i - first] |= sample.layer[i] ^ centre_.layer[i];
+    }
+    for (std::size_t i = first; i < last; ++i)
+      if (other[i - first] != 0 && sees_several(i)) chosen_[i] = 1;
+  }
+
+  bool sees_several(std::size_t pixel) const {
+    for (std::size_t k = 0; k < seen_.size(); ++k) {
+      const glm::vec2 place = centre_of(pixel) + offsets_[k];
+      if (!match_.same(centre_.ids[pixel], seen_[k].ids[pixel], place)) return true;
+      if (!seen_[k].layer.empty() && !match_.same(centre_.layer[pixel], seen_[k].layer[pixel], place))
+        return true;
+    }
+    return false;
+  }
+
+  void by_contrast(std::size_t y) {
+    std::vector<std::uint8_t> across(width_);
+    if (y > 0) compare(y, y - 1, across), choose(y, y - 1, across);
+    if (y + 1 < height_) compare(y, y + 1, across), choose(y, y + 1, across);
+    // Pixel x with x + 1, by which both may be chosen.
+    std::fill(across.begin(), across.end(), std::uint8_t{0});
+    if (width_ < 2) return;
+    compare_runs(y * width_, y * width_ + 1, width_ - 1, across.data());
+    for (std::size_t x = 0; x + 1 < width_; ++x) {
+      const std::size_t i = y * width_ + x;
+      if (across[x] == 0 || (chosen_[i] != 0 && chosen_[i + 1] != 0) || !one_surface(i, i + 1)) continue;
+      chosen_[i] = chosen_[i + 1] = 1;
+    }
+  }
+
+  void compare(std::size_t y, std::size_t other, std::vector<std::uint8_t>& differs) const {
+    std::fill(differs.begin(), differs.end(), std::uint8_t{0});
+    compare_runs(y * width_, other * width_, width_, differs.data());
+  }
+
+  /// Whether pixels from `i` on differ from those from `j` on.
+  void compare_runs(std::size_t i, std::size_t j, std::size_t count, std::uint8_t* differs) const {
+    const std::uint8_t* const a = centre_.picture.pixels.data() + 3 * i;
+    const std::uint8_t* const b = centre_.picture.pixels.data() + 3 * j;
+    const auto gap = [](std::uint8_t p, std::uint8_t q) { return p > q ? p - q : q - p; };
+    for (std::size_t x = 0; x < count; ++x) {
+      const int most = std::max(
+          {gap(a[3 * x], b[3 * x]), gap(a[3 * x + 1], b[3 * x + 1]), gap(a[3 * x + 2], b[3 * x + 2])});
+      differs[x] = most > least_contrast ? 1 : 0;
+    }
+    for (const auto mask : centre_.masks)
+      for (std::size_t x = 0; x < count; ++x)
+        differs[x] |= is_lit(mask[i + x]) != is_lit(mask[j + x]) ? 1 : 0;
+  }
+  /// Penumbrae change slowly, and what is drawn shows where they do not.
+  static bool is_lit(std::uint8_t mask) { return mask > 127; }
+
+  void choose(std::size_t y, std::size_t other, const std::vector<std::uint8_t>& differs) {
+    for (std::size_t x = 0; x < width_; ++x) {
+      const std::size_t i = y * width_ + x;
+      if (differs[x] != 0 && chosen_[i] == 0 && one_surface(i, other * width_ + x)) chosen_[i] = 1;
+    }
+  }
+
+  bool one_surface(std::size_t i, std::size_t j) const {
+    const glm::vec2 between = (centre_of(i) + centre_of(j)) * 0.5f;
+    if (centre_.ids[i] == no_triangle && centre_.ids[j] == no_triangle) return true;
+    return match_.same(centre_.ids[i], centre_.ids[j], between);
+  }
+
+  const CentrePicture& centre_;
+  std::span<const glm::vec2> offsets_;
+  std::span<const SampleIds> seen_;
+  const SurfaceMatch& match_;
+  std::size_t width_, height_;
+  std::vector<std::uint8_t> chosen_;
+};
+
+/// Pixels of a row of squares, in order.
+void list_squares(const std::vector<std::uint8_t>& chosen, std::size_t width, std::size_t top,
+                  std::size_t bottom, std::vector<std::uint32_t>& out) {
+  for (std::size_t left = 0; left < width; left += square_side) {
+    const std::size_t right = std::min(left + square_side, width);
+    for (std::size_t block_y = top; block_y < bottom; block_y += block_side) {
+      for (std::size_t block_x = left; block_x < right; block_x += block_side) {
+        for (std::size_t y = block_y; y < std::min(block_y + block_side, bottom); ++y)
+          for (std::size_t x = block_x; x < std::min(block_x + block_side, right); ++x)
+            if (chosen[y * width + x] != 0) out.push_back(static_cast<std::uint32_t>(y * width + x));
+      }
+    }
+  }
+}
+
+}  // namespace
+
+std::vector<std::uint32_t> choose_pixels(const CentrePicture& centre, std::span<const glm::vec2> offsets,
+                                         std::span<const SampleIds> seen, const SurfaceMatch& match,
+                                         bool everywhere) {
+  const std::vector<std::uint8_t> chosen = Chooser(centre, offsets, seen, match).run(everywhere);
+  const auto width = static_cast<std::size_t>(centre.width), height = static_cast<std::size_t>(centre.height);
+  const std::size_t bands = (height + square_side - 1) / square_side;
+  std::vector<std::vector<std::uint32_t>> parts(bands);
+  parallel::parallel_tasks(static_cast<int>(bands), [&](int band) {
+    const std::size_t top = static_cast<std::size_t>(band) * square_side;
+    list_squares(chosen, width, top, std::min(top + square_side, height),
+                 parts[static_cast<std::size_t>(band)]);
+  });
+  std::vector<std::uint32_t> out;
+  for (const auto& part : parts) out.insert(out.end(), part.begin(), part.end());
+  return out;
+}
+
+}  // namespace tenebra::render

@@ -1,0 +1,37 @@
+// The further samples of pixels that one does not serve, side by side in a picture of their own.
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+#include <glm/glm.hpp>
+#include <span>
+#include <vector>
+
+#include "points/sample_points.h"
+
+namespace tenebra::render {
+
+/// What all pixels of the frame see at one place within them.
+struct SampleIds {
+  std::vector<std::uint32_t> ids;    ///< opaque triangles, or no_triangle
+  std::vector<std::uint32_t> layer;  ///< see-through ones before them; empty: the frame has none
+};
+
+/// Samples of chosen pixels, as stages take pixels. Lists are by pixel of `grid`, which a few places without
+/// a sample fill up: they see nothing.
+struct SamplePicture {
+  points::SampleGrid grid{0};
+  std::size_t count = 0;
+  std::size_t per_pixel = 0;
+  std::vector<std::uint32_t> ids, layer;
+  std::vector<glm::vec2> places;      ///< in the frame's window, pixels
+  std::vector<std::uint32_t> pixels;  ///< of the frame
+  std::vector<std::uint32_t> slots;   ///< where sample k of chosen pixel i stands: [i * per_pixel + k]
+};
+
+/// Sample k of pixel p sees seen[k] at p; its place is offsets[k] from the pixel's centre. Of a square of the
+/// grid, samples of one triangle stand together.
+void pack_samples(std::span<const std::uint32_t> chosen, int width, std::span<const glm::vec2> offsets,
+                  std::span<const SampleIds> seen, SamplePicture& out);
+
+}  // namespace tenebra::render
