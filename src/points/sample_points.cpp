@@ -1,20 +1,11 @@
 #include "points/sample_points.h"
 
-#include <algorithm>
-
 #include "parallel/parallel.h"
-#include "points/point_tiles.h"
 #include "points/receiver.h"
 
 namespace tenebra::points {
 
 using glm::dvec3;
-
-SampleGrid::SampleGrid(std::size_t count) {
-  const std::size_t squares = std::max<std::size_t>(1, (count + 255) / 256);
-  squares_ = std::min<std::size_t>(squares, patch_squares);
-  height_ = 16 * static_cast<int>((squares + squares_ - 1) / squares_);
-}
 
 void compute_sample_points(std::span<const std::uint32_t> ids, std::span<const glm::vec2> places,
                            std::size_t count, const ViewRays& view, const TriangleView& triangles,

@@ -2,6 +2,7 @@
 // takes visible points takes them too.
 #pragma once
 
+#include <algorithm>
 #include <cstddef>
 #include <cstdint>
 #include <glm/glm.hpp>
@@ -15,21 +16,23 @@ namespace tenebra::points {
 /// PointTiles, 256 a square. What belongs together should follow each other.
 class SampleGrid {
 public:
-  explicit SampleGrid(std::size_t count);
-  int width() const { return 16 * static_cast<int>(squares_); }
+  explicit SampleGrid(std::size_t count)
+      : height_(16 *
+                static_cast<int>(std::max<std::size_t>(1, (count + 256 * columns - 1) / (256 * columns)))) {}
+  int width() const { return static_cast<int>(16 * columns); }
   int height() const { return height_; }
   /// Of the whole picture, places without a sample included.
   std::size_t pixels() const { return static_cast<std::size_t>(width()) * static_cast<std::size_t>(height_); }
   /// Where sample `i` stands.
   std::size_t pixel(std::size_t i) const {
     const std::size_t square = i / 256, tile = i % 256 / 16, lane = i % 16;
-    const std::size_t x = square % squares_ * 16 + tile % 4 * 4 + lane % 4,
-                      y = square / squares_ * 16 + tile / 4 * 4 + lane / 4;
-    return y * static_cast<std::size_t>(width()) + x;
+    const std::size_t x = square % columns * 16 + tile % 4 * 4 + lane % 4,
+                      y = square / columns * 16 + tile / 4 * 4 + lane / 4;
+    return y * 16 * columns + x;
   }
 
 private:
-  std::size_t squares_;  // in a row
+  static constexpr std::size_t columns = 64;  // squares in a row, which are a patch
   int height_;
 };
 

@@ -1,7 +1,6 @@
 // The stages of anti-aliasing: what further samples of some pixels see, their lights and their colours, by
 // the same calls as those of the pixels' centres, and the means.
 #include <algorithm>
-#include <cmath>
 
 #include "base/fail.h"
 #include "base/stopwatch.h"
@@ -155,15 +154,24 @@ Expected<void> Renderer::State::light_packed(const FrameInput& input, const std:
   return soft_too ? light_softly(input, lights, settings, result, stop) : Expected<void>();
 }
 
-Expected<void> Renderer::State::shade_packed(const FrameInput& input, const std::vector<DrawnLight>& lights,
+/// Colours of a list; with `from` numbers of what `lit` has.
+void Renderer::State::shade_list(const RenderSettings& settings, const shade::Subject& subject,
+                                 const shade::Lighting& lighting, const SampleLights& lit) {
+  with_threads(settings.threads, [&] {
+    const GatheredFactors gathered(lit.lights, listed.from);
+    const auto factors = gathered.factors();
+    std::vector<float> open(lit.openness.empty() ? 0 : listed.from.size());
+    for (std::size_t i = 0; i < open.size(); ++i) open[i] = lit.openness[listed.from[i]];
+    shade::shade_samples(subject, lighting,
+                         {listed.ids, listed.places, factors, open, texture_width_px(settings.antialias)},
+                         shaded);
+  });
+}
+
+/// See-through surfaces before packed samples, over their colours.
+Expected<void> Renderer::State::layer_packed(const FrameInput& input, const std::vector<DrawnLight>& lights,
                                              const RenderSettings& settings, const shade::Subject& subject,
                                              const shade::Lighting& lighting, const StopFlag* stop) {
-  const auto factors = at_samples.factors();
-  const float width_px = 1.0f / std::sqrt(static_cast<float>(settings.antialias));
-  with_threads(settings.threads, [&] {
-    shade::shade_samples(subject, lighting,
-                         {samples.ids, samples.places, factors, at_samples.openness, width_px}, shaded);
-  });
   if (std::all_of(samples.layer.begin(), samples.layer.end(),
                   [](std::uint32_t id) { return id == no_triangle; }))
     return {};
@@ -177,51 +185,90 @@ Expected<void> Renderer::State::shade_packed(const FrameInput& input, const std:
   if (auto lit = light_samples(input, lights, settings, LightKinds::all, layer_at_samples, stop); !lit)
     return lit;
   const SeeThroughSurfaces through = see_through_surfaces(scene, input.geometry, coordinates);
+  const auto factors = at_samples.factors();
   const shade::PixelSamples behind_them{samples.grid.width(), samples.grid.height(), samples.ids, factors,
                                         at_samples.openness};
   with_threads(settings.threads, [&] {
     eye_tint.trace(at_samples.points, layer_at_samples, input.view, triangles, through, passes);
     const auto drawn =
         layer_colors({subject, lighting, behind_them, samples.places, layer_at_samples, through, passes});
-    for (std::size_t i = 0; i < drawn.size(); ++i) shaded[passes.pixels[i]].color = drawn[i];
+    std::vector<std::uint32_t> entry(samples.grid.pixels());
+    for (std::uint32_t i = 0; i < listed.from.size(); ++i) entry[listed.from[i]] = i;
+    for (std::size_t i = 0; i < drawn.size(); ++i) shaded[entry[passes.pixels[i]]].color = drawn[i];
+  });
+  return {};
+}
+
+/// Edges: further samples with points and shadows of their own.
+Expected<void> Renderer::State::add_edges(const FrameInput& input, const std::vector<DrawnLight>& lights,
+                                          const RenderSettings& settings, const SampleFrame& frame,
+                                          std::span<const std::uint32_t> chosen, std::size_t first,
+                                          std::size_t place, const FrameResult& result, SampleMeans& means,
+                                          const StopFlag* stop) {
+  const auto offsets = frame.offsets.subspan(place, further.size());
+  with_threads(settings.threads,
+               [&] { pack_samples(chosen, seen.width, offsets, further, seen.ids, samples); });
+  if (auto lit = light_packed(input, lights, settings, result, stop); !lit) return lit;
+  const auto factors = at_samples.factors();
+  const SampleLights lit{factors, at_samples.openness};
+  const bool merged = !settings.antialias_everywhere && input.geometry.see_through.empty();
+  with_threads(settings.threads, [&] {
+    if (merged) {
+      list_groups(chosen, samples, lit, seen.ids, {frame.pixels.factors, frame.pixels.openness},
+                  SurfaceMatch(input.geometry, input.view), listed);
+    } else {
+      list_samples(chosen, samples, listed);
+    }
+  });
+  shade_list(settings, frame.subject, frame.lighting, lit);
+  if (auto drawn = layer_packed(input, lights, settings, frame.subject, frame.lighting, stop); !drawn)
+    return drawn;
+  with_threads(settings.threads, [&] {
+    means.add_colors(first, listed, shaded);
+    means.add_masks(first, place, samples, at_samples);
   });
   return {};
 }
 
 Expected<void> Renderer::State::antialias(const FrameInput& input, const std::vector<DrawnLight>& lights,
-                                          const RenderSettings& settings, const shade::Subject& subject,
-                                          const shade::Lighting& lighting, FrameResult& result,
-                                          const StopFlag* stop) {
+                                          const RenderSettings& settings, const SampleFrame& frame,
+                                          FrameResult& result, const StopFlag* stop) {
   if (settings.antialias == 1) return {};
   base::Stopwatch watch;
   const SamplePattern pattern = sample_pattern(settings.antialias);
-  std::vector<std::uint32_t> chosen;
-  SampleMeans means(pattern, display_of(settings), settings.sample_masks, result);
-  for (std::size_t first = 0; first < pattern.offsets.size(); first += most_places) {
-    const auto offsets =
-        pattern.offsets.subspan(first, std::min(most_places, pattern.offsets.size() - first));
+  ChosenPixels chosen;
+  SampleMeans means(pattern, display_of(settings), settings.sample_masks, colors, result);
+  for (std::size_t place = 0; place < pattern.offsets.size(); place += most_places) {
+    const auto offsets = frame.offsets.subspan(place, std::min(most_places, frame.offsets.size() - place));
     if (auto found = find_sample_ids(input, settings, offsets); !found) return found;
-    if (first == 0) {
+    if (place == 0) {
       with_threads(settings.threads, [&] {
         CentrePicture centre{seen.width, seen.height, seen.ids, seen.layer, result.image, {}};
         for (const LightMask& mask : result.masks) centre.masks.emplace_back(mask.mask.pixels);
         chosen = choose_pixels(centre, offsets, further, SurfaceMatch(input.geometry, input.view),
                                settings.antialias_everywhere);
-        means.begin(chosen, colors);
+        means.begin(chosen.edges, chosen.contrasts);
       });
     }
     const std::size_t at_once = most_samples / offsets.size();
-    for (std::size_t i = 0; i < chosen.size(); i += at_once) {
+    for (std::size_t i = 0; i < chosen.edges.size(); i += at_once) {
       if (stop_requested(stop)) return base::fail("stopped");
-      const std::span<const std::uint32_t> part(&chosen[i], std::min(at_once, chosen.size() - i));
-      with_threads(settings.threads, [&] { pack_samples(part, seen.width, offsets, further, samples); });
-      if (auto lit = light_packed(input, lights, settings, result, stop); !lit) return lit;
-      if (auto drawn = shade_packed(input, lights, settings, subject, lighting, stop); !drawn) return drawn;
-      with_threads(settings.threads, [&] { means.add(i, first, samples, shaded, at_samples); });
+      const std::span<const std::uint32_t> part(&chosen.edges[i], std::min(at_once, chosen.edges.size() - i));
+      if (auto added = add_edges(input, lights, settings, frame, part, i, place, result, means, stop); !added)
+        return added;
+    }
+    for (std::size_t i = 0; i < chosen.contrasts.size(); i += at_once) {
+      if (stop_requested(stop)) return base::fail("stopped");
+      const std::span<const std::uint32_t> part(&chosen.contrasts[i],
+                                                std::min(at_once, chosen.contrasts.size() - i));
+      list_as_centres(part, seen.width, offsets, further, listed);
+      shade_list(settings, frame.subject, frame.lighting, {frame.pixels.factors, frame.pixels.openness});
+      means.add_colors(chosen.edges.size() + i, listed, shaded);
     }
   }
   with_threads(settings.threads, [&] { means.finish(); });
-  result.antialias = {chosen.size(), chosen.size() * pattern.offsets.size()};
+  const std::size_t pixels = chosen.edges.size() + chosen.contrasts.size();
+  result.antialias = {pixels, pixels * pattern.offsets.size()};
   result.timings.antialias_ms = watch.lap_ms();
   return {};
 }

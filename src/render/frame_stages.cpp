@@ -4,6 +4,7 @@
 #include "base/fail.h"
 #include "base/stopwatch.h"
 #include "parallel/parallel.h"
+#include "render/antialias/pattern.h"
 #include "render/light_casters.h"
 #include "render/renderer_state.h"
 #include "render/shadow_lights.h"
@@ -206,7 +207,8 @@ Expected<void> Renderer::State::shade_pixels(const FrameInput& input, const std:
   });
   if (auto drawn = draw_see_through(input, lights, subject, lighting, pixels, settings, result, stop); !drawn)
     return drawn;
-  return antialias(input, lights, settings, subject, lighting, result, stop);
+  const SamplePattern pattern = sample_pattern(settings.antialias);
+  return antialias(input, lights, settings, {subject, lighting, pixels, pattern.offsets}, result, stop);
 }
 
 void Renderer::State::keep_new(std::vector<std::string>& notes) {

@@ -2,6 +2,8 @@
 #pragma once
 
 #include <cstdint>
+#include <glm/glm.hpp>
+#include <span>
 #include <vector>
 
 #include <tenebra/hard_config.h>
@@ -23,6 +25,22 @@ struct LitSamples {
   std::vector<float> openness;                       ///< empty without ambient occlusion
 
   std::vector<shade::LightFactors> factors() const;
+};
+
+/// What is left of the lights at some of those samples, one after another.
+class GatheredFactors {
+public:
+  GatheredFactors(std::span<const shade::LightFactors> from, std::span<const std::uint32_t> samples);
+  std::vector<shade::LightFactors> factors() const;
+
+private:
+  struct OfLight {
+    std::vector<std::uint8_t> mask;
+    std::vector<float> irradiance;
+    std::vector<glm::vec3> tint;
+    std::vector<std::uint8_t> coloured;
+  };
+  std::vector<OfLight> lights_;
 };
 
 }  // namespace tenebra::render

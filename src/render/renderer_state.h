@@ -7,7 +7,9 @@
 #include <unordered_set>
 #include <vector>
 
+#include "render/antialias/sample_means.h"
 #include "render/antialias/sample_picture.h"
+#include "render/antialias/shading_list.h"
 #include "render/frame_lights.h"
 #include "render/frame_raster.h"
 #include "render/light_points.h"
@@ -56,6 +58,7 @@ struct Renderer::State {
   LitSamples at_samples{}, layer_at_samples{}, own_soft{};
   std::vector<std::uint32_t> soft_from{};  // pixel of the frame; or first_own + 1 + index in own_slots
   std::vector<std::uint32_t> own_slots{};
+  ShadingList listed{};
   std::vector<shade::ShadedSample> shaded{};
 
   /// What each pixel sees.
@@ -101,12 +104,23 @@ struct Renderer::State {
   Expected<void> shade_pixels(const FrameInput& input, const std::vector<DrawnLight>& lights,
                               const RenderSettings& settings, FrameResult& result, const StopFlag* stop);
 
-  /// What the picture, and the means of masks, get from further samples (antialias_stages.cpp).
+  /// What anti-aliasing starts from (antialias_stages.cpp).
+  struct SampleFrame {
+    const shade::Subject& subject;
+    const shade::Lighting& lighting;
+    const shade::PixelSamples& pixels;
+    std::span<const glm::vec2> offsets;
+  };
+  /// What the picture, and the means of masks, get from further samples.
   Expected<void> antialias(const FrameInput& input, const std::vector<DrawnLight>& lights,
-                           const RenderSettings& settings, const shade::Subject& subject,
-                           const shade::Lighting& lighting, FrameResult& result, const StopFlag* stop);
+                           const RenderSettings& settings, const SampleFrame& frame, FrameResult& result,
+                           const StopFlag* stop);
   Expected<void> find_sample_ids(const FrameInput& input, const RenderSettings& settings,
                                  std::span<const glm::vec2> offsets);
+  Expected<void> add_edges(const FrameInput& input, const std::vector<DrawnLight>& lights,
+                           const RenderSettings& settings, const SampleFrame& frame,
+                           std::span<const std::uint32_t> chosen, std::size_t first, std::size_t place,
+                           const FrameResult& result, SampleMeans& means, const StopFlag* stop);
   Expected<void> light_packed(const FrameInput& input, const std::vector<DrawnLight>& lights,
                               const RenderSettings& settings, const FrameResult& result,
                               const StopFlag* stop);
@@ -114,7 +128,9 @@ struct Renderer::State {
                               const RenderSettings& settings, const FrameResult& result,
                               const StopFlag* stop);
   void borrow_soft(const FrameInput& input);
-  Expected<void> shade_packed(const FrameInput& input, const std::vector<DrawnLight>& lights,
+  void shade_list(const RenderSettings& settings, const shade::Subject& subject,
+                  const shade::Lighting& lighting, const SampleLights& lit);
+  Expected<void> layer_packed(const FrameInput& input, const std::vector<DrawnLight>& lights,
                               const RenderSettings& settings, const shade::Subject& subject,
                               const shade::Lighting& lighting, const StopFlag* stop);
 

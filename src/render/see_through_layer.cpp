@@ -35,28 +35,6 @@ SurfacePlace place_of(const SeeThroughSurfaces& surfaces, const TriangleView& tr
           between(surfaces.colors, glm::vec4(1.0f))};
 }
 
-/// Factors of a list of pixels, gathered.
-struct Gathered {
-  std::vector<std::uint8_t> mask;
-  std::vector<float> irradiance;
-  std::vector<glm::vec3> tint;
-  std::vector<std::uint8_t> coloured;
-
-  Gathered(const shade::LightFactors& from, std::span<const std::uint32_t> pixels) {
-    for (const std::uint32_t pixel : pixels) {
-      if (!from.mask.empty()) mask.push_back(from.mask[pixel]);
-      if (!from.irradiance.empty()) irradiance.push_back(from.irradiance[pixel]);
-      if (!from.tint.factors.empty()) tint.push_back(from.tint.factors[pixel]);
-    }
-    coloured.assign(tint.size() / shade::TintFactors::run + 1, 1);
-  }
-  shade::LightFactors factors() const {
-    shade::LightFactors out{mask, irradiance, {}};
-    if (!tint.empty()) out.tint = {tint, coloured};
-    return out;
-  }
-};
-
 std::vector<shade::ShadedSample> shaded(const LayerPicture& picture, std::span<const std::uint32_t> ids,
                                         std::span<const shade::LightFactors> factors,
                                         std::span<const float> openness,
@@ -72,22 +50,14 @@ std::vector<shade::ShadedSample> shaded(const LayerPicture& picture, std::span<c
                                             : picture.places[pixel]);
     if (!openness.empty()) open.push_back(openness[pixel]);
   }
-  std::vector<Gathered> gathered;
-  for (const shade::LightFactors& light : factors) gathered.emplace_back(light, pixels);
-  std::vector<shade::LightFactors> own;
-  for (const Gathered& light : gathered) own.push_back(light.factors());
+  const GatheredFactors gathered(factors, pixels);
+  const auto own = gathered.factors();
   std::vector<shade::ShadedSample> out;
   shade_samples(picture.subject, picture.lighting, {own_ids, places, own, open}, out);
   return out;
 }
 
 }  // namespace
-
-std::vector<shade::LightFactors> LitSamples::factors() const {
-  std::vector<shade::LightFactors> out(masks.size());
-  for (std::size_t i = 0; i < masks.size(); ++i) out[i] = {masks[i], irradiance[i], tints[i].factors()};
-  return out;
-}
 
 void EyeTint::trace(const VisiblePoints& opaque, const LitSamples& layer, const ViewRays& view,
                     const TriangleView& triangles, const SeeThroughSurfaces& surfaces, TintMask& out) {

@@ -62,7 +62,6 @@ const texture::TextureValues* BlockShader::sampled(const MapUse& use, const Text
   return &to;
 }
 
-/// From one sample to the next it is less far than from pixel to pixel.
 void BlockShader::narrow_places(std::size_t rules) {
   for (texture::TexturePlaces* places = places_; places != places_ + rules; ++places) {
     for (auto* channels : {places->by_x, places->by_y})

@@ -24,7 +24,7 @@ struct FrameTerms {
 
 class BlockShader {
 public:
-  /// `width_px`: of what a sample stands for.
+  /// `width_px`: as Samples::width_px.
   explicit BlockShader(const FrameTerms& frame, float width_px = 1) : frame_(frame), width_px_(width_px) {}
 
   /// Begins a block of up to SampleBlock::capacity samples at window places (x, y), arrays of

@@ -40,7 +40,7 @@ struct Samples {
   std::span<const glm::vec2> places;      ///< in pixels; (0.5, 0.5) is the centre of the top left one
   std::span<const LightFactors> factors;  ///< one for each of Lighting::lights, by sample
   std::span<const float> openness;        ///< ambient occlusion, 1 open to 0 closed; empty: all open
-  float width_px = 1;                     ///< of what a sample stands for: textures are smoothed over it
+  float width_px = 1;                     ///< textures are smoothed as widely as for pixels of this width
 };
 
 /// A sample's linear colour, before exposure: ambient * ambient_light * openness + emissive + the sum of

@@ -1,6 +1,7 @@
 #include "render/antialias/pattern.h"
 
 #include <array>
+#include <cmath>
 #include <cstdint>
 
 namespace tenebra::render {
@@ -55,6 +56,10 @@ SamplePattern sample_pattern(int samples) {
     default:
       return {};
   }
+}
+
+float texture_width_px(int samples) {
+  return 1.0f / std::sqrt(static_cast<float>(samples));
 }
 
 ViewRays shifted_view(const ViewRays& view, glm::vec2 offset) {

@@ -27,6 +27,10 @@ bool is_sample_count(int samples);
 /// Hammersley's points.
 SamplePattern sample_pattern(int samples);
 
+/// How widely textures are smoothed at a sample of `samples` a pixel, in pixels: so that what the samples of
+/// a pixel stand for is the pixel.
+float texture_width_px(int samples);
+
 /// The view whose pixels' centres are places at `offset` from those of `view`. Its rays are rounded to float
 /// once more: beside the place by about a ten-thousandth of a pixel of a picture a thousand pixels wide.
 ViewRays shifted_view(const ViewRays& view, glm::vec2 offset);

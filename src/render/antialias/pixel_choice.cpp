@@ -9,6 +9,7 @@ namespace tenebra::render {
 namespace {
 
 constexpr std::size_t square_side = 16, block_side = 4;
+constexpr std::uint8_t is_edge = 2, has_contrast = 1;
 
 class Chooser {
 public:
@@ -23,11 +24,12 @@ public:
         chosen_(width_ * height_) {}
 
   std::vector<std::uint8_t> run(bool everywhere) && {
-    if (everywhere) return std::vector<std::uint8_t>(chosen_.size(), 1);
+    if (everywhere) return std::vector<std::uint8_t>(chosen_.size(), is_edge);
     parallel::parallel_ranges(height_, 16, [&](std::size_t first, std::size_t last) {
       for (std::size_t y = first; y < last; ++y) {
         by_geometry(y);
         by_contrast(y);
+        if (!centre_.layer.empty()) by_layer(y);
       }
     });
     return std::move(chosen_);
@@ -48,7 +50,7 @@ private:
       for (std::size_t i = first; i < last; ++i) other[i - first] |= sample.layer[i] ^ centre_.layer[i];
     }
     for (std::size_t i = first; i < last; ++i)
-      if (other[i - first] != 0 && sees_several(i)) chosen_[i] = 1;
+      if (other[i - first] != 0 && sees_several(i)) chosen_[i] = is_edge;
   }
 
   bool sees_several(std::size_t pixel) const {
@@ -61,49 +63,49 @@ private:
     return false;
   }
 
+  /// What is seen through something needs points of its own.
+  void by_layer(std::size_t y) {
+    for (std::size_t i = y * width_; i < (y + 1) * width_; ++i)
+      if (chosen_[i] == has_contrast && centre_.layer[i] != no_triangle) chosen_[i] = is_edge;
+  }
+
   void by_contrast(std::size_t y) {
-    std::vector<std::uint8_t> across(width_);
-    if (y > 0) compare(y, y - 1, across), choose(y, y - 1, across);
-    if (y + 1 < height_) compare(y, y + 1, across), choose(y, y + 1, across);
-    // Pixel x with x + 1, by which both may be chosen.
-    std::fill(across.begin(), across.end(), std::uint8_t{0});
+    std::vector<std::uint8_t> differs(width_);
+    for (const std::ptrdiff_t dy : {-1, 1}) {
+      if ((dy < 0 && y == 0) || (dy > 0 && y + 1 == height_)) continue;
+      const std::size_t other = y + static_cast<std::size_t>(dy);
+      compare(y * width_, other * width_, width_, differs.data());
+      for (std::size_t x = 0; x < width_; ++x) mark(differs[x], y * width_ + x, other * width_ + x);
+    }
     if (width_ < 2) return;
-    compare_runs(y * width_, y * width_ + 1, width_ - 1, across.data());
+    compare(y * width_, y * width_ + 1, width_ - 1, differs.data());
     for (std::size_t x = 0; x + 1 < width_; ++x) {
-      const std::size_t i = y * width_ + x;
-      if (across[x] == 0 || (chosen_[i] != 0 && chosen_[i + 1] != 0) || !one_surface(i, i + 1)) continue;
-      chosen_[i] = chosen_[i + 1] = 1;
+      mark(differs[x], y * width_ + x, y * width_ + x + 1);
+      mark(differs[x], y * width_ + x + 1, y * width_ + x);
     }
   }
 
-  void compare(std::size_t y, std::size_t other, std::vector<std::uint8_t>& differs) const {
-    std::fill(differs.begin(), differs.end(), std::uint8_t{0});
-    compare_runs(y * width_, other * width_, width_, differs.data());
+  /// Pixel i, which differs so from pixel j.
+  void mark(std::uint8_t differs, std::size_t i, std::size_t j) {
+    if (differs > chosen_[i] && one_surface(i, j)) chosen_[i] = differs;
   }
 
-  /// Whether pixels from `i` on differ from those from `j` on.
-  void compare_runs(std::size_t i, std::size_t j, std::size_t count, std::uint8_t* differs) const {
+  /// How pixels from `i` on differ from those from `j` on.
+  void compare(std::size_t i, std::size_t j, std::size_t count, std::uint8_t* differs) const {
     const std::uint8_t* const a = centre_.picture.pixels.data() + 3 * i;
     const std::uint8_t* const b = centre_.picture.pixels.data() + 3 * j;
     const auto gap = [](std::uint8_t p, std::uint8_t q) { return p > q ? p - q : q - p; };
     for (std::size_t x = 0; x < count; ++x) {
       const int most = std::max(
           {gap(a[3 * x], b[3 * x]), gap(a[3 * x + 1], b[3 * x + 1]), gap(a[3 * x + 2], b[3 * x + 2])});
-      differs[x] = most > least_contrast ? 1 : 0;
+      differs[x] = most > least_contrast ? has_contrast : 0;
     }
     for (const auto mask : centre_.masks)
       for (std::size_t x = 0; x < count; ++x)
-        differs[x] |= is_lit(mask[i + x]) != is_lit(mask[j + x]) ? 1 : 0;
+        if (is_lit(mask[i + x]) != is_lit(mask[j + x])) differs[x] = is_edge;
   }
   /// Penumbrae change slowly, and what is drawn shows where they do not.
   static bool is_lit(std::uint8_t mask) { return mask > 127; }
-
-  void choose(std::size_t y, std::size_t other, const std::vector<std::uint8_t>& differs) {
-    for (std::size_t x = 0; x < width_; ++x) {
-      const std::size_t i = y * width_ + x;
-      if (differs[x] != 0 && chosen_[i] == 0 && one_surface(i, other * width_ + x)) chosen_[i] = 1;
-    }
-  }
 
   bool one_surface(std::size_t i, std::size_t j) const {
     const glm::vec2 between = (centre_of(i) + centre_of(j)) * 0.5f;
@@ -121,14 +123,18 @@ private:
 
 /// Pixels of a row of squares, in order.
 void list_squares(const std::vector<std::uint8_t>& chosen, std::size_t width, std::size_t top,
-                  std::size_t bottom, std::vector<std::uint32_t>& out) {
+                  std::size_t bottom, ChosenPixels& out) {
   for (std::size_t left = 0; left < width; left += square_side) {
     const std::size_t right = std::min(left + square_side, width);
     for (std::size_t block_y = top; block_y < bottom; block_y += block_side) {
       for (std::size_t block_x = left; block_x < right; block_x += block_side) {
-        for (std::size_t y = block_y; y < std::min(block_y + block_side, bottom); ++y)
-          for (std::size_t x = block_x; x < std::min(block_x + block_side, right); ++x)
-            if (chosen[y * width + x] != 0) out.push_back(static_cast<std::uint32_t>(y * width + x));
+        for (std::size_t y = block_y; y < std::min(block_y + block_side, bottom); ++y) {
+          for (std::size_t x = block_x; x < std::min(block_x + block_side, right); ++x) {
+            const std::size_t i = y * width + x;
+            if (chosen[i] != 0)
+              (chosen[i] == is_edge ? out.edges : out.contrasts).push_back(static_cast<std::uint32_t>(i));
+          }
+        }
       }
     }
   }
@@ -136,20 +142,22 @@ void list_squares(const std::vector<std::uint8_t>& chosen, std::size_t width, st
 
 }  // namespace
 
-std::vector<std::uint32_t> choose_pixels(const CentrePicture& centre, std::span<const glm::vec2> offsets,
-                                         std::span<const SampleIds> seen, const SurfaceMatch& match,
-                                         bool everywhere) {
+ChosenPixels choose_pixels(const CentrePicture& centre, std::span<const glm::vec2> offsets,
+                           std::span<const SampleIds> seen, const SurfaceMatch& match, bool everywhere) {
   const std::vector<std::uint8_t> chosen = Chooser(centre, offsets, seen, match).run(everywhere);
   const auto width = static_cast<std::size_t>(centre.width), height = static_cast<std::size_t>(centre.height);
   const std::size_t bands = (height + square_side - 1) / square_side;
-  std::vector<std::vector<std::uint32_t>> parts(bands);
+  std::vector<ChosenPixels> parts(bands);
   parallel::parallel_tasks(static_cast<int>(bands), [&](int band) {
     const std::size_t top = static_cast<std::size_t>(band) * square_side;
     list_squares(chosen, width, top, std::min(top + square_side, height),
                  parts[static_cast<std::size_t>(band)]);
   });
-  std::vector<std::uint32_t> out;
-  for (const auto& part : parts) out.insert(out.end(), part.begin(), part.end());
+  ChosenPixels out;
+  for (const ChosenPixels& part : parts) {
+    out.edges.insert(out.edges.end(), part.edges.begin(), part.edges.end());
+    out.contrasts.insert(out.contrasts.end(), part.contrasts.begin(), part.contrasts.end());
+  }
   return out;
 }
 

@@ -1,5 +1,6 @@
 #include "render/antialias/sample_means.h"
 
+#include <algorithm>
 #include <cmath>
 
 #include "parallel/parallel.h"
@@ -17,13 +18,19 @@ float fraction_of(const LightMask& mask, std::size_t pixel) {
 }  // namespace
 
 SampleMeans::SampleMeans(const SamplePattern& pattern, const shade::Display& display, bool sample_masks,
-                         FrameResult& result)
-    : pattern_(pattern), display_(display), sample_masks_(sample_masks), result_(result) {}
+                         std::span<const glm::vec3> colors, FrameResult& result)
+    : pattern_(pattern),
+      display_(display),
+      sample_masks_(sample_masks),
+      centre_colors_(colors),
+      result_(result) {}
 
-void SampleMeans::begin(std::span<const std::uint32_t> chosen, std::span<const glm::vec3> colors) {
-  chosen_.assign(chosen.begin(), chosen.end());
-  colors_.assign(chosen.size(), glm::vec3(0.0f));
-  visible_.assign(result_.masks.size(), std::vector<float>(chosen.size(), 0.0f));
+void SampleMeans::begin(std::span<const std::uint32_t> edges, std::span<const std::uint32_t> contrasts) {
+  chosen_.assign(edges.begin(), edges.end());
+  chosen_.insert(chosen_.end(), contrasts.begin(), contrasts.end());
+  edges_ = edges.size();
+  colors_.assign(chosen_.size(), glm::vec3(0.0f));
+  visible_.assign(result_.masks.size(), std::vector<float>(edges_, 0.0f));
   for (LightMask& mask : result_.masks) {
     mask.mean = {mask.mask.width, mask.mask.height, 1, mask.visible_fraction.pixels};
     if (mask.mean.pixels.empty()) {
@@ -34,22 +41,24 @@ void SampleMeans::begin(std::span<const std::uint32_t> chosen, std::span<const g
   }
   if (!pattern_.centre_counts) return;
   parallel::parallel_ranges(chosen_.size(), at_once, [&](std::size_t first, std::size_t last) {
-    for (std::size_t i = first; i < last; ++i) {
-      colors_[i] = shown(display_, colors[chosen_[i]]);
-      for (std::size_t light = 0; light < visible_.size(); ++light)
+    for (std::size_t i = first; i < last; ++i) colors_[i] = shown(display_, centre_colors_[chosen_[i]]);
+    for (std::size_t light = 0; light < visible_.size(); ++light)
+      for (std::size_t i = first; i < std::min(last, edges_); ++i)
         visible_[light][i] = fraction_of(result_.masks[light], chosen_[i]);
-    }
   });
 }
 
-void SampleMeans::add(std::size_t first, std::size_t place, const SamplePicture& samples,
-                      std::span<const shade::ShadedSample> shaded, const LitSamples& lit) {
-  const std::size_t count = samples.count / samples.per_pixel;
-  parallel::parallel_ranges(count, at_once, [&](std::size_t begin, std::size_t end) {
-    for (std::size_t i = begin; i < end; ++i)
-      for (std::size_t k = 0; k < samples.per_pixel; ++k)
-        colors_[first + i] += shown(display_, shaded[samples.slots[i * samples.per_pixel + k]].color);
-  });
+void SampleMeans::add_colors(std::size_t first, const ShadingList& list,
+                             std::span<const shade::ShadedSample> shaded) {
+  for (std::size_t i = 0; i < list.centres.size(); ++i)
+    if (list.centres[i] > 0)
+      colors_[first + i] += list.centres[i] * shown(display_, centre_colors_[chosen_[first + i]]);
+  for (std::size_t i = 0; i < shaded.size(); ++i)
+    colors_[first + list.pixels[i]] += list.shares[i] * shown(display_, shaded[i].color);
+}
+
+void SampleMeans::add_masks(std::size_t first, std::size_t place, const SamplePicture& samples,
+                            const LitSamples& lit) {
   for (std::size_t light = 0; light < visible_.size(); ++light) add_masks(first, place, samples, lit, light);
 }
 
@@ -76,12 +85,11 @@ void SampleMeans::add_masks(std::size_t first, std::size_t place, const SamplePi
 void SampleMeans::finish() {
   const float share = 1.0f / static_cast<float>(pattern_.count());
   parallel::parallel_ranges(chosen_.size(), at_once, [&](std::size_t first, std::size_t last) {
-    for (std::size_t i = first; i < last; ++i) {
-      const std::size_t pixel = chosen_[i];
-      encode_shown(display_, share * colors_[i], &result_.image.pixels[3 * pixel]);
-      for (std::size_t light = 0; light < visible_.size(); ++light)
-        result_.masks[light].mean.pixels[pixel] = share * visible_[light][i];
-    }
+    for (std::size_t i = first; i < last; ++i)
+      encode_shown(display_, share * colors_[i], &result_.image.pixels[3 * std::size_t{chosen_[i]}]);
+    for (std::size_t light = 0; light < visible_.size(); ++light)
+      for (std::size_t i = first; i < std::min(last, edges_); ++i)
+        result_.masks[light].mean.pixels[chosen_[i]] = share * visible_[light][i];
   });
 }
 

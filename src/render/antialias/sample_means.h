@@ -9,6 +9,7 @@
 
 #include "render/antialias/pattern.h"
 #include "render/antialias/sample_picture.h"
+#include "render/antialias/shading_list.h"
 #include "render/lit_samples.h"
 #include "render/renderer.h"
 #include "shade/display.h"
@@ -17,19 +18,20 @@
 namespace tenebra::render {
 
 /// A pixel's colour is the mean of what its samples show (each clamped by itself, so that the edge of a
-/// bright thing is smooth), before the transfer curve; its masks are means of visible fractions. Samples are
-/// added in the order of the pattern: the bits depend on nothing else.
+/// bright thing is smooth), before the transfer curve; its masks are means of visible fractions. All is added
+/// in one order: the bits depend on no number of threads.
 class SampleMeans {
 public:
-  /// Works on `result`, which has what the pixels' centres show and the lights' masks.
+  /// Works on `result`, which has what the pixels' centres show, linear in `colors`, and the lights' masks.
   SampleMeans(const SamplePattern& pattern, const shade::Display& display, bool sample_masks,
-              FrameResult& result);
+              std::span<const glm::vec3> colors, FrameResult& result);
 
-  /// Starts with the centres. `colors`: theirs, linear.
-  void begin(std::span<const std::uint32_t> chosen, std::span<const glm::vec3> colors);
-  /// Samples of chosen pixels `first` ..., of the pattern's places `place` ...
-  void add(std::size_t first, std::size_t place, const SamplePicture& samples,
-           std::span<const shade::ShadedSample> shaded, const LitSamples& lit);
+  /// Starts with the centres, if they count; of the pixels, the first `edges` get masks of their own.
+  void begin(std::span<const std::uint32_t> edges, std::span<const std::uint32_t> contrasts);
+  /// Colours of chosen pixels `first` ...
+  void add_colors(std::size_t first, const ShadingList& list, std::span<const shade::ShadedSample> shaded);
+  /// Masks of chosen pixels `first` ..., at the pattern's places `place` ...
+  void add_masks(std::size_t first, std::size_t place, const SamplePicture& samples, const LitSamples& lit);
   /// Writes the means.
   void finish();
 
@@ -40,10 +42,12 @@ private:
   const SamplePattern& pattern_;
   shade::Display display_;
   bool sample_masks_;
+  std::span<const glm::vec3> centre_colors_;
   FrameResult& result_;
   std::vector<std::uint32_t> chosen_;
+  std::size_t edges_ = 0;
   std::vector<glm::vec3> colors_;            // sums, by chosen pixel
-  std::vector<std::vector<float>> visible_;  // sums, by light and chosen pixel
+  std::vector<std::vector<float>> visible_;  // sums, by light and chosen pixel with an edge
 };
 
 }  // namespace tenebra::render

@@ -29,9 +29,10 @@ struct SamplePicture {
   std::vector<std::uint32_t> slots;   ///< where sample k of chosen pixel i stands: [i * per_pixel + k]
 };
 
-/// Sample k of pixel p sees seen[k] at p; its place is offsets[k] from the pixel's centre. Of a square of the
-/// grid, samples of one triangle stand together.
+/// Sample k of pixel p sees seen[k] at p; its place is offsets[k] from the pixel's centre, which sees
+/// centre_ids. Of about 256 samples those that see the same triangle as the centre stand together.
 void pack_samples(std::span<const std::uint32_t> chosen, int width, std::span<const glm::vec2> offsets,
-                  std::span<const SampleIds> seen, SamplePicture& out);
+                  std::span<const SampleIds> seen, std::span<const std::uint32_t> centre_ids,
+                  SamplePicture& out);
 
 }  // namespace tenebra::render

@@ -1,0 +1,141 @@
+#include "render/antialias/shading_list.h"
+
+#include <algorithm>
+#include <array>
+
+#include "parallel/parallel.h"
+
+namespace tenebra::render {
+namespace {
+
+constexpr std::size_t pixels_at_once = 1024, most_groups = 16;
+
+/// Samples of a pixel that look the same.
+struct Group {
+  std::size_t slots[most_groups];
+  std::size_t count = 0;
+  glm::vec2 sum{0.0f};  // of places
+};
+
+class PixelGroups {
+public:
+  PixelGroups(const SamplePicture& samples, const SampleLights& lit, const SurfaceMatch& match)
+      : samples_(samples), lit_(lit), match_(match) {}
+
+  void clear() { count_ = 0; }
+  void add(std::size_t slot) {
+    std::size_t i = 0;
+    while (i < count_ && !same(groups_[i].slots[0], slot)) ++i;
+    if (i == count_) groups_[count_++] = {};
+    Group& group = groups_[i];
+    group.slots[group.count++] = slot;
+    group.sum += samples_.places[slot];
+  }
+  std::span<const Group> all() const { return {groups_.data(), count_}; }
+
+private:
+  bool same(std::size_t a, std::size_t b) const {
+    return match_.same(samples_.ids[a], samples_.ids[b], samples_.places[b]) && lit_.same(a, lit_, b);
+  }
+
+  const SamplePicture& samples_;
+  const SampleLights& lit_;
+  const SurfaceMatch& match_;
+  std::array<Group, most_groups> groups_;
+  std::size_t count_ = 0;
+};
+
+std::size_t middle_of(const Group& group, const SamplePicture& samples) {
+  const glm::vec2 mean = group.sum / static_cast<float>(group.count);
+  const auto apart = [&](std::size_t slot) {
+    const glm::vec2 d = samples.places[slot] - mean;
+    return glm::dot(d, d);
+  };
+  return *std::min_element(group.slots, group.slots + group.count,
+                           [&](std::size_t a, std::size_t b) { return apart(a) < apart(b); });
+}
+
+void append(ShadingList& to, const ShadingList& part) {
+  const auto add = [](auto& list, const auto& more) { list.insert(list.end(), more.begin(), more.end()); };
+  add(to.ids, part.ids);
+  add(to.places, part.places);
+  add(to.from, part.from);
+  add(to.pixels, part.pixels);
+  add(to.shares, part.shares);
+}
+
+void add(ShadingList& to, std::uint32_t id, glm::vec2 place, std::size_t from, std::size_t pixel,
+         float share) {
+  to.ids.push_back(id);
+  to.places.push_back(place);
+  to.from.push_back(static_cast<std::uint32_t>(from));
+  to.pixels.push_back(static_cast<std::uint32_t>(pixel));
+  to.shares.push_back(share);
+}
+
+}  // namespace
+
+bool SampleLights::same(std::size_t a, const SampleLights& other, std::size_t b) const {
+  for (std::size_t i = 0; i < lights.size(); ++i) {
+    if (!lights[i].mask.empty() && lights[i].mask[a] != other.lights[i].mask[b]) return false;
+    if (!lights[i].irradiance.empty() && lights[i].irradiance[a] != other.lights[i].irradiance[b])
+      return false;
+  }
+  return openness.empty() || openness[a] == other.openness[b];
+}
+
+void list_groups(std::span<const std::uint32_t> chosen, const SamplePicture& samples, const SampleLights& lit,
+                 std::span<const std::uint32_t> centre_ids, const SampleLights& centre_lit,
+                 const SurfaceMatch& match, ShadingList& out) {
+  out.clear();
+  out.centres.assign(chosen.size(), 0.0f);
+  const std::size_t parts = (chosen.size() + pixels_at_once - 1) / pixels_at_once;
+  std::vector<ShadingList> lists(parts);
+  parallel::parallel_ranges(chosen.size(), pixels_at_once, [&](std::size_t first, std::size_t last) {
+    ShadingList& list = lists[first / pixels_at_once];
+    PixelGroups groups(samples, lit, match);
+    for (std::size_t i = first; i < last; ++i) {
+      const std::size_t pixel = chosen[i];
+      groups.clear();
+      for (std::size_t k = 0; k < samples.per_pixel; ++k) {
+        const std::size_t slot = samples.slots[i * samples.per_pixel + k];
+        if (lit.same(slot, centre_lit, pixel) &&
+            match.same(samples.ids[slot], centre_ids[pixel], samples.places[slot])) {
+          out.centres[i] += 1;
+        } else {
+          groups.add(slot);
+        }
+      }
+      for (const Group& group : groups.all()) {
+        const std::size_t slot = middle_of(group, samples);
+        add(list, samples.ids[slot], samples.places[slot], slot, i, static_cast<float>(group.count));
+      }
+    }
+  });
+  for (const ShadingList& list : lists) append(out, list);
+}
+
+void list_samples(std::span<const std::uint32_t> chosen, const SamplePicture& samples, ShadingList& out) {
+  out.clear();
+  out.centres.assign(chosen.size(), 0.0f);
+  for (std::size_t i = 0; i < samples.count; ++i) {
+    const std::size_t slot = samples.slots[i];
+    add(out, samples.ids[slot], samples.places[slot], slot, i / samples.per_pixel, 1.0f);
+  }
+}
+
+void list_as_centres(std::span<const std::uint32_t> chosen, int width, std::span<const glm::vec2> offsets,
+                     std::span<const SampleIds> seen, ShadingList& out) {
+  out.clear();
+  out.centres.assign(chosen.size(), 0.0f);
+  const auto columns = static_cast<std::uint32_t>(width);
+  for (std::size_t i = 0; i < chosen.size(); ++i) {
+    const std::uint32_t pixel = chosen[i];
+    const glm::vec2 centre(static_cast<float>(pixel % columns) + 0.5f,
+                           static_cast<float>(pixel / columns) + 0.5f);
+    for (std::size_t k = 0; k < offsets.size(); ++k)
+      add(out, seen[k].ids[pixel], centre + offsets[k], pixel, i, 1.0f);
+  }
+}
+
+}  // namespace tenebra::render

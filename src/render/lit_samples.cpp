@@ -1,0 +1,37 @@
+#include "render/lit_samples.h"
+
+namespace tenebra::render {
+
+std::vector<shade::LightFactors> LitSamples::factors() const {
+  std::vector<shade::LightFactors> out(masks.size());
+  for (std::size_t i = 0; i < masks.size(); ++i) out[i] = {masks[i], irradiance[i], tints[i].factors()};
+  return out;
+}
+
+GatheredFactors::GatheredFactors(std::span<const shade::LightFactors> from,
+                                 std::span<const std::uint32_t> samples) {
+  const auto gather = [&](const auto& all, auto& some) {
+    if (all.empty()) return;
+    some.resize(samples.size());
+    for (std::size_t i = 0; i < samples.size(); ++i) some[i] = all[samples[i]];
+  };
+  lights_.resize(from.size());
+  for (std::size_t light = 0; light < from.size(); ++light) {
+    OfLight& to = lights_[light];
+    gather(from[light].mask, to.mask);
+    gather(from[light].irradiance, to.irradiance);
+    gather(from[light].tint.factors, to.tint);
+    to.coloured.assign(to.tint.size() / shade::TintFactors::run + 1, 1);
+  }
+}
+
+std::vector<shade::LightFactors> GatheredFactors::factors() const {
+  std::vector<shade::LightFactors> out;
+  for (const OfLight& light : lights_) {
+    out.push_back({light.mask, light.irradiance, {}});
+    if (!light.tint.empty()) out.back().tint = {light.tint, light.coloured};
+  }
+  return out;
+}
+
+}  // namespace tenebra::render
