@@ -28,6 +28,8 @@ public:
 
   /// Fills `out` with the share of the ambient light that reaches each point, one value per pixel: 1 open,
   /// 0 closed, 1 where no triangle is seen; never NaN. `normals`: one per pixel, unit, on the seen side.
+  /// Points may be lifted (lift_visible_points): rays that look for other bodies start from there. How much
+  /// a body hides itself is that of the place on the triangle nearest to it.
   /// The bits are the same for any number of threads. Builds the fields and samples that the frame needs and
   /// that are not there yet. Fails, with one sentence, if a setting is out of range, if the mode is `rays` in
   /// a build without a ray caster, and with "stopped" if `stop` was requested.

@@ -33,6 +33,14 @@ public:
   ///                 M_X = largest |coordinate| of triangle X (contact rule `triangle_ids`; else theta = 0).
   /// All signs are of real numbers: floats and the stored doubles are taken as exact.
   ///
+  /// With TriangleView::normals points may be lifted off R (lift_visible_points), and then light may reach
+  /// them from beyond R's plane: a sample on a smooth R with light and eye not strictly on the same side is
+  /// active all the same iff the light is before the plane at one of R's vertices (A, N), N.(L-A) > 0 or
+  /// N.l > 0, N turned to the eye's side (in double); P lies off R's plane on the eye's side,
+  /// |n.(P-A)| > theta with T = R; and the way from P to the light does not meet R (edges closed). So R
+  /// itself blocks lifted points as any triangle would. The mask stays exact: what moved is the point that it
+  /// was asked about. It does not say whether the shading normal faces the light; that is the shading's part.
+  ///
   /// Returns false, with `mask` unspecified, if `stop` was requested before the end.
   bool trace_shadow_mask(const VisiblePoints& points, const ViewRays& view, const TriangleView& triangles,
                          const ShadowLight& light, const HardShadowConfig& config, ShadowMask& mask,

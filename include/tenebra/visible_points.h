@@ -27,6 +27,9 @@ struct TriangleView {
   std::span<const std::uint32_t>
       parts;                  ///< a hint, ascending: the first triangle of each run that moves as one
   std::uint64_t version = 0;  ///< if not 0: the caller's word that views with the same number are equal
+  /// One for each vertex (zero: the face normal): points are on the smooth surface that these describe, see
+  /// lift_visible_points(). Empty: on the triangles. `version` says nothing of them.
+  std::span<const glm::vec3> normals{};
 };
 inline TriangleView triangle_view(const FrameGeometry& geometry) {
   return {geometry.positions, geometry.triangles, geometry.casts_shadow, geometry.parts};
@@ -71,7 +74,7 @@ enum class PointLayout { rows, rows_and_tiles, tiles };
 /// Finds where the pixels' rays meet the planes of their triangles, in double, clamped into the triangle (a
 /// rasteriser's id may belong to a triangle that the ray just misses). `ids`: width * height, row 0 at the
 /// top; ids out of range count as no_triangle. The bits do not depend on the number of threads, and those of
-/// rows not on the instruction set either.
+/// rows not on the instruction set either. With TriangleView::normals they are then lifted.
 void compute_visible_points(std::span<const std::uint32_t> ids, int width, int height, const ViewRays& view,
                             const TriangleView& triangles, VisiblePoints& out,
                             PointLayout layout = PointLayout::rows);
@@ -79,6 +82,16 @@ void compute_visible_points(std::span<const std::uint32_t> ids, int width, int h
 /// The point of a pixel whose id is not no_triangle: from `positions` or, where that is empty, worked out
 /// from id, pixel and `points.view`. The same bits both ways.
 glm::dvec3 visible_position(const VisiblePoints& points, const TriangleView& triangles, std::size_t pixel);
+
+/// Lifts points of triangles that TriangleView::normals shade smoothly (their three normals differ) to the
+/// surface that these describe, in double; all others stay as they are. `points`: with positions, on their
+/// triangles, samples of any kind; tiles, where there are some, are made anew. A shadow that starts there
+/// ends along a smooth line where light grazes, not along the triangles; the masks are exact for the points
+/// as they are then. Triangles that share an edge and its normals lift it alike, and vertices stay. Nothing
+/// is lifted where the surface is concave, where normals are equal or zero or contradict the triangle (not
+/// all on one side of it), or by less than rounding amounts to. Give the same normals to whatever traces the
+/// points. Shading normals are those of the points before.
+void lift_visible_points(const ViewRays& view, const TriangleView& triangles, VisiblePoints& points);
 
 /// Fills `out` with unit shading normals, one per pixel: `normals` (one for each vertex of `triangles`;
 /// empty: face normals) interpolated in double and turned to the side from which `view` sees the triangle.

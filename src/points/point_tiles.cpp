@@ -11,6 +11,7 @@
 #include "points/contact_rule.h"
 #include "points/point_tile_kernels.h"
 #include "points/receiver.h"
+#include "points/smooth_surface.h"
 #include "points/triangle_corners.h"
 
 namespace tenebra::points {
@@ -62,6 +63,7 @@ private:
   bool one_receiver(std::uint32_t x, std::uint32_t y) const;
   void find_receivers(std::uint32_t x, std::uint32_t y, Seen& seen);
   void see(const Seen& seen, glm::uvec2 at, TilePoints& points) const;
+  void lift(const Seen& seen, TilePoints& points) const;
   void note_owners(const Seen& seen, int place, PointSquare& square) const;
   void note_ids(const Seen& seen, PointTile& tile) const;
 
@@ -73,7 +75,8 @@ private:
   PointPatch& patch_;
   const PointTileKernels kernels_;
   const std::uint32_t width_, height_;
-  std::vector<Receiver> receivers_;  // by their numbers; from_view only
+  std::vector<Receiver> receivers_;    // by their numbers; from_view only
+  std::vector<SmoothSurface> smooth_;  // likewise; with normals only
   Known last_;
   std::array<Known, 4096> known_{};  // of the triangles that pixels nearby lie on
 };
@@ -101,6 +104,8 @@ std::uint16_t PatchMaker::add_receiver(std::uint32_t id) {
   block.id[i] = id;
   block.side[i] = static_cast<std::int8_t>(side);
   if (from_view_) receivers_.push_back(points::receiver_of(triangles_, id));
+  if (from_view_ && !triangles_.normals.empty())
+    smooth_.push_back(smooth_surface(triangles_, id, points_.view));
   return static_cast<std::uint16_t>(number);
 }
 
@@ -197,6 +202,15 @@ void PatchMaker::see(const Seen& seen, glm::uvec2 at, TilePoints& points) const 
     const glm::uvec2 pixel = pixel_of(lane);
     points.set(lane, rays_.point_on(*of[seen.one ? 0 : lane], pixel.x, pixel.y));
   }
+  if (!smooth_.empty()) lift(seen, points);
+}
+
+void PatchMaker::lift(const Seen& seen, TilePoints& points) const {
+  for (std::uint32_t left = seen.lanes; left != 0; left &= left - 1) {
+    const int lane = std::countr_zero(left);
+    const SmoothSurface& smooth = smooth_[seen.receiver[static_cast<std::size_t>(lane)]];
+    if (smooth.lifts) points.set(lane, lifted(smooth, points.at(lane)));
+  }
 }
 
 void PatchMaker::add_square(std::uint32_t x, std::uint32_t y, std::uint32_t first) {
@@ -212,7 +226,8 @@ void PatchMaker::add_square(std::uint32_t x, std::uint32_t y, std::uint32_t firs
     find_receivers(tile_x, tile_y, seen);
     if (seen.lanes == 0) continue;
     float radius = -1;
-    if (from_view_ && seen.one && square.filled != 0)
+    const bool lifts = seen.one && !smooth_.empty() && smooth_[seen.receiver[0]].lifts;
+    if (from_view_ && seen.one && !lifts && square.filled != 0)
       radius = kernels_.see_whole(receivers_[seen.receiver[0]], rays_, {tile_x, tile_y}, base, tile, place,
                                   square);
     if (radius < 0) {

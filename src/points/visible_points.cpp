@@ -7,6 +7,7 @@
 #include "points/point_tiles.h"
 #include "points/positions.h"
 #include "points/receiver.h"
+#include "points/smooth_surface.h"
 #include "points/visible_run.h"
 
 namespace tenebra {
@@ -29,6 +30,35 @@ void compute_run(const points::Receiver& r, const points::PixelRow& row, std::si
   }
 }
 
+/// Surfaces of the triangles that rows nearby see.
+class SmoothCache {
+public:
+  const points::SmoothSurface& find(const ViewRays& view, const TriangleView& triangles, std::uint32_t id) {
+    Known& known = known_[id % known_.size()];
+    if (known.id != id) known = {id, points::smooth_surface(triangles, id, view)};
+    return known.surface;
+  }
+
+private:
+  struct Known {
+    std::uint32_t id = no_triangle;
+    points::SmoothSurface surface;
+  };
+  std::vector<Known> known_{512};
+};
+
+void lift_points(std::span<const std::uint32_t> ids, const ViewRays& view, const TriangleView& triangles,
+                 SmoothCache& smooth, dvec3* positions) {
+  for (std::size_t i = 0, end = 0; i < ids.size(); i = end) {
+    const std::uint32_t id = ids[i];
+    while (end < ids.size() && ids[end] == id) ++end;
+    if (id >= triangles.triangles.size()) continue;
+    const points::SmoothSurface& surface = smooth.find(view, triangles, id);
+    for (std::size_t k = i; surface.lifts && k < end; ++k)
+      positions[k] = points::lifted(surface, positions[k]);
+  }
+}
+
 /// Rows first ... last - 1 of the picture.
 void compute_rows(std::span<const std::uint32_t> ids, std::size_t first, std::size_t last,
                   const ViewRays& view, const TriangleView& triangles, VisiblePoints& out) {
@@ -36,6 +66,7 @@ void compute_rows(std::span<const std::uint32_t> ids, std::size_t first, std::si
   const points::VisibleRunKernels kernels = points::visible_run_kernels(SimdLevel::automatic);
   const auto width = static_cast<std::size_t>(out.width);
   points::Receiver receiver;
+  SmoothCache smooth;
   for (std::size_t y = first; y < last; ++y) {
     dvec3* const rows = &out.positions[y * width];
     const points::PixelRow row{eye, d0, dx, (static_cast<double>(y) + 0.5) * dy};
@@ -53,6 +84,8 @@ void compute_rows(std::span<const std::uint32_t> ids, std::size_t first, std::si
       for (std::size_t i = x; i < end; ++i)
         rows[i] = points::visible_point(receiver, eye + ((static_cast<double>(i) + 0.5) * dx + row.row), d0);
     }
+    if (!triangles.normals.empty())
+      lift_points({&out.triangles[y * width], width}, view, triangles, smooth, rows);
   }
 }
 
@@ -95,12 +128,33 @@ void compute_visible_points(std::span<const std::uint32_t> ids, int width, int h
 
 dvec3 visible_position(const VisiblePoints& points, const TriangleView& triangles, std::size_t pixel) {
   if (!points.positions.empty()) return points.positions[pixel];
-  const auto width = static_cast<std::size_t>(points.width);
-  return points::PixelRays(points.view)
-      .point_on(points::receiver_of(triangles, points.triangles[pixel]), pixel % width, pixel / width);
+  return points::PositionFinder(points, triangles).at(pixel);
+}
+
+void lift_visible_points(const ViewRays& view, const TriangleView& triangles, VisiblePoints& points) {
+  const parallel::FloatEnvironment ieee;
+  if (triangles.normals.empty()) return;
+  parallel::parallel_ranges(points.positions.size(), 4096, [&](std::size_t first, std::size_t last) {
+    SmoothCache smooth;
+    lift_points(std::span(points.triangles).subspan(first, last - first), view, triangles, smooth,
+                &points.positions[first]);
+  });
+  if (!points.tiles.empty()) points::make_point_tiles(points, view, triangles, *points.tiles);
 }
 
 namespace points {
+
+dvec3 PositionFinder::at(std::size_t pixel) {
+  if (!points_.positions.empty()) return points_.positions[pixel];
+  const auto width = static_cast<std::size_t>(points_.width);
+  const std::uint32_t id = points_.triangles[pixel];
+  if (id != receiver_.id) {
+    receiver_ = receiver_of(triangles_, id);
+    smooth_ = smooth_surface(triangles_, id, points_.view);
+  }
+  const dvec3 p = rays_.point_on(receiver_, pixel % width, pixel / width);
+  return smooth_.lifts ? lifted(smooth_, p) : p;
+}
 
 const VisiblePoints& with_positions(const VisiblePoints& points, const TriangleView& triangles,
                                     VisiblePoints& scratch) {

@@ -4,6 +4,7 @@
 #include "base/fail.h"
 #include "base/stopwatch.h"
 #include "parallel/parallel.h"
+#include "points/point_tiles.h"
 #include "render/antialias/pattern.h"
 #include "render/light_casters.h"
 #include "render/renderer_state.h"
@@ -49,15 +50,34 @@ void Renderer::State::find_points(const FrameInput& input, const RenderSettings&
   const bool shaded = settings.shadows == ShadowMode::soft || settings.ao.mode != AoMode::none;
   const bool positions = shaded || !tiled || !input.geometry.see_through.empty();
   const TriangleView triangles = triangle_view(input.geometry);
+  const PointLayout layout = !tiled      ? PointLayout::rows
+                             : positions ? PointLayout::rows_and_tiles
+                                         : PointLayout::tiles;
   with_threads(settings.threads, [&] {
     if (!exact) return points_from_depth(input.view);
-    compute_visible_points(seen.ids, seen.width, seen.height, input.view, triangles, points,
-                           !tiled      ? PointLayout::rows
-                           : positions ? PointLayout::rows_and_tiles
-                                       : PointLayout::tiles);
+    if (lifts_points(settings)) return find_lifted_points(input, layout, shaded);
+    compute_visible_points(seen.ids, seen.width, seen.height, input.view, triangles, points, layout);
     if (shaded) compute_shading_normals(points, input.geometry.normals, input.view, triangles, normals);
   });
   timings.points_ms = watch.lap_ms();
+}
+
+void Renderer::State::find_lifted_points(const FrameInput& input, PointLayout layout, bool shaded) {
+  TriangleView triangles = triangle_view(input.geometry), smooth = triangles;
+  smooth.normals = input.geometry.normals;
+  if (!shaded)
+    return compute_visible_points(seen.ids, seen.width, seen.height, input.view, smooth, points, layout);
+  compute_visible_points(seen.ids, seen.width, seen.height, input.view, triangles, points);
+  compute_shading_normals(points, input.geometry.normals, input.view, triangles, normals);
+  lift_visible_points(input.view, smooth, points);
+  if (layout != PointLayout::rows) points::make_point_tiles(points, input.view, smooth, *points.tiles);
+}
+
+TriangleView Renderer::State::traced_triangles(const FrameInput& input, const DrawnLight& light,
+                                               const RenderSettings& settings) {
+  TriangleView triangles = casters_of(scene, input.geometry, light, casters);
+  if (lifts_points(settings)) triangles.normals = input.geometry.normals;
+  return triangles;
 }
 
 Expected<void> Renderer::State::occlude_ambient(const FrameInput& input, const RenderSettings& settings,
@@ -81,7 +101,7 @@ Expected<void> Renderer::State::trace_hard(const FrameInput& input, const DrawnL
   HardShadowConfig config = settings.hard;
   if (settings.samples == SampleSource::depth) config.contact = ContactRule::none;
   config.count_pixel_nodes = settings.diagnostics;
-  const TriangleView triangles = casters_of(scene, input.geometry, light, casters);
+  const TriangleView triangles = traced_triangles(input, light, settings);
   bool done = false;
   with_threads(settings.threads, [&] {
     done = hard.trace_shadow_mask(points, input.view, triangles, shadow_light(light.light, light.placed),
@@ -108,7 +128,7 @@ Expected<void> Renderer::State::trace_area(const FrameInput& input, const DrawnL
                                            const RenderSettings& settings, const VisiblePoints& at,
                                            std::span<const glm::vec3> shading_normals, SoftMask& out,
                                            const StopFlag* stop) {
-  const TriangleView triangles = casters_of(scene, input.geometry, light, casters);
+  const TriangleView triangles = traced_triangles(input, light, settings);
   const HardShadowConfig of_points{.variant = settings.hard.variant, .simd = settings.hard.simd};
   bool done = false;
   with_threads(settings.threads, [&] {
@@ -195,7 +215,8 @@ Expected<void> Renderer::State::shade_pixels(const FrameInput& input, const std:
     tints[i].set(result.masks[i].tint);
     factors[i].tint = tints[i].factors();
   }
-  const shade::Subject subject{input.geometry, input.view, surfaces};
+  const shade::Subject subject{input.geometry, input.view, surfaces,
+                               settings.terminator == Terminator::smooth};
   const shade::Lighting lighting{placed, scene.ambient_light, scene.background,
                                  environment ? &*environment : nullptr};
   shade::PixelSamples pixels{seen.width, seen.height, seen.ids, factors, {}};

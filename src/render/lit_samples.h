@@ -17,6 +17,7 @@ namespace tenebra::render {
 /// each pixel, or one that is made of samples alone (points/sample_points.h).
 struct LitSamples {
   VisiblePoints points;            ///< triangles: no_triangle where there is no sample
+  VisiblePoints lifted;            ///< where they are lit, if that is on smooth surfaces
   std::vector<glm::vec3> normals;  ///< empty where nothing asks for them
   std::vector<ShadowMask> masks;   ///< of each light; empty of those with an area, and without shadows
   std::vector<std::vector<float>> irradiance;        ///< of each light; empty without an area

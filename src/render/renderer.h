@@ -28,6 +28,11 @@ enum class ShadowMode { none, hard, soft };
 /// reconstruction from the depth buffer (for comparison; front-face culling instead of a bias).
 enum class SampleSource { ids, depth };
 
+/// Where light that grazes a smooth-shaded surface ends: along its triangles, whose planes the light sinks
+/// below one by one, or along the smooth surface that their normals describe. Its points are then lifted to
+/// it (lift_visible_points), and the masks are exact for the lifted points.
+enum class Terminator { flat, smooth };
+
 /// How lights without an area become rectangles in soft mode.
 struct AreaLightSettings {
   glm::vec2 size{0.0f};              ///< width and height; 0: point and spot lights keep hard shadows
@@ -45,6 +50,7 @@ struct RenderSettings {
   int height = 600;
   ShadowMode shadows = ShadowMode::hard;
   SampleSource samples = SampleSource::ids;
+  Terminator terminator = Terminator::flat;  ///< smooth needs SampleSource::ids; else it is flat
   HardShadowConfig hard;
   SoftShadowConfig soft;
   int soft_points = 0;  ///< soft mode: 0 exact; else area lights are so many points (render/light_points.h)
@@ -63,6 +69,11 @@ struct RenderSettings {
   bool antialias_everywhere = false;  ///< every pixel gets all of them; 256 need it
   bool sample_masks = false;          ///< fill LightMask::samples
 };
+
+/// Whether the points that shadows and occlusion start from are lifted.
+inline bool lifts_points(const RenderSettings& settings) {
+  return settings.terminator == Terminator::smooth && settings.samples == SampleSource::ids;
+}
 
 /// What is drawn: one instant of a scene from one camera.
 struct FrameInput {

@@ -46,7 +46,8 @@ struct Renderer::State {
   bool tint_has_surfaces = false;  // of this frame
   std::vector<LightTint> tints{};  // of the drawn lights
   LitSamples layer{};
-  VisiblePoints behind{};  // the opaque samples as the eye sees them, where `points` are others
+  std::vector<std::uint32_t> ids_behind{};  // the opaque samples behind the layer
+  VisiblePoints behind{};                   // they as the eye sees them, where `points` are others
   EyeTint eye_tint{};
   TintMask passes{};
 
@@ -66,6 +67,11 @@ struct Renderer::State {
   /// Visible points and, for soft shadows and occlusion, their normals.
   void find_points(const FrameInput& input, const RenderSettings& settings, FrameTimings& timings);
   void points_from_depth(const ViewRays& view);
+  /// Visible points lifted to the smooth surfaces, and the normals of the points before.
+  void find_lifted_points(const FrameInput& input, PointLayout layout, bool shaded);
+  /// Receivers and casters of one light, with normals where points are lifted. Stands until the next call.
+  TriangleView traced_triangles(const FrameInput& input, const DrawnLight& light,
+                                const RenderSettings& settings);
   Expected<void> occlude_ambient(const FrameInput& input, const RenderSettings& settings, FrameResult& result,
                                  const AoProgress& progress, const StopFlag* stop);
   /// Adds the mask of one light as a point.
@@ -86,6 +92,8 @@ struct Renderer::State {
   Expected<void> trace_area(const FrameInput& input, const DrawnLight& light, const RenderSettings& settings,
                             const VisiblePoints& at, std::span<const glm::vec3> shading_normals,
                             SoftMask& out, const StopFlag* stop);
+  const VisiblePoints& lit_points(const FrameInput& input, const RenderSettings& settings,
+                                  LitSamples& samples);
   enum class LightKinds { all, points, areas };
   Expected<void> light_samples(const FrameInput& input, const std::vector<DrawnLight>& lights,
                                const RenderSettings& settings, LightKinds kinds, LitSamples& at,

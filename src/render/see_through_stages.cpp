@@ -5,6 +5,7 @@
 #include "base/fail.h"
 #include "base/stopwatch.h"
 #include "parallel/parallel.h"
+#include "points/point_tiles.h"
 #include "render/light_casters.h"
 #include "render/renderer_state.h"
 #include "render/shadow_lights.h"
@@ -23,7 +24,7 @@ Expected<void> Renderer::State::trace_tint(const FrameInput& input, const DrawnL
                                            std::span<const glm::vec3> shading_normals, const ShadowMask& mask,
                                            const SoftMask& soft_lit, TintMask& out, const StopFlag* stop) {
   const SeeThroughSurfaces surfaces = see_through_surfaces(scene, input.geometry, coordinates);
-  const TriangleView triangles = casters_of(scene, input.geometry, light, casters);
+  const TriangleView triangles = traced_triangles(input, light, settings);
   TintConfig config;
   config.simd = settings.hard.simd;
   config.own_irradiance = settings.soft_points > 0;
@@ -41,6 +42,29 @@ Expected<void> Renderer::State::trace_tint(const FrameInput& input, const DrawnL
   return done ? Expected<void>() : Expected<void>(base::fail("stopped"));
 }
 
+/// Where samples are lit: their points, or these lifted.
+const VisiblePoints& Renderer::State::lit_points(const FrameInput& input, const RenderSettings& settings,
+                                                 LitSamples& samples) {
+  const VisiblePoints& from = samples.points;
+  if (!lifts_points(settings)) return from;
+  TriangleView smooth = triangle_view(input.geometry);
+  smooth.normals = input.geometry.normals;
+  VisiblePoints& to = samples.lifted;
+  to.width = from.width, to.height = from.height, to.view = from.view;
+  to.triangles = from.triangles;
+  to.positions.resize(from.positions.size());
+  to.tiles.clear();
+  with_threads(settings.threads, [&] {
+    parallel::parallel_ranges(to.triangles.size(), 1 << 14, [&](std::size_t first, std::size_t last) {
+      for (std::size_t i = first; i < last; ++i)
+        if (to.triangles[i] != no_triangle) to.positions[i] = from.positions[i];
+    });
+    lift_visible_points(input.view, smooth, to);
+    points::make_point_tiles(to, input.view, smooth, *to.tiles);
+  });
+  return to;
+}
+
 /// What is left of each light at samples whose points (and, for areas and occlusion, normals) are there.
 Expected<void> Renderer::State::light_samples(const FrameInput& input, const std::vector<DrawnLight>& lights,
                                               const RenderSettings& settings, LightKinds kinds,
@@ -50,6 +74,7 @@ Expected<void> Renderer::State::light_samples(const FrameInput& input, const std
   samples.visible_fraction.assign(lights.size(), {});
   samples.tints.resize(lights.size());
   const bool coloured = !input.geometry.see_through.empty();
+  const VisiblePoints& lit_at = lit_points(input, settings, samples);
   for (std::size_t i = 0; i < lights.size(); ++i) {
     if (stop_requested(stop)) return base::fail("stopped");
     samples.tints[i].begin(coloured ? samples.points.triangles.size() : 0);
@@ -57,17 +82,16 @@ Expected<void> Renderer::State::light_samples(const FrameInput& input, const std
     if (kinds == (lights[i].area ? LightKinds::points : LightKinds::areas)) continue;
     SoftMask lit;
     if (lights[i].area) {
-      if (auto done = trace_area(input, lights[i], settings, samples.points, samples.normals, lit, stop);
-          !done)
+      if (auto done = trace_area(input, lights[i], settings, lit_at, samples.normals, lit, stop); !done)
         return done;
     } else {
       bool done = false;
       with_threads(settings.threads, [&] {
         HardShadowConfig config = settings.hard;
         config.contact = ContactRule::triangle_ids;
-        done = hard.trace_shadow_mask(
-            samples.points, input.view, casters_of(scene, input.geometry, lights[i], casters),
-            shadow_light(lights[i].light, lights[i].placed), config, samples.masks[i], stop);
+        done = hard.trace_shadow_mask(lit_at, input.view, traced_triangles(input, lights[i], settings),
+                                      shadow_light(lights[i].light, lights[i].placed), config,
+                                      samples.masks[i], stop);
       });
       if (!done) return base::fail("stopped");
     }
@@ -75,8 +99,8 @@ Expected<void> Renderer::State::light_samples(const FrameInput& input, const std
       TintMask found;
       RenderSettings exact = settings;
       exact.samples = SampleSource::ids;
-      if (auto done = trace_tint(input, lights[i], exact, samples.points, samples.normals, samples.masks[i],
-                                 lit, found, stop);
+      if (auto done = trace_tint(input, lights[i], exact, lit_at, samples.normals, samples.masks[i], lit,
+                                 found, stop);
           !done)
         return done;
       samples.tints[i].set(found);
@@ -88,8 +112,8 @@ Expected<void> Renderer::State::light_samples(const FrameInput& input, const std
   if (settings.ao.mode == AoMode::none || kinds == LightKinds::points) return {};
   Expected<void> done;
   with_threads(settings.threads, [&] {
-    done = ambient.compute(scene, input.geometry, samples.points, samples.normals, settings.ao,
-                           samples.openness, {}, stop);
+    done = ambient.compute(scene, input.geometry, lit_at, samples.normals, settings.ao, samples.openness, {},
+                           stop);
   });
   return done;
 }
@@ -111,12 +135,17 @@ Expected<void> Renderer::State::draw_see_through(
   if (auto lit = light_samples(input, lights, settings, LightKinds::all, layer, stop); !lit) return lit;
   const SeeThroughSurfaces surfaces = see_through_surfaces(scene, input.geometry, coordinates);
   with_threads(settings.threads, [&] {
-    // The points that shadows start from may be those of the depth buffer, or none.
+    // The points that shadows start from may be those of the depth buffer, lifted ones, or none.
     const bool found =
         settings.ao.mode != AoMode::none || (settings.shadows != ShadowMode::none && !lights.empty());
-    const bool there = found && settings.samples == SampleSource::ids;
+    const bool there = found && settings.samples == SampleSource::ids && !lifts_points(settings);
     if (!there) {
-      compute_visible_points(seen.ids, seen.width, seen.height, input.view, triangles, behind,
+      ids_behind.resize(seen.ids.size());
+      parallel::parallel_ranges(ids_behind.size(), 1 << 16, [&](std::size_t first, std::size_t last) {
+        for (std::size_t i = first; i < last; ++i)
+          ids_behind[i] = seen.layer[i] == no_triangle ? no_triangle : seen.ids[i];
+      });
+      compute_visible_points(ids_behind, seen.width, seen.height, input.view, triangles, behind,
                              PointLayout::rows_and_tiles);
     }
     eye_tint.trace(there ? points : behind, layer, input.view, triangles, surfaces, passes);

@@ -29,7 +29,7 @@ FrameTerms::FrameTerms(const Subject& of, const Lighting& lit_by)
 
 void BlockShader::place_background(const float* x, const float* y, std::size_t first, std::size_t count) {
   const Surface background{.emissive = frame_.lighting.background};
-  frame_.code.place({}, x, y, first, count, block_);
+  frame_.code.place({}, false, x, y, first, count, block_);
   frame_.code.cover(background, first, count, block_);
   if (frame_.lighting.environment == nullptr) return;
   const ViewRays& view = frame_.subject.view;
@@ -103,7 +103,7 @@ void BlockShader::place_run(std::uint32_t id, const float* x, const float* y, st
   if (!varies || material != stretch_.material) finish_stretch();
   const TriangleSetup& setup = setups_.find(subject.geometry, subject.view, id, {x[first], y[first]});
   const Surface& surface = frame_.surfaces[material];
-  frame_.code.place(setup, x, y, first, count, block_);
+  frame_.code.place(setup, subject.smooth_terminator, x, y, first, count, block_);
   block_.glossy = block_.glossy || surface.is_glossy();
   if (varies) {
     locate_run(setup, material, corners, first, count);

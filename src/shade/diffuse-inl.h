@@ -64,14 +64,14 @@ SIMD_INLINE Incident incident_light(const LightTerms& terms, const SampleBlock& 
   return {to_light, select(lt(zero, distance), fade_of(terms, to_light, distance), zero)};
 }
 
-/// What reaches a surface of what arrives: fade times the cosine at the surface; zero where light and eye
-/// are on different sides of the triangle.
+/// What reaches a surface of what arrives: fade times the cosine at the surface; zero where the light is not
+/// before it.
 SIMD_INLINE Float16 received(const LightTerms& terms, const Incident& incident, const SampleBlock& b,
                              std::size_t i) {
   if (terms.by_irradiance) return incident.fade;
   const Float16 zero = broadcast<Float16>(0.0f);
   const Float16 cosine = max(dot_unfused(load3(b.normal, i), incident.to_light), zero);
-  const Float16 above = dot_unfused(load3(b.face, i), incident.to_light);
+  const Float16 above = dot_unfused(load3(b.before, i), incident.to_light);
   return select(lt(zero, above), cosine * incident.fade, zero);
 }
 

@@ -70,16 +70,18 @@ Vector16 normal_at(const TriangleSetup& setup, const Weights& w) {
   return select3(lt(broadcast<Float16>(1e-6f), size), scale * n, face);
 }
 
-void place(const TriangleSetup& setup, const float* x, const float* y, std::size_t first, std::size_t count,
-           SampleBlock& b) {
+void place(const TriangleSetup& setup, bool smooth_terminator, const float* x, const float* y,
+           std::size_t first, std::size_t count, SampleBlock& b) {
+  const bool by_normal = smooth_terminator && setup.rounded;
   for (std::size_t i = first; i < first + count; i += 16) {
     const Weights w = weights_of(setup, load<Float16>(x + i), load<Float16>(y + i));
     store(w.u, b.u + i);
     store(w.v, b.v + i);
     store(w.depth, b.depth + i);
     store3(broadcast16(setup.a) + w.u * broadcast16(setup.e1) + w.v * broadcast16(setup.e2), b.point, i);
-    store3(broadcast16(setup.face), b.face, i);
-    store3(setup.smooth ? normal_at(setup, w) : broadcast16(setup.normal), b.normal, i);
+    const Vector16 normal = setup.smooth ? normal_at(setup, w) : broadcast16(setup.normal);
+    store3(by_normal ? normal : broadcast16(setup.face), b.before, i);
+    store3(normal, b.normal, i);
   }
 }
 

@@ -30,8 +30,8 @@ struct Kernels {
   // These fill samples `first` ... `first + count - 1`, and may write up to fifteen samples behind them.
 
   /// Places and normals at window places (x, y), all of one triangle.
-  void (*place)(const TriangleSetup& setup, const float* x, const float* y, std::size_t first,
-                std::size_t count, SampleBlock& block) = nullptr;
+  void (*place)(const TriangleSetup& setup, bool smooth_terminator, const float* x, const float* y,
+                std::size_t first, std::size_t count, SampleBlock& block) = nullptr;
   /// The same surface everywhere.
   void (*cover)(const Surface& surface, std::size_t first, std::size_t count, SampleBlock& block) = nullptr;
   /// Places on textures, of placed samples of one triangle.

@@ -19,7 +19,8 @@ struct SampleBlock {
   alignas(64) Channel u, v;        ///< weights of the triangle's second and third vertex, 0 to 1
   alignas(64) Channel depth;       ///< factor of what u and v change by from pixel to pixel
   alignas(64) Channel point[3];    ///< world axes, relative to the eye, metres
-  alignas(64) Channel face[3];     ///< unit normal of the triangle, to the eye's side; zero: background
+  alignas(64) Channel before[3];   ///< unit; light counts where this points to: the triangle's normal to
+                                   ///< the eye's side, or the shading normal; zero: background
   alignas(64) Channel normal[3];   ///< unit shading normal, to the eye's side
   alignas(64) Channel base[3];     ///< diffuse reflectance
   alignas(64) Channel ambient[3];  ///< ambient light that is reflected where all is open

@@ -23,6 +23,8 @@ struct Subject {
   const FrameGeometry& geometry;
   const ViewRays& view;
   const SurfaceTable& surfaces;
+  bool smooth_terminator = false;  ///< smooth triangles take light from where their shading normals point,
+                                   ///< not from before their planes alone
 };
 
 struct Lighting {
@@ -68,8 +70,8 @@ void shade_picture(const Subject& subject, const Lighting& lighting, const Pixel
 
 /// The light buffer: direct diffuse light that light `light` of `lighting` would send from the seen triangles
 /// to the eye if nothing were in between; three channels, zero where no triangle is seen. Zero where light
-/// and eye lie on different sides of the triangle's plane; the shading normal is turned to the eye's side.
-/// With albedo c, distance d, angle theta at the surface:
+/// and eye lie on different sides of the triangle's plane (smooth terminator: of that across the normal); the
+/// shading normal is turned to the eye's side. With albedo c, distance d, angle theta at the surface:
 /// - Falloff::inverse_square, photometric: c / pi * I cos(theta) / d^2; directional: c / pi * E cos(theta).
 ///   Range and cones fade as in KHR_lights_punctual. Area lights act as their centre: I = nits * area *
 ///   cos(angle from their axis), nothing behind them.

@@ -56,6 +56,17 @@ void set_planes(const dvec3& a, const dvec3& e1, const dvec3& e2, const dvec3& n
   out.v = weight(dv);
 }
 
+/// Of `face`; zero is on any.
+bool are_on_one_side(const std::array<vec3, 3>& normals, const vec3& face) {
+  bool one = true, other = true;
+  for (const vec3& n : normals) {
+    const float along = glm::dot(n, face);
+    if (n == vec3(0.0f)) continue;
+    one &= along > 0, other &= along < 0;
+  }
+  return one || other;
+}
+
 void set_normals(const FrameGeometry& geometry, const glm::uvec3& t, TriangleSetup& out) {
   out.normal = out.face;
   if (geometry.normals.empty()) return;
@@ -65,6 +76,7 @@ void set_normals(const FrameGeometry& geometry, const glm::uvec3& t, TriangleSet
     out.normal = n0;
     out.to_second = n1 - n0;
     out.to_third = n2 - n0;
+    out.rounded = are_on_one_side({n0, n1, n2}, out.face);
   } else if (const float length = glm::length(n0); math::l1_norm(n0) > least_normal) {
     out.normal = n0 / (glm::dot(n0, out.face) < 0 ? -length : length);
   }

@@ -22,8 +22,9 @@ struct Plane {
 struct TriangleSetup {
   std::uint32_t id = no_triangle;
   bool in_perspective = true;
-  bool flat = true;     ///< no plane that the view could meet: all samples are its centroid
-  bool smooth = false;  ///< the shading normal changes over it
+  bool flat = true;      ///< no plane that the view could meet: all samples are its centroid
+  bool smooth = false;   ///< the shading normal changes over it
+  bool rounded = false;  ///< smooth, and the normals at its vertices are all on one side of it
   glm::vec2 origin{0.0f};
   Plane depth;        ///< perspective: proportional to 1 / depth, 1 at the origin
   Plane u, v;         ///< weights of the second and third vertex, in perspective times `depth`

@@ -177,7 +177,7 @@ bool ShadowTracer::trace_shadow_mask(const VisiblePoints& seen, const ViewRays& 
 
   const VisiblePoints& points = points::with_positions(seen, triangles, s.positions);
   shadow::build_triangle_set(triangles, view, source, config, s.set);
-  shadow::generate_shadow_rays(points, light, source, s.set, s.keys, s.rays, s.at_light);
+  shadow::generate_shadow_rays(points, view, triangles, light, source, s.set, s.keys, s.rays, s.at_light);
   s.timings.rays_ms = watch.lap_ms();
 
   if (parts.sorted) shadow::sort_shadow_rays(points, source, config.simd, s.keys, s.rays);

@@ -60,7 +60,7 @@ public:
              TintStats& stats) override {
     frame_ = &frame;
     task_ = &task;
-    receiver_.plane = {};
+    receiver_.forget();
     clip_.reset(task.group.candidates, task.group.clipped);
     if (!task.group.silhouette.empty()) silhouette_.reset(task.group.silhouette);
     for (const std::uint32_t pixel : task.pixels) {
@@ -72,7 +72,7 @@ public:
 private:
   void solve_point(std::uint32_t pixel, TintMask& found, TintStats& stats) {
     const SoftFrame& soft = frame_->soft;
-    receiver_.take_up(soft, soft.points.triangles[pixel]);
+    receiver_.take_up(soft, pixel);
     sight_ = sight_of(soft, receiver_, pixel);
     if (!(sight_.above > 0)) return;
     const bool cuts = find_shadows(soft.points.positions[pixel]);

@@ -86,7 +86,8 @@ TEST(MethodArguments, CoverEveryMethodOption) {
   viewer::add_method_options(app, method);
   const std::string all = viewer::method_arguments(parsed(
       "--shadows soft --light 2 --exposure 0.1 --threads 3 --simd scalar --variant Spheres --samples depth "
-      "--cull front --see-through cast --light-size 1x1 --light-facing 1,2,3 --emissive-lights --soft-solver "
+      "--cull front --terminator flat --see-through cast --light-size 1x1 --light-facing 1,2,3 "
+      "--emissive-lights --soft-solver "
       "bsp "
       "--soft-grouping "
       "triangle --soft-choice random --soft-precision reference --soft-points 12 --ao rays --ao-at vertices "

@@ -242,6 +242,7 @@ void add_render_command(CLI::App& program, Run& run) {
   add_render_options(command, *options);
   when_chosen(command, [options, &command, &run] {
     settle_quality(command, options->method);
+    settle_render_options(*options);
     options->warnings = idle_method_options(command, options->method);
     run = [options] { return render(*options); };
   });

@@ -91,6 +91,7 @@ std::vector<render::LogSetting> describe_method(const render::RenderSettings& se
       {"samples", choice_name(sample_choices, settings.samples)},
       {"cull", choice_name(cull_choices, hard.cull_front)},
       {"see_through", choice_name(see_through_choices, settings.see_through)},
+      {"terminator", choice_name(terminator_choices, settings.terminator)},
       {"light", settings.light < 0 ? "all" : fmt::format("{}", settings.light)},
       {"antialias", fmt::format("{}", settings.antialias)},
       {"exposure", fmt::format("{}", settings.exposure)},

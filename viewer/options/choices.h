@@ -25,6 +25,9 @@ inline constexpr std::array see_through_choices{Choice<SeeThrough>{"tint", SeeTh
 inline constexpr std::array sample_choices{
     Choice<render::SampleSource>{"ids", render::SampleSource::ids},
     Choice<render::SampleSource>{"depth", render::SampleSource::depth}};
+inline constexpr std::array terminator_choices{
+    Choice<render::Terminator>{"smooth", render::Terminator::smooth},
+    Choice<render::Terminator>{"flat", render::Terminator::flat}};
 inline constexpr std::array solver_choices{Choice<SoftSolver>{"auto", SoftSolver::automatic},
                                            Choice<SoftSolver>{"bsp", SoftSolver::bsp},
                                            Choice<SoftSolver>{"clip", SoftSolver::clip}};

@@ -84,6 +84,7 @@ std::string method_arguments(const MethodOptions& options) {
   Arguments arguments;
   arguments.choice("--shadows", shadow_choices, render.shadows, standard.shadows);
   arguments.choice("--see-through", see_through_choices, render.see_through, standard.see_through);
+  if (options.terminator) arguments.add("--terminator", choice_name(terminator_choices, *options.terminator));
   arguments.value("--light", render.light, standard.light);
   arguments.value("--exposure", render.exposure, standard.exposure);
   arguments.value("--antialias", render.antialias, standard_antialias);

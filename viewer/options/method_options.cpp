@@ -118,6 +118,11 @@ void add_common(CLI::App& command, MethodOptions& options) {
        add_choice<see_through_choices>(command, "--see-through", render.see_through,
                                        "Glass and blended surfaces colour the light behind them,\ncast black "
                                        "shadows, or none [tint]"),
+       add_choice<terminator_choices>(
+           command, "--terminator", options.terminator,
+           "Where grazing light ends: on the smooth surface that\nnormals describe, shadows then start from "
+           "there; or\n(flat) at the planes of the triangles, whose teeth show\n[smooth; render with a mask "
+           "of any kind: flat]"),
        add_value(command, "--light", render.light, parse_light,
                  "Light with this light alone, by number, or with all [all]")
            .type_name("N|all"),
@@ -263,6 +268,11 @@ Expected<void> check_method_options(const MethodOptions& options) {
     return base::fail("--samples depth has no exact points, and {} needs them; expected --samples ids",
                       soft ? "--shadows soft" : "--ao");
   }
+  if (render.samples == render::SampleSource::depth && options.terminator == render::Terminator::smooth) {
+    return base::fail(
+        "--samples depth has no exact points, and --terminator smooth needs them; expected "
+        "--samples ids");
+  }
   if (soft && options.cull_front.value_or(false)) {
     return base::fail("--cull front is for hard shadows, and with --shadows soft every face casts");
   }
@@ -287,6 +297,8 @@ render::RenderSettings method_settings(const MethodOptions& options, Size size) 
   const bool from_depth = settings.samples == render::SampleSource::depth;
   settings.hard.cull_front = options.cull_front.value_or(from_depth);
   settings.hard.contact = from_depth ? ContactRule::none : ContactRule::triangle_ids;
+  settings.terminator =
+      from_depth ? render::Terminator::flat : options.terminator.value_or(render::Terminator::smooth);
   settings.soft.simd = settings.ao.simd = settings.hard.simd;
   if (options.light_size) {
     settings.area_lights.size = options.light_size->size;

@@ -16,10 +16,11 @@ namespace tenebra::viewer {
 inline constexpr int standard_antialias = 4;
 
 struct MethodOptions {
-  render::RenderSettings render;           ///< but for its size
-  std::optional<render::Quality> quality;  ///< as given; settle_quality turns it into settings
-  std::optional<bool> cull_front;          ///< not given: as the samples need it
-  std::optional<LightSize> light_size;     ///< not given: points stay points
+  render::RenderSettings render;                 ///< but for its size
+  std::optional<render::Quality> quality;        ///< as given; settle_quality turns it into settings
+  std::optional<bool> cull_front;                ///< not given: as the samples need it
+  std::optional<LightSize> light_size;           ///< not given: points stay points
+  std::optional<render::Terminator> terminator;  ///< not given: smooth
 };
 
 /// Adds the options to `command`; they are read into `options`, which must live as long.

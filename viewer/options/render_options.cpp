@@ -153,6 +153,11 @@ void add_render_options(CLI::App& command, RenderOptions& options) {
   add_config_option(command);
 }
 
+void settle_render_options(RenderOptions& options) {
+  const bool masks = !options.masks.empty() || !options.mask_colours.empty();
+  if (masks && !options.method.terminator) options.method.terminator = render::Terminator::flat;
+}
+
 Expected<void> check_render_options(const RenderOptions& options) {
   const bool several = draws_several_frames(options);
   if (options.pictures) {

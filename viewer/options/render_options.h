@@ -31,6 +31,10 @@ struct RenderOptions {
 /// Adds the options to `command`; they are read into `options`, which must live as long.
 void add_render_options(CLI::App& command, RenderOptions& options);
 
+/// Sets what follows from other options: masks keep the bits that they always had, so what makes them starts
+/// on the triangles unless --terminator is given. To be called once all options are read.
+void settle_render_options(RenderOptions& options);
+
 /// What single options cannot check: combinations.
 Expected<void> check_render_options(const RenderOptions& options);
 

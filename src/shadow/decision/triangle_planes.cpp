@@ -8,6 +8,7 @@
 #include "parallel/parallel.h"
 #include "points/contact_rule.h"
 #include "points/triangle_corners.h"
+#include "shadow/decision/lifted_points.h"
 
 namespace tenebra::shadow {
 
@@ -199,7 +200,11 @@ void build_triangle_set(const TriangleView& triangles, const ViewRays& view, con
       const int side = light_side(c.v, source);
       const double tau = use_tau ? points::rounding_tolerance(c.v) : 0.0;
       out.tau[id] = round_up(tau);
-      out.facing[id] = side != 0 && points::eye_side(c.v, view) == -side;
+      const int eye = points::eye_side(c.v, view);
+      Faces faces = side != 0 && eye == -side ? Faces::light : Faces::away;
+      if (use_tau && faces == Faces::away)
+        faces = faces_beyond(triangles, static_cast<std::uint32_t>(id), eye, source);
+      out.facing[id] = static_cast<std::uint8_t>(faces);
       if (!triangles.casts_shadow.empty() && triangles.casts_shadow[id] == 0) continue;
       degenerate += side == 0;
       if (side == 0 || (config.cull_front && side < 0)) continue;

@@ -56,7 +56,7 @@ struct TriangleSet {
   std::vector<TriangleBounds> bounds;
   std::vector<float>
       extent;  ///< about the solid angle, or the area across a directional light: choice of blockers
-  std::vector<std::uint8_t> facing;  ///< one per triangle id: light and eye strictly on one side of its plane
+  std::vector<std::uint8_t> facing;  ///< one per triangle id: Faces (lifted_points.h)
   std::vector<float> tau;            ///< one per triangle id: rounding tolerance, rounded up
   std::uint64_t degenerate = 0;      ///< left out for zero area or for being edge-on
   std::uint64_t casting = 0;         ///< triangles that were to cast

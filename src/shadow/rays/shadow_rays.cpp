@@ -6,6 +6,7 @@
 #include <utility>
 
 #include "parallel/parallel.h"
+#include "shadow/decision/lifted_points.h"
 #include "shadow/rays/direction_keys.h"
 
 namespace tenebra::shadow {
@@ -128,9 +129,9 @@ Reach reach_of_ball(const dvec3& centre, double radius, const ShadowLight& light
   return all ? Reach::all : Reach::some;
 }
 
-void generate_shadow_rays(const VisiblePoints& points, const ShadowLight& light, const RaySource& source,
-                          const TriangleSet& triangles, RayKeys& scratch, ShadowRays& out,
-                          std::vector<std::uint32_t>& at_light) {
+void generate_shadow_rays(const VisiblePoints& points, const ViewRays& view, const TriangleView& triangles,
+                          const ShadowLight& light, const RaySource& source, const TriangleSet& set,
+                          RayKeys& scratch, ShadowRays& out, std::vector<std::uint32_t>& at_light) {
   const Tiles tiles = tiles_of(points);
   const std::vector<std::uint32_t> order = tile_order(tiles);
   const std::size_t tile_count = order.size();
@@ -144,8 +145,11 @@ void generate_shadow_rays(const VisiblePoints& points, const ShadowLight& light,
   scratch.counts.assign(tile_count, 0);
   const auto reached = [&](std::uint32_t pixel) {
     const std::uint32_t id = points.triangles[pixel];
-    return id < triangles.facing.size() && triangles.facing[id] != 0 &&
-           in_reach(points.positions[pixel] - source.origin, light);
+    if (id >= set.facing.size() || static_cast<Faces>(set.facing[id]) == Faces::away) return false;
+    const dvec3& p = points.positions[pixel];
+    if (static_cast<Faces>(set.facing[id]) == Faces::beyond && !SeesPast(triangles, id, view, source).from(p))
+      return false;
+    return in_reach(p - source.origin, light);
   };
   parallel::parallel_tasks(static_cast<int>(tile_count), [&](int t) {
     const std::uint32_t left = order[t] % tiles.columns * tile, top = order[t] / tiles.columns * tile;
@@ -162,7 +166,7 @@ void generate_shadow_rays(const VisiblePoints& points, const ShadowLight& light,
         continue;
       }
       slots[count++] = pixel;
-      tau[t] = std::max(tau[t], triangles.tau[points.triangles[pixel]]);
+      tau[t] = std::max(tau[t], set.tau[points.triangles[pixel]]);
     }
     scratch.counts[t] = count;
   });

@@ -33,12 +33,13 @@ struct RayKeys {
   std::vector<std::uint32_t> counts;
 };
 
-/// Compaction: pixels that see a triangle which faces both eye and light, within the light's cone and range,
-/// in screen order along a Z curve (nearby pixels stay near). Pixels with the sample at the light itself get
-/// no ray and are listed in `at_light`: nothing lies between.
-void generate_shadow_rays(const VisiblePoints& points, const ShadowLight& light, const RaySource& source,
-                          const TriangleSet& triangles, RayKeys& scratch, ShadowRays& out,
-                          std::vector<std::uint32_t>& at_light);
+/// Compaction: pixels that see a triangle which faces both eye and light, or that see past it, within the
+/// light's cone and range, in screen order along a Z curve (nearby pixels stay near). Pixels with the sample
+/// at the light itself get no ray and are listed in `at_light`: nothing lies between. `set`: of `triangles`,
+/// light and view.
+void generate_shadow_rays(const VisiblePoints& points, const ViewRays& view, const TriangleView& triangles,
+                          const ShadowLight& light, const RaySource& source, const TriangleSet& set,
+                          RayKeys& scratch, ShadowRays& out, std::vector<std::uint32_t>& at_light);
 
 /// Orders the rays by the cube face and the Hilbert index of their direction (directional lights: by the
 /// Hilbert index of their position across the light), ties in the order they had.

@@ -3,8 +3,11 @@
 #include <algorithm>
 #include <bit>
 #include <cmath>
+#include <optional>
 
+#include "points/positions.h"
 #include "points/triangle_corners.h"
+#include "shadow/decision/lifted_points.h"
 #include "simd/prefetch.h"
 
 namespace tenebra::shadow {
@@ -103,6 +106,7 @@ PatchRays::PatchRays(const VisiblePoints& points, const points::PointTiles& tile
       facing_light_(facing_light(light)),
       pixels_(points.width, points.height),
       bounded_(!light.directional && (light.range_m > 0 || light.spot_cos_outer > -1)),
+      smooth_(!triangles.normals.empty() && config.contact == ContactRule::triangle_ids),
       kernels_(tile_kernels(config.simd)),
       point_kernels_(points::point_tile_kernels(config.simd)),
       direction_keys_(direction_keys_kernel(config.simd)) {}
@@ -145,7 +149,7 @@ dvec3 PatchRays::point_of(const points::PointSquare& square, const points::Point
          dvec3(tile.qx[lane], tile.qy[lane], tile.qz[lane]);
 }
 
-/// For each receiver 1: the light is on the eye's side.
+/// For each receiver a Faces.
 void PatchRays::find_facing(const points::PointPatch& patch, std::vector<std::uint8_t>& facing) const {
   facing.resize(patch.receivers.size() * 16);
   for (std::size_t b = 0; b < patch.receivers.size(); ++b) {
@@ -157,20 +161,44 @@ void PatchRays::find_facing(const points::PointPatch& patch, std::vector<std::ui
         const int side = light_side(points::corners_of(triangles_, block.id[i]).v, source_);
         found.facing |= side == -block.side[i] ? 1u << i : 0u;
       }
-      facing[number] = static_cast<std::uint8_t>((found.facing >> i) & 1u);
+      Faces faces = ((found.facing >> i) & 1u) != 0 ? Faces::light : Faces::away;
+      if (smooth_ && faces == Faces::away && number < patch.receiver_count)
+        faces = faces_beyond(triangles_, block.id[i], block.side[i], source_);
+      facing[number] = static_cast<std::uint8_t>(faces);
     }
   }
 }
 
 /// Of lanes on several triangles those that face the light.
 std::uint32_t PatchRays::facing_lanes(const points::TileReceivers& receivers, std::uint32_t lanes,
-                                      const std::vector<std::uint8_t>& facing) const {
-  std::uint32_t faced = 0;
+                                      std::uint32_t tile, const std::vector<std::uint8_t>& facing) const {
+  std::uint32_t faced = 0, beyond = 0;
   for (std::uint32_t left = lanes; left != 0; left &= left - 1) {
     const int lane = std::countr_zero(left);
-    faced |= static_cast<std::uint32_t>(facing[receivers[static_cast<std::size_t>(lane)]]) << lane;
+    const auto faces = static_cast<std::uint32_t>(facing[receivers[static_cast<std::size_t>(lane)]]);
+    faced |= (faces & 1u) << lane;
+    beyond |= (faces >> 1) << lane;
   }
-  return faced;
+  return faced | lanes_beyond(beyond, tile);
+}
+
+/// Of lanes of triangles that the light is beyond, those that see past them.
+std::uint32_t PatchRays::lanes_beyond(std::uint32_t lanes, std::uint32_t tile) const {
+  if (lanes == 0) return 0;
+  std::uint32_t past = 0;
+  points::PositionFinder positions(points_, triangles_);
+  std::optional<SeesPast> triangle;
+  std::uint32_t id = no_triangle;
+  for (std::uint32_t left = lanes; left != 0; left &= left - 1) {
+    const int lane = std::countr_zero(left);
+    const std::size_t pixel = pixels_(tile, lane);
+    if (id != points_.triangles[pixel]) {
+      id = points_.triangles[pixel];
+      triangle.emplace(triangles_, id, tiles_.view, source_);
+    }
+    if (triangle->from(positions.at(pixel))) past |= 1u << lane;
+  }
+  return past;
 }
 
 /// How much of a square the light reaches.
@@ -213,9 +241,10 @@ void PatchRays::find_lanes(const points::PointSquare& square, Work& work) const 
     const std::uint32_t number = square.first_tile + static_cast<std::uint32_t>(t);
     std::uint32_t lanes = square.lanes[t];
     if (square.receiver[t] == points::several_receivers) {
-      lanes = facing_lanes(work.patch->mixed[work.mixed++], lanes, work.out.facing);
-    } else if (work.out.facing[square.receiver[t]] == 0) {
-      lanes = 0;
+      lanes = facing_lanes(work.patch->mixed[work.mixed++], lanes, number, work.out.facing);
+    } else if (const auto faces = static_cast<Faces>(work.out.facing[square.receiver[t]]);
+               faces != Faces::light) {
+      lanes = faces == Faces::beyond ? lanes_beyond(lanes, number) : 0;
     }
     if (reach == Reach::none) lanes = 0;
     if (reach == Reach::some && lanes != 0) lanes = in_reach_lanes(square, t, lanes);

@@ -30,8 +30,9 @@ private:
   void find_facing(const points::PointPatch& patch, std::vector<std::uint8_t>& facing) const;
   void fetch_gaps(const points::PointSquare& square) const;
   void find_lanes(const points::PointSquare& square, Work& work) const;
-  std::uint32_t facing_lanes(const points::TileReceivers& receivers, std::uint32_t lanes,
+  std::uint32_t facing_lanes(const points::TileReceivers& receivers, std::uint32_t lanes, std::uint32_t tile,
                              const std::vector<std::uint8_t>& facing) const;
+  std::uint32_t lanes_beyond(std::uint32_t lanes, std::uint32_t tile) const;
   Reach reach_of(const points::PointSquare& square) const;
   std::uint32_t in_reach_lanes(const points::PointSquare& square, int tile, std::uint32_t lanes) const;
   glm::dvec3 centre_of(const points::PointSquare& square, int tile) const;
@@ -58,6 +59,7 @@ private:
   FacingLight facing_light_;
   points::TilePixels pixels_;
   bool bounded_;  ///< by a cone or a range
+  bool smooth_;   ///< points may be lifted
   TileKernels kernels_;
   points::PointTileKernels point_kernels_;
   DirectionKeys direction_keys_;

@@ -6,6 +6,7 @@
 
 #include "math/l1_norm.h"
 #include "points/contact_rule.h"
+#include "points/smooth_surface.h"
 #include "points/triangle_corners.h"
 
 namespace tenebra::soft {
@@ -15,6 +16,23 @@ namespace {
 using glm::dvec3;
 
 constexpr double infinity = std::numeric_limits<double>::infinity();
+
+/// The light sinks below the triangle's plane, or nearly so: what its points, lifted, may see of it.
+void see_lifted(const TriangleView& triangles, const ViewRays& view, const LightShape& light,
+                LitTriangle& lit) {
+  const points::SmoothSurface smooth = points::smooth_surface(triangles, lit.receiver.triangle, view);
+  if (!smooth.lifts) return;
+  const points::Corners c = points::corners_of(triangles, lit.receiver.triangle);
+  lit.receiver.lifted = lit.light_above;
+  for (int k = 0; k < light.count; ++k) {
+    for (int i = 0; i < 3; ++i) {
+      const dvec3 from = light.origin + light.vertices[k] - dvec3(c.v[i]);
+      const double margin = 0x1p-46 * (math::l1_norm(from) + math::l1_norm(light.origin));
+      lit.receiver.lifted |= glm::dot(smooth.normal[i], from) > -margin;
+    }
+  }
+  lit.light_above |= lit.receiver.lifted;
+}
 
 }  // namespace
 
@@ -44,6 +62,10 @@ LitTriangle lit_triangle(const TriangleView& triangles, std::uint32_t id, const 
     lit.light_above |= glm::dot(n, q - a) > -bound;
     lit.light_height = std::min(lit.light_height, glm::dot(lit.receiver.m, light.vertices[k]));
   }
+  if (!triangles.normals.empty()) {
+    const double margin = 0x1p-40 * (light.reach + math::l1_norm(light.origin) + math::l1_norm(a));
+    if (!(lit.light_height > lit.level + margin)) see_lifted(triangles, view, light, lit);
+  }
   return lit;
 }
 
@@ -54,7 +76,7 @@ LitTriangle lit_triangle(const TriangleView& triangles, std::uint32_t id, const 
 Receiver receiver_of(const LitTriangle& triangle, double lowest_point, const Cell& cell,
                      const LightShape& light) {
   Receiver receiver = triangle.receiver;
-  if (receiver.m == dvec3(0)) {
+  if (receiver.m == dvec3(0) || receiver.lifted) {
     receiver.limit = -infinity;
     return receiver;
   }

@@ -13,19 +13,22 @@ namespace tenebra::soft {
 
 /// A triangle on which points of a group lie, the side of it that the view sees (1: in front, counter-
 /// clockwise; -1: behind), and the half-space of it that no line from its points in the group to the light
-/// enters: a triangle with m.(v - light's centre) <= limit for its vertices blocks none of them.
+/// enters: a triangle with m.(v - light's centre) <= limit for its vertices blocks none of them. No such
+/// half-space if it is lifted, and then it may block them itself.
 struct Receiver {
   std::uint32_t triangle = no_triangle;
   std::int32_t side = 0;
-  double tau = 0;     ///< rounding tolerance (contact_rule.h)
-  glm::dvec3 m{0.0};  ///< unit
+  bool lifted = false;  ///< it is smooth and the light sinks below its plane: points off it may see past it
+  double tau = 0;       ///< rounding tolerance (contact_rule.h)
+  glm::dvec3 m{0.0};    ///< unit
   double limit = 0;
 };
 
 /// What a triangle is to a light, whichever points of it are seen.
 struct LitTriangle {
   Receiver receiver;         ///< but for the limit
-  bool light_above = false;  ///< a part of the light may be on the seen side of the plane
+  bool light_above = false;  ///< a part of the light may be on the seen side of the plane or, lifted, of one
+                             ///< across a vertex's normal
   double level = 0;          ///< m.(v - light's centre) of the plane
   double light_height = 0;   ///< m.(v - light's centre) of the light's lowest vertex
 };

@@ -46,6 +46,7 @@ struct ReceiverPlane {
   glm::dvec3 face{0.0};     ///< unit normal on the seen side; 0: no area
   LightLine<float> line;    ///< the horizon, scaled
   bool cuts_light = true;   ///< part of the light is not above it
+  double level = 0;         ///< face.p of points on it
 };
 
 inline ReceiverPlane receiver_plane(const LightFrame& light, const ViewRays& view,
@@ -61,6 +62,7 @@ inline ReceiverPlane receiver_plane(const LightFrame& light, const ViewRays& vie
   if (!(length > 0) || side == 0) return plane;
   plane.horizon = static_cast<double>(side) * line_of_plane(light, n, light.origin - a);
   plane.face = static_cast<double>(side) / length * n;
+  plane.level = glm::dot(plane.face, a);
   return plane;
 }
 

@@ -121,7 +121,8 @@ std::size_t drop_behind(std::span<const Receiver> receivers, const LightShape& l
     for (const Receiver& receiver : receivers) {
       const Vector8 m = broadcast8(receiver.m);
       const Double8 top = most(dot_unfused(m, t.v[0]), dot_unfused(m, t.v[1]), dot_unfused(m, t.v[2]));
-      dropped &= lt_bits(top + margin, broadcast8(receiver.limit)) | lanes_of(block, receiver.triangle);
+      dropped &= lt_bits(top + margin, broadcast8(receiver.limit)) |
+                 (receiver.lifted ? 0u : lanes_of(block, receiver.triangle));
       if (dropped == 0) break;
     }
     if (const std::uint32_t lanes = ref.lanes & ~dropped; lanes != 0) out[count++] = {ref.block, lanes};

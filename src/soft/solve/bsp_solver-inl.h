@@ -23,7 +23,7 @@ template <class T>
 class BspSolver final : public Solver {
 public:
   void begin(const SoftFrame& frame, const PreparedGroup& group) override {
-    receiver_.plane = {};
+    receiver_.forget();
     set_up_occluders(frame.light, frame.triangles, group.frame, group.candidates, occluders_);
     start_tree(frame, group);
     use_tree_ = true;
@@ -68,7 +68,7 @@ private:
 
   void solve_point(const SoftFrame& frame, const PreparedGroup& group, std::uint32_t pixel,
                    PixelWriter& writer) {
-    receiver_.take_up(frame, frame.points.triangles[pixel]);
+    receiver_.take_up(frame, pixel);
     const PointSight sight = sight_of(frame, receiver_, pixel);
     visible_.clear();
     if (sight.above > 0) find_visible(frame, group, pixel);

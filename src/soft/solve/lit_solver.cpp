@@ -17,7 +17,7 @@ class LitPoints final : public LitSolver {
 public:
   void solve(const SoftFrame& frame, std::span<const std::span<const std::uint32_t>> groups,
              PixelWriter& writer) override {
-    receiver_.plane = {};
+    receiver_.forget();
     for (const auto& pixels : groups)
       for (const std::uint32_t pixel : pixels) solve_point(frame, pixel, writer);
     finish(frame, writer);
@@ -25,7 +25,7 @@ public:
 
 private:
   void solve_point(const SoftFrame& frame, std::uint32_t pixel, PixelWriter& writer) {
-    receiver_.take_up(frame, frame.points.triangles[pixel]);
+    receiver_.take_up(frame, pixel);
     if (receiver_.above > 0 && !receiver_.plane.cuts_light) {
       whole_.add(pixel, frame.light.origin - frame.points.positions[pixel],
                  receiver_.normal_at(frame, pixel));
@@ -37,7 +37,7 @@ private:
 
   /// A horizon may cut the light, or all of it is behind one.
   HWY_NOINLINE void solve_cut(const SoftFrame& frame, std::uint32_t pixel, PixelWriter& writer) {
-    receiver_.take_up(frame, frame.points.triangles[pixel]);
+    receiver_.take_up(frame, pixel);
     const PointSight sight = sight_of(frame, receiver_, pixel);
     visible_.clear();
     if (sight.above > 0)

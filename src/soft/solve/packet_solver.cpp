@@ -18,7 +18,7 @@ public:
   explicit PacketGroupSolver(std::unique_ptr<Solver> alone) : alone_(std::move(alone)) {}
 
   void begin(const SoftFrame&, const PreparedGroup& group) override {
-    receiver_.plane = {};
+    receiver_.forget();
     packet_.reset(group.candidates, group.clipped);
     alone_is_ready_ = false;
   }
@@ -26,7 +26,7 @@ public:
   void solve(const SoftFrame& frame, const PreparedGroup& group, std::span<const std::uint32_t> pixels,
              PixelWriter& writer) override {
     for (const std::uint32_t pixel : pixels) {
-      receiver_.take_up(frame, frame.points.triangles[pixel]);
+      receiver_.take_up(frame, pixel);
       const glm::dvec3& position = frame.points.positions[pixel];
       const bool in_front = glm::dot(frame.light.origin - position, frame.light.normal) < 0;
       if (!(receiver_.above > 0) || !in_front) {

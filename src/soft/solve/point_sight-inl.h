@@ -7,6 +7,7 @@
 #define TENEBRA_SOFT_POINT_SIGHT_INL_H_
 #endif
 
+#include "points/smooth_surface.h"
 #include "soft/polygon/light_fragments-inl.h"
 #include "soft/polygon/receiver_plane-inl.h"
 #include "soft/polygon/whole_light-inl.h"
@@ -37,15 +38,22 @@ double area_of(const FragmentList<T>& fragments) {
   return area;
 }
 
-/// The receiver at hand and the part of the light above its plane, the same for all its points.
+/// The receiver at hand and the part of the light above its plane, the same for all its points. To points
+/// lifted off the plane by more than the contact rule's tolerance all of the light is above, and the triangle
+/// is one like the others: it has no id then.
 template <class T>
 struct ReceiverSight {
   ReceiverPlane plane;
   FragmentList<T> light;
   double above = 0;  ///< area of `light`
 
-  void take_up(const SoftFrame& frame, std::uint32_t receiver) {
-    if (receiver != plane.id) start_on(frame, receiver);
+  void forget() { of_ = no_triangle; }
+  void take_up(const SoftFrame& frame, std::uint32_t pixel) {
+    const std::uint32_t receiver = frame.points.triangles[pixel];
+    if (receiver != of_) start_on(frame, receiver);
+    if (!lifts_) return;
+    const double height = glm::dot(plane.face, frame.points.positions[pixel]) - plane.level;
+    if (const bool lifted = height > 2 * plane.tau; lifted != is_lifted_) set_lifted(frame, lifted);
   }
   glm::dvec3 normal_at(const SoftFrame& frame, std::uint32_t pixel) const {
     return frame.normals.empty() ? plane.face : glm::dvec3(frame.normals[pixel]);
@@ -53,7 +61,21 @@ struct ReceiverSight {
 
 private:
   HWY_NOINLINE void start_on(const SoftFrame& frame, std::uint32_t receiver) {
+    of_ = receiver;
     plane = receiver_plane(frame.light, frame.view, frame.triangles, receiver);
+    lifts_ = is_lifted_ = false;
+    see_above(frame);
+    lifts_ = plane.cuts_light && plane.face != glm::dvec3(0.0) &&
+             points::smooth_surface(frame.triangles, receiver, frame.view).lifts;
+    below_ = plane.horizon;
+  }
+  HWY_NOINLINE void set_lifted(const SoftFrame& frame, bool lifted) {
+    is_lifted_ = lifted;
+    plane.id = lifted ? no_triangle : of_;
+    plane.horizon = lifted ? glm::dvec3(0, 0, 1) : below_;
+    see_above(frame);
+  }
+  void see_above(const SoftFrame& frame) {
     light.clear();
     light.push(polygon_of<T>(frame.light.polygon));
     keep_positive(light, line_of<T>(plane.horizon), scratch_);
@@ -63,6 +85,10 @@ private:
   }
 
   FragmentList<T> scratch_;
+  std::uint32_t of_ = no_triangle;
+  bool lifts_ = false;      ///< points of it may be lifted, and the light sinks below its plane
+  bool is_lifted_ = false;  ///< `plane` and `light` are for such points
+  glm::dvec3 below_{0.0};   ///< the horizon of the others
 };
 
 /// A point and its horizons.

@@ -20,7 +20,7 @@ template <class T>
 class PointSolver final : public Solver {
 public:
   void begin(const SoftFrame&, const PreparedGroup& group) override {
-    receiver_.plane = {};
+    receiver_.forget();
     clip_.reset(group.candidates, group.clipped);
     if (!group.silhouette.empty()) silhouette_.reset(group.silhouette);
   }
@@ -37,7 +37,7 @@ public:
 private:
   void solve_point(const SoftFrame& frame, const PreparedGroup& group, std::uint32_t pixel,
                    PixelWriter& writer) {
-    receiver_.take_up(frame, frame.points.triangles[pixel]);
+    receiver_.take_up(frame, pixel);
     const PointSight sight = sight_of(frame, receiver_, pixel);
     visible_.clear();
     if (sight.above > 0) find_visible(frame, group, sight);
