@@ -175,6 +175,25 @@ Expected<void> Renderer::State::trace_lights(const FrameInput& input, const std:
   return {};
 }
 
+namespace {
+
+/// The colours behind the picture.
+void keep_linear(const shade::Subject& subject, const shade::Lighting& lighting,
+                 const shade::PixelSamples& pixels, FrameResult& result) {
+  std::vector<glm::vec2> places;
+  for (int y = 0; y < pixels.height; ++y)
+    for (int x = 0; x < pixels.width; ++x)
+      places.emplace_back(static_cast<float>(x) + 0.5f, static_cast<float>(y) + 0.5f);
+  std::vector<shade::ShadedSample> shaded;
+  shade_samples(subject, lighting, {pixels.ids, places, pixels.factors, pixels.openness}, shaded);
+  result.linear = {pixels.width, pixels.height, 3, {}};
+  for (const shade::ShadedSample& sample : shaded)
+    for (int c = 0; c < 3; ++c) result.linear.pixels.push_back(sample.color[c]);
+  for (const std::uint32_t id : pixels.ids) result.seen.push_back(id != no_triangle ? 1 : 0);
+}
+
+}  // namespace
+
 Expected<void> Renderer::State::shade_pixels(const FrameInput& input, const std::vector<DrawnLight>& lights,
                                              const RenderSettings& settings, FrameResult& result,
                                              const StopFlag* stop) {
@@ -199,8 +218,12 @@ Expected<void> Renderer::State::shade_pixels(const FrameInput& input, const std:
                                  environment ? &*environment : nullptr};
   shade::PixelSamples pixels{seen.width, seen.height, seen.ids, factors, {}};
   if (settings.ao.mode != AoMode::none) pixels.openness = openness;
-  with_threads(settings.threads,
-               [&] { shade::shade_picture(subject, lighting, pixels, display_of(settings), result.image); });
+  result.linear = {};
+  result.seen.clear();
+  with_threads(settings.threads, [&] {
+    shade::shade_picture(subject, lighting, pixels, display_of(settings), result.image);
+    if (settings.linear) keep_linear(subject, lighting, pixels, result);
+  });
   return draw_see_through(input, lights, subject, lighting, pixels, settings, result, stop);
 }
 

@@ -56,6 +56,7 @@ struct RenderSettings {
   float exposure = 1.0f;  ///< factor of linear colour, before the tone
   shade::Tone tone = shade::Tone::none;
   bool diagnostics = false;  ///< fill LightMask::nodes; the picture is the same
+  bool linear = false;       ///< fill FrameResult::linear and seen; the picture is the same
 };
 
 /// What is drawn: one instant of a scene from one camera.
@@ -82,8 +83,10 @@ struct LightMethod {
 };
 
 struct FrameResult {
-  base::Image8 image;            ///< RGB, encoded as Scene::transfer says
-  std::vector<LightMask> masks;  ///< one per light drawn, of those with an intensity; empty without shadows
+  base::Image8 image;              ///< RGB, encoded as Scene::transfer says
+  base::ImageF linear;             ///< RenderSettings::linear: RGB before exposure and tone, else empty
+  std::vector<std::uint8_t> seen;  ///< RenderSettings::linear: 1 where a pixel sees a triangle
+  std::vector<LightMask> masks;    ///< one per light drawn, of those with an intensity; empty without shadows
   std::vector<LightMethod> methods;  ///< of the lights that had hard shadows
   FrameTimings timings;
   TraceStats stats;

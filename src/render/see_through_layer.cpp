@@ -114,7 +114,7 @@ void EyeTint::trace(const VisiblePoints& opaque, const LayerSamples& layer, cons
   }
 }
 
-void draw_layer(const LayerPicture& picture, base::Image8& out) {
+void draw_layer(const LayerPicture& picture, base::Image8& out, base::ImageF& linear) {
   const std::span<const std::uint32_t> pixels = picture.passes.pixels;
   const auto behind =
       shaded(picture, picture.opaque.ids, picture.opaque.factors, picture.opaque.openness, pixels);
@@ -131,7 +131,10 @@ void draw_layer(const LayerPicture& picture, base::Image8& out) {
         color += before[i].color *
                  texture::shown_share(*picture.surfaces.scene, place.material, place.uv, place.vertex);
       }
-      encode_shown(picture.display, shown(picture.display, color), &out.pixels[3 * std::size_t{pixel}]);
+      const std::size_t at = 3 * std::size_t{pixel};
+      encode_shown(picture.display, shown(picture.display, color), &out.pixels[at]);
+      for (int c = 0; c < 3 && !linear.pixels.empty(); ++c)
+        linear.pixels[at + static_cast<std::size_t>(c)] = color[c];
     }
   });
 }

@@ -52,6 +52,7 @@ struct LayerPicture {
   const TintMask& passes;
   shade::Display display;
 };
-void draw_layer(const LayerPicture& picture, base::Image8& out);
+/// `linear`: empty, or gets the same pixels before exposure and tone.
+void draw_layer(const LayerPicture& picture, base::Image8& out, base::ImageF& linear);
 
 }  // namespace tenebra::render

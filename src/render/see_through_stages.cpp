@@ -114,7 +114,8 @@ Expected<void> Renderer::State::draw_see_through(
                              PointLayout::rows_and_tiles);
     }
     eye_tint.trace(there ? points : behind, layer, input.view, triangles, surfaces, passes);
-    draw_layer({subject, lighting, opaque, layer, surfaces, passes, display_of(settings)}, result.image);
+    draw_layer({subject, lighting, opaque, layer, surfaces, passes, display_of(settings)}, result.image,
+               result.linear);
   });
   result.timings.layer_ms = watch.lap_ms();
   return {};

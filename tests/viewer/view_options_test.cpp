@@ -68,8 +68,8 @@ MethodOptions parsed(const std::string& text) {
 TEST(MethodArguments, GiveBackWhatTheyWereMadeFrom) {
   EXPECT_EQ(viewer::method_arguments(parsed("")), "");
   for (const char* text :
-       {"--shadows none", "--light 2 --exposure 0.1 --threads 3", "--simd scalar --variant PreciseSEATP",
-        "--samples depth --cull none", "--cull front",
+       {"--shadows none", "--light 2 --exposure 0.1 --tone aces --threads 3", "--exposure auto",
+        "--simd scalar --variant PreciseSEATP", "--samples depth --cull none", "--cull front",
         "--shadows soft --light-size 0.5x0.25 --light-facing 1,2.5,-3 --emissive-lights --soft-solver bsp "
         "--soft-grouping triangle --soft-choice random --soft-precision reference --soft-points 12",
         "--light-size 4x4%",
@@ -85,7 +85,8 @@ TEST(MethodArguments, CoverEveryMethodOption) {
   CLI::App app;
   viewer::add_method_options(app, method);
   const std::string all = viewer::method_arguments(parsed(
-      "--shadows soft --light 2 --exposure 0.1 --threads 3 --simd scalar --variant Spheres --samples depth "
+      "--shadows soft --light 2 --exposure 0.1 --tone none --threads 3 --simd scalar --variant Spheres "
+      "--samples depth "
       "--cull front --see-through cast --light-size 1x1 --light-facing 1,2,3 --emissive-lights --soft-solver "
       "bsp "
       "--soft-grouping "

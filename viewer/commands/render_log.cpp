@@ -93,6 +93,7 @@ std::vector<render::LogSetting> describe_method(const render::RenderSettings& se
       {"see_through", choice_name(see_through_choices, settings.see_through)},
       {"light", settings.light < 0 ? "all" : fmt::format("{}", settings.light)},
       {"exposure", fmt::format("{}", settings.exposure)},
+      {"tone", choice_name(tone_choices, settings.tone)},
       {"ao", choice_name(ao_choices, settings.ao.mode)},
   };
   if (settings.shadows == render::ShadowMode::soft) describe_soft(settings, list);
@@ -129,6 +130,7 @@ std::vector<render::LogSetting> describe_render(const RenderPlan& plan, const Re
       {"environment", options.scene.environment.empty() ? "none" : options.scene.environment},
   };
   for (render::LogSetting& setting : describe_method(settings)) list.push_back(std::move(setting));
+  list.push_back({"exposure_from", options.method.auto_exposure ? "auto" : "option"});
   for (std::string& text : light_edit_texts(options.scene.lights)) {
     list.push_back({"set_light", std::move(text)});
   }

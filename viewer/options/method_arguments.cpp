@@ -85,7 +85,12 @@ std::string method_arguments(const MethodOptions& options) {
   arguments.choice("--shadows", shadow_choices, render.shadows, standard.shadows);
   arguments.choice("--see-through", see_through_choices, render.see_through, standard.see_through);
   arguments.value("--light", render.light, standard.light);
-  arguments.value("--exposure", render.exposure, standard.exposure);
+  if (options.auto_exposure) {
+    arguments.add("--exposure", "auto");
+  } else {
+    arguments.value("--exposure", render.exposure, standard.exposure);
+  }
+  if (options.tone) arguments.add("--tone", choice_name(tone_choices, *options.tone));
   arguments.value("--threads", render.threads, standard.threads);
   if (render.hard.simd != standard.hard.simd) {
     arguments.add("--simd", std::string(simd_level_name(render.hard.simd)));

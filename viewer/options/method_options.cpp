@@ -93,6 +93,21 @@ Expected<std::filesystem::path> parse_cache(const std::string& text) {
   return text == "none" ? std::filesystem::path() : std::filesystem::path(text);
 }
 
+AddedOption add_exposure(CLI::App& command, MethodOptions& options) {
+  const auto read = [&options](const std::string& text) -> Expected<void> {
+    options.auto_exposure = text == "auto";
+    if (options.auto_exposure) return {};
+    const auto factor = parse_factor(text);
+    if (!factor) return base::fail("{}, or auto", factor.error().message);
+    options.render.exposure = *factor;
+    return {};
+  };
+  return add_reader(command, "--exposure", read,
+                    "Multiplies all light by this factor; auto: by one that\nleaves at most a hundredth of "
+                    "the pixels too bright,\nthe same for the whole animation [1]")
+      .type_name("E|auto");
+}
+
 void add_common(CLI::App& command, MethodOptions& options) {
   render::RenderSettings& render = options.render;
   set_group(
@@ -112,9 +127,12 @@ void add_common(CLI::App& command, MethodOptions& options) {
        add_value(command, "--light", render.light, parse_light,
                  "Light with this light alone, by number, or with all [all]")
            .type_name("N|all"),
-       add_value(command, "--exposure", render.exposure, parse_factor,
-                 "Multiplies all light by this factor [1]")
-           .type_name("E"),
+       add_exposure(command, options),
+       add_choice<tone_choices>(
+           command, "--tone", options.tone,
+           "How bright colours are fitted into a picture: cut off\n(none), by Khronos PBR "
+           "Neutral, or like film by a fit to\nACES [neutral; none for AFF and NFF and with\n"
+           "--transfer display]"),
        add_value(command, "--threads", render.threads, parse_threads,
                  "Threads for shadows and ambient occlusion [0: all cores]")
            .type_name("N"),
@@ -264,8 +282,15 @@ std::vector<std::string> idle_method_options(const CLI::App& command, const Meth
   return sentences;
 }
 
-render::RenderSettings method_settings(const MethodOptions& options, Size size) {
+shade::Tone tone_of(const MethodOptions& options, Transfer transfer) {
+  return options.tone.value_or(transfer == Transfer::srgb ? shade::Tone::neutral : shade::Tone::none);
+}
+
+render::RenderSettings method_settings(const MethodOptions& options, Size size, const SceneDisplay& display) {
   render::RenderSettings settings = options.render;
+  settings.tone = tone_of(options, display.transfer);
+  if (options.auto_exposure && display.exposures)
+    settings.exposure = (*display.exposures)[static_cast<std::size_t>(settings.tone)];
   settings.width = size.width;
   settings.height = size.height;
   // Points from the depth buffer lie off their triangles: only the paper's front-face culling keeps those
