@@ -27,13 +27,20 @@ enum class ShadowMode { none, hard, soft };
 /// reconstruction from the depth buffer (for comparison; front-face culling instead of a bias).
 enum class SampleSource { ids, depth };
 
+/// How the rectangles shine that are made of point and spot lights.
+enum class LightEmission {
+  lambert,  ///< to one side, with the light's intensity straight ahead: less by the cosine elsewhere
+  point     ///< with the light's intensity in every direction, to both sides: as bright as with hard shadows
+};
+
 /// How lights without an area become rectangles in soft mode.
 struct AreaLightSettings {
   glm::vec2 size{0.0f};              ///< width and height; 0: point and spot lights keep hard shadows
   bool percent_of_diagonal = false;  ///< unit of `size`: percent of the scene's diagonal instead of metres
   std::optional<glm::vec3> facing;   ///< point that the rectangles face; none: the centre of the scene's box,
                                      ///< and for spot lights where they shine
-  bool emissive_quads = false;       ///< planar convex meshes of an emissive material shine too
+  LightEmission emission = LightEmission::lambert;
+  bool emissive_quads = false;  ///< planar convex meshes of an emissive material shine too
   /// By Scene::lights: width and height in metres of the point and spot lights that have their own, beside
   /// `size`; may be shorter.
   std::vector<std::optional<glm::vec2>> own_size_m;

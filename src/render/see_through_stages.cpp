@@ -57,30 +57,30 @@ Expected<void> Renderer::State::light_layer(const FrameInput& input, const std::
     if (stop_requested(stop)) return base::fail("stopped");
     layer.tints[i].begin(layer.ids.size());
     if (settings.shadows == ShadowMode::none) continue;
-    SoftMask lit;
     if (lights[i].area) {
-      if (auto done = trace_area(input, lights[i], settings, layer.points, layer.normals, lit, stop); !done)
-        return done;
-    } else {
-      bool done = false;
-      with_threads(settings.threads, [&] {
-        HardShadowConfig config = settings.hard;
-        config.contact = ContactRule::triangle_ids;
-        done = hard.trace_shadow_mask(
-            layer.points, input.view, casters_of(scene, input.geometry, lights[i], casters),
-            shadow_light(lights[i].light, lights[i].placed), config, layer.masks[i], stop);
-      });
-      if (!done) return base::fail("stopped");
+      const AreaTask task{input, settings, layer.points, layer.normals, nullptr, stop};
+      if (auto done = trace_area(task, lights[i], lit_side); !done) return done;
+      layer.tints[i].set(lit_side.tint);
+      layer.irradiance[i] = lit_side.lit.irradiance;
+      continue;
     }
+    bool done = false;
+    with_threads(settings.threads, [&] {
+      HardShadowConfig config = settings.hard;
+      config.contact = ContactRule::triangle_ids;
+      done = hard.trace_shadow_mask(
+          layer.points, input.view, casters_of(scene, input.geometry, lights[i], casters),
+          shadow_light(lights[i].light, lights[i].placed), config, layer.masks[i], stop);
+    });
+    if (!done) return base::fail("stopped");
     TintMask found;
     RenderSettings exact = settings;
     exact.samples = SampleSource::ids;
-    if (auto done = trace_tint(input, lights[i], exact, layer.points, layer.normals, layer.masks[i], lit,
-                               found, stop);
-        !done)
-      return done;
+    if (auto traced =
+            trace_tint(input, lights[i], exact, layer.points, layer.normals, layer.masks[i], {}, found, stop);
+        !traced)
+      return traced;
     layer.tints[i].set(found);
-    layer.irradiance[i] = std::move(lit.irradiance);
   }
   layer.openness.clear();
   if (settings.ao.mode == AoMode::none) return {};

@@ -53,6 +53,7 @@ void describe_soft(const render::RenderSettings& settings, std::vector<render::L
        {"soft_points", settings.soft_points == 0 ? "none, exact" : fmt::format("{}", settings.soft_points)},
        {"light_size", light_size_text(lights)},
        {"light_facing", lights.facing ? vector(*lights.facing) : "the scene's centre"},
+       {"light_emission", choice_name(emission_choices, lights.emission)},
        {"emissive_lights", lights.emissive_quads ? "yes" : "no"}});
 }
 

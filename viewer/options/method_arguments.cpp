@@ -40,6 +40,8 @@ void add_soft(Arguments& arguments, const MethodOptions& options) {
       arguments.add("--light-facing", fmt::format("{},{},{}", facing->x, facing->y, facing->z));
     }
   }
+  arguments.choice("--light-emission", emission_choices, options.light_emission,
+                   MethodOptions{}.light_emission);
   if (lights.emissive_quads) arguments.add("--emissive-lights");
   arguments.choice("--soft-solver", solver_choices, soft.solver, SoftShadowConfig{}.solver);
   arguments.choice("--soft-grouping", grouping_choices, soft.grouping, SoftShadowConfig{}.grouping);

@@ -164,17 +164,22 @@ void add_soft(CLI::App& command, MethodOptions& options) {
   const auto size =
       add_value(command, "--light-size", options.light_size, parse_light_size,
                 "Turns point and spot lights into rectangles of this size,\nin metres, or (4%) in percent "
-                "of the scene's diagonal;\nthey keep their light [they stay points]")
+                "of the scene's diagonal;\nthey keep their brightness [they stay points]")
           .type_name("W[xH][%]");
   const auto facing =
       add_value(command, "--light-facing", lights.facing, parse_vector,
                 "Point that those rectangles face [the scene's centre;\nspot lights: where they shine]")
           .type_name("X,Y,Z")
           .needs(size);
+  const auto emission = add_choice<emission_choices>(command, "--light-emission", options.light_emission,
+                                                     "How those rectangles shine. point: in every direction "
+                                                     "as\nbright as the point, so soft and hard shadows have "
+                                                     "the\nsame light; lambert: to one side, like a lamp's "
+                                                     "face,\nas bright as the point straight ahead [point]");
   const auto emissive = add_flag(command, "--emissive-lights", lights.emissive_quads,
                                  "Flat convex meshes with an emissive material are lights too");
   set_group(
-      {size, facing, emissive,
+      {size, facing, emission, emissive,
        add_choice<solver_choices>(command, "--soft-solver", soft.solver,
                                   "How the visible part of a light is found: by the paper's\nlazy BSP, by "
                                   "clipping, or (auto) meshes by their\nsilhouettes and the rest by "
@@ -299,6 +304,7 @@ render::RenderSettings method_settings(const MethodOptions& options, Size size, 
   settings.hard.cull_front = options.cull_front.value_or(from_depth);
   settings.hard.contact = from_depth ? ContactRule::none : ContactRule::triangle_ids;
   settings.soft.simd = settings.ao.simd = settings.hard.simd;
+  settings.area_lights.emission = options.light_emission;
   if (options.light_size) {
     settings.area_lights.size = options.light_size->size;
     settings.area_lights.percent_of_diagonal = options.light_size->percent;

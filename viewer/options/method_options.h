@@ -23,12 +23,13 @@ struct SceneDisplay {
 };
 
 struct MethodOptions {
-  render::RenderSettings render;           ///< but for its size and tone
+  render::RenderSettings render;           ///< but for its size, tone and emission
   std::optional<render::Quality> quality;  ///< as given; settle_quality turns it into settings
   std::optional<bool> cull_front;          ///< not given: as the samples need it
   std::optional<LightSize> light_size;     ///< not given: points stay points
-  std::optional<shade::Tone> tone;         ///< not given: neutral for linear colours, none for display values
-  bool auto_exposure = false;              ///< SceneDisplay::exposures, where measured, in place of render's
+  render::LightEmission light_emission = render::LightEmission::point;  ///< in place of render's
+  std::optional<shade::Tone> tone;  ///< not given: neutral for linear colours, none for display values
+  bool auto_exposure = false;       ///< SceneDisplay::exposures, where measured, in place of render's
 };
 
 /// Adds the options to `command`; they are read into `options`, which must live as long.

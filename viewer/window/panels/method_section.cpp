@@ -67,6 +67,9 @@ void edit_light_size(Ui& ui, MethodOptions& method) {
     if (!method.light_size) method.render.area_lights.facing.reset();
   }
   if (!method.light_size) return;
+  row(ui, "Shining",
+      "point: in every direction as bright as the point; lambert: to one side, like a lamp's face.");
+  choose(ui, "emission", emission_choices, method.light_emission);
   row(ui, "Facing", "What those rectangles face: the scene's centre, or this point.");
   std::optional<glm::vec3>& facing = method.render.area_lights.facing;
   bool own = facing.has_value();
