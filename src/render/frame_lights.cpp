@@ -4,6 +4,7 @@
 
 #include "base/fail.h"
 #include "render/emissive.h"
+#include "soft/light/even_emission.h"
 
 namespace tenebra::render {
 
@@ -19,6 +20,8 @@ void give_area(DrawnLight& drawn, const AreaLightSettings& settings, const Scene
   auto area = area_light_of(drawn.light, drawn.placed, settings, box);
   if (area && *area) {
     drawn.area = std::move(**area);
+    const bool made = drawn.light.type == LightType::point || drawn.light.type == LightType::spot;
+    if (made && settings.emission == LightEmission::point) drawn.back = soft::reversed(*drawn.area);
   } else if (!area) {
     notes.push_back(fmt::format("{} keeps hard shadows: {}", title(drawn), area.error().message));
   } else if (drawn.light.type == LightType::directional) {

@@ -14,6 +14,7 @@ struct DrawnLight {
   Light light;
   WorldLight placed;
   std::optional<AreaLight> area;  ///< soft shadows of this polygon; none: those of a point, or none at all
+  std::optional<AreaLight> back;  ///< shines alike in every direction: the polygon's other side
 };
 
 /// The lights of `input` that `settings` asks for, with polygons in soft mode. Lights that keep hard shadows

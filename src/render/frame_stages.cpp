@@ -124,51 +124,22 @@ Expected<void> Renderer::State::trace_hard(const FrameInput& input, const DrawnL
   return {};
 }
 
-Expected<void> Renderer::State::trace_area(const FrameInput& input, const DrawnLight& light,
-                                           const RenderSettings& settings, const VisiblePoints& at,
-                                           std::span<const glm::vec3> shading_normals, SoftMask& out,
-                                           const StopFlag* stop) {
-  const TriangleView triangles = traced_triangles(input, light, settings);
-  const HardShadowConfig of_points{.variant = settings.hard.variant, .simd = settings.hard.simd};
-  bool done = false;
-  with_threads(settings.threads, [&] {
-    done =
-        settings.soft_points > 0
-            ? light_points.trace(at, shading_normals, input.view, triangles, *light.area,
-                                 settings.soft_points, of_points, out, stop)
-            : soft.trace(at, shading_normals, input.view, triangles, *light.area, settings.soft, out, stop);
-  });
-  return done ? Expected<void>() : Expected<void>(base::fail("stopped"));
-}
-
 Expected<void> Renderer::State::trace_soft(const FrameInput& input, const DrawnLight& light,
                                            const RenderSettings& settings, FrameResult& result,
                                            std::vector<float>& irradiance_out, const StopFlag* stop) {
+  if (auto done = trace_area({input, settings, points, normals, &result, stop}, light, lit_side); !done)
+    return done;
   base::Stopwatch watch;
-  if (auto done = trace_area(input, light, settings, points, normals, soft_mask, stop); !done) return done;
-  if (settings.soft_points > 0) {
-    result.stats += light_points.stats();
-    add_shadow_stages(result.timings, light_points.timings());
-  } else {
-    result.soft += soft.stats();
-    add_shadow_stages(result.timings, soft.timings());
-  }
-  watch.lap_ms();
   LightMask& out = result.masks.emplace_back();
   out.light = light.number;
-  out.visible_fraction = {seen.width, seen.height, 1, soft_mask.visible_fraction};
+  out.visible_fraction = {seen.width, seen.height, 1, lit_side.lit.visible_fraction};
   out.mask = {seen.width, seen.height, 1, {}};
-  for (const float fraction : soft_mask.visible_fraction) {
+  for (const float fraction : lit_side.lit.visible_fraction) {
     out.mask.pixels.push_back(static_cast<std::uint8_t>(std::lround(255.0f * fraction)));
   }
-  if (settings.soft_points == 0) out.classes.assign(soft.classes().begin(), soft.classes().end());
-  if (!input.geometry.see_through.empty()) {
-    if (auto done = trace_tint(input, light, settings, points, normals, {}, soft_mask, out.tint, stop); !done)
-      return done;
-    result.timings.tint_ms += tint.stats().ms;
-    watch.lap_ms();
-  }
-  std::swap(irradiance_out, soft_mask.irradiance);
+  out.classes = lit_side.classes;
+  out.tint = lit_side.tint;
+  std::swap(irradiance_out, lit_side.lit.irradiance);
   result.timings.writeback_ms += watch.lap_ms();
   return {};
 }
@@ -196,6 +167,17 @@ Expected<void> Renderer::State::trace_lights(const FrameInput& input, const std:
   return {};
 }
 
+/// The colours behind the picture.
+void Renderer::State::keep_linear(const RenderSettings& settings, FrameResult& result) const {
+  result.linear = {};
+  result.seen.clear();
+  if (!settings.linear) return;
+  result.linear = {seen.width, seen.height, 3, {}};
+  for (const glm::vec3& color : colors)
+    for (int c = 0; c < 3; ++c) result.linear.pixels.push_back(color[c]);
+  for (const std::uint32_t id : seen.ids) result.seen.push_back(id != no_triangle ? 1 : 0);
+}
+
 Expected<void> Renderer::State::shade_pixels(const FrameInput& input, const std::vector<DrawnLight>& lights,
                                              const RenderSettings& settings, FrameResult& result,
                                              const StopFlag* stop) {
@@ -221,13 +203,14 @@ Expected<void> Renderer::State::shade_pixels(const FrameInput& input, const std:
                                  environment ? &*environment : nullptr};
   shade::PixelSamples pixels{seen.width, seen.height, seen.ids, factors, {}};
   if (settings.ao.mode != AoMode::none) pixels.openness = openness;
-  if (settings.antialias == 1) colors.clear();
+  if (settings.antialias == 1 && !settings.linear) colors.clear();
   with_threads(settings.threads, [&] {
     shade::shade_picture(subject, lighting, pixels, display_of(settings), result.image,
-                         settings.antialias > 1 ? &colors : nullptr);
+                         settings.antialias > 1 || settings.linear ? &colors : nullptr);
   });
   if (auto drawn = draw_see_through(input, lights, subject, lighting, pixels, settings, result, stop); !drawn)
     return drawn;
+  keep_linear(settings, result);
   const SamplePattern pattern = sample_pattern(settings.antialias);
   return antialias(input, lights, settings, {subject, lighting, pixels, pattern.offsets}, result, stop);
 }

@@ -32,6 +32,11 @@ enum class SampleSource { ids, depth };
 /// below one by one, or along the smooth surface that their normals describe. Its points are then lifted to
 /// it (lift_visible_points), and the masks are exact for the lifted points.
 enum class Terminator { flat, smooth };
+/// How the rectangles shine that are made of point and spot lights.
+enum class LightEmission {
+  lambert,  ///< to one side, with the light's intensity straight ahead: less by the cosine elsewhere
+  point     ///< with the light's intensity in every direction, to both sides: as bright as with hard shadows
+};
 
 /// How lights without an area become rectangles in soft mode.
 struct AreaLightSettings {
@@ -39,7 +44,8 @@ struct AreaLightSettings {
   bool percent_of_diagonal = false;  ///< unit of `size`: percent of the scene's diagonal instead of metres
   std::optional<glm::vec3> facing;   ///< point that the rectangles face; none: the centre of the scene's box,
                                      ///< and for spot lights where they shine
-  bool emissive_quads = false;       ///< planar convex meshes of an emissive material shine too
+  LightEmission emission = LightEmission::lambert;
+  bool emissive_quads = false;  ///< planar convex meshes of an emissive material shine too
   /// By Scene::lights: width and height in metres of the point and spot lights that have their own, beside
   /// `size`; may be shorter.
   std::vector<std::optional<glm::vec2>> own_size_m;
@@ -68,6 +74,7 @@ struct RenderSettings {
   int antialias = 1;                  ///< samples of a pixel that needs more than one: 1, 2, 4, 8, 16 or 256
   bool antialias_everywhere = false;  ///< every pixel gets all of them; 256 need it
   bool sample_masks = false;          ///< fill LightMask::samples
+  bool linear = false;                ///< fill FrameResult::linear and seen; the picture is the same
 };
 
 /// Whether the points that shadows and occlusion start from are lifted.
@@ -104,8 +111,10 @@ struct LightMethod {
 };
 
 struct FrameResult {
-  base::Image8 image;            ///< RGB, encoded as Scene::transfer says; the mean of what the samples show
-  std::vector<LightMask> masks;  ///< one per light drawn, of those with an intensity; empty without shadows
+  base::Image8 image;   ///< RGB, encoded as Scene::transfer says; the mean of what the samples show
+  base::ImageF linear;  ///< RenderSettings::linear: RGB of the pixels' centres before exposure and tone
+  std::vector<std::uint8_t> seen;  ///< RenderSettings::linear: 1 where a pixel sees a triangle
+  std::vector<LightMask> masks;    ///< one per light drawn, of those with an intensity; empty without shadows
   std::vector<LightMethod> methods;  ///< of the lights that had hard shadows
   FrameTimings timings;
   TraceStats stats;

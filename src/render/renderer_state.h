@@ -20,6 +20,23 @@
 
 namespace tenebra::render {
 
+/// Points that an area light shines on, and how its shadows are wanted.
+struct AreaTask {
+  const FrameInput& input;
+  const RenderSettings& settings;
+  const VisiblePoints& at;
+  std::span<const glm::vec3> normals;
+  FrameResult* counts = nullptr;  ///< gets times and counts; null: nothing does
+  const StopFlag* stop = nullptr;
+};
+
+/// What an area light sends to them, from its front or from both sides.
+struct AreaSide {
+  SoftMask lit;
+  TintMask tint;
+  std::vector<std::uint8_t> classes;  ///< a SoftClass each; empty with soft_points
+};
+
 struct Renderer::State {
   FrameRaster raster;
   Scene scene;  // as of without_keyed_vertices
@@ -33,7 +50,7 @@ struct Renderer::State {
   ShadowMask hard_mask{};
   SoftShadowTracer soft{};
   LightPointShadows light_points{};
-  SoftMask soft_mask{};
+  AreaSide lit_side{}, behind_light{};
   std::vector<std::uint8_t> casters{};
   AmbientOcclusion ambient{};
   std::vector<float> openness{};
@@ -89,15 +106,18 @@ struct Renderer::State {
                             const ShadowMask& mask, const SoftMask& soft_lit, TintMask& out,
                             const StopFlag* stop);
   /// The visible part of an area light at points, as the settings want it.
-  Expected<void> trace_area(const FrameInput& input, const DrawnLight& light, const RenderSettings& settings,
-                            const VisiblePoints& at, std::span<const glm::vec3> shading_normals,
-                            SoftMask& out, const StopFlag* stop);
   const VisiblePoints& lit_points(const FrameInput& input, const RenderSettings& settings,
                                   LitSamples& samples);
   enum class LightKinds { all, points, areas };
   Expected<void> light_samples(const FrameInput& input, const std::vector<DrawnLight>& lights,
                                const RenderSettings& settings, LightKinds kinds, LitSamples& at,
                                const StopFlag* stop);
+  Expected<void> trace_visible_part(const AreaTask& task, const DrawnLight& light, SoftMask& out);
+  /// That, and what see-through surfaces leave of it.
+  Expected<void> trace_side(const AreaTask& task, const DrawnLight& light, AreaSide& out);
+  /// The same of both sides where the light shines in every direction, with the weights of that.
+  Expected<void> trace_area(const AreaTask& task, const DrawnLight& light, AreaSide& out);
+  void keep_linear(const RenderSettings& settings, FrameResult& result) const;
   /// The nearest see-through surfaces, shaded like any, over the picture.
   Expected<void> draw_see_through(const FrameInput& input, const std::vector<DrawnLight>& lights,
                                   const shade::Subject& subject, const shade::Lighting& lighting,

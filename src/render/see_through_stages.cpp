@@ -80,33 +80,32 @@ Expected<void> Renderer::State::light_samples(const FrameInput& input, const std
     samples.tints[i].begin(coloured ? samples.points.triangles.size() : 0);
     if (settings.shadows == ShadowMode::none) continue;
     if (kinds == (lights[i].area ? LightKinds::points : LightKinds::areas)) continue;
-    SoftMask lit;
     if (lights[i].area) {
-      if (auto done = trace_area(input, lights[i], settings, lit_at, samples.normals, lit, stop); !done)
-        return done;
-    } else {
-      bool done = false;
-      with_threads(settings.threads, [&] {
-        HardShadowConfig config = settings.hard;
-        config.contact = ContactRule::triangle_ids;
-        done = hard.trace_shadow_mask(lit_at, input.view, traced_triangles(input, lights[i], settings),
-                                      shadow_light(lights[i].light, lights[i].placed), config,
-                                      samples.masks[i], stop);
-      });
-      if (!done) return base::fail("stopped");
+      const AreaTask task{input, settings, lit_at, samples.normals, nullptr, stop};
+      if (auto done = trace_area(task, lights[i], lit_side); !done) return done;
+      if (coloured) samples.tints[i].set(lit_side.tint);
+      samples.irradiance[i] = lit_side.lit.irradiance;
+      samples.visible_fraction[i] = lit_side.lit.visible_fraction;
+      continue;
     }
-    if (coloured) {
-      TintMask found;
-      RenderSettings exact = settings;
-      exact.samples = SampleSource::ids;
-      if (auto done = trace_tint(input, lights[i], exact, lit_at, samples.normals, samples.masks[i], lit,
-                                 found, stop);
-          !done)
-        return done;
-      samples.tints[i].set(found);
-    }
-    samples.irradiance[i] = std::move(lit.irradiance);
-    samples.visible_fraction[i] = std::move(lit.visible_fraction);
+    bool done = false;
+    with_threads(settings.threads, [&] {
+      HardShadowConfig config = settings.hard;
+      config.contact = ContactRule::triangle_ids;
+      done = hard.trace_shadow_mask(lit_at, input.view, traced_triangles(input, lights[i], settings),
+                                    shadow_light(lights[i].light, lights[i].placed), config, samples.masks[i],
+                                    stop);
+    });
+    if (!done) return base::fail("stopped");
+    if (!coloured) continue;
+    TintMask found;
+    RenderSettings exact = settings;
+    exact.samples = SampleSource::ids;
+    if (auto traced =
+            trace_tint(input, lights[i], exact, lit_at, samples.normals, samples.masks[i], {}, found, stop);
+        !traced)
+      return traced;
+    samples.tints[i].set(found);
   }
   samples.openness.clear();
   if (settings.ao.mode == AoMode::none || kinds == LightKinds::points) return {};

@@ -2,6 +2,7 @@
 // curve of encoder.h. Pixels with several samples are the mean of what their samples show.
 #pragma once
 
+#include <array>
 #include <cstdint>
 #include <glm/glm.hpp>
 #include <string_view>
@@ -16,6 +17,7 @@ enum class Tone {
   neutral,  ///< Khronos PBR Neutral 1.0: below 0.8 - 0.04 only less the reflection of 0.04, then compressed
   aces      ///< Hill's fit to ACES 1.0, reference rendering and sRGB output: film-like, darker in the shade
 };
+inline constexpr std::array tones{Tone::none, Tone::neutral, Tone::aces};
 std::string_view tone_name(Tone tone);
 
 /// How a picture shows linear colours: transfer(clamp(tone(exposure * colour))).

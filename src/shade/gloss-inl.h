@@ -48,8 +48,10 @@ struct Towards {
 SIMD_INLINE Towards towards_polygon(const LightTerms& terms, const Gloss& g, const Vector16& point) {
   const Vector16 ray = mirrored(g), normal = broadcast16(terms.area_normal);
   const Vector16 from_centre = point - broadcast16(terms.area_from_eye);
-  const Float16 height = abs(dot_unfused(normal, from_centre));
-  const Float16 sinking = max(number(0.0f) - dot_unfused(normal, ray), number(0.05f));
+  const Float16 side = dot_unfused(normal, from_centre), height = abs(side);
+  // The way towards the plane, from whichever side.
+  const Float16 sinking =
+      max(number(0.0f) - copy_sign(number(1.0f), side) * dot_unfused(normal, ray), number(0.05f));
   const Vector16 met = from_centre + (height / sinking) * ray;
   const Float16 x = dot_unfused(broadcast16(terms.axis_x), met),
                 y = dot_unfused(broadcast16(terms.axis_y), met);

@@ -22,7 +22,7 @@ using glm::vec3;
 using shade::Display;
 using shade::Tone;
 
-constexpr Tone tones[] = {Tone::none, Tone::neutral, Tone::aces};
+using shade::tones;
 
 vec3 toned(Tone tone, const vec3& color) {
   return shade::shown({.tone = tone}, color);

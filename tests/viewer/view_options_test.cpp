@@ -68,9 +68,10 @@ MethodOptions parsed(const std::string& text) {
 TEST(MethodArguments, GiveBackWhatTheyWereMadeFrom) {
   EXPECT_EQ(viewer::method_arguments(parsed("")), "");
   for (const char* text :
-       {"--shadows none", "--light 2 --exposure 0.1 --threads 3", "--simd scalar --variant PreciseSEATP",
-        "--samples depth --cull none", "--cull front",
-        "--shadows soft --light-size 0.5x0.25 --light-facing 1,2.5,-3 --emissive-lights --soft-solver bsp "
+       {"--shadows none", "--light 2 --exposure 0.1 --tone aces --threads 3", "--exposure auto",
+        "--simd scalar --variant PreciseSEATP", "--samples depth --cull none", "--cull front",
+        "--shadows soft --light-size 0.5x0.25 --light-facing 1,2.5,-3 --light-emission lambert "
+        "--emissive-lights --soft-solver bsp "
         "--soft-grouping triangle --soft-choice random --soft-precision reference --soft-points 12",
         "--light-size 4x4%",
         "--ao field --ao-at vertices --ao-layout positions --ao-rays 7 --ao-downscale 3 --ao-distance 1.5 "
@@ -85,8 +86,9 @@ TEST(MethodArguments, CoverEveryMethodOption) {
   CLI::App app;
   viewer::add_method_options(app, method);
   const std::string all = viewer::method_arguments(parsed(
-      "--shadows soft --light 2 --exposure 0.1 --threads 3 --simd scalar --variant Spheres --samples depth "
-      "--cull front --terminator flat --see-through cast --light-size 1x1 --light-facing 1,2,3 "
+      "--shadows soft --light 2 --exposure 0.1 --tone none --threads 3 --simd scalar --variant Spheres "
+      "--samples depth --cull front --terminator flat --see-through cast --light-size 1x1 --light-facing "
+      "1,2,3 --light-emission lambert "
       "--emissive-lights --soft-solver "
       "bsp "
       "--soft-grouping "

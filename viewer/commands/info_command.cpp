@@ -7,10 +7,12 @@
 
 #include "commands/command.h"
 #include "cutout/cutout.h"
+#include "options/method_options.h"
 #include "options/option_values.h"
 #include "options/scene_options.h"
 #include "scene/looks.h"
 #include "shared/scene_choice.h"
+#include "shared/scene_plan.h"
 #include "shared/scene_summary.h"
 #include "shell/console.h"
 
@@ -31,6 +33,7 @@ struct InfoOptions {
   std::string scene;
   formats::ImportOptions import;
   double fps = 30.0;
+  bool meter = false;
   bool json = false;
 };
 
@@ -148,6 +151,11 @@ Json clips_of(const Scene& scene, double fps) {
   return clips;
 }
 
+/// How pictures show the scene's colours where no option says otherwise.
+Json shown_of(const Scene& scene) {
+  return {{"exposure", 1}, {"tone", shade::tone_name(tone_of({}, scene.transfer))}};
+}
+
 Json describe(const Scene& scene, const InfoOptions& options) {
   const SceneSummary summary = summarize_scene(scene);
   Json json{{"file", options.scene}, {"name", scene.name}, {"counts", counts_of(scene, summary)}};
@@ -156,6 +164,7 @@ Json describe(const Scene& scene, const InfoOptions& options) {
     json["bounds_m"] = {{"low", list(summary.bounds->low)}, {"high", list(summary.bounds->high)}};
   json["triangles_with"] = surfaces_of(summary.surfaces);
   json["colors"] = scene.transfer == Transfer::display ? "display values" : "linear, shown as sRGB";
+  json["shown"] = shown_of(scene);
   json["images"] = images_of(scene);
   json["extensions"] = scene.extensions;
   json["unused"] = unused_of(scene);
@@ -200,6 +209,7 @@ void print_text(const Json& json) {
   print_out("bounds_m: {}\n", json["bounds_m"].is_null() ? "none" : line_of(json["bounds_m"]));
   print_out("triangles_with: {}\n", line_of(json["triangles_with"]));
   print_out("colors: {}\n", json["colors"].get<std::string>());
+  print_out("shown: {}\n", line_of(json["shown"]));
   for (const char* key : {"images", "extensions", "unused", "lights", "cameras", "clips", "warnings"})
     print_list(json, key);
 }
@@ -214,12 +224,28 @@ void add_changes(Scene& scene, Json& json) {
   for (std::size_t i = said; i < scene.warnings.size(); ++i) json["warnings"].push_back(scene.warnings[i]);
 }
 
+/// What --exposure auto would be.
+Expected<void> add_metered(const InfoOptions& options, Json& json) {
+  if (!options.meter) return {};
+  SceneOptions of_scene;
+  of_scene.file = options.scene;
+  of_scene.import = options.import;
+  of_scene.meter_exposure = true;
+  const auto plan = plan_scene(of_scene);
+  if (!plan) return tl::unexpected(plan.error());
+  for (const shade::Tone tone : shade::tones)
+    json["shown"][fmt::format("auto_{}", shade::tone_name(tone))] =
+        (*plan->display.exposures)[static_cast<std::size_t>(tone)];
+  return {};
+}
+
 Expected<int> info(const InfoOptions& options) {
   auto scene = formats::import_scene(options.scene, options.import);
   if (!scene) return tl::unexpected(scene.error());
   leave_out_covers(*scene);
   Json json = describe(*scene, options);
   add_changes(*scene, json);
+  if (auto metered = add_metered(options, json); !metered) return tl::unexpected(metered.error());
   if (options.json) {
     // File names and names in files may hold bytes that are not UTF-8, which JSON cannot.
     print_out("{}\n", json.dump(2, ' ', false, Json::error_handler_t::replace));
@@ -240,6 +266,7 @@ void add_info_command(CLI::App& program, Run& run) {
   add_text(command, "--scene", options->import.scene, "glTF: which scene of the file, by name or number")
       .type_name("NAME|N");
   add_texture_path(command, options->import);
+  add_flag(command, "--meter", options->meter, "Also measure what --exposure auto is, with each tone");
   add_flag(command, "--json", options->json, "Print JSON");
   add_value(command, "--fps", options->fps, parse_positive, "Frames per second, to count frames [30]")
       .type_name("F");

@@ -53,6 +53,7 @@ void describe_soft(const render::RenderSettings& settings, std::vector<render::L
        {"soft_points", settings.soft_points == 0 ? "none, exact" : fmt::format("{}", settings.soft_points)},
        {"light_size", light_size_text(lights)},
        {"light_facing", lights.facing ? vector(*lights.facing) : "the scene's centre"},
+       {"light_emission", choice_name(emission_choices, lights.emission)},
        {"emissive_lights", lights.emissive_quads ? "yes" : "no"}});
 }
 
@@ -95,6 +96,7 @@ std::vector<render::LogSetting> describe_method(const render::RenderSettings& se
       {"light", settings.light < 0 ? "all" : fmt::format("{}", settings.light)},
       {"antialias", fmt::format("{}", settings.antialias)},
       {"exposure", fmt::format("{}", settings.exposure)},
+      {"tone", choice_name(tone_choices, settings.tone)},
       {"ao", choice_name(ao_choices, settings.ao.mode)},
   };
   if (settings.shadows == render::ShadowMode::soft) describe_soft(settings, list);
@@ -131,6 +133,7 @@ std::vector<render::LogSetting> describe_render(const RenderPlan& plan, const Re
       {"environment", options.scene.environment.empty() ? "none" : options.scene.environment},
   };
   for (render::LogSetting& setting : describe_method(settings)) list.push_back(std::move(setting));
+  list.push_back({"exposure_from", options.method.auto_exposure ? "auto" : "option"});
   for (std::string& text : light_edit_texts(options.scene.lights)) {
     list.push_back({"set_light", std::move(text)});
   }

@@ -22,6 +22,12 @@ inline constexpr std::array shadow_choices{Choice<render::ShadowMode>{"none", re
 inline constexpr std::array see_through_choices{Choice<SeeThrough>{"tint", SeeThrough::tint},
                                                 Choice<SeeThrough>{"cast", SeeThrough::cast},
                                                 Choice<SeeThrough>{"ignore", SeeThrough::ignore}};
+inline constexpr std::array tone_choices{Choice<shade::Tone>{"none", shade::Tone::none},
+                                         Choice<shade::Tone>{"neutral", shade::Tone::neutral},
+                                         Choice<shade::Tone>{"aces", shade::Tone::aces}};
+inline constexpr std::array emission_choices{
+    Choice<render::LightEmission>{"lambert", render::LightEmission::lambert},
+    Choice<render::LightEmission>{"point", render::LightEmission::point}};
 inline constexpr std::array sample_choices{
     Choice<render::SampleSource>{"ids", render::SampleSource::ids},
     Choice<render::SampleSource>{"depth", render::SampleSource::depth}};

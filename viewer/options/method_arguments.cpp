@@ -40,6 +40,8 @@ void add_soft(Arguments& arguments, const MethodOptions& options) {
       arguments.add("--light-facing", fmt::format("{},{},{}", facing->x, facing->y, facing->z));
     }
   }
+  arguments.choice("--light-emission", emission_choices, options.light_emission,
+                   MethodOptions{}.light_emission);
   if (lights.emissive_quads) arguments.add("--emissive-lights");
   arguments.choice("--soft-solver", solver_choices, soft.solver, SoftShadowConfig{}.solver);
   arguments.choice("--soft-grouping", grouping_choices, soft.grouping, SoftShadowConfig{}.grouping);
@@ -86,7 +88,12 @@ std::string method_arguments(const MethodOptions& options) {
   arguments.choice("--see-through", see_through_choices, render.see_through, standard.see_through);
   if (options.terminator) arguments.add("--terminator", choice_name(terminator_choices, *options.terminator));
   arguments.value("--light", render.light, standard.light);
-  arguments.value("--exposure", render.exposure, standard.exposure);
+  if (options.auto_exposure) {
+    arguments.add("--exposure", "auto");
+  } else {
+    arguments.value("--exposure", render.exposure, standard.exposure);
+  }
+  if (options.tone) arguments.add("--tone", choice_name(tone_choices, *options.tone));
   arguments.value("--antialias", render.antialias, standard_antialias);
   arguments.value("--threads", render.threads, standard.threads);
   if (render.hard.simd != standard.hard.simd) {

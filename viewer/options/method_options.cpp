@@ -101,6 +101,21 @@ Expected<std::filesystem::path> parse_cache(const std::string& text) {
   return text == "none" ? std::filesystem::path() : std::filesystem::path(text);
 }
 
+AddedOption add_exposure(CLI::App& command, MethodOptions& options) {
+  const auto read = [&options](const std::string& text) -> Expected<void> {
+    options.auto_exposure = text == "auto";
+    if (options.auto_exposure) return {};
+    const auto factor = parse_factor(text);
+    if (!factor) return base::fail("{}, or auto", factor.error().message);
+    options.render.exposure = *factor;
+    return {};
+  };
+  return add_reader(command, "--exposure", read,
+                    "Multiplies all light by this factor; auto: by one that\nleaves at most a hundredth of "
+                    "the pixels too bright,\nthe same for the whole animation [1]")
+      .type_name("E|auto");
+}
+
 void add_common(CLI::App& command, MethodOptions& options) {
   render::RenderSettings& render = options.render;
   render.antialias = standard_antialias;
@@ -126,9 +141,12 @@ void add_common(CLI::App& command, MethodOptions& options) {
        add_value(command, "--light", render.light, parse_light,
                  "Light with this light alone, by number, or with all [all]")
            .type_name("N|all"),
-       add_value(command, "--exposure", render.exposure, parse_factor,
-                 "Multiplies all light by this factor [1]")
-           .type_name("E"),
+       add_exposure(command, options),
+       add_choice<tone_choices>(
+           command, "--tone", options.tone,
+           "How bright colours are fitted into a picture: cut off\n(none), by Khronos PBR "
+           "Neutral, or like film by a fit to\nACES [neutral; none for AFF and NFF and with\n"
+           "--transfer display]"),
        add_value(
            command, "--antialias", render.antialias, parse_samples,
            "Samples of pixels with an edge, a shadow's edge or a fine\ntexture, each with its own exact "
@@ -165,17 +183,22 @@ void add_soft(CLI::App& command, MethodOptions& options) {
   const auto size =
       add_value(command, "--light-size", options.light_size, parse_light_size,
                 "Turns point and spot lights into rectangles of this size,\nin metres, or (4%) in percent "
-                "of the scene's diagonal;\nthey keep their light [they stay points]")
+                "of the scene's diagonal;\nthey keep their brightness [they stay points]")
           .type_name("W[xH][%]");
   const auto facing =
       add_value(command, "--light-facing", lights.facing, parse_vector,
                 "Point that those rectangles face [the scene's centre;\nspot lights: where they shine]")
           .type_name("X,Y,Z")
           .needs(size);
+  const auto emission = add_choice<emission_choices>(command, "--light-emission", options.light_emission,
+                                                     "How those rectangles shine. point: in every direction "
+                                                     "as\nbright as the point, so soft and hard shadows have "
+                                                     "the\nsame light; lambert: to one side, like a lamp's "
+                                                     "face,\nas bright as the point straight ahead [point]");
   const auto emissive = add_flag(command, "--emissive-lights", lights.emissive_quads,
                                  "Flat convex meshes with an emissive material are lights too");
   set_group(
-      {size, facing, emissive,
+      {size, facing, emission, emissive,
        add_choice<solver_choices>(command, "--soft-solver", soft.solver,
                                   "How the visible part of a light is found: by the paper's\nlazy BSP, by "
                                   "clipping, or (auto) meshes by their\nsilhouettes and the rest by "
@@ -288,8 +311,15 @@ std::vector<std::string> idle_method_options(const CLI::App& command, const Meth
   return sentences;
 }
 
-render::RenderSettings method_settings(const MethodOptions& options, Size size) {
+shade::Tone tone_of(const MethodOptions& options, Transfer transfer) {
+  return options.tone.value_or(transfer == Transfer::srgb ? shade::Tone::neutral : shade::Tone::none);
+}
+
+render::RenderSettings method_settings(const MethodOptions& options, Size size, const SceneDisplay& display) {
   render::RenderSettings settings = options.render;
+  settings.tone = tone_of(options, display.transfer);
+  if (options.auto_exposure && display.exposures)
+    settings.exposure = (*display.exposures)[static_cast<std::size_t>(settings.tone)];
   settings.width = size.width;
   settings.height = size.height;
   // Points from the depth buffer lie off their triangles: only the paper's front-face culling keeps those
@@ -300,6 +330,7 @@ render::RenderSettings method_settings(const MethodOptions& options, Size size) 
   settings.terminator =
       from_depth ? render::Terminator::flat : options.terminator.value_or(render::Terminator::smooth);
   settings.soft.simd = settings.ao.simd = settings.hard.simd;
+  settings.area_lights.emission = options.light_emission;
   if (options.light_size) {
     settings.area_lights.size = options.light_size->size;
     settings.area_lights.percent_of_diagonal = options.light_size->percent;

@@ -2,6 +2,7 @@
 // and `tenebra view` share them.
 #pragma once
 
+#include <array>
 #include <optional>
 #include <string>
 #include <vector>
@@ -15,12 +16,24 @@ namespace tenebra::viewer {
 /// Samples a pixel of pictures; RenderSettings has 1, for those who ask for masks.
 inline constexpr int standard_antialias = 4;
 
+/// Exposures by tone: what --exposure auto stands for.
+using AutoExposures = std::array<float, shade::tones.size()>;
+
+/// What of a scene decides how it is shown.
+struct SceneDisplay {
+  Transfer transfer = Transfer::srgb;
+  std::optional<AutoExposures> exposures;  ///< none: not measured
+};
+
 struct MethodOptions {
-  render::RenderSettings render;                 ///< but for its size
+  render::RenderSettings render;                 ///< but for its size, tone and emission
   std::optional<render::Quality> quality;        ///< as given; settle_quality turns it into settings
   std::optional<bool> cull_front;                ///< not given: as the samples need it
   std::optional<LightSize> light_size;           ///< not given: points stay points
   std::optional<render::Terminator> terminator;  ///< not given: smooth
+  render::LightEmission light_emission = render::LightEmission::point;  ///< in place of render's
+  std::optional<shade::Tone> tone;  ///< not given: neutral for linear colours, none for display values
+  bool auto_exposure = false;       ///< SceneDisplay::exposures, where measured, in place of render's
 };
 
 /// Adds the options to `command`; they are read into `options`, which must live as long.
@@ -36,7 +49,10 @@ Expected<void> check_method_options(const MethodOptions& options);
 /// Options given to `command` that the chosen methods do not look at, a sentence each.
 std::vector<std::string> idle_method_options(const CLI::App& command, const MethodOptions& options);
 
+/// The tone of pictures with that transfer.
+shade::Tone tone_of(const MethodOptions& options, Transfer transfer);
+
 /// The settings of a frame of `size`.
-render::RenderSettings method_settings(const MethodOptions& options, Size size);
+render::RenderSettings method_settings(const MethodOptions& options, Size size, const SceneDisplay& display);
 
 }  // namespace tenebra::viewer

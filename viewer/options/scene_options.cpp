@@ -152,6 +152,7 @@ SceneOptions options_for(const std::string& file, const SceneOptions& before) {
   options.transfer = before.transfer;
   options.environment = before.environment;
   options.plain = before.plain;
+  options.meter_exposure = before.meter_exposure;
   options.fps = before.fps;
   return options;
 }

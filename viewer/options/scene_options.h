@@ -23,6 +23,8 @@ struct SceneOptions {
   std::string environment;           ///< a Radiance picture; empty: none
   bool plain = false;                ///< surfaces without textures and gloss (scene::make_plain)
 
+  bool meter_exposure = false;  ///< a method asks for --exposure auto
+
   std::optional<double> time_s;
   double fps = 30.0;
   std::optional<std::string> clip;

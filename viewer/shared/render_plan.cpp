@@ -28,13 +28,15 @@ Expected<std::vector<PlannedFrame>> plan_frames(const ScenePlan& plan, const Ren
 }  // namespace
 
 Expected<RenderPlan> plan_render(const RenderOptions& options) {
-  auto scene = plan_scene(options.scene);
+  SceneOptions of_scene = options.scene;
+  of_scene.meter_exposure = options.method.auto_exposure;
+  auto scene = plan_scene(of_scene);
   if (!scene) return tl::unexpected(scene.error());
   RenderPlan plan{std::move(*scene), {}, {}, false};
   auto frames = plan_frames(plan, options);
   if (!frames) return tl::unexpected(frames.error());
   plan.frames = std::move(*frames);
-  plan.settings = method_settings(options.method, plan.size);
+  plan.settings = method_settings(options.method, plan.size, plan.display);
   plan.settings.sample_masks = !options.mask_samples.empty();
   plan.settings.area_lights.own_size_m = edited_sizes_m(options.scene.lights);
   plan.scene.lights = edited_lights(std::move(plan.scene.lights), options.scene.lights);

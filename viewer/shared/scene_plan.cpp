@@ -7,6 +7,7 @@
 #include "base/fail.h"
 #include "cutout/cutout.h"
 #include "scene/looks.h"
+#include "shared/auto_exposure.h"
 #include "shared/scene_choice.h"
 
 namespace tenebra::viewer {
@@ -90,6 +91,12 @@ Expected<ScenePlan> plan_scene(const SceneOptions& options) {
   plan.size = plan_size(plan.scene, plan.camera, options);
   if (auto applied = apply_field_of_view(plan.scene, plan.camera, options); !applied) {
     return tl::unexpected(applied.error());
+  }
+  plan.display.transfer = plan.scene.transfer;
+  if (options.meter_exposure) {
+    const auto exposures = meter_exposures(plan, options);
+    if (!exposures) return tl::unexpected(exposures.error());
+    plan.display.exposures = *exposures;
   }
   return plan;
 }

@@ -4,6 +4,7 @@
 
 #include <tenebra/frame_geometry.h>
 #include "base/image.h"
+#include "options/method_options.h"
 #include "options/scene_options.h"
 
 namespace tenebra::viewer {
@@ -15,6 +16,7 @@ struct ScenePlan {
   int camera = 0;  ///< index into scene.cameras; unused with --eye
   Size size;       ///< --size, or what the camera asks for
   std::optional<base::ImageF> environment;
+  SceneDisplay display;
 };
 
 /// Imports the scene and fits the options to it. Fails on what the scene does not have.

@@ -138,6 +138,8 @@ Expected<void> settle_view_options(ViewOptions& options) {
     if (!method) return tl::unexpected(method.error());
     options.compare = std::move(*method);
   }
+  options.scene.meter_exposure =
+      options.method.auto_exposure || (options.compare && options.compare->auto_exposure);
   if (options.scene.eye && options.navigate == CameraMode::scene) options.navigate = CameraMode::orbit;
   if (options.record) {
     options.play = options.fixed_step = true;

@@ -201,8 +201,9 @@ FrameRequest Viewer::make_request() const {
   if (state_.camera_mode != CameraMode::scene) request.free = state_.free;
   request.lights = state_.lights;
   request.slot = state_.compare ? 0 : state_.active;
-  request.a = method_settings(state_.slots[static_cast<std::size_t>(request.slot)], place_);
-  if (state_.compare) request.b = method_settings(state_.slots[1], place_);
+  const SceneDisplay& display = state_.scene->display;
+  request.a = method_settings(state_.slots[static_cast<std::size_t>(request.slot)], place_, display);
+  if (state_.compare) request.b = method_settings(state_.slots[1], place_, display);
   request.overlay = state_.overlay;
   request.record = options_.record;
   return request;

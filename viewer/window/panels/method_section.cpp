@@ -67,6 +67,9 @@ void edit_light_size(Ui& ui, MethodOptions& method) {
     if (!method.light_size) method.render.area_lights.facing.reset();
   }
   if (!method.light_size) return;
+  row(ui, "Shining",
+      "point: in every direction as bright as the point; lambert: to one side, like a lamp's face.");
+  choose(ui, "emission", emission_choices, method.light_emission);
   row(ui, "Facing", "What those rectangles face: the scene's centre, or this point.");
   std::optional<glm::vec3>& facing = method.render.area_lights.facing;
   bool own = facing.has_value();
@@ -157,11 +160,23 @@ void choose_quality(Ui& ui, render::RenderSettings& render) {
     render::apply_quality(render::qualities[static_cast<std::size_t>(chosen)], render);
 }
 
-void edit_machine(Ui& ui, render::RenderSettings& render) {
+void edit_display(Ui& ui, MethodOptions& method) {
+  const SceneDisplay& display = ui.state.scene->display;
   row(ui, "Exposure", "Multiplies all light.");
-  ImGui::SliderFloat("##exposure", &render.exposure, 0.01f, 100.0f, "%.3g", ImGuiSliderFlags_Logarithmic);
+  float exposure = method_settings(method, {}, display).exposure;
+  if (ImGui::SliderFloat("##exposure", &exposure, 0.01f, 100.0f, method.auto_exposure ? "auto: %.3g" : "%.3g",
+                         ImGuiSliderFlags_Logarithmic)) {
+    method.render.exposure = exposure > 0 ? exposure : 1;
+    method.auto_exposure = false;
+  }
   ui.mark("exposure");
-  if (!(render.exposure > 0)) render.exposure = 1;
+  row(ui, "Tone", "How bright colours are fitted into the picture.");
+  shade::Tone tone = tone_of(method, display.transfer);
+  choose(ui, "tone", tone_choices, tone);
+  if (tone != tone_of(method, display.transfer)) method.tone = tone;
+}
+
+void edit_machine(Ui& ui, render::RenderSettings& render) {
   row(ui, "Threads", "0: all cores.");
   number(ui, "threads", render.threads, 0, 1024, 1);
   row(ui, "SIMD", "Vector instructions; the masks are the same with each.");
@@ -229,6 +244,7 @@ void draw_method_section(Ui& ui) {
     method.render.samples = render::SampleSource::ids;
     edit_ao(ui, method.render.ao);
   }
+  if (state.scene) edit_display(ui, method);
   edit_machine(ui, method.render);
 }
 

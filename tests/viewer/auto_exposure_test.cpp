@@ -1,0 +1,140 @@
+// --exposure auto: nothing is burnt out, in no frame of no scene, and one exposure serves them all.
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <filesystem>
+
+#include <tenebra/threads.h>
+#include "shared/auto_exposure.h"
+#include "shared/render_plan.h"
+#include "viewer_picture.h"
+
+namespace tenebra::testing {
+namespace {
+
+namespace fs = std::filesystem;
+using viewer::SceneOptions;
+using viewer::ScenePlan;
+
+std::vector<fs::path> scenes() {
+  std::vector<fs::path> found;
+  for (const auto& entry : fs::directory_iterator(TENEBRA_SCENES_DIR))
+    if (entry.path().extension() == ".glb") found.push_back(entry.path());
+  const fs::path shared = fs::path(TENEBRA_SHARED_DIR) / "scenes";
+  if (fs::exists(shared)) {
+    for (const auto& folder : {shared / "extra/gltf", shared / "extra/obj"})
+      for (const auto& entry : fs::recursive_directory_iterator(folder))
+        if (const auto kind = entry.path().extension(); kind == ".gltf" || kind == ".glb" || kind == ".obj")
+          found.push_back(entry.path());
+    for (const char* file : {"robots/Robot.aff", "museum/museum5.aff", "kitchen/kitchen.aff"})
+      found.push_back(shared / "bart" / file);
+  }
+  std::sort(found.begin(), found.end());
+  return found;
+}
+
+double clipped_share(const base::Image8& image) {
+  std::size_t clipped = 0;
+  for (std::size_t i = 0; i < image.pixels.size(); i += 3)
+    clipped += std::max({image.pixels[i], image.pixels[i + 1], image.pixels[i + 2]}) == 255;
+  return 3.0 * static_cast<double>(clipped) / static_cast<double>(image.pixels.size());
+}
+
+/// Times between those that are metered.
+std::vector<double> times(const ScenePlan& plan) {
+  if (plan.clip < 0) return {0.0};
+  const Clip& clip = plan.scene.clips[static_cast<std::size_t>(plan.clip)];
+  std::vector<double> found;
+  for (const double part : {0.0, 0.07, 0.19, 0.31, 0.44, 0.57, 0.69, 0.81, 0.94, 1.0})
+    found.push_back(clip.start_s + part * (clip.end_s - clip.start_s));
+  return found;
+}
+
+SceneOptions options_of(const fs::path& file) {
+  SceneOptions options;
+  options.file = file.string();
+  options.size = viewer::Size{160, 120};
+  options.meter_exposure = true;
+  return options;
+}
+
+render::RenderSettings exposed(const ScenePlan& plan, shade::Tone tone) {
+  return {.exposure = (*plan.display.exposures)[static_cast<std::size_t>(tone)], .tone = tone};
+}
+
+TEST(AutoExposure, AtMostTwoPercentOfThePixelsAreClippedInAnyScene) {
+  std::size_t drawn = 0;
+  for (const fs::path& file : scenes()) {
+    const SceneOptions options = options_of(file);
+    const auto plan = viewer::plan_scene(options);
+    ASSERT_TRUE(plan) << plan.error().message;
+    for (const double time_s : times(*plan)) {
+      for (const shade::Tone tone : {viewer::tone_of({}, plan->scene.transfer), shade::Tone::none}) {
+        EXPECT_LE(clipped_share(picture_of(*plan, options, time_s, exposed(*plan, tone))), 0.02)
+            << file << " at " << time_s << " s, " << shade::tone_name(tone);
+      }
+    }
+    ++drawn;
+  }
+  EXPECT_GE(drawn, 4u);
+}
+
+TEST(AutoExposure, MoreWouldBeTooMuch) {
+  for (const char* name : {"city.glb", "court.glb", "gallery.glb", "square.glb"}) {
+    const SceneOptions options = options_of(fs::path(TENEBRA_SCENES_DIR) / name);
+    const auto plan = viewer::plan_scene(options);
+    ASSERT_TRUE(plan) << plan.error().message;
+    render::RenderSettings settings = exposed(*plan, shade::Tone::none);
+    settings.exposure *= 2;
+    double worst = 0;
+    for (const double time_s : times(*plan))
+      worst = std::max(worst, clipped_share(picture_of(*plan, options, time_s, settings)));
+    EXPECT_GT(worst, 0.01) << name;
+  }
+}
+
+TEST(AutoExposure, IsTheSameForEveryFrameThreadCountAndMethod) {
+  viewer::RenderOptions options;
+  options.scene = options_of(fs::path(TENEBRA_SCENES_DIR) / "gallery.glb");
+  options.method.auto_exposure = true;
+  std::vector<float> found;
+  for (const int frame : {0, 77, 150}) {
+    options.frames = viewer::FrameRange{frame, frame, 1};
+    options.method.render.threads = frame % 4 + 1;
+    options.method.render.shadows = frame == 0 ? render::ShadowMode::soft : render::ShadowMode::hard;
+    with_threads(frame % 3 + 1, [&] {
+      const auto plan = viewer::plan_render(options);
+      ASSERT_TRUE(plan) << plan.error().message;
+      found.push_back(plan->settings.exposure);
+    });
+  }
+  ASSERT_EQ(found.size(), 3u);
+  EXPECT_EQ(found[0], found[1]);
+  EXPECT_EQ(found[0], found[2]);
+  EXPECT_NE(found[0], 1.0f);
+  options.method.auto_exposure = false;
+  EXPECT_EQ(viewer::plan_render(options)->settings.exposure, 1.0f);
+}
+
+TEST(AutoExposure, IsOneWhereNothingIsSeen) {
+  ScenePlan plan;
+  plan.scene.cameras.emplace_back();
+  plan.size = {16, 12};
+  SceneOptions options;
+  options.eye = glm::vec3(0, 0, 1);
+  const auto found = viewer::meter_exposures(plan, options);
+  ASSERT_TRUE(found) << found.error().message;
+  for (const float exposure : *found) EXPECT_EQ(exposure, 1.0f);
+}
+
+TEST(Tone, IsNeutralForLinearColoursAndNoneForDisplayValues) {
+  EXPECT_EQ(viewer::tone_of({}, Transfer::srgb), shade::Tone::neutral);
+  EXPECT_EQ(viewer::tone_of({}, Transfer::display), shade::Tone::none);
+  viewer::MethodOptions options;
+  options.tone = shade::Tone::aces;
+  EXPECT_EQ(viewer::tone_of(options, Transfer::display), shade::Tone::aces);
+  EXPECT_EQ(viewer::method_settings(options, {8, 8}, {}).tone, shade::Tone::aces);
+}
+
+}  // namespace
+}  // namespace tenebra::testing

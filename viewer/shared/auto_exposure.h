@@ -1,0 +1,15 @@
+// --exposure auto: one exposure for all pictures of a scene.
+#pragma once
+
+#include "shared/scene_plan.h"
+
+namespace tenebra::viewer {
+
+/// For each tone the largest of the exposures 2^(k/8), from 2^-12 to 2^6, with which at most one pixel of a
+/// hundred shows a channel above 0.95. Measured in small pictures with hard shadows of all lights, at nine
+/// times spread evenly over the whole clip, by the camera of the options; the brightest one decides. So it is
+/// a function of scene, clip, camera and --set-light alone: it is the same for every frame, in every part of
+/// a render, with every method, on every machine. 1 where nothing is seen.
+Expected<AutoExposures> meter_exposures(const ScenePlan& plan, const SceneOptions& options);
+
+}  // namespace tenebra::viewer
