@@ -91,8 +91,10 @@ private:
   std::uint64_t settings_since_ = 0;  // the first request with the present settings
   std::uint64_t pictures_ = 0;
   std::uint64_t shown_ = 0;  // of pictures_
+  int whole_pictures_ = 0;   // that are no previews
   int shots_ = 0;
   bool window_shot_ = false;
+  bool shot_waits_ = false;  // for a whole picture
   bool input_undrawn_ = false;
   bool quit_ = false;
   int due_ = 3;  // frames of the window to draw
