@@ -67,6 +67,7 @@ public:
     gl_->clear(window_.width, window_.height);
     ImGui_ImplOpenGL3_RenderDrawData(ImGui::GetDrawData());
     viewer_->after_draw(window_.width, window_.height);
+    viewer_->presented();
     gl_->read_window(1, 1);  // waits, as a swap would: frames that pile up would starve the worker's
   }
   template <class Condition>

@@ -24,6 +24,8 @@ constexpr double most_overrun = 2.0;
 // while. Keys that are held repeat 25 to 30 times a second.
 constexpr double moving_s = 0.25;
 constexpr double rest_s = 0.06;
+// A window that is hidden brings nothing to the screen: no picture waits longer for it.
+constexpr double most_turn_s = 0.1;
 
 double seconds(Clock::duration duration) {
   return std::chrono::duration<double>(duration).count();
@@ -31,8 +33,8 @@ double seconds(Clock::duration duration) {
 
 }  // namespace
 
-RenderWorker::RenderWorker(const render::RasterChoice& raster, std::function<void()> wake)
-    : wake_(std::move(wake)), thread_([this, raster] { run(raster); }) {}
+RenderWorker::RenderWorker(const render::RasterChoice& raster, bool in_turns, std::function<void()> wake)
+    : wake_(std::move(wake)), in_turns_(in_turns), thread_([this, raster] { run(raster); }) {}
 
 RenderWorker::~RenderWorker() {
   {
@@ -99,9 +101,17 @@ double RenderWorker::look_again_s() const {
 WorkerStatus RenderWorker::status() const {
   const std::lock_guard lock(mutex_);
   WorkerStatus status = status_;
+  status.hurries = (status_.drawing && task_.hurries) || (fresh_ && request_ && request_->preview_ms > 0);
   if (status.loading || status.drawing) status.elapsed_s = seconds(Clock::now() - begun_);
   status.slow = status.elapsed_s > std::clamp(2 * last_frame_s_, least_slow_s, most_slow_s);
   return status;
+}
+
+void RenderWorker::presented() {
+  const std::lock_guard lock(mutex_);
+  if (!results_.pictures.empty()) return;
+  unpresented_ = false;
+  changed_.notify_all();
 }
 
 WorkerResults RenderWorker::take_results() {
@@ -117,17 +127,18 @@ RasterNames RenderWorker::raster() const {
   return raster_;
 }
 
-bool RenderWorker::has_room() const {
+bool RenderWorker::has_room(Wall now) const {
+  if (in_turns_ && unpresented_ && seconds(now - last_picture_) < most_turn_s) return false;
   return results_.pictures.size() < most_waiting;
 }
 
-bool RenderWorker::can_draw() const {
-  return request_ && (fresh_ || request_->clock.runs()) && has_room();
+bool RenderWorker::can_draw(Wall now) const {
+  return request_ && (fresh_ || request_->clock.runs()) && has_room(now);
 }
 
 /// A preview is shown, and the hand rests.
 bool RenderWorker::can_refine(Wall now) const {
-  if (!request_ || !shown_ || fresh_ || !has_room()) return false;
+  if (!request_ || !shown_ || fresh_ || !has_room(now)) return false;
   const bool moves = seconds(asked_ - asked_before_) < moving_s;
   return !moves || seconds(now - asked_) >= rest_s;
 }
@@ -250,8 +261,16 @@ void RenderWorker::finish(Expected<std::shared_ptr<Picture>> made, const FrameRe
   (*made)->request = drawn.number;
   (*made)->delay_ms = 1e3 * seconds(now - (newly_asked ? drawn.asked : last_picture_));
   last_picture_ = now;
+  unpresented_ = true;
   if (task_.level == 0) last_frame_s_ = seconds(now - begun_);
   results_.pictures.push_back(std::move(*made));
+}
+
+void RenderWorker::wait(std::unique_lock<std::mutex>& lock) {
+  const bool wanted = request_ && (fresh_ || request_->clock.runs());
+  const bool time_will_do = (request_ && shown_) || (wanted && unpresented_);
+  if (!time_will_do) return changed_.wait(lock);
+  changed_.wait_for(lock, std::chrono::duration<double>(std::min(rest_s, most_turn_s) / 4));
 }
 
 void RenderWorker::run(const render::RasterChoice& raster) {
@@ -262,13 +281,10 @@ void RenderWorker::run(const render::RasterChoice& raster) {
       load(lock);
     } else if (to_pick_) {
       pick_place(maker, lock);
-    } else if (can_draw() || can_refine(Clock::now())) {
+    } else if (const Wall now = Clock::now(); can_draw(now) || can_refine(now)) {
       draw(maker, lock);
-    } else if (request_ && shown_ && has_room()) {
-      changed_.wait_until(
-          lock, asked_ + std::chrono::duration_cast<Clock::duration>(std::chrono::duration<double>(rest_s)));
     } else {
-      changed_.wait(lock);
+      wait(lock);
     }
   }
 }

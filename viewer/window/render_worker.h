@@ -21,6 +21,7 @@ struct WorkerStatus {
   bool loading = false;  ///< a scene
   bool drawing = false;  ///< a picture
   bool preview = false;  ///< that is a preview
+  bool hurries = false;  ///< a picture within the time for previews is under way, or about to be
   double elapsed_s = 0;  ///< of either
   bool slow = false;     ///< takes long, beside the frame before: time to show progress
   std::string stage;     ///< what takes long, where the method says so
@@ -43,8 +44,9 @@ struct WorkerResults {
 
 class RenderWorker {
 public:
-  /// `wake` is called on the worker's thread whenever there are new results.
-  RenderWorker(const render::RasterChoice& raster, std::function<void()> wake);
+  /// `wake` is called on the worker's thread whenever there are new results. `in_turns`: the window draws on
+  /// the same processors, so the next picture waits until the last is on the screen.
+  RenderWorker(const render::RasterChoice& raster, bool in_turns, std::function<void()> wake);
   ~RenderWorker();  ///< stops what is under way and waits for it
   RenderWorker(const RenderWorker&) = delete;
   RenderWorker& operator=(const RenderWorker&) = delete;
@@ -61,6 +63,8 @@ public:
   void stop_if_outdated();
   double look_again_s() const;
 
+  /// The pictures taken so far are on the screen.
+  void presented();
   WorkerStatus status() const;
   WorkerResults take_results();
   RasterNames raster() const;
@@ -75,11 +79,12 @@ private:
     bool refines = false;   ///< a preview of the same request is shown
     bool coarsest = false;  ///< nothing quicker could take its place
   };
-  bool has_room() const;
-  bool can_draw() const;
+  bool has_room(Wall now) const;
+  bool can_draw(Wall now) const;
   bool can_refine(Wall now) const;
   bool draws_previews() const;
   Task next_task(PreviewTimes& times);
+  void wait(std::unique_lock<std::mutex>& lock);
   void load(std::unique_lock<std::mutex>& lock);
   void pick_place(FrameMaker& maker, std::unique_lock<std::mutex>& lock);
   void draw(FrameMaker& maker, std::unique_lock<std::mutex>& lock);
@@ -89,6 +94,7 @@ private:
   void publish(std::unique_lock<std::mutex>& lock);
 
   const std::function<void()> wake_;
+  const bool in_turns_;
   StopFlag stop_;
 
   mutable std::mutex mutex_;  // of all below
@@ -104,6 +110,7 @@ private:
   bool overran_ = false;           // it was stopped because it took too long
   std::optional<int> shown_;       // level of the preview of request_ that is shown, if it is not whole yet
   Wall asked_{}, asked_before_{};  // the last two requests
+  bool unpresented_ = false;       // the last picture is not on the screen
   Wall begun_{};
   Wall last_picture_{};
   double last_frame_s_ = 0;

@@ -18,10 +18,11 @@ namespace {
 using Wall = AnimationClock::Wall;
 
 constexpr double message_s = 6.0;
-constexpr double look_again_s = 0.1;     // while the worker is busy: progress
-constexpr double progress_s = 0.25;      // its display moves this often
-constexpr double resting_sleep_s = 0.5;  // signals are looked at this often
-constexpr float flight_share = 0.1f;     // of the scene's diagonal a second
+constexpr double look_again_s = 0.1;           // while the worker is busy: progress
+constexpr double progress_s = 0.25;            // its display moves this often
+constexpr double longest_unpresented_s = 0.1;  // while a picture is about to come
+constexpr double resting_sleep_s = 0.5;        // signals are looked at this often
+constexpr float flight_share = 0.1f;           // of the scene's diagonal a second
 
 Wall now() {
   return std::chrono::steady_clock::now();
@@ -65,7 +66,7 @@ Viewer::Viewer(ViewOptions options, WindowGl& gl, EventReport report, std::funct
       gl_(gl),
       report_(std::move(report)),
       textures_(gl),
-      worker_(worker_raster(options_), std::move(wake)) {
+      worker_(worker_raster(options_), gl.is_software(), std::move(wake)) {
   state_.slots = {options_.method, options_.compare.value_or(options_.method)};
   state_.compare = options_.compare.has_value();
   state_.show = options_.show;
@@ -85,7 +86,28 @@ double Viewer::sleep_s() const {
   if (due_ > 0) return 0;
   const WorkerStatus status = worker_.status();
   const bool stirs = status.loading || status.drawing || !messages_.empty();
-  return stirs ? std::min(look_again_s, worker_.look_again_s()) : resting_sleep_s;
+  double sleep_s = stirs ? std::min(look_again_s, worker_.look_again_s()) : resting_sleep_s;
+  if (unpresented_) {
+    const double since_s = std::chrono::duration<double>(now() - last_present_).count();
+    sleep_s = std::min(sleep_s, std::max(1e-3, longest_unpresented_s - since_s));
+  }
+  return sleep_s;
+}
+
+bool Viewer::wants_presenting() const {
+  if (!unpresented_) return false;
+  const double since_s = std::chrono::duration<double>(now() - last_present_).count();
+  return shown_ != drawn_ || window_shot_ || since_s >= longest_unpresented_s || !worker_.status().hurries;
+}
+
+void Viewer::presented() {
+  unpresented_ = false;
+  last_present_ = now();
+  if (std::exchange(shown_, drawn_) != drawn_) report_.note("shown", fmt::format("{}", drawn_));
+  if (shown_ == pictures_) worker_.presented();
+  if (due_ > 0 || !input_undrawn_) return;
+  input_undrawn_ = false;
+  report_.note("drawn", "");
 }
 
 void Viewer::say(std::string text, bool failure) {
@@ -411,10 +433,8 @@ void Viewer::draw(float scale, float pixels_a_unit) {
   }
   keys_.clear();
   report_.marks(marks_);
-  if (std::exchange(shown_, pictures_) != pictures_) report_.note("shown", fmt::format("{}", pictures_));
-  if (due_ > 0 || !input_undrawn_) return;
-  input_undrawn_ = false;
-  report_.note("drawn", "");
+  drawn_ = pictures_;
+  unpresented_ = true;
 }
 
 }  // namespace tenebra::viewer
