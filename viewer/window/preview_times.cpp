@@ -2,7 +2,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <cstdlib>
 
 namespace tenebra::viewer {
 namespace {
@@ -14,6 +13,7 @@ constexpr double cost_of_method[] = {10, 2.5, 3, 1};  // of PreviewMethod, besid
 
 constexpr double room = 0.8;           // of the budget, for a level finer than the last
 constexpr double newest_share = 0.5;   // of the newest time in a level's
+constexpr double first_share = 0.7;    // of the first time, in which buffers are made
 constexpr double forgetting = 0.995;   // a picture: what was too slow once is tried again after a while
 constexpr double refining_part = 0.2;  // of the whole picture's time, for a step on the way to it
 
@@ -30,14 +30,13 @@ PreviewTimes::PreviewTimes(const PreviewSubject& subject)
 double PreviewTimes::estimate_ms(int level) const {
   const auto index = static_cast<std::size_t>(level);
   if (known_[index].ms > 0) return known_[index].ms;
-  int nearest = -1;
-  for (int i = 0; i <= coarsest(); ++i) {
-    if (!(known_[static_cast<std::size_t>(i)].ms > 0)) continue;
-    if (nearest < 0 || std::abs(i - level) < std::abs(nearest - level)) nearest = i;
+  double least_ms = 0;
+  for (std::size_t i = 0; i < known_.size(); ++i) {
+    if (!(known_[i].ms > 0)) continue;
+    const double ms = known_[i].ms * cost(levels_[index]) / cost(levels_[i]);
+    if (least_ms == 0 || ms < least_ms) least_ms = ms;
   }
-  if (nearest < 0) return 0;
-  const auto from = static_cast<std::size_t>(nearest);
-  return known_[from].ms * cost(levels_[index]) / cost(levels_[from]);
+  return least_ms;
 }
 
 int PreviewTimes::choose(double budget_ms) {
@@ -62,7 +61,7 @@ int PreviewTimes::refine(int shown) const {
 
 void PreviewTimes::drew(int level, double ms) {
   Known& known = known_[static_cast<std::size_t>(level)];
-  known.ms = known.ms > 0 ? newest_share * ms + (1 - newest_share) * known.ms : ms;
+  known.ms = known.ms > 0 ? newest_share * ms + (1 - newest_share) * known.ms : first_share * ms;
   for (Known& other : known_) {
     if (&other != &known && other.ms > known.ms) other.ms = std::max(known.ms, forgetting * other.ms);
   }

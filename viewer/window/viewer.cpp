@@ -21,8 +21,9 @@ constexpr double message_s = 6.0;
 constexpr double look_again_s = 0.1;           // while the worker is busy: progress
 constexpr double progress_s = 0.25;            // its display moves this often
 constexpr double longest_unpresented_s = 0.1;  // while a picture is about to come
-constexpr double resting_sleep_s = 0.5;        // signals are looked at this often
-constexpr float flight_share = 0.1f;           // of the scene's diagonal a second
+constexpr double turn_s = 0.01;
+constexpr double resting_sleep_s = 0.5;  // signals are looked at this often
+constexpr float flight_share = 0.1f;     // of the scene's diagonal a second
 
 Wall now() {
   return std::chrono::steady_clock::now();
@@ -83,8 +84,12 @@ Viewer::Viewer(ViewOptions options, WindowGl& gl, EventReport report, std::funct
 }
 
 double Viewer::sleep_s() const {
-  if (due_ > 0) return 0;
   const WorkerStatus status = worker_.status();
+  if (due_ > 0) {
+    // What the screen does not show yet needs no more turns than a hand can tell apart.
+    const double since_s = std::chrono::duration<double>(now() - last_draw_).count();
+    return unpresented_ && status.hurries ? std::max(0.0, turn_s - since_s) : 0;
+  }
   const bool stirs = status.loading || status.drawing || !messages_.empty();
   double sleep_s = stirs ? std::min(look_again_s, worker_.look_again_s()) : resting_sleep_s;
   if (unpresented_) {
