@@ -24,6 +24,9 @@ TEST(ViewCommand, RefusesInASentence) {
                                                     {"--record", "out.png"},
                                                     {"--window", "0x0"},
                                                     {"--exit-after", "-1"},
+                                                    {"--preview-budget", "-1"},
+                                                    {"--preview-budget", "1001"},
+                                                    {"--preview-budget", "soon"},
                                                     {"--samples", "depth", "--shadows", "soft"}};
   for (auto arguments : cases) {
     arguments.insert(arguments.begin(), "view");

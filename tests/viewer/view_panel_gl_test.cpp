@@ -20,7 +20,8 @@ using testing::TemporaryFolder;
 /// A picture to draw on and a viewer that draws. Keys are GLFW's codes; a letter's is its capital.
 class HeadlessViewer {
 public:
-  HeadlessViewer(const std::filesystem::path& scene, Size window, float scale = 1)
+  HeadlessViewer(const std::filesystem::path& scene, Size window, float scale = 1,
+                 double preview_ms = default_preview_ms)
       : window_(window),
         scale_(scale),
         context_(gl::Context::create(gl::ContextKind::egl, {.debug = true}).value()) {
@@ -37,6 +38,7 @@ public:
     options.log = (folder_ / "frames.csv").string();
     options.report = (folder_ / "report.jsonl").string();
     options.gl_debug = true;
+    options.preview_ms = preview_ms;
     AoConfig& ao = options.method.render.ao;
     ao.cache.clear();
     ao.positions = 64, ao.directions = 16, ao.rays = 4;  // the panel's time, not theirs
@@ -67,6 +69,7 @@ public:
     gl_->clear(window_.width, window_.height);
     ImGui_ImplOpenGL3_RenderDrawData(ImGui::GetDrawData());
     viewer_->after_draw(window_.width, window_.height);
+    viewer_->presented();
     gl_->read_window(1, 1);  // waits, as a swap would: frames that pile up would starve the worker's
   }
   template <class Condition>
@@ -79,8 +82,8 @@ public:
     return condition();
   }
   bool wait_for_first_picture() {
-    return turn_until([&] { return viewer_->picture() != nullptr || viewer_->is_over(); }) &&
-           viewer_->picture();
+    const auto is_whole = [&] { return viewer_->picture() && viewer_->picture()->preview.empty(); };
+    return turn_until([&] { return is_whole() || viewer_->is_over(); }) && is_whole();
   }
   void move_to(ImVec2 at) { ImGui::GetIO().MousePos = at, turn(); }
   void click_at(ImVec2 at) {
@@ -174,7 +177,7 @@ TEST(ViewPanel, BadFilesShowTheirMessageAndKeepTheScene) {
 
 TEST(ViewPanel, CancelsWhatTakesLong) {
   const TemporaryFolder folder;
-  HeadlessViewer headless(TENEBRA_SCENES_DIR "/court.glb", {1280, 720});
+  HeadlessViewer headless(TENEBRA_SCENES_DIR "/court.glb", {1280, 720}, 1, 0);  // no previews
   ASSERT_TRUE(headless.wait_for_first_picture());
   const Picture* last = headless.viewer().picture();
   headless.key('3');  // soft shadows of the whole court
@@ -190,6 +193,26 @@ TEST(ViewPanel, CancelsWhatTakesLong) {
   EXPECT_EQ(headless.viewer().picture(), last);
   headless.key('2');
   EXPECT_TRUE(headless.turn_until([&] { return headless.viewer().picture() != last; })) << "and work goes on";
+}
+
+TEST(ViewPanel, CancelsRefining) {
+  HeadlessViewer headless(TENEBRA_SCENES_DIR "/court.glb", {1280, 720});
+  ASSERT_TRUE(headless.wait_for_first_picture());
+  headless.key('3');  // soft shadows of the whole court
+  const auto shows_preview = [&] { return !headless.viewer().picture()->preview.empty(); };
+  ASSERT_TRUE(headless.turn_until(shows_preview));
+  headless.turn();
+  EXPECT_EQ(headless.viewer().marks().count("preview"), 1u) << "and says so";
+  bool offered = headless.turn_until([&] { return headless.viewer().marks().count("cancel") == 1; }, 20);
+  if (!offered) GTEST_SKIP() << "this machine refines the court before anyone could cancel it";
+  headless.key(key_code::escape);
+  ASSERT_TRUE(headless.turn_until([&] { return headless.viewer().message().starts_with("Cancelled"); }));
+  ASSERT_TRUE(headless.turn_until([&] { return headless.viewer().marks().count("cancel") == 0; }));
+  EXPECT_TRUE(shows_preview()) << "what is there stays";
+  headless.key('2');
+  EXPECT_TRUE(headless.wait_for_first_picture()) << "and work goes on";
+  headless.turn();
+  EXPECT_EQ(headless.viewer().marks().count("preview"), 0u) << "a whole picture has no mark";
 }
 
 TEST(ViewPanel, SurvivesAnyHand) {

@@ -332,6 +332,36 @@ TEST(ViewWindow, ShowsTheBitsOfRender) {
   }
 }
 
+TEST(ViewWindow, ShowsMarkedPreviewsWhileAKeyIsHeldAndRefinesThem) {
+  TENEBRA_NEEDS_A_DISPLAY();
+  const TemporaryFolder folder;
+  const std::string scene = TENEBRA_SCENES_DIR "/court.glb";
+  const VirtualDisplay display;
+  const ViewSession session(
+      display, folder, {scene, "--shadows", "soft", "--size", "640x480", "--shots", folder / "shot_%d.png"});
+  const Json first = session.wait_for_picture();  // takes seconds
+  std::size_t from = session.count();
+  session.xdotool({"keydown", "w"});
+  session.wait_for(from, "a preview", [&](const Json& event) {
+    return event["event"] == "picture" && event["request"] > first["request"] && event["preview"] != "";
+  });
+  session.wait_for(from, "its mark in the window",
+                   [](const Json& event) { return event["event"] == "marks" && event.contains("preview"); });
+  session.photograph("preview");
+  session.xdotool({"keyup", "w"});
+  const base::Image8 saved = picture_of(shot_after(session, "p"));  // waits for the whole picture
+  session.wait_for_picture();
+  session.wait_until_gone("preview");
+  from = session.count();
+  session.key("ctrl+c");
+  const std::string copied = session.wait_for_event(from, "copied").value("text", "");
+  const std::string command = fmt::format("exec '{}' render '{}' {} -o '{}' --quiet", TENEBRA_PROGRAM, scene,
+                                          copied, (folder / "pasted.png").string());
+  EXPECT_EQ(run_program({"/bin/sh", "-c", command}).errors, "");
+  EXPECT_EQ(saved, picture_of(folder / "pasted.png")) << "refined to the bits of render";
+  quit(session);
+}
+
 TEST(ViewWindow, ComparesTwoMethods) {
   TENEBRA_NEEDS_A_DISPLAY();
   const TemporaryFolder folder;
@@ -391,7 +421,7 @@ TEST(ViewWindow, LogsRecordsAndLeaves) {
   for (const int frame : {1, 2}) {
     logging.key("Right");
     logging.wait_for(0, "the next frame", [&](const Json& event) {
-      return event["event"] == "picture" && event["frame"] == frame;
+      return event["event"] == "picture" && event["frame"] == frame && event["preview"] == "";
     });
   }
   logging.click("log");

@@ -110,7 +110,7 @@ public:
   Json wait_for_event(std::size_t from, const std::string& name) const {
     return wait_for(from, name.c_str(), [&](const Json& event) { return event["event"] == name; });
   }
-  /// The picture that shows what has been asked for until now; it and its numbers are in the window.
+  /// The whole picture that shows what has been asked for until now; it and its numbers are in the window.
   Json wait_for_picture() const {
     Json picture;
     wait_until("the picture of the last request, and its draw", [&] {
@@ -123,7 +123,7 @@ public:
       const auto last = std::find_if(all.rbegin(), all.rend(), is("picture"));
       if (request == all.rend() || shown == all.rend() || last == all.rend()) return false;
       picture = *last;
-      return picture["request"] == (*request)["number"] &&
+      return picture["request"] == (*request)["number"] && picture["preview"] == "" &&
              std::stoull((*shown)["text"].get<std::string>()) >= picture["number"];
     });
     return picture;

@@ -72,7 +72,8 @@ void EventReport::picture(const Picture& picture, std::uint64_t number) {
             {"rays", a.stats.rays},
             {"nodes", a.stats.nodes},
             {"soft_groups", a.soft.groups},
-            {"ao_points", a.ao.points}};
+            {"ao_points", a.ao.points},
+            {"preview", picture.preview}};
   if (picture.b) {
     json["nodes_b"] = picture.b->record.stats.nodes;
     json["differing"] = picture.difference.differing;

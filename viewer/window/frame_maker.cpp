@@ -1,5 +1,7 @@
 #include "window/frame_maker.h"
 
+#include <cmath>
+
 #include "base/stopwatch.h"
 #include "window/panels/overlay_image.h"
 
@@ -55,26 +57,30 @@ Expected<Drawn> FrameMaker::draw(const FrameRequest& request, const render::Rend
   return drawn;
 }
 
-Expected<std::shared_ptr<Picture>> FrameMaker::make(const FrameRequest& request, double time_s,
-                                                    const AoProgress& progress, const StopFlag& stop) {
+Expected<std::shared_ptr<Picture>> FrameMaker::make(const FrameRequest& request, PreviewLevel level,
+                                                    double time_s, const AoProgress& progress,
+                                                    const StopFlag& stop) {
   if (auto taken = take_scene(request.scene); !taken) return tl::unexpected(taken.error());
   const Scene& scene = request.scene->scene;
   base::Stopwatch watch;
   evaluate_frame(scene, request.clip, time_s, input_.geometry);
   input_.lights = edited_lights(evaluate_lights(scene, request.clip, time_s), request.lights);
-  input_.view = view_of_request(request, time_s, request.a.width, request.a.height);
+  const Size whole{request.a.width, request.a.height};
+  render::RenderSettings settings = preview_settings(request.a, level);
+  drawn_ = {settings.width, settings.height};
+  input_.view = view_of_request(request, time_s, whole.width, whole.height);
+  if (level.divisor > 1) input_.view = view_in_pixels(input_.view, whole, drawn_);
   evaluate_ms_ = watch.lap_ms();
   renderer_->set_lights(edited_lights(scene.lights, request.lights));
 
   auto picture = std::make_shared<Picture>();
-  render::RenderSettings settings = request.a;
   settings.area_lights.own_size_m = edited_sizes_m(request.lights);
   settings.diagnostics = request.overlay != Overlay::none;
   auto a = draw(request, settings, time_s, progress, stop);
   if (!a) return tl::unexpected(a.error());
   picture->a = std::move(*a);
   if (request.b) {
-    render::RenderSettings settings_b = *request.b;
+    render::RenderSettings settings_b = preview_settings(*request.b, level);
     settings_b.area_lights.own_size_m = settings.area_lights.own_size_m;
     auto b = draw(request, settings_b, time_s, progress, stop);
     if (!b) return tl::unexpected(b.error());
@@ -86,15 +92,18 @@ Expected<std::shared_ptr<Picture>> FrameMaker::make(const FrameRequest& request,
   if (picture->b) picture->b->result.masks.clear();
   picture->scene = request.scene;
   picture->slot = request.slot;
+  picture->preview = preview_text(request.a, level);
+  picture->whole = whole;
   picture->view = input_.view;
   picture->lights = evaluate_lights(scene, request.clip, time_s);
   picture->clock = request.clock;
   return picture;
 }
 
-std::optional<glm::vec3> FrameMaker::visible_point(int x, int y) {
+std::optional<glm::vec3> FrameMaker::visible_point(glm::dvec2 place) {
   if (!renderer_) return std::nullopt;
-  const auto point = renderer_->visible_point(input_, x, y);
+  const auto point = renderer_->visible_point(input_, static_cast<int>(std::floor(place.x * drawn_.width)),
+                                              static_cast<int>(std::floor(place.y * drawn_.height)));
   return point ? std::optional<glm::vec3>(*point) : std::nullopt;
 }
 

@@ -6,6 +6,7 @@
 #include <optional>
 
 #include "window/frame_request.h"
+#include "window/preview_levels.h"
 
 namespace tenebra::viewer {
 
@@ -13,13 +14,14 @@ class FrameMaker {
 public:
   explicit FrameMaker(const render::RasterChoice& raster) : raster_(raster) {}
 
-  /// Draws the request at `time_s` of its animation. A stop ends in the error "stopped"; the next call starts
-  /// afresh.
-  Expected<std::shared_ptr<Picture>> make(const FrameRequest& request, double time_s,
+  /// Draws the request at `time_s` of its animation, whole or as a preview. A stop ends in the error
+  /// "stopped"; the next call starts afresh. What was drawn before changes no bit.
+  Expected<std::shared_ptr<Picture>> make(const FrameRequest& request, PreviewLevel level, double time_s,
                                           const AoProgress& progress, const StopFlag& stop);
 
-  /// What a pixel of the last picture sees; none: background, or no picture yet.
-  std::optional<glm::vec3> visible_point(int x, int y);
+  /// What is seen at a place of what was drawn last, 0 to 1 from its left and top; none: background, or no
+  /// picture yet.
+  std::optional<glm::vec3> visible_point(glm::dvec2 place);
 
   /// Null before the first picture.
   const render::FrameRaster* raster() const { return renderer_ ? &renderer_->raster() : nullptr; }
@@ -34,6 +36,7 @@ private:
   std::shared_ptr<const ScenePlan> scene_;
   std::optional<render::Renderer> renderer_;
   render::FrameInput input_;
+  Size drawn_;  ///< pixels of what was drawn last
   double evaluate_ms_ = 0;
 };
 

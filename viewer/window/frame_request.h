@@ -34,6 +34,7 @@ struct FrameRequest {
   std::optional<render::RenderSettings> b;  ///< to compare with
   Overlay overlay = Overlay::none;
   std::optional<OutputPattern> record;  ///< each picture (a) is written, numbered by its frame
+  double preview_ms = 0;                ///< time for a preview; 0: whole pictures alone
 };
 
 /// One method's frame of a picture.
@@ -55,7 +56,9 @@ struct OverlayImage {
 struct Picture {
   std::uint64_t request = 0;  ///< number of the request that it answers
   std::shared_ptr<const ScenePlan> scene;
-  int slot = 0;  ///< that `a` was drawn with
+  int slot = 0;         ///< that `a` was drawn with
+  std::string preview;  ///< what it leaves out of what was asked for; empty: nothing, it is whole
+  Size whole;           ///< of the whole picture; `a` has fewer pixels in some previews
   Drawn a;
   std::optional<Drawn> b;
   PictureDifference difference;  ///< of a and b

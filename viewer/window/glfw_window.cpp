@@ -159,10 +159,13 @@ void draw_frame(GLFWwindow* window, WindowGl& gl, Viewer& viewer) {
   ImGui::NewFrame();
   viewer.draw(scale_of(window), static_cast<float>(width) / static_cast<float>(units));
   ImGui::Render();
+  viewer.update();  // what the hand has changed is asked for before the screen is drawn
+  if (!viewer.wants_presenting()) return;
   gl.clear(width, height);
   ImGui_ImplOpenGL3_RenderDrawData(ImGui::GetDrawData());
   viewer.after_draw(width, height);
   glfwSwapBuffers(window);
+  viewer.presented();
 }
 
 void set_title(GLFWwindow* window, const Viewer& viewer, std::string& shown) {

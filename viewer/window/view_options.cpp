@@ -37,6 +37,15 @@ Expected<double> parse_speed(const std::string& text) {
   return speed;
 }
 
+Expected<double> parse_preview_budget(const std::string& text) {
+  const auto ms = parse_time(text);
+  if (!ms || *ms < 0 || *ms > most_preview_ms) {
+    return base::fail("found {}, expected milliseconds from 1 to {:g}, or 0 for no previews", text,
+                      most_preview_ms);
+  }
+  return ms;
+}
+
 Expected<float> parse_wipe(const std::string& text) {
   const auto part = parse_time(text);
   if (!part || *part < 0 || *part > 1) return base::fail("found {}, expected 0 to 1", text);
@@ -78,6 +87,10 @@ void add_window_options(CLI::App& command, ViewOptions& options) {
   group(add_flag(command, "--loop,!--no-loop", options.loop, "Start again at the end [yes]"));
   group(add_flag(command, "--fixed-step", options.fixed_step,
                  "Shows every frame, however long it takes, instead of\nfollowing the clock"));
+  group(add_value(command, "--preview-budget", options.preview_ms, parse_preview_budget,
+                  "Time for a picture while the hand moves, in milliseconds;\npictures that take longer are "
+                  "shown as previews first, and\nrefined when it rests. 0: no previews [80]")
+            .type_name("MS"));
   group(add_choice<navigate_choices>(
       command, "--navigate", options.navigate,
       "Camera: the scene's, or one that orbits or flies\n[scene; orbit with --eye]"));

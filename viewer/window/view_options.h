@@ -22,6 +22,7 @@ struct ViewOptions {
   bool play = false;
   double speed = 1;
   bool loop = true;
+  double preview_ms = default_preview_ms;
   bool fixed_step = false;
   CameraMode navigate = CameraMode::scene;
   std::shared_ptr<const ScenePlan> plan;  ///< of `scene`, if it is there already

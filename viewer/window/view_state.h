@@ -12,6 +12,8 @@
 
 namespace tenebra::viewer {
 
+inline constexpr double default_preview_ms = 80, most_preview_ms = 1000;
+
 enum class CompareView { a, b, side_by_side, wipe, difference };
 
 struct ViewState {
@@ -40,6 +42,8 @@ struct ViewState {
 
   float diagonal_m = 1;  ///< of the scene at its first frame
   glm::vec3 centre{0.0f};
+
+  double preview_ms = default_preview_ms;  ///< time for a preview; 0: none are drawn
 
   std::optional<Size> size;  ///< of the picture; none: that of its place in the window
   bool panel = true;

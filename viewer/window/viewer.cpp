@@ -18,8 +18,10 @@ namespace {
 using Wall = AnimationClock::Wall;
 
 constexpr double message_s = 6.0;
-constexpr double look_again_s = 0.1;     // while the worker is busy: progress, patience
-constexpr double progress_s = 0.25;      // its display moves this often
+constexpr double look_again_s = 0.1;           // while the worker is busy: progress
+constexpr double progress_s = 0.25;            // its display moves this often
+constexpr double longest_unpresented_s = 0.1;  // while a picture is about to come
+constexpr double turn_s = 0.01;
 constexpr double resting_sleep_s = 0.5;  // signals are looked at this often
 constexpr float flight_share = 0.1f;     // of the scene's diagonal a second
 
@@ -48,6 +50,12 @@ render::RasterChoice worker_raster(const ViewOptions& options) {
   return choice;
 }
 
+/// The middle of a pixel, 0 to 1 from the left and the top.
+glm::dvec2 place_in(const Picture& picture, glm::ivec2 pixel) {
+  const base::Image8& image = picture.a.result.image;
+  return (glm::dvec2(pixel) + 0.5) / glm::dvec2(image.width, image.height);
+}
+
 FreeCamera start_camera(const SceneOptions& options) {
   return {*options.eye, options.look_at, options.up, options.fov_deg.value_or(FreeCamera{}.fov_deg)};
 }
@@ -59,7 +67,7 @@ Viewer::Viewer(ViewOptions options, WindowGl& gl, EventReport report, std::funct
       gl_(gl),
       report_(std::move(report)),
       textures_(gl),
-      worker_(worker_raster(options_), std::move(wake)) {
+      worker_(worker_raster(options_), gl.is_software(), std::move(wake)) {
   state_.slots = {options_.method, options_.compare.value_or(options_.method)};
   state_.compare = options_.compare.has_value();
   state_.show = options_.show;
@@ -67,6 +75,7 @@ Viewer::Viewer(ViewOptions options, WindowGl& gl, EventReport report, std::funct
   state_.overlay = options_.overlay;
   state_.size = options_.scene.size;
   state_.panel = options_.panel;
+  state_.preview_ms = options_.preview_ms;
   if (options_.plan) {
     take_scene({options_.scene, std::move(options_.plan)});
   } else {
@@ -75,10 +84,35 @@ Viewer::Viewer(ViewOptions options, WindowGl& gl, EventReport report, std::funct
 }
 
 double Viewer::sleep_s() const {
-  if (due_ > 0) return 0;
   const WorkerStatus status = worker_.status();
+  if (due_ > 0) {
+    // What the screen does not show yet needs no more turns than a hand can tell apart.
+    const double since_s = std::chrono::duration<double>(now() - last_draw_).count();
+    return unpresented_ && status.hurries ? std::max(0.0, turn_s - since_s) : 0;
+  }
   const bool stirs = status.loading || status.drawing || !messages_.empty();
-  return stirs ? look_again_s : resting_sleep_s;
+  double sleep_s = stirs ? std::min(look_again_s, worker_.look_again_s()) : resting_sleep_s;
+  if (unpresented_) {
+    const double since_s = std::chrono::duration<double>(now() - last_present_).count();
+    sleep_s = std::min(sleep_s, std::max(1e-3, longest_unpresented_s - since_s));
+  }
+  return sleep_s;
+}
+
+bool Viewer::wants_presenting() const {
+  if (!unpresented_) return false;
+  const double since_s = std::chrono::duration<double>(now() - last_present_).count();
+  return shown_ != drawn_ || window_shot_ || since_s >= longest_unpresented_s || !worker_.status().hurries;
+}
+
+void Viewer::presented() {
+  unpresented_ = false;
+  last_present_ = now();
+  if (std::exchange(shown_, drawn_) != drawn_) report_.note("shown", fmt::format("{}", drawn_));
+  if (shown_ == pictures_) worker_.presented();
+  if (due_ > 0 || !input_undrawn_) return;
+  input_undrawn_ = false;
+  report_.note("drawn", "");
 }
 
 void Viewer::say(std::string text, bool failure) {
@@ -145,11 +179,14 @@ void Viewer::take_picture(const std::shared_ptr<const Picture>& picture) {
   picture_ = picture;
   ++pictures_;
   report_.picture(*picture, pictures_);
+  due_ = std::max(due_, 1);
+  for (const std::string& note : picture->a.result.notes) say(note);
+  if (!picture->preview.empty()) return;
+  if (std::exchange(shot_waits_, false)) save_picture();
   if (picture->request >= settings_since_) {
     history_[static_cast<std::size_t>(picture->slot)].add(picture->a.record);
     if (picture->b) history_[1].add(picture->b->record);
   }
-  for (const std::string& note : picture->a.result.notes) say(note);
   if (!options_.log.empty()) toggle_log();  // --log: from the first picture on
   if (log_) log_picture(*picture);
   // By fixed steps the pictures move the clock; a hand that has moved it since is not overruled.
@@ -162,8 +199,7 @@ void Viewer::take_picture(const std::shared_ptr<const Picture>& picture) {
     say(fmt::format("Recorded to {}", options_.record->text()));
     options_.record.reset();
   }
-  if (options_.exit_after > 0 && pictures_ >= static_cast<std::uint64_t>(options_.exit_after)) quit_ = true;
-  due_ = std::max(due_, 1);
+  if (++whole_pictures_ == options_.exit_after) quit_ = true;
 }
 
 void Viewer::take_pick(const std::optional<glm::vec3>& point) {
@@ -206,6 +242,7 @@ FrameRequest Viewer::make_request() const {
   if (state_.compare) request.b = method_settings(state_.slots[1], place_, display);
   request.overlay = state_.overlay;
   request.record = options_.record;
+  request.preview_ms = state_.preview_ms;
   return request;
 }
 
@@ -265,6 +302,10 @@ std::filesystem::path Viewer::next_shot() {
 
 void Viewer::save_picture() {
   if (!picture_) return;
+  if (!picture_->preview.empty()) {
+    shot_waits_ = true;
+    return say("This is a preview: the picture is saved when it is whole.");
+  }
   const auto file = next_shot();
   const auto written = base::write_png(file, picture_->a.result.image);
   report_.note(written ? "shot" : "failure", written ? file.string() : written.error().message);
@@ -288,6 +329,7 @@ void Viewer::toggle_log() {
     return say(finished ? fmt::format("Log written to {}", path) : finished.error().message, !finished);
   }
   if (!picture_) return;
+  if (!picture_->preview.empty()) return say("The log starts with a whole picture; this is a preview.");
   const std::string path =
       options_.log.empty() ? unused_name("tenebra_frames.csv") : std::exchange(options_.log, "");
   auto log = SessionLog::start(path, state_, *picture_, worker_.raster());
@@ -321,7 +363,7 @@ void Viewer::act() {
   if (actions.picture_shot) save_picture();
   if (actions.window_shot) window_shot_ = true, due_ = std::max(due_, 1);
   if (actions.toggle_log) toggle_log();
-  if (actions.focus) worker_.pick(*actions.focus);
+  if (actions.focus && picture_) worker_.pick(place_in(*picture_, *actions.focus));
   if (actions.open) drop({*actions.open});
 }
 
@@ -375,7 +417,8 @@ void Viewer::draw(float scale, float pixels_a_unit) {
   if (picture_) {
     const Size shown = picture_size(state_, layout.view, pixels_a_unit);
     const base::Image8& image = picture_->a.result.image;
-    textures_.show(picture_, state_, image.width <= shown.width && image.height <= shown.height);
+    textures_.show(picture_, state_,
+                   picture_->preview.empty() && image.width <= shown.width && image.height <= shown.height);
   }
   draw_view(ui, textures_, layout.view);
   draw_transport(ui, layout.transport);
@@ -396,10 +439,8 @@ void Viewer::draw(float scale, float pixels_a_unit) {
   }
   keys_.clear();
   report_.marks(marks_);
-  if (std::exchange(shown_, pictures_) != pictures_) report_.note("shown", fmt::format("{}", pictures_));
-  if (due_ > 0 || !input_undrawn_) return;
-  input_undrawn_ = false;
-  report_.note("drawn", "");
+  drawn_ = pictures_;
+  unpresented_ = true;
 }
 
 }  // namespace tenebra::viewer

@@ -20,14 +20,18 @@ public:
   void update();
   /// Draws everything; between ImGui::NewFrame and ImGui::Render. `pixels_a_unit`: of the framebuffer.
   void draw(float scale, float pixels_a_unit);
-  /// After Render: writes a screenshot of the window if one was asked for.
+  /// After it was drawn by OpenGL: writes a screenshot of the window if one was asked for.
   void after_draw(int framebuffer_width, int framebuffer_height);
   void drop(const std::vector<std::string>& files);
   /// Ends the log; its failure, if any, or that of the first scene.
   Expected<void> finish();
 
   bool is_over() const { return quit_; }
-  bool needs_drawing() const { return due_ > 0; }
+  bool needs_drawing() const { return due_ > 0 || wants_presenting(); }
+  /// Whether what was drawn last is to be brought to the screen: where a picture is about to come, that
+  /// picture brings along what the hand has changed. Software OpenGL would take the picture's processors.
+  bool wants_presenting() const;
+  void presented();  ///< what was drawn is on the screen
   void press_key(KeyPress press) {
     keys_.push_back(press);
     input_came("key down");
@@ -90,13 +94,17 @@ private:
   std::uint64_t requests_ = 0;
   std::uint64_t settings_since_ = 0;  // the first request with the present settings
   std::uint64_t pictures_ = 0;
-  std::uint64_t shown_ = 0;  // of pictures_
+  std::uint64_t drawn_ = 0;  // of pictures_, by the last draw
+  std::uint64_t shown_ = 0;  // of pictures_, on the screen
+  int whole_pictures_ = 0;   // that are no previews
   int shots_ = 0;
   bool window_shot_ = false;
+  bool shot_waits_ = false;  // for a whole picture
   bool input_undrawn_ = false;
   bool quit_ = false;
-  int due_ = 3;  // frames of the window to draw
-  AnimationClock::Wall last_draw_{};
+  int due_ = 3;               // frames of the window to draw
+  bool unpresented_ = false;  // something is drawn and not on the screen
+  AnimationClock::Wall last_draw_{}, last_present_{};
 
   RenderWorker worker_;  // last: its thread ends first
 };

@@ -1,6 +1,7 @@
 #include "window/window_gl.h"
 
 #include "base/fail.h"
+#include "render/frame_raster.h"
 
 #include <glad/gl.h>  // types and constants; the calls go through Functions
 
@@ -12,6 +13,7 @@ namespace tenebra::viewer {
 struct WindowGl::Functions {
   PFNGLGETERRORPROC get_error = nullptr;
   PFNGLGETINTEGERVPROC get_integer = nullptr;
+  PFNGLGETSTRINGPROC get_string = nullptr;
   PFNGLVIEWPORTPROC viewport = nullptr;
   PFNGLCLEARCOLORPROC clear_color = nullptr;
   PFNGLCLEARPROC clear = nullptr;
@@ -54,6 +56,7 @@ Expected<WindowGl> WindowGl::load(gl::FunctionLoader loader, bool debug) {
   auto gl = std::make_unique<Functions>();
   find(loader, "glGetError", gl->get_error);
   find(loader, "glGetIntegerv", gl->get_integer);
+  find(loader, "glGetString", gl->get_string);
   find(loader, "glViewport", gl->viewport);
   find(loader, "glClearColor", gl->clear_color);
   find(loader, "glClear", gl->clear);
@@ -127,6 +130,11 @@ void WindowGl::upload(unsigned texture, const base::Image8& image, bool smooth) 
   gl_->pixel_store(GL_UNPACK_ROW_LENGTH, 0);
   gl_->tex_image(GL_TEXTURE_2D, 0, image.channels == 4 ? GL_RGBA8 : GL_RGB8, image.width, image.height, 0,
                  format, GL_UNSIGNED_BYTE, image.pixels.data());
+}
+
+bool WindowGl::is_software() const {
+  const GLubyte* name = gl_->get_string ? gl_->get_string(GL_RENDERER) : nullptr;
+  return name && render::is_software_renderer(reinterpret_cast<const char*>(name));
 }
 
 std::vector<std::string> WindowGl::take_messages() {

@@ -29,6 +29,7 @@ public:
   void upload(unsigned texture, const base::Image8& image, bool smooth);
   void delete_texture(unsigned texture);
 
+  bool is_software() const;                  ///< it draws on the processors that pictures are computed on
   std::vector<std::string> take_messages();  ///< errors since the last call, glGetError's too
 
 private:

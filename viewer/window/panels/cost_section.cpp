@@ -195,6 +195,17 @@ void draw_overlay_choice(Ui& ui) {
     dim_text("Only soft shadows have classes.");
 }
 
+void choose_preview_time(Ui& ui) {
+  row(ui, "Previews",
+      "Time for a picture while the hand moves. What takes longer is shown as a preview first, and refined "
+      "when the hand rests. 0: no previews.");
+  float ms = static_cast<float>(ui.state.preview_ms);
+  if (ImGui::SliderFloat("##preview time", &ms, 0, static_cast<float>(most_preview_ms),
+                         ms > 0 ? "within %.0f ms" : "none", ImGuiSliderFlags_AlwaysClamp))
+    ui.state.preview_ms = std::round(ms);
+  ui.mark("preview time");
+}
+
 }  // namespace
 
 void draw_cost_section(Ui& ui) {
@@ -209,6 +220,7 @@ void draw_cost_section(Ui& ui) {
     draw_summary(ui.history[1]);
   }
   draw_overlay_choice(ui);
+  choose_preview_time(ui);
   row(ui, "Log",
       "One row per frame, with the columns of tenebra render --log. The log ends where the settings change.");
   if (ImGui::Button(ui.log.empty() ? "Start (T)" : fmt::format("End {} (T)", ui.log).c_str(), {-1, 0})) {

@@ -37,10 +37,10 @@ Area half_of(Area area, bool right) {
 class Stage {
 public:
   Stage(const Ui& ui, Area area) : ui_(ui), list_(*ImGui::GetWindowDrawList()) {
-    const base::Image8& image = ui.picture->a.result.image;
+    const Size whole = ui.picture->whole;
     side_ = both() && ui.state.show == CompareView::side_by_side;
-    places_[0] = fit(side_ ? half_of(area, false) : area, image.width, image.height);
-    places_[1] = side_ ? fit(half_of(area, true), image.width, image.height) : places_[0];
+    places_[0] = fit(side_ ? half_of(area, false) : area, whole.width, whole.height);
+    places_[1] = side_ ? fit(half_of(area, true), whole.width, whole.height) : places_[0];
   }
 
   /// It explains A: where A is not to be seen, neither is it.
@@ -127,6 +127,20 @@ void draw_labels(Ui& ui, const Stage& stage) {
   if (show == CompareView::wipe) label(place.low + ImVec2(place.size.x - 32, place.size.y - 36), "B");
   if (show == CompareView::side_by_side)
     label(stage.at_pixel({0, ui.picture->a.result.image.height}, 1) + ImVec2(8, -36), "B");
+}
+
+/// What is shown is not all that was asked for yet: that is never left unsaid.
+void draw_preview_mark(Ui& ui, Area place) {
+  if (ui.picture->preview.empty()) return;
+  const std::string text = "Preview: " + ui.picture->preview;
+  const ImVec2 size = ImGui::CalcTextSize(text.c_str());
+  const ImVec2 low{std::round(place.low.x + (place.size.x - size.x) / 2 - ui.px(14)), place.low.y + ui.px(8)};
+  const ImVec2 high = low + ImVec2(size.x + ui.px(28), size.y + ui.px(8));
+  ImDrawList& list = *ImGui::GetWindowDrawList();
+  list.AddRectFilled(low, high, palette::shade, 3);
+  list.AddCircleFilled({low.x + ui.px(11), (low.y + high.y) / 2}, ui.px(4), palette::warning);
+  list.AddText(low + ImVec2(ui.px(21), ui.px(4)), palette::text, text.c_str());
+  ui.marks["preview"] = {low.x, low.y, high.x, high.y};
 }
 
 void draw_heat_legend(Ui& ui, Area place) {
@@ -321,6 +335,7 @@ void draw_view(Ui& ui, const ViewTextures& textures, Area area) {
     ui.marks["picture"] = {place.low.x, place.low.y, place.low.x + place.size.x, place.low.y + place.size.y};
     use_hand(ui, stage, area);
     draw_labels(ui, stage);
+    draw_preview_mark(ui, place);
     if (stage.shows_overlay()) {
       ui.state.overlay == Overlay::nodes ? draw_heat_legend(ui, place) : draw_class_legend(ui, place);
     }
