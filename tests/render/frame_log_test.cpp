@@ -57,7 +57,8 @@ TEST(FrameLog, HeaderBeginsAsPromised) {
 
 TEST(FrameLog, HasAColumnForEveryValueOfAFrame) {
   const std::size_t values =
-      (sizeof(FrameTimings) + sizeof(TraceStats) + sizeof(SoftStats) + sizeof(AoStats)) /
+      (sizeof(FrameTimings) + sizeof(TraceStats) + sizeof(SoftStats) + sizeof(AoStats) +
+       sizeof(render::AntialiasStats)) /
       8;  // all doubles and 64-bit counts
   const auto names = split(render::frame_log_header());
   constexpr std::size_t aliases = 1;  // soft_points_outline, until 0.3
@@ -97,7 +98,7 @@ TEST(FrameLog, ReadsBackAsASpreadsheetDoes) {
   EXPECT_EQ(rows[1]["frame"], "7");
   EXPECT_EQ(rows[1]["time_s"], "2.33333333");
   EXPECT_EQ(rows[0]["evaluate_ms"], "1.125");
-  EXPECT_EQ(rows[0]["layer_ms"],  // the last of the stages
+  EXPECT_EQ(rows[0]["antialias_ms"],  // the last of the stages
             fmt::format("{:.3f}", 0.125 + static_cast<double>(render::frame_stages.size())));
   EXPECT_EQ(rows[0]["soft_groups"], "77");
   EXPECT_EQ(rows[0]["ao_cache_cells"], "78");

@@ -63,10 +63,10 @@ private:
     return false;
   }
 
-  /// What is seen through something needs points of its own.
+  /// Where something lets light through, light may change colour without a mask that does.
   void by_layer(std::size_t y) {
     for (std::size_t i = y * width_; i < (y + 1) * width_; ++i)
-      if (chosen_[i] == has_contrast && centre_.layer[i] != no_triangle) chosen_[i] = is_edge;
+      if (chosen_[i] == has_contrast) chosen_[i] = is_edge;
   }
 
   void by_contrast(std::size_t y) {

@@ -30,7 +30,8 @@ struct ChosenPixels {
   /// and one of those four, so what is missed is what is thinner or rounder than a pixel.
   std::vector<std::uint32_t> edges;
   /// Others that differ from one of those four on one surface by more than least_contrast in what is drawn:
-  /// textures, penumbrae, highlights. What lights them is as at their centre.
+  /// textures, penumbrae, highlights. What lights them is as at their centre. None in frames with see-through
+  /// surfaces, which colour light without a mask that shows it: there they are edges.
   std::vector<std::uint32_t> contrasts;
 };
 
