@@ -35,6 +35,7 @@ int main(int argc, char** argv) {
   tenebra::bench::add_ao_command(program, run);
   tenebra::bench::add_trade_command(program, run);
   tenebra::bench::add_frame_command(program, run);
+  tenebra::bench::add_picture_command(program, run);
   tenebra::bench::add_hash_command(program, run);
   try {
     program.parse(argc, argv);

@@ -154,7 +154,8 @@ void add_render_options(CLI::App& command, RenderOptions& options) {
 }
 
 void settle_render_options(RenderOptions& options) {
-  const bool masks = !options.masks.empty() || !options.mask_colours.empty();
+  const bool masks = !options.masks.empty() || !options.mask_colours.empty() || !options.mask_means.empty() ||
+                     !options.mask_samples.empty();
   if (masks && !options.method.terminator) options.method.terminator = render::Terminator::flat;
 }
 

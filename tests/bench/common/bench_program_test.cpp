@@ -105,6 +105,34 @@ TEST(BenchProgram, FrameEndsWithItsFigures) {
     EXPECT_NE(csv.find(row), std::string::npos) << row;
 }
 
+TEST(BenchProgram, PictureRefusesInASentence) {
+  expect_refusal({"picture", "--threads", "-1"}, "--threads: found -1, expected 0 (all cores) or more");
+  expect_refusal({"picture", "--data", "/nowhere/at/all"}, "--data: /nowhere/at/all is not a folder");
+  expect_refusal({"picture", "--csv", "/nowhere/at/all.csv"}, "/nowhere/at/all.csv");
+  expect_refusal({"picture", "--only", "atlantis"}, "--only: found atlantis, expected views, flicker");
+}
+
+TEST(BenchProgram, PictureEndsWithItsFigures) {
+  const testing::TemporaryFolder folder;
+  const auto result = bench(
+      {"picture", "--tiny", "--data", folder.path().string(), "--csv", (folder / "picture.csv").string()});
+  ASSERT_EQ(result.exit_code, 0) << result.errors;
+  EXPECT_NE(result.output.find("robots: skipped"), std::string::npos) << result.output;
+  bool found = false;
+  for (const char* name :
+       {"picture.rms_4", "picture.rms_16", "picture.cost_4", "picture.cost_16", "picture.flicker_16"}) {
+    EXPECT_GT(figure(result.output, name, found), 0) << name;
+    EXPECT_TRUE(found) << name;
+  }
+  EXPECT_GE(figure(result.output, "picture.missed_percent", found), 0);
+  EXPECT_TRUE(found);
+  const std::string csv = testing::read_text(folder / "picture.csv");
+  for (const char* row :
+       {"\nviews,city 150,tenebra,samples=16,rms,", "\nviews,court 60,tenebra,samples=4,time,",
+        "\nflicker,gallery,tenebra,samples=16,flicker,"})
+    EXPECT_NE(csv.find(row), std::string::npos) << row;
+}
+
 TEST(BenchProgram, TradeRefusesInASentence) {
   expect_refusal({"trade", "--threads", "-1"}, "--threads: found -1, expected 0 (all cores) or more");
   expect_refusal({"trade", "--data", "/nowhere/at/all"}, "--data: /nowhere/at/all is not a folder");
