@@ -261,9 +261,9 @@ Expected<void> Renderer::State::antialias(const FrameInput& input, const std::ve
       if (stop_requested(stop)) return base::fail("stopped");
       const std::span<const std::uint32_t> part(&chosen.contrasts[i],
                                                 std::min(at_once, chosen.contrasts.size() - i));
-      list_as_centres(part, seen.width, offsets, further, listed);
+      with_threads(settings.threads, [&] { list_as_centres(part, seen.width, offsets, further, listed); });
       shade_list(settings, frame.subject, frame.lighting, {frame.pixels.factors, frame.pixels.openness});
-      means.add_colors(chosen.edges.size() + i, listed, shaded);
+      with_threads(settings.threads, [&] { means.add_colors(chosen.edges.size() + i, listed, shaded); });
     }
   }
   with_threads(settings.threads, [&] { means.finish(); });

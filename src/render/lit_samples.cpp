@@ -1,5 +1,7 @@
 #include "render/lit_samples.h"
 
+#include "parallel/parallel.h"
+
 namespace tenebra::render {
 
 std::vector<shade::LightFactors> LitSamples::factors() const {
@@ -13,7 +15,9 @@ GatheredFactors::GatheredFactors(std::span<const shade::LightFactors> from,
   const auto gather = [&](const auto& all, auto& some) {
     if (all.empty()) return;
     some.resize(samples.size());
-    for (std::size_t i = 0; i < samples.size(); ++i) some[i] = all[samples[i]];
+    parallel::parallel_ranges(samples.size(), 1 << 14, [&](std::size_t first, std::size_t last) {
+      for (std::size_t i = first; i < last; ++i) some[i] = all[samples[i]];
+    });
   };
   lights_.resize(from.size());
   for (std::size_t light = 0; light < from.size(); ++light) {

@@ -129,7 +129,7 @@ TEST(FrameTrace, IsJsonWhoseStagesLieWithinTheirFrames) {
   render::FrameRecord short_total = numbered_record(1);
   short_total.timings.total_ms = 0.5;  // rounding of clocks must not break the nesting
   ASSERT_TRUE(trace->add(numbered_record(0), 10.0));
-  ASSERT_TRUE(trace->add(short_total, 200.0));
+  ASSERT_TRUE(trace->add(short_total, 300.0));
   ASSERT_TRUE(trace->finish());
 
   const json parsed = json::parse(read_text(folder / "trace.json"));

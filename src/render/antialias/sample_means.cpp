@@ -50,11 +50,16 @@ void SampleMeans::begin(std::span<const std::uint32_t> edges, std::span<const st
 
 void SampleMeans::add_colors(std::size_t first, const ShadingList& list,
                              std::span<const shade::ShadedSample> shaded) {
-  for (std::size_t i = 0; i < list.centres.size(); ++i)
-    if (list.centres[i] > 0)
-      colors_[first + i] += list.centres[i] * shown(display_, centre_colors_[chosen_[first + i]]);
-  for (std::size_t i = 0; i < shaded.size(); ++i)
-    colors_[first + list.pixels[i]] += list.shares[i] * shown(display_, shaded[i].color);
+  parallel::parallel_ranges(list.centres.size(), at_once, [&](std::size_t begin, std::size_t end) {
+    for (std::size_t i = begin; i < end; ++i)
+      if (list.centres[i] > 0)
+        colors_[first + i] += list.centres[i] * shown(display_, centre_colors_[chosen_[first + i]]);
+  });
+  shown_.resize(shaded.size());
+  parallel::parallel_ranges(shaded.size(), at_once, [&](std::size_t begin, std::size_t end) {
+    for (std::size_t i = begin; i < end; ++i) shown_[i] = list.shares[i] * shown(display_, shaded[i].color);
+  });
+  for (std::size_t i = 0; i < shaded.size(); ++i) colors_[first + list.pixels[i]] += shown_[i];
 }
 
 void SampleMeans::add_masks(std::size_t first, std::size_t place, const SamplePicture& samples,

@@ -55,22 +55,28 @@ std::size_t middle_of(const Group& group, const SamplePicture& samples) {
                            [&](std::size_t a, std::size_t b) { return apart(a) < apart(b); });
 }
 
-void append(ShadingList& to, const ShadingList& part) {
-  const auto add = [](auto& list, const auto& more) { list.insert(list.end(), more.begin(), more.end()); };
-  add(to.ids, part.ids);
-  add(to.places, part.places);
-  add(to.from, part.from);
-  add(to.pixels, part.pixels);
-  add(to.shares, part.shares);
+/// Lists one after another.
+void join(std::span<const ShadingList> parts, ShadingList& to) {
+  std::vector<std::size_t> firsts(parts.size() + 1, 0);
+  for (std::size_t i = 0; i < parts.size(); ++i) firsts[i + 1] = firsts[i] + parts[i].ids.size();
+  to.resize(firsts.back());
+  parallel::parallel_tasks(static_cast<int>(parts.size()), [&](int number) {
+    const auto i = static_cast<std::size_t>(number);
+    const auto put = [&](const auto& list, auto& out) {
+      std::copy(list.begin(), list.end(), out.begin() + static_cast<std::ptrdiff_t>(firsts[i]));
+    };
+    put(parts[i].ids, to.ids);
+    put(parts[i].places, to.places);
+    put(parts[i].from, to.from);
+    put(parts[i].pixels, to.pixels);
+    put(parts[i].shares, to.shares);
+  });
 }
 
 void add(ShadingList& to, std::uint32_t id, glm::vec2 place, std::size_t from, std::size_t pixel,
          float share) {
-  to.ids.push_back(id);
-  to.places.push_back(place);
-  to.from.push_back(static_cast<std::uint32_t>(from));
-  to.pixels.push_back(static_cast<std::uint32_t>(pixel));
-  to.shares.push_back(share);
+  to.resize(to.ids.size() + 1);
+  to.set(to.ids.size() - 1, id, place, from, pixel, share);
 }
 
 }  // namespace
@@ -112,16 +118,19 @@ void list_groups(std::span<const std::uint32_t> chosen, const SamplePicture& sam
       }
     }
   });
-  for (const ShadingList& list : lists) append(out, list);
+  join(lists, out);
 }
 
 void list_samples(std::span<const std::uint32_t> chosen, const SamplePicture& samples, ShadingList& out) {
   out.clear();
   out.centres.assign(chosen.size(), 0.0f);
-  for (std::size_t i = 0; i < samples.count; ++i) {
-    const std::size_t slot = samples.slots[i];
-    add(out, samples.ids[slot], samples.places[slot], slot, i / samples.per_pixel, 1.0f);
-  }
+  out.resize(samples.count);
+  parallel::parallel_ranges(samples.count, pixels_at_once, [&](std::size_t first, std::size_t last) {
+    for (std::size_t i = first; i < last; ++i) {
+      const std::size_t slot = samples.slots[i];
+      out.set(i, samples.ids[slot], samples.places[slot], slot, i / samples.per_pixel, 1.0f);
+    }
+  });
 }
 
 void list_as_centres(std::span<const std::uint32_t> chosen, int width, std::span<const glm::vec2> offsets,
@@ -129,13 +138,17 @@ void list_as_centres(std::span<const std::uint32_t> chosen, int width, std::span
   out.clear();
   out.centres.assign(chosen.size(), 0.0f);
   const auto columns = static_cast<std::uint32_t>(width);
-  for (std::size_t i = 0; i < chosen.size(); ++i) {
-    const std::uint32_t pixel = chosen[i];
-    const glm::vec2 centre(static_cast<float>(pixel % columns) + 0.5f,
-                           static_cast<float>(pixel / columns) + 0.5f);
-    for (std::size_t k = 0; k < offsets.size(); ++k)
-      add(out, seen[k].ids[pixel], centre + offsets[k], pixel, i, 1.0f);
-  }
+  const std::size_t count = offsets.size();
+  out.resize(chosen.size() * count);
+  parallel::parallel_ranges(chosen.size(), pixels_at_once, [&](std::size_t first, std::size_t last) {
+    for (std::size_t i = first; i < last; ++i) {
+      const std::uint32_t pixel = chosen[i];
+      const glm::vec2 centre(static_cast<float>(pixel % columns) + 0.5f,
+                             static_cast<float>(pixel / columns) + 0.5f);
+      for (std::size_t k = 0; k < count; ++k)
+        out.set(i * count + k, seen[k].ids[pixel], centre + offsets[k], pixel, i, 1.0f);
+    }
+  });
 }
 
 }  // namespace tenebra::render

@@ -22,7 +22,16 @@ struct ShadingList {
   std::vector<float> shares;          ///< how many samples of the pixel it stands for
   std::vector<float> centres;         ///< by chosen pixel: how many samples its centre stands for
 
-  void clear() { ids.clear(), places.clear(), from.clear(), pixels.clear(), shares.clear(), centres.clear(); }
+  void clear() { resize(0), centres.clear(); }
+  /// Of all lists but `centres`.
+  void resize(std::size_t count) {
+    ids.resize(count), places.resize(count), from.resize(count), pixels.resize(count), shares.resize(count);
+  }
+  void set(std::size_t i, std::uint32_t id, glm::vec2 place, std::size_t lit_from, std::size_t pixel,
+           float share) {
+    ids[i] = id, places[i] = place, shares[i] = share;
+    from[i] = static_cast<std::uint32_t>(lit_from), pixels[i] = static_cast<std::uint32_t>(pixel);
+  }
 };
 
 /// What lights samples, and how open they lie.
