@@ -100,6 +100,7 @@ std::optional<glm::dvec3> Renderer::visible_point(const FrameInput& input, int x
 Expected<void> Renderer::render_frame(const FrameInput& given, const RenderSettings& settings,
                                       FrameResult& result, const AoProgress& progress, const StopFlag* stop) {
   State& s = *state_;
+  ++s.frames_begun;
   const FrameInput& input = s.cast_as(settings.see_through, given);
   result.masks.clear();
   result.methods.clear();

@@ -52,6 +52,7 @@ struct Renderer::State {
   LightPointShadows light_points{};
   AreaSide lit_side{}, behind_light{};
   std::vector<std::uint8_t> casters{};
+  std::uint64_t frames_begun = 0;
   AmbientOcclusion ambient{};
   std::vector<float> openness{};
   std::vector<std::vector<float>> irradiance{};  // of the drawn lights; empty without an area

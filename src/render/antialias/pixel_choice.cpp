@@ -1,7 +1,6 @@
 #include "render/antialias/pixel_choice.h"
 
 #include <algorithm>
-#include <cstdlib>
 
 #include "parallel/parallel.h"
 
@@ -10,6 +9,7 @@ namespace {
 
 constexpr std::size_t square_side = 16, block_side = 4;
 constexpr std::uint8_t is_edge = 2, has_contrast = 1;
+constexpr std::size_t pixels_at_once = 256;  // compared
 
 class Chooser {
 public:
@@ -66,7 +66,7 @@ private:
   /// Where something lets light through, light may change colour without a mask that does.
   void by_layer(std::size_t y) {
     for (std::size_t i = y * width_; i < (y + 1) * width_; ++i)
-      if (chosen_[i] == has_contrast) chosen_[i] = is_edge;
+      if (chosen_[i] != 0) chosen_[i] = is_edge;
   }
 
   void by_contrast(std::size_t y) {
@@ -87,25 +87,29 @@ private:
 
   /// Pixel i, which differs so from pixel j.
   void mark(std::uint8_t differs, std::size_t i, std::size_t j) {
-    if (differs > chosen_[i] && one_surface(i, j)) chosen_[i] = differs;
+    if ((differs & ~chosen_[i]) != 0 && chosen_[i] < is_edge && one_surface(i, j)) chosen_[i] |= differs;
   }
 
   /// How pixels from `i` on differ from those from `j` on.
   void compare(std::size_t i, std::size_t j, std::size_t count, std::uint8_t* differs) const {
     const std::uint8_t* const a = centre_.picture.pixels.data() + 3 * i;
     const std::uint8_t* const b = centre_.picture.pixels.data() + 3 * j;
-    const auto gap = [](std::uint8_t p, std::uint8_t q) { return p > q ? p - q : q - p; };
-    for (std::size_t x = 0; x < count; ++x) {
-      const int most = std::max(
-          {gap(a[3 * x], b[3 * x]), gap(a[3 * x + 1], b[3 * x + 1]), gap(a[3 * x + 2], b[3 * x + 2])});
-      differs[x] = most > least_contrast ? has_contrast : 0;
+    std::uint8_t unlike[3 * pixels_at_once];
+    for (std::size_t first = 0; first < count; first += pixels_at_once) {
+      const std::size_t most = std::min(pixels_at_once, count - first);
+      for (std::size_t k = 0; k < 3 * most; ++k) {
+        const int gap = int{a[3 * first + k]} - int{b[3 * first + k]};
+        unlike[k] = gap > least_contrast || gap < -least_contrast ? has_contrast : 0;
+      }
+      for (std::size_t k = 0; k < most; ++k)
+        differs[first + k] = static_cast<std::uint8_t>(unlike[3 * k] | unlike[3 * k + 1] | unlike[3 * k + 2]);
     }
+    // Penumbrae change slowly, and what is drawn shows where they do not: half lit is the line, so the top
+    // bit.
     for (const auto mask : centre_.masks)
       for (std::size_t x = 0; x < count; ++x)
-        if (is_lit(mask[i + x]) != is_lit(mask[j + x])) differs[x] = is_edge;
+        differs[x] = static_cast<std::uint8_t>(differs[x] | ((mask[i + x] ^ mask[j + x]) >> 7 << 1));
   }
-  /// Penumbrae change slowly, and what is drawn shows where they do not.
-  static bool is_lit(std::uint8_t mask) { return mask > 127; }
 
   bool one_surface(std::size_t i, std::size_t j) const {
     const glm::vec2 between = (centre_of(i) + centre_of(j)) * 0.5f;
@@ -132,7 +136,7 @@ void list_squares(const std::vector<std::uint8_t>& chosen, std::size_t width, st
           for (std::size_t x = block_x; x < std::min(block_x + block_side, right); ++x) {
             const std::size_t i = y * width + x;
             if (chosen[i] != 0)
-              (chosen[i] == is_edge ? out.edges : out.contrasts).push_back(static_cast<std::uint32_t>(i));
+              (chosen[i] >= is_edge ? out.edges : out.contrasts).push_back(static_cast<std::uint32_t>(i));
           }
         }
       }

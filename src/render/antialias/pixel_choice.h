@@ -36,7 +36,7 @@ struct ChosenPixels {
 };
 
 /// Levels of 255 by which a channel of two neighbours on one surface may differ.
-constexpr int least_contrast = 32;
+constexpr int least_contrast = 64;
 
 /// `everywhere`: all pixels are edges.
 ChosenPixels choose_pixels(const CentrePicture& centre, std::span<const glm::vec2> offsets,
