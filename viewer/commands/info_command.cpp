@@ -5,6 +5,7 @@
 #include <numbers>
 #include <string_view>
 
+#include <tenebra/additions.h>
 #include "commands/command.h"
 #include "cutout/cutout.h"
 #include "options/method_options.h"
@@ -214,9 +215,10 @@ void print_text(const Json& json) {
     print_list(json, key);
 }
 
-/// What drawing changes, last: emission that is left out, and what alpha cuts out.
+/// What drawing changes, last: parts that are added, emission that is left out, and what alpha cuts out.
 void add_changes(Scene& scene, Json& json) {
   const std::size_t said = scene.warnings.size();
+  add_missing_parts(scene);
   scene::leave_out_blank_emission(scene);
   const cutout::CutoutCounts counts = cutout::cut_out_masks(scene);
   json["counts"]["cut_out_triangles"] = counts.triangles;

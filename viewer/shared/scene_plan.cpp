@@ -6,6 +6,7 @@
 
 #include "base/fail.h"
 #include "cutout/cutout.h"
+#include "scene/default_light.h"
 #include "scene/looks.h"
 #include "shared/auto_exposure.h"
 #include "shared/scene_choice.h"
@@ -42,6 +43,12 @@ Expected<void> apply_field_of_view(Scene& scene, int camera, const SceneOptions&
   return {};
 }
 
+void complete(const SceneOptions& options, ScenePlan& plan) {
+  // The camera is the same whatever --size is.
+  plan.added = add_missing_parts(plan.scene, {.floor = options.floor && !plan.environment, .aspect = {}});
+  if (plan.added.light && !plan.environment) plan.environment = scene::soft_sky();
+}
+
 /// Nodes may share a light: each gets its own, so that a light has the same number for --light, for
 /// --set-light and in the viewer's list.
 void number_lights(Scene& scene) {
@@ -71,7 +78,7 @@ Expected<ScenePlan> plan_scene(const SceneOptions& options) {
     if (!picture) return base::fail("--environment: {}", picture.error().message);
     plan.environment = std::move(*picture);
   }
-  add_missing_camera_and_light(plan.scene);
+  complete(options, plan);
   number_lights(plan.scene);
   cutout::cut_out_masks(plan.scene, {.most_added = static_cast<std::size_t>(options.cutout_limit)});
   scene::leave_out_blank_emission(plan.scene);
