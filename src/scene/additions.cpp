@@ -69,7 +69,7 @@ void add_sun(Scene& scene, const glm::dvec3& towards) {
 /// a twentieth of the scene's height from below.
 bool has_floor(const scene::Subject& subject) {
   const glm::dvec3 size = subject.high - subject.low;
-  const double band = subject.low.y + 0.05 * size.y;
+  const double band = subject.low.y + 0.1 * size.y;
   const double shadow = 0.6 * size.y;  // the sun's, along either axis, in the mean
   double covered = 0;
   for (const glm::uvec3& triangle : subject.first.triangles) {
@@ -175,7 +175,7 @@ AddedParts add_missing_parts(Scene& scene, const Additions& wish) {
 }
 
 void add_missing_camera_and_light(Scene& scene) {
-  add_missing_parts(scene, {.floor = false, .aspect = {}});
+  add_missing_parts(scene, {.floor = false, .aspect = 1.0f});
 }
 
 bool leave_out_casters(Scene& scene, const std::vector<std::string>& names, std::string& unmatched) {

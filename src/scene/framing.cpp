@@ -15,7 +15,7 @@ using glm::dvec3;
 
 constexpr double degree = std::numbers::pi / 180;
 constexpr int cells = 64;
-constexpr double margin = 0.04;  ///< of half the picture, on each side
+constexpr double margin = 0.03;  ///< of half the picture, on each side
 constexpr double wanted_subject = 1 / 3.0, wanted_shadow = 0.02;
 constexpr int bitmap_width = 128;
 
@@ -211,11 +211,11 @@ private:
 };
 
 std::vector<Candidate> candidates_of(bool with_shadow, std::optional<float> aspect) {
-  const std::vector<float> shapes = aspect
-                                        ? std::vector<float>{*aspect}
-                                        : std::vector<float>{4 / 3.0f, 1.0f, 3 / 4.0f, 16 / 9.0f, 9 / 16.0f};
+  const std::vector<float> shapes =
+      aspect ? std::vector<float>{*aspect}
+             : std::vector<float>{4 / 3.0f, 1.0f, 3 / 4.0f, 16 / 9.0f, 9 / 16.0f, 2.0f, 0.5f};
   const std::vector<double> shadows =
-      with_shadow ? std::vector<double>{1, 0.6, 0.3, 0.1} : std::vector<double>{0};
+      with_shadow ? std::vector<double>{1, 0.6, 0.3, 0.1, 0} : std::vector<double>{0};
   constexpr std::array directions{dvec2(27, 17), dvec2(27, 30), dvec2(0, 10), dvec2(60, 17)};
   std::vector<Candidate> all;
   for (const float shape : shapes)
@@ -273,14 +273,15 @@ dvec3 towards_sun(const Compass& compass) {
 Framing frame_subject(const Subject& subject, std::optional<double> floor_y, std::optional<float> aspect) {
   Framer framer(subject, floor_y);
   Framing best;
-  bool found = false;
+  double best_score = -1;
   for (const Candidate& candidate : candidates_of(floor_y.has_value(), aspect)) {
     const Framing framing = framer.framed(candidate);
-    const bool shaded = !floor_y || framing.shadow_share >= wanted_shadow;
-    if (framing.subject_share >= wanted_subject && shaded) return framing;
-    if (!found || framing.subject_share > best.subject_share) best = framing;
-    found = true;
-    if (subject.empty()) break;
+    const double filled = std::min(framing.subject_share / wanted_subject, 1.0);
+    const double shaded = floor_y ? std::min(framing.shadow_share / wanted_shadow, 1.0) : 1.0;
+    const double score = filled * (1 + shaded);
+    if (score > best_score) best = framing;
+    best_score = std::max(best_score, score);
+    if (best_score >= 2 || subject.empty()) break;
   }
   return best;
 }

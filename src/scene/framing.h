@@ -43,8 +43,8 @@ struct Framing {
 };
 
 /// Of some directions, shares of the shadow and, without `aspect`, shapes of the picture: the first with
-/// which the subject fills a third of the picture and its shadow is seen beside it; else the one with
-/// which it fills most. `floor_y`: where the shadow falls; none: nowhere.
+/// which the subject fills a third of the picture and its shadow is seen beside it; else the one that
+/// comes nearest. `floor_y`: where the shadow falls; none: nowhere.
 Framing frame_subject(const Subject& subject, std::optional<double> floor_y, std::optional<float> aspect);
 
 }  // namespace tenebra::scene

@@ -108,9 +108,23 @@ Expected<ScenePlan> plan_scene(const SceneOptions& options) {
   return plan;
 }
 
+ViewRays view_of_camera(const ScenePlan& plan, int clip, int camera, double time_s, Size size) {
+  ViewRays view = evaluate_camera(plan.scene, clip, time_s, camera, size.width, size.height);
+  const bool added = plan.added.camera && camera + 1 == static_cast<int>(plan.scene.cameras.size());
+  const float shape = added ? plan.scene.cameras.back().aspect.value_or(0.0f) : 0.0f;
+  const auto width = static_cast<float>(size.width), height = static_cast<float>(size.height);
+  const float wider = shape * height / width;
+  if (!(wider > 1)) return view;
+  const glm::vec3 middle = view.d0 + 0.5f * width * view.dx + 0.5f * height * view.dy;
+  view.dx *= wider;
+  view.dy *= wider;
+  view.d0 = middle - 0.5f * width * view.dx - 0.5f * height * view.dy;
+  return view;
+}
+
 ViewRays view_of(const ScenePlan& plan, const SceneOptions& options, double time_s, Size size) {
   if (!options.eye) {
-    return evaluate_camera(plan.scene, plan.clip, time_s, plan.camera, size.width, size.height);
+    return view_of_camera(plan, plan.clip, plan.camera, time_s, size);
   }
   const float near_m = near_of_distance * glm::distance(*options.eye, options.look_at);
   return look_at(*options.eye, options.look_at, options.up,

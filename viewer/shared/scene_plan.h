@@ -27,6 +27,9 @@ Expected<ScenePlan> plan_scene(const SceneOptions& options);
 /// The camera of the options at one instant, for a picture of `size`.
 ViewRays view_of(const ScenePlan& plan, const SceneOptions& options, double time_s, Size size);
 
+/// A camera of the scene, by number. One that was added shows all in pictures narrower than its shape too.
+ViewRays view_of_camera(const ScenePlan& plan, int clip, int camera, double time_s, Size size);
+
 /// Fails if the scene lacks light `light` (-1: all) at `time_s`; else the number of its lights.
 Expected<int> check_light(const ScenePlan& plan, int light, double time_s);
 
