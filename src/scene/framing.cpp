@@ -15,8 +15,9 @@ using glm::dvec3;
 
 constexpr double degree = std::numbers::pi / 180;
 constexpr int cells = 64;
-constexpr double margin = 0.03;  ///< of half the picture, on each side
-constexpr double wanted_subject = 1 / 3.0, wanted_shadow = 0.02;
+constexpr double margin = 0.03;                           ///< of half the picture, on each side
+constexpr double wanted_subject = 1 / 3.0, enough = 0.9,  // of that
+    wanted_shadow = 0.02;
 constexpr int bitmap_width = 128;
 
 void extend(const FrameGeometry& frame, Subject& subject) {
@@ -278,7 +279,7 @@ Framing frame_subject(const Subject& subject, std::optional<double> floor_y, std
     const Framing framing = framer.framed(candidate);
     const double filled = std::min(framing.subject_share / wanted_subject, 1.0);
     const double shaded = floor_y ? std::min(framing.shadow_share / wanted_shadow, 1.0) : 1.0;
-    const double score = filled * (1 + shaded);
+    const double score = filled < enough ? filled * (1 + 0.1 * shaded) : 1 + shaded;
     if (score > best_score) best = framing;
     best_score = std::max(best_score, score);
     if (best_score >= 2 || subject.empty()) break;
