@@ -279,7 +279,8 @@ Framing frame_subject(const Subject& subject, std::optional<double> floor_y, std
     const Framing framing = framer.framed(candidate);
     const double filled = std::min(framing.subject_share / wanted_subject, 1.0);
     const double shaded = floor_y ? std::min(framing.shadow_share / wanted_shadow, 1.0) : 1.0;
-    const double score = filled < enough ? filled * (1 + 0.1 * shaded) : 1 + shaded;
+    const double natural = candidate.elevation > 45 ? 0.8 : 1.0;
+    const double score = filled < enough ? natural * filled * (1 + 0.1 * shaded) : 1 + shaded;
     if (score > best_score) best = framing;
     best_score = std::max(best_score, score);
     if (best_score >= 2 || subject.empty()) break;

@@ -223,10 +223,12 @@ void add_changes(Scene& scene, Json& json) {
     for (std::size_t i = from; i < scene.warnings.size(); ++i) json[key].push_back(scene.warnings[i]);
   };
   std::size_t said = scene.warnings.size();
+  scene::leave_out_blank_emission(scene);
+  move_said("warnings", said);
+  said = scene.warnings.size();
   add_missing_parts(scene);
   move_said("added", said);
   said = scene.warnings.size();
-  scene::leave_out_blank_emission(scene);
   const cutout::CutoutCounts counts = cutout::cut_out_masks(scene);
   json["counts"]["cut_out_triangles"] = counts.triangles;
   json["counts"]["drawn_in_their_place"] = counts.left;

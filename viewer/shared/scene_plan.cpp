@@ -78,10 +78,10 @@ Expected<ScenePlan> plan_scene(const SceneOptions& options) {
     if (!picture) return base::fail("--environment: {}", picture.error().message);
     plan.environment = std::move(*picture);
   }
+  scene::leave_out_blank_emission(plan.scene);  // before a floor is added, which is not blank
   complete(options, plan);
   number_lights(plan.scene);
   cutout::cut_out_masks(plan.scene, {.most_added = static_cast<std::size_t>(options.cutout_limit)});
-  scene::leave_out_blank_emission(plan.scene);
   if (options.plain) scene::make_plain(plan.scene);
   if (!options.cast_all) leave_out_covers(plan.scene);
   if (options.lights.size() > plan.scene.lights.size()) {
