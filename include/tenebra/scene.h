@@ -130,8 +130,8 @@ struct Scene {
   std::vector<std::string> warnings;    ///< what was skipped, guessed or added at import, a sentence each
 };
 
-/// Adds what a picture needs if the file lacks it: a camera that sees everything, and a light above the
-/// camera's shoulder. Says so in scene.warnings.
+/// Adds what a picture needs if the file lacks it: a camera that sees everything, and a sun with the light of
+/// a soft sky. Says so in scene.warnings. add_missing_parts (additions.h) also adds a floor.
 void add_missing_camera_and_light(Scene& scene);
 
 /// Keeps meshes from casting shadows, by name of mesh, name of material or FILE:LINE (Mesh::source). For each

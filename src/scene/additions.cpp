@@ -4,16 +4,14 @@
 #include <algorithm>
 #include <cmath>
 
+#include <tenebra/additions.h>
 #include <tenebra/frame_geometry.h>
+#include "scene/default_light.h"
+#include "scene/framing.h"
 #include "scene/view_basis.h"
 
 namespace tenebra {
 namespace {
-
-struct Sphere {
-  glm::dvec3 center{0.0};
-  double radius = 1.0;
-};
 
 int first_clip(const Scene& scene) {
   return scene.clips.empty() ? -1 : 0;
@@ -22,78 +20,101 @@ double first_time_s(const Scene& scene) {
   return scene.clips.empty() ? 0.0 : scene.clips.front().start_s;
 }
 
-void extend(const FrameGeometry& frame, glm::dvec3& low, glm::dvec3& high) {
-  for (const glm::uvec3& triangle : frame.triangles) {
-    if (triangle == glm::uvec3(0)) continue;
-    for (int k = 0; k < 3; ++k) {
-      low = glm::min(low, glm::dvec3(frame.positions[triangle[k]]));
-      high = glm::max(high, glm::dvec3(frame.positions[triangle[k]]));
-    }
-  }
-}
-
-/// A sphere about all triangles at nine times spread over the first clip; the unit sphere if there are none.
-Sphere bounding_sphere(const Scene& scene) {
-  constexpr int intervals = 8;
-  const double start_s = first_time_s(scene);
-  const double length_s = scene.clips.empty() ? 0.0 : scene.clips.front().end_s - start_s;
-  FrameGeometry frame;
-  glm::dvec3 low(INFINITY);
-  glm::dvec3 high(-INFINITY);
-  for (int i = 0; i <= (length_s > 0 ? intervals : 0); ++i) {
-    evaluate_frame(scene, first_clip(scene), start_s + length_s * i / intervals, frame);
-    extend(frame, low, high);
-  }
-  if (!(low.x <= high.x)) return {};
-  const double radius = 0.5 * glm::length(high - low);
-  return {0.5 * (low + high), radius > 0.0 ? radius : 1.0};
-}
-
-void add_camera(Scene& scene, const Sphere& bounds) {
+void add_camera(Scene& scene, const scene::Framing& framing, bool own_shape) {
   Camera camera;
   camera.name = "added";
-  const double distance = 1.05 * bounds.radius / std::sin(0.5 * camera.vertical_fov_rad);
-  const glm::dvec3 towards = glm::normalize(glm::dvec3(-0.5, -0.35, -1.0));
+  camera.vertical_fov_rad = framing.vertical_fov_rad;
+  camera.near_m = framing.near_m;
+  if (own_shape) camera.aspect = framing.aspect;
   Node node;
   node.name = "added camera";
-  node.translation = bounds.center - towards * distance;
-  node.rotation = glm::quat_cast(scene::view_basis(towards, {0, 1, 0}));
+  node.translation = framing.eye;
+  node.rotation = glm::quat_cast(framing.basis);
   node.camera = static_cast<int>(scene.cameras.size());
-  camera.near_m = static_cast<float>(0.1 * (distance - bounds.radius));
   scene.cameras.push_back(camera);
   scene.warnings.push_back(
-      fmt::format("The scene has no camera; one that sees all of it was added at {:.4g}, {:.4g}, {:.4g}.",
-                  node.translation.x, node.translation.y, node.translation.z));
+      fmt::format("The scene has no camera; one was added at {:.4g}, {:.4g}, {:.4g}. At the start the scene "
+                  "fills {:.0f} % of its picture.",
+                  node.translation.x, node.translation.y, node.translation.z, 100 * framing.subject_share));
   scene.nodes.push_back(std::move(node));
 }
 
-int first_camera(const Scene& scene) {
+/// To the right of the first placed camera, at the start.
+glm::dvec3 right_of_camera(const Scene& scene) {
   const auto node =
       std::find_if(scene.nodes.begin(), scene.nodes.end(), [](const Node& n) { return n.camera >= 0; });
-  return node->camera;
+  return evaluate_camera(scene, first_clip(scene), first_time_s(scene), node->camera, 1, 1).dx;
 }
 
-/// Needs a placed camera.
-void add_light(Scene& scene, const Sphere& bounds) {
-  constexpr double shoulder =
-      0.1;  // of the distance to the middle: a camera inside a room keeps its light there
-  const ViewRays view =
-      evaluate_camera(scene, first_clip(scene), first_time_s(scene), first_camera(scene), 1, 1);
-  const glm::dvec3 eye(view.eye);
-  const double distance = std::max(glm::length(bounds.center - eye), 0.1 * bounds.radius);
+void add_sun(Scene& scene, const glm::dvec3& towards) {
   Node node;
-  node.name = "added light";
-  node.translation =
-      eye + distance * shoulder * (glm::normalize(glm::dvec3(view.dx)) - glm::normalize(glm::dvec3(view.dy)));
+  node.name = "added sun";
+  node.rotation = glm::quat_cast(scene::view_basis(-towards, {0, 1, 0}));
   node.light = static_cast<int>(scene.lights.size());
   Light& light = scene.lights.emplace_back();
-  light.name = "added";
+  light.name = "added sun";
+  light.type = LightType::directional;
   light.falloff = Falloff::none;
+  light.intensity = scene::default_sun;
+  scene.ambient_light = glm::vec3(scene::default_ambient);
+  if (scene.background == glm::vec3(0.0f)) scene.background = glm::vec3(scene::default_horizon);
   scene.warnings.push_back(
-      fmt::format("The scene has no light; a point light was added above the camera's shoulder at {:.4g}, "
-                  "{:.4g}, {:.4g}.",
-                  node.translation.x, node.translation.y, node.translation.z));
+      "The scene has no light; a sun from the left behind the camera, 50 degrees high, and the light of a "
+      "soft "
+      "sky were added.");
   scene.nodes.push_back(std::move(node));
+}
+
+/// Whether three quarters of the ground, under the scene and its shadow, are covered by what faces up within
+/// a twentieth of the scene's height from below.
+bool has_floor(const scene::Subject& subject) {
+  const glm::dvec3 size = subject.high - subject.low;
+  const double band = subject.low.y + 0.1 * size.y;
+  const double shadow = 0.6 * size.y;  // the sun's, along either axis, in the mean
+  double covered = 0;
+  for (const glm::uvec3& triangle : subject.first.triangles) {
+    if (triangle == glm::uvec3(0)) continue;
+    glm::dvec3 v[3];
+    for (int k = 0; k < 3; ++k) v[k] = glm::dvec3(subject.first.positions[triangle[k]]);
+    const glm::dvec3 normal = glm::cross(v[1] - v[0], v[2] - v[0]);
+    if (std::max({v[0].y, v[1].y, v[2].y}) <= band && normal.y > 0.9 * glm::length(normal))
+      covered += 0.5 * normal.y;
+  }
+  return covered > 0 && covered >= 0.75 * (size.x + shadow) * (size.z + shadow);
+}
+
+/// As bright in the sun as the background: only the shadow is seen.
+Material floor_material(float background) {
+  Material material;
+  material.name = "added floor";
+  material.model = SurfaceModel::phong;
+  const auto high = static_cast<float>(scene::towards_sun({}).y);
+  material.base_color = glm::vec3(background / (scene::default_ambient + scene::default_sun * high));
+  material.specular = glm::vec3(0.0f);
+  return material;
+}
+
+/// Under the box and the sun's shadow of it.
+void add_floor(Scene& scene, const scene::Subject& subject, double floor_y, const glm::dvec3& sun) {
+  const glm::dvec3 shift = (floor_y - subject.high.y) / sun.y * sun, pad(0.5 * subject.radius_m());
+  const glm::vec3 low(glm::min(subject.low, subject.low + shift) - pad),
+      high(glm::max(subject.high, subject.high + shift) + pad);
+  const auto y = static_cast<float>(floor_y);
+  Mesh mesh;
+  mesh.name = "added floor";
+  mesh.positions = {{low.x, y, low.z}, {low.x, y, high.z}, {high.x, y, high.z}, {high.x, y, low.z}};
+  mesh.triangles = {{0, 1, 2}, {0, 2, 3}};
+  mesh.materials.assign(2, static_cast<std::uint32_t>(scene.materials.size()));
+  scene.materials.push_back(floor_material(scene::default_horizon));
+  Node node;
+  node.name = "added floor";
+  node.mesh = static_cast<int>(scene.meshes.size());
+  scene.meshes.push_back(std::move(mesh));
+  scene.nodes.push_back(std::move(node));
+  scene.warnings.push_back(fmt::format(
+      "The scene has neither light nor floor; a floor that shows its shadow was added at a height "
+      "of {:.4g} (--floor none leaves it out).",
+      floor_y));
 }
 
 bool is_placed(const Scene& scene, int Node::*what) {
@@ -133,13 +154,28 @@ std::ptrdiff_t leave_out(Scene& scene, const std::string& name, const std::vecto
 
 }  // namespace
 
+AddedParts add_missing_parts(Scene& scene, const Additions& wish) {
+  AddedParts added;
+  added.camera = !is_placed(scene, &Node::camera);
+  added.light = !is_placed(scene, &Node::light);
+  if (!added.camera && !added.light) return added;
+  const scene::Subject subject = scene::subject_of(scene);
+  added.floor = wish.floor && added.light && !subject.empty() && !has_floor(subject);
+  // A thousandth below: what lies flat on the ground is not in the floor's plane.
+  const double floor_y = subject.low.y - 1e-3 * subject.radius_m();
+  if (added.camera) {
+    const auto shadow = added.floor ? std::optional(floor_y) : std::nullopt;
+    add_camera(scene, scene::frame_subject(subject, shadow, wish.aspect), !wish.aspect);
+  }
+  if (!added.light) return added;
+  const glm::dvec3 sun = scene::towards_sun(scene::compass_of(right_of_camera(scene)));
+  if (added.floor) add_floor(scene, subject, floor_y, sun);
+  add_sun(scene, sun);
+  return added;
+}
+
 void add_missing_camera_and_light(Scene& scene) {
-  const bool needs_camera = !is_placed(scene, &Node::camera);
-  const bool needs_light = !is_placed(scene, &Node::light);
-  if (!needs_camera && !needs_light) return;
-  const Sphere bounds = bounding_sphere(scene);
-  if (needs_camera) add_camera(scene, bounds);
-  if (needs_light) add_light(scene, bounds);
+  add_missing_parts(scene, {.floor = false, .aspect = 1.0f});
 }
 
 bool leave_out_casters(Scene& scene, const std::vector<std::string>& names, std::string& unmatched) {

@@ -205,8 +205,8 @@ TEST(Antialias, TheSameBitsWithAnyThreadsVectorsAndRasteriser) {
 TEST(Antialias, SoftShadowsAreTakenOnceAPixelAndSurface) {
   Scene scene = white_floor(true);
   scene.transfer = Transfer::display;
-  add_light(scene, {.name = "panel", .type = LightType::area_rect, .intensity = 2.0f, .size_m = {1, 1}}, {0, 4, 0},
-            facing_down);
+  add_light(scene, {.name = "panel", .type = LightType::area_rect, .intensity = 2.0f, .size_m = {1, 1}},
+            {0, 4, 0}, facing_down);
   RenderSettings settings = settings_of(16);
   settings.shadows = render::ShadowMode::soft;
   const FrameResult some = draw_with(scene, settings);

@@ -56,10 +56,9 @@ TEST(FrameLog, HeaderBeginsAsPromised) {
 }
 
 TEST(FrameLog, HasAColumnForEveryValueOfAFrame) {
-  const std::size_t values =
-      (sizeof(FrameTimings) + sizeof(TraceStats) + sizeof(SoftStats) + sizeof(AoStats) +
-       sizeof(render::AntialiasStats)) /
-      8;  // all doubles and 64-bit counts
+  const std::size_t values = (sizeof(FrameTimings) + sizeof(TraceStats) + sizeof(SoftStats) +
+                              sizeof(AoStats) + sizeof(render::AntialiasStats)) /
+                             8;  // all doubles and 64-bit counts
   const auto names = split(render::frame_log_header());
   constexpr std::size_t aliases = 1;  // soft_points_outline, until 0.3
   EXPECT_EQ(names.size(), values + 2 + aliases);

@@ -89,7 +89,8 @@ TEST(MethodArguments, CoverEveryMethodOption) {
   CLI::App app;
   viewer::add_method_options(app, method);
   const std::string all = viewer::method_arguments(parsed(
-      "--shadows soft --light 2 --exposure 0.1 --tone none --antialias 8 --threads 3 --simd scalar --variant Spheres "
+      "--shadows soft --light 2 --exposure 0.1 --tone none --antialias 8 --threads 3 --simd scalar --variant "
+      "Spheres "
       "--samples depth --cull front --terminator flat --see-through cast --light-size 1x1 --light-facing "
       "1,2,3 --light-emission lambert "
       "--emissive-lights --soft-solver "

@@ -5,6 +5,7 @@
 #include <numbers>
 #include <string_view>
 
+#include <tenebra/additions.h>
 #include "commands/command.h"
 #include "cutout/cutout.h"
 #include "options/method_options.h"
@@ -210,18 +211,28 @@ void print_text(const Json& json) {
   print_out("triangles_with: {}\n", line_of(json["triangles_with"]));
   print_out("colors: {}\n", json["colors"].get<std::string>());
   print_out("shown: {}\n", line_of(json["shown"]));
-  for (const char* key : {"images", "extensions", "unused", "lights", "cameras", "clips", "warnings"})
+  for (const char* key :
+       {"images", "extensions", "unused", "lights", "cameras", "clips", "warnings", "added"})
     print_list(json, key);
 }
 
-/// What drawing changes, last: emission that is left out, and what alpha cuts out.
+/// What drawing changes, last: parts that are added, emission that is left out, and what alpha cuts out.
 void add_changes(Scene& scene, Json& json) {
-  const std::size_t said = scene.warnings.size();
+  const auto move_said = [&](const char* key, std::size_t from) {
+    json[key] = json.value(key, Json::array());
+    for (std::size_t i = from; i < scene.warnings.size(); ++i) json[key].push_back(scene.warnings[i]);
+  };
+  std::size_t said = scene.warnings.size();
   scene::leave_out_blank_emission(scene);
+  move_said("warnings", said);
+  said = scene.warnings.size();
+  add_missing_parts(scene);
+  move_said("added", said);
+  said = scene.warnings.size();
   const cutout::CutoutCounts counts = cutout::cut_out_masks(scene);
   json["counts"]["cut_out_triangles"] = counts.triangles;
   json["counts"]["drawn_in_their_place"] = counts.left;
-  for (std::size_t i = said; i < scene.warnings.size(); ++i) json["warnings"].push_back(scene.warnings[i]);
+  move_said("warnings", said);
 }
 
 /// What --exposure auto would be.

@@ -24,6 +24,19 @@ std::string camera_text(const ScenePlan& plan, const SceneOptions& options) {
   return options.fov_deg ? fmt::format("{}, fov {} degrees", text, *options.fov_deg) : text;
 }
 
+std::string environment_text(const ScenePlan& plan, const SceneOptions& options) {
+  if (!options.environment.empty()) return options.environment;
+  return plan.environment ? "a soft sky" : "none";
+}
+
+std::string added_text(const AddedParts& added) {
+  std::string text;
+  for (const auto& [is_added, name] :
+       {std::pair(added.camera, "camera"), std::pair(added.light, "sun"), std::pair(added.floor, "floor")})
+    if (is_added) text += fmt::format("{}{}", text.empty() ? "" : ", ", name);
+  return text.empty() ? "nothing" : text;
+}
+
 std::string frames_text(const RenderPlan& plan, double fps) {
   const PlannedFrame& first = plan.frames.front();
   const PlannedFrame& last = plan.frames.back();
@@ -130,7 +143,8 @@ std::vector<render::LogSetting> describe_render(const RenderPlan& plan, const Re
       {"cast_all", options.scene.cast_all ? "yes" : "no"},
       {"cutout_limit", fmt::format("{}", options.scene.cutout_limit)},
       {"surfaces", options.scene.plain ? "plain" : "full"},
-      {"environment", options.scene.environment.empty() ? "none" : options.scene.environment},
+      {"environment", environment_text(plan, options.scene)},
+      {"added", added_text(plan.added)},
   };
   for (render::LogSetting& setting : describe_method(settings)) list.push_back(std::move(setting));
   list.push_back({"exposure_from", options.method.auto_exposure ? "auto" : "option"});

@@ -44,6 +44,12 @@ Expected<Transfer> parse_transfer(const std::string& text) {
   return base::fail("found {}, expected srgb or display", text);
 }
 
+Expected<bool> parse_floor(const std::string& text) {
+  if (text == "auto") return true;
+  if (text == "none") return false;
+  return base::fail("found {}, expected auto or none", text);
+}
+
 Expected<bool> parse_surfaces(const std::string& text) {
   if (text == "full") return false;
   if (text == "plain") return true;
@@ -61,6 +67,11 @@ void add_looks(CLI::App& command, SceneOptions& options) {
            "Radiance picture (.hdr, equirectangular) of what stands\naround the scene: its background, its "
            "ambient light and\nwhat metals mirror")
       .type_name("FILE")
+      .group(scene_group);
+  add_value(command, "--floor", options.floor, parse_floor,
+            "auto: a file without light, which gets a sun and a soft\nsky, also gets a floor that shows its "
+            "shadow, if it has\nnone and there is no --environment; none: it does not [auto]")
+      .type_name("auto|none")
       .group(scene_group);
   add_value(command, "--surfaces", options.plain, parse_surfaces,
             "plain: without textures, gloss and colours of vertices;\nmasks stay the same [full]")
@@ -151,6 +162,7 @@ SceneOptions options_for(const std::string& file, const SceneOptions& before) {
   options.cast_all = before.cast_all;
   options.transfer = before.transfer;
   options.environment = before.environment;
+  options.floor = before.floor;
   options.plain = before.plain;
   options.meter_exposure = before.meter_exposure;
   options.fps = before.fps;

@@ -21,6 +21,7 @@ struct SceneOptions {
   bool cast_all = false;             ///< skies cast shadows too
   std::optional<Transfer> transfer;  ///< none: the format's own
   std::string environment;           ///< a Radiance picture; empty: none
+  bool floor = true;                 ///< one is added where light and floor are missing
   bool plain = false;                ///< surfaces without textures and gloss (scene::make_plain)
 
   bool meter_exposure = false;  ///< a method asks for --exposure auto
@@ -40,7 +41,7 @@ struct SceneOptions {
 };
 
 /// Adds SCENE, --scene, --no-cast, --cast-all, --cone-sides, --transfer, --environment, --surfaces,
-/// --set-light,
+/// --floor, --set-light,
 /// --time, --fps, --clip and those of the camera, --size too; they are read into `options`, which must live
 /// as long. A command makes SCENE required with option_of(command, "SCENE").required().
 void add_scene_options(CLI::App& command, SceneOptions& options);

@@ -6,6 +6,7 @@
 
 #include "base/fail.h"
 #include "cutout/cutout.h"
+#include "scene/default_light.h"
 #include "scene/looks.h"
 #include "shared/auto_exposure.h"
 #include "shared/scene_choice.h"
@@ -42,6 +43,12 @@ Expected<void> apply_field_of_view(Scene& scene, int camera, const SceneOptions&
   return {};
 }
 
+void complete(const SceneOptions& options, ScenePlan& plan) {
+  // The camera is the same whatever --size is.
+  plan.added = add_missing_parts(plan.scene, {.floor = options.floor && !plan.environment, .aspect = {}});
+  if (plan.added.light && !plan.environment) plan.environment = scene::soft_sky();
+}
+
 /// Nodes may share a light: each gets its own, so that a light has the same number for --light, for
 /// --set-light and in the viewer's list.
 void number_lights(Scene& scene) {
@@ -71,10 +78,10 @@ Expected<ScenePlan> plan_scene(const SceneOptions& options) {
     if (!picture) return base::fail("--environment: {}", picture.error().message);
     plan.environment = std::move(*picture);
   }
-  add_missing_camera_and_light(plan.scene);
+  scene::leave_out_blank_emission(plan.scene);  // before a floor is added, which is not blank
+  complete(options, plan);
   number_lights(plan.scene);
   cutout::cut_out_masks(plan.scene, {.most_added = static_cast<std::size_t>(options.cutout_limit)});
-  scene::leave_out_blank_emission(plan.scene);
   if (options.plain) scene::make_plain(plan.scene);
   if (!options.cast_all) leave_out_covers(plan.scene);
   if (options.lights.size() > plan.scene.lights.size()) {
@@ -101,9 +108,23 @@ Expected<ScenePlan> plan_scene(const SceneOptions& options) {
   return plan;
 }
 
+ViewRays view_of_camera(const ScenePlan& plan, int clip, int camera, double time_s, Size size) {
+  ViewRays view = evaluate_camera(plan.scene, clip, time_s, camera, size.width, size.height);
+  const bool added = plan.added.camera && camera + 1 == static_cast<int>(plan.scene.cameras.size());
+  const float shape = added ? plan.scene.cameras.back().aspect.value_or(0.0f) : 0.0f;
+  const auto width = static_cast<float>(size.width), height = static_cast<float>(size.height);
+  const float wider = shape * height / width;
+  if (!(wider > 1)) return view;
+  const glm::vec3 middle = view.d0 + 0.5f * width * view.dx + 0.5f * height * view.dy;
+  view.dx *= wider;
+  view.dy *= wider;
+  view.d0 = middle - 0.5f * width * view.dx - 0.5f * height * view.dy;
+  return view;
+}
+
 ViewRays view_of(const ScenePlan& plan, const SceneOptions& options, double time_s, Size size) {
   if (!options.eye) {
-    return evaluate_camera(plan.scene, plan.clip, time_s, plan.camera, size.width, size.height);
+    return view_of_camera(plan, plan.clip, plan.camera, time_s, size);
   }
   const float near_m = near_of_distance * glm::distance(*options.eye, options.look_at);
   return look_at(*options.eye, options.look_at, options.up,

@@ -2,6 +2,7 @@
 // view` share it.
 #pragma once
 
+#include <tenebra/additions.h>
 #include <tenebra/frame_geometry.h>
 #include "base/image.h"
 #include "options/method_options.h"
@@ -13,10 +14,11 @@ struct ScenePlan {
   Scene scene;  ///< with cameras and lights added and casters left out; Scene::lights in the order of the
                 ///< nodes that have them, each node its own
   int clip = -1;
-  int camera = 0;  ///< index into scene.cameras; unused with --eye
-  Size size;       ///< --size, or what the camera asks for
-  std::optional<base::ImageF> environment;
+  int camera = 0;                           ///< index into scene.cameras; unused with --eye
+  Size size;                                ///< --size, or what the camera asks for
+  std::optional<base::ImageF> environment;  ///< --environment, or the soft sky of an added light
   SceneDisplay display;
+  AddedParts added;
 };
 
 /// Imports the scene and fits the options to it. Fails on what the scene does not have.
@@ -24,6 +26,9 @@ Expected<ScenePlan> plan_scene(const SceneOptions& options);
 
 /// The camera of the options at one instant, for a picture of `size`.
 ViewRays view_of(const ScenePlan& plan, const SceneOptions& options, double time_s, Size size);
+
+/// A camera of the scene, by number. One that was added shows all in pictures narrower than its shape too.
+ViewRays view_of_camera(const ScenePlan& plan, int clip, int camera, double time_s, Size size);
 
 /// Fails if the scene lacks light `light` (-1: all) at `time_s`; else the number of its lights.
 Expected<int> check_light(const ScenePlan& plan, int light, double time_s);

@@ -20,7 +20,7 @@ SceneOptions options_of(const FreeCamera& camera) {
 
 ViewRays view_of_request(const FrameRequest& request, double time_s, int width, int height) {
   if (request.free) return view_of(*request.scene, options_of(*request.free), time_s, Size{width, height});
-  return evaluate_camera(request.scene->scene, request.clip, time_s, request.camera, width, height);
+  return view_of_camera(*request.scene, request.clip, request.camera, time_s, Size{width, height});
 }
 
 }  // namespace

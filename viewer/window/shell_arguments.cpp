@@ -29,6 +29,7 @@ std::string shell_arguments(const ViewState& state, double time_s, Size size) {
   if (!state.options.import.scene.empty()) add("--scene", state.options.import.scene);
   for (const std::string& name : state.options.no_cast) add("--no-cast", name);
   if (state.options.cast_all) text += "--cast-all ";
+  if (!state.options.floor) add("--floor", "none");
   if (state.options.plain) add("--surfaces", "plain");
   if (const int limit = state.options.cutout_limit; limit != SceneOptions{}.cutout_limit)
     add("--cutout-limit", fmt::format("{}", limit));

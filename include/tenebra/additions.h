@@ -1,0 +1,32 @@
+// Parts that a picture needs and a file lacks: a camera, light, a floor for the shadow.
+#pragma once
+
+#include <tenebra/scene.h>
+#include <optional>
+
+namespace tenebra {
+
+/// What add_missing_parts is to add.
+struct Additions {
+  bool floor = true;  ///< a floor under scenes that have neither light nor floor
+  std::optional<float>
+      aspect;  ///< width / height of the picture; none: as it suits the scene (Camera::aspect)
+};
+
+/// What it added.
+struct AddedParts {
+  bool camera = false;
+  bool light = false;
+  bool floor = false;
+};
+
+/// Adds what a picture needs if the file lacks it, and says so in scene.warnings:
+/// - a camera from the front, near, that shows everything at all times of the first clip, and some of the
+///   shadow on an added floor, in pictures of its shape and wider ones;
+/// - a sun from the left behind the camera, with ambient light and a background (unless the file states one)
+///   of a soft sky;
+/// - with that light, where nothing that faces up covers most of the ground, a floor to catch the shadow: a
+///   flat mesh, the scene's last, in the sun as bright as the background.
+AddedParts add_missing_parts(Scene& scene, const Additions& wish = {});
+
+}  // namespace tenebra

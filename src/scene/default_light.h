@@ -1,0 +1,16 @@
+// The light of scenes that have none: a sun and a soft sky. No unit: what a white diffuse surface shows.
+#pragma once
+
+#include "base/image.h"
+
+namespace tenebra::scene {
+
+inline constexpr float default_sun = 0.75f;      ///< facing it
+inline constexpr float default_ambient = 0.35f;  ///< facing up, in the open
+inline constexpr float default_horizon = 0.5f;   ///< radiance of the horizon and of the ground below
+
+/// The soft sky as an environment: the ground is as bright as the horizon, and above the sky gets darker in
+/// proportion to the sine of the height, so that what faces up gets default_ambient.
+base::ImageF soft_sky();
+
+}  // namespace tenebra::scene

@@ -1,0 +1,269 @@
+// Parts that are added to scenes that lack them: the camera shows the subject and its shadow, the floor lies
+// under it, the sun shines from the side.
+#include <tenebra/additions.h>
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cmath>
+#include <functional>
+#include <optional>
+#include <string>
+
+#include <tenebra/frame_geometry.h>
+#include "scene/default_light.h"
+
+namespace tenebra {
+namespace {
+
+using glm::dvec3;
+
+/// Closed boxes, as one mesh each.
+Scene boxes(const std::vector<std::pair<glm::vec3, glm::vec3>>& all) {
+  Scene scene;
+  scene.materials.emplace_back();
+  for (const auto& [low, high] : all) {
+    Mesh mesh;
+    for (int i = 0; i < 8; ++i)
+      mesh.positions.emplace_back((i & 1) != 0 ? high.x : low.x, (i & 2) != 0 ? high.y : low.y,
+                                  (i & 4) != 0 ? high.z : low.z);
+    mesh.triangles = {{0, 2, 1}, {1, 2, 3}, {4, 5, 6}, {5, 7, 6}, {0, 1, 4}, {1, 5, 4},
+                      {2, 6, 3}, {3, 6, 7}, {0, 4, 2}, {2, 4, 6}, {1, 3, 5}, {3, 7, 5}};
+    mesh.materials.assign(12, 0);
+    Node node;
+    node.mesh = static_cast<int>(scene.meshes.size());
+    scene.meshes.push_back(std::move(mesh));
+    scene.nodes.push_back(node);
+  }
+  return scene;
+}
+Scene box(glm::vec3 low = glm::vec3(-1), glm::vec3 high = glm::vec3(1)) {
+  return boxes({{low, high}});
+}
+
+/// The way along origin + t direction, t > 0, to the first of the triangles; none: it meets none.
+std::optional<double> first_hit(const FrameGeometry& frame, std::size_t triangles, const dvec3& origin,
+                                const dvec3& direction) {
+  std::optional<double> nearest;
+  for (std::size_t i = 0; i < triangles; ++i) {
+    const glm::uvec3 t = frame.triangles[i];
+    const dvec3 a(frame.positions[t.x]), e1 = dvec3(frame.positions[t.y]) - a,
+                                         e2 = dvec3(frame.positions[t.z]) - a, n = glm::cross(e1, e2);
+    const double speed = glm::dot(n, direction), way = glm::dot(n, a - origin) / speed;
+    if (!(way > 1e-9) || (nearest && way >= *nearest)) continue;
+    const dvec3 p = origin + way * direction - a;
+    const double u = glm::dot(glm::cross(p, e2), n) / glm::dot(n, n),
+                 v = glm::dot(glm::cross(e1, p), n) / glm::dot(n, n);
+    if (u >= 0 && v >= 0 && u + v <= 1) nearest = way;
+  }
+  return nearest;
+}
+
+struct Shares {
+  double subject = 0, shadow = 0;
+};
+/// Of a picture's pixels, by rays: what sees the first `subject` triangles, and what sees their shadow on the
+/// others.
+Shares shares_of(const Scene& scene, const FrameGeometry& frame, std::size_t subject) {
+  const int height = 60, width = static_cast<int>(height * scene.cameras[0].aspect.value_or(4 / 3.0f));
+  const int clip = scene.clips.empty() ? -1 : 0;
+  const ViewRays view = evaluate_camera(scene, clip, 0, 0, width, height);
+  const auto lights = evaluate_lights(scene, clip, 0);
+  Shares shares;
+  for (int i = 0; i < width * height; ++i) {
+    const dvec3 direction =
+        dvec3(view.d0) + (i % width + 0.5) * dvec3(view.dx) + (i / width + 0.5) * dvec3(view.dy);
+    const auto whole = first_hit(frame, frame.triangles.size(), dvec3(view.eye), direction);
+    if (!whole) continue;
+    if (first_hit(frame, subject, dvec3(view.eye), direction) == whole) {
+      ++shares.subject;
+      continue;
+    }
+    const dvec3 on_floor = dvec3(view.eye) + *whole * direction;
+    shares.shadow += first_hit(frame, subject, on_floor, -dvec3(lights.at(0).direction)).has_value();
+  }
+  return {shares.subject / (width * height), shares.shadow / (width * height)};
+}
+
+FrameGeometry frame_of(const Scene& scene, double time_s = 0) {
+  FrameGeometry frame;
+  evaluate_frame(scene, scene.clips.empty() ? -1 : 0, time_s, frame);
+  return frame;
+}
+
+void expect_in_picture(const Scene& scene, const FrameGeometry& frame, std::size_t triangles) {
+  const ViewRays view =
+      evaluate_camera(scene, -1, 0, 0, 100, static_cast<int>(100 / *scene.cameras[0].aspect));
+  const glm::dmat3 rays(view.dx, view.dy, view.d0);
+  const double height = std::floor(100 / *scene.cameras[0].aspect);
+  for (std::size_t i = 0; i < triangles; ++i) {
+    for (int k = 0; k < 3; ++k) {
+      const dvec3 pixel =
+          glm::inverse(rays) * (dvec3(frame.positions[frame.triangles[i][k]]) - dvec3(view.eye));
+      EXPECT_GT(pixel.z, 0);
+      EXPECT_TRUE(pixel.x > 0 && pixel.x < 100 * pixel.z && pixel.y > 0 && pixel.y < height * pixel.z);
+    }
+  }
+}
+
+struct Shape {
+  const char* name;
+  Scene scene;
+};
+std::vector<Shape> shapes() {
+  std::vector<Shape> all{{"cube", box()},
+                         {"tiny, far away", box({1e4, 50, -2e4}, {1e4 + 1, 51, -2e4 + 1})},
+                         {"slab", box({-2, 0, -1}, {2, 0.5f, 1})},
+                         {"tower", box({-0.6f, 0, -0.5f}, {0.6f, 3, 0.5f})},
+                         {"wall", box({-2, 0, 0}, {2, 2, 0.1f})},
+                         {"two", boxes({{{-1, 0, -1}, {0, 1, 0}}, {{0.2f, 0, 0.2f}, {1, 1.5f, 1}}})}};
+  return all;
+}
+
+TEST(AddedCamera, FillsThreeTenthsOfThePictureAndShowsTheShadow) {
+  for (Shape& shape : shapes()) {
+    const std::size_t subject = frame_of(shape.scene).triangles.size();
+    const AddedParts added = add_missing_parts(shape.scene);
+    EXPECT_TRUE(added.camera && added.light && added.floor) << shape.name;
+    EXPECT_EQ(shape.scene.warnings.size(), 3u);
+    const FrameGeometry frame = frame_of(shape.scene);
+    EXPECT_EQ(frame.triangles.size(), subject + 2);
+    expect_in_picture(shape.scene, frame, subject);
+    const Shares shares = shares_of(shape.scene, frame, subject);
+    EXPECT_GE(shares.subject, 0.3) << shape.name;
+    EXPECT_GE(shares.shadow, 0.015) << shape.name;
+  }
+}
+
+TEST(AddedCamera, SeesWhatMovesThroughTheWholeClip) {
+  Scene scene = box();
+  Clip clip{.name = "away", .start_s = 0, .end_s = 4};
+  clip.tracks.push_back({.components = 3, .times_s = {0, 4}, .values = {0, 0, 0, 50, 20, 0}});
+  clip.channels.push_back({.node = 0, .path = ChannelPath::translation, .track = 0});
+  scene.clips.push_back(clip);
+  const std::size_t subject = frame_of(scene).triangles.size();
+  add_missing_parts(scene);
+  for (const double time_s : {0.0, 2.0, 4.0}) expect_in_picture(scene, frame_of(scene, time_s), subject);
+}
+
+TEST(AddedCamera, TakesTheShapeThatIsAskedFor) {
+  Scene scene = box({-3, 0, -0.2f}, {3, 0.5f, 0.2f});
+  add_missing_parts(scene, {.floor = true, .aspect = 2.5f});
+  EXPECT_FALSE(scene.cameras[0].aspect);
+  scene.cameras[0].aspect = 2.5f;
+  expect_in_picture(scene, frame_of(scene), 12);
+}
+
+TEST(AddedSun, ShinesFromTheLeftBehindTheCameraWhicheverCameraItIs) {
+  for (const double turn : {0.0, 1.0, 2.5, 4.0}) {
+    Scene scene = box();
+    scene.cameras.emplace_back();
+    Node node;
+    node.camera = 0;
+    node.translation = 6.0 * dvec3(std::sin(turn), 0.4, std::cos(turn));
+    node.rotation = glm::angleAxis(turn, dvec3(0, 1, 0));
+    scene.nodes.push_back(node);
+    const AddedParts added = add_missing_parts(scene);
+    EXPECT_FALSE(added.camera);
+    const ViewRays view = evaluate_camera(scene, -1, 0, 0, 8, 8);
+    const auto lights = evaluate_lights(scene, -1, 0);
+    ASSERT_EQ(lights.size(), 1u);
+    EXPECT_EQ(scene.lights[0].type, LightType::directional);
+    const dvec3 to_sun = -dvec3(lights[0].direction);
+    const dvec3 right = glm::normalize(dvec3(view.dx)), back(std::sin(turn), 0, std::cos(turn));
+    const double degree = std::acos(-1.0) / 180;
+    EXPECT_NEAR(to_sun.y, std::sin(50 * degree), 1e-6);
+    EXPECT_NEAR(glm::dot(to_sun, right), -std::cos(50 * degree) * std::sin(60 * degree), 1e-6);
+    EXPECT_NEAR(glm::dot(to_sun, back), std::cos(50 * degree) * std::cos(60 * degree), 1e-6);
+  }
+}
+
+/// Whether there is an added floor, with the light that belongs to it.
+bool gets_floor(Scene scene, const Additions& wish = {}) {
+  const std::size_t before = scene.meshes.size();
+  const AddedParts added = add_missing_parts(scene, wish);
+  EXPECT_EQ(scene.meshes.size(), before + (added.floor ? 1 : 0));
+  return added.floor;
+}
+
+TEST(AddedFloor, IsOnlyWhereLightAndFloorAreMissing) {
+  EXPECT_TRUE(gets_floor(box()));
+  EXPECT_FALSE(gets_floor(box(), {.floor = false, .aspect = {}}));
+  EXPECT_FALSE(gets_floor(Scene{}));
+  EXPECT_FALSE(gets_floor(boxes({{{-1, 0, -1}, {1, 1, 1}}, {{-9, -0.1f, -9}, {9, 0, 9}}})));
+  // As large as the subject alone: its shadow falls beside.
+  EXPECT_TRUE(gets_floor(boxes({{{-1, 0, -1}, {1, 2, 1}}, {{-1, -0.1f, -1}, {1, 0, 1}}})));
+  Scene lit = box();
+  lit.lights.emplace_back();
+  Node node;
+  node.light = 0;
+  lit.nodes.push_back(node);
+  EXPECT_FALSE(gets_floor(lit));
+  EXPECT_EQ(lit.ambient_light, Scene{}.ambient_light);
+}
+
+TEST(AddedFloor, LiesUnderAllAndHoldsTheShadow) {
+  Scene scene = box({3, -7, 2}, {4, -5, 5});
+  add_missing_parts(scene);
+  const FrameGeometry frame = frame_of(scene);
+  glm::vec3 low(1e9f), high(-1e9f);
+  for (std::size_t i = 12; i < 14; ++i) {
+    const glm::uvec3 t = frame.triangles[i];
+    for (int k = 0; k < 3; ++k) {
+      low = glm::min(low, frame.positions[t[k]]);
+      high = glm::max(high, frame.positions[t[k]]);
+    }
+    EXPECT_GT(
+        glm::cross(frame.positions[t.y] - frame.positions[t.x], frame.positions[t.z] - frame.positions[t.x])
+            .y,
+        0);
+  }
+  EXPECT_EQ(low.y, high.y);
+  EXPECT_LT(low.y, -7);
+  EXPECT_GT(low.y, -7.01f);
+  const glm::vec3 along = evaluate_lights(scene, -1, 0)[0].direction;
+  for (int i = 0; i < 8; ++i) {
+    const glm::vec3 corner = frame.positions[static_cast<std::size_t>(i)];
+    const glm::vec3 shadow = corner + (low.y - corner.y) / along.y * along;
+    EXPECT_TRUE(shadow.x > low.x && shadow.x < high.x && shadow.z > low.z && shadow.z < high.z);
+  }
+}
+
+TEST(AddedFloor, InTheSunIsAsBrightAsTheBackground) {
+  Scene scene = box();
+  add_missing_parts(scene);
+  const double sun = -evaluate_lights(scene, -1, 0)[0].direction.y * scene.lights[0].intensity;
+  const Material& floor = scene.materials.back();
+  EXPECT_NEAR(floor.base_color.x * (sun + scene.ambient_light.x), scene.background.x, 1e-6);
+  Scene coloured = box();
+  coloured.background = {0.1f, 0.2f, 0.6f};
+  add_missing_parts(coloured);
+  EXPECT_EQ(coloured.background, glm::vec3(0.1f, 0.2f, 0.6f)) << "a background that the file states stays";
+}
+
+TEST(SoftSky, LightsWhatFacesUpByTheAmbientLight) {
+  const base::ImageF sky = scene::soft_sky();
+  double sum = 0, weights = 0;
+  const double pi = std::acos(-1.0);
+  for (int row = 0; row < sky.height / 2; ++row) {
+    const double top = std::cos(pi * row / sky.height), bottom = std::cos(pi * (row + 1) / sky.height);
+    const double weight = top * top - bottom * bottom;  // of cosine times solid angle
+    sum += weight * sky.pixels[static_cast<std::size_t>(3 * sky.width * row)];
+    weights += weight;
+  }
+  EXPECT_NEAR(sum / weights, scene::default_ambient, 1e-3);
+  EXPECT_EQ(sky.pixels.back(), scene::default_horizon);
+}
+
+TEST(Additions, NothingIsAddedTwice) {
+  Scene scene = box();
+  add_missing_parts(scene);
+  const std::size_t nodes = scene.nodes.size();
+  const AddedParts again = add_missing_parts(scene);
+  EXPECT_FALSE(again.camera || again.light || again.floor);
+  EXPECT_EQ(scene.nodes.size(), nodes);
+  EXPECT_EQ(scene.warnings.size(), 3u);
+}
+
+}  // namespace
+}  // namespace tenebra
