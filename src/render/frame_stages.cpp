@@ -199,8 +199,7 @@ Expected<void> Renderer::State::shade_pixels(const FrameInput& input, const std:
     tints[i].set(result.masks[i].tint);
     factors[i].tint = tints[i].factors();
   }
-  const shade::Subject subject{input.geometry, input.view, surfaces,
-                               settings.terminator == Terminator::smooth};
+  const shade::Subject subject{input.geometry, input.view, surfaces, lifts_points(settings)};
   const shade::Lighting lighting{placed, scene.ambient_light, scene.background,
                                  environment ? &*environment : nullptr};
   shade::PixelSamples pixels{seen.width, seen.height, seen.ids, factors, {}};
