@@ -69,13 +69,14 @@ Expected<double> viewed_ms(WatchedViewer& viewer, const WatchedScreen& screen, d
 }
 
 /// Milliseconds from single presses to their pictures on the screen.
-std::vector<double> key_to_picture_ms(WatchedViewer& viewer, const WatchedScreen& screen, int presses) {
+std::vector<double> key_to_picture_ms(WatchedViewer& viewer, const WatchedScreen& screen, int presses,
+                                      double patience_s) {
   std::vector<double> times;
   for (int i = 0; i < presses; ++i) {
     viewer.watch(0, 0.5);  // at rest
     screen.key(key_right, true);
     screen.key(key_right, false);
-    const Watched watched = viewer.watch(0, 0.5);
+    const Watched watched = viewer.watch(0, patience_s);
     if (watched.first_s > 0) times.push_back(1e3 * watched.first_s);
   }
   return times;
@@ -99,7 +100,7 @@ Expected<void> measure_whole(ViewerSession& session) {
     const auto ms = viewed_ms(viewer, session.screen, tiny ? 1.5 : 4);
     if (!ms) return tl::unexpected(ms.error());
     viewer.wait_until_whole(10);
-    const auto presses = key_to_picture_ms(viewer, session.screen, tiny ? 1 : 8);
+    const auto presses = key_to_picture_ms(viewer, session.screen, tiny ? 1 : 8, 0.3 + 3e-3 * *ms);
     viewer.quit();
     const auto after = rendered_ms(session, scene, frames);
     if (!after) return tl::unexpected(after.error());
