@@ -37,6 +37,7 @@ int main(int argc, char** argv) {
   tenebra::bench::add_frame_command(program, run);
   tenebra::bench::add_picture_command(program, run);
   tenebra::bench::add_hash_command(program, run);
+  tenebra::bench::add_viewer_command(program, run);
   try {
     program.parse(argc, argv);
   } catch (const CLI::ParseError& error) {

@@ -63,6 +63,7 @@ TEST(FrameMaker, WholePicturesHaveTheBitsOfRenderAfterAnyPreviews) {
   render::RenderSettings both = soft;
   both.ao = field.ao;
   both.ao.downscale = 2;
+  both.antialias = 4;
   for (const render::RenderSettings& asked : {render::RenderSettings{}, soft, field, both})
     expect_whole_after_previews(options, asked);
 }

@@ -24,18 +24,19 @@ PreviewSubject subject_of(const render::RenderSettings& settings, bool compares 
 
 /// What levels take that no clock disturbs.
 double true_ms(const std::vector<PreviewLevel>& levels, int level, double whole_ms) {
-  constexpr double part[] = {1, 0.07, 0.09, 0.02};
+  constexpr double part[] = {1, 0.5, 0.035, 0.05, 0.01};
   const PreviewLevel at = levels[static_cast<std::size_t>(level)];
   return whole_ms * part[static_cast<std::size_t>(at.method)] / (at.divisor * at.divisor);
 }
 
 TEST(PreviewLevels, LeaveOutWhatTheyName) {
-  std::vector<render::RenderSettings> asked(6, soft_settings());
+  std::vector<render::RenderSettings> asked(7, soft_settings());
   asked[1].soft_points = 4;
   asked[2].soft_points = 1;
   asked[3].ao.mode = AoMode::field;
   asked[4].shadows = render::ShadowMode::hard;
   asked[5].shadows = render::ShadowMode::hard, asked[5].ao.mode = AoMode::rays;
+  asked[6].antialias = 4;
   for (const render::RenderSettings& settings : asked) {
     for (const bool compares : {false, true}) {
       for (const bool explains : {false, true}) {
@@ -62,7 +63,7 @@ TEST(PreviewLevels, NoMethodTakesAnothersPlaceWhereTwoAreComparedOrOneIsExplaine
     EXPECT_NE(level.method, PreviewMethod::cast);
   }
   for (const PreviewLevel level : preview_levels(subject_of(soft_settings(), false, true)))
-    EXPECT_EQ(level.method, PreviewMethod::as_asked);
+    EXPECT_LE(level.method, PreviewMethod::single);
 }
 
 TEST(PreviewLevels, WholeSettingsAreThoseThatWereAsked) {
@@ -70,16 +71,19 @@ TEST(PreviewLevels, WholeSettingsAreThoseThatWereAsked) {
   asked.hard.variant = Variant::spheres;
   asked.ao.mode = AoMode::field;
   asked.ao.rays = 5;
+  asked.antialias = 16;
   const render::RenderSettings whole = preview_settings(asked, {});
   EXPECT_EQ(whole.width, asked.width);
   EXPECT_EQ(whole.height, asked.height);
   EXPECT_EQ(whole.soft_points, 0);
   EXPECT_EQ(whole.hard.variant, Variant::spheres);
   EXPECT_EQ(whole.ao.rays, 5);
+  EXPECT_EQ(whole.antialias, 16);
   EXPECT_EQ(whole.ao.mode, AoMode::field);
   for (const PreviewLevel level : preview_levels(subject_of(asked))) {
     const render::RenderSettings drawn = preview_settings(asked, level);
     EXPECT_LE(drawn.ao.rays, 8) << "never more than was asked for";
+    EXPECT_TRUE(level == PreviewLevel{} || drawn.antialias == 1);
     EXPECT_EQ(drawn.width, 1024 / level.divisor);
     EXPECT_EQ(drawn.height, 768 / level.divisor);
   }
@@ -151,6 +155,19 @@ TEST(PreviewTimes, RefineInStepsThatCostLittle) {
   }
   EXPECT_EQ(shown, 0) << "the whole picture in the end";
   EXPECT_LE(on_the_way_ms, 0.5 * 4000);
+}
+
+TEST(PreviewTimes, TakeOneSampleFirstWhereThatIsMuchQuicker) {
+  render::RenderSettings settings = soft_settings();
+  settings.antialias = 4;
+  for (const double single_ms : {50.0, 95.0}) {
+    PreviewTimes times(subject_of(settings));
+    for (int i = 0; i < 20; ++i)
+      times.drew(0, 100), times.drew(1, single_ms), times.drew(times.coarsest(), 90);
+    EXPECT_GT(times.refine(times.coarsest()), 1) << "a quick step first";
+    EXPECT_EQ(times.refine(2), single_ms < 60 ? 1 : 0) << single_ms;
+    EXPECT_EQ(times.refine(1), 0);
+  }
 }
 
 TEST(PreviewTimes, LeaveOutWhatFails) {

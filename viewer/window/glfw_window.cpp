@@ -48,6 +48,7 @@ Expected<Window> open_window(const ViewOptions& options) {
   glfwWindowHint(GLFW_OPENGL_FORWARD_COMPAT, GLFW_TRUE);
   glfwWindowHint(GLFW_OPENGL_DEBUG_CONTEXT, options.gl_debug ? GLFW_TRUE : GLFW_FALSE);
   glfwWindowHint(GLFW_SCALE_TO_MONITOR, GLFW_TRUE);
+  glfwWindowHint(GLFW_VISIBLE, GLFW_FALSE);  // until there is something to see: show_when_ready
   glfwWindowHint(GLFW_DEPTH_BITS, 0);
   glfwWindowHint(GLFW_STENCIL_BITS, 0);
   Window window(glfwCreateWindow(options.window.width, options.window.height, "Tenebra", nullptr, nullptr));
@@ -148,6 +149,24 @@ void watch_events(GLFWwindow* window) {
   });
 }
 
+bool is_visible(GLFWwindow* window) {
+  return glfwGetWindowAttrib(window, GLFW_VISIBLE) == GLFW_TRUE;
+}
+
+/// The window comes with its first picture, and at the latest when a scene takes long to load: then it says
+/// so.
+void show_when_ready(GLFWwindow* window, const Viewer& viewer) {
+  constexpr double patience_s = 1.0;
+  if (!is_visible(window) && (viewer.picture() || glfwGetTime() > patience_s)) glfwShowWindow(window);
+}
+
+/// How long to wait for events.
+void wait_for_events(GLFWwindow* window, const Viewer& viewer) {
+  constexpr double hidden_s = 0.005;
+  const double sleep_s = is_visible(window) ? viewer.sleep_s() : hidden_s;
+  sleep_s > 0 ? glfwWaitEventsTimeout(sleep_s) : glfwPollEvents();
+}
+
 void draw_frame(GLFWwindow* window, WindowGl& gl, Viewer& viewer) {
   int width = 0, height = 0, units = 0, ignored = 0;
   glfwGetFramebufferSize(window, &width, &height);
@@ -160,7 +179,7 @@ void draw_frame(GLFWwindow* window, WindowGl& gl, Viewer& viewer) {
   viewer.draw(scale_of(window), static_cast<float>(width) / static_cast<float>(units));
   ImGui::Render();
   viewer.update();  // what the hand has changed is asked for before the screen is drawn
-  if (!viewer.wants_presenting()) return;
+  if (!viewer.wants_presenting() || !is_visible(window)) return;
   gl.clear(width, height);
   ImGui_ImplOpenGL3_RenderDrawData(ImGui::GetDrawData());
   viewer.after_draw(width, height);
@@ -194,9 +213,9 @@ Expected<int> run_window(const ViewOptions& options) {
   glfwSetWindowUserPointer(window->get(), &viewer);
   std::string title;
   while (!viewer.is_over() && !glfwWindowShouldClose(window->get()) && stop.caught() == 0) {
-    const double sleep_s = viewer.sleep_s();
-    sleep_s > 0 ? glfwWaitEventsTimeout(sleep_s) : glfwPollEvents();
+    wait_for_events(window->get(), viewer);
     viewer.update();
+    show_when_ready(window->get(), viewer);
     if (viewer.needs_drawing()) draw_frame(window->get(), *gl, viewer);
     set_title(window->get(), viewer, title);
   }

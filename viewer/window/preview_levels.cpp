@@ -33,8 +33,8 @@ void take_fewer(render::RenderSettings& settings, int points, int rays, int down
 bool PreviewSubject::operator==(const PreviewSubject& other) const {
   return scene == other.scene && size.width == other.size.width && size.height == other.size.height &&
          shadows == other.shadows && soft_points == other.soft_points && ao == other.ao &&
-         ao_rays == other.ao_rays && ao_downscale == other.ao_downscale && compares == other.compares &&
-         explains == other.explains;
+         ao_rays == other.ao_rays && ao_downscale == other.ao_downscale && antialias == other.antialias &&
+         compares == other.compares && explains == other.explains;
 }
 
 PreviewSubject preview_subject(const void* scene, const render::RenderSettings& asked, bool compares,
@@ -46,6 +46,7 @@ PreviewSubject preview_subject(const void* scene, const render::RenderSettings& 
           .ao = asked.ao.mode,
           .ao_rays = asked.ao.rays,
           .ao_downscale = asked.ao.downscale,
+          .antialias = asked.antialias,
           .compares = compares,
           .explains = explains};
 }
@@ -61,11 +62,12 @@ std::vector<PreviewLevel> preview_levels(const PreviewSubject& subject) {
   const auto add = [&](PreviewMethod method, std::initializer_list<int> divisors) {
     for (const int divisor : divisors) levels.push_back({method, divisor});
   };
-  add(PreviewMethod::as_asked, {2});
+  if (subject.antialias > 1) add(PreviewMethod::single, {1});
+  add(PreviewMethod::single, {2});
   if (subject.compares) {
     add(PreviewMethod::fewer, {2, 4, 8});
   } else if (subject.explains || !has_plain) {
-    add(PreviewMethod::as_asked, {4, 8});
+    add(PreviewMethod::single, {4, 8});
   } else {
     if (has_fewer) add(PreviewMethod::fewer, {1, 2});
     if (occludes) add(PreviewMethod::cast, {2, 4});
@@ -79,8 +81,13 @@ render::RenderSettings preview_settings(const render::RenderSettings& asked, Pre
   settings.width = part_of(asked.width, level.divisor);
   settings.height = part_of(asked.height, level.divisor);
   const render::QualitySettings fast = render::quality_settings(render::Quality::fast);
+  if (level.method != PreviewMethod::as_asked) {
+    settings.antialias = 1;
+    settings.antialias_everywhere = false;
+  }
   switch (level.method) {
     case PreviewMethod::as_asked:
+    case PreviewMethod::single:
       break;
     case PreviewMethod::fewer:
       take_fewer(settings, fast.soft_points, fast.ao_rays, fast.ao_downscale);
@@ -117,6 +124,7 @@ std::string preview_text(const render::RenderSettings& asked, PreviewLevel level
              (drawn.ao.rays != asked.ao.rays || drawn.ao.downscale != asked.ao.downscale)) {
     add(fmt::format("{} occlusion rays", drawn.ao.rays));
   }
+  if (text.empty() && drawn.antialias != asked.antialias) add("1 sample a pixel");
   return text;
 }
 

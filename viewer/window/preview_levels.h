@@ -14,9 +14,10 @@ namespace tenebra::viewer {
 /// From what was asked for to what costs least. Each draws the same scene, lights and camera.
 enum class PreviewMethod {
   as_asked,
-  fewer,  ///< at most the points and rays of --quality fast
-  cast,   ///< a point for each light, ambient occlusion by a few rays that are cast
-  plain,  ///< a point for each light, no ambient occlusion
+  single,  ///< one sample a pixel, as all that follow
+  fewer,   ///< at most the points and rays of --quality fast
+  cast,    ///< a point for each light, ambient occlusion by a few rays that are cast
+  plain,   ///< a point for each light, no ambient occlusion
 };
 
 struct PreviewLevel {
@@ -35,6 +36,7 @@ struct PreviewSubject {
   AoMode ao = AoMode::none;
   int ao_rays = 0;
   int ao_downscale = 1;
+  int antialias = 1;
   bool compares = false;  ///< draws a second method: no preview may take a method's place
   bool explains = false;  ///< has an overlay, which only the method that was asked for can fill
 

@@ -9,13 +9,14 @@ namespace {
 // Before a level has been drawn its time is guessed from one that has. Wrong guesses cost one picture: it is
 // stopped when it takes too long, and from then on its own time counts.
 constexpr double cost_of_halving = 3;  // of the divisor: four times the pixels, some work is not theirs
-constexpr double cost_of_method[] = {10, 2.5, 3, 1};  // of PreviewMethod, beside `plain`
+constexpr double cost_of_method[] = {18, 10, 2.5, 3, 1};  // of PreviewMethod, beside `plain`
 
-constexpr double room = 0.8;           // of the budget, for a level finer than the last
-constexpr double newest_share = 0.5;   // of the newest time in a level's
-constexpr double first_share = 0.7;    // of the first time, in which buffers are made
-constexpr double forgetting = 0.995;   // a picture: what was too slow once is tried again after a while
-constexpr double refining_part = 0.2;  // of the whole picture's time, for a step on the way to it
+constexpr double room = 0.8;          // of the budget, for a level finer than the last
+constexpr double newest_share = 0.5;  // of the newest time in a level's
+constexpr double first_share = 0.7;   // of the first time, in which buffers are made
+constexpr double forgetting = 0.995;  // a picture: what was too slow once is tried again after a while
+// Of the whole picture's time, for steps on the way to it: a quick one, and the last with one sample a pixel.
+constexpr double refining_part = 0.2, single_part = 0.6;
 
 double cost(PreviewLevel level) {
   return cost_of_method[static_cast<std::size_t>(level.method)] *
@@ -56,7 +57,8 @@ int PreviewTimes::refine(int shown) const {
     const Known& known = known_[static_cast<std::size_t>(level)];
     if (known.usable && estimate_ms(level) <= refining_part * whole_ms) return level;
   }
-  return 0;
+  const bool single = levels_[1] == PreviewLevel{PreviewMethod::single, 1};
+  return single && shown > 1 && estimate_ms(1) <= single_part * whole_ms ? 1 : 0;
 }
 
 void PreviewTimes::drew(int level, double ms) {

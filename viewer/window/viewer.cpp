@@ -18,9 +18,9 @@ namespace {
 using Wall = AnimationClock::Wall;
 
 constexpr double message_s = 6.0;
-constexpr double look_again_s = 0.1;           // while the worker is busy: progress
-constexpr double progress_s = 0.25;            // its display moves this often
-constexpr double longest_unpresented_s = 0.1;  // while a picture is about to come
+constexpr double look_again_s = 0.1;            // while the worker is busy: progress
+constexpr double progress_s = 0.25;             // its display moves this often
+constexpr double longest_unpresented_s = 0.25;  // while a picture is about to come
 constexpr double turn_s = 0.01;
 constexpr double resting_sleep_s = 0.5;  // signals are looked at this often
 constexpr float flight_share = 0.1f;     // of the scene's diagonal a second

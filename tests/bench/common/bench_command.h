@@ -31,5 +31,6 @@ void add_trade_command(CLI::App& program, Run& run);
 void add_frame_command(CLI::App& program, Run& run);
 void add_picture_command(CLI::App& program, Run& run);
 void add_hash_command(CLI::App& program, Run& run);
+void add_viewer_command(CLI::App& program, Run& run);
 
 }  // namespace tenebra::bench

@@ -133,6 +133,26 @@ TEST(BenchProgram, PictureEndsWithItsFigures) {
     EXPECT_NE(csv.find(row), std::string::npos) << row;
 }
 
+TEST(BenchProgram, ViewerEndsWithItsFigures) {
+  const testing::TemporaryFolder folder;
+  expect_refusal({"viewer", "--only", "atlantis"},
+                 "--only: found atlantis, expected hands, starts, whole, explain");
+  const auto result = bench({"viewer", "--tiny", "--csv", (folder / "viewer.csv").string()});
+  ASSERT_EQ(result.exit_code, 0) << result.errors;
+  const bool skipped = result.output.find("viewer: skipped") != std::string::npos;
+  bool found = false;
+  for (const char* name : {"viewer.pictures_per_second_worst", "viewer.black_ms_worst", "viewer.explain_ms",
+                           "viewer.over_render"}) {
+    const double value = figure(result.output, name, found);
+    EXPECT_TRUE(found) << name;
+    EXPECT_TRUE(skipped || value >= 0 || std::string(name) == "viewer.explain_ms") << name << ": " << value;
+  }
+  if (skipped) GTEST_SKIP() << result.output.substr(result.output.find("viewer: skipped"));
+  const std::string csv = testing::read_text(folder / "viewer.csv");
+  for (const char* row : {"\nhands,city,tenebra,", "\nstarts,city,tenebra,", "\nwhole,city,view,"})
+    EXPECT_NE(csv.find(row), std::string::npos) << row;
+}
+
 TEST(BenchProgram, TradeRefusesInASentence) {
   expect_refusal({"trade", "--threads", "-1"}, "--threads: found -1, expected 0 (all cores) or more");
   expect_refusal({"trade", "--data", "/nowhere/at/all"}, "--data: /nowhere/at/all is not a folder");

@@ -5,6 +5,7 @@
 
 #include "base/fail.h"
 #include "base/stopwatch.h"
+#include "bench/common/bench_program.h"
 #include "bench/frame/frame_session.h"
 #include "parallel/parallel.h"
 #include "support/child_process.h"
@@ -12,14 +13,6 @@
 
 namespace tenebra::bench {
 namespace {
-
-/// The program that was built beside this one; empty: there is none.
-std::filesystem::path program_file() {
-  std::error_code error;
-  const auto own = std::filesystem::read_symlink("/proc/self/exe", error);
-  const auto beside = own.parent_path() / "tenebra";
-  return !error && std::filesystem::is_regular_file(beside, error) ? beside : std::filesystem::path();
-}
 
 struct ProgramRun {
   std::filesystem::path program;

@@ -1,0 +1,40 @@
+// One run of `tenebra-bench viewer`: what its parts share and what they add to the last lines.
+#pragma once
+
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "bench/common/bench_parts.h"
+#include "bench/viewer/watched_viewer.h"
+
+namespace tenebra::bench {
+
+/// The last lines; parts that were left out leave theirs empty.
+struct ViewerHeadline {
+  std::optional<double> pictures_per_second_worst, black_ms_worst, explain_ms, over_render;
+  std::optional<double> key_to_picture;  ///< in frames of `tenebra render`
+};
+
+struct ViewerSession {
+  BenchOptions options;
+  Effort effort = Effort::full;
+  Report report;
+  std::string program;
+  WatchedScreen& screen;
+  ViewerHeadline headline;
+  std::vector<std::string> skipped;  ///< what could not be measured, each with its reason
+
+  int side() const { return effort == Effort::tiny ? 128 : 1024; }  ///< of pictures, in pixels
+  void add_black(double seconds) {
+    headline.black_ms_worst = std::max(headline.black_ms_worst.value_or(0), 1e3 * seconds);
+  }
+};
+
+// The parts.
+Expected<void> measure_hands(ViewerSession& session);   ///< held keys and drags
+Expected<void> measure_starts(ViewerSession& session);  ///< until there is a picture
+Expected<void> measure_whole(ViewerSession& session);   ///< whole frames beside `tenebra render`'s
+Expected<void> measure_explain(ViewerSession& session);
+
+}  // namespace tenebra::bench
