@@ -25,7 +25,8 @@ Expected<ScenePlan> plan_scene(const SceneOptions& options);
 /// The camera of the options at one instant, for a picture of `size`.
 ViewRays view_of(const ScenePlan& plan, const SceneOptions& options, double time_s, Size size);
 
-/// Fails if the scene lacks light `light` (-1: all) at `time_s`; else the number of its lights.
-Expected<int> check_light(const ScenePlan& plan, int light, double time_s);
+/// Fails if the scene with its edits lacks light `light` (-1: all) at `time_s`; else the number of its
+/// lights.
+Expected<int> check_light(const ScenePlan& plan, const SceneEdits& edits, int light, double time_s);
 
 }  // namespace tenebra::viewer

@@ -28,7 +28,9 @@ std::string camera_arguments(const FreeCamera& camera);
 FreeCamera free_camera(const ViewRays& view, int width, int height, float distance_m);
 
 /// Moves of the hand. Angles in radians; `right`, `down` as the mouse moves.
-void orbit(FreeCamera& camera, float right_rad, float down_rad);        ///< the eye around the target
+void orbit(FreeCamera& camera, float right_rad, float down_rad);  ///< the eye around the target
+/// The eye and the target around any point.
+void turn_about(FreeCamera& camera, glm::vec3 pivot, float right_rad, float down_rad);
 void look_around(FreeCamera& camera, float right_rad, float down_rad);  ///< the target around the eye
 void pan(FreeCamera& camera, glm::vec2 pixels, int height);  ///< the target stays under the pointer
 void zoom(FreeCamera& camera, float steps);                  ///< towards the target; 1: a notch

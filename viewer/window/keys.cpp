@@ -85,8 +85,7 @@ void handle_camera_keys(Ui& ui) {
     leave_scene_camera(ui, static_cast<CameraMode>((static_cast<int>(state.camera_mode) + 1) % 3));
   }
   if (!ui.pressed(key_code::backspace)) return;
-  state.camera_mode = state.options.eye ? CameraMode::orbit : CameraMode::scene;
-  state.free = state.start;
+  state.reset_camera();
 }
 
 /// The key of a capital letter: by name for Dear ImGui 1.87 and later, by the window system's code before.
@@ -116,7 +115,11 @@ void handle_window_keys(Ui& ui) {
   if (ui.pressed('R')) ui.actions.retry = true;
   if (ui.pressed(key_code::tab)) ui.state.panel = !ui.state.panel;
   if (!ui.pressed(key_code::escape)) return;
-  if (!ui.state.help) ui.actions.cancel = true;
+  if (!ui.state.help && ui.answer && !ui.worker.drawing) {
+    ui.actions.end_explanation = true;
+  } else if (!ui.state.help) {
+    ui.actions.cancel = true;
+  }
   ui.state.help = false;
 }
 
@@ -169,6 +172,8 @@ void handle_keys(Ui& ui, float seconds) {
   for (const KeyPress& press : ui.keys) {  // one by one: two presses of a key are two
     if (press.ctrl && press.code == 'C') ui.actions.copy_arguments = true;
     if (press.ctrl && press.code == 'Q') ui.actions.quit = true;
+    if (press.ctrl && press.code == 'Z') (press.shift ? ui.actions.redo : ui.actions.undo) = true;
+    if (press.ctrl && press.code == 'Y') ui.actions.redo = true;
     Ui one = ui;
     one.keys = {&press, 1};
     handle_time_keys(one);

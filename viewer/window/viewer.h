@@ -7,6 +7,7 @@
 #include "window/mouse_queue.h"
 #include "window/panels/panels.h"
 #include "window/session_log.h"
+#include "window/undo_history.h"
 #include "window/view_options.h"
 
 namespace tenebra::viewer {
@@ -46,6 +47,7 @@ public:
   double sleep_s() const;  ///< how long to wait for events at most
   const ViewState& state() const { return state_; }
   const Picture* picture() const { return picture_.get(); }
+  const PictureAnswer* answer() const { return answer_ ? &*answer_ : nullptr; }
   const Marks& marks() const { return marks_; }
   std::string message() const { return messages_.empty() ? "" : messages_.back().text; }
 
@@ -60,6 +62,9 @@ private:
   void take_light(int chosen);
   void take_picture(const std::shared_ptr<const Picture>& picture);
   void take_pick(const std::optional<glm::vec3>& point);
+  void take_answer(PictureAnswer answer);
+  void ask(QuestionKind kind, glm::ivec2 pixel);
+  void follow_explained_pixel(const Picture& picture);
   void follow_clock();
   FrameRequest make_request() const;
   std::string method_key() const;
@@ -84,6 +89,8 @@ private:
   std::array<FrameHistory, 2> history_;
   std::optional<SessionLog> log_;
   std::shared_ptr<const Picture> picture_;
+  std::optional<PictureAnswer> answer_;  // that is shown
+  UndoHistory undo_;
   std::deque<Message> messages_;
   std::string failure_;  // that ends the program
 
@@ -107,6 +114,7 @@ private:
   AnimationClock::Wall last_draw_{}, last_present_{};
 
   RenderWorker worker_;  // last: its thread ends first
+  Explainer explainer_;  // and before that this one's
 };
 
 }  // namespace tenebra::viewer

@@ -53,7 +53,7 @@ std::string method_of(const Ui& ui, int index) {
 }
 
 void edit_light(Ui& ui, int index, const Light& light) {
-  LightEdit edit = edit_of(ui.state.lights, index);
+  LightEdit edit = edit_of(ui.state.edits.lights, index);
   const LightEdit before = edit;
   ImGui::PushID(index);
   const std::string title =
@@ -136,8 +136,7 @@ void draw_camera_section(Ui& ui) {
   }
   const float half = (ImGui::GetContentRegionAvail().x - ImGui::GetStyle().ItemSpacing.x) / 2;
   if (ImGui::Button("Reset", {half, 0})) {
-    state.camera_mode = state.options.eye ? CameraMode::orbit : CameraMode::scene;
-    state.free = state.start;
+    state.reset_camera();
   }
   ui.mark("reset camera");
   ImGui::SameLine();

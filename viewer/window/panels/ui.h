@@ -9,6 +9,7 @@
 #include <string_view>
 
 #include "options/choices.h"
+#include "window/explainer.h"
 #include "window/frame_history.h"
 #include "window/key_press.h"
 #include "window/render_worker.h"
@@ -27,8 +28,9 @@ struct Ui {
   std::array<FrameHistory, 2>& history;
   std::span<const KeyPress> keys;  ///< pressed since the last frame of the window
   WorkerStatus worker;
-  std::string_view log;  ///< name of the log being written, or ""
-  float scale = 1;       ///< of the display: 1 at 96 dots an inch
+  std::string_view log;                   ///< name of the log being written, or ""
+  float scale = 1;                        ///< of the display: 1 at 96 dots an inch
+  const PictureAnswer* answer = nullptr;  ///< about a pixel; null: none was asked for
 
   float px(float length) const { return length * scale; }
   /// The press of this key without Ctrl; null: none. `repeat`: holding it down counts too.
