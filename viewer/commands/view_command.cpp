@@ -60,6 +60,7 @@ void add_view_command(CLI::App& program, Run& run) {
   add_view_options(command, *options);
   when_chosen(command, [options, &command, &run] {
     settle_quality(command, options->method);
+    options->panel_given = was_given(command, "--panel");
     run = [options] { return view(*options); };
   });
 }

@@ -105,6 +105,16 @@ void focus(FreeCamera& camera, glm::vec3 point) {
   if (point != camera.eye) camera.target = point;
 }
 
+void frame(FreeCamera& camera, glm::vec3 centre, float radius_m, double aspect) {
+  const double half = std::tan(camera.fov_deg / 2 / degrees_per_radian);
+  const double narrow = std::atan(half * std::min(1.0, aspect));
+  const double distance = static_cast<double>(radius_m) / std::sin(narrow);
+  const glm::dvec3 forward = glm::normalize(glm::dvec3(camera.target) - glm::dvec3(camera.eye));
+  if (!(distance > 0) || !std::isfinite(glm::dot(forward, forward))) return;
+  camera.target = centre;
+  camera.eye = glm::dvec3(centre) - distance * forward;
+}
+
 glm::dvec3 pixel_of(const ViewRays& view, glm::dvec3 point) {
   const glm::dvec3 offset = point - glm::dvec3(view.eye);
   const glm::dmat3 rays{glm::dvec3(view.dx), glm::dvec3(view.dy), glm::dvec3(view.d0)};

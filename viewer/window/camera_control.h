@@ -37,6 +37,9 @@ void zoom(FreeCamera& camera, float steps);                  ///< towards the ta
 void fly(FreeCamera& camera, glm::vec3 right_up_forward_m);  ///< eye and target
 void focus(FreeCamera& camera, glm::vec3 point);             ///< turns towards it; orbits it then
 
+/// Sees all of a ball from where it looks now, in a picture of `aspect` (width by height).
+void frame(FreeCamera& camera, glm::vec3 centre, float radius_m, double aspect);
+
 /// Window position in pixels of a world point, row 0 at the top; z > 0: in front of the eye (units of d0).
 glm::dvec3 pixel_of(const ViewRays& view, glm::dvec3 point);
 

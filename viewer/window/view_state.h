@@ -9,6 +9,9 @@
 #include "options/method_options.h"
 #include "shared/scene_plan.h"
 #include "window/frame_request.h"
+#include "window/panels/open_dialog.h"
+#include "window/panels/scene_tree.h"
+#include "window/user_settings.h"
 
 namespace tenebra::viewer {
 
@@ -41,6 +44,10 @@ struct ViewState {
   int selected_light = -1;
   int selected_node = -1;
   int selected_material = -1;
+  int shown_light = -1, shown_material = -1;  ///< the selections that the panel has opened
+  SceneTree tree;
+  std::optional<OpenDialog> open_dialog;  ///< while it is open
+  UserSettings settings;
   bool light_handles = true;
   Overlay overlay = Overlay::none;
   float overlay_opacity = 0.85f;
@@ -53,6 +60,9 @@ struct ViewState {
   std::optional<Size> size;  ///< of the picture; none: that of its place in the window
   bool panel = true;
   bool help = false;
+  bool recording = false;
+  bool panel_has_keys = false;  ///< since keys_in_panel
+  bool keys_in_panel = false;   ///< arrows, Space and Enter work the panel
 
   void reset_camera() {
     camera_mode = options.eye ? CameraMode::orbit : CameraMode::scene;
@@ -83,6 +93,9 @@ struct Actions {
   std::optional<glm::ivec2> explain;  ///< pixel of the picture: why is it dark?
   std::optional<glm::ivec2> pivot;    ///< pixel of the picture: what the camera turns around
   bool end_explanation = false;
+  bool open_dialog = false;
+  bool frame_all = false;
+  bool record = false;  ///< begins or ends to record the animation
   bool undo = false;
   bool redo = false;
   std::optional<std::string> open;  ///< a scene file

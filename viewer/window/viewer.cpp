@@ -163,6 +163,7 @@ void Viewer::take_scene(OpenedScene opened) {
   state_.diagonal_m = bounds ? glm::distance(bounds->low, bounds->high) : 1.0f;
   state_.centre = bounds ? 0.5f * (bounds->low + bounds->high) : glm::vec3(0.0f);
   state_.fly_speed = flight_share * state_.diagonal_m;
+  state_.settings.remember(state_.options.file);
   report_.opened(state_.options.file, plan);
   for (const std::string& warning : plan.scene.warnings) say("Warning: " + warning);
 }
@@ -203,10 +204,7 @@ void Viewer::take_picture(const std::shared_ptr<const Picture>& picture) {
     if (state_.clock.is_over(now())) state_.clock.pause(now());
     sent_clock_ = state_.clock;
   }
-  if (options_.record && !state_.clock.playing()) {
-    say(fmt::format("Recorded to {}", options_.record->text()));
-    options_.record.reset();
-  }
+  if (options_.record && !state_.clock.playing()) end_recording("Recorded to");
   if (++whole_pictures_ == options_.exit_after) quit_ = true;
 }
 
@@ -391,6 +389,65 @@ void Viewer::toggle_log() {
   say(fmt::format("Logging frames to {}", path));
 }
 
+void Viewer::frame_all() {
+  if (!picture_) return;
+  Ui ui{state_, actions_, marks_, picture_.get(), history_, {}, {}, {}, 1};
+  leave_scene_camera(ui, CameraMode::orbit);
+  const base::Image8& image = picture_->a.result.image;
+  frame(state_.free, state_.centre, 0.5f * state_.diagonal_m,
+        static_cast<double>(image.width) / image.height);
+  state_.pivot.reset();
+  state_.pivot_asked = true;  // it turns around the middle
+  due_ = std::max(due_, 1);
+}
+
+/// Every frame from the first on, as --record does.
+void Viewer::toggle_recording() {
+  if (options_.record) {
+    state_.clock.pause(now());
+    return end_recording("Recording ended; the pictures are in");
+  }
+  const std::string folder = unused_name("tenebra_frames");
+  auto pattern = OutputPattern::parse(folder + "/%04d.png");
+  if (pattern) {
+    if (auto prepared = pattern->prepare_folder(); !prepared) return say(prepared.error().message, true);
+  }
+  if (!pattern) return say(pattern.error().message, true);
+  before_recording_ = state_.clock;
+  options_.record = std::move(*pattern);
+  state_.recording = true;
+  state_.clock.set_loop(now(), false);
+  state_.clock.set_fixed_step(now(), true);
+  state_.clock.set_speed(now(), std::abs(state_.clock.speed()));
+  state_.clock.seek(now(), state_.clock.start_s());
+  state_.clock.play(now());
+  say(fmt::format("Recording {} frames to {}", state_.clock.frames(), folder));
+}
+
+void Viewer::end_recording(const std::string& how) {
+  say(fmt::format("{} {}", how, options_.record->text()));
+  options_.record.reset();
+  if (!std::exchange(state_.recording, false)) return;
+  state_.clock.set_loop(now(), before_recording_.loop());
+  state_.clock.set_fixed_step(now(), before_recording_.fixed_step());
+  state_.clock.set_speed(now(), before_recording_.speed());
+}
+
+void Viewer::use_settings(const SettingsKeeper& kept) {
+  const std::vector<std::string> opened =
+      std::move(state_.settings.recent);  // a scene that was there already
+  state_.settings = kept.settings();
+  for (const std::string& file : opened) state_.settings.remember(file);
+  if (!options_.panel_given) state_.panel = state_.settings.panel;
+  if (!kept.problem().empty()) say(kept.problem(), true);
+}
+
+void Viewer::keep_settings(const SettingsKeeper& kept, Size window) {
+  if (window.width > 0 && window.height > 0) state_.settings.window = window;
+  state_.settings.panel = state_.panel;
+  if (const auto done = kept.keep(state_.settings); !done) report_.note("failure", done.error().message);
+}
+
 void Viewer::log_picture(const Picture& picture) {
   const bool belongs = log_->belongs(state_);
   const auto added = belongs ? log_->add(picture) : Expected<void>();
@@ -423,6 +480,10 @@ void Viewer::act() {
   if (actions.undo && !undo_.undo(state_.edits)) say("There is nothing to undo.");
   if (actions.redo && !undo_.redo(state_.edits)) say("There is nothing to do again.");
   if (actions.open) drop({*actions.open});
+  if (actions.open_dialog)
+    state_.open_dialog = open_dialog_at(state_.settings.folder), due_ = std::max(due_, 3);
+  if (actions.frame_all) frame_all();
+  if (actions.record) toggle_recording();
 }
 
 void Viewer::drop(const std::vector<std::string>& files) {
@@ -462,12 +523,14 @@ void Viewer::draw(float scale, float pixels_a_unit) {
   const float seconds = std::chrono::duration<float>(now() - last_draw_).count();
   last_draw_ = now();
   due_ = std::max(mouse_.waits() ? 3 : 0, due_ - 1);
-  const ImGuiIO& io = ImGui::GetIO();
+  ImGuiIO& io = ImGui::GetIO();
   hand_moves_ = ImGui::IsAnyMouseDown();
   const std::string log = log_ ? log_->path() : "";
   marks_.clear();
   Ui ui{state_, actions_, marks_, picture_.get(), history_, keys_, worker_.status(), log, scale, answer()};
   handle_keys(ui, std::min(seconds, 0.1f));
+  const ImGuiConfigFlags nav = ImGuiConfigFlags_NavEnableKeyboard;
+  io.ConfigFlags = state_.keys_in_panel ? io.ConfigFlags | nav : io.ConfigFlags & ~nav;
   if (flies(io)) due_ = std::max(due_, 1);
 
   const Layout layout = layout_of(ui, io.DisplaySize);
@@ -484,6 +547,7 @@ void Viewer::draw(float scale, float pixels_a_unit) {
   if (layout.has_panel) draw_panel(ui, layout.panel);
   draw_progress(ui, layout.view);
   if (state_.help) draw_help(ui, io.DisplaySize);
+  draw_open_dialog(ui, io.DisplaySize);
   draw_messages(layout.view);
   if (actions_.copy_arguments && state_.scene) {
     const std::string text = shell_arguments(state_, state_.clock.time_at(now()), place_);
@@ -494,8 +558,8 @@ void Viewer::draw(float scale, float pixels_a_unit) {
   undo_.follow(state_.edits, !hand_moves_ && !ImGui::IsAnyItemActive());
   const Actions& asked = actions_;
   if (asked.quit || asked.cancel || asked.retry || asked.picture_shot || asked.window_shot ||
-      asked.toggle_log || asked.focus || asked.open || asked.explain || asked.pivot ||
-      asked.end_explanation || asked.undo || asked.redo) {
+      asked.toggle_log || asked.focus || asked.open || asked.open_dialog || asked.frame_all || asked.record ||
+      asked.explain || asked.pivot || asked.end_explanation || asked.undo || asked.redo) {
     due_ = std::max(due_, 1);
   }
   keys_.clear();

@@ -24,6 +24,9 @@ public:
   /// After it was drawn by OpenGL: writes a screenshot of the window if one was asked for.
   void after_draw(int framebuffer_width, int framebuffer_height);
   void drop(const std::vector<std::string>& files);
+  /// At the begin of a session, and at its end; a failure is a line in the report.
+  void use_settings(const SettingsKeeper& kept);
+  void keep_settings(const SettingsKeeper& kept, Size window);
   /// Ends the log; its failure, if any, or that of the first scene.
   Expected<void> finish();
 
@@ -75,6 +78,9 @@ private:
   std::filesystem::path next_shot();
   void save_picture();
   void toggle_log();
+  void frame_all();
+  void toggle_recording();
+  void end_recording(const std::string& how);
   void log_picture(const Picture& picture);
 
   ViewOptions options_;
@@ -94,7 +100,8 @@ private:
   std::deque<Message> messages_;
   std::string failure_;  // that ends the program
 
-  Size place_{0, 0};         // of the picture in the window
+  Size place_{0, 0};  // of the picture in the window
+  AnimationClock before_recording_;
   bool hand_moves_ = false;  // a mouse button is down
   std::string sent_key_, sent_method_;
   AnimationClock sent_clock_;

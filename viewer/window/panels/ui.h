@@ -58,6 +58,9 @@ void row(const Ui& ui, const char* label, const char* help = nullptr);
 void dim_text(const char* text);
 /// A heading that folds; true while open.
 bool section(Ui& ui, const char* title, bool open);
+/// A linear colour, edited as it is seen where pictures are encoded. Values above 1 stay what they are until
+/// they are changed.
+bool edit_color(Ui& ui, const std::string& mark, glm::vec3& color);
 void tooltip(const char* text);  ///< over the last widget
 
 /// A row of buttons of which one is down. True if another was pressed.
