@@ -64,8 +64,8 @@ void orbit(FreeCamera& camera, float right_rad, float down_rad) {
   camera.eye = glm::dvec3(camera.target) - turn_of(forward, camera.up, right_rad, down_rad) * forward;
 }
 
-void turn_about(FreeCamera& camera, glm::vec3 pivot, float right_rad, float down_rad) {
-  const glm::dvec3 eye = camera.eye, target = camera.target, about = pivot;
+void orbit(FreeCamera& camera, float right_rad, float down_rad, glm::vec3 point) {
+  const glm::dvec3 eye = camera.eye, target = camera.target, about = point;
   const glm::dquat turn = turn_of(target - eye, camera.up, right_rad, down_rad);
   camera.eye = about + turn * (eye - about);
   camera.target = about + turn * (target - about);
@@ -105,14 +105,21 @@ void focus(FreeCamera& camera, glm::vec3 point) {
   if (point != camera.eye) camera.target = point;
 }
 
-void frame(FreeCamera& camera, glm::vec3 centre, float radius_m, double aspect) {
-  const double half = std::tan(camera.fov_deg / 2 / degrees_per_radian);
-  const double narrow = std::atan(half * std::min(1.0, aspect));
-  const double distance = static_cast<double>(radius_m) / std::sin(narrow);
-  const glm::dvec3 forward = glm::normalize(glm::dvec3(camera.target) - glm::dvec3(camera.eye));
-  if (!(distance > 0) || !std::isfinite(glm::dot(forward, forward))) return;
+void frame(FreeCamera& camera, glm::vec3 low, glm::vec3 high, double aspect) {
+  constexpr double room = 1.04;  // around the box
+  const glm::dmat3 basis = scene::view_basis(glm::dvec3(camera.target) - glm::dvec3(camera.eye), camera.up);
+  const glm::dvec3 centre = 0.5 * (glm::dvec3(low) + glm::dvec3(high)),
+                   half = 0.5 * (glm::dvec3(high) - glm::dvec3(low));
+  const double tall = std::tan(camera.fov_deg / 2 / degrees_per_radian), wide = tall * aspect;
+  double distance = 0;
+  for (int corner = 0; corner < 8; ++corner) {
+    const glm::dvec3 sign((corner & 1) * 2 - 1, (corner & 2) - 1, (corner & 4) / 2 - 1);
+    const glm::dvec3 at = glm::transpose(basis) * (half * sign);  // right, up, back
+    distance = std::max({distance, at.z + room * std::abs(at.x) / wide, at.z + room * std::abs(at.y) / tall});
+  }
+  if (!(distance > 0) || !std::isfinite(distance)) return;
   camera.target = centre;
-  camera.eye = glm::dvec3(centre) - distance * forward;
+  camera.eye = centre + distance * basis[2];
 }
 
 glm::dvec3 pixel_of(const ViewRays& view, glm::dvec3 point) {

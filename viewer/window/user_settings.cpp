@@ -36,7 +36,7 @@ Expected<UserSettings> settings_of(const Json& json) {
     read("recent", settings.recent);
     read("folder", settings.folder);
   } catch (const Json::exception& error) {
-    return base::fail("{}", error.what());
+    return base::fail("found something else ({})", error.what());
   }
   if (settings.recent.size() > UserSettings::most_recent) settings.recent.resize(UserSettings::most_recent);
   return settings;

@@ -54,6 +54,7 @@ struct ViewState {
 
   float diagonal_m = 1;  ///< of the scene at its first frame
   glm::vec3 centre{0.0f};
+  glm::vec3 half_size_m{0.5f};  ///< of the box around it
 
   double preview_ms = default_preview_ms;  ///< time for a preview; 0: none are drawn
 

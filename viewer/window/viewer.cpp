@@ -162,6 +162,7 @@ void Viewer::take_scene(OpenedScene opened) {
   const auto bounds = summarize_scene(plan.scene).bounds;
   state_.diagonal_m = bounds ? glm::distance(bounds->low, bounds->high) : 1.0f;
   state_.centre = bounds ? 0.5f * (bounds->low + bounds->high) : glm::vec3(0.0f);
+  state_.half_size_m = bounds ? 0.5f * (bounds->high - bounds->low) : glm::vec3(0.5f);
   state_.fly_speed = flight_share * state_.diagonal_m;
   state_.settings.remember(state_.options.file);
   report_.opened(state_.options.file, plan);
@@ -394,7 +395,7 @@ void Viewer::frame_all() {
   Ui ui{state_, actions_, marks_, picture_.get(), history_, {}, {}, {}, 1};
   leave_scene_camera(ui, CameraMode::orbit);
   const base::Image8& image = picture_->a.result.image;
-  frame(state_.free, state_.centre, 0.5f * state_.diagonal_m,
+  frame(state_.free, state_.centre - state_.half_size_m, state_.centre + state_.half_size_m,
         static_cast<double>(image.width) / image.height);
   state_.pivot.reset();
   state_.pivot_asked = true;  // it turns around the middle

@@ -130,7 +130,8 @@ void edit_light(Ui& ui, int index, const Light& light, bool open) {
   if (selected && ui.state.shown_light != index) ImGui::SetNextItemOpen(true);
   const std::string title =
       fmt::format("{}  {}", index, light.name.empty() ? type_name(light.type) : light.name.c_str());
-  const int flags = ImGuiTreeNodeFlags_NoTreePushOnOpen | (selected ? ImGuiTreeNodeFlags_Selected : 0) |
+  const int flags = ImGuiTreeNodeFlags_NoTreePushOnOpen | ImGuiTreeNodeFlags_OpenOnArrow |
+                    ImGuiTreeNodeFlags_OpenOnDoubleClick | (selected ? ImGuiTreeNodeFlags_Selected : 0) |
                     (open ? ImGuiTreeNodeFlags_DefaultOpen : 0) | ImGuiTreeNodeFlags_AllowItemOverlap;
   const bool is_open = ImGui::TreeNodeEx("light", flags, "%s", title.c_str());
   ui.mark(fmt::format("light.{}.name", index));

@@ -116,8 +116,8 @@ void move_camera(Ui& ui, const Stage& stage, ImVec2 moved, int button, int heigh
   if (!std::exchange(state.pivot_asked, true)) {
     ui.actions.pivot = glm::ivec2(glm::floor(stage.pixel_at(ImGui::GetIO().MouseClickedPos[button])));
   }
-  turn_about(state.free, state.pivot.value_or(state.free.target), moved.x * radians_a_pixel,
-             moved.y * radians_a_pixel);
+  const float right = moved.x * radians_a_pixel, down = moved.y * radians_a_pixel;
+  state.pivot ? orbit(state.free, right, down, *state.pivot) : orbit(state.free, right, down);
 }
 
 void turn_wheel(Ui& ui, float steps) {
