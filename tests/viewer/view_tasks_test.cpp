@@ -30,6 +30,10 @@ void quit(const ViewSession& session) {
   session.expect_no_gl_errors();
 }
 
+void wait_for_state(const ViewSession& session, const char* key, const Json& value) {
+  session.wait_until(key, [&] { return session.state()[key] == value; });
+}
+
 /// The moving scene from straight above: 43.3 pixels a metre on the floor, its middle at (200, 200).
 std::vector<std::string> from_above(const fs::path& scene) {
   return {scene,    "--eye", "0,8,0.001", "--look-at", "0,0,0",  "--up",
@@ -110,20 +114,20 @@ TEST(ViewTasks, FindsWhyAPixelIsDark) {
     return picture.pixels[static_cast<std::size_t>(y * 400 + x) * 3];
   };
   for (const bool by_key : {false, true}) {
-    const Json dark = explained_at(session, 104, 146, by_key);
+    const Json dark = explained_at(session, 150, 258, by_key);
     ASSERT_EQ(dark["background"], false);
     EXPECT_EQ(dark["node"], 0) << "the floor";
     EXPECT_EQ(dark["lights"][0]["sight"], "blocked");
     EXPECT_EQ(dark["lights"][0]["occluder"], 2);
     EXPECT_EQ(dark["lights"][0]["occluder_node"], 1);
     session.place("why.occluder.0");
-    const Json lit = explained_at(session, 300, 300, by_key);
+    const Json lit = explained_at(session, 250, 258, by_key);
     EXPECT_EQ(lit["node"], 0);
     EXPECT_EQ(lit["lights"][0]["sight"], "lit");
     EXPECT_FALSE(lit["lights"][0].contains("occluder"));
-    EXPECT_LT(brightness(104, 146) + 20, brightness(300, 300)) << "as the picture has it";
+    EXPECT_LT(brightness(150, 258) + 10, brightness(250, 258)) << "as the picture has it";
   }
-  explained_at(session, 104, 146, false);
+  explained_at(session, 150, 258, false);
   session.photograph("task_why");
   session.expect_state("selected_node", 1, [&] { session.click("why.occluder.0"); });
   session.expect_state("selected_material", 0, [&] { session.click("why.material"); });
@@ -205,7 +209,7 @@ TEST(ViewTasks, EditsMaterialsAndLights) {
   const base::Image8 before = picture_of(shot_after(session, "p"));
   session.click("section.Lights");
   session.click("add.sun");
-  session.expect_state("selected_light", 1, [] {});
+  wait_for_state(session, "selected_light", 1);
   EXPECT_NE(session.state()["edits"].dump().find("--add-light directional"), std::string::npos);
   session.wait_for_picture();
   EXPECT_NE(picture_of(shot_after(session, "p")), before);
@@ -216,7 +220,7 @@ TEST(ViewTasks, EditsMaterialsAndLights) {
   session.click("section.Materials");
   session.click("material");
   session.click("material.0");
-  session.expect_state("selected_material", 0, [] {});
+  wait_for_state(session, "selected_material", 0);
   session.move_to("material.roughness", 0.1);
   session.press();
   session.release();
@@ -234,7 +238,7 @@ TEST(ViewTasks, EditsMaterialsAndLights) {
   EXPECT_EQ(run_program({"/bin/sh", "-c", command}).errors, "") << copied;
   EXPECT_EQ(edited, picture_of(folder / "pasted.png")) << copied;
   for (int i = 0; i < 3; ++i) session.click("undo");
-  session.expect_state("edits", Json::array(), [] {});
+  wait_for_state(session, "edits", Json::array());
   session.wait_for_picture();
   EXPECT_EQ(picture_of(shot_after(session, "p")), before);
   quit(session);
