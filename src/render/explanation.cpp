@@ -5,6 +5,7 @@
 
 #include <tenebra/threads.h>
 #include "points/receiver.h"
+#include "points/smooth_surface.h"
 #include "render/light_casters.h"
 #include "render/light_points.h"
 #include "render/shadow_lights.h"
@@ -31,19 +32,45 @@ const LightMask* mask_of(const PixelQuestion& question, int light) {
 std::vector<Sightline> lines_to(const PixelQuestion& question, const shadow::Sample& sample,
                                 const DrawnLight& light, std::span<const ShadowLight> targets) {
   std::vector<std::uint8_t> casters;
-  const TriangleView triangles = casters_of(question.scene, question.geometry, light, casters);
+  TriangleView triangles = casters_of(question.scene, question.geometry, light, casters);
+  if (lifts_points(question.settings)) triangles.normals = question.geometry.normals;
   HardShadowConfig config = question.settings.hard;
   if (light.area) config.cull_front = false;  // soft shadows have no such thing
   return shadow::find_sightlines(sample, question.view, triangles, targets, config);
 }
 
-void explain_point(const PixelQuestion& question, const shadow::Sample& sample, const DrawnLight& light,
+/// The pixel's sample, where shadows ask about it, and its shading normal.
+struct ShadedSample {
+  shadow::Sample at;
+  glm::vec3 normal{0.0f};
+};
+
+ShadedSample sample_of(const PixelQuestion& question, std::uint32_t id) {
+  const auto x = static_cast<std::size_t>(question.pixel.x), y = static_cast<std::size_t>(question.pixel.y);
+  TriangleView triangles = triangle_view(question.geometry);
+  VisiblePoints one;
+  one.width = one.height = 1;
+  one.triangles = {id};
+  one.positions = {points::PixelRays(question.view).point_on(points::receiver_of(triangles, id), x, y)};
+  std::vector<glm::vec3> normal;
+  compute_shading_normals(one, question.geometry.normals, question.view, triangles, normal);
+  if (lifts_points(question.settings)) triangles.normals = question.geometry.normals;
+  const points::SmoothSurface smooth = points::smooth_surface(triangles, id, question.view);
+  const glm::dvec3 point = one.positions[0];
+  return {{smooth.lifts ? points::lifted(smooth, point) : point, id}, normal[0]};
+}
+
+void explain_point(const PixelQuestion& question, const ShadedSample& shaded, const DrawnLight& light,
                    LightExplanation& out) {
+  const shadow::Sample& sample = shaded.at;
   const ShadowLight target = shadow_light(light.light, light.placed);
   const Sightline line = lines_to(question, sample, light, {&target, 1}).front();
   out.sight = line.sight;
   out.directional = target.directional;
   out.light_at = target.directional ? target.to_light : target.position;
+  const glm::dvec3 way =
+      target.directional ? glm::dvec3(target.to_light) : glm::dvec3(target.position) - sample.point;
+  out.faces_shading = glm::dot(glm::dvec3(shaded.normal), way) > 0;
   if (line.first == no_triangle) return;
   out.occluder = place_of(question, line.first);
   out.met_at = line.met_at;
@@ -79,14 +106,14 @@ void explain_area(const PixelQuestion& question, const shadow::Sample& sample, c
   }
 }
 
-LightExplanation explain_light(const PixelQuestion& question, const shadow::Sample& sample,
+LightExplanation explain_light(const PixelQuestion& question, const ShadedSample& sample,
                                const DrawnLight& light) {
   LightExplanation out{.number = light.number, .name = light.light.name};
   if (!light.area) {
     explain_point(question, sample, light, out);
     return out;
   }
-  explain_area(question, sample, light, out);
+  explain_area(question, sample.at, light, out);
   const LightMask* mask = mask_of(question, light.number);
   if (mask == nullptr || mask->visible_fraction.pixels.empty()) return out;
   const auto index = static_cast<std::size_t>(question.pixel.y) * static_cast<std::size_t>(question.width) +
@@ -114,13 +141,10 @@ PixelExplanation explain_pixel(const PixelQuestion& question) {
   const auto x = static_cast<std::size_t>(question.pixel.x), y = static_cast<std::size_t>(question.pixel.y);
   const std::size_t index = y * static_cast<std::size_t>(question.width) + x;
   if (index >= question.ids.size() || question.ids[index] >= question.geometry.triangles.size()) return out;
-  const TriangleView triangles = triangle_view(question.geometry);
-  shadow::Sample sample{.triangle = question.ids[index]};
-  sample.point =
-      points::PixelRays(question.view).point_on(points::receiver_of(triangles, sample.triangle), x, y);
+  const ShadedSample sample = sample_of(question, question.ids[index]);
   out.background = false;
-  out.seen = place_of(question, sample.triangle);
-  out.point = sample.point;
+  out.seen = place_of(question, sample.at.triangle);
+  out.point = sample.at.point;
   with_threads(question.settings.threads, [&] {
     for (const DrawnLight& light : question.lights)
       out.lights.push_back(explain_light(question, sample, light));

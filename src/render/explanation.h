@@ -37,6 +37,9 @@ struct LightExplanation {
   std::string name;
   /// Of lights without an area what the mask says; of those with one, `lit` if any of it is visible.
   shadow::LightSight sight = shadow::LightSight::lit;
+  /// Without an area: whether the shading normal faces the light. Where it does not, light that comes to the
+  /// sample does not shine on it.
+  bool faces_shading = true;
   std::optional<float> visible_fraction;  ///< of a light with an area, 0 to 1: the mask's
   /// What stands in the way: the first triangle on the way to the light; of lights with an area the one that
   /// comes first on most of `asked` ways to points spread over it. None where every way is free.
@@ -51,7 +54,7 @@ struct LightExplanation {
 struct PixelExplanation {
   bool background = true;  ///< nothing is seen, and what follows is empty
   TrianglePlace seen;
-  glm::dvec3 point{0.0};  ///< the sample, world space
+  glm::dvec3 point{0.0};  ///< the sample, world space; lifted off its triangle where the settings say so
   std::vector<LightExplanation> lights;
 };
 

@@ -5,6 +5,7 @@
 
 #include "shadow/mask_case.h"
 #include "shadow/rays/sightlines.h"
+#include "support/round_bodies.h"
 
 namespace tenebra::testing {
 namespace {
@@ -144,6 +145,36 @@ TEST(Sightlines, KnowConesRangesAndDoublePlanes) {
   EXPECT_EQ(sight({0.1, 0, 0.05}, 0).sight, LightSight::out_of_reach);
   c.light = point_light({0, -2, 0});
   EXPECT_EQ(sight({0.1, 0, 0.05}, 0).sight, LightSight::faces_away);
+}
+
+TEST(Sightlines, AgreeWithTheMaskOfLiftedPoints) {
+  RoundBody body = round_body(10, 16, {0, 1.2, 0}, 0.15);
+  add_floor(body, 0, 6);
+  constexpr int width = 64, height = 56;
+  const ViewRays view = pinhole({1, 2.5, 5}, {0, 1, 0}, 0.7, width, height);
+  const VisiblePoints ids = view_samples(body.flat(), view, width, height);
+  VisiblePoints points;
+  compute_visible_points(ids.triangles, width, height, view, body.smooth(), points);
+  std::size_t lit_beyond = 0, away = 0;
+  for (const ShadowLight& light :
+       {point_light({6, 3, 1}), point_light({-2, 2.6, -3}), sun({-1, 0.4, -0.3})}) {
+    ShadowMask mask;
+    ShadowTracer tracer;
+    tracer.trace_shadow_mask(points, view, body.smooth(), light, {}, mask);
+    for (std::size_t i = 0; i < mask.size(); ++i) {
+      if (points.triangles[i] == no_triangle) continue;
+      const Sample sample{points.positions[i], points.triangles[i]};
+      const Sightline line = shadow::find_sightlines(sample, view, body.smooth(), {&light, 1}, {}).front();
+      ASSERT_EQ(line.sight == LightSight::lit, mask[i] == 255) << i;
+      const bool flat_active =
+          shadow::find_sightlines(sample, view, body.flat(), {&light, 1}, {}).front().sight !=
+          LightSight::faces_away;
+      lit_beyond += mask[i] == 255 && !flat_active;
+      away += line.sight == LightSight::faces_away;
+    }
+  }
+  EXPECT_GT(lit_beyond, 20u) << "light from beyond a triangle's plane";
+  EXPECT_GT(away, 100u);
 }
 
 TEST(Sightlines, AnswerForManyLightsAndAnyThreads) {

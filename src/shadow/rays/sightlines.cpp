@@ -10,6 +10,7 @@
 #include "parallel/parallel.h"
 #include "points/contact_rule.h"
 #include "points/triangle_corners.h"
+#include "shadow/decision/lifted_points.h"
 #include "shadow/decision/triangle_planes.h"
 #include "shadow/rays/shadow_rays.h"
 
@@ -218,12 +219,21 @@ void take_first(const std::vector<std::uint32_t>& blockers, const Sample& sample
   way.line.met_at = place_of(points::corners_of(triangles, way.line.first), sample.point, way.source);
 }
 
-Way way_to(const ShadowLight& light, const Sample& sample, const ViewRays& view,
-           const TriangleView& triangles) {
-  Way way{.source = ray_source(light)};
+/// Whether light may come from where `light` is: the sample is active, but for cone and range.
+bool faces(const Sample& sample, const ViewRays& view, const TriangleView& triangles, const RaySource& source,
+           ContactRule contact) {
   const Corners own = points::corners_of(triangles, sample.triangle);
-  const int side = light_side(own.v, way.source);
-  if (side == 0 || points::eye_side(own.v, view) != -side) {
+  const int side = light_side(own.v, source), eye = points::eye_side(own.v, view);
+  if (side != 0 && eye == -side) return true;
+  return contact == ContactRule::triangle_ids &&
+         faces_beyond(triangles, sample.triangle, eye, source) == Faces::beyond &&
+         SeesPast(triangles, sample.triangle, view, source).from(sample.point);
+}
+
+Way way_to(const ShadowLight& light, const Sample& sample, const ViewRays& view,
+           const TriangleView& triangles, ContactRule contact) {
+  Way way{.source = ray_source(light)};
+  if (!faces(sample, view, triangles, way.source, contact)) {
     way.line.sight = LightSight::faces_away;
   } else if (!in_reach(sample.point - way.source.origin, light)) {
     way.line.sight = LightSight::out_of_reach;
@@ -244,7 +254,7 @@ std::vector<Sightline> find_sightlines(const Sample& sample, const ViewRays& vie
   Box all;
   Bundle bundle;
   for (const ShadowLight& light : lights) {
-    ways.push_back(way_to(light, sample, view, triangles));
+    ways.push_back(way_to(light, sample, view, triangles, config.contact));
     if (!ways.back().open) continue;
     all.add(ways.back().box);
     bundle.add(sample.point, ways.back().source);

@@ -21,7 +21,8 @@ struct Sample {
 /// What a mask's value means: `lit` is 255, all others are 0.
 enum class LightSight : std::uint8_t {
   lit,
-  faces_away,    ///< light and eye are not strictly on one side of the sample's triangle, or it has no area
+  faces_away,    ///< light and eye are not strictly on one side of the sample's triangle, or it has no area;
+                 ///< and where it was lifted off a smooth one, that triangle is in its way
   out_of_reach,  ///< beyond the light's range or outside of its cone
   blocked,
 };

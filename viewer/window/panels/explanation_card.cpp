@@ -72,7 +72,7 @@ std::string verdict(const LightExplanation& light) {
     return fmt::format("{:.0f} % of it is seen", 100 * *light.visible_fraction);
   switch (light.sight) {
     case LightSight::lit:
-      return "shines here";
+      return light.faces_shading ? "shines here" : "is behind this curved surface";
     case LightSight::faces_away:
       return "is behind this surface";
     case LightSight::out_of_reach:
@@ -84,7 +84,7 @@ std::string verdict(const LightExplanation& light) {
 }
 
 void light_row(Ui& ui, const PictureAnswer& answer, const LightExplanation& light) {
-  const bool lit = light.sight == LightSight::lit;
+  const bool lit = light.sight == LightSight::lit && light.faces_shading;
   const float line_height = ImGui::GetTextLineHeight();
   const ImVec2 at = ImGui::GetCursorScreenPos();
   ImGui::GetWindowDrawList()->AddCircleFilled(at + ImVec2(line_height * 0.4f, line_height * 0.55f),
