@@ -65,7 +65,7 @@ VIEWER_ROOMS = ["shell", "options", "shared", "window", "commands", ""]
 CONTAINED_IN_VIEWER = [
     (r"\bImGui\b|imgui|GLFW|glfw", "the window", ("window/",)),
     (r"GLFW|glfw[A-Z3]", "GLFW", ("window/glfw_window.cpp",)),
-    (r"\bstd::(thread|jthread|mutex|atomic|condition_variable|barrier)\b", "a thread", ("window/render_worker.", "shell/stop_signals.")),
+    (r"\bstd::(thread|jthread|mutex|atomic|condition_variable|barrier)\b", "a thread", ("window/render_worker.", "window/explainer.", "shell/stop_signals.")),
     (r"\bgl[A-Z]\w*\(", "an OpenGL call", ()),
 ]
 

@@ -69,8 +69,21 @@ const FrameRaster& Renderer::raster() const {
 }
 
 void Renderer::set_lights(std::vector<Light> lights) {
-  assert(lights.size() == state_->scene.lights.size());
   state_->scene.lights = std::move(lights);
+}
+
+void Renderer::set_materials(const std::vector<Material>& materials) {
+  assert(materials.size() == state_->scene.materials.size());
+  state_->scene.materials = materials;
+  state_->surfaces.set_factors(materials);
+}
+
+std::span<const std::uint32_t> Renderer::triangle_ids() const {
+  return state_->seen.ids;
+}
+
+const std::vector<DrawnLight>& Renderer::drawn_lights() const {
+  return state_->drawn;
 }
 
 void Renderer::set_environment(const base::ImageF& picture) {
@@ -114,8 +127,9 @@ Expected<void> Renderer::render_frame(const FrameInput& given, const RenderSetti
   base::Stopwatch watch, whole;
   if (auto checked = check_settings(settings); !checked) return checked;
   if (auto checked = s.raster.check_picture_size(settings.width, settings.height); !checked) return checked;
-  const auto lights = drawn_lights(s.scene, input, settings, result.notes);
+  const auto lights = render::drawn_lights(s.scene, input, settings, result.notes);
   if (!lights) return tl::unexpected(lights.error());
+  s.drawn = *lights;
 
   if (auto drawn = s.find_ids(input, settings, timings); !drawn) return drawn;
   const bool occlusion = settings.ao.mode != AoMode::none;

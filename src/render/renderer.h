@@ -3,6 +3,7 @@
 
 #include <cstdint>
 #include <memory>
+#include <span>
 #include <string>
 #include <vector>
 
@@ -21,6 +22,8 @@
 #include "shade/display.h"
 
 namespace tenebra::render {
+
+struct DrawnLight;  // render/frame_lights.h
 
 enum class ShadowMode { none, hard, soft };
 
@@ -140,8 +143,12 @@ public:
   Expected<void> render_frame(const FrameInput& input, const RenderSettings& settings, FrameResult& result,
                               const AoProgress& progress = {}, const StopFlag* stop = nullptr);
 
-  /// Replaces Scene::lights (colour, intensity, size): a viewer's sliders. As many as the scene has.
+  /// Replaces Scene::lights (colour, intensity, size): a viewer's editors. Any number: FrameInput::lights
+  /// says where each of them stands.
   void set_lights(std::vector<Light> lights);
+  /// Replaces Scene::materials, as many as the scene has: colours and factors. Textures, and whether light
+  /// passes through or shadows are cast, stay as they were made.
+  void set_materials(const std::vector<Material>& materials);
 
   /// What stands around the scene, in place of its background and ambient light: shade/environment.h.
   void set_environment(const base::ImageF& picture);
@@ -149,6 +156,11 @@ public:
   /// What pixel (x, y), row 0 at the top, of the last frame sees, in world space; none: background. `input`:
   /// that frame's.
   std::optional<glm::dvec3> visible_point(const FrameInput& input, int x, int y);
+
+  /// Of the last frame: the triangle that each pixel sees, row 0 at the top, and the lights that it drew:
+  /// what explain_pixel asks for.
+  std::span<const std::uint32_t> triangle_ids() const;
+  const std::vector<DrawnLight>& drawn_lights() const;
 
   /// What the driver complained about since the last call (contexts made with ContextOptions::debug).
   std::vector<std::string> take_debug_messages();

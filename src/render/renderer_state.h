@@ -44,6 +44,7 @@ struct Renderer::State {
   std::optional<shade::Environment> environment{};
 
   visibility::VisibleIds seen{};
+  std::vector<DrawnLight> drawn{};
   VisiblePoints points{};
   std::vector<glm::vec3> normals{};
   ShadowTracer hard{};

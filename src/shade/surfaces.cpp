@@ -67,6 +67,17 @@ SurfaceTable::SurfaceTable(std::span<const Material> materials) {
   }
 }
 
+void SurfaceTable::set_factors(std::span<const Material> materials) {
+  if (materials.empty()) return;
+  const Kernels code = kernels(SimdLevel::automatic);
+  materials_.assign(materials.begin(), materials.end());
+  any_glossy_ = false;
+  for (std::size_t i = 0; i < materials.size(); ++i) {
+    surfaces_[i] = plain_surface(code, materials[i]);
+    any_glossy_ = any_glossy_ || surfaces_[i].is_glossy();
+  }
+}
+
 SurfaceTable::SurfaceTable(const Scene& scene) : SurfaceTable(std::span(scene.materials)) {
   SurfaceCoordinates coordinates = surface_coordinates(scene);
   coordinates_ = std::move(coordinates.texture_coordinates);

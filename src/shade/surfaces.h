@@ -59,6 +59,10 @@ public:
   /// With textures and vertex colours. Smaller copies of all images are made here, by all threads.
   explicit SurfaceTable(const Scene& scene);
 
+  /// Other colours and factors for the same materials. Maps stay as they were made: a colour that was black
+  /// and had its map left out gets none.
+  void set_factors(std::span<const Material> materials);
+
   /// A material without its textures. Indices beyond the last material mean the last; without any, everything
   /// is black.
   const Surface& operator[](std::size_t material) const { return surfaces_[held(material)]; }

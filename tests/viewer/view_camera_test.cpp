@@ -41,6 +41,42 @@ TEST(FreeCamera, OrbitFollowsTheHand) {
   EXPECT_GT(camera.eye.y, 0) << "a drag down looks from above";
 }
 
+TEST(FreeCamera, OrbitsAnyPointWithoutMovingItInThePicture) {
+  FreeCamera camera{.eye = {0, 1, 5}, .target = {0, 1, 0}};
+  const vec3 point{1.5f, 0.5f, 1};
+  const glm::dvec3 before = pixel_of(rays_of(camera), point);
+  const float away = glm::distance(camera.eye, point);
+  for (int i = 0; i < 20; ++i) orbit(camera, 0.05f, -0.01f, point);
+  const glm::dvec3 after = pixel_of(rays_of(camera), point);
+  EXPECT_NEAR(after.x, before.x, 1) << "what is turned around stays under the pointer";
+  EXPECT_NEAR(after.y, before.y, 40) << "but for what looking up and down does to it";
+  EXPECT_NEAR(glm::distance(camera.eye, point), away, 1e-4);
+  EXPECT_NEAR(glm::distance(camera.eye, camera.target), 5, 1e-4);
+  FreeCamera about_target{.eye = {0, 1, 5}, .target = {0, 1, 0}}, plain = about_target;
+  orbit(about_target, 0.2f, 0.1f, plain.target);
+  orbit(plain, 0.2f, 0.1f);
+  EXPECT_NEAR(glm::distance(about_target.eye, plain.eye), 0, 1e-6);
+}
+
+TEST(FreeCamera, FramesABoxWithoutWastingThePicture) {
+  for (const vec3 eye : {vec3(0, 0, 9), vec3(4, 3, 2), vec3(-1, 20, 0.1f)}) {
+    const vec3 low{-1, 0, -3}, high{2, 5, 1};
+    FreeCamera camera{.eye = eye, .target = {0, 0, 0}};
+    const glm::dvec3 way = glm::normalize(glm::dvec3(camera.target) - glm::dvec3(camera.eye));
+    frame(camera, low, high, double(width) / height);
+    EXPECT_NEAR(glm::dot(way, glm::normalize(glm::dvec3(camera.target) - glm::dvec3(camera.eye))), 1, 1e-6);
+    double margin = 1e9;
+    for (int corner = 0; corner < 8; ++corner) {
+      const vec3 at{corner & 1 ? high.x : low.x, corner & 2 ? high.y : low.y, corner & 4 ? high.z : low.z};
+      const glm::dvec3 pixel = pixel_of(rays_of(camera), at);
+      ASSERT_GT(pixel.z, 0);
+      margin = std::min({margin, pixel.x, pixel.y, width - pixel.x, height - pixel.y});
+    }
+    EXPECT_GT(margin, 0) << "all of it is seen";
+    EXPECT_LT(margin, 0.05 * height) << "and it fills the picture";
+  }
+}
+
 TEST(FreeCamera, PanMovesTheTargetWithThePointer) {
   FreeCamera camera{.eye = {0, 2, 5}, .target = {0, 0, 0}};
   const vec3 before = camera.target;

@@ -132,6 +132,7 @@ TEST(ViewWindow, FlipsEveryMethod) {
     });
     return session.wait_for_picture();
   };
+  session.click("section.Research");
   EXPECT_EQ(shows("shadows.none", "--shadows none")["rays"], 0);
   const Json soft = shows("shadows.soft", "--shadows soft");
   EXPECT_EQ(soft["rays"], 0);

@@ -61,10 +61,15 @@ public:
               std::vector<std::string> arguments)
       : display_(display), report_(folder / "report.jsonl") {
     arguments.insert(arguments.begin(), {TENEBRA_PROGRAM, "view"});
+    if (std::find(arguments.begin(), arguments.end(), "--settings") == arguments.end())
+      arguments.insert(arguments.end(), {"--settings", "none"});
     arguments.insert(arguments.end(), {"--report", report_.string(), "--gl-debug"});
     std::filesystem::remove(report_);  // an earlier session's: its events would be taken for this one's
     display.run({"xdotool", "mousemove", "5", "5"});
-    program_ = std::make_unique<ChildProgram>(arguments, [&display] { display.enter(); });
+    program_ = std::make_unique<ChildProgram>(arguments, [&display, where = folder.path().string()] {
+      display.enter();
+      if (::chdir(where.c_str()) != 0) ::_exit(125);  // what it names by itself belongs to the test
+    });
   }
 
   /// All events so far.

@@ -148,8 +148,8 @@ std::vector<render::LogSetting> describe_render(const RenderPlan& plan, const Re
   };
   for (render::LogSetting& setting : describe_method(settings)) list.push_back(std::move(setting));
   list.push_back({"exposure_from", options.method.auto_exposure ? "auto" : "option"});
-  for (std::string& text : light_edit_texts(options.scene.lights)) {
-    list.push_back({"set_light", std::move(text)});
+  for (EditOption& edit : edit_options(options.scene.edits)) {
+    list.push_back({setting_name(edit), std::move(edit.value)});
   }
   if (!options.scene.import.scene.empty()) list.push_back({"scene_of_file", options.scene.import.scene});
   for (const std::string& name : options.scene.no_cast) list.push_back({"no_cast", name});

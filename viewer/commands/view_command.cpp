@@ -28,7 +28,8 @@ Expected<std::shared_ptr<const ScenePlan>> plan_with_lights(const ViewOptions& o
   if (!plan) return tl::unexpected(plan.error());
   const render::RenderSettings& render = options.method.render;
   const int light = render.area_lights.emissive_quads ? -1 : render.light;
-  if (auto checked = check_light(*plan, light, options.scene.time_s.value_or(0)); !checked) {
+  if (auto checked = check_light(*plan, options.scene.edits, light, options.scene.time_s.value_or(0));
+      !checked) {
     return tl::unexpected(checked.error());
   }
   return std::make_shared<const ScenePlan>(std::move(*plan));
@@ -41,7 +42,7 @@ Expected<int> view(ViewOptions options) {
     if (!bundled) return tl::unexpected(bundled.error());
     options.scene.file = bundled->string();
   }
-  if (options.method.render.light >= 0 || !options.scene.lights.empty()) {
+  if (options.method.render.light >= 0 || options.scene.edits != SceneEdits{}) {
     auto planned = plan_with_lights(options);
     if (!planned) return tl::unexpected(planned.error());
     options.plan = std::move(*planned);
@@ -59,6 +60,7 @@ void add_view_command(CLI::App& program, Run& run) {
   add_view_options(command, *options);
   when_chosen(command, [options, &command, &run] {
     settle_quality(command, options->method);
+    options->panel_given = was_given(command, "--panel");
     run = [options] { return view(*options); };
   });
 }

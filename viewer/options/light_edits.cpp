@@ -1,5 +1,8 @@
 #include "options/light_edits.h"
 
+#include <cmath>
+#include <glm/gtc/quaternion.hpp>
+#include <numbers>
 #include <sstream>
 
 #include "base/fail.h"
@@ -32,18 +35,53 @@ Expected<void> apply(const std::string& key, const std::string& value, LightEdit
     edit.size_m = size->size;
     return {};
   }
-  return base::fail("found {}={}, expected on=0, on=1, intensity=FACTOR, move=X,Y,Z or size=WxH", key, value);
+  if (key == "color" || key == "direction") {
+    const auto vector = parse_vector(value);
+    if (!vector) return tl::unexpected(vector.error());
+    if (key == "direction" && *vector == glm::vec3(0.0f))
+      return base::fail("found direction={}, expected a direction, like 0,-1,0", value);
+    if (key == "color" && glm::any(glm::lessThan(*vector, glm::vec3(0.0f))))
+      return base::fail("found color={}, expected R,G,B from 0 on", value);
+    (key == "color" ? edit.color : edit.direction) = *vector;
+    return {};
+  }
+  return base::fail(
+      "found {}={}, expected on=0, on=1, intensity=FACTOR, color=R,G,B, direction=X,Y,Z, move=X,Y,Z or "
+      "size=WxH",
+      key, value);
 }
 
 /// " KEY=VALUE ..." of what the edit changes.
 std::string text_of(const LightEdit& edit) {
   std::string text;
-  if (!edit.on) text += " on=0";
+  const auto vector = [](const char* key, const glm::vec3& v) {
+    return fmt::format(" {}={},{},{}", key, v.x, v.y, v.z);
+  };
+  if (!edit.on || edit.deleted) text += " on=0";
   if (edit.intensity != 1) text += fmt::format(" intensity={}", edit.intensity);
-  if (edit.move != glm::vec3(0.0f))
-    text += fmt::format(" move={},{},{}", edit.move.x, edit.move.y, edit.move.z);
+  if (edit.color) text += vector("color", *edit.color);
+  if (edit.direction) text += vector("direction", *edit.direction);
+  if (edit.move != glm::vec3(0.0f)) text += vector("move", edit.move);
   if (edit.size_m) text += fmt::format(" size={}x{}", edit.size_m->x, edit.size_m->y);
   return text;
+}
+
+float factor_of(const LightEdit& edit) {
+  return edit.on && !edit.deleted ? edit.intensity : 0.0f;
+}
+
+/// Turns a light, its area too, the shortest way.
+void turn(WorldLight& light, glm::vec3 direction) {
+  const glm::dvec3 from = glm::normalize(glm::dvec3(light.direction)),
+                   to = glm::normalize(glm::dvec3(direction));
+  const glm::dvec3 side = std::abs(from.x) < 0.6 ? glm::dvec3(1, 0, 0) : glm::dvec3(0, 1, 0);
+  const double cosine = glm::dot(from, to);
+  const glm::dquat turned = cosine > -0.999999
+                                ? glm::normalize(glm::dquat(1 + cosine, glm::cross(from, to)))
+                                : glm::angleAxis(std::numbers::pi, glm::normalize(glm::cross(from, side)));
+  light.direction = to;
+  light.axis_x = turned * glm::dvec3(light.axis_x);
+  light.axis_y = turned * glm::dvec3(light.axis_y);
 }
 
 }  // namespace
@@ -84,7 +122,8 @@ LightEdit edit_of(const LightEdits& edits, int light) {
 std::vector<Light> edited_lights(std::vector<Light> lights, const LightEdits& edits) {
   for (std::size_t i = 0; i < lights.size(); ++i) {
     const LightEdit edit = edit_of(edits, static_cast<int>(i));
-    lights[i].intensity *= edit.on ? edit.intensity : 0.0f;
+    lights[i].intensity *= factor_of(edit);
+    if (edit.color) lights[i].color = *edit.color;
   }
   return lights;
 }
@@ -97,7 +136,9 @@ std::vector<WorldLight> edited_lights(std::vector<WorldLight> lights, const Ligh
   for (WorldLight& light : lights) {
     const LightEdit edit = edit_of(edits, light.light);
     light.position += edit.move;
-    if (light.intensity) *light.intensity *= edit.on ? edit.intensity : 0.0f;
+    if (light.intensity) *light.intensity *= factor_of(edit);
+    if (light.color && edit.color) light.color = edit.color;
+    if (edit.direction) turn(light, *edit.direction);
     if (!edit.size_m) continue;
     resize(light.axis_x, edit.size_m->x);
     resize(light.axis_y, edit.size_m->y);

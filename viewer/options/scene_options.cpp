@@ -79,18 +79,31 @@ void add_looks(CLI::App& command, SceneOptions& options) {
       .group(scene_group);
 }
 
-void add_lights(CLI::App& command, SceneOptions& options) {
-  const auto read = [&options](const std::vector<std::string>& texts) -> Expected<void> {
-    for (const std::string& text : texts) {
-      if (auto parsed = parse_light_edit(text, options.lights); !parsed) return parsed;
-    }
-    return {};
+void add_edits(CLI::App& command, SceneOptions& options) {
+  const auto add = [&](const char* name, auto parse, const char* help) {
+    const auto read = [&options, parse](const std::vector<std::string>& texts) -> Expected<void> {
+      for (const std::string& text : texts) {
+        if (auto parsed = parse(text, options.edits); !parsed) return parsed;
+      }
+      return {};
+    };
+    add_texts(command, name, read, help).type_name("TEXT").group(scene_group);
   };
-  add_texts(command, "--set-light", read,
-            "\"N KEY=VALUE ...\" changes light N: on=0,\nintensity=FACTOR, move=X,Y,Z (metres), size=WxH "
-            "(metres,\nfor soft shadows); may be repeated")
-      .type_name("TEXT")
-      .group(scene_group);
+  add(
+      "--set-light",
+      [](const std::string& text, SceneEdits& edits) { return parse_light_edit(text, edits.lights); },
+      "\"N KEY=VALUE ...\" changes light N: on=0,\nintensity=FACTOR, color=R,G,B, "
+      "direction=X,Y,Z,\nmove=X,Y,Z "
+      "(metres), size=WxH (metres, for soft\nshadows); may be repeated");
+  add("--add-light", parse_added_light,
+      "\"TYPE KEY=VALUE ...\" adds a light: point, spot or\ndirectional; position=X,Y,Z, direction=X,Y,Z,\n"
+      "intensity=VALUE, color=R,G,B; may be repeated");
+  add("--set-material", parse_material_edit,
+      "\"N KEY=VALUE ...\" changes material N: color=R,G,B,\nemissive=R,G,B, specular=R,G,B, "
+      "roughness=VALUE,\n"
+      "metallic=VALUE; may be repeated");
+  add("--set-node", parse_node_edit,
+      "\"N KEY=VALUE ...\" changes node N and all below it:\nvisible=0, casts=0; may be repeated");
 }
 
 void add_moment(CLI::App& command, SceneOptions& options) {
@@ -148,7 +161,7 @@ void add_texture_path(CLI::App& command, formats::ImportOptions& options) {
 void add_scene_options(CLI::App& command, SceneOptions& options) {
   add_files(command, options);
   add_looks(command, options);
-  add_lights(command, options);
+  add_edits(command, options);
   add_moment(command, options);
   add_camera(command, options);
 }

@@ -7,8 +7,8 @@
 #include <vector>
 
 #include "formats/import_scene.h"
-#include "options/light_edits.h"
 #include "options/option_values.h"
+#include "options/scene_edits.h"
 #include "shell/command_line.h"
 
 namespace tenebra::viewer {
@@ -37,11 +37,11 @@ struct SceneOptions {
   std::optional<double> fov_deg;
   std::optional<Size> size;
 
-  LightEdits lights;
+  SceneEdits edits;
 };
 
 /// Adds SCENE, --scene, --no-cast, --cast-all, --cone-sides, --transfer, --environment, --surfaces,
-/// --floor, --set-light,
+/// --floor, --set-light, --add-light, --set-material, --set-node,
 /// --time, --fps, --clip and those of the camera, --size too; they are read into `options`, which must live
 /// as long. A command makes SCENE required with option_of(command, "SCENE").required().
 void add_scene_options(CLI::App& command, SceneOptions& options);

@@ -38,12 +38,13 @@ Expected<RenderPlan> plan_render(const RenderOptions& options) {
   plan.frames = std::move(*frames);
   plan.settings = method_settings(options.method, plan.size, plan.display);
   plan.settings.sample_masks = !options.mask_samples.empty();
-  plan.settings.area_lights.own_size_m = edited_sizes_m(options.scene.lights);
-  plan.scene.lights = edited_lights(std::move(plan.scene.lights), options.scene.lights);
+  plan.settings.area_lights.own_size_m = edited_sizes_m(options.scene.edits.lights);
+  plan.scene.lights = lights_of(plan.scene, options.scene.edits);
   const int light = plan.settings.light;
   // Emissive meshes follow the scene's lights; the renderer, which finds them, checks their number.
   const bool emissive = plan.settings.area_lights.emissive_quads;
-  const auto lights = check_light(plan, emissive ? -1 : light, plan.frames.front().time_s);
+  const auto lights =
+      check_light(plan, options.scene.edits, emissive ? -1 : light, plan.frames.front().time_s);
   if (!lights) return tl::unexpected(lights.error());
   plan.several_lights = light < 0 && (*lights > 1 || emissive);
   return plan;

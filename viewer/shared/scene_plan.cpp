@@ -84,10 +84,7 @@ Expected<ScenePlan> plan_scene(const SceneOptions& options) {
   cutout::cut_out_masks(plan.scene, {.most_added = static_cast<std::size_t>(options.cutout_limit)});
   if (options.plain) scene::make_plain(plan.scene);
   if (!options.cast_all) leave_out_covers(plan.scene);
-  if (options.lights.size() > plan.scene.lights.size()) {
-    return base::fail("--set-light: found light {}, the scene has lights 0 to {}", options.lights.size() - 1,
-                      static_cast<int>(plan.scene.lights.size()) - 1);
-  }
+  if (auto checked = check_edits(options.edits, plan.scene); !checked) return tl::unexpected(checked.error());
 
   const auto clip = choose_clip(plan.scene, options.clip);
   if (!clip) return tl::unexpected(clip.error());
@@ -131,8 +128,8 @@ ViewRays view_of(const ScenePlan& plan, const SceneOptions& options, double time
                  radians(options.fov_deg.value_or(default_fov_deg)), near_m, size.width, size.height);
 }
 
-Expected<int> check_light(const ScenePlan& plan, int light, double time_s) {
-  const int count = static_cast<int>(evaluate_lights(plan.scene, plan.clip, time_s).size());
+Expected<int> check_light(const ScenePlan& plan, const SceneEdits& edits, int light, double time_s) {
+  const int count = static_cast<int>(unmoved_lights(plan.scene, edits, plan.clip, time_s).size());
   if (light >= count) return base::fail("--light: found {}, the scene has lights 0 to {}", light, count - 1);
   return count;
 }

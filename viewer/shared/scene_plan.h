@@ -30,7 +30,8 @@ ViewRays view_of(const ScenePlan& plan, const SceneOptions& options, double time
 /// A camera of the scene, by number. One that was added shows all in pictures narrower than its shape too.
 ViewRays view_of_camera(const ScenePlan& plan, int clip, int camera, double time_s, Size size);
 
-/// Fails if the scene lacks light `light` (-1: all) at `time_s`; else the number of its lights.
-Expected<int> check_light(const ScenePlan& plan, int light, double time_s);
+/// Fails if the scene with its edits lacks light `light` (-1: all) at `time_s`; else the number of its
+/// lights.
+Expected<int> check_light(const ScenePlan& plan, const SceneEdits& edits, int light, double time_s);
 
 }  // namespace tenebra::viewer

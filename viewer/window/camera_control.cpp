@@ -20,16 +20,15 @@ std::string text_of(glm::vec3 v) {
   return fmt::format("{},{},{}", v.x, v.y, v.z);
 }
 
-/// `direction` turned right about `up` and down about the view's right axis, kept off the poles.
-glm::dvec3 turned(glm::dvec3 direction, glm::dvec3 up, double right_rad, double down_rad) {
+/// The turn of a view along `direction` right about `up` and down about its right axis, kept off the poles.
+glm::dquat turn_of(glm::dvec3 direction, glm::dvec3 up, double right_rad, double down_rad) {
   up = glm::normalize(up);
   const glm::dvec3 right = scene::view_basis(direction, up)[0];
   const double length = glm::length(direction);
   const double angle = std::acos(std::clamp(glm::dot(direction, up) / length, -1.0, 1.0));
   const double wanted =
       std::clamp(angle + down_rad, least_angle_to_up_rad, std::numbers::pi - least_angle_to_up_rad);
-  const glm::dvec3 pitched = glm::dquat(glm::angleAxis(angle - wanted, right)) * direction;
-  return glm::dquat(glm::angleAxis(-right_rad, up)) * pitched;
+  return glm::dquat(glm::angleAxis(-right_rad, up)) * glm::dquat(glm::angleAxis(angle - wanted, right));
 }
 
 }  // namespace
@@ -62,12 +61,19 @@ FreeCamera free_camera(const ViewRays& view, int width, int height, float distan
 
 void orbit(FreeCamera& camera, float right_rad, float down_rad) {
   const glm::dvec3 forward = glm::dvec3(camera.target) - glm::dvec3(camera.eye);
-  camera.eye = glm::dvec3(camera.target) - turned(forward, camera.up, right_rad, down_rad);
+  camera.eye = glm::dvec3(camera.target) - turn_of(forward, camera.up, right_rad, down_rad) * forward;
+}
+
+void orbit(FreeCamera& camera, float right_rad, float down_rad, glm::vec3 point) {
+  const glm::dvec3 eye = camera.eye, target = camera.target, about = point;
+  const glm::dquat turn = turn_of(target - eye, camera.up, right_rad, down_rad);
+  camera.eye = about + turn * (eye - about);
+  camera.target = about + turn * (target - about);
 }
 
 void look_around(FreeCamera& camera, float right_rad, float down_rad) {
   const glm::dvec3 forward = glm::dvec3(camera.target) - glm::dvec3(camera.eye);
-  camera.target = glm::dvec3(camera.eye) + turned(forward, camera.up, right_rad, down_rad);
+  camera.target = glm::dvec3(camera.eye) + turn_of(forward, camera.up, right_rad, down_rad) * forward;
 }
 
 void pan(FreeCamera& camera, glm::vec2 pixels, int height) {
@@ -97,6 +103,23 @@ void fly(FreeCamera& camera, glm::vec3 right_up_forward_m) {
 
 void focus(FreeCamera& camera, glm::vec3 point) {
   if (point != camera.eye) camera.target = point;
+}
+
+void frame(FreeCamera& camera, glm::vec3 low, glm::vec3 high, double aspect) {
+  constexpr double room = 1.04;  // around the box
+  const glm::dmat3 basis = scene::view_basis(glm::dvec3(camera.target) - glm::dvec3(camera.eye), camera.up);
+  const glm::dvec3 centre = 0.5 * (glm::dvec3(low) + glm::dvec3(high)),
+                   half = 0.5 * (glm::dvec3(high) - glm::dvec3(low));
+  const double tall = std::tan(camera.fov_deg / 2 / degrees_per_radian), wide = tall * aspect;
+  double distance = 0;
+  for (int corner = 0; corner < 8; ++corner) {
+    const glm::dvec3 sign((corner & 1) * 2 - 1, (corner & 2) - 1, (corner & 4) / 2 - 1);
+    const glm::dvec3 at = glm::transpose(basis) * (half * sign);  // right, up, back
+    distance = std::max({distance, at.z + room * std::abs(at.x) / wide, at.z + room * std::abs(at.y) / tall});
+  }
+  if (!(distance > 0) || !std::isfinite(distance)) return;
+  camera.target = centre;
+  camera.eye = centre + distance * basis[2];
 }
 
 glm::dvec3 pixel_of(const ViewRays& view, glm::dvec3 point) {

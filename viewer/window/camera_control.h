@@ -28,12 +28,18 @@ std::string camera_arguments(const FreeCamera& camera);
 FreeCamera free_camera(const ViewRays& view, int width, int height, float distance_m);
 
 /// Moves of the hand. Angles in radians; `right`, `down` as the mouse moves.
-void orbit(FreeCamera& camera, float right_rad, float down_rad);        ///< the eye around the target
+void orbit(FreeCamera& camera, float right_rad, float down_rad);  ///< the eye around the target
+/// The eye and the target around any point.
+void orbit(FreeCamera& camera, float right_rad, float down_rad, glm::vec3 about);
 void look_around(FreeCamera& camera, float right_rad, float down_rad);  ///< the target around the eye
 void pan(FreeCamera& camera, glm::vec2 pixels, int height);  ///< the target stays under the pointer
 void zoom(FreeCamera& camera, float steps);                  ///< towards the target; 1: a notch
 void fly(FreeCamera& camera, glm::vec3 right_up_forward_m);  ///< eye and target
 void focus(FreeCamera& camera, glm::vec3 point);             ///< turns towards it; orbits it then
+
+/// Sees all of a box, no more than that takes, the way it looks now; in a picture of `aspect` (width by
+/// height).
+void frame(FreeCamera& camera, glm::vec3 low, glm::vec3 high, double aspect);
 
 /// Window position in pixels of a world point, row 0 at the top; z > 0: in front of the eye (units of d0).
 glm::dvec3 pixel_of(const ViewRays& view, glm::dvec3 point);

@@ -1,7 +1,9 @@
 #include "window/event_report.h"
 
+#include <fmt/core.h>
 #include <cerrno>
 #include <cstring>
+
 #include <nlohmann/json.hpp>
 
 #include "base/fail.h"
@@ -84,11 +86,38 @@ void EventReport::picture(const Picture& picture, std::uint64_t number) {
   line(dump(json));
 }
 
+void EventReport::explained(const PictureAnswer& answer) {
+  if (!file_) return;
+  constexpr const char* sights[] = {"lit", "faces away", "out of reach", "blocked"};
+  Json lights = Json::array();
+  for (const render::LightExplanation& light : answer.pixel.lights) {
+    Json& json = lights.emplace_back(
+        Json{{"light", light.number}, {"sight", sights[static_cast<std::size_t>(light.sight)]}});
+    if (light.visible_fraction) json["visible_fraction"] = *light.visible_fraction;
+    if (light.occluder)
+      json["occluder"] = light.occluder->triangle, json["occluder_node"] = light.occluder->node;
+  }
+  Json json{{"event", "explained"},
+            {"pixel", {answer.question.pixel.x, answer.question.pixel.y}},
+            {"ms", answer.ms},
+            {"background", answer.pixel.background}};
+  if (!answer.pixel.background) {
+    json["triangle"] = answer.pixel.seen.triangle;
+    json["node"] = answer.pixel.seen.node;
+    json["material"] = answer.pixel.seen.material;
+  }
+  json["lights"] = std::move(lights);
+  line(dump(json));
+}
+
 void EventReport::state(const ViewState& state) {
   if (!file_) return;
   const auto overlay = state.overlay == Overlay::none    ? "none"
                        : state.overlay == Overlay::nodes ? "nodes"
                                                          : "classes";
+  Json edits = Json::array();
+  for (const EditOption& edit : edit_options(state.edits))
+    edits.push_back(fmt::format("{} {}", edit.name, edit.value));
   const std::string text = dump({{"event", "state"},
                                  {"file", state.options.file},
                                  {"clip", state.clip},
@@ -105,7 +134,11 @@ void EventReport::state(const ViewState& state) {
                                  {"show", name_of(state.show)},
                                  {"wipe", state.wipe},
                                  {"overlay", overlay},
-                                 {"lights", light_edit_texts(state.lights)},
+                                 {"lights", light_edit_texts(state.edits.lights)},
+                                 {"edits", edits},
+                                 {"selected_light", state.selected_light},
+                                 {"selected_node", state.selected_node},
+                                 {"selected_material", state.selected_material},
                                  {"panel", state.panel},
                                  {"help", state.help}});
   if (text == last_state_) return;

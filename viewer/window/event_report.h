@@ -19,6 +19,7 @@ public:
   void opened(const std::string& file, const ScenePlan& scene);
   void request(const FrameRequest& request);
   void picture(const Picture& picture, std::uint64_t number);
+  void explained(const PictureAnswer& answer);
   void state(const ViewState& state);  ///< where it differs from the last
   void marks(const Marks& marks);      ///< the same
   void note(const char* event, const std::string& text);

@@ -34,6 +34,7 @@ Expected<void> FrameMaker::take_scene(const std::shared_ptr<const ScenePlan>& sc
   renderer_.emplace(render::Renderer::create(std::move(*raster), scene->scene));
   if (scene->environment) renderer_->set_environment(*scene->environment);
   scene_ = scene;
+  materials_.clear();
   return {};
 }
 
@@ -57,6 +58,22 @@ Expected<Drawn> FrameMaker::draw(const FrameRequest& request, const render::Rend
   return drawn;
 }
 
+void FrameMaker::keep_evidence(const FrameRequest& request, const render::RenderSettings& settings,
+                               double time_s, Picture& picture) const {
+  PictureEvidence& evidence = picture.evidence;
+  const auto ids = renderer_->triangle_ids();
+  evidence.ids.assign(ids.begin(), ids.end());
+  evidence.lights = renderer_->drawn_lights();
+  for (render::LightMask& mask : picture.a.result.masks) {
+    if (mask.visible_fraction.pixels.empty()) continue;
+    evidence.fractions.push_back({.light = mask.light, .visible_fraction = std::move(mask.visible_fraction)});
+  }
+  evidence.settings = settings;
+  evidence.clip = request.clip;
+  evidence.time_s = time_s;
+  evidence.edits = request.edits;
+}
+
 Expected<std::shared_ptr<Picture>> FrameMaker::make(const FrameRequest& request, PreviewLevel level,
                                                     double time_s, const AoProgress& progress,
                                                     const StopFlag& stop) {
@@ -64,21 +81,27 @@ Expected<std::shared_ptr<Picture>> FrameMaker::make(const FrameRequest& request,
   const Scene& scene = request.scene->scene;
   base::Stopwatch watch;
   evaluate_frame(scene, request.clip, time_s, input_.geometry);
-  input_.lights = edited_lights(evaluate_lights(scene, request.clip, time_s), request.lights);
+  apply_node_edits(scene, request.edits, input_.geometry);
+  input_.lights = placed_lights(scene, request.edits, request.clip, time_s);
   const Size whole{request.a.width, request.a.height};
   render::RenderSettings settings = preview_settings(request.a, level);
   drawn_ = {settings.width, settings.height};
   input_.view = view_of_request(request, time_s, whole.width, whole.height);
   if (level.divisor > 1) input_.view = view_in_pixels(input_.view, whole, drawn_);
   evaluate_ms_ = watch.lap_ms();
-  renderer_->set_lights(edited_lights(scene.lights, request.lights));
+  renderer_->set_lights(lights_of(scene, request.edits));
+  if (request.edits.materials != materials_) {
+    renderer_->set_materials(materials_of(scene, request.edits));
+    materials_ = request.edits.materials;
+  }
 
   auto picture = std::make_shared<Picture>();
-  settings.area_lights.own_size_m = edited_sizes_m(request.lights);
+  settings.area_lights.own_size_m = edited_sizes_m(request.edits.lights);
   settings.diagnostics = request.overlay != Overlay::none;
   auto a = draw(request, settings, time_s, progress, stop);
   if (!a) return tl::unexpected(a.error());
   picture->a = std::move(*a);
+  keep_evidence(request, settings, time_s, *picture);
   if (request.b) {
     render::RenderSettings settings_b = preview_settings(*request.b, level);
     settings_b.area_lights.own_size_m = settings.area_lights.own_size_m;
@@ -88,14 +111,15 @@ Expected<std::shared_ptr<Picture>> FrameMaker::make(const FrameRequest& request,
     picture->b = std::move(*b);
   }
   picture->overlay = make_overlay(request.overlay, picture->a.result);
-  picture->a.result.masks.clear();  // the window shows the picture, not the masks
+  picture->a.result.masks
+      .clear();  // the window shows the picture, not the masks: the evidence has what it needs
   if (picture->b) picture->b->result.masks.clear();
   picture->scene = request.scene;
   picture->slot = request.slot;
   picture->preview = preview_text(request.a, level);
   picture->whole = whole;
   picture->view = input_.view;
-  picture->lights = evaluate_lights(scene, request.clip, time_s);
+  picture->lights = unmoved_lights(scene, request.edits, request.clip, time_s);
   picture->clock = request.clock;
   return picture;
 }

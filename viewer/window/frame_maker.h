@@ -29,6 +29,8 @@ public:
 
 private:
   Expected<void> take_scene(const std::shared_ptr<const ScenePlan>& scene);
+  void keep_evidence(const FrameRequest& request, const render::RenderSettings& settings, double time_s,
+                     Picture& picture) const;
   Expected<Drawn> draw(const FrameRequest& request, const render::RenderSettings& settings, double time_s,
                        const AoProgress& progress, const StopFlag& stop);
 
@@ -37,6 +39,7 @@ private:
   std::optional<render::Renderer> renderer_;
   render::FrameInput input_;
   Size drawn_;  ///< pixels of what was drawn last
+  std::map<int, MaterialEdit> materials_;  // that renderer_ has
   double evaluate_ms_ = 0;
 };
 

@@ -5,8 +5,9 @@
 #include <memory>
 #include <optional>
 
-#include "options/light_edits.h"
 #include "options/output_pattern.h"
+#include "options/scene_edits.h"
+#include "render/frame_lights.h"
 #include "render/log/frame_columns.h"
 #include "render/renderer.h"
 #include "shared/picture_difference.h"
@@ -28,13 +29,24 @@ struct FrameRequest {
   AnimationClock clock;
   int camera = 0;                  ///< of the scene
   std::optional<FreeCamera> free;  ///< instead of the scene's camera
-  LightEdits lights;
+  SceneEdits edits;
   render::RenderSettings a;
   int slot = 0;                             ///< of `a`: 0 for A, 1 for B (then b is empty)
   std::optional<render::RenderSettings> b;  ///< to compare with
   Overlay overlay = Overlay::none;
   std::optional<OutputPattern> record;  ///< each picture (a) is written, numbered by its frame
   double preview_ms = 0;                ///< time for a preview; 0: whole pictures alone
+};
+
+/// What a picture was made of, for questions about its pixels (render/explanation.h).
+struct PictureEvidence {
+  std::vector<std::uint32_t> ids;  ///< of its size
+  std::vector<render::DrawnLight> lights;
+  std::vector<render::LightMask> fractions;  ///< of lights with an area, their visible fractions alone
+  render::RenderSettings settings;           ///< of `a`
+  int clip = -1;
+  double time_s = 0;
+  SceneEdits edits;
 };
 
 /// One method's frame of a picture.
@@ -64,9 +76,10 @@ struct Picture {
   PictureDifference difference;  ///< of a and b
   OverlayImage overlay;          ///< of a
   ViewRays view;
-  std::vector<WorldLight> lights;
-  AnimationClock clock;  ///< as it was when the picture was begun
-  double delay_ms = 0;   ///< from the request, or while it plays from the picture before, to this one
+  std::vector<WorldLight> lights;  ///< before their edits
+  PictureEvidence evidence;        ///< of a
+  AnimationClock clock;            ///< as it was when the picture was begun
+  double delay_ms = 0;  ///< from the request, or while it plays from the picture before, to this one
 };
 
 }  // namespace tenebra::viewer

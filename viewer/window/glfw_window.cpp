@@ -41,7 +41,7 @@ struct Destroy {
 };
 using Window = std::unique_ptr<GLFWwindow, Destroy>;
 
-Expected<Window> open_window(const ViewOptions& options) {
+Expected<Window> open_window(const ViewOptions& options, const UserSettings& settings) {
   glfwWindowHint(GLFW_CONTEXT_VERSION_MAJOR, 3);
   glfwWindowHint(GLFW_CONTEXT_VERSION_MINOR, 3);
   glfwWindowHint(GLFW_OPENGL_PROFILE, GLFW_OPENGL_CORE_PROFILE);
@@ -51,7 +51,8 @@ Expected<Window> open_window(const ViewOptions& options) {
   glfwWindowHint(GLFW_VISIBLE, GLFW_FALSE);  // until there is something to see: show_when_ready
   glfwWindowHint(GLFW_DEPTH_BITS, 0);
   glfwWindowHint(GLFW_STENCIL_BITS, 0);
-  Window window(glfwCreateWindow(options.window.width, options.window.height, "Tenebra", nullptr, nullptr));
+  const Size size = options.window.value_or(settings.window);
+  Window window(glfwCreateWindow(size.width, size.height, "Tenebra", nullptr, nullptr));
   if (!window) {
     return base::fail("no window with OpenGL 3.3 can be opened ({}); {}", glfw_problem(), without_window);
   }
@@ -200,7 +201,8 @@ Expected<int> run_window(const ViewOptions& options) {
   StopSignals stop;  // before the worker's thread
   const auto library = Library::start();
   if (!library) return tl::unexpected(library.error());
-  const auto window = open_window(options);
+  const SettingsKeeper kept(options.settings);
+  const auto window = open_window(options, kept.settings());
   if (!window) return tl::unexpected(window.error());
   auto gl = WindowGl::load(glfwGetProcAddress, options.gl_debug);
   if (!gl) return tl::unexpected(gl.error());
@@ -210,6 +212,7 @@ Expected<int> run_window(const ViewOptions& options) {
   watch_events(window->get());
   const Gui gui(window->get());
   Viewer viewer(options, *gl, std::move(*report), glfwPostEmptyEvent);
+  viewer.use_settings(kept);
   glfwSetWindowUserPointer(window->get(), &viewer);
   std::string title;
   while (!viewer.is_over() && !glfwWindowShouldClose(window->get()) && stop.caught() == 0) {
@@ -220,6 +223,9 @@ Expected<int> run_window(const ViewOptions& options) {
     set_title(window->get(), viewer, title);
   }
   glfwSetWindowUserPointer(window->get(), nullptr);
+  int width = 0, height = 0;
+  glfwGetWindowSize(window->get(), &width, &height);
+  viewer.keep_settings(kept, {width, height});
   if (auto finished = viewer.finish(); !finished) return tl::unexpected(finished.error());
   return stop.caught() != 0 ? exit_code_of(stop.caught()) : 0;
 }

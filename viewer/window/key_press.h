@@ -13,7 +13,7 @@ struct KeyPress {
 
 namespace key_code {
 inline constexpr int space = 32, escape = 256, tab = 258, backspace = 259, right = 262, left = 263,
-                     home = 268, end = 269;
+                     down = 264, up = 265, home = 268, end = 269, enter = 257, keypad_enter = 335, f6 = 295;
 }
 
 }  // namespace tenebra::viewer

@@ -17,6 +17,7 @@ constexpr const char* time_and_camera =
     "Home, End: first, last frame\n"
     "[  ]: slower, faster; past zero backwards\n"
     "L: loop\n"
+    "O: record the animation as pictures, or end that\n"
     "T: start or end the log of frame times\n"
     "Camera\n"
     "drag: orbit, or look around while flying\n"
@@ -24,10 +25,15 @@ constexpr const char* time_and_camera =
     "wheel: nearer, farther; flying: speed\n"
     "W A S D Q E: fly; Shift: faster\n"
     "F, double click: look at this point and orbit it\n"
+    "G: see the whole scene\n"
     "C: scene's camera, orbit, fly\n"
     "Backspace: reset the camera\n"
     "Ctrl+C: copy what is shown as options\n";
 constexpr const char* methods_and_window =
+    "Scene\n"
+    "Ctrl+O: open a scene\n"
+    "click, I: why is it dark here?\n"
+    "Ctrl+Z, Ctrl+Shift+Z: undo, redo what was done to the scene\n"
     "Methods\n"
     "1  2  3: no, hard, soft shadows\n"
     "4: ambient occlusion: none, fields, rays\n"
@@ -39,6 +45,7 @@ constexpr const char* methods_and_window =
     "Window\n"
     "P, Shift+P: save the picture, the window\n"
     "Tab: show or hide the panel\n"
+    "F6: arrows, Space and Enter in the panel; Esc: out of it\n"
     "Esc: cancel what takes long\n"
     "R: compute again what was cancelled\n"
     "?: this overview\n"
@@ -85,8 +92,7 @@ void handle_camera_keys(Ui& ui) {
     leave_scene_camera(ui, static_cast<CameraMode>((static_cast<int>(state.camera_mode) + 1) % 3));
   }
   if (!ui.pressed(key_code::backspace)) return;
-  state.camera_mode = state.options.eye ? CameraMode::orbit : CameraMode::scene;
-  state.free = state.start;
+  state.reset_camera();
 }
 
 /// The key of a capital letter: by name for Dear ImGui 1.87 and later, by the window system's code before.
@@ -113,11 +119,26 @@ void fly_by_keys(Ui& ui, float seconds) {
 void handle_window_keys(Ui& ui) {
   if (const auto p = ui.pressed('P')) (p->shift ? ui.actions.window_shot : ui.actions.picture_shot) = true;
   if (ui.pressed('T')) ui.actions.toggle_log = true;
+  if (ui.pressed('O')) ui.actions.record = true;
+  if (ui.pressed('G')) ui.actions.frame_all = true;
   if (ui.pressed('R')) ui.actions.retry = true;
   if (ui.pressed(key_code::tab)) ui.state.panel = !ui.state.panel;
   if (!ui.pressed(key_code::escape)) return;
-  if (!ui.state.help) ui.actions.cancel = true;
+  if (!ui.state.help && ui.answer && !ui.worker.drawing) {
+    ui.actions.end_explanation = true;
+  } else if (!ui.state.help) {
+    ui.actions.cancel = true;
+  }
   ui.state.help = false;
+}
+
+void handle_command_keys(Ui& ui, const KeyPress& press) {
+  if (!press.ctrl) return;
+  if (press.code == 'C') ui.actions.copy_arguments = true;
+  if (press.code == 'O') ui.actions.open_dialog = true;
+  if (press.code == 'Q') ui.actions.quit = true;
+  if (press.code == 'Z') (press.shift ? ui.actions.redo : ui.actions.undo) = true;
+  if (press.code == 'Y') ui.actions.redo = true;
 }
 
 bool typed(ImWchar character) {
@@ -164,11 +185,15 @@ void flip_slots(ViewState& state) {
 
 void handle_keys(Ui& ui, float seconds) {
   const ImGuiIO& io = ImGui::GetIO();
-  if (io.WantTextInput) return;
+  if (ui.state.open_dialog || io.WantTextInput) return;
+  if (ui.pressed(key_code::f6)) ui.state.keys_in_panel = !ui.state.keys_in_panel;
+  if (ui.state.keys_in_panel && ui.pressed(key_code::escape) && !ImGui::IsAnyItemActive())
+    ui.state.keys_in_panel = false;
+  ui.state.keys_in_panel &= ui.state.panel;
+  for (const KeyPress& press : ui.keys) handle_command_keys(ui, press);
+  if (ui.state.keys_in_panel) return;
   if (typed('?')) ui.state.help = !ui.state.help;
   for (const KeyPress& press : ui.keys) {  // one by one: two presses of a key are two
-    if (press.ctrl && press.code == 'C') ui.actions.copy_arguments = true;
-    if (press.ctrl && press.code == 'Q') ui.actions.quit = true;
     Ui one = ui;
     one.keys = {&press, 1};
     handle_time_keys(one);

@@ -12,7 +12,8 @@ std::string SessionLog::key_of(const ViewState& state) {
   const int slot = state.compare ? 0 : state.active;
   std::string key = fmt::format("{}|{}|{}", fmt::ptr(state.scene.get()), state.clip,
                                 method_arguments(state.slots[static_cast<std::size_t>(slot)]));
-  for (const std::string& text : light_edit_texts(state.lights)) key += "|" + text;
+  for (const EditOption& edit : edit_options(state.edits))
+    key += fmt::format("|{} {}", edit.name, edit.value);
   return key;
 }
 
@@ -34,7 +35,8 @@ Expected<SessionLog> SessionLog::start(const std::string& path, const ViewState&
       {"method", method_arguments(method)},
       {"played", state.clock.fixed_step() ? "by fixed steps" : "by the clock, in the window"},
   };
-  for (std::string& text : light_edit_texts(state.lights)) settings.push_back({"set_light", std::move(text)});
+  for (EditOption& edit : edit_options(state.edits))
+    settings.push_back({setting_name(edit), std::move(edit.value)});
   auto log = render::FrameLog::create(path, settings);
   if (!log) return tl::unexpected(log.error());
   return SessionLog(std::move(*log), path, key_of(state));

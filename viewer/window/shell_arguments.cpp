@@ -50,7 +50,8 @@ std::string shell_arguments(const ViewState& state, double time_s, Size size) {
   text += fmt::format("--time {} --size {}x{}", time_s, size.width, size.height);
   const std::string method = method_arguments(state.slots[static_cast<std::size_t>(state.active)]);
   if (!method.empty()) text += " " + method;
-  for (const std::string& light : light_edit_texts(state.lights)) text += " --set-light " + shell_word(light);
+  for (const EditOption& edit : edit_options(state.edits))
+    text += fmt::format(" {} {}", edit.name, shell_word(edit.value));
   return text;
 }
 

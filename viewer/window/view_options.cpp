@@ -78,9 +78,15 @@ Expected<MethodOptions> parse_method(const std::string& text, const MethodOption
 
 void add_window_options(CLI::App& command, ViewOptions& options) {
   const auto group = [](AddedOption option) { option.group(window_group); };
-  group(add_value(command, "--window", options.window, parse_size, "Size of the window [1280x720]")
+  group(add_value(command, "--window", options.window, parse_size,
+                  "Size of the window [as it was left, or 1280x720]")
             .type_name("WxH"));
-  group(add_flag(command, "--panel,!--no-panel", options.panel, "Show the panel at the right [yes]"));
+  group(add_flag(command, "--panel,!--no-panel", options.panel,
+                 "Show the panel at the right [as it was left, or yes]"));
+  group(add_text(command, "--settings", options.settings,
+                 "Where the window's size and the last scenes are kept, or\nnone [viewer.json in "
+                 "$XDG_CONFIG_HOME/tenebra]")
+            .type_name("FILE|none"));
   group(add_flag(command, "--play", options.play, "Start playing"));
   group(add_value(command, "--speed", options.speed, parse_speed, "Speed of playing; below 0: backwards [1]")
             .type_name("-4..4"));

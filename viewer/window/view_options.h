@@ -17,8 +17,10 @@ struct ViewOptions {
   MethodOptions method;
   render::RasterChoice raster;
 
-  Size window{1280, 720};
+  std::optional<Size> window;  ///< none: as it was left
+  std::string settings;        ///< a file, or none; "": default_settings_file()
   bool panel = true;
+  bool panel_given = false;  ///< --panel or --no-panel: it is not as it was left
   bool play = false;
   double speed = 1;
   bool loop = true;

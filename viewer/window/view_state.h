@@ -9,6 +9,9 @@
 #include "options/method_options.h"
 #include "shared/scene_plan.h"
 #include "window/frame_request.h"
+#include "window/panels/open_dialog.h"
+#include "window/panels/scene_tree.h"
+#include "window/user_settings.h"
 
 namespace tenebra::viewer {
 
@@ -25,8 +28,10 @@ struct ViewState {
   CameraMode camera_mode = CameraMode::scene;
   int camera = 0;
   FreeCamera free;
-  FreeCamera start;     ///< where `reset` goes
-  float fly_speed = 1;  ///< metres per second
+  FreeCamera start;                ///< where `reset` goes
+  std::optional<glm::vec3> pivot;  ///< that orbits turn around; none: the camera's target
+  bool pivot_asked = false;        ///< since the free camera began, or was reset
+  float fly_speed = 1;             ///< metres per second
 
   std::array<MethodOptions, 2> slots;  ///< A and B
   int active = 0;                      ///< the slot that the panel edits
@@ -35,25 +40,44 @@ struct ViewState {
   float wipe = 0.5f;
   int gain = 8;  ///< factor of the difference as it is shown
 
-  LightEdits lights;
+  SceneEdits edits;
+  int selected_light = -1;
+  int selected_node = -1;
+  int selected_material = -1;
+  int shown_light = -1, shown_material = -1;  ///< the selections that the panel has opened
+  SceneTree tree;
+  std::optional<OpenDialog> open_dialog;  ///< while it is open
+  UserSettings settings;
   bool light_handles = true;
   Overlay overlay = Overlay::none;
   float overlay_opacity = 0.85f;
 
   float diagonal_m = 1;  ///< of the scene at its first frame
   glm::vec3 centre{0.0f};
+  glm::vec3 half_size_m{0.5f};  ///< of the box around it
 
   double preview_ms = default_preview_ms;  ///< time for a preview; 0: none are drawn
 
   std::optional<Size> size;  ///< of the picture; none: that of its place in the window
   bool panel = true;
   bool help = false;
+  bool recording = false;
+  bool panel_has_keys = false;  ///< since keys_in_panel
+  bool keys_in_panel = false;   ///< arrows, Space and Enter work the panel
 
+  void reset_camera() {
+    camera_mode = options.eye ? CameraMode::orbit : CameraMode::scene;
+    free = start;
+    pivot.reset();
+    pivot_asked = false;
+  }
   MethodOptions& method() { return slots[static_cast<std::size_t>(active)]; }
-  LightEdit& light_edit(int light) {
+  LightEdit& light_edit(int light) { return edits.light(light); }
+  int light_count() const { return static_cast<int>(scene->scene.lights.size() + edits.added.size()); }
+  LightType light_type(int light) const {
+    const auto& own = scene->scene.lights;
     const auto index = static_cast<std::size_t>(light);
-    if (lights.size() <= index) lights.resize(index + 1);
-    return lights[index];
+    return index < own.size() ? own[index].type : edits.added[index - own.size()].type;
   }
 };
 
@@ -66,7 +90,15 @@ struct Actions {
   bool window_shot = false;
   bool toggle_log = false;
   bool copy_arguments = false;
-  std::optional<glm::ivec2> focus;  ///< pixel of the picture
+  std::optional<glm::ivec2> focus;    ///< pixel of the picture
+  std::optional<glm::ivec2> explain;  ///< pixel of the picture: why is it dark?
+  std::optional<glm::ivec2> pivot;    ///< pixel of the picture: what the camera turns around
+  bool end_explanation = false;
+  bool open_dialog = false;
+  bool frame_all = false;
+  bool record = false;  ///< begins or ends to record the animation
+  bool undo = false;
+  bool redo = false;
   std::optional<std::string> open;  ///< a scene file
 };
 

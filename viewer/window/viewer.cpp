@@ -67,7 +67,8 @@ Viewer::Viewer(ViewOptions options, WindowGl& gl, EventReport report, std::funct
       gl_(gl),
       report_(std::move(report)),
       textures_(gl),
-      worker_(worker_raster(options_), gl.is_software(), std::move(wake)) {
+      worker_(worker_raster(options_), gl.is_software(), wake),
+      explainer_(wake) {
   state_.slots = {options_.method, options_.compare.value_or(options_.method)};
   state_.compare = options_.compare.has_value();
   state_.show = options_.show;
@@ -150,13 +151,20 @@ void Viewer::take_scene(OpenedScene opened) {
     state_.free = state_.start = start_camera(state_.options);
     state_.camera_mode = options_.navigate;
   }
-  state_.lights = state_.options.lights;
+  state_.edits = state_.options.edits;
+  undo_.begin(state_.edits);
+  answer_.reset();
+  state_.pivot.reset();
+  state_.pivot_asked = false;
+  state_.selected_light = state_.selected_node = state_.selected_material = -1;
   take_light(first ? state_.slots[0].render.light : -1);
   for (FrameHistory& history : history_) history.clear();
   const auto bounds = summarize_scene(plan.scene).bounds;
   state_.diagonal_m = bounds ? glm::distance(bounds->low, bounds->high) : 1.0f;
   state_.centre = bounds ? 0.5f * (bounds->low + bounds->high) : glm::vec3(0.0f);
+  state_.half_size_m = bounds ? 0.5f * (bounds->high - bounds->low) : glm::vec3(0.5f);
   state_.fly_speed = flight_share * state_.diagonal_m;
+  state_.settings.remember(state_.options.file);
   report_.opened(state_.options.file, plan);
   for (const std::string& warning : plan.scene.warnings) say("Warning: " + warning);
 }
@@ -167,11 +175,12 @@ void Viewer::take_light(int chosen) {
   const bool one_for_both = state_.slots[0].render.light == state_.slots[1].render.light;
   if (chosen >= 0 && (!one_for_both || state_.slots[0].render.area_lights.emissive_quads)) return;
   const Scene& scene = state_.scene->scene;
-  const auto placed = evaluate_lights(scene, state_.clip, state_.options.time_s.value_or(0));
+  const auto placed = unmoved_lights(scene, state_.edits, state_.clip, state_.options.time_s.value_or(0));
   if (chosen >= static_cast<int>(placed.size())) return;  // the renderer says so
-  for (int i = 0; chosen >= 0 && i < static_cast<int>(scene.lights.size()); ++i) {
+  for (int i = 0; chosen >= 0 && i < state_.light_count(); ++i) {
     state_.light_edit(i).on = i == placed[static_cast<std::size_t>(chosen)].light;
   }
+  undo_.begin(state_.edits);
   for (MethodOptions& slot : state_.slots) slot.render.light = -1;
 }
 
@@ -189,16 +198,14 @@ void Viewer::take_picture(const std::shared_ptr<const Picture>& picture) {
   }
   if (!options_.log.empty()) toggle_log();  // --log: from the first picture on
   if (log_) log_picture(*picture);
+  follow_explained_pixel(*picture);
   // By fixed steps the pictures move the clock; a hand that has moved it since is not overruled.
   if (state_.clock.fixed_step() && state_.clock.playing() && picture->request == requests_) {
     state_.clock.seek(now(), picture->a.record.time_s);
     if (state_.clock.is_over(now())) state_.clock.pause(now());
     sent_clock_ = state_.clock;
   }
-  if (options_.record && !state_.clock.playing()) {
-    say(fmt::format("Recorded to {}", options_.record->text()));
-    options_.record.reset();
-  }
+  if (options_.record && !state_.clock.playing()) end_recording("Recorded to");
   if (++whole_pictures_ == options_.exit_after) quit_ = true;
 }
 
@@ -207,7 +214,50 @@ void Viewer::take_pick(const std::optional<glm::vec3>& point) {
   Ui ui{state_, actions_, marks_, picture_.get(), history_, {}, {}, {}, 1};
   leave_scene_camera(ui, CameraMode::orbit);
   focus(state_.free, *point);
+  state_.pivot.reset();
+  state_.pivot_asked = true;  // it turns around this point
   due_ = std::max(due_, 1);
+}
+
+void Viewer::ask(QuestionKind kind, glm::ivec2 pixel) {
+  if (!picture_ || picture_->scene != state_.scene) return;
+  const base::Image8& image = picture_->a.result.image;
+  if (pixel.x < 0 || pixel.y < 0 || pixel.x >= image.width || pixel.y >= image.height) return;
+  explainer_.ask({kind, picture_, pixel, now()});
+}
+
+void Viewer::take_answer(PictureAnswer answer) {
+  if (answer.question.picture->scene != state_.scene) return;
+  due_ = std::max(due_, 2);
+  if (answer.question.kind == QuestionKind::explain) {
+    report_.explained(answer);
+    answer_ = std::move(answer);
+    return;
+  }
+  if (answer.pixel.background || state_.camera_mode != CameraMode::orbit) return;
+  // The target slides along the line of sight: nothing moves in the picture.
+  state_.pivot = answer.pixel.point;
+  const glm::vec3 way = state_.free.target - state_.free.eye;
+  const float distance = glm::dot(*state_.pivot - state_.free.eye, glm::normalize(way));
+  if (distance > 0) state_.free.target = state_.free.eye + distance * glm::normalize(way);
+}
+
+/// A picture from the same place, perhaps of another size, answers the same question anew; from another place
+/// there is none.
+void Viewer::follow_explained_pixel(const Picture& picture) {
+  if (!answer_) return;
+  const Picture& asked = *answer_->question.picture;
+  const base::Image8 &then = asked.a.result.image, &image = picture.a.result.image;
+  const auto corner = [](const ViewRays& view, const base::Image8& of) {
+    return view.d0 + static_cast<float>(of.width) * view.dx + static_cast<float>(of.height) * view.dy;
+  };
+  const auto near = [](glm::vec3 a, glm::vec3 b) { return glm::distance(a, b) <= 1e-4f * glm::length(a); };
+  const bool same_place = picture.scene == asked.scene && picture.view.eye == asked.view.eye &&
+                          near(picture.view.d0, asked.view.d0) &&
+                          near(corner(picture.view, image), corner(asked.view, then));
+  if (!same_place) return answer_.reset();
+  const glm::ivec2 pixel = answer_->question.pixel;
+  ask(QuestionKind::explain, {pixel.x * image.width / then.width, pixel.y * image.height / then.height});
 }
 
 void Viewer::follow_clock() {
@@ -235,7 +285,7 @@ FrameRequest Viewer::make_request() const {
   request.clock = state_.clock;
   request.camera = state_.camera;
   if (state_.camera_mode != CameraMode::scene) request.free = state_.free;
-  request.lights = state_.lights;
+  request.edits = state_.edits;
   request.slot = state_.compare ? 0 : state_.active;
   const SceneDisplay& display = state_.scene->display;
   request.a = method_settings(state_.slots[static_cast<std::size_t>(request.slot)], place_, display);
@@ -251,7 +301,8 @@ void Viewer::send_request() {
   const std::string method = method_key();
   std::string key = fmt::format("{} {} {} {}", fmt::ptr(state_.scene.get()), state_.clip, state_.camera,
                                 state_.camera_mode == CameraMode::scene ? "" : camera_arguments(state_.free));
-  for (const std::string& text : light_edit_texts(state_.lights)) key += "|" + text;
+  for (const EditOption& edit : edit_options(state_.edits))
+    key += fmt::format("|{} {}", edit.name, edit.value);
   const bool new_method = method != sent_method_;
   if (!new_method && key == sent_key_ && state_.clock == sent_clock_ && !actions_.retry) return;
   FrameRequest request = make_request();
@@ -273,6 +324,7 @@ void Viewer::update() {
   for (OpenedScene& opened : results.opened) take_scene(std::move(opened));
   for (const auto& picture : results.pictures) take_picture(picture);
   for (const auto& point : results.picked) take_pick(point);
+  for (PictureAnswer& answer : explainer_.take_answers()) take_answer(std::move(answer));
   for (const std::string& text : results.failures) say(text, true);
   for (const std::string& text : results.gl_messages) report_.note("gl", text);
   follow_clock();
@@ -338,6 +390,65 @@ void Viewer::toggle_log() {
   say(fmt::format("Logging frames to {}", path));
 }
 
+void Viewer::frame_all() {
+  if (!picture_) return;
+  Ui ui{state_, actions_, marks_, picture_.get(), history_, {}, {}, {}, 1};
+  leave_scene_camera(ui, CameraMode::orbit);
+  const base::Image8& image = picture_->a.result.image;
+  frame(state_.free, state_.centre - state_.half_size_m, state_.centre + state_.half_size_m,
+        static_cast<double>(image.width) / image.height);
+  state_.pivot.reset();
+  state_.pivot_asked = true;  // it turns around the middle
+  due_ = std::max(due_, 1);
+}
+
+/// Every frame from the first on, as --record does.
+void Viewer::toggle_recording() {
+  if (options_.record) {
+    state_.clock.pause(now());
+    return end_recording("Recording ended; the pictures are in");
+  }
+  const std::string folder = unused_name("tenebra_frames");
+  auto pattern = OutputPattern::parse(folder + "/%04d.png");
+  if (pattern) {
+    if (auto prepared = pattern->prepare_folder(); !prepared) return say(prepared.error().message, true);
+  }
+  if (!pattern) return say(pattern.error().message, true);
+  before_recording_ = state_.clock;
+  options_.record = std::move(*pattern);
+  state_.recording = true;
+  state_.clock.set_loop(now(), false);
+  state_.clock.set_fixed_step(now(), true);
+  state_.clock.set_speed(now(), std::abs(state_.clock.speed()));
+  state_.clock.seek(now(), state_.clock.start_s());
+  state_.clock.play(now());
+  say(fmt::format("Recording {} frames to {}", state_.clock.frames(), folder));
+}
+
+void Viewer::end_recording(const std::string& how) {
+  say(fmt::format("{} {}", how, options_.record->text()));
+  options_.record.reset();
+  if (!std::exchange(state_.recording, false)) return;
+  state_.clock.set_loop(now(), before_recording_.loop());
+  state_.clock.set_fixed_step(now(), before_recording_.fixed_step());
+  state_.clock.set_speed(now(), before_recording_.speed());
+}
+
+void Viewer::use_settings(const SettingsKeeper& kept) {
+  const std::vector<std::string> opened =
+      std::move(state_.settings.recent);  // a scene that was there already
+  state_.settings = kept.settings();
+  for (const std::string& file : opened) state_.settings.remember(file);
+  if (!options_.panel_given) state_.panel = state_.settings.panel;
+  if (!kept.problem().empty()) say(kept.problem(), true);
+}
+
+void Viewer::keep_settings(const SettingsKeeper& kept, Size window) {
+  if (window.width > 0 && window.height > 0) state_.settings.window = window;
+  state_.settings.panel = state_.panel;
+  if (const auto done = kept.keep(state_.settings); !done) report_.note("failure", done.error().message);
+}
+
 void Viewer::log_picture(const Picture& picture) {
   const bool belongs = log_->belongs(state_);
   const auto added = belongs ? log_->add(picture) : Expected<void>();
@@ -364,7 +475,16 @@ void Viewer::act() {
   if (actions.window_shot) window_shot_ = true, due_ = std::max(due_, 1);
   if (actions.toggle_log) toggle_log();
   if (actions.focus && picture_) worker_.pick(place_in(*picture_, *actions.focus));
+  if (actions.explain) ask(QuestionKind::explain, *actions.explain);
+  if (actions.pivot) ask(QuestionKind::pivot, *actions.pivot);
+  if (actions.end_explanation) answer_.reset(), due_ = std::max(due_, 2);
+  if (actions.undo && !undo_.undo(state_.edits)) say("There is nothing to undo.");
+  if (actions.redo && !undo_.redo(state_.edits)) say("There is nothing to do again.");
   if (actions.open) drop({*actions.open});
+  if (actions.open_dialog)
+    state_.open_dialog = open_dialog_at(state_.settings.folder), due_ = std::max(due_, 3);
+  if (actions.frame_all) frame_all();
+  if (actions.record) toggle_recording();
 }
 
 void Viewer::drop(const std::vector<std::string>& files) {
@@ -404,12 +524,14 @@ void Viewer::draw(float scale, float pixels_a_unit) {
   const float seconds = std::chrono::duration<float>(now() - last_draw_).count();
   last_draw_ = now();
   due_ = std::max(mouse_.waits() ? 3 : 0, due_ - 1);
-  const ImGuiIO& io = ImGui::GetIO();
+  ImGuiIO& io = ImGui::GetIO();
   hand_moves_ = ImGui::IsAnyMouseDown();
   const std::string log = log_ ? log_->path() : "";
   marks_.clear();
-  Ui ui{state_, actions_, marks_, picture_.get(), history_, keys_, worker_.status(), log, scale};
+  Ui ui{state_, actions_, marks_, picture_.get(), history_, keys_, worker_.status(), log, scale, answer()};
   handle_keys(ui, std::min(seconds, 0.1f));
+  const ImGuiConfigFlags nav = ImGuiConfigFlags_NavEnableKeyboard;
+  io.ConfigFlags = state_.keys_in_panel ? io.ConfigFlags | nav : io.ConfigFlags & ~nav;
   if (flies(io)) due_ = std::max(due_, 1);
 
   const Layout layout = layout_of(ui, io.DisplaySize);
@@ -421,10 +543,12 @@ void Viewer::draw(float scale, float pixels_a_unit) {
                    picture_->preview.empty() && image.width <= shown.width && image.height <= shown.height);
   }
   draw_view(ui, textures_, layout.view);
+  draw_explanation_card(ui, layout.view);
   draw_transport(ui, layout.transport);
   if (layout.has_panel) draw_panel(ui, layout.panel);
   draw_progress(ui, layout.view);
   if (state_.help) draw_help(ui, io.DisplaySize);
+  draw_open_dialog(ui, io.DisplaySize);
   draw_messages(layout.view);
   if (actions_.copy_arguments && state_.scene) {
     const std::string text = shell_arguments(state_, state_.clock.time_at(now()), place_);
@@ -432,9 +556,11 @@ void Viewer::draw(float scale, float pixels_a_unit) {
     report_.note("copied", text);
     say("Copied: " + text);
   }
+  undo_.follow(state_.edits, !hand_moves_ && !ImGui::IsAnyItemActive());
   const Actions& asked = actions_;
   if (asked.quit || asked.cancel || asked.retry || asked.picture_shot || asked.window_shot ||
-      asked.toggle_log || asked.focus || asked.open) {
+      asked.toggle_log || asked.focus || asked.open || asked.open_dialog || asked.frame_all || asked.record ||
+      asked.explain || asked.pivot || asked.end_explanation || asked.undo || asked.redo) {
     due_ = std::max(due_, 1);
   }
   keys_.clear();

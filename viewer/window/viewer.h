@@ -7,6 +7,7 @@
 #include "window/mouse_queue.h"
 #include "window/panels/panels.h"
 #include "window/session_log.h"
+#include "window/undo_history.h"
 #include "window/view_options.h"
 
 namespace tenebra::viewer {
@@ -23,6 +24,9 @@ public:
   /// After it was drawn by OpenGL: writes a screenshot of the window if one was asked for.
   void after_draw(int framebuffer_width, int framebuffer_height);
   void drop(const std::vector<std::string>& files);
+  /// At the begin of a session, and at its end; a failure is a line in the report.
+  void use_settings(const SettingsKeeper& kept);
+  void keep_settings(const SettingsKeeper& kept, Size window);
   /// Ends the log; its failure, if any, or that of the first scene.
   Expected<void> finish();
 
@@ -46,6 +50,7 @@ public:
   double sleep_s() const;  ///< how long to wait for events at most
   const ViewState& state() const { return state_; }
   const Picture* picture() const { return picture_.get(); }
+  const PictureAnswer* answer() const { return answer_ ? &*answer_ : nullptr; }
   const Marks& marks() const { return marks_; }
   std::string message() const { return messages_.empty() ? "" : messages_.back().text; }
 
@@ -60,6 +65,9 @@ private:
   void take_light(int chosen);
   void take_picture(const std::shared_ptr<const Picture>& picture);
   void take_pick(const std::optional<glm::vec3>& point);
+  void take_answer(PictureAnswer answer);
+  void ask(QuestionKind kind, glm::ivec2 pixel);
+  void follow_explained_pixel(const Picture& picture);
   void follow_clock();
   FrameRequest make_request() const;
   std::string method_key() const;
@@ -70,6 +78,9 @@ private:
   std::filesystem::path next_shot();
   void save_picture();
   void toggle_log();
+  void frame_all();
+  void toggle_recording();
+  void end_recording(const std::string& how);
   void log_picture(const Picture& picture);
 
   ViewOptions options_;
@@ -84,10 +95,13 @@ private:
   std::array<FrameHistory, 2> history_;
   std::optional<SessionLog> log_;
   std::shared_ptr<const Picture> picture_;
+  std::optional<PictureAnswer> answer_;  // that is shown
+  UndoHistory undo_;
   std::deque<Message> messages_;
   std::string failure_;  // that ends the program
 
-  Size place_{0, 0};         // of the picture in the window
+  Size place_{0, 0};  // of the picture in the window
+  AnimationClock before_recording_;
   bool hand_moves_ = false;  // a mouse button is down
   std::string sent_key_, sent_method_;
   AnimationClock sent_clock_;
@@ -107,6 +121,7 @@ private:
   AnimationClock::Wall last_draw_{}, last_present_{};
 
   RenderWorker worker_;  // last: its thread ends first
+  Explainer explainer_;  // and before that this one's
 };
 
 }  // namespace tenebra::viewer

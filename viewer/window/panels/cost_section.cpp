@@ -209,7 +209,7 @@ void choose_preview_time(Ui& ui) {
 }  // namespace
 
 void draw_cost_section(Ui& ui) {
-  if (!section(ui, "Cost", true)) return;
+  ImGui::Separator();
   ViewState& state = ui.state;
   const int first = state.compare ? 0 : state.active;
   const FrameHistory& history = ui.history[static_cast<std::size_t>(first)];

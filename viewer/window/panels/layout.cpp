@@ -31,15 +31,25 @@ Layout layout_of(const Ui& ui, ImVec2 window) {
 void draw_panel(Ui& ui, Area area) {
   ImGui::SetNextWindowPos(area.low);
   ImGui::SetNextWindowSize(area.size);
+  const bool by_keys = ui.state.keys_in_panel;
+  const int nav = by_keys ? ImGuiWindowFlags_None : ImGuiWindowFlags_NoNav;
+  if (by_keys && !ui.state.panel_has_keys) ImGui::SetNextWindowFocus();
+  ui.state.panel_has_keys = by_keys;
   ImGui::Begin("##panel", nullptr,
                ImGuiWindowFlags_NoTitleBar | ImGuiWindowFlags_NoMove | ImGuiWindowFlags_NoResize |
-                   ImGuiWindowFlags_NoCollapse | ImGuiWindowFlags_NoNav);
+                   ImGuiWindowFlags_NoCollapse | nav);
+  if (by_keys) {
+    const ImVec2 low = ImGui::GetWindowPos(), size = ImGui::GetWindowSize();
+    ImGui::GetForegroundDrawList()->AddRect(low, {low.x + size.x, low.y + size.y}, palette::accent, 0, 0, 2);
+  }
   draw_scene_section(ui);
   draw_method_section(ui);
-  draw_compare_section(ui);
   draw_light_section(ui);
+  draw_tree_section(ui);
+  draw_material_section(ui);
   draw_camera_section(ui);
-  draw_cost_section(ui);
+  draw_compare_section(ui);
+  draw_research_section(ui);
   ImGui::End();
 }
 

@@ -1,6 +1,6 @@
-// The lights, the camera, and the comparison of A and B.
+// The lights: on or off, colour, brightness, direction, place, size; new ones, and without.
 #include <fmt/core.h>
-#include <algorithm>
+#include <cmath>
 
 #include "window/panels/panels.h"
 
@@ -52,134 +52,148 @@ std::string method_of(const Ui& ui, int index) {
   return "";
 }
 
-void edit_light(Ui& ui, int index, const Light& light) {
-  LightEdit edit = edit_of(ui.state.lights, index);
-  const LightEdit before = edit;
-  ImGui::PushID(index);
-  const std::string title =
-      fmt::format("{}  {}", index, light.name.empty() ? type_name(light.type) : light.name.c_str());
-  ImGui::Checkbox(title.c_str(), &edit.on);
-  ui.mark(fmt::format("light.{}.on", index));
-  tooltip(type_name(light.type));
-  if (edit != LightEdit{}) {
-    ImGui::SameLine(ImGui::GetWindowWidth() - ui.px(64));
-    if (ImGui::SmallButton("reset")) edit = {};
-    ui.mark(fmt::format("light.{}.reset", index));
+/// The way from a place to a light, or of a light: by compass and height, as the sun's.
+struct Bearing {
+  float compass_deg = 0;  ///< 0 is -Z, 90 is +X
+  float height_deg = 0;   ///< above the ground, +Y up
+};
+constexpr float degrees_a_radian = 57.29577951f;
+
+Bearing bearing_of(glm::vec3 direction) {
+  const float level = std::hypot(direction.x, direction.z);
+  float compass = std::atan2(direction.x, -direction.z) * degrees_a_radian;
+  if (compass < 0) compass += 360;
+  return {compass, std::atan2(direction.y, level) * degrees_a_radian};
+}
+
+glm::vec3 direction_of(Bearing bearing) {
+  const float compass = bearing.compass_deg / degrees_a_radian,
+              height = bearing.height_deg / degrees_a_radian;
+  return {std::cos(height) * std::sin(compass), std::sin(height), -std::cos(height) * std::cos(compass)};
+}
+
+/// Where the light shines as the picture has it, with its edit.
+glm::vec3 direction_now(const Ui& ui, int index, const LightEdit& edit) {
+  if (edit.direction) return *edit.direction;
+  for (const WorldLight& placed : ui.picture ? ui.picture->lights : std::vector<WorldLight>{}) {
+    if (placed.light == index) return placed.direction;
   }
-  if (const std::string method = method_of(ui, index); !method.empty()) {
+  return {0, -1, 0};
+}
+
+void edit_direction(Ui& ui, int index, LightType type, LightEdit& edit) {
+  const bool sun = type == LightType::directional;
+  const float sign = sun ? -1.0f : 1.0f;
+  Bearing bearing = bearing_of(sign * direction_now(ui, index, edit));
+  row(ui, sun ? "  From" : "  Towards", "Compass: 0 is -Z, 90 is +X. The handle in the view turns it too.");
+  bool changed = ImGui::SliderFloat("##compass", &bearing.compass_deg, 0, 360, "%.1f deg");
+  ui.mark(fmt::format("light.{}.compass", index));
+  row(ui, "  Height", sun ? "Of the sun above the ground." : "Above the ground; below zero it shines down.");
+  changed |= ImGui::SliderFloat("##height", &bearing.height_deg, -89.9f, 89.9f, "%.1f deg",
+                                ImGuiSliderFlags_AlwaysClamp);
+  ui.mark(fmt::format("light.{}.height", index));
+  if (changed) edit.direction = sign * direction_of(bearing);
+}
+
+void edit_values(Ui& ui, int index, const Light& light, LightEdit& edit) {
+  if (const std::string method = method_of(ui, index); !method.empty() && ui.state.settings.research) {
     row(ui, "  Traced by",
         "What found its hard shadows in this picture: the variant, or what took its place.");
     ImGui::TextUnformatted(method.c_str());
   }
+  row(ui, "  Colour");
+  glm::vec3 color = edit.color.value_or(light.color);
+  if (edit_color(ui, fmt::format("light.{}.color", index), color)) edit.color = color;
   row(ui, "  Intensity", "Multiplies the scene's intensity.");
   ImGui::SliderFloat("##intensity", &edit.intensity, 0.01f, 100.0f, "x %.3g", ImGuiSliderFlags_Logarithmic);
   ui.mark(fmt::format("light.{}.intensity", index));
   if (!(edit.intensity > 0)) edit.intensity = 1;
-  if (light.type != LightType::directional) {
-    edit_light_size(ui, index, light, edit);
-    row(ui, "  Moved",
-        "Away from where the animation has it, in metres. You can also drag its circle in the view.");
-    ImGui::DragFloat3("##move", &edit.move.x, 0.02f, 0, 0, "%.2f");
+  if (light.type != LightType::point) edit_direction(ui, index, light.type, edit);
+  if (light.type == LightType::directional) return;
+  edit_light_size(ui, index, light, edit);
+  row(ui, "  Moved",
+      "Away from where the animation has it, in metres. You can also drag its circle in the view.");
+  ImGui::DragFloat3("##move", &edit.move.x, 0.01f * ui.state.fly_speed, 0, 0, "%.2f");
+  ui.mark(fmt::format("light.{}.move", index));
+}
+
+void edit_light(Ui& ui, int index, const Light& light, bool open) {
+  LightEdit edit = edit_of(ui.state.edits.lights, index);
+  if (edit.deleted) return;
+  const LightEdit before = edit;
+  ImGui::PushID(index);
+  ImGui::Checkbox("##on", &edit.on);
+  ui.mark(fmt::format("light.{}.on", index));
+  tooltip("Shines, or is off.");
+  ImGui::SameLine(0, ui.px(4));
+  const bool selected = ui.state.selected_light == index;
+  if (selected && ui.state.shown_light != index) ImGui::SetNextItemOpen(true);
+  const std::string title =
+      fmt::format("{}  {}", index, light.name.empty() ? type_name(light.type) : light.name.c_str());
+  const int flags = ImGuiTreeNodeFlags_NoTreePushOnOpen | ImGuiTreeNodeFlags_OpenOnArrow |
+                    ImGuiTreeNodeFlags_OpenOnDoubleClick | (selected ? ImGuiTreeNodeFlags_Selected : 0) |
+                    (open ? ImGuiTreeNodeFlags_DefaultOpen : 0) | ImGuiTreeNodeFlags_AllowItemOverlap;
+  const bool is_open = ImGui::TreeNodeEx("light", flags, "%s", title.c_str());
+  ui.mark(fmt::format("light.{}.name", index));
+  if (ImGui::IsItemClicked()) ui.state.selected_light = index;
+  tooltip(type_name(light.type));
+  ImGui::SameLine(ImGui::GetWindowWidth() - ui.px(edit != LightEdit{} ? 128 : 76));
+  if (edit != LightEdit{}) {
+    if (ImGui::SmallButton("reset")) edit = {};
+    ui.mark(fmt::format("light.{}.reset", index));
+    ImGui::SameLine(0, ui.px(4));
   }
+  if (ImGui::SmallButton("delete")) edit.deleted = true;
+  ui.mark(fmt::format("light.{}.delete", index));
+  if (is_open) edit_values(ui, index, light, edit);
   ImGui::PopID();
   if (edit != before) ui.state.light_edit(index) = edit;
+}
+
+/// Above the middle of the scene, or of what was asked about last.
+void add_light(Ui& ui, LightType type) {
+  ViewState& state = ui.state;
+  const bool asked = ui.answer && !ui.answer->pixel.background;
+  const glm::vec3 below = asked ? glm::vec3(ui.answer->pixel.point) : state.centre;
+  const glm::vec3 above = below + glm::vec3(0, (asked ? 0.1f : 0.35f) * state.diagonal_m, 0);
+  AddedLight light{.type = type, .position = above};
+  if (type == LightType::directional) light.direction = glm::normalize(glm::vec3(-0.5f, -1, -0.3f));
+  state.edits.added.push_back(light);
+  state.selected_light = state.light_count() - 1;
+  state.light_edit(state.selected_light) = {};
+}
+
+void add_lights(Ui& ui) {
+  row(ui, "Add", "A light above what was clicked last, or above the scene.");
+  constexpr struct {
+    const char* name;
+    LightType type;
+  } kinds[] = {{"point", LightType::point}, {"spot", LightType::spot}, {"sun", LightType::directional}};
+  for (const auto& kind : kinds) {
+    if (&kind != kinds) ImGui::SameLine(0, ui.px(4));
+    if (ImGui::Button(kind.name)) add_light(ui, kind.type);
+    ui.mark(fmt::format("add.{}", kind.name));
+  }
 }
 
 }  // namespace
 
 void draw_light_section(Ui& ui) {
-  if (!ui.state.scene || !section(ui, "Lights", false)) return;
-  const auto& lights = ui.state.scene->scene.lights;
-  ImGui::Checkbox("circles in the view", &ui.state.light_handles);
+  if (!ui.state.scene) return;
+  ViewState& state = ui.state;
+  if (state.selected_light != state.shown_light && state.selected_light >= 0) ImGui::SetNextItemOpen(true);
+  if (!section(ui, "Lights", false)) {
+    state.shown_light = state.selected_light;
+    return;
+  }
+  ImGui::Checkbox("handles in the view", &state.light_handles);
   ui.mark("circles");
-  for (int i = 0; i < static_cast<int>(lights.size()); ++i)
-    edit_light(ui, i, lights[static_cast<std::size_t>(i)]);
-}
-
-void draw_camera_section(Ui& ui) {
-  if (!ui.state.scene || !section(ui, "Camera", false)) return;
-  ViewState& state = ui.state;
-  constexpr const char* modes[] = {"scene", "orbit", "fly"};
-  row(ui, "Moves", "The scene's animated camera, one that orbits a point, or one that flies (W A S D Q E).");
-  int mode = static_cast<int>(state.camera_mode);
-  if (segments(ui, "camera", modes, 3, mode)) leave_scene_camera(ui, static_cast<CameraMode>(mode));
-  const auto& cameras = state.scene->scene.cameras;
-  if (cameras.size() > 1 && state.camera_mode == CameraMode::scene) {
-    row(ui, "Camera");
-    const auto name = [&](int i) {
-      const std::string& own = cameras[static_cast<std::size_t>(i)].name;
-      return own.empty() ? fmt::format("camera {}", i) : own;
-    };
-    if (ImGui::BeginCombo("##camera", name(state.camera).c_str())) {
-      for (int i = 0; i < static_cast<int>(cameras.size()); ++i) {
-        ImGui::PushID(i);
-        if (ImGui::Selectable(name(i).c_str(), i == state.camera)) state.camera = i;
-        ImGui::PopID();
-      }
-      ImGui::EndCombo();
-    }
-  }
-  if (state.camera_mode != CameraMode::scene) {
-    row(ui, "Eye");
-    ImGui::DragFloat3("##eye", &state.free.eye.x, 0.05f, 0, 0, "%.3f");
-    row(ui, "Looks at");
-    ImGui::DragFloat3("##target", &state.free.target.x, 0.05f, 0, 0, "%.3f");
-    row(ui, "Field of view");
-    float fov = static_cast<float>(state.free.fov_deg);
-    if (ImGui::SliderFloat("##fov", &fov, 5, 150, "%.1f degrees"))
-      state.free.fov_deg = std::clamp(fov, 1.0f, 179.0f);
-    if (state.camera_mode == CameraMode::fly) {
-      row(ui, "Speed");
-      ImGui::SliderFloat("##fly", &state.fly_speed, 1e-3f * state.diagonal_m, state.diagonal_m, "%.2f m/s",
-                         ImGuiSliderFlags_Logarithmic);
-    }
-  }
-  const float half = (ImGui::GetContentRegionAvail().x - ImGui::GetStyle().ItemSpacing.x) / 2;
-  if (ImGui::Button("Reset", {half, 0})) {
-    state.camera_mode = state.options.eye ? CameraMode::orbit : CameraMode::scene;
-    state.free = state.start;
-  }
-  ui.mark("reset camera");
-  ImGui::SameLine();
-  if (ImGui::Button("Copy arguments", {half, 0})) ui.actions.copy_arguments = true;
-  ui.mark("copy arguments");
-  tooltip("Copies camera, method and lights to the clipboard, as options of tenebra render (Ctrl+C).");
-}
-
-void draw_compare_section(Ui& ui) {
-  if (!section(ui, "Compare", ui.state.compare)) return;
-  ViewState& state = ui.state;
-  row(ui, "A with B", "Draws both methods; X flips.");
-  ImGui::Checkbox("draw both##compare", &state.compare);
-  ui.mark("compare");
-  if (!state.compare) return;
-  constexpr const char* views[] = {"A", "B", "side", "wipe", "diff"};
-  int show = static_cast<int>(state.show);
-  if (segments(ui, "show", views, 5, show)) state.show = static_cast<CompareView>(show);
-  if (state.show == CompareView::wipe) {
-    row(ui, "Wipe");
-    ImGui::SliderFloat("##wipe", &state.wipe, 0, 1, "%.2f", ImGuiSliderFlags_AlwaysClamp);
-    ui.mark("wipe slider");
-  }
-  if (state.show == CompareView::difference) {
-    row(ui, "Brighter by", "Multiplies the difference that is shown.");
-    ImGui::SliderInt("##gain", &state.gain, 1, 64, "%d",
-                     ImGuiSliderFlags_Logarithmic | ImGuiSliderFlags_AlwaysClamp);
-  }
-  if (!ui.picture || !ui.picture->b) return;
-  const PictureDifference& difference = ui.picture->difference;
-  row(ui, "Difference");
-  if (difference.differing == 0) {
-    ImGui::TextUnformatted("none: the same picture");
-  } else {
-    ImGui::TextUnformatted(
-        fmt::format("{} pixels, most {}", difference.differing, difference.largest).c_str());
-    tooltip(fmt::format(
-                "{:.2f} % of the pixels differ; the largest difference of a channel is {} of 255.",
-                100.0 * static_cast<double>(difference.differing) / static_cast<double>(difference.pixels),
-                difference.largest)
-                .c_str());
-  }
+  add_lights(ui);
+  const std::vector<Light> unedited = lights_of(state.scene->scene, {.added = state.edits.added});
+  const int shown = state.selected_light;
+  for (int i = 0; i < static_cast<int>(unedited.size()); ++i)
+    edit_light(ui, i, unedited[static_cast<std::size_t>(i)], unedited.size() <= 4);
+  state.shown_light = shown;
 }
 
 }  // namespace tenebra::viewer

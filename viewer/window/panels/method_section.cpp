@@ -83,12 +83,14 @@ void edit_light_size(Ui& ui, MethodOptions& method) {
   }
 }
 
-void edit_soft(Ui& ui, MethodOptions& method) {
-  SoftShadowConfig& soft = method.render.soft;
-  // What soft shadows have no use for must not stay behind from the hard ones.
+/// What soft shadows have no use for must not stay behind from the hard ones.
+void settle_soft(MethodOptions& method) {
   method.render.samples = render::SampleSource::ids;
   method.cull_front.reset();
-  edit_light_size(ui, method);
+}
+
+void edit_soft(Ui& ui, MethodOptions& method) {
+  SoftShadowConfig& soft = method.render.soft;
   row(ui, "Emissive", "Flat convex meshes with an emissive material are lights too.");
   ImGui::Checkbox("quads shine##emissive", &method.render.area_lights.emissive_quads);
   row(ui, "Solver",
@@ -104,6 +106,14 @@ void edit_soft(Ui& ui, MethodOptions& method) {
   number(ui, "soft points", method.render.soft_points, 0, 4096, 4);
 }
 
+void edit_distance(Ui& ui, AoConfig& ao) {
+  row(ui, "Distance", "Beyond it nothing occludes, in metres. 0: a twentieth of the scene's diagonal.");
+  ImGui::InputDouble("##distance", &ao.distance_m, 0, 0, ao.distance_m > 0 ? "%.3f m" : "automatic",
+                     ImGuiInputTextFlags_EnterReturnsTrue);
+  ui.mark("ao distance");
+  if (!(ao.distance_m >= 0)) ao.distance_m = 0;
+}
+
 void edit_ao(Ui& ui, AoConfig& ao) {
   row(ui, "At", "Where it is computed; in the paper: at vertices.");
   choose(ui, "place", place_choices, ao.place);
@@ -111,11 +121,6 @@ void edit_ao(Ui& ui, AoConfig& ao) {
   number(ui, "ao rays", ao.rays, 1, 65536, 16);
   row(ui, "Downscale", "N computes one of N x N pixels; the others are blurred from similar ones.");
   number(ui, "ao downscale", ao.downscale, 1, 8, 1);
-  row(ui, "Distance", "Beyond it nothing occludes, in metres. 0: a twentieth of the scene's diagonal.");
-  ImGui::InputDouble("##distance", &ao.distance_m, 0, 0, ao.distance_m > 0 ? "%.3f m" : "automatic",
-                     ImGuiInputTextFlags_EnterReturnsTrue);
-  ui.mark("ao distance");
-  if (!(ao.distance_m >= 0)) ao.distance_m = 0;
   if (ao.mode != AoMode::field) return;
   row(ui, "Layout",
       "What a field stores: chords from entry to exit, or as in the paper positions x directions.");
@@ -198,6 +203,21 @@ void draw_scene_section(Ui& ui) {
   if (!ui.state.scene) return;
   const Scene& scene = ui.state.scene->scene;
   const std::string name = std::filesystem::path(ui.state.options.file).filename().string();
+  if (ImGui::Button("Open...")) ui.actions.open_dialog = true;
+  ui.mark("open");
+  tooltip("Opens a scene (Ctrl+O); the last ones stand first. A file can be dropped on the window too.");
+  ImGui::SameLine(0, ui.px(4));
+  if (ImGui::Button("Undo")) ui.actions.undo = true;
+  ui.mark("undo");
+  tooltip("Takes back the last change of the scene (Ctrl+Z)");
+  ImGui::SameLine(0, ui.px(4));
+  if (ImGui::Button("Redo")) ui.actions.redo = true;
+  ui.mark("redo");
+  tooltip("Does it again (Ctrl+Shift+Z)");
+  ImGui::SameLine(0, ui.px(4));
+  if (ImGui::Button("See all")) ui.actions.frame_all = true;
+  ui.mark("see all");
+  tooltip("A camera that sees the whole scene (G)");
   ImGui::TextUnformatted(name.c_str());
   tooltip(fmt::format("{}\n{} nodes, {} meshes, {} lights. Drop a scene file on the window to open it.",
                       ui.state.options.file, scene.nodes.size(), scene.meshes.size(), scene.lights.size())
@@ -223,29 +243,53 @@ void draw_scene_section(Ui& ui) {
   ui.mark("clip");
 }
 
-void draw_method_section(Ui& ui) {
-  if (!section(ui, "Method", true)) return;
+namespace {
+
+void choose_slot(Ui& ui) {
   ViewState& state = ui.state;
   constexpr const char* slots[] = {"A", "B"};
-  row(ui, "Slot", "Two methods with their settings. X flips between them; Compare shows both.");
+  if (!state.compare && state.active == 0) return;
+  row(ui, "Settings of", "Two methods with their settings. X flips between them; Compare shows both.");
   if (segments(ui, "slot", slots, 2, state.active) && state.compare && state.show <= CompareView::b) {
     state.show = state.active == 0 ? CompareView::a : CompareView::b;
   }
+}
+
+}  // namespace
+
+void draw_method_section(Ui& ui) {
+  if (!section(ui, "Picture", true)) return;
+  ViewState& state = ui.state;
+  choose_slot(ui);
   MethodOptions& method = state.method();
   choose_quality(ui, method.render);
   row(ui, "Shadows");
   choose(ui, "shadows", shadow_choices, method.render.shadows);
-  if (method.render.shadows == render::ShadowMode::hard) edit_hard(ui, method);
-  if (method.render.shadows == render::ShadowMode::soft) edit_soft(ui, method);
+  if (method.render.shadows == render::ShadowMode::soft) {
+    settle_soft(method);
+    edit_light_size(ui, method);
+  }
   row(ui, "Occlusion",
       "Ambient occlusion: by displacement fields of rigid objects, or by rays, to compare with.");
   choose(ui, "ao", ao_choices, method.render.ao.mode);
   if (method.render.ao.mode != AoMode::none) {
     method.render.samples = render::SampleSource::ids;
-    edit_ao(ui, method.render.ao);
+    edit_distance(ui, method.render.ao);
   }
   if (state.scene) edit_display(ui, method);
+}
+
+void draw_research_section(Ui& ui) {
+  bool& open = ui.state.settings.research;
+  ImGui::SetNextItemOpen(open);
+  open = section(ui, "Research", false);
+  if (!open) return;
+  MethodOptions& method = ui.state.method();
+  if (method.render.shadows == render::ShadowMode::hard) edit_hard(ui, method);
+  if (method.render.shadows == render::ShadowMode::soft) edit_soft(ui, method);
+  if (method.render.ao.mode != AoMode::none) edit_ao(ui, method.render.ao);
   edit_machine(ui, method.render);
+  draw_cost_section(ui);
 }
 
 }  // namespace tenebra::viewer

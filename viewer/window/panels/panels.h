@@ -28,9 +28,14 @@ void draw_panel(Ui& ui, Area area);                               ///< all secti
 void draw_scene_section(Ui& ui);
 void draw_method_section(Ui& ui);
 void draw_light_section(Ui& ui);
+void draw_tree_section(Ui& ui);
+void draw_material_section(Ui& ui);
 void draw_camera_section(Ui& ui);
 void draw_compare_section(Ui& ui);
+void draw_research_section(Ui& ui);  ///< variants, solvers, threads, costs: the second level
 void draw_cost_section(Ui& ui);
+void draw_explanation_card(Ui& ui, Area view);  ///< why a pixel is dark, in words
+void draw_open_dialog(Ui& ui, ImVec2 window);
 void draw_help(Ui& ui, ImVec2 window);  ///< the overlay of keys
 void draw_progress(Ui& ui, Area view);  ///< what takes long, and its cancel button
 

@@ -11,7 +11,7 @@ AnimationClock::Wall now() {
   return std::chrono::steady_clock::now();
 }
 
-enum class Sign { play, pause, back, forward };
+enum class Sign { play, pause, back, forward, record, stop };
 
 /// A button with a drawn sign: fonts do not all have them.
 bool sign_button(Ui& ui, const char* name, Sign sign) {
@@ -27,6 +27,8 @@ bool sign_button(Ui& ui, const char* name, Sign sign) {
     list.AddRectFilled({x - r, y - r}, {x - r * 0.3f, y + r}, palette::text);
     list.AddRectFilled({x + r * 0.3f, y - r}, {x + r, y + r}, palette::text);
   }
+  if (sign == Sign::record) list.AddCircleFilled({x, y}, r, IM_COL32(236, 92, 84, 255));
+  if (sign == Sign::stop) list.AddRectFilled({x - r, y - r}, {x + r, y + r}, IM_COL32(236, 92, 84, 255));
   if (sign == Sign::back || sign == Sign::forward) {
     const float d = sign == Sign::back ? -1.0f : 1.0f;
     if (d > 0) list.AddTriangleFilled({x - r, y - r}, {x + r * 0.4f, y}, {x - r, y + r}, palette::text);
@@ -47,6 +49,9 @@ void draw_buttons(Ui& ui) {
   ImGui::SameLine(0, gap);
   if (sign_button(ui, "step forward", Sign::forward)) state.clock.step(now(), 1);
   tooltip("One frame forward (Right)");
+  ImGui::SameLine(0, gap);
+  if (sign_button(ui, "record", state.recording ? Sign::stop : Sign::record)) ui.actions.record = true;
+  tooltip("Writes every frame of the animation as a picture, to a new folder here; again: ends it (O)");
 }
 
 void draw_speed(Ui& ui) {

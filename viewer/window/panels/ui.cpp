@@ -5,6 +5,8 @@
 #include <filesystem>
 #include <vector>
 
+#include "math/srgb.h"
+
 namespace tenebra::viewer {
 namespace {
 
@@ -92,6 +94,18 @@ void tooltip(const char* text) {
   ImGui::TextUnformatted(text);
   ImGui::PopTextWrapPos();
   ImGui::EndTooltip();
+}
+
+bool edit_color(Ui& ui, const std::string& mark, glm::vec3& color) {
+  const bool encoded = ui.state.scene->scene.transfer == Transfer::srgb;
+  glm::vec3 shown = color;
+  for (int k = 0; k < 3 && encoded; ++k) shown[k] = math::srgb_of_linear(color[k]);
+  const bool changed = ImGui::ColorEdit3(("##" + mark).c_str(), &shown.x, ImGuiColorEditFlags_Float);
+  ui.mark(mark);
+  if (!changed) return false;
+  for (int k = 0; k < 3; ++k)
+    color[k] = encoded ? math::linear_of_srgb(std::max(0.0f, shown[k])) : std::max(0.0f, shown[k]);
+  return true;
 }
 
 void dim_text(const char* text) {

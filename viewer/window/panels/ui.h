@@ -9,6 +9,7 @@
 #include <string_view>
 
 #include "options/choices.h"
+#include "window/explainer.h"
 #include "window/frame_history.h"
 #include "window/key_press.h"
 #include "window/render_worker.h"
@@ -27,8 +28,9 @@ struct Ui {
   std::array<FrameHistory, 2>& history;
   std::span<const KeyPress> keys;  ///< pressed since the last frame of the window
   WorkerStatus worker;
-  std::string_view log;  ///< name of the log being written, or ""
-  float scale = 1;       ///< of the display: 1 at 96 dots an inch
+  std::string_view log;                   ///< name of the log being written, or ""
+  float scale = 1;                        ///< of the display: 1 at 96 dots an inch
+  const PictureAnswer* answer = nullptr;  ///< about a pixel; null: none was asked for
 
   float px(float length) const { return length * scale; }
   /// The press of this key without Ctrl; null: none. `repeat`: holding it down counts too.
@@ -56,6 +58,9 @@ void row(const Ui& ui, const char* label, const char* help = nullptr);
 void dim_text(const char* text);
 /// A heading that folds; true while open.
 bool section(Ui& ui, const char* title, bool open);
+/// A linear colour, edited as it is seen where pictures are encoded. Values above 1 stay what they are until
+/// they are changed.
+bool edit_color(Ui& ui, const std::string& mark, glm::vec3& color);
 void tooltip(const char* text);  ///< over the last widget
 
 /// A row of buttons of which one is down. True if another was pressed.
