@@ -125,7 +125,7 @@ TEST(ViewTasks, FindsWhyAPixelIsDark) {
     EXPECT_EQ(lit["node"], 0);
     EXPECT_EQ(lit["lights"][0]["sight"], "lit");
     EXPECT_FALSE(lit["lights"][0].contains("occluder"));
-    EXPECT_LT(brightness(150, 258) + 10, brightness(250, 258)) << "as the picture has it";
+    EXPECT_LT(2 * brightness(150, 258), brightness(250, 258)) << "as the picture has it";
   }
   explained_at(session, 150, 258, false);
   session.photograph("task_why");

@@ -113,8 +113,8 @@ void draw_selected(Ui& ui) {
   std::vector<std::uint32_t> used = mesh.materials;
   std::sort(used.begin(), used.end());
   used.erase(std::unique(used.begin(), used.end()), used.end());
-  dim_text(fmt::format("{}: {} triangles, {} material{}", name_of(scene, number), mesh.triangles.size(),
-                       used.size(), used.size() == 1 ? "" : "s")
+  dim_text(fmt::format("{}: {} triangle{}, {} material{}", name_of(scene, number), mesh.triangles.size(),
+                       mesh.triangles.size() == 1 ? "" : "s", used.size(), used.size() == 1 ? "" : "s")
                .c_str());
   if (used.size() == 1 && ImGui::SmallButton("edit its material")) {
     ui.state.selected_material = static_cast<int>(used.front());
