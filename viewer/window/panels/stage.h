@@ -73,6 +73,10 @@ public:
     return {(at.x - area.low.x) / area.size.x * static_cast<float>(image.width),
             (at.y - area.low.y) / area.size.y * static_cast<float>(image.height)};
   }
+  /// The pixel itself; the pointer's places are whole numbers, the left upper corners of pixels.
+  glm::ivec2 pixel_under(ImVec2 pointer) const {
+    return glm::ivec2(glm::floor(pixel_at(pointer + ImVec2(0.5f, 0.5f))));
+  }
   ImVec2 at_pixel(glm::dvec2 pixel, int place) const {
     const Area& area = places_[static_cast<std::size_t>(place)];
     const base::Image8& image = ui_.picture->a.result.image;
