@@ -243,8 +243,10 @@ Expected<void> Renderer::State::antialias(const FrameInput& input, const std::ve
     if (auto found = find_sample_ids(input, settings, offsets); !found) return found;
     if (place == 0) {
       with_threads(settings.threads, [&] {
-        CentrePicture centre{seen.width, seen.height, seen.ids, seen.layer, result.image, {}};
+        CentrePicture centre{seen.width, seen.height, seen.ids, seen.layer, result.image, {}, {}};
         for (const LightMask& mask : result.masks) centre.masks.emplace_back(mask.mask.pixels);
+        for (const shade::LightFactors& light : frame.pixels.factors)
+          if (!light.tint.factors.empty()) centre.tints.push_back(light.tint.factors);
         chosen = choose_pixels(centre, offsets, further, SurfaceMatch(input.geometry, input.view),
                                settings.antialias_everywhere);
         means.begin(chosen.edges, chosen.contrasts);

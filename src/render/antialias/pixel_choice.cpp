@@ -63,7 +63,7 @@ private:
     return false;
   }
 
-  /// Where something lets light through, light may change colour without a mask that does.
+  /// Where something lets light through, light may change its colour.
   void by_layer(std::size_t y) {
     for (std::size_t i = y * width_; i < (y + 1) * width_; ++i)
       if (chosen_[i] != 0) chosen_[i] = is_edge;
@@ -109,6 +109,12 @@ private:
     for (const auto mask : centre_.masks)
       for (std::size_t x = 0; x < count; ++x)
         differs[x] = static_cast<std::uint8_t>(differs[x] | ((mask[i + x] ^ mask[j + x]) >> 7 << 1));
+    for (const auto tint : centre_.tints) {
+      for (std::size_t x = 0; x < count; ++x) {
+        const glm::vec3 gap = glm::abs(tint[i + x] - tint[j + x]);
+        if (std::max({gap.r, gap.g, gap.b}) > 0.125f) differs[x] |= is_edge;
+      }
+    }
   }
 
   bool one_surface(std::size_t i, std::size_t j) const {

@@ -19,6 +19,7 @@ struct CentrePicture {
   std::span<const std::uint32_t> ids, layer;  ///< as SampleIds
   const base::Image8& picture;
   std::vector<std::span<const std::uint8_t>> masks;  ///< of each light
+  std::vector<std::span<const glm::vec3>> tints;     ///< of each light, where something lets light through
 };
 
 /// Pixels that need more samples, sixteen by sixteen and four by four, so that neighbours are near each other
@@ -26,12 +27,13 @@ struct CentrePicture {
 struct ChosenPixels {
   /// By geometry, without a miss: pixels whose samples do not all see one surface (SurfaceMatch). By shadow:
   /// pixels whose mask of some light is not that of the next pixel to the right, to the left, above or below,
-  /// where both see one surface. The edge of a half plane that reaches into a pixel comes between its centre
-  /// and one of those four, so what is missed is what is thinner or rounder than a pixel.
+  /// where both see one surface, or whose tint differs by more than an eighth. The edge of a half plane that
+  /// reaches into a pixel comes between its centre and one of those four, so what is missed is what is
+  /// thinner or rounder than a pixel.
   std::vector<std::uint32_t> edges;
   /// Others that differ from one of those four on one surface by more than least_contrast in what is drawn:
   /// textures, penumbrae, highlights. What lights them is as at their centre. None in frames with see-through
-  /// surfaces, which colour light without a mask that shows it: there they are edges.
+  /// surfaces: there they are edges.
   std::vector<std::uint32_t> contrasts;
 };
 
