@@ -169,6 +169,7 @@ TEST(ViewTasks, MovesTheSun) {
   session.expect_state("edits", turned, [&] { session.key("ctrl+shift+z"); });
 
   // By keys alone: into the panel, down to a slider of the sun, and a push of it.
+  session.click("section.Lights");
   session.click("light.1.compass");
   session.key("F6");
   const Json slid = session.state()["edits"];

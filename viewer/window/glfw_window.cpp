@@ -168,6 +168,30 @@ void wait_for_events(GLFWwindow* window, const Viewer& viewer) {
   sleep_s > 0 ? glfwWaitEventsTimeout(sleep_s) : glfwPollEvents();
 }
 
+/// A key that came down and up again between two frames is down in one for Dear ImGui too: it works the
+/// panel.
+void feed_keys(const std::vector<KeyPress>& pressed) {
+#if IMGUI_VERSION_NUM < 18700
+  for (const KeyPress& press : pressed) {
+    if (press.code >= 0 && press.code <= GLFW_KEY_LAST) ImGui::GetIO().KeysDown[press.code] = true;
+  }
+#else
+  (void)pressed;
+#endif
+}
+
+/// After the frame: keys are what the keyboard says again.
+void release_keys(GLFWwindow* window, const std::vector<KeyPress>& pressed) {
+#if IMGUI_VERSION_NUM < 18700
+  for (const KeyPress& press : pressed) {
+    if (press.code >= GLFW_KEY_SPACE && press.code <= GLFW_KEY_LAST)
+      ImGui::GetIO().KeysDown[press.code] = glfwGetKey(window, press.code) == GLFW_PRESS;
+  }
+#else
+  (void)window, (void)pressed;
+#endif
+}
+
 void draw_frame(GLFWwindow* window, WindowGl& gl, Viewer& viewer) {
   int width = 0, height = 0, units = 0, ignored = 0;
   glfwGetFramebufferSize(window, &width, &height);
@@ -176,7 +200,10 @@ void draw_frame(GLFWwindow* window, WindowGl& gl, Viewer& viewer) {
   ImGui_ImplOpenGL3_NewFrame();
   ImGui_ImplGlfw_NewFrame();
   viewer.mouse().feed(ImGui::GetIO());
+  const std::vector<KeyPress> pressed = viewer.pressed_keys();
+  feed_keys(pressed);
   ImGui::NewFrame();
+  release_keys(window, pressed);
   viewer.draw(scale_of(window), static_cast<float>(width) / static_cast<float>(units));
   ImGui::Render();
   viewer.update();  // what the hand has changed is asked for before the screen is drawn

@@ -40,6 +40,8 @@ public:
     keys_.push_back(press);
     input_came("key down");
   }
+  /// Since the last draw.
+  const std::vector<KeyPress>& pressed_keys() const { return keys_; }
   MouseQueue& mouse() { return mouse_; }
   /// The window draws again: Dear ImGui takes a frame or two to settle. `what`, for the report.
   void input_came(const char* what) {

@@ -163,7 +163,8 @@ void use_hand(Ui& ui, const Stage& stage, Area area) {
     storage.SetInt(hand_id, static_cast<int>(hand));
     storage.SetInt(light_id, under.light);
     storage.SetInt(part_id, static_cast<int>(under.part));
-    if (hand == Hand::light) ui.state.selected_light = under.light;
+    // A hand in the view does not move the panel.
+    if (hand == Hand::light) ui.state.selected_light = ui.state.shown_light = under.light;
   }
   const bool drags =
       dragged(ImGuiMouseButton_Left) || !io.MouseDown[ImGuiMouseButton_Left] || io.MouseWheel != 0;
