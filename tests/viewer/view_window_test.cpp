@@ -425,6 +425,8 @@ TEST(ViewWindow, LogsRecordsAndLeaves) {
       return event["event"] == "picture" && event["frame"] == frame && event["preview"] == "";
     });
   }
+  logging.click("section.Picture");  // makes room
+  logging.click("section.Research");
   logging.click("log");
   logging.wait_for(0, "the log", [&](const Json& event) {
     return event["event"] == "message" && event["text"].get<std::string>().starts_with("Log written");
