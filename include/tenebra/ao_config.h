@@ -9,7 +9,12 @@
 
 namespace tenebra {
 
-enum class AoMode { none, field, rays };
+enum class AoMode {
+  none,
+  field,     ///< displacement fields and surface samples, as many rays a point as asked for
+  rays,      ///< the reference: the same rays through all triangles by another library's ray caster
+  adaptive,  ///< rays through all triangles where the picture needs them, filtered, by the error asked for
+};
 enum class AoPlace { pixels, vertices };
 enum class FieldLayout {
   positions_directions,  ///< the paper's: positions on the sphere x inward directions
@@ -21,6 +26,7 @@ struct AoConfig {
   AoPlace place = AoPlace::pixels;
   FieldLayout layout = FieldLayout::chords;
   int rays = 64;      ///< per point, cosine-weighted
+  double error_255 = 2.5;  ///< adaptive: RMS over the picture that is aimed at, in 1/255; 0.1 to 255
   int downscale = 1;  ///< pixels: N computes one of N x N pixels; the others are blurred from similar ones
   double distance_m =
       0;  ///< at which occlusion has fallen off to nothing; 0: a twentieth of the scene's diagonal
@@ -45,6 +51,7 @@ struct AoStats {
   std::uint64_t lookups = 0;       ///< rays answered by a field
   std::uint64_t rays_cast = 0;     ///< rays answered by casting
   std::uint64_t cache_cells = 0;   ///< surface samples in memory
+  double error_255 = 0;            ///< adaptive: estimate of the picture's RMS error, in 1/255
 };
 
 }  // namespace tenebra

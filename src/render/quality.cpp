@@ -24,11 +24,11 @@ std::optional<Quality> quality_from_name(std::string_view name) {
 QualitySettings quality_settings(Quality quality) {
   switch (quality) {
     case Quality::fast:
-      return {.soft_points = 8, .ao_rays = 16, .ao_downscale = 2};
+      return {.soft_points = 8, .ao_error = 5, .ao_rays = 16, .ao_downscale = 2};
     case Quality::balanced:
       return {};
     case Quality::exact:
-      return {.ao_rays = 256};
+      return {.ao_error = 1, .ao_rays = 256};
   }
   return {};
 }
@@ -36,6 +36,7 @@ QualitySettings quality_settings(Quality quality) {
 void apply_quality(Quality quality, RenderSettings& settings) {
   const QualitySettings chosen = quality_settings(quality);
   settings.soft_points = chosen.soft_points;
+  settings.ao.error_255 = chosen.ao_error;
   settings.ao.rays = chosen.ao_rays;
   settings.ao.downscale = chosen.ao_downscale;
 }

@@ -21,9 +21,10 @@ std::optional<Quality> quality_from_name(std::string_view name);
 /// What a preset sets. Hard shadows are exact in all of them: what inexact settings save is little beside
 /// what they get wrong (docs/trade.md).
 struct QualitySettings {
-  int soft_points = 0;   ///< RenderSettings::soft_points
-  int ao_rays = 64;      ///< AoConfig::rays
-  int ao_downscale = 1;  ///< AoConfig::downscale
+  int soft_points = 0;    ///< RenderSettings::soft_points
+  double ao_error = 2.5;  ///< AoConfig::error_255
+  int ao_rays = 64;       ///< AoConfig::rays
+  int ao_downscale = 1;   ///< AoConfig::downscale
 };
 QualitySettings quality_settings(Quality quality);
 

@@ -72,6 +72,10 @@ void describe_soft(const render::RenderSettings& settings, std::vector<render::L
 
 void describe_ao(const AoConfig& ao, std::vector<render::LogSetting>& list) {
   const std::string distance = ao.distance_m > 0 ? fmt::format("{} m", ao.distance_m) : "diagonal / 20";
+  if (ao.mode == AoMode::adaptive) {
+    list.insert(list.end(), {{"ao_error", fmt::format("{}", ao.error_255)}, {"ao_distance", distance}});
+    return;
+  }
   list.insert(list.end(), {{"ao_at", choice_name(place_choices, ao.place)},
                            {"ao_rays", fmt::format("{}", ao.rays)},
                            {"ao_downscale", fmt::format("{}", ao.downscale)},

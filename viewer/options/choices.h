@@ -45,6 +45,7 @@ inline constexpr std::array occluder_choices{Choice<OccluderChoice>{"largest", O
 inline constexpr std::array precision_choices{Choice<SoftPrecision>{"fast", SoftPrecision::fast},
                                               Choice<SoftPrecision>{"reference", SoftPrecision::reference}};
 inline constexpr std::array ao_choices{Choice<AoMode>{"none", AoMode::none},
+                                       Choice<AoMode>{"adaptive", AoMode::adaptive},
                                        Choice<AoMode>{"field", AoMode::field},
                                        Choice<AoMode>{"rays", AoMode::rays}};
 inline constexpr std::array place_choices{Choice<AoPlace>{"pixels", AoPlace::pixels},

@@ -55,6 +55,7 @@ void add_ao(Arguments& arguments, const AoConfig& ao) {
   arguments.choice("--ao", ao_choices, ao.mode, standard.mode);
   arguments.choice("--ao-at", place_choices, ao.place, standard.place);
   arguments.choice("--ao-layout", layout_choices, ao.layout, standard.layout);
+  arguments.value("--ao-error", ao.error_255, standard.error_255);
   arguments.value("--ao-rays", ao.rays, standard.rays);
   arguments.value("--ao-downscale", ao.downscale, standard.downscale);
   arguments.value("--ao-distance", ao.distance_m, standard.distance_m);

@@ -17,6 +17,7 @@ constexpr int most_soft_points = 4096, most_downscale = 8;
 
 constexpr const char* quality_option = "--quality";
 constexpr const char* points_option = "--soft-points";
+constexpr const char* error_option = "--ao-error";
 constexpr const char* rays_option = "--ao-rays";
 constexpr const char* downscale_option = "--ao-downscale";
 
@@ -220,9 +221,15 @@ void add_soft(CLI::App& command, MethodOptions& options) {
 void add_ao(CLI::App& command, AoConfig& ao) {
   ao.cache = default_cache_folder();
   set_group(
-      {add_choice<ao_choices>(command, "--ao", ao.mode,
-                              "field: by displacement fields of the rigid objects;\nrays: by casting rays, "
-                              "to compare with [none]"),
+      {add_choice<ao_choices>(
+           command, "--ao", ao.mode,
+           "adaptive: by rays where the picture needs them, as many\nas --ao-error "
+           "asks for, filtered; field: by displacement\nfields of the rigid objects; rays: "
+           "by casting rays, to\ncompare with [none]"),
+       add_value(command, error_option, ao.error_255, parse_positive,
+                 "adaptive: the error aimed at, RMS over the picture, in\n1/255; the log says what is "
+                 "estimated [2.5]")
+           .type_name("E"),
        add_choice<place_choices>(command, "--ao-at", ao.place,
                                  "Where it is computed; in the paper: vertices [pixels]"),
        add_choice<layout_choices>(command, "--ao-layout", ao.layout,
@@ -280,6 +287,7 @@ void settle_quality(const CLI::App& command, MethodOptions& options) {
   const render::RenderSettings given = options.render;
   render::apply_quality(*options.quality, options.render);
   if (was_given(command, points_option)) options.render.soft_points = given.soft_points;
+  if (was_given(command, error_option)) options.render.ao.error_255 = given.ao.error_255;
   if (was_given(command, rays_option)) options.render.ao.rays = given.ao.rays;
   if (was_given(command, downscale_option)) options.render.ao.downscale = given.ao.downscale;
 }

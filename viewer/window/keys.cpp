@@ -74,7 +74,7 @@ void handle_method_keys(const Ui& ui) {
   if (ui.pressed('1')) render.shadows = render::ShadowMode::none;
   if (ui.pressed('2')) render.shadows = render::ShadowMode::hard;
   if (ui.pressed('3')) render.shadows = render::ShadowMode::soft;
-  if (ui.pressed('4')) render.ao.mode = static_cast<AoMode>((static_cast<int>(render.ao.mode) + 1) % 3);
+  if (ui.pressed('4')) render.ao.mode = static_cast<AoMode>((static_cast<int>(render.ao.mode) + 1) % 4);
   if (ui.pressed('V', true)) {
     constexpr int variants = 7;
     const int step = ui.pressed('V', true)->shift ? variants - 1 : 1;

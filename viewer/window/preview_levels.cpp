@@ -23,6 +23,8 @@ int fewer_points(int asked, int count) {
 
 void take_fewer(render::RenderSettings& settings, int points, int rays, int downscale) {
   settings.soft_points = fewer_points(settings.soft_points, points);
+  const render::QualitySettings fast = render::quality_settings(render::Quality::fast);
+  settings.ao.error_255 = std::max(settings.ao.error_255, fast.ao_error);
   settings.ao.rays = std::min(settings.ao.rays, rays);
   settings.ao.downscale = std::max(settings.ao.downscale, downscale);
   settings.hard.variant = Variant::tiles;  // the same masks
@@ -33,8 +35,8 @@ void take_fewer(render::RenderSettings& settings, int points, int rays, int down
 bool PreviewSubject::operator==(const PreviewSubject& other) const {
   return scene == other.scene && size.width == other.size.width && size.height == other.size.height &&
          shadows == other.shadows && soft_points == other.soft_points && ao == other.ao &&
-         ao_rays == other.ao_rays && ao_downscale == other.ao_downscale && antialias == other.antialias &&
-         compares == other.compares && explains == other.explains;
+         ao_error == other.ao_error && ao_rays == other.ao_rays && ao_downscale == other.ao_downscale &&
+         antialias == other.antialias && compares == other.compares && explains == other.explains;
 }
 
 PreviewSubject preview_subject(const void* scene, const render::RenderSettings& asked, bool compares,
@@ -44,6 +46,7 @@ PreviewSubject preview_subject(const void* scene, const render::RenderSettings& 
           .shadows = asked.shadows,
           .soft_points = asked.soft_points,
           .ao = asked.ao.mode,
+          .ao_error = asked.ao.error_255,
           .ao_rays = asked.ao.rays,
           .ao_downscale = asked.ao.downscale,
           .antialias = asked.antialias,
@@ -56,7 +59,9 @@ std::vector<PreviewLevel> preview_levels(const PreviewSubject& subject) {
   const render::QualitySettings fast = render::quality_settings(render::Quality::fast);
   const bool has_fewer =
       (soft && fewer_points(subject.soft_points, fast.soft_points) != subject.soft_points) ||
-      (occludes && (subject.ao_rays > fast.ao_rays || subject.ao_downscale < fast.ao_downscale));
+      (occludes && (subject.ao == AoMode::adaptive
+                        ? subject.ao_error < fast.ao_error
+                        : subject.ao_rays > fast.ao_rays || subject.ao_downscale < fast.ao_downscale));
   const bool has_plain = occludes || (soft && subject.soft_points != 1);
   std::vector<PreviewLevel> levels{{PreviewMethod::as_asked, 1}};
   const auto add = [&](PreviewMethod method, std::initializer_list<int> divisors) {
@@ -70,7 +75,7 @@ std::vector<PreviewLevel> preview_levels(const PreviewSubject& subject) {
     add(PreviewMethod::single, {4, 8});
   } else {
     if (has_fewer) add(PreviewMethod::fewer, {1, 2});
-    if (occludes) add(PreviewMethod::cast, {2, 4});
+    if (occludes && subject.ao != AoMode::adaptive) add(PreviewMethod::cast, {2, 4});
     add(PreviewMethod::plain, {1, 2, 4, 8});
   }
   return levels;
@@ -120,6 +125,9 @@ std::string preview_text(const render::RenderSettings& asked, PreviewLevel level
     add(drawn.soft_points == 1 ? "hard shadows" : fmt::format("{} light points", drawn.soft_points));
   if (asked.ao.mode != AoMode::none && drawn.ao.mode == AoMode::none) {
     add("no occlusion");
+  } else if (asked.ao.mode == AoMode::adaptive) {
+    if (drawn.ao.error_255 != asked.ao.error_255)
+      add(fmt::format("occlusion to {:.3g}/255", drawn.ao.error_255));
   } else if (asked.ao.mode != AoMode::none &&
              (drawn.ao.rays != asked.ao.rays || drawn.ao.downscale != asked.ao.downscale)) {
     add(fmt::format("{} occlusion rays", drawn.ao.rays));

@@ -34,6 +34,7 @@ struct PreviewSubject {
   render::ShadowMode shadows = render::ShadowMode::hard;
   int soft_points = 0;
   AoMode ao = AoMode::none;
+  double ao_error = 0;
   int ao_rays = 0;
   int ao_downscale = 1;
   int antialias = 1;

@@ -40,10 +40,11 @@ std::uint64_t cell_number(double coordinate) {
 
 }  // namespace
 
-RayPattern make_ray_pattern(int rays) {
+RayPattern make_ray_pattern(int rays, const glm::dvec2& shift) {
   std::vector<glm::dvec2> square;
   for (int i = 0; i < rays; ++i)
-    square.push_back({(i + 0.5) / rays, std::fmod((i + 0.5) / std::numbers::phi, 1.0)});
+    square.push_back({std::fmod((i + 0.5) / rays + shift.x, 1.0),
+                      std::fmod((i + 0.5) / std::numbers::phi + shift.y, 1.0)});
   std::stable_sort(square.begin(), square.end(),
                    [](const glm::dvec2& a, const glm::dvec2& b) { return morton(a) < morton(b); });
   RayPattern pattern;

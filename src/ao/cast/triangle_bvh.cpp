@@ -217,6 +217,19 @@ TriangleBvh Builder::build() {
 
 }  // namespace
 
+TriangleBvh::Box TriangleBvh::box() const {
+  Box box;
+  if (nodes.empty()) return box;
+  for (int axis = 0; axis < 3; ++axis) {
+    for (int i = 0; i < bvh_width; ++i) {
+      if (!std::isfinite(nodes[0].plane[axis][i])) continue;  // an empty place
+      box.low[axis] = std::min(box.low[axis], nodes[0].plane[axis][i]);
+      box.high[axis] = std::max(box.high[axis], nodes[0].plane[3 + axis][i]);
+    }
+  }
+  return box;
+}
+
 TriangleBvh build_triangle_bvh(std::span<const glm::vec3> positions, std::span<const glm::uvec3> triangles) {
   return Builder(positions, triangles).build();
 }

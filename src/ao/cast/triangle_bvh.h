@@ -36,6 +36,12 @@ struct TriangleBvh {
   std::vector<TriangleBlock> blocks;
   std::size_t triangles = 0;  ///< in the tree: finite ones with an area
 
+  /// Of all triangles; low beyond high: none.
+  struct Box {
+    glm::vec3 low{std::numeric_limits<float>::infinity()}, high{-std::numeric_limits<float>::infinity()};
+  };
+  Box box() const;
+
   std::size_t bytes() const { return nodes.size() * sizeof(BvhNode) + blocks.size() * sizeof(TriangleBlock); }
 };
 

@@ -7,6 +7,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "ao/adaptive/adaptive_pass.h"
 #include "ao/shade/field_pass.h"
 #include "ao/shade/ray_pass.h"
 #include "ao/shade/see_through.h"
@@ -23,8 +24,12 @@ using glm::vec3;
 
 Expected<void> check(const AoConfig& config, const VisiblePoints& points, std::span<const vec3> normals) {
   constexpr int most_rays = 1 << 16, most_downscale = 8;
+  constexpr double least_error = 0.1;
   if (config.rays < 1 || config.rays > most_rays)
     return base::fail("ambient occlusion: {} rays per point, expected 1 to {}", config.rays, most_rays);
+  if (!(config.error_255 >= least_error && config.error_255 <= 255))
+    return base::fail("ambient occlusion: an error of {}/255, expected {} to 255", config.error_255,
+                      least_error);
   if (!(config.distance_m >= 0) || !std::isfinite(config.distance_m))
     return base::fail("ambient occlusion: distance {}, expected a length or 0", config.distance_m);
   if (config.downscale < 1 || config.downscale > most_downscale)
@@ -156,6 +161,13 @@ Expected<void> AmbientOcclusion::State::run(const ao::AoFrame& frame, const AoCo
     return done && stop_requested(stop) ? Expected<void>(base::fail("stopped")) : done;
   };
   const auto length = static_cast<float>(reach);
+  if (config.mode == AoMode::adaptive) {
+    const auto error = ao::adaptive_occlusion({frame, occluders, see_through, reach, kernels},
+                                              ao::adaptive_settings(config.error_255), out, stats, stop);
+    if (!error) return tl::unexpected(error.error());
+    stats.error_255 = *error;
+    return {};
+  }
   if (config.place == AoPlace::vertices) {
     const ao::VertexReceivers set(frame);
     auto done = solve(set, ao::AoPart::all);

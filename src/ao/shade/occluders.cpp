@@ -7,6 +7,7 @@
 #include <unordered_map>
 
 #include "ao/field/field_file.h"
+#include "ao/surface/surface_rays.h"
 #include "base/fail.h"
 
 namespace tenebra::ao {
@@ -58,6 +59,24 @@ RayBatch moved(const RayBatch& rays, const glm::mat4x3& to_object) {
   return out;
 }
 
+/// The same for rays from one point, which is given in the space of the object.
+RayBatch turned(const RayBatch& rays, const vec3& start, const glm::mat4x3& to_object) {
+  RayBatch out;
+  for (int i = 0; i < batch_size; ++i) out.set(i, start, to_object * glm::vec4(rays.direction(i), 0.0f));
+  return out;
+}
+
+/// The receiver's place on its triangle in the space of its object, lifted as samples of surfaces are: not
+/// rounded to the world and back.
+vec3 start_on(const ObjectShape& shape, float lift, const Receiver& receiver) {
+  const glm::uvec3 t = shape.triangles[receiver.owner.triangle];
+  const double v = receiver.v, w = receiver.w;
+  const dvec3 p = (1 - v - w) * dvec3(shape.positions[t.x]) + v * dvec3(shape.positions[t.y]) +
+                  w * dvec3(shape.positions[t.z]);
+  const vec3 face = face_normal(shape, receiver.owner.triangle);
+  return vec3(p + double{receiver.front ? lift : -lift} * dvec3(face));
+}
+
 }  // namespace
 
 void Occluders::reset(const SceneObjects& objects) {
@@ -95,6 +114,7 @@ void Occluders::begin_frame(const SceneObjects& objects, const FrameGeometry& ge
   fields_built_ = 0;
   standing_sphere_ = {dvec3(objects.standing.center), objects.standing.radius};
   deforming_.reset();
+  moving_.reset();
   deforming_sphere_ = {};
   if (config.deforming && !objects.deforming.empty())
     deforming_sphere_ = sphere_around(geometry.positions, deforming_triangles(objects, geometry));
@@ -146,11 +166,13 @@ void Occluders::near(const PointBox& box, std::vector<int>& out) const {
 const Sphere& Occluders::sphere(int occluder) const {
   if (occluder == standing) return standing_sphere_;
   if (occluder == deforming) return deforming_sphere_;
+  if (occluder == moving) return moving_sphere_;
   return placed_[static_cast<std::size_t>(occluder)].sphere;
 }
 
-bool Occluders::reaches(int occluder, std::span<const Receiver> receivers, std::uint8_t* out) const {
-  const bool hides_itself = occluder == deforming ||
+bool Occluders::reaches(int occluder, std::span<const Receiver> receivers, std::uint8_t* out,
+                        Itself itself) const {
+  const bool hides_itself = itself == Itself::counts || occluder == deforming || occluder == moving ||
                             (occluder >= 0 && !objects_->objects[static_cast<std::size_t>(occluder)].rigid);
   const Sphere around = sphere(occluder);
   const double farthest = around.radius + reach_;
@@ -267,6 +289,73 @@ void Occluders::meet(int occluder, std::int32_t owner, std::span<const RayBatch>
   each([&](const RayBatch& batch, float* out) {
     kernels_.cast(tree, moved(batch, placed.to_object), out, nullptr);
   });
+}
+
+bool Occluders::gather_moving(std::span<const int> occluders) {
+  std::vector<bool> chosen(objects_->objects.size());
+  bool deforms = false;
+  for (const int occluder : occluders) {
+    if (occluder >= 0) chosen[static_cast<std::size_t>(occluder)] = true;
+    deforms |= occluder == deforming;
+  }
+  std::vector<glm::uvec3> triangles;
+  for (std::size_t id = 0; id < objects_->owners.size() && triangles.size() <= most_gathered; ++id) {
+    const std::int32_t object = objects_->owners[id].object;
+    const bool wanted = object >= 0 ? chosen[static_cast<std::size_t>(object)]
+                                    : object == TriangleOwner::deforming && deforms;
+    const glm::uvec3 t = geometry_->triangles[id];
+    if (wanted && geometry_->casts_shadow[id] && !(t.x == t.y && t.y == t.z)) triangles.push_back(t);
+  }
+  if (triangles.empty() || triangles.size() > most_gathered) return false;
+  moving_ = build_triangle_bvh(geometry_->positions, triangles);
+  moving_sphere_ = sphere_around(geometry_->positions, triangles);
+  return true;
+}
+
+const TriangleBvh& Occluders::world_tree(int occluder) const {
+  return occluder == standing ? *standing_ : occluder == deforming ? *deforming_ : *moving_;
+}
+
+void Occluders::build_trees(std::span<const int> occluders) {
+  for (const int occluder : occluders) {
+    if (occluder == deforming) {
+      if (!deforming_)
+        deforming_ = build_triangle_bvh(geometry_->positions, deforming_triangles(*objects_, *geometry_));
+    } else {
+      const int shape = occluder == standing ? -1 : placed_[static_cast<std::size_t>(occluder)].shape;
+      const TriangleBvh& tree = casters(shape);
+      if (shape < 0) continue;
+      Shape& kept = shapes_[static_cast<std::size_t>(shape)];
+      kept.lift = surface_lift(largest_coordinate(objects_->shapes[static_cast<std::size_t>(shape)]));
+      kept.box = tree.box();
+    }
+  }
+}
+
+void Occluders::meet_triangles(int occluder, const Receiver& receiver, const dvec3& origin,
+                               std::span<const RayBatch> rays, float* distances,
+                               OccluderCounts& counts) const {
+  if (occluder < 0) {
+    counts.rays_cast += rays.size() * batch_size;
+    const TriangleBvh& tree = world_tree(occluder);
+    for (std::size_t b = 0; b < rays.size(); ++b)
+      kernels_.cast(tree, rays[b], distances + b * batch_size, nullptr);
+    return;
+  }
+  const MovingObject& object = objects_->objects[static_cast<std::size_t>(occluder)];
+  const Placed& placed = placed_[static_cast<std::size_t>(occluder)];
+  const Shape& shape = shapes_[static_cast<std::size_t>(placed.shape)];
+  const vec3 start =
+      occluder == receiver.owner.object
+          ? start_on(objects_->shapes[static_cast<std::size_t>(placed.shape)], shape.lift, receiver)
+          : vec3(object.to_object * glm::dvec4(origin, 1.0));
+  const vec3 off = glm::max(vec3(0.0f), glm::max(shape.box.low - start, start - shape.box.high));
+  const double away = double{glm::length(off)} * object.largest_scale;
+  if (away > reach_ * (1 + 0x1p-18)) return;
+  counts.rays_cast += rays.size() * batch_size;
+  for (std::size_t b = 0; b < rays.size(); ++b)
+    kernels_.cast(*shape.casters, turned(rays[b], start, placed.to_object), distances + b * batch_size,
+                  nullptr);
 }
 
 }  // namespace tenebra::ao

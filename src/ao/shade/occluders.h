@@ -39,6 +39,8 @@ public:
   static constexpr std::size_t few_triangles = 16;  ///< an object of up to so many needs no field
   static constexpr std::size_t most_field_bytes = std::size_t{2} << 30;  ///< objects beyond are met by rays
   static constexpr int standing = -1, deforming = -2;                    ///< beside the indices of objects
+  static constexpr int moving = -3;  ///< all that moves or deforms, as gather_moving() found it
+  static constexpr std::size_t most_gathered = 100'000;  ///< triangles: more take too long to build anew
 
   /// Objects found anew. Fields of shapes that are still there stay.
   void reset(const SceneObjects& objects);
@@ -52,7 +54,9 @@ public:
   /// out[i]: whether any part of it may lie above receiver i's planes, within the reach, and is not its own
   /// body (but for an object that is stretched or sheared: samples of its surface would not hold). Returns
   /// whether any is.
-  bool reaches(int occluder, std::span<const Receiver> receivers, std::uint8_t* out) const;
+  enum class Itself { by_samples, counts };
+  bool reaches(int occluder, std::span<const Receiver> receivers, std::uint8_t* out,
+               Itself itself = Itself::by_samples) const;
   bool ready(int occluder) const;
   /// Makes what `missing` (ascending, unique) lacks. Fails with "stopped".
   Expected<void> build(std::span<const int> missing, const AoProgress& progress, const StopFlag* stop);
@@ -61,6 +65,16 @@ public:
   /// batch start at one point.
   void meet(int occluder, std::int32_t owner, std::span<const RayBatch> rays, float* distances,
             OccluderCounts& counts) const;
+
+  /// One tree, in the world, of all that moves and is named in `occluders` (what deforms too), for this
+  /// frame. False, and nothing made, if there is nothing or too much of it.
+  bool gather_moving(std::span<const int> occluders);
+  /// Makes the trees of `occluders` that are not there: what meet_triangles() needs.
+  void build_trees(std::span<const int> occluders);
+  /// The same by triangles alone, the receiver's own body too. The rays run in the world and start at
+  /// `origin`: the receiver's position, lifted off its face.
+  void meet_triangles(int occluder, const Receiver& receiver, const glm::dvec3& origin,
+                      std::span<const RayBatch> rays, float* distances, OccluderCounts& counts) const;
 
   /// The tree over the casting triangles of a shape, or of what stands (-1).
   const TriangleBvh& casters(int shape);
@@ -71,11 +85,14 @@ public:
 
 private:
   const Sphere& sphere(int occluder) const;
+  const TriangleBvh& world_tree(int occluder) const;
   struct Shape {
     std::uint64_t hash = 0;
     std::optional<TriangleBvh> casters;
     std::optional<DisplacementField> field;
     bool by_rays = false;
+    float lift = 0;  ///< surface_lift(), once there are casters
+    TriangleBvh::Box box;
   };
   struct Placed {
     int shape = -1;
@@ -99,8 +116,8 @@ private:
   std::vector<Placed> placed_;     ///< one per object
   std::vector<std::size_t> by_x_;  ///< visible objects by the middle of their spheres
   double largest_radius_ = 0;
-  std::optional<TriangleBvh> standing_, deforming_;
-  Sphere standing_sphere_, deforming_sphere_;
+  std::optional<TriangleBvh> standing_, deforming_, moving_;
+  Sphere standing_sphere_, deforming_sphere_, moving_sphere_;
   std::uint64_t fields_built_ = 0, field_bytes_ = 0;
   std::vector<std::string> notes_;
 };

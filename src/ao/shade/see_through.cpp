@@ -77,4 +77,22 @@ void SeeThroughOccluders::darken(const ReceiverSet& set, const PointRays& rays, 
   stats.rays_cast += std::accumulate(cast.begin(), cast.end(), std::uint64_t{0});
 }
 
+float SeeThroughOccluders::left(const glm::dvec3& point, std::span<const RayBatch> rays, int count,
+                                float reach, const AoKernels& kernels, std::span<float> distances,
+                                OccluderCounts& counts) const {
+  PointBox box;
+  box.extend(point);
+  float open = 1;
+  for (const Layer& layer : layers_) {
+    if (apart(box, layer.box, reach)) continue;
+    std::fill(distances.begin(), distances.end(), reach);
+    for (std::size_t b = 0; b < rays.size(); ++b)
+      kernels.cast(layer.triangles, rays[b], &distances[b * batch_size], nullptr);
+    const float hidden = kernels.fan.fall_off(distances.data(), static_cast<int>(rays.size()), reach);
+    open *= 1 - layer.opacity * std::clamp(hidden / static_cast<float>(count), 0.0f, 1.0f);
+    counts.rays_cast += rays.size() * batch_size;
+  }
+  return open;
+}
+
 }  // namespace tenebra::ao

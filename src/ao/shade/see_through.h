@@ -27,6 +27,11 @@ public:
   void darken(const ReceiverSet& set, const PointRays& rays, const AoKernels& kernels,
               std::span<float> values, AoStats& stats, const StopFlag* stop) const;
 
+  /// What these leave of the light of a point, 0..1, by its rays: `count` of them, in batches. Overwrites
+  /// `distances`, one for each.
+  float left(const glm::dvec3& point, std::span<const RayBatch> rays, int count, float reach,
+             const AoKernels& kernels, std::span<float> distances, OccluderCounts& counts) const;
+
 private:
   static constexpr int opacity_steps = 64;  ///< 1 - T is rounded to one of these
 

@@ -36,6 +36,12 @@ struct CountColumn {
   std::uint64_t (*value)(const FrameRecord& record);
 };
 
+/// What is known of an error.
+struct EstimateColumn {
+  std::string_view name;
+  double (*value)(const FrameRecord& record);
+};
+
 /// Times that open a row of the log, after frame and time_s.
 inline constexpr std::array leading_timings{
     TimingColumn{"raster_ms", &FrameTimings::raster_ms},
@@ -89,6 +95,11 @@ inline constexpr std::array method_columns{
     CountColumn{"antialias_samples", [](const FrameRecord& r) { return r.antialias.samples; }},
     // The old name of soft_points_silhouette, for readers of logs: goes with 0.3.
     CountColumn{"soft_points_outline", [](const FrameRecord& r) { return r.soft.points_silhouette; }},
+};
+
+/// Estimates, after the counts of the methods. 0 where the method has none.
+inline constexpr std::array estimate_columns{
+    EstimateColumn{"ao_error_255", [](const FrameRecord& r) { return r.ao.error_255; }},
 };
 
 /// Times that close a row of the log, after the counts.

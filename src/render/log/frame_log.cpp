@@ -26,6 +26,7 @@ std::string frame_log_header() {
   for (const auto& column : count_columns) line.append(",").append(column.name);
   for (const auto& column : closing_timings) line.append(",").append(column.name);
   for (const auto& column : method_columns) line.append(",").append(column.name);
+  for (const auto& column : estimate_columns) line.append(",").append(column.name);
   return line;
 }
 
@@ -35,6 +36,7 @@ std::string frame_log_row(const FrameRecord& record) {
   for (const auto& column : count_columns) line += fmt::format(",{}", column.value(record));
   for (const auto& column : closing_timings) line += fmt::format(",{:.3f}", record.timings.*column.value);
   for (const auto& column : method_columns) line += fmt::format(",{}", column.value(record));
+  for (const auto& column : estimate_columns) line += fmt::format(",{:.3f}", column.value(record));
   return line;
 }
 

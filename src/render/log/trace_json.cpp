@@ -59,6 +59,8 @@ std::string counts_of(const FrameRecord& record) {
     text += fmt::format(",\"{}\":{}", column.name, column.value(record));
   for (const auto& column : method_columns)
     text += fmt::format(",\"{}\":{}", column.name, column.value(record));
+  for (const auto& column : estimate_columns)
+    text += fmt::format(",\"{}\":{:.3f}", column.name, column.value(record));
   return text;
 }
 

@@ -174,6 +174,13 @@ void draw_counts(Ui& ui, const Picture& picture) {
   }
   for (const render::CountColumn& column : render::count_columns) line(column);
   for (const render::CountColumn& column : render::method_columns) line(column);
+  for (const render::EstimateColumn& column : render::estimate_columns) {
+    const double a = column.value(picture.a.record), b = two ? column.value(picture.b->record) : 0;
+    if (a == 0 && b == 0) continue;
+    dim_text(std::string(column.name).c_str());
+    cell(fmt::format("{:.2f}", a), right_a);
+    if (two) cell(fmt::format("{:.2f}", b), width);
+  }
   (void)ui;
 }
 

@@ -114,7 +114,16 @@ void edit_distance(Ui& ui, AoConfig& ao) {
   if (!(ao.distance_m >= 0)) ao.distance_m = 0;
 }
 
+void edit_error(Ui& ui, AoConfig& ao) {
+  row(ui, "Error", "Of the occlusion, RMS over the picture, in 1/255. The cost section has the estimate.");
+  auto error = static_cast<float>(ao.error_255);
+  if (ImGui::SliderFloat("##ao error", &error, 0.5f, 8.0f, "%.1f / 255", ImGuiSliderFlags_AlwaysClamp))
+    ao.error_255 = std::round(10 * double{error}) / 10;
+  ui.mark("ao error");
+}
+
 void edit_ao(Ui& ui, AoConfig& ao) {
+  if (ao.mode == AoMode::adaptive) return;
   row(ui, "At", "Where it is computed; in the paper: at vertices.");
   choose(ui, "place", place_choices, ao.place);
   row(ui, "Rays", "Per point, weighted by the cosine.");
@@ -148,7 +157,7 @@ std::optional<render::Quality> quality_of(const render::RenderSettings& render) 
     render::RenderSettings preset = render;
     render::apply_quality(quality, preset);
     if (preset.soft_points == render.soft_points && preset.ao.rays == render.ao.rays &&
-        preset.ao.downscale == render.ao.downscale)
+        preset.ao.downscale == render.ao.downscale && preset.ao.error_255 == render.ao.error_255)
       return quality;
   }
   return std::nullopt;
@@ -270,8 +279,10 @@ void draw_method_section(Ui& ui) {
     edit_light_size(ui, method);
   }
   row(ui, "Occlusion",
-      "Ambient occlusion: by displacement fields of rigid objects, or by rays, to compare with.");
+      "Ambient occlusion: adaptive, by an error; by displacement fields of rigid objects; or by rays, to "
+      "compare with.");
   choose(ui, "ao", ao_choices, method.render.ao.mode);
+  if (method.render.ao.mode == AoMode::adaptive) edit_error(ui, method.render.ao);
   if (method.render.ao.mode != AoMode::none) {
     method.render.samples = render::SampleSource::ids;
     edit_distance(ui, method.render.ao);

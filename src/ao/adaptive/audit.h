@@ -1,0 +1,35 @@
+// The error of a picture, by some of its pixels that look with many rays.
+#pragma once
+
+#include <span>
+#include <vector>
+
+#include "ao/adaptive/pixel_looks.h"
+
+namespace tenebra::ao {
+
+/// How a pixel came by its value.
+enum class Settled : std::uint8_t { none, by_neighbours, by_rays };
+
+class Audit {
+public:
+  /// About `of_each` pixels of both kinds, as many rays each as leave little noise.
+  Audit(PixelLooks& looks, const PixelSurfaces& surfaces, std::span<const Settled> settled);
+
+  /// Mean squares of what is wrong with `values`, each kind's share of the picture's.
+  struct Errors {
+    double by_neighbours = 0, by_rays = 0;
+    double rms_255() const;
+  };
+  Errors errors(std::span<const float> values, std::span<const Settled> settled) const;
+
+private:
+  struct Judged {
+    std::uint32_t pixel;
+    float open;
+    double weight;  ///< the share of the picture that it stands for
+  };
+  std::vector<Judged> judged_;
+};
+
+}  // namespace tenebra::ao

@@ -1,0 +1,73 @@
+#include "ao/adaptive/near_triangles.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include "ao/cast/sphere_maps.h"
+
+namespace tenebra::ao {
+
+RaySets make_ray_sets(int rays, int round) {
+  // Shifts by the two-dimensional golden ratio: any run of them is spread evenly over the square. Neighbours
+  // in the picture take numbers far apart.
+  constexpr double gold_x = 0.7548776662466927, gold_y = 0.5698402909980532;
+  constexpr int order[RaySets::count] = {0, 8, 2, 10, 12, 4, 14, 6, 3, 11, 1, 9, 15, 7, 13, 5};
+  RaySets sets{rays, {}};
+  for (const int number : order) {
+    const int shift = number + RaySets::count * round;
+    sets.patterns.push_back(make_ray_pattern(rays, {shift * gold_x, shift * gold_y}));
+  }
+  return sets;
+}
+
+NearTriangles::NearTriangles(const Occluders& occluders, const SeeThroughOccluders& see_through,
+                             const SceneObjects& objects, double reach, const AoKernels& kernels)
+    : occluders_(&occluders),
+      see_through_(&see_through),
+      kernels_(kernels),
+      reach_(static_cast<float>(reach)),
+      lift_(surface_lift(largest_coordinate(objects.standing))) {}
+
+void NearTriangles::look(std::span<const Receiver> receivers, std::span<const RayPattern* const> patterns,
+                         std::span<const int> near, Openness* out, OccluderCounts& counts) {
+  const std::size_t count = receivers.size();
+  reached_.resize(near.size() * count);
+  for (std::size_t n = 0; n < near.size(); ++n)
+    occluders_->reaches(near[n], receivers, &reached_[n * count], Occluders::Itself::counts);
+  for (std::size_t i = 0; i < count; ++i) {
+    const Receiver& receiver = receivers[i];
+    const RayPattern& pattern = *patterns[i];
+    batches_.resize(pattern.batches.size());
+    distances_.assign(pattern.batches.size() * batch_size, reach_);
+    const glm::dvec3 size = glm::abs(receiver.position);
+    const double lift = std::max(lift_, surface_lift(std::max({size.x, size.y, size.z})));
+    const glm::dvec3 origin = receiver.position + lift * glm::dvec3(receiver.face);
+    const Frame frame = frame_around(receiver.normal);
+    kernels_.fan.spread(pattern, {frame.x, frame.y, receiver.normal}, receiver.face, glm::vec3(origin),
+                        batches_.data());
+    for (std::size_t n = 0; n < near.size(); ++n) {
+      if (reached_[n * count + i] != 0)
+        occluders_->meet_triangles(near[n], receiver, origin, batches_, distances_.data(), counts);
+    }
+    out[i] = openness(pattern.rays);
+    if (!see_through_->empty())
+      out[i].open *= see_through_->left(origin, batches_, pattern.rays, reach_, kernels_, distances_, counts);
+  }
+}
+
+Openness NearTriangles::openness(int rays) const {
+  constexpr float least = 1e-3f;  // of the reach: nearer is near enough
+  float nearest = 1, inverse = 0, sum = 0, squares = 0;
+  for (int i = 0; i < rays; ++i) {
+    const float distance = distances_[static_cast<std::size_t>(i)] / reach_, hidden = 1 - distance;
+    nearest = std::min(nearest, distance);
+    inverse += 1 / std::max(distance, least);
+    sum += hidden, squares += hidden * hidden;
+  }
+  const auto count = static_cast<float>(rays);
+  const float mean = std::clamp(sum / count, 0.0f, 1.0f);
+  return {1 - mean, std::min(count / inverse, 2 * nearest),
+          std::sqrt(std::max(0.0f, squares / count - mean * mean))};
+}
+
+}  // namespace tenebra::ao

@@ -1,0 +1,57 @@
+// Rays of receivers through all triangles in their reach: their own body, other bodies, what stands and what
+// deforms. What counts of a ray is where it meets the first of them. Objects have a tree of their own, in
+// their own space: nothing is built anew when they move.
+#pragma once
+
+#include "ao/shade/occluders.h"
+#include "ao/shade/point_rays.h"
+#include "ao/shade/receiver_sets.h"
+#include "ao/shade/see_through.h"
+
+namespace tenebra::ao {
+
+/// Patterns of as many rays, each shifted, so that neighbouring receivers complete one another.
+struct RaySets {
+  static constexpr int side = 4, count = side * side;
+  int rays = 0;
+  std::vector<RayPattern> patterns;  ///< `count`
+
+  const RayPattern& at(int x, int y) const {
+    return patterns[static_cast<std::size_t>((y & (side - 1)) * side + (x & (side - 1)))];
+  }
+};
+/// `round`: others for each.
+RaySets make_ray_sets(int rays, int round = 0);
+
+/// What a receiver's rays found.
+struct Openness {
+  float open = 1;      ///< 0..1: 1 - mean of max(0, 1 - distance / reach)
+  float nearness = 1;  ///< in units of the reach: harmonic mean of the distances, at most twice the least
+  float spread = 0;    ///< standard deviation of what single rays say
+};
+
+/// For one thread.
+class NearTriangles {
+public:
+  NearTriangles(const Occluders& occluders, const SeeThroughOccluders& see_through,
+                const SceneObjects& objects, double reach, const AoKernels& kernels);
+
+  /// out[i] is receiver i's. `near`: what Occluders::near() gives for a box around them, with trees built;
+  /// patterns: one for each receiver, of equal numbers of rays.
+  void look(std::span<const Receiver> receivers, std::span<const RayPattern* const> patterns,
+            std::span<const int> near, Openness* out, OccluderCounts& counts);
+
+private:
+  Openness openness(int rays) const;
+
+  const Occluders* occluders_;
+  const SeeThroughOccluders* see_through_;
+  AoKernels kernels_;
+  float reach_;
+  float lift_;
+  std::vector<std::uint8_t> reached_;  ///< one per occluder and receiver
+  std::vector<RayBatch> batches_;
+  std::vector<float> distances_;
+};
+
+}  // namespace tenebra::ao

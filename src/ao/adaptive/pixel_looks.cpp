@@ -1,0 +1,91 @@
+#include "ao/adaptive/pixel_looks.h"
+
+#include <algorithm>
+#include <array>
+#include <numeric>
+
+#include "base/sort_unique.h"
+#include "parallel/parallel.h"
+
+namespace tenebra::ao {
+
+PixelLooks::PixelLooks(const AdaptiveScene& scene, const PixelSurfaces& surfaces, const StopFlag* stop)
+    : scene_(scene), tiles_(surfaces.width, surfaces.height), stop_(stop) {
+  const auto count = static_cast<std::size_t>(tiles_.count());
+  near_.resize(count);
+  counts_.resize(count);
+  looks_.resize(count);
+  const NearTriangles triangles(scene.occluders, scene.see_through, scene.frame.objects, scene.reach,
+                                scene.kernels);
+  workers_.assign(static_cast<std::size_t>(thread_count()), {triangles, {}, {}, {}, {}});
+  find_near(surfaces);
+}
+
+/// What moves is met in one tree of its own where that is soon built, else body by body.
+void PixelLooks::find_near(const PixelSurfaces& surfaces) {
+  parallel::parallel_tasks(tiles_.count(), [&](int tile) {
+    PointBox box;
+    tiles_.each(tile, 1, [&](int x, int y) {
+      const std::size_t i = surfaces.index(x, y);
+      if (surfaces.pixels[i].there()) box.extend(scene_.frame.points.positions[i]);
+    });
+    if (box.low.x <= box.high.x) scene_.occluders.near(box, near_[static_cast<std::size_t>(tile)]);
+  });
+  std::vector<int> all;
+  for (const std::vector<int>& near : near_) all.insert(all.end(), near.begin(), near.end());
+  base::sort_unique(all);
+  if (!scene_.occluders.gather_moving(all)) return scene_.occluders.build_trees(all);
+  for (std::vector<int>& near : near_) {
+    const bool stands = std::find(near.begin(), near.end(), Occluders::standing) != near.end();
+    const bool moves = near.size() > (stands ? 1u : 0u);
+    near.clear();
+    if (stands) near.push_back(Occluders::standing);
+    if (moves) near.push_back(Occluders::moving);
+  }
+  scene_.occluders.build_trees(std::array{Occluders::standing});
+}
+
+void PixelLooks::make_receivers(int step, const RaySets& sets, Worker& worker) const {
+  const AoFrame& frame = scene_.frame;
+  worker.receivers.clear();
+  worker.patterns.clear();
+  ReceiverMaker maker(frame.geometry, frame.objects);
+  for (const std::uint32_t i : worker.pixels) {
+    Receiver& receiver = worker.receivers.emplace_back();
+    receiver.index = i;
+    if (!maker.make(frame.points.triangles[i], frame.points.positions[i], frame.normals[i], receiver)) {
+      worker.receivers.pop_back();
+      continue;
+    }
+    const int x = static_cast<int>(i) % tiles_.width, y = static_cast<int>(i) / tiles_.width;
+    worker.patterns.push_back(&sets.at(x / step, y / step));
+  }
+}
+
+void PixelLooks::look(int step, const RaySets& sets, const Choice& choose, const Take& take) {
+  parallel::parallel_tasks(tiles_.count(), [&](int tile) {
+    if (stop_requested(stop_)) return;
+    const auto at = static_cast<std::size_t>(tile);
+    Worker& worker = workers_[static_cast<std::size_t>(parallel::thread_index())];
+    worker.pixels.clear();
+    choose(tile, worker.pixels);
+    make_receivers(step, sets, worker);
+    worker.found.resize(worker.receivers.size());
+    worker.triangles.look(worker.receivers, worker.patterns, near_[at], worker.found.data(), counts_[at]);
+    for (std::size_t k = 0; k < worker.receivers.size(); ++k)
+      take(static_cast<std::uint32_t>(worker.receivers[k].index), worker.found[k]);
+    looks_[at] += worker.receivers.size();
+  });
+}
+
+std::uint64_t PixelLooks::rays_cast() const {
+  std::uint64_t sum = 0;
+  for (const OccluderCounts& counts : counts_) sum += counts.rays_cast;
+  return sum;
+}
+
+std::uint64_t PixelLooks::looks() const {
+  return std::accumulate(looks_.begin(), looks_.end(), std::uint64_t{0});
+}
+
+}  // namespace tenebra::ao

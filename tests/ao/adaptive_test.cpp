@@ -1,0 +1,244 @@
+// Adaptive occlusion: what was asked for is met, what is estimated is true, and where other ways went wrong.
+#include <tenebra/ambient_occlusion.h>
+#include <tenebra/threads.h>
+
+#include "ao_case.h"
+
+namespace tenebra {
+namespace {
+
+using namespace testing;
+
+AoConfig adaptive(double error_255, double distance_m) {
+  AoConfig config;
+  config.mode = AoMode::adaptive;
+  config.error_255 = error_255;
+  config.distance_m = distance_m;
+  return config;
+}
+
+std::vector<float> truth_of(const Scene& scene, const AoView& view, double distance_m, int rays = 4096) {
+  AoConfig config = adaptive(1, distance_m);
+  config.mode = AoMode::rays;
+  config.rays = rays;
+  return occlude(scene, view, config);
+}
+
+/// A floor, walls, a still block and a stack of slats with gaps, a ball that rolls and a box that turns.
+Scene yard_scene() {
+  SceneMaker make;
+  make.add(quad_mesh({-4, 0, -4}, {0, 0, 8}, {8, 0, 0}));
+  make.add(quad_mesh({-4, 0, -4}, {0, 6, 0}, {0, 0, 8}));
+  make.add(quad_mesh({-4, 0, -4}, {8, 0, 0}, {0, 6, 0}));
+  make.add(box_mesh({-0.5f, 0, -0.5f}, {0.5f, 1, 0.5f}), {-2, 0, 1});
+  Mesh slats;
+  for (int i = 0; i < 8; ++i) {
+    const float x = 0.25f * static_cast<float>(i);
+    append(slats, box_mesh({x, 0, 0}, {x + 0.22f, 0.3f, 1}));
+  }
+  make.add(slats, {-1, 0, 2});
+  make.move(make.add(ball_mesh(0.7, 24), {0, 0.7, -1}), {2, 0, 0});
+  const int turning = make.add(box_mesh({-0.6f, -0.4f, -0.3f}, {0.6f, 0.4f, 0.3f}), {1.5, 0.5, 1.5});
+  make.animate(turning, ChannelPath::rotation, {0, 0, 0, 1}, {0, 0.7071067811865476, 0, 0.7071067811865476});
+  return make.scene;
+}
+
+constexpr int width = 160, height = 120;
+const ViewRays view = pinhole({5, 4, 6}, {0, 0.5, 0}, 0.5, width, height);
+
+TEST(AdaptiveOcclusion, MeetsTheErrorAskedForAndKnowsIt) {
+  const Scene scene = yard_scene();
+  for (const double time_s : {0.0, 0.6}) {
+    const AoView frame(scene, time_s, view, width, height);
+    const std::vector<float> truth = truth_of(scene, frame, 1.2);
+    for (const double asked : {5.0, 2.5, 1.0}) {
+      AmbientOcclusion ao;
+      const Difference d = compare(frame, occlude(ao, scene, frame, adaptive(asked, 1.2)), truth);
+      EXPECT_LT(d.rms_255, 1.2 * asked) << time_s;
+      EXPECT_LT(d.rms_255, 1.5 * std::max(0.25, ao.stats().error_255)) << asked;
+      EXPECT_GT(std::max(0.25, d.rms_255), ao.stats().error_255 / 1.5) << asked;
+      EXPECT_LT(std::abs(d.bias_255), 0.3 * asked) << asked;
+    }
+  }
+}
+
+TEST(AdaptiveOcclusion, ExactErrsLittleAtTheWorstPixel) {
+  const Scene scene = yard_scene();
+  const AoView frame(scene, 0.3, view, width, height);
+  const Difference d = compare(frame, occlude(scene, frame, adaptive(1, 1.2)), truth_of(scene, frame, 1.2));
+  EXPECT_LT(d.rms_255, 1.0);
+  EXPECT_LT(d.most_255, 16);
+}
+
+TEST(AdaptiveOcclusion, LooksLessWhereThePictureIsSmooth) {
+  SceneMaker make;
+  make.add(quad_mesh({-4, 0, -4}, {0, 0, 8}, {8, 0, 0}));
+  make.add(box_mesh({-0.5f, 0, -0.5f}, {0.5f, 1, 0.5f}));
+  const AoView frame(make.scene, 0, pinhole({3, 5, 3}, {0, 0, 0}, 0.7, 320, 240), 320, 240);
+  std::size_t seen = 0;
+  for (const std::uint32_t triangle : frame.points.triangles) seen += triangle != no_triangle ? 1 : 0;
+  AmbientOcclusion ao;
+  occlude(ao, make.scene, frame, adaptive(2.5, 0.8));
+  EXPECT_LT(ao.stats().points, seen / 3);
+}
+
+TEST(AdaptiveOcclusion, SameBitsForEveryThreadCountAndInstructionSet) {
+  const Scene scene = yard_scene();
+  const AoView frame(scene, 0.3, view, width, height);
+  const std::vector<float> first = occlude(scene, frame, adaptive(2.5, 1.2));
+  for (const int threads : {1, 2, 5})
+    with_threads(threads, [&] { EXPECT_EQ(occlude(scene, frame, adaptive(2.5, 1.2)), first) << threads; });
+  for (const SimdLevel level : {SimdLevel::scalar, SimdLevel::sse4, SimdLevel::avx2, SimdLevel::avx512}) {
+    if (!simd_level_supported(level)) continue;
+    AoConfig config = adaptive(2.5, 1.2);
+    config.simd = level;
+    EXPECT_EQ(occlude(scene, frame, config), first) << simd_level_name(level);
+  }
+}
+
+TEST(AdaptiveOcclusion, DoesNotDependOnTheFramesBefore) {
+  const Scene scene = yard_scene();
+  const AoView before(scene, 0.1, view, width, height), frame(scene, 0.8, view, width, height);
+  AmbientOcclusion ao;
+  occlude(ao, scene, before, adaptive(2.5, 1.2));
+  EXPECT_EQ(occlude(ao, scene, frame, adaptive(2.5, 1.2)), occlude(scene, frame, adaptive(2.5, 1.2)));
+}
+
+/// Samples at the ends of a long triangle are buried, what lies between is open: from samples of its surface
+/// the whole body was drawn black.
+TEST(AdaptiveOcclusion, AnOpenBodyWithBuriedEndsIsLit) {
+  SceneMaker make;
+  Mesh link = box_mesh({-1, -0.02f, -0.02f}, {1, 0.02f, 0.02f});
+  append(link, box_mesh({-1.1f, -0.1f, -0.1f}, {-0.9f, 0.1f, 0.1f}));
+  append(link, box_mesh({0.9f, -0.1f, -0.1f}, {1.1f, 0.1f, 0.1f}));
+  make.move(make.add(link, {0, 1, 0}), {0, 0.1, 0});
+  const AoView frame(make.scene, 0, pinhole({0, 1.6, 1.2}, {0, 1, 0}, 0.25, 96, 32), 96, 32);
+  const std::vector<float> out = occlude(make.scene, frame, adaptive(1, 8));
+  const std::vector<float> truth = truth_of(make.scene, frame, 8);
+  const std::size_t middle = 16 * 96 + 48;
+  ASSERT_NE(frame.points.triangles[middle], no_triangle);
+  EXPECT_GT(truth[middle], 0.5f);
+  EXPECT_NEAR(out[middle], truth[middle], 0.03f);
+  EXPECT_LT(compare(frame, out, truth).most_255, 16);
+}
+
+/// Each hard case alone, against as many rays as leave no doubt.
+struct HardCase {
+  const char* name;
+  Scene scene;
+  ViewRays view;
+  double distance_m;
+};
+
+std::vector<HardCase> catalogue() {
+  std::vector<HardCase> cases;
+  const auto room = [](double size, const glm::dvec3& at) {
+    SceneMaker make;
+    const auto s = static_cast<float>(size);
+    make.add(quad_mesh(glm::vec3(-s, 0, -s), {0, 0, 2 * s}, {2 * s, 0, 0}), at);
+    make.add(box_mesh(glm::vec3(-0.3f * s, 0, -0.3f * s), glm::vec3(0.3f * s, 0.5f * s, 0.3f * s)), at);
+    make.move(make.add(ball_mesh(0.3 * size, 16), at + glm::dvec3(0.6 * size, 0.3 * size, 0)),
+              {0, 0.1 * size, 0});
+    return make.scene;
+  };
+  const auto eye = [](double size, const glm::dvec3& at) {
+    return pinhole(at + glm::dvec3(2.0, 1.8, 2.0) * size, at, 0.6, 64, 48);
+  };
+  for (const double size : {1e-4, 1.0, 1e5})
+    cases.push_back({"size", room(size, {}), eye(size, {}), 0.5 * size});
+  const glm::dvec3 far(4096, -512, 2048);
+  cases.push_back({"far off", room(1, far), eye(1, far), 0.5});
+
+  SceneMaker slivers;
+  slivers.add(quad_mesh({-1, 0, -1}, {0, 0, 2}, {2, 0, 0}));
+  Mesh needles;
+  for (int i = 0; i < 64; ++i) {
+    const float x = -1 + static_cast<float>(i) / 32;
+    append(needles, quad_mesh({x, 0.1f, -1}, {0, 0, 2}, {1e-5f, 0, 0}));
+    append(needles, quad_mesh({x, 0, -1}, {0, 0, 2}, {0, 0.15f, 0}));
+  }
+  slivers.add(needles);
+  cases.push_back({"slivers", slivers.scene, eye(1, {}), 0.5});
+
+  SceneMaker inverted;
+  Mesh box = box_mesh({-0.3f, 0, -0.3f}, {0.3f, 0.5f, 0.3f});
+  for (glm::uvec3& t : box.triangles) std::swap(t.y, t.z);
+  inverted.add(quad_mesh({-1, 0, -1}, {2, 0, 0}, {0, 0, 2}));
+  inverted.move(inverted.add(box), {0, 0.1, 0});
+  cases.push_back({"inverted", inverted.scene, eye(1, {}), 0.5});
+
+  SceneMaker open;
+  open.add(quad_mesh({-1, 0, -1}, {0, 0, 2}, {2, 0, 0}));
+  open.move(open.add(quad_mesh({-0.5f, 0, 0}, {1, 0, 0}, {0, 0.6f, 0.2f})), {0, 0.1, 0});
+  cases.push_back({"open", open.scene, eye(1, {}), 0.5});
+
+  SceneMaker coplanar;
+  coplanar.add(quad_mesh({-1, 0, -1}, {0, 0, 2}, {2, 0, 0}));
+  coplanar.add(quad_mesh({-0.5f, 0, -0.5f}, {0, 0, 1}, {1, 0, 0}));
+  coplanar.move(coplanar.add(box_mesh({-0.2f, 0, -0.2f}, {0.2f, 0.4f, 0.2f})), {0.1, 0, 0});
+  cases.push_back({"coplanar", coplanar.scene, eye(1, {}), 0.5});
+
+  SceneMaker inside;
+  inside.add(quad_mesh({-1, 0, -1}, {0, 0, 2}, {2, 0, 0}));
+  inside.move(inside.add(quad_mesh({-0.4f, -0.1f, -0.4f}, {0, 0.6f, 0}, {0.8f, 0, 0})), {0.1, 0, 0});
+  inside.move(inside.add(quad_mesh({-0.4f, -0.1f, -0.4f}, {0, 0, 0.8f}, {0, 0.6f, 0})), {0.1, 0, 0});
+  inside.move(inside.add(box_mesh({-0.1f, -0.2f, -0.1f}, {0.1f, 0.2f, 0.1f})), {0.1, 0, 0});
+  cases.push_back({"inside", inside.scene, eye(1, {}), 0.5});
+
+  SceneMaker many;
+  many.add(quad_mesh({-1, 0, -1}, {0, 0, 2}, {2, 0, 0}));
+  const int parent = many.add(box_mesh({-0.9f, 0, -0.9f}, {-0.88f, 0.05f, -0.88f}));
+  for (int i = 1; i < 2000; ++i)
+    many.place(many.scene.nodes[static_cast<std::size_t>(parent)].mesh, {0.04 * (i % 45), 0, 0.04 * (i / 45)},
+               parent);
+  many.move(parent, {0.01, 0, 0});
+  cases.push_back({"two thousand instances", many.scene, eye(1, {}), 0.2});
+  return cases;
+}
+
+TEST(AdaptiveOcclusion, HardCasesFollowTheReference) {
+  for (const HardCase& hard : catalogue()) {
+    const AoView frame(hard.scene, 0, hard.view, 64, 48);
+    const std::vector<float> truth = truth_of(hard.scene, frame, hard.distance_m, 1024);
+    const Difference d = compare(frame, occlude(hard.scene, frame, adaptive(1, hard.distance_m)), truth);
+    EXPECT_LT(d.rms_255, 1.3) << hard.name << " " << hard.distance_m;
+    EXPECT_LT(d.most_255, 24) << hard.name << " " << hard.distance_m;
+  }
+}
+
+TEST(AdaptiveOcclusion, StopsAndCarriesOn) {
+  const Scene scene = yard_scene();
+  const AoView frame(scene, 0.3, view, width, height);
+  const std::vector<float> whole = occlude(scene, frame, adaptive(2.5, 1.2));
+  AmbientOcclusion ao;
+  StopFlag stop;
+  stop.request();
+  std::vector<float> out;
+  const auto done =
+      ao.compute(scene, frame.geometry, frame.points, frame.normals, adaptive(2.5, 1.2), out, {}, &stop);
+  ASSERT_FALSE(done);
+  EXPECT_EQ(done.error().message, "stopped");
+  EXPECT_EQ(occlude(ao, scene, frame, adaptive(2.5, 1.2)), whole);
+}
+
+TEST(AdaptiveOcclusion, RefusesErrorsOutOfRange) {
+  const Scene scene = yard_scene();
+  const AoView frame(scene, 0, view, width, height);
+  for (const double error : {0.0, -1.0, 0.01, 1e9, std::nan("")}) {
+    AmbientOcclusion ao;
+    std::vector<float> out;
+    const auto done = ao.compute(scene, frame.geometry, frame.points, frame.normals, adaptive(error, 1), out);
+    ASSERT_FALSE(done) << error;
+    EXPECT_NE(done.error().message.find("expected 0.1 to 255"), std::string::npos) << done.error().message;
+  }
+}
+
+TEST(AdaptiveOcclusion, EmptyPicturesAreOpen) {
+  const Scene scene = yard_scene();
+  const ViewRays away = pinhole({5, 4, 6}, {10, 8, 12}, 0.5, 16, 16);
+  const AoView frame(scene, 0, away, 16, 16);
+  for (const float value : occlude(scene, frame, adaptive(2.5, 1.2))) EXPECT_EQ(value, 1);
+}
+
+}  // namespace
+}  // namespace tenebra
