@@ -11,9 +11,9 @@ namespace tenebra {
 
 enum class AoMode {
   none,
+  adaptive,  ///< rays through all triangles where the picture needs them, filtered, by the error asked for
   field,     ///< displacement fields and surface samples, as many rays a point as asked for
   rays,      ///< the reference: the same rays through all triangles by another library's ray caster
-  adaptive,  ///< rays through all triangles where the picture needs them, filtered, by the error asked for
 };
 enum class AoPlace { pixels, vertices };
 enum class FieldLayout {

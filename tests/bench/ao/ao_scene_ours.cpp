@@ -7,22 +7,30 @@
 namespace tenebra::bench {
 namespace {
 
-/// None is given yet. It is to be asked of the last call of compute().
-std::optional<double> estimate_of(const AmbientOcclusion&) {
-  return std::nullopt;
+/// Of the last call of compute(); fields give none.
+std::optional<double> estimate_of(const AmbientOcclusion& ao, AoMode mode) {
+  return mode == AoMode::adaptive ? std::optional(ao.stats().error_255) : std::nullopt;
 }
+
+struct Setting {
+  const char* name;
+  render::Quality quality;
+  AoMode mode;
+};
+constexpr Setting settings_shown[] = {{"default", render::Quality::balanced, AoMode::adaptive},
+                                      {"exact", render::Quality::exact, AoMode::adaptive},
+                                      {"fast", render::Quality::fast, AoMode::adaptive},
+                                      {"fields", render::Quality::balanced, AoMode::field}};
 
 }  // namespace
 
 std::vector<AoSceneSetting> scene_settings(float reach_m, const std::filesystem::path& fields, bool tiny) {
-  using render::Quality;
   std::vector<AoSceneSetting> settings;
-  for (const auto& [name, quality] : {std::pair{"default", Quality::balanced},
-                                      std::pair{"exact", Quality::exact}, std::pair{"fast", Quality::fast}}) {
+  for (const auto& [name, quality, mode] : settings_shown) {
     render::RenderSettings chosen;
     render::apply_quality(quality, chosen);
     AoConfig config = chosen.ao;
-    config.mode = AoMode::field;
+    config.mode = mode;
     config.distance_m = static_cast<double>(reach_m);
     config.cache = fields;
     if (tiny) config.positions = config.directions = 64;
@@ -63,7 +71,7 @@ double OurAoScene::ms() const {
 }
 
 AoSceneResult OurAoScene::result(const AoSceneTruth& truth) const {
-  return {scene_errors(values_, truth), first_ms_, ms(), ao_.stats(), estimate_of(ao_), values_};
+  return {scene_errors(values_, truth), first_ms_, ms(), ao_.stats(), estimate_of(ao_, setting_.config.mode), values_};
 }
 
 }  // namespace tenebra::bench
