@@ -1,7 +1,6 @@
 // tenebra-bench frame: from a scene and a time to a picture, beside the renderer that one would write on
 // Embree; and what writing the pictures adds.
 #include <array>
-#include <cstdio>
 
 #include "bench/frame/frame_session.h"
 
@@ -13,19 +12,16 @@ constexpr std::array parts{BenchPart<FrameSession>{"scenes", measure_frames},
 const std::span<const BenchPart<FrameSession>> all_parts(parts);
 
 Expected<void> measure(const PartsArguments& arguments) {
-  FrameSession session{
-      .options = arguments.options, .effort = arguments.effort(), .report = Report(arguments.options.csv)};
-  if (auto done = measure_parts(arguments, all_parts, session); !done) return done;
-  if (auto written = session.report.write(parts_settings(arguments)); !written) return written;
-  std::printf("\n");
-  for (const std::string& sentence : session.skipped) std::printf("%s\n", sentence.c_str());
+  FrameSession session(arguments);
+  if (auto done = measure_and_write(arguments, all_parts, session); !done) return done;
   const FrameHeadline& h = session.headline;
-  print_headline("frame.unshaded_geomean", h.unshaded_geomean, 3);
-  print_headline("frame.unshaded_worst", h.unshaded_worst, 3);
-  print_headline("frame.ratio_geomean", h.ratio_geomean, 3);
-  print_headline("frame.ratio_worst", h.ratio_worst, 3);
-  print_headline("frame.city_per_second", h.city_per_second, 2);
-  print_headline("frame.render_over_frames", h.render_over_frames, 3);
+  print_end("frame", session.skipped,
+            {{"unshaded_geomean", h.unshaded_geomean, 3},
+             {"unshaded_worst", h.unshaded_worst, 3},
+             {"ratio_geomean", h.ratio_geomean, 3},
+             {"ratio_worst", h.ratio_worst, 3},
+             {"city_per_second", h.city_per_second, 2},
+             {"render_over_frames", h.render_over_frames, 3}});
   return {};
 }
 

@@ -1,11 +1,9 @@
 // tenebra-bench hard: the default hard shadows beside Embree's rays; growth, steadiness, and the experiments
 // of Olsson and Assarsson 2011.
 #include <array>
-#include <cstdio>
 #include <memory>
 
 #include "base/fail.h"
-#include "bench/common/bench_parts.h"
 #include "bench/hard/hard_session.h"
 
 namespace tenebra::bench {
@@ -19,24 +17,23 @@ constexpr std::array parts{BenchPart<HardSession>{"frames", measure_hard_frames}
                            BenchPart<HardSession>{"paper", measure_hard_paper}};
 const std::span<const BenchPart<HardSession>> all_parts(parts);
 
-void print_headlines(const HardHeadline& h) {
-  std::printf("\n");
-  print_headline("hard.dynamic_geomean", h.dynamic_geomean, 3);
-  print_headline("hard.static_geomean", h.static_geomean, 3);
-  print_headline("hard.dynamic_worst", h.dynamic_worst, 3);
-  print_headline("hard.static_worst", h.static_worst, 3);
-  print_headline("hard.growth_static_1.8m", h.growth_static_1_8m, 3);
-  print_headline("hard.p99_over_median", h.p99_over_median, 3);
-  print_headline("hard.whole_moved_geomean", h.whole_moved_geomean, 3);
-  print_headline("hard.whole_moved_worst", h.whole_moved_worst, 3);
-  print_headline("hard.whole_static_geomean", h.whole_static_geomean, 3);
-  print_headline("hard.whole_static_worst", h.whole_static_worst, 3);
-  print_headline("hard.whole_first_moved_geomean", h.first_moved_geomean, 3);
-  print_headline("hard.whole_first_moved_worst", h.first_moved_worst, 3);
-  print_headline("hard.whole_first_static_geomean", h.first_static_geomean, 3);
-  print_headline("hard.whole_first_static_worst", h.first_static_worst, 3);
-  print_headline("hard.sun_geomean", h.sun_geomean, 3);
-  print_headline("hard.sun_worst", h.sun_worst, 3);
+std::vector<LastLine> last_lines(const HardHeadline& h) {
+  return {{"dynamic_geomean", h.dynamic_geomean, 3},
+          {"static_geomean", h.static_geomean, 3},
+          {"dynamic_worst", h.dynamic_worst, 3},
+          {"static_worst", h.static_worst, 3},
+          {"growth_static_1.8m", h.growth_static_1_8m, 3},
+          {"p99_over_median", h.p99_over_median, 3},
+          {"whole_moved_geomean", h.whole_moved_geomean, 3},
+          {"whole_moved_worst", h.whole_moved_worst, 3},
+          {"whole_static_geomean", h.whole_static_geomean, 3},
+          {"whole_static_worst", h.whole_static_worst, 3},
+          {"whole_first_moved_geomean", h.first_moved_geomean, 3},
+          {"whole_first_moved_worst", h.first_moved_worst, 3},
+          {"whole_first_static_geomean", h.first_static_geomean, 3},
+          {"whole_first_static_worst", h.first_static_worst, 3},
+          {"sun_geomean", h.sun_geomean, 3},
+          {"sun_worst", h.sun_worst, 3}};
 }
 
 /// `simd` is the name of the level that both contestants are kept to.
@@ -45,15 +42,10 @@ Expected<void> measure(const PartsArguments& arguments, const std::string& simd)
   if (!level || (*level != SimdLevel::automatic && !simd_level_supported(*level)))
     return base::fail(
         "--simd: found {}, expected auto or a level of this machine: scalar, sse4, avx2, avx512", simd);
-  HardSession session{.options = arguments.options,
-                      .effort = arguments.effort(),
-                      .simd = *level,
-                      .report = Report(arguments.options.csv)};
-  if (auto done = measure_parts(arguments, all_parts, session); !done) return done;
-  if (auto written = session.report.write(parts_settings(arguments, *level)); !written) return written;
-  std::printf("\n");
-  for (const std::string& name : session.skipped) std::printf("%s: skipped, not there\n", name.c_str());
-  print_headlines(session.headline);
+  HardSession session(arguments);
+  session.simd = *level;
+  if (auto done = measure_and_write(arguments, all_parts, session, *level); !done) return done;
+  print_end("hard", session.skipped, last_lines(session.headline));
   return {};
 }
 

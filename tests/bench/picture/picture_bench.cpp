@@ -1,7 +1,6 @@
 // tenebra-bench picture: how far anti-aliased pictures are from 256 samples a pixel, what they cost, and
 // whether they flicker.
 #include <array>
-#include <cstdio>
 
 #include "bench/picture/picture_session.h"
 
@@ -13,19 +12,16 @@ constexpr std::array parts{BenchPart<PictureSession>{"views", measure_picture_vi
 const std::span<const BenchPart<PictureSession>> all_parts(parts);
 
 Expected<void> measure(const PartsArguments& arguments) {
-  PictureSession session{
-      .options = arguments.options, .effort = arguments.effort(), .report = Report(arguments.options.csv)};
-  if (auto done = measure_parts(arguments, all_parts, session); !done) return done;
-  if (auto written = session.report.write(parts_settings(arguments)); !written) return written;
-  std::printf("\n");
-  for (const std::string& sentence : session.skipped) std::printf("%s\n", sentence.c_str());
+  PictureSession session(arguments);
+  if (auto done = measure_and_write(arguments, all_parts, session); !done) return done;
   const PictureHeadline& h = session.headline;
-  print_headline("picture.rms_4", h.rms_4, 3);
-  print_headline("picture.rms_16", h.rms_16, 3);
-  print_headline("picture.cost_4", h.cost_4, 3);
-  print_headline("picture.cost_16", h.cost_16, 3);
-  print_headline("picture.missed_percent", h.missed_percent, 4);
-  print_headline("picture.flicker_16", h.flicker_16, 3);
+  print_end("picture", session.skipped,
+            {{"rms_4", h.rms_4, 3},
+             {"rms_16", h.rms_16, 3},
+             {"cost_4", h.cost_4, 3},
+             {"cost_16", h.cost_16, 3},
+             {"missed_percent", h.missed_percent, 4},
+             {"flicker_16", h.flicker_16, 3}});
   return {};
 }
 
