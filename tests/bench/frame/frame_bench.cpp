@@ -39,7 +39,7 @@ void add_frame_command(CLI::App& program, Run& run) {
       "sides shade by the same code, which is counted on both; unshaded is the ratio without it. Pictures\n"
       "must agree but for a small share of the pixels. city_per_second: Tenebra's frames of city at\n"
       "1024x1024. render_over_frames: the time of `tenebra render scenes/city.glb --frames 0:60 --size\n"
-      "1024x1024` with pictures over that without.");
+      "1024x1024 --antialias 1 --terminator flat --tone none` with pictures over that without.");
 }
 
 }  // namespace tenebra::bench
