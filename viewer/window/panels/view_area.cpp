@@ -5,7 +5,7 @@
 #include <utility>
 
 #include "window/panels/light_handles.h"
-#include "window/panels/overlay_image.h"
+#include "window/work/overlay_image.h"
 
 namespace tenebra::viewer {
 namespace {

@@ -12,8 +12,8 @@
 #include "render/renderer.h"
 #include "shared/picture_difference.h"
 #include "shared/scene_plan.h"
-#include "window/animation_clock.h"
-#include "window/camera_control.h"
+#include "window/motion/animation_clock.h"
+#include "window/motion/camera_control.h"
 
 namespace tenebra::viewer {
 

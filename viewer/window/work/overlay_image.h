@@ -1,7 +1,7 @@
 // Pictures that explain a picture: the heat map of nodes, the classes of the soft shadows.
 #pragma once
 
-#include "window/frame_request.h"
+#include "window/work/frame_request.h"
 
 namespace tenebra::viewer {
 

@@ -4,7 +4,7 @@
 #include <deque>
 #include <vector>
 
-#include "window/preview_levels.h"
+#include "window/work/preview_levels.h"
 
 namespace tenebra::viewer {
 

@@ -1,4 +1,4 @@
-#include "window/preview_times.h"
+#include "window/work/preview_times.h"
 
 #include <algorithm>
 #include <cmath>

@@ -1,4 +1,4 @@
-#include "window/animation_clock.h"
+#include "window/motion/animation_clock.h"
 
 #include <algorithm>
 #include <cmath>

@@ -12,8 +12,8 @@
 #include <vector>
 
 #include "options/raster_options.h"
-#include "window/frame_maker.h"
-#include "window/preview_times.h"
+#include "window/work/frame_maker.h"
+#include "window/work/preview_times.h"
 
 namespace tenebra::viewer {
 

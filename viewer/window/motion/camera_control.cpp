@@ -1,4 +1,4 @@
-#include "window/camera_control.h"
+#include "window/motion/camera_control.h"
 
 #include <fmt/core.h>
 

@@ -1,4 +1,4 @@
-#include "window/panels/overlay_image.h"
+#include "window/work/overlay_image.h"
 
 #include <algorithm>
 #include <cmath>

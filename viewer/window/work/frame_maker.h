@@ -5,8 +5,8 @@
 #include <memory>
 #include <optional>
 
-#include "window/frame_request.h"
-#include "window/preview_levels.h"
+#include "window/work/frame_request.h"
+#include "window/work/preview_levels.h"
 
 namespace tenebra::viewer {
 

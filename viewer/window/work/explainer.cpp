@@ -1,4 +1,4 @@
-#include "window/explainer.h"
+#include "window/work/explainer.h"
 
 #include <algorithm>
 

@@ -1,9 +1,9 @@
-#include "window/frame_maker.h"
+#include "window/work/frame_maker.h"
 
 #include <cmath>
 
 #include "base/stopwatch.h"
-#include "window/panels/overlay_image.h"
+#include "window/work/overlay_image.h"
 
 namespace tenebra::viewer {
 namespace {

@@ -1,4 +1,4 @@
-#include "window/render_worker.h"
+#include "window/work/render_worker.h"
 
 #include <algorithm>
 #include <iterator>

@@ -11,7 +11,7 @@
 #include <vector>
 
 #include "render/explanation.h"
-#include "window/frame_request.h"
+#include "window/work/frame_request.h"
 
 namespace tenebra::viewer {
 

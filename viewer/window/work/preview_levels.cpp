@@ -1,4 +1,4 @@
-#include "window/preview_levels.h"
+#include "window/work/preview_levels.h"
 
 #include <fmt/format.h>
 
