@@ -100,6 +100,8 @@ struct Actions {
   bool undo = false;
   bool redo = false;
   std::optional<std::string> open;  ///< a scene file
+
+  bool operator==(const Actions&) const = default;
 };
 
 }  // namespace tenebra::viewer
