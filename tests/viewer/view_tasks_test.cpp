@@ -1,34 +1,13 @@
 // Five tasks of a user, each by real key and mouse events: open and frame a model, find why a pixel is dark,
 // move the sun, compare two methods, record an animation.
-#include <fmt/core.h>
 #include <gtest/gtest.h>
 
-#include "base/image.h"
-#include "window_driver.h"
+#include "window_steps.h"
 
 namespace tenebra::testing {
 namespace {
 
 namespace fs = std::filesystem;
-
-base::Image8 picture_of(const fs::path& file) {
-  auto image = base::read_png(file);
-  EXPECT_TRUE(image) << image.error().message;
-  return image ? std::move(*image) : base::Image8{};
-}
-
-fs::path shot_after(const ViewSession& session, const std::string& keys) {
-  const std::size_t from = session.count();
-  session.key(keys);
-  return session.wait_for_event(from, "shot").value("text", "");
-}
-
-void quit(const ViewSession& session) {
-  session.key("ctrl+q");
-  const auto result = session.wait();
-  EXPECT_EQ(result.exit_code, 0) << result.errors;
-  session.expect_no_gl_errors();
-}
 
 void wait_for_state(const ViewSession& session, const char* key, const Json& value) {
   session.wait_until(key, [&] { return session.state()[key] == value; });
@@ -109,7 +88,7 @@ TEST(ViewTasks, FindsWhyAPixelIsDark) {
   arguments.insert(arguments.end(), {"--shots", folder / "shot_%d.png"});
   const ViewSession session(display, folder, arguments);
   session.wait_for_picture();
-  const base::Image8 picture = picture_of(shot_after(session, "p"));
+  const base::Image8 picture = shot(session);
   const auto brightness = [&](int x, int y) {
     return picture.pixels[static_cast<std::size_t>(y * 400 + x) * 3];
   };
@@ -155,10 +134,7 @@ TEST(ViewTasks, MovesTheSun) {
   session.wait_for_picture();
   const Json before = session.state()["edits"];
   const auto sun = session.place("light.1");
-  session.move_to((sun[0] + sun[2]) / 2, (sun[1] + sun[3]) / 2);
-  session.press();
-  session.move_to((sun[0] + sun[2]) / 2 - 30, (sun[1] + sun[3]) / 2 + 12);
-  session.release();
+  session.drag("light.1", -30, 12);
   session.wait_for_picture();
   const Json turned = session.state()["edits"];
   EXPECT_NE(turned.dump().find("--set-light 1 direction="), std::string::npos) << turned;
@@ -190,13 +166,7 @@ TEST(ViewTasks, MovesTheSun) {
   session.expect_state("playing", false, [&] { session.key("space"); });
 
   session.wait_for_picture();
-  from = session.count();
-  session.key("ctrl+c");
-  const std::string copied = session.wait_for_event(from, "copied").value("text", "");
-  const std::string command = fmt::format("exec '{}' render '{}' {} -o '{}' --quiet", TENEBRA_PROGRAM, scene,
-                                          copied, (folder / "pasted.png").string());
-  EXPECT_EQ(run_program({"/bin/sh", "-c", command}).errors, "") << copied;
-  EXPECT_EQ(picture_of(shot_after(session, "p")), picture_of(folder / "pasted.png"));
+  EXPECT_EQ(shot(session), pasted(folder, scene, copied_arguments(session)));
   quit(session);
 }
 
@@ -207,13 +177,13 @@ TEST(ViewTasks, EditsMaterialsAndLights) {
   const std::string scene = write_moving_scene(folder);
   const ViewSession session(display, folder, {scene, "--shots", folder / "shot_%d.png"});
   session.wait_for_picture();
-  const base::Image8 before = picture_of(shot_after(session, "p"));
+  const base::Image8 before = shot(session);
   session.click("section.Lights");
   session.click("add.sun");
   wait_for_state(session, "selected_light", 1);
   EXPECT_NE(session.state()["edits"].dump().find("--add-light directional"), std::string::npos);
   session.wait_for_picture();
-  EXPECT_NE(picture_of(shot_after(session, "p")), before);
+  EXPECT_NE(shot(session), before);
   session.click("light.0.delete");
   session.wait_until_gone("light.0.delete");
   session.wait_for_picture();
@@ -230,18 +200,12 @@ TEST(ViewTasks, EditsMaterialsAndLights) {
   });
   session.photograph("task_material");
   session.wait_for_picture();
-  const base::Image8 edited = picture_of(shot_after(session, "p"));
-  const std::size_t from = session.count();
-  session.key("ctrl+c");
-  const std::string copied = session.wait_for_event(from, "copied").value("text", "");
-  const std::string command = fmt::format("exec '{}' render '{}' {} -o '{}' --quiet", TENEBRA_PROGRAM, scene,
-                                          copied, (folder / "pasted.png").string());
-  EXPECT_EQ(run_program({"/bin/sh", "-c", command}).errors, "") << copied;
-  EXPECT_EQ(edited, picture_of(folder / "pasted.png")) << copied;
+  const base::Image8 edited = shot(session);
+  EXPECT_EQ(edited, pasted(folder, scene, copied_arguments(session)));
   for (int i = 0; i < 3; ++i) session.click("undo");
   wait_for_state(session, "edits", Json::array());
   session.wait_for_picture();
-  EXPECT_EQ(picture_of(shot_after(session, "p")), before);
+  EXPECT_EQ(shot(session), before);
   quit(session);
 }
 

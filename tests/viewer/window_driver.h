@@ -170,6 +170,18 @@ public:
   }
   void press(int button = 1) const { act({"mousedown", std::to_string(button)}, "press"); }
   void release(int button = 1) const { act({"mouseup", std::to_string(button)}, "release"); }
+  /// A drag by `right`, `down` from there.
+  void drag(double x, double y, double right, double down) const {
+    move_to(x, y);
+    press();
+    move_to(x + right, y + down);
+    release();
+  }
+  /// The same from the middle of a widget.
+  void drag(const std::string& name, double right, double down) const {
+    const auto [left, top, rim, bottom] = place(name);
+    drag((left + rim) / 2, (top + bottom) / 2, right, down);
+  }
   /// "ctrl+q": each of them goes down and comes up again.
   void key(const std::string& keys) const {
     const auto held = std::count(keys.begin(), keys.end(), '+');
