@@ -20,20 +20,27 @@ bool same_place(const Picture& a, const Picture& b) {
 
 }  // namespace
 
-void PixelAnswers::ask(QuestionKind kind, const std::shared_ptr<const Picture>& picture, glm::ivec2 pixel) {
+void PixelAnswers::ask(QuestionKind kind, const std::shared_ptr<const Picture>& picture, glm::dvec2 place) {
   const base::Image8& image = picture->a.result.image;
+  const glm::ivec2 pixel = pixel_at(place, {image.width, image.height});
   if (pixel.x < 0 || pixel.y < 0 || pixel.x >= image.width || pixel.y >= image.height) return;
-  explainer_.ask({kind, picture, pixel, std::chrono::steady_clock::now()});
+  if (kind == QuestionKind::explain) asked_ = picture, place_ = place;
+  explainer_.ask({kind, picture, place, pixel, std::chrono::steady_clock::now()});
 }
 
 void PixelAnswers::follow(const std::shared_ptr<const Picture>& picture) {
-  if (!shown_) return;
-  const Picture& asked = *shown_->question.picture;
-  if (!same_place(*picture, asked)) return close();
-  const base::Image8 &then = asked.a.result.image, &image = picture->a.result.image;
-  const glm::ivec2 pixel = shown_->question.pixel;
-  ask(QuestionKind::explain, picture,
-      {pixel.x * image.width / then.width, pixel.y * image.height / then.height});
+  if (!asked_ || asked_ == picture) return;
+  if (!same_place(*picture, *asked_)) return close();
+  ask(QuestionKind::explain, picture, place_);
+}
+
+void PixelAnswers::show(PictureAnswer answer) {
+  if (asked_ && answer.question.place == place_) shown_ = std::move(answer);
+}
+
+void PixelAnswers::close() {
+  asked_.reset();
+  shown_.reset();
 }
 
 }  // namespace tenebra::viewer

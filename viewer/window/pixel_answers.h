@@ -14,18 +14,22 @@ public:
   /// `wake` is called on another thread when there is an answer.
   explicit PixelAnswers(std::function<void()> wake) : explainer_(std::move(wake)) {}
 
-  /// Nothing where `picture` has no such pixel.
-  void ask(QuestionKind kind, const std::shared_ptr<const Picture>& picture, glm::ivec2 pixel);
+  /// About what is seen at a place of `picture`, 0 to 1; beyond it there is nothing to be asked.
+  void ask(QuestionKind kind, const std::shared_ptr<const Picture>& picture, glm::dvec2 place);
+  /// A picture from the same place, perhaps of another size, is asked the same anew; from another place there
+  /// is nothing to be told any more.
+  void follow(const std::shared_ptr<const Picture>& picture);
   std::vector<PictureAnswer> take() { return explainer_.take_answers(); }
 
+  /// Why a pixel is dark; null: nobody has asked, or the answer has not come.
   const PictureAnswer* shown() const { return shown_ ? &*shown_ : nullptr; }
-  void show(PictureAnswer answer) { shown_ = std::move(answer); }
-  void close() { shown_.reset(); }
-  /// A picture from the same place, perhaps of another size, answers the same question anew; from another
-  /// place there is none.
-  void follow(const std::shared_ptr<const Picture>& picture);
+  /// Shows an answer to the last question; others are out of date.
+  void show(PictureAnswer answer);
+  void close();
 
 private:
+  std::shared_ptr<const Picture> asked_;  // why a pixel is dark; null: nobody asks
+  glm::dvec2 place_{0.0};                 // of that pixel
   std::optional<PictureAnswer> shown_;
   Explainer explainer_;
 };

@@ -90,9 +90,10 @@ struct Actions {
   bool window_shot = false;
   bool toggle_log = false;
   bool copy_arguments = false;
-  std::optional<glm::ivec2> focus;    ///< pixel of the picture
-  std::optional<glm::ivec2> explain;  ///< pixel of the picture: why is it dark?
-  std::optional<glm::ivec2> pivot;    ///< pixel of the picture: what the camera turns around
+  // Places in the picture that was drawn, 0 to 1 from its left and top.
+  std::optional<glm::dvec2> focus;
+  std::optional<glm::dvec2> explain;  ///< why is it dark?
+  std::optional<glm::dvec2> pivot;    ///< what the camera turns around
   bool end_explanation = false;
   bool open_dialog = false;
   bool frame_all = false;

@@ -20,12 +20,6 @@ render::RasterChoice worker_raster(const ViewOptions& options) {
   return choice;
 }
 
-/// The middle of a pixel, 0 to 1 from the left and the top.
-glm::dvec2 place_in(const Picture& picture, glm::ivec2 pixel) {
-  const base::Image8& image = picture.a.result.image;
-  return (glm::dvec2(pixel) + 0.5) / glm::dvec2(image.width, image.height);
-}
-
 }  // namespace
 
 Viewer::Viewer(ViewOptions options, WindowGl& gl, EventReport report, std::function<void()> wake)
@@ -133,8 +127,11 @@ void Viewer::take_pick(const std::optional<glm::vec3>& point) {
   pace_.ask(1);
 }
 
-void Viewer::ask(QuestionKind kind, glm::ivec2 pixel) {
-  if (picture_ && picture_->scene == state_.scene) answers_.ask(kind, picture_, pixel);
+void Viewer::ask(QuestionKind kind, glm::dvec2 place) {
+  if (!drawn_picture_ || drawn_picture_->scene != state_.scene) return;
+  // The hand points at what was drawn; the whole picture may have come since.
+  answers_.ask(kind, drawn_picture_, place);
+  if (picture_->preview.empty()) answers_.follow(picture_);
 }
 
 void Viewer::take_answer(PictureAnswer answer) {
@@ -219,7 +216,7 @@ void Viewer::act() {
   if (actions.picture_shot) save_picture();
   if (actions.window_shot) window_shot_ = true, pace_.ask(1);
   if (actions.toggle_log) toggle_log();
-  if (actions.focus && picture_) worker_.pick(place_in(*picture_, *actions.focus));
+  if (actions.focus && picture_) worker_.pick(*actions.focus);
   if (actions.explain) ask(QuestionKind::explain, *actions.explain);
   if (actions.pivot) ask(QuestionKind::pivot, *actions.pivot);
   if (actions.end_explanation) answers_.close(), pace_.ask(2);
@@ -273,6 +270,7 @@ void Viewer::draw(float scale, float pixels_a_unit) {
   hand_moves_ = ImGui::IsAnyMouseDown();
   const std::string log = log_ ? log_->path() : "";
   marks_.clear();
+  drawn_picture_ = picture_;
   Ui ui{state_, actions_, marks_, picture_.get(), history_, keys_, worker_.status(), log, scale, answer()};
   handle_keys(ui, std::min(seconds, 0.1f));
   const ImGuiConfigFlags nav = ImGuiConfigFlags_NavEnableKeyboard;

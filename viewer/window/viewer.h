@@ -68,7 +68,7 @@ private:
   void take_answer(PictureAnswer answer);
   // What is wanted.
   void act();
-  void ask(QuestionKind kind, glm::ivec2 pixel);
+  void ask(QuestionKind kind, glm::dvec2 place);
   void frame_all();
   void follow_clock();
   void send_request();
@@ -98,7 +98,8 @@ private:
   std::array<FrameHistory, 2> history_;
   std::optional<SessionLog> log_;
   Recording recording_;
-  std::shared_ptr<const Picture> picture_;
+  std::shared_ptr<const Picture> picture_;        // the newest
+  std::shared_ptr<const Picture> drawn_picture_;  // the newest at the last draw
   UndoHistory undo_;
   Messages messages_;
   std::string failure_;  // that ends the program

@@ -21,7 +21,8 @@ enum class QuestionKind { explain, pivot };
 struct PictureQuestion {
   QuestionKind kind = QuestionKind::explain;
   std::shared_ptr<const Picture> picture;
-  glm::ivec2 pixel{0};
+  glm::dvec2 place{0.0};  ///< in the picture, 0 to 1 from its left and top
+  glm::ivec2 pixel{0};    ///< of `picture` at `place`
   AnimationClock::Wall asked{};
 };
 
@@ -34,6 +35,11 @@ struct PictureAnswer {
   std::vector<TriangleCorners> occluders;  ///< of each light's; meaningless where it has none
   double ms = 0;                           ///< from the question
 };
+
+/// The pixel at a place of a picture.
+inline glm::ivec2 pixel_at(glm::dvec2 place, Size size) {
+  return glm::ivec2(glm::floor(place * glm::dvec2(size.width, size.height)));
+}
 
 class Explainer {
 public:
