@@ -45,4 +45,18 @@ struct LastLine {
 void print_end(const std::string& command, std::span<const std::string> skipped,
                const std::vector<LastLine>& lines);
 
+/// A subcommand whose session follows from the common options alone.
+template <class Session>
+void add_session_command(CLI::App& program, Run& run, CommandName name,
+                         std::span<const BenchPart<Session>> parts,
+                         std::vector<LastLine> (*last_lines)(const Session&)) {
+  const auto measure = [=](const PartsArguments& arguments) -> Expected<void> {
+    Session session(arguments);
+    if (auto done = measure_and_write(arguments, parts, session); !done) return done;
+    print_end(name.name, session.skipped, last_lines(session));
+    return {};
+  };
+  add_parts_command(program, run, name, part_names(parts), measure);
+}
+
 }  // namespace tenebra::bench

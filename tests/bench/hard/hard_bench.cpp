@@ -49,23 +49,24 @@ Expected<void> measure(const PartsArguments& arguments, const std::string& simd)
   return {};
 }
 
+constexpr const char* footer =
+    "dynamic, static: the mask of one light from visible points that are there, with the build and\n"
+    "without. whole_moved: from triangle ids to the masks of all lights of a frame whose triangles\n"
+    "moved since the frame before (points, tiles, rays, build or refit, trace; Embree at the best of\n"
+    "its builds, packets of 4, 8 and 16, and both directions of rays). whole_static: the same where\n"
+    "nothing moved, Embree's trees built before at medium and high quality. Over twelve frames of BART\n"
+    "with all their lights, and city 30, 150 and 250 with its point light. whole_first: the first light\n"
+    "of each frame alone. sun: as whole, with city's sun, and in BART with one from (0.1, 1, 0.5), over\n"
+    "moved and static together.";
+
 }  // namespace
 
 void add_hard_command(CLI::App& program, Run& run) {
   const auto simd = std::make_shared<std::string>("auto");
   CLI::App& command = add_parts_command(
       program, run,
-      {"hard", "Hard shadows beside Embree's rays; the experiments of Olsson and Assarsson 2011"},
+      {"hard", "Hard shadows beside Embree's rays; the experiments of Olsson and Assarsson 2011", footer},
       part_names(all_parts), [simd](const PartsArguments& arguments) { return measure(arguments, *simd); });
-  command.footer(
-      "dynamic, static: the mask of one light from visible points that are there, with the build and\n"
-      "without. whole_moved: from triangle ids to the masks of all lights of a frame whose triangles\n"
-      "moved since the frame before (points, tiles, rays, build or refit, trace; Embree at the best of\n"
-      "its builds, packets of 4, 8 and 16, and both directions of rays). whole_static: the same where\n"
-      "nothing moved, Embree's trees built before at medium and high quality. Over twelve frames of BART\n"
-      "with all their lights, and city 30, 150 and 250 with its point light. whole_first: the first light\n"
-      "of each frame alone. sun: as whole, with city's sun, and in BART with one from (0.1, 1, 0.5), over\n"
-      "moved and static together.");
   command.add_option("--simd", *simd, "Instructions that both contestants are kept to [auto]")
       ->type_name("LEVEL");
 }
