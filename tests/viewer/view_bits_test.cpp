@@ -26,11 +26,10 @@ base::Image8 rendered(const TemporaryFolder& folder, std::vector<std::string> ar
   return picture_of(folder / "rendered.png");
 }
 
-TEST(ViewWindow, ShowsTheBitsOfRender) {
-  TENEBRA_NEEDS_A_DISPLAY();
-  const TemporaryFolder folder;
-  const std::string scene = write_moving_scene(folder, 2);
-  const VirtualDisplay display;
+using ViewWindow = WindowTest;
+
+TEST_F(ViewWindow, ShowsTheBitsOfRender) {
+  const std::string scene = write_moving_scene(folder_, 2);
   const std::vector<std::vector<std::string>> methods{
       {"--shadows", "none"},
       {"--shadows", "hard"},
@@ -44,9 +43,9 @@ TEST(ViewWindow, ShowsTheBitsOfRender) {
   for (const auto& method : methods) {
     std::vector<std::string> arguments{scene, "--time", "2.125", "--size", "400x300"};
     arguments.insert(arguments.end(), method.begin(), method.end());
-    const base::Image8 expected = rendered(folder, arguments);
-    arguments.insert(arguments.end(), {"--shots", folder / "shot_%d.png"});
-    const ViewSession session(display, folder, arguments);
+    const base::Image8 expected = rendered(folder_, arguments);
+    arguments.insert(arguments.end(), {"--shots", folder_ / "shot_%d.png"});
+    const ViewSession session(display(), folder_, arguments);
     session.wait_for_picture();
     // The lights' circles lie over the picture: they go for the comparison, and messages by themselves.
     session.click("section.Lights");
@@ -61,13 +60,10 @@ TEST(ViewWindow, ShowsTheBitsOfRender) {
   }
 }
 
-TEST(ViewWindow, CopiesWhatItShowsForRender) {
-  TENEBRA_NEEDS_A_DISPLAY();
-  const TemporaryFolder folder;
-  const std::string scene = write_moving_scene(folder);
-  const VirtualDisplay display;
-  const ViewSession session(display, folder,
-                            {scene, "--shots", folder / "shot_%d.png", "--light-size", "0.5", "--eye",
+TEST_F(ViewWindow, CopiesWhatItShowsForRender) {
+  const std::string scene = write_moving_scene(folder_);
+  const ViewSession session(display(), folder_,
+                            {scene, "--shots", folder_ / "shot_%d.png", "--light-size", "0.5", "--eye",
                              "0,3,9", "--look-at", "0,1,0"});
   session.wait_for_picture();
   session.key("3");
@@ -86,17 +82,15 @@ TEST(ViewWindow, CopiesWhatItShowsForRender) {
   for (const char* option : {"--eye", "--time", "--size", "--shadows soft", "--set-light '0 move="}) {
     EXPECT_NE(copied.find(option), std::string::npos) << copied;
   }
-  EXPECT_EQ(shot(session), pasted(folder, scene, copied));
+  EXPECT_EQ(shot(session), pasted(folder_, scene, copied));
   quit(session);
 }
 
-TEST(ViewWindow, ShowsMarkedPreviewsWhileAKeyIsHeldAndRefinesThem) {
-  TENEBRA_NEEDS_A_DISPLAY();
-  const TemporaryFolder folder;
+TEST_F(ViewWindow, ShowsMarkedPreviewsWhileAKeyIsHeldAndRefinesThem) {
   const std::string scene = TENEBRA_SCENES_DIR "/court.glb";
-  const VirtualDisplay display;
   const ViewSession session(
-      display, folder, {scene, "--shadows", "soft", "--size", "640x480", "--shots", folder / "shot_%d.png"});
+      display(), folder_,
+      {scene, "--shadows", "soft", "--size", "640x480", "--shots", folder_ / "shot_%d.png"});
   const Json first = session.wait_for_picture();  // takes seconds
   std::size_t from = session.count();
   session.xdotool({"keydown", "w"});
@@ -110,28 +104,26 @@ TEST(ViewWindow, ShowsMarkedPreviewsWhileAKeyIsHeldAndRefinesThem) {
   const base::Image8 saved = shot(session);  // waits for the whole picture
   session.wait_for_picture();
   session.wait_until_gone("preview");
-  EXPECT_EQ(saved, pasted(folder, scene, copied_arguments(session))) << "refined to the bits of render";
+  EXPECT_EQ(saved, pasted(folder_, scene, copied_arguments(session))) << "refined to the bits of render";
   quit(session);
 }
 
-TEST(ViewWindow, LogsRecordsAndLeaves) {
-  TENEBRA_NEEDS_A_DISPLAY();
-  const TemporaryFolder folder;
-  const std::string scene = write_moving_scene(folder);
-  const VirtualDisplay display;
-  const ViewSession session(display, folder,
+TEST_F(ViewWindow, LogsRecordsAndLeaves) {
+  const std::string scene = write_moving_scene(folder_);
+  const ViewSession session(display(), folder_,
                             {scene, "--size", "160x120", "--shadows", "soft", "--light-size", "1x1",
-                             "--quality", "fast", "--record", folder / "out/%04d.png", "--exit-after", "4"});
+                             "--quality", "fast", "--record", folder_ / "out/%04d.png", "--exit-after", "4"});
   EXPECT_EQ(session.wait().exit_code, 0);
   const auto render =
       tenebra({"render", scene, "--size", "160x120", "--shadows", "soft", "--light-size", "1x1",
-               "--soft-points", "8", "--frames", "0:3", "-o", folder / "render/%04d.png"});
+               "--soft-points", "8", "--frames", "0:3", "-o", folder_ / "render/%04d.png"});
   ASSERT_EQ(render.exit_code, 0) << render.errors;
   for (const char* name : {"0000.png", "0001.png", "0002.png", "0003.png"}) {
-    EXPECT_EQ(picture_of(folder / "out" / name), picture_of(folder / "render" / name)) << name;
+    EXPECT_EQ(picture_of(folder_ / "out" / name), picture_of(folder_ / "render" / name)) << name;
   }
 
-  const ViewSession logging(display, folder, {scene, "--size", "160x120", "--log", folder / "frames.csv"});
+  const ViewSession logging(display(), folder_,
+                            {scene, "--size", "160x120", "--log", folder_ / "frames.csv"});
   logging.wait_for_picture();
   for (const int frame : {1, 2}) {
     logging.key("Right");
@@ -146,10 +138,10 @@ TEST(ViewWindow, LogsRecordsAndLeaves) {
     return event["event"] == "message" && event["text"].get<std::string>().starts_with("Log written");
   });
   quit(logging);
-  const std::string log = read_text(folder / "frames.csv");
+  const std::string log = read_text(folder_ / "frames.csv");
   const std::string render_log = [&] {
-    tenebra({"render", scene, "--size", "160x120", "-o", "none", "--log", folder / "render.csv"});
-    return read_text(folder / "render.csv");
+    tenebra({"render", scene, "--size", "160x120", "-o", "none", "--log", folder_ / "render.csv"});
+    return read_text(folder_ / "render.csv");
   }();
   const auto header = [](const std::string& text) {
     const std::size_t at = text.find("\nframe,");

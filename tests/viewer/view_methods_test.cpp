@@ -6,13 +6,12 @@
 namespace tenebra::testing {
 namespace {
 
-TEST(ViewWindow, FlipsEveryMethod) {
-  TENEBRA_NEEDS_A_DISPLAY();
-  const TemporaryFolder folder;
-  const VirtualDisplay display;
-  const ViewSession session(display, folder,
-                            {write_moving_scene(folder), "--ao-cache", "none", "--light-size", "1x1",
-                             "--shots", folder / "shot_%d.png"});
+using ViewWindow = WindowTest;
+
+TEST_F(ViewWindow, FlipsEveryMethod) {
+  const ViewSession session(display(), folder_,
+                            {write_moving_scene(folder_), "--ao-cache", "none", "--light-size", "1x1",
+                             "--shots", folder_ / "shot_%d.png"});
   const Json hard = session.wait_for_picture();
   EXPECT_GT(hard["rays"], 0);
 
@@ -76,12 +75,9 @@ TEST(ViewWindow, FlipsEveryMethod) {
   quit(session);
 }
 
-TEST(ViewWindow, ComparesTwoMethods) {
-  TENEBRA_NEEDS_A_DISPLAY();
-  const TemporaryFolder folder;
-  const VirtualDisplay display;
-  const ViewSession session(display, folder,
-                            {write_moving_scene(folder), "--compare=--shadows none", "--show", "difference"});
+TEST_F(ViewWindow, ComparesTwoMethods) {
+  const ViewSession session(
+      display(), folder_, {write_moving_scene(folder_), "--compare=--shadows none", "--show", "difference"});
   const Json shadowed = session.wait_for_picture();
   EXPECT_GT(shadowed["differing"], 100);
   EXPECT_GT(shadowed["largest"], 10);

@@ -35,14 +35,14 @@ Json explained_at(const ViewSession& session, int x, int y, bool by_key) {
   });
 }
 
-TEST(ViewTasks, OpensAndFramesAModel) {
-  TENEBRA_NEEDS_A_DISPLAY();
-  const TemporaryFolder folder, others;
-  const VirtualDisplay display;
-  const std::string first = write_moving_scene(folder), settings = folder / "kept/viewer.json";
+using ViewTasks = WindowTest;
+
+TEST_F(ViewTasks, OpensAndFramesAModel) {
+  const TemporaryFolder others;
+  const std::string first = write_moving_scene(folder_), settings = folder_ / "kept/viewer.json";
   const std::string other = fs::canonical(write_moving_scene(others, 2));
   {
-    const ViewSession session(display, folder,
+    const ViewSession session(display(), folder_,
                               {first, "--settings", settings, "--eye", "3,40,5", "--look-at", "9,0,0"});
     session.wait_for_picture();
     std::size_t from = session.count();
@@ -63,7 +63,7 @@ TEST(ViewTasks, OpensAndFramesAModel) {
     session.expect_state("camera", "orbit", [&] { session.click("see all"); });
     quit(session);
   }
-  const ViewSession session(display, folder,
+  const ViewSession session(display(), folder_,
                             {other, "--settings", settings});  // the first by hand, as a recent one
   session.wait_for_picture();
   const std::size_t from = session.count();
@@ -80,13 +80,10 @@ TEST(ViewTasks, OpensAndFramesAModel) {
   quit(session);
 }
 
-TEST(ViewTasks, FindsWhyAPixelIsDark) {
-  TENEBRA_NEEDS_A_DISPLAY();
-  const TemporaryFolder folder;
-  const VirtualDisplay display;
-  std::vector<std::string> arguments = from_above(write_moving_scene(folder));
-  arguments.insert(arguments.end(), {"--shots", folder / "shot_%d.png"});
-  const ViewSession session(display, folder, arguments);
+TEST_F(ViewTasks, FindsWhyAPixelIsDark) {
+  std::vector<std::string> arguments = from_above(write_moving_scene(folder_));
+  arguments.insert(arguments.end(), {"--shots", folder_ / "shot_%d.png"});
+  const ViewSession session(display(), folder_, arguments);
   session.wait_for_picture();
   const base::Image8 picture = shot(session);
   const auto brightness = [&](int x, int y) {
@@ -123,14 +120,11 @@ TEST(ViewTasks, FindsWhyAPixelIsDark) {
   quit(session);
 }
 
-TEST(ViewTasks, MovesTheSun) {
-  TENEBRA_NEEDS_A_DISPLAY();
-  const TemporaryFolder folder;
-  const VirtualDisplay display;
-  const std::string scene = write_moving_scene(folder);
-  const ViewSession session(display, folder,
+TEST_F(ViewTasks, MovesTheSun) {
+  const std::string scene = write_moving_scene(folder_);
+  const ViewSession session(display(), folder_,
                             {scene, "--add-light", "directional direction=-1,-2,-0.5 intensity=0.5",
-                             "--shots", folder / "shot_%d.png", "--eye", "0,4,9", "--look-at", "0,1,0"});
+                             "--shots", folder_ / "shot_%d.png", "--eye", "0,4,9", "--look-at", "0,1,0"});
   session.wait_for_picture();
   const Json before = session.state()["edits"];
   const auto sun = session.place("light.1");
@@ -166,16 +160,13 @@ TEST(ViewTasks, MovesTheSun) {
   session.expect_state("playing", false, [&] { session.key("space"); });
 
   session.wait_for_picture();
-  EXPECT_EQ(shot(session), pasted(folder, scene, copied_arguments(session)));
+  EXPECT_EQ(shot(session), pasted(folder_, scene, copied_arguments(session)));
   quit(session);
 }
 
-TEST(ViewTasks, EditsMaterialsAndLights) {
-  TENEBRA_NEEDS_A_DISPLAY();
-  const TemporaryFolder folder;
-  const VirtualDisplay display;
-  const std::string scene = write_moving_scene(folder);
-  const ViewSession session(display, folder, {scene, "--shots", folder / "shot_%d.png"});
+TEST_F(ViewTasks, EditsMaterialsAndLights) {
+  const std::string scene = write_moving_scene(folder_);
+  const ViewSession session(display(), folder_, {scene, "--shots", folder_ / "shot_%d.png"});
   session.wait_for_picture();
   const base::Image8 before = shot(session);
   session.click("section.Lights");
@@ -201,7 +192,7 @@ TEST(ViewTasks, EditsMaterialsAndLights) {
   session.photograph("task_material");
   session.wait_for_picture();
   const base::Image8 edited = shot(session);
-  EXPECT_EQ(edited, pasted(folder, scene, copied_arguments(session)));
+  EXPECT_EQ(edited, pasted(folder_, scene, copied_arguments(session)));
   for (int i = 0; i < 3; ++i) session.click("undo");
   wait_for_state(session, "edits", Json::array());
   session.wait_for_picture();
@@ -209,11 +200,8 @@ TEST(ViewTasks, EditsMaterialsAndLights) {
   quit(session);
 }
 
-TEST(ViewTasks, ComparesTwoMethodsByMouse) {
-  TENEBRA_NEEDS_A_DISPLAY();
-  const TemporaryFolder folder;
-  const VirtualDisplay display;
-  const ViewSession session(display, folder, {write_moving_scene(folder)});
+TEST_F(ViewTasks, ComparesTwoMethodsByMouse) {
+  const ViewSession session(display(), folder_, {write_moving_scene(folder_)});
   session.wait_for_picture();
   session.click("section.Compare");
   session.expect_state("compare", true, [&] { session.click("compare"); });
@@ -225,12 +213,9 @@ TEST(ViewTasks, ComparesTwoMethodsByMouse) {
   quit(session);
 }
 
-TEST(ViewTasks, RecordsAnAnimation) {
-  TENEBRA_NEEDS_A_DISPLAY();
-  const TemporaryFolder folder;
-  const VirtualDisplay display;
-  const std::string scene = write_moving_scene(folder);
-  const ViewSession session(display, folder, {scene, "--size", "80x60"});
+TEST_F(ViewTasks, RecordsAnAnimation) {
+  const std::string scene = write_moving_scene(folder_);
+  const ViewSession session(display(), folder_, {scene, "--size", "80x60"});
   session.wait_for_picture();
   session.key("End");
   std::size_t from = session.count();
@@ -238,7 +223,7 @@ TEST(ViewTasks, RecordsAnAnimation) {
   session.wait_for(from, "the end of the recording", [](const Json& event) {
     return event["event"] == "message" && event["text"].get<std::string>().starts_with("Recorded to");
   });
-  const fs::path pictures = folder / "tenebra_frames";
+  const fs::path pictures = folder_ / "tenebra_frames";
   EXPECT_EQ(std::distance(fs::directory_iterator(pictures), fs::directory_iterator()), moving_scene_frames);
   EXPECT_EQ(session.state()["loop"], true) << "the clock is as it was";
   from = session.count();
@@ -247,12 +232,12 @@ TEST(ViewTasks, RecordsAnAnimation) {
   session.wait_for(from, "its end by hand", [](const Json& event) {
     return event["event"] == "message" && event["text"].get<std::string>().starts_with("Recording ended");
   });
-  EXPECT_TRUE(fs::exists(folder / "tenebra_frames_2")) << "the first recording stays";
+  EXPECT_TRUE(fs::exists(folder_ / "tenebra_frames_2")) << "the first recording stays";
   quit(session);
   const auto rendered =
-      tenebra({"render", scene, "--size", "80x60", "--frames", "7", "-o", folder / "seven.png"});
+      tenebra({"render", scene, "--size", "80x60", "--frames", "7", "-o", folder_ / "seven.png"});
   ASSERT_EQ(rendered.exit_code, 0) << rendered.errors;
-  EXPECT_EQ(picture_of(pictures / "0007.png"), picture_of(folder / "seven.png"));
+  EXPECT_EQ(picture_of(pictures / "0007.png"), picture_of(folder_ / "seven.png"));
 }
 
 }  // namespace

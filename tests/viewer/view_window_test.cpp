@@ -7,11 +7,10 @@
 namespace tenebra::testing {
 namespace {
 
-TEST(ViewWindow, PlaysScrubsStepsAndLoops) {
-  TENEBRA_NEEDS_A_DISPLAY();
-  const TemporaryFolder folder;
-  const VirtualDisplay display;
-  const ViewSession session(display, folder, {write_moving_scene(folder)});
+using ViewWindow = WindowTest;
+
+TEST_F(ViewWindow, PlaysScrubsStepsAndLoops) {
+  const ViewSession session(display(), folder_, {write_moving_scene(folder_)});
   session.wait_for_picture();
   session.photograph("play_still");
 
@@ -70,12 +69,9 @@ TEST(ViewWindow, PlaysScrubsStepsAndLoops) {
   quit(session);
 }
 
-TEST(ViewWindow, MovesLightsAndCamera) {
-  TENEBRA_NEEDS_A_DISPLAY();
-  const TemporaryFolder folder;
-  const VirtualDisplay display;
-  const ViewSession session(display, folder,
-                            {write_moving_scene(folder, 2), "--eye", "0,3,9", "--look-at", "0,1,0"});
+TEST_F(ViewWindow, MovesLightsAndCamera) {
+  const ViewSession session(display(), folder_,
+                            {write_moving_scene(folder_, 2), "--eye", "0,3,9", "--look-at", "0,1,0"});
   session.wait_for_picture();
   const std::string start = session.state()["free"];
 
@@ -120,11 +116,8 @@ TEST(ViewWindow, MovesLightsAndCamera) {
   quit(session);
 }
 
-TEST(ViewWindow, TakesAClickWhereItWasMade) {
-  TENEBRA_NEEDS_A_DISPLAY();
-  const TemporaryFolder folder;
-  const VirtualDisplay display;
-  const ViewSession session(display, folder, {write_moving_scene(folder)});
+TEST_F(ViewWindow, TakesAClickWhereItWasMade) {
+  const ViewSession session(display(), folder_, {write_moving_scene(folder_)});
   session.wait_for_picture();
   const auto [left, top, right, bottom] = session.place("loop");
   const std::string x = std::to_string(int(left) + 8), y = std::to_string(int(top + bottom) / 2);
@@ -136,18 +129,15 @@ TEST(ViewWindow, TakesAClickWhereItWasMade) {
   quit(session);
 }
 
-TEST(ViewWindow, ResizesAndExplainsItself) {
-  TENEBRA_NEEDS_A_DISPLAY();
-  const TemporaryFolder folder;
-  const VirtualDisplay display;
-  const ViewSession session(display, folder, {write_moving_scene(folder)});
+TEST_F(ViewWindow, ResizesAndExplainsItself) {
+  const ViewSession session(display(), folder_, {write_moving_scene(folder_)});
   const Json large = session.wait_for_picture();
   session.expect_state("help", true, [&] { session.key("question"); });
   session.photograph("help");
   session.expect_state("help", false, [&] { session.key("Escape"); });
   const std::size_t from = session.count();
   const auto resize = [&](const char* width, const char* height) {
-    const std::string window = display.run({"xdotool", "search", "--name", "Tenebra"}).output;
+    const std::string window = display().run({"xdotool", "search", "--name", "Tenebra"}).output;
     session.xdotool({"windowsize", window.substr(0, window.find('\n')), width, height});
   };
   resize("420", "300");
@@ -165,11 +155,9 @@ TEST(ViewWindow, ResizesAndExplainsItself) {
   quit(session);
 }
 
-TEST(ViewWindow, ScalesWithTheDisplay) {
-  TENEBRA_NEEDS_A_DISPLAY();
-  const TemporaryFolder folder;
-  const VirtualDisplay display("2560x1500x24", 192);
-  const ViewSession session(display, folder, {write_moving_scene(folder)});
+TEST_F(ViewWindow, ScalesWithTheDisplay) {
+  const VirtualDisplay dense("2560x1500x24", 192);
+  const ViewSession session(dense, folder_, {write_moving_scene(folder_)});
   session.wait_for_picture();
   const auto play = session.place("play");
   EXPECT_NEAR(play[3] - play[1], 2 * 23, 4) << "buttons are twice as large at 192 dots an inch";

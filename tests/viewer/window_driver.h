@@ -10,6 +10,7 @@
 #include <fstream>
 #include <memory>
 #include <nlohmann/json.hpp>
+#include <optional>
 #include <sstream>
 #include <thread>
 
@@ -239,9 +240,22 @@ private:
   mutable std::array<int, 2> pointer_{-1, -1};  // where it was moved last
 };
 
-#define TENEBRA_NEEDS_A_DISPLAY()                                                              \
-  for (const char* needed : {"Xvfb", "xdotool", "import", "xrdb"}) {                           \
-    if (!has_program(needed)) GTEST_SKIP() << needed << " is missing: tools/setup.sh --tests"; \
+/// A test with a folder and a virtual display of its own; skipped where there can be no display.
+class WindowTest : public ::testing::Test {
+protected:
+  void SetUp() override {
+    for (const char* needed : {"Xvfb", "xdotool", "import", "xrdb"})
+      if (!has_program(needed)) GTEST_SKIP() << needed << " is missing: tools/setup.sh --tests";
   }
+  const VirtualDisplay& display() {
+    if (!display_) display_.emplace();
+    return *display_;
+  }
+
+  const TemporaryFolder folder_;
+
+private:
+  std::optional<VirtualDisplay> display_;
+};
 
 }  // namespace tenebra::testing
