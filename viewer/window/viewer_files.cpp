@@ -1,7 +1,7 @@
 // What the viewer writes: screenshots, the log of frames, recordings, the settings that it keeps.
 #include <fmt/format.h>
 
-#include "window/file_names.h"
+#include "window/files/file_names.h"
 #include "window/viewer.h"
 
 namespace tenebra::viewer {

@@ -1,4 +1,4 @@
-#include "window/session_log.h"
+#include "window/files/session_log.h"
 
 #include <fmt/format.h>
 

@@ -1,9 +1,9 @@
-#include "window/recording.h"
+#include "window/files/recording.h"
 
 #include <cmath>
 #include <utility>
 
-#include "window/file_names.h"
+#include "window/files/file_names.h"
 
 namespace tenebra::viewer {
 

@@ -1,4 +1,4 @@
-#include "window/folder_list.h"
+#include "window/files/folder_list.h"
 
 #include <algorithm>
 #include <array>

@@ -1,4 +1,4 @@
-#include "window/file_names.h"
+#include "window/files/file_names.h"
 
 #include <fmt/format.h>
 

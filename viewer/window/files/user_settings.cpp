@@ -1,4 +1,4 @@
-#include "window/user_settings.h"
+#include "window/files/user_settings.h"
 
 #include <algorithm>
 #include <cstdlib>
