@@ -15,7 +15,6 @@ namespace {
 
 constexpr std::size_t most_places = 16;                      // whose ids are kept at once
 constexpr std::size_t most_samples = std::size_t{1} << 20;   // lit and shaded at once
-constexpr std::uint64_t most_ids = std::uint64_t{1} << 30;   // 4 GB
 constexpr std::uint32_t first_own = std::uint32_t{1} << 31;  // of what soft_from holds
 
 bool has_areas(const std::vector<DrawnLight>& lights) {
@@ -26,7 +25,7 @@ bool has_areas(const std::vector<DrawnLight>& lights) {
 }  // namespace
 
 Expected<void> Renderer::State::find_sample_ids(const FrameInput& input, const RenderSettings& settings,
-                                                std::span<const glm::vec2> offsets) {
+                                                std::span<const glm::vec2> offsets, const StopFlag* stop) {
   const FrameRaster::Wish wish{.width = settings.width,
                                .height = settings.height,
                                .threads = settings.threads,
@@ -34,6 +33,7 @@ Expected<void> Renderer::State::find_sample_ids(const FrameInput& input, const R
   further.resize(offsets.size());
   FrameTimings unused;
   for (std::size_t k = 0; k < offsets.size(); ++k) {
+    if (stop_requested(stop)) return base::fail("stopped");
     if (auto drawn =
             raster.draw(input.geometry, shifted_view(input.view, offsets[k]), wish, seen_there, unused);
         !drawn)
@@ -137,10 +137,12 @@ Expected<void> Renderer::State::light_packed(const FrameInput& input, const std:
                                              const StopFlag* stop) {
   const bool shadows = settings.shadows != ShadowMode::none && !lights.empty();
   const bool soft_too = has_areas(lights) || settings.ao.mode != AoMode::none;
-  with_threads(settings.threads, [&] {
-    points::compute_sample_points(samples.ids, samples.places, samples.count, input.view,
-                                  triangle_view(input.geometry), at_samples.points);
-  });
+  if (shadows || soft_too || !samples.layer.empty()) {
+    with_threads(settings.threads, [&] {
+      points::compute_sample_points(samples.ids, samples.places, samples.count, input.view,
+                                    triangle_view(input.geometry), at_samples.points);
+    });
+  }
   if (!shadows && !soft_too) {
     at_samples.masks.assign(lights.size(), {});
     at_samples.irradiance = at_samples.visible_fraction = {lights.size(), std::vector<float>()};
@@ -230,6 +232,53 @@ Expected<void> Renderer::State::add_edges(const FrameInput& input, const std::ve
   return {};
 }
 
+/// What changes quickly in what is drawn: further samples in the light of their pixels' centres.
+void Renderer::State::add_contrasts(const RenderSettings& settings, const SampleFrame& frame,
+                                    std::span<const std::uint32_t> chosen, std::size_t first,
+                                    std::size_t place, SampleMeans& means) {
+  const auto offsets = frame.offsets.subspan(place, further.size());
+  with_threads(settings.threads, [&] { list_as_centres(chosen, seen.width, offsets, further, listed); });
+  shade_list(settings, frame.subject, frame.lighting, {frame.pixels.factors, frame.pixels.openness});
+  with_threads(settings.threads, [&] { means.add_colors(first, listed, shaded); });
+}
+
+ChosenPixels Renderer::State::choose(const FrameInput& input, const RenderSettings& settings,
+                                     const SampleFrame& frame, const FrameResult& result) const {
+  CentrePicture centre{seen.width, seen.height, seen.ids, seen.layer, result.image, {}, {}};
+  for (const LightMask& mask : result.masks) centre.masks.emplace_back(mask.mask.pixels);
+  for (const shade::LightFactors& light : frame.pixels.factors)
+    if (!light.tint.factors.empty()) centre.tints.push_back(light.tint.factors);
+  ChosenPixels chosen;
+  with_threads(settings.threads, [&] {
+    chosen = choose_pixels(centre, frame.offsets.first(further.size()), further,
+                           SurfaceMatch(input.geometry, input.view), settings.antialias_everywhere);
+  });
+  return chosen;
+}
+
+Expected<void> Renderer::State::add_samples(const FrameInput& input, const std::vector<DrawnLight>& lights,
+                                            const RenderSettings& settings, const SampleFrame& frame,
+                                            const ChosenPixels& chosen, std::size_t place,
+                                            const FrameResult& result, SampleMeans& means,
+                                            const StopFlag* stop) {
+  const std::size_t at_once = most_samples / further.size();
+  const auto part = [&](const std::vector<std::uint32_t>& pixels, std::size_t i) {
+    return std::span(pixels).subspan(i, std::min(at_once, pixels.size() - i));
+  };
+  for (std::size_t i = 0; i < chosen.edges.size(); i += at_once) {
+    if (stop_requested(stop)) return base::fail("stopped");
+    if (auto added =
+            add_edges(input, lights, settings, frame, part(chosen.edges, i), i, place, result, means, stop);
+        !added)
+      return added;
+  }
+  for (std::size_t i = 0; i < chosen.contrasts.size(); i += at_once) {
+    if (stop_requested(stop)) return base::fail("stopped");
+    add_contrasts(settings, frame, part(chosen.contrasts, i), chosen.edges.size() + i, place, means);
+  }
+  return {};
+}
+
 Expected<void> Renderer::State::antialias(const FrameInput& input, const std::vector<DrawnLight>& lights,
                                           const RenderSettings& settings, const SampleFrame& frame,
                                           FrameResult& result, const StopFlag* stop) {
@@ -237,36 +286,16 @@ Expected<void> Renderer::State::antialias(const FrameInput& input, const std::ve
   base::Stopwatch watch;
   const SamplePattern pattern = sample_pattern(settings.antialias);
   ChosenPixels chosen;
-  SampleMeans means(pattern, display_of(settings), settings.sample_masks, colors, result);
+  SampleMeans means(settings, pattern, display_of(settings), colors, result);
   for (std::size_t place = 0; place < pattern.offsets.size(); place += most_places) {
     const auto offsets = frame.offsets.subspan(place, std::min(most_places, frame.offsets.size() - place));
-    if (auto found = find_sample_ids(input, settings, offsets); !found) return found;
+    if (auto found = find_sample_ids(input, settings, offsets, stop); !found) return found;
     if (place == 0) {
-      with_threads(settings.threads, [&] {
-        CentrePicture centre{seen.width, seen.height, seen.ids, seen.layer, result.image, {}, {}};
-        for (const LightMask& mask : result.masks) centre.masks.emplace_back(mask.mask.pixels);
-        for (const shade::LightFactors& light : frame.pixels.factors)
-          if (!light.tint.factors.empty()) centre.tints.push_back(light.tint.factors);
-        chosen = choose_pixels(centre, offsets, further, SurfaceMatch(input.geometry, input.view),
-                               settings.antialias_everywhere);
-        means.begin(chosen.edges, chosen.contrasts);
-      });
+      chosen = choose(input, settings, frame, result);
+      with_threads(settings.threads, [&] { means.begin(chosen.edges, chosen.contrasts); });
     }
-    const std::size_t at_once = most_samples / offsets.size();
-    for (std::size_t i = 0; i < chosen.edges.size(); i += at_once) {
-      if (stop_requested(stop)) return base::fail("stopped");
-      const std::span<const std::uint32_t> part(&chosen.edges[i], std::min(at_once, chosen.edges.size() - i));
-      if (auto added = add_edges(input, lights, settings, frame, part, i, place, result, means, stop); !added)
-        return added;
-    }
-    for (std::size_t i = 0; i < chosen.contrasts.size(); i += at_once) {
-      if (stop_requested(stop)) return base::fail("stopped");
-      const std::span<const std::uint32_t> part(&chosen.contrasts[i],
-                                                std::min(at_once, chosen.contrasts.size() - i));
-      with_threads(settings.threads, [&] { list_as_centres(part, seen.width, offsets, further, listed); });
-      shade_list(settings, frame.subject, frame.lighting, {frame.pixels.factors, frame.pixels.openness});
-      with_threads(settings.threads, [&] { means.add_colors(chosen.edges.size() + i, listed, shaded); });
-    }
+    if (auto added = add_samples(input, lights, settings, frame, chosen, place, result, means, stop); !added)
+      return added;
   }
   with_threads(settings.threads, [&] { means.finish(); });
   const std::size_t pixels = chosen.edges.size() + chosen.contrasts.size();

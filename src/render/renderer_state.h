@@ -7,6 +7,7 @@
 #include <unordered_set>
 #include <vector>
 
+#include "render/antialias/pixel_choice.h"
 #include "render/antialias/sample_means.h"
 #include "render/antialias/sample_picture.h"
 #include "render/antialias/shading_list.h"
@@ -107,13 +108,17 @@ struct Renderer::State {
                             const VisiblePoints& at, std::span<const glm::vec3> shading_normals,
                             const ShadowMask& mask, const SoftMask& soft_lit, TintMask& out,
                             const StopFlag* stop);
-  /// The visible part of an area light at points, as the settings want it.
+  /// Where samples are lit: their points, or these lifted.
   const VisiblePoints& lit_points(const FrameInput& input, const RenderSettings& settings,
                                   LitSamples& samples);
+  /// Lights that samples are lit by; `points`: without an area, and without ambient occlusion; `areas`: with
+  /// one, and with ambient occlusion.
   enum class LightKinds { all, points, areas };
+  /// What is left of each light at samples whose points (and, for areas and occlusion, normals) are there.
   Expected<void> light_samples(const FrameInput& input, const std::vector<DrawnLight>& lights,
                                const RenderSettings& settings, LightKinds kinds, LitSamples& at,
                                const StopFlag* stop);
+  /// The visible part of an area light at points, as the settings want it.
   Expected<void> trace_visible_part(const AreaTask& task, const DrawnLight& light, SoftMask& out);
   /// That, and what see-through surfaces leave of it.
   Expected<void> trace_side(const AreaTask& task, const DrawnLight& light, AreaSide& out);
@@ -146,7 +151,17 @@ struct Renderer::State {
                            const RenderSettings& settings, const SampleFrame& frame, FrameResult& result,
                            const StopFlag* stop);
   Expected<void> find_sample_ids(const FrameInput& input, const RenderSettings& settings,
-                                 std::span<const glm::vec2> offsets);
+                                 std::span<const glm::vec2> offsets, const StopFlag* stop);
+  ChosenPixels choose(const FrameInput& input, const RenderSettings& settings, const SampleFrame& frame,
+                      const FrameResult& result) const;
+  /// The samples of chosen pixels at the places `place` ..., which `further` has the ids of.
+  Expected<void> add_samples(const FrameInput& input, const std::vector<DrawnLight>& lights,
+                             const RenderSettings& settings, const SampleFrame& frame,
+                             const ChosenPixels& chosen, std::size_t place, const FrameResult& result,
+                             SampleMeans& means, const StopFlag* stop);
+  void add_contrasts(const RenderSettings& settings, const SampleFrame& frame,
+                     std::span<const std::uint32_t> chosen, std::size_t first, std::size_t place,
+                     SampleMeans& means);
   Expected<void> add_edges(const FrameInput& input, const std::vector<DrawnLight>& lights,
                            const RenderSettings& settings, const SampleFrame& frame,
                            std::span<const std::uint32_t> chosen, std::size_t first, std::size_t place,

@@ -44,6 +44,7 @@ RenderSettings settings_of(int samples, bool everywhere = false) {
   RenderSettings settings{.width = width, .height = height};
   settings.antialias = samples;
   settings.antialias_everywhere = everywhere;
+  settings.mask_means = true;
   return settings;
 }
 
@@ -116,7 +117,7 @@ TEST(SurfaceMatch, KnowsWhereTrianglesBoundEachOther) {
   EXPECT_TRUE(both(no_triangle, no_triangle, middle));
 }
 
-TEST(Antialias, OneSampleIsThePictureOfBeforeAndCentresKeepTheirMasks) {
+TEST(Antialias, CentresKeepTheirMasksAndFewPixelsAreRefined) {
   const Scene scene = sunny_floor();
   const FrameResult one = draw_with(scene, settings_of(1));
   EXPECT_TRUE(one.masks[0].mean.pixels.empty());
@@ -172,6 +173,30 @@ TEST(Antialias, PixelsThatAreLeftOutNeedNothing) {
   EXPECT_LE(differing, 3 * 4) << "corners of the shadow";
 }
 
+TEST(Antialias, MeansOfMasksAreMadeWhereTheyAreWanted) {
+  const Scene scene = sunny_floor();
+  RenderSettings settings = settings_of(4);
+  const FrameResult with = draw_with(scene, settings);
+  EXPECT_EQ(with.masks[0].mean.pixels.size(), std::size_t{width} * height);
+  EXPECT_TRUE(with.masks[0].samples.empty());
+  settings.mask_means = false;
+  const FrameResult without = draw_with(scene, settings);
+  EXPECT_TRUE(without.masks[0].mean.pixels.empty());
+  EXPECT_EQ(without.image, with.image);
+  settings.sample_masks = true;
+  EXPECT_EQ(draw_with(scene, settings).masks[0].samples.size(), 4u);
+}
+
+TEST(Antialias, WithoutShadowsEdgesAreAsSmooth) {
+  const Scene scene = sunny_floor();
+  RenderSettings settings = settings_of(16), everywhere = settings_of(16, true);
+  settings.shadows = everywhere.shadows = render::ShadowMode::none;
+  const FrameResult some = draw_with(scene, settings), all = draw_with(scene, everywhere);
+  EXPECT_GT(some.antialias.pixels, 50u);
+  for (std::size_t i = 0; i < all.image.pixels.size(); ++i)
+    EXPECT_NEAR(some.image.pixels[i], all.image.pixels[i], 1) << i;
+}
+
 TEST(Antialias, MeansAreThoseOfTheSamplesMasks) {
   const Scene scene = sunny_floor();
   RenderSettings settings = settings_of(8);
@@ -187,7 +212,7 @@ TEST(Antialias, MeansAreThoseOfTheSamplesMasks) {
   }
 }
 
-TEST(Antialias, TheSameBitsWithAnyThreadsVectorsAndRasteriser) {
+TEST(Antialias, TheSameBitsWithAnyThreadsVectorsAndTracer) {
   const Scene scene = sunny_floor();
   RenderSettings settings = settings_of(4);
   settings.threads = 1;

@@ -119,7 +119,6 @@ private:
 
   bool one_surface(std::size_t i, std::size_t j) const {
     const glm::vec2 between = (centre_of(i) + centre_of(j)) * 0.5f;
-    if (centre_.ids[i] == no_triangle && centre_.ids[j] == no_triangle) return true;
     return match_.same(centre_.ids[i], centre_.ids[j], between);
   }
 
