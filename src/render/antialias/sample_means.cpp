@@ -39,10 +39,11 @@ SampleMeans::SampleMeans(const RenderSettings& settings, const SamplePattern& pa
       centre_colors_(colors),
       result_(result) {}
 
-void SampleMeans::begin(std::span<const std::uint32_t> edges, std::span<const std::uint32_t> contrasts) {
-  chosen_.assign(edges.begin(), edges.end());
-  chosen_.insert(chosen_.end(), contrasts.begin(), contrasts.end());
-  edges_ = edges.size();
+void SampleMeans::begin(const ChosenPixels& chosen) {
+  chosen_.clear();
+  for (const auto* list : {&chosen.edges, &chosen.contrasts, &chosen.weak_contrasts})
+    chosen_.insert(chosen_.end(), list->begin(), list->end());
+  edges_ = chosen.edges.size();
   colors_.assign(chosen_.size(), glm::vec3(0.0f));
   visible_.assign(mask_means_ ? result_.masks.size() : 0, std::vector<float>(edges_, 0.0f));
   for (LightMask& mask : result_.masks) {

@@ -8,6 +8,7 @@
 #include <vector>
 
 #include "render/antialias/pattern.h"
+#include "render/antialias/pixel_choice.h"
 #include "render/antialias/sample_picture.h"
 #include "render/antialias/shading_list.h"
 #include "render/lit_samples.h"
@@ -27,8 +28,8 @@ public:
   SampleMeans(const RenderSettings& settings, const SamplePattern& pattern, const shade::Display& display,
               std::span<const glm::vec3> colors, FrameResult& result);
 
-  /// Starts with the centres, if they count; of the pixels, the first `edges` get masks of their own.
-  void begin(std::span<const std::uint32_t> edges, std::span<const std::uint32_t> contrasts);
+  /// Starts with the centres, if they count; edges get masks of their own.
+  void begin(const ChosenPixels& chosen);
   /// Colours of chosen pixels `first` ...
   void add_colors(std::size_t first, const ShadingList& list, std::span<const shade::ShadedSample> shaded);
   /// Masks of chosen pixels `first` ..., at the pattern's places `place` ...: if their means are wanted.
