@@ -60,12 +60,14 @@ CONTAINED = [
 
 # Rooms of the program, lowest first, as above; main.cpp stands above them all.
 VIEWER_ROOMS = ["shell", "options", "shared", "window", "commands", ""]
+# Rooms of viewer/window that know nothing of what is drawn: of the window they see themselves and these.
+PLAIN_WINDOW_ROOMS = {"motion": set(), "work": {"motion"}}
 
 # The same for the program: folders or files below viewer/ that may name it.
 CONTAINED_IN_VIEWER = [
     (r"\bImGui\b|imgui|GLFW|glfw", "the window", ("window/",)),
     (r"GLFW|glfw[A-Z3]", "GLFW", ("window/glfw_window.cpp",)),
-    (r"\bstd::(thread|jthread|mutex|atomic|condition_variable|barrier)\b", "a thread", ("window/render_worker.", "window/explainer.", "shell/stop_signals.")),
+    (r"\bstd::(thread|jthread|mutex|atomic|condition_variable|barrier)\b", "a thread", ("window/work/render_worker.", "window/work/explainer.", "shell/stop_signals.")),
     (r"\bgl[A-Z]\w*\(", "an OpenGL call", ()),
 ]
 
@@ -78,10 +80,28 @@ def viewer_breaches(root):
             other = re.match(r'\s*#include "(\w+)/', line)
             if other and VIEWER_ROOMS.index(room) < (VIEWER_ROOMS.index(other[1]) if other[1] in VIEWER_ROOMS else 0):
                 yield f"viewer/{name}:{number}: viewer/{room} may not include viewer/{other[1]}"
+            why = window_breach(name, line)
+            if why:
+                yield f"viewer/{name}:{number}: {why}"
             code = line.split("//")[0]
             for pattern, what, places in CONTAINED_IN_VIEWER:
                 if re.search(pattern, code) and "window/glfw_window.h" not in code and not name.startswith(places):
                     yield f"viewer/{name}:{number}: names {what}, allowed only in {places or 'src/gl and src/raster'}"
+
+
+def window_breach(name, line):
+    """Why a file of a plain room of viewer/window may not hold `line`, or None."""
+    parts = name.split("/")
+    room = parts[1] if parts[0] == "window" and len(parts) > 2 else ""
+    if room not in PLAIN_WINDOW_ROOMS:
+        return None
+    if re.search(r"\bImGui\b|imgui", line.split("//")[0]):
+        return f"window/{room} may not name what is drawn"
+    include = re.match(r'\s*#include "window/(?:(\w+)/)?', line)
+    other = include and (include[1] or "")
+    if include and other != room and other not in PLAIN_WINDOW_ROOMS[room]:
+        return f"window/{room} may not include {f'window/{other}' if other else 'files of the window itself'}"
+    return None
 
 
 def include_breach(folder, room, line):

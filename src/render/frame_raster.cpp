@@ -4,10 +4,12 @@
 #include <array>
 #include <span>
 
+#include "base/fail.h"
 #include "base/stopwatch.h"
 #include "parallel/parallel.h"
 #include "raster/gbuffer.h"
 #include "raster/geometry_buffers.h"
+#include "render/antialias/pattern.h"
 
 namespace tenebra::render {
 
@@ -119,6 +121,33 @@ Expected<void> FrameRaster::draw(const FrameGeometry& geometry, const ViewRays& 
   auto got = gl.read(out, wish.with_depth);
   timings.readback_ms = watch.lap_ms();
   return got;
+}
+
+Expected<void> FrameRaster::draw_one_by_one(const FrameGeometry& geometry, const ViewRays& view,
+                                            std::span<const glm::vec2> places, const Wish& wish,
+                                            visibility::PlaceIds& out, const StopFlag* stop) {
+  out.begin(wish.width, wish.height, places.size(), visibility::has_see_through(geometry));
+  out.open_all();
+  FrameTimings unused;
+  for (std::size_t k = 0; k < places.size(); ++k) {
+    if (stop_requested(stop)) return base::fail("stopped");
+    if (auto drawn = draw(geometry, shifted_view(view, places[k]), wish, one_place_, unused); !drawn)
+      return drawn;
+    with_threads(wish.threads, [&] { out.set_place(k, one_place_.ids, one_place_.layer); });
+  }
+  return {};
+}
+
+Expected<void> FrameRaster::draw_places(const FrameGeometry& geometry, const ViewRays& view,
+                                        std::span<const glm::vec2> places, const Wish& wish,
+                                        visibility::PlaceIds& out, const StopFlag* stop) {
+  if (gl_) return draw_one_by_one(geometry, view, places, wish, out, stop);
+  Expected<bool> at_once = true;
+  with_threads(wish.threads, [&] {
+    at_once = cpu_.draw_places(geometry, view, wish.width, wish.height, places, wish.simd, out);
+  });
+  if (!at_once) return tl::unexpected(at_once.error());
+  return *at_once ? Expected<void>() : draw_one_by_one(geometry, view, places, wish, out, stop);
 }
 
 }  // namespace tenebra::render

@@ -3,6 +3,7 @@
 
 #include <memory>
 #include <optional>
+#include <span>
 #include <string>
 #include <string_view>
 #include <vector>
@@ -11,6 +12,7 @@
 #include <tenebra/frame_geometry.h>
 #include <tenebra/frame_timings.h>
 #include <tenebra/simd_level.h>
+#include <tenebra/stop_flag.h>
 #include "gl/context.h"
 #include "visibility/visibility.h"
 
@@ -56,12 +58,21 @@ public:
   /// Fills raster_ms and readback_ms too.
   Expected<void> draw(const FrameGeometry& geometry, const ViewRays& view, const Wish& wish,
                       visibility::VisibleIds& out, FrameTimings& timings);
+  /// What all pixels of `view` see at places from their centres, less than 0.5 each way
+  /// (antialias/pattern.h).
+  Expected<void> draw_places(const FrameGeometry& geometry, const ViewRays& view,
+                             std::span<const glm::vec2> places, const Wish& wish, visibility::PlaceIds& out,
+                             const StopFlag* stop);
 
 private:
   struct Gl;
   FrameRaster();
   std::unique_ptr<Gl> gl_;  ///< null: on the CPU
+  Expected<void> draw_one_by_one(const FrameGeometry& geometry, const ViewRays& view,
+                                 std::span<const glm::vec2> places, const Wish& wish,
+                                 visibility::PlaceIds& out, const StopFlag* stop);
   visibility::VisibilityPass cpu_;
+  visibility::VisibleIds one_place_;
 };
 
 /// Whether GL_RENDERER names a renderer that runs on the CPU.

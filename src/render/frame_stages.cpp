@@ -1,12 +1,11 @@
 // The stages of a frame: ids, points, ambient occlusion, lights, colours.
-#include <cmath>
-
 #include "base/fail.h"
 #include "base/stopwatch.h"
 #include "parallel/parallel.h"
 #include "points/point_tiles.h"
 #include "render/antialias/pattern.h"
 #include "render/light_casters.h"
+#include "render/mask_colour.h"
 #include "render/renderer_state.h"
 #include "render/shadow_lights.h"
 
@@ -135,10 +134,7 @@ Expected<void> Renderer::State::trace_soft(const FrameInput& input, const DrawnL
   LightMask& out = result.masks.emplace_back();
   out.light = light.number;
   out.visible_fraction = {seen.width, seen.height, 1, lit_side.lit.visible_fraction};
-  out.mask = {seen.width, seen.height, 1, {}};
-  for (const float fraction : lit_side.lit.visible_fraction) {
-    out.mask.pixels.push_back(static_cast<std::uint8_t>(std::lround(255.0f * fraction)));
-  }
+  out.mask = in_levels(out.visible_fraction);
   out.classes = lit_side.classes;
   out.tint = lit_side.tint;
   std::swap(irradiance_out, lit_side.lit.irradiance);

@@ -1,10 +1,20 @@
-// A light's mask times what see-through surfaces leave of its colours.
+// A light's mask as values: fractions, levels, and times what see-through surfaces leave of its colours.
 #pragma once
+
+#include <cstddef>
+#include <cstdint>
 
 #include "base/image.h"
 #include "render/renderer.h"
 
 namespace tenebra::render {
+
+/// 0 to 1: how much of the light is visible from a pixel; of a light without an area 0 or 1.
+float visible_fraction(const LightMask& mask, std::size_t pixel);
+
+/// Fractions times 255, rounded.
+std::uint8_t in_levels(float fraction);
+base::Image8 in_levels(const base::ImageF& fractions);
 
 /// Three channels, 0 to 1: what is lit (soft: the visible fraction) times LightMask::tint.
 base::ImageF mask_colour(const LightMask& mask);

@@ -76,6 +76,7 @@ struct RenderSettings {
   // Anti-aliasing: antialias/pattern.h has the places, antialias/pixel_choice.h which pixels need them.
   int antialias = 1;                  ///< samples of a pixel that needs more than one: 1, 2, 4, 8, 16 or 256
   bool antialias_everywhere = false;  ///< every pixel gets all of them; 256 need it
+  bool mask_means = false;            ///< fill LightMask::mean
   bool sample_masks = false;          ///< fill LightMask::samples
   bool linear = false;                ///< fill FrameResult::linear and seen; the picture is the same
 };
@@ -102,7 +103,7 @@ struct LightMask {
   TintMask tint;  ///< what see-through surfaces leave of the light's colours; the mask is of opaque casters
 
   // With RenderSettings::antialias above 1. All else here is of the pixels' centres.
-  base::ImageF mean;                  ///< visible fraction, 0..1, mean over the pixel's samples
+  base::ImageF mean;                  ///< with mask_means: visible fraction, 0..1, mean over the samples
   std::vector<base::Image8> samples;  ///< with sample_masks: `mask` of each sample, the centre first if it
                                       ///< counts; a pixel that needs but one has its centre's everywhere
 };

@@ -7,8 +7,11 @@
 #include <unordered_set>
 #include <vector>
 
+#include "render/antialias/mask_sharing.h"
+#include "render/antialias/pixel_choice.h"
 #include "render/antialias/sample_means.h"
 #include "render/antialias/sample_picture.h"
+#include "render/antialias/settled_edges.h"
 #include "render/antialias/shading_list.h"
 #include "render/frame_lights.h"
 #include "render/frame_raster.h"
@@ -72,10 +75,11 @@ struct Renderer::State {
 
   // Of anti-aliasing.
   std::vector<glm::vec3> colors{};  // linear, of the pixels' centres; empty without
-  visibility::VisibleIds seen_there{};
-  std::vector<SampleIds> further{};
+  visibility::PlaceIds further{};   // what pixels see at the places of further samples
   SamplePicture samples{};
-  LitSamples at_samples{}, layer_at_samples{}, own_soft{};
+  LitSamples at_samples{}, layer_at_samples{}, own_soft{}, own_hard{};
+  MaskSharing shared{};
+  SettledEdges settled{};
   std::vector<std::uint32_t> soft_from{};  // pixel of the frame; or first_own + 1 + index in own_slots
   std::vector<std::uint32_t> own_slots{};
   ShadingList listed{};
@@ -107,13 +111,17 @@ struct Renderer::State {
                             const VisiblePoints& at, std::span<const glm::vec3> shading_normals,
                             const ShadowMask& mask, const SoftMask& soft_lit, TintMask& out,
                             const StopFlag* stop);
-  /// The visible part of an area light at points, as the settings want it.
+  /// Where samples are lit: their points, or these lifted.
   const VisiblePoints& lit_points(const FrameInput& input, const RenderSettings& settings,
                                   LitSamples& samples);
+  /// Lights that samples are lit by; `points`: without an area, and without ambient occlusion; `areas`: with
+  /// one, and with ambient occlusion.
   enum class LightKinds { all, points, areas };
+  /// What is left of each light at samples whose points (and, for areas and occlusion, normals) are there.
   Expected<void> light_samples(const FrameInput& input, const std::vector<DrawnLight>& lights,
                                const RenderSettings& settings, LightKinds kinds, LitSamples& at,
                                const StopFlag* stop);
+  /// The visible part of an area light at points, as the settings want it.
   Expected<void> trace_visible_part(const AreaTask& task, const DrawnLight& light, SoftMask& out);
   /// That, and what see-through surfaces leave of it.
   Expected<void> trace_side(const AreaTask& task, const DrawnLight& light, AreaSide& out);
@@ -146,7 +154,25 @@ struct Renderer::State {
                            const RenderSettings& settings, const SampleFrame& frame, FrameResult& result,
                            const StopFlag* stop);
   Expected<void> find_sample_ids(const FrameInput& input, const RenderSettings& settings,
-                                 std::span<const glm::vec2> offsets);
+                                 std::span<const glm::vec2> offsets, const StopFlag* stop);
+  ChosenPixels choose(const FrameInput& input, const RenderSettings& settings, const SampleFrame& frame,
+                      const FrameResult& result) const;
+  /// The samples of chosen pixels at the places `place` ..., which `further` has the ids of.
+  Expected<void> add_samples(const FrameInput& input, const std::vector<DrawnLight>& lights,
+                             const RenderSettings& settings, const SampleFrame& frame,
+                             const ChosenPixels& chosen, std::size_t place, const FrameResult& result,
+                             SampleMeans& means, const StopFlag* stop);
+  void add_contrasts(const RenderSettings& settings, const SampleFrame& frame,
+                     std::span<const std::uint32_t> chosen, std::size_t first,
+                     std::span<const glm::vec2> offsets, SampleMeans& means);
+  void settle(const FrameInput& input, const std::vector<DrawnLight>& lights, const RenderSettings& settings,
+              const SampleFrame& frame, const FrameResult& result, ChosenPixels& chosen);
+  void add_settled(const RenderSettings& settings, const SampleFrame& frame, std::size_t first,
+                   SampleMeans& means);
+  std::uint64_t sample_count(const ChosenPixels& chosen, std::size_t places) const;
+  CentreMasks centre_masks(const std::vector<DrawnLight>& lights, const FrameResult& result) const;
+  static bool may_settle(const FrameInput& input, const std::vector<DrawnLight>& lights,
+                         const RenderSettings& settings);
   Expected<void> add_edges(const FrameInput& input, const std::vector<DrawnLight>& lights,
                            const RenderSettings& settings, const SampleFrame& frame,
                            std::span<const std::uint32_t> chosen, std::size_t first, std::size_t place,
@@ -157,9 +183,12 @@ struct Renderer::State {
   Expected<void> light_softly(const FrameInput& input, const std::vector<DrawnLight>& lights,
                               const RenderSettings& settings, const FrameResult& result,
                               const StopFlag* stop);
+  Expected<void> light_sparsely(const FrameInput& input, const std::vector<DrawnLight>& lights,
+                                const RenderSettings& settings, const FrameResult& result,
+                                const StopFlag* stop);
   void borrow_soft(const FrameInput& input);
   void shade_list(const RenderSettings& settings, const shade::Subject& subject,
-                  const shade::Lighting& lighting, const SampleLights& lit);
+                  const shade::Lighting& lighting, const SampleLights& lit, int of_samples);
   Expected<void> layer_packed(const FrameInput& input, const std::vector<DrawnLight>& lights,
                               const RenderSettings& settings, const shade::Subject& subject,
                               const shade::Lighting& lighting, const StopFlag* stop);

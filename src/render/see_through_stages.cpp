@@ -42,7 +42,6 @@ Expected<void> Renderer::State::trace_tint(const FrameInput& input, const DrawnL
   return done ? Expected<void>() : Expected<void>(base::fail("stopped"));
 }
 
-/// Where samples are lit: their points, or these lifted.
 const VisiblePoints& Renderer::State::lit_points(const FrameInput& input, const RenderSettings& settings,
                                                  LitSamples& samples) {
   const VisiblePoints& from = samples.points;
@@ -65,7 +64,6 @@ const VisiblePoints& Renderer::State::lit_points(const FrameInput& input, const 
   return to;
 }
 
-/// What is left of each light at samples whose points (and, for areas and occlusion, normals) are there.
 Expected<void> Renderer::State::light_samples(const FrameInput& input, const std::vector<DrawnLight>& lights,
                                               const RenderSettings& settings, LightKinds kinds,
                                               LitSamples& samples, const StopFlag* stop) {

@@ -19,6 +19,7 @@ constexpr double margin = 0.03;                           ///< of half the pictu
 constexpr double wanted_subject = 1 / 3.0, enough = 0.9,  // of that
     wanted_shadow = 0.02;
 constexpr int bitmap_width = 128;
+constexpr std::size_t most_triangles = 100000;  ///< of more, those no longer than a cell count by cells
 
 void extend(const FrameGeometry& frame, Subject& subject) {
   for (const glm::uvec3& triangle : frame.triangles) {
@@ -41,14 +42,15 @@ public:
     for (const glm::uvec3& triangle : frame.triangles)
       for (int k = 0; k < 3 && triangle != glm::uvec3(0); ++k) add(dvec3(frame.positions[triangle[k]]));
   }
-  void list(Subject& to) const {
+  std::vector<dvec3> list() const {
+    std::vector<dvec3> places;
     for (std::size_t i = 0; i < held_.size(); ++i) {
       if (!held_[i]) continue;
       const dvec3 middle(static_cast<double>(i % cells) + 0.5, static_cast<double>(i / cells % cells) + 0.5,
                          static_cast<double>(i / cells / cells) + 0.5);
-      to.places.push_back(low_ + middle * size_ / static_cast<double>(cells));
+      places.push_back(low_ + middle * size_ / static_cast<double>(cells));
     }
-    to.pad_m = 0.5 * glm::length(size_) / cells;
+    return places;
   }
 
 private:
@@ -113,6 +115,13 @@ public:
       for (int x = std::max(first(low.x), 0); x <= last(high.x, bitmap_width); ++x)
         if (covers(v, {x + 0.5, y + 0.5})) held_[static_cast<std::size_t>(y * bitmap_width + x)] = true;
   }
+  void add(const dvec2& middle, const dvec2& half) {
+    const dvec2 low = glm::clamp(glm::ceil(middle - half - 0.5), dvec2(0), size()),
+                high = middle + half - 0.5;
+    for (int y = static_cast<int>(low.y); y <= high.y && y < height_; ++y)
+      for (int x = static_cast<int>(low.x); x <= high.x && x < bitmap_width; ++x)
+        held_[static_cast<std::size_t>(y * bitmap_width + x)] = true;
+  }
   double share() const { return share_beside(nullptr); }
   double share_beside(const Bitmap* other) const {
     std::size_t count = 0;
@@ -143,9 +152,32 @@ struct Candidate {
   float aspect;
 };
 
+/// What covers the picture at the start: all triangles, or instead of many small ones the cells that hold
+/// them.
+struct Cover {
+  std::vector<glm::uvec3> triangles;
+  std::vector<dvec3> cells;  ///< middles
+};
+Cover cover_of(const Subject& subject) {
+  const FrameGeometry& frame = subject.first;
+  const bool few = frame.triangles.size() <= most_triangles;
+  const auto cell_m = static_cast<float>(2 * subject.pad_m);
+  Cover cover;
+  for (const glm::uvec3& triangle : frame.triangles) {
+    if (triangle == glm::uvec3(0)) continue;  // dropped
+    const glm::vec3 a = frame.positions[triangle.x], b = frame.positions[triangle.y],
+                    c = frame.positions[triangle.z];
+    const glm::vec3 size = glm::max(glm::max(a, b), c) - glm::min(glm::min(a, b), c);
+    if (few || glm::length(size) > cell_m) cover.triangles.push_back(triangle);
+  }
+  if (!few) cover.cells = subject.first_places;
+  return cover;
+}
+
 class Framer {
 public:
-  Framer(const Subject& subject, std::optional<double> floor_y) : subject_(subject), floor_y_(floor_y) {}
+  Framer(const Subject& subject, std::optional<double> floor_y)
+      : subject_(subject), floor_y_(floor_y), cover_(cover_of(subject)) {}
 
   Framing framed(const Candidate& candidate) {
     const double a = candidate.azimuth * degree, e = candidate.elevation * degree;
@@ -182,32 +214,48 @@ private:
   /// How much of the picture subject and shadow fill at the start.
   void measure(Framing& framing) const {
     Bitmap subject(framing.aspect), shadow(framing.aspect);
-    const FrameGeometry& frame = subject_.first;
-    for (const glm::uvec3& triangle : frame.triangles) {
-      if (triangle == glm::uvec3(0)) continue;
+    for (const glm::uvec3& triangle : cover_.triangles) {
       dvec3 corners[3];
-      for (int k = 0; k < 3; ++k) corners[k] = dvec3(frame.positions[triangle[k]]);
+      for (int k = 0; k < 3; ++k) corners[k] = dvec3(subject_.first.positions[triangle[k]]);
       add(framing, corners, subject);
       for (dvec3& corner : corners)
         if (floor_y_) corner = shadow_of(corner, 1);
       if (floor_y_) add(framing, corners, shadow);
     }
+    for (const dvec3& cell : cover_.cells) {
+      add(framing, cell, subject);
+      if (floor_y_) add(framing, shadow_of(cell, 1), shadow);
+    }
     framing.subject_share = subject.share();
     framing.shadow_share = shadow.share_beside(&subject);
   }
+  static dvec2 tan_of(const Framing& framing) {
+    const double tan_y = std::tan(0.5 * framing.vertical_fov_rad);
+    return {tan_y * framing.aspect, tan_y};
+  }
   static void add(const Framing& framing, const dvec3 (&corners)[3], Bitmap& to) {
-    const double tan_y = std::tan(0.5 * framing.vertical_fov_rad), tan_x = tan_y * framing.aspect;
+    const dvec2 tan = tan_of(framing);
     dvec2 v[3];
     for (int k = 0; k < 3; ++k) {
       const dvec3 at = in_view(framing.basis, framing.eye, corners[k]);
       if (!(at.z < 0)) return;
-      v[k] = 0.5 * to.size() * dvec2(1 - at.x / (tan_x * at.z), 1 + at.y / (tan_y * at.z));
+      v[k] = 0.5 * to.size() * dvec2(1 - at.x / (tan.x * at.z), 1 + at.y / (tan.y * at.z));
     }
     to.add(v);
+  }
+  /// A cell as the rectangle that is as wide and high as it looks.
+  void add(const Framing& framing, const dvec3& middle, Bitmap& to) const {
+    const dvec2 tan = tan_of(framing);
+    const dvec3 at = in_view(framing.basis, framing.eye, middle), half = subject_.half_cell();
+    if (!(at.z < 0)) return;
+    const dvec2 half_m(glm::length(half * framing.basis[0]), glm::length(half * framing.basis[1]));
+    to.add(0.5 * to.size() * dvec2(1 - at.x / (tan.x * at.z), 1 + at.y / (tan.y * at.z)),
+           0.5 * to.size() * half_m / (tan * -at.z));
   }
 
   const Subject& subject_;
   std::optional<double> floor_y_;
+  Cover cover_;
   dvec3 sun_{0, 1, 0};
 };
 
@@ -234,6 +282,10 @@ double Subject::radius_m() const {
   return radius > 0 ? radius : 1;
 }
 
+dvec3 Subject::half_cell() const {
+  return (high - low) * (0.5 / cells);
+}
+
 Subject subject_of(const Scene& scene) {
   constexpr int intervals = 8;
   const int clip = scene.clips.empty() ? -1 : 0;
@@ -253,8 +305,10 @@ Subject subject_of(const Scene& scene) {
   if (subject.empty()) return subject;
   Cells held(subject);
   held.add(subject.first);
+  subject.first_places = held.list();
   at_times([&](const FrameGeometry& now) { held.add(now); });
-  held.list(subject);
+  subject.places = held.list();
+  subject.pad_m = glm::length(subject.half_cell());
   return subject;
 }
 

@@ -15,9 +15,12 @@ struct Subject {
   /// Middles of the box's 64^3 cells that hold a vertex: no vertex is further from one than `pad_m`.
   std::vector<glm::dvec3> places;
   double pad_m = 0;
-  FrameGeometry first;  ///< at the start
+  FrameGeometry first;                   ///< at the start
+  std::vector<glm::dvec3> first_places;  ///< of its vertices
 
   bool empty() const { return low.x > high.x; }
+  /// Half the sides of a cell.
+  glm::dvec3 half_cell() const;
   glm::dvec3 centre() const { return empty() ? glm::dvec3(0.0) : 0.5 * (low + high); }
   double radius_m() const;  ///< half of the box's diagonal; 1 where that is 0
 };
@@ -38,7 +41,7 @@ struct Framing {
   float vertical_fov_rad = 0.6f;
   float aspect = 4 / 3.0f;
   float near_m = 0.1f;
-  double subject_share = 0;  ///< of the picture's area, at the start
+  double subject_share = 0;  ///< of the picture's area, at the start; of many small triangles by their cells
   double shadow_share = 0;   ///< of its shadow on the floor beside it; 0 without a floor
 };
 

@@ -1,6 +1,7 @@
 #include "visibility/bins.h"
 
 #include <algorithm>
+#include <cmath>
 
 namespace tenebra::visibility {
 namespace {
@@ -115,7 +116,8 @@ void Bin::add_to_tile(std::uint32_t id, std::size_t candidate, const TriangleSet
     const double along_x = sign * setup.along_x[f][k], along_y = sign * setup.along_y[f][k];
     const double value = (sign * setup.at_origin[f][k] + (x0 + 0.5) * along_x) + (y0 + 0.5) * along_y;
     // Outside of an edge at the corner that is farthest inside.
-    const double most = value + std::max(along_x, 0.0) * (x1 - x0) + std::max(along_y, 0.0) * (y1 - y0);
+    const double most = value + std::max(along_x, 0.0) * (x1 - x0) + std::max(along_y, 0.0) * (y1 - y0) +
+                        drawing.around_px * (std::abs(along_x) + std::abs(along_y));
     if (f < 3 && !doubtful && most < -2.0 * double{edge_band}) return;
     const double limit = f < 3 ? farthest_edge : steepest_depth;
     record.value[f] = bounded(value, limit);

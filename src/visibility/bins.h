@@ -21,6 +21,7 @@ struct Drawing {
   SetupKernels kernels;
   int tiles_x = 0;
   int tiles_y = 0;
+  double around_px = 0;  ///< how far from a pixel's centre, each way, it is looked at
 
   std::size_t tiles() const { return static_cast<std::size_t>(tiles_x) * static_cast<std::size_t>(tiles_y); }
 };

@@ -25,7 +25,7 @@ ExactVector operator+(const ExactVector& a, const ExactVector& b) {
   return {a.x + b.x, a.y + b.y, a.z + b.z};
 }
 
-/// s v; exact, as s has at most 17 bits and v 24.
+/// s v; exact, as s has at most 25 bits and v 24.
 ExactVector scaled(double s, const dvec3& v) {
   return math::exact_vector(s * v);
 }
@@ -39,8 +39,8 @@ int ExactCoverage::facing(const glm::vec3& a, const glm::vec3& b, const glm::vec
   return math::dot(u, math::cross(v, w)).sign();
 }
 
-int ExactCoverage::exact_edge_sign(const glm::vec3& a, const glm::vec3& b, int x, int y) const {
-  const ExactVector across = scaled(x + 0.5, window_.dx) + scaled(y + 0.5, window_.dy);
+int ExactCoverage::exact_edge_sign(const glm::vec3& a, const glm::vec3& b, const glm::dvec2& place) const {
+  const ExactVector across = scaled(place.x, window_.dx) + scaled(place.y, window_.dy);
   const ExactVector qa = math::exact_difference(a, window_.eye), qb = math::exact_difference(b, window_.eye);
   const ExactVector d0 = math::exact_vector(window_.d0);
   if (!view_.orthographic) return math::dot(d0 + across, math::cross(qa, qb)).sign();
@@ -50,9 +50,9 @@ int ExactCoverage::exact_edge_sign(const glm::vec3& a, const glm::vec3& b, int x
       .sign();
 }
 
-int ExactCoverage::edge_sign(const glm::vec3& a, const glm::vec3& b, int x, int y) const {
+int ExactCoverage::edge_sign(const glm::vec3& a, const glm::vec3& b, const glm::dvec2& place) const {
   const dvec3 qa = dvec3(a) - window_.eye, qb = dvec3(b) - window_.eye;
-  const dvec3 across = (x + 0.5) * window_.dx + (y + 0.5) * window_.dy;
+  const dvec3 across = place.x * window_.dx + place.y * window_.dy;
   const dvec3 normal = glm::cross(qa, qb);
   const double value = window_.orthographic
                            ? glm::dot(window_.d0, normal) + glm::dot(across, glm::cross(window_.d0, qb - qa))
@@ -60,13 +60,14 @@ int ExactCoverage::edge_sign(const glm::vec3& a, const glm::vec3& b, int x, int 
   const double bound =
       bound_factor * (l1_norm(qa) + window_.shift) * (l1_norm(qb) + window_.shift) * window_.reach;
   if (std::abs(value) > bound) return sign_of(value);
-  return exact_edge_sign(a, b, x, y);
+  return exact_edge_sign(a, b, place);
 }
 
-bool ExactCoverage::meets(const glm::vec3& a, const glm::vec3& b, const glm::vec3& c, int x, int y) const {
+bool ExactCoverage::meets(const glm::vec3& a, const glm::vec3& b, const glm::vec3& c,
+                          const glm::dvec2& place) const {
   const int side = facing(a, b, c);
-  return side != 0 && side * edge_sign(b, c, x, y) >= 0 && side * edge_sign(c, a, x, y) >= 0 &&
-         side * edge_sign(a, b, x, y) >= 0;
+  return side != 0 && side * edge_sign(b, c, place) >= 0 && side * edge_sign(c, a, place) >= 0 &&
+         side * edge_sign(a, b, place) >= 0;
 }
 
 }  // namespace tenebra::visibility

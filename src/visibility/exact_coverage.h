@@ -15,13 +15,13 @@ public:
 
   /// Sign of det(a - eye, b - eye, c - eye); orthographic: of det(d0, b - a, c - a). 0: seen edge-on.
   int facing(const glm::vec3& a, const glm::vec3& b, const glm::vec3& c) const;
-  /// Whether the triangle, its edges included, is met by the ray through the centre of pixel (x, y): before
-  /// the eye; orthographic: by the whole line. Edge-on triangles are met by none.
-  bool meets(const glm::vec3& a, const glm::vec3& b, const glm::vec3& c, int x, int y) const;
+  /// Whether the triangle, its edges included, is met by the ray through a place of the window, a multiple of
+  /// 1/512 pixels: before the eye; orthographic: by the whole line. Edge-on triangles are met by none.
+  bool meets(const glm::vec3& a, const glm::vec3& b, const glm::vec3& c, const glm::dvec2& place) const;
 
 private:
-  int edge_sign(const glm::vec3& a, const glm::vec3& b, int x, int y) const;
-  int exact_edge_sign(const glm::vec3& a, const glm::vec3& b, int x, int y) const;
+  int edge_sign(const glm::vec3& a, const glm::vec3& b, const glm::dvec2& place) const;
+  int exact_edge_sign(const glm::vec3& a, const glm::vec3& b, const glm::dvec2& place) const;
 
   const ViewRays& view_;
   const Window& window_;

@@ -18,10 +18,11 @@ struct CloseCalls {
   std::span<const glm::vec3> positions;
   std::span<const glm::uvec3> triangles;
 
-  bool covers(std::uint32_t id, int x, int y) const {
+  bool covers(std::uint32_t id, const glm::dvec2& place) const {
     const glm::uvec3 t = triangles[id];
-    return coverage.meets(positions[t.x], positions[t.y], positions[t.z], x, y);
+    return coverage.meets(positions[t.x], positions[t.y], positions[t.z], place);
   }
+  bool covers(std::uint32_t id, int x, int y) const { return covers(id, {x + 0.5, y + 0.5}); }
 };
 
 /// Code for one instruction set; all give the same bits.

@@ -7,24 +7,18 @@
 
 #include "base/fail.h"
 #include "parallel/parallel.h"
-#include "visibility/bins.h"
+#include "visibility/pass_buffers.h"
 
 namespace tenebra::visibility {
 namespace {
 
-// A frame with a hard shadow needs about 60 bytes for each pixel: 4 GB at this many.
+// A frame with a hard shadow needs about 60 bytes for each pixel: 4 GB at this many. Anti-aliasing needs 12
+// more, and 4 (with see-through surfaces 8) for each further place within pixels: at 16 samples 9 GB (13).
 constexpr std::int64_t max_pixels = std::int64_t{1} << 26;
-constexpr int max_side = 1 << 15;                           // Window::margin
-constexpr std::size_t max_items = std::size_t{1} << 29;     // of four bytes, by offsets of 32 bits
-constexpr std::size_t most_bins = 64, least_bin = 1024;     // triangles
-constexpr std::size_t most_records = std::size_t{1} << 21;  // at a time: 128 MiB
+constexpr int max_side = 1 << 15;                        // Window::margin
+constexpr std::size_t max_items = std::size_t{1} << 29;  // of four bytes, by offsets of 32 bits
+constexpr std::size_t most_bins = 64, least_bin = 1024;  // triangles
 constexpr std::size_t vertices_at_once = 4096;
-
-/// The lists that a drawing fills.
-struct Planes {
-  std::int32_t* ids = nullptr;
-  float* depth = nullptr;  ///< null: not wanted
-};
 
 /// A tile's rows into the picture's.
 template <class T>
@@ -49,16 +43,16 @@ void clear(Tile& tile, bool layer) {
 
 }  // namespace
 
-struct VisibilityPass::Buffers {
-  WindowVertices vertices;
-  std::vector<Bin> bins;
-  std::vector<Tile> scratch;  // of each thread
-  std::vector<Tile> tiles;    // of the picture, where one drawing after another goes into them
-
-  void place(const Drawing& drawing);
-  void begin_bins(std::size_t triangles);
-  void draw_all(const Drawing& drawing, const TileKernels& kernels, bool keeps_tiles, const Planes& out);
-};
+DrawingParts::DrawingParts(const FrameGeometry& geometry, const ViewRays& view,
+                           const ClipTransform& transform, int width, int height, SimdLevel simd,
+                           const WindowVertices& vertices)
+    : window(view, transform, width, height),
+      coverage(view, window),
+      close{coverage, geometry.positions, geometry.triangles},
+      drawing{window, close, vertices, geometry.see_through, false, setup_kernels(simd)} {
+  drawing.tiles_x = (width + tile_side - 1) / tile_side;
+  drawing.tiles_y = (height + tile_side - 1) / tile_side;
+}
 
 void VisibilityPass::Buffers::place(const Drawing& drawing) {
   const auto positions = drawing.close.positions;
@@ -68,22 +62,26 @@ void VisibilityPass::Buffers::place(const Drawing& drawing) {
   });
 }
 
-void VisibilityPass::Buffers::begin_bins(std::size_t triangles) {
+void VisibilityPass::Buffers::begin_bins(std::size_t triangles, std::vector<Bin>& bins) {
   const std::size_t count = std::clamp<std::size_t>(triangles / least_bin, 1, most_bins);
   bins.resize(count);
   for (std::size_t i = 0; i < count; ++i) bins[i].begin(triangles * i / count, triangles * (i + 1) / count);
 }
 
+bool VisibilityPass::Buffers::fill_bins(const Drawing& drawing, std::vector<Bin>& bins) {
+  const std::size_t most = most_records / bins.size();
+  parallel::parallel_in_order(static_cast<int>(bins.size()),
+                              [&](int i) { bins[static_cast<std::size_t>(i)].fill(drawing, most); });
+  return std::all_of(bins.begin(), bins.end(), [](const Bin& bin) { return bin.is_done(); });
+}
+
 /// In rounds, so that memory is bounded; nearly always in one.
 void VisibilityPass::Buffers::draw_all(const Drawing& drawing, const TileKernels& kernels, bool keeps_tiles,
                                        const Planes& out) {
-  begin_bins(drawing.close.triangles.size());
-  const std::size_t most = most_records / bins.size();
+  begin_bins(drawing.close.triangles.size(), bins);
   bool kept = keeps_tiles;
   for (bool first = true, last = false; !last; first = false) {
-    parallel::parallel_in_order(static_cast<int>(bins.size()),
-                                [&](int i) { bins[static_cast<std::size_t>(i)].fill(drawing, most); });
-    last = std::all_of(bins.begin(), bins.end(), [](const Bin& bin) { return bin.is_done(); });
+    last = fill_bins(drawing, bins);
     kept = kept || !last;
     if (kept) tiles.resize(drawing.tiles());
     if (!kept) scratch.resize(static_cast<std::size_t>(thread_count()));
@@ -119,31 +117,36 @@ VisibilityPass::VisibilityPass(VisibilityPass&&) noexcept = default;
 VisibilityPass& VisibilityPass::operator=(VisibilityPass&&) noexcept = default;
 VisibilityPass::~VisibilityPass() = default;
 
-Expected<void> VisibilityPass::draw(const FrameGeometry& geometry, const ViewRays& view, int width,
-                                    int height, bool with_depth, SimdLevel simd, VisibleIds& out) {
-  if (auto size = check_picture_size(width, height); !size) return size;
+Expected<ClipTransform> checked_transform(const FrameGeometry& geometry, const ViewRays& view, int width,
+                                          int height) {
+  if (auto size = check_picture_size(width, height); !size) return tl::unexpected(size.error());
   if (std::max(geometry.triangles.size(), geometry.positions.size()) > max_items) {
     return base::fail("picture: found {} triangles and {} vertices, expected at most {}",
                       geometry.triangles.size(), geometry.positions.size(), max_items);
   }
-  const parallel::FloatEnvironment ieee;
   const Box bounds = view.orthographic ? bounds_of(geometry.positions) : Box{};
-  const auto transform = clip_transform(view, bounds, width, height);
+  return clip_transform(view, bounds, width, height);
+}
+
+bool has_see_through(const FrameGeometry& geometry) {
+  return std::any_of(geometry.see_through.begin(), geometry.see_through.end(),
+                     [](std::uint8_t through) { return through != 0; });
+}
+
+Expected<void> VisibilityPass::draw(const FrameGeometry& geometry, const ViewRays& view, int width,
+                                    int height, bool with_depth, SimdLevel simd, VisibleIds& out) {
+  const parallel::FloatEnvironment ieee;
+  const auto transform = checked_transform(geometry, view, width, height);
   if (!transform) return tl::unexpected(transform.error());
   const std::size_t pixels = static_cast<std::size_t>(width) * static_cast<std::size_t>(height);
   out.width = width, out.height = height, out.transform = *transform;
-  out.has_layer = std::any_of(geometry.see_through.begin(), geometry.see_through.end(),
-                              [](std::uint8_t through) { return through != 0; });
+  out.has_layer = has_see_through(geometry);
   out.ids.resize(pixels);
   out.depth.resize(with_depth ? pixels : 0);
   out.layer.resize(out.has_layer ? pixels : 0);
 
-  const Window window(view, *transform, width, height);
-  const ExactCoverage coverage(view, window);
-  const CloseCalls close{coverage, geometry.positions, geometry.triangles};
-  Drawing drawing{window, close, buffers_->vertices, geometry.see_through, false, setup_kernels(simd)};
-  drawing.tiles_x = (width + tile_side - 1) / tile_side;
-  drawing.tiles_y = (height + tile_side - 1) / tile_side;
+  DrawingParts parts(geometry, view, *transform, width, height, simd, buffers_->vertices);
+  Drawing& drawing = parts.drawing;
   const TileKernels kernels = tile_kernels(simd);
   buffers_->place(drawing);
   const auto as_signed = [](std::vector<std::uint32_t>& ids) {

@@ -3,12 +3,14 @@
 
 #include <cstdint>
 #include <memory>
+#include <span>
 #include <vector>
 
 #include <tenebra/expected.h>
 #include <tenebra/frame_geometry.h>
 #include <tenebra/simd_level.h>
 #include "visibility/clip_transform.h"
+#include "visibility/place_ids.h"
 
 namespace tenebra::visibility {
 
@@ -26,6 +28,9 @@ struct VisibleIds {
 /// Fails with a sentence on sizes below 1 or beyond what a picture in one piece can hold.
 Expected<void> check_picture_size(int width, int height);
 
+/// Whether the frame has see-through triangles.
+bool has_see_through(const FrameGeometry& geometry);
+
 /// Draws frames; keeps its buffers. One caller at a time.
 class VisibilityPass {
 public:
@@ -42,6 +47,13 @@ public:
   /// refuses, on rays that span no picture and on more triangles or vertices than 2^29.
   Expected<void> draw(const FrameGeometry& geometry, const ViewRays& view, int width, int height,
                       bool with_depth, SimdLevel simd, VisibleIds& out);
+
+  /// The same at up to sixteen places of each pixel at once (from its centre, less than 0.5 each way,
+  /// multiples of 1/512), in place of its centre: a triangle covers a place if the ray through it does,
+  /// exactly. Returns false, with `out` unspecified, where the triangles are too many to be held at once or
+  /// there are more places. The bits depend on nothing else either.
+  Expected<bool> draw_places(const FrameGeometry& geometry, const ViewRays& view, int width, int height,
+                             std::span<const glm::vec2> places, SimdLevel simd, PlaceIds& out);
 
 private:
   struct Buffers;

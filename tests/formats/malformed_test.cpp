@@ -214,6 +214,9 @@ struct Good {
   std::size_t triangles;
   double end_s;  ///< longest clip
 };
+void PrintTo(const Good& good, std::ostream* out) {  // CTest's name of the test
+  *out << good.file;
+}
 
 class SharedScenes : public ::testing::TestWithParam<Good> {};
 

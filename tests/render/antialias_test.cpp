@@ -44,6 +44,7 @@ RenderSettings settings_of(int samples, bool everywhere = false) {
   RenderSettings settings{.width = width, .height = height};
   settings.antialias = samples;
   settings.antialias_everywhere = everywhere;
+  settings.mask_means = true;
   return settings;
 }
 
@@ -94,7 +95,7 @@ TEST(SurfaceMatch, KnowsWhereTrianglesBoundEachOther) {
   geometry.triangles = {{0, 1, 2}, {0, 2, 3}, {1, 4, 2}, {1, 5, 2}, {6, 7, 8}, {0, 2, 3}};
   geometry.materials = {0, 0, 0, 0, 0, 1};
   const ViewRays view = look_at({0.5f, 0.25f, 20}, {0, 0, 0}, {0, 1, 0}, 0.8f, 0.1f, 100, 100);
-  const render::SurfaceMatch match(geometry, view);
+  render::SurfaceMatch match(geometry, view);
   const auto place_of = [&](vec3 p) {
     const glm::dvec3 d = glm::dvec3(p - view.eye);
     const glm::dmat3 axes{glm::dvec3(view.dx), glm::dvec3(view.dy), glm::dvec3(view.d0)};
@@ -116,7 +117,7 @@ TEST(SurfaceMatch, KnowsWhereTrianglesBoundEachOther) {
   EXPECT_TRUE(both(no_triangle, no_triangle, middle));
 }
 
-TEST(Antialias, OneSampleIsThePictureOfBeforeAndCentresKeepTheirMasks) {
+TEST(Antialias, CentresKeepTheirMasksAndFewPixelsAreRefined) {
   const Scene scene = sunny_floor();
   const FrameResult one = draw_with(scene, settings_of(1));
   EXPECT_TRUE(one.masks[0].mean.pixels.empty());
@@ -172,6 +173,58 @@ TEST(Antialias, PixelsThatAreLeftOutNeedNothing) {
   EXPECT_LE(differing, 3 * 4) << "corners of the shadow";
 }
 
+TEST(Antialias, MeansOfMasksAreMadeWhereTheyAreWanted) {
+  const Scene scene = sunny_floor();
+  RenderSettings settings = settings_of(4);
+  const FrameResult with = draw_with(scene, settings);
+  EXPECT_EQ(with.masks[0].mean.pixels.size(), std::size_t{width} * height);
+  EXPECT_TRUE(with.masks[0].samples.empty());
+  settings.mask_means = false;
+  const FrameResult without = draw_with(scene, settings);
+  EXPECT_TRUE(without.masks[0].mean.pixels.empty());
+  EXPECT_EQ(without.image, with.image);
+  settings.sample_masks = true;
+  EXPECT_EQ(draw_with(scene, settings).masks[0].samples.size(), 4u);
+}
+
+TEST(Antialias, WithoutShadowsEdgesAreAsSmooth) {
+  const Scene scene = sunny_floor();
+  RenderSettings settings = settings_of(16), everywhere = settings_of(16, true);
+  settings.shadows = everywhere.shadows = render::ShadowMode::none;
+  const FrameResult some = draw_with(scene, settings), all = draw_with(scene, everywhere);
+  EXPECT_GT(some.antialias.pixels, 50u);
+  for (std::size_t i = 0; i < all.image.pixels.size(); ++i)
+    EXPECT_NEAR(some.image.pixels[i], all.image.pixels[i], 1) << i;
+}
+
+// A lamp close to the floor: neighbours differ by some levels, and no edge is near most of them.
+TEST(Antialias, FewerSamplesDoForWeakContrasts) {
+  Scene scene = white_floor(false);
+  scene.transfer = Transfer::display;
+  add_light(scene, {.name = "lamp", .type = LightType::point, .intensity = 1.8f}, {0.2, 0.8, 0.1},
+            facing_down);
+  for (const int samples : {8, 16}) {
+    const FrameResult some = draw_with(scene, settings_of(samples)),
+                      all = draw_with(scene, settings_of(samples, true));
+    EXPECT_LT(some.antialias.samples, some.antialias.pixels * static_cast<std::uint64_t>(samples) / 2);
+    EXPECT_GT(some.antialias.pixels, 100u);
+    for (std::size_t i = 0; i < all.image.pixels.size(); ++i)
+      EXPECT_NEAR(some.image.pixels[i], all.image.pixels[i], 4) << samples << ' ' << i;
+  }
+}
+
+// Edges that no shadow is near are shaded without masks of their samples, unless these are asked for.
+TEST(Antialias, ThePictureIsTheSameWithMasksOfSamples) {
+  for (const int samples : {2, 4, 16}) {
+    Scene scene = sunny_floor();
+    add_light(scene, {.name = "lamp", .type = LightType::point, .intensity = 9.0f}, {1, 3, 1}, facing_down);
+    RenderSettings settings = settings_of(samples);
+    const FrameResult with = draw_with(scene, settings);
+    settings.mask_means = false;
+    EXPECT_EQ(draw_with(scene, settings).image, with.image) << samples;
+  }
+}
+
 TEST(Antialias, MeansAreThoseOfTheSamplesMasks) {
   const Scene scene = sunny_floor();
   RenderSettings settings = settings_of(8);
@@ -187,7 +240,7 @@ TEST(Antialias, MeansAreThoseOfTheSamplesMasks) {
   }
 }
 
-TEST(Antialias, TheSameBitsWithAnyThreadsVectorsAndRasteriser) {
+TEST(Antialias, TheSameBitsWithAnyThreadsVectorsAndTracer) {
   const Scene scene = sunny_floor();
   RenderSettings settings = settings_of(4);
   settings.threads = 1;

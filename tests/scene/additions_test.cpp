@@ -146,6 +146,42 @@ TEST(AddedCamera, SeesWhatMovesThroughTheWholeClip) {
   for (const double time_s : {0.0, 2.0, 4.0}) expect_in_picture(scene, frame_of(scene, time_s), subject);
 }
 
+/// Each triangle as 4^times.
+void split(Mesh& mesh, int times) {
+  for (int i = 0; i < times; ++i) {
+    std::vector<glm::uvec3> triangles;
+    for (const glm::uvec3& t : mesh.triangles) {
+      const auto first = static_cast<std::uint32_t>(mesh.positions.size());
+      const glm::uvec3 middles(first, first + 1, first + 2);
+      for (int k = 0; k < 3; ++k)
+        mesh.positions.push_back(0.5f * (mesh.positions[t[k]] + mesh.positions[t[(k + 1) % 3]]));
+      triangles.insert(
+          triangles.end(),
+          {{t.x, middles.x, middles.z}, {t.y, middles.y, middles.x}, {t.z, middles.z, middles.y}, middles});
+    }
+    mesh.triangles = std::move(triangles);
+  }
+  mesh.materials.assign(mesh.triangles.size(), 0);
+}
+
+// Many small triangles are measured by the cells that hold them: a little too large.
+TEST(AddedCamera, FillsThePictureAsMuchHoweverFineTheTrianglesAre) {
+  for (Shape& shape : shapes()) {
+    const FrameGeometry subject = frame_of(shape.scene);
+    Scene fine = shape.scene;
+    for (Mesh& mesh : fine.meshes) split(mesh, 7);
+    ASSERT_GT(frame_of(fine).triangles.size(), 100000u);
+    add_missing_parts(shape.scene);
+    add_missing_parts(fine);
+    fine.meshes = shape.scene.meshes;  // seen by its own camera
+    const FrameGeometry frame = frame_of(fine);
+    expect_in_picture(fine, frame, subject.triangles.size());
+    const Shares shares = shares_of(fine, frame, subject.triangles.size());
+    EXPECT_GE(shares.subject, 0.27) << shape.name;
+    EXPECT_GE(shares.shadow, 0.015) << shape.name;
+  }
+}
+
 TEST(AddedCamera, TakesTheShapeThatIsAskedFor) {
   Scene scene = box({-3, 0, -0.2f}, {3, 0.5f, 0.2f});
   add_missing_parts(scene, {.floor = true, .aspect = 2.5f});

@@ -3,7 +3,7 @@
 
 #include "viewer_picture.h"
 #include "viewer_test_scene.h"
-#include "window/frame_maker.h"
+#include "window/work/frame_maker.h"
 
 namespace tenebra::viewer {
 namespace {
@@ -82,34 +82,39 @@ TEST(FrameMaker, WholePicturesOfABundledSceneHaveTheBitsOfRenderAfterAnyPreviews
   expect_whole_after_previews(options, asked);
 }
 
-TEST(FrameMaker, AStoppedPictureLeavesNoTrace) {
-  const testing::TemporaryFolder folder;
+/// The moving scene in a small picture, as asked for without any settings.
+struct SmallRequest {
+  SmallRequest() {
+    options.file = testing::write_moving_scene(folder).string();
+    options.size = Size{160, 120};
+    plan = std::make_shared<const ScenePlan>(std::move(*plan_scene(options)));
+    request = request_for(plan, {});
+  }
+
+  testing::TemporaryFolder folder;
   SceneOptions options;
-  options.file = testing::write_moving_scene(folder).string();
-  options.size = Size{160, 120};
-  const auto plan = std::make_shared<const ScenePlan>(std::move(*plan_scene(options)));
-  const FrameRequest request = request_for(plan, {});
+  std::shared_ptr<const ScenePlan> plan;
+  FrameRequest request;
+};
+
+TEST(FrameMaker, AStoppedPictureLeavesNoTrace) {
+  const SmallRequest small;
   FrameMaker maker(render::RasterChoice{});
   StopFlag stop;
   stop.request();
-  const auto stopped = maker.make(request, {PreviewMethod::as_asked, 2}, 0.5, {}, stop);
+  const auto stopped = maker.make(small.request, {PreviewMethod::as_asked, 2}, 0.5, {}, stop);
   ASSERT_FALSE(stopped);
   EXPECT_EQ(stopped.error().message, "stopped");
-  EXPECT_EQ(made(maker, request, {}, 1.25), testing::picture_of(*plan, options, 1.25, {}));
+  EXPECT_EQ(made(maker, small.request, {}, 1.25), testing::picture_of(*small.plan, small.options, 1.25, {}));
 }
 
 TEST(FrameMaker, APlaceOfAPreviewIsThatOfTheWholePicture) {
-  const testing::TemporaryFolder folder;
-  SceneOptions options;
-  options.file = testing::write_moving_scene(folder).string();
-  options.size = Size{160, 120};
-  const auto plan = std::make_shared<const ScenePlan>(std::move(*plan_scene(options)));
-  const FrameRequest request = request_for(plan, {});
+  const SmallRequest small;
   FrameMaker maker(render::RasterChoice{});
   EXPECT_FALSE(maker.visible_point({0.5, 0.8})) << "no picture yet";
-  made(maker, request, {}, 0);
+  made(maker, small.request, {}, 0);
   const auto whole = maker.visible_point({0.5, 0.8});
-  made(maker, request, {PreviewMethod::as_asked, 4}, 0);
+  made(maker, small.request, {PreviewMethod::as_asked, 4}, 0);
   const auto preview = maker.visible_point({0.5, 0.8});
   ASSERT_TRUE(whole);
   ASSERT_TRUE(preview);

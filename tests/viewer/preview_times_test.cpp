@@ -3,7 +3,7 @@
 
 #include <algorithm>
 
-#include "window/preview_times.h"
+#include "window/work/preview_times.h"
 
 namespace tenebra::viewer {
 namespace {

@@ -5,8 +5,8 @@
 #include <fstream>
 
 #include "support/temporary_folder.h"
-#include "window/folder_list.h"
-#include "window/user_settings.h"
+#include "window/files/folder_list.h"
+#include "window/files/user_settings.h"
 
 namespace tenebra::viewer {
 namespace {

@@ -5,7 +5,7 @@
 
 #include "options/light_edits.h"
 #include "support/seeded_random.h"
-#include "window/camera_control.h"
+#include "window/motion/camera_control.h"
 
 namespace tenebra::viewer {
 namespace {

@@ -1,7 +1,7 @@
 // The animation clock: time by the wall clock, or by fixed steps.
 #include <gtest/gtest.h>
 
-#include "window/animation_clock.h"
+#include "window/motion/animation_clock.h"
 
 namespace tenebra::viewer {
 namespace {

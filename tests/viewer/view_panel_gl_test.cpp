@@ -217,6 +217,31 @@ TEST(ViewPanel, CancelsRefining) {
   EXPECT_EQ(headless.viewer().marks().count("preview"), 0u) << "a whole picture has no mark";
 }
 
+TEST(ViewPanel, ExplainsThePixelUnderAClickOnAPreview) {
+  HeadlessViewer headless(TENEBRA_SCENES_DIR "/court.glb", {1280, 720});
+  ASSERT_TRUE(headless.wait_for_first_picture());
+  const auto is_small = [&] {
+    const Picture& picture = *headless.viewer().picture();
+    return picture.a.result.image.width < picture.whole.width;
+  };
+  headless.key('3');  // soft shadows of the whole court
+  if (!headless.turn_until(is_small, 20)) GTEST_SKIP() << "this machine draws no small previews of the court";
+  // Odd: of the pixels that a preview draws as one it is not the first.
+  const glm::ivec2 clicked{401, 333};
+  const ImVec4 place = headless.viewer().marks().at("picture");
+  headless.click_at({place.x + static_cast<float>(clicked.x), place.y + static_cast<float>(clicked.y)});
+  if (!is_small()) GTEST_SKIP() << "this machine draws the court before anyone could click";
+  // Finer pictures come before the click is looked at.
+  std::this_thread::sleep_for(std::chrono::seconds(1));
+  const auto is_of_the_whole = [&] {
+    const PictureAnswer* answer = headless.viewer().answer();
+    return answer != nullptr && answer->question.picture->preview.empty();
+  };
+  ASSERT_TRUE(headless.turn_until(is_of_the_whole, 120));
+  EXPECT_EQ(headless.viewer().answer()->question.picture.get(), headless.viewer().picture());
+  EXPECT_EQ(headless.viewer().answer()->question.pixel, clicked);
+}
+
 TEST(ViewPanel, SurvivesAnyHand) {
   const TemporaryFolder folder;
   HeadlessViewer headless(testing::write_moving_scene(folder, 2), {900, 960});

@@ -1,34 +1,13 @@
 // Five tasks of a user, each by real key and mouse events: open and frame a model, find why a pixel is dark,
 // move the sun, compare two methods, record an animation.
-#include <fmt/core.h>
 #include <gtest/gtest.h>
 
-#include "base/image.h"
-#include "window_driver.h"
+#include "window_steps.h"
 
 namespace tenebra::testing {
 namespace {
 
 namespace fs = std::filesystem;
-
-base::Image8 picture_of(const fs::path& file) {
-  auto image = base::read_png(file);
-  EXPECT_TRUE(image) << image.error().message;
-  return image ? std::move(*image) : base::Image8{};
-}
-
-fs::path shot_after(const ViewSession& session, const std::string& keys) {
-  const std::size_t from = session.count();
-  session.key(keys);
-  return session.wait_for_event(from, "shot").value("text", "");
-}
-
-void quit(const ViewSession& session) {
-  session.key("ctrl+q");
-  const auto result = session.wait();
-  EXPECT_EQ(result.exit_code, 0) << result.errors;
-  session.expect_no_gl_errors();
-}
 
 void wait_for_state(const ViewSession& session, const char* key, const Json& value) {
   session.wait_until(key, [&] { return session.state()[key] == value; });
@@ -56,14 +35,14 @@ Json explained_at(const ViewSession& session, int x, int y, bool by_key) {
   });
 }
 
-TEST(ViewTasks, OpensAndFramesAModel) {
-  TENEBRA_NEEDS_A_DISPLAY();
-  const TemporaryFolder folder, others;
-  const VirtualDisplay display;
-  const std::string first = write_moving_scene(folder), settings = folder / "kept/viewer.json";
+using ViewTasks = WindowTest;
+
+TEST_F(ViewTasks, OpensAndFramesAModel) {
+  const TemporaryFolder others;
+  const std::string first = write_moving_scene(folder_), settings = folder_ / "kept/viewer.json";
   const std::string other = fs::canonical(write_moving_scene(others, 2));
   {
-    const ViewSession session(display, folder,
+    const ViewSession session(display(), folder_,
                               {first, "--settings", settings, "--eye", "3,40,5", "--look-at", "9,0,0"});
     session.wait_for_picture();
     std::size_t from = session.count();
@@ -84,7 +63,7 @@ TEST(ViewTasks, OpensAndFramesAModel) {
     session.expect_state("camera", "orbit", [&] { session.click("see all"); });
     quit(session);
   }
-  const ViewSession session(display, folder,
+  const ViewSession session(display(), folder_,
                             {other, "--settings", settings});  // the first by hand, as a recent one
   session.wait_for_picture();
   const std::size_t from = session.count();
@@ -101,15 +80,12 @@ TEST(ViewTasks, OpensAndFramesAModel) {
   quit(session);
 }
 
-TEST(ViewTasks, FindsWhyAPixelIsDark) {
-  TENEBRA_NEEDS_A_DISPLAY();
-  const TemporaryFolder folder;
-  const VirtualDisplay display;
-  std::vector<std::string> arguments = from_above(write_moving_scene(folder));
-  arguments.insert(arguments.end(), {"--shots", folder / "shot_%d.png"});
-  const ViewSession session(display, folder, arguments);
+TEST_F(ViewTasks, FindsWhyAPixelIsDark) {
+  std::vector<std::string> arguments = from_above(write_moving_scene(folder_));
+  arguments.insert(arguments.end(), {"--shots", folder_ / "shot_%d.png"});
+  const ViewSession session(display(), folder_, arguments);
   session.wait_for_picture();
-  const base::Image8 picture = picture_of(shot_after(session, "p"));
+  const base::Image8 picture = shot(session);
   const auto brightness = [&](int x, int y) {
     return picture.pixels[static_cast<std::size_t>(y * 400 + x) * 3];
   };
@@ -144,21 +120,15 @@ TEST(ViewTasks, FindsWhyAPixelIsDark) {
   quit(session);
 }
 
-TEST(ViewTasks, MovesTheSun) {
-  TENEBRA_NEEDS_A_DISPLAY();
-  const TemporaryFolder folder;
-  const VirtualDisplay display;
-  const std::string scene = write_moving_scene(folder);
-  const ViewSession session(display, folder,
+TEST_F(ViewTasks, MovesTheSun) {
+  const std::string scene = write_moving_scene(folder_);
+  const ViewSession session(display(), folder_,
                             {scene, "--add-light", "directional direction=-1,-2,-0.5 intensity=0.5",
-                             "--shots", folder / "shot_%d.png", "--eye", "0,4,9", "--look-at", "0,1,0"});
+                             "--shots", folder_ / "shot_%d.png", "--eye", "0,4,9", "--look-at", "0,1,0"});
   session.wait_for_picture();
   const Json before = session.state()["edits"];
   const auto sun = session.place("light.1");
-  session.move_to((sun[0] + sun[2]) / 2, (sun[1] + sun[3]) / 2);
-  session.press();
-  session.move_to((sun[0] + sun[2]) / 2 - 30, (sun[1] + sun[3]) / 2 + 12);
-  session.release();
+  session.drag("light.1", -30, 12);
   session.wait_for_picture();
   const Json turned = session.state()["edits"];
   EXPECT_NE(turned.dump().find("--set-light 1 direction="), std::string::npos) << turned;
@@ -190,30 +160,21 @@ TEST(ViewTasks, MovesTheSun) {
   session.expect_state("playing", false, [&] { session.key("space"); });
 
   session.wait_for_picture();
-  from = session.count();
-  session.key("ctrl+c");
-  const std::string copied = session.wait_for_event(from, "copied").value("text", "");
-  const std::string command = fmt::format("exec '{}' render '{}' {} -o '{}' --quiet", TENEBRA_PROGRAM, scene,
-                                          copied, (folder / "pasted.png").string());
-  EXPECT_EQ(run_program({"/bin/sh", "-c", command}).errors, "") << copied;
-  EXPECT_EQ(picture_of(shot_after(session, "p")), picture_of(folder / "pasted.png"));
+  EXPECT_EQ(shot(session), pasted(folder_, scene, copied_arguments(session)));
   quit(session);
 }
 
-TEST(ViewTasks, EditsMaterialsAndLights) {
-  TENEBRA_NEEDS_A_DISPLAY();
-  const TemporaryFolder folder;
-  const VirtualDisplay display;
-  const std::string scene = write_moving_scene(folder);
-  const ViewSession session(display, folder, {scene, "--shots", folder / "shot_%d.png"});
+TEST_F(ViewTasks, EditsMaterialsAndLights) {
+  const std::string scene = write_moving_scene(folder_);
+  const ViewSession session(display(), folder_, {scene, "--shots", folder_ / "shot_%d.png"});
   session.wait_for_picture();
-  const base::Image8 before = picture_of(shot_after(session, "p"));
+  const base::Image8 before = shot(session);
   session.click("section.Lights");
   session.click("add.sun");
   wait_for_state(session, "selected_light", 1);
   EXPECT_NE(session.state()["edits"].dump().find("--add-light directional"), std::string::npos);
   session.wait_for_picture();
-  EXPECT_NE(picture_of(shot_after(session, "p")), before);
+  EXPECT_NE(shot(session), before);
   session.click("light.0.delete");
   session.wait_until_gone("light.0.delete");
   session.wait_for_picture();
@@ -230,26 +191,17 @@ TEST(ViewTasks, EditsMaterialsAndLights) {
   });
   session.photograph("task_material");
   session.wait_for_picture();
-  const base::Image8 edited = picture_of(shot_after(session, "p"));
-  const std::size_t from = session.count();
-  session.key("ctrl+c");
-  const std::string copied = session.wait_for_event(from, "copied").value("text", "");
-  const std::string command = fmt::format("exec '{}' render '{}' {} -o '{}' --quiet", TENEBRA_PROGRAM, scene,
-                                          copied, (folder / "pasted.png").string());
-  EXPECT_EQ(run_program({"/bin/sh", "-c", command}).errors, "") << copied;
-  EXPECT_EQ(edited, picture_of(folder / "pasted.png")) << copied;
+  const base::Image8 edited = shot(session);
+  EXPECT_EQ(edited, pasted(folder_, scene, copied_arguments(session)));
   for (int i = 0; i < 3; ++i) session.click("undo");
   wait_for_state(session, "edits", Json::array());
   session.wait_for_picture();
-  EXPECT_EQ(picture_of(shot_after(session, "p")), before);
+  EXPECT_EQ(shot(session), before);
   quit(session);
 }
 
-TEST(ViewTasks, ComparesTwoMethodsByMouse) {
-  TENEBRA_NEEDS_A_DISPLAY();
-  const TemporaryFolder folder;
-  const VirtualDisplay display;
-  const ViewSession session(display, folder, {write_moving_scene(folder)});
+TEST_F(ViewTasks, ComparesTwoMethodsByMouse) {
+  const ViewSession session(display(), folder_, {write_moving_scene(folder_)});
   session.wait_for_picture();
   session.click("section.Compare");
   session.expect_state("compare", true, [&] { session.click("compare"); });
@@ -261,12 +213,9 @@ TEST(ViewTasks, ComparesTwoMethodsByMouse) {
   quit(session);
 }
 
-TEST(ViewTasks, RecordsAnAnimation) {
-  TENEBRA_NEEDS_A_DISPLAY();
-  const TemporaryFolder folder;
-  const VirtualDisplay display;
-  const std::string scene = write_moving_scene(folder);
-  const ViewSession session(display, folder, {scene, "--size", "80x60"});
+TEST_F(ViewTasks, RecordsAnAnimation) {
+  const std::string scene = write_moving_scene(folder_);
+  const ViewSession session(display(), folder_, {scene, "--size", "80x60"});
   session.wait_for_picture();
   session.key("End");
   std::size_t from = session.count();
@@ -274,7 +223,7 @@ TEST(ViewTasks, RecordsAnAnimation) {
   session.wait_for(from, "the end of the recording", [](const Json& event) {
     return event["event"] == "message" && event["text"].get<std::string>().starts_with("Recorded to");
   });
-  const fs::path pictures = folder / "tenebra_frames";
+  const fs::path pictures = folder_ / "tenebra_frames";
   EXPECT_EQ(std::distance(fs::directory_iterator(pictures), fs::directory_iterator()), moving_scene_frames);
   EXPECT_EQ(session.state()["loop"], true) << "the clock is as it was";
   from = session.count();
@@ -283,12 +232,12 @@ TEST(ViewTasks, RecordsAnAnimation) {
   session.wait_for(from, "its end by hand", [](const Json& event) {
     return event["event"] == "message" && event["text"].get<std::string>().starts_with("Recording ended");
   });
-  EXPECT_TRUE(fs::exists(folder / "tenebra_frames_2")) << "the first recording stays";
+  EXPECT_TRUE(fs::exists(folder_ / "tenebra_frames_2")) << "the first recording stays";
   quit(session);
   const auto rendered =
-      tenebra({"render", scene, "--size", "80x60", "--frames", "7", "-o", folder / "seven.png"});
+      tenebra({"render", scene, "--size", "80x60", "--frames", "7", "-o", folder_ / "seven.png"});
   ASSERT_EQ(rendered.exit_code, 0) << rendered.errors;
-  EXPECT_EQ(picture_of(pictures / "0007.png"), picture_of(folder / "seven.png"));
+  EXPECT_EQ(picture_of(pictures / "0007.png"), picture_of(folder_ / "seven.png"));
 }
 
 }  // namespace

@@ -10,6 +10,7 @@
 #include <fstream>
 #include <memory>
 #include <nlohmann/json.hpp>
+#include <optional>
 #include <sstream>
 #include <thread>
 
@@ -170,6 +171,18 @@ public:
   }
   void press(int button = 1) const { act({"mousedown", std::to_string(button)}, "press"); }
   void release(int button = 1) const { act({"mouseup", std::to_string(button)}, "release"); }
+  /// A drag by `right`, `down` from there.
+  void drag(double x, double y, double right, double down) const {
+    move_to(x, y);
+    press();
+    move_to(x + right, y + down);
+    release();
+  }
+  /// The same from the middle of a widget.
+  void drag(const std::string& name, double right, double down) const {
+    const auto [left, top, rim, bottom] = place(name);
+    drag((left + rim) / 2, (top + bottom) / 2, right, down);
+  }
   /// "ctrl+q": each of them goes down and comes up again.
   void key(const std::string& keys) const {
     const auto held = std::count(keys.begin(), keys.end(), '+');
@@ -227,9 +240,22 @@ private:
   mutable std::array<int, 2> pointer_{-1, -1};  // where it was moved last
 };
 
-#define TENEBRA_NEEDS_A_DISPLAY()                                                              \
-  for (const char* needed : {"Xvfb", "xdotool", "import", "xrdb"}) {                           \
-    if (!has_program(needed)) GTEST_SKIP() << needed << " is missing: tools/setup.sh --tests"; \
+/// A test with a folder and a virtual display of its own; skipped where there can be no display.
+class WindowTest : public ::testing::Test {
+protected:
+  void SetUp() override {
+    for (const char* needed : {"Xvfb", "xdotool", "import", "xrdb"})
+      if (!has_program(needed)) GTEST_SKIP() << needed << " is missing: tools/setup.sh --tests";
   }
+  const VirtualDisplay& display() {
+    if (!display_) display_.emplace();
+    return *display_;
+  }
+
+  const TemporaryFolder folder_;
+
+private:
+  std::optional<VirtualDisplay> display_;
+};
 
 }  // namespace tenebra::testing

@@ -2,7 +2,6 @@
 #include <fmt/core.h>
 #include <array>
 #include <chrono>
-#include <cmath>
 #include <memory>
 #include <optional>
 
@@ -64,20 +63,13 @@ struct Journals {
   }
 };
 
-base::Image8 in_levels(const base::ImageF& fractions) {
-  base::Image8 out{fractions.width, fractions.height, fractions.channels, {}};
-  for (const float fraction : fractions.pixels)
-    out.pixels.push_back(static_cast<std::uint8_t>(std::lround(255.0f * fraction)));
-  return out;
-}
-
 Expected<void> write_sample_masks(const RenderPlan& plan, const RenderOptions& options, int frame,
                                   const render::LightMask& mask) {
   const std::string light = plan.several_lights ? fmt::format("_L{}", mask.light) : "";
   for (const OutputPattern& pattern : options.mask_means) {
     const auto file = pattern.file(frame, light);
-    auto written =
-        pattern.is_pfm() ? base::write_pfm(file, mask.mean) : base::write_png(file, in_levels(mask.mean));
+    auto written = pattern.is_pfm() ? base::write_pfm(file, mask.mean)
+                                    : base::write_png(file, render::in_levels(mask.mean));
     if (!written) return written;
   }
   for (const OutputPattern& pattern : options.mask_samples) {

@@ -8,10 +8,10 @@
 
 #include "options/method_options.h"
 #include "shared/scene_plan.h"
-#include "window/frame_request.h"
+#include "window/files/user_settings.h"
 #include "window/panels/open_dialog.h"
 #include "window/panels/scene_tree.h"
-#include "window/user_settings.h"
+#include "window/work/frame_request.h"
 
 namespace tenebra::viewer {
 
@@ -90,9 +90,10 @@ struct Actions {
   bool window_shot = false;
   bool toggle_log = false;
   bool copy_arguments = false;
-  std::optional<glm::ivec2> focus;    ///< pixel of the picture
-  std::optional<glm::ivec2> explain;  ///< pixel of the picture: why is it dark?
-  std::optional<glm::ivec2> pivot;    ///< pixel of the picture: what the camera turns around
+  // Places in the picture that was drawn, 0 to 1 from its left and top.
+  std::optional<glm::dvec2> focus;
+  std::optional<glm::dvec2> explain;  ///< why is it dark?
+  std::optional<glm::dvec2> pivot;    ///< what the camera turns around
   bool end_explanation = false;
   bool open_dialog = false;
   bool frame_all = false;
@@ -100,6 +101,8 @@ struct Actions {
   bool undo = false;
   bool redo = false;
   std::optional<std::string> open;  ///< a scene file
+
+  bool operator==(const Actions&) const = default;
 };
 
 }  // namespace tenebra::viewer

@@ -1,14 +1,17 @@
 // The viewer without its window: state, worker, panels. Any OpenGL context with Dear ImGui on it can show it.
 #pragma once
 
-#include <deque>
-
+#include "window/draw_pace.h"
 #include "window/event_report.h"
+#include "window/files/recording.h"
+#include "window/files/session_log.h"
+#include "window/messages.h"
 #include "window/mouse_queue.h"
 #include "window/panels/panels.h"
-#include "window/session_log.h"
+#include "window/pixel_answers.h"
 #include "window/undo_history.h"
 #include "window/view_options.h"
+#include "window/view_request.h"
 
 namespace tenebra::viewer {
 
@@ -31,7 +34,7 @@ public:
   Expected<void> finish();
 
   bool is_over() const { return quit_; }
-  bool needs_drawing() const { return due_ > 0 || wants_presenting(); }
+  bool needs_drawing() const { return pace_.is_due() || wants_presenting(); }
   /// Whether what was drawn last is to be brought to the screen: where a picture is about to come, that
   /// picture brings along what the hand has changed. Software OpenGL would take the picture's processors.
   bool wants_presenting() const;
@@ -43,47 +46,44 @@ public:
   /// Since the last draw.
   const std::vector<KeyPress>& pressed_keys() const { return keys_; }
   MouseQueue& mouse() { return mouse_; }
-  /// The window draws again: Dear ImGui takes a frame or two to settle. `what`, for the report.
+  /// The window draws again. `what`, for the report.
   void input_came(const char* what) {
-    due_ = std::max(due_, 3);
-    input_undrawn_ = true;
+    pace_.input_came();
     report_.note("input", what);
   }
   double sleep_s() const;  ///< how long to wait for events at most
   const ViewState& state() const { return state_; }
   const Picture* picture() const { return picture_.get(); }
-  const PictureAnswer* answer() const { return answer_ ? &*answer_ : nullptr; }
+  const PictureAnswer* answer() const { return answers_.shown(); }
   const Marks& marks() const { return marks_; }
-  std::string message() const { return messages_.empty() ? "" : messages_.back().text; }
+  std::string message() const { return messages_.newest(); }
 
 private:
-  struct Message {
-    std::string text;
-    bool failure;
-    AnimationClock::Wall until;
-  };
-
+  static AnimationClock::Wall now() { return std::chrono::steady_clock::now(); }
+  // What has come.
   void take_scene(OpenedScene opened);
-  void take_light(int chosen);
   void take_picture(const std::shared_ptr<const Picture>& picture);
+  void take_whole_picture(const std::shared_ptr<const Picture>& picture);
   void take_pick(const std::optional<glm::vec3>& point);
   void take_answer(PictureAnswer answer);
-  void ask(QuestionKind kind, glm::ivec2 pixel);
-  void follow_explained_pixel(const Picture& picture);
-  void follow_clock();
-  FrameRequest make_request() const;
-  std::string method_key() const;
-  void send_request();
+  // What is wanted.
   void act();
-  void say(std::string text, bool failure = false);
-  void draw_messages(Area view);
-  std::filesystem::path next_shot();
-  void save_picture();
-  void toggle_log();
+  void ask(QuestionKind kind, glm::dvec2 place);
   void frame_all();
+  void follow_clock();
+  void send_request();
+  void say(std::string text, bool failure = false);
+  // What is written.
+  void save_picture();
+  void save_shot(const char* what, const base::Image8& image);
+  void toggle_log();
+  void log_picture(const Picture& picture);
   void toggle_recording();
   void end_recording(const std::string& how);
-  void log_picture(const Picture& picture);
+  // What is drawn.
+  Ui ui_at_rest();  ///< for what the viewer does itself, not the hand
+  void draw_parts(Ui& ui, const Layout& layout, ImVec2 window);
+  void copy_arguments();
 
   ViewOptions options_;
   WindowGl& gl_;
@@ -94,36 +94,29 @@ private:
   Marks marks_;
   std::vector<KeyPress> keys_;
   MouseQueue mouse_;
+  DrawPace pace_;
   std::array<FrameHistory, 2> history_;
   std::optional<SessionLog> log_;
-  std::shared_ptr<const Picture> picture_;
-  std::optional<PictureAnswer> answer_;  // that is shown
+  Recording recording_;
+  std::shared_ptr<const Picture> picture_;        // the newest
+  std::shared_ptr<const Picture> drawn_picture_;  // the newest at the last draw
   UndoHistory undo_;
-  std::deque<Message> messages_;
+  Messages messages_;
   std::string failure_;  // that ends the program
 
-  Size place_{0, 0};  // of the picture in the window
-  AnimationClock before_recording_;
+  Size place_{0, 0};         // of the picture in the window
   bool hand_moves_ = false;  // a mouse button is down
-  std::string sent_key_, sent_method_;
-  AnimationClock sent_clock_;
+  RequestKey sent_;
   std::uint64_t requests_ = 0;
   std::uint64_t settings_since_ = 0;  // the first request with the present settings
-  std::uint64_t pictures_ = 0;
-  std::uint64_t drawn_ = 0;  // of pictures_, by the last draw
-  std::uint64_t shown_ = 0;  // of pictures_, on the screen
-  int whole_pictures_ = 0;   // that are no previews
+  int whole_pictures_ = 0;            // that are no previews
   int shots_ = 0;
   bool window_shot_ = false;
   bool shot_waits_ = false;  // for a whole picture
-  bool input_undrawn_ = false;
   bool quit_ = false;
-  int due_ = 3;               // frames of the window to draw
-  bool unpresented_ = false;  // something is drawn and not on the screen
-  AnimationClock::Wall last_draw_{}, last_present_{};
 
-  RenderWorker worker_;  // last: its thread ends first
-  Explainer explainer_;  // and before that this one's
+  RenderWorker worker_;   // last: its thread ends first
+  PixelAnswers answers_;  // and before that this one's
 };
 
 }  // namespace tenebra::viewer

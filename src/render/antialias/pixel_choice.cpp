@@ -8,12 +8,12 @@ namespace tenebra::render {
 namespace {
 
 constexpr std::size_t square_side = 16, block_side = 4;
-constexpr std::uint8_t is_edge = 2, has_contrast = 1;
+constexpr std::uint8_t is_edge = 4, has_contrast = 2, has_weak_contrast = 1;
 constexpr std::size_t pixels_at_once = 256;  // compared
 
 class Chooser {
 public:
-  Chooser(const CentrePicture& centre, std::span<const glm::vec2> offsets, std::span<const SampleIds> seen,
+  Chooser(const CentrePicture& centre, std::span<const glm::vec2> offsets, const visibility::PlaceIds& seen,
           const SurfaceMatch& match)
       : centre_(centre),
         offsets_(offsets),
@@ -21,14 +21,16 @@ public:
         match_(match),
         width_(static_cast<std::size_t>(centre.width)),
         height_(static_cast<std::size_t>(centre.height)),
+        contrast_(least_contrast(offsets.size() + 1)),
         chosen_(width_ * height_) {}
 
   std::vector<std::uint8_t> run(bool everywhere) && {
     if (everywhere) return std::vector<std::uint8_t>(chosen_.size(), is_edge);
     parallel::parallel_ranges(height_, 16, [&](std::size_t first, std::size_t last) {
+      SurfaceMatch match(match_);
       for (std::size_t y = first; y < last; ++y) {
-        by_geometry(y);
-        by_contrast(y);
+        by_geometry(y, match);
+        by_contrast(y, match);
         if (!centre_.layer.empty()) by_layer(y);
       }
     });
@@ -40,25 +42,36 @@ private:
     return {static_cast<float>(pixel % width_) + 0.5f, static_cast<float>(pixel / width_) + 0.5f};
   }
 
-  /// Marks pixels of a row whose samples see other ids first: nearly always, all are the same.
-  void by_geometry(std::size_t y) {
-    const std::size_t first = y * width_, last = first + width_;
-    std::vector<std::uint32_t> other(width_);
-    for (const SampleIds& sample : seen_) {
-      for (std::size_t i = first; i < last; ++i) other[i - first] |= sample.ids[i] ^ centre_.ids[i];
-      if (sample.layer.empty()) continue;
-      for (std::size_t i = first; i < last; ++i) other[i - first] |= sample.layer[i] ^ centre_.layer[i];
+  /// Marks pixels of a row that see several surfaces. Four next to each other stand together in `seen`:
+  /// nearly always all samples see what the centres see.
+  void by_geometry(std::size_t y, SurfaceMatch& match) {
+    for (std::size_t x = 0; x < width_; x += 4) {
+      const visibility::PixelPlaces sees = seen_.of_pixel(static_cast<int>(x), static_cast<int>(y));
+      const std::size_t first = y * width_ + x, count = std::min<std::size_t>(4, width_ - x);
+      std::uint32_t other[4] = {};
+      const auto compare_with = [&](const std::int32_t* ids, std::span<const std::uint32_t> centres) {
+        for (std::size_t k = 0; k < seen_.places(); ++k)
+          for (std::size_t i = 0; i < count; ++i)
+            other[i] |= static_cast<std::uint32_t>(ids[16 * k + i]) ^ centres[first + i];
+      };
+      if (sees.ids != nullptr) {
+        compare_with(sees.ids, centre_.ids);
+      } else {
+        for (std::size_t i = 0; i < count; ++i) other[i] = sees.one ^ centre_.ids[first + i];
+      }
+      if (sees.layer_ids != nullptr) compare_with(sees.layer_ids, centre_.layer);
+      for (std::size_t i = 0; i < count; ++i)
+        if (other[i] != 0 && sees_several(first + i, match)) chosen_[first + i] = is_edge;
     }
-    for (std::size_t i = first; i < last; ++i)
-      if (other[i - first] != 0 && sees_several(i)) chosen_[i] = is_edge;
   }
 
-  bool sees_several(std::size_t pixel) const {
-    for (std::size_t k = 0; k < seen_.size(); ++k) {
+  bool sees_several(std::size_t pixel, SurfaceMatch& match) const {
+    const visibility::PixelPlaces sees =
+        seen_.of_pixel(static_cast<int>(pixel % width_), static_cast<int>(pixel / width_));
+    for (std::size_t k = 0; k < offsets_.size(); ++k) {
       const glm::vec2 place = centre_of(pixel) + offsets_[k];
-      if (!match_.same(centre_.ids[pixel], seen_[k].ids[pixel], place)) return true;
-      if (!seen_[k].layer.empty() && !match_.same(centre_.layer[pixel], seen_[k].layer[pixel], place))
-        return true;
+      if (!match.same(centre_.ids[pixel], sees.id(k), place)) return true;
+      if (!centre_.layer.empty() && !match.same(centre_.layer[pixel], sees.layer(k), place)) return true;
     }
     return false;
   }
@@ -69,25 +82,26 @@ private:
       if (chosen_[i] != 0) chosen_[i] = is_edge;
   }
 
-  void by_contrast(std::size_t y) {
+  void by_contrast(std::size_t y, SurfaceMatch& match) {
     std::vector<std::uint8_t> differs(width_);
     for (const std::ptrdiff_t dy : {-1, 1}) {
       if ((dy < 0 && y == 0) || (dy > 0 && y + 1 == height_)) continue;
       const std::size_t other = y + static_cast<std::size_t>(dy);
       compare(y * width_, other * width_, width_, differs.data());
-      for (std::size_t x = 0; x < width_; ++x) mark(differs[x], y * width_ + x, other * width_ + x);
+      for (std::size_t x = 0; x < width_; ++x) mark(differs[x], y * width_ + x, other * width_ + x, match);
     }
     if (width_ < 2) return;
     compare(y * width_, y * width_ + 1, width_ - 1, differs.data());
     for (std::size_t x = 0; x + 1 < width_; ++x) {
-      mark(differs[x], y * width_ + x, y * width_ + x + 1);
-      mark(differs[x], y * width_ + x + 1, y * width_ + x);
+      mark(differs[x], y * width_ + x, y * width_ + x + 1, match);
+      mark(differs[x], y * width_ + x + 1, y * width_ + x, match);
     }
   }
 
   /// Pixel i, which differs so from pixel j.
-  void mark(std::uint8_t differs, std::size_t i, std::size_t j) {
-    if ((differs & ~chosen_[i]) != 0 && chosen_[i] < is_edge && one_surface(i, j)) chosen_[i] |= differs;
+  void mark(std::uint8_t differs, std::size_t i, std::size_t j, SurfaceMatch& match) {
+    if ((differs & ~chosen_[i]) != 0 && chosen_[i] < is_edge && one_surface(i, j, match))
+      chosen_[i] |= differs;
   }
 
   /// How pixels from `i` on differ from those from `j` on.
@@ -99,7 +113,9 @@ private:
       const std::size_t most = std::min(pixels_at_once, count - first);
       for (std::size_t k = 0; k < 3 * most; ++k) {
         const int gap = int{a[3 * first + k]} - int{b[3 * first + k]};
-        unlike[k] = gap > least_contrast || gap < -least_contrast ? has_contrast : 0;
+        const int size = gap < 0 ? -gap : gap;
+        unlike[k] = static_cast<std::uint8_t>((size > strong_contrast ? has_contrast : 0) |
+                                              (size > contrast_ ? has_weak_contrast : 0));
       }
       for (std::size_t k = 0; k < most; ++k)
         differs[first + k] = static_cast<std::uint8_t>(unlike[3 * k] | unlike[3 * k + 1] | unlike[3 * k + 2]);
@@ -108,7 +124,7 @@ private:
     // bit.
     for (const auto mask : centre_.masks)
       for (std::size_t x = 0; x < count; ++x)
-        differs[x] = static_cast<std::uint8_t>(differs[x] | ((mask[i + x] ^ mask[j + x]) >> 7 << 1));
+        differs[x] = static_cast<std::uint8_t>(differs[x] | ((mask[i + x] ^ mask[j + x]) >> 7 << 2));
     for (const auto tint : centre_.tints) {
       for (std::size_t x = 0; x < count; ++x) {
         const glm::vec3 gap = glm::abs(tint[i + x] - tint[j + x]);
@@ -117,17 +133,17 @@ private:
     }
   }
 
-  bool one_surface(std::size_t i, std::size_t j) const {
+  bool one_surface(std::size_t i, std::size_t j, SurfaceMatch& match) const {
     const glm::vec2 between = (centre_of(i) + centre_of(j)) * 0.5f;
-    if (centre_.ids[i] == no_triangle && centre_.ids[j] == no_triangle) return true;
-    return match_.same(centre_.ids[i], centre_.ids[j], between);
+    return match.same(centre_.ids[i], centre_.ids[j], between);
   }
 
   const CentrePicture& centre_;
   std::span<const glm::vec2> offsets_;
-  std::span<const SampleIds> seen_;
+  const visibility::PlaceIds& seen_;
   const SurfaceMatch& match_;
   std::size_t width_, height_;
+  int contrast_;
   std::vector<std::uint8_t> chosen_;
 };
 
@@ -141,8 +157,11 @@ void list_squares(const std::vector<std::uint8_t>& chosen, std::size_t width, st
         for (std::size_t y = block_y; y < std::min(block_y + block_side, bottom); ++y) {
           for (std::size_t x = block_x; x < std::min(block_x + block_side, right); ++x) {
             const std::size_t i = y * width + x;
-            if (chosen[i] != 0)
-              (chosen[i] >= is_edge ? out.edges : out.contrasts).push_back(static_cast<std::uint32_t>(i));
+            if (chosen[i] == 0) continue;
+            (chosen[i] >= is_edge        ? out.edges
+             : chosen[i] >= has_contrast ? out.contrasts
+                                         : out.weak_contrasts)
+                .push_back(static_cast<std::uint32_t>(i));
           }
         }
       }
@@ -153,7 +172,7 @@ void list_squares(const std::vector<std::uint8_t>& chosen, std::size_t width, st
 }  // namespace
 
 ChosenPixels choose_pixels(const CentrePicture& centre, std::span<const glm::vec2> offsets,
-                           std::span<const SampleIds> seen, const SurfaceMatch& match, bool everywhere) {
+                           const visibility::PlaceIds& seen, const SurfaceMatch& match, bool everywhere) {
   const std::vector<std::uint8_t> chosen = Chooser(centre, offsets, seen, match).run(everywhere);
   const auto width = static_cast<std::size_t>(centre.width), height = static_cast<std::size_t>(centre.height);
   const std::size_t bands = (height + square_side - 1) / square_side;
@@ -167,6 +186,8 @@ ChosenPixels choose_pixels(const CentrePicture& centre, std::span<const glm::vec
   for (const ChosenPixels& part : parts) {
     out.edges.insert(out.edges.end(), part.edges.begin(), part.edges.end());
     out.contrasts.insert(out.contrasts.end(), part.contrasts.begin(), part.contrasts.end());
+    out.weak_contrasts.insert(out.weak_contrasts.end(), part.weak_contrasts.begin(),
+                              part.weak_contrasts.end());
   }
   return out;
 }

@@ -7,8 +7,8 @@
 #include <vector>
 
 #include "base/image.h"
-#include "render/antialias/sample_picture.h"
 #include "render/antialias/surface_match.h"
+#include "visibility/place_ids.h"
 
 namespace tenebra::render {
 
@@ -16,7 +16,8 @@ namespace tenebra::render {
 struct CentrePicture {
   int width = 0;
   int height = 0;
-  std::span<const std::uint32_t> ids, layer;  ///< as SampleIds
+  std::span<const std::uint32_t> ids;    ///< opaque triangles, or no_triangle
+  std::span<const std::uint32_t> layer;  ///< see-through ones before them; empty: the frame has none
   const base::Image8& picture;
   std::vector<std::span<const std::uint8_t>> masks;  ///< of each light
   std::vector<std::span<const glm::vec3>> tints;     ///< of each light, where something lets light through
@@ -31,17 +32,25 @@ struct ChosenPixels {
   /// reaches into a pixel comes between its centre and one of those four, so what is missed is what is
   /// thinner or rounder than a pixel.
   std::vector<std::uint32_t> edges;
-  /// Others that differ from one of those four on one surface by more than least_contrast in what is drawn:
+  /// Others that differ from one of those four on one surface by more than strong_contrast in what is drawn:
   /// textures, penumbrae, highlights. What lights them is as at their centre. None in frames with see-through
   /// surfaces: there they are edges.
   std::vector<std::uint32_t> contrasts;
+  /// Others that so differ by more than least_contrast(samples). Four samples do for them.
+  std::vector<std::uint32_t> weak_contrasts;
+
+  std::size_t count() const { return edges.size() + contrasts.size() + weak_contrasts.size(); }
 };
 
-/// Levels of 255 by which a channel of two neighbours on one surface may differ.
-constexpr int least_contrast = 64;
+/// Levels of 255 by which a channel of two neighbours on one surface may differ. What a sample more or less
+/// may change goes down with their number; up to four samples are off by more than that themselves.
+constexpr int strong_contrast = 64;
+constexpr int least_contrast(std::size_t samples) {
+  return samples <= 4 ? strong_contrast : 255 / (2 * static_cast<int>(samples));
+}
 
 /// `everywhere`: all pixels are edges.
 ChosenPixels choose_pixels(const CentrePicture& centre, std::span<const glm::vec2> offsets,
-                           std::span<const SampleIds> seen, const SurfaceMatch& match, bool everywhere);
+                           const visibility::PlaceIds& seen, const SurfaceMatch& match, bool everywhere);
 
 }  // namespace tenebra::render

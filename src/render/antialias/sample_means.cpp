@@ -1,42 +1,53 @@
 #include "render/antialias/sample_means.h"
 
 #include <algorithm>
-#include <cmath>
 
 #include "parallel/parallel.h"
+#include "render/mask_colour.h"
 
 namespace tenebra::render {
 namespace {
 
 constexpr std::size_t at_once = 4096;
 
-float fraction_of(const LightMask& mask, std::size_t pixel) {
-  return mask.visible_fraction.pixels.empty() ? (mask.mask.pixels[pixel] != 0 ? 1.0f : 0.0f)
-                                              : mask.visible_fraction.pixels[pixel];
+/// What is visible of a light at a sample.
+float visible_at(const LitSamples& lit, std::size_t light, std::size_t slot) {
+  const auto& fraction = lit.visible_fraction[light];
+  return fraction.empty() ? (lit.masks[light][slot] != 0 ? 1.0f : 0.0f) : fraction[slot];
+}
+
+/// Of every pixel.
+base::ImageF visible_fractions(const LightMask& mask) {
+  base::ImageF out{mask.mask.width, mask.mask.height, 1, mask.visible_fraction.pixels};
+  if (!out.pixels.empty()) return out;
+  out.pixels.resize(mask.mask.pixels.size());
+  parallel::parallel_ranges(out.pixels.size(), at_once, [&](std::size_t first, std::size_t last) {
+    for (std::size_t i = first; i < last; ++i) out.pixels[i] = visible_fraction(mask, i);
+  });
+  return out;
 }
 
 }  // namespace
 
-SampleMeans::SampleMeans(const SamplePattern& pattern, const shade::Display& display, bool sample_masks,
-                         std::span<const glm::vec3> colors, FrameResult& result)
+SampleMeans::SampleMeans(const RenderSettings& settings, const SamplePattern& pattern,
+                         const shade::Display& display, std::span<const glm::vec3> colors,
+                         FrameResult& result)
     : pattern_(pattern),
       display_(display),
-      sample_masks_(sample_masks),
+      mask_means_(settings.mask_means),
+      sample_masks_(settings.sample_masks),
       centre_colors_(colors),
       result_(result) {}
 
-void SampleMeans::begin(std::span<const std::uint32_t> edges, std::span<const std::uint32_t> contrasts) {
-  chosen_.assign(edges.begin(), edges.end());
-  chosen_.insert(chosen_.end(), contrasts.begin(), contrasts.end());
-  edges_ = edges.size();
+void SampleMeans::begin(const ChosenPixels& chosen) {
+  chosen_.clear();
+  for (const auto* list : {&chosen.edges, &chosen.contrasts, &chosen.weak_contrasts})
+    chosen_.insert(chosen_.end(), list->begin(), list->end());
+  edges_ = chosen.edges.size();
   colors_.assign(chosen_.size(), glm::vec3(0.0f));
-  visible_.assign(result_.masks.size(), std::vector<float>(edges_, 0.0f));
+  visible_.assign(mask_means_ ? result_.masks.size() : 0, std::vector<float>(edges_, 0.0f));
   for (LightMask& mask : result_.masks) {
-    mask.mean = {mask.mask.width, mask.mask.height, 1, mask.visible_fraction.pixels};
-    if (mask.mean.pixels.empty()) {
-      mask.mean.pixels.resize(mask.mask.pixels.size());
-      for (std::size_t i = 0; i < mask.mean.pixels.size(); ++i) mask.mean.pixels[i] = fraction_of(mask, i);
-    }
+    if (mask_means_) mask.mean = visible_fractions(mask);
     if (sample_masks_) mask.samples.assign(pattern_.count(), mask.mask);
   }
   if (!pattern_.centre_counts) return;
@@ -44,7 +55,7 @@ void SampleMeans::begin(std::span<const std::uint32_t> edges, std::span<const st
     for (std::size_t i = first; i < last; ++i) colors_[i] = shown(display_, centre_colors_[chosen_[i]]);
     for (std::size_t light = 0; light < visible_.size(); ++light)
       for (std::size_t i = first; i < std::min(last, edges_); ++i)
-        visible_[light][i] = fraction_of(result_.masks[light], chosen_[i]);
+        visible_[light][i] = visible_fraction(result_.masks[light], chosen_[i]);
   });
 }
 
@@ -64,24 +75,22 @@ void SampleMeans::add_colors(std::size_t first, const ShadingList& list,
 
 void SampleMeans::add_masks(std::size_t first, std::size_t place, const SamplePicture& samples,
                             const LitSamples& lit) {
-  for (std::size_t light = 0; light < visible_.size(); ++light) add_masks(first, place, samples, lit, light);
+  if (!mask_means_ && !sample_masks_) return;
+  for (std::size_t light = 0; light < result_.masks.size(); ++light)
+    add_masks(first, place, samples, lit, light);
 }
 
 void SampleMeans::add_masks(std::size_t first, std::size_t place, const SamplePicture& samples,
                             const LitSamples& lit, std::size_t light) {
-  const auto& mask = lit.masks[light];
-  const auto& fraction = lit.visible_fraction[light];
   const std::size_t before = place + (pattern_.centre_counts ? 1 : 0);
   const std::size_t count = samples.count / samples.per_pixel;
   parallel::parallel_ranges(count, at_once, [&](std::size_t begin, std::size_t end) {
     for (std::size_t i = begin; i < end; ++i) {
       for (std::size_t k = 0; k < samples.per_pixel; ++k) {
-        const std::size_t slot = samples.slots[i * samples.per_pixel + k];
-        const float visible = fraction.empty() ? (mask[slot] != 0 ? 1.0f : 0.0f) : fraction[slot];
-        visible_[light][first + i] += visible;
+        const float visible = visible_at(lit, light, samples.slots[i * samples.per_pixel + k]);
+        if (mask_means_) visible_[light][first + i] += visible;
         if (sample_masks_)
-          result_.masks[light].samples[before + k].pixels[chosen_[first + i]] =
-              static_cast<std::uint8_t>(std::lround(255.0f * visible));
+          result_.masks[light].samples[before + k].pixels[chosen_[first + i]] = in_levels(visible);
       }
     }
   });

@@ -8,6 +8,7 @@
 #include <vector>
 
 #include "render/antialias/pattern.h"
+#include "render/antialias/pixel_choice.h"
 #include "render/antialias/sample_picture.h"
 #include "render/antialias/shading_list.h"
 #include "render/lit_samples.h"
@@ -22,15 +23,16 @@ namespace tenebra::render {
 /// in one order: the bits depend on no number of threads.
 class SampleMeans {
 public:
-  /// Works on `result`, which has what the pixels' centres show, linear in `colors`, and the lights' masks.
-  SampleMeans(const SamplePattern& pattern, const shade::Display& display, bool sample_masks,
+  /// Works on `result`, which has what the pixels' centres show, linear in `colors`, and the lights' masks;
+  /// which of their means it gets is in `settings`.
+  SampleMeans(const RenderSettings& settings, const SamplePattern& pattern, const shade::Display& display,
               std::span<const glm::vec3> colors, FrameResult& result);
 
-  /// Starts with the centres, if they count; of the pixels, the first `edges` get masks of their own.
-  void begin(std::span<const std::uint32_t> edges, std::span<const std::uint32_t> contrasts);
+  /// Starts with the centres, if they count; edges get masks of their own.
+  void begin(const ChosenPixels& chosen);
   /// Colours of chosen pixels `first` ...
   void add_colors(std::size_t first, const ShadingList& list, std::span<const shade::ShadedSample> shaded);
-  /// Masks of chosen pixels `first` ..., at the pattern's places `place` ...
+  /// Masks of chosen pixels `first` ..., at the pattern's places `place` ...: if their means are wanted.
   void add_masks(std::size_t first, std::size_t place, const SamplePicture& samples, const LitSamples& lit);
   /// Writes the means.
   void finish();
@@ -41,14 +43,14 @@ private:
 
   const SamplePattern& pattern_;
   shade::Display display_;
-  bool sample_masks_;
+  bool mask_means_, sample_masks_;
   std::span<const glm::vec3> centre_colors_;
   FrameResult& result_;
   std::vector<std::uint32_t> chosen_;
   std::size_t edges_ = 0;
   std::vector<glm::vec3> shown_;             // scratch
   std::vector<glm::vec3> colors_;            // sums, by chosen pixel
-  std::vector<std::vector<float>> visible_;  // sums, by light and chosen pixel with an edge
+  std::vector<std::vector<float>> visible_;  // sums, by light and chosen pixel with an edge; or empty
 };
 
 }  // namespace tenebra::render

@@ -7,10 +7,10 @@
 namespace tenebra::render {
 
 void pack_samples(std::span<const std::uint32_t> chosen, int width, std::span<const glm::vec2> offsets,
-                  std::span<const SampleIds> seen, std::span<const std::uint32_t> centre_ids,
+                  const visibility::PlaceIds& seen, std::span<const std::uint32_t> centre_ids,
                   SamplePicture& out) {
   const std::size_t per_pixel = offsets.size(), count = chosen.size() * per_pixel;
-  const bool layered = !seen.empty() && !seen.front().layer.empty();
+  const bool layered = seen.has_layer();
   out.grid = points::SampleGrid(count);
   out.count = count;
   out.per_pixel = per_pixel;
@@ -28,12 +28,14 @@ void pack_samples(std::span<const std::uint32_t> chosen, int width, std::span<co
         const std::uint32_t pixel = chosen[i], id = centre_ids[pixel];
         const glm::vec2 centre(static_cast<float>(pixel % columns) + 0.5f,
                                static_cast<float>(pixel / columns) + 0.5f);
+        const visibility::PixelPlaces sees =
+            seen.of_pixel(static_cast<int>(pixel % columns), static_cast<int>(pixel / columns));
         for (std::size_t k = 0; k < per_pixel; ++k) {
-          if ((seen[k].ids[pixel] == id) != as_centre) continue;
+          if ((sees.id(k) == id) != as_centre) continue;
           const std::size_t slot = out.grid.pixel(next++);
           out.slots[i * per_pixel + k] = static_cast<std::uint32_t>(slot);
-          out.ids[slot] = seen[k].ids[pixel];
-          if (layered) out.layer[slot] = seen[k].layer[pixel];
+          out.ids[slot] = sees.id(k);
+          if (layered) out.layer[slot] = sees.layer(k);
           out.pixels[slot] = pixel;
           out.places[slot] = centre + offsets[k];
         }

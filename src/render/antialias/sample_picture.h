@@ -8,14 +8,9 @@
 #include <vector>
 
 #include "points/sample_points.h"
+#include "visibility/place_ids.h"
 
 namespace tenebra::render {
-
-/// What all pixels of the frame see at one place within them.
-struct SampleIds {
-  std::vector<std::uint32_t> ids;    ///< opaque triangles, or no_triangle
-  std::vector<std::uint32_t> layer;  ///< see-through ones before them; empty: the frame has none
-};
 
 /// Samples of chosen pixels, as stages take pixels. Lists are by pixel of `grid`, which a few places without
 /// a sample fill up: they see nothing.
@@ -29,10 +24,10 @@ struct SamplePicture {
   std::vector<std::uint32_t> slots;   ///< where sample k of chosen pixel i stands: [i * per_pixel + k]
 };
 
-/// Sample k of pixel p sees seen[k] at p; its place is offsets[k] from the pixel's centre, which sees
-/// centre_ids. Of about 256 samples those that see the same triangle as the centre stand together.
+/// Samples see `seen`, at offsets[k] from the pixel's centre, which sees centre_ids. Of about 256 samples
+/// those that see the same triangle as the centre stand together.
 void pack_samples(std::span<const std::uint32_t> chosen, int width, std::span<const glm::vec2> offsets,
-                  std::span<const SampleIds> seen, std::span<const std::uint32_t> centre_ids,
+                  const visibility::PlaceIds& seen, std::span<const std::uint32_t> centre_ids,
                   SamplePicture& out);
 
 }  // namespace tenebra::render

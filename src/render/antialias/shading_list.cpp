@@ -4,6 +4,7 @@
 #include <array>
 
 #include "parallel/parallel.h"
+#include "render/antialias/pixel_surfaces.h"
 
 namespace tenebra::render {
 namespace {
@@ -12,6 +13,7 @@ constexpr std::size_t pixels_at_once = 1024, most_groups = 16;
 
 /// Samples of a pixel that look the same.
 struct Group {
+  std::size_t surface;  // of PixelSurfaces
   std::size_t slots[most_groups];
   std::size_t count = 0;
   glm::vec2 sum{0.0f};  // of places
@@ -19,14 +21,13 @@ struct Group {
 
 class PixelGroups {
 public:
-  PixelGroups(const SamplePicture& samples, const SampleLights& lit, const SurfaceMatch& match)
-      : samples_(samples), lit_(lit), match_(match) {}
+  PixelGroups(const SamplePicture& samples, const SampleLights& lit) : samples_(samples), lit_(lit) {}
 
   void clear() { count_ = 0; }
-  void add(std::size_t slot) {
+  void add(std::size_t slot, std::size_t surface) {
     std::size_t i = 0;
-    while (i < count_ && !same(groups_[i].slots[0], slot)) ++i;
-    if (i == count_) groups_[count_++] = {};
+    while (i < count_ && !(groups_[i].surface == surface && lit_.same(groups_[i].slots[0], lit_, slot))) ++i;
+    if (i == count_) groups_[count_++] = {surface, {}, 0, glm::vec2(0.0f)};
     Group& group = groups_[i];
     group.slots[group.count++] = slot;
     group.sum += samples_.places[slot];
@@ -34,13 +35,8 @@ public:
   std::span<const Group> all() const { return {groups_.data(), count_}; }
 
 private:
-  bool same(std::size_t a, std::size_t b) const {
-    return match_.same(samples_.ids[a], samples_.ids[b], samples_.places[b]) && lit_.same(a, lit_, b);
-  }
-
   const SamplePicture& samples_;
   const SampleLights& lit_;
-  const SurfaceMatch& match_;
   std::array<Group, most_groups> groups_;
   std::size_t count_ = 0;
 };
@@ -55,7 +51,8 @@ std::size_t middle_of(const Group& group, const SamplePicture& samples) {
                            [&](std::size_t a, std::size_t b) { return apart(a) < apart(b); });
 }
 
-/// Lists one after another.
+}  // namespace
+
 void join(std::span<const ShadingList> parts, ShadingList& to) {
   std::vector<std::size_t> firsts(parts.size() + 1, 0);
   for (std::size_t i = 0; i < parts.size(); ++i) firsts[i + 1] = firsts[i] + parts[i].ids.size();
@@ -72,14 +69,6 @@ void join(std::span<const ShadingList> parts, ShadingList& to) {
     put(parts[i].shares, to.shares);
   });
 }
-
-void add(ShadingList& to, std::uint32_t id, glm::vec2 place, std::size_t from, std::size_t pixel,
-         float share) {
-  to.resize(to.ids.size() + 1);
-  to.set(to.ids.size() - 1, id, place, from, pixel, share);
-}
-
-}  // namespace
 
 bool SampleLights::same(std::size_t a, const SampleLights& other, std::size_t b) const {
   for (std::size_t i = 0; i < lights.size(); ++i) {
@@ -99,22 +88,25 @@ void list_groups(std::span<const std::uint32_t> chosen, const SamplePicture& sam
   std::vector<ShadingList> lists(parts);
   parallel::parallel_ranges(chosen.size(), pixels_at_once, [&](std::size_t first, std::size_t last) {
     ShadingList& list = lists[first / pixels_at_once];
-    PixelGroups groups(samples, lit, match);
+    PixelGroups groups(samples, lit);
+    SurfaceMatch own_match(match);
+    PixelSurfaces surfaces(own_match);
     for (std::size_t i = first; i < last; ++i) {
       const std::size_t pixel = chosen[i];
       groups.clear();
+      surfaces.begin(centre_ids[pixel]);
       for (std::size_t k = 0; k < samples.per_pixel; ++k) {
         const std::size_t slot = samples.slots[i * samples.per_pixel + k];
-        if (lit.same(slot, centre_lit, pixel) &&
-            match.same(samples.ids[slot], centre_ids[pixel], samples.places[slot])) {
+        const std::size_t surface = surfaces.of(samples.ids[slot], samples.places[slot]);
+        if (surface == 0 && lit.same(slot, centre_lit, pixel)) {
           out.centres[i] += 1;
         } else {
-          groups.add(slot);
+          groups.add(slot, surface);
         }
       }
       for (const Group& group : groups.all()) {
         const std::size_t slot = middle_of(group, samples);
-        add(list, samples.ids[slot], samples.places[slot], slot, i, static_cast<float>(group.count));
+        list.add(samples.ids[slot], samples.places[slot], slot, i, static_cast<float>(group.count));
       }
     }
   });
@@ -134,9 +126,9 @@ void list_samples(std::span<const std::uint32_t> chosen, const SamplePicture& sa
 }
 
 void list_as_centres(std::span<const std::uint32_t> chosen, int width, std::span<const glm::vec2> offsets,
-                     std::span<const SampleIds> seen, ShadingList& out) {
+                     const visibility::PlaceIds& seen, float share, ShadingList& out) {
   out.clear();
-  out.centres.assign(chosen.size(), 0.0f);
+  out.centres.assign(chosen.size(), share - 1.0f);
   const auto columns = static_cast<std::uint32_t>(width);
   const std::size_t count = offsets.size();
   out.resize(chosen.size() * count);
@@ -145,8 +137,10 @@ void list_as_centres(std::span<const std::uint32_t> chosen, int width, std::span
       const std::uint32_t pixel = chosen[i];
       const glm::vec2 centre(static_cast<float>(pixel % columns) + 0.5f,
                              static_cast<float>(pixel / columns) + 0.5f);
+      const visibility::PixelPlaces sees =
+          seen.of_pixel(static_cast<int>(pixel % columns), static_cast<int>(pixel / columns));
       for (std::size_t k = 0; k < count; ++k)
-        out.set(i * count + k, seen[k].ids[pixel], centre + offsets[k], pixel, i, 1.0f);
+        out.set(i * count + k, sees.id(k), centre + offsets[k], pixel, i, share);
     }
   });
 }

@@ -27,6 +27,10 @@ struct ShadingList {
   void resize(std::size_t count) {
     ids.resize(count), places.resize(count), from.resize(count), pixels.resize(count), shares.resize(count);
   }
+  void add(std::uint32_t id, glm::vec2 place, std::size_t lit_from, std::size_t pixel, float share) {
+    resize(ids.size() + 1);
+    set(ids.size() - 1, id, place, lit_from, pixel, share);
+  }
   void set(std::size_t i, std::uint32_t id, glm::vec2 place, std::size_t lit_from, std::size_t pixel,
            float share) {
     ids[i] = id, places[i] = place, shares[i] = share;
@@ -53,8 +57,12 @@ void list_groups(std::span<const std::uint32_t> chosen, const SamplePicture& sam
 /// Each sample by itself.
 void list_samples(std::span<const std::uint32_t> chosen, const SamplePicture& samples, ShadingList& out);
 
-/// Each sample by itself, lit as the pixel's centre is.
+/// Each sample by itself, lit as the pixel's centre is, and as many of them as `offsets`: each stands for
+/// `share` samples, and so does the centre, which counts as one already.
 void list_as_centres(std::span<const std::uint32_t> chosen, int width, std::span<const glm::vec2> offsets,
-                     std::span<const SampleIds> seen, ShadingList& out);
+                     const visibility::PlaceIds& seen, float share, ShadingList& out);
+
+/// Lists one after another, but for `centres`.
+void join(std::span<const ShadingList> parts, ShadingList& to);
 
 }  // namespace tenebra::render

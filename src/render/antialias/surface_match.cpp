@@ -23,11 +23,17 @@ SurfaceMatch::Plane SurfaceMatch::plane_of(std::uint32_t id) const {
   return {bounded, glm::dot(bounded, a - view_.eye)};
 }
 
-bool SurfaceMatch::same(std::uint32_t a, std::uint32_t b, glm::vec2 place) const {
+const SurfaceMatch::Plane& SurfaceMatch::known_plane(std::uint32_t id) {
+  Known& known = known_[id % known_.size()];
+  if (known.id != id) known = {id, plane_of(id)};
+  return known.plane;
+}
+
+bool SurfaceMatch::same(std::uint32_t a, std::uint32_t b, glm::vec2 place) {
   if (a == b) return true;
   if (a >= geometry_.triangles.size() || b >= geometry_.triangles.size()) return false;
   if (geometry_.materials[a] != geometry_.materials[b]) return false;
-  const Plane p = plane_of(a), q = plane_of(b);
+  const Plane p = known_plane(a), q = known_plane(b);
   const glm::vec3 across = place.x * view_.dx + place.y * view_.dy;
   const glm::vec3 along = view_.orthographic ? view_.d0 : view_.d0 + across;
   const glm::vec3 from = view_.orthographic ? across : glm::vec3(0.0f);

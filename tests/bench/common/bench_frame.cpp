@@ -37,9 +37,13 @@ Expected<Scene> load_scene(const std::filesystem::path& file, const std::vector<
   return scene;
 }
 
+Instant frame_instant(const Scene& scene, int frame) {
+  if (scene.clips.empty()) return {};
+  return {0, frame_time_s(scene.clips[0], frame, frames_a_second)};
+}
+
 void evaluate_bench_frame(const Scene& scene, int frame, int width, int height, BenchFrame& out) {
-  const int clip = scene.clips.empty() ? -1 : 0;
-  const double time_s = clip < 0 ? 0.0 : frame_time_s(scene.clips[0], frame, frames_a_second);
+  const auto [clip, time_s] = frame_instant(scene, frame);
   evaluate_frame(scene, clip, time_s, out.geometry);
   out.lights = evaluate_lights(scene, clip, time_s);
   out.view = evaluate_camera(scene, clip, time_s, 0, width, height);

@@ -15,6 +15,14 @@ namespace tenebra::bench {
 /// A scene whose casters are chosen, with a camera and a light (added where the file has none).
 Expected<Scene> load_scene(const std::filesystem::path& file, const std::vector<std::string>& no_cast = {});
 
+/// A moment of a scene's first clip.
+struct Instant {
+  int clip = -1;  ///< -1: there is none
+  double time_s = 0;
+};
+/// Frame `frame` of the first clip: its own frames where the file states them, else 30 a second.
+Instant frame_instant(const Scene& scene, int frame);
+
 struct BenchFrame {
   FrameGeometry geometry;
   std::vector<WorldLight> lights;
@@ -28,8 +36,7 @@ struct BenchFrame {
   std::size_t pixel_count() const { return points.triangles.size(); }
 };
 
-/// Frame `frame` of the first clip (its own frames where the file states them, else 30 a second) from the
-/// first camera. Buffers of `out` keep their capacity.
+/// Frame `frame` from the first camera. Buffers of `out` keep their capacity.
 void evaluate_bench_frame(const Scene& scene, int frame, int width, int height, BenchFrame& out);
 
 /// Where a scene that does not come with the program lies: `data`, or the folder beside the checkout.

@@ -44,6 +44,7 @@ CLI::App& add_parts_command(CLI::App& program, Run& run, CommandName name,
                             const std::vector<std::string>& names,
                             const std::function<Expected<void>(const PartsArguments&)>& measure) {
   CLI::App* command = program.add_subcommand(name.name, name.help);
+  command->footer(name.footer);
   const auto arguments = std::make_shared<PartsArguments>();
   add_bench_options(*command, arguments->options);
   command->add_option("--only", arguments->only, fmt::format("Some parts: {} [all]", fmt::join(names, ", ")))

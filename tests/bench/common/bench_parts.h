@@ -44,6 +44,7 @@ std::vector<std::string> part_names(std::span<const BenchPart<Session>> parts) {
 struct CommandName {
   const char* name;
   const char* help;
+  const char* footer = "";  ///< below the options: what the figures are
 };
 /// A subcommand with --data, --quick, --threads, --csv, --only and --tiny. Its run refuses what no part could
 /// work with, names the machine on standard output, and calls `measure` on as many threads as asked for.

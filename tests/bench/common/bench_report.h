@@ -47,11 +47,14 @@ private:
   std::vector<std::pair<std::string, std::string>> plots_;
 };
 
-/// Columns of text, each as wide as its widest entry, numbers to the right; the first row is the head.
-std::string text_table(const std::vector<std::vector<std::string>>& rows);
+/// Rows of text; the first is the head.
+using Rows = std::vector<std::vector<std::string>>;
+
+/// Columns of text, each as wide as its widest entry, numbers to the right.
+std::string text_table(const Rows& rows);
 
 /// Prints such a table below its title at once, for those who watch.
-void print_table(const std::string& title, const std::vector<std::vector<std::string>>& rows);
+void print_table(const std::string& title, const Rows& rows);
 
 /// Geometric mean; 0 for no values or where one is not positive.
 double geometric_mean(std::span<const double> values);

@@ -4,6 +4,7 @@
 #include <array>
 #include <cassert>
 
+#include "bench/common/bench_frame.h"
 #include "bench/common/bench_report.h"
 #include "support/child_process.h"
 
@@ -47,6 +48,27 @@ std::filesystem::path find_scene(const BenchScene& scene, const std::filesystem:
   std::error_code ignored;
   if (std::filesystem::exists(folder / scene.file, ignored)) return folder / scene.file;
   return scene.name == std::string("museum5x64") ? make_museum5x64(data, made) : std::filesystem::path();
+}
+
+std::string skipped_sentence(const std::string& scene) {
+  return scene + ": skipped, not there";
+}
+
+Expected<void> for_each_place(std::span<const ScenePlace> places, const std::filesystem::path& data,
+                              std::vector<std::string>& skipped,
+                              const std::function<Expected<void>(const ScenePlace&, const BenchScene&,
+                                                                 const std::filesystem::path&)>& body) {
+  for (const ScenePlace& place : places) {
+    const BenchScene& known = bench_scene(place.scene);
+    std::unique_ptr<testing::TemporaryFolder> made;
+    const auto file = find_scene(known, bart_folder(data), made);
+    if (file.empty()) {
+      skipped.push_back(skipped_sentence(place.scene));
+      continue;
+    }
+    if (auto done = body(place, known, file); !done) return done;
+  }
+  return {};
 }
 
 }  // namespace tenebra::bench

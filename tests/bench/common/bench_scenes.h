@@ -2,10 +2,13 @@
 #pragma once
 
 #include <filesystem>
+#include <functional>
 #include <memory>
+#include <span>
 #include <string>
 #include <vector>
 
+#include <tenebra/expected.h>
 #include "support/temporary_folder.h"
 
 namespace tenebra::bench {
@@ -24,5 +27,19 @@ const BenchScene& bench_scene(const std::string& name);
 /// goes with `made`.
 std::filesystem::path find_scene(const BenchScene& scene, const std::filesystem::path& data,
                                  std::unique_ptr<testing::TemporaryFolder>& made);
+/// What is told in the end of a scene that was not found.
+std::string skipped_sentence(const std::string& scene);
+
+/// A frame of a scene that has a name.
+struct ScenePlace {
+  const char* scene;
+  int frame;
+};
+/// Calls `body` for each place with the scene's file, one file there at a time. Scenes that are not there are
+/// told in `skipped`. `data`: the folder of the scenes that are not ours, empty: where it lies.
+Expected<void> for_each_place(std::span<const ScenePlace> places, const std::filesystem::path& data,
+                              std::vector<std::string>& skipped,
+                              const std::function<Expected<void>(const ScenePlace&, const BenchScene&,
+                                                                 const std::filesystem::path&)>& body);
 
 }  // namespace tenebra::bench

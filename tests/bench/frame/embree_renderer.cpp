@@ -3,6 +3,7 @@
 #include <numeric>
 
 #include "base/stopwatch.h"
+#include "bench/common/bench_frame.h"
 #include "parallel/parallel.h"
 #include "render/area_lights.h"
 #include "render/frame_lights.h"
@@ -12,19 +13,18 @@
 namespace tenebra::bench {
 namespace {
 
-constexpr double frames_a_second = 30.0;  // of clips that state no frames, as in `tenebra render`
-
-int clip_of(const Scene& scene) {
-  return scene.clips.empty() ? -1 : 0;
+void evaluate_at(const Scene& scene, int frame, FrameGeometry& geometry) {
+  const auto [clip, time_s] = frame_instant(scene, frame);
+  evaluate_frame(scene, clip, time_s, geometry);
 }
 
 /// Of each vertex whether it moves between the frames.
 std::vector<std::uint8_t> moving_vertices(const Scene& scene, int first, int last) {
   FrameGeometry start, now;
-  evaluate_frame(scene, clip_of(scene), task_time_s(scene, first), start);
+  evaluate_at(scene, first, start);
   std::vector<std::uint8_t> moving(start.positions.size());
   for (int frame = first + 1; frame <= last; ++frame) {
-    evaluate_frame(scene, clip_of(scene), task_time_s(scene, frame), now);
+    evaluate_at(scene, frame, now);
     const auto moved = moved_vertices(start.positions, now.positions);
     for (std::size_t i = 0; i < moved.size(); ++i) moving[i] |= moved[i];
   }
@@ -33,16 +33,12 @@ std::vector<std::uint8_t> moving_vertices(const Scene& scene, int first, int las
 
 }  // namespace
 
-double task_time_s(const Scene& scene, int frame) {
-  return scene.clips.empty() ? 0.0 : frame_time_s(scene.clips[0], frame, frames_a_second);
-}
-
 EmbreeRenderer::EmbreeRenderer(const FrameTask& task, TreeKind kind, const PacketPlan& plan, int first,
                                int last)
     : task_(task), kind_(kind), plan_(plan) {
   const auto moving = moving_vertices(task.scene, first, last);
   geometry_.positions.reserve(moving.size() + 1);  // Embree reads a float behind the last vertex
-  evaluate_frame(task.scene, clip_of(task.scene), task_time_s(task.scene, first), geometry_);
+  evaluate_at(task.scene, first, geometry_);
   tree_ = std::make_unique<EmbreeTree>(geometry_.positions.data(), triangle_view(geometry_), moving,
                                        EmbreeTree::Settings{kind, task.threads, SimdLevel::automatic, false});
   wide_m_ = static_cast<float>(render::box_of(geometry_).diagonal_m());
@@ -92,13 +88,13 @@ double EmbreeRenderer::retrace(const PacketPlan& plan) {
 
 EmbreeFrameTimes EmbreeRenderer::draw(int frame, bool split) {
   const Scene& scene = task_.scene;
-  const double time_s = task_time_s(scene, frame);
+  const auto [clip, time_s] = frame_instant(scene, frame);
   base::Stopwatch watch, whole;
   EmbreeFrameTimes times;
-  evaluate_frame(scene, clip_of(scene), time_s, geometry_);
+  evaluate_frame(scene, clip, time_s, geometry_);
   render::FrameInput input;  // lights alone: it holds its geometry by value
-  input.lights = evaluate_lights(scene, clip_of(scene), time_s);
-  view_ = evaluate_camera(scene, clip_of(scene), time_s, 0, task_.width, task_.height);
+  input.lights = evaluate_lights(scene, clip, time_s);
+  view_ = evaluate_camera(scene, clip, time_s, 0, task_.width, task_.height);
   times.evaluate = watch.lap_ms();
 
   tree_->follow();

@@ -28,8 +28,6 @@ struct FrameTask {
   int width, height;
   int threads;
 };
-/// Seconds of a frame of the scene's first clip; 30 a second where it states none.
-double task_time_s(const Scene& scene, int frame);
 
 class EmbreeRenderer {
 public:

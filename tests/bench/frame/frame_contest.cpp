@@ -8,56 +8,30 @@
 #include "base/fail.h"
 #include "base/stopwatch.h"
 #include "bench/common/bench_report.h"
+#include "bench/common/scene_renderer.h"
 #include "parallel/parallel.h"
-#include "render/renderer.h"
 
 namespace tenebra::bench {
 namespace {
 
 constexpr int visible_step = 16;  // of 255: where pictures count as different
 
-/// Tenebra's side: what `tenebra render` does for a frame, but for files.
-class OurRenderer {
-public:
-  static Expected<OurRenderer> create(const FrameTask& task) {
-    auto raster = render::FrameRaster::create(render::RasterChoice{});  // as tenebra render chooses
-    if (!raster) return tl::unexpected(raster.error());
-    return OurRenderer(task, render::Renderer::create(std::move(*raster), task.scene));
-  }
-
-  Expected<TenebraFrameTimes> draw(int frame) {
-    const Scene& scene = task_.scene;
-    const int clip = scene.clips.empty() ? -1 : 0;
-    const double time_s = task_time_s(scene, frame);
-    base::Stopwatch watch, whole;
-    evaluate_frame(scene, clip, time_s, input_.geometry);
-    input_.lights = evaluate_lights(scene, clip, time_s);
-    input_.view = evaluate_camera(scene, clip, time_s, 0, task_.width, task_.height);
-    TenebraFrameTimes times;
-    times.evaluate = watch.lap_ms();
-    const render::RenderSettings settings{
-        .width = task_.width, .height = task_.height, .threads = task_.threads};
-    if (auto drawn = renderer_.render_frame(input_, settings, result_); !drawn)
-      return tl::unexpected(drawn.error());
-    times.total = whole.lap_ms();
-    const FrameTimings& t = result_.timings;
-    times.raster = t.raster_ms + t.readback_ms;
-    times.points = t.points_ms;
-    times.shadows = t.rays_ms + t.sort_ms + t.build_ms + t.traverse_ms + t.writeback_ms;
-    times.shade = t.composite_ms;
-    return times;
-  }
-  const render::FrameResult& result() const { return result_; }
-
-private:
-  OurRenderer(const FrameTask& task, render::Renderer renderer)
-      : task_(task), renderer_(std::move(renderer)) {}
-
-  FrameTask task_;
-  render::Renderer renderer_;
-  render::FrameInput input_;
-  render::FrameResult result_;
-};
+/// Tenebra's side of a frame, stage by stage.
+Expected<TenebraFrameTimes> draw_ours(SceneRenderer& renderer, int frame) {
+  base::Stopwatch watch, whole;
+  renderer.evaluate(frame);
+  TenebraFrameTimes times;
+  times.evaluate = watch.lap_ms();
+  const auto drawn = renderer.draw(renderer.settings());
+  if (!drawn) return tl::unexpected(drawn.error());
+  times.total = whole.lap_ms();
+  const FrameTimings& t = (*drawn)->timings;
+  times.raster = t.raster_ms + t.readback_ms;
+  times.points = t.points_ms;
+  times.shadows = t.rays_ms + t.sort_ms + t.build_ms + t.traverse_ms + t.writeback_ms;
+  times.shade = t.composite_ms;
+  return times;
+}
 
 constexpr int tries = 2;
 
@@ -138,7 +112,7 @@ EmbreeFrameTimes medians(const std::vector<EmbreeFrameTimes>& all) {
 }  // namespace
 
 Expected<FrameContestResult> run_frame_contest(const FrameTask& task, const FrameContest& contest) {
-  auto ours = OurRenderer::create(task);
+  auto ours = SceneRenderer::create({task.scene, task.width, task.height, task.threads});
   if (!ours) return tl::unexpected(ours.error());
   FrameContestResult result;
   std::vector<TenebraFrameTimes> our_times;
@@ -149,7 +123,7 @@ Expected<FrameContestResult> run_frame_contest(const FrameTask& task, const Fram
     result.embree_by = fmt::format("{}, {}", tree_name(theirs->kind()), packet_plan_name(theirs->plan()));
     for (int round = 0; round < contest.rounds && done; ++round) {
       for (const int frame : contest.frames) {
-        const auto drawn = ours->draw(frame);
+        const auto drawn = draw_ours(*ours, frame);
         if (!drawn) done = tl::unexpected(drawn.error());
         if (!done) return;
         const EmbreeFrameTimes times = theirs->draw(frame);

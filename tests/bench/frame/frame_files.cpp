@@ -21,19 +21,10 @@ struct ProgramRun {
 
   /// Milliseconds of the whole process.
   Expected<double> ms(const std::string& output) const {
-    const std::vector<std::string> arguments{
-        program.string(),
-        "render",
-        (std::filesystem::path(TENEBRA_SCENES_DIR) / "city.glb").string(),
-        "--frames",
-        frames,
-        "--size",
-        size,
-        "--threads",
-        fmt::format("{}", threads),
-        "--quiet",
-        "-o",
-        output};
+    const auto arguments = with_library_settings(
+        {program.string(), "render", (std::filesystem::path(TENEBRA_SCENES_DIR) / "city.glb").string(),
+         "--frames", frames, "--size", size, "--threads", fmt::format("{}", threads), "--quiet", "-o",
+         output});
     base::Stopwatch watch;
     const auto result = testing::ChildProgram(arguments).wait(600);
     const double ms = watch.lap_ms();
@@ -70,7 +61,8 @@ Expected<void> measure_frame_files(FrameSession& session) {
   session.report.add({"files", "city", "tenebra", "pictures", "time", most, "ms"});
   session.report.add({"files", "city", "tenebra", "none", "time", least, "ms"});
   print_table(
-      fmt::format("tenebra render scenes/city.glb --frames {} --size {}", run.frames, run.size),
+      fmt::format("tenebra render scenes/city.glb --frames {} --size {}, one sample a pixel", run.frames,
+                  run.size),
       {{"output", "ms"}, {"pictures", fmt::format("{:.0f}", most)}, {"none", fmt::format("{:.0f}", least)}});
   session.headline.render_over_frames = most / least;
   return {};

@@ -16,13 +16,8 @@
 namespace tenebra::bench {
 namespace {
 
-using Rows = std::vector<std::vector<std::string>>;
-
-struct Place {
-  const char* scene;
-  int frame;
-};
-constexpr Place places[] = {{"city", 150}, {"robots", 100}, {"kitchen", 100}, {"museum5", 20}, {"court", 60}};
+constexpr ScenePlace places[] = {
+    {"city", 150}, {"robots", 100}, {"kitchen", 100}, {"museum5", 20}, {"court", 60}};
 struct Size {
   int width, height;
 };
@@ -99,7 +94,7 @@ class Measurement {
 public:
   explicit Measurement(FrameSession& session) : session_(session) {}
 
-  Expected<void> measure(const Place& place, const Scene& scene, const shade::SurfaceTable& surfaces,
+  Expected<void> measure(const ScenePlace& place, const Scene& scene, const shade::SurfaceTable& surfaces,
                          Size size);
   void conclude() const;
 
@@ -109,7 +104,7 @@ private:
   std::vector<double> ratios_, unshaded_;
 };
 
-Expected<void> Measurement::measure(const Place& place, const Scene& scene,
+Expected<void> Measurement::measure(const ScenePlace& place, const Scene& scene,
                                     const shade::SurfaceTable& surfaces, Size size) {
   FrameContest contest{fmt::format("{} {}", place.scene, place.frame), {}, session_.by_effort(1, 3, 7)};
   const int after = session_.by_effort(0, 1, 2);
@@ -147,24 +142,19 @@ Expected<void> measure_frames(FrameSession& session) {
   const std::vector<Size> sizes = session.effort == Effort::tiny
                                       ? std::vector<Size>{{64, 64}, {72, 40}}
                                       : std::vector<Size>{{1024, 1024}, {1920, 1080}};
-  const auto data = bart_folder(session.options.data);
   Measurement measurement(session);
-  for (const Place& place : places) {
-    const BenchScene& known = bench_scene(place.scene);
-    std::unique_ptr<testing::TemporaryFolder> made;
-    const auto file = find_scene(known, data, made);
-    if (file.empty()) {
-      session.skipped.push_back(fmt::format("{}: skipped, not there", place.scene));
-      continue;
-    }
+  const auto body = [&](const ScenePlace& place, const BenchScene& known,
+                        const std::filesystem::path& file) -> Expected<void> {
     auto scene = load_scene(file, known.no_cast);
     if (!scene) return tl::unexpected(scene.error());
     prepare(*scene);
     const shade::SurfaceTable surfaces(*scene);
     for (const Size size : sizes) {
-      if (auto done = measurement.measure(place, *scene, surfaces, size); !done) return done;
+      if (auto measured = measurement.measure(place, *scene, surfaces, size); !measured) return measured;
     }
-  }
+    return {};
+  };
+  if (auto done = for_each_place(places, session.options.data, session.skipped, body); !done) return done;
   measurement.conclude();
   return {};
 }

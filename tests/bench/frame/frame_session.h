@@ -2,10 +2,8 @@
 #pragma once
 
 #include <optional>
-#include <string>
-#include <vector>
 
-#include "bench/common/bench_parts.h"
+#include "bench/common/bench_session.h"
 
 namespace tenebra::bench {
 
@@ -15,18 +13,10 @@ struct FrameHeadline {
       render_over_frames;
 };
 
-struct FrameSession {
-  BenchOptions options;
-  Effort effort = Effort::full;
-  Report report;
-  FrameHeadline headline;
-  std::vector<std::string> skipped;  ///< what could not be measured, each with its reason
+struct FrameSession : BenchSession {
+  using BenchSession::BenchSession;
 
-  /// The value for this run's effort.
-  template <class T>
-  T by_effort(T tiny, T quick, T full) const {
-    return effort == Effort::tiny ? tiny : effort == Effort::quick ? quick : full;
-  }
+  FrameHeadline headline;
 };
 
 // The parts.

@@ -1,11 +1,9 @@
 // tenebra-bench hard: the default hard shadows beside Embree's rays; growth, steadiness, and the experiments
 // of Olsson and Assarsson 2011.
 #include <array>
-#include <cstdio>
 #include <memory>
 
 #include "base/fail.h"
-#include "bench/common/bench_parts.h"
 #include "bench/hard/hard_session.h"
 
 namespace tenebra::bench {
@@ -19,24 +17,23 @@ constexpr std::array parts{BenchPart<HardSession>{"frames", measure_hard_frames}
                            BenchPart<HardSession>{"paper", measure_hard_paper}};
 const std::span<const BenchPart<HardSession>> all_parts(parts);
 
-void print_headlines(const HardHeadline& h) {
-  std::printf("\n");
-  print_headline("hard.dynamic_geomean", h.dynamic_geomean, 3);
-  print_headline("hard.static_geomean", h.static_geomean, 3);
-  print_headline("hard.dynamic_worst", h.dynamic_worst, 3);
-  print_headline("hard.static_worst", h.static_worst, 3);
-  print_headline("hard.growth_static_1.8m", h.growth_static_1_8m, 3);
-  print_headline("hard.p99_over_median", h.p99_over_median, 3);
-  print_headline("hard.whole_moved_geomean", h.whole_moved_geomean, 3);
-  print_headline("hard.whole_moved_worst", h.whole_moved_worst, 3);
-  print_headline("hard.whole_static_geomean", h.whole_static_geomean, 3);
-  print_headline("hard.whole_static_worst", h.whole_static_worst, 3);
-  print_headline("hard.whole_first_moved_geomean", h.first_moved_geomean, 3);
-  print_headline("hard.whole_first_moved_worst", h.first_moved_worst, 3);
-  print_headline("hard.whole_first_static_geomean", h.first_static_geomean, 3);
-  print_headline("hard.whole_first_static_worst", h.first_static_worst, 3);
-  print_headline("hard.sun_geomean", h.sun_geomean, 3);
-  print_headline("hard.sun_worst", h.sun_worst, 3);
+std::vector<LastLine> last_lines(const HardHeadline& h) {
+  return {{"dynamic_geomean", h.dynamic_geomean, 3},
+          {"static_geomean", h.static_geomean, 3},
+          {"dynamic_worst", h.dynamic_worst, 3},
+          {"static_worst", h.static_worst, 3},
+          {"growth_static_1.8m", h.growth_static_1_8m, 3},
+          {"p99_over_median", h.p99_over_median, 3},
+          {"whole_moved_geomean", h.whole_moved_geomean, 3},
+          {"whole_moved_worst", h.whole_moved_worst, 3},
+          {"whole_static_geomean", h.whole_static_geomean, 3},
+          {"whole_static_worst", h.whole_static_worst, 3},
+          {"whole_first_moved_geomean", h.first_moved_geomean, 3},
+          {"whole_first_moved_worst", h.first_moved_worst, 3},
+          {"whole_first_static_geomean", h.first_static_geomean, 3},
+          {"whole_first_static_worst", h.first_static_worst, 3},
+          {"sun_geomean", h.sun_geomean, 3},
+          {"sun_worst", h.sun_worst, 3}};
 }
 
 /// `simd` is the name of the level that both contestants are kept to.
@@ -45,17 +42,22 @@ Expected<void> measure(const PartsArguments& arguments, const std::string& simd)
   if (!level || (*level != SimdLevel::automatic && !simd_level_supported(*level)))
     return base::fail(
         "--simd: found {}, expected auto or a level of this machine: scalar, sse4, avx2, avx512", simd);
-  HardSession session{.options = arguments.options,
-                      .effort = arguments.effort(),
-                      .simd = *level,
-                      .report = Report(arguments.options.csv)};
-  if (auto done = measure_parts(arguments, all_parts, session); !done) return done;
-  if (auto written = session.report.write(parts_settings(arguments, *level)); !written) return written;
-  std::printf("\n");
-  for (const std::string& name : session.skipped) std::printf("%s: skipped, not there\n", name.c_str());
-  print_headlines(session.headline);
+  HardSession session(arguments);
+  session.simd = *level;
+  if (auto done = measure_and_write(arguments, all_parts, session, *level); !done) return done;
+  print_end("hard", session.skipped, last_lines(session.headline));
   return {};
 }
+
+constexpr const char* footer =
+    "dynamic, static: the mask of one light from visible points that are there, with the build and\n"
+    "without. whole_moved: from triangle ids to the masks of all lights of a frame whose triangles\n"
+    "moved since the frame before (points, tiles, rays, build or refit, trace; Embree at the best of\n"
+    "its builds, packets of 4, 8 and 16, and both directions of rays). whole_static: the same where\n"
+    "nothing moved, Embree's trees built before at medium and high quality. Over twelve frames of BART\n"
+    "with all their lights, and city 30, 150 and 250 with its point light. whole_first: the first light\n"
+    "of each frame alone. sun: as whole, with city's sun, and in BART with one from (0.1, 1, 0.5), over\n"
+    "moved and static together.";
 
 }  // namespace
 
@@ -63,17 +65,8 @@ void add_hard_command(CLI::App& program, Run& run) {
   const auto simd = std::make_shared<std::string>("auto");
   CLI::App& command = add_parts_command(
       program, run,
-      {"hard", "Hard shadows beside Embree's rays; the experiments of Olsson and Assarsson 2011"},
+      {"hard", "Hard shadows beside Embree's rays; the experiments of Olsson and Assarsson 2011", footer},
       part_names(all_parts), [simd](const PartsArguments& arguments) { return measure(arguments, *simd); });
-  command.footer(
-      "dynamic, static: the mask of one light from visible points that are there, with the build and\n"
-      "without. whole_moved: from triangle ids to the masks of all lights of a frame whose triangles\n"
-      "moved since the frame before (points, tiles, rays, build or refit, trace; Embree at the best of\n"
-      "its builds, packets of 4, 8 and 16, and both directions of rays). whole_static: the same where\n"
-      "nothing moved, Embree's trees built before at medium and high quality. Over twelve frames of BART\n"
-      "with all their lights, and city 30, 150 and 250 with its point light. whole_first: the first light\n"
-      "of each frame alone. sun: as whole, with city's sun, and in BART with one from (0.1, 1, 0.5), over\n"
-      "moved and static together.");
   command.add_option("--simd", *simd, "Instructions that both contestants are kept to [auto]")
       ->type_name("LEVEL");
 }

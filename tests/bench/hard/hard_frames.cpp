@@ -11,8 +11,6 @@
 namespace tenebra::bench {
 namespace {
 
-using Rows = std::vector<std::vector<std::string>>;
-
 Rows head() {
   return {{"frame", "triangles", "tenebra", "unmoved", "E. build", "E. dynamic", "tile", "E. static", "tile",
            "points", "tiled", "/dynamic", "/static", "with points", "", "differing"}};

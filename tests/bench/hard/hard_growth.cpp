@@ -12,8 +12,6 @@
 namespace tenebra::bench {
 namespace {
 
-using Rows = std::vector<std::vector<std::string>>;
-
 /// Each triangle by the middles of its edges in four, in place; triangle i becomes 4 i ... 4 i + 3. Corners
 /// stay where they are; middles are rounded to float.
 void subdivide(FrameGeometry& g) {

@@ -10,8 +10,6 @@
 namespace tenebra::bench {
 namespace {
 
-using Rows = std::vector<std::vector<std::string>>;
-
 struct Cost {
   double ms = 0;
   double nodes = 0;

@@ -2,10 +2,8 @@
 #pragma once
 
 #include <optional>
-#include <string>
-#include <vector>
 
-#include "bench/common/bench_parts.h"
+#include "bench/common/bench_session.h"
 #include "bench/hard/hard_views.h"
 
 namespace tenebra::bench {
@@ -19,19 +17,12 @@ struct HardHeadline {
   std::optional<double> sun_geomean, sun_worst;
 };
 
-struct HardSession {
-  BenchOptions options;
-  Effort effort = Effort::full;
-  SimdLevel simd = SimdLevel::automatic;  ///< of both contestants
-  Report report;
-  HardHeadline headline;
-  std::vector<std::string> skipped;  ///< scenes that are not there
+struct HardSession : BenchSession {
+  using BenchSession::BenchSession;
 
-  /// The value for this run's effort.
-  template <class T>
-  T by_effort(T tiny, T quick, T full) const {
-    return effort == Effort::tiny ? tiny : effort == Effort::quick ? quick : full;
-  }
+  SimdLevel simd = SimdLevel::automatic;  ///< of both contestants
+  HardHeadline headline;
+
   PictureSize size() const {
     if (effort == Effort::tiny) return {64, 64};
     return {};

@@ -21,8 +21,7 @@ std::vector<HardFrames> hard_frames(bool quick) {
 
 void evaluate_hard_view(const Scene& scene, int number, PictureSize size, HardView& view) {
   // Before first: both geometries then come from warm buffers of their own.
-  const int clip = scene.clips.empty() ? -1 : 0;
-  const double earlier_s = clip < 0 ? 0.0 : frame_time_s(scene.clips[0], number > 0 ? number - 1 : 1, 30.0);
+  const auto [clip, earlier_s] = frame_instant(scene, number > 0 ? number - 1 : 1);
   evaluate_frame(scene, clip, earlier_s, view.before);
   evaluate_bench_frame(scene, number, size.width, size.height, view.frame);
   points::make_point_tiles(view.frame.points, view.frame.view, view.frame.triangles(),
@@ -41,7 +40,7 @@ Expected<void> for_each_view(const BenchOptions& options, const std::vector<Hard
     const auto file = find_scene(known, data, made);
     if (file.empty()) {
       progress(fmt::format("{}: skipped, {} is not there", part.scene, (data / known.file).string()));
-      skipped.push_back(part.scene);
+      skipped.push_back(skipped_sentence(part.scene));
       continue;
     }
     const auto scene = load_scene(file, known.no_cast);

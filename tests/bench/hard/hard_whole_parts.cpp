@@ -13,8 +13,6 @@
 namespace tenebra::bench {
 namespace {
 
-using Rows = std::vector<std::vector<std::string>>;
-
 // BART has no directional light: this one, towards the light, y up, stands in for it in all frames.
 constexpr glm::vec3 bart_sun{0.1f, 1.0f, 0.5f};
 

@@ -2,13 +2,13 @@
 
 #include <fmt/format.h>
 
+#include "bench/common/bench_frame.h"
 #include "bench/hash/plain_raster.h"
 #include "parallel/parallel.h"
 
 namespace tenebra::bench {
 namespace {
 
-constexpr double frames_a_second = 30.0;  // of clips that state no frames, as in `tenebra render`
 constexpr std::array pictures{HashPicture::hard, HashPicture::wide, HashPicture::soft, HashPicture::ambient};
 
 }  // namespace
@@ -43,14 +43,9 @@ HashSize hash_size(HashPicture picture, int scale) {
   return {size.width * scale, size.height * scale};
 }
 
-HashInstant hash_instant(const Scene& scene, int number) {
-  if (scene.clips.empty()) return {};
-  return {0, frame_time_s(scene.clips[0], number, frames_a_second)};
-}
-
 HashFrame make_hash_frame(const Scene& scene, int number, int scale) {
   HashFrame frame{.number = number, .scale = scale, .ids = {}};
-  const auto [clip, time_s] = hash_instant(scene, number);
+  const auto [clip, time_s] = frame_instant(scene, number);
   FrameGeometry geometry;
   evaluate_frame(scene, clip, time_s, geometry);
   for (const HashPicture picture : pictures) {

@@ -39,11 +39,4 @@ struct HashFrame {
 };
 HashFrame make_hash_frame(const Scene& scene, int number, int scale);
 
-/// Seconds in the scene's first clip, which is -1 where there is none.
-struct HashInstant {
-  int clip = -1;
-  double time_s = 0;
-};
-HashInstant hash_instant(const Scene& scene, int number);
-
 }  // namespace tenebra::bench

@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 
 #include "bench/common/bench_report.h"
+#include "bench/common/scene_renderer.h"
 #include "bench/hash/hash_bits.h"
 #include "bench/hash/hash_frame.h"
 #include "raster/gbuffer.h"
@@ -64,11 +65,8 @@ public:
         ids_(std::move(ids)) {}
 
   Expected<void> add(int number, const PictureMode& mode, std::vector<std::string>& lines) {
-    const auto [clip, time_s] = hash_instant(scene_, number);
     const int width = mode.settings.width, height = mode.settings.height;
-    evaluate_frame(scene_, clip, time_s, input_.geometry);
-    input_.lights = evaluate_lights(scene_, clip, time_s);
-    input_.view = evaluate_camera(scene_, clip, time_s, 0, width, height);
+    evaluate_input(scene_, number, width, height, input_);
     const auto keep = [&](const std::string& what, std::uint64_t hash) {
       lines.push_back(hash_line(name_, number, fmt::format("{}.{}.{}", kind_, mode.name, what), hash));
     };

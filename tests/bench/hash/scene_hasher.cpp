@@ -49,7 +49,7 @@ std::uint64_t hash_points(const VisiblePoints& points) {
 
 /// The frame as `picture` shows it: points with their tiles, and normals.
 void SceneHasher::see(const HashFrame& frame, HashPicture picture) {
-  const auto [clip, time_s] = hash_instant(scene_, frame.number);
+  const auto [clip, time_s] = frame_instant(scene_, frame.number);
   const auto [width, height] = hash_size(picture, frame.scale);
   frame_.view = evaluate_camera(scene_, clip, time_s, 0, width, height);
   const bool tiled = picture == HashPicture::hard || picture == HashPicture::wide;
@@ -66,7 +66,7 @@ void SceneHasher::add_points(const char* prefix) {
 }
 
 void SceneHasher::hash_geometry(const HashFrame& frame) {
-  const auto [clip, time_s] = hash_instant(scene_, frame.number);
+  const auto [clip, time_s] = frame_instant(scene_, frame.number);
   FrameGeometry& g = frame_.geometry;
   evaluate_frame(scene_, clip, time_s, g);
   frame_.lights = evaluate_lights(scene_, clip, time_s);

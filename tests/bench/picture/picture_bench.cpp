@@ -1,7 +1,6 @@
 // tenebra-bench picture: how far anti-aliased pictures are from 256 samples a pixel, what they cost, and
 // whether they flicker.
 #include <array>
-#include <cstdio>
 
 #include "bench/picture/picture_session.h"
 
@@ -10,39 +9,33 @@ namespace {
 
 constexpr std::array parts{BenchPart<PictureSession>{"views", measure_picture_views},
                            BenchPart<PictureSession>{"flicker", measure_picture_flicker}};
-const std::span<const BenchPart<PictureSession>> all_parts(parts);
 
-Expected<void> measure(const PartsArguments& arguments) {
-  PictureSession session{
-      .options = arguments.options, .effort = arguments.effort(), .report = Report(arguments.options.csv)};
-  if (auto done = measure_parts(arguments, all_parts, session); !done) return done;
-  if (auto written = session.report.write(parts_settings(arguments)); !written) return written;
-  std::printf("\n");
-  for (const std::string& sentence : session.skipped) std::printf("%s\n", sentence.c_str());
+std::vector<LastLine> last_lines(const PictureSession& session) {
   const PictureHeadline& h = session.headline;
-  print_headline("picture.rms_4", h.rms_4, 3);
-  print_headline("picture.rms_16", h.rms_16, 3);
-  print_headline("picture.cost_4", h.cost_4, 3);
-  print_headline("picture.cost_16", h.cost_16, 3);
-  print_headline("picture.missed_percent", h.missed_percent, 4);
-  print_headline("picture.flicker_16", h.flicker_16, 3);
-  return {};
+  return {{"rms_4", h.rms_4, 3},
+          {"rms_16", h.rms_16, 3},
+          {"cost_4", h.cost_4, 3},
+          {"cost_16", h.cost_16, 3},
+          {"missed_percent", h.missed_percent, 4},
+          {"flicker_16", h.flicker_16, 3}};
 }
+
+constexpr const char* footer =
+    "rms_N: root mean square in levels of 255 between the picture of N samples where a pixel requires\n"
+    "them and that of 256 samples of every pixel, of the worst view. missed_percent: pixels that are off\n"
+    "by more than 16/255 in a channel at 16 samples, of the worst view. cost_N: the whole frame over that\n"
+    "of one sample, geometric mean over the views of medians taken in turns. flicker_16: root mean square\n"
+    "over 30 consecutive frames of what changes from the frame before at 16 samples less what changes\n"
+    "there at 256, pixel by pixel; the worse of gallery and court, at 512x512 (256x256 with --quick).\n"
+    "Hard shadows of all lights, 1024x1024 but for flicker.";
 
 }  // namespace
 
 void add_picture_command(CLI::App& program, Run& run) {
-  CLI::App& command = add_parts_command(
-      program, run, {"picture", "Anti-aliased pictures beside 256 samples a pixel: errors, costs, flicker"},
-      part_names(all_parts), measure);
-  command.footer(
-      "rms_N: root mean square in levels of 255 between the picture of N samples where a pixel requires\n"
-      "them and that of 256 samples of every pixel, of the worst view. missed_percent: pixels that are off\n"
-      "by more than 16/255 in a channel at 16 samples, of the worst view. cost_N: the whole frame over that\n"
-      "of one sample, geometric mean over the views of medians taken in turns. flicker_16: root mean square\n"
-      "over 30 consecutive frames of what changes from the frame before at 16 samples less what changes\n"
-      "there at 256, pixel by pixel; the worse of gallery and court, at 512x512 (256x256 with --quick).\n"
-      "Hard shadows of all lights, 1024x1024 but for flicker.");
+  add_session_command<PictureSession>(
+      program, run,
+      {"picture", "Anti-aliased pictures beside 256 samples a pixel: errors, costs, flicker", footer}, parts,
+      last_lines);
 }
 
 }  // namespace tenebra::bench

@@ -15,34 +15,26 @@ Expected<Scene> load_picture_scene(const std::filesystem::path& file,
   return scene;
 }
 
-Expected<PictureMaker> PictureMaker::create(const PictureTask& task) {
-  auto raster = render::FrameRaster::create(render::RasterChoice{});  // as tenebra render chooses
-  if (!raster) return tl::unexpected(raster.error());
-  return PictureMaker(task, render::Renderer::create(std::move(*raster), task.scene));
-}
-
-void PictureMaker::evaluate(int frame) {
-  const Scene& scene = task_.scene;
-  const int clip = scene.clips.empty() ? -1 : 0;
-  const double time_s = scene.clips.empty() ? 0 : frame_time_s(scene.clips[0], frame, 30.0);
-  evaluate_frame(scene, clip, time_s, input_.geometry);
-  input_.lights = evaluate_lights(scene, clip, time_s);
-  input_.view = evaluate_camera(scene, clip, time_s, 0, task_.width, task_.height);
+Expected<PictureMaker> PictureMaker::create(const DrawTask& task) {
+  auto renderer = SceneRenderer::create(task);
+  if (!renderer) return tl::unexpected(renderer.error());
+  return PictureMaker(std::move(*renderer));
 }
 
 Expected<const base::Image8*> PictureMaker::draw(const Sampling& sampling, const glm::dvec2& shift) {
-  render::RenderSettings settings{.width = task_.width, .height = task_.height, .threads = task_.threads};
+  render::RenderSettings settings = renderer_.settings();
   settings.terminator = render::Terminator::smooth;
   settings.antialias = sampling.samples;
   settings.antialias_everywhere = sampling.everywhere;
-  const ViewRays seen = input_.view;
+  ViewRays& view = renderer_.input().view;
+  const ViewRays seen = view;
   const glm::dvec3 across = shift.x * glm::dvec3(seen.dx) + shift.y * glm::dvec3(seen.dy);
-  glm::vec3& from = seen.orthographic ? input_.view.eye : input_.view.d0;
+  glm::vec3& from = seen.orthographic ? view.eye : view.d0;
   from = glm::vec3(glm::dvec3(from) + across);
-  const auto drawn = renderer_.render_frame(input_, settings, result_);
-  input_.view = seen;
+  const auto drawn = renderer_.draw(settings);
+  view = seen;
   if (!drawn) return tl::unexpected(drawn.error());
-  return &result_.image;
+  return &(*drawn)->image;
 }
 
 }  // namespace tenebra::bench

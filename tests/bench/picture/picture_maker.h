@@ -4,19 +4,10 @@
 #include <string>
 #include <vector>
 
-#include <tenebra/expected.h>
-#include <tenebra/scene.h>
 #include "base/image.h"
-#include "render/renderer.h"
+#include "bench/common/scene_renderer.h"
 
 namespace tenebra::bench {
-
-struct PictureTask {
-  const Scene& scene;  ///< as the program prepares it
-  int width = 0;
-  int height = 0;
-  int threads = 0;  ///< 0: all
-};
 
 /// Samples of a pixel: adaptive, or of all pixels.
 struct Sampling {
@@ -29,26 +20,22 @@ inline constexpr Sampling reference_sampling{256, true};
 /// Hard shadows, with the terminator that `tenebra render` chooses for pictures.
 class PictureMaker {
 public:
-  static Expected<PictureMaker> create(const PictureTask& task);
+  static Expected<PictureMaker> create(const DrawTask& task);
 
   /// The first clip's frame `frame`, as the frames that follow count.
-  void evaluate(int frame);
+  void evaluate(int frame) { renderer_.evaluate(frame); }
   /// The picture of the frame evaluated last, its camera moved by `shift` pixels to the right and down.
   /// Stands until the next call.
   Expected<const base::Image8*> draw(const Sampling& sampling, const glm::dvec2& shift = {0, 0});
   /// Of the last picture, but for evaluating the scene, in milliseconds.
-  double total_ms() const { return result_.timings.total_ms; }
+  double total_ms() const { return renderer_.result().timings.total_ms; }
   /// Of the last picture: pixels that got more than one sample.
-  std::uint64_t refined() const { return result_.antialias.pixels; }
+  std::uint64_t refined() const { return renderer_.result().antialias.pixels; }
 
 private:
-  PictureMaker(const PictureTask& task, render::Renderer renderer)
-      : task_(task), renderer_(std::move(renderer)) {}
+  explicit PictureMaker(SceneRenderer renderer) : renderer_(std::move(renderer)) {}
 
-  PictureTask task_;
-  render::Renderer renderer_;
-  render::FrameInput input_;
-  render::FrameResult result_;
+  SceneRenderer renderer_;
 };
 
 /// A scene as the program prepares it for pictures.

@@ -2,10 +2,8 @@
 #pragma once
 
 #include <optional>
-#include <string>
-#include <vector>
 
-#include "bench/common/bench_parts.h"
+#include "bench/common/bench_session.h"
 
 namespace tenebra::bench {
 
@@ -14,18 +12,10 @@ struct PictureHeadline {
   std::optional<double> rms_4, rms_16, cost_4, cost_16, missed_percent, flicker_16;
 };
 
-struct PictureSession {
-  BenchOptions options;
-  Effort effort = Effort::full;
-  Report report;
-  PictureHeadline headline;
-  std::vector<std::string> skipped;  ///< what could not be measured, each with its reason
+struct PictureSession : BenchSession {
+  using BenchSession::BenchSession;
 
-  /// The value for this run's effort.
-  template <class T>
-  T by_effort(T tiny, T quick, T full) const {
-    return effort == Effort::tiny ? tiny : effort == Effort::quick ? quick : full;
-  }
+  PictureHeadline headline;
 };
 
 // The parts.

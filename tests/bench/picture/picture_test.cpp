@@ -62,6 +62,9 @@ struct View {
   const char* scene;
   int frame;
 };
+void PrintTo(const View& view, std::ostream* out) {  // CTest's name of the test
+  *out << view.scene << ' ' << view.frame;
+}
 class PictureReference : public ::testing::TestWithParam<View> {};
 
 // Plain surfaces: textures are smoothed over a pixel where it has one sample, and over less of it where it

@@ -3,7 +3,6 @@
 
 #include <algorithm>
 
-#include "bench/common/bench_frame.h"
 #include "bench/common/bench_scenes.h"
 #include "bench/picture/picture_errors.h"
 #include "bench/picture/picture_maker.h"
@@ -13,13 +12,8 @@
 namespace tenebra::bench {
 namespace {
 
-using Rows = std::vector<std::vector<std::string>>;
-
-struct Place {
-  const char* scene;
-  int frame;
-};
-constexpr Place places[] = {{"city", 150}, {"robots", 100}, {"kitchen", 100}, {"gallery", 60}, {"court", 60}};
+constexpr ScenePlace places[] = {
+    {"city", 150}, {"robots", 100}, {"kitchen", 100}, {"gallery", 60}, {"court", 60}};
 constexpr int counts[] = {1, 4, 16};
 
 /// What one view gives, by `counts`.
@@ -53,7 +47,7 @@ Expected<ViewResult> measure_view(PictureMaker& maker, int pixels, int rounds) {
 class Measurement {
 public:
   explicit Measurement(PictureSession& session) : session_(session) {}
-  Expected<void> measure(const Place& place, const Scene& scene);
+  Expected<void> measure(const ScenePlace& place, const Scene& scene);
   void conclude() const;
 
 private:
@@ -85,7 +79,7 @@ void Measurement::report(const std::string& name, const ViewResult& r) {
                     percent(r.errors[1].missed, 3), percent(r.errors[2].missed, 3)});
 }
 
-Expected<void> Measurement::measure(const Place& place, const Scene& scene) {
+Expected<void> Measurement::measure(const ScenePlace& place, const Scene& scene) {
   const int side = session_.by_effort(48, 1024, 1024);
   auto maker = PictureMaker::create({scene, side, side, thread_count()});
   if (!maker) return tl::unexpected(maker.error());
@@ -124,20 +118,14 @@ void Measurement::conclude() const {
 }  // namespace
 
 Expected<void> measure_picture_views(PictureSession& session) {
-  const auto data = bart_folder(session.options.data);
   Measurement measurement(session);
-  for (const Place& place : places) {
-    const BenchScene& known = bench_scene(place.scene);
-    std::unique_ptr<testing::TemporaryFolder> made;
-    const auto file = find_scene(known, data, made);
-    if (file.empty()) {
-      session.skipped.push_back(fmt::format("{}: skipped, not there", place.scene));
-      continue;
-    }
+  const auto body = [&](const ScenePlace& place, const BenchScene& known,
+                        const std::filesystem::path& file) -> Expected<void> {
     const auto scene = load_picture_scene(file, known.no_cast);
     if (!scene) return tl::unexpected(scene.error());
-    if (auto done = measurement.measure(place, *scene); !done) return done;
-  }
+    return measurement.measure(place, *scene);
+  };
+  if (auto done = for_each_place(places, session.options.data, session.skipped, body); !done) return done;
   measurement.conclude();
   return {};
 }

@@ -177,7 +177,7 @@ std::string soft_tables(const SoftResults& results) {
   if (!results.areas.empty()) text += area_table(results.areas) + '\n';
   if (!results.lights.empty()) text += lights_table(results.lights, results.growth_view) + '\n';
   if (!results.life.empty()) text += life_table(results.life, results.growth_view) + '\n';
-  for (const std::string& name : results.skipped) text += name + ": skipped, the scene is not there\n";
+  for (const std::string& sentence : results.skipped) text += sentence + '\n';
   return text;
 }
 

@@ -16,7 +16,7 @@ struct SoftResults {
   std::vector<LightsRow> lights;
   std::vector<LifeRow> life;
   std::string growth_view;           ///< on which areas, lights and life were measured
-  std::vector<std::string> skipped;  ///< scenes that are not there
+  std::vector<std::string> skipped;  ///< what could not be measured, each a sentence with its reason
 };
 
 /// Readable tables, one per experiment.

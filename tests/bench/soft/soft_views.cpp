@@ -87,7 +87,7 @@ Expected<void> for_each_view(const BenchOptions& options, const ViewChoice& choi
     if (file.empty()) {
       progress(fmt::format("{}: skipped, {} is not there", entry.name,
                            (data / bench_scene(entry.name).file).string()));
-      skipped.emplace_back(entry.name);
+      skipped.push_back(skipped_sentence(entry.name));
       continue;
     }
     if (auto done = visit_frames(entry, file, choice, body); !done) return done;

@@ -217,7 +217,7 @@ Expected<void> try_scene(TradeSession& session, const std::string& name, int num
   std::unique_ptr<testing::TemporaryFolder> made;
   const auto file = find_scene(known, bart_folder(session.options.data), made);
   if (file.empty()) {
-    session.skipped.push_back(name);
+    session.skipped.push_back(skipped_sentence(name));
     return {};
   }
   const auto scene = load_scene(file, known.no_cast);

@@ -33,17 +33,13 @@ Expected<void> check(const PartsArguments& arguments, const TradeOptions& option
 
 Expected<void> measure(const PartsArguments& arguments, const TradeOptions& options) {
   if (auto fine = check(arguments, options); !fine) return fine;
-  TradeSession session{.options = arguments.options,
-                       .trade = options,
-                       .effort = arguments.effort(),
-                       .report = Report(arguments.options.csv)};
-  if (auto done = measure_parts(arguments, all_parts, session); !done) return done;
-  if (auto written = session.report.write(parts_settings(arguments)); !written) return written;
+  TradeSession session(arguments);
+  session.trade = options;
+  if (auto done = measure_and_write(arguments, all_parts, session); !done) return done;
   if (!options.docs.empty()) {
     if (auto written = write_trade_page(session); !written) return written;
   }
-  std::printf("\n");
-  for (const std::string& name : session.skipped) std::printf("%s: skipped, not there\n", name.c_str());
+  print_end("trade", session.skipped, {});
   for (const std::string& note : session.notes) std::printf("note: %s.\n", note.c_str());
   for (const auto& [name, value] : session.headline) print_headline("trade." + name, value, 3);
   return {};

@@ -6,7 +6,7 @@
 #include <string>
 #include <vector>
 
-#include "bench/common/bench_parts.h"
+#include "bench/common/bench_session.h"
 #include "bench/trade/trade_table.h"
 
 namespace tenebra::bench {
@@ -24,22 +24,15 @@ struct NeedRow {
   std::optional<bool> same{};      ///< both gave the same bits; none: only one of them was run
 };
 
-struct TradeSession {
-  BenchOptions options;
+struct TradeSession : BenchSession {
+  using BenchSession::BenchSession;
+
   TradeOptions trade;
-  Effort effort = Effort::full;
-  Report report;
   std::vector<TradeTable> tables;
   std::vector<NeedRow> needs;
   std::map<std::string, double> headline;  ///< "hard_default_wrong_pixels"; the largest of the views
   std::vector<std::string> notes;          ///< sentences
-  std::vector<std::string> skipped;        ///< scenes that are not there
 
-  /// The value for this run's effort.
-  template <class T>
-  T by_effort(T tiny, T quick, T full) const {
-    return effort == Effort::tiny ? tiny : effort == Effort::quick ? quick : full;
-  }
   void keep_largest(const std::string& name, double value) {
     const auto [kept, fresh] = headline.emplace(name, value);
     if (!fresh) kept->second = std::max(kept->second, value);

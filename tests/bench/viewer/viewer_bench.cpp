@@ -1,6 +1,5 @@
 // tenebra-bench viewer: what a person at the window sees, while a hand holds keys and drags.
 #include <array>
-#include <cstdio>
 
 #include "bench/common/bench_program.h"
 #include "bench/viewer/viewer_session.h"
@@ -13,55 +12,47 @@ constexpr std::array parts{
     BenchPart<ViewerSession>{"whole", measure_whole}, BenchPart<ViewerSession>{"explain", measure_explain}};
 const std::span<const BenchPart<ViewerSession>> all_parts(parts);
 
-void print_last_lines(const ViewerHeadline& headline, const std::vector<std::string>& skipped) {
-  std::printf("\n");
-  for (const std::string& sentence : skipped) std::printf("%s\n", sentence.c_str());
-  print_headline("viewer.key_to_picture", headline.key_to_picture, 2);
-  print_headline("viewer.pictures_per_second_worst", headline.pictures_per_second_worst, 1);
-  print_headline("viewer.black_ms_worst", headline.black_ms_worst, 0);
-  print_headline("viewer.explain_ms", headline.explain_ms, 0);
-  print_headline("viewer.over_render", headline.over_render, 3);
+void print_viewer_end(const ViewerHeadline& h, const std::vector<std::string>& skipped) {
+  print_end("viewer", skipped,
+            {{"key_to_picture", h.key_to_picture, 2},
+             {"pictures_per_second_worst", h.pictures_per_second_worst, 1},
+             {"black_ms_worst", h.black_ms_worst, 0},
+             {"explain_ms", h.explain_ms, 0},
+             {"over_render", h.over_render, 3}});
 }
 
 Expected<void> measure(const PartsArguments& arguments) {
   const auto program = program_file();
   if (program.empty()) {
-    print_last_lines({}, {"viewer: skipped, found no program tenebra beside this one"});
+    print_viewer_end({}, {"viewer: skipped, found no program tenebra beside this one"});
     return {};
   }
   const auto screen = WatchedScreen::start();
   if (!screen) {
-    print_last_lines({}, {"viewer: skipped, " + screen.error().message});
+    print_viewer_end({}, {"viewer: skipped, " + screen.error().message});
     return {};
   }
-  ViewerSession session{.options = arguments.options,
-                        .effort = arguments.effort(),
-                        .report = Report(arguments.options.csv),
-                        .program = program.string(),
-                        .screen = **screen,
-                        .headline = {},
-                        .skipped = {}};
-  if (auto done = measure_parts(arguments, all_parts, session); !done) return done;
-  if (auto written = session.report.write(parts_settings(arguments)); !written) return written;
-  print_last_lines(session.headline, session.skipped);
+  ViewerSession session(arguments, program.string(), **screen);
+  if (auto done = measure_and_write(arguments, all_parts, session); !done) return done;
+  print_viewer_end(session.headline, session.skipped);
   return {};
 }
+
+constexpr const char* footer =
+    "The program beside this one, on a virtual display (Xvfb) of its own, with keys that repeat 30 times\n"
+    "a second; the display's pixels are read while it draws. pictures_per_second_worst: how often the\n"
+    "middle of the view changes while a key is held or the mouse drags, at 1024x1024. black_ms_worst:\n"
+    "longest time without a picture, from the window's first sign on. explain_ms: from a click to what it\n"
+    "tells. over_render: a whole frame while a key is held, over one of tenebra render; key_to_picture:\n"
+    "from a single press to its whole picture on the screen, in such frames; these two with --antialias 1\n"
+    "--terminator flat --tone none.";
 
 }  // namespace
 
 void add_viewer_command(CLI::App& program, Run& run) {
-  CLI::App& command = add_parts_command(
-      program, run, {"viewer", "What is seen at the window, while keys are held and the mouse drags"},
-      part_names(all_parts), measure);
-  command.footer(
-      "The program beside this one, on a virtual display (Xvfb) of its own, with keys that repeat 30 times "
-      "a\n"
-      "second; the display's pixels are read while it draws. pictures_per_second_worst: how often the "
-      "middle\n"
-      "of the view changes while a key is held or the mouse drags, at 1024x1024. black_ms_worst: longest\n"
-      "time without a picture, from the window's first sign on. explain_ms: from a click to what it tells.\n"
-      "over_render: a whole frame while a key is held, over one of tenebra render; key_to_picture: from a\n"
-      "single press to its whole picture on the screen, in such frames.");
+  add_parts_command(program, run,
+                    {"viewer", "What is seen at the window, while keys are held and the mouse drags", footer},
+                    part_names(all_parts), measure);
 }
 
 }  // namespace tenebra::bench

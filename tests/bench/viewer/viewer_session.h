@@ -5,7 +5,7 @@
 #include <string>
 #include <vector>
 
-#include "bench/common/bench_parts.h"
+#include "bench/common/bench_session.h"
 #include "bench/viewer/watched_viewer.h"
 
 namespace tenebra::bench {
@@ -16,14 +16,13 @@ struct ViewerHeadline {
   std::optional<double> key_to_picture;  ///< in frames of `tenebra render`
 };
 
-struct ViewerSession {
-  BenchOptions options;
-  Effort effort = Effort::full;
-  Report report;
+struct ViewerSession : BenchSession {
+  ViewerSession(const PartsArguments& arguments, std::string program_file, WatchedScreen& watched)
+      : BenchSession(arguments), program(std::move(program_file)), screen(watched) {}
+
   std::string program;
   WatchedScreen& screen;
   ViewerHeadline headline;
-  std::vector<std::string> skipped;  ///< what could not be measured, each with its reason
 
   int side() const { return effort == Effort::tiny ? 128 : 1024; }  ///< of pictures, in pixels
   void add_black(double seconds) {

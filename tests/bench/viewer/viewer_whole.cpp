@@ -5,6 +5,7 @@
 #include <sstream>
 
 #include "base/fail.h"
+#include "bench/common/bench_program.h"
 #include "bench/viewer/viewer_session.h"
 
 namespace tenebra::bench {
@@ -33,18 +34,10 @@ std::vector<double> logged_totals(const std::string& log) {
 
 Expected<double> rendered_ms(const ViewerSession& session, const std::string& scene, int frames) {
   const testing::TemporaryFolder folder;
-  const std::vector<std::string> arguments{session.program,
-                                           "render",
-                                           scene,
-                                           "--frames",
-                                           fmt::format("0:{}", frames),
-                                           "--size",
-                                           fmt::format("{0}x{0}", session.side()),
-                                           "-o",
-                                           "none",
-                                           "--quiet",
-                                           "--log",
-                                           (folder / "log.csv").string()};
+  const auto arguments =
+      with_library_settings({session.program, "render", scene, "--frames", fmt::format("0:{}", frames),
+                             "--size", fmt::format("{0}x{0}", session.side()), "-o", "none", "--quiet",
+                             "--log", (folder / "log.csv").string()});
   const auto result = testing::ChildProgram(arguments).wait(600);
   if (result.exit_code != 0) return base::fail("tenebra render: {}", result.errors);
   std::vector<double> totals = logged_totals(testing::read_text(folder / "log.csv"));
@@ -94,7 +87,7 @@ Expected<void> measure_whole(ViewerSession& session) {
     const auto before = rendered_ms(session, scene, frames);
     if (!before) return tl::unexpected(before.error());
     WatchedViewer viewer(session.screen, session.program, scene, session.side(),
-                         {"--preview-budget", "1000"});  // whole pictures alone
+                         with_library_settings({"--preview-budget", "1000"}));  // whole pictures alone
     if (!viewer.wait_for_first_picture(60) || !viewer.wait_until_whole(60))
       return base::fail("viewer: city has no whole picture in 60 s");
     const auto ms = viewed_ms(viewer, session.screen, tiny ? 1.5 : 4);

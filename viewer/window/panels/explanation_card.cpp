@@ -110,8 +110,8 @@ void light_row(Ui& ui, const PictureAnswer& answer, const LightExplanation& ligh
 
 void draw_words(Ui& ui, const PictureAnswer& answer) {
   const render::PixelExplanation& pixel = answer.pixel;
-  ImGui::TextUnformatted(
-      fmt::format("Pixel {}, {}", answer.question.pixel.x, answer.question.pixel.y).c_str());
+  const glm::ivec2 at = pixel_at(answer.question.place, answer.question.picture->whole);
+  ImGui::TextUnformatted(fmt::format("Pixel {}, {}", at.x, at.y).c_str());
   ImGui::SameLine(ImGui::GetWindowWidth() - ImGui::CalcTextSize("close (Esc)").x - ui.px(12));
   if (link(ui, "close (Esc)", "why.close")) ui.actions.end_explanation = true;
   if (pixel.background) return dim_text("Nothing is seen here but the background.");

@@ -5,7 +5,7 @@
 #include <optional>
 #include <string>
 
-#include "window/folder_list.h"
+#include "window/files/folder_list.h"
 
 namespace tenebra::viewer {
 

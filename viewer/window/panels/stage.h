@@ -66,17 +66,17 @@ public:
     }
   }
 
-  /// Pixel of the picture under `at`, in whichever of the places it is.
-  glm::vec2 pixel_at(ImVec2 at) const {
+  /// Place in the picture of `at`, 0 to 1 from its left and top, in whichever of the places it is.
+  glm::vec2 place_at(ImVec2 at) const {
     const Area& area = side_ && at.x >= places_[1].low.x ? places_[1] : places_[0];
+    return {(at.x - area.low.x) / area.size.x, (at.y - area.low.y) / area.size.y};
+  }
+  glm::vec2 pixel_at(ImVec2 at) const {
     const base::Image8& image = ui_.picture->a.result.image;
-    return {(at.x - area.low.x) / area.size.x * static_cast<float>(image.width),
-            (at.y - area.low.y) / area.size.y * static_cast<float>(image.height)};
+    return place_at(at) * glm::vec2(image.width, image.height);
   }
-  /// The pixel itself; the pointer's places are whole numbers, the left upper corners of pixels.
-  glm::ivec2 pixel_under(ImVec2 pointer) const {
-    return glm::ivec2(glm::floor(pixel_at(pointer + ImVec2(0.5f, 0.5f))));
-  }
+  /// Of the middle of the pixel under the pointer, whose own places are left upper corners of pixels.
+  glm::dvec2 place_under(ImVec2 pointer) const { return place_at(pointer + ImVec2(0.5f, 0.5f)); }
   ImVec2 at_pixel(glm::dvec2 pixel, int place) const {
     const Area& area = places_[static_cast<std::size_t>(place)];
     const base::Image8& image = ui_.picture->a.result.image;

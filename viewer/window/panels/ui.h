@@ -9,11 +9,11 @@
 #include <string_view>
 
 #include "options/choices.h"
-#include "window/explainer.h"
 #include "window/frame_history.h"
 #include "window/key_press.h"
-#include "window/render_worker.h"
 #include "window/view_state.h"
+#include "window/work/explainer.h"
+#include "window/work/render_worker.h"
 
 namespace tenebra::viewer {
 

@@ -5,7 +5,7 @@
 #include <utility>
 
 #include "window/panels/light_handles.h"
-#include "window/panels/overlay_image.h"
+#include "window/work/overlay_image.h"
 
 namespace tenebra::viewer {
 namespace {
@@ -114,7 +114,7 @@ void move_camera(Ui& ui, const Stage& stage, ImVec2 moved, int button, int heigh
     return look_around(state.free, moved.x * radians_a_pixel, moved.y * radians_a_pixel);
   }
   if (!std::exchange(state.pivot_asked, true)) {
-    ui.actions.pivot = stage.pixel_under(ImGui::GetIO().MouseClickedPos[button]);
+    ui.actions.pivot = stage.place_under(ImGui::GetIO().MouseClickedPos[button]);
   }
   const float right = moved.x * radians_a_pixel, down = moved.y * radians_a_pixel;
   state.pivot ? orbit(state.free, right, down, *state.pivot) : orbit(state.free, right, down);
@@ -183,10 +183,10 @@ void use_hand(Ui& ui, const Stage& stage, Area area) {
   const bool was_camera = storage.GetInt(hand_id) == static_cast<int>(Hand::camera);
   const bool explain_key = hovered && !io.WantTextInput && ui.pressed('I');
   if ((released && was_camera && !dragged(ImGuiMouseButton_Left)) || explain_key)
-    ui.actions.explain = stage.pixel_under(io.MousePos);
+    ui.actions.explain = stage.place_under(io.MousePos);
   const bool clicked = hovered && io.MouseDoubleClicked[ImGuiMouseButton_Left] && under.light < 0;
   const bool focus_key = hovered && !io.WantTextInput && ui.pressed('F');
-  if (clicked || focus_key) ui.actions.focus = stage.pixel_under(io.MousePos);
+  if (clicked || focus_key) ui.actions.focus = stage.place_under(io.MousePos);
 }
 
 }  // namespace

@@ -1,0 +1,16 @@
+// Names of files that the window writes by itself: none replaces an earlier one.
+#pragma once
+
+#include <filesystem>
+#include <string>
+
+#include "options/output_pattern.h"
+
+namespace tenebra::viewer {
+
+/// `name`, or with a number the first that no file has.
+std::string unused_name(const std::filesystem::path& name);
+/// The first of `pattern` behind `number` that no file has; `number` becomes its own.
+std::filesystem::path next_unused(const OutputPattern& pattern, int& number);
+
+}  // namespace tenebra::viewer

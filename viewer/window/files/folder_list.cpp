@@ -1,0 +1,67 @@
+#include "window/files/folder_list.h"
+
+#include <algorithm>
+#include <array>
+#include <cstdlib>
+#include <string_view>
+
+#include "base/fail.h"
+
+namespace tenebra::viewer {
+namespace {
+
+namespace fs = std::filesystem;
+
+std::string lower(std::string text) {
+  for (char& c : text) {
+    if (c >= 'A' && c <= 'Z') c = static_cast<char>(c - 'A' + 'a');
+  }
+  return text;
+}
+
+}  // namespace
+
+bool is_scene_name(const std::string& name) {
+  constexpr std::array<std::string_view, 5> endings{".gltf", ".glb", ".aff", ".nff", ".obj"};
+  const std::string ending = lower(fs::path(name).extension().string());
+  return std::find(endings.begin(), endings.end(), ending) != endings.end();
+}
+
+Expected<FolderList> list_folder(const fs::path& folder) {
+  std::error_code error;
+  FolderList list{fs::absolute(folder, error).lexically_normal(), {}, false};
+  if (!list.folder.has_filename()) list.folder = list.folder.parent_path();  // "a/" as "a"
+  fs::directory_iterator entry(list.folder, fs::directory_options::skip_permission_denied, error);
+  if (error) return base::fail("{}: {}", list.folder.string(), error.message());
+  for (; entry != fs::directory_iterator(); entry.increment(error)) {
+    const std::string name = entry->path().filename().string();
+    std::error_code none;
+    const bool is_folder = entry->is_directory(none);
+    if (name.starts_with('.') || (!is_folder && (!is_scene_name(name) || !entry->is_regular_file(none))))
+      continue;
+    if (list.entries.size() == FolderList::most_entries) {
+      list.cut = true;
+      break;
+    }
+    list.entries.push_back({name, is_folder});
+  }
+  if (error) return base::fail("{}: {}", list.folder.string(), error.message());
+  std::sort(list.entries.begin(), list.entries.end(), [](const FolderEntry& a, const FolderEntry& b) {
+    const std::string left = lower(a.name), right = lower(b.name);
+    return std::tie(b.folder, left, a.name) < std::tie(a.folder, right, b.name);
+  });
+  return list;
+}
+
+fs::path typed_path(const std::string& text, const fs::path& folder) {
+  const char* home = std::getenv("HOME");
+  if (home != nullptr && (text == "~" || text.starts_with("~/")))
+    return fs::path(home) / text.substr(std::min<std::size_t>(2, text.size()));
+  return (folder / text).lexically_normal();
+}
+
+bool matches(const std::string& name, const std::string& part) {
+  return lower(name).find(lower(part)) != std::string::npos;
+}
+
+}  // namespace tenebra::viewer

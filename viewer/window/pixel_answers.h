@@ -1,0 +1,37 @@
+// Why is it dark? The questions about pixels of pictures, and the answer that is shown.
+#pragma once
+
+#include <memory>
+#include <optional>
+#include <vector>
+
+#include "window/work/explainer.h"
+
+namespace tenebra::viewer {
+
+class PixelAnswers {
+public:
+  /// `wake` is called on another thread when there is an answer.
+  explicit PixelAnswers(std::function<void()> wake) : explainer_(std::move(wake)) {}
+
+  /// About what is seen at a place of `picture`, 0 to 1; beyond it there is nothing to be asked.
+  void ask(QuestionKind kind, const std::shared_ptr<const Picture>& picture, glm::dvec2 place);
+  /// A picture from the same place, perhaps of another size, is asked the same anew; from another place there
+  /// is nothing to be told any more.
+  void follow(const std::shared_ptr<const Picture>& picture);
+  std::vector<PictureAnswer> take() { return explainer_.take_answers(); }
+
+  /// Why a pixel is dark; null: nobody has asked, or the answer has not come.
+  const PictureAnswer* shown() const { return shown_ ? &*shown_ : nullptr; }
+  /// Shows an answer to the last question; others are out of date.
+  void show(PictureAnswer answer);
+  void close();
+
+private:
+  std::shared_ptr<const Picture> asked_;  // why a pixel is dark; null: nobody asks
+  glm::dvec2 place_{0.0};                 // of that pixel
+  std::optional<PictureAnswer> shown_;
+  Explainer explainer_;
+};
+
+}  // namespace tenebra::viewer
