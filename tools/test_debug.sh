@@ -10,6 +10,7 @@ folders=(base math parallel points scene texture cutout visibility shadow soft t
 slow='ShadowMask\.|NodeTests|SoftCatalogue|SoftCloud|Oracle|Exact|EverySoup|StaysWholeWhenKilled|SoftMetamorphic'
 slow+='|^Bart|SoftPackets|ShaftFrames|NeverLeaveOut|HandOver|AreaIsThatOf|Tiles\.AreTheSame|Tiles\.WorkOut'
 slow+='|DistantFaceBounds|OfHundredsOfEdges|NearlyCoincide|SheetsOf|GivesWhatClipping|FieldAccuracy|FindsABall'
+slow+='|AdaptiveOcclusion\.(Meets|SameBits|Hard|Stops|DoesNot)'
 slow+='|AmbientOcclusion\.(SameBits|BothLayouts|DoesNotDepend|HalfTheResolution|AtVertices)|RealScenes|DividesNoMore|ManyLarge'
 cmake --preset debug -DTENEBRA_TESTS=ON -DCMAKE_COMPILE_WARNING_AS_ERROR=ON > /dev/null
 cmake --build --preset debug --target "${folders[@]/#/tests_}"
