@@ -1,9 +1,12 @@
 // tenebra-bench ao: errors, speed, growth, memory and steadiness of ambient occlusion from displacement
 // fields.
-#include <fmt/core.h>
+#include <fmt/format.h>
 #include <array>
 #include <cstdio>
+#include <memory>
 
+#include "bench/ao/ao_scene_truth.h"
+#include "bench/ao/ao_scene_views.h"
 #include "bench/ao/ao_session.h"
 #include "bench/common/bench_parts.h"
 
@@ -14,7 +17,7 @@ constexpr std::array parts{
     BenchPart<AoSession>{"errors", measure_errors},   BenchPart<AoSession>{"surface", measure_surface},
     BenchPart<AoSession>{"growth", measure_growth},   BenchPart<AoSession>{"many", measure_many},
     BenchPart<AoSession>{"lookups", measure_lookups}, BenchPart<AoSession>{"frames", measure_frames},
-    BenchPart<AoSession>{"flicker", measure_flicker}};
+    BenchPart<AoSession>{"flicker", measure_flicker}, BenchPart<AoSession>{"scenes", measure_scenes}};
 const std::span<const BenchPart<AoSession>> all_parts(parts);
 
 void print_headlines(const AoHeadline& h) {
@@ -28,6 +31,15 @@ void print_headlines(const AoHeadline& h) {
   print_headline("ao.frame_speedup_half", h.frame_speedup_half, 1);
   print_headline("ao.growth_1k_to_1m", h.growth_1k_to_1m, 1);
   print_headline("ao.bytes", h.bytes, 0);
+  print_headline("ao.scene_rms_worst", h.scene_rms_worst, 2);
+  print_headline("ao.scene_p99_worst", h.scene_p99_worst, 1);
+  print_headline("ao.scene_max_worst", h.scene_max_worst, 1);
+  print_headline("ao.exact_rms_worst", h.exact_rms_worst, 2);
+  print_headline("ao.exact_max_worst", h.exact_max_worst, 1);
+  print_headline("ao.scene_speedup_geomean", h.scene_speedup_geomean, 2);
+  print_headline("ao.scene_speedup_worst", h.scene_speedup_worst, 2);
+  print_headline("ao.exact_speedup_geomean", h.exact_speedup_geomean, 2);
+  if (h.estimate_worst) print_headline("ao.estimate_worst", h.estimate_worst, 2);
 }
 
 Expected<void> write_files(const AoSession& session, const std::vector<std::string>& settings) {
@@ -41,9 +53,11 @@ Expected<void> write_files(const AoSession& session, const std::vector<std::stri
   return {};
 }
 
-Expected<void> measure(const PartsArguments& arguments) {
-  AoSession session{
-      .options = arguments.options, .effort = arguments.effort(), .report = Report(arguments.options.csv)};
+Expected<void> measure(const PartsArguments& arguments, const AoSceneOptions& scenes) {
+  AoSession session{.options = arguments.options,
+                    .effort = arguments.effort(),
+                    .report = Report(arguments.options.csv),
+                    .scenes = scenes};
   if (auto done = measure_parts(arguments, all_parts, session); !done) return done;
   if (auto written = write_files(session, parts_settings(arguments)); !written) return written;
   if (!session.notes.empty()) std::printf("\n");
@@ -52,11 +66,41 @@ Expected<void> measure(const PartsArguments& arguments) {
   return {};
 }
 
+void add_scene_options(CLI::App& command, AoSceneOptions& options) {
+  const auto names = ao_scene_names();
+  command
+      .add_option(
+          "--views", options.views,
+          fmt::format("scenes: those whose name has one of these in it, of {} [all]", fmt::join(names, ", ")))
+      ->type_name("TEXT,...")
+      ->delimiter(',');
+  command
+      .add_option(
+          "--truth-folder", options.truth_folder,
+          "scenes: where truths are kept, so that the next run has them at once, one file for a view, its "
+          "size and its content; '' for nowhere\n[$XDG_CACHE_HOME/tenebra/bench or ~/.cache/tenebra/bench]")
+      ->type_name("FOLDER");
+  command
+      .add_option("--truth-step", options.truth_step,
+                  "scenes: errors are taken at every Nth pixel of every Nth row [1; with --quick 5]")
+      ->type_name("N")
+      ->check(CLI::Range(1, 64));
+  command.add_flag("--only-ours", options.only_ours, "scenes: errors and times without the opponent");
+  command
+      .add_option("--pictures", options.pictures,
+                  "scenes: writes truths, values and errors as PNG, and names the worst pixels")
+      ->type_name("FOLDER");
+}
+
 }  // namespace
 
 void add_ao_command(CLI::App& program, Run& run) {
-  add_parts_command(program, run, {"ao", "Ambient occlusion from displacement fields"}, part_names(all_parts),
-                    measure);
+  const auto scenes = std::make_shared<AoSceneOptions>();
+  scenes->truth_folder = default_truth_folder();
+  CLI::App& command = add_parts_command(
+      program, run, {"ao", "Ambient occlusion from displacement fields"}, part_names(all_parts),
+      [scenes](const PartsArguments& arguments) { return measure(arguments, *scenes); });
+  add_scene_options(command, *scenes);
 }
 
 }  // namespace tenebra::bench

@@ -48,7 +48,8 @@ void trace_packet(RTCScene scene, const ao::RayBatch& rays, float from, bool coh
 
 AoPeer::AoPeer(const Object& object) : AoPeer(TriangleView{object.positions, object.triangles, {}}) {}
 
-AoPeer::AoPeer(const TriangleView& triangles) : scene_(triangles, false), build_ms_(watch_.lap_ms()) {}
+AoPeer::AoPeer(const TriangleView& triangles, Casters casters, Edges edges)
+    : scene_(triangles, casters == Casters::only, edges == Edges::robust), build_ms_(watch_.lap_ms()) {}
 
 PeerHit AoPeer::nearest(glm::vec3 origin, glm::vec3 direction) const {
   RTCRayHit ray = ray_of(origin, direction, 0, std::numeric_limits<float>::infinity());

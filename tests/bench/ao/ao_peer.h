@@ -18,8 +18,10 @@ struct PeerHit {
 /// Built once at the best quality.
 class AoPeer {
 public:
+  enum class Casters { all, only };    ///< which triangles hide: all, or those that cast shadows
+  enum class Edges { quick, robust };  ///< robust: no ray passes between two triangles that share an edge
   explicit AoPeer(const Object& object);
-  explicit AoPeer(const TriangleView& triangles);
+  explicit AoPeer(const TriangleView& triangles, Casters casters = Casters::all, Edges edges = Edges::quick);
 
   PeerHit nearest(glm::vec3 origin, glm::vec3 direction) const;
 

@@ -24,11 +24,6 @@ dvec2 concentric(double a, double b) {
   return {r * std::cos(angle), r * std::sin(angle)};
 }
 
-vec3 cosine_direction(double x, double y) {
-  const dvec2 d = concentric(2 * x - 1, 2 * y - 1);
-  return {d.x, d.y, std::sqrt(std::max(0.0, 1 - d.x * d.x - d.y * d.y))};
-}
-
 /// Points of the unit square, sorted into blocks of sixteen about as wide as high.
 std::vector<dvec2> lattice(int count) {
   std::vector<dvec2> points;
@@ -55,6 +50,11 @@ std::array<vec3, 2> turned_tangents(const vec3& n, float turn) {
 }
 
 }  // namespace
+
+vec3 cosine_direction(double x, double y) {
+  const dvec2 d = concentric(2 * x - 1, 2 * y - 1);
+  return {d.x, d.y, std::sqrt(std::max(0.0, 1 - d.x * d.x - d.y * d.y))};
+}
 
 CosineRays::CosineRays(int count, std::uint64_t seed) : seed_(seed) {
   for (const dvec2& p : lattice(count)) directions_.push_back(cosine_direction(p.x, p.y));

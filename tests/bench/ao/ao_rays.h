@@ -18,6 +18,10 @@ struct Receiver {
   glm::vec3 normal{0, 1, 0};  ///< unit
 };
 
+/// A direction about +z for each point of the unit square, as dense as the cosine: Shirley and Chiu's
+/// concentric map.
+glm::vec3 cosine_direction(double x, double y);
+
 /// Directions of a Fibonacci lattice through Shirley's concentric map, turned about each point's normal by a
 /// hash of `seed` and the point's number. Sixteen rays in a row are neighbours.
 class CosineRays {

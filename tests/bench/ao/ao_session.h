@@ -17,16 +17,31 @@ struct AoHeadline {
   std::optional<double> outside_rms_255, paper_rms_255, inside_rms_255, surface_rms_255;
   std::optional<double> lookup_speedup, frame_speedup, frame_speedup_half, growth_1k_to_1m;
   std::optional<double> bytes;
+  std::optional<double> scene_rms_worst, scene_p99_worst, scene_max_worst;
+  std::optional<double> exact_rms_worst, exact_max_worst;
+  std::optional<double> scene_speedup_geomean, scene_speedup_worst, exact_speedup_geomean;
+  std::optional<double> estimate_worst;  ///< only where the library gives an estimate
+};
+
+/// What only the part "scenes" reads.
+struct AoSceneOptions {
+  std::vector<std::string> views;      ///< parts of names; empty: all
+  std::filesystem::path truth_folder;  ///< where truths are kept; empty: nowhere
+  std::filesystem::path pictures;      ///< folder; empty: none are written
+  bool only_ours = false;              ///< no opponent
+  int truth_step = 0;                  ///< of the truth's lattice; 0: by effort
 };
 
 struct AoSession {
   BenchOptions options;
   Effort effort = Effort::full;
   Report report;
-  AoHeadline headline;
-  std::vector<std::string> notes;  ///< sentences: what was missing, replaced or out of bounds
+  AoSceneOptions scenes{};
+  AoHeadline headline{};
+  std::vector<double> scene_speedups{}, exact_speedups{};  ///< one a view and size
+  std::vector<std::string> notes{};  ///< sentences: what was missing, replaced or out of bounds
   std::vector<std::pair<std::string, base::Image8>>
-      pictures;  ///< to be written as STEM_name.png beside the CSV
+      pictures{};  ///< to be written as STEM_name.png beside the CSV
 
   /// Tables of the default size, or small ones where figures mean nothing.
   ao::FieldSettings table(FieldLayout layout = FieldLayout::chords) const {
@@ -65,5 +80,6 @@ Expected<void> measure_many(AoSession& session);     ///< Figure 8: objects
 Expected<void> measure_lookups(AoSession& session);  ///< against Embree's nearest hits
 Expected<void> measure_frames(AoSession& session);   ///< whole frames against Embree
 Expected<void> measure_flicker(AoSession& session);  ///< animated scenes
+Expected<void> measure_scenes(AoSession& session);   ///< whole scenes against truth and filtered rays
 
 }  // namespace tenebra::bench

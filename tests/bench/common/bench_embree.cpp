@@ -7,12 +7,13 @@
 
 namespace tenebra::bench {
 
-EmbreeScene::EmbreeScene(const TriangleView& triangles, bool only_casters)
+EmbreeScene::EmbreeScene(const TriangleView& triangles, bool only_casters, bool robust)
     : device_(rtcNewDevice(nullptr)), scene_(rtcNewScene(device_)) {
   for (std::size_t i = 0; i < triangles.triangles.size(); ++i) {
     const bool casts = triangles.casts_shadow.empty() || triangles.casts_shadow[i] != 0;
     if (casts || !only_casters) ids_.push_back(static_cast<std::uint32_t>(i));
   }
+  if (robust) rtcSetSceneFlags(scene_, RTC_SCENE_FLAG_ROBUST);
   rtcSetSceneBuildQuality(scene_, RTC_BUILD_QUALITY_HIGH);
   RTCGeometry mesh = rtcNewGeometry(device_, RTC_GEOMETRY_TYPE_TRIANGLE);
   rtcSetGeometryBuildQuality(mesh, RTC_BUILD_QUALITY_HIGH);

@@ -11,10 +11,11 @@
 namespace tenebra::bench {
 
 /// A device and one scene, built once at the highest quality (building is not measured). primID is the
-/// triangle's id in `ids`, or in the view where `ids` is empty.
+/// triangle's id in `ids`, or in the view where `ids` is empty. `robust`: rays do not pass between triangles
+/// that share an edge.
 class EmbreeScene {
 public:
-  EmbreeScene(const TriangleView& triangles, bool only_casters);
+  EmbreeScene(const TriangleView& triangles, bool only_casters, bool robust = false);
   ~EmbreeScene();
   EmbreeScene(const EmbreeScene&) = delete;
   EmbreeScene& operator=(const EmbreeScene&) = delete;
