@@ -5,6 +5,7 @@
 #include <cstdio>
 #include <memory>
 
+#include "bench/ao/ao_scene_first.h"
 #include "bench/ao/ao_scene_truth.h"
 #include "bench/ao/ao_scene_views.h"
 #include "bench/ao/ao_session.h"
@@ -39,6 +40,7 @@ void print_headlines(const AoHeadline& h) {
   print_headline("ao.scene_speedup_geomean", h.scene_speedup_geomean, 2);
   print_headline("ao.scene_speedup_worst", h.scene_speedup_worst, 2);
   print_headline("ao.exact_speedup_geomean", h.exact_speedup_geomean, 2);
+  print_headline("ao.first_frame_warm", h.first_frame_warm, 2);
   if (h.estimate_worst) print_headline("ao.estimate_worst", h.estimate_worst, 2);
 }
 
@@ -53,11 +55,17 @@ Expected<void> write_files(const AoSession& session, const std::vector<std::stri
   return {};
 }
 
-Expected<void> measure(const PartsArguments& arguments, const AoSceneOptions& scenes) {
+struct AoArguments {
+  AoSceneOptions scenes;
+  FirstFrameTask first_frame;
+};
+
+Expected<void> measure(const PartsArguments& arguments, const AoArguments& own) {
+  if (!own.first_frame.view.empty()) return run_first_frame(own.first_frame, arguments.options);
   AoSession session{.options = arguments.options,
                     .effort = arguments.effort(),
                     .report = Report(arguments.options.csv),
-                    .scenes = scenes};
+                    .scenes = own.scenes};
   if (auto done = measure_parts(arguments, all_parts, session); !done) return done;
   if (auto written = write_files(session, parts_settings(arguments)); !written) return written;
   if (!session.notes.empty()) std::printf("\n");
@@ -69,9 +77,10 @@ Expected<void> measure(const PartsArguments& arguments, const AoSceneOptions& sc
 void add_scene_options(CLI::App& command, AoSceneOptions& options) {
   const auto names = ao_scene_names();
   command
-      .add_option(
-          "--views", options.views,
-          fmt::format("scenes: those whose name has one of these in it, of {} [all]", fmt::join(names, ", ")))
+      .add_option("--views", options.views,
+                  fmt::format("scenes: those whose name has one of these in it, of {} [all]\nat 512x512 and "
+                              "1024x1024; with --quick at 512x512 only",
+                              fmt::join(names, ", ")))
       ->type_name("TEXT,...")
       ->delimiter(',');
   command
@@ -95,12 +104,13 @@ void add_scene_options(CLI::App& command, AoSceneOptions& options) {
 }  // namespace
 
 void add_ao_command(CLI::App& program, Run& run) {
-  const auto scenes = std::make_shared<AoSceneOptions>();
-  scenes->truth_folder = default_truth_folder();
+  const auto own = std::make_shared<AoArguments>();
+  own->scenes.truth_folder = default_truth_folder();
   CLI::App& command = add_parts_command(
       program, run, {"ao", "Ambient occlusion from displacement fields"}, part_names(all_parts),
-      [scenes](const PartsArguments& arguments) { return measure(arguments, *scenes); });
-  add_scene_options(command, *scenes);
+      [own](const PartsArguments& arguments) { return measure(arguments, *own); });
+  add_scene_options(command, own->scenes);
+  add_first_frame_options(command, own->first_frame);
 }
 
 }  // namespace tenebra::bench

@@ -40,6 +40,7 @@ public:
   AoSceneResult result(const AoSceneTruth& truth) const;
   const std::string& name() const { return setting_.name; }
   double ms() const;  ///< median so far
+  double first_ms() const { return first_ms_; }
 
 private:
   Expected<double> compute(const BenchFrame& frame);

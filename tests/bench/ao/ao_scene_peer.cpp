@@ -11,16 +11,6 @@
 namespace tenebra::bench {
 namespace {
 
-// Fixed for all views: of the values tried, those of the least error of one to sixteen rays over all views.
-constexpr float plane_of_reach = 0.03f, distance_of_reach = 0.6f, bend = 0.15f;
-
-AoFilterWeights filter_weights(float reach) {
-  return {{1, 1, 0.5f},
-          1 / (plane_of_reach * reach),
-          1 / (distance_of_reach * distance_of_reach * reach * reach),
-          1 / bend};
-}
-
 constexpr int least_rays = 16;  // of a pixel that no filter cleans
 
 constexpr glm::ivec2 traced_of_four{1, 1};
@@ -40,10 +30,9 @@ AoScenePeer::Level::Level(const BenchFrame& frame, int step, glm::ivec2 first)
   for (auto* values : {&traced, &filtered[0], &filtered[1]}) values->assign(planes.layout().size(), 1.0f);
 }
 
-AoScenePeer::AoScenePeer(const AoSceneView& view)
+AoScenePeer::AoScenePeer(const AoSceneView& view, const PeerFilter& filter)
     : view_(view),
       tracer_(best_tracer(view, kind_)),
-      weights_(filter_weights(view.reach_m)),
       full_(view.now, 1, {0, 0}),
       half_(view.now, 2, traced_of_four),
       enough_(least_rays),
@@ -54,6 +43,15 @@ AoScenePeer::AoScenePeer(const AoSceneView& view)
     joined_.emplace_back(rest_.back().layout().size(), 1.0f);
   }
   alone_.resize(static_cast<std::size_t>(half_.grid.height));
+  set_filter(filter);
+}
+
+void AoScenePeer::set_filter(const PeerFilter& filter) {
+  const float distance = filter.distance * view_.reach_m;
+  weights_ = {{filter.tap[0], filter.tap[1], filter.tap[2]},
+              1 / (filter.plane * view_.reach_m),
+              1 / (distance * distance),
+              1 / filter.bend};
 }
 
 double AoScenePeer::trace_ms(int rays, int step) {

@@ -20,12 +20,20 @@ struct PeerVariant {
 };
 inline constexpr std::array peer_variants{PeerVariant{1, 0}, PeerVariant{1, 1}, PeerVariant{1, 2},
                                           PeerVariant{2, 0}, PeerVariant{2, 1}, PeerVariant{2, 2}};
+/// Where the filter's weights vanish; in units that make one choice serve all views.
+struct PeerFilter {
+  float plane = 0.03f;    ///< distance from the pixel's plane, in reaches
+  float distance = 0.6f;  ///< distance in space, in reaches
+  float bend = 0.15f;     ///< 1 - cosine between normals
+  float tap[3] = {1, 1, 0.5f};
+};
 std::string peer_variant_name(const PeerVariant& variant);  ///< "half, 1 pass"
 
 class AoScenePeer {
 public:
   /// Width and height are even.
-  explicit AoScenePeer(const AoSceneView& view);
+  explicit AoScenePeer(const AoSceneView& view, const PeerFilter& filter = {});
+  void set_filter(const PeerFilter& filter);
 
   /// Times in milliseconds. The tree follows what moved since the frame before.
   double follow_ms() { return tracer_->follow_ms(); }

@@ -22,6 +22,11 @@ std::vector<std::uint8_t> moves(const AoSceneView& view) {
   return moved_vertices(before, now);
 }
 
+bool stands_still(const AoSceneView& view) {
+  const std::vector<std::uint8_t> moved = moves(view);
+  return std::find(moved.begin(), moved.end(), 1) == moved.end();
+}
+
 void intersect(ao::EmbreeQuery& q, const int* valid, RTCScene s, RTCRayHit16& r) {
   q.intersect16(valid, s, r);
 }
@@ -36,6 +41,7 @@ void intersect(ao::EmbreeQuery& q, const int* valid, RTCScene s, RTCRayHit4& r) 
 
 AoSceneTracer::AoSceneTracer(const AoSceneView& view, TreeKind kind)
     : view_(view),
+      still_(stands_still(view)),
       vertices_(view.now.geometry.positions),
       tree_(vertices_.data(), view.now.triangles(), moves(view),
             {kind, thread_count(), SimdLevel::automatic, true}),
@@ -49,6 +55,7 @@ AoSceneTracer::AoSceneTracer(const AoSceneView& view, TreeKind kind)
 }
 
 double AoSceneTracer::follow_ms() {
+  if (still_) return 0;
   const auto& before = view_.before.geometry.positions;
   if (before.size() == view_.now.geometry.positions.size()) {
     vertices_.put(before);
@@ -160,11 +167,9 @@ void AoSceneTracer::trace(const AoScenePattern& pattern, std::span<const std::si
 }
 
 std::unique_ptr<AoSceneTracer> best_tracer(const AoSceneView& view, TreeKind& chosen) {
-  const std::vector<std::uint8_t> moved = moves(view);
-  const bool still = std::find(moved.begin(), moved.end(), 1) == moved.end();
   const std::vector<TreeKind> kinds =
-      still ? std::vector<TreeKind>{TreeKind::high}
-            : std::vector<TreeKind>(std::begin(moving_trees), std::end(moving_trees));
+      stands_still(view) ? std::vector<TreeKind>{TreeKind::high}
+                         : std::vector<TreeKind>(std::begin(moving_trees), std::end(moving_trees));
   const AoScenePattern pattern(4);
   const PixelGrid grid = PixelGrid::of(view.now.points, 1, {0, 0});
   const PlaneLayout layout(grid.width, grid.height);

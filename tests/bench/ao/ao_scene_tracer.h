@@ -16,7 +16,8 @@ class AoSceneTracer {
 public:
   AoSceneTracer(const AoSceneView& view, TreeKind kind);
 
-  /// Has the tree follow what moved from the frame before; what that costs in milliseconds.
+  /// Has the tree follow what moved from the frame before; what that costs in milliseconds. Nothing where all
+  /// stands still.
   double follow_ms();
 
   /// Openness of a grid's pixels, to `values` as `layout` lies. On all threads.
@@ -39,6 +40,7 @@ private:
                 float* sums) const;
 
   const AoSceneView& view_;
+  bool still_;  ///< nothing moves from the frame before
   TreeVertices vertices_;
   EmbreeTree tree_;
   AoSceneKernels kernels_ = ao_scene_kernels();

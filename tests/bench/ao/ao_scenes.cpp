@@ -6,6 +6,7 @@
 
 #include <tenebra/ambient_occlusion.h>
 #include "bench/ao/ao_scene_contest.h"
+#include "bench/ao/ao_scene_first.h"
 #include "bench/ao/ao_scene_ours.h"
 #include "bench/ao/ao_scene_pictures.h"
 #include "bench/ao/ao_session.h"
@@ -17,10 +18,14 @@ namespace {
 using Rows = std::vector<std::vector<std::string>>;
 
 struct Tables {
-  Rows ours{{"view", "size", "setting", "RMS", "99 %", "worst", "estimate", "ms", "first ms", "rays/point",
-             "look-ups/point", "samples"}};
+  Rows ours{{"view", "size", "setting", "RMS", "99 %", "worst", "estimate", "ms", "first ms", "warm x",
+             "rays/point", "look-ups/point", "samples"}};
   Rows race{{"view", "size", "setting", "RMS", "ms", "Embree ms", "by", "rays", "tree", "faster x"}};
 };
+
+int walkers(const AoSession& session) {
+  return session.by_effort(3, 50, 50);
+}
 
 /// One view at one size with all that is measured on it.
 class SceneBench {
@@ -31,6 +36,7 @@ public:
 private:
   void find_truth();
   Expected<void> start();
+  Expected<void> find_first_frame();
   Expected<void> race();
   Expected<void> tell(const OurAoScene& ours, Rows& rows);
   Expected<void> write_pictures(const std::string& setting, const AoSceneResult& result);
@@ -43,6 +49,7 @@ private:
   AoSession& session_;
   const AoSceneView& view_;
   AoSceneTruth truth_;
+  double first_over_later_ = 0;  ///< of the default, warm
   std::vector<std::unique_ptr<OurAoScene>> ours_;
   std::unique_ptr<AoSceneContest> peer_;  ///< null: not asked for
   testing::TemporaryFolder fields_;
@@ -75,6 +82,18 @@ Expected<void> SceneBench::start() {
   progress(fmt::format("scenes: {}, Embree", title()));
   peer_ = std::make_unique<AoSceneContest>(view_, truth_);
   peer_->find_errors(errors, session_.by_effort(4, 1024, 1024));
+  return {};
+}
+
+/// Of a process of its own, which finds on disk what the first one has built.
+Expected<void> SceneBench::find_first_frame() {
+  const bool tiny = session_.effort == Effort::tiny;
+  const auto ratio = first_over_later(
+      {view_.name, view_.now.points.width, walkers(session_), tiny, fields_.path()}, session_.options);
+  if (!ratio) return tl::unexpected(ratio.error());
+  first_over_later_ = *ratio;
+  add("default", "first frame, warm, over later ones", *ratio, "");
+  keep_largest(session_.headline.first_frame_warm, *ratio);
   return {};
 }
 
@@ -115,12 +134,13 @@ Expected<void> SceneBench::tell(const OurAoScene& ours, Rows& rows) {
   const auto per_point = [&](std::uint64_t count) {
     return fmt::format("{:.1f}", static_cast<double>(count) / points);
   };
-  rows.push_back({view_.name, fmt::format("{}", view_.now.points.width), ours.name(),
-                  fmt::format("{:.2f}", r.errors.rms), fmt::format("{:.1f}", r.errors.p99),
-                  fmt::format("{:.1f}", r.errors.worst),
-                  r.estimate_255 ? fmt::format("{:.2f}", *r.estimate_255) : "", fmt::format("{:.1f}", r.ms),
-                  fmt::format("{:.0f}", r.first_ms), per_point(r.stats.rays_cast), per_point(r.stats.lookups),
-                  fmt::format("{}", r.stats.cache_cells)});
+  rows.push_back(
+      {view_.name, fmt::format("{}", view_.now.points.width), ours.name(),
+       fmt::format("{:.2f}", r.errors.rms), fmt::format("{:.1f}", r.errors.p99),
+       fmt::format("{:.1f}", r.errors.worst), r.estimate_255 ? fmt::format("{:.2f}", *r.estimate_255) : "",
+       fmt::format("{:.1f}", r.ms), fmt::format("{:.0f}", r.first_ms),
+       ours.name() == "default" ? fmt::format("{:.2f}", first_over_later_) : "", per_point(r.stats.rays_cast),
+       per_point(r.stats.lookups), fmt::format("{}", r.stats.cache_cells)});
   add(ours.name(), "rms", r.errors.rms, "1/255");
   add(ours.name(), "99th percentile", r.errors.p99, "1/255");
   add(ours.name(), "worst pixel", r.errors.worst, "1/255");
@@ -177,6 +197,7 @@ Expected<void> SceneBench::run(Tables& tables) {
   find_truth();
   progress(fmt::format("scenes: {}", title()));
   if (auto done = start(); !done) return done;
+  if (auto done = find_first_frame(); !done) return done;
   if (auto done = race(); !done) return done;
   for (const auto& ours : ours_) {
     if (auto done = tell(*ours, tables.ours); !done) return done;
@@ -211,8 +232,7 @@ Expected<void> measure_scenes(AoSession& session) {
   for (const std::string& name : ao_scene_names()) {
     if (!wanted(session, name)) continue;
     for (const int size : sizes) {
-      const auto view =
-          load_ao_scene(name, size, session.by_effort(3, 50, 50), session.options.data, session.notes);
+      const auto view = load_ao_scene(name, size, walkers(session), session.options.data, session.notes);
       if (!view) return tl::unexpected(view.error());
       if (*view == nullptr) break;
       if (auto done = SceneBench(session, **view).run(tables); !done) return done;
