@@ -21,15 +21,15 @@ double fraction(double v) {
   return v - std::floor(v);
 }
 
-/// The shortest steps between neighbouring points, two that span a cell: Fibonacci numbers of points apart.
+/// The two shortest steps between points of the lattice: they span a cell. (Lagrange's reduction.)
 std::pair<dvec2, dvec2> cell(int rays) {
-  const auto step = [rays](int points) {
-    const double y = points / std::numbers::phi;
-    return dvec2(static_cast<double>(points) / rays, y - std::round(y));
-  };
-  int a = 1, b = 2;
-  while (glm::length(step(b)) > glm::length(step(a + b))) a = std::exchange(b, a + b);
-  return {step(a), step(b)};
+  dvec2 a(1.0 / rays, 1 / std::numbers::phi), b(0, 1);
+  for (;;) {
+    if (glm::dot(a, a) > glm::dot(b, b)) std::swap(a, b);
+    const double times = std::round(glm::dot(a, b) / glm::dot(a, a));
+    if (times == 0) return {a, b};
+    b -= times * a;
+  }
 }
 
 /// Point `index` of the first two dimensions of a Sobol sequence.

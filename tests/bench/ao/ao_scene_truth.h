@@ -23,7 +23,7 @@ struct AoSceneTruth {
 };
 
 struct TruthQuestion {
-  const TriangleView& triangles;
+  TriangleView triangles;
   const VisiblePoints& points;         ///< with positions
   std::span<const glm::vec3> normals;  ///< one a pixel
   float reach_m;
