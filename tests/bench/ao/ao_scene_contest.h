@@ -36,7 +36,7 @@ private:
     std::vector<double> trace_ms[2];  // by step - 1
     std::vector<Measured> variants;
   };
-  void measure(Count& count, bool errors);
+  void measure(Count& count, int step, bool errors);
 
   const AoSceneTruth& truth_;
   AoScenePeer peer_;
