@@ -111,7 +111,7 @@ void filter(const bench::AoPixelPlanes& s, const float* from, float* to, std::pt
       weights = weights + weight;
     }
   }
-  store(sum / weights, to + at);
+  store(min(sum / weights, broadcast<Float16>(1.0f)), to + at);
 }
 
 std::uint32_t join(const bench::AoPixelPlanes& s, const bench::AoPixelPlanes& o, const float* from, float* to,
@@ -127,7 +127,7 @@ std::uint32_t join(const bench::AoPixelPlanes& s, const bench::AoPixelPlanes& o,
     sum = mul_add(weight, load<Float16>(from + there), sum);
     weights = weights + weight;
   }
-  store(sum / max(weights, broadcast<Float16>(1e-6f)), to + at);
+  store(min(sum / max(weights, broadcast<Float16>(1e-6f)), broadcast<Float16>(1.0f)), to + at);
   return lt_bits(weights, broadcast<Float16>(0.05f));
 }
 

@@ -32,6 +32,13 @@ std::pair<dvec2, dvec2> cell(int rays) {
   }
 }
 
+/// Back into the unit square by steps of the lattice: `rays` points on, it is one further in x, and not where
+/// it was in y. So cells that cross the square's side fill it without gaps.
+dvec2 wrapped(const dvec2& p, int rays) {
+  const double over = std::floor(p.x);
+  return {p.x - over, fraction(p.y - over * fraction(rays / std::numbers::phi))};
+}
+
 /// Point `index` of the first two dimensions of a Sobol sequence.
 dvec2 sobol(unsigned index) {
   std::uint32_t x = 0, y = 0, direction = 1u << 31;
@@ -77,8 +84,8 @@ AoScenePattern::AoScenePattern(int rays) : rays_(rays), side_(rays <= few_rays ?
       const unsigned in_tile = dithered(static_cast<int>(lanes.x[lane]), static_cast<int>(lanes.y[lane]));
       const dvec2 place = sobol(in_tile + 16 * dithered(tile % side_, tile / side_)) - 0.5;
       for (std::size_t i = 0; i < points.size(); ++i) {
-        const dvec2 p = points[i] + place.x * a + place.y * b;
-        const glm::vec3 d = cosine_direction(fraction(p.x), fraction(p.y));
+        const dvec2 p = wrapped(points[i] + place.x * a + place.y * b, rays);
+        const glm::vec3 d = cosine_direction(p.x, p.y);
         PatternRow& row = rows_[std::size_t(tile) * points.size() + i];
         row.x[lane] = d.x, row.y[lane] = d.y, row.z[lane] = d.z;
       }

@@ -22,12 +22,13 @@ std::string peer_variant_name(const PeerVariant& variant) {
   return fmt::format("{}, {}", variant.step == 1 ? "full" : "half",
                      variant.passes == 0   ? "no filter"
                      : variant.passes == 1 ? "1 pass"
-                                           : "2 passes");
+                                           : fmt::format("{} passes", variant.passes));
 }
 
 AoScenePeer::Level::Level(const BenchFrame& frame, int step, glm::ivec2 first)
     : grid(PixelGrid::of(frame.points, step, first)), planes(frame, grid) {
-  for (auto* values : {&traced, &filtered[0], &filtered[1]}) values->assign(planes.layout().size(), 1.0f);
+  for (auto* values : {&traced, &filtered[0], &filtered[1], &filtered[2]})
+    values->assign(planes.layout().size(), 1.0f);
 }
 
 AoScenePeer::AoScenePeer(const AoSceneView& view, const PeerFilter& filter)

@@ -116,7 +116,7 @@ void AoSceneTracer::cast(const AoPointPacket& points, const PatternRow* rows, in
     cast_all<RTCRayHit4>(points, rows, rays, kernels_.four, sums);
   }
   const float all = 1 / (view_.reach_m * static_cast<float>(rays));
-  for (int i = 0; i < 16; ++i) open[i] = points.valid[i] != 0 ? sums[i] * all : 1.0f;
+  for (int i = 0; i < 16; ++i) open[i] = points.valid[i] != 0 ? std::min(1.0f, sums[i] * all) : 1.0f;
 }
 
 /// 4x4 pixels of the grid from (x, y) on.
