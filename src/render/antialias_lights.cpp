@@ -17,9 +17,10 @@ bool has_areas(const std::vector<DrawnLight>& lights) {
                      [](const DrawnLight& light) { return light.area.has_value(); });
 }
 
-/// Whether hard shadows of pixels' centres may stand for those of samples: not where colours of light change.
+/// Whether hard shadows of pixels' centres may stand for those of samples: not where colours of light change,
+/// nor with so many samples that the shadows that this misses are more than the edges that are left.
 bool shares_masks(const FrameInput& input, const RenderSettings& settings) {
-  return !settings.antialias_everywhere && input.geometry.see_through.empty() &&
+  return settings.antialias <= 4 && !settings.antialias_everywhere && input.geometry.see_through.empty() &&
          settings.samples == SampleSource::ids;
 }
 

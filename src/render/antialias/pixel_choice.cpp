@@ -2,6 +2,7 @@
 
 #include <algorithm>
 
+#include <tenebra/visible_points.h>
 #include "parallel/parallel.h"
 
 namespace tenebra::render {
@@ -79,7 +80,8 @@ private:
   /// Where something lets light through, light may change its colour.
   void by_layer(std::size_t y) {
     for (std::size_t i = y * width_; i < (y + 1) * width_; ++i)
-      if (chosen_[i] != 0) chosen_[i] = is_edge;
+      if (chosen_[i] >= has_contrast || (chosen_[i] != 0 && centre_.layer[i] != no_triangle))
+        chosen_[i] = is_edge;
   }
 
   void by_contrast(std::size_t y, SurfaceMatch& match) {

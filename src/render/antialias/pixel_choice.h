@@ -36,7 +36,8 @@ struct ChosenPixels {
   /// textures, penumbrae, highlights. What lights them is as at their centre. None in frames with see-through
   /// surfaces: there they are edges.
   std::vector<std::uint32_t> contrasts;
-  /// Others that so differ by more than least_contrast(samples). Four samples do for them.
+  /// Others that so differ by more than least_contrast(samples), with nothing see-through before them. Four
+  /// samples do for them.
   std::vector<std::uint32_t> weak_contrasts;
 
   std::size_t count() const { return edges.size() + contrasts.size() + weak_contrasts.size(); }
