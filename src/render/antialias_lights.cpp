@@ -18,9 +18,11 @@ bool has_areas(const std::vector<DrawnLight>& lights) {
 }
 
 /// Whether hard shadows of pixels' centres may stand for those of samples: not where colours of light change,
-/// nor with so many samples that the shadows that this misses are more than the edges that are left.
+/// nor with so many samples that the shadows that this misses are more than the edges that are left, nor where
+/// masks of samples are asked for.
 bool shares_masks(const FrameInput& input, const RenderSettings& settings) {
-  return settings.antialias <= 4 && !settings.antialias_everywhere && input.geometry.see_through.empty() &&
+  return settings.antialias <= 4 && !settings.antialias_everywhere && !settings.mask_means &&
+         !settings.sample_masks && input.geometry.see_through.empty() &&
          settings.samples == SampleSource::ids;
 }
 
@@ -127,8 +129,7 @@ CentreMasks Renderer::State::centre_masks(const std::vector<DrawnLight>& lights,
 /// all lights have hard shadows, or none.
 bool Renderer::State::may_settle(const FrameInput& input, const std::vector<DrawnLight>& lights,
                                  const RenderSettings& settings) {
-  return !settings.mask_means && !settings.sample_masks && !has_areas(lights) &&
-         settings.ao.mode == AoMode::none && shares_masks(input, settings);
+  return !has_areas(lights) && settings.ao.mode == AoMode::none && shares_masks(input, settings);
 }
 
 /// The hard shadows of samples: of centres nearby where these agree, else their own.

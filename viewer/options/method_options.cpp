@@ -150,7 +150,7 @@ void add_common(CLI::App& command, MethodOptions& options) {
            "--transfer display]"),
        add_value(
            command, "--antialias", render.antialias, parse_samples,
-           "Samples of pixels with an edge, a shadow's edge or a fine\ntexture, each with its own exact "
+           "Samples of pixels with an edge, a shadow's edge or a fine\ntexture, near shadows each with its own exact "
            "shadow: 1, 2, 4, 8 or 16;\nall others have one [4]")
            .type_name("N"),
        add_value(command, "--threads", render.threads, parse_threads,
