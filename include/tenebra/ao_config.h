@@ -25,7 +25,7 @@ struct AoConfig {
   AoMode mode = AoMode::none;
   AoPlace place = AoPlace::pixels;
   FieldLayout layout = FieldLayout::chords;
-  int rays = 64;      ///< per point, cosine-weighted
+  int rays = 64;           ///< per point, cosine-weighted
   double error_255 = 2.5;  ///< adaptive: RMS over the picture that is aimed at, in 1/255; 0.1 to 255
   int downscale = 1;  ///< pixels: N computes one of N x N pixels; the others are blurred from similar ones
   double distance_m =

@@ -18,8 +18,8 @@ bool has_areas(const std::vector<DrawnLight>& lights) {
 }
 
 /// Whether hard shadows of pixels' centres may stand for those of samples: not where colours of light change,
-/// nor with so many samples that the shadows that this misses are more than the edges that are left, nor where
-/// masks of samples are asked for.
+/// nor with so many samples that the shadows that this misses are more than the edges that are left, nor
+/// where masks of samples are asked for.
 bool shares_masks(const FrameInput& input, const RenderSettings& settings) {
   return settings.antialias <= 4 && !settings.antialias_everywhere && !settings.mask_means &&
          !settings.sample_masks && input.geometry.see_through.empty() &&

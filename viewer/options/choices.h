@@ -44,10 +44,9 @@ inline constexpr std::array occluder_choices{Choice<OccluderChoice>{"largest", O
                                              Choice<OccluderChoice>{"random", OccluderChoice::random}};
 inline constexpr std::array precision_choices{Choice<SoftPrecision>{"fast", SoftPrecision::fast},
                                               Choice<SoftPrecision>{"reference", SoftPrecision::reference}};
-inline constexpr std::array ao_choices{Choice<AoMode>{"none", AoMode::none},
-                                       Choice<AoMode>{"adaptive", AoMode::adaptive},
-                                       Choice<AoMode>{"field", AoMode::field},
-                                       Choice<AoMode>{"rays", AoMode::rays}};
+inline constexpr std::array ao_choices{
+    Choice<AoMode>{"none", AoMode::none}, Choice<AoMode>{"adaptive", AoMode::adaptive},
+    Choice<AoMode>{"field", AoMode::field}, Choice<AoMode>{"rays", AoMode::rays}};
 inline constexpr std::array place_choices{Choice<AoPlace>{"pixels", AoPlace::pixels},
                                           Choice<AoPlace>{"vertices", AoPlace::vertices}};
 inline constexpr std::array layout_choices{

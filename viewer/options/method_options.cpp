@@ -148,10 +148,9 @@ void add_common(CLI::App& command, MethodOptions& options) {
            "How bright colours are fitted into a picture: cut off\n(none), by Khronos PBR "
            "Neutral, or like film by a fit to\nACES [neutral; none for AFF and NFF and with\n"
            "--transfer display]"),
-       add_value(
-           command, "--antialias", render.antialias, parse_samples,
-           "Samples of pixels with an edge, a shadow's edge or a fine\ntexture, near shadows each with its own exact "
-           "shadow: 1, 2, 4, 8 or 16;\nall others have one [4]")
+       add_value(command, "--antialias", render.antialias, parse_samples,
+                 "Samples of pixels with an edge, a shadow's edge or a fine\ntexture: 1, 2, 4, 8 or 16; all "
+                 "others have one [4]")
            .type_name("N"),
        add_value(command, "--threads", render.threads, parse_threads,
                  "Threads for shadows and ambient occlusion [0: all cores]")

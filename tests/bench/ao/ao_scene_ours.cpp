@@ -71,7 +71,8 @@ double OurAoScene::ms() const {
 }
 
 AoSceneResult OurAoScene::result(const AoSceneTruth& truth) const {
-  return {scene_errors(values_, truth), first_ms_, ms(), ao_.stats(), estimate_of(ao_, setting_.config.mode), values_};
+  return {scene_errors(values_, truth),           first_ms_, ms(), ao_.stats(),
+          estimate_of(ao_, setting_.config.mode), values_};
 }
 
 }  // namespace tenebra::bench

@@ -15,7 +15,8 @@ struct AoSceneSetting {
   std::string name;  ///< of the preset; the default one is called "default"; "fields"
   AoConfig config;
 };
-/// Default, exact and fast, and displacement fields at the default's rays. `fields`: a folder that keeps what is built. `tiny`: small tables.
+/// Default, exact and fast, and displacement fields at the default's rays. `fields`: a folder that keeps what
+/// is built. `tiny`: small tables.
 std::vector<AoSceneSetting> scene_settings(float reach_m, const std::filesystem::path& fields, bool tiny);
 
 struct AoSceneResult {
