@@ -26,22 +26,24 @@ std::string method_of(const std::string& text) {
 }
 
 TEST(QualityOption, SetsWhatItStandsFor) {
-  EXPECT_EQ(method_of("--quality fast"), "--soft-points 8 --ao-rays 16 --ao-downscale 2");
+  EXPECT_EQ(method_of("--quality fast"), "--soft-points 8 --ao-error 5 --ao-rays 16 --ao-downscale 2");
   EXPECT_EQ(method_of("--quality balanced"), "");
-  EXPECT_EQ(method_of("--quality exact"), "--ao-rays 256");
+  EXPECT_EQ(method_of("--quality exact"), "--ao-error 1 --ao-rays 256");
   EXPECT_EQ(method_of("--quality exact --quality fast"), method_of("--quality fast")) << "the last counts";
 }
 
 TEST(QualityOption, LosesToOptionsGivenThemselves) {
   for (const char* text : {"--quality fast --ao-rays 32", "--ao-rays 32 --quality fast"})
-    EXPECT_EQ(method_of(text), "--soft-points 8 --ao-rays 32 --ao-downscale 2") << text;
+    EXPECT_EQ(method_of(text), "--soft-points 8 --ao-error 5 --ao-rays 32 --ao-downscale 2") << text;
   for (const char* text : {"--soft-points 0 --quality fast", "--quality fast --soft-points 0"})
-    EXPECT_EQ(method_of(text), "--ao-rays 16 --ao-downscale 2") << text;
+    EXPECT_EQ(method_of(text), "--ao-error 5 --ao-rays 16 --ao-downscale 2") << text;
   for (const char* text : {"--ao-downscale 1 --quality fast", "--quality fast --ao-downscale 1"})
-    EXPECT_EQ(method_of(text), "--soft-points 8 --ao-rays 16") << text;
-  EXPECT_EQ(method_of("--ao-rays 64 --quality exact"), "") << "the default, but given";
+    EXPECT_EQ(method_of(text), "--soft-points 8 --ao-error 5 --ao-rays 16") << text;
+  EXPECT_EQ(method_of("--quality fast --ao-error 3"),
+            "--soft-points 8 --ao-error 3 --ao-rays 16 --ao-downscale 2");
+  EXPECT_EQ(method_of("--ao-rays 64 --ao-error 2.5 --quality exact"), "") << "the default, but given";
   EXPECT_EQ(method_of("--soft-points 3 --variant Spheres --quality exact"),
-            "--variant Spheres --soft-points 3 --ao-rays 256");
+            "--variant Spheres --soft-points 3 --ao-error 1 --ao-rays 256");
 }
 
 TEST(QualityOption, LosesToThemInAFileToo) {
@@ -50,11 +52,16 @@ TEST(QualityOption, LosesToThemInAFileToo) {
     write_text(folder / "my.cfg", file);
     return method_of(line + " --config " + (folder / "my.cfg").string());
   };
-  EXPECT_EQ(with("quality = fast\nao-rays = 32\n", ""), "--soft-points 8 --ao-rays 32 --ao-downscale 2");
-  EXPECT_EQ(with("ao-rays = 32\nquality = fast\n", ""), "--soft-points 8 --ao-rays 32 --ao-downscale 2");
-  EXPECT_EQ(with("quality = fast\n", "--ao-rays 32"), "--soft-points 8 --ao-rays 32 --ao-downscale 2");
-  EXPECT_EQ(with("ao-rays = 32\n", "--quality fast"), "--soft-points 8 --ao-rays 32 --ao-downscale 2");
-  EXPECT_EQ(with("quality = fast\n", "--quality exact"), "--ao-rays 256") << "the command line counts more";
+  EXPECT_EQ(with("quality = fast\nao-rays = 32\n", ""),
+            "--soft-points 8 --ao-error 5 --ao-rays 32 --ao-downscale 2");
+  EXPECT_EQ(with("ao-rays = 32\nquality = fast\n", ""),
+            "--soft-points 8 --ao-error 5 --ao-rays 32 --ao-downscale 2");
+  EXPECT_EQ(with("quality = fast\n", "--ao-rays 32"),
+            "--soft-points 8 --ao-error 5 --ao-rays 32 --ao-downscale 2");
+  EXPECT_EQ(with("ao-rays = 32\n", "--quality fast"),
+            "--soft-points 8 --ao-error 5 --ao-rays 32 --ao-downscale 2");
+  EXPECT_EQ(with("quality = fast\n", "--quality exact"), "--ao-error 1 --ao-rays 256")
+      << "the command line counts more";
 }
 
 TEST(QualityOption, IsRefusedInASentenceWhereUnknown) {
@@ -115,9 +122,9 @@ TEST(QualityOption, OfTheSecondMethodStandsOnTheFirst) {
   viewer::settle_quality(app, options.method);
   ASSERT_TRUE(viewer::settle_view_options(options));
   EXPECT_EQ(viewer::method_arguments(options.method),
-            "--shadows soft --soft-points 8 --ao-rays 5 --ao-downscale 2");
+            "--shadows soft --soft-points 8 --ao-error 5 --ao-rays 5 --ao-downscale 2");
   ASSERT_TRUE(options.compare);
-  EXPECT_EQ(viewer::method_arguments(*options.compare), "--shadows soft --ao-rays 256");
+  EXPECT_EQ(viewer::method_arguments(*options.compare), "--shadows soft --ao-error 1 --ao-rays 256");
 }
 
 /// "2.8 to 6.7" of column `column` of a preset's row in docs/trade.md, with so many decimals.

@@ -34,12 +34,14 @@ TEST_F(ViewWindow, FlipsEveryMethod) {
   shows("grouping.triangle", "--soft-grouping triangle");
   shows("precision.reference", "--soft-precision reference");
   EXPECT_GT(shows("ao.rays", "--ao rays")["ao_points"], 0);
+  EXPECT_GT(shows("ao.adaptive", "--ao adaptive")["ao_points"], 0);
   EXPECT_GT(shows("ao.field", "--ao field")["ao_points"], 0);
   session.photograph("method_ao");
-  const Json fast = shows("quality.fast", "--soft-points 8 --ao field --ao-rays 16 --ao-downscale 2");
+  const Json fast =
+      shows("quality.fast", "--soft-points 8 --ao field --ao-error 5 --ao-rays 16 --ao-downscale 2");
   EXPECT_GT(fast["rays"], 0) << "eight hard shadows";
   EXPECT_EQ(fast["soft_groups"], 0) << "and no exact solver";
-  EXPECT_GT(shows("quality.exact", "--ao field --ao-rays 256")["soft_groups"], 0);
+  EXPECT_GT(shows("quality.exact", "--ao field --ao-error 1 --ao-rays 256")["soft_groups"], 0);
   session.click("quality.balanced");
   session.wait_for_picture();
   session.click("ao.none");

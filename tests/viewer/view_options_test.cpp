@@ -99,7 +99,8 @@ TEST(MethodArguments, CoverEveryMethodOption) {
       "triangle --soft-choice random --soft-precision reference --soft-points 12 --ao rays --ao-at vertices "
       "--ao-layout "
       "positions "
-      "--ao-rays 7 --ao-downscale 2 --ao-distance 1.5 --ao-positions 99 --ao-directions 64 --ao-bits 1 "
+      "--ao-error 3 --ao-rays 7 --ao-downscale 2 --ao-distance 1.5 --ao-positions 99 --ao-directions 64 "
+      "--ao-bits 1 "
       "--ao-deforming none --ao-cache none"));
   for (const CLI::Option* option : app.get_options()) {
     // --quality is told by what it stands for.

@@ -123,10 +123,12 @@ void add_common(CLI::App& command, MethodOptions& options) {
   set_group(
       {add_value(
            command, quality_option, options.quality, parse_quality,
-           "What soft shadows and ambient occlusion may cost.\nfast: --soft-points 8 --ao-rays 16 "
-           "--ao-downscale 2\n(penumbrae off by 3 to 8/255 RMS, occlusion by 3 to 7);\nbalanced: the "
-           "defaults (exact; occlusion by 2 to 6);\nexact: --ao-rays 256 (2 to 5); docs/trade.md has all\n"
-           "figures. An option that is given itself wins")
+           "What soft shadows and ambient occlusion may cost.\nfast: --soft-points 8 --ao-error 5 (penumbrae "
+           "off "
+           "by\n3 to 8/255 RMS), with --ao field --ao-rays 16\n--ao-downscale 2 (occlusion off by 3 to 7);\n"
+           "balanced: the defaults (exact; 2.5; fields 2 to 6);\nexact: --ao-error 1, fields --ao-rays 256 "
+           "(2 to "
+           "5);\ndocs/trade.md has all figures. An option that is given\nitself wins")
            .type_name("fast|balanced|exact"),
        add_choice<shadow_choices>(command, "--shadows", render.shadows,
                                   "hard: each light as a point; soft: with its area;\nboth exact and "

@@ -34,7 +34,8 @@ constexpr const char* last_lines[] = {
     "ao.frame_speedup_half",  "ao.growth_1k_to_1m",       "ao.bytes",
     "ao.scene_rms_worst",     "ao.scene_p99_worst",       "ao.scene_max_worst",
     "ao.exact_rms_worst",     "ao.exact_max_worst",       "ao.scene_speedup_geomean",
-    "ao.scene_speedup_worst", "ao.exact_speedup_geomean", "ao.first_frame_warm"};
+    "ao.scene_speedup_worst", "ao.exact_speedup_geomean", "ao.first_frame_warm",
+    "ao.estimate_worst"};
 
 TEST(AoBench, RefusesInASentence) {
   expect_refusal({"--bogus"}, "--bogus");
