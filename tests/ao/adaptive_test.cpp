@@ -126,6 +126,24 @@ TEST(AdaptiveOcclusion, AnOpenTriangleWithBuriedCornersIsLit) {
   EXPECT_LT(compare(frame, out, truth).most_255, 16);
 }
 
+/// Two plates a millionth of a unit apart, 64 units away: in the world, where pixels see one of them, they
+/// are in one plane, and neither hides the other. In their own space one did: crowds of many triangles, each
+/// body in a tree of its own, had black pixels.
+TEST(AdaptiveOcclusion, PlatesThatRoundingJoinsDoNotHideEachOther) {
+  const auto plate = [](float y) { return quad_mesh({-0.5f, y, -0.5f}, {0, 0, 1}, {1, 0, 0}); };
+  const glm::dvec3 at(64, 64, 64);
+  for (const auto& [first, second] : {std::pair{0.0f, 1e-6f}, std::pair{1e-6f, 0.0f}}) {
+    SceneMaker make;
+    Mesh plates = plate(first);
+    append(plates, plate(second));
+    make.move(make.add(plates, at), {0, 0.5, 0});
+    make.move(make.add(ball_mesh(0.1, 240), at + glm::dvec3(0, 1, 0)), {0, 0.5, 0});  // too many to gather
+    const AoView frame(make.scene, 0, pinhole(at + glm::dvec3(0.3, 1, 0.9), at, 0.5, 48, 48), 48, 48);
+    const std::vector<float> out = occlude(make.scene, frame, adaptive(1, 2));
+    EXPECT_LT(compare(frame, out, truth_of(make.scene, frame, 2)).most_255, 16) << first;
+  }
+}
+
 /// Each hard case alone, against as many rays as leave no doubt.
 struct HardCase {
   const char* name;

@@ -135,7 +135,8 @@ void AdaptivePass::look_again(float noise, int round) {
 /// Returns the estimate of the error.
 double AdaptivePass::meet_error() {
   constexpr int most_rounds = 8;
-  const Audit audit(looks_, surfaces_, settled_);
+  constexpr int least_rays = 256, most_rays = 2048;
+  const Audit audit(looks_, surfaces_, settled_, std::clamp(8 * settings_.rays, least_rays, most_rays));
   auto noise = static_cast<float>(settings_.error_255 / 255);
   for (int round = 1;; ++round) {
     const Audit::Errors errors = audit.errors(smooth_, settled_);

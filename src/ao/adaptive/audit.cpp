@@ -6,7 +6,6 @@ namespace tenebra::ao {
 namespace {
 
 constexpr double of_each = 256;
-constexpr int rays = 512;
 
 std::uint32_t hashed(std::uint32_t x) {
   x = (x ^ (x >> 16)) * 0x7feb352du;
@@ -16,7 +15,7 @@ std::uint32_t hashed(std::uint32_t x) {
 
 }  // namespace
 
-Audit::Audit(PixelLooks& looks, const PixelSurfaces& surfaces, std::span<const Settled> settled) {
+Audit::Audit(PixelLooks& looks, const PixelSurfaces& surfaces, std::span<const Settled> settled, int rays) {
   double number_of[3] = {}, judged_of[3] = {};
   for (const Settled kind : settled) ++number_of[static_cast<int>(kind)];
   std::vector<std::vector<Judged>> of_tile(static_cast<std::size_t>(looks.tiles().count()));

@@ -13,8 +13,9 @@ enum class Settled : std::uint8_t { none, by_neighbours, by_rays };
 
 class Audit {
 public:
-  /// About `of_each` pixels of both kinds, as many rays each as leave little noise.
-  Audit(PixelLooks& looks, const PixelSurfaces& surfaces, std::span<const Settled> settled);
+  /// Some 256 pixels of both kinds, by `rays` each: eight times as many as theirs leave little noise beside
+  /// the error.
+  Audit(PixelLooks& looks, const PixelSurfaces& surfaces, std::span<const Settled> settled, int rays);
 
   /// Mean squares of what is wrong with `values`, each kind's share of the picture's.
   struct Errors {

@@ -345,10 +345,12 @@ void Occluders::meet_triangles(int occluder, const Receiver& receiver, const dve
   const MovingObject& object = objects_->objects[static_cast<std::size_t>(occluder)];
   const Placed& placed = placed_[static_cast<std::size_t>(occluder)];
   const Shape& shape = shapes_[static_cast<std::size_t>(placed.shape)];
-  const vec3 start =
-      occluder == receiver.owner.object
-          ? start_on(objects_->shapes[static_cast<std::size_t>(placed.shape)], shape.lift, receiver)
-          : vec3(object.to_object * glm::dvec4(origin, 1.0));
+  // Which of two triangles in one plane is seen was decided in the world, with its rounding.
+  const auto in_world = static_cast<float>(glm::length(origin - receiver.position) / object.scale);
+  const vec3 start = occluder == receiver.owner.object
+                         ? start_on(objects_->shapes[static_cast<std::size_t>(placed.shape)],
+                                    std::max(shape.lift, in_world), receiver)
+                         : vec3(object.to_object * glm::dvec4(origin, 1.0));
   const vec3 off = glm::max(vec3(0.0f), glm::max(shape.box.low - start, start - shape.box.high));
   const double away = double{glm::length(off)} * object.largest_scale;
   if (away > reach_ * (1 + 0x1p-18)) return;
