@@ -61,13 +61,13 @@ CONTAINED = [
 # Rooms of the program, lowest first, as above; main.cpp stands above them all.
 VIEWER_ROOMS = ["shell", "options", "shared", "window", "commands", ""]
 # Rooms of viewer/window that know nothing of what is drawn: of the window they see themselves and these.
-PLAIN_WINDOW_ROOMS = {"motion": set(), "work": {"motion"}}
+PLAIN_WINDOW_ROOMS = {"motion": set(), "frames": {"motion"}}
 
 # The same for the program: folders or files below viewer/ that may name it.
 CONTAINED_IN_VIEWER = [
     (r"\bImGui\b|imgui|GLFW|glfw", "the window", ("window/",)),
     (r"GLFW|glfw[A-Z3]", "GLFW", ("window/glfw_window.cpp",)),
-    (r"\bstd::(thread|jthread|mutex|atomic|condition_variable|barrier)\b", "a thread", ("window/work/render_worker.", "window/work/explainer.", "shell/stop_signals.")),
+    (r"\bstd::(thread|jthread|mutex|atomic|condition_variable|barrier)\b", "a thread", ("window/frames/render_worker.", "window/frames/explainer.", "shell/stop_signals.")),
     (r"\bgl[A-Z]\w*\(", "an OpenGL call", ()),
 ]
 

@@ -21,6 +21,7 @@ enum class FieldLayout {
   chords,                ///< entry x exit points
 };
 
+/// `adaptive` reads its error, the distance, `deforming` and `simd`; the other modes read all but the error.
 struct AoConfig {
   AoMode mode = AoMode::none;
   AoPlace place = AoPlace::pixels;

@@ -43,6 +43,24 @@ struct Lanes {
   Float16 within[4];
 };
 
+/// A block's depths and ids with a record's lanes `covered`, of depth `value`: the nearest is kept, the
+/// smaller id where depths are equal. Returns the depths.
+SIMD_INLINE Float16 keep_nearest(const TileRecord& r, Mask<float, 16> covered, Float16 value, float* depths,
+                                 std::int32_t* ids) {
+  const Float16 depth = min(max(value, broadcast<Float16>(r.far_depth)), broadcast<Float16>(r.near_depth));
+  const auto shown = covered & le(depth, broadcast<Float16>(1.0f));  // cut by the near plane
+  const Float16 offered = select(shown, depth, broadcast<Float16>(-1.0f));
+  const Float16 old = load<Float16>(depths);
+  const Int16 old_id = load<Int16>(ids),
+              id = broadcast<Int16>(static_cast<std::int32_t>(r.id & ~doubtful_bit));
+  const Int16 rival = select(eq(offered, old), old_id, broadcast<Int16>(std::int32_t{-1}));
+  const Int16 kept = select(gt(rival, id), id, old_id);
+  const Float16 nearest = max(offered, old);
+  store(nearest, depths);
+  store(select(lt(old, offered), id, kept), ids);
+  return nearest;
+}
+
 /// Bits of a block's pixels that the record's box holds.
 inline std::uint32_t box_bits(const TileRecord& r, int block_x, int block_y) {
   std::uint32_t set = 0;

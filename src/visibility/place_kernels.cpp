@@ -135,7 +135,7 @@ public:
         return centre[k] + broadcast<Float16>(r.along_x[k] * offset.x + r.along_y[k] * offset.y);
       };
       const auto covered = decided(r, min(min(at(0), at(1)), at(2)), offset);
-      if (any(covered)) offer(r, covered, at(3), out_.depth[place], out_.ids[place]);
+      if (any(covered)) keep_nearest(r, covered, at(3), out_.depth[place], out_.ids[place]);
     }
   }
 
@@ -154,21 +154,6 @@ private:
       if (task_.close.covers(r.id & ~doubtful_bit, first + pixel + glm::dvec2(offset))) set |= 1u << lane;
     }
     return mask_of_bits<float, 16>(set);
-  }
-
-  /// The nearest is kept, the smaller id where depths are equal.
-  SIMD_INLINE void offer(const TileRecord& r, Mask<float, 16> covered, Float16 value, float* depths,
-                         std::int32_t* ids) const {
-    const Float16 depth = min(max(value, broadcast<Float16>(r.far_depth)), broadcast<Float16>(r.near_depth));
-    const auto shown = covered & le(depth, broadcast<Float16>(1.0f));  // cut by the near plane
-    const Float16 offered = select(shown, depth, broadcast<Float16>(-1.0f));
-    const Float16 old = load<Float16>(depths);
-    const Int16 old_id = load<Int16>(ids),
-                id = broadcast<Int16>(static_cast<std::int32_t>(r.id & ~doubtful_bit));
-    const Int16 rival = select(eq(offered, old), old_id, broadcast<Int16>(std::int32_t{-1}));
-    const Int16 kept = select(gt(rival, id), id, old_id);
-    store(max(offered, old), depths);
-    store(select(lt(old, offered), id, kept), ids);
   }
 
   const PlaceTask& task_;

@@ -61,20 +61,8 @@ private:
     const Float16 inside = min(min(lanes.at(0, x, y), lanes.at(1, x, y)), lanes.at(2, x, y));
     const auto covered = decided(lanes, inside, x, y);
     if (!any(covered)) return;
-    float* const depths = tile_.depth + 16 * block;
-    std::int32_t* const ids = tile_.ids + 16 * block;
-    const Float16 depth =
-        min(max(lanes.at(3, x, y), broadcast<Float16>(r.far_depth)), broadcast<Float16>(r.near_depth));
-    const auto shown = covered & le(depth, broadcast<Float16>(1.0f));  // cut by the near plane
-    const Float16 offered = select(shown, depth, broadcast<Float16>(-1.0f));
-    const Float16 old = load<Float16>(depths);
-    const Int16 old_id = load<Int16>(ids),
-                id = broadcast<Int16>(static_cast<std::int32_t>(r.id & ~doubtful_bit));
-    const Int16 rival = select(eq(offered, old), old_id, broadcast<Int16>(std::int32_t{-1}));
-    const Int16 kept = select(gt(rival, id), id, old_id);
-    const Float16 nearest = max(offered, old);
-    store(nearest, depths);
-    store(select(lt(old, offered), id, kept), ids);
+    const Float16 nearest =
+        keep_nearest(r, covered, lanes.at(3, x, y), tile_.depth + 16 * block, tile_.ids + 16 * block);
     tile_.far_depth[block] = reduce_min(nearest);
   }
 

@@ -79,4 +79,12 @@ inline FrameGeometry random_soup(int count, glm::vec3 centre, float size, unsign
   return g;
 }
 
+/// Such triangles before a camera at the origin that looks along -z, every fifth of them see-through.
+inline FrameGeometry mixed_soup(int count) {
+  FrameGeometry g = random_soup(count, {0, 0, -6}, 3.0f, 77);
+  g.see_through.assign(g.triangles.size(), 0);
+  for (std::size_t i = 0; i < g.triangles.size(); i += 5) g.see_through[i] = 1;
+  return g;
+}
+
 }  // namespace tenebra

@@ -3,7 +3,7 @@
 
 #include "viewer_picture.h"
 #include "viewer_test_scene.h"
-#include "window/work/frame_maker.h"
+#include "window/frames/frame_maker.h"
 
 namespace tenebra::viewer {
 namespace {

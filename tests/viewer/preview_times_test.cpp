@@ -3,7 +3,7 @@
 
 #include <algorithm>
 
-#include "window/work/preview_times.h"
+#include "window/frames/preview_times.h"
 
 namespace tenebra::viewer {
 namespace {

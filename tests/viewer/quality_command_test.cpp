@@ -100,6 +100,11 @@ TEST(QualityOption, SaysWhereItDoesNothing) {
   const std::string idle = "warning: --quality does nothing without --shadows soft or --ao\n";
   EXPECT_EQ(warnings({"--quality", "fast"}), idle) << "hard shadows are exact, and as fast, in each preset";
   EXPECT_EQ(warnings({"--quality", "fast", "--ao", "rays", "--ao-rays", "1"}), "");
+  EXPECT_EQ(warnings({"--ao", "adaptive", "--ao-error", "5", "--ao-distance", "1"}), "");
+  EXPECT_EQ(warnings({"--ao", "adaptive", "--ao-rays", "1"}),
+            "warning: --ao-rays does nothing with --ao adaptive\n");
+  EXPECT_EQ(warnings({"--ao", "rays", "--ao-rays", "1", "--ao-error", "5"}),
+            "warning: --ao-error does nothing without --ao adaptive\n");
   const std::vector<std::string> soft{"--shadows", "soft", "--light-size", "1"};
   const auto with = [&](std::vector<std::string> more) {
     more.insert(more.begin(), soft.begin(), soft.end());

@@ -144,15 +144,8 @@ TEST(Places, MeshesWithoutCracksAndThinThings) {
   EXPECT_LT(agreement.alone, agreement.samples);
 }
 
-FrameGeometry mixed_frame() {
-  FrameGeometry g = random_soup(1500, {0, 0, -6}, 3.0f, 77);
-  g.see_through.assign(g.triangles.size(), 0);
-  for (std::size_t i = 0; i < g.triangles.size(); i += 5) g.see_through[i] = 1;
-  return g;
-}
-
 TEST(Places, LayersToo) {
-  EXPECT_LE(expect_shifted_views(mixed_frame(), forward_view({0, 0, 0}, 64.0f, 93, 70), 93, 70).ties, 2);
+  EXPECT_LE(expect_shifted_views(mixed_soup(1500), forward_view({0, 0, 0}, 64.0f, 93, 70), 93, 70).ties, 2);
 }
 
 TEST(Places, BundledScenesAtAnOddSize) {
@@ -169,7 +162,7 @@ TEST(Places, BundledScenesAtAnOddSize) {
 }
 
 TEST(Places, TheSameBitsFromAllVectorLevelsAndThreads) {
-  const FrameGeometry g = mixed_frame();
+  const FrameGeometry g = mixed_soup(1500);
   const ViewRays view = forward_view({0, 0, 0}, 200.0f, 333, 257);
   const visibility::PlaceIds expected = seen_at_places(g, view, 333, 257);
   for (const SimdLevel level : {SimdLevel::scalar, SimdLevel::sse4, SimdLevel::avx2, SimdLevel::avx512}) {

@@ -286,16 +286,8 @@ TEST(Visibility, SizesAndRaysThatCannotBeDrawnAreRefused) {
   EXPECT_FALSE(pass.draw({}, flat, 8, 8, false, SimdLevel::automatic, out));
 }
 
-/// A frame with all kinds of triangles, some of them see-through.
-FrameGeometry mixed_frame() {
-  FrameGeometry g = random_soup(3000, {0, 0, -6}, 3.0f, 77);
-  g.see_through.assign(g.triangles.size(), 0);
-  for (std::size_t i = 0; i < g.triangles.size(); i += 5) g.see_through[i] = 1;
-  return g;
-}
-
 TEST(Visibility, TheSameBitsFromAllVectorLevelsAndThreads) {
-  const FrameGeometry g = mixed_frame();
+  const FrameGeometry g = mixed_soup(3000);
   const ViewRays view = forward_view({0, 0, 0}, 200.0f, 333, 257);
   const visibility::VisibleIds expected = seen_in(g, view, 333, 257);
   EXPECT_EQ(expected.layer.size(), expected.ids.size());
@@ -312,7 +304,7 @@ TEST(Visibility, TheSameBitsFromAllVectorLevelsAndThreads) {
 }
 
 TEST(Visibility, TheLayerIsTheNearestSeeThroughTriangleBeforeOpaqueOnes) {
-  const FrameGeometry g = mixed_frame();
+  const FrameGeometry g = mixed_soup(3000);
   const ViewRays view = forward_view({0, 0, 0}, 60.0f, 90, 70);
   const visibility::VisibleIds both = seen_in(g, view, 90, 70);
   FrameGeometry opaque = g, through = g;

@@ -260,6 +260,13 @@ void add_ao(CLI::App& command, AoConfig& ao) {
       ao_group);
 }
 
+/// The same for options of ambient occlusion that its mode does not look at.
+std::string idle_in(AoMode mode, const std::string& name) {
+  const bool of_all = name == "--ao" || name == "--ao-distance" || name == "--ao-deforming";
+  if (of_all || (mode == AoMode::adaptive) == (name == error_option)) return {};
+  return mode == AoMode::adaptive ? "with --ao adaptive" : "without --ao adaptive";
+}
+
 /// Why the chosen methods do not look at `option`; empty if they do.
 std::string idle_for(const GivenOption& option, const render::RenderSettings& render) {
   const auto& [name, group] = option;
@@ -271,6 +278,7 @@ std::string idle_for(const GivenOption& option, const render::RenderSettings& re
   if (name.starts_with("--soft-") && name != points_option && render.soft_points > 0)
     return fmt::format("where lights are {} points", render.soft_points);
   if (group == ao_group && !ao && name != "--ao") return "without --ao";
+  if (group == ao_group && ao) return idle_in(render.ao.mode, name);
   return {};
 }
 

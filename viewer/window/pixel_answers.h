@@ -5,7 +5,7 @@
 #include <optional>
 #include <vector>
 
-#include "window/work/explainer.h"
+#include "window/frames/explainer.h"
 
 namespace tenebra::viewer {
 

@@ -9,9 +9,9 @@
 #include "options/method_options.h"
 #include "shared/scene_plan.h"
 #include "window/files/user_settings.h"
+#include "window/frames/frame_request.h"
 #include "window/panels/open_dialog.h"
 #include "window/panels/scene_tree.h"
-#include "window/work/frame_request.h"
 
 namespace tenebra::viewer {
 

@@ -3,9 +3,9 @@
 
 #include <tuple>
 
+#include "window/frames/frame_request.h"
 #include "window/view_state.h"
 #include "window/window_gl.h"
-#include "window/work/frame_request.h"
 
 namespace tenebra::viewer {
 

@@ -5,10 +5,10 @@
 #include <cstdio>
 #include <memory>
 
-#include "bench/ao/ao_scene_first.h"
-#include "bench/ao/ao_scene_truth.h"
-#include "bench/ao/ao_scene_views.h"
 #include "bench/ao/ao_session.h"
+#include "bench/ao/scenes/ao_scene_first.h"
+#include "bench/ao/scenes/ao_scene_truth.h"
+#include "bench/ao/scenes/ao_scene_views.h"
 #include "bench/common/bench_parts.h"
 
 namespace tenebra::bench {

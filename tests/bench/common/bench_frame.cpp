@@ -53,6 +53,16 @@ void evaluate_bench_frame(const Scene& scene, int frame, int width, int height, 
   compute_shading_normals(out.points, out.geometry.normals, out.view, out.triangles(), out.normals);
 }
 
+void make_opaque(Scene& scene) {
+  for (Material& material : scene.materials) {
+    if (!material.see_through()) continue;
+    material.alpha_mode = AlphaMode::opaque;
+    material.alpha = 1;
+    material.transmission = 0;
+    material.transmission_map = {};
+  }
+}
+
 std::filesystem::path bart_folder(const std::filesystem::path& data) {
   return data.empty() ? std::filesystem::path(TENEBRA_SHARED_DIR) / "scenes" / "bart" : data;
 }

@@ -23,6 +23,9 @@ struct Instant {
 /// Frame `frame` of the first clip: its own frames where the file states them, else 30 a second.
 Instant frame_instant(const Scene& scene, int frame);
 
+/// Without glass: see-through materials become opaque ones, for opponents that have no colours of light.
+void make_opaque(Scene& scene);
+
 struct BenchFrame {
   FrameGeometry geometry;
   std::vector<WorldLight> lights;

@@ -4,19 +4,12 @@
 
 #include <cstring>
 
+#include "bench/common/embree_packets.h"
+
 namespace tenebra::bench {
 namespace {
 
 // By the type of the packet: the query's call and the code of that size.
-void intersect(ao::EmbreeQuery& q, const int* valid, RTCScene s, RTCRayHit16& r) {
-  q.intersect16(valid, s, r);
-}
-void intersect(ao::EmbreeQuery& q, const int* valid, RTCScene s, RTCRayHit8& r) {
-  q.intersect8(valid, s, r);
-}
-void intersect(ao::EmbreeQuery& q, const int* valid, RTCScene s, RTCRayHit4& r) {
-  q.intersect4(valid, s, r);
-}
 void occluded(ao::EmbreeQuery& q, const int* valid, RTCScene s, RTCRay16& r) {
   q.occluded16(valid, s, r);
 }

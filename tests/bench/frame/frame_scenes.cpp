@@ -25,13 +25,7 @@ struct Size {
 /// As the program prepares it, but that glass is opaque: Embree's side would need a renderer of its own for
 /// it.
 void prepare(Scene& scene) {
-  for (Material& material : scene.materials) {
-    if (!material.see_through()) continue;
-    material.alpha_mode = AlphaMode::opaque;
-    material.alpha = 1;
-    material.transmission = 0;
-    material.transmission_map = {};
-  }
+  make_opaque(scene);
   cutout::cut_out_masks(scene);
   scene::leave_out_blank_emission(scene);
 }

@@ -5,8 +5,8 @@
 
 #include "options/raster_options.h"
 #include "render/log/frame_log.h"
+#include "window/frames/frame_request.h"
 #include "window/view_state.h"
-#include "window/work/frame_request.h"
 
 namespace tenebra::viewer {
 

@@ -10,10 +10,10 @@
 
 #include "options/choices.h"
 #include "window/frame_history.h"
+#include "window/frames/explainer.h"
+#include "window/frames/render_worker.h"
 #include "window/key_press.h"
 #include "window/view_state.h"
-#include "window/work/explainer.h"
-#include "window/work/render_worker.h"
 
 namespace tenebra::viewer {
 

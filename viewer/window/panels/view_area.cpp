@@ -4,8 +4,8 @@
 #include <cmath>
 #include <utility>
 
+#include "window/frames/overlay_image.h"
 #include "window/panels/light_handles.h"
-#include "window/work/overlay_image.h"
 
 namespace tenebra::viewer {
 namespace {

@@ -1,0 +1,46 @@
+// From a request to a picture: the viewer's use of the Renderer, the same as that of `tenebra render`. Knows
+// no window and no thread; everything of one FrameMaker happens on one thread.
+#pragma once
+
+#include <memory>
+#include <optional>
+
+#include "window/frames/frame_request.h"
+#include "window/frames/preview_levels.h"
+
+namespace tenebra::viewer {
+
+class FrameMaker {
+public:
+  explicit FrameMaker(const render::RasterChoice& raster) : raster_(raster) {}
+
+  /// Draws the request at `time_s` of its animation, whole or as a preview. A stop ends in the error
+  /// "stopped"; the next call starts afresh. What was drawn before changes no bit.
+  Expected<std::shared_ptr<Picture>> make(const FrameRequest& request, PreviewLevel level, double time_s,
+                                          const AoProgress& progress, const StopFlag& stop);
+
+  /// What is seen at a place of what was drawn last, 0 to 1 from its left and top; none: background, or no
+  /// picture yet.
+  std::optional<glm::vec3> visible_point(glm::dvec2 place);
+
+  /// Null before the first picture.
+  const render::FrameRaster* raster() const { return renderer_ ? &renderer_->raster() : nullptr; }
+  std::vector<std::string> take_debug_messages();
+
+private:
+  Expected<void> take_scene(const std::shared_ptr<const ScenePlan>& scene);
+  void keep_evidence(const FrameRequest& request, const render::RenderSettings& settings, double time_s,
+                     Picture& picture) const;
+  Expected<Drawn> draw(const FrameRequest& request, const render::RenderSettings& settings, double time_s,
+                       const AoProgress& progress, const StopFlag& stop);
+
+  render::RasterChoice raster_;
+  std::shared_ptr<const ScenePlan> scene_;
+  std::optional<render::Renderer> renderer_;
+  render::FrameInput input_;
+  Size drawn_;                             ///< pixels of what was drawn last
+  std::map<int, MaterialEdit> materials_;  // that renderer_ has
+  double evaluate_ms_ = 0;
+};
+
+}  // namespace tenebra::viewer

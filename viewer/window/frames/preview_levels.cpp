@@ -1,0 +1,139 @@
+#include "window/frames/preview_levels.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <initializer_list>
+
+#include "render/quality.h"
+
+namespace tenebra::viewer {
+namespace {
+
+constexpr int cast_rays = 8, cast_downscale = 4;
+
+int part_of(int pixels, int divisor) {
+  return std::max(1, (pixels + divisor / 2) / divisor);
+}
+
+/// At most `count` light points instead of `asked`, of which 0 stands for the exact solution.
+int fewer_points(int asked, int count) {
+  return asked == 0 ? count : std::min(asked, count);
+}
+
+void take_fewer(render::RenderSettings& settings, int points, int rays, int downscale) {
+  settings.soft_points = fewer_points(settings.soft_points, points);
+  const render::QualitySettings fast = render::quality_settings(render::Quality::fast);
+  settings.ao.error_255 = std::max(settings.ao.error_255, fast.ao_error);
+  settings.ao.rays = std::min(settings.ao.rays, rays);
+  settings.ao.downscale = std::max(settings.ao.downscale, downscale);
+  settings.hard.variant = Variant::tiles;  // the same masks
+}
+
+}  // namespace
+
+bool PreviewSubject::operator==(const PreviewSubject& other) const {
+  return scene == other.scene && size.width == other.size.width && size.height == other.size.height &&
+         shadows == other.shadows && soft_points == other.soft_points && ao == other.ao &&
+         ao_error == other.ao_error && ao_rays == other.ao_rays && ao_downscale == other.ao_downscale &&
+         antialias == other.antialias && compares == other.compares && explains == other.explains;
+}
+
+PreviewSubject preview_subject(const void* scene, const render::RenderSettings& asked, bool compares,
+                               bool explains) {
+  return {.scene = scene,
+          .size = {asked.width, asked.height},
+          .shadows = asked.shadows,
+          .soft_points = asked.soft_points,
+          .ao = asked.ao.mode,
+          .ao_error = asked.ao.error_255,
+          .ao_rays = asked.ao.rays,
+          .ao_downscale = asked.ao.downscale,
+          .antialias = asked.antialias,
+          .compares = compares,
+          .explains = explains};
+}
+
+std::vector<PreviewLevel> preview_levels(const PreviewSubject& subject) {
+  const bool soft = subject.shadows == render::ShadowMode::soft, occludes = subject.ao != AoMode::none;
+  const render::QualitySettings fast = render::quality_settings(render::Quality::fast);
+  const bool has_fewer =
+      (soft && fewer_points(subject.soft_points, fast.soft_points) != subject.soft_points) ||
+      (occludes && (subject.ao == AoMode::adaptive
+                        ? subject.ao_error < fast.ao_error
+                        : subject.ao_rays > fast.ao_rays || subject.ao_downscale < fast.ao_downscale));
+  const bool has_plain = occludes || (soft && subject.soft_points != 1);
+  std::vector<PreviewLevel> levels{{PreviewMethod::as_asked, 1}};
+  const auto add = [&](PreviewMethod method, std::initializer_list<int> divisors) {
+    for (const int divisor : divisors) levels.push_back({method, divisor});
+  };
+  if (subject.antialias > 1) add(PreviewMethod::single, {1});
+  add(PreviewMethod::single, {2});
+  if (subject.compares) {
+    add(PreviewMethod::fewer, {2, 4, 8});
+  } else if (subject.explains || !has_plain) {
+    add(PreviewMethod::single, {4, 8});
+  } else {
+    if (has_fewer) add(PreviewMethod::fewer, {1, 2});
+    if (occludes && subject.ao != AoMode::adaptive) add(PreviewMethod::cast, {2, 4});
+    add(PreviewMethod::plain, {1, 2, 4, 8});
+  }
+  return levels;
+}
+
+render::RenderSettings preview_settings(const render::RenderSettings& asked, PreviewLevel level) {
+  render::RenderSettings settings = asked;
+  settings.width = part_of(asked.width, level.divisor);
+  settings.height = part_of(asked.height, level.divisor);
+  const render::QualitySettings fast = render::quality_settings(render::Quality::fast);
+  if (level.method != PreviewMethod::as_asked) {
+    settings.antialias = 1;
+    settings.antialias_everywhere = false;
+  }
+  switch (level.method) {
+    case PreviewMethod::as_asked:
+    case PreviewMethod::single:
+      break;
+    case PreviewMethod::fewer:
+      take_fewer(settings, fast.soft_points, fast.ao_rays, fast.ao_downscale);
+      break;
+    case PreviewMethod::cast:
+      take_fewer(settings, 1, cast_rays, cast_downscale);
+      if (asked.ao.mode != AoMode::none) settings.ao.mode = AoMode::rays;
+      settings.ao.place = AoPlace::pixels;
+      break;
+    case PreviewMethod::plain:
+      take_fewer(settings, 1, 1, 1);
+      settings.ao.mode = AoMode::none;
+      break;
+  }
+  return settings;
+}
+
+ViewRays view_in_pixels(ViewRays view, Size before, Size now) {
+  view.dx *= static_cast<float>(before.width) / static_cast<float>(now.width);
+  view.dy *= static_cast<float>(before.height) / static_cast<float>(now.height);
+  return view;
+}
+
+std::string preview_text(const render::RenderSettings& asked, PreviewLevel level) {
+  const render::RenderSettings drawn = preview_settings(asked, level);
+  std::string text;
+  const auto add = [&](const std::string& part) { text += (text.empty() ? "" : ", ") + part; };
+  if (level.divisor > 1) add(fmt::format("1/{} size", level.divisor));
+  if (asked.shadows == render::ShadowMode::soft && drawn.soft_points != asked.soft_points)
+    add(drawn.soft_points == 1 ? "hard shadows" : fmt::format("{} light points", drawn.soft_points));
+  if (asked.ao.mode != AoMode::none && drawn.ao.mode == AoMode::none) {
+    add("no occlusion");
+  } else if (asked.ao.mode == AoMode::adaptive) {
+    if (drawn.ao.error_255 != asked.ao.error_255)
+      add(fmt::format("occlusion to {:.3g}/255", drawn.ao.error_255));
+  } else if (asked.ao.mode != AoMode::none &&
+             (drawn.ao.rays != asked.ao.rays || drawn.ao.downscale != asked.ao.downscale)) {
+    add(fmt::format("{} occlusion rays", drawn.ao.rays));
+  }
+  if (text.empty() && drawn.antialias != asked.antialias) add("1 sample a pixel");
+  return text;
+}
+
+}  // namespace tenebra::viewer
