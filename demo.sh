@@ -5,7 +5,9 @@ set -euo pipefail
 cd "$(dirname "$0")"
 
 tools/setup.sh
-cmake --preset release -DTENEBRA_TESTS=OFF > /dev/null
+# A first build compiles each folder's files together, which takes half the time; a folder that is there keeps its way.
+[[ -e build/CMakeCache.txt ]] && first=() || first=(-DTENEBRA_UNITY=ON)
+cmake --preset release -DTENEBRA_TESTS=OFF "${first[@]}" > /dev/null
 cmake --build --preset release
 
 build/bin/tenebra render scenes/city.glb --frames 0:95:4 --size 960x540 -o out/%04d.png --mask out/mask_%04d.png \

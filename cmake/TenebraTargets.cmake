@@ -8,6 +8,9 @@ function(tenebra_library name)
       $<BUILD_INTERFACE:${CMAKE_SOURCE_DIR}/include> $<BUILD_INTERFACE:${CMAKE_SOURCE_DIR}/src>
       $<INSTALL_INTERFACE:include>)
     target_link_libraries(tenebra_${name} ${ARGN})
+    if(NOT name STREQUAL gl)  # glad's functions are defined in one file, declared in the others
+      tenebra_unite(tenebra_${name})
+    endif()
   else()
     add_library(tenebra_${name} INTERFACE)
     target_include_directories(tenebra_${name} INTERFACE
@@ -18,4 +21,26 @@ function(tenebra_library name)
     target_link_libraries(tenebra_${name} INTERFACE ${links})
   endif()
   set_target_properties(tenebra_${name} PROPERTIES EXPORT_NAME ${name})
+endfunction()
+
+# tenebra_unite(TARGET): with TENEBRA_UNITY the files of each folder are compiled together, as most of what one takes is
+# the standard library's headers. Those that Highway includes once for each vector level stay alone, as do those with
+# options of their own.
+function(tenebra_unite target)
+  if(NOT TENEBRA_UNITY)
+    return()
+  endif()
+  get_target_property(sources ${target} SOURCES)
+  foreach(source ${sources})
+    file(STRINGS ${source} once_a_level REGEX "foreach_target\\.h" LIMIT_COUNT 1)
+    if(NOT once_a_level)
+      get_filename_component(folder ${source} DIRECTORY)
+      file(RELATIVE_PATH folder ${CMAKE_SOURCE_DIR} ${folder})
+      string(MAKE_C_IDENTIFIER "${folder}" group)
+      set_source_files_properties(${source} TARGET_DIRECTORY ${target} PROPERTIES UNITY_GROUP ${group})
+    endif()
+  endforeach()
+  set_target_properties(${target} PROPERTIES UNITY_BUILD ON UNITY_BUILD_MODE GROUP)
+  # Types in unnamed namespaces may be members here: each group is one file that nobody includes.
+  target_compile_options(${target} PRIVATE -Wno-subobject-linkage)
 endfunction()

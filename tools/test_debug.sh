@@ -12,7 +12,8 @@ slow+='|^Bart|SoftPackets|ShaftFrames|NeverLeaveOut|HandOver|AreaIsThatOf|Tiles\
 slow+='|DistantFaceBounds|OfHundredsOfEdges|NearlyCoincide|SheetsOf|GivesWhatClipping|FieldAccuracy|FindsABall'
 slow+='|AdaptiveOcclusion\.(Meets|SameBits|Hard|Stops|DoesNot)'
 slow+='|AmbientOcclusion\.(SameBits|BothLayouts|DoesNotDepend|HalfTheResolution|AtVertices)|RealScenes|DividesNoMore|ManyLarge'
-cmake --preset debug -DTENEBRA_TESTS=ON -DCMAKE_COMPILE_WARNING_AS_ERROR=ON > /dev/null
+[[ -e build-debug/CMakeCache.txt ]] && first=() || first=(-DTENEBRA_UNITY=ON)  # as in test.sh
+cmake --preset debug -DTENEBRA_TESTS=ON "${first[@]}" -DCMAKE_COMPILE_WARNING_AS_ERROR=ON > /dev/null
 cmake --build --preset debug --target "${folders[@]/#/tests_}"
 labels=$(IFS='|'; echo "${folders[*]}")
 ctest --test-dir build-debug --output-on-failure -j2 -L "^($labels)\$" -E "$slow" "$@"

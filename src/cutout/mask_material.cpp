@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "cutout/cross.h"
 #include "parallel/parallel.h"
 
 namespace tenebra::cutout {
@@ -13,10 +14,6 @@ constexpr double largest_place = 2147483648.0;  // pixels: texture/bilinear.h
 constexpr std::size_t most_regions = 8;         // thresholds that share outlines; more are rare
 constexpr std::size_t batch = 256;              // triangles between two looks at the limit
 constexpr double most_cells = 1 << 20;          // of a sheet made for one triangle
-
-double cross(glm::dvec2 a, glm::dvec2 b) {
-  return a.x * b.y - a.y * b.x;
-}
 
 const TextureImage* usable_image(const Scene& scene, const TextureMap& map) {
   if (map.image < 0 || static_cast<std::size_t>(map.image) >= scene.images.size()) return nullptr;

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 
+#include "cutout/cross.h"
 #include "cutout/gates.h"
 
 namespace tenebra::cutout {
@@ -9,10 +10,6 @@ namespace {
 
 constexpr std::size_t look_ahead =
     512;  // gates that one segment may pass: bounds the work on a straight line
-
-double cross(glm::dvec2 a, glm::dvec2 b) {
-  return a.x * b.y - a.y * b.x;
-}
 
 /// One loop's gates in order, bends among them as gates that allow nothing; no two neighbours in one place.
 std::vector<Gate> collect_loop(const GateNet& net, std::uint32_t start, std::vector<bool>& seen) {

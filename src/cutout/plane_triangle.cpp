@@ -3,15 +3,9 @@
 #include <algorithm>
 #include <cmath>
 
+#include "cutout/cross.h"
+
 namespace tenebra::cutout {
-namespace {
-
-double cross(glm::dvec2 a, glm::dvec2 b) {
-  return a.x * b.y - a.y * b.x;
-}
-
-}  // namespace
-
 PlaneTriangle::PlaneTriangle(const std::array<glm::dvec2, 3>& corners) : corners_(corners) {
   for (int e = 0; e < 3; ++e) {
     const glm::dvec2 a = corners[static_cast<std::size_t>(e)],

@@ -3,14 +3,12 @@
 #include <algorithm>
 #include <numeric>
 
+#include "cutout/cross.h"
+
 namespace tenebra::cutout {
 namespace {
 
 using Points = std::span<const glm::dvec2>;
-
-double cross(glm::dvec2 a, glm::dvec2 b) {
-  return a.x * b.y - a.y * b.x;
-}
 
 /// Twice the area of a triangle; positive if counter-clockwise.
 double turn(glm::dvec2 a, glm::dvec2 b, glm::dvec2 c) {

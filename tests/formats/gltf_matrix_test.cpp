@@ -12,6 +12,7 @@
 
 #include "formats/import_scene.h"
 #include "support/child_process.h"
+#include "support/peak_memory.h"
 #include "support/temporary_folder.h"
 
 namespace tenebra {
@@ -254,24 +255,17 @@ TEST(GltfKeys, MustRiseFromZero) {
 }
 
 #if !defined(__SANITIZE_ADDRESS__) && !defined(__SANITIZE_THREAD__)
-std::uint64_t peak_bytes() {
-  std::ifstream status("/proc/self/status");
-  for (std::string line; std::getline(status, line);)
-    if (line.starts_with("VmHWM:")) return std::stoull(line.substr(6)) * 1024;
-  return 0;
-}
-
 /// Imports in a child: 2 s of processor time, and the memory that import_scene.h promises. `good` judges the
 /// scene.
 void expect_quick_import(const File& file, const std::function<bool(const Scene&)>& good) {
   const testing::TemporaryFolder folder;
   file.write(folder);
   const std::uint64_t size = file.bytes.size() + std::filesystem::file_size(folder / "a.gltf");
-  const std::uint64_t before = peak_bytes();
+  const std::uint64_t before = testing::peak_bytes();
   const int code = testing::run_in_child([&] {
     const auto scene = formats::import_gltf(folder / "a.gltf");
     if (static_cast<double>(std::clock()) / CLOCKS_PER_SEC > 2) return 1;
-    if (peak_bytes() > before + (std::uint64_t{256} << 20) + 20 * size) return 2;
+    if (testing::peak_bytes() > before + (std::uint64_t{256} << 20) + 20 * size) return 2;
     return scene.has_value() && good(*scene) ? 0 : 3;
   });
   EXPECT_EQ(code, 0) << "1: time, 2: memory, 3: scene";

@@ -14,6 +14,7 @@
 #include <optional>
 
 #include "formats/import_scene.h"
+#include "support/peak_memory.h"
 
 namespace tenebra {
 namespace {
@@ -132,13 +133,6 @@ bool is_said(const std::vector<std::string>& sentences, const std::string& code,
   return false;
 }
 
-std::uint64_t peak_bytes() {
-  std::ifstream status("/proc/self/status");
-  for (std::string line; std::getline(status, line);)
-    if (line.starts_with("VmHWM:")) return std::stoull(line.substr(6)) * 1024;
-  return 0;
-}
-
 TEST(Malformed, EveryFileLoadsOrFailsWithASentenceThatNamesIt) {
   const auto files = models();
   if (files.empty()) GTEST_SKIP() << "the folder of malformed files is not beside the checkout";
@@ -200,7 +194,7 @@ TEST(Malformed, EveryFileTakesLittleTimeAndMemory) {
     if (child == 0) {
       alarm(10);
       { const auto scene = import_any(file); }
-      _exit(peak_bytes() <= (std::uint64_t{256} << 20) + 20 * fs::file_size(file) ? 0 : 1);
+      _exit(testing::peak_bytes() <= (std::uint64_t{256} << 20) + 20 * fs::file_size(file) ? 0 : 1);
     }
     int status = 0;
     waitpid(child, &status, 0);

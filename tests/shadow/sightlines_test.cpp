@@ -56,12 +56,12 @@ Sightline by_force(const MaskCase& c, const reference::ExactShadow& oracle, cons
   return line;
 }
 
-struct Counts {
+struct SightCounts {
   int blocked = 0, lit = 0, inactive = 0;
 };
 
 /// Every sample of `c` beside brute force and beside the mask of the tracer.
-void expect_first_blockers(const MaskCase& c, Counts& counts) {
+void expect_first_blockers(const MaskCase& c, SightCounts& counts) {
   const reference::ExactShadow oracle(c.view, c.soup.view(), c.light, c.config);
   const ShadowMask mask = traced(c);
   for (std::size_t i = 0; i < c.points.triangles.size(); ++i) {
@@ -86,7 +86,7 @@ void expect_first_blockers(const MaskCase& c, Counts& counts) {
 }
 
 TEST(Sightlines, NameTheFirstBlockerOfEverySoup) {
-  Counts counts;
+  SightCounts counts;
   std::uint64_t seed = 7000;
   for (const SoupMaker& maker : soup_makers()) {
     for (int kind = 0; kind < 4; ++kind) {

@@ -5,6 +5,7 @@
 #include <filesystem>
 
 #include <tenebra/threads.h>
+#include "scene_files.h"
 #include "shared/auto_exposure.h"
 #include "shared/render_plan.h"
 #include "viewer_picture.h"
@@ -15,23 +16,6 @@ namespace {
 namespace fs = std::filesystem;
 using viewer::SceneOptions;
 using viewer::ScenePlan;
-
-std::vector<fs::path> scenes() {
-  std::vector<fs::path> found;
-  for (const auto& entry : fs::directory_iterator(TENEBRA_SCENES_DIR))
-    if (entry.path().extension() == ".glb") found.push_back(entry.path());
-  const fs::path shared = fs::path(TENEBRA_SHARED_DIR) / "scenes";
-  if (fs::exists(shared)) {
-    for (const auto& folder : {shared / "extra/gltf", shared / "extra/obj"})
-      for (const auto& entry : fs::recursive_directory_iterator(folder))
-        if (const auto kind = entry.path().extension(); kind == ".gltf" || kind == ".glb" || kind == ".obj")
-          found.push_back(entry.path());
-    for (const char* file : {"robots/Robot.aff", "museum/museum5.aff", "kitchen/kitchen.aff"})
-      found.push_back(shared / "bart" / file);
-  }
-  std::sort(found.begin(), found.end());
-  return found;
-}
 
 double clipped_share(const base::Image8& image) {
   std::size_t clipped = 0;
@@ -64,7 +48,7 @@ render::RenderSettings exposed(const ScenePlan& plan, shade::Tone tone) {
 
 TEST(AutoExposure, AtMostTwoPercentOfThePixelsAreClippedInAnyScene) {
   std::size_t drawn = 0;
-  for (const fs::path& file : scenes()) {
+  for (const fs::path& file : testing::scene_files()) {
     const SceneOptions options = options_of(file);
     const auto plan = viewer::plan_scene(options);
     ASSERT_TRUE(plan) << plan.error().message;

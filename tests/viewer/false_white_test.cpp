@@ -5,6 +5,7 @@
 #include <filesystem>
 #include <map>
 
+#include "scene_files.h"
 #include "viewer_picture.h"
 
 namespace tenebra::testing {
@@ -15,22 +16,6 @@ using viewer::SceneOptions;
 using viewer::ScenePlan;
 
 constexpr std::size_t least_pixels = 50;
-
-std::vector<fs::path> scenes() {
-  const fs::path shared = fs::path(TENEBRA_SHARED_DIR) / "scenes";
-  std::vector<fs::path> found;
-  if (!fs::exists(shared)) return found;
-  for (const auto& folder : {shared / "extra/gltf", shared / "extra/obj"})
-    for (const auto& entry : fs::recursive_directory_iterator(folder))
-      if (const auto kind = entry.path().extension(); kind == ".gltf" || kind == ".glb" || kind == ".obj")
-        found.push_back(entry.path());
-  for (const char* file : {"robots/Robot.aff", "museum/museum5.aff", "kitchen/kitchen.aff"})
-    found.push_back(shared / "bart" / file);
-  for (const auto& entry : fs::directory_iterator(TENEBRA_SCENES_DIR))
-    if (entry.path().extension() == ".glb") found.push_back(entry.path());
-  std::sort(found.begin(), found.end());
-  return found;
-}
 
 /// The scene with a flat colour for each mesh, which is its number.
 ScenePlan numbered(ScenePlan plan) {
@@ -105,8 +90,7 @@ TEST(FalseWhite, WhiteObjectsAreFound) {
 }
 
 TEST(FalseWhite, NoObjectIsMostlyWhite) {
-  const std::vector<fs::path> files = scenes();
-  if (files.empty()) GTEST_SKIP() << "no scenes lie beside the checkout";
+  const std::vector<fs::path> files = testing::scene_files();
   for (const fs::path& file : files) {
     SceneOptions options;
     options.file = file.string();

@@ -89,7 +89,7 @@ TEST(SceneEdits, TurnAreaLightsAsAWhole) {
   }
 }
 
-base::Image8 rendered(const TemporaryFolder& folder, std::vector<std::string> arguments) {
+base::Image8 rendered_moving(const TemporaryFolder& folder, std::vector<std::string> arguments) {
   arguments.insert(arguments.begin(), {"render", testing::write_moving_scene(folder)});
   arguments.insert(arguments.end(), {"--size", "80x60", "--quiet", "-o", folder / "picture.png"});
   const auto result = testing::tenebra(arguments);
@@ -100,18 +100,19 @@ base::Image8 rendered(const TemporaryFolder& folder, std::vector<std::string> ar
 
 TEST(SceneEdits, AreOptionsOfRender) {
   const TemporaryFolder folder;
-  const base::Image8 plain = rendered(folder, {});
+  const base::Image8 plain = rendered_moving(folder, {});
   const auto sum = [](const base::Image8& image) {
     std::size_t total = 0;
     for (const std::uint8_t value : image.pixels) total += value;
     return total;
   };
-  const base::Image8 no_shadow = rendered(folder, {"--set-node", "1 casts=0"});
+  const base::Image8 no_shadow = rendered_moving(folder, {"--set-node", "1 casts=0"});
   EXPECT_GT(sum(no_shadow), sum(plain)) << "the blocker's shadow is gone";
-  EXPECT_NE(rendered(folder, {"--set-node", "1 visible=0"}), no_shadow) << "and now the blocker";
-  EXPECT_LT(sum(rendered(folder, {"--set-material", "0 color=0.05,0.05,0.05"})), sum(plain));
-  EXPECT_GT(sum(rendered(folder, {"--add-light", "directional direction=0,-1,0 intensity=2"})), sum(plain));
-  EXPECT_EQ(rendered(folder, {"--add-light", "point position=1,2,3", "--set-light", "1 on=0"}), plain);
+  EXPECT_NE(rendered_moving(folder, {"--set-node", "1 visible=0"}), no_shadow) << "and now the blocker";
+  EXPECT_LT(sum(rendered_moving(folder, {"--set-material", "0 color=0.05,0.05,0.05"})), sum(plain));
+  EXPECT_GT(sum(rendered_moving(folder, {"--add-light", "directional direction=0,-1,0 intensity=2"})),
+            sum(plain));
+  EXPECT_EQ(rendered_moving(folder, {"--add-light", "point position=1,2,3", "--set-light", "1 on=0"}), plain);
   for (const std::vector<std::string>& wrong :
        {std::vector<std::string>{"--set-material", "1 color=1,0,0"}, {"--set-node", "4 casts=0"}}) {
     const auto result = testing::tenebra({"render", folder / "moving.gltf", wrong[0], wrong[1]});

@@ -12,7 +12,7 @@
 namespace tenebra::viewer {
 namespace {
 
-constexpr const char* examples =
+constexpr const char* compare_examples =
     "Examples:\n"
     "  tenebra compare a.png b.png\n"
     "  tenebra compare a.png b.png --threshold 2 -o diff.png\n"
@@ -67,7 +67,7 @@ Expected<int> parse_threshold(const std::string& text) {
 void add_compare_command(CLI::App& program, Run& run) {
   CLI::App& command = add_command(program, "compare", "Say whether two pictures are the same");
   const auto options = std::make_shared<CompareOptions>();
-  set_examples(command, examples);
+  set_examples(command, compare_examples);
   add_text(command, "A", options->a, "A PNG picture").required();
   add_text(command, "B", options->b, "Another of the same size").required();
   add_text(command, "-o,--output", options->output, "Picture of the differences to write")

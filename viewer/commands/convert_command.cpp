@@ -12,7 +12,7 @@
 namespace tenebra::viewer {
 namespace {
 
-constexpr const char* examples =
+constexpr const char* convert_examples =
     "Example:\n"
     "  tenebra convert bart/robots/Robot.aff robots.glb --fps 24\n"
     "\n"
@@ -48,7 +48,7 @@ void add_convert_command(CLI::App& program, Run& run) {
   CLI::App& command =
       add_command(program, "convert", "Write a scene, with its animation, as binary glTF 2.0");
   const auto options = std::make_shared<ConvertOptions>();
-  set_examples(command, examples);
+  set_examples(command, convert_examples);
   add_text(command, "IN", options->input, "Scene file: .gltf .glb .aff .nff .obj").required();
   add_text(command, "OUT", options->output, "File to write, .glb").required();
   add_text(command, "--scene", options->import.scene, "glTF: which scene of the file, by name or number")

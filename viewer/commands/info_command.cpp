@@ -22,7 +22,7 @@ namespace {
 
 using Json = nlohmann::ordered_json;
 
-constexpr const char* examples =
+constexpr const char* info_examples =
     "Examples:\n"
     "  tenebra info scenes/city.glb\n"
     "  tenebra info scenes/city.glb --json | python3 -m json.tool\n"
@@ -272,7 +272,7 @@ void add_info_command(CLI::App& program, Run& run) {
   CLI::App& command =
       add_command(program, "info", "Say what a scene contains: counts, bounds, lights, cameras, animations");
   const auto options = std::make_shared<InfoOptions>();
-  set_examples(command, examples);
+  set_examples(command, info_examples);
   add_text(command, "SCENE", options->scene, "Scene file: .gltf .glb .aff .nff .obj").required();
   add_text(command, "--scene", options->import.scene, "glTF: which scene of the file, by name or number")
       .type_name("NAME|N");

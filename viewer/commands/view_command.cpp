@@ -9,7 +9,7 @@
 namespace tenebra::viewer {
 namespace {
 
-constexpr const char* examples =
+constexpr const char* view_examples =
     "Examples:\n"
     "  tenebra view\n"
     "      the bundled city; ? shows the keys\n"
@@ -56,7 +56,7 @@ void add_view_command(CLI::App& program, Run& run) {
   CLI::App& command =
       add_command(program, "view", "Open a window: watch, switch methods, see what each costs");
   const auto options = std::make_shared<ViewOptions>();
-  set_examples(command, examples);
+  set_examples(command, view_examples);
   add_view_options(command, *options);
   when_chosen(command, [options, &command, &run] {
     settle_quality(command, options->method);

@@ -9,7 +9,7 @@
 namespace tenebra::formats::gltf {
 namespace {
 
-constexpr const char* extension_name = "EXT_mesh_gpu_instancing";
+constexpr const char* instancing_name = "EXT_mesh_gpu_instancing";
 
 struct Instances {
   std::string place;
@@ -41,7 +41,7 @@ std::vector<double> read_attribute(Asset& asset, const Value& attributes, const 
 
 Instances read_instances(Asset& asset, const Value& extension, int index) {
   Instances instances;
-  instances.place = fmt::format("nodes[{}].extensions.{}.attributes", index, extension_name);
+  instances.place = fmt::format("nodes[{}].extensions.{}.attributes", index, instancing_name);
   const Value& attributes = extension.Get("attributes");
   instances.translations = read_attribute(asset, attributes, "TRANSLATION", TINYGLTF_TYPE_VEC3, instances);
   instances.rotations = read_attribute(asset, attributes, "ROTATION", TINYGLTF_TYPE_VEC4, instances);
@@ -82,7 +82,7 @@ Node instance_node(const Instances& instances, std::size_t i, const Node& shown)
 
 void add_instances(Asset& asset, int index, int self) {
   const auto& source = asset.model.nodes[static_cast<std::size_t>(index)];
-  const auto found = source.extensions.find(extension_name);
+  const auto found = source.extensions.find(instancing_name);
   if (found == source.extensions.end()) return;
   const Instances instances = read_instances(asset, found->second, index);
   Node shown = asset.scene.nodes[static_cast<std::size_t>(self)];

@@ -26,7 +26,7 @@ void pay_for_decoded(Asset& asset, std::uint64_t stored, std::uint64_t decoded, 
 
 namespace {
 
-constexpr const char* extension_name = "EXT_meshopt_compression";
+constexpr const char* compression_name = "EXT_meshopt_compression";
 
 struct Compressed {
   std::string place;
@@ -42,7 +42,7 @@ std::uint64_t integer(const Value& value, const char* name) {
 /// The stored bytes of view `index`, checked against their buffer; counts checked against each other.
 Compressed read_header(const Asset& asset, std::size_t index, const Value& value) {
   Compressed result;
-  result.place = fmt::format("bufferViews[{}].extensions.{}", index, extension_name);
+  result.place = fmt::format("bufferViews[{}].extensions.{}", index, compression_name);
   const std::string& buffer = asset.buffers[integer(value, "buffer")];
   const std::uint64_t offset = integer(value, "byteOffset"), length = integer(value, "byteLength");
   if (offset > buffer.size() || length > buffer.size() - offset)
@@ -123,7 +123,7 @@ bool has_meshopt() {
 void decode_meshopt(Asset& asset) {
   for (std::size_t i = 0; i < asset.model.bufferViews.size(); ++i) {
     auto& view = asset.model.bufferViews[i];
-    const auto found = view.extensions.find(extension_name);
+    const auto found = view.extensions.find(compression_name);
     if (found == view.extensions.end()) continue;
     // Without the library the fallback does, where the file has one.
     if (!has_meshopt() && !asset.buffers[static_cast<std::size_t>(view.buffer)].empty()) continue;

@@ -8,7 +8,7 @@
 namespace tenebra::render {
 namespace {
 
-constexpr std::size_t pixels_at_once = 512, most_samples = 16;
+constexpr std::size_t pixels_a_task = 512, most_samples = 16;
 
 /// Samples of a pixel that look the same.
 struct Group {
@@ -133,10 +133,10 @@ private:
 void settle_edges(std::span<const std::uint32_t> edges, const CentreMasks& centres,
                   std::span<const glm::vec2> offsets, const visibility::PlaceIds& seen,
                   const SurfaceMatch& match, SettledEdges& out) {
-  std::vector<Part> parts((edges.size() + pixels_at_once - 1) / pixels_at_once);
-  parallel::parallel_ranges(edges.size(), pixels_at_once, [&](std::size_t first, std::size_t last) {
+  std::vector<Part> parts((edges.size() + pixels_a_task - 1) / pixels_a_task);
+  parallel::parallel_ranges(edges.size(), pixels_a_task, [&](std::size_t first, std::size_t last) {
     Settler settler(centres, offsets, seen, match);
-    for (std::size_t i = first; i < last; ++i) settler.add(edges[i], parts[first / pixels_at_once]);
+    for (std::size_t i = first; i < last; ++i) settler.add(edges[i], parts[first / pixels_a_task]);
   });
   out.others.clear();
   out.pixels.clear();

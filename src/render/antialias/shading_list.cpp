@@ -9,10 +9,10 @@
 namespace tenebra::render {
 namespace {
 
-constexpr std::size_t pixels_at_once = 1024, most_groups = 16;
+constexpr std::size_t pixels_a_part = 1024, most_groups = 16;
 
 /// Samples of a pixel that look the same.
-struct Group {
+struct SurfaceGroup {
   std::size_t surface;  // of PixelSurfaces
   std::size_t slots[most_groups];
   std::size_t count = 0;
@@ -28,20 +28,20 @@ public:
     std::size_t i = 0;
     while (i < count_ && !(groups_[i].surface == surface && lit_.same(groups_[i].slots[0], lit_, slot))) ++i;
     if (i == count_) groups_[count_++] = {surface, {}, 0, glm::vec2(0.0f)};
-    Group& group = groups_[i];
+    SurfaceGroup& group = groups_[i];
     group.slots[group.count++] = slot;
     group.sum += samples_.places[slot];
   }
-  std::span<const Group> all() const { return {groups_.data(), count_}; }
+  std::span<const SurfaceGroup> all() const { return {groups_.data(), count_}; }
 
 private:
   const SamplePicture& samples_;
   const SampleLights& lit_;
-  std::array<Group, most_groups> groups_;
+  std::array<SurfaceGroup, most_groups> groups_;
   std::size_t count_ = 0;
 };
 
-std::size_t middle_of(const Group& group, const SamplePicture& samples) {
+std::size_t middle_of(const SurfaceGroup& group, const SamplePicture& samples) {
   const glm::vec2 mean = group.sum / static_cast<float>(group.count);
   const auto apart = [&](std::size_t slot) {
     const glm::vec2 d = samples.places[slot] - mean;
@@ -84,10 +84,10 @@ void list_groups(std::span<const std::uint32_t> chosen, const SamplePicture& sam
                  const SurfaceMatch& match, ShadingList& out) {
   out.clear();
   out.centres.assign(chosen.size(), 0.0f);
-  const std::size_t parts = (chosen.size() + pixels_at_once - 1) / pixels_at_once;
+  const std::size_t parts = (chosen.size() + pixels_a_part - 1) / pixels_a_part;
   std::vector<ShadingList> lists(parts);
-  parallel::parallel_ranges(chosen.size(), pixels_at_once, [&](std::size_t first, std::size_t last) {
-    ShadingList& list = lists[first / pixels_at_once];
+  parallel::parallel_ranges(chosen.size(), pixels_a_part, [&](std::size_t first, std::size_t last) {
+    ShadingList& list = lists[first / pixels_a_part];
     PixelGroups groups(samples, lit);
     SurfaceMatch own_match(match);
     PixelSurfaces surfaces(own_match);
@@ -104,7 +104,7 @@ void list_groups(std::span<const std::uint32_t> chosen, const SamplePicture& sam
           groups.add(slot, surface);
         }
       }
-      for (const Group& group : groups.all()) {
+      for (const SurfaceGroup& group : groups.all()) {
         const std::size_t slot = middle_of(group, samples);
         list.add(samples.ids[slot], samples.places[slot], slot, i, static_cast<float>(group.count));
       }
@@ -117,7 +117,7 @@ void list_samples(std::span<const std::uint32_t> chosen, const SamplePicture& sa
   out.clear();
   out.centres.assign(chosen.size(), 0.0f);
   out.resize(samples.count);
-  parallel::parallel_ranges(samples.count, pixels_at_once, [&](std::size_t first, std::size_t last) {
+  parallel::parallel_ranges(samples.count, pixels_a_part, [&](std::size_t first, std::size_t last) {
     for (std::size_t i = first; i < last; ++i) {
       const std::size_t slot = samples.slots[i];
       out.set(i, samples.ids[slot], samples.places[slot], slot, i / samples.per_pixel, 1.0f);
@@ -132,7 +132,7 @@ void list_as_centres(std::span<const std::uint32_t> chosen, int width, std::span
   const auto columns = static_cast<std::uint32_t>(width);
   const std::size_t count = offsets.size();
   out.resize(chosen.size() * count);
-  parallel::parallel_ranges(chosen.size(), pixels_at_once, [&](std::size_t first, std::size_t last) {
+  parallel::parallel_ranges(chosen.size(), pixels_a_part, [&](std::size_t first, std::size_t last) {
     for (std::size_t i = first; i < last; ++i) {
       const std::uint32_t pixel = chosen[i];
       const glm::vec2 centre(static_cast<float>(pixel % columns) + 0.5f,

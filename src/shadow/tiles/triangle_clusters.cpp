@@ -17,7 +17,6 @@ namespace {
 using glm::vec3;
 
 constexpr std::size_t block = 256;  // vertices or triangles that are compared together
-constexpr float infinity = std::numeric_limits<float>::infinity();
 
 template <class T>
 bool same_elements(std::span<const T> a, const std::vector<T>& b) {
@@ -42,6 +41,7 @@ void copy_changes(std::span<const T> from, std::vector<T>& to, std::vector<std::
 }
 
 void clear_box(BoxNode& node, std::size_t lane) {
+  constexpr float infinity = std::numeric_limits<float>::infinity();
   for (int axis = 0; axis < 3; ++axis) {
     node.low[axis][lane] = infinity;
     node.high[axis][lane] = -infinity;

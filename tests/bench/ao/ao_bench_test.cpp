@@ -21,7 +21,7 @@ testing::ProgramResult ao(std::vector<std::string> arguments) {
   return testing::run_program(arguments);
 }
 
-void expect_refusal(const std::vector<std::string>& arguments, const std::string& sentence) {
+void expect_ao_refusal(const std::vector<std::string>& arguments, const std::string& sentence) {
   const auto result = ao(arguments);
   EXPECT_NE(result.exit_code, 0);
   EXPECT_LT(result.exit_code, 128) << "ended by a signal";
@@ -38,11 +38,11 @@ constexpr const char* last_lines[] = {
     "ao.estimate_worst"};
 
 TEST(AoBench, RefusesInASentence) {
-  expect_refusal({"--bogus"}, "--bogus");
-  expect_refusal({"--threads", "-1"}, "--threads: found -1, expected 0 (all cores) or more");
-  expect_refusal({"--data", "/nowhere/at/all"}, "--data: /nowhere/at/all is not a folder");
-  expect_refusal({"--csv", "/nowhere/at/all.csv"}, "/nowhere/at/all.csv");
-  expect_refusal({"--only", "atlantis"}, "--only: found atlantis, expected");
+  expect_ao_refusal({"--bogus"}, "--bogus");
+  expect_ao_refusal({"--threads", "-1"}, "--threads: found -1, expected 0 (all cores) or more");
+  expect_ao_refusal({"--data", "/nowhere/at/all"}, "--data: /nowhere/at/all is not a folder");
+  expect_ao_refusal({"--csv", "/nowhere/at/all.csv"}, "/nowhere/at/all.csv");
+  expect_ao_refusal({"--only", "atlantis"}, "--only: found atlantis, expected");
 }
 
 TEST(AoBench, ATinyRunNamesWhatIsMissingAndEndsWithTheFigures) {

@@ -10,7 +10,7 @@
 namespace tenebra::bench {
 namespace {
 
-constexpr float reach_m = 1.0f;
+constexpr float crowd_reach_m = 1.0f;
 constexpr int rays = 64;
 
 struct Cost {
@@ -23,14 +23,14 @@ Expected<Cost> cost_of(const AoSession& session, const std::vector<Object>& mesh
   const Scene scene = make_crowd(meshes, count, far_view.spacing_m);
   BenchFrame frame;
   see_crowd(scene, far_view, 0, session.by_effort(64, 512, 1024), frame);
-  const FramePeer peer(scene, frame, reach_m);
+  const FramePeer peer(scene, frame, crowd_reach_m);
   AmbientOcclusion ao;
   std::vector<float> values;
   std::vector<double> field, embree;
   for (int round = -1; round < session.by_effort(1, 3, 5); ++round) {
     CostClock clock;  // the first round builds
     auto done = ao.compute(scene, frame.geometry, frame.points, frame.normals,
-                           session.field_config(rays, reach_m), values);
+                           session.field_config(rays, crowd_reach_m), values);
     if (!done) return tl::unexpected(done.error());
     if (round < 0) continue;
     field.push_back(clock.ms());

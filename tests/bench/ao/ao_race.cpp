@@ -26,6 +26,12 @@ double CostClock::ms() {
   return clock_ms(one_thread_) - start_ms_;
 }
 
+double cost_ms(const std::function<void()>& work) {
+  CostClock clock;
+  work();
+  return clock.ms();
+}
+
 double trace_ms(std::span<const ao::RayBatch> batches, const Tracer& tracer) {
   CostClock clock;
   std::vector<float> kept(batches.size());

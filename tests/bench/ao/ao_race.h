@@ -1,6 +1,7 @@
 // Contestants on the same rays, so timed that what else the machine does meets all alike.
 #pragma once
 
+#include <functional>
 #include <span>
 #include <string>
 #include <vector>
@@ -20,6 +21,9 @@ private:
   bool one_thread_;
   double start_ms_;
 };
+
+/// Cost of `work`.
+double cost_ms(const std::function<void()>& work);
 
 /// Cost of `tracer` for all batches.
 double trace_ms(std::span<const ao::RayBatch> batches, const Tracer& tracer);

@@ -12,8 +12,6 @@ namespace {
 using glm::dvec3;
 using glm::vec3;
 
-constexpr int grid = 33;
-
 bool in_free_space(const vec3& position, const Ball& ball, const AoPeer& peer, testing::Random& random) {
   constexpr int probes = 64;
   const auto clearance = static_cast<float>(ball.radius / 50);
@@ -32,12 +30,12 @@ bool in_free_space(const vec3& position, const Ball& ball, const AoPeer& peer, t
 
 std::vector<Receiver> corner_receivers(const Ball& ball) {
   std::vector<Receiver> receivers;
-  const double wall = -1.05 * ball.radius, step = 6 * ball.radius / (grid - 1);
+  const double wall = -1.05 * ball.radius, step = 6 * ball.radius / (wall_points - 1);
   for (int axis = 0; axis < 3; ++axis) {
-    for (int i = 0; i < grid * grid; ++i) {
+    for (int i = 0; i < wall_points * wall_points; ++i) {
       dvec3 p(wall), normal(0.0);
-      p[(axis + 1) % 3] += step * (i % grid);
-      p[(axis + 2) % 3] += step * (i / grid);
+      p[(axis + 1) % 3] += step * (i % wall_points);
+      p[(axis + 2) % 3] += step * (i / wall_points);
       normal[axis] = 1;
       receivers.push_back({vec3(ball.centre + p), vec3(normal)});
     }
@@ -51,10 +49,10 @@ std::vector<Receiver> floor_receivers(const Object& object, const Ball& ball) {
     for (int k = 0; k < 3; ++k) lowest = std::min(lowest, static_cast<double>(object.positions[t[k]].y));
   }
   std::vector<Receiver> receivers;
-  const double y = lowest - ball.radius / 1000, step = 2 * ball.radius / (grid - 1);
-  for (int i = 0; i < grid * grid; ++i) {
-    const dvec3 p(ball.centre.x - ball.radius + step * (i % grid), y,
-                  ball.centre.z - ball.radius + step * (i / grid));
+  const double y = lowest - ball.radius / 1000, step = 2 * ball.radius / (wall_points - 1);
+  for (int i = 0; i < wall_points * wall_points; ++i) {
+    const dvec3 p(ball.centre.x - ball.radius + step * (i % wall_points), y,
+                  ball.centre.z - ball.radius + step * (i / wall_points));
     if (glm::distance(p, ball.centre) < ball.radius) receivers.push_back({vec3(p), vec3(0, 1, 0)});
   }
   return receivers;

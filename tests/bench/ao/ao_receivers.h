@@ -11,6 +11,8 @@
 
 namespace tenebra::bench {
 
+constexpr int wall_points = 33;  ///< points along each side of a wall
+
 struct Ball {
   glm::dvec3 centre{0.0};
   double radius = 0;

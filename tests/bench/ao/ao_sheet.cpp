@@ -13,7 +13,7 @@ namespace {
 using glm::dvec3;
 using glm::vec3;
 
-constexpr int side = 144, text_height = 28, columns = 4, grid = 33;  // px; points a wall's side
+constexpr int side = 144, text_height = 28, columns = 4;  // px
 constexpr int cell_width = 2 * side, cell_height = side + text_height;
 
 /// Five rows of three pixels a character.
@@ -51,7 +51,7 @@ void write_text(base::Image8& image, int left, int top, const std::string& text)
 
 Sheet::Sheet(const Ball& ball, const AoPeer& peer, std::span<const float> truth)
     : truth_(truth.begin(), truth.end()) {
-  const double near_wall = -1.05 * ball.radius, step = 6 * ball.radius / (grid - 1);
+  const double near_wall = -1.05 * ball.radius, step = 6 * ball.radius / (wall_points - 1);
   const dvec3 eye = ball.centre + dvec3(7.0, 5.5, 8.0) * ball.radius;
   const ViewRays view = testing::pinhole(eye, ball.centre + dvec3(0.3 * ball.radius), 0.27, side, side);
   for (int i = 0; i < side * side; ++i) {
@@ -69,7 +69,7 @@ Sheet::Sheet(const Ball& ball, const AoPeer& peer, std::span<const float> truth)
       if (!(t > 0) || t >= nearest) continue;
       const dvec3 on = (eye + t * dvec3(direction) - ball.centre - near_wall) / step;
       const double x = on[(axis + 1) % 3], y = on[(axis + 2) % 3];
-      if (x < 0 || y < 0 || x >= grid - 1 || y >= grid - 1) continue;
+      if (x < 0 || y < 0 || x >= wall_points - 1 || y >= wall_points - 1) continue;
       seen = {axis, static_cast<float>(x), static_cast<float>(y)};
       nearest = t;
     }
@@ -87,7 +87,7 @@ std::uint8_t Sheet::shade(const Seen& seen, std::span<const float> values, bool 
   const int x = static_cast<int>(seen.x), y = static_cast<int>(seen.y);
   const float fx = seen.x - static_cast<float>(x), fy = seen.y - static_cast<float>(y);
   const auto at = [&](int i, int j) {
-    const auto k = static_cast<std::size_t>(seen.wall * grid * grid + j * grid + i);
+    const auto k = static_cast<std::size_t>(seen.wall * wall_points * wall_points + j * wall_points + i);
     return difference ? 30 * std::abs(values[k] - truth_[k]) : values[k];
   };
   const float closed = (1 - fy) * ((1 - fx) * at(x, y) + fx * at(x + 1, y)) +

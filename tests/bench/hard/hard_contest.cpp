@@ -9,12 +9,6 @@
 namespace tenebra::bench {
 namespace {
 
-double cost_ms(const std::function<void()>& work) {
-  CostClock clock;
-  work();
-  return clock.ms();
-}
-
 /// One kind of Embree's builds with both packings.
 struct Peer {
   Peer(const HardView& view, RTCBuildQuality quality, const HardContest& contest)

@@ -15,12 +15,6 @@ namespace {
 constexpr std::size_t finalists = 2;
 constexpr double near_first = 1.3;  // of the time of the fastest: what is tried again
 
-double cost_ms(const std::function<void()>& work) {
-  CostClock clock;
-  work();
-  return clock.ms();
-}
-
 /// A tree with one way to use it.
 struct Entrant {
   TreeKind kind = TreeKind::rebuild;

@@ -46,8 +46,8 @@ std::vector<ShadowLight> lights_of(const Scene& scene, const HardView& view, boo
   return lights;
 }
 
-/// Ratios of all frames.
-struct Ratios {
+/// WholeRatios of all frames.
+struct WholeRatios {
   std::vector<double> moved, still;
 
   std::vector<double> both() const {
@@ -77,7 +77,7 @@ void report(const char* experiment, const HardView& view, const WholeTask& task,
   add("embree", "differing_samples", static_cast<double>(r.differing), "");
 }
 
-Rows head() {
+Rows whole_head() {
   return {{"frame", "lights", "moved", "E. moved", "of it built", "ratio", "E. by", "still", "E. still",
            "ratio", "E. by", "tiles", "lit", "differing"}};
 }
@@ -106,20 +106,20 @@ public:
   /// All frames with their lights; frames without such a light are passed over.
   Expected<void> measure(bool directional);
 
-  Ratios all;    ///< with all lights of the frames
-  Ratios first;  ///< with the first of them alone
+  WholeRatios all;    ///< with all lights of the frames
+  WholeRatios first;  ///< with the first of them alone
 
 private:
   void one(const Scene& scene, const HardView& view, bool directional);
-  void add(const HardView& view, const WholeTask& task, Ratios& ratios);
+  void add(const HardView& view, const WholeTask& task, WholeRatios& ratios);
   void conclude() const;
 
   HardSession& session_;
   const char* experiment_;
-  Rows table_ = head();
+  Rows table_ = whole_head();
 };
 
-void Measurement::add(const HardView& view, const WholeTask& task, Ratios& ratios) {
+void Measurement::add(const HardView& view, const WholeTask& task, WholeRatios& ratios) {
   const WholeResult result = run_whole_contest(task);
   ratios.moved.push_back(result.moved.ratio());
   ratios.still.push_back(result.still.ratio());

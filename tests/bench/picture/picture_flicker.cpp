@@ -18,9 +18,8 @@ struct Run30 {
   int first;
 };
 constexpr Run30 runs[] = {{"gallery", 45}, {"court", 45}};
-constexpr int counts[] = {1, 4, 16};
 
-/// What changes with each of `counts`.
+/// What changes with each of `sample_counts`.
 struct Changes {
   ChangeSums of[3];
 };
@@ -34,7 +33,7 @@ Expected<Changes> measure_run(PictureMaker& maker, int first, int frames, const 
     if (!drawn) return tl::unexpected(drawn.error());
     const base::Image8 reference = **drawn;
     for (int k = 0; k < 3; ++k) {
-      const auto picture = maker.draw({counts[k]});
+      const auto picture = maker.draw({sample_counts[k]});
       if (!picture) return tl::unexpected(picture.error());
       if (frame > first) add_change(before[k], **picture, reference_before, reference, changes.of[k]);
       before[k] = **picture;
@@ -65,15 +64,15 @@ Expected<void> measure_picture_flicker(PictureSession& session) {
     for (int k = 0; k < 3; ++k) {
       const ChangeSums& c = changes->of[k];
       const auto add = [&](const char* quantity, double value) {
-        session.report.add({"flicker", run.scene, "tenebra", fmt::format("samples={}", counts[k]), quantity,
-                            value, "1/255"});
+        session.report.add({"flicker", run.scene, "tenebra", fmt::format("samples={}", sample_counts[k]),
+                            quantity, value, "1/255"});
       };
       add("flicker", c.flicker());
       add("change", c.rms());
       add("reference_change", c.reference_rms());
       const auto level = [](double value) { return fmt::format("{:.3f}", value); };
-      table.push_back({run.scene, fmt::format("{}", counts[k]), level(c.rms()), level(c.reference_rms()),
-                       level(c.flicker()), level(c.rms() - c.reference_rms())});
+      table.push_back({run.scene, fmt::format("{}", sample_counts[k]), level(c.rms()),
+                       level(c.reference_rms()), level(c.flicker()), level(c.rms() - c.reference_rms())});
     }
     worst = std::max(worst, changes->of[2].flicker());
   }

@@ -14,9 +14,8 @@ namespace {
 
 constexpr ScenePlace places[] = {
     {"city", 150}, {"robots", 100}, {"kitchen", 100}, {"gallery", 60}, {"court", 60}};
-constexpr int counts[] = {1, 4, 16};
 
-/// What one view gives, by `counts`.
+/// What one view gives, by `sample_counts`.
 struct ViewResult {
   PictureError errors[3];
   double ms[3] = {};
@@ -32,7 +31,7 @@ Expected<ViewResult> measure_view(PictureMaker& maker, int pixels, int rounds) {
   std::vector<double> times[3];
   for (int round = 0; round <= rounds; ++round) {  // the first is not timed
     for (int k = 0; k < 3; ++k) {
-      const auto picture = maker.draw({counts[k]});
+      const auto picture = maker.draw({sample_counts[k]});
       if (!picture) return tl::unexpected(picture.error());
       if (round > 0) times[k].push_back(maker.total_ms());
       if (round > 0) continue;
@@ -63,7 +62,7 @@ void Measurement::report(const std::string& name, const ViewResult& r) {
   for (int k = 0; k < 3; ++k) {
     const auto add = [&](const char* quantity, double value, const char* unit) {
       session_.report.add(
-          {"views", name, "tenebra", fmt::format("samples={}", counts[k]), quantity, value, unit});
+          {"views", name, "tenebra", fmt::format("samples={}", sample_counts[k]), quantity, value, unit});
     };
     add("time", r.ms[k], "ms");
     add("rms", r.errors[k].rms, "1/255");

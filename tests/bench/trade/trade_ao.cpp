@@ -184,7 +184,7 @@ Expected<TradeTable> AoTrade::run() {
   return table;
 }
 
-void keep_headline(TradeSession& session, const TradeTable& table) {
+void keep_ao_headline(TradeSession& session, const TradeTable& table) {
   if (const TradePoint* p = table.find("field, 64 rays"))
     session.keep_largest("ao_default_rms_255", p->errors[0]);
   if (const TradePoint* p = table.find("field, half resolution, 16 rays"))
@@ -195,7 +195,7 @@ Expected<void> try_view(TradeSession& session, const AoView& view) {
   progress(view.name + ": ambient occlusion, what it costs");
   auto table = AoTrade(session, view).run();
   if (!table) return tl::unexpected(table.error());
-  keep_headline(session, *table);
+  keep_ao_headline(session, *table);
   session.finish(std::move(*table));
   return {};
 }

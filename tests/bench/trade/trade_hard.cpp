@@ -214,7 +214,7 @@ Expected<TradeTable> HardTrade::run() {
   return table;
 }
 
-void keep_headline(TradeSession& session, const TradeTable& table) {
+void keep_hard_headline(TradeSession& session, const TradeTable& table) {
   session.keep_largest("hard_default_wrong_pixels", table.find("default (Tiles)")->errors[0]);
   for (const TradePoint& p : table.points) {
     if (p.family == "variants of the paper") session.keep_largest("hard_variants_wrong_pixels", p.errors[0]);
@@ -241,7 +241,7 @@ Expected<void> measure_trade_hard(TradeSession& session) {
                          progress(view.name + ": hard shadows, what they cost");
                          auto table = HardTrade(session, *raster, view).run();
                          if (!table) return tl::unexpected(table.error());
-                         keep_headline(session, *table);
+                         keep_hard_headline(session, *table);
                          session.finish(std::move(*table));
                          return {};
                        });

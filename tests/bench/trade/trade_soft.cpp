@@ -144,7 +144,7 @@ Expected<TradeTable> SoftTrade::run() {
   return table;
 }
 
-void keep_headline(TradeSession& session, const TradeTable& table) {
+void keep_soft_headline(TradeSession& session, const TradeTable& table) {
   const TradePoint& exact = *table.find("default (exact)");
   session.keep_largest("soft_default_worst_255", exact.errors[3]);
   if (const TradePoint* p = table.find("light points (--soft-points), 8"))
@@ -161,7 +161,7 @@ Expected<void> measure_trade_soft(TradeSession& session) {
     progress(view.name + ": soft shadows, what they cost");
     auto table = SoftTrade(session, view).run();
     if (!table) return tl::unexpected(table.error());
-    keep_headline(session, *table);
+    keep_soft_headline(session, *table);
     session.finish(std::move(*table));
     return {};
   });

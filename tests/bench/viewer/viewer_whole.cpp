@@ -11,8 +11,6 @@
 namespace tenebra::bench {
 namespace {
 
-constexpr unsigned long key_right = 0xff53;
-
 /// total_ms of each frame of a log.
 std::vector<double> logged_totals(const std::string& log) {
   std::vector<double> totals;

@@ -6,7 +6,7 @@
 namespace tenebra::viewer {
 namespace {
 
-std::string name_of(const Scene& scene, int material) {
+std::string material_name(const Scene& scene, int material) {
   const std::string& name = scene.materials[static_cast<std::size_t>(material)].name;
   return name.empty() ? fmt::format("material {}", material) : fmt::format("{}  {}", material, name);
 }
@@ -32,10 +32,10 @@ void choose_material(Ui& ui) {
   const Scene& scene = ui.state.scene->scene;
   row(ui, "Material", "Click on a surface in the view to see which it has.");
   const int chosen = ui.state.selected_material;
-  if (ImGui::BeginCombo("##material", chosen < 0 ? "choose one" : name_of(scene, chosen).c_str())) {
+  if (ImGui::BeginCombo("##material", chosen < 0 ? "choose one" : material_name(scene, chosen).c_str())) {
     for (int i = 0; i < static_cast<int>(scene.materials.size()); ++i) {
       ImGui::PushID(i);
-      if (ImGui::Selectable(name_of(scene, i).c_str(), i == chosen)) ui.state.selected_material = i;
+      if (ImGui::Selectable(material_name(scene, i).c_str(), i == chosen)) ui.state.selected_material = i;
       ui.mark(fmt::format("material.{}", i));
       ImGui::PopID();
     }
