@@ -49,7 +49,7 @@ TEST(FanCaster, AgreesWithOneRayAtATime) {
       const float reach = n % 2 == 0 ? 0.4f : 100.0f;
       float distance[ao::batch_size], facing[ao::batch_size];
       std::fill_n(distance, ao::batch_size, reach);
-      ao::closest_fan(SimdLevel::automatic)(bvh, rays, distance, facing);
+      ao::closest_fans(SimdLevel::automatic)(bvh, {&rays, 1}, distance, facing);
       for (int i = 0; i < ao::batch_size; ++i) {
         const ao::CasterHit hit =
             ao::bvh_kernels(SimdLevel::automatic)
@@ -79,17 +79,62 @@ TEST(FanCaster, SameBitsForEveryInstructionSet) {
     const ao::RayBatch rays = fan(random, glm::vec3(random.in_cube(1)));
     float expected[ao::batch_size], expected_facing[ao::batch_size];
     std::fill_n(expected, ao::batch_size, 3.0f);
-    ao::closest_fan(SimdLevel::scalar)(bvh, rays, expected, expected_facing);
+    ao::closest_fans(SimdLevel::scalar)(bvh, {&rays, 1}, expected, expected_facing);
     for (const SimdLevel level : {SimdLevel::sse4, SimdLevel::avx2, SimdLevel::avx512}) {
       if (!simd_level_supported(level)) continue;
       float distance[ao::batch_size], facing[ao::batch_size];
       std::fill_n(distance, ao::batch_size, 3.0f);
-      ao::closest_fan(level)(bvh, rays, distance, facing);
+      ao::closest_fans(level)(bvh, {&rays, 1}, distance, facing);
       for (int i = 0; i < ao::batch_size; ++i) {
         EXPECT_EQ(distance[i], expected[i]) << simd_level_name(level);
         EXPECT_EQ(facing[i], expected_facing[i]) << simd_level_name(level);
       }
     }
+  }
+}
+
+// Six fans at once, then each of their rays by itself: small triangles and large ones.
+TEST(FanCaster, WhatARayFindsDoesNotDependOnTheOthers) {
+  for (const double size : {0.02, 0.5}) {
+    const Triangles cloud = tenebra::cloud(9, 4000, size);
+    const ao::TriangleBvh bvh = ao::build_triangle_bvh(cloud.positions, cloud.triangles);
+    constexpr std::size_t fans = 6, rays = fans * ao::batch_size;
+    Random random(21);
+    for (int n = 0; n < 50; ++n) {
+      const glm::vec3 origin(random.in_cube(1));
+      ao::RayBatch together[fans];
+      for (ao::RayBatch& fan : together) fan = tenebra::fan(random, origin);
+      float distance[rays], facing[rays];
+      std::fill_n(distance, rays, 0.7f);
+      ao::closest_fans(SimdLevel::automatic)(bvh, {together, fans}, distance, facing);
+      for (std::size_t i = 0; i < rays; ++i) {
+        ao::RayBatch alone{};
+        for (int k = 0; k < ao::batch_size; ++k) alone.set(k, origin, glm::vec3(0.0f));
+        alone.set(3, origin, together[i / ao::batch_size].direction(static_cast<int>(i % ao::batch_size)));
+        float far[ao::batch_size], side[ao::batch_size];
+        std::fill_n(far, ao::batch_size, 0.7f);
+        ao::closest_fans(SimdLevel::automatic)(bvh, {&alone, 1}, far, side);
+        EXPECT_EQ(far[3], distance[i]) << size << " " << n << " " << i;
+        EXPECT_EQ(side[3], facing[i]) << size << " " << n << " " << i;
+      }
+    }
+  }
+}
+
+// An object half as large as its world: its rays are twice as long in its own space.
+TEST(FanCaster, DirectionsMayHaveAnyLength) {
+  const Triangles cloud = tenebra::cloud(4, 500, 0.2);
+  const ao::TriangleBvh bvh = ao::build_triangle_bvh(cloud.positions, cloud.triangles);
+  Random random(7);
+  for (int n = 0; n < 50; ++n) {
+    ao::RayBatch rays = fan(random, glm::vec3(random.in_cube(1))), longer = rays;
+    for (int i = 0; i < ao::batch_size; ++i) longer.set(i, rays.origin(i), 4.0f * rays.direction(i));
+    float distance[ao::batch_size], quarter[ao::batch_size];
+    std::fill_n(distance, ao::batch_size, 2.0f);
+    std::fill_n(quarter, ao::batch_size, 0.5f);
+    ao::closest_fans(SimdLevel::automatic)(bvh, {&rays, 1}, distance, nullptr);
+    ao::closest_fans(SimdLevel::automatic)(bvh, {&longer, 1}, quarter, nullptr);
+    for (int i = 0; i < ao::batch_size; ++i) EXPECT_EQ(4 * quarter[i], distance[i]) << n << " " << i;
   }
 }
 
@@ -123,7 +168,7 @@ TEST(FanCaster, LeavesNoGapBetweenNeighbours) {
     }
     float distance[ao::batch_size];
     std::fill_n(distance, ao::batch_size, infinity);
-    ao::closest_fan(SimdLevel::automatic)(bvh, rays, distance, nullptr);
+    ao::closest_fans(SimdLevel::automatic)(bvh, {&rays, 1}, distance, nullptr);
     for (int i = 0; i < ao::batch_size; ++i) EXPECT_LT(distance[i], 1.01f) << round << " " << i;
   }
 }
@@ -135,8 +180,8 @@ TEST(FanCaster, AnEmptyTreeAndRaysWithoutDirectionMeetNothing) {
   ao::RayBatch rays{};
   float distance[ao::batch_size];
   std::fill_n(distance, ao::batch_size, 2.0f);
-  ao::closest_fan(SimdLevel::automatic)(empty, rays, distance, nullptr);
-  ao::closest_fan(SimdLevel::automatic)(bvh, rays, distance, nullptr);
+  ao::closest_fans(SimdLevel::automatic)(empty, {&rays, 1}, distance, nullptr);
+  ao::closest_fans(SimdLevel::automatic)(bvh, {&rays, 1}, distance, nullptr);
   for (const float d : distance) EXPECT_EQ(d, 2.0f);
 }
 

@@ -45,7 +45,7 @@ private:
   float noise() const { return trust_ * lattice_noise / std::sqrt(static_cast<float>(settings_.rays)); }
 
   AdaptiveSettings settings_;
-  float trust_ = 0.5f;  ///< in neighbours: what differs by less than four times this noise is evened out
+  float trust_ = 0.3f;  ///< in neighbours: what differs by less than four times this noise is evened out
   PixelSurfaces surfaces_;
   PixelLooks looks_;
   const StopFlag* stop_;
@@ -112,7 +112,7 @@ void AdaptivePass::settle() {
 /// Pixels that few speak for besides themselves and whose rays do not agree: where more noise than `noise`
 /// (a standard deviation) is expected. Each round has rays of its own.
 void AdaptivePass::look_again(float noise, int round) {
-  constexpr int times = 4;
+  constexpr int times = 2;
   const RaySets sets = make_ray_sets(times * settings_.rays, round);
   const float alone = lattice_noise / std::sqrt(static_cast<float>(settings_.rays));
   looks_.look(

@@ -5,7 +5,7 @@
 namespace tenebra::ao {
 namespace {
 
-constexpr double of_each = 256;
+constexpr double judged_pixels = 512;
 
 std::uint32_t hashed(std::uint32_t x) {
   x = (x ^ (x >> 16)) * 0x7feb352du;
@@ -18,6 +18,9 @@ std::uint32_t hashed(std::uint32_t x) {
 Audit::Audit(PixelLooks& looks, const PixelSurfaces& surfaces, std::span<const Settled> settled, int rays) {
   double number_of[3] = {}, judged_of[3] = {};
   for (const Settled kind : settled) ++number_of[static_cast<int>(kind)];
+  const bool mixed = number_of[static_cast<int>(Settled::by_neighbours)] > 0 &&
+                     number_of[static_cast<int>(Settled::by_rays)] > 0;
+  const double of_each = mixed ? judged_pixels / 2 : judged_pixels;
   std::vector<std::vector<Judged>> of_tile(static_cast<std::size_t>(looks.tiles().count()));
   const RaySets sets = make_ray_sets(rays);
   looks.look(

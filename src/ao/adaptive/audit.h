@@ -13,8 +13,8 @@ enum class Settled : std::uint8_t { none, by_neighbours, by_rays };
 
 class Audit {
 public:
-  /// Some 256 pixels of both kinds, by `rays` each: eight times as many as theirs leave little noise beside
-  /// the error.
+  /// Some 512 pixels, half of them of either kind where there are both, by `rays` each: eight times as many
+  /// as theirs leave little noise beside the error.
   Audit(PixelLooks& looks, const PixelSurfaces& surfaces, std::span<const Settled> settled, int rays);
 
   /// Mean squares of what is wrong with `values`, each kind's share of the picture's.

@@ -1,5 +1,7 @@
-// Sixteen rays from one point through a tree of triangles at once.
+// Rays from one point through a tree of triangles, sixteen of them a fan.
 #pragma once
+
+#include <span>
 
 #include <tenebra/simd_level.h>
 #include "ao/cast/ray_batch.h"
@@ -7,12 +9,17 @@
 
 namespace tenebra::ao {
 
+inline constexpr std::size_t fans_at_once = 4;
+
 /// distance[i] = t of the nearest hit of ray i before distance[i] (finite); else left as it is. All rays
 /// start at the first one's origin. facing[i], unless null: positive where the hit shows its front
-/// (counter-clockwise), negative its back, 0 without a hit.
-using ClosestFan = void (*)(const TriangleBvh& bvh, const RayBatch& rays, float* distance, float* facing);
+/// (counter-clockwise), negative its back, 0 without a hit. Directions may have any length. What a ray finds
+/// does not depend on the others (but where rounding puts a hit, on a triangle seen edge-on, outside of the
+/// triangle's box).
+using ClosestFans = void (*)(const TriangleBvh& bvh, std::span<const RayBatch> rays, float* distance,
+                             float* facing);
 
 /// Code for one instruction set. Bits do not depend on it.
-ClosestFan closest_fan(SimdLevel level);
+ClosestFans closest_fans(SimdLevel level);
 
 }  // namespace tenebra::ao

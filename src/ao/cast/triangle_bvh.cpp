@@ -5,12 +5,15 @@
 #include <cmath>
 #include <utility>
 
+#include "parallel/parallel.h"
+
 namespace tenebra::ao {
 
 namespace {
 
 constexpr int bin_count = 16;
 constexpr int depth_to_halve = bvh_depth - 32;  ///< from here on 32 levels hold whatever is left
+constexpr std::uint32_t shared_size = 8192;  ///< items of a node whose children are made by several threads
 constexpr float largest_coordinate = 1e18f;
 constexpr float infinity = std::numeric_limits<float>::infinity();
 
@@ -72,14 +75,15 @@ private:
   Bins bins(const Range& range) const;
   Split best_split(const Range& range, const Bins& bins) const;
   std::pair<Range, Range> divide(const Range& range, int depth);
-  std::uint32_t add_node(const Range& range, int depth);
-  std::uint32_t add_block(const Range& range);
+  std::vector<Range> children_of(const Range& range, int depth);
+  std::uint32_t add_child(const Range& range, int depth, TriangleBvh& tree);
+  std::uint32_t add_node(const Range& range, int depth, TriangleBvh& tree);
+  std::uint32_t add_block(const Range& range, TriangleBvh& tree) const;
 
   std::span<const glm::vec3> positions_;
   std::span<const glm::uvec3> triangles_;
   std::vector<Item> items_;
   float margin_ = 0;
-  TriangleBvh bvh_;
 };
 
 bool usable(glm::vec3 p) {
@@ -165,7 +169,7 @@ std::pair<Range, Range> Builder::divide(const Range& whole, int depth) {
   return {range(whole.first, middle), range(middle, whole.last)};
 }
 
-std::uint32_t Builder::add_block(const Range& range) {
+std::uint32_t Builder::add_block(const Range& range, TriangleBvh& tree) const {
   TriangleBlock block{};
   std::fill(std::begin(block.triangle), std::end(block.triangle), no_caster);
   for (std::uint32_t i = range.first; i < range.last; ++i) {
@@ -175,11 +179,11 @@ std::uint32_t Builder::add_block(const Range& range) {
     for (int corner = 0; corner < 3; ++corner)
       for (int axis = 0; axis < 3; ++axis) block.corner[corner][axis][lane] = positions_[t[corner]][axis];
   }
-  bvh_.blocks.push_back(block);
-  return static_cast<std::uint32_t>(bvh_.blocks.size() - 1) | bvh_leaf;
+  tree.blocks.push_back(block);
+  return static_cast<std::uint32_t>(tree.blocks.size() - 1) | bvh_leaf;
 }
 
-std::uint32_t Builder::add_node(const Range& whole, int depth) {
+std::vector<Range> Builder::children_of(const Range& whole, int depth) {
   std::vector<Range> children{whole};
   while (children.size() < bvh_width) {
     auto widest = children.end();
@@ -191,15 +195,47 @@ std::uint32_t Builder::add_node(const Range& whole, int depth) {
     *widest = left;
     children.push_back(right);
   }
-  const auto place = static_cast<std::uint32_t>(bvh_.nodes.size());
-  bvh_.nodes.emplace_back();
+  return children;
+}
+
+std::uint32_t Builder::add_child(const Range& range, int depth, TriangleBvh& tree) {
+  return range.size() <= bvh_width ? add_block(range, tree) : add_node(range, depth, tree);
+}
+
+/// Moves a part of a tree, of which `root` is the first node or block, behind what is in `tree`.
+std::uint32_t append(const TriangleBvh& part, std::uint32_t root, TriangleBvh& tree) {
+  const auto nodes = static_cast<std::uint32_t>(tree.nodes.size()),
+             blocks = static_cast<std::uint32_t>(tree.blocks.size());
+  const auto moved = [&](std::uint32_t child) { return child + (child & bvh_leaf ? blocks : nodes); };
+  for (BvhNode node : part.nodes) {
+    for (int lane = 0; lane < bvh_width; ++lane)
+      if (node.plane[0][lane] != infinity) node.child[lane] = moved(node.child[lane]);
+    tree.nodes.push_back(node);
+  }
+  tree.blocks.insert(tree.blocks.end(), part.blocks.begin(), part.blocks.end());
+  return moved(root);
+}
+
+/// Nodes and blocks come to lie in the order of a walk from the first child to the last, whoever makes them.
+std::uint32_t Builder::add_node(const Range& whole, int depth, TriangleBvh& tree) {
+  const std::vector<Range> children = children_of(whole, depth);
+  const auto place = static_cast<std::uint32_t>(tree.nodes.size());
+  tree.nodes.emplace_back();
+  std::array<TriangleBvh, bvh_width> parts;
+  std::array<std::uint32_t, bvh_width> roots{};
+  const bool shared = whole.size() >= shared_size;
+  if (shared) {
+    parallel::parallel_tasks(static_cast<int>(children.size()), [&](int child) {
+      const auto i = static_cast<std::size_t>(child);
+      roots[i] = add_child(children[i], depth + 1, parts[i]);
+    });
+  }
   for (std::size_t lane = 0; lane < bvh_width; ++lane) {
     const bool used = lane < children.size();
     std::uint32_t child = bvh_leaf;
     if (used)
-      child = children[lane].size() <= bvh_width ? add_block(children[lane])
-                                                 : add_node(children[lane], depth + 1);
-    BvhNode& node = bvh_.nodes[place];
+      child = shared ? append(parts[lane], roots[lane], tree) : add_child(children[lane], depth + 1, tree);
+    BvhNode& node = tree.nodes[place];
     node.child[lane] = child;
     for (int axis = 0; axis < 3; ++axis) {
       node.plane[axis][lane] = used ? children[lane].box.low[axis] - margin_ : infinity;
@@ -210,9 +246,10 @@ std::uint32_t Builder::add_node(const Range& whole, int depth) {
 }
 
 TriangleBvh Builder::build() {
-  bvh_.triangles = items_.size();
-  if (!items_.empty()) add_node(range(0, static_cast<std::uint32_t>(items_.size())), 0);
-  return std::move(bvh_);
+  TriangleBvh tree;
+  tree.triangles = items_.size();
+  if (!items_.empty()) add_node(range(0, static_cast<std::uint32_t>(items_.size())), 0, tree);
+  return tree;
 }
 
 }  // namespace

@@ -8,12 +8,12 @@
 namespace tenebra::ao {
 
 struct AoKernels {
-  FanKernels fan;             ///< a point's rays, and what their hits add up to
-  ClosestFan cast = nullptr;  ///< rays through triangles
-  FieldKernels field;         ///< rays through displacement fields
+  FanKernels fan;              ///< a point's rays, and what their hits add up to
+  ClosestFans cast = nullptr;  ///< rays of a point through triangles
+  FieldKernels field;          ///< rays through displacement fields
 };
 inline AoKernels ao_kernels(SimdLevel level) {
-  return {fan_kernels(level), closest_fan(level), field_kernels(level)};
+  return {fan_kernels(level), closest_fans(level), field_kernels(level)};
 }
 
 }  // namespace tenebra::ao

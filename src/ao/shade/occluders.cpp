@@ -275,7 +275,7 @@ void Occluders::meet(int occluder, std::int32_t owner, std::span<const RayBatch>
   if (occluder < 0) {
     const TriangleBvh& tree = occluder == standing ? *standing_ : *deforming_;
     counts.rays_cast += all;
-    return each([&](const RayBatch& batch, float* out) { kernels_.cast(tree, batch, out, nullptr); });
+    return each([&](const RayBatch& batch, float* out) { kernels_.cast(tree, {&batch, 1}, out, nullptr); });
   }
   const Placed& placed = placed_[static_cast<std::size_t>(occluder)];
   if (placed.instance && occluder != owner) {
@@ -287,7 +287,8 @@ void Occluders::meet(int occluder, std::int32_t owner, std::span<const RayBatch>
   const TriangleBvh& tree = *shapes_[static_cast<std::size_t>(placed.shape)].casters;
   counts.rays_cast += all;
   each([&](const RayBatch& batch, float* out) {
-    kernels_.cast(tree, moved(batch, placed.to_object), out, nullptr);
+    const RayBatch there = moved(batch, placed.to_object);
+    kernels_.cast(tree, {&there, 1}, out, nullptr);
   });
 }
 
@@ -337,10 +338,7 @@ void Occluders::meet_triangles(int occluder, const Receiver& receiver, const dve
                                OccluderCounts& counts) const {
   if (occluder < 0) {
     counts.rays_cast += rays.size() * batch_size;
-    const TriangleBvh& tree = world_tree(occluder);
-    for (std::size_t b = 0; b < rays.size(); ++b)
-      kernels_.cast(tree, rays[b], distances + b * batch_size, nullptr);
-    return;
+    return kernels_.cast(world_tree(occluder), rays, distances, nullptr);
   }
   const MovingObject& object = objects_->objects[static_cast<std::size_t>(occluder)];
   const Placed& placed = placed_[static_cast<std::size_t>(occluder)];
@@ -355,9 +353,12 @@ void Occluders::meet_triangles(int occluder, const Receiver& receiver, const dve
   const double away = double{glm::length(off)} * object.largest_scale;
   if (away > reach_ * (1 + 0x1p-18)) return;
   counts.rays_cast += rays.size() * batch_size;
-  for (std::size_t b = 0; b < rays.size(); ++b)
-    kernels_.cast(*shape.casters, turned(rays[b], start, placed.to_object), distances + b * batch_size,
-                  nullptr);
+  RayBatch there[fans_at_once];
+  for (std::size_t first = 0; first < rays.size(); first += fans_at_once) {
+    const std::size_t count = std::min(fans_at_once, rays.size() - first);
+    for (std::size_t b = 0; b < count; ++b) there[b] = turned(rays[first + b], start, placed.to_object);
+    kernels_.cast(*shape.casters, {there, count}, distances + first * batch_size, nullptr);
+  }
 }
 
 }  // namespace tenebra::ao

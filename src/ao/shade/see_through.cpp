@@ -67,8 +67,7 @@ void SeeThroughOccluders::darken(const ReceiverSet& set, const PointRays& rays, 
       for (const Receiver& receiver : own.receivers) {
         rays.spread(receiver, own.batches.data());
         own.distances.assign(rays.batches() * batch_size, rays.reach());
-        for (std::size_t b = 0; b < own.batches.size(); ++b)
-          kernels.cast(layer.triangles, own.batches[b], own.distances.data() + b * batch_size, nullptr);
+        kernels.cast(layer.triangles, own.batches, own.distances.data(), nullptr);
         values[receiver.index] *= 1 - layer.opacity * rays.hidden(own.distances.data());
         cast[static_cast<std::size_t>(group)] += static_cast<std::uint64_t>(rays.rays());
       }
@@ -86,8 +85,7 @@ float SeeThroughOccluders::left(const glm::dvec3& point, std::span<const RayBatc
   for (const Layer& layer : layers_) {
     if (apart(box, layer.box, reach)) continue;
     std::fill(distances.begin(), distances.end(), reach);
-    for (std::size_t b = 0; b < rays.size(); ++b)
-      kernels.cast(layer.triangles, rays[b], &distances[b * batch_size], nullptr);
+    kernels.cast(layer.triangles, rays, distances.data(), nullptr);
     const float hidden = kernels.fan.fall_off(distances.data(), static_cast<int>(rays.size()), reach);
     open *= 1 - layer.opacity * std::clamp(hidden / static_cast<float>(count), 0.0f, 1.0f);
     counts.rays_cast += rays.size() * batch_size;

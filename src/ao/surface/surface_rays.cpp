@@ -68,8 +68,7 @@ SurfaceRays::Seen SurfaceRays::look(const SurfacePoint& point, const AoKernels& 
   kernels.fan.spread(pattern_, {frame.x, frame.y, normal}, face, origin, fan);
   kernels.fan.spread(grazing_, {flat.x, flat.y, face}, face, origin, fan + batches);
   std::fill(std::begin(distances), std::end(distances), reach_);
-  for (int b = 0; b <= batches; ++b)
-    kernels.cast(casters_, fan[b], distances + b * batch_size, facing + b * batch_size);
+  kernels.cast(casters_, {fan, batches + 1}, distances, facing);
   Seen seen;
   seen.occlusion = std::clamp(kernels.fan.fall_off(distances, batches, reach_) / rays, 0.0f, 1.0f);
   seen.nearest = *std::min_element(std::begin(distances), std::end(distances));
