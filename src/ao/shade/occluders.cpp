@@ -250,7 +250,7 @@ Expected<void> Occluders::build_object(std::size_t index, const AoProgress& prog
 Expected<DisplacementField> Occluders::make_field(const ObjectShape& shape, const TriangleBvh& tree,
                                                   const AoProgress& progress, const StopFlag* stop) {
   const std::vector<glm::uvec3> triangles = casting_triangles(shape);
-  FieldKey key;
+  CacheKey key;
   if (!config_.cache.empty()) {
     key = field_key(shape.positions, triangles, settings_);
     if (auto loaded = load_field(config_.cache, key, settings_)) return loaded;
