@@ -35,7 +35,7 @@ ROOMS = {
     "formats": ["", "gltf_check", "images", "obj", "aff", "gltf", "glb"],
     "shadow": ["decision", "rays", "cone_tree", "tiles", ""],
     "soft": ["light", "polygon", "groups", "shafts", "occluders", "clip", "silhouette", "bsp", "solve"],
-    "ao": ["objects", "cast", "field", "surface", "shade", "adaptive", ""],
+    "ao": ["objects", "cast", "cache", "field", "surface", "shade", "adaptive", ""],
 }
 APART = {("tiles", "cone_tree"), ("silhouette", "clip"), ("bsp", "clip"), ("bsp", "silhouette"),
          ("aff", "obj"), ("gltf", "obj"), ("gltf", "aff"), ("glb", "obj"), ("glb", "aff"), ("glb", "gltf")}  # may not see each other

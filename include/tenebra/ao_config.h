@@ -36,7 +36,8 @@ struct AoConfig {
   int bits = 8;           ///< per stored distance: 1, 8 or 32
   bool deforming =
       true;  ///< what deforms has no field: rays meet it as it is (true), or it is left out (false)
-  std::filesystem::path cache;  ///< folder where built fields are kept; empty: nowhere
+  std::filesystem::path cache;  ///< folder where fields and surface samples are kept; empty: nowhere
+  int memory_mb = 512;  ///< of 2^20 bytes: fields and surface samples together, at most; 1 to 1,000,000
   SimdLevel simd = SimdLevel::automatic;
 };
 
@@ -48,7 +49,9 @@ struct AoStats {
   std::uint64_t points = 0;        ///< points or vertices computed
   std::uint64_t objects = 0;       ///< rigid objects in reach of a visible point
   std::uint64_t fields_built = 0;  ///< in this frame
-  std::uint64_t field_bytes = 0;   ///< memory of all tables
+  std::uint64_t field_bytes = 0;   ///< memory of all fields, at the end
+  std::uint64_t sample_bytes = 0;  ///< of all surface samples, at the end
+  std::uint64_t peak_bytes = 0;    ///< the most that both took together
   std::uint64_t lookups = 0;       ///< rays answered by a field
   std::uint64_t rays_cast = 0;     ///< rays answered by casting
   std::uint64_t cache_cells = 0;   ///< surface samples in memory

@@ -35,6 +35,10 @@ Expected<void> check(const AoConfig& config, const VisiblePoints& points, std::s
   if (config.downscale < 1 || config.downscale > most_downscale)
     return base::fail("ambient occlusion: scale 1/{}, expected 1/1 to 1/{}", config.downscale,
                       most_downscale);
+  constexpr int most_memory_mb = 1'000'000;
+  if (config.memory_mb < 1 || config.memory_mb > most_memory_mb)
+    return base::fail("ambient occlusion: {} MB of memory, expected 1 to {}", config.memory_mb,
+                      most_memory_mb);
   const auto size = ao::field_shape({config.layout, config.positions, config.directions, config.bits});
   if (!size) return tl::unexpected(size.error());
   const std::size_t pixels = points.triangles.size();
@@ -69,18 +73,26 @@ struct AmbientOcclusion::State {
   bool found = false;
   double diagonal = 0;
   double reach = 0;
-  ao::Occluders occluders;
-  ao::Bodies bodies;
+  std::uint64_t frame = 0;  ///< counts calls
+  ao::MemoryBudget budget;
+  ao::Occluders occluders{budget};
+  ao::Bodies bodies{budget};
   ao::SeeThroughOccluders see_through;
   ao::PointRays rays;
   ao::AoKernels kernels;
   std::vector<float> values;
   std::vector<std::string> noted;  ///< deforming meshes already named
+  bool noted_memory = false;
 
   AoStats stats;
   FrameTimings timings;
   std::vector<std::string> notes;
 
+  State() {
+    budget.set_drop([this] { return drop_oldest(); });
+  }
+  bool drop_oldest();
+  void note_memory(const AoConfig& config);
   void find(const Scene& scene, const FrameGeometry& geometry, const AoConfig& config);
   void note_deforming(const AoConfig& config);
   Expected<void> run(const ao::AoFrame& frame, const AoConfig& config, std::span<float> out,
@@ -118,9 +130,33 @@ void AmbientOcclusion::State::find(const Scene& scene, const FrameGeometry& geom
   reach = wanted;
   kernels = ao::ao_kernels(config.simd);
   rays.begin_frame(objects, config.rays, reach, kernels);
-  occluders.begin_frame(objects, geometry, config, reach);
+  ++frame;
+  occluders.begin_frame(objects, geometry, config, reach, frame);
+  bodies.begin_frame(frame, config.cache);
+  constexpr std::size_t megabyte = std::size_t{1} << 20;
+  budget.begin_frame(static_cast<std::size_t>(config.memory_mb) * megabyte);
   see_through.begin_frame(scene, geometry);
   note_deforming(config);
+}
+
+/// Of one object, samples go before its field.
+bool AmbientOcclusion::State::drop_oldest() {
+  const auto samples = bodies.oldest(), field = occluders.fields().oldest();
+  if (samples && (!field || *samples <= *field)) {
+    bodies.drop_oldest();
+  } else if (field) {
+    occluders.drop_field(field->object);
+  }
+  return samples || field;
+}
+
+void AmbientOcclusion::State::note_memory(const AoConfig& config) {
+  if (noted_memory || !budget.refused()) return;
+  noted_memory = true;
+  notes.push_back(
+      fmt::format("A frame's fields and surface samples need more than {} MB: rays answer for bodies without "
+                  "room, which takes longer; --ao-memory gives more.",
+                  config.memory_mb));
 }
 
 void AmbientOcclusion::State::note_deforming(const AoConfig& config) {
@@ -207,10 +243,15 @@ Expected<void> AmbientOcclusion::compute(const Scene& scene, const FrameGeometry
   if (auto done = s.run({geometry, points, normals, s.objects}, config, out, progress, stop); !done)
     return done;
   s.timings.ao_ms = watch.lap_ms() - (s.timings.ao_build_ms - found_ms);
-  s.stats.fields_built = s.occluders.fields_built();
-  s.stats.field_bytes = s.occluders.field_bytes();
-  s.stats.cache_cells = s.bodies.filled();
-  for (std::string& note : s.occluders.take_notes()) s.notes.push_back(std::move(note));
+  s.stats.fields_built = s.occluders.fields().built();
+  s.stats.field_bytes = s.occluders.fields().bytes();
+  s.bodies.save_grown();
+  s.stats.sample_bytes = s.bodies.bytes();
+  s.stats.peak_bytes = s.budget.peak();
+  s.stats.cache_cells = s.bodies.known();
+  s.note_memory(config);
+  for (std::string& note : s.occluders.fields().take_notes()) s.notes.push_back(std::move(note));
+  for (std::string& note : s.bodies.take_notes()) s.notes.push_back(std::move(note));
   return {};
 }
 

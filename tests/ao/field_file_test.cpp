@@ -18,7 +18,7 @@ namespace fs = std::filesystem;
 
 constexpr FieldLayout paper = FieldLayout::positions_directions, chords = FieldLayout::chords;
 
-ao::FieldKey key_of(const Object& object, const ao::FieldSettings& settings) {
+ao::CacheKey key_of(const Object& object, const ao::FieldSettings& settings) {
   return ao::field_key(object.positions, object.triangles, settings);
 }
 
@@ -39,7 +39,7 @@ TEST(FieldFile, GivesBackWhatWasSaved) {
     for (const int bits : {1, 8, 32}) {
       const ao::FieldSettings settings{layout, 625, 625, bits};
       const ao::DisplacementField field = object.field(settings);
-      const ao::FieldKey key = key_of(object, settings);
+      const ao::CacheKey key = key_of(object, settings);
       ASSERT_TRUE(ao::save_field(folder.path() / "new" / "folder", key, field));
       const auto loaded = ao::load_field(folder.path() / "new" / "folder", key, settings);
       ASSERT_TRUE(loaded) << loaded.error().message;
@@ -80,7 +80,7 @@ TEST(FieldFile, RefusesWhatIsDamagedCutOrForeign) {
   const testing::TemporaryFolder folder;
   const Object object = testing::table();
   const ao::FieldSettings settings{chords, 121, 121, 8};
-  const ao::FieldKey key = key_of(object, settings);
+  const ao::CacheKey key = key_of(object, settings);
   const fs::path path = ao::field_path(folder.path(), key);
   EXPECT_FALSE(ao::load_field(folder.path(), key, settings));  // missing
   ASSERT_TRUE(ao::save_field(folder.path(), key, object.field(settings)));

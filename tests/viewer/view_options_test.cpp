@@ -79,7 +79,7 @@ TEST(MethodArguments, GiveBackWhatTheyWereMadeFrom) {
         "--light-size 4x4%",
         "--ao field --ao-at vertices --ao-layout positions --ao-rays 7 --ao-downscale 3 --ao-distance 1.5 "
         "--ao-positions 99 "
-        "--ao-directions 64 --ao-bits 1 --ao-deforming none --ao-cache none"}) {
+        "--ao-directions 64 --ao-bits 1 --ao-deforming none --ao-cache none --ao-memory 100"}) {
     EXPECT_EQ(viewer::method_arguments(parsed(text)), text);
   }
 }
@@ -101,7 +101,7 @@ TEST(MethodArguments, CoverEveryMethodOption) {
       "positions "
       "--ao-error 3 --ao-rays 7 --ao-downscale 2 --ao-distance 1.5 --ao-positions 99 --ao-directions 64 "
       "--ao-bits 1 "
-      "--ao-deforming none --ao-cache none"));
+      "--ao-deforming none --ao-cache none --ao-memory 100"));
   for (const CLI::Option* option : app.get_options()) {
     // --quality is told by what it stands for.
     if (option->get_name() == "--help" || option->get_name() == "--quality") continue;

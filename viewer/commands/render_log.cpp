@@ -86,7 +86,8 @@ void describe_ao(const AoConfig& ao, std::vector<render::LogSetting>& list) {
                            {"ao_directions", fmt::format("{}", ao.directions)},
                            {"ao_bits", fmt::format("{}", ao.bits)},
                            {"ao_deforming", choice_name(deforming_choices, ao.deforming)},
-                           {"ao_cache", ao.cache.empty() ? "none" : ao.cache.string()}});
+                           {"ao_cache", ao.cache.empty() ? "none" : ao.cache.string()},
+                           {"ao_memory", fmt::format("{} MB", ao.memory_mb)}});
 }
 
 std::string summary_row(std::string_view name, std::span<const render::FrameRecord> records, auto value) {

@@ -66,6 +66,7 @@ void add_ao(Arguments& arguments, const AoConfig& ao) {
   if (ao.cache != default_cache_folder()) {
     arguments.add("--ao-cache", ao.cache.empty() ? "none" : shell_word(ao.cache.string()));
   }
+  arguments.value("--ao-memory", ao.memory_mb, standard.memory_mb);
 }
 
 }  // namespace

@@ -255,8 +255,13 @@ void add_ao(CLI::App& command, AoConfig& ao) {
                                      "What deforms has no field: meet it by rays, or leave it\nout [rays]"),
        add_value(
            command, "--ao-cache", ao.cache, parse_cache,
-           "Folder that keeps built fields for the next run\n[$XDG_CACHE_HOME/tenebra or ~/.cache/tenebra]")
-           .type_name("FOLDER|none")},
+           "Folder that keeps fields and surface samples for the\nnext run; any number of processes may "
+           "share it\n[$XDG_CACHE_HOME/tenebra or ~/.cache/tenebra]")
+           .type_name("FOLDER|none"),
+       add_value(command, "--ao-memory", ao.memory_mb, parse_at_least_one,
+                 "What fields and surface samples may take, in MB; the\nleast recently used go first. Bodies "
+                 "that have no room\nare answered by rays, which takes longer [512]")
+           .type_name("MB")},
       ao_group);
 }
 

@@ -47,6 +47,11 @@ Expected<FieldShape> field_shape(const FieldSettings& settings) {
   return shape;
 }
 
+std::size_t field_memory(const FieldSettings& settings, const FieldShape& shape) {
+  const std::size_t means = settings.bits == 1 ? shape.positions() : 0;
+  return shape.bytes + field_padding + near_words * sizeof(std::uint32_t) + means * sizeof(float);
+}
+
 DisplacementField empty_field(const FieldSettings& settings, const FieldShape& shape) {
   DisplacementField field;
   field.layout = settings.layout;

@@ -21,6 +21,7 @@ struct FieldSettings {
   int positions = 4225;   ///< samples on the sphere; rounded to the next smaller square
   int directions = 1024;  ///< inward directions a position; rounded to the next smaller square
   int bits = 8;           ///< of a stored distance: 1, 8 or 32
+  friend bool operator==(const FieldSettings&, const FieldSettings&) = default;
 };
 
 /// A table of the size that settings ask for. Chords have as many exits as entries: the largest square whose
@@ -41,6 +42,9 @@ struct FieldShape {
 /// Fails, with one sentence, on settings out of range: fewer than 4 or more than 1,048,576 of either, bits
 /// other than 1, 8 and 32, a table of more than 2^30 samples or bytes.
 Expected<FieldShape> field_shape(const FieldSettings& settings);
+
+/// What a field of this shape takes: its bytes().
+std::size_t field_memory(const FieldSettings& settings, const FieldShape& shape);
 
 /// Smallest useful table (0.33 MB): 24^2 x 24^2 chords.
 inline constexpr FieldSettings sparse_field{FieldLayout::chords, 576, 576, 8};

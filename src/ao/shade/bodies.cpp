@@ -1,8 +1,11 @@
 #include "ao/shade/bodies.h"
 
-#include "base/fail.h"
-
+#include <algorithm>
 #include <cmath>
+
+#include "base/fail.h"
+#include "base/sort_unique.h"
+#include "parallel/parallel.h"
 
 namespace tenebra::ao {
 
@@ -13,25 +16,95 @@ void Bodies::reset(const SceneObjects& objects, double reach) {
   at_.assign(objects.objects.size() + 1, -1);
 }
 
-void Bodies::make(std::int32_t object, Occluders& occluders) {
+void Bodies::begin_frame(std::uint64_t frame, const std::filesystem::path& cache) {
+  frame_ = frame;
+  cache_ = cache;
+  for (Body& body : bodies_) body.samples->begin_frame();
+}
+
+/// The number of the object's body; a new one has no samples yet.
+int Bodies::body_of(std::int32_t object, Occluders& occluders) {
   constexpr double alike = 1e-3;
+  int& number = at_[index(object)];
+  if (number >= 0) return number;
   int shape = -1;
   double reach = reach_;
   if (object != TriangleOwner::standing) {
     const MovingObject& rigid = objects_->objects[static_cast<std::size_t>(object)];
     shape = rigid.shape;
-    reach /= rigid.scale;
+    reach /= double{static_cast<float>(rigid.scale)};  // in float, the same at every instant
   }
   for (std::size_t b = 0; b < bodies_.size(); ++b) {
     const Body& body = bodies_[b];
     if (body.shape != shape || std::abs(body.samples->reach() - reach) > alike * reach) continue;
-    at_[index(object)] = static_cast<int>(b);
-    return;
+    return number = static_cast<int>(b);
   }
+  number = static_cast<int>(bodies_.size());
   const ObjectShape& geometry =
       shape < 0 ? objects_->standing : objects_->shapes[static_cast<std::size_t>(shape)];
-  at_[index(object)] = static_cast<int>(bodies_.size());
-  bodies_.push_back({shape, std::make_unique<SelfOcclusion>(geometry, occluders.casters(shape), reach)});
+  Body& body = bodies_.emplace_back();
+  body.shape = shape;
+  body.made = frame_;
+  body.key = sample_key(geometry, reach);
+  body.samples = std::make_unique<SelfOcclusion>(geometry, occluders.casters(shape), reach,
+                                                 SelfOcclusion::most_cells, budget_);
+  return number;
+}
+
+void Bodies::make(std::span<const int> objects, Occluders& occluders) {
+  std::vector<int> chosen;
+  for (const int object : objects) chosen.push_back(body_of(object, occluders));
+  base::sort_unique(chosen);
+  for (const int number : chosen) use(number);
+  parallel::parallel_tasks(static_cast<int>(chosen.size()), [&](int i) {
+    bodies_[static_cast<std::size_t>(chosen[static_cast<std::size_t>(i)])].samples->prepare();
+  });
+  std::erase_if(chosen, [&](int number) {
+    SelfOcclusion& samples = *bodies_[static_cast<std::size_t>(number)].samples;
+    return samples.ready() || !samples.lay();
+  });
+  if (!cache_.empty()) load(chosen);
+}
+
+/// Those that are on disk, many at once.
+void Bodies::load(std::span<const int> bodies) {
+  std::vector<Expected<SurfaceSamples>> found(bodies.size());
+  const auto body_at = [&](std::size_t i) -> Body& { return bodies_[static_cast<std::size_t>(bodies[i])]; };
+  parallel::parallel_tasks(static_cast<int>(bodies.size()), [&](int i) {
+    const auto at = static_cast<std::size_t>(i);
+    const Body& body = body_at(at);
+    found[at] = load_samples(cache_, body.key, body.samples->layout_samples());
+  });
+  for (std::size_t i = 0; i < found.size(); ++i) {
+    Body& body = body_at(i);
+    if (found[i]) {
+      body.samples->learn(*found[i]);
+      body.saved = body.samples->known();
+    } else if (cache_file_exists(sample_path(cache_, body.key))) {
+      notes_.push_back(found[i].error().message + "; they are made anew");
+    }
+  }
+}
+
+void Bodies::save(Body& body) {
+  if (auto saved = save_samples(cache_, body.key, body.samples->samples(), body.samples->layout_samples());
+      !saved)
+    notes_.push_back(saved.error().message);
+  body.saved = body.samples->known();
+}
+
+void Bodies::save_grown() {
+  if (cache_.empty()) return;
+  for (Body& body : bodies_) {
+    const std::uint64_t known = body.samples->known();
+    if (body.made < frame_ && 2 * known > 3 * body.saved) save(body);
+  }
+}
+
+void Bodies::save_all() {
+  if (cache_.empty()) return;
+  for (Body& body : bodies_)
+    if (body.samples->known() > body.saved) save(body);
 }
 
 Expected<void> Bodies::fill(std::span<const MissingSample> missing, const AoKernels& kernels,
@@ -52,10 +125,43 @@ Expected<void> Bodies::fill(std::span<const MissingSample> missing, const AoKern
   return {};
 }
 
+std::vector<Bodies::Body>::const_iterator Bodies::find_oldest() const {
+  auto oldest = bodies_.end();
+  for (auto body = bodies_.begin(); body != bodies_.end(); ++body) {
+    if (!body->samples->laid() || body->used == frame_) continue;
+    if (oldest == bodies_.end() || body->last_use() < oldest->last_use()) oldest = body;
+  }
+  return oldest;
+}
+
+std::optional<LastUse> Bodies::oldest() const {
+  const auto body = find_oldest();
+  return body == bodies_.end() ? std::nullopt : std::optional(body->last_use());
+}
+
+void Bodies::drop_oldest() {
+  Body& body = bodies_[static_cast<std::size_t>(find_oldest() - bodies_.begin())];
+  if (!cache_.empty() && body.samples->known() > body.saved) save(body);
+  body.samples->drop();
+  body.saved = 0;
+}
+
 std::uint64_t Bodies::filled() const {
   std::uint64_t samples = 0;
   for (const Body& body : bodies_) samples += body.samples->filled();
   return samples;
+}
+
+std::uint64_t Bodies::known() const {
+  std::uint64_t samples = 0;
+  for (const Body& body : bodies_) samples += body.samples->known();
+  return samples;
+}
+
+std::size_t Bodies::bytes() const {
+  std::size_t bytes = 0;
+  for (const Body& body : bodies_) bytes += body.samples->bytes();
+  return bytes;
 }
 
 }  // namespace tenebra::ao

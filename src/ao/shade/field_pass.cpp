@@ -9,7 +9,20 @@
 
 namespace tenebra::ao {
 
-/// Makes what the groups lack.
+/// What the groups need is not given up in this frame.
+void FieldPass::use(const std::vector<GroupReport>& reports, std::vector<int>& reached) {
+  std::vector<int> own;
+  for (const GroupReport& report : reports) {
+    own.insert(own.end(), report.own.begin(), report.own.end());
+    reached.insert(reached.end(), report.reached.begin(), report.reached.end());
+  }
+  base::sort_unique(own);
+  base::sort_unique(reached);
+  for (const int number : own) bodies.use(number);
+  for (const int occluder : reached) occluders.use(occluder);
+}
+
+/// Makes what the groups lack: samples first, for those that must do without are slowest.
 Expected<void> FieldPass::supply(const std::vector<GroupReport>& reports, const AoProgress& progress,
                                  const StopFlag* stop) {
   std::vector<int> missing, without_samples;
@@ -23,11 +36,10 @@ Expected<void> FieldPass::supply(const std::vector<GroupReport>& reports, const 
   const std::uint64_t before = bodies.filled();
   if (auto filled = bodies.fill(samples, kernels, progress, stop); !filled) return filled;
   stats.rays_cast += (bodies.filled() - before) * SurfaceRays::rays;
-  base::sort_unique(missing);
-  if (auto built = occluders.build(missing, progress, stop); !built) return built;
   base::sort_unique(without_samples);
-  for (const int object : without_samples) bodies.make(object, occluders);
-  return {};
+  bodies.make(without_samples, occluders);
+  base::sort_unique(missing);
+  return occluders.build(missing, progress, stop);
 }
 
 Expected<void> FieldPass::run(const ReceiverSet& set, AoPart part, std::vector<float>& values,
@@ -60,9 +72,8 @@ Expected<void> FieldPass::run(const ReceiverSet& set, AoPart part, std::vector<f
       stats.points += report.points;
       stats.lookups += report.counts.lookups;
       stats.rays_cast += report.counts.rays_cast;
-      reached.insert(reached.end(), report.reached.begin(), report.reached.end());
     }
-    base::sort_unique(reached);
+    use(reports, reached);
     pending = std::move(left);
     if (!pending.empty()) {
       if (auto supplied = supply(reports, progress, stop); !supplied) return supplied;

@@ -21,6 +21,7 @@ struct FieldPass {
                      const AoProgress& progress, const StopFlag* stop);
 
 private:
+  void use(const std::vector<GroupReport>& reports, std::vector<int>& reached);
   Expected<void> supply(const std::vector<GroupReport>& reports, const AoProgress& progress,
                         const StopFlag* stop);
 };

@@ -36,8 +36,9 @@ void GroupShader::find_own(GroupReport& report) {
     if (receiver.owner.object != object) {
       object = receiver.owner.object;
       number = bodies_->number(object);
-      body = number < 0 ? nullptr : &bodies_->body(number);
+      body = number < 0 || !bodies_->body(number).ready() ? nullptr : &bodies_->body(number);
       if (body == nullptr && bodies_->exists(object)) report.bodies.push_back(object);
+      if (body != nullptr) report.own.push_back(number);
     }
     if (body == nullptr) continue;
     const SelfOcclusion::Answer answer = body->find(receiver.on_shape(), missing_);

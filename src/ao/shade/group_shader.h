@@ -22,6 +22,7 @@ enum class AoPart {
 /// What one group of receivers asks for, and what it cost.
 struct GroupReport {
   std::vector<int> bodies;  ///< objects (or standing) that have no samples yet
+  std::vector<int> own;     ///< numbers of the bodies that receivers lie on
   std::vector<MissingSample> samples;
   std::vector<int> occluders;  ///< not ready
   std::vector<int> reached;    ///< occluders that some receiver is in reach of

@@ -1,28 +1,18 @@
 #include "ao/shade/occluders.h"
 
-#include <fmt/format.h>
-
 #include <algorithm>
 #include <cmath>
 #include <unordered_map>
 
-#include "ao/field/field_file.h"
 #include "ao/surface/surface_rays.h"
 #include "base/fail.h"
+#include "base/sort_unique.h"
 
 namespace tenebra::ao {
 namespace {
 
 using glm::dvec3;
 using glm::vec3;
-
-std::vector<glm::uvec3> casting_triangles(const ObjectShape& shape) {
-  std::vector<glm::uvec3> triangles;
-  for (std::size_t t = 0; t < shape.triangles.size(); ++t) {
-    if (shape.casts[t]) triangles.push_back(shape.triangles[t]);
-  }
-  return triangles;
-}
 
 std::vector<glm::uvec3> deforming_triangles(const SceneObjects& objects, const FrameGeometry& geometry) {
   std::vector<glm::uvec3> triangles;
@@ -83,35 +73,29 @@ void Occluders::reset(const SceneObjects& objects) {
   std::unordered_map<std::uint64_t, Shape> old;
   for (Shape& shape : shapes_) old.emplace(shape.hash, std::move(shape));
   shapes_.clear();
-  field_bytes_ = 0;
   for (const ObjectShape& shape : objects.shapes) {
     const auto kept = old.find(shape.hash);
     if (kept != old.end()) {
       shapes_.push_back(std::move(kept->second));
-      field_bytes_ += shapes_.back().field ? shapes_.back().field->bytes() : 0;
     } else {
       shapes_.emplace_back().hash = shape.hash;
     }
   }
   standing_.reset();
+  fields_.reset(objects.shapes);
 }
 
 void Occluders::begin_frame(const SceneObjects& objects, const FrameGeometry& geometry,
-                            const AoConfig& config, double reach) {
+                            const AoConfig& config, double reach, std::uint64_t frame) {
   objects_ = &objects;
   geometry_ = &geometry;
   const FieldSettings settings{config.layout, config.positions, config.directions, config.bits};
-  const bool same = settings.layout == settings_.layout && settings.positions == settings_.positions &&
-                    settings.directions == settings_.directions && settings.bits == settings_.bits;
-  if (!same) {
-    for (Shape& shape : shapes_) shape.field.reset(), shape.by_rays = false;
-    field_bytes_ = 0;
-  }
+  if (settings != settings_)
+    for (Shape& shape : shapes_) shape.by_rays = false;
   settings_ = settings;
-  config_ = config;
+  fields_.begin_frame(objects.shapes, settings, config.cache, frame);
   kernels_ = ao_kernels(config.simd);
   reach_ = reach;
-  fields_built_ = 0;
   standing_sphere_ = {dvec3(objects.standing.center), objects.standing.radius};
   deforming_.reset();
   moving_.reset();
@@ -138,8 +122,8 @@ void Occluders::place(std::size_t index) {
   placed.sphere = {dvec3(object.to_world * glm::dvec4(dvec3(shape.center), 1.0)),
                    shape.radius * object.largest_scale};
   placed.to_object = glm::mat4x3(object.to_object);
-  const Shape& kept = shapes_[static_cast<std::size_t>(object.shape)];
-  if (kept.field) placed.instance = place_field(*kept.field, &*kept.casters, object.to_world);
+  if (const DisplacementField* field = fields_.find(object.shape))
+    placed.instance = place_field(*field, &casters(object.shape), object.to_world);
   by_x_.push_back(index);
   largest_radius_ = std::max(largest_radius_, placed.sphere.radius);
 }
@@ -194,11 +178,13 @@ bool Occluders::ready(int occluder) const {
   if (occluder == standing) return standing_.has_value();
   if (occluder == deforming) return deforming_.has_value();
   const Placed& placed = placed_[static_cast<std::size_t>(occluder)];
-  return placed.instance || shapes_[static_cast<std::size_t>(placed.shape)].by_rays;
+  return placed.instance || shapes_[static_cast<std::size_t>(placed.shape)].by_rays ||
+         fields_.refused(placed.shape);
 }
 
 Expected<void> Occluders::build(std::span<const int> missing, const AoProgress& progress,
                                 const StopFlag* stop) {
+  load_fields(missing);
   for (const int occluder : missing) {
     if (stop_requested(stop)) return base::fail("stopped");
     if (occluder == standing) {
@@ -220,50 +206,47 @@ const TriangleBvh& Occluders::casters(int index) {
   return *tree;
 }
 
-Expected<void> Occluders::build_object(std::size_t index, const AoProgress& progress, const StopFlag* stop) {
-  Placed& placed = placed_[index];
-  const auto number = static_cast<std::size_t>(placed.shape);
-  Shape& shape = shapes_[number];
-  const TriangleBvh& tree = casters(placed.shape);
-  if (!shape.field && !shape.by_rays) {
-    const auto size = field_shape(settings_);
-    if (!size) return tl::unexpected(size.error());
-    const bool full = field_bytes_ + size->bytes > most_field_bytes;
-    if (full)
-      notes_.push_back(
-          fmt::format("{} has no field: all fields together would take more than {} MiB; rays meet it.",
-                      objects_->objects[index].name, most_field_bytes >> 20));
-    if (full || tree.triangles <= few_triangles) {
-      shape.by_rays = true;
-      return {};
-    }
-    auto field = make_field(objects_->shapes[number], tree, progress, stop);
-    if (!field) return tl::unexpected(field.error());
-    shape.field = std::move(*field);
-    field_bytes_ += shape.field->bytes();
-  }
-  if (shape.field) placed.instance = place_field(*shape.field, &tree, objects_->objects[index].to_world);
-  if (!placed.instance) shape.by_rays = true;
-  return {};
+/// Not where triangles are few, or what they are placed as is flat.
+bool Occluders::wants_field(int number) {
+  Shape& shape = shapes_[static_cast<std::size_t>(number)];
+  shape.by_rays |= casters(number).triangles <= few_triangles;
+  return !shape.by_rays;
 }
 
-Expected<DisplacementField> Occluders::make_field(const ObjectShape& shape, const TriangleBvh& tree,
-                                                  const AoProgress& progress, const StopFlag* stop) {
-  const std::vector<glm::uvec3> triangles = casting_triangles(shape);
-  FieldKey key;
-  if (!config_.cache.empty()) {
-    key = field_key(shape.positions, triangles, settings_);
-    if (auto loaded = load_field(config_.cache, key, settings_)) return loaded;
+void Occluders::load_fields(std::span<const int> occluders) {
+  std::vector<int> shapes;
+  for (const int occluder : occluders) {
+    if (occluder < 0) continue;
+    const int shape = placed_[static_cast<std::size_t>(occluder)].shape;
+    if (wants_field(shape)) shapes.push_back(shape);
   }
+  base::sort_unique(shapes);
+  fields_.load(shapes);
+}
+
+Expected<void> Occluders::build_object(std::size_t index, const AoProgress& progress, const StopFlag* stop) {
+  Placed& placed = placed_[index];
+  if (!wants_field(placed.shape)) return {};
+  const TriangleBvh& tree = casters(placed.shape);
   const FieldProgress report = [&](double done) {
     if (progress) progress("displacement fields", done);
   };
-  ++fields_built_;
-  auto field = build_field(shape.positions, triangles, tree, settings_, report, stop);
-  if (field && !config_.cache.empty()) {
-    if (auto saved = save_field(config_.cache, key, *field); !saved) notes_.push_back(saved.error().message);
-  }
-  return field;
+  const auto field = fields_.make(placed.shape, tree, report, stop);
+  if (!field) return tl::unexpected(field.error());
+  if (*field == nullptr) return {};  // no room: by rays
+  placed.instance = place_field(**field, &tree, objects_->objects[index].to_world);
+  if (!placed.instance) shapes_[static_cast<std::size_t>(placed.shape)].by_rays = true;
+  return {};
+}
+
+void Occluders::use(int occluder) {
+  if (occluder >= 0) fields_.use(placed_[static_cast<std::size_t>(occluder)].shape);
+}
+
+void Occluders::drop_field(int shape) {
+  fields_.drop(shape);
+  for (Placed& placed : placed_)
+    if (placed.shape == shape) placed.instance.reset();
 }
 
 void Occluders::meet(int occluder, std::int32_t owner, std::span<const RayBatch> rays, float* distances,

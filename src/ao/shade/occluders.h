@@ -8,14 +8,12 @@
 #include <memory>
 #include <optional>
 #include <span>
-#include <string>
-#include <utility>
 #include <vector>
 
 #include <tenebra/expected.h>
 #include "ao/cast/triangle_bvh.h"
 #include "ao/field/ao_kernels.h"
-#include "ao/field/displacement_field.h"
+#include "ao/field/shape_fields.h"
 #include "ao/objects/scene_objects.h"
 #include "ao/shade/receivers.h"
 
@@ -36,17 +34,18 @@ struct PointBox {
 
 class Occluders {
 public:
-  static constexpr std::size_t few_triangles = 16;  ///< an object of up to so many needs no field
-  static constexpr std::size_t most_field_bytes = std::size_t{2} << 30;  ///< objects beyond are met by rays
-  static constexpr int standing = -1, deforming = -2;                    ///< beside the indices of objects
+  static constexpr std::size_t few_triangles = 16;     ///< an object of up to so many needs no field
+  static constexpr int standing = -1, deforming = -2;  ///< beside the indices of objects
   static constexpr int moving = -3;  ///< all that moves or deforms, as gather_moving() found it
   static constexpr std::size_t most_gathered = 100'000;  ///< triangles: more take too long to build anew
 
+  explicit Occluders(MemoryBudget& budget) : fields_(budget) {}
+
   /// Objects found anew. Fields of shapes that are still there stay.
   void reset(const SceneObjects& objects);
-  /// The instant of `geometry`. Keeps references to both until the next call.
+  /// The instant of `geometry`. Keeps references to both until the next call. `frame`: counts calls.
   void begin_frame(const SceneObjects& objects, const FrameGeometry& geometry, const AoConfig& config,
-                   double reach);
+                   double reach, std::uint64_t frame);
 
   /// What may come within the reach of a point in the box: objects in ascending order, then `standing`,
   /// `deforming`.
@@ -62,6 +61,11 @@ public:
   bool ready(int occluder) const;
   /// Makes what `missing` (ascending, unique) lacks. Fails with "stopped".
   Expected<void> build(std::span<const int> missing, const AoProgress& progress, const StopFlag* stop);
+
+  /// An occluder is needed in this frame: its field stays.
+  void use(int occluder);
+  ShapeFields& fields() { return fields_; }
+  void drop_field(int shape);
 
   /// Shortens the distances of rays of points on object `owner` to where they hit `occluder`. The rays of a
   /// batch start at one point.
@@ -81,17 +85,12 @@ public:
   /// The tree over the casting triangles of a shape, or of what stands (-1).
   const TriangleBvh& casters(int shape);
 
-  std::uint64_t fields_built() const { return fields_built_; }  ///< since begin_frame
-  std::uint64_t field_bytes() const { return field_bytes_; }
-  std::vector<std::string> take_notes() { return std::exchange(notes_, {}); }
-
 private:
   const Sphere& sphere(int occluder) const;
   const TriangleBvh& world_tree(int occluder) const;
   struct Shape {
     std::uint64_t hash = 0;
     std::optional<TriangleBvh> casters;
-    std::optional<DisplacementField> field;
     bool by_rays = false;
     float lift = 0;  ///< surface_lift(), once there are casters
     TriangleBvh::Box box;
@@ -104,24 +103,22 @@ private:
     glm::mat4x3 to_object{1.0f};
   };
   Expected<void> build_object(std::size_t object, const AoProgress& progress, const StopFlag* stop);
-  Expected<DisplacementField> make_field(const ObjectShape& shape, const TriangleBvh& casters,
-                                         const AoProgress& progress, const StopFlag* stop);
+  void load_fields(std::span<const int> occluders);
+  bool wants_field(int shape);
   void place(std::size_t object);
 
   const SceneObjects* objects_ = nullptr;
   const FrameGeometry* geometry_ = nullptr;
-  AoConfig config_;
   FieldSettings settings_;
   AoKernels kernels_;
   double reach_ = 0;
   std::vector<Shape> shapes_;
+  ShapeFields fields_;
   std::vector<Placed> placed_;     ///< one per object
   std::vector<std::size_t> by_x_;  ///< visible objects by the middle of their spheres
   double largest_radius_ = 0;
   std::optional<TriangleBvh> standing_, deforming_, moving_;
   Sphere standing_sphere_, deforming_sphere_, moving_sphere_;
-  std::uint64_t fields_built_ = 0, field_bytes_ = 0;
-  std::vector<std::string> notes_;
 };
 
 }  // namespace tenebra::ao

@@ -1,7 +1,9 @@
 // Which number a divided cell has: a table of keys, made to be asked for every point of a frame.
 #pragma once
 
+#include <algorithm>
 #include <bit>
+#include <cstddef>
 #include <cstdint>
 #include <vector>
 
@@ -21,15 +23,29 @@ public:
   }
   /// A new key with the next number, from 0 on.
   void add(std::uint64_t key) {
-    if (3 * (keys_.size() + 1) > 2 * slots_.size()) grow();
+    if (keys_.size() == capacity_) reserve(std::max<std::size_t>(least, 2 * capacity_));
     insert(key, static_cast<std::uint32_t>(keys_.size()));
     keys_.push_back(key);
   }
+  /// So many keys have room: until there are more, add() takes no memory.
+  void reserve(std::size_t count) {
+    if (count <= capacity_) return;
+    capacity_ = count;
+    keys_.reserve(count);
+    slots_.assign(slots_for(count), {});
+    for (std::size_t i = 0; i < keys_.size(); ++i) insert(keys_[i], static_cast<std::uint32_t>(i));
+  }
+  std::size_t capacity() const { return capacity_; }
   const std::vector<std::uint64_t>& keys() const { return keys_; }  ///< by number
-  std::size_t bytes() const { return slots_.size() * sizeof(Slot) + keys_.size() * sizeof(keys_[0]); }
+  std::size_t bytes() const { return bytes_for(capacity_); }
+  static std::size_t bytes_for(std::size_t count) {
+    return count == 0 ? 0 : slots_for(count) * sizeof(Slot) + count * sizeof(std::uint64_t);
+  }
 
 private:
   static constexpr std::uint64_t empty = ~std::uint64_t{0};
+  static constexpr std::size_t least = 32;
+  static std::size_t slots_for(std::size_t count) { return std::bit_ceil(count + count / 2 + 1); }
   struct Slot {
     std::uint64_t key = empty;
     std::uint32_t number = none;
@@ -42,13 +58,10 @@ private:
     while (slots_[at].key != empty) at = (at + 1) & (slots_.size() - 1);
     slots_[at] = {key, number};
   }
-  void grow() {
-    slots_.assign(slots_.empty() ? 64 : 2 * slots_.size(), {});
-    for (std::size_t i = 0; i < keys_.size(); ++i) insert(keys_[i], static_cast<std::uint32_t>(i));
-  }
 
   std::vector<Slot> slots_;  ///< a power of two; a third or more are empty
   std::vector<std::uint64_t> keys_;
+  std::size_t capacity_ = 0;
 };
 
 }  // namespace tenebra::ao

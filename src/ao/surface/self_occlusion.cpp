@@ -13,11 +13,12 @@ namespace {
 // A value is unknown, or 8 x (0..most) + three flags: something is near by the measure of the wide grid, of
 // the half one; the sample is buried.
 using Value = std::uint16_t;
-constexpr Value unknown = 0xffff, near_wide = 1, near_half = 2, buried = 4;
+constexpr Value unknown = SurfaceSamples::unknown, near_wide = 1, near_half = 2, buried = 4;
 constexpr int flag_bits = 3;
 constexpr float most = 8190;
 constexpr float disagreement = 0.1f;  // neighbours that differ by more have their cell divided
 constexpr double near_steps = 1.5;    // closer things make samples come closer too
+constexpr std::size_t fewest_cells = 8;
 
 // What is missing is a sample or
 constexpr std::uint64_t is_side = std::uint64_t{1} << 62;  // 2 x triangle + side: a small triangle's
@@ -52,22 +53,57 @@ SurfacePoint middle_of(std::uint64_t side) {
 }
 
 constexpr SelfOcclusion::Answer missing_answer{SelfOcclusion::State::missing, 0};
+constexpr SelfOcclusion::Answer by_rays{SelfOcclusion::State::mixed, 0};
+
+/// Of so many divided cells.
+std::size_t cell_bytes(std::size_t cells) {
+  return CellNumbers::bytes_for(cells) + cells * SurfaceLayout::cell_samples * sizeof(Value);
+}
 
 }  // namespace
 
 SelfOcclusion::SelfOcclusion(const ObjectShape& shape, const TriangleBvh& casters, double reach,
-                             std::size_t cells)
-    : reach_(reach), layout_(shape, reach), rays_(shape, casters, reach), most_cells_(cells) {
-  values_.assign(layout_.samples(), unknown);
-  const auto count = static_cast<std::uint32_t>(shape.triangles.size());
-  bool any_small = false;
-  for (std::uint32_t t = 0; t < count && !any_small; ++t) any_small = layout_.is_small(t);
-  if (any_small) sides_.resize(std::size_t{2} * count);
+                             std::size_t cells, MemoryBudget* budget)
+    : shape_(shape), reach_(reach), rays_(shape, casters, reach), most_cells_(cells) {
+  if (budget != nullptr) share_ = MemoryShare(*budget);
+}
+
+void SelfOcclusion::prepare() {
+  if (!laid() && !prepared_ && needed_bytes_ == 0) prepared_.emplace(shape_, reach_);
+}
+
+bool SelfOcclusion::lay() {
+  if (laid()) return true;
+  prepare();
+  if (needed_bytes_ == 0) {
+    const auto count = static_cast<std::uint32_t>(shape_.triangles.size());
+    bool any_small = false;
+    for (std::uint32_t t = 0; t < count && !any_small; ++t) any_small = prepared_->is_small(t);
+    sides_needed_ = any_small ? std::size_t{2} * count : 0;
+    needed_bytes_ = prepared_->bytes() + prepared_->samples() * sizeof(Value) + sides_needed_ * sizeof(Side);
+  }
+  refused_ = !share_.take(needed_bytes_);
+  if (!refused_) {
+    if (!prepared_) prepared_.emplace(shape_, reach_);
+    layout_.emplace(std::move(*prepared_));
+    values_.assign(layout_->samples(), unknown);
+    sides_.resize(sides_needed_);
+  }
+  prepared_.reset();
+  return !refused_;
+}
+
+void SelfOcclusion::drop() {
+  layout_.reset();
+  values_ = {}, sides_ = {}, cells_ = {}, cell_values_ = {};
+  known_ = 0;
+  share_.give_back(share_.bytes());
 }
 
 SelfOcclusion::Answer SelfOcclusion::find(const SurfacePoint& point,
                                           std::vector<std::uint64_t>& missing) const {
-  return layout_.is_small(point.triangle) ? find_small(point, missing) : find_large(point, missing);
+  if (!laid()) return by_rays;
+  return layout_->is_small(point.triangle) ? find_small(point, missing) : find_large(point, missing);
 }
 
 SelfOcclusion::Answer SelfOcclusion::find_small(const SurfacePoint& point,
@@ -81,6 +117,11 @@ SelfOcclusion::Answer SelfOcclusion::find_small(const SurfacePoint& point,
   }
   if (side.kind == Side::divided)
     return find_in_cell(point, side.values[0] | std::uint32_t{side.values[1]} << 16, missing);
+  if (full_) {
+    const SampleTriple corners = layout_->corners(point);
+    const Values values{{values_[corners.at[0]], values_[corners.at[1]], values_[corners.at[2]]}};
+    if (!values.lacking() && values.disagree()) return by_rays;
+  }
   missing.push_back(is_side | index);
   return missing_answer;
 }
@@ -88,21 +129,21 @@ SelfOcclusion::Answer SelfOcclusion::find_small(const SurfacePoint& point,
 SelfOcclusion::Answer SelfOcclusion::find_large(const SurfacePoint& point,
                                                 std::vector<std::uint64_t>& missing) const {
   for (int level = 0;; ++level) {
-    const SampleTriple around = layout_.around(point, level);
+    const SampleTriple around = layout_->around(point, level);
     const Values values{{values_[around.at[0]], values_[around.at[1]], values_[around.at[2]]}};
     if (values.lacking()) {
       for (int k = 0; k < 3; ++k)
         if (values.v[k] == unknown) missing.push_back(around.at[k]);
       return missing_answer;
     }
-    const bool last = level + 1 == layout_.levels(point.triangle);
+    const bool last = level + 1 == layout_->levels(point.triangle);
     const int too_near = last ? 0 : buried | (level == 0 ? near_wide : near_half);
     if ((values.any() & too_near) == 0 && !values.disagree()) return values.answer(around.weights);
     if (!last) continue;
-    const std::uint64_t key = layout_.cell_key(point);
+    const std::uint64_t key = layout_->cell_key(point);
     const std::uint32_t cell = cells_.find(key);
     if (cell != CellNumbers::none) return find_in_cell(point, cell, missing);
-    if (cells_.keys().size() >= most_cells_) return values.answer(around.weights);
+    if (full_) return by_rays;
     missing.push_back(is_cell | key);
     return missing_answer;
   }
@@ -110,45 +151,65 @@ SelfOcclusion::Answer SelfOcclusion::find_large(const SurfacePoint& point,
 
 SelfOcclusion::Answer SelfOcclusion::find_in_cell(const SurfacePoint& point, std::uint32_t cell,
                                                   std::vector<std::uint64_t>& missing) const {
-  const SampleTriple around = layout_.in_cell(point);
-  const std::size_t first = layout_.samples() + std::size_t{cell} * SurfaceLayout::cell_samples;
-  const Values values{
-      {values_[first + around.at[0]], values_[first + around.at[1]], values_[first + around.at[2]]}};
+  const SampleTriple around = layout_->in_cell(point);
+  const std::size_t first = std::size_t{cell} * SurfaceLayout::cell_samples;
+  const Value* in_cell = &cell_values_[first];
+  const Values values{{in_cell[around.at[0]], in_cell[around.at[1]], in_cell[around.at[2]]}};
   if (!values.lacking()) return values.answer(around.weights);
   for (int k = 0; k < 3; ++k)
-    if (values.v[k] == unknown) missing.push_back(first + around.at[k]);
+    if (values.v[k] == unknown) missing.push_back(values_.size() + first + around.at[k]);
   return missing_answer;
 }
 
 SurfacePoint SelfOcclusion::place(std::uint32_t sample) const {
-  if (sample < layout_.samples()) return layout_.place(sample);
-  const std::size_t number = sample - layout_.samples();
-  return layout_.place_in_cell(cells_.keys()[number / SurfaceLayout::cell_samples],
-                               static_cast<std::uint32_t>(number % SurfaceLayout::cell_samples));
+  if (sample < values_.size()) return layout_->place(sample);
+  const std::size_t number = sample - values_.size();
+  return layout_->place_in_cell(cells_.keys()[number / SurfaceLayout::cell_samples],
+                                static_cast<std::uint32_t>(number % SurfaceLayout::cell_samples));
 }
 
 /// False where there is no room.
 bool SelfOcclusion::add_cell(std::uint64_t key) {
   if (cells_.find(key) != CellNumbers::none) return true;
-  if (cells_.keys().size() >= most_cells_) return false;
+  if (cells_.keys().size() == cells_.capacity() && !grow_cells()) return false;
   cells_.add(key);
-  values_.resize(values_.size() + SurfaceLayout::cell_samples, unknown);
+  cell_values_.resize(cell_values_.size() + SurfaceLayout::cell_samples, unknown);
   return true;
 }
 
-/// Keeps what the corners of a small triangle say beside it, or divides it.
-void SelfOcclusion::settle(std::uint64_t index) {
+/// The smaller tables are still there while they are copied to the larger ones.
+bool SelfOcclusion::grow_cells() {
+  const std::size_t before = cells_.capacity(),
+                    after = std::min(most_cells_, std::max(fewest_cells, 2 * before));
+  full_ = full_ || after == before || !share_.take(cell_bytes(after));
+  if (full_) return false;
+  cells_.reserve(after);
+  cell_values_.reserve(after * SurfaceLayout::cell_samples);
+  share_.give_back(cell_bytes(before));
+  return true;
+}
+
+/// Keeps what the corners of a small triangle say beside it, or divides it; what can be neither stays as it
+/// is.
+void SelfOcclusion::settle(std::uint64_t index, bool may_divide) {
   Side& side = sides_[index];
   const SurfacePoint middle = middle_of(index);
-  const SampleTriple corners = layout_.corners(middle);
+  const SampleTriple corners = layout_->corners(middle);
   const Values values{{values_[corners.at[0]], values_[corners.at[1]], values_[corners.at[2]]}};
-  const std::uint64_t key = layout_.cell_key(middle);
-  if (values.disagree() && add_cell(key)) {
-    const std::uint32_t number = cells_.find(key);
-    side = {{static_cast<Value>(number & 0xffff), static_cast<Value>(number >> 16), 0}, Side::divided};
-  } else {
+  if (values.lacking()) return;
+  if (!values.disagree()) {
     side = {{values.v[0], values.v[1], values.v[2]}, Side::corners};
+    return;
   }
+  const std::uint64_t key = layout_->cell_key(middle);
+  if (may_divide && !add_cell(key)) return;
+  const std::uint32_t number = cells_.find(key);
+  if (number == CellNumbers::none) return;
+  side = {{static_cast<Value>(number & 0xffff), static_cast<Value>(number >> 16), 0}, Side::divided};
+}
+
+SelfOcclusion::Value& SelfOcclusion::value(std::uint32_t sample) {
+  return sample < values_.size() ? values_[sample] : cell_values_[sample - values_.size()];
 }
 
 bool SelfOcclusion::fill(std::span<const std::uint64_t> missing, const AoKernels& kernels,
@@ -157,18 +218,18 @@ bool SelfOcclusion::fill(std::span<const std::uint64_t> missing, const AoKernels
   const auto cells = std::lower_bound(sides, missing.end(), is_cell);
   std::vector<std::uint32_t> samples;
   const auto want = [&](std::uint32_t sample) {
-    const std::uint32_t shared = sample < layout_.samples() ? layout_.shared(sample) : sample;
-    if (values_[shared] == unknown) samples.push_back(shared);
+    const std::uint32_t shared = sample < values_.size() ? layout_->shared(sample) : sample;
+    if (value(shared) == unknown) samples.push_back(shared);
   };
   for (auto sample = missing.begin(); sample != sides; ++sample) want(static_cast<std::uint32_t>(*sample));
   for (auto side = sides; side != cells; ++side)
-    for (const std::uint32_t corner : layout_.corners(middle_of(*side & ~is_side)).at) want(corner);
+    for (const std::uint32_t corner : layout_->corners(middle_of(*side & ~is_side)).at) want(corner);
   base::sort_unique(samples);
   if (!cast(samples, kernels, progress, stop)) return false;
   for (auto sample = missing.begin(); sample != sides; ++sample)
-    if (*sample < layout_.samples())
-      values_[*sample] = values_[layout_.shared(static_cast<std::uint32_t>(*sample))];
-  for (auto side = sides; side != cells; ++side) settle(*side & ~is_side);
+    if (*sample < values_.size())
+      values_[*sample] = values_[layout_->shared(static_cast<std::uint32_t>(*sample))];
+  for (auto side = sides; side != cells; ++side) settle(*side & ~is_side, true);
   for (auto key = cells; key != missing.end(); ++key) add_cell(*key & ~is_cell);
   return true;
 }
@@ -176,7 +237,7 @@ bool SelfOcclusion::fill(std::span<const std::uint64_t> missing, const AoKernels
 bool SelfOcclusion::cast(const std::vector<std::uint32_t>& samples, const AoKernels& kernels,
                          const std::function<void(double)>& progress, const StopFlag* stop) {
   constexpr std::size_t step = 8192, grain = 32;
-  const double wide = near_steps * layout_.spacing();
+  const double wide = near_steps * layout_->spacing();
   const auto stored = [wide](const SurfaceRays::Seen& seen) {
     return static_cast<Value>(std::lround(seen.occlusion * most) << flag_bits | (seen.buried ? buried : 0) |
                               (seen.nearest < wide ? near_wide : 0) |
@@ -188,16 +249,48 @@ bool SelfOcclusion::cast(const std::vector<std::uint32_t>& samples, const AoKern
     const auto part = std::span(samples).subspan(first, std::min(step, samples.size() - first));
     parallel::parallel_ranges(part.size(), grain, [&](std::size_t begin, std::size_t end) {
       for (std::size_t i = begin; i < end && !stop_requested(stop); ++i)
-        values_[part[i]] = stored(rays_.look(place(part[i]), kernels));
+        value(part[i]) = stored(rays_.look(place(part[i]), kernels));
     });
   }
   filled_ += samples.size();
+  known_ += samples.size();
   return !stop_requested(stop);
 }
 
-std::size_t SelfOcclusion::bytes() const {
-  return layout_.bytes() + values_.size() * sizeof(values_[0]) + sides_.size() * sizeof(sides_[0]) +
-         cells_.bytes();
+void SurfaceSamples::set_values(std::span<const std::uint16_t> all) {
+  runs.clear();
+  values.clear();
+  for (std::size_t i = 0; i < all.size(); ++i) {
+    if (all[i] == unknown) continue;
+    if (i == 0 || all[i - 1] == unknown) runs.push_back({static_cast<std::uint32_t>(i), 0});
+    ++runs.back().count;
+    values.push_back(all[i]);
+  }
+}
+
+SurfaceSamples SelfOcclusion::samples() const {
+  SurfaceSamples samples{{}, {}, cells_.keys(), cell_values_};
+  samples.set_values(values_);
+  return samples;
+}
+
+void SelfOcclusion::learn(const SurfaceSamples& others) {
+  const auto take = [&](Value& to, Value from) {
+    if (to != unknown || from == unknown) return;
+    to = from, ++known_;
+  };
+  const Value* from = others.values.data();
+  for (const SurfaceSamples::Run& run : others.runs)
+    for (std::uint32_t i = 0; i < run.count; ++i) take(values_[run.first + i], *from++);
+  for (std::size_t c = 0; c < others.cells.size() && add_cell(others.cells[c]); ++c) {
+    const std::size_t to = std::size_t{cells_.find(others.cells[c])} * SurfaceLayout::cell_samples;
+    for (std::size_t k = 0; k < SurfaceLayout::cell_samples; ++k)
+      take(cell_values_[to + k], others.cell_values[c * SurfaceLayout::cell_samples + k]);
+  }
+  for (std::uint32_t t = 0; t < sides_.size() / 2; ++t) {
+    for (const std::uint32_t side : {2 * t, 2 * t + 1})
+      if (layout_->is_small(t) && sides_[side].kind == Side::unknown) settle(side, false);
+  }
 }
 
 }  // namespace tenebra::ao

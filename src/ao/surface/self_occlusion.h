@@ -5,34 +5,62 @@
 // widest grid whose samples agree and see nothing near by its own measure; where even the finest disagree,
 // the cell is divided. Samples that lie inside something (most rays see backs) and those in the open are
 // never mixed. A sample depends on nothing but the shape and the reach, so what is interpolated does not
-// depend on which frame or thread saw it first.
+// depend on which frame, thread or process saw it first.
 #pragma once
 
 #include <cstdint>
 #include <functional>
+#include <optional>
 #include <span>
 #include <vector>
 
 #include <tenebra/stop_flag.h>
+#include "ao/cache/memory_budget.h"
 #include "ao/surface/cell_numbers.h"
 #include "ao/surface/surface_rays.h"
 
 namespace tenebra::ao {
 
+/// What is known of a body, to be kept on disk.
+struct SurfaceSamples {
+  static constexpr std::uint16_t unknown = 0xffff;
+  struct Run {
+    std::uint32_t first = 0, count = 0;  ///< of the layout's samples
+  };
+  std::vector<Run> runs;                   ///< of those that are known, ascending
+  std::vector<std::uint16_t> values;       ///< of theirs, one after the other; see self_occlusion.cpp
+  std::vector<std::uint64_t> cells;        ///< keys of divided ones
+  std::vector<std::uint16_t> cell_values;  ///< of their samples, in this order
+
+  /// `all`: of the layout's samples, known or not.
+  void set_values(std::span<const std::uint16_t> all);
+};
+
 class SelfOcclusion {
 public:
-  /// Divided cells at most: some 40 MiB. Beyond, cells stay as they are, in the order of their first being
-  /// seen: only then answers may depend on which frames came before.
+  /// Divided cells at most: some 40 MiB. Where there is room for no more, rays answer.
   static constexpr std::size_t most_cells = std::size_t{1} << 19;
 
-  /// `reach`: where occlusion has fallen off to nothing, in units of the shape. Keeps references to both.
+  /// `reach`: where occlusion has fallen off to nothing, in units of the shape. Keeps references to all.
+  /// Without samples until lay() is called.
   SelfOcclusion(const ObjectShape& shape, const TriangleBvh& casters, double reach,
-                std::size_t cells = most_cells);
+                std::size_t cells = most_cells, MemoryBudget* budget = nullptr);
+
+  /// The part of lay() that takes time, and nothing of the budget: for many bodies at once.
+  void prepare();
+  /// Makes room for samples, if there is none. False: the budget refuses, and rays answer all.
+  bool lay();
+  bool laid() const { return layout_.has_value(); }
+  bool ready() const { return laid() || refused_; }
+  /// Gives the room back, with all that is known.
+  void drop();
+  /// What was refused may be asked for once more.
+  void begin_frame() { refused_ = full_ = false; }
 
   enum class State {
     known,
     missing,  ///< samples have to be filled first; then finer ones may turn out to be missing
-    mixed,    ///< between buried samples and open ones: rays have to answer the point itself
+    mixed,    ///< between buried samples and open ones, or no room: rays have to answer the point itself
   };
   /// Hidden share of a point, 0..1, if known.
   struct Answer {
@@ -50,10 +78,16 @@ public:
   bool fill(std::span<const std::uint64_t> missing, const AoKernels& kernels,
             const std::function<void(double)>& progress, const StopFlag* stop);
 
+  SurfaceSamples samples() const;
+  /// Adds what others, of the same shape and reach, know to a body that is laid.
+  void learn(const SurfaceSamples& others);
+
   double reach() const { return reach_; }
-  std::uint64_t filled() const { return filled_; }
-  std::size_t cells() const { return cells_.keys().size(); }  ///< divided
-  std::size_t bytes() const;
+  std::size_t layout_samples() const { return values_.size(); }  ///< known or not
+  std::uint64_t filled() const { return filled_; }               ///< samples that rays were cast for
+  std::uint64_t known() const { return known_; }                 ///< samples in memory
+  std::size_t cells() const { return cells_.keys().size(); }     ///< divided
+  std::size_t bytes() const { return share_.bytes(); }
 
 private:
   using Value = std::uint16_t;  ///< see self_occlusion.cpp
@@ -70,18 +104,29 @@ private:
                       std::vector<std::uint64_t>& missing) const;
   bool cast(const std::vector<std::uint32_t>& samples, const AoKernels& kernels,
             const std::function<void(double)>& progress, const StopFlag* stop);
+
+  Value& value(std::uint32_t sample);
   bool add_cell(std::uint64_t key);
-  void settle(std::uint64_t side);
+  bool grow_cells();
+  void settle(std::uint64_t side, bool may_divide);
   SurfacePoint place(std::uint32_t sample) const;
 
+  const ObjectShape& shape_;
   double reach_;
-  SurfaceLayout layout_;
   SurfaceRays rays_;
+  std::optional<SurfaceLayout> prepared_;
   std::size_t most_cells_;
-  std::vector<Side> sides_;    ///< two per triangle; empty if all are large
-  std::vector<Value> values_;  ///< of the layout's samples, then of divided cells
-  CellNumbers cells_;          ///< divided ones, in the order of their values
-  std::uint64_t filled_ = 0;
+  MemoryShare share_;
+  std::size_t sides_needed_ = 0;
+  std::size_t needed_bytes_ = 0;         ///< of what lay() makes; 0: not known yet
+  bool refused_ = false;                 ///< no room for samples, in this frame
+  bool full_ = false;                    ///< no room for more cells, in this frame
+  std::optional<SurfaceLayout> layout_;  ///< none: no samples
+  std::vector<Side> sides_;              ///< two per triangle; empty if all are large
+  std::vector<Value> values_;            ///< of the layout's samples
+  CellNumbers cells_;                    ///< divided ones
+  std::vector<Value> cell_values_;       ///< of theirs, in the order of their numbers
+  std::uint64_t filled_ = 0, known_ = 0;
 };
 
 }  // namespace tenebra::ao

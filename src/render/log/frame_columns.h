@@ -88,6 +88,8 @@ inline constexpr std::array method_columns{
     CountColumn{"ao_objects", [](const FrameRecord& r) { return r.ao.objects; }},
     CountColumn{"ao_fields_built", [](const FrameRecord& r) { return r.ao.fields_built; }},
     CountColumn{"ao_field_bytes", [](const FrameRecord& r) { return r.ao.field_bytes; }},
+    CountColumn{"ao_sample_bytes", [](const FrameRecord& r) { return r.ao.sample_bytes; }},
+    CountColumn{"ao_peak_bytes", [](const FrameRecord& r) { return r.ao.peak_bytes; }},
     CountColumn{"ao_lookups", [](const FrameRecord& r) { return r.ao.lookups; }},
     CountColumn{"ao_rays_cast", [](const FrameRecord& r) { return r.ao.rays_cast; }},
     CountColumn{"ao_cache_cells", [](const FrameRecord& r) { return r.ao.cache_cells; }},

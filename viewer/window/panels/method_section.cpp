@@ -144,11 +144,13 @@ void edit_ao(Ui& ui, AoConfig& ao) {
   choose(ui, "bits", bit_choices, ao.bits);
   row(ui, "Deforming", "What deforms has no field: rays meet it, or it is left out.");
   choose(ui, "deforming", deforming_choices, ao.deforming);
-  row(ui, "Cache", "Folder that keeps built fields for the next run.");
+  row(ui, "Cache", "Folder that keeps fields and surface samples for the next run.");
   bool kept = !ao.cache.empty();
-  if (ImGui::Checkbox("keep built fields", &kept))
+  if (ImGui::Checkbox("keep fields and samples", &kept))
     ao.cache = kept ? default_cache_folder() : std::filesystem::path();
   if (kept) tooltip(ao.cache.c_str());
+  row(ui, "Memory", "Of fields and surface samples, in MB. Bodies that have no room are answered by rays.");
+  number(ui, "ao memory", ao.memory_mb, 1, 1000000, 64);
 }
 
 /// Which preset the settings are; none where they are their own.
