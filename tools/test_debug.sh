@@ -10,7 +10,7 @@ folders=(base math parallel points scene texture cutout visibility shadow soft t
 slow='ShadowMask\.|NodeTests|SoftCatalogue|SoftCloud|Oracle|Exact|EverySoup|StaysWholeWhenKilled|SoftMetamorphic'
 slow+='|^Bart|SoftPackets|ShaftFrames|NeverLeaveOut|HandOver|AreaIsThatOf|Tiles\.AreTheSame|Tiles\.WorkOut'
 slow+='|DistantFaceBounds|OfHundredsOfEdges|NearlyCoincide|SheetsOf|GivesWhatClipping|FieldAccuracy|FindsABall'
-slow+='|AdaptiveOcclusion\.(Meets|SameBits|Hard|Stops|DoesNot)'
+slow+='|AdaptiveOcclusion\.(Meets|SameBits|Stops|DoesNot)|AoCatalogue|AoMemory'
 slow+='|AmbientOcclusion\.(SameBits|BothLayouts|DoesNotDepend|HalfTheResolution|AtVertices)|RealScenes|DividesNoMore|ManyLarge'
 [[ -e build-debug/CMakeCache.txt ]] && first=() || first=(-DTENEBRA_UNITY=ON)  # as in test.sh
 cmake --preset debug -DTENEBRA_TESTS=ON "${first[@]}" -DCMAKE_COMPILE_WARNING_AS_ERROR=ON > /dev/null

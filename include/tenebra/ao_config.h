@@ -51,7 +51,7 @@ struct AoStats {
   std::uint64_t fields_built = 0;  ///< in this frame
   std::uint64_t field_bytes = 0;   ///< memory of all fields, at the end
   std::uint64_t sample_bytes = 0;  ///< of all surface samples, at the end
-  std::uint64_t peak_bytes = 0;    ///< the most that both took together
+  std::uint64_t peak_bytes = 0;    ///< the most that both took together, in any frame so far
   std::uint64_t lookups = 0;       ///< rays answered by a field
   std::uint64_t rays_cast = 0;     ///< rays answered by casting
   std::uint64_t cache_cells = 0;   ///< surface samples in memory

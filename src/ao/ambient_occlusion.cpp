@@ -242,10 +242,10 @@ Expected<void> AmbientOcclusion::compute(const Scene& scene, const FrameGeometry
 
   if (auto done = s.run({geometry, points, normals, s.objects}, config, out, progress, stop); !done)
     return done;
+  s.bodies.save_grown();
   s.timings.ao_ms = watch.lap_ms() - (s.timings.ao_build_ms - found_ms);
   s.stats.fields_built = s.occluders.fields().built();
   s.stats.field_bytes = s.occluders.fields().bytes();
-  s.bodies.save_grown();
   s.stats.sample_bytes = s.bodies.bytes();
   s.stats.peak_bytes = s.budget.peak();
   s.stats.cache_cells = s.bodies.known();

@@ -6,6 +6,7 @@
 #include "cutout/cross.h"
 
 namespace tenebra::cutout {
+
 PlaneTriangle::PlaneTriangle(const std::array<glm::dvec2, 3>& corners) : corners_(corners) {
   for (int e = 0; e < 3; ++e) {
     const glm::dvec2 a = corners[static_cast<std::size_t>(e)],

@@ -92,8 +92,9 @@ struct Boxes {
 
 SIMD_INLINE void look_at_boxes(const BvhNode& node, const Fans& fans, Boxes& out) {
   const Float8 zero = broadcast<Float8>(0.0f);
-  // Planes through edges are off by 2^-22 d^2 / length of the edge at most, d the distance: boxes are widened
-  // so that no ray that is inside a triangle by its planes misses its box.
+  // Planes through the edges are off by 2^-22 d^2 / length of the edge, d the distance, which is at most the
+  // reach: for edges of at least reach / 1024 no ray that is inside a triangle by its planes misses a box so
+  // widened. Of smaller triangles such rays may, at most that far beside the triangle, miss or meet.
   const Float8 margin = broadcast<Float8>(fans.reach * 0x1p-12f);
   Float8 square = zero;
   for (int axis = 0; axis < 3; ++axis) {

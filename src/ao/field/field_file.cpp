@@ -2,7 +2,6 @@
 
 #include <array>
 #include <cstddef>
-
 #include <string>
 #include <type_traits>
 

@@ -64,10 +64,11 @@ void ShapeFields::load(std::span<const int> shapes) {
   parallel::parallel_tasks(static_cast<int>(wanted.size()), [&](int i) {
     const int shape = wanted[static_cast<std::size_t>(i)];
     const CacheKey key = key_of(shape);
+    const bool there = cache_file_exists(field_path(cache_, key));  // others may write it just then
     auto loaded = load_field(cache_, key, settings_);
     if (loaded) {
       fields_[static_cast<std::size_t>(shape)].field = std::move(*loaded);
-    } else if (cache_file_exists(field_path(cache_, key))) {
+    } else if (there) {
       damaged[static_cast<std::size_t>(i)] = loaded.error().message + "; it is made anew";
     }
   });

@@ -10,6 +10,7 @@
 namespace tenebra::ao {
 
 void Bodies::reset(const SceneObjects& objects, double reach) {
+  save_all([&](const Body& body) { return body.made < frame_; });
   objects_ = &objects;
   reach_ = reach;
   bodies_.clear();
@@ -18,8 +19,12 @@ void Bodies::reset(const SceneObjects& objects, double reach) {
 
 void Bodies::begin_frame(std::uint64_t frame, const std::filesystem::path& cache) {
   frame_ = frame;
+  const bool elsewhere = cache != cache_;
   cache_ = cache;
-  for (Body& body : bodies_) body.samples->begin_frame();
+  for (Body& body : bodies_) {
+    body.samples->begin_frame();
+    if (elsewhere) body.saved = 0;
+  }
 }
 
 /// The number of the object's body; a new one has no samples yet.
@@ -68,11 +73,13 @@ void Bodies::make(std::span<const int> objects, Occluders& occluders) {
 
 /// Those that are on disk, many at once.
 void Bodies::load(std::span<const int> bodies) {
+  std::vector<std::uint8_t> there(bodies.size());  // before it is read: others may write it just then
   std::vector<Expected<SurfaceSamples>> found(bodies.size());
   const auto body_at = [&](std::size_t i) -> Body& { return bodies_[static_cast<std::size_t>(bodies[i])]; };
   parallel::parallel_tasks(static_cast<int>(bodies.size()), [&](int i) {
     const auto at = static_cast<std::size_t>(i);
     const Body& body = body_at(at);
+    there[at] = cache_file_exists(sample_path(cache_, body.key));
     found[at] = load_samples(cache_, body.key, body.samples->layout_samples());
   });
   for (std::size_t i = 0; i < found.size(); ++i) {
@@ -80,16 +87,16 @@ void Bodies::load(std::span<const int> bodies) {
     if (found[i]) {
       body.samples->learn(*found[i]);
       body.saved = body.samples->known();
-    } else if (cache_file_exists(sample_path(cache_, body.key))) {
+    } else if (there[i]) {
       notes_.push_back(found[i].error().message + "; they are made anew");
     }
   }
 }
 
 void Bodies::save(Body& body) {
-  if (auto saved = save_samples(cache_, body.key, body.samples->samples(), body.samples->layout_samples());
-      !saved)
-    notes_.push_back(saved.error().message);
+  const auto saved = save_samples(cache_, body.key, body.samples->samples(), body.samples->layout_samples());
+  if (!saved && !unwritten_) notes_.push_back(saved.error().message);
+  unwritten_ |= !saved;
   body.saved = body.samples->known();
 }
 
@@ -101,10 +108,10 @@ void Bodies::save_grown() {
   }
 }
 
-void Bodies::save_all() {
+void Bodies::save_all(const std::function<bool(const Body&)>& chosen) {
   if (cache_.empty()) return;
   for (Body& body : bodies_)
-    if (body.samples->known() > body.saved) save(body);
+    if (body.samples->known() > body.saved && chosen(body)) save(body);
 }
 
 Expected<void> Bodies::fill(std::span<const MissingSample> missing, const AoKernels& kernels,

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <filesystem>
+#include <functional>
 #include <memory>
 #include <optional>
 #include <string>
@@ -25,11 +26,14 @@ class Bodies {
 public:
   explicit Bodies(MemoryBudget& budget) : budget_(&budget) {}
   /// Keeps what is not on disk yet.
-  ~Bodies() { save_all(); }
+  ~Bodies() {
+    save_all([](const Body&) { return true; });
+  }
   Bodies(const Bodies&) = delete;
   Bodies& operator=(const Bodies&) = delete;
 
-  /// None made yet. Keeps a reference to `objects` until the next call.
+  /// None made yet; what was there for more than one frame is kept on disk. Keeps a reference to `objects`
+  /// until the next call.
   void reset(const SceneObjects& objects, double reach);
   /// `cache`: folder that keeps samples; empty: nowhere.
   void begin_frame(std::uint64_t frame, const std::filesystem::path& cache);
@@ -78,7 +82,7 @@ private:
   int body_of(std::int32_t object, Occluders& occluders);
   void load(std::span<const int> bodies);
   void save(Body& body);
-  void save_all();
+  void save_all(const std::function<bool(const Body&)>& chosen);
   std::vector<Body>::const_iterator find_oldest() const;
 
   MemoryBudget* budget_;
@@ -89,6 +93,7 @@ private:
   std::vector<Body> bodies_;
   std::vector<int> at_;  ///< one per object, the last of what stands; -1 until made
   std::vector<std::string> notes_;
+  bool unwritten_ = false;  ///< a file could not be written, which was noted
 };
 
 }  // namespace tenebra::ao

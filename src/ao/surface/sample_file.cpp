@@ -1,5 +1,6 @@
 #include "ao/surface/sample_file.h"
 
+#include <algorithm>
 #include <array>
 #include <string>
 
@@ -38,6 +39,13 @@ bool hold(const std::vector<SurfaceSamples::Run>& runs, std::size_t values, std:
     sum += length;
   }
   return end <= count && sum == values;
+}
+
+/// Whether they may be keys, each once.
+bool are_keys(std::vector<std::uint64_t> cells) {
+  std::sort(cells.begin(), cells.end());
+  return (cells.empty() || cells.back() >> 63 == 0) &&
+         std::adjacent_find(cells.begin(), cells.end()) == cells.end();
 }
 
 std::vector<std::uint16_t> spread(const SurfaceSamples& samples, std::size_t count) {
@@ -124,7 +132,7 @@ Expected<SurfaceSamples> load_samples(const fs::path& folder, const CacheKey& ke
   samples.cells.resize(sizes.cells);
   samples.cell_values.resize(sizes.cells * each);
   if (auto done = file->read(lists(sizes, samples)); !done) return tl::unexpected(done.error());
-  if (!hold(samples.runs, samples.values.size(), count)) return foreign();
+  if (!hold(samples.runs, samples.values.size(), count) || !are_keys(samples.cells)) return foreign();
   return samples;
 }
 

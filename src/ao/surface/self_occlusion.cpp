@@ -95,7 +95,10 @@ bool SelfOcclusion::lay() {
 
 void SelfOcclusion::drop() {
   layout_.reset();
-  values_ = {}, sides_ = {}, cells_ = {}, cell_values_ = {};
+  values_ = std::vector<Value>();  // = {} would keep the memory
+  sides_ = std::vector<Side>();
+  cells_ = CellNumbers();
+  cell_values_ = std::vector<Value>();
   known_ = 0;
   share_.give_back(share_.bytes());
 }
@@ -226,9 +229,11 @@ bool SelfOcclusion::fill(std::span<const std::uint64_t> missing, const AoKernels
     for (const std::uint32_t corner : layout_->corners(middle_of(*side & ~is_side)).at) want(corner);
   base::sort_unique(samples);
   if (!cast(samples, kernels, progress, stop)) return false;
-  for (auto sample = missing.begin(); sample != sides; ++sample)
-    if (*sample < values_.size())
-      values_[*sample] = values_[layout_->shared(static_cast<std::uint32_t>(*sample))];
+  for (auto sample = missing.begin(); sample != sides; ++sample) {
+    if (*sample >= values_.size() || values_[*sample] != unknown) continue;
+    values_[*sample] = values_[layout_->shared(static_cast<std::uint32_t>(*sample))];
+    ++known_;
+  }
   for (auto side = sides; side != cells; ++side) settle(*side & ~is_side, true);
   for (auto key = cells; key != missing.end(); ++key) add_cell(*key & ~is_cell);
   return true;
@@ -251,9 +256,11 @@ bool SelfOcclusion::cast(const std::vector<std::uint32_t>& samples, const AoKern
       for (std::size_t i = begin; i < end && !stop_requested(stop); ++i)
         value(part[i]) = stored(rays_.look(place(part[i]), kernels));
     });
+    const auto cast = static_cast<std::uint64_t>(
+        std::count_if(part.begin(), part.end(), [&](std::uint32_t s) { return value(s) != unknown; }));
+    filled_ += cast;  // a stop leaves some out
+    known_ += cast;
   }
-  filled_ += samples.size();
-  known_ += samples.size();
   return !stop_requested(stop);
 }
 
@@ -266,6 +273,11 @@ void SurfaceSamples::set_values(std::span<const std::uint16_t> all) {
     ++runs.back().count;
     values.push_back(all[i]);
   }
+}
+
+std::size_t SelfOcclusion::held_bytes() const {
+  return (layout_ ? layout_->bytes() : 0) + values_.capacity() * sizeof(Value) +
+         sides_.capacity() * sizeof(Side) + cells_.bytes() + cell_values_.capacity() * sizeof(Value);
 }
 
 SurfaceSamples SelfOcclusion::samples() const {
@@ -282,11 +294,14 @@ void SelfOcclusion::learn(const SurfaceSamples& others) {
   const Value* from = others.values.data();
   for (const SurfaceSamples::Run& run : others.runs)
     for (std::uint32_t i = 0; i < run.count; ++i) take(values_[run.first + i], *from++);
-  for (std::size_t c = 0; c < others.cells.size() && add_cell(others.cells[c]); ++c) {
+  // Of cells that others divided this frame may need none: half of the room stays for those that it does.
+  const std::size_t most = std::min(others.cells.size(), most_cells_ / 2);
+  for (std::size_t c = 0; c < most && add_cell(others.cells[c]); ++c) {
     const std::size_t to = std::size_t{cells_.find(others.cells[c])} * SurfaceLayout::cell_samples;
     for (std::size_t k = 0; k < SurfaceLayout::cell_samples; ++k)
       take(cell_values_[to + k], others.cell_values[c * SurfaceLayout::cell_samples + k]);
   }
+  full_ = false;
   for (std::uint32_t t = 0; t < sides_.size() / 2; ++t) {
     for (const std::uint32_t side : {2 * t, 2 * t + 1})
       if (layout_->is_small(t) && sides_[side].kind == Side::unknown) settle(side, false);

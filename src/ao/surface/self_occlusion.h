@@ -79,7 +79,8 @@ public:
             const std::function<void(double)>& progress, const StopFlag* stop);
 
   SurfaceSamples samples() const;
-  /// Adds what others, of the same shape and reach, know to a body that is laid.
+  /// Adds what others, of the same shape and reach, know to a body that is laid; of their cells as many as
+  /// half of what may be divided, and as have room.
   void learn(const SurfaceSamples& others);
 
   double reach() const { return reach_; }
@@ -87,7 +88,8 @@ public:
   std::uint64_t filled() const { return filled_; }               ///< samples that rays were cast for
   std::uint64_t known() const { return known_; }                 ///< samples in memory
   std::size_t cells() const { return cells_.keys().size(); }     ///< divided
-  std::size_t bytes() const { return share_.bytes(); }
+  std::size_t bytes() const { return share_.bytes(); }           ///< taken of the budget
+  std::size_t held_bytes() const;  ///< of all lists, with the room that they have left
 
 private:
   using Value = std::uint16_t;  ///< see self_occlusion.cpp

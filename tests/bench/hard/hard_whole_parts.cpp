@@ -46,7 +46,7 @@ std::vector<ShadowLight> lights_of(const Scene& scene, const HardView& view, boo
   return lights;
 }
 
-/// WholeRatios of all frames.
+/// Ratios of all frames.
 struct WholeRatios {
   std::vector<double> moved, still;
 
