@@ -5,7 +5,7 @@ set -euo pipefail
 cd "$(dirname "$0")"
 
 tools/setup.sh --tests
-# A first build compiles each folder's files together, which takes half the time; a folder that is there keeps its way.
+# A first build compiles each folder's files together, which takes less time; a folder that is there keeps its way.
 [[ -e build/CMakeCache.txt ]] && first=() || first=(-DTENEBRA_UNITY=ON)
 cmake --preset release -DTENEBRA_TESTS=ON "${first[@]}" ${CI:+-DCMAKE_COMPILE_WARNING_AS_ERROR=ON} > /dev/null
 cmake --build --preset release

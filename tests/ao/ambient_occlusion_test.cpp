@@ -409,7 +409,8 @@ TEST_P(RealScenes, FollowTheReference) {
   std::filesystem::path file = std::filesystem::path(TENEBRA_SCENES_DIR) / GetParam().file;
   if (!std::filesystem::exists(file)) {
     file = std::filesystem::path(TENEBRA_SHARED_DIR) / "scenes" / GetParam().file;
-    if (!std::filesystem::exists(file)) GTEST_SKIP() << file << " is not here";
+    if (!std::filesystem::exists(file))
+      GTEST_SKIP() << file << " is missing: this scene is measured where it is there";
   }
   const auto scene = formats::import_scene(file);
   ASSERT_TRUE(scene);

@@ -8,8 +8,8 @@
 
 #include <set>
 
-#include "ao_case.h"
 #include "base/sort_unique.h"
+#include "standing_body.h"
 #include "support/seeded_random.h"
 
 namespace tenebra {
@@ -22,24 +22,18 @@ const ao::AoKernels kernels = ao::ao_kernels(SimdLevel::automatic);
 constexpr double reach = 0.8;
 
 /// A floor under a plate with holes, and a ball of small triangles: all kinds of samples.
-struct Body {
-  ao::ObjectShape shape;
-  ao::TriangleBvh casters;
+Mesh plate_and_ball() {
+  Mesh mesh = quad_mesh({0, 0, 0}, {0, 0, 2}, {2, 0, 0});
+  for (int j = 0; j < 6; ++j)
+    for (int i = 0; i < 6; ++i)
+      append(mesh, quad_mesh({0.3f * static_cast<float>(i), 0.02f, 0.3f * static_cast<float>(j)},
+                             {0, 0, 0.15f}, {0.15f, 0, 0}));
+  append(mesh, ball_mesh(0.3, 30));
+  return mesh;
+}
 
-  Body() {
-    Mesh mesh = quad_mesh({0, 0, 0}, {0, 0, 2}, {2, 0, 0});
-    for (int j = 0; j < 6; ++j)
-      for (int i = 0; i < 6; ++i)
-        append(mesh, quad_mesh({0.3f * static_cast<float>(i), 0.02f, 0.3f * static_cast<float>(j)},
-                               {0, 0, 0.15f}, {0.15f, 0, 0}));
-    append(mesh, ball_mesh(0.3, 30));
-    SceneMaker make;
-    make.add(mesh);
-    FrameGeometry geometry;
-    evaluate_frame(make.scene, -1, 0, geometry);
-    shape = ao::find_objects(make.scene, geometry).standing;
-    casters = ao::build_triangle_bvh(shape.positions, shape.triangles);
-  }
+struct Body : StandingBody {
+  Body() : StandingBody(plate_and_ball()) {}
   ao::CacheKey key() const { return ao::sample_key(shape, reach); }
 };
 

@@ -1,33 +1,21 @@
 // How surfaces hide themselves, against closed forms and against rays.
 #include "ao/surface/self_occlusion.h"
 
-#include "ao/objects/scene_objects.h"
 #include "ao/surface/surface_layout_inline.h"
-#include "ao_case.h"
+#include "standing_body.h"
 
 namespace tenebra {
 namespace {
 
 using namespace testing;
 
-/// A shape made from one mesh that stands.
-struct Body {
-  ao::ObjectShape shape;
-  ao::TriangleBvh casters;
+struct Body : StandingBody {
+  using StandingBody::StandingBody;
 
   glm::dvec3 at(const ao::SurfacePoint& p) const {
     const glm::uvec3 t = shape.triangles[p.triangle];
     return (1 - double{p.v} - p.w) * glm::dvec3(shape.positions[t.x]) +
            double{p.v} * glm::dvec3(shape.positions[t.y]) + double{p.w} * glm::dvec3(shape.positions[t.z]);
-  }
-
-  explicit Body(const Mesh& mesh) {
-    SceneMaker make;
-    make.add(mesh);
-    FrameGeometry geometry;
-    evaluate_frame(make.scene, -1, 0, geometry);
-    shape = ao::find_objects(make.scene, geometry).standing;
-    casters = ao::build_triangle_bvh(shape.positions, shape.triangles);
   }
 };
 

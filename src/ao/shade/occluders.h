@@ -50,12 +50,12 @@ public:
   /// What may come within the reach of a point in the box: objects in ascending order, then `standing`,
   /// `deforming`.
   void near(const PointBox& box, std::vector<int>& out) const;
-  /// out[i]: whether any part of it may lie above receiver i's planes, within the reach, and is not its own
-  /// body (but for an object that is stretched or sheared: samples of its surface would not hold). Returns
-  /// whether any is.
   /// How a rigid body hides its own points: by samples of its surface, so that it is no occluder of theirs,
   /// or as any other does.
   enum class Itself { by_samples, counts };
+  /// out[i]: whether any part of it may lie above receiver i's planes, within the reach, and is not its own
+  /// body (but for an object that is stretched or sheared: samples of its surface would not hold). Returns
+  /// whether any is.
   bool reaches(int occluder, std::span<const Receiver> receivers, std::uint8_t* out,
                Itself itself = Itself::by_samples) const;
   bool ready(int occluder) const;
