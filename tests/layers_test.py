@@ -20,7 +20,7 @@ MAY_INCLUDE = {
     "cutout": {"base", "math", "parallel", "scene", "texture"},
     "points": {"base", "math", "simd", "parallel", "scene"},
     "shadow": {"base", "math", "simd", "parallel", "scene", "points"},
-    "soft": {"base", "math", "simd", "parallel", "scene", "points"},
+    "soft": {"base", "math", "simd", "parallel", "scene", "points"},  # and hard shadows by their public header
     "tint": {"base", "math", "simd", "parallel", "scene", "texture", "points", "shadow", "soft"},
     "ao": {"base", "math", "simd", "parallel", "scene", "texture", "points"},
     "shade": {"base", "math", "simd", "parallel", "scene", "texture", "points"},
@@ -34,7 +34,7 @@ MAY_INCLUDE = {
 ROOMS = {
     "formats": ["", "gltf_check", "images", "obj", "aff", "gltf", "glb"],
     "shadow": ["decision", "rays", "cone_tree", "tiles", ""],
-    "soft": ["light", "polygon", "groups", "shafts", "occluders", "clip", "silhouette", "bsp", "solve"],
+    "soft": ["light", "polygon", "groups", "shafts", "occluders", "clip", "silhouette", "bsp", "solve", "sample", ""],
     "ao": ["objects", "cast", "cache", "field", "surface", "shade", "adaptive", ""],
 }
 APART = {("tiles", "cone_tree"), ("silhouette", "clip"), ("bsp", "clip"), ("bsp", "silhouette"),

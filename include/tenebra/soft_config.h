@@ -38,6 +38,11 @@ struct SoftShadowConfig {
   SoftGrouping grouping = SoftGrouping::neighbourhood;
   OccluderChoice choice = OccluderChoice::largest;
   SoftPrecision precision = SoftPrecision::fast;
+  /// 1/255 of white, RMS over the penumbra, white being the 99.9th percentile of the frame's irradiance; 0:
+  /// exact. Above 0 groups of points that many triangles may shadow look at places on the light instead, by
+  /// exact hard shadows: at as many as it takes until they err by less, as far as can be told
+  /// (SoftStats::error_255). Points that all or none of the light reaches by certain proof stay exact.
+  double error_255 = 0;
   bool keep_trees = true;  ///< false: each point starts a new BSP (the paper's "modified version", Figure 8)
   SimdLevel simd = SimdLevel::automatic;
 };
@@ -50,7 +55,7 @@ struct SoftMask {
 };
 
 /// How a pixel's answer was found, for display.
-enum class SoftClass : std::uint8_t { background, below_horizon, lit, dark, bsp, clip, silhouette };
+enum class SoftClass : std::uint8_t { background, below_horizon, lit, dark, bsp, clip, silhouette, sampled };
 
 /// The work that soft shadows did, summed over the lights.
 struct SoftStats {
@@ -62,6 +67,10 @@ struct SoftStats {
   std::uint64_t points_bsp = 0;         ///< points solved by a BSP
   std::uint64_t points_clip = 0;        ///< points solved by clipping alone
   std::uint64_t points_silhouette = 0;  ///< points solved by silhouettes of meshes, and clipping
+  std::uint64_t points_sampled = 0;     ///< points that looked at places on the light (error_255 > 0)
+  std::uint64_t sampled_rays = 0;       ///< what they looked along
+  double error_255 = 0;                 ///< estimate of what SoftShadowConfig::error_255 bounds; 0: exact. Of
+                                        ///< several lights the largest
   std::uint64_t fragments = 0;          ///< convex parts of the light handed to the integrals
   std::uint64_t tree_nodes = 0;         ///< BSP nodes made
   std::uint64_t peak_tree_bytes = 0;    ///< memory of all BSPs alive at one time, at most
@@ -75,6 +84,9 @@ inline SoftStats& operator+=(SoftStats& to, const SoftStats& from) {
   to.points_bsp += from.points_bsp;
   to.points_clip += from.points_clip;
   to.points_silhouette += from.points_silhouette;
+  to.points_sampled += from.points_sampled;
+  to.sampled_rays += from.sampled_rays;
+  to.error_255 = std::max(to.error_255, from.error_255);
   to.fragments += from.fragments;
   to.tree_nodes += from.tree_nodes;
   to.peak_tree_bytes = std::max(to.peak_tree_bytes, from.peak_tree_bytes);

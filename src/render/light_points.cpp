@@ -6,50 +6,13 @@
 
 #include "base/stopwatch.h"
 #include "parallel/parallel.h"
+#include "soft/light/light_places.h"
 
 namespace tenebra::render {
 
 namespace {
 
-using glm::dvec2;
 using glm::dvec3;
-
-/// Where the line at `x` crosses a convex outline: from x() to y().
-dvec2 chord_at(const std::vector<dvec2>& outline, double x) {
-  dvec2 chord(INFINITY, -INFINITY);
-  const auto meet = [&](double y) { chord = {std::min(chord.x, y), std::max(chord.y, y)}; };
-  for (std::size_t i = 0; i < outline.size(); ++i) {
-    const dvec2 a = outline[i], b = outline[(i + 1) % outline.size()];
-    if (a.x == x) meet(a.y);
-    if ((a.x < x) != (b.x < x) && a.x != x && b.x != x) meet(a.y + (x - a.x) / (b.x - a.x) * (b.y - a.y));
-  }
-  return chord;
-}
-
-/// Part of the outline between two neighbouring vertices in x: a trapezoid.
-struct Slab {
-  double x, step;       ///< from x to x + step
-  double width, slope;  ///< of the chord at x, and its growth with x
-  double area() const { return step * (width + 0.5 * slope * step); }
-  /// Where the area from the left is `part`.
-  double x_at(double part) const {
-    return x + 2 * part / (width + std::sqrt(std::max(0.0, width * width + 2 * slope * part)));
-  }
-};
-
-std::vector<Slab> slabs_of(const std::vector<dvec2>& outline) {
-  std::vector<double> xs;
-  for (const dvec2& v : outline) xs.push_back(v.x);
-  std::sort(xs.begin(), xs.end());
-  std::vector<Slab> slabs;
-  for (std::size_t i = 1; i < xs.size(); ++i) {
-    if (xs[i] == xs[i - 1]) continue;
-    const dvec2 from = chord_at(outline, xs[i - 1]), to = chord_at(outline, xs[i]);
-    const double step = xs[i] - xs[i - 1], width = from.y - from.x;
-    slabs.push_back({xs[i - 1], step, width, (to.y - to.x - width) / step});
-  }
-  return slabs;
-}
 
 /// What some points of the light, each of which stands for `area_m2` of it, send to the pixels that see them.
 struct PointsOfLight {
@@ -83,19 +46,10 @@ struct PointsOfLight {
 }  // namespace
 
 std::vector<glm::vec3> points_on_light(const AreaLight& light, int count) {
-  const std::vector<Slab> slabs = slabs_of(light.polygon);
-  double total = 0;
-  for (const Slab& slab : slabs) total += slab.area();
+  const soft::LightPlaces places(light);
   std::vector<glm::vec3> points;
-  for (int i = 0; i < count; ++i) {
-    double part = (i + 0.5) / count * total;
-    std::size_t k = 0;
-    while (k + 1 < slabs.size() && part > slabs[k].area()) part -= slabs[k++].area();
-    const double x = std::clamp(slabs[k].x_at(part), slabs[k].x, slabs[k].x + slabs[k].step);
-    const dvec2 chord = chord_at(light.polygon, x);
-    const double y = std::lerp(chord.x, chord.y, std::fmod((i + 0.5) / std::numbers::phi, 1.0));
-    points.emplace_back(light.centre + x * light.ex + y * light.ey);
-  }
+  for (int i = 0; i < count; ++i)
+    points.push_back(places.at((i + 0.5) / count, std::fmod((i + 0.5) / std::numbers::phi, 1.0)));
   return points;
 }
 

@@ -24,7 +24,7 @@ std::optional<Quality> quality_from_name(std::string_view name) {
 QualitySettings quality_settings(Quality quality) {
   switch (quality) {
     case Quality::fast:
-      return {.soft_points = 8, .ao_error = 5, .ao_rays = 16, .ao_downscale = 2};
+      return {.soft_error = 4, .ao_error = 5, .ao_rays = 16, .ao_downscale = 2};
     case Quality::balanced:
       return {};
     case Quality::exact:
@@ -35,7 +35,8 @@ QualitySettings quality_settings(Quality quality) {
 
 void apply_quality(Quality quality, RenderSettings& settings) {
   const QualitySettings chosen = quality_settings(quality);
-  settings.soft_points = chosen.soft_points;
+  settings.soft_points = 0;
+  settings.soft.error_255 = chosen.soft_error;
   settings.ao.error_255 = chosen.ao_error;
   settings.ao.rays = chosen.ao_rays;
   settings.ao.downscale = chosen.ao_downscale;

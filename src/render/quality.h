@@ -10,7 +10,7 @@
 namespace tenebra::render {
 
 enum class Quality {
-  fast,      ///< soft shadows of a few points of the light, ambient occlusion by few rays at half resolution
+  fast,      ///< soft shadows and ambient occlusion with errors that are hardly seen
   balanced,  ///< the defaults: exact shadows, ambient occlusion by 64 rays
   exact,     ///< exact shadows, ambient occlusion by 256 rays
 };
@@ -21,7 +21,7 @@ std::optional<Quality> quality_from_name(std::string_view name);
 /// What a preset sets. Hard shadows are exact in all of them: what inexact settings save is little beside
 /// what they get wrong (docs/trade.md).
 struct QualitySettings {
-  int soft_points = 0;    ///< RenderSettings::soft_points
+  double soft_error = 0;  ///< SoftShadowConfig::error_255
   double ao_error = 2.5;  ///< AoConfig::error_255
   int ao_rays = 64;       ///< AoConfig::rays
   int ao_downscale = 1;   ///< AoConfig::downscale

@@ -62,7 +62,8 @@ struct RenderSettings {
   Terminator terminator = Terminator::flat;  ///< smooth needs SampleSource::ids; else it is flat
   HardShadowConfig hard;
   SoftShadowConfig soft;
-  int soft_points = 0;  ///< soft mode: 0 exact; else area lights are so many points (render/light_points.h)
+  int soft_points = 0;  ///< soft mode: 0: as soft.error_255 says; else area lights are so many points
+                        ///< (render/light_points.h)
   AreaLightSettings area_lights;
   SeeThrough see_through =
       SeeThrough::tint;  ///< what see-through surfaces do to light; they are drawn anyway

@@ -27,7 +27,7 @@ Expected<void> Renderer::State::trace_tint(const FrameInput& input, const DrawnL
   const TriangleView triangles = traced_triangles(input, light, settings);
   TintConfig config;
   config.simd = settings.hard.simd;
-  config.own_irradiance = settings.soft_points > 0;
+  config.own_irradiance = settings.soft_points > 0 || settings.soft.error_255 > 0;
   config.same_surfaces = std::exchange(tint_has_surfaces, true);
   if (settings.samples == SampleSource::depth) config.contact = ContactRule::none;
   bool done = true;

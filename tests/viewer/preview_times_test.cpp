@@ -52,7 +52,7 @@ TEST(PreviewLevels, LeaveOutWhatTheyName) {
       }
     }
   }
-  EXPECT_EQ(preview_text(soft_settings(), {PreviewMethod::fewer, 2}), "1/2 size, 8 light points");
+  EXPECT_EQ(preview_text(soft_settings(), {PreviewMethod::fewer, 2}), "1/2 size, penumbrae to 4/255");
   EXPECT_EQ(preview_text(soft_settings(), {PreviewMethod::plain, 1}), "hard shadows");
   EXPECT_EQ(preview_text(asked[3], {PreviewMethod::plain, 4}), "1/4 size, hard shadows, no occlusion");
 }

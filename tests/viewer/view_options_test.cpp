@@ -75,7 +75,8 @@ TEST(MethodArguments, GiveBackWhatTheyWereMadeFrom) {
         "--simd scalar --variant PreciseSEATP", "--samples depth --cull none", "--cull front",
         "--shadows soft --light-size 0.5x0.25 --light-facing 1,2.5,-3 --light-emission lambert "
         "--emissive-lights --soft-solver bsp "
-        "--soft-grouping triangle --soft-choice random --soft-precision reference --soft-points 12",
+        "--soft-grouping triangle --soft-choice random --soft-precision reference --soft-points 12 "
+        "--soft-error 1.5",
         "--light-size 4x4%",
         "--ao field --ao-at vertices --ao-layout positions --ao-rays 7 --ao-downscale 3 --ao-distance 1.5 "
         "--ao-positions 99 "
@@ -96,7 +97,8 @@ TEST(MethodArguments, CoverEveryMethodOption) {
       "--emissive-lights --soft-solver "
       "bsp "
       "--soft-grouping "
-      "triangle --soft-choice random --soft-precision reference --soft-points 12 --ao rays --ao-at vertices "
+      "triangle --soft-choice random --soft-precision reference --soft-points 12 --soft-error 2 --ao rays "
+      "--ao-at vertices "
       "--ao-layout "
       "positions "
       "--ao-error 3 --ao-rays 7 --ao-downscale 2 --ao-distance 1.5 --ao-positions 99 --ao-directions 64 "

@@ -17,6 +17,7 @@ constexpr int most_soft_points = 4096, most_downscale = 8;
 
 constexpr const char* quality_option = "--quality";
 constexpr const char* points_option = "--soft-points";
+constexpr const char* soft_error_option = "--soft-error";
 constexpr const char* error_option = "--ao-error";
 constexpr const char* rays_option = "--ao-rays";
 constexpr const char* downscale_option = "--ao-downscale";
@@ -78,6 +79,14 @@ Expected<int> parse_points(const std::string& text) {
   return points;
 }
 
+Expected<double> parse_error(const std::string& text) {
+  if (text == "0") return 0.0;
+  const auto error = parse_positive(text);
+  if (!error || *error < 0.1 || *error > 255)
+    return base::fail("found {}, expected 0 (exact), or 0.1 to 255", text);
+  return error;
+}
+
 Expected<int> parse_downscale(const std::string& text) {
   const auto scale = parse_count(text);
   if (!scale || *scale < 1 || *scale > most_downscale)
@@ -123,9 +132,8 @@ void add_common(CLI::App& command, MethodOptions& options) {
   set_group(
       {add_value(
            command, quality_option, options.quality, parse_quality,
-           "What soft shadows and ambient occlusion may cost.\nfast: --soft-points 8 --ao-error 5 (penumbrae "
-           "off "
-           "by\n3 to 8/255 RMS), with --ao field --ao-rays 16\n--ao-downscale 2 (occlusion off by 3 to 7);\n"
+           "What soft shadows and ambient occlusion may cost.\nfast: --soft-error 4 --ao-error 5, with --ao "
+           "field --ao-rays 16\n--ao-downscale 2 (occlusion off by 3 to 7);\n"
            "balanced: the defaults (exact; 2.5; fields 2 to 6);\nexact: --ao-error 1, fields --ao-rays 256 "
            "(2 to "
            "5);\ndocs/trade.md has all figures. An option that is given\nitself wins")
@@ -213,9 +221,13 @@ void add_soft(CLI::App& command, MethodOptions& options) {
        add_choice<precision_choices>(command, "--soft-precision", soft.precision,
                                      "reference: double precision throughout [fast]"),
        add_value(command, points_option, options.render.soft_points, parse_points,
-                 "Replaces each area light by N points with exact hard\nshadows: quicker, but with steps "
-                 "in the penumbra\n[0: exact]")
-           .type_name("N")},
+                 "Replaces each area light by N points with exact hard\nshadows: steps in the penumbra, of "
+                 "an error that nobody\nmeasures [0: as --soft-error says]")
+           .type_name("N"),
+       add_value(command, soft_error_option, soft.error_255, parse_error,
+                 "The error aimed at, RMS over the penumbra, in 1/255 of\nwhite: dense penumbrae look at as "
+                 "many places on the\nlight as that takes; the log says what is estimated\n[0: exact]")
+           .type_name("E")},
       soft_group);
 }
 
@@ -300,7 +312,9 @@ void settle_quality(const CLI::App& command, MethodOptions& options) {
   if (!options.quality) return;
   const render::RenderSettings given = options.render;
   render::apply_quality(*options.quality, options.render);
-  if (was_given(command, points_option)) options.render.soft_points = given.soft_points;
+  const bool points = was_given(command, points_option);
+  if (points) options.render.soft_points = given.soft_points;
+  if (points || was_given(command, soft_error_option)) options.render.soft.error_255 = given.soft.error_255;
   if (was_given(command, error_option)) options.render.ao.error_255 = given.ao.error_255;
   if (was_given(command, rays_option)) options.render.ao.rays = given.ao.rays;
   if (was_given(command, downscale_option)) options.render.ao.downscale = given.ao.downscale;

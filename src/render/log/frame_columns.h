@@ -95,6 +95,8 @@ inline constexpr std::array method_columns{
     CountColumn{"ao_cache_cells", [](const FrameRecord& r) { return r.ao.cache_cells; }},
     CountColumn{"antialias_pixels", [](const FrameRecord& r) { return r.antialias.pixels; }},
     CountColumn{"antialias_samples", [](const FrameRecord& r) { return r.antialias.samples; }},
+    CountColumn{"soft_points_sampled", [](const FrameRecord& r) { return r.soft.points_sampled; }},
+    CountColumn{"soft_sampled_rays", [](const FrameRecord& r) { return r.soft.sampled_rays; }},
     // The old name of soft_points_silhouette, for readers of logs: goes with 0.3.
     CountColumn{"soft_points_outline", [](const FrameRecord& r) { return r.soft.points_silhouette; }},
 };
@@ -102,6 +104,7 @@ inline constexpr std::array method_columns{
 /// Estimates, after the counts of the methods. 0 where the method has none.
 inline constexpr std::array estimate_columns{
     EstimateColumn{"ao_error_255", [](const FrameRecord& r) { return r.ao.error_255; }},
+    EstimateColumn{"soft_error_255", [](const FrameRecord& r) { return r.soft.error_255; }},
 };
 
 /// Times that close a row of the log, after the counts.

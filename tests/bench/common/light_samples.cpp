@@ -88,6 +88,22 @@ LightSamples empty_samples(std::size_t per_pattern, std::size_t pattern_count, s
   return samples;
 }
 
+std::uint32_t reversed(std::uint32_t x) {
+  x = (x >> 1 & 0x55555555u) | (x & 0x55555555u) << 1;
+  x = (x >> 2 & 0x33333333u) | (x & 0x33333333u) << 2;
+  x = (x >> 4 & 0x0f0f0f0fu) | (x & 0x0f0f0f0fu) << 4;
+  x = (x >> 8 & 0x00ff00ffu) | (x & 0x00ff00ffu) << 8;
+  return x >> 16 | x << 16;
+}
+
+/// Every digit flipped or not by a hash of those before it.
+double scrambled(std::uint32_t digits, std::uint32_t seed) {
+  std::uint32_t x = reversed(digits);
+  x += seed;
+  for (const std::uint32_t factor : {0x6c50b47cu, 0xb82f1e52u, 0xc7afe638u, 0x8d22f6e6u}) x ^= x * factor;
+  return (static_cast<double>(reversed(x)) + 0.5) * 0x1p-32;
+}
+
 constexpr std::size_t lanes = 16;
 constexpr std::uint64_t seed = 2012;
 
@@ -111,6 +127,27 @@ LightSamples samples_by_tile(const AreaLight& light, std::size_t per_pattern, st
   testing::Random random(seed);
   for (std::size_t i = 0; i < samples.x.size(); ++i)
     put(samples, i, map, grid_of(per_pattern), i / lanes % per_pattern, random);
+  return samples;
+}
+
+LightSamples sobol_by_tile(const AreaLight& light, std::size_t per_pattern, std::size_t pattern_count) {
+  LightSamples samples = empty_samples(per_pattern, pattern_count, per_pattern * pattern_count);
+  const SquareToLight map(light);
+  testing::Random random(seed);
+  for (std::size_t pattern = 0; pattern < pattern_count; ++pattern) {
+    const auto seed_u = static_cast<std::uint32_t>(random.unit() * 0x1p32),
+               seed_v = static_cast<std::uint32_t>(random.unit() * 0x1p32);
+    for (std::size_t s = 0; s < per_pattern; ++s) {
+      std::uint32_t u = 0, v = 0, digit = 1u << 31, column = 1u << 31;
+      for (std::size_t i = s; i != 0; i >>= 1, digit >>= 1, column ^= column >> 1)
+        if ((i & 1u) != 0) u ^= digit, v ^= column;
+      const dvec3 q = map.at(scrambled(u, seed_u), scrambled(v, seed_v));
+      const std::size_t at = (pattern / lanes * per_pattern + s) * lanes + pattern % lanes;
+      samples.x[at] = static_cast<float>(q.x);
+      samples.y[at] = static_cast<float>(q.y);
+      samples.z[at] = static_cast<float>(q.z);
+    }
+  }
   return samples;
 }
 

@@ -26,4 +26,8 @@ LightSamples samples_by_pixel(const AreaLight& light, std::size_t per_pattern, s
 /// (b * per_pattern + s) * 16 + lane. `pattern_count` is a multiple of sixteen.
 LightSamples samples_by_tile(const AreaLight& light, std::size_t per_pattern, std::size_t pattern_count);
 
+/// The same layout, of Sobol's sequence in place of jittered cells, each pattern scrambled by itself (Owen
+/// 1995, by the hash of Laine and Karras 2011): any first 2^m points of a pattern are stratified.
+LightSamples sobol_by_tile(const AreaLight& light, std::size_t per_pattern, std::size_t pattern_count);
+
 }  // namespace tenebra::bench

@@ -19,6 +19,7 @@ struct SoftOptions : BenchOptions {
   std::filesystem::path pictures;
   std::vector<int> size{1280, 720};
   std::vector<std::string> only;
+  bool only_errors = false;
 };
 
 /// How much is run.
@@ -31,11 +32,13 @@ struct Effort {
   int area_rounds;
   std::vector<std::size_t> lights;
   std::size_t life_points;  ///< queries of Figure 11's tree, at most
+  int race_rounds;
+  std::size_t race_rays;  ///< of the rival, at most
 };
 
 Effort effort(bool quick) {
-  if (quick) return {7, false, false, 64, {1, 9, 25, 100}, 1, {2, 12, 36}, 5000};
-  return {7, true, true, 16, {1, 2, 4, 9, 16, 25, 49, 100}, 3, {2, 4, 9, 12, 16, 24, 36}, 20000};
+  if (quick) return {7, false, false, 64, {1, 9, 25, 100}, 1, {2, 12, 36}, 5000, 3, 256};
+  return {7, true, true, 16, {1, 2, 4, 9, 16, 25, 49, 100}, 3, {2, 4, 9, 12, 16, 24, 36}, 20000, 5, 1024};
 }
 
 Expected<void> check(const SoftOptions& options) {
@@ -66,6 +69,9 @@ bool shows_growth(const SoftView& view, const SoftResults& results) {
 Expected<void> measure_view(const SoftView& view, const SoftOptions& options, SoftResults& results,
                             Report& report) {
   const Effort how = effort(options.quick);
+  if (view.counted || view.name.starts_with("court"))
+    results.races.push_back(race_errors(view, how.race_rounds, how.race_rays, report));
+  if (options.only_errors) return {};
   ContestPlan plan;
   plan.rounds = how.rounds;
   plan.whole_curve = how.whole_curve;
@@ -120,6 +126,8 @@ void add_soft_command(CLI::App& program, Run& run) {
   command->add_option("--size", options->size, "Width and height")->expected(2)->group("");  // for tests
   command->add_option("--only", options->only, "Scenes by name: robots, museum5, kitchen, museum5x64, court")
       ->type_name("NAME");
+  command->add_flag("--only-errors", options->only_errors,
+                    "Only the race at errors that users accept (--soft-error)");
   command->callback([options, &run] { run = [options] { return run_soft(*options); }; });
 }
 

@@ -4,6 +4,7 @@
 #include <string>
 #include <vector>
 
+#include "bench/soft/soft_error_race.h"
 #include "bench/soft/soft_figures.h"
 #include "bench/soft/soft_life.h"
 
@@ -11,6 +12,7 @@ namespace tenebra::bench {
 
 struct SoftResults {
   std::vector<Contest> contests;
+  std::vector<ErrorRace> races;
   std::vector<CostRow> costs;
   std::vector<AreaRow> areas;
   std::vector<LightsRow> lights;

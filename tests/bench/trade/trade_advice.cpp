@@ -50,17 +50,17 @@ constexpr const char* tiles = "default (Tiles)";
 constexpr const char* exact_soft = "default (exact)";
 
 std::string soft_name(const render::QualitySettings& q) {
-  return q.soft_points == 0 ? exact_soft : fmt::format("light points (--soft-points), {}", q.soft_points);
+  return q.soft_error > 0 ? fmt::format("error asked (--soft-error), {}", q.soft_error) : exact_soft;
 }
 std::string ao_name(const render::QualitySettings& q) {
   return fmt::format("{}, {} rays", q.ao_downscale == 1 ? "field" : "field, half resolution", q.ao_rays);
 }
 
 std::string preset_options(const render::QualitySettings& q) {
-  const std::string points =
-      q.soft_points == 0 ? "exact soft shadows" : fmt::format("`--soft-points {}`", q.soft_points);
+  const std::string soft =
+      q.soft_error > 0 ? fmt::format("`--soft-error {}`", q.soft_error) : "exact soft shadows";
   const std::string scale = q.ao_downscale == 1 ? "" : fmt::format(" --ao-downscale {}", q.ao_downscale);
-  return fmt::format("{}, `--ao-rays {}{}`", points, q.ao_rays, scale);
+  return fmt::format("{}, `--ao-rays {}{}`", soft, q.ao_rays, scale);
 }
 
 /// Views on which no exact setting is faster than `name`.
@@ -147,12 +147,19 @@ std::string soft_advice(const TradeTables& tables) {
       "- A penumbra that is off by less than 1/255 (RMS) takes Embree's rays {} of the exact time, behind "
       "shafts {}; "
       "by less than 3/255: {} and {}. Views on which so many rays were not tried are left out.\n"
+      "- `--soft-error 4` takes {} of the exact time ({} /255 RMS, {} at the worst pixel), `--soft-error 1` "
+      "{} ({} /255).\n"
       "- `--soft-points 8` takes {} of the exact time and shows eight steps in each penumbra ({} /255 RMS, "
       "{} at the "
       "worst pixel); 32 points {} ({} /255).\n",
       range(tables, error(exact_soft, 3)), fastest_exact(tables, exact_soft), tables.size(),
       range(tables, against("Embree rays", 1)), range(tables, against("shafts + Embree rays", 1)),
       range(tables, against("Embree rays", 3)), range(tables, against("shafts + Embree rays", 3)),
+      range(tables, times("error asked (--soft-error), 4", exact_soft)),
+      range(tables, error("error asked (--soft-error), 4")),
+      range(tables, error("error asked (--soft-error), 4", 1)),
+      range(tables, times("error asked (--soft-error), 1", exact_soft)),
+      range(tables, error("error asked (--soft-error), 1")),
       range(tables, times("light points (--soft-points), 8", exact_soft)),
       range(tables, error("light points (--soft-points), 8")),
       range(tables, error("light points (--soft-points), 8", 1)),

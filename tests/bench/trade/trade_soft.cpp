@@ -36,6 +36,7 @@ private:
            std::function<std::span<const float>()> trace);
   void find_truth();
   void add_exact();
+  void add_errors();
   void add_light_points();
   void add_embree();
 
@@ -88,6 +89,18 @@ void SoftTrade::add_exact() {
     add("exact, other solvers", "bsp", session_.by_effort(1, 1, 3), with(SoftSolver::bsp));
 }
 
+void SoftTrade::add_errors() {
+  for (const double asked :
+       session_.by_effort<std::vector<double>>({4}, {8, 4, 2, 1, 0.5}, {8, 4, 2, 1, 0.5})) {
+    add("error asked (--soft-error)", fmt::format("{}", asked), session_.by_effort(1, 3, 5),
+        [this, asked]() -> std::span<const float> {
+          tracer_.trace(view_.frame.points, view_.frame.normals, view_.frame.view, view_.frame.triangles(),
+                        view_.light, {.error_255 = asked}, mask_);
+          return mask_.irradiance;
+        });
+  }
+}
+
 /// Beside tiles, as the renderer has them.
 void SoftTrade::add_light_points() {
   const VisiblePoints& points = view_.frame.points;
@@ -126,6 +139,7 @@ void SoftTrade::add_embree() {
 Expected<TradeTable> SoftTrade::run() {
   find_truth();
   add_exact();
+  add_errors();
   add_light_points();
   add_embree();
   auto points = take_turns(contestants_);
@@ -147,7 +161,7 @@ Expected<TradeTable> SoftTrade::run() {
 void keep_soft_headline(TradeSession& session, const TradeTable& table) {
   const TradePoint& exact = *table.find("default (exact)");
   session.keep_largest("soft_default_worst_255", exact.errors[3]);
-  if (const TradePoint* p = table.find("light points (--soft-points), 8"))
+  if (const TradePoint* p = table.find("error asked (--soft-error), 4"))
     session.keep_largest("soft_fast_rms_255", p->errors[0]);
 }
 

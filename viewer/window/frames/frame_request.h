@@ -62,7 +62,7 @@ struct OverlayImage {
   float highest = 0;                         ///< nodes: what the brightest colour stands for
   float peak = 0;                            ///< nodes: the most of any pixel
   double mean = 0;                           ///< nodes: of the pixels with a triangle
-  std::array<std::size_t, 7> class_sizes{};  ///< classes: pixels of each SoftClass
+  std::array<std::size_t, 8> class_sizes{};  ///< classes: pixels of each SoftClass
 };
 
 struct Picture {

@@ -21,13 +21,14 @@ struct ClassLook {
   glm::u8vec3 color;
 };
 /// In the order of SoftClass.
-constexpr std::array<ClassLook, 7> class_looks{{{"background", {18, 18, 22}},
+constexpr std::array<ClassLook, 8> class_looks{{{"background", {18, 18, 22}},
                                                 {"below the horizon", {58, 62, 74}},
                                                 {"fully lit", {236, 214, 130}},
                                                 {"fully dark", {44, 72, 130}},
                                                 {"penumbra by BSP", {214, 84, 60}},
                                                 {"penumbra by clipping", {86, 170, 110}},
-                                                {"penumbra by silhouettes", {164, 108, 190}}}};
+                                                {"penumbra by silhouettes", {164, 108, 190}},
+                                                {"by places on the light", {214, 158, 88}}}};
 
 void put(base::Image8& image, std::size_t pixel, glm::u8vec3 color) {
   for (int c = 0; c < 3; ++c) image.pixels[pixel * 3 + static_cast<std::size_t>(c)] = color[c];

@@ -10,20 +10,20 @@
 namespace tenebra::viewer {
 namespace {
 
-constexpr int cast_rays = 8, cast_downscale = 4;
+constexpr int few_points = 8, cast_rays = 8, cast_downscale = 4;
 
 int part_of(int pixels, int divisor) {
   return std::max(1, (pixels + divisor / 2) / divisor);
 }
 
-/// At most `count` light points instead of `asked`, of which 0 stands for the exact solution.
+/// At most `count` light points, where lights are points.
 int fewer_points(int asked, int count) {
-  return asked == 0 ? count : std::min(asked, count);
+  return std::min(asked, count);
 }
 
-void take_fewer(render::RenderSettings& settings, int points, int rays, int downscale) {
-  settings.soft_points = fewer_points(settings.soft_points, points);
+void take_fewer(render::RenderSettings& settings, int rays, int downscale) {
   const render::QualitySettings fast = render::quality_settings(render::Quality::fast);
+  settings.soft.error_255 = std::max(settings.soft.error_255, fast.soft_error);
   settings.ao.error_255 = std::max(settings.ao.error_255, fast.ao_error);
   settings.ao.rays = std::min(settings.ao.rays, rays);
   settings.ao.downscale = std::max(settings.ao.downscale, downscale);
@@ -34,9 +34,10 @@ void take_fewer(render::RenderSettings& settings, int points, int rays, int down
 
 bool PreviewSubject::operator==(const PreviewSubject& other) const {
   return scene == other.scene && size.width == other.size.width && size.height == other.size.height &&
-         shadows == other.shadows && soft_points == other.soft_points && ao == other.ao &&
-         ao_error == other.ao_error && ao_rays == other.ao_rays && ao_downscale == other.ao_downscale &&
-         antialias == other.antialias && compares == other.compares && explains == other.explains;
+         shadows == other.shadows && soft_points == other.soft_points && soft_error == other.soft_error &&
+         ao == other.ao && ao_error == other.ao_error && ao_rays == other.ao_rays &&
+         ao_downscale == other.ao_downscale && antialias == other.antialias && compares == other.compares &&
+         explains == other.explains;
 }
 
 PreviewSubject preview_subject(const void* scene, const render::RenderSettings& asked, bool compares,
@@ -45,6 +46,7 @@ PreviewSubject preview_subject(const void* scene, const render::RenderSettings& 
           .size = {asked.width, asked.height},
           .shadows = asked.shadows,
           .soft_points = asked.soft_points,
+          .soft_error = asked.soft.error_255,
           .ao = asked.ao.mode,
           .ao_error = asked.ao.error_255,
           .ao_rays = asked.ao.rays,
@@ -58,7 +60,8 @@ std::vector<PreviewLevel> preview_levels(const PreviewSubject& subject) {
   const bool soft = subject.shadows == render::ShadowMode::soft, occludes = subject.ao != AoMode::none;
   const render::QualitySettings fast = render::quality_settings(render::Quality::fast);
   const bool has_fewer =
-      (soft && fewer_points(subject.soft_points, fast.soft_points) != subject.soft_points) ||
+      (soft &&
+       (subject.soft_points > 0 ? subject.soft_points > few_points : subject.soft_error < fast.soft_error)) ||
       (occludes && (subject.ao == AoMode::adaptive
                         ? subject.ao_error < fast.ao_error
                         : subject.ao_rays > fast.ao_rays || subject.ao_downscale < fast.ao_downscale));
@@ -95,15 +98,18 @@ render::RenderSettings preview_settings(const render::RenderSettings& asked, Pre
     case PreviewMethod::single:
       break;
     case PreviewMethod::fewer:
-      take_fewer(settings, fast.soft_points, fast.ao_rays, fast.ao_downscale);
+      take_fewer(settings, fast.ao_rays, fast.ao_downscale);
+      settings.soft_points = fewer_points(settings.soft_points, few_points);
       break;
     case PreviewMethod::cast:
-      take_fewer(settings, 1, cast_rays, cast_downscale);
+      take_fewer(settings, cast_rays, cast_downscale);
+      settings.soft_points = 1;
       if (asked.ao.mode != AoMode::none) settings.ao.mode = AoMode::rays;
       settings.ao.place = AoPlace::pixels;
       break;
     case PreviewMethod::plain:
-      take_fewer(settings, 1, 1, 1);
+      take_fewer(settings, 1, 1);
+      settings.soft_points = 1;
       settings.ao.mode = AoMode::none;
       break;
   }
@@ -123,6 +129,8 @@ std::string preview_text(const render::RenderSettings& asked, PreviewLevel level
   if (level.divisor > 1) add(fmt::format("1/{} size", level.divisor));
   if (asked.shadows == render::ShadowMode::soft && drawn.soft_points != asked.soft_points)
     add(drawn.soft_points == 1 ? "hard shadows" : fmt::format("{} light points", drawn.soft_points));
+  else if (asked.shadows == render::ShadowMode::soft && drawn.soft.error_255 != asked.soft.error_255)
+    add(fmt::format("penumbrae to {:.3g}/255", drawn.soft.error_255));
   if (asked.ao.mode != AoMode::none && drawn.ao.mode == AoMode::none) {
     add("no occlusion");
   } else if (asked.ao.mode == AoMode::adaptive) {

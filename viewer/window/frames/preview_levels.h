@@ -15,7 +15,7 @@ namespace tenebra::viewer {
 enum class PreviewMethod {
   as_asked,
   single,  ///< one sample a pixel, as all that follow
-  fewer,   ///< at most the points and rays of --quality fast
+  fewer,   ///< at least the errors, and at most the rays, of --quality fast
   cast,    ///< a point for each light, ambient occlusion by a few rays that are cast
   plain,   ///< a point for each light, no ambient occlusion
 };
@@ -33,6 +33,7 @@ struct PreviewSubject {
   Size size;
   render::ShadowMode shadows = render::ShadowMode::hard;
   int soft_points = 0;
+  double soft_error = 0;
   AoMode ao = AoMode::none;
   double ao_error = 0;
   int ao_rays = 0;

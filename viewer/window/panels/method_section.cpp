@@ -102,7 +102,13 @@ void edit_soft(Ui& ui, MethodOptions& method) {
   choose(ui, "occluder", occluder_choices, soft.choice);
   row(ui, "Precision", "reference: double precision throughout.");
   choose(ui, "precision", precision_choices, soft.precision);
-  row(ui, "Points", "Replaces the light by so many points with exact hard shadows. 0: exact soft shadows.");
+  row(ui, "Error", "RMS over the penumbra, in 1/255; 0: exact. The cost section has the estimate.");
+  auto error = static_cast<float>(soft.error_255);
+  if (ImGui::SliderFloat("##soft error", &error, 0.0f, 8.0f, error > 0 ? "%.1f / 255" : "exact",
+                         ImGuiSliderFlags_AlwaysClamp))
+    soft.error_255 = std::round(10 * double{error}) / 10;
+  ui.mark("soft error");
+  row(ui, "Points", "Replaces the light by so many points with exact hard shadows. 0: as the error says.");
   number(ui, "soft points", method.render.soft_points, 0, 4096, 4);
 }
 
@@ -158,15 +164,16 @@ std::optional<render::Quality> quality_of(const render::RenderSettings& render) 
   for (const render::Quality quality : render::qualities) {
     render::RenderSettings preset = render;
     render::apply_quality(quality, preset);
-    if (preset.soft_points == render.soft_points && preset.ao.rays == render.ao.rays &&
-        preset.ao.downscale == render.ao.downscale && preset.ao.error_255 == render.ao.error_255)
+    if (preset.soft_points == render.soft_points && preset.soft.error_255 == render.soft.error_255 &&
+        preset.ao.rays == render.ao.rays && preset.ao.downscale == render.ao.downscale &&
+        preset.ao.error_255 == render.ao.error_255)
       return quality;
   }
   return std::nullopt;
 }
 
 void choose_quality(Ui& ui, render::RenderSettings& render) {
-  row(ui, "Quality", "What soft shadows and ambient occlusion may cost. Sets points, rays and downscale.");
+  row(ui, "Quality", "What soft shadows and ambient occlusion may cost. Sets errors, rays and downscale.");
   std::array<const char*, render::qualities.size()> names;
   for (std::size_t i = 0; i < names.size(); ++i)
     names[i] = render::quality_name(render::qualities[i]).data();  // literals

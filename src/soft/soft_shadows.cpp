@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <array>
+#include <cmath>
 #include <utility>
 
 #include "base/stopwatch.h"
@@ -10,6 +11,7 @@
 #include "soft/groups/point_groups.h"
 #include "soft/light/light_frame.h"
 #include "soft/occluders/family_candidates.h"
+#include "soft/sample/soft_sampler.h"
 #include "soft/shafts/shafts.h"
 #include "soft/solve/group_solver.h"
 
@@ -27,7 +29,8 @@ constexpr std::array<std::pair<SoftSolver, std::string_view>, 3> solver_names = 
 constexpr std::size_t many_candidates = 1024;
 static_assert(soft::largest_family <= soft::FamilyCandidates::most_groups);
 
-/// What one thread keeps: its solver, and of the family at hand the groups that need it.
+/// What one thread keeps: its solver, of the family at hand the groups that need it, and of all families
+/// those that look at places on the light in the end.
 struct alignas(64) Worker {
   std::unique_ptr<soft::GroupSolver> solver;
   std::vector<std::span<const std::uint32_t>> lit;  ///< pixels of each
@@ -35,6 +38,7 @@ struct alignas(64) Worker {
   std::vector<std::span<const std::uint32_t>> candidates;  ///< of each
   std::vector<std::vector<std::uint32_t>> receivers;       ///< of each
   std::vector<soft::GroupTask> tasks;
+  std::vector<soft::SampledGroup> sampled;
 };
 
 /// The frame of several groups.
@@ -81,6 +85,7 @@ struct SoftShadowTracer::State {
   soft::PointGroups groups;
   soft::ShaftCuller culler;
   std::vector<Worker> workers;
+  soft::SoftSampler sampler;
   SimdLevel level = SimdLevel::automatic;
   std::vector<std::uint8_t> classes;
   SoftStats stats;
@@ -92,6 +97,9 @@ struct SoftShadowTracer::State {
                     Worker& worker);
   void sort_out(const soft::SoftFrame& frame, const soft::GroupDecision& decision, Worker& worker);
   void solve_mixed(const soft::SoftFrame& frame, Worker& worker);
+  bool sample(const soft::SoftFrame& frame, const AreaLight& light, std::vector<std::uint32_t>& left);
+  bool solve_left(const soft::SoftFrame& frame, const TriangleView& triangles, const AreaLight& light,
+                  std::span<const std::uint32_t> left);
   void gather();
 };
 
@@ -105,6 +113,7 @@ void SoftShadowTracer::State::prepare(const SoftShadowConfig& config) {
     if (!worker.solver) worker.solver = std::make_unique<soft::GroupSolver>(level);
     worker.solver->stats = {};
     worker.solver->times = {};
+    worker.sampled.clear();
   }
   stats = {};
   timings = {};
@@ -127,15 +136,24 @@ void SoftShadowTracer::State::clear_pixels(const VisiblePoints& points, SoftMask
 void SoftShadowTracer::State::solve_family(const soft::SoftFrame& frame,
                                            std::span<const soft::GroupDecision> family, Worker& worker) {
   worker.lit.clear(), worker.mixed.clear(), worker.candidates.clear();
+  const std::size_t first_sampled = worker.sampled.size();
   for (const soft::GroupDecision& decision : family) sort_out(frame, decision, worker);
   if (!worker.lit.empty()) worker.solver->solve_lit(frame, worker.lit);
   if (!worker.mixed.empty()) solve_mixed(frame, worker);
+  if (worker.sampled.size() == first_sampled) return;
+  worker.lit.clear();
+  for (std::size_t i = first_sampled; i < worker.sampled.size(); ++i)
+    worker.lit.push_back(worker.sampled[i].pixels);
+  const SoftStats solved = worker.solver->stats;
+  worker.solver->solve_lit(frame, worker.lit);  // as if nothing hid it
+  worker.solver->stats = solved;
 }
 
 void SoftShadowTracer::State::sort_out(const soft::SoftFrame& frame, const soft::GroupDecision& decision,
                                        Worker& worker) {
   const soft::PointGroup& group = *decision.group;
   const auto pixels = groups.pixels_of(group);
+  const auto number = static_cast<std::uint32_t>(&group - groups.groups.data());
   const auto behind = static_cast<std::size_t>(groups.groups.data() + groups.groups.size() - &group);
   soft::GroupSolver::expect(frame, groups.pixels_of(behind > 1 ? *(&group + 1) : group),
                             groups.pixels_of(behind > 2 ? *(&group + 2) : group));
@@ -144,6 +162,9 @@ void SoftShadowTracer::State::sort_out(const soft::SoftFrame& frame, const soft:
     worker.solver->stats.points_dark += pixels.size();
   } else if (decision.kind == soft::GroupClass::lit) {
     worker.lit.push_back(pixels);
+  } else if (frame.config.error_255 > 0 &&
+             soft::worth_sampling(decision.candidates.size(), soft::first_places(frame.config.error_255))) {
+    worker.sampled.push_back({number, static_cast<std::uint32_t>(decision.candidates.size()), pixels});
   } else {
     worker.mixed.push_back(&group);
     worker.candidates.push_back(decision.candidates);
@@ -170,18 +191,52 @@ void SoftShadowTracer::State::solve_mixed(const soft::SoftFrame& frame, Worker& 
   }
 }
 
+bool SoftShadowTracer::State::sample(const soft::SoftFrame& frame, const AreaLight& light,
+                                     std::vector<std::uint32_t>& left) {
+  std::vector<soft::SampledGroup> sampled;
+  for (const Worker& worker : workers)
+    sampled.insert(sampled.end(), worker.sampled.begin(), worker.sampled.end());
+  std::sort(sampled.begin(), sampled.end(), [](const auto& a, const auto& b) { return a.group < b.group; });
+  base::Stopwatch watch;
+  const bool done = sampler.solve(frame, light, sampled, stats, left);
+  timings.query_ms += watch.lap_ms();
+  return done;
+}
+
+/// Groups that sampling left alone, exactly. What may stand before them is found once more.
+bool SoftShadowTracer::State::solve_left(const soft::SoftFrame& frame, const TriangleView& triangles,
+                                         const AreaLight& light, std::span<const std::uint32_t> left) {
+  if (left.empty()) return true;
+  std::vector<std::uint8_t> wanted(groups.groups.size());
+  for (const std::uint32_t group : left) wanted[group] = 1;
+  return culler.for_each_family(
+      groups, triangles, light, frame.config, frame.stop,
+      [&](std::span<const soft::GroupDecision> family, int thread) {
+        Worker& worker = workers[static_cast<std::size_t>(thread)];
+        worker.mixed.clear(), worker.candidates.clear();
+        for (const soft::GroupDecision& decision : family) {
+          if (wanted[static_cast<std::size_t>(decision.group - groups.groups.data())] == 0) continue;
+          worker.mixed.push_back(decision.group);
+          worker.candidates.push_back(decision.candidates);
+        }
+        if (!worker.mixed.empty()) solve_mixed(frame, worker);
+      });
+}
+
+/// What the threads counted since the last time.
 void SoftShadowTracer::State::gather() {
   const double threads = std::max<double>(1, static_cast<double>(workers.size()));
   std::uint64_t tree_bytes = 0;  // a thread holds one tree at a time
-  for (const Worker& worker : workers) {
+  for (Worker& worker : workers) {
     stats += worker.solver->stats;
     tree_bytes += worker.solver->stats.peak_tree_bytes;
     timings.init_ms += worker.solver->times.init_ms / threads;
     timings.query_ms += worker.solver->times.query_ms / threads;
     timings.irradiance_ms += worker.solver->times.irradiance_ms / threads;
+    worker.solver->stats = {};
+    worker.solver->times = {};
   }
-  stats.peak_tree_bytes = tree_bytes;
-  stats.groups = groups.groups.size();
+  stats.peak_tree_bytes = std::max(stats.peak_tree_bytes, tree_bytes);
   timings.shaft_ms += culler.stats().seconds * 1e3 / threads;
 }
 
@@ -210,7 +265,15 @@ bool SoftShadowTracer::trace(const VisiblePoints& seen, std::span<const glm::vec
         s.solve_family(frame, family, s.workers[static_cast<std::size_t>(thread)]);
       });
   s.gather();
-  return done;
+  s.stats.groups = s.groups.groups.size();
+  if (!done || !(config.error_255 > 0)) return done;
+  std::vector<std::uint32_t> left;
+  if (!s.sample(frame, light, left)) return false;
+  if (!s.solve_left(frame, triangles, light, left)) return false;
+  if (!left.empty()) s.gather();
+  if (s.stats.points_penumbra > 0)
+    s.stats.error_255 = std::sqrt(s.sampler.square_error() / static_cast<double>(s.stats.points_penumbra));
+  return true;
 }
 
 const SoftStats& SoftShadowTracer::stats() const {

@@ -1,0 +1,38 @@
+// Points spread over an area light.
+#pragma once
+
+#include <cstdint>
+#include <glm/glm.hpp>
+#include <vector>
+
+#include <tenebra/area_light.h>
+
+namespace tenebra::soft {
+
+/// The unit square laid over the light's polygon: equal areas of it are equal areas of the light.
+class LightPlaces {
+public:
+  explicit LightPlaces(const AreaLight& light);
+
+  /// `across`, `along`: 0..1. World space.
+  glm::vec3 at(double across, double along) const;
+
+private:
+  /// Part of the polygon between two neighbouring vertices in x: a trapezoid.
+  struct Slab {
+    double x, step;       ///< from x to x + step
+    double width, slope;  ///< of the chord at x, and its growth with x
+    double area() const { return step * (width + 0.5 * slope * step); }
+    double x_at(double part) const;  ///< where the area from the left is `part`
+  };
+  const AreaLight* light_;
+  std::vector<Slab> slabs_;
+  double area_ = 0;
+};
+
+/// Place `index` of Sobol's sequence in the unit square (Bratley and Fox 1988): of any 2^m that follow each
+/// other from a multiple of 2^m on, one lies in each cell of every grid of 2^a by 2^(m-a) cells, a third or
+/// two thirds of the cell from its edges.
+glm::dvec2 sobol_place(std::uint32_t index);
+
+}  // namespace tenebra::soft

@@ -1,0 +1,162 @@
+#include "soft/sample/light_means.h"
+
+#include <algorithm>
+#include <array>
+#include <bit>
+#include <cmath>
+
+#include "parallel/parallel.h"
+
+namespace tenebra::soft {
+
+namespace {
+
+/// What a slot has seen itself, in two halves.
+struct Own {
+  float irradiance[2], fraction;
+  float mean() const { return 0.5f * (irradiance[0] + irradiance[1]); }
+  /// Square of the error of the mean, from the difference between the halves. It is a quarter of its square
+  /// for independent halves; these complete each other, and pictures err by half of that (measured on five
+  /// scenes).
+  float noise() const {
+    const float difference = irradiance[0] - irradiance[1];
+    return 0.125f * difference * difference;
+  }
+};
+
+float share(float part, float all, float otherwise) {
+  return all > 0 ? std::clamp(part / all, 0.0f, 1.0f) : otherwise;
+}
+
+std::vector<Own> own_answers(const SampledBlocks& blocks, const LightTally& tally) {
+  std::vector<Own> out(blocks.pixels.size());
+  parallel::parallel_ranges(out.size(), 1 << 12, [&](std::size_t first, std::size_t last) {
+    for (std::size_t slot = first; slot < last; ++slot) {
+      const auto &a = tally.half[0], &b = tally.half[1];
+      Own& own = out[slot];
+      own.fraction = share(a.seen[slot] + b.seen[slot], a.places[slot] + b.places[slot], 0);
+      own.irradiance[0] = share(a.weight_seen[slot], a.weight[slot], own.fraction);
+      own.irradiance[1] = share(b.weight_seen[slot], b.weight[slot], own.fraction);
+    }
+  });
+  return out;
+}
+
+/// One smooth surface, as far as a pixel and its neighbour tell: normals within 18 degrees, and each in the
+/// other's plane by a tenth of what lies between them.
+bool alike(const SampledSurface& a, const SampledSurface& b) {
+  const glm::vec3 d = b.at - a.at;
+  const float length = glm::length(d);
+  return glm::dot(a.normal, b.normal) > 0.95f && std::abs(glm::dot(d, a.face)) <= 0.1f * length &&
+         std::abs(glm::dot(d, b.face)) <= 0.1f * length;
+}
+
+/// Weights of 3x3: all four phases have a quarter.
+constexpr float weights[3] = {0.25f, 0.5f, 0.25f};
+constexpr float noise_left = 0.25f;  ///< of it, in their mean: pixels of one phase look at the same places
+constexpr float own_weight = 0.25f;
+
+struct Around {
+  std::uint32_t slots[9];
+  float weight[9];
+  int count = 0;
+};
+
+Around around(const SampledBlocks& blocks, std::uint32_t slot) {
+  Around out;
+  const std::uint32_t pixel = blocks.pixels[slot], width = static_cast<std::uint32_t>(blocks.width);
+  const int x = static_cast<int>(pixel % width), y = static_cast<int>(pixel / width);
+  float sum = 0;
+  for (int dy = -1; dy <= 1; ++dy) {
+    for (int dx = -1; dx <= 1; ++dx) {
+      const std::uint32_t other = blocks.slot(x + dx, y + dy);
+      if (other == no_slot || !(other == slot || alike(blocks.surfaces[slot], blocks.surfaces[other])))
+        continue;
+      const float weight = weights[dx + 1] * weights[dy + 1];
+      out.slots[out.count] = other, out.weight[out.count++] = weight;
+      sum += weight;
+    }
+  }
+  for (int k = 0; k < out.count; ++k) out.weight[k] /= sum;
+  return out;
+}
+
+/// What `share` visible places of all spread by, if each were seen or not by itself.
+float spread_of(float share) {
+  return share * (1 - share);
+}
+
+/// Noise over spread, by the logarithm of the number of places: of all slots that have looked at as many. The
+/// halves of few pixels may agree by chance, and all of a block see the same places; together they tell.
+class UsualNoise {
+public:
+  UsualNoise(const SampledBlocks& blocks, const LightTally& tally, const std::vector<Own>& own,
+             const std::vector<float>& smooth)
+      : tally_(tally) {
+    for (std::size_t slot = 0; slot < own.size(); ++slot) {
+      if (blocks.pixels[slot] == no_pixel) continue;
+      Sum& sum = sums_[level(slot)];
+      sum.noise += static_cast<double>(own[slot].noise());
+      sum.spread += static_cast<double>(spread_of(smooth[slot]));
+    }
+  }
+  float at(std::size_t slot, float share) const {
+    const Sum& sum = sums_[level(slot)];
+    return sum.spread > 0 ? static_cast<float>(sum.noise / sum.spread) * spread_of(share) : 0.0f;
+  }
+
+private:
+  struct Sum {
+    double noise = 0, spread = 0;
+  };
+  std::size_t level(std::size_t slot) const {
+    return static_cast<std::size_t>(std::bit_width(tally_.rays[slot / block_slots]));
+  }
+  const LightTally& tally_;
+  std::array<Sum, 33> sums_{};
+};
+constexpr float trust = 0.25f;  ///< in the halves of nine pixels beside the usual noise
+
+}  // namespace
+
+void find_means(const SampledBlocks& blocks, const LightTally& tally, LightMeans& out) {
+  const std::vector<Own> own = own_answers(blocks, tally);
+  std::vector<float> smooth(own.size());
+  for (auto* values : {&out.irradiance, &out.fraction, &out.square}) values->assign(own.size(), 0.0f);
+  const auto each = [&](const auto& body) {
+    parallel::parallel_ranges(own.size(), 1 << 10, [&](std::size_t first, std::size_t last) {
+      for (std::size_t slot = first; slot < last; ++slot)
+        if (blocks.pixels[slot] != no_pixel) body(static_cast<std::uint32_t>(slot));
+    });
+  };
+  each([&](std::uint32_t slot) {
+    const Around near = around(blocks, slot);
+    for (int k = 0; k < near.count; ++k) {
+      smooth[slot] += near.weight[k] * own[near.slots[k]].mean();
+      out.fraction[slot] += near.weight[k] * own[near.slots[k]].fraction;
+    }
+  });
+  const UsualNoise usual(blocks, tally, own, smooth);
+  each([&](std::uint32_t slot) {
+    const Around near = around(blocks, slot);
+    float noise = 0, moved = 0;
+    for (int k = 0; k < near.count; ++k) {
+      const std::uint32_t other = near.slots[k];
+      const float by = own[other].mean() - smooth[other];
+      noise += own[other].noise() / static_cast<float>(near.count);
+      moved += by * by / static_cast<float>(near.count);
+    }
+    noise = trust * noise + (1 - trust) * usual.at(slot, smooth[slot]);
+    // The smooth value moves by noise alone, or by more: what it smears. Both are blended for the least
+    // error.
+    const float noise_moves = noise * (1 - 2 * own_weight + noise_left);
+    const float smeared = std::max(0.0f, moved - noise_moves);
+    const float keep = moved > 0 ? smeared / (smeared + noise_moves) : 0.0f, give = 1 - keep;
+    out.irradiance[slot] = keep * own[slot].mean() + give * smooth[slot];
+    out.fraction[slot] = keep * own[slot].fraction + give * out.fraction[slot];
+    out.square[slot] = keep * keep * noise + give * give * (smeared + noise_left * noise) +
+                       2 * keep * give * own_weight * noise;
+  });
+}
+
+}  // namespace tenebra::soft

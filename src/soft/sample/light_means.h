@@ -1,0 +1,20 @@
+// From what sampled pixels have seen to what they show: means with their neighbours on the same surface, as
+// far as these do not smear what the pixels see themselves, and how far off they may be.
+#pragma once
+
+#include <cstdint>
+#include <vector>
+
+#include "soft/sample/light_tally.h"
+
+namespace tenebra::soft {
+
+/// One for each slot.
+struct LightMeans {
+  std::vector<float> irradiance;  ///< 0..1: over what it would be with nothing in the way
+  std::vector<float> fraction;    ///< 0..1: visible part, over the part above the horizon
+  std::vector<float> square;      ///< estimated mean square of the error of `irradiance`
+};
+void find_means(const SampledBlocks& blocks, const LightTally& tally, LightMeans& out);
+
+}  // namespace tenebra::soft

@@ -1,0 +1,68 @@
+// Soft shadows with an error that was asked for: where exact solving costs more, pixels look at places of the
+// light by exact hard shadows, and at more of them until what they show errs by no more than that.
+#pragma once
+
+#include <array>
+#include <span>
+
+#include <tenebra/frame_timings.h>
+#include <tenebra/hard_shadows.h>
+#include "soft/light/light_places.h"
+#include "soft/sample/light_means.h"
+
+namespace tenebra::soft {
+
+/// Places on the light that pixels look at first, in each phase.
+std::uint32_t first_places(double error_255);
+
+/// Whether pixels of a group with so many candidates are sampled at so many places, or solved exactly. By
+/// counts, measured once: exact solving takes longer with each candidate, sampling with each place.
+inline bool worth_sampling(std::size_t candidates, std::uint32_t places) {
+  return candidates >= 64 + 6 * std::size_t{places};
+}
+
+struct SampledGroup {
+  std::uint32_t group;  ///< its number
+  std::uint32_t candidates;
+  std::span<const std::uint32_t> pixels;
+};
+
+/// Buffers kept from frame to frame.
+class SoftSampler {
+public:
+  /// Multiplies frame.out of the groups' pixels, which say what they would see with nothing in the way, by
+  /// the visible shares, and adds to `stats`, which have the pixels that were solved exactly. Groups that
+  /// would take longer so than exactly are left alone: `left` gets their numbers. The bits do not depend on
+  /// the order of groups, threads or instruction set. Returns false if frame.stop was requested.
+  bool solve(const SoftFrame& frame, const AreaLight& light, std::span<const SampledGroup> groups,
+             SoftStats& stats, std::vector<std::uint32_t>& left);
+  /// Of the last call: squares of what the pixels are off by, estimated, in 1/255 of white, summed.
+  double square_error() const { return square_error_; }
+
+private:
+  bool look(const SoftFrame& frame, const LightPlaces& places, std::span<const std::uint32_t> chosen,
+            std::uint32_t from, std::uint32_t to, SoftStats& stats);
+
+  /// Of one phase: they are looked at side by side.
+  struct Phase {
+    ShadowTracer tracer;
+    ShadowMask mask;
+    VisiblePoints points;
+    std::uint64_t rays = 0;
+    bool done = false;
+  };
+  void look(const SoftFrame& frame, const LightPlaces& places, std::span<const std::uint32_t> chosen,
+            std::uint32_t phase, std::uint32_t from, std::uint32_t to);
+  void leave(const SoftFrame& frame, double much, std::uint32_t places, std::vector<SampledGroup>& groups,
+             std::vector<std::uint32_t>& left);
+  void write(const SoftFrame& frame, SoftStats& stats) const;
+
+  double square_error_ = 0;
+  std::array<Phase, phases> phases_;
+  std::uint64_t frames_ = 0;  ///< names their triangles for the tracers
+  SampledBlocks blocks_;
+  LightTally tally_;
+  LightMeans means_;
+};
+
+}  // namespace tenebra::soft

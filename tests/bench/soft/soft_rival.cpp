@@ -1,0 +1,189 @@
+#include "bench/soft/soft_rival.h"
+
+#include <algorithm>
+#include <bit>
+#include <cmath>
+
+#include "parallel/parallel.h"
+#include "soft/light/light_frame.h"
+#include "soft/solve/group_solver.h"
+
+namespace tenebra::bench {
+namespace {
+
+constexpr std::size_t lanes = 16, side = 4;
+constexpr std::size_t patterns = 16 * lanes;
+constexpr std::uint8_t idle = 0, lit = 1, dark = 2, mixed = 3;
+
+std::size_t scattered(std::size_t number) {
+  std::uint64_t z = (number + 1) * 0x9e3779b97f4a7c15u;
+  z = (z ^ (z >> 30)) * 0xbf58476d1ce4e5b9u;
+  return static_cast<std::size_t>(z ^ (z >> 31));
+}
+
+bool alike(const SampledReceiver& a, const SampledReceiver& b) {
+  const glm::vec3 d = b.position - a.position;
+  return glm::dot(a.normal, b.normal) > 0.95f &&
+         std::abs(glm::dot(d, a.geometric_normal)) <= 0.1f * glm::length(d);
+}
+
+}  // namespace
+
+RivalSampler::RivalSampler(const SoftView& view, const EmbreeScene& casters,
+                           std::span<const SampledReceiver> receivers)
+    : view_(view),
+      casters_(casters),
+      receivers_(receivers),
+      kernels_(packet_kernels()),
+      columns_((static_cast<std::size_t>(view.frame.points.width) + side - 1) / side),
+      rows_((static_cast<std::size_t>(view.frame.points.height) + side - 1) / side) {
+  const std::size_t tiles = columns_ * rows_;
+  all_.resize(tiles * lanes), seen_.resize(tiles * lanes);
+  states_.resize(tiles), decided_.resize(tiles);
+  share_.resize(receivers.size()), smooth_.resize(receivers.size()), undecided_.resize(receivers.size());
+}
+
+const LightSamples& RivalSampler::samples_of(std::size_t rays) {
+  const auto number = static_cast<std::size_t>(std::countr_zero(rays));
+  if (samples_.size() <= number) samples_.resize(number + 1);
+  if (samples_[number].x.empty()) samples_[number] = sobol_by_tile(view_.light, rays, patterns);
+  return samples_[number];
+}
+
+/// Rays `from` ... `to` - 1 of a tile's pixels; the state says what all rays of the tile met.
+void RivalSampler::look(const LightSamples& samples, std::size_t tile, std::size_t from, std::size_t to) {
+  ao::EmbreeQuery query(ao::EmbreeQuery::coherent);
+  const auto width = static_cast<std::size_t>(view_.frame.points.width),
+             height = static_cast<std::size_t>(view_.frame.points.height);
+  ReceiverPacket packet{};
+  bool any = false;
+  for (std::size_t lane = 0; lane < lanes; ++lane) {
+    const std::size_t x = tile % columns_ * side + lane % side, y = tile / columns_ * side + lane / side;
+    if (x >= width || y >= height) continue;
+    const SampledReceiver& r = receivers_[y * width + x];
+    if (r.normal == glm::vec3(0)) continue;
+    packet.x[lane] = r.position.x, packet.y[lane] = r.position.y, packet.z[lane] = r.position.z;
+    packet.nx[lane] = r.normal.x, packet.ny[lane] = r.normal.y, packet.nz[lane] = r.normal.z;
+    packet.gx[lane] = r.geometric_normal.x, packet.gy[lane] = r.geometric_normal.y;
+    packet.gz[lane] = r.geometric_normal.z;
+    any = true;
+  }
+  float *all = &all_[tile * lanes], *seen = &seen_[tile * lanes];
+  if (from == 0) std::fill_n(all, lanes, 0.0f), std::fill_n(seen, lanes, 0.0f), states_[tile] = idle;
+  if (!any) return;
+  RayPacket16 rays;
+  std::copy(packet.x, packet.x + lanes, rays.rays.org_x);
+  std::copy(packet.y, packet.y + lanes, rays.rays.org_y);
+  std::copy(packet.z, packet.z + lanes, rays.rays.org_z);
+  std::fill(rays.rays.tnear, rays.rays.tnear + lanes, 0.0f);
+  std::fill(rays.rays.time, rays.rays.time + lanes, 0.0f);
+  std::fill(rays.rays.mask, rays.rays.mask + lanes, ~0u);
+  std::fill(rays.rays.flags, rays.rays.flags + lanes, 0u);
+  const std::size_t block = scattered(tile) % (patterns / lanes) * samples.per_pattern;
+  const glm::vec3 normal(view_.light.normal);
+  for (std::size_t s = (block + from) * lanes; s < (block + to) * lanes; s += lanes) {
+    if (!kernels_.aim(packet, &samples.x[s], &samples.y[s], &samples.z[s], normal.x, normal.y, normal.z,
+                      rays))
+      continue;
+    query.occluded16(rays.valid, casters_.get(), rays.rays);
+    for (std::size_t i = 0; i < lanes; ++i) all[i] += rays.weight[i];
+    kernels_.gather(rays, seen);
+  }
+  for (std::size_t i = 0; i < lanes; ++i) {
+    if (!(all[i] > 0)) continue;
+    states_[tile] |= seen[i] == all[i] ? lit : seen[i] == 0 ? dark : mixed;
+  }
+}
+
+/// Lit or dark where a tile and its eight neighbours agree.
+void RivalSampler::decide() {
+  parallel::parallel_ranges(rows_, 4, [&](std::size_t first, std::size_t last) {
+    for (std::size_t y = first; y < last; ++y) {
+      for (std::size_t x = 0; x < columns_; ++x) {
+        std::uint8_t state = 0;
+        for (std::size_t ny = y == 0 ? 0 : y - 1; ny <= std::min(y + 1, rows_ - 1); ++ny)
+          for (std::size_t nx = x == 0 ? 0 : x - 1; nx <= std::min(x + 1, columns_ - 1); ++nx)
+            state |= states_[ny * columns_ + nx];
+        decided_[y * columns_ + x] = state;
+      }
+    }
+  });
+}
+
+/// The closed form of what nothing hides, where a ray came through, times the visible share.
+void RivalSampler::light_up(std::vector<float>& irradiance) {
+  const BenchFrame& frame = view_.frame;
+  const soft::LightFrame light = soft::light_frame(view_.light);
+  const TriangleView triangles = frame.triangles();
+  SoftMask mask{std::vector<float>(share_.size()), std::vector<float>(share_.size())};
+  std::vector<std::uint8_t> classes(share_.size());
+  const SoftShadowConfig config;
+  const soft::SoftFrame of{frame.points, frame.normals, frame.view, triangles, light,
+                           config,       mask,          classes,    nullptr};
+  const auto width = static_cast<std::size_t>(frame.points.width);
+  parallel::parallel_ranges(rows_, 4, [&](std::size_t first, std::size_t last) {
+    soft::GroupSolver solver(SimdLevel::automatic);
+    std::vector<std::uint32_t> pixels;
+    for (std::size_t y = first * side; y < std::min(last * side, share_.size() / width); ++y)
+      for (std::size_t i = y * width; i < (y + 1) * width; ++i)
+        if (share_[i] > 0) pixels.push_back(static_cast<std::uint32_t>(i));
+    const std::span<const std::uint32_t> all(pixels);
+    solver.solve_lit(of, {&all, 1});
+  });
+  for (std::size_t i = 0; i < share_.size(); ++i) mask.irradiance[i] *= share_[i];
+  irradiance = std::move(mask.irradiance);
+}
+
+void RivalSampler::filter(int step) {
+  static constexpr float spline[5] = {1.0f / 16, 1.0f / 4, 3.0f / 8, 1.0f / 4, 1.0f / 16};
+  const int width = view_.frame.points.width, height = view_.frame.points.height;
+  parallel::parallel_ranges(static_cast<std::size_t>(height), 8, [&](std::size_t first, std::size_t last) {
+    for (int y = static_cast<int>(first); y < static_cast<int>(last); ++y) {
+      for (int x = 0; x < width; ++x) {
+        const auto i = static_cast<std::size_t>(y * width + x);
+        smooth_[i] = share_[i];
+        if (undecided_[i] == 0) continue;
+        float sum = 0, weights = 0;
+        for (int dy = -2; dy <= 2; ++dy) {
+          for (int dx = -2; dx <= 2; ++dx) {
+            const int nx = x + dx * step, ny = y + dy * step;
+            if (nx < 0 || ny < 0 || nx >= width || ny >= height) continue;
+            const auto k = static_cast<std::size_t>(ny * width + nx);
+            if (k != i && !alike(receivers_[i], receivers_[k])) continue;
+            const float weight = spline[dx + 2] * spline[dy + 2];
+            sum += weight * share_[k], weights += weight;
+          }
+        }
+        smooth_[i] = sum / weights;
+      }
+    }
+  });
+  share_.swap(smooth_);
+}
+
+void RivalSampler::trace(std::size_t rays, int passes, std::vector<float>& irradiance) {
+  const LightSamples& samples = samples_of(rays);
+  const std::size_t tiles = columns_ * rows_;
+  const auto width = static_cast<std::size_t>(view_.frame.points.width),
+             height = static_cast<std::size_t>(view_.frame.points.height);
+  parallel::parallel_ranges(tiles, 64, [&](std::size_t first, std::size_t last) {
+    for (std::size_t tile = first; tile < last; ++tile) look(samples, tile, 0, probe_rays);
+  });
+  decide();
+  parallel::parallel_ranges(tiles, 64, [&](std::size_t first, std::size_t last) {
+    for (std::size_t tile = first; tile < last; ++tile) {
+      if (decided_[tile] == mixed && rays > probe_rays) look(samples, tile, probe_rays, rays);
+      for (std::size_t lane = 0; lane < lanes; ++lane) {
+        const std::size_t x = tile % columns_ * side + lane % side, y = tile / columns_ * side + lane / side;
+        if (x >= width || y >= height) continue;
+        const float all = all_[tile * lanes + lane];
+        share_[y * width + x] = all > 0 ? seen_[tile * lanes + lane] / all : 0.0f;
+        undecided_[y * width + x] = decided_[tile] == mixed && all > 0 ? 1 : 0;
+      }
+    }
+  });
+  for (int pass = 0; pass < passes; ++pass) filter(1 << pass);
+  light_up(irradiance);
+}
+
+}  // namespace tenebra::bench
