@@ -8,9 +8,12 @@
 #include <memory>
 #include <optional>
 #include <span>
+#include <string>
+#include <utility>
 #include <vector>
 
 #include <tenebra/expected.h>
+#include "ao/cache/tree_file.h"
 #include "ao/cast/triangle_bvh.h"
 #include "ao/field/ao_kernels.h"
 #include "ao/field/shape_fields.h"
@@ -82,8 +85,11 @@ public:
   void meet_triangles(int occluder, const Receiver& receiver, const glm::dvec3& origin,
                       std::span<const RayBatch> rays, float* distances, OccluderCounts& counts) const;
 
-  /// The tree over the casting triangles of a shape, or of what stands (-1).
+  /// The tree over the casting triangles of a shape, or of what stands (-1): those of many triangles are kept
+  /// on disk.
   const TriangleBvh& casters(int shape);
+
+  std::vector<std::string> take_notes();
 
 private:
   const Sphere& sphere(int occluder) const;
@@ -119,6 +125,7 @@ private:
   double largest_radius_ = 0;
   std::optional<TriangleBvh> standing_, deforming_, moving_;
   Sphere standing_sphere_, deforming_sphere_, moving_sphere_;
+  KeptTrees trees_;
 };
 
 }  // namespace tenebra::ao
