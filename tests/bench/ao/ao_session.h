@@ -27,6 +27,7 @@ struct AoHeadline {
 /// What only the part "scenes" reads.
 struct AoSceneOptions {
   std::vector<std::string> views;      ///< parts of names; empty: all
+  std::vector<int> sizes;              ///< pixels each way; empty: by effort
   std::filesystem::path truth_folder;  ///< where truths are kept; empty: nowhere
   std::filesystem::path pictures;      ///< folder; empty: none are written
   bool only_ours = false;              ///< no opponent
