@@ -37,7 +37,9 @@ struct PointBox {
 
 class Occluders {
 public:
-  static constexpr std::size_t few_triangles = 16;     ///< an object of up to so many needs no field
+  /// An object of up to so many needs no field: two blocks of a tree. With 128 robots 100 took 1.8 times as
+  /// long, with 600 city 60 5.3 times, at the same error: an entry of a table is quicker than any tree.
+  static constexpr std::size_t few_triangles = 16;
   static constexpr int standing = -1, deforming = -2;  ///< beside the indices of objects
   static constexpr int moving = -3;  ///< all that moves or deforms, as gather_moving() found it
   static constexpr std::size_t most_gathered = 100'000;  ///< triangles: more take too long to build anew
