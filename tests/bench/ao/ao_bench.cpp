@@ -41,6 +41,7 @@ void print_headlines(const AoHeadline& h) {
   print_headline("ao.scene_speedup_worst", h.scene_speedup_worst, 2);
   print_headline("ao.exact_speedup_geomean", h.exact_speedup_geomean, 2);
   print_headline("ao.first_frame_warm", h.first_frame_warm, 2);
+  print_headline("ao.flicker_mean_255", h.flicker_mean_255, 3);
   if (h.estimate_worst) print_headline("ao.estimate_worst", h.estimate_worst, 2);
 }
 

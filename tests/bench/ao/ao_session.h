@@ -21,6 +21,7 @@ struct AoHeadline {
   std::optional<double> exact_rms_worst, exact_max_worst;
   std::optional<double> scene_speedup_geomean, scene_speedup_worst, exact_speedup_geomean;
   std::optional<double> first_frame_warm;
+  std::optional<double> flicker_mean_255;
   std::optional<double> estimate_worst;  ///< only where the library gives an estimate
 };
 
