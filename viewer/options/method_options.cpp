@@ -125,9 +125,9 @@ void add_common(CLI::App& command, MethodOptions& options) {
            command, quality_option, options.quality, parse_quality,
            "What soft shadows and ambient occlusion may cost.\nfast: --soft-points 8 --ao-error 5 (penumbrae "
            "off "
-           "by\n3 to 8/255 RMS), with --ao field --ao-rays 16\n--ao-downscale 2 (occlusion off by 3 to 7);\n"
-           "balanced: the defaults (exact; 2.5; fields 2 to 6);\nexact: --ao-error 1, fields --ao-rays 256 "
-           "(2 to "
+           "by\n3 to 8/255 RMS), with --ao field --ao-rays 16\n--ao-downscale 2 (occlusion off by 1 to 7);\n"
+           "balanced: the defaults (exact; 2.5; fields 1 to 6);\nexact: --ao-error 1, fields --ao-rays 256 "
+           "(1 to "
            "5);\ndocs/trade.md has all figures. An option that is given\nitself wins")
            .type_name("fast|balanced|exact"),
        add_choice<shadow_choices>(command, "--shadows", render.shadows,

@@ -87,7 +87,7 @@ std::string preset_section() {
          "\nWhat each costs and errs by stands below. While you model, animate or fly through a scene: "
          "`fast`. "
          "For pictures to keep: the defaults, which are `balanced`. For stills whose ambient occlusion must "
-         "be right to the last level: `exact`.\n\n";
+         "be right to about a level of 255: `exact`.\n\n";
 }
 
 std::string hard_advice(const TradeTables& tables) {
@@ -155,16 +155,19 @@ std::string ao_advice(const TradeTables& tables) {
   };
   return fmt::format(
       "- `--ao adaptive` asked for 5, 2.5 and 1 errs by {}, {} and {} /255 RMS in {}, {} and {} ms. Embree's "
-      "rays, the best of their filters and resolutions that errs no more, take {}, {} and {} times as long "
-      "(`tenebra-bench ao` has more views, and interpolates).\n"
+      "rays, the fastest of their filters and resolutions that errs no more, take {}, {} and {} times as "
+      "long; "
+      "views on which so many rays were not tried are left out (`tenebra-bench ao` has more, and "
+      "interpolates).\n"
       "- Fields answer 64 rays in {} of the time of an error of 2.5, at {} /255 RMS and {} at the worst "
       "pixel, once they and the samples are made; Embree takes {} times as long for an error as large. 256 "
       "rays leave {}: what is left is the tables' and the samples' own error.\n"
-      "- So fields are good for many bodies that move through each other's reach, and for scenes that stand, "
-      "where frames have to be fast and errors of that size do not show. They are not where an error has to "
-      "be "
-      "small or known, for one picture alone (its first frame makes them), for what deforms (rays meet it in "
-      "any case), nor for bodies that touch.\n"
+      "- So fields are good where what moves has very many triangles (the crowd: a look-up takes as long for "
+      "any number), and samples where all stands (the kitchen), if errors of that size may show. They are "
+      "not "
+      "where many small objects are in each other's reach (robots, city: a look-up for each), where an error "
+      "has to be small or known, for one picture alone (its first frame makes them), for what deforms (rays "
+      "meet it in any case), nor for bodies that touch.\n"
       "- Tables: four times smaller ones (1089x1024) err by {} /255 with 64 rays, the smallest tried "
       "(289x256) by {}, the largest (4225x4096) by {}; one bit a distance instead of eight: {}.\n",
       range(tables, error("adaptive, error 5")), range(tables, error("adaptive, error 2.5")),

@@ -186,7 +186,7 @@ Expected<std::vector<TradePoint>> AoTrade::measure_peer() const {
         peer.set_order(order);
         return peer.follow_ms() + peer.trace_ms(rays, variant.step) + peer.finish_ms(variant);
       };
-      contestants.push_back({family, fmt::format("{} rays", rays),
+      contestants.push_back({family, fmt::format("{} ray{}", rays, rays == 1 ? "" : "s"),
                              rays > 16 ? 1 : session_.by_effort(1, 3, 5), run,
                              [this, &peer] { return errors_of(peer.picture()); }});
     };
