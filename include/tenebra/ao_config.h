@@ -21,7 +21,7 @@ enum class FieldLayout {
   chords,                ///< entry x exit points
 };
 
-/// `adaptive` reads its error, the distance, `deforming` and `simd`; the other modes read all but the error.
+/// `adaptive` reads error, distance, `deforming`, `cache` and `simd`; the other modes all but the error.
 struct AoConfig {
   AoMode mode = AoMode::none;
   AoPlace place = AoPlace::pixels;
@@ -36,7 +36,7 @@ struct AoConfig {
   int bits = 8;           ///< per stored distance: 1, 8 or 32
   bool deforming =
       true;  ///< what deforms has no field: rays meet it as it is (true), or it is left out (false)
-  std::filesystem::path cache;  ///< folder where fields and surface samples are kept; empty: nowhere
+  std::filesystem::path cache;  ///< folder where fields, surface samples and trees are kept; empty: nowhere
   int memory_mb = 512;  ///< of 2^20 bytes: fields and surface samples together, at most; 1 to 1,000,000
   SimdLevel simd = SimdLevel::automatic;
 };

@@ -56,10 +56,18 @@ double scene_diagonal(const Scene& scene) {
   FrameGeometry frame;
   evaluate_frame(scene, scene.clips.empty() ? -1 : 0, scene.clips.empty() ? 0 : scene.clips.front().start_s,
                  frame);
+  constexpr std::size_t grain = 1 << 16;
+  std::vector<ao::PointBox> boxes((frame.triangles.size() + grain - 1) / grain);
+  parallel::parallel_ranges(frame.triangles.size(), grain, [&](std::size_t first, std::size_t last) {
+    for (std::size_t t = first; t < last; ++t) {
+      if (frame.triangles[t] == glm::uvec3(0)) continue;
+      for (int k = 0; k < 3; ++k) boxes[first / grain].extend(dvec3(frame.positions[frame.triangles[t][k]]));
+    }
+  });
   ao::PointBox box;
-  for (const glm::uvec3& t : frame.triangles) {
-    if (t == glm::uvec3(0)) continue;
-    for (int k = 0; k < 3; ++k) box.extend(dvec3(frame.positions[t[k]]));
+  for (const ao::PointBox& part : boxes) {
+    box.low = glm::min(box.low, part.low);
+    box.high = glm::max(box.high, part.high);
   }
   const double diagonal = box.low.x <= box.high.x ? glm::length(box.high - box.low) : 0;
   return diagonal > 0 ? diagonal : 1;
@@ -71,7 +79,7 @@ struct AmbientOcclusion::State {
   VisiblePoints positions;  ///< where those that are given have none
   ao::SceneObjects objects;
   bool found = false;
-  double diagonal = 0;
+  double diagonal = 0;  ///< of the scene; 0: not needed yet
   double reach = 0;
   std::uint64_t frame = 0;  ///< counts calls
   ao::MemoryBudget budget;
@@ -122,9 +130,10 @@ void AmbientOcclusion::State::find(const Scene& scene, const FrameGeometry& geom
   if (!kept) {
     objects = ao::find_objects(scene, geometry);
     occluders.reset(objects);
-    diagonal = scene_diagonal(scene);
+    diagonal = 0;
     found = true;
   }
+  if (config.distance_m == 0 && diagonal == 0) diagonal = scene_diagonal(scene);
   const double wanted = config.distance_m > 0 ? config.distance_m : diagonal / 20;
   if (!kept || wanted != reach) bodies.reset(objects, wanted);
   reach = wanted;
@@ -154,8 +163,8 @@ void AmbientOcclusion::State::note_memory(const AoConfig& config) {
   if (noted_memory || !budget.refused()) return;
   noted_memory = true;
   notes.push_back(
-      fmt::format("A frame's fields and surface samples need more than {} MB: rays answer for bodies without "
-                  "room, which takes longer; --ao-memory gives more.",
+      fmt::format("A frame's fields and surface samples found no room within {} MB: rays answer for bodies "
+                  "without it, which takes longer; --ao-memory gives more.",
                   config.memory_mb));
 }
 
@@ -250,7 +259,7 @@ Expected<void> AmbientOcclusion::compute(const Scene& scene, const FrameGeometry
   s.stats.peak_bytes = s.budget.peak();
   s.stats.cache_cells = s.bodies.known();
   s.note_memory(config);
-  for (std::string& note : s.occluders.fields().take_notes()) s.notes.push_back(std::move(note));
+  for (std::string& note : s.occluders.take_notes()) s.notes.push_back(std::move(note));
   for (std::string& note : s.bodies.take_notes()) s.notes.push_back(std::move(note));
   return {};
 }

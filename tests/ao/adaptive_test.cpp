@@ -62,6 +62,31 @@ TEST(AdaptiveOcclusion, MeetsTheErrorAskedForAndKnowsIt) {
   }
 }
 
+TEST(AdaptiveOcclusion, ATreeFromDiskGivesTheSameBits) {
+  const TemporaryFolder folder;
+  SceneMaker make;
+  make.add(quad_mesh({-4, 0, -4}, {0, 0, 8}, {8, 0, 0}));
+  make.add(ball_mesh(0.7, 40), {0, 0.7, 0});
+  const AoView frame(make.scene, -1, view, width, height);
+  AoConfig config = adaptive(2.5, 1.2);
+  const std::vector<float> expected = occlude(make.scene, frame, config);
+  config.cache = folder.path();
+  for (int process = 0; process < 2; ++process) {
+    AmbientOcclusion ao;
+    EXPECT_EQ(occlude(ao, make.scene, frame, config), expected) << process;
+    EXPECT_TRUE(ao.notes().empty());
+    const std::filesystem::directory_iterator files(folder.path());
+    ASSERT_EQ(std::distance(begin(files), end(files)), 1)
+        << "one tree, and nothing that this way does not need";
+  }
+  for (const auto& file : std::filesystem::directory_iterator(folder.path()))
+    write_text(file.path(), read_text(file.path()).substr(0, 200));
+  AmbientOcclusion ao;
+  EXPECT_EQ(occlude(ao, make.scene, frame, config), expected);
+  ASSERT_EQ(ao.notes().size(), 1u);
+  EXPECT_NE(ao.notes().front().find(".tree: found damaged bytes"), std::string::npos);
+}
+
 TEST(AdaptiveOcclusion, ExactErrsLittleAtTheWorstPixel) {
   const Scene scene = yard_scene();
   const AoView frame(scene, 0.3, view, width, height);

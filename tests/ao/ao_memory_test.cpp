@@ -127,7 +127,7 @@ TEST(AoMemory, TooLittleForAFrameIsAnsweredByRays) {
   EXPECT_LE(ao.stats().peak_bytes, megabyte);
   EXPECT_GT(ao.stats().peak_bytes, megabyte / 4) << "what there is is used";
   ASSERT_EQ(ao.notes().size(), 1u);
-  EXPECT_NE(ao.notes()[0].find("more than 1 MB"), std::string::npos) << ao.notes()[0];
+  EXPECT_NE(ao.notes()[0].find("no room within 1 MB"), std::string::npos) << ao.notes()[0];
   EXPECT_EQ(occlude(ao, make.scene, frame, config), expected);
   EXPECT_EQ(ao.notes().size(), 1u) << "once";
   for (const int threads : {1, 2, 5})

@@ -190,6 +190,24 @@ TEST(SampleFile, WhatIsDroppedHoldsNoMemoryAndIsReadAgain) {
   EXPECT_EQ(fill(samples, points), expected);
 }
 
+TEST(SampleFile, CellsOfOthersThatHaveNoRoomAreNothingToTell) {
+  const Body body;
+  ao::SelfOcclusion others(body.shape, body.casters, reach);
+  others.lay();
+  const auto points = points_of(body, 3, 800);
+  fill(others, points);
+  ASSERT_GT(others.cells(), 10u);
+  ao::MemoryBudget budget;
+  ao::SelfOcclusion samples(body.shape, body.casters, reach, ao::SelfOcclusion::most_cells, &budget);
+  ASSERT_TRUE(samples.lay());
+  budget.begin_frame(budget.used());
+  samples.learn(others.samples());
+  EXPECT_EQ(samples.cells(), 0u);
+  EXPECT_FALSE(budget.refused()) << "nothing that the frame needs";
+  fill(samples, points);
+  EXPECT_TRUE(budget.refused()) << "now cells are needed";
+}
+
 /// Whole in its bytes, but with lists that do not fit a layout.
 TEST(SampleFile, RefusesListsThatDoNotFit) {
   const TemporaryFolder folder;

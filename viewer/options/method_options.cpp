@@ -133,9 +133,9 @@ void add_common(CLI::App& command, MethodOptions& options) {
       {add_value(
            command, quality_option, options.quality, parse_quality,
            "What soft shadows and ambient occlusion may cost.\nfast: --soft-error 4 --ao-error 5, with --ao "
-           "field --ao-rays 16\n--ao-downscale 2 (occlusion off by 3 to 7);\n"
-           "balanced: the defaults (exact; 2.5; fields 2 to 6);\nexact: --ao-error 1, fields --ao-rays 256 "
-           "(2 to "
+           "field --ao-rays 16\n--ao-downscale 2 (occlusion off by 1 to 7);\n"
+           "balanced: the defaults (exact; 2.5; fields 1 to 6);\nexact: --ao-error 1, fields --ao-rays 256 "
+           "(1 to "
            "5);\ndocs/trade.md has all figures. An option that is given\nitself wins")
            .type_name("fast|balanced|exact"),
        add_choice<shadow_choices>(command, "--shadows", render.shadows,
@@ -265,10 +265,10 @@ void add_ao(CLI::App& command, AoConfig& ao) {
            .type_name("1|8|32"),
        add_choice<deforming_choices>(command, "--ao-deforming", ao.deforming,
                                      "What deforms has no field: meet it by rays, or leave it\nout [rays]"),
-       add_value(
-           command, "--ao-cache", ao.cache, parse_cache,
-           "Folder that keeps fields and surface samples for the\nnext run; any number of processes may "
-           "share it\n[$XDG_CACHE_HOME/tenebra or ~/.cache/tenebra]")
+       add_value(command, "--ao-cache", ao.cache, parse_cache,
+                 "Folder that keeps trees of triangles, fields and surface\nsamples for the next run; any "
+                 "number of "
+                 "processes may\nshare it [$XDG_CACHE_HOME/tenebra or ~/.cache/tenebra]")
            .type_name("FOLDER|none"),
        add_value(command, "--ao-memory", ao.memory_mb, parse_at_least_one,
                  "What fields and surface samples may take, in MB; the\nleast recently used go first. Bodies "
@@ -279,7 +279,8 @@ void add_ao(CLI::App& command, AoConfig& ao) {
 
 /// The same for options of ambient occlusion that its mode does not look at.
 std::string idle_in(AoMode mode, const std::string& name) {
-  const bool of_all = name == "--ao" || name == "--ao-distance" || name == "--ao-deforming";
+  const bool of_all =
+      name == "--ao" || name == "--ao-distance" || name == "--ao-deforming" || name == "--ao-cache";
   if (of_all || (mode == AoMode::adaptive) == (name == error_option)) return {};
   return mode == AoMode::adaptive ? "with --ao adaptive" : "without --ao adaptive";
 }

@@ -31,12 +31,15 @@ public:
     refused_ = false;
     make_room(0);
   }
-  /// Whether `bytes` more are granted.
+  /// Whether `bytes` more are granted, for what the frame needs.
   bool take(std::size_t bytes) {
-    if (!make_room(bytes)) {
-      refused_ = true;
-      return false;
-    }
+    const bool granted = offer(bytes);
+    refused_ |= !granted;
+    return granted;
+  }
+  /// The same for what it can do without: refused() does not tell of it.
+  bool offer(std::size_t bytes) {
+    if (!make_room(bytes)) return false;
     used_ += bytes;
     peak_ = std::max(peak_, used_);
     return true;
@@ -45,7 +48,7 @@ public:
 
   std::size_t used() const { return used_; }
   std::size_t peak() const { return peak_; }
-  bool refused() const { return refused_; }  ///< anything, in this frame
+  bool refused() const { return refused_; }  ///< anything that was needed, in this frame
 
 private:
   bool make_room(std::size_t bytes) {
@@ -73,11 +76,8 @@ public:
   }
   ~MemoryShare() { give_back(bytes_); }
 
-  bool take(std::size_t bytes) {
-    if (budget_ != nullptr && !budget_->take(bytes)) return false;
-    bytes_ += bytes;
-    return true;
-  }
+  bool take(std::size_t bytes) { return hold(bytes, budget_ == nullptr || budget_->take(bytes)); }
+  bool offer(std::size_t bytes) { return hold(bytes, budget_ == nullptr || budget_->offer(bytes)); }
   void give_back(std::size_t bytes) {
     if (budget_ != nullptr) budget_->give_back(bytes);
     bytes_ -= bytes;
@@ -85,6 +85,10 @@ public:
   std::size_t bytes() const { return bytes_; }
 
 private:
+  bool hold(std::size_t bytes, bool granted) {
+    if (granted) bytes_ += bytes;
+    return granted;
+  }
   void swap(MemoryShare& other) {
     std::swap(budget_, other.budget_);
     std::swap(bytes_, other.bytes_);

@@ -5,6 +5,7 @@
 #include <cmath>
 #include <utility>
 
+#include "ao/cast/bvh_parts.h"
 #include "parallel/parallel.h"
 
 namespace tenebra::ao {
@@ -14,27 +15,10 @@ namespace {
 constexpr int bin_count = 16;
 constexpr int depth_to_halve = bvh_depth - 32;  ///< from here on 32 levels hold whatever is left
 constexpr std::uint32_t shared_size = 8192;  ///< items of a node whose children are made by several threads
-constexpr float largest_coordinate = 1e18f;
 constexpr float infinity = std::numeric_limits<float>::infinity();
 
-struct Box {
-  glm::vec3 low{infinity};
-  glm::vec3 high{-infinity};
-
-  void add(const Box& other) {
-    low = glm::min(low, other.low);
-    high = glm::max(high, other.high);
-  }
-  /// Half of its surface, in double: squares of 1e18 stay in range.
-  double area() const {
-    if (!(low.x <= high.x)) return 0;
-    const glm::dvec3 size = glm::dvec3(high) - glm::dvec3(low);
-    return size.x * size.y + size.y * size.z + size.z * size.x;
-  }
-};
-
 struct Item {
-  Box box;
+  BvhBox box;
   glm::vec3 middle;
   std::uint32_t triangle;
 };
@@ -42,7 +26,7 @@ struct Item {
 /// Items first .. last - 1 and their box.
 struct Range {
   std::uint32_t first, last;
-  Box box;
+  BvhBox box;
   std::uint32_t size() const { return last - first; }
 };
 
@@ -86,27 +70,16 @@ private:
   float margin_ = 0;
 };
 
-bool usable(glm::vec3 p) {
-  return std::abs(p.x) <= largest_coordinate && std::abs(p.y) <= largest_coordinate &&
-         std::abs(p.z) <= largest_coordinate;
-}
-
 void Builder::collect() {
   items_.reserve(triangles_.size());
+  float largest_coordinate = 0;
   for (std::size_t i = 0; i < triangles_.size(); ++i) {
-    const glm::uvec3 t = triangles_[i];
-    if (std::max({t.x, t.y, t.z}) >= positions_.size()) continue;
-    const glm::vec3 a = positions_[t.x], b = positions_[t.y], c = positions_[t.z];
-    if (!usable(a) || !usable(b) || !usable(c)) continue;
-    if (glm::cross(glm::dvec3(b) - glm::dvec3(a), glm::dvec3(c) - glm::dvec3(a)) == glm::dvec3(0)) continue;
-    const Box box{glm::min(a, glm::min(b, c)), glm::max(a, glm::max(b, c))};
+    BvhBox box;
+    if (!bvh_holds(positions_, triangles_[i], box)) continue;
     items_.push_back({box, 0.5f * box.low + 0.5f * box.high, static_cast<std::uint32_t>(i)});
-    for (const glm::vec3 corner : {glm::abs(box.low), glm::abs(box.high)})
-      margin_ = std::max({margin_, corner.x, corner.y, corner.z});
+    largest_coordinate = std::max(largest_coordinate, box.largest_coordinate());
   }
-  // A hit that rounding puts beside its triangle still lies in the triangle's box: four units in the last
-  // place of the largest coordinate.
-  margin_ *= 0x1p-21f;
+  margin_ = bvh_margin(largest_coordinate);
 }
 
 Range Builder::range(std::uint32_t first, std::uint32_t last) const {
@@ -128,7 +101,7 @@ Split Builder::best_split(const Range& range, const Bins& bins) const {
   Split best;
   for (int axis = 0; axis < 3; ++axis) {
     if (!(bins.low[axis] < bins.high[axis])) continue;
-    std::array<Box, bin_count> boxes;
+    std::array<BvhBox, bin_count> boxes;
     std::array<std::uint32_t, bin_count> counts{};
     for (std::uint32_t i = range.first; i < range.last; ++i) {
       const auto bin = static_cast<std::size_t>(bins.bin(items_[i].middle, axis));
@@ -136,7 +109,7 @@ Split Builder::best_split(const Range& range, const Bins& bins) const {
       ++counts[bin];
     }
     std::array<double, bin_count> right{};  // cost of bins i ..
-    Box box;
+    BvhBox box;
     std::uint32_t count = 0;
     // Triangles are met eight at a time.
     const auto cost = [&] { return box.area() * ((count + bvh_width - 1) / bvh_width); };
@@ -170,15 +143,9 @@ std::pair<Range, Range> Builder::divide(const Range& whole, int depth) {
 }
 
 std::uint32_t Builder::add_block(const Range& range, TriangleBvh& tree) const {
-  TriangleBlock block{};
-  std::fill(std::begin(block.triangle), std::end(block.triangle), no_caster);
-  for (std::uint32_t i = range.first; i < range.last; ++i) {
-    const std::size_t lane = i - range.first;
-    block.triangle[lane] = items_[i].triangle;
-    const glm::uvec3 t = triangles_[items_[i].triangle];
-    for (int corner = 0; corner < 3; ++corner)
-      for (int axis = 0; axis < 3; ++axis) block.corner[corner][axis][lane] = positions_[t[corner]][axis];
-  }
+  TriangleBlock block = empty_block();
+  for (std::uint32_t i = range.first; i < range.last; ++i)
+    set_triangle(block, i - range.first, items_[i].triangle, positions_, triangles_);
   tree.blocks.push_back(block);
   return static_cast<std::uint32_t>(tree.blocks.size() - 1) | bvh_leaf;
 }
@@ -231,16 +198,13 @@ std::uint32_t Builder::add_node(const Range& whole, int depth, TriangleBvh& tree
     });
   }
   for (std::size_t lane = 0; lane < bvh_width; ++lane) {
-    const bool used = lane < children.size();
-    std::uint32_t child = bvh_leaf;
-    if (used)
-      child = shared ? append(parts[lane], roots[lane], tree) : add_child(children[lane], depth + 1, tree);
-    BvhNode& node = tree.nodes[place];
-    node.child[lane] = child;
-    for (int axis = 0; axis < 3; ++axis) {
-      node.plane[axis][lane] = used ? children[lane].box.low[axis] - margin_ : infinity;
-      node.plane[axis + 3][lane] = used ? children[lane].box.high[axis] + margin_ : -infinity;
+    if (lane >= children.size()) {
+      set_no_child(tree.nodes[place], lane);
+      continue;
     }
+    const std::uint32_t child =
+        shared ? append(parts[lane], roots[lane], tree) : add_child(children[lane], depth + 1, tree);
+    set_child(tree.nodes[place], lane, child, children[lane].box, margin_);
   }
   return place;
 }

@@ -277,14 +277,28 @@ private:
     place(geometry_.pose, object);
     object.scale = std::cbrt(std::abs(glm::determinant(glm::dmat3(object.to_world))));
     place(geometry_.pose, object);
-    ObjectShape shape;
+    std::size_t triangles = 0;
+    std::vector<dmat4> to_objects;
+    Hash source;  // equal ones give equal shapes
     for (const Part& part : parts) {
-      own(part, static_cast<std::int32_t>(out_.objects.size()), shape.triangles.size());
-      append(geometry_, part, to_object(part.node, object), shape);
+      own(part, static_cast<std::int32_t>(out_.objects.size()), triangles);
+      triangles += part.mesh->triangles.size();
+      to_objects.push_back(to_object(part.node, object));
+      source.add(&scene_.nodes[part.node].mesh, sizeof(Node::mesh));
+      source.add(&to_objects.back(), sizeof(dmat4));
+      source.add(geometry_.casts_shadow.data() + part.first_triangle, part.mesh->triangles.size());
     }
-    finish(shape);
-    object.shape = index_of(std::move(shape));
+    const auto [known, is_new] = by_source_.emplace(source.value(), 0);
+    if (is_new) known->second = index_of(make_shape(parts, to_objects));
+    object.shape = known->second;
     out_.objects.push_back(std::move(object));
+  }
+
+  ObjectShape make_shape(const std::vector<Part>& parts, const std::vector<dmat4>& to_objects) const {
+    ObjectShape shape;
+    for (std::size_t i = 0; i < parts.size(); ++i) append(geometry_, parts[i], to_objects[i], shape);
+    finish(shape);
+    return shape;
   }
 
   int index_of(ObjectShape shape) {
@@ -298,7 +312,7 @@ private:
   const NodeMotion& motion_;
   SceneObjects& out_;
   std::map<int, std::vector<Part>> groups_;
-  std::unordered_map<std::uint64_t, int> by_hash_;
+  std::unordered_map<std::uint64_t, int> by_source_, by_hash_;
 };
 
 }  // namespace

@@ -93,6 +93,7 @@ void Occluders::begin_frame(const SceneObjects& objects, const FrameGeometry& ge
   if (settings != settings_)
     for (Shape& shape : shapes_) shape.by_rays = false;
   settings_ = settings;
+  trees_.folder = config.cache;
   fields_.begin_frame(objects.shapes, settings, config.cache, frame);
   kernels_ = ao_kernels(config.simd);
   reach_ = reach;
@@ -202,8 +203,14 @@ const TriangleBvh& Occluders::casters(int index) {
   auto& tree = index < 0 ? standing_ : shapes_[static_cast<std::size_t>(index)].casters;
   const ObjectShape& shape =
       index < 0 ? objects_->standing : objects_->shapes[static_cast<std::size_t>(index)];
-  if (!tree) tree = build_triangle_bvh(shape.positions, casting_triangles(shape));
+  if (!tree) tree = trees_.make(shape.positions, casting_triangles(shape));
   return *tree;
+}
+
+std::vector<std::string> Occluders::take_notes() {
+  std::vector<std::string> notes = fields_.take_notes();
+  for (std::string& note : std::exchange(trees_.notes, {})) notes.push_back(std::move(note));
+  return notes;
 }
 
 /// Not where triangles are few, or what they are placed as is flat.

@@ -172,19 +172,22 @@ SurfacePoint SelfOcclusion::place(std::uint32_t sample) const {
 }
 
 /// False where there is no room.
-bool SelfOcclusion::add_cell(std::uint64_t key) {
+bool SelfOcclusion::add_cell(std::uint64_t key, Cell cell) {
   if (cells_.find(key) != CellNumbers::none) return true;
-  if (cells_.keys().size() == cells_.capacity() && !grow_cells()) return false;
+  if (cells_.keys().size() == cells_.capacity() && !grow_cells(cell)) return false;
   cells_.add(key);
   cell_values_.resize(cell_values_.size() + SurfaceLayout::cell_samples, unknown);
   return true;
 }
 
 /// The smaller tables are still there while they are copied to the larger ones.
-bool SelfOcclusion::grow_cells() {
+bool SelfOcclusion::grow_cells(Cell cell) {
   const std::size_t before = cells_.capacity(),
                     after = std::min(most_cells_, std::max(fewest_cells, 2 * before));
-  full_ = full_ || after == before || !share_.take(cell_bytes(after));
+  const auto granted = [&](std::size_t bytes) {
+    return cell == Cell::needed ? share_.take(bytes) : share_.offer(bytes);
+  };
+  full_ = full_ || after == before || !granted(cell_bytes(after));
   if (full_) return false;
   cells_.reserve(after);
   cell_values_.reserve(after * SurfaceLayout::cell_samples);
@@ -205,7 +208,7 @@ void SelfOcclusion::settle(std::uint64_t index, bool may_divide) {
     return;
   }
   const std::uint64_t key = layout_->cell_key(middle);
-  if (may_divide && !add_cell(key)) return;
+  if (may_divide && !add_cell(key, Cell::needed)) return;
   const std::uint32_t number = cells_.find(key);
   if (number == CellNumbers::none) return;
   side = {{static_cast<Value>(number & 0xffff), static_cast<Value>(number >> 16), 0}, Side::divided};
@@ -235,7 +238,7 @@ bool SelfOcclusion::fill(std::span<const std::uint64_t> missing, const AoKernels
     ++known_;
   }
   for (auto side = sides; side != cells; ++side) settle(*side & ~is_side, true);
-  for (auto key = cells; key != missing.end(); ++key) add_cell(*key & ~is_cell);
+  for (auto key = cells; key != missing.end(); ++key) add_cell(*key & ~is_cell, Cell::needed);
   return true;
 }
 
@@ -296,7 +299,7 @@ void SelfOcclusion::learn(const SurfaceSamples& others) {
     for (std::uint32_t i = 0; i < run.count; ++i) take(values_[run.first + i], *from++);
   // Of cells that others divided this frame may need none: half of the room stays for those that it does.
   const std::size_t most = std::min(others.cells.size(), most_cells_ / 2);
-  for (std::size_t c = 0; c < most && add_cell(others.cells[c]); ++c) {
+  for (std::size_t c = 0; c < most && add_cell(others.cells[c], Cell::learned); ++c) {
     const std::size_t to = std::size_t{cells_.find(others.cells[c])} * SurfaceLayout::cell_samples;
     for (std::size_t k = 0; k < SurfaceLayout::cell_samples; ++k)
       take(cell_values_[to + k], others.cell_values[c * SurfaceLayout::cell_samples + k]);

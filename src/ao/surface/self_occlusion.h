@@ -108,8 +108,10 @@ private:
             const std::function<void(double)>& progress, const StopFlag* stop);
 
   Value& value(std::uint32_t sample);
-  bool add_cell(std::uint64_t key);
-  bool grow_cells();
+  /// What a cell is for: the frame, or what others knew.
+  enum class Cell { needed, learned };
+  bool add_cell(std::uint64_t key, Cell cell);
+  bool grow_cells(Cell cell);
   void settle(std::uint64_t side, bool may_divide);
   SurfacePoint place(std::uint32_t sample) const;
 

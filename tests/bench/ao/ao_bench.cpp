@@ -41,6 +41,7 @@ void print_headlines(const AoHeadline& h) {
   print_headline("ao.scene_speedup_worst", h.scene_speedup_worst, 2);
   print_headline("ao.exact_speedup_geomean", h.exact_speedup_geomean, 2);
   print_headline("ao.first_frame_warm", h.first_frame_warm, 2);
+  print_headline("ao.flicker_mean_255", h.flicker_mean_255, 3);
   if (h.estimate_worst) print_headline("ao.estimate_worst", h.estimate_worst, 2);
 }
 
@@ -77,12 +78,15 @@ Expected<void> measure(const PartsArguments& arguments, const AoArguments& own) 
 void add_scene_options(CLI::App& command, AoSceneOptions& options) {
   const auto names = ao_scene_names();
   command
-      .add_option("--views", options.views,
-                  fmt::format("scenes: those whose name has one of these in it, of {} [all]\nat 512x512 and "
-                              "1024x1024; with --quick at 512x512 only",
-                              fmt::join(names, ", ")))
+      .add_option(
+          "--views", options.views,
+          fmt::format("scenes: those whose name has one of these in it, of {} [all]", fmt::join(names, ", ")))
       ->type_name("TEXT,...")
       ->delimiter(',');
+  command.add_option("--sizes", options.sizes, "scenes: pixels each way [512,1024; with --quick 512]")
+      ->type_name("N,...")
+      ->delimiter(',')
+      ->check(CLI::Range(16, 4096));
   command
       .add_option(
           "--truth-folder", options.truth_folder,

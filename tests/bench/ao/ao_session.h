@@ -21,12 +21,14 @@ struct AoHeadline {
   std::optional<double> exact_rms_worst, exact_max_worst;
   std::optional<double> scene_speedup_geomean, scene_speedup_worst, exact_speedup_geomean;
   std::optional<double> first_frame_warm;
+  std::optional<double> flicker_mean_255;
   std::optional<double> estimate_worst;  ///< only where the library gives an estimate
 };
 
 /// What only the part "scenes" reads.
 struct AoSceneOptions {
   std::vector<std::string> views;      ///< parts of names; empty: all
+  std::vector<int> sizes;              ///< pixels each way; empty: by effort
   std::filesystem::path truth_folder;  ///< where truths are kept; empty: nowhere
   std::filesystem::path pictures;      ///< folder; empty: none are written
   bool only_ours = false;              ///< no opponent

@@ -158,10 +158,6 @@ TEST(BenchProgram, TradeRefusesInASentence) {
   expect_refusal({"trade", "--data", "/nowhere/at/all"}, "--data: /nowhere/at/all is not a folder");
   expect_refusal({"trade", "--docs", "/nowhere/at/all"}, "--docs: /nowhere/at/all is not a folder");
   expect_refusal({"trade", "--only", "atlantis"}, "--only: found atlantis, expected hard, soft, ao, needs");
-  const testing::TemporaryFolder folder;
-  expect_refusal({"trade", "--docs", folder.path().string(), "--only", "soft,ao"},
-                 "--docs: found --only soft,ao, expected all parts");
-  EXPECT_TRUE(folder.names().empty()) << "a page of some parts would replace that of all";
   expect_refusal({"trade", "--docs", "/proc/self"}, "cannot write /proc/self/trade.md");
 }
 
@@ -192,6 +188,22 @@ TEST(BenchProgram, TradeWritesItsPageFromBundledScenesAlone) {
     EXPECT_NE(page.find(name), std::string::npos) << name;
     EXPECT_NE(testing::read_text(folder / name).find("</svg>"), std::string::npos) << name;
   }
+}
+
+TEST(BenchProgram, TradeLeavesSectionsOfOtherPartsAsTheyAre) {
+  const testing::TemporaryFolder folder;
+  const std::string hard = "## Hard shadows\n\nAs it was.\n\n",
+                    needs = "## Only what a scene requires\n\nToo.\n";
+  testing::write_text(folder / "trade.md",
+                      "# Old\n\n" + hard + "## Ambient occlusion\n\nOld too.\n\n" + needs);
+  const auto result = bench({"trade", "--tiny", "--only", "ao", "--data", folder.path().string(), "--docs",
+                             folder.path().string()});
+  ASSERT_EQ(result.exit_code, 0) << result.errors;
+  const std::string page = testing::read_text(folder / "trade.md");
+  EXPECT_EQ(page.find("Old"), std::string::npos);
+  EXPECT_NE(page.find("| adaptive, error 2.5 |"), std::string::npos);
+  EXPECT_NE(page.find(hard), std::string::npos);
+  EXPECT_TRUE(page.ends_with(needs));
 }
 
 TEST(BenchProgram, HelpNamesTheOptions) {

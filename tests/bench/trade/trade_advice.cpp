@@ -49,20 +49,6 @@ Measure times(const std::string& name, const std::string& other) {
 constexpr const char* tiles = "default (Tiles)";
 constexpr const char* exact_soft = "default (exact)";
 
-std::string soft_name(const render::QualitySettings& q) {
-  return q.soft_error > 0 ? fmt::format("error asked (--soft-error), {}", q.soft_error) : exact_soft;
-}
-std::string ao_name(const render::QualitySettings& q) {
-  return fmt::format("{}, {} rays", q.ao_downscale == 1 ? "field" : "field, half resolution", q.ao_rays);
-}
-
-std::string preset_options(const render::QualitySettings& q) {
-  const std::string soft =
-      q.soft_error > 0 ? fmt::format("`--soft-error {}`", q.soft_error) : "exact soft shadows";
-  const std::string scale = q.ao_downscale == 1 ? "" : fmt::format(" --ao-downscale {}", q.ao_downscale);
-  return fmt::format("{}, `--ao-rays {}{}`", soft, q.ao_rays, scale);
-}
-
 /// Views on which no exact setting is faster than `name`.
 std::size_t fastest_exact(const TradeTables& tables, const std::string& name) {
   return static_cast<std::size_t>(std::count_if(tables.begin(), tables.end(), [&](const TradeTable* t) {
@@ -73,38 +59,35 @@ std::size_t fastest_exact(const TradeTables& tables, const std::string& name) {
   }));
 }
 
-/// Of the settings of `family` that err by no more than `error`, the fastest.
+/// Of the settings of families that begin with `family`, those that err by no more than `error`, the fastest.
 std::optional<double> ms_at_error(const TradeTable& table, const std::string& family, double error) {
   std::optional<double> ms;
   for (const TradePoint& p : table.points) {
-    if (p.family == family && p.errors[0] <= error && (!ms || p.ms < *ms)) ms = p.ms;
+    if (p.family.starts_with(family) && p.errors[0] <= error && (!ms || p.ms < *ms)) ms = p.ms;
   }
   return ms;
 }
 
 }  // namespace
 
-std::string preset_section(const TradeTables& soft, const TradeTables& ao) {
+std::string preset_section() {
   std::string text =
       "## Which to choose: `--quality`\n\n"
       "Hard shadows are exact in every preset. Options that are given themselves win.\n\n"
-      "| preset | stands for | soft: time over exact | penumbra RMS, 1/255 | worst pixel | ambient "
-      "occlusion: ms "
-      "| RMS, 1/255 | worst pixel |\n|---|---|---|---|---|---|---|---|\n";
+      "| preset | soft shadows | ambient occlusion (`--ao adaptive`) | with `--ao field` |\n"
+      "|---|---|---|---|\n";
   for (const render::Quality quality : render::qualities) {
     const render::QualitySettings q = render::quality_settings(quality);
-    text += fmt::format("| `{}` | {} | {} | {} | {} | {} | {} | {} |\n", render::quality_name(quality),
-                        preset_options(q), range(soft, times(soft_name(q), exact_soft)),
-                        range(soft, error(soft_name(q), 0)), range(soft, error(soft_name(q), 3)),
-                        range(ao, time(ao_name(q))), range(ao, error(ao_name(q), 0)),
-                        range(ao, error(ao_name(q), 1)));
+    const std::string soft = q.soft_error > 0 ? fmt::format("`--soft-error {}`", q.soft_error) : "exact";
+    const std::string scale = q.ao_downscale == 1 ? "" : fmt::format(" --ao-downscale {}", q.ao_downscale);
+    text += fmt::format("| `{}` | {} | `--ao-error {}` | `--ao-rays {}{}` |\n", render::quality_name(quality),
+                        soft, q.ao_error, q.ao_rays, scale);
   }
   return text +
-         "\nEach figure from the least to the largest of the views below. While you model, animate or fly "
-         "through a "
-         "scene: `fast`. For pictures to keep: the defaults, which are `balanced`. For stills whose ambient "
-         "occlusion must be as smooth as fields allow: `exact`. For ambient occlusion without tables: `--ao "
-         "rays`.\n\n";
+         "\nWhat each costs and errs by stands below. While you model, animate or fly through a scene: "
+         "`fast`. "
+         "For pictures to keep: the defaults, which are `balanced`. For stills whose ambient occlusion must "
+         "be right to about a level of 255: `exact`.\n\n";
 }
 
 std::string hard_advice(const TradeTables& tables) {
@@ -168,21 +151,40 @@ std::string soft_advice(const TradeTables& tables) {
 }
 
 std::string ao_advice(const TradeTables& tables) {
+  // The fastest of Embree's settings that errs no more than `name` does, over its time.
+  const auto embree_for = [](const char* name) {
+    return [=](const TradeTable& t) -> std::optional<double> {
+      const TradePoint* p = t.find(name);
+      const auto ms = p == nullptr ? std::nullopt : ms_at_error(t, "Embree rays", p->errors[0]);
+      if (!ms) return std::nullopt;
+      return *ms / p->ms;
+    };
+  };
   return fmt::format(
-      "- Fields answer 64 rays in {} ms at {} /255 RMS; Embree's 64 rays take {} times as long, at {} /255.\n"
-      "- Half resolution with 16 rays takes {} of the time of full resolution with 64, at {} /255 RMS; its "
-      "worst pixel: {} /255.\n"
-      "- 256 rays at full resolution: {} times the time of 64, {} /255. What is left then is the tables' and "
-      "the samples' own error.\n"
+      "- `--ao adaptive` asked for 5, 2.5 and 1 errs by {}, {} and {} /255 RMS in {}, {} and {} ms. Embree's "
+      "rays, the fastest of their filters and resolutions that errs no more, take {}, {} and {} times as "
+      "long; "
+      "views on which so many rays were not tried are left out (`tenebra-bench ao` has more, and "
+      "interpolates).\n"
+      "- Fields answer 64 rays in {} of the time of an error of 2.5, at {} /255 RMS and {} at the worst "
+      "pixel, once they and the samples are made; Embree takes {} times as long for an error as large. 256 "
+      "rays leave {}: what is left is the tables' and the samples' own error.\n"
+      "- So fields are good where what moves has very many triangles (the crowd: a look-up takes as long for "
+      "any number), and samples where all stands (the kitchen), if errors of that size may show. They are "
+      "not "
+      "where many small objects are in each other's reach (robots, city: a look-up for each), where an error "
+      "has to be small or known, for one picture alone (its first frame makes them), for what deforms (rays "
+      "meet it in any case), nor for bodies that touch.\n"
       "- Tables: four times smaller ones (1089x1024) err by {} /255 with 64 rays, the smallest tried "
       "(289x256) by {}, the largest (4225x4096) by {}; one bit a distance instead of eight: {}.\n",
-      range(tables, time("field, 64 rays")), range(tables, error("field, 64 rays")),
-      range(tables, times("Embree rays, 64 rays", "field, 64 rays")),
-      range(tables, error("Embree rays, 64 rays")),
-      range(tables, times("field, half resolution, 16 rays", "field, 64 rays")),
-      range(tables, error("field, half resolution, 16 rays")),
-      range(tables, error("field, half resolution, 16 rays", 1)),
-      range(tables, times("field, 256 rays", "field, 64 rays")), range(tables, error("field, 256 rays")),
+      range(tables, error("adaptive, error 5")), range(tables, error("adaptive, error 2.5")),
+      range(tables, error("adaptive, error 1")), range(tables, time("adaptive, error 5")),
+      range(tables, time("adaptive, error 2.5")), range(tables, time("adaptive, error 1")),
+      range(tables, embree_for("adaptive, error 5")), range(tables, embree_for("adaptive, error 2.5")),
+      range(tables, embree_for("adaptive, error 1")),
+      range(tables, times("field, 64 rays", "adaptive, error 2.5")), range(tables, error("field, 64 rays")),
+      range(tables, error("field, 64 rays", 1)), range(tables, embree_for("field, 64 rays")),
+      range(tables, error("field, 256 rays")),
       range(tables, error("other tables, 1089x1024, 8 bits, 64 rays")),
       range(tables, error("other tables, 289x256, 8 bits, 64 rays")),
       range(tables, error("other tables, 4225x4096, 8 bits, 64 rays")),

@@ -10,8 +10,8 @@ namespace tenebra::bench {
 
 using TradeTables = std::vector<const TradeTable*>;
 
-/// --quality: what each preset sets, costs and errs by.
-std::string preset_section(const TradeTables& soft, const TradeTables& ao);
+/// --quality: what each preset sets.
+std::string preset_section();
 
 /// A few bullets each. They say what was measured, whatever it was.
 std::string hard_advice(const TradeTables& tables);

@@ -1,11 +1,11 @@
-// The trade of ambient occlusion: rays, tables (positions x directions x bits), resolution, against Embree's
-// rays.
+// The trade of ambient occlusion: errors asked for, rays, tables (positions x directions x bits), resolution,
+// against Embree's rays with and without a filter.
 #include <fmt/core.h>
 #include <cmath>
 
 #include <tenebra/ambient_occlusion.h>
-#include "bench/ao/ao_crowd.h"
 #include "bench/ao/ao_race.h"
+#include "bench/ao/scenes/ao_scene_peer.h"
 #include "bench/common/bench_scenes.h"
 #include "bench/trade/trade_contest.h"
 #include "bench/trade/trade_session.h"
@@ -13,15 +13,6 @@
 
 namespace tenebra::bench {
 namespace {
-
-/// The scene and the frame that settings are tried on.
-struct AoView {
-  std::string name;
-  const Scene& scene;
-  const BenchFrame& frame;
-  double reach_m;  // 0: a twentieth of the scene's diagonal
-  bool tables;     // tables of other sizes too
-};
 
 /// What one setting is called and is.
 struct AoSetting {
@@ -37,20 +28,26 @@ std::string table_name(const AoConfig& c) {
 /// One view with all settings on it.
 class AoTrade {
 public:
-  AoTrade(TradeSession& session, const AoView& view) : session_(session), view_(view) {}
+  /// `tables`: tables of other sizes too.
+  AoTrade(TradeSession& session, const AoSceneView& view, bool tables)
+      : session_(session), view_(view), tables_(tables) {}
   Expected<TradeTable> run();
 
 private:
   AoConfig config(AoMode mode, int rays) const;
   Expected<void> find_truth();
+  void add_errors();
   void add_rays();
   void add_tables(FieldLayout layout, const char* family);
   Expected<double> compute(const AoConfig& config);
   Expected<std::vector<TradePoint>> measure(std::span<const AoSetting> same_tables);
+  PeerVariant best_variant(AoScenePeer& peer, int rays, int step) const;
+  Expected<std::vector<TradePoint>> measure_peer() const;
   std::vector<double> errors_of(std::span<const float> open) const;
 
   TradeSession& session_;
-  const AoView& view_;
+  const AoSceneView& view_;
+  bool tables_;
   AmbientOcclusion ao_;
   std::vector<std::size_t> pixels_;  // where the truth is known
   std::vector<float> truth_, open_;
@@ -58,7 +55,7 @@ private:
 };
 
 AoConfig AoTrade::config(AoMode mode, int rays) const {
-  AoConfig config{.mode = mode, .rays = rays, .distance_m = view_.reach_m};
+  AoConfig config{.mode = mode, .rays = rays, .distance_m = static_cast<double>(view_.reach_m)};
   if (session_.effort == Effort::tiny) config.positions = config.directions = 64;
   return config;
 }
@@ -67,7 +64,7 @@ AoConfig AoTrade::config(AoMode mode, int rays) const {
 Expected<void> AoTrade::find_truth() {
   const int stride = session_.by_effort(4, 8, 8);
   const auto side = static_cast<std::uint32_t>(stride);
-  VisiblePoints few = view_.frame.points;
+  VisiblePoints few = view_.now.points;
   std::vector<std::uint8_t> kept(few.triangles.size(), 0);
   testing::Random random(13);
   const auto width = static_cast<std::size_t>(few.width);
@@ -84,7 +81,7 @@ Expected<void> AoTrade::find_truth() {
     if (kept[i] == 0) few.triangles[i] = no_triangle;
   }
   AmbientOcclusion rays;
-  if (auto done = rays.compute(view_.scene, view_.frame.geometry, few, view_.frame.normals,
+  if (auto done = rays.compute(view_.scene, view_.now.geometry, few, view_.now.normals,
                                config(AoMode::rays, session_.by_effort(64, 1024, 4096)), open_);
       !done)
     return done;
@@ -102,7 +99,16 @@ std::vector<double> AoTrade::errors_of(std::span<const float> open) const {
   return {pixels_.empty() ? 0 : 255 * std::sqrt(sum / static_cast<double>(pixels_.size())), 255 * worst};
 }
 
-/// How many rays, at full and half resolution, and Embree's.
+/// What the presets of --quality ask for.
+void AoTrade::add_errors() {
+  for (const double error : {5.0, 2.5, 1.0}) {
+    AoConfig c = config(AoMode::adaptive, 64);
+    c.error_255 = error;
+    settings_.push_back({"adaptive", fmt::format("error {}", error), c});
+  }
+}
+
+/// How many rays, at full and half resolution.
 void AoTrade::add_rays() {
   const auto counts = session_.by_effort<std::vector<int>>({16}, {8, 16, 64, 256}, {8, 16, 32, 64, 128, 256});
   for (const int downscale : {1, 2}) {
@@ -113,13 +119,11 @@ void AoTrade::add_rays() {
           {downscale == 1 ? "field" : "field, half resolution", fmt::format("{} rays", rays), c});
     }
   }
-  for (const int rays : session_.by_effort<std::vector<int>>({8}, {4, 16, 64}, {4, 8, 16, 32, 64, 128, 256}))
-    settings_.push_back({"Embree rays", fmt::format("{} rays", rays), config(AoMode::rays, rays)});
 }
 
 /// What the tables' size and the bits of a distance do; in a quick run one at a time.
 void AoTrade::add_tables(FieldLayout layout, const char* family) {
-  const bool all = session_.effort == Effort::full && view_.tables;
+  const bool all = session_.effort == Effort::full && tables_;
   for (const int positions : {289, 1089, 4225}) {
     for (const int directions : {256, 1024, 4096}) {
       for (const int bits : {1, 8, 32}) {
@@ -137,13 +141,13 @@ void AoTrade::add_tables(FieldLayout layout, const char* family) {
   }
 }
 
-/// Once; its time. Of Embree's rays without the tree: it may be kept where nothing moves.
+/// Once; its time.
 Expected<double> AoTrade::compute(const AoConfig& config) {
-  const BenchFrame& frame = view_.frame;
+  const BenchFrame& frame = view_.now;
   CostClock clock;
   if (auto done = ao_.compute(view_.scene, frame.geometry, frame.points, frame.normals, config, open_); !done)
     return tl::unexpected(done.error());
-  return config.mode == AoMode::rays ? ao_.timings().ao_ms : clock.ms();
+  return clock.ms();
 }
 
 /// Settings that share tables, in turn; fields are built and samples cast before.
@@ -151,10 +155,44 @@ Expected<std::vector<TradePoint>> AoTrade::measure(std::span<const AoSetting> sa
   if (const auto built = compute(same_tables[0].config); !built) return tl::unexpected(built.error());
   std::vector<Contestant> contestants;
   for (const AoSetting& setting : same_tables) {
-    const bool rays = setting.config.mode == AoMode::rays;
-    contestants.push_back({setting.family, setting.name, rays ? 1 : session_.by_effort(1, 3, 5),
+    contestants.push_back({setting.family, setting.name, session_.by_effort(1, 3, 5),
                            [this, &setting] { return compute(setting.config); },
                            [this] { return errors_of(open_); }});
+  }
+  return take_turns(contestants);
+}
+
+/// Of one to three passes of the filter (at half resolution none, too), those that err least.
+PeerVariant AoTrade::best_variant(AoScenePeer& peer, int rays, int step) const {
+  peer.trace_ms(rays, step);
+  PeerVariant best;
+  double least = 0;
+  for (int passes = 2 - step; passes <= 3; ++passes) {
+    peer.finish_ms({step, passes});
+    const double rms = errors_of(peer.picture())[0];
+    if (least == 0 || rms < least) least = rms, best = {step, passes};
+  }
+  return best;
+}
+
+/// What one would write instead: rays alone, filtered, and filtered at one of four pixels.
+Expected<std::vector<TradePoint>> AoTrade::measure_peer() const {
+  AoScenePeer peer(view_);
+  std::vector<Contestant> contestants;
+  for (const int rays : session_.by_effort<std::vector<int>>({4}, {1, 4, 16, 64, 256}, {1, 4, 16, 64, 256})) {
+    const auto order = peer.faster_order(rays);
+    const auto add = [&](const char* family, const PeerVariant& variant) {
+      const auto run = [&peer, rays, variant, order]() -> Expected<double> {
+        peer.set_order(order);
+        return peer.follow_ms() + peer.trace_ms(rays, variant.step) + peer.finish_ms(variant);
+      };
+      contestants.push_back({family, fmt::format("{} ray{}", rays, rays == 1 ? "" : "s"),
+                             rays > 16 ? 1 : session_.by_effort(1, 3, 5), run,
+                             [this, &peer] { return errors_of(peer.picture()); }});
+    };
+    add("Embree rays", {1, 0});
+    add("Embree rays, filtered", best_variant(peer, rays, 1));
+    add("Embree rays, filtered, half resolution", best_variant(peer, rays, 2));
   }
   return take_turns(contestants);
 }
@@ -166,8 +204,9 @@ bool same_tables(const AoConfig& a, const AoConfig& b) {
 
 Expected<TradeTable> AoTrade::run() {
   if (auto found = find_truth(); !found) return tl::unexpected(found.error());
+  add_errors();
   add_rays();
-  if (session_.effort != Effort::tiny && view_.tables) {
+  if (session_.effort != Effort::tiny && tables_) {
     add_tables(FieldLayout::chords, "other tables");
     add_tables(FieldLayout::positions_directions, "tables of the paper");
   }
@@ -178,67 +217,45 @@ Expected<TradeTable> AoTrade::run() {
     if (!points) return tl::unexpected(points.error());
     table.points.insert(table.points.end(), points->begin(), points->end());
   }
+  const auto peer = measure_peer();
+  if (!peer) return tl::unexpected(peer.error());
+  table.points.insert(table.points.end(), peer->begin(), peer->end());
   const auto hidden = std::count_if(truth_.begin(), truth_.end(), [](float open) { return open < 1; });
   table.remark = fmt::format("{}x{} pixels; of {} that were compared, ambient light is hidden in part at {}.",
-                             view_.frame.points.width, view_.frame.points.height, pixels_.size(), hidden);
+                             view_.now.points.width, view_.now.points.height, pixels_.size(), hidden);
   return table;
 }
 
 void keep_ao_headline(TradeSession& session, const TradeTable& table) {
-  if (const TradePoint* p = table.find("field, 64 rays"))
+  if (const TradePoint* p = table.find("adaptive, error 2.5"))
     session.keep_largest("ao_default_rms_255", p->errors[0]);
-  if (const TradePoint* p = table.find("field, half resolution, 16 rays"))
+  if (const TradePoint* p = table.find("adaptive, error 5"))
     session.keep_largest("ao_fast_rms_255", p->errors[0]);
 }
 
-Expected<void> try_view(TradeSession& session, const AoView& view) {
-  progress(view.name + ": ambient occlusion, what it costs");
-  auto table = AoTrade(session, view).run();
+Expected<void> try_view(TradeSession& session, const std::string& name) {
+  const int size = session.by_effort(64, 512, 1024), walkers = session.by_effort(3, 50, 50);
+  const auto view = load_ao_scene(name, size, walkers, session.options.data, session.notes);
+  if (!view) return tl::unexpected(view.error());
+  if (*view == nullptr) {
+    session.notes.pop_back();
+    session.skipped.push_back(skipped_sentence(name.substr(0, name.find(' '))));
+    return {};
+  }
+  progress(name + ": ambient occlusion, what it costs");
+  auto table = AoTrade(session, **view, name.starts_with("crowd")).run();
   if (!table) return tl::unexpected(table.error());
   keep_ao_headline(session, *table);
   session.finish(std::move(*table));
   return {};
 }
 
-int picture_side(const TradeSession& session) {
-  return session.by_effort(64, 512, 1024);
-}
-
-Expected<void> try_crowd(TradeSession& session, const CrowdView& view, const std::vector<Object>& meshes) {
-  const Scene scene = make_crowd(meshes, session.by_effort(3, 50, 50), view.spacing_m);
-  BenchFrame frame;
-  see_crowd(scene, view, 3.7, picture_side(session), frame);
-  return try_view(session, {view.name == std::string(near_view.name) ? "crowd near" : "crowd far", scene,
-                            frame, 1.0, true});
-}
-
-Expected<void> try_scene(TradeSession& session, const std::string& name, int number) {
-  const BenchScene& known = bench_scene(name);
-  std::unique_ptr<testing::TemporaryFolder> made;
-  const auto file = find_scene(known, bart_folder(session.options.data), made);
-  if (file.empty()) {
-    session.skipped.push_back(skipped_sentence(name));
-    return {};
-  }
-  const auto scene = load_scene(file, known.no_cast);
-  if (!scene) return tl::unexpected(scene.error());
-  BenchFrame frame;
-  const int size = picture_side(session);
-  evaluate_bench_frame(*scene, number, size, size, frame);
-  return try_view(session, {fmt::format("{} {}", name, number), *scene, frame, 0, false});
-}
-
 }  // namespace
 
 Expected<void> measure_trade_ao(TradeSession& session) {
-  auto meshes = crowd_objects(session.options.data, session.notes);
-  if (session.effort == Effort::tiny) meshes.resize(1);
-  for (const CrowdView& view : {near_view, far_view}) {
-    if (session.effort == Effort::quick && view.name == std::string(far_view.name)) continue;
-    if (auto done = try_crowd(session, view, meshes); !done) return done;
-  }
-  for (const auto& [name, number] : {std::pair{"robots", 100}, std::pair{"city", 150}}) {
-    if (auto done = try_scene(session, name, number); !done) return done;
+  for (const char* name : {"crowd near", "crowd far", "robots 100", "city 150", "kitchen 100"}) {
+    if (session.effort == Effort::quick && name == std::string("crowd far")) continue;
+    if (auto done = try_view(session, name); !done) return done;
   }
   return {};
 }

@@ -19,20 +19,17 @@ constexpr std::array parts{
 const std::span<const BenchPart<TradeSession>> all_parts(parts);
 
 /// Before minutes of measuring, not after them.
-Expected<void> check(const PartsArguments& arguments, const TradeOptions& options) {
+Expected<void> check(const TradeOptions& options) {
   if (options.docs.empty()) return {};
   std::error_code ignored;
   if (!std::filesystem::is_directory(options.docs, ignored))
     return base::fail("--docs: {} is not a folder, expected one to write trade.md to", options.docs.string());
-  if (!arguments.only.empty())
-    return base::fail("--docs: found --only {}, expected all parts: the page tells of each",
-                      fmt::join(arguments.only, ","));
   const auto page = base::OutputFile::create(options.docs / "trade.md");
   return page ? Expected<void>() : tl::unexpected(page.error());
 }
 
 Expected<void> measure(const PartsArguments& arguments, const TradeOptions& options) {
-  if (auto fine = check(arguments, options); !fine) return fine;
+  if (auto fine = check(options); !fine) return fine;
   TradeSession session(arguments);
   session.trade = options;
   if (auto done = measure_and_write(arguments, all_parts, session); !done) return done;
@@ -63,7 +60,9 @@ void add_trade_command(CLI::App& program, Run& run) {
   add_parts_command(program, run, {"trade", "What accuracy costs, for every method and setting"},
                     part_names(all_parts),
                     [options](const PartsArguments& arguments) { return measure(arguments, *options); })
-      .add_option("--docs", options->docs, "Write trade.md and its plots, the page of the documentation")
+      .add_option("--docs", options->docs,
+                  "Write trade.md and its plots, the page of the documentation;\nwith --only the sections of "
+                  "other parts stay as they are")
       ->type_name("FOLDER");
 }
 

@@ -2,6 +2,8 @@
 // that writes it.
 #include <fmt/core.h>
 #include <algorithm>
+#include <fstream>
+#include <iterator>
 
 #include "base/machine.h"
 #include "base/output_file.h"
@@ -81,12 +83,13 @@ std::string head(const TradeSession& session) {
                                                    : fmt::format("{} threads, by the clock", thread_count());
   return fmt::format(
       "# What accuracy costs\n\n"
-      "Written by `{}`; edit `tests/bench/trade/trade_docs.cpp` and `trade_advice.cpp`, not this file.\n"
+      "Written by `{}`; edit `tests/bench/trade/trade_docs.cpp` and `trade_advice.cpp`, not this file. "
+      "`--only` writes single sections anew.\n"
       "Machine: {}; {}. Times in milliseconds per frame.\n\n"
       "A setting is on the **Pareto front** of a view, its time bold, if no other is both as fast and as "
       "exact "
       "and better in one of the two. In the plots the front is dashed and its settings are ringed. Embree's "
-      "rays are a peer to compare with, no setting of Tenebra's (but for `--ao rays`). RMS: root of the mean "
+      "rays are a peer to compare with, no setting of Tenebra's. RMS: root of the mean "
       "square. Penumbra, shaft and other words: README, *Vocabulary*.\n\n",
       command_line(session), base::machine_description(), measured);
 }
@@ -125,8 +128,10 @@ std::string ao_section(const std::vector<const TradeTable*>& tables) {
          "\nTime of a frame whose fields and samples are there · RMS error · worst pixel, in 1/255:\n\n" +
          settings_table(tables, 0, 2, true) +
          "Tables are positions x directions. Errors against many rays (1,024 or more) at one pixel of 64. "
-         "Embree's "
-         "rays are `--ao rays`, without the time of its tree.\n\n" +
+         "Embree's rays are the opponent of `tenebra-bench ao` (measuring.md): a lattice shifted from pixel "
+         "to "
+         "pixel in packets, the tree's following counted, filtered by those of one to three passes that err "
+         "least.\n\n" +
          remarks(tables);
 }
 
@@ -150,22 +155,37 @@ std::string needs_section(const std::vector<NeedRow>& needs) {
          "frames are timed by the clock.\n";
 }
 
+/// Of a page that was written before, from its title to the next one; empty if it has none of that title.
+std::string old_section(const std::string& page, const std::string& title) {
+  const auto first = page.find("## " + title + "\n");
+  if (first == std::string::npos) return {};
+  const auto next = page.find("\n## ", first);
+  return page.substr(first, next == std::string::npos ? next : next + 1 - first);
+}
+
+std::string read_page(const std::filesystem::path& path) {
+  std::ifstream stream(path, std::ios::binary);
+  return {std::istreambuf_iterator<char>(stream), std::istreambuf_iterator<char>()};
+}
+
 }  // namespace
 
 Expected<void> write_trade_page(const TradeSession& session) {
-  const std::filesystem::path& folder = session.trade.docs;
+  const std::filesystem::path path = session.trade.docs / "trade.md";
+  const std::string before = read_page(path);
   const auto hard = tables_of(session, "hard"), soft = tables_of(session, "soft"),
              ao = tables_of(session, "ao");
-  std::string page = head(session) + preset_section(soft, ao);
-  if (!hard.empty()) page += hard_section(hard);
-  if (!soft.empty()) page += soft_section(soft);
-  if (!ao.empty()) page += ao_section(ao);
-  if (!session.needs.empty()) page += needs_section(session.needs);
+  std::string page = head(session) + preset_section();
+  page += hard.empty() ? old_section(before, "Hard shadows") : hard_section(hard);
+  page += soft.empty() ? old_section(before, "Soft shadows") : soft_section(soft);
+  page += ao.empty() ? old_section(before, "Ambient occlusion") : ao_section(ao);
+  page += session.needs.empty() ? old_section(before, "Only what a scene requires")
+                                : needs_section(session.needs);
   for (const TradeTable& table : session.tables) {
-    const auto path = folder / fmt::format("trade_{}.svg", plot_name(table));
-    if (auto written = base::write_file(path, trade_plot(table)); !written) return written;
+    const auto plot = session.trade.docs / fmt::format("trade_{}.svg", plot_name(table));
+    if (auto written = base::write_file(plot, trade_plot(table)); !written) return written;
   }
-  return base::write_file(folder / "trade.md", page);
+  return base::write_file(path, page);
 }
 
 }  // namespace tenebra::bench

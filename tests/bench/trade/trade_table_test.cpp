@@ -58,8 +58,7 @@ TEST(TradeTable, ThePlotRingsTheFrontAndPutsWhatIsExactAtTheFoot) {
 
 TEST(TradeTable, AdviceSaysWhereFiguresAreMissing) {
   const TradeTable table = table_of({{1, 9}});
-  for (const std::string& text :
-       {hard_advice({&table}), soft_advice({&table}), ao_advice({&table}), preset_section({}, {})})
+  for (const std::string& text : {hard_advice({&table}), soft_advice({&table}), ao_advice({&table})})
     EXPECT_NE(text.find(" - "), std::string::npos) << text;
   EXPECT_EQ(hard_advice({}).find("nan"), std::string::npos);
 }

@@ -150,7 +150,7 @@ void edit_ao(Ui& ui, AoConfig& ao) {
   choose(ui, "bits", bit_choices, ao.bits);
   row(ui, "Deforming", "What deforms has no field: rays meet it, or it is left out.");
   choose(ui, "deforming", deforming_choices, ao.deforming);
-  row(ui, "Cache", "Folder that keeps fields and surface samples for the next run.");
+  row(ui, "Cache", "Folder that keeps trees, fields and surface samples for the next run.");
   bool kept = !ao.cache.empty();
   if (ImGui::Checkbox("keep fields and samples", &kept))
     ao.cache = kept ? default_cache_folder() : std::filesystem::path();

@@ -229,7 +229,8 @@ void keep_speedups(AoSession& session) {
 
 Expected<void> measure_scenes(AoSession& session) {
   Tables tables;
-  const auto sizes = session.by_effort<std::vector<int>>({64}, {512}, {512, 1024});
+  const std::vector<int>& chosen = session.scenes.sizes;
+  const auto sizes = chosen.empty() ? session.by_effort<std::vector<int>>({64}, {512}, {512, 1024}) : chosen;
   for (const std::string& name : ao_scene_names()) {
     if (!wanted(session, name)) continue;
     for (const int size : sizes) {

@@ -1,0 +1,24 @@
+// What of a tree takes long to find: which triangles lie together, and how blocks and nodes hang together.
+// All else follows from the triangles, so whatever an order says, a tree that is made by it is right.
+#pragma once
+
+#include <optional>
+#include <vector>
+
+#include "ao/cast/triangle_bvh.h"
+
+namespace tenebra::ao {
+
+struct BvhOrder {
+  static constexpr std::uint8_t node = 0xff;
+  std::vector<std::uint8_t> children;    ///< eight a node: 0 none, 1..8 a block of so many triangles, `node`
+  std::vector<std::uint32_t> triangles;  ///< of the blocks, one after the other
+  friend bool operator==(const BvhOrder&, const BvhOrder&) = default;
+};
+BvhOrder order_of(const TriangleBvh& bvh);
+
+/// The tree of these triangles whose order this is, bit for bit; empty if it is no tree of all of them.
+std::optional<TriangleBvh> order_triangles(std::span<const glm::vec3> positions,
+                                           std::span<const glm::uvec3> triangles, const BvhOrder& order);
+
+}  // namespace tenebra::ao

@@ -1,0 +1,79 @@
+// What whoever makes a tree of triangles has to keep to: which triangles are in it, how large boxes are, how
+// nodes and blocks are filled.
+#pragma once
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+#include "ao/cast/triangle_bvh.h"
+
+namespace tenebra::ao {
+
+struct BvhBox {
+  glm::vec3 low{std::numeric_limits<float>::infinity()};
+  glm::vec3 high{-std::numeric_limits<float>::infinity()};
+
+  void add(const BvhBox& other) {
+    low = glm::min(low, other.low);
+    high = glm::max(high, other.high);
+  }
+  /// Half of its surface, in double: squares of 1e18 stay in range.
+  double area() const {
+    if (!(low.x <= high.x)) return 0;
+    const glm::dvec3 size = glm::dvec3(high) - glm::dvec3(low);
+    return size.x * size.y + size.y * size.z + size.z * size.x;
+  }
+  float largest_coordinate() const {
+    const glm::vec3 size = glm::max(glm::abs(low), glm::abs(high));
+    return std::max({size.x, size.y, size.z});
+  }
+};
+
+/// Whether a tree holds the triangle; then, in `box`, its box.
+inline bool bvh_holds(std::span<const glm::vec3> positions, const glm::uvec3& t, BvhBox& box) {
+  constexpr float largest_coordinate = 1e18f;
+  if (std::max({t.x, t.y, t.z}) >= positions.size()) return false;
+  const glm::vec3 a = positions[t.x], b = positions[t.y], c = positions[t.z];
+  for (const glm::vec3& p : {a, b, c})
+    for (int axis = 0; axis < 3; ++axis)
+      if (!(std::abs(p[axis]) <= largest_coordinate)) return false;
+  if (glm::cross(glm::dvec3(b) - glm::dvec3(a), glm::dvec3(c) - glm::dvec3(a)) == glm::dvec3(0)) return false;
+  box = {glm::min(a, glm::min(b, c)), glm::max(a, glm::max(b, c))};
+  return true;
+}
+
+/// By how much a node's boxes are wider than what they hold: a hit that rounding puts beside its triangle
+/// still lies in the triangle's box. Four units in the last place of the tree's largest coordinate.
+inline float bvh_margin(float largest_coordinate) {
+  return largest_coordinate * 0x1p-21f;
+}
+
+inline void set_child(BvhNode& node, std::size_t lane, std::uint32_t child, const BvhBox& box, float margin) {
+  node.child[lane] = child;
+  for (int axis = 0; axis < 3; ++axis) {
+    node.plane[axis][lane] = box.low[axis] - margin;
+    node.plane[axis + 3][lane] = box.high[axis] + margin;
+  }
+}
+
+/// An empty box stays empty, however wide the margin.
+inline void set_no_child(BvhNode& node, std::size_t lane) {
+  set_child(node, lane, bvh_leaf, {}, 0);
+}
+
+inline TriangleBlock empty_block() {
+  TriangleBlock block{};
+  std::fill(std::begin(block.triangle), std::end(block.triangle), no_caster);
+  return block;
+}
+
+inline void set_triangle(TriangleBlock& block, std::size_t lane, std::uint32_t triangle,
+                         std::span<const glm::vec3> positions, std::span<const glm::uvec3> triangles) {
+  block.triangle[lane] = triangle;
+  for (int corner = 0; corner < 3; ++corner)
+    for (int axis = 0; axis < 3; ++axis)
+      block.corner[corner][axis][lane] = positions[triangles[triangle][corner]][axis];
+}
+
+}  // namespace tenebra::ao
