@@ -1,6 +1,7 @@
 #include "base/output_file.h"
 
 #include "base/fail.h"
+#include "base/output_stream.h"
 
 #include <fcntl.h>
 #include <sys/stat.h>
@@ -36,11 +37,11 @@ Expected<OutputFile> OutputFile::create(const fs::path& path) {
   const bool exists = ::stat(path.c_str(), &found) == 0;
   if (!exists && errno != ENOENT)
     return file.system_failure(errno);  // name too long, a file as a folder, ...
-  if (exists && S_ISDIR(found.st_mode)) return file.system_failure(EISDIR);
-  if (exists && !S_ISREG(found.st_mode)) {
-    file.descriptor_ = ::open(path.c_str(), O_WRONLY | O_CLOEXEC);
-    if (file.descriptor_ == no_descriptor) return file.system_failure(errno);
-    return file;
+  if (exists) {
+    auto stream = open_stream(path, found);
+    if (!stream) return tl::unexpected(stream.error());
+    file.descriptor_ = stream->release();
+    if (file.descriptor_ != no_descriptor) return file;
   }
   if (exists) {
     // Renaming would replace a file that its owner made read-only; no one expects that.

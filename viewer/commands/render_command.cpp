@@ -7,9 +7,12 @@
 
 #include "commands/command.h"
 #include "commands/render_log.h"
+#include "options/config_file.h"
 #include "parallel/job_queue.h"
 #include "render/log/trace_json.h"
 #include "render/mask_colour.h"
+#include "shared/files_apart.h"
+#include "shared/render_files.h"
 #include "shared/render_plan.h"
 #include "shared/scene_choice.h"
 #include "shell/console.h"
@@ -216,6 +219,8 @@ Expected<int> render(const RenderOptions& options) {
     print_warnings(plan->scene.warnings);
   }
   if (auto prepared = prepare_folders(options); !prepared) return tl::unexpected(prepared.error());
+  if (auto apart = check_files_apart(plan->inputs, files_of_render(*plan, options)); !apart)
+    return tl::unexpected(apart.error());
 
   StopSignals stop;
   FrameLoop loop(*plan, options);
@@ -237,6 +242,7 @@ void add_render_command(CLI::App& program, Run& run) {
   when_chosen(command, [options, &command, &run] {
     settle_quality(command, options->method);
     settle_render_options(*options);
+    options->config = config_file_of(command);
     options->warnings = idle_method_options(command, options->method);
     run = [options] { return render(*options); };
   });

@@ -24,9 +24,9 @@ constexpr const char* examples =
     "      point lights turned into squares, and ambient occlusion\n"
     "\n"
     "Frames count from 0; A:B includes B; A: and all run to the end. Ctrl-C drops the frame being drawn and\n"
-    "keeps those before it and the whole log. A file is either whole or absent. The last folder of a "
-    "picture's\n"
-    "name is made if it is missing.\n"
+    "keeps those before it and the whole log. A file is either whole or absent. Named pipes,\n"
+    "folders and disks are refused as outputs; /dev/null and /dev/stdout are written as they are. The last folder\n"
+    "of a picture's name is made if it is missing.\n"
     "Exit code: 0 done, 1 failed (one sentence says why), 130 or 143 stopped by a signal.";
 
 Expected<std::optional<OutputPattern>> parse_pictures(const std::string& text) {

@@ -24,6 +24,7 @@ struct RenderOptions {
   std::vector<OutputPattern> mask_samples;  ///< .png: each of them
   std::string log;
   std::string trace;
+  std::string config;  ///< the file that options came from; empty: none
   bool quiet = false;
   std::vector<std::string> warnings;  ///< options that do nothing with the others
 };

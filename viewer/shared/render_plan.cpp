@@ -30,9 +30,15 @@ Expected<std::vector<PlannedFrame>> plan_frames(const ScenePlan& plan, const Ren
 Expected<RenderPlan> plan_render(const RenderOptions& options) {
   SceneOptions of_scene = options.scene;
   of_scene.meter_exposure = options.method.auto_exposure;
+  std::vector<std::filesystem::path> inputs;
+  of_scene.import.files_read = &inputs;
   auto scene = plan_scene(of_scene);
   if (!scene) return tl::unexpected(scene.error());
-  RenderPlan plan{std::move(*scene), {}, {}, false};
+  RenderPlan plan;
+  static_cast<ScenePlan&>(plan) = std::move(*scene);
+  for (const std::string& file : {options.scene.environment, options.config})
+    if (!file.empty()) inputs.emplace_back(file);
+  plan.inputs = std::move(inputs);
   auto frames = plan_frames(plan, options);
   if (!frames) return tl::unexpected(frames.error());
   plan.frames = std::move(*frames);
@@ -48,6 +54,7 @@ Expected<RenderPlan> plan_render(const RenderOptions& options) {
       check_light(plan, options.scene.edits, emissive ? -1 : light, plan.frames.front().time_s);
   if (!lights) return tl::unexpected(lights.error());
   plan.several_lights = light < 0 && (*lights > 1 || emissive);
+  plan.lights = plan.several_lights ? std::max(*lights, 1) : 1;
   return plan;
 }
 

@@ -17,6 +17,8 @@ struct RenderPlan : ScenePlan {
   std::vector<PlannedFrame> frames;
   render::RenderSettings settings;
   bool several_lights = false;  ///< masks carry the number of their light
+  int lights = 1;               ///< that masks are made of, as far as known: emissive meshes come on top
+  std::vector<std::filesystem::path> inputs;  ///< every file that was read for it
 };
 
 /// Imports the scene and fits the options to it. Fails on what the scene does not have.
