@@ -182,8 +182,9 @@ private:
 
   Expected<void> write(const render::FrameRecord& record, Clock::time_point begin,
                        const render::FrameResult& result) {
-    if (auto added = journals_.add(record, milliseconds(begin - begin_), result.notes); !added) return added;
-    return write_pictures(plan_, options_, record.frame, result);
+    // A row says that the frame's files are there.
+    if (auto written = write_pictures(plan_, options_, record.frame, result); !written) return written;
+    return journals_.add(record, milliseconds(begin - begin_), result.notes);
   }
 
   const RenderPlan& plan_;

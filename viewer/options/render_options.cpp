@@ -24,7 +24,8 @@ constexpr const char* examples =
     "      point lights turned into squares, and ambient occlusion\n"
     "\n"
     "Frames count from 0; A:B includes B; A: and all run to the end. Ctrl-C drops the frame being drawn and\n"
-    "keeps those before it and the whole log. A file is either whole or absent. Named pipes,\n"
+    "keeps those before it. A picture or mask is either whole or absent. The log and the trace grow by a whole row\n"
+    "for each frame whose files are there, and stay, whatever ends the program. Named pipes,\n"
     "folders and disks are refused as outputs; /dev/null and /dev/stdout are written as they are. The last folder\n"
     "of a picture's name is made if it is missing.\n"
     "Exit code: 0 done, 1 failed (one sentence says why), 130 or 143 stopped by a signal.";
