@@ -39,6 +39,10 @@ private:
   std::filesystem::path temporary_;  // empty: `target_` is written directly
 };
 
+/// Removes temporary files that killed processes of this machine left in `folder`, and those of other
+/// machines that are older than an hour. What is being written has a lock and stays.
+void remove_stale_temporaries(const std::filesystem::path& folder);
+
 /// Writes `bytes` to `path` with the guarantees of OutputFile.
 Expected<void> write_file(const std::filesystem::path& path, std::string_view bytes);
 

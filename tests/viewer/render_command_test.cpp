@@ -50,11 +50,11 @@ void expect_whole_rows(const fs::path& log) {
     EXPECT_EQ(std::count(row.begin(), row.end(), ','), std::count(header.begin(), header.end(), ',')) << row;
 }
 
-/// Names in the folder but for the scene's files.
+/// Names in the folder but for the scene's files and the list of what is done.
 std::vector<std::string> results_in(const TemporaryFolder& folder) {
   std::vector<std::string> names = folder.names();
   std::erase_if(
-      names, [](const std::string& name) { return name.starts_with("moving."); });
+      names, [](const std::string& name) { return name.starts_with("moving.") || name.ends_with(".done"); });
   return names;
 }
 

@@ -25,6 +25,9 @@ struct RenderOptions {
   std::string log;
   std::string trace;
   std::string config;  ///< the file that options came from; empty: none
+  Chunk chunk;                                                 ///< of the frames
+  bool resume = false;         ///< what is done with the same settings is not done again
+  bool skip_existing = false;  ///< what is there is not done again, however it was made
   bool quiet = false;
   std::vector<std::string> warnings;  ///< options that do nothing with the others
 };

@@ -25,6 +25,15 @@ Expected<std::vector<PlannedFrame>> plan_frames(const ScenePlan& plan, const Ren
   return frames;
 }
 
+/// Chunks follow each other and differ by one frame at most.
+std::vector<PlannedFrame> frames_of_chunk(const std::vector<PlannedFrame>& frames, Chunk chunk) {
+  const auto begin_of = [&](int index) {
+    return frames.begin() + static_cast<std::ptrdiff_t>(frames.size() * static_cast<std::size_t>(index) /
+                                                        static_cast<std::size_t>(chunk.count));
+  };
+  return {begin_of(chunk.index - 1), begin_of(chunk.index)};
+}
+
 }  // namespace
 
 Expected<RenderPlan> plan_render(const RenderOptions& options) {
@@ -36,9 +45,8 @@ Expected<RenderPlan> plan_render(const RenderOptions& options) {
   if (!scene) return tl::unexpected(scene.error());
   RenderPlan plan;
   static_cast<ScenePlan&>(plan) = std::move(*scene);
-  for (const std::string& file : {options.scene.environment, options.config})
-    if (!file.empty()) inputs.emplace_back(file);
   plan.inputs = std::move(inputs);
+  if (!options.scene.environment.empty()) plan.inputs.emplace_back(options.scene.environment);
   auto frames = plan_frames(plan, options);
   if (!frames) return tl::unexpected(frames.error());
   plan.frames = std::move(*frames);
@@ -55,6 +63,8 @@ Expected<RenderPlan> plan_render(const RenderOptions& options) {
   if (!lights) return tl::unexpected(lights.error());
   plan.several_lights = light < 0 && (*lights > 1 || emissive);
   plan.lights = plan.several_lights ? std::max(*lights, 1) : 1;
+  plan.of_several_frames = plan.frames.size() > 1;
+  plan.frames = frames_of_chunk(plan.frames, options.chunk);
   return plan;
 }
 
