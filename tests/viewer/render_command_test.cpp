@@ -250,7 +250,7 @@ TEST(RenderCommand, LeavesWholeFilesAndRowsOnAFullDisk) {
                                 const rlimit bound{2500, 2500};  // pictures fit, the log does not
                                 ::setrlimit(RLIMIT_FSIZE, &bound);
                               });
-  EXPECT_EQ(result.exit_code, 1);
+  EXPECT_EQ(result.exit_code, 75);
   EXPECT_NE(result.errors.find("File too large"), std::string::npos) << result.errors;
   std::vector<std::string> names = results_in(folder);
   ASSERT_EQ(std::erase(names, "frames.csv"), 1u);

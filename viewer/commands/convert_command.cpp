@@ -45,7 +45,7 @@ Expected<int> convert(const ConvertOptions& options) {
   const auto losses = formats::export_glb(*scene, options.output, options.fps);
   if (!losses) return tl::unexpected(losses.error());
   if (!options.quiet) print_warnings(*losses);
-  return stop.caught() != 0 ? exit_code_of(stop.caught()) : 0;
+  return stop.caught() != 0 ? stop.exit_code() : 0;
 }
 
 }  // namespace

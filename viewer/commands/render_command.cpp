@@ -17,6 +17,7 @@
 #include "shared/render_plan.h"
 #include "shared/scene_choice.h"
 #include "shell/console.h"
+#include "shell/exit_codes.h"
 #include "shell/progress.h"
 #include "shell/stop_signals.h"
 
@@ -72,11 +73,16 @@ public:
       if (!drawn && drawn.error().message == "stopped") break;
       if (!drawn) return drawn;
       progress.show(static_cast<int>(records_.size()));
-      if (stop.caught() != 0) break;
+      if (stop.exit_code() != 0) break;
     }
-    if (auto written = files.finish(); !written) return written;
-    return output_.finish();
+    auto written = files.finish();
+    if (written) written = output_.finish();
+    failed_to_write_ = !written;
+    return written;
   }
+
+  /// Whether it was a file that `run` failed with.
+  bool failed_to_write() const { return failed_to_write_; }
 
   /// Of the frames that were drawn.
   std::span<const render::FrameRecord> records() const { return records_; }
@@ -109,6 +115,7 @@ private:
     const double begin_ms = milliseconds(begin - begin_);
     auto added =
         files.add([this, record, begin_ms, &result] { return output_.write(record, begin_ms, result); });
+    failed_to_write_ = !added;
     return added;
   }
 
@@ -120,6 +127,7 @@ private:
   render::FrameInput input_;
   std::array<render::FrameResult, results> results_;
   std::vector<render::FrameRecord> records_;
+  bool failed_to_write_ = false;
 };
 
 void print_summary(const RenderPlan& plan, const RenderOptions& options,
@@ -140,6 +148,7 @@ void print_summary(const RenderPlan& plan, const RenderOptions& options,
 
 Expected<int> render(const RenderOptions& options) {
   if (auto checked = check_render_options(options); !checked) return tl::unexpected(checked.error());
+  StopSignals stop(options.timeout_s, StopSignals::Start::at_once);
   const auto plan = plan_render(options);
   if (!plan) return tl::unexpected(plan.error());
   if (!options.quiet) {
@@ -156,14 +165,21 @@ Expected<int> render(const RenderOptions& options) {
     return 0;
   }
 
-  StopSignals stop;
+  stop.be_orderly();
   FrameLoop loop(*plan, options);
-  if (auto done = loop.run(stop); !done) return tl::unexpected(done.error());
+  if (auto done = loop.run(stop); !done) {
+    if (!loop.failed_to_write()) return tl::unexpected(done.error());
+    print_failure(done.error().message);
+    return exit_codes::outputs_failed;
+  }
   const std::size_t drawn = loop.records().size();
   if (!options.quiet) print_summary(*plan, options, loop.records(), plan->frames.size() - loop.frames());
   const bool stopped = drawn < loop.frames();
-  if (stopped) print_error("tenebra: stopped after {} of {} frames\n", drawn, loop.frames());
-  return stopped ? exit_code_of(stop.caught()) : 0;
+  if (!stopped) return 0;
+  const int code = stop.exit_code();
+  print_error("tenebra: stopped after {} of {} frames{}\n", drawn, loop.frames(),
+              code == exit_codes::timed_out ? ", as the time of --timeout is up" : "");
+  return code;
 }
 
 }  // namespace

@@ -38,7 +38,12 @@ constexpr const char* examples =
     "of\n"
     "processes may render into one folder, each with its own log.\n"
     "\n"
-    "Exit code: 0 done, 1 failed (one sentence says why), 130 or 143 stopped by a signal.";
+    "Exit code: 0 done; 1 failed, and would again (one sentence says why). With --resume the rest is worth "
+    "another\n"
+    "try: 75 a file could not be written (a full disk), 124 the time of --timeout is up, 129, 130 or 143 "
+    "stopped "
+    "by a\n"
+    "signal. A second signal ends the program at once; no file is half written then either.";
 
 Expected<std::optional<OutputPattern>> parse_pictures(const std::string& text) {
   if (text == "none") return std::optional<OutputPattern>();
@@ -160,6 +165,9 @@ void add_progress_options(CLI::App& command, RenderOptions& options) {
   add_flag(command, "--skip-existing", options.skip_existing,
            "Leave out frames whose files are there, however they\nwere made")
       .excludes(resume);
+  add_value(command, "--timeout", options.timeout_s, parse_positive,
+            "Stop after so many seconds, as Ctrl-C does")
+      .type_name("S");
 }
 
 }  // namespace

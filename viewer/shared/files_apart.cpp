@@ -2,8 +2,10 @@
 
 #include <sys/stat.h>
 
+#include <cerrno>
 #include <map>
 #include <optional>
+#include <system_error>
 
 #include "base/fail.h"
 #include "base/output_stream.h"
@@ -16,7 +18,10 @@ namespace fs = std::filesystem;
 /// Fails for an output that nothing can be written to in the way that open_stream says.
 Expected<void> check_kind(const fs::path& output) {
   struct stat found {};
-  if (::stat(output.c_str(), &found) != 0) return {};  // what else is wrong shows when it is made
+  if (::stat(output.c_str(), &found) != 0) {
+    if (errno == ENOENT) return {};
+    return base::fail("cannot write {}: {}", output.string(), std::generic_category().message(errno));
+  }
   const auto stream = base::open_stream(output, found);
   return stream ? Expected<void>() : tl::unexpected(stream.error());
 }
