@@ -36,7 +36,7 @@ constexpr const char* examples =
     "made, and\n"
     "which are done. Of a killed render at most one frame whose picture is there is drawn again. Any number "
     "of\n"
-    "processes may render into one folder, each with its own log.\n"
+    "processes may render into one folder, each with its own log (docs/farm.md).\n"
     "\n"
     "Exit code: 0 done; 1 failed, and would again (one sentence says why). With --resume the rest is worth "
     "another\n"
