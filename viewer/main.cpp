@@ -11,13 +11,14 @@
 
 #include "commands/command.h"
 #include "shell/console.h"
+#include "shell/exit_codes.h"
 
 namespace {
 
 using tenebra::viewer::Run;
 
-constexpr int failure = 1;
-constexpr int comparison_failure = 2;  // `tenebra compare` says with 1 that pictures differ
+constexpr int failure = tenebra::viewer::exit_codes::failed;
+constexpr int comparison_failure = tenebra::viewer::exit_codes::comparison_failed;
 
 constexpr const char* about =
     "tenebra: exact, alias-free shadows for animated scenes, on the CPU beside OpenGL\n";
@@ -33,7 +34,7 @@ constexpr const char* first_steps =
     "A failure is one sentence on standard error and exit code 1.";
 
 int report(const std::string& sentence, int code) {
-  tenebra::viewer::print_error("tenebra: {}{}\n", sentence, sentence.ends_with('.') ? "" : ".");
+  tenebra::viewer::print_failure(sentence);
   return code;
 }
 

@@ -1,12 +1,17 @@
 #include "base/output_file.h"
 
 #include "base/fail.h"
+#include "base/output_stream.h"
 
 #include <fcntl.h>
+#include <sys/file.h>
 #include <sys/stat.h>
 #include <unistd.h>
 
+#include <array>
 #include <cerrno>
+#include <chrono>
+#include <string>
 #include <system_error>
 #include <utility>
 
@@ -22,7 +27,48 @@ std::string reason(int error) {
   return std::generic_category().message(error);
 }
 
+constexpr std::string_view temporary_begin = ".tenebra-", temporary_end = ".tmp";
+/// How long a file of another machine, which may not see our locks, counts as being written.
+constexpr std::chrono::hours patience{1};
+
+/// What the names of this machine's temporary files begin with.
+std::string prefix_of_this_machine() {
+  std::array<char, 65> name{};
+  ::gethostname(name.data(), name.size() - 1);
+  std::string host = name.data();
+  std::erase_if(host, [](char c) { return c == '/'; });
+  return fmt::format("{}{}-", temporary_begin, host);
+}
+
+/// Locks the file at `path`, which ends with the process. False if another process holds it, or if it stands
+/// there no more. File systems without locks are trusted.
+bool lock_in_place(const Descriptor& file, const fs::path& path) {
+  if (::flock(file.number(), LOCK_EX | LOCK_NB) != 0 && errno == EWOULDBLOCK) return false;
+  struct stat locked {
+  }, named{};
+  return ::fstat(file.number(), &locked) == 0 && ::lstat(path.c_str(), &named) == 0 &&
+         locked.st_ino == named.st_ino && locked.st_dev == named.st_dev;
+}
+
+void remove_if_stale(const fs::path& path) {
+  std::error_code error;
+  const bool ours = path.filename().string().starts_with(prefix_of_this_machine());
+  const auto written = fs::last_write_time(path, error);
+  if (error || (!ours && fs::file_time_type::clock::now() - written < patience)) return;
+  const Descriptor file(::open(path.c_str(), O_WRONLY | O_NONBLOCK | O_NOFOLLOW | O_CLOEXEC));
+  if (file && lock_in_place(file, path)) ::unlink(path.c_str());
+}
+
 }  // namespace
+
+void remove_stale_temporaries(const fs::path& folder) {
+  std::error_code error;
+  for (fs::directory_iterator entry(folder.empty() ? "." : folder, error), end; !error && entry != end;
+       entry.increment(error)) {
+    const std::string name = entry->path().filename().string();
+    if (name.starts_with(temporary_begin) && name.ends_with(temporary_end)) remove_if_stale(entry->path());
+  }
+}
 
 tl::unexpected<Error> OutputFile::system_failure(int error) const {
   return fail("cannot write {}: {}", path_.string(), reason(error));
@@ -36,11 +82,11 @@ Expected<OutputFile> OutputFile::create(const fs::path& path) {
   const bool exists = ::stat(path.c_str(), &found) == 0;
   if (!exists && errno != ENOENT)
     return file.system_failure(errno);  // name too long, a file as a folder, ...
-  if (exists && S_ISDIR(found.st_mode)) return file.system_failure(EISDIR);
-  if (exists && !S_ISREG(found.st_mode)) {
-    file.descriptor_ = ::open(path.c_str(), O_WRONLY | O_CLOEXEC);
-    if (file.descriptor_ == no_descriptor) return file.system_failure(errno);
-    return file;
+  if (exists) {
+    auto stream = open_stream(path, found);
+    if (!stream) return tl::unexpected(stream.error());
+    file.descriptor_ = stream->release();
+    if (file.descriptor_ != no_descriptor) return file;
   }
   if (exists) {
     // Renaming would replace a file that its owner made read-only; no one expects that.
@@ -58,10 +104,13 @@ Expected<OutputFile> OutputFile::create(const fs::path& path) {
 Expected<void> OutputFile::open_temporary() {
   // A short name of its own, so that a long `path` stays possible; O_EXCL keeps concurrent writers apart.
   for (int i = 0; i < temporary_name_tries; ++i) {
-    temporary_ = target_.parent_path() / fmt::format(".tenebra-{}-{}.tmp", ::getpid(), i);
-    descriptor_ = ::open(temporary_.c_str(), O_WRONLY | O_CREAT | O_EXCL | O_CLOEXEC, 0666);
-    if (descriptor_ != no_descriptor) return {};
-    if (errno == EEXIST) continue;
+    temporary_ = target_.parent_path() / (prefix_of_this_machine() + fmt::format("{}-{}.tmp", ::getpid(), i));
+    Descriptor opened(::open(temporary_.c_str(), O_WRONLY | O_CREAT | O_EXCL | O_CLOEXEC, 0666));
+    if (opened && lock_in_place(opened, temporary_)) {
+      descriptor_ = opened.release();
+      return {};
+    }
+    if (opened || errno == EEXIST) continue;
     const int error = errno;
     temporary_.clear();
     return system_failure(error);
@@ -99,6 +148,7 @@ Expected<void> OutputFile::write(std::string_view bytes) {
 
 Expected<void> OutputFile::commit() {
   if (!temporary_.empty() && ::fsync(descriptor_) != 0) return system_failure(errno);
+  const Descriptor lock(::fcntl(descriptor_, F_DUPFD_CLOEXEC, 0));  // held until the file has its name
   if (::close(std::exchange(descriptor_, no_descriptor)) != 0) return system_failure(errno);
   if (temporary_.empty()) return {};
   if (::rename(temporary_.c_str(), target_.c_str()) != 0) return system_failure(errno);

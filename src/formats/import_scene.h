@@ -15,6 +15,9 @@ struct ImportOptions {
   std::string scene;  ///< glTF: which of the file's scenes, by name or number; empty: the one it shows first
   /// Where pictures are looked for that are not beside the scene.
   std::vector<std::filesystem::path> texture_paths;
+  /// Gets each file that the scene was read from, in the order of a reading of it; null: nobody wants to
+  /// know.
+  std::vector<std::filesystem::path>* files_read = nullptr;
 };
 
 /// Imports by the file's extension (.aff .nff .gltf .glb .obj). Never crashes, hangs or leaves the scene's

@@ -34,7 +34,7 @@ std::string undo_percent(std::string_view uri, std::string_view place) {
   return text;
 }
 
-std::string read_scene_file(const fs::path& path) {
+std::string read_scene_file(const fs::path& path, std::vector<fs::path>* files_read) {
   std::error_code error;
   const fs::file_status status = fs::status(path, error);
   if (!fs::exists(status)) refuse("found no such file, expected a readable file");
@@ -46,6 +46,7 @@ std::string read_scene_file(const fs::path& path) {
   std::string bytes(size, '\0');
   if (!stream.read(bytes.data(), static_cast<std::streamsize>(size)))
     refuse("found an unreadable file, expected {} bytes", size);
+  if (files_read != nullptr) files_read->push_back(path);
   return bytes;
 }
 

@@ -4,14 +4,17 @@
 #include <filesystem>
 #include <string>
 #include <string_view>
+#include <vector>
 
 namespace tenebra::formats {
 
 /// Largest scene file or buffer that is read.
 inline constexpr std::uintmax_t max_scene_file_bytes = std::uintmax_t{1} << 31;
 
-/// The bytes of a regular file. Throws ImportFailure: missing, not a file, too large, unreadable.
-std::string read_scene_file(const std::filesystem::path& path);
+/// The bytes of a regular file, whose path `files_read` gets if there is one. Throws ImportFailure: missing,
+/// not a file, too large, unreadable.
+std::string read_scene_file(const std::filesystem::path& path,
+                            std::vector<std::filesystem::path>* files_read);
 
 /// `uri` with its %XX undone. Throws ImportFailure naming `place`.
 std::string undo_percent(std::string_view uri, std::string_view place);

@@ -2,6 +2,7 @@
 // tests/viewer).
 #include "base/output_file.h"
 
+#include <fcntl.h>
 #include <gtest/gtest.h>
 #include <sched.h>
 #include <sys/mount.h>
@@ -209,16 +210,36 @@ TEST(OutputFile, FollowsLinksAndKeepsTheMode) {
   EXPECT_EQ(fs::status(folder / "deep/real").permissions(), fs::perms(0640));
 }
 
-TEST(OutputFile, WritesIntoPipes) {
+// To open a pipe for writing waits until somebody reads it: a render into one would hang.
+TEST(OutputFile, RefusesPipesAndSocketsAndWaitsForNothing) {
   const TemporaryFolder folder;
   ASSERT_EQ(::mkfifo((folder / "pipe").c_str(), 0600), 0);
-  const pid_t writer = ::fork();
-  if (writer == 0) ::_exit(base::write_file(folder / "pipe", "through the pipe") ? 0 : 1);
-  EXPECT_EQ(read_text(folder / "pipe"), "through the pipe");
-  int status = 0;
-  ::waitpid(writer, &status, 0);
-  EXPECT_EQ(status, 0);
+  expect_failure(base::write_file(folder / "pipe", "text"), folder / "pipe", "a named pipe");
+  fs::create_symlink("pipe", folder / "link");
+  expect_failure(base::write_file(folder / "link", "text"), folder / "link", "a named pipe");
   EXPECT_TRUE(fs::is_fifo(folder / "pipe"));
+}
+
+TEST(OutputFile, WritesToStandardOutputWhateverThatIs) {
+  const TemporaryFolder folder;
+  const auto written_to = [&](int descriptor) {
+    return run_in_child([&] {
+      if (::dup2(descriptor, STDOUT_FILENO) < 0) return 2;
+      return base::write_file("/dev/stdout", "text") ? 0 : 1;
+    });
+  };
+  int ends[2];
+  ASSERT_EQ(::pipe(ends), 0);
+  EXPECT_EQ(written_to(ends[1]), 0);
+  std::string text(4, ' ');
+  EXPECT_EQ(::read(ends[0], text.data(), text.size()), 4);
+  EXPECT_EQ(text, "text");
+  const int file = ::open((folder / "a.txt").c_str(), O_WRONLY | O_CREAT, 0600);
+  ASSERT_EQ(::write(file, "earlier ", 8), 8);
+  EXPECT_EQ(written_to(file), 0);
+  EXPECT_EQ(read_text(folder / "a.txt"), "earlier text");
+  for (const int open : {ends[0], ends[1], file}) ::close(open);
+  EXPECT_TRUE(base::write_file("/dev/null", "text"));
 }
 
 /// Writes whole files of one letter again and again.

@@ -4,13 +4,19 @@
 #include "render/log/frame_log.h"
 
 #include <gtest/gtest.h>
+#include <sys/wait.h>
+#include <unistd.h>
 #include <array>
 #include <bit>
+#include <chrono>
+#include <csignal>
 
 #include <map>
 #include <nlohmann/json.hpp>
+#include <random>
 #include <set>
 #include <sstream>
+#include <thread>
 
 #include "render/log/trace_json.h"
 #include "support/temporary_folder.h"
@@ -72,7 +78,6 @@ TEST(FrameLog, ReadsBackAsASpreadsheetDoes) {
   ASSERT_TRUE(log);
   ASSERT_TRUE(log->add(numbered_record(0)));
   ASSERT_TRUE(log->add(numbered_record(7)));
-  EXPECT_FALSE(std::filesystem::exists(folder / "frames.csv"));
   ASSERT_TRUE(log->finish());
 
   std::istringstream stream(read_text(folder / "frames.csv"));
@@ -107,16 +112,70 @@ TEST(FrameLog, ReadsBackAsASpreadsheetDoes) {
   EXPECT_EQ(rows[0]["nodes"], "18446744073709551615");
 }
 
-TEST(FrameLog, LeavesNothingWhenDroppedAndReportsAFullDevice) {
+TEST(FrameLog, HasEachRowOnceItIsAddedAndReportsAFullDevice) {
   const TemporaryFolder folder;
   {
     auto log = render::FrameLog::create(folder / "frames.csv", {});
-    ASSERT_TRUE(log && log->add(numbered_record(0)));
+    ASSERT_TRUE(log);
+    EXPECT_EQ(read_text(folder / "frames.csv"), render::frame_log_header() + "\n");
+    ASSERT_TRUE(log->add(numbered_record(0)));
+    const std::string row = render::frame_log_row(numbered_record(0)) + "\n";
+    EXPECT_TRUE(read_text(folder / "frames.csv").ends_with("\n" + row));
   }
-  EXPECT_TRUE(folder.names().empty());
+  EXPECT_TRUE(std::filesystem::exists(folder / "frames.csv")) << "a log that is dropped stays";
   EXPECT_FALSE(render::FrameLog::create(folder / "no/frames.csv", {}));
   if (!std::filesystem::exists("/dev/full")) GTEST_SKIP() << "this system has no /dev/full";
   EXPECT_FALSE(render::FrameLog::create("/dev/full", {}));
+}
+
+TEST(FrameLog, HasWholeLinesWhenKilledAtRandomTimes) {
+  constexpr int kills = 60;
+  const TemporaryFolder folder;
+  const std::string header = render::frame_log_header(), row = render::frame_log_row(numbered_record(7));
+  std::mt19937 random(3);  // the delays, not the moments within a write, are reproducible
+  for (int i = 0; i < kills; ++i) {
+    const pid_t writer = ::fork();
+    if (writer == 0) {
+      auto log = render::FrameLog::create(folder / "frames.csv", {});
+      while (log && log->comment({"note", std::string(static_cast<std::size_t>(i), 'n')}) &&
+             log->add(numbered_record(7))) {
+      }
+      ::_exit(1);
+    }
+    std::this_thread::sleep_for(std::chrono::microseconds(random() % 8000));
+    ::kill(writer, SIGKILL);
+    int status = 0;
+    ::waitpid(writer, &status, 0);
+    ASSERT_TRUE(WIFSIGNALED(status)) << "the writer failed by itself";
+    if (!std::filesystem::exists(folder / "frames.csv")) continue;
+    const std::string text = read_text(folder / "frames.csv");
+    ASSERT_TRUE(text.empty() || text.ends_with("\n")) << i;
+    std::istringstream stream(text);
+    for (std::string line; std::getline(stream, line);)
+      ASSERT_TRUE(line == header || line == row || line.starts_with('#')) << line;
+    EXPECT_EQ(render::parse_log(text, header).whole_bytes, text.size());
+  }
+}
+
+TEST(FrameLog, GoesOnBehindItsLastWholeRow) {
+  const TemporaryFolder folder;
+  const std::vector<render::LogSetting> settings{{"machine", "a: b"}, {"size", "4x3"}};
+  {
+    auto log = render::FrameLog::create(folder / "frames.csv", settings);
+    ASSERT_TRUE(log && log->add(numbered_record(5)) && log->add(numbered_record(6)) && log->finish());
+  }
+  testing::write_text(folder / "frames.csv", read_text(folder / "frames.csv") + "7,0.2");
+  auto log = render::FrameLog::open(folder / "frames.csv");
+  ASSERT_TRUE(log);
+  const auto past = log->past();
+  ASSERT_TRUE(past && past->has_header);
+  EXPECT_EQ(past->frames, (std::vector<int>{5, 6}));
+  ASSERT_EQ(past->settings.size(), 2u);
+  EXPECT_EQ(past->settings[0].value, "a: b");
+  EXPECT_EQ(past->settings[1].name, "size");
+  ASSERT_TRUE(log->go_on(*past) && log->add(numbered_record(7)) && log->finish());
+  const auto now = render::parse_log(read_text(folder / "frames.csv"), render::frame_log_header());
+  EXPECT_EQ(now.frames, (std::vector<int>{5, 6, 7}));
 }
 
 TEST(FrameTrace, IsJsonWhoseStagesLieWithinTheirFrames) {
@@ -132,12 +191,12 @@ TEST(FrameTrace, IsJsonWhoseStagesLieWithinTheirFrames) {
   ASSERT_TRUE(trace->finish());
 
   const json parsed = json::parse(read_text(folder / "trace.json"));
-  EXPECT_EQ(parsed["otherData"]["scene"], "quote \" back \\ tab \t \xc3\xa4 ? ??? \xf0\x9f\x8c\x92");
+  EXPECT_EQ(parsed[1]["args"]["scene"], "quote \" back \\ tab \t \xc3\xa4 ? ??? \xf0\x9f\x8c\x92");
   double frame_begin = 0;
   double frame_end = 0;
   double last_end = 0;
   std::vector<std::string> names;
-  for (const json& event : parsed["traceEvents"]) {
+  for (const json& event : parsed) {
     if (event["ph"] != "X") continue;
     const std::string name = event["name"];
     const double begin = event["ts"];
@@ -169,12 +228,11 @@ TEST(FrameTrace, IsWholeJsonWithoutFramesAndOmitsStagesThatDidNotRun) {
   record.timings.total_ms = 2;
   ASSERT_TRUE(trace->add(record, 0));
   ASSERT_TRUE(trace->finish());
-  EXPECT_EQ(json::parse(read_text(folder / "trace.json"))["traceEvents"].size(), 3u)
-      << "process, frame, raster";
+  EXPECT_EQ(json::parse(read_text(folder / "trace.json")).size(), 4u) << "process, settings, frame, raster";
 
   auto empty = render::FrameTrace::create(folder / "empty.json", {});
   ASSERT_TRUE(empty && empty->finish());
-  EXPECT_TRUE(json::parse(read_text(folder / "empty.json"))["traceEvents"].is_array());
+  EXPECT_TRUE(json::parse(read_text(folder / "empty.json")).is_array());
 }
 
 }  // namespace

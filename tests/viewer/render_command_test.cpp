@@ -12,6 +12,7 @@
 #include <thread>
 
 #include "base/image.h"
+#include "render/log/frame_log.h"
 #include "viewer/viewer_test_scene.h"
 
 namespace tenebra::testing {
@@ -41,10 +42,19 @@ std::vector<std::string> rows_of(const fs::path& log) {
   return rows;
 }
 
-/// Names in the folder but for the scene's files.
+/// Every row of the log has a field for each name of its header, and a line break.
+void expect_whole_rows(const fs::path& log) {
+  const std::string header = render::frame_log_header();
+  EXPECT_TRUE(read_text(log).ends_with("\n")) << log;
+  for (const std::string& row : rows_of(log))
+    EXPECT_EQ(std::count(row.begin(), row.end(), ','), std::count(header.begin(), header.end(), ',')) << row;
+}
+
+/// Names in the folder but for the scene's files and the list of what is done.
 std::vector<std::string> results_in(const TemporaryFolder& folder) {
   std::vector<std::string> names = folder.names();
-  std::erase_if(names, [](const std::string& name) { return name.starts_with("moving."); });
+  std::erase_if(
+      names, [](const std::string& name) { return name.starts_with("moving.") || name.ends_with(".done"); });
   return names;
 }
 
@@ -164,7 +174,7 @@ TEST(RenderCommand, LogsEveryFrameAndHowItWasMade) {
   }
   int frames = 0;
   const json trace = json::parse(read_text(folder / "trace.json"));
-  for (const json& event : trace["traceEvents"]) {
+  for (const json& event : trace) {
     frames += event["name"].get<std::string>().starts_with("frame ") ? 1 : 0;
   }
   EXPECT_EQ(frames, 21);
@@ -231,7 +241,7 @@ TEST(RenderCommand, ReportsOutputsThatCannotBeWritten) {
   }
 }
 
-TEST(RenderCommand, LeavesNoHalfFilesOnAFullDisk) {
+TEST(RenderCommand, LeavesWholeFilesAndRowsOnAFullDisk) {
   const TemporaryFolder folder;
   const std::string scene = write_moving_scene(folder);
   const auto result = tenebra({"render", scene, "--frames", "0:20", "--size", "32x24", "-o",
@@ -240,13 +250,16 @@ TEST(RenderCommand, LeavesNoHalfFilesOnAFullDisk) {
                                 const rlimit bound{2500, 2500};  // pictures fit, the log does not
                                 ::setrlimit(RLIMIT_FSIZE, &bound);
                               });
-  EXPECT_EQ(result.exit_code, 1);
+  EXPECT_EQ(result.exit_code, 75);
   EXPECT_NE(result.errors.find("File too large"), std::string::npos) << result.errors;
-  EXPECT_FALSE(fs::exists(folder / "frames.csv"));
-  for (const std::string& name : results_in(folder)) {
+  std::vector<std::string> names = results_in(folder);
+  ASSERT_EQ(std::erase(names, "frames.csv"), 1u);
+  for (const std::string& name : names) {
     EXPECT_TRUE(name.ends_with(".png")) << name;
     EXPECT_EQ(picture(folder / name).width, 32);
   }
+  expect_whole_rows(folder / "frames.csv");
+  EXPECT_LT(rows_of(folder / "frames.csv").size(), names.size()) << "the disk was full for a row";
 }
 
 /// Starts a long render and sends `signal` when its third picture is there.
@@ -279,15 +292,20 @@ TEST(RenderCommand, StopsCleanlyBetweenFrames) {
   }
 }
 
-TEST(RenderCommand, LeavesOnlyWholePicturesWhenKilled) {
+TEST(RenderCommand, LeavesWholePicturesAndRowsWhenKilled) {
   const TemporaryFolder folder;
   EXPECT_EQ(interrupt(folder, SIGKILL).exit_code, 128 + SIGKILL);
-  EXPECT_FALSE(fs::exists(folder / "frames.csv"));
+  std::size_t pictures = 0;
   for (const std::string& name : results_in(folder)) {
-    if (!name.starts_with(".")) {
-      EXPECT_EQ(picture(folder / name).width, 160) << name;
-    }
+    if (!name.ends_with(".png")) continue;
+    EXPECT_EQ(picture(folder / name).width, 160) << name;
+    ++pictures;
   }
+  expect_whole_rows(folder / "frames.csv");
+  const std::size_t rows = rows_of(folder / "frames.csv").size();
+  EXPECT_TRUE(rows == pictures || rows + 1 == pictures) << rows << " rows, " << pictures << " pictures";
+  EXPECT_FALSE(json::accept(read_text(folder / "trace.json"))) << "its end is missing";
+  EXPECT_TRUE(json::accept(read_text(folder / "trace.json") + "]")) << "and nothing else";
 }
 
 }  // namespace

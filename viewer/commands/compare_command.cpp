@@ -5,6 +5,7 @@
 #include "base/image.h"
 #include "commands/command.h"
 #include "options/option_values.h"
+#include "shared/files_apart.h"
 #include "shared/picture_difference.h"
 #include "shell/console.h"
 #include "shell/stop_signals.h"
@@ -33,6 +34,10 @@ struct CompareOptions {
 };
 
 Expected<int> compare(const CompareOptions& options) {
+  if (!options.output.empty()) {
+    if (auto apart = check_files_apart({options.a, options.b}, {{"-o", options.output}}); !apart)
+      return tl::unexpected(apart.error());
+  }
   const auto a = base::read_png(options.a);
   if (!a) return tl::unexpected(a.error());
   const auto b = base::read_png(options.b);

@@ -5,6 +5,7 @@
 #include "commands/command.h"
 #include "options/option_values.h"
 #include "options/scene_options.h"
+#include "shared/files_apart.h"
 #include "shared/scene_choice.h"
 #include "shell/console.h"
 #include "shell/stop_signals.h"
@@ -32,14 +33,19 @@ struct ConvertOptions {
 Expected<int> convert(const ConvertOptions& options) {
   if (!options.output.ends_with(".glb"))
     return base::fail("{}: expected a name that ends in .glb", options.output);
-  const auto scene = formats::import_scene(options.input, options.import);
+  std::vector<std::filesystem::path> inputs;
+  formats::ImportOptions import = options.import;
+  import.files_read = &inputs;
+  const auto scene = formats::import_scene(options.input, import);
   if (!scene) return tl::unexpected(scene.error());
+  if (auto apart = check_files_apart(inputs, {{"OUT", options.output}}); !apart)
+    return tl::unexpected(apart.error());
   if (!options.quiet) print_warnings(scene->warnings);
   StopSignals stop;
   const auto losses = formats::export_glb(*scene, options.output, options.fps);
   if (!losses) return tl::unexpected(losses.error());
   if (!options.quiet) print_warnings(*losses);
-  return stop.caught() != 0 ? exit_code_of(stop.caught()) : 0;
+  return stop.caught() != 0 ? stop.exit_code() : 0;
 }
 
 }  // namespace

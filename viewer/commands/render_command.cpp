@@ -5,14 +5,19 @@
 #include <memory>
 #include <optional>
 
+#include "base/output_file.h"
 #include "commands/command.h"
+#include "commands/render_identity.h"
 #include "commands/render_log.h"
+#include "commands/render_output.h"
+#include "options/config_file.h"
 #include "parallel/job_queue.h"
-#include "render/log/trace_json.h"
-#include "render/mask_colour.h"
+#include "shared/files_apart.h"
+#include "shared/render_files.h"
 #include "shared/render_plan.h"
 #include "shared/scene_choice.h"
 #include "shell/console.h"
+#include "shell/exit_codes.h"
 #include "shell/progress.h"
 #include "shell/stop_signals.h"
 
@@ -25,88 +30,6 @@ double milliseconds(Clock::duration duration) {
   return std::chrono::duration<double, std::milli>(duration).count();
 }
 
-/// The files that grow with the frames.
-struct Journals {
-  std::optional<render::FrameLog> log;
-  std::optional<render::FrameTrace> trace;
-
-  Expected<void> open(const RenderOptions& options, std::span<const render::LogSetting> settings) {
-    if (!options.log.empty()) {
-      auto made = render::FrameLog::create(options.log, settings);
-      if (!made) return tl::unexpected(made.error());
-      log.emplace(std::move(*made));
-    }
-    if (!options.trace.empty()) {
-      auto made = render::FrameTrace::create(options.trace, settings);
-      if (!made) return tl::unexpected(made.error());
-      trace.emplace(std::move(*made));
-    }
-    return {};
-  }
-
-  Expected<void> add(const render::FrameRecord& record, double begin_ms,
-                     const std::vector<std::string>& notes) {
-    if (log) {
-      for (const std::string& note : notes) {
-        if (auto noted = log->comment({"note", note}); !noted) return noted;
-      }
-      if (auto added = log->add(record); !added) return added;
-    }
-    return trace ? trace->add(record, begin_ms) : Expected<void>();
-  }
-
-  Expected<void> finish() {
-    if (log) {
-      if (auto finished = log->finish(); !finished) return finished;
-    }
-    return trace ? trace->finish() : Expected<void>();
-  }
-};
-
-Expected<void> write_sample_masks(const RenderPlan& plan, const RenderOptions& options, int frame,
-                                  const render::LightMask& mask) {
-  const std::string light = plan.several_lights ? fmt::format("_L{}", mask.light) : "";
-  for (const OutputPattern& pattern : options.mask_means) {
-    const auto file = pattern.file(frame, light);
-    auto written = pattern.is_pfm() ? base::write_pfm(file, mask.mean)
-                                    : base::write_png(file, render::in_levels(mask.mean));
-    if (!written) return written;
-  }
-  for (const OutputPattern& pattern : options.mask_samples) {
-    for (std::size_t k = 0; k < mask.samples.size(); ++k) {
-      const auto file = pattern.file(frame, fmt::format("{}_S{}", light, k));
-      if (auto written = base::write_png(file, mask.samples[k]); !written) return written;
-    }
-  }
-  return {};
-}
-
-Expected<void> write_pictures(const RenderPlan& plan, const RenderOptions& options, int frame,
-                              const render::FrameResult& result) {
-  if (options.pictures) {
-    if (auto written = base::write_png(options.pictures->file(frame), result.image); !written) return written;
-  }
-  for (const OutputPattern& pattern : options.masks) {
-    for (const render::LightMask& mask : result.masks) {
-      const auto file = pattern.file(frame, plan.several_lights ? fmt::format("_L{}", mask.light) : "");
-      auto written =
-          pattern.is_pfm() ? base::write_pfm(file, mask.visible_fraction) : base::write_png(file, mask.mask);
-      if (!written) return written;
-    }
-  }
-  for (const render::LightMask& mask : result.masks)
-    if (auto written = write_sample_masks(plan, options, frame, mask); !written) return written;
-  for (const OutputPattern& pattern : options.mask_colours) {
-    for (const render::LightMask& mask : result.masks) {
-      const auto file = pattern.file(frame, plan.several_lights ? fmt::format("_L{}", mask.light) : "");
-      auto written = pattern.is_pfm() ? base::write_pfm(file, render::mask_colour(mask))
-                                      : base::write_png(file, render::mask_colour8(mask));
-      if (!written) return written;
-    }
-  }
-  return {};
-}
-
 Expected<void> prepare_folders(const RenderOptions& options) {
   std::vector<OutputPattern> patterns = options.masks;
   for (const auto* more : {&options.mask_colours, &options.mask_means, &options.mask_samples})
@@ -114,7 +37,10 @@ Expected<void> prepare_folders(const RenderOptions& options) {
   if (options.pictures) patterns.push_back(*options.pictures);
   for (const OutputPattern& pattern : patterns) {
     if (auto prepared = pattern.prepare_folder(); !prepared) return prepared;
+    base::remove_stale_temporaries(pattern.file(0).parent_path());
   }
+  const AoConfig& ao = options.method.render.ao;
+  if (ao.mode != AoMode::none && !ao.cache.empty()) base::remove_stale_temporaries(ao.cache);
   return {};
 }
 
@@ -133,23 +59,35 @@ public:
       renderer.set_materials(materials_of(plan_.scene, options_.scene.edits));
     FrameGeometry first_frame;
     evaluate_frame(plan_.scene, plan_.clip, plan_.frames.front().time_s, first_frame);
-    const auto settings = describe_render(plan_, options_, raster_names(renderer.raster()), first_frame);
-    if (auto opened = journals_.open(options_, settings); !opened) return opened;
+    auto settings = describe_render(plan_, options_, raster_names(renderer.raster()), first_frame);
+    const auto sources = describe_sources(plan_, options_);
+    if (!sources) return tl::unexpected(sources.error());
+    settings.insert(settings.end(), sources->begin(), sources->end());
+    if (auto opened = output_.open(std::move(settings)); !opened) return opened;
+    frames_ = output_.frames_left();
 
     parallel::JobQueue files(most_waiting);
-    Progress progress(static_cast<int>(plan_.frames.size()), options_.quiet);
-    for (const PlannedFrame& frame : plan_.frames) {
+    Progress progress(static_cast<int>(frames_.size()), options_.quiet);
+    for (const PlannedFrame& frame : frames_) {
       const auto drawn = draw(renderer, frame, progress, stop.flag(), files);
       if (!drawn && drawn.error().message == "stopped") break;
       if (!drawn) return drawn;
       progress.show(static_cast<int>(records_.size()));
-      if (stop.caught() != 0) break;
+      if (stop.exit_code() != 0) break;
     }
-    if (auto written = files.finish(); !written) return written;
-    return journals_.finish();
+    auto written = files.finish();
+    if (written) written = output_.finish();
+    failed_to_write_ = !written;
+    return written;
   }
 
+  /// Whether it was a file that `run` failed with.
+  bool failed_to_write() const { return failed_to_write_; }
+
+  /// Of the frames that were drawn.
   std::span<const render::FrameRecord> records() const { return records_; }
+  /// The frames that were to be drawn.
+  std::size_t frames() const { return frames_.size(); }
 
 private:
   // Results that are still written, the one that is computed and the one that waits for room.
@@ -174,29 +112,30 @@ private:
     record.timings.evaluate_ms = evaluate_ms;
     record.timings.total_ms = milliseconds(Clock::now() - begin);
     records_.push_back(record);
-    return files.add([this, record, begin, &result] { return write(record, begin, result); });
-  }
-
-  Expected<void> write(const render::FrameRecord& record, Clock::time_point begin,
-                       const render::FrameResult& result) {
-    if (auto added = journals_.add(record, milliseconds(begin - begin_), result.notes); !added) return added;
-    return write_pictures(plan_, options_, record.frame, result);
+    const double begin_ms = milliseconds(begin - begin_);
+    auto added =
+        files.add([this, record, begin_ms, &result] { return output_.write(record, begin_ms, result); });
+    failed_to_write_ = !added;
+    return added;
   }
 
   const RenderPlan& plan_;
   const RenderOptions& options_;
   const Clock::time_point begin_ = Clock::now();
-  Journals journals_;
+  RenderOutput output_{plan_, options_};
+  std::vector<PlannedFrame> frames_;
   render::FrameInput input_;
   std::array<render::FrameResult, results> results_;
   std::vector<render::FrameRecord> records_;
+  bool failed_to_write_ = false;
 };
 
 void print_summary(const RenderPlan& plan, const RenderOptions& options,
-                   std::span<const render::FrameRecord> records) {
+                   std::span<const render::FrameRecord> records, std::size_t done_before) {
   print_out("{}", summary_table(records));
   print_out("{} of {} frames, {}x{} pixels", records.size(), plan.frames.size(), plan.settings.width,
             plan.settings.height);
+  if (done_before > 0) print_out(", {} were done before", done_before);
   if (options.pictures) print_out(", pictures in {}", options.pictures->text());
   for (const OutputPattern& mask : options.masks) print_out(", masks in {}", mask.text());
   for (const OutputPattern& mask : options.mask_colours) print_out(", coloured masks in {}", mask.text());
@@ -209,6 +148,7 @@ void print_summary(const RenderPlan& plan, const RenderOptions& options,
 
 Expected<int> render(const RenderOptions& options) {
   if (auto checked = check_render_options(options); !checked) return tl::unexpected(checked.error());
+  StopSignals stop(options.timeout_s, StopSignals::Start::at_once);
   const auto plan = plan_render(options);
   if (!plan) return tl::unexpected(plan.error());
   if (!options.quiet) {
@@ -216,15 +156,30 @@ Expected<int> render(const RenderOptions& options) {
     print_warnings(plan->scene.warnings);
   }
   if (auto prepared = prepare_folders(options); !prepared) return tl::unexpected(prepared.error());
+  std::vector<std::filesystem::path> inputs = plan->inputs;
+  if (!options.config.empty()) inputs.emplace_back(options.config);
+  if (auto apart = check_files_apart(inputs, files_of_render(*plan, options)); !apart)
+    return tl::unexpected(apart.error());
+  if (plan->frames.empty()) {
+    if (!options.quiet) print_out("no frames in chunk {}/{}\n", options.chunk.index, options.chunk.count);
+    return 0;
+  }
 
-  StopSignals stop;
+  stop.be_orderly();
   FrameLoop loop(*plan, options);
-  if (auto done = loop.run(stop); !done) return tl::unexpected(done.error());
-  if (!options.quiet) print_summary(*plan, options, loop.records());
-  const bool stopped = loop.records().size() < plan->frames.size();
-  if (stopped)
-    print_error("tenebra: stopped after {} of {} frames\n", loop.records().size(), plan->frames.size());
-  return stopped ? exit_code_of(stop.caught()) : 0;
+  if (auto done = loop.run(stop); !done) {
+    if (!loop.failed_to_write()) return tl::unexpected(done.error());
+    print_failure(done.error().message);
+    return exit_codes::outputs_failed;
+  }
+  const std::size_t drawn = loop.records().size();
+  if (!options.quiet) print_summary(*plan, options, loop.records(), plan->frames.size() - loop.frames());
+  const bool stopped = drawn < loop.frames();
+  if (!stopped) return 0;
+  const int code = stop.exit_code();
+  print_error("tenebra: stopped after {} of {} frames{}\n", drawn, loop.frames(),
+              code == exit_codes::timed_out ? ", as the time of --timeout is up" : "");
+  return code;
 }
 
 }  // namespace
@@ -237,6 +192,7 @@ void add_render_command(CLI::App& program, Run& run) {
   when_chosen(command, [options, &command, &run] {
     settle_quality(command, options->method);
     settle_render_options(*options);
+    options->config = config_file_of(command);
     options->warnings = idle_method_options(command, options->method);
     run = [options] { return render(*options); };
   });

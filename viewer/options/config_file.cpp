@@ -3,11 +3,15 @@
 #include <fmt/format.h>
 
 #include <CLI/CLI.hpp>
-#include <fstream>
+#include <sstream>
 #include <vector>
+
+#include "base/input_file.h"
 
 namespace tenebra::viewer {
 namespace {
+
+constexpr std::size_t most_bytes = 1 << 20;
 
 bool is_flag(const CLI::Option& option) {
   return option.get_expected_min() == 0;
@@ -36,10 +40,10 @@ void read_config(CLI::App& command, const std::string& path) {
   const auto refuse = [&](const std::string& what) {
     throw CLI::ValidationError("--config", fmt::format("{}: {}", path, what));
   };
-  std::ifstream file(path);
-  std::vector<CLI::ConfigItem> items;
-  if (file) items = CLI::ConfigBase().from_config(file);
-  if (!file.eof()) refuse("cannot be read");
+  const auto text = base::read_file(path, most_bytes);
+  if (!text) throw CLI::ValidationError("--config", text.error().message);
+  std::istringstream lines(*text);
+  const std::vector<CLI::ConfigItem> items = CLI::ConfigBase().from_config(lines);
   for (const CLI::ConfigItem& item : items) {
     if (!concerns(item, command)) continue;
     CLI::Option* option = command.get_option_no_throw("--" + item.name);
@@ -63,6 +67,11 @@ void add_config_option(CLI::App& command) {
           "--config", [&command](const std::string& path) { read_config(command, path); },
           "Read options from a file with lines like size = 800x600;\noptions on the command line win")
       ->type_name("FILE");
+}
+
+std::string config_file_of(const CLI::App& command) {
+  const CLI::Option* option = command.get_option("--config");
+  return option->empty() ? "" : option->as<std::string>();
 }
 
 }  // namespace tenebra::viewer

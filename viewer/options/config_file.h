@@ -1,6 +1,8 @@
 // --config FILE: options of a command from a file.
 #pragma once
 
+#include <string>
+
 namespace CLI {
 class App;
 }
@@ -12,5 +14,8 @@ namespace tenebra::viewer {
 /// [render] or [view] is for that command only. What the command line says counts more than the file. A
 /// failure is one sentence with file and name.
 void add_config_option(CLI::App& command);
+
+/// The file that was given, once the options are read; "" if none.
+std::string config_file_of(const CLI::App& command);
 
 }  // namespace tenebra::viewer

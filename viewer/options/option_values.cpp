@@ -83,6 +83,15 @@ Expected<FrameRange> parse_frame_range(const std::string& text) {
   return range;
 }
 
+Expected<Chunk> parse_chunk(const std::string& text) {
+  const auto parts = split(text, '/');
+  const auto index = parts.size() == 2 ? frame_from(parts[0]) : std::nullopt;
+  const auto count = parts.size() == 2 ? frame_from(parts[1]) : std::nullopt;
+  if (!index || !count || *index < 1 || *index > *count)
+    return base::fail("found {}, expected I/N with I from 1 to N, like 3/16", text);
+  return Chunk{*index, *count};
+}
+
 Expected<glm::vec3> parse_vector(const std::string& text) {
   const auto parts = split(text, ',');
   glm::vec3 vector(0.0f);

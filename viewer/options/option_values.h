@@ -30,8 +30,15 @@ struct FrameRange {
   int step = 1;
 };
 
+/// Part `index` of `count` parts, from 1.
+struct Chunk {
+  int index = 1;
+  int count = 1;
+};
+
 Expected<Size> parse_size(const std::string& text);               ///< WxH, 1 to largest_side_px each
 Expected<FrameRange> parse_frame_range(const std::string& text);  ///< A, A:B, A:, A:B:STEP, A::STEP or all
+Expected<Chunk> parse_chunk(const std::string& text);             ///< I/N, 1 <= I <= N
 Expected<glm::vec3> parse_vector(const std::string& text);        ///< X,Y,Z, finite
 Expected<double> parse_field_of_view(const std::string& text);    ///< degrees in (0, 180)
 Expected<double> parse_positive(const std::string& text);         ///< finite and above 0

@@ -24,10 +24,26 @@ constexpr const char* examples =
     "      point lights turned into squares, and ambient occlusion\n"
     "\n"
     "Frames count from 0; A:B includes B; A: and all run to the end. Ctrl-C drops the frame being drawn and\n"
-    "keeps those before it and the whole log. A file is either whole or absent. The last folder of a "
-    "picture's\n"
+    "keeps those before it. A picture or mask is either whole or absent. The log and the trace grow by a "
+    "whole row\n"
+    "for each frame whose files are there, and stay, whatever ends the program. Named pipes, folders and "
+    "disks "
+    "are\n"
+    "refused as outputs; /dev/null and /dev/stdout are written as they are. The last folder of a picture's\n"
     "name is made if it is missing.\n"
-    "Exit code: 0 done, 1 failed (one sentence says why), 130 or 143 stopped by a signal.";
+    "\n"
+    "--resume goes by a small file beside the pictures, .%04d.png.done, and by the log: how the frames were "
+    "made, and\n"
+    "which are done. Of a killed render at most one frame whose picture is there is drawn again. Any number "
+    "of\n"
+    "processes may render into one folder, each with its own log (docs/farm.md).\n"
+    "\n"
+    "Exit code: 0 done; 1 failed, and would again (one sentence says why). With --resume the rest is worth "
+    "another\n"
+    "try: 75 a file could not be written (a full disk), 124 the time of --timeout is up, 129, 130 or 143 "
+    "stopped "
+    "by a\n"
+    "signal. A second signal ends the program at once; no file is half written then either.";
 
 Expected<std::optional<OutputPattern>> parse_pictures(const std::string& text) {
   if (text == "none") return std::optional<OutputPattern>();
@@ -138,6 +154,22 @@ Expected<void> check_masks(const RenderOptions& options, bool several) {
   return {};
 }
 
+/// The options that say which of the frames are drawn by this run.
+void add_progress_options(CLI::App& command, RenderOptions& options) {
+  add_value(command, "--chunk", options.chunk, parse_chunk,
+            "Part I of N parts of the frames, from 1: one for each of\nN processes")
+      .type_name("I/N");
+  const auto resume = add_flag(
+      command, "--resume", options.resume,
+      "Go on where a render of the same scene, settings and\nprogram ended; fails where these differ");
+  add_flag(command, "--skip-existing", options.skip_existing,
+           "Leave out frames whose files are there, however they\nwere made")
+      .excludes(resume);
+  add_value(command, "--timeout", options.timeout_s, parse_positive,
+            "Stop after so many seconds, as Ctrl-C does")
+      .type_name("S");
+}
+
 }  // namespace
 
 void add_render_options(CLI::App& command, RenderOptions& options) {
@@ -148,6 +180,7 @@ void add_render_options(CLI::App& command, RenderOptions& options) {
             "Frames to render; 0:99:10 for every tenth [0, the first]")
       .type_name("A:B[:STEP]|all")
       .excludes(option_of(command, "--time"));
+  add_progress_options(command, options);
   add_method_options(command, options.method);
   add_output_options(command, options);
   add_config_option(command);
@@ -165,6 +198,12 @@ Expected<void> check_render_options(const RenderOptions& options) {
     if (auto checked = check_pattern(*options.pictures, "-o", several); !checked) return checked;
   }
   if (auto checked = check_masks(options, several); !checked) return checked;
+  const bool files = options.pictures || !options.masks.empty() || !options.mask_colours.empty() ||
+                     !options.mask_means.empty() || !options.mask_samples.empty();
+  if (options.skip_existing && !files)
+    return base::fail("--skip-existing looks for pictures and masks; expected -o or --mask");
+  if (options.resume && !files && options.log.empty())
+    return base::fail("--resume goes by pictures, masks or the log; expected -o, --mask or --log");
   if (auto checked = check_scene_options(options.scene); !checked) return checked;
   return check_method_options(options.method);
 }

@@ -1,6 +1,7 @@
 // The options of `tenebra render`: scene and method as every command has them, and the files it writes.
 #pragma once
 
+#include <limits>
 #include <optional>
 #include <string>
 #include <vector>
@@ -24,6 +25,11 @@ struct RenderOptions {
   std::vector<OutputPattern> mask_samples;  ///< .png: each of them
   std::string log;
   std::string trace;
+  std::string config;  ///< the file that options came from; empty: none
+  double timeout_s = std::numeric_limits<double>::infinity();  ///< for the whole run
+  Chunk chunk;                                                 ///< of the frames
+  bool resume = false;         ///< what is done with the same settings is not done again
+  bool skip_existing = false;  ///< what is there is not done again, however it was made
   bool quiet = false;
   std::vector<std::string> warnings;  ///< options that do nothing with the others
 };

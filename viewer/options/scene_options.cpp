@@ -149,6 +149,10 @@ void add_camera(CLI::App& command, SceneOptions& options) {
 
 void add_texture_path(CLI::App& command, formats::ImportOptions& options) {
   const auto read = [&options](const std::vector<std::string>& folders) -> Expected<void> {
+    std::error_code none;
+    for (const std::string& folder : folders)
+      if (!std::filesystem::is_directory(folder, none))
+        return base::fail("found no folder {}, expected one that is there", folder);
     options.texture_paths.assign(folders.begin(), folders.end());
     return {};
   };

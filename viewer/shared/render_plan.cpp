@@ -25,14 +25,28 @@ Expected<std::vector<PlannedFrame>> plan_frames(const ScenePlan& plan, const Ren
   return frames;
 }
 
+/// Chunks follow each other and differ by one frame at most.
+std::vector<PlannedFrame> frames_of_chunk(const std::vector<PlannedFrame>& frames, Chunk chunk) {
+  const auto begin_of = [&](int index) {
+    return frames.begin() + static_cast<std::ptrdiff_t>(frames.size() * static_cast<std::size_t>(index) /
+                                                        static_cast<std::size_t>(chunk.count));
+  };
+  return {begin_of(chunk.index - 1), begin_of(chunk.index)};
+}
+
 }  // namespace
 
 Expected<RenderPlan> plan_render(const RenderOptions& options) {
   SceneOptions of_scene = options.scene;
   of_scene.meter_exposure = options.method.auto_exposure;
+  std::vector<std::filesystem::path> inputs;
+  of_scene.import.files_read = &inputs;
   auto scene = plan_scene(of_scene);
   if (!scene) return tl::unexpected(scene.error());
-  RenderPlan plan{std::move(*scene), {}, {}, false};
+  RenderPlan plan;
+  static_cast<ScenePlan&>(plan) = std::move(*scene);
+  plan.inputs = std::move(inputs);
+  if (!options.scene.environment.empty()) plan.inputs.emplace_back(options.scene.environment);
   auto frames = plan_frames(plan, options);
   if (!frames) return tl::unexpected(frames.error());
   plan.frames = std::move(*frames);
@@ -48,6 +62,9 @@ Expected<RenderPlan> plan_render(const RenderOptions& options) {
       check_light(plan, options.scene.edits, emissive ? -1 : light, plan.frames.front().time_s);
   if (!lights) return tl::unexpected(lights.error());
   plan.several_lights = light < 0 && (*lights > 1 || emissive);
+  plan.lights = plan.several_lights ? std::max(*lights, 1) : 1;
+  plan.of_several_frames = plan.frames.size() > 1;
+  plan.frames = frames_of_chunk(plan.frames, options.chunk);
   return plan;
 }
 

@@ -14,9 +14,12 @@ struct PlannedFrame {
 };
 
 struct RenderPlan : ScenePlan {
-  std::vector<PlannedFrame> frames;
+  std::vector<PlannedFrame> frames;  ///< none: the chunk is empty
   render::RenderSettings settings;
-  bool several_lights = false;  ///< masks carry the number of their light
+  bool of_several_frames = false;  ///< before they were cut into chunks
+  bool several_lights = false;     ///< masks carry the number of their light
+  int lights = 1;                  ///< that masks are made of, as far as known: emissive meshes come on top
+  std::vector<std::filesystem::path> inputs;  ///< the files that its pictures follow from
 };
 
 /// Imports the scene and fits the options to it. Fails on what the scene does not have.

@@ -1,18 +1,39 @@
 #include "shell/stop_signals.h"
 
-#include <chrono>
+#include <unistd.h>
+
 #include <ctime>
 #include <initializer_list>
+#include <string_view>
+
+#include "shell/exit_codes.h"
 
 namespace tenebra::viewer {
+namespace {
 
-StopSignals::StopSignals() {
+/// Work that sees the flag ends within a second.
+constexpr std::chrono::seconds patience{5};
+
+/// Whatever other threads do, and without their destructors: they may be blocked.
+[[noreturn]] void end_at_once(int code) {
+  const std::string_view why = code == exit_codes::timed_out
+                                   ? "tenebra: stopped, as the time of --timeout is up.\n"
+                                   : "tenebra: stopped at once.\n";
+  static_cast<void>(!::write(STDERR_FILENO, why.data(), why.size()));
+  ::_exit(code);
+}
+
+}  // namespace
+
+StopSignals::StopSignals(double timeout_s, Start start)
+    : timeout_s_(timeout_s), orderly_(start == Start::orderly) {
   sigemptyset(&held_);
   for (const int signal : {SIGINT, SIGTERM, SIGHUP}) sigaddset(&held_, signal);
   pthread_sigmask(SIG_BLOCK, &held_, &before_);
   watcher_ = std::jthread([this](const std::stop_token& ended) {
     while (!ended.stop_requested()) {
       take();
+      watch_time();
       std::this_thread::sleep_for(std::chrono::milliseconds(20));
     }
   });
@@ -28,14 +49,34 @@ StopSignals::~StopSignals() {
 void StopSignals::take() {
   const timespec at_once{};
   for (int signal = 0; (signal = sigtimedwait(&held_, nullptr, &at_once)) > 0;) {
+    if (caught_ != 0) end_at_once(exit_codes::of_signal(signal));
     caught_ = signal;
-    flag_.request();
+    request(exit_codes::of_signal(signal));
   }
+}
+
+void StopSignals::watch_time() {
+  const Clock::duration now = Clock::now() - begin_;
+  if (code_ == 0 && std::chrono::duration<double>(now).count() >= timeout_s_) request(exit_codes::timed_out);
+  if (now.count() > last_moment_) end_at_once(code_);
+}
+
+void StopSignals::request(int code) {
+  if (!orderly_) end_at_once(code);
+  int none = 0;
+  if (code_.compare_exchange_strong(none, code))
+    last_moment_ = (Clock::now() - begin_ + Clock::duration(patience)).count();
+  flag_.request();
 }
 
 int StopSignals::caught() {
   take();
   return caught_;
+}
+
+int StopSignals::exit_code() {
+  take();
+  return code_;
 }
 
 }  // namespace tenebra::viewer

@@ -1,8 +1,10 @@
-// Stopping cleanly: Ctrl-C and `kill` wait until the work at hand is whole.
+// Stopping cleanly: Ctrl-C, `kill` and --timeout wait until the work at hand is whole, but not for ever.
 #pragma once
 
 #include <atomic>
+#include <chrono>
 #include <csignal>
+#include <limits>
 #include <thread>
 
 #include <tenebra/stop_flag.h>
@@ -10,33 +12,49 @@
 namespace tenebra::viewer {
 
 /// While it lives, SIGINT, SIGTERM and SIGHUP are held back and asked for with `caught` instead of ending the
-/// program; long work is given `flag` and ends early. Make it before other threads start: they inherit what
-/// is held back.
+/// program; long work is given `flag` and ends early. A second signal ends the program at once, and so do
+/// five seconds in which the first was not obeyed: work that blocks cannot see the flag. Files are then whole
+/// or absent all the same (OutputFile, Journal). Make it before other threads start: they inherit what is
+/// held back.
 class StopSignals {
 public:
-  StopSignals();
+  /// Where the first request counts as much as a second: nothing is written yet and nobody looks at the flag.
+  enum class Start { orderly, at_once };
+
+  /// `timeout_s`: after this many seconds it is as if a signal came.
+  explicit StopSignals(double timeout_s = std::numeric_limits<double>::infinity(),
+                       Start start = Start::orderly);
   ~StopSignals();
   StopSignals(const StopSignals&) = delete;
   StopSignals& operator=(const StopSignals&) = delete;
 
+  /// Ends Start::at_once: from here on the flag is looked at.
+  void be_orderly() { orderly_ = true; }
+
   /// The signal that asked to stop so far; 0: none.
   int caught();
-  /// Requested soon after a signal came.
+  /// Requested soon after a signal came or the time was up.
   const StopFlag& flag() const { return flag_; }
+  /// For a program that was stopped: 128 + the signal, or 124 if its time was up.
+  int exit_code();
 
 private:
+  using Clock = std::chrono::steady_clock;
+
   void take();
+  void watch_time();
+  void request(int code);
 
   sigset_t held_{};
   sigset_t before_{};
+  double timeout_s_;
+  Clock::time_point begin_ = Clock::now();
+  std::atomic<bool> orderly_;
   std::atomic<int> caught_{0};
+  std::atomic<int> code_{0};  ///< exit code of the first request; 0: none
+  std::atomic<Clock::duration::rep> last_moment_{Clock::duration::max().count()};  ///< since begin_
   StopFlag flag_;
   std::jthread watcher_;
 };
-
-/// Exit code by convention: 130 for SIGINT, 143 for SIGTERM.
-inline int exit_code_of(int signal) {
-  return 128 + signal;
-}
 
 }  // namespace tenebra::viewer

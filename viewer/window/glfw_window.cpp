@@ -254,7 +254,7 @@ Expected<int> run_window(const ViewOptions& options) {
   glfwGetWindowSize(window->get(), &width, &height);
   viewer.keep_settings(kept, {width, height});
   if (auto finished = viewer.finish(); !finished) return tl::unexpected(finished.error());
-  return stop.caught() != 0 ? exit_code_of(stop.caught()) : 0;
+  return stop.caught() != 0 ? stop.exit_code() : 0;
 }
 
 }  // namespace tenebra::viewer

@@ -1,19 +1,16 @@
 #include "ao/cache/cache_file.h"
 
 #define XXH_INLINE_ALL
-#include <fcntl.h>
-#include <sys/stat.h>
-#include <unistd.h>
 #include <xxhash.h>
 #include <zstd.h>
 
 #include <bit>
-#include <cerrno>
 #include <cstring>
 #include <memory>
 #include <system_error>
 
 #include "base/fail.h"
+#include "base/input_file.h"
 #include "base/output_file.h"
 
 namespace tenebra::ao {
@@ -49,43 +46,6 @@ CacheKey checksum(Header header, std::string_view packed) {
   XXH3_128bits_update(&state, &header, sizeof header);
   XXH3_128bits_update(&state, packed.data(), packed.size());
   return digest(state);
-}
-
-/// An open file; closes itself.
-class Descriptor {
-public:
-  explicit Descriptor(int number) : number_(number) {}
-  ~Descriptor() {
-    if (number_ >= 0) ::close(number_);
-  }
-  Descriptor(const Descriptor&) = delete;
-  Descriptor& operator=(const Descriptor&) = delete;
-  int number() const { return number_; }
-
-private:
-  int number_;
-};
-
-Expected<std::string> read_whole(const fs::path& path, std::size_t most) {
-  const auto failure = [&] {
-    return base::fail("{}: {}", path.string(), std::generic_category().message(errno));
-  };
-  const Descriptor file(::open(path.c_str(), O_RDONLY | O_NONBLOCK | O_CLOEXEC));  // a pipe is not waited for
-  struct stat found {};
-  if (file.number() < 0 || ::fstat(file.number(), &found) != 0) return failure();
-  if (!S_ISREG(found.st_mode))
-    return base::fail("{}: found something that is no file, expected one", path.string());
-  const auto size = static_cast<std::size_t>(found.st_size);
-  if (size > most) return base::fail("{}: found {} bytes, expected at most {}", path.string(), size, most);
-  std::string bytes(size, '\0');
-  for (std::size_t at = 0; at < size;) {
-    const ssize_t count = ::read(file.number(), bytes.data() + at, size - at);
-    if (count < 0 && errno == EINTR) continue;
-    if (count < 0) return failure();
-    if (count == 0) return base::fail("{}: found {} bytes, expected {}", path.string(), at, size);
-    at += static_cast<std::size_t>(count);
-  }
-  return bytes;
 }
 
 }  // namespace
@@ -135,7 +95,7 @@ Expected<CacheReader> CacheReader::open(const fs::path& folder, const CacheKind&
   CacheReader reader;
   reader.path_ = cache_path(folder, kind, key);
   const std::string path = reader.path_.string();
-  Expected<std::string> bytes = read_whole(reader.path_, sizeof(Header) + ZSTD_compressBound(most));
+  Expected<std::string> bytes = base::read_file(reader.path_, sizeof(Header) + ZSTD_compressBound(most));
   if (!bytes) return tl::unexpected(bytes.error());
   Header header{};
   if (bytes->size() < sizeof header)

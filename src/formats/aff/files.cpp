@@ -62,6 +62,10 @@ AffFile& AffFiles::load(const fs::path& canonical) {
   return *entry;
 }
 
+void AffFiles::list(std::vector<fs::path>& paths) const {
+  for (const auto& entry : files_) paths.push_back(entry.first);
+}
+
 AffFile& AffFiles::open_top(const fs::path& path) {
   std::error_code error;
   const fs::path folder = path.has_parent_path() ? path.parent_path() : fs::path(".");

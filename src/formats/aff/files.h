@@ -9,6 +9,7 @@
 #include <string>
 #include <string_view>
 #include <utility>
+#include <vector>
 
 namespace tenebra::formats {
 
@@ -25,6 +26,8 @@ public:
   AffFile& open_top(const std::filesystem::path& path);
   /// Looks beside `from`, then in the top file's folder.
   AffFile& open_include(std::string_view name, const AffFile& from);
+  /// Adds the paths of all that was read, sorted.
+  void list(std::vector<std::filesystem::path>& paths) const;
   std::uint64_t bytes_read() const { return bytes_read_; }
   /// The top file's folder, canonical.
   const std::filesystem::path& root() const { return root_; }

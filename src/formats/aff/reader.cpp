@@ -69,9 +69,10 @@ Scene AffReader::read(const std::filesystem::path& path) {
     throw AffFailure{fmt::format("{}: found {}, expected an AFF file.", path.string(), failure.message)};
   }
   scene_.name = top->name;
-  images_.emplace(scene_, files_.root(), options_.texture_paths);
+  images_.emplace(scene_, files_.root(), options_);
   read_file(*top);
   finish();
+  if (options_.files_read != nullptr) files_.list(*options_.files_read);
   return std::move(scene_);
 }
 

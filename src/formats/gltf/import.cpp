@@ -10,15 +10,16 @@ namespace tenebra::formats {
 namespace {
 
 Scene read_gltf(const std::filesystem::path& path, const ImportOptions& options) {
-  const std::string bytes = read_scene_file(path);
+  const std::string bytes = read_scene_file(path, options.files_read);
   gltf::Asset asset;
+  asset.files_read = options.files_read;
   asset.scene.name = path.filename().string();
   constexpr std::uint64_t least = std::uint64_t{96} << 20;  // of the 256 MiB that a file of any size may take
   asset.budget = gltf::Budget(least + 8 * bytes.size());
   gltf::load_model(path, bytes, asset);
   gltf::choose_scene(asset, options.scene);
   gltf::check_accessors(asset);
-  gltf::build_materials(asset, path.parent_path(), options.texture_paths);
+  gltf::build_materials(asset, path.parent_path(), options);
   gltf::build_cameras(asset);
   gltf::build_lights(asset);
   gltf::build_meshes(asset);

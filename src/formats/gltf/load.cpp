@@ -80,7 +80,7 @@ struct BufferSource {
       if (text.starts_with("data:")) return decode_data_uri(text, place + ".uri");
       const auto path = confine(folder, text, place + ".uri", true);
       try {
-        std::string bytes = read_scene_file(path);
+        std::string bytes = read_scene_file(path, asset.files_read);
         asset.budget.give(8 * bytes.size());
         return bytes;
       } catch (const ImportFailure& failure) {

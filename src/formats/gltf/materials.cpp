@@ -159,9 +159,8 @@ Material default_material() {
   return material;
 }
 
-void build_materials(Asset& asset, const std::filesystem::path& folder,
-                     const std::vector<std::filesystem::path>& texture_paths) {
-  Textures textures(asset, folder, SceneImages(asset.scene, folder, texture_paths));
+void build_materials(Asset& asset, const std::filesystem::path& folder, const ImportOptions& options) {
+  Textures textures(asset, folder, SceneImages(asset.scene, folder, options));
   for (std::size_t i = 0; i < asset.model.materials.size(); ++i) {
     MaterialReader reader{asset.model.materials[i], fmt::format("materials[{}]", i), textures,
                           asset.scene.warnings};

@@ -14,6 +14,7 @@
 
 #include <tenebra/scene.h>
 #include "formats/import_failure.h"
+#include "formats/import_scene.h"
 
 namespace tenebra::formats::gltf {
 
@@ -46,7 +47,8 @@ struct Asset {
   bool scene_chosen = false;          ///< by the user
   /// Nodes of the scene, the first and how many, that show the instances of one.
   std::map<int, std::pair<int, int>> instances;
-  Scene scene;  ///< what is being built; its warnings too
+  Scene scene;                                               ///< what is being built; its warnings too
+  std::vector<std::filesystem::path>* files_read = nullptr;  ///< ImportOptions'
 };
 
 /// JSON text to model; `binary` is the GLB's chunk. Throws ImportFailure.
@@ -96,8 +98,7 @@ void even_out_coordinates(Mesh& mesh);
 
 // One table each into asset.scene, in this order.
 /// With the pictures that they use, from `folder` or the texture paths.
-void build_materials(Asset& asset, const std::filesystem::path& folder,
-                     const std::vector<std::filesystem::path>& texture_paths);
+void build_materials(Asset& asset, const std::filesystem::path& folder, const ImportOptions& options);
 /// glTF's material for triangles without one.
 Material default_material();
 void build_cameras(Asset& asset);

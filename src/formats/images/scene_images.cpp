@@ -27,9 +27,11 @@ std::string shown(const std::string& name) {
 
 }  // namespace
 
-SceneImages::SceneImages(Scene& scene, fs::path folder, std::vector<fs::path> texture_paths)
-    : scene_(scene), folders_{folder, folder / "textures", folder / "TextureFiles"} {
-  folders_.insert(folders_.end(), texture_paths.begin(), texture_paths.end());
+SceneImages::SceneImages(Scene& scene, const fs::path& folder, const ImportOptions& options)
+    : scene_(scene),
+      folders_{folder, folder / "textures", folder / "TextureFiles"},
+      files_read_(options.files_read) {
+  folders_.insert(folders_.end(), options.texture_paths.begin(), options.texture_paths.end());
 }
 
 int SceneImages::fail(const std::string& name, const std::string& why) {
@@ -67,7 +69,8 @@ int SceneImages::load(const std::string& name, const std::string& place, bool pe
   std::error_code error;
   if (const auto bytes = fs::file_size(file, error); !error && bytes > most_picture_bytes)
     refuse("{}: found {} bytes, expected at most {}", place, bytes, most_picture_bytes);
-  TextureImage image = decode_image(read_scene_file(file), file.filename().string(), pixels_left_);
+  TextureImage image =
+      decode_image(read_scene_file(file, files_read_), file.filename().string(), pixels_left_);
   scene_.images.push_back(std::move(image));
   return index_of_file_[file] = static_cast<int>(scene_.images.size()) - 1;
 }

@@ -10,14 +10,15 @@
 
 #include <tenebra/scene.h>
 #include "formats/images/decode.h"
+#include "formats/import_scene.h"
 
 namespace tenebra::formats {
 
 /// Fills Scene::images. A picture that is missing or broken costs a warning with its name, once.
 class SceneImages {
 public:
-  /// `folder` is the scene's; `texture_paths` are ImportOptions'. `scene` must live as long.
-  SceneImages(Scene& scene, std::filesystem::path folder, std::vector<std::filesystem::path> texture_paths);
+  /// `folder` is the scene's. `scene` must live as long.
+  SceneImages(Scene& scene, const std::filesystem::path& folder, const ImportOptions& options);
 
   /// Index into Scene::images of the picture that a scene file calls `name`, or -1. Looks beside the scene,
   /// in its folders textures and TextureFiles, then in the texture paths; there also by the last part of a
@@ -35,6 +36,7 @@ private:
 
   Scene& scene_;
   std::vector<std::filesystem::path> folders_;
+  std::vector<std::filesystem::path>* files_read_;      ///< ImportOptions'
   std::map<std::string, int> index_of_;                 ///< by name in the scene file
   std::map<std::filesystem::path, int> index_of_file_;  ///< by place on disk
   std::uint64_t pixels_left_ = most_scene_pixels;

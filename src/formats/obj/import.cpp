@@ -20,13 +20,14 @@ namespace {
 /// Materials from the scene's folder only; what cannot be read is a warning.
 class ConfinedMaterials : public tinyobj::MaterialReader {
 public:
-  ConfinedMaterials(std::filesystem::path folder, std::vector<std::string>& warnings)
-      : folder_(std::move(folder)), warnings_(warnings) {}
+  ConfinedMaterials(std::filesystem::path folder, std::vector<std::filesystem::path>* files_read,
+                    std::vector<std::string>& warnings)
+      : folder_(std::move(folder)), files_read_(files_read), warnings_(warnings) {}
 
   bool operator()(const std::string& name, std::vector<tinyobj::material_t>* materials,
                   std::map<std::string, int>* index, std::string* warning, std::string* error) override {
     try {
-      std::istringstream stream(read_scene_file(confine(folder_, name, "mtllib", false)));
+      std::istringstream stream(read_scene_file(confine(folder_, name, "mtllib", false), files_read_));
       tinyobj::LoadMtl(index, materials, &stream, warning, error);
       return true;
     } catch (const ImportFailure& failure) {
@@ -37,6 +38,7 @@ public:
 
 private:
   std::filesystem::path folder_;
+  std::vector<std::filesystem::path>* files_read_;
   std::vector<std::string>& warnings_;
 };
 
@@ -260,8 +262,8 @@ Scene read_obj(const std::filesystem::path& path, const ImportOptions& options) 
   Scene scene;
   scene.name = path.filename().string();
   std::size_t skipped = 0;
-  std::istringstream stream(keep_known_lines(read_scene_file(path), skipped));
-  ConfinedMaterials reader(path.parent_path(), scene.warnings);
+  std::istringstream stream(keep_known_lines(read_scene_file(path, options.files_read), skipped));
+  ConfinedMaterials reader(path.parent_path(), options.files_read, scene.warnings);
   tinyobj::attrib_t attributes;
   std::vector<tinyobj::shape_t> shapes;
   std::vector<tinyobj::material_t> materials;
@@ -269,7 +271,7 @@ Scene read_obj(const std::filesystem::path& path, const ImportOptions& options) 
   if (!tinyobj::LoadObj(&attributes, &shapes, &materials, &warning, &error, &stream, &reader, false, false))
     refuse("found a fault ({}), expected faces of vertices that are there", first_line(error));
   if (!error.empty()) scene.warnings.push_back(fmt::format("Found a fault: {}.", first_line(error)));
-  SceneImages images(scene, path.parent_path(), options.texture_paths);
+  SceneImages images(scene, path.parent_path(), options);
   add_materials(materials, images, scene);
   const bool has_colors =
       !attributes.colors.empty() && attributes.colors.size() == attributes.vertices.size();

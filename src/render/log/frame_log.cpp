@@ -3,6 +3,7 @@
 #include <fmt/core.h>
 
 #include <algorithm>
+#include <charconv>
 
 namespace tenebra::render {
 namespace {
@@ -16,6 +17,15 @@ std::string on_one_line(std::string text) {
 
 std::string comment_line(const LogSetting& setting) {
   return fmt::format("# {}: {}\n", on_one_line(setting.name), on_one_line(setting.value));
+}
+
+/// `line` for a journal of `size` bytes, behind a comment that fills the page where it would cross its end or
+/// leave one byte, which no comment fills: so SIGKILL leaves whole lines.
+std::string within_page(std::size_t size, std::string line) {
+  const std::size_t left = base::Journal::page_bytes - size % base::Journal::page_bytes;
+  const bool fits = line.size() <= left && line.size() + 1 != left;
+  if (fits || left < 2 || line.size() > base::Journal::page_bytes) return line;
+  return "#" + std::string(left - 2, ' ') + "\n" + line;
 }
 
 }  // namespace
@@ -40,26 +50,65 @@ std::string frame_log_row(const FrameRecord& record) {
   return line;
 }
 
-Expected<FrameLog> FrameLog::create(const std::filesystem::path& path, std::span<const LogSetting> settings) {
-  auto file = base::OutputFile::create(path);
-  if (!file) return tl::unexpected(file.error());
+LogPast parse_log(std::string_view text, std::string_view header) {
+  LogPast past;
+  for (std::size_t end = 0; (end = text.find('\n', past.whole_bytes)) != std::string_view::npos;) {
+    const std::string_view line = text.substr(past.whole_bytes, end - past.whole_bytes);
+    past.whole_bytes = end + 1;
+    const std::size_t colon = line.find(": ");
+    int frame = 0;
+    if (past.has_header) {
+      const auto read = std::from_chars(line.data(), line.data() + line.size(), frame);
+      const bool is_field = read.ptr == line.data() + line.size() || *read.ptr == ',';
+      if (read.ec == std::errc() && is_field) past.frames.push_back(frame);
+    } else if (line == header) {
+      past.has_header = true;
+    } else if (line.starts_with("# ") && colon != std::string_view::npos) {
+      past.settings.push_back({std::string(line.substr(2, colon - 2)), std::string(line.substr(colon + 2))});
+    }
+  }
+  return past;
+}
+
+std::string log_head(std::span<const LogSetting> settings, std::string_view header) {
   std::string head;
   for (const LogSetting& setting : settings) head += comment_line(setting);
-  head += frame_log_header() + "\n";
-  if (auto written = file->write(head); !written) return tl::unexpected(written.error());
+  return head.append(header).append("\n");
+}
+
+Expected<FrameLog> FrameLog::open(const std::filesystem::path& path) {
+  auto file = base::Journal::open(path);
+  if (!file) return tl::unexpected(file.error());
   return FrameLog(std::move(*file));
 }
 
+Expected<FrameLog> FrameLog::create(const std::filesystem::path& path, std::span<const LogSetting> settings) {
+  auto log = open(path);
+  if (!log) return log;
+  if (auto begun = log->begin(settings); !begun) return tl::unexpected(begun.error());
+  return log;
+}
+
+Expected<LogPast> FrameLog::past() const {
+  const auto text = file_.read();
+  if (!text) return tl::unexpected(text.error());
+  return parse_log(*text, frame_log_header());
+}
+
+Expected<void> FrameLog::begin(std::span<const LogSetting> settings) {
+  return file_.begin(log_head(settings, frame_log_header()));
+}
+
 Expected<void> FrameLog::add(const FrameRecord& record) {
-  return file_.write(frame_log_row(record) + "\n");
+  return file_.append(within_page(file_.size(), frame_log_row(record) + "\n"));
 }
 
 Expected<void> FrameLog::comment(const LogSetting& setting) {
-  return file_.write(comment_line(setting));
+  return file_.append(within_page(file_.size(), comment_line(setting)));
 }
 
 Expected<void> FrameLog::finish() {
-  return file_.commit();
+  return file_.finish();
 }
 
 }  // namespace tenebra::render

@@ -4,9 +4,11 @@
 #include <filesystem>
 #include <span>
 #include <string>
+#include <string_view>
+#include <vector>
 
 #include <tenebra/expected.h>
-#include "base/output_file.h"
+#include "base/journal.h"
 #include "render/log/frame_columns.h"
 
 namespace tenebra::render {
@@ -17,12 +19,28 @@ struct LogSetting {
   std::string value;
 };
 
-/// Rows are written as they come, to a temporary file beside `path`; `finish` makes the log appear. A log
-/// that is dropped before leaves nothing (see OutputFile).
+/// What a log, or another table of frames with such comments, holds already.
+struct LogPast {
+  std::vector<LogSetting> settings;  ///< above the header line
+  bool has_header = false;
+  std::vector<int> frames;      ///< of its whole rows
+  std::size_t whole_bytes = 0;  ///< up to the end of the last whole line
+};
+LogPast parse_log(std::string_view text, std::string_view header);
+/// The lines above the rows.
+std::string log_head(std::span<const LogSetting> settings, std::string_view header);
+
+/// A journal: it stands under its name from the start, with what it is about first, and each row is there
+/// whole once it is added, whatever becomes of the program.
 class FrameLog {
 public:
-  /// Writes the comment lines "# name: value" and the header line.
+  /// Writes the comment lines "# name: value" and the header line, in the place of an earlier log.
   static Expected<FrameLog> create(const std::filesystem::path& path, std::span<const LogSetting> settings);
+  /// The log as it is: look at its past, then begin it anew or go on.
+  static Expected<FrameLog> open(const std::filesystem::path& path);
+  Expected<LogPast> past() const;
+  Expected<void> begin(std::span<const LogSetting> settings);
+  Expected<void> go_on(const LogPast& past) { return file_.keep(past.whole_bytes); }
 
   Expected<void> add(const FrameRecord& record);
   /// A comment line "# name: value" between the rows: what came up with the next frame.
@@ -30,8 +48,8 @@ public:
   Expected<void> finish();
 
 private:
-  explicit FrameLog(base::OutputFile file) : file_(std::move(file)) {}
-  base::OutputFile file_;
+  explicit FrameLog(base::Journal file) : file_(std::move(file)) {}
+  base::Journal file_;
 };
 
 /// The header line: frame,time_s,raster_ms,... without a line break.

@@ -82,27 +82,27 @@ std::string slices_of(const FrameRecord& record, double begin_ms) {
 
 Expected<FrameTrace> FrameTrace::create(const std::filesystem::path& path,
                                         std::span<const LogSetting> settings) {
-  auto file = base::OutputFile::create(path);
+  auto file = base::Journal::open(path);
   if (!file) return tl::unexpected(file.error());
-  std::string head = "{\"displayTimeUnit\":\"ms\",\n\"otherData\":{";
+  std::string head =
+      "[\n{\"name\":\"process_name\",\"ph\":\"M\",\"pid\":1,\"tid\":1,\"args\":{\"name\":\"tenebra\"}},\n"
+      "{\"name\":\"settings\",\"ph\":\"i\",\"s\":\"g\",\"pid\":1,\"tid\":1,\"ts\":0,\"args\":{";
   for (const LogSetting& setting : settings) {
     head += (&setting == settings.data() ? "" : ",\n") + json_string(setting.name) + ":" +
             json_string(setting.value);
   }
-  head +=
-      "},\n\"traceEvents\":[\n"
-      "{\"name\":\"process_name\",\"ph\":\"M\",\"pid\":1,\"tid\":1,\"args\":{\"name\":\"tenebra\"}}";
-  if (auto written = file->write(head); !written) return tl::unexpected(written.error());
+  head += "}}";
+  if (auto written = file->begin(head); !written) return tl::unexpected(written.error());
   return FrameTrace(std::move(*file));
 }
 
 Expected<void> FrameTrace::add(const FrameRecord& record, double begin_ms) {
-  return file_.write(slices_of(record, begin_ms));
+  return file_.append(slices_of(record, begin_ms));
 }
 
 Expected<void> FrameTrace::finish() {
-  if (auto written = file_.write("\n]}\n"); !written) return written;
-  return file_.commit();
+  if (auto written = file_.append("\n]\n"); !written) return written;
+  return file_.finish();
 }
 
 }  // namespace tenebra::render

@@ -1,5 +1,6 @@
 // The frame trace: stage times as slices in the JSON of Chrome's trace events, which Perfetto and
-// chrome://tracing open.
+// chrome://tracing open. It is an array of events, whose last bracket both do without: so a trace that a
+// killed program left opens too.
 #pragma once
 
 #include <filesystem>
@@ -11,11 +12,11 @@
 namespace tenebra::render {
 
 /// A frame is one slice with its counts as arguments; its stages are slices within, in the order in which
-/// they run. Only the frame's begin is measured: a stage is drawn where the one before it ends. Written as
-/// the frame log is: progressively, and whole or absent.
+/// they run. Only the frame's begin is measured: a stage is drawn where the one before it ends. A journal, as
+/// the frame log is.
 class FrameTrace {
 public:
-  /// `settings` become the trace's metadata.
+  /// `settings` become the arguments of a first event of that name.
   static Expected<FrameTrace> create(const std::filesystem::path& path, std::span<const LogSetting> settings);
 
   /// `begin_ms`: when the frame began, since the start of the run.
@@ -23,8 +24,8 @@ public:
   Expected<void> finish();
 
 private:
-  explicit FrameTrace(base::OutputFile file) : file_(std::move(file)) {}
-  base::OutputFile file_;
+  explicit FrameTrace(base::Journal file) : file_(std::move(file)) {}
+  base::Journal file_;
 };
 
 }  // namespace tenebra::render

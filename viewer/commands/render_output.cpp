@@ -1,0 +1,166 @@
+#include "commands/render_output.h"
+
+#include <fmt/core.h>
+
+#include <algorithm>
+#include <filesystem>
+#include <ranges>
+
+#include "base/fail.h"
+#include "base/file_hash.h"
+#include "commands/render_identity.h"
+#include "render/mask_colour.h"
+#include "shared/render_files.h"
+
+namespace tenebra::viewer {
+namespace {
+
+namespace fs = std::filesystem;
+
+bool is_there(const fs::path& file) {
+  std::error_code none;
+  return fs::exists(file, none);
+}
+
+/// What a log that is gone on with does not say yet: another machine, other frames.
+std::vector<render::LogSetting> changes(const render::LogPast& past,
+                                        std::span<const render::LogSetting> settings) {
+  std::vector<render::LogSetting> changed;
+  const auto noted = [&](const render::LogSetting& setting) {
+    return std::ranges::any_of(past.settings, [&](const render::LogSetting& old) {
+      return old.name == setting.name && old.value == setting.value;
+    });
+  };
+  for (const render::LogSetting& setting : settings)
+    if (!noted(setting)) changed.push_back({"from here on " + setting.name, setting.value});
+  return changed;
+}
+
+}  // namespace
+
+Expected<void> RenderOutput::open(std::vector<render::LogSetting> settings) {
+  const std::vector<render::LogSetting> identity = identity_of(settings);
+  settings.push_back({"settings_hash", base::text_hash(render::log_head(identity, ""))});
+  if (auto opened = open_done_list(identity); !opened) return opened;
+  if (!options_.log.empty())
+    if (auto opened = open_log(settings, identity); !opened) return opened;
+  std::ranges::sort(done_before_);
+  // A trace is of one run; where nothing is left to do, the last one's stays.
+  if (!options_.trace.empty() && !frames_left().empty()) {
+    auto trace = render::FrameTrace::create(options_.trace, settings);
+    if (!trace) return tl::unexpected(trace.error());
+    trace_.emplace(std::move(*trace));
+  }
+  return {};
+}
+
+/// A single picture needs no list, but one that is there must not go on to say what this render changes.
+Expected<void> RenderOutput::open_done_list(std::span<const render::LogSetting> identity) {
+  const auto path = DoneList::path_of(options_);
+  const bool wanted = options_.resume || plan_.of_several_frames;
+  if (!path || (!wanted && !is_there(*path))) return {};
+  auto list = DoneList::open(*path, identity, options_.resume);
+  if (!list) return tl::unexpected(list.error());
+  done_before_ = list->frames();
+  done_.emplace(std::move(*list));
+  return {};
+}
+
+Expected<void> RenderOutput::open_log(std::span<const render::LogSetting> settings,
+                                      std::span<const render::LogSetting> identity) {
+  auto log = render::FrameLog::open(options_.log);
+  if (!log) return tl::unexpected(log.error());
+  log_.emplace(std::move(*log));
+  const auto past = options_.resume ? log_->past() : render::LogPast();
+  if (!past) return tl::unexpected(past.error());
+  if (past->whole_bytes == 0) return log_->begin(settings);
+  if (auto same = check_same_identity(options_.log, *past, identity); !same) return same;
+  if (!past->has_header) return base::fail("cannot go on with {}: found no log of frames", options_.log);
+  done_before_.insert(done_before_.end(), past->frames.begin(), past->frames.end());
+  if (auto kept = log_->go_on(*past); !kept) return kept;
+  for (const render::LogSetting& change : changes(*past, settings))
+    if (auto noted = log_->comment(change); !noted) return noted;
+  return {};
+}
+
+bool RenderOutput::has_files(int frame) const {
+  const std::vector<OutputName> files = files_of_frame(plan_, options_, frame);
+  return std::ranges::all_of(files, [](const OutputName& output) { return is_there(output.file); });
+}
+
+std::vector<PlannedFrame> RenderOutput::frames_left() const {
+  std::vector<PlannedFrame> left;
+  for (const PlannedFrame& frame : plan_.frames) {
+    const bool noted = options_.skip_existing || std::ranges::binary_search(done_before_, frame.frame);
+    const bool skips = options_.skip_existing || options_.resume;
+    if (!skips || !noted || !has_files(frame.frame)) left.push_back(frame);
+  }
+  return left;
+}
+
+Expected<void> RenderOutput::write(const render::FrameRecord& record, double begin_ms,
+                                   const render::FrameResult& result) {
+  if (auto written = write_pictures(record.frame, result); !written) return written;
+  if (auto added = add_row(record, result.notes); !added) return added;
+  if (trace_)
+    if (auto added = trace_->add(record, begin_ms); !added) return added;
+  return done_ ? done_->add(record.frame) : Expected<void>();
+}
+
+Expected<void> RenderOutput::add_row(const render::FrameRecord& record,
+                                     const std::vector<std::string>& notes) {
+  if (!log_) return {};
+  for (const std::string& note : notes)
+    if (auto noted = log_->comment({"note", note}); !noted) return noted;
+  return log_->add(record);
+}
+
+/// Those that are looked for to see whether a frame is there come last: the first light's mask, the picture.
+Expected<void> RenderOutput::write_pictures(int frame, const render::FrameResult& result) const {
+  for (const render::LightMask& mask : std::views::reverse(result.masks))
+    if (auto written = write_masks(frame, mask); !written) return written;
+  return options_.pictures ? base::write_png(options_.pictures->file(frame), result.image) : Expected<void>();
+}
+
+Expected<void> RenderOutput::write_masks(int frame, const render::LightMask& mask) const {
+  const std::string light = plan_.several_lights ? fmt::format("_L{}", mask.light) : "";
+  for (const OutputPattern& pattern : options_.masks) {
+    const auto file = pattern.file(frame, light);
+    auto written =
+        pattern.is_pfm() ? base::write_pfm(file, mask.visible_fraction) : base::write_png(file, mask.mask);
+    if (!written) return written;
+  }
+  for (const OutputPattern& pattern : options_.mask_colours) {
+    const auto file = pattern.file(frame, light);
+    auto written = pattern.is_pfm() ? base::write_pfm(file, render::mask_colour(mask))
+                                    : base::write_png(file, render::mask_colour8(mask));
+    if (!written) return written;
+  }
+  return write_sample_masks(frame, light, mask);
+}
+
+Expected<void> RenderOutput::write_sample_masks(int frame, const std::string& light,
+                                                const render::LightMask& mask) const {
+  for (const OutputPattern& pattern : options_.mask_means) {
+    const auto file = pattern.file(frame, light);
+    auto written = pattern.is_pfm() ? base::write_pfm(file, mask.mean)
+                                    : base::write_png(file, render::in_levels(mask.mean));
+    if (!written) return written;
+  }
+  for (const OutputPattern& pattern : options_.mask_samples)
+    for (std::size_t k = 0; k < mask.samples.size(); ++k) {
+      const auto file = pattern.file(frame, fmt::format("{}_S{}", light, k));
+      if (auto written = base::write_png(file, mask.samples[k]); !written) return written;
+    }
+  return {};
+}
+
+Expected<void> RenderOutput::finish() {
+  if (log_)
+    if (auto finished = log_->finish(); !finished) return finished;
+  if (trace_)
+    if (auto finished = trace_->finish(); !finished) return finished;
+  return done_ ? done_->finish() : Expected<void>();
+}
+
+}  // namespace tenebra::viewer

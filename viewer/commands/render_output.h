@@ -1,0 +1,49 @@
+// Everything that a render writes: pictures, masks, the log, the trace, the list of what is done.
+#pragma once
+
+#include <optional>
+#include <span>
+#include <string>
+#include <vector>
+
+#include "commands/done_list.h"
+#include "render/log/trace_json.h"
+#include "shared/render_plan.h"
+
+namespace tenebra::viewer {
+
+class RenderOutput {
+public:
+  /// Both must live as long.
+  RenderOutput(const RenderPlan& plan, const RenderOptions& options) : plan_(plan), options_(options) {}
+
+  /// Opens what grows with the frames; `settings` stand above the log. With --resume it fails if a setting
+  /// that pictures follow from is another one than before.
+  Expected<void> open(std::vector<render::LogSetting> settings);
+  /// The frames that are to be drawn; call it once it is open.
+  std::vector<PlannedFrame> frames_left() const;
+
+  /// The frame's files, then its row of the log and of the trace, then that it is done. `begin_ms`: when the
+  /// frame began, since the start of the run.
+  Expected<void> write(const render::FrameRecord& record, double begin_ms, const render::FrameResult& result);
+  Expected<void> finish();
+
+private:
+  Expected<void> open_done_list(std::span<const render::LogSetting> identity);
+  Expected<void> open_log(std::span<const render::LogSetting> settings,
+                          std::span<const render::LogSetting> identity);
+  bool has_files(int frame) const;
+  Expected<void> write_pictures(int frame, const render::FrameResult& result) const;
+  Expected<void> write_masks(int frame, const render::LightMask& mask) const;
+  Expected<void> write_sample_masks(int frame, const std::string& light, const render::LightMask& mask) const;
+  Expected<void> add_row(const render::FrameRecord& record, const std::vector<std::string>& notes);
+
+  const RenderPlan& plan_;
+  const RenderOptions& options_;
+  std::optional<render::FrameLog> log_;
+  std::optional<render::FrameTrace> trace_;
+  std::optional<DoneList> done_;
+  std::vector<int> done_before_;  ///< sorted
+};
+
+}  // namespace tenebra::viewer

@@ -1,0 +1,35 @@
+#include "shared/render_files.h"
+
+#include <fmt/core.h>
+
+namespace tenebra::viewer {
+
+std::vector<OutputName> files_of_frame(const RenderPlan& plan, const RenderOptions& options, int frame) {
+  std::vector<OutputName> files;
+  const auto add = [&](const char* option, const std::vector<OutputPattern>& patterns, int samples) {
+    for (const OutputPattern& pattern : patterns)
+      for (int light = 0; light < plan.lights; ++light)
+        for (int sample = 0; sample < samples; ++sample) {
+          std::string suffix = plan.several_lights ? fmt::format("_L{}", light) : "";
+          if (option == std::string_view("--mask-samples")) suffix += fmt::format("_S{}", sample);
+          files.push_back({option, pattern.file(frame, suffix)});
+        }
+  };
+  if (options.pictures) files.push_back({"-o", options.pictures->file(frame)});
+  add("--mask", options.masks, 1);
+  add("--mask-colour", options.mask_colours, 1);
+  add("--mask-mean", options.mask_means, 1);
+  add("--mask-samples", options.mask_samples, plan.settings.antialias);
+  return files;
+}
+
+std::vector<OutputName> files_of_render(const RenderPlan& plan, const RenderOptions& options) {
+  std::vector<OutputName> files;
+  if (!options.log.empty()) files.push_back({"--log", options.log});
+  if (!options.trace.empty()) files.push_back({"--trace", options.trace});
+  for (const PlannedFrame& frame : plan.frames)
+    for (OutputName& file : files_of_frame(plan, options, frame.frame)) files.push_back(std::move(file));
+  return files;
+}
+
+}  // namespace tenebra::viewer

@@ -1,0 +1,16 @@
+// How the program ends: what a script or a farm reads. The help of `tenebra render` lists them.
+#pragma once
+
+namespace tenebra::viewer::exit_codes {
+
+inline constexpr int failed = 1;             ///< would fail again: a wrong option, a scene that is not one
+inline constexpr int comparison_failed = 2;  ///< `tenebra compare` says with 1 that pictures differ
+inline constexpr int outputs_failed = 75;  ///< a file could not be written: try again once the disk has room
+inline constexpr int timed_out = 124;      ///< as timeout(1) has it
+
+/// By convention: 130 for SIGINT, 143 for SIGTERM.
+constexpr int of_signal(int signal) {
+  return 128 + signal;
+}
+
+}  // namespace tenebra::viewer::exit_codes
