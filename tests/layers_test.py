@@ -24,6 +24,7 @@ MAY_INCLUDE = {
     "tint": {"base", "math", "simd", "parallel", "scene", "texture", "points", "shadow", "soft"},
     "ao": {"base", "math", "simd", "parallel", "scene", "texture", "points"},
     "shade": {"base", "math", "simd", "parallel", "scene", "texture", "points"},
+    "oracle": {"base", "parallel"},
     "gl": {"base"},
     "visibility": {"base", "math", "simd", "parallel", "scene"},
     "raster": {"base", "math", "scene", "gl", "visibility"},

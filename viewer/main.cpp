@@ -19,7 +19,7 @@ using tenebra::viewer::Run;
 constexpr int failure = 1;
 constexpr int comparison_failure = 2;  // `tenebra compare` says with 1 that pictures differ
 
-constexpr const char* commands = "view, render, info, convert, compare or log";
+constexpr const char* commands = "view, render, info, convert, compare, log or verify";
 constexpr const char* about =
     "tenebra: exact, alias-free shadows for animated scenes, on the CPU beside OpenGL\n";
 constexpr const char* first_steps =
@@ -92,6 +92,7 @@ int main(int argc, char** argv) {
     tenebra::viewer::add_convert_command(program, run);
     tenebra::viewer::add_compare_command(program, run);
     tenebra::viewer::add_log_command(program, run);
+    tenebra::viewer::add_verify_command(program, run);
     return parse_and_run(program, run, argc, argv);
   } catch (const std::exception& error) {
     return report(fmt::format("cannot start ({})", error.what()), failure);

@@ -296,6 +296,21 @@ void add_method_options(CLI::App& command, MethodOptions& options) {
   add_ao(command, options.render.ao);
 }
 
+void add_tracer_options(CLI::App& command, MethodOptions& options) {
+  render::RenderSettings& render = options.render;
+  add_value(command, "--light", render.light, parse_light, "This light alone, by number, or all [all]")
+      .type_name("N|all");
+  add_value(command, "--variant", render.hard.variant, parse_variant,
+            "Method: Tiles, or one of the paper's, like PreciseSorted\n[Tiles]")
+      .type_name("V");
+  add_choice<cull_choices>(command, "--cull", options.cull_front,
+                           "front: only faces turned away from the light cast\nshadows [none]");
+  add_value(command, "--threads", render.threads, parse_threads, "Threads [0: all cores]").type_name("N");
+  add_value(command, "--simd", render.hard.simd, parse_simd,
+            "Vector instructions: auto, scalar, sse4, avx2 or avx512\n[auto]")
+      .type_name("LEVEL");
+}
+
 void settle_quality(const CLI::App& command, MethodOptions& options) {
   if (!options.quality) return;
   const render::RenderSettings given = options.render;
