@@ -52,7 +52,7 @@ CONTAINED = [
     (r"\bmeshopt_|meshoptimizer\.h", "meshoptimizer", {"formats/gltf/meshopt.cpp"}),
     (r"\bdraco::|<draco/", "Draco", {"formats/gltf/draco_decoder.cpp"}),
     (r"\bstbi_|stb/stb_image", "stb_image", {"base/image.cpp"}),
-    (r"libdeflate", "libdeflate", {"base/png_writer.cpp"}),
+    (r"libdeflate", "libdeflate", {"base/png_writer.cpp", "base/png_structure.cpp"}),
     (r"\bWebP[A-Z]|webp/", "libwebp", {"formats/images/webp.cpp"}),
     (r"\bImGui|GLFW", "the window", set()),
     (r"\brtc[A-Z]\w*\(|embree", "the ray caster", {"ao/cast/embree.h", "ao/cast/reference_rays.cpp"}),

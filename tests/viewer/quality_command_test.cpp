@@ -68,7 +68,7 @@ TEST(QualityOption, IsRefusedInASentenceWhereUnknown) {
   const TemporaryFolder folder;
   const std::string scene = write_moving_scene(folder);
   for (const char* command : {"render", "view"}) {
-    for (const char* name : {"best", "Fast", ""}) {
+    for (const char* name : {"best", "faster", ""}) {
       const auto result = tenebra({command, scene, "--quality", name});
       EXPECT_EQ(result.exit_code, 1) << command << ' ' << name;
       EXPECT_TRUE(is_one_sentence(result.errors)) << result.errors;

@@ -11,6 +11,7 @@
 #include "base/stopwatch.h"
 #include "commands/command.h"
 #include "commands/verify_report.h"
+#include "options/choices.h"
 #include "options/config_file.h"
 #include "options/raster_options.h"
 #include "render/light_casters.h"
@@ -46,7 +47,7 @@ struct VerifyOptions {
 };
 
 Expected<std::size_t> parse_samples(const std::string& text) {
-  if (text == "all") return all_samples;
+  if (is_word(text, "all")) return all_samples;
   const auto count = parse_at_least_one(text);
   if (!count) return base::fail("found {}, expected all or a whole number from 1 to 1000000", text);
   return static_cast<std::size_t>(*count);
@@ -64,8 +65,8 @@ render::RenderSettings mask_settings(const RenderPlan& plan) {
   return settings;
 }
 
-std::vector<render::LogSetting> describe(const VerifyOptions& options, const RenderPlan& plan,
-                                         const render::FrameRaster& raster) {
+std::vector<render::LogSetting> describe_run(const VerifyOptions& options, const RenderPlan& plan,
+                                             const render::FrameRaster& raster) {
   return {
       {"program", "tenebra " TENEBRA_VERSION},
       {"machine", base::machine_description()},
@@ -87,7 +88,7 @@ public:
     auto raster = render::FrameRaster::create(options_.render.raster);
     if (!raster) return tl::unexpected(raster.error());
     render::Renderer renderer = render::Renderer::create(std::move(*raster), plan_.scene);
-    verification_.settings = describe(options_, plan_, renderer.raster());
+    verification_.settings = describe_run(options_, plan_, renderer.raster());
     verification_.planned_frames = plan_.frames.size();
     Progress progress(static_cast<int>(plan_.frames.size()), options_.render.quiet);
     for (const PlannedFrame& frame : plan_.frames) {

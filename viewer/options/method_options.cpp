@@ -32,7 +32,8 @@ void set_group(std::initializer_list<AddedOption> options, const char* group) {
 }
 
 Expected<Variant> parse_variant(const std::string& text) {
-  if (const auto variant = variant_from_name(text)) return *variant;
+  for (int i = 0; i <= static_cast<int>(Variant::precise_seatp); ++i)
+    if (is_word(text, variant_name(static_cast<Variant>(i)))) return static_cast<Variant>(i);
   return base::fail(
       "found {}, expected Tiles, Precise, PreciseSorted, Spheres, SpheresSorted, PreciseSEA, PreciseEATP or "
       "PreciseSEATP",
@@ -40,7 +41,7 @@ Expected<Variant> parse_variant(const std::string& text) {
 }
 
 Expected<SimdLevel> parse_simd(const std::string& text) {
-  const auto level = simd_level_from_name(text);
+  const auto level = simd_level_from_name(lower_case(text));
   if (!level) return base::fail("found {}, expected auto, scalar, sse4, avx2 or avx512", text);
   if (*level != SimdLevel::automatic && !simd_level_supported(*level)) {
     return base::fail("this machine or build has no {}, its best is {}", text,
@@ -50,7 +51,7 @@ Expected<SimdLevel> parse_simd(const std::string& text) {
 }
 
 Expected<int> parse_light(const std::string& text) {
-  if (text == "all") return -1;
+  if (is_word(text, "all")) return -1;
   const auto number = parse_count(text);
   return number ? number : base::fail("found {}, expected the number of a light, from 0, or all", text);
 }
@@ -86,7 +87,7 @@ Expected<int> parse_downscale(const std::string& text) {
 }
 
 Expected<render::Quality> parse_quality(const std::string& text) {
-  if (const auto quality = render::quality_from_name(text)) return *quality;
+  if (const auto quality = render::quality_from_name(lower_case(text))) return *quality;
   return base::fail("found {}, expected fast, balanced or exact", text);
 }
 
@@ -104,7 +105,7 @@ Expected<std::filesystem::path> parse_cache(const std::string& text) {
 
 AddedOption add_exposure(CLI::App& command, MethodOptions& options) {
   const auto read = [&options](const std::string& text) -> Expected<void> {
-    options.auto_exposure = text == "auto";
+    options.auto_exposure = is_word(text, "auto");
     if (options.auto_exposure) return {};
     const auto factor = parse_factor(text);
     if (!factor) return base::fail("{}, or auto", factor.error().message);
