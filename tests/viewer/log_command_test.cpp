@@ -60,6 +60,15 @@ TEST(LogFile, FindsWhereChunksBegin) {
   EXPECT_EQ(first_frames(parsed(log_text(rows(0, 4) + "# note: slow\n" + rows(5, 9)))), std::vector<int>{0});
 }
 
+TEST(LogFile, ReadsWhatAResumedRenderLeaves) {
+  const auto log =
+      parsed(log_text(rows(0, 4) + "#      \n# from here on machine: two\n" + rows(5, 9) + "# \n#\n"));
+  EXPECT_EQ(first_frames(log), (std::vector<int>{0, 5}));
+  EXPECT_EQ(log.settings.back().name, "machine");
+  EXPECT_EQ(log.settings.back().value, "two");
+  for (const auto& frame : log.frames) EXPECT_TRUE(frame.notes.empty()) << "blank comments fill pages";
+}
+
 TEST(LogFile, CountsUpToTheLastWholeRow) {
   const std::string whole = log_text(rows(0, 9));
   for (std::size_t cut = whole.size() - 30; cut < whole.size(); ++cut) {
@@ -158,6 +167,11 @@ TEST(LogMerge, RefusesLogsOfDifferentRenders) {
   EXPECT_NE(why(log_text("5,2.5,1,15,1006,7,3\n")).find("frame 5 has rays 1005 in a.csv and 1006 in b.csv"),
             std::string::npos);
   EXPECT_EQ(why(log_text("5,2.5,1,15,1005,999,3\n")), "") << "nodes depend on the frames before";
+  const std::string elsewhere = "# scene: /mnt/a.glb\n# input_files: 1, 77\n# shadows: hard\n";
+  const std::vector<LogFile> hashed{
+      parsed(elsewhere + header + rows(0, 1)),
+      parsed("# scene: a.glb" + elsewhere.substr(elsewhere.find('\n')) + header + rows(2, 3))};
+  EXPECT_TRUE(viewer::merge_logs(hashed)) << "the same files in another place";
 }
 
 TEST(PageText, EscapesWhatHtmlReadsAndEncodesAsTheStandardSays) {

@@ -136,23 +136,27 @@ std::string line_of(const Axes& axes, const Rows& rows, std::size_t total, std::
   return text;
 }
 
-/// First frames, and those that the scale does not hold.
+/// First frames, and those that the scale does not hold: the largest of these with its time.
 std::string marks_of(const Axes& axes, const Rows& rows, std::size_t total, std::size_t number) {
   std::string text;
+  const LoggedFrame* largest = nullptr;
   for (const LoggedFrame* frame : rows.frames) {
-    const double ms = frame->values[total], x = axes.x(frame->frame), y = axes.y(ms);
+    const double ms = frame->values[total], x = axes.x(frame->frame);
     if (ms > axes.highest_ms) {
-      const bool is_late = x > width - 120;
-      text += fmt::format(
-          "<path class=\"dot{0}\" d=\"M{1:.1f} {2}l5 9h-10z\"/><text class=\"tick\" x=\"{3:.1f}\" y=\"{4}\" "
-          "text-anchor=\"{5}\">{6:.4g} ms</text>\n",
-          number, x, top - 6, is_late ? x - 8 : x + 8,
-          static_cast<double>(top + 3 + 13 * static_cast<double>(number)), is_late ? "end" : "start", ms);
+      if (largest == nullptr || ms > largest->values[total]) largest = frame;
+      text += fmt::format("<path class=\"dot{}\" d=\"M{:.1f} {}l5 9h-10z\"/>\n", number, x, top - 6);
     } else if (frame->opens_chunk) {
-      text += fmt::format("<circle class=\"ring{}\" cx=\"{:.1f}\" cy=\"{:.1f}\" r=\"3.5\"/>\n", number, x, y);
+      text += fmt::format("<circle class=\"ring{}\" cx=\"{:.1f}\" cy=\"{:.1f}\" r=\"3.5\"/>\n", number, x,
+                          axes.y(ms));
     }
   }
-  return text;
+  if (largest == nullptr) return text;
+  const double x = axes.x(largest->frame);
+  const bool is_late = x > width - 120;  // no room to the right
+  return text +
+         fmt::format("<text class=\"tick\" x=\"{:.1f}\" y=\"{}\" text-anchor=\"{}\">{:.4g} ms</text>\n",
+                     is_late ? x - 8 : x + 8, top + 3 + 13 * static_cast<double>(number),
+                     is_late ? "end" : "start", largest->values[total]);
 }
 
 std::string stage_name(const LogFile& log, std::size_t column) {

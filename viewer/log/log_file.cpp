@@ -54,7 +54,7 @@ public:
     if (line.ends_with('\r')) line.remove_suffix(1);
     if (line.empty()) return {};
     if (line.starts_with('#')) {
-      (log_.columns.empty() ? log_.settings : notes_).push_back(setting_of(line));
+      add_comment(setting_of(line));
       return {};
     }
     if (log_.columns.empty()) return add_header(line);
@@ -66,6 +66,16 @@ public:
   }
 
 private:
+  void add_comment(render::LogSetting comment) {
+    constexpr std::string_view changed = "from here on ";
+    if (comment.name.find_first_not_of(' ') == std::string::npos) return;  // fills a page of the disk
+    if (log_.columns.empty()) return log_.settings.push_back(std::move(comment));
+    if (!comment.name.starts_with(changed)) return notes_.push_back(std::move(comment));
+    opens_ = true;  // another process went on
+    comment.name.erase(0, changed.size());
+    log_.settings.push_back(std::move(comment));
+  }
+
   Expected<void> add_header(std::string_view line) {
     header_ = line;
     for (const std::string_view field : fields_of(line)) log_.columns.emplace_back(field);

@@ -42,8 +42,8 @@ struct LogFile {
 
 /// Reads a log. A file that ends in the middle of a row (a killed render) counts up to its last whole row.
 /// Fails with the file and the line on what is no row of a frame log. A chunk begins with the first row,
-/// where the frames' numbers jump, and where the header line or a comment "# chunk: ..." or "# resumed: ..."
-/// stands between rows; in a merged log only where it says so.
+/// where the frames' numbers jump, and where the header line or a comment "# chunk: ...", "# resumed: ..." or
+/// "# from here on ..." stands between rows; in a merged log only where it says so.
 Expected<LogFile> read_log(const std::filesystem::path& path);
 
 /// The same from the text of a file. `name`: for messages.

@@ -15,9 +15,12 @@ namespace {
 using render::LogSetting;
 
 /// Where and over which frames it ran, not what is drawn. Triangles are those of the first frame.
-constexpr std::array<std::string_view, 14> settings_of_a_run{
-    "machine",  "renderer", "threads", "simd",   "LP_NUM_THREADS", "frames",  "triangles",
-    "ao_cache", "warning",  "note",    "merged", "chunk",          "resumed", "dropped_non_finite"};
+constexpr std::array<std::string_view, 13> settings_of_a_run{
+    "machine", "threads", "simd",   "LP_NUM_THREADS", "frames",  "triangles",         "ao_cache",
+    "warning", "note",    "merged", "chunk",          "resumed", "dropped_non_finite"};
+/// Where files lie; where a log has the hash of what they hold, that counts.
+constexpr std::array<std::string_view, 2> settings_of_a_place{"scene", "texture_path"};
+constexpr std::string_view content_hash = "input_files";
 
 /// Counts that follow from scene and settings alone: two rows of one frame have the same.
 constexpr std::array<std::string_view, 5> certain_counts{"time_s", "rays", "triangles", "shadowed_pixels",
@@ -32,6 +35,8 @@ std::map<std::string, std::vector<std::string>> what_is_drawn(const LogFile& log
   std::map<std::string, std::vector<std::string>> values;
   for (const LogSetting& setting : log.settings)
     if (!is_of_a_run(setting.name)) values[setting.name].push_back(setting.value);
+  if (values.contains(std::string(content_hash)))
+    for (const std::string_view name : settings_of_a_place) values.erase(std::string(name));
   return values;
 }
 
