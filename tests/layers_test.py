@@ -24,6 +24,7 @@ MAY_INCLUDE = {
     "tint": {"base", "math", "simd", "parallel", "scene", "texture", "points", "shadow", "soft"},
     "ao": {"base", "math", "simd", "parallel", "scene", "texture", "points"},
     "shade": {"base", "math", "simd", "parallel", "scene", "texture", "points"},
+    "oracle": {"base", "parallel"},
     "gl": {"base"},
     "visibility": {"base", "math", "simd", "parallel", "scene"},
     "raster": {"base", "math", "scene", "gl", "visibility"},
@@ -51,7 +52,7 @@ CONTAINED = [
     (r"\bmeshopt_|meshoptimizer\.h", "meshoptimizer", {"formats/gltf/meshopt.cpp"}),
     (r"\bdraco::|<draco/", "Draco", {"formats/gltf/draco_decoder.cpp"}),
     (r"\bstbi_|stb/stb_image", "stb_image", {"base/image.cpp"}),
-    (r"libdeflate", "libdeflate", {"base/png_writer.cpp"}),
+    (r"libdeflate", "libdeflate", {"base/png_writer.cpp", "base/png_structure.cpp"}),
     (r"\bWebP[A-Z]|webp/", "libwebp", {"formats/images/webp.cpp"}),
     (r"\bImGui|GLFW", "the window", set()),
     (r"\brtc[A-Z]\w*\(|embree", "the ray caster", {"ao/cast/embree.h", "ao/cast/reference_rays.cpp"}),
@@ -59,7 +60,7 @@ CONTAINED = [
 
 
 # Rooms of the program, lowest first, as above; main.cpp stands above them all.
-VIEWER_ROOMS = ["shell", "options", "shared", "window", "commands", ""]
+VIEWER_ROOMS = ["shell", "options", "shared", "log", "window", "commands", ""]
 # Rooms of viewer/window that know nothing of what is drawn: of the window they see themselves and these.
 PLAIN_WINDOW_ROOMS = {"motion": set(), "frames": {"motion"}}
 

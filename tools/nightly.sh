@@ -7,12 +7,14 @@
 #   debug     runs the libraries' unit tests as the debug preset builds them
 #   asan      runs all tests with the address and undefined-behaviour sanitizers
 #   tsan      runs all tests with the thread sanitizer
+#   report    opens a page of `tenebra log report` in headless Chromium
+#   fuzz      runs the fuzzers of tests/fuzz for FUZZ_MINUTES [60]
 #   all       every part, one after the other
 # Exit code: 0 if every part that was asked for is ok, 1 if one failed, 2 if the request was not understood.
 # JOBS=N: how many jobs at once [all cores].
 set -uo pipefail
 cd "$(dirname "$0")/.."
-parts=(lto-odr clang roots debug asan tsan)
+parts=(lto-odr clang roots debug asan tsan report fuzz)
 jobs=${JOBS:-$(nproc)}
 
 has() {
@@ -57,6 +59,27 @@ run_preset() {
 run_debug() { tools/setup.sh --tests && tools/test_debug.sh; }
 run_asan() { run_preset asan; }
 run_tsan() { run_preset tsan; }
+
+# The page's script has run if a frame is chosen; what a browser could not load it would have asked a network for.
+run_report() {
+  local browser folder page
+  browser=$(command -v chromium-headless-shell || command -v chromium) ||
+    { echo "Chromium is missing: install the package chromium-headless-shell" >&2; return 1; }
+  folder=$(mktemp -d) || return 1
+  cmake --preset release > /dev/null && cmake --build --preset release -j "$jobs" --target tenebra || return 1
+  for shadows in none hard; do
+    build/bin/tenebra render scenes/city.glb --frames 0:4 --size 160x90 --shadows "$shadows" --quiet \
+      -o "$folder/$shadows%04d.png" --log "$folder/$shadows.csv" || return 1
+  done
+  build/bin/tenebra log report "$folder"/{none,hard}.csv --pictures "$folder/none%04d.png" \
+    --pictures-b "$folder/hard%04d.png" -o "$folder/report.html" || return 1
+  ! grep -E "https?://|src=\"[^d]" "$folder/report.html" || { echo "the page asks a network" >&2; return 1; }
+  page=$("$browser" --headless --no-sandbox --dump-dom "file://$folder/report.html" 2> /dev/null)
+  rm -r "$folder"
+  grep -q 'class="which">frame 2<' <<< "$page" && grep -q 'aria-pressed="true"' <<< "$page"
+}
+
+run_fuzz() { tools/fuzz.sh "${FUZZ_MINUTES:-60}"; }
 
 usage() {
   sed -n '2,/^# JOBS/s/^# \{0,1\}//p' "$0"

@@ -11,13 +11,13 @@ packages=(
   libegl-dev libopengl-dev libegl1 libegl-mesa0 libgl1-mesa-dri
   libglm-dev libfmt-dev libexpected-dev libtinygltf-dev libtinyobjloader-dev
   nlohmann-json3-dev libcli11-dev libstb-dev libtbb-dev libhwy-dev
-  libzstd-dev libdeflate-dev libxxhash-dev
+  libzstd-dev libdeflate-dev libxxhash-dev libgmp-dev
   libglfw3-dev libimgui-dev
 )
 where_known=()  # taken where this release has them
 [[ "${1:-}" == --window || "${1:-}" == --tests ]] && packages+=(libgl1 libglx-mesa0 fonts-dejavu-core)
 if [[ "${1:-}" == --tests ]]; then
-  packages+=(libgtest-dev libembree-dev libgmp-dev
+  packages+=(libgtest-dev libembree-dev
     libmeshoptimizer-dev libdraco-dev
     xvfb xauth xdotool imagemagick x11-xserver-utils)
   # Mesa 25.1 and later have no OSMesa: EGL is enough. libwebp: pictures in WebP.

@@ -20,6 +20,7 @@ using tenebra::viewer::Run;
 constexpr int failure = tenebra::viewer::exit_codes::failed;
 constexpr int comparison_failure = tenebra::viewer::exit_codes::comparison_failed;
 
+constexpr const char* commands = "view, render, info, convert, compare, log or verify";
 constexpr const char* about =
     "tenebra: exact, alias-free shadows for animated scenes, on the CPU beside OpenGL\n";
 constexpr const char* first_steps =
@@ -58,14 +59,11 @@ int parse_and_run(CLI::App& program, Run& run, int argc, char** argv) {
   } catch (const CLI::ParseError& error) {
     const bool named = argc > 1 && argv[1][0] != '-';
     if (named && program.get_subcommands().empty()) {
-      return report(
-          fmt::format("unknown command '{}', expected view, render, info, convert or compare", argv[1]),
-          failure);
+      return report(fmt::format("unknown command '{}', expected {}", argv[1], commands), failure);
     }
     return report(tenebra::viewer::sentence_of(error), failure_code());
   }
-  if (!run)
-    return report("give a command: view, render, info, convert or compare (see tenebra --help)", failure);
+  if (!run) return report(fmt::format("give a command: {} (see tenebra --help)", commands), failure);
   try {
     const auto code = run();
     return code ? flush_output(*code) : report(code.error().message, failure_code());
@@ -94,6 +92,8 @@ int main(int argc, char** argv) {
     tenebra::viewer::add_info_command(program, run);
     tenebra::viewer::add_convert_command(program, run);
     tenebra::viewer::add_compare_command(program, run);
+    tenebra::viewer::add_log_command(program, run);
+    tenebra::viewer::add_verify_command(program, run);
     return parse_and_run(program, run, argc, argv);
   } catch (const std::exception& error) {
     return report(fmt::format("cannot start ({})", error.what()), failure);

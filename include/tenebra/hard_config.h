@@ -42,8 +42,8 @@ std::optional<Variant> variant_from_name(std::string_view name);
 enum class ContactRule {
   triangle_ids,  ///< exact: a triangle never blocks its own points, and others' points only if they lie
                  ///< farther behind its plane than the rounding of both triangles' vertices
-  none,          ///< always: for points that do not lie on their triangles, with front-face culling (the
-                 ///< paper's way)
+  none,          ///< always, the point's own triangle too if it lies behind that one's plane: for points that
+                 ///< do not lie on their triangles, with front-face culling (the paper's way)
 };
 
 struct HardShadowConfig {

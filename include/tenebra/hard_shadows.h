@@ -26,7 +26,7 @@ public:
   /// A sample P on triangle R (id) is *active* iff R has an area and light and eye lie strictly on the same
   /// side of R's plane (exact signs; orthographic views: the eye is at infinity against d0), and the spot's
   /// cone and range hold P (these two in double). An active sample is lit unless some casting triangle T =
-  /// (A, B, C), T not R, blocks it:
+  /// (A, B, C), T not R (with contact rule `none` R too), blocks it:
   ///   n = (B-A) x (C-A); s = sign n.(A-L) for a light at L, s = -sign n.l for one towards l; s = 0 blocks
   ///   nothing; edges closed: s ((A-L) x (B-L)).(P-L) >= 0, or s ((B-A) x l).(P-A) >= 0, for AB, BC and CA;
   ///   plane open:   s n.(P-A) > theta, theta = fl64((tau_T + tau_R) |n|), tau_X = sqrt(3) 2^-24 M_X,

@@ -103,6 +103,9 @@ Expected<ImageSize> stated_size(std::string_view bytes) {
 Expected<Image8> decode_rgba(std::string_view bytes) {
   const auto size = stated_size(bytes);
   if (!size) return tl::unexpected(size.error());
+  if (!is_jpeg(bytes)) {
+    if (const auto checked = check_png_pixels(bytes); !checked) return tl::unexpected(checked.error());
+  }
   Image8 image;
   int stored_channels = 0;
   const std::unique_ptr<stbi_uc, void (*)(void*)> decoded(
@@ -128,6 +131,8 @@ Expected<Image8> read_png(const std::filesystem::path& path) {
     return fail("{}: found {} x {} pixels, expected at most 2^28", path.string(), header->width,
                 header->height);
   }
+  if (const auto checked = check_png_pixels(*bytes); !checked)
+    return fail("{}: {}", path.string(), checked.error().message);
   Image8 image;
   const std::unique_ptr<stbi_uc, void (*)(void*)> decoded(
       stbi_load_from_memory(reinterpret_cast<const stbi_uc*>(bytes->data()), static_cast<int>(bytes->size()),

@@ -1,9 +1,14 @@
 #include "base/png_structure.h"
 
-#include "base/fail.h"
+#include <libdeflate.h>
 
 #include <array>
 #include <cstddef>
+#include <memory>
+#include <new>
+#include <string>
+
+#include "base/fail.h"
 
 namespace tenebra::base {
 namespace {
@@ -69,8 +74,48 @@ Expected<PngHeader> read_header(std::string_view bytes) {
     return fail("found {} of {} bytes as the first chunk, expected IHDR of {}", chunk->type,
                 chunk->content.size(), header_size);
   }
-  return PngHeader{big_endian(chunk->content, 0), big_endian(chunk->content, 4),
-                   static_cast<unsigned char>(chunk->content[8])};
+  const auto byte = [&](std::size_t i) -> int { return static_cast<unsigned char>(chunk->content[i]); };
+  return PngHeader{big_endian(chunk->content, 0), big_endian(chunk->content, 4), byte(8), byte(9),
+                   byte(12) != 0};
+}
+
+/// Bytes of rows of `width` pixels, with the byte that names each row's filter.
+std::uint64_t bytes_of_rows(const PngHeader& header, std::uint64_t width, std::uint64_t height) {
+  constexpr std::array<std::uint64_t, 7> channels_by_type{1, 1, 3, 1, 2, 1, 4};
+  const auto type = static_cast<std::size_t>(header.color_type);
+  const std::uint64_t channels = type < channels_by_type.size() ? channels_by_type[type] : 4;
+  if (width == 0) return 0;
+  return height * (1 + (width * channels * static_cast<std::uint64_t>(header.bit_depth) + 7) / 8);
+}
+
+/// What the compressed bytes must inflate to: all rows, or those of the seven passes of Adam7.
+std::uint64_t inflated_size(const PngHeader& header) {
+  if (!header.interlaced) return bytes_of_rows(header, header.width, header.height);
+  struct Pass {
+    std::uint32_t x, y, step_x, step_y;
+  };
+  constexpr std::array<Pass, 7> passes{Pass{0, 0, 8, 8}, {4, 0, 8, 8}, {0, 4, 4, 8}, {2, 0, 4, 4},
+                                       {0, 2, 2, 4},     {1, 0, 2, 2}, {0, 1, 1, 2}};
+  const auto count = [](std::uint64_t size, std::uint64_t first, std::uint64_t step) {
+    return size > first ? (size - first + step - 1) / step : 0;
+  };
+  std::uint64_t sum = 0;
+  for (const Pass& pass : passes)
+    sum += bytes_of_rows(header, count(header.width, pass.x, pass.step_x),
+                         count(header.height, pass.y, pass.step_y));
+  return sum;
+}
+
+/// All IDAT chunks together. The structure is right.
+std::string compressed_bytes(std::string_view bytes) {
+  std::string all;
+  for (std::size_t at = signature.size();;) {
+    const std::size_t length = big_endian(bytes, at);
+    const std::string_view type = bytes.substr(at + 4, 4);
+    if (type == "IEND") return all;
+    if (type == "IDAT") all += bytes.substr(at + 8, length);
+    at += chunk_overhead + length;
+  }
 }
 
 }  // namespace
@@ -94,6 +139,31 @@ Expected<PngHeader> check_png_structure(std::string_view bytes) {
                 header->height);
   }
   return header;
+}
+
+Expected<void> check_png_pixels(std::string_view bytes) {
+  constexpr std::uint64_t slack = 1 << 16;  // what some writers leave behind the last row
+  constexpr std::size_t zlib_header = 2;    // the checksum at the end is left to the decoder
+  const auto header = read_header(bytes);
+  if (!header) return tl::unexpected(header.error());
+  const std::uint64_t most = inflated_size(*header) + slack;
+  const std::string compressed = compressed_bytes(bytes);
+  if (compressed.size() < zlib_header) return fail("found {} compressed bytes", compressed.size());
+  const std::unique_ptr<char[]> out(new (std::nothrow) char[most]);
+  const std::unique_ptr<libdeflate_decompressor, void (*)(libdeflate_decompressor*)> decompressor(
+      libdeflate_alloc_decompressor(), libdeflate_free_decompressor);
+  if (out == nullptr || decompressor == nullptr)
+    return fail("not enough memory for its {} x {} pixels", header->width, header->height);
+  std::size_t size = 0;
+  switch (libdeflate_deflate_decompress(decompressor.get(), compressed.data() + zlib_header,
+                                        compressed.size() - zlib_header, out.get(), most, &size)) {
+    case LIBDEFLATE_SUCCESS:
+      return {};
+    case LIBDEFLATE_INSUFFICIENT_SPACE:
+      return fail("found more compressed data than its {} x {} pixels take", header->width, header->height);
+    default:
+      return fail("found damaged compressed data");
+  }
 }
 
 }  // namespace tenebra::base

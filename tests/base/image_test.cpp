@@ -105,6 +105,25 @@ TEST(Png, RefusesWhatIsNoPng) {
   EXPECT_FALSE(base::read_png(folder.path()));
 }
 
+/// The compressed bytes of a picture that write_png writes: it has one chunk of them.
+std::string compressed(const base::Image8& image) {
+  const std::string png = base::encode_png(image).value();
+  const std::size_t at = png.find("IDAT");
+  return png.substr(at + 4, png.size() - at - 4 - 4 - 12);
+}
+
+TEST(Png, RefusesMoreCompressedDataThanItsPixelsTake) {
+  const TemporaryFolder folder;
+  const base::Image8 large{4000, 4000, 1, std::vector<std::uint8_t>(16000000, 7)};
+  const std::string bomb = png_with_header(4, 4, 8, compressed(large));
+  EXPECT_LT(bomb.size(), 400000u);
+  EXPECT_NE(refusal_of(folder, bomb).find("more compressed data than its 4 x 4 pixels take"),
+            std::string::npos);
+  EXPECT_FALSE(base::decode_rgba(bomb));
+  EXPECT_EQ(refusal_of(folder, png_with_header(4000, 4000, 8, compressed(large))), "");
+  EXPECT_NE(refusal_of(folder, png_with_header(4, 4, 8, "x\x9cnonsense")).find("damaged"), std::string::npos);
+}
+
 TEST(Png, RefusesEveryTruncation) {
   const TemporaryFolder folder;
   ASSERT_TRUE(base::write_png(folder / "a.png", random_image(13, 7, 3, 2)));

@@ -1,8 +1,11 @@
 #include "reference/exact_segment.h"
 
-#include "reference/dyadic.h"
+#include "oracle/dyadic.h"
 
 namespace tenebra::reference {
+
+using oracle::Bounded, oracle::Dyadic, oracle::unknown_sign;
+
 namespace {
 
 template <class N>

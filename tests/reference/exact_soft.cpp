@@ -5,10 +5,13 @@
 #include <cmath>
 #include <numeric>
 
-#include "reference/dyadic.h"
-#include "reference/exact_mask.h"
+#include "oracle/dyadic.h"
+#include "oracle/exact_mask.h"
 
 namespace tenebra::reference {
+
+using oracle::contact_height, oracle::Dyadic, oracle::TriangleBoxes, oracle::vertex_rounding;
+
 namespace {
 
 template <class T>

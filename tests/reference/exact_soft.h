@@ -8,8 +8,8 @@
 #include <vector>
 
 #include <tenebra/area_light.h>
+#include "oracle/triangle_boxes.h"
 #include "reference/slab_difference.h"
-#include "reference/triangle_boxes.h"
 
 namespace tenebra::reference {
 
@@ -60,7 +60,7 @@ private:
   ViewRays view_;
   TriangleView triangles_;
   AreaLight light_;
-  TriangleBoxes boxes_;
+  oracle::TriangleBoxes boxes_;
 };
 
 /// -1/2 sum of angle times normal over the edges of a planar polygon around the origin's view (Lambert's

@@ -132,7 +132,7 @@ TEST_F(Bart, MasksAreTheSameForAllVariantsThreadsAndOrders) {
 void compare_with_peer(const MaskCase& c) {
   const PeerTracer peer(c.soup.view());
   const ShadowMask mask = traced(c);
-  const reference::ExactShadow judge(c.view, c.soup.view(), c.light, c.config);
+  const oracle::ExactShadow judge(c.view, c.soup.view(), c.light, c.config);
   std::size_t differing = 0, ours_wrong = 0, active = 0;
   for (std::size_t i = 0; i < mask.size(); ++i) {
     const glm::dvec3 p = c.points.positions[i];
@@ -142,7 +142,7 @@ void compare_with_peer(const MaskCase& c) {
     const glm::vec3 from(p), to_light(glm::dvec3(c.light.position) - p);
     if (peer.occluded(from, to_light, 1e-4f, 1.0f) == (mask[i] == 0)) continue;
     ++differing;
-    reference::ExactMaskStats stats;
+    oracle::ExactMaskStats stats;
     ours_wrong += (judge.blocker(p, id, stats) != no_triangle) != (mask[i] == 0);
   }
   std::printf(

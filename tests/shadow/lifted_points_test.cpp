@@ -60,8 +60,8 @@ struct Counts {
 ShadowMask expected(const RoundBody& body, const VisiblePoints& points, const VisiblePoints& before,
                     const ViewRays& view, const ShadowLight& light, Counts& counts) {
   const auto own = static_cast<std::uint32_t>(body.triangles.size() / 2);
-  const reference::ExactShadow oracle(view, body.flat(), light, {});
-  reference::ExactMaskStats stats;
+  const oracle::ExactShadow oracle(view, body.flat(), light, {});
+  oracle::ExactMaskStats stats;
   ShadowMask mask(points.triangles.size(), 0);
   for (std::size_t i = 0; i < mask.size(); ++i) {
     const std::uint32_t id = points.triangles[i];
@@ -71,7 +71,7 @@ ShadowMask expected(const RoundBody& body, const VisiblePoints& points, const Vi
     if (!active && p != before.positions[i] && is_before_a_vertex(body, id, view, light)) {
       const glm::uvec3 t = body.triangles[id];
       const dvec3 a(body.positions[t.x]), b(body.positions[t.y]), c(body.positions[t.z]);
-      const double theta = reference::contact_height(a, b, c, 2 * reference::vertex_rounding(a, b, c));
+      const double theta = oracle::contact_height(a, b, c, 2 * oracle::vertex_rounding(a, b, c));
       const bool off = excess(body, id, view, p) > theta;
       const bool stopped = oracle.blocks(id, p, id + own, stats);
       const bool near = light.range_m == 0 || glm::length(p - dvec3(light.position)) <= light.range_m;

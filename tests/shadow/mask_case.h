@@ -8,8 +8,8 @@
 #include <vector>
 
 #include <tenebra/hard_shadows.h>
+#include "oracle/exact_mask.h"
 #include "parallel/parallel.h"
-#include "reference/exact_mask.h"
 #include "support/samples.h"
 #include "support/soup.h"
 
@@ -74,9 +74,9 @@ inline std::string describe(const MaskCase& c, const ShadowMask& mask, const Sha
   const glm::dvec3 p = c.points.positions[i];
   const std::uint32_t id = c.points.triangles[i];
   const glm::vec3 l = c.light.directional ? c.light.to_light : c.light.position;
-  reference::ExactMaskStats stats;
+  oracle::ExactMaskStats stats;
   const std::uint32_t blocker =
-      reference::ExactShadow(c.view, c.soup.view(), c.light, c.config).blocker(p, id, stats);
+      oracle::ExactShadow(c.view, c.soup.view(), c.light, c.config).blocker(p, id, stats);
   std::string text = fmt::format(
       "{}: sample {} of {}: found {}, expected {}\n  P {:a} {:a} {:a}, id {}, light {:a} {:a} {:a}{}, "
       "variant {}, simd {}",
@@ -103,14 +103,14 @@ inline ::testing::AssertionResult same_mask(const MaskCase& c, const ShadowMask&
                                        << describe(c, mask, expected, wrong.front());
 }
 
-inline ShadowMask oracle(const MaskCase& c, reference::ExactMaskStats* stats = nullptr) {
-  return reference::exact_mask(c.points, c.view, c.soup.view(), c.light, c.config, stats);
+inline ShadowMask oracle(const MaskCase& c, oracle::ExactMaskStats* stats = nullptr) {
+  return oracle::exact_mask(c.points, c.view, c.soup.view(), c.light, c.config, stats);
 }
 
 /// The tracer's mask must be the exact answer.
 inline ::testing::AssertionResult exact(const MaskCase& c, Shares* shares = nullptr) {
   ShadowTracer tracer;
-  reference::ExactMaskStats stats;
+  oracle::ExactMaskStats stats;
   const ShadowMask mask = traced(c, tracer), expected = oracle(c, &stats);
   if (shares != nullptr) {
     shares->scenes += 1;

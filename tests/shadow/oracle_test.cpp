@@ -2,16 +2,16 @@
 #include <fmt/core.h>
 #include <gtest/gtest.h>
 
+#include "oracle/dyadic.h"
 #include "points/contact_rule.h"
-#include "reference/dyadic.h"
 #include "reference/rational_mask.h"
 #include "shadow/mask_case.h"
 
 namespace tenebra::testing {
 namespace {
 
-using reference::Bounded;
-using reference::Dyadic;
+using oracle::Bounded;
+using oracle::Dyadic;
 
 TEST(Dyadic, IsExactOverTheWholeRangeOfDoubles) {
   const Dyadic tiny(0x1p-1074), huge(0x1.fffffffffffffp1023);
@@ -30,14 +30,14 @@ TEST(Bounded, NeverClaimsAWrongSign) {
     const double d = a * b / c * (random.chance(0.5) ? 1 : 1 + 0x1p-52);  // a b - c d is close to nothing
     const int sign = (Bounded(a) * Bounded(b) - Bounded(c) * Bounded(d)).sign();
     const int exact = (Dyadic(a) * Dyadic(b) - Dyadic(c) * Dyadic(d)).sign();
-    if (sign == reference::unknown_sign) continue;
+    if (sign == oracle::unknown_sign) continue;
     ++claimed;
     ASSERT_EQ(sign, exact) << "case " << i;
   }
   const Bounded overflow = Bounded(1e300) * Bounded(1e300);
-  EXPECT_EQ((overflow - overflow).sign(), reference::unknown_sign);
+  EXPECT_EQ((overflow - overflow).sign(), oracle::unknown_sign);
   EXPECT_EQ((Bounded(1e-200) * Bounded(1e-200) - Bounded(1e-201) * Bounded(1e-200)).sign(),
-            reference::unknown_sign);
+            oracle::unknown_sign);
   EXPECT_GT(claimed, 1000);
 }
 
@@ -89,8 +89,8 @@ TEST(Oracle, CullsFrontsAndHonoursCastFlags) {
 
 TEST(Oracle, KeepsPointsWithinTheContactHeightLit) {
   MaskCase c = hand_case();
-  const double height = reference::vertex_rounding({0, 2, 0}, {1, 2, 0}, {0, 2, 1}) +
-                        reference::vertex_rounding({-9, 0, -9}, {0, 0, 27}, {27, 0, -9});
+  const double height = oracle::vertex_rounding({0, 2, 0}, {1, 2, 0}, {0, 2, 1}) +
+                        oracle::vertex_rounding({-9, 0, -9}, {0, 0, 27}, {27, 0, -9});
   EXPECT_NEAR(height, std::sqrt(3.0) * 0x1p-24 * 29, 1e-20);
   c.points.positions = {{0.25, 2 - height * 0.999, 0.25}, {0.25, 2 - height * 1.001, 0.25}};
   c.points.triangles = {1, 1};
@@ -100,7 +100,7 @@ TEST(Oracle, KeepsPointsWithinTheContactHeightLit) {
 }
 
 TEST(Oracle, AgreesWithRationalsOnEverySoup) {
-  reference::ExactMaskStats stats;
+  oracle::ExactMaskStats stats;
   std::size_t shadowed = 0, lit = 0;
   for (const SoupMaker& maker : soup_makers())
     for (const std::uint64_t seed : {1u, 2u}) {
@@ -139,11 +139,11 @@ TEST(Oracle, CandidateSearchLosesNoBlocker) {
     MaskCase c;
     c.soup = maker.make(random);
     c.light = random.chance(0.7) ? point_light(random.in_cube(2)) : sun(random.direction());
-    const reference::ExactShadow judge(view_from_light(c.light), c.soup.view(), c.light, c.config);
+    const oracle::ExactShadow judge(view_from_light(c.light), c.soup.view(), c.light, c.config);
     for (const bool aimed : {false, true}) {
       const VisiblePoints points = aimed ? points_behind_edges(c.soup, c.light, random, 300)
                                          : points_on_triangles(c.soup, random, 300);
-      reference::ExactMaskStats stats;
+      oracle::ExactMaskStats stats;
       for (std::size_t i = 0; i < points.positions.size() && points.triangles[i] != no_triangle; ++i)
         ASSERT_EQ(judge.blocker(points.positions[i], points.triangles[i], stats) == no_triangle,
                   judge.blocker_among_all(points.positions[i], points.triangles[i], stats) == no_triangle)
@@ -159,9 +159,9 @@ TEST(Oracle, UsesTheSameContactHeightAsTheTracer) {
     for (glm::vec3& p : t)
       for (int k = 0; k < 3; ++k) p[k] = static_cast<float>(random.power_of_two(-30, 30));
     const glm::dvec3 a(t[0]), b(t[1]), c(t[2]);
-    const double tau = reference::vertex_rounding(a, b, c), other = tau * random.unit();
+    const double tau = oracle::vertex_rounding(a, b, c), other = tau * random.unit();
     ASSERT_EQ(points::rounding_tolerance(t), tau) << "seed 3, case " << i;
-    ASSERT_EQ(points::contact_threshold(t, tau, other), reference::contact_height(a, b, c, tau + other))
+    ASSERT_EQ(points::contact_threshold(t, tau, other), oracle::contact_height(a, b, c, tau + other))
         << "case " << i;
   }
 }

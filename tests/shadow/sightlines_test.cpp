@@ -40,8 +40,8 @@ mpq_class meeting(const MaskCase& c, const dvec3& point, std::uint32_t id) {
 }
 
 /// All triangles by brute force: every one asked, the meetings compared as fractions.
-Sightline by_force(const MaskCase& c, const reference::ExactShadow& oracle, const Sample& sample) {
-  reference::ExactMaskStats stats;
+Sightline by_force(const MaskCase& c, const oracle::ExactShadow& oracle, const Sample& sample) {
+  oracle::ExactMaskStats stats;
   Sightline line;
   mpq_class nearest;
   for (std::uint32_t id = 0; id < c.soup.triangles.size(); ++id) {
@@ -62,7 +62,7 @@ struct SightCounts {
 
 /// Every sample of `c` beside brute force and beside the mask of the tracer.
 void expect_first_blockers(const MaskCase& c, SightCounts& counts) {
-  const reference::ExactShadow oracle(c.view, c.soup.view(), c.light, c.config);
+  const oracle::ExactShadow oracle(c.view, c.soup.view(), c.light, c.config);
   const ShadowMask mask = traced(c);
   for (std::size_t i = 0; i < c.points.triangles.size(); ++i) {
     const Sample sample{c.points.positions[i], c.points.triangles[i]};
@@ -130,8 +130,8 @@ TEST(Sightlines, KnowConesRangesAndDoublePlanes) {
   EXPECT_NEAR(below.met_at.y, 1, 1e-12);
   std::uint32_t smallest = no_triangle;
   for (std::uint32_t id = 2; id < 8; ++id) {
-    reference::ExactMaskStats stats;
-    const reference::ExactShadow oracle(c.view, c.soup.view(), c.light, c.config);
+    oracle::ExactMaskStats stats;
+    const oracle::ExactShadow oracle(c.view, c.soup.view(), c.light, c.config);
     if (smallest == no_triangle && oracle.blocks(id, {0.1, 0, 0.05}, 0, stats)) smallest = id;
   }
   EXPECT_EQ(below.first, smallest) << "of those that lie in one another the first";

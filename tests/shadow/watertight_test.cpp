@@ -73,7 +73,7 @@ TEST(ShadowMask, PlainSurfacesDoNotShadowThemselves) {
     own.add(a, b, d);
     c.soup = own;
     c.points = points_on_triangles(own, random, 1000);
-    const reference::ExactShadow judge(c.view, own.view(), c.light, c.config);
+    const oracle::ExactShadow judge(c.view, own.view(), c.light, c.config);
     const ShadowMask alone = traced(c);
     for (std::size_t k = 0; k < alone.size(); ++k)
       ASSERT_EQ(alone[k] != 0, judge.active(c.points.positions[k], c.points.triangles[k]))

@@ -2,7 +2,7 @@
 // against the reference at every pixel, none excused.
 #include <gtest/gtest.h>
 
-#include "reference/exact_mask.h"
+#include "oracle/exact_mask.h"
 #include "soft/soft_frames.h"
 
 namespace tenebra::testing {
@@ -129,8 +129,8 @@ TEST_F(BartSoft, CrowdedPointsAgreeWithShadowRays) {
       const glm::dvec2 uv = o[0] + at.x * (o[1] - o[0]) + at.y * (o[3] - o[0]);
       ShadowLight end;
       end.position = glm::vec3(c.light.centre + uv.x * c.light.ex + uv.y * c.light.ey);
-      const reference::ExactShadow hard(c.view, around.view(), end, {});
-      reference::ExactMaskStats stats;
+      const oracle::ExactShadow hard(c.view, around.view(), end, {});
+      oracle::ExactMaskStats stats;
       seen += hard.active(c.points.positions[i], 0) &&
               hard.blocker_among_all(c.points.positions[i], 0, stats) == no_triangle;
     }

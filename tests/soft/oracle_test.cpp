@@ -6,7 +6,7 @@
 #include <functional>
 #include <numbers>
 
-#include "reference/exact_mask.h"
+#include "oracle/exact_mask.h"
 #include "reference/exact_soft.h"
 #include "support/samples.h"
 #include "support/scaled.h"
@@ -355,13 +355,13 @@ RayCount compare_with_rays(const SoupCase& c, Random& random, int ends) {
     const dvec3 offset = dvec3(end.position) - c.light.centre;
     const dvec2 uv(glm::dot(offset, c.light.ex), glm::dot(offset, c.light.ey));
     const double off = std::abs(glm::dot(offset, c.light.normal)) + 1e-12 * glm::length(offset);
-    const reference::ExactShadow hard(c.view, c.soup.view(), end, {});
+    const oracle::ExactShadow hard(c.view, c.soup.view(), end, {});
     for (std::size_t i = 0; i < answers.size(); ++i) {
       const dvec3 p = c.points.positions[i];
       const std::uint32_t id = c.points.triangles[i];
       const double height = glm::dot(c.light.normal, p - c.light.centre);
       if (id == no_triangle || !(height > 0)) continue;
-      reference::ExactMaskStats stats;
+      oracle::ExactMaskStats stats;
       const bool free = hard.active(p, id) && hard.blocker(p, id, stats) == no_triangle;
       ++count.rays, count.free += free;
       if (free == sees(answers[i], uv)) continue;

@@ -9,9 +9,9 @@
 #include <string>
 #include <vector>
 
+#include "oracle/triangle_boxes.h"
 #include "parallel/parallel.h"
 #include "reference/exact_segment.h"
-#include "reference/triangle_boxes.h"
 #include "soft/group_case.h"
 #include "soft/shafts/shafts.h"
 
@@ -192,7 +192,7 @@ private:
   const GroupCase& c_;
   soft::PointGroups groups_;
   std::vector<Given> given_;
-  reference::TriangleBoxes boxes_;
+  oracle::TriangleBoxes boxes_;
   std::vector<std::uint8_t> candidate_;
 };
 

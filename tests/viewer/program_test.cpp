@@ -14,7 +14,7 @@ TEST(Program, TeachesWithHelp) {
   const auto help = tenebra({"--help"});
   EXPECT_EQ(help.exit_code, 0);
   EXPECT_EQ(help.errors, "");
-  for (const std::string command : {"render", "info", "convert", "compare"}) {
+  for (const std::string command : {"render", "info", "convert", "compare", "log", "verify"}) {
     EXPECT_NE(help.output.find(command), std::string::npos) << command;
     const auto own_help = tenebra({command, "--help"});
     EXPECT_EQ(own_help.exit_code, 0);

@@ -68,7 +68,7 @@ TEST(QualityOption, IsRefusedInASentenceWhereUnknown) {
   const TemporaryFolder folder;
   const std::string scene = write_moving_scene(folder);
   for (const char* command : {"render", "view"}) {
-    for (const char* name : {"best", "Fast", ""}) {
+    for (const char* name : {"best", "faster", ""}) {
       const auto result = tenebra({command, scene, "--quality", name});
       EXPECT_EQ(result.exit_code, 1) << command << ' ' << name;
       EXPECT_TRUE(is_one_sentence(result.errors)) << result.errors;
@@ -162,7 +162,7 @@ TEST(QualityOption, IsDocumentedWithTheErrorsThatWereMeasured) {
   };
   const std::string told = between(readme, "- `--quality fast|", "- `--config"),
                     helped = between(help, "--quality fast|", "--shadows none|");
-  for (const char* setting : {"light points (--soft-points), 8", "field, half resolution, 16 rays",
+  for (const char* setting : {"error asked (--soft-error), 4", "field, half resolution, 16 rays",
                               "field, 64 rays", "field, 256 rays"}) {
     const std::string exactly = documented(page, setting, 1), roughly = documented(page, setting, 0);
     EXPECT_NE(told.find(exactly), std::string::npos) << exactly << " of " << setting << " in " << told;

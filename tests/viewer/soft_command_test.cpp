@@ -140,7 +140,7 @@ TEST(Config, GivesOptionsThatTheCommandLineOverrules) {
   const std::string scene = write_moving_scene(folder);
   write_text(folder / "my.cfg",
              "# settings\nsize = 40x30\nquiet = true\neye = 0,5,1\nlook-at = \"0,0,0\"\nno-cast = [floor]\n"
-             "[render]\nlight-size = 30%\nshadows = soft\n[view]\nnothing = of this\n");
+             "[render]\nlight-size = 30%\nshadows = soft\n[view]\ntone = none\n");
   const auto run = [&](std::vector<std::string> more) {
     std::vector<std::string> arguments{"render",          scene, "--config",
                                        folder / "my.cfg", "-o",  folder / "a.png"};

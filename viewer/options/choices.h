@@ -10,6 +10,18 @@
 
 namespace tenebra::viewer {
 
+/// ASCII letters in lower case: users may write words in any case.
+inline std::string lower_case(std::string_view text) {
+  std::string lower(text);
+  for (char& c : lower)
+    if (c >= 'A' && c <= 'Z') c = static_cast<char>(c - 'A' + 'a');
+  return lower;
+}
+/// Whether `text` is `word` in any case.
+inline bool is_word(std::string_view text, std::string_view word) {
+  return lower_case(text) == lower_case(word);
+}
+
 template <class T>
 struct Choice {
   std::string_view name;
@@ -70,7 +82,7 @@ std::string choice_list(const std::array<Choice<T>, N>& choices, std::string_vie
 template <class T, std::size_t N>
 Expected<T> parse_choice(const std::array<Choice<T>, N>& choices, const std::string& text) {
   for (const Choice<T>& choice : choices) {
-    if (choice.name == text) return choice.value;
+    if (is_word(text, choice.name)) return choice.value;
   }
   return base::fail("found {}, expected {}", text, choice_list(choices));
 }

@@ -3,15 +3,18 @@
 #include <fmt/format.h>
 
 #include <CLI/CLI.hpp>
+#include <algorithm>
 #include <sstream>
 #include <vector>
 
 #include "base/input_file.h"
+#include "options/nearest_word.h"
 
 namespace tenebra::viewer {
 namespace {
 
 constexpr std::size_t most_bytes = 1 << 20;
+constexpr const char* config_option = "--config";
 
 bool is_flag(const CLI::Option& option) {
   return option.get_expected_min() == 0;
@@ -30,27 +33,70 @@ void apply(CLI::Option& option, const CLI::ConfigItem& item) {
   option.run_callback();
 }
 
-/// Whether `item` is a setting of `command`: at the top of the file or in the command's own section.
-bool concerns(const CLI::ConfigItem& item, const CLI::App& command) {
-  const bool marks_section = item.name == "++" || item.name == "--";
-  return !marks_section && (item.parents.empty() || item.parents.front() == command.get_name());
+/// The option that the key `name` sets, if there is one.
+CLI::Option* option_of_key(CLI::App& command, const std::string& name) {
+  if (name == "config" || name == "help") return nullptr;
+  return command.get_option_no_throw("--" + name);
+}
+
+/// The commands that read files of options; each may have a section.
+std::vector<CLI::App*> commands_with_config(CLI::App& command) {
+  if (command.get_parent() == nullptr) return {&command};
+  const auto reads = [](CLI::App* other) { return other->get_option_no_throw(config_option) != nullptr; };
+  return command.get_parent()->get_subcommands(reads);
+}
+
+std::string did_you_mean(const std::string& nearest, std::string_view form) {
+  return nearest.empty() ? "" : fmt::format(" (did you mean {}?)", fmt::format(fmt::runtime(form), nearest));
+}
+
+std::string unknown_key(CLI::App& command, const CLI::ConfigItem& item) {
+  std::vector<std::string> known;
+  for (const CLI::Option* option : command.get_options())
+    for (const std::string& name : option->get_lnames())
+      if (option_of_key(command, name) != nullptr) known.push_back(name);
+  return fmt::format("found the name '{}', expected the long name of an option of tenebra {}{}",
+                     item.fullname(), command.get_name(), did_you_mean(nearest_word(item.name, known), "{}"));
+}
+
+std::string unknown_section(const std::vector<CLI::App*>& commands, const CLI::ConfigItem& item) {
+  std::vector<std::string> known;
+  for (const CLI::App* other : commands) known.push_back(other->get_name());
+  return fmt::format("found the section [{}], expected [{}]{}", fmt::join(item.parents, "."),
+                     fmt::join(known, "], ["),
+                     did_you_mean(nearest_word(item.parents.front(), known), "[{}]"));
+}
+
+/// The command that `item` is for: `command` itself, or the one whose section it stands in; none: there is no
+/// such section.
+CLI::App* command_of(CLI::App& command, const std::vector<CLI::App*>& commands, const CLI::ConfigItem& item) {
+  if (item.parents.empty()) return &command;
+  const auto found = std::find_if(commands.begin(), commands.end(), [&](const CLI::App* other) {
+    return item.parents.size() == 1 && item.parents.front() == other->get_name();
+  });
+  return found == commands.end() ? nullptr : *found;
+}
+
+std::vector<CLI::ConfigItem> read_items(const std::string& path) {
+  const auto text = base::read_file(path, most_bytes);
+  if (!text) throw CLI::ValidationError(config_option, text.error().message);
+  std::istringstream lines(*text);
+  return CLI::ConfigBase().from_config(lines);
 }
 
 void read_config(CLI::App& command, const std::string& path) {
   const auto refuse = [&](const std::string& what) {
-    throw CLI::ValidationError("--config", fmt::format("{}: {}", path, what));
+    throw CLI::ValidationError(config_option, fmt::format("{}: {}", path, what));
   };
-  const auto text = base::read_file(path, most_bytes);
-  if (!text) throw CLI::ValidationError("--config", text.error().message);
-  std::istringstream lines(*text);
-  const std::vector<CLI::ConfigItem> items = CLI::ConfigBase().from_config(lines);
-  for (const CLI::ConfigItem& item : items) {
-    if (!concerns(item, command)) continue;
-    CLI::Option* option = command.get_option_no_throw("--" + item.name);
-    if (option == nullptr || item.name == "config" || item.name == "help") {
-      refuse(fmt::format("found the name '{}', expected the long name of an option of tenebra {}",
-                         item.fullname(), command.get_name()));
-    }
+  const std::vector<CLI::App*> commands = commands_with_config(command);
+  for (const CLI::ConfigItem& item : read_items(path)) {
+    CLI::App* const concerned = command_of(command, commands, item);
+    if (concerned == nullptr) refuse(unknown_section(commands, item));
+    const bool marks_section = item.name == "++" || item.name == "--";
+    if (marks_section) continue;
+    CLI::Option* const option = option_of_key(*concerned, item.name);
+    if (option == nullptr) refuse(unknown_key(*concerned, item));
+    if (concerned != &command) continue;
     try {
       apply(*option, item);
     } catch (const CLI::Error& error) {
@@ -64,7 +110,7 @@ void read_config(CLI::App& command, const std::string& path) {
 void add_config_option(CLI::App& command) {
   command
       .add_option_function<std::string>(
-          "--config", [&command](const std::string& path) { read_config(command, path); },
+          config_option, [&command](const std::string& path) { read_config(command, path); },
           "Read options from a file with lines like size = 800x600;\noptions on the command line win")
       ->type_name("FILE");
 }

@@ -33,7 +33,8 @@ void set_group(std::initializer_list<AddedOption> options, const char* group) {
 }
 
 Expected<Variant> parse_variant(const std::string& text) {
-  if (const auto variant = variant_from_name(text)) return *variant;
+  for (int i = 0; i <= static_cast<int>(Variant::precise_seatp); ++i)
+    if (is_word(text, variant_name(static_cast<Variant>(i)))) return static_cast<Variant>(i);
   return base::fail(
       "found {}, expected Tiles, Precise, PreciseSorted, Spheres, SpheresSorted, PreciseSEA, PreciseEATP or "
       "PreciseSEATP",
@@ -41,7 +42,7 @@ Expected<Variant> parse_variant(const std::string& text) {
 }
 
 Expected<SimdLevel> parse_simd(const std::string& text) {
-  const auto level = simd_level_from_name(text);
+  const auto level = simd_level_from_name(lower_case(text));
   if (!level) return base::fail("found {}, expected auto, scalar, sse4, avx2 or avx512", text);
   if (*level != SimdLevel::automatic && !simd_level_supported(*level)) {
     return base::fail("this machine or build has no {}, its best is {}", text,
@@ -51,7 +52,7 @@ Expected<SimdLevel> parse_simd(const std::string& text) {
 }
 
 Expected<int> parse_light(const std::string& text) {
-  if (text == "all") return -1;
+  if (is_word(text, "all")) return -1;
   const auto number = parse_count(text);
   return number ? number : base::fail("found {}, expected the number of a light, from 0, or all", text);
 }
@@ -95,7 +96,7 @@ Expected<int> parse_downscale(const std::string& text) {
 }
 
 Expected<render::Quality> parse_quality(const std::string& text) {
-  if (const auto quality = render::quality_from_name(text)) return *quality;
+  if (const auto quality = render::quality_from_name(lower_case(text))) return *quality;
   return base::fail("found {}, expected fast, balanced or exact", text);
 }
 
@@ -113,7 +114,7 @@ Expected<std::filesystem::path> parse_cache(const std::string& text) {
 
 AddedOption add_exposure(CLI::App& command, MethodOptions& options) {
   const auto read = [&options](const std::string& text) -> Expected<void> {
-    options.auto_exposure = text == "auto";
+    options.auto_exposure = is_word(text, "auto");
     if (options.auto_exposure) return {};
     const auto factor = parse_factor(text);
     if (!factor) return base::fail("{}, or auto", factor.error().message);
@@ -307,6 +308,21 @@ void add_method_options(CLI::App& command, MethodOptions& options) {
   add_hard(command, options);
   add_soft(command, options);
   add_ao(command, options.render.ao);
+}
+
+void add_tracer_options(CLI::App& command, MethodOptions& options) {
+  render::RenderSettings& render = options.render;
+  add_value(command, "--light", render.light, parse_light, "This light alone, by number, or all [all]")
+      .type_name("N|all");
+  add_value(command, "--variant", render.hard.variant, parse_variant,
+            "Method: Tiles, or one of the paper's, like PreciseSorted\n[Tiles]")
+      .type_name("V");
+  add_choice<cull_choices>(command, "--cull", options.cull_front,
+                           "front: only faces turned away from the light cast\nshadows [none]");
+  add_value(command, "--threads", render.threads, parse_threads, "Threads [0: all cores]").type_name("N");
+  add_value(command, "--simd", render.hard.simd, parse_simd,
+            "Vector instructions: auto, scalar, sse4, avx2 or avx512\n[auto]")
+      .type_name("LEVEL");
 }
 
 void settle_quality(const CLI::App& command, MethodOptions& options) {

@@ -39,6 +39,9 @@ struct MethodOptions {
 /// Adds the options to `command`; they are read into `options`, which must live as long.
 void add_method_options(CLI::App& command, MethodOptions& options);
 
+/// Of these only what chooses how hard masks are traced: --light, --variant, --cull, --threads, --simd.
+void add_tracer_options(CLI::App& command, MethodOptions& options);
+
 /// Sets what a given --quality stands for, but for options that `command` was given themselves: they win
 /// wherever they stand, in a file of options too. To be called once all options are read.
 void settle_quality(const CLI::App& command, MethodOptions& options);

@@ -1,6 +1,7 @@
 #include "options/option_values.h"
 
 #include "base/fail.h"
+#include "options/choices.h"
 
 #include <charconv>
 #include <cmath>
@@ -60,7 +61,7 @@ Expected<Size> parse_size(const std::string& text) {
 }
 
 Expected<FrameRange> parse_frame_range(const std::string& text) {
-  if (text == "all") return FrameRange{};
+  if (is_word(text, "all")) return FrameRange{};
   const auto parts = split(text, ':');
   const auto refuse = [&] {
     return base::fail("found {}, expected A, A:B, A:B:STEP, A: or all, like 0:99:10", text);

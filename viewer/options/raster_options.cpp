@@ -16,7 +16,7 @@ Expected<render::RasterKind> parse_raster(const std::string& text) {
 }
 
 Expected<gl::ContextKind> parse_context(const std::string& text) {
-  if (const auto kind = gl::context_kind_from_name(text)) return *kind;
+  if (const auto kind = gl::context_kind_from_name(lower_case(text))) return *kind;
   return base::fail("found {}, expected auto, egl or osmesa", text);
 }
 

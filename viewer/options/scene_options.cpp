@@ -1,6 +1,7 @@
 #include "options/scene_options.h"
 
 #include "base/fail.h"
+#include "options/choices.h"
 
 namespace tenebra::viewer {
 namespace {
@@ -39,20 +40,20 @@ void add_files(CLI::App& command, SceneOptions& options) {
 }
 
 Expected<Transfer> parse_transfer(const std::string& text) {
-  if (text == "srgb") return Transfer::srgb;
-  if (text == "display") return Transfer::display;
+  if (is_word(text, "srgb")) return Transfer::srgb;
+  if (is_word(text, "display")) return Transfer::display;
   return base::fail("found {}, expected srgb or display", text);
 }
 
 Expected<bool> parse_floor(const std::string& text) {
-  if (text == "auto") return true;
-  if (text == "none") return false;
+  if (is_word(text, "auto")) return true;
+  if (is_word(text, "none")) return false;
   return base::fail("found {}, expected auto or none", text);
 }
 
 Expected<bool> parse_surfaces(const std::string& text) {
-  if (text == "full") return false;
-  if (text == "plain") return true;
+  if (is_word(text, "full")) return false;
+  if (is_word(text, "plain")) return true;
   return base::fail("found {}, expected full or plain", text);
 }
 

@@ -72,6 +72,11 @@ AddedOption add_texts(CLI::App& command, const std::string& name, std::vector<st
   return AddedOption(*command.add_option(name, target, help)->allow_extra_args(false));
 }
 
+AddedOption add_files(CLI::App& command, const std::string& name, std::vector<std::string>& target,
+                      const std::string& help) {
+  return AddedOption(*command.add_option(name, target, help));
+}
+
 AddedOption add_texts(CLI::App& command, const std::string& name,
                       std::function<Expected<void>(const std::vector<std::string>&)> read,
                       const std::string& help) {

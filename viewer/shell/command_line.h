@@ -50,6 +50,9 @@ AddedOption add_text(CLI::App& command, const std::string& name, std::optional<s
 /// May be repeated.
 AddedOption add_texts(CLI::App& command, const std::string& name, std::vector<std::string>& target,
                       const std::string& help);
+/// A positional argument of one or more values.
+AddedOption add_files(CLI::App& command, const std::string& name, std::vector<std::string>& target,
+                      const std::string& help);
 /// May be repeated; `read` gets all values at once, its failure becomes "NAME: sentence".
 AddedOption add_texts(CLI::App& command, const std::string& name,
                       std::function<Expected<void>(const std::vector<std::string>&)> read,

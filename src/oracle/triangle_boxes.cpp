@@ -1,9 +1,9 @@
-#include "reference/triangle_boxes.h"
+#include "oracle/triangle_boxes.h"
 
 #include <algorithm>
 #include <limits>
 
-namespace tenebra::reference {
+namespace tenebra::oracle {
 namespace {
 
 glm::dvec3 doubled_centre(const TriangleView& view, std::uint32_t id) {
@@ -38,7 +38,7 @@ void TriangleBoxes::split(const TriangleView& view, std::uint32_t first, std::ui
   }
   node.first = first, node.count = count;
   nodes_.push_back(node);
-  if (count <= 4) return;
+  if (count <= 2) return;
   const glm::dvec3 extent = centre_high - centre_low;
   const int axis = extent.x >= extent.y && extent.x >= extent.z ? 0 : extent.y >= extent.z ? 1 : 2;
   const std::uint32_t half = count / 2;
@@ -73,4 +73,4 @@ bool TriangleBoxes::may_meet(const Segment& segment, const Node& node) {
   return !(enter > leave);
 }
 
-}  // namespace tenebra::reference
+}  // namespace tenebra::oracle

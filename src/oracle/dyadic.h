@@ -6,7 +6,7 @@
 
 #include <cmath>
 
-namespace tenebra::reference {
+namespace tenebra::oracle {
 
 /// mantissa * 2^exponent with an unbounded integer: every float and double, and all their sums and products.
 class Dyadic {
@@ -85,4 +85,4 @@ private:
   double error_ = 0;
 };
 
-}  // namespace tenebra::reference
+}  // namespace tenebra::oracle

@@ -1,14 +1,13 @@
-#include "reference/exact_mask.h"
+#include "oracle/exact_mask.h"
 
 #include <algorithm>
 #include <cmath>
-#include <numeric>
 #include <vector>
 
+#include "oracle/dyadic.h"
 #include "parallel/parallel.h"
-#include "reference/dyadic.h"
 
-namespace tenebra::reference {
+namespace tenebra::oracle {
 namespace {
 
 template <class T>
@@ -147,19 +146,22 @@ bool ExactShadow::blocks(std::uint32_t occluder, const glm::dvec3& point, std::u
   ++stats.pairs;
   const int side = light_sides_[occluder];
   const auto [a, b, c] = corners(occluder);
-  double theta = 0;
-  if (by_ids) {
-    const auto [ra, rb, rc] = corners(id);
-    theta = contact_height(a, b, c, vertex_rounding(a, b, c) + vertex_rounding(ra, rb, rc));
-  }
   std::uint64_t exact = 0;
   // Depth below the plane, as seen from the light: -side n.(P - A) - theta > 0.
-  const auto depth = [&]<class T>(T) {
-    const Vector<T> origin(a);
-    const Vector<T> n = cross(Vector<T>(b) - origin, Vector<T>(c) - origin);
-    return T(-double(side)) * dot(n, Vector<T>(point) - origin) - T(theta);
+  const auto below = [&] {
+    double theta = 0;
+    if (by_ids) {
+      const auto [ra, rb, rc] = corners(id);
+      theta = contact_height(a, b, c, vertex_rounding(a, b, c) + vertex_rounding(ra, rb, rc));
+    }
+    return sign_of(
+               [&]<class T>(T) {
+                 const Vector<T> origin(a);
+                 const Vector<T> n = cross(Vector<T>(b) - origin, Vector<T>(c) - origin);
+                 return T(-double(side)) * dot(n, Vector<T>(point) - origin) - T(theta);
+               },
+               exact) > 0;
   };
-  bool result = sign_of(depth, exact) > 0;
   // Edges: the side of the plane through the light and q, r that the point is on; the third corner counts as
   // inside. With d the direction from the light (at infinity: -to_light), n.d has the sign of -side.
   const auto inside = [&](const glm::dvec3& q, const glm::dvec3& r) {
@@ -174,7 +176,8 @@ bool ExactShadow::blocks(std::uint32_t occluder, const glm::dvec3& point, std::u
                },
                exact) >= 0;
   };
-  result = result && inside(a, b) && inside(b, c) && inside(c, a);
+  // Edges first: they are what most triangles near the ray fail.
+  const bool result = inside(a, b) && inside(b, c) && inside(c, a) && below();
   stats.exact += exact > 0;
   return result;
 }
@@ -198,37 +201,35 @@ std::uint32_t ExactShadow::blocker_among_all(const glm::dvec3& point, std::uint3
   return no_triangle;
 }
 
+ExactAnswer ExactShadow::answer(const glm::dvec3& point, std::uint32_t id, ExactMaskStats& stats) const {
+  ++stats.samples;
+  ExactAnswer answer;
+  answer.active = active(point, id);
+  if (!answer.active) return answer;
+  ++stats.active;
+  answer.blocker = blocker(point, id, stats);
+  if (answer.blocker == no_triangle)
+    answer.value = 255;
+  else
+    ++stats.shadowed;
+  return answer;
+}
+
 ShadowMask exact_mask(const VisiblePoints& points, const ViewRays& view, const TriangleView& triangles,
                       const ShadowLight& light, const HardShadowConfig& config, ExactMaskStats* stats) {
   const ExactShadow oracle(view, triangles, light, config);
   ShadowMask mask(points.triangles.size(), 0);
-  const auto part = [&](std::size_t first, std::size_t last) {
-    ExactMaskStats sum;
-    for (std::size_t i = first; i < last; ++i) {
-      const std::uint32_t id = points.triangles[i];
-      sum.samples += id != no_triangle;
-      if (!oracle.active(points.positions[i], id)) continue;
-      ++sum.active;
-      if (oracle.blocker(points.positions[i], id, sum) == no_triangle)
-        mask[i] = 255;
-      else
-        ++sum.shadowed;
-    }
-    return sum;
-  };
-  const auto add = [](ExactMaskStats a, const ExactMaskStats& b) {
-    a.samples += b.samples, a.active += b.active, a.shadowed += b.shadowed;
-    a.pairs += b.pairs, a.exact += b.exact;
-    return a;
-  };
   constexpr std::size_t grain = 256;
   std::vector<ExactMaskStats> parts((mask.size() + grain - 1) / grain);
   parallel::parallel_ranges(mask.size(), grain, [&](std::size_t first, std::size_t last) {
-    parts[first / grain] = part(first, last);
+    for (std::size_t i = first; i < last; ++i) {
+      if (points.triangles[i] == no_triangle) continue;
+      mask[i] = oracle.answer(points.positions[i], points.triangles[i], parts[first / grain]).value;
+    }
   });
-  const ExactMaskStats sum = std::accumulate(parts.begin(), parts.end(), ExactMaskStats{}, add);
-  if (stats != nullptr) *stats = add(*stats, sum);
+  if (stats != nullptr)
+    for (const ExactMaskStats& part : parts) *stats += part;
   return mask;
 }
 
-}  // namespace tenebra::reference
+}  // namespace tenebra::oracle

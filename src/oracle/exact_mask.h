@@ -7,9 +7,9 @@
 #include <vector>
 
 #include <tenebra/hard_shadows.h>
-#include "reference/triangle_boxes.h"
+#include "oracle/triangle_boxes.h"
 
-namespace tenebra::reference {
+namespace tenebra::oracle {
 
 /// Work of an oracle: how often doubles did not suffice.
 struct ExactMaskStats {
@@ -18,6 +18,19 @@ struct ExactMaskStats {
   std::uint64_t shadowed = 0;  ///< of these, those blocked
   std::uint64_t pairs = 0;     ///< pairs of sample and triangle decided
   std::uint64_t exact = 0;     ///< of these, pairs that needed unbounded integers
+
+  ExactMaskStats& operator+=(const ExactMaskStats& other) {
+    samples += other.samples, active += other.active, shadowed += other.shadowed;
+    pairs += other.pairs, exact += other.exact;
+    return *this;
+  }
+};
+
+/// What the exact mask says of one sample.
+struct ExactAnswer {
+  std::uint8_t value = 0;               ///< as ShadowMask: 255 lit
+  bool active = false;                  ///< gets a ray at all
+  std::uint32_t blocker = no_triangle;  ///< a triangle that blocks it
 };
 
 /// The exact answer for one light. Keeps references to what `triangles` refers to.
@@ -26,6 +39,8 @@ public:
   ExactShadow(const ViewRays& view, const TriangleView& triangles, const ShadowLight& light,
               const HardShadowConfig& config);
 
+  /// The sample's value, counted in `stats`. `id`: not no_triangle.
+  ExactAnswer answer(const glm::dvec3& point, std::uint32_t id, ExactMaskStats& stats) const;
   /// Whether the sample gets a ray at all.
   bool active(const glm::dvec3& point, std::uint32_t id) const;
   /// A triangle that blocks the sample, or no_triangle. Not asked whether the sample is active.
@@ -62,4 +77,4 @@ ShadowMask exact_mask(const VisiblePoints& points, const ViewRays& view, const T
 double vertex_rounding(const glm::dvec3& a, const glm::dvec3& b, const glm::dvec3& c);
 double contact_height(const glm::dvec3& a, const glm::dvec3& b, const glm::dvec3& c, double tau_sum);
 
-}  // namespace tenebra::reference
+}  // namespace tenebra::oracle

@@ -8,7 +8,7 @@
 
 #include <tenebra/hard_shadows.h>
 
-namespace tenebra::reference {
+namespace tenebra::oracle {
 
 /// The points P + t d, 0 <= t <= t_max; d is the exact real direction up to a relative error of 2^-53 a
 /// component.
@@ -76,4 +76,4 @@ private:
   std::vector<std::uint32_t> ids_;
 };
 
-}  // namespace tenebra::reference
+}  // namespace tenebra::oracle

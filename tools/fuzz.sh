@@ -1,0 +1,43 @@
+#!/bin/bash
+# Looks for input that breaks what reads files: scenes (AFF, glTF, GLB, OBJ; what can be read is written as GLB and read
+# again), pictures, files of options. Builds the fuzzers of tests/fuzz with clang's libFuzzer, address and undefined-
+# behaviour sanitizers, in build-fuzz, and runs them one after the other for MINUTES in all.
+# Usage: tools/fuzz.sh MINUTES [FUZZER...]    FUZZER: aff gltf glb obj picture config [all]
+# They start from tests/fuzz/corpus and what earlier runs found, in build-fuzz/corpus. What breaks something is left in
+# build-fuzz/found, and the fuzzer's output says what happened.
+# Exit code: 0 nothing found, or no clang here; 1 something found; 2 the request was not understood.
+set -uo pipefail
+cd "$(dirname "$0")/.."
+fuzzers=(aff gltf glb obj picture config)
+
+if [[ ! ${1:-} =~ ^[0-9]+$ || $1 == 0 ]]; then
+  echo "tools/fuzz.sh: found '${1:-}', expected the minutes to run, like 10" >&2
+  exit 2
+fi
+minutes=$1
+shift
+((${#})) && [[ $1 != all ]] && fuzzers=("$@")
+if ! command -v clang++ > /dev/null; then
+  echo "tools/fuzz.sh: skipped, libFuzzer comes with clang and there is no clang++ here (package clang)"
+  exit 0
+fi
+
+cmake -S . -B build-fuzz -G Ninja -DCMAKE_BUILD_TYPE=RelWithDebInfo -DCMAKE_CXX_COMPILER=clang++ -DTENEBRA_TESTS=OFF \
+  -DTENEBRA_PROGRAM=OFF -DTENEBRA_FUZZ=ON -DTENEBRA_SANITIZE=address,undefined,fuzzer-no-link > /dev/null &&
+  cmake --build build-fuzz --target "${fuzzers[@]/#/fuzz_}" -j "${JOBS:-$(nproc)}" || exit 1
+
+mkdir -p build-fuzz/found
+found=0
+for fuzzer in "${fuzzers[@]}"; do
+  mkdir -p "build-fuzz/corpus/$fuzzer"
+  echo "--- $fuzzer"
+  "build-fuzz/bin/fuzz_$fuzzer" "build-fuzz/corpus/$fuzzer" "tests/fuzz/corpus/$fuzzer" \
+    -max_total_time="$((minutes * 60 / ${#fuzzers[@]} + 1))" -timeout=20 -rss_limit_mb=2560 -max_len=65536 \
+    -artifact_prefix="build-fuzz/found/$fuzzer-" -print_final_stats=1 > "build-fuzz/$fuzzer.log" 2>&1 || {
+    found=1
+    grep -E "ERROR|SUMMARY|Test unit|written, but" "build-fuzz/$fuzzer.log"
+    echo "    see build-fuzz/$fuzzer.log"
+  }
+  grep -E "number_of_executed_units|peak_rss" "build-fuzz/$fuzzer.log"
+done
+exit "$found"

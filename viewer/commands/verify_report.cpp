@@ -1,0 +1,119 @@
+#include "commands/verify_report.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <nlohmann/json.hpp>
+
+namespace tenebra::viewer {
+namespace {
+
+constexpr std::size_t most_named = 1000, most_printed = 10;
+
+double check_seconds(const Verification& verification) {
+  double sum = 0;
+  for (const CheckedMask& mask : verification.masks) sum += mask.check_s;
+  return sum;
+}
+
+double a_second(std::uint64_t count, double seconds) {
+  return seconds > 0 ? static_cast<double>(count) / seconds : 0;
+}
+
+std::string place_of(const CheckedMask& mask, const oracle::WrongSample& wrong) {
+  const auto width = static_cast<std::size_t>(mask.width);
+  return fmt::format("frame {}, light {}, pixel ({}, {}), triangle {}: the mask says {}, exact is {}",
+                     mask.frame, mask.light, wrong.pixel % width, wrong.pixel / width, wrong.triangle,
+                     wrong.said, wrong.exact.value);
+}
+
+nlohmann::ordered_json json_of(const oracle::ExactMaskStats& stats) {
+  return {{"samples", stats.samples},
+          {"lit_or_blocked", stats.active},
+          {"blocked", stats.shadowed},
+          {"pairs_of_sample_and_triangle", stats.pairs},
+          {"decided_by_integers", stats.exact}};
+}
+
+nlohmann::ordered_json json_of(const CheckedMask& mask) {
+  nlohmann::ordered_json json{{"frame", mask.frame}, {"light", mask.light}};
+  json.update(json_of(mask.check.stats));
+  json["seconds"] = mask.check_s;
+  json["wrong"] = mask.check.wrong.size();
+  if (mask.check.wrong.empty()) return json;
+  json["wrong_samples"] = nlohmann::ordered_json::array();
+  for (std::size_t i = 0; i < std::min(mask.check.wrong.size(), most_named); ++i) {
+    const oracle::WrongSample& wrong = mask.check.wrong[i];
+    const auto width = static_cast<std::size_t>(mask.width);
+    nlohmann::ordered_json named{{"pixel", {wrong.pixel % width, wrong.pixel / width}},
+                                 {"triangle", wrong.triangle},
+                                 {"mask", wrong.said},
+                                 {"exact", wrong.exact.value}};
+    if (wrong.exact.blocker != no_triangle) named["blocked_by"] = wrong.exact.blocker;
+    json["wrong_samples"].push_back(named);
+  }
+  return json;
+}
+
+}  // namespace
+
+std::uint64_t Verification::wrong() const {
+  std::uint64_t sum = 0;
+  for (const CheckedMask& mask : masks) sum += mask.check.wrong.size();
+  return sum;
+}
+
+oracle::ExactMaskStats Verification::stats() const {
+  oracle::ExactMaskStats sum;
+  for (const CheckedMask& mask : masks) sum += mask.check.stats;
+  return sum;
+}
+
+int exit_code_of(const Verification& verification) {
+  return verification.wrong() > 0 ? 2 : 0;
+}
+
+std::string verification_text(const Verification& verification) {
+  std::string text;
+  for (const render::LogSetting& setting : verification.settings)
+    text += fmt::format("{}: {}\n", setting.name, setting.value);
+  const oracle::ExactMaskStats stats = verification.stats();
+  const double seconds = check_seconds(verification);
+  text += fmt::format("frames: {} of {}, masks: {}\n", verification.frames, verification.planned_frames,
+                      verification.masks.size());
+  text += fmt::format(
+      "samples: {}, of which {} face the light and are in its reach, of which {} are blocked\n"
+      "pairs of sample and triangle: {}, of which {} were decided by integers of any length, the others by "
+      "doubles with a bound\n"
+      "time: {:.1f} s, of which {:.1f} s for exact answers, {:.0f} samples a second\n",
+      stats.samples, stats.active, stats.shadowed, stats.pairs, stats.exact, verification.seconds, seconds,
+      a_second(stats.samples, seconds));
+  std::size_t printed = 0;
+  for (const CheckedMask& mask : verification.masks) {
+    for (const oracle::WrongSample& wrong : mask.check.wrong) {
+      if (printed++ < most_printed) text += "wrong: " + place_of(mask, wrong) + "\n";
+    }
+  }
+  if (printed > most_printed) text += fmt::format("... and {} more\n", printed - most_printed);
+  return text + fmt::format("wrong: {}\n", verification.wrong());
+}
+
+std::string verification_json(const Verification& verification) {
+  using Json = nlohmann::ordered_json;
+  Json json;
+  json["settings"] = Json::array();
+  for (const render::LogSetting& setting : verification.settings)
+    json["settings"].push_back({{"name", setting.name}, {"value", setting.value}});
+  json["frames"] = verification.frames;
+  json["planned_frames"] = verification.planned_frames;
+  const oracle::ExactMaskStats stats = verification.stats();
+  json["all"] = json_of(stats);
+  json["all"]["wrong"] = verification.wrong();
+  json["seconds"] = verification.seconds;
+  json["samples_a_second"] = a_second(stats.samples, check_seconds(verification));
+  json["masks"] = Json::array();
+  for (const CheckedMask& mask : verification.masks) json["masks"].push_back(json_of(mask));
+  return json.dump(2, ' ', false, Json::error_handler_t::replace) + "\n";
+}
+
+}  // namespace tenebra::viewer
