@@ -133,8 +133,9 @@ void add_common(CLI::App& command, MethodOptions& options) {
   set_group(
       {add_value(
            command, quality_option, options.quality, parse_quality,
-           "What soft shadows and ambient occlusion may cost.\nfast: --soft-error 4 --ao-error 5, with --ao "
-           "field --ao-rays 16\n--ao-downscale 2 (occlusion off by 1 to 7);\n"
+           "What soft shadows and ambient occlusion may cost.\nfast: --soft-error 4 --ao-error 5 (penumbrae "
+           "off by\n2 to 4/255 RMS), with --ao field --ao-rays 16\n--ao-downscale 2 (occlusion off by 1 to "
+           "7);\n"
            "balanced: the defaults (exact; 2.5; fields 1 to 6);\nexact: --ao-error 1, fields --ao-rays 256 "
            "(1 to "
            "5);\ndocs/trade.md has all figures. An option that is given\nitself wins")
