@@ -71,14 +71,14 @@ TEST(StopCommand, TimeoutKeepsWhatIsDoneAndResumes) {
   const auto render = [&](const std::vector<std::string>& more) {
     std::vector<std::string> arguments{"render",   write_moving_scene(folder),
                                        "--frames", "all",
-                                       "--size",   "160x120",
+                                       "--size",   "320x240",
                                        "-o",       folder / "%04d.png",
                                        "--log",    folder / "frames.csv",
                                        "--quiet"};
     arguments.insert(arguments.end(), more.begin(), more.end());
     return tenebra(arguments);
   };
-  const auto stopped = render({"--timeout", "1.0"});
+  const auto stopped = render({"--timeout", "0.3"});
   EXPECT_EQ(stopped.exit_code, 124) << stopped.errors;
   EXPECT_TRUE(is_one_sentence(stopped.errors)) << stopped.errors;
   for (const std::string& name : folder.names()) EXPECT_FALSE(name.ends_with(".tmp")) << name;

@@ -116,7 +116,7 @@ TEST_F(ViewWindow, LogsRecordsAndLeaves) {
   EXPECT_EQ(session.wait().exit_code, 0);
   const auto render =
       tenebra({"render", scene, "--size", "160x120", "--shadows", "soft", "--light-size", "1x1",
-               "--soft-points", "8", "--frames", "0:3", "-o", folder_ / "render/%04d.png"});
+               "--soft-error", "4", "--frames", "0:3", "-o", folder_ / "render/%04d.png"});
   ASSERT_EQ(render.exit_code, 0) << render.errors;
   for (const char* name : {"0000.png", "0001.png", "0002.png", "0003.png"}) {
     EXPECT_EQ(picture_of(folder_ / "out" / name), picture_of(folder_ / "render" / name)) << name;
