@@ -69,8 +69,8 @@ struct SoftStats {
   std::uint64_t points_silhouette = 0;  ///< points solved by silhouettes of meshes, and clipping
   std::uint64_t points_sampled = 0;     ///< points that looked at places on the light (error_255 > 0)
   std::uint64_t sampled_rays = 0;       ///< what they looked along
-  double error_255 = 0;                 ///< estimate of what SoftShadowConfig::error_255 bounds; 0: exact. Of
-                                        ///< several lights the largest
+  double error_255 = 0;                 ///< estimate of what SoftShadowConfig::error_255 bounds; without
+                                        ///< points_sampled 0, exact. Of several lights the largest
   std::uint64_t fragments = 0;          ///< convex parts of the light handed to the integrals
   std::uint64_t tree_nodes = 0;         ///< BSP nodes made
   std::uint64_t peak_tree_bytes = 0;    ///< memory of all BSPs alive at one time, at most

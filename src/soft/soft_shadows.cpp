@@ -164,8 +164,10 @@ void SoftShadowTracer::State::sort_out(const soft::SoftFrame& frame, const soft:
     worker.lit.push_back(pixels);
   } else if (frame.config.error_255 > 0 &&
              soft::worth_sampling(decision.candidates.size(), soft::first_places(frame.config.error_255))) {
+    worker.solver->stats.candidates += decision.candidates.size();
     worker.sampled.push_back({number, static_cast<std::uint32_t>(decision.candidates.size()), pixels});
   } else {
+    worker.solver->stats.candidates += decision.candidates.size();
     worker.mixed.push_back(&group);
     worker.candidates.push_back(decision.candidates);
   }
@@ -182,7 +184,6 @@ void SoftShadowTracer::State::solve_mixed(const soft::SoftFrame& frame, Worker& 
                             worker.candidates[i]});
     candidates += worker.candidates[i].size();
   }
-  worker.solver->stats.candidates += candidates;
   if (frame.config.solver == SoftSolver::automatic && count > 1 && candidates > many_candidates * count) {
     worker.solver->solve_together(frame, frame_of(worker.mixed, groups, worker.receivers[count]),
                                   worker.tasks);

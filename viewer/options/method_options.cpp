@@ -224,7 +224,7 @@ void add_soft(CLI::App& command, MethodOptions& options) {
                                      "reference: double precision throughout [fast]"),
        add_value(command, points_option, options.render.soft_points, parse_points,
                  "Replaces each area light by N points with exact hard\nshadows: steps in the penumbra, of "
-                 "an error that nobody\nmeasures [0: as --soft-error says]")
+                 "an error that is not\nestimated [0: as --soft-error says]")
            .type_name("N"),
        add_value(command, soft_error_option, soft.error_255, parse_error,
                  "The error aimed at, RMS over the penumbra, in 1/255 of\nwhite: dense penumbrae look at as "

@@ -31,8 +31,8 @@ private:
 };
 
 /// Place `index` of Sobol's sequence in the unit square (Bratley and Fox 1988): of any 2^m that follow each
-/// other from a multiple of 2^m on, one lies in each cell of every grid of 2^a by 2^(m-a) cells, a third or
-/// two thirds of the cell from its edges.
+/// other from a multiple of 2^m on, one lies in each cell of every grid of 2^a by 2^(m-a) cells, none on an
+/// edge.
 glm::dvec2 sobol_place(std::uint32_t index);
 
 }  // namespace tenebra::soft

@@ -42,42 +42,72 @@ std::vector<Own> own_answers(const SampledBlocks& blocks, const LightTally& tall
   return out;
 }
 
-/// One smooth surface, as far as a pixel and its neighbour tell: normals within 18 degrees, and each in the
-/// other's plane by a tenth of what lies between them.
-bool alike(const SampledSurface& a, const SampledSurface& b) {
-  const glm::vec3 d = b.at - a.at;
-  const float length = glm::length(d);
-  return glm::dot(a.normal, b.normal) > 0.95f && std::abs(glm::dot(d, a.face)) <= 0.1f * length &&
-         std::abs(glm::dot(d, b.face)) <= 0.1f * length;
+/// One smooth surface, as far as two points of it tell that are `d` apart: normals within 18 degrees, and
+/// each in the other's plane by a tenth of what lies between them.
+bool alike(const SampledSurface& a, const SampledSurface& b, const glm::dvec3& d) {
+  const double most = 0.1 * glm::length(d);
+  return glm::dot(a.normal, b.normal) > 0.95f && std::abs(glm::dot(d, glm::dvec3(a.face))) <= most &&
+         std::abs(glm::dot(d, glm::dvec3(b.face))) <= most;
 }
+
+/// Whether points are seen within three pixels of each other. Neighbours in a list of samples may not be.
+class NearInView {
+public:
+  explicit NearInView(const ViewRays& view) : eye_(view.eye), d0_(view.d0), orthographic_(view.orthographic) {
+    const glm::dvec3 dx(view.dx), dy(view.dy), normal = glm::cross(dx, dy);
+    const double pixel = 3 * std::max(glm::length(dx), glm::length(dy));
+    // Pixels are seen by the largest angle where the view is nearest to its plane.
+    const double plane = orthographic_ ? 1 : std::abs(glm::dot(d0_, normal)) / glm::length(normal);
+    most_ = pixel * pixel / (plane * plane);
+  }
+  bool operator()(const glm::dvec3& a, const glm::dvec3& b) const {
+    if (orthographic_) {
+      const glm::dvec3 across = glm::cross(b - a, d0_);
+      return glm::dot(across, across) <= most_ * glm::dot(d0_, d0_);
+    }
+    const glm::dvec3 u = a - eye_, v = b - eye_, across = glm::cross(u, v);
+    return glm::dot(across, across) <= most_ * glm::dot(u, u) * glm::dot(v, v);
+  }
+
+private:
+  glm::dvec3 eye_, d0_;
+  bool orthographic_;
+  double most_ = 0;  ///< square of the angle (orthographic: of the distance)
+};
 
 /// Weights of 3x3: all four phases have a quarter.
 constexpr float weights[3] = {0.25f, 0.5f, 0.25f};
 constexpr float noise_left = 0.25f;  ///< of it, in their mean: pixels of one phase look at the same places
 constexpr float own_weight = 0.25f;
 
+/// Slots on one surface with the middle one, itself among them. Weights are multiples of 1/16, so that the
+/// mean of equal values is that value.
 struct Around {
   std::uint32_t slots[9];
   float weight[9];
+  float sum = 0;
   int count = 0;
 };
 
-Around around(const SampledBlocks& blocks, std::uint32_t slot) {
+Around around(const SoftFrame& frame, const NearInView& near, const SampledBlocks& blocks,
+              std::uint32_t slot) {
   Around out;
   const std::uint32_t pixel = blocks.pixels[slot], width = static_cast<std::uint32_t>(blocks.width);
   const int x = static_cast<int>(pixel % width), y = static_cast<int>(pixel / width);
-  float sum = 0;
+  const glm::dvec3 at = frame.points.positions[pixel];
   for (int dy = -1; dy <= 1; ++dy) {
     for (int dx = -1; dx <= 1; ++dx) {
       const std::uint32_t other = blocks.slot(x + dx, y + dy);
-      if (other == no_slot || !(other == slot || alike(blocks.surfaces[slot], blocks.surfaces[other])))
+      if (other == no_slot) continue;
+      const glm::dvec3 there = frame.points.positions[blocks.pixels[other]];
+      if (other != slot &&
+          !(near(at, there) && alike(blocks.surfaces[slot], blocks.surfaces[other], there - at)))
         continue;
       const float weight = weights[dx + 1] * weights[dy + 1];
       out.slots[out.count] = other, out.weight[out.count++] = weight;
-      sum += weight;
+      out.sum += weight;
     }
   }
-  for (int k = 0; k < out.count; ++k) out.weight[k] /= sum;
   return out;
 }
 
@@ -119,7 +149,9 @@ constexpr float trust = 0.25f;  ///< in the halves of nine pixels beside the usu
 
 }  // namespace
 
-void find_means(const SampledBlocks& blocks, const LightTally& tally, LightMeans& out) {
+void find_means(const SoftFrame& frame, const SampledBlocks& blocks, const LightTally& tally,
+                LightMeans& out) {
+  const NearInView near_in_view(frame.view);
   const std::vector<Own> own = own_answers(blocks, tally);
   std::vector<float> smooth(own.size());
   for (auto* values : {&out.irradiance, &out.fraction, &out.square}) values->assign(own.size(), 0.0f);
@@ -130,15 +162,17 @@ void find_means(const SampledBlocks& blocks, const LightTally& tally, LightMeans
     });
   };
   each([&](std::uint32_t slot) {
-    const Around near = around(blocks, slot);
+    const Around near = around(frame, near_in_view, blocks, slot);
     for (int k = 0; k < near.count; ++k) {
       smooth[slot] += near.weight[k] * own[near.slots[k]].mean();
       out.fraction[slot] += near.weight[k] * own[near.slots[k]].fraction;
     }
+    smooth[slot] = std::min(smooth[slot] / near.sum, 1.0f);
+    out.fraction[slot] = std::min(out.fraction[slot] / near.sum, 1.0f);
   });
   const UsualNoise usual(blocks, tally, own, smooth);
   each([&](std::uint32_t slot) {
-    const Around near = around(blocks, slot);
+    const Around near = around(frame, near_in_view, blocks, slot);
     float noise = 0, moved = 0;
     for (int k = 0; k < near.count; ++k) {
       const std::uint32_t other = near.slots[k];

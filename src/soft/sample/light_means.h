@@ -15,6 +15,7 @@ struct LightMeans {
   std::vector<float> fraction;    ///< 0..1: visible part, over the part above the horizon
   std::vector<float> square;      ///< estimated mean square of the error of `irradiance`
 };
-void find_means(const SampledBlocks& blocks, const LightTally& tally, LightMeans& out);
+void find_means(const SoftFrame& frame, const SampledBlocks& blocks, const LightTally& tally,
+                LightMeans& out);
 
 }  // namespace tenebra::soft

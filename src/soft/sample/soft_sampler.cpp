@@ -14,7 +14,8 @@ namespace {
 constexpr std::uint32_t most_places = 1024;  ///< of the light, for each slot; groups of more candidates than
                                              ///< are worth it end here, whatever their error
 
-/// What irradiance is compared with: the 99.9th percentile of what pixels show, of every so many of them.
+/// What irradiance is compared with: the 99.9th percentile of what pixels show, of every so many of them;
+/// where that is 0, the largest.
 double white_of(const SoftFrame& frame, const SampledBlocks& blocks, const LightMeans& means) {
   constexpr std::size_t enough = 1 << 16;
   const std::size_t pixels = frame.out.irradiance.size(), step = pixels / enough + 1;
@@ -27,7 +28,12 @@ double white_of(const SoftFrame& frame, const SampledBlocks& blocks, const Light
   if (values.empty()) return 0;
   const std::size_t rank = (values.size() * 999 + 999) / 1000 - 1;  // nearest rank
   std::nth_element(values.begin(), values.begin() + static_cast<std::ptrdiff_t>(rank), values.end());
+  if (!(values[rank] > 0)) return static_cast<double>(*std::max_element(values.begin(), values.end()));
   return static_cast<double>(values[rank]);
+}
+
+bool is_penumbra(float fraction) {
+  return fraction > 0 && fraction < 1;
 }
 
 /// What the sampled pixels are off by.
@@ -51,10 +57,17 @@ SampledErrors errors_of(const SoftFrame& frame, const SampledBlocks& blocks, con
     out.squares[slot / block_slots] += square_of(frame, means, slot, pixel);
     ++out.count[slot / block_slots];
     ++out.pixels;
-    if (means.fraction[slot] > 0 && means.fraction[slot] < 1) ++out.penumbra;
+    if (is_penumbra(means.fraction[slot])) ++out.penumbra;
   }
   out.square = std::accumulate(out.squares.begin(), out.squares.end(), 0.0);
   return out;
+}
+
+/// The place, moved to the lit side of the light's plane by more than rounding may have put it behind: what
+/// lies in the light's plane hides none of it.
+glm::vec3 before_plane(const glm::vec3& place, const glm::dvec3& normal) {
+  const float most = std::max({std::abs(place.x), std::abs(place.y), std::abs(place.z)});
+  return glm::vec3(glm::dvec3(place) + static_cast<double>(most) * 0x1p-21 * normal);
 }
 
 std::vector<std::uint32_t> pixels_of(std::span<const SampledGroup> groups) {
@@ -82,7 +95,7 @@ void SoftSampler::look(const SoftFrame& frame, const LightPlaces& places,
   const std::uint32_t more = to - from;
   for (std::uint32_t k = 0; k < more; ++k) {
     const glm::dvec2 at = sobol_place(from * phases + phase * more + k);
-    const glm::vec3 place = places.at(at.x, at.y);
+    const glm::vec3 place = before_plane(places.at(at.x, at.y), frame.light.normal);
     if (!p.tracer.trace_shadow_mask(p.points, frame.view, triangles, {.position = place},
                                     {.simd = frame.config.simd}, p.mask, frame.stop))
       return;
@@ -116,7 +129,12 @@ void SoftSampler::leave(const SoftFrame& frame, double much, std::uint32_t place
     for (const std::uint32_t pixel : group.pixels)
       square += square_of(frame, means_, blocks_.slot(pixel), pixel);
     if (square <= much * static_cast<double>(group.pixels.size())) return false;
-    for (const std::uint32_t pixel : group.pixels) blocks_.pixels[blocks_.slot(pixel)] = no_pixel;
+    for (const std::uint32_t pixel : group.pixels) {
+      const std::uint32_t slot = blocks_.slot(pixel);
+      frame.out.irradiance[pixel] *= means_.irradiance[slot];  // what white is found by until it is solved
+      if (is_penumbra(means_.fraction[slot])) ++left_penumbra_;
+      blocks_.pixels[slot] = no_pixel;
+    }
     left.push_back(group.group);
     return true;
   });
@@ -126,6 +144,7 @@ bool SoftSampler::solve(const SoftFrame& frame, const AreaLight& light, std::spa
                         SoftStats& stats, std::vector<std::uint32_t>& left) {
   left.clear();
   square_error_ = 0;
+  left_penumbra_ = 0;
   if (groups.empty()) return true;
   ++frames_;
   std::vector<SampledGroup> sampled(groups.begin(), groups.end());
@@ -135,15 +154,17 @@ bool SoftSampler::solve(const SoftFrame& frame, const AreaLight& light, std::spa
   std::vector<std::uint32_t> chosen(blocks_.count());
   std::iota(chosen.begin(), chosen.end(), 0u);
   SampledErrors errors;
+  const double asked = std::min(frame.config.error_255, 255.0);
   double unit = 0;
-  for (std::uint32_t from = 0, to = first_places(frame.config.error_255);; from = to, to *= 2) {
+  for (std::uint32_t from = 0, to = first_places(asked);; from = to, to *= 2) {
     if (!look(frame, places, chosen, from, to, stats)) return false;
-    find_means(blocks_, tally_, means_);
+    find_means(frame, blocks_, tally_, means_);
     errors = errors_of(frame, blocks_, means_);
     unit = white_of(frame, blocks_, means_) / 255;
-    const double error = frame.config.error_255 * unit;
-    const double allowed = error * error * static_cast<double>(stats.points_penumbra + errors.penumbra);
-    if (errors.square <= allowed || to >= most_places) break;
+    const double error = asked * unit;
+    const double allowed =
+        error * error * static_cast<double>(stats.points_penumbra + left_penumbra_ + errors.penumbra);
+    if (errors.square <= allowed || !(unit > 0) || to >= most_places) break;
     // Of the blocks that have looked most those look again that err by more than the mean that is allowed.
     const double much = allowed / static_cast<double>(errors.pixels);
     leave(frame, much, 2 * to, sampled, left);

@@ -1,5 +1,6 @@
 // Soft shadows with an error that was asked for: where exact solving costs more, pixels look at places of the
-// light by exact hard shadows, and at more of them until what they show errs by no more than that.
+// light by exact hard shadows, and at more of them until what they show errs by no more than that, or they
+// have looked at 1,024 in each phase.
 #pragma once
 
 #include <array>
@@ -58,6 +59,7 @@ private:
   void write(const SoftFrame& frame, SoftStats& stats) const;
 
   double square_error_ = 0;
+  std::uint64_t left_penumbra_ = 0;  ///< pixels in penumbra of groups that were left
   std::array<Phase, phases> phases_;
   std::uint64_t frames_ = 0;  ///< names their triangles for the tracers
   SampledBlocks blocks_;

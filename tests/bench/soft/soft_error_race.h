@@ -19,7 +19,7 @@ struct ErrorRow {
   double rmse = 0, estimate = 0;        ///< of Tenebra, 1/255
   double worst = 0;                     ///< of its pixels, 1/255
   double rays = 0;                      ///< of a sampled pixel, mean
-  double sampled = 0;                   ///< of the visible pixels, 0..1
+  double sampled = 0;                   ///< of all pixels, 0..1
   bool reached = true;  ///< false: the rival erred by more with its most rays, whose time counts
   double ratio() const { return tenebra_ms / rival_ms; }
   double estimate_off() const;  ///< the larger of truth and estimate over the smaller, both at least 0.25

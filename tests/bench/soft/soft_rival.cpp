@@ -130,7 +130,9 @@ void RivalSampler::light_up(std::vector<float>& irradiance) {
     const std::span<const std::uint32_t> all(pixels);
     solver.solve_lit(of, {&all, 1});
   });
-  for (std::size_t i = 0; i < share_.size(); ++i) mask.irradiance[i] *= share_[i];
+  parallel::parallel_ranges(share_.size(), 1 << 14, [&](std::size_t first, std::size_t last) {
+    for (std::size_t i = first; i < last; ++i) mask.irradiance[i] *= share_[i];
+  });
   irradiance = std::move(mask.irradiance);
 }
 
