@@ -10,11 +10,11 @@ set -uo pipefail
 cd "$(dirname "$0")/.."
 fuzzers=(aff gltf glb obj picture config)
 
-if [[ ! ${1:-} =~ ^[0-9]+$ || $1 == 0 ]]; then
+if [[ ! ${1:-} =~ ^[0-9]+$ || $1 =~ ^0+$ ]]; then
   echo "tools/fuzz.sh: found '${1:-}', expected the minutes to run, like 10" >&2
   exit 2
 fi
-minutes=$1
+minutes=$((10#$1))
 shift
 ((${#})) && [[ $1 != all ]] && fuzzers=("$@")
 if ! command -v clang++ > /dev/null; then

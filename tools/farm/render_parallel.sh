@@ -3,8 +3,7 @@
 #
 # usage: tools/farm/render_parallel.sh CHUNKS SCENE [OPTIONS of tenebra render]
 #
-# The same command again goes on: chunks that failed are started again, and frames that are done are not drawn
-# again. From the environment:
+# The same command again goes on: frames that are done are not drawn again. From the environment:
 #   TENEBRA   the program [tenebra]
 #   NODES     file of machines for parallel --sshloginfile [none: this one]
 #   JOBS      chunks at a time on each machine [1: a render uses all cores]
@@ -22,4 +21,4 @@ if [[ -n ${NODES:-} ]]; then where=(--sshloginfile "$NODES" --workdir .); fi
 command="$(printf '%q ' "${TENEBRA:-tenebra}" render "$@") --resume --quiet --chunk {}/$chunks"
 command+=" --log $(printf '%q' "$logs")/chunk_{}.csv"
 exec parallel "${where[@]}" --jobs "${JOBS:-1}" --retries "${RETRIES:-3}" \
-  --joblog "$logs/parallel.log" --resume-failed "$command" ::: $(seq "$chunks")
+  --joblog "$logs/parallel.log" "$command" ::: $(seq "$chunks")

@@ -9,6 +9,7 @@
 #include "log/log_merge.h"
 #include "log/log_summary.h"
 #include "log/report.h"
+#include "shared/files_apart.h"
 #include "shell/console.h"
 #include "shell/stop_signals.h"
 
@@ -78,6 +79,9 @@ Expected<int> merge(const LogOptions& options) {
   if (!merged) return tl::unexpected(merged.error());
   print_remarks(merged->remarks);
   const StopSignals stop;
+  if (auto apart = check_files_apart({options.logs.begin(), options.logs.end()}, {{"-o", options.output}});
+      !apart)
+    return tl::unexpected(apart.error());
   if (auto written = base::write_file(options.output, merged->text); !written)
     return tl::unexpected(written.error());
   print_out("{} frames of {} logs in {}\n", merged->frames, logs.size(), options.output);
@@ -131,6 +135,10 @@ Expected<int> report(const LogOptions& options) {
   const auto page = report_page(logs, *pictures);
   if (!page) return tl::unexpected(page.error());
   const StopSignals stop;
+  std::vector<std::filesystem::path> inputs{options.a};
+  if (!options.b.empty()) inputs.emplace_back(options.b);
+  if (auto apart = check_files_apart(inputs, {{"-o", options.output}}); !apart)
+    return tl::unexpected(apart.error());
   if (auto written = base::write_file(options.output, *page); !written)
     return tl::unexpected(written.error());
   print_out("{} KB in {}\n", (page->size() + 999) / 1000, options.output);

@@ -39,12 +39,18 @@ std::vector<render::LogSetting> changes(const render::LogPast& past,
 }  // namespace
 
 Expected<void> RenderOutput::open(std::vector<render::LogSetting> settings) {
+  for (render::LogSetting& setting : settings)  // as they are read again
+    setting = {render::on_one_line(setting.name), render::on_one_line(setting.value)};
   const std::vector<render::LogSetting> identity = identity_of(settings);
   settings.push_back({"settings_hash", base::text_hash(render::log_head(identity, ""))});
   if (auto opened = open_done_list(identity); !opened) return opened;
   if (!options_.log.empty())
     if (auto opened = open_log(settings, identity); !opened) return opened;
   std::ranges::sort(done_before_);
+  if (goes_on_ && !frames_left().empty())
+    if (auto noted = log_->comment({"resumed", fmt::format("with frame {}", frames_left().front().frame)});
+        !noted)
+      return noted;
   // A trace is of one run; where nothing is left to do, the last one's stays.
   if (!options_.trace.empty() && !frames_left().empty()) {
     auto trace = render::FrameTrace::create(options_.trace, settings);
@@ -78,6 +84,7 @@ Expected<void> RenderOutput::open_log(std::span<const render::LogSetting> settin
   if (!past->has_header) return base::fail("cannot go on with {}: found no log of frames", options_.log);
   done_before_.insert(done_before_.end(), past->frames.begin(), past->frames.end());
   if (auto kept = log_->go_on(*past); !kept) return kept;
+  goes_on_ = true;
   for (const render::LogSetting& change : changes(*past, settings))
     if (auto noted = log_->comment(change); !noted) return noted;
   return {};

@@ -44,6 +44,7 @@ private:
   std::optional<render::FrameTrace> trace_;
   std::optional<DoneList> done_;
   std::vector<int> done_before_;  ///< sorted
+  bool goes_on_ = false;          ///< the log has rows of an earlier process
 };
 
 }  // namespace tenebra::viewer

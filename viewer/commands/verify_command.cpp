@@ -16,6 +16,7 @@
 #include "options/raster_options.h"
 #include "render/light_casters.h"
 #include "render/shadow_lights.h"
+#include "shared/files_apart.h"
 #include "shared/render_plan.h"
 #include "shared/scene_choice.h"
 #include "shell/console.h"
@@ -154,13 +155,23 @@ Expected<void> write_report(const std::string& path, const Verification& verific
       path, path.ends_with(".json") ? verification_json(verification) : verification_text(verification));
 }
 
+/// That the report may be written, before hours of work.
+Expected<void> check_report(const VerifyOptions& options, const RenderPlan& plan) {
+  if (options.report.empty()) return {};
+  std::vector<std::filesystem::path> inputs = plan.inputs;
+  if (!options.render.config.empty()) inputs.emplace_back(options.render.config);
+  return check_files_apart(inputs, {{"--report", options.report}});
+}
+
 Expected<int> verify(const VerifyOptions& options) {
   if (auto checked = check_scene_options(options.render.scene); !checked)
     return tl::unexpected(checked.error());
+  StopSignals stop(options.render.timeout_s, StopSignals::Start::at_once);
   const auto plan = plan_render(options.render);
   if (!plan) return tl::unexpected(plan.error());
   if (!options.render.quiet) print_warnings(plan->scene.warnings);
-  StopSignals stop;
+  if (auto apart = check_report(options, *plan); !apart) return tl::unexpected(apart.error());
+  stop.be_orderly();
   Verifier verifier(options, *plan);
   if (auto done = verifier.run(stop); !done) return tl::unexpected(done.error());
   const Verification& verification = verifier.verification();
@@ -171,7 +182,10 @@ Expected<int> verify(const VerifyOptions& options) {
   const bool stopped = verification.frames < verification.planned_frames;
   if (stopped)
     print_error("tenebra: stopped after {} of {} frames\n", verification.frames, verification.planned_frames);
-  return stopped ? stop.exit_code() : 0;
+  if (stopped) return stop.exit_code();
+  if (verification.stats().samples == 0)
+    return base::fail("found no sample to check: no light has a mask, or no triangle is seen");
+  return 0;
 }
 
 }  // namespace

@@ -8,13 +8,6 @@
 namespace tenebra::render {
 namespace {
 
-/// Comments are one line each, whatever a file name holds.
-std::string on_one_line(std::string text) {
-  std::replace_if(
-      text.begin(), text.end(), [](char c) { return static_cast<unsigned char>(c) < ' '; }, ' ');
-  return text;
-}
-
 std::string comment_line(const LogSetting& setting) {
   return fmt::format("# {}: {}\n", on_one_line(setting.name), on_one_line(setting.value));
 }
@@ -29,6 +22,12 @@ std::string within_page(std::size_t size, std::string line) {
 }
 
 }  // namespace
+
+std::string on_one_line(std::string text) {
+  std::replace_if(
+      text.begin(), text.end(), [](char c) { return static_cast<unsigned char>(c) < ' '; }, ' ');
+  return text;
+}
 
 std::string frame_log_header() {
   std::string line = "frame,time_s";

@@ -27,6 +27,8 @@ struct LogPast {
   std::size_t whole_bytes = 0;  ///< up to the end of the last whole line
 };
 LogPast parse_log(std::string_view text, std::string_view header);
+/// Comments are one line each, whatever a file name holds: control characters become blanks.
+std::string on_one_line(std::string text);
 /// The lines above the rows.
 std::string log_head(std::span<const LogSetting> settings, std::string_view header);
 

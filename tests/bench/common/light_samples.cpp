@@ -109,6 +109,12 @@ constexpr std::uint64_t seed = 2012;
 
 }  // namespace
 
+std::size_t scattered(std::size_t number) {
+  std::uint64_t z = (number + 1) * 0x9e3779b97f4a7c15u;
+  z = (z ^ (z >> 30)) * 0xbf58476d1ce4e5b9u;
+  return static_cast<std::size_t>(z ^ (z >> 31));
+}
+
 LightSamples samples_by_pixel(const AreaLight& light, std::size_t per_pattern, std::size_t pattern_count) {
   const std::size_t stride = std::max(per_pattern, lanes);
   LightSamples samples = empty_samples(per_pattern, pattern_count, stride * pattern_count);

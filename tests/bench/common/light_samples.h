@@ -30,4 +30,7 @@ LightSamples samples_by_tile(const AreaLight& light, std::size_t per_pattern, st
 /// 1995, by the hash of Laine and Karras 2011): any first 2^m points of a pattern are stratified.
 LightSamples sobol_by_tile(const AreaLight& light, std::size_t per_pattern, std::size_t pattern_count);
 
+/// Well mixed bits of a pixel's or tile's number: neighbours get unrelated patterns.
+std::size_t scattered(std::size_t number);
+
 }  // namespace tenebra::bench

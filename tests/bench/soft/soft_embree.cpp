@@ -9,13 +9,6 @@ namespace {
 constexpr std::size_t lanes = 16, tile_side = 4;
 constexpr std::size_t pixel_patterns = 256, tile_patterns = 16 * lanes;
 
-/// Well mixed bits of a pixel's or tile's number: neighbours get unrelated patterns.
-std::size_t scattered(std::size_t number) {
-  std::uint64_t z = (number + 1) * 0x9e3779b97f4a7c15u;
-  z = (z ^ (z >> 30)) * 0xbf58476d1ce4e5b9u;
-  return static_cast<std::size_t>(z ^ (z >> 31));
-}
-
 void put(ReceiverPacket& packet, std::size_t lane, const SampledReceiver& r) {
   packet.x[lane] = r.position.x, packet.y[lane] = r.position.y, packet.z[lane] = r.position.z;
   packet.nx[lane] = r.normal.x, packet.ny[lane] = r.normal.y, packet.nz[lane] = r.normal.z;

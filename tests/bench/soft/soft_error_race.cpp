@@ -21,7 +21,7 @@ struct RivalPoint {
 };
 using RivalCurve = std::vector<RivalPoint>;
 
-struct Ring {
+struct ErrorRing {
   const SoftView& view;
   EmbreeScene casters;
   std::vector<SampledReceiver> receivers;
@@ -30,7 +30,7 @@ struct Ring {
   SoftMask mask;
   std::vector<float> picture;
 
-  explicit Ring(const SoftView& of)
+  explicit ErrorRing(const SoftView& of)
       : view(of),
         casters(of.frame.triangles(), true),
         receivers(sampled_receivers(of.frame)),
@@ -64,7 +64,7 @@ double time_at(const RivalCurve& curve, double error, bool& reached) {
   return std::numeric_limits<double>::infinity();
 }
 
-void race_row(Ring& ring, const Truth& truth, const std::vector<RivalCurve>& curves, int rounds,
+void race_row(ErrorRing& ring, const Truth& truth, const std::vector<RivalCurve>& curves, int rounds,
               ErrorRow& row) {
   std::vector<double> times;
   ring.time_tenebra(row.asked);  // warm
@@ -93,7 +93,7 @@ double ErrorRow::estimate_off() const {
 }
 
 ErrorRace race_errors(const SoftView& view, int rounds, std::size_t most_rays, Report& report) {
-  Ring ring(view);
+  ErrorRing ring(view);
   ErrorRace race{view.name, 0, {}};
   progress(fmt::format("{}: errors that users accept", view.name));
   Truth truth;

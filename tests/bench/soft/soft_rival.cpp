@@ -11,17 +11,11 @@
 namespace tenebra::bench {
 namespace {
 
-constexpr std::size_t lanes = 16, side = 4;
-constexpr std::size_t patterns = 16 * lanes;
-constexpr std::uint8_t idle = 0, lit = 1, dark = 2, mixed = 3;
+constexpr std::size_t tile_lanes = 16, rival_side = 4;
+constexpr std::size_t rival_patterns = 16 * tile_lanes;
+constexpr std::uint8_t no_state = 0, lit_state = 1, dark_state = 2, mixed_state = 3;
 
-std::size_t scattered(std::size_t number) {
-  std::uint64_t z = (number + 1) * 0x9e3779b97f4a7c15u;
-  z = (z ^ (z >> 30)) * 0xbf58476d1ce4e5b9u;
-  return static_cast<std::size_t>(z ^ (z >> 31));
-}
-
-bool alike(const SampledReceiver& a, const SampledReceiver& b) {
+bool one_surface(const SampledReceiver& a, const SampledReceiver& b) {
   const glm::vec3 d = b.position - a.position;
   return glm::dot(a.normal, b.normal) > 0.95f &&
          std::abs(glm::dot(d, a.geometric_normal)) <= 0.1f * glm::length(d);
@@ -35,10 +29,10 @@ RivalSampler::RivalSampler(const SoftView& view, const EmbreeScene& casters,
       casters_(casters),
       receivers_(receivers),
       kernels_(packet_kernels()),
-      columns_((static_cast<std::size_t>(view.frame.points.width) + side - 1) / side),
-      rows_((static_cast<std::size_t>(view.frame.points.height) + side - 1) / side) {
+      columns_((static_cast<std::size_t>(view.frame.points.width) + rival_side - 1) / rival_side),
+      rows_((static_cast<std::size_t>(view.frame.points.height) + rival_side - 1) / rival_side) {
   const std::size_t tiles = columns_ * rows_;
-  all_.resize(tiles * lanes), seen_.resize(tiles * lanes);
+  all_.resize(tiles * tile_lanes), seen_.resize(tiles * tile_lanes);
   states_.resize(tiles), decided_.resize(tiles);
   share_.resize(receivers.size()), smooth_.resize(receivers.size()), undecided_.resize(receivers.size());
 }
@@ -46,7 +40,7 @@ RivalSampler::RivalSampler(const SoftView& view, const EmbreeScene& casters,
 const LightSamples& RivalSampler::samples_of(std::size_t rays) {
   const auto number = static_cast<std::size_t>(std::countr_zero(rays));
   if (samples_.size() <= number) samples_.resize(number + 1);
-  if (samples_[number].x.empty()) samples_[number] = sobol_by_tile(view_.light, rays, patterns);
+  if (samples_[number].x.empty()) samples_[number] = sobol_by_tile(view_.light, rays, rival_patterns);
   return samples_[number];
 }
 
@@ -57,8 +51,9 @@ void RivalSampler::look(const LightSamples& samples, std::size_t tile, std::size
              height = static_cast<std::size_t>(view_.frame.points.height);
   ReceiverPacket packet{};
   bool any = false;
-  for (std::size_t lane = 0; lane < lanes; ++lane) {
-    const std::size_t x = tile % columns_ * side + lane % side, y = tile / columns_ * side + lane / side;
+  for (std::size_t lane = 0; lane < tile_lanes; ++lane) {
+    const std::size_t x = tile % columns_ * rival_side + lane % rival_side,
+                      y = tile / columns_ * rival_side + lane / rival_side;
     if (x >= width || y >= height) continue;
     const SampledReceiver& r = receivers_[y * width + x];
     if (r.normal == glm::vec3(0)) continue;
@@ -68,34 +63,35 @@ void RivalSampler::look(const LightSamples& samples, std::size_t tile, std::size
     packet.gz[lane] = r.geometric_normal.z;
     any = true;
   }
-  float *all = &all_[tile * lanes], *seen = &seen_[tile * lanes];
-  if (from == 0) std::fill_n(all, lanes, 0.0f), std::fill_n(seen, lanes, 0.0f), states_[tile] = idle;
+  float *all = &all_[tile * tile_lanes], *seen = &seen_[tile * tile_lanes];
+  if (from == 0)
+    std::fill_n(all, tile_lanes, 0.0f), std::fill_n(seen, tile_lanes, 0.0f), states_[tile] = no_state;
   if (!any) return;
   RayPacket16 rays;
-  std::copy(packet.x, packet.x + lanes, rays.rays.org_x);
-  std::copy(packet.y, packet.y + lanes, rays.rays.org_y);
-  std::copy(packet.z, packet.z + lanes, rays.rays.org_z);
-  std::fill(rays.rays.tnear, rays.rays.tnear + lanes, 0.0f);
-  std::fill(rays.rays.time, rays.rays.time + lanes, 0.0f);
-  std::fill(rays.rays.mask, rays.rays.mask + lanes, ~0u);
-  std::fill(rays.rays.flags, rays.rays.flags + lanes, 0u);
-  const std::size_t block = scattered(tile) % (patterns / lanes) * samples.per_pattern;
+  std::copy(packet.x, packet.x + tile_lanes, rays.rays.org_x);
+  std::copy(packet.y, packet.y + tile_lanes, rays.rays.org_y);
+  std::copy(packet.z, packet.z + tile_lanes, rays.rays.org_z);
+  std::fill(rays.rays.tnear, rays.rays.tnear + tile_lanes, 0.0f);
+  std::fill(rays.rays.time, rays.rays.time + tile_lanes, 0.0f);
+  std::fill(rays.rays.mask, rays.rays.mask + tile_lanes, ~0u);
+  std::fill(rays.rays.flags, rays.rays.flags + tile_lanes, 0u);
+  const std::size_t block = scattered(tile) % (rival_patterns / tile_lanes) * samples.per_pattern;
   const glm::vec3 normal(view_.light.normal);
-  for (std::size_t s = (block + from) * lanes; s < (block + to) * lanes; s += lanes) {
+  for (std::size_t s = (block + from) * tile_lanes; s < (block + to) * tile_lanes; s += tile_lanes) {
     if (!kernels_.aim(packet, &samples.x[s], &samples.y[s], &samples.z[s], normal.x, normal.y, normal.z,
                       rays))
       continue;
     query.occluded16(rays.valid, casters_.get(), rays.rays);
-    for (std::size_t i = 0; i < lanes; ++i) all[i] += rays.weight[i];
+    for (std::size_t i = 0; i < tile_lanes; ++i) all[i] += rays.weight[i];
     kernels_.gather(rays, seen);
   }
-  for (std::size_t i = 0; i < lanes; ++i) {
+  for (std::size_t i = 0; i < tile_lanes; ++i) {
     if (!(all[i] > 0)) continue;
-    states_[tile] |= seen[i] == all[i] ? lit : seen[i] == 0 ? dark : mixed;
+    states_[tile] |= seen[i] == all[i] ? lit_state : seen[i] == 0 ? dark_state : mixed_state;
   }
 }
 
-/// Lit or dark where a tile and its eight neighbours agree.
+/// Lit or dark_state where a tile and its eight neighbours agree.
 void RivalSampler::decide() {
   parallel::parallel_ranges(rows_, 4, [&](std::size_t first, std::size_t last) {
     for (std::size_t y = first; y < last; ++y) {
@@ -124,7 +120,7 @@ void RivalSampler::light_up(std::vector<float>& irradiance) {
   parallel::parallel_ranges(rows_, 4, [&](std::size_t first, std::size_t last) {
     soft::GroupSolver solver(SimdLevel::automatic);
     std::vector<std::uint32_t> pixels;
-    for (std::size_t y = first * side; y < std::min(last * side, share_.size() / width); ++y)
+    for (std::size_t y = first * rival_side; y < std::min(last * rival_side, share_.size() / width); ++y)
       for (std::size_t i = y * width; i < (y + 1) * width; ++i)
         if (share_[i] > 0) pixels.push_back(static_cast<std::uint32_t>(i));
     const std::span<const std::uint32_t> all(pixels);
@@ -151,7 +147,7 @@ void RivalSampler::filter(int step) {
             const int nx = x + dx * step, ny = y + dy * step;
             if (nx < 0 || ny < 0 || nx >= width || ny >= height) continue;
             const auto k = static_cast<std::size_t>(ny * width + nx);
-            if (k != i && !alike(receivers_[i], receivers_[k])) continue;
+            if (k != i && !one_surface(receivers_[i], receivers_[k])) continue;
             const float weight = spline[dx + 2] * spline[dy + 2];
             sum += weight * share_[k], weights += weight;
           }
@@ -174,13 +170,14 @@ void RivalSampler::trace(std::size_t rays, int passes, std::vector<float>& irrad
   decide();
   parallel::parallel_ranges(tiles, 64, [&](std::size_t first, std::size_t last) {
     for (std::size_t tile = first; tile < last; ++tile) {
-      if (decided_[tile] == mixed && rays > probe_rays) look(samples, tile, probe_rays, rays);
-      for (std::size_t lane = 0; lane < lanes; ++lane) {
-        const std::size_t x = tile % columns_ * side + lane % side, y = tile / columns_ * side + lane / side;
+      if (decided_[tile] == mixed_state && rays > probe_rays) look(samples, tile, probe_rays, rays);
+      for (std::size_t lane = 0; lane < tile_lanes; ++lane) {
+        const std::size_t x = tile % columns_ * rival_side + lane % rival_side,
+                          y = tile / columns_ * rival_side + lane / rival_side;
         if (x >= width || y >= height) continue;
-        const float all = all_[tile * lanes + lane];
-        share_[y * width + x] = all > 0 ? seen_[tile * lanes + lane] / all : 0.0f;
-        undecided_[y * width + x] = decided_[tile] == mixed && all > 0 ? 1 : 0;
+        const float all = all_[tile * tile_lanes + lane];
+        share_[y * width + x] = all > 0 ? seen_[tile * tile_lanes + lane] / all : 0.0f;
+        undecided_[y * width + x] = decided_[tile] == mixed_state && all > 0 ? 1 : 0;
       }
     }
   });
