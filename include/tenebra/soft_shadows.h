@@ -34,7 +34,8 @@ public:
   /// visible_fraction is the area of those Q over the light's; irradiance is the integral over them, clamped
   /// to the shading normal's hemisphere. Errors: `reference` 1e-6 of the fraction, or 2^-48 of the distance
   /// over the light's size if that is more; `fast` 0.1/255 of the unoccluded irradiance (lights of at least
-  /// 1e-10 of their distance). The bits are the same for any number of threads.
+  /// 1e-10 of their distance). With config.error_255 the irradiance of dense penumbrae may err by
+  /// that, as estimated: see there. The bits are the same for any number of threads.
   ///
   /// Returns false, with `out` unspecified, if `stop` was requested before the end.
   bool trace(const VisiblePoints& points, std::span<const glm::vec3> normals, const ViewRays& view,

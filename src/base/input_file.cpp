@@ -7,27 +7,41 @@
 #include <cerrno>
 #include <system_error>
 
-#include "base/descriptor.h"
 #include "base/fail.h"
 
 namespace tenebra::base {
 
-Expected<std::string> read_file(const std::filesystem::path& path, std::size_t most) {
-  const auto failure = [&] { return fail("{}: {}", path.string(), std::generic_category().message(errno)); };
-  const Descriptor file(::open(path.c_str(), O_RDONLY | O_NONBLOCK | O_CLOEXEC));  // a pipe is not waited for
+Expected<std::size_t> InputFile::read(char* to, std::size_t most) const {
+  for (;;) {
+    const ssize_t count = ::read(file.number(), to, most);
+    if (count >= 0) return static_cast<std::size_t>(count);
+    if (errno != EINTR) return fail("{}", std::generic_category().message(errno));
+  }
+}
+
+Expected<InputFile> open_input_file(const std::filesystem::path& path) {
+  InputFile out{
+      Descriptor(::open(path.c_str(), O_RDONLY | O_NONBLOCK | O_CLOEXEC))};  // a pipe is not waited for
   struct stat found {};
-  if (!file || ::fstat(file.number(), &found) != 0) return failure();
+  if (!out.file || ::fstat(out.file.number(), &found) != 0)
+    return fail("{}: {}", path.string(), std::generic_category().message(errno));
   if (!S_ISREG(found.st_mode))
     return fail("{}: found something that is no file, expected one", path.string());
-  const auto size = static_cast<std::size_t>(found.st_size);
-  if (size > most) return fail("{}: found {} bytes, expected at most {}", path.string(), size, most);
-  std::string bytes(size, '\0');
-  for (std::size_t at = 0; at < size;) {
-    const ssize_t count = ::read(file.number(), bytes.data() + at, size - at);
-    if (count < 0 && errno == EINTR) continue;
-    if (count < 0) return failure();
-    if (count == 0) return fail("{}: found {} bytes, expected {}", path.string(), at, size);
-    at += static_cast<std::size_t>(count);
+  out.size = static_cast<std::size_t>(found.st_size);
+  return out;
+}
+
+Expected<std::string> read_file(const std::filesystem::path& path, std::size_t most) {
+  const auto file = open_input_file(path);
+  if (!file) return tl::unexpected(file.error());
+  if (file->size > most)
+    return fail("{}: found {} bytes, expected at most {}", path.string(), file->size, most);
+  std::string bytes(file->size, '\0');
+  for (std::size_t at = 0; at < bytes.size();) {
+    const auto count = file->read(bytes.data() + at, bytes.size() - at);
+    if (!count) return fail("{}: {}", path.string(), count.error().message);
+    if (*count == 0) return fail("{}: found {} bytes, expected {}", path.string(), at, bytes.size());
+    at += *count;
   }
   return bytes;
 }

@@ -5,30 +5,11 @@
 #include <vector>
 
 #include "oracle/dyadic.h"
+#include "oracle/vector.h"
 #include "parallel/parallel.h"
 
 namespace tenebra::oracle {
 namespace {
-
-template <class T>
-struct Vector {
-  T x, y, z;
-  Vector(T x_, T y_, T z_) : x(std::move(x_)), y(std::move(y_)), z(std::move(z_)) {}
-  template <class V>
-  explicit Vector(const V& v) : x(double(v.x)), y(double(v.y)), z(double(v.z)) {}
-};
-template <class T>
-Vector<T> operator-(const Vector<T>& a, const Vector<T>& b) {
-  return {a.x - b.x, a.y - b.y, a.z - b.z};
-}
-template <class T>
-T dot(const Vector<T>& a, const Vector<T>& b) {
-  return a.x * b.x + a.y * b.y + a.z * b.z;
-}
-template <class T>
-Vector<T> cross(const Vector<T>& a, const Vector<T>& b) {
-  return {a.y * b.z - a.z * b.y, a.z * b.x - a.x * b.z, a.x * b.y - a.y * b.x};
-}
 
 /// Sign of formula.operator()<T>(): by doubles if they can tell, else exactly (then `exact` counts it).
 template <class Formula>

@@ -1,5 +1,7 @@
 #include "oracle/mask_check.h"
 
+#include <algorithm>
+
 #include "parallel/parallel.h"
 
 namespace tenebra::oracle {
@@ -29,13 +31,18 @@ MaskCheck check_mask(const ExactShadow& exact, const VisiblePoints& points,
       const std::uint32_t id = points.triangles[pixel];
       ExactAnswer answer;
       if (id != no_triangle) answer = exact.answer(points.positions[pixel], id, part.stats);
-      if (answer.value != mask[pixel]) part.wrong.push_back({pixel, id, mask[pixel], answer});
+      if (answer.value == mask[pixel]) continue;
+      ++part.wrong_count;
+      part.wrong.push_back({pixel, id, mask[pixel], answer});
     }
   });
   MaskCheck all;
   for (const MaskCheck& part : parts) {
     all.stats += part.stats;
-    all.wrong.insert(all.wrong.end(), part.wrong.begin(), part.wrong.end());
+    all.wrong_count += part.wrong_count;
+    const std::size_t room = MaskCheck::most_named - all.wrong.size();
+    all.wrong.insert(all.wrong.end(), part.wrong.begin(),
+                     part.wrong.begin() + static_cast<std::ptrdiff_t>(std::min(room, part.wrong.size())));
   }
   return all;
 }

@@ -21,7 +21,9 @@ struct WrongSample {
 
 struct MaskCheck {
   ExactMaskStats stats;
-  std::vector<WrongSample> wrong;  ///< in the order of `pixels`
+  static constexpr std::size_t most_named = 1000;
+  std::uint64_t wrong_count = 0;
+  std::vector<WrongSample> wrong;  ///< the first `most_named`, in the order of `pixels`
 };
 
 /// Asks about each of `pixels` of `mask`, on all cores. `points`: with positions; pixels without a triangle

@@ -11,8 +11,8 @@ namespace tenebra::render {
 
 enum class Quality {
   fast,      ///< soft shadows and ambient occlusion with errors that are hardly seen
-  balanced,  ///< the defaults: exact shadows, ambient occlusion by 64 rays
-  exact,     ///< exact shadows, ambient occlusion by 256 rays
+  balanced,  ///< the defaults: exact shadows, occlusion off by 2.5/255 RMS
+  exact,     ///< exact shadows, occlusion off by 1/255 RMS
 };
 inline constexpr std::array qualities{Quality::fast, Quality::balanced, Quality::exact};
 std::string_view quality_name(Quality quality);  ///< "fast"

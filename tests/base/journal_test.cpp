@@ -4,21 +4,18 @@
 #include <gtest/gtest.h>
 #include <sys/resource.h>
 #include <sys/stat.h>
-#include <sys/wait.h>
-#include <unistd.h>
 
-#include <chrono>
-#include <csignal>
 #include <random>
-#include <thread>
 
 #include "support/child_process.h"
+#include "support/killed_writer.h"
 #include "support/temporary_folder.h"
 
 namespace tenebra {
 namespace {
 
 using base::Journal;
+using testing::kill_while_it_writes;
 using testing::read_text;
 using testing::run_in_child;
 using testing::TemporaryFolder;
@@ -104,21 +101,15 @@ TEST(Journal, IsCutAtTheEndOfAPageAloneWhenKilledAtRandomTimes) {
   constexpr int kills = 50;
   const TemporaryFolder folder;
   const std::string row = std::string(700, 'r') + "\n";
-  std::mt19937 random(2);  // the delays, not the moments within a write, are reproducible
-  for (int i = 0; i < kills; ++i) {
-    const pid_t writer = ::fork();
-    if (writer == 0) {
-      auto journal = Journal::open(folder / "a.csv");
-      if (!journal || !journal->begin(row)) ::_exit(1);
-      while (journal->append(row)) {
-      }
-      ::_exit(1);
+  std::mt19937 random(2);
+  const auto write = [&] {
+    auto journal = Journal::open(folder / "a.csv");
+    if (!journal || !journal->begin(row)) return;
+    while (journal->append(row)) {
     }
-    std::this_thread::sleep_for(std::chrono::microseconds(random() % 8000));
-    ::kill(writer, SIGKILL);
-    int status = 0;
-    ::waitpid(writer, &status, 0);
-    ASSERT_TRUE(WIFSIGNALED(status)) << "the writer failed by itself";
+  };
+  for (int i = 0; i < kills; ++i) {
+    ASSERT_TRUE(kill_while_it_writes(random, write)) << "the writer failed by itself";
     if (std::filesystem::exists(folder / "a.csv")) {
       const std::size_t size = std::filesystem::file_size(folder / "a.csv");
       ASSERT_TRUE(size % row.size() == 0 || size % Journal::page_bytes == 0)

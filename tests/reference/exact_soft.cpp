@@ -7,6 +7,7 @@
 
 #include "oracle/dyadic.h"
 #include "oracle/exact_mask.h"
+#include "oracle/vector.h"
 
 namespace tenebra::reference {
 
@@ -14,27 +15,11 @@ using oracle::contact_height, oracle::Dyadic, oracle::TriangleBoxes, oracle::ver
 
 namespace {
 
-template <class T>
-struct Vec {
-  T x, y, z;
-};
-using ExactVec = Vec<Dyadic>;
+using ExactVec = oracle::Vector<Dyadic>;
 
 template <class V>
 ExactVec exact(const V& v) {
-  return {Dyadic(double(v.x)), Dyadic(double(v.y)), Dyadic(double(v.z))};
-}
-template <class T>
-Vec<T> operator-(const Vec<T>& a, const Vec<T>& b) {
-  return {a.x - b.x, a.y - b.y, a.z - b.z};
-}
-template <class T>
-T dot(const Vec<T>& a, const Vec<T>& b) {
-  return a.x * b.x + a.y * b.y + a.z * b.z;
-}
-template <class T>
-Vec<T> cross(const Vec<T>& a, const Vec<T>& b) {
-  return {a.y * b.z - a.z * b.y, a.z * b.x - a.x * b.z, a.x * b.y - a.y * b.x};
+  return ExactVec(v);
 }
 
 bool finite(const glm::vec3& v) {

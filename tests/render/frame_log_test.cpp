@@ -4,21 +4,17 @@
 #include "render/log/frame_log.h"
 
 #include <gtest/gtest.h>
-#include <sys/wait.h>
-#include <unistd.h>
 #include <array>
 #include <bit>
-#include <chrono>
-#include <csignal>
 
 #include <map>
 #include <nlohmann/json.hpp>
 #include <random>
 #include <set>
 #include <sstream>
-#include <thread>
 
 #include "render/log/trace_json.h"
+#include "support/killed_writer.h"
 #include "support/temporary_folder.h"
 
 namespace tenebra {
@@ -132,21 +128,15 @@ TEST(FrameLog, HasWholeLinesWhenKilledAtRandomTimes) {
   constexpr int kills = 60;
   const TemporaryFolder folder;
   const std::string header = render::frame_log_header(), row = render::frame_log_row(numbered_record(7));
-  std::mt19937 random(3);  // the delays, not the moments within a write, are reproducible
+  std::mt19937 random(3);
   for (int i = 0; i < kills; ++i) {
-    const pid_t writer = ::fork();
-    if (writer == 0) {
+    const auto write = [&] {
       auto log = render::FrameLog::create(folder / "frames.csv", {});
       while (log && log->comment({"note", std::string(static_cast<std::size_t>(i), 'n')}) &&
              log->add(numbered_record(7))) {
       }
-      ::_exit(1);
-    }
-    std::this_thread::sleep_for(std::chrono::microseconds(random() % 8000));
-    ::kill(writer, SIGKILL);
-    int status = 0;
-    ::waitpid(writer, &status, 0);
-    ASSERT_TRUE(WIFSIGNALED(status)) << "the writer failed by itself";
+    };
+    ASSERT_TRUE(testing::kill_while_it_writes(random, write)) << "the writer failed by itself";
     if (!std::filesystem::exists(folder / "frames.csv")) continue;
     const std::string text = read_text(folder / "frames.csv");
     ASSERT_TRUE(text.empty() || text.ends_with("\n")) << i;

@@ -36,11 +36,13 @@ TEST(MaskCheck, FindsPlantedErrorsAndNoOthers) {
     const oracle::ExactShadow exact(c.view, c.soup.view(), c.light, c.config);
     const auto right = oracle::check_mask(exact, c.points, mask, all_of(mask));
     EXPECT_TRUE(right.wrong.empty());
+    EXPECT_EQ(right.wrong_count, 0u);
     EXPECT_GT(right.stats.samples, 3000u);
     const std::set<std::size_t> planted{0, 17, 1000, 2048, 4095};
     for (const std::size_t i : planted) mask[i] = static_cast<std::uint8_t>(255 - mask[i]);
     const auto found = oracle::check_mask(exact, c.points, mask, all_of(mask));
     EXPECT_EQ(found.wrong.size(), planted.size());
+    EXPECT_EQ(found.wrong_count, planted.size());
     for (const oracle::WrongSample& wrong : found.wrong) {
       EXPECT_TRUE(planted.contains(wrong.pixel)) << wrong.pixel;
       EXPECT_EQ(wrong.said, mask[wrong.pixel]);

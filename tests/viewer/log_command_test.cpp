@@ -69,6 +69,19 @@ TEST(LogFile, ReadsWhatAResumedRenderLeaves) {
   for (const auto& frame : log.frames) EXPECT_TRUE(frame.notes.empty()) << "blank comments fill pages";
 }
 
+TEST(LogFile, OfAFrameDrawnAgainHasTheLastRowToBeSummedUp) {
+  auto log = parsed(log_text(rows(0, 4) + "# resumed: with frame 2\n" + rows(2, 2) + rows(5, 6)));
+  ASSERT_EQ(log.frames.size(), 8u);
+  viewer::keep_last_rows(log);
+  std::vector<int> frames;
+  for (const auto& frame : log.frames) frames.push_back(frame.frame);
+  EXPECT_EQ(frames, (std::vector<int>{0, 1, 3, 4, 2, 5, 6}));
+  EXPECT_TRUE(log.frames[4].opens_chunk);
+  ASSERT_EQ(log.remarks.size(), 1u);
+  viewer::keep_last_rows(log);
+  EXPECT_EQ(log.remarks.size(), 1u) << "nothing more to leave out";
+}
+
 TEST(LogFile, CountsUpToTheLastWholeRow) {
   const std::string whole = log_text(rows(0, 9));
   for (std::size_t cut = whole.size() - 30; cut < whole.size(); ++cut) {
@@ -214,6 +227,20 @@ TEST(LogCommand, TakesWhatRenderWrites) {
   EXPECT_NE(page.find("data:image/png;base64,"), std::string::npos);
   EXPECT_NE(page.find("type=\"range\""), std::string::npos);
   EXPECT_EQ(page.find("nan"), std::string::npos);
+}
+
+TEST(LogCommand, NeverWritesOverWhatItReads) {
+  const TemporaryFolder folder;
+  const std::string text = log_text(rows(0, 4)), path = folder / "a.csv";
+  write_text(path, text);
+  for (const std::vector<std::string>& arguments :
+       {std::vector<std::string>{"log", "report", path, "-o", path},
+        {"log", "merge", path, path, "-o", path}}) {
+    const auto result = tenebra(arguments);
+    EXPECT_EQ(result.exit_code, 1);
+    EXPECT_TRUE(is_one_sentence(result.errors)) << result.errors;
+    EXPECT_EQ(read_text(path), text);
+  }
 }
 
 TEST(LogCommand, FailsInOneSentence) {

@@ -71,6 +71,38 @@ TEST(ResumeCommand, DrawsWhatIsMissingAndNothingElse) {
   EXPECT_EQ(farm.rows("a.csv").size(), 6u);
 }
 
+TEST(ResumeCommand, SaysInTheLogWhereItWentOnAndWithWhat) {
+  const Farm farm;
+  const std::vector<std::string> log{"--resume", "--log", farm.folder / "a.csv"};
+  const auto render = [&](const std::string& frames, const char* threads) {
+    std::vector<std::string> more = log;
+    more.insert(more.end(), {"--threads", threads});
+    EXPECT_EQ(farm.render(frames, more).exit_code, 0);
+  };
+  const auto has = [&](const std::string& line) {
+    const std::string text = read_text(farm.folder / "a.csv");
+    std::size_t count = 0;
+    for (std::size_t at = 0; (at = text.find(line, at)) != std::string::npos; ++at) ++count;
+    return count;
+  };
+  render("0:1", "1");
+  EXPECT_EQ(has("# resumed: "), 0u);
+  render("0:2", "2");
+  render("0:3", "1");
+  EXPECT_EQ(has("# resumed: with frame 2\n"), 1u);
+  EXPECT_EQ(has("# resumed: with frame 3\n"), 1u);
+  EXPECT_EQ(has("# from here on threads: 2\n"), 1u);
+  EXPECT_EQ(has("# from here on threads: 1\n"), 1u) << "what changes back is said too";
+}
+
+TEST(ResumeCommand, TakesNamesThatStandInNoLineAsTheyAre) {
+  const Farm farm;
+  const std::vector<std::string> odd{"-o", farm.folder / "a\tb%02d.png"};
+  EXPECT_EQ(farm.render("0:1", odd).exit_code, 0);
+  EXPECT_EQ(farm.render("0:2", {odd[0], odd[1], "--resume"}).exit_code, 0);
+  EXPECT_EQ(farm.pictures().size(), 3u);
+}
+
 TEST(ResumeCommand, ALogAloneIsEnough) {
   const Farm farm;
   const std::vector<std::string> measure{"-o", "none", "--log", farm.folder / "a.csv", "--resume"};

@@ -78,6 +78,7 @@ TEST(VerifyReport, NamesWhatIsWrongAndEndsInItsExitCode) {
   verification.masks.push_back({.frame = 7, .light = 1, .width = 100, .check = {}});
   EXPECT_EQ(viewer::exit_code_of(verification), 0);
   verification.masks[0].check.stats.samples = 10;
+  verification.masks[0].check.wrong_count = 1;
   verification.masks[0].check.wrong.push_back(
       {.pixel = 321, .triangle = 5, .said = 255, .exact = {.value = 0, .active = true, .blocker = 9}});
   EXPECT_EQ(viewer::exit_code_of(verification), 2);
@@ -88,6 +89,19 @@ TEST(VerifyReport, NamesWhatIsWrongAndEndsInItsExitCode) {
   EXPECT_TRUE(text.ends_with("wrong: 1\n"));
   const auto json = nlohmann::json::parse(viewer::verification_json(verification));
   EXPECT_EQ(json["masks"][0]["wrong_samples"][0]["blocked_by"], 9);
+}
+
+TEST(VerifyCommand, KeepsItsSceneAndFailsWhereItChecksNothing) {
+  const TemporaryFolder folder;
+  const std::string scene = write_moving_scene(folder), before = read_text(scene);
+  const auto over = tenebra({"verify", scene, "--time", "0", "--report", scene});
+  EXPECT_EQ(over.exit_code, 1);
+  EXPECT_TRUE(is_one_sentence(over.errors)) << over.errors;
+  EXPECT_EQ(read_text(scene), before);
+  const auto nothing = tenebra({"verify", scene, "--time", "0", "--size", "16x12", "--eye", "0,1000,0",
+                                "--look-at", "0,2000,0", "--quiet"});
+  EXPECT_EQ(nothing.exit_code, 1) << nothing.output;
+  EXPECT_NE(nothing.errors.find("no sample"), std::string::npos) << nothing.errors;
 }
 
 }  // namespace

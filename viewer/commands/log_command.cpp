@@ -62,6 +62,15 @@ void print_remarks(const std::vector<std::string>& remarks) {
   for (const std::string& remark : remarks) print_error("note: {}.\n", remark);
 }
 
+/// A log to be summed up: each frame once.
+Expected<LogFile> read_frames(const std::string& path) {
+  auto log = read_log(path);
+  if (!log) return log;
+  keep_last_rows(*log);
+  print_remarks(log->remarks);
+  return log;
+}
+
 Expected<LogFile> read_and_note(const std::string& path) {
   auto log = read_log(path);
   if (log) print_remarks(log->remarks);
@@ -69,6 +78,9 @@ Expected<LogFile> read_and_note(const std::string& path) {
 }
 
 Expected<int> merge(const LogOptions& options) {
+  if (auto apart = check_files_apart({options.logs.begin(), options.logs.end()}, {{"-o", options.output}});
+      !apart)
+    return tl::unexpected(apart.error());
   std::vector<LogFile> logs;
   for (const std::string& path : options.logs) {
     auto log = read_and_note(path);
@@ -79,9 +91,6 @@ Expected<int> merge(const LogOptions& options) {
   if (!merged) return tl::unexpected(merged.error());
   print_remarks(merged->remarks);
   const StopSignals stop;
-  if (auto apart = check_files_apart({options.logs.begin(), options.logs.end()}, {{"-o", options.output}});
-      !apart)
-    return tl::unexpected(apart.error());
   if (auto written = base::write_file(options.output, merged->text); !written)
     return tl::unexpected(written.error());
   print_out("{} frames of {} logs in {}\n", merged->frames, logs.size(), options.output);
@@ -89,7 +98,7 @@ Expected<int> merge(const LogOptions& options) {
 }
 
 Expected<int> summary(const LogOptions& options) {
-  const auto log = read_and_note(options.a);
+  const auto log = read_frames(options.a);
   if (!log) return tl::unexpected(log.error());
   const auto summary = summarize_log(*log);
   if (!summary) return tl::unexpected(summary.error());
@@ -123,10 +132,14 @@ Expected<std::vector<PagePicture>> pictures_of(const LogOptions& options, const 
 }
 
 Expected<int> report(const LogOptions& options) {
+  std::vector<std::filesystem::path> inputs{options.a};
+  if (!options.b.empty()) inputs.emplace_back(options.b);
+  if (auto apart = check_files_apart(inputs, {{"-o", options.output}}); !apart)
+    return tl::unexpected(apart.error());
   std::vector<LogFile> logs;
   for (const std::string& path : {options.a, options.b}) {
     if (path.empty()) continue;
-    auto log = read_and_note(path);
+    auto log = read_frames(path);
     if (!log) return tl::unexpected(log.error());
     logs.push_back(std::move(*log));
   }
@@ -135,10 +148,6 @@ Expected<int> report(const LogOptions& options) {
   const auto page = report_page(logs, *pictures);
   if (!page) return tl::unexpected(page.error());
   const StopSignals stop;
-  std::vector<std::filesystem::path> inputs{options.a};
-  if (!options.b.empty()) inputs.emplace_back(options.b);
-  if (auto apart = check_files_apart(inputs, {{"-o", options.output}}); !apart)
-    return tl::unexpected(apart.error());
   if (auto written = base::write_file(options.output, *page); !written)
     return tl::unexpected(written.error());
   print_out("{} KB in {}\n", (page->size() + 999) / 1000, options.output);

@@ -27,7 +27,7 @@ std::vector<render::LogSetting> changes(const render::LogPast& past,
                                         std::span<const render::LogSetting> settings) {
   std::vector<render::LogSetting> changed;
   const auto noted = [&](const render::LogSetting& setting) {
-    return std::ranges::any_of(past.settings, [&](const render::LogSetting& old) {
+    return std::ranges::any_of(past.now, [&](const render::LogSetting& old) {
       return old.name == setting.name && old.value == setting.value;
     });
   };

@@ -8,7 +8,7 @@
 namespace tenebra::viewer {
 namespace {
 
-constexpr std::size_t most_named = 1000, most_printed = 10;
+constexpr std::size_t most_printed = 10;
 
 double check_seconds(const Verification& verification) {
   double sum = 0;
@@ -39,11 +39,10 @@ nlohmann::ordered_json json_of(const CheckedMask& mask) {
   nlohmann::ordered_json json{{"frame", mask.frame}, {"light", mask.light}};
   json.update(json_of(mask.check.stats));
   json["seconds"] = mask.check_s;
-  json["wrong"] = mask.check.wrong.size();
+  json["wrong"] = mask.check.wrong_count;
   if (mask.check.wrong.empty()) return json;
   json["wrong_samples"] = nlohmann::ordered_json::array();
-  for (std::size_t i = 0; i < std::min(mask.check.wrong.size(), most_named); ++i) {
-    const oracle::WrongSample& wrong = mask.check.wrong[i];
+  for (const oracle::WrongSample& wrong : mask.check.wrong) {
     const auto width = static_cast<std::size_t>(mask.width);
     nlohmann::ordered_json named{{"pixel", {wrong.pixel % width, wrong.pixel / width}},
                                  {"triangle", wrong.triangle},
@@ -59,7 +58,7 @@ nlohmann::ordered_json json_of(const CheckedMask& mask) {
 
 std::uint64_t Verification::wrong() const {
   std::uint64_t sum = 0;
-  for (const CheckedMask& mask : masks) sum += mask.check.wrong.size();
+  for (const CheckedMask& mask : masks) sum += mask.check.wrong_count;
   return sum;
 }
 

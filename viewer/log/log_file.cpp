@@ -7,6 +7,7 @@
 #include <cmath>
 #include <fstream>
 #include <iterator>
+#include <map>
 #include <system_error>
 
 #include "base/fail.h"
@@ -179,6 +180,19 @@ Expected<LogFile> read_log(const std::filesystem::path& path) {
   const std::string text{std::istreambuf_iterator<char>(file), std::istreambuf_iterator<char>()};
   if (!file) return base::fail("cannot read {}", path.string());
   return parse_log(path.string(), text);
+}
+
+void keep_last_rows(LogFile& log) {
+  std::map<int, std::size_t> last;
+  for (std::size_t i = 0; i < log.frames.size(); ++i) last[log.frames[i].frame] = i;
+  const std::size_t twice = log.frames.size() - last.size();
+  if (twice == 0) return;
+  std::vector<LoggedFrame> kept;
+  for (std::size_t i = 0; i < log.frames.size(); ++i)
+    if (last[log.frames[i].frame] == i) kept.push_back(std::move(log.frames[i]));
+  log.frames = std::move(kept);
+  log.remarks.push_back(fmt::format(
+      "{}: {} rows are of frames that were drawn again: of each the last counts", log.name, twice));
 }
 
 }  // namespace tenebra::viewer

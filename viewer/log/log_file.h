@@ -49,4 +49,7 @@ Expected<LogFile> read_log(const std::filesystem::path& path);
 /// The same from the text of a file. `name`: for messages.
 Expected<LogFile> parse_log(const std::string& name, std::string_view text);
 
+/// Of rows of one frame only the last stays: a frame whose files were gone was drawn again. With a remark.
+void keep_last_rows(LogFile& log);
+
 }  // namespace tenebra::viewer

@@ -12,6 +12,14 @@ std::string comment_line(const LogSetting& setting) {
   return fmt::format("# {}: {}\n", on_one_line(setting.name), on_one_line(setting.value));
 }
 
+constexpr std::string_view from_here_on = "# from here on ";
+
+/// Gives the setting of that name another value.
+void change(std::vector<LogSetting>& settings, std::string_view name, std::string_view value) {
+  std::erase_if(settings, [&](const LogSetting& setting) { return setting.name == name; });
+  settings.push_back({std::string(name), std::string(value)});
+}
+
 /// `line` for a journal of `size` bytes, behind a comment that fills the page where it would cross its end or
 /// leave one byte, which no comment fills: so SIGKILL leaves whole lines.
 std::string within_page(std::size_t size, std::string line) {
@@ -56,7 +64,9 @@ LogPast parse_log(std::string_view text, std::string_view header) {
     past.whole_bytes = end + 1;
     const std::size_t colon = line.find(": ");
     int frame = 0;
-    if (past.has_header) {
+    if (past.has_header && line.starts_with(from_here_on) && colon != std::string_view::npos) {
+      change(past.now, line.substr(from_here_on.size(), colon - from_here_on.size()), line.substr(colon + 2));
+    } else if (past.has_header) {
       const auto read = std::from_chars(line.data(), line.data() + line.size(), frame);
       const bool is_field = read.ptr == line.data() + line.size() || *read.ptr == ',';
       if (read.ec == std::errc() && is_field) past.frames.push_back(frame);
@@ -64,6 +74,7 @@ LogPast parse_log(std::string_view text, std::string_view header) {
       past.has_header = true;
     } else if (line.starts_with("# ") && colon != std::string_view::npos) {
       past.settings.push_back({std::string(line.substr(2, colon - 2)), std::string(line.substr(colon + 2))});
+      past.now.push_back(past.settings.back());
     }
   }
   return past;

@@ -22,6 +22,7 @@ struct LogSetting {
 /// What a log, or another table of frames with such comments, holds already.
 struct LogPast {
   std::vector<LogSetting> settings;  ///< above the header line
+  std::vector<LogSetting> now;       ///< the same, with what "from here on" lines changed since
   bool has_header = false;
   std::vector<int> frames;      ///< of its whole rows
   std::size_t whole_bytes = 0;  ///< up to the end of the last whole line

@@ -15,6 +15,8 @@ struct LightMeans {
   std::vector<float> fraction;    ///< 0..1: visible part, over the part above the horizon
   std::vector<float> square;      ///< estimated mean square of the error of `irradiance`
 };
+/// Of all slots with a pixel; those of a slot's neighbours count that are seen next to it and lie on one
+/// surface with it. `square` is statistical: it does not know what no place has seen.
 void find_means(const SoftFrame& frame, const SampledBlocks& blocks, const LightTally& tally,
                 LightMeans& out);
 

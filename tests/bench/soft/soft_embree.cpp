@@ -9,6 +9,13 @@ namespace {
 constexpr std::size_t lanes = 16, tile_side = 4;
 constexpr std::size_t pixel_patterns = 256, tile_patterns = 16 * lanes;
 
+/// Nothing to ask for: not seen, no normal, or not wanted.
+bool idle(const SampledReceiver& r) {
+  return r.normal == glm::vec3(0);
+}
+
+}  // namespace
+
 void put(ReceiverPacket& packet, std::size_t lane, const SampledReceiver& r) {
   packet.x[lane] = r.position.x, packet.y[lane] = r.position.y, packet.z[lane] = r.position.z;
   packet.nx[lane] = r.normal.x, packet.ny[lane] = r.normal.y, packet.nz[lane] = r.normal.z;
@@ -25,13 +32,6 @@ void start_rays(const ReceiverPacket& from, RayPacket16& out) {
   std::fill(out.rays.mask, out.rays.mask + lanes, ~0u);
   std::fill(out.rays.flags, out.rays.flags + lanes, 0u);
 }
-
-/// Nothing to ask for: not seen, no normal, or not wanted.
-bool idle(const SampledReceiver& r) {
-  return r.normal == glm::vec3(0);
-}
-
-}  // namespace
 
 const char* packing_name(Packing packing) {
   return packing == Packing::pixel ? "pixel" : "tile";

@@ -31,6 +31,9 @@ struct SampledReceiver {
 /// (museum5 20: 0.56, museum5x64 20: 1.3), 2e-7 leaves 0.22 (0.07, 0.08) at 2,048 rays, most of it noise.
 inline constexpr float lift_of_diagonal = 2e-7f;
 std::vector<SampledReceiver> sampled_receivers(const BenchFrame& frame);
+void put(ReceiverPacket& packet, std::size_t lane, const SampledReceiver& receiver);
+/// Origins of rays that kernels aim: from the receivers on, unmasked.
+void start_rays(const ReceiverPacket& from, RayPacket16& out);
 
 /// Stratified shadow rays to one light, a fixed number a pixel.
 class SoftSampler {

@@ -35,6 +35,8 @@ RivalSampler::RivalSampler(const SoftView& view, const EmbreeScene& casters,
   all_.resize(tiles * tile_lanes), seen_.resize(tiles * tile_lanes);
   states_.resize(tiles), decided_.resize(tiles);
   share_.resize(receivers.size()), smooth_.resize(receivers.size()), undecided_.resize(receivers.size());
+  mask_.visible_fraction.resize(receivers.size()), mask_.irradiance.resize(receivers.size());
+  classes_.resize(receivers.size());
 }
 
 const LightSamples& RivalSampler::samples_of(std::size_t rays) {
@@ -57,10 +59,7 @@ void RivalSampler::look(const LightSamples& samples, std::size_t tile, std::size
     if (x >= width || y >= height) continue;
     const SampledReceiver& r = receivers_[y * width + x];
     if (r.normal == glm::vec3(0)) continue;
-    packet.x[lane] = r.position.x, packet.y[lane] = r.position.y, packet.z[lane] = r.position.z;
-    packet.nx[lane] = r.normal.x, packet.ny[lane] = r.normal.y, packet.nz[lane] = r.normal.z;
-    packet.gx[lane] = r.geometric_normal.x, packet.gy[lane] = r.geometric_normal.y;
-    packet.gz[lane] = r.geometric_normal.z;
+    put(packet, lane, r);
     any = true;
   }
   float *all = &all_[tile * tile_lanes], *seen = &seen_[tile * tile_lanes];
@@ -68,13 +67,7 @@ void RivalSampler::look(const LightSamples& samples, std::size_t tile, std::size
     std::fill_n(all, tile_lanes, 0.0f), std::fill_n(seen, tile_lanes, 0.0f), states_[tile] = no_state;
   if (!any) return;
   RayPacket16 rays;
-  std::copy(packet.x, packet.x + tile_lanes, rays.rays.org_x);
-  std::copy(packet.y, packet.y + tile_lanes, rays.rays.org_y);
-  std::copy(packet.z, packet.z + tile_lanes, rays.rays.org_z);
-  std::fill(rays.rays.tnear, rays.rays.tnear + tile_lanes, 0.0f);
-  std::fill(rays.rays.time, rays.rays.time + tile_lanes, 0.0f);
-  std::fill(rays.rays.mask, rays.rays.mask + tile_lanes, ~0u);
-  std::fill(rays.rays.flags, rays.rays.flags + tile_lanes, 0u);
+  start_rays(packet, rays);
   const std::size_t block = scattered(tile) % (rival_patterns / tile_lanes) * samples.per_pattern;
   const glm::vec3 normal(view_.light.normal);
   for (std::size_t s = (block + from) * tile_lanes; s < (block + to) * tile_lanes; s += tile_lanes) {
@@ -91,7 +84,7 @@ void RivalSampler::look(const LightSamples& samples, std::size_t tile, std::size
   }
 }
 
-/// Lit or dark_state where a tile and its eight neighbours agree.
+/// Lit or dark where a tile and its eight neighbours agree.
 void RivalSampler::decide() {
   parallel::parallel_ranges(rows_, 4, [&](std::size_t first, std::size_t last) {
     for (std::size_t y = first; y < last; ++y) {
@@ -111,11 +104,9 @@ void RivalSampler::light_up(std::vector<float>& irradiance) {
   const BenchFrame& frame = view_.frame;
   const soft::LightFrame light = soft::light_frame(view_.light);
   const TriangleView triangles = frame.triangles();
-  SoftMask mask{std::vector<float>(share_.size()), std::vector<float>(share_.size())};
-  std::vector<std::uint8_t> classes(share_.size());
   const SoftShadowConfig config;
   const soft::SoftFrame of{frame.points, frame.normals, frame.view, triangles, light,
-                           config,       mask,          classes,    nullptr};
+                           config,       mask_,         classes_,   nullptr};
   const auto width = static_cast<std::size_t>(frame.points.width);
   parallel::parallel_ranges(rows_, 4, [&](std::size_t first, std::size_t last) {
     soft::GroupSolver solver(SimdLevel::automatic);
@@ -126,10 +117,11 @@ void RivalSampler::light_up(std::vector<float>& irradiance) {
     const std::span<const std::uint32_t> all(pixels);
     solver.solve_lit(of, {&all, 1});
   });
+  irradiance.resize(share_.size());
   parallel::parallel_ranges(share_.size(), 1 << 14, [&](std::size_t first, std::size_t last) {
-    for (std::size_t i = first; i < last; ++i) mask.irradiance[i] *= share_[i];
+    for (std::size_t i = first; i < last; ++i)
+      irradiance[i] = share_[i] > 0 ? mask_.irradiance[i] * share_[i] : 0.0f;
   });
-  irradiance = std::move(mask.irradiance);
 }
 
 void RivalSampler::filter(int step) {

@@ -7,6 +7,7 @@
 #include <span>
 #include <vector>
 
+#include <tenebra/soft_config.h>
 #include "bench/soft/soft_embree.h"
 #include "bench/soft/soft_views.h"
 
@@ -42,6 +43,8 @@ private:
   std::vector<std::uint8_t> states_, decided_;  ///< of each tile
   std::vector<float> share_, smooth_;           ///< of each pixel: what is visible
   std::vector<std::uint8_t> undecided_;         ///< of each pixel
+  SoftMask mask_;                               ///< what nothing hides
+  std::vector<std::uint8_t> classes_;           ///< that the closed form writes beside it
 };
 
 }  // namespace tenebra::bench
