@@ -12,7 +12,7 @@ slow+='|^Bart|SoftPackets|ShaftFrames|NeverLeaveOut|HandOver|AreaIsThatOf|Tiles\
 slow+='|DistantFaceBounds|OfHundredsOfEdges|NearlyCoincide|SheetsOf|GivesWhatClipping|FieldAccuracy|FindsABall'
 slow+='|AdaptiveOcclusion\.(Meets|SameBits|Stops|DoesNot)|AoCatalogue|AoMemory'
 slow+='|AmbientOcclusion\.(SameBits|BothLayouts|DoesNotDepend|HalfTheResolution|AtVertices)|RealScenes|DividesNoMore|ManyLarge'
-[[ -e build-debug/CMakeCache.txt ]] && first=() || first=(-DTENEBRA_UNITY=ON)  # as in test.sh
+[[ -e build-debug/CMakeCache.txt ]] && first=() || first=(-DTENEBRA_UNITY=ON -DTENEBRA_FEWER_LEVELS=ON)  # as in test.sh
 cmake --preset debug -DTENEBRA_TESTS=ON "${first[@]}" -DCMAKE_COMPILE_WARNING_AS_ERROR=ON > /dev/null
 cmake --build --preset debug --target "${folders[@]/#/tests_}"
 labels=$(IFS='|'; echo "${folders[*]}")

@@ -26,8 +26,8 @@ Scene room_scene() {
   return make.scene;
 }
 
-constexpr int width = 96, height = 72;
-const ViewRays view = pinhole({5, 4, 6}, {0, 0.5, 0}, 0.5, width, height);
+constexpr int frame_width = 96, frame_height = 72;
+const ViewRays frame_view = pinhole({5, 4, 6}, {0, 0.5, 0}, 0.5, frame_width, frame_height);
 
 AoConfig config_of(AoMode mode, int rays = 64) {
   AoConfig config;
@@ -40,7 +40,7 @@ AoConfig config_of(AoMode mode, int rays = 64) {
 
 TEST(AmbientOcclusion, OfNoneIsAllOpen) {
   const Scene scene = room_scene();
-  const AoView frame(scene, 0, view, width, height);
+  const AoView frame(scene, 0, frame_view, frame_width, frame_height);
   for (const float value : occlude(scene, frame, config_of(AoMode::none))) EXPECT_EQ(value, 1);
 }
 
@@ -56,7 +56,7 @@ TEST(AmbientOcclusion, BackgroundIsOpen) {
 TEST(AmbientOcclusion, RoomFollowsTheReference) {
   const Scene scene = room_scene();
   for (const double time_s : {0.0, 0.6}) {
-    const AoView frame(scene, time_s, view, width, height);
+    const AoView frame(scene, time_s, frame_view, frame_width, frame_height);
     const auto reference = occlude(scene, frame, config_of(AoMode::rays, 1024));
     const auto field = occlude(scene, frame, config_of(AoMode::field, 256));
     const Difference d = compare(frame, field, reference);
@@ -67,7 +67,7 @@ TEST(AmbientOcclusion, RoomFollowsTheReference) {
 
 TEST(AmbientOcclusion, TheReferenceConvergesWithItsRays) {
   const Scene scene = room_scene();
-  const AoView frame(scene, 0.3, view, width, height);
+  const AoView frame(scene, 0.3, frame_view, frame_width, frame_height);
   const auto best = occlude(scene, frame, config_of(AoMode::rays, 4096));
   double before = 1e9;
   for (const int rays : {16, 64, 256}) {
@@ -80,7 +80,7 @@ TEST(AmbientOcclusion, TheReferenceConvergesWithItsRays) {
 
 TEST(AmbientOcclusion, BothLayoutsAndAllBitsFollowTheReference) {
   const Scene scene = room_scene();
-  const AoView frame(scene, 0.4, view, width, height);
+  const AoView frame(scene, 0.4, frame_view, frame_width, frame_height);
   const auto reference = occlude(scene, frame, config_of(AoMode::rays, 256));
   for (const FieldLayout layout : {FieldLayout::chords, FieldLayout::positions_directions})
     for (const int bits : {1, 8, 32}) {
@@ -94,7 +94,7 @@ TEST(AmbientOcclusion, BothLayoutsAndAllBitsFollowTheReference) {
 
 TEST(AmbientOcclusion, SameBitsForEveryThreadCountAndInstructionSet) {
   const Scene scene = room_scene();
-  const AoView frame(scene, 0.2, view, width, height);
+  const AoView frame(scene, 0.2, frame_view, frame_width, frame_height);
   std::vector<float> expected;
   with_threads(1, [&] { expected = occlude(scene, frame, config_of(AoMode::field)); });
   for (const int threads : {2, 3, 8})
@@ -113,7 +113,7 @@ TEST(AmbientOcclusion, DoesNotDependOnTheFramesBefore) {
   const Scene scene = room_scene();
   AmbientOcclusion kept;
   for (const double time_s : {0.0, 0.7, 0.3, 0.7}) {
-    const AoView frame(scene, time_s, view, width, height);
+    const AoView frame(scene, time_s, frame_view, frame_width, frame_height);
     EXPECT_EQ(occlude(kept, scene, frame, config_of(AoMode::field)),
               occlude(scene, frame, config_of(AoMode::field)))
         << time_s;
@@ -123,7 +123,7 @@ TEST(AmbientOcclusion, DoesNotDependOnTheFramesBefore) {
 TEST(AmbientOcclusion, SecondFrameBuildsNothing) {
   const Scene scene = room_scene();
   AmbientOcclusion ao;
-  const AoView frame(scene, 0.0, view, width, height);
+  const AoView frame(scene, 0.0, frame_view, frame_width, frame_height);
   occlude(ao, scene, frame, config_of(AoMode::field));
   EXPECT_EQ(ao.stats().fields_built, 1u) << "the ball; the box is met by rays, for it has few triangles";
   EXPECT_EQ(ao.stats().objects, 2u);
@@ -144,7 +144,7 @@ TEST(AmbientOcclusion, StillPointsDoNotFlicker) {
   std::vector<std::uint32_t> seen;
   int still = 0;
   for (int f = 0; f <= 5; ++f) {
-    const AoView frame(scene, 0.05 * f, view, width, height);
+    const AoView frame(scene, 0.05 * f, frame_view, frame_width, frame_height);
     const auto now = occlude(ao, scene, frame, config_of(AoMode::field));
     for (std::size_t i = 0; f > 0 && i < now.size(); ++i) {
       if (frame.points.triangles[i] != seen[i] || seen[i] == no_triangle) continue;
@@ -166,7 +166,7 @@ TEST(AmbientOcclusion, StillPointsDoNotFlicker) {
 /// A camera that moves sees the same points at other pixels: they keep their values.
 TEST(AmbientOcclusion, PointsKeepTheirValuesUnderAMovingCamera) {
   const Scene scene = room_scene();
-  AoView frame(scene, 0.25, view, width, height);
+  AoView frame(scene, 0.25, frame_view, frame_width, frame_height);
   const auto expected = occlude(scene, frame, config_of(AoMode::field));
   AoView turned = frame;  // the picture upside down: every point at another pixel and in another tile
   std::reverse(turned.points.positions.begin(), turned.points.positions.end());
@@ -180,7 +180,7 @@ TEST(AmbientOcclusion, PointsKeepTheirValuesUnderAMovingCamera) {
 /// The whole scene turned, moved and scaled: the same picture but for rounding and the turn of the rays.
 TEST(AmbientOcclusion, FollowsTheScenesTransform) {
   const Scene scene = room_scene();
-  const AoView frame(scene, 0.5, view, width, height);
+  const AoView frame(scene, 0.5, frame_view, frame_width, frame_height);
   const auto expected = occlude(scene, frame, config_of(AoMode::field, 256));
   Scene moved = scene;
   Node root;
@@ -327,7 +327,7 @@ TEST(AmbientOcclusion, OnlyObjectsInReachGetFields) {
 
 TEST(AmbientOcclusion, BuiltFieldsAreFoundAgainOnDisk) {
   const Scene scene = room_scene();
-  const AoView frame(scene, 0.1, view, width, height);
+  const AoView frame(scene, 0.1, frame_view, frame_width, frame_height);
   testing::TemporaryFolder folder;
   AoConfig config = config_of(AoMode::field);
   config.cache = folder.path() / "fields";
@@ -345,7 +345,7 @@ TEST(AmbientOcclusion, BuiltFieldsAreFoundAgainOnDisk) {
 
 TEST(AmbientOcclusion, StopsAndCarriesOn) {
   const Scene scene = room_scene();
-  const AoView frame(scene, 0.1, view, width, height);
+  const AoView frame(scene, 0.1, frame_view, frame_width, frame_height);
   AmbientOcclusion ao;
   StopFlag stop;
   std::vector<float> out;
@@ -362,7 +362,7 @@ TEST(AmbientOcclusion, StopsAndCarriesOn) {
 
 TEST(AmbientOcclusion, RefusesSettingsOutOfRange) {
   const Scene scene = room_scene();
-  const AoView frame(scene, 0.1, view, width, height);
+  const AoView frame(scene, 0.1, frame_view, frame_width, frame_height);
   const auto message = [&](const auto& change) {
     AoConfig config = config_of(AoMode::field);
     change(config);

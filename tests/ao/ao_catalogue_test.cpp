@@ -14,7 +14,7 @@ namespace {
 using namespace testing;
 using glm::dvec3;
 
-constexpr int width = 64, height = 48;
+constexpr int catalogue_width = 64, catalogue_height = 48;
 constexpr int step = 7;  // one of so many pixels is looked at
 
 /// Distance of the first triangle that a ray meets, at most `reach`. Nothing is culled, and no tree is built.
@@ -81,7 +81,7 @@ struct Bound {
 void expect_truth(AoConfig config, const Bound& bound_of_most, const Bound& crowd) {
   for (const HardCase& hard : hard_cases()) {
     const Bound& bound = std::string_view(hard.name) == "two thousand instances" ? crowd : bound_of_most;
-    const AoView view(hard.scene, 0, hard.view, width, height);
+    const AoView view(hard.scene, 0, hard.view, catalogue_width, catalogue_height);
     config.distance_m = hard.distance_m;
     const std::vector<float> found = occlude(hard.scene, view, config);
     double squares = 0, most = 0;

@@ -10,7 +10,7 @@ namespace {
 using namespace testing;
 
 constexpr std::size_t megabyte = 1 << 20;
-constexpr int width = 80, height = 60;
+constexpr int small_width = 80, small_height = 60;
 
 AoConfig fields(int memory_mb) {
   AoConfig config;
@@ -34,7 +34,8 @@ Scene pairs_scene(int count) {
 }
 AoView pair_view(const Scene& scene, int pair) {
   const glm::dvec3 at(100.0 * pair, 0, 0);
-  return {scene, 0, pinhole(at + glm::dvec3(3, 3, 4), at, 0.5, width, height), width, height};
+  return {scene, 0, pinhole(at + glm::dvec3(3, 3, 4), at, 0.5, small_width, small_height), small_width,
+          small_height};
 }
 
 TEST(MemoryBudget, GrantsNoMoreThanItHas) {
@@ -114,7 +115,8 @@ TEST(AoMemory, TooLittleForAFrameIsAnsweredByRays) {
   make.add(quad_mesh({-4, 0, -4}, {0, 6, 0}, {0, 0, 8}));
   for (int i = 0; i < 4; ++i)
     make.move(make.add(ball_mesh(0.4 + 0.05 * i, 20), {-1.5 + i, 0.5, 0.5 * i}), {0, 0.1, 0});
-  const AoView frame(make.scene, 0, pinhole({5, 4, 6}, {0, 0.5, 0}, 0.5, width, height), width, height);
+  const AoView frame(make.scene, 0, pinhole({5, 4, 6}, {0, 0.5, 0}, 0.5, small_width, small_height),
+                     small_width, small_height);
   AoConfig rays = fields(512);
   rays.mode = AoMode::rays;
   rays.rays = 1024;

@@ -13,16 +13,16 @@ namespace {
 
 using testing::Random;
 
-constexpr float infinity = std::numeric_limits<float>::max();
+constexpr float farthest = std::numeric_limits<float>::max();
 
-struct Triangles {
+struct Cloud {
   std::vector<glm::vec3> positions;
   std::vector<glm::uvec3> triangles;
 };
 
-Triangles cloud(std::uint64_t seed, int count, double size) {
+Cloud cloud(std::uint64_t seed, int count, double size) {
   Random random(seed);
-  Triangles out;
+  Cloud out;
   for (int i = 0; i < count; ++i) {
     const glm::dvec3 at = random.in_cube(1);
     for (int k = 0; k < 3; ++k) out.positions.push_back(glm::vec3(at + random.in_cube(size)));
@@ -40,7 +40,7 @@ ao::RayBatch fan(Random& random, glm::vec3 origin) {
 
 TEST(FanCaster, AgreesWithOneRayAtATime) {
   for (const int count : {1, 7, 9, 100, 3000}) {
-    const Triangles cloud = tenebra::cloud(static_cast<std::uint64_t>(count), count, count < 50 ? 1.5 : 0.2);
+    const Cloud cloud = tenebra::cloud(static_cast<std::uint64_t>(count), count, count < 50 ? 1.5 : 0.2);
     const ao::TriangleBvh bvh = ao::build_triangle_bvh(cloud.positions, cloud.triangles);
     Random random(5);
     int hits = 0;
@@ -72,7 +72,7 @@ TEST(FanCaster, AgreesWithOneRayAtATime) {
 }
 
 TEST(FanCaster, SameBitsForEveryInstructionSet) {
-  const Triangles cloud = tenebra::cloud(3, 500, 0.3);
+  const Cloud cloud = tenebra::cloud(3, 500, 0.3);
   const ao::TriangleBvh bvh = ao::build_triangle_bvh(cloud.positions, cloud.triangles);
   Random random(11);
   for (int n = 0; n < 100; ++n) {
@@ -96,7 +96,7 @@ TEST(FanCaster, SameBitsForEveryInstructionSet) {
 // Six fans at once, then each of their rays by itself: small triangles and large ones.
 TEST(FanCaster, WhatARayFindsDoesNotDependOnTheOthers) {
   for (const double size : {0.02, 0.5}) {
-    const Triangles cloud = tenebra::cloud(9, 4000, size);
+    const Cloud cloud = tenebra::cloud(9, 4000, size);
     const ao::TriangleBvh bvh = ao::build_triangle_bvh(cloud.positions, cloud.triangles);
     constexpr std::size_t fans = 6, rays = fans * ao::batch_size;
     Random random(21);
@@ -123,7 +123,7 @@ TEST(FanCaster, WhatARayFindsDoesNotDependOnTheOthers) {
 
 // An object half as large as its world: its rays are twice as long in its own space.
 TEST(FanCaster, DirectionsMayHaveAnyLength) {
-  const Triangles cloud = tenebra::cloud(4, 500, 0.2);
+  const Cloud cloud = tenebra::cloud(4, 500, 0.2);
   const ao::TriangleBvh bvh = ao::build_triangle_bvh(cloud.positions, cloud.triangles);
   Random random(7);
   for (int n = 0; n < 50; ++n) {
@@ -167,7 +167,7 @@ TEST(FanCaster, LeavesNoGapBetweenNeighbours) {
       rays.set(i, origin, positions[t.x] + s * (positions[t.y] - positions[t.x]) - origin);
     }
     float distance[ao::batch_size];
-    std::fill_n(distance, ao::batch_size, infinity);
+    std::fill_n(distance, ao::batch_size, farthest);
     ao::closest_fans(SimdLevel::automatic)(bvh, {&rays, 1}, distance, nullptr);
     for (int i = 0; i < ao::batch_size; ++i) EXPECT_LT(distance[i], 1.01f) << round << " " << i;
   }
@@ -175,7 +175,7 @@ TEST(FanCaster, LeavesNoGapBetweenNeighbours) {
 
 TEST(FanCaster, AnEmptyTreeAndRaysWithoutDirectionMeetNothing) {
   const ao::TriangleBvh empty = ao::build_triangle_bvh({}, {});
-  const Triangles cloud = tenebra::cloud(3, 50, 0.5);
+  const Cloud cloud = tenebra::cloud(3, 50, 0.5);
   const ao::TriangleBvh bvh = ao::build_triangle_bvh(cloud.positions, cloud.triangles);
   ao::RayBatch rays{};
   float distance[ao::batch_size];

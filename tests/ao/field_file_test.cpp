@@ -12,11 +12,11 @@
 namespace tenebra {
 namespace {
 
+using testing::chords;
 using testing::Object;
+using testing::paper;
 using testing::Random;
 namespace fs = std::filesystem;
-
-constexpr FieldLayout paper = FieldLayout::positions_directions, chords = FieldLayout::chords;
 
 ao::CacheKey key_of(const Object& object, const ao::FieldSettings& settings) {
   return ao::field_key(object.positions, object.triangles, settings);

@@ -17,25 +17,26 @@ namespace {
 using glm::dmat4;
 using glm::dvec3;
 using glm::vec3;
+using testing::chords;
 using testing::Object;
+using testing::paper;
 using testing::Random;
 
-constexpr float infinity = std::numeric_limits<float>::infinity();
+constexpr float nothing_met = std::numeric_limits<float>::infinity();
 constexpr SimdLevel levels[] = {SimdLevel::scalar, SimdLevel::sse4, SimdLevel::avx2, SimdLevel::avx512};
-constexpr FieldLayout paper = FieldLayout::positions_directions, chords = FieldLayout::chords;
 
 /// Distances of sixteen rays; infinity: nothing met.
 struct Distances {
   float t[ao::batch_size];
 };
 Distances look(const ao::FieldInstance& instance, const ao::RayBatch& rays,
-               SimdLevel level = SimdLevel::automatic, float limit = infinity) {
+               SimdLevel level = SimdLevel::automatic, float limit = nothing_met) {
   Distances d;
   std::fill(d.t, d.t + ao::batch_size, limit);
   ao::field_kernels(level).nearest_hits(instance, {&rays, 1}, d.t);
   return d;
 }
-float look_one(const ao::FieldInstance& instance, vec3 origin, vec3 direction, float limit = infinity) {
+float look_one(const ao::FieldInstance& instance, vec3 origin, vec3 direction, float limit = nothing_met) {
   ao::RayBatch rays{};
   rays.set(5, origin, direction);
   const Distances d = look(instance, rays, SimdLevel::automatic, limit);
@@ -65,9 +66,9 @@ TEST(FieldLookup, FindsABallWhereItIs) {
                       0.05 + 1e-5 * from);
         }
       }
-      EXPECT_EQ(look_one(instance, {3, 0.2f, 1}, {0, 1, 0}), infinity);  // looks away
-      EXPECT_EQ(look_one(instance, {3, 0.2f, 1}, {1, 0, 0}), infinity);  // passes above
-      EXPECT_EQ(look_one(instance, {30, -2, 1}, {1, 0, 0}), infinity);
+      EXPECT_EQ(look_one(instance, {3, 0.2f, 1}, {0, 1, 0}), nothing_met);  // looks away
+      EXPECT_EQ(look_one(instance, {3, 0.2f, 1}, {1, 0, 0}), nothing_met);  // passes above
+      EXPECT_EQ(look_one(instance, {30, -2, 1}, {1, 0, 0}), nothing_met);
     }
   }
 }
@@ -85,10 +86,10 @@ TEST(FieldLookup, GivesTheSameBitsOnEveryInstructionSet) {
           const ao::FieldInstance instance = *ao::place_field(field, near, world, ends);
           for (int i = 0; i < 300; ++i) {
             const ao::RayBatch rays = random_rays(random, i % 2 ? 3 : 1);
-            const Distances expected = look(instance, rays, SimdLevel::scalar, i % 3 ? infinity : 1.0f);
+            const Distances expected = look(instance, rays, SimdLevel::scalar, i % 3 ? nothing_met : 1.0f);
             for (const SimdLevel level : levels) {
               if (!simd_level_supported(level)) continue;
-              const Distances found = look(instance, rays, level, i % 3 ? infinity : 1.0f);
+              const Distances found = look(instance, rays, level, i % 3 ? nothing_met : 1.0f);
               ASSERT_TRUE(std::equal(found.t, found.t + ao::batch_size, expected.t))
                   << simd_level_name(level);
             }
@@ -124,8 +125,8 @@ TEST(FieldLookup, OneFieldServesAllInstances) {
         const float t = look_one(here, vec3(o), vec3(d));
         const float u = look_one(there, vec3(world * glm::dvec4(o, 1)), vec3(moved_d / scale));
         // Rounding moves a few rays over the border of a cell.
-        differ += std::isinf(t) != std::isinf(u) || (t < infinity && std::abs(u / scale - t) > 0.01);
-        hits += t < infinity;
+        differ += std::isinf(t) != std::isinf(u) || (t < nothing_met && std::abs(u / scale - t) > 0.01);
+        hits += t < nothing_met;
       }
       EXPECT_GT(hits, 80);
       EXPECT_LE(differ, 6);
@@ -163,7 +164,8 @@ TEST(FieldLookup, IsNeverNanOrNegative) {
   Random random(6);
   const Object object = testing::table();
   const ao::TriangleBvh bvh = object.bvh();
-  const float odd[] = {0.0f, -0.0f, 1e-42f, 1e-20f, 1.0f, -1.0f, 1e20f, 3e38f, infinity, -infinity, NAN};
+  const float odd[] = {0.0f,  -0.0f, 1e-42f,      1e-20f,       1.0f, -1.0f,
+                       1e20f, 3e38f, nothing_met, -nothing_met, NAN};
   for (const FieldLayout layout : {paper, chords}) {
     for (const int bits : {1, 8, 32}) {
       const ao::DisplacementField field = object.field({layout, 100, 100, bits});
@@ -182,7 +184,7 @@ TEST(FieldLookup, IsNeverNanOrNegative) {
             ASSERT_GE(found.t[k], 0.0f);
             const vec3 o = rays.origin(k), d = rays.direction(k);
             if (!std::isfinite(o.x + o.y + o.z + d.x + d.y + d.z) || d == vec3(0)) {
-              ASSERT_EQ(found.t[k], infinity);
+              ASSERT_EQ(found.t[k], nothing_met);
             }
           }
         }
@@ -230,11 +232,11 @@ TEST(FieldLookup, SeesFromInsideTheSphere) {
   const ao::FieldInstance cast = *ao::place_field(field, &bvh, dmat4(1));
   const ao::FieldInstance first = *ao::place_field(field, nullptr, dmat4(1), ao::FieldEnds::first);
   EXPECT_NEAR(look_one(both, {0, 0.3f, 0}, {0, 1, 0}), 0.4f, 0.02f);      // the plate
-  EXPECT_EQ(look_one(both, {0, 0.3f, 0}, {0, -1, 0}), infinity);          // the floor is not the table's
-  EXPECT_EQ(look_one(both, {0, 0.9f, 0}, {0, 1, 0}), infinity);           // from above the plate upwards
+  EXPECT_EQ(look_one(both, {0, 0.3f, 0}, {0, -1, 0}), nothing_met);       // the floor is not the table's
+  EXPECT_EQ(look_one(both, {0, 0.9f, 0}, {0, 1, 0}), nothing_met);        // from above the plate upwards
   EXPECT_NEAR(look_one(both, {0, 0.9f, 0}, {0, -1, 0}), 0.1f, 0.02f);     // and back
   EXPECT_NEAR(look_one(both, {0, 0.3f, 0.45f}, {1, 0, 0}), 0.9f, 0.15f);  // the right leg; the left is behind
-  EXPECT_EQ(look_one(first, {0, 0.3f, 0.45f}, {1, 0, 0}), infinity);
+  EXPECT_EQ(look_one(first, {0, 0.3f, 0.45f}, {1, 0, 0}), nothing_met);
   EXPECT_NEAR(look_one(cast, {0.001f, 0.699f, 0.0f}, {0, 1, 0}), 0.001f, 1e-5f);  // contact, by casting
   EXPECT_NEAR(look_one(both, {0.001f, 0.699f, 0.0f}, {0, 1, 0}), 0.001f, 0.02f);  // and by the field
 }
@@ -272,7 +274,7 @@ TEST(FieldLookup, CastsOnlyRaysThatStartCloseToTheObject) {
   const auto casts = [&](vec3 origin) {
     ao::RayBatch rays{};
     float distance[ao::batch_size];
-    std::fill(distance, distance + ao::batch_size, infinity);
+    std::fill(distance, distance + ao::batch_size, nothing_met);
     rays.set(0, origin, {0, 1, 0});
     return ao::field_kernels(SimdLevel::automatic).nearest_hits(instance, {&rays, 1}, distance);
   };

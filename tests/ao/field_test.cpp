@@ -17,10 +17,10 @@ namespace {
 
 using glm::dvec3;
 using glm::vec3;
+using testing::chords;
 using testing::Object;
+using testing::paper;
 using testing::Random;
-
-constexpr FieldLayout paper = FieldLayout::positions_directions, chords = FieldLayout::chords;
 
 TEST(FieldShape, KeepsToTheMemoryPromised) {
   const auto bytes = [](const ao::FieldSettings& s) {

@@ -13,6 +13,8 @@
 
 namespace tenebra::testing {
 
+inline constexpr FieldLayout paper = FieldLayout::positions_directions, chords = FieldLayout::chords;
+
 struct Object {
   std::vector<glm::vec3> positions;
   std::vector<glm::uvec3> triangles;

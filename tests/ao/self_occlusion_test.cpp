@@ -9,7 +9,7 @@ namespace {
 
 using namespace testing;
 
-struct Body : StandingBody {
+struct OwnBody : StandingBody {
   using StandingBody::StandingBody;
 
   glm::dvec3 at(const ao::SurfacePoint& p) const {
@@ -19,7 +19,7 @@ struct Body : StandingBody {
   }
 };
 
-const ao::AoKernels kernels = ao::ao_kernels(SimdLevel::automatic);
+const ao::AoKernels own_kernels = ao::ao_kernels(SimdLevel::automatic);
 
 /// Asks and fills until nothing is missing, as a frame does.
 float filled(ao::SelfOcclusion& samples, const ao::SurfacePoint& point) {
@@ -29,9 +29,9 @@ float filled(ao::SelfOcclusion& samples, const ao::SurfacePoint& point) {
     std::sort(missing.begin(), missing.end());
     missing.erase(std::unique(missing.begin(), missing.end()), missing.end());
     EXPECT_EQ(missing.empty(), answer.state != ao::SelfOcclusion::State::missing);
-    if (answer.state == ao::SelfOcclusion::State::mixed) return samples.look(point, kernels);
+    if (answer.state == ao::SelfOcclusion::State::mixed) return samples.look(point, own_kernels);
     if (missing.empty()) return answer.occlusion;
-    EXPECT_TRUE(samples.fill(missing, kernels, {}, nullptr));
+    EXPECT_TRUE(samples.fill(missing, own_kernels, {}, nullptr));
   }
   ADD_FAILURE() << "still missing after six rounds";
   return -1;
@@ -47,7 +47,7 @@ double beside_wall(double a) {
 TEST(SelfOcclusion, FloorBesideAWallFollowsTheClosedForm) {
   Mesh room = quad_mesh({0, 0, -20}, {0, 0, 40}, {40, 0, 0});    // floor, y up
   append(room, quad_mesh({0, 0, -20}, {0, 20, 0}, {0, 0, 40}));  // wall at x = 0
-  const Body body(room);
+  const OwnBody body(room);
   const double reach = 2;
   ao::SelfOcclusion samples(body.shape, body.casters, reach);
   samples.lay();
@@ -63,7 +63,7 @@ TEST(SelfOcclusion, FloorBesideAWallFollowsTheClosedForm) {
 
 TEST(SelfOcclusion, ConvexBodiesDoNotHideThemselves) {
   for (const Mesh& mesh : {box_mesh({0, 0, 0}, {3, 1, 2}), ball_mesh(1, 8), ball_mesh(1, 40)}) {
-    const Body body(mesh);
+    const OwnBody body(mesh);
     ao::SelfOcclusion samples(body.shape, body.casters, 1.5);
     samples.lay();
     for (std::uint32_t t = 0; t < body.shape.triangles.size(); ++t) {
@@ -77,7 +77,7 @@ TEST(SelfOcclusion, ConvexBodiesDoNotHideThemselves) {
 }
 
 TEST(SelfOcclusion, TheInsideOfABoxIsDarkerThanItsOutside) {
-  const Body body(box_mesh({0, 0, 0}, {1, 1, 1}));
+  const OwnBody body(box_mesh({0, 0, 0}, {1, 1, 1}));
   ao::SelfOcclusion samples(body.shape, body.casters, 4);
   samples.lay();
   EXPECT_EQ(filled(samples, {0, 0.3f, 0.3f, true}), 0);
@@ -88,7 +88,7 @@ TEST(SelfOcclusion, TheInsideOfABoxIsDarkerThanItsOutside) {
 TEST(SelfOcclusion, BuriedSamplesDoNotSeepOut) {
   Mesh scene = quad_mesh({-5, 0, -5}, {0, 0, 10}, {10, 0, 0});
   append(scene, box_mesh({-1, -0.01f, -1}, {1, 0.02f, 1}));
-  const Body body(scene);
+  const OwnBody body(scene);
   const double reach = 1;
   ao::SelfOcclusion samples(body.shape, body.casters, reach);
   samples.lay();
@@ -102,7 +102,7 @@ TEST(SelfOcclusion, IsTheSameInWhateverOrderPointsAreSeen) {
   Mesh mesh = quad_mesh({0, 0, -3}, {0, 0, 6}, {6, 0, 0});
   append(mesh, box_mesh({1, 0.3f, 0}, {2, 1, 1}));
   append(mesh, ball_mesh(0.4, 24));
-  const Body body(mesh);
+  const OwnBody body(mesh);
   Random random(4);
   std::vector<ao::SurfacePoint> points;
   for (int i = 0; i < 300; ++i) {
@@ -120,7 +120,7 @@ TEST(SelfOcclusion, IsTheSameInWhateverOrderPointsAreSeen) {
 TEST(SelfOcclusion, MemoryIsBoundedHoweverShortTheReach) {
   Mesh scene = quad_mesh({-5000, 0, -5000}, {0, 0, 10000}, {10000, 0, 0});
   append(scene, box_mesh({-1, 0, -1}, {1, 2, 1}));
-  const Body body(scene);
+  const OwnBody body(scene);
   ao::SelfOcclusion samples(body.shape, body.casters, 0.01);
   samples.lay();
   EXPECT_LE(samples.bytes(), 2 * sizeof(std::uint16_t) * ao::SurfaceLayout::most_places + 10000);
@@ -139,7 +139,7 @@ Mesh sieve() {
 
 // Beyond the limit, rays answer.
 TEST(SelfOcclusion, DividesNoMoreCellsThanAllowed) {
-  const Body body(sieve());
+  const OwnBody body(sieve());
   Random random(9);
   std::vector<ao::SurfacePoint> points;
   for (int i = 0; i < 2000; ++i) {
@@ -184,7 +184,7 @@ TEST(CellNumbers, FindsWhatWasAddedAndNothingElse) {
 // All samples of a grid lie on their triangle, within a quarter of a fine step of their own place; those that
 // share one sample lie at one place, but for that.
 TEST(SurfaceLayout, PlacesSamplesWhereTheyAreAsked) {
-  const Body body(sieve());
+  const OwnBody body(sieve());
   const ao::SurfaceLayout layout(body.shape, 1);
   Random random(5);
   int wider = 0;
@@ -220,14 +220,14 @@ TEST(SurfaceLayout, PlacesSamplesWhereTheyAreAsked) {
 }
 
 TEST(SelfOcclusion, StopsWhenAsked) {
-  const Body body(box_mesh({0, 0, 0}, {1, 1, 1}));
+  const OwnBody body(box_mesh({0, 0, 0}, {1, 1, 1}));
   ao::SelfOcclusion samples(body.shape, body.casters, 4);
   samples.lay();
   std::vector<std::uint64_t> missing;
   samples.find({0, 0.3f, 0.3f, true}, missing);
   StopFlag stop;
   stop.request();
-  EXPECT_FALSE(samples.fill(missing, kernels, {}, &stop));
+  EXPECT_FALSE(samples.fill(missing, own_kernels, {}, &stop));
   std::vector<std::uint64_t> still;
   samples.find({0, 0.3f, 0.3f, true}, still);
   EXPECT_EQ(still, missing);

@@ -20,7 +20,7 @@ using glm::dvec3;
 using glm::vec3;
 namespace fs = std::filesystem;
 
-struct Triangles {
+struct TreeTriangles {
   std::vector<vec3> positions;
   std::vector<glm::uvec3> triangles;
   ao::TriangleBvh bvh() const { return ao::build_triangle_bvh(positions, triangles); }
@@ -30,9 +30,9 @@ struct Triangles {
 };
 
 /// Every seventh is none that a tree holds: flat, out of range, not finite.
-Triangles make_triangles(int count, std::uint64_t seed = 1) {
+TreeTriangles make_triangles(int count, std::uint64_t seed = 1) {
   Random random(seed);
-  Triangles set;
+  TreeTriangles set;
   for (int i = 0; i < count; ++i) {
     const auto first = static_cast<std::uint32_t>(set.positions.size());
     const dvec3 at = 3.0 * random.in_cube(1);
@@ -65,7 +65,7 @@ bool same(const ao::TriangleBvh& a, const ao::TriangleBvh& b) {
 TEST(TreeFile, GivesBackWhatWasSavedBitForBit) {
   const TemporaryFolder folder;
   for (const int count : {0, 1, 8, 9, 500, 20'000}) {
-    const Triangles set = make_triangles(count);
+    const TreeTriangles set = make_triangles(count);
     const ao::TriangleBvh built = set.bvh();
     const ao::CacheKey key = ao::tree_key(set.positions, set.triangles);
     ASSERT_TRUE(ao::save_tree(folder.path() / "new" / "folder", key, built));
@@ -76,7 +76,7 @@ TEST(TreeFile, GivesBackWhatWasSavedBitForBit) {
 }
 
 TEST(TreeFile, TrianglesInOnePlaceComeBackToo) {
-  Triangles set = make_triangles(1);
+  TreeTriangles set = make_triangles(1);
   set.triangles.assign(3000, set.triangles.front());
   const ao::TriangleBvh built = set.bvh();
   const auto again = set.ordered(ao::order_of(built));
@@ -85,13 +85,13 @@ TEST(TreeFile, TrianglesInOnePlaceComeBackToo) {
 }
 
 TEST(TreeFile, TheKeyChangesWithEveryTriangle) {
-  const Triangles set = make_triangles(100);
+  const TreeTriangles set = make_triangles(100);
   std::set<std::string> keys;
-  const auto add = [&](const Triangles& of) {
+  const auto add = [&](const TreeTriangles& of) {
     keys.insert(ao::tree_path("", ao::tree_key(of.positions, of.triangles)).string());
   };
   add(set);
-  Triangles other = set;
+  TreeTriangles other = set;
   other.positions[7].y = std::nextafter(other.positions[7].y, INFINITY);
   add(other);
   other = set;
@@ -105,7 +105,7 @@ TEST(TreeFile, TheKeyChangesWithEveryTriangle) {
 
 /// Whatever the bytes of an order say, it is refused or the tree holds every triangle once.
 TEST(TreeFile, AnOrderThatIsNoTreeIsRefused) {
-  const Triangles set = make_triangles(300);
+  const TreeTriangles set = make_triangles(300);
   const ao::BvhOrder good = ao::order_of(set.bvh());
   const auto refused = [&](const auto& change) {
     ao::BvhOrder order = good;
@@ -141,7 +141,7 @@ TEST(TreeFile, AnOrderThatIsNoTreeIsRefused) {
 
 TEST(KeptTrees, AreReadInTheNextProcessAndMadeAnewWhereDamaged) {
   const TemporaryFolder folder;
-  const Triangles set = make_triangles(5000);
+  const TreeTriangles set = make_triangles(5000);
   const ao::TriangleBvh expected = set.bvh();
   const auto path = ao::tree_path(folder.path(), ao::tree_key(set.positions, set.triangles));
   const auto make = [&] {
@@ -169,7 +169,7 @@ TEST(KeptTrees, SayOnceThatAFolderTakesNoFiles) {
   write_text(folder.path() / "file", "not a folder");
   ao::KeptTrees trees{folder.path() / "file", {}, false};
   for (std::uint64_t seed = 1; seed <= 3; ++seed) {
-    const Triangles set = make_triangles(3000, seed);
+    const TreeTriangles set = make_triangles(3000, seed);
     EXPECT_TRUE(same(trees.make(set.positions, set.triangles), set.bvh()));
   }
   EXPECT_EQ(trees.notes.size(), 1u);
@@ -177,7 +177,7 @@ TEST(KeptTrees, SayOnceThatAFolderTakesNoFiles) {
 
 TEST(KeptTrees, SmallOnesLeaveNoFile) {
   const TemporaryFolder folder;
-  const Triangles set = make_triangles(100);
+  const TreeTriangles set = make_triangles(100);
   ao::KeptTrees trees{folder.path() / "new", {}, false};
   EXPECT_TRUE(same(trees.make(set.positions, set.triangles), set.bvh()));
   EXPECT_FALSE(fs::exists(folder.path() / "new"));

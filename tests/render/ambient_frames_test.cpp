@@ -6,7 +6,7 @@ namespace {
 
 using glm::vec3;
 
-constexpr int width = 81, height = 61;
+constexpr int floor_width = 81, floor_height = 61;
 
 /// Floor, plate and a light, all with ambient light; the plate glows a little.
 Scene corner_scene() {
@@ -44,7 +44,8 @@ Hidden hidden_by_plate(const glm::dvec3& p) {
 }
 
 render::RenderSettings occluded(AoMode mode) {
-  render::RenderSettings settings{.width = width, .height = height, .shadows = render::ShadowMode::none};
+  render::RenderSettings settings{
+      .width = floor_width, .height = floor_height, .shadows = render::ShadowMode::none};
   settings.ao.mode = mode;
   settings.ao.distance_m = reach;
   return settings;
@@ -61,13 +62,13 @@ TEST_P(AmbientFrames, DarkenTheFloorAroundThePlateByTheClosedForm) {
   constexpr int rays = 256;  // as many as surface samples have
   settings.ao.rays = rays;
   const render::FrameResult result = draw(scene, settings);
-  const ViewRays view = frame_of(scene, width, height).view;
+  const ViewRays view = frame_of(scene, floor_width, floor_height).view;
   int in_the_open = 0, below = 0;
   double squares = 0, darkest = 0;
-  for (int y = 0; y < height; ++y) {
-    for (int x = 0; x < width; ++x) {
+  for (int y = 0; y < floor_height; ++y) {
+    for (int x = 0; x < floor_width; ++x) {
       const auto p = on_plane(view, x, y), plate = on_plane(view, x, y, 1);
-      const double level = result.image.pixels[static_cast<std::size_t>(3 * (y * width + x))];
+      const double level = result.image.pixels[static_cast<std::size_t>(3 * (y * floor_width + x))];
       if (!p || std::max(std::abs(p->x), std::abs(p->z)) > 9.9) continue;
       const double across = plate ? std::max(std::abs(plate->x), std::abs(plate->z)) : 2;
       if (across < 0.99) {
@@ -143,11 +144,12 @@ TEST_P(AmbientFrames, StopWhenAskedTo) {
   StopFlag stop;
   stop.request();
   render::FrameResult result;
-  const auto drawn =
-      renderer.render_frame(frame_of(scene, width, height), occluded(GetParam()), result, {}, &stop);
+  const auto drawn = renderer.render_frame(frame_of(scene, floor_width, floor_height), occluded(GetParam()),
+                                           result, {}, &stop);
   ASSERT_FALSE(drawn);
   EXPECT_EQ(drawn.error().message, "stopped");
-  EXPECT_TRUE(renderer.render_frame(frame_of(scene, width, height), occluded(GetParam()), result));
+  EXPECT_TRUE(
+      renderer.render_frame(frame_of(scene, floor_width, floor_height), occluded(GetParam()), result));
 }
 
 TEST(AmbientSettings, NeedExactPoints) {
@@ -156,7 +158,7 @@ TEST(AmbientSettings, NeedExactPoints) {
   settings.samples = render::SampleSource::depth;
   render::Renderer renderer = renderer_for(scene);
   render::FrameResult result;
-  const auto drawn = renderer.render_frame(frame_of(scene, width, height), settings, result);
+  const auto drawn = renderer.render_frame(frame_of(scene, floor_width, floor_height), settings, result);
   ASSERT_FALSE(drawn);
   EXPECT_EQ(drawn.error().message,
             "samples from the depth buffer: ambient occlusion needs the exact points from triangle ids");

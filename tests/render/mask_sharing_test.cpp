@@ -12,7 +12,7 @@ using render::MaskAgreement;
 using render::MaskSharing;
 using render::SamplePicture;
 
-constexpr int width = 8, height = 4;
+constexpr int halves_width = 8, halves_height = 4;
 const std::vector<glm::vec2> offsets{{0.25f, 0.25f}, {-0.25f, 0.125f}};
 
 /// The left half of a small picture sees a wall, the right half another one far before it.
@@ -21,21 +21,22 @@ protected:
   Sharing() {
     add_triangle(geometry_, {-99, -99, -9}, {99, -99, -9}, {0, 99, -9});
     add_triangle(geometry_, {-99, -99, -1}, {99, -99, -1}, {0, 99, -1});
-    for (int i = 0; i < width * height; ++i) ids_.push_back(i % width < width / 2 ? 0 : 1);
+    for (int i = 0; i < halves_width * halves_height; ++i)
+      ids_.push_back(i % halves_width < halves_width / 2 ? 0 : 1);
   }
-  static std::size_t pixel(int x, int y) { return static_cast<std::size_t>(y * width + x); }
+  static std::size_t pixel(int x, int y) { return static_cast<std::size_t>(y * halves_width + x); }
 
   /// Of chosen pixels whose first sample sees triangle 0 and whose second sees 1, both for one light.
   void share(const std::vector<std::uint32_t>& chosen, std::uint32_t second = 1) {
     visibility::PlaceIds seen;
-    seen.begin(width, height, offsets.size(), false);
+    seen.begin(halves_width, halves_height, offsets.size(), false);
     seen.open_all();
     seen.set_place(0, std::vector<std::uint32_t>(ids_.size(), 0), {});
     seen.set_place(1, std::vector<std::uint32_t>(ids_.size(), second), {});
-    pack_samples(chosen, width, offsets, seen, ids_, samples_);
-    render::CentreMasks centres{width, height, ids_, {}};
+    pack_samples(chosen, halves_width, offsets, seen, ids_, samples_);
+    render::CentreMasks centres{halves_width, halves_height, ids_, {}};
     centres.masks.emplace_back(mask_);
-    const ViewRays view = forward_view({0, 0, 0}, 8.0f, width, height);
+    const ViewRays view = forward_view({0, 0, 0}, 8.0f, halves_width, halves_height);
     share_masks(centres, samples_, render::SurfaceMatch(geometry_, view), shared_);
   }
   std::uint32_t from(std::size_t chosen, std::size_t sample) const {
@@ -44,7 +45,7 @@ protected:
 
   FrameGeometry geometry_;
   std::vector<std::uint32_t> ids_;
-  std::vector<std::uint8_t> mask_ = std::vector<std::uint8_t>(width * height, 255);
+  std::vector<std::uint8_t> mask_ = std::vector<std::uint8_t>(halves_width * halves_height, 255);
   SamplePicture samples_;
   MaskSharing shared_;
 };

@@ -7,7 +7,7 @@
 namespace tenebra {
 namespace {
 
-constexpr int width = 120, height = 90;
+constexpr int needs_width = 120, needs_height = 90;
 
 Scene bundled(const char* file) {
   auto scene = formats::import_scene(std::filesystem::path(TENEBRA_SCENES_DIR) / file);
@@ -19,7 +19,7 @@ render::FrameInput frame_at(const Scene& scene, double time_s) {
   render::FrameInput input;
   evaluate_frame(scene, 0, time_s, input.geometry);
   input.lights = evaluate_lights(scene, 0, time_s);
-  input.view = evaluate_camera(scene, 0, time_s, 0, width, height);
+  input.view = evaluate_camera(scene, 0, time_s, 0, needs_width, needs_height);
   return input;
 }
 
@@ -37,7 +37,7 @@ TEST(Needs, ALightThatIsOffIsNotTraced) {
   add_light(scene, {.name = "on", .falloff = Falloff::none, .intensity = 0.5f}, {1, 4, 0});
   add_light(scene, {.name = "off", .falloff = Falloff::none, .intensity = 0}, {-3, 5, 1});
   for (const render::ShadowMode mode : {render::ShadowMode::hard, render::ShadowMode::soft}) {
-    render::RenderSettings settings{.width = width, .height = height, .shadows = mode};
+    render::RenderSettings settings{.width = needs_width, .height = needs_height, .shadows = mode};
     settings.area_lights.size = {1, 1};
     scene.lights[1].intensity = 0;
     const render::FrameResult off = draw(scene, settings);
@@ -53,7 +53,8 @@ TEST(Needs, ALightThatIsOffIsNotTraced) {
 TEST(Needs, WithoutShadowsAndOcclusionNoPointIsComputed) {
   Scene scene = white_floor(true);
   add_light(scene, {.name = "lamp", .falloff = Falloff::none, .intensity = 0.5f}, {1, 40, 0});
-  render::RenderSettings settings{.width = width, .height = height, .shadows = render::ShadowMode::none};
+  render::RenderSettings settings{
+      .width = needs_width, .height = needs_height, .shadows = render::ShadowMode::none};
   const render::FrameResult plain = draw(scene, settings);
   EXPECT_EQ(plain.timings.points_ms, 0);
   EXPECT_TRUE(plain.masks.empty());
@@ -71,7 +72,7 @@ TEST(Needs, WithoutShadowsAndOcclusionNoPointIsComputed) {
 // animation draws what a new one draws, and one that has just met every vertex elsewhere.
 TEST(Needs, WhatStandsIsNotRefitted) {
   const Scene scene = bundled("city.glb");
-  const render::RenderSettings settings{.width = width, .height = height};
+  const render::RenderSettings settings{.width = needs_width, .height = needs_height};
   const std::array times_s{1.0, 1.1, 2.5};
   std::vector<base::Image8> followed;
   {
@@ -99,7 +100,7 @@ TEST(Needs, SortAndPassesChangeTheWorkAndNotThePicture) {
   const Scene scene = bundled("city.glb");
   const render::FrameInput input = frame_at(scene, 5);
   render::Renderer renderer = renderer_for(scene);
-  render::RenderSettings settings{.width = width, .height = height};
+  render::RenderSettings settings{.width = needs_width, .height = needs_height};
   const base::Image8 expected = drawn(renderer, input, settings).image;
   std::uint64_t nodes[2] = {};
   for (const Variant variant : {Variant::precise, Variant::precise_sorted, Variant::precise_sea,
@@ -117,7 +118,7 @@ TEST(Needs, SortAndPassesChangeTheWorkAndNotThePicture) {
 TEST(Needs, PointsOutOfALightsReachGetNoRay) {
   Scene scene = white_floor(true);
   add_light(scene, {.name = "lamp", .falloff = Falloff::none, .intensity = 0.5f}, {1, 4, 0});
-  render::RenderSettings settings{.width = width, .height = height};
+  render::RenderSettings settings{.width = needs_width, .height = needs_height};
   const render::FrameResult all = draw(scene, settings);
   scene.lights[0].range_m = 6.0f;
   const render::FrameResult few = draw(scene, settings);
@@ -141,7 +142,8 @@ TEST(Needs, WhatLiesOutsideEveryShaftCostsNoCandidate) {
   Scene scene = white_floor(true);
   add_light(scene, {.name = "panel", .type = LightType::area_rect, .intensity = 4, .size_m = {1, 1}},
             {0, 3, 0}, facing_down);
-  render::RenderSettings settings{.width = width, .height = height, .shadows = render::ShadowMode::soft};
+  render::RenderSettings settings{
+      .width = needs_width, .height = needs_height, .shadows = render::ShadowMode::soft};
   const render::FrameResult before = draw(scene, settings);
   Mesh below{.name = "below the floor"};
   for (int i = 0; i < 500; ++i)
@@ -158,7 +160,8 @@ TEST(Needs, WhatLiesOutsideEveryShaftCostsNoCandidate) {
 // Fields and samples are made when something visible needs them; those made for other views change no bit.
 TEST(Needs, OcclusionOfAViewDoesNotDependOnWhatWasSeenBefore) {
   const Scene scene = bundled("city.glb");
-  render::RenderSettings settings{.width = width, .height = height, .shadows = render::ShadowMode::none};
+  render::RenderSettings settings{
+      .width = needs_width, .height = needs_height, .shadows = render::ShadowMode::none};
   settings.ao.mode = AoMode::field;
   settings.ao.rays = 16;
   settings.ao.positions = settings.ao.directions = 64;

@@ -4,7 +4,7 @@
 namespace tenebra {
 namespace {
 
-constexpr int width = 240, height = 180;
+constexpr int raster_width = 240, raster_height = 180;
 
 Scene lit_floor(bool with_glass) {
   Scene scene = white_floor(true);
@@ -21,14 +21,15 @@ Scene lit_floor(bool with_glass) {
   return scene;
 }
 
-render::FrameResult drawn(const Scene& scene, render::RasterKind kind, render::RenderSettings settings = {}) {
-  settings.width = width, settings.height = height;
+render::FrameResult drawn_by(const Scene& scene, render::RasterKind kind,
+                             render::RenderSettings settings = {}) {
+  settings.width = raster_width, settings.height = raster_height;
   auto raster = render::FrameRaster::create({.kind = kind});
   EXPECT_TRUE(raster) << raster.error().message;
   EXPECT_EQ(raster->is_gl(), kind == render::RasterKind::gl);
   render::Renderer renderer = render::Renderer::create(std::move(*raster), scene);
   render::FrameResult result;
-  const auto done = renderer.render_frame(frame_of(scene, width, height), settings, result);
+  const auto done = renderer.render_frame(frame_of(scene, raster_width, raster_height), settings, result);
   EXPECT_TRUE(done) << done.error().message;
   return result;
 }
@@ -47,32 +48,33 @@ TEST(RasterKinds, PicturesAndMasksDifferAtEdgesAlone) {
     for (const render::SampleSource samples : {render::SampleSource::ids, render::SampleSource::depth}) {
       render::RenderSettings settings{.samples = samples};
       settings.hard.cull_front = samples == render::SampleSource::depth;
-      const render::FrameResult gl = drawn(scene, render::RasterKind::gl, settings),
-                                cpu = drawn(scene, render::RasterKind::cpu, settings);
+      const render::FrameResult gl = drawn_by(scene, render::RasterKind::gl, settings),
+                                cpu = drawn_by(scene, render::RasterKind::cpu, settings);
       ASSERT_EQ(gl.masks.size(), 1u);
       ASSERT_EQ(cpu.masks.size(), 1u);
       // Edges of three quads: a row of pixels is the worst case.
-      EXPECT_LT(differing(gl.image.pixels, cpu.image.pixels, 1), 3 * width / 4);
-      EXPECT_LT(differing(gl.masks[0].mask.pixels, cpu.masks[0].mask.pixels, 0), width / 4);
-      EXPECT_GT(std::count(cpu.masks[0].mask.pixels.begin(), cpu.masks[0].mask.pixels.end(), 255), width);
+      EXPECT_LT(differing(gl.image.pixels, cpu.image.pixels, 1), 3 * raster_width / 4);
+      EXPECT_LT(differing(gl.masks[0].mask.pixels, cpu.masks[0].mask.pixels, 0), raster_width / 4);
+      EXPECT_GT(std::count(cpu.masks[0].mask.pixels.begin(), cpu.masks[0].mask.pixels.end(), 255),
+                raster_width);
     }
   }
 }
 
 TEST(RasterKinds, TheCpuGivesTheSameBitsWithAnyThreadsAndVectors) {
   const Scene scene = lit_floor(true);
-  const render::FrameResult expected = drawn(scene, render::RasterKind::cpu);
+  const render::FrameResult expected = drawn_by(scene, render::RasterKind::cpu);
   for (const int threads : {1, 3}) {
     for (const SimdLevel level : {SimdLevel::scalar, best_simd_level()}) {
       render::RenderSettings settings{.threads = threads};
       settings.hard.simd = level;
-      EXPECT_EQ(drawn(scene, render::RasterKind::cpu, settings).image.pixels, expected.image.pixels);
+      EXPECT_EQ(drawn_by(scene, render::RasterKind::cpu, settings).image.pixels, expected.image.pixels);
     }
   }
 }
 
 TEST(RasterKinds, TheCpuNeedsNoContextAndReadsNothingBack) {
-  const render::FrameResult cpu = drawn(lit_floor(false), render::RasterKind::cpu);
+  const render::FrameResult cpu = drawn_by(lit_floor(false), render::RasterKind::cpu);
   EXPECT_GT(cpu.timings.raster_ms, 0);
   EXPECT_EQ(cpu.timings.readback_ms, 0);
 }
@@ -81,12 +83,12 @@ TEST(RasterKinds, VisiblePointsAreThoseOfTheLastFrame) {
   const Scene scene = white_floor(false);
   auto raster = render::FrameRaster::create({.kind = render::RasterKind::cpu});
   render::Renderer renderer = render::Renderer::create(std::move(*raster), scene);
-  const render::FrameInput input = frame_of(scene, width, height);
+  const render::FrameInput input = frame_of(scene, raster_width, raster_height);
   EXPECT_FALSE(renderer.visible_point(input, 5, 5)) << "no frame yet";
   render::FrameResult result;
-  ASSERT_TRUE(renderer.render_frame(input, {.width = width, .height = height}, result));
-  const auto point = renderer.visible_point(input, width / 2, height / 2);
-  const auto expected = on_plane(input.view, width / 2, height / 2);
+  ASSERT_TRUE(renderer.render_frame(input, {.width = raster_width, .height = raster_height}, result));
+  const auto point = renderer.visible_point(input, raster_width / 2, raster_height / 2);
+  const auto expected = on_plane(input.view, raster_width / 2, raster_height / 2);
   ASSERT_TRUE(point && expected);
   EXPECT_LT(glm::length(*point - *expected), 1e-9);
 }

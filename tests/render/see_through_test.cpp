@@ -9,7 +9,7 @@ namespace {
 using render::FrameResult;
 using render::RenderSettings;
 
-constexpr int width = 96, height = 72;
+constexpr int glass_width = 96, glass_height = 72;
 const glm::vec3 passed{0.75f, 0.5f, 0.25f};
 
 /// The floor with a pane in the plate's place, lit from 5 m above its middle.
@@ -37,8 +37,8 @@ Material tinted() {
 FrameResult draw_small(const Scene& scene, SeeThrough see_through = SeeThrough::tint,
                        render::ShadowMode shadows = render::ShadowMode::hard) {
   RenderSettings settings;
-  settings.width = width;
-  settings.height = height;
+  settings.width = glass_width;
+  settings.height = glass_height;
   settings.shadows = shadows;
   settings.see_through = see_through;
   return draw(scene, settings);
@@ -49,9 +49,9 @@ FrameResult draw_small(const Scene& scene, SeeThrough see_through = SeeThrough::
 struct Places {
   std::vector<bool> before_pane, clear_of_pane, behind_pane;
   Places() {
-    const ViewRays view = frame_of(white_floor(false), width, height).view;
-    for (int y = 0; y < height; ++y)
-      for (int x = 0; x < width; ++x) {
+    const ViewRays view = frame_of(white_floor(false), glass_width, glass_height).view;
+    for (int y = 0; y < glass_height; ++y)
+      for (int x = 0; x < glass_width; ++x) {
         const auto met = on_plane(view, x, y, 1), floor = on_plane(view, x, y);
         const double from_pane = met ? std::max(std::abs(met->x), std::abs(met->z)) : 9;
         const double from_shadow = floor ? 0.8 * std::max(std::abs(floor->x), std::abs(floor->z)) : 9;
@@ -137,17 +137,17 @@ TEST(SeeThroughFrames, EveryPaneBeforeAPlaceDimsIt) {
   scene.ambient_light = glm::vec3(0.5f);
   scene.lights[0].intensity = 0;
   const FrameResult result = draw_small(scene);
-  const ViewRays view = frame_of(scene, width, height).view;
+  const ViewRays view = frame_of(scene, glass_width, glass_height).view;
   std::size_t twice = 0;
-  for (int y = 0; y < height; ++y)
-    for (int x = 0; x < width; ++x) {
+  for (int y = 0; y < glass_height; ++y)
+    for (int x = 0; x < glass_width; ++x) {
       const auto one = on_plane(view, x, y, 1), two = on_plane(view, x, y, 0.5);
       if (!one || !two ||
           std::max({std::abs(one->x), std::abs(one->z), std::abs(two->x), std::abs(two->z)}) > 0.99)
         continue;
       ++twice;
       for (int c = 0; c < 3; ++c)
-        ASSERT_NEAR(result.image.pixels[static_cast<std::size_t>(3 * (y * width + x) + c)],
+        ASSERT_NEAR(result.image.pixels[static_cast<std::size_t>(3 * (y * glass_width + x) + c)],
                     srgb_level(0.5 * passed[c] * passed[c]), 1);
     }
   EXPECT_GT(twice, 100u);
@@ -156,12 +156,12 @@ TEST(SeeThroughFrames, EveryPaneBeforeAPlaceDimsIt) {
 TEST(SeeThroughFrames, LightThroughAPaneColoursTheFloor) {
   const FrameResult with = draw_small(floor_with_pane(tinted()));
   const FrameResult without = draw_small(floor_with_pane(tinted(), false));
-  const ViewRays view = frame_of(white_floor(false), width, height).view;
+  const ViewRays view = frame_of(white_floor(false), glass_width, glass_height).view;
   const Places places;
   std::size_t coloured = 0;
-  for (int y = 0; y < height; ++y)
-    for (int x = 0; x < width; ++x) {
-      const auto i = static_cast<std::size_t>(y * width + x);
+  for (int y = 0; y < glass_height; ++y)
+    for (int x = 0; x < glass_width; ++x) {
+      const auto i = static_cast<std::size_t>(y * glass_width + x);
       if (!places.clear_of_pane[i]) continue;
       const auto floor = on_plane(view, x, y);
       if (places.behind_pane[i]) {

@@ -9,8 +9,9 @@ namespace {
 
 using glm::vec3;
 
-constexpr int width = 121, height = 91;
-const render::RenderSettings soft{.width = width, .height = height, .shadows = render::ShadowMode::soft};
+constexpr int soft_width = 121, soft_height = 91;
+const render::RenderSettings soft{
+    .width = soft_width, .height = soft_height, .shadows = render::ShadowMode::soft};
 
 Light rectangle_light(float nits, glm::vec2 size) {
   return {.name = "panel", .type = LightType::area_rect, .intensity = nits, .size_m = size};
@@ -29,14 +30,14 @@ render::RenderSettings with_size(glm::vec2 size) {
 template <class Expected>
 void expect_floor(const render::FrameResult& result, const ViewRays& view, Expected expected) {
   int seen = 0;
-  for (int y = 0; y < height; ++y) {
-    for (int x = 0; x < width; ++x) {
+  for (int y = 0; y < soft_height; ++y) {
+    for (int x = 0; x < soft_width; ++x) {
       const auto p = on_plane(view, x, y);
       if (!p || std::max(std::abs(p->x), std::abs(p->z)) > 9.9) continue;
       ++seen;
       const double level = srgb_level(expected(*p));
       // Half a level of rounding, and what single precision adds to it.
-      ASSERT_NEAR(result.image.pixels[static_cast<std::size_t>(3 * (y * width + x))], level, 0.52)
+      ASSERT_NEAR(result.image.pixels[static_cast<std::size_t>(3 * (y * soft_width + x))], level, 0.52)
           << x << ' ' << y;
     }
   }
@@ -55,7 +56,7 @@ TEST(SoftFrames, AFloorUnderARectangleHasTheIrradianceOfItsFormFactor) {
   const double pi = std::acos(-1.0);
   // Below the centre: four corners with a = 1/3 and b = 1/6, by hand.
   EXPECT_NEAR(below_panel({0, 0, 0}) / pi, 4 * (0.049588 + 0.052230) / (2 * pi), 1e-5);
-  expect_floor(result, frame_of(scene, width, height).view,
+  expect_floor(result, frame_of(scene, soft_width, soft_height).view,
                [&](const glm::dvec3& p) { return 4 * below_panel(p) / pi; });
   EXPECT_TRUE(result.notes.empty());
 }
@@ -64,7 +65,7 @@ TEST(SoftFrames, APointLightMadeARectangleKeepsItsFlux) {
   Scene scene = white_floor(false);
   add_light(scene, point_light(8), {0, 3, 0});
   const render::FrameResult result = draw(scene, with_size({2, 1}));
-  expect_floor(result, frame_of(scene, width, height).view, [&](const glm::dvec3& p) {
+  expect_floor(result, frame_of(scene, soft_width, soft_height).view, [&](const glm::dvec3& p) {
     return 8.0 / 2.0 * below_panel(p) / std::acos(-1.0);  // radiance = intensity / area
   });
 }
@@ -73,7 +74,7 @@ TEST(SoftFrames, ALightWithoutFalloffIsScaledByItsDistance) {
   Scene scene = white_floor(false);
   add_light(scene, point_light(0.7f, Falloff::none), {0, 3, 0});
   const render::FrameResult result = draw(scene, with_size({2, 1}));
-  expect_floor(result, frame_of(scene, width, height).view, [&](const glm::dvec3& p) {
+  expect_floor(result, frame_of(scene, soft_width, soft_height).view, [&](const glm::dvec3& p) {
     const double squared = p.x * p.x + 9 + p.z * p.z;
     return 0.7 * squared / 2.0 * below_panel(p);
   });
@@ -94,13 +95,13 @@ TEST(SoftFrames, TheVisiblePartOfTheLightIsWhatGeometrySays) {
   Scene scene = white_floor(true);
   add_light(scene, rectangle_light(1, {1, 1}), {0, 5, 0}, facing_down);
   const render::FrameResult result = draw(scene, soft);
-  const ViewRays view = frame_of(scene, width, height).view;
+  const ViewRays view = frame_of(scene, soft_width, soft_height).view;
   ASSERT_EQ(result.masks.size(), 1u);
   const render::LightMask& mask = result.masks[0];
-  ASSERT_EQ(mask.visible_fraction.pixels.size(), std::size_t(width) * height);
+  ASSERT_EQ(mask.visible_fraction.pixels.size(), std::size_t(soft_width) * soft_height);
   int lit = 0, dark = 0, penumbra = 0;
-  for (int y = 0; y < height; ++y) {
-    for (int x = 0; x < width; ++x) {
+  for (int y = 0; y < soft_height; ++y) {
+    for (int x = 0; x < soft_width; ++x) {
       const auto p = on_plane(view, x, y), plate = on_plane(view, x, y, 1);
       if (!p || std::max(std::abs(p->x), std::abs(p->z)) > 9.9) continue;
       if (plate && std::max(std::abs(plate->x), std::abs(plate->z)) < 1.01) continue;
@@ -108,7 +109,7 @@ TEST(SoftFrames, TheVisiblePartOfTheLightIsWhatGeometrySays) {
         return std::clamp(0.5, -5 - 4 * at, 5 - 4 * at) - std::clamp(-0.5, -5 - 4 * at, 5 - 4 * at);
       };
       const double expected = 1 - covered(p->x) * covered(p->z);
-      const std::size_t i = static_cast<std::size_t>(y * width + x);
+      const std::size_t i = static_cast<std::size_t>(y * soft_width + x);
       ASSERT_NEAR(mask.visible_fraction.pixels[i], expected, 2e-4) << x << ' ' << y;
       ASSERT_EQ(mask.mask.pixels[i], std::lround(255 * mask.visible_fraction.pixels[i]));
       lit += expected == 1;
@@ -196,7 +197,7 @@ TEST(SoftFrames, LightsWithoutASizeKeepHardShadowsAndAreNamedOnce) {
   add_light(scene, point_light(30), {0, 5, 0});
   add_light(scene, {.name = "sun", .type = LightType::directional}, {0, 5, 0}, facing_down);
   render::Renderer renderer = renderer_for(scene);
-  const render::FrameInput input = frame_of(scene, width, height);
+  const render::FrameInput input = frame_of(scene, soft_width, soft_height);
   render::FrameResult result;
   ASSERT_TRUE(renderer.render_frame(input, soft, result));
   ASSERT_EQ(result.notes.size(), 2u);
@@ -233,13 +234,13 @@ TEST(SoftFrames, TheFaceOfALampDoesNotHideItsLight) {
   const render::FrameResult bare = draw(scene, soft);
   add_mesh(scene, panel(0));  // casts, and lies in the light
   const render::FrameResult faced = draw(scene, soft);
-  const ViewRays view = frame_of(scene, width, height).view;
+  const ViewRays view = frame_of(scene, soft_width, soft_height).view;
   int compared = 0;
-  for (int y = 0; y < height; ++y) {
-    for (int x = 0; x < width; ++x) {
+  for (int y = 0; y < soft_height; ++y) {
+    for (int x = 0; x < soft_width; ++x) {
       const auto p = on_plane(view, x, y, 3);
       if (p && std::abs(p->x) < 1.1 && std::abs(p->z) < 0.6) continue;  // the face hides what is behind it
-      const std::size_t i = static_cast<std::size_t>(y * width + x);
+      const std::size_t i = static_cast<std::size_t>(y * soft_width + x);
       ASSERT_EQ(faced.masks[0].visible_fraction.pixels[i], bare.masks[0].visible_fraction.pixels[i]);
       ++compared;
     }
@@ -258,13 +259,13 @@ TEST(SoftFrames, EmissiveQuadsShineWhenAskedTo) {
   const render::FrameResult result = draw(scene, settings);
   ASSERT_EQ(result.masks.size(), 1u);
   EXPECT_EQ(result.masks[0].light, 0);
-  const ViewRays view = frame_of(scene, width, height).view;
-  for (int y = 0; y < height; ++y) {
-    for (int x = 0; x < width; ++x) {
+  const ViewRays view = frame_of(scene, soft_width, soft_height).view;
+  for (int y = 0; y < soft_height; ++y) {
+    for (int x = 0; x < soft_width; ++x) {
       const auto p = on_plane(view, x, y), face = on_plane(view, x, y, 3);
       if (!p || std::max(std::abs(p->x), std::abs(p->z)) > 9.9) continue;
       if (face && std::abs(face->x) < 1.1 && std::abs(face->z) < 0.6) continue;
-      ASSERT_NEAR(result.image.pixels[static_cast<std::size_t>(3 * (y * width + x))],
+      ASSERT_NEAR(result.image.pixels[static_cast<std::size_t>(3 * (y * soft_width + x))],
                   srgb_level(4 * below_panel(*p) / std::acos(-1.0)), 0.52);
     }
   }
@@ -288,7 +289,7 @@ TEST(SoftFrames, RefusesWhatItCannotDo) {
   Scene scene = white_floor(true);
   add_light(scene, rectangle_light(4, {2, 1}), {0, 3, 0}, facing_down);
   render::Renderer renderer = renderer_for(scene);
-  const render::FrameInput input = frame_of(scene, width, height);
+  const render::FrameInput input = frame_of(scene, soft_width, soft_height);
   render::FrameResult result;
   render::RenderSettings depth = soft;
   depth.samples = render::SampleSource::depth;
@@ -308,8 +309,8 @@ TEST(SoftFrames, NothingSeenAndNothingLitAreFrames) {
   Scene scene = white_floor(true);
   add_light(scene, rectangle_light(4, {2, 1}), {0, 3, 0}, facing_down);
   render::Renderer renderer = renderer_for(scene);
-  render::FrameInput input = frame_of(scene, width, height);
-  input.view = look_at({0, 8, 8}, {0, 16, 16}, {0, 1, 0}, 0.8f, 0.1f, width, height);
+  render::FrameInput input = frame_of(scene, soft_width, soft_height);
+  input.view = look_at({0, 8, 8}, {0, 16, 16}, {0, 1, 0}, 0.8f, 0.1f, soft_width, soft_height);
   render::FrameResult result;
   ASSERT_TRUE(renderer.render_frame(input, soft, result));
   EXPECT_EQ(*std::max_element(result.masks[0].mask.pixels.begin(), result.masks[0].mask.pixels.end()), 0);

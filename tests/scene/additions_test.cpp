@@ -85,7 +85,7 @@ Shares shares_of(const Scene& scene, const FrameGeometry& frame, std::size_t sub
   return {shares.subject / (width * height), shares.shadow / (width * height)};
 }
 
-FrameGeometry frame_of(const Scene& scene, double time_s = 0) {
+FrameGeometry frame_at(const Scene& scene, double time_s = 0) {
   FrameGeometry frame;
   evaluate_frame(scene, scene.clips.empty() ? -1 : 0, time_s, frame);
   return frame;
@@ -122,11 +122,11 @@ std::vector<Shape> shapes() {
 
 TEST(AddedCamera, FillsThreeTenthsOfThePictureAndShowsTheShadow) {
   for (Shape& shape : shapes()) {
-    const std::size_t subject = frame_of(shape.scene).triangles.size();
+    const std::size_t subject = frame_at(shape.scene).triangles.size();
     const AddedParts added = add_missing_parts(shape.scene);
     EXPECT_TRUE(added.camera && added.light && added.floor) << shape.name;
     EXPECT_EQ(shape.scene.warnings.size(), 3u);
-    const FrameGeometry frame = frame_of(shape.scene);
+    const FrameGeometry frame = frame_at(shape.scene);
     EXPECT_EQ(frame.triangles.size(), subject + 2);
     expect_in_picture(shape.scene, frame, subject);
     const Shares shares = shares_of(shape.scene, frame, subject);
@@ -141,9 +141,9 @@ TEST(AddedCamera, SeesWhatMovesThroughTheWholeClip) {
   clip.tracks.push_back({.components = 3, .times_s = {0, 4}, .values = {0, 0, 0, 50, 20, 0}});
   clip.channels.push_back({.node = 0, .path = ChannelPath::translation, .track = 0});
   scene.clips.push_back(clip);
-  const std::size_t subject = frame_of(scene).triangles.size();
+  const std::size_t subject = frame_at(scene).triangles.size();
   add_missing_parts(scene);
-  for (const double time_s : {0.0, 2.0, 4.0}) expect_in_picture(scene, frame_of(scene, time_s), subject);
+  for (const double time_s : {0.0, 2.0, 4.0}) expect_in_picture(scene, frame_at(scene, time_s), subject);
 }
 
 /// Each triangle as 4^times.
@@ -167,14 +167,14 @@ void split(Mesh& mesh, int times) {
 // Many small triangles are measured by the cells that hold them: a little too large.
 TEST(AddedCamera, FillsThePictureAsMuchHoweverFineTheTrianglesAre) {
   for (Shape& shape : shapes()) {
-    const FrameGeometry subject = frame_of(shape.scene);
+    const FrameGeometry subject = frame_at(shape.scene);
     Scene fine = shape.scene;
     for (Mesh& mesh : fine.meshes) split(mesh, 7);
-    ASSERT_GT(frame_of(fine).triangles.size(), 100000u);
+    ASSERT_GT(frame_at(fine).triangles.size(), 100000u);
     add_missing_parts(shape.scene);
     add_missing_parts(fine);
     fine.meshes = shape.scene.meshes;  // seen by its own camera
-    const FrameGeometry frame = frame_of(fine);
+    const FrameGeometry frame = frame_at(fine);
     expect_in_picture(fine, frame, subject.triangles.size());
     const Shares shares = shares_of(fine, frame, subject.triangles.size());
     EXPECT_GE(shares.subject, 0.27) << shape.name;
@@ -187,7 +187,7 @@ TEST(AddedCamera, TakesTheShapeThatIsAskedFor) {
   add_missing_parts(scene, {.floor = true, .aspect = 2.5f});
   EXPECT_FALSE(scene.cameras[0].aspect);
   scene.cameras[0].aspect = 2.5f;
-  expect_in_picture(scene, frame_of(scene), 12);
+  expect_in_picture(scene, frame_at(scene), 12);
 }
 
 TEST(AddedSun, ShinesFromTheLeftBehindTheCameraWhicheverCameraItIs) {
@@ -241,7 +241,7 @@ TEST(AddedFloor, IsOnlyWhereLightAndFloorAreMissing) {
 TEST(AddedFloor, LiesUnderAllAndHoldsTheShadow) {
   Scene scene = box({3, -7, 2}, {4, -5, 5});
   add_missing_parts(scene);
-  const FrameGeometry frame = frame_of(scene);
+  const FrameGeometry frame = frame_at(scene);
   glm::vec3 low(1e9f), high(-1e9f);
   for (std::size_t i = 12; i < 14; ++i) {
     const glm::uvec3 t = frame.triangles[i];

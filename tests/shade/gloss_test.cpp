@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <numbers>
 #include <random>
 #include <vector>
 
@@ -15,8 +16,8 @@ namespace tenebra {
 namespace {
 
 using glm::dvec3;
-constexpr double pi = 3.14159265358979323846;
-constexpr int width = 40, height = 30;
+using std::numbers::pi;
+constexpr int gloss_width = 40, gloss_height = 30;
 
 /// A wall at z = -5 before an eye at the origin, all of one material.
 class Gloss : public ::testing::Test {
@@ -26,23 +27,24 @@ protected:
   std::vector<shade::ShadedSample> shaded(const Material& material, const shade::Lighting& lighting,
                                           std::span<const shade::LightFactors> factors) const {
     const shade::SurfaceTable surfaces(std::span(&material, 1));
-    std::vector<std::uint32_t> ids(width * height, 0);
+    std::vector<std::uint32_t> ids(gloss_width * gloss_height, 0);
     std::vector<glm::vec2> places;
-    for (int i = 0; i < width * height; ++i) {
-      places.emplace_back(static_cast<float>(i % width) + 0.5f, static_cast<float>(i / width) + 0.5f);
+    for (int i = 0; i < gloss_width * gloss_height; ++i) {
+      places.emplace_back(static_cast<float>(i % gloss_width) + 0.5f,
+                          static_cast<float>(i / gloss_width) + 0.5f);
     }
     std::vector<shade::ShadedSample> out;
     shade::shade_samples({geometry, view, surfaces}, lighting, {ids, places, factors, {}}, out);
     return out;
   }
   dvec3 point(std::size_t i) const {
-    const dvec3 ray = dvec3(view.d0) + (double(i % width) + 0.5) * dvec3(view.dx) +
-                      (double(i / width) + 0.5) * dvec3(view.dy);
+    const dvec3 ray = dvec3(view.d0) + (double(i % gloss_width) + 0.5) * dvec3(view.dx) +
+                      (double(i / gloss_width) + 0.5) * dvec3(view.dy);
     return ray * (-5 / ray.z);
   }
 
   FrameGeometry geometry;
-  ViewRays view = forward_view({0, 0, 0}, 20.0f, width, height);
+  ViewRays view = forward_view({0, 0, 0}, 20.0f, gloss_width, gloss_height);
 };
 
 Material metal_or_not(glm::vec3 color, float metallic, float roughness) {
@@ -151,7 +153,7 @@ TEST_F(Gloss, PhongsHighlightIsAPowerOfTheMirroredRaysCosine) {
 TEST_F(Gloss, NothingIsMirroredOutOfTheShadow) {
   Material m = make_material({0.3f, 0.2f, 0.1f}, glm::vec3(0.0f));
   m.specular = glm::vec3(1.0f);
-  const std::vector<std::uint8_t> dark(width * height, 0);
+  const std::vector<std::uint8_t> dark(gloss_width * gloss_height, 0);
   const std::vector<shade::LightFactors> factors{{.mask = dark}};
   const std::vector<shade::PlacedLight> in_front{
       {make_light(LightType::point, 9.0f), {.position = {0, 0, -3}}}};
@@ -177,7 +179,7 @@ TEST_F(Gloss, SmallAreaLightsMirrorAsPoints) {
   phong.phong_exponent = 20;
   std::vector<float> irradiance;
   std::vector<double> at_light;
-  for (std::size_t i = 0; i < width * height; ++i) {
+  for (std::size_t i = 0; i < gloss_width * gloss_height; ++i) {
     const dvec3 path = dvec3(place) - point(i);
     const double square = glm::dot(path, path);
     at_light.push_back(path.z / std::sqrt(square));
@@ -209,7 +211,7 @@ TEST_F(Gloss, WideLightsAreMirroredWide) {
     const float half = wide ? 1.0f : 0.1f;
     const auto polygon = make_rectangle_light({0, 0, -2}, {half, 0, 0}, {0, -half, 0});
     ASSERT_TRUE(polygon);
-    std::vector<float> irradiance(width * height, 0.1f);
+    std::vector<float> irradiance(gloss_width * gloss_height, 0.1f);
     const std::vector<shade::PlacedLight> lights{{make_light(LightType::area_rect, 1.0f),
                                                   {.position = {0, 0, -2}, .direction = {0, 0, -1}},
                                                   &*polygon}};
@@ -329,11 +331,11 @@ TEST_F(Gloss, MirrorsShowTheEnvironmentBehindTheEye) {
   EXPECT_NEAR(seen(around.irradiance(), {0, 0, 1}, 0).x, 0.5f, 0.02f);
   Material mirror = metal_or_not(glm::vec3(1.0f), 1, 0);
   const auto found = shaded(mirror, {.environment = &around}, {});
-  const auto& upper_right = found[5 * width + 30].color;
+  const auto& upper_right = found[5 * gloss_width + 30].color;
   EXPECT_GT(upper_right.x, 0.9f);
   EXPECT_GT(upper_right.y, 0.9f);
   EXPECT_GT(upper_right.z, 0.9f);
-  const auto& lower_left = found[25 * width + 8].color;
+  const auto& lower_left = found[25 * gloss_width + 8].color;
   EXPECT_LT(lower_left.x, 0.1f);
   EXPECT_GT(lower_left.y, 0.9f);
   EXPECT_LT(lower_left.z, 0.1f);

@@ -2,6 +2,7 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <numbers>
 #include <vector>
 
 #include "shade/shading.h"
@@ -10,8 +11,8 @@
 namespace tenebra {
 namespace {
 
-constexpr double pi = 3.14159265358979323846;
-constexpr int width = 33, height = 21;
+using std::numbers::pi;
+constexpr int buffer_width = 33, buffer_height = 21;
 
 /// Fade of a light towards a point in direction `to_light` (unit) at `distance`, by KHR_lights_punctual.
 double expected_fade(const Light& light, const WorldLight& placed, const glm::dvec3& to_light,
@@ -68,19 +69,20 @@ protected:
     glm::vec3 a(-100, -80, -16), b(100, -80, -16), c(0, 160, 8);
     if (flip_winding) std::swap(b, c);
     add_triangle(g, a, b, c, 1, normal);
-    const base::ImageF image = buffer_of(g, view, width, height, 1, {Material{}, material}, {light, placed});
+    const base::ImageF image =
+        buffer_of(g, view, buffer_width, buffer_height, 1, {Material{}, material}, {light, placed});
     glm::dvec3 face = glm::normalize(glm::cross(glm::dvec3(b - a), glm::dvec3(c - a)));
     if (face.z < 0) face = -face;  // the eye is in front
     const glm::dvec3 shading = normal == glm::vec3(0.0f) ? face : glm::dvec3(normal);
     double brightest = 0;
-    for (int y = 0; y < height; ++y) {
-      for (int x = 0; x < width; ++x) {
+    for (int y = 0; y < buffer_height; ++y) {
+      for (int x = 0; x < buffer_width; ++x) {
         const glm::dvec3 across = (x + 0.5) * glm::dvec3(view.dx) + (y + 0.5) * glm::dvec3(view.dy);
         const glm::dvec3 origin = glm::dvec3(view.eye) + (view.orthographic ? across : glm::dvec3(0.0));
         const glm::dvec3 ray = glm::dvec3(view.d0) + (view.orthographic ? glm::dvec3(0.0) : across);
         const glm::dvec3 point = origin + glm::dot(face, glm::dvec3(a) - origin) / glm::dot(face, ray) * ray;
         const glm::dvec3 expected = expected_light(light, placed, material, point, face, shading);
-        const float* found = &image.pixels[static_cast<std::size_t>(3 * (y * width + x))];
+        const float* found = &image.pixels[static_cast<std::size_t>(3 * (y * buffer_width + x))];
         for (int i = 0; i < 3; ++i) {
           brightest = std::max(brightest, expected[i]);
           // A cone's edge steepens what the cosine lost.
@@ -92,8 +94,8 @@ protected:
   }
 };
 
-const ViewRays perspective = forward_view({0, 0, 0}, 20.0f, width, height);
-const ViewRays orthographic = orthographic_view({0, 0, 0}, 0.25f, width, height);
+const ViewRays perspective = forward_view({0, 0, 0}, 20.0f, buffer_width, buffer_height);
+const ViewRays orthographic = orthographic_view({0, 0, 0}, 0.25f, buffer_width, buffer_height);
 
 TEST_F(LightBufferTest, PointLightsWithAndWithoutFalloff) {
   Light light = make_light(LightType::point, 40.0f);
@@ -160,13 +162,15 @@ TEST_F(LightBufferTest, AreaBuffersTimesTheIrradianceOfASmallLightAreThoseOfItsC
       light.range_m = 20.0f;
       light.inner_cone_rad = 0.3f;
       light.outer_cone_rad = 0.9f;
-      const base::ImageF point = buffer_of(g, perspective, width, height, 0, materials, {light, placed});
+      const base::ImageF point =
+          buffer_of(g, perspective, buffer_width, buffer_height, 0, materials, {light, placed});
       const base::ImageF area =
-          buffer_of(g, perspective, width, height, 0, materials, {light, placed, &*polygon});
+          buffer_of(g, perspective, buffer_width, buffer_height, 0, materials, {light, placed, &*polygon});
       int lit = 0;
-      for (int i = 0; i < width * height; ++i) {
-        const glm::dvec3 ray = glm::dvec3(perspective.d0) + (i % width + 0.5) * glm::dvec3(perspective.dx) +
-                               (i / width + 0.5) * glm::dvec3(perspective.dy);
+      for (int i = 0; i < buffer_width * buffer_height; ++i) {
+        const glm::dvec3 ray = glm::dvec3(perspective.d0) +
+                               (i % buffer_width + 0.5) * glm::dvec3(perspective.dx) +
+                               (i / buffer_width + 0.5) * glm::dvec3(perspective.dy);
         const glm::dvec3 path = glm::dvec3(placed.position) -
                                 glm::dot(face, glm::dvec3(-100, -80, -16)) / glm::dot(face, ray) * ray;
         const double distance = glm::length(path);
@@ -215,9 +219,9 @@ TEST_F(LightBufferTest, LightOnTheSurfaceStaysFinite) {
 }
 
 TEST_F(LightBufferTest, BackgroundStaysDark) {
-  const base::ImageF image =
-      buffer_of({}, perspective, width, height, background_id, {}, {make_light(LightType::directional), {}});
-  EXPECT_EQ(image.pixels, std::vector<float>(3u * width * height, 0.0f));
+  const base::ImageF image = buffer_of({}, perspective, buffer_width, buffer_height, background_id, {},
+                                       {make_light(LightType::directional), {}});
+  EXPECT_EQ(image.pixels, std::vector<float>(3u * buffer_width * buffer_height, 0.0f));
 }
 
 // A pixel's id may be that of a triangle which its ray just misses, or meets edge-on: the sample is then the

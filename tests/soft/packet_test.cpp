@@ -10,7 +10,7 @@ namespace tenebra::testing {
 namespace {
 
 /// A floor and a ball on it below, `occluders` between, a light above; `width` of view in radians.
-SoftCase below(const std::string& name, const Soup& occluders, double width, int pixels) {
+SoftCase occluded_square(const std::string& name, const Soup& occluders, double width, int pixels) {
   SoftCase c;
   c.name = name;
   c.soup.quad({-8, 0, -8}, {0, 0, 16}, {16, 0, 0});
@@ -35,7 +35,7 @@ TEST(SoftPackets, GiveWhatTheReferenceGives) {
   for (const SoupMaker& maker : soup_makers()) {
     const Soup soup = maker.make(random).moved(0.5, {0.2, 1.6, 0});
     for (const double width : {1.2, 0.08}) {
-      SoftCase c = below(maker.name + ", seed 61", soup, width, 28);
+      SoftCase c = occluded_square(maker.name + ", seed 61", soup, width, 28);
       if (width < 1) lean_normals(c, random);
       const SoftMask expected = traced(c, SoftPrecision::reference), mask = traced(c, SoftPrecision::fast);
       const double white = white_of(c, expected);
@@ -60,7 +60,7 @@ TEST(SoftPackets, ARoundHoleIsExact) {
     rim.add(up + 0.4 * out - 1.5 * along, up + 0.4 * out + 1.5 * along, up + 4.0 * out);
   }
   Judgement sum;
-  judge_all(below("round hole", rim, 0.9, 12), sum);
+  judge_all(occluded_square("round hole", rim, 0.9, 12), sum);
   sum.print("round hole");
   EXPECT_GT(sum.penumbra, 60u);
 }

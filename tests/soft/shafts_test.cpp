@@ -72,7 +72,7 @@ TEST(Shafts, NeverLeaveOutATriangleThatBlocksPointsOffTheirTriangles) {
   EXPECT_GT(tally.blocked, 50000u);
 }
 
-GroupCase room_case(std::uint64_t seed, int size) {
+GroupCase group_in_room(std::uint64_t seed, int size) {
   Random random(seed);
   GroupCase c;
   c.name = fmt::format("room, seed {}", seed);
@@ -85,7 +85,7 @@ GroupCase room_case(std::uint64_t seed, int size) {
 
 // Coordinates times 2^k: all roundings scale with them, so the same bits decide.
 TEST(Shafts, KeepTheSameTrianglesAtAnyPowerOfTwo) {
-  const GroupCase c = room_case(31, 64);
+  const GroupCase c = group_in_room(31, 64);
   const std::vector<Given> expected = given(c, grouped(c));
   for (const int k : {-40, -7, 9, 40}) {
     GroupCase scaled = c;
@@ -100,7 +100,7 @@ TEST(Shafts, KeepTheSameTrianglesAtAnyPowerOfTwo) {
 }
 
 TEST(Shafts, AreTheSameForAnyNumberOfThreadsAndAnyInstructions) {
-  const GroupCase c = room_case(32, 96);
+  const GroupCase c = group_in_room(32, 96);
   soft::ShaftStats expected_stats;
   const std::vector<Given> expected = given(c, grouped(c), SimdLevel::scalar, &expected_stats);
   for (const int threads : {1, 2, 3, 7}) {
@@ -118,7 +118,7 @@ TEST(Shafts, AreTheSameForAnyNumberOfThreadsAndAnyInstructions) {
 }
 
 TEST(Shafts, CountWhatTheyGive) {
-  const GroupCase c = room_case(33, 64);
+  const GroupCase c = group_in_room(33, 64);
   const soft::PointGroups groups = grouped(c);
   soft::ShaftStats stats;
   std::uint64_t points[3] = {}, numbers[3] = {}, candidates = 0, most = 0;
@@ -159,7 +159,7 @@ std::vector<std::uint64_t> works_in_order(const GroupCase& c, const soft::PointG
 
 // What takes long is not left for the end, when other threads are idle.
 TEST(Shafts, HandOverTheFamiliesWithMostWorkFirst) {
-  const GroupCase c = room_case(35, 128);
+  const GroupCase c = group_in_room(35, 128);
   const soft::PointGroups groups = grouped(c);
   const std::vector<std::uint64_t> works = works_in_order(c, groups);
   EXPECT_TRUE(std::is_sorted(works.rbegin(), works.rend()));
@@ -169,7 +169,7 @@ TEST(Shafts, HandOverTheFamiliesWithMostWorkFirst) {
 
 // Of 60,000 triangles below the light most may block lines from any group: too many to keep.
 TEST(Shafts, HandOverBeforeAllAreDecidedWhereCandidatesAreMany) {
-  GroupCase c = room_case(36, 128);
+  GroupCase c = group_in_room(36, 128);
   Random random(36);
   for (int i = 0; i < 60000; ++i) {
     const dvec3 p = c.light.centre + dvec3(random.in(-0.3, 0.3), -0.2, random.in(-0.3, 0.3));
@@ -185,7 +185,7 @@ TEST(Shafts, HandOverBeforeAllAreDecidedWhereCandidatesAreMany) {
 }
 
 TEST(Shafts, EndEarlyWhenAsked) {
-  const GroupCase c = room_case(34, 64);
+  const GroupCase c = group_in_room(34, 64);
   const soft::PointGroups groups = grouped(c);
   soft::ShaftCuller culler;
   StopFlag stop;

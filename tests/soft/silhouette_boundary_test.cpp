@@ -62,14 +62,14 @@ Soup sheet(dvec3 corner, int across, int along, double cell) {
   return cells;
 }
 
-Soup with(Soup a, const Soup& b) {
+Soup both_of(Soup a, const Soup& b) {
   a.append(b);
   return a;
 }
 
 // A part of the light that is cut, for doubt, leaves fragments; a border leaves none.
 TEST(SoftSilhouetteBoundary, NeedsNoCutsButForDoubt) {
-  const Soup balls = with(sphere(8, 0.6, {0, 2, 0}), torus(40, 16, 0.7, 0.2).moved(1, {0.3, 1.6, 0.2}));
+  const Soup balls = both_of(sphere(8, 0.6, {0, 2, 0}), torus(40, 16, 0.7, 0.2).moved(1, {0.3, 1.6, 0.2}));
   const SoftCase c = over_floor("ball and ring", balls.moved(0.97, {0.013, 0.05, 0.027}));
   SoftStats stats;
   traced(c, c.config, &stats);
@@ -83,12 +83,12 @@ TEST(SoftSilhouetteBoundary, SilhouettesThatNearlyCoincide) {
   std::size_t between = 0, by_silhouette = 0;
   for (const double apart : {0.0, 1e-8, 1e-7, 1e-6, 1e-5}) {
     const auto larger = [&](const Soup& mesh) { return mesh.moved(1 + apart, dvec3(apart, 0, 0)); };
-    Soup twice = with(ball, larger(ball));
+    Soup twice = both_of(ball, larger(ball));
     by_silhouette += expect_what_clipping_gives(over_floor(fmt::format("balls {}", apart), twice), between);
-    twice = with(sheet({-0.5, 2, -0.5}, 8, 8, 0.125), larger(sheet({-0.5, 2, -0.5}, 8, 8, 0.125)));
+    twice = both_of(sheet({-0.5, 2, -0.5}, 8, 8, 0.125), larger(sheet({-0.5, 2, -0.5}, 8, 8, 0.125)));
     by_silhouette += expect_what_clipping_gives(over_floor(fmt::format("sheets {}", apart), twice), between);
     by_silhouette += expect_what_clipping_gives(
-        over_floor(fmt::format("balls and boxes {}", apart), with(with(ball, boxes), larger(boxes))),
+        over_floor(fmt::format("balls and boxes {}", apart), both_of(both_of(ball, boxes), larger(boxes))),
         between);
   }
   EXPECT_GT(between, 3000u);

@@ -53,7 +53,7 @@ Soup unwelded(const Soup& mesh) {
   return apart;
 }
 
-Soup with(Soup a, const Soup& b) {
+Soup joined(Soup a, const Soup& b) {
   a.append(b);
   return a;
 }
@@ -67,10 +67,10 @@ std::vector<SoftCase> mesh_cases() {
   cases.push_back(below("bowl", bowl(9)));
   cases.push_back(below("two-sided bowl", two_sided(bowl(8))));
   cases.push_back(below("unwelded sphere", unwelded(ball)));
-  cases.push_back(below("sphere through torus", with(ball, ring)));
+  cases.push_back(below("sphere through torus", joined(ball, ring)));
   cases.push_back(below("half sunk sphere", sphere(10, 0.9, {0, 0.1, 0})));
-  cases.push_back(below("sphere through the light", with(ball, sphere(8, 0.6, {0.3, 5, -0.2}))));
-  cases.push_back(below("sphere in a cloud", with(ball, random_soup(random, 20, 0.3).moved(1, {0, 2, 0}))));
+  cases.push_back(below("sphere through the light", joined(ball, sphere(8, 0.6, {0.3, 5, -0.2}))));
+  cases.push_back(below("sphere in a cloud", joined(ball, random_soup(random, 20, 0.3).moved(1, {0, 2, 0}))));
   Soup boxes, shells;
   for (int k = 0; k < 12; ++k) {  // they touch: edges of several boxes lie on each other
     const dvec3 low(0.3 * (k % 3) - 0.4, 0.9 + 0.3 * (k / 6), 0.3 * (k / 3 % 2) - 0.3);
@@ -191,7 +191,7 @@ TEST(SoftSilhouette, WindsAroundAPlaceOnceForEachTriangleInFrontOfIt) {
   const Soup ball = sphere(10, 0.8, {0.1, 1.4, 0}), ring = torus(48, 18, 0.9, 0.3).moved(1, {0, 1.1, 0.2});
   Random random(72);
   std::size_t compared = 0, covered = 0, dropped = 0;
-  for (const Soup& mesh : {ball, ring, bowl(9), two_sided(bowl(8)), with(ball, ring)}) {
+  for (const Soup& mesh : {ball, ring, bowl(9), two_sided(bowl(8)), joined(ball, ring)}) {
     const SoftCase c = below("mesh", mesh);
     const soft::LightFrame light = soft::light_frame(c.light);
     const soft::GroupFrame group = floor_group();
