@@ -1,9 +1,10 @@
 #!/bin/bash
 # Installs what Tenebra needs and this machine lacks (Debian 12 and 13, Ubuntu 24.04).
-# Usage: tools/setup.sh [--window | --tests]
+# Usage: tools/setup.sh [--window | --tests | --package]
 #   without an option   what building takes, and drawing without a display: all that ./demo.sh needs
 #   --window            also the font of `tenebra view`
 #   --tests             also what the tests need; with it, Embree for --ao rays and compressed glTF files
+#   --package           also what making packages takes
 set -euo pipefail
 
 packages=(
@@ -23,6 +24,7 @@ if [[ "${1:-}" == --tests ]]; then
   # Mesa 25.1 and later have no OSMesa: EGL is enough. libwebp: pictures in WebP.
   where_known+=(libosmesa6 clang-format-14 libwebp-dev)
 fi
+[[ "${1:-}" == --package ]] && packages+=(libembree-dev libmeshoptimizer-dev libdraco-dev dpkg-dev help2man lintian)
 
 if ! command -v dpkg-query apt-get > /dev/null; then
   echo "tools/setup.sh: no apt-get here; install what corresponds to: ${packages[*]}" >&2
