@@ -8,13 +8,14 @@
 #   asan      runs all tests with the address and undefined-behaviour sanitizers
 #   tsan      runs all tests with the thread sanitizer
 #   report    opens a page of `tenebra log report` in headless Chromium
+#   package   makes the packages, asks lintian, and draws a picture with them in a bare root; needs root as roots does
 #   fuzz      runs the fuzzers of tests/fuzz for FUZZ_MINUTES [60]
 #   all       every part, one after the other
 # Exit code: 0 if every part that was asked for is ok, 1 if one failed, 2 if the request was not understood.
 # JOBS=N: how many jobs at once [all cores].
 set -uo pipefail
 cd "$(dirname "$0")/.."
-parts=(lto-odr clang roots debug asan tsan report fuzz)
+parts=(lto-odr clang roots debug asan tsan report package fuzz)
 jobs=${JOBS:-$(nproc)}
 
 has() {
@@ -77,6 +78,17 @@ run_report() {
   page=$("$browser" --headless --no-sandbox --dump-dom "file://$folder/report.html" 2> /dev/null)
   rm -r "$folder"
   grep -q 'class="which">frame 2<' <<< "$page" && grep -q 'aria-pressed="true"' <<< "$page"
+}
+
+# No compiler is there, and no checkout: what the packages bring must be enough.
+run_package() {
+  local root
+  root=$(mktemp -d) && tools/package.sh --check && tools/make_root.sh --root "$root" --only-make debian12 &&
+    cp build-package/tenebra_*.deb "$root/opt" &&
+    tools/make_root.sh --root "$root" --run 'cd /opt && apt-get update -qq &&
+      time (apt-get install -y -qq --no-install-recommends ./tenebra_*.deb > /dev/null && ! command -v g++ &&
+        tenebra render /usr/share/tenebra/scenes/city.glb -o city.png && tenebra info /usr/share/tenebra/scenes/court.glb)' \
+      debian12 && rm -r "$root"
 }
 
 run_fuzz() { tools/fuzz.sh "${FUZZ_MINUTES:-60}"; }
