@@ -60,7 +60,7 @@ CONTAINED = [
 
 
 # Rooms of the program, lowest first, as above; main.cpp stands above them all.
-VIEWER_ROOMS = ["shell", "options", "shared", "log", "window", "commands", ""]
+VIEWER_ROOMS = ["shell", "options", "shared", "log", "trade", "window", "commands", ""]
 # Rooms of viewer/window that know nothing of what is drawn: of the window they see themselves and these.
 PLAIN_WINDOW_ROOMS = {"motion": set(), "frames": {"motion"}}
 

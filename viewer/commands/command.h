@@ -16,5 +16,6 @@ void add_convert_command(CLI::App& program, Run& run);
 void add_compare_command(CLI::App& program, Run& run);
 void add_log_command(CLI::App& program, Run& run);
 void add_verify_command(CLI::App& program, Run& run);
+void add_trade_command(CLI::App& program, Run& run);
 
 }  // namespace tenebra::viewer

@@ -1,0 +1,116 @@
+// tenebra trade: the arithmetic of fronts, and the command on a small scene.
+#include <gtest/gtest.h>
+
+#include <nlohmann/json.hpp>
+
+#include "trade/trade_settings.h"
+#include "viewer/viewer_test_scene.h"
+
+namespace tenebra::testing {
+namespace {
+
+using viewer::TradeAxes;
+using viewer::TradePoint;
+
+TradePoint traded(double ms, double error) {
+  return {{}, ms, error};
+}
+
+TEST(TradeFront, HasWhatNothingBeats) {
+  const std::vector<TradePoint> points{traded(5, 1), traded(1, 9), traded(2, 9), traded(3, 4),
+                                       traded(3, 5), traded(6, 1), traded(7, 0), traded(4, 4)};
+  EXPECT_EQ(viewer::pareto_front(points), (std::vector<std::size_t>{1, 3, 0, 6}));
+  EXPECT_TRUE(viewer::pareto_front({}).empty());
+  const std::vector<TradePoint> same(3, traded(2, 2));
+  EXPECT_EQ(viewer::pareto_front(same), std::vector<std::size_t>{0}) << "of equal ones the first";
+}
+
+TEST(TradeFront, IsThinnedEvenlyAndKeepsItsEnds) {
+  std::vector<TradePoint> points;
+  std::vector<std::size_t> front;
+  for (std::size_t i = 0; i < 100; ++i) {
+    points.push_back(traded(std::pow(1.05, double(i)), 100.0 - double(i)));
+    front.push_back(i);
+  }
+  EXPECT_EQ(viewer::thinned(points, front, 4), (std::vector<std::size_t>{0, 33, 66, 99}));
+  EXPECT_EQ(viewer::thinned(points, front, 100), front);
+}
+
+TEST(TradeSweep, AddsTimesAndSquaresOfErrors) {
+  viewer::TradeSweep sweep;
+  sweep.antialias = {{{1, 8, 5}, 10, 3}, {{4, 8, 5}, 14, 0}};
+  sweep.soft = {{{1, 8, 5}, 10, 4}, {{1, 0, 5}, 30, 0}};
+  sweep.ao = {{{1, 8, 5}, 10, 0}};
+  const auto points = viewer::predicted_points(sweep);
+  ASSERT_EQ(points.size(), 4u);
+  EXPECT_EQ(points[0].ms, 10);
+  EXPECT_EQ(points[0].error, 5) << "3 and 4";
+  EXPECT_EQ(points[3].setting, (viewer::TradeSetting{4, 0, 5}));
+  EXPECT_EQ(points[3].ms, 34);
+  EXPECT_EQ(points[3].error, 0);
+}
+
+TEST(TradeSweep, ChangesWhatThereIsToChoose) {
+  TradeAxes axes;
+  axes.soft_errors = {8, 0};
+  render::RenderSettings given;
+  given.antialias = 2;
+  given.ao.error_255 = 3;
+  const render::RenderSettings settings = viewer::with_setting(given, axes, viewer::coarsest(axes));
+  EXPECT_EQ(settings.antialias, 2);
+  EXPECT_EQ(settings.soft.error_255, 8);
+  EXPECT_EQ(settings.ao.error_255, 3);
+}
+
+TEST(TradeCommand, FindsTheFrontOfASceneAndWritesItsPage) {
+  const TemporaryFolder folder;
+  const std::string scene = write_moving_scene(folder);
+  const auto result = tenebra({"trade", scene, "--shadows", "soft", "--light-size", "1x1", "--size", "48x36",
+                               "--repeats", "1", "--json", "-o", folder / "page.html", "--quiet"});
+  ASSERT_EQ(result.exit_code, 0) << result.errors;
+  const auto json = nlohmann::json::parse(result.output);
+  EXPECT_EQ(json["frames"].size(), 3u);
+  const auto& settings = json["settings"];
+  ASSERT_GE(settings.size(), 2u);
+  EXPECT_EQ(settings.back()["options"], "--antialias 16 --soft-error 0");
+  EXPECT_EQ(settings.back()["error_255"], 0.0) << "the finest, again";
+  double ms = 0, error = HUGE_VAL;
+  for (const auto& setting : settings) {
+    if (!setting["front"]) continue;
+    EXPECT_GE(setting["frame_ms"], ms);
+    EXPECT_LT(setting["error_255"], error);
+    EXPECT_GE(setting["worst_frame_error_255"], setting["error_255"]);
+    ms = setting["frame_ms"], error = setting["error_255"];
+  }
+  EXPECT_EQ(error, 0);
+  const std::string page = read_text(folder / "page.html");
+  EXPECT_NE(page.find("--antialias 16 --soft-error 0"), std::string::npos);
+  EXPECT_EQ(page.find("http"), std::string::npos) << "needs no network";
+}
+
+TEST(TradeCommand, PrintsTheSettingThatFits) {
+  const TemporaryFolder folder;
+  const std::string scene = write_moving_scene(folder);
+  const std::vector<std::string> common{"trade", scene,       "--time", "1",      "--size",
+                                        "48x36", "--repeats", "1",      "--quiet"};
+  const auto run = [&](std::initializer_list<std::string> more) {
+    std::vector<std::string> arguments = common;
+    arguments.insert(arguments.end(), more);
+    return tenebra(arguments);
+  };
+  const auto best = run({"--budget", "1e6"});
+  EXPECT_EQ(best.exit_code, 0) << best.errors;
+  EXPECT_NE(best.output.find("\n\ntenebra render "), std::string::npos) << best.output;
+  EXPECT_TRUE(best.output.ends_with("--antialias 16\n")) << best.output;
+  const auto none = run({"--budget", "1e-6"});
+  EXPECT_EQ(none.exit_code, 1);
+  EXPECT_TRUE(is_one_sentence(none.errors)) << none.errors;
+  const auto given = run({"--antialias", "2", "--error", "1"});
+  EXPECT_EQ(given.exit_code, 0) << given.errors;
+  EXPECT_TRUE(given.output.ends_with("--antialias 2\n")) << "nothing to choose: " << given.output;
+  const auto over = tenebra({"trade", scene, "-o", scene});
+  EXPECT_EQ(over.exit_code, 1) << "never over what it reads";
+}
+
+}  // namespace
+}  // namespace tenebra::testing

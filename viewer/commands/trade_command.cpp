@@ -1,0 +1,244 @@
+// tenebra trade: what time buys on this scene and this machine.
+#include <fmt/core.h>
+#include <algorithm>
+#include <memory>
+#include <optional>
+
+#include "base/fail.h"
+#include "base/machine.h"
+#include "base/output_file.h"
+#include "commands/command.h"
+#include "options/config_file.h"
+#include "options/method_arguments.h"
+#include "options/raster_options.h"
+#include "shared/files_apart.h"
+#include "shared/scene_choice.h"
+#include "shell/console.h"
+#include "shell/progress.h"
+#include "shell/stop_signals.h"
+#include "trade/trade_page.h"
+
+namespace tenebra::viewer {
+namespace {
+
+constexpr const char* trade_examples =
+    "Examples:\n"
+    "  tenebra trade scenes/court.glb -o court.html\n"
+    "      which settings are worth having, and what their errors look like\n"
+    "  tenebra trade scenes/city.glb --ao adaptive --budget 100\n"
+    "      the most exact setting whose frame takes at most 100 ms\n"
+    "  tenebra trade room.glb --frames 0:299:60 --size 1920x1080 --error 1 --json\n"
+    "      the quickest setting that is off by at most 1 level of 255\n"
+    "\n"
+    "Chosen are --antialias, --soft-error (where area lights shine) and --ao-error (with --ao adaptive); "
+    "those that\n"
+    "are given stay as they are. Each is varied alone on one frame; from that all combinations are "
+    "predicted, and\n"
+    "those that promise to be worth having are drawn by themselves on all frames. Errors are RMS over the\n"
+    "whole picture as it is shown, in levels of 255, against the finest setting: 16 samples a pixel, exact "
+    "soft\n"
+    "shadows, occlusion to 0.5/255. Hard shadows are exact in all of them. Times are of this machine, "
+    "medians\n"
+    "with everything built; run nothing beside it.\n"
+    "Exit code: 0 done, 1 failed or nothing fits (one sentence says why), 124 the time of --timeout is up, "
+    "129, 130 or\n"
+    "143 stopped by a signal.";
+
+constexpr int frames_without_option = 3;
+constexpr double finest_ao_error = 0.5;
+
+struct TradeOptions {
+  RenderOptions render;
+  std::optional<double> budget_ms;
+  std::optional<double> error;
+  int repeats = 3;
+  std::string output;
+  bool json = false;
+  bool shadows_given = false, antialias_given = false, soft_given = false, ao_given = false;
+};
+
+/// Whether soft shadows have a light to be of.
+bool has_area_light(const RenderPlan& plan, const MethodOptions& method) {
+  const auto has_area = [](const Light& light) {
+    return light.type == LightType::area_rect || light.type == LightType::area_disk;
+  };
+  return method.light_size || method.render.area_lights.emissive_quads ||
+         std::any_of(plan.scene.lights.begin(), plan.scene.lights.end(), has_area);
+}
+
+/// Frames in the middle of equal parts of the animation.
+std::vector<PlannedFrame> spread_frames(const RenderPlan& plan, const SceneOptions& options) {
+  const int count = frames_of_clip(plan.scene, plan.clip, options.fps),
+            wanted = std::min(count, frames_without_option);
+  std::vector<PlannedFrame> frames;
+  for (int i = 0; i < wanted; ++i) {
+    const int frame = static_cast<int>((2LL * i + 1) * count / (2LL * wanted));
+    frames.push_back({frame, time_of_frame(plan.scene, plan.clip, frame, options.fps)});
+  }
+  return frames;
+}
+
+/// What the frames have to choose from.
+TradeAxes axes_of(const TradeOptions& options, const render::RenderSettings& settings) {
+  TradeAxes axes;
+  if (!options.antialias_given) axes.antialias = {1, 2, 4, 8, 16};
+  const bool soft = settings.shadows == render::ShadowMode::soft && settings.soft_points == 0;
+  if (soft && !options.soft_given) axes.soft_errors = {8, 4, 2, 1, 0.5, 0};
+  if (settings.ao.mode == AoMode::adaptive && !options.ao_given)
+    axes.ao_errors = {8, 5, 2.5, 1, finest_ao_error};
+  return axes;
+}
+
+/// The plan with frames and shadows chosen where the user left them open.
+Expected<RenderPlan> plan_trade(TradeOptions& options) {
+  if (auto checked = check_scene_options(options.render.scene); !checked)
+    return tl::unexpected(checked.error());
+  if (auto checked = check_method_options(options.render.method); !checked)
+    return tl::unexpected(checked.error());
+  auto plan = plan_render(options.render);
+  if (!plan) return plan;
+  if (!options.render.frames && !options.render.scene.time_s)
+    plan->frames = spread_frames(*plan, options.render.scene);
+  if (!options.shadows_given && has_area_light(*plan, options.render.method))
+    plan->settings.shadows = options.render.method.render.shadows = render::ShadowMode::soft;
+  return plan;
+}
+
+TradeHeading heading_of(const TradeOptions& options, const RenderPlan& plan, const TradeAxes& axes) {
+  MethodOptions shared = options.render.method;
+  if (axes.antialias.size() > 1) shared.render.antialias = standard_antialias;
+  if (axes.soft_errors.size() > 1) shared.render.soft.error_255 = SoftShadowConfig{}.error_255;
+  if (axes.ao_errors.size() > 1) shared.render.ao.error_255 = AoConfig{}.error_255;
+  const std::string arguments = method_arguments(shared);
+  TradeHeading heading;
+  heading.scene = options.render.scene.file;
+  heading.machine = base::machine_description();
+  heading.command = fmt::format("tenebra render {}{}{}", shell_word(heading.scene),
+                                arguments.empty() ? "" : " ", arguments);
+  heading.width = plan.settings.width, heading.height = plan.settings.height;
+  heading.threads = plan.settings.threads;
+  return heading;
+}
+
+/// The one setting that was asked for: of the front the most exact within the budget, or the quickest within
+/// the error in every frame.
+Expected<const TradedSetting*> fitting(const TradeOptions& options, const TradeResult& result) {
+  const TradedSetting* found = nullptr;
+  for (const std::size_t i : result.front) {
+    const TradedSetting& setting = result.measured[i];
+    if (options.budget_ms && setting.point.ms <= *options.budget_ms)
+      found = &setting;  // the front gets more exact
+    if (options.error && found == nullptr && setting.worst_error <= *options.error) found = &setting;
+  }
+  const TradePoint &quickest = result.measured[result.front.front()].point,
+                   &best = result.measured[result.front.back()].point;
+  if (found == nullptr && options.budget_ms)
+    return base::fail("--budget {:g} ms: nothing is as quick, the quickest setting takes {:.1f} ms",
+                      *options.budget_ms, quickest.ms);
+  if (found == nullptr)
+    return base::fail("--error {:g}: found none as exact, the most exact setting tried is off by {:.2f}",
+                      *options.error, best.error);
+  return found;
+}
+
+Expected<int> print_result(const TradeOptions& options, const TradeHeading& heading,
+                           const TradeResult& result) {
+  if (!options.output.empty()) {
+    const auto page = trade_page(heading, result);
+    if (!page) return tl::unexpected(page.error());
+    if (auto written = base::write_file(options.output, *page); !written)
+      return tl::unexpected(written.error());
+  }
+  if (options.json) {
+    print_out("{}", trade_json(heading, result));
+  } else {
+    print_out("{}, {}x{} pixels, {} frames, {}\n{}", heading.scene, heading.width, heading.height,
+              result.frames.size(), heading.machine, trade_table(result));
+  }
+  if (!options.budget_ms && !options.error) return 0;
+  const auto chosen = fitting(options, result);
+  if (!chosen) return tl::unexpected(chosen.error());
+  const std::string words = options_of(result.axes, (*chosen)->point.setting);
+  const std::string line = fmt::format("{}{}{}\n", heading.command, words.empty() ? "" : " ", words);
+  if (options.json)
+    print_error("{}", line);
+  else
+    print_out("\n{}", line);
+  return 0;
+}
+
+Expected<int> trade(TradeOptions& options) {
+  StopSignals stop(options.render.timeout_s, StopSignals::Start::at_once);
+  const auto plan = plan_trade(options);
+  if (!plan) return tl::unexpected(plan.error());
+  if (!options.render.quiet) print_warnings(plan->scene.warnings);
+  if (!options.output.empty()) {
+    std::vector<std::filesystem::path> inputs = plan->inputs;
+    if (auto apart = check_files_apart(inputs, {{"-o", options.output}}); !apart)
+      return tl::unexpected(apart.error());
+  }
+  stop.be_orderly();
+  TradeRequest request;
+  request.plan = &*plan;
+  request.options = &options.render;
+  request.axes = axes_of(options, plan->settings);
+  request.repeats = options.repeats;
+  const TradeHeading heading = heading_of(options, *plan, request.axes);
+  auto result = [&] {
+    Progress progress(1, options.render.quiet);
+    return run_trade(
+        request, [&](double done) { progress.show_building("trying settings", done); }, stop.flag());
+  }();
+  if (!result && result.error().message == "stopped") {
+    print_error("tenebra: stopped before all settings were tried\n");
+    return stop.exit_code();
+  }
+  if (!result) return tl::unexpected(result.error());
+  return print_result(options, heading, *result);
+}
+
+}  // namespace
+
+void add_trade_command(CLI::App& program, Run& run) {
+  CLI::App& command = add_command(program, "trade", "Find which settings are worth their time on a scene");
+  const auto options = std::make_shared<TradeOptions>();
+  set_examples(command, trade_examples);
+  add_value(command, "--frames", options->render.frames, parse_frame_range,
+            "Frames to try; 0:99:10 for every tenth [three, spread]")
+      .type_name("A:B[:STEP]|all");
+  add_value(command, "--budget", options->budget_ms, parse_positive,
+            "Also print the most exact setting whose frame takes at\nmost so many milliseconds")
+      .type_name("MS");
+  add_value(
+      command, "--error", options->error, parse_positive,
+      "Also print the quickest setting that is off by at most\nso many levels of 255, RMS, in every frame")
+      .type_name("E")
+      .excludes(option_of(command, "--budget"));
+  add_value(command, "--repeats", options->repeats, parse_at_least_one,
+            "Times that each frame is drawn, slow ones fewer; medians\ncount [3]")
+      .type_name("N");
+  add_text(command, "-o,--output", options->output, "A page of it: plot, table, what the errors look like")
+      .type_name("FILE.html");
+  add_flag(command, "--json", options->json, "Print JSON: all that was measured");
+  add_value(command, "--timeout", options->render.timeout_s, parse_positive,
+            "Stop after so many seconds, as Ctrl-C does")
+      .type_name("S");
+  add_flag(command, "--quiet", options->render.quiet, "No progress and no warnings");
+  add_raster_options(command, options->render.raster);
+  add_config_option(command);
+  add_scene_options(command, options->render.scene);
+  option_of(command, "SCENE").required();
+  add_method_options(command, options->render.method);
+  when_chosen(command, [options, &command, &run] {
+    settle_quality(command, options->render.method);
+    const bool quality = options->render.method.quality.has_value();
+    options->shadows_given = was_given(command, "--shadows");
+    options->antialias_given = was_given(command, "--antialias");
+    options->soft_given = quality || was_given(command, "--soft-error");
+    options->ao_given = quality || was_given(command, "--ao-error");
+    options->render.config = config_file_of(command);
+    run = [options] { return trade(*options); };
+  });
+}
+
+}  // namespace tenebra::viewer

@@ -1,0 +1,49 @@
+// Settings tried on frames of a scene: how long they take and how far they are off.
+#pragma once
+
+#include <functional>
+#include <string>
+#include <vector>
+
+#include "shared/render_plan.h"
+#include "trade/trade_settings.h"
+
+namespace tenebra::viewer {
+
+/// A setting that was drawn by itself, in a renderer of its own.
+struct TradedSetting {
+  TradePoint point;           ///< ms: median over the frames; error: RMS over all of their pixels
+  double worst_error = 0;     ///< of the frame that is off most, RMS, levels of 255
+  double first_frame_ms = 0;  ///< of a renderer that has drawn none
+  double peak_mb =
+      0;  ///< memory of the program while it was drawn, 2^20 bytes; 0 where the system does not say
+  base::Image8 crop;  ///< of the frame in the middle
+};
+
+struct TradeResult {
+  TradeAxes axes;
+  std::vector<int> frames;              ///< that were drawn
+  std::vector<TradedSetting> measured;  ///< from the quickest, not all of them on the front
+  std::vector<std::size_t> front;       ///< of these
+  base::Image8 reference_crop;          ///< of the finest setting
+  int crop_x = 0, crop_y = 0;           ///< where the crops are, pixels
+};
+
+/// What is drawn and how often. `options` outlive the run, as does `plan`.
+struct TradeRequest {
+  const RenderPlan* plan = nullptr;
+  const RenderOptions* options = nullptr;
+  TradeAxes axes;
+  int repeats = 3;                ///< of each frame that is timed
+  std::size_t most_measured = 8;  ///< settings that are drawn by themselves
+};
+
+/// Sweeps each axis, predicts all settings from that, and measures those that promise to be worth it.
+/// `progress` gets what is done of the whole, 0..1. Fails with "stopped" soon after `stop` is requested.
+Expected<TradeResult> run_trade(const TradeRequest& request, const std::function<void(double)>& progress,
+                                const StopFlag& stop);
+
+/// RMS of the differences of all channels of two pictures of one size, levels of 255.
+double rms_difference(const base::Image8& a, const base::Image8& b);
+
+}  // namespace tenebra::viewer
