@@ -263,6 +263,8 @@ std::string phrase_of(const std::exception& error) {
 Expected<std::string> encode(const Picture& picture) {
   try {
     return encoded(picture);
+  } catch (const std::bad_alloc&) {
+    return base::fail("not enough memory");
   } catch (const std::exception& error) {
     return base::fail("{}", phrase_of(error));
   }
