@@ -496,4 +496,4 @@ class PipeTest(unittest.TestCase):
 
 if __name__ == "__main__":
     PROGRAM, SCENE = map(os.path.abspath, sys.argv[1:3])
-    unittest.main(argv=sys.argv[:1], verbosity=1)
+    unittest.main(argv=sys.argv[:1], verbosity=2)

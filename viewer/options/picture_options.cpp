@@ -65,9 +65,9 @@ constexpr auto parse_word = +[](const std::string& text) { return parse_choice(c
 void add_picture_options(CLI::App& command, PictureOptions& options) {
   options.files = OutputPattern::parse_picture("out/%04d.png").value();
   add_value(command, "-o,--output", options.files, parse_pictures,
-            "Names of the pictures, %04d or #### is the frame; .exr: OpenEXR with\nlinear colours; -: down "
+            "Names of the pictures; %04d or #### is the frame. .exr:\nOpenEXR with linear colours; -: down "
             "standard "
-            "output, to a pipe; none: no\npictures [out/%04d.png]")
+            "output, to\na pipe; none: no pictures [out/%04d.png]")
       .type_name("FILE.png|FILE.exr|-");
   add_value(command, "--aov", options.aovs, parse_aovs,
             "What OpenEXR pictures hold beside the colours: depth, id,\nnormal, visibility, irradiance, ao, "
