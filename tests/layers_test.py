@@ -12,6 +12,7 @@ import sys
 MAY_INCLUDE = {
     "base": set(),
     "math": {"base"},
+    "exr": {"base"},
     "parallel": {"base"},
     "simd": {"base"},
     "scene": {"base", "math"},
@@ -52,6 +53,7 @@ CONTAINED = [
     (r"\bmeshopt_|meshoptimizer\.h", "meshoptimizer", {"formats/gltf/meshopt.cpp"}),
     (r"\bdraco::|<draco/", "Draco", {"formats/gltf/draco_decoder.cpp"}),
     (r"\bstbi_|stb/stb_image", "stb_image", {"base/image.cpp"}),
+    (r"\bImf\b|\bImath\b|Imf\w*\.h|Imath\w*\.h", "OpenEXR", {"exr/exr_file.cpp"}),
     (r"libdeflate", "libdeflate", {"base/png_writer.cpp", "base/png_structure.cpp"}),
     (r"\bWebP[A-Z]|webp/", "libwebp", {"formats/images/webp.cpp"}),
     (r"\bImGui|GLFW", "the window", set()),

@@ -12,7 +12,7 @@ packages=(
   libegl-dev libopengl-dev libegl1 libegl-mesa0 libgl1-mesa-dri
   libglm-dev libfmt-dev libexpected-dev libtinygltf-dev libtinyobjloader-dev
   nlohmann-json3-dev libcli11-dev libstb-dev libtbb-dev libhwy-dev
-  libzstd-dev libdeflate-dev libxxhash-dev libgmp-dev
+  libzstd-dev libdeflate-dev libxxhash-dev libgmp-dev libopenexr-dev
   libglfw3-dev libimgui-dev
 )
 where_known=()  # taken where this release has them

@@ -46,6 +46,9 @@ Expected<ImageSize> stated_size(std::string_view bytes);
 /// with a phrase: refuse what stated_size finds too large first.
 Expected<Image8> decode_rgba(std::string_view bytes);
 
+/// Reads a PFM (1 or 3 channels, any byte order; the size of its scale counts for nothing). Refuses what is
+/// none, what has not the bytes that its header states, and more than 2^26 pixels.
+Expected<ImageF> read_pfm(const std::filesystem::path& path);
 /// Writes a 32-bit little-endian PFM (1 or 3 channels), whole or not at all.
 Expected<void> write_pfm(const std::filesystem::path& path, const ImageF& image);
 

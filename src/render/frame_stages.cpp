@@ -1,4 +1,6 @@
 // The stages of a frame: ids, points, ambient occlusion, lights, colours.
+#include <cstring>
+
 #include "base/fail.h"
 #include "base/stopwatch.h"
 #include "parallel/parallel.h"
@@ -168,11 +170,16 @@ Expected<void> Renderer::State::trace_lights(const FrameInput& input, const std:
 /// The colours behind the picture.
 void Renderer::State::keep_linear(const RenderSettings& settings, FrameResult& result) const {
   result.linear = {};
+  result.linear_mean = {};
   result.seen.clear();
+  const auto all = [&] {
+    base::ImageF linear{seen.width, seen.height, 3, std::vector<float>(3 * colors.size())};
+    std::memcpy(linear.pixels.data(), colors.data(), sizeof(float) * linear.pixels.size());
+    return linear;
+  };
+  if (settings.linear_mean) result.linear_mean = all();
   if (!settings.linear) return;
-  result.linear = {seen.width, seen.height, 3, {}};
-  for (const glm::vec3& color : colors)
-    for (int c = 0; c < 3; ++c) result.linear.pixels.push_back(color[c]);
+  result.linear = all();
   for (const std::uint32_t id : seen.ids) result.seen.push_back(id != no_triangle ? 1 : 0);
 }
 
@@ -200,11 +207,12 @@ Expected<void> Renderer::State::shade_pixels(const FrameInput& input, const std:
                                  environment ? &*environment : nullptr};
   shade::PixelSamples pixels{seen.width, seen.height, seen.ids, factors, {}};
   if (settings.ao.mode != AoMode::none) pixels.openness = openness;
-  if (settings.antialias == 1 && !settings.linear) colors.clear();
+  if (!needs_colors(settings)) colors.clear();
   with_threads(settings.threads, [&] {
     shade::shade_picture(subject, lighting, pixels, display_of(settings), result.image,
-                         settings.antialias > 1 || settings.linear ? &colors : nullptr);
+                         needs_colors(settings) ? &colors : nullptr);
   });
+  fill_aovs(input, lights, settings, factors, result);
   if (auto drawn = draw_see_through(input, lights, subject, lighting, pixels, settings, result, stop); !drawn)
     return drawn;
   keep_linear(settings, result);

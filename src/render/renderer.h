@@ -18,6 +18,7 @@
 #include <tenebra/tint.h>
 #include "base/image.h"
 #include "render/antialias/antialias_stats.h"
+#include "render/aovs.h"
 #include "render/frame_raster.h"
 #include "shade/display.h"
 
@@ -80,6 +81,8 @@ struct RenderSettings {
   bool mask_means = false;            ///< fill LightMask::mean
   bool sample_masks = false;          ///< fill LightMask::samples
   bool linear = false;                ///< fill FrameResult::linear and seen; the picture is the same
+  bool linear_mean = false;           ///< fill FrameResult::linear_mean; the picture is the same
+  AovChoice aovs;                     ///< what of FrameResult::aovs is filled; the picture is the same
 };
 
 /// Whether the points that shadows and occlusion start from are lifted.
@@ -116,8 +119,10 @@ struct LightMethod {
 };
 
 struct FrameResult {
-  base::Image8 image;   ///< RGB, encoded as Scene::transfer says; the mean of what the samples show
-  base::ImageF linear;  ///< RenderSettings::linear: RGB of the pixels' centres before exposure and tone
+  base::Image8 image;        ///< RGB, encoded as Scene::transfer says; the mean of what the samples show
+  base::ImageF linear;       ///< RenderSettings::linear: RGB of the pixels' centres before exposure and tone
+  base::ImageF linear_mean;  ///< RenderSettings::linear_mean: the same, but the mean over a pixel's samples
+  Aovs aovs;
   std::vector<std::uint8_t> seen;  ///< RenderSettings::linear: 1 where a pixel sees a triangle
   std::vector<LightMask> masks;    ///< one per light drawn, of those with an intensity; empty without shadows
   std::vector<LightMethod> methods;  ///< of the lights that had hard shadows

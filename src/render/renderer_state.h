@@ -128,6 +128,18 @@ struct Renderer::State {
   /// The same of both sides where the light shines in every direction, with the weights of that.
   Expected<void> trace_area(const AreaTask& task, const DrawnLight& light, AreaSide& out);
   void keep_linear(const RenderSettings& settings, FrameResult& result) const;
+  /// What settings.aovs asks for (aov_stages.cpp); `factors`: what is left of each light at the centres.
+  void fill_aovs(const FrameInput& input, const std::vector<DrawnLight>& lights,
+                 const RenderSettings& settings, std::span<const shade::LightFactors> factors,
+                 FrameResult& result);
+  void find_surfaces_seen(const FrameInput& input, const AovChoice& wanted, Aovs& out) const;
+  base::ImageF irradiance_seen(const shade::Subject& subject, const std::vector<DrawnLight>& lights,
+                               const shade::PixelSamples& pixels) const;
+  base::ImageF albedo_seen(const FrameInput& input, const shade::PixelSamples& pixels);
+  /// Whether further samples, or who asked for them, need the linear colours of the centres.
+  static bool needs_colors(const RenderSettings& settings) {
+    return settings.antialias > 1 || settings.linear || settings.linear_mean;
+  }
   /// The nearest see-through surfaces, shaded like any, over the picture.
   Expected<void> draw_see_through(const FrameInput& input, const std::vector<DrawnLight>& lights,
                                   const shade::Subject& subject, const shade::Lighting& lighting,

@@ -196,6 +196,10 @@ TEST(Pfm, ReadsBackBitForBitBottomRowFirst) {
       const char* stored = bytes.data() + begin + (height - 1 - y) * row;
       EXPECT_EQ(std::memcmp(stored, image.pixels.data() + y * width * channels, row), 0) << "row " << y;
     }
+    const auto read = base::read_pfm(folder / "a.pfm");
+    ASSERT_TRUE(read) << read.error().message;
+    EXPECT_EQ(read->width, image.width);
+    EXPECT_EQ(std::memcmp(read->pixels.data(), image.pixels.data(), image.pixels.size() * sizeof(float)), 0);
   }
 }
 
@@ -229,6 +233,14 @@ TEST(Hdr, RefusesWhatIsNoneAndWhatIsTooLarge) {
     ASSERT_FALSE(image) << name;
     EXPECT_NE(image.error().message.find(name), std::string::npos) << image.error().message;
   }
+}
+
+TEST(Pfm, ReadsBigEndianFloats) {
+  const TemporaryFolder folder;
+  write_text(folder / "a.pfm", "Pf\n2 1\n1.0\n" + big_endian(0x3f800000) + big_endian(0xc0200000));
+  const auto image = base::read_pfm(folder / "a.pfm");
+  ASSERT_TRUE(image) << image.error().message;
+  EXPECT_EQ(image->pixels, (std::vector<float>{1.0f, -2.5f}));
 }
 
 TEST(Pfm, RefusesToWriteWhatIsNoPicture) {

@@ -1,4 +1,4 @@
-// Pictures from bytes: PNG and JPEG as textures, PNG as `tenebra compare` reads it, Radiance.
+// Pictures from bytes: PNG and JPEG as textures, PNG and PFM as `tenebra compare` reads them, Radiance.
 #include "base/image.h"
 #include "fuzz/input_file.h"
 
@@ -8,6 +8,10 @@ extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* bytes, std::size_t siz
   const std::string_view text(reinterpret_cast<const char*>(bytes), size);
   constexpr std::uint64_t most_pixels = 1 << 20;  // what is larger takes time and finds nothing more
   const auto path = input.write(bytes, size);
+  if (text.starts_with("P")) {
+    (void)base::read_pfm(path);
+    return 0;
+  }
   if (!text.starts_with("#?")) {
     const auto stated = base::stated_size(text);
     if (!stated || stated->width * stated->height > most_pixels) return 0;

@@ -20,7 +20,7 @@ Expected<render::LogPast> past_of(const base::Journal& file) {
 }  // namespace
 
 std::optional<std::filesystem::path> DoneList::path_of(const RenderOptions& options) {
-  std::optional<OutputPattern> first = options.pictures;
+  std::optional<OutputPattern> first = options.pictures.files;
   for (const auto* patterns :
        {&options.masks, &options.mask_colours, &options.mask_means, &options.mask_samples})
     if (!first && !patterns->empty()) first = patterns->front();

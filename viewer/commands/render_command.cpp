@@ -5,7 +5,9 @@
 #include <memory>
 #include <optional>
 
+#include "base/fail.h"
 #include "base/output_file.h"
+#include "base/stream_writer.h"
 #include "commands/command.h"
 #include "commands/render_identity.h"
 #include "commands/render_log.h"
@@ -34,7 +36,7 @@ Expected<void> prepare_folders(const RenderOptions& options) {
   std::vector<OutputPattern> patterns = options.masks;
   for (const auto* more : {&options.mask_colours, &options.mask_means, &options.mask_samples})
     patterns.insert(patterns.end(), more->begin(), more->end());
-  if (options.pictures) patterns.push_back(*options.pictures);
+  if (options.pictures.files) patterns.push_back(*options.pictures.files);
   for (const OutputPattern& pattern : patterns) {
     if (auto prepared = pattern.prepare_folder(); !prepared) return prepared;
     base::remove_stale_temporaries(pattern.file(0).parent_path());
@@ -48,9 +50,10 @@ Expected<void> prepare_folders(const RenderOptions& options) {
 /// computed, at most `most_waiting` frames behind.
 class FrameLoop {
 public:
-  FrameLoop(const RenderPlan& plan, const RenderOptions& options) : plan_(plan), options_(options) {}
+  FrameLoop(const RenderPlan& plan, const RenderOptions& options, StopSignals& stop)
+      : plan_(plan), options_(options), stop_(stop), output_(plan, options, stop.flag()) {}
 
-  Expected<void> run(StopSignals& stop) {
+  Expected<void> run() {
     auto raster = render::FrameRaster::create(options_.raster);
     if (!raster) return tl::unexpected(raster.error());
     render::Renderer renderer = render::Renderer::create(std::move(*raster), plan_.scene);
@@ -69,14 +72,15 @@ public:
     parallel::JobQueue files(most_waiting);
     Progress progress(static_cast<int>(frames_.size()), options_.quiet);
     for (const PlannedFrame& frame : frames_) {
-      const auto drawn = draw(renderer, frame, progress, stop.flag(), files);
-      if (!drawn && drawn.error().message == "stopped") break;
+      const auto drawn = draw(renderer, frame, progress, files);
+      if (is_stop(drawn)) break;
       if (!drawn) return drawn;
       progress.show(static_cast<int>(records_.size()));
-      if (stop.exit_code() != 0) break;
+      if (stop_.exit_code() != 0) break;
     }
     auto written = files.finish();
-    if (written) written = output_.finish();
+    if (is_stop(written)) failed_to_write_ = false;  // a pipe that nobody reads
+    if (written || is_stop(written)) written = output_.finish();
     failed_to_write_ = !written;
     return written;
   }
@@ -86,6 +90,7 @@ public:
 
   /// Of the frames that were drawn.
   std::span<const render::FrameRecord> records() const { return records_; }
+  std::size_t written() const { return output_.frames_written(); }
   /// The frames that were to be drawn.
   std::size_t frames() const { return frames_.size(); }
 
@@ -93,8 +98,10 @@ private:
   // Results that are still written, the one that is computed and the one that waits for room.
   static constexpr std::size_t most_waiting = 2, results = most_waiting + 2;
 
+  static bool is_stop(const Expected<void>& done) { return !done && done.error().message == "stopped"; }
+
   Expected<void> draw(render::Renderer& renderer, const PlannedFrame& planned, Progress& progress,
-                      const StopFlag& stop, parallel::JobQueue& files) {
+                      parallel::JobQueue& files) {
     const auto begin = Clock::now();
     render::FrameResult& result = results_[records_.size() % results];
     evaluate_frame(plan_.scene, plan_.clip, planned.time_s, input_.geometry);
@@ -103,7 +110,8 @@ private:
     input_.view = view_of(plan_, options_.scene, planned.time_s, plan_.size);
     const double evaluate_ms = milliseconds(Clock::now() - begin);
     const auto on_progress = [&](std::string_view what, double done) { progress.show_building(what, done); };
-    if (auto drawn = renderer.render_frame(input_, plan_.settings, result, on_progress, &stop); !drawn)
+    if (auto drawn = renderer.render_frame(input_, plan_.settings, result, on_progress, &stop_.flag());
+        !drawn)
       return drawn;
     if (!options_.quiet) progress.print_notes(result.notes);
 
@@ -122,7 +130,8 @@ private:
   const RenderPlan& plan_;
   const RenderOptions& options_;
   const Clock::time_point begin_ = Clock::now();
-  RenderOutput output_{plan_, options_};
+  StopSignals& stop_;
+  RenderOutput output_;
   std::vector<PlannedFrame> frames_;
   render::FrameInput input_;
   std::array<render::FrameResult, results> results_;
@@ -130,24 +139,36 @@ private:
   bool failed_to_write_ = false;
 };
 
+/// Standard output is for messages, unless pictures go there.
+std::FILE* messages_of(const RenderOptions& options) {
+  return options.pictures.to_pipe ? stderr : stdout;
+}
+
 void print_summary(const RenderPlan& plan, const RenderOptions& options,
                    std::span<const render::FrameRecord> records, std::size_t done_before) {
-  print_out("{}", summary_table(records));
-  print_out("{} of {} frames, {}x{} pixels", records.size(), plan.frames.size(), plan.settings.width,
-            plan.settings.height);
-  if (done_before > 0) print_out(", {} were done before", done_before);
-  if (options.pictures) print_out(", pictures in {}", options.pictures->text());
-  for (const OutputPattern& mask : options.masks) print_out(", masks in {}", mask.text());
-  for (const OutputPattern& mask : options.mask_colours) print_out(", coloured masks in {}", mask.text());
-  for (const OutputPattern& mask : options.mask_means) print_out(", means of masks in {}", mask.text());
-  for (const OutputPattern& mask : options.mask_samples) print_out(", masks of samples in {}", mask.text());
-  if (!options.log.empty()) print_out(", log in {}", options.log);
-  if (!options.trace.empty()) print_out(", trace in {}", options.trace);
-  print_out("\n");
+  std::FILE* const stream = messages_of(options);
+  write_text(stream, summary_table(records));
+  std::string text = fmt::format("{} of {} frames, {}x{} pixels", records.size(), plan.frames.size(),
+                                 plan.settings.width, plan.settings.height);
+  if (done_before > 0) text += fmt::format(", {} were done before", done_before);
+  if (options.pictures.files) text += fmt::format(", pictures in {}", options.pictures.files->text());
+  for (const OutputPattern& mask : options.masks) text += fmt::format(", masks in {}", mask.text());
+  for (const OutputPattern& mask : options.mask_colours)
+    text += fmt::format(", coloured masks in {}", mask.text());
+  for (const OutputPattern& mask : options.mask_means)
+    text += fmt::format(", means of masks in {}", mask.text());
+  for (const OutputPattern& mask : options.mask_samples)
+    text += fmt::format(", masks of samples in {}", mask.text());
+  if (!options.log.empty()) text += fmt::format(", log in {}", options.log);
+  if (!options.trace.empty()) text += fmt::format(", trace in {}", options.trace);
+  write_text(stream, text + "\n");
 }
 
 Expected<int> render(const RenderOptions& options) {
   if (auto checked = check_render_options(options); !checked) return tl::unexpected(checked.error());
+  if (options.pictures.to_pipe && base::stdout_is_terminal())
+    return base::fail(
+        "-o - writes pictures to standard output, which is a terminal; expected a pipe or a file");
   StopSignals stop(options.timeout_s, StopSignals::Start::at_once);
   const auto plan = plan_render(options);
   if (!plan) return tl::unexpected(plan.error());
@@ -161,23 +182,25 @@ Expected<int> render(const RenderOptions& options) {
   if (auto apart = check_files_apart(inputs, files_of_render(*plan, options)); !apart)
     return tl::unexpected(apart.error());
   if (plan->frames.empty()) {
-    if (!options.quiet) print_out("no frames in chunk {}/{}\n", options.chunk.index, options.chunk.count);
+    if (!options.quiet)
+      write_text(messages_of(options),
+                 fmt::format("no frames in chunk {}/{}\n", options.chunk.index, options.chunk.count));
     return 0;
   }
 
   stop.be_orderly();
-  FrameLoop loop(*plan, options);
-  if (auto done = loop.run(stop); !done) {
+  FrameLoop loop(*plan, options, stop);
+  if (auto done = loop.run(); !done) {
     if (!loop.failed_to_write()) return tl::unexpected(done.error());
     print_failure(done.error().message);
     return exit_codes::outputs_failed;
   }
-  const std::size_t drawn = loop.records().size();
-  if (!options.quiet) print_summary(*plan, options, loop.records(), plan->frames.size() - loop.frames());
-  const bool stopped = drawn < loop.frames();
-  if (!stopped) return 0;
+  if (!options.quiet)
+    print_summary(*plan, options, loop.records().first(loop.written()), plan->frames.size() - loop.frames());
+  const std::size_t written = loop.written();
+  if (written == loop.frames()) return 0;
   const int code = stop.exit_code();
-  print_error("tenebra: stopped after {} of {} frames{}\n", drawn, loop.frames(),
+  print_error("tenebra: stopped after {} of {} frames{}\n", written, loop.frames(),
               code == exit_codes::timed_out ? ", as the time of --timeout is up" : "");
   return code;
 }

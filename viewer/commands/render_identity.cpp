@@ -29,9 +29,7 @@ constexpr std::array<std::string_view, 13> without_effect{"machine",
 
 /// Without folders: they may be named in several ways.
 std::string outputs_text(const RenderOptions& options) {
-  std::string text = options.pictures
-                         ? "-o " + std::filesystem::path(options.pictures->text()).filename().string()
-                         : "no pictures";
+  std::string text = pictures_text(options.pictures);
   const auto add = [&](const char* name, const std::vector<OutputPattern>& patterns) {
     for (const OutputPattern& pattern : patterns)
       text += fmt::format(", {} {}", name, std::filesystem::path(pattern.text()).filename().string());

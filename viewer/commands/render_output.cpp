@@ -8,6 +8,9 @@
 
 #include "base/fail.h"
 #include "base/file_hash.h"
+#include "base/output_file.h"
+#include "base/stream_writer.h"
+#include "commands/exr_output.h"
 #include "commands/render_identity.h"
 #include "render/mask_colour.h"
 #include "shared/render_files.h"
@@ -41,11 +44,11 @@ std::vector<render::LogSetting> changes(const render::LogPast& past,
 Expected<void> RenderOutput::open(std::vector<render::LogSetting> settings) {
   for (render::LogSetting& setting : settings)  // as they are read again
     setting = {render::on_one_line(setting.name), render::on_one_line(setting.value)};
-  const std::vector<render::LogSetting> identity = identity_of(settings);
-  settings.push_back({"settings_hash", base::text_hash(render::log_head(identity, ""))});
-  if (auto opened = open_done_list(identity); !opened) return opened;
+  identity_ = identity_of(settings);
+  settings.push_back({"settings_hash", base::text_hash(render::log_head(identity_, ""))});
+  if (auto opened = open_done_list(identity_); !opened) return opened;
   if (!options_.log.empty())
-    if (auto opened = open_log(settings, identity); !opened) return opened;
+    if (auto opened = open_log(settings, identity_); !opened) return opened;
   std::ranges::sort(done_before_);
   if (goes_on_ && !frames_left().empty())
     if (auto noted = log_->comment({"resumed", fmt::format("with frame {}", frames_left().front().frame)});
@@ -107,10 +110,11 @@ std::vector<PlannedFrame> RenderOutput::frames_left() const {
 
 Expected<void> RenderOutput::write(const render::FrameRecord& record, double begin_ms,
                                    const render::FrameResult& result) {
-  if (auto written = write_pictures(record.frame, result); !written) return written;
+  if (auto written = write_pictures({record.frame, record.time_s}, result); !written) return written;
   if (auto added = add_row(record, result.notes); !added) return added;
   if (trace_)
     if (auto added = trace_->add(record, begin_ms); !added) return added;
+  ++frames_written_;
   return done_ ? done_->add(record.frame) : Expected<void>();
 }
 
@@ -123,10 +127,27 @@ Expected<void> RenderOutput::add_row(const render::FrameRecord& record,
 }
 
 /// Those that are looked for to see whether a frame is there come last: the first light's mask, the picture.
-Expected<void> RenderOutput::write_pictures(int frame, const render::FrameResult& result) const {
+Expected<void> RenderOutput::write_pictures(const PlannedFrame& frame,
+                                            const render::FrameResult& result) const {
   for (const render::LightMask& mask : std::views::reverse(result.masks))
-    if (auto written = write_masks(frame, mask); !written) return written;
-  return options_.pictures ? base::write_png(options_.pictures->file(frame), result.image) : Expected<void>();
+    if (auto written = write_masks(frame.frame, mask); !written) return written;
+  if (options_.pictures.to_pipe) return write_to_pipe(result.image);
+  if (!options_.pictures.files) return {};
+  const fs::path file = options_.pictures.files->file(frame.frame);
+  if (!options_.pictures.are_exr()) return base::write_png(file, result.image);
+  const auto bytes = exr_of_frame(plan_, options_, identity_, frame, result);
+  if (!bytes) return base::fail("cannot write {}: {}", file.string(), bytes.error().message);
+  return base::write_file(file, *bytes);
+}
+
+Expected<void> RenderOutput::write_to_pipe(const base::Image8& image) const {
+  if (options_.pictures.pipe_format == PipeFormat::rgb24) {
+    const auto* const rows = reinterpret_cast<const char*>(image.pixels.data());
+    return base::write_to_stdout({rows, image.pixels.size()}, &stop_);
+  }
+  const auto bytes = base::encode_png(image);
+  if (!bytes) return base::fail("cannot write standard output: {}", bytes.error().message);
+  return base::write_to_stdout(*bytes, &stop_);
 }
 
 Expected<void> RenderOutput::write_masks(int frame, const render::LightMask& mask) const {

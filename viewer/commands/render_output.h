@@ -6,6 +6,7 @@
 #include <string>
 #include <vector>
 
+#include <tenebra/stop_flag.h>
 #include "commands/done_list.h"
 #include "render/log/trace_json.h"
 #include "shared/render_plan.h"
@@ -14,8 +15,10 @@ namespace tenebra::viewer {
 
 class RenderOutput {
 public:
-  /// Both must live as long.
-  RenderOutput(const RenderPlan& plan, const RenderOptions& options) : plan_(plan), options_(options) {}
+  /// All must live as long.
+  /// With `stop` requested a pipe that nobody reads is given up: `write` then fails with "stopped".
+  RenderOutput(const RenderPlan& plan, const RenderOptions& options, const StopFlag& stop)
+      : plan_(plan), options_(options), stop_(stop) {}
 
   /// Opens what grows with the frames; `settings` stand above the log. With --resume it fails if a setting
   /// that pictures follow from is another one than before.
@@ -27,19 +30,25 @@ public:
   /// frame began, since the start of the run.
   Expected<void> write(const render::FrameRecord& record, double begin_ms, const render::FrameResult& result);
   Expected<void> finish();
+  /// Frames whose files are there. To be asked where no other thread writes.
+  std::size_t frames_written() const { return frames_written_; }
 
 private:
   Expected<void> open_done_list(std::span<const render::LogSetting> identity);
   Expected<void> open_log(std::span<const render::LogSetting> settings,
                           std::span<const render::LogSetting> identity);
   bool has_files(int frame) const;
-  Expected<void> write_pictures(int frame, const render::FrameResult& result) const;
+  Expected<void> write_pictures(const PlannedFrame& frame, const render::FrameResult& result) const;
+  Expected<void> write_to_pipe(const base::Image8& image) const;
   Expected<void> write_masks(int frame, const render::LightMask& mask) const;
   Expected<void> write_sample_masks(int frame, const std::string& light, const render::LightMask& mask) const;
   Expected<void> add_row(const render::FrameRecord& record, const std::vector<std::string>& notes);
 
   const RenderPlan& plan_;
   const RenderOptions& options_;
+  const StopFlag& stop_;
+  std::vector<render::LogSetting> identity_;  ///< what pictures follow from
+  std::size_t frames_written_ = 0;
   std::optional<render::FrameLog> log_;
   std::optional<render::FrameTrace> trace_;
   std::optional<DoneList> done_;

@@ -1,5 +1,7 @@
 #include "options/output_pattern.h"
 
+#include <algorithm>
+
 #include "base/fail.h"
 
 namespace tenebra::viewer {
@@ -11,11 +13,19 @@ bool is_digit(char c) {
   return c >= '0' && c <= '9';
 }
 
-/// Digits asked for by the conversion after the percent sign at `at`, which moves past it; -1: not a
-/// conversion.
+/// Whether a frame number stands at `at`, or a percent sign that should be one.
+bool begins_number(std::string_view text, std::size_t at) {
+  return text[at] == '%' ? !text.substr(at).starts_with("%%") : text.substr(at).starts_with("##");
+}
+
+/// Digits asked for by the conversion at `at`, which moves past it; -1: not a conversion.
 int read_conversion(std::string_view text, std::size_t& at) {
   std::size_t i = at + 1;
   int digits = 0;
+  if (text[at] == '#') {
+    at = std::min(text.find_first_not_of('#', at), text.size());
+    return static_cast<int>(at - i + 1);
+  }
   if (i + 1 < text.size() && text[i] == '0' && is_digit(text[i + 1])) {
     digits = text[i + 1] - '0';
     i += 2;
@@ -32,6 +42,18 @@ Expected<OutputPattern> OutputPattern::parse(const std::string& text) {
   return base::fail("found {}, expected a name that ends in .png, like out/%04d.png", text);
 }
 
+Expected<OutputPattern> OutputPattern::parse_picture(const std::string& text) {
+  if (text == "-") {
+    OutputPattern pipe;
+    pipe.text_ = pipe.before_ = text;
+    return pipe;
+  }
+  if (text.ends_with(".exr")) return parse_stem(text, ".exr");
+  if (text.ends_with(".png")) return parse_stem(text, ".png");
+  return base::fail("found {}, expected a name that ends in .png or .exr, like out/%04d.png, or - or none",
+                    text);
+}
+
 Expected<OutputPattern> OutputPattern::parse_mask(const std::string& text) {
   if (text.ends_with(".pfm")) return parse_stem(text, ".pfm");
   if (text.ends_with(".png")) return parse_stem(text, ".png");
@@ -45,7 +67,7 @@ Expected<OutputPattern> OutputPattern::parse_stem(const std::string& text, std::
   const std::string_view stem = std::string_view(text).substr(0, text.size() - extension.size());
   for (std::size_t at = 0; at < stem.size();) {
     std::string& part = pattern.is_numbered() ? pattern.after_ : pattern.before_;
-    if (stem[at] != '%' || stem.substr(at).starts_with("%%")) {
+    if (!begins_number(stem, at)) {
       at += stem[at] == '%' ? 1 : 0;
       part += stem[at++];
       continue;
@@ -53,7 +75,8 @@ Expected<OutputPattern> OutputPattern::parse_stem(const std::string& text, std::
     const int digits = read_conversion(stem, at);
     if (digits < 0 || pattern.is_numbered()) {
       return base::fail(
-          "found {}, expected one frame number %d or %0Nd, like out/%04d.png (%% is a percent sign)", text);
+          "found {}, expected one frame number %d, %0Nd or ####, like out/%04d.png (%% is a percent sign)",
+          text);
     }
     pattern.digits_ = digits;
   }

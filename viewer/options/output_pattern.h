@@ -9,17 +9,21 @@
 
 namespace tenebra::viewer {
 
-/// A file name with at most one frame number: %d, or %0Nd padded with zeros to N digits; %% is a percent
-/// sign.
+/// A file name with at most one frame number: %d, or %0Nd padded with zeros to N digits, or two # or more,
+/// one for each digit; %% is a percent sign.
 class OutputPattern {
 public:
   /// Refuses other conversions, two numbers, and names that do not end in .png.
   static Expected<OutputPattern> parse(const std::string& text);
+  /// The same for names that end in .png or .exr, and for "-", which is standard output.
+  static Expected<OutputPattern> parse_picture(const std::string& text);
   /// The same for names that end in .png or .pfm.
   static Expected<OutputPattern> parse_mask(const std::string& text);
 
   bool is_numbered() const { return digits_ >= 0; }
   bool is_pfm() const { return extension_ == ".pfm"; }
+  bool is_exr() const { return extension_ == ".exr"; }
+  bool is_pipe() const { return extension_.empty(); }
   const std::string& text() const { return text_; }
   /// Name for `frame`, with `suffix` before the extension.
   std::filesystem::path file(int frame, std::string_view suffix = "") const;

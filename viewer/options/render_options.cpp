@@ -20,6 +20,10 @@ constexpr const char* examples =
     "      another camera, one light\n"
     "  tenebra render scenes/court.glb --shadows soft --mask visible.png --mask visible.pfm\n"
     "      exact soft shadows of its area light, and how much of the light each pixel sees\n"
+    "  tenebra render scenes/city.glb -o shot_%04d.exr --aov depth,normal,visibility\n"
+    "      OpenEXR: linear colours, and layers for compositing (docs/exr.md)\n"
+    "  tenebra render scenes/city.glb --frames all -o - | ffmpeg -f image2pipe -framerate 30 -i - city.mp4\n"
+    "      a video; --pipe-format rgb24 for -f rawvideo -pix_fmt rgb24 -s 800x600\n"
     "  tenebra render scenes/city.glb --shadows soft --light-size 2% --ao field --frames 0:9\n"
     "      point lights turned into squares, and ambient occlusion\n"
     "\n"
@@ -40,17 +44,11 @@ constexpr const char* examples =
     "\n"
     "Exit code: 0 done; 1 failed, and would again (one sentence says why). With --resume the rest is worth "
     "another\n"
-    "try: 75 a file could not be written (a full disk), 124 the time of --timeout is up, 129, 130 or 143 "
+    "try: 75 a file could not be written (a full disk; the reader of -o - is gone), 124 the time of "
+    "--timeout is up, 129, 130 or 143 "
     "stopped "
     "by a\n"
     "signal. A second signal ends the program at once; no file is half written then either.";
-
-Expected<std::optional<OutputPattern>> parse_pictures(const std::string& text) {
-  if (text == "none") return std::optional<OutputPattern>();
-  auto pattern = OutputPattern::parse(text);
-  if (!pattern) return tl::unexpected(pattern.error());
-  return std::optional<OutputPattern>(std::move(*pattern));
-}
 
 Expected<void> read_masks(const std::vector<std::string>& names, std::vector<OutputPattern>& masks) {
   masks.clear();
@@ -63,10 +61,7 @@ Expected<void> read_masks(const std::vector<std::string>& names, std::vector<Out
 }
 
 void add_output_options(CLI::App& command, RenderOptions& options) {
-  options.pictures = OutputPattern::parse("out/%04d.png").value();
-  add_value(command, "-o,--output", options.pictures, parse_pictures,
-            "Names of the pictures, %04d is the frame; none: no\npictures [out/%04d.png]")
-      .type_name("FILE.png");
+  add_picture_options(command, options.pictures);
   add_texts(
       command, "--mask",
       [&options](const std::vector<std::string>& names) { return read_masks(names, options.masks); },
@@ -113,7 +108,8 @@ Expected<void> check_mask(const RenderOptions& options, const OutputPattern& mas
   if (auto checked = check_pattern(mask, option, several); !checked) return checked;
   if (options.method.render.shadows == render::ShadowMode::none)
     return base::fail("{} needs shadows, and --shadows none makes no mask", option);
-  if (options.pictures && mask.file(0) == options.pictures->file(0))
+  const auto& pictures = options.pictures.files;
+  if (pictures && mask.file(0) == pictures->file(0))
     return base::fail("-o and {} name the same file {}", option, mask.text());
   return {};
 }
@@ -154,6 +150,29 @@ Expected<void> check_masks(const RenderOptions& options, bool several) {
   return {};
 }
 
+/// What goes down a pipe is gone: nothing can go on with it, and nothing else may stand between.
+Expected<void> check_pipe(const RenderOptions& options) {
+  if (options.resume || options.skip_existing)
+    return base::fail("{} looks for what was written, and frames in a pipe are gone; expected files with it",
+                      options.resume ? "--resume" : "--skip-existing");
+  const auto is_stdout = [](const std::string& name) { return name == "/dev/stdout" || name == "/dev/fd/1"; };
+  for (const auto& [option, name] : {std::pair("--log", options.log), std::pair("--trace", options.trace)})
+    if (is_stdout(name)) return base::fail("-o - and {} {} are both standard output", option, name);
+  return {};
+}
+
+Expected<void> check_pictures(const RenderOptions& options, bool several) {
+  const PictureOptions& pictures = options.pictures;
+  if (auto checked = check_picture_options(pictures); !checked) return checked;
+  if (pictures.to_pipe) return check_pipe(options);
+  const render::RenderSettings& settings = options.method.render;
+  if (pictures.aovs.visibility && settings.shadows == render::ShadowMode::none)
+    return base::fail("--aov visibility needs shadows, and --shadows none finds none");
+  if (pictures.aovs.of_frame.openness && settings.ao.mode == AoMode::none)
+    return base::fail("--aov ao needs ambient occlusion; expected --ao adaptive, field or rays with it");
+  return pictures.files ? check_pattern(*pictures.files, "-o", several) : Expected<void>();
+}
+
 /// The options that say which of the frames are drawn by this run.
 void add_progress_options(CLI::App& command, RenderOptions& options) {
   add_value(command, "--chunk", options.chunk, parse_chunk,
@@ -187,6 +206,7 @@ void add_render_options(CLI::App& command, RenderOptions& options) {
 }
 
 void settle_render_options(RenderOptions& options) {
+  settle_picture_options(options.pictures);
   const bool masks = !options.masks.empty() || !options.mask_colours.empty() || !options.mask_means.empty() ||
                      !options.mask_samples.empty();
   if (masks && !options.method.terminator) options.method.terminator = render::Terminator::flat;
@@ -194,11 +214,9 @@ void settle_render_options(RenderOptions& options) {
 
 Expected<void> check_render_options(const RenderOptions& options) {
   const bool several = draws_several_frames(options);
-  if (options.pictures) {
-    if (auto checked = check_pattern(*options.pictures, "-o", several); !checked) return checked;
-  }
+  if (auto checked = check_pictures(options, several); !checked) return checked;
   if (auto checked = check_masks(options, several); !checked) return checked;
-  const bool files = options.pictures || !options.masks.empty() || !options.mask_colours.empty() ||
+  const bool files = options.pictures.files || !options.masks.empty() || !options.mask_colours.empty() ||
                      !options.mask_means.empty() || !options.mask_samples.empty();
   if (options.skip_existing && !files)
     return base::fail("--skip-existing looks for pictures and masks; expected -o or --mask");

@@ -8,6 +8,7 @@
 
 #include "options/method_options.h"
 #include "options/output_pattern.h"
+#include "options/picture_options.h"
 #include "options/scene_options.h"
 
 namespace tenebra::viewer {
@@ -18,7 +19,7 @@ struct RenderOptions {
   std::optional<FrameRange> frames;
   render::RasterChoice raster;
 
-  std::optional<OutputPattern> pictures;    ///< none: no pictures
+  PictureOptions pictures;
   std::vector<OutputPattern> masks;         ///< .png or .pfm
   std::vector<OutputPattern> mask_colours;  ///< the same, of masks times what see-through surfaces leave
   std::vector<OutputPattern> mask_means;    ///< of the samples of --antialias

@@ -4,6 +4,9 @@
 #include <array>
 #include <cmath>
 #include <cstdlib>
+#include <limits>
+
+#include "math/srgb.h"
 
 namespace tenebra::viewer {
 namespace {
@@ -33,6 +36,14 @@ int largest_difference(const Pixel& a, const Pixel& b) {
   return largest;
 }
 
+/// 0 for what is the same, infinite values and NaN included; infinite where one of two that differ is not
+/// finite.
+double distance(float a, float b) {
+  if (a == b || (std::isnan(a) && std::isnan(b))) return 0;
+  const double difference = double{a} - double{b};
+  return std::isfinite(difference) ? difference : std::numeric_limits<double>::infinity();
+}
+
 }  // namespace
 
 PictureDifference compare_pictures(const base::Image8& a, const base::Image8& b, int threshold,
@@ -53,6 +64,47 @@ PictureDifference compare_pictures(const base::Image8& a, const base::Image8& b,
     out[1] = out[2] = differs ? 0 : grey;
   }
   return result;
+}
+
+ValueDifference compare_values(const base::ImageF& a, const base::ImageF& b, double threshold,
+                               base::Image8* marked) {
+  ValueDifference result;
+  result.pixels = a.pixels.size() / 3;
+  if (marked) *marked = {a.width, a.height, 3, std::vector<std::uint8_t>(a.pixels.size())};
+  for (std::size_t i = 0; i < result.pixels; ++i) {
+    double difference = 0, shown = 0;
+    for (std::size_t c = 3 * i; c < 3 * i + 3; ++c) {
+      difference = std::max(difference, std::abs(distance(a.pixels[c], b.pixels[c])));
+      shown += math::srgb_of_linear(a.pixels[c] > 0 ? std::min(double{a.pixels[c]}, 1.0) : 0.0);
+    }
+    result.largest = std::max(result.largest, difference);
+    const bool differs = difference > threshold;
+    result.differing += differs ? 1 : 0;
+    if (!marked) continue;
+    std::uint8_t* const out = marked->pixels.data() + 3 * i;
+    out[0] = differs ? largest_value : static_cast<std::uint8_t>(largest_value * shown / 12);
+    out[1] = out[2] = differs ? 0 : out[0];
+  }
+  return result;
+}
+
+double rms_difference(const base::Image8& a, const base::Image8& b) {
+  const std::size_t count = static_cast<std::size_t>(a.width) * static_cast<std::size_t>(a.height);
+  double sum = 0;
+  for (std::size_t i = 0; i < count; ++i) {
+    const Pixel in_a = pixel_of(a, i), in_b = pixel_of(b, i);
+    for (std::size_t c = 0; c < 3; ++c) sum += (in_a[c] - in_b[c]) * (in_a[c] - in_b[c]);
+  }
+  return std::sqrt(sum / (3 * static_cast<double>(count)));
+}
+
+double rms_difference(const base::ImageF& a, const base::ImageF& b) {
+  double sum = 0;
+  for (std::size_t i = 0; i < a.pixels.size(); ++i) {
+    const double difference = distance(a.pixels[i], b.pixels[i]);
+    sum += difference * difference;
+  }
+  return std::sqrt(sum / static_cast<double>(a.pixels.size()));
 }
 
 base::Image8 absolute_difference(const base::Image8& a, const base::Image8& b, int gain) {

@@ -18,6 +18,22 @@ struct PictureDifference {
 PictureDifference compare_pictures(const base::Image8& a, const base::Image8& b, int threshold,
                                    base::Image8* marked = nullptr);
 
+/// The same of linear values, of pictures with three channels.
+struct ValueDifference {
+  std::size_t pixels = 0;
+  std::size_t differing = 0;  ///< by more than the threshold in some channel; NaN differs from all but NaN
+  double largest = 0;         ///< of any channel; infinite: a value that is not finite differs
+};
+
+/// Sizes must be equal. `marked` as above, of what a picture would show of `a`.
+ValueDifference compare_values(const base::ImageF& a, const base::ImageF& b, double threshold,
+                               base::Image8* marked = nullptr);
+
+/// Root of the mean square of the differences of red, green and blue, in levels of 255 or in values; infinite
+/// where a value that is not finite differs.
+double rms_difference(const base::Image8& a, const base::Image8& b);
+double rms_difference(const base::ImageF& a, const base::ImageF& b);
+
 /// |a - b| of each channel times `gain`, clamped to 255. Sizes and channels must be equal.
 base::Image8 absolute_difference(const base::Image8& a, const base::Image8& b, int gain);
 

@@ -15,7 +15,7 @@ std::vector<OutputName> files_of_frame(const RenderPlan& plan, const RenderOptio
           files.push_back({option, pattern.file(frame, suffix)});
         }
   };
-  if (options.pictures) files.push_back({"-o", options.pictures->file(frame)});
+  if (options.pictures.files) files.push_back({"-o", options.pictures.files->file(frame)});
   add("--mask", options.masks, 1);
   add("--mask-colour", options.mask_colours, 1);
   add("--mask-mean", options.mask_means, 1);
@@ -27,6 +27,7 @@ std::vector<OutputName> files_of_render(const RenderPlan& plan, const RenderOpti
   std::vector<OutputName> files;
   if (!options.log.empty()) files.push_back({"--log", options.log});
   if (!options.trace.empty()) files.push_back({"--trace", options.trace});
+  if (options.pictures.to_pipe) files.push_back({"-o", "/dev/stdout"});
   for (const PlannedFrame& frame : plan.frames)
     for (OutputName& file : files_of_frame(plan, options, frame.frame)) files.push_back(std::move(file));
   return files;

@@ -52,6 +52,8 @@ Expected<RenderPlan> plan_render(const RenderOptions& options) {
   plan.frames = std::move(*frames);
   plan.settings = method_settings(options.method, plan.size, plan.display);
   plan.settings.mask_means = !options.mask_means.empty();
+  plan.settings.linear_mean = options.pictures.are_exr();
+  plan.settings.aovs = options.pictures.aovs.of_frame;
   plan.settings.sample_masks = !options.mask_samples.empty();
   plan.settings.area_lights.own_size_m = edited_sizes_m(options.scene.edits.lights);
   plan.scene.lights = lights_of(plan.scene, options.scene.edits);

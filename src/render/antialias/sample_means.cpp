@@ -36,6 +36,7 @@ SampleMeans::SampleMeans(const RenderSettings& settings, const SamplePattern& pa
       display_(display),
       mask_means_(settings.mask_means),
       sample_masks_(settings.sample_masks),
+      linear_mean_(settings.linear_mean),
       centre_colors_(colors),
       result_(result) {}
 
@@ -45,6 +46,7 @@ void SampleMeans::begin(const ChosenPixels& chosen) {
     chosen_.insert(chosen_.end(), list->begin(), list->end());
   edges_ = chosen.edges.size();
   colors_.assign(chosen_.size(), glm::vec3(0.0f));
+  linear_.assign(linear_mean_ ? chosen_.size() : 0, glm::vec3(0.0f));
   visible_.assign(mask_means_ ? result_.masks.size() : 0, std::vector<float>(edges_, 0.0f));
   for (LightMask& mask : result_.masks) {
     if (mask_means_) mask.mean = visible_fractions(mask);
@@ -53,6 +55,7 @@ void SampleMeans::begin(const ChosenPixels& chosen) {
   if (!pattern_.centre_counts) return;
   parallel::parallel_ranges(chosen_.size(), at_once, [&](std::size_t first, std::size_t last) {
     for (std::size_t i = first; i < last; ++i) colors_[i] = shown(display_, centre_colors_[chosen_[i]]);
+    for (std::size_t i = first; linear_mean_ && i < last; ++i) linear_[i] = centre_colors_[chosen_[i]];
     for (std::size_t light = 0; light < visible_.size(); ++light)
       for (std::size_t i = first; i < std::min(last, edges_); ++i)
         visible_[light][i] = visible_fraction(result_.masks[light], chosen_[i]);
@@ -71,6 +74,15 @@ void SampleMeans::add_colors(std::size_t first, const ShadingList& list,
     for (std::size_t i = begin; i < end; ++i) shown_[i] = list.shares[i] * shown(display_, shaded[i].color);
   });
   for (std::size_t i = 0; i < shaded.size(); ++i) colors_[first + list.pixels[i]] += shown_[i];
+  if (linear_mean_) add_linear(first, list, shaded);
+}
+
+void SampleMeans::add_linear(std::size_t first, const ShadingList& list,
+                             std::span<const shade::ShadedSample> shaded) {
+  for (std::size_t i = 0; i < list.centres.size(); ++i)
+    if (list.centres[i] > 0) linear_[first + i] += list.centres[i] * centre_colors_[chosen_[first + i]];
+  for (std::size_t i = 0; i < shaded.size(); ++i)
+    linear_[first + list.pixels[i]] += list.shares[i] * shaded[i].color;
 }
 
 void SampleMeans::add_masks(std::size_t first, std::size_t place, const SamplePicture& samples,
@@ -101,6 +113,9 @@ void SampleMeans::finish() {
   parallel::parallel_ranges(chosen_.size(), at_once, [&](std::size_t first, std::size_t last) {
     for (std::size_t i = first; i < last; ++i)
       encode_shown(display_, share * colors_[i], &result_.image.pixels[3 * std::size_t{chosen_[i]}]);
+    for (std::size_t i = first; linear_mean_ && i < last; ++i)
+      for (std::size_t c = 0; c < 3; ++c)
+        result_.linear_mean.pixels[3 * std::size_t{chosen_[i]} + c] = share * linear_[i][static_cast<int>(c)];
     for (std::size_t light = 0; light < visible_.size(); ++light)
       for (std::size_t i = first; i < std::min(last, edges_); ++i)
         result_.masks[light].mean.pixels[chosen_[i]] = share * visible_[light][i];

@@ -19,8 +19,9 @@
 namespace tenebra::render {
 
 /// A pixel's colour is the mean of what its samples show (each clamped by itself, so that the edge of a
-/// bright thing is smooth), before the transfer curve; its masks are means of visible fractions. All is added
-/// in one order: the bits depend on no number of threads.
+/// bright thing is smooth), before the transfer curve; its linear colour, if wanted, is the mean of theirs;
+/// its masks are means of visible fractions. All is added in one order: the bits depend on no number of
+/// threads.
 class SampleMeans {
 public:
   /// Works on `result`, which has what the pixels' centres show, linear in `colors`, and the lights' masks;
@@ -38,18 +39,20 @@ public:
   void finish();
 
 private:
+  void add_linear(std::size_t first, const ShadingList& list, std::span<const shade::ShadedSample> shaded);
   void add_masks(std::size_t first, std::size_t place, const SamplePicture& samples, const LitSamples& lit,
                  std::size_t light);
 
   const SamplePattern& pattern_;
   shade::Display display_;
-  bool mask_means_, sample_masks_;
+  bool mask_means_, sample_masks_, linear_mean_;
   std::span<const glm::vec3> centre_colors_;
   FrameResult& result_;
   std::vector<std::uint32_t> chosen_;
   std::size_t edges_ = 0;
   std::vector<glm::vec3> shown_;             // scratch
   std::vector<glm::vec3> colors_;            // sums, by chosen pixel
+  std::vector<glm::vec3> linear_;            // the same before they are shown; or empty
   std::vector<std::vector<float>> visible_;  // sums, by light and chosen pixel with an edge; or empty
 };
 

@@ -1,0 +1,19 @@
+// Bytes down a pipe, or whatever else standard output is, that whoever waits can end.
+#pragma once
+
+#include <string_view>
+
+#include <tenebra/expected.h>
+#include <tenebra/stop_flag.h>
+
+namespace tenebra::base {
+
+/// Writes all of `bytes` to standard output. Waits for the reader as long as that takes; once `stop` is
+/// requested, for a second in which it takes nothing at most, and then fails with "stopped". Other failures
+/// are sentences.
+Expected<void> write_to_stdout(std::string_view bytes, const StopFlag* stop);
+
+/// Whether a person would see the bytes.
+bool stdout_is_terminal();
+
+}  // namespace tenebra::base

@@ -1,0 +1,119 @@
+#include "options/picture_options.h"
+
+#include <array>
+#include <string_view>
+
+#include "base/fail.h"
+#include "options/choices.h"
+
+namespace tenebra::viewer {
+namespace {
+
+constexpr std::array pipe_choices{Choice<PipeFormat>{"png", PipeFormat::png},
+                                  Choice<PipeFormat>{"rgb24", PipeFormat::rgb24}};
+constexpr std::array exr_type_choices{Choice<exr::Precision>{"half", exr::Precision::half},
+                                      Choice<exr::Precision>{"float", exr::Precision::full}};
+constexpr std::array exr_compression_choices{Choice<exr::Compression>{"zip", exr::Compression::zip},
+                                             Choice<exr::Compression>{"piz", exr::Compression::piz}};
+
+struct AovName {
+  std::string_view name;
+  bool& (*wanted)(AovOptions&);
+};
+constexpr std::array aov_names{
+    AovName{"depth", [](AovOptions& o) -> bool& { return o.of_frame.depth; }},
+    AovName{"id", [](AovOptions& o) -> bool& { return o.of_frame.ids; }},
+    AovName{"normal", [](AovOptions& o) -> bool& { return o.of_frame.normal; }},
+    AovName{"visibility", [](AovOptions& o) -> bool& { return o.visibility; }},
+    AovName{"irradiance", [](AovOptions& o) -> bool& { return o.of_frame.irradiance; }},
+    AovName{"ao", [](AovOptions& o) -> bool& { return o.of_frame.openness; }},
+    AovName{"albedo", [](AovOptions& o) -> bool& { return o.of_frame.albedo; }}};
+
+Expected<std::optional<OutputPattern>> parse_pictures(const std::string& text) {
+  if (text == "none") return std::optional<OutputPattern>();
+  auto pattern = OutputPattern::parse_picture(text);
+  if (!pattern) return tl::unexpected(pattern.error());
+  return std::optional<OutputPattern>(std::move(*pattern));
+}
+
+Expected<AovOptions> parse_aovs(const std::string& text) {
+  AovOptions options;
+  std::string_view rest = text;
+  for (bool last = false; !last;) {
+    const std::size_t comma = rest.find(',');
+    const std::string word(rest.substr(0, comma));
+    last = comma == std::string_view::npos;
+    if (!last) rest.remove_prefix(comma + 1);
+    const AovName* found = nullptr;
+    for (const AovName& aov : aov_names)
+      if (is_word(word, aov.name)) found = &aov;
+    if (found == nullptr)
+      return base::fail(
+          "found {}, expected some of depth, id, normal, visibility, irradiance, ao and albedo, like "
+          "depth,id",
+          text);
+    found->wanted(options) = true;
+  }
+  return options;
+}
+
+template <const auto& choices>
+constexpr auto parse_word = +[](const std::string& text) { return parse_choice(choices, text); };
+
+}  // namespace
+
+void add_picture_options(CLI::App& command, PictureOptions& options) {
+  options.files = OutputPattern::parse_picture("out/%04d.png").value();
+  add_value(command, "-o,--output", options.files, parse_pictures,
+            "Names of the pictures; %04d or #### is the frame. .exr:\nOpenEXR with linear colours; -: down "
+            "standard "
+            "output, to\na pipe; none: no pictures [out/%04d.png]")
+      .type_name("FILE.png|FILE.exr|-");
+  add_value(command, "--aov", options.aovs, parse_aovs,
+            "What OpenEXR pictures hold beside the colours: depth, id,\nnormal, visibility, irradiance, ao, "
+            "albedo (docs/exr.md)")
+      .type_name("A,B,...");
+  add_value(command, "--exr-type", options.precision, parse_word<exr_type_choices>,
+            "Floats of 16 or 32 bits in OpenEXR; depth and ids always\nhave 32 [half]")
+      .type_name("half|float");
+  add_value(command, "--exr-compression", options.compression, parse_word<exr_compression_choices>,
+            "How OpenEXR is compressed, without loss; piz is smaller\nwhere pictures are noisy [zip]")
+      .type_name("zip|piz");
+  add_value(command, "--pipe-format", options.pipe_format, parse_word<pipe_choices>,
+            "What -o - writes: PNG files one after another, or rows of\nred, green and blue bytes [png]")
+      .type_name("png|rgb24");
+}
+
+void settle_picture_options(PictureOptions& options) {
+  if (!options.files || !options.files->is_pipe()) return;
+  options.files.reset();
+  options.to_pipe = true;
+}
+
+Expected<void> check_picture_options(const PictureOptions& options) {
+  if (options.pipe_format && !options.to_pipe)
+    return base::fail("--pipe-format is of frames in standard output; expected -o - with it");
+  if (options.are_exr()) return {};
+  const char* const option = options.aovs.any()    ? "--aov"
+                             : options.precision   ? "--exr-type"
+                             : options.compression ? "--exr-compression"
+                                                   : nullptr;
+  if (option != nullptr) return base::fail("{} is of OpenEXR pictures; expected -o FILE.exr with it", option);
+  return {};
+}
+
+std::string pictures_text(const PictureOptions& options) {
+  if (options.to_pipe)
+    return "-o - (" + choice_name(pipe_choices, options.pipe_format.value_or(PipeFormat::png)) + ")";
+  if (!options.files) return "no pictures";
+  std::string text = "-o " + std::filesystem::path(options.files->text()).filename().string();
+  if (!options.are_exr()) return text;
+  text += " (" + choice_name(exr_type_choices, options.precision.value_or(exr::Precision::half)) + ", " +
+          choice_name(exr_compression_choices, options.compression.value_or(exr::Compression::zip));
+  AovOptions aovs = options.aovs;
+  for (const AovName& aov : aov_names)
+    if (aov.wanted(aovs)) text += fmt::format(", {}", aov.name);
+  return text + ")";
+}
+
+}  // namespace tenebra::viewer

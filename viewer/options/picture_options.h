@@ -1,0 +1,49 @@
+// How a render writes its pictures: as PNG or OpenEXR files, or down a pipe.
+#pragma once
+
+#include <optional>
+#include <string>
+
+#include "exr/exr_file.h"
+#include "options/output_pattern.h"
+#include "render/aovs.h"
+#include "shell/command_line.h"
+
+namespace tenebra::viewer {
+
+/// Frames in standard output, one after another with nothing between: PNG files, or rows of red, green and
+/// blue, a byte each.
+enum class PipeFormat { png, rgb24 };
+
+/// What OpenEXR pictures hold beside the colours.
+struct AovOptions {
+  render::AovChoice of_frame;
+  bool visibility = false;  ///< of each light
+
+  bool any() const { return of_frame.any() || visibility; }
+};
+
+struct PictureOptions {
+  std::optional<OutputPattern> files;  ///< .png or .exr; none: no files
+  bool to_pipe = false;                ///< -o -
+  std::optional<PipeFormat> pipe_format;
+  AovOptions aovs;
+  std::optional<exr::Precision> precision;
+  std::optional<exr::Compression> compression;
+
+  bool are_exr() const { return files && files->is_exr(); }
+};
+
+/// Adds -o and what belongs to it; read into `options`, which must live as long.
+void add_picture_options(CLI::App& command, PictureOptions& options);
+
+/// Sets what follows from other options. To be called once all are read.
+void settle_picture_options(PictureOptions& options);
+
+/// What single options cannot check.
+Expected<void> check_picture_options(const PictureOptions& options);
+
+/// "-o %04d.exr (half, zip, depth)", without folders, which may be named in several ways.
+std::string pictures_text(const PictureOptions& options);
+
+}  // namespace tenebra::viewer

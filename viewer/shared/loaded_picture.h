@@ -1,0 +1,22 @@
+// A picture from a file of any kind that the program reads: as its file has it, and as linear light.
+#pragma once
+
+#include <filesystem>
+#include <string>
+#include <variant>
+
+#include "base/image.h"
+
+namespace tenebra::viewer {
+
+/// 8 bits as stored, or floats: one or three channels.
+using LoadedPicture = std::variant<base::Image8, base::ImageF>;
+
+/// By the name's end: .exr (of it `layer`, or the colours where that is empty), .pfm, else PNG. Fails with a
+/// sentence.
+Expected<LoadedPicture> load_picture(const std::filesystem::path& path, const std::string& layer);
+
+/// Three channels: PNG by the curve of sRGB and without its alpha, floats as they are, one channel thrice.
+base::ImageF linear_colors(const LoadedPicture& picture);
+
+}  // namespace tenebra::viewer
