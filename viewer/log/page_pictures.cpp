@@ -45,12 +45,6 @@ Expected<base::Image8> read_small(const fs::path& path) {
   return made_small(*picture, std::max(k, 1));
 }
 
-Expected<std::string> data_uri(const base::Image8& picture) {
-  const auto png = base::encode_png(picture);
-  if (!png) return tl::unexpected(png.error());
-  return "data:image/png;base64," + base64(*png);
-}
-
 Expected<PagePicture> page_picture(int frame, const OutputPattern& a, const OutputPattern* b) {
   PagePicture picture;
   picture.frame = frame;
@@ -71,6 +65,12 @@ Expected<PagePicture> page_picture(int frame, const OutputPattern& a, const Outp
 }
 
 }  // namespace
+
+Expected<std::string> data_uri(const base::Image8& picture) {
+  const auto png = base::encode_png(picture);
+  if (!png) return tl::unexpected(png.error());
+  return "data:image/png;base64," + base64(*png);
+}
 
 Expected<OutputPattern> picture_pattern(const std::string& text) {
   std::error_code error;

@@ -4,6 +4,7 @@
 #include <string>
 #include <vector>
 
+#include "base/image.h"
 #include "log/log_file.h"
 #include "options/output_pattern.h"
 
@@ -16,6 +17,9 @@ struct PagePicture {
   std::string a;
   std::string b;  ///< "" with one render
 };
+
+/// A picture as PNG, for the source of an image.
+Expected<std::string> data_uri(const base::Image8& picture);
 
 /// --pictures: a folder of pictures that are named as `render` names them (%04d.png), or a pattern.
 Expected<OutputPattern> picture_pattern(const std::string& text);

@@ -6,6 +6,7 @@
 #include <cmath>
 #include <nlohmann/json.hpp>
 
+#include "log/page_pictures.h"
 #include "log/page_text.h"
 #include "log/report_style.h"
 
@@ -22,12 +23,6 @@ constexpr const char* crop_style =
 
 bool is_on_front(const TradeResult& result, std::size_t i) {
   return std::find(result.front.begin(), result.front.end(), i) != result.front.end();
-}
-
-Expected<std::string> image_of(const base::Image8& picture) {
-  const auto png = base::encode_png(picture);
-  if (!png) return tl::unexpected(png.error());
-  return "<img alt=\"\" src=\"data:image/png;base64," + base64(*png) + "\">";
 }
 
 /// Milliseconds, on a logarithmic scale, and errors to places in the plot.
@@ -121,9 +116,10 @@ std::string table_of(const TradeHeading& heading, const TradeResult& result) {
 Expected<std::string> crops_of(const TradeResult& result) {
   std::string text = "<div class=\"crops\">\n";
   const auto add = [&](const base::Image8& crop, const std::string& caption) -> Expected<void> {
-    const auto image = image_of(crop);
+    const auto image = data_uri(crop);
     if (!image) return tl::unexpected(image.error());
-    text += fmt::format("<figure>{}<figcaption>{}</figcaption></figure>\n", *image, caption);
+    text += fmt::format("<figure><img alt=\"\" src=\"{}\"><figcaption>{}</figcaption></figure>\n", *image,
+                        caption);
     return {};
   };
   for (const std::size_t i : result.front) {

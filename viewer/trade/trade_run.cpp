@@ -8,6 +8,7 @@
 #include "base/statistics.h"
 #include "base/stopwatch.h"
 #include "options/scene_edits.h"
+#include "shared/picture_difference.h"
 #include "shared/scene_choice.h"
 
 namespace tenebra::viewer {
@@ -245,10 +246,6 @@ private:
 };
 
 }  // namespace
-
-double rms_difference(const base::Image8& a, const base::Image8& b) {
-  return a.pixels.empty() ? 0 : std::sqrt(squared_sum(a, b) / static_cast<double>(a.pixels.size()));
-}
 
 Expected<TradeResult> run_trade(const TradeRequest& request, const std::function<void(double)>& progress,
                                 const StopFlag& stop) {

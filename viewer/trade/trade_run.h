@@ -43,7 +43,4 @@ struct TradeRequest {
 Expected<TradeResult> run_trade(const TradeRequest& request, const std::function<void(double)>& progress,
                                 const StopFlag& stop);
 
-/// RMS of the differences of all channels of two pictures of one size, levels of 255.
-double rms_difference(const base::Image8& a, const base::Image8& b);
-
 }  // namespace tenebra::viewer
