@@ -3,11 +3,13 @@
 #include <stb/stb_image.h>
 
 #include <bit>
+#include <cerrno>
 #include <cstring>
 #include <fstream>
 #include <memory>
 #include <string>
 #include <string_view>
+#include <system_error>
 
 #include "base/fail.h"
 #include "base/output_file.h"
@@ -42,11 +44,14 @@ Expected<std::string> read_bytes(const std::filesystem::path& path) {
   if (error) return fail("cannot read {}: {}", path.string(), error.message());
   if (size > most_file_bytes)
     return fail("cannot read {}: its {} bytes are over the limit of 1 GiB", path.string(), size);
+  const auto reason = [] { return std::generic_category().message(errno); };
   std::ifstream stream(path, std::ios::binary);
-  if (!stream) return fail("cannot read {}: permission denied or gone", path.string());
+  if (!stream) return fail("cannot read {}: {}", path.string(), reason());
   std::string bytes(size, '\0');
+  errno = 0;
   if (!stream.read(bytes.data(), static_cast<std::streamsize>(size))) {
-    return fail("cannot read {}: found {} of {} bytes", path.string(), stream.gcount(), size);
+    return fail("cannot read {}: found {} of {} bytes{}{}", path.string(), stream.gcount(), size,
+                errno != 0 ? ", then " : "", errno != 0 ? reason() : "");
   }
   return bytes;
 }
