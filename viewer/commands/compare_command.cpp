@@ -35,7 +35,7 @@ struct CompareOptions {
 
 Expected<int> compare(const CompareOptions& options) {
   if (!options.output.empty()) {
-    if (auto apart = check_files_apart({options.a, options.b}, {{"-o", options.output}}); !apart)
+    if (auto apart = check_files_apart({options.a, options.b}, OutputName{"-o", options.output}); !apart)
       return tl::unexpected(apart.error());
   }
   const auto a = base::read_png(options.a);

@@ -38,7 +38,7 @@ Expected<int> convert(const ConvertOptions& options) {
   import.files_read = &inputs;
   const auto scene = formats::import_scene(options.input, import);
   if (!scene) return tl::unexpected(scene.error());
-  if (auto apart = check_files_apart(inputs, {{"OUT", options.output}}); !apart)
+  if (auto apart = check_files_apart(inputs, OutputName{"OUT", options.output}); !apart)
     return tl::unexpected(apart.error());
   if (!options.quiet) print_warnings(scene->warnings);
   StopSignals stop;

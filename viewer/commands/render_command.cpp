@@ -72,7 +72,7 @@ public:
       const auto drawn = draw(renderer, frame, progress, stop.flag(), files);
       if (!drawn && drawn.error().message == "stopped") break;
       if (!drawn) return drawn;
-      progress.show(static_cast<int>(records_.size()));
+      progress.show(static_cast<int>(drawn_.size()));
       if (stop.exit_code() != 0) break;
     }
     auto written = files.finish();
@@ -85,7 +85,7 @@ public:
   bool failed_to_write() const { return failed_to_write_; }
 
   /// Of the frames that were drawn.
-  std::span<const render::FrameRecord> records() const { return records_; }
+  std::span<const TimedFrame> drawn() const { return drawn_; }
   /// The frames that were to be drawn.
   std::size_t frames() const { return frames_.size(); }
 
@@ -96,7 +96,7 @@ private:
   Expected<void> draw(render::Renderer& renderer, const PlannedFrame& planned, Progress& progress,
                       const StopFlag& stop, parallel::JobQueue& files) {
     const auto begin = Clock::now();
-    render::FrameResult& result = results_[records_.size() % results];
+    render::FrameResult& result = results_[drawn_.size() % results];
     evaluate_frame(plan_.scene, plan_.clip, planned.time_s, input_.geometry);
     apply_node_edits(plan_.scene, options_.scene.edits, input_.geometry);
     input_.lights = placed_lights(plan_.scene, options_.scene.edits, plan_.clip, planned.time_s);
@@ -111,7 +111,7 @@ private:
                                result.soft,   result.ao,      result.antialias};
     record.timings.evaluate_ms = evaluate_ms;
     record.timings.total_ms = milliseconds(Clock::now() - begin);
-    records_.push_back(record);
+    drawn_.push_back({record.frame, record.timings});
     const double begin_ms = milliseconds(begin - begin_);
     auto added =
         files.add([this, record, begin_ms, &result] { return output_.write(record, begin_ms, result); });
@@ -126,14 +126,14 @@ private:
   std::vector<PlannedFrame> frames_;
   render::FrameInput input_;
   std::array<render::FrameResult, results> results_;
-  std::vector<render::FrameRecord> records_;
+  std::vector<TimedFrame> drawn_;
   bool failed_to_write_ = false;
 };
 
-void print_summary(const RenderPlan& plan, const RenderOptions& options,
-                   std::span<const render::FrameRecord> records, std::size_t done_before) {
-  print_out("{}", summary_table(records));
-  print_out("{} of {} frames, {}x{} pixels", records.size(), plan.frames.size(), plan.settings.width,
+void print_summary(const RenderPlan& plan, const RenderOptions& options, std::span<const TimedFrame> frames,
+                   std::size_t done_before) {
+  print_out("{}", summary_table(frames));
+  print_out("{} of {} frames, {}x{} pixels", frames.size(), plan.frames.size(), plan.settings.width,
             plan.settings.height);
   if (done_before > 0) print_out(", {} were done before", done_before);
   if (options.pictures) print_out(", pictures in {}", options.pictures->text());
@@ -172,8 +172,8 @@ Expected<int> render(const RenderOptions& options) {
     print_failure(done.error().message);
     return exit_codes::outputs_failed;
   }
-  const std::size_t drawn = loop.records().size();
-  if (!options.quiet) print_summary(*plan, options, loop.records(), plan->frames.size() - loop.frames());
+  const std::size_t drawn = loop.drawn().size();
+  if (!options.quiet) print_summary(*plan, options, loop.drawn(), plan->frames.size() - loop.frames());
   const bool stopped = drawn < loop.frames();
   if (!stopped) return 0;
   const int code = stop.exit_code();
