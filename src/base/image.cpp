@@ -7,6 +7,7 @@
 #include <cstring>
 #include <fstream>
 #include <memory>
+#include <new>
 #include <string>
 #include <string_view>
 #include <system_error>
@@ -64,11 +65,12 @@ const stbi_uc* as_stb(std::string_view bytes) {
   return reinterpret_cast<const stbi_uc*>(bytes.data());
 }
 
-/// Why stb_image gave up. None is stated where its own thread-local state had no memory.
+/// Why stb_image gave up. Where it was for lack of memory, throws: the picture may be whole. No reason is
+/// stated where its own thread-local state had no memory.
 std::string_view reason_of_stb() {
   const char* const stated = stbi_failure_reason();
-  const std::string_view reason = stated == nullptr ? "outofmem" : stated;
-  return reason == "outofmem" ? "not enough memory" : reason;
+  if (stated == nullptr || std::string_view(stated) == "outofmem") throw std::bad_alloc();
+  return stated;
 }
 
 }  // namespace
