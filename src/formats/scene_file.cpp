@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cerrno>
 #include <fstream>
+#include <new>
 #include <system_error>
 
 #include "formats/import_failure.h"
@@ -67,6 +68,7 @@ fs::path confine(const fs::path& folder, std::string_view uri, std::string_view 
   std::error_code error;
   const fs::path root = fs::weakly_canonical(folder.empty() ? fs::path(".") : folder, error);
   const fs::path target = error ? fs::path() : fs::weakly_canonical(root / relative, error);
+  if (error == std::errc::not_enough_memory) throw std::bad_alloc();
   if (error)
     refuse("{}: cannot resolve '{}' ({}), expected a file in the folder", place, uri, error.message());
   const auto inside = std::mismatch(root.begin(), root.end(), target.begin(), target.end());

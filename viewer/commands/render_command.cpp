@@ -11,6 +11,7 @@
 #include "commands/render_log.h"
 #include "commands/render_output.h"
 #include "options/config_file.h"
+#include "options/memory_option.h"
 #include "parallel/job_queue.h"
 #include "shared/files_apart.h"
 #include "shared/render_files.h"
@@ -18,6 +19,7 @@
 #include "shared/scene_choice.h"
 #include "shell/console.h"
 #include "shell/exit_codes.h"
+#include "shell/memory_limit.h"
 #include "shell/progress.h"
 #include "shell/stop_signals.h"
 
@@ -149,6 +151,7 @@ void print_summary(const RenderPlan& plan, const RenderOptions& options, std::sp
 Expected<int> render(const RenderOptions& options) {
   if (auto checked = check_render_options(options); !checked) return tl::unexpected(checked.error());
   StopSignals stop(options.timeout_s, StopSignals::Start::at_once);
+  if (auto limited = limit_memory(options.memory_mb); !limited) return tl::unexpected(limited.error());
   const auto plan = plan_render(options);
   if (!plan) return tl::unexpected(plan.error());
   if (!options.quiet) {
@@ -192,6 +195,7 @@ void add_render_command(CLI::App& program, Run& run) {
   when_chosen(command, [options, &command, &run] {
     settle_quality(command, options->method);
     settle_render_options(*options);
+    settle_memory(command, options->memory_mb, options->method);
     options->config = config_file_of(command);
     options->warnings = idle_method_options(command, options->method);
     run = [options] { return render(*options); };
