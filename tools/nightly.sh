@@ -8,13 +8,14 @@
 #   asan      runs all tests with the address and undefined-behaviour sanitizers
 #   tsan      runs all tests with the thread sanitizer
 #   report    opens a page of `tenebra log report` in headless Chromium
+#   faults    lets every call of the system and many allocations fail, kills renders, stops each stage
 #   fuzz      runs the fuzzers of tests/fuzz for FUZZ_MINUTES [60]
 #   all       every part, one after the other
 # Exit code: 0 if every part that was asked for is ok, 1 if one failed, 2 if the request was not understood.
 # JOBS=N: how many jobs at once [all cores].
 set -uo pipefail
 cd "$(dirname "$0")/.."
-parts=(lto-odr clang roots debug asan tsan report fuzz)
+parts=(lto-odr clang roots debug asan tsan report faults fuzz)
 jobs=${JOBS:-$(nproc)}
 
 has() {
@@ -77,6 +78,13 @@ run_report() {
   page=$("$browser" --headless --no-sandbox --dump-dom "file://$folder/report.html" 2> /dev/null)
   rm -r "$folder"
   grep -q 'class="which">frame 2<' <<< "$page" && grep -q 'aria-pressed="true"' <<< "$page"
+}
+
+run_faults() {
+  local tests=tests/faults/faults_test.py program=build/bin/tenebra library=build/tests/libtenebra_failing_calls.so
+  cmake --preset release -DTENEBRA_TESTS=ON && cmake --build build --target tenebra tenebra_failing_calls -j "$jobs" || return 1
+  python3 "$tests" calls "$program" "$library" && python3 "$tests" memory "$program" "$library" 20 &&
+    tests/resume_test.py "$program" scenes/city.glb 200 && python3 tests/stop_test.py "$program" scenes all
 }
 
 run_fuzz() { tools/fuzz.sh "${FUZZ_MINUTES:-60}"; }

@@ -67,6 +67,7 @@ public:
     settings.insert(settings.end(), sources->begin(), sources->end());
     if (auto opened = output_.open(std::move(settings)); !opened) return opened;
     frames_ = output_.frames_left();
+    stop.be_orderly();
 
     parallel::JobQueue files(most_waiting);
     Progress progress(static_cast<int>(frames_.size()), options_.quiet);
@@ -150,8 +151,8 @@ void print_summary(const RenderPlan& plan, const RenderOptions& options, std::sp
 
 Expected<int> render(const RenderOptions& options) {
   if (auto checked = check_render_options(options); !checked) return tl::unexpected(checked.error());
-  StopSignals stop(options.timeout_s, StopSignals::Start::at_once);
   if (auto limited = limit_memory(options.memory_mb); !limited) return tl::unexpected(limited.error());
+  StopSignals stop(options.timeout_s, StopSignals::Start::at_once);
   const auto plan = plan_render(options);
   if (!plan) return tl::unexpected(plan.error());
   if (!options.quiet) {
@@ -168,7 +169,6 @@ Expected<int> render(const RenderOptions& options) {
     return 0;
   }
 
-  stop.be_orderly();
   FrameLoop loop(*plan, options);
   if (auto done = loop.run(stop); !done) {
     if (!loop.failed_to_write()) return tl::unexpected(done.error());
