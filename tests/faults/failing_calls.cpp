@@ -113,8 +113,12 @@ int open_file(int folder, const char* path, int flags, mode_t mode) {
   return static_cast<int>(::syscall(SYS_openat, folder, path, flags, mode));
 }
 
+/// Whether this thread loads a library: glibc's loader crashes where that memory fails (oneTBB loads its
+/// allocator so).
+thread_local bool loading = false;
+
 bool memory_fails() {
-  if (!fails("memory", "")) return false;
+  if (loading || !fails("memory", "")) return false;
   errno = ENOMEM;
   return true;
 }
@@ -239,6 +243,15 @@ int pthread_create(pthread_t* thread, const pthread_attr_t* attributes, void* (*
   using Create = int (*)(pthread_t*, const pthread_attr_t*, void* (*)(void*), void*);
   static const auto real = next<Create>("pthread_create");
   return real(thread, attributes, body, argument);
+}
+
+void* dlopen(const char* file, int mode) {
+  static const auto real = next<void* (*)(const char*, int)>("dlopen");
+  const bool outer = loading;
+  loading = true;
+  void* const library = real(file, mode);
+  loading = outer;
+  return library;
 }
 
 void* malloc(std::size_t size) {
