@@ -1,14 +1,16 @@
 #!/bin/bash
 # Looks for input that breaks what reads files: scenes (AFF, glTF, GLB, OBJ; what can be read is written as GLB and read
-# again), pictures, files of options. Builds the fuzzers of tests/fuzz with clang's libFuzzer, address and undefined-
-# behaviour sanitizers, in build-fuzz, and runs them one after the other for MINUTES in all.
-# Usage: tools/fuzz.sh MINUTES [FUZZER...]    FUZZER: aff gltf glb obj picture exr config [all]
+# again), pictures, files of options, edits, --ao-cache; and for triangles of which the ways to find hard and soft shadows
+# and ambient occlusion say other things than each other or the oracles. Builds the fuzzers of tests/fuzz with clang's
+# libFuzzer, address and undefined-behaviour sanitizers, in build-fuzz, and runs them one after the other for MINUTES in
+# all.
+# Usage: tools/fuzz.sh MINUTES [FUZZER...]    FUZZER: aff gltf glb obj picture exr config edits cache hard soft ao [all]
 # They start from tests/fuzz/corpus and what earlier runs found, in build-fuzz/corpus. What breaks something is left in
 # build-fuzz/found, and the fuzzer's output says what happened.
 # Exit code: 0 nothing found, or no clang here; 1 something found; 2 the request was not understood.
 set -uo pipefail
 cd "$(dirname "$0")/.."
-fuzzers=(aff gltf glb obj picture exr config)
+fuzzers=(aff gltf glb obj picture exr config edits cache hard soft ao)
 
 if [[ ! ${1:-} =~ ^[0-9]+$ || $1 =~ ^0+$ ]]; then
   echo "tools/fuzz.sh: found '${1:-}', expected the minutes to run, like 10" >&2

@@ -9,13 +9,14 @@
 #   tsan      runs all tests with the thread sanitizer
 #   report    opens a page of `tenebra log report` in headless Chromium
 #   package   makes the packages, asks lintian, and draws a picture with them in a bare root; needs root as roots does
+#   faults    lets every call of the system and many allocations fail, kills renders, stops each stage
 #   fuzz      runs the fuzzers of tests/fuzz for FUZZ_MINUTES [60]
 #   all       every part, one after the other
 # Exit code: 0 if every part that was asked for is ok, 1 if one failed, 2 if the request was not understood.
 # JOBS=N: how many jobs at once [all cores].
 set -uo pipefail
 cd "$(dirname "$0")/.."
-parts=(lto-odr clang roots debug asan tsan report package fuzz)
+parts=(lto-odr clang roots debug asan tsan report package faults fuzz)
 jobs=${JOBS:-$(nproc)}
 
 has() {
@@ -89,6 +90,13 @@ run_package() {
       time (apt-get install -y -qq --no-install-recommends ./tenebra_*.deb > /dev/null && ! command -v g++ &&
         tenebra render /usr/share/tenebra/scenes/city.glb -o city.png && tenebra info /usr/share/tenebra/scenes/court.glb)' \
       debian12 && rm -r "$root"
+}
+
+run_faults() {
+  local tests=tests/faults/faults_test.py program=build/bin/tenebra library=build/tests/libtenebra_failing_calls.so
+  cmake --preset release -DTENEBRA_TESTS=ON && cmake --build build --target tenebra tenebra_failing_calls -j "$jobs" || return 1
+  python3 "$tests" calls "$program" "$library" && python3 "$tests" memory "$program" "$library" 20 &&
+    tests/resume_test.py "$program" scenes/city.glb 200 && python3 tests/stop_test.py "$program" scenes all
 }
 
 run_fuzz() { tools/fuzz.sh "${FUZZ_MINUTES:-60}"; }

@@ -6,12 +6,12 @@
 #include <csignal>
 #include <cstdio>
 #include <exception>
-#include <new>
 #include <string>
 
 #include "commands/command.h"
 #include "shell/console.h"
 #include "shell/exit_codes.h"
+#include "shell/last_words.h"
 
 namespace {
 
@@ -67,9 +67,11 @@ int parse_and_run(CLI::App& program, Run& run, int argc, char** argv) {
   try {
     const auto code = run();
     return code ? flush_output(*code) : report(code.error().message, failure_code());
-  } catch (const std::bad_alloc&) {
-    return report("not enough memory", failure_code());
   } catch (const std::exception& error) {
+    if (tenebra::viewer::is_memory_failure(error)) {
+      tenebra::viewer::print_no_memory();
+      return program.got_subcommand("compare") ? comparison_failure : tenebra::viewer::no_memory_code();
+    }
     return report(fmt::format("stopped by an unexpected failure ({})", error.what()), failure_code());
   }
 }
@@ -81,6 +83,7 @@ int main(int argc, char** argv) {
   // a file.
   std::signal(SIGPIPE, SIG_IGN);
   std::signal(SIGXFSZ, SIG_IGN);
+  tenebra::viewer::set_last_words();
   try {
     CLI::App program{about, "tenebra"};
     program.footer(first_steps);
@@ -97,6 +100,9 @@ int main(int argc, char** argv) {
     tenebra::viewer::add_trade_command(program, run);
     return parse_and_run(program, run, argc, argv);
   } catch (const std::exception& error) {
-    return report(fmt::format("cannot start ({})", error.what()), failure);
+    if (!tenebra::viewer::is_memory_failure(error))
+      return report(fmt::format("cannot start ({})", error.what()), failure);
+    tenebra::viewer::print_no_memory();
+    return tenebra::viewer::no_memory_code();
   }
 }

@@ -3,11 +3,14 @@
 #include <stb/stb_image.h>
 
 #include <bit>
+#include <cerrno>
 #include <cstring>
 #include <fstream>
 #include <memory>
+#include <new>
 #include <string>
 #include <string_view>
+#include <system_error>
 
 #include "base/fail.h"
 #include "base/output_file.h"
@@ -42,11 +45,14 @@ Expected<std::string> read_bytes(const std::filesystem::path& path) {
   if (error) return fail("cannot read {}: {}", path.string(), error.message());
   if (size > most_file_bytes)
     return fail("cannot read {}: its {} bytes are over the limit of 1 GiB", path.string(), size);
+  const auto reason = [] { return std::generic_category().message(errno); };
   std::ifstream stream(path, std::ios::binary);
-  if (!stream) return fail("cannot read {}: permission denied or gone", path.string());
+  if (!stream) return fail("cannot read {}: {}", path.string(), reason());
   std::string bytes(size, '\0');
+  errno = 0;
   if (!stream.read(bytes.data(), static_cast<std::streamsize>(size))) {
-    return fail("cannot read {}: found {} of {} bytes", path.string(), stream.gcount(), size);
+    return fail("cannot read {}: found {} of {} bytes{}{}", path.string(), stream.gcount(), size,
+                errno != 0 ? ", then " : "", errno != 0 ? reason() : "");
   }
   return bytes;
 }
@@ -59,11 +65,12 @@ const stbi_uc* as_stb(std::string_view bytes) {
   return reinterpret_cast<const stbi_uc*>(bytes.data());
 }
 
-/// Why stb_image gave up. None is stated where its own thread-local state had no memory.
+/// Why stb_image gave up. Where it was for lack of memory, throws: the picture may be whole. No reason is
+/// stated where its own thread-local state had no memory.
 std::string_view reason_of_stb() {
   const char* const stated = stbi_failure_reason();
-  const std::string_view reason = stated == nullptr ? "outofmem" : stated;
-  return reason == "outofmem" ? "not enough memory" : reason;
+  if (stated == nullptr || std::string_view(stated) == "outofmem") throw std::bad_alloc();
+  return stated;
 }
 
 }  // namespace

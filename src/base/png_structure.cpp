@@ -152,8 +152,7 @@ Expected<void> check_png_pixels(std::string_view bytes) {
   const std::unique_ptr<char[]> out(new (std::nothrow) char[most]);
   const std::unique_ptr<libdeflate_decompressor, void (*)(libdeflate_decompressor*)> decompressor(
       libdeflate_alloc_decompressor(), libdeflate_free_decompressor);
-  if (out == nullptr || decompressor == nullptr)
-    return fail("not enough memory for its {} x {} pixels", header->width, header->height);
+  if (out == nullptr || decompressor == nullptr) throw std::bad_alloc();
   std::size_t size = 0;
   switch (libdeflate_deflate_decompress(decompressor.get(), compressed.data() + zlib_header,
                                         compressed.size() - zlib_header, out.get(), most, &size)) {

@@ -13,6 +13,11 @@ struct ImportFailure : std::runtime_error {
   using std::runtime_error::runtime_error;
 };
 
+/// A file that is there and cannot be read: never a warning, as the next attempt may give another picture.
+struct UnreadableFile : ImportFailure {
+  using ImportFailure::ImportFailure;
+};
+
 /// Throws an ImportFailure: `refuse("{}: found {}, expected {}", place, found, expected);`
 template <class... Args>
 [[noreturn]] void refuse(fmt::format_string<Args...> format, Args&&... args) {

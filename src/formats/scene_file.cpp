@@ -1,7 +1,10 @@
 #include "formats/scene_file.h"
 
 #include <algorithm>
+#include <cerrno>
 #include <fstream>
+#include <new>
+#include <system_error>
 
 #include "formats/import_failure.h"
 
@@ -42,10 +45,13 @@ std::string read_scene_file(const fs::path& path, std::vector<fs::path>* files_r
   const std::uintmax_t size = fs::file_size(path, error);
   if (error) refuse("cannot tell its size ({}), expected a readable file", error.message());
   if (size > max_scene_file_bytes) refuse("found {} bytes, expected at most {}", size, max_scene_file_bytes);
-  std::ifstream stream(path, std::ios::binary);
   std::string bytes(size, '\0');
+  errno = 0;
+  std::ifstream stream(path, std::ios::binary);
   if (!stream.read(bytes.data(), static_cast<std::streamsize>(size)))
-    refuse("found an unreadable file, expected {} bytes", size);
+    throw UnreadableFile(fmt::format("found an unreadable file ({}), expected {} bytes",
+                                     errno != 0 ? std::generic_category().message(errno) : "it ends early",
+                                     size));
   if (files_read != nullptr) files_read->push_back(path);
   return bytes;
 }
@@ -62,6 +68,7 @@ fs::path confine(const fs::path& folder, std::string_view uri, std::string_view 
   std::error_code error;
   const fs::path root = fs::weakly_canonical(folder.empty() ? fs::path(".") : folder, error);
   const fs::path target = error ? fs::path() : fs::weakly_canonical(root / relative, error);
+  if (error == std::errc::not_enough_memory) throw std::bad_alloc();
   if (error)
     refuse("{}: cannot resolve '{}' ({}), expected a file in the folder", place, uri, error.message());
   const auto inside = std::mismatch(root.begin(), root.end(), target.begin(), target.end());

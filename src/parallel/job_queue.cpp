@@ -8,8 +8,6 @@
 #include <thread>
 #include <utility>
 
-#include "base/fail.h"
-
 namespace tenebra::parallel {
 
 struct JobQueue::State {
@@ -20,26 +18,16 @@ struct JobQueue::State {
   bool busy = false;
   bool ends = false;
   std::optional<Error> failure;
+  std::exception_ptr thrown;  ///< by a job, kept for the caller
   std::thread thread;
 
   void run();
+  bool failed() const { return failure || thrown; }
   Expected<void> outcome() const {
+    if (thrown) std::rethrow_exception(thrown);
     return failure ? Expected<void>(tl::unexpected(*failure)) : Expected<void>();
   }
 };
-
-namespace {
-
-/// A job that runs out of memory has failed like any other.
-Expected<void> outcome_of(const JobQueue::Job& job) {
-  try {
-    return job();
-  } catch (const std::exception& error) {
-    return base::fail("cannot go on: {}", error.what());
-  }
-}
-
-}  // namespace
 
 void JobQueue::State::run() {
   std::unique_lock lock(mutex);
@@ -49,12 +37,19 @@ void JobQueue::State::run() {
     const Job job = std::move(waiting.front());
     waiting.pop_front();
     busy = true;
-    const bool dropped = failure.has_value();
+    const bool dropped = failed();
     lock.unlock();
-    auto done = dropped ? Expected<void>() : outcome_of(job);
+    Expected<void> done;
+    std::exception_ptr caught;
+    try {
+      if (!dropped) done = job();
+    } catch (...) {
+      caught = std::current_exception();
+    }
     lock.lock();
     busy = false;
     if (!done) failure = std::move(done.error());
+    if (caught) thrown = caught;
     changed.notify_all();
   }
 }
@@ -76,8 +71,8 @@ JobQueue::~JobQueue() {
 Expected<void> JobQueue::add(Job job) {
   State& s = *state_;
   std::unique_lock lock(s.mutex);
-  s.changed.wait(lock, [&s] { return s.waiting.size() < s.most_waiting || s.failure; });
-  if (s.failure) return s.outcome();
+  s.changed.wait(lock, [&s] { return s.waiting.size() < s.most_waiting || s.failed(); });
+  if (s.failed()) return s.outcome();
   s.waiting.push_back(std::move(job));
   s.changed.notify_all();
   return {};

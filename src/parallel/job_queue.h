@@ -21,9 +21,9 @@ public:
   JobQueue(const JobQueue&) = delete;
   JobQueue& operator=(const JobQueue&) = delete;
 
-  /// Waits until there is room. Fails with what a job before failed with.
+  /// Waits until there is room. Fails with what a job before failed with, and throws what it threw.
   Expected<void> add(Job job);
-  /// Waits until all is done. Fails with what a job failed with.
+  /// Waits until all is done. Fails and throws likewise.
   Expected<void> finish();
 
 private:

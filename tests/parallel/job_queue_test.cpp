@@ -61,7 +61,7 @@ TEST(JobQueue, TheFirstFailureIsToldAndWhatFollowsIsDropped) {
 TEST(JobQueue, AJobWithoutMemoryHasFailed) {
   parallel::JobQueue queue(1);
   ASSERT_TRUE(queue.add([]() -> Expected<void> { throw std::bad_alloc(); }));
-  EXPECT_FALSE(queue.finish());
+  EXPECT_THROW(static_cast<void>(queue.finish()), std::bad_alloc);
 }
 
 TEST(JobQueue, EndsWithWhatWasAddedDone) {

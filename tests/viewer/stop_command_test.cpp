@@ -59,7 +59,7 @@ TEST(StopCommand, ASignalOrTimeoutEndsWhatBlocksInTheEnd) {
   const TemporaryFolder folder;
   ChildProgram render(blocking_render(folder, {"--timeout", "1"}));
   blocked_at(folder);
-  sleep_ms(7000);
+  sleep_ms(2500);
   const auto result = render.wait(10);
   EXPECT_EQ(result.exit_code, 124);
   EXPECT_TRUE(is_one_sentence(result.errors)) << result.errors;

@@ -115,7 +115,7 @@ std::string size_text(const LoadedPicture& picture) {
 
 Expected<int> compare(const CompareOptions& options) {
   if (!options.output.empty()) {
-    if (auto apart = check_files_apart({options.a, options.b}, {{"-o", options.output}}); !apart)
+    if (auto apart = check_files_apart({options.a, options.b}, OutputName{"-o", options.output}); !apart)
       return tl::unexpected(apart.error());
   }
   const auto a = load_picture(options.a, options.layer);

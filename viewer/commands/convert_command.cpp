@@ -1,13 +1,17 @@
 // tenebra convert: any scene file to a binary glTF file that other programs open.
+#include <limits>
 #include <memory>
 
 #include "base/fail.h"
+#include "base/output_file.h"
 #include "commands/command.h"
+#include "options/memory_option.h"
 #include "options/option_values.h"
 #include "options/scene_options.h"
 #include "shared/files_apart.h"
 #include "shared/scene_choice.h"
 #include "shell/console.h"
+#include "shell/memory_limit.h"
 #include "shell/stop_signals.h"
 
 namespace tenebra::viewer {
@@ -27,25 +31,28 @@ struct ConvertOptions {
   std::string output;
   formats::ImportOptions import;
   double fps = 30.0;
+  std::optional<int> memory_mb;
   bool quiet = false;
 };
 
 Expected<int> convert(const ConvertOptions& options) {
   if (!options.output.ends_with(".glb"))
     return base::fail("{}: expected a name that ends in .glb", options.output);
+  const StopSignals stop(std::numeric_limits<double>::infinity(), StopSignals::Start::at_once);
+  if (auto limited = limit_memory(options.memory_mb); !limited) return tl::unexpected(limited.error());
   std::vector<std::filesystem::path> inputs;
   formats::ImportOptions import = options.import;
   import.files_read = &inputs;
   const auto scene = formats::import_scene(options.input, import);
   if (!scene) return tl::unexpected(scene.error());
-  if (auto apart = check_files_apart(inputs, {{"OUT", options.output}}); !apart)
+  if (auto apart = check_files_apart(inputs, OutputName{"OUT", options.output}); !apart)
     return tl::unexpected(apart.error());
   if (!options.quiet) print_warnings(scene->warnings);
-  StopSignals stop;
+  base::remove_stale_temporaries(std::filesystem::path(options.output).parent_path());
   const auto losses = formats::export_glb(*scene, options.output, options.fps);
   if (!losses) return tl::unexpected(losses.error());
   if (!options.quiet) print_warnings(*losses);
-  return stop.caught() != 0 ? stop.exit_code() : 0;
+  return 0;
 }
 
 }  // namespace
@@ -62,6 +69,7 @@ void add_convert_command(CLI::App& program, Run& run) {
   add_value(command, "--fps", options->fps, parse_positive, "Keys per second for baked splines [30]")
       .type_name("F");
   add_texture_path(command, options->import);
+  add_memory_option(command, options->memory_mb);
   add_flag(command, "--quiet", options->quiet, "No warnings");
   when_chosen(command, [options, &run] { run = [options] { return convert(*options); }; });
 }

@@ -78,7 +78,8 @@ Expected<LogFile> read_and_note(const std::string& path) {
 }
 
 Expected<int> merge(const LogOptions& options) {
-  if (auto apart = check_files_apart({options.logs.begin(), options.logs.end()}, {{"-o", options.output}});
+  if (auto apart =
+          check_files_apart({options.logs.begin(), options.logs.end()}, OutputName{"-o", options.output});
       !apart)
     return tl::unexpected(apart.error());
   std::vector<LogFile> logs;
@@ -134,7 +135,7 @@ Expected<std::vector<PagePicture>> pictures_of(const LogOptions& options, const 
 Expected<int> report(const LogOptions& options) {
   std::vector<std::filesystem::path> inputs{options.a};
   if (!options.b.empty()) inputs.emplace_back(options.b);
-  if (auto apart = check_files_apart(inputs, {{"-o", options.output}}); !apart)
+  if (auto apart = check_files_apart(inputs, OutputName{"-o", options.output}); !apart)
     return tl::unexpected(apart.error());
   std::vector<LogFile> logs;
   for (const std::string& path : {options.a, options.b}) {

@@ -13,6 +13,7 @@
 #include "commands/render_log.h"
 #include "commands/render_output.h"
 #include "options/config_file.h"
+#include "options/memory_option.h"
 #include "parallel/job_queue.h"
 #include "shared/files_apart.h"
 #include "shared/render_files.h"
@@ -20,6 +21,7 @@
 #include "shared/scene_choice.h"
 #include "shell/console.h"
 #include "shell/exit_codes.h"
+#include "shell/memory_limit.h"
 #include "shell/progress.h"
 #include "shell/stop_signals.h"
 
@@ -68,6 +70,7 @@ public:
     settings.insert(settings.end(), sources->begin(), sources->end());
     if (auto opened = output_.open(std::move(settings)); !opened) return opened;
     frames_ = output_.frames_left();
+    stop_.be_orderly();
 
     parallel::JobQueue files(most_waiting);
     Progress progress(static_cast<int>(frames_.size()), options_.quiet);
@@ -75,7 +78,7 @@ public:
       const auto drawn = draw(renderer, frame, progress, files);
       if (is_stop(drawn)) break;
       if (!drawn) return drawn;
-      progress.show(static_cast<int>(records_.size()));
+      progress.show(static_cast<int>(drawn_.size()));
       if (stop_.exit_code() != 0) break;
     }
     auto written = files.finish();
@@ -89,7 +92,7 @@ public:
   bool failed_to_write() const { return failed_to_write_; }
 
   /// Of the frames that were drawn.
-  std::span<const render::FrameRecord> records() const { return records_; }
+  std::span<const TimedFrame> drawn() const { return drawn_; }
   std::size_t written() const { return output_.frames_written(); }
   /// The frames that were to be drawn.
   std::size_t frames() const { return frames_.size(); }
@@ -103,7 +106,7 @@ private:
   Expected<void> draw(render::Renderer& renderer, const PlannedFrame& planned, Progress& progress,
                       parallel::JobQueue& files) {
     const auto begin = Clock::now();
-    render::FrameResult& result = results_[records_.size() % results];
+    render::FrameResult& result = results_[drawn_.size() % results];
     evaluate_frame(plan_.scene, plan_.clip, planned.time_s, input_.geometry);
     apply_node_edits(plan_.scene, options_.scene.edits, input_.geometry);
     input_.lights = placed_lights(plan_.scene, options_.scene.edits, plan_.clip, planned.time_s);
@@ -119,7 +122,7 @@ private:
                                result.soft,   result.ao,      result.antialias};
     record.timings.evaluate_ms = evaluate_ms;
     record.timings.total_ms = milliseconds(Clock::now() - begin);
-    records_.push_back(record);
+    drawn_.push_back({record.frame, record.timings});
     const double begin_ms = milliseconds(begin - begin_);
     auto added =
         files.add([this, record, begin_ms, &result] { return output_.write(record, begin_ms, result); });
@@ -135,7 +138,7 @@ private:
   std::vector<PlannedFrame> frames_;
   render::FrameInput input_;
   std::array<render::FrameResult, results> results_;
-  std::vector<render::FrameRecord> records_;
+  std::vector<TimedFrame> drawn_;
   bool failed_to_write_ = false;
 };
 
@@ -144,11 +147,11 @@ std::FILE* messages_of(const RenderOptions& options) {
   return options.pictures.to_pipe ? stderr : stdout;
 }
 
-void print_summary(const RenderPlan& plan, const RenderOptions& options,
-                   std::span<const render::FrameRecord> records, std::size_t done_before) {
+void print_summary(const RenderPlan& plan, const RenderOptions& options, std::span<const TimedFrame> frames,
+                   std::size_t done_before) {
   std::FILE* const stream = messages_of(options);
-  write_text(stream, summary_table(records));
-  std::string text = fmt::format("{} of {} frames, {}x{} pixels", records.size(), plan.frames.size(),
+  write_text(stream, summary_table(frames));
+  std::string text = fmt::format("{} of {} frames, {}x{} pixels", frames.size(), plan.frames.size(),
                                  plan.settings.width, plan.settings.height);
   if (done_before > 0) text += fmt::format(", {} were done before", done_before);
   if (options.pictures.files) text += fmt::format(", pictures in {}", options.pictures.files->text());
@@ -166,6 +169,7 @@ void print_summary(const RenderPlan& plan, const RenderOptions& options,
 
 Expected<int> render(const RenderOptions& options) {
   if (auto checked = check_render_options(options); !checked) return tl::unexpected(checked.error());
+  if (auto limited = limit_memory(options.memory_mb); !limited) return tl::unexpected(limited.error());
   if (options.pictures.to_pipe && base::stdout_is_terminal())
     return base::fail(
         "-o - writes pictures to standard output, which is a terminal; expected a pipe or a file");
@@ -196,7 +200,7 @@ Expected<int> render(const RenderOptions& options) {
     return exit_codes::outputs_failed;
   }
   if (!options.quiet)
-    print_summary(*plan, options, loop.records().first(loop.written()), plan->frames.size() - loop.frames());
+    print_summary(*plan, options, loop.drawn().first(loop.written()), plan->frames.size() - loop.frames());
   const std::size_t written = loop.written();
   if (written == loop.frames()) return 0;
   const int code = stop.exit_code();
@@ -215,6 +219,7 @@ void add_render_command(CLI::App& program, Run& run) {
   when_chosen(command, [options, &command, &run] {
     settle_quality(command, options->method);
     settle_render_options(*options);
+    settle_memory(command, options->memory_mb, options->method);
     options->config = config_file_of(command);
     options->warnings = idle_method_options(command, options->method);
     run = [options] { return render(*options); };

@@ -90,14 +90,14 @@ void describe_ao(const AoConfig& ao, std::vector<render::LogSetting>& list) {
                            {"ao_memory", fmt::format("{} MB", ao.memory_mb)}});
 }
 
-std::string summary_row(std::string_view name, std::span<const render::FrameRecord> records, auto value) {
+std::string summary_row(std::string_view name, std::span<const TimedFrame> frames, auto value) {
   std::vector<double> values;
-  for (const render::FrameRecord& record : records) values.push_back(value(record.timings));
+  for (const TimedFrame& frame : frames) values.push_back(value(frame.timings));
   const base::Summary summary = base::summarize(values);
   if (summary.worst <= 0) return "";
   return fmt::format("{:<20}{:>10.2f}{:>10.2f}{:>10.2f}{:>10.2f}   {}\n", name, summary.median,
                      summary.percentile_95, summary.percentile_99, summary.worst,
-                     records[summary.worst_at].frame);
+                     frames[summary.worst_at].frame);
 }
 
 }  // namespace
@@ -164,17 +164,17 @@ std::vector<render::LogSetting> describe_render(const RenderPlan& plan, const Re
   return list;
 }
 
-std::string summary_table(std::span<const render::FrameRecord> records) {
-  if (records.empty()) return "";
+std::string summary_table(std::span<const TimedFrame> frames) {
+  if (frames.empty()) return "";
   std::string table = fmt::format("{:<20}{:>10}{:>10}{:>10}{:>10}   frame\n", "milliseconds", "median",
                                   "95 %", "99 %", "worst");
   for (const auto& stage : render::frame_stages) {
-    table += summary_row(stage.name, records, [&](const FrameTimings& t) { return t.*stage.value; });
+    table += summary_row(stage.name, frames, [&](const FrameTimings& t) { return t.*stage.value; });
   }
-  table += summary_row("shadows", records, shadow_ms);
-  table += summary_row("shadows and points", records,
+  table += summary_row("shadows", frames, shadow_ms);
+  table += summary_row("shadows and points", frames,
                        [](const FrameTimings& t) { return shadow_ms(t) + t.points_ms; });
-  table += summary_row("total", records, [](const FrameTimings& t) { return t.total_ms; });
+  table += summary_row("total", frames, [](const FrameTimings& t) { return t.total_ms; });
   return table;
 }
 

@@ -19,8 +19,14 @@ std::vector<render::LogSetting> describe_method(const render::RenderSettings& se
 std::vector<render::LogSetting> describe_render(const RenderPlan& plan, const RenderOptions& options,
                                                 const RasterNames& raster, const FrameGeometry& first_frame);
 
+/// What is kept of a frame until the end: there may be a million of them.
+struct TimedFrame {
+  int frame = 0;
+  FrameTimings timings;
+};
+
 /// Median, 95th and 99th percentile and worst frame of the stages that took time, as a table; "" without
 /// frames.
-std::string summary_table(std::span<const render::FrameRecord> records);
+std::string summary_table(std::span<const TimedFrame> frames);
 
 }  // namespace tenebra::viewer

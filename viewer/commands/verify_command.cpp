@@ -160,7 +160,7 @@ Expected<void> check_report(const VerifyOptions& options, const RenderPlan& plan
   if (options.report.empty()) return {};
   std::vector<std::filesystem::path> inputs = plan.inputs;
   if (!options.render.config.empty()) inputs.emplace_back(options.render.config);
-  return check_files_apart(inputs, {{"--report", options.report}});
+  return check_files_apart(inputs, OutputName{"--report", options.report});
 }
 
 Expected<int> verify(const VerifyOptions& options) {

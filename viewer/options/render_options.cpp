@@ -2,6 +2,7 @@
 
 #include "base/fail.h"
 #include "options/config_file.h"
+#include "options/memory_option.h"
 #include "options/raster_options.h"
 
 namespace tenebra::viewer {
@@ -44,11 +45,12 @@ constexpr const char* examples =
     "\n"
     "Exit code: 0 done; 1 failed, and would again (one sentence says why). With --resume the rest is worth "
     "another\n"
-    "try: 75 a file could not be written (a full disk; the reader of -o - is gone), 124 the time of "
-    "--timeout is up, 129, 130 or 143 "
-    "stopped "
-    "by a\n"
-    "signal. A second signal ends the program at once; no file is half written then either.";
+    "try: 75 a file could not be written (a full disk; the reader of -o - is gone) or no memory was left, "
+    "124 "
+    "the time\n"
+    "of --timeout is up, 129, 130 or 143 stopped by a signal. A second signal ends the program at once; no "
+    "file\n"
+    "is half written then either.";
 
 Expected<void> read_masks(const std::vector<std::string>& names, std::vector<OutputPattern>& masks) {
   masks.clear();
@@ -187,6 +189,7 @@ void add_progress_options(CLI::App& command, RenderOptions& options) {
   add_value(command, "--timeout", options.timeout_s, parse_positive,
             "Stop after so many seconds, as Ctrl-C does")
       .type_name("S");
+  add_memory_option(command, options.memory_mb);
 }
 
 }  // namespace

@@ -28,6 +28,7 @@ struct RenderOptions {
   std::string trace;
   std::string config;  ///< the file that options came from; empty: none
   double timeout_s = std::numeric_limits<double>::infinity();  ///< for the whole run
+  std::optional<int> memory_mb;                                ///< of the whole program
   Chunk chunk;                                                 ///< of the frames
   bool resume = false;         ///< what is done with the same settings is not done again
   bool skip_existing = false;  ///< what is there is not done again, however it was made

@@ -2,10 +2,12 @@
 
 #include <sys/stat.h>
 
+#include <algorithm>
 #include <cerrno>
 #include <map>
 #include <optional>
 #include <system_error>
+#include <utility>
 
 #include "base/fail.h"
 #include "base/output_stream.h"
@@ -50,28 +52,67 @@ private:
   std::map<fs::path, fs::path> folders_;  ///< canonical, by how outputs name them
 };
 
-}  // namespace
+/// Which of many texts come twice, in eight bytes each.
+class Repeats {
+public:
+  void add(const std::string& text) { hashes_.push_back(hash_(text)); }
+  /// To be called once all are added; true if any does.
+  bool find() {
+    std::ranges::sort(hashes_);
+    std::vector<std::size_t> twice;
+    for (std::size_t i = 1; i < hashes_.size(); ++i)
+      if (hashes_[i] == hashes_[i - 1]) twice.push_back(hashes_[i]);
+    hashes_ = std::move(twice);
+    return !hashes_.empty();
+  }
+  /// After find(): whether this one may.
+  bool may_be(const std::string& text) const { return std::ranges::binary_search(hashes_, hash_(text)); }
 
-Expected<void> check_files_apart(const std::vector<fs::path>& inputs,
-                                 const std::vector<OutputName>& outputs) {
-  FileIdentities identities;
-  std::map<std::string, OutputName> known;
+private:
+  std::hash<std::string> hash_;
+  std::vector<std::size_t> hashes_;
+};
+
+tl::unexpected<Error> refuse_pair(const OutputName& first, const OutputName& second) {
+  if (first.option.empty())
+    return base::fail("{} {} is the file {} that is read, and would overwrite it; expected another name",
+                      second.option, second.file.string(), first.file.string());
+  return base::fail("{} {} and {} {} are the same file; expected two names", first.option,
+                    first.file.string(), second.option, second.file.string());
+}
+
+/// Files that were named, by what they are.
+using KnownFiles = std::map<std::string, OutputName>;
+
+void add_inputs(const std::vector<fs::path>& inputs, FileIdentities& identities, KnownFiles& known) {
   for (const fs::path& input : inputs)
     if (const auto identity = identities.of(input)) known.try_emplace(*identity, OutputName{"", input});
-  for (const OutputName& output : outputs) {
+}
+
+}  // namespace
+
+Expected<void> check_files_apart(const std::vector<fs::path>& inputs, const OutputNames& outputs) {
+  FileIdentities identities;
+  KnownFiles known;
+  add_inputs(inputs, identities, known);
+  Repeats repeats;
+  for (const auto& [identity, name] : known) repeats.add(identity);
+  const auto look = [&](const OutputName& output) -> Expected<void> {
     if (auto checked = check_kind(output.file); !checked) return checked;
+    if (const auto identity = identities.of(output.file)) repeats.add(*identity);
+    return {};
+  };
+  if (auto looked = outputs(look); !looked || !repeats.find()) return looked;
+  return outputs([&](const OutputName& output) -> Expected<void> {
     const auto identity = identities.of(output.file);
-    if (!identity) continue;
+    if (!identity || !repeats.may_be(*identity)) return {};
     const auto [entry, is_new] = known.try_emplace(*identity, output);
-    if (is_new) continue;
-    const OutputName& other = entry->second;
-    if (other.option.empty())
-      return base::fail("{} {} is the file {} that is read, and would overwrite it; expected another name",
-                        output.option, output.file.string(), other.file.string());
-    return base::fail("{} {} and {} {} are the same file; expected two names", other.option,
-                      other.file.string(), output.option, output.file.string());
-  }
-  return {};
+    return is_new ? Expected<void>() : refuse_pair(entry->second, output);
+  });
+}
+
+Expected<void> check_files_apart(const std::vector<fs::path>& inputs, const OutputName& output) {
+  return check_files_apart(inputs, [&](const auto& use) { return use(output); });
 }
 
 }  // namespace tenebra::viewer

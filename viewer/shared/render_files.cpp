@@ -23,14 +23,19 @@ std::vector<OutputName> files_of_frame(const RenderPlan& plan, const RenderOptio
   return files;
 }
 
-std::vector<OutputName> files_of_render(const RenderPlan& plan, const RenderOptions& options) {
-  std::vector<OutputName> files;
-  if (!options.log.empty()) files.push_back({"--log", options.log});
-  if (!options.trace.empty()) files.push_back({"--trace", options.trace});
-  if (options.pictures.to_pipe) files.push_back({"-o", "/dev/stdout"});
-  for (const PlannedFrame& frame : plan.frames)
-    for (OutputName& file : files_of_frame(plan, options, frame.frame)) files.push_back(std::move(file));
-  return files;
+OutputNames files_of_render(const RenderPlan& plan, const RenderOptions& options) {
+  return [&](const std::function<Expected<void>(const OutputName&)>& use) -> Expected<void> {
+    std::vector<OutputName> files;
+    if (!options.log.empty()) files.push_back({"--log", options.log});
+    if (!options.trace.empty()) files.push_back({"--trace", options.trace});
+    if (options.pictures.to_pipe) files.push_back({"-o", "/dev/stdout"});
+    for (std::size_t i = 0; i <= plan.frames.size(); ++i) {
+      for (const OutputName& file : files)
+        if (auto used = use(file); !used) return used;
+      if (i < plan.frames.size()) files = files_of_frame(plan, options, plan.frames[i].frame);
+    }
+    return {};
+  };
 }
 
 }  // namespace tenebra::viewer

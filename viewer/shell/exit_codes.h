@@ -5,8 +5,9 @@ namespace tenebra::viewer::exit_codes {
 
 inline constexpr int failed = 1;             ///< would fail again: a wrong option, a scene that is not one
 inline constexpr int comparison_failed = 2;  ///< `tenebra compare` says with 1 that pictures differ
-inline constexpr int outputs_failed = 75;  ///< a file could not be written: try again once the disk has room
-inline constexpr int timed_out = 124;      ///< as timeout(1) has it
+/// A file could not be written, or no memory is left: try again once there is room.
+inline constexpr int outputs_failed = 75;
+inline constexpr int timed_out = 124;  ///< as timeout(1) has it
 
 /// By convention: 130 for SIGINT, 143 for SIGTERM.
 constexpr int of_signal(int signal) {

@@ -11,8 +11,8 @@
 namespace tenebra::viewer {
 namespace {
 
-/// Work that sees the flag ends within a second.
-constexpr std::chrono::seconds patience{5};
+/// So that everything ends within a second: to give back a few GB takes the system some tenths.
+constexpr std::chrono::milliseconds patience{500};
 
 /// Whatever other threads do, and without their destructors: they may be blocked.
 [[noreturn]] void end_at_once(int code) {

@@ -12,10 +12,10 @@
 namespace tenebra::viewer {
 
 /// While it lives, SIGINT, SIGTERM and SIGHUP are held back and asked for with `caught` instead of ending the
-/// program; long work is given `flag` and ends early. A second signal ends the program at once, and so do
-/// five seconds in which the first was not obeyed: work that blocks cannot see the flag. Files are then whole
-/// or absent all the same (OutputFile, Journal). Make it before other threads start: they inherit what is
-/// held back.
+/// program; long work is given `flag` and ends early. A second signal ends the program at once, and so does
+/// half a second in which the first was not obeyed: work that blocks cannot see the flag, and some does not
+/// look at it often enough. Files are then whole or absent all the same (OutputFile, Journal). Make it before
+/// other threads start: they inherit what is held back.
 class StopSignals {
 public:
   /// Where the first request counts as much as a second: nothing is written yet and nobody looks at the flag.

@@ -7,6 +7,7 @@
 #include <bit>
 #include <cstring>
 #include <memory>
+#include <new>
 #include <system_error>
 
 #include "base/fail.h"
@@ -118,6 +119,7 @@ Expected<CacheReader> CacheReader::open(const fs::path& folder, const CacheKind&
 Expected<void> CacheReader::read(std::span<const std::span<std::byte>> parts) const {
   const std::unique_ptr<ZSTD_DStream, std::size_t (*)(ZSTD_DStream*)> stream(ZSTD_createDStream(),
                                                                              ZSTD_freeDStream);
+  if (stream == nullptr) throw std::bad_alloc();
   ZSTD_inBuffer in{file_.data() + sizeof(Header), file_.size() - sizeof(Header), 0};
   for (const std::span<std::byte>& part : parts) {
     ZSTD_outBuffer out{part.data(), part.size(), 0};

@@ -44,16 +44,16 @@ int Bodies::body_of(std::int32_t object, Occluders& occluders) {
     if (body.shape != shape || std::abs(body.samples->reach() - reach) > alike * reach) continue;
     return number = static_cast<int>(b);
   }
-  number = static_cast<int>(bodies_.size());
   const ObjectShape& geometry =
       shape < 0 ? objects_->standing : objects_->shapes[static_cast<std::size_t>(shape)];
-  Body& body = bodies_.emplace_back();
+  Body body;  // there once it is whole: memory may fail before
   body.shape = shape;
   body.made = frame_;
   body.key = sample_key(geometry, reach);
   body.samples = std::make_unique<SelfOcclusion>(geometry, occluders.casters(shape), reach,
                                                  SelfOcclusion::most_cells, budget_);
-  return number;
+  bodies_.push_back(std::move(body));
+  return number = static_cast<int>(bodies_.size()) - 1;
 }
 
 void Bodies::make(std::span<const int> objects, Occluders& occluders) {

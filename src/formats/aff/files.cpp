@@ -30,8 +30,10 @@ std::string read_whole(const fs::path& path) {
   const std::unique_ptr<std::FILE, CloseFile> file(std::fopen(path.c_str(), "rb"));
   if (!file) throw AffFailure{fmt::format("a file that cannot be opened ({})", std::strerror(errno))};
   std::string text(size, '\0');
+  errno = 0;
   if (std::fread(text.data(), 1, text.size(), file.get()) != text.size()) {
-    throw AffFailure{"a file that cannot be read to its end"};
+    throw AffFailure{fmt::format("a file that cannot be read to its end ({})",
+                                 errno != 0 ? std::strerror(errno) : "it became shorter")};
   }
   return text;
 }

@@ -5,6 +5,7 @@
 #include "formats/aff/reader.h"
 
 #include "base/fail.h"
+#include "formats/import_failure.h"
 
 namespace tenebra::formats {
 
@@ -13,6 +14,8 @@ Expected<Scene> import_aff(const std::filesystem::path& path, const ImportOption
     return AffReader(options).read(path);
   } catch (const AffFailure& failure) {
     return base::fail("{}", failure.message);
+  } catch (const ImportFailure& failure) {
+    return base::fail("{}: {}.", path.string(), failure.what());
   } catch (const std::bad_alloc&) {
     return base::fail("{}: found more than fits into memory, expected a smaller scene.", path.string());
   } catch (const std::exception& error) {

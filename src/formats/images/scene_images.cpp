@@ -80,6 +80,8 @@ int SceneImages::find(const std::string& name, const std::string& place) {
   if (!is_new) return entry->second;
   try {
     return entry->second = load(name, place, false);
+  } catch (const UnreadableFile& failure) {
+    throw UnreadableFile(fmt::format("texture '{}': {}", shown(name), failure.what()));
   } catch (const ImportFailure& failure) {
     return fail(name, failure.what());
   }
@@ -90,6 +92,8 @@ int SceneImages::find_uri(const std::string& uri, const std::string& place) {
   if (!is_new) return entry->second;
   try {
     return entry->second = load(uri, place, true);
+  } catch (const UnreadableFile& failure) {
+    throw UnreadableFile(fmt::format("texture '{}': {}", shown(uri), failure.what()));
   } catch (const ImportFailure& failure) {
     return fail(uri, failure.what());
   }

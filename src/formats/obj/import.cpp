@@ -30,6 +30,8 @@ public:
       std::istringstream stream(read_scene_file(confine(folder_, name, "mtllib", false), files_read_));
       tinyobj::LoadMtl(index, materials, &stream, warning, error);
       return true;
+    } catch (const UnreadableFile& failure) {
+      throw UnreadableFile(fmt::format("mtllib '{}': {}", name, failure.what()));
     } catch (const ImportFailure& failure) {
       warnings_.push_back(fmt::format("mtllib '{}': {}; its materials are grey.", name, failure.what()));
       return false;

@@ -1,0 +1,26 @@
+#include "options/memory_option.h"
+
+#include <algorithm>
+
+namespace tenebra::viewer {
+namespace {
+
+constexpr int share_of_ao = 4;
+
+}  // namespace
+
+void add_memory_option(CLI::App& command, std::optional<int>& memory_mb) {
+  add_value(
+      command, "--memory", memory_mb, parse_at_least_one,
+      "What the whole program may take, in MB; if it needs more,\nit ends with a sentence [what the system "
+      "has]")
+      .type_name("MB");
+}
+
+void settle_memory(const CLI::App& command, std::optional<int> memory_mb, MethodOptions& method) {
+  if (!memory_mb || was_given(command, "--ao-memory")) return;
+  int& ao_mb = method.render.ao.memory_mb;
+  ao_mb = std::clamp(*memory_mb / share_of_ao, 1, ao_mb);
+}
+
+}  // namespace tenebra::viewer

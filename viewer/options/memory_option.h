@@ -1,0 +1,17 @@
+// --memory: a bound on the whole program, and what follows from it.
+#pragma once
+
+#include <optional>
+
+#include "options/method_options.h"
+
+namespace tenebra::viewer {
+
+/// Adds it to `command`; MB of 2^20 bytes, none: what the system has.
+void add_memory_option(CLI::App& command, std::optional<int>& memory_mb);
+
+/// Where --memory is given and --ao-memory is not, fields and surface samples take a quarter of it at most,
+/// and no more than they take without it. To be called once all options are read.
+void settle_memory(const CLI::App& command, std::optional<int> memory_mb, MethodOptions& method);
+
+}  // namespace tenebra::viewer

@@ -1,0 +1,35 @@
+#include "shell/memory_limit.h"
+
+#include <sys/resource.h>
+
+#include <algorithm>
+#include <cerrno>
+#include <system_error>
+
+#include "base/fail.h"
+
+namespace tenebra::viewer {
+namespace {
+
+constexpr rlim_t megabyte = rlim_t{1} << 20;
+
+}  // namespace
+
+// RLIMIT_DATA rather than RLIMIT_AS: libraries and drivers map far more addresses than they use.
+Expected<void> limit_memory(std::optional<int> memory_mb) {
+  if (!memory_mb) return {};
+  rlimit limit{};
+  if (::getrlimit(RLIMIT_DATA, &limit) == 0) {
+    limit.rlim_cur = std::min(limit.rlim_cur, static_cast<rlim_t>(*memory_mb) * megabyte);
+    if (::setrlimit(RLIMIT_DATA, &limit) == 0) return {};
+  }
+  return base::fail("cannot set --memory {}: {}", *memory_mb, std::generic_category().message(errno));
+}
+
+std::optional<long> memory_limit_mb() {
+  rlimit limit{};
+  if (::getrlimit(RLIMIT_DATA, &limit) != 0 || limit.rlim_cur == RLIM_INFINITY) return {};
+  return static_cast<long>(limit.rlim_cur / megabyte);
+}
+
+}  // namespace tenebra::viewer
