@@ -1,4 +1,5 @@
-// A light with an area: a planar convex polygon that shines to one side, uniform and diffuse.
+// A light with an area: a planar convex polygon that shines to one side, uniform and diffuse; or the disc of
+// a sun, which is nowhere and has the same directions from every point.
 #pragma once
 
 #include <glm/glm.hpp>
@@ -18,7 +19,11 @@ struct AreaLight {
   glm::dvec3 ey{0, 1, 0};           ///< unit
   glm::dvec3 normal{0, 0, 1};       ///< unit, towards the lit side
   std::vector<glm::dvec2> polygon;  ///< the vertices in (ex, ey), metres: the polygon that is computed with
-  double area_m2 = 0;               ///< of the polygon
+  double area_m2 = 0;  ///< of the polygon; of a sun the irradiance at radiance 1 on what faces it
+  /// A sun. From every point p it is seen where the polygon would be at p + centre, but as if from infinitely
+  /// far: whatever stands on these lines hides it, at any distance. So `centre` is the unit vector towards it
+  /// and the polygon has no unit. No vertices.
+  bool at_infinity = false;
 };
 
 /// Makes a light of a polygon: 3 to 14 finite vertices, in a plane up to the rounding of their coordinates,
@@ -30,5 +35,9 @@ Expected<AreaLight> make_area_light(std::span<const glm::vec3> vertices);
 Expected<AreaLight> make_rectangle_light(glm::vec3 centre, glm::vec3 half_x, glm::vec3 half_y);
 /// A disc, as the regular 12-gon of the same area, so that it sends the same amount of light.
 Expected<AreaLight> make_disc_light(glm::vec3 centre, glm::vec3 half_x, glm::vec3 half_y);
+/// A sun in the direction `to_sun` (any length but zero), from 1e-6 to 90 degrees wide: as the regular 12-gon
+/// of the area that the disc has on a plane across its middle. What a line hides of it differs by at
+/// most 0.08 % (0.2/255) from what it hides of the disc, however it lies.
+Expected<AreaLight> make_sun(glm::vec3 to_sun, double diameter_deg);
 
 }  // namespace tenebra

@@ -73,6 +73,7 @@ struct Light {
   float inner_cone_rad = 0.0f;   ///< spot half-angles
   float outer_cone_rad = 0.785398163f;
   glm::vec2 size_m{1.0f};           ///< area: width and height; of a disc its diameter, twice
+  float diameter_deg = 0;           ///< directional: as seen from the scene, 0 to 90; 0: hard shadows
   std::vector<int> left_out_nodes;  ///< whose meshes cast no shadow from this light (leave_out_covers)
 };
 

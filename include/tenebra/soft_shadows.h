@@ -29,6 +29,7 @@ public:
   /// the light's plane, Q on the side of R's plane from which the view sees R (strictly), and no casting
   /// triangle T other than R meets the segment PQ with P more than theta off T's plane and P, Q on different
   /// sides of it (theta: the contact rule of hard_shadows.h).
+  /// From a sun every P lies in front, and the segments are half-lines.
   /// With TriangleView::normals points of a smooth R may be lifted off it: those that lie off R's plane by
   /// more than theta see Q on both sides of it, and R may block them as any triangle.
   /// visible_fraction is the area of those Q over the light's; irradiance is the integral over them, clamped

@@ -36,6 +36,13 @@ glm::dvec2 point_size_m(int light, const AreaLightSettings& settings, const Scen
   return (settings.percent_of_diagonal ? 0.01 * box.diagonal_m() : 1.0) * glm::dvec2(settings.size);
 }
 
+/// Degrees; what is nearest to the light wins.
+float sun_diameter(const Light& light, int number, const AreaLightSettings& settings) {
+  const auto index = static_cast<std::size_t>(number);
+  if (index < settings.own_sun_deg.size() && settings.own_sun_deg[index]) return *settings.own_sun_deg[index];
+  return settings.sun_deg.value_or(light.diameter_deg);
+}
+
 Expected<AreaLight> rectangle_of_point(const Light& light, const WorldLight& placed,
                                        const AreaLightSettings& settings, const SceneBox& box) {
   vec3 half_x, half_y;
@@ -63,6 +70,7 @@ double plane_tolerance(const AreaLight& light) {
 }
 
 bool within(const AreaLight& light, const vec3 corners[3], double light_tolerance) {
+  if (light.at_infinity) return false;
   const double tolerance = light_tolerance + points::rounding_tolerance(corners);
   for (int k = 0; k < 3; ++k) {
     if (!(std::abs(glm::dot(light.normal, dvec3(corners[k]) - light.centre)) <= tolerance)) return false;
@@ -91,8 +99,12 @@ Expected<std::optional<AreaLight>> area_light_of(const Light& light, const World
   const bool is_area = light.type == LightType::area_rect || light.type == LightType::area_disk;
   const glm::dvec2 size_m = point_size_m(placed.light, settings, box);
   const bool sized = size_m.x > 0 && size_m.y > 0;
-  if (light.type == LightType::directional || (!is_area && !sized)) return std::optional<AreaLight>();
-  auto made = is_area ? placed_polygon(light, placed) : rectangle_of_point(light, placed, settings, box);
+  const bool is_sun = light.type == LightType::directional;
+  const float diameter = sun_diameter(light, placed.light, settings);
+  if (is_sun ? diameter == 0 : !is_area && !sized) return std::optional<AreaLight>();
+  auto made = is_sun    ? make_sun(-placed.direction, static_cast<double>(diameter))
+              : is_area ? placed_polygon(light, placed)
+                        : rectangle_of_point(light, placed, settings, box);
   if (!made) return tl::unexpected(std::move(made.error()));
   return std::optional<AreaLight>(std::move(*made));
 }
@@ -103,6 +115,7 @@ bool lies_in_plane(const AreaLight& light, const vec3 corners[3]) {
 
 bool casters_off_plane(const FrameGeometry& geometry, const AreaLight& light,
                        std::vector<std::uint8_t>& out) {
+  if (light.at_infinity) return false;
   const double tolerance = plane_tolerance(light);
   bool found = false;
   for (std::size_t i = 0; i < geometry.triangles.size(); ++i) {

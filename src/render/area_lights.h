@@ -24,13 +24,15 @@ SceneBox box_of(const FrameGeometry& geometry);
 
 /// The polygon of a light: area lights as the file has them; point and spot lights as rectangles of the
 /// settings' size, or their own, about their place, facing `settings.facing`, else along a spot's axis or
-/// from a point towards the box's centre, their width level. None for directional lights and where no size is
-/// given. Fails with a sentence where the polygon is none: no area, not finite.
+/// from a point towards the box's centre, their width level; directional lights as suns of the settings'
+/// diameter, or their own. None where no size is given. Fails with a sentence where the polygon is none: no
+/// area, not finite.
 Expected<std::optional<AreaLight>> area_light_of(const Light& light, const WorldLight& placed,
                                                  const AreaLightSettings& settings, const SceneBox& box);
 
 /// Whether triangle `corners` lies in the light's plane, up to the rounding of both: the quad that shows a
-/// lamp's face. In exact arithmetic it blocks nothing of that light; rounded it might hide all of it.
+/// lamp's face. In exact arithmetic it blocks nothing of that light; rounded it might hide all of it. A sun
+/// has no plane.
 bool lies_in_plane(const AreaLight& light, const glm::vec3 corners[3]);
 
 /// `geometry.casts_shadow` without the triangles that lie in the light's plane; returns whether there are

@@ -9,6 +9,7 @@
 #include "render/light_casters.h"
 #include "render/light_points.h"
 #include "render/shadow_lights.h"
+#include "soft/light/light_places.h"
 
 namespace tenebra::render {
 namespace {
@@ -82,7 +83,10 @@ void explain_area(const PixelQuestion& question, const shadow::Sample& sample, c
                   LightExplanation& out) {
   std::vector<ShadowLight> targets;
   for (const glm::vec3& place : points_on_light(*light.area, points_of_a_light)) {
-    targets.push_back({.position = place, .spot_axis = glm::vec3(light.area->normal), .spot_cos_outer = 0});
+    targets.push_back(soft::light_at(*light.area, place));
+    if (light.area->at_infinity) continue;
+    targets.back().spot_axis = glm::vec3(light.area->normal);
+    targets.back().spot_cos_outer = 0;
   }
   const std::vector<Sightline> lines = lines_to(question, sample, light, targets);
   std::map<std::uint32_t, int> counts;
@@ -91,6 +95,7 @@ void explain_area(const PixelQuestion& question, const shadow::Sample& sample, c
   }
   out.asked = points_of_a_light;
   out.light_at = glm::vec3(light.area->centre);
+  out.directional = light.area->at_infinity;
   const bool turned_away = std::all_of(lines.begin(), lines.end(), [](const Sightline& line) {
     return line.sight == LightSight::faces_away || line.sight == LightSight::out_of_reach;
   });
@@ -102,7 +107,8 @@ void explain_area(const PixelQuestion& question, const shadow::Sample& sample, c
     const auto line = std::find_if(lines.begin(), lines.end(),
                                    [&](const Sightline& l) { return l.first == out.occluder->triangle; });
     out.met_at = line->met_at;
-    out.light_at = targets[static_cast<std::size_t>(line - lines.begin())].position;
+    const ShadowLight& target = targets[static_cast<std::size_t>(line - lines.begin())];
+    out.light_at = target.directional ? target.to_light : target.position;
   }
 }
 

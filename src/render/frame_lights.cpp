@@ -26,7 +26,9 @@ void give_area(DrawnLight& drawn, const AreaLightSettings& settings, const Scene
     notes.push_back(fmt::format("{} keeps hard shadows: {}", title(drawn), area.error().message));
   } else if (drawn.light.type == LightType::directional) {
     notes.push_back(
-        fmt::format("{} is directional and keeps hard shadows, for it has no size", title(drawn)));
+        fmt::format("{} is directional and keeps hard shadows, until --sun-size or --set-light gives it a "
+                    "diameter",
+                    title(drawn)));
   } else {
     notes.push_back(
         fmt::format("{} is a point and keeps hard shadows, until --light-size or --set-light gives it a size",

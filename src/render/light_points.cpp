@@ -21,11 +21,12 @@ struct PointsOfLight {
   dvec3 normal;
   double area_m2;
   float fraction;
+  double weight;  // LightFrame::weight
 
   void add_to_pixel(std::size_t i, const dvec3& at, const dvec3& facing, SoftMask& out) const {
     for (std::size_t k = 0; k < places.size(); ++k) {
       if (masks[k][i] == 0) continue;
-      const dvec3 to = dvec3(places[k]) - at;
+      const dvec3 to = dvec3(places[k]) - weight * at;
       const double square = glm::dot(to, to), at_light = -glm::dot(normal, to),
                    at_point = glm::dot(facing, to);
       if (!(at_light > 0)) continue;  // behind the light
@@ -63,17 +64,21 @@ bool LightPointShadows::trace(const VisiblePoints& points, std::span<const glm::
   out.visible_fraction.assign(points.triangles.size(), 0.0f);
   out.irradiance.assign(points.triangles.size(), 0.0f);
   places_ = points_on_light(light, count);
+  const double area = light.at_infinity ? soft::LightPlaces(light).area() : light.area_m2;
+  const double weight = light.at_infinity ? 0.0 : 1.0;
   for (std::size_t first = 0; first < places_.size(); first += masks_.size()) {
     const auto some = std::span(places_).subspan(first, std::min(masks_.size(), places_.size() - first));
     for (std::size_t k = 0; k < some.size(); ++k) {
-      if (!tracer_.trace_shadow_mask(points, view, triangles, {.position = some[k]}, config, masks_[k], stop))
+      if (!tracer_.trace_shadow_mask(points, view, triangles, soft::light_at(light, some[k]), config,
+                                     masks_[k], stop))
         return false;
       stats_ += tracer_.stats();
       add_shadow_stages(timings_, tracer_.timings());
     }
     base::Stopwatch watch;
-    PointsOfLight{some, masks_, light.normal, light.area_m2 / count, 1.0f / static_cast<float>(count)}.add(
-        points, normals, out);
+    const PointsOfLight lit{some,  masks_, light.normal, area / count, 1.0f / static_cast<float>(count),
+                            weight};
+    lit.add(points, normals, out);
     timings_.irradiance_ms += watch.lap_ms();
   }
   for (float& fraction : out.visible_fraction) fraction = std::min(fraction, 1.0f);

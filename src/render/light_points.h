@@ -11,7 +11,8 @@
 
 namespace tenebra::render {
 
-/// `count` points on the light, spread evenly: each stands for the same area (a Fibonacci lattice).
+/// `count` points on the light, spread evenly: each stands for the same area (a Fibonacci lattice). Of a sun
+/// they are directions.
 std::vector<glm::vec3> points_on_light(const AreaLight& light, int count);
 
 /// Buffers kept from frame to frame.

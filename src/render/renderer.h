@@ -53,6 +53,8 @@ struct AreaLightSettings {
   /// By Scene::lights: width and height in metres of the point and spot lights that have their own, beside
   /// `size`; may be shorter.
   std::vector<std::optional<glm::vec2>> own_size_m;
+  std::optional<float> sun_deg;                   ///< diameter of directional lights, in place of the scene's
+  std::vector<std::optional<float>> own_sun_deg;  ///< as own_size_m, of directional lights, in place of all
 };
 
 struct RenderSettings {

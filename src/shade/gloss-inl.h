@@ -47,7 +47,7 @@ struct Towards {
 /// The place of the polygon nearest to where the mirrored ray meets its plane.
 SIMD_INLINE Towards towards_polygon(const LightTerms& terms, const Gloss& g, const Vector16& point) {
   const Vector16 ray = mirrored(g), normal = broadcast16(terms.area_normal);
-  const Vector16 from_centre = point - broadcast16(terms.area_from_eye);
+  const Vector16 from_centre = number(terms.area_weight) * point - broadcast16(terms.area_from_eye);
   const Float16 side = dot_unfused(normal, from_centre), height = abs(side);
   // The way towards the plane, from whichever side.
   const Float16 sinking =

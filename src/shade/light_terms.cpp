@@ -41,7 +41,8 @@ glm::vec2 cone_fade(const Light& light) {
 }
 
 void set_polygon(const AreaLight& area, const ViewRays& view, LightTerms& terms) {
-  terms.area_from_eye = area.centre - glm::dvec3(view.eye);
+  terms.area_weight = area.at_infinity ? 0.0f : 1.0f;
+  terms.area_from_eye = area.centre - static_cast<double>(terms.area_weight) * glm::dvec3(view.eye);
   terms.area_normal = area.normal;
   terms.axis_x = area.ex;
   terms.axis_y = area.ey;

@@ -49,11 +49,12 @@ struct LightTerms {
   bool by_irradiance = false;  ///< the cosine at the surface comes with the irradiance
 
   // By irradiance: the polygon, for what mirrors it.
-  glm::vec3 area_from_eye{0.0f};  ///< its centre relative to the eye
+  glm::vec3 area_from_eye{0.0f};  ///< its centre relative to the eye; of a sun the unit way to it
+  float area_weight = 1;          ///< 0: a sun, seen in that direction from everywhere
   glm::vec3 area_normal{0.0f};
   glm::vec3 axis_x{0.0f}, axis_y{0.0f};  ///< unit
   int corner_count = 0;
-  std::array<glm::vec2, 14> corners{};  ///< along the axes, metres, counter-clockwise
+  std::array<glm::vec2, 14> corners{};  ///< along the axes, metres, counter-clockwise; of a sun at 1 m
   float radius_m = 0;                   ///< of the disc of the same area
 };
 LightTerms light_terms(const PlacedLight& light, const ViewRays& view);

@@ -20,10 +20,25 @@ double light_tolerance(const AreaLight& light) {
   return 4 * points::rounding_tolerance(thrice);
 }
 
-Box box_of(const AreaLight& light, double tolerance) {
-  Box box{dvec3(light.vertices[0]), dvec3(light.vertices[0])};
-  for (const glm::vec3& v : light.vertices) box = {glm::min(box.low, dvec3(v)), glm::max(box.high, dvec3(v))};
-  return {box.low - tolerance, box.high + tolerance};
+LightReach reach_of(const AreaLight& light, double tolerance, const TriangleView& triangles,
+                    const Surfaces& surfaces) {
+  LightReach reach;
+  reach.at_infinity = light.at_infinity;
+  for (const std::uint32_t id : surfaces.ids())
+    for (int k = 0; k < 3; ++k)
+      reach.farthest =
+          std::max(reach.farthest, soft::largest(triangles.positions[triangles.triangles[id][k]]));
+  const dvec3 first = light.at_infinity ? light.centre : dvec3(light.vertices[0]);
+  reach.box = {first, first};
+  const auto add = [&](const dvec3& v) {
+    reach.box = {glm::min(reach.box.low, v), glm::max(reach.box.high, v)};
+  };
+  for (const glm::vec3& v : light.vertices) add(dvec3(v));
+  if (light.at_infinity)
+    for (const glm::dvec2& v : light.polygon) add(light.centre + v.x * light.ex + v.y * light.ey);
+  const double wider = light.at_infinity ? 0x1p-40 : tolerance;
+  reach.box.low -= wider, reach.box.high += wider;
+  return reach;
 }
 
 soft::GroupFrame frame_of(const soft::PointGroup& group, const soft::PointGroups& groups,
@@ -42,8 +57,16 @@ soft::GroupFrame frame_of(const soft::PointGroup& group, const soft::PointGroups
 
 }  // namespace
 
+/// A ray of the sun p + t q has |q| >= 1, and no two places are farther apart than sqrt(3) times the sum of
+/// their largest coordinates. With all q times t in the box, the hull of both boxes holds it.
+Box LightReach::box_from(const Box& from) const {
+  if (!at_infinity) return box;
+  const double t = 2 * (farthest + std::max(soft::largest(from.low), soft::largest(from.high)));
+  return {from.low + t * box.low, from.high + t * box.high};
+}
+
 /// Of all groups those with light of their own, and something see-through on its way.
-void SoftTint::choose_groups(const TriangleTree& tree, const Box& light, const SoftMask& mask) {
+void SoftTint::choose_groups(const TriangleTree& tree, const LightReach& light, const SoftMask& mask) {
   std::vector<std::uint8_t> wanted(all_.groups.size(), 0);
   parallel::parallel_ranges(all_.groups.size(), 64, [&](std::size_t first, std::size_t last) {
     std::vector<TriangleTree::Found> near;
@@ -53,7 +76,8 @@ void SoftTint::choose_groups(const TriangleTree& tree, const Box& light, const S
       if (std::none_of(pixels.begin(), pixels.end(), [&](std::uint32_t p) { return mask.irradiance[p] > 0; }))
         continue;
       near.clear();
-      tree.find(shaft_between({group.low, group.high}, light), near);
+      const Box points{group.low, group.high};
+      tree.find(shaft_between(points, light.box_from(points)), near);
       wanted[i] = !near.empty();
     }
   });
@@ -67,12 +91,13 @@ void SoftTint::choose_groups(const TriangleTree& tree, const Box& light, const S
   soft::build_group_tree(keys, groups_);
 }
 
-void SoftTint::solve_group(const SoftTintFrame& frame, const TriangleTree& tree, const Box& light,
+void SoftTint::solve_group(const SoftTintFrame& frame, const TriangleTree& tree, const LightReach& light,
                            const soft::GroupDecision& decision, Worker& worker) {
   if (decision.kind == soft::GroupClass::dark) return;
   const soft::PointGroup& group = *decision.group;
   worker.near.clear();
-  tree.find(shaft_between({group.low, group.high}, light), worker.near);
+  const Box points{group.low, group.high};
+  tree.find(shaft_between(points, light.box_from(points)), worker.near);
   tree.numbers_of(worker.near, worker.numbers);
   const soft::GroupTask task{groups_.pixels_of(group), frame_of(group, groups_, worker.receivers),
                              decision.candidates};
@@ -100,11 +125,11 @@ bool SoftTint::trace(const VisiblePoints& points, std::span<const glm::vec3> nor
                      const AreaLight& light, const SoftMask& mask, const TintConfig& config, TintMask& out,
                      TintStats& stats, const StopFlag* stop) {
   const double tolerance = light_tolerance(light);
-  const Box light_box = box_of(light, tolerance);
+  const LightReach reach = reach_of(light, tolerance, triangles, surfaces);
   SoftShadowConfig soft_config;
   soft_config.simd = config.simd;
   soft::group_points(points, view, triangles, light, SoftGrouping::neighbourhood, all_, config.simd);
-  choose_groups(tree, light_box, mask);
+  choose_groups(tree, reach, mask);
   if (level_ != config.simd) workers_.clear();
   level_ = config.simd;
   workers_.resize(static_cast<std::size_t>(thread_count()));
@@ -119,11 +144,11 @@ bool SoftTint::trace(const VisiblePoints& points, std::span<const glm::vec3> nor
   const soft::LightFrame light_frame = soft::light_frame(light);
   const soft::SoftFrame soft_frame{points,      normals, view, triangles, light_frame,
                                    soft_config, unused_, {},   stop};
-  const SoftTintFrame frame{soft_frame, mask, surfaces, tree, light_box, tolerance, config.own_irradiance};
+  const SoftTintFrame frame{soft_frame, mask, surfaces, tree, reach, tolerance, config.own_irradiance};
   const bool done = culler_.for_each_family(groups_, triangles, light, soft_config, stop,
                                             [&](std::span<const soft::GroupDecision> family, int thread) {
                                               for (const soft::GroupDecision& decision : family)
-                                                solve_group(frame, tree, light_box, decision,
+                                                solve_group(frame, tree, reach, decision,
                                                             workers_[static_cast<std::size_t>(thread)]);
                                             });
   gather(out, stats);

@@ -14,13 +14,23 @@
 
 namespace tenebra::tint {
 
+/// Where a light is, as far as boxes tell.
+struct LightReach {
+  Box box;  ///< holds the light; of a sun its directions
+  bool at_infinity = false;
+  double farthest = 0;  ///< largest |coordinate| of the see-through triangles
+
+  /// Holds the light, or as much of a sun's rays from `from` that what is see-through lies before their ends.
+  Box box_from(const Box& from) const;
+};
+
 /// What all groups of a light share.
 struct SoftTintFrame {
   const soft::SoftFrame& soft;  ///< opaque casters; its `out` is not written
   const SoftMask& mask;
   const Surfaces& surfaces;
   const TriangleTree& tree;
-  Box light_box;               ///< holds the light
+  LightReach reach;
   double plane_tolerance = 0;  ///< metres off the light's plane that its own rounding amounts to
   bool own_irradiance = false;
 };
@@ -64,8 +74,8 @@ private:
     TintMask found;
     TintStats stats;
   };
-  void choose_groups(const TriangleTree& tree, const Box& light, const SoftMask& mask);
-  void solve_group(const SoftTintFrame& frame, const TriangleTree& tree, const Box& light,
+  void choose_groups(const TriangleTree& tree, const LightReach& light, const SoftMask& mask);
+  void solve_group(const SoftTintFrame& frame, const TriangleTree& tree, const LightReach& light,
                    const soft::GroupDecision& decision, Worker& worker);
   void gather(TintMask& out, TintStats& stats) const;
 

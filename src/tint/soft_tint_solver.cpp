@@ -93,7 +93,7 @@ private:
   std::span<const std::uint32_t> numbers_before(const dvec3& point) {
     if (task_->numbers.size() <= few_numbers) return task_->numbers;
     near_.clear();
-    frame_->tree.find(shaft_between({point, point}, frame_->light_box), near_);
+    frame_->tree.find(shaft_between({point, point}, frame_->reach.box_from({point, point})), near_);
     frame_->tree.numbers_of(near_, numbers_);
     return numbers_;
   }
@@ -123,14 +123,15 @@ private:
     if (!(std::abs(height) > (tau + receiver_.plane.tau) * std::sqrt(glm::dot(n, n)))) return false;
     double off = 0;
     for (const vec3& v : c.v) off = std::max(off, std::abs(glm::dot(light.normal, dvec3(v) - light.origin)));
-    if (off <= frame_->plane_tolerance + tau) return false;  // the face of the lamp itself
+    // The face of the lamp itself; a sun has none.
+    if (!frame_->reach.at_infinity && off <= frame_->plane_tolerance + tau) return false;
     const double side = height > 0 ? -1 : 1;
-    const dvec3 to_light = light.origin - point;
+    const dvec3 to_light = light.way_from(point);
     for (int k = 0; k < 3; ++k) {
       const dvec3 from = dvec3(c.v[k]) - point, to = dvec3(c.v[(k + 1) % 3]) - point;
       out.lines[k] = side * line_of_plane(light, glm::cross(from, to), to_light);
     }
-    out.lines[3] = side * line_of_plane(light, n, light.origin - a);
+    out.lines[3] = side * line_of_plane(light, n, light.way_from(a));
     out.number = number;
     for (const dvec3& line : out.lines)
       if (std::none_of(light.polygon.begin(), light.polygon.end(),

@@ -186,6 +186,17 @@ TEST(ExportLosses, LightsWithoutFalloffAreAsBrightAtTheMiddle) {
   EXPECT_NEAR(candela / (10 * 10) / 3.14159265358979, 0.25, 1e-6);
 }
 
+TEST(ExportLights, SunsKeepTheirDiameter) {
+  Scene scene = small_scene();
+  scene.lights = {{.name = "sun", .type = LightType::directional, .diameter_deg = 0.53f},
+                  {.name = "edge", .type = LightType::directional}};
+  for (int i = 0; i < 2; ++i) scene.nodes.push_back({.light = i});
+  const RoundTrip trip = round_trip(scene);
+  EXPECT_EQ(trip.back.lights[0].diameter_deg, 0.53f);
+  EXPECT_EQ(trip.back.lights[1].diameter_deg, 0.0f);
+  EXPECT_FALSE(trip.root["extensions"]["KHR_lights_punctual"]["lights"][1].contains("extras"));
+}
+
 TEST(ExportLosses, MatricesThatShearAreNamed) {
   Scene scene = small_scene();
   scene.nodes[0].matrix = glm::dmat4(1);

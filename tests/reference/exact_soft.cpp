@@ -54,15 +54,21 @@ long double to_long_double(const mpq_class& value) {
   return static_cast<long double>(high) + mpf_class(wide - high).get_d();
 }
 
-/// The light's plane against a plane in space: direction . (Q - origin) over Q = centre + u ex + v ey.
+/// The light's plane against a plane in space: direction . (Q - origin) over Q = centre + u ex + v ey; of a
+/// sun direction . Q.
 struct LightFrame {
   ExactVec centre, ex, ey;
+  bool at_infinity;
   explicit LightFrame(const AreaLight& light)
-      : centre(exact(light.centre)), ex(exact(light.ex)), ey(exact(light.ey)) {}
+      : centre(exact(light.centre)),
+        ex(exact(light.ex)),
+        ey(exact(light.ey)),
+        at_infinity(light.at_infinity) {}
+  ExactVec way_from(const ExactVec& origin) const { return at_infinity ? centre : centre - origin; }
   template <class N>
   HalfPlane<N> half_plane(const ExactVec& direction, const ExactVec& origin, int sign) const {
     const Dyadic s{static_cast<double>(sign)};
-    return {number<N>(s * dot(direction, centre - origin)), number<N>(s * dot(direction, ex)),
+    return {number<N>(s * dot(direction, way_from(origin))), number<N>(s * dot(direction, ex)),
             number<N>(s * dot(direction, ey))};
   }
 };
@@ -106,7 +112,7 @@ std::vector<Trapezoid> trapezoids_of(const Polygon<N>& base, const std::vector<P
 /// Integral of the cosine over what the trapezoids subtend above the plane of `normal`.
 long double irradiance_of(const std::vector<Trapezoid>& visible, const LightFrame& frame,
                           const ExactVec& point, const Vector3l& normal) {
-  const Vector3l c = widened(frame.centre - point), ex = widened(frame.ex), ey = widened(frame.ey);
+  const Vector3l c = widened(frame.way_from(point)), ex = widened(frame.ex), ey = widened(frame.ey);
   const HalfPlane<long double> above{dot(normal, c), dot(normal, ex), dot(normal, ey)};
   long double sum = 0;
   for (const Trapezoid& t : visible) {
@@ -142,7 +148,7 @@ public:
     std::vector<glm::dvec3> rays;
     for (const glm::dvec2& p : light.polygon) {
       const glm::dvec3 corner = light.centre + p.x * light.ex + p.y * light.ey;
-      rays.push_back(corner - point);
+      rays.push_back(light.at_infinity ? corner : corner - point);
       reach_ = std::max(reach_, glm::length(rays.back()));
       size_ = std::max(size_, glm::length(p));
     }
@@ -151,7 +157,7 @@ public:
       sides_.push_back(glm::cross(rays[i], rays[(i + 1) % rays.size()]));
     // Counter-clockwise seen from where it shines: from the point the inside is at the negative side.
     normal_ = light.normal;
-    height_ = glm::dot(normal_, point - light.centre);
+    height_ = light.at_infinity ? HUGE_VAL : glm::dot(normal_, point - light.centre);
   }
   bool may_hold(const glm::dvec3& low, const glm::dvec3& high) const {
     std::array<glm::dvec3, 8> corners;
@@ -221,6 +227,7 @@ int ExactSoft::eye_side(std::uint32_t id) const {
 }
 
 int ExactSoft::light_side(const glm::dvec3& point) const {
+  if (light_.at_infinity) return 1;
   return dot(cross(exact(light_.ex), exact(light_.ey)), exact(point) - exact(light_.centre)).sign();
 }
 
@@ -241,7 +248,8 @@ SoftAnswer ExactSoft::solve(const glm::dvec3& position, std::uint32_t id, glm::v
                             std::size_t most) const {
   SoftAnswer answer;
   const int side = eye_side(id), front = light_side(position);
-  answer.at_plane = front != dot(exact(light_.normal), exact(position) - exact(light_.centre)).sign();
+  answer.at_plane = !light_.at_infinity &&
+                    front != dot(exact(light_.normal), exact(position) - exact(light_.centre)).sign();
   if (side == 0 || front <= 0) return answer;
   const LightFrame frame(light_);
   const ExactVec point = exact(position);

@@ -40,7 +40,7 @@ struct SoftAnswer {
 class ExactSoft {
 public:
   /// Keeps references to what `triangles` refers to. The light's points are centre + u ex + v ey, (u, v) in
-  /// its outline, in exact numbers; it shines to the side of ex x ey.
+  /// its outline, in exact numbers; it shines to the side of ex x ey. A sun's are directions.
   ExactSoft(const ViewRays& view, const TriangleView& triangles, const AreaLight& light);
 
   /// What the sample (a point, its triangle, a shading normal; zero: the face normal towards the view) sees.

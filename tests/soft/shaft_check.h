@@ -53,7 +53,8 @@ inline std::vector<Given> given(const GroupCase& c, const soft::PointGroups& gro
   return all;
 }
 
-/// A line that the rule asks about: from a point in front of the light to a point of it on the seen side.
+/// A line that the rule asks about: from a point in front of the light to a point of it on the seen side; of
+/// a sun to a place in its direction, beyond all triangles.
 struct Line {
   glm::dvec3 p, q;
   std::uint32_t receiver;
@@ -126,31 +127,39 @@ private:
   std::optional<Line> line_to(const soft::PointGroup& group, std::uint32_t k, const dvec3& q) const {
     const std::uint32_t pixel = groups_.pixels_of(group)[k];
     const Line line{c_.points.positions[pixel], q, c_.points.triangles[pixel]};
-    if (!(glm::dot(line.p - c_.light.centre, c_.light.normal) > 0)) return {};
+    if (!c_.light.at_infinity && !(glm::dot(line.p - c_.light.centre, c_.light.normal) > 0)) return {};
     const int side = soft::seen_side(c_.soup.view(), line.receiver, c_.view);
     if (reference::height_sign(points::corners_of(c_.soup.view(), line.receiver), line.q) != side) return {};
     return line;
   }
   std::optional<Line> random_line(const soft::PointGroup& group, Random& random) const {
-    return line_to(group, random.index(group.count), random_light_point(c_.light, random));
+    const std::uint32_t k = random.index(group.count);
+    const dvec3 q = random_light_point(c_.light, random);
+    return line_to(group, k, c_.light.at_infinity ? place(group, k) + far() * q : q);
   }
   /// Through a vertex or a point of an edge of a caster, onto the light.
   std::optional<Line> aimed_line(const soft::PointGroup& group, Random& random) const {
     const std::uint32_t k = random.index(group.count);
-    const dvec3 p = c_.points.positions[groups_.pixels_of(group)[k]];
+    const dvec3 p = place(group, k);
     for (int tries = 0; tries < 20; ++tries) {
       const auto id = random.index(static_cast<std::uint32_t>(c_.soup.triangles.size()));
       const auto corner = random.index(3);
       const dvec3 a(c_.soup.corner(id, static_cast<int>(corner)));
       const dvec3 b(c_.soup.corner(id, static_cast<int>((corner + 1) % 3)));
       const dvec3 x = a + (random.chance(0.3) ? 0.0 : random.unit()) * (b - a);
-      const double t = glm::dot(c_.light.centre - p, c_.light.normal) / glm::dot(x - p, c_.light.normal);
-      if (!(t > 1) || !std::isfinite(t)) continue;
-      const dvec3 q = p + t * (x - p);
-      if (within(c_.light, q)) return line_to(group, k, q);
+      const dvec3 to_centre = c_.light.at_infinity ? c_.light.centre : c_.light.centre - p;
+      const double t = glm::dot(to_centre, c_.light.normal) / glm::dot(x - p, c_.light.normal);
+      if (!(t > (c_.light.at_infinity ? 0 : 1)) || !std::isfinite(t)) continue;
+      if (within(c_.light, c_.light.centre + t * (x - p) - to_centre))
+        return line_to(group, k, p + (c_.light.at_infinity ? t * far() : t) * (x - p));
     }
     return {};
   }
+  dvec3 place(const soft::PointGroup& group, std::uint32_t k) const {
+    return c_.points.positions[groups_.pixels_of(group)[k]];
+  }
+  /// So many lengths of a sun's directions lead beyond all triangles.
+  double far() const { return 8 * std::max(soft::largest(c_.soup.low()), soft::largest(c_.soup.high())); }
   static bool within(const AreaLight& light, const dvec3& q) {
     const glm::dvec2 at(glm::dot(q - light.centre, light.ex), glm::dot(q - light.centre, light.ey));
     for (std::size_t k = 0; k < light.polygon.size(); ++k) {

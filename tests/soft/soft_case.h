@@ -80,10 +80,10 @@ inline double white_of(const SoftCase& c, const SoftMask& mask) {
 /// rounding of double there; fast 0.1/255 of white.
 inline constexpr double reference_bound = 1e-6;
 inline double reference_promise(const SoftCase& c) {
-  double distance = 0, size = 0;
+  double distance = c.light.at_infinity ? 1 : 0, size = 0;
   for (const glm::dvec2& v : c.light.polygon) size = std::max({size, std::abs(v.x), std::abs(v.y)});
   for (std::size_t i = 0; i < c.size(); ++i)
-    if (c.points.triangles[i] != no_triangle)
+    if (c.points.triangles[i] != no_triangle && !c.light.at_infinity)
       distance = std::max(distance, glm::length(c.points.positions[i] - c.light.centre));
   return std::max(reference_bound, 0x1p-48 * distance / (size * glm::length(c.light.ex)));
 }

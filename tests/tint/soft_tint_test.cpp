@@ -5,6 +5,7 @@
 #include <numeric>
 
 #include "parallel/parallel.h"
+#include "soft/light/light_places.h"
 #include "tint/glass_case.h"
 
 namespace tenebra::testing {
@@ -48,23 +49,22 @@ SoftAnswers traced(const Glass& glass, const VisiblePoints& points, const AreaLi
   return a;
 }
 
-/// Irradiance by side x side rays to places of the light's rectangle, one in the middle of a turned lattice's
-/// cell each.
+/// Irradiance by side x side rays to places of the light, a rectangle or a sun, one in the middle of a turned
+/// lattice's cell each.
 dvec3 by_rays(GlassPeer& peer, const AreaLight& light, const dvec3& p, const dvec3& normal, std::uint32_t own,
               int side) {
-  const dvec3 corner(light.vertices[0]), u = dvec3(light.vertices[1]) - corner,
-                                         v = dvec3(light.vertices[3]) - corner;
+  const soft::LightPlaces places(light);
   dvec3 sum(0.0);
   for (int i = 0; i < side * side; ++i) {
     const double x = i * 0.41421356237309515 + 0.3, y = i * 0.7320508075688772 + 0.1;
     const double a = (i % side + x - std::floor(x)) / side, b = (i / side + y - std::floor(y)) / side;
-    const dvec3 way = corner + a * u + b * v - p;
+    const dvec3 place(places.at(a, b)), way = light.at_infinity ? place : place - p;
     const double square = glm::dot(way, way);
     const double weight = std::max(0.0, glm::dot(normal, way)) * std::max(0.0, -glm::dot(light.normal, way)) /
                           (square * square);
-    if (weight > 0) sum += weight * peer.passed(p, way, own);
+    if (weight > 0) sum += weight * peer.passed(p, light.at_infinity ? 50.0 * way : way, own);
   }
-  return sum * light.area_m2 / static_cast<double>(side * side);
+  return sum * places.area() / static_cast<double>(side * side);
 }
 
 /// Every `every`-th pixel within `bound` of the brightest.
@@ -112,6 +112,12 @@ Glass room_with_panes() {
 
 TEST(SoftTint, PanesAreWithinHalfAStepOfRays) {
   compare(room_with_panes(), ceiling, 0.5 / 255, false);
+}
+
+TEST(SoftTint, SunsToo) {
+  const auto sun = make_sun({0.2f, 1, 0.3f}, 8);
+  ASSERT_TRUE(sun.has_value());
+  compare(room_with_panes(), *sun, 0.5 / 255, false);
 }
 
 TEST(SoftTint, SmallLightsToo) {

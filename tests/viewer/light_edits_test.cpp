@@ -13,7 +13,11 @@ using testing::TemporaryFolder;
 
 TEST(LightEdits, ReadBackWhatTheyWrite) {
   LightEdits edits(4);
-  edits[3] = {.on = false, .intensity = 0.3f, .move = {1, -2.5f, 1e-7f}, .size_m = glm::vec2(0.1f, 7)};
+  edits[3] = {.on = false,
+              .intensity = 0.3f,
+              .move = {1, -2.5f, 1e-7f},
+              .size_m = glm::vec2(0.1f, 7),
+              .diameter_deg = 0.53f};
   const auto texts = light_edit_texts(edits);
   ASSERT_EQ(texts.size(), 1u) << "lights as the scene has them need no words";
   LightEdits read;
@@ -22,9 +26,9 @@ TEST(LightEdits, ReadBackWhatTheyWrite) {
 }
 
 TEST(LightEdits, RefuseInASentence) {
-  for (const char* text :
-       {"", "x", "-1 on=0", "0 on=2", "0 intensity=-1", "0 intensity=nan", "0 intensity=1e-60", "0 move=1,2",
-        "0 glow=1", "0 size", "0 size=0", "0 size=1x1x1", "0 size=4%"}) {
+  for (const char* text : {"", "x", "-1 on=0", "0 on=2", "0 intensity=-1", "0 intensity=nan",
+                           "0 intensity=1e-60", "0 move=1,2", "0 glow=1", "0 size", "0 size=0",
+                           "0 size=1x1x1", "0 size=4%", "0 diameter=-1", "0 diameter=91", "0 diameter=nan"}) {
     LightEdits edits;
     const auto parsed = parse_light_edit(text, edits);
     EXPECT_FALSE(parsed) << text;
@@ -82,6 +86,20 @@ TEST(SetLight, DrawsWhatTheOtherOptionsDraw) {
   const base::Image8 one = soft({"--set-light", "1 size=1x0.5", "--light", "1"});
   EXPECT_EQ(soft({"--light-size", "1x0.5", "--light", "1"}), one) << "light 0 has no part in it";
   EXPECT_NE(soft({"--set-light", "1 size=2x0.5", "--light", "1"}), one);
+}
+
+TEST(SetLight, GivesASunItsDiameter) {
+  const TemporaryFolder folder;
+  const std::string scene = testing::write_moving_scene(folder);
+  const auto sunny = [&](std::vector<std::string> more) {
+    more.insert(more.begin(), {scene, "--add-light", "directional direction=-0.3,-1,-0.2", "--light", "1"});
+    return rendered(folder, more);
+  };
+  const base::Image8 hard = sunny({}), soft = sunny({"--shadows", "soft", "--sun-size", "6"});
+  EXPECT_NE(soft, hard);
+  EXPECT_EQ(sunny({"--shadows", "soft", "--set-light", "1 diameter=6"}), soft);
+  EXPECT_EQ(sunny({"--shadows", "soft", "--set-light", "1 diameter=6", "--sun-size", "0.5"}), soft);
+  EXPECT_EQ(sunny({"--shadows", "soft", "--sun-size", "0"}), hard);
 }
 
 TEST(SetLight, CountsEachPlaceOfASharedLight) {

@@ -77,7 +77,7 @@ TEST(MethodArguments, GiveBackWhatTheyWereMadeFrom) {
         "--emissive-lights --soft-solver bsp "
         "--soft-grouping triangle --soft-choice random --soft-precision reference --soft-points 12 "
         "--soft-error 1.5",
-        "--light-size 4x4%",
+        "--light-size 4x4%", "--sun-size 0.53",
         "--ao field --ao-at vertices --ao-layout positions --ao-rays 7 --ao-downscale 3 --ao-distance 1.5 "
         "--ao-positions 99 "
         "--ao-directions 64 --ao-bits 1 --ao-deforming none --ao-cache none --ao-memory 100"}) {
@@ -92,7 +92,8 @@ TEST(MethodArguments, CoverEveryMethodOption) {
   const std::string all = viewer::method_arguments(parsed(
       "--shadows soft --light 2 --exposure 0.1 --tone none --antialias 8 --threads 3 --simd scalar --variant "
       "Spheres "
-      "--samples depth --cull front --terminator flat --see-through cast --light-size 1x1 --light-facing "
+      "--samples depth --cull front --terminator flat --see-through cast --light-size 1x1 --sun-size 2 "
+      "--light-facing "
       "1,2,3 --light-emission lambert "
       "--emissive-lights --soft-solver "
       "bsp "

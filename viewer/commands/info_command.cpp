@@ -121,6 +121,7 @@ Json lights_of(const Scene& scene, const SceneSummary& summary) {
     if (light.type == LightType::area_rect || light.type == LightType::area_disk) {
       entry["size_m"] = {2 * glm::length(placed.axis_x), 2 * glm::length(placed.axis_y)};
     }
+    if (light.diameter_deg > 0) entry["diameter_deg"] = light.diameter_deg;
     if (light.range_m) entry["range_m"] = *light.range_m;
     lights.push_back(entry);
   }

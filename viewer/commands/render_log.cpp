@@ -57,17 +57,19 @@ std::string light_size_text(const render::AreaLightSettings& lights) {
 void describe_soft(const render::RenderSettings& settings, std::vector<render::LogSetting>& list) {
   const SoftShadowConfig& soft = settings.soft;
   const render::AreaLightSettings& lights = settings.area_lights;
-  list.insert(list.end(),
-              {{"soft_solver", choice_name(solver_choices, soft.solver)},
-               {"soft_grouping", choice_name(grouping_choices, soft.grouping)},
-               {"soft_choice", choice_name(occluder_choices, soft.choice)},
-               {"soft_precision", choice_name(precision_choices, soft.precision)},
-               {"soft_points", settings.soft_points == 0 ? "none" : fmt::format("{}", settings.soft_points)},
-               {"soft_error", soft.error_255 > 0 ? fmt::format("{}", soft.error_255) : "0, exact"},
-               {"light_size", light_size_text(lights)},
-               {"light_facing", lights.facing ? vector(*lights.facing) : "the scene's centre"},
-               {"light_emission", choice_name(emission_choices, lights.emission)},
-               {"emissive_lights", lights.emissive_quads ? "yes" : "no"}});
+  list.insert(
+      list.end(),
+      {{"soft_solver", choice_name(solver_choices, soft.solver)},
+       {"soft_grouping", choice_name(grouping_choices, soft.grouping)},
+       {"soft_choice", choice_name(occluder_choices, soft.choice)},
+       {"soft_precision", choice_name(precision_choices, soft.precision)},
+       {"soft_points", settings.soft_points == 0 ? "none" : fmt::format("{}", settings.soft_points)},
+       {"soft_error", soft.error_255 > 0 ? fmt::format("{}", soft.error_255) : "0, exact"},
+       {"light_size", light_size_text(lights)},
+       {"sun_size", lights.sun_deg ? fmt::format("{} degrees", *lights.sun_deg) : "as the scene has it"},
+       {"light_facing", lights.facing ? vector(*lights.facing) : "the scene's centre"},
+       {"light_emission", choice_name(emission_choices, lights.emission)},
+       {"emissive_lights", lights.emissive_quads ? "yes" : "no"}});
 }
 
 void describe_ao(const AoConfig& ao, std::vector<render::LogSetting>& list) {

@@ -35,6 +35,12 @@ Expected<void> apply(const std::string& key, const std::string& value, LightEdit
     edit.size_m = size->size;
     return {};
   }
+  if (key == "diameter") {
+    const auto diameter = parse_sun_size(value);
+    if (!diameter) return tl::unexpected(diameter.error());
+    edit.diameter_deg = *diameter;
+    return {};
+  }
   if (key == "color" || key == "direction") {
     const auto vector = parse_vector(value);
     if (!vector) return tl::unexpected(vector.error());
@@ -46,8 +52,8 @@ Expected<void> apply(const std::string& key, const std::string& value, LightEdit
     return {};
   }
   return base::fail(
-      "found {}={}, expected on=0, on=1, intensity=FACTOR, color=R,G,B, direction=X,Y,Z, move=X,Y,Z or "
-      "size=WxH",
+      "found {}={}, expected on=0, on=1, intensity=FACTOR, color=R,G,B, direction=X,Y,Z, move=X,Y,Z, "
+      "size=WxH or diameter=DEGREES",
       key, value);
 }
 
@@ -63,6 +69,7 @@ std::string text_of(const LightEdit& edit) {
   if (edit.direction) text += vector("direction", *edit.direction);
   if (edit.move != glm::vec3(0.0f)) text += vector("move", edit.move);
   if (edit.size_m) text += fmt::format(" size={}x{}", edit.size_m->x, edit.size_m->y);
+  if (edit.diameter_deg) text += fmt::format(" diameter={}", *edit.diameter_deg);
   return text;
 }
 
@@ -150,6 +157,12 @@ std::vector<std::optional<glm::vec2>> edited_sizes_m(const LightEdits& edits) {
   std::vector<std::optional<glm::vec2>> sizes_m;
   for (const LightEdit& edit : edits) sizes_m.push_back(edit.size_m);
   return sizes_m;
+}
+
+std::vector<std::optional<float>> edited_suns_deg(const LightEdits& edits) {
+  std::vector<std::optional<float>> suns_deg;
+  for (const LightEdit& edit : edits) suns_deg.push_back(edit.diameter_deg);
+  return suns_deg;
 }
 
 }  // namespace tenebra::viewer

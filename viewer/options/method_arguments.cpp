@@ -40,6 +40,7 @@ void add_soft(Arguments& arguments, const MethodOptions& options) {
       arguments.add("--light-facing", fmt::format("{},{},{}", facing->x, facing->y, facing->z));
     }
   }
+  if (lights.sun_deg) arguments.add("--sun-size", fmt::format("{}", *lights.sun_deg));
   arguments.choice("--light-emission", emission_choices, options.light_emission,
                    MethodOptions{}.light_emission);
   if (lights.emissive_quads) arguments.add("--emissive-lights");

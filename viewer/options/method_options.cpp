@@ -197,6 +197,10 @@ void add_soft(CLI::App& command, MethodOptions& options) {
                 "Turns point and spot lights into rectangles of this size,\nin metres, or (4%) in percent "
                 "of the scene's diagonal;\nthey keep their brightness [they stay points]")
           .type_name("W[xH][%]");
+  const auto sun = add_value(command, "--sun-size", lights.sun_deg, parse_sun_size,
+                             "Diameter of directional lights, like 0.53; they keep their\nbrightness; 0: "
+                             "hard shadows [as the scene has it]")
+                       .type_name("DEGREES");
   const auto facing =
       add_value(command, "--light-facing", lights.facing, parse_vector,
                 "Point that those rectangles face [the scene's centre;\nspot lights: where they shine]")
@@ -210,7 +214,7 @@ void add_soft(CLI::App& command, MethodOptions& options) {
   const auto emissive = add_flag(command, "--emissive-lights", lights.emissive_quads,
                                  "Flat convex meshes with an emissive material are lights too");
   set_group(
-      {size, facing, emission, emissive,
+      {size, sun, facing, emission, emissive,
        add_choice<solver_choices>(command, "--soft-solver", soft.solver,
                                   "How the visible part of a light is found: by the paper's\nlazy BSP, by "
                                   "clipping, or (auto) meshes by their\nsilhouettes and the rest by "

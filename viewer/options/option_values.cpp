@@ -179,6 +179,13 @@ Expected<LightSize> parse_light_size(const std::string& text) {
   return result;
 }
 
+Expected<float> parse_sun_size(const std::string& text) {
+  const double degrees = finite_from(text).value_or(-1);
+  if (!(degrees >= 0 && degrees <= 90))
+    return base::fail("found {}, expected degrees from 0 to 90, like 0.53", text);
+  return static_cast<float>(degrees);
+}
+
 std::filesystem::path default_cache_folder() {
   const auto absolute = [](const char* variable) {
     const char* value = std::getenv(variable);

@@ -48,6 +48,7 @@ Expected<int> parse_count(const std::string& text);               ///< whole, 0 
 Expected<int> parse_at_least_one(const std::string& text);        ///< whole, 1 to 1,000,000
 Expected<int> parse_square_count(const std::string& text);        ///< N or WxH of them, 1 to 1,000,000 in all
 Expected<LightSize> parse_light_size(const std::string& text);    ///< W, WxH, W% or WxH%
+Expected<float> parse_sun_size(const std::string& text);          ///< degrees, 0 to 90
 
 /// Folder for files that can be made again, by the XDG rules: $XDG_CACHE_HOME/tenebra, else
 /// $HOME/.cache/tenebra; empty where neither is set.

@@ -95,7 +95,8 @@ void add_edits(CLI::App& command, SceneOptions& options) {
       [](const std::string& text, SceneEdits& edits) { return parse_light_edit(text, edits.lights); },
       "\"N KEY=VALUE ...\" changes light N: on=0,\nintensity=FACTOR, color=R,G,B, "
       "direction=X,Y,Z,\nmove=X,Y,Z "
-      "(metres), size=WxH (metres, for soft\nshadows); may be repeated");
+      "(metres), size=WxH (metres, for soft\nshadows), diameter=DEGREES (of directional lights);\nmay be "
+      "repeated");
   add("--add-light", parse_added_light,
       "\"TYPE KEY=VALUE ...\" adds a light: point, spot or\ndirectional; position=X,Y,Z, direction=X,Y,Z,\n"
       "intensity=VALUE, color=R,G,B; may be repeated");

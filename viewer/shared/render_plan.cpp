@@ -56,6 +56,7 @@ Expected<RenderPlan> plan_render(const RenderOptions& options) {
   plan.settings.aovs = options.pictures.aovs.of_frame;
   plan.settings.sample_masks = !options.mask_samples.empty();
   plan.settings.area_lights.own_size_m = edited_sizes_m(options.scene.edits.lights);
+  plan.settings.area_lights.own_sun_deg = edited_suns_deg(options.scene.edits.lights);
   plan.scene.lights = lights_of(plan.scene, options.scene.edits);
   const int light = plan.settings.light;
   // Emissive meshes follow the scene's lights; the renderer, which finds them, checks their number.

@@ -62,6 +62,8 @@ void GlbWriter::write_lights() {
       written["extras"] = {{"falloff", "none"}, {"intensity", light.intensity * peak}};
       ++without_falloff;
     }
+    if (light.type == LightType::directional && light.diameter_deg > 0)
+      written["extras"]["diameter_deg"] = light.diameter_deg;
     if (light.range_m) written["range"] = *light.range_m;
     if (light.type == LightType::spot)
       written["spot"] = {{"innerConeAngle", light.inner_cone_rad}, {"outerConeAngle", light.outer_cone_rad}};

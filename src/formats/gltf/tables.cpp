@@ -45,6 +45,14 @@ void read_spot(const tinygltf::SpotLight& spot, const std::string& place, Light&
   light.outer_cone_rad = static_cast<float>(spot.outerConeAngle);
 }
 
+void read_sun(const tinygltf::Light& source, const std::string& place, Light& light) {
+  light.type = LightType::directional;
+  const double diameter = number_or(source.extras, "diameter_deg", 0);
+  if (!(diameter >= 0 && diameter <= 90))
+    refuse("{}.extras.diameter_deg: found {}, expected 0 to 90 degrees", place, diameter);
+  light.diameter_deg = static_cast<float>(diameter);
+}
+
 Light read_punctual_light(const tinygltf::Light& source, const std::string& place,
                           std::vector<std::string>& warnings) {
   Light light;
@@ -61,7 +69,7 @@ Light read_punctual_light(const tinygltf::Light& source, const std::string& plac
   if (source.type == "spot")
     read_spot(source.spot, place, light);
   else if (source.type == "directional")
-    light.type = LightType::directional;
+    read_sun(source, place, light);
   else if (source.type != "point") {
     warnings.push_back(fmt::format("{}.type: found '{}', expected point, spot or directional; it stays dark.",
                                    place, source.type.substr(0, 40)));

@@ -16,7 +16,8 @@ constexpr Field material_extras_fields[] = {{"casts_shadow", Kind::boolean},
                                             {"specular", Kind::numbers, false, "", 3},
                                             {"phong_exponent", Kind::number},
                                             {"transmission", Kind::number}};
-constexpr Field light_extras_fields[] = {{"falloff", Kind::string}, {"intensity", Kind::number}};
+constexpr Field light_extras_fields[] = {
+    {"falloff", Kind::string}, {"intensity", Kind::number}, {"diameter_deg", Kind::number}};
 
 constexpr Field asset_fields[] = {{"version", Kind::string, required}, {"minVersion", Kind::string}};
 constexpr Field scene_extras_fields[] = {{"ambient_light", Kind::numbers, false, "", 3},

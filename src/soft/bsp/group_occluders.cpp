@@ -30,7 +30,7 @@ Triangle3 triangle_in_double(const TriangleView& triangles, std::uint32_t id) {
 MovingLine edge_line(const LightFrame& light, const dvec3& centre, const dvec3& a, const dvec3& b,
                      double sign) {
   const dvec3 d = b - a, n = glm::cross(a - centre, d);
-  const dvec3 to_origin = light.origin - a;
+  const dvec3 to_origin = light.way_from(a);
   MovingLine line;
   line.c[0] = sign * line_of_plane(light, n, to_origin);
   const dvec3 du = glm::cross(d, light.ex), dv = glm::cross(d, light.ey), dw = glm::cross(d, to_origin);
@@ -76,7 +76,7 @@ void add_line(MovingLine line, const EdgePlane& plane, const dvec3& half, GroupO
 
 MovingLine plane_line(const Triangle3& t, const LightFrame& light, double sign) {
   MovingLine line{};
-  line.c[0] = sign * line_of_plane(light, t.normal, light.origin - t.v[0]);
+  line.c[0] = sign * line_of_plane(light, t.normal, light.way_from(t.v[0]));
   return line;
 }
 

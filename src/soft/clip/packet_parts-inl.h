@@ -51,9 +51,10 @@ struct PacketPoints {
     };
     const Wide u = along(axes.u), v = along(axes.v), height = along(axes.height);
     store(u, in_axes[0]), store(v, in_axes[1]), store(height, in_axes[2]);
-    store(wide(axes.centre_uv.x) + u, in_light[0]);
-    store(wide(axes.centre_uv.y) + v, in_light[1]);
-    store(wide(axes.centre_uv.z) - height, reach);
+    const Wide weight = wide(axes.weight);
+    store(wide(axes.centre_uv.x) + weight * u, in_light[0]);
+    store(wide(axes.centre_uv.y) + weight * v, in_light[1]);
+    store(wide(axes.centre_uv.z) - weight * height, reach);
   }
   GroupPoint point(std::size_t k) const {
     return group_point(axes, {position[0][k], position[1][k], position[2][k]}, receiver[k], receiver_tau[k]);
@@ -61,7 +62,7 @@ struct PacketPoints {
 };
 
 inline PointRange range_of(const PacketPoints& at) {
-  PointRange range{{}, {}, glm::dvec2(at.axes.centre_uv), at.axes.centre_uv.z};
+  PointRange range{{}, {}, glm::dvec2(at.axes.centre_uv), at.axes.centre_uv.z, at.axes.weight};
   for (int c = 0; c < 3; ++c) {
     const Wide there = load<Wide>(at.in_axes[c]);
     range.low[c] = reduce_min(there), range.high[c] = reduce_max(there);

@@ -96,7 +96,8 @@ private:
   HWY_NOINLINE void find_sight(const LightFrame& light, std::size_t first) {
     Pack3<Double8> way, normal;
     const auto find = [&](int c, Double8& to) {
-      to = broadcast<Double8>(light.origin[c]) - load<Double8>(points_.position[c] + first);
+      to = broadcast<Double8>(light.origin[c]) -
+           broadcast<Double8>(light.weight) * load<Double8>(points_.position[c] + first);
       store(to, to_origin_[c] + first);
     };
     find(0, way.x), find(1, way.y), find(2, way.z);

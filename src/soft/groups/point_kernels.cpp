@@ -59,6 +59,7 @@ std::uint64_t equal(const std::uint32_t* values, std::uint32_t value) {
 std::uint64_t in_front(const PointLanes& points, const LightShape& light, std::size_t first) {
   const Vector8 origin = broadcast8(light.origin), normal = broadcast8(light.normal);
   const dvec3 o = glm::abs(light.origin);
+  if (light.at_infinity()) return ~std::uint64_t{0};
   std::uint64_t set = 0;
   for (std::size_t i = 0; i < 8; ++i) {
     const Vector8 p = eight_at(points, first / 8 + i);

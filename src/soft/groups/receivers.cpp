@@ -26,7 +26,7 @@ void see_lifted(const TriangleView& triangles, const ViewRays& view, const Light
   lit.receiver.lifted = lit.light_above;
   for (int k = 0; k < light.count; ++k) {
     for (int i = 0; i < 3; ++i) {
-      const dvec3 from = light.origin + light.vertices[k] - dvec3(c.v[i]);
+      const dvec3 from = light.origin + light.vertices[k] - light.weight * dvec3(c.v[i]);
       const double margin = 0x1p-46 * (math::l1_norm(from) + math::l1_norm(light.origin));
       lit.receiver.lifted |= glm::dot(smooth.normal[i], from) > -margin;
     }
@@ -55,16 +55,16 @@ LitTriangle lit_triangle(const TriangleView& triangles, std::uint32_t id, const 
   lit.level = glm::dot(lit.receiver.m, a - light.origin);
   lit.light_height = infinity;
   for (int k = 0; k < light.count; ++k) {
-    const dvec3 q = light.origin + light.vertices[k];
+    const dvec3 q = light.origin + light.vertices[k], way = q - light.weight * a;
     // Q is off by 2^-50 of its coordinates, n and the dot product as in predicates.cpp.
     const double bound = 0x1p-46 * math::l1_norm(e1) * math::l1_norm(e2) *
-                         (math::l1_norm(q - a) + math::l1_norm(light.origin) + math::l1_norm(q));
-    lit.light_above |= glm::dot(n, q - a) > -bound;
+                         (math::l1_norm(way) + math::l1_norm(light.origin) + math::l1_norm(q));
+    lit.light_above |= glm::dot(n, way) > -bound;
     lit.light_height = std::min(lit.light_height, glm::dot(lit.receiver.m, light.vertices[k]));
   }
   if (!triangles.normals.empty()) {
     const double margin = 0x1p-40 * (light.reach + math::l1_norm(light.origin) + math::l1_norm(a));
-    if (!(lit.light_height > lit.level + margin)) see_lifted(triangles, view, light, lit);
+    if (!(lit.light_height > light.weight * lit.level + margin)) see_lifted(triangles, view, light, lit);
   }
   return lit;
 }
@@ -81,9 +81,10 @@ Receiver receiver_of(const LitTriangle& triangle, double lowest_point, const Cel
     return receiver;
   }
   // tau over sqrt(3) 2^-24: the receiver's largest |coordinate|
-  const double margin = 0x1p-46 * (cell.reach + light.reach + largest(light.origin) + receiver.tau * 0x1p24);
-  const double light_height = triangle.light_height - triangle.level;
-  const double distance = 1.7320508075688774 * (cell.reach + light.reach) * (1 + 0x1p-40);
+  const double margin =
+      0x1p-46 * (cell.reach + light.place_reach() + largest(light.origin) + receiver.tau * 0x1p24);
+  const double light_height = triangle.light_height - light.weight * triangle.level;
+  const double distance = 1.7320508075688774 * (light.weight * cell.reach + light.reach) * (1 + 0x1p-40);
   double rise = 0;
   if (light_height > margin && distance > 0)
     rise = receiver.tau * (light_height - margin) / distance * (1 - 0x1p-40);

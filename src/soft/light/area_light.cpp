@@ -5,9 +5,11 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <numbers>
 #include <optional>
 
 #include "base/fail.h"
+#include "soft/light/even_emission.h"
 
 namespace tenebra {
 namespace {
@@ -18,6 +20,12 @@ using glm::vec3;
 
 constexpr std::size_t min_vertices = 3;
 constexpr std::size_t max_vertices = 14;
+
+// n corners at radius R enclose n/2 R^2 sin(2 pi / n): with n = 12, R^2 = pi/3 r^2.
+constexpr double twelve_gon_radius = 1.0233267079464885;  // sqrt(pi / 3)
+constexpr double root = 0.86602540378443865;
+constexpr std::array<double, 12> twelfths{1,  root,  0.5,  0, -0.5, -root,
+                                          -1, -root, -0.5, 0, 0.5,  root};  // cosines
 
 dvec3 cross(const dvec3& a, const dvec3& b) {
   return {a.y * b.z - a.z * b.y, a.z * b.x - a.x * b.z, a.x * b.y - a.y * b.x};
@@ -225,16 +233,41 @@ Expected<AreaLight> make_rectangle_light(vec3 centre, vec3 half_x, vec3 half_y) 
   return make_area_light(corners);
 }
 
-// n corners at radius R enclose n/2 R^2 sin(2 pi / n): with n = 12, R^2 = pi/3 r^2.
 Expected<AreaLight> make_disc_light(vec3 centre, vec3 half_x, vec3 half_y) {
-  constexpr double radius = 1.0233267079464885;  // sqrt(pi / 3)
-  constexpr double half = 0.5, root = 0.86602540378443865;
-  constexpr std::array<double, 12> cosine{1, root, half, 0, -half, -root, -1, -root, -half, 0, half, root};
   std::array<vec3, 12> corners;
   for (std::size_t i = 0; i < corners.size(); ++i)
-    corners[i] =
-        vec3(dvec3(centre) + radius * (cosine[i] * dvec3(half_x) + cosine[(i + 9) % 12] * dvec3(half_y)));
+    corners[i] = vec3(dvec3(centre) + twelve_gon_radius * (twelfths[i] * dvec3(half_x) +
+                                                           twelfths[(i + 9) % 12] * dvec3(half_y)));
   return make_area_light(corners);
+}
+
+Expected<AreaLight> make_sun(vec3 to_sun, double diameter_deg) {
+  if (!std::isfinite(to_sun.x) || !std::isfinite(to_sun.y) || !std::isfinite(to_sun.z) || to_sun == vec3(0))
+    return base::fail("sun: found the direction ({}, {}, {}), expected finite coordinates, not all zero",
+                      to_sun.x, to_sun.y, to_sun.z);
+  // The sum over its edges is off by 1e-13 of their lengths: of smaller suns by more than 1e-4 of the light.
+  constexpr double least = 1e-6;
+  if (!(diameter_deg >= least && diameter_deg <= 90))
+    return base::fail("sun: found a diameter of {} degrees, expected one from {} to 90", diameter_deg, least);
+  AreaLight light;
+  light.at_infinity = true;
+  // Rounded to float: the last bits of a tangent are not the same on every machine.
+  const double radius =
+      static_cast<float>(twelve_gon_radius * std::tan(diameter_deg * (std::numbers::pi / 360)));
+  for (std::size_t i = 0; i < twelfths.size(); ++i)
+    light.polygon.emplace_back(radius * twelfths[i], radius * twelfths[(i + 9) % 12]);
+  // Along the axes first: there the sum over the edges loses nothing, however small they are.
+  light.ey = {0, -1, 0}, light.centre = {0, 0, 1}, light.normal = -light.centre;
+  light.area_m2 = soft::whole_irradiance(light, dvec3(0), light.centre);
+  const dvec3 way(to_sun);
+  light.centre = way / std::max({std::abs(way.x), std::abs(way.y), std::abs(way.z)});
+  light.centre /= std::sqrt(dot(light.centre, light.centre));
+  light.normal = -light.centre;
+  const dvec3 side = std::abs(light.normal.y) < 0.9 ? dvec3(0, 1, 0) : dvec3(0, 0, -1);
+  light.ex = cross(side, light.normal);
+  light.ex /= std::sqrt(dot(light.ex, light.ex));
+  light.ey = cross(light.normal, light.ex);
+  return light;
 }
 
 }  // namespace tenebra

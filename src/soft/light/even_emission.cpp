@@ -51,8 +51,9 @@ double artanh(double q) {
 /// The light's polygon as seen from `at`, its part on the normal's side.
 Corners seen_above(const AreaLight& light, const dvec3& at, const dvec3& normal) {
   Corners whole, above;
+  const dvec3 way = light.at_infinity ? light.centre : light.centre - at;
   for (const glm::dvec2& v : light.polygon) {
-    if (whole.count < 14) whole.add(light.centre - at + v.x * light.ex + v.y * light.ey);
+    if (whole.count < 14) whole.add(way + v.x * light.ex + v.y * light.ey);
   }
   for (std::size_t i = 0; i < whole.count; ++i) {
     const dvec3 a = whole.at[i], b = whole.after(i);

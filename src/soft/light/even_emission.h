@@ -23,7 +23,8 @@ bool any_behind(const VisiblePoints& points, const AreaLight& light);
 /// integral without the cosine, or 1e-15 times the distance over the light's size if that is more.
 double even_irradiance(const AreaLight& light, const glm::dvec3& at, const glm::dvec3& normal);
 
-/// Irradiance as from radiance 1 (the same integral times the cosine at the light), in closed form alike.
+/// Irradiance as from radiance 1 (the same integral times the cosine at the light), in closed form alike. Of
+/// suns, too.
 double whole_irradiance(const AreaLight& light, const glm::dvec3& at, const glm::dvec3& normal);
 
 /// Turns the irradiance in `mask`, which is that of radiance 1 (SoftShadowTracer's of `light`, with these

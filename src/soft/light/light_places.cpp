@@ -50,6 +50,13 @@ glm::vec3 LightPlaces::at(double across, double along) const {
   return glm::vec3(light_->centre + x * light_->ex + y * light_->ey);
 }
 
+ShadowLight light_at(const AreaLight& light, const glm::vec3& place) {
+  ShadowLight point;
+  point.directional = light.at_infinity;
+  (point.directional ? point.to_light : point.position) = place;
+  return point;
+}
+
 dvec2 sobol_place(std::uint32_t index) {
   // Digits 0101... and 1010... are a third and two thirds, wherever they are cut off.
   std::uint32_t x = 0x55555555u, y = 0xaaaaaaaau, column = 1u << 31, digit = 1u << 31;

@@ -6,6 +6,7 @@
 #include <vector>
 
 #include <tenebra/area_light.h>
+#include <tenebra/hard_config.h>
 
 namespace tenebra::soft {
 
@@ -14,8 +15,10 @@ class LightPlaces {
 public:
   explicit LightPlaces(const AreaLight& light);
 
-  /// `across`, `along`: 0..1. World space.
+  /// `across`, `along`: 0..1. World space; of a sun a direction.
   glm::vec3 at(double across, double along) const;
+  const AreaLight& light() const { return *light_; }
+  double area() const { return area_; }  ///< of the polygon, in square units of its coordinates
 
 private:
   /// Part of the polygon between two neighbouring vertices in x: a trapezoid.
@@ -29,6 +32,9 @@ private:
   std::vector<Slab> slabs_;
   double area_ = 0;
 };
+
+/// What shines from such a place.
+ShadowLight light_at(const AreaLight& light, const glm::vec3& place);
 
 /// Place `index` of Sobol's sequence in the unit square (Bratley and Fox 1988): of any 2^m that follow each
 /// other from a multiple of 2^m on, one lies in each cell of every grid of 2^a by 2^(m-a) cells, none on an

@@ -6,10 +6,14 @@ namespace tenebra::soft {
 
 using glm::dvec3;
 
-LightShape::LightShape(const AreaLight& light) : origin(light.centre), normal(light.normal) {
+LightShape::LightShape(const AreaLight& light)
+    : origin(light.at_infinity ? dvec3(0) : light.centre),
+      normal(light.normal),
+      weight(light.at_infinity ? 0 : 1),
+      middle(light.centre - origin) {
   for (const glm::dvec2& v : light.polygon) {
     assert(count < most_light_vertices);
-    vertices[count] = v.x * light.ex + v.y * light.ey;
+    vertices[count] = middle + (v.x * light.ex + v.y * light.ey);
     reach = std::max(reach, largest(vertices[count]));
     low = count == 0 ? vertices[0] : glm::min(low, vertices[count]);
     high = count == 0 ? vertices[0] : glm::max(high, vertices[count]);

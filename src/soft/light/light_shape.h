@@ -1,4 +1,6 @@
-// The light's polygon relative to its centre, as shafts and groups of points are measured against it.
+// The light's polygon relative to its centre, as shafts and groups of points are measured against it. Places
+// have a fourth, homogeneous coordinate, the light's `weight`: q - weight * p is the way from p to q, of a
+// sun, of weight 0, the same from everywhere.
 #pragma once
 
 #include <tenebra/area_light.h>
@@ -20,14 +22,20 @@ inline double largest(const glm::dvec3& v) {
 struct LightShape {
   explicit LightShape(const AreaLight& light);
 
-  glm::dvec3 origin{0.0};  ///< the light's centre, world space
+  glm::dvec3 origin{0.0};  ///< the light's centre, of a sun the world's; world space
   glm::dvec3 normal{0.0};
+  double weight = 1;       ///< 0: a sun; its vertices are directions, within 2^-50
+  glm::dvec3 middle{0.0};  ///< of the vertices
   std::array<glm::dvec3, most_light_vertices> vertices{};
   int count = 0;
-  double reach = 0;                ///< largest |coordinate|
+  double reach = 0;                ///< largest |coordinate| of the vertices
   glm::dvec3 low{0.0}, high{0.0};  ///< box of the vertices
   /// Edge by edge: o, outwards in the light's plane, and o.x for its points x; 0 beyond the last.
   double across[3][16] = {}, at_edge[16] = {};
+
+  bool at_infinity() const { return weight == 0; }
+  /// Largest |coordinate| of its places.
+  double place_reach() const { return weight * reach; }
 };
 
 }  // namespace tenebra::soft

@@ -73,7 +73,7 @@ private:
     const auto boxed = lt(zero, bottom - wide(at.high.z));
     Wide t0 = far, t1 = zero;
     for (const double z : {at.low.z, at.high.z}) {
-      const Wide reach = wide(at.light_height - z);
+      const Wide reach = wide(at.light_height - at.weight * z);
       const Wide near = reach / select(boxed, bottom - wide(z), one);
       const Wide beyond = reach / select(boxed, top - wide(z), one);
       t0 = min(t0, min(near, beyond));

@@ -72,7 +72,7 @@ private:
     const auto num = [](double value) { return broadcast<Double8>(value); };
     const auto along = [&](const glm::dvec3& a) { return n.x * num(a.x) + n.y * num(a.y) + n.z * num(a.z); };
     const glm::dvec3& o = light.origin;
-    const Vector8 to_origin = broadcast3<Double8>(o.x, o.y, o.z) - v[0];
+    const Vector8 to_origin = broadcast3<Double8>(o.x, o.y, o.z) - num(light.weight) * v[0];
     const double unit = std::sqrt(glm::dot(light.ex, light.ex));
     const Double8 size = length * num(unit);
     const Double8 scale = num(axes.turn) / select(lt(num(0), size), size, num(1));
@@ -106,11 +106,13 @@ private:
   SIMD_INLINE void find_light_sides(const LightFrame& light, const Vector8& v, const Vector8& n,
                                     Double8 length) {
     const Double8 zero = broadcast<Double8>(0.0);
-    const Double8 slack = broadcast<Double8>(product_rounding) * length, size = l1_norm(v);
+    const Double8 slack = broadcast<Double8>(product_rounding) * length;
+    const Vector8 from = broadcast<Double8>(light.weight) * v;
+    const Double8 size = l1_norm(from);
     std::uint32_t positive = ~0u, negative = ~0u;
     for (const glm::dvec2& at : light.polygon) {
       const glm::dvec3 vertex = light.point(at);
-      const Double8 value = dot_unfused(n, broadcast3<Double8>(vertex.x, vertex.y, vertex.z) - v);
+      const Double8 value = dot_unfused(n, broadcast3<Double8>(vertex.x, vertex.y, vertex.z) - from);
       const Double8 margin = slack * (broadcast<Double8>(math::l1_norm(vertex)) + size);
       positive &= lt_bits(margin, value);
       negative &= lt_bits(value, zero - margin);
@@ -141,13 +143,13 @@ private:
     const double unit = 1 / std::sqrt(glm::dot(light.ex, light.ex));
     const Double8 reach = num(math::l1_norm(axes.height * group.half)), top = num(axes.centre_uv.z);
     const double around =
-        math::l1_norm(group.centre) + math::l1_norm(group.half) + math::l1_norm(light.origin);
+        math::l1_norm(group.centre) + math::l1_norm(group.half) + light.weight * math::l1_norm(light.origin);
     std::uint32_t between = ~0u;
     for (int k = 0; k < 3; ++k) {
       const Double8 height = along(axes.height, from[k]);
       const Double8 size = (l1_norm(v[k]) + num(around)) * num(unit);
       between &= lt_bits(num(0x1p-16) * size, height - reach);
-      between &= lt_bits(num(product_rounding) * size, top - height);
+      between &= lt_bits(num(light.weight * product_rounding) * size, top - num(light.weight) * height);
       store(along(axes.u, from[k]), lanes_.corners[k][0]);
       store(along(axes.v, from[k]), lanes_.corners[k][1]);
       store(height, lanes_.corners[k][2]);
@@ -213,7 +215,8 @@ LightAxes light_axes(const LightFrame& light, const glm::dvec3& centre) {
   axes.v = light.ey / square;
   axes.height = -light.normal / unit;
   axes.centre = centre;
-  const glm::dvec3 from = centre - light.origin;
+  axes.weight = light.weight;
+  const glm::dvec3 from = light.weight * centre - light.origin;
   axes.centre_uv = {glm::dot(from, axes.u), glm::dot(from, axes.v), glm::dot(from, light.normal) / unit};
   axes.turn = glm::dot(glm::cross(light.ex, light.ey), axes.height) > 0 ? 1.0 : -1.0;
   return axes;

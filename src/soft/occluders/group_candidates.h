@@ -30,13 +30,16 @@ struct GroupFrame {
 };
 
 /// Axes of the light around a place: the light's unit is the unit of all three coordinates, the third is the
-/// height towards the light's plane. An affine map: it keeps lines, planes and sides (times `turn`).
+/// height towards the light's plane; of a sun, any plane before the point that they are about. An affine map:
+/// it keeps lines, planes and sides (times `turn`).
 struct LightAxes {
   glm::dvec3 u{0.0}, v{0.0}, height{0.0};  ///< rows of the map from world space
   glm::dvec3 centre{0.0};                  ///< world space; the origin of these axes
   /// Its u and v from the light's origin, and the height of the light's plane over it.
   glm::dvec3 centre_uv{0.0};
-  double turn = 1;  ///< sign of the map's determinant
+  double turn = 1;    ///< sign of the map's determinant
+  double weight = 1;  ///< the light's: where a point lies to it, and the height of its plane over the point,
+                      ///< are centre_uv plus and less weight times the point's coordinates
 
   /// A difference from the centre in these axes.
   glm::dvec3 of(const glm::dvec3& from_centre) const {

@@ -24,8 +24,8 @@ inline GroupPoint group_point(const LightAxes& axes, const glm::dvec3& position,
                               double receiver_tau) {
   GroupPoint at{position - axes.centre, {}, {}, 0, axes.turn, receiver, receiver_tau};
   at.in_axes = axes.of(at.from_centre);
-  at.in_light = glm::dvec2(axes.centre_uv) + glm::dvec2(at.in_axes);
-  at.reach = axes.centre_uv.z - at.in_axes.z;
+  at.in_light = glm::dvec2(axes.centre_uv) + axes.weight * glm::dvec2(at.in_axes);
+  at.reach = axes.centre_uv.z - axes.weight * at.in_axes.z;
   return at;
 }
 

@@ -24,6 +24,7 @@ struct PointRange {
   glm::dvec3 low{0.0}, high{0.0};
   glm::dvec2 light_from{0.0};  ///< u and v of the axes' origin from the light's
   double light_height = 0;     ///< of the light's plane over the axes' origin
+  double weight = 1;           ///< LightAxes::weight
 };
 inline const GroupPoint& range_of(const GroupPoint& at) {
   return at;
@@ -72,7 +73,8 @@ SIMD_INLINE Wide wide(double value) {
 SIMD_INLINE void shadow_range(const PointRange& at, int axis, Wide low, Wide high, Wide t0, Wide t1,
                               Wide& least_at, Wide& most_at) {
   for (const double place : {at.low[axis], at.high[axis]}) {
-    const Wide from = wide(at.light_from[axis] + place), near = low - wide(place), far = high - wide(place);
+    const Wide from = wide(at.light_from[axis] + at.weight * place), near = low - wide(place),
+               far = high - wide(place);
     least_at = min(least_at, from + min(near * t0, near * t1));
     most_at = max(most_at, from + max(far * t0, far * t1));
   }
@@ -127,7 +129,8 @@ template <class T>
 HWY_NOINLINE void find_boxes(const OccluderBlock& block, const PointRange& at, BlockBoxes<T>& out) {
   const Wide far = wide(1e30), zero = wide(0), one = wide(1);
   Wide low[2] = {far, far}, high[2] = {zero - far, zero - far}, lowest = far, highest = zero - far;
-  const Wide reach_up = wide(at.light_height - at.low.z), reach = wide(at.light_height - at.high.z);
+  const Wide reach_up = wide(at.light_height - at.weight * at.low.z),
+             reach = wide(at.light_height - at.weight * at.high.z);
   for (int k = 0; k < (block.quads == 0 ? 3 : 4); ++k) {
     const auto& corner = block.corners[k];
     const Wide z = load<Wide>(corner[2]), rise = z - wide(at.high.z), rise_up = z - wide(at.low.z);

@@ -60,7 +60,7 @@ inline ReceiverPlane receiver_plane(const LightFrame& light, const ViewRays& vie
   plane.id = id;
   plane.tau = points::rounding_tolerance(c.v);
   if (!(length > 0) || side == 0) return plane;
-  plane.horizon = static_cast<double>(side) * line_of_plane(light, n, light.origin - a);
+  plane.horizon = static_cast<double>(side) * line_of_plane(light, n, light.way_from(a));
   plane.face = static_cast<double>(side) / length * n;
   plane.level = glm::dot(plane.face, a);
   return plane;

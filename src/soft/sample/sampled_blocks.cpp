@@ -35,7 +35,7 @@ glm::vec3 face_of(const SoftFrame& frame, std::uint32_t triangle) {
 SampledSurface surface_at(const SoftFrame& frame, std::uint32_t pixel) {
   SampledSurface out;
   const double size = glm::length(frame.light.ex);
-  out.at = glm::vec3((frame.points.positions[pixel] - frame.light.origin) / size);
+  out.at = glm::vec3(frame.light.way_from(frame.points.positions[pixel]) / -size);
   out.face = face_of(frame, frame.points.triangles[pixel]);
   out.normal = frame.normals.empty() ? out.face : frame.normals[pixel];
   return out;

@@ -64,10 +64,10 @@ SampledErrors errors_of(const SoftFrame& frame, const SampledBlocks& blocks, con
 }
 
 /// The place, moved to the lit side of the light's plane by more than rounding may have put it behind: what
-/// lies in the light's plane hides none of it.
-glm::vec3 before_plane(const glm::vec3& place, const glm::dvec3& normal) {
+/// lies in the light's plane hides none of it. A sun's is a direction and stays.
+glm::vec3 before_plane(const glm::vec3& place, const LightFrame& light) {
   const float most = std::max({std::abs(place.x), std::abs(place.y), std::abs(place.z)});
-  return glm::vec3(glm::dvec3(place) + static_cast<double>(most) * 0x1p-21 * normal);
+  return glm::vec3(glm::dvec3(place) + light.weight * static_cast<double>(most) * 0x1p-21 * light.normal);
 }
 
 std::vector<std::uint32_t> pixels_of(std::span<const SampledGroup> groups) {
@@ -95,8 +95,8 @@ void SoftSampler::look(const SoftFrame& frame, const LightPlaces& places,
   const std::uint32_t more = to - from;
   for (std::uint32_t k = 0; k < more; ++k) {
     const glm::dvec2 at = sobol_place(from * phases + phase * more + k);
-    const glm::vec3 place = before_plane(places.at(at.x, at.y), frame.light.normal);
-    if (!p.tracer.trace_shadow_mask(p.points, frame.view, triangles, {.position = place},
+    const glm::vec3 place = before_plane(places.at(at.x, at.y), frame.light);
+    if (!p.tracer.trace_shadow_mask(p.points, frame.view, triangles, light_at(places.light(), place),
                                     {.simd = frame.config.simd}, p.mask, frame.stop))
       return;
     p.rays += p.tracer.stats().rays;

@@ -1,6 +1,6 @@
 // The shaft of a group of points and a light: the convex hull of a cell around the points and the light's
-// polygon, as planes with the hull on one side (Haines 2000). All coordinates are relative to the light's
-// centre, in double.
+// polygon, as planes with the hull on one side (Haines 2000); of a sun, all that its directions sweep from
+// the cell on, without an end. All coordinates are relative to the light's origin, in double.
 #pragma once
 
 #include <tenebra/simd_level.h>
@@ -20,7 +20,7 @@ struct ShaftPlane {
 struct Shaft {
   Cell cell;
   const LightShape* light;
-  glm::dvec3 low{0.0}, high{0.0};                          ///< box of the shaft, rounded outwards
+  glm::dvec3 low{0.0}, high{0.0};  ///< box of the shaft, rounded outwards; or infinite
   std::array<ShaftPlane, 7 + most_light_vertices> planes;  ///< those that cut off most come first
   int plane_count = 0;
 };

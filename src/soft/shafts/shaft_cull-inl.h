@@ -36,7 +36,7 @@ struct CullingShaft {
   explicit CullingShaft(const Shaft& shaft) : plane_count(shaft.plane_count) {
     const auto as = [](double value) { return static_cast<T>(value); };
     const glm::dvec3& o = shaft.light->origin;
-    const double margin = own_margin * (shaft.cell.reach + shaft.light->reach);
+    const double margin = own_margin * (shaft.cell.reach + shaft.light->place_reach());
     for (int c = 0; c < 3; ++c) {
       origin[c] = as(o[c]), low[c] = as(shaft.low[c] - margin), high[c] = as(shaft.high[c] + margin);
     }
@@ -111,8 +111,9 @@ std::size_t cull_in(const Shaft& shaft, const TriangleBlock* blocks, std::span<c
 inline std::size_t cull(const Shaft& shaft, const TriangleBlock* blocks, std::span<const BlockRef> in,
                         BlockRef* out) {
   const Cell& cell = shaft.cell;
-  const double reach = cell.reach + shaft.light->reach + 2 * largest(shaft.light->origin);
-  const double size = std::max({shaft.light->reach, largest(cell.axis[0]), largest(cell.axis[1])});
+  const double light = shaft.light->place_reach();
+  const double reach = cell.reach + light + 2 * largest(shaft.light->origin);
+  const double size = std::max({light, largest(cell.axis[0]), largest(cell.axis[1])});
   return (0x1p-12 * reach < size ? cull_in<float> : cull_in<double>)(shaft, blocks, in, out);
 }
 

@@ -64,9 +64,9 @@ SIMD_INLINE Double8 most(const Double8& a, const Double8& b, const Double8& c) {
   return max(a, max(b, c));
 }
 
-// n.(x - A) over the points and over the light, n = (B - A) x (C - A), as least and greatest value, both
-// widened by their rounding: with edges off by u, n is off by 9 u size^2 a coordinate, and n.(x - A) by
-// (27 for n + 18 a product + 18 for x + 30 for sums) u size^2 (reach_A + reach_x).
+// n.(x - A) over the points and over the light (a sun: n.x), n = (B - A) x (C - A), as least and greatest
+// value, both widened by their rounding: with edges off by u, n is off by 9 u size^2 a coordinate, and n.(x -
+// A) by (27 for n + 18 a product + 18 for x + 30 for sums) u size^2 (reach_A + reach_x).
 struct PlaneRange {
   Double8 points_low, points_high, light_low, light_high;
   Double8 normal_length, size2;
@@ -89,9 +89,11 @@ SIMD_INLINE PlaneRange plane_range(const Shaft& shaft, const TriangleBlock& bloc
     const Double8 at = dot_unfused(n, broadcast8(shaft.light->vertices[k]));
     r.light_low = min(r.light_low, at), r.light_high = max(r.light_high, at);
   }
-  const Double8 light_margin = r.size2 * (t.reach + broadcast8(shaft.light->reach)) * broadcast8(0x1p-46);
-  r.light_low = r.light_low - at_corner - light_margin;
-  r.light_high = r.light_high - at_corner + light_margin;
+  const Double8 weight = broadcast8(shaft.light->weight);
+  const Double8 light_margin =
+      r.size2 * (weight * t.reach + broadcast8(shaft.light->reach)) * broadcast8(0x1p-46);
+  r.light_low = r.light_low - weight * at_corner - light_margin;
+  r.light_high = r.light_high - weight * at_corner + light_margin;
   r.normal_length = sqrt(dot_unfused(n, n));
   return r;
 }
@@ -133,12 +135,14 @@ std::size_t drop_behind(std::span<const Receiver> receivers, const LightShape& l
 // f(P, Q) = ((a - Q) x e).(P - Q), the side of the line PQ of the edge a, a + e, over cell and light: affine
 // in P and in Q, so its extremes are at the vertices (Theorem 1). With a, e, P, Q off by u it is
 //   a x e.(P - Q) - (Q x e).P: 18 products of three coordinates, each off by 14 u.
+// Of a sun, whose Q have weight 0, it is -(a x e).Q - (Q x e).P.
 struct SideRange {
   Double8 low, high;
 };
 SIMD_INLINE Double8 side_margin(const Shaft& shaft, const Triangles& t) {
-  const double light = shaft.light->reach, cell = shaft.cell.reach;
-  return t.size * (t.reach * broadcast8((cell + light) * 0x1p-45 + 6 * shaft.cell.slack) +
+  const double light = shaft.light->reach, cell = shaft.cell.reach, weight = shaft.light->weight;
+  const double of_cell = weight * cell, of_slack = weight * shaft.cell.slack;
+  return t.size * (t.reach * broadcast8((of_cell + light) * 0x1p-45 + 6 * of_slack) +
                    broadcast8(light * (cell * 0x1p-45 + 6 * shaft.cell.slack)));
 }
 SIMD_INLINE SideRange side_from(const Shaft& shaft, const Vector8& m, const Double8& at_light) {
@@ -150,9 +154,10 @@ SIMD_INLINE SideRange side_from(const Shaft& shaft, const Vector8& m, const Doub
 }
 SIMD_INLINE SideRange side_range(const Shaft& shaft, const Vector8& e, const Vector8& moment) {
   SideRange range{broadcast8(INFINITY), broadcast8(-INFINITY)};
+  const Vector8 weighed = broadcast8(shaft.light->weight) * moment;
   for (int k = 0; k < shaft.light->count; ++k) {
     const Vector8 q = broadcast8(shaft.light->vertices[k]);
-    const SideRange from = side_from(shaft, moment - cross(q, e), dot_unfused(moment, q));
+    const SideRange from = side_from(shaft, weighed - cross(q, e), dot_unfused(moment, q));
     range.low = min(range.low, from.low), range.high = max(range.high, from.high);
   }
   return range;
@@ -165,9 +170,13 @@ struct Sides {
 SIMD_INLINE Sides sides_of_centre(const Shaft& shaft, const Triangles& t) {
   const Double8 zero = broadcast8(0.0);
   const Vector8 centre = broadcast8(shaft.cell.centre);
-  const Double8 f[3] = {dot_unfused(cross(t.v[0], t.v[1]), centre),
-                        dot_unfused(cross(t.v[1], t.v[2]), centre),
-                        dot_unfused(cross(t.v[2], t.v[0]), centre)};
+  Vector8 v[3] = {t.v[0], t.v[1], t.v[2]}, to = centre;
+  if (shaft.light->at_infinity()) {  // the same line from its other end
+    for (Vector8& corner : v) corner = corner - centre;
+    to = broadcast8(-shaft.light->middle);
+  }
+  const Double8 f[3] = {dot_unfused(cross(v[0], v[1]), to), dot_unfused(cross(v[1], v[2]), to),
+                        dot_unfused(cross(v[2], v[0]), to)};
   return {lt_bits(zero, reduce_min(f[0], f[1], f[2])), lt_bits(most(f[0], f[1], f[2]), zero)};
 }
 

@@ -71,7 +71,19 @@ SIMD_INLINE Vector8 light_edges(const Cell& cell, const LightShape& light, int f
   return subtract_scaled(o, t, broadcast8(light.normal));
 }
 
-// Any m gives a valid plane: its limit is the farthest that the shaft reaches along m.
+// Of a sun the planes along the edges of its directions: m.q = 0 for the vertices q at one edge, less for the
+// others, all by 2^-46 |m| less, so that what rounds them (16 u |m| at most, as |q| <= sqrt 3) leaves none
+// above 0 and the plane bounds the shaft at any distance.
+SIMD_INLINE Vector8 sun_edges(const LightShape& light, int first) {
+  const Vector8 o{load<Double8>(light.across[0] + first), load<Double8>(light.across[1] + first),
+                  load<Double8>(light.across[2] + first)};
+  const Double8 at_edge = load<Double8>(light.at_edge + first);
+  const Double8 margin = broadcast8(0x1p-46) * (l1_norm(o) + abs(at_edge));
+  return subtract_scaled(o, broadcast8(0) - at_edge - margin, broadcast8(light.normal));
+}
+
+// Any m gives a valid plane: its limit is the farthest that the shaft reaches along m. Of a sun any m that
+// does not rise along its directions: the farthest then is the cell.
 SIMD_INLINE void add_planes(const Vector8& m_unscaled, Shaft& shaft) {
   const Double8 size = l1_norm(m_unscaled);
   const auto there = lt(broadcast8(0x1p-900), size) & lt(size, broadcast8(0x1p900));
@@ -80,9 +92,10 @@ SIMD_INLINE void add_planes(const Vector8& m_unscaled, Shaft& shaft) {
   const Vector8 m = scale * m_unscaled;
   Double8 most = dot_unfused(m, broadcast8(shaft.cell.centre)) + broadcast8(shaft.cell.slack);
   for (const dvec3& a : shaft.cell.axis) most = most + abs(dot_unfused(m, broadcast8(a)));
-  for (int k = 0; k < shaft.light->count; ++k)
+  for (int k = 0; k < shaft.light->count && !shaft.light->at_infinity(); ++k)
     most = max(most, dot_unfused(m, broadcast8(shaft.light->vertices[k])));
-  most = most + broadcast8(0x1p-49 * (shaft.cell.reach + shaft.light->reach + largest(shaft.light->origin)));
+  most = most +
+         broadcast8(0x1p-49 * (shaft.cell.reach + shaft.light->place_reach() + largest(shaft.light->origin)));
   double x[8], y[8], z[8], limit[8];
   store(m.x, x), store(m.y, y), store(m.z, z), store(most, limit);
   const std::uint32_t valid = bits(there);
@@ -90,12 +103,29 @@ SIMD_INLINE void add_planes(const Vector8& m_unscaled, Shaft& shaft) {
     if ((valid >> k & 1) != 0) shaft.planes[shaft.plane_count++] = {{x[k], y[k], z[k]}, limit[k]};
 }
 
+void extend_to_sun(const LightShape& light, Shaft& shaft) {
+  constexpr double least = 0x1p-46;  // directions are known within 2^-50
+  for (int axis = 0; axis < 3; ++axis) {
+    if (light.low[axis] < least) shaft.low[axis] = -INFINITY;
+    if (light.high[axis] > -least) shaft.high[axis] = INFINITY;
+  }
+  for (int first = 0; first < light.count; first += 8) add_planes(sun_edges(light, first), shaft);
+  const auto one = mask_of_bits<double, 8>(1u);
+  add_planes(select3(one, broadcast8(light.normal), broadcast8(dvec3(0))), shaft);
+}
+
 Shaft shaft_around(const Cell& cell, const LightShape& light) {
   Shaft shaft;
   shaft.cell = cell;
   shaft.light = &light;
   const dvec3 half = glm::abs(cell.axis[0]) + glm::abs(cell.axis[1]) + glm::abs(cell.axis[2]);
-  const double margin = cell.slack + 0x1p-49 * (cell.reach + light.reach + largest(light.origin));
+  const double margin = cell.slack + 0x1p-49 * (cell.reach + light.place_reach() + largest(light.origin));
+  if (light.at_infinity()) {
+    shaft.low = cell.centre - half - margin;
+    shaft.high = cell.centre + half + margin;
+    extend_to_sun(light, shaft);
+    return shaft;
+  }
   shaft.low = glm::min(light.low, cell.centre - half) - margin;
   shaft.high = glm::max(light.high, cell.centre + half) + margin;
   for (int first = 0; first < light.count; first += 8) add_planes(light_edges(cell, light, first), shaft);

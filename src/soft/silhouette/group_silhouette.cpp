@@ -28,7 +28,7 @@ std::uint32_t hash_of(const vec3& v) {
 
 // The solid angle of the light as Candidate::size gives it, were it seen face on.
 int light_class(const LightFrame& light, const dvec3& point) {
-  const dvec3 from = light.origin - point;
+  const dvec3 from = light.way_from(point);
   return std::ilogb(light.area * glm::dot(light.ex, light.ex) / glm::dot(from, from));
 }
 
@@ -37,13 +37,14 @@ struct ShadowRange {
   double low[2] = {1e300, 1e300}, high[2] = {-1e300, -1e300};
 
   // `half`: of the points' box in the axes. With r the ratio of the heights of light and corner over a point,
-  // the shadow lies at centre + r corner - (r - 1) point: linear in r, which is monotone in the point's
+  // the shadow lies at centre + r corner - (r - weight) point: linear in r, which is monotone in the point's
   // height.
   void add(const LightAxes& axes, const dvec3& half, const dvec3& corner) {
     for (const double z : {-half.z, half.z}) {
-      const double r = (axes.centre_uv.z - z) / (corner.z - z);
+      const double r = (axes.centre_uv.z - axes.weight * z) / (corner.z - z);
       for (int axis = 0; axis < 2; ++axis) {
-        const double middle = axes.centre_uv[axis] + r * corner[axis], reach = half[axis] * std::abs(1 - r);
+        const double middle = axes.centre_uv[axis] + r * corner[axis],
+                     reach = half[axis] * std::abs(axes.weight - r);
         const double rounding =
             product_rounding * (std::abs(axes.centre_uv[axis]) + std::abs(r * corner[axis]) + reach);
         low[axis] = std::min(low[axis], middle - reach - rounding);

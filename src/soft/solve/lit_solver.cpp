@@ -27,7 +27,7 @@ private:
   void solve_point(const SoftFrame& frame, std::uint32_t pixel, PixelWriter& writer) {
     receiver_.take_up(frame, pixel);
     if (receiver_.above > 0 && !receiver_.plane.cuts_light) {
-      whole_.add(pixel, frame.light.origin - frame.points.positions[pixel],
+      whole_.add(pixel, frame.light.way_from(frame.points.positions[pixel]),
                  receiver_.normal_at(frame, pixel));
       if (whole_.full()) finish(frame, writer);
     } else {

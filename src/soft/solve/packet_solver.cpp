@@ -28,7 +28,7 @@ public:
     for (const std::uint32_t pixel : pixels) {
       receiver_.take_up(frame, pixel);
       const glm::dvec3& position = frame.points.positions[pixel];
-      const bool in_front = glm::dot(frame.light.origin - position, frame.light.normal) < 0;
+      const bool in_front = glm::dot(frame.light.way_from(position), frame.light.normal) < 0;
       if (!(receiver_.above > 0) || !in_front) {
         writer.write(pixel, 0, 0, 0);
         continue;

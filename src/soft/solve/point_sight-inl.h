@@ -103,10 +103,11 @@ struct PointSight {
 template <class T>
 PointSight sight_of(const SoftFrame& frame, const ReceiverSight<T>& receiver, std::uint32_t pixel) {
   const glm::dvec3 point = frame.points.positions[pixel];
-  const bool in_front = glm::dot(point - frame.light.origin, frame.light.normal) > 0;
+  const glm::dvec3 way = frame.light.way_from(point);
+  const bool in_front = glm::dot(way, frame.light.normal) < 0;
   PointSight sight;
   sight.pixel = pixel;
-  sight.at = {frame.light.origin - point, receiver.normal_at(frame, pixel)};
+  sight.at = {way, receiver.normal_at(frame, pixel)};
   sight.above = in_front ? receiver.above : 0.0;
   sight.horizon = line_of_plane(frame.light, sight.at.normal, sight.at.to_origin);
   sight.horizon_cuts = cuts(frame.light, sight.horizon);

@@ -71,7 +71,13 @@ Expected<void> measure_view(const SoftView& view, const SoftOptions& options, So
   const Effort how = effort(options.quick);
   if (view.counted || view.name.starts_with("court"))
     results.races.push_back(race_errors(view, how.race_rounds, how.race_rays, report));
-  if (options.only_errors) return {};
+  if (view.sun) {
+    SoftView sunny = view;
+    sunny.name += ", sun";
+    sunny.light = *view.sun;
+    results.sun_races.push_back(race_errors(sunny, how.race_rounds, how.race_rays, report));
+  }
+  if (options.only_errors || view.sun_only) return {};
   ContestPlan plan;
   plan.rounds = how.rounds;
   plan.whole_curve = how.whole_curve;
@@ -124,7 +130,9 @@ void add_soft_command(CLI::App& program, Run& run) {
   command->add_option("--pictures", options->pictures, "Write Tenebra's and Embree's pictures at equal time")
       ->type_name("FOLDER");
   command->add_option("--size", options->size, "Width and height")->expected(2)->group("");  // for tests
-  command->add_option("--only", options->only, "Scenes by name: robots, museum5, kitchen, museum5x64, court")
+  command
+      ->add_option("--only", options->only,
+                   "Scenes by name: robots, museum5, kitchen, museum5x64,\ncourt, city")
       ->type_name("NAME");
   command->add_flag("--only-errors", options->only_errors,
                     "Only the race at errors that users accept (--soft-error)");

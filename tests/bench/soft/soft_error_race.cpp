@@ -168,4 +168,11 @@ std::string error_summary(const std::vector<ErrorRace>& races) {
   return text + fmt::format("soft.estimate_worst: {:.2f}\n", off);
 }
 
+std::string sun_summary(const std::vector<ErrorRace>& races) {
+  std::vector<double> ratios;
+  for (const ErrorRace& race : races) ratios.push_back(race.rows.back().ratio());
+  return fmt::format("soft.sun_ratio_05: {:.2f}\n",
+                     ratios.empty() ? std::numeric_limits<double>::quiet_NaN() : geometric_mean(ratios));
+}
+
 }  // namespace tenebra::bench

@@ -39,5 +39,7 @@ ErrorRace race_errors(const SoftView& view, int rounds, std::size_t most_rays, R
 /// For readers, and the lines that a script reads ("soft.ratio_8_geomean: 0.8").
 std::string error_table(const std::vector<ErrorRace>& races);
 std::string error_summary(const std::vector<ErrorRace>& races);
+/// Of suns, at the least of the errors: the geometric mean of the ratios.
+std::string sun_summary(const std::vector<ErrorRace>& races);
 
 }  // namespace tenebra::bench

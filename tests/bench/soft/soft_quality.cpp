@@ -65,10 +65,10 @@ double percentile_999(std::vector<float> values) {
 
 Unoccluded unoccluded(const AreaLight& light, const dvec3& point, const dvec3& normal,
                       const dvec3& geometric) {
-  if (!(glm::dot(light.normal, point - light.centre) > 0)) return {};
+  const dvec3 way = light.at_infinity ? light.centre : light.centre - point;
+  if (!(glm::dot(light.normal, way) < 0)) return {};
   Polygon polygon;
-  for (const glm::dvec2& v : light.polygon)
-    polygon.push_back(light.centre - point + v.x * light.ex + v.y * light.ey);
+  for (const glm::dvec2& v : light.polygon) polygon.push_back(way + v.x * light.ex + v.y * light.ey);
   polygon = above(polygon, geometric);
   const double fraction = area(polygon) / light.area_m2;
   return {fraction, contour_integral(above(polygon, normal), normal)};

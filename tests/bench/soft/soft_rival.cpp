@@ -42,8 +42,14 @@ RivalSampler::RivalSampler(const SoftView& view, const EmbreeScene& casters,
 const LightSamples& RivalSampler::samples_of(std::size_t rays) {
   const auto number = static_cast<std::size_t>(std::countr_zero(rays));
   if (samples_.size() <= number) samples_.resize(number + 1);
-  if (samples_[number].x.empty()) samples_[number] = sobol_by_tile(view_.light, rays, rival_patterns);
-  return samples_[number];
+  if (!samples_[number].x.empty()) return samples_[number];
+  LightSamples& samples = samples_[number] = sobol_by_tile(view_.light, rays, rival_patterns);
+  if (view_.light.at_infinity) {
+    const float beyond = 4 * view_.frame.diagonal_m;
+    for (auto* directions : {&samples.x, &samples.y, &samples.z})
+      for (float& coordinate : *directions) coordinate *= beyond;
+  }
+  return samples;
 }
 
 /// Rays `from` ... `to` - 1 of a tile's pixels; the state says what all rays of the tile met.
@@ -68,6 +74,8 @@ void RivalSampler::look(const LightSamples& samples, std::size_t tile, std::size
   if (!any) return;
   RayPacket16 rays;
   start_rays(packet, rays);
+  if (view_.light.at_infinity)  // samples are ways from wherever they start
+    for (auto* places : {packet.x, packet.y, packet.z}) std::fill_n(places, tile_lanes, 0.0f);
   const std::size_t block = scattered(tile) % (rival_patterns / tile_lanes) * samples.per_pattern;
   const glm::vec3 normal(view_.light.normal);
   for (std::size_t s = (block + from) * tile_lanes; s < (block + to) * tile_lanes; s += tile_lanes) {

@@ -173,7 +173,8 @@ std::string soft_tables(const SoftResults& results) {
   std::string text;
   if (!results.contests.empty())
     text += contest_table(results.contests) + '\n' + equal_time_table(results.contests) + '\n';
-  if (!results.races.empty()) text += error_table(results.races) + '\n';
+  for (const auto* races : {&results.races, &results.sun_races})
+    if (!races->empty()) text += error_table(*races) + '\n';
   if (!results.costs.empty()) text += cost_table(results.costs) + '\n';
   if (!results.areas.empty()) text += area_table(results.areas) + '\n';
   if (!results.lights.empty()) text += lights_table(results.lights, results.growth_view) + '\n';
@@ -199,7 +200,7 @@ std::string soft_summary(const SoftResults& results) {
     over_fair.push_back(c.over_fair);
   }
   const double nan = std::numeric_limits<double>::quiet_NaN();
-  return error_summary(results.races) +
+  return error_summary(results.races) + sun_summary(results.sun_races) +
          fmt::format(
              "soft.eq_geomean: {:.2f}\nsoft.eq_worst: {:.2f}\nsoft.fair_worst: {:.2f}\nsoft.max_error_255: "
              "{:.4f}\n"

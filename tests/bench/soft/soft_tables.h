@@ -12,7 +12,7 @@ namespace tenebra::bench {
 
 struct SoftResults {
   std::vector<Contest> contests;
-  std::vector<ErrorRace> races;
+  std::vector<ErrorRace> races, sun_races;
   std::vector<CostRow> costs;
   std::vector<AreaRow> areas;
   std::vector<LightsRow> lights;

@@ -12,18 +12,18 @@ namespace tenebra::bench {
 namespace {
 
 constexpr double side_percent_of_diagonal = 4;
+constexpr double sun_deg = 0.53;
 
 struct SceneEntry {
   std::string name;
   std::vector<int> frames;  // the first is the one that the goals are stated for
+  bool under_the_sky = false, sun_only = false;
 };
 
 const std::vector<SceneEntry>& scene_entries() {
-  static const std::vector<SceneEntry> entries{{"robots", {100, 400}},
-                                               {"museum5", {20, 100}},
-                                               {"kitchen", {100, 400}},
-                                               {"museum5x64", {20, 100}},
-                                               {"court", {60}}};
+  static const std::vector<SceneEntry> entries{{"robots", {100, 400}, true}, {"museum5", {20, 100}},
+                                               {"kitchen", {100, 400}},      {"museum5x64", {20, 100}},
+                                               {"court", {60}, true},        {"city", {150}, true, true}};
   return entries;
 }
 
@@ -41,6 +41,14 @@ Expected<AreaLight> light_of(const Scene& scene, const BenchFrame& frame) {
   return square_light(frame, side_percent_of_diagonal);
 }
 
+/// A sun where the scene's directional light is, or its first light as the middle sees it.
+Expected<AreaLight> sun_of(const Scene& scene, const BenchFrame& frame) {
+  for (const WorldLight& placed : frame.lights)
+    if (scene.lights[static_cast<std::size_t>(placed.light)].type == LightType::directional)
+      return make_sun(-placed.direction, sun_deg);
+  return make_sun(frame.lights.front().position - frame.centre, sun_deg);
+}
+
 Expected<void> visit_frames(const SceneEntry& entry, const std::filesystem::path& file,
                             const ViewChoice& choice,
                             const std::function<Expected<void>(const SoftView&)>& body) {
@@ -50,11 +58,17 @@ Expected<void> visit_frames(const SceneEntry& entry, const std::filesystem::path
   for (const int number : entry.frames) {
     const bool first = number == entry.frames.front();
     if (!first && !choice.more_frames) continue;
-    SoftView view{fmt::format("{} {}", entry.name, number), first && !known.bundled, {}, {}};
+    SoftView view{
+        fmt::format("{} {}", entry.name, number), first && !known.bundled, entry.sun_only, {}, {}, {}};
     evaluate_bench_frame(*scene, number, choice.width, choice.height, view.frame);
     auto light = light_of(*scene, view.frame);
     if (!light) return base::fail("{}: {}", view.name, light.error().message);
     view.light = std::move(*light);
+    if (entry.under_the_sky && first) {
+      auto sun = sun_of(*scene, view.frame);
+      if (!sun) return base::fail("{}: {}", view.name, sun.error().message);
+      view.sun = std::move(*sun);
+    }
     if (auto done = body(view); !done) return done;
   }
   return {};

@@ -5,6 +5,7 @@
 #include <filesystem>
 #include <functional>
 #include <memory>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -15,10 +16,12 @@
 namespace tenebra::bench {
 
 struct SoftView {
-  std::string name;      ///< "robots 100"
-  bool counted = false;  ///< enters the summary: one of the four views that the goals are stated for
+  std::string name;       ///< "robots 100"
+  bool counted = false;   ///< enters the summary: one of the four views that the goals are stated for
+  bool sun_only = false;  ///< another view than the contests': for the sun alone
   BenchFrame frame;
   AreaLight light;
+  std::optional<AreaLight> sun;  ///< 0.53 degrees wide; of scenes under the sky
 };
 
 struct ViewChoice {

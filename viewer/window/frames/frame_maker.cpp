@@ -97,6 +97,7 @@ Expected<std::shared_ptr<Picture>> FrameMaker::make(const FrameRequest& request,
 
   auto picture = std::make_shared<Picture>();
   settings.area_lights.own_size_m = edited_sizes_m(request.edits.lights);
+  settings.area_lights.own_sun_deg = edited_suns_deg(request.edits.lights);
   settings.diagnostics = request.overlay != Overlay::none;
   auto a = draw(request, settings, time_s, progress, stop);
   if (!a) return tl::unexpected(a.error());
@@ -105,6 +106,7 @@ Expected<std::shared_ptr<Picture>> FrameMaker::make(const FrameRequest& request,
   if (request.b) {
     render::RenderSettings settings_b = preview_settings(*request.b, level);
     settings_b.area_lights.own_size_m = settings.area_lights.own_size_m;
+    settings_b.area_lights.own_sun_deg = settings.area_lights.own_sun_deg;
     auto b = draw(request, settings_b, time_s, progress, stop);
     if (!b) return tl::unexpected(b.error());
     picture->difference = compare_pictures(picture->a.result.image, b->result.image, 0);

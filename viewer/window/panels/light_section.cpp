@@ -12,6 +12,18 @@ const char* type_name(LightType type) {
   return names[static_cast<std::size_t>(type)];
 }
 
+/// As the picture has it: the light's own, the method's or the scene's.
+float diameter_of(const Ui& ui, const Light& light, const LightEdit& edit) {
+  const std::optional<float>& of_all = ui.state.method().render.area_lights.sun_deg;
+  return edit.diameter_deg.value_or(of_all.value_or(light.diameter_deg));
+}
+
+/// A directional light with a disc is a sun.
+const char* type_name(const Ui& ui, const Light& light, const LightEdit& edit) {
+  const bool sun = light.type == LightType::directional && diameter_of(ui, light, edit) > 0;
+  return sun ? "sun" : type_name(light.type);
+}
+
 /// Width and height of a light where the user has not changed them: the scene's, of a point the method's; 0:
 /// none.
 glm::vec2 size_without_edit_m(const Ui& ui, int index, const Light& light) {
@@ -39,6 +51,15 @@ void edit_light_size(Ui& ui, int index, const Light& light, LightEdit& edit) {
     if (size_m.x > 0) edit.size_m = size_m;
   }
   ui.mark(fmt::format("light.{}.size", index));
+}
+
+void edit_sun_size(Ui& ui, int index, const Light& light, LightEdit& edit) {
+  row(ui, "  Size", "Diameter as seen from the scene, for soft shadows; the sun's is 0.53. 0: hard shadows.");
+  float diameter = diameter_of(ui, light, edit);
+  if (ImGui::SliderFloat("##sun", &diameter, 0, 90, "%.2f deg",
+                         ImGuiSliderFlags_AlwaysClamp | ImGuiSliderFlags_Logarithmic))
+    edit.diameter_deg = diameter;
+  ui.mark(fmt::format("light.{}.diameter", index));
 }
 
 /// What traced the light in the picture that is shown; empty where nothing did, or soft shadows.
@@ -109,7 +130,10 @@ void edit_values(Ui& ui, int index, const Light& light, LightEdit& edit) {
   ui.mark(fmt::format("light.{}.intensity", index));
   if (!(edit.intensity > 0)) edit.intensity = 1;
   if (light.type != LightType::point) edit_direction(ui, index, light.type, edit);
-  if (light.type == LightType::directional) return;
+  if (light.type == LightType::directional) {
+    edit_sun_size(ui, index, light, edit);
+    return;
+  }
   edit_light_size(ui, index, light, edit);
   row(ui, "  Moved",
       "Away from where the animation has it, in metres. You can also drag its circle in the view.");
@@ -129,14 +153,14 @@ void edit_light(Ui& ui, int index, const Light& light, bool open) {
   const bool selected = ui.state.selected_light == index;
   if (selected && ui.state.shown_light != index) ImGui::SetNextItemOpen(true);
   const std::string title =
-      fmt::format("{}  {}", index, light.name.empty() ? type_name(light.type) : light.name.c_str());
+      fmt::format("{}  {}", index, light.name.empty() ? type_name(ui, light, edit) : light.name.c_str());
   const int flags = ImGuiTreeNodeFlags_NoTreePushOnOpen | ImGuiTreeNodeFlags_OpenOnArrow |
                     ImGuiTreeNodeFlags_OpenOnDoubleClick | (selected ? ImGuiTreeNodeFlags_Selected : 0) |
                     (open ? ImGuiTreeNodeFlags_DefaultOpen : 0) | ImGuiTreeNodeFlags_AllowItemOverlap;
   const bool is_open = ImGui::TreeNodeEx("light", flags, "%s", title.c_str());
   ui.mark(fmt::format("light.{}.name", index));
   if (ImGui::IsItemClicked()) ui.state.selected_light = index;
-  tooltip(type_name(light.type));
+  tooltip(type_name(ui, light, edit));
   ImGui::SameLine(ImGui::GetWindowWidth() - ui.px(edit != LightEdit{} ? 128 : 76));
   if (edit != LightEdit{}) {
     if (ImGui::SmallButton("reset")) edit = {};

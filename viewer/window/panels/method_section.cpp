@@ -66,6 +66,20 @@ void edit_light_size(Ui& ui, MethodOptions& method) {
     if (size.size.x > 0 && size.size.y > 0) method.light_size = size;
     if (!method.light_size) method.render.area_lights.facing.reset();
   }
+  row(ui, "Sun size", "Diameter of directional lights. 0: hard shadows.");
+  std::optional<float>& sun = method.render.area_lights.sun_deg;
+  bool own_sun = sun.has_value();
+  if (ImGui::Checkbox("of all##sun", &own_sun)) {
+    sun.reset();
+    if (own_sun) sun = 0.53f;
+  }
+  ui.mark("sun size of all");
+  if (sun) {
+    ImGui::SameLine(0, ui.px(4));
+    ImGui::SliderFloat("##sun size", &*sun, 0, 90, "%.2f deg",
+                       ImGuiSliderFlags_AlwaysClamp | ImGuiSliderFlags_Logarithmic);
+    ui.mark("sun size");
+  }
   if (!method.light_size) return;
   row(ui, "Shining",
       "point: in every direction as bright as the point; lambert: to one side, like a lamp's face.");
