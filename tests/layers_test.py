@@ -23,6 +23,7 @@ MAY_INCLUDE = {
     "soft": {"base", "math", "simd", "parallel", "scene", "points"},  # and hard shadows by their public header
     "tint": {"base", "math", "simd", "parallel", "scene", "texture", "points", "shadow", "soft"},
     "ao": {"base", "math", "simd", "parallel", "scene", "texture", "points"},
+    "query": {"base", "math", "parallel", "scene", "points"},  # and the tracers by their public headers
     "shade": {"base", "math", "simd", "parallel", "scene", "texture", "points"},
     "oracle": {"base", "parallel"},
     "gl": {"base"},

@@ -9,7 +9,7 @@ build=$(cd "$1" && pwd)
 work=$(mktemp -d)
 trap 'rm -rf "$work"' EXIT
 prefix=$work/prefix
-programs=(hard soft occlusion)
+programs=(hard soft occlusion points)
 
 stop() {
   echo "consumer: $*" >&2
