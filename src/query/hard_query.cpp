@@ -37,9 +37,25 @@ ViewRays view_from(const ShadowLight& light) {
   return view;
 }
 
-int light_side(const TriangleView& triangles, std::uint32_t triangle, const ViewRays& view) {
-  return points::eye_side(points::corners_of(triangles, triangle).v, view);
-}
+/// The side of triangles that the light is on; quick for a run of points on one.
+class LightSide {
+public:
+  LightSide(const TriangleView& triangles, const ViewRays& from_light)
+      : triangles_(triangles), view_(from_light) {}
+  int operator()(std::uint32_t triangle) {
+    if (triangle != last_) {
+      last_ = triangle;
+      side_ = points::eye_side(points::corners_of(triangles_, triangle).v, view_);
+    }
+    return side_;
+  }
+
+private:
+  const TriangleView& triangles_;
+  const ViewRays& view_;
+  std::uint32_t last_ = no_triangle;
+  int side_ = 0;
+};
 
 /// Towards the light; at the light itself any direction will do.
 dvec3 towards(const ShadowLight& light, const dvec3& point) {
@@ -68,19 +84,22 @@ Expected<void> PointTracer::hard_mask(const Geometry& geometry, const QueryPoint
     if (some_apart) s.stand_ins.follow(geometry.data_, portion.count());
     const TriangleView triangles = s.triangles(some_apart);
     s.begin(points, portion);
-    query::each_point(portion, [&](std::size_t i, std::size_t pixel) {
-      const std::size_t point = portion.first() + i;
-      const std::uint32_t triangle = query::triangle_of(points, point);
-      if (triangle != no_triangle) {
-        const int side = query::said_side(points, point, triangles);
-        if (side == 0 || side == light_side(triangles, triangle, view)) s.seen.triangles[pixel] = triangle;
-        return;
+    query::each_run(portion, [&](std::size_t first, std::size_t last) {
+      LightSide light_side(triangles, view);
+      for (std::size_t i = first; i < last; ++i) {
+        const std::size_t point = portion.first() + i, pixel = portion.pixel(i);
+        const std::uint32_t triangle = query::triangle_of(points, point);
+        if (triangle != no_triangle) {
+          const int side = query::said_side(points, point, triangles);
+          if (side == 0 || side == light_side(triangle)) s.seen.triangles[pixel] = triangle;
+          continue;
+        }
+        const dvec3 to_light = towards(light, points.positions[point]);
+        const dvec3 normal(query::normal_of(points, point));
+        if (normal != dvec3(0.0) && !(glm::dot(normal, to_light) > 0)) continue;
+        s.stand_ins.set(i, points.positions[point], to_light, query::StandAt::behind);
+        s.seen.triangles[pixel] = s.stand_ins.id(i);
       }
-      const dvec3 to_light = towards(light, points.positions[point]);
-      const dvec3 normal(query::normal_of(points, point));
-      if (normal != dvec3(0.0) && !(glm::dot(normal, to_light) > 0)) return;
-      s.stand_ins.set(i, points.positions[point], to_light, query::StandAt::behind);
-      s.seen.triangles[pixel] = s.stand_ins.id(i);
     });
     if (!s.hard.trace_shadow_mask(s.seen, view, triangles, light, config, s.mask, stop))
       return base::fail("stopped");

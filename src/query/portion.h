@@ -43,10 +43,15 @@ private:
   points::SampleGrid list_;
 };
 
-/// Calls body(i, pixel) for the points i of a portion, possibly at once.
+/// Calls body(first, last) for runs of a portion's points, possibly at once.
+template <class Body>
+void each_run(const Portion& portion, const Body& body) {
+  parallel::parallel_ranges(portion.count(), 4096, body);
+}
+/// Calls body(i, pixel) for the points i of a portion, likewise.
 template <class Body>
 void each_point(const Portion& portion, const Body& body) {
-  parallel::parallel_ranges(portion.count(), 4096, [&](std::size_t first, std::size_t last) {
+  each_run(portion, [&](std::size_t first, std::size_t last) {
     for (std::size_t i = first; i < last; ++i) body(i, portion.pixel(i));
   });
 }
