@@ -24,6 +24,8 @@ MAY_INCLUDE = {
     "soft": {"base", "math", "simd", "parallel", "scene", "points"},  # and hard shadows by their public header
     "tint": {"base", "math", "simd", "parallel", "scene", "texture", "points", "shadow", "soft"},
     "ao": {"base", "math", "simd", "parallel", "scene", "texture", "points"},
+    "query": {"base", "math", "parallel", "scene", "points"},  # and the tracers by their public headers
+    "c_api": {"base"},
     "shade": {"base", "math", "simd", "parallel", "scene", "texture", "points"},
     "oracle": {"base", "parallel"},
     "gl": {"base"},

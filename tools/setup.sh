@@ -20,9 +20,11 @@ where_known=()  # taken where this release has them
 if [[ "${1:-}" == --tests ]]; then
   packages+=(libgtest-dev libembree-dev
     libmeshoptimizer-dev libdraco-dev
+    python3-dev python3-numpy python3-pybind11 python3-pytest python3-matplotlib
     xvfb xauth xdotool imagemagick x11-xserver-utils)
   # Mesa 25.1 and later have no OSMesa: EGL is enough. libwebp: pictures in WebP.
-  where_known+=(libosmesa6 clang-format-14 libwebp-dev)
+  # scikit-build: `pip install .`.
+  where_known+=(libosmesa6 clang-format-14 libwebp-dev python3-skbuild)
 fi
 [[ "${1:-}" == --package ]] && packages+=(libembree-dev libmeshoptimizer-dev libdraco-dev dpkg-dev help2man lintian)
 

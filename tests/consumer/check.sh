@@ -9,7 +9,7 @@ build=$(cd "$1" && pwd)
 work=$(mktemp -d)
 trap 'rm -rf "$work"' EXIT
 prefix=$work/prefix
-programs=(hard soft occlusion)
+programs=(hard soft occlusion points)
 
 stop() {
   echo "consumer: $*" >&2
@@ -92,3 +92,7 @@ for program in "${programs[@]}"; do
   "$work/$program" || stop "$program (pkg-config) did not give the known answer"
 done
 check_reachable
+
+quietly cc -std=c99 -Wall -Wextra -Wpedantic -Werror "$root/tests/consumer/mask.c" -I"$prefix/include" \
+  -L"$prefix/lib" -ltenebra -lm -Wl,-rpath,"$prefix/lib" -o "$work/mask"
+"$work/mask" || stop "mask.c (C) did not give the known answers"

@@ -1,0 +1,110 @@
+// Points and triangles of your own: hard masks, soft shadows and ambient occlusion of plain arrays, without a
+// Scene, a camera or a picture. What is computed, and how exactly, is that of hard_shadows.h, soft_shadows.h
+// and ambient_occlusion.h; this says which triangles and points they are asked about.
+#pragma once
+
+#include <tenebra/ambient_occlusion.h>
+#include <tenebra/expected.h>
+#include <tenebra/hard_shadows.h>
+#include <tenebra/soft_shadows.h>
+#include <cstdint>
+#include <functional>
+#include <glm/glm.hpp>
+#include <memory>
+#include <span>
+
+namespace tenebra {
+
+namespace query {
+struct GeometryData;
+struct TracerState;
+}  // namespace query
+
+/// Triangles that stay while points are asked about, copied from arrays of the caller's. Any number of
+/// tracers, on any threads, may use one at once; move_vertices() waits for nobody: call it while none does.
+class Geometry {
+public:
+  /// `positions`: vertices, metres, world space, finite, |coordinate| <= 1e18. `triangles`: three indices
+  /// each, counter-clockwise seen from the front; a triangle's id is its place in the list. `casts_shadow`:
+  /// one for each triangle; empty: all cast. Fails with a sentence that names the first triangle or vertex
+  /// that breaks a rule.
+  static Expected<Geometry> create(std::span<const glm::vec3> positions,
+                                   std::span<const glm::uvec3> triangles,
+                                   std::span<const std::uint8_t> casts_shadow = {});
+  Geometry(Geometry&&) noexcept;
+  Geometry& operator=(Geometry&&) noexcept;
+  ~Geometry();
+
+  /// The same triangles with other vertices, as many as before. Hard and soft shadows keep their trees and
+  /// refit them; ambient occlusion makes its own anew. On failure nothing has changed.
+  Expected<void> move_vertices(std::span<const glm::vec3> positions);
+
+  /// As the tracers of the other headers take them; valid until the next change.
+  TriangleView view() const;
+
+private:
+  friend class PointTracer;
+  explicit Geometry(std::shared_ptr<query::GeometryData> data);
+  std::shared_ptr<query::GeometryData> data_;
+};
+
+/// Points to ask about. Every span but `positions` may be empty, else it has one element for each point.
+struct QueryPoints {
+  std::span<const glm::dvec3> positions;  ///< metres, world space, finite; taken as exact
+  /// The triangle that each point lies on, which never blocks it, or no_triangle. A point without a triangle
+  /// counts as rounded to float where a triangle may touch it (contact_rule).
+  std::span<const std::uint32_t> triangles;
+  /// Normals of the surface that is lit, of any length; zero: none. Where a point has a triangle they shade;
+  /// where it has none they say which half of space it sees. Without either it sees all around.
+  std::span<const glm::vec3> normals;
+  /// The side of its triangle that a point is on: 1 from where it is counter-clockwise, -1 behind, 0 not
+  /// said: that of its normal or, without one, that of the light (of an area light its centre; for ambient
+  /// occlusion the front). Ignored for points without a triangle.
+  std::span<const std::int8_t> sides;
+  /// If not 0, the points are a picture of so many columns, row by row, whose neighbours lie close together:
+  /// that is quicker. Masks do not depend on it.
+  int width = 0;
+};
+
+/// Called now and then, on the caller's thread, with the part that is done, 0 to 1. Of hard and soft shadows
+/// between portions of 2^18 points.
+using QueryProgress = std::function<void(double done)>;
+
+/// Answers for points. Keeps its buffers and trees from call to call: use one object for many. One caller at
+/// a time. Every answer has one value for each point. Calls fail with a sentence (a span of another length, a
+/// triangle that is not there, a point that is not finite, a setting out of range), and with "stopped" if
+/// `stop` was requested, within some ten milliseconds.
+class PointTracer {
+public:
+  PointTracer();
+  PointTracer(PointTracer&&) noexcept;
+  PointTracer& operator=(PointTracer&&) noexcept;
+  ~PointTracer();
+
+  /// 255 where the point sees the light; 0 where it is blocked, on the other side of its triangle or beyond
+  /// its normal's plane, or out of range. The same bytes as ShadowTracer's for the same points, and the same
+  /// for any width, number of threads and instruction set.
+  Expected<void> hard_mask(const Geometry& geometry, const QueryPoints& points, const ShadowLight& light,
+                           const HardShadowConfig& config, std::span<std::uint8_t> mask,
+                           const StopFlag* stop = nullptr, const QueryProgress& progress = {});
+
+  /// What SoftShadowTracer answers: the visible part of the light's area, 0 to 1, and the irradiance onto the
+  /// normal (or the triangle's, or, with neither, a surface parallel to the light), W/m2 for radiance 1. One
+  /// of the two spans may be empty.
+  Expected<void> soft_visibility(const Geometry& geometry, const QueryPoints& points, const AreaLight& light,
+                                 const SoftShadowConfig& config, std::span<float> visible_fraction,
+                                 std::span<float> irradiance, const StopFlag* stop = nullptr,
+                                 const QueryProgress& progress = {});
+
+  /// Openness, 1 open to 0 closed, by AoConfig::mode (`none` counts as `adaptive`, whose error is that of all
+  /// the points together). Each point needs a triangle or a normal. distance_m 0: a twentieth of the
+  /// geometry's diagonal.
+  Expected<void> ambient_occlusion(const Geometry& geometry, const QueryPoints& points,
+                                   const AoConfig& config, std::span<float> openness,
+                                   const StopFlag* stop = nullptr, const QueryProgress& progress = {});
+
+private:
+  std::unique_ptr<query::TracerState> state_;
+};
+
+}  // namespace tenebra

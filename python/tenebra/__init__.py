@@ -1,0 +1,407 @@
+"""Exact hard shadows, soft shadows and ambient occlusion on the CPU.
+
+Lengths are metres, space is right-handed. Arrays are numpy's: one that is contiguous and of the type that is
+named is read where it lies, any other is converted. Answers are new arrays of the points' shape.
+
+Triangles are given as an array (n, 3, 3) of corners, as a pair (positions (v, 3), indices (n, 3)), or as a
+Geometry, which keeps them for many calls. Their positions are rounded once to float32 and exact from there on;
+points are float64 and exact. Calls release Python's lock, end on Ctrl-C, and take the keywords
+
+threads: at most so many; 0: all cores. Answers do not depend on it.
+progress: called on this thread now and then with the part that is done, 0 to 1.
+
+What a call cannot use is a TypeError (not an array of numbers, floats as indices) or a ValueError (shapes,
+indices out of range, NaN, settings out of range) with a sentence that says what was found and what was expected.
+"""
+from __future__ import annotations
+
+import math
+import os
+import threading
+from typing import Any, Callable, Dict, List, Optional, Sequence, Tuple, Union
+
+import numpy as np
+
+from . import _core
+
+__version__: str = _core.version
+__all__ = ["AreaLight", "DirectionalLight", "Geometry", "PointLight", "Scene", "Tracer", "ambient_occlusion",
+           "hard_mask", "no_triangle", "soft_visibility"]
+
+no_triangle: int = _core.no_triangle
+"""The number of a triangle where there is none: of a point in the air, of a pixel that sees the background."""
+
+Progress = Optional[Callable[[float], Any]]
+
+
+# ---- Arrays ----
+
+def _numbers(name: str, value: Any, dtype: Any) -> np.ndarray:
+    array = np.asarray(value)
+    if array.dtype.kind not in "fiu":
+        raise TypeError(f"{name}: found an array of {array.dtype}, expected numbers")
+    return array if array.dtype == dtype else array.astype(dtype)
+
+
+def _rows(name: str, value: Any, dtype: Any, shape: str = "(n, 3)") -> np.ndarray:
+    array = _numbers(name, value, dtype)
+    if array.ndim < 1 or array.shape[-1] != 3:
+        raise ValueError(f"{name}: found the shape {array.shape}, expected {shape}")
+    return np.ascontiguousarray(array)
+
+
+def _indices(name: str, value: Any) -> np.ndarray:
+    array = np.asarray(value)
+    if array.dtype.kind not in "iu":
+        raise TypeError(f"{name}: found an array of {array.dtype}, expected whole numbers")
+    if array.dtype != np.uint32:
+        if array.size and (array.min() < 0 or array.max() > no_triangle):
+            raise ValueError(f"{name}: found numbers from {array.min()} to {array.max()}, expected 0 to {no_triangle}")
+        array = array.astype(np.uint32)
+    return np.ascontiguousarray(array)
+
+
+def _vector(name: str, value: Any) -> List[float]:
+    array = _numbers(name, value, np.float32)
+    if array.shape != (3,):
+        raise ValueError(f"{name}: found the shape {array.shape}, expected 3 numbers")
+    if not np.isfinite(array).all():
+        raise ValueError(f"{name}: found {array.tolist()}, expected finite numbers")
+    return array.tolist()
+
+
+def _of_each(name: str, array: np.ndarray, shape: Tuple[int, ...]) -> np.ndarray:
+    if array.shape != shape:
+        raise ValueError(f"{name}: found the shape {array.shape}, expected {shape}")
+    return array
+
+
+class Geometry:
+    """Triangles that are kept, with their trees, for many calls.
+
+    positions: (v, 3) float32, metres, finite. triangles: (n, 3) uint32, each three vertices, counter-clockwise
+    seen from the front. casts_shadow: (n,) bool, or None: all cast. Any number of threads may ask about one
+    geometry at once, each with a Tracer of its own.
+    """
+
+    def __init__(self, positions: Any, triangles: Any, casts_shadow: Any = None) -> None:
+        corners = _rows("positions", positions, np.float32)
+        ids = _indices("triangles", triangles)
+        if corners.ndim != 2:
+            raise ValueError(f"positions: found the shape {corners.shape}, expected (v, 3)")
+        if ids.ndim != 2 or ids.shape[1] != 3:
+            raise ValueError(f"triangles: found the shape {ids.shape}, expected (n, 3)")
+        casts = None
+        if casts_shadow is not None:
+            casts = np.ascontiguousarray(_of_each("casts_shadow", np.asarray(casts_shadow), (len(ids),)) != 0,
+                                         dtype=np.uint8)
+        self._core = _core.Geometry(corners, ids, casts)
+        self._vertices = len(corners)
+
+    @classmethod
+    def from_corners(cls, corners: Any) -> Geometry:
+        """Of the corners of triangles, (n, 3, 3) float32."""
+        array = _rows("triangles", corners, np.float32, "(n, 3, 3)")
+        if array.ndim != 3 or array.shape[1] != 3:
+            raise ValueError(f"triangles: found the shape {array.shape}, expected (n, 3, 3)")
+        return cls(array.reshape(-1, 3), np.arange(3 * len(array), dtype=np.uint32).reshape(-1, 3))
+
+    def move_vertices(self, positions: Any) -> None:
+        """The same triangles with other positions, (v, 3) float32, as many as before. Call it while no other
+        thread asks about them."""
+        array = _rows("positions", positions, np.float32)
+        self._core.move_vertices(_of_each("positions", array, (self._vertices, 3)))
+
+
+Triangles = Union[Geometry, np.ndarray, Tuple[Any, Any]]
+
+
+def _geometry(triangles: Any) -> Geometry:
+    if isinstance(triangles, Geometry):
+        return triangles
+    if isinstance(triangles, tuple) and len(triangles) == 2:
+        return Geometry(*triangles)
+    return Geometry.from_corners(triangles)
+
+
+# ---- Lights ----
+
+class PointLight:
+    """Light from `position` (3 numbers, metres). With `spot_axis`, the way it shines, only within `cone_rad` of it
+    (half the opening angle, radians); with `range_m` only so far."""
+
+    def __init__(self, position: Any, *, spot_axis: Any = None, cone_rad: float = math.pi / 4,
+                 range_m: float = 0.0) -> None:
+        axis, cos_outer = [0.0, -1.0, 0.0], -1.0
+        if spot_axis is not None:
+            given = np.asarray(_vector("spot_axis", spot_axis), np.float64)
+            if not given.any():
+                raise ValueError("spot_axis: found 0, 0, 0, expected a direction")
+            axis, cos_outer = (given / np.linalg.norm(given)).tolist(), math.cos(cone_rad)
+        self._core = _core.ShadowLight(False, _vector("position", position), axis, cos_outer, range_m)
+
+
+class DirectionalLight:
+    """Light from the direction `to_light` (3 numbers, towards the light, any length but zero)."""
+
+    def __init__(self, to_light: Any) -> None:
+        self._core = _core.ShadowLight(True, _vector("to_light", to_light), [0.0, -1.0, 0.0], -1.0, 0.0)
+
+
+class AreaLight:
+    """A planar convex polygon that shines to one side.
+
+    vertices: (3 to 14, 3) float32, metres, counter-clockwise seen from the lit side.
+    """
+
+    def __init__(self, vertices: Any) -> None:
+        array = _rows("vertices", vertices, np.float32)
+        if array.ndim != 2:
+            raise ValueError(f"vertices: found the shape {array.shape}, expected (n, 3)")
+        self._core = _core.AreaLight(array)
+
+    @classmethod
+    def rectangle(cls, centre: Any, half_x: Any, half_y: Any) -> AreaLight:
+        """The corners are centre +- half_x +- half_y; it shines along cross(half_x, half_y)."""
+        c, x, y = (np.array(_vector(*v), np.float64) for v in
+                   (("centre", centre), ("half_x", half_x), ("half_y", half_y)))
+        return cls(np.array([c - x - y, c + x - y, c + x + y, c - x + y], np.float32))
+
+    @classmethod
+    def disc(cls, centre: Any, half_x: Any, half_y: Any) -> AreaLight:
+        """A disc with these half axes, as the regular polygon of 12 sides and the same area."""
+        light = cls.__new__(cls)
+        light._core = _core.AreaLight.disc(_vector("centre", centre), _vector("half_x", half_x),
+                                           _vector("half_y", half_y))
+        return light
+
+    @property
+    def vertices(self) -> np.ndarray:
+        """(n, 3) float32, metres."""
+        return self._core.vertices
+
+    @property
+    def area_m2(self) -> float:
+        return self._core.area_m2
+
+
+Light = Union[PointLight, DirectionalLight, Sequence[float], np.ndarray]
+
+
+def _shadow_light(light: Any) -> Any:
+    if isinstance(light, AreaLight):
+        raise TypeError("light: found an AreaLight, expected a PointLight, a DirectionalLight or a position; "
+                        "soft_visibility takes lights with an area")
+    return light._core if isinstance(light, (PointLight, DirectionalLight)) else PointLight(light)._core
+
+
+# ---- Points ----
+
+class Tracer:
+    """Answers questions about points, and keeps its buffers and trees from call to call. Use one for many calls
+    with a Geometry; of several threads one waits for the other. The functions of this module make one for each call.
+
+    points: (..., 3) float64, metres; every answer has the shape (...). Points of a picture (rows, columns, 3)
+    whose neighbours lie close together are answered quicker.
+    on: (...) uint32, the triangle that each point lies on, which never blocks it, or no_triangle.
+    normals: (..., 3) float32, any length; zero: none. Where a point lies on no triangle, its half of space.
+    sides: (...) int8, 1 where the point is on the side of its triangle from where it is counter-clockwise, -1
+    behind, 0 not said: that of its normal or, without one, that of the light.
+    """
+
+    def __init__(self) -> None:
+        self._core = _core.PointTracer()
+        self._one_call = threading.Lock()
+
+    def hard_mask(self, triangles: Triangles, points: Any, light: Light, *, on: Any = None, normals: Any = None,
+                  sides: Any = None, threads: int = 0, progress: Progress = None) -> np.ndarray:
+        """255 where a point sees the light, 0 where it does not: uint8, exact."""
+        arrays, shape = _point_arrays(points, on, normals, sides)
+        mask = np.empty(shape, np.uint8)
+        asked, source = _geometry(triangles)._core, _shadow_light(light)
+        with self._one_call:
+            self._core.hard_mask(asked, arrays, source, mask, _count(threads), progress)
+        return mask
+
+    def soft_visibility(self, triangles: Triangles, points: Any, light: AreaLight, *, on: Any = None,
+                        normals: Any = None, sides: Any = None, error: float = 0.0, threads: int = 0,
+                        progress: Progress = None) -> Tuple[np.ndarray, np.ndarray]:
+        """The visible part of an area light, 0 to 1, and the irradiance that it sends onto the normal (else the
+        triangle's; with neither, onto a surface parallel to the light), W/m2 for a radiance of 1: two arrays of
+        float32.
+
+        error: 0: exact; else what dense penumbrae may err by, RMS, in 1/255 of white.
+        """
+        if not isinstance(light, AreaLight):
+            raise TypeError(f"light: found {type(light).__name__}, expected an AreaLight")
+        arrays, shape = _point_arrays(points, on, normals, sides)
+        fraction, irradiance = np.empty(shape, np.float32), np.empty(shape, np.float32)
+        asked = _geometry(triangles)._core
+        with self._one_call:
+            self._core.soft_visibility(asked, arrays, light._core, error, fraction, irradiance, _count(threads),
+                                       progress)
+        return fraction, irradiance
+
+    def ambient_occlusion(self, triangles: Triangles, points: Any, *, on: Any = None, normals: Any = None,
+                          sides: Any = None, distance: float = 0.0, error: float = 2.5, threads: int = 0,
+                          progress: Progress = None) -> np.ndarray:
+        """The share of ambient light that reaches each point, 1 open to 0 closed: float32. Each point needs a
+        triangle (its front, if no side is said) or a normal.
+
+        distance: metres at which occlusion has fallen off to nothing; 0: a twentieth of the geometry's diagonal.
+        error: what all points together may err by, RMS, in 1/255; 0.1 to 255.
+        """
+        arrays, shape = _point_arrays(points, on, normals, sides)
+        openness = np.empty(shape, np.float32)
+        asked = _geometry(triangles)._core
+        with self._one_call:
+            self._core.ambient_occlusion(asked, arrays, distance, error, openness, _count(threads), progress)
+        return openness
+
+
+def _count(threads: int) -> int:
+    if threads < 0:
+        raise ValueError(f"threads: found {threads}, expected a number, or 0 for all cores")
+    return threads
+
+
+def _point_arrays(points: Any, on: Any, normals: Any, sides: Any) -> Tuple[Any, Tuple[int, ...]]:
+    positions = _rows("points", points, np.float64, "(..., 3)")
+    shape = positions.shape[:-1]
+    if on is not None:
+        on = _of_each("on", _indices("on", on), shape)
+    if normals is not None:
+        normals = _of_each("normals", _rows("normals", normals, np.float32, "(..., 3)"), positions.shape)
+    if sides is not None:
+        given = _of_each("sides", _numbers("sides", sides, np.float64), shape)
+        if not np.isin(given, (-1, 0, 1)).all():
+            raise ValueError("sides: found other values than 1, -1 and 0")
+        sides = np.ascontiguousarray(given, dtype=np.int8)
+    width = shape[1] if len(shape) == 2 else 0
+    return _core.PointArrays(positions, on, normals, sides, width), shape
+
+
+def hard_mask(triangles: Triangles, points: Any, light: Light, **options: Any) -> np.ndarray:
+    """255 where a point sees the light, 0 where it does not. As Tracer.hard_mask, which has the keywords."""
+    return Tracer().hard_mask(triangles, points, light, **options)
+
+
+def soft_visibility(triangles: Triangles, points: Any, light: AreaLight,
+                    **options: Any) -> Tuple[np.ndarray, np.ndarray]:
+    """The visible part of an area light, and its irradiance. As Tracer.soft_visibility, which has the keywords."""
+    return Tracer().soft_visibility(triangles, points, light, **options)
+
+
+def ambient_occlusion(triangles: Triangles, points: Any, **options: Any) -> np.ndarray:
+    """How open points are, 1 to 0. As Tracer.ambient_occlusion, which has the keywords."""
+    return Tracer().ambient_occlusion(triangles, points, **options)
+
+
+# ---- Scenes ----
+
+_OF_THE_SCENE = {"scene", "no_cast", "cast_all", "cone_sides", "cutout_limit", "texture_path", "transfer",
+                 "environment", "floor", "surfaces", "set_light", "add_light", "set_material", "set_node", "fps", "clip"}
+
+
+def _quoted(text: str) -> str:
+    for mark in "\"'`":
+        if mark not in text:
+            return mark + text + mark
+    raise ValueError(f"found {text!r}, expected a text without one of the three quotation marks")
+
+
+def _text(name: str, value: Any) -> str:
+    if isinstance(value, (str, os.PathLike)):
+        return _quoted(os.fspath(value))
+    if name in ("size", "light_size") and not np.isscalar(value):
+        return "x".join(str(side) for side in value)
+    if np.isscalar(value):
+        return repr(value.item() if isinstance(value, np.generic) else value)
+    return ",".join(repr(float(number)) for number in value)
+
+
+def _arguments(options: Dict[str, Any]) -> str:
+    """Keywords as options of the program: light_size=(1, 2) becomes --light-size 1x2."""
+    words = []
+    for name, value in options.items():
+        option = "--" + name.replace("_", "-")
+        if value is None or value is False:
+            continue
+        several = isinstance(value, list) and value and all(isinstance(each, (str, os.PathLike)) for each in value)
+        for each in value if several else [value]:
+            words.append(option if each is True else f"{option} {_text(name, each)}")
+    return " ".join(words)
+
+
+class Scene:
+    """A scene file (glTF, OBJ, BART's AFF) with its animation, ready to be drawn; made by Scene.load."""
+
+    def __init__(self, path: Union[str, os.PathLike], **options: Any) -> None:
+        for name in options:
+            if name not in _OF_THE_SCENE:
+                raise TypeError(f"Scene.load: found {name}, expected one of {', '.join(sorted(_OF_THE_SCENE))}")
+        self._core = _core.Scene(os.fspath(path), _arguments(options))
+        self._one_call = threading.Lock()
+
+    @classmethod
+    def load(cls, path: Union[str, os.PathLike], **options: Any) -> Scene:
+        """Reads a file, and adds a camera and light where it has none. options: those of `tenebra render` that
+        speak of the scene, with _ for -: no_cast, transfer, environment, clip, fps, set_light and the like."""
+        return cls(path, **options)
+
+    @property
+    def name(self) -> str:
+        """The file's name without its folder."""
+        return self._core.name
+
+    @property
+    def frames(self) -> int:
+        """How many the animation has; 1 without one."""
+        return self._core.frames
+
+    @property
+    def size(self) -> Tuple[int, int]:
+        """Width and height in pixels of pictures for which none is given."""
+        return self._core.size
+
+    @property
+    def warnings(self) -> List[str]:
+        """What was skipped, guessed or added as the file was read, a sentence each."""
+        return self._core.warnings
+
+    def render(self, frame: int = 0, size: Optional[Tuple[int, int]] = None, *, time: Optional[float] = None,
+               points: bool = False, progress: Progress = None, **options: Any) -> Dict[str, Any]:
+        """Draws one frame, or the instant `time` (seconds), as `tenebra render` with a --mask does.
+
+        size: width and height in pixels. options: those of `tenebra render` that speak of the camera and the
+        method, with _ for -: shadows="soft", ao="adaptive", soft_error=1, eye=(x, y, z), look_at=..., threads=2.
+
+        A dict, with h rows of w pixels, row 0 at the top:
+        image: (h, w, 3) uint8, as the program writes it. linear: (h, w, 3) float32, the colours of the pixels'
+        centres before exposure and tone. masks: by the light's number (h, w) uint8, 255 lit to 0.
+        visible_fraction: the same as (h, w) float32, with soft shadows. triangles: (h, w) uint32, the triangle
+        that each pixel sees, or no_triangle. positions: with points=True, (h, w, 3) float64, what it sees of it,
+        metres, and normals: (h, w, 3) float32, unit, the surface's as it is shaded; both meaningless on the
+        background. view: the camera's eye and rays (eye, d0, dx, dy, orthographic:
+        the ray through pixel (x, y) runs along d0 + (x + 0.5) dx + (y + 0.5) dy). timings: milliseconds of each
+        stage, the names of the program's log. notes: sentences that a user should see once.
+        """
+        for name in options:
+            if name in _OF_THE_SCENE:
+                raise TypeError(f"render: found {name}, which belongs to Scene.load")
+        if size is not None:
+            options["size"] = size
+        with self._one_call:
+            return self._core.render(frame, time, _arguments(options), points, progress)
+
+    def geometry(self, frame: int = 0, *, time: Optional[float] = None) -> Dict[str, np.ndarray]:
+        """The triangles of an instant: positions (v, 3) float32, normals (v, 3) float32 (zero: the face's),
+        triangles (n, 3) uint32, materials (n,) uint32, casts_shadow (n,) uint8. Every frame has the same
+        triangles. Geometry(**kept) takes positions, triangles and casts_shadow."""
+        return self._core.geometry(self._core.time_of(frame) if time is None else time)
+
+    def lights(self, frame: int = 0, *, time: Optional[float] = None) -> List[Dict[str, Any]]:
+        """The lights of an instant, by their numbers: type (point, spot, directional, rectangle or disc), name,
+        position, direction (the way it shines), half_x and half_y (of rectangles and discs), color, intensity,
+        range_m (0: unbounded), outer_cone_rad."""
+        return self._core.lights(self._core.time_of(frame) if time is None else time)

@@ -1,0 +1,521 @@
+// The module tenebra._core: numpy arrays in and out of queries.h and of the program's renderer. What a user
+// calls, with its checks of shapes and types, is in __init__.py; this is the thinnest way there.
+//
+// Calls that take long run on a thread of their own with Python's lock released, while the caller's thread
+// wakes now and then to see whether Ctrl-C was pressed and to report progress.
+#include <pybind11/functional.h>
+#include <pybind11/numpy.h>
+#include <pybind11/pybind11.h>
+#include <pybind11/stl.h>
+
+#include <tenebra/queries.h>
+#include <tenebra/threads.h>
+
+#include <atomic>
+#include <chrono>
+#include <future>
+#include <memory>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "base/fail.h"
+#include "base/stopwatch.h"
+#include "options/method_options.h"
+#include "options/scene_options.h"
+#include "render/log/frame_columns.h"
+#include "render/renderer.h"
+#include "shared/auto_exposure.h"
+#include "shared/scene_choice.h"
+#include "shared/scene_plan.h"
+
+namespace py = pybind11;
+
+namespace tenebra::python {
+namespace {
+
+template <class T>
+using Array = py::array_t<T, py::array::c_style>;
+template <class T>
+using MaybeArray = std::optional<Array<T>>;
+using Report = std::optional<py::function>;  ///< gets the part that is done, 0 to 1
+
+template <class T>
+T checked(Expected<T>&& result) {
+  if (!result) throw py::value_error(result.error().message);
+  if constexpr (!std::is_void_v<T>) return std::move(*result);
+}
+
+// ---- Arrays ----
+
+static_assert(sizeof(glm::vec3) == 3 * sizeof(float) && sizeof(glm::dvec3) == 3 * sizeof(double) &&
+              sizeof(glm::uvec3) == 3 * sizeof(std::uint32_t));
+
+/// Rows of three numbers as vectors. __init__.py has seen to the shapes.
+template <class Vector, class T>
+std::span<const Vector> vectors(const Array<T>& array) {
+  return {reinterpret_cast<const Vector*>(array.data()), static_cast<std::size_t>(array.size()) / 3};
+}
+template <class Vector, class T>
+std::span<const Vector> vectors(const MaybeArray<T>& array) {
+  return array ? vectors<Vector>(*array) : std::span<const Vector>();
+}
+template <class T>
+std::span<const T> values(const MaybeArray<T>& array) {
+  return array ? std::span<const T>(array->data(), static_cast<std::size_t>(array->size()))
+               : std::span<const T>();
+}
+template <class T>
+std::span<T> room(Array<T>& array) {
+  return {array.mutable_data(), static_cast<std::size_t>(array.size())};
+}
+
+/// An array that owns what was in `values`: nothing is copied.
+template <class T>
+py::array given_away(std::vector<T>&& values, std::vector<py::ssize_t> shape) {
+  auto* const kept = new std::vector<T>(std::move(values));
+  const py::capsule owner(kept, [](void* p) { delete static_cast<std::vector<T>*>(p); });
+  return py::array_t<T>(std::move(shape), kept->data(), owner);
+}
+template <class Vector>
+py::array given_away_vectors(std::vector<Vector>&& values, std::vector<py::ssize_t> shape) {
+  using T = typename Vector::value_type;
+  auto* const kept = new std::vector<Vector>(std::move(values));
+  const py::capsule owner(kept, [](void* p) { delete static_cast<std::vector<Vector>*>(p); });
+  shape.push_back(3);
+  return py::array_t<T>(std::move(shape), reinterpret_cast<const T*>(kept->data()), owner);
+}
+template <class T>
+py::array image(base::Image<T>&& from) {
+  std::vector<py::ssize_t> shape{from.height, from.width};
+  if (from.channels > 1) shape.push_back(from.channels);
+  return given_away(std::move(from.pixels), std::move(shape));
+}
+py::tuple tuple_of(const glm::vec3& v) {
+  return py::make_tuple(v.x, v.y, v.z);
+}
+
+// ---- Long calls ----
+
+/// What a long call looks at and says.
+struct Work {
+  StopFlag stop;
+  std::atomic<double> done{0};
+};
+
+/// Runs body(work), which gives Expected<void>, beside Python: signals and `report` are seen to every 20 ms.
+template <class Body>
+void run_beside(const Report& report, int threads, const Body& body) {
+  Work work;
+  std::exception_ptr interrupted;
+  Expected<void> result;
+  {
+    const py::gil_scoped_release released;
+    auto future = std::async(std::launch::async, [&] {
+      Expected<void> out;
+      with_threads(threads, [&] { out = body(work); });
+      return out;
+    });
+    double said = 0;
+    while (future.wait_for(std::chrono::milliseconds(20)) != std::future_status::ready) {
+      if (interrupted) continue;
+      const py::gil_scoped_acquire acquired;
+      try {
+        if (PyErr_CheckSignals() != 0) throw py::error_already_set();
+        const double done = work.done;
+        if (report && done != said) (*report)(said = done);
+      } catch (...) {
+        interrupted = std::current_exception();
+        work.stop.request();
+      }
+    }
+    result = future.get();
+  }
+  if (interrupted) std::rethrow_exception(interrupted);
+  checked(std::move(result));
+  if (report) (*report)(1.0);
+}
+
+// ---- Points and triangles ----
+
+struct PointArrays {
+  Array<double> positions;
+  MaybeArray<std::uint32_t> triangles;
+  MaybeArray<float> normals;
+  MaybeArray<std::int8_t> sides;
+  int width = 0;
+
+  QueryPoints query() const {
+    return {.positions = vectors<glm::dvec3>(positions),
+            .triangles = values(triangles),
+            .normals = vectors<glm::vec3>(normals),
+            .sides = values(sides),
+            .width = width};
+  }
+};
+
+QueryProgress noted_in(Work& work) {
+  return [&work](double done) { work.done = done; };
+}
+
+void hard_mask(PointTracer& tracer, const Geometry& geometry, const PointArrays& points,
+               const ShadowLight& light, Array<std::uint8_t>& mask, int threads, const Report& report) {
+  const QueryPoints query = points.query();
+  const auto to = room(mask);
+  run_beside(report, threads, [&](Work& work) {
+    return tracer.hard_mask(geometry, query, light, {}, to, &work.stop, noted_in(work));
+  });
+}
+
+void soft_visibility(PointTracer& tracer, const Geometry& geometry, const PointArrays& points,
+                     const AreaLight& light, double error, Array<float>& fraction, Array<float>& irradiance,
+                     int threads, const Report& report) {
+  const QueryPoints query = points.query();
+  const auto to_fraction = room(fraction), to_irradiance = room(irradiance);
+  SoftShadowConfig config;
+  config.error_255 = error;
+  run_beside(report, threads, [&](Work& work) {
+    return tracer.soft_visibility(geometry, query, light, config, to_fraction, to_irradiance, &work.stop,
+                                  noted_in(work));
+  });
+}
+
+void ambient_occlusion(PointTracer& tracer, const Geometry& geometry, const PointArrays& points,
+                       double distance_m, double error, Array<float>& openness, int threads,
+                       const Report& report) {
+  const QueryPoints query = points.query();
+  const auto to = room(openness);
+  const AoConfig config{.mode = AoMode::adaptive, .error_255 = error, .distance_m = distance_m};
+  run_beside(report, threads, [&](Work& work) {
+    return tracer.ambient_occlusion(geometry, query, config, to, &work.stop, noted_in(work));
+  });
+}
+
+void add_queries(py::module_& module) {
+  py::class_<Geometry>(module, "Geometry")
+      .def(py::init([](const Array<float>& positions, const Array<std::uint32_t>& triangles,
+                       const MaybeArray<std::uint8_t>& casts) {
+        return checked(
+            Geometry::create(vectors<glm::vec3>(positions), vectors<glm::uvec3>(triangles), values(casts)));
+      }))
+      .def("move_vertices", [](Geometry& geometry, const Array<float>& positions) {
+        checked(geometry.move_vertices(vectors<glm::vec3>(positions)));
+      });
+  py::class_<PointArrays>(module, "PointArrays")
+      .def(py::init<Array<double>, MaybeArray<std::uint32_t>, MaybeArray<float>, MaybeArray<std::int8_t>,
+                    int>());
+  py::class_<ShadowLight>(module, "ShadowLight")
+      .def(py::init([](bool directional, std::array<float, 3> v, std::array<float, 3> axis, float cos_outer,
+                       float range_m) {
+        const glm::vec3 at{v[0], v[1], v[2]};
+        return ShadowLight{directional, at, at, {axis[0], axis[1], axis[2]}, cos_outer, range_m};
+      }));
+  py::class_<AreaLight>(module, "AreaLight")
+      .def(py::init([](const Array<float>& vertices) {
+        return checked(make_area_light(vectors<glm::vec3>(vertices)));
+      }))
+      .def_static(
+          "disc",
+          [](std::array<float, 3> c, std::array<float, 3> x, std::array<float, 3> y) {
+            return checked(make_disc_light({c[0], c[1], c[2]}, {x[0], x[1], x[2]}, {y[0], y[1], y[2]}));
+          })
+      .def_property_readonly("vertices",
+                             [](const AreaLight& light) {
+                               auto vertices = light.vertices;
+                               const auto count = static_cast<py::ssize_t>(vertices.size());
+                               return given_away_vectors(std::move(vertices), {count});
+                             })
+      .def_readonly("area_m2", &AreaLight::area_m2);
+  py::class_<PointTracer>(module, "PointTracer")
+      .def(py::init<>())
+      .def("hard_mask", &hard_mask)
+      .def("soft_visibility", &soft_visibility)
+      .def("ambient_occlusion", &ambient_occlusion);
+}
+
+// ---- Scenes ----
+
+/// A scene made ready as `tenebra render` makes it, and a renderer on the CPU.
+class LoadedScene {
+public:
+  /// `arguments`: options of `tenebra render` that speak of the scene.
+  static Expected<std::unique_ptr<LoadedScene>> load(const std::string& path, const std::string& arguments);
+
+  struct Picture {
+    render::FrameResult result;
+    VisiblePoints points;            ///< ids, and positions if they were wanted
+    std::vector<glm::vec3> normals;  ///< likewise
+    ViewRays view;
+  };
+  /// `arguments`: options of `tenebra render` that speak of camera and method.
+  Expected<Picture> render(int frame, std::optional<double> time_s, const std::string& arguments,
+                           bool with_points, Work& work);
+
+  Expected<double> time_of(int frame) const;
+  FrameGeometry geometry(double time_s) const;
+  std::vector<WorldLight> lights(double time_s) const {
+    return viewer::placed_lights(plan_.scene, options_.edits, plan_.clip, time_s);
+  }
+  int frames() const { return viewer::frames_of_clip(plan_.scene, plan_.clip, options_.fps); }
+  const viewer::ScenePlan& plan() const { return plan_; }
+
+private:
+  LoadedScene() = default;
+  /// Camera and method of `arguments`.
+  struct Wish {
+    viewer::SceneOptions scene;
+    viewer::MethodOptions method;
+  };
+  Expected<Wish> wish_of(const std::string& arguments);
+  Expected<render::RenderSettings> settings_of(Wish& wish);
+
+  viewer::SceneOptions options_;
+  viewer::ScenePlan plan_;
+  std::optional<render::Renderer> renderer_;
+};
+
+Expected<std::unique_ptr<LoadedScene>> LoadedScene::load(const std::string& path,
+                                                         const std::string& arguments) {
+  std::unique_ptr<LoadedScene> loaded(new LoadedScene);
+  const auto command = viewer::lone_command();
+  viewer::add_scene_options(*command, loaded->options_);
+  if (auto parsed = viewer::parse_arguments(*command, arguments); !parsed)
+    return tl::unexpected(parsed.error());
+  loaded->options_.file = path;
+  auto plan = viewer::plan_scene(loaded->options_);
+  if (!plan) return tl::unexpected(plan.error());
+  loaded->plan_ = std::move(*plan);
+  viewer::ScenePlan& ready = loaded->plan_;
+  ready.scene.lights = viewer::lights_of(ready.scene, loaded->options_.edits);
+  auto raster = render::FrameRaster::create({.kind = render::RasterKind::cpu});
+  if (!raster) return tl::unexpected(raster.error());
+  loaded->renderer_ = render::Renderer::create(std::move(*raster), ready.scene);
+  if (ready.environment) loaded->renderer_->set_environment(*ready.environment);
+  if (!loaded->options_.edits.materials.empty())
+    loaded->renderer_->set_materials(viewer::materials_of(ready.scene, loaded->options_.edits));
+  return loaded;
+}
+
+Expected<LoadedScene::Wish> LoadedScene::wish_of(const std::string& arguments) {
+  Wish wish{options_, {}};
+  const auto command = viewer::lone_command();
+  viewer::add_scene_options(*command, wish.scene);
+  viewer::add_method_options(*command, wish.method);
+  if (auto parsed = viewer::parse_arguments(*command, arguments); !parsed)
+    return tl::unexpected(parsed.error());
+  viewer::settle_quality(*command, wish.method);
+  if (!wish.method.terminator) wish.method.terminator = render::Terminator::flat;  // as with any mask
+  if (auto good = viewer::check_scene_options(wish.scene); !good) return tl::unexpected(good.error());
+  if (auto good = viewer::check_method_options(wish.method); !good) return tl::unexpected(good.error());
+  return wish;
+}
+
+Expected<render::RenderSettings> LoadedScene::settings_of(Wish& wish) {
+  if (wish.method.auto_exposure && !plan_.display.exposures) {
+    const auto exposures = viewer::meter_exposures(plan_, options_);
+    if (!exposures) return tl::unexpected(exposures.error());
+    plan_.display.exposures = *exposures;
+  }
+  render::RenderSettings settings =
+      viewer::method_settings(wish.method, wish.scene.size.value_or(plan_.size), plan_.display);
+  settings.area_lights.own_size_m = viewer::edited_sizes_m(options_.edits.lights);
+  settings.linear = true;
+  return settings;
+}
+
+Expected<LoadedScene::Picture> LoadedScene::render(int frame, std::optional<double> time_s,
+                                                   const std::string& arguments, bool with_points,
+                                                   Work& work) {
+  auto wish = wish_of(arguments);
+  if (!wish) return tl::unexpected(wish.error());
+  const auto settings = settings_of(*wish);
+  if (!settings) return tl::unexpected(settings.error());
+  if (!time_s) {
+    const auto time = time_of(frame);
+    if (!time) return tl::unexpected(time.error());
+    time_s = *time;
+  }
+  int camera = plan_.camera;
+  if (wish->scene.camera) {
+    const auto chosen = viewer::choose_camera(plan_.scene, wish->scene.camera);
+    if (!chosen) return tl::unexpected(chosen.error());
+    camera = *chosen;
+  }
+  const viewer::Size size{settings->width, settings->height};
+  base::Stopwatch watch;
+  render::FrameInput input{geometry(*time_s), lights(*time_s),
+                           wish->scene.eye
+                               ? viewer::view_of(plan_, wish->scene, *time_s, size)
+                               : viewer::view_of_camera(plan_, plan_.clip, camera, *time_s, size)};
+  Picture picture;
+  const auto note = [&work](std::string_view, double done) { work.done = done; };
+  const double evaluate_ms = watch.lap_ms();
+  if (auto drawn = renderer_->render_frame(input, *settings, picture.result, note, &work.stop); !drawn)
+    return tl::unexpected(drawn.error());
+  picture.result.timings.evaluate_ms = evaluate_ms;  // as the program's log has them
+  picture.result.timings.total_ms = evaluate_ms + watch.lap_ms();
+  const auto ids = renderer_->triangle_ids();
+  picture.points.triangles.assign(ids.begin(), ids.end());
+  if (with_points) {
+    const TriangleView triangles = triangle_view(input.geometry);
+    compute_visible_points(ids, size.width, size.height, input.view, triangles, picture.points);
+    compute_shading_normals(picture.points, input.geometry.normals, input.view, triangles, picture.normals);
+  }
+  picture.view = input.view;
+  return picture;
+}
+
+Expected<double> LoadedScene::time_of(int frame) const {
+  if (frame < 0 || frame >= frames())
+    return base::fail("frame {} does not exist, {} has frames 0 to {}", frame,
+                      plan_.clip < 0 ? "the scene without animation" : "the animation", frames() - 1);
+  return viewer::time_of_frame(plan_.scene, plan_.clip, frame, options_.fps);
+}
+
+FrameGeometry LoadedScene::geometry(double time_s) const {
+  FrameGeometry geometry;
+  evaluate_frame(plan_.scene, plan_.clip, time_s, geometry);
+  viewer::apply_node_edits(plan_.scene, options_.edits, geometry);
+  return geometry;
+}
+
+py::dict geometry_dict(FrameGeometry&& geometry) {
+  const auto vertices = static_cast<py::ssize_t>(geometry.positions.size());
+  const auto triangles = static_cast<py::ssize_t>(geometry.triangles.size());
+  py::dict out;
+  out["positions"] = given_away_vectors(std::move(geometry.positions), {vertices});
+  out["normals"] = given_away_vectors(std::move(geometry.normals), {vertices});
+  out["triangles"] = given_away_vectors(std::move(geometry.triangles), {triangles});
+  out["materials"] = given_away(std::move(geometry.materials), {triangles});
+  out["casts_shadow"] = given_away(std::move(geometry.casts_shadow), {triangles});
+  return out;
+}
+
+const char* type_name(LightType type) {
+  switch (type) {
+    case LightType::point:
+      return "point";
+    case LightType::spot:
+      return "spot";
+    case LightType::directional:
+      return "directional";
+    case LightType::area_rect:
+      return "rectangle";
+    case LightType::area_disk:
+      return "disc";
+  }
+  return "";
+}
+
+py::list light_list(const LoadedScene& scene, double time_s) {
+  py::list out;
+  for (const WorldLight& placed : scene.lights(time_s)) {
+    const Light light = light_at(scene.plan().scene, placed);
+    py::dict entry;
+    entry["type"] = type_name(light.type);
+    entry["name"] = light.name;
+    entry["position"] = tuple_of(placed.position);
+    entry["direction"] = tuple_of(placed.direction);
+    entry["half_x"] = tuple_of(placed.axis_x);
+    entry["half_y"] = tuple_of(placed.axis_y);
+    entry["color"] = tuple_of(light.color);
+    entry["intensity"] = light.intensity;
+    entry["range_m"] = light.range_m.value_or(0.0f);
+    entry["outer_cone_rad"] = light.outer_cone_rad;
+    out.append(entry);
+  }
+  return out;
+}
+
+py::dict view_dict(const ViewRays& view) {
+  py::dict out;
+  out["eye"] = tuple_of(view.eye), out["d0"] = tuple_of(view.d0);
+  out["dx"] = tuple_of(view.dx), out["dy"] = tuple_of(view.dy);
+  out["orthographic"] = view.orthographic;
+  return out;
+}
+
+py::dict timings_dict(const FrameTimings& timings) {
+  py::dict out;
+  const auto add = [&](const auto& columns) {
+    for (const render::TimingColumn& column : columns)
+      out[py::str(std::string(column.name))] = timings.*column.value;
+  };
+  add(render::leading_timings);
+  add(render::closing_timings);
+  return out;
+}
+
+/// The masks' numbers are the lights' places in the list that light_list gives.
+py::dict picture_dict(LoadedScene::Picture&& picture) {
+  render::FrameResult& result = picture.result;
+  const py::ssize_t height = result.image.height, width = result.image.width;
+  py::dict out, masks, fractions;
+  for (render::LightMask& mask : result.masks) {
+    masks[py::int_(mask.light)] = image(std::move(mask.mask));
+    if (!mask.visible_fraction.pixels.empty())
+      fractions[py::int_(mask.light)] = image(std::move(mask.visible_fraction));
+  }
+  out["image"] = image(std::move(result.image));
+  out["linear"] = image(std::move(result.linear));
+  out["masks"] = masks;
+  out["visible_fraction"] = fractions;
+  if (!picture.points.positions.empty()) {
+    out["positions"] = given_away_vectors(std::move(picture.points.positions), {height, width});
+    out["normals"] = given_away_vectors(std::move(picture.normals), {height, width});
+  }
+  out["triangles"] = given_away(std::move(picture.points.triangles), {height, width});
+  out["view"] = view_dict(picture.view);
+  out["timings"] = timings_dict(result.timings);
+  out["notes"] = result.notes;
+  return out;
+}
+
+void add_scenes(py::module_& module) {
+  using Loaded = LoadedScene;
+  py::class_<Loaded>(module, "Scene")
+      .def(py::init([](const std::string& path, const std::string& arguments) {
+        std::unique_ptr<Loaded> loaded;
+        run_beside({}, 0, [&](Work&) -> Expected<void> {
+          auto made = Loaded::load(path, arguments);
+          if (!made) return tl::unexpected(made.error());
+          loaded = std::move(*made);
+          return {};
+        });
+        return loaded;
+      }))
+      .def("render",
+           [](Loaded& scene, int frame, std::optional<double> time_s, const std::string& arguments,
+              bool with_points, const Report& report) {
+             std::optional<Loaded::Picture> picture;
+             run_beside(report, 0, [&](Work& work) -> Expected<void> {
+               auto drawn = scene.render(frame, time_s, arguments, with_points, work);
+               if (!drawn) return tl::unexpected(drawn.error());
+               picture = std::move(*drawn);
+               return {};
+             });
+             return picture_dict(std::move(*picture));
+           })
+      .def("time_of", [](const Loaded& scene, int frame) { return checked(scene.time_of(frame)); })
+      .def("geometry",
+           [](const Loaded& scene, double time_s) { return geometry_dict(scene.geometry(time_s)); })
+      .def("lights", &light_list)
+      .def_property_readonly("frames", &Loaded::frames)
+      .def_property_readonly("size",
+                             [](const Loaded& scene) {
+                               return py::make_tuple(scene.plan().size.width, scene.plan().size.height);
+                             })
+      .def_property_readonly("name", [](const Loaded& scene) { return scene.plan().scene.name; })
+      .def_property_readonly("warnings", [](const Loaded& scene) { return scene.plan().scene.warnings; });
+}
+
+}  // namespace
+}  // namespace tenebra::python
+
+PYBIND11_MODULE(_core, module) {
+  module.doc() = "What the package tenebra is made of; use that.";
+  module.attr("version") = TENEBRA_VERSION;
+  module.attr("no_triangle") = tenebra::no_triangle;
+  tenebra::python::add_queries(module);
+  tenebra::python::add_scenes(module);
+}

@@ -1,0 +1,83 @@
+#include <tenebra/queries.h>
+
+#include <algorithm>
+#include <cmath>
+
+#include "base/fail.h"
+#include "query/geometry_data.h"
+
+namespace tenebra {
+namespace {
+
+constexpr float largest_coordinate = 1e18f;  // beyond it, products of coordinates leave the range of floats
+
+bool in_range(const glm::vec3& p) {
+  return std::abs(p.x) <= largest_coordinate && std::abs(p.y) <= largest_coordinate &&
+         std::abs(p.z) <= largest_coordinate;  // of NaN too
+}
+
+Expected<void> check_vertices(std::span<const glm::vec3> positions) {
+  const auto bad = std::find_if_not(positions.begin(), positions.end(), in_range);
+  if (bad == positions.end()) return {};
+  return base::fail("geometry: vertex {} is ({}, {}, {}), expected finite coordinates of at most 1e18",
+                    bad - positions.begin(), bad->x, bad->y, bad->z);
+}
+
+Expected<void> check_triangles(std::span<const glm::uvec3> triangles, std::size_t vertices) {
+  const auto bad = std::find_if(triangles.begin(), triangles.end(), [&](const glm::uvec3& t) {
+    return std::max({t.x, t.y, t.z}) >= vertices;
+  });
+  if (bad == triangles.end()) return {};
+  return base::fail("geometry: triangle {} has the vertices {}, {} and {}, expected numbers below {}",
+                    bad - triangles.begin(), bad->x, bad->y, bad->z, vertices);
+}
+
+double diagonal_of(std::span<const glm::vec3> positions) {
+  if (positions.empty()) return 0;
+  glm::vec3 low = positions.front(), high = low;
+  for (const glm::vec3& p : positions) low = glm::min(low, p), high = glm::max(high, p);
+  return glm::length(glm::dvec3(high) - glm::dvec3(low));
+}
+
+}  // namespace
+
+Geometry::Geometry(std::shared_ptr<query::GeometryData> data) : data_(std::move(data)) {}
+Geometry::Geometry(Geometry&&) noexcept = default;
+Geometry& Geometry::operator=(Geometry&&) noexcept = default;
+Geometry::~Geometry() = default;
+
+Expected<Geometry> Geometry::create(std::span<const glm::vec3> positions,
+                                    std::span<const glm::uvec3> triangles,
+                                    std::span<const std::uint8_t> casts_shadow) {
+  if (triangles.size() >= no_triangle)
+    return base::fail("geometry: found {} triangles, expected fewer than {}", triangles.size(), no_triangle);
+  if (!casts_shadow.empty() && casts_shadow.size() != triangles.size())
+    return base::fail("geometry: casts_shadow has {} elements, expected one for each of {} triangles",
+                      casts_shadow.size(), triangles.size());
+  if (auto checked = check_vertices(positions); !checked) return tl::unexpected(checked.error());
+  if (auto checked = check_triangles(triangles, positions.size()); !checked)
+    return tl::unexpected(checked.error());
+  auto data = std::make_shared<query::GeometryData>();
+  data->positions.assign(positions.begin(), positions.end());
+  data->triangles.assign(triangles.begin(), triangles.end());
+  data->casts_shadow.assign(casts_shadow.begin(), casts_shadow.end());
+  data->diagonal = diagonal_of(positions);
+  return Geometry(std::move(data));
+}
+
+Expected<void> Geometry::move_vertices(std::span<const glm::vec3> positions) {
+  if (positions.size() != data_->positions.size())
+    return base::fail("geometry: found {} vertices, expected {} as before", positions.size(),
+                      data_->positions.size());
+  if (auto checked = check_vertices(positions); !checked) return checked;
+  std::copy(positions.begin(), positions.end(), data_->positions.begin());
+  data_->diagonal = diagonal_of(positions);
+  ++data_->revision;
+  return {};
+}
+
+TriangleView Geometry::view() const {
+  return query::view_of(*data_);
+}
+
+}  // namespace tenebra

@@ -1,0 +1,112 @@
+// Hard masks of points. The eye is at the light: then every point is asked about whose triangle's said side
+// the light is on, and the tracer's own test of sides says the same. Points on the other side are dark.
+#include <cmath>
+
+#include "points/triangle_corners.h"
+#include "query/tracer_state.h"
+
+namespace tenebra {
+namespace {
+
+using glm::dvec3;
+
+bool finite(const glm::vec3& v) {
+  return std::isfinite(v.x) && std::isfinite(v.y) && std::isfinite(v.z);
+}
+
+Expected<void> check_light(const ShadowLight& light) {
+  if (light.directional && (!finite(light.to_light) || light.to_light == glm::vec3(0.0f)))
+    return base::fail("light: its direction is ({}, {}, {}), expected a finite one that is not zero",
+                      light.to_light.x, light.to_light.y, light.to_light.z);
+  if (light.directional) return {};
+  if (!finite(light.position))
+    return base::fail("light: it is at ({}, {}, {}), expected finite coordinates", light.position.x,
+                      light.position.y, light.position.z);
+  constexpr float rounding = 1e-3f;
+  if (light.spot_cos_outer > -1 && !(std::abs(glm::length(light.spot_axis) - 1) < rounding))
+    return base::fail("light: the axis of its cone is {} long, expected 1", glm::length(light.spot_axis));
+  if (!(light.range_m >= 0)) return base::fail("light: its range is {}, expected 0 or more", light.range_m);
+  return {};
+}
+
+ViewRays view_from(const ShadowLight& light) {
+  ViewRays view;
+  view.orthographic = light.directional;
+  view.eye = light.position;
+  if (light.directional) view.d0 = -light.to_light;
+  return view;
+}
+
+/// The side of triangles that the light is on; quick for a run of points on one.
+class LightSide {
+public:
+  LightSide(const TriangleView& triangles, const ViewRays& from_light)
+      : triangles_(triangles), view_(from_light) {}
+  int operator()(std::uint32_t triangle) {
+    if (triangle != last_) {
+      last_ = triangle;
+      side_ = points::eye_side(points::corners_of(triangles_, triangle).v, view_);
+    }
+    return side_;
+  }
+
+private:
+  const TriangleView& triangles_;
+  const ViewRays& view_;
+  std::uint32_t last_ = no_triangle;
+  int side_ = 0;
+};
+
+/// Towards the light; at the light itself any direction will do.
+dvec3 towards(const ShadowLight& light, const dvec3& point) {
+  const dvec3 way = light.directional ? dvec3(light.to_light) : dvec3(light.position) - point;
+  return way == dvec3(0.0) ? dvec3(0, 1, 0) : way;
+}
+
+}  // namespace
+
+Expected<void> PointTracer::hard_mask(const Geometry& geometry, const QueryPoints& points,
+                                      const ShadowLight& light, const HardShadowConfig& config,
+                                      std::span<std::uint8_t> mask, const StopFlag* stop,
+                                      const QueryProgress& progress) {
+  const parallel::FloatEnvironment ieee;
+  query::TracerState& s = *state_;
+  if (mask.size() != points.positions.size())
+    return base::fail("hard mask: room for {} values, expected one for each of {} points", mask.size(),
+                      points.positions.size());
+  if (auto checked = check_light(light); !checked) return checked;
+  if (auto checked = query::check_points(points, *geometry.data_); !checked) return checked;
+  s.follow(geometry.data_);
+  const ViewRays view = view_from(light);
+  const bool some_apart = query::need_stand_ins(points);
+
+  return query::in_portions(points, stop, progress, [&](const query::Portion& portion) -> Expected<void> {
+    if (some_apart) s.stand_ins.follow(geometry.data_, portion.count());
+    const TriangleView triangles = s.triangles(some_apart);
+    s.begin(points, portion);
+    query::each_run(portion, [&](std::size_t first, std::size_t last) {
+      LightSide light_side(triangles, view);
+      for (std::size_t i = first; i < last; ++i) {
+        const std::size_t point = portion.first() + i, pixel = portion.pixel(i);
+        const std::uint32_t triangle = query::triangle_of(points, point);
+        if (triangle != no_triangle) {
+          const int side = query::said_side(points, point, triangles);
+          if (side == 0 || side == light_side(triangle)) s.seen.triangles[pixel] = triangle;
+          continue;
+        }
+        const dvec3 to_light = towards(light, points.positions[point]);
+        const dvec3 normal(query::normal_of(points, point));
+        if (normal != dvec3(0.0) && !(glm::dot(normal, to_light) > 0)) continue;
+        s.stand_ins.set(i, points.positions[point], to_light, query::StandAt::behind);
+        s.seen.triangles[pixel] = s.stand_ins.id(i);
+      }
+    });
+    if (!s.hard.trace_shadow_mask(s.seen, view, triangles, light, config, s.mask, stop))
+      return base::fail("stopped");
+    query::each_point(portion,
+                      [&](std::size_t i, std::size_t pixel) { mask[portion.first() + i] = s.mask[pixel]; });
+    return {};
+  });
+}
+
+}  // namespace tenebra

@@ -1,0 +1,78 @@
+#include "query/stand_ins.h"
+
+#include <algorithm>
+#include <bit>
+#include <cmath>
+
+namespace tenebra::query {
+
+namespace {
+
+using glm::dvec3;
+using glm::vec3;
+
+constexpr std::uint32_t corners = 3;
+
+Mesh mesh_of(const std::vector<vec3>& positions, const std::vector<glm::uvec3>& triangles) {
+  Mesh mesh;
+  mesh.positions = positions;
+  mesh.triangles = triangles;
+  mesh.materials.assign(triangles.size(), 0);
+  return mesh;
+}
+
+/// Room for stand-ins, of no size yet. A shape makes it a mesh that deforms.
+Mesh empty_slots(std::size_t slots) {
+  std::vector<glm::uvec3> triangles;
+  for (std::uint32_t i = 0; i < slots; ++i) triangles.push_back(corners * i + glm::uvec3(0, 1, 2));
+  Mesh mesh = mesh_of(std::vector<vec3>(corners * slots, vec3(0.0f)), triangles);
+  mesh.shapes.push_back({0.0, mesh.positions, {}});
+  return mesh;
+}
+
+/// A unit vector across `n`, which is one.
+dvec3 across(const dvec3& n) {
+  const dvec3 size = glm::abs(n);
+  const dvec3 axis = size.x <= size.y && size.x <= size.z ? dvec3(1, 0, 0)
+                     : size.y <= size.z                   ? dvec3(0, 1, 0)
+                                                          : dvec3(0, 0, 1);
+  return glm::normalize(glm::cross(axis, n));
+}
+
+}  // namespace
+
+void StandIns::follow(const std::shared_ptr<const GeometryData>& data, std::size_t slots) {
+  const std::size_t room = slots == 0 ? slots_ : std::max(slots_, std::bit_ceil(slots));
+  if (data_ == data && revision_ == data->revision && room == slots_) return;
+  data_ = data, revision_ = data->revision, slots_ = room;
+  rebuild();
+}
+
+void StandIns::rebuild() {
+  scene_ = {};
+  scene_.materials.resize(1);
+  scene_.meshes = {mesh_of(data_->positions, data_->triangles), empty_slots(slots_)};
+  scene_.nodes.resize(scene_.meshes.size());
+  for (std::size_t i = 0; i < scene_.nodes.size(); ++i) scene_.nodes[i].mesh = static_cast<int>(i);
+  evaluate_frame(scene_, -1, 0.0, geometry_);
+  std::fill(geometry_.casts_shadow.begin(), geometry_.casts_shadow.end(), std::uint8_t{0});
+  const auto own = geometry_.casts_shadow.begin();
+  if (data_->casts_shadow.empty()) {
+    std::fill_n(own, data_->triangles.size(), std::uint8_t{1});
+  } else {
+    std::copy(data_->casts_shadow.begin(), data_->casts_shadow.end(), own);
+  }
+}
+
+void StandIns::set(std::size_t slot, const dvec3& point, const dvec3& normal, StandAt at) {
+  const dvec3 n = glm::normalize(normal), u = across(n), v = glm::cross(n, u);
+  const double reach = std::max({std::abs(point.x), std::abs(point.y), std::abs(point.z)});
+  double size = std::max(0x1p-6 * reach, 0x1p-12 * data_->diagonal);
+  if (!(size > 0)) size = 0x1p-12;
+  const dvec3 middle = at == StandAt::behind ? point - size * n : point;
+  const dvec3 corner[corners] = {middle + size * u, middle + size * (v - u), middle - size * (u + v)};
+  vec3* const to = &geometry_.positions[data_->positions.size() + corners * slot];
+  for (std::size_t k = 0; k < corners; ++k) to[k] = vec3(corner[k]);
+}
+
+}  // namespace tenebra::query

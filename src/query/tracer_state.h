@@ -1,0 +1,64 @@
+// What a PointTracer keeps between calls, and what its three questions share.
+#pragma once
+
+#include <memory>
+#include <vector>
+
+#include <tenebra/queries.h>
+#include "base/fail.h"
+#include "query/geometry_data.h"
+#include "query/point_surfaces.h"
+#include "query/portion.h"
+#include "query/stand_ins.h"
+
+namespace tenebra::query {
+
+struct TracerState {
+  using Data = std::shared_ptr<GeometryData>;
+
+  ShadowTracer hard;
+  SoftShadowTracer soft;
+  AmbientOcclusion ambient;
+  StandIns stand_ins;
+
+  VisiblePoints seen;              ///< a portion
+  std::vector<glm::vec3> normals;  ///< its shading normals
+  ShadowMask mask;
+  SoftMask visible;
+  std::vector<float> openness;
+  std::vector<std::uint8_t> eyes;  ///< one for each point of a portion
+
+  std::shared_ptr<const GeometryData> followed;
+  std::uint64_t revision = 0;
+  std::uint64_t version = 0;   ///< another for each geometry and each of its moves
+  std::uint64_t occluded = 0;  ///< the version that `ambient` knows
+
+  /// Whether this is not what the last call was about.
+  bool follow(const Data& data) {
+    if (followed == data && revision == data->revision) return false;
+    followed = data, revision = data->revision;
+    ++version;
+    return true;
+  }
+
+  /// The triangles that a portion meets; stand-ins change from portion to portion.
+  TriangleView triangles(bool with_stand_ins) const {
+    if (with_stand_ins) return triangle_view(stand_ins.geometry());
+    TriangleView view = view_of(*followed);
+    view.version = version;
+    return view;
+  }
+
+  /// A portion's points, seen by no one yet.
+  void begin(const QueryPoints& points, const Portion& portion) {
+    seen.width = portion.width(), seen.height = portion.height();
+    seen.tiles.clear();
+    seen.triangles.assign(portion.pixels(), no_triangle);
+    seen.positions.resize(portion.pixels());
+    each_point(portion, [&](std::size_t i, std::size_t pixel) {
+      seen.positions[pixel] = points.positions[portion.first() + i];
+    });
+  }
+};
+
+}  // namespace tenebra::query
