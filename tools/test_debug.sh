@@ -5,7 +5,7 @@
 set -euo pipefail
 cd "$(dirname "$0")/.."
 
-folders=(base exr math parallel points scene texture cutout visibility shadow soft tint ao shade)
+folders=(base exr math parallel points scene texture cutout visibility shadow soft tint ao query shade)
 # Those that take many seconds each: exact answers for whole masks, catalogues, soups, whole frames.
 slow='ShadowMask\.|NodeTests|SoftCatalogue|SoftCloud|Oracle|Exact|EverySoup|StaysWholeWhenKilled|SoftMetamorphic|SoftError\.(Has|Is)'
 slow+='|^Bart|SoftPackets|ShaftFrames|NeverLeaveOut|HandOver|AreaIsThatOf|Tiles\.AreTheSame|Tiles\.WorkOut'

@@ -174,7 +174,7 @@ Expected<int> trade(TradeOptions& options) {
   if (!options.render.quiet) print_warnings(plan->scene.warnings);
   if (!options.output.empty()) {
     std::vector<std::filesystem::path> inputs = plan->inputs;
-    if (auto apart = check_files_apart(inputs, {{"-o", options.output}}); !apart)
+    if (auto apart = check_files_apart(inputs, OutputName{"-o", options.output}); !apart)
       return tl::unexpected(apart.error());
   }
   stop.be_orderly();
