@@ -32,6 +32,12 @@ set(needed libglm-dev libfmt-dev libexpected-dev libtbb-dev libhwy-dev libzstd-d
 if(embree_FOUND)
   list(APPEND needed libembree-dev)
 endif()
+# It has the shared library of the C interface, too.
+list(APPEND needed libc6 libstdc++6 libgcc-s1)
+set(control ${CMAKE_BINARY_DIR}/deb)
+file(WRITE ${control}/triggers "activate-noawait ldconfig\n")
+file(WRITE ${control}/shlibs "libtenebra 1 libtenebra-dev (>= ${PROJECT_VERSION})\n")
+set(CPACK_DEBIAN_DEVELOPMENT_PACKAGE_CONTROL_EXTRA "${control}/triggers;${control}/shlibs")
 list(JOIN needed ", " CPACK_DEBIAN_DEVELOPMENT_PACKAGE_DEPENDS)
 set(CPACK_COMPONENT_DEVELOPMENT_DESCRIPTION
   "${about}This package has the\nlibraries and headers that other programs link.")

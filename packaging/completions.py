@@ -1,8 +1,8 @@
 #!/usr/bin/env python3
-"""Writes completions of the shells bash and zsh from what `tenebra COMMAND --help` says.
+"""Writes completions of the shell bash from what `tenebra COMMAND --help` says.
 
 Usage: completions.py PROGRAM FOLDER
-Writes FOLDER/bash-completion/completions/tenebra and FOLDER/zsh/vendor-completions/_tenebra.
+Writes FOLDER/bash-completion/completions/tenebra.
 """
 import pathlib
 import re
@@ -81,14 +81,6 @@ _tenebra() {{
 complete -F _tenebra tenebra
 """
 
-# zsh reads completions of bash; the words are made once.
-ZSH = """#compdef tenebra
-# Completion of the commands and options of tenebra. Made from its help.
-autoload -U +X bashcompinit && bashcompinit
-source {bash}
-"""
-
-
 def bash_of(tree, commands):
     words = " ".join(f"['{command}']='{' '.join(name for name, kind in options if name)}'"
                      for command, options in tree.items())
@@ -101,11 +93,9 @@ def main():
     program, folder = sys.argv[1], pathlib.Path(sys.argv[2])
     tree = tree_of(program)
     commands = [command for command in tree if " " not in command]
-    for place, text in (("bash-completion/completions/tenebra", bash_of(tree, commands)),
-                        ("zsh/vendor-completions/_tenebra",
-                         ZSH.format(bash="/usr/share/bash-completion/completions/tenebra"))):
-        (folder / place).parent.mkdir(parents=True, exist_ok=True)
-        (folder / place).write_text(text, encoding="utf-8")
+    file = folder / "bash-completion/completions/tenebra"
+    file.parent.mkdir(parents=True, exist_ok=True)
+    file.write_text(bash_of(tree, commands), encoding="utf-8")
 
 
 if __name__ == "__main__":

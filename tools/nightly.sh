@@ -83,13 +83,17 @@ run_report() {
 
 # No compiler is there, and no checkout: what the packages bring must be enough.
 run_package() {
-  local root
-  root=$(mktemp -d) && tools/package.sh --check && tools/make_root.sh --root "$root" --only-make debian12 &&
+  local root status
+  root=$(mktemp -d) || return 1
+  tools/package.sh --check && tools/make_root.sh --root "$root" --only-make debian12 &&
     cp build-package/tenebra_*.deb "$root/opt" &&
     tools/make_root.sh --root "$root" --run 'cd /opt && apt-get update -qq &&
       time (apt-get install -y -qq --no-install-recommends ./tenebra_*.deb > /dev/null && ! command -v g++ &&
         tenebra render /usr/share/tenebra/scenes/city.glb -o city.png && tenebra info /usr/share/tenebra/scenes/court.glb)' \
-      debian12 && rm -r "$root"
+      debian12
+  status=$?
+  rm -rf "$root"
+  return "$status"
 }
 
 run_faults() {

@@ -5,7 +5,8 @@ named is read where it lies, any other is converted. Answers are new arrays of t
 
 Triangles are given as an array (n, 3, 3) of corners, as a pair (positions (v, 3), indices (n, 3)), or as a
 Geometry, which keeps them for many calls. Their positions are rounded once to float32 and exact from there on;
-points are float64 and exact. Calls release Python's lock, end on Ctrl-C, and take the keywords
+points are float64 and exact. Calls that ask about points, and render, release Python's lock and end on Ctrl-C, and
+take the keywords
 
 threads: at most so many; 0: all cores. Answers do not depend on it.
 progress: called on this thread now and then with the part that is done, 0 to 1.
@@ -47,7 +48,7 @@ def _rows(name: str, value: Any, dtype: Any, shape: str = "(n, 3)") -> np.ndarra
     array = _numbers(name, value, dtype)
     if array.ndim < 1 or array.shape[-1] != 3:
         raise ValueError(f"{name}: found the shape {array.shape}, expected {shape}")
-    return np.ascontiguousarray(array)
+    return np.require(array, requirements="CA")
 
 
 def _indices(name: str, value: Any) -> np.ndarray:
@@ -58,7 +59,7 @@ def _indices(name: str, value: Any) -> np.ndarray:
         if array.size and (array.min() < 0 or array.max() > no_triangle):
             raise ValueError(f"{name}: found numbers from {array.min()} to {array.max()}, expected 0 to {no_triangle}")
         array = array.astype(np.uint32)
-    return np.ascontiguousarray(array)
+    return np.require(array, requirements="CA")
 
 
 def _vector(name: str, value: Any) -> List[float]:
@@ -137,6 +138,8 @@ class PointLight:
             given = np.asarray(_vector("spot_axis", spot_axis), np.float64)
             if not given.any():
                 raise ValueError("spot_axis: found 0, 0, 0, expected a direction")
+            if not 0 < cone_rad <= math.pi:
+                raise ValueError(f"cone_rad: found {cone_rad}, expected radians, more than 0 and at most pi")
             axis, cos_outer = (given / np.linalg.norm(given)).tolist(), math.cos(cone_rad)
         self._core = _core.ShadowLight(False, _vector("position", position), axis, cos_outer, range_m)
 

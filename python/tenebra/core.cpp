@@ -11,11 +11,13 @@
 #include <tenebra/queries.h>
 #include <tenebra/threads.h>
 
+#include <array>
 #include <atomic>
 #include <chrono>
 #include <future>
 #include <memory>
 #include <optional>
+#include <span>
 #include <string>
 #include <vector>
 
@@ -319,6 +321,7 @@ Expected<render::RenderSettings> LoadedScene::settings_of(Wish& wish) {
   render::RenderSettings settings =
       viewer::method_settings(wish.method, wish.scene.size.value_or(plan_.size), plan_.display);
   settings.area_lights.own_size_m = viewer::edited_sizes_m(options_.edits.lights);
+  settings.area_lights.own_sun_deg = viewer::edited_suns_deg(options_.edits.lights);
   settings.linear = true;
   return settings;
 }

@@ -133,3 +133,16 @@ def city():
 def test_what_is_refused(city, call, kind, sentence):
     with pytest.raises(kind, match=sentence):
         call(city)
+
+
+@pytest.mark.skipif(not PROGRAM, reason="TENEBRA_PROGRAM does not name the program")
+def test_a_sun_of_an_edited_light_is_the_programs(tmp_path):
+    scene = ROOT / "scenes" / "city.glb"
+    number = len(tenebra.Scene.load(scene).lights(0))
+    edits = {"add_light": "directional direction=-1,-2,0.3 intensity=2", "set_light": f"{number} diameter=4"}
+    frame = tenebra.Scene.load(scene, **edits).render(frame=3, size=SIZE, shadows="soft", antialias=1)
+    words = [word for name, value in edits.items() for word in ("--" + name.replace("_", "-"), value)]
+    subprocess.run([PROGRAM, "render", scene, *words, "--frames", "3", "--size", "%dx%d" % SIZE, "--raster", "cpu",
+                    "--antialias", "1", "--shadows", "soft", "--terminator", "flat", "-o", tmp_path / "image.png", "--quiet"],
+                   check=True)
+    assert np.array_equal(frame["image"], read_png(tmp_path / "image.png"))

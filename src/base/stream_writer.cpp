@@ -18,7 +18,7 @@ namespace {
 using Clock = std::chrono::steady_clock;
 
 constexpr int look_at_flag_ms = 50;
-constexpr std::chrono::seconds patience{1};
+constexpr std::chrono::milliseconds patience{250};
 
 tl::unexpected<Error> stream_failure(int error) {
   if (error == EPIPE) return fail("cannot write standard output: its reader is gone");

@@ -9,8 +9,8 @@
 namespace tenebra::base {
 
 /// Writes all of `bytes` to standard output. Waits for the reader as long as that takes; once `stop` is
-/// requested, for a second in which it takes nothing at most, and then fails with "stopped". Other failures
-/// are sentences.
+/// requested, for a quarter of a second in which it takes nothing at most, and then fails with "stopped".
+/// Other failures are sentences.
 Expected<void> write_to_stdout(std::string_view bytes, const StopFlag* stop);
 
 /// Whether a person would see the bytes.

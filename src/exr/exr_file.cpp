@@ -194,7 +194,7 @@ Expected<Window> checked_window(const Imf::Header& header, std::uint64_t file_by
   std::uint64_t at_once = rows_at_once(header.compression()) * window.width;
   if (header.hasTileDescription()) {
     const Imf::TileDescription& tiles = header.tileDescription();
-    at_once = std::max(at_once, std::uint64_t{tiles.xSize} * tiles.ySize);
+    at_once = std::max(at_once, std::max<std::uint64_t>(tiles.xSize, window.width) * tiles.ySize);
   }
   if (at_once > most_buffer_bytes || at_once * pixel_bytes > most_buffer_bytes)
     return base::fail("its rows of {} bytes a pixel need more than 1 GiB at once", pixel_bytes);
@@ -264,7 +264,7 @@ Expected<std::string> encode(const Picture& picture) {
   try {
     return encoded(picture);
   } catch (const std::bad_alloc&) {
-    return base::fail("not enough memory");
+    throw;  // memory that is lacking is no fault of the file
   } catch (const std::exception& error) {
     return base::fail("{}", phrase_of(error));
   }

@@ -1,5 +1,6 @@
 // Hard masks of points. The eye is at the light: then every point is asked about whose triangle's said side
 // the light is on, and the tracer's own test of sides says the same. Points on the other side are dark.
+#include <algorithm>
 #include <cmath>
 
 #include "points/triangle_corners.h"
@@ -10,6 +11,8 @@ namespace {
 
 using glm::dvec3;
 
+constexpr float largest_coordinate = 1e18f;  // as of a Geometry's vertices
+
 bool finite(const glm::vec3& v) {
   return std::isfinite(v.x) && std::isfinite(v.y) && std::isfinite(v.z);
 }
@@ -19,9 +22,12 @@ Expected<void> check_light(const ShadowLight& light) {
     return base::fail("light: its direction is ({}, {}, {}), expected a finite one that is not zero",
                       light.to_light.x, light.to_light.y, light.to_light.z);
   if (light.directional) return {};
-  if (!finite(light.position))
-    return base::fail("light: it is at ({}, {}, {}), expected finite coordinates", light.position.x,
-                      light.position.y, light.position.z);
+  const glm::vec3 size = glm::abs(light.position);
+  if (!finite(light.position) || std::max({size.x, size.y, size.z}) > largest_coordinate)
+    return base::fail("light: it is at ({}, {}, {}), expected finite coordinates of at most 1e18",
+                      light.position.x, light.position.y, light.position.z);
+  if (!(light.spot_cos_outer >= -1 && light.spot_cos_outer <= 1))
+    return base::fail("light: the cosine of its cone is {}, expected -1 to 1", light.spot_cos_outer);
   constexpr float rounding = 1e-3f;
   if (light.spot_cos_outer > -1 && !(std::abs(glm::length(light.spot_axis) - 1) < rounding))
     return base::fail("light: the axis of its cone is {} long, expected 1", glm::length(light.spot_axis));

@@ -31,6 +31,12 @@ bool finite(const Vector& v) {
   return std::isfinite(v.x) && std::isfinite(v.y) && std::isfinite(v.z);
 }
 
+/// As a Geometry's vertices: beyond it, products of coordinates leave the range of floats.
+bool in_range(const dvec3& p) {
+  constexpr double largest_coordinate = 1e18;
+  return finite(p) && std::max({std::abs(p.x), std::abs(p.y), std::abs(p.z)}) <= largest_coordinate;
+}
+
 Expected<void> check_sizes(const QueryPoints& points) {
   const std::size_t count = points.positions.size();
   const auto check = [count](const char* what, std::size_t size) -> Expected<void> {
@@ -50,10 +56,11 @@ Expected<void> check_sizes(const QueryPoints& points) {
 Expected<void> check_points(const QueryPoints& points, const GeometryData& geometry) {
   if (auto checked = check_sizes(points); !checked) return checked;
   const std::size_t count = points.positions.size();
-  const std::size_t far = first_bad(count, [&](std::size_t i) { return !finite(points.positions[i]); });
+  const std::size_t far = first_bad(count, [&](std::size_t i) { return !in_range(points.positions[i]); });
   if (far < count) {
     const dvec3& p = points.positions[far];
-    return base::fail("points: point {} is at ({}, {}, {}), expected finite coordinates", far, p.x, p.y, p.z);
+    return base::fail("points: point {} is at ({}, {}, {}), expected finite coordinates of at most 1e18", far,
+                      p.x, p.y, p.z);
   }
   const std::size_t triangles = geometry.triangles.size();
   const std::size_t lost = first_bad(points.triangles.size(), [&](std::size_t i) {

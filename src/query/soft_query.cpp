@@ -52,6 +52,8 @@ Expected<void> PointTracer::soft_visibility(const Geometry& geometry, const Quer
     if (!out.empty() && out.size() != count)
       return base::fail("soft visibility: room for {} values, expected one for each of {} points, or none",
                         out.size(), count);
+  if (light.at_infinity)
+    return base::fail("light: found a sun, expected a light at a place; a far disc stands for it");
   if (light.vertices.size() < 3 || light.vertices.size() >= no_eye)
     return base::fail("light: found {} vertices, expected one made by make_area_light",
                       light.vertices.size());

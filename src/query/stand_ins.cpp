@@ -43,9 +43,11 @@ dvec3 across(const dvec3& n) {
 
 void StandIns::follow(const std::shared_ptr<const GeometryData>& data, std::size_t slots) {
   const std::size_t room = slots == 0 ? slots_ : std::max(slots_, std::bit_ceil(slots));
-  if (data_ == data && revision_ == data->revision && room == slots_) return;
+  if (whole_ && data_ == data && revision_ == data->revision && room == slots_) return;
+  whole_ = false;  // until it is rebuilt: memory may run out
   data_ = data, revision_ = data->revision, slots_ = room;
   rebuild();
+  whole_ = true;
 }
 
 void StandIns::rebuild() {

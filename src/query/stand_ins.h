@@ -39,6 +39,7 @@ private:
   std::shared_ptr<const GeometryData> data_;
   std::uint64_t revision_ = 0;
   std::size_t slots_ = 0;
+  bool whole_ = false;  ///< all below is of these
   Scene scene_;
   FrameGeometry geometry_;
 };

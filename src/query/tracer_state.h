@@ -1,6 +1,7 @@
 // What a PointTracer keeps between calls, and what its three questions share.
 #pragma once
 
+#include <cstdint>
 #include <memory>
 #include <vector>
 

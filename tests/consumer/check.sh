@@ -96,3 +96,14 @@ check_reachable
 quietly cc -std=c99 -Wall -Wextra -Wpedantic -Werror "$root/tests/consumer/mask.c" -I"$prefix/include" \
   -L"$prefix/lib" -ltenebra -lm -Wl,-rpath,"$prefix/lib" -o "$work/mask"
 "$work/mask" || stop "mask.c (C) did not give the known answers"
+mkdir "$work/c"
+cat > "$work/c/CMakeLists.txt" << END
+cmake_minimum_required(VERSION 3.25)
+project(mask LANGUAGES C CXX)
+find_package(tenebra REQUIRED)
+add_executable(mask $root/tests/consumer/mask.c)
+target_link_libraries(mask tenebra::c m)
+END
+quietly cmake -S "$work/c" -B "$work/c/build" -G Ninja -DCMAKE_PREFIX_PATH="$prefix"
+quietly cmake --build "$work/c/build"
+"$work/c/build/mask" || stop "mask.c (C, CMake) did not give the known answers"

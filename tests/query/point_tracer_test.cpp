@@ -254,7 +254,7 @@ TEST(PointTracer, SaysWhatIsWrong) {
   EXPECT_EQ(sentence({.positions = two, .triangles = ids}),
             "points: point 1 lies on triangle 1, expected a number below 1 or none");
   EXPECT_EQ(sentence({.positions = infinite}),
-            "points: point 0 is at (1, inf, 0), expected finite coordinates");
+            "points: point 0 is at (1, inf, 0), expected finite coordinates of at most 1e18");
   EXPECT_EQ(sentence({.positions = two, .sides = sides}),
             "points: the side of point 1 is 2, expected 1, -1 or 0");
   EXPECT_EQ(sentence({.positions = two, .width = 3}),

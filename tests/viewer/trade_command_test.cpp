@@ -72,7 +72,9 @@ TEST(TradeCommand, FindsTheFrontOfASceneAndWritesItsPage) {
   EXPECT_EQ(json["frames"].size(), 3u);
   const auto& settings = json["settings"];
   ASSERT_GE(settings.size(), 2u);
-  EXPECT_EQ(settings.back()["options"], "--antialias 16 --soft-error 0");
+  // So few triangles are solved exactly whatever error is asked for: which of the soft errors is on the front
+  // is chance.
+  EXPECT_TRUE(settings.back()["options"].get<std::string>().starts_with("--antialias 16 --soft-error "));
   EXPECT_EQ(settings.back()["error_255"], 0.0) << "the finest, again";
   double ms = 0, error = HUGE_VAL;
   for (const auto& setting : settings) {
@@ -84,7 +86,7 @@ TEST(TradeCommand, FindsTheFrontOfASceneAndWritesItsPage) {
   }
   EXPECT_EQ(error, 0);
   const std::string page = read_text(folder / "page.html");
-  EXPECT_NE(page.find("--antialias 16 --soft-error 0"), std::string::npos);
+  EXPECT_NE(page.find("--antialias 16 --soft-error "), std::string::npos);
   EXPECT_EQ(page.find("http"), std::string::npos) << "needs no network";
 }
 

@@ -66,8 +66,7 @@ public:
     const auto number = static_cast<std::size_t>(light);
     std::string name =
         number < names_.size() && !names_[number].empty() ? names_[number] : fmt::format("light{}", light);
-    if (!taken_.insert(name).second) name += fmt::format("_{}", light);
-    taken_.insert(name);
+    while (!taken_.insert(name).second) name += fmt::format("_{}", light);
     return name;
   }
 

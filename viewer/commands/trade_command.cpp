@@ -1,6 +1,7 @@
 // tenebra trade: what time buys on this scene and this machine.
 #include <fmt/core.h>
 #include <algorithm>
+#include <cmath>
 #include <memory>
 #include <optional>
 
@@ -11,6 +12,7 @@
 #include "options/config_file.h"
 #include "options/method_arguments.h"
 #include "options/raster_options.h"
+#include "options/scene_arguments.h"
 #include "shared/files_apart.h"
 #include "shared/scene_choice.h"
 #include "shell/console.h"
@@ -59,11 +61,17 @@ struct TradeOptions {
 
 /// Whether soft shadows have a light to be of.
 bool has_area_light(const RenderPlan& plan, const MethodOptions& method) {
-  const auto has_area = [](const Light& light) {
-    return light.type == LightType::area_rect || light.type == LightType::area_disk;
-  };
-  return method.light_size || method.render.area_lights.emissive_quads ||
-         std::any_of(plan.scene.lights.begin(), plan.scene.lights.end(), has_area);
+  const render::AreaLightSettings& area = plan.settings.area_lights;
+  const auto own = [](const auto& list, std::size_t i) { return i < list.size() && list[i].has_value(); };
+  for (std::size_t i = 0; i < plan.scene.lights.size(); ++i) {
+    const Light& light = plan.scene.lights[i];
+    const float sun_deg =
+        own(area.own_sun_deg, i) ? *area.own_sun_deg[i] : area.sun_deg.value_or(light.diameter_deg);
+    if (light.type == LightType::area_rect || light.type == LightType::area_disk || own(area.own_size_m, i) ||
+        (light.type == LightType::directional && sun_deg > 0))
+      return true;
+  }
+  return method.light_size || area.emissive_quads;
 }
 
 /// Frames in the middle of equal parts of the animation.
@@ -109,7 +117,12 @@ TradeHeading heading_of(const TradeOptions& options, const RenderPlan& plan, con
   if (axes.antialias.size() > 1) shared.render.antialias = standard_antialias;
   if (axes.soft_errors.size() > 1) shared.render.soft.error_255 = SoftShadowConfig{}.error_255;
   if (axes.ao_errors.size() > 1) shared.render.ao.error_255 = AoConfig{}.error_255;
-  const std::string arguments = method_arguments(shared);
+  const SceneOptions& scene = options.render.scene;
+  std::string arguments = dressing_arguments(scene) + view_arguments(scene) + method_arguments(shared);
+  for (const EditOption& edit : edit_options(scene.edits))
+    arguments += fmt::format("{}{} {}", arguments.empty() || arguments.ends_with(' ') ? "" : " ", edit.name,
+                             shell_word(edit.value));
+  while (arguments.ends_with(' ')) arguments.pop_back();
   TradeHeading heading;
   heading.scene = options.render.scene.file;
   heading.machine = base::machine_description();
@@ -120,43 +133,48 @@ TradeHeading heading_of(const TradeOptions& options, const RenderPlan& plan, con
   return heading;
 }
 
-/// The one setting that was asked for: of the front the most exact within the budget, or the quickest within
-/// the error in every frame.
-Expected<const TradedSetting*> fitting(const TradeOptions& options, const TradeResult& result) {
+/// The most exact setting whose frame takes no longer than the budget.
+Expected<const TradedSetting*> within_budget(double budget_ms, const TradeResult& result) {
   const TradedSetting* found = nullptr;
-  for (const std::size_t i : result.front) {
-    const TradedSetting& setting = result.measured[i];
-    if (options.budget_ms && setting.point.ms <= *options.budget_ms)
-      found = &setting;  // the front gets more exact
-    if (options.error && found == nullptr && setting.worst_error <= *options.error) found = &setting;
+  for (const std::size_t i : result.front)  // from the quickest to the most exact
+    if (result.measured[i].point.ms <= budget_ms) found = &result.measured[i];
+  if (found != nullptr) return found;
+  return base::fail("--budget {:g} ms: nothing is as quick, the quickest setting takes {:.1f} ms", budget_ms,
+                    result.measured[result.front.front()].point.ms);
+}
+
+/// The quickest setting that is off by no more in any frame.
+Expected<const TradedSetting*> within_error(double error, const TradeResult& result) {
+  const TradedSetting* found = nullptr;
+  double least = HUGE_VAL;
+  for (const TradedSetting& setting : result.measured) {
+    least = std::min(least, setting.worst_error);
+    if (setting.worst_error <= error && (found == nullptr || setting.point.ms < found->point.ms))
+      found = &setting;
   }
-  const TradePoint &quickest = result.measured[result.front.front()].point,
-                   &best = result.measured[result.front.back()].point;
-  if (found == nullptr && options.budget_ms)
-    return base::fail("--budget {:g} ms: nothing is as quick, the quickest setting takes {:.1f} ms",
-                      *options.budget_ms, quickest.ms);
-  if (found == nullptr)
-    return base::fail("--error {:g}: found none as exact, the most exact setting tried is off by {:.2f}",
-                      *options.error, best.error);
-  return found;
+  if (found != nullptr) return found;
+  return base::fail(
+      "--error {:g}: found none as exact, the most exact setting tried is off by {:.2f} in its worst frame",
+      error, least);
 }
 
 Expected<int> print_result(const TradeOptions& options, const TradeHeading& heading,
                            const TradeResult& result) {
-  if (!options.output.empty()) {
-    const auto page = trade_page(heading, result);
-    if (!page) return tl::unexpected(page.error());
-    if (auto written = base::write_file(options.output, *page); !written)
-      return tl::unexpected(written.error());
-  }
   if (options.json) {
     print_out("{}", trade_json(heading, result));
   } else {
     print_out("{}, {}x{} pixels, {} frames, {}\n{}", heading.scene, heading.width, heading.height,
               result.frames.size(), heading.machine, trade_table(result));
   }
+  if (!options.output.empty()) {
+    const auto page = trade_page(heading, result);
+    if (!page) return tl::unexpected(page.error());
+    if (auto written = base::write_file(options.output, *page); !written)
+      return tl::unexpected(written.error());
+  }
   if (!options.budget_ms && !options.error) return 0;
-  const auto chosen = fitting(options, result);
+  const auto chosen =
+      options.budget_ms ? within_budget(*options.budget_ms, result) : within_error(*options.error, result);
   if (!chosen) return tl::unexpected(chosen.error());
   const std::string words = options_of(result.axes, (*chosen)->point.setting);
   const std::string line = fmt::format("{}{}{}\n", heading.command, words.empty() ? "" : " ", words);
@@ -173,7 +191,11 @@ Expected<int> trade(TradeOptions& options) {
   if (!plan) return tl::unexpected(plan.error());
   if (!options.render.quiet) print_warnings(plan->scene.warnings);
   if (!options.output.empty()) {
+    const std::filesystem::path folder = std::filesystem::path(options.output).parent_path();
+    if (!folder.empty() && !std::filesystem::is_directory(folder))
+      return base::fail("cannot write {}: {} is not a folder", options.output, folder.string());
     std::vector<std::filesystem::path> inputs = plan->inputs;
+    if (!options.render.config.empty()) inputs.emplace_back(options.render.config);
     if (auto apart = check_files_apart(inputs, OutputName{"-o", options.output}); !apart)
       return tl::unexpected(apart.error());
   }

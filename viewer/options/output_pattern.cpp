@@ -14,8 +14,10 @@ bool is_digit(char c) {
 }
 
 /// Whether a frame number stands at `at`, or a percent sign that should be one.
+/// Signs ## in names of folders are no number.
 bool begins_number(std::string_view text, std::size_t at) {
-  return text[at] == '%' ? !text.substr(at).starts_with("%%") : text.substr(at).starts_with("##");
+  if (text[at] == '%') return !text.substr(at).starts_with("%%");
+  return text.substr(at).starts_with("##") && text.find('/', at) == std::string_view::npos;
 }
 
 /// Digits asked for by the conversion at `at`, which moves past it; -1: not a conversion.

@@ -5,6 +5,7 @@
 #include <algorithm>
 
 #include "options/method_arguments.h"
+#include "options/scene_arguments.h"
 
 namespace tenebra::viewer {
 namespace {
@@ -22,24 +23,10 @@ std::string number_or_name(const std::vector<Named>& list, int index) {
 
 std::string shell_arguments(const ViewState& state, double time_s, Size size) {
   const Scene& scene = state.scene->scene;
-  std::string text;
+  std::string text = dressing_arguments(state.options);
   const auto add = [&](const char* name, const std::string& value) {
     text += fmt::format("{} {} ", name, shell_word(value));
   };
-  if (!state.options.import.scene.empty()) add("--scene", state.options.import.scene);
-  for (const std::string& name : state.options.no_cast) add("--no-cast", name);
-  if (state.options.cast_all) text += "--cast-all ";
-  if (!state.options.floor) add("--floor", "none");
-  if (state.options.plain) add("--surfaces", "plain");
-  if (const int limit = state.options.cutout_limit; limit != SceneOptions{}.cutout_limit)
-    add("--cutout-limit", fmt::format("{}", limit));
-  if (const int sides = state.options.import.cone_sides; sides != formats::ImportOptions{}.cone_sides) {
-    add("--cone-sides", fmt::format("{}", sides));
-  }
-  if (const auto transfer = state.options.transfer)
-    add("--transfer", *transfer == Transfer::srgb ? "srgb" : "display");
-  if (!state.options.environment.empty()) add("--environment", state.options.environment);
-  for (const auto& folder : state.options.import.texture_paths) add("--texture-path", folder.string());
   if (state.clip > 0) add("--clip", number_or_name(scene.clips, state.clip));
   if (state.camera_mode == CameraMode::scene) {
     add("--camera", number_or_name(scene.cameras, state.camera));
