@@ -9,11 +9,9 @@
 namespace tenebra {
 namespace {
 
-constexpr float largest_coordinate = 1e18f;  // beyond it, products of coordinates leave the range of floats
-
 bool in_range(const glm::vec3& p) {
-  return std::abs(p.x) <= largest_coordinate && std::abs(p.y) <= largest_coordinate &&
-         std::abs(p.z) <= largest_coordinate;  // of NaN too
+  return std::abs(p.x) <= query::largest_coordinate && std::abs(p.y) <= query::largest_coordinate &&
+         std::abs(p.z) <= query::largest_coordinate;  // of NaN too
 }
 
 Expected<void> check_vertices(std::span<const glm::vec3> positions) {

@@ -9,6 +9,9 @@
 
 namespace tenebra::query {
 
+/// Of vertices, points and lights: beyond it, products of coordinates leave the range of floats.
+inline constexpr float largest_coordinate = 1e18f;
+
 struct GeometryData {
   std::vector<glm::vec3> positions;
   std::vector<glm::uvec3> triangles;

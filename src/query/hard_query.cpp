@@ -11,8 +11,6 @@ namespace {
 
 using glm::dvec3;
 
-constexpr float largest_coordinate = 1e18f;  // as of a Geometry's vertices
-
 bool finite(const glm::vec3& v) {
   return std::isfinite(v.x) && std::isfinite(v.y) && std::isfinite(v.z);
 }
@@ -23,7 +21,7 @@ Expected<void> check_light(const ShadowLight& light) {
                       light.to_light.x, light.to_light.y, light.to_light.z);
   if (light.directional) return {};
   const glm::vec3 size = glm::abs(light.position);
-  if (!finite(light.position) || std::max({size.x, size.y, size.z}) > largest_coordinate)
+  if (!finite(light.position) || std::max({size.x, size.y, size.z}) > query::largest_coordinate)
     return base::fail("light: it is at ({}, {}, {}), expected finite coordinates of at most 1e18",
                       light.position.x, light.position.y, light.position.z);
   if (!(light.spot_cos_outer >= -1 && light.spot_cos_outer <= 1))

@@ -31,9 +31,7 @@ bool finite(const Vector& v) {
   return std::isfinite(v.x) && std::isfinite(v.y) && std::isfinite(v.z);
 }
 
-/// As a Geometry's vertices: beyond it, products of coordinates leave the range of floats.
 bool in_range(const dvec3& p) {
-  constexpr double largest_coordinate = 1e18;
   return finite(p) && std::max({std::abs(p.x), std::abs(p.y), std::abs(p.z)}) <= largest_coordinate;
 }
 
