@@ -149,6 +149,20 @@ def check_call(place, command, whole, fault, at):
     return True
 
 
+def until_none_fails(check, following):
+    """Lets the first call fail, then following(1) and so on, until check(at) finds that there is none so far. How many
+    were made to fail, and those of them that went wrong, with why."""
+    at, made, failures = 1, 0, []
+    while True:
+        try:
+            if not check(at):
+                return made, failures
+        except (AssertionError, subprocess.TimeoutExpired) as failure:
+            failures.append((at, failure))
+        made += 1
+        at = following(at)
+
+
 def test_calls(place, step):
     command = place.render("--ao", "adaptive", "--resume")
     place.run(command)
@@ -156,16 +170,11 @@ def test_calls(place, step):
     assert len(whole) >= 2 * FRAMES
     wrong, counts = 0, {}
     for fault in CALLS:
-        at = 1
-        while True:
-            try:
-                if not check_call(place, command, whole, fault, at):
-                    break
-            except (AssertionError, subprocess.TimeoutExpired) as failure:
-                wrong += 1
-                print(f"{fault[0]} {at} ({fault[1]}): {failure}", flush=True)
-            counts[fault[0]] = counts.get(fault[0], 0) + 1
-            at += step
+        made, failures = until_none_fails(lambda at: check_call(place, command, whole, fault, at), lambda at: at + step)
+        for at, failure in failures:
+            print(f"{fault[0]} {at} ({fault[1]}): {failure}", flush=True)
+        wrong += len(failures)
+        counts[fault[0]] = counts.get(fault[0], 0) + made
     print(f"calls made to fail: {counts}; {wrong} wrong")
     return wrong + sum(fault[0] not in counts for fault in CALLS)
 
@@ -212,16 +221,12 @@ def test_memory(place, step):
         place.run(command)
         whole = place.outputs()
         for on in ("call", "all"):
-            at = 1
-            while True:
-                try:
-                    if not check_allocation(place, command, whole, at, on):
-                        break
-                except (AssertionError, subprocess.TimeoutExpired) as failure:
-                    wrong += 1
-                    print(f"{name}, allocation {at} ({on}): {failure}", flush=True)
-                count += 1
-                at += max(step, at * step // 2000)
+            made, failures = until_none_fails(lambda at: check_allocation(place, command, whole, at, on),
+                                              lambda at: at + max(step, at * step // 2000))
+            for at, failure in failures:
+                print(f"{name}, allocation {at} ({on}): {failure}", flush=True)
+            wrong += len(failures)
+            count += made
     print(f"allocations made to fail: {count}; {wrong} wrong")
     return wrong
 

@@ -25,18 +25,6 @@ SoftCase below_leaves(int pixels, int leaves = 1200, double size = 0.12) {
   return c;
 }
 
-/// RMS over what lies in penumbra, in 1/255 of white; the same measure as SoftShadowConfig::error_255.
-double error_of(const SoftCase& c, const SoftMask& mask, const SoftMask& exact) {
-  double sum = 0;
-  std::size_t count = 0;
-  for (std::size_t i = 0; i < c.size(); ++i) {
-    const double off = static_cast<double>(mask.irradiance[i]) - static_cast<double>(exact.irradiance[i]);
-    sum += off * off;
-    count += exact.visible_fraction[i] > 0 && exact.visible_fraction[i] < 0.999f ? 1 : 0;
-  }
-  return 255 / white_of(c, exact) * std::sqrt(sum / static_cast<double>(count));
-}
-
 TEST(SoftError, IsKeptAndTold) {
   const SoftCase c = below_leaves(112);
   const SoftMask exact = traced(c, SoftShadowConfig{});

@@ -76,6 +76,18 @@ inline double white_of(const SoftCase& c, const SoftMask& mask) {
   return values[place];
 }
 
+/// RMS over what lies in penumbra, in 1/255 of white; the same measure as SoftShadowConfig::error_255.
+inline double error_of(const SoftCase& c, const SoftMask& mask, const SoftMask& exact) {
+  double sum = 0;
+  std::size_t count = 0;
+  for (std::size_t i = 0; i < c.size(); ++i) {
+    const double off = static_cast<double>(mask.irradiance[i]) - static_cast<double>(exact.irradiance[i]);
+    sum += off * off;
+    count += exact.visible_fraction[i] > 0 && exact.visible_fraction[i] < 0.999f ? 1 : 0;
+  }
+  return 255 / white_of(c, exact) * std::sqrt(sum / static_cast<double>(count));
+}
+
 /// What is promised: reference 1e-6 of the fraction, and for lights that are small for their distance the
 /// rounding of double there; fast 0.1/255 of white.
 inline constexpr double reference_bound = 1e-6;

@@ -212,14 +212,7 @@ TEST(Sun, KeepsAnErrorThatIsAskedFor) {
   const SoftMask exact = traced(c, SoftShadowConfig{});
   SoftStats stats;
   const SoftMask mask = traced(c, {.error_255 = 3}, &stats);
-  double sum = 0;
-  std::size_t count = 0;
-  for (std::size_t i = 0; i < c.size(); ++i) {
-    const double off = static_cast<double>(mask.irradiance[i]) - static_cast<double>(exact.irradiance[i]);
-    sum += off * off;
-    count += exact.visible_fraction[i] > 0 && exact.visible_fraction[i] < 0.999f ? 1 : 0;
-  }
-  const double error = 255 / white_of(c, exact) * std::sqrt(sum / static_cast<double>(count));
+  const double error = error_of(c, mask, exact);
   EXPECT_GT(stats.points_sampled, 100u);
   EXPECT_LE(error, 1.3 * 3);
   EXPECT_LE(stats.error_255, 1.5 * error);

@@ -38,22 +38,6 @@ struct InfoOptions {
   bool json = false;
 };
 
-std::string_view name_of(LightType type) {
-  switch (type) {
-    case LightType::point:
-      return "point";
-    case LightType::spot:
-      return "spot";
-    case LightType::directional:
-      return "directional";
-    case LightType::area_rect:
-      return "area_rect";
-    case LightType::area_disk:
-      return "area_disk";
-  }
-  return "";
-}
-
 Json list(glm::vec3 v) {
   return {v.x, v.y, v.z};
 }
@@ -110,7 +94,7 @@ Json lights_of(const Scene& scene, const SceneSummary& summary) {
   Json lights = Json::array();
   for (const WorldLight& placed : summary.lights) {
     const Light& light = scene.lights[static_cast<std::size_t>(placed.light)];
-    Json entry{{"name", light.name}, {"type", name_of(light.type)}};
+    Json entry{{"name", light.name}, {"type", light_type_name(light.type)}};
     if (light.type != LightType::directional) entry["position_m"] = list(placed.position);
     if (light.type != LightType::point) entry["direction"] = list(placed.direction);
     entry["color"] = list(light.color);

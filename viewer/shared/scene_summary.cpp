@@ -67,4 +67,20 @@ SceneSummary summarize_scene(const Scene& scene) {
   return summary;
 }
 
+std::string_view light_type_name(LightType type) {
+  switch (type) {
+    case LightType::point:
+      return "point";
+    case LightType::spot:
+      return "spot";
+    case LightType::directional:
+      return "directional";
+    case LightType::area_rect:
+      return "area_rect";
+    case LightType::area_disk:
+      return "area_disk";
+  }
+  return "";
+}
+
 }  // namespace tenebra::viewer

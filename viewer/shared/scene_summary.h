@@ -3,6 +3,7 @@
 
 #include <glm/glm.hpp>
 #include <optional>
+#include <string_view>
 #include <vector>
 
 #include <tenebra/frame_geometry.h>
@@ -42,5 +43,8 @@ struct SceneSummary {
 };
 
 SceneSummary summarize_scene(const Scene& scene);
+
+/// "point", "area_rect": the name of a type of light wherever one is shown.
+std::string_view light_type_name(LightType type);
 
 }  // namespace tenebra::viewer

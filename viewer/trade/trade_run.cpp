@@ -17,9 +17,10 @@ namespace {
 constexpr int crop_size = 96;
 constexpr double enough_ms = 500;  // of one frame with one setting
 
-/// Makes the system's count of the most memory held begin anew.
-void forget_peak_memory() {
-  std::ofstream("/proc/self/clear_refs") << "5";
+/// Makes the system's count of the most memory held begin anew. False: it does not let us.
+bool forget_peak_memory() {
+  std::ofstream file("/proc/self/clear_refs");
+  return static_cast<bool>(file << "5" << std::flush);
 }
 
 double peak_memory_mb() {
@@ -70,7 +71,7 @@ public:
   Trader(const TradeRequest& request, const std::function<void(double)>& progress, const StopFlag& stop)
       : request_(request), plan_(*request.plan), progress_(progress), stop_(stop) {
     const TradeAxes& axes = request.axes;
-    const std::size_t sweeps = axes.antialias.size() + axes.soft_errors.size() + axes.ao_errors.size();
+    const std::size_t sweeps = axes.antialias.size() + axes.soft_errors.size() + axes.ao_errors.size() - 2;
     const double all = double(axes.antialias.size() * axes.soft_errors.size() * axes.ao_errors.size());
     // The finest settings take longest, so the reference and the settings by themselves count for more.
     steps_ = double(sweeps) + 2.0 * std::min(double(request.most_measured), all) + 2.0;
@@ -163,22 +164,29 @@ private:
     return base::summarize(ms).median;
   }
 
-  /// One frame, the middle one, with each value of an axis. Errors are against the last.
-  Expected<std::vector<TradePoint>> sweep_axis(const std::vector<TradeSetting>& settings) {
-    std::vector<TradePoint> points;
-    std::vector<base::Image8> pictures;
-    const PlannedFrame& frame = plan_.frames[middle_frame()];
-    for (const TradeSetting& setting : settings) {
-      const auto ms = median_ms(*sweeping_, frame, with_setting(plan_.settings, request_.axes, setting),
-                                request_.repeats);
-      if (!ms) return tl::unexpected(ms.error());
-      points.push_back({setting, *ms, 0});
+  /// The middle frame with one setting: its time and, in `result_`, its picture.
+  Expected<TradePoint> sweep_one(const TradeSetting& setting) {
+    const auto ms = median_ms(*sweeping_, plan_.frames[middle_frame()],
+                              with_setting(plan_.settings, request_.axes, setting), request_.repeats);
+    if (!ms) return tl::unexpected(ms.error());
+    done(1);
+    return TradePoint{setting, *ms, 0};
+  }
+
+  /// The middle frame with each value of an axis, of which `coarsest` is drawn already. Errors are against
+  /// the last.
+  Expected<std::vector<TradePoint>> sweep_axis(const TradePoint& coarsest,
+                                               std::span<const TradeSetting> settings) {
+    std::vector<TradePoint> points{coarsest};
+    std::vector<base::Image8> pictures{coarsest_picture_};
+    for (const TradeSetting& setting : settings.subspan(1)) {
+      const auto point = sweep_one(setting);
+      if (!point) return tl::unexpected(point.error());
+      points.push_back(*point);
       pictures.push_back(result_.image);
-      done(1);
     }
     for (std::size_t i = 0; i < points.size(); ++i)
       points[i].error = rms_difference(pictures[i], pictures.back());
-    coarsest_picture_ = pictures.front();
     return points;
   }
 
@@ -186,14 +194,18 @@ private:
     auto renderer = make_renderer();
     if (!renderer) return tl::unexpected(renderer.error());
     sweeping_.emplace(std::move(*renderer));
+    const TradeSetting start = coarsest(request_.axes);
     const auto warmed = draw_frame(*sweeping_, plan_.frames[middle_frame()],
-                                   with_setting(plan_.settings, request_.axes, coarsest(request_.axes)));
+                                   with_setting(plan_.settings, request_.axes, start));
     if (!warmed) return tl::unexpected(warmed.error());
+    const auto first = sweep_one(start);
+    if (!first) return tl::unexpected(first.error());
+    coarsest_picture_ = result_.image;
     TradeSweep sweep;
     for (const auto& [points, settings] :
          {std::pair(&sweep.antialias, antialias_sweep(request_.axes)),
           std::pair(&sweep.soft, soft_sweep(request_.axes)), std::pair(&sweep.ao, ao_sweep(request_.axes))}) {
-      auto swept = sweep_axis(settings);
+      auto swept = sweep_axis(*first, settings);
       if (!swept) return tl::unexpected(swept.error());
       *points = std::move(*swept);
     }
@@ -205,10 +217,11 @@ private:
   Expected<void> measure(const TradeSweep& sweep, const Drawn& reference, TradeResult& result) {
     const std::vector<TradePoint> predicted = predicted_points(sweep);
     for (const std::size_t i : thinned(predicted, pareto_front(predicted), request_.most_measured)) {
-      forget_peak_memory();
+      const bool peak_is_own = forget_peak_memory();
       const auto drawn = draw(predicted[i].setting, request_.repeats);
       if (!drawn) return tl::unexpected(drawn.error());
       result.measured.push_back(judged(predicted[i].setting, *drawn, reference, result));
+      if (peak_is_own) result.measured.back().peak_mb = peak_memory_mb();
       done(2);
     }
     std::vector<TradePoint> points;
@@ -229,7 +242,6 @@ private:
     }
     traded.point.error = std::sqrt(squares / static_cast<double>(drawn.pictures.size()));
     traded.first_frame_ms = drawn.first_ms;
-    traded.peak_mb = peak_memory_mb();
     traded.crop = cut_out(drawn.pictures[middle_frame()], result.crop_x, result.crop_y);
     return traded;
   }

@@ -2,15 +2,11 @@
 #include <fmt/core.h>
 #include <cmath>
 
+#include "shared/scene_summary.h"
 #include "window/panels/panels.h"
 
 namespace tenebra::viewer {
 namespace {
-
-const char* type_name(LightType type) {
-  constexpr const char* names[] = {"point", "spot", "directional", "rectangle", "disk"};
-  return names[static_cast<std::size_t>(type)];
-}
 
 /// As the picture has it: the light's own, the method's or the scene's.
 float diameter_of(const Ui& ui, const Light& light, const LightEdit& edit) {
@@ -19,9 +15,9 @@ float diameter_of(const Ui& ui, const Light& light, const LightEdit& edit) {
 }
 
 /// A directional light with a disc is a sun.
-const char* type_name(const Ui& ui, const Light& light, const LightEdit& edit) {
+std::string_view type_name(const Ui& ui, const Light& light, const LightEdit& edit) {
   const bool sun = light.type == LightType::directional && diameter_of(ui, light, edit) > 0;
-  return sun ? "sun" : type_name(light.type);
+  return sun ? "sun" : light_type_name(light.type);
 }
 
 /// Width and height of a light where the user has not changed them: the scene's, of a point the method's; 0:
@@ -152,15 +148,15 @@ void edit_light(Ui& ui, int index, const Light& light, bool open) {
   ImGui::SameLine(0, ui.px(4));
   const bool selected = ui.state.selected_light == index;
   if (selected && ui.state.shown_light != index) ImGui::SetNextItemOpen(true);
-  const std::string title =
-      fmt::format("{}  {}", index, light.name.empty() ? type_name(ui, light, edit) : light.name.c_str());
+  const std::string title = fmt::format(
+      "{}  {}", index, light.name.empty() ? type_name(ui, light, edit) : std::string_view(light.name));
   const int flags = ImGuiTreeNodeFlags_NoTreePushOnOpen | ImGuiTreeNodeFlags_OpenOnArrow |
                     ImGuiTreeNodeFlags_OpenOnDoubleClick | (selected ? ImGuiTreeNodeFlags_Selected : 0) |
                     (open ? ImGuiTreeNodeFlags_DefaultOpen : 0) | ImGuiTreeNodeFlags_AllowItemOverlap;
   const bool is_open = ImGui::TreeNodeEx("light", flags, "%s", title.c_str());
   ui.mark(fmt::format("light.{}.name", index));
   if (ImGui::IsItemClicked()) ui.state.selected_light = index;
-  tooltip(type_name(ui, light, edit));
+  tooltip(std::string(type_name(ui, light, edit)).c_str());
   ImGui::SameLine(ImGui::GetWindowWidth() - ui.px(edit != LightEdit{} ? 128 : 76));
   if (edit != LightEdit{}) {
     if (ImGui::SmallButton("reset")) edit = {};
