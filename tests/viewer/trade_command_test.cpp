@@ -71,11 +71,16 @@ TEST(TradeCommand, FindsTheFrontOfASceneAndWritesItsPage) {
   const auto json = nlohmann::json::parse(result.output);
   EXPECT_EQ(json["frames"].size(), 3u);
   const auto& settings = json["settings"];
-  ASSERT_GE(settings.size(), 2u);
-  // So few triangles are solved exactly whatever error is asked for: which of the soft errors is on the front
-  // is chance.
-  EXPECT_TRUE(settings.back()["options"].get<std::string>().starts_with("--antialias 16 --soft-error "));
-  EXPECT_EQ(settings.back()["error_255"], 0.0) << "the finest, again";
+  // So few triangles take no time that could be told apart, and are solved exactly whatever error is asked
+  // for: which settings are on the front, beside one without error, is chance.
+  ASSERT_GE(settings.size(), 2u) << "the standard one and one without error";
+  EXPECT_TRUE(std::ranges::any_of(settings, [](const auto& setting) {
+    return setting["options"] == "--antialias 4 --soft-error 0";
+  })) << "the standard one";
+  EXPECT_TRUE(std::ranges::any_of(settings, [](const auto& setting) {
+    return setting["error_255"] == 0.0 &&
+           setting["options"].template get<std::string>().starts_with("--antialias 16 --soft-error ");
+  })) << "the finest, again";
   double ms = 0, error = HUGE_VAL;
   for (const auto& setting : settings) {
     if (!setting["front"]) continue;

@@ -213,17 +213,30 @@ private:
     return sweep;
   }
 
-  /// The settings that promise to be worth it, each by itself.
-  Expected<void> measure(const TradeSweep& sweep, const Drawn& reference, TradeResult& result) {
+  /// The settings to be measured: those that promise to be worth it, and the one that a user gets who chooses
+  /// nothing.
+  std::vector<TradeSetting> promising(const TradeSweep& sweep) const {
     const std::vector<TradePoint> predicted = predicted_points(sweep);
-    for (const std::size_t i : thinned(predicted, pareto_front(predicted), request_.most_measured)) {
+    std::vector<TradeSetting> settings;
+    for (const std::size_t i : thinned(predicted, pareto_front(predicted), request_.most_measured - 1))
+      settings.push_back(predicted[i].setting);
+    const TradeSetting usual = standard(request_.axes);
+    if (std::find(settings.begin(), settings.end(), usual) == settings.end()) settings.push_back(usual);
+    return settings;
+  }
+
+  /// Each of them by itself.
+  Expected<void> measure(const TradeSweep& sweep, const Drawn& reference, TradeResult& result) {
+    for (const TradeSetting& setting : promising(sweep)) {
       const bool peak_is_own = forget_peak_memory();
-      const auto drawn = draw(predicted[i].setting, request_.repeats);
+      const auto drawn = draw(setting, request_.repeats);
       if (!drawn) return tl::unexpected(drawn.error());
-      result.measured.push_back(judged(predicted[i].setting, *drawn, reference, result));
+      result.measured.push_back(judged(setting, *drawn, reference, result));
       if (peak_is_own) result.measured.back().peak_mb = peak_memory_mb();
       done(2);
     }
+    std::stable_sort(result.measured.begin(), result.measured.end(),
+                     [](const TradedSetting& a, const TradedSetting& b) { return a.point.ms < b.point.ms; });
     std::vector<TradePoint> points;
     for (const TradedSetting& setting : result.measured) points.push_back(setting.point);
     result.front = pareto_front(points);

@@ -35,10 +35,11 @@ struct TradeRequest {
   const RenderOptions* options = nullptr;
   TradeAxes axes;
   int repeats = 3;                ///< of each frame that is timed
-  std::size_t most_measured = 8;  ///< settings that are drawn by themselves
+  std::size_t most_measured = 8;  ///< settings that are drawn by themselves; at least 3
 };
 
-/// Sweeps each axis, predicts all settings from that, and measures those that promise to be worth it.
+/// Sweeps each axis, predicts all settings from that, and measures those that promise to be worth it and the
+/// standard one.
 /// `progress` gets what is done of the whole, 0..1. Fails with "stopped" soon after `stop` is requested.
 Expected<TradeResult> run_trade(const TradeRequest& request, const std::function<void(double)>& progress,
                                 const StopFlag& stop);

@@ -4,6 +4,8 @@
 #include <cmath>
 #include <numeric>
 
+#include "options/method_options.h"
+
 namespace tenebra::viewer {
 
 TradeSetting coarsest(const TradeAxes& axes) {
@@ -12,6 +14,14 @@ TradeSetting coarsest(const TradeAxes& axes) {
 
 TradeSetting finest(const TradeAxes& axes) {
   return {axes.antialias.back(), axes.soft_errors.back(), axes.ao_errors.back()};
+}
+
+TradeSetting standard(const TradeAxes& axes) {
+  TradeSetting setting = finest(axes);  // for what is no choice
+  if (axes.antialias.size() > 1) setting.antialias = standard_antialias;
+  if (axes.soft_errors.size() > 1) setting.soft_error = SoftShadowConfig{}.error_255;
+  if (axes.ao_errors.size() > 1) setting.ao_error = AoConfig{}.error_255;
+  return setting;
 }
 
 namespace {

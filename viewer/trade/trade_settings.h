@@ -26,6 +26,8 @@ struct TradeAxes {
 
 TradeSetting coarsest(const TradeAxes& axes);
 TradeSetting finest(const TradeAxes& axes);
+/// What a user gets who chooses nothing.
+TradeSetting standard(const TradeAxes& axes);
 
 /// The settings that differ from the coarsest along one axis at most, value after value.
 std::vector<TradeSetting> antialias_sweep(const TradeAxes& axes);
