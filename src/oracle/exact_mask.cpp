@@ -126,7 +126,8 @@ bool ExactShadow::blocks(std::uint32_t occluder, const glm::dvec3& point, std::u
   if (casts_[occluder] == 0 || (by_ids && occluder == id)) return false;
   ++stats.pairs;
   const int side = light_sides_[occluder];
-  const auto [a, b, c] = corners(occluder);
+  const Corners triangle = corners(occluder);
+  const glm::dvec3 &a = triangle.a, &b = triangle.b, &c = triangle.c;
   std::uint64_t exact = 0;
   // Depth below the plane, as seen from the light: -side n.(P - A) - theta > 0.
   const auto below = [&] {

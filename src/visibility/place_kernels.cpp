@@ -18,7 +18,6 @@ using namespace simd::HWY_NAMESPACE;
 
 namespace {
 
-constexpr int blocks_a_side = tile_side / block_side;
 
 /// Blocks of a record's box, first and last.
 struct BlockBox {

@@ -27,7 +27,6 @@ private:
 };
 
 constexpr std::string_view good_vertex = "void main() { gl_Position = vec4(0.0); }\n";
-constexpr std::string_view good_fragment = "out vec4 o_color; void main() { o_color = vec4(1.0); }\n";
 
 TEST_P(Objects, MoveLeavesOneOwner) {
   Buffer first = Buffer::create();

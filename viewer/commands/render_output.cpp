@@ -4,7 +4,6 @@
 
 #include <algorithm>
 #include <filesystem>
-#include <ranges>
 
 #include "base/fail.h"
 #include "base/file_hash.h"
@@ -129,8 +128,8 @@ Expected<void> RenderOutput::add_row(const render::FrameRecord& record,
 /// Those that are looked for to see whether a frame is there come last: the first light's mask, the picture.
 Expected<void> RenderOutput::write_pictures(const PlannedFrame& frame,
                                             const render::FrameResult& result) const {
-  for (const render::LightMask& mask : std::views::reverse(result.masks))
-    if (auto written = write_masks(frame.frame, mask); !written) return written;
+  for (auto mask = result.masks.rbegin(); mask != result.masks.rend(); ++mask)
+    if (auto written = write_masks(frame.frame, *mask); !written) return written;
   if (options_.pictures.to_pipe) return write_to_pipe(result.image);
   if (!options_.pictures.files) return {};
   const fs::path file = options_.pictures.files->file(frame.frame);

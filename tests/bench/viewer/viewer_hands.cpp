@@ -12,7 +12,7 @@ namespace tenebra::bench {
 namespace {
 
 constexpr double repeat_s = 0.4;  // held keys repeat by then
-constexpr unsigned long key_w = 'w', key_s = 's';
+constexpr unsigned long key_w = 'w';
 constexpr double patience_s = 60;
 
 struct ViewCase {
