@@ -10,13 +10,14 @@
 #   report    opens a page of `tenebra log report` in headless Chromium
 #   package   makes the packages, asks lintian, and draws a picture with them in a bare root; needs root as roots does
 #   faults    lets every call of the system and many allocations fail, kills renders, stops each stage
+#   slurm     renders on three Slurm nodes, one of which dies while another is cut off; needs root and Slurm
 #   fuzz      runs the fuzzers of tests/fuzz for FUZZ_MINUTES [60]
 #   all       every part, one after the other
 # Exit code: 0 if every part that was asked for is ok, 1 if one failed, 2 if the request was not understood.
 # JOBS=N: how many jobs at once [all cores].
 set -uo pipefail
 cd "$(dirname "$0")/.."
-parts=(lto-odr clang roots debug asan tsan report package faults fuzz)
+parts=(lto-odr clang roots debug asan tsan report package faults slurm fuzz)
 jobs=${JOBS:-$(nproc)}
 
 has() {

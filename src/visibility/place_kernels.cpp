@@ -18,7 +18,6 @@ using namespace simd::HWY_NAMESPACE;
 
 namespace {
 
-
 /// Blocks of a record's box, first and last.
 struct BlockBox {
   explicit BlockBox(const TileRecord& r)
