@@ -1,6 +1,5 @@
 // The stages of a frame that only lights with an area have: one side of a light, or both.
 #include <algorithm>
-#include <numbers>
 
 #include "base/fail.h"
 #include "base/stopwatch.h"
@@ -11,13 +10,6 @@
 
 namespace tenebra::render {
 namespace {
-
-/// Whether the light sends anything behind its rectangle.
-bool shines_behind(const DrawnLight& light) {
-  const bool narrow =
-      light.light.type == LightType::spot && light.light.outer_cone_rad <= 0.5f * std::numbers::pi_v<float>;
-  return light.back && !narrow;
-}
 
 /// Puts what the light's back sends where only that is seen.
 void add_back(const VisiblePoints& points, const AreaLight& front, const AreaSide& back, AreaSide& out) {

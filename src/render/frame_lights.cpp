@@ -2,6 +2,8 @@
 
 #include <fmt/core.h>
 
+#include <numbers>
+
 #include "base/fail.h"
 #include "render/emissive.h"
 #include "soft/light/even_emission.h"
@@ -68,6 +70,12 @@ void add_emissive(const Scene& scene, const FrameInput& input, std::vector<Drawn
 }
 
 }  // namespace
+
+bool shines_behind(const DrawnLight& light) {
+  const bool narrow =
+      light.light.type == LightType::spot && light.light.outer_cone_rad <= 0.5f * std::numbers::pi_v<float>;
+  return light.back && !narrow;
+}
 
 Expected<std::vector<DrawnLight>> drawn_lights(const Scene& scene, const FrameInput& input,
                                                const RenderSettings& settings,

@@ -17,6 +17,9 @@ struct DrawnLight {
   std::optional<AreaLight> back;  ///< shines alike in every direction: the polygon's other side
 };
 
+/// Whether points behind the polygon may see light: not from a spot light of less than a half-space.
+bool shines_behind(const DrawnLight& light);
+
 /// The lights of `input` that `settings` asks for, with polygons in soft mode. Lights that keep hard shadows
 /// there and emissive meshes that are no lights are named in `notes`, a sentence each. Fails on a number that
 /// the frame does not have.

@@ -4,7 +4,7 @@
 
 #include <tenebra/soft_shadows.h>
 #include "fuzz/soup_bytes.h"
-#include "reference/exact_soft.h"
+#include "oracle/exact_soft.h"
 
 namespace {
 
@@ -46,7 +46,7 @@ void check_levels(const fuzz::SoupCase& c, const AreaLight& light, SoftShadowCon
 }
 
 void check_fractions(const fuzz::SoupCase& c, const AreaLight& light, SoftShadowConfig config,
-                     const std::vector<reference::SoftAnswer>& answers) {
+                     const std::vector<oracle::SoftAnswer>& answers) {
   config.precision = SoftPrecision::reference;
   const SoftMask mask = traced(c, light, config);
   for (std::size_t i = 0; i < answers.size(); ++i) {
@@ -71,12 +71,12 @@ extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size
   auto light = make_rectangle_light(at, x, glm::length(y) > 0 ? y * (glm::length(x) / glm::length(y)) : y);
   if (!light) light = make_rectangle_light(at, {c.unit, 0, 0}, {0, 0, c.unit});  // shines down
   if (!light) return 0;
-  const reference::ExactSoft exact(c.view, c.soup.view(), *light);
-  std::vector<reference::SoftAnswer> answers;
+  const oracle::ExactSoft exact(c.view, c.soup.view(), *light);
+  std::vector<oracle::SoftAnswer> answers;
   for (std::size_t i = 0; i < c.points.positions.size(); ++i)
     answers.push_back(
         exact.answer(c.points.positions[i], c.points.triangles[i], glm::vec3(0),
-                     rational ? reference::SweepNumbers::rational : reference::SweepNumbers::long_double));
+                     rational ? oracle::SweepNumbers::rational : oracle::SweepNumbers::long_double));
   for (const SoftSolver solver : {SoftSolver::automatic, SoftSolver::bsp, SoftSolver::clip}) {
     SoftShadowConfig config;
     config.solver = solver;

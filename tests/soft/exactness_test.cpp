@@ -105,7 +105,7 @@ TEST_F(BartSoft, CrowdedPointsAgreeWithShadowRays) {
   SoftCase c = frame_case(bart_frames[2], 64, 36, 12);
   c.normals.clear();
   const SoftMask precise = traced(c, SoftPrecision::reference);
-  const reference::ExactSoft exact(c.view, c.soup.view(), c.light);
+  const oracle::ExactSoft exact(c.view, c.soup.view(), c.light);
   Random random(6);
   const int wanted = scaled(3), side = 12;
   int judged = 0;

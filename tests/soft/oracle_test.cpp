@@ -7,7 +7,7 @@
 #include <numbers>
 
 #include "oracle/exact_mask.h"
-#include "reference/exact_soft.h"
+#include "oracle/exact_soft.h"
 #include "support/samples.h"
 #include "support/scaled.h"
 #include "support/soup.h"
@@ -18,9 +18,9 @@ namespace {
 using glm::dvec2;
 using glm::dvec3;
 using glm::vec3;
-using reference::ExactSoft;
-using reference::SoftAnswer;
-using reference::SweepNumbers;
+using oracle::ExactSoft;
+using oracle::SoftAnswer;
+using oracle::SweepNumbers;
 
 /// A light [-1, 1]^2 at z = 2 that shines down on a ground z = 0 (triangle 0), seen from above.
 struct Desk {
@@ -321,7 +321,7 @@ TEST(SoftOracle, TheCullingLosesNothing) {
 
 /// Whether the visible region holds (u, v).
 bool sees(const SoftAnswer& answer, dvec2 p) {
-  return std::any_of(answer.visible.begin(), answer.visible.end(), [&](const reference::Trapezoid& t) {
+  return std::any_of(answer.visible.begin(), answer.visible.end(), [&](const oracle::Trapezoid& t) {
     const long double s = (p.x - t.left) / (t.right - t.left);
     return s >= 0 && s <= 1 && p.y >= t.low_left + s * (t.low_right - t.low_left) &&
            p.y <= t.high_left + s * (t.high_right - t.high_left);
@@ -403,7 +403,7 @@ TEST(SoftOracle, IrradianceIsTheIntegralOverTheVisibleRegion) {
     const SoftAnswer answer = desk.at({0.1, 0.2, 0}, SweepNumbers::long_double);
     double sum = 0;
     constexpr int parts = 24;  // Gauss's rule of two points on 24 x 24 cells a trapezoid
-    for (const reference::Trapezoid& t : answer.visible)
+    for (const oracle::Trapezoid& t : answer.visible)
       for (int a = 0; a < 2 * parts; ++a)
         for (int b = 0; b < 2 * parts; ++b) {
           const double s = (a / 2 + 0.5 + (a % 2 ? node : -node)) / parts;

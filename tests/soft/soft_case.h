@@ -13,8 +13,8 @@
 
 #include <tenebra/soft_shadows.h>
 #include "formats/import_scene.h"
+#include "oracle/exact_soft.h"
 #include "parallel/parallel.h"
-#include "reference/exact_soft.h"
 #include "support/samples.h"
 #include "support/scaled.h"
 #include "support/soup.h"
@@ -52,15 +52,15 @@ inline SoftMask traced(const SoftCase& c, SoftPrecision precision) {
 
 /// The answers of the oracle at some pixels, on all cores. Pixels with more than 200 occluders (2,000 where
 /// the tests are scaled up) are skipped.
-inline std::vector<reference::SoftAnswer> oracle(const SoftCase& c, const std::vector<std::size_t>& pixels) {
-  const reference::ExactSoft exact(c.view, c.soup.view(), c.light);
+inline std::vector<oracle::SoftAnswer> oracle(const SoftCase& c, const std::vector<std::size_t>& pixels) {
+  const oracle::ExactSoft exact(c.view, c.soup.view(), c.light);
   const std::size_t most = scaled(200) > 200 ? 2000 : 200;
-  std::vector<reference::SoftAnswer> answers(pixels.size());
+  std::vector<oracle::SoftAnswer> answers(pixels.size());
   parallel::parallel_ranges(pixels.size(), 1, [&](std::size_t first, std::size_t last) {
     for (std::size_t k = first; k < last; ++k)
       answers[k] = exact.answer(c.points.positions[pixels[k]], c.points.triangles[pixels[k]],
                                 c.normals.empty() ? glm::vec3(0) : c.normals[pixels[k]],
-                                reference::SweepNumbers::long_double, most);
+                                oracle::SweepNumbers::long_double, most);
   });
   return answers;
 }
@@ -132,13 +132,13 @@ inline std::string describe(const SoftCase& c, std::size_t i) {
 
 /// The masks of both precisions against the oracle's `answers` at `pixels`; `white` scales the fast error.
 inline void judge(const SoftCase& c, const SoftMask& precise, const SoftMask& fast, double white,
-                  const std::vector<std::size_t>& pixels, const std::vector<reference::SoftAnswer>& answers,
+                  const std::vector<std::size_t>& pixels, const std::vector<oracle::SoftAnswer>& answers,
                   Judgement& sum) {
   int told = 0;
   const double promised = reference_promise(c);
   for (std::size_t k = 0; k < pixels.size(); ++k) {
     const std::size_t i = pixels[k];
-    const reference::SoftAnswer& a = answers[k];
+    const oracle::SoftAnswer& a = answers[k];
     sum.most_occluders = std::max(sum.most_occluders, a.occluders);
     if (a.skipped) {
       ++sum.skipped;
@@ -185,9 +185,9 @@ inline std::vector<std::size_t> pixels_of(const SoftCase& c) {
 /// would give at the brightest of the points.
 inline void judge_all(SoftCase c, Judgement& sum) {
   const std::vector<std::size_t> pixels = pixels_of(c);
-  const std::vector<reference::SoftAnswer> answers = oracle(c, pixels);
+  const std::vector<oracle::SoftAnswer> answers = oracle(c, pixels);
   double white = 0;
-  for (const reference::SoftAnswer& a : answers) white = std::max(white, a.unoccluded);
+  for (const oracle::SoftAnswer& a : answers) white = std::max(white, a.unoccluded);
   const std::string name = c.name;
   for (const SoftSolver solver : {SoftSolver::automatic, SoftSolver::bsp, SoftSolver::clip}) {
     c.config.solver = solver;

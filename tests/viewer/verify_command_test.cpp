@@ -43,6 +43,27 @@ TEST(VerifyCommand, ChecksDirectionalLightsAndSomeSamplesAlone) {
   EXPECT_EQ(read_text(folder / "report.txt"), result.output);
 }
 
+TEST(VerifyCommand, FindsTheFractionsOfLightsWithAnAreaRight) {
+  const TemporaryFolder folder;
+  const std::string scene = write_moving_scene(folder, 2);
+  for (const char* precision : {"fast", "reference"}) {
+    const auto result = tenebra({"verify", scene, "--shadows", "soft", "--set-light", "0 size=0.5",
+                                 "--add-light", "directional direction=-0.2,-1,0.1 intensity=2", "--sun-size",
+                                 "5", "--size", "80x60", "--samples", "400", "--soft-precision", precision,
+                                 "--report", folder / "report.json", "--quiet"});
+    EXPECT_EQ(result.exit_code, 0) << result.errors;
+    EXPECT_TRUE(result.output.ends_with("\nwrong: 0\n")) << result.output;
+    const auto json = nlohmann::json::parse(read_text(folder / "report.json"));
+    EXPECT_EQ(json["masks"].size(), 1u) << "the light that is a point";
+    ASSERT_EQ(json["fractions"].size(), 2u);
+    for (const auto& light : json["fractions"]) {
+      EXPECT_EQ(int(light["samples"]) + int(light["skipped"]), 400);
+      EXPECT_GT(light["penumbra"], 0);
+      EXPECT_LE(light["largest_error"], light["promise"]);
+    }
+  }
+}
+
 TEST(VerifyCommand, SaysWhatItCheckedUntilASignal) {
   const TemporaryFolder folder;
   ChildProgram verify({TENEBRA_PROGRAM, "verify", TENEBRA_SCENES_DIR "/court.glb", "--frames", "all",
@@ -64,7 +85,7 @@ TEST(VerifyCommand, FailsInOneSentence) {
                                                    {"verify", scene, "--samples", "some"},
                                                    {"verify", scene, "--frames", "5000"},
                                                    {"verify", scene, "--light", "7"},
-                                                   {"verify", scene, "--shadows", "soft"}};
+                                                   {"verify", scene, "--shadows", "none"}};
   for (const auto& use : uses) {
     const auto result = tenebra(use);
     EXPECT_EQ(result.exit_code, 1);
@@ -89,6 +110,21 @@ TEST(VerifyReport, NamesWhatIsWrongAndEndsInItsExitCode) {
   EXPECT_TRUE(text.ends_with("wrong: 1\n"));
   const auto json = nlohmann::json::parse(viewer::verification_json(verification));
   EXPECT_EQ(json["masks"][0]["wrong_samples"][0]["blocked_by"], 9);
+}
+
+TEST(VerifyReport, NamesFractionsThatAreWrong) {
+  viewer::Verification verification;
+  verification.planned_frames = verification.frames = 1;
+  viewer::CheckedFractions light{.frame = 7, .light = 1, .width = 100, .promise = 1e-6, .check = {}};
+  light.check.stats.samples = 10;
+  light.check.wrong_count = 1;
+  light.check.wrong.push_back({.pixel = 321, .triangle = 5, .said = 0.25, .exact = 0.5});
+  verification.fractions.push_back(light);
+  EXPECT_EQ(viewer::exit_code_of(verification), 2);
+  const std::string text = viewer::verification_text(verification);
+  EXPECT_NE(text.find("pixel (21, 3), triangle 5: the fraction is 0.25, exact is 0.5\n"), std::string::npos)
+      << text;
+  EXPECT_EQ(nlohmann::json::parse(viewer::verification_json(verification))["fractions"][0]["wrong"], 1);
 }
 
 TEST(VerifyCommand, KeepsItsSceneAndFailsWhereItChecksNothing) {

@@ -1,4 +1,4 @@
-// tenebra verify: are the masks of a scene the answers of real arithmetic?
+// tenebra verify: are the shadows of a scene the answers of real arithmetic?
 #include <fmt/core.h>
 #include <limits>
 #include <memory>
@@ -27,23 +27,32 @@ namespace tenebra::viewer {
 namespace {
 
 constexpr std::size_t all_samples = std::numeric_limits<std::size_t>::max();
+constexpr std::size_t usual_fractions = 1000;  // of a light in a frame
+/// How far a visible fraction may be off: tenebra/soft_shadows.h.
+constexpr double fast_promise = 0.1 / 255, reference_promise = 1e-6;
 
 constexpr const char* verify_examples =
     "Examples:\n"
     "  tenebra verify scenes/city.glb\n"
     "  tenebra verify scenes/city.glb --frames all --samples 20000 --report city.json\n"
     "  tenebra verify kitchen.aff --frames 0:799:50 --variant PreciseSEATP\n"
+    "  tenebra verify scenes/court.glb --shadows soft --light-size 0.5 --samples 5000\n"
     "\n"
     "Draws hard shadow masks of all lights as tenebra render does, and asks for each sample what its value\n"
     "must be: by the definition in tenebra/hard_shadows.h, over all triangles that its ray could meet, in\n"
     "doubles with a carried bound of their error and, where these cannot tell, in integers of any length.\n"
     "That code (src/oracle) shares none with the tracer. Visible points, ids and lights are taken as given.\n"
-    "Exit code: 0 all are right, 1 failed (one sentence says why), 2 masks are wrong, 130 or 143 stopped by\n"
+    "With --shadows soft the visible fractions of lights with an area are checked: which triangles hide what "
+    "is\n"
+    "found exactly, the area that they leave with a bound. A fraction may be off by as much as is promised:\n"
+    "0.1/255, and 1e-6 with --soft-precision reference. The time of a sample grows with the square of its\n"
+    "occluders: those with more than 1000 are skipped, and counted.\n"
+    "Exit code: 0 all are right, 1 failed (one sentence says why), 2 some are wrong, 130 or 143 stopped by\n"
     "a signal; what was checked until then is reported.";
 
 struct VerifyOptions {
   RenderOptions render;
-  std::size_t samples = all_samples;  ///< of each mask
+  std::optional<std::size_t> samples;  ///< of each mask; not given: all, and `usual_fractions`
   std::string report;
 };
 
@@ -54,10 +63,9 @@ Expected<std::size_t> parse_samples(const std::string& text) {
   return static_cast<std::size_t>(*count);
 }
 
-/// What is drawn: exact masks of the pixels' centres and nothing else.
-render::RenderSettings mask_settings(const RenderPlan& plan) {
+/// What is drawn: exact shadows of the pixels' centres and nothing else.
+render::RenderSettings checked_settings(const RenderPlan& plan) {
   render::RenderSettings settings = plan.settings;
-  settings.shadows = render::ShadowMode::hard;
   settings.samples = render::SampleSource::ids;
   settings.terminator = render::Terminator::flat;
   settings.see_through = SeeThrough::tint;
@@ -66,9 +74,13 @@ render::RenderSettings mask_settings(const RenderPlan& plan) {
   return settings;
 }
 
+std::string counted(std::size_t samples) {
+  return samples == all_samples ? "all" : fmt::format("{}", samples);
+}
+
 std::vector<render::LogSetting> describe_run(const VerifyOptions& options, const RenderPlan& plan,
                                              const render::FrameRaster& raster) {
-  return {
+  std::vector<render::LogSetting> run{
       {"program", "tenebra " TENEBRA_VERSION},
       {"machine", base::machine_description()},
       {"scene", options.render.scene.file},
@@ -76,7 +88,12 @@ std::vector<render::LogSetting> describe_run(const VerifyOptions& options, const
       {"raster", raster_names(raster).raster},
       {"variant", std::string(variant_name(plan.settings.hard.variant))},
       {"cull", plan.settings.hard.cull_front ? "front" : "none"},
-      {"samples of each mask", options.samples == all_samples ? "all" : fmt::format("{}", options.samples)}};
+      {"samples of each mask", counted(options.samples.value_or(all_samples))}};
+  if (plan.settings.shadows != render::ShadowMode::soft) return run;
+  run.push_back({"samples of each light with an area", counted(options.samples.value_or(usual_fractions))});
+  run.push_back({"soft-solver", choice_name(solver_choices, plan.settings.soft.solver)});
+  run.push_back({"soft-precision", choice_name(precision_choices, plan.settings.soft.precision)});
+  return run;
 }
 
 /// Draws frame after frame and checks the masks of each.
@@ -111,34 +128,63 @@ private:
     apply_node_edits(plan_.scene, edits, input_.geometry);
     input_.lights = placed_lights(plan_.scene, edits, plan_.clip, planned.time_s);
     input_.view = view_of(plan_, options_.render.scene, planned.time_s, plan_.size);
-    const render::RenderSettings settings = mask_settings(plan_);
+    const render::RenderSettings settings = checked_settings(plan_);
     auto drawn = renderer.render_frame(input_, settings, result_, {}, &stop.flag());
     if (!drawn) return drawn;
     compute_visible_points(renderer.triangle_ids(), settings.width, settings.height, input_.view,
                            triangle_view(input_.geometry), points_);
     for (const render::LightMask& mask : result_.masks) {
       for (const render::DrawnLight& light : renderer.drawn_lights())
-        if (light.number == mask.light) check_mask(planned.frame, light, mask, settings, stop);
+        if (light.number == mask.light) check_light(planned.frame, light, mask, settings, stop);
     }
     return {};
   }
 
-  void check_mask(int frame, const render::DrawnLight& light, const render::LightMask& mask,
-                  const render::RenderSettings& settings, StopSignals& stop) {
-    base::Stopwatch watch;
+  void check_light(int frame, const render::DrawnLight& light, const render::LightMask& mask,
+                   const render::RenderSettings& settings, StopSignals& stop) {
     std::vector<std::uint8_t> casters;
     const TriangleView triangles = render::casters_of(plan_.scene, input_.geometry, light, casters);
     const auto pixels = oracle::spread_samples(
-        points_.triangles, options_.samples,
+        points_.triangles, options_.samples.value_or(light.area ? usual_fractions : all_samples),
         static_cast<std::uint64_t>(frame) << 32 | static_cast<std::uint64_t>(mask.light));
-    CheckedMask checked{.frame = frame, .light = mask.light, .width = settings.width, .check = {}};
     with_threads(settings.threads, [&] {
-      const oracle::ExactShadow exact(input_.view, triangles, render::shadow_light(light.light, light.placed),
-                                      settings.hard);
-      checked.check = oracle::check_mask(exact, points_, mask.mask.pixels, pixels, &stop.flag());
+      if (light.area)
+        check_fractions(frame, light, triangles, mask, pixels, stop);
+      else
+        check_mask(frame, light, triangles, mask, pixels, stop);
     });
+  }
+
+  void check_mask(int frame, const render::DrawnLight& light, const TriangleView& triangles,
+                  const render::LightMask& mask, const std::vector<std::size_t>& pixels, StopSignals& stop) {
+    base::Stopwatch watch;
+    const oracle::ExactShadow exact(input_.view, triangles, render::shadow_light(light.light, light.placed),
+                                    plan_.settings.hard);
+    CheckedMask checked{.frame = frame, .light = mask.light, .width = plan_.settings.width, .check = {}};
+    checked.check = oracle::check_mask(exact, points_, mask.mask.pixels, pixels, &stop.flag());
     checked.check_s = watch.lap_ms() / 1e3;
     verification_.masks.push_back(std::move(checked));
+  }
+
+  void check_fractions(int frame, const render::DrawnLight& light, const TriangleView& triangles,
+                       const render::LightMask& mask, const std::vector<std::size_t>& pixels,
+                       StopSignals& stop) {
+    base::Stopwatch watch;
+    const bool fast = plan_.settings.soft.precision == SoftPrecision::fast;
+    const oracle::ExactSoft front(input_.view, triangles, *light.area);
+    std::optional<oracle::ExactSoft> back;
+    if (render::shines_behind(light)) back.emplace(input_.view, triangles, *light.back);
+    CheckedFractions checked{.frame = frame,
+                             .light = mask.light,
+                             .width = plan_.settings.width,
+                             .promise = fast ? fast_promise : reference_promise,
+                             .check = {}};
+    const oracle::FractionRequest request{
+        .front = &front, .back = back ? &*back : nullptr, .promise = checked.promise};
+    checked.check =
+        oracle::check_fractions(request, points_, mask.visible_fraction.pixels, pixels, &stop.flag());
+    checked.check_s = watch.lap_ms() / 1e3;
+    verification_.fractions.push_back(std::move(checked));
   }
 
   const VerifyOptions& options_;
@@ -169,6 +215,9 @@ Expected<int> verify(const VerifyOptions& options) {
   StopSignals stop(options.render.timeout_s, StopSignals::Start::at_once);
   const auto plan = plan_render(options.render);
   if (!plan) return tl::unexpected(plan.error());
+  if (plan->settings.shadows == render::ShadowMode::none)
+    return base::fail(
+        "found --shadows none, expected hard or soft: without shadows there is nothing to check");
   if (!options.render.quiet) print_warnings(plan->scene.warnings);
   if (auto apart = check_report(options, *plan); !apart) return tl::unexpected(apart.error());
   stop.be_orderly();
@@ -183,7 +232,7 @@ Expected<int> verify(const VerifyOptions& options) {
   if (stopped)
     print_error("tenebra: stopped after {} of {} frames\n", verification.frames, verification.planned_frames);
   if (stopped) return stop.exit_code();
-  if (verification.stats().samples == 0)
+  if (verification.stats().samples + verification.fraction_stats().samples == 0)
     return base::fail("found no sample to check: no light has a mask, or no triangle is seen");
   return 0;
 }
@@ -192,7 +241,7 @@ Expected<int> verify(const VerifyOptions& options) {
 
 void add_verify_command(CLI::App& program, Run& run) {
   CLI::App& command =
-      add_command(program, "verify", "Check the masks of hard shadows against exact arithmetic");
+      add_command(program, "verify", "Check shadows, sample by sample, against exact arithmetic");
   const auto options = std::make_shared<VerifyOptions>();
   set_examples(command, verify_examples);
   add_scene_options(command, options->render.scene);
@@ -202,11 +251,13 @@ void add_verify_command(CLI::App& program, Run& run) {
       .type_name("A:B[:STEP]|all")
       .excludes(option_of(command, "--time"));
   add_value(command, "--samples", options->samples, parse_samples,
-            "Visible points of each mask that are checked, spread over\nthe picture [all]")
+            "Visible points of each mask that are checked, spread over\nthe picture [all; 1000 of a light "
+            "with an area]")
       .type_name("N|all");
   add_text(command, "--report", options->report, "The result as a file; with .json for programs")
       .type_name("FILE");
   add_tracer_options(command, options->render.method);
+  add_soft_tracer_options(command, options->render.method);
   add_raster_options(command, options->render.raster);
   add_flag(command, "--quiet", options->render.quiet, "No progress and no warnings");
   add_config_option(command);

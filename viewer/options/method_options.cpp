@@ -189,8 +189,8 @@ void add_hard(CLI::App& command, MethodOptions& options) {
       hard_group);
 }
 
-void add_soft(CLI::App& command, MethodOptions& options) {
-  SoftShadowConfig& soft = options.render.soft;
+/// What gives lights an area.
+void add_light_shapes(CLI::App& command, MethodOptions& options) {
   render::AreaLightSettings& lights = options.render.area_lights;
   const auto size =
       add_value(command, "--light-size", options.light_size, parse_light_size,
@@ -213,19 +213,30 @@ void add_soft(CLI::App& command, MethodOptions& options) {
                                                      "face,\nas bright as the point straight ahead [point]");
   const auto emissive = add_flag(command, "--emissive-lights", lights.emissive_quads,
                                  "Flat convex meshes with an emissive material are lights too");
+  set_group({size, sun, facing, emission, emissive}, soft_group);
+}
+
+void add_soft_solvers(CLI::App& command, SoftShadowConfig& soft) {
   set_group(
-      {size, sun, facing, emission, emissive,
-       add_choice<solver_choices>(command, "--soft-solver", soft.solver,
+      {add_choice<solver_choices>(command, "--soft-solver", soft.solver,
                                   "How the visible part of a light is found: by the paper's\nlazy BSP, by "
                                   "clipping, or (auto) meshes by their\nsilhouettes and the rest by "
                                   "clipping; the picture is\nthe same [auto]"),
-       add_choice<grouping_choices>(command, "--soft-grouping", soft.grouping,
+       add_choice<precision_choices>(command, "--soft-precision", soft.precision,
+                                     "reference: double precision throughout [fast]")},
+      soft_group);
+}
+
+void add_soft(CLI::App& command, MethodOptions& options) {
+  SoftShadowConfig& soft = options.render.soft;
+  add_light_shapes(command, options);
+  add_soft_solvers(command, soft);
+  set_group(
+      {add_choice<grouping_choices>(command, "--soft-grouping", soft.grouping,
                                     "Points that are solved together: neighbours, or as in\nthe paper's "
                                     "Algorithm 2 those of a triangle\n[neighbourhood]"),
        add_choice<occluder_choices>(command, "--soft-choice", soft.choice,
                                     "Occluder that the BSP takes next; in the paper: random\n[largest]"),
-       add_choice<precision_choices>(command, "--soft-precision", soft.precision,
-                                     "reference: double precision throughout [fast]"),
        add_value(command, points_option, options.render.soft_points, parse_points,
                  "Replaces each area light by N points with exact hard\nshadows: steps in the penumbra, of "
                  "an error that is not\nestimated [0: as --soft-error says]")
@@ -328,6 +339,15 @@ void add_tracer_options(CLI::App& command, MethodOptions& options) {
   add_value(command, "--simd", render.hard.simd, parse_simd,
             "Vector instructions: auto, scalar, sse4, avx2 or avx512\n[auto]")
       .type_name("LEVEL");
+}
+
+void add_soft_tracer_options(CLI::App& command, MethodOptions& options) {
+  add_choice<shadow_choices>(
+      command, "--shadows", options.render.shadows,
+      "hard: masks; soft: visible fractions of lights with an area,\nmasks of the others "
+      "[hard]");
+  add_light_shapes(command, options);
+  add_soft_solvers(command, options.render.soft);
 }
 
 void settle_quality(const CLI::App& command, MethodOptions& options) {

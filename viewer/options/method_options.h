@@ -41,6 +41,8 @@ void add_method_options(CLI::App& command, MethodOptions& options);
 
 /// Of these only what chooses how hard masks are traced: --light, --variant, --cull, --threads, --simd.
 void add_tracer_options(CLI::App& command, MethodOptions& options);
+/// --shadows, what gives lights an area, and what chooses how their visible part is found.
+void add_soft_tracer_options(CLI::App& command, MethodOptions& options);
 
 /// Sets what a given --quality stands for, but for options that `command` was given themselves: they win
 /// wherever they stand, in a file of options too. To be called once all options are read.

@@ -1,14 +1,14 @@
 #include "shell/last_words.h"
 
-#include <fmt/core.h>
 #include <unistd.h>
 
-#include <algorithm>
 #include <array>
+#include <charconv>
 #include <exception>
+#include <initializer_list>
 #include <new>
+#include <string_view>
 #include <system_error>
-#include <utility>
 
 #include "shell/exit_codes.h"
 #include "shell/memory_limit.h"
@@ -16,12 +16,10 @@
 namespace tenebra::viewer {
 namespace {
 
-template <class... Args>
-void print_without_memory(fmt::format_string<Args...> format, Args&&... args) {
-  std::array<char, 512> text{};
-  const auto end = fmt::format_to_n(text.data(), text.size(), format, std::forward<Args>(args)...);
-  const std::size_t size = std::min(end.size, text.size());
-  static_cast<void>(!::write(STDERR_FILENO, text.data(), size));
+/// One after the other, whatever memory is left.
+void print_without_memory(std::initializer_list<std::string_view> words) {
+  for (const std::string_view word : words)
+    static_cast<void>(!::write(STDERR_FILENO, word.data(), word.size()));
 }
 
 [[noreturn]] void end_now() {
@@ -32,9 +30,9 @@ void print_without_memory(fmt::format_string<Args...> format, Args&&... args) {
       print_no_memory();
       ::_exit(no_memory_code());
     }
-    print_without_memory("tenebra: stopped by an unexpected failure ({}).\n", error.what());
+    print_without_memory({"tenebra: stopped by an unexpected failure (", error.what(), ").\n"});
   } catch (...) {
-    print_without_memory("tenebra: stopped by an unexpected failure.\n");
+    print_without_memory({"tenebra: stopped by an unexpected failure.\n"});
   }
   ::_exit(exit_codes::failed);
 }
@@ -52,11 +50,13 @@ bool is_memory_failure(const std::exception& error) {
 }
 
 void print_no_memory() {
-  if (const auto limit = memory_limit_mb())
-    print_without_memory("tenebra: not enough memory, {} MB are allowed; expected a larger --memory.\n",
-                         *limit);
-  else
-    print_without_memory("tenebra: not enough memory.\n");
+  const auto limit = memory_limit_mb();
+  if (!limit) return print_without_memory({"tenebra: not enough memory.\n"});
+  std::array<char, 24> digits{};
+  const char* const end = std::to_chars(digits.begin(), digits.end(), *limit).ptr;
+  print_without_memory({"tenebra: not enough memory, ",
+                        {digits.data(), static_cast<std::size_t>(end - digits.data())},
+                        " MB are allowed; expected a larger --memory.\n"});
 }
 
 int no_memory_code() {

@@ -6,7 +6,7 @@
 #include <algorithm>
 #include <vector>
 
-namespace tenebra::reference {
+namespace tenebra::oracle {
 
 template <class N>
 struct Point2 {
@@ -184,4 +184,4 @@ void for_each_trapezoid(const Polygon<N>& base, const std::vector<Polygon<N>>& h
   }
 }
 
-}  // namespace tenebra::reference
+}  // namespace tenebra::oracle

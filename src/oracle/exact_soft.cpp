@@ -1,4 +1,4 @@
-#include "reference/exact_soft.h"
+#include "oracle/exact_soft.h"
 
 #include <algorithm>
 #include <array>
@@ -9,13 +9,11 @@
 #include "oracle/exact_mask.h"
 #include "oracle/vector.h"
 
-namespace tenebra::reference {
-
-using oracle::contact_height, oracle::Dyadic, oracle::TriangleBoxes, oracle::vertex_rounding;
+namespace tenebra::oracle {
 
 namespace {
 
-using ExactVec = oracle::Vector<Dyadic>;
+using ExactVec = Vector<Dyadic>;
 
 template <class V>
 ExactVec exact(const V& v) {
@@ -243,6 +241,13 @@ std::vector<std::uint32_t> ExactSoft::candidates(const glm::dvec3& point, std::u
   return found;
 }
 
+double ExactSoft::distance_in_sizes(const glm::dvec3& point) const {
+  double size = 0;
+  for (const glm::dvec2& v : light_.polygon) size = std::max({size, std::abs(v.x), std::abs(v.y)});
+  const double distance = light_.at_infinity ? 1 : glm::length(point - light_.centre);
+  return distance / (size * glm::length(light_.ex));
+}
+
 template <class N>
 SoftAnswer ExactSoft::solve(const glm::dvec3& position, std::uint32_t id, glm::vec3 normal,
                             std::size_t most) const {
@@ -302,4 +307,4 @@ SoftAnswer ExactSoft::answer(const glm::dvec3& point, std::uint32_t id, const gl
                                            : solve<long double>(point, id, normal, most_occluders);
 }
 
-}  // namespace tenebra::reference
+}  // namespace tenebra::oracle

@@ -8,10 +8,10 @@
 #include <vector>
 
 #include <tenebra/area_light.h>
+#include "oracle/slab_difference.h"
 #include "oracle/triangle_boxes.h"
-#include "reference/slab_difference.h"
 
-namespace tenebra::reference {
+namespace tenebra::oracle {
 
 enum class SweepNumbers {
   rational,    ///< exact up to the rounding of the sum; some ms per point with ten occluders
@@ -50,6 +50,8 @@ public:
                     std::size_t most_occluders = 100000) const;
   /// Triangles that may block the sample: conservative.
   std::vector<std::uint32_t> candidates(const glm::dvec3& point, std::uint32_t id) const;
+  /// How far the light is off, in lengths of its longest axis; of a sun one over its radius in radians.
+  double distance_in_sizes(const glm::dvec3& point) const;
 
 private:
   template <class N>
@@ -60,7 +62,7 @@ private:
   ViewRays view_;
   TriangleView triangles_;
   AreaLight light_;
-  oracle::TriangleBoxes boxes_;
+  TriangleBoxes boxes_;
 };
 
 /// -1/2 sum of angle times normal over the edges of a planar polygon around the origin's view (Lambert's
@@ -71,4 +73,4 @@ struct Vector3l {
 };
 long double polygon_irradiance(const std::vector<Vector3l>& polygon, const Vector3l& normal);
 
-}  // namespace tenebra::reference
+}  // namespace tenebra::oracle
