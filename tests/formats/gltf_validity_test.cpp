@@ -164,7 +164,7 @@ std::vector<Breach> breaches() {
       {"/materials/0/doubleSided", "yes", "doubleSided"},
       {"/materials/0/alphaMode", 5, "alphaMode"},
       {"/materials/0/normalTexture", {{"index", 0}}, "normalTexture"},
-      {"/images", {Json::object()}, "images[0]: expected either a uri or a bufferView"},
+      {"/images", Json::array({Json::object()}), "images[0]: expected either a uri or a bufferView"},
       {"/images", {{{"bufferView", 0}}}, "images[0]"},
       // nodes and scenes
       {"/scene", 1, "scene"},
