@@ -124,7 +124,7 @@ struct FrameResult {
   base::Image8 image;        ///< RGB, encoded as Scene::transfer says; the mean of what the samples show
   base::ImageF linear;       ///< RenderSettings::linear: RGB of the pixels' centres before exposure and tone
   base::ImageF linear_mean;  ///< RenderSettings::linear_mean: the same, but the mean over a pixel's samples
-  Aovs aovs;
+  Aovs aovs;                 ///< RenderSettings::aovs: depth, ids, normals, visibility, irradiance, ...
   std::vector<std::uint8_t> seen;  ///< RenderSettings::linear: 1 where a pixel sees a triangle
   std::vector<LightMask> masks;    ///< one per light drawn, of those with an intensity; empty without shadows
   std::vector<LightMethod> methods;  ///< of the lights that had hard shadows
