@@ -9,6 +9,7 @@
 #   tsan      runs all tests with the thread sanitizer
 #   report    opens a page of `tenebra log report` in headless Chromium
 #   package   makes the packages, asks lintian, and draws a picture with them in a bare root; needs root as roots does
+#   api       makes the reference of the public headers with doxygen: what is not documented is an error
 #   faults    lets every call of the system and many allocations fail, kills renders, stops each stage
 #   fuzz      runs the fuzzers of tests/fuzz for FUZZ_MINUTES [60]
 #   all       every part, one after the other
@@ -16,7 +17,7 @@
 # JOBS=N: how many jobs at once [all cores].
 set -uo pipefail
 cd "$(dirname "$0")/.."
-parts=(lto-odr clang roots debug asan tsan report package faults fuzz)
+parts=(lto-odr clang roots debug asan tsan report package api faults fuzz)
 jobs=${JOBS:-$(nproc)}
 
 has() {
@@ -94,6 +95,10 @@ run_package() {
   status=$?
   rm -rf "$root"
   return "$status"
+}
+
+run_api() {
+  has doxygen doxygen && mkdir -p build/api && TENEBRA_API_DIR=build/api doxygen docs/Doxyfile
 }
 
 run_faults() {

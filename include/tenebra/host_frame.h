@@ -23,8 +23,8 @@ struct HostLayout {
 
 /// What a host has drawn, row 0 at the top. Lists of width * height.
 struct HostFrame {
-  int width = 0;
-  int height = 0;
+  int width = 0;                   ///< pixels
+  int height = 0;                  ///< pixels
   std::vector<std::uint32_t> ids;  ///< index into the triangles, or no_triangle
   std::vector<float> depth;        ///< 0 to 1, as the host's window has it; empty: not handed in
 };
@@ -37,9 +37,9 @@ Expected<void> take_host_frame(std::span<const std::uint32_t> ids, std::span<con
 /// A host's camera by its matrices, in OpenGL's conventions: it looks along -Z of its own space, and what it
 /// sees has clip coordinates from -w to w in x and y, y upwards.
 struct HostCamera {
-  glm::dmat4 view_from_world{1.0};
-  glm::dmat4 clip_from_view{1.0};  ///< perspective or orthographic, of any shape; reversed depth too
-  bool depth_zero_to_one = false;  ///< clip z runs from 0 to w (glClipControl), not from -w
+  glm::dmat4 view_from_world{1.0};  ///< rigid; metres
+  glm::dmat4 clip_from_view{1.0};   ///< perspective or orthographic, of any shape; reversed depth too
+  bool depth_zero_to_one = false;   ///< clip z runs from 0 to w (glClipControl), not from -w
 };
 
 /// The rays through the centres of the camera's pixels, rounded to float; ViewRays::near_m is not set, as no
@@ -52,7 +52,7 @@ Expected<ViewRays> host_view(const HostCamera& camera, int width, int height);
 Expected<void> positions_from_depth(const HostFrame& frame, const HostCamera& camera, double far_depth,
                                     std::vector<glm::dvec3>& positions);
 
-using GlFunction = void (*)();
+using GlFunction = void (*)();                              ///< of any type: cast before it is called
 using GlFunctionLoader = GlFunction (*)(const char* name);  ///< glfwGetProcAddress and its like
 
 /// Names of a host's textures: two-dimensional, one sample a pixel, their first level as large as the
