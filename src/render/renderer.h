@@ -97,6 +97,10 @@ struct FrameInput {
   FrameGeometry geometry;
   std::vector<WorldLight> lights;
   ViewRays view;
+  /// What the pixels see, where another renderer has drawn it (tenebra/host_frame.h): width * height
+  /// triangles, row 0 at the top; what is no triangle is background. Empty: it is drawn here. Needs one
+  /// sample a pixel and SampleSource::ids; nothing see-through is laid over it.
+  std::vector<std::uint32_t> ids{};
 };
 
 struct LightMask {

@@ -4,7 +4,7 @@
 namespace tenebra {
 namespace {
 
-constexpr int width = 80, height = 60;
+constexpr int aov_width = 80, aov_height = 60;
 constexpr float lamp_intensity = 0.5f;
 const glm::vec3 lamp_place(0, 5, 0);
 
@@ -18,8 +18,8 @@ Scene lit_floor() {
 }
 
 render::RenderSettings everything() {
-  return {.width = width,
-          .height = height,
+  return {.width = aov_width,
+          .height = aov_height,
           .aovs = {.depth = true,
                    .ids = true,
                    .normal = true,
@@ -31,7 +31,7 @@ render::RenderSettings everything() {
 
 TEST(Aovs, AreEmptyUnlessAskedForAndLeaveThePictureAlone) {
   const Scene scene = lit_floor();
-  const render::FrameResult plain = draw(scene, {.width = width, .height = height});
+  const render::FrameResult plain = draw(scene, {.width = aov_width, .height = aov_height});
   EXPECT_TRUE(plain.aovs.depth.pixels.empty() && plain.aovs.ids.empty() && plain.aovs.parts.empty() &&
               plain.aovs.materials.empty() && plain.aovs.normal.pixels.empty() &&
               plain.aovs.visibility.empty() && plain.aovs.irradiance.pixels.empty() &&
@@ -42,15 +42,15 @@ TEST(Aovs, AreEmptyUnlessAskedForAndLeaveThePictureAlone) {
 TEST(Aovs, SayWhatEachPixelSees) {
   const Scene scene = lit_floor();
   const render::FrameResult result = draw(scene, everything());
-  const ViewRays view = frame_of(scene, width, height).view;
+  const ViewRays view = frame_of(scene, aov_width, aov_height).view;
   const glm::dvec3 axis = -glm::normalize(glm::cross(glm::dvec3(view.dx), glm::dvec3(view.dy)));
   const render::Aovs& aovs = result.aovs;
   ASSERT_EQ(aovs.visibility.size(), 1u);
   EXPECT_TRUE(aovs.openness.pixels.empty());  // as nothing was occluded
   int on_the_floor = 0, background = 0;
-  for (int y = 0; y < height; ++y) {
-    for (int x = 0; x < width; ++x) {
-      const auto i = static_cast<std::size_t>(width * y + x);
+  for (int y = 0; y < aov_height; ++y) {
+    for (int x = 0; x < aov_width; ++x) {
+      const auto i = static_cast<std::size_t>(aov_width * y + x);
       if (aovs.ids[i] == no_triangle) {
         ++background;
         EXPECT_EQ(aovs.depth.pixels[i], std::numeric_limits<float>::infinity());
