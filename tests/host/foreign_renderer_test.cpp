@@ -18,6 +18,12 @@ namespace {
 
 constexpr int width = 320, height = 240;
 
+#ifdef TENEBRA_FOREIGN_RENDERER
+constexpr const char* program = TENEBRA_FOREIGN_RENDERER;
+#else
+constexpr const char* program = nullptr;
+#endif
+
 /// The matrices that a host would have for this view.
 HostCamera matrices_of(const ViewRays& view) {
   const glm::dvec3 eye(view.eye), dx(view.dx), dy(view.dy), d0(view.d0);
@@ -105,20 +111,17 @@ std::vector<std::uint32_t> own_ids(const Instant& now) {
 class ForeignRenderer : public ::testing::TestWithParam<const char*> {
 protected:
   void SetUp() override {
+    if (program == nullptr) GTEST_SKIP() << "built without the window's library, which the renderer takes";
     if (!testing::has_program("Xvfb")) GTEST_SKIP() << "Xvfb is missing: tools/setup.sh --tests";
   }
 };
 
 TEST_P(ForeignRenderer, GetsTheMasksOfItsOwnIdsBitForBit) {
-#ifndef TENEBRA_FOREIGN_RENDERER
-  GTEST_SKIP() << "built without the program, whose window library it takes";
-#else
   const testing::TemporaryFolder folder;
   const testing::VirtualDisplay display;
   const Instant now = instant_of(GetParam(), 2.0);
   testing::write_text(folder / "scene.bin", bytes_of(now));
-  const auto ran = testing::run_program({TENEBRA_FOREIGN_RENDERER, folder.path().string()},
-                                        [&display] { display.enter(); });
+  const auto ran = testing::run_program({program, folder.path().string()}, [&display] { display.enter(); });
   ASSERT_EQ(ran.exit_code, 0) << ran.errors;
   const auto ids = read_list<std::uint32_t>(folder / "ids.bin");
   const auto mask = read_list<std::uint8_t>(folder / "mask.bin");
@@ -152,7 +155,6 @@ TEST_P(ForeignRenderer, GetsTheMasksOfItsOwnIdsBitForBit) {
   }
   RecordProperty("wrong", line);
   std::puts(line.c_str());
-#endif
 }
 
 INSTANTIATE_TEST_SUITE_P(, ForeignRenderer, ::testing::Values("city.glb", "court.glb"),
