@@ -1,8 +1,8 @@
 #!/usr/bin/env python3
-"""Writes completions of the shell bash from what `tenebra COMMAND --help` says.
+"""Writes completions of the shells bash and zsh from what `tenebra COMMAND --help` says.
 
 Usage: completions.py PROGRAM FOLDER
-Writes FOLDER/bash-completion/completions/tenebra.
+Writes FOLDER/bash-completion/completions/tenebra and FOLDER/zsh/vendor-completions/_tenebra.
 """
 import pathlib
 import re
@@ -81,21 +81,60 @@ _tenebra() {{
 complete -F _tenebra tenebra
 """
 
-def bash_of(tree, commands):
-    words = " ".join(f"['{command}']='{' '.join(name for name, kind in options if name)}'"
+ZSH = """#compdef tenebra
+# Completion of the commands and options of tenebra. Made from its help.
+_tenebra() {{
+  local -A names=({words})
+  local -A kinds=({values})
+  if ((CURRENT == 2)); then
+    compadd -- {commands} --help --version
+    return
+  fi
+  local command=${{words[2]}}
+  local part="$command ${{words[3]}}"
+  [[ $CURRENT -gt 3 && -n ${{names[$part]}} ]] && command=$part
+  local asked="$command ${{words[CURRENT-1]}}"
+  case ${{kinds[$asked]}} in
+    @none) return ;;
+    @files) _files; return ;;
+    @folders) _files -/; return ;;
+    ?*) compadd -- ${{=kinds[$asked]}}; return ;;
+  esac
+  compadd -- ${{=names[$command]}}
+  [[ $PREFIX == -* || $command == log ]] || _files
+}}
+_tenebra "$@"
+"""
+
+
+def lists_of(tree, form):
+    """What follows each command, and what completes each option's value, as entries of a shell's list."""
+    words = " ".join(form(command, " ".join(name for name, kind in options if name))
                      for command, options in tree.items())
-    values = " ".join(f"['{command} {name}']='{kind}'" for command, options in tree.items()
+    values = " ".join(form(f"{command} {name}", kind) for command, options in tree.items()
                       for name, kind in options if kind not in ("flag", "command"))
+    return words, values
+
+
+def bash_of(tree, commands):
+    words, values = lists_of(tree, lambda key, value: f"['{key}']='{value}'")
     return BASH.format(words=words, values=values, commands=" ".join(commands))
+
+
+def zsh_of(tree, commands):
+    words, values = lists_of(tree, lambda key, value: f"'{key}' '{value}'")
+    return ZSH.format(words=words, values=values, commands=" ".join(commands))
 
 
 def main():
     program, folder = sys.argv[1], pathlib.Path(sys.argv[2])
     tree = tree_of(program)
     commands = [command for command in tree if " " not in command]
-    file = folder / "bash-completion/completions/tenebra"
-    file.parent.mkdir(parents=True, exist_ok=True)
-    file.write_text(bash_of(tree, commands), encoding="utf-8")
+    for name, text in (("bash-completion/completions/tenebra", bash_of(tree, commands)),
+                       ("zsh/vendor-completions/_tenebra", zsh_of(tree, commands))):
+        file = folder / name
+        file.parent.mkdir(parents=True, exist_ok=True)
+        file.write_text(text, encoding="utf-8")
 
 
 if __name__ == "__main__":

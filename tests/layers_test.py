@@ -25,6 +25,7 @@ MAY_INCLUDE = {
     "tint": {"base", "math", "simd", "parallel", "scene", "texture", "points", "shadow", "soft"},
     "ao": {"base", "math", "simd", "parallel", "scene", "texture", "points"},
     "query": {"base", "math", "parallel", "scene", "points"},  # and the tracers by their public headers
+    "host": {"base"},
     "c_api": {"base"},
     "shade": {"base", "math", "simd", "parallel", "scene", "texture", "points"},
     "oracle": {"base", "parallel"},

@@ -9,6 +9,7 @@
 #   tsan      runs all tests with the thread sanitizer
 #   report    opens a page of `tenebra log report` in headless Chromium
 #   package   makes the packages, asks lintian, and draws a picture with them in a bare root; needs root as roots does
+#   api       makes the reference of the public headers with doxygen: what is not documented is an error
 #   faults    lets every call of the system and many allocations fail, kills renders, stops each stage
 #   slurm     renders on three Slurm nodes, one of which dies while another is cut off; needs root and Slurm
 #   fuzz      runs the fuzzers of tests/fuzz for FUZZ_MINUTES [60]
@@ -17,7 +18,7 @@
 # JOBS=N: how many jobs at once [all cores].
 set -uo pipefail
 cd "$(dirname "$0")/.."
-parts=(lto-odr clang roots debug asan tsan report package faults slurm fuzz)
+parts=(lto-odr clang roots debug asan tsan report package api faults slurm fuzz)
 jobs=${JOBS:-$(nproc)}
 
 has() {
@@ -97,11 +98,22 @@ run_package() {
   return "$status"
 }
 
+run_api() {
+  has doxygen doxygen && mkdir -p build/api && TENEBRA_API_DIR=build/api doxygen docs/Doxyfile
+}
+
 run_faults() {
   local tests=tests/faults/faults_test.py program=build/bin/tenebra library=build/tests/libtenebra_failing_calls.so
   cmake --preset release -DTENEBRA_TESTS=ON && cmake --build build --target tenebra tenebra_failing_calls -j "$jobs" || return 1
   python3 "$tests" calls "$program" "$library" && python3 "$tests" memory "$program" "$library" 20 &&
     tests/resume_test.py "$program" scenes/city.glb 200 && python3 tests/stop_test.py "$program" scenes all
+}
+
+run_slurm() {
+  local part
+  for part in slurmctld slurmd munged:munge sbatch:slurm-client ip:iproute2; do has "${part%:*}" "${part#*:}" || return 1; done
+  cmake --preset release > /dev/null && cmake --build --preset release -j "$jobs" --target tenebra &&
+    python3 tests/slurm_test.py build/bin/tenebra "${SLURM_SCENE:-scenes/city.glb}" --frames "${SLURM_FRAMES:-300}" --chunks 10
 }
 
 run_fuzz() { tools/fuzz.sh "${FUZZ_MINUTES:-60}"; }

@@ -1,5 +1,6 @@
 #!/bin/bash
-# Makes Debian packages of this checkout: tenebra (the program) and libtenebra-dev (the libraries), in build-package.
+# Makes Debian packages of this checkout in build-package: tenebra (the program), libtenebra1 (the shared library of the C
+# interface), libtenebra-dev (the libraries) and python3-tenebra (the Python module).
 # Usage: tools/package.sh [--check]
 #   --check   also asks lintian; its errors fail
 # DEBFULLNAME and DEBEMAIL name who makes them, as for Debian's own tools [the author of the last commit].
@@ -13,13 +14,13 @@ export SOURCE_DATE_EPOCH=${SOURCE_DATE_EPOCH:-$(git log -1 --format=%ct)} LC_ALL
 
 tools/setup.sh --package
 # No path of this machine in what is built.
-cmake --preset release -B "$build" -DTENEBRA_TESTS=OFF -DTENEBRA_UNITY=ON \
+cmake --preset release -B "$build" -DTENEBRA_TESTS=OFF -DTENEBRA_PYTHON=ON -DTENEBRA_UNITY=ON \
   -DCMAKE_CXX_FLAGS="-ffile-prefix-map=$PWD/$build=build -ffile-prefix-map=$PWD=." > /dev/null
 cmake --build "$build"
 
-# Texts that Debian asks for, of both packages.
+# Texts that Debian asks for, of each package.
 rm -rf "$build/package"
-for component in program:tenebra development:libtenebra-dev; do
+for component in program:tenebra runtime:libtenebra1 development:libtenebra-dev python3:python3-tenebra; do
   name=${component#*:}
   texts=$build/package/${component%%:*}/share/doc/$name
   mkdir -p "$texts"

@@ -26,7 +26,8 @@ if [[ "${1:-}" == --tests ]]; then
   # scikit-build: `pip install .`.
   where_known+=(libosmesa6 clang-format-14 libwebp-dev python3-skbuild)
 fi
-[[ "${1:-}" == --package ]] && packages+=(libembree-dev libmeshoptimizer-dev libdraco-dev dpkg-dev help2man lintian)
+[[ "${1:-}" == --package ]] && packages+=(libembree-dev libmeshoptimizer-dev libdraco-dev dpkg-dev help2man lintian
+  python3-dev python3-pybind11)
 
 if ! command -v dpkg-query apt-get > /dev/null; then
   echo "tools/setup.sh: no apt-get here; install what corresponds to: ${packages[*]}" >&2

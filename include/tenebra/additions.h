@@ -15,9 +15,9 @@ struct Additions {
 
 /// What it added.
 struct AddedParts {
-  bool camera = false;
-  bool light = false;
-  bool floor = false;
+  bool camera = false;  ///< a camera that sees everything
+  bool light = false;   ///< a sun and the light of a sky
+  bool floor = false;   ///< a floor to catch the shadow
 };
 
 /// Adds what a picture needs if the file lacks it, and says so in scene.warnings:

@@ -8,6 +8,7 @@
 
 namespace tenebra {
 
+/// How values between two keys are found.
 enum class Interpolation {
   step,              ///< glTF STEP
   linear,            ///< glTF LINEAR (rotations: spherical, shortest way)
@@ -18,10 +19,10 @@ enum class Interpolation {
 
 /// Keys of one animated quantity. Not sorted: BART needs the file's order (see evaluate_track).
 struct Track {
-  Interpolation interpolation = Interpolation::linear;
+  Interpolation interpolation = Interpolation::linear;  ///< of all its keys
   int components = 0;  ///< numbers per key: 3 translation or scale, 4 rotation (x, y, z, w), 1 visibility, N
                        ///< weights; see ChannelPath
-  std::vector<double> times_s;
+  std::vector<double> times_s;  ///< of the keys, seconds from the clip's zero
   std::vector<double> values;   ///< times_s.size() * components (three times that for cubic_spline)
   std::vector<glm::dvec3> tcb;  ///< tension, continuity, bias of each key; kochanek_bartels only
 };
@@ -53,18 +54,18 @@ constexpr bool drives_node(ChannelPath path) {
 /// Ties a track to one property of one node, or of the light or camera there. Several channels may share a
 /// track (BART's names are global).
 struct Channel {
-  int node = -1;
-  ChannelPath path = ChannelPath::translation;
-  int track = -1;  ///< index into Clip::tracks
+  int node = -1;                                ///< index into Scene::nodes
+  ChannelPath path = ChannelPath::translation;  ///< what of it is driven
+  int track = -1;                               ///< index into Clip::tracks
 };
 
 /// A named animation (one per glTF animation; BART has one).
 struct Clip {
-  std::string name;
-  std::vector<Track> tracks;
-  std::vector<Channel> channels;
-  double start_s = 0;
-  double end_s = 0;
+  std::string name;               ///< the file's; may be empty
+  std::vector<Track> tracks;      ///< of all channels, in the order of the file
+  std::vector<Channel> channels;  ///< what the tracks drive
+  double start_s = 0;             ///< the first key, seconds
+  double end_s = 0;               ///< the last key, seconds
   int frame_count = 0;  ///< as the file states it (BART); 0: it follows from the user's frames per second
 };
 

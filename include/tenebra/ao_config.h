@@ -9,13 +9,16 @@
 
 namespace tenebra {
 
+/// How ambient occlusion is found.
 enum class AoMode {
   none,
   adaptive,  ///< rays through all triangles where the picture needs them, filtered, by the error asked for
   field,     ///< displacement fields and surface samples, as many rays a point as asked for
   rays,      ///< the reference: the same rays through all triangles by another library's ray caster
 };
+/// Where it is computed: at each pixel's point, or at the vertices, interpolated between.
 enum class AoPlace { pixels, vertices };
+/// What a displacement field stores a distance for.
 enum class FieldLayout {
   positions_directions,  ///< the paper's: positions on the sphere x inward directions
   chords,                ///< entry x exit points
@@ -23,10 +26,10 @@ enum class FieldLayout {
 
 /// `adaptive` reads error, distance, `deforming`, `cache` and `simd`; the other modes all but the error.
 struct AoConfig {
-  AoMode mode = AoMode::none;
-  AoPlace place = AoPlace::pixels;
-  FieldLayout layout = FieldLayout::chords;
-  int rays = 64;           ///< per point, cosine-weighted
+  AoMode mode = AoMode::none;                ///< the method
+  AoPlace place = AoPlace::pixels;           ///< where it is computed; `adaptive`: always pixels
+  FieldLayout layout = FieldLayout::chords;  ///< of fields
+  int rays = 64;                             ///< per point, cosine-weighted
   double error_255 = 2.5;  ///< adaptive: RMS over the picture that is aimed at, in 1/255; 0.1 to 255
   int downscale = 1;  ///< pixels: N computes one of N x N pixels; the others are blurred from similar ones
   double distance_m =
@@ -38,7 +41,7 @@ struct AoConfig {
       true;  ///< what deforms has no field: rays meet it as it is (true), or it is left out (false)
   std::filesystem::path cache;  ///< folder where fields, surface samples and trees are kept; empty: nowhere
   int memory_mb = 512;  ///< of 2^20 bytes: fields and surface samples together, at most; 1 to 1,000,000
-  SimdLevel simd = SimdLevel::automatic;
+  SimdLevel simd = SimdLevel::automatic;  ///< the values do not depend on it
 };
 
 /// Called now and then while something long is built: what it is, and how much of it is done, 0..1.

@@ -8,7 +8,7 @@ namespace tenebra {
 
 /// One sentence for a person to read: the place (file, line or stage), what was found, what was expected.
 struct Error {
-  std::string message;
+  std::string message;  ///< "scene.glb: found 3 indices, expected a multiple of 4"
 };
 
 /// A value, or the error that stands in its place.

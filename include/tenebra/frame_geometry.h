@@ -13,33 +13,33 @@ namespace tenebra {
 
 /// Where a node is at one instant.
 struct NodePose {
-  glm::dvec3 translation{0.0};
-  glm::dquat rotation{1.0, 0.0, 0.0, 0.0};
-  glm::dvec3 scale{1.0};
-  glm::dmat4 to_world{1.0};
-  bool visible = true;           ///< its own flag and those of its ancestors
+  glm::dvec3 translation{0.0};              ///< in the parent's space, metres
+  glm::dquat rotation{1.0, 0.0, 0.0, 0.0};  ///< unit, in the parent's space
+  glm::dvec3 scale{1.0};                    ///< in the parent's space
+  glm::dmat4 to_world{1.0};                 ///< from the space of the node to world space
+  bool visible = true;                      ///< its own flag and those of its ancestors
   std::size_t first_weight = 0;  ///< in Pose::weights: one for each morph target of the node's mesh
 };
 
 /// Where all nodes are at one instant.
 struct Pose {
-  std::vector<NodePose> nodes;
-  std::vector<double> weights;
+  std::vector<NodePose> nodes;       ///< one for each of Scene::nodes
+  std::vector<double> weights;       ///< of morph targets, node after node
   std::vector<double> track_values;  ///< scratch
 };
 
 /// Scratch for one mesh: its vertices in the space of its node, after shapes or morph targets, and its skin's
 /// matrices.
 struct DeformBuffers {
-  std::vector<glm::dvec3> positions;
-  std::vector<glm::dvec3> normals;
-  std::vector<glm::dmat4> joints;
+  std::vector<glm::dvec3> positions;  ///< metres
+  std::vector<glm::dvec3> normals;    ///< not unit
+  std::vector<glm::dmat4> joints;     ///< one for each of Skin::joints
 };
 
 /// World-space triangles of one instant. Positions are transformed in double and rounded once to float: the
 /// floats are the geometry, exact from here on. Triangle order and count are the same in all frames.
 struct FrameGeometry {
-  std::vector<glm::vec3> positions;
+  std::vector<glm::vec3> positions;        ///< metres, world space; finite
   std::vector<glm::vec3> normals;          ///< unit, or zero: the face normal; size of positions
   std::vector<glm::uvec3> triangles;       ///< triangle id -> vertices; (0,0,0) for dropped ones
   std::vector<std::uint32_t> materials;    ///< one for each triangle
@@ -57,26 +57,27 @@ struct FrameGeometry {
 /// What does not change from instant to instant: texture coordinates and colours of FrameGeometry's vertices,
 /// in the same order. Empty lists where no mesh has any.
 struct SurfaceCoordinates {
-  std::array<std::vector<glm::vec2>, 2> texture_coordinates;
-  std::vector<glm::vec4> colors;  ///< white where a mesh has none
+  std::array<std::vector<glm::vec2>, 2> texture_coordinates;  ///< (0,0) a picture's top left
+  std::vector<glm::vec4> colors;                              ///< white where a mesh has none
 };
+/// Of the vertices that evaluate_frame makes of `scene`.
 SurfaceCoordinates surface_coordinates(const Scene& scene);
 
 /// A light of one instant in world space.
 struct WorldLight {
-  int light = -1;  ///< index into Scene::lights
-  int node = -1;
+  int light = -1;                 ///< index into Scene::lights
+  int node = -1;                  ///< index into Scene::nodes
   glm::vec3 position{0.0f};       ///< of point and spot lights; the centre of area lights
   glm::vec3 direction{0, 0, -1};  ///< unit, the way that spot, directional and area lights shine
   glm::vec3 axis_x{1, 0, 0};      ///< area lights: half of the width
   glm::vec3 axis_y{0, 1, 0};      ///< area lights: half of the height
 
   // What the clip says of the light at this instant, in place of the scene's; empty: nothing.
-  std::optional<glm::vec3> color;
-  std::optional<float> intensity;
-  std::optional<float> range_m;
-  std::optional<float> inner_cone_rad;
-  std::optional<float> outer_cone_rad;
+  std::optional<glm::vec3> color;       ///< as Light::color
+  std::optional<float> intensity;       ///< as Light::intensity
+  std::optional<float> range_m;         ///< as Light::range_m
+  std::optional<float> inner_cone_rad;  ///< as Light::inner_cone_rad
+  std::optional<float> outer_cone_rad;  ///< as Light::outer_cone_rad
 };
 
 /// The scene's light with what the clip changes of it at that instant.
@@ -87,12 +88,12 @@ Light light_at(const Scene& scene, const WorldLight& placed);
 /// starts at eye + (x + 0.5) dx + (y + 0.5) dy and runs along d0. The floats are exact from here on, and the
 /// rasteriser's matrix is made from them too.
 struct ViewRays {
-  glm::vec3 eye{0.0f};
-  glm::vec3 d0{0, 0, -1};
-  glm::vec3 dx{1, 0, 0};
-  glm::vec3 dy{0, -1, 0};
-  bool orthographic = false;
-  float near_m = 0.1f;  ///< distance of the near plane along the view axis
+  glm::vec3 eye{0.0f};        ///< metres, world space
+  glm::vec3 d0{0, 0, -1};     ///< any length but zero
+  glm::vec3 dx{1, 0, 0};      ///< from one column to the next
+  glm::vec3 dy{0, -1, 0};     ///< from one row to the next, down the picture
+  bool orthographic = false;  ///< parallel rays
+  float near_m = 0.1f;        ///< distance of the near plane along the view axis
 };
 
 /// Evaluates nodes, skins, morph targets and shapes at `time_s` of clip `clip` (-1: no clip, the rest pose).

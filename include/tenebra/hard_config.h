@@ -14,7 +14,7 @@ namespace tenebra {
 /// A light without an area: what its shadow rays share, which is their end or, of directional lights, their
 /// direction.
 struct ShadowLight {
-  bool directional = false;
+  bool directional = false;       ///< else a point or a spot at `position`
   glm::vec3 position{0.0f};       ///< point and spot: taken as exact
   glm::vec3 to_light{0, 1, 0};    ///< directional: towards the light, taken as exact; any length but zero
   glm::vec3 spot_axis{0, -1, 0};  ///< unit, the way a spot shines
@@ -36,6 +36,7 @@ enum class Variant {
   precise_seatp,
 };
 std::string_view variant_name(Variant variant);  ///< the paper's name: "PreciseSorted"
+/// The variant of that name, as variant_name writes it; none: there is no such.
 std::optional<Variant> variant_from_name(std::string_view name);
 
 /// When a triangle between a point and the light counts as blocking.
@@ -46,12 +47,13 @@ enum class ContactRule {
                  ///< do not lie on their triangles, with front-face culling (the paper's way)
 };
 
+/// What hard shadows are asked for. The mask depends on `cull_front` and `contact` alone.
 struct HardShadowConfig {
-  Variant variant = Variant::tiles;
+  Variant variant = Variant::tiles;  ///< the method
   bool cull_front =
       false;  ///< only triangles that face away from the light cast (section 3.6); for closed meshes
-  ContactRule contact = ContactRule::triangle_ids;
-  SimdLevel simd = SimdLevel::automatic;
+  ContactRule contact = ContactRule::triangle_ids;  ///< what decides that a point is dark
+  SimdLevel simd = SimdLevel::automatic;            ///< the mask does not depend on it
   bool count_pixel_nodes = false;  ///< fill ShadowTracer::pixel_nodes, for display; the mask is the same
 };
 

@@ -12,8 +12,8 @@ namespace tenebra {
 /// A decoded picture. Values as its file stores them: colour encoded (sRGB in glTF, display values in BART).
 struct TextureImage {
   std::string name;  ///< file name, or where the scene's file has it: "images[3]"
-  int width = 0;
-  int height = 0;
+  int width = 0;     ///< pixels
+  int height = 0;    ///< pixels
   std::vector<std::uint8_t>
       rgba;  ///< four values for each pixel, row 0 at the top; alpha 255 where it has none
 };
@@ -22,6 +22,7 @@ struct TextureImage {
 enum class Wrap { repeat, clamp_to_edge, mirrored_repeat };
 /// How a texture's pixels are made smaller or larger; the names are those of glTF.
 enum class Filter { nearest, linear };
+/// Between which of its smaller copies a texture is mixed where its pixels are made smaller.
 enum class MipFilter { none, nearest, linear };
 
 /// A picture on a surface: which, by which coordinates, and how it is sampled.
@@ -30,13 +31,13 @@ struct TextureMap {
   int uv_set = 0;  ///< index into Mesh::texture_coordinates
   /// Applied to the coordinates, (0,0) the top left corner of the picture: transform * (u, v, 1).
   glm::mat3x2 transform{1, 0, 0, 1, 0, 0};
-  Wrap wrap_u = Wrap::repeat;
-  Wrap wrap_v = Wrap::repeat;
-  Filter magnify = Filter::linear;
-  Filter minify = Filter::linear;
-  MipFilter mip = MipFilter::linear;
+  Wrap wrap_u = Wrap::repeat;         ///< along u
+  Wrap wrap_v = Wrap::repeat;         ///< along v
+  Filter magnify = Filter::linear;    ///< where a pixel of the texture covers several of the picture
+  Filter minify = Filter::linear;     ///< where a pixel of the picture covers several of the texture
+  MipFilter mip = MipFilter::linear;  ///< between smaller copies
 
-  explicit operator bool() const { return image >= 0; }
+  explicit operator bool() const { return image >= 0; }  ///< whether there is a picture
 };
 
 /// Which formula reflects light (docs/materials.md).
@@ -56,28 +57,28 @@ enum class AlphaMode {
 
 /// How a surface reflects light, what passes through it, and whether it shines itself.
 struct Material {
-  std::string name;
+  std::string name;  ///< the file's; may be empty
   glm::vec3 base_color{
       0.8f};                 ///< diffuse reflectance, linear (Transfer::display: as shown); BART may exceed 1
   glm::vec3 ambient{-1.0f};  ///< reflectance of the scene's ambient light; negative: base_color
-  glm::vec3 emissive{0.0f};
-  bool casts_shadow = true;
+  glm::vec3 emissive{0.0f};  ///< light that the surface sends by itself, linear factor of its map
+  bool casts_shadow = true;  ///< false: triangles of it never occlude
 
-  SurfaceModel model = SurfaceModel::phong;
+  SurfaceModel model = SurfaceModel::phong;  ///< which of the members below count
   glm::vec3 specular{
       0.0f};  ///< phong: reflectance (BART's ks); specular_glossiness: reflectance at 0 degrees
-  float phong_exponent = 1.0f;
-  float metallic = 0.0f;
-  float roughness = 1.0f;  ///< as glTF's: the square root of GGX's alpha
-  bool double_sided = true;
+  float phong_exponent = 1.0f;  ///< phong: of the cosine to the mirrored light
+  float metallic = 0.0f;        ///< metallic_roughness: 0 to 1
+  float roughness = 1.0f;       ///< as glTF's: the square root of GGX's alpha
+  bool double_sided = true;     ///< read and kept; every triangle is drawn from both sides
 
-  AlphaMode alpha_mode = AlphaMode::opaque;
-  float alpha = 1.0f;         ///< factor of the texture's and the vertices'
-  float alpha_cutoff = 0.5f;  ///< AlphaMode::mask
+  AlphaMode alpha_mode = AlphaMode::opaque;  ///< what `alpha` means
+  float alpha = 1.0f;                        ///< factor of the texture's and the vertices'
+  float alpha_cutoff = 0.5f;                 ///< AlphaMode::mask
   /// Share of light that passes a surface that is there: BART's T, glTF's transmission. Times base_color
   /// where `tinted` (glTF); nothing refracts.
   float transmission = 0.0f;
-  bool tinted_transmission = false;
+  bool tinted_transmission = false;  ///< what passes is coloured by base_color
 
   TextureMap base_color_map;          ///< colour and alpha
   TextureMap emissive_map;            ///< colour

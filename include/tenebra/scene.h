@@ -23,9 +23,9 @@ struct MorphTarget {
 
 /// Triangles in the space of their node. All arrays of vertices have the size of `positions` or are empty.
 struct Mesh {
-  std::string name;    ///< glTF or OBJ name; may be empty
-  std::string source;  ///< where the file has it: "city2.aff:69", without the folder
-  std::vector<glm::vec3> positions;
+  std::string name;                      ///< glTF or OBJ name; may be empty
+  std::string source;                    ///< where the file has it: "city2.aff:69", without the folder
+  std::vector<glm::vec3> positions;      ///< metres, in the space of the node
   std::vector<glm::vec3> normals;        ///< unit; empty: the face normal
   std::vector<glm::uvec3> triangles;     ///< counter-clockwise seen from the front; indices in range
   std::vector<std::uint32_t> materials;  ///< one for each triangle, an index into Scene::materials
@@ -36,7 +36,7 @@ struct Mesh {
   std::vector<glm::u16vec4> joints;       ///< skin: four for each vertex, indices into Skin::joints
   std::vector<glm::vec4> weights;         ///< skin: their weights, used as stored
   std::vector<glm::u16vec4> more_joints;  ///< the fifth to eighth; empty where no vertex has them
-  std::vector<glm::vec4> more_weights;
+  std::vector<glm::vec4> more_weights;    ///< their weights
 
   std::vector<MorphTarget> morph_targets;  ///< added with the weights of the node
   std::vector<float> default_weights;      ///< one for each morph target
@@ -44,12 +44,12 @@ struct Mesh {
   /// BART's animated triangles: whole positions and normals at each key time, linear between, clamped
   /// outside.
   struct Shape {
-    double time_s = 0;
-    std::vector<glm::vec3> positions;
-    std::vector<glm::vec3> normals;
+    double time_s = 0;                 ///< of this key, seconds
+    std::vector<glm::vec3> positions;  ///< as many as Mesh::positions
+    std::vector<glm::vec3> normals;    ///< as many, or empty
   };
   std::vector<Shape> shapes;  ///< ascending times; if not empty, replaces positions and normals
-  bool casts_shadow = true;
+  bool casts_shadow = true;   ///< false: it is drawn and never occludes
 };
 
 /// The nodes that carry a mesh's vertices.
@@ -58,73 +58,75 @@ struct Skin {
   std::vector<glm::mat4> inverse_bind;  ///< one for each joint
 };
 
+/// What a light is.
 enum class LightType { point, spot, directional, area_rect, area_disk };
 /// Whether light gets weaker with the distance: BART's lights do not, glTF's do.
 enum class Falloff { none, inverse_square };
 
 /// A light in the space of its node: at its origin, shining along -Z.
 struct Light {
-  std::string name;
-  LightType type = LightType::point;
-  Falloff falloff = Falloff::inverse_square;
-  glm::vec3 color{1.0f};
+  std::string name;                           ///< the file's; may be empty
+  LightType type = LightType::point;          ///< which of the members below count
+  Falloff falloff = Falloff::inverse_square;  ///< of point and spot lights
+  glm::vec3 color{1.0f};                      ///< linear factor, as Scene::transfer says
   float intensity = 1.0f;        ///< candela (point, spot), lux (directional), nits (area); BART: no unit
   std::optional<float> range_m;  ///< no light beyond
   float inner_cone_rad = 0.0f;   ///< spot half-angles
-  float outer_cone_rad = 0.785398163f;
-  glm::vec2 size_m{1.0f};           ///< area: width and height; of a disc its diameter, twice
-  float diameter_deg = 0;           ///< directional: as seen from the scene, 0 to 90; 0: hard shadows
-  std::vector<int> left_out_nodes;  ///< whose meshes cast no shadow from this light (leave_out_covers)
+  float outer_cone_rad = 0.785398163f;  ///< no light beyond
+  glm::vec2 size_m{1.0f};               ///< area: width and height; of a disc its diameter, twice
+  float diameter_deg = 0;               ///< directional: as seen from the scene, 0 to 90; 0: hard shadows
+  std::vector<int> left_out_nodes;      ///< whose meshes cast no shadow from this light (leave_out_covers)
 };
 
+/// How a camera projects.
 enum class Projection { perspective, orthographic };
 
 /// A camera in the space of its node: at its origin, looking along -Z, +Y up.
 struct Camera {
-  std::string name;
-  Projection projection = Projection::perspective;
-  float vertical_fov_rad = 0.785398163f;  ///< full angle, bottom to top
-  float vertical_extent_m = 2.0f;         ///< orthographic: full height of the view
-  std::optional<float> aspect;            ///< width / height the file asks for; the picture's size decides
-  float near_m = 0.1f;
+  std::string name;                                 ///< the file's; may be empty
+  Projection projection = Projection::perspective;  ///< which of the members below count
+  float vertical_fov_rad = 0.785398163f;            ///< full angle, bottom to top
+  float vertical_extent_m = 2.0f;                   ///< orthographic: full height of the view
+  std::optional<float> aspect;  ///< width / height the file asks for; the picture's size decides
+  float near_m = 0.1f;          ///< distance of the near plane along the view axis
 };
 
 /// A place in the tree of the scene, and what stands there. The transform to its parent's space is
 /// translation * rotation * scale, or `matrix` where the file gives one that does not decompose.
 struct Node {
-  std::string name;
-  int parent = -1;  ///< smaller than the node's own index; -1 for roots
-  glm::dvec3 translation{0.0};
-  glm::dquat rotation{1.0, 0.0, 0.0, 0.0};
-  glm::dvec3 scale{1.0};
-  std::optional<glm::dmat4> matrix;  ///< if set, replaces the three above
-  int mesh = -1;
-  int skin = -1;
-  int light = -1;
-  int camera = -1;
-  bool visible = true;         ///< false hides the subtree
-  std::vector<float> weights;  ///< morph weights of this instance; empty: the mesh's
+  std::string name;                         ///< the file's; may be empty
+  int parent = -1;                          ///< smaller than the node's own index; -1 for roots
+  glm::dvec3 translation{0.0};              ///< metres
+  glm::dquat rotation{1.0, 0.0, 0.0, 0.0};  ///< unit
+  glm::dvec3 scale{1.0};                    ///< along the axes of the node
+  std::optional<glm::dmat4> matrix;         ///< if set, replaces the three above
+  int mesh = -1;                            ///< index into Scene::meshes; -1: none
+  int skin = -1;                            ///< index into Scene::skins; -1: none
+  int light = -1;                           ///< index into Scene::lights; -1: none
+  int camera = -1;                          ///< index into Scene::cameras; -1: none
+  bool visible = true;                      ///< false hides the subtree
+  std::vector<float> weights;               ///< morph weights of this instance; empty: the mesh's
 };
 
 /// Something that a scene file holds and nothing uses: "normalTexture", "KHR_materials_clearcoat".
 struct UnusedContent {
-  std::string name;  ///< as the file calls it
-  std::size_t count = 0;
+  std::string name;       ///< as the file calls it
+  std::size_t count = 0;  ///< how many times
 };
 
 /// Everything that was imported.
 struct Scene {
-  std::string name;         ///< file name without folder
-  std::vector<Node> nodes;  ///< parents before children
-  std::vector<Mesh> meshes;
-  std::vector<Skin> skins;
-  std::vector<Material> materials;  ///< at least one if there is any triangle
-  std::vector<TextureImage> images;
-  std::vector<Light> lights;
-  std::vector<Camera> cameras;
-  std::vector<Clip> clips;
-  Transfer transfer = Transfer::srgb;
-  glm::vec3 background{0.0f};
+  std::string name;                     ///< file name without folder
+  std::vector<Node> nodes;              ///< parents before children
+  std::vector<Mesh> meshes;             ///< Node::mesh leads here
+  std::vector<Skin> skins;              ///< Node::skin leads here
+  std::vector<Material> materials;      ///< at least one if there is any triangle
+  std::vector<TextureImage> images;     ///< TextureMap::image leads here
+  std::vector<Light> lights;            ///< Node::light leads here
+  std::vector<Camera> cameras;          ///< Node::camera leads here
+  std::vector<Clip> clips;              ///< animations; empty: it stands still
+  Transfer transfer = Transfer::srgb;   ///< what all colours of the scene are
+  glm::vec3 background{0.0f};           ///< colour where nothing is seen
   glm::vec3 ambient_light{0.1f};        ///< times the materials' ambient; formats that state one set it
   std::vector<std::string> extensions;  ///< that the file says it uses (glTF)
   std::vector<UnusedContent> unused;    ///< each stands in a warning too

@@ -17,6 +17,7 @@ enum class SoftSolver {
   clip,       ///< occluders subtracted from the light's polygon, point by point
 };
 std::string_view soft_solver_name(SoftSolver solver);  ///< "auto", "bsp", "clip"
+/// The solver of that name; none: there is no such.
 std::optional<SoftSolver> soft_solver_from_name(std::string_view name);
 
 /// Which points form a group, which shares its occluders (and its BSP).
@@ -34,17 +35,17 @@ enum class SoftPrecision { fast, reference };
 
 /// What soft shadows are asked for.
 struct SoftShadowConfig {
-  SoftSolver solver = SoftSolver::automatic;
-  SoftGrouping grouping = SoftGrouping::neighbourhood;
-  OccluderChoice choice = OccluderChoice::largest;
-  SoftPrecision precision = SoftPrecision::fast;
+  SoftSolver solver = SoftSolver::automatic;            ///< the method; all give the same answer
+  SoftGrouping grouping = SoftGrouping::neighbourhood;  ///< of points that share occluders
+  OccluderChoice choice = OccluderChoice::largest;      ///< of the BSP
+  SoftPrecision precision = SoftPrecision::fast;        ///< of polygons on the light
   /// 1/255 of white, RMS over the penumbra, white being the 99.9th percentile of the frame's irradiance; 0:
   /// exact. Above 0 groups of points that many triangles may shadow look at places on the light instead, by
   /// exact hard shadows: at as many as it takes until they err by less, as far as can be told
   /// (SoftStats::error_255). Points that all or none of the light reaches by certain proof stay exact.
   double error_255 = 0;
   bool keep_trees = true;  ///< false: each point starts a new BSP (the paper's "modified version", Figure 8)
-  SimdLevel simd = SimdLevel::automatic;
+  SimdLevel simd = SimdLevel::automatic;  ///< which vectors; see SoftPrecision for what answers depend on
 };
 
 /// One value per pixel, row 0 at the top; zero where no triangle is seen or the light is below the horizon.
@@ -75,6 +76,7 @@ struct SoftStats {
   std::uint64_t tree_nodes = 0;         ///< BSP nodes made
   std::uint64_t peak_tree_bytes = 0;    ///< memory of all BSPs alive at one time, at most
 };
+/// Adds the work of another light, or of another part of one; of errors and bytes the larger counts.
 inline SoftStats& operator+=(SoftStats& to, const SoftStats& from) {
   to.groups += from.groups;
   to.points_lit += from.points_lit;

@@ -24,6 +24,7 @@ enum class SeeThrough {
   ignore  ///< they cast no shadow at all
 };
 std::string_view see_through_name(SeeThrough see_through);  ///< "tint", "cast", "ignore"
+/// What that name means; none: there is no such.
 std::optional<SeeThrough> see_through_from_name(std::string_view name);
 
 /// Makes the see-through triangles of an instant cast as `see_through` says (evaluate_frame: tint).
@@ -39,19 +40,21 @@ struct SeeThroughSurfaces {
   std::array<std::span<const glm::vec2>, 2> texture_coordinates;  ///< for each vertex
   std::span<const glm::vec4> colors;                              ///< for each vertex
 };
+/// Of one instant: views into its arguments, which must live as long.
 SeeThroughSurfaces see_through_surfaces(const Scene& scene, const FrameGeometry& geometry,
                                         const SurfaceCoordinates& coordinates);
 
 /// The light of some pixels, coloured on its way: what the mask lets through times `factors`. Pixels that are
 /// not named have factor 1. Each pixel once, in an order that does not depend on threads.
 struct TintMask {
-  std::vector<std::uint32_t> pixels;
-  std::vector<glm::vec3> factors;  ///< 0 to 1, red, green and blue; one for each of `pixels`
+  std::vector<std::uint32_t> pixels;  ///< places in the lists of VisiblePoints
+  std::vector<glm::vec3> factors;     ///< 0 to 1, red, green and blue; one for each of `pixels`
 };
 
+/// What tint is asked for.
 struct TintConfig {
-  ContactRule contact = ContactRule::triangle_ids;
-  SimdLevel simd = SimdLevel::automatic;
+  ContactRule contact = ContactRule::triangle_ids;  ///< hard: as of the mask
+  SimdLevel simd = SimdLevel::automatic;            ///< factors do not depend on it
   bool own_irradiance = false;  ///< soft: the mask's irradiance is an estimate; find it again, exactly
   bool same_surfaces = false;   ///< triangles and surfaces are those of the last call, and lie as they did
 };
@@ -63,7 +66,7 @@ struct TintStats {
   std::uint64_t crossings = 0;  ///< hard: samples times see-through triangles between them and the light
   std::uint64_t exact = 0;      ///< hard: tests that double left open
   std::uint64_t numeric = 0;    ///< soft: points answered by the rule of 4,096 places
-  double ms = 0;
+  double ms = 0;                ///< wall-clock time
 };
 
 /// Finds what see-through surfaces let pass. Keeps its buffers from frame to frame.
@@ -104,7 +107,7 @@ public:
              const TriangleView& triangles, const SeeThroughSurfaces& surfaces, const AreaLight& light,
              const SoftMask& mask, const TintConfig& config, TintMask& out, const StopFlag* stop = nullptr);
 
-  const TintStats& stats() const;
+  const TintStats& stats() const;  ///< of the last call
 
 private:
   struct State;

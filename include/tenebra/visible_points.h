@@ -21,8 +21,8 @@ inline constexpr std::uint32_t no_triangle = 0xffffffffu;
 /// Triangles of one instant that somebody else owns, receivers and occluders alike. Vertices are floats,
 /// taken as exact; a triangle's id is its index.
 struct TriangleView {
-  std::span<const glm::vec3> positions;
-  std::span<const glm::uvec3> triangles;
+  std::span<const glm::vec3> positions;        ///< vertices, metres, world space
+  std::span<const glm::uvec3> triangles;       ///< three vertices each; ids are places here
   std::span<const std::uint8_t> casts_shadow;  ///< one for each triangle; empty: all cast
   std::span<const std::uint32_t>
       parts;                  ///< a hint, ascending: the first triangle of each run that moves as one
@@ -31,6 +31,7 @@ struct TriangleView {
   /// lift_visible_points(). Empty: on the triangles. `version` says nothing of them.
   std::span<const glm::vec3> normals{};
 };
+/// Views into `geometry`, which must live as long.
 inline TriangleView triangle_view(const FrameGeometry& geometry) {
   return {geometry.positions, geometry.triangles, geometry.casts_shadow, geometry.parts};
 }
@@ -45,8 +46,8 @@ public:
   PointTileStore& operator=(PointTileStore&&) noexcept;
   ~PointTileStore();
 
-  bool empty() const;
-  void clear();
+  bool empty() const;                                                    ///< there are none
+  void clear();                                                          ///< drops them
   points::PointTiles& operator*();                                       ///< made if there are none
   const points::PointTiles& operator*() const { return *tiles_; }        ///< if not empty()
   const points::PointTiles* operator->() const { return tiles_.get(); }  ///< if not empty()
@@ -57,8 +58,8 @@ private:
 
 /// For each pixel, row 0 at the top, a point and the triangle that it lies on. The points are taken as exact.
 struct VisiblePoints {
-  int width = 0;
-  int height = 0;
+  int width = 0;                         ///< pixels
+  int height = 0;                        ///< pixels
   std::vector<glm::dvec3> positions;     ///< width * height; meaningless where the id is no_triangle.
                                          ///< Empty: visible_position() says where they are
   std::vector<std::uint32_t> triangles;  ///< width * height ids, or no_triangle

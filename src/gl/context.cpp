@@ -61,6 +61,9 @@ Expected<void> Context::make_current() {
   return load_functions(*backend_);
 }
 
+bool Context::is_adopted() const {
+  return kind_name() == "window";
+}
 std::string_view Context::kind_name() const {
   return backend_->kind_name();
 }

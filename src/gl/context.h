@@ -36,6 +36,7 @@ public:
   /// Makes it current on this thread again and its functions those of the process (adopted: functions only).
   Expected<void> make_current();
 
+  bool is_adopted() const;                 ///< others draw in it, too
   std::string_view kind_name() const;      ///< "egl", "osmesa" or "window"
   const std::string& description() const;  ///< GL_RENDERER, GL_VERSION
 

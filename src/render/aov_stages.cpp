@@ -5,6 +5,7 @@
 #include <limits>
 
 #include "parallel/parallel.h"
+#include "render/mask_colour.h"
 #include "render/renderer_state.h"
 
 namespace tenebra::render {
@@ -50,6 +51,16 @@ void find_numbers(const FrameGeometry& geometry, const std::vector<std::uint32_t
       out.materials[i] = geometry.materials[ids[i]];
     }
   });
+}
+
+std::vector<LightVisibility> visibilities(const std::vector<LightMask>& masks) {
+  std::vector<LightVisibility> out;
+  for (const LightMask& mask : masks) {
+    base::ImageF& fraction = out.emplace_back(LightVisibility{mask.light, {}}).fraction;
+    fraction = {mask.mask.width, mask.mask.height, 1, std::vector<float>(mask.mask.pixels.size())};
+    for (std::size_t i = 0; i < fraction.pixels.size(); ++i) fraction.pixels[i] = visible_fraction(mask, i);
+  }
+  return out;
 }
 
 }  // namespace
@@ -116,6 +127,7 @@ void Renderer::State::fill_aovs(const FrameInput& input, const std::vector<Drawn
     for (std::size_t i = 0; i < seen.ids.size(); ++i)
       if (seen.ids[i] != no_triangle) out.openness.pixels[i] = openness[i];
   }
+  if (wanted.visibility) out.visibility = visibilities(result.masks);
   const shade::PixelSamples pixels{seen.width, seen.height, seen.ids, factors, {}};
   const shade::PixelSamples unlit{seen.width, seen.height, seen.ids, {}, {}};
   const shade::Subject subject{input.geometry, input.view, surfaces, lifts_points(settings)};

@@ -1,5 +1,6 @@
 // What a frame knows of the surfaces that are seen, beside their colours: pictures for compositing and
-// denoising.
+// denoising. FrameResult has them for whoever calls Renderer, and OpenEXR files (--aov) are written from
+// them.
 #pragma once
 
 #include <cstdint>
@@ -9,25 +10,35 @@
 
 namespace tenebra::render {
 
-/// Which of them are wanted.
+/// Which of them are wanted. What is not costs neither time nor memory.
 struct AovChoice {
   bool depth = false;
   bool ids = false;
   bool normal = false;
+  bool visibility = false;  ///< needs shadows
   bool irradiance = false;
   bool openness = false;  ///< needs ambient occlusion
   bool albedo = false;
 
-  bool any() const { return depth || ids || normal || irradiance || openness || albedo; }
+  bool any() const { return depth || ids || normal || visibility || irradiance || openness || albedo; }
 };
 
-/// Of the opaque surface that each pixel's centre sees; nothing is smoothed. Empty where not wanted.
+/// How much of a light each pixel sees, behind opaque casters: its mask, whatever found it.
+struct LightVisibility {
+  int light = -1;         ///< as LightMask::light
+  base::ImageF fraction;  ///< 0 to 1; of a light without an area 0 or 1; 0: background
+};
+
+/// Of the opaque surface that each pixel's centre sees; nothing is smoothed. Each is of the frame's width and
+/// height, row 0 at the top: one value a pixel, or three (normal, irradiance, albedo). Empty where not
+/// wanted.
 struct Aovs {
   base::ImageF depth;              ///< metres along the view axis from the eye's plane; infinite: background
   std::vector<std::uint32_t> ids;  ///< triangle, its index in FrameGeometry; no_triangle: background
   std::vector<std::uint32_t> parts;      ///< likewise: which of FrameGeometry::parts, a mesh at its node
   std::vector<std::uint32_t> materials;  ///< likewise: index into Scene::materials
-  base::ImageF normal;      ///< shading normal, unit, in world space, to the eye's side; 0: background
+  base::ImageF normal;  ///< shading normal, unit, in world space, to the eye's side; 0: background
+  std::vector<LightVisibility> visibility;  ///< one for each of FrameResult::masks
   base::ImageF irradiance;  ///< RGB of all lights with their shadows, without ambient light: lux, or for
                             ///< lights without units (BART) intensity times the cosine
   base::ImageF openness;    ///< ambient occlusion: 1 open to 0 closed; 1: background

@@ -2,10 +2,12 @@
 
 #include <algorithm>
 #include <array>
+#include <optional>
 #include <span>
 
 #include "base/fail.h"
 #include "base/stopwatch.h"
+#include "gl/kept_state.h"
 #include "parallel/parallel.h"
 #include "raster/gbuffer.h"
 #include "raster/geometry_buffers.h"
@@ -112,6 +114,8 @@ Expected<void> FrameRaster::draw(const FrameGeometry& geometry, const ViewRays& 
     return drawn;
   }
   Gl& gl = *gl_;
+  std::optional<gl::KeptState> kept;
+  if (gl.context.is_adopted()) kept.emplace();
   if (auto uploaded = gl.geometry.upload(geometry); !uploaded) return uploaded;
   if (auto drawn = gl.pass.draw(view, gl.geometry, wish.width, wish.height, gl.gbuffer); !drawn) return drawn;
   timings.raster_ms = watch.lap_ms();

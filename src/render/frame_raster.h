@@ -35,7 +35,8 @@ public:
   /// than software. Fails with a sentence if there is no context, it lacks OpenGL 4.5 core or a shader does
   /// not build.
   static Expected<FrameRaster> create(const RasterChoice& choice);
-  /// By OpenGL in this context, whatever draws there.
+  /// By OpenGL in this context, whatever draws there. An adopted one is left as found after each draw
+  /// (gl/kept_state.h).
   static Expected<FrameRaster> create(gl::Context context);
   FrameRaster(FrameRaster&&) noexcept;
   FrameRaster& operator=(FrameRaster&&) noexcept;

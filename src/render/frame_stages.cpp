@@ -33,6 +33,13 @@ void Renderer::State::points_from_depth(const ViewRays& view) {
 
 Expected<void> Renderer::State::find_ids(const FrameInput& input, const RenderSettings& settings,
                                          FrameTimings& timings) {
+  if (!input.ids.empty()) {
+    seen = {.width = settings.width, .height = settings.height, .transform = {}, .ids = input.ids};
+    const std::size_t triangles = input.geometry.triangles.size();
+    for (std::uint32_t& id : seen.ids)
+      if (id >= triangles) id = no_triangle;
+    return {};
+  }
   const FrameRaster::Wish wish{.width = settings.width,
                                .height = settings.height,
                                .with_depth = settings.samples == SampleSource::depth,

@@ -43,6 +43,17 @@ Expected<void> check_settings(const RenderSettings& settings) {
   return {};
 }
 
+/// Ids that another renderer has drawn.
+Expected<void> check_ids(std::span<const std::uint32_t> ids, const RenderSettings& settings) {
+  if (ids.empty()) return {};
+  if (ids.size() != static_cast<std::size_t>(settings.width) * static_cast<std::size_t>(settings.height))
+    return base::fail("ids that were handed in: found {}, expected {}x{}", ids.size(), settings.width,
+                      settings.height);
+  if (settings.antialias != 1 || settings.samples != SampleSource::ids)
+    return base::fail("ids that were handed in: expected one sample a pixel, from ids");
+  return {};
+}
+
 }  // namespace
 
 Renderer::Renderer(std::unique_ptr<State> state) : state_(std::move(state)) {}
@@ -127,6 +138,7 @@ Expected<void> Renderer::render_frame(const FrameInput& given, const RenderSetti
   base::Stopwatch watch, whole;
   if (auto checked = check_settings(settings); !checked) return checked;
   if (auto checked = s.raster.check_picture_size(settings.width, settings.height); !checked) return checked;
+  if (auto checked = check_ids(input.ids, settings); !checked) return checked;
   const auto lights = render::drawn_lights(s.scene, input, settings, result.notes);
   if (!lights) return tl::unexpected(lights.error());
   s.drawn = *lights;

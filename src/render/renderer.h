@@ -97,6 +97,10 @@ struct FrameInput {
   FrameGeometry geometry;
   std::vector<WorldLight> lights;
   ViewRays view;
+  /// What the pixels see, where another renderer has drawn it (tenebra/host_frame.h): width * height
+  /// triangles, row 0 at the top; what is no triangle is background. Empty: it is drawn here. Needs one
+  /// sample a pixel and SampleSource::ids; nothing see-through is laid over it.
+  std::vector<std::uint32_t> ids{};
 };
 
 struct LightMask {
@@ -124,7 +128,7 @@ struct FrameResult {
   base::Image8 image;        ///< RGB, encoded as Scene::transfer says; the mean of what the samples show
   base::ImageF linear;       ///< RenderSettings::linear: RGB of the pixels' centres before exposure and tone
   base::ImageF linear_mean;  ///< RenderSettings::linear_mean: the same, but the mean over a pixel's samples
-  Aovs aovs;
+  Aovs aovs;                 ///< RenderSettings::aovs: depth, ids, normals, visibility, irradiance, ...
   std::vector<std::uint8_t> seen;  ///< RenderSettings::linear: 1 where a pixel sees a triangle
   std::vector<LightMask> masks;    ///< one per light drawn, of those with an intensity; empty without shadows
   std::vector<LightMethod> methods;  ///< of the lights that had hard shadows

@@ -93,6 +93,23 @@ for program in "${programs[@]}"; do
 done
 check_reachable
 
+if pkg-config --exists glfw3; then  # the program that draws for itself; tests_host runs it
+  mkdir "$work/foreign"
+  cat > "$work/foreign/CMakeLists.txt" << END
+cmake_minimum_required(VERSION 3.25)
+project(foreign LANGUAGES CXX)
+set(CMAKE_CXX_STANDARD 20)
+find_package(tenebra REQUIRED)
+find_package(glfw3 REQUIRED)
+find_package(OpenGL REQUIRED COMPONENTS OpenGL)
+add_executable(foreign $root/tests/consumer/foreign_renderer.cpp)
+target_link_libraries(foreign PRIVATE tenebra::host tenebra::query glfw OpenGL::OpenGL)
+END
+  quietly cmake -S "$work/foreign" -B "$work/foreign/build" -G Ninja -DCMAKE_CXX_COMPILER="$compiler" \
+    -DCMAKE_PREFIX_PATH="$prefix"
+  quietly cmake --build "$work/foreign/build"
+fi
+
 quietly cc -std=c99 -Wall -Wextra -Wpedantic -Werror "$root/tests/consumer/mask.c" -I"$prefix/include" \
   -L"$prefix/lib" -ltenebra -lm -Wl,-rpath,"$prefix/lib" -o "$work/mask"
 "$work/mask" || stop "mask.c (C) did not give the known answers"

@@ -3,14 +3,13 @@
 #include <fmt/core.h>
 
 #include <algorithm>
-#include <deque>
 #include <map>
 #include <set>
 
 namespace tenebra::viewer {
 namespace {
 
-/// Channels of one picture, and the values that were made for them alone.
+/// Channels of one picture.
 class Layers {
 public:
   explicit Layers(exr::Precision precision) : precision_(precision) {}
@@ -28,22 +27,12 @@ public:
   void add_ids(const std::string& name, const std::vector<std::uint32_t>& ids) {
     if (!ids.empty()) channels_.push_back({name, exr::Numbers(ids)});
   }
-  /// The visible part of a light: 0 to 1.
-  void add_visibility(const std::string& name, const render::LightMask& mask) {
-    if (!mask.visible_fraction.pixels.empty())
-      return add_single(name, mask.visible_fraction.pixels, precision_);
-    std::vector<float>& values = made_.emplace_back(mask.mask.pixels.size());
-    for (std::size_t i = 0; i < values.size(); ++i)
-      values[i] = static_cast<float>(mask.mask.pixels[i]) / 255.0f;
-    add_single(name, values, precision_);
-  }
 
   std::vector<exr::Channel> take() { return std::move(channels_); }
 
 private:
   exr::Precision precision_;
   std::vector<exr::Channel> channels_;
-  std::deque<std::vector<float>> made_;  // stay where they are
 };
 
 /// As part of a channel's name: dots would part layers.
@@ -144,9 +133,8 @@ Expected<std::string> exr_of_frame(const RenderPlan& plan, const RenderOptions& 
   layers.add_single("ao", aovs.openness.pixels, precision);
   layers.add("albedo", "RGB", aovs.albedo);
   LightNames names(plan, options, frame.time_s);
-  if (options.pictures.aovs.visibility)
-    for (const render::LightMask& mask : result.masks)
-      layers.add_visibility("visibility." + names.take(mask.light), mask);
+  for (const render::LightVisibility& of : aovs.visibility)
+    layers.add_single("visibility." + names.take(of.light), of.fraction.pixels, precision);
   return exr::encode(
       {.width = plan.settings.width,
        .height = plan.settings.height,

@@ -18,16 +18,16 @@ constexpr std::array exr_compression_choices{Choice<exr::Compression>{"zip", exr
 
 struct AovName {
   std::string_view name;
-  bool& (*wanted)(AovOptions&);
+  bool& (*wanted)(render::AovChoice&);
 };
 constexpr std::array aov_names{
-    AovName{"depth", [](AovOptions& o) -> bool& { return o.of_frame.depth; }},
-    AovName{"id", [](AovOptions& o) -> bool& { return o.of_frame.ids; }},
-    AovName{"normal", [](AovOptions& o) -> bool& { return o.of_frame.normal; }},
-    AovName{"visibility", [](AovOptions& o) -> bool& { return o.visibility; }},
-    AovName{"irradiance", [](AovOptions& o) -> bool& { return o.of_frame.irradiance; }},
-    AovName{"ao", [](AovOptions& o) -> bool& { return o.of_frame.openness; }},
-    AovName{"albedo", [](AovOptions& o) -> bool& { return o.of_frame.albedo; }}};
+    AovName{"depth", [](render::AovChoice& o) -> bool& { return o.depth; }},
+    AovName{"id", [](render::AovChoice& o) -> bool& { return o.ids; }},
+    AovName{"normal", [](render::AovChoice& o) -> bool& { return o.normal; }},
+    AovName{"visibility", [](render::AovChoice& o) -> bool& { return o.visibility; }},
+    AovName{"irradiance", [](render::AovChoice& o) -> bool& { return o.irradiance; }},
+    AovName{"ao", [](render::AovChoice& o) -> bool& { return o.openness; }},
+    AovName{"albedo", [](render::AovChoice& o) -> bool& { return o.albedo; }}};
 
 Expected<std::optional<OutputPattern>> parse_pictures(const std::string& text) {
   if (text == "none") return std::optional<OutputPattern>();
@@ -36,8 +36,8 @@ Expected<std::optional<OutputPattern>> parse_pictures(const std::string& text) {
   return std::optional<OutputPattern>(std::move(*pattern));
 }
 
-Expected<AovOptions> parse_aovs(const std::string& text) {
-  AovOptions options;
+Expected<render::AovChoice> parse_aovs(const std::string& text) {
+  render::AovChoice options;
   std::string_view rest = text;
   for (bool last = false; !last;) {
     const std::size_t comma = rest.find(',');
@@ -110,7 +110,7 @@ std::string pictures_text(const PictureOptions& options) {
   if (!options.are_exr()) return text;
   text += " (" + choice_name(exr_type_choices, options.precision.value_or(exr::Precision::half)) + ", " +
           choice_name(exr_compression_choices, options.compression.value_or(exr::Compression::zip));
-  AovOptions aovs = options.aovs;
+  render::AovChoice aovs = options.aovs;
   for (const AovName& aov : aov_names)
     if (aov.wanted(aovs)) text += fmt::format(", {}", aov.name);
   return text + ")";

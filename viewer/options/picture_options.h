@@ -15,19 +15,11 @@ namespace tenebra::viewer {
 /// blue, a byte each.
 enum class PipeFormat { png, rgb24 };
 
-/// What OpenEXR pictures hold beside the colours.
-struct AovOptions {
-  render::AovChoice of_frame;
-  bool visibility = false;  ///< of each light
-
-  bool any() const { return of_frame.any() || visibility; }
-};
-
 struct PictureOptions {
   std::optional<OutputPattern> files;  ///< .png or .exr; none: no files
   bool to_pipe = false;                ///< -o -
   std::optional<PipeFormat> pipe_format;
-  AovOptions aovs;
+  render::AovChoice aovs;  ///< what OpenEXR pictures hold beside the colours
   std::optional<exr::Precision> precision;
   std::optional<exr::Compression> compression;
 

@@ -170,7 +170,7 @@ Expected<void> check_pictures(const RenderOptions& options, bool several) {
   const render::RenderSettings& settings = options.method.render;
   if (pictures.aovs.visibility && settings.shadows == render::ShadowMode::none)
     return base::fail("--aov visibility needs shadows, and --shadows none finds none");
-  if (pictures.aovs.of_frame.openness && settings.ao.mode == AoMode::none)
+  if (pictures.aovs.openness && settings.ao.mode == AoMode::none)
     return base::fail("--aov ao needs ambient occlusion; expected --ao adaptive, field or rays with it");
   return pictures.files ? check_pattern(*pictures.files, "-o", several) : Expected<void>();
 }

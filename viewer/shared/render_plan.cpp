@@ -53,7 +53,7 @@ Expected<RenderPlan> plan_render(const RenderOptions& options) {
   plan.settings = method_settings(options.method, plan.size, plan.display);
   plan.settings.mask_means = !options.mask_means.empty();
   plan.settings.linear_mean = options.pictures.are_exr();
-  plan.settings.aovs = options.pictures.aovs.of_frame;
+  plan.settings.aovs = options.pictures.aovs;
   plan.settings.sample_masks = !options.mask_samples.empty();
   plan.settings.area_lights.own_size_m = edited_sizes_m(options.scene.edits.lights);
   plan.settings.area_lights.own_sun_deg = edited_suns_deg(options.scene.edits.lights);
