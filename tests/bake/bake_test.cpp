@@ -46,6 +46,29 @@ TEST(Lightmap, AClosedRoomLitFromOutsideIsDark) {
   }
 }
 
+TEST(Lightmap, SamplesOnEdgesWouldBeLitFromOutside) {
+  Scene scene = box_room(vec3(0), vec3(4.1f, 2.7f, 6.3f));
+  add_light(scene, LightType::point, vec3(1.3f, 5, 2));
+  add_light(scene, LightType::point, vec3(-3, 1, 2));
+  render::FrameInput input;
+  evaluate_frame(scene, -1, 0, input.geometry);
+  input.lights = evaluate_lights(scene, -1, 0);
+  std::vector<bake::Sample> samples;
+  for (std::uint32_t t = 0; t < input.geometry.triangles.size(); ++t)
+    for (const dvec3 weights : {dvec3(1, 0, 0), dvec3(0.3, 0.7, 0), dvec3(0, 0.6, 0.4), dvec3(0.5, 0, 0.5)})
+      samples.push_back({t, t, 1.0f, weights});
+  std::vector<std::string> notes;
+  auto light = bake::SurfaceLight::create(scene, input, {}, notes).value();
+  const auto lit = [&] {
+    std::vector<bake::Light> values(samples.size());
+    EXPECT_TRUE(light.at(samples, values, nullptr, {}).has_value());
+    return std::count_if(values.begin(), values.end(), [](const bake::Light& l) { return l.r > 0; });
+  };
+  EXPECT_GT(lit(), 0) << "a point on a wall's plane is not blocked by it";
+  bake::move_inside(input.geometry, bake::edge_margin(bake::extent_of(input.geometry)), samples);
+  EXPECT_EQ(lit(), 0);
+}
+
 TEST(Lightmap, ALampInTheRoomLightsAllOfIt) {
   Scene scene = box_room(vec3(0), vec3(4, 3, 4));
   add_light(scene, LightType::point, vec3(2, 1.5f, 2));
@@ -148,7 +171,7 @@ TEST(TexelCoverage, CountsPlacesSliversAndOverlaps) {
   }
   EXPECT_EQ(slivers, 3u);
   triangles.push_back({{dvec2(2, 2), dvec2(6, 2), dvec2(6, 6)}, 3, 1});
-  EXPECT_EQ(bake::TexelCoverage(triangles, 16, 2).overlaps_between(), 32u);
+  EXPECT_EQ(bake::TexelCoverage(triangles, 16, 2).overlaps_between(), 36u) << "8 x 9 / 2 places";
 }
 
 TEST(BakedMap, DilatesRingByRing) {
