@@ -33,6 +33,7 @@ MAY_INCLUDE = {
     "visibility": {"base", "math", "simd", "parallel", "scene"},
     "raster": {"base", "math", "scene", "gl", "visibility"},
     "render": {"base", "math", "simd", "parallel", "scene", "formats", "points", "shadow", "soft", "ao", "tint", "gl", "raster", "visibility", "texture", "cutout", "shade"},
+    "bake": {"base", "parallel", "scene", "points", "soft", "shade", "render"},
 }
 
 # Rooms of a folder, lowest first: a room includes itself and rooms before it. "" is the folder's own files.

@@ -113,6 +113,24 @@ TEST(PointTracer, SoftFractionsAreThoseOfTheTracer) {
   }
 }
 
+TEST(PointTracer, SunsAreSeenFromEachSide) {
+  const Soup soup = floor_and_plate();
+  const Geometry geometry = geometry_of(soup);
+  const AreaLight sun = make_sun({0, 1, 0}, 10).value();
+  // In the open, under the edge of the plate, under the plate; and the floor's other side.
+  const std::vector<dvec3> at{{4, 0, 3}, {0, 0, -2}, {-3, 0, -2}, {4, 0, 3}};
+  const std::vector<std::uint32_t> on(4, 0);
+  const std::vector<std::int8_t> sides{1, 1, 1, -1};
+  std::vector<float> fraction(4), irradiance(4);
+  ASSERT_TRUE(PointTracer().soft_visibility(geometry, {.positions = at, .triangles = on, .sides = sides}, sun,
+                                            {}, fraction, irradiance));
+  EXPECT_EQ(fraction[0], 1.0f);
+  EXPECT_NEAR(fraction[1], 0.5f, 1e-5f);
+  EXPECT_EQ(fraction[2], 0.0f);
+  EXPECT_EQ(fraction[3], 0.0f);
+  EXPECT_NEAR(irradiance[0], sun.area_m2, 1e-3 * sun.area_m2);
+}
+
 TEST(PointTracer, PointsInTheAir) {
   const Geometry geometry = geometry_of(floor_and_plate());
   const ShadowLight light{.position = {0, 4, 0}};

@@ -41,29 +41,6 @@ Expected<Variant> parse_variant(const std::string& text) {
       text);
 }
 
-Expected<SimdLevel> parse_simd(const std::string& text) {
-  const auto level = simd_level_from_name(lower_case(text));
-  if (!level) return base::fail("found {}, expected auto, scalar, sse4, avx2 or avx512", text);
-  if (*level != SimdLevel::automatic && !simd_level_supported(*level)) {
-    return base::fail("this machine or build has no {}, its best is {}", text,
-                      simd_level_name(best_simd_level()));
-  }
-  return *level;
-}
-
-Expected<int> parse_light(const std::string& text) {
-  if (is_word(text, "all")) return -1;
-  const auto number = parse_count(text);
-  return number ? number : base::fail("found {}, expected the number of a light, from 0, or all", text);
-}
-
-Expected<int> parse_threads(const std::string& text) {
-  const auto threads = parse_count(text);
-  if (!threads || *threads > 1024)
-    return base::fail("found {}, expected 1 to 1024, or 0 for all cores", text);
-  return threads;
-}
-
 Expected<int> parse_samples(const std::string& text) {
   const auto samples = parse_count(text);
   if (!samples || *samples > 16 || !render::is_sample_count(*samples))
@@ -78,14 +55,6 @@ Expected<int> parse_points(const std::string& text) {
                       most_soft_points);
   }
   return points;
-}
-
-Expected<double> parse_error(const std::string& text) {
-  if (text == "0") return 0.0;
-  const auto error = parse_positive(text);
-  if (!error || *error < 0.1 || *error > 255)
-    return base::fail("found {}, expected 0 (exact), or 0.1 to 255", text);
-  return error;
 }
 
 Expected<int> parse_downscale(const std::string& text) {
@@ -241,7 +210,7 @@ void add_soft(CLI::App& command, MethodOptions& options) {
                  "Replaces each area light by N points with exact hard\nshadows: steps in the penumbra, of "
                  "an error that is not\nestimated [0: as --soft-error says]")
            .type_name("N"),
-       add_value(command, soft_error_option, soft.error_255, parse_error,
+       add_value(command, soft_error_option, soft.error_255, parse_soft_error,
                  "The error aimed at, RMS over the penumbra, in 1/255 of\nwhite: dense penumbrae look at as "
                  "many places on the\nlight as that takes; the log says what is estimated\n[0: exact]")
            .type_name("E")},
@@ -318,6 +287,37 @@ std::string idle_for(const GivenOption& option, const render::RenderSettings& re
 }
 
 }  // namespace
+
+Expected<SimdLevel> parse_simd(const std::string& text) {
+  const auto level = simd_level_from_name(lower_case(text));
+  if (!level) return base::fail("found {}, expected auto, scalar, sse4, avx2 or avx512", text);
+  if (*level != SimdLevel::automatic && !simd_level_supported(*level)) {
+    return base::fail("this machine or build has no {}, its best is {}", text,
+                      simd_level_name(best_simd_level()));
+  }
+  return *level;
+}
+
+Expected<int> parse_light(const std::string& text) {
+  if (is_word(text, "all")) return -1;
+  const auto number = parse_count(text);
+  return number ? number : base::fail("found {}, expected the number of a light, from 0, or all", text);
+}
+
+Expected<int> parse_threads(const std::string& text) {
+  const auto threads = parse_count(text);
+  if (!threads || *threads > 1024)
+    return base::fail("found {}, expected 1 to 1024, or 0 for all cores", text);
+  return threads;
+}
+
+Expected<double> parse_soft_error(const std::string& text) {
+  if (text == "0") return 0.0;
+  const auto error = parse_positive(text);
+  if (!error || *error < 0.1 || *error > 255)
+    return base::fail("found {}, expected 0 (exact), or 0.1 to 255", text);
+  return error;
+}
 
 void add_method_options(CLI::App& command, MethodOptions& options) {
   add_common(command, options);

@@ -172,6 +172,12 @@ void add_scene_options(CLI::App& command, SceneOptions& options) {
   add_camera(command, options);
 }
 
+void add_content_options(CLI::App& command, SceneOptions& options) {
+  add_files(command, options);
+  add_edits(command, options);
+  add_moment(command, options);
+}
+
 SceneOptions options_for(const std::string& file, const SceneOptions& before) {
   SceneOptions options;
   options.file = file;

@@ -46,6 +46,10 @@ struct SceneOptions {
 /// as long. A command makes SCENE required with option_of(command, "SCENE").required().
 void add_scene_options(CLI::App& command, SceneOptions& options);
 
+/// Of these SCENE, --scene, --no-cast, --cast-all, --cone-sides, --cutout-limit, --texture-path, those that
+/// change lights, materials and nodes, --time, --fps and --clip; for commands without a picture.
+void add_content_options(CLI::App& command, SceneOptions& options);
+
 /// Adds --texture-path; for commands without the options above.
 void add_texture_path(CLI::App& command, formats::ImportOptions& options);
 

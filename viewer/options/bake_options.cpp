@@ -1,0 +1,162 @@
+#include "options/bake_options.h"
+
+#include <filesystem>
+
+#include "base/fail.h"
+#include "options/choices.h"
+
+namespace tenebra::viewer {
+namespace {
+
+constexpr const char* bake_light_group = "Light";
+constexpr const char* bake_map_group = "Lightmap";
+constexpr int least_map_px = 16, largest_map_px = 8192, most_per_side = 8, most_rings = 1024;
+
+constexpr std::array target_choices{Choice<BakeTarget>{"vertices", BakeTarget::vertices},
+                                    Choice<BakeTarget>{"lightmap", BakeTarget::lightmap}};
+constexpr std::array content_choices{Choice<BakeContent>{"light", BakeContent::light},
+                                     Choice<BakeContent>{"ao", BakeContent::ao},
+                                     Choice<BakeContent>{"both", BakeContent::both}};
+
+template <const auto& choices, class Target>
+AddedOption add_word(CLI::App& command, const char* name, Target& target, const char* help) {
+  const auto parse = +[](const std::string& text) { return parse_choice(choices, text); };
+  return add_value(command, name, target, parse, help).type_name(choice_list(choices, "|"));
+}
+
+/// A whole number from `low` to `high`, of what `unit` says.
+Expected<int> parse_within(const std::string& text, int low, int high, const char* unit) {
+  const auto number = parse_count(text);
+  if (!number || *number < low || *number > high)
+    return base::fail("found {}, expected {} to {} {}", text, low, high, unit);
+  return number;
+}
+
+Expected<int> parse_map_size(const std::string& text) {
+  return parse_within(text, least_map_px, largest_map_px, "texels");
+}
+Expected<int> parse_per_side(const std::string& text) {
+  return parse_within(text, 1, most_per_side, "samples each way");
+}
+Expected<int> parse_rings(const std::string& text) {
+  return parse_within(text, 0, most_rings, "texels");
+}
+
+Expected<glm::vec3> parse_ambient(const std::string& text) {
+  const auto color = parse_vector(text);
+  if (!color || std::min({color->x, color->y, color->z}) < 0)
+    return base::fail("found {}, expected R,G,B of 0 or more, like 0.3,0.3,0.4", text);
+  return color;
+}
+
+void add_light_options(CLI::App& command, BakeOptions& options) {
+  render::RenderSettings& render = options.method.render;
+  const AddedOption added[] = {
+      add_word<shadow_choices>(command, "--shadows", render.shadows,
+                               "hard: each light as a point; soft: with its area; none [hard]"),
+      add_value(command, "--light", render.light, parse_light,
+                "This light alone, by number, or with all [all]")
+          .type_name("N|all"),
+      add_value(command, "--ambient", options.ambient, parse_ambient,
+                "Light from all sides, which --what both dims by the\nocclusion [the scene's]")
+          .type_name("R,G,B"),
+      add_value(command, "--light-size", options.method.light_size, parse_light_size,
+                "soft: turns point and spot lights into rectangles of this\nsize, in metres, or (4%) in "
+                "percent of the scene's diagonal")
+          .type_name("W[xH][%]"),
+      add_value(command, "--sun-size", render.area_lights.sun_deg, parse_sun_size,
+                "soft: diameter of directional lights, like 0.53 [as the\nscene has it]")
+          .type_name("DEGREES"),
+      add_flag(command, "--emissive-lights", render.area_lights.emissive_quads,
+               "soft: flat convex meshes with an emissive material are\nlights too"),
+      add_value(command, "--soft-error", render.soft.error_255, parse_soft_error,
+                "soft: the error aimed at, in 1/255 of white [0: exact]")
+          .type_name("E"),
+      add_value(command, "--ao-error", render.ao.error_255, parse_positive,
+                "The error of occlusion that is aimed at, RMS, in 1/255 [1]")
+          .type_name("E"),
+      add_value(command, "--ao-distance", render.ao.distance_m, parse_positive,
+                "Distance in metres beyond which nothing occludes [a\ntwentieth of the scene's diagonal]")
+          .type_name("D"),
+      add_value(command, "--threads", render.threads, parse_threads,
+                "Threads; the files are the same with any number\n[0: all cores]")
+          .type_name("N"),
+      add_value(command, "--simd", render.hard.simd, parse_simd,
+                "Vector instructions: auto, scalar, sse4, avx2 or avx512;\nthe files are the same with each "
+                "[auto]")
+          .type_name("LEVEL")};
+  for (const AddedOption option : added) option.group(bake_light_group);
+}
+
+void add_map_options(CLI::App& command, BakeOptions& options) {
+  const AddedOption added[] = {
+      add_value(command, "--size", options.size, parse_map_size, "Texels along each side of the map [1024]")
+          .type_name("N"),
+      add_value(
+          command, "--samples", options.per_side, parse_per_side,
+          "Samples each way in a texel, so 2 are four in all; each\nlies strictly inside a triangle [2]")
+          .type_name("N"),
+      add_value(command, "--dilate", options.rings, parse_rings,
+                "Texels that what is covered is widened by, so that\nfiltering mixes no black in [16]")
+          .type_name("N"),
+      add_text(command, "--map", options.map,
+               "File of the map: .exr (linear, half) or .png (encoded)\n[OUT with .exr]")
+          .type_name("FILE")};
+  for (const AddedOption option : added) option.group(bake_map_group);
+}
+
+}  // namespace
+
+void add_bake_options(CLI::App& command, BakeOptions& options) {
+  options.method.render.ao.error_255 = 1;
+  add_text(command, "-o,--output", options.output,
+           "The scene with what was baked, .glb: vertices, its\ncolours; lightmap, its second texture "
+           "coordinates")
+      .type_name("OUT.glb")
+      .required();
+  add_word<target_choices>(command, "--to", options.target,
+                           "vertices: colours of vertices (COLOR_0); lightmap: a\npicture in the second set "
+                           "of texture coordinates\n(TEXCOORD_1) [vertices]");
+  add_word<content_choices>(command, "--what", options.content,
+                            "light: of the scene's lights; ao: ambient occlusion alone;\nboth: light, and "
+                            "ambient light times the occlusion [both]");
+  add_value(command, "--exposure", options.exposure, parse_factor,
+            "Multiplies light in colours of vertices and PNG, which end\nat 1 [1]")
+      .type_name("E");
+  add_value(command, "--frame", options.frame, parse_count, "Frame of the animation to bake [0]")
+      .type_name("N");
+  add_value(command, "--timeout", options.timeout_s, parse_positive,
+            "Stop after so many seconds, as Ctrl-C does")
+      .type_name("S");
+  add_flag(command, "--quiet", options.quiet, "No progress, no summary and no warnings");
+  add_map_options(command, options);
+  add_light_options(command, options);
+  add_content_options(command, options.scene);
+  option_of(command, "SCENE").required();
+}
+
+Expected<void> settle_bake_options(const CLI::App& command, BakeOptions& options) {
+  if (!options.output.ends_with(".glb"))
+    return base::fail("-o: found {}, expected a name that ends in .glb", options.output);
+  if (options.frame && options.scene.time_s) return base::fail("--frame excludes --time");
+  const bool map = options.target == BakeTarget::lightmap;
+  for (const char* name : {"--size", "--samples", "--dilate", "--map"})
+    if (!map && was_given(command, name)) return base::fail("{} is for --to lightmap", name);
+  if (!map) return {};
+  if (options.map.empty()) options.map = std::filesystem::path(options.output).replace_extension(".exr");
+  if (!options.map.ends_with(".exr") && !options.map.ends_with(".png"))
+    return base::fail("--map: found {}, expected a name that ends in .exr or .png", options.map);
+  return {};
+}
+
+render::RenderSettings bake_settings(const BakeOptions& options) {
+  MethodOptions method = options.method;
+  method.terminator = render::Terminator::flat;
+  render::RenderSettings settings = method_settings(method, {}, {});
+  settings.ao.mode = options.content == BakeContent::light ? AoMode::none : AoMode::adaptive;
+  settings.area_lights.own_size_m = edited_sizes_m(options.scene.edits.lights);
+  settings.area_lights.own_sun_deg = edited_suns_deg(options.scene.edits.lights);
+  return settings;
+}
+
+}  // namespace tenebra::viewer
