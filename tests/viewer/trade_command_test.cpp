@@ -3,7 +3,7 @@
 
 #include <nlohmann/json.hpp>
 
-#include "trade/trade_settings.h"
+#include "trade/trade_choice.h"
 #include "viewer/viewer_test_scene.h"
 
 namespace tenebra::testing {
@@ -60,6 +60,35 @@ TEST(TradeSweep, ChangesWhatThereIsToChoose) {
   EXPECT_EQ(settings.antialias, 2);
   EXPECT_EQ(settings.soft.error_255, 8);
   EXPECT_EQ(settings.ao.error_255, 3);
+}
+
+viewer::TradedSetting measured(std::vector<double> ms, double error, double worst) {
+  std::sort(ms.begin(), ms.end());
+  viewer::TradedSetting setting;
+  setting.point = traded(ms[ms.size() / 2], error);
+  setting.frames_ms = ms;
+  setting.worst_error = worst;
+  return setting;
+}
+
+TEST(TradeChoice, KeepsAMarginWhereFramesDiffer) {
+  viewer::TradeResult result;
+  result.measured = {measured({10, 10, 10}, 4, 5), measured({20, 21, 44}, 1, 1),
+                     measured({60, 60, 60}, 0, 0)};
+  EXPECT_EQ(viewer::promised_ms(result.measured[0]), 10);
+  EXPECT_DOUBLE_EQ(viewer::promised_ms(result.measured[1]), 40) << "44 is 10 % more";
+  result.spread = 1.5;
+  EXPECT_DOUBLE_EQ(viewer::promised_error(result, result.measured[0]), 8.25)
+      << "in frames that were not tried";
+  EXPECT_DOUBLE_EQ(viewer::promised_error(result, result.measured[1]), 1.65);
+  EXPECT_EQ(viewer::promised_error(result, result.measured[2]), 0);
+  EXPECT_EQ(viewer::within_budget(result, 9), nullptr);
+  EXPECT_EQ(viewer::within_budget(result, 39), &result.measured[0]);
+  EXPECT_EQ(viewer::within_budget(result, 41), &result.measured[1]);
+  EXPECT_EQ(viewer::within_error(result, 8), &result.measured[1]);
+  EXPECT_EQ(viewer::within_error(result, 1), &result.measured[2]);
+  result.measured.pop_back();
+  EXPECT_EQ(viewer::within_error(result, 1), nullptr);
 }
 
 TEST(TradeCommand, FindsTheFrontOfASceneAndWritesItsPage) {

@@ -1,5 +1,6 @@
 // The viewer without a display: drawn on an EGL surface, Dear ImGui's io driven by hand.
 #include <backends/imgui_impl_opengl3.h>
+#include <fmt/core.h>
 #include <glad/gl.h>
 #include <gtest/gtest.h>
 #include <imgui.h>
@@ -240,6 +241,50 @@ TEST(ViewPanel, ExplainsThePixelUnderAClickOnAPreview) {
   ASSERT_TRUE(headless.turn_until(is_of_the_whole, 120));
   EXPECT_EQ(headless.viewer().answer()->question.picture.get(), headless.viewer().picture());
   EXPECT_EQ(headless.viewer().answer()->question.pixel, clicked);
+}
+
+TEST(ViewPanel, TriesSettingsAndTakesTheOneThatIsClicked) {
+  const TemporaryFolder folder;
+  HeadlessViewer headless(testing::write_moving_scene(folder), {900, 700});
+  ASSERT_TRUE(headless.wait_for_first_picture());
+  Viewer& viewer = headless.viewer();
+  ASSERT_TRUE(headless.click("trade.start"));
+  ASSERT_TRUE(headless.turn_until([&] { return viewer.trade().found != nullptr; }));
+  headless.turn(), headless.turn();
+  const TradeResult& result = viewer.trade().found->result;
+  EXPECT_EQ(result.frames, std::vector<int>{0}) << "the frame that is shown";
+  const auto antialias = [&] { return viewer.state().slots[0].render.antialias; };
+  const auto setting = [&](std::size_t i) { return result.measured[i].point.setting; };
+  const auto by_error = [](const TradedSetting& a, const TradedSetting& b) {
+    return a.point.error < b.point.error;
+  };
+  const auto& all = result.measured;
+  const auto [least, most] = std::minmax_element(all.begin(), all.end(), by_error);
+  for (const auto& wanted : {most, least}) {  // the ends of the plot: nothing lies on them
+    const auto i = static_cast<std::size_t>(wanted - all.begin());
+    ASSERT_TRUE(headless.click(fmt::format("trade.point.{}", i)));
+    EXPECT_EQ(antialias(), setting(i).antialias);
+  }
+  ASSERT_TRUE(headless.click("trade.row.0"));
+  EXPECT_EQ(antialias(), setting(0).antialias);
+  ASSERT_TRUE(headless.wait_for_first_picture());
+  EXPECT_EQ(viewer.picture()->evidence.settings.antialias, antialias()) << "drawn with it";
+}
+
+TEST(ViewPanel, StopsTryingSettings) {
+  HeadlessViewer headless(TENEBRA_SCENES_DIR "/court.glb", {1280, 720});
+  ASSERT_TRUE(headless.wait_for_first_picture());
+  headless.key('3');
+  headless.key('Y');
+  const auto running = [&] { return headless.viewer().trade().running; };
+  ASSERT_TRUE(headless.turn_until(running));
+  headless.key('Y');
+  const auto begin = std::chrono::steady_clock::now();
+  ASSERT_TRUE(headless.turn_until([&] { return !running(); }));
+  EXPECT_LT(std::chrono::duration<double>(std::chrono::steady_clock::now() - begin).count(), 5.0);
+  EXPECT_EQ(headless.viewer().trade().found, nullptr);
+  headless.key('Y');
+  EXPECT_TRUE(headless.turn_until(running)) << "and it ends with the window";
 }
 
 TEST(ViewPanel, SurvivesAnyHand) {

@@ -18,6 +18,7 @@
 #include "shell/console.h"
 #include "shell/progress.h"
 #include "shell/stop_signals.h"
+#include "trade/trade_choice.h"
 #include "trade/trade_page.h"
 
 namespace tenebra::viewer {
@@ -46,8 +47,7 @@ constexpr const char* trade_examples =
     "129, 130 or\n"
     "143 stopped by a signal.";
 
-constexpr int frames_without_option = 3;
-constexpr double finest_ao_error = 0.5;
+constexpr int frames_without_option = 3, frames_for_spread = 16;
 
 struct TradeOptions {
   RenderOptions render;
@@ -56,7 +56,8 @@ struct TradeOptions {
   int repeats = 3;
   std::string output;
   bool json = false;
-  bool shadows_given = false, antialias_given = false, soft_given = false, ao_given = false;
+  bool shadows_given = false;
+  TradeGiven given;
 };
 
 /// Whether soft shadows have a light to be of.
@@ -74,27 +75,15 @@ bool has_area_light(const RenderPlan& plan, const MethodOptions& method) {
   return method.light_size || area.emissive_quads;
 }
 
-/// Frames in the middle of equal parts of the animation.
-std::vector<PlannedFrame> spread_frames(const RenderPlan& plan, const SceneOptions& options) {
-  const int count = frames_of_clip(plan.scene, plan.clip, options.fps),
-            wanted = std::min(count, frames_without_option);
+/// Frames in the middle of `parts` equal parts of the animation.
+std::vector<PlannedFrame> spread_frames(const RenderPlan& plan, const SceneOptions& options, int parts) {
+  const int count = frames_of_clip(plan.scene, plan.clip, options.fps), wanted = std::min(count, parts);
   std::vector<PlannedFrame> frames;
   for (int i = 0; i < wanted; ++i) {
     const int frame = static_cast<int>((2LL * i + 1) * count / (2LL * wanted));
     frames.push_back({frame, time_of_frame(plan.scene, plan.clip, frame, options.fps)});
   }
   return frames;
-}
-
-/// What the frames have to choose from.
-TradeAxes axes_of(const TradeOptions& options, const render::RenderSettings& settings) {
-  TradeAxes axes;
-  if (!options.antialias_given) axes.antialias = {1, 2, 4, 8, 16};
-  const bool soft = settings.shadows == render::ShadowMode::soft && settings.soft_points == 0;
-  if (soft && !options.soft_given) axes.soft_errors = {8, 4, 2, 1, 0.5, 0};
-  if (settings.ao.mode == AoMode::adaptive && !options.ao_given)
-    axes.ao_errors = {8, 5, 2.5, 1, finest_ao_error};
-  return axes;
 }
 
 /// The plan with frames and shadows chosen where the user left them open.
@@ -106,7 +95,7 @@ Expected<RenderPlan> plan_trade(TradeOptions& options) {
   auto plan = plan_render(options.render);
   if (!plan) return plan;
   if (!options.render.frames && !options.render.scene.time_s)
-    plan->frames = spread_frames(*plan, options.render.scene);
+    plan->frames = spread_frames(*plan, options.render.scene, frames_without_option);
   if (!options.shadows_given && has_area_light(*plan, options.render.method))
     plan->settings.shadows = options.render.method.render.shadows = render::ShadowMode::soft;
   return plan;
@@ -133,29 +122,21 @@ TradeHeading heading_of(const TradeOptions& options, const RenderPlan& plan, con
   return heading;
 }
 
-/// The most exact setting whose frame takes no longer than the budget.
-Expected<const TradedSetting*> within_budget(double budget_ms, const TradeResult& result) {
-  const TradedSetting* found = nullptr;
-  for (const std::size_t i : result.front)  // from the quickest to the most exact
-    if (result.measured[i].point.ms <= budget_ms) found = &result.measured[i];
+/// What --budget or --error asks for.
+Expected<const TradedSetting*> chosen_setting(const TradeOptions& options, const TradeResult& result) {
+  const TradedSetting* found =
+      options.budget_ms ? within_budget(result, *options.budget_ms) : within_error(result, *options.error);
   if (found != nullptr) return found;
-  return base::fail("--budget {:g} ms: nothing is as quick, the quickest setting takes {:.1f} ms", budget_ms,
-                    result.measured[result.front.front()].point.ms);
-}
-
-/// The quickest setting that is off by no more in any frame.
-Expected<const TradedSetting*> within_error(double error, const TradeResult& result) {
-  const TradedSetting* found = nullptr;
-  double least = HUGE_VAL;
+  double ms = HUGE_VAL, error = HUGE_VAL;
   for (const TradedSetting& setting : result.measured) {
-    least = std::min(least, setting.worst_error);
-    if (setting.worst_error <= error && (found == nullptr || setting.point.ms < found->point.ms))
-      found = &setting;
+    ms = std::min(ms, promised_ms(setting));
+    error = std::min(error, promised_error(result, setting));
   }
-  if (found != nullptr) return found;
-  return base::fail(
-      "--error {:g}: found none as exact, the most exact setting tried is off by {:.2f} in its worst frame",
-      error, least);
+  if (options.budget_ms)
+    return base::fail("--budget {:g} ms: nothing is as quick, the quickest setting takes {:.1f} ms",
+                      *options.budget_ms, ms);
+  return base::fail("--error {:g}: found none as exact, the most exact setting tried is off by {:.2f}",
+                    *options.error, error);
 }
 
 Expected<int> print_result(const TradeOptions& options, const TradeHeading& heading,
@@ -173,8 +154,7 @@ Expected<int> print_result(const TradeOptions& options, const TradeHeading& head
       return tl::unexpected(written.error());
   }
   if (!options.budget_ms && !options.error) return 0;
-  const auto chosen =
-      options.budget_ms ? within_budget(*options.budget_ms, result) : within_error(*options.error, result);
+  const auto chosen = chosen_setting(options, result);
   if (!chosen) return tl::unexpected(chosen.error());
   const std::string words = options_of(result.axes, (*chosen)->point.setting);
   const std::string line = fmt::format("{}{}{}\n", heading.command, words.empty() ? "" : " ", words);
@@ -183,6 +163,36 @@ Expected<int> print_result(const TradeOptions& options, const TradeHeading& head
   else
     print_out("\n{}", line);
   return 0;
+}
+
+/// Frames between the first and the last that the user asks for, or of all.
+std::vector<PlannedFrame> more_frames(const RenderPlan& plan, const TradeOptions& options) {
+  if (!options.render.frames) return spread_frames(plan, options.render.scene, frames_for_spread);
+  const int first = plan.frames.front().frame, frames = plan.frames.back().frame - first;
+  std::vector<PlannedFrame> more;
+  for (int i = 0; i < std::min(frames, frames_for_spread); ++i) {
+    const int frame = first + static_cast<int>(static_cast<long long>(i) * frames / frames_for_spread);
+    more.push_back({frame, time_of_frame(plan.scene, plan.clip, frame, options.render.scene.fps)});
+  }
+  return more;
+}
+
+/// What it points at are the arguments.
+TradeRequest request_of(const TradeOptions& options, const RenderPlan& plan) {
+  const SceneOptions& scene = options.render.scene;
+  TradeRequest request;
+  request.scene = &plan;
+  request.clip = plan.clip;
+  request.frames = plan.frames;
+  if (plan.frames.size() > 1) request.more_frames = more_frames(plan, options);
+  request.settings = plan.settings;
+  request.raster = options.render.raster;
+  request.lights = plan.scene.lights;
+  request.edits = scene.edits;
+  request.view = [&](double time_s) { return view_of(plan, scene, time_s, plan.size); };
+  request.axes = axes_of(plan.settings, options.given);
+  request.repeats = options.repeats;
+  return request;
 }
 
 Expected<int> trade(TradeOptions& options) {
@@ -200,11 +210,7 @@ Expected<int> trade(TradeOptions& options) {
       return tl::unexpected(apart.error());
   }
   stop.be_orderly();
-  TradeRequest request;
-  request.plan = &*plan;
-  request.options = &options.render;
-  request.axes = axes_of(options, plan->settings);
-  request.repeats = options.repeats;
+  const TradeRequest request = request_of(options, *plan);
   const TradeHeading heading = heading_of(options, *plan, request.axes);
   auto result = [&] {
     Progress progress(1, options.render.quiet);
@@ -231,9 +237,9 @@ void add_trade_command(CLI::App& program, Run& run) {
   add_value(command, "--budget", options->budget_ms, parse_positive,
             "Also print the most exact setting whose frame takes at\nmost so many milliseconds")
       .type_name("MS");
-  add_value(
-      command, "--error", options->error, parse_positive,
-      "Also print the quickest setting that is off by at most\nso many levels of 255, RMS, in every frame")
+  add_value(command, "--error", options->error, parse_positive,
+            "Also print the quickest setting that is off by at most\nso many levels of 255, RMS, in every "
+            "frame: those that\nwere not tried too, by a margin")
       .type_name("E")
       .excludes(option_of(command, "--budget"));
   add_value(command, "--repeats", options->repeats, parse_at_least_one,
@@ -255,9 +261,8 @@ void add_trade_command(CLI::App& program, Run& run) {
     settle_quality(command, options->render.method);
     const bool quality = options->render.method.quality.has_value();
     options->shadows_given = was_given(command, "--shadows");
-    options->antialias_given = was_given(command, "--antialias");
-    options->soft_given = quality || was_given(command, "--soft-error");
-    options->ao_given = quality || was_given(command, "--ao-error");
+    options->given = {was_given(command, "--antialias"), quality || was_given(command, "--soft-error"),
+                      quality || was_given(command, "--ao-error")};
     options->render.config = config_file_of(command);
     run = [options] { return trade(*options); };
   });

@@ -9,6 +9,7 @@
 #include "log/page_pictures.h"
 #include "log/page_text.h"
 #include "log/report_style.h"
+#include "trade/trade_choice.h"
 
 namespace tenebra::viewer {
 namespace {
@@ -172,6 +173,9 @@ std::string trade_json(const TradeHeading& heading, const TradeResult& result) {
                                 {"first_frame_ms", setting.first_frame_ms},
                                 {"error_255", setting.point.error},
                                 {"worst_frame_error_255", setting.worst_error},
+                                {"promised_error_255", promised_error(result, setting)},
+                                {"frames_ms", setting.frames_ms},
+                                {"frame_errors_255", setting.frame_errors},
                                 {"peak_mb", setting.peak_mb},
                                 {"front", is_on_front(result, i)}});
   }

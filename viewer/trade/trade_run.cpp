@@ -1,21 +1,26 @@
 #include "trade/trade_run.h"
 
 #include <algorithm>
+#include <chrono>
 #include <cmath>
 #include <fstream>
 #include <string_view>
 
 #include "base/statistics.h"
 #include "base/stopwatch.h"
-#include "options/scene_edits.h"
 #include "shared/picture_difference.h"
-#include "shared/scene_choice.h"
 
 namespace tenebra::viewer {
 namespace {
 
+using Clock = std::chrono::steady_clock;
+
 constexpr int crop_size = 96;
 constexpr double enough_ms = 500;  // of one frame with one setting
+constexpr double slow_ms = 2000;
+constexpr double spread_s = 8;  // for frames that are drawn for the spread alone
+constexpr std::size_t least_measured = 4;
+constexpr double finest_steps = 4, own_steps = 2;  // of the progress; a setting of a sweep is one
 
 /// Makes the system's count of the most memory held begin anew. False: it does not let us.
 bool forget_peak_memory() {
@@ -69,39 +74,44 @@ std::pair<int, int> differing_most(const base::Image8& a, const base::Image8& b)
 class Trader {
 public:
   Trader(const TradeRequest& request, const std::function<void(double)>& progress, const StopFlag& stop)
-      : request_(request), plan_(*request.plan), progress_(progress), stop_(stop) {
+      : request_(request), progress_(progress), stop_(stop) {
     const TradeAxes& axes = request.axes;
     const std::size_t sweeps = axes.antialias.size() + axes.soft_errors.size() + axes.ao_errors.size() - 2;
     const double all = double(axes.antialias.size() * axes.soft_errors.size() * axes.ao_errors.size());
-    // The finest settings take longest, so the reference and the settings by themselves count for more.
-    steps_ = double(sweeps) + 2.0 * std::min(double(request.most_measured), all) + 2.0;
+    // Settings by themselves take longer, the finest longest.
+    steps_ = finest_steps + double(sweeps) + own_steps * (std::min(double(request.most_measured), all) - 1);
   }
 
   Expected<TradeResult> run() {
     TradeResult result;
     result.axes = request_.axes;
-    for (const PlannedFrame& frame : plan_.frames) result.frames.push_back(frame.frame);
-    auto reference = draw(finest(request_.axes), 1);
+    for (const PlannedFrame& frame : request_.frames) result.frames.push_back(frame.frame);
+    auto reference = draw(finest(request_.axes));
     if (!reference) return tl::unexpected(reference.error());
-    done(2);
+    done(finest_steps);
     auto sweep = sweep_axes();
     if (!sweep) return tl::unexpected(sweep.error());
     const base::Image8& middle = reference->pictures[middle_frame()];
     std::tie(result.crop_x, result.crop_y) = differing_most(middle, coarsest_picture_);
     result.reference_crop = cut_out(middle, result.crop_x, result.crop_y);
+    result.measured.push_back(judged(finest(request_.axes), *reference, *reference, result));
     if (auto measured = measure(*sweep, *reference, result); !measured)
       return tl::unexpected(measured.error());
+    const auto spread = spread_of_errors();
+    if (!spread) return tl::unexpected(spread.error());
+    result.spread = *spread;
     return result;
   }
 
 private:
   struct Drawn {
     std::vector<base::Image8> pictures;  ///< a frame each
-    std::vector<double> ms;              ///< a frame each: the median of the repeats
+    std::vector<double> ms;              ///< a timed frame each: the median of the repeats
     double first_ms = 0;
+    double peak_mb = 0;  ///< 0: unknown
   };
 
-  std::size_t middle_frame() const { return plan_.frames.size() / 2; }
+  std::size_t middle_frame() const { return request_.frames.size() / 2; }
 
   void done(double steps) {
     done_ += steps;
@@ -109,53 +119,58 @@ private:
   }
 
   Expected<render::Renderer> make_renderer() const {
-    auto raster = render::FrameRaster::create(request_.options->raster);
+    auto raster = render::FrameRaster::create(request_.raster);
     if (!raster) return tl::unexpected(raster.error());
-    render::Renderer renderer = render::Renderer::create(std::move(*raster), plan_.scene);
-    if (plan_.environment) renderer.set_environment(*plan_.environment);
-    const SceneEdits& edits = request_.options->scene.edits;
-    if (!edits.materials.empty()) renderer.set_materials(materials_of(plan_.scene, edits));
+    const ScenePlan& plan = *request_.scene;
+    render::Renderer renderer = render::Renderer::create(std::move(*raster), plan.scene);
+    if (plan.environment) renderer.set_environment(*plan.environment);
+    renderer.set_lights(request_.lights);
+    if (!request_.edits.materials.empty()) renderer.set_materials(materials_of(plan.scene, request_.edits));
     return renderer;
   }
 
   Expected<double> draw_frame(render::Renderer& renderer, const PlannedFrame& planned,
                               const render::RenderSettings& settings) {
-    const SceneOptions& options = request_.options->scene;
+    const Scene& scene = request_.scene->scene;
     base::Stopwatch watch;
-    evaluate_frame(plan_.scene, plan_.clip, planned.time_s, input_.geometry);
-    apply_node_edits(plan_.scene, options.edits, input_.geometry);
-    input_.lights = placed_lights(plan_.scene, options.edits, plan_.clip, planned.time_s);
-    input_.view = view_of(plan_, options, planned.time_s, plan_.size);
+    evaluate_frame(scene, request_.clip, planned.time_s, input_.geometry);
+    apply_node_edits(scene, request_.edits, input_.geometry);
+    input_.lights = placed_lights(scene, request_.edits, request_.clip, planned.time_s);
+    input_.view = request_.view(planned.time_s);
     if (auto drawn = renderer.render_frame(input_, settings, result_, {}, &stop_); !drawn)
       return tl::unexpected(drawn.error());
     return watch.lap_ms();
   }
 
   /// All frames with one setting, in a renderer of its own: the first once more, as it builds what the others
-  /// keep.
-  Expected<Drawn> draw(const TradeSetting& setting, int repeats) {
+  /// keep, or where that takes long the others alone are timed.
+  Expected<Drawn> draw(const TradeSetting& setting) {
+    const bool peak_is_own = forget_peak_memory();
     auto renderer = make_renderer();
     if (!renderer) return tl::unexpected(renderer.error());
-    const render::RenderSettings settings = with_setting(plan_.settings, request_.axes, setting);
-    const auto first = draw_frame(*renderer, plan_.frames.front(), settings);
+    const render::RenderSettings settings = with_setting(request_.settings, request_.axes, setting);
+    const auto first = draw_frame(*renderer, request_.frames.front(), settings);
     if (!first) return tl::unexpected(first.error());
     Drawn drawn;
     drawn.first_ms = *first;
-    for (const PlannedFrame& frame : plan_.frames) {
-      const auto ms = median_ms(*renderer, frame, settings, repeats);
+    const bool slow = *first > slow_ms && request_.frames.size() > 1;
+    if (slow) drawn.pictures.push_back(result_.image);
+    for (const PlannedFrame& frame : std::span(request_.frames).subspan(slow ? 1 : 0)) {
+      const auto ms = median_ms(*renderer, frame, settings);
       if (!ms) return tl::unexpected(ms.error());
       drawn.ms.push_back(*ms);
       drawn.pictures.push_back(result_.image);
     }
+    if (peak_is_own) drawn.peak_mb = peak_memory_mb();
     return drawn;
   }
 
-  /// Of at most `repeats` frames: slow ones are drawn fewer times, as their times differ less.
+  /// Of at most TradeRequest::repeats frames: slow ones are drawn fewer times, as their times differ less.
   Expected<double> median_ms(render::Renderer& renderer, const PlannedFrame& frame,
-                             const render::RenderSettings& settings, int repeats) {
+                             const render::RenderSettings& settings) {
     std::vector<double> ms;
     double sum_ms = 0;
-    for (int i = 0; i < repeats && sum_ms < enough_ms; ++i) {
+    for (int i = 0; i < request_.repeats && sum_ms < enough_ms; ++i) {
       const auto took = draw_frame(renderer, frame, settings);
       if (!took) return took;
       ms.push_back(*took);
@@ -166,8 +181,8 @@ private:
 
   /// The middle frame with one setting: its time and, in `result_`, its picture.
   Expected<TradePoint> sweep_one(const TradeSetting& setting) {
-    const auto ms = median_ms(*sweeping_, plan_.frames[middle_frame()],
-                              with_setting(plan_.settings, request_.axes, setting), request_.repeats);
+    const auto ms = median_ms(*sweeping_, request_.frames[middle_frame()],
+                              with_setting(request_.settings, request_.axes, setting));
     if (!ms) return tl::unexpected(ms.error());
     done(1);
     return TradePoint{setting, *ms, 0};
@@ -195,8 +210,8 @@ private:
     if (!renderer) return tl::unexpected(renderer.error());
     sweeping_.emplace(std::move(*renderer));
     const TradeSetting start = coarsest(request_.axes);
-    const auto warmed = draw_frame(*sweeping_, plan_.frames[middle_frame()],
-                                   with_setting(plan_.settings, request_.axes, start));
+    const auto warmed = draw_frame(*sweeping_, request_.frames[middle_frame()],
+                                   with_setting(request_.settings, request_.axes, start));
     if (!warmed) return tl::unexpected(warmed.error());
     const auto first = sweep_one(start);
     if (!first) return tl::unexpected(first.error());
@@ -213,27 +228,49 @@ private:
     return sweep;
   }
 
-  /// The settings to be measured: those that promise to be worth it, and the one that a user gets who chooses
-  /// nothing.
+  /// Of settings that are yet to be drawn by themselves, as the sweep has it.
+  double seconds_of(const TradePoint& point) const {
+    const double ms = std::max(point.ms, 0.1),
+                 draws = std::clamp(std::ceil(enough_ms / ms), 1.0, double(request_.repeats));
+    return ms * (1 + draws * double(request_.frames.size())) / 1e3;
+  }
+
+  /// The settings to be measured beside the finest: those that promise to be worth it, and the one that a
+  /// user gets who chooses nothing. As many as there is time for.
   std::vector<TradeSetting> promising(const TradeSweep& sweep) const {
     const std::vector<TradePoint> predicted = predicted_points(sweep);
+    const std::vector<std::size_t> front = pareto_front(predicted);
+    const auto chosen = [&](std::size_t most) {
+      std::vector<TradePoint> points;
+      const auto add = [&](const TradePoint& point) {
+        const auto same = [&](const TradePoint& other) { return other.setting == point.setting; };
+        if (point.setting != finest(request_.axes) && std::none_of(points.begin(), points.end(), same))
+          points.push_back(point);
+      };
+      for (const std::size_t i : thinned(predicted, front, most - 1)) add(predicted[i]);
+      for (const TradePoint& point : predicted)
+        if (point.setting == standard(request_.axes)) add(point);
+      return points;
+    };
+    const double left_s = request_.aim_s - std::chrono::duration<double>(Clock::now() - begun_).count();
+    std::vector<TradePoint> points = chosen(request_.most_measured);
+    for (std::size_t most = request_.most_measured; most > least_measured; points = chosen(--most)) {
+      double sum_s = 0;
+      for (const TradePoint& point : points) sum_s += seconds_of(point);
+      if (sum_s <= left_s) break;
+    }
     std::vector<TradeSetting> settings;
-    for (const std::size_t i : thinned(predicted, pareto_front(predicted), request_.most_measured - 1))
-      settings.push_back(predicted[i].setting);
-    const TradeSetting usual = standard(request_.axes);
-    if (std::find(settings.begin(), settings.end(), usual) == settings.end()) settings.push_back(usual);
+    for (const TradePoint& point : points) settings.push_back(point.setting);
     return settings;
   }
 
   /// Each of them by itself.
   Expected<void> measure(const TradeSweep& sweep, const Drawn& reference, TradeResult& result) {
     for (const TradeSetting& setting : promising(sweep)) {
-      const bool peak_is_own = forget_peak_memory();
-      const auto drawn = draw(setting, request_.repeats);
+      const auto drawn = draw(setting);
       if (!drawn) return tl::unexpected(drawn.error());
       result.measured.push_back(judged(setting, *drawn, reference, result));
-      if (peak_is_own) result.measured.back().peak_mb = peak_memory_mb();
-      done(2);
+      done(own_steps);
     }
     std::stable_sort(result.measured.begin(), result.measured.end(),
                      [](const TradedSetting& a, const TradedSetting& b) { return a.point.ms < b.point.ms; });
@@ -241,6 +278,46 @@ private:
     for (const TradedSetting& setting : result.measured) points.push_back(setting.point);
     result.front = pareto_front(points);
     return {};
+  }
+
+  /// How far two coarse settings are apart in a frame.
+  Expected<double> coarse_error(render::Renderer& renderer, const PlannedFrame& frame) {
+    const TradeAxes& axes = request_.axes;
+    const auto second = [](const auto& values) {
+      return values[std::min<std::size_t>(1, values.size() - 1)];
+    };
+    const TradeSetting finer{second(axes.antialias), second(axes.soft_errors), second(axes.ao_errors)};
+    base::Image8 picture;
+    for (const TradeSetting& setting : {coarsest(axes), finer}) {
+      const auto drawn = draw_frame(renderer, frame, with_setting(request_.settings, axes, setting));
+      if (!drawn) return drawn;
+      if (setting == coarsest(axes)) picture = result_.image;
+    }
+    return rms_difference(picture, result_.image);
+  }
+
+  /// Errors of all settings grow and shrink together from frame to frame: what coarse ones show goes for all.
+  Expected<double> spread_of_errors() {
+    if (request_.more_frames.empty()) return 1.0;
+    auto renderer = make_renderer();
+    if (!renderer) return tl::unexpected(renderer.error());
+    const auto worst_of = [&](std::span<const PlannedFrame> frames, std::size_t step) -> Expected<double> {
+      double worst = 0;
+      for (std::size_t i = step / 2; i < frames.size(); i += step) {
+        const auto error = coarse_error(*renderer, frames[i]);
+        if (!error) return error;
+        worst = std::max(worst, *error);
+      }
+      return worst;
+    };
+    const Clock::time_point begun = Clock::now();
+    const auto tried = worst_of(request_.frames, 1);
+    if (!tried) return tried;
+    const double took_s = std::chrono::duration<double>(Clock::now() - begun).count(),
+                 all_s = took_s * double(request_.more_frames.size()) / double(request_.frames.size());
+    const auto more = worst_of(request_.more_frames, std::size_t(std::ceil(std::max(all_s / spread_s, 1.0))));
+    if (!more) return more;
+    return *tried > 0 ? std::max(1.0, *more / *tried) : 1.0;
   }
 
   TradedSetting judged(const TradeSetting& setting, const Drawn& drawn, const Drawn& reference,
@@ -251,16 +328,18 @@ private:
     for (std::size_t f = 0; f < drawn.pictures.size(); ++f) {
       const double error = rms_difference(drawn.pictures[f], reference.pictures[f]);
       squares += error * error;
+      traded.frame_errors.push_back(error);
       traded.worst_error = std::max(traded.worst_error, error);
     }
     traded.point.error = std::sqrt(squares / static_cast<double>(drawn.pictures.size()));
+    traded.frames_ms = drawn.ms;
     traded.first_frame_ms = drawn.first_ms;
+    traded.peak_mb = drawn.peak_mb;
     traded.crop = cut_out(drawn.pictures[middle_frame()], result.crop_x, result.crop_y);
     return traded;
   }
 
   const TradeRequest& request_;
-  const RenderPlan& plan_;
   const std::function<void(double)>& progress_;
   const StopFlag& stop_;
   std::optional<render::Renderer> sweeping_;
@@ -268,6 +347,7 @@ private:
   render::FrameResult result_;
   base::Image8 coarsest_picture_;  ///< of the frame in the middle
   double steps_ = 1, done_ = 0;
+  const Clock::time_point begun_ = Clock::now();
 };
 
 }  // namespace

@@ -5,6 +5,7 @@
 #include <string>
 #include <vector>
 
+#include "options/scene_edits.h"
 #include "shared/render_plan.h"
 #include "trade/trade_settings.h"
 
@@ -12,9 +13,11 @@ namespace tenebra::viewer {
 
 /// A setting that was drawn by itself, in a renderer of its own.
 struct TradedSetting {
-  TradePoint point;           ///< ms: median over the frames; error: RMS over all of their pixels
-  double worst_error = 0;     ///< of the frame that is off most, RMS, levels of 255
-  double first_frame_ms = 0;  ///< of a renderer that has drawn none
+  TradePoint point;                  ///< ms: median over the frames; error: RMS over all of their pixels
+  std::vector<double> frames_ms;     ///< of each frame that was timed: of slow ones not the first
+  std::vector<double> frame_errors;  ///< of each, RMS, levels of 255
+  double worst_error = 0;            ///< of the frame that is off most, RMS, levels of 255
+  double first_frame_ms = 0;         ///< of a renderer that has drawn none
   double peak_mb =
       0;  ///< memory of the program while it was drawn, 2^20 bytes; 0 where the system does not say
   base::Image8 crop;  ///< of the frame in the middle
@@ -25,21 +28,30 @@ struct TradeResult {
   std::vector<int> frames;              ///< that were drawn
   std::vector<TradedSetting> measured;  ///< from the quickest, not all of them on the front
   std::vector<std::size_t> front;       ///< of these
+  double spread = 1;                    ///< errors of the worst frame of all, over the worst of `frames`
   base::Image8 reference_crop;          ///< of the finest setting
   int crop_x = 0, crop_y = 0;           ///< where the crops are, pixels
 };
 
-/// What is drawn and how often. `options` outlive the run, as does `plan`.
+/// What is drawn and how often. The scene outlives the run.
 struct TradeRequest {
-  const RenderPlan* plan = nullptr;
-  const RenderOptions* options = nullptr;
+  const ScenePlan* scene = nullptr;
+  int clip = -1;
+  std::vector<PlannedFrame> frames;
+  std::vector<PlannedFrame> more_frames;  ///< for the spread of errors: drawn with two coarse settings alone
+  render::RenderSettings settings;        ///< what all share, and what is no choice
+  render::RasterChoice raster;
+  std::vector<Light> lights;  ///< the scene's, with their edits
+  SceneEdits edits;
+  std::function<ViewRays(double time_s)> view;
   TradeAxes axes;
-  int repeats = 3;                ///< of each frame that is timed
-  std::size_t most_measured = 8;  ///< settings that are drawn by themselves; at least 3
+  int repeats = 3;                ///< of each frame that is timed; slow ones fewer
+  std::size_t most_measured = 8;  ///< settings that are drawn by themselves; at least 4
+  double aim_s = 60;              ///< fewer settings are, where it would take longer
 };
 
-/// Sweeps each axis, predicts all settings from that, and measures those that promise to be worth it and the
-/// standard one.
+/// Sweeps each axis, predicts all settings from that, and measures those that promise to be worth it, the
+/// standard one and the finest, which errors are against.
 /// `progress` gets what is done of the whole, 0..1. Fails with "stopped" soon after `stop` is requested.
 Expected<TradeResult> run_trade(const TradeRequest& request, const std::function<void(double)>& progress,
                                 const StopFlag& stop);

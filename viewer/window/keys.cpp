@@ -42,6 +42,7 @@ constexpr const char* methods_and_window =
     "B: compare A with B\n"
     "N: heat map of nodes\n"
     "M: classes of the soft shadows\n"
+    "Y: try settings on this scene, or end that\n"
     "Window\n"
     "P, Shift+P: save the picture, the window\n"
     "Tab: show or hide the panel\n"
@@ -122,6 +123,7 @@ void handle_window_keys(Ui& ui) {
   if (ui.pressed('O')) ui.actions.record = true;
   if (ui.pressed('G')) ui.actions.frame_all = true;
   if (ui.pressed('R')) ui.actions.retry = true;
+  if (ui.pressed('Y')) ui.actions.trade = true;
   if (ui.pressed(key_code::tab)) ui.state.panel = !ui.state.panel;
   if (!ui.pressed(key_code::escape)) return;
   if (!ui.state.help && ui.answer && !ui.worker.drawing) {

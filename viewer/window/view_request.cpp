@@ -33,6 +33,16 @@ RequestKey request_key(const ViewState& state, Size place) {
   return {method_key(state, place), view_key(state), state.clock};
 }
 
+std::string trade_subject(const ViewState& state, Size place, AnimationClock::Wall now) {
+  MethodOptions method = state.slots[static_cast<std::size_t>(state.active)];
+  const render::RenderSettings none;
+  method.render.antialias = none.antialias;  // what is tried
+  method.render.soft.error_255 = none.soft.error_255;
+  method.render.ao.error_255 = none.ao.error_255;
+  return fmt::format("{}|{}|{}x{}|{}", view_key(state), state.clock.time_at(now), place.width, place.height,
+                     method_arguments(method));
+}
+
 FrameRequest view_request(const ViewState& state, Size place, const std::optional<OutputPattern>& record,
                           AnimationClock::Wall now) {
   FrameRequest request;

@@ -20,6 +20,8 @@ struct RequestKey {
 
   bool operator==(const RequestKey&) const = default;
 };
+/// Equal where a search among settings would try the same ones on the same picture.
+std::string trade_subject(const ViewState& state, Size place, AnimationClock::Wall now);
 RequestKey request_key(const ViewState& state, Size place);
 
 }  // namespace tenebra::viewer

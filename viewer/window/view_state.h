@@ -100,6 +100,7 @@ struct Actions {
   bool record = false;  ///< begins or ends to record the animation
   bool undo = false;
   bool redo = false;
+  bool trade = false;               ///< begins or ends to try settings
   std::optional<std::string> open;  ///< a scene file
 
   bool operator==(const Actions&) const = default;

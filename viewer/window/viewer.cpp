@@ -28,6 +28,7 @@ Viewer::Viewer(ViewOptions options, WindowGl& gl, EventReport report, std::funct
       report_(std::move(report)),
       textures_(gl),
       recording_(std::exchange(options_.record, std::nullopt)),
+      search_(options_.raster, wake),
       worker_(worker_raster(options_), gl.is_software(), wake),
       answers_(wake) {
   state_.slots = {options_.method, options_.compare.value_or(options_.method)};
@@ -47,7 +48,7 @@ Viewer::Viewer(ViewOptions options, WindowGl& gl, EventReport report, std::funct
 
 double Viewer::sleep_s() const {
   const WorkerStatus status = worker_.status();
-  const bool moves = status.loading || status.drawing || !messages_.empty();
+  const bool moves = status.loading || status.drawing || !messages_.empty() || search_.status().running;
   return pace_.sleep_s({status.hurries, moves, worker_.look_again_s()}, now());
 }
 
@@ -184,6 +185,7 @@ void Viewer::update() {
   send_request();
   actions_.retry = false;
   worker_.stop_if_outdated();
+  follow_search();
   const WorkerStatus status = worker_.status();
   if (status.slow && pace_.since_drawn_s(now()) > progress_s) pace_.ask(1);
   if (messages_.forget_old(now())) pace_.ask(1);
@@ -213,6 +215,7 @@ void Viewer::act() {
     sent_.clock = state_.clock;
     say("Cancelled: the picture is the last that was finished. Press R to compute the new one.");
   }
+  if (actions.cancel && !worker_.status().drawing) search_.stop();
   if (actions.picture_shot) save_picture();
   if (actions.window_shot) window_shot_ = true, pace_.ask(1);
   if (actions.toggle_log) toggle_log();
@@ -226,6 +229,7 @@ void Viewer::act() {
   if (actions.open_dialog) state_.open_dialog = open_dialog_at(state_.settings.folder), pace_.ask(3);
   if (actions.frame_all) frame_all();
   if (actions.record) toggle_recording();
+  if (actions.trade) toggle_trade();
 }
 
 void Viewer::drop(const std::vector<std::string>& files) {
@@ -272,6 +276,8 @@ void Viewer::draw(float scale, float pixels_a_unit) {
   marks_.clear();
   drawn_picture_ = picture_;
   Ui ui{state_, actions_, marks_, picture_.get(), history_, keys_, worker_.status(), log, scale, answer()};
+  const std::string subject = state_.scene ? trade_subject(state_, place_, now()) : "";
+  ui.trade = search_.status(), ui.trade_subject = subject;
   handle_keys(ui, std::min(seconds, 0.1f));
   const ImGuiConfigFlags nav = ImGuiConfigFlags_NavEnableKeyboard;
   io.ConfigFlags = state_.keys_in_panel ? io.ConfigFlags | nav : io.ConfigFlags & ~nav;

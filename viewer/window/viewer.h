@@ -54,6 +54,7 @@ public:
   double sleep_s() const;  ///< how long to wait for events at most
   const ViewState& state() const { return state_; }
   const Picture* picture() const { return picture_.get(); }
+  TradeStatus trade() const { return search_.status(); }
   const PictureAnswer* answer() const { return answers_.shown(); }
   const Marks& marks() const { return marks_; }
   std::string message() const { return messages_.newest(); }
@@ -79,6 +80,8 @@ private:
   void toggle_log();
   void log_picture(const Picture& picture);
   void toggle_recording();
+  void toggle_trade();
+  void follow_search();
   void end_recording(const std::string& how);
   // What is drawn.
   Ui ui_at_rest();  ///< for what the viewer does itself, not the hand
@@ -115,6 +118,8 @@ private:
   bool shot_waits_ = false;  // for a whole picture
   bool quit_ = false;
 
+  bool searches_ = false;  // as the last turn of the loop found it
+  TradeSearch search_;
   RenderWorker worker_;   // last: its thread ends first
   PixelAnswers answers_;  // and before that this one's
 };

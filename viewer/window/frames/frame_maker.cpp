@@ -18,12 +18,12 @@ SceneOptions options_of(const FreeCamera& camera) {
   return options;
 }
 
-ViewRays view_of_request(const FrameRequest& request, double time_s, int width, int height) {
-  if (request.free) return view_of(*request.scene, options_of(*request.free), time_s, Size{width, height});
-  return view_of_camera(*request.scene, request.clip, request.camera, time_s, Size{width, height});
-}
-
 }  // namespace
+
+ViewRays view_of_request(const FrameRequest& request, double time_s, Size size) {
+  if (request.free) return view_of(*request.scene, options_of(*request.free), time_s, size);
+  return view_of_camera(*request.scene, request.clip, request.camera, time_s, size);
+}
 
 Expected<void> FrameMaker::take_scene(const std::shared_ptr<const ScenePlan>& scene) {
   if (renderer_ && scene == scene_) return {};
@@ -86,7 +86,7 @@ Expected<std::shared_ptr<Picture>> FrameMaker::make(const FrameRequest& request,
   const Size whole{request.a.width, request.a.height};
   render::RenderSettings settings = preview_settings(request.a, level);
   drawn_ = {settings.width, settings.height};
-  input_.view = view_of_request(request, time_s, whole.width, whole.height);
+  input_.view = view_of_request(request, time_s, whole);
   if (level.divisor > 1) input_.view = view_in_pixels(input_.view, whole, drawn_);
   evaluate_ms_ = watch.lap_ms();
   renderer_->set_lights(lights_of(scene, request.edits));

@@ -10,6 +10,9 @@
 
 namespace tenebra::viewer {
 
+/// What the request's camera sees at one instant, in a picture of `size`.
+ViewRays view_of_request(const FrameRequest& request, double time_s, Size size);
+
 class FrameMaker {
 public:
   explicit FrameMaker(const render::RasterChoice& raster) : raster_(raster) {}

@@ -311,6 +311,7 @@ void draw_method_section(Ui& ui) {
     edit_distance(ui, method.render.ao);
   }
   if (state.scene) edit_display(ui, method);
+  if (state.scene) draw_trade_plot(ui);
 }
 
 void draw_research_section(Ui& ui) {

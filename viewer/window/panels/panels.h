@@ -32,6 +32,7 @@ void draw_tree_section(Ui& ui);
 void draw_material_section(Ui& ui);
 void draw_camera_section(Ui& ui);
 void draw_compare_section(Ui& ui);
+void draw_trade_plot(Ui& ui);        ///< which settings are worth their time here
 void draw_research_section(Ui& ui);  ///< variants, solvers, threads, costs: the second level
 void draw_cost_section(Ui& ui);
 void draw_explanation_card(Ui& ui, Area view);  ///< why a pixel is dark, in words

@@ -12,6 +12,7 @@
 #include "window/frame_history.h"
 #include "window/frames/explainer.h"
 #include "window/frames/render_worker.h"
+#include "window/frames/trade_search.h"
 #include "window/key_press.h"
 #include "window/view_state.h"
 
@@ -31,6 +32,8 @@ struct Ui {
   std::string_view log;                   ///< name of the log being written, or ""
   float scale = 1;                        ///< of the display: 1 at 96 dots an inch
   const PictureAnswer* answer = nullptr;  ///< about a pixel; null: none was asked for
+  TradeStatus trade{};
+  std::string_view trade_subject{};  ///< of a search that began now
 
   float px(float length) const { return length * scale; }
   /// The press of this key without Ctrl; null: none. `repeat`: holding it down counts too.

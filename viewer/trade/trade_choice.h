@@ -1,0 +1,28 @@
+// Which settings there are to choose from, and the one that fits a time or an error.
+#pragma once
+
+#include "trade/trade_run.h"
+
+namespace tenebra::viewer {
+
+/// What the user has given himself is no choice any more.
+struct TradeGiven {
+  bool antialias = false, soft_error = false, ao_error = false;
+};
+
+/// What frames with these settings have to choose from.
+TradeAxes axes_of(const render::RenderSettings& settings, const TradeGiven& given);
+
+/// The time that the setting may be relied on to keep to: that of its frames in the middle, or where frames
+/// differ by more than a budget may be exceeded (10 %), of the slowest less that much. Milliseconds.
+double promised_ms(const TradedSetting& setting);
+/// The error that frames are expected to keep to that were not tried: that of the worst of those that were,
+/// times the spread, and a tenth more. Levels of 255; 0 for what is the finest.
+double promised_error(const TradeResult& result, const TradedSetting& setting);
+
+/// The most exact setting whose frame takes no longer than the budget; null: none does.
+const TradedSetting* within_budget(const TradeResult& result, double budget_ms);
+/// The quickest setting that is off by no more; null: none is as exact.
+const TradedSetting* within_error(const TradeResult& result, double error);
+
+}  // namespace tenebra::viewer
