@@ -48,6 +48,10 @@ public:
 
   /// How the last call found each pixel's answer, for display: values of `SoftClass`.
   std::span<const std::uint8_t> classes() const;
+  /// Of the last call, a pixel each: the standard error of its irradiance, estimated, in 1/255 of white; 0:
+  /// it is exact. Empty with config.error_255 0. SoftStats::error_255 is their root mean square over the
+  /// penumbra.
+  std::span<const float> errors() const;
 
 private:
   struct State;

@@ -20,6 +20,7 @@ void add_back(const VisiblePoints& points, const AreaLight& front, const AreaSid
     out.lit.visible_fraction[i] = std::max(out.lit.visible_fraction[i], back.lit.visible_fraction[i]);
     out.lit.irradiance[i] = std::max(out.lit.irradiance[i], back.lit.irradiance[i]);
     if (!out.classes.empty()) out.classes[i] = back.classes[i];
+    if (!out.errors.empty()) out.errors[i] = back.errors[i];
   }
   out.tint.pixels.insert(out.tint.pixels.end(), back.tint.pixels.begin(), back.tint.pixels.end());
   out.tint.factors.insert(out.tint.factors.end(), back.tint.factors.begin(), back.tint.factors.end());
@@ -56,6 +57,9 @@ Expected<void> Renderer::State::trace_side(const AreaTask& task, const DrawnLigh
   if (auto done = trace_visible_part(task, light, out.lit); !done) return done;
   out.classes.clear();
   if (task.settings.soft_points == 0) out.classes.assign(soft.classes().begin(), soft.classes().end());
+  out.errors.clear();
+  if (task.settings.error_maps && task.settings.soft_points == 0)
+    out.errors.assign(soft.errors().begin(), soft.errors().end());
   out.tint = {};
   if (task.input.geometry.see_through.empty()) return {};
   if (auto done = trace_tint(task.input, light, task.settings, task.at, task.normals, {}, out.lit, out.tint,

@@ -129,6 +129,8 @@ Expected<void> Renderer::State::trace_hard(const FrameInput& input, const DrawnL
   if (settings.shadows == ShadowMode::soft) {
     out.visible_fraction = {seen.width, seen.height, 1, {}};
     for (const std::uint8_t lit : hard_mask) out.visible_fraction.pixels.push_back(lit != 0 ? 1.0f : 0.0f);
+    if (settings.error_maps)
+      out.error = {seen.width, seen.height, 1, std::vector<float>(hard_mask.size(), 0.0f)};
   }
   result.timings.writeback_ms += watch.lap_ms();
   return {};
@@ -145,6 +147,10 @@ Expected<void> Renderer::State::trace_soft(const FrameInput& input, const DrawnL
   out.visible_fraction = {seen.width, seen.height, 1, lit_side.lit.visible_fraction};
   out.mask = in_levels(out.visible_fraction);
   out.classes = lit_side.classes;
+  if (settings.error_maps) {
+    out.error = {seen.width, seen.height, 1, lit_side.errors};
+    out.error.pixels.resize(lit_side.lit.visible_fraction.size());  // all exact
+  }
   out.tint = lit_side.tint;
   std::swap(irradiance_out, lit_side.lit.irradiance);
   result.timings.writeback_ms += watch.lap_ms();

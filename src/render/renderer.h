@@ -82,6 +82,7 @@ struct RenderSettings {
   bool antialias_everywhere = false;  ///< every pixel gets all of them; 256 need it
   bool mask_means = false;            ///< fill LightMask::mean
   bool sample_masks = false;          ///< fill LightMask::samples
+  bool error_maps = false;            ///< fill LightMask::error
   bool linear = false;                ///< fill FrameResult::linear and seen; the picture is the same
   bool linear_mean = false;           ///< fill FrameResult::linear_mean; the picture is the same
   AovChoice aovs;                     ///< what of FrameResult::aovs is filled; the picture is the same
@@ -109,6 +110,7 @@ struct LightMask {
   base::ImageF
       visible_fraction;      ///< soft mode: visible part of the light, 0..1 (0 or 1 of a point); else empty
   std::vector<float> nodes;  ///< hard, with RenderSettings::diagnostics: ShadowTracer::pixel_nodes
+  base::ImageF error;  ///< soft, with RenderSettings::error_maps: SoftShadowTracer::errors(), 0 where exact
   std::vector<std::uint8_t> classes;  ///< exact soft shadows: a SoftClass a pixel, for display; else empty
   TintMask tint;  ///< what see-through surfaces leave of the light's colours; the mask is of opaque casters
 

@@ -38,6 +38,7 @@ struct AreaSide {
   SoftMask lit;
   TintMask tint;
   std::vector<std::uint8_t> classes;  ///< a SoftClass each; empty with soft_points
+  std::vector<float> errors;          ///< as SoftShadowTracer::errors(); empty: all exact, or not wanted
 };
 
 struct Renderer::State {

@@ -88,6 +88,7 @@ struct SoftShadowTracer::State {
   soft::SoftSampler sampler;
   SimdLevel level = SimdLevel::automatic;
   std::vector<std::uint8_t> classes;
+  std::vector<float> errors;
   SoftStats stats;
   FrameTimings timings;
 
@@ -199,7 +200,7 @@ bool SoftShadowTracer::State::sample(const soft::SoftFrame& frame, const AreaLig
     sampled.insert(sampled.end(), worker.sampled.begin(), worker.sampled.end());
   std::sort(sampled.begin(), sampled.end(), [](const auto& a, const auto& b) { return a.group < b.group; });
   base::Stopwatch watch;
-  const bool done = sampler.solve(frame, light, sampled, stats, left);
+  const bool done = sampler.solve(frame, light, sampled, stats, left, errors);
   timings.query_ms += watch.lap_ms();
   return done;
 }
@@ -267,7 +268,9 @@ bool SoftShadowTracer::trace(const VisiblePoints& seen, std::span<const glm::vec
       });
   s.gather();
   s.stats.groups = s.groups.groups.size();
+  s.errors.clear();
   if (!done || !(config.error_255 > 0)) return done;
+  s.errors.assign(points.triangles.size(), 0.0f);
   std::vector<std::uint32_t> left;
   if (!s.sample(frame, light, left)) return false;
   if (!s.solve_left(frame, triangles, light, left)) return false;
@@ -285,6 +288,9 @@ const FrameTimings& SoftShadowTracer::timings() const {
 }
 std::span<const std::uint8_t> SoftShadowTracer::classes() const {
   return state_->classes;
+}
+std::span<const float> SoftShadowTracer::errors() const {
+  return state_->errors;
 }
 
 }  // namespace tenebra

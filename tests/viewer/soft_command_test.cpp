@@ -185,5 +185,58 @@ TEST(Config, NamesFileAndWordOfWhatIsWrong) {
   }
 }
 
+TEST(SoftCommand, TakesTheSmallestErrorThatFitsTheBudget) {
+  const TemporaryFolder folder;
+  const std::string scene = write_moving_scene(folder);
+  const auto draw = [&](const std::string& name, std::vector<std::string> more) {
+    for (const char* word : {"--shadows", "soft", "--light-size", "1.5x0.5", "-o"}) more.emplace_back(word);
+    more.push_back(folder / (name + ".png"));
+    more.insert(more.end(), {"--log", folder / (name + ".csv")});
+    const auto result = tenebra(render(scene, more));
+    EXPECT_EQ(result.exit_code, 0) << result.errors;
+    return result;
+  };
+  draw("exact", {});
+  const auto rich = draw("rich", {"--budget", "600000"});
+  EXPECT_NE(rich.output.find("--budget 600000: --soft-error 0\n"), std::string::npos) << rich.output;
+  EXPECT_EQ(rich.errors, "");
+  EXPECT_EQ(read_text(folder / "rich.png"), read_text(folder / "exact.png"));
+  EXPECT_EQ(logged(folder / "rich.csv", "soft_error"), 0);
+  EXPECT_EQ(logged(folder / "rich.csv", "tries"), 1);
+  const auto poor = draw("poor", {"--budget", "0.001"});
+  EXPECT_NE(poor.errors.find("--budget 0.001: nothing is as quick; the coarsest, --soft-error 16, takes"),
+            std::string::npos)
+      << poor.errors;
+  draw("coarse", {"--soft-error", "16"});
+  EXPECT_EQ(read_text(folder / "poor.png"), read_text(folder / "coarse.png"));
+  EXPECT_EQ(logged(folder / "poor.csv", "soft_error"), 16);
+  EXPECT_NE(read_text(folder / "poor.csv").find("# note: tried for frame"), std::string::npos);
+  EXPECT_NE(read_text(folder / "poor.csv").find("# budget: 0.001 ms"), std::string::npos);
+  const auto both = tenebra(render(scene, {"--shadows", "soft", "--budget", "9", "--soft-error", "1"}));
+  EXPECT_EQ(both.exit_code, 1);
+  EXPECT_NE(both.errors.find("--soft-error"), std::string::npos) << both.errors;
+  const auto hard = tenebra(render(scene, {"--budget", "900", "-o", "none"}));
+  EXPECT_EQ(hard.exit_code, 0);
+  EXPECT_NE(hard.errors.find("--budget does nothing without --shadows soft or --ao adaptive"),
+            std::string::npos)
+      << hard.errors;
+}
+
+TEST(SoftCommand, WritesAMapOfTheErrors) {
+  const TemporaryFolder folder;
+  const std::string scene = write_moving_scene(folder);
+  const auto result =
+      tenebra(render(scene, {"--shadows", "soft", "--light-size", "1.5x0.5", "-o", "none", "--error-map",
+                             folder / "error.pfm", "--error-map", folder / "error.png"}));
+  ASSERT_EQ(result.exit_code, 0) << result.errors;
+  for (const float error : read_pfm(folder / "error.pfm")) ASSERT_EQ(error, 0) << "exact";
+  const auto picture = base::read_png(folder / "error.png");
+  ASSERT_TRUE(picture) << picture.error().message;
+  EXPECT_EQ(picture->width, 80);
+  const auto hard = tenebra(render(scene, {"-o", "none", "--error-map", folder / "hard.pfm"}));
+  EXPECT_EQ(hard.exit_code, 1);
+  EXPECT_NE(hard.errors.find("expected --shadows soft"), std::string::npos) << hard.errors;
+}
+
 }  // namespace
 }  // namespace tenebra::testing

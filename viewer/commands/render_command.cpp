@@ -1,7 +1,9 @@
 // tenebra render: a scene file in, pictures, masks, a log and a trace out.
 #include <fmt/core.h>
+#include <algorithm>
 #include <array>
 #include <chrono>
+#include <limits>
 #include <memory>
 #include <optional>
 
@@ -9,6 +11,7 @@
 #include "base/output_file.h"
 #include "base/stream_writer.h"
 #include "commands/command.h"
+#include "commands/frame_budget.h"
 #include "commands/render_identity.h"
 #include "commands/render_log.h"
 #include "commands/render_output.h"
@@ -20,6 +23,7 @@
 #include "shared/render_plan.h"
 #include "shared/scene_choice.h"
 #include "shell/console.h"
+#include "shell/draw_limit.h"
 #include "shell/exit_codes.h"
 #include "shell/memory_limit.h"
 #include "shell/progress.h"
@@ -36,7 +40,8 @@ double milliseconds(Clock::duration duration) {
 
 Expected<void> prepare_folders(const RenderOptions& options) {
   std::vector<OutputPattern> patterns = options.masks;
-  for (const auto* more : {&options.mask_colours, &options.mask_means, &options.mask_samples})
+  for (const auto* more :
+       {&options.mask_colours, &options.mask_means, &options.mask_samples, &options.error_maps})
     patterns.insert(patterns.end(), more->begin(), more->end());
   if (options.pictures.files) patterns.push_back(*options.pictures.files);
   for (const OutputPattern& pattern : patterns) {
@@ -53,7 +58,16 @@ Expected<void> prepare_folders(const RenderOptions& options) {
 class FrameLoop {
 public:
   FrameLoop(const RenderPlan& plan, const RenderOptions& options, StopSignals& stop)
-      : plan_(plan), options_(options), stop_(stop), output_(plan, options, stop.flag()) {}
+      : plan_(plan),
+        options_(options),
+        stop_(stop),
+        output_(plan, options, stop.flag()),
+        choice_(budget_choice(plan.settings)),
+        settings_(plan.settings) {
+    if (!options.budget_ms || !choice_.any()) return;
+    ladder_ = budget_ladder(options.method);
+    budget_.emplace(*options.budget_ms, ladder_.size());
+  }
 
   Expected<void> run() {
     auto raster = render::FrameRaster::create(options_.raster);
@@ -93,6 +107,14 @@ public:
 
   /// Of the frames that were drawn.
   std::span<const TimedFrame> drawn() const { return drawn_; }
+  /// What --budget chose; "" without it.
+  std::string taken_text() const {
+    if (taken_.empty()) return "";
+    const auto [least, most] = std::ranges::minmax(taken_);
+    std::string text = errors_text(ladder_[least], choice_);
+    if (least != most) text += fmt::format(" to {}", errors_text(ladder_[most], choice_));
+    return fmt::format("--budget {:g}: {}\n", *options_.budget_ms, text);
+  }
   std::size_t written() const { return output_.frames_written(); }
   /// The frames that were to be drawn.
   std::size_t frames() const { return frames_.size(); }
@@ -103,25 +125,69 @@ private:
 
   static bool is_stop(const Expected<void>& done) { return !done && done.error().message == "stopped"; }
 
-  Expected<void> draw(render::Renderer& renderer, const PlannedFrame& planned, Progress& progress,
-                      parallel::JobQueue& files) {
+  /// Of the frame, its whole way with settings_ from the time to the picture; what it takes is in `result`.
+  Expected<void> draw_once(render::Renderer& renderer, const PlannedFrame& planned, Progress& progress,
+                           const StopFlag& stop, render::FrameResult& result) {
     const auto begin = Clock::now();
-    render::FrameResult& result = results_[drawn_.size() % results];
     evaluate_frame(plan_.scene, plan_.clip, planned.time_s, input_.geometry);
     apply_node_edits(plan_.scene, options_.scene.edits, input_.geometry);
     input_.lights = placed_lights(plan_.scene, options_.scene.edits, plan_.clip, planned.time_s);
     input_.view = view_of(plan_, options_.scene, planned.time_s, plan_.size);
     const double evaluate_ms = milliseconds(Clock::now() - begin);
     const auto on_progress = [&](std::string_view what, double done) { progress.show_building(what, done); };
-    if (auto drawn = renderer.render_frame(input_, plan_.settings, result, on_progress, &stop_.flag());
-        !drawn)
+    if (auto drawn = renderer.render_frame(input_, settings_, result, on_progress, &stop); !drawn)
       return drawn;
+    result.timings.evaluate_ms = evaluate_ms;
+    result.timings.total_ms = milliseconds(Clock::now() - begin);
+    return {};
+  }
+
+  /// The same with the smallest errors that fit into --budget.
+  Expected<void> draw_within_budget(render::Renderer& renderer, const PlannedFrame& planned,
+                                    Progress& progress, render::FrameResult& result) {
+    std::vector<std::string> notes;  // each is said once, by frames that are given up too
+    const auto draw = [&](std::size_t rung, double limit_ms) -> Expected<double> {
+      set_errors(choice_, ladder_[rung], settings_);
+      const DrawLimit limit(limit_ms, stop_.flag());
+      auto drawn = draw_once(renderer, planned, progress, limit.flag(), tried_);
+      if (!drawn && is_stop(drawn) && !stop_.flag().requested())
+        return std::numeric_limits<double>::infinity();
+      if (!drawn) return tl::unexpected(drawn.error());
+      notes.insert(notes.end(), tried_.notes.begin(), tried_.notes.end());
+      return tried_.timings.total_ms;
+    };
+    if (auto drawn = budget_->draw(draw, [&] { std::swap(tried_, result); }); !drawn) return drawn;
+    set_errors(choice_, ladder_[budget_->rung()], settings_);
+    result.notes = std::move(notes);
+    if (!budget_->fits() && !said_nothing_fits_) {
+      said_nothing_fits_ = true;
+      result.notes.push_back(fmt::format(
+          "--budget {:g}: nothing is as quick; the coarsest, {}, takes {:.1f} ms in frame {}",
+          *options_.budget_ms, errors_text(ladder_[budget_->rung()], choice_), budget_->ms(), planned.frame));
+    }
+    return {};
+  }
+
+  Expected<void> draw(render::Renderer& renderer, const PlannedFrame& planned, Progress& progress,
+                      parallel::JobQueue& files) {
+    const auto begin = Clock::now();
+    render::FrameResult& result = results_[drawn_.size() % results];
+    auto drawn = budget_ ? draw_within_budget(renderer, planned, progress, result)
+                         : draw_once(renderer, planned, progress, stop_.flag(), result);
+    if (!drawn) return drawn;
     if (!options_.quiet) progress.print_notes(result.notes);
 
     render::FrameRecord record{planned.frame, planned.time_s, result.timings,  result.stats,
                                result.soft,   result.ao,      result.antialias};
-    record.timings.evaluate_ms = evaluate_ms;
-    record.timings.total_ms = milliseconds(Clock::now() - begin);
+    if (choice_.soft) record.soft_error = settings_.soft.error_255;
+    if (choice_.ao) record.ao_error = settings_.ao.error_255;
+    if (budget_) {
+      record.tries = budget_->tries().size();
+      taken_.push_back(budget_->rung());
+      if (record.tries > 1)
+        result.notes.push_back(
+            fmt::format("tried for frame {}: {}", planned.frame, tries_text(*budget_, ladder_, choice_)));
+    }
     drawn_.push_back({record.frame, record.timings});
     const double begin_ms = milliseconds(begin - begin_);
     auto added =
@@ -140,6 +206,14 @@ private:
   std::array<render::FrameResult, results> results_;
   std::vector<TimedFrame> drawn_;
   bool failed_to_write_ = false;
+
+  BudgetChoice choice_;
+  render::RenderSettings settings_;  ///< of the frame at hand
+  std::vector<BudgetErrors> ladder_;
+  std::optional<FrameBudget> budget_;  ///< none: no --budget, or nothing to choose
+  render::FrameResult tried_;
+  std::vector<std::size_t> taken_;  ///< of the ladder, by each frame
+  bool said_nothing_fits_ = false;
 };
 
 /// Standard output is for messages, unless pictures go there.
@@ -162,6 +236,7 @@ void print_summary(const RenderPlan& plan, const RenderOptions& options, std::sp
     text += fmt::format(", means of masks in {}", mask.text());
   for (const OutputPattern& mask : options.mask_samples)
     text += fmt::format(", masks of samples in {}", mask.text());
+  for (const OutputPattern& map : options.error_maps) text += fmt::format(", errors in {}", map.text());
   if (!options.log.empty()) text += fmt::format(", log in {}", options.log);
   if (!options.trace.empty()) text += fmt::format(", trace in {}", options.trace);
   write_text(stream, text + "\n");
@@ -199,6 +274,7 @@ Expected<int> render(const RenderOptions& options) {
     print_failure(done.error().message);
     return exit_codes::outputs_failed;
   }
+  if (!options.quiet) write_text(messages_of(options), loop.taken_text());
   if (!options.quiet)
     print_summary(*plan, options, loop.drawn().first(loop.written()), plan->frames.size() - loop.frames());
   const std::size_t written = loop.written();
@@ -222,6 +298,8 @@ void add_render_command(CLI::App& program, Run& run) {
     settle_memory(command, options->memory_mb, options->method);
     options->config = config_file_of(command);
     options->warnings = idle_method_options(command, options->method);
+    if (options->budget_ms && !budget_choice(options->method.render).any())
+      options->warnings.emplace_back("--budget does nothing without --shadows soft or --ao adaptive");
     run = [options] { return render(*options); };
   });
 }

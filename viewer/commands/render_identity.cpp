@@ -37,6 +37,7 @@ std::string outputs_text(const RenderOptions& options) {
   add("--mask", options.masks);
   add("--mask-colour", options.mask_colours);
   add("--mask-mean", options.mask_means);
+  add("--error-map", options.error_maps);
   add("--mask-samples", options.mask_samples);
   return text;
 }

@@ -154,6 +154,10 @@ std::vector<render::LogSetting> describe_render(const RenderPlan& plan, const Re
       {"added", added_text(plan.added)},
   };
   for (render::LogSetting& setting : describe_method(settings)) list.push_back(std::move(setting));
+  if (options.budget_ms) {
+    std::erase_if(list, [](const auto& s) { return s.name == "soft_error" || s.name == "ao_error"; });
+    list.push_back({"budget", fmt::format("{} ms", *options.budget_ms)});
+  }
   list.push_back({"exposure_from", options.method.auto_exposure ? "auto" : "option"});
   for (EditOption& edit : edit_options(options.scene.edits)) {
     list.push_back({setting_name(edit), std::move(edit.value)});

@@ -3,6 +3,7 @@
 #include <fmt/core.h>
 
 #include <algorithm>
+#include <cmath>
 #include <filesystem>
 
 #include "base/fail.h"
@@ -36,6 +37,14 @@ std::vector<render::LogSetting> changes(const render::LogPast& past,
   for (const render::LogSetting& setting : settings)
     if (!noted(setting)) changed.push_back({"from here on " + setting.name, setting.value});
   return changed;
+}
+
+/// Rounded to levels, each 1/255 of white, 255 at most.
+base::Image8 error_levels(const base::ImageF& errors) {
+  base::Image8 out{errors.width, errors.height, 1, {}};
+  for (const float error : errors.pixels)
+    out.pixels.push_back(static_cast<std::uint8_t>(std::min(std::round(error), 255.0f)));
+  return out;
 }
 
 }  // namespace
@@ -161,6 +170,12 @@ Expected<void> RenderOutput::write_masks(int frame, const render::LightMask& mas
     const auto file = pattern.file(frame, light);
     auto written = pattern.is_pfm() ? base::write_pfm(file, render::mask_colour(mask))
                                     : base::write_png(file, render::mask_colour8(mask));
+    if (!written) return written;
+  }
+  for (const OutputPattern& pattern : options_.error_maps) {
+    const auto file = pattern.file(frame, light);
+    auto written = pattern.is_pfm() ? base::write_pfm(file, mask.error)
+                                    : base::write_png(file, error_levels(mask.error));
     if (!written) return written;
   }
   return write_sample_masks(frame, light, mask);

@@ -87,6 +87,12 @@ void add_output_options(CLI::App& command, RenderOptions& options) {
       "The mask of each sample, which adds _S0, _S1, ...: the\ncentre's first, then the others; a pixel with "
       "one sample\nhas that one in all of them")
       .type_name("FILE.png");
+  add_texts(
+      command, "--error-map",
+      [&options](const std::vector<std::string>& names) { return read_masks(names, options.error_maps); },
+      "How far off the light that each pixel gets may be (the\nstandard error, estimated), in 1/255 of its "
+      "white: 0 where\nit is exact; .pfm: in 32 bits, .png: rounded")
+      .type_name("FILE.png|FILE.pfm");
   add_text(command, "--log", options.log, "Log: times and counts of each frame").type_name("FILE.csv");
   add_text(command, "--trace", options.trace, "The same times for Perfetto or chrome://tracing")
       .type_name("FILE.json");
@@ -143,6 +149,15 @@ Expected<void> check_masks(const RenderOptions& options, bool several) {
     }
   }
   if (auto checked = check_sample_masks(options, several); !checked) return checked;
+  for (const OutputPattern& map : options.error_maps) {
+    if (auto checked = check_mask(options, map, "--error-map", several); !checked) return checked;
+    if (options.method.render.shadows != render::ShadowMode::soft || options.method.render.soft_points > 0)
+      return base::fail("--error-map {} is of soft shadows by an error; expected --shadows soft{}",
+                        map.text(), options.method.render.soft_points > 0 ? " without --soft-points" : "");
+    for (const OutputPattern& other : options.masks)
+      if (map.file(0) == other.file(0))
+        return base::fail("--mask and --error-map name the same file {}", map.text());
+  }
   for (const OutputPattern& mask : options.mask_colours) {
     if (auto checked = check_mask(options, mask, "--mask-colour", several); !checked) return checked;
     for (const OutputPattern& other : options.masks)
@@ -192,6 +207,17 @@ void add_progress_options(CLI::App& command, RenderOptions& options) {
   add_memory_option(command, options.memory_mb);
 }
 
+void add_budget_option(CLI::App& command, RenderOptions& options) {
+  add_value(
+      command, "--budget", options.budget_ms, parse_positive,
+      "What a frame may take, in ms: it has the smallest\n--soft-error and --ao-error that fit, of a fixed "
+      "ladder; the\nlog has them. Nothing smaller than --quality asks for")
+      .type_name("MS")
+      .excludes(option_of(command, "--soft-error"))
+      .excludes(option_of(command, "--ao-error"))
+      .excludes(option_of(command, "--soft-points"));
+}
+
 }  // namespace
 
 void add_render_options(CLI::App& command, RenderOptions& options) {
@@ -204,6 +230,7 @@ void add_render_options(CLI::App& command, RenderOptions& options) {
       .excludes(option_of(command, "--time"));
   add_progress_options(command, options);
   add_method_options(command, options.method);
+  add_budget_option(command, options);
   add_output_options(command, options);
   add_config_option(command);
 }
@@ -211,7 +238,7 @@ void add_render_options(CLI::App& command, RenderOptions& options) {
 void settle_render_options(RenderOptions& options) {
   settle_picture_options(options.pictures);
   const bool masks = !options.masks.empty() || !options.mask_colours.empty() || !options.mask_means.empty() ||
-                     !options.mask_samples.empty();
+                     !options.mask_samples.empty() || !options.error_maps.empty();
   if (masks && !options.method.terminator) options.method.terminator = render::Terminator::flat;
 }
 
@@ -220,7 +247,8 @@ Expected<void> check_render_options(const RenderOptions& options) {
   if (auto checked = check_pictures(options, several); !checked) return checked;
   if (auto checked = check_masks(options, several); !checked) return checked;
   const bool files = options.pictures.files || !options.masks.empty() || !options.mask_colours.empty() ||
-                     !options.mask_means.empty() || !options.mask_samples.empty();
+                     !options.mask_means.empty() || !options.mask_samples.empty() ||
+                     !options.error_maps.empty();
   if (options.skip_existing && !files)
     return base::fail("--skip-existing looks for pictures and masks; expected -o or --mask");
   if (options.resume && !files && options.log.empty())

@@ -24,10 +24,12 @@ struct RenderOptions {
   std::vector<OutputPattern> mask_colours;  ///< the same, of masks times what see-through surfaces leave
   std::vector<OutputPattern> mask_means;    ///< of the samples of --antialias
   std::vector<OutputPattern> mask_samples;  ///< .png: each of them
+  std::vector<OutputPattern> error_maps;    ///< .png or .pfm
   std::string log;
   std::string trace;
   std::string config;  ///< the file that options came from; empty: none
   double timeout_s = std::numeric_limits<double>::infinity();  ///< for the whole run
+  std::optional<double> budget_ms;                             ///< of a frame
   std::optional<int> memory_mb;                                ///< of the whole program
   Chunk chunk;                                                 ///< of the frames
   bool resume = false;         ///< what is done with the same settings is not done again

@@ -19,6 +19,7 @@ std::vector<OutputName> files_of_frame(const RenderPlan& plan, const RenderOptio
   add("--mask", options.masks, 1);
   add("--mask-colour", options.mask_colours, 1);
   add("--mask-mean", options.mask_means, 1);
+  add("--error-map", options.error_maps, 1);
   add("--mask-samples", options.mask_samples, plan.settings.antialias);
   return files;
 }

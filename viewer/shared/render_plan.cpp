@@ -52,6 +52,7 @@ Expected<RenderPlan> plan_render(const RenderOptions& options) {
   plan.frames = std::move(*frames);
   plan.settings = method_settings(options.method, plan.size, plan.display);
   plan.settings.mask_means = !options.mask_means.empty();
+  plan.settings.error_maps = !options.error_maps.empty();
   plan.settings.linear_mean = options.pictures.are_exr();
   plan.settings.aovs = options.pictures.aovs;
   plan.settings.sample_masks = !options.mask_samples.empty();

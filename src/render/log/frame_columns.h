@@ -23,6 +23,9 @@ struct FrameRecord {
   SoftStats soft;
   AoStats ao;
   AntialiasStats antialias;
+  double soft_error = 0;    ///< that was asked for: RenderSettings::soft.error_255; 0: exact
+  double ao_error = 0;      ///< likewise, with --ao adaptive; 0: without
+  std::uint64_t tries = 1;  ///< draws of this frame, the one that was kept among them
 };
 
 struct TimingColumn {
@@ -97,14 +100,17 @@ inline constexpr std::array method_columns{
     CountColumn{"antialias_samples", [](const FrameRecord& r) { return r.antialias.samples; }},
     CountColumn{"soft_points_sampled", [](const FrameRecord& r) { return r.soft.points_sampled; }},
     CountColumn{"soft_sampled_rays", [](const FrameRecord& r) { return r.soft.sampled_rays; }},
+    CountColumn{"tries", [](const FrameRecord& r) { return r.tries; }},
     // The old name of soft_points_silhouette, for readers of logs: goes with 0.3.
     CountColumn{"soft_points_outline", [](const FrameRecord& r) { return r.soft.points_silhouette; }},
 };
 
-/// Estimates, after the counts of the methods. 0 where the method has none.
+/// Estimates, after the counts of the methods, and what they were to be. 0 where the method has none.
 inline constexpr std::array estimate_columns{
     EstimateColumn{"ao_error_255", [](const FrameRecord& r) { return r.ao.error_255; }},
     EstimateColumn{"soft_error_255", [](const FrameRecord& r) { return r.soft.error_255; }},
+    EstimateColumn{"ao_error", [](const FrameRecord& r) { return r.ao_error; }},
+    EstimateColumn{"soft_error", [](const FrameRecord& r) { return r.soft_error; }},
 };
 
 /// Times that close a row of the log, after the counts.

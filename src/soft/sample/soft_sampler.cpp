@@ -141,7 +141,7 @@ void SoftSampler::leave(const SoftFrame& frame, double much, std::uint32_t place
 }
 
 bool SoftSampler::solve(const SoftFrame& frame, const AreaLight& light, std::span<const SampledGroup> groups,
-                        SoftStats& stats, std::vector<std::uint32_t>& left) {
+                        SoftStats& stats, std::vector<std::uint32_t>& left, std::span<float> errors_255) {
   left.clear();
   square_error_ = 0;
   left_penumbra_ = 0;
@@ -172,9 +172,20 @@ bool SoftSampler::solve(const SoftFrame& frame, const AreaLight& light, std::spa
     std::erase_if(chosen, [&](std::uint32_t b) { return errors.squares[b] <= much * errors.count[b]; });
     if (chosen.empty()) break;
   }
+  write_errors(frame, unit, errors_255);
   write(frame, stats);
   square_error_ = unit > 0 ? errors.square / (unit * unit) : 0;
   return true;
+}
+
+/// Before write(), which changes what they are found by.
+void SoftSampler::write_errors(const SoftFrame& frame, double unit, std::span<float> errors_255) const {
+  if (!(unit > 0)) return;
+  for (std::size_t slot = 0; slot < blocks_.pixels.size(); ++slot) {
+    const std::uint32_t pixel = blocks_.pixels[slot];
+    if (pixel != no_pixel)
+      errors_255[pixel] = static_cast<float>(std::sqrt(square_of(frame, means_, slot, pixel)) / unit);
+  }
 }
 
 void SoftSampler::write(const SoftFrame& frame, SoftStats& stats) const {

@@ -33,10 +33,11 @@ class SoftSampler {
 public:
   /// Multiplies frame.out of the groups' pixels, which say what they would see with nothing in the way, by
   /// the visible shares, and adds to `stats`, which have the pixels that were solved exactly. Groups that
-  /// would take longer so than exactly are left alone: `left` gets their numbers. The bits do not depend on
-  /// the order of groups, threads or instruction set. Returns false if frame.stop was requested.
+  /// would take longer so than exactly are left alone: `left` gets their numbers. `errors_255`, one for each
+  /// pixel, gets what those that stay are off by, estimated, in 1/255 of white. The bits do not depend on the
+  /// order of groups, threads or instruction set. Returns false if frame.stop was requested.
   bool solve(const SoftFrame& frame, const AreaLight& light, std::span<const SampledGroup> groups,
-             SoftStats& stats, std::vector<std::uint32_t>& left);
+             SoftStats& stats, std::vector<std::uint32_t>& left, std::span<float> errors_255);
   /// Of the last call: squares of what the pixels are off by, estimated, in 1/255 of white, summed.
   double square_error() const { return square_error_; }
 
@@ -56,6 +57,7 @@ private:
             std::uint32_t phase, std::uint32_t from, std::uint32_t to);
   void leave(const SoftFrame& frame, double much, std::uint32_t places, std::vector<SampledGroup>& groups,
              std::vector<std::uint32_t>& left);
+  void write_errors(const SoftFrame& frame, double unit, std::span<float> errors_255) const;
   void write(const SoftFrame& frame, SoftStats& stats) const;
 
   double square_error_ = 0;

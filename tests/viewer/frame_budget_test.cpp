@@ -1,0 +1,113 @@
+// What --budget chooses, by times that are made up.
+#include <gtest/gtest.h>
+
+#include <limits>
+#include <vector>
+
+#include "base/fail.h"
+#include "commands/frame_budget.h"
+
+namespace tenebra::viewer {
+namespace {
+
+constexpr double never = std::numeric_limits<double>::infinity();
+
+/// Draws nothing: each error takes what is written here.
+struct MadeUp {
+  std::vector<double> ms;
+  std::vector<std::size_t> drawn;
+  int kept = 0;
+  std::size_t last_kept = 99;
+
+  bool frame(FrameBudget& budget) {
+    drawn.clear();
+    const auto draw = [this](std::size_t rung, double limit_ms) -> Expected<double> {
+      drawn.push_back(rung);
+      return ms[rung] <= limit_ms ? ms[rung] : never;
+    };
+    return budget.draw(draw, [this] { ++kept, last_kept = drawn.back(); }).has_value();
+  }
+};
+
+TEST(FrameBudget, TakesTheSmallestErrorThatFitsThoughTimesDoNotFallEvenly) {
+  MadeUp of{{80, 150, 120, 90, 40}};
+  FrameBudget hundred(100, 5), sixty(60, 5);
+  ASSERT_TRUE(of.frame(hundred));
+  EXPECT_EQ(hundred.rung(), 0u) << "exact is quicker than sampling here";
+  EXPECT_EQ(of.drawn, (std::vector<std::size_t>{4, 0})) << "the coarsest first, for what is built once";
+  ASSERT_TRUE(of.frame(sixty));
+  EXPECT_EQ(sixty.rung(), 4u);
+  EXPECT_TRUE(sixty.fits());
+  EXPECT_EQ(sixty.tries().size(), 5u);
+}
+
+TEST(FrameBudget, KeepsTheErrorOfTheLastFrameUpToATenth) {
+  MadeUp of{{200, 150, 95, 60}};
+  FrameBudget budget(100, 4);
+  ASSERT_TRUE(of.frame(budget));
+  EXPECT_EQ(budget.rung(), 2u);
+  of.ms[2] = 109;
+  ASSERT_TRUE(of.frame(budget));
+  EXPECT_EQ(of.drawn, std::vector<std::size_t>{2});
+  EXPECT_TRUE(budget.fits());
+  of.ms[2] = 111;
+  ASSERT_TRUE(of.frame(budget));
+  EXPECT_EQ(budget.rung(), 3u);
+  EXPECT_EQ(of.last_kept, 3u);
+}
+
+TEST(FrameBudget, TriesSmallerErrorsWhereFramesGetQuickerAndEveryNowAndThen) {
+  MadeUp of{{200, 150, 90}};
+  FrameBudget budget(100, 3);
+  ASSERT_TRUE(of.frame(budget));
+  ASSERT_TRUE(of.frame(budget));
+  EXPECT_EQ(of.drawn, std::vector<std::size_t>{2});
+  of.ms = {160, 95, 70};
+  ASSERT_TRUE(of.frame(budget));
+  EXPECT_EQ(of.drawn, (std::vector<std::size_t>{2, 0, 1}));
+  EXPECT_EQ(budget.rung(), 1u);
+  of.ms[0] = 99;
+  int frames = 1;
+  for (; budget.rung() != 0 && frames < 100; ++frames) ASSERT_TRUE(of.frame(budget));
+  EXPECT_LE(frames, 26);
+}
+
+TEST(FrameBudget, TakesTheCoarsestWhereNothingFitsAndTriesAgainLater) {
+  MadeUp of{{200, 150, 130}};
+  FrameBudget budget(100, 3);
+  ASSERT_TRUE(of.frame(budget));
+  EXPECT_FALSE(budget.fits());
+  EXPECT_EQ(budget.rung(), 2u);
+  EXPECT_EQ(of.last_kept, 2u);
+  ASSERT_TRUE(of.frame(budget));
+  EXPECT_EQ(of.drawn, std::vector<std::size_t>{2}) << "not all of them for each frame";
+  of.ms[1] = 90;
+  for (int frames = 0; budget.rung() != 1 && frames < 100; ++frames) ASSERT_TRUE(of.frame(budget));
+  EXPECT_TRUE(budget.fits());
+}
+
+TEST(FrameBudget, HandsOnWhyNothingWasDrawn) {
+  FrameBudget budget(100, 3);
+  const auto fails = [](std::size_t, double) -> Expected<double> { return base::fail("stopped"); };
+  const auto done = budget.draw(fails, [] { FAIL() << "nothing to keep"; });
+  ASSERT_FALSE(done);
+  EXPECT_EQ(done.error().message, "stopped");
+}
+
+TEST(FrameBudget, HasNoErrorBelowThoseOfQuality) {
+  MethodOptions options;
+  options.render.shadows = render::ShadowMode::soft;
+  EXPECT_EQ(budget_ladder(options).front().soft, 0);
+  options.render.ao.mode = AoMode::adaptive;
+  EXPECT_EQ(budget_ladder(options).front(), (BudgetErrors{0, 0.5}));
+  EXPECT_EQ(budget_ladder(options).back(), (BudgetErrors{16, 16}));
+  options.quality = render::Quality::fast;
+  render::apply_quality(*options.quality, options.render);
+  EXPECT_EQ(budget_ladder(options).front(), (BudgetErrors{4, 5}));
+  options.render.shadows = render::ShadowMode::hard;
+  EXPECT_EQ(budget_ladder(options).front(), (BudgetErrors{0, 5}));
+  EXPECT_EQ(budget_ladder(options).size(), 5u) << "none twice";
+}
+
+}  // namespace
+}  // namespace tenebra::viewer

@@ -1,0 +1,84 @@
+// --budget: the smallest error whose frame fits.
+#pragma once
+
+#include <cstddef>
+#include <functional>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include <tenebra/expected.h>
+#include "options/method_options.h"
+
+namespace tenebra::viewer {
+
+/// Errors that are tried together, in 1/255, as --soft-error and --ao-error have them.
+struct BudgetErrors {
+  double soft = 0, ao = 0;
+  bool operator==(const BudgetErrors&) const = default;
+};
+
+/// What of the chosen methods has an error to choose.
+struct BudgetChoice {
+  bool soft = false, ao = false;
+  bool any() const { return soft || ao; }
+};
+BudgetChoice budget_choice(const render::RenderSettings& settings);
+
+/// From the smallest errors on: none smaller than what --quality asks for, where it was given.
+std::vector<BudgetErrors> budget_ladder(const MethodOptions& options);
+void set_errors(BudgetChoice choice, const BudgetErrors& errors, render::RenderSettings& settings);
+
+/// Draws with those errors of the ladder. Returns milliseconds; infinite: it was given up, as it took longer
+/// than `limit_ms`, and what was drawn is gone.
+using DrawRung = std::function<Expected<double>(std::size_t rung, double limit_ms)>;
+
+/// Chooses the errors of one frame after the other by how long they took.
+///
+/// The first frame is drawn at the coarsest errors, for what later frames find there already, and then from
+/// the smallest on until it fits. Later frames begin with the last one's errors. These are kept up to a tenth
+/// above the budget; above, the coarser ones are tried, then the smaller ones. Where a frame is a tenth
+/// quicker than when smaller errors were tried last, or that was 24 frames ago, they are tried again, from
+/// the smallest on.
+class FrameBudget {
+public:
+  FrameBudget(double budget_ms, std::size_t rungs) : budget_ms_(budget_ms), rungs_(rungs) {}
+
+  /// What was drawn last and not given up is kept by `keep`.
+  Expected<void> draw(const DrawRung& draw, const std::function<void()>& keep);
+
+  std::size_t rung() const { return *rung_; }  ///< of the frame that was drawn last
+  double ms() const { return ms_; }            ///< that it took
+  bool fits() const { return fits_; }          ///< false: not even one of the ladder
+  /// What was tried for it, in order, the uncounted first one left out.
+  struct Try {
+    std::size_t rung;
+    double ms;  ///< infinite: given up
+  };
+  const std::vector<Try>& tries() const { return tries_; }
+
+private:
+  Expected<double> attempt(const DrawRung& draw, std::size_t rung, double limit_ms);
+  Expected<bool> scan(const DrawRung& draw, const std::function<void()>& keep, std::size_t first,
+                      std::size_t last);
+  Expected<bool> go_on(const DrawRung& draw, const std::function<void()>& keep);
+  Expected<void> take_coarsest(const DrawRung& draw, const std::function<void()>& keep);
+  void take(std::size_t rung, double ms, const std::function<void()>& keep);
+
+  double budget_ms_;
+  std::size_t rungs_;
+  std::optional<std::size_t> rung_;
+  double ms_ = 0;
+  bool fits_ = true;
+  std::vector<Try> tries_;
+  double searched_ms_ = 0;  ///< what the frame took that smaller errors were tried with last
+  int since_search_ = 0;    ///< frames
+};
+
+/// "0 gave up, 0.25 gave up, 0.35 took 81.2 ms", of the errors of `choice`.
+std::string tries_text(const FrameBudget& budget, const std::vector<BudgetErrors>& ladder,
+                       BudgetChoice choice);
+/// "--soft-error 0.5 --ao-error 0.5".
+std::string errors_text(const BudgetErrors& errors, BudgetChoice choice);
+
+}  // namespace tenebra::viewer
