@@ -38,6 +38,7 @@ endif()
 set(control ${CMAKE_BINARY_DIR}/deb)
 set(release "${PROJECT_VERSION}-${CPACK_DEBIAN_PACKAGE_RELEASE}")
 list(PREPEND needed "libtenebra1 (= ${release})")
+set(CPACK_DEBIAN_RUNTIME_PACKAGE_REPLACES "libtenebra-dev (<< ${PROJECT_VERSION}-2)")  # had the library before
 file(WRITE ${control}/triggers "activate-noawait ldconfig\n")
 file(WRITE ${control}/shlibs "libtenebra 1 libtenebra1 (>= ${PROJECT_VERSION})\n")
 set(CPACK_DEBIAN_RUNTIME_PACKAGE_CONTROL_EXTRA "${control}/triggers;${control}/shlibs")

@@ -220,6 +220,9 @@ class Farm:
         """A third of the way n1 loses its power and n2 its link, which comes back once Slurm has given n2 up."""
         out, logs, job = self.submit("disturbed")
         wait_for(lambda: len(list(out.glob("[0-9]*.png"))) > self.arguments.frames / 3, 1800, "a third of the frames")
+        both = {"n1", "n2"}
+        wait_for(lambda: both <= {node for _, state, node in self.cluster.tasks(job) if state == "RUNNING"}, 60,
+                 "chunks on n1 and n2")
         running = {node: task for task, state, node in self.cluster.tasks(job) if state == "RUNNING"}
         self.cluster.network.kill("n1")
         self.cluster.network.link("n2", "down")
@@ -227,7 +230,6 @@ class Farm:
         wait_for(lambda: self.cluster.states()["n2"].startswith("down"), 120, "n2 to be given up")
         self.cluster.network.link("n2", "up")
         self.cluster.start_node("n1")
-        self.cluster.wait_ready([])
         self.wait(job)
         return out, logs
 

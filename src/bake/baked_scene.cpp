@@ -58,9 +58,11 @@ bool has_second_set(const Part& part) {
   return !part.mesh->texture_coordinates[1].empty();
 }
 
-MapTriangle in_map(const Part& part, std::uint32_t number, std::uint32_t triangle, const MapSquare& square) {
+/// With its corners in the frame's order, which is the mesh's turned round where the node mirrors it.
+MapTriangle in_map(const FrameGeometry& frame, const Part& part, std::uint32_t number, std::uint32_t triangle,
+                   const MapSquare& square) {
   MapTriangle placed{{}, triangle, number};
-  const glm::uvec3 t = part.mesh->triangles[triangle - part.first_triangle];
+  const glm::uvec3 t = frame.triangles[triangle] - part.first_vertex;
   for (int k = 0; k < 3; ++k)
     placed.corners[static_cast<std::size_t>(k)] =
         square.origin + square.side * glm::dvec2(part.mesh->texture_coordinates[1][t[k]]);
@@ -74,7 +76,7 @@ void place_triangles(std::span<const Part> parts, std::span<const MapSquare> squ
     if (!has_second_set(parts[i]) || squares[i].side <= 0) continue;
     for (std::uint32_t t = parts[i].first_triangle; t < parts[i].last_triangle; ++t) {
       if (frame.triangles[t] == glm::uvec3(0)) continue;  // hidden or dropped
-      const MapTriangle placed = in_map(parts[i], i, t, squares[i]);
+      const MapTriangle placed = in_map(frame, parts[i], i, t, squares[i]);
       const glm::dvec2 a = placed.corners[1] - placed.corners[0], b = placed.corners[2] - placed.corners[0];
       const bool flat = !(std::abs(a.x * b.y - a.y * b.x) > 0);
       bool outside = false;
@@ -98,6 +100,14 @@ bool meshes_overlap(const ScenePlaces& places) {
     for (glm::dvec2& c : t.corners) c *= coarse / extent;
   const TexelCoverage coverage(triangles, coarse, 1);
   return coverage.overlaps_between() * 100 > coverage.covered_places();
+}
+
+bool looks_at_second_set(const Material& material) {
+  for (const TextureMap* map :
+       {&material.base_color_map, &material.emissive_map, &material.metallic_roughness_map,
+        &material.specular_map, &material.transmission_map})
+    if (*map && map->uv_set == 1) return true;
+  return false;
 }
 
 void rewrite_second_set(std::span<Part> parts, std::span<const MapSquare> squares, int size) {
@@ -209,6 +219,11 @@ Expected<ScenePlaces> place_in_map(Scene& scene, const FrameGeometry& frame, int
   std::vector<MapSquare> squares(parts.size(), {glm::dvec2(0.0), static_cast<double>(size)});
   place_triangles(parts, squares, frame, places);
   if (!meshes_overlap(places)) return places;
+  if (std::any_of(scene.materials.begin(), scene.materials.end(), looks_at_second_set))
+    return base::fail(
+        "found textures that use TEXCOORD_1, which has to be rewritten as meshes overlap in it; expected a "
+        "set "
+        "of its own for the lightmap");
   std::vector<double> areas(parts.size(), 0.0);
   for (const MapTriangle& t : places.triangles) areas[t.part] += area_of(corners_of(frame, t.triangle));
   const auto laid_out = lay_out(areas, size);

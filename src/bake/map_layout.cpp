@@ -15,7 +15,9 @@ constexpr int none = -1, most_halvings = 15;
 int halvings(double area_m2, double density, int size) {
   if (!(area_m2 > 0)) return none;
   const double wanted = density * std::sqrt(area_m2);
-  return std::clamp(static_cast<int>(std::ceil(std::log2(size / wanted))), 0, most_halvings);
+  const int most =
+      std::clamp(std::ilogb(size / least_side), 0, most_halvings);  // small ones get more than their share
+  return std::clamp(static_cast<int>(std::ceil(std::log2(size / wanted))), 0, most);
 }
 
 /// The part of the map that they take, all of it being 1.

@@ -59,6 +59,8 @@ Expected<ViewRays> host_view(const HostCamera& camera, int width, int height) {
 
 Expected<void> positions_from_depth(const HostFrame& frame, const HostCamera& camera, double far_depth,
                                     std::vector<glm::dvec3>& positions) {
+  if (frame.width < 1 || frame.height < 1)
+    return base::fail("host's frame: found size {}x{}, expected at least 1x1", frame.width, frame.height);
   const std::size_t pixels = static_cast<std::size_t>(frame.width) * static_cast<std::size_t>(frame.height);
   if (frame.depth.size() != pixels)
     return base::fail("host's frame: found {} depths, expected {}x{}", frame.depth.size(), frame.width,

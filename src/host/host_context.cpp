@@ -76,6 +76,9 @@ Expected<TextureSize> size_of(const Functions& gl, unsigned texture, const char*
   gl.level_parameter(texture, 0, GL_TEXTURE_INTERNAL_FORMAT, &format);
   if (width < 1 || height < 1)
     return base::fail("host's texture of {}: found size {}x{}, expected at least 1x1", what, width, height);
+  if (std::int64_t{width} * height >= std::int64_t{1} << 29)
+    return base::fail("host's texture of {}: found size {}x{}, expected less than 2 GiB", what, width,
+                      height);
   return TextureSize{width, height, static_cast<unsigned>(format)};
 }
 

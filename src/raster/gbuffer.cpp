@@ -114,7 +114,6 @@ Expected<void> GBufferPass::draw(const ViewRays& view, const GeometryBuffers& ge
   begin_pass(out.framebuffer, program_, width, height);
   clear(out.framebuffer);
   glEnable(GL_DEPTH_TEST);
-  glDepthMask(GL_TRUE);
   glDepthFunc(GL_GREATER);
   glClipControl(GL_LOWER_LEFT, GL_ZERO_TO_ONE);
   glUniform3fv(eye_location, 1, glm::value_ptr(view.eye));

@@ -11,6 +11,7 @@ void begin_pass(const gl::Framebuffer& target, const gl::Program& program, int w
     glDisable(state);
   }
   glColorMask(GL_TRUE, GL_TRUE, GL_TRUE, GL_TRUE);
+  glDepthMask(GL_TRUE);  // clearing obeys it too
   glPolygonMode(GL_FRONT_AND_BACK, GL_FILL);
   glBindFramebuffer(GL_DRAW_FRAMEBUFFER, target.name());
   glViewport(0, 0, width, height);

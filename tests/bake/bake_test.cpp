@@ -206,6 +206,34 @@ TEST(MapLayout, SquaresDoNotOverlap) {
   EXPECT_FALSE(bake::lay_out(std::vector<double>(5000, 1.0), 64).has_value());
 }
 
+TEST(MapLayout, ASmallMeshBesideALargeOneGetsItsEightTexels) {
+  const auto squares = bake::lay_out(std::vector<double>{1e4, 0.25}, 1024);
+  ASSERT_TRUE(squares.has_value());
+  EXPECT_EQ((*squares)[1].side + 3, 8);
+}
+
+/// The frame turns the triangles of mirrored nodes round, and the samples' weights with them.
+TEST(BakedScene, MirroredNodesKeepTheirPlaces) {
+  Scene scene = box_room(vec3(0), vec3(4, 3, 4));
+  FrameGeometry plain, mirrored;
+  evaluate_frame(scene, -1, 0, plain);
+  const auto before = bake::place_in_map(scene, plain, 256);
+  scene.nodes[0].scale = {-1, 1, 1};
+  evaluate_frame(scene, -1, 0, mirrored);
+  const auto after = bake::place_in_map(scene, mirrored, 256);
+  ASSERT_TRUE(before && after);
+  ASSERT_EQ(before->triangles.size(), after->triangles.size());
+  for (std::size_t i = 0; i < before->triangles.size(); ++i) {
+    const std::uint32_t t = before->triangles[i].triangle;
+    for (int k = 0; k < 3; ++k)
+      for (int l = 0; l < 3; ++l)
+        if (plain.triangles[t][k] == mirrored.triangles[t][l]) {
+          EXPECT_EQ(before->triangles[i].corners[std::size_t(k)], after->triangles[i].corners[std::size_t(l)])
+              << i;
+        }
+  }
+}
+
 TEST(BakedScene, InstancesAreApartAndGetPlacesOfTheirOwn) {
   Scene scene = box_room(vec3(0), vec3(4, 3, 4));
   scene.nodes.resize(2);

@@ -18,9 +18,11 @@
 
 namespace {
 
-[[noreturn]] void stop(const std::string& why) {
+constexpr int no_window = 77;  // tests skip then
+
+[[noreturn]] void stop(const std::string& why, int code = 1) {
   std::fprintf(stderr, "foreign_renderer: %s\n", why.c_str());
-  std::exit(1);
+  std::exit(code);
 }
 
 template <class T>
@@ -195,13 +197,13 @@ int main(int count, char** arguments) {
   if (count != 2) stop("expected one folder");
   const std::string folder = arguments[1];
   const Scene scene = read_scene(folder + "/scene.bin");
-  if (!glfwInit()) stop("GLFW finds no display");
+  if (!glfwInit()) stop("GLFW finds no display", no_window);
   glfwWindowHint(GLFW_CONTEXT_VERSION_MAJOR, 4);
   glfwWindowHint(GLFW_CONTEXT_VERSION_MINOR, 5);
   glfwWindowHint(GLFW_OPENGL_PROFILE, GLFW_OPENGL_CORE_PROFILE);
   glfwWindowHint(GLFW_VISIBLE, GLFW_FALSE);
   GLFWwindow* const window = glfwCreateWindow(64, 64, "foreign renderer", nullptr, nullptr);
-  if (!window) stop("GLFW makes no window with OpenGL 4.5");
+  if (!window) stop("GLFW makes no window with OpenGL 4.5", no_window);
   glfwMakeContextCurrent(window);
 
   const tenebra::HostTextures textures = draw(scene);

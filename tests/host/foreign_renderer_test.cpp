@@ -122,6 +122,7 @@ TEST_P(ForeignRenderer, GetsTheMasksOfItsOwnIdsBitForBit) {
   const Instant now = instant_of(GetParam(), 2.0);
   testing::write_text(folder / "scene.bin", bytes_of(now));
   const auto ran = testing::run_program({program, folder.path().string()}, [&display] { display.enter(); });
+  if (ran.exit_code == 77) GTEST_SKIP() << ran.errors;
   ASSERT_EQ(ran.exit_code, 0) << ran.errors;
   const auto ids = read_list<std::uint32_t>(folder / "ids.bin");
   const auto mask = read_list<std::uint8_t>(folder / "mask.bin");

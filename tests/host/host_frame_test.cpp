@@ -35,7 +35,7 @@ TEST(HostFrame, RefusesListsOfAnotherSize) {
             "host's frame: found size -2x-3, expected at least 1x1");
 }
 
-constexpr int width = 64, height = 48;
+constexpr int picture_width = 64, picture_height = 48;
 
 HostCamera looking(const glm::dmat4& clip_from_view, bool zero_to_one = false) {
   return {glm::lookAt(glm::dvec3(3, 2, 5), glm::dvec3(0, 0.5, 0), glm::dvec3(0.1, 1, 0)), clip_from_view,
@@ -45,21 +45,22 @@ HostCamera looking(const glm::dmat4& clip_from_view, bool zero_to_one = false) {
 /// Points ahead of the camera, projected by its matrices, lie on the rays of the pixels that they fall on;
 /// their depths lead back to them.
 void expect_rays_and_depths_agree(const HostCamera& camera) {
-  const auto view = host_view(camera, width, height);
+  const auto view = host_view(camera, picture_width, picture_height);
   ASSERT_TRUE(view) << view.error().message;
   const glm::dmat4 clip_from_world = camera.clip_from_view * camera.view_from_world;
-  HostFrame frame{width, height, Ids(width * height), std::vector<float>(width * height, 1.0f)};
+  HostFrame frame{picture_width, picture_height, Ids(picture_width * picture_height),
+                  std::vector<float>(picture_width * picture_height, 1.0f)};
   for (const auto& [x, y] : {std::pair(0, 0), {63, 0}, {5, 40}, {32, 24}}) {
     const glm::dvec3 across = (x + 0.5) * glm::dvec3(view->dx) + (y + 0.5) * glm::dvec3(view->dy);
     const glm::dvec3 start = glm::dvec3(view->eye) + (view->orthographic ? across : glm::dvec3(0));
     const glm::dvec3 along = glm::dvec3(view->d0) + (view->orthographic ? glm::dvec3(0) : across);
     const glm::dvec3 point = start + 3.0 * along;
     const glm::dvec4 clip = clip_from_world * glm::dvec4(point, 1.0);
-    EXPECT_NEAR(clip.x / clip.w, 2 * (x + 0.5) / width - 1, 1e-6);
-    EXPECT_NEAR(clip.y / clip.w, 1 - 2 * (y + 0.5) / height, 1e-6);
+    EXPECT_NEAR(clip.x / clip.w, 2 * (x + 0.5) / picture_width - 1, 1e-6);
+    EXPECT_NEAR(clip.y / clip.w, 1 - 2 * (y + 0.5) / picture_height, 1e-6);
     const double z = clip.z / clip.w;
     EXPECT_TRUE(z > -1 && z < 1) << z;
-    const auto pixel = static_cast<std::size_t>(width * y + x);
+    const auto pixel = static_cast<std::size_t>(picture_width * y + x);
     frame.depth[pixel] = static_cast<float>(camera.depth_zero_to_one ? z : 0.5 * z + 0.5);
     std::vector<glm::dvec3> positions;
     ASSERT_TRUE(positions_from_depth(frame, camera, 1.0, positions));
@@ -77,9 +78,9 @@ TEST(HostCamera, IsThatOfItsMatrices) {
 }
 
 TEST(HostCamera, RefusesMatricesThatSpanNoPicture) {
-  EXPECT_FALSE(host_view({.clip_from_view = glm::dmat4(0.0)}, width, height));
-  EXPECT_FALSE(host_view({.clip_from_view = glm::dmat4(std::nan(""))}, width, height));
-  EXPECT_FALSE(host_view(looking(glm::perspective(0.9, 1.0, 0.5, 20.0)), 0, height));
+  EXPECT_FALSE(host_view({.clip_from_view = glm::dmat4(0.0)}, picture_width, picture_height));
+  EXPECT_FALSE(host_view({.clip_from_view = glm::dmat4(std::nan(""))}, picture_width, picture_height));
+  EXPECT_FALSE(host_view(looking(glm::perspective(0.9, 1.0, 0.5, 20.0)), 0, picture_height));
   std::vector<glm::dvec3> positions;
   EXPECT_FALSE(positions_from_depth({2, 2, Ids(4), {}}, {}, 1.0, positions));
 }

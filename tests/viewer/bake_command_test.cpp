@@ -95,6 +95,7 @@ TEST(BakeCommand, FailsInOneSentence) {
   says({scene, "-o", out, "--size", "64"}, "--size is for --to lightmap");
   says({scene, "-o", out, "--to", "lightmap", "--map", folder / "a.jpg"}, ".exr or .png");
   says({scene, "-o", out, "--to", "lightmap", "--size", "9"}, "16 to 8192");
+  says({scene, "-o", out, "--to", "lightmap", "--size", "8192", "--samples", "8"}, "at most 32768");
   says({scene, "-o", out, "--frame", "301"}, "frames 0 to 300");
   says({scene, "-o", out, "--light", "4"}, "the scene has 1 lights");
   says({scene, "-o", out, "--ambient", "-1,0,0"}, "0 or more");

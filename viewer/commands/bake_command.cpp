@@ -92,6 +92,8 @@ Expected<Baking> prepare(const BakeOptions& options) {
     return base::fail("{}: found no light, expected one; --add-light adds it, --what ao needs none",
                       options.scene.file);
   drop_added_parts(baking.plan);
+  if (auto checked = check_edits(options.scene.edits, scene); !checked)
+    return tl::unexpected(checked.error());
   bake::separate_meshes(scene);
   if (options.target == BakeTarget::vertices) bake::separate_flat_corners(scene);
   const auto time_s = moment(options, baking.plan);
@@ -246,6 +248,12 @@ Expected<void> write_scene(const Scene& scene, const BakeOptions& options) {
   return {};
 }
 
+/// To two digits.
+double rounded_down(double value) {
+  const double unit = std::pow(10, std::floor(std::log10(value)) - 1);
+  return std::floor(value / unit) * unit;
+}
+
 Expected<void> to_vertices(Baking& baking, LitScene& lit, const BakeOptions& options, const StopFlag& stop) {
   base::Stopwatch watch;
   const auto values = bake_vertices(baking, *lit.light, options, stop);
@@ -254,10 +262,10 @@ Expected<void> to_vertices(Baking& baking, LitScene& lit, const BakeOptions& opt
   Scene& scene = baking.plan.scene;
   const auto clipped =
       bake::colour_vertices(scene, *values, options.exposure, options.content == BakeContent::ao);
-  if (clipped.vertices > 0)
+  if (clipped.vertices > 0 && options.content != BakeContent::ao)
     baking.notes.push_back(fmt::format(
         "{} of {} vertices are brighter than white and cut off; --exposure {:.2g} would leave none",
-        clipped.vertices, values->size(), options.exposure / clipped.brightest));
+        clipped.vertices, values->size(), rounded_down(options.exposure / clipped.brightest)));
   if (!options.quiet) print_notes(baking.notes);
   if (auto written = write_scene(scene, options); !written) return written;
   if (!options.quiet)

@@ -4,6 +4,7 @@
 
 #include "base/machine.h"
 #include "base/statistics.h"
+#include "commands/frame_budget.h"
 #include "options/choices.h"
 #include "parallel/parallel.h"
 
@@ -157,6 +158,9 @@ std::vector<render::LogSetting> describe_render(const RenderPlan& plan, const Re
   if (options.budget_ms) {
     std::erase_if(list, [](const auto& s) { return s.name == "soft_error" || s.name == "ao_error"; });
     list.push_back({"budget", fmt::format("{} ms", *options.budget_ms)});
+    list.push_back(
+        {"budget_from", errors_text(budget_ladder(options.method).front(),
+                                    budget_choice(options.method.render))});  // --quality decides it
   }
   list.push_back({"exposure_from", options.method.auto_exposure ? "auto" : "option"});
   for (EditOption& edit : edit_options(options.scene.edits)) {

@@ -170,8 +170,9 @@ std::vector<PlannedFrame> more_frames(const RenderPlan& plan, const TradeOptions
   if (!options.render.frames) return spread_frames(plan, options.render.scene, frames_for_spread);
   const int first = plan.frames.front().frame, frames = plan.frames.back().frame - first;
   std::vector<PlannedFrame> more;
-  for (int i = 0; i < std::min(frames, frames_for_spread); ++i) {
-    const int frame = first + static_cast<int>(static_cast<long long>(i) * frames / frames_for_spread);
+  const int count = std::min(frames, frames_for_spread);
+  for (int i = 0; i < count; ++i) {
+    const int frame = first + static_cast<int>(static_cast<long long>(i) * frames / count);
     more.push_back({frame, time_of_frame(plan.scene, plan.clip, frame, options.render.scene.fps)});
   }
   return more;

@@ -232,7 +232,10 @@ Expected<int> verify(const VerifyOptions& options) {
   if (stopped)
     print_error("tenebra: stopped after {} of {} frames\n", verification.frames, verification.planned_frames);
   if (stopped) return stop.exit_code();
-  if (verification.stats().samples + verification.fraction_stats().samples == 0)
+  const std::uint64_t samples = verification.stats().samples + verification.fraction_stats().samples;
+  if (const std::uint64_t skipped = verification.fraction_stats().skipped; samples == 0 && skipped > 0)
+    return base::fail("found no sample to check: all {} were skipped", skipped);
+  if (samples == 0)
     return base::fail("found no sample to check: no light has a mask, or no triangle is seen");
   return 0;
 }

@@ -134,7 +134,8 @@ std::string fraction_text(const Verification& verification) {
   const oracle::FractionStats stats = verification.fraction_stats();
   const double seconds = check_seconds(verification.fractions);
   return fmt::format(
-      "lights with an area: {}, samples: {}, of which {} in penumbra, {:.1f} occluders each; skipped: {} "
+      "lights with an area, of all frames: {}, samples: {}, of which {} in penumbra, {:.1f} occluders each; "
+      "skipped: {} "
       "(more than {} "
       "occluders, or in the light's own plane)\n"
       "largest error: {:.3g}, promised are {:.3g}\n"

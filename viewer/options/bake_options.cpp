@@ -11,6 +11,7 @@ namespace {
 constexpr const char* bake_light_group = "Light";
 constexpr const char* bake_map_group = "Lightmap";
 constexpr int least_map_px = 16, largest_map_px = 8192, most_per_side = 8, most_rings = 1024;
+constexpr int most_places = 32768;  // along a side of the map: 4 GiB of them
 
 constexpr std::array target_choices{Choice<BakeTarget>{"vertices", BakeTarget::vertices},
                                     Choice<BakeTarget>{"lightmap", BakeTarget::lightmap}};
@@ -143,6 +144,9 @@ Expected<void> settle_bake_options(const CLI::App& command, BakeOptions& options
   for (const char* name : {"--size", "--samples", "--dilate", "--map"})
     if (!map && was_given(command, name)) return base::fail("{} is for --to lightmap", name);
   if (!map) return {};
+  if (options.size * options.per_side > most_places)
+    return base::fail("--size times --samples: found {}, expected at most {}",
+                      options.size * options.per_side, most_places);
   if (options.map.empty()) options.map = std::filesystem::path(options.output).replace_extension(".exr");
   if (!options.map.ends_with(".exr") && !options.map.ends_with(".png"))
     return base::fail("--map: found {}, expected a name that ends in .exr or .png", options.map);

@@ -315,7 +315,9 @@ private:
     if (!tried) return tried;
     const double took_s = std::chrono::duration<double>(Clock::now() - begun).count(),
                  all_s = took_s * double(request_.more_frames.size()) / double(request_.frames.size());
-    const auto more = worst_of(request_.more_frames, std::size_t(std::ceil(std::max(all_s / spread_s, 1.0))));
+    const std::size_t step = std::min(std::size_t(std::ceil(std::max(all_s / spread_s, 1.0))),
+                                      request_.more_frames.size());  // one at least
+    const auto more = worst_of(request_.more_frames, step);
     if (!more) return more;
     return *tried > 0 ? std::max(1.0, *more / *tried) : 1.0;
   }

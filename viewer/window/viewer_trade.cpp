@@ -11,6 +11,7 @@ constexpr double redraw_s = 0.5;  // of its progress: drawing takes the search's
 void Viewer::toggle_trade() {
   if (search_.status().running) return search_.stop();
   if (!state_.scene || place_.width < 1) return;
+  if (recording_.is_on()) return say("A recording is under way.");
   state_.clock.pause(now());
   FrameRequest request = view_request(state_, place_, std::nullopt, now());
   request.a = method_settings(state_.method(), place_, state_.scene->display);
