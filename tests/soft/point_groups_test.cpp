@@ -15,7 +15,7 @@ namespace {
 
 using glm::dvec3;
 
-soft::PointGroups grouped(const GroupCase& c, SoftGrouping grouping) {
+soft::PointGroups groups_by(const GroupCase& c, SoftGrouping grouping) {
   soft::PointGroups groups;
   soft::group_points(c.points, c.view, c.soup.view(), c.light, grouping, groups);
   return groups;
@@ -42,7 +42,7 @@ double out_of_reach(const GroupCase& c, std::size_t pixel) {
 }
 
 void expect_partition(const GroupCase& c, SoftGrouping grouping) {
-  const soft::PointGroups groups = grouped(c, grouping);
+  const soft::PointGroups groups = groups_by(c, grouping);
   std::vector<int> times(c.points.triangles.size(), 0);
   for (const soft::PointGroup& group : groups.groups)
     for (const std::uint32_t pixel : groups.pixels_of(group)) ++times[pixel];
@@ -78,7 +78,7 @@ void expect_cell_around(const GroupCase& c, const soft::PointGroups& groups, con
 }
 
 void expect_true_groups(const GroupCase& c, SoftGrouping grouping) {
-  const soft::PointGroups groups = grouped(c, grouping);
+  const soft::PointGroups groups = groups_by(c, grouping);
   for (const soft::PointGroup& group : groups.groups) {
     ASSERT_GT(group.count, 0u);
     dvec3 low(INFINITY), high(-INFINITY);
@@ -144,9 +144,9 @@ TEST(PointGroups, HoldEveryActivePointOnceWithTrueBoxesAndReceivers) {
       for (const SoftGrouping grouping : {SoftGrouping::neighbourhood, SoftGrouping::triangle}) {
         expect_partition(c, grouping);
         expect_true_groups(c, grouping);
-        expect_true_tree(grouped(c, grouping));
+        expect_true_tree(groups_by(c, grouping));
         if (HasFatalFailure()) return;
-        active += static_cast<int>(grouped(c, grouping).groups.size());
+        active += static_cast<int>(groups_by(c, grouping).groups.size());
       }
     }
   }
@@ -173,7 +173,7 @@ TEST(PointGroups, CoverPicturesOfAnySize) {
       expect_true_groups(c, grouping);
     }
     std::uint32_t points = 0, expected = 0;
-    for (const soft::PointGroup& group : grouped(c, SoftGrouping::neighbourhood).groups)
+    for (const soft::PointGroup& group : groups_by(c, SoftGrouping::neighbourhood).groups)
       points += group.count;
     for (const std::uint32_t id : c.points.triangles) expected += id != no_triangle;
     EXPECT_EQ(points, expected);
@@ -185,7 +185,7 @@ TEST(PointGroups, OfNothingAreNone) {
   GroupCase c = stage(8, 8);
   c.points = {};
   for (const SoftGrouping grouping : {SoftGrouping::neighbourhood, SoftGrouping::triangle}) {
-    const soft::PointGroups groups = grouped(c, grouping);
+    const soft::PointGroups groups = groups_by(c, grouping);
     EXPECT_TRUE(groups.groups.empty() && groups.nodes.empty());
   }
 }
@@ -193,17 +193,17 @@ TEST(PointGroups, OfNothingAreNone) {
 // Pixels of one tile on the floor and on a table far above it.
 TEST(PointGroups, AreSplitAtGapsInDepth) {
   GroupCase c = stage(8, 8);
-  EXPECT_EQ(grouped(c, SoftGrouping::neighbourhood).groups.size(), 1u);
+  EXPECT_EQ(groups_by(c, SoftGrouping::neighbourhood).groups.size(), 1u);
   c.soup.quad({-4, 2, 2}, {0, 0, 8}, {8, 0, 0});
   c.points = view_samples(c.soup.view(), c.view, 8, 8);
-  const soft::PointGroups groups = grouped(c, SoftGrouping::neighbourhood);
+  const soft::PointGroups groups = groups_by(c, SoftGrouping::neighbourhood);
   ASSERT_EQ(groups.groups.size(), 2u);
   for (const soft::PointGroup& group : groups.groups) EXPECT_LT(group.high.y - group.low.y, 1e-9);
 }
 
 // Any half of a full tile is a compact part of it, for solvers that take fewer points.
 TEST(PointGroups, OrderTheirPointsAlongAZCurve) {
-  const soft::PointGroups groups = grouped(stage(8, 8), SoftGrouping::neighbourhood);
+  const soft::PointGroups groups = groups_by(stage(8, 8), SoftGrouping::neighbourhood);
   ASSERT_EQ(groups.groups.size(), 1u);
   for (std::uint32_t part = 0; part < 4; ++part) {
     std::set<std::uint32_t> columns, rows;
@@ -217,12 +217,13 @@ TEST(PointGroups, OrderTheirPointsAlongAZCurve) {
 TEST(PointGroups, LeaveOutWhatTheLightCannotReach) {
   GroupCase c = stage(16, 16);
   c.light = regular_light({0, 4, 0}, {0, 1, 0}, 0.5, 4);  // shines up
-  EXPECT_TRUE(grouped(c, SoftGrouping::neighbourhood).groups.empty());
+  EXPECT_TRUE(groups_by(c, SoftGrouping::neighbourhood).groups.empty());
   c.light = regular_light({0, -4, 0}, {0, 1, 0}, 0.5, 4);  // below the floor
-  EXPECT_TRUE(grouped(c, SoftGrouping::neighbourhood).groups.empty());
+  EXPECT_TRUE(groups_by(c, SoftGrouping::neighbourhood).groups.empty());
   c.light = regular_light({0, 0, -2}, {0, 0, 1}, 0.5, 4);  // half of it below; half of the floor behind it
   std::uint32_t points = 0, expected = 0;
-  for (const soft::PointGroup& group : grouped(c, SoftGrouping::neighbourhood).groups) points += group.count;
+  for (const soft::PointGroup& group : groups_by(c, SoftGrouping::neighbourhood).groups)
+    points += group.count;
   for (const dvec3& p : c.points.positions) expected += p.z > -2;
   EXPECT_EQ(points, expected);
   EXPECT_GT(points, 0u);
@@ -269,7 +270,7 @@ TEST(PointGroups, AreTheSameForAnyNumberOfThreadsAndAnyInstructions) {
   c.soup.append(room(random, 100));
   c.points = view_samples(c.soup.view(), c.view, 404, 301);
   for (const SoftGrouping grouping : {SoftGrouping::neighbourhood, SoftGrouping::triangle}) {
-    const std::vector<double> expected = numbers_of(grouped(c, grouping));
+    const std::vector<double> expected = numbers_of(groups_by(c, grouping));
     EXPECT_GT(expected.size(), 10000u);
     for (const SimdLevel level : {SimdLevel::scalar, SimdLevel::sse4, SimdLevel::avx2, SimdLevel::avx512}) {
       if (!simd_level_supported(level)) continue;
