@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <array>
 #include <nlohmann/json.hpp>
 
 namespace tenebra::viewer {
@@ -21,18 +22,28 @@ double a_second(std::uint64_t count, double seconds) {
   return seconds > 0 ? static_cast<double>(count) / seconds : 0;
 }
 
+/// Column and row of a sample.
+template <class Checked, class Wrong>
+std::array<std::size_t, 2> pixel_of(const Checked& checked, const Wrong& wrong) {
+  const auto width = static_cast<std::size_t>(checked.width);
+  return {wrong.pixel % width, wrong.pixel / width};
+}
+
+template <class Checked, class Wrong>
+std::string sample_of(const Checked& checked, const Wrong& wrong) {
+  const auto [column, row] = pixel_of(checked, wrong);
+  return fmt::format("frame {}, light {}, pixel ({}, {}), triangle {}", checked.frame, checked.light, column,
+                     row, wrong.triangle);
+}
+
 std::string place_of(const CheckedMask& mask, const oracle::WrongSample& wrong) {
-  const auto width = static_cast<std::size_t>(mask.width);
-  return fmt::format("frame {}, light {}, pixel ({}, {}), triangle {}: the mask says {}, exact is {}",
-                     mask.frame, mask.light, wrong.pixel % width, wrong.pixel / width, wrong.triangle,
-                     wrong.said, wrong.exact.value);
+  return fmt::format("{}: the mask says {}, exact is {}", sample_of(mask, wrong), wrong.said,
+                     wrong.exact.value);
 }
 
 std::string place_of(const CheckedFractions& light, const oracle::WrongFraction& wrong) {
-  const auto width = static_cast<std::size_t>(light.width);
-  return fmt::format(
-      "frame {}, light {}, pixel ({}, {}), triangle {}: the fraction is {:.9g}, exact is {:.9g}", light.frame,
-      light.light, wrong.pixel % width, wrong.pixel / width, wrong.triangle, wrong.said, wrong.exact);
+  return fmt::format("{}: the fraction is {:.9g}, exact is {:.9g}", sample_of(light, wrong), wrong.said,
+                     wrong.exact);
 }
 
 nlohmann::ordered_json json_of(const oracle::FractionStats& stats) {
@@ -51,8 +62,7 @@ nlohmann::ordered_json json_of(const CheckedFractions& light) {
   if (light.check.wrong.empty()) return json;
   json["wrong_samples"] = nlohmann::ordered_json::array();
   for (const oracle::WrongFraction& wrong : light.check.wrong) {
-    const auto width = static_cast<std::size_t>(light.width);
-    json["wrong_samples"].push_back({{"pixel", {wrong.pixel % width, wrong.pixel / width}},
+    json["wrong_samples"].push_back({{"pixel", pixel_of(light, wrong)},
                                      {"triangle", wrong.triangle},
                                      {"fraction", wrong.said},
                                      {"exact", wrong.exact}});
@@ -76,8 +86,7 @@ nlohmann::ordered_json json_of(const CheckedMask& mask) {
   if (mask.check.wrong.empty()) return json;
   json["wrong_samples"] = nlohmann::ordered_json::array();
   for (const oracle::WrongSample& wrong : mask.check.wrong) {
-    const auto width = static_cast<std::size_t>(mask.width);
-    nlohmann::ordered_json named{{"pixel", {wrong.pixel % width, wrong.pixel / width}},
+    nlohmann::ordered_json named{{"pixel", pixel_of(mask, wrong)},
                                  {"triangle", wrong.triangle},
                                  {"mask", wrong.said},
                                  {"exact", wrong.exact.value}};

@@ -36,11 +36,6 @@ struct MethodOptions {
   bool auto_exposure = false;       ///< SceneDisplay::exposures, where measured, in place of render's
 };
 
-Expected<int> parse_light(const std::string& text);          ///< a number from 0, or all: -1
-Expected<int> parse_threads(const std::string& text);        ///< 0 (all cores) to 1024
-Expected<SimdLevel> parse_simd(const std::string& text);     ///< one that this machine has
-Expected<double> parse_soft_error(const std::string& text);  ///< 0, or 0.1 to 255
-
 /// Adds the options to `command`; they are read into `options`, which must live as long.
 void add_method_options(CLI::App& command, MethodOptions& options);
 

@@ -186,6 +186,37 @@ Expected<float> parse_sun_size(const std::string& text) {
   return static_cast<float>(degrees);
 }
 
+Expected<SimdLevel> parse_simd(const std::string& text) {
+  const auto level = simd_level_from_name(lower_case(text));
+  if (!level) return base::fail("found {}, expected auto, scalar, sse4, avx2 or avx512", text);
+  if (*level != SimdLevel::automatic && !simd_level_supported(*level)) {
+    return base::fail("this machine or build has no {}, its best is {}", text,
+                      simd_level_name(best_simd_level()));
+  }
+  return *level;
+}
+
+Expected<int> parse_light(const std::string& text) {
+  if (is_word(text, "all")) return -1;
+  const auto number = parse_count(text);
+  return number ? number : base::fail("found {}, expected the number of a light, from 0, or all", text);
+}
+
+Expected<int> parse_threads(const std::string& text) {
+  const auto threads = parse_count(text);
+  if (!threads || *threads > 1024)
+    return base::fail("found {}, expected 1 to 1024, or 0 for all cores", text);
+  return threads;
+}
+
+Expected<double> parse_soft_error(const std::string& text) {
+  if (text == "0") return 0.0;
+  const auto error = parse_positive(text);
+  if (!error || *error < 0.1 || *error > 255)
+    return base::fail("found {}, expected 0 (exact), or 0.1 to 255", text);
+  return error;
+}
+
 std::filesystem::path default_cache_folder() {
   const auto absolute = [](const char* variable) {
     const char* value = std::getenv(variable);

@@ -8,6 +8,7 @@
 #include <string>
 
 #include <tenebra/expected.h>
+#include <tenebra/simd_level.h>
 
 namespace tenebra::viewer {
 
@@ -49,6 +50,10 @@ Expected<int> parse_at_least_one(const std::string& text);        ///< whole, 1 
 Expected<int> parse_square_count(const std::string& text);        ///< N or WxH of them, 1 to 1,000,000 in all
 Expected<LightSize> parse_light_size(const std::string& text);    ///< W, WxH, W% or WxH%
 Expected<float> parse_sun_size(const std::string& text);          ///< degrees, 0 to 90
+Expected<int> parse_light(const std::string& text);               ///< a number from 0, or all: -1
+Expected<int> parse_threads(const std::string& text);             ///< 0 (all cores) to 1024
+Expected<SimdLevel> parse_simd(const std::string& text);          ///< one that this machine has
+Expected<double> parse_soft_error(const std::string& text);       ///< 0, or 0.1 to 255
 
 /// Folder for files that can be made again, by the XDG rules: $XDG_CACHE_HOME/tenebra, else
 /// $HOME/.cache/tenebra; empty where neither is set.
