@@ -149,10 +149,23 @@ def check_call(place, command, whole, fault, at):
     return True
 
 
-def until_none_fails(check, following):
-    """Lets the first call fail, then following(1) and so on, until check(at) finds that there is none so far. How many
-    were made to fail, and those of them that went wrong, with why."""
-    at, made, failures = 1, 0, []
+def first_to_fail(call, program):
+    """1; but oneTBB 2022.1 (libtbb.so.12.15) waits for itself without end if the first mapping, which it makes while it
+    starts, fails. 2021.8 (libtbb.so.12.8) does not; the program starts it before it bounds the memory."""
+    if call != "mmap":
+        return 1
+    libraries = subprocess.run(["ldd", program], capture_output=True, text=True, check=True).stdout
+    tbb = next(line.split()[2] for line in libraries.splitlines() if "libtbb.so" in line)
+    if int(os.path.realpath(tbb).rsplit(".", 1)[1]) < 15:
+        return 1
+    print(f"mmap 1: not made to fail, {os.path.realpath(tbb)} cannot start without it")
+    return 2
+
+
+def until_none_fails(check, following, first=1):
+    """Lets the first call fail, then following(first) and so on, until check(at) finds that there is none so far. How
+    many were made to fail, and those of them that went wrong, with why."""
+    at, made, failures = first, 0, []
     while True:
         try:
             if not check(at):
@@ -170,7 +183,8 @@ def test_calls(place, step):
     assert len(whole) >= 2 * FRAMES
     wrong, counts = 0, {}
     for fault in CALLS:
-        made, failures = until_none_fails(lambda at: check_call(place, command, whole, fault, at), lambda at: at + step)
+        made, failures = until_none_fails(lambda at: check_call(place, command, whole, fault, at), lambda at: at + step,
+                                          first_to_fail(fault[0], place.program))
         for at, failure in failures:
             print(f"{fault[0]} {at} ({fault[1]}): {failure}", flush=True)
         wrong += len(failures)

@@ -7,6 +7,7 @@
 #include <system_error>
 
 #include "base/fail.h"
+#include "parallel/parallel.h"
 
 namespace tenebra::viewer {
 namespace {
@@ -15,9 +16,11 @@ constexpr rlim_t megabyte = rlim_t{1} << 20;
 
 }  // namespace
 
-// RLIMIT_DATA rather than RLIMIT_AS: libraries and drivers map far more addresses than they use.
+// RLIMIT_DATA rather than RLIMIT_AS: libraries and drivers map far more addresses than they use. A first loop
+// before it: oneTBB 2022.1 waits for itself without end if memory fails while it starts.
 Expected<void> limit_memory(std::optional<int> memory_mb) {
   if (!memory_mb) return {};
+  parallel::parallel_tasks(2, [](int) {});
   rlimit limit{};
   if (::getrlimit(RLIMIT_DATA, &limit) == 0) {
     limit.rlim_cur = std::min(limit.rlim_cur, static_cast<rlim_t>(*memory_mb) * megabyte);

@@ -6,6 +6,7 @@
 #include <backends/imgui_impl_opengl3.h>
 #include <imgui.h>
 
+#include <cstdlib>
 #include <filesystem>
 #include <memory>
 
@@ -27,13 +28,19 @@ std::string glfw_problem() {
 /// GLFW from its start to its end.
 struct Library {
   static Expected<std::unique_ptr<Library>> start() {
+#ifdef GLFW_PLATFORM  // GLFW 3.4 asks for Wayland first, which complains on stderr where it has no folder for
+                      // sockets
+    if (std::getenv("XDG_RUNTIME_DIR") == nullptr) glfwInitHint(GLFW_PLATFORM, GLFW_PLATFORM_X11);
+#endif
     if (!glfwInit()) {
       return base::fail("no window can be opened: found no display ({}), expected one in DISPLAY; {}",
                         glfw_problem(), without_window);
     }
     return std::make_unique<Library>();
   }
-  ~Library() { glfwTerminate(); }
+  ~Library() {
+    glfwTerminate();
+  }
 };
 
 struct Destroy {
