@@ -3,6 +3,7 @@
 # Usage: tools/nightly.sh PART...
 #   lto-odr   links the programs with link-time optimisation: two definitions of one name are an error
 #   clang     builds everything with clang++, warnings are errors, and runs all tests
+#   tidy      asks clang-tidy of every file but the tests' (.clang-tidy has the checks)
 #   roots     builds and tests on other systems (ROOTS="debian13 ubuntu24.04"); needs root and mmdebstrap or debootstrap
 #   debug     runs the libraries' unit tests as the debug preset builds them
 #   asan      runs all tests with the address and undefined-behaviour sanitizers
@@ -18,7 +19,7 @@
 # JOBS=N: how many jobs at once [all cores].
 set -uo pipefail
 cd "$(dirname "$0")/.."
-parts=(lto-odr clang roots debug asan tsan report package api faults slurm fuzz)
+parts=(lto-odr clang tidy roots debug asan tsan report package api faults slurm fuzz)
 jobs=${JOBS:-$(nproc)}
 
 has() {
@@ -43,6 +44,15 @@ run_clang() {
       -DCMAKE_CXX_COMPILER=clang++ -DCMAKE_CXX_FLAGS=-Werror > /dev/null &&
     cmake --build build-clang -j "$jobs" &&
     ctest --test-dir build-clang --output-on-failure -j "$jobs"
+}
+
+# A folder at a time, and of the vector levels one: a file's headers take longer to read than it does.
+run_tidy() {
+  has clang-tidy clang-tidy && tools/setup.sh &&
+    cmake -S . -B build-tidy -G Ninja -DTENEBRA_UNITY=ON -DCMAKE_EXPORT_COMPILE_COMMANDS=ON > /dev/null &&
+    python3 -c 'import json
+for unit in json.load(open("build-tidy/compile_commands.json")): print(unit["file"])' |
+    xargs -P "$jobs" -n 1 clang-tidy --quiet -p build-tidy --extra-arg=-DHWY_COMPILE_ONLY_STATIC
 }
 
 run_roots() {

@@ -81,8 +81,8 @@ int parse_and_run(CLI::App& program, Run& run, int argc, char** argv) {
 int main(int argc, char** argv) {
   // Both are reported by the write that fails, in a sentence, instead of ending the program in the middle of
   // a file.
-  std::signal(SIGPIPE, SIG_IGN);
-  std::signal(SIGXFSZ, SIG_IGN);
+  static_cast<void>(std::signal(SIGPIPE, SIG_IGN));
+  static_cast<void>(std::signal(SIGXFSZ, SIG_IGN));
   tenebra::viewer::set_last_words();
   try {
     CLI::App program{about, "tenebra"};

@@ -8,6 +8,7 @@
 #ifndef TENEBRA_TENEBRA_H
 #define TENEBRA_TENEBRA_H
 
+/* C, also where C++ reads it. NOLINTBEGIN(modernize-use-using,modernize-deprecated-headers) */
 #include <stddef.h>
 #include <stdint.h>
 
@@ -137,5 +138,6 @@ tenebra_status tenebra_ambient_occlusion(tenebra_tracer* tracer, const tenebra_g
 #ifdef __cplusplus
 }
 #endif
+/* NOLINTEND(modernize-use-using,modernize-deprecated-headers) */
 
 #endif

@@ -7,7 +7,7 @@
 #include "simd/demote16-inl.h"
 #include "simd/dispatch.h"
 #include "simd/double8-inl.h"
-#include "simd/pack-inl.h"
+#include "simd/pack_lanes-inl.h"
 
 #include <bit>
 #include <cmath>

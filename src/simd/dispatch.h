@@ -13,16 +13,16 @@
 
 namespace tenebra::simd {
 
-/// The function of `level` (automatic: of the best level of this machine); `baseline` where this build has
-/// none for it.
+/// The function of `level` (automatic: of the best level of this machine); that of the next lower level which
+/// this file was compiled for, where it has none for it.
 template <class Function>
 Function dispatched(SimdLevel level, Function baseline, std::type_identity_t<Function> sse4,
                     std::type_identity_t<Function> avx2, std::type_identity_t<Function> avx512) {
   if (level == SimdLevel::automatic) level = best_simd_level();
-  const Function chosen = level == SimdLevel::avx512 ? avx512
-                          : level == SimdLevel::avx2 ? avx2
-                          : level == SimdLevel::sse4 ? sse4
-                                                     : baseline;
+  Function chosen = nullptr;
+  if (level == SimdLevel::avx512) chosen = avx512;
+  if (chosen == nullptr && level >= SimdLevel::avx2) chosen = avx2;
+  if (chosen == nullptr && level >= SimdLevel::sse4) chosen = sse4;
   return chosen != nullptr ? chosen : baseline;
 }
 

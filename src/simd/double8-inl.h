@@ -9,7 +9,7 @@
 
 #include <glm/glm.hpp>
 
-#include "simd/pack-inl.h"
+#include "simd/pack_lanes-inl.h"
 
 HWY_BEFORE_NAMESPACE();
 namespace tenebra::simd::HWY_NAMESPACE {

@@ -6,7 +6,7 @@
 #define TENEBRA_SIMD_TEXELS_INL_H_
 #endif
 
-#include "simd/pack-inl.h"
+#include "simd/pack_lanes-inl.h"
 
 HWY_BEFORE_NAMESPACE();
 namespace tenebra::simd::HWY_NAMESPACE {

@@ -9,7 +9,6 @@ namespace {
 
 using glm::dvec3;
 using math::ExactVector;
-using math::Expansion;
 
 constexpr double bound_factor = 20.0 * 0x1p-53;  // Window::reach
 

@@ -163,7 +163,7 @@ Json describe(const Scene& scene, const InfoOptions& options) {
 
 /// For people: numbers to six digits and without a negative zero, texts unquoted, vectors in parentheses.
 std::string text_of(const Json& value) {
-  if (value == "") return "-";
+  if (value.is_string() && value.get_ref<const std::string&>().empty()) return "-";
   if (value.is_string()) return value.get<std::string>();
   if (value.is_number_float()) return fmt::format("{:.6g}", value.get<double>() + 0.0);
   if (!value.is_array()) return value.dump();

@@ -11,7 +11,7 @@
 namespace tenebra::viewer {
 
 inline void write_text(std::FILE* stream, const std::string& text) {
-  std::fwrite(text.data(), 1, text.size(), stream);
+  static_cast<void>(std::fwrite(text.data(), 1, text.size(), stream));
 }
 
 template <class... Args>

@@ -26,7 +26,7 @@ public:
 
 private:
   struct Close {
-    void operator()(std::FILE* file) const { std::fclose(file); }
+    void operator()(std::FILE* file) const { static_cast<void>(std::fclose(file)); }
   };
   void line(const std::string& text);
 

@@ -51,7 +51,8 @@ public:
     width_ = image.width;
     height_ = image.height;
   }
-  void* id() const { return reinterpret_cast<void*>(static_cast<std::uintptr_t>(name_)); }  ///< for ImGui
+  /// For ImGui. NOLINTNEXTLINE(performance-no-int-to-ptr)
+  void* id() const { return reinterpret_cast<void*>(static_cast<std::uintptr_t>(name_)); }
   int width() const { return width_; }
   int height() const { return height_; }
 

@@ -10,7 +10,7 @@
 #include "ao/cast/sphere_maps-inl.h"
 #include "ao/field/field_chords.h"
 #include "ao/field/field_lookup.h"
-#include "simd/pack-inl.h"
+#include "simd/pack_lanes-inl.h"
 
 HWY_BEFORE_NAMESPACE();
 namespace tenebra::ao::HWY_NAMESPACE {

@@ -5,7 +5,7 @@
 #include <hwy/foreach_target.h>
 // After foreach_target.h
 #include "simd/dispatch.h"
-#include "simd/pack-inl.h"
+#include "simd/pack_lanes-inl.h"
 
 #include <limits>
 

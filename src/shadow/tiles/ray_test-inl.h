@@ -12,7 +12,7 @@
 
 #include "shadow/tiles/descent.h"
 #include "shadow/tiles/face_tests-inl.h"
-#include "simd/pack-inl.h"
+#include "simd/pack_lanes-inl.h"
 
 HWY_BEFORE_NAMESPACE();
 namespace tenebra::shadow::HWY_NAMESPACE {

@@ -10,7 +10,7 @@
 
 #include "shadow/tiles/distant_tests-inl.h"
 #include "shadow/tiles/tile_kernels.h"
-#include "simd/pack-inl.h"
+#include "simd/pack_lanes-inl.h"
 
 HWY_BEFORE_NAMESPACE();
 namespace tenebra::shadow::HWY_NAMESPACE {

@@ -6,7 +6,7 @@
 // After foreach_target.h
 #include "shadow/tiles/tile_bounds-inl.h"
 #include "simd/dispatch.h"
-#include "simd/pack-inl.h"
+#include "simd/pack_lanes-inl.h"
 
 #include <algorithm>
 #include <bit>

@@ -77,7 +77,7 @@ struct alignas(64) PacketPart {
 
   PacketPart() = default;
   PacketPart(const PacketPart& from) { *this = from; }
-  PacketPart& operator=(const PacketPart& from) {
+  PacketPart& operator=(const PacketPart& from) {  // NOLINT(cert-oop54-cpp): onto itself it changes nothing
     polygon.assign(from.polygon);
     live = from.live;
     return *this;

@@ -9,7 +9,7 @@
 
 #include <vector>
 
-#include "simd/pack-inl.h"
+#include "simd/pack_lanes-inl.h"
 #include "soft/light/light_frame.h"
 
 HWY_BEFORE_NAMESPACE();

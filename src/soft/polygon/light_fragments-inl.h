@@ -44,9 +44,12 @@ public:
   const StoredPolygon<T>& operator[](std::size_t i) const { return polygons_[i]; }
   /// The same vertices in the same order, bit by bit.
   bool operator==(const FragmentList& other) const {
-    const auto equal = [](const StoredPolygon<T>& a, const StoredPolygon<T>& b) {
-      return a.count == b.count && std::memcmp(a.x, b.x, sizeof(a.x)) == 0 &&
-             std::memcmp(a.y, b.y, sizeof(a.y)) == 0;
+    const auto same_bits = [](const auto& a, const auto& b) {
+      // NOLINTNEXTLINE(bugprone-suspicious-memory-comparison): as it is meant
+      return std::memcmp(&a, &b, sizeof(a)) == 0;
+    };
+    const auto equal = [&](const StoredPolygon<T>& a, const StoredPolygon<T>& b) {
+      return a.count == b.count && same_bits(a.x, b.x) && same_bits(a.y, b.y);
     };
     return size_ == other.size_ &&
            std::equal(polygons_.data(), polygons_.data() + size_, other.polygons_.data(), equal);

@@ -10,7 +10,7 @@
 #include <span>
 #include <tuple>
 
-#include "simd/pack-inl.h"
+#include "simd/pack_lanes-inl.h"
 #include "simd/prefetch.h"
 #include "soft/shafts/shaft.h"
 #include "soft/shafts/triangle_blocks.h"

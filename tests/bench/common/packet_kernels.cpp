@@ -8,7 +8,7 @@
 // After foreach_target.h
 #include <tenebra/simd_level.h>
 #include "simd/dispatch.h"
-#include "simd/pack-inl.h"
+#include "simd/pack_lanes-inl.h"
 
 HWY_BEFORE_NAMESPACE();
 namespace tenebra::bench::HWY_NAMESPACE {
