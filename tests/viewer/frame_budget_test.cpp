@@ -86,6 +86,22 @@ TEST(FrameBudget, TakesTheCoarsestWhereNothingFitsAndTriesAgainLater) {
   EXPECT_TRUE(budget.fits());
 }
 
+TEST(FrameBudget, TakesTheQuickestWhereNothingFitsThoughItIsNotTheCoarsest) {
+  MadeUp of{{170, 140, 150, 140, 300}};
+  FrameBudget budget(100, 5);
+  ASSERT_TRUE(of.frame(budget));
+  EXPECT_FALSE(budget.fits());
+  EXPECT_EQ(budget.rung(), 1u) << "of two as quick the smaller error";
+  EXPECT_EQ(of.last_kept, 1u);
+  ASSERT_TRUE(of.frame(budget));
+  EXPECT_EQ(of.drawn, std::vector<std::size_t>{1}) << "until the next search";
+  of.ms = {170, 105, 150, 140, 300};
+  FrameBudget almost(100, 5);
+  ASSERT_TRUE(of.frame(almost));
+  EXPECT_TRUE(almost.fits()) << "up to a tenth above the budget";
+  EXPECT_EQ(almost.rung(), 1u);
+}
+
 TEST(FrameBudget, HandsOnWhyNothingWasDrawn) {
   FrameBudget budget(100, 3);
   const auto fails = [](std::size_t, double) -> Expected<double> { return base::fail("stopped"); };

@@ -72,10 +72,16 @@ Expected<bool> FrameBudget::scan(const DrawRung& draw, const std::function<void(
   return false;
 }
 
-Expected<void> FrameBudget::take_coarsest(const DrawRung& draw, const std::function<void()>& keep) {
-  const auto ms = attempt(draw, rungs_ - 1, never);
-  if (!ms) return tl::unexpected(ms.error());
-  take(rungs_ - 1, *ms, keep);
+/// The coarsest errors bound the others' time. Of two that take as long, the smaller errors.
+Expected<void> FrameBudget::take_quickest(const DrawRung& draw, const std::function<void()>& keep) {
+  const auto coarsest = attempt(draw, rungs_ - 1, never);
+  if (!coarsest) return tl::unexpected(coarsest.error());
+  take(rungs_ - 1, *coarsest, keep);
+  for (std::size_t rung = 0; rung + 1 < rungs_; ++rung) {
+    const auto ms = attempt(draw, rung, ms_);
+    if (!ms) return tl::unexpected(ms.error());
+    if (*ms < ms_ || (*ms == ms_ && rung < *rung_)) take(rung, *ms, keep);
+  }
   return {};
 }
 
@@ -101,7 +107,12 @@ Expected<void> FrameBudget::draw(const DrawRung& draw, const std::function<void(
     if (const auto warm = draw(rungs_ - 1, never); !warm) return tl::unexpected(warm.error());
   }
   ++since_search_;
-  if (!first && !fits_ && since_search_ < frames_to_search) return take_coarsest(draw, keep);
+  if (!first && !fits_ && since_search_ < frames_to_search) {
+    const auto ms = attempt(draw, *rung_, never);
+    if (!ms) return tl::unexpected(ms.error());
+    take(*rung_, *ms, keep);
+    return {};
+  }
   const bool goes_on = !first && fits_;
   if (goes_on) {
     const auto kept = go_on(draw, keep);
@@ -111,7 +122,7 @@ Expected<void> FrameBudget::draw(const DrawRung& draw, const std::function<void(
   const auto found = scan(draw, keep, 0, goes_on ? *rung_ : rungs_);
   if (!found) return tl::unexpected(found.error());
   if (!*found)
-    if (auto taken = take_coarsest(draw, keep); !taken) return taken;
+    if (auto taken = take_quickest(draw, keep); !taken) return taken;
   searched_ms_ = ms_, since_search_ = 0;
   return {};
 }

@@ -39,7 +39,8 @@ using DrawRung = std::function<Expected<double>(std::size_t rung, double limit_m
 /// the smallest on until it fits. Later frames begin with the last one's errors. These are kept up to a tenth
 /// above the budget; above, the coarser ones are tried, then the smaller ones. Where a frame is a tenth
 /// quicker than when smaller errors were tried last, or that was 24 frames ago, they are tried again, from
-/// the smallest on.
+/// the smallest on. Where none fits, all are tried for the quickest, which need not be the coarsest; it is
+/// kept until the next search.
 class FrameBudget {
 public:
   FrameBudget(double budget_ms, std::size_t rungs) : budget_ms_(budget_ms), rungs_(rungs) {}
@@ -49,7 +50,7 @@ public:
 
   std::size_t rung() const { return *rung_; }  ///< of the frame that was drawn last
   double ms() const { return ms_; }            ///< that it took
-  bool fits() const { return fits_; }          ///< false: not even one of the ladder
+  bool fits() const { return fits_; }          ///< false: none of the ladder does, this is the quickest
   /// What was tried for it, in order, the uncounted first one left out.
   struct Try {
     std::size_t rung;
@@ -62,7 +63,7 @@ private:
   Expected<bool> scan(const DrawRung& draw, const std::function<void()>& keep, std::size_t first,
                       std::size_t last);
   Expected<bool> go_on(const DrawRung& draw, const std::function<void()>& keep);
-  Expected<void> take_coarsest(const DrawRung& draw, const std::function<void()>& keep);
+  Expected<void> take_quickest(const DrawRung& draw, const std::function<void()>& keep);
   void take(std::size_t rung, double ms, const std::function<void()>& keep);
 
   double budget_ms_;

@@ -128,7 +128,7 @@ private:
   /// Of the frame, its whole way with settings_ from the time to the picture; what it takes is in `result`.
   Expected<void> draw_once(render::Renderer& renderer, const PlannedFrame& planned, Progress& progress,
                            const StopFlag& stop, render::FrameResult& result) {
-    const auto begin = Clock::now();
+    const auto begin = begun_ = Clock::now();
     evaluate_frame(plan_.scene, plan_.clip, planned.time_s, input_.geometry);
     apply_node_edits(plan_.scene, options_.scene.edits, input_.geometry);
     input_.lights = placed_lights(plan_.scene, options_.scene.edits, plan_.clip, planned.time_s);
@@ -156,13 +156,19 @@ private:
       notes.insert(notes.end(), tried_.notes.begin(), tried_.notes.end());
       return tried_.timings.total_ms;
     };
-    if (auto drawn = budget_->draw(draw, [&] { std::swap(tried_, result); }); !drawn) return drawn;
+    Clock::time_point kept_begun;
+    const auto keep = [&] {
+      std::swap(tried_, result);
+      kept_begun = begun_;
+    };
+    if (auto drawn = budget_->draw(draw, keep); !drawn) return drawn;
+    begun_ = kept_begun;
     set_errors(choice_, ladder_[budget_->rung()], settings_);
     result.notes = std::move(notes);
     if (!budget_->fits() && !said_nothing_fits_) {
       said_nothing_fits_ = true;
       result.notes.push_back(fmt::format(
-          "--budget {:g}: nothing is as quick; the coarsest, {}, takes {:.1f} ms in frame {}",
+          "--budget {:g}: nothing is as quick; the quickest, {}, takes {:.1f} ms in frame {}",
           *options_.budget_ms, errors_text(ladder_[budget_->rung()], choice_), budget_->ms(), planned.frame));
     }
     return {};
@@ -170,7 +176,6 @@ private:
 
   Expected<void> draw(render::Renderer& renderer, const PlannedFrame& planned, Progress& progress,
                       parallel::JobQueue& files) {
-    const auto begin = Clock::now();
     render::FrameResult& result = results_[drawn_.size() % results];
     auto drawn = budget_ ? draw_within_budget(renderer, planned, progress, result)
                          : draw_once(renderer, planned, progress, stop_.flag(), result);
@@ -189,7 +194,7 @@ private:
             fmt::format("tried for frame {}: {}", planned.frame, tries_text(*budget_, ladder_, choice_)));
     }
     drawn_.push_back({record.frame, record.timings});
-    const double begin_ms = milliseconds(begin - begin_);
+    const double begin_ms = milliseconds(begun_ - begin_);
     auto added =
         files.add([this, record, begin_ms, &result] { return output_.write(record, begin_ms, result); });
     failed_to_write_ = !added;
@@ -199,6 +204,7 @@ private:
   const RenderPlan& plan_;
   const RenderOptions& options_;
   const Clock::time_point begin_ = Clock::now();
+  Clock::time_point begun_;  ///< the frame at hand; with --budget the try that is kept
   StopSignals& stop_;
   RenderOutput output_;
   std::vector<PlannedFrame> frames_;
