@@ -74,8 +74,8 @@ TEST(AoBench, ATinyRunNamesWhatIsMissingAndEndsWithTheFigures) {
 TEST(AoBench, PartsThatAreLeftOutAreNotNumbers) {
   const auto result = ao({"--tiny", "--only", "growth"});
   ASSERT_EQ(result.exit_code, 0) << result.errors;
-  EXPECT_NE(result.output.find("\nao.outside_rms_255: nan\n"), std::string::npos);
-  EXPECT_EQ(result.output.find("\nao.growth_1k_to_1m: nan\n"), std::string::npos);
+  EXPECT_NE(result.output.find("\nao.outside_rms_255: not measured\n"), std::string::npos);
+  EXPECT_EQ(result.output.find("\nao.growth_1k_to_1m: not measured\n"), std::string::npos);
 }
 
 /// Below half of a plane that closes the upper half of the sky, occlusion is what the integral says.

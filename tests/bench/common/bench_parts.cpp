@@ -7,6 +7,8 @@
 
 #include "base/fail.h"
 #include "base/machine.h"
+#include "bench/common/bench_data.h"
+#include "bench/common/bench_frame.h"
 #include "parallel/parallel.h"
 
 namespace tenebra::bench {
@@ -43,6 +45,8 @@ Expected<void> run_parts(const PartsArguments& arguments, const std::vector<std:
   with_threads(arguments.options.threads, [&] {
     std::printf("%s; threads: %d, simd: %s\n", base::machine_description().c_str(), thread_count(),
                 std::string(simd_level_name(best_simd_level())).c_str());
+    for (const std::string& sentence : data_sentences(bart_folder(arguments.options.data)))
+      std::printf("%s\n", sentence.c_str());
     done = measure(arguments);
   });
   return done;
@@ -73,7 +77,8 @@ std::vector<std::string> parts_settings(const PartsArguments& arguments, SimdLev
 }
 
 void print_headline(const std::string& name, const std::optional<double>& value, int digits) {
-  std::printf("%s: %s\n", name.c_str(), value ? fmt::format("{:.{}f}", *value, digits).c_str() : "nan");
+  std::printf("%s: %s\n", name.c_str(),
+              value ? fmt::format("{:.{}f}", *value, digits).c_str() : "not measured");
 }
 
 }  // namespace tenebra::bench

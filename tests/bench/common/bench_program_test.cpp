@@ -6,6 +6,8 @@
 #include <cmath>
 #include <cstdlib>
 
+#include "bench/common/bench_data.h"
+#include "bench/common/bench_frame.h"
 #include "support/child_process.h"
 #include "support/temporary_folder.h"
 
@@ -25,11 +27,13 @@ void expect_refusal(const std::vector<std::string>& arguments, const std::string
   EXPECT_EQ(std::count(result.errors.begin(), result.errors.end(), '\n'), 1) << result.errors;
 }
 
-/// Value of the line "name: value"; NaN where it says nan or is missing.
+/// Value of the line "name: value"; NaN where it was not measured or is missing.
 double figure(const std::string& output, const std::string& name, bool& found) {
   const std::size_t at = output.find("\n" + name + ": ");
   found = at != std::string::npos;
-  return found ? std::strtod(output.c_str() + at + name.size() + 3, nullptr) : NAN;
+  return found && output.compare(at + name.size() + 3, 12, "not measured") != 0
+             ? std::strtod(output.c_str() + at + name.size() + 3, nullptr)
+             : NAN;
 }
 
 TEST(BenchProgram, RefusesInASentence) {
@@ -58,6 +62,9 @@ TEST(BenchProgram, HardEndsWithItsFiguresWhereScenesAreMissing) {
       bench({"hard", "--tiny", "--data", folder.path().string(), "--csv", (folder / "hard.csv").string()});
   ASSERT_EQ(result.exit_code, 0) << result.errors;
   EXPECT_NE(result.output.find("robots: skipped"), std::string::npos) << result.output;
+  EXPECT_NE(result.output.find("BART is not in " + folder.path().string()), std::string::npos);
+  EXPECT_NE(result.output.find("www.cse.chalmers.se"), std::string::npos) << "where it comes from";
+  EXPECT_EQ(result.output.find("nan"), std::string::npos);
   bool found = false;
   for (const char* name : {"hard.dynamic_geomean", "hard.static_geomean", "hard.dynamic_worst",
                            "hard.static_worst", "hard.growth_static_1.8m", "hard.p99_over_median"}) {
@@ -204,6 +211,21 @@ TEST(BenchProgram, TradeLeavesSectionsOfOtherPartsAsTheyAre) {
   EXPECT_NE(page.find("| adaptive, error 2.5 |"), std::string::npos);
   EXPECT_NE(page.find(hard), std::string::npos);
   EXPECT_TRUE(page.ends_with(needs));
+}
+
+TEST(BenchData, NamesTheFilesThatAreNotThoseOfTheFigures) {
+  const testing::TemporaryFolder folder;
+  std::filesystem::create_directory(folder / "robots");
+  testing::write_text(folder / "robots/Robot.aff", "# another one\n");
+  const auto sentences = data_sentences(folder.path());
+  ASSERT_EQ(sentences.size(), 1u);
+  EXPECT_NE(sentences[0].find(
+                " of BART's files are missing or others than those of the documented figures (kitchen/"),
+            std::string::npos)
+      << sentences[0];
+  const std::filesystem::path data = bart_folder("");
+  if (!std::filesystem::is_directory(data)) GTEST_SKIP() << "BART is not there";
+  EXPECT_TRUE(data_sentences(data).empty()) << data_sentences(data)[0];
 }
 
 TEST(BenchProgram, HelpNamesTheOptions) {

@@ -1,0 +1,16 @@
+// What a user has to know of the scenes that do not come with the program, before he takes the figures for
+// the project's.
+#pragma once
+
+#include <filesystem>
+#include <string>
+#include <vector>
+
+namespace tenebra::bench {
+
+/// Sentences: that BART is not in `folder` and where it comes from, or which of its files are others than
+/// those that the documented figures were made with (tests/reference/bart.sha256; sha256sum compares them).
+/// Empty: all are there.
+std::vector<std::string> data_sentences(const std::filesystem::path& folder);
+
+}  // namespace tenebra::bench
