@@ -22,9 +22,36 @@ void each_vertex_list(Mesh& mesh, const Use& use) {
   for (Mesh::Shape& shape : mesh.shapes) use(shape.positions), use(shape.normals);
 }
 
-bool has_flat_corners(const Mesh& mesh) {
-  const auto& normals = mesh.shapes.empty() ? mesh.normals : mesh.shapes[0].normals;
-  return normals.empty() || std::find(normals.begin(), normals.end(), glm::vec3(0.0f)) != normals.end();
+/// Whether corners at that vertex have their triangles' normals.
+class FlatVertices {
+public:
+  explicit FlatVertices(const Mesh& mesh)
+      : normals_(mesh.shapes.empty() ? mesh.normals : mesh.shapes[0].normals) {}
+  bool operator[](std::size_t vertex) const {
+    return normals_.empty() || normals_[vertex] == glm::vec3(0.0f);
+  }
+
+private:
+  std::span<const glm::vec3> normals_;
+};
+
+/// For each vertex that the mesh is to have, the one that it has now: those with normals, then one for each
+/// corner at one without. Makes the triangles follow.
+std::vector<std::uint32_t> renumber_corners(Mesh& mesh) {
+  const FlatVertices flat(mesh);
+  std::vector<std::uint32_t> from, to(mesh.positions.size());
+  for (std::uint32_t v = 0; v < to.size(); ++v) {
+    to[v] = static_cast<std::uint32_t>(from.size());
+    if (!flat[v]) from.push_back(v);
+  }
+  for (glm::uvec3& t : mesh.triangles) {
+    for (int k = 0; k < 3; ++k) {
+      const std::uint32_t vertex = t[k];
+      t[k] = flat[vertex] ? static_cast<std::uint32_t>(from.size()) : to[vertex];
+      if (flat[vertex]) from.push_back(vertex);
+    }
+  }
+  return from;
 }
 
 Triangle corners_of(const FrameGeometry& frame, std::uint32_t triangle) {
@@ -135,17 +162,14 @@ void separate_meshes(Scene& scene) {
 
 void separate_flat_corners(Scene& scene) {
   for (Mesh& mesh : scene.meshes) {
-    if (!has_flat_corners(mesh)) continue;
+    const std::vector<std::uint32_t> from = renumber_corners(mesh);
     each_vertex_list(mesh, [&](auto& list) {
       if (list.empty()) return;
       std::remove_reference_t<decltype(list)> apart;
-      apart.reserve(3 * mesh.triangles.size());
-      for (const glm::uvec3& t : mesh.triangles)
-        for (int k = 0; k < 3; ++k) apart.push_back(list[t[k]]);
+      apart.reserve(from.size());
+      for (const std::uint32_t vertex : from) apart.push_back(list[vertex]);
       list = std::move(apart);
     });
-    for (std::uint32_t t = 0; t < mesh.triangles.size(); ++t)
-      mesh.triangles[t] = {3 * t, 3 * t + 1, 3 * t + 2};
   }
 }
 

@@ -15,7 +15,8 @@ namespace tenebra::bake {
 /// Gives each node that has a mesh one of its own: light differs from instance to instance.
 void separate_meshes(Scene& scene);
 
-/// Gives the corners of triangles without normals vertices of their own, so that light ends at their edges.
+/// Gives each corner at a vertex without a normal (none at all, or 0) a vertex of its own, so that light ends
+/// at the edges of its triangle. The others stay shared.
 void separate_flat_corners(Scene& scene);
 
 /// Samples for the vertices of FrameGeometry: one near the corner of each triangle, weighed by its area.

@@ -270,5 +270,25 @@ TEST(BakedScene, ColoursOfVerticesEndAtFlatEdges) {
   EXPECT_EQ(scene.materials[0].model, SurfaceModel::unlit);
 }
 
+TEST(BakedScene, ANormalOfZeroSeparatesItsCornersAlone) {
+  Scene scene = box_room(vec3(0), vec3(4, 3, 4));
+  Mesh& mesh = scene.meshes[0];
+  const std::size_t vertices = mesh.positions.size();
+  mesh.normals.assign(vertices, vec3(0, 1, 0));
+  const std::uint32_t flat = mesh.triangles[3].y;
+  mesh.normals[flat] = vec3(0);
+  std::vector<vec3> before;
+  std::size_t corners = 0;
+  for (const glm::uvec3& t : mesh.triangles)
+    for (int k = 0; k < 3; ++k) before.push_back(mesh.positions[t[k]]), corners += t[k] == flat;
+  bake::separate_flat_corners(scene);
+  EXPECT_EQ(mesh.positions.size(), vertices - 1 + corners);
+  EXPECT_EQ(mesh.normals.size(), mesh.positions.size());
+  std::vector<vec3> after;
+  for (const glm::uvec3& t : mesh.triangles)
+    for (int k = 0; k < 3; ++k) after.push_back(mesh.positions[t[k]]);
+  EXPECT_EQ(after, before);
+}
+
 }  // namespace
 }  // namespace tenebra
