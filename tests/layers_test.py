@@ -50,7 +50,7 @@ APART = {("tiles", "cone_tree"), ("silhouette", "clip"), ("bsp", "clip"), ("bsp"
 CONTAINED = [
     (r"\b_mm\w*\(|immintrin", "an intrinsic", {"simd", "parallel"}),  # parallel: the floating-point environment
     (r"\bhn::|hwy::HWY_NAMESPACE", "a vector register", {"simd"}),
-    (r"\bstd::(thread|jthread|mutex|atomic|condition_variable|barrier)\b|\btbb::", "a thread", {"parallel"}),
+    (r"\bstd::(thread|jthread|mutex|atomic|condition_variable|barrier)\b|\btbb::", "a thread", {"parallel", "gl/load_functions.cpp"}),  # gl: glad's one table for all threads
     (r"\bgl[A-Z]\w*\(", "an OpenGL call", {"gl", "raster"}),
     (r"tiny_gltf|tinygltf::", "tinygltf", {"formats/gltf"}),
     (r"tinyobj::", "tinyobjloader", {"formats/obj"}),
@@ -74,7 +74,7 @@ PLAIN_WINDOW_ROOMS = {"motion": set(), "frames": {"motion"}}
 CONTAINED_IN_VIEWER = [
     (r"\bImGui\b|imgui|GLFW|glfw", "the window", ("window/",)),
     (r"GLFW|glfw[A-Z3]", "GLFW", ("window/glfw_window.cpp",)),
-    (r"\bstd::(thread|jthread|mutex|atomic|condition_variable|barrier)\b", "a thread", ("window/frames/render_worker.", "window/frames/explainer.", "window/frames/trade_search.", "shell/stop_signals.", "shell/draw_limit.")),
+    (r"\bstd::(thread|jthread|mutex|atomic|condition_variable|barrier)\b", "a thread", ("window/frames/render_worker.", "window/frames/explainer.", "window/frames/trade_search.", "shell/stop_signals.", "shell/draw_limit.", "shell/last_words.")),
     (r"\bgl[A-Z]\w*\(", "an OpenGL call", ()),
 ]
 

@@ -13,13 +13,15 @@
 #   api       makes the reference of the public headers with doxygen: what is not documented is an error
 #   faults    lets every call of the system and many allocations fail, kills renders, stops each stage
 #   slurm     renders on three Slurm nodes, one of which dies while another is cut off; needs root and Slurm
+#   viewer    gives the window random input for VIEWER_FRAMES [500] frames, with the address and undefined-behaviour sanitizers
+#   same-bytes  builds the program in two folders: the same bytes, and no name of a folder in them
 #   fuzz      runs the fuzzers of tests/fuzz for FUZZ_MINUTES [60]
 #   all       every part, one after the other
 # Exit code: 0 if every part that was asked for is ok, 1 if one failed, 2 if the request was not understood.
 # JOBS=N: how many jobs at once [all cores].
 set -uo pipefail
 cd "$(dirname "$0")/.."
-parts=(lto-odr clang tidy roots debug asan tsan report package api faults slurm fuzz)
+parts=(lto-odr clang tidy roots debug asan tsan report package api faults slurm viewer same-bytes fuzz)
 jobs=${JOBS:-$(nproc)}
 
 has() {
@@ -124,6 +126,31 @@ run_slurm() {
   for part in slurmctld slurmd munged:munge sbatch:slurm-client ip:iproute2; do has "${part%:*}" "${part#*:}" || return 1; done
   cmake --preset release > /dev/null && cmake --build --preset release -j "$jobs" --target tenebra &&
     python3 tests/slurm_test.py build/bin/tenebra "${SLURM_SCENE:-scenes/city.glb}" --frames "${SLURM_FRAMES:-300}" --chunks 10
+}
+
+# The hand's scene is small: sanitizers take their time.
+run_viewer() {
+  has Xvfb xvfb && has xdotool xdotool && tools/setup.sh --tests && cmake --preset asan > /dev/null &&
+    cmake --build --preset asan -j "$jobs" --target tenebra &&
+    LSAN_OPTIONS="suppressions=$PWD/cmake/sanitizers/lsan.supp:print_suppressions=0" \
+      python3 tests/random_hands.py build-asan/bin/tenebra scenes/city.glb "${VIEWER_FRAMES:-500}" "${VIEWER_SEED:-1}" -- --size 160x120
+}
+
+# Without ccache, which would take the second folder's objects from the first.
+run_same-bytes() {
+  local folders one two folder program status=0
+  folders=$(mktemp -d) && one=$folders/one two=$folders/two/below || return 1
+  for folder in "$one" "$two"; do
+    mkdir -p "$folder" && git archive HEAD | tar x -C "$folder" &&
+      cmake -S "$folder" -B "$folder/build" -G Ninja -DCMAKE_BUILD_TYPE=Release -DTENEBRA_TESTS=OFF > /dev/null &&
+      CCACHE_DISABLE=1 cmake --build "$folder/build" -j "$jobs" --target tenebra tenebra_c_api || status=1
+  done
+  for program in bin/tenebra libtenebra.so; do
+    cmp "$one/build/$program" "$two/build/$program" || status=1
+    ! grep -aqF "$folders" "$one/build/$program" || { echo "$program names the folder of its build" >&2; status=1; }
+  done
+  rm -r "$folders"
+  return "$status"
 }
 
 run_fuzz() { tools/fuzz.sh "${FUZZ_MINUTES:-60}"; }

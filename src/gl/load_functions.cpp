@@ -6,8 +6,12 @@
 
 #include "base/fail.h"
 
+#include <mutex>
+
 namespace tenebra::gl {
 namespace {
+
+constexpr int least_version = GLAD_MAKE_VERSION(4, 5);
 
 std::string gl_string(GLenum name) {
   const GLubyte* text = glGetString(name);
@@ -21,16 +25,36 @@ void GLAD_API_PTR on_message(GLenum, GLenum type, GLuint, GLenum severity, GLsiz
   backend->debug_messages.emplace_back(message, static_cast<std::size_t>(length));
 }
 
+/// The version of the context that is current; 0: there are no functions. glad's pointers are one table for
+/// all threads, and contexts are made current before each frame: to write the same values again would race
+/// with a thread that draws (a search for settings makes renderers while the viewer's worker draws). So a
+/// table that a loader has filled stays until another loader comes. It serves all contexts of that loader:
+/// what eglGetProcAddress, glXGetProcAddress and OSMesaGetProcAddress return does not depend on the context.
+/// Contexts of two libraries on two threads at once are beyond one table.
+int fill_table(FunctionLoader loader) {
+  static std::mutex mutex;
+  static FunctionLoader filled_by = nullptr;
+  const std::lock_guard lock(mutex);
+  if (filled_by == loader) {
+    GLint major = 0, minor = 0;
+    glGetIntegerv(GL_MAJOR_VERSION, &major);
+    glGetIntegerv(GL_MINOR_VERSION, &minor);
+    return GLAD_MAKE_VERSION(major, minor);
+  }
+  const int version = gladLoadGL(loader);
+  filled_by = version >= least_version ? loader : nullptr;  // of an older context the table has gaps
+  return version;
+}
+
 }  // namespace
 
 Expected<void> load_functions(Context::Backend& backend) {
-  const int version = gladLoadGL(backend.loader());
+  const int version = fill_table(backend.loader());
   if (version == 0) return base::fail("OpenGL context {}: found no OpenGL functions", backend.kind_name());
   backend.description = fmt::format("{}, OpenGL {}", gl_string(GL_RENDERER), gl_string(GL_VERSION));
-  const int major = GLAD_VERSION_MAJOR(version), minor = GLAD_VERSION_MINOR(version);
-  if (major > 4 || (major == 4 && minor >= 5)) return {};
+  if (version >= least_version) return {};
   return base::fail("OpenGL context {} ({}): found version {}.{}, expected 4.5 or newer", backend.kind_name(),
-                    backend.description, major, minor);
+                    backend.description, GLAD_VERSION_MAJOR(version), GLAD_VERSION_MINOR(version));
 }
 
 void collect_debug_messages(Context::Backend& backend) {

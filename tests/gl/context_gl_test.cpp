@@ -75,6 +75,24 @@ TEST(Context, BelowFourFiveIsRefusedWithASentence) {
       << refused.error().message;
 }
 
+TEST(Context, FindsFunctionsOnceForAllContextsOfALoader) {
+  auto window = Context::create(test::any_kind());
+  ASSERT_TRUE(window);
+  static FunctionLoader real = nullptr;
+  static int asked = 0;
+  real = window->function_loader();
+  const FunctionLoader counts = [](const char* name) {
+    ++asked;
+    return real(name);
+  };
+  ASSERT_TRUE(Context::adopt(counts));
+  const int once = asked;
+  EXPECT_GT(once, 0);
+  auto again = Context::adopt(counts);
+  ASSERT_TRUE(again && again->make_current());
+  EXPECT_EQ(asked, once) << "a thread that draws would see its functions written";
+}
+
 TEST(Context, AdoptsACurrentOneAndLeavesItAlone) {
   auto window = Context::create(test::any_kind());
   ASSERT_TRUE(window);

@@ -17,6 +17,7 @@
 #include "shared/scene_choice.h"
 #include "shared/scene_plan.h"
 #include "shell/console.h"
+#include "shell/memory_limit.h"
 #include "shell/progress.h"
 #include "shell/stop_signals.h"
 
@@ -309,6 +310,7 @@ Expected<void> check_outputs(const Baking& baking, const BakeOptions& options) {
 }
 
 Expected<int> bake_scene(const BakeOptions& options) {
+  if (auto limited = limit_memory(options.memory_mb); !limited) return tl::unexpected(limited.error());
   StopSignals stop(options.timeout_s, StopSignals::Start::at_once);
   auto baking = prepare(options);
   if (!baking) return tl::unexpected(baking.error());

@@ -8,6 +8,7 @@
 #include <tenebra/additions.h>
 #include "commands/command.h"
 #include "cutout/cutout.h"
+#include "options/memory_option.h"
 #include "options/method_options.h"
 #include "options/option_values.h"
 #include "options/scene_options.h"
@@ -16,6 +17,7 @@
 #include "shared/scene_plan.h"
 #include "shared/scene_summary.h"
 #include "shell/console.h"
+#include "shell/memory_limit.h"
 
 namespace tenebra::viewer {
 namespace {
@@ -34,6 +36,7 @@ struct InfoOptions {
   std::string scene;
   formats::ImportOptions import;
   double fps = 30.0;
+  std::optional<int> memory_mb;
   bool meter = false;
   bool json = false;
 };
@@ -236,6 +239,7 @@ Expected<void> add_metered(const InfoOptions& options, Json& json) {
 }
 
 Expected<int> info(const InfoOptions& options) {
+  if (auto limited = limit_memory(options.memory_mb); !limited) return tl::unexpected(limited.error());
   auto scene = formats::import_scene(options.scene, options.import);
   if (!scene) return tl::unexpected(scene.error());
   leave_out_covers(*scene);
@@ -264,6 +268,7 @@ void add_info_command(CLI::App& program, Run& run) {
   add_texture_path(command, options->import);
   add_flag(command, "--meter", options->meter, "Also measure what --exposure auto is, with each tone");
   add_flag(command, "--json", options->json, "Print JSON");
+  add_memory_option(command, options->memory_mb);
   add_value(command, "--fps", options->fps, parse_positive, "Frames per second, to count frames [30]")
       .type_name("F");
   when_chosen(command, [options, &run] { run = [options] { return info(*options); }; });

@@ -10,12 +10,14 @@
 #include "base/output_file.h"
 #include "commands/command.h"
 #include "options/config_file.h"
+#include "options/memory_option.h"
 #include "options/method_arguments.h"
 #include "options/raster_options.h"
 #include "options/scene_arguments.h"
 #include "shared/files_apart.h"
 #include "shared/scene_choice.h"
 #include "shell/console.h"
+#include "shell/memory_limit.h"
 #include "shell/progress.h"
 #include "shell/stop_signals.h"
 #include "trade/trade_choice.h"
@@ -198,6 +200,7 @@ TradeRequest request_of(const TradeOptions& options, const RenderPlan& plan) {
 
 Expected<int> trade(TradeOptions& options) {
   StopSignals stop(options.render.timeout_s, StopSignals::Start::at_once);
+  if (auto limited = limit_memory(options.render.memory_mb); !limited) return tl::unexpected(limited.error());
   const auto plan = plan_trade(options);
   if (!plan) return tl::unexpected(plan.error());
   if (!options.render.quiet) print_warnings(plan->scene.warnings);
@@ -252,6 +255,7 @@ void add_trade_command(CLI::App& program, Run& run) {
   add_value(command, "--timeout", options->render.timeout_s, parse_positive,
             "Stop after so many seconds, as Ctrl-C does")
       .type_name("S");
+  add_memory_option(command, options->render.memory_mb);
   add_flag(command, "--quiet", options->render.quiet, "No progress and no warnings");
   add_raster_options(command, options->render.raster);
   add_config_option(command);
@@ -260,6 +264,7 @@ void add_trade_command(CLI::App& program, Run& run) {
   add_method_options(command, options->render.method);
   when_chosen(command, [options, &command, &run] {
     settle_quality(command, options->render.method);
+    settle_memory(command, options->render.memory_mb, options->render.method);
     const bool quality = options->render.method.quality.has_value();
     options->shadows_given = was_given(command, "--shadows");
     options->given = {was_given(command, "--antialias"), quality || was_given(command, "--soft-error"),

@@ -13,6 +13,7 @@
 #include "commands/verify_report.h"
 #include "options/choices.h"
 #include "options/config_file.h"
+#include "options/memory_option.h"
 #include "options/raster_options.h"
 #include "render/light_casters.h"
 #include "render/shadow_lights.h"
@@ -20,6 +21,7 @@
 #include "shared/render_plan.h"
 #include "shared/scene_choice.h"
 #include "shell/console.h"
+#include "shell/memory_limit.h"
 #include "shell/progress.h"
 #include "shell/stop_signals.h"
 
@@ -212,6 +214,7 @@ Expected<void> check_report(const VerifyOptions& options, const RenderPlan& plan
 Expected<int> verify(const VerifyOptions& options) {
   if (auto checked = check_scene_options(options.render.scene); !checked)
     return tl::unexpected(checked.error());
+  if (auto limited = limit_memory(options.render.memory_mb); !limited) return tl::unexpected(limited.error());
   StopSignals stop(options.render.timeout_s, StopSignals::Start::at_once);
   const auto plan = plan_render(options.render);
   if (!plan) return tl::unexpected(plan.error());
@@ -262,6 +265,7 @@ void add_verify_command(CLI::App& program, Run& run) {
   add_tracer_options(command, options->render.method);
   add_soft_tracer_options(command, options->render.method);
   add_raster_options(command, options->render.raster);
+  add_memory_option(command, options->render.memory_mb);
   add_flag(command, "--quiet", options->render.quiet, "No progress and no warnings");
   add_config_option(command);
   when_chosen(command, [options, &run] { run = [options] { return verify(*options); }; });

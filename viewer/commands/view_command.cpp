@@ -2,7 +2,10 @@
 #include <memory>
 
 #include "commands/command.h"
+#include "options/memory_option.h"
 #include "shared/bundled_scene.h"
+#include "shell/last_words.h"
+#include "shell/memory_limit.h"
 #include "window/glfw_window.h"
 #include "window/view_options.h"
 
@@ -37,6 +40,8 @@ Expected<std::shared_ptr<const ScenePlan>> plan_with_lights(const ViewOptions& o
 
 Expected<int> view(ViewOptions options) {
   if (auto settled = settle_view_options(options); !settled) return tl::unexpected(settled.error());
+  if (auto limited = limit_memory(options.memory_mb); !limited) return tl::unexpected(limited.error());
+  if (options.memory_mb) expect_crashes_without_memory();
   if (options.scene.file.empty()) {
     auto bundled = bundled_scene("city.glb");
     if (!bundled) return tl::unexpected(bundled.error());
@@ -60,6 +65,7 @@ void add_view_command(CLI::App& program, Run& run) {
   add_view_options(command, *options);
   when_chosen(command, [options, &command, &run] {
     settle_quality(command, options->method);
+    settle_memory(command, options->memory_mb, options->method);
     options->panel_given = was_given(command, "--panel");
     run = [options] { return view(*options); };
   });

@@ -1,4 +1,5 @@
 #include "options/bake_options.h"
+#include "options/memory_option.h"
 
 #include <filesystem>
 
@@ -129,6 +130,7 @@ void add_bake_options(CLI::App& command, BakeOptions& options) {
   add_value(command, "--timeout", options.timeout_s, parse_positive,
             "Stop after so many seconds, as Ctrl-C does")
       .type_name("S");
+  add_memory_option(command, options.memory_mb);
   add_flag(command, "--quiet", options.quiet, "No progress, no summary and no warnings");
   add_map_options(command, options);
   add_light_options(command, options);
@@ -137,6 +139,7 @@ void add_bake_options(CLI::App& command, BakeOptions& options) {
 }
 
 Expected<void> settle_bake_options(const CLI::App& command, BakeOptions& options) {
+  settle_memory(command, options.memory_mb, options.method);
   if (!options.output.ends_with(".glb"))
     return base::fail("-o: found {}, expected a name that ends in .glb", options.output);
   if (options.frame && options.scene.time_s) return base::fail("--frame excludes --time");

@@ -26,6 +26,7 @@ struct BakeOptions {
   MethodOptions method;
   std::string output, map;
   double timeout_s = std::numeric_limits<double>::infinity();
+  std::optional<int> memory_mb;  ///< of the whole program
   bool quiet = false;
 };
 

@@ -9,12 +9,8 @@ constexpr int share_of_ao = 4;
 
 }  // namespace
 
-void add_memory_option(CLI::App& command, std::optional<int>& memory_mb) {
-  add_value(
-      command, "--memory", memory_mb, parse_at_least_one,
-      "What the whole program may take, in MB; if it needs more,\nit ends with a sentence [what the system "
-      "has]")
-      .type_name("MB");
+AddedOption add_memory_option(CLI::App& command, std::optional<int>& memory_mb, const char* help) {
+  return add_value(command, "--memory", memory_mb, parse_at_least_one, help).type_name("MB");
 }
 
 void settle_memory(const CLI::App& command, std::optional<int> memory_mb, MethodOptions& method) {

@@ -7,8 +7,13 @@
 
 namespace tenebra::viewer {
 
+inline constexpr const char* memory_help =
+    "What the whole program may take, in MB; if it needs more,\nit ends with a sentence [what the system "
+    "has]";
+
 /// Adds it to `command`; MB of 2^20 bytes, none: what the system has.
-void add_memory_option(CLI::App& command, std::optional<int>& memory_mb);
+AddedOption add_memory_option(CLI::App& command, std::optional<int>& memory_mb,
+                              const char* help = memory_help);
 
 /// Where --memory is given and --ao-memory is not, fields and surface samples take a quarter of it at most,
 /// and no more than they take without it. To be called once all options are read.

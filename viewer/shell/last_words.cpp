@@ -2,8 +2,12 @@
 
 #include <unistd.h>
 
+#include <fmt/core.h>
+
 #include <array>
+#include <atomic>
 #include <charconv>
+#include <csignal>
 #include <exception>
 #include <initializer_list>
 #include <new>
@@ -37,7 +41,26 @@ void print_without_memory(std::initializer_list<std::string_view> words) {
   ::_exit(exit_codes::failed);
 }
 
+std::atomic<bool>& memory_has_failed() {
+  static std::atomic<bool> failed = false;
+  return failed;
+}
+
+void end_by_signal(int signal) {
+  if (memory_has_failed() || near_memory_limit()) {
+    print_no_memory();
+    ::_exit(no_memory_code());
+  }
+  std::signal(signal, SIG_DFL);
+  std::raise(signal);
+}
+
 }  // namespace
+
+void expect_crashes_without_memory() {
+  memory_has_failed() = false;
+  for (const int signal : {SIGSEGV, SIGBUS, SIGABRT}) std::signal(signal, end_by_signal);
+}
 
 void set_last_words() {
   std::set_terminate(end_now);
@@ -45,8 +68,16 @@ void set_last_words() {
 
 bool is_memory_failure(const std::exception& error) {
   const auto* system = dynamic_cast<const std::system_error*>(&error);
-  return dynamic_cast<const std::bad_alloc*>(&error) != nullptr ||
-         (system != nullptr && system->code() == std::errc::resource_unavailable_try_again);
+  const bool failed = dynamic_cast<const std::bad_alloc*>(&error) != nullptr ||
+                      (system != nullptr && system->code() == std::errc::resource_unavailable_try_again);
+  if (failed) memory_has_failed() = true;
+  return failed;
+}
+
+std::string no_memory_sentence() {
+  const auto limit = memory_limit_mb();
+  return limit ? fmt::format("not enough memory, {} MB are allowed; expected a larger --memory", *limit)
+               : "not enough memory";
 }
 
 void print_no_memory() {

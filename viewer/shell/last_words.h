@@ -2,6 +2,7 @@
 #pragma once
 
 #include <exception>
+#include <string>
 
 namespace tenebra::viewer {
 
@@ -10,10 +11,17 @@ namespace tenebra::viewer {
 /// whole or absent all the same (OutputFile, Journal).
 void set_last_words();
 
+/// Where --memory bounds a window: libraries that do not ask whether they got memory (Mesa, LLVM, Dear ImGui)
+/// crash or abort without. If memory has failed or hardly any is left, that ends the program as end of memory
+/// does.
+void expect_crashes_without_memory();
+
 /// Whether it says that there is no memory, or none for a thread's stack.
 bool is_memory_failure(const std::exception& error);
 
-/// Tells that memory has run out, and what bounds it, without any memory.
+/// That memory has run out, and what bounds it.
+std::string no_memory_sentence();
+/// Tells the same without any memory.
 void print_no_memory();
 
 /// For a program that ran out of memory: another try is worth it, but under the same limit.

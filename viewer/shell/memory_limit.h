@@ -12,6 +12,10 @@ namespace tenebra::viewer {
 /// fails as where no memory is left. A limit that the system has set already stays where it is smaller.
 Expected<void> limit_memory(std::optional<int> memory_mb);
 
+/// Whether so little is left of that limit that a call for memory may well have failed. For signal handlers,
+/// too.
+bool near_memory_limit();
+
 /// What limit_memory() or the shell (ulimit -d) has set.
 std::optional<long> memory_limit_mb();
 

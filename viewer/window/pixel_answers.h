@@ -19,7 +19,7 @@ public:
   /// A picture from the same place, perhaps of another size, is asked the same anew; from another place there
   /// is nothing to be told any more.
   void follow(const std::shared_ptr<const Picture>& picture);
-  std::vector<PictureAnswer> take() { return explainer_.take_answers(); }
+  std::vector<Expected<PictureAnswer>> take() { return explainer_.take_answers(); }
 
   /// Why a pixel is dark; null: nobody has asked, or the answer has not come.
   const PictureAnswer* shown() const { return shown_ ? &*shown_ : nullptr; }

@@ -3,6 +3,7 @@
 #include "base/fail.h"
 #include "options/choices.h"
 #include "options/config_file.h"
+#include "options/memory_option.h"
 #include "options/raster_options.h"
 
 namespace tenebra::viewer {
@@ -136,6 +137,9 @@ void add_output_options(CLI::App& command, ViewOptions& options) {
   group(add_flag(command, "--gl-debug", options.gl_debug,
                  "Use OpenGL debug contexts; their messages go to the report"));
   for (const AddedOption option : add_raster_options(command, options.raster)) group(option);
+  group(add_memory_option(command, options.memory_mb,
+                          "What the whole program may take, in MB; a picture or a\nscene that needs more is "
+                          "refused with a sentence\n[what the system has]"));
 }
 
 }  // namespace

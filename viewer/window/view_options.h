@@ -16,6 +16,7 @@ struct ViewOptions {
   SceneOptions scene;
   MethodOptions method;
   render::RasterChoice raster;
+  std::optional<int> memory_mb;  ///< of the whole program
 
   std::optional<Size> window;  ///< none: as it was left
   std::string settings;        ///< a file, or none; "": default_settings_file()

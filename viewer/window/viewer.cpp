@@ -177,7 +177,12 @@ void Viewer::update() {
   for (OpenedScene& opened : results.opened) take_scene(std::move(opened));
   for (const auto& picture : results.pictures) take_picture(picture);
   for (const auto& point : results.picked) take_pick(point);
-  for (PictureAnswer& answer : answers_.take()) take_answer(std::move(answer));
+  for (auto& answer : answers_.take()) {
+    if (answer)
+      take_answer(std::move(*answer));
+    else
+      say(answer.error().message, true);
+  }
   for (const std::string& text : results.failures) say(text, true);
   for (const std::string& text : results.gl_messages) report_.note("gl", text);
   follow_clock();

@@ -93,6 +93,7 @@ void AdaptivePass::settle(int step) {
 /// What rays found, over the lattice of `step`.
 void AdaptivePass::smooth(int step) {
   parallel::parallel_tasks(looks_.tiles().count(), [&](int tile) {
+    if (stopped()) return;
     looks_.tiles().each(tile, step, [&](int x, int y) {
       const std::size_t i = surfaces_.index(x, y);
       if (settled_[i] != Settled::by_rays) return;

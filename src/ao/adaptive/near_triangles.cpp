@@ -29,12 +29,13 @@ NearTriangles::NearTriangles(const Occluders& occluders, const SeeThroughOcclude
       lift_(surface_lift(largest_coordinate(objects.standing))) {}
 
 void NearTriangles::look(std::span<const Receiver> receivers, std::span<const RayPattern* const> patterns,
-                         std::span<const int> near, Openness* out, OccluderCounts& counts) {
+                         std::span<const int> near, Openness* out, OccluderCounts& counts,
+                         const StopFlag* stop) {
   const std::size_t count = receivers.size();
   reached_.resize(near.size() * count);
   for (std::size_t n = 0; n < near.size(); ++n)
     occluders_->reaches(near[n], receivers, &reached_[n * count], Occluders::Itself::counts);
-  for (std::size_t i = 0; i < count; ++i) {
+  for (std::size_t i = 0; i < count && !stop_requested(stop); ++i) {
     const Receiver& receiver = receivers[i];
     const RayPattern& pattern = *patterns[i];
     batches_.resize(pattern.batches.size());

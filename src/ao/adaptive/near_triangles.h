@@ -37,9 +37,10 @@ public:
                 const SceneObjects& objects, double reach, const AoKernels& kernels);
 
   /// out[i] is receiver i's. `near`: what Occluders::near() gives for a box around them, with trees built;
-  /// patterns: one for each receiver, of equal numbers of rays.
+  /// patterns: one for each receiver, of equal numbers of rays. Once `stop` is requested the others' are left
+  /// as they were.
   void look(std::span<const Receiver> receivers, std::span<const RayPattern* const> patterns,
-            std::span<const int> near, Openness* out, OccluderCounts& counts);
+            std::span<const int> near, Openness* out, OccluderCounts& counts, const StopFlag* stop);
 
 private:
   Openness openness(int rays) const;

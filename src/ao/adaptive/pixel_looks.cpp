@@ -71,7 +71,9 @@ void PixelLooks::look(int step, const RaySets& sets, const Choice& choose, const
     choose(tile, worker.pixels);
     make_receivers(step, sets, worker);
     worker.found.resize(worker.receivers.size());
-    worker.triangles.look(worker.receivers, worker.patterns, near_[at], worker.found.data(), counts_[at]);
+    worker.triangles.look(worker.receivers, worker.patterns, near_[at], worker.found.data(), counts_[at],
+                          stop_);
+    if (stop_requested(stop_)) return;
     for (std::size_t k = 0; k < worker.receivers.size(); ++k)
       take(static_cast<std::uint32_t>(worker.receivers[k].index), worker.found[k]);
     looks_[at] += worker.receivers.size();

@@ -23,6 +23,7 @@ std::uint64_t cast_receivers(const ReceiverSet& set, const PointRays& rays, cons
     points[static_cast<std::size_t>(group)] = own.receivers.size();
     own.batches.resize(rays.batches());
     for (const Receiver& receiver : own.receivers) {
+      if (stop_requested(stop)) return;
       rays.spread(receiver, own.batches.data());
       own.distances.assign(rays.batches() * batch_size, rays.reach());
       for (std::size_t b = 0; b < own.batches.size(); ++b)

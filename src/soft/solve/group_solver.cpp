@@ -43,7 +43,7 @@ void GroupSolver::solve_together(const SoftFrame& frame, const GroupFrame& aroun
   base::Stopwatch watch;
   const bool together = preparer_.prepare_family(frame, around, tasks);
   times.init_ms += watch.lap_ms();
-  for (std::size_t k = 0; k < tasks.size(); ++k) {
+  for (std::size_t k = 0; k < tasks.size() && !stop_requested(frame.stop); ++k) {
     if (!together) {
       solve(frame, tasks[k]);
       continue;

@@ -45,6 +45,7 @@ public:
 private:
   void finish_packet(const SoftFrame& frame, const PreparedGroup& group, PixelWriter& writer) {
     if (packet_.count() == 0) return;
+    if (stop_requested(frame.stop)) return packet_.clear();
     if (packet_.solve(frame.light, group.candidates.axes)) {
       for (std::size_t k = 0; k < packet_.count(); ++k) write(frame, k, writer);
       writer.stats().fragments += packet_.fragments();

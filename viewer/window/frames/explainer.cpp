@@ -4,6 +4,8 @@
 
 #include <tenebra/tint.h>
 
+#include "window/frames/within_memory.h"
+
 namespace tenebra::viewer {
 namespace {
 
@@ -82,7 +84,7 @@ void Explainer::ask(PictureQuestion question) {
   changed_.notify_all();
 }
 
-std::vector<PictureAnswer> Explainer::take_answers() {
+std::vector<Expected<PictureAnswer>> Explainer::take_answers() {
   const std::lock_guard lock(mutex_);
   return std::exchange(answers_, {});
 }
@@ -96,7 +98,9 @@ void Explainer::run() {
     PictureQuestion question = std::move(questions_.front());
     questions_.erase(questions_.begin());
     lock.unlock();
-    PictureAnswer answered = answer(std::move(question), geometries);
+    auto answered =
+        within_memory([&]() -> Expected<PictureAnswer> { return answer(std::move(question), geometries); },
+                      [&] { geometries = {}; });
     lock.lock();
     answers_.push_back(std::move(answered));
     lock.unlock();

@@ -51,7 +51,7 @@ public:
 
   /// Replaces an earlier question of the same kind that has not been begun.
   void ask(PictureQuestion question);
-  std::vector<PictureAnswer> take_answers();
+  std::vector<Expected<PictureAnswer>> take_answers();
 
 private:
   void run();
@@ -60,7 +60,7 @@ private:
   std::mutex mutex_;  // of all below
   std::condition_variable changed_;
   std::vector<PictureQuestion> questions_;
-  std::vector<PictureAnswer> answers_;
+  std::vector<Expected<PictureAnswer>> answers_;
   bool quit_ = false;
   std::thread thread_;  // last: it uses all of the above
 };

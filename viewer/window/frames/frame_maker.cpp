@@ -38,6 +38,12 @@ Expected<void> FrameMaker::take_scene(const std::shared_ptr<const ScenePlan>& sc
   return {};
 }
 
+void FrameMaker::forget() {
+  renderer_.reset();
+  scene_.reset();
+  input_ = {};
+}
+
 Expected<Drawn> FrameMaker::draw(const FrameRequest& request, const render::RenderSettings& settings,
                                  double time_s, const AoProgress& progress, const StopFlag& stop) {
   Drawn drawn;

@@ -22,6 +22,9 @@ public:
   Expected<std::shared_ptr<Picture>> make(const FrameRequest& request, PreviewLevel level, double time_s,
                                           const AoProgress& progress, const StopFlag& stop);
 
+  /// Lets go of all that was built: the next picture starts from the scene.
+  void forget();
+
   /// What is seen at a place of what was drawn last, 0 to 1 from its left and top; none: background, or no
   /// picture yet.
   std::optional<glm::vec3> visible_point(glm::dvec2 place);

@@ -4,6 +4,8 @@
 #include <iterator>
 #include <utility>
 
+#include "window/frames/within_memory.h"
+
 namespace tenebra::viewer {
 namespace {
 
@@ -168,7 +170,7 @@ void RenderWorker::load(std::unique_lock<std::mutex>& lock) {
   status_ = {.loading = true, .stage = options.file};
   begun_ = Clock::now();
   lock.unlock();
-  auto planned = plan_scene(options);
+  auto planned = within_memory([&] { return plan_scene(options); }, [] {});
   OpenedScene opened{std::move(options), {}};
   if (planned) {
     opened.scene = std::make_shared<const ScenePlan>(std::move(*planned));
@@ -185,7 +187,9 @@ void RenderWorker::pick_place(FrameMaker& maker, std::unique_lock<std::mutex>& l
   const glm::dvec2 place = *to_pick_;
   to_pick_.reset();
   lock.unlock();
-  const auto point = maker.visible_point(place);
+  const auto point =
+      within_memory([&]() -> Expected<std::optional<glm::vec3>> { return maker.visible_point(place); }, [] {})
+          .value_or(std::nullopt);
   lock.lock();
   results_.picked.push_back(point);
   publish(lock);
@@ -215,7 +219,8 @@ void RenderWorker::draw(FrameMaker& maker, std::unique_lock<std::mutex>& lock) {
     status_.stage = stage;
     status_.done = done;
   };
-  auto made = maker.make(request, level, time_s, progress, stop_);
+  auto made = within_memory([&] { return maker.make(request, level, time_s, progress, stop_); },
+                            [&] { maker.forget(); });
   if (made && request.record) {
     if (auto written =
             base::write_png(request.record->file((*made)->a.record.frame), (*made)->a.result.image);

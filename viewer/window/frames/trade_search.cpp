@@ -4,6 +4,7 @@
 
 #include "trade/trade_choice.h"
 #include "window/frames/frame_maker.h"
+#include "window/frames/within_memory.h"
 
 namespace tenebra::viewer {
 
@@ -83,7 +84,7 @@ void TradeSearch::run() {
     status_.done = 0;
     stop_.reset();
     lock.unlock();
-    auto result = search(work.request);
+    auto result = within_memory([&] { return search(work.request); }, [] {});
     lock.lock();
     status_.running = false;
     if (result)
