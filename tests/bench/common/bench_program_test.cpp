@@ -53,7 +53,7 @@ TEST(BenchProgram, HardRefusesInASentence) {
   expect_refusal({"hard", "--data", "/nowhere/at/all"}, "--data: /nowhere/at/all is not a folder");
   expect_refusal({"hard", "--csv", "/nowhere/at/all.csv"}, "/nowhere/at/all.csv");
   expect_refusal({"hard", "--only", "atlantis"},
-                 "--only: found atlantis, expected frames, whole, sun, growth, variance, paper");
+                 "--only: found atlantis, expected frames, whole, sun, growth, variance");
 }
 
 TEST(BenchProgram, HardEndsWithItsFiguresWhereScenesAreMissing) {
@@ -228,6 +228,26 @@ TEST(BenchData, NamesTheFilesThatAreNotThoseOfTheFigures) {
   EXPECT_TRUE(data_sentences(data).empty()) << data_sentences(data)[0];
 }
 
+TEST(BenchProgram, PaperWritesItsPageFromBundledScenesAlone) {
+  const testing::TemporaryFolder folder;
+  expect_refusal({"paper", "--docs", "/nowhere/at/all"}, "--docs: /nowhere/at/all is not a folder");
+  expect_refusal({"paper", "--stride", "-1"}, "--stride: found -1, expected 0");
+  expect_refusal({"paper", "--only", "atlantis"}, "--only: found atlantis, expected hard, soft, ao, bart");
+  testing::write_text(folder / "papers.md", "# Old\n\n## Soft shadows: Mora et al. 2012\n\nAs it was.\n");
+  const auto result = bench({"paper", "--tiny", "--only", "hard,bart", "--data", folder.path().string(),
+                             "--docs", folder.path().string()});
+  ASSERT_EQ(result.exit_code, 0) << result.errors;
+  EXPECT_NE(result.output.find("robots: skipped"), std::string::npos) << result.output;
+  EXPECT_NE(result.output.find("www.cse.chalmers.se"), std::string::npos) << "where BART comes from";
+  const std::string page = testing::read_text(folder / "papers.md");
+  EXPECT_NE(page.find("| Figure 6(a) | "), std::string::npos) << page;
+  EXPECT_NE(page.find("## Soft shadows: Mora et al. 2012\n\nAs it was.\n"), std::string::npos);
+  EXPECT_NE(page.find("--only ao --docs docs`"), std::string::npos) << "not made yet";
+  EXPECT_NE(page.find("\n| city | 2 of 300 | "), std::string::npos) << page;
+  EXPECT_EQ(page.find(" nan"), std::string::npos) << page;
+  EXPECT_NE(testing::read_text(folder / "papers_hard_figure6_nodes.svg").find("</svg>"), std::string::npos);
+}
+
 TEST(BenchProgram, HelpNamesTheOptions) {
   const auto result = bench({"soft", "--help"});
   EXPECT_EQ(result.exit_code, 0);
@@ -248,16 +268,16 @@ TEST(BenchProgram, ATinyRunNamesWhatIsMissingAndEndsWithTheFigures) {
     EXPECT_TRUE(found) << name;
   }
   EXPECT_LE(figure(result.output, "soft.max_error_255", found), 0.1);
-  EXPECT_LE(figure(result.output, "soft.peak_tree_mb", found), 64.0);
+  const double trees_mb = figure(result.output, "soft.peak_tree_mb", found);
+  EXPECT_GT(trees_mb, 0) << "of trees, which the default does not grow";
+  EXPECT_LE(trees_mb, 64);
   EXPECT_EQ(result.output.find('\n', result.output.find("\nsoft.peak_tree_mb: ") + 1),
             result.output.size() - 1)
       << "the last line";
 
   const std::string csv = testing::read_text(folder / "soft.csv");
   EXPECT_NE(csv.find("\nexperiment,view,contestant,parameter,quantity,value,unit\n"), std::string::npos);
-  for (const char* row : {"figure7,court", "figure8,court", "figure9,court", "figure10,court"})
-    EXPECT_NE(csv.find(row), std::string::npos) << row;
-  EXPECT_NE(testing::read_text(folder / "soft_figure9_time.svg").find("</svg>"), std::string::npos);
+  for (const char* row : {"figure7,court", "trees,court"}) EXPECT_NE(csv.find(row), std::string::npos) << row;
   std::size_t pictures = 0;
   for (const std::string& name : folder.names()) pictures += name.ends_with(".png") ? 1 : 0;
   EXPECT_EQ(pictures, 2u);

@@ -1,5 +1,4 @@
-// tenebra-bench hard: the default hard shadows beside Embree's rays; growth, steadiness, and the experiments
-// of Olsson and Assarsson 2011.
+// tenebra-bench hard: the default hard shadows beside Embree's rays; growth and steadiness.
 #include <array>
 #include <memory>
 
@@ -13,8 +12,7 @@ constexpr std::array parts{BenchPart<HardSession>{"frames", measure_hard_frames}
                            BenchPart<HardSession>{"whole", measure_hard_whole},
                            BenchPart<HardSession>{"sun", measure_hard_sun},
                            BenchPart<HardSession>{"growth", measure_hard_growth},
-                           BenchPart<HardSession>{"variance", measure_hard_variance},
-                           BenchPart<HardSession>{"paper", measure_hard_paper}};
+                           BenchPart<HardSession>{"variance", measure_hard_variance}};
 const std::span<const BenchPart<HardSession>> all_parts(parts);
 
 std::vector<LastLine> last_lines(const HardHeadline& h) {
@@ -64,9 +62,8 @@ constexpr const char* footer =
 void add_hard_command(CLI::App& program, Run& run) {
   const auto simd = std::make_shared<std::string>("auto");
   CLI::App& command = add_parts_command(
-      program, run,
-      {"hard", "Hard shadows beside Embree's rays; the experiments of Olsson and Assarsson 2011", footer},
-      part_names(all_parts), [simd](const PartsArguments& arguments) { return measure(arguments, *simd); });
+      program, run, {"hard", "Hard shadows beside Embree's rays", footer}, part_names(all_parts),
+      [simd](const PartsArguments& arguments) { return measure(arguments, *simd); });
   command.add_option("--simd", *simd, "Instructions that both contestants are kept to [auto]")
       ->type_name("LEVEL");
 }

@@ -35,6 +35,5 @@ Expected<void> measure_hard_whole(HardSession& session);   ///< from ids to mask
 Expected<void> measure_hard_sun(HardSession& session);     ///< the same with directional lights
 Expected<void> measure_hard_growth(HardSession& session);  ///< resolution, triangles, copies
 Expected<void> measure_hard_variance(HardSession& session);  ///< over a whole animation
-Expected<void> measure_hard_paper(HardSession& session);     ///< Figures 6 and 7, Table 2 of the paper
 
 }  // namespace tenebra::bench

@@ -1,5 +1,4 @@
-// tenebra-bench soft: the exact soft shadows beside Embree's shadow rays, and the experiments of Mora et al.
-// 2012.
+// tenebra-bench soft: the exact soft shadows beside Embree's shadow rays.
 #include <fmt/format.h>
 
 #include <algorithm>
@@ -27,18 +26,13 @@ struct Effort {
   int rounds;
   bool whole_curve;
   bool more_frames;
-  std::size_t fall_off_tiles;  ///< one of so many
-  std::vector<double> areas;
-  int area_rounds;
-  std::vector<std::size_t> lights;
-  std::size_t life_points;  ///< queries of Figure 11's tree, at most
   int race_rounds;
   std::size_t race_rays;  ///< of the rival, at most
 };
 
 Effort effort(bool quick) {
-  if (quick) return {7, false, false, 64, {1, 9, 25, 100}, 1, {2, 12, 36}, 5000, 3, 256};
-  return {7, true, true, 16, {1, 2, 4, 9, 16, 25, 49, 100}, 3, {2, 4, 9, 12, 16, 24, 36}, 20000, 5, 1024};
+  if (quick) return {7, false, false, 3, 256};
+  return {7, true, true, 5, 1024};
 }
 
 Expected<void> check(const SoftOptions& options) {
@@ -59,11 +53,6 @@ Expected<void> check(const SoftOptions& options) {
   if (!options.pictures.empty() && !std::filesystem::is_directory(options.pictures, ignored))
     return base::fail("--pictures: {} is not a folder, expected one to write to", options.pictures.string());
   return Report(options.csv).check();
-}
-
-/// Figures 9 and 10 want a furnished room as the paper's Conference: the kitchen, or what there is instead.
-bool shows_growth(const SoftView& view, const SoftResults& results) {
-  return results.areas.empty() && (view.name.starts_with("kitchen") || view.name.starts_with("court"));
 }
 
 Expected<void> measure_view(const SoftView& view, const SoftOptions& options, SoftResults& results,
@@ -87,13 +76,13 @@ Expected<void> measure_view(const SoftView& view, const SoftOptions& options, So
     const auto written = write_pictures(contest, options.size[0], options.size[1], options.pictures);
     if (!written) return written;
   }
-  results.costs.push_back(measure_cost(view, contest, how.fall_off_tiles, report));
-  if (shows_growth(view, results)) {
-    results.areas = measure_areas(view, how.areas, how.area_rounds, report);
-    results.lights = measure_lights(view, how.lights, report);
-    results.life = measure_life(view, contest.penumbra, how.life_points, report);
-    results.growth_view = view.name;
-  }
+  progress(view.name + ": solver bsp");
+  SoftShadowConfig bsp;
+  bsp.solver = SoftSolver::bsp;
+  const TreeCost trees = tree_cost(view, view.frame.points, bsp);
+  report.add({"trees", view.name, "bsp", "", "time", trees.ms, "ms"});
+  report.add({"trees", view.name, "bsp", "", "peak tree memory", trees.bytes, "bytes"});
+  results.trees.push_back({view.name, contest.tenebra_ms, trees});
   results.contests.push_back(std::move(contest));
   return {};
 }
@@ -123,8 +112,7 @@ Expected<void> run_soft(const SoftOptions& options) {
 }  // namespace
 
 void add_soft_command(CLI::App& program, Run& run) {
-  CLI::App* command = program.add_subcommand(
-      "soft", "Exact soft shadows beside Embree's shadow rays; the experiments of Mora et al. 2012");
+  CLI::App* command = program.add_subcommand("soft", "Exact soft shadows beside Embree's shadow rays");
   const auto options = std::make_shared<SoftOptions>();
   add_bench_options(*command, *options);
   command->add_option("--pictures", options->pictures, "Write Tenebra's and Embree's pictures at equal time")

@@ -114,12 +114,12 @@ void sweep_rays(Ring& ring, const Truth& truth, const ContestPlan& plan, Contest
 void run_rounds(Ring& ring, const Truth& truth, const ContestPlan& plan, Contest& contest) {
   const SoftSampler sampler(ring.view().light, contest.eq_rays, contest.packing);
   SoftMask mask;
-  ring.time_tenebra({}, mask);  // warm
+  ring.time_tenebra(plan.config, mask);  // warm
   contest.max_error_255 = largest_error_255(truth, mask.irradiance);
   contest.rmse_255 = penumbra_rmse_255(truth, mask.irradiance);
   std::vector<double> tenebra, embree, fair, over_embree, over_fair;
   for (int round = 0; round < plan.rounds; ++round) {
-    tenebra.push_back(ring.time_tenebra({}, mask));
+    tenebra.push_back(ring.time_tenebra(plan.config, mask));
     embree.push_back(ring.time_sampler(sampler));
     fair.push_back(ring.time_fair(sampler));
     over_embree.push_back(embree.back() / tenebra.back());

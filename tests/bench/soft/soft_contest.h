@@ -16,6 +16,7 @@ inline constexpr double equal_quality_255 = 0.5;  ///< RMSE over the penumbra, i
 
 struct ContestPlan {
   std::string experiment = "figure7";              ///< as the report calls it
+  SoftShadowConfig config{};                       ///< of Tenebra's side
   SoftPrecision truth = SoftPrecision::reference;  ///< what errors are measured against
   int rounds = 5;                                  ///< timed runs of each contestant, in turn
   bool whole_curve = true;                         ///< all powers of two up to most_rays, not only up to EQ

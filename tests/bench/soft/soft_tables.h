@@ -4,20 +4,22 @@
 #include <string>
 #include <vector>
 
+#include "bench/soft/soft_contest.h"
 #include "bench/soft/soft_error_race.h"
-#include "bench/soft/soft_figures.h"
-#include "bench/soft/soft_life.h"
+#include "bench/soft/soft_trees.h"
 
 namespace tenebra::bench {
 
+struct TreeRow {
+  std::string view;
+  double default_ms = 0;
+  TreeCost cost;  ///< with solver bsp instead
+};
+
 struct SoftResults {
   std::vector<Contest> contests;
+  std::vector<TreeRow> trees;
   std::vector<ErrorRace> races, sun_races;
-  std::vector<CostRow> costs;
-  std::vector<AreaRow> areas;
-  std::vector<LightsRow> lights;
-  std::vector<LifeRow> life;
-  std::string growth_view;           ///< on which areas, lights and life were measured
   std::vector<std::string> skipped;  ///< what could not be measured, each a sentence with its reason
 };
 
@@ -26,7 +28,7 @@ std::string soft_tables(const SoftResults& results);
 void add_soft_plots(const SoftResults& results, Report& report);
 
 /// The lines that a script reads, "soft.eq_geomean: 7.1" and so on; nan where nothing was measured. Speed-ups
-/// over the counted views, errors and memory over all views.
+/// over the counted views, errors over all views.
 std::string soft_summary(const SoftResults& results);
 
 }  // namespace tenebra::bench
