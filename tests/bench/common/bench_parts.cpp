@@ -2,7 +2,9 @@
 
 #include "bench/common/bench_parts.h"
 
+#include <cmath>
 #include <cstdio>
+#include <limits>
 #include <memory>
 
 #include "base/fail.h"
@@ -76,9 +78,14 @@ std::vector<std::string> parts_settings(const PartsArguments& arguments, SimdLev
           fmt::format("quick: {}", arguments.options.quick)};
 }
 
+std::string headline(const std::string& name, double value, int digits) {
+  return fmt::format("{}: {}\n", name,
+                     std::isnan(value) ? "not measured" : fmt::format("{:.{}f}", value, digits));
+}
+
 void print_headline(const std::string& name, const std::optional<double>& value, int digits) {
-  std::printf("%s: %s\n", name.c_str(),
-              value ? fmt::format("{:.{}f}", *value, digits).c_str() : "not measured");
+  std::fputs(headline(name, value.value_or(std::numeric_limits<double>::quiet_NaN()), digits).c_str(),
+             stdout);
 }
 
 }  // namespace tenebra::bench

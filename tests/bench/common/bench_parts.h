@@ -67,7 +67,9 @@ Expected<void> measure_parts(const PartsArguments& arguments, std::span<const Be
 std::vector<std::string> parts_settings(const PartsArguments& arguments,
                                         SimdLevel simd = SimdLevel::automatic);
 
-/// The last lines that a script reads: "hard.static_worst: 0.40"; nan where nothing was measured.
+/// A last line that a script reads: "hard.static_worst: 0.40\n"; "not measured" for NaN.
+std::string headline(const std::string& name, double value, int digits);
+/// Prints one.
 void print_headline(const std::string& name, const std::optional<double>& value, int digits);
 
 }  // namespace tenebra::bench

@@ -7,6 +7,7 @@
 #include <limits>
 
 #include "base/stopwatch.h"
+#include "bench/common/bench_parts.h"
 #include "bench/soft/soft_quality.h"
 #include "bench/soft/soft_rival.h"
 
@@ -161,18 +162,19 @@ std::string error_summary(const std::vector<ErrorRace>& races) {
       ratios.push_back(race.rows[k].ratio());
       off = std::max(off, race.rows[k].estimate_off());
     }
-    text += fmt::format("soft.ratio_{}_geomean: {:.2f}\nsoft.ratio_{}_worst: {:.2f}\n", names[k],
-                        ratios.empty() ? nan : geometric_mean(ratios), names[k],
-                        ratios.empty() ? nan : *std::max_element(ratios.begin(), ratios.end()));
+    const std::string name = fmt::format("soft.ratio_{}_", names[k]);
+    text +=
+        headline(name + "geomean", ratios.empty() ? nan : geometric_mean(ratios), 2) +
+        headline(name + "worst", ratios.empty() ? nan : *std::max_element(ratios.begin(), ratios.end()), 2);
   }
-  return text + fmt::format("soft.estimate_worst: {:.2f}\n", off);
+  return text + headline("soft.estimate_worst", off, 2);
 }
 
 std::string sun_summary(const std::vector<ErrorRace>& races) {
   std::vector<double> ratios;
   for (const ErrorRace& race : races) ratios.push_back(race.rows.back().ratio());
-  return fmt::format("soft.sun_ratio_05: {:.2f}\n",
-                     ratios.empty() ? std::numeric_limits<double>::quiet_NaN() : geometric_mean(ratios));
+  return headline("soft.sun_ratio_05",
+                  ratios.empty() ? std::numeric_limits<double>::quiet_NaN() : geometric_mean(ratios), 2);
 }
 
 }  // namespace tenebra::bench

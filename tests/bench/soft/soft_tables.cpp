@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <limits>
 
+#include "bench/common/bench_parts.h"
 #include "bench/common/bench_plot.h"
 
 namespace tenebra::bench {
@@ -112,11 +113,10 @@ std::string soft_summary(const SoftResults& results) {
   for (const TreeRow& row : results.trees) bytes = std::max(bytes, row.cost.bytes);
   const double nan = std::numeric_limits<double>::quiet_NaN();
   return error_summary(results.races) + sun_summary(results.sun_races) +
-         fmt::format(
-             "soft.eq_geomean: {:.2f}\nsoft.eq_worst: {:.2f}\nsoft.fair_worst: {:.2f}\nsoft.max_error_255: "
-             "{:.4f}\nsoft.peak_tree_mb: {:.2f}\n",
-             over_embree.empty() ? nan : geometric_mean(over_embree), worst(over_embree), worst(over_fair),
-             results.contests.empty() ? nan : error, results.trees.empty() ? nan : bytes / 1e6);
+         headline("soft.eq_geomean", over_embree.empty() ? nan : geometric_mean(over_embree), 2) +
+         headline("soft.eq_worst", worst(over_embree), 2) + headline("soft.fair_worst", worst(over_fair), 2) +
+         headline("soft.max_error_255", results.contests.empty() ? nan : error, 4) +
+         headline("soft.peak_tree_mb", results.trees.empty() ? nan : bytes / 1e6, 2);
 }
 
 }  // namespace tenebra::bench
