@@ -1,5 +1,6 @@
 #include "options/memory_option.h"
 
+#include <CLI/CLI.hpp>
 #include <algorithm>
 
 namespace tenebra::viewer {
@@ -14,7 +15,8 @@ AddedOption add_memory_option(CLI::App& command, std::optional<int>& memory_mb, 
 }
 
 void settle_memory(const CLI::App& command, std::optional<int> memory_mb, MethodOptions& method) {
-  if (!memory_mb || was_given(command, "--ao-memory")) return;
+  const CLI::Option* const ao = command.get_option_no_throw("--ao-memory");  // which bake lacks
+  if (!memory_mb || (ao != nullptr && ao->count() > 0)) return;
   int& ao_mb = method.render.ao.memory_mb;
   ao_mb = std::clamp(*memory_mb / share_of_ao, 1, ao_mb);
 }
