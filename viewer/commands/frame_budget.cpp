@@ -72,14 +72,20 @@ Expected<bool> FrameBudget::scan(const DrawRung& draw, const std::function<void(
   return false;
 }
 
-/// The coarsest errors bound the others' time. Of two that take as long, the smaller errors.
+/// From the smallest errors on the first that fits up to a tenth above the budget; else the quickest, of two
+/// that take as long the smaller errors. Time need not fall as errors grow; that of the coarsest bounds the
+/// others'.
 Expected<void> FrameBudget::take_quickest(const DrawRung& draw, const std::function<void()>& keep) {
   const auto coarsest = attempt(draw, rungs_ - 1, never);
   if (!coarsest) return tl::unexpected(coarsest.error());
   take(rungs_ - 1, *coarsest, keep);
   for (std::size_t rung = 0; rung + 1 < rungs_; ++rung) {
-    const auto ms = attempt(draw, rung, ms_);
+    const auto ms = attempt(draw, rung, std::max(ms_, kept_up_to * budget_ms_));
     if (!ms) return tl::unexpected(ms.error());
+    if (*ms <= kept_up_to * budget_ms_) {
+      take(rung, *ms, keep);
+      return {};
+    }
     if (*ms < ms_ || (*ms == ms_ && rung < *rung_)) take(rung, *ms, keep);
   }
   return {};
