@@ -2,7 +2,6 @@
 
 #include "bench/common/bench_parts.h"
 
-#include <cmath>
 #include <cstdio>
 #include <limits>
 #include <memory>
@@ -76,11 +75,6 @@ std::vector<std::string> parts_settings(const PartsArguments& arguments, SimdLev
   const SimdLevel level = simd == SimdLevel::automatic ? best_simd_level() : simd;
   return {fmt::format("threads: {}", thread_count()), fmt::format("simd: {}", simd_level_name(level)),
           fmt::format("quick: {}", arguments.options.quick)};
-}
-
-std::string headline(const std::string& name, double value, int digits) {
-  return fmt::format("{}: {}\n", name,
-                     std::isnan(value) ? "not measured" : fmt::format("{:.{}f}", value, digits));
 }
 
 void print_headline(const std::string& name, const std::optional<double>& value, int digits) {

@@ -67,9 +67,7 @@ Expected<void> measure_parts(const PartsArguments& arguments, std::span<const Be
 std::vector<std::string> parts_settings(const PartsArguments& arguments,
                                         SimdLevel simd = SimdLevel::automatic);
 
-/// A last line that a script reads: "hard.static_worst: 0.40\n"; "not measured" for NaN.
-std::string headline(const std::string& name, double value, int digits);
-/// Prints one.
+/// Prints a headline().
 void print_headline(const std::string& name, const std::optional<double>& value, int digits);
 
 }  // namespace tenebra::bench

@@ -97,4 +97,9 @@ double median(std::span<const double> values) {
   return base::summarize(values).median;
 }
 
+std::string headline(const std::string& name, double value, int digits) {
+  return fmt::format("{}: {}\n", name,
+                     std::isnan(value) ? "not measured" : fmt::format("{:.{}f}", value, digits));
+}
+
 }  // namespace tenebra::bench

@@ -60,4 +60,7 @@ void print_table(const std::string& title, const Rows& rows);
 double geometric_mean(std::span<const double> values);
 double median(std::span<const double> values);
 
+/// A last line that a script reads: "hard.static_worst: 0.40\n"; "not measured" for NaN.
+std::string headline(const std::string& name, double value, int digits);
+
 }  // namespace tenebra::bench

@@ -7,7 +7,6 @@
 #include <limits>
 
 #include "base/stopwatch.h"
-#include "bench/common/bench_parts.h"
 #include "bench/soft/soft_quality.h"
 #include "bench/soft/soft_rival.h"
 

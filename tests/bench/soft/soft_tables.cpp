@@ -5,7 +5,6 @@
 #include <algorithm>
 #include <limits>
 
-#include "bench/common/bench_parts.h"
 #include "bench/common/bench_plot.h"
 
 namespace tenebra::bench {
