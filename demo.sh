@@ -8,7 +8,7 @@ tools/setup.sh
 # A first build compiles each folder's files together, which takes less time; a folder that is there keeps its way.
 [[ -e build/CMakeCache.txt ]] && first=() || first=(-DTENEBRA_UNITY=ON)
 cmake --preset release -DTENEBRA_TESTS=OFF "${first[@]}" > /dev/null
-cmake --build --preset release
+cmake --build --preset release --target tenebra
 
 build/bin/tenebra render scenes/city.glb --frames 0:95:4 --size 960x540 -o out/%04d.png --mask out/mask_%04d.png \
   --log out/frames.csv --trace out/trace.json "$@"

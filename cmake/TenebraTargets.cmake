@@ -8,9 +8,8 @@ function(tenebra_library name)
       $<BUILD_INTERFACE:${CMAKE_SOURCE_DIR}/include> $<BUILD_INTERFACE:${CMAKE_SOURCE_DIR}/src>
       $<INSTALL_INTERFACE:include>)
     target_link_libraries(tenebra_${name} ${ARGN})
-    # glad's functions are defined in one file of gl, and declared in the others; those who link base take what they
-    # need of it, without stb.
-    if(NOT name MATCHES "^(base|gl)$")
+    # glad's functions are defined in one file of gl, and declared in the others.
+    if(NOT name STREQUAL gl)
       tenebra_unite(tenebra_${name})
     endif()
   else()

@@ -29,7 +29,7 @@ std::string reason(int error) {
 
 constexpr std::string_view temporary_begin = ".tenebra-", temporary_end = ".tmp";
 /// How long a file of another machine, which may not see our locks, counts as being written.
-constexpr std::chrono::hours patience{1};
+constexpr std::chrono::hours strangers_patience{1};
 
 /// What the names of this machine's temporary files begin with.
 std::string prefix_of_this_machine() {
@@ -54,7 +54,7 @@ void remove_if_stale(const fs::path& path) {
   std::error_code error;
   const bool ours = path.filename().string().starts_with(prefix_of_this_machine());
   const auto written = fs::last_write_time(path, error);
-  if (error || (!ours && fs::file_time_type::clock::now() - written < patience)) return;
+  if (error || (!ours && fs::file_time_type::clock::now() - written < strangers_patience)) return;
   const Descriptor file(::open(path.c_str(), O_WRONLY | O_NONBLOCK | O_NOFOLLOW | O_CLOEXEC));
   if (file && lock_in_place(file, path)) ::unlink(path.c_str());
 }

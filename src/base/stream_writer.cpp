@@ -18,7 +18,7 @@ namespace {
 using Clock = std::chrono::steady_clock;
 
 constexpr int look_at_flag_ms = 50;
-constexpr std::chrono::milliseconds patience{250};
+constexpr std::chrono::milliseconds reader_patience{250};
 
 tl::unexpected<Error> stream_failure(int error) {
   if (error == EPIPE) return fail("cannot write standard output: its reader is gone");
@@ -41,7 +41,7 @@ Expected<void> write_to_stdout(std::string_view bytes, const StopFlag* stop) {
     const int found = ::poll(&ready, 1, look_at_flag_ms);
     if (found < 0 && errno != EINTR) return stream_failure(errno);
     if (found <= 0) {
-      if (stop_requested(stop) && Clock::now() - taken > patience) return fail("stopped");
+      if (stop_requested(stop) && Clock::now() - taken > reader_patience) return fail("stopped");
       continue;
     }
     const ssize_t written = ::write(STDOUT_FILENO, bytes.data(), std::min(bytes.size(), at_once));
