@@ -29,9 +29,11 @@ constexpr const char* page_head =
     "here**, "
     "with the reason: milliseconds on a GPU of 2011 say nothing about another machine, but ratios and counts "
     "do. "
-    "Claims that counts decide are held by `tests/bench/paper/paper_test.cpp`, on small pictures of the "
-    "bundled "
-    "scenes; times are in no test. Node: a test of a triangle with a node of the tree. Other words: README, "
+    "Some verdicts are of a claim's direction and not of its range: read what was found. A few that counts "
+    "decide "
+    "are held by `tests/bench/paper/paper_test.cpp`, on small pictures of the bundled scenes, where they may "
+    "differ from those below; times are in no test. Node: a test of a triangle with a node of the tree. "
+    "Other words: README, "
     "*Vocabulary*.\n\n";
 
 /// "Made by `tenebra-bench paper --only hard --quick` on AMD EPYC, 2 cores; 2 threads."
