@@ -1,5 +1,6 @@
 #include "soft/bsp/line_class_bsp.h"
 
+#include <algorithm>
 #include <cmath>
 #include <numeric>
 
@@ -12,14 +13,21 @@ namespace {
 
 using glm::dvec3;
 
+constexpr std::size_t bytes_an_occluder = 3 * sizeof(dvec3) + sizeof(std::uint32_t);  // corners, and the list
+
 }  // namespace
 
-void LineClassBsp::reset(const GroupOccluders& occluders, const TriangleView& triangles,
-                         const GroupFrame& group, OccluderChoice choice) {
+bool LineClassBsp::reset(const GroupOccluders& occluders, const TriangleView& triangles,
+                         const GroupFrame& group, OccluderChoice choice, std::size_t largest_bytes) {
   nodes_.clear();
   waiting_.clear();
   lists_.clear();
   corners_.clear();
+  root_ = visible_leaf;
+  if (occluders.occluders.size() >
+      (largest_bytes - std::min(largest_bytes, sizeof(Range))) / bytes_an_occluder)
+    return false;
+  largest_bytes_ = largest_bytes;
   occluders_ = occluders.occluders;
   planes_ = occluders.planes;
   half_ = group.half;
@@ -33,6 +41,7 @@ void LineClassBsp::reset(const GroupOccluders& occluders, const TriangleView& tr
   all.resize(occluders_.size());
   std::iota(all.begin(), all.end(), 0u);
   root_ = add_leaf(all);
+  return true;
 }
 
 // Theorem 1: the lines from the group's box through the occluder have one orientation to the edge if those
@@ -84,6 +93,10 @@ BspChild LineClassBsp::grow(std::int32_t parent, int side) {
   const Range waiting = lists_[static_cast<std::size_t>(-3 - leaf)];
   const std::uint32_t picked = pick(waiting);
   const Occluder& merged = occluders_[waiting_[waiting.first + picked]];
+  // Each of the others may come to wait outside of every line.
+  const std::size_t most_added =
+      merged.line_count * (sizeof(BspNode) + sizeof(Range) + (waiting.count - 1) * sizeof(std::uint32_t));
+  if (bytes() + most_added > largest_bytes_) return leaf;
   for (auto& list : outside_) list.clear();
   for (std::uint32_t i = 0; i < waiting.count; ++i) {
     if (i != picked) insert_below(waiting_[waiting.first + i], merged);

@@ -30,9 +30,10 @@ struct BspNode {
 
 class LineClassBsp {
 public:
-  /// A tree of one undefined leaf that all definite occluders wait in. They must outlive it.
-  void reset(const GroupOccluders& occluders, const TriangleView& triangles, const GroupFrame& group,
-             OccluderChoice choice);
+  /// A tree of one undefined leaf that all definite occluders wait in. They must outlive it. It takes at most
+  /// `largest_bytes`: false, and no tree, if its occluders alone take more.
+  bool reset(const GroupOccluders& occluders, const TriangleView& triangles, const GroupFrame& group,
+             OccluderChoice choice, std::size_t largest_bytes);
 
   BspChild root() const { return root_; }
   const BspNode* nodes() const { return nodes_.data(); }
@@ -41,7 +42,8 @@ public:
   std::size_t bytes() const;
 
   /// Replaces the undefined leaf at `child` (the root: parent < 0) by the classes of one of its occluders and
-  /// inserts the others below (Algorithm 1, lines 31 to 35). Returns what stands there now.
+  /// inserts the others below (Algorithm 1, lines 31 to 35). Returns what stands there now: the undefined
+  /// leaf that stood there, and nothing has changed, if the tree might come to take more than it may.
   BspChild grow(std::int32_t parent, int side);
 
   std::size_t node_count() const { return nodes_.size(); }
@@ -67,6 +69,7 @@ private:
   glm::dvec3 half_{0.0};
   BspChild root_ = visible_leaf;
   OccluderChoice choice_ = OccluderChoice::largest;
+  std::size_t largest_bytes_ = 0;
   std::uint32_t random_ = 1;
 };
 

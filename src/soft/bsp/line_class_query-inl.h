@@ -27,8 +27,9 @@ SIMD_INLINE LightLine<T> line_at(const MovingLine& line, const glm::dvec3& d) {
 template <class T>
 class LineClassQuery {
 public:
-  /// Appends the parts of `light` visible from the point centre + d to `out`.
-  HWY_NOINLINE void query(LineClassBsp& bsp, const MovingLine* lines, const LightPolygon<T>& light,
+  /// Appends the parts of `light` visible from the point centre + d to `out`. False if the tree would have to
+  /// grow beyond its bound: `out` then has some of them.
+  HWY_NOINLINE bool query(LineClassBsp& bsp, const MovingLine* lines, const LightPolygon<T>& light,
                           const glm::dvec3& d, FragmentList<T>& out) {
     push(-1, 0, light);
     while (!places_.empty()) {
@@ -38,6 +39,7 @@ public:
       BspChild child = at(bsp, place);
       while (true) {
         if (is_undefined(child)) child = bsp.grow(place.parent, place.side);
+        if (is_undefined(child)) return give_up();
         if (child < 0) break;
         const LineValues<T> values = evaluate(fragment, line_at<T>(lines[bsp.nodes()[child].line], d));
         place = {child, values.positive != 0};
@@ -57,6 +59,7 @@ public:
       }
       if (place.parent != stop && child == visible_leaf) out.push(fragment);
     }
+    return true;
   }
 
 private:
@@ -65,6 +68,12 @@ private:
     std::int32_t parent;
     int side;
   };
+
+  bool give_up() {
+    places_.clear();
+    polygons_.clear();
+    return false;
+  }
 
   static SIMD_INLINE BspChild at(const LineClassBsp& bsp, const Place& place) {
     return place.parent < 0 ? bsp.root() : bsp.nodes()[place.parent].child[place.side];

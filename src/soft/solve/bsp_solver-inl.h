@@ -16,7 +16,8 @@ HWY_BEFORE_NAMESPACE();
 namespace tenebra::soft::HWY_NAMESPACE {
 using namespace simd::HWY_NAMESPACE;
 
-/// Trees beyond this size are dropped, and the rest of the group is clipped.
+/// No tree takes more than this: one that would is dropped, and the point and the rest of its group are
+/// clipped.
 inline constexpr std::size_t largest_tree_bytes = std::size_t{4} << 20;
 
 template <class T>
@@ -25,16 +26,16 @@ public:
   void begin(const SoftFrame& frame, const PreparedGroup& group) override {
     receiver_.forget();
     set_up_occluders(frame.light, frame.triangles, group.frame, group.candidates, occluders_);
-    start_tree(frame, group);
-    use_tree_ = true;
     clip(group.candidates, occluders_.indefinite);
+    start_tree(frame, group);
+    if (!use_tree_) clip_whole_group(group);
   }
 
   void solve(const SoftFrame& frame, const PreparedGroup& group, std::span<const std::uint32_t> pixels,
              PixelWriter& writer) override {
+    if (!use_tree_) writer.answer_by(SoftClass::clip);
     for (const std::uint32_t pixel : pixels) {
       if (stop_requested(frame.stop)) break;
-      if (use_tree_ && bsp_.bytes() > largest_tree_bytes) drop_tree(group, writer);
       solve_point(frame, group, pixel, writer);
       if (use_tree_ && !frame.config.keep_trees) {
         note_tree(writer.stats());
@@ -47,12 +48,15 @@ public:
 
 private:
   void start_tree(const SoftFrame& frame, const PreparedGroup& group) {
-    bsp_.reset(occluders_, frame.triangles, group.frame, frame.config.choice);
+    use_tree_ = bsp_.reset(occluders_, frame.triangles, group.frame, frame.config.choice, largest_tree_bytes);
   }
   void drop_tree(const PreparedGroup& group, PixelWriter& writer) {
     note_tree(writer.stats());
     use_tree_ = false;
     writer.answer_by(SoftClass::clip);
+    clip_whole_group(group);
+  }
+  void clip_whole_group(const PreparedGroup& group) {
     take_all(group.candidates, all_);
     clip(group.candidates, all_);
   }
@@ -71,7 +75,7 @@ private:
     receiver_.take_up(frame, pixel);
     const PointSight sight = sight_of(frame, receiver_, pixel);
     visible_.clear();
-    if (sight.above > 0) find_visible(frame, group, pixel);
+    if (sight.above > 0) find_visible(frame, group, pixel, writer);
     if (sight.above > 0 && visible_.fragments == receiver_.light && !receiver_.plane.cuts_light &&
         !sight.horizon_cuts) {
       writer.count_solver(pixel);
@@ -82,18 +86,28 @@ private:
     }
   }
 
-  void find_visible(const SoftFrame& frame, const PreparedGroup& group, std::uint32_t pixel) {
+  void find_visible(const SoftFrame& frame, const PreparedGroup& group, std::uint32_t pixel,
+                    PixelWriter& writer) {
     const GroupPoint at = group_point(group.candidates.axes, frame.points.positions[pixel],
                                       receiver_.plane.id, receiver_.plane.tau);
-    clip_.move_to(at);
     const FragmentList<T>& light = receiver_.light;
+    if (use_tree_ && !query_tree(light, at)) {
+      visible_.clear();
+      drop_tree(group, writer);
+    }
+    clip_.move_to(at);
     if (!use_tree_) return clip_all(light, visible_.fragments);
-    for (std::size_t i = 0; i < light.size(); ++i)
-      query_.query(bsp_, occluders_.lines.data(), loaded(light[i]), at.from_centre, visible_.fragments);
     if (clipped_.empty()) return;
     visible_.scratch.clear();
     clip_all(visible_.fragments, visible_.scratch);
     visible_.fragments.swap(visible_.scratch);
+  }
+  bool query_tree(const FragmentList<T>& light, const GroupPoint& at) {
+    for (std::size_t i = 0; i < light.size(); ++i) {
+      if (!query_.query(bsp_, occluders_.lines.data(), loaded(light[i]), at.from_centre, visible_.fragments))
+        return false;
+    }
+    return true;
   }
   void clip_all(const FragmentList<T>& parts, FragmentList<T>& out) {
     for (std::size_t i = 0; i < parts.size(); ++i) clip_.query(loaded(parts[i]), out);
