@@ -70,25 +70,28 @@ void add_costs(const SoftFindings& found, std::vector<Claim>& claims) {
        clipped.most > 0 ? Verdict::fails : verdict_of(bytes.most <= 21),
        fmt::format("{:.2f} to {:.2f} MB{}.", bytes.least, bytes.most,
                    clipped.most > 0
-                       ? fmt::format(" with the bound of 4 MiB a tree, which leaves up to {:.1f} % "
-                                     "of the points to clipping; without it there would be more",
+                       ? fmt::format(" with each tree bound to 4 MiB, which leaves up to "
+                                     "{:.1f} % of the points to clipping; without the bound it is more",
                                      clipped.most)
                        : std::string())});
   const Range queries = range_of(views, [](const TreeView& v) {
     return 100 * v.paper.query_ms / std::max(v.paper.shaft_ms + v.paper.init_ms + v.paper.query_ms, 1e-9);
   });
-  claims.push_back({"mora.queries_dominate", "Figure 8", "Queries take 91 to 97 % of the time.",
-                    verdict_of(queries.least > 50),
+  claims.push_back({"mora.queries_dominate", "Figure 8", "Queries clearly dominate: 91 to 97 % of the time.",
+                    verdict_of(queries.least >= 80),
                     fmt::format("{:.1f} to {:.1f} %.", queries.least, queries.most)});
   const Range nodes = range_of(views, [](const TreeView& v) { return over(v.anew.nodes, v.kept.nodes); });
   const Range times = range_of(views, [](const TreeView& v) { return v.anew.ms / v.kept.ms; });
+  claims.push_back({"mora.coherence_pays", "Figure 8", "A tree kept from query to query makes fewer nodes.",
+                    verdict_of(nodes.least > 1),
+                    fmt::format("With each query starting anew {:.1f} to {:.1f} times as many.", nodes.least,
+                                nodes.most)});
   claims.push_back(
-      {"mora.coherence_pays", "Figure 8", "With each query starting anew it is 16 to 48 times slower.",
-       verdict_of(nodes.least > 1),
-       fmt::format("{:.1f} to {:.1f} times the nodes are made, in {:.2f} to {:.2f} times the time{}. The "
-                   "verdict is of the nodes.",
-                   nodes.least, nodes.most, times.least, times.most,
-                   clipped.most > 0 ? " (kept trees that outgrow their bound are clipped)" : "")});
+      {"mora.coherence_pays_16_times", "Figure 8",
+       "With each query starting anew it is 16 to 48 times slower.", verdict_of(times.least >= 16),
+       fmt::format(
+           "{:.2f} to {:.2f} times{}.", times.least, times.most,
+           clipped.most > 0 ? "; where a tree comes to its bound, the rest of its group is clipped" : "")});
   const Range choice =
       range_of(views, [](const TreeView& v) { return over(v.paper.nodes, v.largest.nodes); });
   const Range choice_time =
