@@ -8,7 +8,7 @@ cd "$(dirname "$0")/.."
 folders=(base exr math parallel points scene texture cutout visibility shadow soft tint ao query shade)
 # Those that take many seconds each: exact answers for whole masks, catalogues, soups, whole frames.
 slow='ShadowMask\.|NodeTests|SoftCatalogue|SoftCloud|Oracle|Exact|EverySoup|StaysWholeWhenKilled|SoftMetamorphic|SoftError\.|^Sun\.(Agrees|Has)'
-slow+='|^Bart|SoftPackets|ShaftFrames|NeverLeaveOut|HandOver|AreaIsThatOf|Tiles\.AreTheSame|Tiles\.WorkOut'
+slow+='|^TreeBound|^Bart|SoftPackets|ShaftFrames|NeverLeaveOut|HandOver|AreaIsThatOf|Tiles\.AreTheSame|Tiles\.WorkOut'
 slow+='|DistantFaceBounds|OfHundredsOfEdges|NearlyCoincide|SheetsOf|GivesWhatClipping|FieldAccuracy|FindsABall'
 slow+='|AdaptiveOcclusion\.(Meets|SameBits|Stops|DoesNot)|AoCatalogue|AoMemory'
 slow+='|^Places\.|EvenEmission|TexturedPanes|RunsAlong|^FieldLookup\.(Never|Gives|Takes|OneField|SeesFrom)|WhatIsDropped'

@@ -3,6 +3,7 @@
 
 #include <tenebra/simd_level.h>
 #include <algorithm>
+#include <cstddef>
 #include <cstdint>
 #include <optional>
 #include <string_view>
@@ -46,6 +47,9 @@ struct SoftShadowConfig {
   double error_255 = 0;
   bool keep_trees = true;  ///< false: each point starts a new BSP (the paper's "modified version", Figure 8)
   SimdLevel simd = SimdLevel::automatic;  ///< which vectors; see SoftPrecision for what answers depend on
+  /// No thread's BSP takes more bytes than this, nor more than 1 GiB: the point whose query would, and the
+  /// group's points after it (with keep_trees), are clipped instead, with the same answers.
+  std::size_t tree_bytes = std::size_t{4} << 20;
 };
 
 /// One value per pixel, row 0 at the top; zero where no triangle is seen or the light is below the horizon.

@@ -24,9 +24,7 @@ bool LineClassBsp::reset(const GroupOccluders& occluders, const TriangleView& tr
   lists_.clear();
   corners_.clear();
   root_ = visible_leaf;
-  if (occluders.occluders.size() >
-      (largest_bytes - std::min(largest_bytes, sizeof(Range))) / bytes_an_occluder)
-    return false;
+  if (sizeof(Range) + occluders.occluders.size() * bytes_an_occluder > largest_bytes) return false;
   largest_bytes_ = largest_bytes;
   occluders_ = occluders.occluders;
   planes_ = occluders.planes;

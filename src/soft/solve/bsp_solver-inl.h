@@ -7,6 +7,8 @@
 #define TENEBRA_SOFT_BSP_SOLVER_INL_H_
 #endif
 
+#include <algorithm>
+
 #include "soft/bsp/line_class_query-inl.h"
 #include "soft/clip/clip_solver-inl.h"
 #include "soft/solve/point_sight-inl.h"
@@ -16,9 +18,9 @@ HWY_BEFORE_NAMESPACE();
 namespace tenebra::soft::HWY_NAMESPACE {
 using namespace simd::HWY_NAMESPACE;
 
-/// No tree takes more than this: one that would is dropped, and the point and the rest of its group are
-/// clipped.
-inline constexpr std::size_t largest_tree_bytes = std::size_t{4} << 20;
+/// No tree takes more than this, whatever SoftShadowConfig::tree_bytes says: nodes and pending lists have
+/// indices of 31 bits.
+inline constexpr std::size_t largest_tree_bytes = std::size_t{1} << 30;
 
 template <class T>
 class BspSolver final : public Solver {
@@ -26,9 +28,8 @@ public:
   void begin(const SoftFrame& frame, const PreparedGroup& group) override {
     receiver_.forget();
     set_up_occluders(frame.light, frame.triangles, group.frame, group.candidates, occluders_);
-    clip(group.candidates, occluders_.indefinite);
     start_tree(frame, group);
-    if (!use_tree_) clip_whole_group(group);
+    clip_what_the_tree_leaves(group);
   }
 
   void solve(const SoftFrame& frame, const PreparedGroup& group, std::span<const std::uint32_t> pixels,
@@ -37,10 +38,7 @@ public:
     for (const std::uint32_t pixel : pixels) {
       if (stop_requested(frame.stop)) break;
       solve_point(frame, group, pixel, writer);
-      if (use_tree_ && !frame.config.keep_trees) {
-        note_tree(writer.stats());
-        start_tree(frame, group);
-      }
+      if (!frame.config.keep_trees) start_anew(frame, group, writer);
     }
     finish_whole(frame, whole_, writer);
     if (use_tree_) note_tree(writer.stats());
@@ -48,15 +46,27 @@ public:
 
 private:
   void start_tree(const SoftFrame& frame, const PreparedGroup& group) {
-    use_tree_ = bsp_.reset(occluders_, frame.triangles, group.frame, frame.config.choice, largest_tree_bytes);
+    use_tree_ = bsp_.reset(occluders_, frame.triangles, group.frame, frame.config.choice,
+                           std::min(frame.config.tree_bytes, largest_tree_bytes));
+  }
+  /// Forgets the tree for the next point, and with it that it came to its bound.
+  void start_anew(const SoftFrame& frame, const PreparedGroup& group, PixelWriter& writer) {
+    const bool was_dropped = !use_tree_;
+    if (!was_dropped) note_tree(writer.stats());
+    start_tree(frame, group);
+    if (!was_dropped || !use_tree_) return;
+    writer.answer_by(SoftClass::bsp);
+    clip_what_the_tree_leaves(group);
   }
   void drop_tree(const PreparedGroup& group, PixelWriter& writer) {
     note_tree(writer.stats());
     use_tree_ = false;
     writer.answer_by(SoftClass::clip);
-    clip_whole_group(group);
+    clip_what_the_tree_leaves(group);
   }
-  void clip_whole_group(const PreparedGroup& group) {
+  /// All candidates if there is no tree.
+  void clip_what_the_tree_leaves(const PreparedGroup& group) {
+    if (use_tree_) return clip(group.candidates, occluders_.indefinite);
     take_all(group.candidates, all_);
     clip(group.candidates, all_);
   }

@@ -118,6 +118,7 @@ SoftShadowConfig mora_config() {
   config.solver = SoftSolver::bsp;
   config.grouping = SoftGrouping::triangle;
   config.choice = OccluderChoice::random;
+  config.tree_bytes = tree_bound_mib << 20;
   return config;
 }
 
@@ -173,6 +174,7 @@ std::vector<GrowthRow> add_lights(const SoftView& view, const std::vector<std::s
     for (std::size_t i = 0; i < count; ++i) {
       const TreeCost& cost = each[i * each.size() / count];  // spread over the grid
       row.cost.ms += cost.ms, row.cost.nodes += cost.nodes;
+      row.cost.clipped += cost.clipped, row.cost.by_tree += cost.by_tree;
       row.cost.bytes = std::max(row.cost.bytes, cost.bytes);
     }
     rows.push_back(row);

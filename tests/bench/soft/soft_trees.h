@@ -12,7 +12,7 @@ struct TreeCost {
   double nodes = 0;    ///< made in all trees
   double bytes = 0;    ///< of all trees alive at one time, at most
   double by_tree = 0;  ///< points answered by trees
-  double clipped = 0;  ///< points answered by clipping, their tree having come to its 4 MiB
+  double clipped = 0;  ///< points answered by clipping, their tree having come to its bound
   double shaft_ms = 0, init_ms = 0, query_ms = 0;
   bool finite = true;  ///< all values are numbers, 0 or more
 };
