@@ -22,11 +22,12 @@ SoftShadowConfig mora_config();
 struct TreeView {
   std::string view;
   double triangles = 0;
-  TreeCost paper;               ///< the paper's method on all points
-  TreeCost kept, anew;          ///< on some points: as it is, and each query starting with an empty tree
-  TreeCost largest;             ///< on all: the largest occluder is merged first
-  TreeCost neighbourhood;       ///< on all: points grouped by 8x8 pixels (section 5.5)
-  std::optional<Contest> race;  ///< Figure 7: the paper's method against rays
+  double points_a_triangle = 0;  ///< mean over the visible ones
+  TreeCost paper;                ///< the paper's method on all points
+  TreeCost kept, anew;           ///< on some points: as it is, and each query starting with an empty tree
+  TreeCost largest;              ///< on all: the largest occluder is merged first
+  TreeCost neighbourhood;        ///< on all: points grouped by 8x8 pixels (section 5.5)
+  std::optional<Contest> race;   ///< Figure 7: the paper's method against rays
 };
 /// `kept` and `anew` on one of `every` 8x8 tiles of the picture.
 TreeView measure_trees(const SoftView& view, std::size_t every);
@@ -43,6 +44,7 @@ std::vector<GrowthRow> add_lights(const SoftView& view, const std::vector<std::s
 struct SplitLight {
   double difference_255 = 0;  ///< of the irradiance, at most, in 1/255 of the largest
   double whole_bytes = 0, part_bytes = 0;
+  double clipped = 0;  ///< points of all five, their trees having come to the bound
 };
 SplitLight split_light(const SoftView& view);
 

@@ -31,13 +31,23 @@ VisiblePoints some_tiles(const VisiblePoints& points, std::size_t every) {
   return some;
 }
 
+double points_a_triangle(const VisiblePoints& points) {
+  std::vector<std::uint32_t> seen = points.triangles;
+  std::erase(seen, no_triangle);
+  const auto count = static_cast<double>(seen.size());
+  std::sort(seen.begin(), seen.end());
+  seen.erase(std::unique(seen.begin(), seen.end()), seen.end());
+  return count / std::max(static_cast<double>(seen.size()), 1.0);
+}
+
 SoftMask trace_light(const SoftView& view, const AreaLight& light, const SoftShadowConfig& config,
-                     double& bytes) {
+                     double& bytes, double& clipped) {
   SoftShadowTracer tracer;
   SoftMask mask;
   tracer.trace(view.frame.points, view.frame.normals, view.frame.view, view.frame.triangles(), light, config,
                mask);
   bytes = std::max(bytes, static_cast<double>(tracer.stats().peak_tree_bytes));
+  clipped += static_cast<double>(tracer.stats().points_clip);
   return mask;
 }
 
@@ -123,8 +133,10 @@ SoftShadowConfig mora_config() {
 }
 
 TreeView measure_trees(const SoftView& view, std::size_t every) {
-  TreeView found{view.name, static_cast<double>(view.frame.geometry.triangles.size()), {}, {}, {}, {}, {},
-                 {}};
+  TreeView found;
+  found.view = view.name;
+  found.triangles = static_cast<double>(view.frame.geometry.triangles.size());
+  found.points_a_triangle = points_a_triangle(view.frame.points);
   const VisiblePoints &all = view.frame.points, some = some_tiles(all, every);
   SoftShadowConfig config = mora_config();
   found.paper = tree_cost(view, all, config);
@@ -186,7 +198,7 @@ SplitLight split_light(const SoftView& view) {
   SplitLight split;
   const auto whole = square_light(view.frame, 10);
   if (!whole) return split;
-  const SoftMask at_once = trace_light(view, *whole, mora_config(), split.whole_bytes);
+  const SoftMask at_once = trace_light(view, *whole, mora_config(), split.whole_bytes, split.clipped);
   const glm::vec3 place = view.frame.lights.front().position;
   const glm::dmat3 basis =
       scene::view_basis(glm::dvec3(view.frame.centre) - glm::dvec3(place), glm::dvec3(0, 1, 0));
@@ -198,7 +210,7 @@ SplitLight split_light(const SoftView& view) {
       const auto part = make_rectangle_light(place + shift, glm::vec3(quarter_m * basis[0]),
                                              glm::vec3(-quarter_m * basis[1]));
       if (!part) return split;
-      const SoftMask mask = trace_light(view, *part, mora_config(), split.part_bytes);
+      const SoftMask mask = trace_light(view, *part, mora_config(), split.part_bytes, split.clipped);
       for (std::size_t i = 0; i < sum.size(); ++i) sum[i] += static_cast<double>(mask.irradiance[i]);
     }
   }
