@@ -78,7 +78,9 @@ void add_light_options(CLI::App& command, BakeOptions& options) {
                 "The error of occlusion that is aimed at, RMS, in 1/255 [1]")
           .type_name("E"),
       add_value(command, "--ao-distance", render.ao.distance_m, parse_positive,
-                "Distance in metres beyond which nothing occludes [a\ntwentieth of the scene's diagonal]")
+                "Reach D in metres: occlusion is the mean of\nmax(0, 1 - d / D) over rays distributed by the "
+                "cosine to\nthe normal, each of which first meets a triangle at d\n[a twentieth of the "
+                "scene's diagonal]")
           .type_name("D"),
       add_value(command, "--threads", render.threads, parse_threads,
                 "Threads; the files are the same with any number\n[0: all cores]")

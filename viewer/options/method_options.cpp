@@ -238,8 +238,11 @@ void add_ao(CLI::App& command, AoConfig& ao) {
        add_value(command, downscale_option, ao.downscale, parse_downscale,
                  "Computes one of N x N pixels and blurs the others from\nsimilar ones [1: every pixel]")
            .type_name("N"),
-       add_value(command, "--ao-distance", ao.distance_m, parse_positive,
-                 "Distance in metres beyond which nothing occludes [a\ntwentieth of the scene's diagonal]")
+       add_value(
+           command, "--ao-distance", ao.distance_m, parse_positive,
+           "Reach D in metres: occlusion is the mean of\nmax(0, 1 - d / D) over rays distributed by the "
+           "cosine to\nthe normal, each of which first meets a triangle at d\n[a twentieth of the "
+           "scene's diagonal]")
            .type_name("D"),
        add_value(command, "--ao-positions", ao.positions, parse_at_least_one,
                  "Samples on an object's bounding sphere [4225]")
