@@ -1,5 +1,5 @@
 #!/usr/bin/env python3
-"""Holds the sources to the layers of the README: who may include whom, and where machinery may be named.
+"""Holds the sources to the layers of docs/architecture.md: who may include whom, and where machinery may be named.
 
 usage: layers_test.py ROOT        (prints each breach with its line; exit code 1 if there is one)
 """

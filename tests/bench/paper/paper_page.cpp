@@ -33,8 +33,7 @@ constexpr const char* page_head =
     "decide "
     "are held by `tests/bench/paper/paper_test.cpp`, on small pictures of the bundled scenes, where they may "
     "differ from those below; times are in no test. Node: a test of a triangle with a node of the tree. "
-    "Other words: README, "
-    "*Vocabulary*.\n\n";
+    "Other words: [vocabulary](architecture.md#vocabulary).\n\n";
 
 /// "Made by `tenebra-bench paper --only hard --quick` on AMD EPYC, 2 cores; 2 threads."
 std::string made_by(const PaperSession& session, const char* part) {

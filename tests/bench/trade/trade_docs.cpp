@@ -90,7 +90,7 @@ std::string head(const TradeSession& session) {
       "exact "
       "and better in one of the two. In the plots the front is dashed and its settings are ringed. Embree's "
       "rays are a peer to compare with, no setting of Tenebra's. RMS: root of the mean "
-      "square. Penumbra, shaft and other words: README, *Vocabulary*.\n\n",
+      "square. Penumbra, shaft and other words: [vocabulary](architecture.md#vocabulary).\n\n",
       command_line(session), base::machine_description(), measured);
 }
 
