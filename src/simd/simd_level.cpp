@@ -2,15 +2,15 @@
 
 #include <hwy/highway.h>
 
-#include <array>
 #include <cstdint>
-#include <utility>
+
+#include "base/names.h"
 
 namespace tenebra {
 
 namespace {
 
-constexpr std::array<std::pair<SimdLevel, std::string_view>, 5> names = {{
+constexpr base::Names<SimdLevel, 5> names = {{
     {SimdLevel::automatic, "auto"},
     {SimdLevel::scalar, "scalar"},
     {SimdLevel::sse4, "sse4"},
@@ -21,17 +21,11 @@ constexpr std::array<std::pair<SimdLevel, std::string_view>, 5> names = {{
 }  // namespace
 
 std::string_view simd_level_name(SimdLevel level) {
-  for (const auto& [candidate, name] : names) {
-    if (candidate == level) return name;
-  }
-  return {};
+  return base::name_in(names, level);
 }
 
 std::optional<SimdLevel> simd_level_from_name(std::string_view name) {
-  for (const auto& [level, candidate] : names) {
-    if (candidate == name) return level;
-  }
-  return std::nullopt;
+  return base::value_in(names, name);
 }
 
 bool simd_level_supported(SimdLevel level) {

@@ -1,16 +1,16 @@
 #include <tenebra/soft_shadows.h>
 
 #include <algorithm>
-#include <array>
 #include <cmath>
-#include <utility>
 
+#include "base/names.h"
 #include "base/stopwatch.h"
 #include "parallel/parallel.h"
 #include "points/positions.h"
 #include "soft/groups/point_groups.h"
 #include "soft/light/light_frame.h"
 #include "soft/occluders/family_candidates.h"
+#include "soft/occluders/group_frame.h"
 #include "soft/sample/soft_sampler.h"
 #include "soft/shafts/shafts.h"
 #include "soft/solve/group_solver.h"
@@ -19,7 +19,7 @@ namespace tenebra {
 
 namespace {
 
-constexpr std::array<std::pair<SoftSolver, std::string_view>, 3> solver_names = {{
+constexpr base::Names<SoftSolver, 3> solver_names = {{
     {SoftSolver::automatic, "auto"},
     {SoftSolver::bsp, "bsp"},
     {SoftSolver::clip, "clip"},
@@ -41,43 +41,14 @@ struct alignas(64) Worker {
   std::vector<soft::SampledGroup> sampled;
 };
 
-/// The frame of several groups.
-soft::GroupFrame frame_of(std::span<const soft::PointGroup* const> of, const soft::PointGroups& groups,
-                          std::vector<std::uint32_t>& receivers) {
-  soft::GroupFrame frame;
-  glm::dvec3 low = of[0]->low, high = of[0]->high;
-  receivers.clear();
-  for (const soft::PointGroup* group : of) {
-    low = glm::min(low, group->low), high = glm::max(high, group->high);
-    for (const soft::Receiver& receiver : groups.receivers_of(*group)) {
-      receivers.push_back(receiver.triangle);
-      frame.receiver_tau = std::max(frame.receiver_tau, receiver.tau);
-    }
-  }
-  if (of.size() > 1) {
-    std::sort(receivers.begin(), receivers.end());
-    receivers.erase(std::unique(receivers.begin(), receivers.end()), receivers.end());
-  }
-  frame.centre = 0.5 * (low + high);
-  frame.half = glm::max(high - frame.centre, frame.centre - low);
-  frame.receivers = receivers;
-  return frame;
-}
-
 }  // namespace
 
 std::string_view soft_solver_name(SoftSolver solver) {
-  for (const auto& [candidate, name] : solver_names) {
-    if (candidate == solver) return name;
-  }
-  return {};
+  return base::name_in(solver_names, solver);
 }
 
 std::optional<SoftSolver> soft_solver_from_name(std::string_view name) {
-  for (const auto& [solver, candidate] : solver_names) {
-    if (candidate == name) return solver;
-  }
-  return std::nullopt;
+  return base::value_in(solver_names, name);
 }
 
 struct SoftShadowTracer::State {
@@ -181,12 +152,12 @@ void SoftShadowTracer::State::solve_mixed(const soft::SoftFrame& frame, Worker& 
   worker.tasks.clear();
   for (std::size_t i = 0; i < count; ++i) {
     worker.tasks.push_back({groups.pixels_of(*worker.mixed[i]),
-                            frame_of({&worker.mixed[i], 1}, groups, worker.receivers[i]),
+                            soft::frame_of({&worker.mixed[i], 1}, groups, worker.receivers[i]),
                             worker.candidates[i]});
     candidates += worker.candidates[i].size();
   }
   if (frame.config.solver == SoftSolver::automatic && count > 1 && candidates > many_candidates * count) {
-    worker.solver->solve_together(frame, frame_of(worker.mixed, groups, worker.receivers[count]),
+    worker.solver->solve_together(frame, soft::frame_of(worker.mixed, groups, worker.receivers[count]),
                                   worker.tasks);
   } else {
     for (const soft::GroupTask& task : worker.tasks) worker.solver->solve(frame, task);

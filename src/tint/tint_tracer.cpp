@@ -1,9 +1,9 @@
 #include <tenebra/tint.h>
 
-#include <array>
 #include <cassert>
 #include <utility>
 
+#include "base/names.h"
 #include "base/stopwatch.h"
 #include "parallel/parallel.h"
 #include "points/positions.h"
@@ -14,7 +14,7 @@ namespace tenebra {
 
 namespace {
 
-constexpr std::array<std::pair<SeeThrough, std::string_view>, 3> names = {{
+constexpr base::Names<SeeThrough, 3> names = {{
     {SeeThrough::tint, "tint"},
     {SeeThrough::cast, "cast"},
     {SeeThrough::ignore, "ignore"},
@@ -27,17 +27,11 @@ bool same_eye(const ViewRays& a, const ViewRays& b) {
 }  // namespace
 
 std::string_view see_through_name(SeeThrough see_through) {
-  for (const auto& [candidate, name] : names) {
-    if (candidate == see_through) return name;
-  }
-  return {};
+  return base::name_in(names, see_through);
 }
 
 std::optional<SeeThrough> see_through_from_name(std::string_view name) {
-  for (const auto& [see_through, candidate] : names) {
-    if (candidate == name) return see_through;
-  }
-  return std::nullopt;
+  return base::value_in(names, name);
 }
 
 void cast_see_through(SeeThrough see_through, FrameGeometry& geometry) {

@@ -15,19 +15,13 @@
 #include <tenebra/simd_level.h>
 #include <tenebra/visible_points.h>
 #include "soft/light/light_frame.h"
+#include "soft/occluders/group_frame.h"
 
 namespace tenebra::soft {
 
 /// Rounding of sums of products in double, relative to the sum of their magnitudes: fewer than 16 operations
 /// on inputs that carry one rounding each.
 inline constexpr double product_rounding = 0x1p-48;
-
-/// What the points of a group share. World space.
-struct GroupFrame {
-  glm::dvec3 centre{0.0}, half{0.0};         ///< box of the points
-  std::span<const std::uint32_t> receivers;  ///< triangles that the points lie on, ascending
-  double receiver_tau = 0;                   ///< largest rounding tolerance of these
-};
 
 /// Axes of the light around a place: the light's unit is the unit of all three coordinates, the third is the
 /// height towards the light's plane; of a sun, any plane before the point that they are about. An affine map:

@@ -3,11 +3,10 @@
 #include <fmt/core.h>
 
 #include <array>
-#include <fstream>
-#include <iterator>
 
 #include "base/machine.h"
 #include "base/output_file.h"
+#include "bench/common/bench_page.h"
 #include "bench/paper/paper_session.h"
 #include "parallel/parallel.h"
 
@@ -50,27 +49,14 @@ std::string made_by(const PaperSession& session, const char* part) {
             "robots, museum and kitchen.");
 }
 
-/// Of a page that was written before, from its title to the next one; empty if it has none of that title.
-std::string kept_section(const std::string& page, const std::string& title) {
-  const auto first = page.find("## " + title + "\n");
-  if (first == std::string::npos) return {};
-  const auto next = page.find("\n## ", first);
-  return page.substr(first, next == std::string::npos ? next : next + 1 - first);
-}
-
-std::string page_before(const std::filesystem::path& path) {
-  std::ifstream stream(path, std::ios::binary);
-  return {std::istreambuf_iterator<char>(stream), std::istreambuf_iterator<char>()};
-}
-
 }  // namespace
 
 Expected<void> write_paper_page(const PaperSession& session) {
   const std::filesystem::path path = session.paper.docs / "papers.md";
-  const std::string before = page_before(path);
+  const std::string before = read_page(path);
   std::string page = page_head;
   for (const auto& [title, part] : page_parts) {
-    std::string text = kept_section(before, title);
+    std::string text = section_of(before, title);
     if (text.empty())
       text =
           fmt::format("## {}\n\nNot made yet: `tenebra-bench paper --only {} --docs docs`.\n\n", title, part);

@@ -6,6 +6,7 @@
 #include "parallel/parallel.h"
 #include "scene/view_basis.h"
 #include "soft/groups/point_groups.h"
+#include "soft/occluders/group_frame.h"
 #include "soft/shafts/shafts.h"
 #include "soft/solve/prepared_group.h"
 #include "soft/solve/solvers.h"
@@ -64,25 +65,21 @@ std::vector<TreeTask> tree_tasks(const SoftView& view, const SoftShadowConfig& c
   soft::group_points(view.frame.points, view.frame.view, triangles, view.light, config.grouping, groups);
   std::vector<TreeTask> tasks;
   soft::ShaftCuller culler;
-  culler.for_each_family(
-      groups, triangles, view.light, config, nullptr, [&](std::span<const soft::GroupDecision> family, int) {
-        for (const soft::GroupDecision& decision : family) {
-          if (decision.kind != soft::GroupClass::mixed) continue;
-          const soft::PointGroup& group = *decision.group;
-          TreeTask task;
-          const auto pixels = groups.pixels_of(group);
-          task.pixels.assign(pixels.begin(), pixels.end());
-          std::sort(task.pixels.begin(), task.pixels.end());
-          for (const soft::Receiver& receiver : groups.receivers_of(group)) {
-            task.receivers.push_back(receiver.triangle);
-            task.frame.receiver_tau = std::max(task.frame.receiver_tau, receiver.tau);
-          }
-          task.candidates.assign(decision.candidates.begin(), decision.candidates.end());
-          task.frame.centre = 0.5 * (group.low + group.high);
-          task.frame.half = glm::max(group.high - task.frame.centre, task.frame.centre - group.low);
-          tasks.push_back(std::move(task));
-        }
-      });
+  culler.for_each_family(groups, triangles, view.light, config, nullptr,
+                         [&](std::span<const soft::GroupDecision> family, int) {
+                           for (const soft::GroupDecision& decision : family) {
+                             if (decision.kind != soft::GroupClass::mixed) continue;
+                             const soft::PointGroup& group = *decision.group;
+                             TreeTask task;
+                             const auto pixels = groups.pixels_of(group);
+                             task.pixels.assign(pixels.begin(), pixels.end());
+                             std::sort(task.pixels.begin(), task.pixels.end());
+                             const soft::PointGroup* const of[] = {&group};
+                             task.frame = soft::frame_of(of, groups, task.receivers);
+                             task.candidates.assign(decision.candidates.begin(), decision.candidates.end());
+                             tasks.push_back(std::move(task));
+                           }
+                         });
   std::sort(tasks.begin(), tasks.end(), [](const TreeTask& a, const TreeTask& b) {
     const std::size_t work_a = a.pixels.size() * a.candidates.size(),
                       work_b = b.pixels.size() * b.candidates.size();

@@ -2,11 +2,10 @@
 // that writes it.
 #include <fmt/core.h>
 #include <algorithm>
-#include <fstream>
-#include <iterator>
 
 #include "base/machine.h"
 #include "base/output_file.h"
+#include "bench/common/bench_page.h"
 #include "bench/trade/trade_advice.h"
 #include "bench/trade/trade_session.h"
 #include "parallel/parallel.h"
@@ -155,19 +154,6 @@ std::string needs_section(const std::vector<NeedRow>& needs) {
          "frames are timed by the clock.\n";
 }
 
-/// Of a page that was written before, from its title to the next one; empty if it has none of that title.
-std::string old_section(const std::string& page, const std::string& title) {
-  const auto first = page.find("## " + title + "\n");
-  if (first == std::string::npos) return {};
-  const auto next = page.find("\n## ", first);
-  return page.substr(first, next == std::string::npos ? next : next + 1 - first);
-}
-
-std::string read_page(const std::filesystem::path& path) {
-  std::ifstream stream(path, std::ios::binary);
-  return {std::istreambuf_iterator<char>(stream), std::istreambuf_iterator<char>()};
-}
-
 }  // namespace
 
 Expected<void> write_trade_page(const TradeSession& session) {
@@ -176,11 +162,11 @@ Expected<void> write_trade_page(const TradeSession& session) {
   const auto hard = tables_of(session, "hard"), soft = tables_of(session, "soft"),
              ao = tables_of(session, "ao");
   std::string page = head(session) + preset_section();
-  page += hard.empty() ? old_section(before, "Hard shadows") : hard_section(hard);
-  page += soft.empty() ? old_section(before, "Soft shadows") : soft_section(soft);
-  page += ao.empty() ? old_section(before, "Ambient occlusion") : ao_section(ao);
-  page += session.needs.empty() ? old_section(before, "Only what a scene requires")
-                                : needs_section(session.needs);
+  page += hard.empty() ? section_of(before, "Hard shadows") : hard_section(hard);
+  page += soft.empty() ? section_of(before, "Soft shadows") : soft_section(soft);
+  page += ao.empty() ? section_of(before, "Ambient occlusion") : ao_section(ao);
+  page +=
+      session.needs.empty() ? section_of(before, "Only what a scene requires") : needs_section(session.needs);
   for (const TradeTable& table : session.tables) {
     const auto plot = session.trade.docs / fmt::format("trade_{}.svg", plot_name(table));
     if (auto written = base::write_file(plot, trade_plot(table)); !written) return written;
