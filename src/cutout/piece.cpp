@@ -4,83 +4,10 @@
 #include <array>
 #include <optional>
 
+#include "cutout/piece_ring.h"
+
 namespace tenebra::cutout {
 namespace {
-
-/// What bounds a piece: sides 0 to 2 are the triangle's edges, 3 to 6 the leaf's x = low, x = high, y = low,
-/// y = high.
-constexpr int side_count = 7;
-constexpr int leaf_side = 3;
-
-struct RingPoint {
-  Spot spot;
-  int side;  ///< that runs from here to the next
-};
-
-/// The leaf, where its tile stands.
-struct Rectangle {
-  glm::dvec2 low, high;
-
-  int axis(int side) const { return (side - leaf_side) / 2; }
-  bool is_low(int side) const { return (side - leaf_side) % 2 == 0; }
-  double line(int side) const { return (is_low(side) ? low : high)[axis(side)]; }
-};
-
-Rectangle place_leaf(const Leaf& leaf, const Tile& tile) {
-  const glm::dvec2 a = tile.offset + tile.sign * leaf.low, b = tile.offset + tile.sign * leaf.high;
-  return {glm::min(a, b), glm::max(a, b)};
-}
-
-using Ring = std::vector<RingPoint>;
-
-/// Triangle and rectangle, counter-clockwise: the triangle, cut at one side of the rectangle after the other.
-class RingCutter {
-public:
-  RingCutter(const PlaneTriangle& triangle, const Rectangle& leaf) : triangle_(triangle), leaf_(leaf) {}
-
-  Ring run() {
-    Ring ring;
-    for (int k = 0; k < 3; ++k) ring.push_back({triangle_.corner_spot(k), k});
-    for (int side = leaf_side; side < side_count && !ring.empty(); ++side) ring = cut(ring, side);
-    return ring;
-  }
-
-private:
-  bool keeps(int side, glm::dvec2 place) const {
-    const double at = place[leaf_.axis(side)];
-    return leaf_.is_low(side) ? at >= leaf_.line(side) : at <= leaf_.line(side);
-  }
-
-  Spot meet(const RingPoint& point, int side) const {
-    if (point.side < leaf_side) return triangle_.edge_spot(point.side, leaf_.axis(side), leaf_.line(side));
-    glm::dvec2 corner;
-    corner[leaf_.axis(side)] = leaf_.line(side);
-    corner[leaf_.axis(point.side)] = leaf_.line(point.side);
-    return triangle_.spot(corner);
-  }
-
-  Ring cut(const Ring& ring, int side) const {
-    Ring out;
-    for (std::size_t i = 0; i < ring.size(); ++i) {
-      const bool here = keeps(side, ring[i].spot.at);
-      const bool there = keeps(side, ring[(i + 1) % ring.size()].spot.at);
-      if (here) out.push_back(ring[i]);
-      if (here != there) out.push_back({meet(ring[i], side), here ? side : ring[i].side});
-    }
-    return without_doubles(out);
-  }
-
-  /// Of two points in one place the side of the second counts.
-  static Ring without_doubles(const Ring& ring) {
-    Ring out;
-    for (std::size_t i = 0; i < ring.size(); ++i)
-      if (!(ring[i].spot == ring[(i + 1) % ring.size()].spot)) out.push_back(ring[i]);
-    return out.size() < 3 ? Ring{} : out;
-  }
-
-  const PlaneTriangle& triangle_;
-  const Rectangle& leaf_;
-};
 
 /// Where a segment of the outline enters or leaves the ring.
 struct Event {
@@ -106,21 +33,21 @@ public:
 
   PieceKind run(std::vector<std::vector<Spot>>& loops) {
     if (!overlaps()) return PieceKind::nothing;
-    ring_ = RingCutter(triangle_, bounds_).run();
+    ring_ = cut_ring(triangle_, bounds_);
     if (ring_.empty()) return PieceKind::nothing;
     for (const std::uint32_t segment : leaf_.segments) add_stretch(segment);
     std::sort(by_start_.begin(), by_start_.end());
     used_.assign(stretches_.size(), false);
     const std::size_t first = loops.size();
     if (!events_.empty()) {
-      insert_leaf_corners();
+      add_leaf_corners();
       join_events();
       follow_events(loops);
     }
     follow_loops(loops);
     if (!walked_ && surrounds(loops, first)) {
       const bool whole = loops.size() == first;
-      if (events_.empty()) insert_leaf_corners();
+      if (events_.empty()) add_leaf_corners();
       loops.push_back(ring_spots());
       if (whole) return PieceKind::whole;
     }
@@ -128,6 +55,8 @@ public:
   }
 
 private:
+  void add_leaf_corners() { ring_ = with_leaf_corners(ring_, triangle_, bounds_, leaf_, tile_); }
+
   bool overlaps() const {
     for (int axis = 0; axis < 2; ++axis) {
       const auto [low, high] = std::minmax(
@@ -212,34 +141,6 @@ private:
     }
     events_.push_back(event);
     return static_cast<int>(events_.size()) - 1;
-  }
-
-  /// Corners of neighbouring leaves on this one's sides become points of the ring.
-  void insert_leaf_corners() {
-    Ring out;
-    for (std::size_t i = 0; i < ring_.size(); ++i) {
-      out.push_back(ring_[i]);
-      if (ring_[i].side >= leaf_side) insert_between(ring_[i], ring_[(i + 1) % ring_.size()].spot.at, out);
-    }
-    ring_ = std::move(out);
-  }
-  void insert_between(const RingPoint& point, glm::dvec2 end, Ring& out) const {
-    const int axis = bounds_.axis(point.side), along = 1 - axis;
-    const bool low_in_leaf = bounds_.is_low(point.side) == (tile_.sign[axis] > 0);
-    const auto& corners = leaf_.corners_on_side[static_cast<std::size_t>(2 * axis + (low_in_leaf ? 0 : 1))];
-    const double from = point.spot.at[along], to = end[along];
-    std::vector<double> between;
-    for (const double corner : corners) {
-      const double at = tile_.offset[along] + tile_.sign[along] * corner;
-      if (at > std::min(from, to) && at < std::max(from, to)) between.push_back(at);
-    }
-    std::sort(between.begin(), between.end());
-    if (to < from) std::reverse(between.begin(), between.end());
-    for (const double at : between) {
-      glm::dvec2 place;
-      place[axis] = bounds_.line(point.side), place[along] = at;
-      out.push_back({triangle_.spot(place), point.side});
-    }
   }
 
   /// Events in their order around the ring.

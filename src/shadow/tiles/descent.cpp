@@ -9,6 +9,7 @@
 #include "points/triangle_corners.h"
 #include "shadow/decision/decide.h"
 #include "shadow/tiles/descent_sides-inl.h"
+#include "shadow/tiles/live_rays-inl.h"
 #include "shadow/tiles/ray_test-inl.h"
 #include "simd/dispatch.h"
 #include "simd/pack-inl.h"
@@ -21,13 +22,6 @@ namespace tenebra::shadow::HWY_NAMESPACE {
 using namespace simd::HWY_NAMESPACE;
 
 namespace {
-
-/// A node of rays and its own bounds.
-struct RayRef {
-  int level;
-  std::uint32_t node;
-  FaceBox box;
-};
 
 /// How wide a box is as seen from the light.
 SIMD_INLINE float width(const FaceBox& box) {
@@ -48,6 +42,7 @@ public:
   RootDescent(const Descent& d, const Side& side, DescentScratch& scratch, TraceStats& stats)
       : d_(d),
         side_(side),
+        live_(d, side_),
         skip_own_(d.contact == ContactRule::triangle_ids),
         pixels_(d.points.width, d.points.height),
         scratch_(scratch),
@@ -56,14 +51,10 @@ public:
   void visit(std::size_t level, std::size_t number, const RayRef& rays);
 
 private:
-  RayNode& node(const RayRef& ref) { return node(ref.level, ref.node); }
-  RayNode& node(int level, std::uint32_t number) {
-    return d_.forest.levels[static_cast<std::size_t>(level)][number];
-  }
-  const points::PointTile& tile(const RayNode& n, int slot) const { return d_.tiles.tiles[n.child[slot]]; }
-  const points::PointBase& base(const RayNode& n, int slot) const {
-    return d_.tiles.bases[n.child[slot] / 16];
-  }
+  RayNode& node(const RayRef& ref) { return live_.node(ref.level, ref.node); }
+  RayNode& node(int level, std::uint32_t number) { return live_.node(level, number); }
+  const points::PointTile& tile(const RayNode& n, int slot) const { return live_.tile(n, slot); }
+  const points::PointBase& base(const RayNode& n, int slot) const { return live_.base(n, slot); }
 
   void note_test(RayNode& n) {
     ++n.tests;
@@ -87,22 +78,15 @@ private:
   std::uint32_t cover_tiles(RayNode& n, int i, std::uint32_t met);
   void test_tile(const Waiting& w);
   bool test_triangle(const Waiting& w, const RoughRays& rough, int i);
-  void shrink(RayNode& n, int slot);
-  void tighten(const RayRef& rays);
-  void drop(RayNode& n, int slot) {
-    n.rays[slot] = 0;
-    n.live &= ~(1u << slot);
-    node(1, n.parent).wide |= 1u << n.slot;
-  }
   /// Lanes of a slot whose points lie on a triangle, which never blocks those.
   std::uint32_t own_lanes(const RayNode& n, int slot, std::uint32_t id) const {
     return n.own[slot] == no_triangle && skip_own_ ? eq_bits(tile(n, slot).id, id) : 0;
   }
   std::uint32_t blocked_lanes(std::uint32_t tile, std::uint32_t open, std::uint32_t id);
-  void retire(int level, std::uint32_t number);
 
   const Descent& d_;
   const Side side_;
+  LiveRays<Side> live_;
   const bool skip_own_;  ///< a triangle never blocks its own points
   const points::TilePixels pixels_;
   DescentScratch& scratch_;
@@ -209,7 +193,7 @@ void RootDescent<Side>::descend_cluster(const RayRef& rays, std::uint32_t mask) 
   RayNode& n = node(rays);
   note_test(n);
   const std::uint32_t met = children_met(n, cluster_box_);
-  if (met == 0) return tighten(rays);
+  if (met == 0) return live_.tighten(rays);
   if (rays.level == 0) return meet_tiles(rays, met, mask);
   std::uint16_t deeper[16];
   std::uint32_t entered = 0;
@@ -283,7 +267,7 @@ void RootDescent<Side>::by_triangles(std::uint32_t number, std::uint32_t mask) {
     const int slot = std::countr_zero(tested);
     put_off(number, slot, found[slot]);
   }
-  if (n.live == 0) retire(0, number);
+  if (n.live == 0) live_.retire(0, number);
 }
 
 // What is to be tested is asked for at once, and tested when it has had time to come.
@@ -307,7 +291,7 @@ std::uint32_t RootDescent<Side>::cover_tiles(RayNode& n, int i, std::uint32_t me
   for (std::uint32_t left = met & children_covered(n, on_face_, i); left != 0; left &= left - 1) {
     const int slot = std::countr_zero(left);
     if ((n.rays[slot] & own_lanes(n, slot, cluster_->ids[i])) != 0) continue;
-    drop(n, slot);
+    live_.drop(n, slot);
     met &= ~(1u << slot);
     ++stats_.early_accepts;
   }
@@ -321,8 +305,8 @@ void RootDescent<Side>::test_tile(const Waiting& w) {
   bool missed = false;
   for (std::uint32_t left = w.triangles; left != 0 && n.rays[w.slot] != 0; left &= left - 1)
     missed |= !test_triangle(w, rough, std::countr_zero(left));
-  if (n.live == 0) return retire(0, w.node);
-  if (missed && ((n.wide >> w.slot) & 1u) != 0 && n.rays[w.slot] != 0) shrink(n, w.slot);
+  if (n.live == 0) return live_.retire(0, w.node);
+  if (missed && ((n.wide >> w.slot) & 1u) != 0 && n.rays[w.slot] != 0) live_.shrink(n, w.slot);
 }
 
 // The rays of a tile against triangle i; false: all are missed.
@@ -342,29 +326,8 @@ bool RootDescent<Side>::test_triangle(const Waiting& w, const RoughRays& rough, 
   if (open != 0) blocked |= blocked_lanes(n.child[w.slot], open, id);
   n.rays[w.slot] = static_cast<std::uint16_t>(n.rays[w.slot] & ~blocked);
   n.wide |= 1u << w.slot;
-  if (n.rays[w.slot] == 0) drop(n, w.slot);
+  if (n.rays[w.slot] == 0) live_.drop(n, w.slot);
   return true;
-}
-
-// What missed all rays may have met the box only: of all points, or of rays that are blocked by now.
-template <class Side>
-void RootDescent<Side>::shrink(RayNode& n, int slot) {
-  FaceBox box{};
-  if (side_.bound_rays(tile(n, slot), base(n, slot), n.rays[slot], box)) n.set_box(slot, box);
-  n.wide &= ~(1u << slot);
-  node(1, n.parent).wide |= 1u << n.slot;
-}
-
-// What missed all children may have met the node's box only, which may be that of rays blocked by now.
-template <class Side>
-void RootDescent<Side>::tighten(const RayRef& rays) {
-  if (rays.level + 1 == ray_levels) return;
-  RayNode& n = node(rays);
-  RayNode& parent = node(rays.level + 1, n.parent);
-  if (((parent.wide >> n.slot) & 1u) == 0 || n.live == 0) return;
-  parent.wide &= ~(1u << n.slot);
-  parent.set_box(static_cast<int>(n.slot), bounds_of(n));
-  if (rays.level + 2 < ray_levels) node(rays.level + 2, parent.parent).wide |= 1u << parent.slot;
 }
 
 /// Of the lanes of `open` those that are blocked: in double, then exactly.
@@ -382,19 +345,6 @@ std::uint32_t RootDescent<Side>::blocked_lanes(std::uint32_t tile, std::uint32_t
       blocked |= 1u << lane;
   }
   return blocked;
-}
-
-// A node whose rays are all blocked is met by nothing more.
-template <class Side>
-void RootDescent<Side>::retire(int level, std::uint32_t number) {
-  while (level + 1 < ray_levels) {
-    const RayNode& n = node(level, number);
-    RayNode& parent = node(level + 1, n.parent);
-    parent.live &= ~(1u << n.slot);
-    if (parent.live != 0) return;
-    number = n.parent;
-    ++level;
-  }
 }
 
 void descend(const Descent& d, std::uint32_t root, DescentScratch& scratch, TraceStats& stats) {
