@@ -24,6 +24,7 @@ from typing import Any, Callable, Dict, List, Optional, Sequence, Tuple, Union
 import numpy as np
 
 from . import _core
+from ._arrays import _indices, _numbers, _of_each, _rows, _vector
 
 __version__: str = _core.version
 __all__ = ["AreaLight", "DirectionalLight", "Geometry", "PointLight", "Scene", "Tracer", "ambient_occlusion",
@@ -33,48 +34,6 @@ no_triangle: int = _core.no_triangle
 """The number of a triangle where there is none: of a point in the air, of a pixel that sees the background."""
 
 Progress = Optional[Callable[[float], Any]]
-
-
-# ---- Arrays ----
-
-def _numbers(name: str, value: Any, dtype: Any) -> np.ndarray:
-    array = np.asarray(value)
-    if array.dtype.kind not in "fiu":
-        raise TypeError(f"{name}: found an array of {array.dtype}, expected numbers")
-    return array if array.dtype == dtype else array.astype(dtype)
-
-
-def _rows(name: str, value: Any, dtype: Any, shape: str = "(n, 3)") -> np.ndarray:
-    array = _numbers(name, value, dtype)
-    if array.ndim < 1 or array.shape[-1] != 3:
-        raise ValueError(f"{name}: found the shape {array.shape}, expected {shape}")
-    return np.require(array, requirements="CA")
-
-
-def _indices(name: str, value: Any) -> np.ndarray:
-    array = np.asarray(value)
-    if array.dtype.kind not in "iu":
-        raise TypeError(f"{name}: found an array of {array.dtype}, expected whole numbers")
-    if array.dtype != np.uint32:
-        if array.size and (array.min() < 0 or array.max() > no_triangle):
-            raise ValueError(f"{name}: found numbers from {array.min()} to {array.max()}, expected 0 to {no_triangle}")
-        array = array.astype(np.uint32)
-    return np.require(array, requirements="CA")
-
-
-def _vector(name: str, value: Any) -> List[float]:
-    array = _numbers(name, value, np.float32)
-    if array.shape != (3,):
-        raise ValueError(f"{name}: found the shape {array.shape}, expected 3 numbers")
-    if not np.isfinite(array).all():
-        raise ValueError(f"{name}: found {array.tolist()}, expected finite numbers")
-    return array.tolist()
-
-
-def _of_each(name: str, array: np.ndarray, shape: Tuple[int, ...]) -> np.ndarray:
-    if array.shape != shape:
-        raise ValueError(f"{name}: found the shape {array.shape}, expected {shape}")
-    return array
 
 
 class Geometry:

@@ -1,11 +1,9 @@
 // Whole frames: against the reference by rays, and what must not change from frame to frame.
 #include <tenebra/ambient_occlusion.h>
 
-#include <ostream>
 #include <set>
 
 #include "ao_case.h"
-#include "formats/import_scene.h"
 
 namespace tenebra {
 namespace {
@@ -392,44 +390,6 @@ TEST(AmbientOcclusion, EmptyScenesAndPicturesAreFine) {
   EXPECT_TRUE(ao.compute(empty, geometry, {}, {}, config_of(AoMode::field), out));
   EXPECT_TRUE(out.empty());
 }
-
-struct RealScene {
-  const char* file;  ///< bundled, or below TENEBRA_SHARED_DIR/scenes
-  double time_s;
-  double rms_255;
-};
-void PrintTo(const RealScene& scene, std::ostream* to) {
-  *to << scene.file;
-}
-class RealScenes : public ::testing::TestWithParam<RealScene> {};
-
-// Measured when written: 4.0, 4.3, 4.0, 6.8 and 1.8; the bounds leave a quarter. The noise of 64 rays and of
-// the reference's 256 is part of it, and limbs that run into each other at the robots' joints.
-TEST_P(RealScenes, FollowTheReference) {
-  std::filesystem::path file = std::filesystem::path(TENEBRA_SCENES_DIR) / GetParam().file;
-  if (!std::filesystem::exists(file)) {
-    file = std::filesystem::path(TENEBRA_SHARED_DIR) / "scenes" / GetParam().file;
-    if (!std::filesystem::exists(file))
-      GTEST_SKIP() << file << " is missing: this scene is measured where it is there";
-  }
-  const auto scene = formats::import_scene(file);
-  ASSERT_TRUE(scene);
-  const ViewRays camera = evaluate_camera(*scene, 0, GetParam().time_s, 0, 96, 72);
-  const AoView frame(*scene, GetParam().time_s, camera, 96, 72);
-  AoConfig config = config_of(AoMode::rays, 256);
-  config.distance_m = 0;
-  const auto reference = occlude(*scene, frame, config);
-  config.mode = AoMode::field;
-  config.rays = 64;
-  const Difference d = compare(frame, occlude(*scene, frame, config), reference);
-  EXPECT_LT(d.rms_255, GetParam().rms_255);
-  RecordProperty("rms_255", std::to_string(d.rms_255));
-}
-INSTANTIATE_TEST_SUITE_P(Ao, RealScenes,
-                         ::testing::Values(RealScene{"city.glb", 2, 5}, RealScene{"gallery.glb", 3, 5.4},
-                                           RealScene{"court.glb", 4, 5},
-                                           RealScene{"bart/robots/Robot.aff", 10, 8.5},
-                                           RealScene{"bart/kitchen/kitchen.aff", 3, 2.5}));
 
 }  // namespace
 }  // namespace tenebra

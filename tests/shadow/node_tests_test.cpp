@@ -55,32 +55,44 @@ Arrangement arrangement(Random& random, double spread, bool directional) {
   return a;
 }
 
-void check(const Arrangement& a, const shadow::TraversalKernels& kernels, bool spheres) {
-  const TriangleView view{a.corners, a.triangles, {}};
+// The arrangement's tree of rays, to be traversed by its triangle.
+struct RayTree {
+  TriangleView view;
   shadow::TriangleSet set;
-  shadow::build_triangle_set(view, ViewRays{.eye = {9, 9, 9}}, a.source, {.contact = ContactRule::none}, set);
-  if (set.planes.empty()) return;
   shadow::ConeTree tree;
-  shadow::build_cone_tree(a.rays, a.points, a.source, SimdLevel::automatic, tree);
-  const shadow::Traversal traversal{{spheres, true, a.source.directional},
-                                    &set,
-                                    &a.rays,
-                                    &tree,
-                                    &a.source,
-                                    &view,
-                                    a.points,
-                                    ContactRule::none};
+  shadow::Traversal traversal;
+
+  RayTree(const Arrangement& a, bool spheres) : view{a.corners, a.triangles, {}} {
+    shadow::build_triangle_set(view, ViewRays{.eye = {9, 9, 9}}, a.source, {.contact = ContactRule::none},
+                               set);
+    shadow::build_cone_tree(a.rays, a.points, a.source, SimdLevel::automatic, tree);
+    traversal = {{spheres, true, a.source.directional},
+                 &set,
+                 &a.rays,
+                 &tree,
+                 &a.source,
+                 &view,
+                 a.points,
+                 ContactRule::none};
+  }
+  RayTree(const RayTree&) = delete;
+  RayTree& operator=(const RayTree&) = delete;
+};
+
+void check(const Arrangement& a, const shadow::TraversalKernels& kernels, bool spheres) {
+  const RayTree rays(a, spheres);
+  if (rays.set.planes.empty()) return;
 
   TraceStats stats;
   std::vector<bool> blocked(ray_count);
   for (int i = 0; i < ray_count; ++i) {
-    blocked[i] =
-        shadow::decide(set.planes[0], a.points[i], no_triangle, a.source, view, ContactRule::none, stats);
+    blocked[i] = shadow::decide(rays.set.planes[0], a.points[i], no_triangle, a.source, rays.view,
+                                ContactRule::none, stats);
   }
   const std::uint32_t place = 0;
   for (std::size_t level = 0; level < 2; ++level) {
-    shadow::ConeTree fresh = tree;
-    shadow::Traversal on_fresh = traversal;
+    shadow::ConeTree fresh = rays.tree;
+    shadow::Traversal on_fresh = rays.traversal;
     on_fresh.tree = &fresh;
     std::uint32_t storage[4][2];
     std::uint32_t* out[4] = {storage[0], storage[1], storage[2], storage[3]};
@@ -106,26 +118,14 @@ struct RootVerdict {
 
 // The root of the tree (level 1 has one node) against the arrangement's triangle.
 RootVerdict filter_once(const Arrangement& a, const shadow::TraversalKernels& kernels) {
-  const TriangleView view{a.corners, a.triangles, {}};
-  shadow::TriangleSet set;
-  shadow::build_triangle_set(view, ViewRays{.eye = {9, 9, 9}}, a.source, {.contact = ContactRule::none}, set);
-  shadow::ConeTree tree;
-  shadow::build_cone_tree(a.rays, a.points, a.source, SimdLevel::automatic, tree);
-  const shadow::Traversal traversal{{false, true, a.source.directional},
-                                    &set,
-                                    &a.rays,
-                                    &tree,
-                                    &a.source,
-                                    &view,
-                                    a.points,
-                                    ContactRule::none};
+  const RayTree rays(a, false);
   const std::uint32_t place = 0;
   std::uint32_t storage[4][2];
   std::uint32_t* out[4] = {storage[0], storage[1], storage[2], storage[3]};
   std::size_t size[4];
   TraceStats stats;
-  kernels.filter(traversal, 1, 0, {&place, 1}, out, size, stats);
-  const bool covered = tree.levels[1][0].c[0] < 0;
+  kernels.filter(rays.traversal, 1, 0, {&place, 1}, out, size, stats);
+  const bool covered = rays.tree.levels[1][0].c[0] < 0;
   return {!covered && size[0] == 0, covered};
 }
 

@@ -6,6 +6,7 @@
 #include <cfenv>
 #include <limits>
 
+#include "soft/random_place.h"
 #include "soft/soft_case.h"
 
 namespace tenebra::testing {
@@ -36,12 +37,8 @@ AreaLight above(double size = 0.5) {
 
 /// A rectangle, a disc or a polygon of any number of corners, in or about the box of the soup.
 AreaLight random_light(Random& random, const Soup& soup) {
-  const dvec3 low = soup.low(), high = soup.high();
-  const double size = glm::length(high - low);
   for (;;) {
-    const dvec3 x = random.direction() * size * std::exp2(random.in(-6, -1));
-    const dvec3 y = glm::normalize(glm::cross(x, random.direction())) * size * std::exp2(random.in(-6, -1));
-    const vec3 centre(0.5 * (low + high) + random.direction() * size * random.in(0.0, 1.0));
+    const auto [x, y, centre] = random_place(random, soup);
     if (random.chance(0.5)) {
       if (const auto light = make_rectangle_light(centre, vec3(x), vec3(y))) return *light;
       continue;

@@ -26,26 +26,42 @@ inline bool bart_is_there() {
   return std::filesystem::exists(path_of(bart_frames[0]));
 }
 
+/// What a frame's own camera sees.
+struct LoadedFrame {
+  Scene scene;
+  FrameGeometry geometry;
+  double time_s = 0;
+  Soup soup;
+  ViewRays view;
+  VisiblePoints points;
+};
+inline LoadedFrame load_frame(const SceneFrame& frame, int width, int height) {
+  Expected<Scene> scene = formats::import_scene(path_of(frame));
+  if (!scene) throw std::runtime_error(scene.error().message);
+  std::string unmatched;
+  if (*frame.no_cast != 0 && !leave_out_casters(*scene, {frame.no_cast}, unmatched))
+    throw std::runtime_error(unmatched + " matches nothing in " + frame.scene);
+  LoadedFrame out;
+  out.time_s = frame_time_s(scene->clips.at(0), frame.frame, 30.0);
+  evaluate_frame(*scene, 0, out.time_s, out.geometry);
+  out.soup.positions = out.geometry.positions, out.soup.triangles = out.geometry.triangles;
+  out.soup.casts = out.geometry.casts_shadow;
+  out.view = evaluate_camera(*scene, 0, out.time_s, 0, width, height);
+  out.points = view_samples(out.soup.view(), out.view, width, height);
+  out.scene = std::move(*scene);
+  return out;
+}
+
 /// Light number `light` made a square of `percent` of the scene's diagonal that faces the scene's centre;
 /// points and shading normals of the frame's own camera.
 inline SoftCase frame_case(const SceneFrame& frame, int width, int height, double percent = 4,
                            std::size_t light = 0) {
   SoftCase c;
   c.name = fmt::format("{} frame {} light {} of {} %", frame.scene, frame.frame, light, percent);
-  Expected<Scene> scene = formats::import_scene(path_of(frame));
-  if (!scene) throw std::runtime_error(scene.error().message);
-  std::string unmatched;
-  if (*frame.no_cast != 0 && !leave_out_casters(*scene, {frame.no_cast}, unmatched))
-    throw std::runtime_error(unmatched + " matches nothing in " + frame.scene);
-  const double time_s = frame_time_s(scene->clips.at(0), frame.frame, 30.0);
-  FrameGeometry geometry;
-  evaluate_frame(*scene, 0, time_s, geometry);
-  c.soup.positions = geometry.positions, c.soup.triangles = geometry.triangles;
-  c.soup.casts = geometry.casts_shadow;
-  c.view = evaluate_camera(*scene, 0, time_s, 0, width, height);
-  c.points = view_samples(c.soup.view(), c.view, width, height);
-  compute_shading_normals(c.points, geometry.normals, c.view, c.soup.view(), c.normals);
-  const WorldLight placed = evaluate_lights(*scene, 0, time_s).at(light);
+  LoadedFrame loaded = load_frame(frame, width, height);
+  compute_shading_normals(loaded.points, loaded.geometry.normals, loaded.view, loaded.soup.view(), c.normals);
+  c.soup = std::move(loaded.soup), c.view = loaded.view, c.points = std::move(loaded.points);
+  const WorldLight placed = evaluate_lights(loaded.scene, 0, loaded.time_s).at(light);
   const glm::dvec3 low = c.soup.low(), high = c.soup.high();
   c.light =
       square_light(glm::dvec3(placed.position), 0.5 * (low + high), percent / 100 * glm::length(high - low));
