@@ -13,7 +13,7 @@ namespace tenebra {
 enum class AoMode {
   none,
   adaptive,  ///< rays through all triangles where the picture needs them, filtered, by the error asked for
-  field,     ///< displacement fields and surface samples, as many rays a point as asked for
+  field,     ///< displacement fields and surface samples, as many rays per point as asked for
   rays,      ///< the reference: the same rays through all triangles by another library's ray caster
 };
 /// Where it is computed: at each pixel's point, or at the vertices, interpolated between.

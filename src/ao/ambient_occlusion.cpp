@@ -1,4 +1,4 @@
-// Ambient occlusion of a frame, from its visible points to one value a pixel: what is kept of a scene from
+// Ambient occlusion of a frame, from its visible points to one value per pixel: what is kept of a scene from
 // frame to frame, and which receivers are asked for what.
 #include <tenebra/ambient_occlusion.h>
 

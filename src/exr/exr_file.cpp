@@ -197,7 +197,7 @@ Expected<Window> checked_window(const Imf::Header& header, std::uint64_t file_by
     at_once = std::max(at_once, std::max<std::uint64_t>(tiles.xSize, window.width) * tiles.ySize);
   }
   if (at_once > most_buffer_bytes || at_once * pixel_bytes > most_buffer_bytes)
-    return base::fail("its rows of {} bytes a pixel need more than 1 GiB at once", pixel_bytes);
+    return base::fail("its rows of {} bytes per pixel need more than 1 GiB at once", pixel_bytes);
   return window;
 }
 

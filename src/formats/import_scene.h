@@ -24,8 +24,9 @@ struct ImportOptions {
 /// folder; what it cannot read whole it refuses in one sentence (file, line or JSON path, found, expected).
 /// Pictures are read from the scene's folder, its folders textures and TextureFiles, and the texture paths;
 /// one that is missing, broken or too large is a warning. Needs at most 256 MiB + 20 times the files' size
-/// (compressed geometry counts as what it decodes to, up to 16 times its size), and four bytes a pixel of the
-/// pictures used (2^26 pixels each, 2^27 together, at most; images/decode.h). Does not add cameras or lights.
+/// (compressed geometry counts as what it decodes to, up to 16 times its size), and four bytes per pixel of
+/// the pictures used (2^26 pixels each, 2^27 together, at most; images/decode.h). Does not add cameras or
+/// lights.
 Expected<Scene> import_scene(const std::filesystem::path& path, const ImportOptions& options = {});
 
 Expected<Scene> import_aff(const std::filesystem::path& path, const ImportOptions& options);

@@ -105,7 +105,7 @@ class VertexArray : public Object<delete_vertex_array> {
 public:
   using Object::Object;
   static VertexArray create();
-  void attach_vec3(unsigned location, const Buffer& buffer);  ///< three packed floats a vertex
+  void attach_vec3(unsigned location, const Buffer& buffer);  ///< three packed floats per vertex
   void attach_indices(const Buffer& buffer);
 };
 

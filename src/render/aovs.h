@@ -30,7 +30,7 @@ struct LightVisibility {
 };
 
 /// Of the opaque surface that each pixel's centre sees; nothing is smoothed. Each is of the frame's width and
-/// height, row 0 at the top: one value a pixel, or three (normal, irradiance, albedo). Empty where not
+/// height, row 0 at the top: one value per pixel, or three (normal, irradiance, albedo). Empty where not
 /// wanted.
 struct Aovs {
   base::ImageF depth;              ///< metres along the view axis from the eye's plane; infinite: background

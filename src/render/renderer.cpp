@@ -34,11 +34,11 @@ Expected<void> check_settings(const RenderSettings& settings) {
                       settings.shadows == ShadowMode::soft ? "a soft shadow" : "ambient occlusion");
   }
   if (!is_sample_count(settings.antialias))
-    return base::fail("anti-aliasing: found {} samples a pixel, expected 1, 2, 4, 8 or 16",
+    return base::fail("anti-aliasing: found {} samples per pixel, expected 1, 2, 4, 8 or 16",
                       settings.antialias);
   if (settings.antialias > 16 && !settings.antialias_everywhere)
     return base::fail(
-        "anti-aliasing: {} samples a pixel are for comparisons, everywhere; expected at most 16",
+        "anti-aliasing: {} samples per pixel are for comparisons, everywhere; expected at most 16",
         settings.antialias);
   return {};
 }

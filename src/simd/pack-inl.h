@@ -156,7 +156,7 @@ SIMD_INLINE Pack<std::int32_t, N> shift_right(Pack<std::int32_t, N> a) {
   return a;
 }
 
-/// A truth value a lane.
+/// A truth value per lane.
 template <class T, int N>
 struct Mask {
   hn::Mask<typename Pack<T, N>::Tag> r[Pack<T, N>::registers];

@@ -36,7 +36,7 @@ struct Candidates {
 };
 
 /// Eight triangles as functions of the window's place (X, Y): value = at_origin + X along_x + Y along_y.
-/// 0..2: the edge against vertex 0..2, above 0 inside, steepest coordinate slope 1 a pixel; 3: depth.
+/// 0..2: the edge against vertex 0..2, above 0 inside, steepest coordinate slope 1 per pixel; 3: depth.
 struct TriangleSetup8 {
   double at_origin[4][8];
   double along_x[4][8];

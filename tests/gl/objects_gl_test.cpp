@@ -41,7 +41,7 @@ TEST_P(Objects, MoveLeavesOneOwner) {
 TEST_P(Objects, TexturesGiveBackTheBitsOfEveryFormat) {
   for (PixelFormat format : {PixelFormat::depth32f, PixelFormat::r32ui, PixelFormat::r8, PixelFormat::r32f,
                              PixelFormat::rgba8, PixelFormat::rgba32f}) {
-    auto texture = Texture::create(format, 3, 5);  // 3 bytes a row: rows are not padded
+    auto texture = Texture::create(format, 3, 5);  // 3 bytes per row: rows are not padded
     ASSERT_TRUE(texture) << texture.error().message;
     std::vector<std::byte> sent(15 * bytes_per_pixel(format)), received(sent.size());
     for (std::size_t i = 0; i + 3 < sent.size(); i += 4) {

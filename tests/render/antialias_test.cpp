@@ -1,4 +1,4 @@
-// Several samples a pixel: which pixels get them, what their means are, and what stays as it is with one.
+// Several samples per pixel: which pixels get them, what their means are, and what stays as it is with one.
 #include "render/antialias/pattern.h"
 #include "render/antialias/surface_match.h"
 #include "render/render_fixture.h"

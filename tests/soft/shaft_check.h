@@ -30,7 +30,7 @@ inline soft::PointGroups grouped(const GroupCase& c, SoftGrouping grouping = Sof
   return groups;
 }
 
-/// One a group; each group must be handed over exactly once.
+/// One for each group; each group must be handed over exactly once.
 inline std::vector<Given> given(const GroupCase& c, const soft::PointGroups& groups,
                                 SimdLevel simd = SimdLevel::automatic, soft::ShaftStats* stats = nullptr) {
   std::vector<Given> all(groups.groups.size());

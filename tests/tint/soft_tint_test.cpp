@@ -1,4 +1,4 @@
-// Area lights through glass, against thousands of Embree's rays a point.
+// Area lights through glass, against thousands of Embree's rays per point.
 #include <gtest/gtest.h>
 
 #include <algorithm>

@@ -40,7 +40,7 @@ constexpr const char* trade_examples =
     "are given stay as they are. Each is varied alone on one frame; from that all combinations are "
     "predicted, and\n"
     "those that promise to be worth having are drawn by themselves on all frames. Errors are RMS over the\n"
-    "whole picture as it is shown, in levels of 255, against the finest setting: 16 samples a pixel, exact "
+    "whole picture as it is shown, in levels of 255, against the finest setting: 16 samples per pixel, exact "
     "soft\n"
     "shadows, occlusion to 0.5/255. Hard shadows are exact in all of them. Times are of this machine, "
     "medians\n"

@@ -44,7 +44,7 @@ Expected<Variant> parse_variant(const std::string& text) {
 Expected<int> parse_samples(const std::string& text) {
   const auto samples = parse_count(text);
   if (!samples || *samples > 16 || !render::is_sample_count(*samples))
-    return base::fail("found {}, expected 1, 2, 4, 8 or 16 samples a pixel", text);
+    return base::fail("found {}, expected 1, 2, 4, 8 or 16 samples per pixel", text);
   return samples;
 }
 

@@ -125,7 +125,7 @@ Expected<void> check_mask(const RenderOptions& options, const OutputPattern& mas
 Expected<void> check_sample_masks(const RenderOptions& options, bool several) {
   const auto check = [&](const std::vector<OutputPattern>& masks, const char* option) -> Expected<void> {
     if (!masks.empty() && options.method.render.antialias == 1)
-      return base::fail("{} is of several samples a pixel; expected --antialias 2, 4, 8 or 16 with it",
+      return base::fail("{} is of several samples per pixel; expected --antialias 2, 4, 8 or 16 with it",
                         option);
     for (const OutputPattern& mask : masks) {
       if (auto checked = check_mask(options, mask, option, several); !checked) return checked;

@@ -39,8 +39,8 @@ struct AdaptiveScene {
   const AoKernels& kernels;
 };
 
-/// Fills `out` (one a pixel; 1 where there is no receiver). Returns the estimate of its RMS error, in 1/255.
-/// The bits are the same for any number of threads. Fails with "stopped".
+/// Fills `out` (one for each pixel; 1 where there is no receiver). Returns the estimate of its RMS error, in
+/// 1/255. The bits are the same for any number of threads. Fails with "stopped".
 Expected<double> adaptive_occlusion(const AdaptiveScene& scene, const AdaptiveSettings& settings,
                                     std::span<float> out, AoStats& stats, const StopFlag* stop);
 

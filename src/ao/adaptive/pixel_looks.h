@@ -58,9 +58,9 @@ private:
   PixelTiles tiles_;
   const StopFlag* stop_;
   std::vector<std::vector<int>> near_;  ///< occluders, one list a tile
-  std::vector<OccluderCounts> counts_;  ///< one a tile
-  std::vector<std::uint64_t> looks_;    ///< one a tile
-  std::vector<Worker> workers_;         ///< one a thread
+  std::vector<OccluderCounts> counts_;  ///< one for each tile
+  std::vector<std::uint64_t> looks_;    ///< one for each tile
+  std::vector<Worker> workers_;         ///< one for each thread
 };
 
 }  // namespace tenebra::ao

@@ -11,7 +11,7 @@ namespace tenebra::ao {
 
 struct BvhOrder {
   static constexpr std::uint8_t node = 0xff;
-  std::vector<std::uint8_t> children;    ///< eight a node: 0 none, 1..8 a block of so many triangles, `node`
+  std::vector<std::uint8_t> children;  ///< eight per node: 0 none, 1..8 a block of so many triangles, `node`
   std::vector<std::uint32_t> triangles;  ///< of the blocks, one after the other
   friend bool operator==(const BvhOrder&, const BvhOrder&) = default;
 };

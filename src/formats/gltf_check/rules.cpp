@@ -17,7 +17,7 @@ std::set<std::string> names_in(const Json& root, const char* list, Report& repor
   return names;
 }
 
-/// Adds the names of all extensions below `value` to `found`; what stands in `extras` is nobody's business.
+/// Adds the names of all extensions below `value` to `found`; `extras` may hold anything.
 void find_extensions(const Json& value, const std::string& path, std::map<std::string, std::string>& found) {
   if (value.is_array())
     for (std::size_t i = 0; i < value.size(); ++i)

@@ -28,7 +28,7 @@ struct GroupPart {
   std::uint32_t next = 0;  ///< place of the next point in out.pixels
 };
 
-/// A set of 64 points, eight a byte.
+/// A set of 64 points, eight per byte.
 inline std::array<std::uint8_t, 8> bytes_of(std::uint64_t set) {
   std::array<std::uint8_t, 8> bytes;
   for (std::size_t i = 0; i < 8; ++i) bytes[i] = static_cast<std::uint8_t>(set >> (8 * i));
@@ -37,7 +37,7 @@ inline std::array<std::uint8_t, 8> bytes_of(std::uint64_t set) {
 
 /// Of each square of 8x8 pixels one, or more where its points do not lie together; a part a row of squares.
 std::vector<GroupPart> group_tiles(const Grouping& grouping);
-/// One a triangle.
+/// One for each triangle.
 GroupPart group_by_triangle(const Grouping& grouping);
 
 }  // namespace tenebra::soft

@@ -1,5 +1,5 @@
 // Two neighbouring triangles that are seen as one convex quadrilateral: four lines bound its shadow, and the
-// edge between them is nobody's business.
+// edge between them does not matter.
 #pragma once
 
 #include <cstdint>

@@ -21,7 +21,7 @@ struct SilhouetteLanes {
   Pack<T, 16> u, v, w, from_u, from_v, to_u, to_v, winding, number;
 };
 
-/// Edges without gaps, one array a quantity.
+/// Edges without gaps, one array per quantity.
 template <class T>
 struct SilhouetteEdges {
   std::vector<T> u, v, w, from_u, from_v, to_u, to_v, winding, number;

@@ -23,7 +23,7 @@ SIMD_INLINE Pack<T, 16> doubt_beside(Pack<T, 16> u, Pack<T, 16> v, T slack) {
   return broadcast<Pack<T, 16>>(on_line<T> + slack) * (abs(u) + abs(v));
 }
 
-/// The edges that rays meet, from below (least v) to above, without gaps, one array a quantity.
+/// The edges that rays meet, from below (least v) to above, without gaps, one array per quantity.
 template <class T>
 struct RayEdges {
   using Lanes = Pack<T, 16>;

@@ -12,7 +12,7 @@ namespace tenebra::bench {
 class MovingTriangles {
 public:
   MovingTriangles(const FrameGeometry& now, const FrameGeometry& next);
-  /// One a triangle: not the same floats in both frames.
+  /// One for each triangle: not the same floats in both frames.
   const std::vector<bool>& moves() const { return moves_; }
   /// Whether a moving triangle lies nearer than `distance` in one of the frames.
   bool within(const glm::dvec3& point, double distance) const;

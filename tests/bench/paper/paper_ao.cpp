@@ -172,8 +172,9 @@ PaperSection ao_section_of(const PaperSession& session, const AoFindings& found)
   section.title = ao_title;
   section.setup = fmt::format(
       "The paper's fields (`--ao-layout positions`): maps of distances at positions on the bounding sphere. "
-      "{} in the paper's corner of three walls of 33x33 points outside of the sphere, 256 rays a point; "
-      "errors against {} rays a point, RMS in 1/255. Positions are cells of an octahedral map (the paper's: "
+      "{} in the paper's corner of three walls of 33x33 points outside of the sphere, 256 rays per point; "
+      "errors against {} rays per point, RMS in 1/255. Positions are cells of an octahedral map (the "
+      "paper's: "
       "Slater's triangles), so 289, 1,089 and 4,225 stand for 290, 1,090 and 4,226. Figure 5's maps: the "
       "same table in float, with directions laid out in three ways.",
       found.object, counted(session.by_effort(256, 4096, 4096)));

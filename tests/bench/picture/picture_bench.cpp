@@ -1,4 +1,4 @@
-// tenebra-bench picture: how far anti-aliased pictures are from 256 samples a pixel, what they cost, and
+// tenebra-bench picture: how far anti-aliased pictures are from 256 samples per pixel, what they cost, and
 // whether they flicker.
 #include <array>
 
@@ -34,8 +34,8 @@ constexpr const char* footer =
 void add_picture_command(CLI::App& program, Run& run) {
   add_session_command<PictureSession>(
       program, run,
-      {"picture", "Anti-aliased pictures beside 256 samples a pixel: errors, costs, flicker", footer}, parts,
-      last_lines);
+      {"picture", "Anti-aliased pictures beside 256 samples per pixel: errors, costs, flicker", footer},
+      parts, last_lines);
 }
 
 }  // namespace tenebra::bench

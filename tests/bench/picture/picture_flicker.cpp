@@ -1,4 +1,4 @@
-// Consecutive frames: what changes from one to the next beside what changes with 256 samples a pixel.
+// Consecutive frames: what changes from one to the next beside what changes with 256 samples per pixel.
 #include <fmt/format.h>
 
 #include <algorithm>

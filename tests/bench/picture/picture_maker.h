@@ -1,4 +1,4 @@
-// Pictures of frames by the program's renderer, with any number of samples a pixel.
+// Pictures of frames by the program's renderer, with any number of samples per pixel.
 #pragma once
 
 #include <string>

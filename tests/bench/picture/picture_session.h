@@ -12,7 +12,7 @@ struct PictureHeadline {
   std::optional<double> rms_4, rms_16, cost_4, cost_16, missed_percent, flicker_16;
 };
 
-constexpr int sample_counts[] = {1, 4, 16};  ///< samples a pixel that are compared
+constexpr int sample_counts[] = {1, 4, 16};  ///< samples per pixel that are compared
 
 struct PictureSession : BenchSession {
   using BenchSession::BenchSession;

@@ -1,4 +1,4 @@
-// Single frames: errors against 256 samples a pixel, and costs over one sample.
+// Single frames: errors against 256 samples per pixel, and costs over one sample.
 #include <fmt/format.h>
 
 #include <algorithm>

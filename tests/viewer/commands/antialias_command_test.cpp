@@ -1,4 +1,4 @@
-// tenebra render with several samples a pixel: what --antialias refuses, and the files of masks.
+// tenebra render with several samples per pixel: what --antialias refuses, and the files of masks.
 #include <gtest/gtest.h>
 
 #include <cmath>
@@ -42,12 +42,12 @@ protected:
 
 TEST_F(AntialiasCommand, RefusesNumbersOfSamplesThatThereAreNot) {
   for (const char* samples : {"3", "0", "32", "256", "four"})
-    expect_refusal({"-o", "none", "--antialias", samples}, "expected 1, 2, 4, 8 or 16 samples a pixel");
+    expect_refusal({"-o", "none", "--antialias", samples}, "expected 1, 2, 4, 8 or 16 samples per pixel");
 }
 
 TEST_F(AntialiasCommand, MasksOfSamplesNeedSeveral) {
   expect_refusal({"-o", "none", "--antialias", "1", "--mask-mean", folder_ / "m.png"},
-                 "--mask-mean is of several samples a pixel; expected --antialias 2, 4, 8 or 16");
+                 "--mask-mean is of several samples per pixel; expected --antialias 2, 4, 8 or 16");
   expect_refusal({"-o", "none", "--antialias", "1", "--mask-samples", folder_ / "m.png"}, "--mask-samples");
   expect_refusal({"-o", "none", "--mask-samples", folder_ / "m.pfm"}, "expected .png");
   expect_refusal({"-o", "none", "--mask", folder_ / "m.png", "--mask-mean", folder_ / "m.png"},

@@ -174,7 +174,7 @@ void draw_trade_plot(Ui& ui) {
     if (ImGui::Button("Try settings on this scene (Y)", {-1, 0})) ui.actions.trade = true;
     ui.mark("trade.start");
     tooltip(
-        "Draws the present view with other samples a pixel and other errors: what each takes, and how far "
+        "Draws the present view with other samples per pixel and other errors: what each takes, and how far "
         "its picture is off the finest's. Nothing else should be drawn meanwhile: it would take its time.");
   }
   if (status.found) draw_result(ui, *status.found);

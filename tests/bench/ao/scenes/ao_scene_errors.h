@@ -16,7 +16,7 @@ struct AoSceneErrors {
 };
 
 /// |value - truth| of each of the truth's pixels, in 1/255; 255 for what is no number within 0 .. 1.
-/// `values`: one a pixel of the picture.
+/// `values`: one for each pixel of the picture.
 std::vector<double> pixel_errors(std::span<const float> values, const AoSceneTruth& truth);
 AoSceneErrors scene_errors(std::span<const float> values, const AoSceneTruth& truth);
 

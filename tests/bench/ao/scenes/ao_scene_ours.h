@@ -25,7 +25,7 @@ struct AoSceneResult {
   double ms = 0;                       ///< median of the later ones
   AoStats stats;                       ///< of a later one
   std::optional<double> estimate_255;  ///< the library's own word on its RMS error
-  std::vector<float> values;           ///< one a pixel
+  std::vector<float> values;           ///< one for each pixel
 };
 
 /// One setting on one view.

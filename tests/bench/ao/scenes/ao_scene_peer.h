@@ -44,7 +44,7 @@ public:
   double trace_ms(int rays, int step);
   /// From what was traced last with `variant.step` to a picture.
   double finish_ms(const PeerVariant& variant);
-  /// The picture that was finished last, one value a pixel.
+  /// The picture that was finished last, one value per pixel.
   std::vector<float> picture() const;
 
   /// What Embree is told of the packets' coherence, and which of the two is the faster with so many rays.
@@ -77,7 +77,7 @@ private:
   std::unique_ptr<AoScenePattern> pattern_;      ///< of the rays traced last
   AoScenePattern enough_;                        ///< for pixels that no filter cleans
   const float* finished_ = nullptr;              ///< at full resolution, as full_ lies; null: in open_
-  std::vector<float> open_;                      ///< one a pixel
+  std::vector<float> open_;                      ///< one for each pixel
 };
 
 }  // namespace tenebra::bench

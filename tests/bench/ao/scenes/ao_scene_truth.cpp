@@ -63,7 +63,7 @@ std::filesystem::path file_of(const TruthQuestion& q, std::string name, const st
   return folder / fmt::format("ao_{}_{}x{}_{:016x}.truth", name, q.points.width, q.points.height, key_of(q));
 }
 
-/// One a pixel; unknown where the file is missing or of another size.
+/// One for each pixel; unknown where the file is missing or of another size.
 std::vector<float> load(const std::filesystem::path& file, std::size_t pixels) {
   std::vector<float> values(pixels, unknown);
   std::ifstream in(file, std::ios::binary);

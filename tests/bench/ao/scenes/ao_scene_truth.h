@@ -1,4 +1,4 @@
-// What the ambient light of a view truly is: thousands of rays a point, kept on disk from run to run.
+// What the ambient light of a view truly is: thousands of rays per point, kept on disk from run to run.
 //
 // Openness of a point: the mean over directions, cosine-weighted about the shading normal, of
 // min(1, distance of the nearest hit / reach), that is one less the mean of max(0, 1 - distance / reach).
@@ -19,13 +19,13 @@ namespace tenebra::bench {
 struct AoSceneTruth {
   int step = 1;
   std::vector<std::size_t> pixels;  ///< ascending; those with a triangle, an area and a normal
-  std::vector<float> open;          ///< one a pixel, 0 closed .. 1 open
+  std::vector<float> open;          ///< one for each pixel, 0 closed .. 1 open
 };
 
 struct TruthQuestion {
   TriangleView triangles;
   const VisiblePoints& points;         ///< with positions
-  std::span<const glm::vec3> normals;  ///< one a pixel
+  std::span<const glm::vec3> normals;  ///< one for each pixel
   float reach_m;
   int rays = 4096;  ///< a multiple of 16
   int step = 1;
