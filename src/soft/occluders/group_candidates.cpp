@@ -69,13 +69,14 @@ private:
     find_size(from, n);
     find_corners(light, group, axes, v, from);
 
-    const auto num = [](double value) { return broadcast<Double8>(value); };
-    const auto along = [&](const glm::dvec3& a) { return n.x * num(a.x) + n.y * num(a.y) + n.z * num(a.z); };
+    const auto along = [&](const glm::dvec3& a) {
+      return n.x * broadcast8(a.x) + n.y * broadcast8(a.y) + n.z * broadcast8(a.z);
+    };
     const glm::dvec3& o = light.origin;
-    const Vector8 to_origin = broadcast3<Double8>(o.x, o.y, o.z) - num(light.weight) * v[0];
+    const Vector8 to_origin = broadcast3<Double8>(o.x, o.y, o.z) - broadcast8(light.weight) * v[0];
     const double unit = std::sqrt(glm::dot(light.ex, light.ex));
-    const Double8 size = length * num(unit);
-    const Double8 scale = num(axes.turn) / select(lt(num(0), size), size, num(1));
+    const Double8 size = length * broadcast8(unit);
+    const Double8 scale = broadcast8(axes.turn) / select(lt(broadcast8(0), size), size, broadcast8(1));
     store(along(light.ex) * scale, lanes_.plane[0]);
     store(along(light.ey) * scale, lanes_.plane[1]);
     store(dot_unfused(n, to_origin) * scale, lanes_.plane[2]);
@@ -83,17 +84,17 @@ private:
 
   SIMD_INLINE void find_sides(const GroupFrame& group, const Vector8* v, const Vector8& n, Double8 length,
                               const Vector8& from) {
-    const auto num = [](double value) { return broadcast<Double8>(value); };
-    const Double8 zero = num(0);
+    const Double8 zero = broadcast8(0);
     Double8 largest = zero;
     for (int k = 0; k < 3; ++k) largest = max(largest, max(abs(v[k].x), max(abs(v[k].y), abs(v[k].z))));
-    const Double8 tau = largest * num(points::contact_tau);
+    const Double8 tau = largest * broadcast8(points::contact_tau);
     const Double8 height = zero - dot_unfused(n, from), far = abs(height);
-    const Double8 spread =
-        abs(n.x) * num(group.half.x) + abs(n.y) * num(group.half.y) + abs(n.z) * num(group.half.z);
-    const Double8 margin = num(product_rounding) * length *
-                           (num(math::l1_norm(group.centre) + math::l1_norm(group.half)) + l1_norm(v[0]));
-    const Double8 threshold = (tau + num(group.receiver_tau)) * length;
+    const Double8 spread = abs(n.x) * broadcast8(group.half.x) + abs(n.y) * broadcast8(group.half.y) +
+                           abs(n.z) * broadcast8(group.half.z);
+    const Double8 margin =
+        broadcast8(product_rounding) * length *
+        (broadcast8(math::l1_norm(group.centre) + math::l1_norm(group.half)) + l1_norm(v[0]));
+    const Double8 threshold = (tau + broadcast8(group.receiver_tau)) * length;
     const std::uint32_t sure = lt_bits(threshold + margin, far - spread);
     const std::uint32_t above = lt_bits(zero, height);
     lanes_.in_front = sure & above;
@@ -136,20 +137,21 @@ private:
   /// division by the height loses no more than 16 bits.
   SIMD_INLINE void find_corners(const LightFrame& light, const GroupFrame& group, const LightAxes& axes,
                                 const Vector8* v, const Vector8* from) {
-    const auto num = [](double value) { return broadcast<Double8>(value); };
     const auto along = [&](const glm::dvec3& a, const Vector8& b) {
-      return num(a.x) * b.x + num(a.y) * b.y + num(a.z) * b.z;
+      return broadcast8(a.x) * b.x + broadcast8(a.y) * b.y + broadcast8(a.z) * b.z;
     };
     const double unit = 1 / std::sqrt(glm::dot(light.ex, light.ex));
-    const Double8 reach = num(math::l1_norm(axes.height * group.half)), top = num(axes.centre_uv.z);
+    const Double8 reach = broadcast8(math::l1_norm(axes.height * group.half)),
+                  top = broadcast8(axes.centre_uv.z);
     const double around =
         math::l1_norm(group.centre) + math::l1_norm(group.half) + light.weight * math::l1_norm(light.origin);
     std::uint32_t between = ~0u;
     for (int k = 0; k < 3; ++k) {
       const Double8 height = along(axes.height, from[k]);
-      const Double8 size = (l1_norm(v[k]) + num(around)) * num(unit);
-      between &= lt_bits(num(0x1p-16) * size, height - reach);
-      between &= lt_bits(num(light.weight * product_rounding) * size, top - num(light.weight) * height);
+      const Double8 size = (l1_norm(v[k]) + broadcast8(around)) * broadcast8(unit);
+      between &= lt_bits(broadcast8(0x1p-16) * size, height - reach);
+      between &= lt_bits(broadcast8(light.weight * product_rounding) * size,
+                         top - broadcast8(light.weight) * height);
       store(along(axes.u, from[k]), lanes_.corners[k][0]);
       store(along(axes.v, from[k]), lanes_.corners[k][1]);
       store(height, lanes_.corners[k][2]);

@@ -7,6 +7,7 @@
 #define TENEBRA_SOFT_POINT_OCCLUDERS_INL_H_
 #endif
 
+#include "simd/double8-inl.h"
 #include "soft/occluders/occluder_list-inl.h"
 #include "soft/polygon/light_fragments-inl.h"
 
@@ -32,10 +33,9 @@ SIMD_INLINE void find_eight_lines(const OccluderBlock& block, const double* sign
                                   std::size_t first, BlockLines<T>& out) {
   using Doubles = Pack<double, 8>;
   using Lanes = Pack<T, 8>;
-  const auto num = [](double value) { return broadcast<Doubles>(value); };
   const auto corner = [&](int k) {
     const auto of = [&](int axis) {
-      return load<Doubles>(block.corners[k][axis] + first) - num(at.in_axes[axis]);
+      return load<Doubles>(block.corners[k][axis] + first) - broadcast8(at.in_axes[axis]);
     };
     return Pack3<Doubles>{of(0), of(1), of(2)};
   };
@@ -47,7 +47,9 @@ SIMD_INLINE void find_eight_lines(const OccluderBlock& block, const double* sign
     const Pack3<Doubles> n = cross(from, to - from);
     u[k] = narrowed<T>(n.x * sign);
     v[k] = narrowed<T>(n.y * sign);
-    w[k] = narrowed<T>((n.z * num(at.reach) - n.x * num(at.in_light.x) - n.y * num(at.in_light.y)) * sign);
+    w[k] = narrowed<T>(
+        (n.z * broadcast8(at.reach) - n.x * broadcast8(at.in_light.x) - n.y * broadcast8(at.in_light.y)) *
+        sign);
     from = to;
   }
   const auto quads = mask_of_bits<T, 8>(block.quads >> first);

@@ -9,14 +9,12 @@
 
 #include <vector>
 
-#include "simd/pack_lanes-inl.h"
+#include "simd/double8-inl.h"
 #include "soft/light/light_frame.h"
 
 HWY_BEFORE_NAMESPACE();
 namespace tenebra::soft::HWY_NAMESPACE {
 using namespace simd::HWY_NAMESPACE;
-
-using Double8 = Pack<double, 8>;
 
 /// Edges of polygons on the light's plane, from (u0, v0) to (u1, v1).
 struct LightEdges {
@@ -33,33 +31,27 @@ struct LightEdges {
 
 /// atan2(s, c) / s for s > 0, in one division; relative error below 1e-13. 0 where s |(s, c)| < 1e-290.
 SIMD_INLINE Double8 angle_over_sine(Double8 s, Double8 c) {
-  const auto num = [](double value) { return broadcast<Double8>(value); };
   const Double8 size = abs(c);
   const Double8 low = min(s, size), high = max(s, size);
   // atan(low / high), beyond pi/8 by atan(q) = pi/4 + atan((q - 1) / (q + 1)).
-  const auto steep = lt(num(0.41421356237309503) * high, low);
+  const auto steep = lt(broadcast8(0.41421356237309503) * high, low);
   const Double8 below = select(steep, low + high, high);
-  const auto none = lt(below * s, num(1e-290));
-  const Double8 share = num(1.0) / select(none, num(1.0), below * s);
+  const auto none = lt(below * s, broadcast8(1e-290));
+  const Double8 share = broadcast8(1.0) / select(none, broadcast8(1.0), below * s);
   const Double8 q = select(steep, low - high, low) * (s * share);
   const Double8 y = q * q;
   // Chebyshev interpolation of atan(q) / q in y, 0 <= y <= tan(pi/8)^2.
-  Double8 p = num(0.030662440370424447);
+  Double8 p = broadcast8(0.030662440370424447);
   for (const double a :
        {-0.05874505621307831, 0.07563703551915192, -0.09078392072943424, 0.11110385046148014,
         -0.14285690423839287, 0.19999999604891977, -0.33333333330803444, 0.9999999999999732}) {
-    p = p * y + num(a);
+    p = p * y + broadcast8(a);
   }
   Double8 angle = q * p;
-  angle = select(steep, num(0.7853981633974483) + angle, angle);
-  angle = select(lt(size, s), num(1.5707963267948966) - angle, angle);
-  angle = select(lt(c, num(0.0)), num(3.141592653589793) - angle, angle);
-  return select(none, num(0.0), angle * (below * share));
-}
-
-/// Not fused: the same bits on every target.
-SIMD_INLINE Double8 product_of(const Pack3<Double8>& a, const Pack3<Double8>& b) {
-  return a.x * b.x + a.y * b.y + a.z * b.z;
+  angle = select(steep, broadcast8(0.7853981633974483) + angle, angle);
+  angle = select(lt(size, s), broadcast8(1.5707963267948966) - angle, angle);
+  angle = select(lt(c, broadcast8(0.0)), broadcast8(3.141592653589793) - angle, angle);
+  return select(none, broadcast8(0.0), angle * (below * share));
 }
 
 /// The angle that an edge `e` from `r` on subtends times the cosine between normal and the plane of point and
@@ -67,17 +59,16 @@ SIMD_INLINE Double8 product_of(const Pack3<Double8>& a, const Pack3<Double8>& b)
 SIMD_INLINE Double8 contour_term(const Pack3<Double8>& r, const Pack3<Double8>& e,
                                  const Pack3<Double8>& normal) {
   const Pack3<Double8> c = cross(r, e);
-  const Double8 sine = sqrt(product_of(c, c)), cosine = product_of(r, r) + product_of(r, e);
-  return product_of(normal, c) * angle_over_sine(sine, cosine);
+  const Double8 sine = sqrt(dot_unfused(c, c)), cosine = dot_unfused(r, r) + dot_unfused(r, e);
+  return dot_unfused(normal, c) * angle_over_sine(sine, cosine);
 }
 
 /// origin + u ex + v ey.
 SIMD_INLINE Pack3<Double8> on_light(const LightFrame& light, const Pack3<Double8>& origin, Double8 u,
                                     Double8 v) {
-  const auto num = [](double value) { return broadcast<Double8>(value); };
-  return {origin.x + u * num(light.ex.x) + v * num(light.ey.x),
-          origin.y + u * num(light.ex.y) + v * num(light.ey.y),
-          origin.z + u * num(light.ex.z) + v * num(light.ey.z)};
+  return {origin.x + u * broadcast8(light.ex.x) + v * broadcast8(light.ey.x),
+          origin.y + u * broadcast8(light.ex.y) + v * broadcast8(light.ey.y),
+          origin.z + u * broadcast8(light.ex.z) + v * broadcast8(light.ey.z)};
 }
 
 /// A point as the light is seen from it: world space, metres.
@@ -98,8 +89,7 @@ struct EdgeSums {
 /// The same bits on every target: each lane sums every eighth edge, and the lanes are added in one order.
 inline HWY_NOINLINE EdgeSums sum_edges(const LightEdges& edges, const LightFrame& light,
                                        const Receiver3& at) {
-  const auto all = [](const glm::dvec3& a) { return broadcast3<Double8>(a.x, a.y, a.z); };
-  const Pack3<Double8> origin = all(at.to_origin), normal = all(at.normal);
+  const Pack3<Double8> origin = broadcast8(at.to_origin), normal = broadcast8(at.normal);
   const Double8 zero = broadcast<Double8>(0.0);
   Double8 irradiance = zero, area = zero;
   for (std::size_t k = 0; k < edges.count; k += 8) {

@@ -27,9 +27,8 @@ struct HorizonLanes {
 };
 SIMD_INLINE HorizonLanes horizon_of(const LightFrame& light, const Pack3<Double8>& to_origin,
                                     const Pack3<Double8>& normal) {
-  const auto all = [](const glm::dvec3& a) { return broadcast3<Double8>(a.x, a.y, a.z); };
-  return {product_of(normal, all(light.ex)), product_of(normal, all(light.ey)),
-          product_of(normal, to_origin)};
+  return {dot_unfused(normal, broadcast8(light.ex)), dot_unfused(normal, broadcast8(light.ey)),
+          dot_unfused(normal, to_origin)};
 }
 
 /// Up to eight points, a lane each.
@@ -52,23 +51,23 @@ struct WholePoints {
 /// those for which this is so, as they are in front of the light, which is above their normals' horizons.
 inline HWY_NOINLINE std::uint32_t irradiance_of_whole(const LightFrame& light, const WholePoints& at,
                                                       double* irradiance) {
-  const auto num = [](double value) { return broadcast<Double8>(value); };
   const auto lanes = [](const double(&from)[3][8]) {
     return Pack3<Double8>{load<Double8>(from[0]), load<Double8>(from[1]), load<Double8>(from[2])};
   };
   const Pack3<Double8> origin = lanes(at.to_origin), normal = lanes(at.normal);
-  Double8 sum = num(0.0);
+  Double8 sum = broadcast8(0.0);
   for (std::size_t k = 0; k < light.polygon.size(); ++k) {
     const glm::dvec2 a = light.polygon[k], b = light.polygon[(k + 1) % light.polygon.size()];
     const glm::dvec3 from = a.x * light.ex + a.y * light.ey,
                      along = (b.x - a.x) * light.ex + (b.y - a.y) * light.ey;
-    const Pack3<Double8> r{origin.x + num(from.x), origin.y + num(from.y), origin.z + num(from.z)};
-    const Pack3<Double8> e{num(along.x), num(along.y), num(along.z)};
+    const Pack3<Double8> r{origin.x + broadcast8(from.x), origin.y + broadcast8(from.y),
+                           origin.z + broadcast8(from.z)};
+    const Pack3<Double8> e{broadcast8(along.x), broadcast8(along.y), broadcast8(along.z)};
     sum = sum - contour_term(r, e, normal);
   }
-  store(num(0.5) * sum, irradiance);
+  store(broadcast8(0.5) * sum, irradiance);
   const glm::dvec3& n = light.normal;
-  const std::uint32_t in_front = lt_bits(product_of(origin, broadcast3<Double8>(n.x, n.y, n.z)), num(0.0));
+  const std::uint32_t in_front = lt_bits(dot_unfused(origin, broadcast8(n)), broadcast8(0.0));
   return in_front & ~horizon_of(light, origin, normal).cuts(light) & ((1u << at.count) - 1u);
 }
 

@@ -62,25 +62,26 @@ template <class T>
 SIMD_INLINE std::uint32_t inside(const CullingShaft<T>& shaft, const TriangleBlock& block,
                                  std::uint32_t lanes) {
   using Lanes = Pack<T, block_size>;
-  const auto all = [](T value) { return broadcast<Lanes>(value); };
-  const Lanes margin = (eight_as<T>(block.largest) + all(shaft.origin_size)) *
-                       all(static_cast<T>(CullingShaft<T>::block_margin));
+  const Lanes margin = (eight_as<T>(block.largest) + broadcast<Lanes>(shaft.origin_size)) *
+                       broadcast<Lanes>(static_cast<T>(CullingShaft<T>::block_margin));
   Lanes v[3][3];  // axis, corner
   const auto beyond = [&](int axis) {
-    for (int k = 0; k < 3; ++k) v[axis][k] = eight_as<T>(block.v[k][axis]) - all(shaft.origin[axis]);
+    for (int k = 0; k < 3; ++k)
+      v[axis][k] = eight_as<T>(block.v[k][axis]) - broadcast<Lanes>(shaft.origin[axis]);
     const auto& [a, b, c] = v[axis];
-    return lt(all(shaft.high[axis]) + margin, min(a, min(b, c))) |
-           lt(max(a, max(b, c)) + margin, all(shaft.low[axis]));
+    return lt(broadcast<Lanes>(shaft.high[axis]) + margin, min(a, min(b, c))) |
+           lt(max(a, max(b, c)) + margin, broadcast<Lanes>(shaft.low[axis]));
   };
   const auto outside = beyond(0) | beyond(1) | beyond(2);
   lanes &= ~bits(outside);
   for (int i = 0; i < shaft.plane_count && lanes != 0; ++i) {
     const auto& plane = shaft.planes[i];
     const auto along = [&](int k) {
-      return all(plane.m[0]) * v[0][k] + all(plane.m[1]) * v[1][k] + all(plane.m[2]) * v[2][k];
+      return broadcast<Lanes>(plane.m[0]) * v[0][k] + broadcast<Lanes>(plane.m[1]) * v[1][k] +
+             broadcast<Lanes>(plane.m[2]) * v[2][k];
     };
     const Lanes nearest = min(along(0), min(along(1), along(2)));
-    lanes &= ~lt_bits(all(plane.limit) + margin, nearest);
+    lanes &= ~lt_bits(broadcast<Lanes>(plane.limit) + margin, nearest);
   }
   return lanes;
 }

@@ -84,8 +84,6 @@ public:
   glm::dvec2 to(std::size_t i) const { return {to_u[i], to_v[i]}; }
 
 private:
-  static SIMD_INLINE Lanes num(T value) { return broadcast<Lanes>(value); }
-
   void take_up(const LightPolygon<T>& part, T slack) {
     near_ = on_line<T> + slack;
     store(part.x, u_);
@@ -105,7 +103,8 @@ private:
   }
 
   HWY_NOINLINE void clip(const SilhouetteLanes<T>& e, std::uint32_t lanes, std::size_t b) {
-    const Lanes zero = num(0), one = num(1), beside = doubt_beside(e.u, e.v, near_ - on_line<T>);
+    const Lanes zero = broadcast<Lanes>(0), one = broadcast<Lanes>(1),
+                beside = doubt_beside(e.u, e.v, near_ - on_line<T>);
     const Lanes far_u = max(abs(e.from_u), abs(e.to_u)) + one, far_v = max(abs(e.from_v), abs(e.to_v)) + one;
     SilhouetteLanes<T> s = e;
     Lanes left = zero;  // how often a ray from the lower end towards +u leaves the part
@@ -115,15 +114,19 @@ private:
       const T u = inner_u_[k], v = inner_v_[k], next_v = inner_v_[k + 1], du = inner_u_[k + 1] - u,
               dv = next_v - v;
       const auto inside_of = [&](Lanes pu, Lanes pv) {
-        return num(du) * (pv - num(v)) - num(dv) * (pu - num(u));
+        return broadcast<Lanes>(du) * (pv - broadcast<Lanes>(v)) -
+               broadcast<Lanes>(dv) * (pu - broadcast<Lanes>(u));
       };
       const Lanes next = value_at(e, inner_u_[k + 1], next_v);
       const Lanes f = inside_of(e.from_u, e.from_v), g = inside_of(e.to_u, e.to_v);
-      const Lanes reach = num(near_) * (num(std::abs(dv)) * far_u + num(std::abs(du)) * far_v);
+      const Lanes reach = broadcast<Lanes>(near_) *
+                          (broadcast<Lanes>(std::abs(dv)) * far_u + broadcast<Lanes>(std::abs(du)) * far_v);
       const std::uint32_t crosses = lanes & bits(parted(here, next, beside) & parted(f, g, reach));
       unsure |= lanes & ~crosses & bits(maybe_parted(here, next, beside) & maybe_parted(f, g, reach));
-      const auto rises = le(num(v), e.from_v) & lt(e.from_v, num(next_v)) & lt(zero, f);
-      const auto falls = le(num(next_v), e.from_v) & lt(e.from_v, num(v)) & lt(f, zero);
+      const auto rises =
+          le(broadcast<Lanes>(v), e.from_v) & lt(e.from_v, broadcast<Lanes>(next_v)) & lt(zero, f);
+      const auto falls =
+          le(broadcast<Lanes>(next_v), e.from_v) & lt(e.from_v, broadcast<Lanes>(v)) & lt(f, zero);
       left = select(rises | falls, left + one, left);
       if (crosses != 0) end_at_side(k, e, crosses, crosses & lt_bits(f, zero), s);
       met |= crosses;
@@ -136,16 +139,17 @@ private:
   }
 
   static SIMD_INLINE Lanes value_at(const SilhouetteLanes<T>& e, T u, T v) {
-    return e.u * num(u) + e.v * num(v) + e.w;
+    return e.u * broadcast<Lanes>(u) + e.v * broadcast<Lanes>(v) + e.w;
   }
 
   /// Lets the stretches `crosses` begin (`enters`) or end at side k.
   SIMD_INLINE void end_at_side(int k, const SilhouetteLanes<T>& e, std::uint32_t crosses,
                                std::uint32_t enters, SilhouetteLanes<T>& stretches) {
-    const Lanes zero = num(0), here = value_at(e, u_[k], v_[k]), next = value_at(e, u_[k + 1], v_[k + 1]);
-    const Lanes share = min(max(here / (here - next), zero), num(1));
-    const Lanes u = num(u_[k]) + share * num(u_[k + 1] - u_[k]),
-                v = num(v_[k]) + share * num(v_[k + 1] - v_[k]);
+    const Lanes zero = broadcast<Lanes>(0), here = value_at(e, u_[k], v_[k]),
+                next = value_at(e, u_[k + 1], v_[k + 1]);
+    const Lanes share = min(max(here / (here - next), zero), broadcast<Lanes>(1));
+    const Lanes u = broadcast<Lanes>(u_[k]) + share * broadcast<Lanes>(u_[k + 1] - u_[k]),
+                v = broadcast<Lanes>(v_[k]) + share * broadcast<Lanes>(v_[k + 1] - v_[k]);
     const auto begins = mask_of_bits<T, 16>(enters), ends = mask_of_bits<T, 16>(crosses & ~enters);
     stretches.from_u = select(begins, u, stretches.from_u),
     stretches.from_v = select(begins, v, stretches.from_v);

@@ -45,7 +45,7 @@ public:
 
   /// Bits of the edges of block b that may have light beside them: only along these the part need be cut.
   std::uint32_t kept(std::size_t b) const {
-    const std::uint32_t dark = lt_bits(num(0), load<Lanes>(&least_[16 * b])) & ~blocks_[b].level;
+    const std::uint32_t dark = lt_bits(broadcast<Lanes>(0), load<Lanes>(&least_[16 * b])) & ~blocks_[b].level;
     return stretches_.blocks[b].there & ~(dark & ~stretches_.blocks[b].unsure);
   }
 
@@ -78,18 +78,17 @@ private:
   struct Link {
     std::uint32_t other, before;
   };
-  static SIMD_INLINE Lanes num(T value) { return broadcast<Lanes>(value); }
 
   void count_windings(std::size_t b) {
     const SilhouetteLanes<T> e = edges_->lanes_from(first_ + 16 * b);
-    const Lanes half = num(T(0.5));
+    const Lanes half = broadcast<Lanes>(T(0.5));
     const Lanes u = (load<Lanes>(&stretches_.from_u[16 * b]) + load<Lanes>(&stretches_.to_u[16 * b])) * half;
     const Lanes v = (load<Lanes>(&stretches_.from_v[16 * b]) + load<Lanes>(&stretches_.to_v[16 * b])) * half;
     const Windings<T> beside = windings_right_of(*around_, slack_, e.number, u, v);
     store(beside.winding, blocks_[b].right);
-    store(beside.winding + min(e.winding, num(0)) - beside.doubt, &least_[16 * b]);
+    store(beside.winding + min(e.winding, broadcast<Lanes>(0)) - beside.doubt, &least_[16 * b]);
     blocks_[b].level = ~bits(le(e.from_v, v) & lt(v, e.to_v));
-    blocks_[b].doubtful = lt_bits(num(0), beside.doubt) | blocks_[b].level;
+    blocks_[b].doubtful = lt_bits(broadcast<Lanes>(0), beside.doubt) | blocks_[b].level;
   }
 
   /// Those of the edges of block b by others of it and behind it.
@@ -99,13 +98,15 @@ private:
     const SilhouetteLanes<T> e = its.lanes_from(first_ + 16 * b);
     const Lanes from_u = load<Lanes>(&on.from_u[16 * b]), from_v = load<Lanes>(&on.from_v[16 * b]);
     const Lanes to_u = load<Lanes>(&on.to_u[16 * b]), to_v = load<Lanes>(&on.to_v[16 * b]);
-    const Lanes margin = load<Lanes>(&on.margin[16 * b]), near = num(on_line<T> + slack_);
+    const Lanes margin = load<Lanes>(&on.margin[16 * b]), near = broadcast<Lanes>(on_line<T> + slack_);
     const Lanes low_u = min(from_u, to_u) - near, high_u = max(from_u, to_u) + near;
     const Lanes low_v = from_v - near, high_v = to_v + near;
     for (std::size_t i = 16 * b + 1; i < count_; ++i) {
       const std::size_t k = first_ + i;
-      const Lanes u = num(its.u[k]), v = num(its.v[k]), w = num(its.w[k]), its_margin = num(on.margin[i]);
-      const Lanes u0 = num(on.from_u[i]), v0 = num(on.from_v[i]), u1 = num(on.to_u[i]), v1 = num(on.to_v[i]);
+      const Lanes u = broadcast<Lanes>(its.u[k]), v = broadcast<Lanes>(its.v[k]),
+                  w = broadcast<Lanes>(its.w[k]), its_margin = broadcast<Lanes>(on.margin[i]);
+      const Lanes u0 = broadcast<Lanes>(on.from_u[i]), v0 = broadcast<Lanes>(on.from_v[i]),
+                  u1 = broadcast<Lanes>(on.to_u[i]), v1 = broadcast<Lanes>(on.to_v[i]);
       const Lanes a = u * from_u + v * from_v + w, c = u * to_u + v * to_v + w;
       const Lanes f = e.u * u0 + e.v * v0 + e.w, g = e.u * u1 + e.v * v1 + e.w;
       const auto maybe = maybe_parted(a, c, its_margin) & maybe_parted(f, g, margin);
@@ -121,8 +122,8 @@ private:
   /// Edges that share a corner do not cross.
   SIMD_INLINE std::uint32_t shares_corner(const SilhouetteLanes<T>& e, std::size_t k) const {
     const auto at = [&](Lanes u, Lanes v) {
-      return (eq(u, num(edges_->from_u[k])) & eq(v, num(edges_->from_v[k]))) |
-             (eq(u, num(edges_->to_u[k])) & eq(v, num(edges_->to_v[k])));
+      return (eq(u, broadcast<Lanes>(edges_->from_u[k])) & eq(v, broadcast<Lanes>(edges_->from_v[k]))) |
+             (eq(u, broadcast<Lanes>(edges_->to_u[k])) & eq(v, broadcast<Lanes>(edges_->to_v[k])));
     };
     return bits(at(e.from_u, e.from_v) | at(e.to_u, e.to_v));
   }
@@ -166,7 +167,7 @@ private:
 
   void append_edges(std::size_t b, LightEdges& edges) {
     const EdgeStretches<T>& on = stretches_;
-    const Lanes zero = num(0), right = load<Lanes>(blocks_[b].right);
+    const Lanes zero = broadcast<Lanes>(0), right = load<Lanes>(blocks_[b].right);
     const auto left_is_lit = eq(right + load<Lanes>(&edges_->winding[first_ + 16 * b]), zero);
     const std::uint32_t lit = kept(b) & ~blocks_[b].crossed & bits(left_is_lit | eq(right, zero));
     const Lanes from_u = load<Lanes>(&on.from_u[16 * b]), from_v = load<Lanes>(&on.from_v[16 * b]);

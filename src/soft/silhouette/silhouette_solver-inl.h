@@ -218,20 +218,21 @@ private:
                                   const LightLine<T>& line, T sign, std::size_t to) {
     const T low_u = reduce_min(part.x), high_u = reduce_max(part.x), low_v = reduce_min(part.y),
             high_v = reduce_max(part.y);
-    const auto num = [](T value) { return broadcast<Lanes>(value); };
-    const Lanes cu = num((low_u + high_u) / 2), cv = num((low_v + high_v) / 2);
-    const Lanes hu = num((high_u - low_u) / 2), hv = num((high_v - low_v) / 2);
-    const Lanes lu = num(sign * line.u), lv = num(sign * line.v), lw = num(sign * line.w);
+    const Lanes cu = broadcast<Lanes>((low_u + high_u) / 2), cv = broadcast<Lanes>((low_v + high_v) / 2);
+    const Lanes hu = broadcast<Lanes>((high_u - low_u) / 2), hv = broadcast<Lanes>((high_v - low_v) / 2);
+    const Lanes lu = broadcast<Lanes>(sign * line.u), lv = broadcast<Lanes>(sign * line.v),
+                lw = broadcast<Lanes>(sign * line.w);
     const auto beyond = [&](Lanes u, Lanes v) {
       const Lanes a = lu * u, b = lv * v;
-      return lt(num(on_line<T>) * (abs(a) + abs(b) + abs(lw)), a + b + lw);
+      return lt(broadcast<Lanes>(on_line<T>) * (abs(a) + abs(b) + abs(lw)), a + b + lw);
     };
     crossing_.count = to;
     for (std::size_t i = first; i < last; i += 16) {
       const SilhouetteLanes<T> e = crossing_.lanes_from(i);
-      const auto meets = lanes_below<T>(last - i) & le(min(e.from_u, e.to_u), num(high_u)) &
-                         le(num(low_u), max(e.from_u, e.to_u)) & le(min(e.from_v, e.to_v), num(high_v)) &
-                         le(num(low_v), max(e.from_v, e.to_v));
+      const auto meets = lanes_below<T>(last - i) & le(min(e.from_u, e.to_u), broadcast<Lanes>(high_u)) &
+                         le(broadcast<Lanes>(low_u), max(e.from_u, e.to_u)) &
+                         le(min(e.from_v, e.to_v), broadcast<Lanes>(high_v)) &
+                         le(broadcast<Lanes>(low_v), max(e.from_v, e.to_v));
       const auto crosses = le(abs(e.u * cu + e.v * cv + e.w), abs(e.u) * hu + abs(e.v) * hv);
       crossing_.append(meets & crosses & (beyond(e.from_u, e.from_v) | beyond(e.to_u, e.to_v)), e);
     }

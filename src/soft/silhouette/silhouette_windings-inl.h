@@ -76,15 +76,18 @@ template <class T>
 HWY_NOINLINE Windings<T> windings_right_of(const RayEdges<T>& around, T slack, Pack<T, 16> number,
                                            Pack<T, 16> at_u, Pack<T, 16> at_v) {
   using Lanes = Pack<T, 16>;
-  const auto num = [](T value) { return broadcast<Lanes>(value); };
-  const Lanes zero = num(0), near = num(on_line<T> + slack), over = at_v + near, under = at_v - near;
+  const Lanes zero = broadcast<Lanes>(0), near = broadcast<Lanes>(on_line<T> + slack), over = at_v + near,
+              under = at_v - near;
   Lanes sum = zero, doubt = zero;  // in registers: not yet in what is returned
   for (std::size_t i = 0; i < around.count; ++i) {
-    const Lanes value = num(around.u[i]) * at_u + num(around.v[i]) * at_v + num(around.w[i]);
-    const Lanes low = num(around.low[i]), high = num(around.high[i]), turns = num(around.winding[i]);
-    const auto other = ne(number, num(around.number[i]));
+    const Lanes value = broadcast<Lanes>(around.u[i]) * at_u + broadcast<Lanes>(around.v[i]) * at_v +
+                        broadcast<Lanes>(around.w[i]);
+    const Lanes low = broadcast<Lanes>(around.low[i]), high = broadcast<Lanes>(around.high[i]),
+                turns = broadcast<Lanes>(around.winding[i]);
+    const auto other = ne(number, broadcast<Lanes>(around.number[i]));
     const auto met = other & le(low, at_v) & lt(at_v, high) & lt(zero, value);
-    const auto near_it = other & le(low, over) & le(under, high) & lt(abs(value), num(around.margin[i]));
+    const auto near_it =
+        other & le(low, over) & le(under, high) & lt(abs(value), broadcast<Lanes>(around.margin[i]));
     sum = select(met, sum + turns, sum);
     doubt = select(near_it, doubt + abs(turns), doubt);
   }
