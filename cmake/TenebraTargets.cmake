@@ -45,3 +45,21 @@ function(tenebra_unite target)
   # Types in unnamed namespaces may be members here: each group is one file that nobody includes.
   target_compile_options(${target} PRIVATE -Wno-subobject-linkage)
 endfunction()
+
+# Headers of others that most files include.
+set(common_headers <algorithm> <array> <cmath> <cstdint> <functional> <map> <memory> <optional> <span> <string>
+  <string_view> <unordered_map> <vector> <glm/glm.hpp> <glm/gtc/quaternion.hpp> <tl/expected.hpp>)
+
+# tenebra_precompile(FIRST OTHERS... [HEADERS ...]): where files are compiled together, the targets' common headers, and
+# those named, are compiled once, by FIRST; all have the same options. Not beside a compiler cache, which could keep
+# nothing of what uses them.
+function(tenebra_precompile first)
+  cmake_parse_arguments(PARSE_ARGV 1 with "" "" HEADERS)
+  if(NOT TENEBRA_UNITY OR CCACHE OR NOT CMAKE_CXX_COMPILER_ID STREQUAL "GNU")
+    return()
+  endif()
+  target_precompile_headers(tenebra_${first} PRIVATE ${common_headers} ${with_HEADERS})
+  foreach(other ${with_UNPARSED_ARGUMENTS})
+    target_precompile_headers(tenebra_${other} REUSE_FROM tenebra_${first})
+  endforeach()
+endfunction()
