@@ -86,10 +86,11 @@ public:
   /// change: where the ray meets an edge or a vertex exactly (sign 0), it counts as moved from P by (e, e^2,
   /// e^3) for an infinitely small e. So of the triangles that share an edge or a vertex a ray crosses as many
   /// as a ray beside it: through a pane one, in and out of a closed body two. All signs are of real numbers;
-  /// transmittances are float, at the crossing found in double.
-  void trace(const VisiblePoints& points, const ViewRays& view, const TriangleView& triangles,
+  /// transmittances are float, at the crossing found in double. Returns false, with `out` unspecified, if
+  /// `stop` was requested before the end.
+  bool trace(const VisiblePoints& points, const ViewRays& view, const TriangleView& triangles,
              const SeeThroughSurfaces& surfaces, const ShadowLight& light, const ShadowMask& mask,
-             const TintConfig& config, TintMask& out);
+             const TintConfig& config, TintMask& out, const StopFlag* stop = nullptr);
 
   /// An area light. For each pixel whose `mask` (SoftShadowTracer's, of the same light, view and normals) has
   /// irradiance: the share of that irradiance that passes, by channel: the product of the transmittances

@@ -44,17 +44,29 @@ SIMD_INLINE Receivers8 alike(const Receiver& r) {
   return {broadcast8(r.normal), broadcast8(r.a), broadcast8(r.du), broadcast8(r.dv)};
 }
 
-SIMD_INLINE Receivers8 each(const Receiver* const* of) {
-  alignas(64) double v[4][3][8];
-  for (int i = 0; i < 8; ++i) {
-    const Receiver& r = *of[i];
-    const glm::dvec3* const from[4] = {&r.normal, &r.a, &r.du, &r.dv};
-    for (int k = 0; k < 4; ++k) v[k][0][i] = from[k]->x, v[k][1][i] = from[k]->y, v[k][2][i] = from[k]->z;
+/// Of eight lanes from `first` on. Pixels side by side see few different triangles: each is put into all of
+/// its lanes at once. Lanes without a point get the first.
+SIMD_INLINE Receivers8 gathered(const Receiver* receivers, std::span<const ReceiverLanes> parts, int first) {
+  Receivers8 all = alike(receivers[parts.front().receiver]);
+  for (std::size_t i = 1; i < parts.size(); ++i) {
+    const std::uint32_t lanes = (std::uint32_t{parts[i].lanes} >> first) & 0xffu;
+    if (lanes == 0) continue;
+    const Receivers8 those = alike(receivers[parts[i].receiver]);
+    const Mask<double, 8> there = mask_of_bits<double, 8>(lanes);
+    all = {select3(there, those.normal, all.normal), select3(there, those.a, all.a),
+           select3(there, those.du, all.du), select3(there, those.dv, all.dv)};
   }
-  const auto vector = [&](int k) HWY_ATTR {
-    return Vector8{load<Double8>(v[k][0]), load<Double8>(v[k][1]), load<Double8>(v[k][2])};
-  };
-  return {vector(0), vector(1), vector(2), vector(3)};
+  return all;
+}
+
+int part_lanes(const std::uint32_t ids[tile_points], std::uint16_t parts[tile_points]) {
+  int count = 0;
+  for (std::uint32_t left = 0xffffu; left != 0; ++count) {
+    const std::uint32_t same = eq_bits(ids, ids[std::countr_zero(left)]);
+    parts[count] = static_cast<std::uint16_t>(same);
+    left &= ~same;
+  }
+  return count;
 }
 
 /// Points of eight lanes, and the bits of those that lie inside of their triangles.
@@ -81,28 +93,37 @@ SIMD_INLINE Seen8 see_eight(const Receivers8& r, const PixelRays& rays, glm::uve
                   le(zero, u) & le(zero, v) & le(u + v, one))};
 }
 
-SIMD_INLINE std::uint32_t see_eight(const Receivers8& r, const PixelRays& rays, glm::uvec2 at, double* x,
-                                    double* y, double* z) {
-  const Seen8 seen = see_eight(r, rays, at);
-  store(seen.p.x, x), store(seen.p.y, y), store(seen.p.z, z);
-  return seen.inside;
+/// A tile: the upper two rows and the lower two.
+struct Seen16 {
+  Seen8 upper, lower;
+
+  std::uint32_t inside() const { return upper.inside | lower.inside << 8; }
+};
+SIMD_INLINE Seen16 see_tile(const Receiver* receivers, std::span<const ReceiverLanes> parts,
+                            const PixelRays& rays, glm::uvec2 at) {
+  return {see_eight(gathered(receivers, parts, 0), rays, at),
+          see_eight(gathered(receivers, parts, 8), rays, at + glm::uvec2(0, 2))};
 }
 
-std::uint32_t see_one(const Receiver& receiver, const PixelRays& rays, glm::uvec2 at, TilePoints& out) {
-  if (receiver.flat) return 0;
-  const Receivers8 r = alike(receiver);
-  const std::uint32_t upper = see_eight(r, rays, at, out.x, out.y, out.z);
-  return upper | see_eight(r, rays, at + glm::uvec2(0, 2), out.x + 8, out.y + 8, out.z + 8) << 8;
+/// Bits of all lanes of `parts`, and of those that lie on no plane.
+struct PartLanes {
+  std::uint32_t all = 0, flat = 0;
+};
+PartLanes lanes_of(const Receiver* receivers, std::span<const ReceiverLanes> parts) {
+  PartLanes lanes;
+  for (const ReceiverLanes& part : parts) {
+    lanes.all |= part.lanes;
+    if (receivers[part.receiver].flat) lanes.flat |= part.lanes;
+  }
+  return lanes;
 }
 
-std::uint32_t see_several(const Receiver* const of[tile_points], const PixelRays& rays, glm::uvec2 at,
-                          TilePoints& out) {
-  std::uint32_t flat = 0;
-  for (int i = 0; i < tile_points; ++i) flat |= of[i]->flat ? 1u << i : 0u;
-  const std::uint32_t upper = see_eight(each(of), rays, at, out.x, out.y, out.z),
-                      lower = see_eight(each(of + 8), rays, at + glm::uvec2(0, 2), out.x + 8, out.y + 8,
-                                        out.z + 8);
-  return (upper | lower << 8) & ~flat;
+std::uint32_t see(const Receiver* receivers, std::span<const ReceiverLanes> parts, const PixelRays& rays,
+                  glm::uvec2 at, TilePoints& out) {
+  const Seen16 seen = see_tile(receivers, parts, rays, at);
+  store(seen.upper.p.x, out.x), store(seen.upper.p.y, out.y), store(seen.upper.p.z, out.z);
+  store(seen.lower.p.x, out.x + 8), store(seen.lower.p.y, out.y + 8), store(seen.lower.p.z, out.z + 8);
+  return seen.inside() & ~lanes_of(receivers, parts).flat;
 }
 
 void take(const glm::dvec3* first, std::size_t width, TilePoints& out) {
@@ -113,28 +134,47 @@ void take(const glm::dvec3* first, std::size_t width, TilePoints& out) {
   }
 }
 
-float fill(const TilePoints& points, const glm::vec3& base, std::uint32_t lanes, PointTile& tile) {
-  const Pack3<Double4> centre = broadcast3<Double4>(static_cast<double>(base.x), static_cast<double>(base.y),
-                                                    static_cast<double>(base.z));
-  const glm::dvec3 other = points.at(std::countr_zero(lanes));
-  Float4 x[4], y[4], z[4];
-  for (int row = 0; row < 4; ++row) {
-    const int first = tile_side * row;
-    Pack3<Double4> p{load<Double4>(points.x + first), load<Double4>(points.y + first),
-                     load<Double4>(points.z + first)};
-    const std::uint32_t there = (lanes >> first) & 15u;
-    if (there != 15u) {
-      const Mask<double, 4> is_there = mask_of_bits<double, 4>(there);
-      p = {select(is_there, p.x, broadcast<Double4>(other.x)),
-           select(is_there, p.y, broadcast<Double4>(other.y)),
-           select(is_there, p.z, broadcast<Double4>(other.z))};
-    }
-    p = p - centre;
-    x[row] = demoted(p.x), y[row] = demoted(p.y), z[row] = demoted(p.z);
+SIMD_INLINE void set_bounds(const Vector16& q, int place, PointSquare& square) {
+  const Float16* const axes[3] = {&q.x, &q.y, &q.z};
+  for (int axis = 0; axis < 3; ++axis) {
+    square.low[axis][place] = reduce_min(*axes[axis]);
+    square.high[axis][place] = reduce_max(*axes[axis]);
   }
-  const Vector16 q{combine(x), combine(y), combine(z)};
+}
+
+/// q of two halves; lanes that are not in `lanes` get that of the first that is. Returns a radius.
+SIMD_INLINE float set_points(const Vector8& upper, const Vector8& lower, const glm::vec3& base,
+                             std::uint32_t lanes, PointTile& tile, int place, PointSquare& square) {
+  const Vector8 centre = broadcast8(glm::dvec3(base)), high = upper - centre, low = lower - centre;
+  Vector16 q{demoted(high.x, low.x), demoted(high.y, low.y), demoted(high.z, low.z)};
   store(q.x, tile.qx), store(q.y, tile.qy), store(q.z, tile.qz);
+  if (lanes != 0xffffu) {
+    const int first = std::countr_zero(lanes);
+    const Mask<float, 16> there = mask_of_bits<float, 16>(lanes);
+    q = {select(there, q.x, broadcast<Float16>(tile.qx[first])),
+         select(there, q.y, broadcast<Float16>(tile.qy[first])),
+         select(there, q.z, broadcast<Float16>(tile.qz[first]))};
+    store(q.x, tile.qx), store(q.y, tile.qy), store(q.z, tile.qz);
+  }
+  set_bounds(q, place, square);
   return radius_of(q);
+}
+
+float fill(const TilePoints& points, const glm::vec3& base, std::uint32_t lanes, PointTile& tile, int place,
+           PointSquare& square) {
+  const auto half = [&](int first) HWY_ATTR {
+    return Vector8{load<Double8>(points.x + first), load<Double8>(points.y + first),
+                   load<Double8>(points.z + first)};
+  };
+  return set_points(half(0), half(8), base, lanes, tile, place, square);
+}
+
+float see_whole(const Receiver* receivers, std::span<const ReceiverLanes> parts, const PixelRays& rays,
+                glm::uvec2 at, const glm::vec3& base, PointTile& tile, int place, PointSquare& square) {
+  const PartLanes lanes = lanes_of(receivers, parts);
+  const Seen16 seen = see_tile(receivers, parts, rays, at);
+  if ((lanes.all & ~(seen.inside() & ~lanes.flat)) != 0) return -1;
+  return set_points(seen.upper.p, seen.lower.p, base, lanes.all, tile, place, square);
 }
 
 std::uint32_t beyond_gap(const PointTile& tile, std::uint32_t lanes) {
@@ -155,42 +195,10 @@ std::uint32_t beyond_gap(const PointTile& tile, std::uint32_t lanes) {
   return 0;
 }
 
-SIMD_INLINE void set_bounds(const Vector16& q, int place, PointSquare& square) {
-  const Float16* const axes[3] = {&q.x, &q.y, &q.z};
-  for (int axis = 0; axis < 3; ++axis) {
-    square.low[axis][place] = reduce_min(*axes[axis]);
-    square.high[axis][place] = reduce_max(*axes[axis]);
-  }
-}
-
-void bound(const PointTile& tile, std::uint32_t lanes, int place, PointSquare& square) {
-  const float* const q[3] = {tile.qx, tile.qy, tile.qz};
-  const Mask<float, 16> there = mask_of_bits<float, 16>(lanes);
-  const int first = std::countr_zero(lanes);
-  const auto all = [&](int axis) HWY_ATTR {
-    return select(there, load<Float16>(q[axis]), broadcast<Float16>(q[axis][first]));
-  };
-  set_bounds({all(0), all(1), all(2)}, place, square);
-}
-
-float see_whole(const Receiver& receiver, const PixelRays& rays, glm::uvec2 at, const glm::vec3& base,
-                PointTile& tile, int place, PointSquare& square) {
-  if (receiver.flat) return -1;
-  const Receivers8 r = alike(receiver);
-  const Seen8 upper = see_eight(r, rays, at), lower = see_eight(r, rays, at + glm::uvec2(0, 2));
-  if ((upper.inside & lower.inside) != 0xffu) return -1;
-  const Vector8 centre = broadcast8(glm::dvec3(base));
-  const Vector8 high = upper.p - centre, low = lower.p - centre;
-  const Vector16 q{demoted(high.x, low.x), demoted(high.y, low.y), demoted(high.z, low.z)};
-  store(q.x, tile.qx), store(q.y, tile.qy), store(q.z, tile.qz);
-  set_bounds(q, place, square);
-  return radius_of(q);
-}
-
 }  // namespace
 
 PointTileKernels point_tile_kernels() {
-  return {see_whole, see_one, see_several, take, fill, beyond_gap, bound};
+  return {part_lanes, see_whole, see, take, fill, beyond_gap};
 }
 
 }  // namespace tenebra::points::HWY_NAMESPACE

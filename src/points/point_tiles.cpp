@@ -1,11 +1,11 @@
 #include "points/point_tiles.h"
 
 #include <algorithm>
-#include <array>
 #include <bit>
 #include <cmath>
 #include <limits>
 #include <memory>
+#include <span>
 
 #include "parallel/parallel.h"
 #include "points/contact_rule.h"
@@ -51,8 +51,16 @@ private:
   /// What the points of a tile lie on.
   struct Seen {
     std::uint32_t lanes = 0;  ///< that have a point on a triangle that faces the eye
-    bool one = false;         ///< all sixteen see the same triangle
-    TileReceivers receiver{};
+    std::size_t count = 0;    ///< of parts
+    ReceiverLanes parts[tile_points];
+    std::uint32_t ids[tile_points];  ///< where there are several parts
+
+    std::span<const ReceiverLanes> receivers() const { return {parts, count}; }
+    void add(std::uint16_t number, std::uint32_t of) {
+      if (number == no_receiver) return;
+      parts[count++] = {number, static_cast<std::uint16_t>(of)};
+      lanes |= of;
+    }
   };
 
   std::uint16_t receiver_of(std::uint32_t id);
@@ -63,6 +71,7 @@ private:
   bool one_receiver(std::uint32_t x, std::uint32_t y) const;
   void find_receivers(std::uint32_t x, std::uint32_t y, Seen& seen);
   void see(const Seen& seen, glm::uvec2 at, TilePoints& points) const;
+  bool lifts(const Seen& seen) const;
   void lift(const Seen& seen, TilePoints& points) const;
   void note_owners(const Seen& seen, int place, PointSquare& square) const;
   void note_ids(const Seen& seen, PointTile& tile) const;
@@ -118,9 +127,8 @@ std::uint16_t PatchMaker::receiver_of(std::uint32_t id) {
   return known.number;
 }
 
-/// Whether all sixteen pixels are in the picture and see the same triangle.
+/// Whether all sixteen pixels, which are in the picture, see the same triangle.
 bool PatchMaker::one_receiver(std::uint32_t x, std::uint32_t y) const {
-  if (x + tile_side > width_ || y + tile_side > height_) return false;
   const std::uint32_t* const ids = ids_at(x, y);
   std::uint32_t different = 0;
   for (std::size_t row = 0; row < tile_side; ++row) {
@@ -131,53 +139,38 @@ bool PatchMaker::one_receiver(std::uint32_t x, std::uint32_t y) const {
 }
 
 void PatchMaker::find_receivers(std::uint32_t x, std::uint32_t y, Seen& seen) {
-  seen.one = one_receiver(x, y);
-  if (seen.one) {
-    const std::uint32_t id = *ids_at(x, y);
-    const std::uint16_t number = receiver_of(id);
-    seen.receiver.fill(number);
-    seen.lanes = number == no_receiver ? 0 : 0xffffu;
-    return;
-  }
-  seen.lanes = 0;
-  for (std::uint32_t row = 0; row < tile_side && y + row < height_; ++row) {
-    for (std::uint32_t column = 0; column < tile_side && x + column < width_; ++column) {
-      const std::uint32_t lane = tile_side * row + column, id = *ids_at(x + column, y + row);
-      seen.receiver[lane] = receiver_of(id);
-      if (seen.receiver[lane] == no_receiver) continue;
-      seen.lanes |= 1u << lane;
-    }
-  }
+  seen.lanes = 0, seen.count = 0;
+  if (x >= width_ || y >= height_) return;
+  const bool whole = x + tile_side <= width_ && y + tile_side <= height_;
+  if (whole && one_receiver(x, y)) return seen.add(receiver_of(*ids_at(x, y)), 0xffffu);
+  if (!whole) std::fill(std::begin(seen.ids), std::end(seen.ids), no_triangle);
+  const std::uint32_t columns = std::min<std::uint32_t>(tile_side, width_ - x),
+                      rows = std::min<std::uint32_t>(tile_side, height_ - y);
+  for (std::uint32_t row = 0; row < rows; ++row)
+    std::copy_n(ids_at(x, y + row), columns, &seen.ids[tile_side * row]);
+  std::uint16_t same[tile_points];
+  const int different = kernels_.part_lanes(seen.ids, same);
+  for (int i = 0; i < different; ++i) seen.add(receiver_of(seen.ids[std::countr_zero(same[i])]), same[i]);
 }
 
 /// Notes what the points of the tile (it has some) lie on.
 void PatchMaker::note_owners(const Seen& seen, int place, PointSquare& square) const {
-  const std::uint16_t first = seen.receiver[std::countr_zero(seen.lanes)];
-  const ReceiverBlock& block = patch_.receivers[first / 16];
-  square.own[place] = block.id[first % 16];
-  square.receiver[place] = first;
-  square.tau = std::max(square.tau, block.tau[first % 16]);
-  for (std::uint32_t left = seen.one ? 0 : seen.lanes; left != 0; left &= left - 1) {
-    const std::uint16_t number = seen.receiver[std::countr_zero(left)];
-    if (number == first) continue;
-    square.own[place] = no_triangle;
-    square.receiver[place] = several_receivers;
-    square.tau = std::max(square.tau, patch_.receivers[number / 16].tau[number % 16]);
-  }
+  const bool one = seen.count == 1;
+  const std::uint16_t first = seen.parts[0].receiver;
+  square.own[place] = one ? patch_.receivers[first / 16].id[first % 16] : no_triangle;
+  square.receiver[place] = one ? first : several_receivers;
+  for (const ReceiverLanes& part : seen.receivers())
+    square.tau = std::max(square.tau, patch_.receivers[part.receiver / 16].tau[part.receiver % 16]);
 }
 
 void PatchMaker::note_ids(const Seen& seen, PointTile& tile) const {
-  std::fill(std::begin(tile.id), std::end(tile.id), no_triangle);
-  for (std::uint32_t left = seen.lanes; left != 0; left &= left - 1) {
-    const auto lane = static_cast<std::size_t>(std::countr_zero(left));
-    const std::uint16_t number = seen.receiver[lane];
-    tile.id[lane] = patch_.receivers[number / 16].id[number % 16];
-  }
+  std::copy(std::begin(seen.ids), std::end(seen.ids), tile.id);
+  for (std::uint32_t left = 0xffffu & ~seen.lanes; left != 0; left &= left - 1)
+    tile.id[std::countr_zero(left)] = no_triangle;
 }
 
 /// The points of the tile's lanes (there are some); the others are undefined.
 void PatchMaker::see(const Seen& seen, glm::uvec2 at, TilePoints& points) const {
-  const auto pixel_of = [&](int lane) { return at + glm::uvec2(lane % tile_side, lane / tile_side); };
   if (!from_view_) {
     const dvec3* const from = &points_.positions[std::size_t{at.y} * width_ + at.x];
     if (at.x + tile_side <= width_ && at.y + tile_side <= height_) return kernels_.take(from, width_, points);
@@ -188,28 +181,30 @@ void PatchMaker::see(const Seen& seen, glm::uvec2 at, TilePoints& points) const 
     }
     return;
   }
-  const int first = std::countr_zero(seen.lanes);
-  const Receiver* of[tile_points];
-  of[0] = &receivers_[seen.receiver[static_cast<std::size_t>(first)]];
-  for (int lane = 0; !seen.one && lane < tile_points; ++lane) {
-    const bool there = ((seen.lanes >> lane) & 1u) != 0;
-    of[lane] = &receivers_[seen.receiver[static_cast<std::size_t>(there ? lane : first)]];
+  const std::uint32_t inside = kernels_.see(receivers_.data(), seen.receivers(), rays_, at, points);
+  for (const ReceiverLanes& part : seen.receivers()) {
+    for (std::uint32_t left = part.lanes & ~inside; left != 0; left &= left - 1) {
+      const int lane = std::countr_zero(left);
+      const glm::uvec2 pixel = at + glm::uvec2(lane % tile_side, lane / tile_side);
+      points.set(lane, rays_.point_on(receivers_[part.receiver], pixel.x, pixel.y));
+    }
   }
-  const std::uint32_t inside =
-      seen.one ? kernels_.see_one(*of[0], rays_, at, points) : kernels_.see_several(of, rays_, at, points);
-  for (std::uint32_t left = seen.lanes & ~inside; left != 0; left &= left - 1) {
-    const int lane = std::countr_zero(left);
-    const glm::uvec2 pixel = pixel_of(lane);
-    points.set(lane, rays_.point_on(*of[seen.one ? 0 : lane], pixel.x, pixel.y));
-  }
-  if (!smooth_.empty()) lift(seen, points);
+  if (lifts(seen)) lift(seen, points);
+}
+
+bool PatchMaker::lifts(const Seen& seen) const {
+  return !smooth_.empty() && std::any_of(seen.parts, seen.parts + seen.count, [&](const ReceiverLanes& part) {
+    return smooth_[part.receiver].lifts;
+  });
 }
 
 void PatchMaker::lift(const Seen& seen, TilePoints& points) const {
-  for (std::uint32_t left = seen.lanes; left != 0; left &= left - 1) {
-    const int lane = std::countr_zero(left);
-    const SmoothSurface& smooth = smooth_[seen.receiver[static_cast<std::size_t>(lane)]];
-    if (smooth.lifts) points.set(lane, lifted(smooth, points.at(lane)));
+  for (const ReceiverLanes& part : seen.receivers()) {
+    const SmoothSurface& smooth = smooth_[part.receiver];
+    for (std::uint32_t left = smooth.lifts ? part.lanes : 0u; left != 0; left &= left - 1) {
+      const int lane = std::countr_zero(left);
+      points.set(lane, lifted(smooth, points.at(lane)));
+    }
   }
 }
 
@@ -226,15 +221,13 @@ void PatchMaker::add_square(std::uint32_t x, std::uint32_t y, std::uint32_t firs
     find_receivers(tile_x, tile_y, seen);
     if (seen.lanes == 0) continue;
     float radius = -1;
-    const bool lifts = seen.one && !smooth_.empty() && smooth_[seen.receiver[0]].lifts;
-    if (from_view_ && seen.one && !lifts && square.filled != 0)
-      radius = kernels_.see_whole(receivers_[seen.receiver[0]], rays_, {tile_x, tile_y}, base, tile, place,
-                                  square);
+    if (from_view_ && square.filled != 0 && !lifts(seen))
+      radius = kernels_.see_whole(receivers_.data(), seen.receivers(), rays_, {tile_x, tile_y}, base, tile,
+                                  place, square);
     if (radius < 0) {
       see(seen, {tile_x, tile_y}, points);
       if (square.filled == 0) base = points.at(std::countr_zero(seen.lanes));
-      radius = kernels_.fill(points, base, seen.lanes, tile);
-      kernels_.bound(tile, seen.lanes, place, square);
+      radius = kernels_.fill(points, base, seen.lanes, tile, place, square);
     }
     square.filled |= 1u << t;
     square.lanes[t] = static_cast<std::uint16_t>(seen.lanes);
@@ -242,7 +235,7 @@ void PatchMaker::add_square(std::uint32_t x, std::uint32_t y, std::uint32_t firs
     note_owners(seen, place, square);
     if (square.receiver[t] != several_receivers) continue;
     note_ids(seen, tile);
-    patch_.mixed.push_back(seen.receiver);
+    patch_.mixed.insert(patch_.mixed.end(), seen.parts, seen.parts + seen.count);
     if (kernels_.beyond_gap(tile, seen.lanes) != 0) square.gaps |= 1u << t;
   }
   if (square.filled == 0) return patch_.squares.pop_back();

@@ -6,7 +6,6 @@
 // triangles may straddle a gap in depth; this is noted.
 #pragma once
 
-#include <array>
 #include <cstddef>
 #include <cstdint>
 #include <glm/glm.hpp>
@@ -36,8 +35,12 @@ struct alignas(64) PointTile {
 };
 static_assert(sizeof(PointTile) == 256);
 
-/// Numbers in PointPatch::receivers, where a lane has a point.
-using TileReceivers = std::array<std::uint16_t, tile_points>;
+/// Lanes of a tile whose points lie on the same triangle.
+struct ReceiverLanes {
+  std::uint16_t receiver, lanes;  ///< number in PointPatch::receivers; bits
+
+  bool operator==(const ReceiverLanes&) const = default;
+};
 
 /// Sixteen tiles, boxes of q of each. What is said of a tile that is not `filled` means nothing.
 struct alignas(64) PointSquare {
@@ -66,7 +69,8 @@ struct alignas(64) ReceiverBlock {
 struct PointPatch {
   std::vector<PointSquare> squares;  ///< that have points
   std::vector<ReceiverBlock> receivers;
-  std::vector<TileReceivers> mixed;  ///< of tiles of several receivers, in the order of squares and tiles
+  std::vector<ReceiverLanes> mixed;  ///< of tiles of several receivers, in the order of squares and tiles;
+                                     ///< those of a tile share its lanes out among them
   std::uint32_t receiver_count = 0;
 };
 

@@ -61,14 +61,17 @@ Expected<void> Renderer::State::layer_packed(const FrameInput& input, const std:
   const auto factors = at_samples.factors();
   const shade::PixelSamples behind_them{samples.grid.width(), samples.grid.height(), samples.ids, factors,
                                         at_samples.openness};
+  bool done = true;
   with_threads(settings.threads, [&] {
-    eye_tint.trace(at_samples.points, layer_at_samples, input.view, triangles, through, passes);
+    done = eye_tint.trace(at_samples.points, layer_at_samples, input.view, triangles, through, passes, stop);
+    if (!done) return;
     const auto drawn =
         layer_colors({subject, lighting, behind_them, samples.places, layer_at_samples, through, passes});
     std::vector<std::uint32_t> entry(samples.grid.pixels());
     for (std::uint32_t i = 0; i < listed.from.size(); ++i) entry[listed.from[i]] = i;
     for (std::size_t i = 0; i < drawn.size(); ++i) shaded[entry[passes.pixels[i]]].color = drawn[i];
   });
+  if (!done) return base::fail("stopped");
   return {};
 }
 

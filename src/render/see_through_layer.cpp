@@ -59,8 +59,9 @@ std::vector<shade::ShadedSample> shaded(const LayerPicture& picture, std::span<c
 
 }  // namespace
 
-void EyeTint::trace(const VisiblePoints& opaque, const LitSamples& layer, const ViewRays& view,
-                    const TriangleView& triangles, const SeeThroughSurfaces& surfaces, TintMask& out) {
+bool EyeTint::trace(const VisiblePoints& opaque, const LitSamples& layer, const ViewRays& view,
+                    const TriangleView& triangles, const SeeThroughSurfaces& surfaces, TintMask& out,
+                    const StopFlag* stop) {
   // To the eye each see-through surface is one, whether it colours light or not.
   all_.assign(surfaces.see_through.begin(), surfaces.see_through.end());
   for (std::uint8_t& through : all_) through = through != 0;
@@ -74,7 +75,7 @@ void EyeTint::trace(const VisiblePoints& opaque, const LitSamples& layer, const 
   eye.directional = view.orthographic;
   eye.position = view.eye;
   eye.to_light = -view.d0;
-  tracer_.trace(opaque, view, triangles, every, eye, lit_, {}, out);
+  if (!tracer_.trace(opaque, view, triangles, every, eye, lit_, {}, out, stop)) return false;
   crossed_.assign(lit_.size(), 0);
   for (const std::uint32_t pixel : out.pixels) crossed_[pixel] = 1;
   for (std::uint32_t pixel = 0; pixel < lit_.size(); ++pixel) {
@@ -84,6 +85,7 @@ void EyeTint::trace(const VisiblePoints& opaque, const LitSamples& layer, const 
     out.pixels.push_back(pixel);
     out.factors.push_back(texture::transmittance_at(*surfaces.scene, place.material, place.uv, place.vertex));
   }
+  return true;
 }
 
 std::vector<glm::vec3> layer_colors(const LayerPicture& picture) {

@@ -14,10 +14,12 @@ namespace tenebra::render {
 /// between, at the pixels of the layer where it is not 1. By TintTracer, as if the eye were a light, so by
 /// exact crossings; in pixels that see nothing opaque, and where the surface of the layer was not crossed (it
 /// was seen by the rasteriser's own rule), the transmittance of the layer alone.
+/// False, with `out` unspecified: `stop` was requested before the end.
 class EyeTint {
 public:
-  void trace(const VisiblePoints& opaque, const LitSamples& layer, const ViewRays& view,
-             const TriangleView& triangles, const SeeThroughSurfaces& surfaces, TintMask& out);
+  bool trace(const VisiblePoints& opaque, const LitSamples& layer, const ViewRays& view,
+             const TriangleView& triangles, const SeeThroughSurfaces& surfaces, TintMask& out,
+             const StopFlag* stop);
 
 private:
   TintTracer tracer_;

@@ -32,12 +32,10 @@ Expected<void> Renderer::State::trace_tint(const FrameInput& input, const DrawnL
   if (settings.samples == SampleSource::depth) config.contact = ContactRule::none;
   bool done = true;
   with_threads(settings.threads, [&] {
-    if (!light.area) {
-      const ShadowLight source = shadow_light(light.light, light.placed);
-      return tint.trace(at, input.view, triangles, surfaces, source, mask, config, out);
-    }
-    done = tint.trace(at, shading_normals, input.view, triangles, surfaces, *light.area, soft_lit, config,
-                      out, stop);
+    done = light.area ? tint.trace(at, shading_normals, input.view, triangles, surfaces, *light.area,
+                                   soft_lit, config, out, stop)
+                      : tint.trace(at, input.view, triangles, surfaces,
+                                   shadow_light(light.light, light.placed), mask, config, out, stop);
   });
   return done ? Expected<void>() : Expected<void>(base::fail("stopped"));
 }
@@ -131,6 +129,7 @@ Expected<void> Renderer::State::draw_see_through(
   });
   if (auto lit = light_samples(input, lights, settings, LightKinds::all, layer, stop); !lit) return lit;
   const SeeThroughSurfaces surfaces = see_through_surfaces(scene, input.geometry, coordinates);
+  bool done = true;
   with_threads(settings.threads, [&] {
     // The points that shadows start from may be those of the depth buffer, lifted ones, or none.
     const bool found =
@@ -145,7 +144,8 @@ Expected<void> Renderer::State::draw_see_through(
       compute_visible_points(ids_behind, seen.width, seen.height, input.view, triangles, behind,
                              PointLayout::rows_and_tiles);
     }
-    eye_tint.trace(there ? points : behind, layer, input.view, triangles, surfaces, passes);
+    done = eye_tint.trace(there ? points : behind, layer, input.view, triangles, surfaces, passes, stop);
+    if (!done) return;
     const auto drawn = layer_colors({subject, lighting, opaque, {}, layer, surfaces, passes});
     const shade::Display display = display_of(settings);
     parallel::parallel_ranges(drawn.size(), 1024, [&](std::size_t first, std::size_t last) {
@@ -156,6 +156,7 @@ Expected<void> Renderer::State::draw_see_through(
       }
     });
   });
+  if (!done) return base::fail("stopped");
   result.timings.layer_ms = watch.lap_ms();
   return {};
 }

@@ -292,10 +292,10 @@ const shadow::TrianglePlanes& LazyPlanes::of(std::uint32_t number, const Crossin
   return room;
 }
 
-void HardTint::trace(const VisiblePoints& points, const points::PointTiles& tiles,
+bool HardTint::trace(const VisiblePoints& points, const points::PointTiles& tiles,
                      const TriangleView& triangles, const Surfaces& surfaces, const TriangleTree& tree,
                      const ShadowLight& light, const ShadowMask& mask, const TintConfig& config,
-                     TintMask& out, TintStats& stats) {
+                     TintMask& out, TintStats& stats, const StopFlag* stop) {
   shadow::RaySource source = shadow::ray_source(light);
   if (const auto face = shadow::distant_face(light, tiles); face && !light.directional)
     source = shadow::distant_source(source, *face);
@@ -312,9 +312,12 @@ void HardTint::trace(const VisiblePoints& points, const points::PointTiles& tile
   std::vector<Worker> workers(tiles.patches.size(), Worker(frame));
   parallel::parallel_in_order(static_cast<int>(workers.size()), [&](int i) {
     Worker& worker = workers[static_cast<std::size_t>(i)];
-    for (const points::PointSquare& square : tiles.patches[static_cast<std::size_t>(i)].squares)
+    for (const points::PointSquare& square : tiles.patches[static_cast<std::size_t>(i)].squares) {
+      if (stop_requested(stop)) return;
       worker.take_square(square);
+    }
   });
+  if (stop_requested(stop)) return false;
   for (const Worker& worker : workers) {
     out.pixels.insert(out.pixels.end(), worker.found.pixels.begin(), worker.found.pixels.end());
     out.factors.insert(out.factors.end(), worker.found.factors.begin(), worker.found.factors.end());
@@ -322,6 +325,7 @@ void HardTint::trace(const VisiblePoints& points, const points::PointTiles& tile
     stats.crossings += worker.stats.crossings;
     stats.exact += worker.stats.exact;
   }
+  return true;
 }
 
 }  // namespace tenebra::tint

@@ -32,9 +32,10 @@ private:
 class HardTint {
 public:
   /// TintTracer::trace for a light without an area. `tiles` are of `points`.
-  void trace(const VisiblePoints& points, const points::PointTiles& tiles, const TriangleView& triangles,
+  bool trace(const VisiblePoints& points, const points::PointTiles& tiles, const TriangleView& triangles,
              const Surfaces& surfaces, const TriangleTree& tree, const ShadowLight& light,
-             const ShadowMask& mask, const TintConfig& config, TintMask& out, TintStats& stats);
+             const ShadowMask& mask, const TintConfig& config, TintMask& out, TintStats& stats,
+             const StopFlag* stop);
 
 private:
   LazyPlanes planes_;

@@ -90,19 +90,20 @@ const TintStats& TintTracer::stats() const {
   return state_->stats;
 }
 
-void TintTracer::trace(const VisiblePoints& seen, const ViewRays& view, const TriangleView& triangles,
+bool TintTracer::trace(const VisiblePoints& seen, const ViewRays& view, const TriangleView& triangles,
                        const SeeThroughSurfaces& surfaces, const ShadowLight& light, const ShadowMask& mask,
-                       const TintConfig& config, TintMask& out) {
+                       const TintConfig& config, TintMask& out, const StopFlag* stop) {
   const parallel::FloatEnvironment ieee;
   State& s = *state_;
   base::Stopwatch watch;
-  if (!s.begin(surfaces, triangles, config, out)) return;
+  if (!s.begin(surfaces, triangles, config, out)) return true;
   const VisiblePoints& points = points::with_positions(seen, triangles, s.positions);
   const bool ready = !points.tiles.empty() && same_eye(points.tiles->view, view);
   if (!ready) points::make_point_tiles(points, view, triangles, s.own_tiles);
-  s.hard.trace(points, ready ? *points.tiles : s.own_tiles, triangles, s.surfaces, s.tree, light, mask,
-               config, out, s.stats);
+  const bool done = s.hard.trace(points, ready ? *points.tiles : s.own_tiles, triangles, s.surfaces, s.tree,
+                                 light, mask, config, out, s.stats, stop);
   s.stats.ms = watch.lap_ms();
+  return done;
 }
 
 bool TintTracer::trace(const VisiblePoints& seen, std::span<const glm::vec3> normals, const ViewRays& view,

@@ -270,5 +270,20 @@ TEST(HardTint, DegenerateAndEdgeOnPanesAreNotCrossed) {
   EXPECT_GT(c.tinted, 50u);
 }
 
+TEST(HardTint, StopsWhenAsked) {
+  const Glass glass = stack_of_panes();
+  const VisiblePoints points = glass.samples(above, 96, 96);
+  const ShadowLight light = point_light({0.2f, 5, 0.1f});
+  const ShadowMask lit(points.triangles.size(), 255);
+  StopFlag stop;
+  TintTracer tracer;
+  TintMask out;
+  EXPECT_TRUE(tracer.trace(points, above, glass.soup.view(), glass.surfaces(), light, lit, {}, out, &stop));
+  EXPECT_GT(tracer.stats().tests, 0u);
+  stop.request();
+  EXPECT_FALSE(tracer.trace(points, above, glass.soup.view(), glass.surfaces(), light, lit, {}, out, &stop));
+  EXPECT_EQ(tracer.stats().tests, 0u);
+}
+
 }  // namespace
 }  // namespace tenebra::testing

@@ -86,7 +86,7 @@ struct PatchRays::Work {
   ForestScratch::Patch& out;
   Keys node_keys, loose_keys;
   const points::PointPatch* patch = nullptr;
-  std::size_t mixed = 0;  ///< tiles of several receivers so far
+  std::size_t mixed = 0;  ///< entries of PointPatch::mixed so far
   const points::PointSquare* square = nullptr;
   std::uint16_t rays[16] = {};
   std::uint32_t present = 0;  ///< bits of tiles with rays
@@ -170,14 +170,14 @@ void PatchRays::find_facing(const points::PointPatch& patch, std::vector<std::ui
 }
 
 /// Of lanes on several triangles those that face the light.
-std::uint32_t PatchRays::facing_lanes(const points::TileReceivers& receivers, std::uint32_t lanes,
-                                      std::uint32_t tile, const std::vector<std::uint8_t>& facing) const {
+std::uint32_t PatchRays::facing_lanes(Work& work, std::uint32_t lanes, std::uint32_t tile) const {
   std::uint32_t faced = 0, beyond = 0;
-  for (std::uint32_t left = lanes; left != 0; left &= left - 1) {
-    const int lane = std::countr_zero(left);
-    const auto faces = static_cast<std::uint32_t>(facing[receivers[static_cast<std::size_t>(lane)]]);
-    faced |= (faces & 1u) << lane;
-    beyond |= (faces >> 1) << lane;
+  while (lanes != 0) {
+    const points::ReceiverLanes& part = work.patch->mixed[work.mixed++];
+    const auto faces = static_cast<Faces>(work.out.facing[part.receiver]);
+    if (faces == Faces::light) faced |= part.lanes;
+    if (faces == Faces::beyond) beyond |= part.lanes;
+    lanes &= ~std::uint32_t{part.lanes};
   }
   return faced | lanes_beyond(beyond, tile);
 }
@@ -241,7 +241,7 @@ void PatchRays::find_lanes(const points::PointSquare& square, Work& work) const 
     const std::uint32_t number = square.first_tile + static_cast<std::uint32_t>(t);
     std::uint32_t lanes = square.lanes[t];
     if (square.receiver[t] == points::several_receivers) {
-      lanes = facing_lanes(work.patch->mixed[work.mixed++], lanes, number, work.out.facing);
+      lanes = facing_lanes(work, lanes, number);
     } else if (const auto faces = static_cast<Faces>(work.out.facing[square.receiver[t]]);
                faces != Faces::light) {
       lanes = faces == Faces::beyond ? lanes_beyond(lanes, number) : 0;

@@ -30,8 +30,7 @@ private:
   void find_facing(const points::PointPatch& patch, std::vector<std::uint8_t>& facing) const;
   void fetch_gaps(const points::PointSquare& square) const;
   void find_lanes(const points::PointSquare& square, Work& work) const;
-  std::uint32_t facing_lanes(const points::TileReceivers& receivers, std::uint32_t lanes, std::uint32_t tile,
-                             const std::vector<std::uint8_t>& facing) const;
+  std::uint32_t facing_lanes(Work& work, std::uint32_t lanes, std::uint32_t tile) const;
   std::uint32_t lanes_beyond(std::uint32_t lanes, std::uint32_t tile) const;
   Reach reach_of(const points::PointSquare& square) const;
   std::uint32_t in_reach_lanes(const points::PointSquare& square, int tile, std::uint32_t lanes) const;

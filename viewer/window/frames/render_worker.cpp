@@ -221,12 +221,7 @@ void RenderWorker::draw(FrameMaker& maker, std::unique_lock<std::mutex>& lock) {
   };
   auto made = within_memory([&] { return maker.make(request, level, time_s, progress, stop_); },
                             [&] { maker.forget(); });
-  if (made && request.record) {
-    if (auto written =
-            base::write_png(request.record->file((*made)->a.record.frame), (*made)->a.result.image);
-        !written)
-      made = tl::unexpected(written.error());
-  }
+  if (auto recorded = record(made, request, over); !recorded) made = tl::unexpected(recorded.error());
   auto messages = maker.take_debug_messages();
 
   lock.lock();
@@ -236,6 +231,17 @@ void RenderWorker::draw(FrameMaker& maker, std::unique_lock<std::mutex>& lock) {
   if (over && !fresh_) request_.reset();
   finish(std::move(made), request, newly_asked, times);
   publish(lock);
+}
+
+/// The file is written beside the next picture; the last one, or one that is not recorded, waits for all
+/// files.
+Expected<void> RenderWorker::record(const Expected<std::shared_ptr<Picture>>& made,
+                                    const FrameRequest& request, bool last) {
+  if (made && request.record) {
+    if (auto added = files_.add(request.record->file((*made)->a.record.frame), *made); !added) return added;
+    if (!last) return {};
+  }
+  return files_.finish();
 }
 
 /// What was drawn is stopped or has failed, and something coarser takes its place.

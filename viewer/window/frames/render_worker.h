@@ -13,6 +13,7 @@
 
 #include "options/raster_options.h"
 #include "window/frames/frame_maker.h"
+#include "window/frames/picture_files.h"
 #include "window/frames/preview_times.h"
 
 namespace tenebra::viewer {
@@ -90,6 +91,8 @@ private:
   void draw(FrameMaker& maker, std::unique_lock<std::mutex>& lock);
   void finish(Expected<std::shared_ptr<Picture>> made, const FrameRequest& drawn, bool newly_asked,
               PreviewTimes& times);
+  Expected<void> record(const Expected<std::shared_ptr<Picture>>& made, const FrameRequest& request,
+                        bool last);
   void give_up(PreviewTimes& times, bool asked_still, double took_ms);
   void publish(std::unique_lock<std::mutex>& lock);
 
@@ -118,6 +121,7 @@ private:
   WorkerResults results_;
 
   PreviewMemory memory_;  // of the worker's thread alone
+  PictureFiles files_;    // likewise
   std::thread thread_;    // last: it uses all of the above
 };
 
