@@ -235,8 +235,10 @@ def _point_arrays(points: Any, on: Any, normals: Any, sides: Any) -> Tuple[Any, 
     if normals is not None:
         normals = _of_each("normals", _rows("normals", normals, np.float32, "(..., 3)"), positions.shape)
     if sides is not None:
-        given = _of_each("sides", _numbers("sides", sides, np.float64), shape)
-        if not np.isin(given, (-1, 0, 1)).all():
+        given = _numbers("sides", sides, np.int8 if np.asarray(sides).dtype == np.int8 else np.float64)
+        _of_each("sides", given, shape)
+        known = np.abs(given) <= 1 if given.dtype == np.int8 else np.isin(given, (-1, 0, 1))
+        if not known.all():
             raise ValueError("sides: found other values than 1, -1 and 0")
         sides = np.ascontiguousarray(given, dtype=np.int8)
     width = shape[1] if len(shape) == 2 else 0
@@ -275,6 +277,8 @@ def _quoted(text: str) -> str:
 def _text(name: str, value: Any) -> str:
     if isinstance(value, (str, os.PathLike)):
         return _quoted(os.fspath(value))
+    if name == "aov":
+        return _quoted(",".join(value))
     if name in ("size", "light_size") and not np.isscalar(value):
         return "x".join(str(side) for side in value)
     if np.isscalar(value):
@@ -289,7 +293,7 @@ def _arguments(options: Dict[str, Any]) -> str:
         option = "--" + name.replace("_", "-")
         if value is None or value is False:
             continue
-        several = isinstance(value, list) and value and all(isinstance(each, (str, os.PathLike)) for each in value)
+        several = name != "aov" and isinstance(value, list) and value and all(isinstance(each, (str, os.PathLike)) for each in value)
         for each in value if several else [value]:
             words.append(option if each is True else f"{option} {_text(name, each)}")
     return " ".join(words)
@@ -332,21 +336,29 @@ class Scene:
         return self._core.warnings
 
     def render(self, frame: int = 0, size: Optional[Tuple[int, int]] = None, *, time: Optional[float] = None,
-               points: bool = False, progress: Progress = None, **options: Any) -> Dict[str, Any]:
+               points: bool = False, linear: bool = False, progress: Progress = None,
+               **options: Any) -> Dict[str, Any]:
         """Draws one frame, or the instant `time` (seconds), as `tenebra render` with a --mask does.
 
         size: width and height in pixels. options: those of `tenebra render` that speak of the camera and the
-        method, with _ for -: shadows="soft", ao="adaptive", soft_error=1, eye=(x, y, z), look_at=..., threads=2.
+        method, with _ for -: shadows="soft", ao="adaptive", soft_error=1, eye=(x, y, z), look_at=..., threads=2,
+        and aov=("depth", "normal", ...), which adds arrays to the dict.
 
         A dict, with h rows of w pixels, row 0 at the top:
-        image: (h, w, 3) uint8, as the program writes it. linear: (h, w, 3) float32, the colours of the pixels'
-        centres before exposure and tone. masks: by the light's number (h, w) uint8, 255 lit to 0.
+        image: (h, w, 3) uint8, as the program writes it. linear: with linear=True, (h, w, 3) float32, the colours of
+        the pixels' centres before exposure and tone. masks: by the light's number (h, w) uint8, 255 lit to 0.
         visible_fraction: the same as (h, w) float32, with soft shadows. triangles: (h, w) uint32, the triangle
         that each pixel sees, or no_triangle. positions: with points=True, (h, w, 3) float64, what it sees of it,
         metres, and normals: (h, w, 3) float32, unit, the surface's as it is shaded; both meaningless on the
         background. view: the camera's eye and rays (eye, d0, dx, dy, orthographic:
         the ray through pixel (x, y) runs along d0 + (x + 0.5) dx + (y + 0.5) dy). timings: milliseconds of each
         stage, the names of the program's log. notes: sentences that a user should see once.
+
+        Words of aov, of the opaque surface at each pixel's centre: depth: (h, w) float32, metres along the view
+        axis, infinite on the background. id: triangles as above, with part and material, (h, w) uint32 (the mesh
+        at its node, the material's number). normal: (h, w, 3) float32, unit, to the eye's side. visibility: by the
+        light's number (h, w) float32, 0 to 1, with any shadows. irradiance: (h, w, 3) float32, of all lights, lux.
+        ao: (h, w) float32, 1 open to 0 closed. albedo: (h, w, 3) float32.
         """
         for name in options:
             if name in _OF_THE_SCENE:
@@ -354,7 +366,7 @@ class Scene:
         if size is not None:
             options["size"] = size
         with self._one_call:
-            return self._core.render(frame, time, _arguments(options), points, progress)
+            return self._core.render(frame, time, _arguments(options), points, linear, progress)
 
     def geometry(self, frame: int = 0, *, time: Optional[float] = None) -> Dict[str, np.ndarray]:
         """The triangles of an instant: positions (v, 3) float32, normals (v, 3) float32 (zero: the face's),

@@ -275,6 +275,30 @@ py::dict timings_dict(const FrameTimings& timings) {
   return out;
 }
 
+/// What was asked for with --aov, under the words of that option.
+void add_aovs(const render::AovChoice& wanted, render::Aovs&& aovs, py::ssize_t height, py::ssize_t width,
+              py::dict& out) {
+  const auto add_picture = [&](const char* name, base::ImageF& from) {
+    if (!from.pixels.empty()) out[name] = image(std::move(from));
+  };
+  const auto add_numbers = [&](const char* name, std::vector<std::uint32_t>& from) {
+    if (!from.empty()) out[name] = given_away(std::move(from), {height, width});
+  };
+  add_picture("depth", aovs.depth);
+  add_numbers("id", aovs.ids);
+  add_numbers("part", aovs.parts);
+  add_numbers("material", aovs.materials);
+  add_picture("normal", aovs.normal);
+  add_picture("irradiance", aovs.irradiance);
+  add_picture("ao", aovs.openness);
+  add_picture("albedo", aovs.albedo);
+  if (!wanted.visibility) return;
+  py::dict visibility;
+  for (render::LightVisibility& of : aovs.visibility)
+    visibility[py::int_(of.light)] = image(std::move(of.fraction));
+  out["visibility"] = visibility;
+}
+
 /// The masks' numbers are the lights' places in the list that light_list gives.
 py::dict picture_dict(LoadedScene::Picture&& picture) {
   render::FrameResult& result = picture.result;
@@ -286,13 +310,14 @@ py::dict picture_dict(LoadedScene::Picture&& picture) {
       fractions[py::int_(mask.light)] = image(std::move(mask.visible_fraction));
   }
   out["image"] = image(std::move(result.image));
-  out["linear"] = image(std::move(result.linear));
+  if (!result.linear.pixels.empty()) out["linear"] = image(std::move(result.linear));
   out["masks"] = masks;
   out["visible_fraction"] = fractions;
   if (!picture.points.positions.empty()) {
     out["positions"] = given_away_vectors(std::move(picture.points.positions), {height, width});
     out["normals"] = given_away_vectors(std::move(picture.normals), {height, width});
   }
+  add_aovs(picture.aovs, std::move(result.aovs), height, width, out);
   out["triangles"] = given_away(std::move(picture.points.triangles), {height, width});
   out["view"] = view_dict(picture.view);
   out["timings"] = timings_dict(result.timings);
@@ -315,10 +340,10 @@ void add_scenes(py::module_& module) {
       }))
       .def("render",
            [](Loaded& scene, int frame, std::optional<double> time_s, const std::string& arguments,
-              bool with_points, const Report& report) {
+              bool with_points, bool linear, const Report& report) {
              std::optional<Loaded::Picture> picture;
              run_beside(report, 0, [&](Work& work) -> Expected<void> {
-               auto drawn = scene.render(frame, time_s, arguments, with_points, work);
+               auto drawn = scene.render(frame, time_s, arguments, {with_points, linear}, work);
                if (!drawn) return tl::unexpected(drawn.error());
                picture = std::move(*drawn);
                return {};

@@ -29,16 +29,19 @@ Expected<std::unique_ptr<LoadedScene>> LoadedScene::load(const std::string& path
 }
 
 Expected<LoadedScene::Wish> LoadedScene::wish_of(const std::string& arguments) {
-  Wish wish{options_, {}};
+  Wish wish{options_, {}, {}};
   const auto command = viewer::lone_command();
   viewer::add_scene_options(*command, wish.scene);
   viewer::add_method_options(*command, wish.method);
+  viewer::add_aov_option(*command, wish.aovs);
   if (auto parsed = viewer::parse_arguments(*command, arguments); !parsed)
     return tl::unexpected(parsed.error());
   viewer::settle_quality(*command, wish.method);
   if (!wish.method.terminator) wish.method.terminator = render::Terminator::flat;  // as with any mask
   if (auto good = viewer::check_scene_options(wish.scene); !good) return tl::unexpected(good.error());
   if (auto good = viewer::check_method_options(wish.method); !good) return tl::unexpected(good.error());
+  if (auto good = viewer::check_aovs(wish.aovs, wish.method.render); !good)
+    return tl::unexpected(good.error());
   return wish;
 }
 
@@ -52,17 +55,17 @@ Expected<render::RenderSettings> LoadedScene::settings_of(Wish& wish) {
       viewer::method_settings(wish.method, wish.scene.size.value_or(plan_.size), plan_.display);
   settings.area_lights.own_size_m = viewer::edited_sizes_m(options_.edits.lights);
   settings.area_lights.own_sun_deg = viewer::edited_suns_deg(options_.edits.lights);
-  settings.linear = true;
+  settings.aovs = wish.aovs;
   return settings;
 }
 
 Expected<LoadedScene::Picture> LoadedScene::render(int frame, std::optional<double> time_s,
-                                                   const std::string& arguments, bool with_points,
-                                                   Work& work) {
+                                                   const std::string& arguments, Wanted wanted, Work& work) {
   auto wish = wish_of(arguments);
   if (!wish) return tl::unexpected(wish.error());
-  const auto settings = settings_of(*wish);
+  auto settings = settings_of(*wish);
   if (!settings) return tl::unexpected(settings.error());
+  settings->linear = wanted.linear;
   if (!time_s) {
     const auto time = time_of(frame);
     if (!time) return tl::unexpected(time.error());
@@ -89,12 +92,13 @@ Expected<LoadedScene::Picture> LoadedScene::render(int frame, std::optional<doub
   picture.result.timings.total_ms = evaluate_ms + watch.lap_ms();
   const auto ids = renderer_->triangle_ids();
   picture.points.triangles.assign(ids.begin(), ids.end());
-  if (with_points) {
+  if (wanted.points) {
     const TriangleView triangles = triangle_view(input.geometry);
     compute_visible_points(ids, size.width, size.height, input.view, triangles, picture.points);
     compute_shading_normals(picture.points, input.geometry.normals, input.view, triangles, picture.normals);
   }
   picture.view = input.view;
+  picture.aovs = settings->aovs;
   return picture;
 }
 

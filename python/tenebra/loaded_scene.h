@@ -9,6 +9,7 @@
 
 #include <tenebra/stop_flag.h>
 #include "options/method_options.h"
+#include "options/picture_options.h"
 #include "options/scene_options.h"
 #include "render/renderer.h"
 #include "shared/scene_choice.h"
@@ -33,10 +34,16 @@ public:
     VisiblePoints points;            ///< ids, and positions if they were wanted
     std::vector<glm::vec3> normals;  ///< likewise
     ViewRays view;
+    render::AovChoice aovs;  ///< what of the result's was asked for
   };
-  /// `arguments`: options of `tenebra render` that speak of camera and method.
+  /// What costs time and is not always asked for.
+  struct Wanted {
+    bool points = false;  ///< Picture::points' positions, and normals
+    bool linear = false;
+  };
+  /// `arguments`: options of `tenebra render` that speak of camera and method, and --aov.
   Expected<Picture> render(int frame, std::optional<double> time_s, const std::string& arguments,
-                           bool with_points, Work& work);
+                           Wanted wanted, Work& work);
 
   Expected<double> time_of(int frame) const;
   FrameGeometry geometry(double time_s) const;
@@ -48,10 +55,11 @@ public:
 
 private:
   LoadedScene() = default;
-  /// Camera and method of `arguments`.
+  /// Camera, method and what is kept, of `arguments`.
   struct Wish {
     viewer::SceneOptions scene;
     viewer::MethodOptions method;
+    render::AovChoice aovs;
   };
   Expected<Wish> wish_of(const std::string& arguments);
   Expected<render::RenderSettings> settings_of(Wish& wish);

@@ -106,7 +106,7 @@ def own_points_have_the_same(scene, frame, picture, tracer):
 
 def test_methods_and_cameras():
     scene = tenebra.Scene.load(ROOT / "scenes" / "court.glb")
-    soft = scene.render(size=(48, 32), shadows="soft", ao="adaptive", ao_error=5, threads=1)
+    soft = scene.render(size=(48, 32), shadows="soft", ao="adaptive", ao_error=5, threads=1, linear=True)
     fraction = soft["visible_fraction"]
     assert fraction and all(((f >= 0) & (f <= 1)).all() and f.shape == (32, 48) for f in fraction.values())
     assert soft["linear"].dtype == np.float32 and soft["timings"]["ao_ms"] > 0

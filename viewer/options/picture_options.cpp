@@ -69,10 +69,7 @@ void add_picture_options(CLI::App& command, PictureOptions& options) {
             "standard "
             "output, to\na pipe; none: no pictures [out/%04d.png]")
       .type_name("FILE.png|FILE.exr|-");
-  add_value(command, "--aov", options.aovs, parse_aovs,
-            "What OpenEXR pictures hold beside the colours: depth, id,\nnormal, visibility, irradiance, ao, "
-            "albedo (docs/exr.md)")
-      .type_name("A,B,...");
+  add_aov_option(command, options.aovs);
   add_value(command, "--exr-type", options.precision, parse_word<exr_type_choices>,
             "Floats of 16 or 32 bits in OpenEXR; depth and ids always\nhave 32 [half]")
       .type_name("half|float");
@@ -82,6 +79,21 @@ void add_picture_options(CLI::App& command, PictureOptions& options) {
   add_value(command, "--pipe-format", options.pipe_format, parse_word<pipe_choices>,
             "What -o - writes: PNG files one after another, or rows of\nred, green and blue bytes [png]")
       .type_name("png|rgb24");
+}
+
+void add_aov_option(CLI::App& command, render::AovChoice& aovs) {
+  add_value(command, "--aov", aovs, parse_aovs,
+            "What OpenEXR pictures hold beside the colours: depth, id,\nnormal, visibility, irradiance, ao, "
+            "albedo (docs/exr.md)")
+      .type_name("A,B,...");
+}
+
+Expected<void> check_aovs(const render::AovChoice& aovs, const render::RenderSettings& settings) {
+  if (aovs.visibility && settings.shadows == render::ShadowMode::none)
+    return base::fail("--aov visibility needs shadows, and --shadows none finds none");
+  if (aovs.openness && settings.ao.mode == AoMode::none)
+    return base::fail("--aov ao needs ambient occlusion; expected --ao adaptive, field or rays with it");
+  return {};
 }
 
 void settle_picture_options(PictureOptions& options) {

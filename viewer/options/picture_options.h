@@ -6,7 +6,7 @@
 
 #include "exr/exr_file.h"
 #include "options/output_pattern.h"
-#include "render/aovs.h"
+#include "render/renderer.h"
 #include "shell/command_line.h"
 
 namespace tenebra::viewer {
@@ -28,6 +28,12 @@ struct PictureOptions {
 
 /// Adds -o and what belongs to it; read into `options`, which must live as long.
 void add_picture_options(CLI::App& command, PictureOptions& options);
+
+/// Of these --aov alone, for those who keep the pictures themselves.
+void add_aov_option(CLI::App& command, render::AovChoice& aovs);
+
+/// Whether `settings` find what `aovs` are of.
+Expected<void> check_aovs(const render::AovChoice& aovs, const render::RenderSettings& settings);
 
 /// Sets what follows from other options. To be called once all are read.
 void settle_picture_options(PictureOptions& options);

@@ -182,11 +182,7 @@ Expected<void> check_pictures(const RenderOptions& options, bool several) {
   const PictureOptions& pictures = options.pictures;
   if (auto checked = check_picture_options(pictures); !checked) return checked;
   if (pictures.to_pipe) return check_pipe(options);
-  const render::RenderSettings& settings = options.method.render;
-  if (pictures.aovs.visibility && settings.shadows == render::ShadowMode::none)
-    return base::fail("--aov visibility needs shadows, and --shadows none finds none");
-  if (pictures.aovs.openness && settings.ao.mode == AoMode::none)
-    return base::fail("--aov ao needs ambient occlusion; expected --ao adaptive, field or rays with it");
+  if (auto checked = check_aovs(pictures.aovs, options.method.render); !checked) return checked;
   return pictures.files ? check_pattern(*pictures.files, "-o", several) : Expected<void>();
 }
 
