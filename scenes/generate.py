@@ -1,11 +1,11 @@
 #!/usr/bin/env python3
-"""Writes the bundled scenes beside itself: city.glb, gallery.glb, court.glb, square.glb. `generate.py NAME...` writes some."""
+"""Writes the bundled scenes beside itself: city.glb, gallery.glb, court.glb, square.glb, room.glb. `generate.py NAME...` writes some."""
 
 import importlib
 import pathlib
 import sys
 
-SCENES = ("city", "gallery", "court", "square")
+SCENES = ("city", "gallery", "court", "square", "room")
 
 
 def scene_bytes(name):

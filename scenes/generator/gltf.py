@@ -159,6 +159,20 @@ class Document:
         return self._append("meshes", {"name": name, "primitives": [
             {"attributes": attributes, "material": material, "mode": 4, "indices": indices}]})
 
+    def lightmapped_mesh(self, name, parts):
+        """`parts`: rectangles, of each material the corners of all, four after each other and counter-clockwise, their
+        places in a lightmap (TEXCOORD_1), and its index. Flat, without pictures."""
+        primitives = []
+        for positions, places, material in parts:
+            assert not self._finishes[material].picture
+            coordinates = self.accessor(places, FLOAT, ARRAY_BUFFER)
+            triangles = [(i, i + a, i + b) for i in range(0, len(positions), 4) for a, b in ((1, 2), (2, 3))]
+            primitives.append({"material": material, "mode": 4, "attributes": {
+                "POSITION": self.accessor(positions, FLOAT, ARRAY_BUFFER, bounds=True),
+                "TEXCOORD_0": coordinates, "TEXCOORD_1": coordinates},  # glTF wants a first set where there is a second
+                "indices": self.accessor([(i,) for t in triangles for i in t], UNSIGNED_SHORT, ELEMENT_ARRAY_BUFFER)})
+        return self._append("meshes", {"name": name, "primitives": primitives})
+
     def skinned_mesh(self, name, positions, joints, weights, material):
         """Unindexed triangles; four joints a vertex with weights in 255ths."""
         attributes = {"POSITION": self.accessor(positions, FLOAT, ARRAY_BUFFER, bounds=True),

@@ -27,6 +27,7 @@ void add_bench_options(CLI::App& command, BenchOptions& options);
 void add_hard_command(CLI::App& program, Run& run);
 void add_soft_command(CLI::App& program, Run& run);
 void add_ao_command(CLI::App& program, Run& run);
+void add_bake_command(CLI::App& program, Run& run);
 void add_trade_command(CLI::App& program, Run& run);
 void add_paper_command(CLI::App& program, Run& run);
 void add_frame_command(CLI::App& program, Run& run);

@@ -140,6 +140,23 @@ TEST(BenchProgram, PictureEndsWithItsFigures) {
     EXPECT_NE(csv.find(row), std::string::npos) << row;
 }
 
+TEST(BenchProgram, BakeEndsWithItsFigures) {
+  const testing::TemporaryFolder folder;
+  expect_refusal({"bake", "--only", "atlantis"}, "--only: found atlantis, expected map");
+  const auto result = bench({"bake", "--tiny", "--csv", (folder / "bake.csv").string()});
+  ASSERT_EQ(result.exit_code, 0) << result.errors;
+  bool found = false;
+  for (const char* name :
+       {"bake.exact_over_rays", "bake.within_over_rays", "bake.exact_over_rays_penumbra", "bake.rays"}) {
+    EXPECT_GT(figure(result.output, name, found), 0) << name;
+    EXPECT_TRUE(found) << name;
+  }
+  EXPECT_LT(figure(result.output, "bake.worst_255", found), 0.1) << "what exact soft shadows promise";
+  const std::string csv = testing::read_text(folder / "bake.csv");
+  for (const char* row : {"\nmap,room,tenebra,exact,time,", "\nmap,room,tenebra,soft_error=0.5,rms,"})
+    EXPECT_NE(csv.find(row), std::string::npos) << row;
+}
+
 TEST(BenchProgram, ViewerEndsWithItsFigures) {
   const testing::TemporaryFolder folder;
   expect_refusal({"viewer", "--only", "atlantis"},
