@@ -9,6 +9,7 @@
 #   asan      runs all tests with the address and undefined-behaviour sanitizers
 #   tsan      runs all tests with the thread sanitizer
 #   report    opens a page of `tenebra log report` in headless Chromium
+#   three     opens baked files in three.js in headless Chromium; takes npm's package three
 #   package   makes the packages, asks lintian, and draws a picture with them in a bare root; needs root as roots does
 #   api       makes the reference of the public headers with doxygen: what is not documented is an error
 #   faults    lets every call of the system and many allocations fail, kills renders, stops each stage
@@ -21,7 +22,7 @@
 # JOBS=N: how many jobs at once [all cores].
 set -uo pipefail
 cd "$(dirname "$0")/.."
-parts=(lto-odr clang tidy roots debug asan tsan report package api faults slurm viewer same-bytes fuzz)
+parts=(lto-odr clang tidy roots debug asan tsan report three package api faults slurm viewer same-bytes fuzz)
 jobs=${JOBS:-$(nproc)}
 
 has() {
@@ -93,6 +94,16 @@ run_report() {
   page=$("$browser" --headless --no-sandbox --dump-dom "file://$folder/report.html" 2> /dev/null)
   rm -r "$folder"
   grep -q 'class="which">frame 2<' <<< "$page" && grep -q 'aria-pressed="true"' <<< "$page"
+}
+
+# The picture that three.js draws of a baked room is held against the rendered one.
+run_three() {
+  local browser
+  browser=$(command -v chromium-headless-shell || command -v chromium) ||
+    { echo "Chromium is missing: install the package chromium-headless-shell" >&2; return 1; }
+  has npm npm && cmake --preset release > /dev/null && cmake --build --preset release -j "$jobs" --target tenebra &&
+    npm install --silent --no-save --prefix build/three three@0.170 > /dev/null &&
+    python3 tests/three_test.py build/bin/tenebra scenes/room.glb build/three/node_modules/three "$browser"
 }
 
 # No compiler is there, and no checkout: what the packages bring must be enough.
