@@ -12,6 +12,7 @@
 #   three     opens baked files in three.js in headless Chromium; takes npm's package three
 #   package   makes the packages, asks lintian, and draws a picture with them in a bare root; needs root as roots does
 #   api       makes the reference of the public headers with doxygen: what is not documented is an error
+#   site      makes the documentation site in build/site and checks its links: a warning is an error
 #   faults    lets every call of the system and many allocations fail, kills renders, stops each stage
 #   slurm     renders on three Slurm nodes, one of which dies while another is cut off; needs root and Slurm
 #   viewer    gives the window random input for VIEWER_FRAMES [500] frames, with the address and undefined-behaviour sanitizers
@@ -22,7 +23,7 @@
 # JOBS=N: how many jobs at once [all cores].
 set -uo pipefail
 cd "$(dirname "$0")/.."
-parts=(lto-odr clang tidy roots debug asan tsan report three package api faults slurm viewer same-bytes fuzz)
+parts=(lto-odr clang tidy roots debug asan tsan report three package api site faults slurm viewer same-bytes fuzz)
 jobs=${JOBS:-$(nproc)}
 
 has() {
@@ -123,6 +124,13 @@ run_package() {
 
 run_api() {
   has doxygen doxygen && mkdir -p build/api && TENEBRA_API_DIR=build/api doxygen docs/Doxyfile
+}
+
+# AnchorCheck: headings too. What lies on other hosts is not asked.
+run_site() {
+  has mkdocs mkdocs && has linkchecker linkchecker && tools/site.py build/site &&
+    echo '[AnchorCheck]' > build/site/linkchecker.ini &&
+    linkchecker -f build/site/linkchecker.ini --no-status --ignore-url='^https?://' build/site/site/index.html
 }
 
 run_faults() {
