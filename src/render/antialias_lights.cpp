@@ -17,13 +17,11 @@ bool has_areas(const std::vector<DrawnLight>& lights) {
                      [](const DrawnLight& light) { return light.area.has_value(); });
 }
 
-/// Whether hard shadows of pixels' centres may stand for those of samples: not where colours of light change,
-/// nor with so many samples that the shadows that this misses are more than the edges that are left, nor
-/// where masks of samples are asked for.
-bool shares_masks(const FrameInput& input, const RenderSettings& settings) {
+/// Whether hard shadows of pixels' centres may stand for those of samples: not with so many samples that the
+/// shadows that this misses are more than the edges that are left, nor where masks of samples are asked for.
+bool shares_masks(const RenderSettings& settings) {
   return settings.antialias <= 4 && !settings.antialias_everywhere && !settings.mask_means &&
-         !settings.sample_masks && input.geometry.see_through.empty() &&
-         settings.samples == SampleSource::ids;
+         !settings.sample_masks && settings.samples == SampleSource::ids;
 }
 
 }  // namespace
@@ -119,17 +117,21 @@ Expected<void> Renderer::State::light_softly(const FrameInput& input, const std:
 
 CentreMasks Renderer::State::centre_masks(const std::vector<DrawnLight>& lights,
                                           const FrameResult& result) const {
-  CentreMasks centres{seen.width, seen.height, seen.ids, {}};
+  CentreMasks centres{seen.width, seen.height, seen.ids, {}, {}};
   for (std::size_t i = 0; i < lights.size() && i < result.masks.size(); ++i)
     if (!lights[i].area) centres.masks.emplace_back(result.masks[i].mask.pixels);
+  if (!seen.has_layer) return centres;
+  centres.glass.resize(seen.layer.size());
+  for (std::size_t i = 0; i < seen.layer.size(); ++i) centres.glass[i] = seen.layer[i] != no_triangle;
+  for (std::size_t i = 0; i < result.masks.size(); ++i)
+    for (const std::uint32_t pixel : result.masks[i].tint.pixels) centres.glass[pixel] = 1;
   return centres;
 }
 
 /// Whether edges can do without samples in a picture of their own: nothing asks for the samples' masks, and
 /// all lights have hard shadows, or none.
-bool Renderer::State::may_settle(const FrameInput& input, const std::vector<DrawnLight>& lights,
-                                 const RenderSettings& settings) {
-  return !has_areas(lights) && settings.ao.mode == AoMode::none && shares_masks(input, settings);
+bool Renderer::State::may_settle(const std::vector<DrawnLight>& lights, const RenderSettings& settings) {
+  return !has_areas(lights) && settings.ao.mode == AoMode::none && shares_masks(settings);
 }
 
 /// The hard shadows of samples: of centres nearby where these agree, else their own.
@@ -181,7 +183,7 @@ Expected<void> Renderer::State::light_packed(const FrameInput& input, const std:
                                              const StopFlag* stop) {
   const bool shadows = settings.shadows != ShadowMode::none && !lights.empty();
   const bool soft_too = has_areas(lights) || settings.ao.mode != AoMode::none;
-  const bool sparsely = shadows && shares_masks(input, settings);
+  const bool sparsely = shadows && input.geometry.see_through.empty() && shares_masks(settings);
   if ((shadows && !sparsely) || soft_too || !samples.layer.empty()) {
     with_threads(settings.threads, [&] {
       points::compute_sample_points(samples.ids, samples.places, samples.count, input.view,

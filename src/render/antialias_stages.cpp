@@ -14,8 +14,14 @@ namespace tenebra::render {
 namespace {
 
 constexpr std::size_t places_at_once = 16;                  // whose ids are kept
-constexpr std::size_t weak_places = 3;                      // of pixels of a weak contrast
+constexpr int squares_a_side = 2;                           // of pixels with a contrast
 constexpr std::size_t most_samples = std::size_t{1} << 20;  // lit and shaded at once
+
+/// Samples that were shaded, or lit, for the chosen pixels.
+std::uint64_t sample_count(const ChosenPixels& chosen, std::size_t places) {
+  return chosen.edges.size() * places + chosen.contrasts.size() * squares_a_side * squares_a_side;
+}
+
 }  // namespace
 
 Expected<void> Renderer::State::find_sample_ids(const FrameInput& input, const RenderSettings& settings,
@@ -27,17 +33,15 @@ Expected<void> Renderer::State::find_sample_ids(const FrameInput& input, const R
   return raster.draw_places(input.geometry, input.view, offsets, wish, further, stop);
 }
 
-/// Colours of a list; with `from` numbers of what `lit` has. Textures are smoothed as for `of_samples` of a
-/// pixel.
+/// Colours of a list; with `from` numbers of what `lit` has.
 void Renderer::State::shade_list(const RenderSettings& settings, const shade::Subject& subject,
-                                 const shade::Lighting& lighting, const SampleLights& lit, int of_samples) {
+                                 const shade::Lighting& lighting, const SampleLights& lit, float texture_px) {
   with_threads(settings.threads, [&] {
     const GatheredFactors gathered(lit.lights, listed.from);
     const auto factors = gathered.factors();
     std::vector<float> open(lit.openness.empty() ? 0 : listed.from.size());
     for (std::size_t i = 0; i < open.size(); ++i) open[i] = lit.openness[listed.from[i]];
-    shade::shade_samples(subject, lighting,
-                         {listed.ids, listed.places, factors, open, texture_width_px(of_samples)}, shaded);
+    shade::shade_samples(subject, lighting, {listed.ids, listed.places, factors, open, texture_px}, shaded);
   });
 }
 
@@ -87,16 +91,15 @@ Expected<void> Renderer::State::add_edges(const FrameInput& input, const std::ve
   if (auto lit = light_packed(input, lights, settings, result, stop); !lit) return lit;
   const auto factors = at_samples.factors();
   const SampleLights lit{factors, at_samples.openness};
-  const bool merged = !settings.antialias_everywhere && input.geometry.see_through.empty();
   with_threads(settings.threads, [&] {
-    if (merged) {
-      list_groups(chosen, samples, lit, seen.ids, {frame.pixels.factors, frame.pixels.openness},
+    if (!settings.antialias_everywhere) {
+      list_groups(chosen, samples, lit, {seen.ids, seen.layer, {frame.pixels.factors, frame.pixels.openness}},
                   SurfaceMatch(input.geometry, input.view), listed);
     } else {
       list_samples(chosen, samples, listed);
     }
   });
-  shade_list(settings, frame.subject, frame.lighting, lit, settings.antialias);
+  shade_list(settings, frame.subject, frame.lighting, lit, texture_width_px(settings.antialias));
   if (auto drawn = layer_packed(input, lights, settings, frame.subject, frame.lighting, stop); !drawn)
     return drawn;
   with_threads(settings.threads, [&] {
@@ -106,15 +109,17 @@ Expected<void> Renderer::State::add_edges(const FrameInput& input, const std::ve
   return {};
 }
 
-/// What changes quickly in what is drawn: some further samples in the light of their pixels' centres.
+/// What changes quickly in what is drawn: some places in the light of their pixels' centres.
 void Renderer::State::add_contrasts(const RenderSettings& settings, const SampleFrame& frame,
                                     std::span<const std::uint32_t> chosen, std::size_t first,
-                                    std::span<const glm::vec2> offsets, SampleMeans& means) {
-  const auto share = static_cast<float>((frame.offsets.size() + 1) / (offsets.size() + 1));
+                                    SampleMeans& means) {
+  const std::vector<glm::vec2> places = square_places(squares_a_side);
+  const StandIns stand_ins{frame.offsets, places,
+                           sample_pattern(settings.antialias).centre_counts ? 1.0f : 0.0f};
   with_threads(settings.threads,
-               [&] { list_as_centres(chosen, seen.width, offsets, further, share, listed); });
+               [&] { list_as_centres(chosen, seen.width, stand_ins, seen.ids, further, listed); });
   shade_list(settings, frame.subject, frame.lighting, {frame.pixels.factors, frame.pixels.openness},
-             static_cast<int>(offsets.size()) + 1);
+             texture_width_px(squares_a_side * squares_a_side));
   with_threads(settings.threads, [&] { means.add_colors(first, listed, shaded); });
 }
 
@@ -138,7 +143,7 @@ void Renderer::State::settle(const FrameInput& input, const std::vector<DrawnLig
                              const RenderSettings& settings, const SampleFrame& frame,
                              const FrameResult& result, ChosenPixels& chosen) {
   settled.pixels.clear();
-  if (!may_settle(input, lights, settings)) return;
+  if (!may_settle(lights, settings)) return;
   const CentreMasks centres = centre_masks(lights, result);
   with_threads(settings.threads, [&] {
     settle_edges(chosen.edges, centres, frame.offsets, further, SurfaceMatch(input.geometry, input.view),
@@ -153,7 +158,7 @@ void Renderer::State::add_settled(const RenderSettings& settings, const SampleFr
   if (settled.pixels.empty()) return;
   std::swap(listed, settled.listed);
   shade_list(settings, frame.subject, frame.lighting, {frame.pixels.factors, frame.pixels.openness},
-             settings.antialias);
+             texture_width_px(settings.antialias));
   with_threads(settings.threads, [&] { means.add_colors(first, listed, shaded); });
 }
 
@@ -175,24 +180,11 @@ Expected<void> Renderer::State::add_samples(const FrameInput& input, const std::
       return added;
   }
   add_settled(settings, frame, traced, means);
-  const auto offsets = frame.offsets.subspan(place, further.places());
-  std::size_t first = chosen.edges.size();
-  for (const bool weak : {false, true}) {
-    const auto& contrasts = weak ? chosen.weak_contrasts : chosen.contrasts;
-    for (std::size_t i = 0; i < contrasts.size(); i += at_once) {
-      if (stop_requested(stop)) return base::fail("stopped");
-      add_contrasts(settings, frame, part(contrasts, i), first + i,
-                    weak ? offsets.first(weak_places) : offsets, means);
-    }
-    first += contrasts.size();
+  for (std::size_t i = 0; i < chosen.contrasts.size(); i += at_once) {
+    if (stop_requested(stop)) return base::fail("stopped");
+    add_contrasts(settings, frame, part(chosen.contrasts, i), chosen.edges.size() + i, means);
   }
   return {};
-}
-
-/// Samples that were shaded, or lit, for the chosen pixels.
-std::uint64_t Renderer::State::sample_count(const ChosenPixels& chosen, std::size_t places) const {
-  const std::size_t whole = chosen.edges.size() + chosen.contrasts.size();
-  return whole * places + chosen.weak_contrasts.size() * weak_places;
 }
 
 Expected<void> Renderer::State::antialias(const FrameInput& input, const std::vector<DrawnLight>& lights,

@@ -176,16 +176,13 @@ struct Renderer::State {
                              const ChosenPixels& chosen, std::size_t place, const FrameResult& result,
                              SampleMeans& means, const StopFlag* stop);
   void add_contrasts(const RenderSettings& settings, const SampleFrame& frame,
-                     std::span<const std::uint32_t> chosen, std::size_t first,
-                     std::span<const glm::vec2> offsets, SampleMeans& means);
+                     std::span<const std::uint32_t> chosen, std::size_t first, SampleMeans& means);
   void settle(const FrameInput& input, const std::vector<DrawnLight>& lights, const RenderSettings& settings,
               const SampleFrame& frame, const FrameResult& result, ChosenPixels& chosen);
   void add_settled(const RenderSettings& settings, const SampleFrame& frame, std::size_t first,
                    SampleMeans& means);
-  std::uint64_t sample_count(const ChosenPixels& chosen, std::size_t places) const;
   CentreMasks centre_masks(const std::vector<DrawnLight>& lights, const FrameResult& result) const;
-  static bool may_settle(const FrameInput& input, const std::vector<DrawnLight>& lights,
-                         const RenderSettings& settings);
+  static bool may_settle(const std::vector<DrawnLight>& lights, const RenderSettings& settings);
   Expected<void> add_edges(const FrameInput& input, const std::vector<DrawnLight>& lights,
                            const RenderSettings& settings, const SampleFrame& frame,
                            std::span<const std::uint32_t> chosen, std::size_t first, std::size_t place,
@@ -201,7 +198,7 @@ struct Renderer::State {
                                 const StopFlag* stop);
   void borrow_soft(const FrameInput& input);
   void shade_list(const RenderSettings& settings, const shade::Subject& subject,
-                  const shade::Lighting& lighting, const SampleLights& lit, int of_samples);
+                  const shade::Lighting& lighting, const SampleLights& lit, float texture_px);
   Expected<void> layer_packed(const FrameInput& input, const std::vector<DrawnLight>& lights,
                               const RenderSettings& settings, const shade::Subject& subject,
                               const shade::Lighting& lighting, const StopFlag* stop);

@@ -197,8 +197,8 @@ TEST(Antialias, WithoutShadowsEdgesAreAsSmooth) {
     EXPECT_NEAR(some.image.pixels[i], all.image.pixels[i], 1) << i;
 }
 
-// A lamp close to the floor: neighbours differ by some levels, and no edge is near most of them.
-TEST(Antialias, FewerSamplesDoForWeakContrasts) {
+// A lamp close to the floor: neighbours differ by some levels, but nearly all as much as the next ones.
+TEST(Antialias, RampsOfLightNeedFewSamples) {
   Scene scene = white_floor(false);
   scene.transfer = Transfer::display;
   add_light(scene, {.name = "lamp", .type = LightType::point, .intensity = 1.8f}, {0.2, 0.8, 0.1},
@@ -206,8 +206,8 @@ TEST(Antialias, FewerSamplesDoForWeakContrasts) {
   for (const int samples : {8, 16}) {
     const FrameResult some = draw_with(scene, settings_of(samples)),
                       all = draw_with(scene, settings_of(samples, true));
-    EXPECT_LT(some.antialias.samples, some.antialias.pixels * static_cast<std::uint64_t>(samples) / 2);
-    EXPECT_GT(some.antialias.pixels, 100u);
+    EXPECT_LT(some.antialias.pixels, 100u);
+    EXPECT_GT(some.antialias.pixels, 5u);
     for (std::size_t i = 0; i < all.image.pixels.size(); ++i)
       EXPECT_NEAR(some.image.pixels[i], all.image.pixels[i], 4) << samples << ' ' << i;
   }

@@ -34,7 +34,7 @@ protected:
     seen.set_place(0, std::vector<std::uint32_t>(ids_.size(), 0), {});
     seen.set_place(1, std::vector<std::uint32_t>(ids_.size(), second), {});
     pack_samples(chosen, halves_width, offsets, seen, ids_, samples_);
-    render::CentreMasks centres{halves_width, halves_height, ids_, {}};
+    render::CentreMasks centres{halves_width, halves_height, ids_, {}, glass_};
     centres.masks.emplace_back(mask_);
     const ViewRays view = forward_view({0, 0, 0}, 8.0f, halves_width, halves_height);
     share_masks(centres, samples_, render::SurfaceMatch(geometry_, view), shared_);
@@ -46,6 +46,7 @@ protected:
   FrameGeometry geometry_;
   std::vector<std::uint32_t> ids_;
   std::vector<std::uint8_t> mask_ = std::vector<std::uint8_t>(halves_width * halves_height, 255);
+  std::vector<std::uint8_t> glass_;
   SamplePicture samples_;
   MaskSharing shared_;
 };
@@ -80,6 +81,15 @@ TEST_F(Sharing, SurfacesThatFewCentresSeeNeedTheirOwn) {
   ids_[pixel(2, 2)] = 1;
   share({static_cast<std::uint32_t>(pixel(1, 1))});
   EXPECT_EQ(from(0, 1), MaskAgreement::none) << "one does";
+}
+
+TEST_F(Sharing, GlassNearbyNeedsMasksOfTheirOwn) {
+  glass_.assign(ids_.size(), 0);
+  glass_[pixel(2, 0)] = 1;  // before the wall behind
+  share({static_cast<std::uint32_t>(pixel(3, 1)), static_cast<std::uint32_t>(pixel(3, 2))});
+  EXPECT_EQ(from(0, 0), MaskAgreement::none) << "diagonally next to it";
+  EXPECT_LT(from(0, 1), MaskAgreement::unlit) << "none is before the wall in front";
+  EXPECT_LT(from(1, 0), MaskAgreement::unlit) << "two pixels away";
 }
 
 TEST_F(Sharing, BackgroundIsUnlit) {

@@ -46,6 +46,7 @@ std::uint32_t MaskAgreement::find(std::uint32_t id, std::uint32_t pixel, glm::ve
         same[known++] = match_.same(id, other, place);
       }
       if (!same[i]) continue;
+      if (centres_.has_glass(next)) return none;
       ++seeing;
       if (first == none) {
         first = next;

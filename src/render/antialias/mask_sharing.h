@@ -17,11 +17,15 @@ struct CentreMasks {
   int height = 0;
   std::span<const std::uint32_t> ids;
   std::vector<std::span<const std::uint8_t>> masks;
+  std::vector<std::uint8_t>
+      glass;  ///< 1: something see-through is before it, or colours a light; empty: none
+
+  bool has_glass(std::size_t pixel) const { return !glass.empty() && glass[pixel] != 0; }
 };
 
 /// As with whole pixels, a surface within a pixel needs no further sample where no shadow's edge is near: the
 /// samples of a surface have the masks of the centres of their own and the eight pixels around that see the
-/// same surface, if these are two or more and have the same masks.
+/// same surface, if these are two or more, have the same masks, and no glass changes what they show.
 class MaskAgreement {
 public:
   static constexpr std::uint32_t none = 0xffffffffu, unlit = 0xfffffffeu;

@@ -62,6 +62,15 @@ float texture_width_px(int samples) {
   return 1.0f / std::sqrt(static_cast<float>(samples));
 }
 
+std::vector<glm::vec2> square_places(int side) {
+  const auto count = static_cast<float>(side);
+  std::vector<glm::vec2> offsets;
+  for (int y = 0; y < side; ++y)
+    for (int x = 0; x < side; ++x)
+      offsets.push_back((glm::vec2(static_cast<float>(x), static_cast<float>(y)) + 0.5f) / count - 0.5f);
+  return offsets;
+}
+
 ViewRays shifted_view(const ViewRays& view, glm::vec2 offset) {
   ViewRays shifted = view;
   glm::vec3& moved = view.orthographic ? shifted.eye : shifted.d0;

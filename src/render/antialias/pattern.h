@@ -31,6 +31,11 @@ SamplePattern sample_pattern(int samples);
 /// a pixel stand for is the pixel.
 float texture_width_px(int samples);
 
+/// Places of a pixel for what is drawn on one surface: the middles of side x side squares that fill it. What
+/// a texture repeats from square to square would look the same at all of them, but is not seen: smoothed over
+/// a square, it is read between texels of that size, by a tent whose spectrum is zero there.
+std::vector<glm::vec2> square_places(int side);
+
 /// The view whose pixels' centres are places at `offset` from those of `view`. Its rays are rounded to float
 /// once more: beside the place by about a ten-thousandth of a pixel of a picture a thousand pixels wide.
 ViewRays shifted_view(const ViewRays& view, glm::vec2 offset);

@@ -1,6 +1,7 @@
 #include "render/antialias/pixel_choice.h"
 
 #include <algorithm>
+#include <cstdlib>
 
 #include <tenebra/visible_points.h>
 #include "parallel/parallel.h"
@@ -9,7 +10,7 @@ namespace tenebra::render {
 namespace {
 
 constexpr std::size_t square_side = 16, block_side = 4;
-constexpr std::uint8_t is_edge = 4, has_contrast = 2, has_weak_contrast = 1;
+constexpr std::uint8_t is_edge = 4, tint_changes = 2, has_contrast = 1;
 constexpr std::size_t pixels_at_once = 256;  // compared
 
 class Chooser {
@@ -32,7 +33,7 @@ public:
       for (std::size_t y = first; y < last; ++y) {
         by_geometry(y, match);
         by_contrast(y, match);
-        if (!centre_.layer.empty()) by_layer(y);
+        by_glass(y);
       }
     });
     return std::move(chosen_);
@@ -77,12 +78,17 @@ private:
     return false;
   }
 
-  /// Where something lets light through, light may change its colour.
-  void by_layer(std::size_t y) {
-    for (std::size_t i = y * width_; i < (y + 1) * width_; ++i)
-      if (chosen_[i] >= has_contrast || (chosen_[i] != 0 && centre_.layer[i] != no_triangle))
-        chosen_[i] = is_edge;
+  /// What has a contrast behind glass, or where light changes its colour, has it in the light of its own
+  /// samples.
+  void by_glass(std::size_t y) {
+    for (std::size_t i = y * width_; i < (y + 1) * width_; ++i) {
+      if (chosen_[i] >= is_edge) continue;
+      const bool contrast = (chosen_[i] & has_contrast) != 0;
+      const bool glass = (chosen_[i] & tint_changes) != 0 || has_layer(i);
+      chosen_[i] = !contrast ? 0 : glass ? is_edge : has_contrast;
+    }
   }
+  bool has_layer(std::size_t i) const { return !centre_.layer.empty() && centre_.layer[i] != no_triangle; }
 
   void by_contrast(std::size_t y, SurfaceMatch& match) {
     std::vector<std::uint8_t> differs(width_);
@@ -102,8 +108,22 @@ private:
 
   /// Pixel i, which differs so from pixel j.
   void mark(std::uint8_t differs, std::size_t i, std::size_t j, SurfaceMatch& match) {
-    if ((differs & ~chosen_[i]) != 0 && chosen_[i] < is_edge && one_surface(i, j, match))
-      chosen_[i] |= differs;
+    if ((differs & ~chosen_[i]) == 0 || chosen_[i] >= is_edge || !one_surface(i, j, match)) return;
+    if (differs == has_contrast && is_ramp(i, j, match)) return;
+    chosen_[i] |= differs;
+  }
+
+  /// Whether what is drawn goes on from pixel j over i to the next as it began, on one surface: a straight
+  /// ramp has the value of its middle for its mean.
+  bool is_ramp(std::size_t i, std::size_t j, SurfaceMatch& match) const {
+    const std::size_t next = 2 * i - j;  // wraps below 0
+    const bool across = i / width_ == j / width_;
+    if (next >= chosen_.size() || (across && next / width_ != i / width_)) return false;
+    const std::uint8_t* const shown = centre_.picture.pixels.data();
+    for (std::size_t c = 0; c < 3; ++c)
+      if (std::abs(int{shown[3 * j + c]} - 2 * int{shown[3 * i + c]} + int{shown[3 * next + c]}) > contrast_)
+        return false;
+    return one_surface(i, next, match);
   }
 
   /// How pixels from `i` on differ from those from `j` on.
@@ -116,8 +136,7 @@ private:
       for (std::size_t k = 0; k < 3 * most; ++k) {
         const int gap = int{a[3 * first + k]} - int{b[3 * first + k]};
         const int size = gap < 0 ? -gap : gap;
-        unlike[k] = static_cast<std::uint8_t>((size > strong_contrast ? has_contrast : 0) |
-                                              (size > contrast_ ? has_weak_contrast : 0));
+        unlike[k] = size > contrast_ ? has_contrast : 0;
       }
       for (std::size_t k = 0; k < most; ++k)
         differs[first + k] = static_cast<std::uint8_t>(unlike[3 * k] | unlike[3 * k + 1] | unlike[3 * k + 2]);
@@ -130,7 +149,8 @@ private:
     for (const auto tint : centre_.tints) {
       for (std::size_t x = 0; x < count; ++x) {
         const glm::vec3 gap = glm::abs(tint[i + x] - tint[j + x]);
-        if (std::max({gap.r, gap.g, gap.b}) > 0.125f) differs[x] |= is_edge;
+        const float size = std::max({gap.r, gap.g, gap.b});
+        if (size > 0) differs[x] |= size > 0.125f ? is_edge : tint_changes;
       }
     }
   }
@@ -160,10 +180,7 @@ void list_squares(const std::vector<std::uint8_t>& chosen, std::size_t width, st
           for (std::size_t x = block_x; x < std::min(block_x + block_side, right); ++x) {
             const std::size_t i = y * width + x;
             if (chosen[i] == 0) continue;
-            (chosen[i] >= is_edge        ? out.edges
-             : chosen[i] >= has_contrast ? out.contrasts
-                                         : out.weak_contrasts)
-                .push_back(static_cast<std::uint32_t>(i));
+            (chosen[i] >= is_edge ? out.edges : out.contrasts).push_back(static_cast<std::uint32_t>(i));
           }
         }
       }
@@ -188,8 +205,6 @@ ChosenPixels choose_pixels(const CentrePicture& centre, std::span<const glm::vec
   for (const ChosenPixels& part : parts) {
     out.edges.insert(out.edges.end(), part.edges.begin(), part.edges.end());
     out.contrasts.insert(out.contrasts.end(), part.contrasts.begin(), part.contrasts.end());
-    out.weak_contrasts.insert(out.weak_contrasts.end(), part.weak_contrasts.begin(),
-                              part.weak_contrasts.end());
   }
   return out;
 }

@@ -32,22 +32,19 @@ struct ChosenPixels {
   /// reaches into a pixel comes between its centre and one of those four, so what is missed is what is
   /// thinner or rounder than a pixel.
   std::vector<std::uint32_t> edges;
-  /// Others that differ from one of those four on one surface by more than strong_contrast in what is drawn:
-  /// textures, penumbrae, highlights. What lights them is as at their centre. None in frames with see-through
-  /// surfaces: there they are edges.
+  /// Others that differ from one of those four on one surface by more than least_contrast(samples) in what is
+  /// drawn: textures, penumbrae, highlights; and from what a straight ramp from there would go on to, which
+  /// has the value of its middle for its mean. What lights them is as at their centre. Where something
+  /// see-through is before them, or changes the colour of a light, they are edges.
   std::vector<std::uint32_t> contrasts;
-  /// Others that so differ by more than least_contrast(samples), with nothing see-through before them. Four
-  /// samples do for them.
-  std::vector<std::uint32_t> weak_contrasts;
 
-  std::size_t count() const { return edges.size() + contrasts.size() + weak_contrasts.size(); }
+  std::size_t count() const { return edges.size() + contrasts.size(); }
 };
 
 /// Levels of 255 by which a channel of two neighbours on one surface may differ. What a sample more or less
-/// may change goes down with their number; up to four samples are off by more than that themselves.
-constexpr int strong_contrast = 64;
+/// may change goes down with their number; up to four samples are off by a quarter of all levels themselves.
 constexpr int least_contrast(std::size_t samples) {
-  return samples <= 4 ? strong_contrast : 255 / (2 * static_cast<int>(samples));
+  return samples <= 4 ? 64 : 255 / (2 * static_cast<int>(samples));
 }
 
 /// `everywhere`: all pixels are edges.

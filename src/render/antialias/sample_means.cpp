@@ -42,7 +42,7 @@ SampleMeans::SampleMeans(const RenderSettings& settings, const SamplePattern& pa
 
 void SampleMeans::begin(const ChosenPixels& chosen) {
   chosen_.clear();
-  for (const auto* list : {&chosen.edges, &chosen.contrasts, &chosen.weak_contrasts})
+  for (const auto* list : {&chosen.edges, &chosen.contrasts})
     chosen_.insert(chosen_.end(), list->begin(), list->end());
   edges_ = chosen.edges.size();
   colors_.assign(chosen_.size(), glm::vec3(0.0f));
@@ -66,21 +66,25 @@ void SampleMeans::add_colors(std::size_t first, const ShadingList& list,
                              std::span<const shade::ShadedSample> shaded) {
   parallel::parallel_ranges(list.centres.size(), at_once, [&](std::size_t begin, std::size_t end) {
     for (std::size_t i = begin; i < end; ++i)
-      if (list.centres[i] > 0)
+      if (list.centres[i] != 0)
         colors_[first + i] += list.centres[i] * shown(display_, centre_colors_[chosen_[first + i]]);
   });
-  shown_.resize(shaded.size());
   parallel::parallel_ranges(shaded.size(), at_once, [&](std::size_t begin, std::size_t end) {
-    for (std::size_t i = begin; i < end; ++i) shown_[i] = list.shares[i] * shown(display_, shaded[i].color);
+    // A pixel's samples stand together; those of one that began before are the range's before.
+    const auto goes_on = [&](std::size_t i) { return i > 0 && list.pixels[i] == list.pixels[i - 1]; };
+    std::size_t i = begin;
+    while (i < end && goes_on(i)) ++i;
+    if (i == end) return;
+    for (; i < end || (i < shaded.size() && goes_on(i)); ++i)
+      colors_[first + list.pixels[i]] += list.shares[i] * shown(display_, shaded[i].color);
   });
-  for (std::size_t i = 0; i < shaded.size(); ++i) colors_[first + list.pixels[i]] += shown_[i];
   if (linear_mean_) add_linear(first, list, shaded);
 }
 
 void SampleMeans::add_linear(std::size_t first, const ShadingList& list,
                              std::span<const shade::ShadedSample> shaded) {
   for (std::size_t i = 0; i < list.centres.size(); ++i)
-    if (list.centres[i] > 0) linear_[first + i] += list.centres[i] * centre_colors_[chosen_[first + i]];
+    if (list.centres[i] != 0) linear_[first + i] += list.centres[i] * centre_colors_[chosen_[first + i]];
   for (std::size_t i = 0; i < shaded.size(); ++i)
     linear_[first + list.pixels[i]] += list.shares[i] * shaded[i].color;
 }

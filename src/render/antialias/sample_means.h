@@ -50,7 +50,6 @@ private:
   FrameResult& result_;
   std::vector<std::uint32_t> chosen_;
   std::size_t edges_ = 0;
-  std::vector<glm::vec3> shown_;             // scratch
   std::vector<glm::vec3> colors_;            // sums, by chosen pixel
   std::vector<glm::vec3> linear_;            // the same before they are shown; or empty
   std::vector<std::vector<float>> visible_;  // sums, by light and chosen pixel with an edge; or empty

@@ -7,6 +7,7 @@
 #include <span>
 #include <vector>
 
+#include <tenebra/visible_points.h>
 #include "points/sample_points.h"
 #include "visibility/place_ids.h"
 
@@ -22,6 +23,9 @@ struct SamplePicture {
   std::vector<glm::vec2> places;      ///< in the frame's window, pixels
   std::vector<std::uint32_t> pixels;  ///< of the frame
   std::vector<std::uint32_t> slots;   ///< where sample k of chosen pixel i stands: [i * per_pixel + k]
+
+  /// Whether something see-through is before a sample.
+  bool has_layer(std::size_t slot) const { return !layer.empty() && layer[slot] != no_triangle; }
 };
 
 /// Samples see `seen`, at offsets[k] from the pixel's centre, which sees centre_ids. Of about 256 samples

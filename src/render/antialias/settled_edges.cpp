@@ -71,15 +71,17 @@ public:
   }
 
 private:
-  /// Returns false if a sample needs its own masks.
+  /// Returns false if a sample needs its own masks, or sees glass.
   bool group(std::uint32_t pixel, glm::vec2 centre, const visibility::PixelPlaces& sees) {
     const std::uint32_t centre_id = centres_.ids[pixel];
+    if (centres_.has_glass(pixel)) return false;
     std::uint32_t ids[most_samples], from[most_samples];
     std::size_t known = 0;
     surfaces_.begin(centre_id);
     count_ = 0;
     as_centre_ = 0;
     for (std::size_t k = 0; k < offsets_.size(); ++k) {
+      if (sees.layer(k) != no_triangle) return false;
       const std::uint32_t id = sees.id(k);
       const glm::vec2 place = centre + offsets_[k];
       const auto i = static_cast<std::size_t>(std::find(ids, ids + known, id) - ids);

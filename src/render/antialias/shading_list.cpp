@@ -75,13 +75,14 @@ bool SampleLights::same(std::size_t a, const SampleLights& other, std::size_t b)
     if (!lights[i].mask.empty() && lights[i].mask[a] != other.lights[i].mask[b]) return false;
     if (!lights[i].irradiance.empty() && lights[i].irradiance[a] != other.lights[i].irradiance[b])
       return false;
+    const auto tint = lights[i].tint.factors, other_tint = other.lights[i].tint.factors;
+    if (!tint.empty() && tint[a] != other_tint[b]) return false;
   }
   return openness.empty() || openness[a] == other.openness[b];
 }
 
 void list_groups(std::span<const std::uint32_t> chosen, const SamplePicture& samples, const SampleLights& lit,
-                 std::span<const std::uint32_t> centre_ids, const SampleLights& centre_lit,
-                 const SurfaceMatch& match, ShadingList& out) {
+                 const CentreSamples& centres, const SurfaceMatch& match, ShadingList& out) {
   out.clear();
   out.centres.assign(chosen.size(), 0.0f);
   const std::size_t parts = (chosen.size() + pixels_a_part - 1) / pixels_a_part;
@@ -94,11 +95,15 @@ void list_groups(std::span<const std::uint32_t> chosen, const SamplePicture& sam
     for (std::size_t i = first; i < last; ++i) {
       const std::size_t pixel = chosen[i];
       groups.clear();
-      surfaces.begin(centre_ids[pixel]);
+      surfaces.begin(centres.ids[pixel]);
       for (std::size_t k = 0; k < samples.per_pixel; ++k) {
         const std::size_t slot = samples.slots[i * samples.per_pixel + k];
+        if (samples.has_layer(slot)) {
+          list.add(samples.ids[slot], samples.places[slot], slot, i, 1.0f);
+          continue;
+        }
         const std::size_t surface = surfaces.of(samples.ids[slot], samples.places[slot]);
-        if (surface == 0 && lit.same(slot, centre_lit, pixel)) {
+        if (surface == 0 && !centres.has_layer(pixel) && lit.same(slot, centres.lit, pixel)) {
           out.centres[i] += 1;
         } else {
           groups.add(slot, surface);
@@ -114,7 +119,6 @@ void list_groups(std::span<const std::uint32_t> chosen, const SamplePicture& sam
 }
 
 void list_samples(std::span<const std::uint32_t> chosen, const SamplePicture& samples, ShadingList& out) {
-  out.clear();
   out.centres.assign(chosen.size(), 0.0f);
   out.resize(samples.count);
   parallel::parallel_ranges(samples.count, pixels_a_part, [&](std::size_t first, std::size_t last) {
@@ -125,12 +129,22 @@ void list_samples(std::span<const std::uint32_t> chosen, const SamplePicture& sa
   });
 }
 
-void list_as_centres(std::span<const std::uint32_t> chosen, int width, std::span<const glm::vec2> offsets,
-                     const visibility::PlaceIds& seen, float share, ShadingList& out) {
-  out.clear();
-  out.centres.assign(chosen.size(), share - 1.0f);
+void list_as_centres(std::span<const std::uint32_t> chosen, int width, const StandIns& stand_ins,
+                     std::span<const std::uint32_t> centre_ids, const visibility::PlaceIds& seen,
+                     ShadingList& out) {
+  const auto [offsets, places, centre_counts] = stand_ins;
+  const std::size_t count = places.size();
+  std::vector<std::size_t> nearest;  // sample of each place; offsets.size(): the centre
+  for (const glm::vec2 place : places) {
+    const auto apart = [&](glm::vec2 offset) { return glm::dot(place - offset, place - offset); };
+    std::size_t best = offsets.size();
+    for (std::size_t k = 0; k < offsets.size(); ++k)
+      if (apart(offsets[k]) < (best == offsets.size() ? apart({}) : apart(offsets[best]))) best = k;
+    nearest.push_back(best);
+  }
+  out.centres.assign(chosen.size(), -centre_counts);
+  const float share = (static_cast<float>(offsets.size()) + centre_counts) / static_cast<float>(count);
   const auto columns = static_cast<std::uint32_t>(width);
-  const std::size_t count = offsets.size();
   out.resize(chosen.size() * count);
   parallel::parallel_ranges(chosen.size(), pixels_a_part, [&](std::size_t first, std::size_t last) {
     for (std::size_t i = first; i < last; ++i) {
@@ -139,8 +153,10 @@ void list_as_centres(std::span<const std::uint32_t> chosen, int width, std::span
                              static_cast<float>(pixel / columns) + 0.5f);
       const visibility::PixelPlaces sees =
           seen.of_pixel(static_cast<int>(pixel % columns), static_cast<int>(pixel / columns));
-      for (std::size_t k = 0; k < count; ++k)
-        out.set(i * count + k, sees.id(k), centre + offsets[k], pixel, i, share);
+      for (std::size_t k = 0; k < count; ++k) {
+        const std::uint32_t id = nearest[k] == offsets.size() ? centre_ids[pixel] : sees.id(nearest[k]);
+        out.set(i * count + k, id, centre + places[k], pixel, i, share);
+      }
     }
   });
 }
