@@ -1,6 +1,7 @@
 // What --budget chooses, by times that are made up.
 #include <gtest/gtest.h>
 
+#include <cstdint>
 #include <limits>
 #include <vector>
 
@@ -16,13 +17,15 @@ constexpr double never = std::numeric_limits<double>::infinity();
 struct MadeUp {
   std::vector<double> ms;
   std::vector<std::size_t> drawn;
+  std::vector<double> limits;
   int kept = 0;
   std::size_t last_kept = 99;
 
   bool frame(FrameBudget& budget) {
-    drawn.clear();
+    drawn.clear(), limits.clear();
     const auto draw = [this](std::size_t rung, double limit_ms) -> Expected<double> {
       drawn.push_back(rung);
+      limits.push_back(limit_ms);
       return ms[rung] <= limit_ms ? ms[rung] : never;
     };
     return budget.draw(draw, [this] { ++kept, last_kept = drawn.back(); }).has_value();
@@ -38,7 +41,7 @@ TEST(FrameBudget, TakesTheSmallestErrorThatFitsThoughTimesDoNotFallEvenly) {
   ASSERT_TRUE(of.frame(sixty));
   EXPECT_EQ(sixty.rung(), 4u);
   EXPECT_TRUE(sixty.fits());
-  EXPECT_EQ(sixty.tries().size(), 5u);
+  EXPECT_EQ(of.drawn, (std::vector<std::size_t>{4, 0, 3, 4})) << "exact, then by halves";
 }
 
 TEST(FrameBudget, KeepsTheErrorOfTheLastFrameUpToATenth) {
@@ -100,6 +103,52 @@ TEST(FrameBudget, TakesTheQuickestWhereNothingFitsThoughItIsNotTheCoarsest) {
   ASSERT_TRUE(of.frame(almost));
   EXPECT_TRUE(almost.fits()) << "up to a tenth above the budget";
   EXPECT_EQ(almost.rung(), 1u) << "the smallest of those, not the quickest";
+}
+
+TEST(FrameBudget, LimitsTheFirstFrameAndGoesOnWithoutIt) {
+  MadeUp of{{50, 20, 9000}};
+  FrameBudget budget(60, 3);
+  ASSERT_TRUE(of.frame(budget)) << "the coarsest was given up";
+  EXPECT_EQ(of.limits.front(), 2600);
+  EXPECT_EQ(of.drawn, (std::vector<std::size_t>{2, 0}));
+  EXPECT_EQ(budget.tries().size(), 1u) << "the first is not counted";
+}
+
+/// The time of each of 14 errors: any order of falling, rising and chance.
+std::vector<double> some_times(std::uint32_t seed) {
+  std::vector<double> ms(14);
+  for (std::size_t rung = 0; rung < ms.size(); ++rung) {
+    seed = seed * 1664525u + 1013904223u;
+    ms[rung] = 40 + 12 * static_cast<double>(14 - rung) + (seed >> 24) * 0.6;
+  }
+  return ms;
+}
+
+TEST(FrameBudget, TriesAtMostEightWhateverFramesTake) {
+  for (const double budget_ms : {1.0, 90.0, 130.0, 170.0, 1000.0}) {
+    MadeUp of;
+    FrameBudget budget(budget_ms, 14);
+    for (std::uint32_t frame = 0; frame < 200; ++frame) {
+      of.ms = some_times(frame);
+      ASSERT_TRUE(of.frame(budget));
+      ASSERT_LE(budget.tries().size(), FrameBudget::most_tries) << budget_ms << " " << frame;
+      ASSERT_EQ(of.last_kept, budget.rung());
+      ASSERT_EQ(budget.fits(), budget.ms() <= 1.1 * budget_ms);
+      ASSERT_EQ(budget.ms(), of.ms[budget.rung()]);
+    }
+  }
+}
+
+TEST(FrameBudget, FindsTheSmallestErrorWhereTimesFall) {
+  for (std::size_t least = 0; least < 14; ++least) {
+    MadeUp of;
+    for (std::size_t rung = 0; rung < 14; ++rung) of.ms.push_back(rung < least ? 200 : 50);
+    FrameBudget budget(100, 14);
+    ASSERT_TRUE(of.frame(budget));
+    EXPECT_EQ(budget.rung(), least);
+    EXPECT_TRUE(budget.fits());
+    EXPECT_LE(budget.tries().size(), 5u);
+  }
 }
 
 TEST(FrameBudget, HandsOnWhyNothingWasDrawn) {

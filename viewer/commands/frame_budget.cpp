@@ -17,6 +17,25 @@ constexpr double kept_up_to = 1.1;    ///< of the budget
 constexpr double quicker = 0.9;       ///< smaller errors may fit then
 constexpr int frames_to_search = 24;  ///< after the last search
 constexpr double never = std::numeric_limits<double>::infinity();
+constexpr std::size_t most_searched = 5;  ///< tries that a search may end with; the others find the quickest
+
+/// What the uncounted first frame may take: what is built once may take longer than any frame.
+double first_limit_ms(double budget_ms) {
+  return 10 * budget_ms + 2000;
+}
+
+/// All rungs but the coarsest, spread over the ladder: 0, then halves, quarters and so on.
+std::vector<std::size_t> spread_rungs(std::size_t rungs) {
+  std::vector<std::size_t> order;
+  std::vector<bool> in_order(rungs);
+  for (std::size_t step = rungs - 1; step > 0; step /= 2) {
+    for (std::size_t rung = 0; rung + 1 < rungs; rung += step) {
+      if (!in_order[rung]) order.push_back(rung);
+      in_order[rung] = true;
+    }
+  }
+  return order;
+}
 
 }  // namespace
 
@@ -59,27 +78,48 @@ void FrameBudget::take(std::size_t rung, double ms, const std::function<void()>&
   keep();
 }
 
-/// The first of the errors `first` to `last` - 1 that fits. False: none does.
-Expected<bool> FrameBudget::scan(const DrawRung& draw, const std::function<void()>& keep, std::size_t first,
-                                 std::size_t last) {
-  for (std::size_t rung = first; rung < last; ++rung) {
-    const auto ms = attempt(draw, rung, budget_ms_);
-    if (!ms) return tl::unexpected(ms.error());
-    if (*ms == never) continue;
-    take(rung, *ms, keep);
-    return true;
-  }
-  return false;
+/// Whether it fits; then it is taken.
+Expected<bool> FrameBudget::fit(const DrawRung& draw, const std::function<void()>& keep, std::size_t rung) {
+  const auto ms = attempt(draw, rung, budget_ms_);
+  if (!ms) return tl::unexpected(ms.error());
+  if (*ms == never) return false;
+  take(rung, *ms, keep);
+  return true;
 }
 
-/// From the smallest errors on the first that fits up to a tenth above the budget; else the quickest, of two
-/// that take as long the smaller errors. Time need not fall as errors grow; that of the coarsest bounds the
-/// others'.
+/// Of the errors `first` to `last` - 1, of which those that fit are taken to follow those that do not, the
+/// smallest that fits. False: none was found.
+Expected<bool> FrameBudget::halve(const DrawRung& draw, const std::function<void()>& keep, std::size_t first,
+                                  std::size_t last) {
+  bool found = false;
+  while (first < last && tries_.size() < most_searched) {
+    const std::size_t middle = first + (last - first) / 2;
+    const auto fits = fit(draw, keep, middle);
+    if (!fits) return fits;
+    found = found || *fits;
+    (*fits ? last : first) = *fits ? middle : middle + 1;
+  }
+  return found;
+}
+
+/// The same, and `first` before all others.
+Expected<bool> FrameBudget::search(const DrawRung& draw, const std::function<void()>& keep, std::size_t first,
+                                   std::size_t last) {
+  if (first >= last || tries_.size() >= most_searched) return false;
+  const auto fits = fit(draw, keep, first);
+  if (!fits || *fits) return fits;
+  return halve(draw, keep, first + 1, last);
+}
+
+/// Of as many errors as may be tried the first that fits up to a tenth above the budget; else the quickest,
+/// of two that take as long the smaller errors. Time need not fall as errors grow; that of the coarsest
+/// bounds the others'.
 Expected<void> FrameBudget::take_quickest(const DrawRung& draw, const std::function<void()>& keep) {
   const auto coarsest = attempt(draw, rungs_ - 1, never);
   if (!coarsest) return tl::unexpected(coarsest.error());
   take(rungs_ - 1, *coarsest, keep);
-  for (std::size_t rung = 0; rung + 1 < rungs_; ++rung) {
+  for (const std::size_t rung : spread_rungs(rungs_)) {
+    if (tries_.size() >= most_tries) break;
     const auto ms = attempt(draw, rung, std::max(ms_, kept_up_to * budget_ms_));
     if (!ms) return tl::unexpected(ms.error());
     if (*ms <= kept_up_to * budget_ms_) {
@@ -97,10 +137,10 @@ Expected<bool> FrameBudget::go_on(const DrawRung& draw, const std::function<void
   const auto ms = attempt(draw, last, kept_up_to * budget_ms_);
   if (!ms) return tl::unexpected(ms.error());
   // Once more, as it may have been chance; coarser ones follow.
-  if (*ms == never) return scan(draw, keep, last, rungs_);
+  if (*ms == never) return search(draw, keep, last, rungs_);
   take(last, *ms, keep);
   if (*ms > quicker * searched_ms_ && since_search_ < frames_to_search) return true;
-  const auto smaller = scan(draw, keep, 0, last);
+  const auto smaller = search(draw, keep, 0, last);
   if (!smaller) return smaller;
   searched_ms_ = ms_, since_search_ = 0;
   return true;
@@ -110,7 +150,8 @@ Expected<void> FrameBudget::draw(const DrawRung& draw, const std::function<void(
   const bool first = !rung_;
   tries_.clear();
   if (first) {
-    if (const auto warm = draw(rungs_ - 1, never); !warm) return tl::unexpected(warm.error());
+    if (const auto warm = draw(rungs_ - 1, first_limit_ms(budget_ms_)); !warm)
+      return tl::unexpected(warm.error());
   }
   ++since_search_;
   if (!first && !fits_ && since_search_ < frames_to_search) {
@@ -125,7 +166,7 @@ Expected<void> FrameBudget::draw(const DrawRung& draw, const std::function<void(
     if (!kept) return tl::unexpected(kept.error());
     if (*kept) return {};
   }
-  const auto found = scan(draw, keep, 0, goes_on ? *rung_ : rungs_);
+  const auto found = search(draw, keep, 0, goes_on ? *rung_ : rungs_);
   if (!found) return tl::unexpected(found.error());
   if (!*found)
     if (auto taken = take_quickest(draw, keep); !taken) return taken;

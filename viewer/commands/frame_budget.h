@@ -35,14 +35,18 @@ using DrawRung = std::function<Expected<double>(std::size_t rung, double limit_m
 
 /// Chooses the errors of one frame after the other by how long they took.
 ///
-/// The first frame is drawn at the coarsest errors, for what later frames find there already, and then from
-/// the smallest on until it fits. Later frames begin with the last one's errors. These are kept up to a tenth
-/// above the budget; above, the coarser ones are tried, then the smaller ones. Where a frame is a tenth
-/// quicker than when smaller errors were tried last, or that was 24 frames ago, they are tried again, from
-/// the smallest on. Where none fits, all are tried for the quickest, which need not be the coarsest; it is
-/// kept until the next search.
+/// The first frame is drawn at the coarsest errors, for what later frames find there already, and given up
+/// after ten budgets and two seconds. A search then tries the smallest errors, which may be exact and quick,
+/// and halves the others, as if time fell with growing errors, until the errors next below are known not to
+/// fit. Later frames begin with the last one's errors. These are kept up to a tenth above the budget; above,
+/// the coarser ones are searched, then the smaller ones. Where a frame is a tenth quicker than when smaller
+/// errors were tried last, or that was 24 frames ago, they are searched again. Where nothing that was tried
+/// fits, the coarsest and others from all over the ladder are drawn for the quickest; it is kept until the
+/// next search. A frame has at most `most_tries`.
 class FrameBudget {
 public:
+  static constexpr std::size_t most_tries = 8;
+
   FrameBudget(double budget_ms, std::size_t rungs) : budget_ms_(budget_ms), rungs_(rungs) {}
 
   /// What was drawn last and not given up is kept by `keep`.
@@ -50,7 +54,7 @@ public:
 
   std::size_t rung() const { return *rung_; }  ///< of the frame that was drawn last
   double ms() const { return ms_; }            ///< that it took
-  bool fits() const { return fits_; }          ///< false: none of the ladder does, this is the quickest
+  bool fits() const { return fits_; }          ///< false: nothing that was tried does, this is the quickest
   /// What was tried for it, in order, the uncounted first one left out.
   struct Try {
     std::size_t rung;
@@ -60,8 +64,11 @@ public:
 
 private:
   Expected<double> attempt(const DrawRung& draw, std::size_t rung, double limit_ms);
-  Expected<bool> scan(const DrawRung& draw, const std::function<void()>& keep, std::size_t first,
-                      std::size_t last);
+  Expected<bool> fit(const DrawRung& draw, const std::function<void()>& keep, std::size_t rung);
+  Expected<bool> halve(const DrawRung& draw, const std::function<void()>& keep, std::size_t first,
+                       std::size_t last);
+  Expected<bool> search(const DrawRung& draw, const std::function<void()>& keep, std::size_t first,
+                        std::size_t last);
   Expected<bool> go_on(const DrawRung& draw, const std::function<void()>& keep);
   Expected<void> take_quickest(const DrawRung& draw, const std::function<void()>& keep);
   void take(std::size_t rung, double ms, const std::function<void()>& keep);

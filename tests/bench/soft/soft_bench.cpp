@@ -18,7 +18,8 @@ struct SoftOptions : BenchOptions {
   std::filesystem::path pictures;
   std::vector<int> size{1280, 720};
   std::vector<std::string> only;
-  bool only_errors = false;
+  std::vector<double> light_sizes;
+  bool only_errors = false, only_large = false;
 };
 
 /// How much is run.
@@ -50,16 +51,52 @@ Expected<void> check(const SoftOptions& options) {
   if (options.size[0] < 16 || options.size[1] < 16 || options.size[0] > 8192 || options.size[1] > 8192)
     return base::fail("--size: found {} {}, expected 16 to 8192 pixels each", options.size[0],
                       options.size[1]);
+  for (const double percent : options.light_sizes) {
+    if (!(percent > 0 && percent <= 100))
+      return base::fail("--light-sizes: found {}, expected more than 0 and at most 100 percent", percent);
+  }
   if (!options.pictures.empty() && !std::filesystem::is_directory(options.pictures, ignored))
     return base::fail("--pictures: {} is not a folder, expected one to write to", options.pictures.string());
   return Report(options.csv).check();
 }
 
+/// The race under squares of other sizes.
+Expected<void> race_sizes(const SoftView& view, const SoftOptions& options, SoftResults& results,
+                          Report& report) {
+  const Effort how = effort(options.quick);
+  for (const double percent : options.light_sizes) {
+    SoftView sized = view;
+    sized.name += fmt::format(", {:g} %", percent);
+    auto light = square_light(view.frame, percent);
+    if (!light) return base::fail("{}: {}", sized.name, light.error().message);
+    sized.light = std::move(*light);
+    results.sized_races.push_back(race_errors(sized, how.race_rounds, how.race_rays, report));
+    results.sized_races.back().percent = percent;
+  }
+  return {};
+}
+
+Expected<void> measure_large_lights(const SoftView& view, const SoftOptions& options, SoftResults& results,
+                                    Report& report) {
+  if (view.large) results.large.push_back(measure_large(view, report));
+  if (!view.counted || !view.name.starts_with("kitchen")) return {};
+  auto grown = measure_grown(view, options.quick ? 1 : 3, report);
+  if (!grown) return tl::unexpected(grown.error());
+  results.grown.push_back(std::move(*grown));
+  return {};
+}
+
 Expected<void> measure_view(const SoftView& view, const SoftOptions& options, SoftResults& results,
                             Report& report) {
   const Effort how = effort(options.quick);
+  if (options.only_large || (view.large && !options.only_errors))
+    return measure_large_lights(view, options, results, report);
+  if (view.large) return {};
   if (view.counted || view.name.starts_with("court"))
     results.races.push_back(race_errors(view, how.race_rounds, how.race_rays, report));
+  if (!view.sun_only) {
+    if (auto raced = race_sizes(view, options, results, report); !raced) return raced;
+  }
   if (view.sun) {
     SoftView sunny = view;
     sunny.name += ", sun";
@@ -84,7 +121,7 @@ Expected<void> measure_view(const SoftView& view, const SoftOptions& options, So
   report.add({"trees", view.name, "bsp", "", "peak tree memory", trees.bytes, "bytes"});
   results.trees.push_back({view.name, contest.tenebra_ms, trees});
   results.contests.push_back(std::move(contest));
-  return {};
+  return measure_large_lights(view, options, results, report);
 }
 
 Expected<void> run_soft(const SoftOptions& options) {
@@ -120,10 +157,17 @@ void add_soft_command(CLI::App& program, Run& run) {
   command->add_option("--size", options->size, "Width and height")->expected(2)->group("");  // for tests
   command
       ->add_option("--only", options->only,
-                   "Scenes by name: robots, museum5, kitchen, museum5x64,\ncourt, city")
+                   "Scenes by name: robots, museum5, kitchen, museum5x64,\ncourt, city,\ngallery")
       ->type_name("NAME");
   command->add_flag("--only-errors", options->only_errors,
                     "Only the race at errors that users accept (--soft-error)");
+  command
+      ->add_flag("--only-large", options->only_large, "Only lights of half the diagonal, and soft.large_gain")
+      ->excludes("--only-errors");
+  command
+      ->add_option("--light-sizes", options->light_sizes,
+                   "Races under squares of these sides, too, in percent of the\nscene's diagonal: 1 10 25")
+      ->type_name("PERCENT");
   command->callback([options, &run] { run = [options] { return run_soft(*options); }; });
 }
 

@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <map>
 
 #include "base/stopwatch.h"
 #include "bench/soft/soft_quality.h"
@@ -15,6 +16,7 @@ namespace {
 
 constexpr int filters = 3;
 constexpr double least_estimate = 0.25;
+constexpr std::array<const char*, raced_errors.size()> error_names{"8", "4", "2", "1", "05"};
 
 struct RivalPoint {
   double rmse, ms;
@@ -94,7 +96,7 @@ double ErrorRow::estimate_off() const {
 
 ErrorRace race_errors(const SoftView& view, int rounds, std::size_t most_rays, Report& report) {
   ErrorRing ring(view);
-  ErrorRace race{view.name, 0, {}};
+  ErrorRace race{view.name, 0, 0, {}};
   progress(fmt::format("{}: errors that users accept", view.name));
   Truth truth;
   race.exact_ms = ring.time_tenebra(0);
@@ -152,7 +154,6 @@ std::string error_table(const std::vector<ErrorRace>& races) {
 
 std::string error_summary(const std::vector<ErrorRace>& races) {
   const double nan = std::numeric_limits<double>::quiet_NaN();
-  const char* names[raced_errors.size()] = {"8", "4", "2", "1", "05"};
   std::string text;
   double off = races.empty() ? nan : 0.0;
   for (std::size_t k = 0; k < raced_errors.size(); ++k) {
@@ -161,12 +162,25 @@ std::string error_summary(const std::vector<ErrorRace>& races) {
       ratios.push_back(race.rows[k].ratio());
       off = std::max(off, race.rows[k].estimate_off());
     }
-    const std::string name = fmt::format("soft.ratio_{}_", names[k]);
+    const std::string name = fmt::format("soft.ratio_{}_", error_names[k]);
     text +=
         headline(name + "geomean", ratios.empty() ? nan : geometric_mean(ratios), 2) +
         headline(name + "worst", ratios.empty() ? nan : *std::max_element(ratios.begin(), ratios.end()), 2);
   }
   return text + headline("soft.estimate_worst", off, 2);
+}
+
+std::string sized_summary(const std::vector<ErrorRace>& races) {
+  std::map<double, std::array<double, raced_errors.size()>> worst;
+  for (const ErrorRace& race : races) {
+    auto& of = worst[race.percent];
+    for (std::size_t k = 0; k < of.size(); ++k) of[k] = std::max(of[k], race.rows[k].ratio());
+  }
+  std::string text;
+  for (const auto& [percent, ratios] : worst)
+    for (std::size_t k = 0; k < ratios.size(); ++k)
+      text += headline(fmt::format("soft.size_{:g}_ratio_{}_worst", percent, error_names[k]), ratios[k], 2);
+  return text;
 }
 
 std::string sun_summary(const std::vector<ErrorRace>& races) {

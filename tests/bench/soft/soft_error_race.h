@@ -27,6 +27,7 @@ struct ErrorRow {
 
 struct ErrorRace {
   std::string view;
+  double percent = 0;  ///< of the diagonal: the light's side; 0: the view's own light
   double exact_ms = 0;
   std::array<ErrorRow, raced_errors.size()> rows;
 };
@@ -39,6 +40,8 @@ ErrorRace race_errors(const SoftView& view, int rounds, std::size_t most_rays, R
 /// For readers, and the lines that a script reads ("soft.ratio_8_geomean: 0.8").
 std::string error_table(const std::vector<ErrorRace>& races);
 std::string error_summary(const std::vector<ErrorRace>& races);
+/// Of lights of other sizes, by size, the worst view: "soft.size_10_ratio_05_worst: 0.9" and so on.
+std::string sized_summary(const std::vector<ErrorRace>& races);
 /// Of suns, at the least of the errors: the geometric mean of the ratios.
 std::string sun_summary(const std::vector<ErrorRace>& races);
 

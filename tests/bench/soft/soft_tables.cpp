@@ -90,8 +90,10 @@ std::string soft_tables(const SoftResults& results) {
   if (!results.contests.empty())
     text += contest_table(results.contests) + '\n' + equal_time_table(results.contests) + '\n';
   if (!results.trees.empty()) text += tree_table(results.trees) + '\n';
-  for (const auto* races : {&results.races, &results.sun_races})
+  for (const auto* races : {&results.races, &results.sized_races, &results.sun_races})
     if (!races->empty()) text += error_table(*races) + '\n';
+  if (!results.large.empty()) text += large_table(results.large) + '\n';
+  if (!results.grown.empty()) text += grown_table(results.grown) + '\n';
   for (const std::string& sentence : results.skipped) text += sentence + '\n';
   return text;
 }
@@ -111,7 +113,8 @@ std::string soft_summary(const SoftResults& results) {
   }
   for (const TreeRow& row : results.trees) bytes = std::max(bytes, row.cost.bytes);
   const double nan = std::numeric_limits<double>::quiet_NaN();
-  return error_summary(results.races) + sun_summary(results.sun_races) +
+  return error_summary(results.races) + sized_summary(results.sized_races) + sun_summary(results.sun_races) +
+         large_summary(results.large, results.grown) +
          headline("soft.eq_geomean", over_embree.empty() ? nan : geometric_mean(over_embree), 2) +
          headline("soft.eq_worst", worst(over_embree), 2) + headline("soft.fair_worst", worst(over_fair), 2) +
          headline("soft.max_error_255", results.contests.empty() ? nan : error, 4) +

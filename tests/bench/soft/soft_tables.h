@@ -6,6 +6,7 @@
 
 #include "bench/soft/soft_contest.h"
 #include "bench/soft/soft_error_race.h"
+#include "bench/soft/soft_large.h"
 #include "bench/soft/soft_trees.h"
 
 namespace tenebra::bench {
@@ -20,6 +21,9 @@ struct SoftResults {
   std::vector<Contest> contests;
   std::vector<TreeRow> trees;
   std::vector<ErrorRace> races, sun_races;
+  std::vector<ErrorRace> sized_races;  ///< with lights of other sizes
+  std::vector<LargeRow> large;
+  std::vector<GrownLight> grown;
   std::vector<std::string> skipped;  ///< what could not be measured, each a sentence with its reason
 };
 

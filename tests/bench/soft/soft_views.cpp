@@ -3,6 +3,8 @@
 #include <algorithm>
 #include <exception>
 
+#include <fmt/core.h>
+
 #include "base/fail.h"
 #include "bench/common/bench_report.h"
 #include "bench/common/bench_scenes.h"
@@ -13,17 +15,25 @@ namespace {
 
 constexpr double side_percent_of_diagonal = 4;
 constexpr double sun_deg = 0.53;
+constexpr double large_percent = 50;
+constexpr int large_width = 320, large_height = 180;
 
 struct SceneEntry {
   std::string name;
   std::vector<int> frames;  // the first is the one that the goals are stated for
   bool under_the_sky = false, sun_only = false;
+  bool large = false;  // the first with a light of half the diagonal, too
+  bool large_only = false;
 };
 
 const std::vector<SceneEntry>& scene_entries() {
-  static const std::vector<SceneEntry> entries{{"robots", {100, 400}, true}, {"museum5", {20, 100}},
-                                               {"kitchen", {100, 400}},      {"museum5x64", {20, 100}},
-                                               {"court", {60}, true},        {"city", {150}, true, true}};
+  static const std::vector<SceneEntry> entries{{"robots", {100, 400}, true, false, true},
+                                               {"museum5", {20, 100}},
+                                               {"kitchen", {100, 400}},
+                                               {"museum5x64", {20, 100}},
+                                               {"court", {60}, true},
+                                               {"city", {150}, true, true},
+                                               {"gallery", {150}, false, false, true, true}};
   return entries;
 }
 
@@ -49,17 +59,32 @@ Expected<AreaLight> sun_of(const Scene& scene, const BenchFrame& frame) {
   return make_sun(frame.lights.front().position - frame.centre, sun_deg);
 }
 
+Expected<void> visit_large(const SceneEntry& entry, const Scene& scene,
+                           const std::function<Expected<void>(const SoftView&)>& body) {
+  SoftView view;
+  view.name = fmt::format("{} {}, {} %", entry.name, entry.frames.front(), large_percent);
+  view.large = true;
+  evaluate_bench_frame(scene, entry.frames.front(), large_width, large_height, view.frame);
+  auto light = square_light(view.frame, large_percent);
+  if (!light) return base::fail("{}: {}", view.name, light.error().message);
+  view.light = std::move(*light);
+  return body(view);
+}
+
 Expected<void> visit_frames(const SceneEntry& entry, const std::filesystem::path& file,
                             const ViewChoice& choice,
                             const std::function<Expected<void>(const SoftView&)>& body) {
   const BenchScene& known = bench_scene(entry.name);
   const auto scene = load_scene(file, known.no_cast);
   if (!scene) return tl::unexpected(scene.error());
+  if (entry.large) {
+    if (auto done = visit_large(entry, *scene, body); !done || entry.large_only) return done;
+  }
   for (const int number : entry.frames) {
     const bool first = number == entry.frames.front();
     if (!first && !choice.more_frames) continue;
     SoftView view{
-        fmt::format("{} {}", entry.name, number), first && !known.bundled, entry.sun_only, {}, {}, {}};
+        fmt::format("{} {}", entry.name, number), first && !known.bundled, entry.sun_only, false, {}, {}, {}};
     evaluate_bench_frame(*scene, number, choice.width, choice.height, view.frame);
     auto light = light_of(*scene, view.frame);
     if (!light) return base::fail("{}: {}", view.name, light.error().message);

@@ -19,6 +19,7 @@ struct SoftView {
   std::string name;       ///< "robots 100"
   bool counted = false;   ///< enters the summary: one of the four views that the goals are stated for
   bool sun_only = false;  ///< another view than the contests': for the sun alone
+  bool large = false;     ///< for a light of half the diagonal alone
   BenchFrame frame;
   AreaLight light;
   std::optional<AreaLight> sun;  ///< 0.53 degrees wide; of scenes under the sky
