@@ -8,10 +8,11 @@
 #include <map>
 
 #include "formats/import_scene.h"
+#include "support/bart.h"
 
 namespace tenebra::testing {
 
-inline const std::filesystem::path bart = std::filesystem::path(TENEBRA_SHARED_DIR) / "scenes" / "bart";
+inline const std::filesystem::path bart = bart_folder();
 
 enum class Bart { robots, kitchen, museum };
 
@@ -36,13 +37,6 @@ inline const Scene& scene_of(Bart which) {
   EXPECT_TRUE(scene.has_value()) << scene.error().message;
   return scenes.emplace(which, std::move(*scene)).first->second;
 }
-
-class AffBart : public ::testing::Test {
-protected:
-  void SetUp() override {
-    if (!std::filesystem::exists(bart)) GTEST_SKIP() << "The BART scenes are not at " << bart << ".";
-  }
-};
 
 /// Below an `x` or of a `tpa`: BART's x blocks are the only named nodes with children.
 inline bool moves(const Scene& scene, int node) {

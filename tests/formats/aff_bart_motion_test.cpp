@@ -114,7 +114,7 @@ const CameraCase cameras[] = {
     {Bart::robots, 799, 50, {0, 80, 0}, {-0.14145, -0.98505, 0.09829}, {-0.93672, 0.16530, 0.30859}},
 };
 
-TEST_F(AffBart, CameraFollowsItsKeys) {
+TEST(AffBart, CameraFollowsItsKeys) {
   for (const CameraCase& c : cameras) {
     SCOPED_TRACE(::testing::Message() << file_of(c.scene) << " frame " << c.frame);
     const Scene& scene = scene_of(c.scene);
@@ -175,7 +175,7 @@ glm::dvec4 value_of(const NodePose& pose, ChannelPath path) {
   return {pose.rotation.w, pose.rotation.x, pose.rotation.y, pose.rotation.z};
 }
 
-TEST_F(AffBart, KeysInterpolateAsTheAuthorsDo) {
+TEST(AffBart, KeysInterpolateAsTheAuthorsDo) {
   for (const KeyCase& c : keys) {
     SCOPED_TRACE(::testing::Message() << c.block << " frame " << c.frame);
     const Scene& scene = scene_of(c.scene);
@@ -277,7 +277,7 @@ Measured measure(const Scene& scene, int frame_index) {
   return m;
 }
 
-TEST_F(AffBart, MovingPartStandsWhereItShould) {
+TEST(AffBart, MovingPartStandsWhereItShould) {
   for (const FrameCase& c : frames) {
     SCOPED_TRACE(::testing::Message() << file_of(c.scene) << " frame " << c.frame);
     const Measured m = measure(scene_of(c.scene), c.frame);

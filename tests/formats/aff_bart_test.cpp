@@ -29,7 +29,7 @@ Counts count(const Scene& scene, bool cones) {
   return counts;
 }
 
-TEST_F(AffBart, HoldsTheDocumentedTriangles) {
+TEST(AffBart, HoldsTheDocumentedTriangles) {
   const Counts robots = count(scene_of(Bart::robots), true);
   EXPECT_EQ(robots.triangles, 71'708u);
   EXPECT_EQ(robots.moving, 62'490u);
@@ -42,13 +42,13 @@ TEST_F(AffBart, HoldsTheDocumentedTriangles) {
   EXPECT_EQ(count(scene_of(Bart::museum), true).triangles, 10'284u + 1'024u + 8 * 128u);
 }
 
-TEST_F(AffBart, EightSidedConesGiveThePapersCount) {
+TEST(AffBart, EightSidedConesGiveThePapersCount) {
   const Expected<Scene> museum = formats::import_aff(bart / "museum/museum5.aff", {.cone_sides = 8});
   ASSERT_TRUE(museum.has_value()) << museum.error().message;
   EXPECT_EQ(count(*museum, true).triangles, 75'948u - 65'536u + 1'024u);
 }
 
-TEST_F(AffBart, HoldsTheDocumentedMeshesLightsAndTimes) {
+TEST(AffBart, HoldsTheDocumentedMeshesLightsAndTimes) {
   const Scene& robots = scene_of(Bart::robots);
   EXPECT_EQ(robots.meshes.size(), 1'849u);
   EXPECT_EQ(robots.lights.size(), 1u);
@@ -86,7 +86,7 @@ std::size_t coincident(const Scene& scene) {
   return count;
 }
 
-TEST_F(AffBart, KeepsTheTrianglesWithCoincidentVertices) {
+TEST(AffBart, KeepsTheTrianglesWithCoincidentVertices) {
   EXPECT_EQ(coincident(scene_of(Bart::robots)), 128u);
   EXPECT_EQ(coincident(scene_of(Bart::kitchen)), 21u);
   EXPECT_EQ(coincident(scene_of(Bart::museum)), 0u);
@@ -97,7 +97,7 @@ struct Box {
   glm::dvec3 low, high;
 };
 
-TEST_F(AffBart, FillsTheDocumentedBoxOverAllFrames) {
+TEST(AffBart, FillsTheDocumentedBoxOverAllFrames) {
   const Box boxes[] = {{Bart::robots, {-164.1, -0.6, -435.4}, {164.1, 535.4, 250.1}},
                        {Bart::kitchen, {-2, -1.1, -3.75}, {6, 2.9, 4.33}},
                        {Bart::museum, {-5, -1.07, -9.94}, {5, 5, 5}}};
@@ -122,7 +122,7 @@ TEST_F(AffBart, FillsTheDocumentedBoxOverAllFrames) {
   }
 }
 
-TEST_F(AffBart, SkyCanBeLeftOut) {
+TEST(AffBart, SkyCanBeLeftOut) {
   Scene robots = scene_of(Bart::robots);
   std::string unmatched;
   ASSERT_TRUE(leave_out_casters(robots, {"city2.aff:69"}, unmatched)) << unmatched;
@@ -137,7 +137,7 @@ TEST_F(AffBart, SkyCanBeLeftOut) {
   EXPECT_EQ(unmatched, "city2.aff:70");
 }
 
-TEST_F(AffBart, Museum7NamesTheMissingFile) {
+TEST(AffBart, Museum7NamesTheMissingFile) {
   const Expected<Scene> scene = formats::import_aff(bart / "museum/museum7.aff", {});
   ASSERT_FALSE(scene.has_value());
   EXPECT_NE(scene.error().message.find("museum7.aff:"), std::string::npos) << scene.error().message;

@@ -6,6 +6,7 @@
 
 #include "formats/import_scene.h"
 #include "pictures.h"
+#include "support/bart.h"
 #include "support/temporary_folder.h"
 
 namespace tenebra {
@@ -173,8 +174,8 @@ class BartLooks : public ::testing::TestWithParam<Counted> {};
 
 /// The figures are those of another reader of the files.
 TEST_P(BartLooks, HaveTheTrianglesThatTheFilesSay) {
-  const fs::path file = fs::path(TENEBRA_SHARED_DIR) / "scenes/bart" / GetParam().file;
-  if (!fs::exists(file)) GTEST_SKIP() << "The BART scenes are not at " << file << ".";
+  if (!testing::bart_has_textures()) GTEST_SKIP() << "BART's textures are not beside the checkout.";
+  const fs::path file = testing::bart_folder() / GetParam().file;
   const auto scene = formats::import_aff(file, {});
   ASSERT_TRUE(scene.has_value()) << scene.error().message;
   EXPECT_EQ(scene->images.size(), GetParam().images);

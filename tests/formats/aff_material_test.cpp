@@ -5,6 +5,7 @@
 #include <sstream>
 
 #include "formats/import_scene.h"
+#include "support/bart.h"
 #include "support/temporary_folder.h"
 
 namespace tenebra {
@@ -56,8 +57,7 @@ private:
 };
 
 TEST(AffMaterials, OutliveClosingBraces) {
-  const auto folder = std::filesystem::path(TENEBRA_SHARED_DIR) / "scenes/bart/kitchen";
-  if (!std::filesystem::exists(folder)) GTEST_SKIP() << "The BART scenes are not at " << folder << ".";
+  const auto folder = testing::bart_folder() / "kitchen";
   MaterialScanner scanner(folder);
   scanner.read("kitchen.aff");
   const auto scene = formats::import_aff(folder / "kitchen.aff", {});

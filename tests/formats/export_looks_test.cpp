@@ -5,6 +5,7 @@
 
 #include "pictures.h"
 #include "round_trip.h"
+#include "support/bart.h"
 
 namespace tenebra {
 namespace {
@@ -290,7 +291,9 @@ std::vector<std::string> triangles_of(const Scene& scene) {
 }
 
 TEST_P(ExportLooksOfScenes, ComeBack) {
-  const fs::path file = fs::path(TENEBRA_SHARED_DIR) / "scenes" / GetParam();
+  const std::string name = GetParam();
+  const fs::path file =
+      name.ends_with(".aff") ? testing::bart_folder() / name : fs::path(TENEBRA_SHARED_DIR) / "scenes" / name;
   if (!fs::exists(file)) GTEST_SKIP() << "The scenes are not at " << file << ".";
   const auto scene = formats::import_scene(file);
   ASSERT_TRUE(scene.has_value()) << scene.error().message;
@@ -307,9 +310,9 @@ TEST_P(ExportLooksOfScenes, ComeBack) {
 }
 
 INSTANTIATE_TEST_SUITE_P(Shared, ExportLooksOfScenes,
-                         ::testing::Values("bart/robots/Robot.aff", "bart/kitchen/kitchen.aff",
-                                           "bart/museum/museum5.aff", "extra/gltf/CesiumMan.glb",
-                                           "extra/gltf/Lantern/Lantern.gltf", "extra/gltf/HotelRoom.glb",
+                         ::testing::Values("robots/Robot.aff", "kitchen/kitchen.aff", "museum/museum5.aff",
+                                           "extra/gltf/CesiumMan.glb", "extra/gltf/Lantern/Lantern.gltf",
+                                           "extra/gltf/HotelRoom.glb",
                                            "extra/gltf/JapaneseBridgeGarden.glb"));
 
 }  // namespace

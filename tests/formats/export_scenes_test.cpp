@@ -7,6 +7,7 @@
 
 #include <tenebra/frame_geometry.h>
 #include "round_trip.h"
+#include "support/bart.h"
 
 namespace tenebra {
 namespace {
@@ -56,15 +57,13 @@ void PrintTo(const Exported& exported, std::ostream* out) {
 
 class ExportScenes : public ::testing::TestWithParam<Exported> {
 protected:
-  /// Beside the checkout or in it.
   static fs::path path() {
     const fs::path inside = fs::path(TENEBRA_SCENES_DIR) / GetParam().file;
-    return fs::exists(inside) ? inside : fs::path(TENEBRA_SHARED_DIR) / "scenes" / GetParam().file;
+    return fs::exists(inside) ? inside : testing::bart_folder() / GetParam().file;
   }
 };
 
 TEST_P(ExportScenes, ComeBackWhole) {
-  if (!fs::exists(path())) GTEST_SKIP() << "The scene is not at " << path() << ".";
   const auto scene = formats::import_scene(path());
   ASSERT_TRUE(scene.has_value()) << scene.error().message;
   const testing::TemporaryFolder folder;
@@ -110,9 +109,9 @@ TEST_P(ExportScenes, ComeBackWhole) {
 }
 
 INSTANTIATE_TEST_SUITE_P(Whole, ExportScenes,
-                         ::testing::Values(Exported{"bart/robots/Robot.aff", 1e-4, 50},
-                                           Exported{"bart/kitchen/kitchen.aff", 1e-4, 20},
-                                           Exported{"bart/museum/museum5.aff", 1e-6, 6},
+                         ::testing::Values(Exported{"robots/Robot.aff", 1e-4, 50},
+                                           Exported{"kitchen/kitchen.aff", 1e-4, 20},
+                                           Exported{"museum/museum5.aff", 1e-6, 6},
                                            Exported{"city.glb", 1e-6, 10}, Exported{"court.glb", 1e-6, 10},
                                            Exported{"gallery.glb", 1e-6, 12},
                                            Exported{"square.glb", 1e-6, 9.6}));

@@ -8,12 +8,13 @@
 
 #include "formats/import_scene.h"
 #include "shadow/mask_case.h"
+#include "support/bart.h"
 
 namespace tenebra::testing {
 namespace {
 
 struct SceneFrame {
-  const char* scene;  ///< below scenes/bart, or a bundled one
+  const char* scene;  ///< of BART, or a bundled one
   int frame;
   const char* no_cast = "";
 };
@@ -33,9 +34,7 @@ const SceneFrame bundled_frames[] = {{"city.glb", 0},    {"city.glb", 150},    {
 
 std::filesystem::path path_of(const SceneFrame& frame) {
   const std::filesystem::path bundled = std::filesystem::path(TENEBRA_SCENES_DIR) / frame.scene;
-  return std::filesystem::exists(bundled)
-             ? bundled
-             : std::filesystem::path(TENEBRA_SHARED_DIR) / "scenes/bart" / frame.scene;
+  return std::filesystem::exists(bundled) ? bundled : bart_folder() / frame.scene;
 }
 
 /// One case a light; points of the frame's own camera.
@@ -69,14 +68,6 @@ std::vector<MaskCase> frame_cases(const SceneFrame& frame, int width, int height
   return cases;
 }
 
-class Bart : public ::testing::Test {
-protected:
-  void SetUp() override {
-    if (!std::filesystem::exists(path_of(bart_frames[0])))
-      GTEST_SKIP() << "The BART scenes are not at " TENEBRA_SHARED_DIR ".";
-  }
-};
-
 /// Every light of every frame, the variants in turn; returns the number of samples.
 std::uint64_t expect_exact(std::span<const SceneFrame> frames, int size) {
   std::uint64_t samples = 0;
@@ -96,7 +87,7 @@ std::uint64_t expect_exact(std::span<const SceneFrame> frames, int size) {
   return samples;
 }
 
-TEST_F(Bart, MasksAreExact) {
+TEST(Bart, MasksAreExact) {
   EXPECT_GE(expect_exact(bart_frames, 256), 200000u);
 }
 
@@ -104,7 +95,7 @@ TEST(BundledScenes, MasksAreExact) {
   EXPECT_GE(expect_exact(bundled_frames, 192), 200000u);
 }
 
-TEST_F(Bart, MasksAreTheSameForAllVariantsThreadsAndOrders) {
+TEST(Bart, MasksAreTheSameForAllVariantsThreadsAndOrders) {
   for (const SceneFrame& frame : {bart_frames[1], bart_frames[5], bart_frames[8]}) {
     std::vector<MaskCase> cases = frame_cases(frame, 128, 128);
     ASSERT_FALSE(cases.empty());
@@ -153,7 +144,7 @@ void compare_with_peer(const MaskCase& c) {
   EXPECT_LT(differing, active / 20) << "the comparison itself is broken";
 }
 
-TEST_F(Bart, WhereEmbreeDiffersEmbreeIsWrong) {
+TEST(Bart, WhereEmbreeDiffersEmbreeIsWrong) {
   // The peer lets every triangle cast, so a frame where all do.
   std::vector<MaskCase> cases = frame_cases(bart_frames[7], 1024, 1024);
   ASSERT_FALSE(cases.empty());

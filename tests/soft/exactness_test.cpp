@@ -54,14 +54,7 @@ void check_frame(SoftCase c, Judgement& sum, std::uint64_t seed) {
   ++sum.scenes;
 }
 
-class BartSoft : public ::testing::Test {
-protected:
-  void SetUp() override {
-    if (!bart_is_there()) GTEST_SKIP() << "The BART scenes are not at " TENEBRA_SHARED_DIR ".";
-  }
-};
-
-TEST_F(BartSoft, FramesAreExact) {
+TEST(BartSoft, FramesAreExact) {
   Judgement sum;
   for (const SceneFrame& frame : bart_frames)
     check_frame(frame_case(frame, scaled(width), scaled(height)), sum, 1);
@@ -81,7 +74,7 @@ TEST(BundledSoft, FramesAreExact) {
 
 // The light of robots stands 500 m above a scene whose robots are 2 m high: single precision failed here, by
 // 54 % of white at the worst of 737 pixels.
-TEST_F(BartSoft, FarLightOfRobots) {
+TEST(BartSoft, FarLightOfRobots) {
   Judgement sum;
   for (const double percent : {0.5, 4.0}) {
     SoftCase c = frame_case(bart_frames[0], scaled(2 * width), scaled(2 * height), percent);
@@ -91,7 +84,7 @@ TEST_F(BartSoft, FarLightOfRobots) {
   sum.print("far light of robots, BSP");
 }
 
-TEST_F(BartSoft, LargeAndSmallLightsAreExact) {
+TEST(BartSoft, LargeAndSmallLightsAreExact) {
   Judgement sum;
   for (const double percent : {0.05, 8.0}) check_frame(frame_case(bart_frames[1], 48, 27, percent), sum, 4);
   for (const double percent : {0.05, 8.0})
@@ -101,7 +94,7 @@ TEST_F(BartSoft, LargeAndSmallLightsAreExact) {
 
 // Where the sweep of the oracle has too many occluders: shadow rays by the oracle of the hard shadows to
 // stratified points of the light, 5 sigma.
-TEST_F(BartSoft, CrowdedPointsAgreeWithShadowRays) {
+TEST(BartSoft, CrowdedPointsAgreeWithShadowRays) {
   SoftCase c = frame_case(bart_frames[2], 64, 36, 12);
   c.normals.clear();
   const SoftMask precise = traced(c, SoftPrecision::reference);

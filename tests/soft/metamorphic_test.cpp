@@ -263,7 +263,6 @@ TEST(SoftMetamorphic, SolversGroupingsAndChoicesGiveTheSameAnswer) {
   expect_same_for_all_choices(room_case(11));
   expect_same_for_all_choices(
       frame_case(bundled_frames[2], 16, 9));  // a new tree a point takes long in foliage
-  if (!bart_is_there()) GTEST_SKIP() << "The BART scenes are not at " TENEBRA_SHARED_DIR ".";
   expect_same_for_all_choices(frame_case(bart_frames[0], 40, 22));
   expect_same_for_all_choices(frame_case(bart_frames[1], 40, 22));
 }

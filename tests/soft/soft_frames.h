@@ -3,11 +3,12 @@
 
 #include <fmt/core.h>
 #include "soft/soft_case.h"
+#include "support/bart.h"
 
 namespace tenebra::testing {
 
 struct SceneFrame {
-  const char* scene;  ///< below scenes/bart, or a bundled one
+  const char* scene;  ///< of BART, or a bundled one
   int frame;
   const char* no_cast = "";
 };
@@ -18,12 +19,7 @@ inline const SceneFrame bundled_frames[] = {{"city.glb", 150}, {"gallery.glb", 1
 
 inline std::filesystem::path path_of(const SceneFrame& frame) {
   const std::filesystem::path bundled = std::filesystem::path(TENEBRA_SCENES_DIR) / frame.scene;
-  return std::filesystem::exists(bundled)
-             ? bundled
-             : std::filesystem::path(TENEBRA_SHARED_DIR) / "scenes/bart" / frame.scene;
-}
-inline bool bart_is_there() {
-  return std::filesystem::exists(path_of(bart_frames[0]));
+  return std::filesystem::exists(bundled) ? bundled : bart_folder() / frame.scene;
 }
 
 /// What a frame's own camera sees.

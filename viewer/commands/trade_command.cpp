@@ -131,7 +131,7 @@ Expected<const TradedSetting*> chosen_setting(const TradeOptions& options, const
   if (found != nullptr) return found;
   double ms = HUGE_VAL, error = HUGE_VAL;
   for (const TradedSetting& setting : result.measured) {
-    ms = std::min(ms, promised_ms(setting));
+    ms = std::min(ms, promised_ms(result, setting));
     error = std::min(error, promised_error(result, setting));
   }
   if (options.budget_ms)

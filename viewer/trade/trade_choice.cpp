@@ -7,7 +7,6 @@ namespace {
 
 constexpr double finest_ao_error = 0.5;
 constexpr double error_slack = 1.1;
-constexpr double budget_slack = 1.1;  // of what --budget promises
 
 }  // namespace
 
@@ -21,10 +20,8 @@ TradeAxes axes_of(const render::RenderSettings& settings, const TradeGiven& give
   return axes;
 }
 
-double promised_ms(const TradedSetting& setting) {
-  double most = 0;
-  for (const double ms : setting.frames_ms) most = std::max(most, ms);
-  return std::max(setting.point.ms, most / budget_slack);
+double promised_ms(const TradeResult& result, const TradedSetting& setting) {
+  return setting.point.ms * result.time_spread;
 }
 
 double promised_error(const TradeResult& result, const TradedSetting& setting) {
@@ -34,7 +31,8 @@ double promised_error(const TradeResult& result, const TradedSetting& setting) {
 const TradedSetting* within_budget(const TradeResult& result, double budget_ms) {
   const TradedSetting* found = nullptr;
   for (const TradedSetting& setting : result.measured)
-    if (promised_ms(setting) <= budget_ms && (found == nullptr || setting.point.error < found->point.error))
+    if (promised_ms(result, setting) <= budget_ms &&
+        (found == nullptr || setting.point.error < found->point.error))
       found = &setting;
   return found;
 }

@@ -13,14 +13,14 @@ struct TradeGiven {
 /// What frames with these settings have to choose from.
 TradeAxes axes_of(const render::RenderSettings& settings, const TradeGiven& given);
 
-/// The time that the setting may be relied on to keep to: that of its frames in the middle, or where frames
-/// differ by more than a budget may be exceeded (10 %), of the slowest less that much. Milliseconds.
-double promised_ms(const TradedSetting& setting);
+/// The time that a frame in the middle of the animation is expected to take: that of the frames that were
+/// tried, times the time spread, as those that were not may have more to draw. Milliseconds.
+double promised_ms(const TradeResult& result, const TradedSetting& setting);
 /// The error that frames are expected to keep to that were not tried: that of the worst of those that were,
 /// times the spread, and a tenth more. Levels of 255; 0 for what is the finest.
 double promised_error(const TradeResult& result, const TradedSetting& setting);
 
-/// The most exact setting whose frame takes no longer than the budget; null: none does.
+/// The most exact setting whose frame is expected to take no longer than the budget; null: none is.
 const TradedSetting* within_budget(const TradeResult& result, double budget_ms);
 /// The quickest setting that is off by no more; null: none is as exact.
 const TradedSetting* within_error(const TradeResult& result, double error);

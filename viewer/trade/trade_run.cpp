@@ -18,7 +18,7 @@ using Clock = std::chrono::steady_clock;
 constexpr int crop_size = 96;
 constexpr double enough_ms = 500;  // of one frame with one setting
 constexpr double slow_ms = 2000;
-constexpr double spread_s = 8;  // for frames that are drawn for the spread alone
+constexpr double spread_s = 8;  // for frames that are drawn for the spreads alone
 constexpr std::size_t least_measured = 4;
 constexpr double finest_steps = 4, own_steps = 2;  // of the progress; a setting of a sweep is one
 
@@ -97,9 +97,7 @@ public:
     result.measured.push_back(judged(finest(request_.axes), *reference, *reference, result));
     if (auto measured = measure(*sweep, *reference, result); !measured)
       return tl::unexpected(measured.error());
-    const auto spread = spread_of_errors();
-    if (!spread) return tl::unexpected(spread.error());
-    result.spread = *spread;
+    if (auto spread = measure_spreads(result); !spread) return tl::unexpected(spread.error());
     return result;
   }
 
@@ -280,46 +278,52 @@ private:
     return {};
   }
 
-  /// How far two coarse settings are apart in a frame.
-  Expected<double> coarse_error(render::Renderer& renderer, const PlannedFrame& frame) {
+  /// What two coarse settings show of some frames.
+  struct CoarseFrames {
+    double worst_error = 0;  ///< how far they are apart, of the frame where it is most
+    double ms = 0;           ///< of the finer one: the median of the frames
+  };
+  Expected<CoarseFrames> coarse_frames(render::Renderer& renderer, std::span<const PlannedFrame> frames,
+                                       std::size_t step) {
     const TradeAxes& axes = request_.axes;
     const auto second = [](const auto& values) {
       return values[std::min<std::size_t>(1, values.size() - 1)];
     };
-    const TradeSetting finer{second(axes.antialias), second(axes.soft_errors), second(axes.ao_errors)};
-    base::Image8 picture;
-    for (const TradeSetting& setting : {coarsest(axes), finer}) {
-      const auto drawn = draw_frame(renderer, frame, with_setting(request_.settings, axes, setting));
-      if (!drawn) return drawn;
-      if (setting == coarsest(axes)) picture = result_.image;
+    const TradeSetting coarse = coarsest(axes),
+                       finer{second(axes.antialias), second(axes.soft_errors), second(axes.ao_errors)};
+    CoarseFrames found;
+    std::vector<double> times;
+    for (std::size_t i = step / 2; i < frames.size(); i += step) {
+      const auto drawn = draw_frame(renderer, frames[i], with_setting(request_.settings, axes, coarse));
+      if (!drawn) return tl::unexpected(drawn.error());
+      const base::Image8 picture = result_.image;
+      const auto ms = median_ms(renderer, frames[i], with_setting(request_.settings, axes, finer));
+      if (!ms) return tl::unexpected(ms.error());
+      times.push_back(*ms);
+      found.worst_error = std::max(found.worst_error, rms_difference(picture, result_.image));
     }
-    return rms_difference(picture, result_.image);
+    found.ms = base::summarize(times).median;
+    return found;
   }
 
-  /// Errors of all settings grow and shrink together from frame to frame: what coarse ones show goes for all.
-  Expected<double> spread_of_errors() {
-    if (request_.more_frames.empty()) return 1.0;
+  /// Errors and times of all settings grow and shrink together from frame to frame: what coarse ones show
+  /// goes for all.
+  Expected<void> measure_spreads(TradeResult& result) {
+    if (request_.more_frames.empty()) return {};
     auto renderer = make_renderer();
     if (!renderer) return tl::unexpected(renderer.error());
-    const auto worst_of = [&](std::span<const PlannedFrame> frames, std::size_t step) -> Expected<double> {
-      double worst = 0;
-      for (std::size_t i = step / 2; i < frames.size(); i += step) {
-        const auto error = coarse_error(*renderer, frames[i]);
-        if (!error) return error;
-        worst = std::max(worst, *error);
-      }
-      return worst;
-    };
     const Clock::time_point begun = Clock::now();
-    const auto tried = worst_of(request_.frames, 1);
-    if (!tried) return tried;
+    const auto tried = coarse_frames(*renderer, request_.frames, 1);
+    if (!tried) return tl::unexpected(tried.error());
     const double took_s = std::chrono::duration<double>(Clock::now() - begun).count(),
                  all_s = took_s * double(request_.more_frames.size()) / double(request_.frames.size());
     const std::size_t step = std::min(std::size_t(std::ceil(std::max(all_s / spread_s, 1.0))),
                                       request_.more_frames.size());  // one at least
-    const auto more = worst_of(request_.more_frames, step);
-    if (!more) return more;
-    return *tried > 0 ? std::max(1.0, *more / *tried) : 1.0;
+    const auto more = coarse_frames(*renderer, request_.more_frames, step);
+    if (!more) return tl::unexpected(more.error());
+    if (tried->worst_error > 0) result.spread = std::max(1.0, more->worst_error / tried->worst_error);
+    if (tried->ms > 0) result.time_spread = more->ms / tried->ms;
+    return {};
   }
 
   TradedSetting judged(const TradeSetting& setting, const Drawn& drawn, const Drawn& reference,

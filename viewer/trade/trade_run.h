@@ -29,6 +29,7 @@ struct TradeResult {
   std::vector<TradedSetting> measured;  ///< from the quickest, not all of them on the front
   std::vector<std::size_t> front;       ///< of these
   double spread = 1;                    ///< errors of the worst frame of all, over the worst of `frames`
+  double time_spread = 1;               ///< time of a frame in the middle of all, over that of `frames`
   base::Image8 reference_crop;          ///< of the finest setting
   int crop_x = 0, crop_y = 0;           ///< where the crops are, pixels
 };
@@ -38,7 +39,7 @@ struct TradeRequest {
   const ScenePlan* scene = nullptr;
   int clip = -1;
   std::vector<PlannedFrame> frames;
-  std::vector<PlannedFrame> more_frames;  ///< for the spread of errors: drawn with two coarse settings alone
+  std::vector<PlannedFrame> more_frames;  ///< for the spreads: drawn with two coarse settings alone
   render::RenderSettings settings;        ///< what all share, and what is no choice
   render::RasterChoice raster;
   std::vector<Light> lights;  ///< the scene's, with their edits

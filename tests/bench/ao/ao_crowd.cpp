@@ -12,15 +12,6 @@ namespace {
 using glm::dvec3;
 using glm::vec3;
 
-Mesh mesh_of(const Object& object) {
-  Mesh mesh;
-  mesh.name = object.name;
-  mesh.positions = object.positions;
-  mesh.triangles = object.triangles;
-  mesh.materials.assign(object.triangles.size(), 0);
-  return mesh;
-}
-
 Object floor_of(float half) {
   return {"floor",
           {{-half, 0, -half}, {-half, 0, half}, {half, 0, half}, {half, 0, -half}},

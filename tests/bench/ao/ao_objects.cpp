@@ -114,6 +114,14 @@ Object object_or_knot(const std::filesystem::path& file, const std::string& name
 
 }  // namespace
 
+Mesh mesh_of(Object object) {
+  Mesh mesh;
+  mesh.name = object.name;
+  mesh.materials.assign(object.triangles.size(), 0);
+  mesh.positions = std::move(object.positions), mesh.triangles = std::move(object.triangles);
+  return mesh;
+}
+
 Expected<Object> load_object(const std::filesystem::path& file, const std::string& mesh, std::string name) {
   auto scene = formats::import_scene(file);
   if (!scene) return tl::unexpected(scene.error());

@@ -18,6 +18,9 @@ struct Object {
   std::vector<glm::uvec3> triangles;
 };
 
+/// The object as a mesh of a scene's first material.
+Mesh mesh_of(Object object);
+
 /// Mesh `mesh` of a scene file, in its own space; an empty name: the whole scene at rest.
 Expected<Object> load_object(const std::filesystem::path& file, const std::string& mesh, std::string name);
 

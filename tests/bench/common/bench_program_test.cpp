@@ -8,6 +8,7 @@
 
 #include "bench/common/bench_data.h"
 #include "bench/common/bench_frame.h"
+#include "support/bart.h"
 #include "support/child_process.h"
 #include "support/temporary_folder.h"
 
@@ -240,9 +241,19 @@ TEST(BenchData, NamesTheFilesThatAreNotThoseOfTheFigures) {
                 " of BART's files are missing or others than those of the documented figures (kitchen/"),
             std::string::npos)
       << sentences[0];
-  const std::filesystem::path data = bart_folder("");
-  if (!std::filesystem::is_directory(data)) GTEST_SKIP() << "BART is not there";
-  EXPECT_TRUE(data_sentences(data).empty()) << data_sentences(data)[0];
+  if (testing::bart_has_textures()) EXPECT_TRUE(data_sentences(testing::bart_folder()).empty());
+}
+
+TEST(BenchData, ThePartThatComesWithTheTestsLacksTexturesAlone) {
+  const std::string sums =
+      testing::read_text(std::filesystem::path(TENEBRA_SCENES_DIR) / "../tests/reference/bart.sha256");
+  int textures = 0;
+  for (std::size_t at = 0; (at = sums.find(".ppm\n", at)) != std::string::npos; ++at) ++textures;
+  const auto sentences = data_sentences(testing::bart_part());
+  ASSERT_EQ(sentences.size(), 1u);
+  EXPECT_NE(sentences[0].find(": " + std::to_string(textures) + " of BART's files are missing"),
+            std::string::npos)
+      << sentences[0];
 }
 
 TEST(BenchProgram, PaperWritesItsPageFromBundledScenesAlone) {

@@ -8,6 +8,8 @@
 namespace tenebra::bench {
 namespace {
 
+constexpr double comparable = 2;  // errors of one order: at most twice the other
+
 double map_rms(const AoFindings& found, DirectionMap map) {
   const auto at =
       std::find_if(found.maps.begin(), found.maps.end(), [&](const MapError& m) { return m.map == map; });
@@ -81,20 +83,27 @@ void add_bits(const AoFindings& found, std::vector<Claim>& claims) {
                     verdict_of(std::abs(bit.bytes / byte.bytes - 0.125) < 1e-3),
                     fmt::format("{:.2f} MB against {:.2f}.", bit.bytes / 1e6, byte.bytes / 1e6)});
   claims.push_back({"gaitatzes.a_bit_is_comparable", "Figure 7",
-                    "With one bit results are comparable (RMS 4.40).", verdict_of(bit.rms <= 4.40),
-                    fmt::format("RMS {:.2f}, with 8 bits {:.2f}.", bit.rms, byte.rms)});
-  claims.push_back({"gaitatzes.a_bit_is_brighter", "Figure 7", "With one bit pictures are slightly brighter.",
-                    verdict_of(bit.brighter > byte.brighter),
-                    fmt::format("Brighter by {:.2f}/255 in the mean than many rays, with 8 bits by {:.2f}.",
+                    "With one bit results are comparable with those of 8 bits.",
+                    verdict_of(bit.rms <= comparable * byte.rms),
+                    fmt::format("RMS {:.2f} against {:.2f}: {:.2f} times (true up to {:g}). The paper's 4.40 "
+                                "is of other pictures.",
+                                bit.rms, byte.rms, bit.rms / byte.rms, comparable)});
+  const double brighter = bit.brighter - byte.brighter;
+  claims.push_back({"gaitatzes.a_bit_is_brighter", "Figure 7", "But they are slightly brighter.",
+                    verdict_of(brighter > 0 && bit.brighter < 2),
+                    fmt::format("Brighter by {:.2f}/255 in the mean than many rays, with 8 bits by {:.2f}; "
+                                "slightly: less than 2.",
                                 bit.brighter, byte.brighter)});
   const MixedBits& m = found.mixed;
   claims.push_back(
-      {"gaitatzes.a_bit_for_far_objects", "section 4", "Objects far from the viewer do with one bit.",
-       verdict_of(m.far_rms < 4.40),
-       fmt::format("Four near objects of 8 bits and four far ones of 1: RMS {:.2f} at the floor under "
-                   "near ones, {:.2f} under far ones ({:.2f} were those of 8 bits); {:.2f} MB for "
+      {"gaitatzes.a_bit_for_far_objects", "section 4",
+       "Objects further away from the viewer do with one bit a direction: comparable results.",
+       verdict_of(m.far_rms <= comparable * m.far_rms_8),
+       fmt::format("Four near objects of 8 bits and four far ones of 1: RMS {:.2f} at the floor under far "
+                   "ones, {:.2f} were these of 8 bits: {:.2f} times; {:.2f} under near ones. {:.2f} MB for "
                    "both tables, of which the far ones read {:.2f}.",
-                   m.near_rms, m.far_rms, m.far_rms_8, (m.all_8 + m.mixed) / 1e6, m.mixed / 1e6)});
+                   m.far_rms, m.far_rms_8, m.far_rms / m.far_rms_8, m.near_rms, (m.all_8 + m.mixed) / 1e6,
+                   m.mixed / 1e6)});
 }
 
 void add_growth_of(const AoFindings& found, std::vector<Claim>& claims) {

@@ -190,6 +190,7 @@ Expected<void> measure_paper_hard(PaperSession& session) {
   if (found.table_scene == "museum5") found.table_scene = "museum5x64";
   const std::vector<int> views = session.by_effort<std::vector<int>>({20}, {20, 200}, {20, 100, 150, 200});
   if (auto done = measure_scene(session, found.table_scene, views, 1, found.table); !done) return done;
+  found.closed = measure_closed_meshes(session.by_effort<PictureSize>({64, 64}, {}, {}));
   session.finish(hard_section_of(session, found));
   return {};
 }

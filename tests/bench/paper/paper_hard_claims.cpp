@@ -12,13 +12,25 @@ namespace {
 
 using Frames = std::vector<VariantFrame>;
 
-constexpr double alike = 1.02;  // counts within 2 % are told as equal
+constexpr double alike = 1.02;        // counts within 2 % are told as equal
+constexpr double time_spread = 1.05;  // times within 5 % are told as equal: the spread of one frame's
+// Where sorting leaves more than half of the nodes of Precise, the screen is coherent already. The paper
+// calls a view so that keeps 98 % of them (Table 2, the third); its other three keep at most 5 %.
+constexpr double coherent = 0.5;
 
 std::size_t frames_where(const Frames& frames, const std::function<bool(const VariantFrame&)>& holds) {
   return static_cast<std::size_t>(std::count_if(frames.begin(), frames.end(), holds));
 }
-bool fewer(const VariantFrame& f, Variant a, Variant b) {
+bool no_more(const VariantFrame& f, Variant a, Variant b) {
   return f.of(a).nodes <= f.of(b).nodes;
+}
+bool fewer(const VariantFrame& f, Variant a, Variant b) {
+  return f.of(a).nodes < f.of(b).nodes;
+}
+double sum_over(const Frames& frames, const std::function<double(const VariantFrame&)>& value) {
+  double sum = 0;
+  for (const VariantFrame& f : frames) sum += value(f);
+  return sum;
 }
 std::string of_frames(std::size_t count, const Frames& frames) {
   return fmt::format("{} of {}", count, frames.size());
@@ -47,10 +59,10 @@ Frames all_frames(const HardFindings& found) {
 
 void add_sorting(const HardFindings& found, std::vector<Claim>& claims) {
   const Frames& frames = found.figures;
-  const std::size_t spheres =
-      frames_where(frames, [](const auto& f) { return fewer(f, Variant::spheres_sorted, Variant::spheres); });
-  const std::size_t precise =
-      frames_where(frames, [](const auto& f) { return fewer(f, Variant::precise_sorted, Variant::precise); });
+  const std::size_t spheres = frames_where(
+      frames, [](const auto& f) { return no_more(f, Variant::spheres_sorted, Variant::spheres); });
+  const std::size_t precise = frames_where(
+      frames, [](const auto& f) { return no_more(f, Variant::precise_sorted, Variant::precise); });
   claims.push_back({"olsson.sorting_visits_fewer_nodes", "Figure 6(a)",
                     "Variants with sorted rays always visit fewer nodes than the same without.",
                     verdict_of(spheres + precise == 2 * frames.size()),
@@ -106,24 +118,27 @@ void add_frame_160(const HardFindings& found, std::vector<Claim>& claims) {
                     fmt::format("Unsorted over sorted: Spheres {:.2f}, Precise {:.2f}.", spheres, precise)});
 }
 
+/// "Steadily": of the whole animation; of single frames the paper does not speak.
 void add_improvements(const HardFindings& found, std::vector<Claim>& claims) {
   const Frames& frames = found.figures;
-  const std::size_t accept = frames_where(
-      frames, [](const auto& f) { return fewer(f, Variant::precise_sea, Variant::precise_sorted); });
-  const std::size_t passes = frames_where(
-      frames, [](const auto& f) { return fewer(f, Variant::precise_seatp, Variant::precise_sea); });
-  double sorted = 0, sea = 0, seatp = 0;
-  for (const VariantFrame& f : frames)
-    sorted += f.of(Variant::precise_sorted).nodes, sea += f.of(Variant::precise_sea).nodes,
-        seatp += f.of(Variant::precise_seatp).nodes;
-  claims.push_back(
-      {"olsson.each_improvement_culls", "Figure 7(a)",
-       "Early accept, and two passes besides, each cull more nodes.",
-       verdict_of(accept + passes == 2 * frames.size()),
-       fmt::format("Early accept: fewer or as many on {} frames, {:.2f} of the nodes in all. Two passes: on "
-                   "{}, {:.2f} of those of early accept.",
-                   of_frames(accept, frames), sea / std::max(sorted, 1.0), of_frames(passes, frames),
-                   seatp / std::max(sea, 1.0))});
+  const auto nodes = [&](Variant v) {
+    return sum_over(frames, [v](const auto& f) { return f.of(v).nodes; });
+  };
+  const double sorted = nodes(Variant::precise_sorted), sea = nodes(Variant::precise_sea),
+               seatp = nodes(Variant::precise_seatp);
+  const auto step = [&](Variant with, Variant without) {
+    return fmt::format(
+        "fewer on {} frames, more on {}",
+        of_frames(frames_where(frames, [&](const auto& f) { return fewer(f, with, without); }), frames),
+        frames_where(frames, [&](const auto& f) { return fewer(f, without, with); }));
+  };
+  claims.push_back({"olsson.each_improvement_culls", "Figure 7(a)",
+                    "The number of nodes is steadily improved with each new optimisation.",
+                    verdict_of(sea < sorted && seatp < sea),
+                    fmt::format("Early accept: {:.3f} of the nodes in all, {}. Two passes: {:.3f} of those, "
+                                "{}.",
+                                ratio(sea, sorted), step(Variant::precise_sea, Variant::precise_sorted),
+                                ratio(seatp, sea), step(Variant::precise_seatp, Variant::precise_sea))});
 }
 
 void add_table(const HardFindings& found, std::vector<Claim>& claims) {
@@ -169,16 +184,61 @@ void add_culling(const HardFindings& found, std::vector<Claim>& claims) {
                     verdict_of(fewer_nodes == all.size()),
                     fmt::format("PreciseSorted: fewer nodes on {} frames, at most {:.2f} of those without.",
                                 of_frames(fewer_nodes, all), share)});
+  const ClosedMeshes& closed = found.closed;
   claims.push_back(
-      {"olsson.front_culling_is_exact", "section 3.6", "On closed meshes it loses no shadow.",
-       differing == 0 ? Verdict::holds : Verdict::not_here,
-       fmt::format("Up to {} pixels of a mask change, {} of them to lit: these scenes have open meshes. "
-                   "Tenebra's default does not cull.",
+      {"olsson.front_culling_is_exact", "section 3.6",
+       "It assumes that the geometry is closed; then it loses no shadow.",
+       closed.shadowed == 0 ? Verdict::not_here : verdict_of(closed.differing == 0),
+       fmt::format("A closed knot over a closed slab, three lights: {} of {} pixels change, {} of them in "
+                   "shadow. The meshes of the scenes are open: there up to {} pixels of a mask change, {} of "
+                   "them to lit, so that Tenebra's default does not cull.",
+                   counted(closed.differing), counted(closed.pixels), counted(closed.shadowed),
                    counted(differing), counted(lit))});
   const std::size_t same = frames_where(all, [](const auto& f) { return f.same_masks; });
   claims.push_back({"olsson.one_answer", "sections 3 to 5", "The improvements leave the shadows as they are.",
                     verdict_of(same == all.size()),
                     fmt::format("All seven masks have the same bits on {} frames.", of_frames(same, all))});
+}
+
+/// PreciseSorted against the other three of Figure 6, apart for frames that are coherent as they are.
+void add_fastest(const Frames& frames, std::vector<Claim>& claims) {
+  const auto is_coherent = [](const VariantFrame& f) {
+    return f.of(Variant::precise_sorted).nodes > coherent * f.of(Variant::precise).nodes;
+  };
+  const auto is_best = [](const VariantFrame& f) {
+    return f.of(Variant::precise_sorted).ms <=
+           time_spread * std::min({f.of(Variant::spheres).ms, f.of(Variant::spheres_sorted).ms,
+                                   f.of(Variant::precise).ms});
+  };
+  const std::size_t high = frames_where(frames, is_coherent), others = frames.size() - high;
+  const std::size_t best_of_high =
+      frames_where(frames, [&](const auto& f) { return is_coherent(f) && is_best(f); });
+  const std::size_t best = frames_where(frames, is_best) - best_of_high;
+  claims.push_back(
+      {"olsson.precise_sorted_is_fastest", "Figure 6(b)",
+       "PreciseSorted is the best performing variant, except where coherence on the screen is high already.",
+       others == 0 ? Verdict::not_here : verdict_of(best == others),
+       fmt::format("The fastest, or within 5 % of it, on {} of {} frames where sorting saves half of the "
+                   "nodes of Precise or more, and on {} of the {} others.",
+                   best, others, best_of_high, high)});
+}
+
+/// Figure 7(b) and section 6: what early accept and two passes do to the time.
+void add_improved_times(const Frames& frames, std::vector<Claim>& claims) {
+  const auto seconds = [&](Variant v) {
+    return sum_over(frames, [v](const auto& f) { return f.of(v).ms / 1000; });
+  };
+  const double sorted = seconds(Variant::precise_sorted), sea = seconds(Variant::precise_sea),
+               seatp = seconds(Variant::precise_seatp);
+  const std::string all = fmt::format(
+      "All frames: PreciseSorted {:.2f} s, PreciseSEA {:.2f}, PreciseSEATP {:.2f}.", sorted, sea, seatp);
+  claims.push_back({"olsson.improvements_do_not_pay", "section 6",
+                    "Early accept and two passes yield no advantage in time.",
+                    verdict_of(std::min(sea, seatp) * time_spread >= sorted), all});
+  claims.push_back({"olsson.times_are_the_reverse", "Figure 7(b)",
+                    "With each new optimisation the time is almost the reverse of the nodes: it grows.",
+                    verdict_of(seatp > sorted && sea * time_spread >= sorted && seatp * time_spread >= sea),
+                    all});
 }
 
 void add_times(const HardFindings& found, std::vector<Claim>& claims) {
@@ -204,14 +264,7 @@ void add_times(const HardFindings& found, std::vector<Claim>& claims) {
                     fmt::format("{:.0f} ns a ray in the median, {:.0f} at the 99th percentile; their "
                                 "milliseconds are not testable here.",
                                 overhead.median, overhead.percentile_99)});
-  const std::size_t best = frames_where(frames, [&](const auto& f) {
-    return ms(f, Variant::precise_sorted) <=
-           std::min({ms(f, Variant::spheres), ms(f, Variant::spheres_sorted), ms(f, Variant::precise)});
-  });
-  claims.push_back({"olsson.precise_sorted_is_fastest", "Figure 6(b)",
-                    "PreciseSorted is the fastest of the four, except where coherence is high already.",
-                    verdict_of(2 * best > frames.size()),
-                    fmt::format("The fastest on {} frames.", of_frames(best, frames))});
+  add_fastest(frames, claims);
   const double steady = variation(frames, Variant::precise_sorted);
   const double others =
       std::min({variation(frames, Variant::spheres), variation(frames, Variant::spheres_sorted),
@@ -220,15 +273,7 @@ void add_times(const HardFindings& found, std::vector<Claim>& claims) {
       {"olsson.precise_sorted_is_steadiest", "Figure 6(b), section 6",
        "PreciseSorted varies least from frame to frame.", verdict_of(steady <= others),
        fmt::format("Standard deviation {:.1f} ms, the least of the others {:.1f} ms.", steady, others)});
-  const std::size_t slower = frames_where(frames, [&](const auto& f) {
-    return ms(f, Variant::precise_sorted) <= ms(f, Variant::precise_sea) &&
-           ms(f, Variant::precise_sea) <= ms(f, Variant::precise_seatp);
-  });
-  claims.push_back({"olsson.improvements_do_not_pay", "Figure 7(b)",
-                    "Early accept and two passes cost more than they save.",
-                    verdict_of(2 * slower > frames.size()),
-                    fmt::format("PreciseSorted before PreciseSEA before PreciseSEATP on {} frames.",
-                                of_frames(slower, frames))});
+  add_improved_times(frames, claims);
   const Frames& table = found.table;
   const std::size_t spheres_win =
       frames_where(table, [&](const auto& f) { return ms(f, Variant::spheres) < ms(f, Variant::precise); });

@@ -28,7 +28,7 @@ constexpr const char* page_head =
     "here**, "
     "with the reason: milliseconds on a GPU of 2011 say nothing about another machine, but ratios and counts "
     "do. "
-    "Some verdicts are of a claim's direction and not of its range: read what was found. A few that counts "
+    "What times decide tells times within 5 % as equal. Those that counts "
     "decide "
     "are held by `tests/bench/paper/paper_test.cpp`, on small pictures of the bundled scenes, where they may "
     "differ from those below; times are in no test. Node: a test of a triangle with a node of the tree. "

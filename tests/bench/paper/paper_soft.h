@@ -14,6 +14,12 @@ namespace tenebra::bench {
 
 /// The paper's trees have no bound; these have one that a test machine can bear, far above the program's own.
 inline constexpr std::size_t tree_bound_mib = 256;
+/// Whether a mask's largest tree came to its bound. Its lists double, so that one that cannot grow has more
+/// than half of the bound (tests/soft/tree_bound_test.cpp); points that are clipped are no sign, lit ones
+/// count as such.
+inline bool came_to_bound(double bytes) {
+  return bytes >= 0.5 * static_cast<double>(tree_bound_mib << 20);
+}
 
 /// Solver bsp, points grouped by triangle, random choice of occluders, trees of at most tree_bound_mib.
 SoftShadowConfig mora_config();
@@ -22,7 +28,7 @@ SoftShadowConfig mora_config();
 struct TreeView {
   std::string view;
   double triangles = 0;
-  double points_a_triangle = 0;  ///< mean over the visible ones
+  double points_a_triangle = 0;  ///< half of the points lie on triangles that have at most so many
   TreeCost paper;                ///< the paper's method on all points
   TreeCost kept, anew;           ///< on some points: as it is, and each query starting with an empty tree
   TreeCost largest;              ///< on all: the largest occluder is merged first
@@ -44,7 +50,6 @@ std::vector<GrowthRow> add_lights(const SoftView& view, const std::vector<std::s
 struct SplitLight {
   double difference_255 = 0;  ///< of the irradiance, at most, in 1/255 of the largest
   double whole_bytes = 0, part_bytes = 0;
-  double clipped = 0;  ///< points of all five, their trees having come to the bound
 };
 SplitLight split_light(const SoftView& view);
 
@@ -64,7 +69,7 @@ TreeLife measure_life(const SoftView& view, std::size_t rows);
 
 struct SoftFindings {
   std::vector<TreeView> views;
-  std::string growth_view;
+  std::string growth_view, life_view;
   std::vector<GrowthRow> areas, lights;
   SplitLight split;
   TreeLife life;

@@ -32,23 +32,32 @@ VisiblePoints some_tiles(const VisiblePoints& points, std::size_t every) {
   return some;
 }
 
+/// Half of the points lie on triangles that have at most so many.
 double points_a_triangle(const VisiblePoints& points) {
   std::vector<std::uint32_t> seen = points.triangles;
   std::erase(seen, no_triangle);
-  const auto count = static_cast<double>(seen.size());
   std::sort(seen.begin(), seen.end());
-  seen.erase(std::unique(seen.begin(), seen.end()), seen.end());
-  return count / std::max(static_cast<double>(seen.size()), 1.0);
+  std::vector<std::size_t> counts;  // of each visible triangle
+  for (std::size_t i = 0; i < seen.size(); ++i) {
+    if (i == 0 || seen[i] != seen[i - 1]) counts.push_back(0);
+    ++counts.back();
+  }
+  std::sort(counts.begin(), counts.end());
+  std::size_t points_so_far = 0;
+  for (const std::size_t count : counts) {
+    points_so_far += count;
+    if (2 * points_so_far >= seen.size()) return static_cast<double>(count);
+  }
+  return 0;
 }
 
 SoftMask trace_light(const SoftView& view, const AreaLight& light, const SoftShadowConfig& config,
-                     double& bytes, double& clipped) {
+                     double& bytes) {
   SoftShadowTracer tracer;
   SoftMask mask;
   tracer.trace(view.frame.points, view.frame.normals, view.frame.view, view.frame.triangles(), light, config,
                mask);
   bytes = std::max(bytes, static_cast<double>(tracer.stats().peak_tree_bytes));
-  clipped += static_cast<double>(tracer.stats().points_clip);
   return mask;
 }
 
@@ -195,7 +204,7 @@ SplitLight split_light(const SoftView& view) {
   SplitLight split;
   const auto whole = square_light(view.frame, 10);
   if (!whole) return split;
-  const SoftMask at_once = trace_light(view, *whole, mora_config(), split.whole_bytes, split.clipped);
+  const SoftMask at_once = trace_light(view, *whole, mora_config(), split.whole_bytes);
   const glm::vec3 place = view.frame.lights.front().position;
   const glm::dmat3 basis =
       scene::view_basis(glm::dvec3(view.frame.centre) - glm::dvec3(place), glm::dvec3(0, 1, 0));
@@ -207,7 +216,7 @@ SplitLight split_light(const SoftView& view) {
       const auto part = make_rectangle_light(place + shift, glm::vec3(quarter_m * basis[0]),
                                              glm::vec3(-quarter_m * basis[1]));
       if (!part) return split;
-      const SoftMask mask = trace_light(view, *part, mora_config(), split.part_bytes, split.clipped);
+      const SoftMask mask = trace_light(view, *part, mora_config(), split.part_bytes);
       for (std::size_t i = 0; i < sum.size(); ++i) sum[i] += static_cast<double>(mask.irradiance[i]);
     }
   }
