@@ -128,7 +128,11 @@ Expected<void> run_soft(const SoftOptions& options) {
   if (auto checked = check(options); !checked) return checked;
   Report report(options.csv);
   SoftResults results;
-  const ViewChoice choice{options.size[0], options.size[1], effort(options.quick).more_frames, options.only};
+  const ViewChoice choice{.width = options.size[0],
+                          .height = options.size[1],
+                          .more_frames = effort(options.quick).more_frames,
+                          .large_lights = true,
+                          .only = options.only};
   Expected<void> done;
   int threads = 0;
   with_threads(options.threads, [&] {

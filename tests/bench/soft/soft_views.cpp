@@ -59,12 +59,13 @@ Expected<AreaLight> sun_of(const Scene& scene, const BenchFrame& frame) {
   return make_sun(frame.lights.front().position - frame.centre, sun_deg);
 }
 
-Expected<void> visit_large(const SceneEntry& entry, const Scene& scene,
+Expected<void> visit_large(const SceneEntry& entry, const Scene& scene, const ViewChoice& choice,
                            const std::function<Expected<void>(const SoftView&)>& body) {
   SoftView view;
   view.name = fmt::format("{} {}, {} %", entry.name, entry.frames.front(), large_percent);
   view.large = true;
-  evaluate_bench_frame(scene, entry.frames.front(), large_width, large_height, view.frame);
+  evaluate_bench_frame(scene, entry.frames.front(), std::min(choice.width, large_width),
+                       std::min(choice.height, large_height), view.frame);
   auto light = square_light(view.frame, large_percent);
   if (!light) return base::fail("{}: {}", view.name, light.error().message);
   view.light = std::move(*light);
@@ -77,8 +78,8 @@ Expected<void> visit_frames(const SceneEntry& entry, const std::filesystem::path
   const BenchScene& known = bench_scene(entry.name);
   const auto scene = load_scene(file, known.no_cast);
   if (!scene) return tl::unexpected(scene.error());
-  if (entry.large) {
-    if (auto done = visit_large(entry, *scene, body); !done || entry.large_only) return done;
+  if (entry.large && choice.large_lights) {
+    if (auto done = visit_large(entry, *scene, choice, body); !done || entry.large_only) return done;
   }
   for (const int number : entry.frames) {
     const bool first = number == entry.frames.front();
@@ -120,7 +121,7 @@ Expected<void> for_each_view(const BenchOptions& options, const ViewChoice& choi
                              const std::function<Expected<void>(const SoftView&)>& body) {
   const auto data = bart_folder(options.data);
   for (const SceneEntry& entry : scene_entries()) {
-    if (!chosen(choice, entry.name)) continue;
+    if (!chosen(choice, entry.name) || (entry.large_only && !choice.large_lights)) continue;
     std::unique_ptr<testing::TemporaryFolder> made;
     const auto file = find_scene(bench_scene(entry.name), data, made);
     if (file.empty()) {

@@ -29,6 +29,7 @@ struct ViewChoice {
   int width = 1280;
   int height = 720;
   bool more_frames = false;       ///< a second frame of each BART scene beside the four
+  bool large_lights = false;      ///< views of a light of half the diagonal, too, of 320x180 pixels at most
   std::vector<std::string> only;  ///< names of scenes ("robots"); empty: all
 };
 
