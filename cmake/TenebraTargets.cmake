@@ -51,11 +51,11 @@ set(common_headers <algorithm> <array> <cmath> <cstdint> <functional> <map> <mem
   <string_view> <unordered_map> <vector> <glm/glm.hpp> <glm/gtc/quaternion.hpp> <tl/expected.hpp>)
 
 # tenebra_precompile(FIRST OTHERS... [HEADERS ...]): where files are compiled together, the targets' common headers, and
-# those named, are compiled once, by FIRST; all have the same options. Not beside a compiler cache, which could keep
-# nothing of what uses them.
+# those named, are compiled once, by FIRST; all have the same options, as release builds do (oneTBB has a definition of its
+# own for debug builds). Not beside a compiler cache, which could keep nothing of what uses them.
 function(tenebra_precompile first)
   cmake_parse_arguments(PARSE_ARGV 1 with "" "" HEADERS)
-  if(NOT TENEBRA_UNITY OR CCACHE OR NOT CMAKE_CXX_COMPILER_ID STREQUAL "GNU")
+  if(NOT TENEBRA_UNITY OR CCACHE OR NOT CMAKE_CXX_COMPILER_ID STREQUAL "GNU" OR NOT CMAKE_BUILD_TYPE STREQUAL "Release")
     return()
   endif()
   target_precompile_headers(tenebra_${first} PRIVATE ${common_headers} ${with_HEADERS})
