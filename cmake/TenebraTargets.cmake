@@ -62,4 +62,8 @@ function(tenebra_precompile first)
   foreach(other ${with_UNPARSED_ARGUMENTS})
     target_precompile_headers(tenebra_${other} REUSE_FROM tenebra_${first})
   endforeach()
+  # No warning of a file whose own options part it from the others: it reads the headers anew.
+  foreach(target ${first} ${with_UNPARSED_ARGUMENTS})
+    set_target_properties(tenebra_${target} PROPERTIES PCH_WARN_INVALID OFF)
+  endforeach()
 endfunction()
