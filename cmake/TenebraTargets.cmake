@@ -45,25 +45,3 @@ function(tenebra_unite target)
   # Types in unnamed namespaces may be members here: each group is one file that nobody includes.
   target_compile_options(${target} PRIVATE -Wno-subobject-linkage)
 endfunction()
-
-# Headers of others that most files include.
-set(common_headers <algorithm> <array> <cmath> <cstdint> <functional> <map> <memory> <optional> <span> <string>
-  <string_view> <unordered_map> <vector> <glm/glm.hpp> <glm/gtc/quaternion.hpp> <tl/expected.hpp>)
-
-# tenebra_precompile(FIRST OTHERS... [HEADERS ...]): where files are compiled together, the targets' common headers, and
-# those named, are compiled once, by FIRST; all have the same options, as release builds do (oneTBB has a definition of its
-# own for debug builds). Not beside a compiler cache, which could keep nothing of what uses them.
-function(tenebra_precompile first)
-  cmake_parse_arguments(PARSE_ARGV 1 with "" "" HEADERS)
-  if(NOT TENEBRA_UNITY OR CCACHE OR NOT CMAKE_CXX_COMPILER_ID STREQUAL "GNU" OR NOT CMAKE_BUILD_TYPE STREQUAL "Release")
-    return()
-  endif()
-  target_precompile_headers(tenebra_${first} PRIVATE ${common_headers} ${with_HEADERS})
-  foreach(other ${with_UNPARSED_ARGUMENTS})
-    target_precompile_headers(tenebra_${other} REUSE_FROM tenebra_${first})
-  endforeach()
-  # No warning of a file whose own options part it from the others: it reads the headers anew.
-  foreach(target ${first} ${with_UNPARSED_ARGUMENTS})
-    set_target_properties(tenebra_${target} PROPERTIES PCH_WARN_INVALID OFF)
-  endforeach()
-endfunction()
