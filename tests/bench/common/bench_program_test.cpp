@@ -241,7 +241,9 @@ TEST(BenchData, NamesTheFilesThatAreNotThoseOfTheFigures) {
                 " of BART's files are missing or others than those of the documented figures (kitchen/"),
             std::string::npos)
       << sentences[0];
-  if (testing::bart_has_textures()) EXPECT_TRUE(data_sentences(testing::bart_folder()).empty());
+  if (testing::bart_has_textures()) {
+    EXPECT_TRUE(data_sentences(testing::bart_folder()).empty());
+  }
 }
 
 TEST(BenchData, ThePartThatComesWithTheTestsLacksTexturesAlone) {
