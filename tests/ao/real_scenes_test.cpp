@@ -3,6 +3,7 @@
 
 #include "ao_case.h"
 #include "formats/import_scene.h"
+#include "support/bart.h"
 
 namespace tenebra {
 namespace {
@@ -10,7 +11,7 @@ namespace {
 using namespace testing;
 
 struct RealScene {
-  const char* file;  ///< bundled, or below TENEBRA_SHARED_DIR/scenes
+  const char* file;  ///< bundled, or of BART
   double time_s;
   double rms_255;
 };
@@ -23,11 +24,7 @@ class RealScenes : public ::testing::TestWithParam<RealScene> {};
 // the reference's 256 is part of it, and limbs that run into each other at the robots' joints.
 TEST_P(RealScenes, FollowTheReference) {
   std::filesystem::path file = std::filesystem::path(TENEBRA_SCENES_DIR) / GetParam().file;
-  if (!std::filesystem::exists(file)) {
-    file = std::filesystem::path(TENEBRA_SHARED_DIR) / "scenes" / GetParam().file;
-    if (!std::filesystem::exists(file))
-      GTEST_SKIP() << file << " is missing: this scene is measured where it is there";
-  }
+  if (!std::filesystem::exists(file)) file = bart_folder() / GetParam().file;
   const auto scene = formats::import_scene(file);
   ASSERT_TRUE(scene);
   const ViewRays camera = evaluate_camera(*scene, 0, GetParam().time_s, 0, 96, 72);
@@ -46,8 +43,8 @@ TEST_P(RealScenes, FollowTheReference) {
 INSTANTIATE_TEST_SUITE_P(Ao, RealScenes,
                          ::testing::Values(RealScene{"city.glb", 2, 5}, RealScene{"gallery.glb", 3, 5.4},
                                            RealScene{"court.glb", 4, 5},
-                                           RealScene{"bart/robots/Robot.aff", 10, 8.5},
-                                           RealScene{"bart/kitchen/kitchen.aff", 3, 2.5}));
+                                           RealScene{"robots/Robot.aff", 10, 8.5},
+                                           RealScene{"kitchen/kitchen.aff", 3, 2.5}));
 
 }  // namespace
 }  // namespace tenebra

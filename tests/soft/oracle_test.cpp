@@ -1,15 +1,12 @@
-// The oracle of the soft shadows is judged here: closed forms, convex bodies, rationals against long doubles,
-// and rays of the oracle of the hard shadows.
+// The oracle of the soft shadows on cases whose answer is known: closed forms and convex bodies.
 #include <gtest/gtest.h>
 
 #include <cmath>
 #include <functional>
 #include <numbers>
 
-#include "oracle/exact_mask.h"
 #include "oracle/exact_soft.h"
 #include "support/samples.h"
-#include "support/scaled.h"
 #include "support/soup.h"
 
 namespace tenebra::testing {
