@@ -101,7 +101,7 @@ struct AmbientOcclusion::State {
   }
   bool drop_oldest();
   void note_memory(const AoConfig& config);
-  void find(const Scene& scene, const FrameGeometry& geometry, const AoConfig& config);
+  void find(const Scene& scene, const FrameGeometry& geometry, const AoConfig& config, const StopFlag* stop);
   void note_deforming(const AoConfig& config);
   Expected<void> run(const ao::AoFrame& frame, const AoConfig& config, std::span<float> out,
                      const AoProgress& progress, const StopFlag* stop);
@@ -124,8 +124,8 @@ const std::vector<std::string>& AmbientOcclusion::notes() const {
 }
 
 /// Brings objects and what hangs on them to this instant.
-void AmbientOcclusion::State::find(const Scene& scene, const FrameGeometry& geometry,
-                                   const AoConfig& config) {
+void AmbientOcclusion::State::find(const Scene& scene, const FrameGeometry& geometry, const AoConfig& config,
+                                   const StopFlag* stop) {
   const bool kept = found && ao::move_objects(scene, geometry, objects);
   if (!kept) {
     objects = ao::find_objects(scene, geometry);
@@ -140,11 +140,11 @@ void AmbientOcclusion::State::find(const Scene& scene, const FrameGeometry& geom
   kernels = ao::ao_kernels(config.simd);
   rays.begin_frame(objects, config.rays, reach, kernels);
   ++frame;
-  occluders.begin_frame(objects, geometry, config, reach, frame);
+  occluders.begin_frame(objects, geometry, config, reach, frame, stop);
   bodies.begin_frame(frame, config.cache);
   constexpr std::size_t megabyte = std::size_t{1} << 20;
   budget.begin_frame(static_cast<std::size_t>(config.memory_mb) * megabyte);
-  see_through.begin_frame(scene, geometry);
+  see_through.begin_frame(scene, geometry, stop);
   note_deforming(config);
 }
 
@@ -180,7 +180,7 @@ void AmbientOcclusion::State::note_deforming(const AoConfig& config) {
 Expected<void> AmbientOcclusion::State::from_rays(const ao::ReceiverSet& set, const FrameGeometry& geometry,
                                                   const StopFlag* stop) {
   base::Stopwatch watch;
-  const auto reference = ao::ReferenceRays::create(triangle_view(geometry));
+  const auto reference = ao::ReferenceRays::create(triangle_view(geometry), stop);
   if (!reference) return tl::unexpected(reference.error());
   timings.ao_build_ms += watch.lap_ms();
   stats.points = ao::cast_receivers(set, rays, *reference, values, stop);
@@ -246,7 +246,8 @@ Expected<void> AmbientOcclusion::compute(const Scene& scene, const FrameGeometry
   if (config.mode == AoMode::none) return {};
   const VisiblePoints& points = points::with_positions(seen, triangle_view(geometry), s.positions);
   base::Stopwatch watch;
-  s.find(scene, geometry, config);
+  s.find(scene, geometry, config, stop);
+  if (stop_requested(stop)) return base::fail("stopped");
   const double found_ms = s.timings.ao_build_ms = watch.lap_ms();
 
   if (auto done = s.run({geometry, points, normals, s.objects}, config, out, progress, stop); !done)

@@ -146,7 +146,7 @@ TEST(KeptTrees, AreReadInTheNextProcessAndMadeAnewWhereDamaged) {
   const auto path = ao::tree_path(folder.path(), ao::tree_key(set.positions, set.triangles));
   const auto make = [&] {
     ao::KeptTrees trees{folder.path(), {}, false};
-    EXPECT_TRUE(same(trees.make(set.positions, set.triangles), expected));
+    EXPECT_TRUE(same(*trees.make(set.positions, set.triangles, nullptr), expected));
     return trees.notes;
   };
   EXPECT_TRUE(make().empty());
@@ -170,7 +170,7 @@ TEST(KeptTrees, SayOnceThatAFolderTakesNoFiles) {
   ao::KeptTrees trees{folder.path() / "file", {}, false};
   for (std::uint64_t seed = 1; seed <= 3; ++seed) {
     const TreeTriangles set = make_triangles(3000, seed);
-    EXPECT_TRUE(same(trees.make(set.positions, set.triangles), set.bvh()));
+    EXPECT_TRUE(same(*trees.make(set.positions, set.triangles, nullptr), set.bvh()));
   }
   EXPECT_EQ(trees.notes.size(), 1u);
 }
@@ -179,7 +179,7 @@ TEST(KeptTrees, SmallOnesLeaveNoFile) {
   const TemporaryFolder folder;
   const TreeTriangles set = make_triangles(100);
   ao::KeptTrees trees{folder.path() / "new", {}, false};
-  EXPECT_TRUE(same(trees.make(set.positions, set.triangles), set.bvh()));
+  EXPECT_TRUE(same(*trees.make(set.positions, set.triangles, nullptr), set.bvh()));
   EXPECT_FALSE(fs::exists(folder.path() / "new"));
 }
 

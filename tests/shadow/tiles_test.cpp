@@ -262,7 +262,7 @@ TEST(ClusterOrder, HoldsEveryCasterOnce) {
   const std::vector<std::uint32_t> parts{0, 12, 100};
   TriangleView view = soup.view();
   view.parts = parts;
-  shadow::cluster_order(view, order);
+  shadow::cluster_order(view, order, nullptr);
   EXPECT_EQ(order.size() % shadow::cluster_size, 0u);
   std::vector<int> met(soup.triangles.size(), 0);
   for (const std::uint32_t id : order)

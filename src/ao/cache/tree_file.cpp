@@ -68,15 +68,18 @@ Expected<TriangleBvh> load_tree(const fs::path& folder, const CacheKey& key,
   return std::move(*tree);
 }
 
-TriangleBvh KeptTrees::make(std::span<const glm::vec3> positions, std::span<const glm::uvec3> triangles) {
-  if (folder.empty() || triangles.size() < least_triangles) return build_triangle_bvh(positions, triangles);
+std::optional<TriangleBvh> KeptTrees::make(std::span<const glm::vec3> positions,
+                                           std::span<const glm::uvec3> triangles, const StopFlag* stop) {
+  if (folder.empty() || triangles.size() < least_triangles)
+    return build_triangle_bvh(positions, triangles, stop);
   const CacheKey key = tree_key(positions, triangles);
   const bool there = cache_file_exists(tree_path(folder, key));  // others may write it just then
   auto loaded = load_tree(folder, key, positions, triangles);
   if (loaded) return std::move(*loaded);
   if (there) notes.push_back(loaded.error().message + "; it is made anew");
-  TriangleBvh built = build_triangle_bvh(positions, triangles);
-  const auto saved = save_tree(folder, key, built);
+  auto built = build_triangle_bvh(positions, triangles, stop);
+  if (!built) return built;
+  const auto saved = save_tree(folder, key, *built);
   if (!saved && !unwritten) notes.push_back(saved.error().message);
   unwritten |= !saved;
   return built;

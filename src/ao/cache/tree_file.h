@@ -3,11 +3,13 @@
 #pragma once
 
 #include <filesystem>
+#include <optional>
 #include <span>
 #include <string>
 #include <vector>
 
 #include <tenebra/expected.h>
+#include <tenebra/stop_flag.h>
 #include "ao/cache/cache_file.h"
 #include "ao/cast/triangle_bvh.h"
 
@@ -36,8 +38,9 @@ struct KeptTrees {
   std::vector<std::string> notes;  ///< files that were damaged, and made anew; the first one not written
   bool unwritten = false;          ///< which was noted
 
-  /// Read or built: the same tree.
-  TriangleBvh make(std::span<const glm::vec3> positions, std::span<const glm::uvec3> triangles);
+  /// Read or built: the same tree. None if `stop` was requested while it was built.
+  std::optional<TriangleBvh> make(std::span<const glm::vec3> positions, std::span<const glm::uvec3> triangles,
+                                  const StopFlag* stop);
 };
 
 }  // namespace tenebra::ao

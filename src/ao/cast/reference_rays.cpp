@@ -28,6 +28,11 @@ bool casts(const TriangleView& triangles, std::size_t t) {
   return (triangles.casts_shadow.empty() || triangles.casts_shadow[t]) && !(v.x == v.y && v.y == v.z);
 }
 
+/// What Embree asks while it builds: false ends it.
+bool goes_on(void* stop, double) {
+  return !stop_requested(static_cast<const StopFlag*>(stop));
+}
+
 /// False if memory is short.
 bool attach(const TriangleView& triangles, RTCDevice device, RTCScene scene) {
   std::size_t count = 0;
@@ -53,7 +58,7 @@ bool attach(const TriangleView& triangles, RTCDevice device, RTCScene scene) {
 
 }  // namespace
 
-Expected<ReferenceRays> ReferenceRays::create(const TriangleView& triangles) {
+Expected<ReferenceRays> ReferenceRays::create(const TriangleView& triangles, const StopFlag* stop) {
   auto state = std::make_unique<State>();
   if (state->device == nullptr)
     return base::fail("the ray caster did not start: error {}", static_cast<int>(rtcGetDeviceError(nullptr)));
@@ -61,7 +66,9 @@ Expected<ReferenceRays> ReferenceRays::create(const TriangleView& triangles) {
   rtcSetSceneFlags(state->scene, RTC_SCENE_FLAG_ROBUST);
   if (!attach(triangles, state->device, state->scene))
     return base::fail("the ray caster has no memory for {} triangles", triangles.triangles.size());
+  rtcSetSceneProgressMonitorFunction(state->scene, goes_on, const_cast<StopFlag*>(stop));  // only read
   rtcCommitScene(state->scene);
+  if (stop_requested(stop)) return base::fail("stopped");
   return ReferenceRays(std::move(state));
 }
 
@@ -91,7 +98,7 @@ namespace tenebra::ao {
 
 struct ReferenceRays::State {};
 
-Expected<ReferenceRays> ReferenceRays::create(const TriangleView&) {
+Expected<ReferenceRays> ReferenceRays::create(const TriangleView&, const StopFlag*) {
   return base::fail(
       "ambient occlusion by rays: this build has no ray caster; install Embree 3 or 4 (package "
       "libembree-dev), then configure and build again");

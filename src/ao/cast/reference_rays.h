@@ -6,6 +6,7 @@
 #include <span>
 
 #include <tenebra/expected.h>
+#include <tenebra/stop_flag.h>
 #include <tenebra/visible_points.h>
 #include "ao/cast/ray_batch.h"
 
@@ -13,8 +14,9 @@ namespace tenebra::ao {
 
 class ReferenceRays {
 public:
-  /// Over the triangles that cast. Fails, with one sentence, in a build without a ray caster.
-  static Expected<ReferenceRays> create(const TriangleView& triangles);
+  /// Over the triangles that cast. Fails, with one sentence, in a build without a ray caster, and with
+  /// "stopped".
+  static Expected<ReferenceRays> create(const TriangleView& triangles, const StopFlag* stop = nullptr);
   ReferenceRays(ReferenceRays&&) noexcept;
   ReferenceRays& operator=(ReferenceRays&&) noexcept;
   ~ReferenceRays();

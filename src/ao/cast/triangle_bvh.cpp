@@ -15,6 +15,7 @@ namespace {
 constexpr int bin_count = 16;
 constexpr int depth_to_halve = bvh_depth - 32;  ///< from here on 32 levels hold whatever is left
 constexpr std::uint32_t shared_size = 8192;  ///< items of a node whose children are made by several threads
+constexpr std::size_t stride = 4096;         ///< items treated between two looks at the stop flag, at most
 constexpr float infinity = std::numeric_limits<float>::infinity();
 
 struct Item {
@@ -36,13 +37,15 @@ struct Split {
   double cost = std::numeric_limits<double>::infinity();
 };
 
+/// Once a stop is requested, whatever is in the making is left as it is and of no use.
 class Builder {
 public:
-  Builder(std::span<const glm::vec3> positions, std::span<const glm::uvec3> triangles)
-      : positions_(positions), triangles_(triangles) {
+  Builder(std::span<const glm::vec3> positions, std::span<const glm::uvec3> triangles, const StopFlag* stop)
+      : positions_(positions), triangles_(triangles), stop_(stop) {
     collect();
   }
   TriangleBvh build();
+  bool stopped() const { return stop_requested(stop_); }
 
 private:
   struct Bins {
@@ -54,10 +57,21 @@ private:
     }
   };
 
+  /// Calls body(i) for first .. last - 1, in order, until a stop is requested.
+  template <class Body>
+  void each(std::size_t first, std::size_t last, const Body& body) const {
+    while (first < last && !stopped()) {
+      const std::size_t end = std::min(last, first + stride);
+      for (; first < end; ++first) body(first);
+    }
+  }
+
   void collect();
   Range range(std::uint32_t first, std::uint32_t last) const;
   Bins bins(const Range& range) const;
   Split best_split(const Range& range, const Bins& bins) const;
+  template <class Left>
+  std::uint32_t part(const Range& range, const Left& left);
   std::pair<Range, Range> divide(const Range& range, int depth);
   std::vector<Range> children_of(const Range& range, int depth);
   std::uint32_t add_child(const Range& range, int depth, TriangleBvh& tree);
@@ -66,6 +80,7 @@ private:
 
   std::span<const glm::vec3> positions_;
   std::span<const glm::uvec3> triangles_;
+  const StopFlag* stop_;
   std::vector<Item> items_;
   float margin_ = 0;
 };
@@ -73,27 +88,27 @@ private:
 void Builder::collect() {
   items_.reserve(triangles_.size());
   float largest_coordinate = 0;
-  for (std::size_t i = 0; i < triangles_.size(); ++i) {
+  each(0, triangles_.size(), [&](std::size_t i) {
     BvhBox box;
-    if (!bvh_holds(positions_, triangles_[i], box)) continue;
+    if (!bvh_holds(positions_, triangles_[i], box)) return;
     items_.push_back({box, 0.5f * box.low + 0.5f * box.high, static_cast<std::uint32_t>(i)});
     largest_coordinate = std::max(largest_coordinate, box.largest_coordinate());
-  }
+  });
   margin_ = bvh_margin(largest_coordinate);
 }
 
 Range Builder::range(std::uint32_t first, std::uint32_t last) const {
   Range range{first, last, {}};
-  for (std::uint32_t i = first; i < last; ++i) range.box.add(items_[i].box);
+  each(first, last, [&](std::size_t i) { range.box.add(items_[i].box); });
   return range;
 }
 
 Builder::Bins Builder::bins(const Range& range) const {
   Bins bins;
-  for (std::uint32_t i = range.first; i < range.last; ++i) {
+  each(range.first, range.last, [&](std::size_t i) {
     bins.low = glm::min(bins.low, items_[i].middle);
     bins.high = glm::max(bins.high, items_[i].middle);
-  }
+  });
   return bins;
 }
 
@@ -103,11 +118,11 @@ Split Builder::best_split(const Range& range, const Bins& bins) const {
     if (!(bins.low[axis] < bins.high[axis])) continue;
     std::array<BvhBox, bin_count> boxes;
     std::array<std::uint32_t, bin_count> counts{};
-    for (std::uint32_t i = range.first; i < range.last; ++i) {
+    each(range.first, range.last, [&](std::size_t i) {
       const auto bin = static_cast<std::size_t>(bins.bin(items_[i].middle, axis));
       boxes[bin].add(items_[i].box);
       ++counts[bin];
-    }
+    });
     std::array<double, bin_count> right{};  // cost of bins i ..
     BvhBox box;
     std::uint32_t count = 0;
@@ -130,14 +145,29 @@ Split Builder::best_split(const Range& range, const Bins& bins) const {
   return best;
 }
 
+/// Items of the left side to the front, all in their order. Returns the first of the right side.
+template <class Left>
+std::uint32_t Builder::part(const Range& range, const Left& left) {
+  std::vector<Item> right;
+  right.reserve(range.size());
+  std::size_t middle = range.first;
+  each(range.first, range.last, [&](std::size_t i) {
+    if (left(items_[i])) {
+      items_[middle++] = items_[i];
+    } else {
+      right.push_back(items_[i]);
+    }
+  });
+  each(0, right.size(), [&](std::size_t i) { items_[middle + i] = right[i]; });
+  return static_cast<std::uint32_t>(middle);
+}
+
 std::pair<Range, Range> Builder::divide(const Range& whole, int depth) {
   const Bins bins = this->bins(whole);
   const Split split = depth < depth_to_halve ? best_split(whole, bins) : Split{};
-  const auto first = items_.begin() + whole.first, last = items_.begin() + whole.last;
   std::uint32_t middle = whole.first + whole.size() / 2;  // all middles alike, or too deep: by order
   if (split.axis >= 0) {
-    const auto left = [&](const Item& item) { return bins.bin(item.middle, split.axis) <= split.bin; };
-    middle = static_cast<std::uint32_t>(std::stable_partition(first, last, left) - items_.begin());
+    middle = part(whole, [&](const Item& item) { return bins.bin(item.middle, split.axis) <= split.bin; });
   }
   return {range(whole.first, middle), range(middle, whole.last)};
 }
@@ -166,6 +196,7 @@ std::vector<Range> Builder::children_of(const Range& whole, int depth) {
 }
 
 std::uint32_t Builder::add_child(const Range& range, int depth, TriangleBvh& tree) {
+  if (stopped()) return 0;
   return range.size() <= bvh_width ? add_block(range, tree) : add_node(range, depth, tree);
 }
 
@@ -202,6 +233,7 @@ std::uint32_t Builder::add_node(const Range& whole, int depth, TriangleBvh& tree
       set_no_child(tree.nodes[place], lane);
       continue;
     }
+    if (stopped()) break;
     const std::uint32_t child =
         shared ? append(parts[lane], roots[lane], tree) : add_child(children[lane], depth + 1, tree);
     set_child(tree.nodes[place], lane, child, children[lane].box, margin_);
@@ -231,8 +263,16 @@ TriangleBvh::Box TriangleBvh::box() const {
   return box;
 }
 
+std::optional<TriangleBvh> build_triangle_bvh(std::span<const glm::vec3> positions,
+                                              std::span<const glm::uvec3> triangles, const StopFlag* stop) {
+  Builder builder(positions, triangles, stop);
+  TriangleBvh tree = builder.build();
+  if (builder.stopped()) return {};
+  return tree;
+}
+
 TriangleBvh build_triangle_bvh(std::span<const glm::vec3> positions, std::span<const glm::uvec3> triangles) {
-  return Builder(positions, triangles).build();
+  return Builder(positions, triangles, nullptr).build();
 }
 
 }  // namespace tenebra::ao

@@ -5,10 +5,12 @@
 #include <cstdint>
 #include <glm/glm.hpp>
 #include <limits>
+#include <optional>
 #include <span>
 #include <vector>
 
 #include <tenebra/simd_level.h>
+#include <tenebra/stop_flag.h>
 #include "ao/cast/ray_batch.h"
 
 namespace tenebra::ao {
@@ -49,6 +51,9 @@ struct TriangleBvh {
 /// beyond 1e18, an index out of range or no area are left out. The same tree on every machine, for every
 /// thread count.
 TriangleBvh build_triangle_bvh(std::span<const glm::vec3> positions, std::span<const glm::uvec3> triangles);
+/// The same; none if `stop` was requested, which is looked at every few thousand triangles.
+std::optional<TriangleBvh> build_triangle_bvh(std::span<const glm::vec3> positions,
+                                              std::span<const glm::uvec3> triangles, const StopFlag* stop);
 
 /// One ray; hits with from < t < to count, on either side of a triangle. A triangle never hides its own
 /// points: `skip` names the one that the origin lies on.

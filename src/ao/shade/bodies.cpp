@@ -27,7 +27,7 @@ void Bodies::begin_frame(std::uint64_t frame, const std::filesystem::path& cache
   }
 }
 
-/// The number of the object's body; a new one has no samples yet.
+/// The number of the object's body; a new one has no samples yet. -1: a stop was requested.
 int Bodies::body_of(std::int32_t object, Occluders& occluders) {
   constexpr double alike = 1e-3;
   int& number = at_[index(object)];
@@ -46,19 +46,25 @@ int Bodies::body_of(std::int32_t object, Occluders& occluders) {
   }
   const ObjectShape& geometry =
       shape < 0 ? objects_->standing : objects_->shapes[static_cast<std::size_t>(shape)];
+  const TriangleBvh* casters = occluders.casters(shape);
+  if (casters == nullptr) return -1;
   Body body;  // there once it is whole: memory may fail before
   body.shape = shape;
   body.made = frame_;
   body.key = sample_key(geometry, reach);
-  body.samples = std::make_unique<SelfOcclusion>(geometry, occluders.casters(shape), reach,
-                                                 SelfOcclusion::most_cells, budget_);
+  body.samples =
+      std::make_unique<SelfOcclusion>(geometry, *casters, reach, SelfOcclusion::most_cells, budget_);
   bodies_.push_back(std::move(body));
   return number = static_cast<int>(bodies_.size()) - 1;
 }
 
 void Bodies::make(std::span<const int> objects, Occluders& occluders) {
   std::vector<int> chosen;
-  for (const int object : objects) chosen.push_back(body_of(object, occluders));
+  for (const int object : objects) {
+    const int body = body_of(object, occluders);
+    if (body < 0) return;
+    chosen.push_back(body);
+  }
   base::sort_unique(chosen);
   for (const int number : chosen) use(number);
   parallel::parallel_tasks(static_cast<int>(chosen.size()), [&](int i) {

@@ -38,8 +38,9 @@ Expected<void> FieldPass::supply(const std::vector<GroupReport>& reports, const 
   stats.rays_cast += (bodies.filled() - before) * SurfaceRays::rays;
   base::sort_unique(without_samples);
   bodies.make(without_samples, occluders);
+  if (stop_requested(stop)) return base::fail("stopped");
   base::sort_unique(missing);
-  return occluders.build(missing, progress, stop);
+  return occluders.build(missing, progress);
 }
 
 Expected<void> FieldPass::run(const ReceiverSet& set, AoPart part, std::vector<float>& values,

@@ -86,9 +86,10 @@ void Occluders::reset(const SceneObjects& objects) {
 }
 
 void Occluders::begin_frame(const SceneObjects& objects, const FrameGeometry& geometry,
-                            const AoConfig& config, double reach, std::uint64_t frame) {
+                            const AoConfig& config, double reach, std::uint64_t frame, const StopFlag* stop) {
   objects_ = &objects;
   geometry_ = &geometry;
+  stop_ = stop;
   const FieldSettings settings{config.layout, config.positions, config.directions, config.bits};
   if (settings != settings_)
     for (Shape& shape : shapes_) shape.by_rays = false;
@@ -124,7 +125,7 @@ void Occluders::place(std::size_t index) {
                    shape.radius * object.largest_scale};
   placed.to_object = glm::mat4x3(object.to_object);
   if (const DisplacementField* field = fields_.find(object.shape))
-    placed.instance = place_field(*field, &casters(object.shape), object.to_world);
+    placed.instance = place_field(*field, casters(object.shape), object.to_world);
   by_x_.push_back(index);
   largest_radius_ = std::max(largest_radius_, placed.sphere.radius);
 }
@@ -183,28 +184,31 @@ bool Occluders::ready(int occluder) const {
          fields_.refused(placed.shape);
 }
 
-Expected<void> Occluders::build(std::span<const int> missing, const AoProgress& progress,
-                                const StopFlag* stop) {
+Expected<void> Occluders::build(std::span<const int> missing, const AoProgress& progress) {
   load_fields(missing);
   for (const int occluder : missing) {
-    if (stop_requested(stop)) return base::fail("stopped");
     if (occluder == standing) {
       casters(standing);
     } else if (occluder == deforming) {
-      deforming_ = build_triangle_bvh(geometry_->positions, deforming_triangles(*objects_, *geometry_));
-    } else if (auto built = build_object(static_cast<std::size_t>(occluder), progress, stop); !built) {
+      deforming_ = tree_of_deforming();
+    } else if (auto built = build_object(static_cast<std::size_t>(occluder), progress); !built) {
       return built;
     }
+    if (stop_requested(stop_)) return base::fail("stopped");
   }
   return {};
 }
 
-const TriangleBvh& Occluders::casters(int index) {
+std::optional<TriangleBvh> Occluders::tree_of_deforming() const {
+  return build_triangle_bvh(geometry_->positions, deforming_triangles(*objects_, *geometry_), stop_);
+}
+
+const TriangleBvh* Occluders::casters(int index) {
   auto& tree = index < 0 ? standing_ : shapes_[static_cast<std::size_t>(index)].casters;
   const ObjectShape& shape =
       index < 0 ? objects_->standing : objects_->shapes[static_cast<std::size_t>(index)];
-  if (!tree) tree = trees_.make(shape.positions, casting_triangles(shape));
-  return *tree;
+  if (!tree) tree = trees_.make(shape.positions, casting_triangles(shape), stop_);
+  return tree ? &*tree : nullptr;
 }
 
 std::vector<std::string> Occluders::take_notes() {
@@ -214,9 +218,9 @@ std::vector<std::string> Occluders::take_notes() {
 }
 
 /// Not where triangles are few, or what they are placed as is flat.
-bool Occluders::wants_field(int number) {
+bool Occluders::wants_field(int number, const TriangleBvh& casters) {
   Shape& shape = shapes_[static_cast<std::size_t>(number)];
-  shape.by_rays |= casters(number).triangles <= few_triangles;
+  shape.by_rays |= casters.triangles <= few_triangles;
   return !shape.by_rays;
 }
 
@@ -225,23 +229,26 @@ void Occluders::load_fields(std::span<const int> occluders) {
   for (const int occluder : occluders) {
     if (occluder < 0) continue;
     const int shape = placed_[static_cast<std::size_t>(occluder)].shape;
-    if (wants_field(shape)) shapes.push_back(shape);
+    const TriangleBvh* tree = casters(shape);
+    if (tree == nullptr) return;
+    if (wants_field(shape, *tree)) shapes.push_back(shape);
   }
   base::sort_unique(shapes);
   fields_.load(shapes);
 }
 
-Expected<void> Occluders::build_object(std::size_t index, const AoProgress& progress, const StopFlag* stop) {
+Expected<void> Occluders::build_object(std::size_t index, const AoProgress& progress) {
   Placed& placed = placed_[index];
-  if (!wants_field(placed.shape)) return {};
-  const TriangleBvh& tree = casters(placed.shape);
+  const TriangleBvh* tree = casters(placed.shape);
+  if (tree == nullptr) return base::fail("stopped");
+  if (!wants_field(placed.shape, *tree)) return {};
   const FieldProgress report = [&](double done) {
     if (progress) progress("displacement fields", done);
   };
-  const auto field = fields_.make(placed.shape, tree, report, stop);
+  const auto field = fields_.make(placed.shape, *tree, report, stop_);
   if (!field) return tl::unexpected(field.error());
   if (*field == nullptr) return {};  // no room: by rays
-  placed.instance = place_field(**field, &tree, objects_->objects[index].to_world);
+  placed.instance = place_field(**field, tree, objects_->objects[index].to_world);
   if (!placed.instance) shapes_[static_cast<std::size_t>(placed.shape)].by_rays = true;
   return {};
 }
@@ -298,9 +305,9 @@ bool Occluders::gather_moving(std::span<const int> occluders) {
     if (wanted && geometry_->casts_shadow[id] && !(t.x == t.y && t.y == t.z)) triangles.push_back(t);
   }
   if (triangles.empty() || triangles.size() > most_gathered) return false;
-  moving_ = build_triangle_bvh(geometry_->positions, triangles);
+  moving_ = build_triangle_bvh(geometry_->positions, triangles, stop_);
   moving_sphere_ = sphere_around(geometry_->positions, triangles);
-  return true;
+  return moving_.has_value();
 }
 
 const TriangleBvh& Occluders::world_tree(int occluder) const {
@@ -309,16 +316,16 @@ const TriangleBvh& Occluders::world_tree(int occluder) const {
 
 void Occluders::build_trees(std::span<const int> occluders) {
   for (const int occluder : occluders) {
+    if (stop_requested(stop_)) return;
     if (occluder == deforming) {
-      if (!deforming_)
-        deforming_ = build_triangle_bvh(geometry_->positions, deforming_triangles(*objects_, *geometry_));
+      if (!deforming_) deforming_ = tree_of_deforming();
     } else {
       const int shape = occluder == standing ? -1 : placed_[static_cast<std::size_t>(occluder)].shape;
-      const TriangleBvh& tree = casters(shape);
-      if (shape < 0) continue;
+      const TriangleBvh* tree = casters(shape);
+      if (shape < 0 || tree == nullptr) continue;
       Shape& kept = shapes_[static_cast<std::size_t>(shape)];
       kept.lift = surface_lift(largest_coordinate(objects_->shapes[static_cast<std::size_t>(shape)]));
-      kept.box = tree.box();
+      kept.box = tree->box();
     }
   }
 }

@@ -48,9 +48,10 @@ public:
 
   /// Objects found anew. Fields of shapes that are still there stay.
   void reset(const SceneObjects& objects);
-  /// The instant of `geometry`. Keeps references to both until the next call. `frame`: counts calls.
+  /// The instant of `geometry`. Keeps references to both, and to `stop`, until the next call. `frame`: counts
+  /// calls. What is in the making when a stop is requested is not kept.
   void begin_frame(const SceneObjects& objects, const FrameGeometry& geometry, const AoConfig& config,
-                   double reach, std::uint64_t frame);
+                   double reach, std::uint64_t frame, const StopFlag* stop);
 
   /// What may come within the reach of a point in the box: objects in ascending order, then `standing`,
   /// `deforming`.
@@ -65,7 +66,7 @@ public:
                Itself itself = Itself::by_samples) const;
   bool ready(int occluder) const;
   /// Makes what `missing` (ascending, unique) lacks. Fails with "stopped".
-  Expected<void> build(std::span<const int> missing, const AoProgress& progress, const StopFlag* stop);
+  Expected<void> build(std::span<const int> missing, const AoProgress& progress);
 
   /// An occluder is needed in this frame: its field stays.
   void use(int occluder);
@@ -78,9 +79,10 @@ public:
             OccluderCounts& counts) const;
 
   /// One tree, in the world, of all that moves and is named in `occluders` (what deforms too), for this
-  /// frame. False, and nothing made, if there is nothing or too much of it.
+  /// frame. False, and nothing made, if there is nothing or too much of it, or a stop was requested.
   bool gather_moving(std::span<const int> occluders);
-  /// Makes the trees of `occluders` that are not there: what meet_triangles() needs.
+  /// Makes the trees of `occluders` that are not there, until a stop is requested: what meet_triangles()
+  /// needs.
   void build_trees(std::span<const int> occluders);
   /// The same by triangles alone, the receiver's own body too. The rays run in the world and start at
   /// `origin`: the receiver's position, lifted off its face.
@@ -88,8 +90,8 @@ public:
                       std::span<const RayBatch> rays, float* distances, OccluderCounts& counts) const;
 
   /// The tree over the casting triangles of a shape, or of what stands (-1): those of many triangles are kept
-  /// on disk.
-  const TriangleBvh& casters(int shape);
+  /// on disk. Null: a stop was requested.
+  const TriangleBvh* casters(int shape);
 
   std::vector<std::string> take_notes();
 
@@ -110,13 +112,15 @@ private:
     std::optional<FieldInstance> instance;
     glm::mat4x3 to_object{1.0f};
   };
-  Expected<void> build_object(std::size_t object, const AoProgress& progress, const StopFlag* stop);
+  Expected<void> build_object(std::size_t object, const AoProgress& progress);
+  std::optional<TriangleBvh> tree_of_deforming() const;
   void load_fields(std::span<const int> occluders);
-  bool wants_field(int shape);
+  bool wants_field(int shape, const TriangleBvh& casters);
   void place(std::size_t object);
 
   const SceneObjects* objects_ = nullptr;
   const FrameGeometry* geometry_ = nullptr;
+  const StopFlag* stop_ = nullptr;
   FieldSettings settings_;
   AoKernels kernels_;
   double reach_ = 0;

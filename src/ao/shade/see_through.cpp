@@ -17,7 +17,8 @@ bool apart(const PointBox& a, const PointBox& b, double reach) {
 
 }  // namespace
 
-void SeeThroughOccluders::begin_frame(const Scene& scene, const FrameGeometry& geometry) {
+void SeeThroughOccluders::begin_frame(const Scene& scene, const FrameGeometry& geometry,
+                                      const StopFlag* stop) {
   layers_.clear();
   if (geometry.see_through.empty()) return;
   std::vector<int> steps;  // of each material
@@ -33,17 +34,19 @@ void SeeThroughOccluders::begin_frame(const Scene& scene, const FrameGeometry& g
       of_step[static_cast<std::size_t>(steps[geometry.materials[id]])].push_back(t);
   }
   for (int step = 1; step <= opacity_steps; ++step)
-    add_layer(step, of_step[static_cast<std::size_t>(step)], geometry);
+    add_layer(step, of_step[static_cast<std::size_t>(step)], geometry, stop);
 }
 
 void SeeThroughOccluders::add_layer(int step, const std::vector<glm::uvec3>& triangles,
-                                    const FrameGeometry& geometry) {
+                                    const FrameGeometry& geometry, const StopFlag* stop) {
   if (triangles.empty()) return;
+  auto tree = build_triangle_bvh(geometry.positions, triangles, stop);
+  if (!tree) return;
   Layer& layer = layers_.emplace_back();
   layer.opacity = static_cast<float>(step) / opacity_steps;
   for (const glm::uvec3& t : triangles)
     for (int k = 0; k < 3; ++k) layer.box.extend(glm::dvec3(geometry.positions[t[k]]));
-  layer.triangles = build_triangle_bvh(geometry.positions, triangles);
+  layer.triangles = std::move(*tree);
 }
 
 void SeeThroughOccluders::darken(const ReceiverSet& set, const PointRays& rays, const AoKernels& kernels,

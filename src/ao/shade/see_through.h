@@ -19,8 +19,8 @@ namespace tenebra::ao {
 
 class SeeThroughOccluders {
 public:
-  /// The instant of `geometry`.
-  void begin_frame(const Scene& scene, const FrameGeometry& geometry);
+  /// The instant of `geometry`. Of no use if `stop` was requested.
+  void begin_frame(const Scene& scene, const FrameGeometry& geometry, const StopFlag* stop);
   bool empty() const { return layers_.empty(); }
 
   /// Multiplies the values of receivers by what these leave of their light.
@@ -40,7 +40,8 @@ private:
     PointBox box;
     TriangleBvh triangles;
   };
-  void add_layer(int step, const std::vector<glm::uvec3>& triangles, const FrameGeometry& geometry);
+  void add_layer(int step, const std::vector<glm::uvec3>& triangles, const FrameGeometry& geometry,
+                 const StopFlag* stop);
 
   std::vector<Layer> layers_;  ///< one for each opacity
 };

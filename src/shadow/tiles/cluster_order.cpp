@@ -17,6 +17,7 @@ using glm::vec3;
 // Longest edge in units of the scene's longest side: above the first, above the second, below.
 constexpr float class_limits[] = {1.0f / 16, 1.0f / 128};
 constexpr std::size_t class_count = 3, node_size = 256;
+constexpr std::uint32_t stride = 4096;  // triangles treated between two looks at the stop flag, at most
 
 bool is_finite(const vec3& p) {
   return std::isfinite(p.x) && std::isfinite(p.y) && std::isfinite(p.z);
@@ -41,9 +42,10 @@ Item item_of(std::uint32_t id, const points::Corners& c) {
 }
 
 /// Items first ... last - 1, near ones together: cut in two across their longest side, and so on, between
-/// multiples of `unit`; of `larger` ones while there are several.
+/// multiples of `unit`; of `larger` ones while there are several. Until a stop is requested.
 void cut_in_halves(std::vector<Item>& items, std::size_t first, std::size_t last, std::size_t unit,
-                   std::size_t larger) {
+                   std::size_t larger, const StopFlag* stop) {
+  if (stop_requested(stop)) return;
   const std::size_t step = last - first >= 2 * larger ? larger : unit;
   const std::size_t middle = (first + (last - first) / 2 + step / 2) / step * step;
   if (middle <= first || middle >= last) return;
@@ -56,8 +58,8 @@ void cut_in_halves(std::vector<Item>& items, std::size_t first, std::size_t last
   std::nth_element(at(first), at(middle), at(last), [axis](const Item& a, const Item& b) {
     return a.centre[axis] != b.centre[axis] ? a.centre[axis] < b.centre[axis] : a.id < b.id;
   });
-  cut_in_halves(items, first, middle, unit, larger);
-  cut_in_halves(items, middle, last, unit, larger);
+  cut_in_halves(items, first, middle, unit, larger, stop);
+  cut_in_halves(items, middle, last, unit, larger, stop);
 }
 
 /// Triangles first ... last - 1.
@@ -66,13 +68,13 @@ struct Part {
 };
 
 /// All parts, near ones together by their first triangles.
-std::vector<Part> parts_in_order(const TriangleView& t) {
+std::vector<Part> parts_in_order(const TriangleView& t, const StopFlag* stop) {
   const auto count = static_cast<std::uint32_t>(t.triangles.size());
   if (t.parts.empty()) return {{0, count}};
   std::vector<Item> items;
   for (std::uint32_t i = 0; i < t.parts.size(); ++i)
     items.push_back(t.parts[i] < count ? item_of(i, points::corners_of(t, t.parts[i])) : Item{i, vec3(0.0f)});
-  cut_in_halves(items, 0, items.size(), 1, 1);
+  cut_in_halves(items, 0, items.size(), 1, 1, stop);
   std::vector<Part> parts;
   for (const Item& item : items) {
     const bool is_last = item.id + 1 == t.parts.size();
@@ -91,27 +93,29 @@ struct SizeClass {
   std::vector<std::size_t> begins;
 };
 
-void sort_class(SizeClass& c) {
+void sort_class(SizeClass& c, const StopFlag* stop) {
   c.begins.push_back(c.items.size());
   for (std::size_t i = 0; i + 1 < c.begins.size(); ++i)
-    cut_in_halves(c.items, c.begins[i], c.begins[i + 1], cluster_size, node_size);
+    cut_in_halves(c.items, c.begins[i], c.begins[i + 1], cluster_size, node_size, stop);
 }
 
 }  // namespace
 
-void cluster_order(const TriangleView& t, std::vector<std::uint32_t>& order) {
+void cluster_order(const TriangleView& t, std::vector<std::uint32_t>& order, const StopFlag* stop) {
   const float extent = extent_of(t);
   SizeClass classes[class_count];
-  for (const Part& part : parts_in_order(t)) {
+  for (const Part& part : parts_in_order(t, stop)) {
     for (SizeClass& c : classes) c.begins.push_back(c.items.size());
     for (std::uint32_t id = part.first; id < part.last; ++id) {
+      if (id % stride == 0 && stop_requested(stop)) return;
       if (!t.casts_shadow.empty() && t.casts_shadow[id] == 0) continue;
       const points::Corners c = points::corners_of(t, id);
       const float size = longest_edge(c) / extent;
       classes[size > class_limits[0] ? 0 : size > class_limits[1] ? 1 : 2].items.push_back(item_of(id, c));
     }
   }
-  parallel::parallel_tasks(class_count, [&](int k) { sort_class(classes[k]); });
+  parallel::parallel_tasks(class_count, [&](int k) { sort_class(classes[k], stop); });
+  if (stop_requested(stop)) return;
   order.clear();
   for (const SizeClass& c : classes) {
     if (!c.items.empty()) order.resize((order.size() + node_size - 1) / node_size * node_size, no_triangle);

@@ -73,7 +73,7 @@ bool TileTracer::trace(const VisiblePoints& points, const ViewRays& view, const 
   build_ray_forest(points, tiles, triangles, light, source, config, forest_scratch_, forest_);
   timings.rays_ms = watch.lap_ms();
   if (!forest_.in_range) return false;
-  clusters_.update(triangles, config.simd);
+  if (!clusters_.update(triangles, config.simd, stop)) return false;
   timings.build_ms = watch.lap_ms();
   tile_tests_.assign(config.count_pixel_nodes ? forest_.levels[0].size() : 0, {});
   descend({clusters_, forest_, source, triangles, points, tiles, config.contact, config.cull_front,

@@ -68,7 +68,7 @@ bool ClusterTree::same_order(const TriangleView& t) const {
          same_elements(t.casts_shadow, casts_) && same_elements(t.parts, parts_);
 }
 
-void ClusterTree::find_order(const TriangleView& t) {
+void ClusterTree::find_order(const TriangleView& t, const StopFlag* stop) {
   positions_.assign(t.positions.begin(), t.positions.end());
   positions_.emplace_back(0.0f);
   triangles_.assign(t.triangles.begin(), t.triangles.end());
@@ -77,7 +77,8 @@ void ClusterTree::find_order(const TriangleView& t) {
   casters_ = casts_.empty() ? t.triangles.size()
                             : static_cast<std::uint64_t>(std::count_if(
                                   casts_.begin(), casts_.end(), [](auto casts) { return casts != 0; }));
-  cluster_order(t, order_);
+  cluster_order(t, order_, stop);
+  if (stop_requested(stop)) return;
   clusters_.assign(order_.size() / cluster_size, {});
   used_ = 0;
   corners_.resize(clusters_.size());
@@ -126,11 +127,12 @@ void ClusterTree::find_corners(const TriangleView& t, std::size_t cluster) {
   origins_[cluster] = empty ? Origin{} : Origin{low_vertex / b, high_vertex / b, low_id / b, high_id / b};
 }
 
-void ClusterTree::refit(const TriangleView& t, SimdLevel simd, bool all) {
+void ClusterTree::refit(const TriangleView& t, SimdLevel simd, bool all, const StopFlag* stop) {
   if (levels_.empty()) return;
   const ClusterKernels kernels = cluster_kernels(simd);
   std::vector<int> more_used(levels_[0].size());  // than before
   parallel::parallel_ranges(levels_[0].size(), 16, [&](std::size_t first, std::size_t last) {
+    if (stop_requested(stop)) return;
     for (std::size_t node = first; node < last; ++node) {
       const std::size_t end = std::min(clusters_.size(), (node + 1) * cluster_size);
       for (std::size_t c = node * cluster_size; c < end; ++c) {
@@ -151,16 +153,25 @@ void ClusterTree::refit(const TriangleView& t, SimdLevel simd, bool all) {
   }
 }
 
-void ClusterTree::update(const TriangleView& t, SimdLevel simd) {
-  if (t.version != 0 && t.version == version_) return;
-  version_ = t.version;
+void ClusterTree::follow(const TriangleView& t, SimdLevel simd, const StopFlag* stop) {
   if (!same_order(t)) {
-    find_order(t);
-    return refit(t, simd, true);
+    find_order(t, stop);
+    if (!stop_requested(stop)) refit(t, simd, true, stop);
+    return;
   }
   copy_changes(t.positions, positions_, changed_vertices_);
   copy_changes(t.triangles, triangles_, changed_triangles_);
-  if (changed_vertices_.back() + changed_triangles_.back() > 0) refit(t, simd, false);
+  if (changed_vertices_.back() + changed_triangles_.back() > 0) refit(t, simd, false, stop);
+}
+
+bool ClusterTree::update(const TriangleView& t, SimdLevel simd, const StopFlag* stop) {
+  if (t.version != 0 && t.version == version_) return true;
+  version_ = t.version;
+  follow(t, simd, stop);
+  if (!stop_requested(stop)) return true;
+  version_ = 0;
+  positions_.clear();  // unlike any others: the next order is found anew
+  return false;
 }
 
 }  // namespace tenebra::shadow

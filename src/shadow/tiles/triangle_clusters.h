@@ -9,6 +9,7 @@
 #include <vector>
 
 #include <tenebra/simd_level.h>
+#include <tenebra/stop_flag.h>
 #include <tenebra/visible_points.h>
 
 namespace tenebra::shadow {
@@ -39,7 +40,8 @@ struct alignas(64) BoxNode {
 class ClusterTree {
 public:
   /// Follows `triangles`: finds the order anew where their number, parts or casters changed, refits else.
-  void update(const TriangleView& triangles, SimdLevel simd);
+  /// False if `stop` was requested: of no use until the next update.
+  bool update(const TriangleView& triangles, SimdLevel simd, const StopFlag* stop);
 
   const std::vector<TriangleCluster>& clusters() const { return clusters_; }
   /// levels()[0]: node i holds the boxes of clusters 16 i ... 16 i + 15; levels()[k]: those of the nodes of
@@ -57,11 +59,12 @@ private:
   };
 
   bool same_order(const TriangleView& triangles) const;
-  void find_order(const TriangleView& triangles);
+  void follow(const TriangleView& triangles, SimdLevel simd, const StopFlag* stop);
+  void find_order(const TriangleView& triangles, const StopFlag* stop);
   bool triangles_changed(std::size_t cluster) const;
   bool vertices_changed(std::size_t cluster) const;
   void find_corners(const TriangleView& triangles, std::size_t cluster);
-  void refit(const TriangleView& triangles, SimdLevel simd, bool all);
+  void refit(const TriangleView& triangles, SimdLevel simd, bool all, const StopFlag* stop);
 
   std::vector<std::uint32_t> order_;  ///< ids; no_triangle: a gap
   std::vector<TriangleCluster> clusters_;
