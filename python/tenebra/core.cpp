@@ -1,8 +1,8 @@
 // The module tenebra._core: numpy arrays in and out of queries.h and of the program's renderer. What a user
 // calls, with its checks of shapes and types, is in __init__.py; this is the thinnest way there.
 //
-// Calls that take long run on a thread of their own with Python's lock released, while the caller's thread
-// wakes now and then to see whether Ctrl-C was pressed and to report progress.
+// Calls that take long run on a thread of their object's with Python's lock released, while the caller's
+// thread wakes now and then to see whether Ctrl-C was pressed and to report progress.
 #include <pybind11/functional.h>
 #include <pybind11/numpy.h>
 #include <pybind11/pybind11.h>
@@ -13,13 +13,14 @@
 
 #include <array>
 #include <chrono>
-#include <future>
+#include <exception>
 #include <memory>
 #include <optional>
 #include <span>
 #include <string>
 #include <vector>
 
+#include "beside.h"
 #include "loaded_scene.h"
 #include "render/log/frame_columns.h"
 #include "shared/scene_summary.h"
@@ -94,20 +95,20 @@ py::tuple tuple_of(const glm::vec3& v) {
 
 /// Runs body(work), which gives Expected<void>, beside Python: signals and `report` are seen to every 20 ms.
 template <class Body>
-void run_beside(const Report& report, int threads, const Body& body) {
+void run_beside(Beside& beside, const Report& report, int threads, const Body& body) {
   Work work;
   std::exception_ptr interrupted;
   Expected<void> result;
   {
     const py::gil_scoped_release released;
-    auto future = std::async(std::launch::async, [&] {
+    double said = 0;
+    const auto job = [&] {
       Expected<void> out;
       with_threads(threads, [&] { out = body(work); });
       return out;
-    });
-    double said = 0;
-    while (future.wait_for(std::chrono::milliseconds(20)) != std::future_status::ready) {
-      if (interrupted) continue;
+    };
+    result = beside.run(job, std::chrono::milliseconds(20), [&] {
+      if (interrupted) return;
       const py::gil_scoped_acquire acquired;
       try {
         if (PyErr_CheckSignals() != 0) throw py::error_already_set();
@@ -117,8 +118,7 @@ void run_beside(const Report& report, int threads, const Body& body) {
         interrupted = std::current_exception();
         work.stop.request();
       }
-    }
-    result = future.get();
+    });
   }
   if (interrupted) std::rethrow_exception(interrupted);
   checked(std::move(result));
@@ -143,40 +143,44 @@ struct PointArrays {
   }
 };
 
+struct Tracer {
+  PointTracer points;
+  Beside beside;
+};
+
 QueryProgress noted_in(Work& work) {
   return [&work](double done) { work.done = done; };
 }
 
-void hard_mask(PointTracer& tracer, const Geometry& geometry, const PointArrays& points,
-               const ShadowLight& light, Array<std::uint8_t>& mask, int threads, const Report& report) {
+void hard_mask(Tracer& tracer, const Geometry& geometry, const PointArrays& points, const ShadowLight& light,
+               Array<std::uint8_t>& mask, int threads, const Report& report) {
   const QueryPoints query = points.query();
   const auto to = room(mask);
-  run_beside(report, threads, [&](Work& work) {
-    return tracer.hard_mask(geometry, query, light, {}, to, &work.stop, noted_in(work));
+  run_beside(tracer.beside, report, threads, [&](Work& work) {
+    return tracer.points.hard_mask(geometry, query, light, {}, to, &work.stop, noted_in(work));
   });
 }
 
-void soft_visibility(PointTracer& tracer, const Geometry& geometry, const PointArrays& points,
+void soft_visibility(Tracer& tracer, const Geometry& geometry, const PointArrays& points,
                      const AreaLight& light, double error, Array<float>& fraction, Array<float>& irradiance,
                      int threads, const Report& report) {
   const QueryPoints query = points.query();
   const auto to_fraction = room(fraction), to_irradiance = room(irradiance);
   SoftShadowConfig config;
   config.error_255 = error;
-  run_beside(report, threads, [&](Work& work) {
-    return tracer.soft_visibility(geometry, query, light, config, to_fraction, to_irradiance, &work.stop,
-                                  noted_in(work));
+  run_beside(tracer.beside, report, threads, [&](Work& work) {
+    return tracer.points.soft_visibility(geometry, query, light, config, to_fraction, to_irradiance,
+                                         &work.stop, noted_in(work));
   });
 }
 
-void ambient_occlusion(PointTracer& tracer, const Geometry& geometry, const PointArrays& points,
-                       double distance_m, double error, Array<float>& openness, int threads,
-                       const Report& report) {
+void ambient_occlusion(Tracer& tracer, const Geometry& geometry, const PointArrays& points, double distance_m,
+                       double error, Array<float>& openness, int threads, const Report& report) {
   const QueryPoints query = points.query();
   const auto to = room(openness);
   const AoConfig config{.mode = AoMode::adaptive, .error_255 = error, .distance_m = distance_m};
-  run_beside(report, threads, [&](Work& work) {
-    return tracer.ambient_occlusion(geometry, query, config, to, &work.stop, noted_in(work));
+  run_beside(tracer.beside, report, threads, [&](Work& work) {
+    return tracer.points.ambient_occlusion(geometry, query, config, to, &work.stop, noted_in(work));
   });
 }
 
@@ -215,7 +219,7 @@ void add_queries(py::module_& module) {
                                return given_away_vectors(std::move(vertices), {count});
                              })
       .def_readonly("area_m2", &AreaLight::area_m2);
-  py::class_<PointTracer>(module, "PointTracer")
+  py::class_<Tracer>(module, "PointTracer")
       .def(py::init<>())
       .def("hard_mask", &hard_mask)
       .def("soft_visibility", &soft_visibility)
@@ -330,7 +334,8 @@ void add_scenes(py::module_& module) {
   py::class_<Loaded>(module, "Scene")
       .def(py::init([](const std::string& path, const std::string& arguments) {
         std::unique_ptr<Loaded> loaded;
-        run_beside({}, 0, [&](Work&) -> Expected<void> {
+        Beside beside;
+        run_beside(beside, {}, 0, [&](Work&) -> Expected<void> {
           auto made = Loaded::load(path, arguments);
           if (!made) return tl::unexpected(made.error());
           loaded = std::move(*made);
@@ -342,7 +347,7 @@ void add_scenes(py::module_& module) {
            [](Loaded& scene, int frame, std::optional<double> time_s, const std::string& arguments,
               bool with_points, bool linear, const Report& report) {
              std::optional<Loaded::Picture> picture;
-             run_beside(report, 0, [&](Work& work) -> Expected<void> {
+             run_beside(scene.beside, report, 0, [&](Work& work) -> Expected<void> {
                auto drawn = scene.render(frame, time_s, arguments, {with_points, linear}, work);
                if (!drawn) return tl::unexpected(drawn.error());
                picture = std::move(*drawn);

@@ -28,8 +28,8 @@ Expected<std::unique_ptr<LoadedScene>> LoadedScene::load(const std::string& path
   return loaded;
 }
 
-Expected<LoadedScene::Wish> LoadedScene::wish_of(const std::string& arguments) {
-  Wish wish{options_, {}, {}};
+Expected<LoadedScene::Wish> LoadedScene::wish_of(const std::string& arguments) const {
+  Wish wish{arguments, options_, {}, {}};
   const auto command = viewer::lone_command();
   viewer::add_scene_options(*command, wish.scene);
   viewer::add_method_options(*command, wish.method);
@@ -45,7 +45,7 @@ Expected<LoadedScene::Wish> LoadedScene::wish_of(const std::string& arguments) {
   return wish;
 }
 
-Expected<render::RenderSettings> LoadedScene::settings_of(Wish& wish) {
+Expected<render::RenderSettings> LoadedScene::settings_of(const Wish& wish) {
   if (wish.method.auto_exposure && !plan_.display.exposures) {
     const auto exposures = viewer::meter_exposures(plan_, options_);
     if (!exposures) return tl::unexpected(exposures.error());
@@ -61,9 +61,13 @@ Expected<render::RenderSettings> LoadedScene::settings_of(Wish& wish) {
 
 Expected<LoadedScene::Picture> LoadedScene::render(int frame, std::optional<double> time_s,
                                                    const std::string& arguments, Wanted wanted, Work& work) {
-  auto wish = wish_of(arguments);
-  if (!wish) return tl::unexpected(wish.error());
-  auto settings = settings_of(*wish);
+  if (!wish_ || wish_->arguments != arguments) {
+    auto wish = wish_of(arguments);
+    if (!wish) return tl::unexpected(wish.error());
+    wish_ = std::move(*wish);
+  }
+  const Wish& wish = *wish_;
+  auto settings = settings_of(wish);
   if (!settings) return tl::unexpected(settings.error());
   settings->linear = wanted.linear;
   if (!time_s) {
@@ -72,17 +76,18 @@ Expected<LoadedScene::Picture> LoadedScene::render(int frame, std::optional<doub
     time_s = *time;
   }
   int camera = plan_.camera;
-  if (wish->scene.camera) {
-    const auto chosen = viewer::choose_camera(plan_.scene, wish->scene.camera);
+  if (wish.scene.camera) {
+    const auto chosen = viewer::choose_camera(plan_.scene, wish.scene.camera);
     if (!chosen) return tl::unexpected(chosen.error());
     camera = *chosen;
   }
   const viewer::Size size{settings->width, settings->height};
   base::Stopwatch watch;
-  render::FrameInput input{geometry(*time_s), lights(*time_s),
-                           wish->scene.eye
-                               ? viewer::view_of(plan_, wish->scene, *time_s, size)
-                               : viewer::view_of_camera(plan_, plan_.clip, camera, *time_s, size)};
+  render::FrameInput& input = input_;
+  evaluate(*time_s, input.geometry);
+  input.lights = lights(*time_s);
+  input.view = wish.scene.eye ? viewer::view_of(plan_, wish.scene, *time_s, size)
+                              : viewer::view_of_camera(plan_, plan_.clip, camera, *time_s, size);
   Picture picture;
   const auto note = [&work](std::string_view, double done) { work.done = done; };
   const double evaluate_ms = watch.lap_ms();
@@ -109,10 +114,14 @@ Expected<double> LoadedScene::time_of(int frame) const {
   return viewer::time_of_frame(plan_.scene, plan_.clip, frame, options_.fps);
 }
 
-FrameGeometry LoadedScene::geometry(double time_s) const {
-  FrameGeometry geometry;
+void LoadedScene::evaluate(double time_s, FrameGeometry& geometry) const {
   evaluate_frame(plan_.scene, plan_.clip, time_s, geometry);
   viewer::apply_node_edits(plan_.scene, options_.edits, geometry);
+}
+
+FrameGeometry LoadedScene::geometry(double time_s) const {
+  FrameGeometry geometry;
+  evaluate(time_s, geometry);
   return geometry;
 }
 

@@ -8,6 +8,7 @@
 #include <vector>
 
 #include <tenebra/stop_flag.h>
+#include "beside.h"
 #include "options/method_options.h"
 #include "options/picture_options.h"
 #include "options/scene_options.h"
@@ -53,20 +54,26 @@ public:
   int frames() const { return viewer::frames_of_clip(plan_.scene, plan_.clip, options_.fps); }
   const viewer::ScenePlan& plan() const { return plan_; }
 
+  Beside beside;  ///< for calls of render()
+
 private:
   LoadedScene() = default;
   /// Camera, method and what is kept, of `arguments`.
   struct Wish {
+    std::string arguments;
     viewer::SceneOptions scene;
     viewer::MethodOptions method;
     render::AovChoice aovs;
   };
-  Expected<Wish> wish_of(const std::string& arguments);
-  Expected<render::RenderSettings> settings_of(Wish& wish);
+  void evaluate(double time_s, FrameGeometry& geometry) const;
+  Expected<Wish> wish_of(const std::string& arguments) const;
+  Expected<render::RenderSettings> settings_of(const Wish& wish);
 
   viewer::SceneOptions options_;
   viewer::ScenePlan plan_;
   std::optional<render::Renderer> renderer_;
+  std::optional<Wish> wish_;  ///< of the last call: many have the same
+  render::FrameInput input_;  ///< likewise, for its memory
 };
 
 }  // namespace tenebra::python
