@@ -70,10 +70,10 @@ struct QueryPoints {
 /// between portions of 2^18 points.
 using QueryProgress = std::function<void(double done)>;
 
-/// Answers for points. Keeps its buffers and trees from call to call: use one object for many. One caller at
-/// a time. Every answer has one value for each point. Calls fail with a sentence (a span of another length, a
-/// triangle that is not there, a point that is not finite, a setting out of range), and with "stopped" soon
-/// after `stop` was requested: docs/library.md has the times.
+/// Answers for points. Keeps buffers and trees from call to call (docs/library.md): use one for many. One
+/// caller at a time. Every answer has one value for each point. Calls fail with a sentence (a span of another
+/// length, a triangle that is not there, a point that is not finite, a setting out of range), and with
+/// "stopped" soon after `stop` was requested: docs/library.md has the times.
 class PointTracer {
 public:
   PointTracer();

@@ -4,7 +4,6 @@
 #include <bit>
 #include <cmath>
 #include <limits>
-#include <memory>
 #include <span>
 
 #include "parallel/parallel.h"
@@ -36,7 +35,7 @@ public:
         width_(static_cast<std::uint32_t>(points.width)),
         height_(static_cast<std::uint32_t>(points.height)) {
     patch_.squares.clear(), patch_.receivers.clear(), patch_.mixed.clear();
-    receivers_.reserve(256);
+    if (from_view_) receivers_.reserve(256);
     patch_.receiver_count = 0;
   }
 
@@ -259,10 +258,10 @@ void begin_point_tiles(int width, int height, const ViewRays& view, PointTiles& 
 void make_point_patch(const VisiblePoints& points, const TriangleView& triangles, std::uint32_t patch,
                       PointTiles& out) {
   const SquareGrid grid(points.width, points.height);
-  const auto maker = std::make_unique<PatchMaker>(points, triangles, out, out.patches[patch]);
+  PatchMaker maker(points, triangles, out, out.patches[patch]);  // some 36 KB of stack
   const std::uint32_t row = patch / grid.row_patches, first = patch % grid.row_patches * patch_squares;
   for (std::uint32_t column = first; column < std::min(first + patch_squares, grid.columns); ++column)
-    maker->add_square(column * square_side, row * square_side, (row * grid.columns + column) * 16);
+    maker.add_square(column * square_side, row * square_side, (row * grid.columns + column) * 16);
 }
 
 void make_point_tiles(const VisiblePoints& points, const ViewRays& view, const TriangleView& triangles,
