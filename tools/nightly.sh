@@ -16,6 +16,8 @@
 #   faults    lets every call of the system and many allocations fail, kills renders, stops each stage
 #   slurm     renders on three Slurm nodes, one of which dies while another is cut off; needs root and Slurm
 #   viewer    gives the window random input for VIEWER_FRAMES [500] frames, with the address and undefined-behaviour sanitizers
+#   arm64     cross-builds for 64-bit ARM in a root of its own, runs the numerics' tests under qemu and compares the hashes
+#             with those of x86; needs root as roots does
 #   same-bytes  builds the program in two folders: the same bytes, and no name of a folder in them
 #   fuzz      runs the fuzzers of tests/fuzz for FUZZ_MINUTES [60]
 #   all       every part, one after the other
@@ -23,7 +25,7 @@
 # JOBS=N: how many jobs at once [all cores].
 set -uo pipefail
 cd "$(dirname "$0")/.."
-parts=(lto-odr clang tidy roots debug asan tsan report three package api site faults slurm viewer same-bytes fuzz)
+parts=(lto-odr clang tidy roots debug asan tsan report three package api site faults slurm viewer arm64 same-bytes fuzz)
 jobs=${JOBS:-$(nproc)}
 
 has() {
@@ -120,6 +122,10 @@ run_package() {
   status=$?
   rm -rf "$root"
   return "$status"
+}
+
+run_arm64() {
+  tools/make_root.sh --root "${TMPDIR:-/tmp}/tenebra-roots/debian12-arm64" --run "JOBS=$jobs tools/arm64.sh" debian12
 }
 
 run_api() {

@@ -40,6 +40,8 @@ Function dispatched(SimdLevel level, Function baseline, std::type_identity_t<Fun
 #endif
 #if HWY_TARGETS & HWY_SSE4
 #define TENEBRA_OF_SSE4(function) &N_SSE4::function
+#elif HWY_TARGETS & HWY_NEON  // the level of the same width
+#define TENEBRA_OF_SSE4(function) &N_NEON::function
 #else
 #define TENEBRA_OF_SSE4(function) nullptr
 #endif

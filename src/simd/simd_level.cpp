@@ -10,10 +10,18 @@ namespace tenebra {
 
 namespace {
 
+#if HWY_ARCH_ARM_A64
+constexpr const char* name_of_128_bits = "neon";
+constexpr std::int64_t targets_of_128_bits = HWY_NEON;
+#else
+constexpr const char* name_of_128_bits = "sse4";
+constexpr std::int64_t targets_of_128_bits = HWY_SSE4;
+#endif
+
 constexpr base::Names<SimdLevel, 5> names = {{
     {SimdLevel::automatic, "auto"},
     {SimdLevel::scalar, "scalar"},
-    {SimdLevel::sse4, "sse4"},
+    {SimdLevel::sse4, name_of_128_bits},
     {SimdLevel::avx2, "avx2"},
     {SimdLevel::avx512, "avx512"},
 }};
@@ -38,7 +46,9 @@ bool simd_level_supported(SimdLevel level) {
     case SimdLevel::avx2:
       return has(HWY_AVX2);
     case SimdLevel::sse4:
-      return has(HWY_SSE4);
+      return has(targets_of_128_bits);
+    case SimdLevel::scalar:
+      return (HWY_TARGETS & (HWY_EMU128 | HWY_SCALAR)) != 0;  // not of 64-bit ARM, which has vectors always
     default:
       return true;
   }

@@ -86,8 +86,8 @@ void add_light_options(CLI::App& command, BakeOptions& options) {
                 "Threads; the files are the same with any number\n[0: all cores]")
           .type_name("N"),
       add_value(command, "--simd", render.hard.simd, parse_simd,
-                "Vector instructions: auto, scalar, sse4, avx2 or avx512;\nthe files are the same with each "
-                "[auto]")
+                "Vector instructions: auto, scalar, sse4, avx2, avx512 or, on\n"
+                "ARM, neon; the files are the same with each [auto]")
           .type_name("LEVEL")};
   for (const AddedOption option : added) option.group(bake_light_group);
 }

@@ -137,8 +137,8 @@ void add_common(CLI::App& command, MethodOptions& options) {
                  "Threads for shadows and ambient occlusion [0: all cores]")
            .type_name("N"),
        add_value(command, "--simd", render.hard.simd, parse_simd,
-                 "Vector instructions: auto, scalar, sse4, avx2 or avx512;\nthe masks are the same with "
-                 "each [auto]")
+                 "Vector instructions: auto, scalar, sse4, avx2, avx512 or, on\n"
+                 "ARM, neon; the masks are the same with each [auto]")
            .type_name("LEVEL")},
       shadow_group);
 }
@@ -309,7 +309,7 @@ void add_tracer_options(CLI::App& command, MethodOptions& options) {
                            "front: only faces turned away from the light cast\nshadows [none]");
   add_value(command, "--threads", render.threads, parse_threads, "Threads [0: all cores]").type_name("N");
   add_value(command, "--simd", render.hard.simd, parse_simd,
-            "Vector instructions: auto, scalar, sse4, avx2 or avx512\n[auto]")
+            "Vector instructions: auto, scalar, sse4, avx2, avx512 or, on\nARM, neon [auto]")
       .type_name("LEVEL");
 }
 

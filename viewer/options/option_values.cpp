@@ -188,7 +188,7 @@ Expected<float> parse_sun_size(const std::string& text) {
 
 Expected<SimdLevel> parse_simd(const std::string& text) {
   const auto level = simd_level_from_name(lower_case(text));
-  if (!level) return base::fail("found {}, expected auto, scalar, sse4, avx2 or avx512", text);
+  if (!level) return base::fail("found {}, expected auto, scalar, sse4, avx2, avx512 or, on ARM, neon", text);
   if (*level != SimdLevel::automatic && !simd_level_supported(*level)) {
     return base::fail("this machine or build has no {}, its best is {}", text,
                       simd_level_name(best_simd_level()));
