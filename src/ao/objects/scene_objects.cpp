@@ -29,7 +29,7 @@ public:
       mix(word);
     }
     std::uint64_t word = count;
-    std::memcpy(&word, from, count);
+    if (count > 0) std::memcpy(&word, from, count);  // `from` may be null
     mix(word);
   }
   template <class T>
