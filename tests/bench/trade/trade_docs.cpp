@@ -194,8 +194,8 @@ Expected<void> write_trade_page(const TradeSession& session) {
               ? section_of(before, stages_title)
               : stages_section(session.stages, fmt::format("tenebra-bench trade --only stages{}",
                                                            session.by_effort(" --tiny", " --quick", "")));
-  page += session.needs.empty() ? section_of(before, "Only what a scene requires")
-                                : needs_section(session.needs);
+  page +=
+      session.needs.empty() ? section_of(before, "Only what a scene requires") : needs_section(session.needs);
   for (const TradeTable& table : session.tables) {
     const auto plot = session.trade.docs / fmt::format("trade_{}.svg", plot_name(table));
     if (auto written = base::write_file(plot, trade_plot(table)); !written) return written;
