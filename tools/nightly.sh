@@ -17,13 +17,14 @@
 #   slurm     renders on three Slurm nodes, one of which dies while another is cut off; needs root and Slurm
 #   viewer    gives the window random input for VIEWER_FRAMES [500] frames, with the address and undefined-behaviour sanitizers
 #   same-bytes  builds the program in two folders: the same bytes, and no name of a folder in them
+#   figures   measures the README's key figures again (FIGURES_DATA names the folder of BART's scenes)
 #   fuzz      runs the fuzzers of tests/fuzz for FUZZ_MINUTES [60]
 #   all       every part, one after the other
 # Exit code: 0 if every part that was asked for is ok, 1 if one failed, 2 if the request was not understood.
 # JOBS=N: how many jobs at once [all cores].
 set -uo pipefail
 cd "$(dirname "$0")/.."
-parts=(lto-odr clang tidy roots debug asan tsan report three package api site faults slurm viewer same-bytes fuzz)
+parts=(lto-odr clang tidy roots debug asan tsan report three package api site faults slurm viewer same-bytes figures fuzz)
 jobs=${JOBS:-$(nproc)}
 
 has() {
@@ -170,6 +171,12 @@ run_same-bytes() {
   done
   rm -r "$folders"
   return "$status"
+}
+
+run_figures() {
+  cmake --preset release -DTENEBRA_TESTS=ON > /dev/null &&
+    cmake --build --preset release -j "$jobs" --target tenebra tenebra-bench &&
+    tools/check_figures.py ${FIGURES_DATA:+--data "$FIGURES_DATA"}
 }
 
 run_fuzz() { tools/fuzz.sh "${FUZZ_MINUTES:-60}"; }

@@ -146,7 +146,7 @@ Expected<void> Renderer::render_frame(const FrameInput& given, const RenderSetti
   if (auto drawn = s.find_ids(input, settings, timings); !drawn) return drawn;
   const bool occlusion = settings.ao.mode != AoMode::none;
   const bool shadows = settings.shadows != ShadowMode::none && !lights->empty();
-  if (shadows || occlusion) s.find_points(input, settings, timings);
+  if (shadows || occlusion) s.find_points(input, *lights, settings, timings);
   if (occlusion) {
     if (auto done = s.occlude_ambient(input, settings, result, progress, stop); !done) return done;
   }

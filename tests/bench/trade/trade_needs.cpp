@@ -43,15 +43,6 @@ TracedRun trace(const HardView& view, const HardShadowConfig& config, int rounds
   return run;
 }
 
-/// Every coordinate moved by the least that can be.
-FrameGeometry nudged(FrameGeometry geometry) {
-  for (glm::vec3& p : geometry.positions) {
-    for (int axis = 0; axis < 3; ++axis)
-      p[axis] = std::nextafter(p[axis], std::numeric_limits<float>::infinity());
-  }
-  return geometry;
-}
-
 /// The clusters of triangles: what follows a frame, and what does not have to.
 void need_clusters(TradeSession& session, const HardView& view, int rounds) {
   ShadowTracer kept, shaken, fresh;
@@ -79,6 +70,10 @@ void need_sort(TradeSession& session, const HardView& view, int rounds) {
                            few.timings.rays_ms, sorted.timings.rays_ms, few.mask == sorted.mask});
   session.needs.push_back({"rays for points that the light reaches", view.name,
                            fmt::format("{} rays of {} pixels", few.stats.rays, view.frame.pixel_count())});
+  session.needs.push_back(
+      {"tests in double, and exactly, where the stage before leaves a doubt", view.name,
+       fmt::format("of {} tests of a ray with a triangle {} in double, {} exactly", few.stats.leaf_tests,
+                   few.stats.float_unknown, few.stats.double_unknown)});
   const TracedRun passes = trace(view, {.variant = Variant::precise_seatp}, rounds, two);
   const TracedRun one = trace(view, {.variant = Variant::precise_sea}, rounds, paper);
   session.needs.push_back(
@@ -177,6 +172,14 @@ void print_needs(const std::vector<NeedRow>& needs) {
 }
 
 }  // namespace
+
+FrameGeometry nudged(FrameGeometry geometry) {
+  for (glm::vec3& p : geometry.positions) {
+    for (int axis = 0; axis < 3; ++axis)
+      p[axis] = std::nextafter(p[axis], std::numeric_limits<float>::infinity());
+  }
+  return geometry;
+}
 
 Expected<void> measure_trade_needs(TradeSession& session) {
   const int rounds = session.by_effort(1, 5, 15);
