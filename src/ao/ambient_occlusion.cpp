@@ -163,8 +163,8 @@ void AmbientOcclusion::State::note_memory(const AoConfig& config) {
   if (noted_memory || !budget.refused()) return;
   noted_memory = true;
   notes.push_back(
-      fmt::format("A frame's fields and surface samples found no room within {} MB: rays answer for bodies "
-                  "without it, which takes longer; --ao-memory gives more.",
+      fmt::format("A frame's fields and surface samples found no room within {} MB: rays are cast for bodies "
+                  "without room, which takes longer; --ao-memory gives more.",
                   config.memory_mb));
 }
 

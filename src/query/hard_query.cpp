@@ -76,7 +76,7 @@ Expected<void> PointTracer::hard_mask(const Geometry& geometry, const QueryPoint
   const parallel::FloatEnvironment ieee;
   query::TracerState& s = *state_;
   if (mask.size() != points.positions.size())
-    return base::fail("hard mask: room for {} values, expected one for each of {} points", mask.size(),
+    return base::fail("hard mask: found room for {} values, expected one for each of {} points", mask.size(),
                       points.positions.size());
   if (auto checked = check_light(light); !checked) return checked;
   if (auto checked = query::check_points(points, *geometry.data_); !checked) return checked;

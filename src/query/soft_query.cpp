@@ -66,8 +66,9 @@ Expected<void> PointTracer::soft_visibility(const Geometry& geometry, const Quer
   const std::size_t count = points.positions.size();
   for (const std::span<float>& out : {visible_fraction, irradiance})
     if (!out.empty() && out.size() != count)
-      return base::fail("soft visibility: room for {} values, expected one for each of {} points, or none",
-                        out.size(), count);
+      return base::fail(
+          "soft visibility: found room for {} values, expected one for each of {} points, or none",
+          out.size(), count);
   const std::size_t corners = light.polygon.size();
   if (corners < 3 || corners >= no_eye || (!light.at_infinity && light.vertices.size() != corners))
     return base::fail("light: found {} vertices, expected one made by make_area_light or make_sun",

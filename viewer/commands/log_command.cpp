@@ -155,7 +155,7 @@ Expected<int> report(const LogOptions& options) {
 }
 
 void add_merge(CLI::App& log, Run& run) {
-  CLI::App& command = add_command(log, "merge", "Make one log of the parts of a render");
+  CLI::App& command = add_command(log, "merge", "Join the logs of a render's parts");
   const auto options = std::make_shared<LogOptions>();
   set_examples(command, merge_examples);
   add_files(command, "LOGS", options->logs, "Logs of one render, in any order").required();
@@ -177,12 +177,12 @@ void add_report(CLI::App& log, Run& run) {
   const auto options = std::make_shared<LogOptions>();
   set_examples(command, report_examples);
   add_text(command, "A", options->a, "A log").required();
-  add_text(command, "B", options->b, "Another, to see beside it");
+  add_text(command, "B", options->b, "Another, shown beside it");
   add_text(command, "-o,--output", options->output, "The page to write").type_name("FILE.html").required();
   const AddedOption pictures =
       add_text(command, "--pictures", options->pictures, "Pictures of A: their folder, or a pattern")
           .type_name("DIR|PATTERN");
-  add_text(command, "--pictures-b", options->pictures_b, "Pictures of B, for a slider between both")
+  add_text(command, "--pictures-b", options->pictures_b, "Pictures of B, for a slider between the two")
       .type_name("DIR|PATTERN")
       .needs(pictures);
   when_chosen(command, [options, &run] { run = [options] { return report(*options); }; });
