@@ -18,9 +18,10 @@ std::vector<LastLine> last_lines(const BakeSession& session) {
 }
 
 constexpr const char* footer =
-    "The lightmap of scenes/room.glb under its lamp, one sample a texel: from places on triangles to light,\n"
+    "The lightmap of scenes/room.glb under its lamp, one sample per texel: from places on triangles to "
+    "light,\n"
     "what `tenebra bake` computes. exact_over_rays: the time of exact soft shadows over that of the fewest\n"
-    "stratified shadow rays a texel (a power of two) that err by 0.5/255 of white at most, RMS over the\n"
+    "stratified shadow rays per texel (a power of two) that err by 0.5/255 of white at most, RMS over the\n"
     "map, white being the 99.9th percentile; within_over_rays: that of --soft-error 0.5 over the same;\n"
     "penumbra: the same where the error is that of texels that see a part of the lamp. rays: how many a\n"
     "texel that takes over the map. Rays go sixteen at a time, as sixteen texels to one cell of the lamp\n"
@@ -32,8 +33,8 @@ constexpr const char* footer =
 
 void add_bake_command(CLI::App& program, Run& run) {
   add_session_command<BakeSession>(
-      program, run, {"bake", "The light of a lightmap, beside stratified rays through Embree", footer}, parts,
-      last_lines);
+      program, run, {"bake", "The light of a lightmap, compared with stratified rays through Embree", footer},
+      parts, last_lines);
 }
 
 }  // namespace tenebra::bench

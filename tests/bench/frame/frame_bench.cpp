@@ -31,8 +31,9 @@ constexpr const char* footer =
 
 void add_frame_command(CLI::App& program, Run& run) {
   add_session_command<FrameSession>(
-      program, run, {"frame", "Whole frames, from a time to a picture, beside a renderer on Embree", footer},
-      parts, last_lines);
+      program, run,
+      {"frame", "Whole frames, from a time to a picture, compared with a renderer on Embree", footer}, parts,
+      last_lines);
 }
 
 }  // namespace tenebra::bench

@@ -62,9 +62,9 @@ constexpr const char* footer =
 void add_hard_command(CLI::App& program, Run& run) {
   const auto simd = std::make_shared<std::string>("auto");
   CLI::App& command = add_parts_command(
-      program, run, {"hard", "Hard shadows beside Embree's rays", footer}, part_names(all_parts),
+      program, run, {"hard", "Hard shadows compared with Embree's rays", footer}, part_names(all_parts),
       [simd](const PartsArguments& arguments) { return measure(arguments, *simd); });
-  command.add_option("--simd", *simd, "Instructions that both contestants are kept to [auto]")
+  command.add_option("--simd", *simd, "Vector instructions that both contestants use [auto]")
       ->type_name("LEVEL");
 }
 

@@ -34,7 +34,8 @@ constexpr const char* footer =
 void add_picture_command(CLI::App& program, Run& run) {
   add_session_command<PictureSession>(
       program, run,
-      {"picture", "Anti-aliased pictures beside 256 samples per pixel: errors, costs, flicker", footer},
+      {"picture", "Anti-aliased pictures compared with 256 samples per pixel: errors, costs, flicker",
+       footer},
       parts, last_lines);
 }
 

@@ -51,7 +51,7 @@ constexpr const char* footer =
 
 void add_viewer_command(CLI::App& program, Run& run) {
   add_parts_command(program, run,
-                    {"viewer", "What is seen at the window, while keys are held and the mouse drags", footer},
+                    {"viewer", "What the window shows while keys are held and the mouse drags", footer},
                     part_names(all_parts), measure);
 }
 
