@@ -12,7 +12,8 @@ HWY_BEFORE_NAMESPACE();
 namespace tenebra::soft::HWY_NAMESPACE {
 using namespace simd::HWY_NAMESPACE;
 
-/// The plane of a shading normal through points, met with the light's plane: a line a lane, positive above.
+/// The plane of a shading normal through points, met with the light's plane: a line in each lane, positive
+/// above.
 struct HorizonLanes {
   Double8 u, v, w;
 
