@@ -25,7 +25,7 @@ struct LightRequest {
 /// its triangle is counter-clockwise. Samples of one target that follow each other share one openness.
 class SurfaceLight {
 public:
-  /// Fails on lights that the scene does not have. `notes`: what a user should know, a sentence each.
+  /// Fails on lights that the scene does not have. `notes`: what a user should know, one sentence each.
   static Expected<SurfaceLight> create(const Scene& scene, const render::FrameInput& input,
                                        const LightRequest& request, std::vector<std::string>& notes);
   SurfaceLight(SurfaceLight&&) noexcept;

@@ -1,5 +1,5 @@
-// Hard masks of points. The eye is at the light: then every point is asked about whose triangle's said side
-// the light is on, and the tracer's own test of sides says the same. Points on the other side are dark.
+// Hard masks of points. The eye is placed at the light: points whose given side the light is on are traced,
+// and the tracer's own test of sides agrees. Points on the other side are dark.
 #include <algorithm>
 #include <cmath>
 

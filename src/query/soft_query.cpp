@@ -1,6 +1,6 @@
 // Soft shadows of points. A tracer sees triangles from an eye; here each point says on which side of its
 // triangle it is. So the eye is a vertex of the light that is on that side: the light's first, and for the
-// few points whose planes cut the light the next that will do, in a pass of its own. A light without such a
+// few points whose planes cut the light the next suitable one, in a pass of its own. A light without such a
 // vertex is below the point's horizon. The vertices of a sun are directions, so its eyes are infinitely far.
 #include "points/triangle_corners.h"
 #include "query/tracer_state.h"

@@ -183,7 +183,7 @@ Expected<bake::BakedMap> bake_map(Baking& baking, bake::SurfaceLight& light, con
   return map;
 }
 
-/// What the coordinates leave unbaked, a sentence each.
+/// What the coordinates leave unbaked, one sentence each.
 void note_coverage(const bake::ScenePlaces& places, const bake::TexelCoverage& coverage,
                    std::vector<std::string>& notes) {
   if (!places.parts_without.empty())

@@ -1,5 +1,5 @@
-// Materials of a GLB. What glTF cannot say stands in `extras` for import_gltf, and as near as glTF comes for
-// other programs.
+// Materials of a GLB. Whatever glTF cannot express is stored in `extras` for import_gltf, and as near as glTF
+// comes for other programs.
 #include <fmt/core.h>
 
 #include "formats/glb/writer.h"

@@ -32,7 +32,7 @@ SIMD_INLINE HorizonLanes horizon_of(const LightFrame& light, const Pack3<Double8
           dot_unfused(normal, to_origin)};
 }
 
-/// Up to eight points, a lane each.
+/// Up to eight points, one in each lane.
 struct WholePoints {
   std::size_t count = 0;
   std::uint32_t pixels[8] = {};
