@@ -48,8 +48,8 @@ Expected<void> measure(const PartsArguments& arguments, const std::string& simd)
 }
 
 constexpr const char* footer =
-    "dynamic, static: the mask of one light from visible points that are there, with the build and\n"
-    "without. whole_moved: from triangle ids to the masks of all lights of a frame whose triangles\n"
+    "dynamic, static: the mask of one light from given visible points, with and without the time to build\n"
+    "the tree. whole_moved: from triangle ids to the masks of all lights of a frame whose triangles\n"
     "moved since the frame before (points, tiles, rays, build or refit, trace; Embree at the best of\n"
     "its builds, packets of 4, 8 and 16, and both directions of rays). whole_static: the same where\n"
     "nothing moved, Embree's trees built before at medium and high quality. Over twelve frames of BART\n"
