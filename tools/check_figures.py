@@ -24,10 +24,10 @@ TENEBRA = os.environ.get("TENEBRA", str(ROOT / "build/bin/tenebra"))
 # How a row begins: the last lines of its command that print the figures in it, in their order; None: not printed.
 PRINTED = {
     "hard shadows, one light": ("hard.dynamic_geomean", "hard.dynamic_worst"),
-    "all lights, from triangle ids": ("hard.whole_moved_geomean", "hard.whole_moved_worst"),
+    "hard shadows, all lights, from triangle ids": ("hard.whole_moved_geomean", "hard.whole_moved_worst"),
     "whole frames without a GPU": ("frame.ratio_geomean", "frame.ratio_worst"),
     "exact soft shadows": ("soft.eq_worst", None),
-    "soft shadows that may err": ("soft.ratio_4_geomean", "soft.ratio_1_geomean"),
+    "soft shadows with an allowed error": ("soft.ratio_4_geomean", "soft.ratio_1_geomean"),
     "ambient occlusion at the default error": ("ao.scene_speedup_worst", None),
 }
 # Rows of `tenebra verify`, which counts: on a few frames of a bundled scene, where nothing may be wrong.

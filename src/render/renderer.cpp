@@ -50,7 +50,7 @@ Expected<void> check_ids(std::span<const std::uint32_t> ids, const RenderSetting
     return base::fail("ids that were handed in: found {}, expected {}x{}", ids.size(), settings.width,
                       settings.height);
   if (settings.antialias != 1 || settings.samples != SampleSource::ids)
-    return base::fail("ids that were handed in: expected one sample a pixel, from ids");
+    return base::fail("ids that were handed in: expected one sample per pixel, from ids");
   return {};
 }
 

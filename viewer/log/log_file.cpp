@@ -204,7 +204,7 @@ void keep_last_rows(LogFile& log) {
     if (last[log.frames[i].frame] == i) kept.push_back(std::move(log.frames[i]));
   log.frames = std::move(kept);
   log.remarks.push_back(fmt::format(
-      "{}: {} rows are of frames that were drawn again: of each the last counts", log.name, twice));
+      "{}: {} rows are of frames that were drawn again: the last one of each counts", log.name, twice));
 }
 
 }  // namespace tenebra::viewer

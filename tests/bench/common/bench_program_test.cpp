@@ -240,7 +240,7 @@ TEST(BenchData, NamesTheFilesThatAreNotThoseOfTheFigures) {
   const auto sentences = data_sentences(folder.path());
   ASSERT_EQ(sentences.size(), 1u);
   EXPECT_NE(sentences[0].find(
-                " of BART's files are missing or others than those of the documented figures (kitchen/"),
+                " of BART's files are missing or differ from those of the documented figures (kitchen/"),
             std::string::npos)
       << sentences[0];
   if (testing::bart_has_textures()) {

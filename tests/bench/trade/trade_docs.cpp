@@ -88,21 +88,19 @@ std::string head() {
          "frame.\n\n"
          "A setting is on the **Pareto front** of a view, its time bold, if no other is both as fast and as "
          "exact and better in one of the two. In the plots the front is dashed and its settings are ringed. "
-         "Embree's rays are a peer to compare with, no setting of Tenebra's. RMS: root of the mean square. "
-         "Penumbra, shaft and other words: [vocabulary](architecture.md#vocabulary).\n\n";
+         "Embree's rays are given for comparison; they are not a setting of Tenebra. RMS: root of the mean "
+         "square. Penumbra, shaft and other words: [vocabulary](architecture.md#vocabulary).\n\n";
 }
 
 std::string hard_section(const TradeSession& session, const std::vector<const TradeTable*>& tables) {
   return "## Hard shadows\n\n" + measured_by(session, "hard") + plots(tables) + hard_advice(tables) +
          "\nTime (visible points included) · wrong pixels:\n\n" + settings_table(tables, 0, 1, true) +
-         "Pictures of 1024x1024, the first light. Wrong: not as the exact answer, which `PreciseSorted` gave "
-         "without vector instructions. Shadow maps are cubes "
-         "drawn by "
-         "Tenebra's own rasteriser, on this machine on the CPU and with ids and normals beside the depth; "
-         "the "
-         "bias (constant and slope-scaled, in widths of a texel) is the best of many for the very view, by "
-         "the "
-         "exact mask, which a user does not have. Tenebra offers no tracing at half resolution.\n\n" +
+         "Pictures of 1024x1024, the first light. Wrong: different from the exact answer, which "
+         "`PreciseSorted` gave without vector instructions. Shadow maps are cubes drawn by Tenebra's own "
+         "rasteriser, on this machine on the CPU and with ids and normals beside the depth; the bias "
+         "(constant and slope-scaled, in widths of a texel) is the best of many for this view, chosen with "
+         "the exact mask, which a user does not have. Tenebra offers no tracing at half resolution.\n"
+         "\n" +
          remarks(tables);
 }
 
@@ -112,24 +110,23 @@ std::string soft_section(const TradeSession& session, const std::vector<const Tr
          settings_table(tables, 0, 2, true) + "The same over the whole picture: RMS · worst pixel:\n\n" +
          settings_table(tables, 2, 4, false) +
          "Pictures of 1280x720; a light of 4 % of the scene's diagonal, the court its own. Errors against "
-         "the "
-         "solver in double precision; up to 0.01/255 they count as none. White is the light that one pixel "
-         "of a "
-         "thousand has more of; errors of the visible part of the light (`--mask FILE.pfm`) are larger where "
-         "the light is weak. `clip`: `--soft-solver`; `bsp` takes part in runs without `--quick`. "
-         "Embree's rays are stratified, drawn beforehand, its tree is not counted.\n\n" +
+         "the solver in double precision; up to 0.01/255 they count as none. White is the light that one "
+         "pixel in a thousand exceeds; errors of the visible part of the light (`--mask FILE.pfm`) are "
+         "larger where the light is weak. `clip`: `--soft-solver`; `bsp` takes part in runs without "
+         "`--quick`. Embree's rays are stratified and drawn beforehand; its tree is not counted.\n"
+         "\n" +
          remarks(tables);
 }
 
 std::string ao_section(const TradeSession& session, const std::vector<const TradeTable*>& tables) {
   return "## Ambient occlusion\n\n" + measured_by(session, "ao") + plots(tables) + ao_advice(tables) +
-         "\nTime of a frame whose fields and samples are there · RMS error · worst pixel, in 1/255:\n\n" +
+         "\nTime of a frame whose fields and samples exist · RMS error · worst pixel, in 1/255:\n\n" +
          settings_table(tables, 0, 2, true) +
          "Tables are positions x directions. Errors against many rays (1,024 or more) at one pixel of 64. "
          "Embree's rays are the opponent of `tenebra-bench ao` (measuring.md): a lattice shifted from pixel "
-         "to "
-         "pixel in packets, the tree's following counted, filtered by those of one to three passes that err "
-         "least.\n\n" +
+         "to pixel in packets, with the time to update the tree, filtered by whichever of one to three "
+         "passes errs least.\n"
+         "\n" +
          remarks(tables);
 }
 
@@ -181,11 +178,13 @@ std::string stages_section(const TradeSession& session, const std::vector<StageR
 std::string needs_section(const TradeSession& session, const std::vector<NeedRow>& needs) {
   std::string text =
       "## Only what a scene requires\n\n" + measured_by(session, "needs") +
-      "What stages cost as the frame needs them, and what they would cost if all of it were done. Where both "
-      "were run, both gave the same bits, or the row says that they did not; rows without times only count. "
-      "(Behind shafts it is the dark points that are compared: at the others rays are as noisy as without.) "
-      "Tests hold the same: `tests/render/needs_test.cpp`.\n\n"
-      "| stage | view | ms | all, ms | what is left |\n|---|---|---|---|---|\n";
+      "The cost of stages that do only what the frame needs, and what they would cost if they did all of it. "
+      "Where both were run, both gave the same bits, or the row says that they did not; rows without times "
+      "only count. (Behind shafts only the dark points are compared: at the others rays are as noisy as "
+      "without.) Tests check the same: `tests/render/needs_test.cpp`.\n"
+      "\n"
+      "| stage | view | ms | all, ms | what is left |\n"
+      "|---|---|---|---|---|\n";
   for (const NeedRow& n : needs) {
     const bool timed = n.all_ms > 0;
     text += fmt::format("| {} | {} | {} | {} | {}{} |\n", n.stage, n.view,

@@ -122,7 +122,7 @@ Expected<void> need_lights(TradeSession& session, const Scene& original, const H
     ms[lit] = median(times);
     images[lit] = std::move(result.image);
   }
-  session.needs.push_back({"no shadow of a light that is off", view.name, "the whole frame", ms[0], ms[1],
+  session.needs.push_back({"no shadow from a light that is off", view.name, "the whole frame", ms[0], ms[1],
                            images[0] == images[1]});
   return {};
 }
@@ -154,7 +154,7 @@ void need_shafts(TradeSession& session, const SoftView& view, int rounds) {
   for (std::size_t i = 0; i < all.size(); ++i)
     same = same && (tracer.classes()[i] != static_cast<std::uint8_t>(SoftClass::dark) || all[i] == needed[i]);
   session.needs.push_back(
-      {"solvers where shafts leave a doubt", view.name,
+      {"solvers where shafts do not decide", view.name,
        fmt::format("{:.0f} % of the points (64 rays); exact: {:.0f} % lit, {:.0f} % dark",
                    100 * shafted.traced_part(), 100 * static_cast<double>(s.points_lit) / count,
                    100 * static_cast<double>(s.points_dark) / count),
