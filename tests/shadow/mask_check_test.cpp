@@ -1,4 +1,4 @@
-// A check of a mask finds what is wrong with it, and nothing else.
+// A check of a mask finds all of its wrong samples, and no others.
 #include "oracle/mask_check.h"
 
 #include <gtest/gtest.h>

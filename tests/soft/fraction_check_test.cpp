@@ -1,4 +1,4 @@
-// check_fractions finds what is wrong, and nothing else.
+// check_fractions finds all wrong fractions, and no others.
 #include <gtest/gtest.h>
 
 #include <algorithm>
