@@ -78,8 +78,7 @@ private:
     return false;
   }
 
-  /// What has a contrast behind glass, or where light changes its colour, has it in the light of its own
-  /// samples.
+  /// Contrasts behind glass, or where light changes its colour, need the light of their own samples.
   void by_glass(std::size_t y) {
     for (std::size_t i = y * width_; i < (y + 1) * width_; ++i) {
       if (chosen_[i] >= is_edge) continue;

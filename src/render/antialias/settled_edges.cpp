@@ -35,7 +35,7 @@ private:
   }
 };
 
-/// What a range of edges gives.
+/// The result of a range of edges.
 struct Part {
   std::vector<std::uint32_t> others, pixels;
   ShadingList listed;

@@ -1,4 +1,4 @@
-// Pixels with an edge that needs no shadows of its own.
+// Pixels with an edge whose samples need no shadows of their own.
 #pragma once
 
 #include <cstdint>

@@ -1,6 +1,5 @@
-// Positions that decisions asked for, kept for the next triangles that the same tile meets: where light
-// grazes a wall, one tile may ask for the same sixteen points thousands of times, in turn with all others of
-// its root.
+// Positions that decisions needed, kept for the next triangles that the same tile meets: where light grazes a
+// wall, one tile may need the same sixteen points thousands of times, in turn with all others of its root.
 #pragma once
 
 #include <algorithm>
@@ -15,26 +14,26 @@
 
 namespace tenebra::shadow {
 
-/// Positions of a tile's points, of those that were asked for.
+/// Positions of a tile's points, of those that were needed.
 struct alignas(64) TilePositions {
   double x[points::tile_points] = {}, y[points::tile_points] = {}, z[points::tile_points] = {};
 
   glm::dvec3 at(int lane) const { return {x[lane], y[lane], z[lane]}; }
 };
 
-/// Of one thread and one trace. Most traces never ask: memory is taken at the first question.
+/// Of one thread and one trace. Most traces need none: memory is taken with the first.
 class PositionCache {
 public:
   void clear() {
-    if (asked_) std::fill(known_.begin(), known_.end(), Known{});
-    asked_ = false;
+    if (used_) std::fill(known_.begin(), known_.end(), Known{});
+    used_ = false;
   }
 
   /// Tile `number` with the positions of `lanes`, whose pixels `pixels` names.
   const TilePositions& of(points::PositionFinder& finder, const points::TilePixels& pixels,
                           std::uint32_t number, std::uint32_t lanes) {
     if (known_.empty()) known_.resize(kept), positions_.resize(kept);
-    asked_ = true;
+    used_ = true;
     Known& known = known_[number % kept];
     TilePositions& at = positions_[number % kept];
     if (known.number != number) known = {number, 0};
@@ -55,7 +54,7 @@ private:
   };
   std::vector<Known> known_;
   std::vector<TilePositions> positions_;
-  bool asked_ = false;
+  bool used_ = false;
 };
 
 }  // namespace tenebra::shadow
