@@ -15,16 +15,6 @@ ExactVector exact_normal(const vec3& a, const vec3& b, const vec3& c) {
   return cross(exact_difference(b, a), exact_difference(c, a));
 }
 
-// n.v of float differences in double: each of the 3 products of 3 differences carries at most 9 roundings and
-// the sum 2 more, so |error| < 2^-46 |e1||e2||v| with room to spare (numerics: record of a triangle).
-int filtered_sign(const dvec3& e1, const dvec3& e2, const dvec3& v) {
-  const double value = glm::dot(glm::cross(e1, e2), v);
-  const double bound = 0x1p-46 * std::sqrt(glm::dot(e1, e1) * glm::dot(e2, e2) * glm::dot(v, v));
-  if (value > bound) return 1;
-  if (value < -bound) return -1;
-  return 0;
-}
-
 /// (u x v).w in double, and the sum of what its six products are at most.
 struct Product {
   double value, size;
@@ -70,12 +60,14 @@ int plane_excess(const vec3& a, const vec3& b, const vec3& c, const dvec3& p, in
 }
 
 int point_side(const vec3& a, const vec3& b, const vec3& c, const vec3& p) {
-  const int sign = filtered_sign(dvec3(b) - dvec3(a), dvec3(c) - dvec3(a), dvec3(p) - dvec3(a));
+  const int sign =
+      certain_sign(triple_product(dvec3(b) - dvec3(a), dvec3(c) - dvec3(a), dvec3(p) - dvec3(a)), 0);
   return sign != 0 ? sign : dot(exact_normal(a, b, c), exact_difference(p, a)).sign();
 }
 
 int direction_side(const vec3& a, const vec3& b, const vec3& c, const vec3& direction) {
-  const int sign = filtered_sign(dvec3(b) - dvec3(a), dvec3(c) - dvec3(a), dvec3(direction));
+  const int sign =
+      certain_sign(triple_product(dvec3(b) - dvec3(a), dvec3(c) - dvec3(a), dvec3(direction)), 0);
   return sign != 0 ? sign : dot(exact_normal(a, b, c), exact_vector(direction)).sign();
 }
 

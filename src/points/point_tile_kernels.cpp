@@ -9,8 +9,10 @@
 #include "simd/double8-inl.h"
 #include "simd/pack_lanes-inl.h"
 
+#include <algorithm>
 #include <bit>
 #include <cmath>
+#include <cstring>
 #include <limits>
 
 HWY_BEFORE_NAMESPACE();
@@ -26,37 +28,50 @@ Vector16 points_of(const PointTile& tile) {
   return {load<Float16>(tile.qx), load<Float16>(tile.qy), load<Float16>(tile.qz)};
 }
 
-// q is rounded by u, the sum of squares by 4u: 2^-20 covers both many times over. Where squares leave the
-// range of floats, by coordinates.
-float radius_of(const Vector16& q) {
-  const float largest2 = reduce_max(dot(q, q));
-  if (largest2 > 1e-30f && largest2 < 1e36f) return std::sqrt(largest2) * (1 + 0x1p-20f);
-  const float largest = reduce_max(max(abs(q.x), max(abs(q.y), abs(q.z))));
-  return largest * 1.7320509f * (1 + 0x1p-20f) + 0x1p-126f;
-}
-
 /// What eight lanes see.
 struct Receivers8 {
   Vector8 normal, a, du, dv;
+  Double8 height;  ///< n.(a - eye), which rays from one eye share
 };
 
-SIMD_INLINE Receivers8 alike(const Receiver& r) {
-  return {broadcast8(r.normal), broadcast8(r.a), broadcast8(r.du), broadcast8(r.dv)};
+SIMD_INLINE Receivers8 alike(const Receiver& r, const PixelRays& rays) {
+  return {broadcast8(r.normal), broadcast8(r.a), broadcast8(r.du), broadcast8(r.dv),
+          broadcast8(glm::dot(r.normal, r.a - rays.eye))};
 }
 
 /// Of eight lanes from `first` on. Pixels side by side see few different triangles: each is put into all of
 /// its lanes at once. Lanes without a point get the first.
-SIMD_INLINE Receivers8 gathered(const Receiver* receivers, std::span<const ReceiverLanes> parts, int first) {
-  Receivers8 all = alike(receivers[parts.front().receiver]);
+SIMD_INLINE Receivers8 gathered(const Receiver* receivers, std::span<const ReceiverLanes> parts,
+                                const PixelRays& rays, int first) {
+  Receivers8 all = alike(receivers[parts.front().receiver], rays);
   for (std::size_t i = 1; i < parts.size(); ++i) {
     const std::uint32_t lanes = (std::uint32_t{parts[i].lanes} >> first) & 0xffu;
     if (lanes == 0) continue;
-    const Receivers8 those = alike(receivers[parts[i].receiver]);
+    const Receivers8 those = alike(receivers[parts[i].receiver], rays);
     const Mask<double, 8> there = mask_of_bits<double, 8>(lanes);
     all = {select3(there, those.normal, all.normal), select3(there, those.a, all.a),
-           select3(there, those.du, all.du), select3(there, those.dv, all.dv)};
+           select3(there, those.du, all.du), select3(there, those.dv, all.dv),
+           select(there, those.height, all.height)};
   }
   return all;
+}
+
+// Whole numbers are compared with a sign here: the highest bit turned, they are in the order of those
+// without.
+void copy_ids(std::span<const std::uint32_t> ids, std::size_t count, std::uint32_t* to) {
+  const auto turned = [](std::uint32_t id) { return static_cast<std::int32_t>(id ^ 0x80000000u); };
+  const Int16 none = broadcast<Int16>(-1), highest = broadcast<Int16>(turned(0)),
+              end = broadcast<Int16>(
+                  turned(static_cast<std::uint32_t>(std::min<std::size_t>(count, no_triangle))));
+  std::size_t i = 0;
+  for (; i + 16 <= ids.size(); i += 16) {
+    std::int32_t sixteen[16];
+    std::memcpy(sixteen, &ids[i], sizeof sixteen);
+    const Int16 id = load<Int16>(sixteen);
+    store(select(gt(end, id ^ highest), id, none), sixteen);
+    std::memcpy(to + i, sixteen, sizeof sixteen);
+  }
+  for (; i < ids.size(); ++i) to[i] = ids[i] < count ? ids[i] : no_triangle;
 }
 
 int part_lanes(const std::uint32_t ids[tile_points], std::uint16_t parts[tile_points]) {
@@ -85,7 +100,8 @@ SIMD_INLINE Seen8 see_eight(const Receivers8& r, const PixelRays& rays, glm::uve
   const Vector8 eye = broadcast8(rays.eye), d0 = broadcast8(rays.d0);
   const Vector8 origin = rays.orthographic ? eye + across : eye,
                 direction = rays.orthographic ? d0 : d0 + across;
-  const Double8 t = dot_unfused(r.normal, r.a - origin) / dot_unfused(r.normal, direction);
+  const Double8 height = rays.orthographic ? dot_unfused(r.normal, r.a - origin) : r.height,
+                t = height / dot_unfused(r.normal, direction);
   const Vector8 p = origin + t * direction, from = p - r.a;
   const Double8 u = dot_unfused(r.du, from), v = dot_unfused(r.dv, from);
   const Double8 zero = broadcast<Double8>(0.0), one = broadcast<Double8>(1.0);
@@ -101,8 +117,13 @@ struct Seen16 {
 };
 SIMD_INLINE Seen16 see_tile(const Receiver* receivers, std::span<const ReceiverLanes> parts,
                             const PixelRays& rays, glm::uvec2 at) {
-  return {see_eight(gathered(receivers, parts, 0), rays, at),
-          see_eight(gathered(receivers, parts, 8), rays, at + glm::uvec2(0, 2))};
+  const glm::uvec2 lower = at + glm::uvec2(0, 2);
+  if (parts.size() == 1) {
+    const Receivers8 all = alike(receivers[parts.front().receiver], rays);
+    return {see_eight(all, rays, at), see_eight(all, rays, lower)};
+  }
+  return {see_eight(gathered(receivers, parts, rays, 0), rays, at),
+          see_eight(gathered(receivers, parts, rays, 8), rays, lower)};
 }
 
 /// Bits of all lanes of `parts`, and of those that lie on no plane.
@@ -142,9 +163,9 @@ SIMD_INLINE void set_bounds(const Vector16& q, int place, PointSquare& square) {
   }
 }
 
-/// q of two halves; lanes that are not in `lanes` get that of the first that is. Returns a radius.
-SIMD_INLINE float set_points(const Vector8& upper, const Vector8& lower, const glm::vec3& base,
-                             std::uint32_t lanes, PointTile& tile, int place, PointSquare& square) {
+/// q of two halves; lanes that are not in `lanes` get that of the first that is.
+SIMD_INLINE void set_points(const Vector8& upper, const Vector8& lower, const glm::vec3& base,
+                            std::uint32_t lanes, PointTile& tile, int place, PointSquare& square) {
   const Vector8 centre = broadcast8(glm::dvec3(base)), high = upper - centre, low = lower - centre;
   Vector16 q{demoted(high.x, low.x), demoted(high.y, low.y), demoted(high.z, low.z)};
   store(q.x, tile.qx), store(q.y, tile.qy), store(q.z, tile.qz);
@@ -157,24 +178,24 @@ SIMD_INLINE float set_points(const Vector8& upper, const Vector8& lower, const g
     store(q.x, tile.qx), store(q.y, tile.qy), store(q.z, tile.qz);
   }
   set_bounds(q, place, square);
-  return radius_of(q);
 }
 
-float fill(const TilePoints& points, const glm::vec3& base, std::uint32_t lanes, PointTile& tile, int place,
-           PointSquare& square) {
+void fill(const TilePoints& points, const glm::vec3& base, std::uint32_t lanes, PointTile& tile, int place,
+          PointSquare& square) {
   const auto half = [&](int first) HWY_ATTR {
     return Vector8{load<Double8>(points.x + first), load<Double8>(points.y + first),
                    load<Double8>(points.z + first)};
   };
-  return set_points(half(0), half(8), base, lanes, tile, place, square);
+  set_points(half(0), half(8), base, lanes, tile, place, square);
 }
 
-float see_whole(const Receiver* receivers, std::span<const ReceiverLanes> parts, const PixelRays& rays,
-                glm::uvec2 at, const glm::vec3& base, PointTile& tile, int place, PointSquare& square) {
+bool see_whole(const Receiver* receivers, std::span<const ReceiverLanes> parts, const PixelRays& rays,
+               glm::uvec2 at, const glm::vec3& base, PointTile& tile, int place, PointSquare& square) {
   const PartLanes lanes = lanes_of(receivers, parts);
   const Seen16 seen = see_tile(receivers, parts, rays, at);
-  if ((lanes.all & ~(seen.inside() & ~lanes.flat)) != 0) return -1;
-  return set_points(seen.upper.p, seen.lower.p, base, lanes.all, tile, place, square);
+  if ((lanes.all & ~(seen.inside() & ~lanes.flat)) != 0) return false;
+  set_points(seen.upper.p, seen.lower.p, base, lanes.all, tile, place, square);
+  return true;
 }
 
 std::uint32_t beyond_gap(const PointTile& tile, std::uint32_t lanes) {
@@ -198,7 +219,7 @@ std::uint32_t beyond_gap(const PointTile& tile, std::uint32_t lanes) {
 }  // namespace
 
 PointTileKernels point_tile_kernels() {
-  return {part_lanes, see_whole, see, take, fill, beyond_gap};
+  return {copy_ids, part_lanes, see_whole, see, take, fill, beyond_gap};
 }
 
 }  // namespace tenebra::points::HWY_NAMESPACE

@@ -22,14 +22,16 @@ struct alignas(64) TilePoints {
 
 /// Code for one instruction set.
 struct PointTileKernels {
+  /// Copies ids; those that are not below `count` become no_triangle.
+  void (*copy_ids)(std::span<const std::uint32_t> ids, std::size_t count, std::uint32_t* to) = nullptr;
   /// Bits of the lanes whose ids are the same, by their first lanes; returns how many different ids there
   /// are.
   int (*part_lanes)(const std::uint32_t ids[tile_points], std::uint16_t parts[tile_points]) = nullptr;
   /// The tile whose first pixel is `at`, with points on `parts` (one or more; numbers in `receivers`): what
-  /// `see` and `fill` give. Below zero: nothing is said, as not all points lie inside of their triangles.
-  float (*see_whole)(const Receiver* receivers, std::span<const ReceiverLanes> parts, const PixelRays& rays,
-                     glm::uvec2 at, const glm::vec3& base, PointTile& tile, int place,
-                     PointSquare& square) = nullptr;
+  /// `see` and `fill` give. False: nothing is said, as not all points lie inside of their triangles.
+  bool (*see_whole)(const Receiver* receivers, std::span<const ReceiverLanes> parts, const PixelRays& rays,
+                    glm::uvec2 at, const glm::vec3& base, PointTile& tile, int place,
+                    PointSquare& square) = nullptr;
   /// Points of that tile. Returns the bits of those that lie inside of their triangles; the others are left
   /// to PixelRays::point_on. The operations of the scalar code in the same order, so the same bits.
   std::uint32_t (*see)(const Receiver* receivers, std::span<const ReceiverLanes> parts, const PixelRays& rays,
@@ -37,9 +39,9 @@ struct PointTileKernels {
   /// Points from four rows of positions, `width` apart.
   void (*take)(const glm::dvec3* first, std::size_t width, TilePoints& out) = nullptr;
   /// q from the points of the lanes in `lanes` (not 0), and the box around them as that of tile `place` of a
-  /// square. Returns a radius: >= |q| of all.
-  float (*fill)(const TilePoints& points, const glm::vec3& base, std::uint32_t lanes, PointTile& tile,
-                int place, PointSquare& square) = nullptr;
+  /// square.
+  void (*fill)(const TilePoints& points, const glm::vec3& base, std::uint32_t lanes, PointTile& tile,
+               int place, PointSquare& square) = nullptr;
   /// Lanes of `lanes` (not 0) beyond a gap: farther from the first of them than the others by half of the
   /// extent.
   std::uint32_t (*beyond_gap)(const PointTile& tile, std::uint32_t lanes) = nullptr;

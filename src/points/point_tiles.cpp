@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <bit>
 #include <cmath>
+#include <cstring>
 #include <limits>
 #include <span>
 
@@ -20,6 +21,21 @@ namespace {
 using glm::dvec3;
 
 constexpr std::uint16_t no_receiver = 0xfffeu;  // none, or one edge-on to the eye or without area
+
+/// >= |q| of a square's points: the farthest corner of the box around all tiles. Floats' squares in double
+/// neither overflow nor vanish; what is rounded is far below 2^-20, or the least float.
+float radius_of(const PointSquare& square) {
+  double squares = 0;
+  for (int axis = 0; axis < 3; ++axis) {
+    float largest = 0;
+    for (std::uint32_t left = square.filled; left != 0; left &= left - 1) {
+      const int t = std::countr_zero(left);
+      largest = std::max(largest, std::max(-square.low[axis][t], square.high[axis][t]));
+    }
+    squares += static_cast<double>(largest) * static_cast<double>(largest);
+  }
+  return static_cast<float>(std::sqrt(squares)) * (1 + 0x1p-20f) + 0x1p-149f;
+}
 
 /// Makes one patch.
 class PatchMaker {
@@ -64,6 +80,7 @@ private:
 
   std::uint16_t receiver_of(std::uint32_t id);
   std::uint16_t add_receiver(std::uint32_t id);
+  int side_of(const Receiver& r, const Corners& c, double squares) const;
   const std::uint32_t* ids_at(std::uint32_t x, std::uint32_t y) const {
     return &points_.triangles[static_cast<std::size_t>(y) * width_ + x];
   }
@@ -89,29 +106,41 @@ private:
   std::array<Known, 4096> known_{};  // of the triangles that pixels nearby lie on
 };
 
+/// On which side of the triangle the eye is, as eye_side(). In double n.v of float differences carries nine
+/// roundings in each of its three products and two in their sums: it is off by less than 2^-46 |e1||e2||v|,
+/// whose squares no floats take out of the range of doubles.
+int PatchMaker::side_of(const Receiver& r, const Corners& c, double squares) const {
+  const ViewRays& view = out_.view;
+  const dvec3 to_eye = view.orthographic ? -dvec3(view.d0) : dvec3(view.eye) - r.a;
+  const double value = glm::dot(r.normal, to_eye);
+  if (value * value > 0x1p-92 * squares * glm::dot(to_eye, to_eye)) return value > 0 ? 1 : -1;
+  return eye_side(c.v, view);
+}
+
 // n / |n| in double is off by less than 2^-48 |e1||e2| / |n|; rounding it, the difference p - a and the
-// products add less than 16 u of |p - a|.
+// products add less than 16 u of |p - a|. Rounding up: a float is off by u, as its product is, or by less
+// than the least float.
 std::uint16_t PatchMaker::add_receiver(std::uint32_t id) {
   const Corners c = corners_of(triangles_, id);
-  const int side = eye_side(c.v, out_.view);
+  const Receiver r = points::receiver_of(triangles_, id);
+  const double squares = glm::dot(r.e1, r.e1) * glm::dot(r.e2, r.e2);
+  const int side = side_of(r, c, squares);
   if (side == 0) return no_receiver;
   const std::uint32_t number = patch_.receiver_count++;
   if (number % 16 == 0) patch_.receivers.emplace_back();
   ReceiverBlock& block = patch_.receivers.back();
   const std::uint32_t i = number % 16;
-  const dvec3 e1 = dvec3(c.v[1]) - dvec3(c.v[0]), e2 = dvec3(c.v[2]) - dvec3(c.v[0]);
-  const dvec3 n = glm::cross(e1, e2);
-  const double length = glm::length(n);
-  const dvec3 unit = length > 0 ? n * (side / length) : dvec3(0);
+  const double length = glm::length(r.normal);
+  const dvec3 unit = length > 0 ? r.normal * (side / length) : dvec3(0);
   block.nx[i] = static_cast<float>(unit.x), block.ny[i] = static_cast<float>(unit.y);
   block.nz[i] = static_cast<float>(unit.z);
   block.ax[i] = c.v[0].x, block.ay[i] = c.v[0].y, block.az[i] = c.v[0].z;
-  const double slack = 16 * 0x1p-24 + 0x1p-47 * glm::length(e1) * glm::length(e2) / length;
+  const double slack = 16 * 0x1p-24 + 0x1p-47 * std::sqrt(squares) / length;
   block.slack[i] = slack < 1 ? static_cast<float>(slack) : 2.0f;
-  block.tau[i] = std::nextafter(static_cast<float>(rounding_tolerance(c.v)), INFINITY);
+  block.tau[i] = static_cast<float>(rounding_tolerance(c.v)) * (1 + 0x1p-22f) + 0x1p-149f;
   block.id[i] = id;
   block.side[i] = static_cast<std::int8_t>(side);
-  if (from_view_) receivers_.push_back(points::receiver_of(triangles_, id));
+  if (from_view_) receivers_.push_back(r);
   if (from_view_ && !triangles_.normals.empty())
     smooth_.push_back(smooth_surface(triangles_, id, points_.view));
   return static_cast<std::uint16_t>(number);
@@ -129,10 +158,12 @@ std::uint16_t PatchMaker::receiver_of(std::uint32_t id) {
 /// Whether all sixteen pixels, which are in the picture, see the same triangle.
 bool PatchMaker::one_receiver(std::uint32_t x, std::uint32_t y) const {
   const std::uint32_t* const ids = ids_at(x, y);
-  std::uint32_t different = 0;
+  const std::uint64_t twice = std::uint64_t{ids[0]} << 32 | ids[0];
+  std::uint64_t different = 0;
   for (std::size_t row = 0; row < tile_side; ++row) {
-    for (std::size_t column = 0; column < tile_side; ++column)
-      different |= ids[row * width_ + column] ^ ids[0];
+    std::uint64_t pairs[2];
+    std::memcpy(pairs, ids + row * width_, sizeof pairs);
+    different |= (pairs[0] ^ twice) | (pairs[1] ^ twice);
   }
   return different == 0;
 }
@@ -219,18 +250,15 @@ void PatchMaker::add_square(std::uint32_t x, std::uint32_t y, std::uint32_t firs
     PointTile& tile = out_.tiles[first + t];
     find_receivers(tile_x, tile_y, seen);
     if (seen.lanes == 0) continue;
-    float radius = -1;
-    if (from_view_ && square.filled != 0 && !lifts(seen))
-      radius = kernels_.see_whole(receivers_.data(), seen.receivers(), rays_, {tile_x, tile_y}, base, tile,
-                                  place, square);
-    if (radius < 0) {
+    if (!from_view_ || square.filled == 0 || lifts(seen) ||
+        !kernels_.see_whole(receivers_.data(), seen.receivers(), rays_, {tile_x, tile_y}, base, tile, place,
+                            square)) {
       see(seen, {tile_x, tile_y}, points);
       if (square.filled == 0) base = points.at(std::countr_zero(seen.lanes));
-      radius = kernels_.fill(points, base, seen.lanes, tile, place, square);
+      kernels_.fill(points, base, seen.lanes, tile, place, square);
     }
     square.filled |= 1u << t;
     square.lanes[t] = static_cast<std::uint16_t>(seen.lanes);
-    square.base.radius = std::max(square.base.radius, radius);
     note_owners(seen, place, square);
     if (square.receiver[t] != several_receivers) continue;
     note_ids(seen, tile);
@@ -240,7 +268,7 @@ void PatchMaker::add_square(std::uint32_t x, std::uint32_t y, std::uint32_t firs
   if (square.filled == 0) return patch_.squares.pop_back();
   // What leaves the range of floats is for others to look at (not NaN: max takes what is finite).
   const bool finite = std::isfinite(base.x) && std::isfinite(base.y) && std::isfinite(base.z);
-  if (!finite) square.base.radius = std::numeric_limits<float>::infinity();
+  square.base.radius = finite ? radius_of(square) : std::numeric_limits<float>::infinity();
   for (int k = 0; k < 3; ++k) square.base.at[k] = base[k];
   out_.bases[first / 16] = square.base;
 }

@@ -4,6 +4,7 @@
 #include <algorithm>
 
 #include "parallel/parallel.h"
+#include "points/point_tile_kernels.h"
 #include "points/point_tiles.h"
 #include "points/positions.h"
 #include "points/receiver.h"
@@ -92,7 +93,8 @@ void compute_rows(std::span<const std::uint32_t> ids, std::size_t first, std::si
 /// Pixels first ... last - 1; ids out of range become no_triangle.
 void copy_ids(std::span<const std::uint32_t> ids, std::size_t first, std::size_t last, std::size_t count,
               VisiblePoints& out) {
-  for (std::size_t i = first; i < last; ++i) out.triangles[i] = ids[i] < count ? ids[i] : no_triangle;
+  static const points::PointTileKernels kernels = points::point_tile_kernels(SimdLevel::automatic);
+  kernels.copy_ids(ids.subspan(first, last - first), count, &out.triangles[first]);
 }
 
 }  // namespace

@@ -140,6 +140,27 @@ TEST(PointTiles, HoldThePointsThatFaceTheEye) {
   }
 }
 
+TEST(PointTiles, TakeTheIdsOfTrianglesThatAreThere) {
+  Random random(33);
+  for (const std::size_t count : {std::size_t{0}, std::size_t{1}, std::size_t{1000}, std::size_t{0x80000000},
+                                  std::size_t{0xffffffff}, std::size_t{1} << 40}) {
+    std::vector<std::uint32_t> ids(16 * 40 + 7), taken(ids.size());
+    const auto end = static_cast<std::uint32_t>(count);
+    for (std::uint32_t& id : ids) {
+      const std::uint32_t near[] = {0,          1,          end - 1,    end,        end + 1,
+                                    0x7fffffff, 0x80000000, 0xfffffffe, no_triangle};
+      id = near[random.index(std::size(near))];
+    }
+    for (const SimdLevel level :
+         {SimdLevel::scalar, SimdLevel::sse4, SimdLevel::avx2, SimdLevel::automatic}) {
+      if (!simd_level_supported(level)) continue;
+      points::point_tile_kernels(level).copy_ids(ids, count, taken.data());
+      for (std::size_t i = 0; i < ids.size(); ++i)
+        ASSERT_EQ(taken[i], ids[i] < count ? ids[i] : no_triangle) << count << ", " << i;
+    }
+  }
+}
+
 TEST(PointTiles, StayPreciseFarFromTheOrigin) {
   const TiledCase c = tiled_room(32, 64, 64, 1, 1e6);
   EXPECT_GT(check_tiles(c), 0u);

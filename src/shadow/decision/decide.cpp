@@ -22,6 +22,21 @@ bool inside_edge(const points::Corners& c, int k, const dvec3& point, int side, 
 
 }  // namespace
 
+bool blocks_exactly(const OpenTriangle& t, const dvec3& point, std::uint32_t own, const RaySource& source,
+                    const TriangleView& triangles, ContactRule contact) {
+  const points::Corners& c = t.corners;
+  for (int k = 0; k < 3; ++k) {
+    if (((t.open >> k) & 1u) != 0 && !inside_edge(c, k, point, t.side, source)) return false;
+  }
+  if (((t.open >> 3) & 1u) == 0) return true;
+  double threshold = 0;
+  if (contact == ContactRule::triangle_ids) {
+    const double tau_own = points::rounding_tolerance(points::corners_of(triangles, own).v);
+    threshold = points::contact_threshold(c.v, points::rounding_tolerance(c.v), tau_own);
+  }
+  return math::plane_excess(c.v[0], c.v[1], c.v[2], point, t.side, threshold) > 0;
+}
+
 bool decide(const TrianglePlanes& planes, const dvec3& point, std::uint32_t own, const RaySource& source,
             const TriangleView& triangles, ContactRule contact, TraceStats& stats) {
   const bool use_ids = contact == ContactRule::triangle_ids;
@@ -30,8 +45,7 @@ bool decide(const TrianglePlanes& planes, const dvec3& point, std::uint32_t own,
   const double tau_own = use_ids ? points::rounding_tolerance(points::corners_of(triangles, own).v) : 0.0;
   const dvec3 p = point - source.origin;
   const double size = std::sqrt(glm::dot(p, p));
-  bool open[4];
-  bool any_open = false;
+  std::uint32_t open = 0;
   for (int k = 0; k < 4; ++k) {
     const double slack = k == 3 ? tau_own : 0.0;
     const double value = planes.mx[k] * p.x + planes.my[k] * p.y + planes.mz[k] * p.z - planes.d[k] - slack;
@@ -39,20 +53,13 @@ bool decide(const TrianglePlanes& planes, const dvec3& point, std::uint32_t own,
     const double bound =
         planes.rho[k] * (size + planes.reach) + 0x1p-50 * (size + std::abs(planes.d[k]) + slack) + 0x1p-1000;
     if (value < -bound) return false;
-    open[k] = !(value > bound);
-    any_open |= open[k];
+    if (!(value > bound)) open |= 1u << k;
   }
-  if (!any_open) return true;
+  if (open == 0) return true;
 
   ++stats.double_unknown;
-  const points::Corners c = points::corners_of(triangles, planes.triangle);
-  for (int k = 0; k < 3; ++k) {
-    if (open[k] && !inside_edge(c, k, point, planes.side, source)) return false;
-  }
-  if (!open[3]) return true;
-  const double threshold =
-      use_ids ? points::contact_threshold(c.v, points::rounding_tolerance(c.v), tau_own) : 0.0;
-  return math::plane_excess(c.v[0], c.v[1], c.v[2], point, planes.side, threshold) > 0;
+  return blocks_exactly({points::corners_of(triangles, planes.triangle), planes.side, open}, point, own,
+                        source, triangles, contact);
 }
 
 }  // namespace tenebra::shadow

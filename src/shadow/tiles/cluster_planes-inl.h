@@ -100,6 +100,7 @@ SIMD_INLINE void set_up_eight(const TriangleCluster& c, int at, const RaySource&
     for (int i = 0; i < 8; ++i) valid &= side[i] < 0 ? ~(1u << i) : ~0u;
   }
   t.side = load<Double8>(side);
+  out.turned |= bits(lt(t.side, broadcast<Double8>(0.0))) << at;
 
   Vector8 unit;
   Double8 worst = broadcast<Double8>(0.0), reach2 = worst;
@@ -128,7 +129,7 @@ SIMD_INLINE void set_up_eight(const TriangleCluster& c, int at, const RaySource&
 
 SIMD_INLINE void set_up_planes(const TriangleCluster& c, const RaySource& source, bool use_tau,
                                bool cull_front, ClusterPlanes& out) {
-  out.valid = out.edge_on = 0;
+  out.valid = out.edge_on = out.turned = 0;
   set_up_eight(c, 0, source, use_tau, cull_front, out);
   set_up_eight(c, 8, source, use_tau, cull_front, out);
 }

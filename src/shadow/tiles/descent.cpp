@@ -9,6 +9,7 @@
 #include "points/triangle_corners.h"
 #include "shadow/decision/decide.h"
 #include "shadow/tiles/descent_sides-inl.h"
+#include "shadow/tiles/double_test-inl.h"
 #include "shadow/tiles/live_rays-inl.h"
 #include "shadow/tiles/ray_test-inl.h"
 #include "simd/dispatch.h"
@@ -45,6 +46,7 @@ public:
         live_(d, side_),
         skip_own_(d.contact == ContactRule::triangle_ids),
         pixels_(d.points.width, d.points.height),
+        finder_(d.points, d.triangles),
         scratch_(scratch),
         stats_(stats) {}
 
@@ -82,13 +84,14 @@ private:
   std::uint32_t own_lanes(const RayNode& n, int slot, std::uint32_t id) const {
     return n.own[slot] == no_triangle && skip_own_ ? eq_bits(tile(n, slot).id, id) : 0;
   }
-  std::uint32_t blocked_lanes(std::uint32_t tile, std::uint32_t open, std::uint32_t id);
+  std::uint32_t blocked_lanes(const RayNode& n, int slot, std::uint32_t open, int i);
 
   const Descent& d_;
   const Side side_;
   LiveRays<Side> live_;
   const bool skip_own_;  ///< a triangle never blocks its own points
   const points::TilePixels pixels_;
+  points::PositionFinder finder_;
   DescentScratch& scratch_;
   TraceStats& stats_;
   // Of the cluster that is on its way down.
@@ -323,25 +326,29 @@ bool RootDescent<Side>::test_triangle(const Waiting& w, const RoughRays& rough, 
   const std::uint32_t near = rays & verdict.near, open = near & ~verdict.sure;
   if (near == 0) return false;
   std::uint32_t blocked = near & verdict.sure;
-  if (open != 0) blocked |= blocked_lanes(n.child[w.slot], open, id);
+  if (open != 0) blocked |= blocked_lanes(n, w.slot, open, i);
   n.rays[w.slot] = static_cast<std::uint16_t>(n.rays[w.slot] & ~blocked);
   n.wide |= 1u << w.slot;
   if (n.rays[w.slot] == 0) live_.drop(n, w.slot);
   return true;
 }
 
-/// Of the lanes of `open` those that are blocked: in double, then exactly.
+/// Of the lanes of `open` those that triangle i blocks: in double, then exactly.
 template <class Side>
-std::uint32_t RootDescent<Side>::blocked_lanes(std::uint32_t tile, std::uint32_t open, std::uint32_t id) {
+std::uint32_t RootDescent<Side>::blocked_lanes(const RayNode& n, int slot, std::uint32_t open, int i) {
+  const std::uint32_t id = cluster_->ids[i], number = n.child[slot];
   const points::Corners corners = points::corners_of(d_.triangles, id);
-  const TrianglePlanes planes = planes_of(corners.v, id, light_side(corners.v, d_.source), d_.source,
-                                          skip_own_ ? points::rounding_tolerance(corners.v) : 0.0);
-  std::uint32_t blocked = 0;
-  for (; open != 0; open &= open - 1) {
+  const int side = ((scratch_.planes.turned >> i) & 1u) != 0 ? -1 : 1;
+  const TilePositions& at = scratch_.positions.of(finder_, pixels_, number, open);
+  const TileVerdict verdict =
+      double_verdict(product_triangle(corners, side, d_.source, d_.contact, n.tau), at);
+  stats_.float_unknown += static_cast<std::uint64_t>(std::popcount(open));
+  std::uint32_t blocked = open & verdict.near & verdict.sure;
+  for (open &= verdict.near & ~verdict.sure; open != 0; open &= open - 1) {
     const int lane = std::countr_zero(open);
-    const std::size_t pixel = pixels_(tile, lane);
-    const glm::dvec3& at = scratch_.positions.at(d_.points, d_.triangles, tile, lane, pixel);
-    if (decide(planes, at, d_.points.triangles[pixel], d_.source, d_.triangles, d_.contact, stats_))
+    ++stats_.double_unknown;
+    const std::uint32_t own = d_.points.triangles[pixels_(number, lane)];
+    if (blocks_exactly({corners, side, all_planes}, at.at(lane), own, d_.source, d_.triangles, d_.contact))
       blocked |= 1u << lane;
   }
   return blocked;

@@ -40,6 +40,7 @@ struct alignas(64) ClusterPlanes {
   float tau[16];          ///< rounding tolerance, rounded up
   std::uint32_t valid;    ///< bit i: triangle i may block something
   std::uint32_t edge_on;  ///< bit i: it lies in a plane through the light, or has no area
+  std::uint32_t turned;   ///< bit i: its side (TrianglePlanes) is -1, not +1
 };
 
 /// Scratch of one thread.
