@@ -5,7 +5,7 @@ set -euo pipefail
 cd "$(dirname "$0")"
 
 tools/setup.sh
-# A first build compiles each folder's files together, which takes less time; a folder that is there keeps its way.
+# A first build compiles each folder's files together, which takes less time; an existing build folder keeps its setting.
 [[ -e build/CMakeCache.txt ]] && first=() || first=(-DTENEBRA_UNITY=ON)
 cmake --preset release -DTENEBRA_TESTS=OFF "${first[@]}" > /dev/null
 cmake --build --preset release --target tenebra
@@ -15,6 +15,6 @@ build/bin/tenebra render scenes/city.glb --frames 0:95:4 --size 960x540 -o out/%
 
 echo
 echo "Look at:  $PWD/out/0000.png and the pictures after it, mask_*.png: the shadow masks"
-echo "          $PWD/out/frames.csv     what each frame took"
+echo "          $PWD/out/frames.csv     how long each frame took"
 echo "          $PWD/out/trace.json     the same for https://ui.perfetto.dev"
 echo "Next:     build/bin/tenebra --help"

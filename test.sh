@@ -5,7 +5,7 @@ set -euo pipefail
 cd "$(dirname "$0")"
 
 tools/setup.sh --tests
-# A first build compiles each folder's files together, which takes less time; a folder that is there keeps its way.
+# A first build compiles each folder's files together, which takes less time; an existing build folder keeps its setting.
 [[ -e build/CMakeCache.txt ]] && first=() || first=(-DTENEBRA_UNITY=ON)
 cmake --preset release -DTENEBRA_TESTS=ON "${first[@]}" ${CI:+-DCMAKE_COMPILE_WARNING_AS_ERROR=ON} > /dev/null
 cmake --build --preset release
@@ -13,7 +13,7 @@ cmake --build --preset release
 code=0
 ctest --test-dir build --output-on-failure -j2 "$@" || code=$?
 
-# A skipped test is no passed test: say how many there are, and why.
+# A skipped test is not a passed test: say how many there are, and why.
 log=build/Testing/Temporary/LastTest.log
 echo "Skipped tests: $(grep -c '^\[  SKIPPED \] .*ms)$' "$log" || true)"
 grep -A1 ': Skipped$' "$log" | grep -v -e ': Skipped$' -e '^--$' | sort | uniq -c || true

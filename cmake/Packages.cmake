@@ -72,7 +72,7 @@ set(CPACK_COMPONENT_PYTHON3_DESCRIPTION
   "${about}This package has the\nmodule tenebra for Python: numpy arrays in and out.")
 include(CPack)
 
-# What the desktop and the shells read. Manual pages, completions and the texts that Debian asks for are made by
+# Files for the desktop and the shells. Manual pages, completions and the texts that Debian asks for are made by
 # tools/package.sh, as they come from the program itself.
 install(FILES packaging/tenebra.desktop DESTINATION share/applications COMPONENT program)
 install(FILES packaging/tenebra.svg DESTINATION share/icons/hicolor/scalable/apps COMPONENT program)

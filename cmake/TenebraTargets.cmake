@@ -24,7 +24,7 @@ function(tenebra_library name)
   set_target_properties(tenebra_${name} PROPERTIES EXPORT_NAME ${name})
 endfunction()
 
-# tenebra_unite(TARGET): with TENEBRA_UNITY the files of each folder are compiled together, as most of what one takes is
+# tenebra_unite(TARGET): with TENEBRA_UNITY the files of each folder are compiled together, as most of the time goes into
 # the standard library's headers. Those that Highway includes once for each vector level stay alone, as do those with
 # options of their own.
 function(tenebra_unite target)

@@ -1,6 +1,6 @@
 #!/usr/bin/env python3
 """Checks the bundled scenes: `check.py` reads each .glb and says in one sentence what is wrong; exit code 1 if
-anything is. Writes the scenes again in memory and wants the same bytes."""
+anything is. Generates the scenes again in memory and expects the same bytes."""
 
 import json
 import math

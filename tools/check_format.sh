@@ -23,7 +23,7 @@ if [[ ${1:-} == --fix ]]; then
   "$format" -i "${files[@]}"
   exit 0
 fi
-# One process for all files is quick; which files it complains about stands before the first colon.
+# One process for all files is quick; the files that it complains about are named before the first colon.
 mapfile -t changed < <("$format" --dry-run "${files[@]}" 2>&1 | sed -n 's/^\([^:]*\):[0-9].*clang-formatted.*/\1/p' | sort -u)
 if ((${#changed[@]})); then
   echo "clang-format would change ${#changed[@]} of ${#files[@]} files (tools/check_format.sh --fix does it):" "${changed[@]}" >&2

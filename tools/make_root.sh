@@ -2,11 +2,11 @@
 # Builds and tests Tenebra on another system: makes a root of that system in a folder, copies this checkout into it,
 # and runs ./demo.sh and ./test.sh there.
 # Usage: tools/make_root.sh [options] debian12|debian13|ubuntu24.04
-#   --root FOLDER      where the root is, or is made [$TMPDIR/tenebra-roots/NAME]; one that is there is used again
+#   --root FOLDER      where the root is, or is made [$TMPDIR/tenebra-roots/NAME]; an existing one is used again
 #   --mirror URL       the archive [the one that this machine's apt uses, if it is of that system; else the public one]
 #   --keyring FILE     the archive's keys [those in /usr/share/keyrings]
 #   --only-make        makes the root and copies the checkout, runs nothing
-#   --run COMMAND      runs COMMAND in the copy in place of ./demo.sh && ./test.sh
+#   --run COMMAND      runs COMMAND in the copy instead of ./demo.sh && ./test.sh
 # Needs mmdebstrap or debootstrap, and to be root.
 set -euo pipefail
 checkout=$(cd "$(dirname "$0")/.." && pwd)
@@ -49,7 +49,7 @@ read_options() {
   : "${root:=${TMPDIR:-/tmp}/tenebra-roots/$name}"
 }
 
-# The first archive of $vendor among the sources of this machine's apt, but for security updates alone.
+# The first archive of $vendor among the sources of this machine's apt, leaving out those of security updates alone.
 own_mirror() {
   apt-get indextargets --format '$(ORIGIN)/$(LABEL) $(REPO_URI)' 'Created-By: Packages' 2> /dev/null |
     awk -v wanted="$vendor/$vendor" '$1 == wanted && !found { print $2; found = 1 }'

@@ -3,7 +3,7 @@
 # Usage: tools/nightly.sh PART...
 #   lto-odr   links the programs with link-time optimisation: two definitions of one name are an error
 #   clang     builds everything with clang++, warnings are errors, and runs all tests
-#   tidy      asks clang-tidy of every file but the tests' (.clang-tidy has the checks)
+#   tidy      runs clang-tidy on every file except the tests (.clang-tidy has the checks)
 #   roots     builds and tests on other systems (ROOTS="debian13 ubuntu24.04"); needs root and mmdebstrap or debootstrap
 #   debug     runs the libraries' unit tests as the debug preset builds them
 #   asan      runs all tests with the address and undefined-behaviour sanitizers
@@ -17,13 +17,14 @@
 #   slurm     renders on three Slurm nodes, one of which dies while another is cut off; needs root and Slurm
 #   viewer    gives the window random input for VIEWER_FRAMES [500] frames, with the address and undefined-behaviour sanitizers
 #   same-bytes  builds the program in two folders: the same bytes, and no name of a folder in them
+#   figures   measures the README's key figures again (FIGURES_DATA names the folder of BART's scenes)
 #   fuzz      runs the fuzzers of tests/fuzz for FUZZ_MINUTES [60]
 #   all       every part, one after the other
 # Exit code: 0 if every part that was asked for is ok, 1 if one failed, 2 if the request was not understood.
 # JOBS=N: how many jobs at once [all cores].
 set -uo pipefail
 cd "$(dirname "$0")/.."
-parts=(lto-odr clang tidy roots debug asan tsan report three package api site faults slurm viewer same-bytes fuzz)
+parts=(lto-odr clang tidy roots debug asan tsan report three package api site faults slurm viewer same-bytes figures fuzz)
 jobs=${JOBS:-$(nproc)}
 
 has() {
@@ -50,7 +51,7 @@ run_clang() {
     ctest --test-dir build-clang --output-on-failure -j "$jobs"
 }
 
-# A folder at a time, and of the vector levels one: a file's headers take longer to read than it does.
+# One folder at a time, and one vector level: the headers of a file take longer to read than the file itself.
 run_tidy() {
   has clang-tidy clang-tidy && tools/setup.sh &&
     cmake -S . -B build-tidy -G Ninja -DTENEBRA_UNITY=ON -DCMAKE_EXPORT_COMPILE_COMMANDS=ON > /dev/null &&
@@ -78,7 +79,7 @@ run_debug() { tools/setup.sh --tests && tools/test_debug.sh; }
 run_asan() { run_preset asan; }
 run_tsan() { run_preset tsan; }
 
-# The page's script has run if a frame is chosen; what a browser could not load it would have asked a network for.
+# The page's script has run if a frame is chosen; anything missing from the page would show as a request to the network.
 run_report() {
   local browser folder page
   browser=$(command -v chromium-headless-shell || command -v chromium) ||
@@ -97,7 +98,7 @@ run_report() {
   grep -q 'class="which">frame 2<' <<< "$page" && grep -q 'aria-pressed="true"' <<< "$page"
 }
 
-# The picture that three.js draws of a baked room is held against the rendered one.
+# Compares the picture that three.js draws of a baked room with the rendered one.
 run_three() {
   local browser
   browser=$(command -v chromium-headless-shell || command -v chromium) ||
@@ -107,7 +108,7 @@ run_three() {
     python3 tests/three_test.py build/bin/tenebra scenes/room.glb build/three/node_modules/three "$browser"
 }
 
-# No compiler is there, and no checkout: what the packages bring must be enough.
+# The root has no compiler and no checkout: the packages must be enough.
 run_package() {
   local root status
   root=$(mktemp -d) || return 1
@@ -126,7 +127,7 @@ run_api() {
   has doxygen doxygen && mkdir -p build/api && TENEBRA_API_DIR=build/api doxygen docs/Doxyfile
 }
 
-# AnchorCheck: headings too. What lies on other hosts is not asked.
+# AnchorCheck: headings too. Links to other hosts are not checked.
 run_site() {
   has mkdocs mkdocs && has linkchecker linkchecker && tools/site.py build/site &&
     echo '[AnchorCheck]' > build/site/linkchecker.ini &&
@@ -147,7 +148,7 @@ run_slurm() {
     python3 tests/slurm_test.py build/bin/tenebra "${SLURM_SCENE:-scenes/city.glb}" --frames "${SLURM_FRAMES:-300}" --chunks 10
 }
 
-# The hand's scene is small: sanitizers take their time.
+# The scene for random input is small, because sanitizers are slow.
 run_viewer() {
   has Xvfb xvfb && has xdotool xdotool && tools/setup.sh --tests && cmake --preset asan > /dev/null &&
     cmake --build --preset asan -j "$jobs" --target tenebra &&
@@ -170,6 +171,12 @@ run_same-bytes() {
   done
   rm -r "$folders"
   return "$status"
+}
+
+run_figures() {
+  cmake --preset release -DTENEBRA_TESTS=ON > /dev/null &&
+    cmake --build --preset release -j "$jobs" --target tenebra tenebra-bench &&
+    tools/check_figures.py ${FIGURES_DATA:+--data "$FIGURES_DATA"}
 }
 
 run_fuzz() { tools/fuzz.sh "${FUZZ_MINUTES:-60}"; }

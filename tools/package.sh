@@ -4,7 +4,7 @@
 # Usage: tools/package.sh [--check]
 #   --check   also asks lintian; its errors fail
 # DEBFULLNAME and DEBEMAIL name who makes them, as for Debian's own tools [the author of the last commit].
-# The same checkout gives the same bytes, in whatever folder: times in the packages are that of the last commit.
+# The same checkout gives the same bytes, in whatever folder: all times in the packages are that of the last commit.
 set -euo pipefail
 cd "$(dirname "$0")/.."
 build=build-package
@@ -13,7 +13,7 @@ maintainer="${DEBFULLNAME:-$(git log -1 --format=%an)} <${DEBEMAIL:-$(git log -1
 export SOURCE_DATE_EPOCH=${SOURCE_DATE_EPOCH:-$(git log -1 --format=%ct)} LC_ALL=C.UTF-8
 
 tools/setup.sh --package
-# No path of this machine in what is built.
+# Keeps paths of this machine out of the built files.
 cmake --preset release -B "$build" -DTENEBRA_TESTS=OFF -DTENEBRA_PYTHON=ON -DTENEBRA_UNITY=ON \
   -DCMAKE_CXX_FLAGS="-ffile-prefix-map=$PWD/$build=build -ffile-prefix-map=$PWD=." > /dev/null
 cmake --build "$build"

@@ -1,10 +1,10 @@
 #!/bin/bash
 # Installs what Tenebra needs and this machine lacks (Debian 12 and 13, Ubuntu 24.04).
 # Usage: tools/setup.sh [--window | --tests | --package]
-#   without an option   what building takes, and drawing without a display: all that ./demo.sh needs
+#   without an option   what is needed to build, and to draw without a display: all that ./demo.sh needs
 #   --window            also the font of `tenebra view`
 #   --tests             also what the tests need; with it, Embree for --ao rays and compressed glTF files
-#   --package           also what making packages takes
+#   --package           also what is needed to make packages
 set -euo pipefail
 
 packages=(

@@ -1,7 +1,7 @@
 #!/bin/bash
-# Builds the libraries by the debug preset, warnings as errors, and runs their unit tests. What is not inlined shows
-# there: two types of one name, uninitialised members, assertions. Tests that take minutes without optimisation are left
-# to the release build: those of the bench, the programs and whole frames, and those of `slow`.
+# Builds the libraries by the debug preset, warnings as errors, and runs their unit tests. Without inlining, faults
+# show: two types of one name, uninitialised members, failing assertions. Tests that take minutes without optimisation
+# are left to the release build: those of the bench, the programs and whole frames, and those of `slow`.
 set -euo pipefail
 cd "$(dirname "$0")/.."
 

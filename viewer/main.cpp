@@ -22,7 +22,7 @@ constexpr int comparison_failure = tenebra::viewer::exit_codes::comparison_faile
 
 constexpr const char* commands = "view, render, info, convert, bake, compare, log, verify or trade";
 constexpr const char* about =
-    "tenebra: exact, alias-free shadows for animated scenes, on the CPU beside OpenGL\n";
+    "tenebra: exact, alias-free shadows for animated scenes on the CPU, with or without OpenGL\n";
 constexpr const char* first_steps =
     "First steps:\n"
     "  tenebra view                                      a window on the bundled city\n"
@@ -32,7 +32,7 @@ constexpr const char* first_steps =
     "  tenebra COMMAND --help                            the options of a command, with examples\n"
     "\n"
     "Scenes: glTF 2.0 (.gltf, .glb), BART's AFF (.aff, .nff), Wavefront OBJ (.obj).\n"
-    "A failure is one sentence on standard error and exit code 1 (2 of compare, 75 without memory).";
+    "A failure is one sentence on standard error and exit code 1 (2 from compare, 75 if memory runs out).";
 
 int report(const std::string& sentence, int code) {
   tenebra::viewer::print_failure(sentence);

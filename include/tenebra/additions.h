@@ -10,10 +10,10 @@ namespace tenebra {
 struct Additions {
   bool floor = true;  ///< a floor under scenes that have neither light nor floor
   std::optional<float>
-      aspect;  ///< width / height of the picture; none: as it suits the scene (Camera::aspect)
+      aspect;  ///< width / height of the picture; none: whatever suits the scene (Camera::aspect)
 };
 
-/// What it added.
+/// What add_missing_parts added.
 struct AddedParts {
   bool camera = false;  ///< a camera that sees everything
   bool light = false;   ///< a sun and the light of a sky
@@ -21,12 +21,12 @@ struct AddedParts {
 };
 
 /// Adds what a picture needs if the file lacks it, and says so in scene.warnings:
-/// - a camera from the front, near, that shows everything at all times of the first clip, and some of the
-///   shadow on an added floor, in pictures of its shape and wider ones;
-/// - a sun from the left behind the camera, with ambient light and a background (unless the file states one)
-///   of a soft sky;
+/// - a camera from the front, nearby, that shows everything at all times of the first clip, and some of the
+///   shadow on an added floor, in pictures of its aspect ratio and wider ones;
+/// - a sun from the left behind the camera, with the ambient light and (unless the file states one) the
+///   background of a soft sky;
 /// - with that light, where nothing that faces up covers most of the ground, a floor to catch the shadow: a
-///   flat mesh, the scene's last, in the sun as bright as the background.
+///   flat mesh, the scene's last, as bright in the sun as the background.
 AddedParts add_missing_parts(Scene& scene, const Additions& wish = {});
 
 }  // namespace tenebra

@@ -1,5 +1,5 @@
-// The public entry of ambient occlusion from displacement fields: objects and visible points in, one value
-// per pixel out. No OpenGL. Gaitatzes, Chrysanthou and Papaioannou 2010, "Presampled Visibility for Ambient
+// The public entry of ambient occlusion: a scene and visible points in, one value per pixel out. No OpenGL.
+// AoMode::field is after Gaitatzes, Chrysanthou and Papaioannou 2010, "Presampled Visibility for Ambient
 // Occlusion".
 #pragma once
 
@@ -28,10 +28,10 @@ public:
 
   /// Fills `out` with the share of the ambient light that reaches each point, one value per pixel: 1 open,
   /// 0 closed, 1 where no triangle is seen; never NaN. `normals`: one per pixel, unit, on the seen side.
-  /// Points may be lifted (lift_visible_points): rays that look for other bodies start from there. How much
-  /// a body hides itself is that of the place on the triangle nearest to it.
+  /// Points may be lifted (lift_visible_points): rays that look for other bodies start from the lifted point;
+  /// how much a body hides itself is taken from the nearest place on the triangle.
   /// The bits are the same for any number of threads. Builds the fields and samples that the frame needs and
-  /// that are not there yet. Fails, with one sentence, if a setting is out of range, if the mode is `rays` in
+  /// that do not exist yet. Fails, with one sentence, if a setting is out of range, if the mode is `rays` in
   /// a build without a ray caster, and with "stopped" if `stop` was requested.
   Expected<void> compute(const Scene& scene, const FrameGeometry& geometry, const VisiblePoints& points,
                          std::span<const glm::vec3> normals, const AoConfig& config, std::vector<float>& out,

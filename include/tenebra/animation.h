@@ -27,8 +27,8 @@ struct Track {
   std::vector<glm::dvec3> tcb;  ///< tension, continuity, bias of each key; kochanek_bartels only
 };
 
-/// Which property a channel drives. Those from light_color on are of the node's light or camera; their values
-/// are in the units of Light and Camera.
+/// Which property a channel drives. Those from light_color on belong to the node's light or camera; their
+/// values are in the units of Light and Camera.
 enum class ChannelPath {
   translation,
   rotation,
@@ -40,13 +40,13 @@ enum class ChannelPath {
   light_range,       ///< metres
   light_inner_cone,  ///< radians
   light_outer_cone,
-  light_size,     ///< metres: the height of a rectangle, whose width keeps its share, or a disc's diameter
+  light_size,     ///< metres: the height of a rectangle (its aspect ratio stays) or the diameter of a disc
   camera_fov,     ///< radians, bottom to top
   camera_extent,  ///< metres, full height
   camera_near     ///< metres
 };
 
-/// Whether `path` is a property of where a node is and what it shows, not of its light or camera.
+/// Whether `path` drives the node itself (its place, shape or visibility) and not its light or camera.
 constexpr bool drives_node(ChannelPath path) {
   return path <= ChannelPath::visibility;
 }
@@ -55,7 +55,7 @@ constexpr bool drives_node(ChannelPath path) {
 /// track (BART's names are global).
 struct Channel {
   int node = -1;                                ///< index into Scene::nodes
-  ChannelPath path = ChannelPath::translation;  ///< what of it is driven
+  ChannelPath path = ChannelPath::translation;  ///< the property that is driven
   int track = -1;                               ///< index into Clip::tracks
 };
 
@@ -63,7 +63,7 @@ struct Channel {
 struct Clip {
   std::string name;               ///< the file's; may be empty
   std::vector<Track> tracks;      ///< of all channels, in the order of the file
-  std::vector<Channel> channels;  ///< what the tracks drive
+  std::vector<Channel> channels;  ///< the properties that the tracks drive
   double start_s = 0;             ///< the first key, seconds
   double end_s = 0;               ///< the last key, seconds
   int frame_count = 0;  ///< as the file states it (BART); 0: it follows from the user's frames per second

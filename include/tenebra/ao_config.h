@@ -1,4 +1,4 @@
-// What ambient occlusion is asked for, and the work that it reports.
+// How ambient occlusion is computed, and the work that it reports.
 #pragma once
 
 #include <tenebra/simd_level.h>
@@ -12,11 +12,11 @@ namespace tenebra {
 /// How ambient occlusion is found.
 enum class AoMode {
   none,
-  adaptive,  ///< rays through all triangles where the picture needs them, filtered, by the error asked for
-  field,     ///< displacement fields and surface samples, as many rays per point as asked for
+  adaptive,  ///< rays through all triangles where the picture needs them, filtered, to AoConfig::error_255
+  field,     ///< displacement fields and surface samples, with AoConfig::rays rays per point
   rays,      ///< the reference: the same rays through all triangles by another library's ray caster
 };
-/// Where it is computed: at each pixel's point, or at the vertices, interpolated between.
+/// Where it is computed: at each pixel's point, or at the vertices and interpolated between them.
 enum class AoPlace { pixels, vertices };
 /// What a displacement field stores a distance for.
 enum class FieldLayout {
@@ -24,21 +24,21 @@ enum class FieldLayout {
   chords,                ///< entry x exit points
 };
 
-/// `adaptive` reads error, distance, `deforming`, `cache` and `simd`; the other modes all but the error.
+/// `adaptive` reads error, distance, `deforming`, `cache` and `simd`; the other modes read all but the error.
 struct AoConfig {
   AoMode mode = AoMode::none;                ///< the method
   AoPlace place = AoPlace::pixels;           ///< where it is computed; `adaptive`: always pixels
   FieldLayout layout = FieldLayout::chords;  ///< of fields
   int rays = 64;                             ///< per point, cosine-weighted
-  double error_255 = 2.5;  ///< adaptive: RMS over the picture that is aimed at, in 1/255; 0.1 to 255
+  double error_255 = 2.5;  ///< adaptive: the RMS error over the picture to aim at, in 1/255; 0.1 to 255
   int downscale = 1;  ///< pixels: N computes one of N x N pixels; the others are blurred from similar ones
-  double distance_m =
-      0;  ///< at which occlusion has fallen off to nothing; 0: a twentieth of the scene's diagonal
-  int positions = 4225;   ///< on the bounding sphere, rounded to a number that the map offers
+  double distance_m = 0;  ///< the distance at which occlusion has fallen off to nothing; 0: a twentieth of
+                          ///< the scene's diagonal
+  int positions = 4225;   ///< field entries on the bounding sphere, rounded to a number that the map offers
   int directions = 1024;  ///< inward, per position; rounded to a square number
   int bits = 8;           ///< per stored distance: 1, 8 or 32
   bool deforming =
-      true;  ///< what deforms has no field: rays meet it as it is (true), or it is left out (false)
+      true;  ///< geometry that deforms has no field: cast rays at it (true), or leave it out (false)
   std::filesystem::path cache;  ///< folder where fields, surface samples and trees are kept; empty: nowhere
   int memory_mb = 512;  ///< of 2^20 bytes: fields and surface samples together, at most; 1 to 1,000,000
   SimdLevel simd = SimdLevel::automatic;  ///< the values do not depend on it

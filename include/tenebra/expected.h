@@ -1,4 +1,4 @@
-// The result of whatever the world can make fail: files, imports, contexts, shaders, output.
+// The result of calls that can fail for outside reasons: files, imports, contexts, shaders, output.
 #pragma once
 
 #include <string>
@@ -11,7 +11,7 @@ struct Error {
   std::string message;  ///< "scene.glb: found 3 indices, expected a multiple of 4"
 };
 
-/// A value, or the error that stands in its place.
+/// A value, or the error that takes its place.
 template <class T>
 using Expected = tl::expected<T, Error>;
 

@@ -1,4 +1,4 @@
-// The scene at one instant, in world space: what the rasteriser draws and what shadow rays meet.
+// The scene at one instant, in world space: the triangles that are drawn and that cast shadows.
 #pragma once
 
 #include <tenebra/scene.h>
@@ -36,8 +36,8 @@ struct DeformBuffers {
   std::vector<glm::dmat4> joints;     ///< one for each of Skin::joints
 };
 
-/// World-space triangles of one instant. Positions are transformed in double and rounded once to float: the
-/// floats are the geometry, exact from here on. Triangle order and count are the same in all frames.
+/// World-space triangles of one instant. Positions are transformed in double and rounded once to float; from
+/// here on the floats are taken as exact. Triangle order and count are the same in all frames.
 struct FrameGeometry {
   std::vector<glm::vec3> positions;        ///< metres, world space; finite
   std::vector<glm::vec3> normals;          ///< unit, or zero: the face normal; size of positions
@@ -45,7 +45,7 @@ struct FrameGeometry {
   std::vector<std::uint32_t> materials;    ///< one for each triangle
   std::vector<std::uint8_t> casts_shadow;  ///< one for each triangle, 0 or 1
   /// One for each triangle; empty: all 0, opaque. 1 and 2 are see-through: drawn over what is behind them,
-  /// with casts_shadow 0. 1 dims and tints the light that passes; 2 would, if it cast shadows.
+  /// with casts_shadow 0. 1 dims and tints the light that passes; 2 would if it cast shadows.
   std::vector<std::uint8_t> see_through;
   std::vector<std::uint32_t> parts;      ///< first triangle of each mesh at its node
   std::uint32_t dropped_non_finite = 0;  ///< triangles with a NaN or infinite vertex, or beyond 1.8e18
@@ -60,7 +60,7 @@ struct SurfaceCoordinates {
   std::array<std::vector<glm::vec2>, 2> texture_coordinates;  ///< (0,0) a picture's top left
   std::vector<glm::vec4> colors;                              ///< white where a mesh has none
 };
-/// Of the vertices that evaluate_frame makes of `scene`.
+/// The coordinates of the vertices that evaluate_frame makes from `scene`.
 SurfaceCoordinates surface_coordinates(const Scene& scene);
 
 /// A light of one instant in world space.
@@ -72,7 +72,7 @@ struct WorldLight {
   glm::vec3 axis_x{1, 0, 0};      ///< area lights: half of the width
   glm::vec3 axis_y{0, 1, 0};      ///< area lights: half of the height
 
-  // What the clip says of the light at this instant, in place of the scene's; empty: nothing.
+  // Values that the clip gives the light at this instant instead of the scene's; empty: it gives none.
   std::optional<glm::vec3> color;       ///< as Light::color
   std::optional<float> intensity;       ///< as Light::intensity
   std::optional<float> range_m;         ///< as Light::range_m
@@ -85,8 +85,8 @@ Light light_at(const Scene& scene, const WorldLight& placed);
 
 /// A camera at one instant, as the rays through its pixels. The ray through the centre of pixel (x, y), row 0
 /// at the top, starts at `eye` and runs along d0 + (x + 0.5) dx + (y + 0.5) dy; in orthographic views it
-/// starts at eye + (x + 0.5) dx + (y + 0.5) dy and runs along d0. The floats are exact from here on, and the
-/// rasteriser's matrix is made from them too.
+/// starts at eye + (x + 0.5) dx + (y + 0.5) dy and runs along d0. The floats are taken as exact from here on;
+/// the rasteriser's matrix is made from them too.
 struct ViewRays {
   glm::vec3 eye{0.0f};        ///< metres, world space
   glm::vec3 d0{0, 0, -1};     ///< any length but zero

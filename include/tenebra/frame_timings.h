@@ -1,5 +1,5 @@
-// What one frame cost, stage by stage: a row of the log, a set of slices of the trace. The names are the same
-// in the CSV, the window and the documentation.
+// The time of one frame, stage by stage: a row of the log, a set of slices of the trace. The names are the
+// same in the CSV, the window and the documentation.
 #pragma once
 
 namespace tenebra {
@@ -17,15 +17,15 @@ struct FrameTimings {
   double writeback_ms = 0;   ///< masks to the pixel grid and into the result
   double composite_ms = 0;   ///< shading: all lights, ambient light and encoding, one pass
   double shaft_ms = 0;       ///< soft: groups of points and the occluders in their shafts
-  double init_ms = 0;        ///< soft: occluders made ready for the solvers (*)
+  double init_ms = 0;        ///< soft: preparing occluders for the solvers (*)
   double query_ms = 0;       ///< soft: visible part of the light from each point (*)
   double irradiance_ms = 0;  ///< soft: integrals over the visible parts (*)
                              ///< (*) groups run in parallel: the mean of the threads' times
   double ao_build_ms = 0;    ///< ao: fields, bakes and caches built in this frame
   double ao_ms = 0;          ///< ao: look-ups (or rays), all points
-  double tint_ms = 0;        ///< what see-through surfaces leave of the lights
+  double tint_ms = 0;        ///< how much of the lights see-through surfaces let pass
   double layer_ms = 0;  ///< the nearest see-through surfaces: their shadows and their share of the picture
-  double antialias_ms = 0;  ///< further samples of pixels that need them: all that is done for them
+  double antialias_ms = 0;  ///< all work on further samples of pixels that need them
   double total_ms = 0;      ///< the whole frame
 };
 

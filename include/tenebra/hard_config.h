@@ -1,4 +1,4 @@
-// What hard shadows are asked for (the light, the variant, the contact rule), and the work that they report.
+// How hard shadows are computed (the light, the variant, the contact rule), and the work that they report.
 #pragma once
 
 #include <tenebra/simd_level.h>
@@ -11,7 +11,7 @@
 
 namespace tenebra {
 
-/// A light without an area: what its shadow rays share, which is their end or, of directional lights, their
+/// A light without an area. Its shadow rays share their end or, for directional lights, their
 /// direction.
 struct ShadowLight {
   bool directional = false;       ///< else a point or a spot at `position`
@@ -22,8 +22,8 @@ struct ShadowLight {
   float range_m = 0.0f;           ///< points farther away get no ray and mask 0; 0: unbounded
 };
 
-/// How the mask is found: our own way, or one of the seven variants of the paper's Table 1. All give the same
-/// mask; they differ in the work that it takes.
+/// How the mask is found: by our own method, or one of the seven variants of the paper's Table 1. All give
+/// the same mask; they differ in the work that it takes.
 enum class Variant {
   tiles,  ///< tiles of rays against clusters of triangles; precise_sorted takes its place where points are
           ///< less than 1e-15 from the light or more than 1e15 apart
@@ -36,18 +36,18 @@ enum class Variant {
   precise_seatp,
 };
 std::string_view variant_name(Variant variant);  ///< the paper's name: "PreciseSorted"
-/// The variant of that name, as variant_name writes it; none: there is no such.
+/// The variant of that name, as variant_name writes it; none if there is no such variant.
 std::optional<Variant> variant_from_name(std::string_view name);
 
 /// When a triangle between a point and the light counts as blocking.
 enum class ContactRule {
   triangle_ids,  ///< exact: a triangle never blocks its own points, and others' points only if they lie
                  ///< farther behind its plane than the rounding of both triangles' vertices
-  none,          ///< always, the point's own triangle too if it lies behind that one's plane: for points that
-                 ///< do not lie on their triangles, with front-face culling (the paper's way)
+  none,          ///< always, even the point's own triangle if the point lies behind its plane: for points
+                 ///< that do not lie on their triangles, with front-face culling (the paper's method)
 };
 
-/// What hard shadows are asked for. The mask depends on `cull_front` and `contact` alone.
+/// How hard shadows are computed. The mask depends on `cull_front` and `contact` alone.
 struct HardShadowConfig {
   Variant variant = Variant::tiles;  ///< the method
   bool cull_front =
@@ -58,7 +58,7 @@ struct HardShadowConfig {
 };
 
 /// One value per pixel: 255 where the point sees the light; 0 where it is blocked, faces away or is out of
-/// reach, or where there is no triangle.
+/// range, or where there is no triangle.
 using ShadowMask = std::vector<std::uint8_t>;
 
 /// The work that hard shadows did, summed over the lights. The counts are the same in every run.
@@ -68,19 +68,19 @@ struct TraceStats {
   std::uint64_t nodes = 0;            ///< tests of a node with a triangle
   std::uint64_t leaf_tests = 0;       ///< tests of a ray with a triangle
   std::uint64_t early_accepts = 0;    ///< nodes found covered by one triangle
-  std::uint64_t float_unknown = 0;    ///< of those, pairs that float left open and that mattered
+  std::uint64_t float_unknown = 0;    ///< pairs among the leaf tests that float left open and that mattered
   std::uint64_t double_unknown = 0;   ///< of these, pairs that double left open too: decided exactly
   std::uint64_t shadowed_pixels = 0;  ///< rays found blocked
   std::uint64_t lit_pixels = 0;       ///< rays found free
-  /// Without an area, or edge-on to the light: they block nothing. Variant Tiles counts only those that came
-  /// near rays or that have equal corners.
+  /// Triangles without an area or edge-on to the light, which block nothing. Variant Tiles counts only those
+  /// that came near rays or that have equal corners.
   std::uint64_t degenerate_triangles = 0;
-  std::uint64_t tree_bytes = 0;    ///< of the cone tree (Tiles: of both trees); of the light that took most
+  std::uint64_t tree_bytes = 0;    ///< of the cone tree (Tiles: of both trees), for the light that took most
   std::uint64_t lights_tiles = 0;  ///< lights that variant Tiles traced
   std::uint64_t lights_cones = 0;  ///< lights that one of the paper's variants traced
 };
 
-/// Adds the work of another light, or of another part of one; of triangles and tree_bytes the larger counts.
+/// Adds the work of another light, or of another part of one; for triangles and tree_bytes the larger counts.
 inline TraceStats& operator+=(TraceStats& to, const TraceStats& from) {
   to.rays += from.rays;
   to.triangles = std::max(to.triangles, from.triangles);

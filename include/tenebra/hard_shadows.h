@@ -11,7 +11,7 @@
 
 namespace tenebra {
 
-/// Computes hard shadows. Keeps its buffers from frame to frame, and what the last mask took.
+/// Computes hard shadows. Keeps its buffers from frame to frame, and the statistics of the last mask.
 class ShadowTracer {
 public:
   ShadowTracer();
@@ -38,8 +38,8 @@ public:
   /// active all the same iff the light is before the plane at one of R's vertices (A, N), N.(L-A) > 0 or
   /// N.l > 0, N turned to the eye's side (in double); P lies off R's plane on the eye's side,
   /// |n.(P-A)| > theta with T = R; and the way from P to the light does not meet R (edges closed). So R
-  /// itself blocks lifted points as any triangle would. The mask stays exact: what moved is the point that it
-  /// was asked about. It does not say whether the shading normal faces the light; that is the shading's part.
+  /// itself blocks lifted points as any triangle would. The mask stays exact; only the point that it is asked
+  /// about has moved. It does not say whether the shading normal faces the light; shading decides that.
   ///
   /// Returns false, with `mask` unspecified, if `stop` was requested before the end.
   bool trace_shadow_mask(const VisiblePoints& points, const ViewRays& view, const TriangleView& triangles,
@@ -51,8 +51,8 @@ public:
   Variant ran() const;
   /// Of the last call: rays_ms, sort_ms, build_ms, traverse_ms, writeback_ms.
   const FrameTimings& timings() const;
-  /// Of the last call with count_pixel_nodes (else empty): how many node tests were made for each pixel, 0
-  /// where there was no ray. Those of a node are shared equally by the rays below it, so that the sum is
+  /// After a call with count_pixel_nodes (else empty): how many node tests were made for each pixel, 0
+  /// where there was no ray. A node's tests are divided equally among the rays below it, so that the sum is
   /// TraceStats::nodes.
   std::span<const float> pixel_nodes() const;
 

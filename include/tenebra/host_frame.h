@@ -1,6 +1,6 @@
-// For programs with a renderer of their own: what it has drawn, from its OpenGL textures or its memory, as
-// the ids and rays that visible points are made of (visible_points.h). Nothing here draws, and no OpenGL is
-// linked. docs/foreign_renderer.md says what masks need to be exact.
+// For programs with a renderer of their own: takes what it has drawn, from its OpenGL textures or its memory,
+// as the ids and rays from which visible points are made (visible_points.h). Nothing here draws, and no
+// OpenGL is linked. docs/foreign_renderer.md says what masks need to be exact.
 #pragma once
 
 #include <tenebra/expected.h>
@@ -13,11 +13,11 @@
 
 namespace tenebra {
 
-/// How a host writes down what it has drawn.
+/// How a host stores what it has drawn.
 struct HostLayout {
   bool bottom_row_first = true;  ///< as OpenGL has it, y upwards; false: the top row
-  /// The number that stands for triangle 0; what is less is background, and so is what no triangle has. 1:
-  /// for hosts that clear to 0 and write the id plus one.
+  /// The number that stands for triangle 0. Smaller numbers are background, and so are those past the last
+  /// triangle. 1: for hosts that clear to 0 and write the id plus one.
   std::uint32_t first_id = 0;
 };
 
@@ -29,13 +29,13 @@ struct HostFrame {
   std::vector<float> depth;        ///< 0 to 1, as the host's window has it; empty: not handed in
 };
 
-/// Takes ids, and depths unless that is empty, from memory; `out` keeps its capacity. Fails with a sentence
-/// if a list has not width * height values.
+/// Takes ids, and depths unless `depth` is empty, from memory; `out` keeps its capacity. Fails with a
+/// sentence if a list does not have width * height values.
 Expected<void> take_host_frame(std::span<const std::uint32_t> ids, std::span<const float> depth, int width,
                                int height, const HostLayout& layout, HostFrame& out);
 
-/// A host's camera by its matrices, in OpenGL's conventions: it looks along -Z of its own space, and what it
-/// sees has clip coordinates from -w to w in x and y, y upwards.
+/// A host's camera by its matrices, in OpenGL's conventions: it looks along -Z of its own space, and visible
+/// points have clip coordinates from -w to w in x and y, y upwards.
 struct HostCamera {
   glm::dmat4 view_from_world{1.0};  ///< rigid; metres
   glm::dmat4 clip_from_view{1.0};   ///< perspective or orthographic, of any shape; reversed depth too
@@ -46,7 +46,7 @@ struct HostCamera {
 /// point depends on it. Fails with a sentence on sizes below 1 and matrices that span no picture.
 Expected<ViewRays> host_view(const HostCamera& camera, int width, int height);
 
-/// Points from depths alone, for comparison: their triangles are unknown, and a mask of them is not exact.
+/// Points from depths alone, for comparison: their triangles are unknown, and their mask is not exact.
 /// `positions`: width * height, metres, world space; NaN where the depth is `far_depth` (1, or 0 if
 /// reversed). Fails with a sentence if the frame has no depths or the matrices cannot be inverted.
 Expected<void> positions_from_depth(const HostFrame& frame, const HostCamera& camera, double far_depth,
@@ -55,16 +55,16 @@ Expected<void> positions_from_depth(const HostFrame& frame, const HostCamera& ca
 using GlFunction = void (*)();                              ///< of any type: cast before it is called
 using GlFunctionLoader = GlFunction (*)(const char* name);  ///< glfwGetProcAddress and its like
 
-/// Names of a host's textures: two-dimensional, one sample a pixel, their first level as large as the
-/// picture.
+/// OpenGL's names of a host's textures: two-dimensional, one sample per pixel, their first level as large as
+/// the picture.
 struct HostTextures {
   unsigned ids = 0;    ///< GL_R32UI
   unsigned depth = 0;  ///< a depth format or GL_R32F; 0: none
 };
 
-/// The OpenGL context that a host has made current, OpenGL 4.5 or newer: it reads textures there. What it
-/// calls are the functions that the loader finds; it holds no tables of the process, makes no objects and
-/// leaves every setting and binding as found. Use it where its context is current.
+/// Reads textures in an OpenGL context that a host has made current, OpenGL 4.5 or newer. It calls only
+/// functions that the loader finds; it has no global tables, makes no objects and leaves every setting and
+/// binding as found. Use it where its context is current.
 class HostContext {
 public:
   /// The context that is current on this thread. Fails with a sentence if there is none or it is too old.
@@ -73,9 +73,9 @@ public:
   HostContext& operator=(HostContext&&) noexcept;
   ~HostContext();
 
-  /// Waits until what was drawn into the textures is there, and copies it; `out` keeps its capacity. The
-  /// picture has the size of the texture of ids. Fails with a sentence on names that are no textures, and on
-  /// other kinds, formats and sizes.
+  /// Waits until drawing into the textures has finished, and copies them; `out` keeps its capacity. The
+  /// picture has the size of the texture of ids. Fails with a sentence on names that are not textures, and on
+  /// wrong kinds, formats and sizes.
   Expected<void> read(const HostTextures& textures, const HostLayout& layout, HostFrame& out) const;
 
 private:

@@ -1,4 +1,4 @@
-// What surfaces are made of: how they reflect, what shines or shows through them, and their pictures.
+// Materials: how surfaces reflect and emit light, what shows through them, and their pictures.
 #pragma once
 
 #include <array>
@@ -18,14 +18,14 @@ struct TextureImage {
       rgba;  ///< four values for each pixel, row 0 at the top; alpha 255 where it has none
 };
 
-/// What stands beyond texture coordinates 0 to 1.
+/// What a texture shows beyond texture coordinates 0 to 1.
 enum class Wrap { repeat, clamp_to_edge, mirrored_repeat };
 /// How a texture's pixels are made smaller or larger; the names are those of glTF.
 enum class Filter { nearest, linear };
-/// Between which of its smaller copies a texture is mixed where its pixels are made smaller.
+/// How a texture's smaller copies are chosen and mixed where its pixels are made smaller.
 enum class MipFilter { none, nearest, linear };
 
-/// A picture on a surface: which, by which coordinates, and how it is sampled.
+/// A picture on a surface: which one, by which coordinates, and how it is sampled.
 struct TextureMap {
   int image = -1;  ///< index into Scene::images; -1: none
   int uv_set = 0;  ///< index into Mesh::texture_coordinates
@@ -55,13 +55,13 @@ enum class AlphaMode {
   blend    ///< the share of the surface that is there
 };
 
-/// How a surface reflects light, what passes through it, and whether it shines itself.
+/// How a surface reflects light, what passes through it, and whether it emits light.
 struct Material {
   std::string name;  ///< the file's; may be empty
   glm::vec3 base_color{
       0.8f};                 ///< diffuse reflectance, linear (Transfer::display: as shown); BART may exceed 1
   glm::vec3 ambient{-1.0f};  ///< reflectance of the scene's ambient light; negative: base_color
-  glm::vec3 emissive{0.0f};  ///< light that the surface sends by itself, linear factor of its map
+  glm::vec3 emissive{0.0f};  ///< light that the surface emits, linear factor of its map
   bool casts_shadow = true;  ///< false: triangles of it never occlude
 
   SurfaceModel model = SurfaceModel::phong;  ///< which of the members below count
@@ -75,10 +75,10 @@ struct Material {
   AlphaMode alpha_mode = AlphaMode::opaque;  ///< what `alpha` means
   float alpha = 1.0f;                        ///< factor of the texture's and the vertices'
   float alpha_cutoff = 0.5f;                 ///< AlphaMode::mask
-  /// Share of light that passes a surface that is there: BART's T, glTF's transmission. Times base_color
-  /// where `tinted` (glTF); nothing refracts.
+  /// Share of light that passes the part of the surface that alpha leaves: BART's T, glTF's transmission.
+  /// Times base_color where `tinted` (glTF); nothing refracts.
   float transmission = 0.0f;
-  bool tinted_transmission = false;  ///< what passes is coloured by base_color
+  bool tinted_transmission = false;  ///< light that passes is coloured by base_color
 
   TextureMap base_color_map;          ///< colour and alpha
   TextureMap emissive_map;            ///< colour
@@ -90,7 +90,7 @@ struct Material {
   bool see_through() const { return alpha_mode == AlphaMode::blend || transmission > 0; }
 };
 
-/// What the colours of a scene are, and so how a picture of it is written.
+/// What the colours of a scene mean, and so how a picture of it is written.
 enum class Transfer {
   srgb,    ///< linear light; pictures are sRGB-encoded, colour textures decoded (glTF, OBJ)
   display  ///< display values, lit and written as they are (AFF and NFF, of 1999)

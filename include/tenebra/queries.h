@@ -1,6 +1,6 @@
 // Points and triangles of your own: hard masks, soft shadows and ambient occlusion of plain arrays, without a
-// Scene, a camera or a picture. What is computed, and how exactly, is that of hard_shadows.h, soft_shadows.h
-// and ambient_occlusion.h; this says which triangles and points they are asked about.
+// Scene, a camera or a picture. hard_shadows.h, soft_shadows.h and ambient_occlusion.h say what is computed
+// and how exactly; this header passes them the triangles and points.
 #pragma once
 
 #include <tenebra/ambient_occlusion.h>
@@ -20,8 +20,8 @@ struct GeometryData;
 struct TracerState;
 }  // namespace query
 
-/// Triangles that stay while points are asked about, copied from arrays of the caller's. Any number of
-/// tracers, on any threads, may use one at once; move_vertices() waits for nobody: call it while none does.
+/// Triangles that are kept while points are asked about, copied from arrays of the caller's. Any number of
+/// tracers, on any threads, may use one at once; call move_vertices() only while none does.
 class Geometry {
 public:
   /// `positions`: vertices, metres, world space, finite, |coordinate| <= 1e18. `triangles`: three indices
@@ -48,26 +48,26 @@ private:
   std::shared_ptr<query::GeometryData> data_;
 };
 
-/// Points to ask about. Every span but `positions` may be empty, else it has one element for each point.
+/// Points to ask about. Every span but `positions` may be empty; otherwise it has one element for each point.
 struct QueryPoints {
   std::span<const glm::dvec3> positions;  ///< metres, world space, finite; taken as exact
   /// The triangle that each point lies on, which never blocks it, or no_triangle. A point without a triangle
   /// counts as rounded to float where a triangle may touch it (contact_rule).
   std::span<const std::uint32_t> triangles;
-  /// Normals of the surface that is lit, of any length; zero: none. Where a point has a triangle they shade;
-  /// where it has none they say which half of space it sees. Without either it sees all around.
+  /// Normals of the lit surface, of any length; zero: none. For a point on a triangle they are for shading;
+  /// for one without they say which half of space it sees. Without either a point sees all around.
   std::span<const glm::vec3> normals;
-  /// The side of its triangle that a point is on: 1 from where it is counter-clockwise, -1 behind, 0 not
-  /// said: that of its normal or, without one, that of the light (of an area light its centre; for ambient
+  /// The side of its triangle that a point is on: 1 where the triangle is counter-clockwise, -1 behind, 0 not
+  /// given: the side of its normal or, without one, of the light (of an area light's centre; for ambient
   /// occlusion the front). Ignored for points without a triangle.
   std::span<const std::int8_t> sides;
-  /// If not 0, the points are a picture of so many columns, row by row, whose neighbours lie close together:
-  /// that is quicker. Masks do not depend on it.
+  /// If not 0, the points are a picture with this many columns, row by row, whose neighbours lie close
+  /// together, which is quicker. Masks do not depend on it.
   int width = 0;
 };
 
-/// Called now and then, on the caller's thread, with the part that is done, 0 to 1. Of hard and soft shadows
-/// between portions of 2^18 points.
+/// Called now and then, on the caller's thread, with the part that is done, 0 to 1. For hard and soft shadows
+/// it is called between portions of 2^18 points.
 using QueryProgress = std::function<void(double done)>;
 
 /// Answers for points. Keeps its buffers and trees from call to call: use one object for many. One caller at
@@ -88,9 +88,9 @@ public:
                            const HardShadowConfig& config, std::span<std::uint8_t> mask,
                            const StopFlag* stop = nullptr, const QueryProgress& progress = {});
 
-  /// What SoftShadowTracer answers: the visible part of the light's area, 0 to 1, and the irradiance onto the
-  /// normal (or the triangle's, or, with neither, a surface parallel to the light), W/m2 for radiance 1. One
-  /// of the two spans may be empty.
+  /// The answers of SoftShadowTracer: the visible part of the light's area, 0 to 1, and the irradiance on a
+  /// surface with the given normal (else the triangle's; with neither, parallel to the light), W/m2 for
+  /// radiance 1. One of the two spans may be empty.
   Expected<void> soft_visibility(const Geometry& geometry, const QueryPoints& points, const AreaLight& light,
                                  const SoftShadowConfig& config, std::span<float> visible_fraction,
                                  std::span<float> irradiance, const StopFlag* stop = nullptr,

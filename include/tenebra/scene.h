@@ -52,7 +52,7 @@ struct Mesh {
   bool casts_shadow = true;   ///< false: it is drawn and never occludes
 };
 
-/// The nodes that carry a mesh's vertices.
+/// The nodes that move a mesh's vertices.
 struct Skin {
   std::vector<int> joints;              ///< node indices
   std::vector<glm::mat4> inverse_bind;  ///< one for each joint
@@ -73,9 +73,9 @@ struct Light {
   std::optional<float> range_m;  ///< no light beyond
   float inner_cone_rad = 0.0f;   ///< spot half-angles
   float outer_cone_rad = 0.785398163f;  ///< no light beyond
-  glm::vec2 size_m{1.0f};               ///< area: width and height; of a disc its diameter, twice
+  glm::vec2 size_m{1.0f};               ///< area: width and height; for a disc its diameter, twice
   float diameter_deg = 0;               ///< directional: as seen from the scene, 0 to 90; 0: hard shadows
-  std::vector<int> left_out_nodes;      ///< whose meshes cast no shadow from this light (leave_out_covers)
+  std::vector<int> left_out_nodes;      ///< their meshes cast no shadow from this light (leave_out_covers)
 };
 
 /// How a camera projects.
@@ -91,7 +91,7 @@ struct Camera {
   float near_m = 0.1f;          ///< distance of the near plane along the view axis
 };
 
-/// A place in the tree of the scene, and what stands there. The transform to its parent's space is
+/// A place in the scene's tree, and what is there. The transform to its parent's space is
 /// translation * rotation * scale, or `matrix` where the file gives one that does not decompose.
 struct Node {
   std::string name;                         ///< the file's; may be empty
@@ -118,19 +118,19 @@ struct UnusedContent {
 struct Scene {
   std::string name;                     ///< file name without folder
   std::vector<Node> nodes;              ///< parents before children
-  std::vector<Mesh> meshes;             ///< Node::mesh leads here
-  std::vector<Skin> skins;              ///< Node::skin leads here
+  std::vector<Mesh> meshes;             ///< indexed by Node::mesh
+  std::vector<Skin> skins;              ///< indexed by Node::skin
   std::vector<Material> materials;      ///< at least one if there is any triangle
-  std::vector<TextureImage> images;     ///< TextureMap::image leads here
-  std::vector<Light> lights;            ///< Node::light leads here
-  std::vector<Camera> cameras;          ///< Node::camera leads here
-  std::vector<Clip> clips;              ///< animations; empty: it stands still
-  Transfer transfer = Transfer::srgb;   ///< what all colours of the scene are
+  std::vector<TextureImage> images;     ///< indexed by TextureMap::image
+  std::vector<Light> lights;            ///< indexed by Node::light
+  std::vector<Camera> cameras;          ///< indexed by Node::camera
+  std::vector<Clip> clips;              ///< animations; empty: the scene does not move
+  Transfer transfer = Transfer::srgb;   ///< what all colours of the scene mean
   glm::vec3 background{0.0f};           ///< colour where nothing is seen
   glm::vec3 ambient_light{0.1f};        ///< times the materials' ambient; formats that state one set it
   std::vector<std::string> extensions;  ///< that the file says it uses (glTF)
-  std::vector<UnusedContent> unused;    ///< each stands in a warning too
-  std::vector<std::string> warnings;    ///< what was skipped, guessed or added at import, a sentence each
+  std::vector<UnusedContent> unused;    ///< each has a warning too
+  std::vector<std::string> warnings;    ///< what was skipped, guessed or added at import, one sentence each
 };
 
 /// Adds what a picture needs if the file lacks it: a camera that sees everything, and a sun with the light of

@@ -1,4 +1,4 @@
-// What exact soft shadows are asked for, what they answer, and the work that they report.
+// How soft shadows are computed, their results, and the work that they report.
 #pragma once
 
 #include <tenebra/simd_level.h>
@@ -18,10 +18,10 @@ enum class SoftSolver {
   clip,       ///< occluders subtracted from the light's polygon, point by point
 };
 std::string_view soft_solver_name(SoftSolver solver);  ///< "auto", "bsp", "clip"
-/// The solver of that name; none: there is no such.
+/// The solver of that name; none if there is no such solver.
 std::optional<SoftSolver> soft_solver_from_name(std::string_view name);
 
-/// Which points form a group, which shares its occluders (and its BSP).
+/// Which points form a group and so share occluders (and a BSP).
 enum class SoftGrouping {
   neighbourhood,  ///< of 8x8 pixels, split where they do not lie together (section 5.5)
   triangle,       ///< all points of a visible triangle (Algorithm 2)
@@ -34,21 +34,21 @@ enum class OccluderChoice { largest, random };
 /// light are cut in float, in units of the light. reference: double throughout.
 enum class SoftPrecision { fast, reference };
 
-/// What soft shadows are asked for.
+/// How soft shadows are computed.
 struct SoftShadowConfig {
   SoftSolver solver = SoftSolver::automatic;            ///< the method; all give the same answer
   SoftGrouping grouping = SoftGrouping::neighbourhood;  ///< of points that share occluders
   OccluderChoice choice = OccluderChoice::largest;      ///< of the BSP
   SoftPrecision precision = SoftPrecision::fast;        ///< of polygons on the light
   /// 1/255 of white, RMS over the penumbra, white being the 99.9th percentile of the frame's irradiance; 0:
-  /// exact. Above 0 groups of points that many triangles may shadow look at places on the light instead, by
-  /// exact hard shadows: at as many as it takes until they err by less, as far as can be told
-  /// (SoftStats::error_255). Points that all or none of the light reaches by certain proof stay exact.
+  /// exact. Above 0, groups of points that many triangles may shadow are sampled at places on the light, by
+  /// exact hard shadows: at as many as it takes until the estimated error (SoftStats::error_255) is no more
+  /// than this. Points that are proved to see all or none of the light stay exact.
   double error_255 = 0;
   bool keep_trees = true;  ///< false: each point starts a new BSP (the paper's "modified version", Figure 8)
   SimdLevel simd = SimdLevel::automatic;  ///< which vectors; see SoftPrecision for what answers depend on
-  /// No thread's BSP takes more bytes than this, nor more than 1 GiB: the point whose query would, and the
-  /// group's points after it (with keep_trees), are clipped instead, with the same answers.
+  /// No thread's BSP takes more bytes than this, nor more than 1 GiB: a point whose query would exceed it,
+  /// and the group's points after it (with keep_trees), are clipped instead, with the same answers.
   std::size_t tree_bytes = std::size_t{4} << 20;
 };
 
@@ -68,19 +68,19 @@ struct SoftStats {
   std::uint64_t points_lit = 0;         ///< points that see all of the light's part above their horizon
   std::uint64_t points_dark = 0;        ///< points that see none of it
   std::uint64_t points_penumbra = 0;    ///< points that see a part
-  std::uint64_t candidates = 0;         ///< occluders that the shafts leave, summed over the groups
+  std::uint64_t candidates = 0;         ///< occluders left by the shafts, summed over the groups
   std::uint64_t points_bsp = 0;         ///< points solved by a BSP
   std::uint64_t points_clip = 0;        ///< points solved by clipping alone
   std::uint64_t points_silhouette = 0;  ///< points solved by silhouettes of meshes, and clipping
-  std::uint64_t points_sampled = 0;     ///< points that looked at places on the light (error_255 > 0)
-  std::uint64_t sampled_rays = 0;       ///< what they looked along
-  double error_255 = 0;                 ///< estimate of what SoftShadowConfig::error_255 bounds; without
-                                        ///< points_sampled 0, exact. Of several lights the largest
+  std::uint64_t points_sampled = 0;     ///< points sampled at places on the light (error_255 > 0)
+  std::uint64_t sampled_rays = 0;       ///< the rays from these points to places on the light
+  double error_255 = 0;                 ///< estimate of what SoftShadowConfig::error_255 bounds; 0 (exact)
+                                        ///< if no point was sampled; the largest of several lights
   std::uint64_t fragments = 0;          ///< convex parts of the light handed to the integrals
   std::uint64_t tree_nodes = 0;         ///< BSP nodes made
-  std::uint64_t peak_tree_bytes = 0;    ///< memory of all BSPs alive at one time, at most
+  std::uint64_t peak_tree_bytes = 0;    ///< the most memory that all BSPs alive at one time took
 };
-/// Adds the work of another light, or of another part of one; of errors and bytes the larger counts.
+/// Adds the work of another light, or of another part of one; for errors and bytes the larger counts.
 inline SoftStats& operator+=(SoftStats& to, const SoftStats& from) {
   to.groups += from.groups;
   to.points_lit += from.points_lit;

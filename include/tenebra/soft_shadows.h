@@ -1,5 +1,5 @@
-// The public entry of exact soft shadows: visible points, triangles and an area light in; for each pixel the
-// visible part of the light and its irradiance out, without noise. No OpenGL.
+// The public entry of exact soft shadows: visible points, triangles and an area light in; out comes, for each
+// pixel, the visible part of the light and its irradiance, without noise. No OpenGL.
 // Mora, Aveneau, Apostu and Ghazanfarpour 2012, "Lazy visibility evaluation for exact soft shadows".
 #pragma once
 
@@ -13,7 +13,7 @@
 
 namespace tenebra {
 
-/// Computes soft shadows. Keeps its buffers from frame to frame, and what the last mask took.
+/// Computes soft shadows. Keeps its buffers from frame to frame, and the statistics of the last mask.
 class SoftShadowTracer {
 public:
   SoftShadowTracer();
@@ -36,7 +36,7 @@ public:
   /// to the shading normal's hemisphere. Errors: `reference` 1e-6 of the fraction, or 2^-48 of the distance
   /// over the light's size if that is more; `fast` 0.1/255 of the unoccluded irradiance (lights of at least
   /// 1e-10 of their distance). With config.error_255 the irradiance of dense penumbrae may err by
-  /// that, as estimated: see there. The bits are the same for any number of threads.
+  /// that, as estimated (see there). The bits are the same for any number of threads.
   ///
   /// Returns false, with `out` unspecified, if `stop` was requested before the end.
   bool trace(const VisiblePoints& points, std::span<const glm::vec3> normals, const ViewRays& view,
@@ -48,8 +48,8 @@ public:
 
   /// How the last call found each pixel's answer, for display: values of `SoftClass`.
   std::span<const std::uint8_t> classes() const;
-  /// Of the last call, a pixel each: the standard error of its irradiance, estimated, in 1/255 of white; 0:
-  /// it is exact. Empty with config.error_255 0. SoftStats::error_255 is their root mean square over the
+  /// For each pixel of the last call, the estimated standard error of its irradiance, in 1/255 of white; 0:
+  /// it is exact. Empty with config.error_255 0. SoftStats::error_255 is the root mean square over the
   /// penumbra.
   std::span<const float> errors() const;
 

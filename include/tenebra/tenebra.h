@@ -1,9 +1,9 @@
 /** \file
- * The C interface: hard masks, soft shadows and ambient occlusion of points and triangles of your own, as
- * queries.h has them in C++, where more is said of each. No exception leaves a call. Lengths are metres, in
+ * The C interface: hard masks, soft shadows and ambient occlusion for points and triangles of your own, as
+ * in the C++ header queries.h, which says more about each. No exception leaves a call. Lengths are metres, in
  * world space; arrays are the caller's, read or written during the call only.
  *
- * Within one TENEBRA_ABI_VERSION functions and members of structures are only added, these at the end:
+ * Within one TENEBRA_ABI_VERSION functions and members of structures are only added, members at the end:
  * struct_size tells which members the caller knows. Initialise structures with the macros below. */
 #ifndef TENEBRA_TENEBRA_H
 #define TENEBRA_TENEBRA_H
@@ -16,21 +16,21 @@
 extern "C" {
 #endif
 
-/** Of this header. */
+/** The version of this header. */
 #define TENEBRA_ABI_VERSION 1
-/** Of a point that lies on none. */
+/** The triangle of a point that lies on none. */
 #define TENEBRA_NO_TRIANGLE 0xffffffffu
 
-/** That of the library which is there; it has to be the TENEBRA_ABI_VERSION that the caller was compiled
+/** The version of the loaded library; it has to equal the TENEBRA_ABI_VERSION that the caller was compiled
  * with.
  */
 int tenebra_abi_version(void);
 
-/** What a call says of itself. */
+/** How a call ended. */
 typedef enum tenebra_status {
-  TENEBRA_OK = 0,     /**< answers are there */
+  TENEBRA_OK = 0,     /**< the answers are complete */
   TENEBRA_FAILED = 1, /**< the handle's error says why; answers are unspecified */
-  TENEBRA_STOPPED = 2 /**< tenebra_tracer_stop or the progress function asked for it; likewise */
+  TENEBRA_STOPPED = 2 /**< tenebra_tracer_stop or the progress function asked for it; answers unspecified */
 } tenebra_status;
 
 /** Triangles. Any number of tracers may use one at once; set and move them while none does. */
@@ -40,10 +40,10 @@ typedef struct tenebra_tracer tenebra_tracer;
 
 /** Null if there is no memory. Destroying null does nothing. */
 tenebra_geometry* tenebra_geometry_create(void);
-/** Of a geometry that no tracer works on. */
+/** For a geometry that no tracer is using. */
 void tenebra_geometry_destroy(tenebra_geometry* geometry);
-/** What the last failed call with this handle found and expected, one sentence; "" before there is one. Valid
- * until the next call with it. */
+/** One sentence: what the last failed call with this handle found and expected; "" before the first failure.
+ * Valid until the next call with the handle. */
 const char* tenebra_geometry_error(const tenebra_geometry* geometry);
 
 /** positions: x, y, z of each vertex. triangles: three vertices each, counter-clockwise seen from the front;
@@ -56,11 +56,11 @@ tenebra_status tenebra_geometry_move(tenebra_geometry* geometry, const float* po
 
 /** Null if there is no memory. */
 tenebra_tracer* tenebra_tracer_create(void);
-/** Of a tracer that answers nothing at the time; null does nothing. */
+/** For a tracer with no call in progress; null does nothing. */
 void tenebra_tracer_destroy(tenebra_tracer* tracer);
-/** As tenebra_geometry_error. */
+/** Like tenebra_geometry_error. */
 const char* tenebra_tracer_error(const tenebra_tracer* tracer);
-/** From any thread: the call that runs, or else the next, ends with TENEBRA_STOPPED within some ten
+/** From any thread: the running call, or else the next one, ends with TENEBRA_STOPPED within some ten
  * milliseconds. */
 void tenebra_tracer_stop(tenebra_tracer* tracer);
 
@@ -69,12 +69,12 @@ typedef struct tenebra_points {
   size_t struct_size;        /**< sizeof(tenebra_points) */
   size_t count;              /**< how many points */
   const double* positions;   /**< x, y, z of each */
-  const uint32_t* triangles; /**< that each lies on, or TENEBRA_NO_TRIANGLE */
+  const uint32_t* triangles; /**< the triangle that each lies on, or TENEBRA_NO_TRIANGLE */
   const float* normals;      /**< x, y, z of each, any length; zero: none */
-  const int8_t* sides;       /**< 1 in front of its triangle, -1 behind, 0 not said */
-  int32_t width;             /**< a picture of so many columns, row by row; 0: a list */
+  const int8_t* sides;       /**< 1 in front of its triangle, -1 behind, 0 not given */
+  int32_t width;             /**< a picture with this many columns, row by row; 0: a list */
 } tenebra_points;
-/** To begin with. */
+/** Default values. */
 #define TENEBRA_POINTS_INIT \
   { sizeof(tenebra_points), 0, NULL, NULL, NULL, NULL, 0 }
 
@@ -88,7 +88,7 @@ typedef struct tenebra_light {
   float spot_cos_outer; /**< no light outside of this cone; -1: no cone */
   float range_m;        /**< no light farther away; 0: unbounded */
 } tenebra_light;
-/** To begin with. */
+/** Default values. */
 #define TENEBRA_LIGHT_INIT \
   { sizeof(tenebra_light), 0, {0, 0, 0}, {0, 1, 0}, {0, -1, 0}, -1, 0 }
 
@@ -98,27 +98,27 @@ typedef struct tenebra_area_light {
   const float* vertices; /**< x, y, z of each, counter-clockwise seen from the lit side */
   size_t vertex_count;   /**< 3 to 14 */
 } tenebra_area_light;
-/** To begin with. */
+/** Default values. */
 #define TENEBRA_AREA_LIGHT_INIT \
   { sizeof(tenebra_area_light), NULL, 0 }
 
-/** How calls work. */
+/** Options of all calls. */
 typedef struct tenebra_options {
   size_t struct_size;   /**< sizeof(tenebra_options) */
-  int32_t threads;      /**< at most; 0: all cores. Answers do not depend on it */
-  double soft_error;    /**< of soft shadows, 1/255 of white, RMS over the penumbra; 0: exact */
-  double ao_error;      /**< of ambient occlusion, 1/255, RMS over the points; 0.1 to 255 */
-  double ao_distance_m; /**< at which occlusion has fallen off to nothing; 0: a twentieth of the diagonal */
+  int32_t threads;      /**< at most this many; 0: all cores. Answers do not depend on it */
+  double soft_error;    /**< allowed in soft shadows, 1/255 of white, RMS over the penumbra; 0: exact */
+  double ao_error;      /**< allowed in ambient occlusion, 1/255, RMS over the points; 0.1 to 255 */
+  double ao_distance_m; /**< where occlusion has fallen off to nothing; 0: a twentieth of the diagonal */
   /** Called now and then on the caller's thread with the part that is done, 0 to 1; returns 0 to go on. May
    * be null. */
   int (*progress)(void* user, double done);
   void* user; /**< handed to progress */
 } tenebra_options;
-/** To begin with. */
+/** Default values. */
 #define TENEBRA_OPTIONS_INIT \
   { sizeof(tenebra_options), 0, 0.0, 2.5, 0.0, NULL, NULL }
 
-/* In each, options may be null: as TENEBRA_OPTIONS_INIT has them. */
+/* In all calls, options may be null, which means TENEBRA_OPTIONS_INIT. */
 
 /** mask: for each point 255 if it sees the light, else 0. */
 tenebra_status tenebra_hard_mask(tenebra_tracer* tracer, const tenebra_geometry* geometry,
@@ -130,7 +130,7 @@ tenebra_status tenebra_soft_visibility(tenebra_tracer* tracer, const tenebra_geo
                                        const tenebra_points* points, const tenebra_area_light* light,
                                        const tenebra_options* options, float* visible_fraction,
                                        float* irradiance);
-/** openness: for each point 1 open to 0 closed. Points need a triangle or a normal. */
+/** openness: for each point, 1 open to 0 closed. Points need a triangle or a normal. */
 tenebra_status tenebra_ambient_occlusion(tenebra_tracer* tracer, const tenebra_geometry* geometry,
                                          const tenebra_points* points, const tenebra_options* options,
                                          float* openness);

@@ -1,5 +1,5 @@
-// The public entry of coloured shadows: what see-through surfaces (glass, alpha blending) let pass of a
-// light, beside the masks, which are of opaque casters alone. Nothing refracts. No OpenGL.
+// The public entry of coloured shadows: how much of a light see-through surfaces (glass, alpha blending) let
+// pass, in addition to the masks, which count opaque casters alone. Nothing refracts. No OpenGL.
 #pragma once
 
 #include <tenebra/area_light.h>
@@ -24,13 +24,13 @@ enum class SeeThrough {
   ignore  ///< they cast no shadow at all
 };
 std::string_view see_through_name(SeeThrough see_through);  ///< "tint", "cast", "ignore"
-/// What that name means; none: there is no such.
+/// The choice of that name; none if there is no such name.
 std::optional<SeeThrough> see_through_from_name(std::string_view name);
 
 /// Makes the see-through triangles of an instant cast as `see_through` says (evaluate_frame: tint).
 void cast_see_through(SeeThrough see_through, FrameGeometry& geometry);
 
-/// The see-through triangles of a TriangleView and what they are made of. Lists of vertices and triangles are
+/// The see-through triangles of a TriangleView and their materials. Lists of vertices and triangles are
 /// as long as the TriangleView's, or empty.
 struct SeeThroughSurfaces {
   const Scene* scene = nullptr;               ///< its materials and images
@@ -40,36 +40,36 @@ struct SeeThroughSurfaces {
   std::array<std::span<const glm::vec2>, 2> texture_coordinates;  ///< for each vertex
   std::span<const glm::vec4> colors;                              ///< for each vertex
 };
-/// Of one instant: views into its arguments, which must live as long.
+/// The surfaces of one instant: views into the arguments, which must live as long.
 SeeThroughSurfaces see_through_surfaces(const Scene& scene, const FrameGeometry& geometry,
                                         const SurfaceCoordinates& coordinates);
 
-/// The light of some pixels, coloured on its way: what the mask lets through times `factors`. Pixels that are
-/// not named have factor 1. Each pixel once, in an order that does not depend on threads.
+/// The light of some pixels, coloured on its way: the mask times `factors`. Pixels that are not listed have
+/// factor 1. Each pixel is listed once, in an order that does not depend on threads.
 struct TintMask {
   std::vector<std::uint32_t> pixels;  ///< places in the lists of VisiblePoints
   std::vector<glm::vec3> factors;     ///< 0 to 1, red, green and blue; one for each of `pixels`
 };
 
-/// What tint is asked for.
+/// How tint is computed.
 struct TintConfig {
-  ContactRule contact = ContactRule::triangle_ids;  ///< hard: as of the mask
+  ContactRule contact = ContactRule::triangle_ids;  ///< hard: the mask's
   SimdLevel simd = SimdLevel::automatic;            ///< factors do not depend on it
   bool own_irradiance = false;  ///< soft: the mask's irradiance is an estimate; find it again, exactly
-  bool same_surfaces = false;   ///< triangles and surfaces are those of the last call, and lie as they did
+  bool same_surfaces = false;   ///< triangles and surfaces are those of the last call and have not moved
 };
 
 /// The work of the last call.
 struct TintStats {
   std::uint64_t triangles = 0;  ///< see-through triangles that let light pass
-  std::uint64_t tests = 0;  ///< hard: tests of a tile of 16 samples with a triangle; soft: shadows looked at
+  std::uint64_t tests = 0;      ///< hard: tests of a tile of 16 samples with a triangle; soft: shadows tested
   std::uint64_t crossings = 0;  ///< hard: samples times see-through triangles between them and the light
   std::uint64_t exact = 0;      ///< hard: tests that double left open
   std::uint64_t numeric = 0;    ///< soft: points answered by the rule of 4,096 places
   double ms = 0;                ///< wall-clock time
 };
 
-/// Finds what see-through surfaces let pass. Keeps its buffers from frame to frame.
+/// Finds how much light see-through surfaces let pass. Keeps its buffers from frame to frame.
 class TintTracer {
 public:
   TintTracer();

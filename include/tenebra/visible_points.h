@@ -18,7 +18,7 @@ struct PointTiles;
 /// Id of a pixel where no triangle is seen.
 inline constexpr std::uint32_t no_triangle = 0xffffffffu;
 
-/// Triangles of one instant that somebody else owns, receivers and occluders alike. Vertices are floats,
+/// Triangles of one instant that the caller owns, receivers and occluders alike. Vertices are floats,
 /// taken as exact; a triangle's id is its index.
 struct TriangleView {
   std::span<const glm::vec3> positions;        ///< vertices, metres, world space
@@ -26,9 +26,9 @@ struct TriangleView {
   std::span<const std::uint8_t> casts_shadow;  ///< one for each triangle; empty: all cast
   std::span<const std::uint32_t>
       parts;                  ///< a hint, ascending: the first triangle of each run that moves as one
-  std::uint64_t version = 0;  ///< if not 0: the caller's word that views with the same number are equal
+  std::uint64_t version = 0;  ///< if not 0, the caller promises that views with the same number are equal
   /// One for each vertex (zero: the face normal): points are on the smooth surface that these describe, see
-  /// lift_visible_points(). Empty: on the triangles. `version` says nothing of them.
+  /// lift_visible_points(). Empty: points are on the triangles. `version` does not cover them.
   std::span<const glm::vec3> normals{};
 };
 /// Views into `geometry`, which must live as long.
@@ -46,9 +46,9 @@ public:
   PointTileStore& operator=(PointTileStore&&) noexcept;
   ~PointTileStore();
 
-  bool empty() const;                                                    ///< there are none
+  bool empty() const;                                                    ///< whether there are none
   void clear();                                                          ///< drops them
-  points::PointTiles& operator*();                                       ///< made if there are none
+  points::PointTiles& operator*();                                       ///< makes them if there are none
   const points::PointTiles& operator*() const { return *tiles_; }        ///< if not empty()
   const points::PointTiles* operator->() const { return tiles_.get(); }  ///< if not empty()
 
@@ -64,12 +64,12 @@ struct VisiblePoints {
                                          ///< Empty: visible_position() says where they are
   std::vector<std::uint32_t> triangles;  ///< width * height ids, or no_triangle
   PointTileStore tiles;  ///< empty, or the same points again: clear them if you change the points
-  ViewRays view;         ///< where `positions` is empty: what the pixels are seen by
+  ViewRays view;         ///< where `positions` is empty: the rays of the pixels
 };
 
-/// What is made of the points. Hard shadows read tiles, and make their own if there are none; the few
-/// positions that they need beside them are worked out again. Soft shadows and occlusion read rows of
-/// positions, and make their own likewise.
+/// The forms in which points are stored. Hard shadows read tiles, and make their own if there are none; the
+/// few positions that they need as well are computed again. Soft shadows and occlusion read rows of
+/// positions, and make their own if there are none.
 enum class PointLayout { rows, rows_and_tiles, tiles };
 
 /// Finds where the pixels' rays meet the planes of their triangles, in double, clamped into the triangle (a
@@ -90,8 +90,8 @@ glm::dvec3 visible_position(const VisiblePoints& points, const TriangleView& tri
 /// ends along a smooth line where light grazes, not along the triangles; the masks are exact for the points
 /// as they are then. Triangles that share an edge and its normals lift it alike, and vertices stay. Nothing
 /// is lifted where the surface is concave, where normals are equal or zero or contradict the triangle (not
-/// all on one side of it), or by less than rounding amounts to. Give the same normals to whatever traces the
-/// points. Shading normals are those of the points before.
+/// all on one side of it), or by less than the effect of rounding. Give the same normals to whatever traces
+/// the points. Compute shading normals from the points before lifting.
 void lift_visible_points(const ViewRays& view, const TriangleView& triangles, VisiblePoints& points);
 
 /// Fills `out` with unit shading normals, one per pixel: `normals` (one for each vertex of `triangles`;

@@ -1,5 +1,5 @@
 #!/usr/bin/env python3
-"""What Python adds: frames of `Scene.render` beside those of the program, and questions about points beside the same
+"""What Python adds: compares frames of `Scene.render` with those of the program, and questions about points with the same
 questions to the C library, on the same arrays and in turns.
 
 usage: overhead.py BUILD_FOLDER [--scene FILE] [--frames FIRST:LAST:STEP] [--size W H] [--rounds N] [--threads N]

@@ -1,5 +1,5 @@
 #!/usr/bin/env python3
-"""Hours of sun on a facade over a day, the sun as a disc: how much of it every place of the wall sees, every few
+"""Hours of sun on a facade over a day, the sun as a disc: how much of it each place of the wall sees, every few
 minutes, summed. The house across the street and a row of balconies stand in the way.
 
 usage: facade_sun.py [--out FILE.png] [--step MINUTES] [--day DAY_OF_YEAR] [--latitude DEGREES]

@@ -1,5 +1,5 @@
 #!/usr/bin/env python3
-"""What the frames of an animation took, stage by stage: of a log that `tenebra render --log` wrote, or of frames that
+"""How long the frames of an animation took, stage by stage: from a log of `tenebra render --log`, or for frames that
 are drawn here.
 
 usage: frame_times.py [LOG.csv] [--out FILE.png] [--scene FILE] [--frames N]

@@ -1,5 +1,5 @@
 #!/usr/bin/env python3
-"""What a shadow map gets wrong, beside the exact mask: light where there is shadow (leaks, and shadows that the bias
+"""What a shadow map gets wrong, compared with the exact mask: light where there is shadow (leaks, and shadows that the bias
 moves away from what casts them) and shadow where there is light (acne, steps). The map is drawn here as a renderer
 would: the scene's depths as its light sees them, compared with a bias.
 

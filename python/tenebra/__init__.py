@@ -1,18 +1,18 @@
 """Exact hard shadows, soft shadows and ambient occlusion on the CPU.
 
-Lengths are metres, space is right-handed. Arrays are numpy's: one that is contiguous and of the type that is
-named is read where it lies, any other is converted. Answers are new arrays of the points' shape.
+Lengths are metres, space is right-handed. Arrays are numpy's: a contiguous array of the documented type is read in
+place, any other is converted. Answers are new arrays of the points' shape.
 
 Triangles are given as an array (n, 3, 3) of corners, as a pair (positions (v, 3), indices (n, 3)), or as a
-Geometry, which keeps them for many calls. Their positions are rounded once to float32 and exact from there on;
-points are float64 and exact. Calls that ask about points, and render, release Python's lock and end on Ctrl-C, and
-take the keywords
+Geometry, which keeps them for many calls. Their positions are rounded once to float32 and taken as exact from there
+on; points are float64 and taken as exact. Calls that ask about points, and render, release Python's lock, end on
+Ctrl-C, and take the keywords
 
-threads: at most so many; 0: all cores. Answers do not depend on it.
+threads: the largest number of threads to use; 0: all cores. Answers do not depend on it.
 progress: called on this thread now and then with the part that is done, 0 to 1.
 
-What a call cannot use is a TypeError (not an array of numbers, floats as indices) or a ValueError (shapes,
-indices out of range, NaN, settings out of range) with a sentence that says what was found and what was expected.
+Arguments that a call cannot use raise a TypeError (not an array of numbers, floats as indices) or a ValueError (shapes,
+indices out of range, NaN, settings out of range) that says what was found and what was expected.
 """
 from __future__ import annotations
 
@@ -31,7 +31,7 @@ __all__ = ["AreaLight", "DirectionalLight", "Geometry", "PointLight", "Scene", "
            "hard_mask", "no_triangle", "soft_visibility"]
 
 no_triangle: int = _core.no_triangle
-"""The number of a triangle where there is none: of a point in the air, of a pixel that sees the background."""
+"""Stands for no triangle: for a point in the air, or a pixel that sees the background."""
 
 Progress = Optional[Callable[[float], Any]]
 
@@ -60,15 +60,15 @@ class Geometry:
 
     @classmethod
     def from_corners(cls, corners: Any) -> Geometry:
-        """Of the corners of triangles, (n, 3, 3) float32."""
+        """Makes a geometry from the corners of its triangles, (n, 3, 3) float32."""
         array = _rows("triangles", corners, np.float32, "(n, 3, 3)")
         if array.ndim != 3 or array.shape[1] != 3:
             raise ValueError(f"triangles: found the shape {array.shape}, expected (n, 3, 3)")
         return cls(array.reshape(-1, 3), np.arange(3 * len(array), dtype=np.uint32).reshape(-1, 3))
 
     def move_vertices(self, positions: Any) -> None:
-        """The same triangles with other positions, (v, 3) float32, as many as before. Call it while no other
-        thread asks about them."""
+        """Gives the triangles other positions, (v, 3) float32, as many as before. Call it while no other thread
+        uses the geometry."""
         array = _rows("positions", positions, np.float32)
         self._core.move_vertices(_of_each("positions", array, (self._vertices, 3)))
 
@@ -87,8 +87,8 @@ def _geometry(triangles: Any) -> Geometry:
 # ---- Lights ----
 
 class PointLight:
-    """Light from `position` (3 numbers, metres). With `spot_axis`, the way it shines, only within `cone_rad` of it
-    (half the opening angle, radians); with `range_m` only so far."""
+    """Light from `position` (3 numbers, metres). `spot_axis`, the direction in which a spot shines, limits it to within
+    `cone_rad` of that axis (half the opening angle, radians); `range_m` limits its distance."""
 
     def __init__(self, position: Any, *, spot_axis: Any = None, cone_rad: float = math.pi / 4,
                  range_m: float = 0.0) -> None:
@@ -139,7 +139,7 @@ class AreaLight:
 
     @property
     def vertices(self) -> np.ndarray:
-        """(n, 3) float32, metres."""
+        """The corners, (n, 3) float32, metres."""
         return self._core.vertices
 
     @property
@@ -161,14 +161,16 @@ def _shadow_light(light: Any) -> Any:
 
 class Tracer:
     """Answers questions about points, and keeps its buffers and trees from call to call. Use one for many calls
-    with a Geometry; of several threads one waits for the other. The functions of this module make one for each call.
+    with a Geometry; threads that share a tracer wait for each other. The functions of this module make one for each
+    call.
 
     points: (..., 3) float64, metres; every answer has the shape (...). Points of a picture (rows, columns, 3)
-    whose neighbours lie close together are answered quicker.
+    whose neighbours lie close together are answered more quickly.
     on: (...) uint32, the triangle that each point lies on, which never blocks it, or no_triangle.
-    normals: (..., 3) float32, any length; zero: none. Where a point lies on no triangle, its half of space.
-    sides: (...) int8, 1 where the point is on the side of its triangle from where it is counter-clockwise, -1
-    behind, 0 not said: that of its normal or, without one, that of the light.
+    normals: (..., 3) float32, any length; zero: none. For a point that lies on no triangle, the normal says which
+    half of space it sees.
+    sides: (...) int8, 1 where the point is on the side from which its triangle is counter-clockwise, -1 behind, 0 not
+    given: then the side of its normal or, without one, that of the light.
     """
 
     def __init__(self) -> None:
@@ -192,7 +194,7 @@ class Tracer:
         triangle's; with neither, onto a surface parallel to the light), W/m2 for a radiance of 1: two arrays of
         float32.
 
-        error: 0: exact; else what dense penumbrae may err by, RMS, in 1/255 of white.
+        error: 0: exact; else the error allowed in dense penumbrae, RMS, in 1/255 of white.
         """
         if not isinstance(light, AreaLight):
             raise TypeError(f"light: found {type(light).__name__}, expected an AreaLight")
@@ -208,10 +210,10 @@ class Tracer:
                           sides: Any = None, distance: float = 0.0, error: float = 2.5, threads: int = 0,
                           progress: Progress = None) -> np.ndarray:
         """The share of ambient light that reaches each point, 1 open to 0 closed: float32. Each point needs a
-        triangle (its front, if no side is said) or a normal.
+        triangle (its front, if no side is given) or a normal.
 
         distance: metres at which occlusion has fallen off to nothing; 0: a twentieth of the geometry's diagonal.
-        error: what all points together may err by, RMS, in 1/255; 0.1 to 255.
+        error: the error allowed over all points together, RMS, in 1/255; 0.1 to 255.
         """
         arrays, shape = _point_arrays(points, on, normals, sides)
         openness = np.empty(shape, np.float32)
@@ -246,18 +248,18 @@ def _point_arrays(points: Any, on: Any, normals: Any, sides: Any) -> Tuple[Any, 
 
 
 def hard_mask(triangles: Triangles, points: Any, light: Light, **options: Any) -> np.ndarray:
-    """255 where a point sees the light, 0 where it does not. As Tracer.hard_mask, which has the keywords."""
+    """255 where a point sees the light, 0 where it does not. Tracer.hard_mask describes the keywords."""
     return Tracer().hard_mask(triangles, points, light, **options)
 
 
 def soft_visibility(triangles: Triangles, points: Any, light: AreaLight,
                     **options: Any) -> Tuple[np.ndarray, np.ndarray]:
-    """The visible part of an area light, and its irradiance. As Tracer.soft_visibility, which has the keywords."""
+    """The visible part of an area light, and its irradiance. Tracer.soft_visibility describes the keywords."""
     return Tracer().soft_visibility(triangles, points, light, **options)
 
 
 def ambient_occlusion(triangles: Triangles, points: Any, **options: Any) -> np.ndarray:
-    """How open points are, 1 to 0. As Tracer.ambient_occlusion, which has the keywords."""
+    """How open points are, 1 to 0. Tracer.ambient_occlusion describes the keywords."""
     return Tracer().ambient_occlusion(triangles, points, **options)
 
 
@@ -312,7 +314,7 @@ class Scene:
     @classmethod
     def load(cls, path: Union[str, os.PathLike], **options: Any) -> Scene:
         """Reads a file, and adds a camera and light where it has none. options: those of `tenebra render` that
-        speak of the scene, with _ for -: no_cast, transfer, environment, clip, fps, set_light and the like."""
+        concern the scene, with _ for -: no_cast, transfer, environment, clip, fps, set_light and the like."""
         return cls(path, **options)
 
     @property
@@ -322,17 +324,17 @@ class Scene:
 
     @property
     def frames(self) -> int:
-        """How many the animation has; 1 without one."""
+        """How many frames the animation has; 1 without an animation."""
         return self._core.frames
 
     @property
     def size(self) -> Tuple[int, int]:
-        """Width and height in pixels of pictures for which none is given."""
+        """Width and height in pixels of pictures for which no size is given."""
         return self._core.size
 
     @property
     def warnings(self) -> List[str]:
-        """What was skipped, guessed or added as the file was read, a sentence each."""
+        """What was skipped, guessed or added when the file was read, one sentence each."""
         return self._core.warnings
 
     def render(self, frame: int = 0, size: Optional[Tuple[int, int]] = None, *, time: Optional[float] = None,
@@ -340,25 +342,31 @@ class Scene:
                **options: Any) -> Dict[str, Any]:
         """Draws one frame, or the instant `time` (seconds), as `tenebra render` with a --mask does.
 
-        size: width and height in pixels. options: those of `tenebra render` that speak of the camera and the
+        size: width and height in pixels. options: those of `tenebra render` that concern the camera and the
         method, with _ for -: shadows="soft", ao="adaptive", soft_error=1, eye=(x, y, z), look_at=..., threads=2,
         and aov=("depth", "normal", ...), which adds arrays to the dict.
 
-        A dict, with h rows of w pixels, row 0 at the top:
-        image: (h, w, 3) uint8, as the program writes it. linear: with linear=True, (h, w, 3) float32, the colours of
-        the pixels' centres before exposure and tone. masks: by the light's number (h, w) uint8, 255 lit to 0.
-        visible_fraction: the same as (h, w) float32, with soft shadows. triangles: (h, w) uint32, the triangle
-        that each pixel sees, or no_triangle. positions: with points=True, (h, w, 3) float64, what it sees of it,
-        metres, and normals: (h, w, 3) float32, unit, the surface's as it is shaded; both meaningless on the
-        background. view: the camera's eye and rays (eye, d0, dx, dy, orthographic:
-        the ray through pixel (x, y) runs along d0 + (x + 0.5) dx + (y + 0.5) dy). timings: milliseconds of each
-        stage, the names of the program's log. notes: sentences that a user should see once.
+        Returns a dict of arrays with h rows of w pixels, row 0 at the top:
+        image: (h, w, 3) uint8, as the program writes it.
+        linear: with linear=True, (h, w, 3) float32, the colours of the pixels' centres before exposure and tone.
+        masks: by the light's number, (h, w) uint8, 255 lit to 0.
+        visible_fraction: the same as (h, w) float32, with soft shadows.
+        triangles: (h, w) uint32, the triangle that each pixel sees, or no_triangle.
+        positions, normals: with points=True, (h, w, 3) float64, the point that each pixel sees, metres, and
+        (h, w, 3) float32, the unit normal with which it is shaded; both meaningless on the background.
+        view: the camera's eye and rays (eye, d0, dx, dy, orthographic: the ray through pixel (x, y) runs along
+        d0 + (x + 0.5) dx + (y + 0.5) dy).
+        timings: milliseconds of each stage, with the names of the program's log.
+        notes: sentences that a user should see once.
 
-        Words of aov, of the opaque surface at each pixel's centre: depth: (h, w) float32, metres along the view
-        axis, infinite on the background. id: triangles as above, with part and material, (h, w) uint32 (the mesh
-        at its node, the material's number). normal: (h, w, 3) float32, unit, to the eye's side. visibility: by the
-        light's number (h, w) float32, 0 to 1, with any shadows. irradiance: (h, w, 3) float32, of all lights, lux.
-        ao: (h, w) float32, 1 open to 0 closed. albedo: (h, w, 3) float32.
+        The words of aov add arrays for the opaque surface at each pixel's centre:
+        depth: (h, w) float32, metres along the view axis, infinite on the background.
+        id: triangles as above, with part and material, (h, w) uint32 (the mesh at its node, the material's number).
+        normal: (h, w, 3) float32, unit, on the eye's side.
+        visibility: by the light's number, (h, w) float32, 0 to 1, with any shadows.
+        irradiance: (h, w, 3) float32, from all lights, lux.
+        ao: (h, w) float32, 1 open to 0 closed.
+        albedo: (h, w, 3) float32.
         """
         for name in options:
             if name in _OF_THE_SCENE:
@@ -371,7 +379,7 @@ class Scene:
     def geometry(self, frame: int = 0, *, time: Optional[float] = None) -> Dict[str, np.ndarray]:
         """The triangles of an instant: positions (v, 3) float32, normals (v, 3) float32 (zero: the face's),
         triangles (n, 3) uint32, materials (n,) uint32, casts_shadow (n,) uint8. Every frame has the same
-        triangles. Geometry(**kept) takes positions, triangles and casts_shadow."""
+        triangles. Geometry takes the positions, triangles and casts_shadow among them."""
         return self._core.geometry(self._core.time_of(frame) if time is None else time)
 
     def lights(self, frame: int = 0, *, time: Optional[float] = None) -> List[Dict[str, Any]]:

@@ -1,4 +1,4 @@
-"""What is given as numbers, as arrays that the module reads where they lie."""
+"""Turns a caller's numbers into arrays that the module can read in place."""
 from __future__ import annotations
 
 from typing import Any, List, Tuple

@@ -1,4 +1,4 @@
-"""What the package is made of: shapes and types are checked before these are called."""
+"""The compiled module under the package, which checks shapes and types before it calls these."""
 from typing import Any, Callable, Dict, List, Optional, Sequence, Tuple
 
 import numpy as np

@@ -1,1 +1,1 @@
-"""The generator of Tenebra's bundled scenes: a glTF writer, shapes, motion, and one module a scene."""
+"""The generator of Tenebra's bundled scenes: a glTF writer, shapes, motion, and one module for each scene."""

@@ -1,7 +1,7 @@
-"""What each look is made of: its picture, how the picture lies on it, and how it shines.
+"""The finish of each look: its picture, how the picture lies on it, and its gloss.
 
 Texture coordinates are linear in a vertex's place in its mesh, so that no vertex needs a second pair. Of a box, each
-projection leaves no side without area: `wall` suits what stands, `ground` what lies."""
+projection leaves no side without area: `wall` suits upright surfaces, `ground` level ones."""
 
 WALL = ((1, 0, 1), (0.35, -1, -0.35))      # (u, v) = rows x (x, y, z)
 GROUND = ((1, 1, 0.06), (0.06, 1, 1))

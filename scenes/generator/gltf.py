@@ -93,7 +93,7 @@ class Document:
         return self._textures[name]
 
     def material(self, name, color, emissive=None, double_sided=False, extras=None):
-        """A surface of the linear reflectance `color`; finish.py says what else it is made of."""
+        """A surface of the linear reflectance `color`; finish.py has the rest of its finish."""
         made_of = finish.of(name)
         surface = {"baseColorFactor": rounded(color) + [1.0], "metallicFactor": made_of.metallic,
                    "roughnessFactor": made_of.roughness}
@@ -174,7 +174,7 @@ class Document:
         return self._append("meshes", {"name": name, "primitives": primitives})
 
     def skinned_mesh(self, name, positions, joints, weights, material):
-        """Unindexed triangles; four joints a vertex with weights in 255ths."""
+        """Unindexed triangles; four joints for each vertex, with weights in 255ths."""
         attributes = {"POSITION": self.accessor(positions, FLOAT, ARRAY_BUFFER, bounds=True),
                       "JOINTS_0": self.accessor(joints, UNSIGNED_BYTE, ARRAY_BUFFER),
                       "WEIGHTS_0": self.accessor(weights, UNSIGNED_BYTE, ARRAY_BUFFER, normalized=True)}

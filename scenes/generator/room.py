@@ -1,4 +1,4 @@
-"""room.glb: a closed room to bake light into. Every face has a place of its own in TEXCOORD_1, as many texels a metre as
+"""room.glb: a closed room to bake light into. Every face has a place of its own in TEXCOORD_1, as many texels per metre as
 the others. Under the lamp stand a table, a bench, shelves and a railing: broad shadows, thin ones, and both at once."""
 
 from . import motion

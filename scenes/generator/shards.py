@@ -4,7 +4,7 @@ Core glTF in few bytes: the shards are one skinned mesh whose rest pose is the f
 translate. At rest they are all at the origin; in the second form joint j stands on point j of a coarse lattice
 that spans all displacements. The displacement of a vertex lies in one tetrahedron of the lattice, so four joints
 with its barycentric coordinates as weights take it exactly (to a 255th of a cell) from the first form to its place
-in the second. Which shard goes where is drawn by lot: neighbours part, every shard has a path of its own."""
+in the second. Which shard goes where is random: neighbours part, every shard has a path of its own."""
 
 import math
 import random

@@ -7,7 +7,7 @@ from . import vector as v
 
 
 class Surface:
-    """Positions, triangles as index triples, and unit normals (one a position) or none."""
+    """Positions, triangles as index triples, and unit normals (one for each position) or none."""
 
     def __init__(self, positions=(), triangles=(), normals=()):
         self.positions = list(positions)

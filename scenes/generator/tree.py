@@ -1,4 +1,4 @@
-"""A tree whose branch groups are nodes that sway: one mesh a group, with its twigs and fine leaves."""
+"""A tree whose branch groups are nodes that sway: one mesh for each group, with its twigs and fine leaves."""
 
 import math
 import random

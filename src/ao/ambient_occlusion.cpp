@@ -1,5 +1,5 @@
-// Ambient occlusion of a frame, from its visible points to one value per pixel: what is kept of a scene from
-// frame to frame, and which receivers are asked for what.
+// Ambient occlusion of a frame, from its visible points to one value per pixel: the data of a scene kept from
+// frame to frame, and the choice of the method.
 #include <tenebra/ambient_occlusion.h>
 
 #include <fmt/format.h>
@@ -123,7 +123,7 @@ const std::vector<std::string>& AmbientOcclusion::notes() const {
   return state_->notes;
 }
 
-/// Brings objects and what hangs on them to this instant.
+/// Brings objects and everything that depends on them to this instant.
 void AmbientOcclusion::State::find(const Scene& scene, const FrameGeometry& geometry,
                                    const AoConfig& config) {
   const bool kept = found && ao::move_objects(scene, geometry, objects);
@@ -163,8 +163,8 @@ void AmbientOcclusion::State::note_memory(const AoConfig& config) {
   if (noted_memory || !budget.refused()) return;
   noted_memory = true;
   notes.push_back(
-      fmt::format("A frame's fields and surface samples found no room within {} MB: rays answer for bodies "
-                  "without it, which takes longer; --ao-memory gives more.",
+      fmt::format("A frame's fields and surface samples found no room within {} MB: rays are cast for bodies "
+                  "without room, which takes longer; --ao-memory gives more.",
                   config.memory_mb));
 }
 
@@ -188,8 +188,8 @@ Expected<void> AmbientOcclusion::State::from_rays(const ao::ReceiverSet& set, co
   return stop_requested(stop) ? Expected<void>(base::fail("stopped")) : Expected<void>();
 }
 
-/// Moving things blur well, what stands does not: with a downscale only the others' part is computed at a
-/// fraction of the pixels.
+/// Occlusion by other bodies can be blurred, that of a body by itself cannot: with a downscale only the
+/// others' part is computed at a fraction of the pixels.
 Expected<void> AmbientOcclusion::State::run(const ao::AoFrame& frame, const AoConfig& config,
                                             std::span<float> out, const AoProgress& progress,
                                             const StopFlag* stop) {

@@ -1,4 +1,4 @@
-// A scene made ready to be baked, and with what was baked put in.
+// Prepares a scene for baking, and puts the baked values into it.
 #pragma once
 
 #include <span>
@@ -26,7 +26,7 @@ std::vector<Sample> vertex_samples(const FrameGeometry& frame);
 std::vector<Light> vertex_light(std::span<const Sample> samples, std::span<const Light> light,
                                 std::size_t vertices);
 
-/// What of the light of vertices is brighter than colours of vertices may be.
+/// Vertex light that is brighter than vertex colours may be.
 struct Clipped {
   std::size_t vertices = 0;
   float brightest = 1;  ///< the largest channel
@@ -45,7 +45,7 @@ struct ScenePlaces {
   bool own_squares = false;                ///< meshes overlapped: TEXCOORD_1 of the scene was rewritten
 };
 /// Finds them by TEXCOORD_1. Where meshes at nodes lie in the same places, as they do where one is used twice
-/// or each was unwrapped by itself, every one gets a square of the map for itself. Meshes are separate. Fails
+/// or each was unwrapped by itself, every one gets a square of the map of its own. Meshes are separate. Fails
 /// where no mesh has a second set, or there is no room.
 Expected<ScenePlaces> place_in_map(Scene& scene, const FrameGeometry& frame, int size);
 

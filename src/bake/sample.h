@@ -26,8 +26,8 @@ using Triangle = std::array<glm::dvec3, 3>;
 std::optional<glm::dvec3> weights_inside(const Triangle& corners, const glm::dvec3& weights, double margin_m);
 
 /// 64 times what rounding to float moves a vertex by, in a scene whose largest |coordinate| is `extent_m`:
-/// 0.7 mm in 100 m. By the contact rule 2 of them would do where walls stand upright on a floor; what is more
-/// serves walls that lean over it down to 2 degrees.
+/// 0.7 mm in 100 m. By the contact rule 2 times would do where walls stand upright on a floor; the rest is
+/// for walls that lean over it down to 2 degrees.
 inline double edge_margin(double extent_m) {
   return 64 * 1.7320508075688772 * 0x1p-24 * extent_m;
 }

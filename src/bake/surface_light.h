@@ -1,4 +1,4 @@
-// The light that arrives at places on a scene's surfaces, and how open they are: what is baked.
+// The baked values: the light that arrives at places on a scene's surfaces, and their openness.
 #pragma once
 
 #include <memory>
@@ -17,7 +17,7 @@ struct LightRequest {
   /// Shadows, area lights, which light, occlusion (AoMode::none: everything is open), threads.
   render::RenderSettings settings;
   bool direct = true;       ///< light of the scene's lights
-  glm::vec3 ambient{0.0f};  ///< light from all sides, times the openness
+  glm::vec3 ambient{0.0f};  ///< ambient light, times the openness
 };
 
 /// Answers for samples of one instant of a scene, which must live as long. Shadows are exact for the samples'
@@ -25,7 +25,7 @@ struct LightRequest {
 /// its triangle is counter-clockwise. Samples of one target that follow each other share one openness.
 class SurfaceLight {
 public:
-  /// Fails on lights that the scene does not have. `notes`: what a user should know, a sentence each.
+  /// Fails on lights that the scene does not have. `notes`: what a user should know, one sentence each.
   static Expected<SurfaceLight> create(const Scene& scene, const render::FrameInput& input,
                                        const LightRequest& request, std::vector<std::string>& notes);
   SurfaceLight(SurfaceLight&&) noexcept;

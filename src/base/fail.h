@@ -1,4 +1,4 @@
-// How a function that can fail words its sentence.
+// Makes the error of a function that can fail.
 #pragma once
 
 #include <fmt/core.h>

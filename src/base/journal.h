@@ -1,4 +1,4 @@
-// Files that grow by whole lines while something long runs, and can be gone on with after it was killed.
+// Files that grow by whole lines while something long runs, and can be continued after it was killed.
 #pragma once
 
 #include <filesystem>

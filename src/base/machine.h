@@ -1,4 +1,4 @@
-// What the log says of the machine that measured.
+// What the log says about the machine that measured.
 #pragma once
 
 #include <string>

@@ -1,4 +1,4 @@
-// Output that is no file: /dev/stdout, /dev/null.
+// Output that is not a file: /dev/stdout, /dev/null.
 #pragma once
 
 #include <sys/stat.h>

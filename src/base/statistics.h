@@ -1,4 +1,4 @@
-// Summary of a list of measurements: what a frame usually takes, and what the slow ones take.
+// Summary of a list of measurements: how long a frame usually takes, and how long the slow ones take.
 #pragma once
 
 #include <cstddef>

@@ -1,4 +1,4 @@
-// Bytes down a pipe, or whatever else standard output is, that whoever waits can end.
+// Writes bytes to a pipe, or whatever standard output is, in a way that can be stopped while it waits.
 #pragma once
 
 #include <string_view>

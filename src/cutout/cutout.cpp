@@ -73,7 +73,7 @@ void cut_within_limit(std::vector<Task>& tasks, std::size_t most_added) {
   }
 }
 
-/// What replaces each triangle of a mesh: nothing where its material does not cut.
+/// The triangles that replace each triangle of a mesh: none where its material does not cut.
 using Replacements = std::vector<const CutTriangle*>;
 
 std::vector<Replacements> collect(const Scene& scene, const std::vector<Task>& tasks) {

@@ -1,4 +1,4 @@
-// The triangles of one material whose alpha cuts, and what becomes of each.
+// The triangles of one material whose alpha cuts, and the cut parts of each.
 #pragma once
 
 #include <map>

@@ -35,9 +35,9 @@ Expected<Scene> import_obj(const std::filesystem::path& path, const ImportOption
 
 /// Writes `scene` with its animation as a binary glTF 2.0 file. BART's splines are baked to `fps` keys a
 /// second (the clip's own frames where it states them); shapes become morph targets. Returns what glTF cannot
-/// hold, a sentence each. What other programs do not read stands in `extras` for import_gltf: lights without
-/// falloff, ambient factors, reflectances above 1, Phong's specular, untinted transmission, what colours are,
-/// shadow flags, ambient light, background. Pictures are embedded as PNG.
+/// hold, one sentence each. What other programs do not read stands in `extras` for import_gltf: lights
+/// without falloff, ambient factors, reflectances above 1, Phong's specular, untinted transmission, what
+/// colours are, shadow flags, ambient light, background. Pictures are embedded as PNG.
 Expected<std::vector<std::string>> export_glb(const Scene& scene, const std::filesystem::path& path,
                                               double fps = 30.0);
 

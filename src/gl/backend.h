@@ -1,4 +1,4 @@
-// Inside of gl::Context: what EGL, OSMesa and a window's context do each in their own way.
+// Inside of gl::Context: the functions that EGL, OSMesa and a window's context implement in their own ways.
 #pragma once
 
 #include <memory>

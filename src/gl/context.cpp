@@ -57,7 +57,7 @@ Context::~Context() = default;
 
 Expected<void> Context::make_current() {
   if (!backend_->make_current())
-    return base::fail("OpenGL context {}: found it cannot be made current", kind_name());
+    return base::fail("OpenGL context {}: it cannot be made current", kind_name());
   return load_functions(*backend_);
 }
 

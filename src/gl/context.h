@@ -15,7 +15,7 @@ enum class ContextKind { automatic, egl, osmesa };
 std::optional<ContextKind> context_kind_from_name(std::string_view name);  ///< auto, egl, osmesa
 
 struct ContextOptions {
-  bool debug = false;  ///< collect what the driver complains about (KHR_debug) for take_debug_messages
+  bool debug = false;  ///< collect the driver's messages (KHR_debug) for take_debug_messages
 };
 
 using Function = void (*)();

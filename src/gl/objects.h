@@ -73,7 +73,7 @@ private:
   int height_ = 0;
 };
 
-/// A texture's pixels on their way from the GPU, without anybody waiting: a buffer and a fence behind the
+/// A texture's pixels on their way from the GPU, without waiting for them: a buffer and a fence behind the
 /// copy.
 class Readback {
 public:

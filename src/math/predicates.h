@@ -1,5 +1,5 @@
-// Exact signs that decide shadows. Inputs are taken as exact reals; every answer is exact. numerics: the
-// filters that make these rare stand with their callers.
+// Exact signs that decide shadows. Inputs are taken as exact reals; every answer is exact. The filters that
+// make these calls rare are with the callers.
 #pragma once
 
 #include <glm/glm.hpp>

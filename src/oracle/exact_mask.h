@@ -26,7 +26,7 @@ struct ExactMaskStats {
   }
 };
 
-/// What the exact mask says of one sample.
+/// The exact mask's value at one sample.
 struct ExactAnswer {
   std::uint8_t value = 0;               ///< as ShadowMask: 255 lit
   bool active = false;                  ///< gets a ray at all
@@ -43,7 +43,7 @@ public:
   ExactAnswer answer(const glm::dvec3& point, std::uint32_t id, ExactMaskStats& stats) const;
   /// Whether the sample gets a ray at all.
   bool active(const glm::dvec3& point, std::uint32_t id) const;
-  /// A triangle that blocks the sample, or no_triangle. Not asked whether the sample is active.
+  /// A triangle that blocks the sample, or no_triangle. Does not check whether the sample is active.
   std::uint32_t blocker(const glm::dvec3& point, std::uint32_t id, ExactMaskStats& stats) const;
   /// The same over all triangles, without the candidate search.
   std::uint32_t blocker_among_all(const glm::dvec3& point, std::uint32_t id, ExactMaskStats& stats) const;

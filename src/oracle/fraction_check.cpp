@@ -8,6 +8,8 @@
 namespace tenebra::oracle {
 namespace {
 
+constexpr std::size_t fractions_of_a_round = 4096;  // whose answers are all kept meanwhile
+
 /// The larger of both sides' answers: no point sees both.
 SoftAnswer answer_of(const FractionRequest& request, const glm::dvec3& point, std::uint32_t id) {
   const auto asked = [&](const ExactSoft& side) {
@@ -53,19 +55,23 @@ FractionStats& FractionStats::operator+=(const FractionStats& other) {
 FractionCheck check_fractions(const FractionRequest& request, const VisiblePoints& points,
                               std::span<const float> fractions, std::span<const std::size_t> pixels,
                               const StopFlag* stop) {
-  std::vector<FractionCheck> parts(pixels.size());
-  parallel::parallel_ranges(pixels.size(), 1, [&](std::size_t first, std::size_t last) {
-    for (std::size_t i = first; i < last; ++i) {
-      if (stop != nullptr && stop->requested()) return;
-      check_sample(request, points, fractions[pixels[i]], pixels[i], parts[i]);
-    }
-  });
   FractionCheck all;
-  for (const FractionCheck& part : parts) {
-    all.stats += part.stats;
-    all.wrong_count += part.wrong_count;
-    if (!part.wrong.empty() && all.wrong.size() < FractionCheck::most_named)
-      all.wrong.push_back(part.wrong.front());
+  std::vector<FractionCheck> parts;
+  for (std::size_t begin = 0; begin < pixels.size(); begin += fractions_of_a_round) {
+    const auto round = pixels.subspan(begin, std::min(fractions_of_a_round, pixels.size() - begin));
+    parts.assign(round.size(), {});
+    parallel::parallel_ranges(round.size(), 1, [&](std::size_t first, std::size_t last) {
+      for (std::size_t i = first; i < last; ++i) {
+        if (stop != nullptr && stop->requested()) return;
+        check_sample(request, points, fractions[round[i]], round[i], parts[i]);
+      }
+    });
+    for (const FractionCheck& part : parts) {
+      all.stats += part.stats;
+      all.wrong_count += part.wrong_count;
+      if (!part.wrong.empty() && all.wrong.size() < FractionCheck::most_named)
+        all.wrong.push_back(part.wrong.front());
+    }
   }
   return all;
 }

@@ -1,4 +1,4 @@
-// Visible fractions of an area light that somebody computed, held against the exact answers at some samples.
+// Checks computed visible fractions of an area light against the exact answers at some samples.
 #pragma once
 
 #include <cstddef>
@@ -12,7 +12,7 @@
 
 namespace tenebra::oracle {
 
-/// What is asked about, and how exact the fractions say that they are.
+/// The fractions to check, and the error that they promise.
 struct FractionRequest {
   const ExactSoft* front = nullptr;
   const ExactSoft* back = nullptr;  ///< the polygon's other side, where it shines too

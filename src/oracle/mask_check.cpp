@@ -8,6 +8,8 @@ namespace tenebra::oracle {
 namespace {
 
 constexpr std::size_t samples_of_a_part = 256;
+constexpr std::size_t samples_of_a_round =
+    256 * samples_of_a_part;  // whose wrong ones are all kept meanwhile
 
 /// Well-mixed bits of `x` (splitmix64).
 std::uint64_t mixed(std::uint64_t x) {
@@ -17,11 +19,8 @@ std::uint64_t mixed(std::uint64_t x) {
   return x ^ (x >> 31);
 }
 
-}  // namespace
-
-MaskCheck check_mask(const ExactShadow& exact, const VisiblePoints& points,
-                     std::span<const std::uint8_t> mask, std::span<const std::size_t> pixels,
-                     const StopFlag* stop) {
+void check_round(const ExactShadow& exact, const VisiblePoints& points, std::span<const std::uint8_t> mask,
+                 std::span<const std::size_t> pixels, const StopFlag* stop, MaskCheck& all) {
   std::vector<MaskCheck> parts((pixels.size() + samples_of_a_part - 1) / samples_of_a_part);
   parallel::parallel_ranges(pixels.size(), samples_of_a_part, [&](std::size_t first, std::size_t last) {
     if (stop != nullptr && stop->requested()) return;
@@ -36,7 +35,6 @@ MaskCheck check_mask(const ExactShadow& exact, const VisiblePoints& points,
       part.wrong.push_back({pixel, id, mask[pixel], answer});
     }
   });
-  MaskCheck all;
   for (const MaskCheck& part : parts) {
     all.stats += part.stats;
     all.wrong_count += part.wrong_count;
@@ -44,6 +42,17 @@ MaskCheck check_mask(const ExactShadow& exact, const VisiblePoints& points,
     all.wrong.insert(all.wrong.end(), part.wrong.begin(),
                      part.wrong.begin() + static_cast<std::ptrdiff_t>(std::min(room, part.wrong.size())));
   }
+}
+
+}  // namespace
+
+MaskCheck check_mask(const ExactShadow& exact, const VisiblePoints& points,
+                     std::span<const std::uint8_t> mask, std::span<const std::size_t> pixels,
+                     const StopFlag* stop) {
+  MaskCheck all;
+  for (std::size_t first = 0; first < pixels.size(); first += samples_of_a_round)
+    check_round(exact, points, mask,
+                pixels.subspan(first, std::min(samples_of_a_round, pixels.size() - first)), stop, all);
   return all;
 }
 

@@ -1,4 +1,4 @@
-// A mask that somebody made, held against the exact answers at some of its samples.
+// Checks a computed mask against the exact answers at some of its samples.
 #pragma once
 
 #include <cstddef>
@@ -11,7 +11,7 @@
 
 namespace tenebra::oracle {
 
-/// A sample of which the mask says something else than real arithmetic.
+/// A sample at which the mask differs from real arithmetic.
 struct WrongSample {
   std::size_t pixel = 0;
   std::uint32_t triangle = 0;  ///< that the sample lies on

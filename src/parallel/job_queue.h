@@ -1,4 +1,4 @@
-// Jobs beside the caller's work, one after another, in order: files that are written while the next frame is
+// Runs jobs in order on another thread, beside the caller's work: files are written while the next frame is
 // computed.
 #pragma once
 

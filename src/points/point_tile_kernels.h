@@ -1,4 +1,4 @@
-// What is done to the sixteen points of a tile, sixteen at a time.
+// Kernels for the sixteen points of a tile, all at once.
 #pragma once
 
 #include <cstdint>

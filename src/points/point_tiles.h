@@ -42,7 +42,7 @@ struct ReceiverLanes {
   bool operator==(const ReceiverLanes&) const = default;
 };
 
-/// Sixteen tiles, boxes of q of each. What is said of a tile that is not `filled` means nothing.
+/// Sixteen tiles, boxes of q of each. Values of a tile that is not `filled` mean nothing.
 struct alignas(64) PointSquare {
   float low[3][16], high[3][16];
   std::uint32_t own[16];       ///< id that all points lie on; no_triangle: several
@@ -76,7 +76,7 @@ struct PointPatch {
 
 struct PointTiles {
   std::vector<PointTile>
-      tiles;  ///< sixteen a square, squares row by row; q of those without points as it was
+      tiles;  ///< sixteen to a square, squares row by row; q of those without points as it was
   std::vector<PointBase> bases;  ///< one per square
   std::vector<PointPatch> patches;
   ViewRays view;  ///< whose eye the triangles face
@@ -113,8 +113,8 @@ private:
 
 /// Makes room for the tiles of a picture; patches are then made one by one, in any order.
 void begin_point_tiles(int width, int height, const ViewRays& view, PointTiles& out);
-/// Makes patch `patch` (row of squares * row_patches + part of the row) of points whose ids are there, from
-/// their positions or, where they have none, from their view: the same bits both ways.
+/// Makes patch `patch` (row of squares * row_patches + part of the row) of points whose ids are known, from
+/// their positions or, where these are missing, from their view: the same bits both ways.
 void make_point_patch(const VisiblePoints& points, const TriangleView& triangles, std::uint32_t patch,
                       PointTiles& out);
 /// All of it. `view`: the eye that saw the points.

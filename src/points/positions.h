@@ -1,4 +1,4 @@
-// Positions of visible points for those who read all of them.
+// Positions of visible points for code that reads all of them.
 #pragma once
 
 #include <tenebra/visible_points.h>

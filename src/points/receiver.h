@@ -1,4 +1,4 @@
-// A triangle as what pixels see: where their rays meet it.
+// A triangle that pixels see: where their rays meet it.
 #pragma once
 
 #include <cstdint>

@@ -1,5 +1,5 @@
-// Visible points of samples anywhere within pixels. They stand in a picture of their own, so that whatever
-// takes visible points takes them too.
+// Visible points of samples anywhere within pixels. They are placed in a picture of their own, so that any
+// code for visible points works on them too.
 #pragma once
 
 #include <algorithm>
@@ -12,8 +12,8 @@
 
 namespace tenebra::points {
 
-/// The picture in which `count` samples of a list stand: sixteen that follow each other make a tile of
-/// PointTiles, 256 a square. What belongs together should follow each other.
+/// The picture in which the `count` samples of a list are placed: sixteen that follow each other make a tile
+/// of PointTiles, 256 a square. Samples that belong together should follow each other.
 class SampleGrid {
 public:
   explicit SampleGrid(std::size_t count)

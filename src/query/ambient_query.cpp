@@ -32,7 +32,7 @@ Expected<void> PointTracer::ambient_occlusion(const Geometry& geometry, const Qu
   const parallel::FloatEnvironment ieee;
   query::TracerState& s = *state_;
   if (openness.size() != points.positions.size())
-    return base::fail("ambient occlusion: room for {} values, expected one for each of {} points",
+    return base::fail("ambient occlusion: found room for {} values, expected one for each of {} points",
                       openness.size(), points.positions.size());
   if (auto checked = query::check_points(points, *geometry.data_); !checked) return checked;
   if (auto checked = check_normals(points); !checked) return checked;

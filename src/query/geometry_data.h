@@ -1,4 +1,4 @@
-// What a Geometry holds.
+// The data of a Geometry.
 #pragma once
 
 #include <cstdint>

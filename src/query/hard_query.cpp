@@ -1,5 +1,5 @@
-// Hard masks of points. The eye is at the light: then every point is asked about whose triangle's said side
-// the light is on, and the tracer's own test of sides says the same. Points on the other side are dark.
+// Hard masks of points. The eye is placed at the light: points whose given side the light is on are traced,
+// and the tracer's own test of sides agrees. Points on the other side are dark.
 #include <algorithm>
 #include <cmath>
 
@@ -76,7 +76,7 @@ Expected<void> PointTracer::hard_mask(const Geometry& geometry, const QueryPoint
   const parallel::FloatEnvironment ieee;
   query::TracerState& s = *state_;
   if (mask.size() != points.positions.size())
-    return base::fail("hard mask: room for {} values, expected one for each of {} points", mask.size(),
+    return base::fail("hard mask: found room for {} values, expected one for each of {} points", mask.size(),
                       points.positions.size());
   if (auto checked = check_light(light); !checked) return checked;
   if (auto checked = query::check_points(points, *geometry.data_); !checked) return checked;

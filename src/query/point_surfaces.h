@@ -1,5 +1,4 @@
-// What of a surface is known at query points: the side that a point is on, its normal; and what is wrong with
-// points.
+// The surface at query points: the side that a point is on, and its normal; and checks of the points.
 #pragma once
 
 #include <cstddef>
@@ -25,7 +24,7 @@ inline glm::vec3 normal_of(const QueryPoints& points, std::size_t i) {
 /// Unit, on the counter-clockwise side; zero where the triangle has no area.
 glm::dvec3 face_normal(const TriangleView& triangles, std::uint32_t triangle);
 
-/// The side of its triangle that a point was said to be on: 1, -1, or 0: not said.
+/// The side of its triangle that a point was said to be on: 1, -1, or 0: not given.
 int said_side(const QueryPoints& points, std::size_t i, const TriangleView& triangles);
 
 }  // namespace tenebra::query

@@ -1,6 +1,6 @@
 // Soft shadows of points. A tracer sees triangles from an eye; here each point says on which side of its
 // triangle it is. So the eye is a vertex of the light that is on that side: the light's first, and for the
-// few points whose planes cut the light the next that will do, in a pass of its own. A light without such a
+// few points whose planes cut the light the next suitable one, in a pass of its own. A light without such a
 // vertex is below the point's horizon. The vertices of a sun are directions, so its eyes are infinitely far.
 #include "points/triangle_corners.h"
 #include "query/tracer_state.h"
@@ -66,8 +66,9 @@ Expected<void> PointTracer::soft_visibility(const Geometry& geometry, const Quer
   const std::size_t count = points.positions.size();
   for (const std::span<float>& out : {visible_fraction, irradiance})
     if (!out.empty() && out.size() != count)
-      return base::fail("soft visibility: room for {} values, expected one for each of {} points, or none",
-                        out.size(), count);
+      return base::fail(
+          "soft visibility: found room for {} values, expected one for each of {} points, or none",
+          out.size(), count);
   const std::size_t corners = light.polygon.size();
   if (corners < 3 || corners >= no_eye || (!light.at_infinity && light.vertices.size() != corners))
     return base::fail("light: found {} vertices, expected one made by make_area_light or make_sun",

@@ -1,6 +1,6 @@
 // The triangles of a geometry, and after them stand-ins: small triangles that cast no shadow, one for each
-// point that lies on none, so that it is asked about as any visible point is. And the same as a scene, for
-// ambient occlusion: what stands, and the stand-ins as a mesh that deforms, so that no tree holds them.
+// point that lies on none, so that it can be treated like any visible point. The same as a scene, for ambient
+// occlusion, has the static triangles, and the stand-ins as a mesh that deforms, so that no tree holds them.
 #pragma once
 
 #include <cstddef>

@@ -1,4 +1,4 @@
-// What a PointTracer keeps between calls, and what its three questions share.
+// The state of a PointTracer between calls, shared by its three kinds of questions.
 #pragma once
 
 #include <cstdint>
@@ -34,7 +34,7 @@ struct TracerState {
   std::uint64_t version = 0;   ///< another for each geometry and each of its moves
   std::uint64_t occluded = 0;  ///< the version that `ambient` knows
 
-  /// Whether this is not what the last call was about.
+  /// Whether this differs from the geometry of the last call.
   bool follow(const Data& data) {
     if (followed == data && revision == data->revision) return false;
     followed = data, revision = data->revision;

@@ -1,4 +1,4 @@
-// What a pass does before and after it draws. Internal to raster.
+// Set-up and clean-up of a pass. Internal to raster.
 #pragma once
 
 #include "gl/objects.h"

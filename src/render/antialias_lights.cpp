@@ -1,5 +1,5 @@
-// The stage of anti-aliasing that finds what is left of the lights at further samples: their own, or that of
-// pixels' centres nearby that see the same surface.
+// The stage of anti-aliasing that finds the light at further samples: their own, or that of nearby pixels'
+// centres that see the same surface.
 #include <algorithm>
 
 #include "base/fail.h"

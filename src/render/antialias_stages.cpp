@@ -1,5 +1,5 @@
-// The stages of anti-aliasing: what further samples of some pixels see, their lights and their colours, by
-// the same calls as those of the pixels' centres, and the means.
+// The stages of anti-aliasing: the ids, lights and colours of further samples of some pixels, by the same
+// calls as for the pixels' centres, and the means.
 #include <algorithm>
 
 #include "base/fail.h"

@@ -1,4 +1,4 @@
-// What a frame knows of the surfaces that are seen, made of what its stages left: ids, what is left of each
+// Data about the visible surfaces of a frame, made from the results of its stages: ids, the light of each
 // light, and openness. The picture is made before and keeps its bits.
 #include <algorithm>
 #include <glm/gtc/constants.hpp>

@@ -1,6 +1,5 @@
-// What a frame knows of the surfaces that are seen, beside their colours: pictures for compositing and
-// denoising. FrameResult has them for whoever calls Renderer, and OpenEXR files (--aov) are written from
-// them.
+// Data about the visible surfaces in addition to their colours: pictures for compositing and denoising.
+// FrameResult has them for callers of Renderer, and OpenEXR files (--aov) are written from them.
 #pragma once
 
 #include <cstdint>
@@ -10,7 +9,7 @@
 
 namespace tenebra::render {
 
-/// Which of them are wanted. What is not costs neither time nor memory.
+/// Which of them are wanted. The others cost neither time nor memory.
 struct AovChoice {
   bool depth = false;
   bool ids = false;

@@ -11,7 +11,7 @@
 namespace tenebra::render {
 namespace {
 
-/// Puts what the light's back sends where only that is seen.
+/// Writes the light of the light's back where only that is seen.
 void add_back(const VisiblePoints& points, const AreaLight& front, const AreaSide& back, AreaSide& out) {
   for (std::size_t i = 0; i < points.triangles.size(); ++i) {
     if (points.triangles[i] == no_triangle ||

@@ -20,7 +20,7 @@ struct EmissivePolygon {
 
 /// The parts of visible meshes with an emissive material, one per node and material in their order. A part
 /// shines if its triangles make one planar convex polygon of at most 14 corners without overlap, all turned
-/// to one side; the others are named in `notes`, a sentence each.
+/// to one side; the others are named in `notes`, one sentence each.
 std::vector<EmissivePolygon> emissive_polygons(const Scene& scene, const FrameGeometry& geometry,
                                                std::vector<std::string>& notes);
 

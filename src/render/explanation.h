@@ -1,4 +1,4 @@
-// Why is it dark? What one pixel sees, and for each light what stands in its way.
+// Why is it dark? What one pixel sees, and for each light what is in its way.
 #pragma once
 
 #include <optional>
@@ -11,7 +11,7 @@
 
 namespace tenebra::render {
 
-/// A pixel of a frame, and what the frame was made of.
+/// A pixel of a frame, and the data that the frame was made from.
 struct PixelQuestion {
   const Scene& scene;             ///< for its nodes: as the frame's
   const FrameGeometry& geometry;  ///< of the frame, its see-through surfaces cast as the settings say
@@ -41,7 +41,7 @@ struct LightExplanation {
   /// sample does not shine on it.
   bool faces_shading = true;
   std::optional<float> visible_fraction;  ///< of a light with an area, 0 to 1: the mask's
-  /// What stands in the way: the first triangle on the way to the light; of lights with an area the one that
+  /// What is in the way: the first triangle on the way to the light; of lights with an area the one that
   /// comes first on most of `asked` ways to points spread over it. None where every way is free.
   std::optional<TrianglePlace> occluder;
   glm::dvec3 met_at{0.0};  ///< where the way meets it

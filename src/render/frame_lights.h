@@ -24,8 +24,8 @@ bool has_areas(const std::vector<DrawnLight>& lights);
 bool shines_behind(const DrawnLight& light);
 
 /// The lights of `input` that `settings` asks for, with polygons in soft mode. Lights that keep hard shadows
-/// there and emissive meshes that are no lights are named in `notes`, a sentence each. Fails on a number that
-/// the frame does not have.
+/// there and emissive meshes that are no lights are named in `notes`, one sentence each. Fails on a number
+/// that the frame does not have.
 Expected<std::vector<DrawnLight>> drawn_lights(const Scene& scene, const FrameInput& input,
                                                const RenderSettings& settings,
                                                std::vector<std::string>& notes);

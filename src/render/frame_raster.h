@@ -1,4 +1,4 @@
-// What finds the triangle that each pixel sees: OpenGL, or the CPU where OpenGL is software or missing.
+// Finds the triangle that each pixel sees: by OpenGL, or by the CPU where OpenGL is software or missing.
 #pragma once
 
 #include <memory>

@@ -1,4 +1,5 @@
 // The stages of a frame: ids, points, ambient occlusion, lights, colours.
+#include <algorithm>
 #include <cstring>
 
 #include "base/fail.h"
@@ -48,14 +49,16 @@ Expected<void> Renderer::State::find_ids(const FrameInput& input, const RenderSe
   return raster.draw(input.geometry, input.view, wish, seen, timings);
 }
 
-void Renderer::State::find_points(const FrameInput& input, const RenderSettings& settings,
-                                  FrameTimings& timings) {
+void Renderer::State::find_points(const FrameInput& input, const std::vector<DrawnLight>& lights,
+                                  const RenderSettings& settings, FrameTimings& timings) {
   base::Stopwatch watch;
   const bool exact = settings.samples == SampleSource::ids;
-  const bool traced = settings.shadows == ShadowMode::hard ||
-                      (settings.shadows == ShadowMode::soft && settings.soft_points > 0);
+  const auto areas =
+      std::count_if(lights.begin(), lights.end(), [](const auto& light) { return light.area; });
+  const bool others = settings.shadows != ShadowMode::none && std::ssize(lights) > areas;
+  const bool traced = others || (areas > 0 && settings.soft_points > 0);
   const bool tiled = traced && settings.hard.variant == Variant::tiles;
-  const bool shaded = settings.shadows == ShadowMode::soft || settings.ao.mode != AoMode::none;
+  const bool shaded = areas > 0 || settings.ao.mode != AoMode::none;
   const bool positions = shaded || !tiled || !input.geometry.see_through.empty();
   const TriangleView triangles = triangle_view(input.geometry);
   const PointLayout layout = !tiled      ? PointLayout::rows

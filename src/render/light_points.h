@@ -1,5 +1,6 @@
-// Area lights as a few points, each with exact hard shadows: the quick stand-in for the exact soft shadows.
-// Without noise, but a penumbra has as many steps as there are points; docs/trade.md says how far it is off.
+// Area lights as a few points, each with exact hard shadows: a quick replacement for exact soft shadows.
+// There is no noise, but a penumbra has as many steps as there are points; docs/trade.md says how far off it
+// is.
 #pragma once
 
 #include <array>

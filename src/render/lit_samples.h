@@ -1,4 +1,4 @@
-// Samples and what is left of each light at them.
+// Samples and the light that reaches them from each light.
 #pragma once
 
 #include <cstdint>
@@ -30,7 +30,7 @@ struct LitSamples {
   std::vector<shade::LightFactors> factors() const;
 };
 
-/// What is left of the lights at some of those samples, one after another.
+/// The light that reaches some of those samples, one after another.
 class GatheredFactors {
 public:
   GatheredFactors(std::span<const shade::LightFactors> from, std::span<const std::uint32_t> samples);

@@ -1,4 +1,4 @@
-// A light's mask as values: fractions, levels, and times what see-through surfaces leave of its colours.
+// A light's mask as values: fractions, levels, and levels times the tint of see-through surfaces.
 #pragma once
 
 #include <cstddef>

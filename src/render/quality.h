@@ -18,8 +18,8 @@ inline constexpr std::array qualities{Quality::fast, Quality::balanced, Quality:
 std::string_view quality_name(Quality quality);  ///< "fast"
 std::optional<Quality> quality_from_name(std::string_view name);
 
-/// What a preset sets. Hard shadows are exact in all of them: what inexact settings save is little beside
-/// what they get wrong (docs/trade.md).
+/// What a preset sets. Hard shadows are exact in all of them: inexact settings save little compared with
+/// their errors (docs/trade.md).
 struct QualitySettings {
   double soft_error = 0;  ///< SoftShadowConfig::error_255
   double ao_error = 2.5;  ///< AoConfig::error_255

@@ -50,7 +50,7 @@ Expected<void> check_ids(std::span<const std::uint32_t> ids, const RenderSetting
     return base::fail("ids that were handed in: found {}, expected {}x{}", ids.size(), settings.width,
                       settings.height);
   if (settings.antialias != 1 || settings.samples != SampleSource::ids)
-    return base::fail("ids that were handed in: expected one sample a pixel, from ids");
+    return base::fail("ids that were handed in: expected one sample per pixel, from ids");
   return {};
 }
 
@@ -146,7 +146,7 @@ Expected<void> Renderer::render_frame(const FrameInput& given, const RenderSetti
   if (auto drawn = s.find_ids(input, settings, timings); !drawn) return drawn;
   const bool occlusion = settings.ao.mode != AoMode::none;
   const bool shadows = settings.shadows != ShadowMode::none && !lights->empty();
-  if (shadows || occlusion) s.find_points(input, settings, timings);
+  if (shadows || occlusion) s.find_points(input, *lights, settings, timings);
   if (occlusion) {
     if (auto done = s.occlude_ambient(input, settings, result, progress, stop); !done) return done;
   }

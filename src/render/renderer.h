@@ -1,4 +1,4 @@
-// The whole frame: what is seen and shadow masks in the order of the 2011 paper's section 3.1.
+// The whole frame: visible triangles and shadow masks, in the order of the 2011 paper's section 3.1.
 #pragma once
 
 #include <cstdint>
@@ -36,7 +36,7 @@ enum class SampleSource { ids, depth };
 /// below one by one, or along the smooth surface that their normals describe. Its points are then lifted to
 /// it (lift_visible_points), and the masks are exact for the lifted points.
 enum class Terminator { flat, smooth };
-/// How the rectangles shine that are made of point and spot lights.
+/// How the rectangles made from point and spot lights shine.
 enum class LightEmission {
   lambert,  ///< to one side, with the light's intensity straight ahead: less by the cosine elsewhere
   point     ///< with the light's intensity in every direction, to both sides: as bright as with hard shadows
@@ -65,7 +65,7 @@ struct RenderSettings {
   Terminator terminator = Terminator::flat;  ///< smooth needs SampleSource::ids; else it is flat
   HardShadowConfig hard;
   SoftShadowConfig soft;
-  int soft_points = 0;  ///< soft mode: 0: as soft.error_255 says; else area lights are so many points
+  int soft_points = 0;  ///< soft mode: 0: as soft.error_255 says; else area lights are this many points
                         ///< (render/light_points.h)
   AreaLightSettings area_lights;
   SeeThrough see_through =

@@ -88,8 +88,9 @@ struct Renderer::State {
 
   /// What each pixel sees.
   Expected<void> find_ids(const FrameInput& input, const RenderSettings& settings, FrameTimings& timings);
-  /// Visible points and, for soft shadows and occlusion, their normals.
-  void find_points(const FrameInput& input, const RenderSettings& settings, FrameTimings& timings);
+  /// Visible points and, for lights with an area and occlusion, their normals.
+  void find_points(const FrameInput& input, const std::vector<DrawnLight>& lights,
+                   const RenderSettings& settings, FrameTimings& timings);
   void points_from_depth(const ViewRays& view);
   /// Visible points lifted to the smooth surfaces, and the normals of the points before.
   void find_lifted_points(const FrameInput& input, PointLayout layout, bool shaded);

@@ -68,7 +68,7 @@ bool EyeTint::trace(const VisiblePoints& opaque, const LitSamples& layer, const 
   SeeThroughSurfaces every = surfaces;
   every.see_through = all_;
   lit_.resize(opaque.triangles.size());
-  // Where the layer has no sample, nothing see-through stands before what is opaque.
+  // Where the layer has no sample, nothing see-through is in front of the opaque surface.
   for (std::size_t i = 0; i < lit_.size(); ++i)
     lit_[i] = opaque.triangles[i] != no_triangle && layer.points.triangles[i] != no_triangle ? 255 : 0;
   ShadowLight eye;

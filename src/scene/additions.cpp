@@ -1,4 +1,4 @@
-// What is added to a scene that lacks a camera or a light, and what is taken out of its casters.
+// Adds a camera or a light to a scene that lacks one, and takes casters out.
 #include <fmt/core.h>
 
 #include <algorithm>

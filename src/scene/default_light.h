@@ -1,4 +1,5 @@
-// The light of scenes that have none: a sun and a soft sky. No unit: what a white diffuse surface shows.
+// The light of scenes that have none: a sun and a soft sky. Values have no unit: they are what a white
+// diffuse surface shows.
 #pragma once
 
 #include "base/image.h"

@@ -1,4 +1,4 @@
-// A camera for a scene that has none: near, with all of the subject in the picture, and some of its shadow.
+// A camera for a scene that has none: nearby, with all of the subject in the picture, and some of its shadow.
 #pragma once
 
 #include <glm/glm.hpp>

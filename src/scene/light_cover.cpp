@@ -217,8 +217,8 @@ void leave_out_covers(Scene& scene) {
                                                 : fmt::format("light {} ({})", number, light.name);
     if (!cover.is_sky) {
       scene.warnings.push_back(fmt::format(
-          "{} hides {} from everything else: nothing else is lit by it, until --no-cast leaves it out.", what,
-          whom));
+          "{} hides {} from everything else: nothing else is lit by it, unless --no-cast leaves it out.",
+          what, whom));
       continue;
     }
     light.left_out_nodes.push_back(cover.node);

@@ -1,4 +1,4 @@
-// What hides a light from everything else in a scene: a sky between the city and its sun.
+// Finds meshes that hide a light from everything else in a scene: a sky between the city and its sun.
 #pragma once
 
 #include <span>

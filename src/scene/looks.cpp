@@ -46,9 +46,8 @@ void leave_out_blank_emission(Scene& scene) {
   for (Material& material : scene.materials)
     if (is_blank(material)) material.emissive = glm::vec3(0.0f);
   scene.warnings.push_back(
-      "Every surface shines white by an emissive factor of 1, 1, 1 without a texture, as where a texture was "
-      "lost: "
-      "none of them shines.");
+      "Every surface has an emissive factor of 1, 1, 1 without a texture, as if a texture was lost: the "
+      "emission is left out.");
 }
 
 }  // namespace tenebra::scene

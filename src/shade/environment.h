@@ -1,5 +1,5 @@
-// What stands around a scene, from an equirectangular picture: seen behind everything, mirrored by gloss, and
-// the light that comes from all sides.
+// The surroundings of a scene, from an equirectangular picture: seen behind everything, mirrored by gloss,
+// and the source of light from all sides.
 #pragma once
 
 #include "base/image.h"

@@ -1,6 +1,6 @@
 // Specular reflection at sixteen samples: Phong's and GGX's lobes, and the surroundings' mirror image. The
-// formulas stand in docs/materials.md. Nothing is fused: the same bits on every instruction set. Included
-// once per target.
+// formulas are in docs/materials.md. Nothing is fused: the same bits on every instruction set. Included once
+// per target.
 #if defined(TENEBRA_SHADE_GLOSS_INL_H_) == defined(HWY_TARGET_TOGGLE)
 #ifdef TENEBRA_SHADE_GLOSS_INL_H_
 #undef TENEBRA_SHADE_GLOSS_INL_H_

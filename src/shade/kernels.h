@@ -1,4 +1,4 @@
-// What is done to a block of samples, sixteen at a time. Internal to shade.
+// Kernels for a block of samples, sixteen at a time. Internal to shade.
 #pragma once
 
 #include <tenebra/simd_level.h>

@@ -25,7 +25,7 @@ glm::vec3 scaled_color(const PlacedLight& drawn) {
   return light.falloff == Falloff::inverse_square ? color / glm::pi<float>() : color;
 }
 
-/// What the distance is raised to.
+/// The exponent of the distance.
 int power_of_distance(const Light& light, bool by_irradiance) {
   if (light.type == LightType::directional) return 0;
   const int of_point = light.falloff == Falloff::inverse_square ? -2 : 0;

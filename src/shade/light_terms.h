@@ -20,14 +20,15 @@ struct PlacedLight {
   const AreaLight* area = nullptr;
 };
 
-/// What see-through surfaces leave of a light's red, green and blue at each sample; empty: all of it.
+/// The shares of a light's red, green and blue that see-through surfaces let pass at each sample; empty: all
+/// of it.
 struct TintFactors {
   static constexpr std::size_t run = 64;
   std::span<const glm::vec3> factors;
   std::span<const std::uint8_t> coloured;  ///< one for each `run` samples: 0 where all are white
 };
 
-/// What is left of a light at each sample.
+/// How much of a light reaches each sample.
 struct LightFactors {
   std::span<const std::uint8_t> mask;  ///< without area: 255 lit to 0 dark; empty: all lit
   std::span<const float> irradiance;   ///< with an area: of a light of radiance 1

@@ -1,6 +1,6 @@
-// What samples of a view look like: from triangle ids, lights, what is left of each light (masks, irradiance)
-// and openness to linear colours, and on to the 8 bits of a picture. One pass; no OpenGL. The bits do not
-// depend on the number of threads or the instruction set.
+// What samples of a view look like: from triangle ids, lights, shadows (masks, irradiance) and openness to
+// linear colours, and on to the 8 bits of a picture. One pass; no OpenGL. The bits do not depend on the
+// number of threads or the instruction set.
 #pragma once
 
 #include <cstdint>
@@ -18,7 +18,7 @@
 
 namespace tenebra::shade {
 
-/// One instant, seen from one place. Refers to what it is made of.
+/// One instant, seen from one place. Refers to its data, which must live as long.
 struct Subject {
   const FrameGeometry& geometry;
   const ViewRays& view;
@@ -46,7 +46,8 @@ struct Samples {
 };
 
 /// A sample's linear colour, before exposure: ambient * ambient_light * openness + emissive + the sum of
-/// light * mask / 255 or light * irradiance over the lights; docs/materials.md has what reflects how.
+/// light * mask / 255 or light * irradiance over the lights; docs/materials.md has the formulas of
+/// reflection.
 struct ShadedSample {
   glm::vec3 color{0.0f};
   float alpha = 1;  ///< share of the surface that is there (AlphaMode::blend, mask)

@@ -1,4 +1,4 @@
-// The materials of a scene, their textures and what they need of each vertex, as shading reads them.
+// The materials of a scene, their textures and the vertex data that they need, as shading reads them.
 #pragma once
 
 #include <algorithm>
@@ -50,7 +50,7 @@ struct CoordinatePlane {
   glm::vec2 first{0.0f}, by_second{0.0f}, by_third{0.0f};
 };
 
-/// Made once a scene.
+/// Made once for each scene.
 class SurfaceTable {
 public:
   SurfaceTable() = default;

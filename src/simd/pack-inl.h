@@ -1,6 +1,6 @@
 // N lanes of T on whatever vector registers the target has: one register, several, or emulation. Everything
-// that names a vector register stands here and in pack_lanes-inl.h (what moves lanes about, or changes their
-// type); kernels are written in terms of Pack. Included once per target, as Highway's foreach_target asks.
+// that names a vector register is here and in pack_lanes-inl.h (code that moves lanes or changes their type);
+// kernels are written in terms of Pack. Included once per target, as Highway's foreach_target asks.
 #if defined(TENEBRA_SIMD_PACK_INL_H_) == defined(HWY_TARGET_TOGGLE)
 #ifdef TENEBRA_SIMD_PACK_INL_H_
 #undef TENEBRA_SIMD_PACK_INL_H_
@@ -29,7 +29,7 @@ namespace hn = hwy::HWY_NAMESPACE;
 template <class T, int N>
 struct Pack {
   using Tag = hn::CappedTag<T, N>;
-  static constexpr int width = static_cast<int>(hn::MaxLanes(Tag()));  ///< lanes a register
+  static constexpr int width = static_cast<int>(hn::MaxLanes(Tag()));  ///< lanes in a register
   static constexpr int registers = N / width;
   hn::Vec<Tag> r[registers];
 };
@@ -180,7 +180,8 @@ SIMD_INLINE Mask<T, N> operator&(Mask<T, N> a, Mask<T, N> b) {
   for (int i = 0; i < Pack<T, N>::registers; ++i) a.r[i] = hn::And(a.r[i], b.r[i]);
   return a;
 }
-/// Bit i is lane i. Costs a trip through memory on some targets: once a decision, not once a comparison.
+/// Bit i is lane i. Goes through memory on some targets: use it once for each decision, not for each
+/// comparison.
 template <class T, int N>
 SIMD_INLINE std::uint32_t bits(Mask<T, N> a) {
   using P = Pack<T, N>;

@@ -1,5 +1,5 @@
-// What moves the lanes of packs about, or changes their type: permuted, gathered, compressed, interleaved,
-// widened, narrowed. Included once per target.
+// Code that moves the lanes of packs or changes their type: permute, gather, compress, interleave, widen,
+// narrow. Included once per target.
 #if defined(TENEBRA_SIMD_PACK_LANES_INL_H_) == defined(HWY_TARGET_TOGGLE)
 #ifdef TENEBRA_SIMD_PACK_LANES_INL_H_
 #undef TENEBRA_SIMD_PACK_LANES_INL_H_

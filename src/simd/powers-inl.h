@@ -1,5 +1,5 @@
-// Logarithms and powers of two at sixteen values, and what they are written with. Nothing is fused: the same
-// bits on every instruction set. Included once per target.
+// Logarithms and powers of two of sixteen values, and the functions that they need. Nothing is fused: the
+// same bits on every instruction set. Included once per target.
 #if defined(TENEBRA_SIMD_POWERS_INL_H_) == defined(HWY_TARGET_TOGGLE)
 #ifdef TENEBRA_SIMD_POWERS_INL_H_
 #undef TENEBRA_SIMD_POWERS_INL_H_

@@ -1,4 +1,4 @@
-// Asks memory for what is needed in a while. Any address will do: a wrong one costs time, nothing else.
+// Prefetches memory that will be needed soon. Any address is allowed: a wrong one only costs time.
 #pragma once
 
 #include <hwy/cache_control.h>

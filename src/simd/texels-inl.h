@@ -1,4 +1,4 @@
-// Sixteen pictures' places, and the four values of each pixel of them. Included once per target.
+// Places in sixteen pictures, and the four values of each pixel there. Included once per target.
 #if defined(TENEBRA_SIMD_TEXELS_INL_H_) == defined(HWY_TARGET_TOGGLE)
 #ifdef TENEBRA_SIMD_TEXELS_INL_H_
 #undef TENEBRA_SIMD_TEXELS_INL_H_

@@ -29,8 +29,8 @@ constexpr base::Names<SoftSolver, 3> solver_names = {{
 constexpr std::size_t many_candidates = 1024;
 static_assert(soft::largest_family <= soft::FamilyCandidates::most_groups);
 
-/// What one thread keeps: its solver, of the family at hand the groups that need it, and of all families
-/// those that look at places on the light in the end.
+/// The state of one thread: its solver, the groups of the current family that need it, and the groups of all
+/// families that are sampled at places on the light in the end.
 struct alignas(64) Worker {
   std::unique_ptr<soft::GroupSolver> solver;
   std::vector<std::span<const std::uint32_t>> lit;  ///< pixels of each
@@ -176,7 +176,7 @@ bool SoftShadowTracer::State::sample(const soft::SoftFrame& frame, const AreaLig
   return done;
 }
 
-/// Groups that sampling left alone, exactly. What may stand before them is found once more.
+/// Solves groups that sampling left alone, exactly. Their candidates are found once more.
 bool SoftShadowTracer::State::solve_left(const soft::SoftFrame& frame, const TriangleView& triangles,
                                          const AreaLight& light, std::span<const std::uint32_t> left) {
   if (left.empty()) return true;
@@ -196,7 +196,7 @@ bool SoftShadowTracer::State::solve_left(const soft::SoftFrame& frame, const Tri
       });
 }
 
-/// What the threads counted since the last time.
+/// The threads' counts since the last time.
 void SoftShadowTracer::State::gather() {
   const double threads = std::max<double>(1, static_cast<double>(workers.size()));
   std::uint64_t tree_bytes = 0;  // a thread holds one tree at a time

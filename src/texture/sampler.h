@@ -1,4 +1,4 @@
-// What pixels of the screen see of a texture, sixteen at a time.
+// The part of a texture that pixels of the screen see, sixteen at a time.
 #pragma once
 
 #include <cstddef>

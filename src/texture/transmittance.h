@@ -1,4 +1,5 @@
-// What share of light passes a see-through surface: one formula for shadows, ambient occlusion and pictures.
+// The share of light that passes a see-through surface: one formula for shadows, ambient occlusion and
+// pictures.
 #pragma once
 
 #include <glm/glm.hpp>
@@ -16,10 +17,10 @@ namespace tenebra::texture {
 glm::vec3 transmittance(const Material& material, const glm::vec4& base, float transmission,
                         const glm::vec4& vertex);
 
-/// Whether the two textures have a say in it.
+/// Whether the two textures affect it.
 bool uses_base_map(const Scene& scene, const Material& material);
 bool uses_transmission_map(const Scene& scene, const Material& material);
-/// Whether the vertices' colours have a say in it.
+/// Whether the vertices' colours affect it.
 bool uses_vertex_colors(const Material& material);
 
 /// The same at texture coordinates `uv` (both sets) and a vertex colour. Textures bilinear as stored, then

@@ -14,7 +14,7 @@ namespace {
 
 using glm::dvec3;
 
-/// What the tiles of a light share.
+/// Data that the tiles of a light share.
 struct Frame {
   const VisiblePoints& points;
   const points::PointTiles& tiles;

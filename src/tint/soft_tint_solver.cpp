@@ -198,7 +198,7 @@ private:
     next_factors_.resize(next_.size(), factor);
   }
 
-  /// Fills found_ with what the opaque casters and the horizon leave of a part of the light.
+  /// Fills found_ with the rest of a part of the light after the opaque casters and the horizon.
   void find_visible(const Polygon& part) {
     clip_.query(part, found_);
     if (!task_->group.silhouette.empty() && !found_.empty()) {

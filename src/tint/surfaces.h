@@ -1,4 +1,4 @@
-// The see-through triangles at hand, and what each lets pass.
+// The see-through triangles of a frame, and the share of light that each lets pass.
 #pragma once
 
 #include <cstdint>

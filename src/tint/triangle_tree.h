@@ -1,4 +1,4 @@
-// A tree of boxes, eight children a node, over the see-through triangles.
+// A tree of boxes, eight children to a node, over the see-through triangles.
 #pragma once
 
 #include <cstdint>

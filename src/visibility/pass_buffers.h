@@ -1,4 +1,4 @@
-// What a visibility pass keeps from drawing to drawing. Internal to visibility.
+// Buffers of a visibility pass, kept from drawing to drawing. Internal to visibility.
 #pragma once
 
 #include <vector>

@@ -1,4 +1,4 @@
-// What the pixels of a picture see at several places within them.
+// The ids that the pixels of a picture see at several places within them.
 #pragma once
 
 #include <cstddef>

@@ -1,5 +1,5 @@
 // Several places of all pixels at once: triangles are set up and sorted into tiles once, and blocks of pixels
-// that one triangle covers are done with it.
+// that one triangle covers are finished with that triangle.
 #include <algorithm>
 #include <cmath>
 

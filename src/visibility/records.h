@@ -1,4 +1,4 @@
-// What the stages of a drawing hand on: vertices in the window, triangles set up, triangles in a tile.
+// Data passed between the stages of a drawing: vertices in the window, triangles set up, triangles in a tile.
 // Internal to visibility.
 #pragma once
 

@@ -1,4 +1,4 @@
-// A view in double: where world positions are in the window, and what rounding may do to that. Internal to
+// A view in double: where world positions are in the window, and bounds on the rounding. Internal to
 // visibility.
 #pragma once
 

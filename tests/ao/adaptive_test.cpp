@@ -1,4 +1,5 @@
-// Adaptive occlusion: what was asked for is met, what is estimated is true, and where other ways went wrong.
+// Adaptive occlusion: the error asked for is met, the estimate is right, and cases where other methods
+// failed.
 #include <tenebra/ambient_occlusion.h>
 #include <tenebra/threads.h>
 

@@ -1,4 +1,5 @@
-// Memory of fields and surface samples: within what was asked for, and what the disk knows is not made again.
+// Memory of fields and surface samples: within the bound that was asked for, and samples on disk are not made
+// again.
 #include <tenebra/ambient_occlusion.h>
 
 #include "ao/cache/memory_budget.h"

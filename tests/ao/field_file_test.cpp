@@ -1,4 +1,4 @@
-// Fields on disk: what was saved comes back bit for bit; whatever else lies there is refused with a sentence.
+// Fields on disk: a saved field comes back bit for bit; any other file there is refused with a sentence.
 #include "ao/field/field_file.h"
 
 #include <gtest/gtest.h>

@@ -1,5 +1,5 @@
-// Looking fields up: what is found lies where the object is, on every instruction set, under every transform,
-// from outside, on and inside the sphere, and whatever the ray.
+// Looking fields up: hits lie where the object is, on every instruction set, under every transform, from
+// outside, on and inside the sphere, and whatever the ray.
 #include "ao/field/field_lookup.h"
 
 #include <gtest/gtest.h>

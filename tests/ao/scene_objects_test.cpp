@@ -1,4 +1,4 @@
-// What moves as one, what shares a shape, and what is left to rays.
+// Which triangles move as one, which objects share a shape, and which geometry is left to rays.
 #include "ao/objects/scene_objects.h"
 
 #include "ao_case.h"

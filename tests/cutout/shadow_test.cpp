@@ -81,9 +81,9 @@ void compare(const char* name, Scene card) {
   MaskCase c;
   c.soup.positions = cut.meshes[0].positions;
   c.soup.triangles = cut.meshes[0].triangles;
-  c.soup.casts.assign(c.soup.triangles.size(), 1);
   const auto floor = static_cast<std::uint32_t>(c.soup.triangles.size());
   c.soup.quad({-1, 0, -1}, {0, 0, 3}, {3, 0, 0});
+  c.soup.casts.assign(c.soup.triangles.size(), 1);
   c.light = {.position = {0.4f, 2.5f, 0.3f}};
   constexpr int size = 256;
   c.view = pinhole({0.5, 1.7, 3.2}, {0.5, 0, 0.4}, 0.5, size, size);

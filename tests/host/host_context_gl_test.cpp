@@ -1,5 +1,4 @@
-// A host's textures, read in its context: what is there, what is refused, and that nothing of the host's
-// changes.
+// A host's textures, read in its context: their contents, refusals, and that nothing of the host's changes.
 #include <glad/gl.h>
 #include <tenebra/host_frame.h>
 

@@ -1,4 +1,5 @@
-// Own points and triangles: what the tracers say of the same points, known answers, and sentences.
+// Points and triangles of the caller's own: the tracers' answers for the same points, known answers, and
+// sentences.
 #include <gtest/gtest.h>
 
 #include <tenebra/queries.h>

@@ -1,5 +1,6 @@
 // Frames with ambient occlusion: it darkens the ambient term where geometry stands close, and nothing else.
 #include "render/render_fixture.h"
+#include "support/parameter_names.h"
 
 namespace tenebra {
 namespace {

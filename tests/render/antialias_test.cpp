@@ -131,7 +131,7 @@ TEST(Antialias, CentresKeepTheirMasksAndFewPixelsAreRefined) {
   }
 }
 
-// The mean of pictures of shifted views, each with one sample a pixel: none of the stages of anti-aliasing.
+// The mean of pictures of shifted views, each with one sample per pixel: none of the stages of anti-aliasing.
 TEST(Antialias, EverywhereIsTheMeanOfShiftedPictures) {
   const Scene scene = sunny_floor();
   for (const int samples : {2, 4, 16}) {

@@ -1,4 +1,4 @@
-// What a frame gives beside its picture, each against what geometry says of a floor below a plate and a lamp.
+// AOVs of a frame, each against the geometry of a floor below a plate and a lamp.
 #include "render/render_fixture.h"
 
 namespace tenebra {

@@ -1,4 +1,4 @@
-// Many frames of a moving scene in one process: what it holds does not grow once it has seen every frame.
+// Many frames of a moving scene in one process: its memory does not grow once it has seen every frame.
 #include <gtest/gtest.h>
 
 #include <unistd.h>

@@ -13,6 +13,7 @@
 #include <set>
 #include <sstream>
 
+#include "render/log/stage_sets.h"
 #include "render/log/trace_json.h"
 #include "support/killed_writer.h"
 #include "support/temporary_folder.h"
@@ -64,8 +65,35 @@ TEST(FrameLog, HasAColumnForEveryValueOfAFrame) {
   const auto names = split(render::frame_log_header());
   constexpr std::size_t aliases = 1;    // soft_points_outline, until 0.3
   constexpr std::size_t of_record = 5;  // frame, time_s, soft_error, ao_error, tries
-  EXPECT_EQ(names.size(), values + of_record + aliases);
+  EXPECT_EQ(names.size(), values + of_record + aliases + render::list_columns.size());
   EXPECT_EQ(std::set<std::string>(names.begin(), names.end()).size(), names.size()) << "no name twice";
+}
+
+TEST(FrameLog, SaysWhichStagesTheSettingsAskedForAndTheFrameDidNotNeed) {
+  render::RenderSettings settings;
+  settings.shadows = render::ShadowMode::soft;
+  settings.antialias = 4;
+  render::FrameRecord record;
+  record.asked = render::asked_stages(settings, false);
+  record.timings.evaluate_ms = record.timings.raster_ms = record.timings.composite_ms = 1;
+  record.timings.points_ms = record.timings.rays_ms = record.timings.build_ms = 1;
+  record.timings.traverse_ms = record.timings.writeback_ms = record.timings.antialias_ms = 1;
+  EXPECT_TRUE(render::frame_log_row(record).ends_with(
+      ",shaft init query irradiance tint layer,"
+      "evaluate raster points rays build traverse writeback composite antialias"))
+      << render::frame_log_row(record);
+
+  EXPECT_EQ(render::stage_names(render::asked_stages({}, true)),
+            "evaluate raster readback points rays build traverse tint writeback composite layer");
+  settings = {};
+  settings.hard.variant = Variant::precise_seatp;
+  settings.see_through = SeeThrough::cast;
+  settings.ao.mode = AoMode::field;
+  EXPECT_EQ(render::stage_names(render::asked_stages(settings, false)),
+            "evaluate raster points ao_build ao rays sort build traverse writeback composite layer");
+  settings.shadows = render::ShadowMode::none;
+  settings.ao.mode = AoMode::none;
+  EXPECT_EQ(render::stage_names(render::asked_stages(settings, false)), "evaluate raster composite layer");
 }
 
 TEST(FrameLog, ReadsBackAsASpreadsheetDoes) {

@@ -1,4 +1,5 @@
-// Only what a scene requires: what is skipped, and that the picture is the same bits as if it were not.
+// Only what a scene requires: which work is skipped, and that the picture has the same bits as if it were
+// not.
 #include <array>
 
 #include "formats/import_scene.h"

@@ -1,4 +1,4 @@
-// What is shaded of pixels that have several samples.
+// Which samples are shaded for pixels that have several.
 #include "render/antialias/shading_list.h"
 
 #include <gtest/gtest.h>

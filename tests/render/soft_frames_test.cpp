@@ -203,10 +203,11 @@ TEST(SoftFrames, LightsWithoutASizeKeepHardShadowsAndAreNamedOnce) {
   ASSERT_EQ(result.notes.size(), 2u);
   EXPECT_EQ(
       result.notes[0],
-      "light 0 (lamp) is a point and keeps hard shadows, until --light-size or --set-light gives it a size");
-  EXPECT_EQ(result.notes[1],
-            "light 1 (sun) is directional and keeps hard shadows, until --sun-size or --set-light gives it a "
-            "diameter");
+      "light 0 (lamp) is a point and keeps hard shadows, unless --light-size or --set-light gives it a size");
+  EXPECT_EQ(
+      result.notes[1],
+      "light 1 (sun) is directional and keeps hard shadows, unless --sun-size or --set-light gives it a "
+      "diameter");
   const base::Image8 image = result.image;
   for (const render::LightMask& mask : result.masks) {
     ASSERT_EQ(mask.visible_fraction.pixels.size(), mask.mask.pixels.size());

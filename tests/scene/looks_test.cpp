@@ -1,4 +1,4 @@
-// What is taken from surfaces: everything but their factors, and emission that a lost picture left.
+// Simplified looks: everything but the factors goes, and emission that a lost picture left.
 #include "scene/looks.h"
 
 #include <gtest/gtest.h>

@@ -4,6 +4,7 @@
 #include <cmath>
 
 #include <tenebra/simd_level.h>
+#include "support/parameter_names.h"
 #include "support/seeded_random.h"
 
 namespace tenebra::testing {

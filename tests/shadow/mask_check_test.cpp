@@ -1,4 +1,4 @@
-// A check of a mask finds what is wrong with it, and nothing else.
+// A check of a mask finds all of its wrong samples, and no others.
 #include "oracle/mask_check.h"
 
 #include <gtest/gtest.h>
@@ -50,6 +50,19 @@ TEST(MaskCheck, FindsPlantedErrorsAndNoOthers) {
       EXPECT_EQ(wrong.exact.blocker != no_triangle, wrong.exact.active && wrong.exact.value == 0);
     }
   }
+}
+
+TEST(MaskCheck, CountsAllThatAreWrongAndNamesTheFirstThousand) {
+  const MaskCase c = room_case(false);
+  ShadowMask mask = traced(c);
+  for (std::uint8_t& value : mask) value = static_cast<std::uint8_t>(255 - value);
+  std::vector<std::size_t> pixels;  // more than are looked at in one go
+  for (std::size_t i = 0; i < 20 * mask.size(); ++i) pixels.push_back(i * 7 % mask.size());
+  const oracle::ExactShadow exact(c.view, c.soup.view(), c.light, c.config);
+  const auto found = oracle::check_mask(exact, c.points, mask, pixels);
+  EXPECT_EQ(found.wrong_count, pixels.size());
+  ASSERT_EQ(found.wrong.size(), std::size_t{oracle::MaskCheck::most_named});
+  for (std::size_t i = 0; i < found.wrong.size(); ++i) EXPECT_EQ(found.wrong[i].pixel, pixels[i]);
 }
 
 TEST(MaskCheck, EndsEarlyWhenAsked) {

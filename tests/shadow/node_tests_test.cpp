@@ -8,6 +8,7 @@
 
 #include "shadow/cone_tree/traverse.h"
 #include "shadow/decision/decide.h"
+#include "support/parameter_names.h"
 #include "support/seeded_random.h"
 
 namespace tenebra {

@@ -1,4 +1,4 @@
-// Sightlines say what the mask says, and name the triangle that a ray of rationals meets first.
+// Sightlines agree with the mask, and name the triangle that a ray of rationals meets first.
 #include <fmt/core.h>
 #include <gmpxx.h>
 #include <gtest/gtest.h>

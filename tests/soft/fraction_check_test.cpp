@@ -1,7 +1,9 @@
-// check_fractions finds what is wrong, and nothing else.
+// check_fractions finds all wrong fractions, and no others.
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <array>
+#include <vector>
 
 #include "oracle/fraction_check.h"
 
@@ -41,6 +43,12 @@ TEST(FractionCheck, NamesASampleThatIsOffByMoreThanIsPromised) {
       oracle::check_fractions({.front = &exact, .promise = 1, .most_occluders = 0}, points, fractions, pixels)
           .stats.skipped,
       3u);
+  std::vector<std::size_t> many(10'000, 0);  // more than are looked at in one go
+  std::fill(many.begin() + 4000, many.end(), 2);
+  const auto all = oracle::check_fractions({.front = &exact, .promise = 1e-6}, points, fractions, many);
+  EXPECT_EQ(all.stats.samples, many.size());
+  EXPECT_EQ(all.wrong_count, 6000u);
+  EXPECT_EQ(all.wrong.size(), std::size_t{oracle::FractionCheck::most_named});
 }
 
 }  // namespace

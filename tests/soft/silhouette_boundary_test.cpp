@@ -1,4 +1,4 @@
-// The border of what a silhouette leaves of the light, where edges lie on each other, on the light's sides,
+// The boundary of what a silhouette leaves of the light, where edges lie on each other, on the light's sides,
 // on the sides of what something else left of it, or are so many that the light is taken in strips: clipping
 // gives the same.
 #include <fmt/core.h>
@@ -67,7 +67,7 @@ Soup both_of(Soup a, const Soup& b) {
   return a;
 }
 
-// A part of the light that is cut, for doubt, leaves fragments; a border leaves none.
+// A part of the light that is cut, for doubt, leaves fragments; a boundary leaves none.
 TEST(SoftSilhouetteBoundary, NeedsNoCutsButForDoubt) {
   const Soup balls = both_of(sphere(8, 0.6, {0, 2, 0}), torus(40, 16, 0.7, 0.2).moved(1, {0.3, 1.6, 0.2}));
   const SoftCase c = over_floor("ball and ring", balls.moved(0.97, {0.013, 0.05, 0.027}));

@@ -3,9 +3,18 @@
 
 #include <gtest/gtest.h>
 
+#include <ostream>
 #include <string>
 
 #include "gl/context.h"
+
+namespace tenebra::gl {
+
+inline void PrintTo(ContextKind kind, std::ostream* out) {  // CTest's name of the test
+  *out << (kind == ContextKind::egl ? "egl" : kind == ContextKind::osmesa ? "osmesa" : "auto");
+}
+
+}  // namespace tenebra::gl
 
 namespace tenebra::test {
 

@@ -1,4 +1,4 @@
-// Files that block, and files that would overwrite what they are made of: refused before anything is done.
+// Files that block, and outputs that would overwrite their input: refused before anything is done.
 #include <gtest/gtest.h>
 #include <sys/stat.h>
 

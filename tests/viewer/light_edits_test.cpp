@@ -1,4 +1,4 @@
-// What the user changes about lights: its text, its effect, and the same on the command line.
+// The user's changes to lights: as text, their effect, and the same on the command line.
 #include <gtest/gtest.h>
 
 #include "base/image.h"

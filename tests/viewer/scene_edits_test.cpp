@@ -1,4 +1,4 @@
-// What the user changes about a scene: its text, its effect, and steps that are undone and done again.
+// The user's changes to a scene: as text, their effect, undo and redo.
 #include <gtest/gtest.h>
 
 #include "base/image.h"

@@ -1,4 +1,4 @@
-// What the window keeps from run to run, and what its dialog lists.
+// The settings that the window keeps from run to run, and the list of its open dialog.
 #include <gtest/gtest.h>
 #include <sys/stat.h>
 

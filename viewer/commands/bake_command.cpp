@@ -27,19 +27,19 @@ namespace {
 constexpr const char* bake_examples =
     "Examples:\n"
     "  tenebra bake scenes/court.glb -o court.glb\n"
-    "      light and occlusion in colours of vertices; materials become unlit and show them as they are\n"
+    "      light and occlusion in vertex colours; materials become unlit and show them unchanged\n"
     "  tenebra bake room.glb --to lightmap --size 2048 --shadows soft -o room_lit.glb\n"
     "      room_lit.exr for the second set of texture coordinates (TEXCOORD_1) of room_lit.glb\n"
     "  tenebra bake room.glb --to lightmap --what ao --map room_ao.png -o room_uv.glb\n"
     "      occlusion alone, 0 closed to 255 open\n"
     "\n"
-    "What is baked is what a white diffuse surface shows, 1 being white; surfaces multiply it by their "
+    "The baked values are what a white diffuse surface shows, 1 being white; surfaces multiply them by their "
     "colour.\n"
-    "Baked is the side that the normals are on. The file needs TEXCOORD_1 for a lightmap: Blender's "
-    "Lightmap Pack\n"
-    "makes it. Meshes that lie in the same places of it each get a square of the map for themselves, and "
-    "OUT.glb\n"
-    "has the coordinates that fit. docs/bake.md says how three.js and Blender show the result.\n"
+    "Only the side that the normals point to is baked. A lightmap needs TEXCOORD_1, which Blender's Lightmap "
+    "Pack\n"
+    "makes. Meshes that overlap there each get a square of the map of their own, and OUT.glb has the "
+    "matching\n"
+    "coordinates. docs/bake.md says how three.js and Blender show the result.\n"
     "Exit code: 0 done, 1 failed (one sentence says why), 124 the time of --timeout is up, 129, 130 or 143 "
     "stopped by\n"
     "a signal; files are then whole or absent.";
@@ -109,7 +109,7 @@ Expected<Baking> prepare(const BakeOptions& options) {
     baking.request.ambient = options.ambient.value_or(scene.ambient_light);
   if (options.content == BakeContent::both && baking.request.ambient == glm::vec3(0.0f))
     baking.notes.emplace_back(
-        "the scene has no ambient light, so occlusion is not seen in the light; --ambient 0.2,0.2,0.2 adds "
+        "the scene has no ambient light, so occlusion does not change the light; --ambient 0.2,0.2,0.2 adds "
         "some");
   return baking;
 }
@@ -183,7 +183,7 @@ Expected<bake::BakedMap> bake_map(Baking& baking, bake::SurfaceLight& light, con
   return map;
 }
 
-/// What the coordinates leave unbaked, a sentence each.
+/// What the coordinates leave unbaked, one sentence each.
 void note_coverage(const bake::ScenePlaces& places, const bake::TexelCoverage& coverage,
                    std::vector<std::string>& notes) {
   if (!places.parts_without.empty())
@@ -196,12 +196,11 @@ void note_coverage(const bake::ScenePlaces& places, const bake::TexelCoverage& c
     notes.push_back(fmt::format("{} triangles reach beyond 0 to 1 in TEXCOORD_1 and have no place in the map",
                                 places.outside));
   if (places.own_squares)
-    notes.emplace_back(
-        "meshes lie in the same places of TEXCOORD_1: each got a square of the map for itself");
+    notes.emplace_back("meshes overlap in TEXCOORD_1: each got a square of the map of its own");
   const std::size_t overlaps = coverage.overlaps_within() + coverage.overlaps_between();
   if (overlaps * 1000 > coverage.covered_places())
     notes.push_back(
-        fmt::format("{:.1f} % of what is covered lies in two triangles or more, of which the first counts; "
+        fmt::format("{:.1f} % of the covered texels lie in two triangles or more, of which the first counts; "
                     "an unwrapping without overlaps, like Blender's Lightmap Pack, has none",
                     100.0 * static_cast<double>(overlaps) / static_cast<double>(coverage.covered_places())));
 }

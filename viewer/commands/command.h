@@ -1,11 +1,11 @@
-// What main and the commands of `tenebra` agree on.
+// The interface between main and the commands of `tenebra`.
 #pragma once
 
 #include "shell/command_line.h"
 
 namespace tenebra::viewer {
 
-/// What the chosen command does once its options are read: the exit code, or one sentence of what went wrong.
+/// Runs the chosen command once its options are read: the exit code, or one sentence of what went wrong.
 using Run = std::function<Expected<int>()>;
 
 /// Each adds one command to `program`, its options and its help, and sets `run` when the user chose it.

@@ -25,11 +25,11 @@ constexpr const char* compare_examples =
     "  tenebra compare a.png b.png --threshold 2 -o diff.png\n"
     "      differences of up to 2 of 255 in each channel do not count; the others are red in diff.png\n"
     "\n"
-    "PNG by levels of 255; OpenEXR and PFM, and PNG beside them, by linear values. RMS and PSNR (of 255, or "
-    "of 1) are\n"
-    "of red, green and blue. FLIP is how different both look, 0 to 1, the mean over the pixels (Andersson et "
-    "al.\n"
-    "2020), at 67 pixels a degree; it takes values below 0 for 0 and beyond 1 for 1.\n"
+    "Two PNG are compared in levels of 255; all other pairs by linear values. RMS and PSNR (of 255, or of 1) "
+    "cover\n"
+    "red, green and blue. FLIP is how different both look, 0 to 1, the mean over the pixels (Andersson et "
+    "al. 2020),\n"
+    "at 67 pixels per degree; values below 0 count as 0 and values beyond 1 as 1.\n"
     "Grey counts as equal red, green and blue; a picture without alpha counts as opaque.\n"
     "Exit code: 0 same, 1 different, 2 failed (one sentence says why).";
 
@@ -153,9 +153,9 @@ void add_compare_command(CLI::App& program, Run& run) {
   add_text(command, "B", options->b, "Another of the same size").required();
   add_text(command, "-o,--output", options->output, "Picture of the differences to write")
       .type_name("FILE.png");
-  add_value(
-      command, "--threshold", options->threshold, parse_threshold,
-      "Largest difference in a channel that does not count, 0 to\n255; of linear values in parts of 255 [0]")
+  add_value(command, "--threshold", options->threshold, parse_threshold,
+            "Largest difference in a channel that is ignored, 0 to 255;\n"
+            "for linear values in parts of 255 [0]")
       .type_name("T");
   add_text(command, "--layer", options->layer,
            "Layer or channel of OpenEXR pictures, like N, Z or\nvisibility.sun [the colours]")

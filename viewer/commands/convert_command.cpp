@@ -23,8 +23,8 @@ constexpr const char* convert_examples =
     "\n"
     "BART's splines become --fps keys per second, or one key for each of the file's own frames where it "
     "numbers\n"
-    "them; animated triangles become morph targets. Pictures are embedded as PNG; what glTF cannot say of\n"
-    "surfaces stands in extras, where tenebra finds it again. OUT is either whole or absent.";
+    "them; animated triangles become morph targets. Pictures are embedded as PNG; what glTF cannot express\n"
+    "about surfaces is stored in extras, where tenebra finds it again. OUT is either whole or absent.";
 
 struct ConvertOptions {
   std::string input;

@@ -2,19 +2,42 @@
 
 #include <fmt/format.h>
 
+#include <charconv>
+
 #include "base/fail.h"
 #include "commands/render_identity.h"
 
 namespace tenebra::viewer {
 namespace {
 
-constexpr const char* header = "frame";
+constexpr const char* header = "frame,files";
 constexpr int tries = 100;
 
-Expected<render::LogPast> past_of(const base::Journal& file) {
+/// What a list holds.
+struct DonePast {
+  render::LogPast log;
+  DoneList::Frames frames;
+};
+
+/// Lines that a kill cut short, and what another process wrote behind them, are no frames or have no hash of
+/// any files.
+DoneList::Frames frames_of(std::string_view text) {
+  DoneList::Frames frames;
+  for (std::size_t end = 0; (end = text.find('\n')) != std::string_view::npos; text.remove_prefix(end + 1)) {
+    const std::string_view line = text.substr(0, end);
+    const std::size_t comma = line.find(',');
+    int frame = 0;
+    if (comma == std::string_view::npos) continue;
+    const auto read = std::from_chars(line.data(), line.data() + comma, frame);
+    if (read.ec == std::errc() && read.ptr == line.data() + comma) frames[frame] = line.substr(comma + 1);
+  }
+  return frames;
+}
+
+Expected<DonePast> past_of(const base::Journal& file) {
   const auto text = file.read();
   if (!text) return tl::unexpected(text.error());
-  return render::parse_log(*text, header);
+  return DonePast{render::parse_log(*text, header), frames_of(*text)};
 }
 
 }  // namespace
@@ -43,9 +66,9 @@ Expected<DoneList> DoneList::open(const std::filesystem::path& path,
     if (!file) return tl::unexpected(file.error());
     const auto past = past_of(*file);
     if (!past) return tl::unexpected(past.error());
-    const auto same = check_same_identity(path, *past, identity);
-    if (past->has_header && !same && (resume || !file->is_alone())) return tl::unexpected(same.error());
-    const bool goes_on = past->has_header && same;
+    const auto same = check_same_identity(path, past->log, identity);
+    if (past->log.has_header && !same && (resume || !file->is_alone())) return tl::unexpected(same.error());
+    const bool goes_on = past->log.has_header && same;
     if (!goes_on && file->is_alone())
       if (auto begun = file->begin(render::log_head(identity, header)); !begun)
         return tl::unexpected(begun.error());
@@ -53,14 +76,14 @@ Expected<DoneList> DoneList::open(const std::filesystem::path& path,
     const bool shared = file->share();
     const auto now = past_of(*file);
     if (!now) return tl::unexpected(now.error());
-    if (shared && now->has_header && check_same_identity(path, *now, identity))
-      return DoneList(std::move(*file), goes_on ? past->frames : std::vector<int>());
+    if (shared && now->log.has_header && check_same_identity(path, now->log, identity))
+      return DoneList(std::move(*file), goes_on ? past->frames : Frames());
   }
   return base::fail("cannot write {}: other processes begin it again and again", path.string());
 }
 
-Expected<void> DoneList::add(int frame) {
-  return file_.append(fmt::format("{:010}\n", frame));
+Expected<void> DoneList::add(int frame, const std::string& files_hash) {
+  return file_.append(fmt::format("{:010},{}\n", frame, files_hash));
 }
 
 }  // namespace tenebra::viewer

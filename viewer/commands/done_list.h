@@ -2,9 +2,10 @@
 #pragma once
 
 #include <filesystem>
+#include <map>
 #include <optional>
 #include <span>
-#include <vector>
+#include <string>
 
 #include "base/journal.h"
 #include "options/render_options.h"
@@ -12,10 +13,13 @@
 
 namespace tenebra::viewer {
 
-/// A file of comments "# name: value", which say how the frames were made, a header line "frame", and a line
-/// for each frame. Any number of processes may add to it; all of them must make frames in the same way.
+/// A file of comments "# name: value", which say how the frames were made, a header line "frame,files", and a
+/// line for each frame with the hash of what its files hold. Any number of processes may add to it; all of
+/// them must make frames in the same way.
 class DoneList {
 public:
+  using Frames = std::map<int, std::string>;  ///< the hash of a frame's files, as it was last added
+
   /// ".%04d.png.done" beside the pictures, else beside the first masks; none without either.
   static std::optional<std::filesystem::path> path_of(const RenderOptions& options);
 
@@ -24,16 +28,15 @@ public:
   static Expected<DoneList> open(const std::filesystem::path& path,
                                  std::span<const render::LogSetting> identity, bool resume);
 
-  const std::vector<int>& frames() const { return frames_; }  ///< as it was found
-  Expected<void> add(int frame);
+  const Frames& frames() const { return frames_; }  ///< as it was found
+  Expected<void> add(int frame, const std::string& files_hash);
   Expected<void> finish() { return file_.finish(); }
 
 private:
-  DoneList(base::Journal file, std::vector<int> frames)
-      : file_(std::move(file)), frames_(std::move(frames)) {}
+  DoneList(base::Journal file, Frames frames) : file_(std::move(file)), frames_(std::move(frames)) {}
 
   base::Journal file_;
-  std::vector<int> frames_;
+  Frames frames_;
 };
 
 /// Fails, with the setting that differs, if what `past` holds was made in another way.

@@ -1,4 +1,4 @@
-// A frame as an OpenEXR picture: colours, layers and what the header says of them (docs/exr.md).
+// A frame as an OpenEXR picture: colours, layers and the header (docs/exr.md).
 #pragma once
 
 #include <span>

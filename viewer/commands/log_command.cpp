@@ -22,16 +22,15 @@ constexpr const char* log_examples =
     "  tenebra log merge part0.csv part1.csv part2.csv -o frames.csv\n"
     "  tenebra log report before.csv after.csv -o report.html\n"
     "\n"
-    "Logs are those of tenebra render --log. One that a killed render left counts up to its last whole row.";
+    "Logs are written by tenebra render --log. One left by a killed render counts up to its last whole row.";
 
 constexpr const char* merge_examples =
     "Example:\n"
     "  tenebra log merge part0.csv part1.csv part2.csv -o frames.csv\n"
     "\n"
     "Logs of different settings or scenes are refused; machines and threads may differ. Rows are sorted by\n"
-    "frame. Of a frame that was drawn more than once the row counts that was given last. First frames of "
-    "the\n"
-    "parts stay marked, by a comment line '# chunk: ...', so that percentiles go on leaving them out.";
+    "frame. Where a frame was drawn more than once, the last row given counts. First frames of the\n"
+    "parts stay marked, by a comment line '# chunk: ...', so that percentiles still leave them out.";
 
 constexpr const char* summary_examples =
     "Examples:\n"
@@ -47,8 +46,8 @@ constexpr const char* report_examples =
     "  tenebra log report out/frames.csv -o report.html\n"
     "  tenebra log report hard.csv soft.csv --pictures hard --pictures-b soft -o report.html\n"
     "\n"
-    "The page is one file and needs no network. Pictures are looked for as DIR/%04d.png, or as a pattern\n"
-    "like out/mask_%04d.png says; at most 8 frames are shown, made small.";
+    "The page is one file and needs no network. Pictures are looked for as DIR/%04d.png, or by a pattern\n"
+    "like out/mask_%04d.png; at most 8 frames are shown, reduced in size.";
 
 struct LogOptions {
   std::vector<std::string> logs;
@@ -156,7 +155,7 @@ Expected<int> report(const LogOptions& options) {
 }
 
 void add_merge(CLI::App& log, Run& run) {
-  CLI::App& command = add_command(log, "merge", "Make one log of the parts of a render");
+  CLI::App& command = add_command(log, "merge", "Join the logs of a render's parts");
   const auto options = std::make_shared<LogOptions>();
   set_examples(command, merge_examples);
   add_files(command, "LOGS", options->logs, "Logs of one render, in any order").required();
@@ -178,12 +177,12 @@ void add_report(CLI::App& log, Run& run) {
   const auto options = std::make_shared<LogOptions>();
   set_examples(command, report_examples);
   add_text(command, "A", options->a, "A log").required();
-  add_text(command, "B", options->b, "Another, to see beside it");
+  add_text(command, "B", options->b, "Another, shown beside it");
   add_text(command, "-o,--output", options->output, "The page to write").type_name("FILE.html").required();
   const AddedOption pictures =
       add_text(command, "--pictures", options->pictures, "Pictures of A: their folder, or a pattern")
           .type_name("DIR|PATTERN");
-  add_text(command, "--pictures-b", options->pictures_b, "Pictures of B, for a slider between both")
+  add_text(command, "--pictures-b", options->pictures_b, "Pictures of B, for a slider between the two")
       .type_name("DIR|PATTERN")
       .needs(pictures);
   when_chosen(command, [options, &run] { run = [options] { return report(*options); }; });

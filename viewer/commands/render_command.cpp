@@ -18,6 +18,7 @@
 #include "options/config_file.h"
 #include "options/memory_option.h"
 #include "parallel/job_queue.h"
+#include "render/log/stage_sets.h"
 #include "shared/files_apart.h"
 #include "shared/render_files.h"
 #include "shared/render_plan.h"
@@ -184,6 +185,7 @@ private:
 
     render::FrameRecord record{planned.frame, planned.time_s, result.timings,  result.stats,
                                result.soft,   result.ao,      result.antialias};
+    record.asked = render::asked_stages(settings_, renderer.raster().is_gl());
     if (choice_.soft) record.soft_error = settings_.soft.error_255;
     if (choice_.ao) record.ao_error = settings_.ao.error_255;
     if (budget_) {

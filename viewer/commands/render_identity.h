@@ -1,5 +1,5 @@
-// What the bytes of a render's pictures follow from: scene, settings and program. `render --resume` goes on
-// only where they are the same.
+// Everything that the bytes of a render's pictures depend on: scene, settings and program. `render --resume`
+// continues only if they are the same.
 #pragma once
 
 #include <optional>

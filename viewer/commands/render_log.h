@@ -1,4 +1,4 @@
-// What a render says of itself: the settings above the log, and the summary at the end.
+// What a render reports: the settings above the log, and the summary at the end.
 #pragma once
 
 #include <span>

@@ -25,6 +25,13 @@ bool is_there(const fs::path& file) {
   return fs::exists(file, none);
 }
 
+/// Of what they hold. A file that cannot be read has another hash than any that can; it is drawn again.
+std::string hash_of(const std::vector<OutputName>& files) {
+  std::string hashes;
+  for (const OutputName& output : files) hashes += base::file_hash(output.file).value_or("none") + "\n";
+  return base::text_hash(hashes);
+}
+
 /// What a log that is gone on with does not say yet: another machine, other frames.
 std::vector<render::LogSetting> changes(const render::LogPast& past,
                                         std::span<const render::LogSetting> settings) {
@@ -57,13 +64,13 @@ Expected<void> RenderOutput::open(std::vector<render::LogSetting> settings) {
   if (auto opened = open_done_list(identity_); !opened) return opened;
   if (!options_.log.empty())
     if (auto opened = open_log(settings, identity_); !opened) return opened;
-  std::ranges::sort(done_before_);
-  if (goes_on_ && !frames_left().empty())
-    if (auto noted = log_->comment({"resumed", fmt::format("with frame {}", frames_left().front().frame)});
-        !noted)
+  std::ranges::sort(logged_);
+  left_ = find_frames_left();
+  if (goes_on_ && !left_.empty())
+    if (auto noted = log_->comment({"resumed", fmt::format("with frame {}", left_.front().frame)}); !noted)
       return noted;
   // A trace is of one run; where nothing is left to do, the last one's stays.
-  if (!options_.trace.empty() && !frames_left().empty()) {
+  if (!options_.trace.empty() && !left_.empty()) {
     auto trace = render::FrameTrace::create(options_.trace, settings);
     if (!trace) return tl::unexpected(trace.error());
     trace_.emplace(std::move(*trace));
@@ -78,7 +85,6 @@ Expected<void> RenderOutput::open_done_list(std::span<const render::LogSetting> 
   if (!path || (!wanted && !is_there(*path))) return {};
   auto list = DoneList::open(*path, identity, options_.resume);
   if (!list) return tl::unexpected(list.error());
-  done_before_ = list->frames();
   done_.emplace(std::move(*list));
   return {};
 }
@@ -93,7 +99,7 @@ Expected<void> RenderOutput::open_log(std::span<const render::LogSetting> settin
   if (past->whole_bytes == 0) return log_->begin(settings);
   if (auto same = check_same_identity(options_.log, *past, identity); !same) return same;
   if (!past->has_header) return base::fail("cannot go on with {}: found no log of frames", options_.log);
-  done_before_.insert(done_before_.end(), past->frames.begin(), past->frames.end());
+  logged_ = past->frames;
   if (auto kept = log_->go_on(*past); !kept) return kept;
   goes_on_ = true;
   for (const render::LogSetting& change : changes(*past, settings))
@@ -101,18 +107,23 @@ Expected<void> RenderOutput::open_log(std::span<const render::LogSetting> settin
   return {};
 }
 
-bool RenderOutput::has_files(int frame) const {
+/// By the list its files have to be those that were written; the log knows of frames alone.
+bool RenderOutput::is_done(int frame) const {
+  if (!options_.skip_existing && !options_.resume) return false;
   const std::vector<OutputName> files = files_of_frame(plan_, options_, frame);
-  return std::ranges::all_of(files, [](const OutputName& output) { return is_there(output.file); });
+  if (!std::ranges::all_of(files, [](const OutputName& output) { return is_there(output.file); }))
+    return false;
+  if (options_.skip_existing) return true;
+  if (done_)
+    if (const auto entry = done_->frames().find(frame); entry != done_->frames().end())
+      return entry->second == hash_of(files);
+  return std::ranges::binary_search(logged_, frame);
 }
 
-std::vector<PlannedFrame> RenderOutput::frames_left() const {
+std::vector<PlannedFrame> RenderOutput::find_frames_left() const {
   std::vector<PlannedFrame> left;
-  for (const PlannedFrame& frame : plan_.frames) {
-    const bool noted = options_.skip_existing || std::ranges::binary_search(done_before_, frame.frame);
-    const bool skips = options_.skip_existing || options_.resume;
-    if (!skips || !noted || !has_files(frame.frame)) left.push_back(frame);
-  }
+  for (const PlannedFrame& frame : plan_.frames)
+    if (!is_done(frame.frame)) left.push_back(frame);
   return left;
 }
 
@@ -123,7 +134,8 @@ Expected<void> RenderOutput::write(const render::FrameRecord& record, double beg
   if (trace_)
     if (auto added = trace_->add(record, begin_ms); !added) return added;
   ++frames_written_;
-  return done_ ? done_->add(record.frame) : Expected<void>();
+  if (!done_) return {};
+  return done_->add(record.frame, hash_of(files_of_frame(plan_, options_, record.frame)));
 }
 
 Expected<void> RenderOutput::add_row(const render::FrameRecord& record,

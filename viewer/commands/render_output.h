@@ -23,8 +23,8 @@ public:
   /// Opens what grows with the frames; `settings` stand above the log. With --resume it fails if a setting
   /// that pictures follow from is another one than before.
   Expected<void> open(std::vector<render::LogSetting> settings);
-  /// The frames that are to be drawn; call it once it is open.
-  std::vector<PlannedFrame> frames_left() const;
+  /// The frames that are to be drawn, once it is open.
+  const std::vector<PlannedFrame>& frames_left() const { return left_; }
 
   /// The frame's files, then its row of the log and of the trace, then that it is done. `begin_ms`: when the
   /// frame began, since the start of the run.
@@ -37,7 +37,8 @@ private:
   Expected<void> open_done_list(std::span<const render::LogSetting> identity);
   Expected<void> open_log(std::span<const render::LogSetting> settings,
                           std::span<const render::LogSetting> identity);
-  bool has_files(int frame) const;
+  bool is_done(int frame) const;
+  std::vector<PlannedFrame> find_frames_left() const;
   Expected<void> write_pictures(const PlannedFrame& frame, const render::FrameResult& result) const;
   Expected<void> write_to_pipe(const base::Image8& image) const;
   Expected<void> write_masks(int frame, const render::LightMask& mask) const;
@@ -52,8 +53,9 @@ private:
   std::optional<render::FrameLog> log_;
   std::optional<render::FrameTrace> trace_;
   std::optional<DoneList> done_;
-  std::vector<int> done_before_;  ///< sorted
-  bool goes_on_ = false;          ///< the log has rows of an earlier process
+  std::vector<int> logged_;  ///< the frames that the log had, sorted
+  std::vector<PlannedFrame> left_;
+  bool goes_on_ = false;  ///< the log has rows of an earlier process
 };
 
 }  // namespace tenebra::viewer

@@ -35,16 +35,17 @@ constexpr const char* trade_examples =
     "  tenebra trade room.glb --frames 0:299:60 --size 1920x1080 --error 1 --json\n"
     "      the quickest setting that is off by at most 1 level of 255\n"
     "\n"
-    "Chosen are --antialias, --soft-error (where area lights shine) and --ao-error (with --ao adaptive); "
-    "those that\n"
-    "are given stay as they are. Each is varied alone on one frame; from that all combinations are "
-    "predicted, and\n"
-    "those that promise to be worth having are drawn by themselves on all frames. Errors are RMS over the\n"
-    "whole picture as it is shown, in levels of 255, against the finest setting: 16 samples per pixel, exact "
-    "soft\n"
-    "shadows, occlusion to 0.5/255. Hard shadows are exact in all of them. Times are of this machine, "
-    "medians\n"
-    "with everything built; run nothing beside it.\n"
+    "Tries values of --antialias, --soft-error (where area lights shine) and --ao-error (with --ao "
+    "adaptive); those\n"
+    "that are given stay as they are. Each is varied alone on one frame; from that all combinations are "
+    "predicted,\n"
+    "and the promising ones are drawn by themselves on all frames. Errors are RMS over the whole picture as "
+    "it\n"
+    "is shown, in levels of 255, against the finest setting: 16 samples per pixel, exact soft shadows, "
+    "occlusion to\n"
+    "0.5/255. Hard shadows are exact in all of them. Times are medians on this machine with everything "
+    "built; run\n"
+    "nothing else meanwhile.\n"
     "Exit code: 0 done, 1 failed or nothing fits (one sentence says why), 124 the time of --timeout is up, "
     "129, 130 or\n"
     "143 stopped by a signal.";
@@ -236,24 +237,27 @@ void add_trade_command(CLI::App& program, Run& run) {
   const auto options = std::make_shared<TradeOptions>();
   set_examples(command, trade_examples);
   add_value(command, "--frames", options->render.frames, parse_frame_range,
-            "Frames to try; 0:99:10 for every tenth [three, spread]")
+            "Frames to try; 0:99:10 for every tenth [three, spread out]")
       .type_name("A:B[:STEP]|all");
   add_value(command, "--budget", options->budget_ms, parse_positive,
-            "Also print the most exact setting whose frame takes at\nmost so many milliseconds")
+            "Also print the most exact setting whose frame takes at\n"
+            "most this many milliseconds")
       .type_name("MS");
   add_value(command, "--error", options->error, parse_positive,
-            "Also print the quickest setting that is off by at most\nso many levels of 255, RMS, in every "
-            "frame: those that\nwere not tried too, by a margin")
+            "Also print the quickest setting that is off by at most\n"
+            "this many levels of 255, RMS, in every frame; a margin\n"
+            "covers the frames that were not tried")
       .type_name("E")
       .excludes(option_of(command, "--budget"));
   add_value(command, "--repeats", options->repeats, parse_at_least_one,
-            "Times that each frame is drawn, slow ones fewer; medians\ncount [3]")
+            "How often each frame is drawn, slow ones less often;\n"
+            "medians count [3]")
       .type_name("N");
-  add_text(command, "-o,--output", options->output, "A page of it: plot, table, what the errors look like")
+  add_text(command, "-o,--output", options->output, "Page to write: plot, table, what the errors look like")
       .type_name("FILE.html");
   add_flag(command, "--json", options->json, "Print JSON: all that was measured");
   add_value(command, "--timeout", options->render.timeout_s, parse_positive,
-            "Stop after so many seconds, as Ctrl-C does")
+            "Stop after this many seconds, as Ctrl-C does")
       .type_name("S");
   add_memory_option(command, options->render.memory_mb);
   add_flag(command, "--quiet", options->render.quiet, "No progress and no warnings");

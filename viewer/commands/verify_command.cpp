@@ -40,14 +40,16 @@ constexpr const char* verify_examples =
     "  tenebra verify kitchen.aff --frames 0:799:50 --variant PreciseSEATP\n"
     "  tenebra verify scenes/court.glb --shadows soft --light-size 0.5 --samples 5000\n"
     "\n"
-    "Draws hard shadow masks of all lights as tenebra render does, and asks for each sample what its value\n"
-    "must be: by the definition in tenebra/hard_shadows.h, over all triangles that its ray could meet, in\n"
-    "doubles with a carried bound of their error and, where these cannot tell, in integers of any length.\n"
-    "That code (src/oracle) shares none with the tracer. Visible points, ids and lights are taken as given.\n"
+    "Draws hard shadow masks of all lights as tenebra render does, and computes what each sample's value "
+    "must\n"
+    "be: by the definition in tenebra/hard_shadows.h, over all triangles that its ray could meet, in "
+    "doubles\n"
+    "with a bound on their error and, where that leaves it open, in integers of any length. This code\n"
+    "(src/oracle) shares nothing with the tracer. Visible points, ids and lights are taken as given.\n"
     "With --shadows soft the visible fractions of lights with an area are checked: which triangles hide what "
     "is\n"
     "found exactly, the area that they leave with a bound. A fraction may be off by as much as is promised:\n"
-    "0.1/255, and 1e-6 with --soft-precision reference. The time of a sample grows with the square of its\n"
+    "0.1/255, or 1e-6 with --soft-precision reference. The time of a sample grows with the square of its\n"
     "occluders: those with more than 1000 are skipped, and counted.\n"
     "Exit code: 0 all are right, 1 failed (one sentence says why), 2 some are wrong, 130 or 143 stopped by\n"
     "a signal; what was checked until then is reported.";
@@ -257,10 +259,10 @@ void add_verify_command(CLI::App& program, Run& run) {
       .type_name("A:B[:STEP]|all")
       .excludes(option_of(command, "--time"));
   add_value(command, "--samples", options->samples, parse_samples,
-            "Visible points of each mask that are checked, spread over\nthe picture [all; 1000 of a light "
-            "with an area]")
+            "How many visible points of each mask to check, spread over\n"
+            "the picture [all; 1000 for a light with an area]")
       .type_name("N|all");
-  add_text(command, "--report", options->report, "The result as a file; with .json for programs")
+  add_text(command, "--report", options->report, "File to write the result to; .json for programs")
       .type_name("FILE");
   add_tracer_options(command, options->render.method);
   add_soft_tracer_options(command, options->render.method);

@@ -131,7 +131,7 @@ std::string mask_text(const Verification& verification) {
   const oracle::ExactMaskStats stats = verification.stats();
   const double seconds = check_seconds(verification.masks);
   return fmt::format(
-      "samples: {}, of which {} face the light and are in its reach, of which {} are blocked\n"
+      "samples: {}, of which {} face the light and are in its range, of which {} are blocked\n"
       "pairs of sample and triangle: {}, of which {} were decided by integers of any length, the others by "
       "doubles with a bound\n"
       "time: {:.1f} s, of which {:.1f} s for exact answers, {:.0f} samples a second\n",
@@ -144,10 +144,8 @@ std::string fraction_text(const Verification& verification) {
   const double seconds = check_seconds(verification.fractions);
   return fmt::format(
       "lights with an area, of all frames: {}, samples: {}, of which {} in penumbra, {:.1f} occluders each; "
-      "skipped: {} "
-      "(more than {} "
-      "occluders, or in the light's own plane)\n"
-      "largest error: {:.3g}, promised are {:.3g}\n"
+      "skipped: {} (more than {} occluders, or in the light's own plane)\n"
+      "largest error: {:.3g}, at most {:.3g} is promised\n"
       "time: {:.1f} s, of which {:.1f} s for exact answers, {:.0f} samples a second\n",
       verification.fractions.size(), stats.samples, stats.penumbra,
       a_second(stats.occluders, double(stats.samples)), stats.skipped,

@@ -81,7 +81,7 @@ struct Axes {
                         (left + width - right) / 2, height - 6);
     return text + fmt::format(
                       "<text class=\"label\" transform=\"translate(13 {}) rotate(-90)\" "
-                      "text-anchor=\"middle\">milliseconds a frame</text>\n",
+                      "text-anchor=\"middle\">milliseconds per frame</text>\n",
                       (top + height - bottom) / 2);
   }
 };

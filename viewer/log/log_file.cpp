@@ -45,6 +45,12 @@ std::string shown(std::string_view text) {
   return shown;
 }
 
+/// A list of stages, which stands in a row as it is: no number, and nothing that could be one gone wrong.
+bool is_list(std::string_view text) {
+  return std::all_of(text.begin(), text.end(),
+                     [](char c) { return (c >= 'a' && c <= 'z') || c == '_' || c == ' '; });
+}
+
 /// Reads line after line into a LogFile.
 class LogParser {
 public:
@@ -95,10 +101,16 @@ private:
     row.row = line;
     for (std::size_t i = 0; i < fields.size(); ++i) {
       double value = 0;
+      const bool lists = std::find(render::list_columns.begin(), render::list_columns.end(),
+                                   log_.columns[i]) != render::list_columns.end();
+      if (lists && is_list(fields[i])) {
+        row.values.push_back(0);
+        continue;
+      }
       const auto [end, error] = std::from_chars(fields[i].begin(), fields[i].end(), value);
       if (error != std::errc() || end != fields[i].end() || !std::isfinite(value)) {
-        return base::fail("{}: line {}: found '{}' as {}, expected a number", log_.name, number_,
-                          shown(fields[i]), log_.columns[i]);
+        return base::fail("{}: line {}: found '{}' as {}, expected {}", log_.name, number_, shown(fields[i]),
+                          log_.columns[i], lists ? "names of stages" : "a number");
       }
       row.values.push_back(value);
     }
@@ -192,7 +204,7 @@ void keep_last_rows(LogFile& log) {
     if (last[log.frames[i].frame] == i) kept.push_back(std::move(log.frames[i]));
   log.frames = std::move(kept);
   log.remarks.push_back(fmt::format(
-      "{}: {} rows are of frames that were drawn again: of each the last counts", log.name, twice));
+      "{}: {} rows are of frames that were drawn again: the last one of each counts", log.name, twice));
 }
 
 }  // namespace tenebra::viewer

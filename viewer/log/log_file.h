@@ -23,7 +23,7 @@ struct LoggedFrame {
   int frame = 0;
   bool opens_chunk = false;               ///< the first that a process drew: it builds what later ones keep
   std::string row;                        ///< as it stands in the file, without the line break
-  std::vector<double> values;             ///< by LogFile::columns
+  std::vector<double> values;             ///< by LogFile::columns; of lists of stages 0
   std::vector<render::LogSetting> notes;  ///< comment lines just above the row
 };
 

@@ -132,7 +132,7 @@ Expected<MergedLog> merge_logs(std::span<const LogFile> logs) {
   merged.frames = rows.size();
   if (twice > 0) {
     merged.remarks.push_back(fmt::format(
-        "{} rows are of frames that stand there more than once: of each the last one given counts", twice));
+        "{} rows are of frames that occur more than once: the last one given of each counts", twice));
   }
   return merged;
 }

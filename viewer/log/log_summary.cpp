@@ -117,10 +117,10 @@ std::string summary_text(const LogSummary& summary) {
   for (const ColumnSummary& column : summary.counts) text += text_row(column, column.name, 0);
   const bool has_history = std::any_of(summary.counts.begin(), summary.counts.end(),
                                        [](const ColumnSummary& column) { return column.has_history; });
-  if (has_history) text += "* also follows from the frames before\n";
+  if (has_history) text += "* also depends on the frames before\n";
   text += fmt::format("\n{}: {} frames", summary.log, summary.frames);
   if (summary.counts_first_frames)
-    return text + ", each the first of its process or chunk, and counted for want of others\n";
+    return text + ", each the first of its process or chunk, and counted because there are no others\n";
   return text +
          fmt::format(". Not counted above: {} first of a chunk ({}), median {:.2f} ms, worst {:.2f} ms\n",
                      summary.first_frames.size(), list_of(summary.first_frames),

@@ -1,4 +1,4 @@
-// What a log says in a few numbers.
+// A log in a few numbers.
 #pragma once
 
 #include <string>
@@ -15,7 +15,7 @@ struct ColumnSummary {
   base::Summary values;
   int worst_frame = 0;
   double mean = 0;
-  bool has_history = false;  ///< a count that also follows from the frames before, not from the frame alone
+  bool has_history = false;  ///< a count that also depends on the frames before, not on the frame alone
 };
 
 /// First frames of chunks build what later ones keep, so they stand apart: percentiles are of the others.

@@ -124,7 +124,8 @@ std::string first_frames_text(const std::vector<Run>& runs) {
     text += fmt::format("<p class=\"dim\">{}: ", letters[i]);
     text +=
         summary.counts_first_frames
-            ? std::string("every frame is the first of its process or chunk, and counts for want of others.")
+            ? std::string(
+                  "every frame is the first of its process or chunk, and counts because there are no others.")
             : fmt::format(
                   "not counted: {} first of a chunk, which build what later ones keep; median {:.2f} ms, "
                   "worst {:.2f} ms.",
@@ -215,8 +216,10 @@ std::string pictures_section(const std::vector<PagePicture>& pictures) {
     if (two) text += fmt::format("<img hidden alt=\"\" style=\"display:none\" src=\"{}\">", picture.b);
     text += fmt::format("frame {}</button>\n", picture.frame);
   }
-  return text + fmt::format("</div>\n<p class=\"dim\">Made smaller, to at most {} pixels across.</p>\n",
-                            widest_page_picture);
+  return text + fmt::format(
+                    "</div>\n"
+                    "<p class=\"dim\">Reduced to at most {} pixels across.</p>\n",
+                    widest_page_picture);
 }
 
 }  // namespace
@@ -234,7 +237,7 @@ Expected<std::string> report_page(std::span<const LogFile> logs, const std::vect
   page += stages_section(runs) + pictures_section(pictures);
   page +=
       "<h2>Counts</h2>\n" + table_of(runs, &LogSummary::counts, "a frame", 0) +
-      "<p class=\"dim\">* also follows from the frames before. None depends on the number of threads.</p>\n";
+      "<p class=\"dim\">* also depends on the frames before. None depends on the number of threads.</p>\n";
   page += settings_section(runs);
   if (!pictures.empty()) page += fmt::format("<script>{}</script>\n", report_script);
   return page + "</body></html>\n";

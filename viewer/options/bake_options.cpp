@@ -60,7 +60,8 @@ void add_light_options(CLI::App& command, BakeOptions& options) {
                 "This light alone, by number, or with all [all]")
           .type_name("N|all"),
       add_value(command, "--ambient", options.ambient, parse_ambient,
-                "Light from all sides, which --what both dims by the\nocclusion [the scene's]")
+                "Ambient light, which --what both multiplies by openness\n"
+                "[the scene's]")
           .type_name("R,G,B"),
       add_value(command, "--light-size", options.method.light_size, parse_light_size,
                 "soft: turns point and spot lights into rectangles of this\nsize, in metres, or (4%) in "
@@ -75,7 +76,7 @@ void add_light_options(CLI::App& command, BakeOptions& options) {
                 "soft: the error aimed at, in 1/255 of white [0: exact]")
           .type_name("E"),
       add_value(command, "--ao-error", render.ao.error_255, parse_positive,
-                "The error of occlusion that is aimed at, RMS, in 1/255 [1]")
+                "The error of occlusion to aim at, RMS, in 1/255 [1]")
           .type_name("E"),
       add_value(command, "--ao-distance", render.ao.distance_m, parse_positive,
                 "Reach D in metres: occlusion is the mean of\nmax(0, 1 - d / D) over rays distributed by the "
@@ -101,7 +102,8 @@ void add_map_options(CLI::App& command, BakeOptions& options) {
           "Samples each way in a texel, so 2 are four in all; each\nlies strictly inside a triangle [2]")
           .type_name("N"),
       add_value(command, "--dilate", options.rings, parse_rings,
-                "Texels that what is covered is widened by, so that\nfiltering mixes no black in [16]")
+                "Texels by which covered areas are widened, so that\n"
+                "filtering mixes no black in [16]")
           .type_name("N"),
       add_text(command, "--map", options.map,
                "File of the map: .exr (linear, half) or .png (encoded)\n[OUT with .exr]")
@@ -114,23 +116,25 @@ void add_map_options(CLI::App& command, BakeOptions& options) {
 void add_bake_options(CLI::App& command, BakeOptions& options) {
   options.method.render.ao.error_255 = 1;
   add_text(command, "-o,--output", options.output,
-           "The scene with what was baked, .glb: vertices, its\ncolours; lightmap, its second texture "
-           "coordinates")
+           "The scene to write, .glb: with baked vertex colours, or\n"
+           "with the lightmap's texture coordinates")
       .type_name("OUT.glb")
       .required();
   add_word<target_choices>(command, "--to", options.target,
-                           "vertices: colours of vertices (COLOR_0); lightmap: a\npicture in the second set "
-                           "of texture coordinates\n(TEXCOORD_1) [vertices]");
+                           "vertices: vertex colours (COLOR_0); lightmap: a picture in\n"
+                           "the second set of texture coordinates (TEXCOORD_1)\n"
+                           "[vertices]");
   add_word<content_choices>(command, "--what", options.content,
-                            "light: of the scene's lights; ao: ambient occlusion alone;\nboth: light, and "
-                            "ambient light times the occlusion [both]");
+                            "light: that of the scene's lights; ao: openness alone;\n"
+                            "both: that light plus ambient light times openness [both]");
   add_value(command, "--exposure", options.exposure, parse_factor,
-            "Multiplies light in colours of vertices and PNG, which end\nat 1 [1]")
+            "Multiplies light in vertex colours and PNG, which are cut\n"
+            "off at 1 [1]")
       .type_name("E");
   add_value(command, "--frame", options.frame, parse_count, "Frame of the animation to bake [0]")
       .type_name("N");
   add_value(command, "--timeout", options.timeout_s, parse_positive,
-            "Stop after so many seconds, as Ctrl-C does")
+            "Stop after this many seconds, as Ctrl-C does")
       .type_name("S");
   add_memory_option(command, options.memory_mb);
   add_flag(command, "--quiet", options.quiet, "No progress, no summary and no warnings");

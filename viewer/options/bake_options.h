@@ -19,9 +19,9 @@ struct BakeOptions {
   BakeTarget target = BakeTarget::vertices;
   BakeContent content = BakeContent::both;
   int size = 1024;                   ///< of the lightmap's sides, texels
-  int per_side = 2;                  ///< samples a texel, each way
+  int per_side = 2;                  ///< samples per texel, each way
   int rings = 16;                    ///< texels that covered borders are widened by
-  float exposure = 1;                ///< of colours of vertices and PNG
+  float exposure = 1;                ///< of vertex colours and PNG
   std::optional<glm::vec3> ambient;  ///< not given: the scene's
   MethodOptions method;
   std::string output, map;

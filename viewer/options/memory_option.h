@@ -8,8 +8,8 @@
 namespace tenebra::viewer {
 
 inline constexpr const char* memory_help =
-    "What the whole program may take, in MB; if it needs more,\nit ends with a sentence [what the system "
-    "has]";
+    "Memory for the whole program, in MB; if it needs more,\n"
+    "it ends with a message [what the system has]";
 
 /// Adds it to `command`; MB of 2^20 bytes, none: what the system has.
 AddedOption add_memory_option(CLI::App& command, std::optional<int>& memory_mb,

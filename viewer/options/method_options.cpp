@@ -100,14 +100,15 @@ void add_common(CLI::App& command, MethodOptions& options) {
   render::RenderSettings& render = options.render;
   render.antialias = standard_antialias;
   set_group(
-      {add_value(
-           command, quality_option, options.quality, parse_quality,
-           "What soft shadows and ambient occlusion may cost.\nfast: --soft-error 4 --ao-error 5 (penumbrae "
-           "off by\n2 to 4/255 RMS), with --ao field --ao-rays 16\n--ao-downscale 2 (occlusion off by 1 to "
-           "7);\n"
-           "balanced: the defaults (exact; 2.5; fields 1 to 6);\nexact: --ao-error 1, fields --ao-rays 256 "
-           "(1 to "
-           "5);\ndocs/trade.md has all figures. An option that is given\nitself wins")
+      {add_value(command, quality_option, options.quality, parse_quality,
+                 "Accuracy of soft shadows and ambient occlusion.\n"
+                 "fast: --soft-error 4 --ao-error 5 (penumbrae off by\n"
+                 "2 to 4/255 RMS), with --ao field --ao-rays 16\n"
+                 "--ao-downscale 2 (occlusion off by 1 to 7);\n"
+                 "balanced: the defaults (exact; 2.5; fields 1 to 6);\n"
+                 "exact: --ao-error 1, fields --ao-rays 256 (1 to 5);\n"
+                 "docs/trade.md has all figures. These options win if\n"
+                 "they are given themselves")
            .type_name("fast|balanced|exact"),
        add_choice<shadow_choices>(command, "--shadows", render.shadows,
                                   "hard: each light as a point; soft: with its area;\nboth exact and "
@@ -115,11 +116,11 @@ void add_common(CLI::App& command, MethodOptions& options) {
        add_choice<see_through_choices>(command, "--see-through", render.see_through,
                                        "Glass and blended surfaces colour the light behind them,\ncast black "
                                        "shadows, or none [tint]"),
-       add_choice<terminator_choices>(
-           command, "--terminator", options.terminator,
-           "Where grazing light ends: on the smooth surface that\nnormals describe, shadows then start from "
-           "there; or\n(flat) at the planes of the triangles, whose teeth show\n[smooth; render with a mask "
-           "of any kind: flat]"),
+       add_choice<terminator_choices>(command, "--terminator", options.terminator,
+                                      "Where grazing light ends: on the smooth surface that\n"
+                                      "normals describe, from where shadows then start; or (flat)\n"
+                                      "at the planes of the triangles, which shows teeth\n"
+                                      "[smooth; render with a mask of any kind: flat]"),
        add_value(command, "--light", render.light, parse_light,
                  "Light with this light alone, by number, or with all [all]")
            .type_name("N|all"),
@@ -161,14 +162,14 @@ void add_hard(CLI::App& command, MethodOptions& options) {
 /// What gives lights an area.
 void add_light_shapes(CLI::App& command, MethodOptions& options) {
   render::AreaLightSettings& lights = options.render.area_lights;
-  const auto size =
-      add_value(command, "--light-size", options.light_size, parse_light_size,
-                "Turns point and spot lights into rectangles of this size,\nin metres, or (4%) in percent "
-                "of the scene's diagonal;\nthey keep their brightness [they stay points]")
-          .type_name("W[xH][%]");
+  const auto size = add_value(command, "--light-size", options.light_size, parse_light_size,
+                              "Turns point and spot lights into rectangles of this size,\n"
+                              "in metres, or (4%) in percent of the scene's diagonal, of\n"
+                              "the same brightness [they stay points]")
+                        .type_name("W[xH][%]");
   const auto sun = add_value(command, "--sun-size", lights.sun_deg, parse_sun_size,
-                             "Diameter of directional lights, like 0.53; they keep their\nbrightness; 0: "
-                             "hard shadows [as the scene has it]")
+                             "Diameter of directional lights, like 0.53, at the same\n"
+                             "brightness; 0: hard shadows [as the scene has it]")
                        .type_name("DEGREES");
   const auto facing =
       add_value(command, "--light-facing", lights.facing, parse_vector,
@@ -207,12 +208,15 @@ void add_soft(CLI::App& command, MethodOptions& options) {
        add_choice<occluder_choices>(command, "--soft-choice", soft.choice,
                                     "Occluder that the BSP takes next; in the paper: random\n[largest]"),
        add_value(command, points_option, options.render.soft_points, parse_points,
-                 "Replaces each area light by N points with exact hard\nshadows: steps in the penumbra, of "
-                 "an error that is not\nestimated [0: as --soft-error says]")
+                 "Replaces each area light by N points with exact hard\n"
+                 "shadows, which leaves steps in the penumbra and no estimate\n"
+                 "of the error [0: as --soft-error says]")
            .type_name("N"),
        add_value(command, soft_error_option, soft.error_255, parse_soft_error,
-                 "The error aimed at, RMS over the penumbra, in 1/255 of\nwhite: dense penumbrae look at as "
-                 "many places on the\nlight as that takes; the log says what is estimated\n[0: exact]")
+                 "The error aimed at, RMS over the penumbra, in 1/255 of\n"
+                 "white: dense penumbrae are sampled at as many places on\n"
+                 "the light as that takes; the log has the estimate\n"
+                 "[0: exact]")
            .type_name("E")},
       soft_group);
 }
@@ -220,17 +224,18 @@ void add_soft(CLI::App& command, MethodOptions& options) {
 void add_ao(CLI::App& command, AoConfig& ao) {
   ao.cache = default_cache_folder();
   set_group(
-      {add_choice<ao_choices>(
-           command, "--ao", ao.mode,
-           "adaptive: by rays where the picture needs them, as many\nas --ao-error "
-           "asks for, filtered; field: by displacement\nfields of the rigid objects; rays: "
-           "by casting rays, to\ncompare with [none]"),
+      {add_choice<ao_choices>(command, "--ao", ao.mode,
+                              "adaptive: by rays where the picture needs them, as many\n"
+                              "as --ao-error takes, filtered; field: by displacement\n"
+                              "fields of the rigid objects; rays: by casting rays\n"
+                              "everywhere, for comparison [none]"),
        add_value(command, error_option, ao.error_255, parse_positive,
-                 "adaptive: the error aimed at, RMS over the picture, in\n1/255; the log says what is "
-                 "estimated [2.5]")
+                 "adaptive: the error aimed at, RMS over the picture, in\n"
+                 "1/255; the log has the estimate [2.5]")
            .type_name("E"),
        add_choice<place_choices>(command, "--ao-at", ao.place,
-                                 "Where it is computed; in the paper: vertices [pixels]"),
+                                 "Where occlusion is computed; in the paper: at vertices\n"
+                                 "[pixels]"),
        add_choice<layout_choices>(command, "--ao-layout", ao.layout,
                                   "What a field stores: chords from entry to exit, or as in\nthe paper "
                                   "positions x directions [chords]"),
@@ -253,15 +258,17 @@ void add_ao(CLI::App& command, AoConfig& ao) {
        add_value(command, "--ao-bits", ao.bits, parse_bits, "Bits per stored distance [8]")
            .type_name("1|8|32"),
        add_choice<deforming_choices>(command, "--ao-deforming", ao.deforming,
-                                     "What deforms has no field: meet it by rays, or leave it\nout [rays]"),
+                                     "Objects that deform have no field: cast rays at them, or\n"
+                                     "leave them out [rays]"),
        add_value(command, "--ao-cache", ao.cache, parse_cache,
                  "Folder that keeps trees of triangles, fields and surface\nsamples for the next run; any "
                  "number of "
                  "processes may\nshare it [$XDG_CACHE_HOME/tenebra or ~/.cache/tenebra]")
            .type_name("FOLDER|none"),
        add_value(command, "--ao-memory", ao.memory_mb, parse_at_least_one,
-                 "What fields and surface samples may take, in MB; the\nleast recently used go first. Bodies "
-                 "that have no room\nare answered by rays, which takes longer [512]")
+                 "Memory for fields and surface samples, in MB; the least\n"
+                 "recently used are dropped first. For bodies without room\n"
+                 "rays are cast, which takes longer [512]")
            .type_name("MB")},
       ao_group);
 }

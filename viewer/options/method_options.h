@@ -13,13 +13,13 @@
 
 namespace tenebra::viewer {
 
-/// Samples a pixel of pictures; RenderSettings has 1, for those who ask for masks.
+/// Samples per pixel of pictures; RenderSettings has 1, for callers that want masks.
 inline constexpr int standard_antialias = 4;
 
 /// Exposures by tone: what --exposure auto stands for.
 using AutoExposures = std::array<float, shade::tones.size()>;
 
-/// What of a scene decides how it is shown.
+/// The properties of a scene that decide how it is shown.
 struct SceneDisplay {
   Transfer transfer = Transfer::srgb;
   std::optional<AutoExposures> exposures;  ///< none: not measured
@@ -51,7 +51,7 @@ void settle_quality(const CLI::App& command, MethodOptions& options);
 /// What single options cannot check: combinations.
 Expected<void> check_method_options(const MethodOptions& options);
 
-/// Options given to `command` that the chosen methods do not look at, a sentence each.
+/// Options given to `command` that the chosen methods ignore, one sentence each.
 std::vector<std::string> idle_method_options(const CLI::App& command, const MethodOptions& options);
 
 /// The tone of pictures with that transfer.

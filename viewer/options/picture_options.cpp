@@ -65,9 +65,9 @@ constexpr auto parse_word = +[](const std::string& text) { return parse_choice(c
 void add_picture_options(CLI::App& command, PictureOptions& options) {
   options.files = OutputPattern::parse_picture("out/%04d.png").value();
   add_value(command, "-o,--output", options.files, parse_pictures,
-            "Names of the pictures; %04d or #### is the frame. .exr:\nOpenEXR with linear colours; -: down "
-            "standard "
-            "output, to\na pipe; none: no pictures [out/%04d.png]")
+            "Names of the pictures; %04d or #### is the frame. .exr:\n"
+            "OpenEXR with linear colours; -: to standard output, for a\n"
+            "pipe; none: no pictures [out/%04d.png]")
       .type_name("FILE.png|FILE.exr|-");
   add_aov_option(command, options.aovs);
   add_value(command, "--exr-type", options.precision, parse_word<exr_type_choices>,
@@ -83,8 +83,8 @@ void add_picture_options(CLI::App& command, PictureOptions& options) {
 
 void add_aov_option(CLI::App& command, render::AovChoice& aovs) {
   add_value(command, "--aov", aovs, parse_aovs,
-            "What OpenEXR pictures hold beside the colours: depth, id,\nnormal, visibility, irradiance, ao, "
-            "albedo (docs/exr.md)")
+            "Further layers of OpenEXR pictures: depth, id, normal,\n"
+            "visibility, irradiance, ao, albedo (docs/exr.md)")
       .type_name("A,B,...");
 }
 

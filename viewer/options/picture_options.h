@@ -1,4 +1,4 @@
-// How a render writes its pictures: as PNG or OpenEXR files, or down a pipe.
+// How a render writes its pictures: as PNG or OpenEXR files, or to a pipe.
 #pragma once
 
 #include <optional>
@@ -19,7 +19,7 @@ struct PictureOptions {
   std::optional<OutputPattern> files;  ///< .png or .exr; none: no files
   bool to_pipe = false;                ///< -o -
   std::optional<PipeFormat> pipe_format;
-  render::AovChoice aovs;  ///< what OpenEXR pictures hold beside the colours
+  render::AovChoice aovs;  ///< further layers of OpenEXR pictures
   std::optional<exr::Precision> precision;
   std::optional<exr::Compression> compression;
 
@@ -29,7 +29,7 @@ struct PictureOptions {
 /// Adds -o and what belongs to it; read into `options`, which must live as long.
 void add_picture_options(CLI::App& command, PictureOptions& options);
 
-/// Of these --aov alone, for those who keep the pictures themselves.
+/// Of these --aov alone, for callers that keep the pictures themselves.
 void add_aov_option(CLI::App& command, render::AovChoice& aovs);
 
 /// Whether `settings` find what `aovs` are of.

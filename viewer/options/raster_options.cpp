@@ -23,14 +23,14 @@ Expected<gl::ContextKind> parse_context(const std::string& text) {
 }  // namespace
 
 std::array<AddedOption, 2> add_raster_options(CLI::App& command, render::RasterChoice& choice) {
-  return {
-      add_value(command, "--raster", choice.kind, parse_raster,
-                "What finds the triangle that each pixel sees: OpenGL, or\nthe CPU, exactly and without any "
-                "OpenGL [auto: OpenGL on a\nGPU, else the CPU]")
-          .type_name("auto|gl|cpu"),
-      add_value(command, "--context", choice.context, parse_context,
-                "Offscreen OpenGL for it [auto: EGL, else OSMesa]")
-          .type_name("auto|egl|osmesa")};
+  return {add_value(command, "--raster", choice.kind, parse_raster,
+                    "How the triangle that each pixel sees is found: by OpenGL,\n"
+                    "or by the CPU, exactly and without OpenGL [auto: OpenGL on\n"
+                    "a GPU, else the CPU]")
+              .type_name("auto|gl|cpu"),
+          add_value(command, "--context", choice.context, parse_context,
+                    "Offscreen OpenGL for --raster gl [auto: EGL, else OSMesa]")
+              .type_name("auto|egl|osmesa")};
 }
 
 RasterNames raster_names(const render::FrameRaster& raster) {

@@ -1,4 +1,4 @@
-// The options that choose what finds the triangle that each pixel sees. `tenebra render` and `tenebra view`
+// The options that choose how the triangle that each pixel sees is found. `tenebra render` and `tenebra view`
 // share them.
 #pragma once
 

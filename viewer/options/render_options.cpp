@@ -31,25 +31,23 @@ constexpr const char* examples =
     "Frames count from 0; A:B includes B; A: and all run to the end. Ctrl-C drops the frame being drawn and\n"
     "keeps those before it. A picture or mask is either whole or absent. The log and the trace grow by a "
     "whole row\n"
-    "for each frame whose files are there, and stay, whatever ends the program. Named pipes, folders and "
-    "disks "
-    "are\n"
-    "refused as outputs; /dev/null and /dev/stdout are written as they are. The last folder of a picture's\n"
+    "for each frame whose files are there, and stay, however the program ends. Named pipes, folders and "
+    "disks are\n"
+    "refused as outputs; /dev/null and /dev/stdout are written to directly. The last folder of a picture's\n"
     "name is made if it is missing.\n"
     "\n"
-    "--resume goes by a small file beside the pictures, .%04d.png.done, and by the log: how the frames were "
-    "made, and\n"
-    "which are done. Of a killed render at most one frame whose picture is there is drawn again. Any number "
-    "of\n"
-    "processes may render into one folder, each with its own log (docs/farm.md).\n"
+    "--resume reads a small file beside the pictures, .%04d.png.done, and the log: they say how the frames "
+    "were made\n"
+    "and which are done. After a render is killed, at most one frame whose picture is there is drawn again. "
+    "Any number\n"
+    "of processes may render into one folder, each with its own log (docs/farm.md).\n"
     "\n"
-    "Exit code: 0 done; 1 failed, and would again (one sentence says why). With --resume the rest is worth "
-    "another\n"
-    "try: 75 a file could not be written (a full disk; the reader of -o - is gone) or no memory was left, "
-    "124 "
-    "the time\n"
-    "of --timeout is up, 129, 130 or 143 stopped by a signal. A second signal ends the program at once; no "
-    "file\n"
+    "Exit code: 0 done; 1 failed, and would again (one sentence says why). The others are worth another try "
+    "with\n"
+    "--resume: 75 a file could not be written (a full disk; the reader of -o - is gone) or no memory was "
+    "left, 124 the\n"
+    "time of --timeout is up, 129, 130 or 143 stopped by a signal. A second signal ends the program at once; "
+    "no file\n"
     "is half written then either.";
 
 Expected<void> read_masks(const std::vector<std::string>& names, std::vector<OutputPattern>& masks) {
@@ -67,31 +65,36 @@ void add_output_options(CLI::App& command, RenderOptions& options) {
   add_texts(
       command, "--mask",
       [&options](const std::vector<std::string>& names) { return read_masks(names, options.masks); },
-      "Shadow masks: 255 lit; 0 in shadow, facing away or\nbackground; soft: in between, by how much of "
-      "the "
-      "light is\nvisible; .pfm: in 32 bits; several lights add _L0, _L1,\n...; may be repeated")
+      "Shadow masks: 255 lit; 0 in shadow, facing away or\n"
+      "background; soft: values in between, the visible part of the\n"
+      "light; .pfm: in 32 bits; several lights add _L0, _L1, ...;\n"
+      "may be repeated")
       .type_name("FILE.png|FILE.pfm");
   add_texts(
       command, "--mask-colour",
       [&options](const std::vector<std::string>& names) { return read_masks(names, options.mask_colours); },
-      "The same in colour: masks times what glass and blended\nsurfaces leave of red, green and blue")
+      "The same in colour: masks times the shares of red, green\n"
+      "and blue that glass and blended surfaces let pass")
       .type_name("FILE.png|FILE.pfm");
   add_texts(
       command, "--mask-mean",
       [&options](const std::vector<std::string>& names) { return read_masks(names, options.mask_means); },
-      "The mean of the masks over each pixel's samples\n(--antialias); --mask is of the sample at its centre")
+      "The mean of the masks over each pixel's samples\n"
+      "(--antialias); --mask is the sample at the pixel's centre")
       .type_name("FILE.png|FILE.pfm");
   add_texts(
       command, "--mask-samples",
       [&options](const std::vector<std::string>& names) { return read_masks(names, options.mask_samples); },
-      "The mask of each sample, which adds _S0, _S1, ...: the\ncentre's first, then the others; a pixel with "
-      "one sample\nhas that one in all of them")
+      "The mask of each sample; names add _S0, _S1, ...: the\n"
+      "centre's first, then the others; a pixel with one sample\n"
+      "has it in all of them")
       .type_name("FILE.png");
   add_texts(
       command, "--error-map",
       [&options](const std::vector<std::string>& names) { return read_masks(names, options.error_maps); },
-      "How far off the light that each pixel gets may be (the\nstandard error, estimated), in 1/255 of its "
-      "white: 0 where\nit is exact; .pfm: in 32 bits, .png: rounded")
+      "How far off the light at each pixel may be (estimated\n"
+      "standard error), in 1/255 of its white: 0 where it is exact;\n"
+      ".pfm: in 32 bits, .png: rounded")
       .type_name("FILE.png|FILE.pfm");
   add_text(command, "--log", options.log, "Log: times and counts of each frame").type_name("FILE.csv");
   add_text(command, "--trace", options.trace, "The same times for Perfetto or chrome://tracing")
@@ -189,25 +192,27 @@ Expected<void> check_pictures(const RenderOptions& options, bool several) {
 /// The options that say which of the frames are drawn by this run.
 void add_progress_options(CLI::App& command, RenderOptions& options) {
   add_value(command, "--chunk", options.chunk, parse_chunk,
-            "Part I of N parts of the frames, from 1: one for each of\nN processes")
+            "Draw only part I of N of the frames, counted from 1, for\n"
+            "N processes")
       .type_name("I/N");
-  const auto resume = add_flag(
-      command, "--resume", options.resume,
-      "Go on where a render of the same scene, settings and\nprogram ended; fails where these differ");
+  const auto resume = add_flag(command, "--resume", options.resume,
+                               "Continue a render of the same scene, settings and program\n"
+                               "where it ended; fails if these differ");
   add_flag(command, "--skip-existing", options.skip_existing,
-           "Leave out frames whose files are there, however they\nwere made")
+           "Leave out frames whose files exist, however they were\n"
+           "made")
       .excludes(resume);
   add_value(command, "--timeout", options.timeout_s, parse_positive,
-            "Stop after so many seconds, as Ctrl-C does")
+            "Stop after this many seconds, as Ctrl-C does")
       .type_name("S");
   add_memory_option(command, options.memory_mb);
 }
 
 void add_budget_option(CLI::App& command, RenderOptions& options) {
-  add_value(
-      command, "--budget", options.budget_ms, parse_positive,
-      "What a frame may take, in ms: it has the smallest\n--soft-error and --ao-error that fit, of a fixed "
-      "ladder; the\nlog has them. Nothing smaller than --quality asks for")
+  add_value(command, "--budget", options.budget_ms, parse_positive,
+            "Time for a frame, in ms: each gets the smallest errors of a\n"
+            "fixed ladder that fit, as --soft-error and --ao-error; none\n"
+            "smaller than those of --quality. The log has them")
       .type_name("MS")
       .excludes(option_of(command, "--soft-error"))
       .excludes(option_of(command, "--ao-error"))

@@ -22,18 +22,21 @@ void add_files(CLI::App& command, SceneOptions& options) {
       .type_name("NAME|N")
       .group(scene_group);
   add_texts(command, "--no-cast", options.no_cast,
-            "Keeps a mesh, material or (AFF) FILE:LINE from casting\nshadows; may be repeated")
+            "Keep a mesh, material or (AFF) FILE:LINE from casting\n"
+            "shadows; may be repeated")
       .type_name("NAME")
       .group(scene_group);
   add_flag(command, "--cast-all", options.cast_all,
-           "Lets a sky that hides a light from the whole scene cast\nits shadow")
+           "Let a sky that hides a light from the whole scene cast\n"
+           "its shadow")
       .group(scene_group);
   add_value(command, "--cone-sides", options.import.cone_sides, parse_cone_sides,
             "AFF: sides of cones and cylinders [64; 8 for the paper's\nnumber of triangles]")
       .type_name("N")
       .group(scene_group);
   add_value(command, "--cutout-limit", options.cutout_limit, parse_count,
-            "Triangles that may be added where alpha cuts a surface\nout; coarser if it takes more [1000000]")
+            "Triangles that may be added where alpha cuts a surface\n"
+            "out; the cut is coarser if it takes more [1000000]")
       .type_name("N")
       .group(scene_group);
   add_texture_path(command, options.import);
@@ -58,24 +61,27 @@ Expected<bool> parse_surfaces(const std::string& text) {
 }
 
 void add_looks(CLI::App& command, SceneOptions& options) {
-  add_value(
-      command, "--transfer", options.transfer, parse_transfer,
-      "srgb: colours are linear light, pictures encoded; display:\ncolours are shown as they are, as in "
-      "1999 [display for AFF\nand NFF, srgb for the others]")
+  add_value(command, "--transfer", options.transfer, parse_transfer,
+            "srgb: colours are linear light, pictures are encoded;\n"
+            "display: colours are shown unchanged, as in 1999 [display\n"
+            "for AFF and NFF, srgb for the others]")
       .type_name("srgb|display")
       .group(scene_group);
   add_text(command, "--environment", options.environment,
-           "Radiance picture (.hdr, equirectangular) of what stands\naround the scene: its background, its "
-           "ambient light and\nwhat metals mirror")
+           "Radiance picture (.hdr, equirectangular) of the scene's\n"
+           "surroundings: its background, its ambient light and what\n"
+           "metals mirror")
       .type_name("FILE")
       .group(scene_group);
   add_value(command, "--floor", options.floor, parse_floor,
-            "auto: a file without light, which gets a sun and a soft\nsky, also gets a floor that shows its "
-            "shadow, if it has\nnone and there is no --environment; none: it does not [auto]")
+            "auto: a file without light, which gets a sun and a soft\n"
+            "sky, also gets a floor that shows the shadow, if it has\n"
+            "none and there is no --environment; none: no floor [auto]")
       .type_name("auto|none")
       .group(scene_group);
   add_value(command, "--surfaces", options.plain, parse_surfaces,
-            "plain: without textures, gloss and colours of vertices;\nmasks stay the same [full]")
+            "plain: without textures, gloss and vertex colours; masks\n"
+            "stay the same [full]")
       .type_name("full|plain")
       .group(scene_group);
 }
@@ -130,7 +136,7 @@ void add_camera(CLI::App& command, SceneOptions& options) {
           .type_name("X,Y,Z")
           .excludes(camera);
   const auto look_at =
-      add_value(command, "--look-at", options.look_at, parse_vector, "Point that it looks at")
+      add_value(command, "--look-at", options.look_at, parse_vector, "Point that this camera looks at")
           .type_name("X,Y,Z");
   const auto up =
       add_value(command, "--up", options.up, parse_vector, "Direction that is up [0,1,0]").type_name("X,Y,Z");

@@ -53,7 +53,7 @@ void add_content_options(CLI::App& command, SceneOptions& options);
 /// Adds --texture-path; for commands without the options above.
 void add_texture_path(CLI::App& command, formats::ImportOptions& options);
 
-/// The options for another file in the place of this one: what speaks of no part of a scene stays.
+/// The options for another file in place of this one: those that concern no part of a scene stay.
 SceneOptions options_for(const std::string& file, const SceneOptions& before);
 
 /// What single options cannot check: combinations.

@@ -1,4 +1,4 @@
-// Outputs that would overwrite what they are made of, or each other, are refused before anything is done.
+// Refuses outputs that would overwrite their own input or each other, before anything is done.
 #pragma once
 
 #include <filesystem>

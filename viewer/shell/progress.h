@@ -18,7 +18,7 @@ public:
 
   /// `done` frames are written.
   void show(int done);
-  /// Something long that the frame at hand needs is built: `done` of 0..1.
+  /// Something long that the current frame needs is being built: `done` of 0..1.
   void show_building(std::string_view what, double done);
   /// "note: ..." on standard error whatever it is, one line each.
   void print_notes(const std::vector<std::string>& notes);

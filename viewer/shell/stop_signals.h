@@ -1,4 +1,4 @@
-// Stopping cleanly: Ctrl-C, `kill` and --timeout wait until the work at hand is whole, but not for ever.
+// Stopping cleanly: Ctrl-C, `kill` and --timeout wait until the current work is complete, but not forever.
 #pragma once
 
 #include <atomic>

@@ -5,7 +5,7 @@
 
 namespace tenebra::viewer {
 
-/// What the user has given himself is no choice any more.
+/// Settings that the user has given are no longer to be chosen.
 struct TradeGiven {
   bool antialias = false, soft_error = false, ao_error = false;
 };

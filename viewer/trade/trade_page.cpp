@@ -68,7 +68,7 @@ std::string grid_of(const Axes& axes) {
             "text-anchor=\"middle\">{4:g}</text>\n",
             axes.x(ms), top, height - bottom, height - bottom + 16, ms);
   return text + fmt::format(
-                    "<text class=\"label\" x=\"{}\" y=\"{}\" text-anchor=\"middle\">ms a frame</text><text "
+                    "<text class=\"label\" x=\"{}\" y=\"{}\" text-anchor=\"middle\">ms per frame</text><text "
                     "class=\"label\" x=\"{}\" y=\"{}\">error, RMS in levels of 255</text>\n",
                     (left + width - right) / 2, height - 8, left, top - 4);
 }
@@ -99,9 +99,9 @@ std::string plot_of(const TradeResult& result) {
 
 std::string table_of(const TradeHeading& heading, const TradeResult& result) {
   std::string text = fmt::format("<p>After <code>{}</code>:</p>\n", page_text(heading.command)) +
-                     "<div class=\"scroll\"><table>\n<tr><th>setting</th><th>ms a frame</th><th>first "
-                     "frame</th><th>error</th>"
-                     "<th>worst frame</th><th>memory, MB</th></tr>\n";
+                     "<div class=\"scroll\"><table>\n"
+                     "<tr><th>setting</th><th>ms per frame</th><th>first frame</th><th>error</th><th>worst "
+                     "frame</th><th>memory, MB</th></tr>\n";
   for (const std::size_t i : result.front) {
     const TradedSetting& setting = result.measured[i];
     text += fmt::format(
@@ -131,7 +131,7 @@ Expected<std::string> crops_of(const TradeResult& result) {
                         point.ms, point.error));
     if (!added) return tl::unexpected(added.error());
   }
-  if (auto added = add(result.reference_crop, "the finest setting, which errors are against"); !added)
+  if (auto added = add(result.reference_crop, "the finest setting, the reference for errors"); !added)
     return tl::unexpected(added.error());
   return text + "</div>\n";
 }
@@ -198,13 +198,13 @@ Expected<std::string> trade_page(const TradeHeading& heading, const TradeResult&
              page_text(heading.machine),
              heading.threads == 0 ? "all threads" : fmt::format("threads: {}", heading.threads)) +
          plot_of(result) +
-         "<p class=\"dim\">Errors are of the whole picture as it is shown, against the finest setting: "
-         "RMS over its pixels and the frames. Rings were measured too, and others are better. "
-         "The first frame also builds what later ones keep.</p>\n" +
+         "<p class=\"dim\">Errors compare the whole picture as it is shown with that of the finest setting: "
+         "RMS over its pixels and the frames. Rings were measured too, but others are better. The first "
+         "frame also builds what later ones keep.</p>\n" +
          table_of(heading, result) + "<h2>What the errors look like</h2>\n" +
          fmt::format(
-             "<p class=\"dim\">Where the quickest differs most from the finest: {} x {} pixels at ({}, "
-             "{}).</p>\n",
+             "<p class=\"dim\">The part where the quickest differs most from the finest: {} x {} pixels at "
+             "({}, {}).</p>\n",
              result.reference_crop.width, result.reference_crop.height, result.crop_x, result.crop_y) +
          *crops + "</body></html>\n";
 }

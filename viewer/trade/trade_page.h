@@ -1,4 +1,4 @@
-// What `tenebra trade` found, for people and for programs.
+// The results of `tenebra trade`, for people and for programs.
 #pragma once
 
 #include <string>
@@ -8,7 +8,7 @@
 
 namespace tenebra::viewer {
 
-/// What the texts say beside the result.
+/// What the texts say besides the result.
 struct TradeHeading {
   std::string scene;
   std::string machine;
@@ -21,11 +21,11 @@ struct TradeHeading {
 /// to choose.
 std::string options_of(const TradeAxes& axes, const TradeSetting& setting);
 
-/// A table of the front, from the quickest to the most exact.
+/// A table of the Pareto front, from the quickest to the most exact.
 std::string trade_table(const TradeResult& result);
 /// All that was measured; points of the front are marked.
 std::string trade_json(const TradeHeading& heading, const TradeResult& result);
-/// The front as a page that needs nothing else: a plot, a table, crops of each setting beside the finest.
+/// The front as a self-contained page: a plot, a table, crops of each setting beside the finest.
 Expected<std::string> trade_page(const TradeHeading& heading, const TradeResult& result);
 
 }  // namespace tenebra::viewer

@@ -26,7 +26,7 @@ struct TradeAxes {
 
 TradeSetting coarsest(const TradeAxes& axes);
 TradeSetting finest(const TradeAxes& axes);
-/// What a user gets who chooses nothing.
+/// The setting of a user who chooses nothing.
 TradeSetting standard(const TradeAxes& axes);
 
 /// The settings that differ from the coarsest along one axis at most, value after value.
@@ -45,7 +45,7 @@ struct TradePoint {
   double error = 0;  ///< RMS over the picture, levels of 255
 };
 
-/// What the values of an axis were found to be with the others at their coarsest: a point each.
+/// The measured points of an axis's values, with the others at their coarsest.
 struct TradeSweep {
   std::vector<TradePoint> antialias, soft, ao;  ///< errors against the last of each
 };

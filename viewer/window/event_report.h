@@ -1,4 +1,4 @@
-// What happened in a session, one JSON object a line: for tests and scripts that drive the viewer.
+// What happened in a session, one JSON object per line: for tests and scripts that drive the viewer.
 #pragma once
 
 #include <cstdio>

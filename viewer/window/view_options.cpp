@@ -83,7 +83,7 @@ void add_window_options(CLI::App& command, ViewOptions& options) {
                   "Size of the window [as it was left, or 1280x720]")
             .type_name("WxH"));
   group(add_flag(command, "--panel,!--no-panel", options.panel,
-                 "Show the panel at the right [as it was left, or yes]"));
+                 "Show the panel on the right [as it was left, or yes]"));
   group(add_text(command, "--settings", options.settings,
                  "Where the window's size and the last scenes are kept, or\nnone [viewer.json in "
                  "$XDG_CONFIG_HOME/tenebra]")
@@ -93,7 +93,8 @@ void add_window_options(CLI::App& command, ViewOptions& options) {
             .type_name("-4..4"));
   group(add_flag(command, "--loop,!--no-loop", options.loop, "Start again at the end [yes]"));
   group(add_flag(command, "--fixed-step", options.fixed_step,
-                 "Shows every frame, however long it takes, instead of\nfollowing the clock"));
+                 "Show every frame, however long it takes, instead of\n"
+                 "following the clock"));
   group(add_value(command, "--preview-budget", options.preview_ms, parse_preview_budget,
                   "Time for a picture while the hand moves, in milliseconds;\npictures that take longer are "
                   "shown as previews first, and\nrefined when it rests. 0: no previews [80]")
@@ -106,8 +107,8 @@ void add_window_options(CLI::App& command, ViewOptions& options) {
 void add_compare_options(CLI::App& command, ViewOptions& options) {
   const auto group = [](AddedOption option) { option.group(compare_group); };
   group(add_text(command, "--compare", options.compare_text,
-                 "--compare=\"OPTIONS\": a second method, B, which is this one\n(A) with these shadow "
-                 "or ao options")
+                 "--compare=\"OPTIONS\": a second method, B, which is the\n"
+                 "first (A) with these shadow or ao options")
             .type_name("TEXT"));
   group(add_choice<show_choices>(command, "--show", options.show, "How A and B are shown [wipe]"));
   group(add_value(command, "--wipe", options.wipe, parse_wipe, "Place of the wipe, 0 left to 1 right [0.5]")
@@ -124,7 +125,8 @@ void add_output_options(CLI::App& command, ViewOptions& options) {
       add_value(command, "--shots", options.shots, parse_numbered, "Names of screenshots [tenebra_%04d.png]")
           .type_name("FILE.png"));
   group(add_value(command, "--record", options.record, parse_numbered,
-                  "Plays the animation once, frame by frame, and writes every\npicture; %04d is the frame")
+                  "Play the animation once, frame by frame, and write every\n"
+                  "picture; %04d is the frame")
             .type_name("FILE.png"));
   group(add_text(command, "--log", options.log,
                  "Log: times and counts of each frame, as tenebra render\nwrites it")
@@ -132,14 +134,17 @@ void add_output_options(CLI::App& command, ViewOptions& options) {
   group(
       add_value(command, "--exit-after", options.exit_after, parse_count, "Quit after N pictures [0: never]")
           .type_name("N"));
-  group(add_text(command, "--report", options.report, "What happens, for scripts: one JSON object per line")
+  group(add_text(command, "--report", options.report,
+                 "File that says what happens, for scripts: one JSON object\n"
+                 "per line")
             .type_name("FILE"));
   group(add_flag(command, "--gl-debug", options.gl_debug,
                  "Use OpenGL debug contexts; their messages go to the report"));
   for (const AddedOption option : add_raster_options(command, options.raster)) group(option);
   group(add_memory_option(command, options.memory_mb,
-                          "What the whole program may take, in MB; a picture or a\nscene that needs more is "
-                          "refused with a sentence\n[what the system has]"));
+                          "Memory for the whole program, in MB; a picture or a scene\n"
+                          "that needs more is refused with a message\n"
+                          "[what the system has]"));
 }
 
 }  // namespace

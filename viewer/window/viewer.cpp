@@ -218,7 +218,7 @@ void Viewer::act() {
     worker_.cancel();
     state_.clock.pause(now());
     sent_.clock = state_.clock;
-    say("Cancelled: the picture is the last that was finished. Press R to compute the new one.");
+    say("Cancelled: this is the last finished picture. Press R to compute the new one.");
   }
   if (actions.cancel && !worker_.status().drawing) search_.stop();
   if (actions.picture_shot) save_picture();
@@ -229,7 +229,7 @@ void Viewer::act() {
   if (actions.pivot) ask(QuestionKind::pivot, *actions.pivot);
   if (actions.end_explanation) answers_.close(), pace_.ask(2);
   if (actions.undo && !undo_.undo(state_.edits)) say("There is nothing to undo.");
-  if (actions.redo && !undo_.redo(state_.edits)) say("There is nothing to do again.");
+  if (actions.redo && !undo_.redo(state_.edits)) say("There is nothing to redo.");
   if (actions.open) drop({*actions.open});
   if (actions.open_dialog) state_.open_dialog = open_dialog_at(state_.settings.folder), pace_.ask(3);
   if (actions.frame_all) frame_all();

@@ -90,7 +90,7 @@ void AdaptivePass::settle(int step) {
       });
 }
 
-/// What rays found, over the lattice of `step`.
+/// The results of rays, over the lattice of `step`.
 void AdaptivePass::smooth(int step) {
   parallel::parallel_tasks(looks_.tiles().count(), [&](int tile) {
     if (stopped()) return;
@@ -110,8 +110,8 @@ void AdaptivePass::settle() {
   }
 }
 
-/// Pixels that few speak for besides themselves and whose rays do not agree: where more noise than `noise`
-/// (a standard deviation) is expected. Each round has rays of its own.
+/// Pixels with few similar neighbours whose rays do not agree: where more noise than `noise` (a standard
+/// deviation) is expected. Each round has rays of its own.
 void AdaptivePass::look_again(float noise, int round) {
   constexpr int times = 2;  // 4, with a trust of 0.5, took more rays on court, city 150 and the near crowd
   const RaySets sets = make_ray_sets(times * settings_.rays, round);

@@ -13,11 +13,11 @@ enum class Settled : std::uint8_t { none, by_neighbours, by_rays };
 
 class Audit {
 public:
-  /// Some 512 pixels, half of them of either kind where there are both, by `rays` each: eight times as many
-  /// as theirs leave little noise beside the error.
+  /// Some 512 pixels, half of each kind where there are both, with `rays` each: eight times the usual number
+  /// leaves little noise compared with the error.
   Audit(PixelLooks& looks, const PixelSurfaces& surfaces, std::span<const Settled> settled, int rays);
 
-  /// Mean squares of what is wrong with `values`, each kind's share of the picture's.
+  /// Mean squared errors of `values`: each kind's share of the picture's.
   struct Errors {
     double by_neighbours = 0, by_rays = 0;
     double rms_255() const;

@@ -7,13 +7,13 @@
 
 namespace tenebra::ao {
 
-/// One of each a pixel.
+/// One of each for each pixel.
 struct PixelValues {
   std::vector<float> open;
   std::vector<float> weight;  ///< its rays, over those of a pixel that looked once
 };
 
-/// What neighbours on a lattice say of a pixel.
+/// What the neighbours on a lattice tell about a pixel.
 struct Said {
   float value = 1;  ///< their mean, weighted by their distance in the picture and how alike they are
   float share = 0;  ///< 0..1: the weight of those that are alike, of all that there could be
@@ -32,8 +32,8 @@ struct Smoothed {
   float weight = 1;  ///< of all that went into it, as in PixelValues
 };
 
-/// The mean over 5 x 5 of a lattice around a pixel of it: those alike, whose values differ by no more than
-/// noise of this standard deviation explains.
+/// The mean over 5 x 5 pixels of a lattice around one of its pixels: over those that are alike and whose
+/// values differ by no more than noise of this standard deviation explains.
 Smoothed smoothed(const PixelSurfaces& surfaces, const PixelValues& pixels, int x, int y, int step,
                   float noise);
 

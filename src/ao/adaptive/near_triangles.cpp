@@ -34,7 +34,7 @@ void NearTriangles::look(std::span<const Receiver> receivers, std::span<const Ra
   const std::size_t count = receivers.size();
   reached_.resize(near.size() * count);
   for (std::size_t n = 0; n < near.size(); ++n)
-    occluders_->reaches(near[n], receivers, &reached_[n * count], Occluders::Itself::counts);
+    occluders_->reaches(near[n], receivers, reached_.data() + n * count, Occluders::Itself::counts);
   for (std::size_t i = 0; i < count && !stop_requested(stop); ++i) {
     const Receiver& receiver = receivers[i];
     const RayPattern& pattern = *patterns[i];

@@ -1,6 +1,6 @@
-// Rays of receivers through all triangles in their reach: their own body, other bodies, what stands and what
-// deforms. What counts of a ray is where it meets the first of them. Objects have a tree of their own, in
-// their own space: nothing is built anew when they move.
+// Rays of receivers through all triangles in their reach: their own body, other bodies, static and deforming
+// geometry. Of each ray the first hit counts. Objects have a tree of their own, in their own space: nothing
+// is built anew when they move.
 #pragma once
 
 #include "ao/shade/occluders.h"
@@ -10,7 +10,8 @@
 
 namespace tenebra::ao {
 
-/// Patterns of as many rays, each shifted, so that neighbouring receivers complete one another.
+/// Patterns with the same number of rays, each shifted, so that neighbouring receivers complement one
+/// another.
 struct RaySets {
   static constexpr int side = 4, count = side * side;
   int rays = 0;
@@ -27,7 +28,7 @@ RaySets make_ray_sets(int rays, int round = 0);
 struct Openness {
   float open = 1;      ///< 0..1: 1 - mean of max(0, 1 - distance / reach)
   float nearness = 1;  ///< in units of the reach: harmonic mean of the distances, at most twice the least
-  float spread = 0;    ///< standard deviation of what single rays say
+  float spread = 0;    ///< standard deviation of single rays
 };
 
 /// For one thread.

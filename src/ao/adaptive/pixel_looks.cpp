@@ -21,7 +21,7 @@ PixelLooks::PixelLooks(const AdaptiveScene& scene, const PixelSurfaces& surfaces
   find_near(surfaces);
 }
 
-/// What moves is met in one tree of its own where that is soon built, else body by body.
+/// Moving geometry is in one tree of its own where that is quickly built, else body by body.
 void PixelLooks::find_near(const PixelSurfaces& surfaces) {
   parallel::parallel_tasks(tiles_.count(), [&](int tile) {
     PointBox box;

@@ -1,4 +1,4 @@
-// Pixels of a frame that look for themselves, tile by tile: rays through what is near the tile.
+// Pixels of a frame that cast rays of their own ("look"), tile by tile: through the triangles near the tile.
 #pragma once
 
 #include <functional>
@@ -57,7 +57,7 @@ private:
   AdaptiveScene scene_;
   PixelTiles tiles_;
   const StopFlag* stop_;
-  std::vector<std::vector<int>> near_;  ///< occluders, one list a tile
+  std::vector<std::vector<int>> near_;  ///< occluders, one list for each tile
   std::vector<OccluderCounts> counts_;  ///< one for each tile
   std::vector<std::uint64_t> looks_;    ///< one for each tile
   std::vector<Worker> workers_;         ///< one for each thread

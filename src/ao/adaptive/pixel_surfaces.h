@@ -1,4 +1,4 @@
-// What the pixels show, as far as it tells which of them may speak for each other.
+// The surfaces that pixels show, to tell which pixels may stand in for each other.
 #pragma once
 
 #include <algorithm>
@@ -17,8 +17,8 @@ struct PixelSurface {
   bool there() const { return normal != glm::vec3(0.0f); }
 };
 
-/// 0..1: how far two points lie in one plane, face alike and are close to each other by the measure of the
-/// reach. Occlusion may change by about as much as any of these does.
+/// 0..1: how far two points lie in one plane, face alike and are close to each other compared with the reach.
+/// Occlusion may change by about as much as any of these does.
 inline float alike(const PixelSurface& a, const PixelSurface& b) {
   const glm::vec3 d = b.at - a.at;
   const float turned = std::max(0.0f, glm::dot(a.normal, b.normal));

@@ -1,6 +1,6 @@
-// What is kept on disk from one process to the next: compressed without loss, known by a key of all that it
-// follows from, and trusted only when every byte is as it was written. Any number of processes may share a
-// folder: a file is whole or absent, and whatever two of them write under one key is true.
+// Files that keep data from one process to the next: compressed without loss, named by a key of everything
+// that the data depends on, and trusted only if every byte is as it was written. Any number of processes may
+// share a folder: a file is whole or absent, and whatever two of them write under one key is right.
 #pragma once
 
 #include <array>
@@ -39,7 +39,7 @@ std::filesystem::path cache_path(const std::filesystem::path& folder, const Cach
 /// Whether something has this name, whatever it is.
 bool cache_file_exists(const std::filesystem::path& path);
 
-/// Creates the folder if it is missing. Fails, and does not wait, where something that is no file is in the
+/// Creates the folder if it is missing. Fails, without waiting, where something other than a file is in the
 /// way.
 Expected<void> save_cache_file(const std::filesystem::path& folder, const CacheKind& kind,
                                const CacheKey& key, std::string_view bytes);

@@ -1,5 +1,5 @@
 // How much memory fields and surface samples take together. It is asked before memory is taken, and refuses
-// what would exceed the limit; what was used least recently goes first to make room.
+// what would exceed the limit; what was used least recently is dropped first to make room.
 #pragma once
 
 #include <algorithm>
@@ -37,7 +37,7 @@ public:
     refused_ |= !granted;
     return granted;
   }
-  /// The same for what it can do without: refused() does not tell of it.
+  /// The same for what the frame can do without: refused() does not count it.
   bool offer(std::size_t bytes) {
     if (!make_room(bytes)) return false;
     used_ += bytes;
@@ -64,7 +64,7 @@ private:
   bool refused_ = false;
 };
 
-/// What one thing holds of a budget; given back when it ends.
+/// The part of a budget that one thing holds; given back when it is destroyed.
 class MemoryShare {
 public:
   MemoryShare() = default;

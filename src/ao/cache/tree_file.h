@@ -27,9 +27,9 @@ Expected<void> save_tree(const std::filesystem::path& folder, const CacheKey& ke
 Expected<TriangleBvh> load_tree(const std::filesystem::path& folder, const CacheKey& key,
                                 std::span<const glm::vec3> positions, std::span<const glm::uvec3> triangles);
 
-/// Trees that are there at once in the next process.
+/// Trees that the next process has at once.
 struct KeptTrees {
-  /// A tree of fewer triangles is built sooner than it is read.
+  /// A tree of fewer triangles is built faster than it is read.
   static constexpr std::size_t least_triangles = 2048;
 
   std::filesystem::path folder;    ///< empty: all are built, none is kept

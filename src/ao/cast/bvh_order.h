@@ -1,5 +1,5 @@
-// What of a tree takes long to find: which triangles lie together, and how blocks and nodes hang together.
-// All else follows from the triangles, so whatever an order says, a tree that is made by it is right.
+// The part of a tree that takes long to find: which triangles lie together, and how blocks and nodes are
+// linked. Everything else follows from the triangles, so a tree made from any order is right.
 #pragma once
 
 #include <optional>
@@ -11,7 +11,8 @@ namespace tenebra::ao {
 
 struct BvhOrder {
   static constexpr std::uint8_t node = 0xff;
-  std::vector<std::uint8_t> children;  ///< eight per node: 0 none, 1..8 a block of so many triangles, `node`
+  std::vector<std::uint8_t>
+      children;  ///< eight per node: 0 none, 1..8 a block of that many triangles, `node`
   std::vector<std::uint32_t> triangles;  ///< of the blocks, one after the other
   friend bool operator==(const BvhOrder&, const BvhOrder&) = default;
 };

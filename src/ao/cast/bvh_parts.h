@@ -1,4 +1,4 @@
-// What whoever makes a tree of triangles has to keep to: which triangles are in it, how large boxes are, how
+// Rules for every way of making a tree of triangles: which triangles are in it, how large boxes are, how
 // nodes and blocks are filled.
 #pragma once
 

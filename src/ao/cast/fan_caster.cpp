@@ -32,7 +32,7 @@ SIMD_INLINE Float16 inverse(Float16 d) {
 }
 
 constexpr int most_rays = static_cast<int>(fans_at_once) * batch_size;
-using RayBits = std::uint64_t;  // a bit a ray
+using RayBits = std::uint64_t;  // one bit for each ray
 static_assert(most_rays <= 64);
 
 inline RayBits bits_of_fan(std::uint32_t lanes, int fan) {

@@ -1,4 +1,4 @@
-// Rays from one point through a tree of triangles, sixteen of them a fan.
+// Rays from one point through a tree of triangles, sixteen to a fan.
 #pragma once
 
 #include <span>

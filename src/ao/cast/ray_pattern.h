@@ -1,5 +1,5 @@
 // The rays of ambient occlusion: cosine-weighted directions about +z by the concentric map, sixteen close
-// ones a batch, and how they are turned about a point's normal.
+// ones to a batch, and how they are turned about a point's normal.
 #pragma once
 
 #include <glm/glm.hpp>
@@ -36,7 +36,7 @@ RayAxes turned_axes(const glm::vec3& normal, const glm::dvec3& position, double 
 /// Code for one instruction set. Bits do not depend on it.
 struct FanKernels {
   /// Rays of a point: the pattern in `axes`, those below the plane of `face` mirrored at it, so that a
-  /// surface does not hide itself where its shading normal leans. One RayBatch a batch of the pattern.
+  /// surface does not hide itself where its shading normal leans. One RayBatch for each batch of the pattern.
   void (*spread)(const RayPattern& pattern, const RayAxes& axes, const glm::vec3& face,
                  const glm::vec3& origin, RayBatch* out) = nullptr;
   /// Sum of max(0, 1 - distance / reach) over whole batches.

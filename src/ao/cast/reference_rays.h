@@ -1,4 +1,4 @@
-// The reference: the same rays cast through all of a frame's triangles by a ray caster of renown. The only
+// The reference: the same rays cast through all of a frame's triangles by a well-known ray caster. The only
 // file that names it is reference_rays.cpp; a build without it says so.
 #pragma once
 

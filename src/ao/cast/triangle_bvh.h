@@ -1,5 +1,5 @@
-// A ray caster over triangles that stand still: fields, baked occlusion and the static cache are made with
-// it. Eight boxes or eight triangles are met at once.
+// A ray caster over static triangles: fields, baked occlusion and the static cache are made with it. Eight
+// boxes or eight triangles are met at once.
 #pragma once
 
 #include <cstdint>
@@ -45,7 +45,7 @@ struct TriangleBvh {
   std::size_t bytes() const { return nodes.size() * sizeof(BvhNode) + blocks.size() * sizeof(TriangleBlock); }
 };
 
-/// Binned surface-area heuristic, eight children a node. Triangles with a coordinate that is not finite or
+/// Binned surface-area heuristic, eight children to a node. Triangles with a coordinate that is not finite or
 /// beyond 1e18, an index out of range or no area are left out. The same tree on every machine, for every
 /// thread count.
 TriangleBvh build_triangle_bvh(std::span<const glm::vec3> positions, std::span<const glm::uvec3> triangles);

@@ -82,7 +82,7 @@ float DisplacementField::cell() const {
 
 namespace {
 
-// What one position sees: s of every direction, `no_hit` where there is none.
+// The view from one position: s of every direction, `no_hit` where there is none.
 class RowTracer {
 public:
   RowTracer(const DisplacementField& field, const TriangleBvh& bvh)

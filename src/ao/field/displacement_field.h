@@ -19,7 +19,7 @@ namespace tenebra::ao {
 struct FieldSettings {
   FieldLayout layout = FieldLayout::chords;
   int positions = 4225;   ///< samples on the sphere; rounded to the next smaller square
-  int directions = 1024;  ///< inward directions a position; rounded to the next smaller square
+  int directions = 1024;  ///< inward directions per position; rounded to the next smaller square
   int bits = 8;           ///< of a stored distance: 1, 8 or 32
   friend bool operator==(const FieldSettings&, const FieldSettings&) = default;
 };
@@ -65,7 +65,7 @@ struct Ellipsoid {
 Ellipsoid bounding_ellipsoid(std::span<const glm::vec3> positions, std::span<const glm::uvec3> triangles,
                              FieldLayout layout);
 
-/// What one mesh looks like from everywhere outside. Entry (p, d) tells of the ray that enters the unit
+/// What one mesh looks like from everywhere outside. Entry (p, d) describes the ray that enters the unit
 /// sphere at position p towards direction or exit d: how far beyond the middle of its chord it first meets
 /// the object, -1 .. 1 in unit space.
 struct DisplacementField {
@@ -82,7 +82,7 @@ struct DisplacementField {
 
   /// Width of a cell of the unit sphere, were all of the table's entries chords: what the field resolves.
   float cell() const;
-  /// Of all of the above: what a field costs in memory.
+  /// Of all of the above: the memory of a field.
   std::size_t bytes() const {
     return table.size() + mean.size() * sizeof(float) + close.size() * sizeof(std::uint32_t);
   }

@@ -1,5 +1,5 @@
-// Sixteen rays and the chords that they make of one field's unit sphere; what the table says of them. Without
-// fused operations, so that every instruction set gives the same bits.
+// Sixteen rays, their chords of one field's unit sphere, and the table's entries for them. Without fused
+// operations, so that every instruction set gives the same bits.
 #if defined(TENEBRA_AO_FIELD_CHORDS_INL_H_) == defined(HWY_TARGET_TOGGLE)
 #ifdef TENEBRA_AO_FIELD_CHORDS_INL_H_
 #undef TENEBRA_AO_FIELD_CHORDS_INL_H_

@@ -15,7 +15,7 @@ namespace fs = std::filesystem;
 
 constexpr CacheKind kind{{'t', 'e', 'n', 'e', 'f', 'l', 'd', '\n'}, 2, "field"};
 
-/// What is stored of a field, one part after the other.
+/// The stored parts of a field, one after the other.
 template <class Field>
 auto parts(Field& field) {
   const auto bytes = [](auto& list, std::size_t size) {

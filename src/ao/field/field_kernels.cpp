@@ -22,7 +22,7 @@ using namespace simd::HWY_NAMESPACE;
 
 namespace {
 
-// Batches looked up at once, so that what they need of the table arrives while others are worked on.
+// Batches looked up at once, so that their table entries arrive while others are worked on.
 constexpr std::size_t in_flight = 8;
 constexpr float half_diagonal = 0.70710678f;  // of a cell, in widths
 constexpr float cast_cells = 1;               // how far close rays are cast, in cells
@@ -128,7 +128,7 @@ SIMD_INLINE void prefetch(const DisplacementField& field, Int16 entry) {
   for (const std::int32_t byte : at) simd::prefetch(field.table.data() + byte);
 }
 
-// Asks for what the rays will need of the table.
+// Prefetches the table entries that the rays will need.
 SIMD_INLINE void begin(const FieldInstance& instance, const RayBatch& rays, const float* distance, Query& q) {
   const Float16 zero = broadcast<Float16>(0.0f);
   const Chords c = q.chords = chords_of(instance, rays);

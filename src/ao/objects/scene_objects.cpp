@@ -29,7 +29,7 @@ public:
       mix(word);
     }
     std::uint64_t word = count;
-    std::memcpy(&word, from, count);
+    if (count > 0) std::memcpy(&word, from, count);  // `from` may be null
     mix(word);
   }
   template <class T>
@@ -88,7 +88,7 @@ dmat4 scaling(const dvec3& s) {
           glm::dvec4(0, 0, 0, 1)};
 }
 
-/// The scale of a moving node without its size: what instances that differ in size have in common.
+/// The scale of a moving node without its size, which instances that differ only in size have in common.
 dvec3 proportions(const dvec3& scale) {
   const double largest = std::max({std::abs(scale.x), std::abs(scale.y), std::abs(scale.z)});
   return largest > 0 && scale.x * scale.y * scale.z != 0 ? scale / largest : dvec3(1.0);
@@ -144,7 +144,7 @@ void append(const FrameGeometry& geometry, const Part& part, const dmat4& to_obj
   }
 }
 
-/// Appends a part of what stands, in world space, as the frame has it.
+/// Appends a part of the static geometry, in world space, as the frame has it.
 void append(const FrameGeometry& geometry, const Part& part, ObjectShape& shape) {
   const auto base = static_cast<std::uint32_t>(shape.positions.size());
   const auto first = static_cast<std::uint32_t>(part.first_vertex);

@@ -1,4 +1,5 @@
-// What keeps its shape, as it hides itself: one table of samples for all instances of one shape and size.
+// How geometry that keeps its shape hides itself: one table of samples for all instances of one shape and
+// size.
 #pragma once
 
 #include <filesystem>

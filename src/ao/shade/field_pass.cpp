@@ -9,7 +9,7 @@
 
 namespace tenebra::ao {
 
-/// What the groups need is not given up in this frame.
+/// Keeps everything that the groups need in this frame.
 void FieldPass::use(const std::vector<GroupReport>& reports, std::vector<int>& reached) {
   std::vector<int> own;
   for (const GroupReport& report : reports) {
@@ -22,7 +22,7 @@ void FieldPass::use(const std::vector<GroupReport>& reports, std::vector<int>& r
   for (const int occluder : reached) occluders.use(occluder);
 }
 
-/// Makes what the groups lack: samples first, for those that must do without are slowest.
+/// Makes what the groups lack: samples first, because bodies without them are slowest.
 Expected<void> FieldPass::supply(const std::vector<GroupReport>& reports, const AoProgress& progress,
                                  const StopFlag* stop) {
   std::vector<int> missing, without_samples;

@@ -1,5 +1,5 @@
-// Ambient occlusion of a set of receivers from fields and samples: groups are shaded at once, what they lack
-// is made, and those that lacked something are shaded again, until none does.
+// Ambient occlusion of a set of receivers from fields and samples: groups are shaded at once, the fields and
+// samples that they lack are made, and those that lacked some are shaded again, until none does.
 #pragma once
 
 #include <tenebra/frame_timings.h>

@@ -1,9 +1,9 @@
-// The ambient light of a group of neighbouring receivers, from fields and samples that are there; what is not
-// is named, to be made before the group is asked again.
+// The ambient light of a group of neighbouring receivers, from existing fields and samples; missing ones are
+// named, to be made before the group is shaded again.
 //
 // A point is hidden by its own body (sampled on the surface once, self_occlusion.h) and by the rest, ray by
-// ray: moving objects through their fields, what stands and what deforms by rays (occluders.h). The two are
-// taken as independent: what is left is (1 - own) (1 - others).
+// ray: moving objects through their fields, static and deforming geometry by cast rays (occluders.h). The two
+// are taken as independent: the openness is (1 - own) (1 - others).
 #pragma once
 
 #include "ao/shade/bodies.h"
@@ -12,14 +12,14 @@
 
 namespace tenebra::ao {
 
-/// What of a receiver's occlusion is computed.
+/// Which parts of a receiver's occlusion are computed.
 enum class AoPart {
   all,
   own,     ///< by its own body
   others,  ///< by all but its own body
 };
 
-/// What one group of receivers asks for, and what it cost.
+/// What one group of receivers needs, and the work that it took.
 struct GroupReport {
   std::vector<int> bodies;  ///< objects (or standing) that have no samples yet
   std::vector<int> own;     ///< numbers of the bodies that receivers lie on
@@ -53,7 +53,7 @@ private:
   AoKernels kernels_;
   std::vector<Receiver> receivers_;
   std::vector<float> own_, others_;  ///< hidden shares, one per receiver
-  std::vector<std::size_t> mixed_;   ///< receivers whose own body rays have to answer
+  std::vector<std::size_t> mixed_;   ///< receivers whose own body is met by cast rays
   std::vector<std::uint64_t> missing_;
   std::vector<int> near_;              ///< occluders in reach of some receiver
   std::vector<std::uint8_t> reached_;  ///< one per occluder and receiver

@@ -40,7 +40,7 @@ double distance_to(const PointBox& box, const dvec3& p) {
   return glm::length(glm::max(dvec3(0.0), glm::max(box.low - p, p - box.high)));
 }
 
-/// Sixteen rays moved into the space of an object; distances along them stay what they are.
+/// Sixteen rays moved into the space of an object; distances along them stay the same.
 RayBatch moved(const RayBatch& rays, const glm::mat4x3& to_object) {
   RayBatch out;
   for (int i = 0; i < batch_size; ++i) {

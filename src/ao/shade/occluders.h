@@ -1,8 +1,9 @@
-// What can hide ambient light in a frame beyond the receiver's own body: rigid objects by their fields, what
-// stands and what deforms by rays. Made when first needed, kept while the objects stay what they are.
+// What can hide ambient light in a frame beyond the receiver's own body: rigid objects by their fields,
+// static and deforming geometry by cast rays. Made when first needed, kept while the objects stay the same.
 //
-// What stands over what moves (floors under feet) is met by rays that end at the reach: exact at the contact,
-// where tables are not. Objects of few triangles are met by rays too: their tree is a block or two.
+// Static geometry close to moving objects (floors under feet) is met by rays that end at the reach: these are
+// exact at the contact, where tables are not. Objects of few triangles are met by rays too: their tree is a
+// block or two.
 #pragma once
 
 #include <memory>
@@ -37,8 +38,9 @@ struct PointBox {
 
 class Occluders {
 public:
-  /// An object of up to so many needs no field: two blocks of a tree. With 128 robots 100 took 1.8 times as
-  /// long, with 600 city 60 5.3 times, at the same error: an entry of a table is quicker than any tree.
+  /// An object of up to this many triangles needs no field: two blocks of a tree. With 128 robots 100 took
+  /// 1.8 times as long, with 600 city 60 5.3 times, at the same error: an entry of a table is quicker than
+  /// any tree.
   static constexpr std::size_t few_triangles = 16;
   static constexpr int standing = -1, deforming = -2;  ///< beside the indices of objects
   static constexpr int moving = -3;  ///< all that moves or deforms, as gather_moving() found it

@@ -30,8 +30,8 @@ public:
   ReceiverMaker(const FrameGeometry& geometry, const SceneObjects& objects)
       : geometry_(geometry), objects_(objects) {}
 
-  /// Fetches the triangles of points about to be made, in their order: memory is slow, and waits for many
-  /// at once here, for one after the other else.
+  /// Prefetches the triangles of points about to be made, in their order: memory is slow, and here the waits
+  /// for many overlap instead of following each other.
   void fetch(std::span<const std::uint32_t> triangles);
 
   /// False where there is none: no triangle, no area, no normal, or a point that is not finite.

@@ -1,7 +1,7 @@
 // What see-through triangles hide of the ambient light: as much as opaque ones times (1 - T), T the mean over
-// channels of their material's transmittance, textures by their mean. Receivers' rays meet them apart from
-// all else, each share of opacity by itself, and what is left is multiplied, as if they hid independently of
-// what is opaque and of each other.
+// channels of their material's transmittance, textures by their mean. Receivers' rays meet them separately
+// from everything else, each share of opacity by itself, and the results are multiplied, as if they hid
+// independently of opaque triangles and of each other.
 #pragma once
 
 #include <cstdint>
@@ -23,11 +23,11 @@ public:
   void begin_frame(const Scene& scene, const FrameGeometry& geometry);
   bool empty() const { return layers_.empty(); }
 
-  /// Multiplies the values of receivers by what these leave of their light.
+  /// Multiplies the values of receivers by the share of their light that passes.
   void darken(const ReceiverSet& set, const PointRays& rays, const AoKernels& kernels,
               std::span<float> values, AoStats& stats, const StopFlag* stop) const;
 
-  /// What these leave of the light of a point, 0..1, by its rays: `count` of them, in batches. Overwrites
+  /// The share of a point's light that passes, 0..1, by its rays: `count` of them, in batches. Overwrites
   /// `distances`, one for each.
   float left(const glm::dvec3& point, std::span<const RayBatch> rays, int count, float reach,
              const AoKernels& kernels, std::span<float> distances, OccluderCounts& counts) const;

@@ -1,4 +1,4 @@
-// Which number a divided cell has: a table of keys, made to be asked for every point of a frame.
+// Numbers of divided cells: a table of keys, quick enough to be searched for every point of a frame.
 #pragma once
 
 #include <algorithm>
@@ -27,7 +27,7 @@ public:
     insert(key, static_cast<std::uint32_t>(keys_.size()));
     keys_.push_back(key);
   }
-  /// So many keys have room: until there are more, add() takes no memory.
+  /// Room for this many keys: until there are more, add() takes no memory.
   void reserve(std::size_t count) {
     if (count <= capacity_) return;
     capacity_ = count;

@@ -79,7 +79,7 @@ void join_cells(SurfaceSamples& samples, const SurfaceSamples& others) {
   }
 }
 
-/// Adds what `others` alone know.
+/// Adds the samples that only `others` has.
 void join(SurfaceSamples& samples, const SurfaceSamples& others, std::size_t count) {
   std::vector<std::uint16_t> values = spread(samples, count);
   const std::vector<std::uint16_t> more = spread(others, count);

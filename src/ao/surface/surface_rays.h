@@ -1,4 +1,4 @@
-// What rays from a point of a body's surface meet of the body itself.
+// Where rays from a point of a body's surface meet the body itself.
 #pragma once
 
 #include "ao/cast/triangle_bvh.h"

@@ -1,4 +1,4 @@
-// What an AFF scene knows only at its end: which key frames drive what.
+// The part of an AFF scene that is known only at its end: which key frames drive what.
 #include <fmt/format.h>
 
 #include <algorithm>

@@ -206,7 +206,7 @@ struct GlbWriter::ClipWriter {
     const Node& node = scene().nodes[static_cast<std::size_t>(channel.node)];
     if (node.matrix) {
       writer.losses.push_back(
-          fmt::format("nodes[{}] '{}': it is shown always, as glTF moves no node with a matrix.",
+          fmt::format("nodes[{}] '{}': it is always shown, as glTF animates no node with a matrix.",
                       channel.node, node.name));
       return;
     }

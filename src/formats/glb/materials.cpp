@@ -1,5 +1,5 @@
-// Materials of a GLB. What glTF cannot say stands in `extras` for import_gltf, and as near as glTF comes for
-// other programs.
+// Materials of a GLB. Whatever glTF cannot express is stored in `extras` for import_gltf, and as near as glTF
+// comes for other programs.
 #include <fmt/core.h>
 
 #include "formats/glb/writer.h"
@@ -113,7 +113,7 @@ void GlbWriter::name_what_others_miss() {
         glossy));
   if (untinted > 0)
     losses.push_back(fmt::format(
-        "{} materials let light through as it is: other programs tint it with their colour.", untinted));
+        "{} materials let light through untinted: other programs tint it with their colour.", untinted));
   if (skewed_ > 0)
     losses.push_back(fmt::format("{} textures are skewed: glTF can only turn and scale them.", skewed_));
   if (scene_.transfer == Transfer::display)

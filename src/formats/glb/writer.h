@@ -96,7 +96,7 @@ public:
 
   /// The file's bytes. Throws ImportFailure when a GLB cannot hold the scene.
   std::string write();
-  /// What glTF cannot hold, a sentence each.
+  /// What glTF cannot hold, one sentence each.
   std::vector<std::string> losses;
 
 private:

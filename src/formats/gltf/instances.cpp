@@ -1,4 +1,4 @@
-// EXT_mesh_gpu_instancing: one node for each instance, below the node that states them.
+// EXT_mesh_gpu_instancing: one node for each instance, below the node that lists them.
 #include <fmt/core.h>
 #include <algorithm>
 #include <cmath>

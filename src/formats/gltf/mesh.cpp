@@ -1,4 +1,4 @@
-// Meshes of a glTF file: the primitives of each become one Mesh, a material a triangle.
+// Meshes of a glTF file: the primitives of each become one Mesh, with one material for each triangle.
 #include <fmt/core.h>
 #include <algorithm>
 #include <cmath>

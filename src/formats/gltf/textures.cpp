@@ -14,7 +14,8 @@ Wrap wrap_of(int mode, const std::string& place, std::vector<std::string>& warni
   if (mode == TINYGLTF_TEXTURE_WRAP_CLAMP_TO_EDGE) return Wrap::clamp_to_edge;
   if (mode == TINYGLTF_TEXTURE_WRAP_MIRRORED_REPEAT) return Wrap::mirrored_repeat;
   if (mode != TINYGLTF_TEXTURE_WRAP_REPEAT)
-    warnings.push_back(fmt::format("{}: found {}, expected 10497, 33071 or 33648; it repeats.", place, mode));
+    warnings.push_back(
+        fmt::format("{}: found {}, expected 10497, 33071 or 33648; the texture repeats.", place, mode));
   return Wrap::repeat;
 }
 

@@ -9,7 +9,7 @@
 
 namespace tenebra::render {
 
-/// The samples of a pixel beside its centre. A pixel's value is the mean over them and, where it counts, the
+/// The samples of a pixel besides its centre. A pixel's value is the mean over them and, where it counts, the
 /// centre: a box filter one pixel wide, since the places fill the pixel evenly.
 struct SamplePattern {
   std::span<const glm::vec2> offsets;  ///< from the centre in pixels, less than 0.5 each way, exact in 1/64
@@ -18,17 +18,17 @@ struct SamplePattern {
   std::size_t count() const { return offsets.size() + (centre_counts ? 1 : 0); }
 };
 
-/// The numbers of samples that a pixel may have: 1, 2, 4, 8, 16, and 256 to compare with.
+/// The numbers of samples that a pixel may have: 1, 2, 4, 8, 16, and 256 for comparison.
 bool is_sample_count(int samples);
 
-/// The pattern of so many samples. Those of up to sixteen were found by a search for the least mean square
+/// The pattern of this many samples. Those of up to sixteen were found by a search for the least mean square
 /// error of the coverage of a pixel by half planes, over all their directions and distances; the centre is
 /// fixed, so that what the pixels' centres see serves every count, but for two, of which it is none. 256 are
 /// Hammersley's points.
 SamplePattern sample_pattern(int samples);
 
-/// How widely textures are smoothed at a sample of `samples` a pixel, in pixels: so that what the samples of
-/// a pixel stand for is the pixel.
+/// How widely textures are smoothed at one of `samples` samples per pixel, in pixels, so that the samples
+/// together stand for the whole pixel.
 float texture_width_px(int samples);
 
 /// Places of a pixel for what is drawn on one surface: the middles of side x side squares that fill it. What

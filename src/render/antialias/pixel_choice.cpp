@@ -105,8 +105,7 @@ private:
     return false;
   }
 
-  /// What has a contrast behind glass, or where light changes its colour, has it in the light of its own
-  /// samples.
+  /// Contrasts behind glass, or where light changes its colour, need the light of their own samples.
   void by_glass(std::size_t y) {
     const std::span row = std::span(chosen_).subspan(y * width_, width_);
     for_each_set(row, [&](std::size_t x) {

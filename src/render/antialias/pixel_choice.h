@@ -13,7 +13,7 @@
 
 namespace tenebra::render {
 
-/// What is known of a frame whose pixels have one sample each.
+/// A frame whose pixels have one sample each.
 struct CentrePicture {
   int width = 0;
   int height = 0;
@@ -30,20 +30,20 @@ struct ChosenPixels {
   /// By geometry, without a miss: pixels whose samples do not all see one surface (SurfaceMatch). By shadow:
   /// pixels whose mask of some light is not that of the next pixel to the right, to the left, above or below,
   /// where both see one surface, or whose tint differs by more than an eighth. The edge of a half plane that
-  /// reaches into a pixel comes between its centre and one of those four, so what is missed is what is
-  /// thinner or rounder than a pixel.
+  /// reaches into a pixel comes between its centre and one of those four, so only shapes thinner or rounder
+  /// than a pixel are missed.
   std::vector<std::uint32_t> edges;
-  /// Others that differ from one of those four on one surface by more than least_contrast(samples) in what is
-  /// drawn: textures, penumbrae, highlights; and from what a straight ramp from there would go on to, which
-  /// has the value of its middle for its mean. What lights them is as at their centre. Where something
-  /// see-through is before them, or changes the colour of a light, they are edges.
+  /// By contrast: other pixels whose drawn colour differs by more than least_contrast(samples) from one of
+  /// those four on the same surface (textures, penumbrae, highlights), and from the continuation of a
+  /// straight ramp there, whose mean is the value of its middle. Their light is that of their centre. Where
+  /// something see-through is in front of them, or changes the colour of a light, they are edges.
   std::vector<std::uint32_t> contrasts;
 
   std::size_t count() const { return edges.size() + contrasts.size(); }
 };
 
-/// Levels of 255 by which a channel of two neighbours on one surface may differ. What a sample more or less
-/// may change goes down with their number; up to four samples are off by a quarter of all levels themselves.
+/// Levels of 255 by which a channel of two neighbours on one surface may differ. The change that one sample
+/// makes falls with their number; up to four samples are off by a quarter of all levels themselves.
 constexpr int least_contrast(std::size_t samples) {
   return samples <= 4 ? 64 : 255 / (2 * static_cast<int>(samples));
 }

@@ -10,7 +10,7 @@ namespace {
 
 constexpr std::size_t at_once = 4096;
 
-/// What is visible of a light at a sample.
+/// The visible part of a light at a sample.
 float visible_at(const LitSamples& lit, std::size_t light, std::size_t slot) {
   const auto& fraction = lit.visible_fraction[light];
   return fraction.empty() ? (lit.masks[light][slot] != 0 ? 1.0f : 0.0f) : fraction[slot];

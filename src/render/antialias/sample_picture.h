@@ -1,4 +1,4 @@
-// The further samples of pixels that one does not serve, side by side in a picture of their own.
+// The further samples of pixels that need more than one, side by side in a picture of their own.
 #pragma once
 
 #include <cstddef>

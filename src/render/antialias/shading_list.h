@@ -1,4 +1,4 @@
-// What is shaded of the pixels that need several samples.
+// The samples that are shaded for pixels that need several.
 #pragma once
 
 #include <cstdint>
@@ -13,7 +13,7 @@
 
 namespace tenebra::render {
 
-/// Samples to shade, one value of each after another, those of a pixel together.
+/// Samples to shade, as one list for each value, those of a pixel together.
 struct ShadingList {
   std::vector<std::uint32_t> ids;
   std::vector<glm::vec2> places;      ///< in the window, pixels
@@ -39,12 +39,12 @@ struct ShadingList {
   }
 };
 
-/// What lights samples, and how open they lie.
+/// The light and the openness at samples.
 struct SampleLights {
   std::span<const shade::LightFactors> lights;
   std::span<const float> openness;
 
-  /// Whether the same is left of all lights at sample `a` of these and sample `b` of others.
+  /// Whether sample `a` of these and sample `b` of others have the same light.
   bool same(std::size_t a, const SampleLights& other, std::size_t b) const;
 };
 

@@ -10,7 +10,7 @@
 namespace tenebra::render {
 
 /// Answers for one instant and view; each thread has its own. A pixel whose samples see one surface needs one
-/// sample for its geometry: what is left between them is the shading's.
+/// sample for its geometry; shading covers the differences between them.
 class SurfaceMatch {
 public:
   SurfaceMatch(const FrameGeometry& geometry, const ViewRays& view);

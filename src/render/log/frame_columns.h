@@ -1,8 +1,9 @@
-// The columns of the frame log: name and place of every stage time and count. The log, the trace and the
-// summary read from this one table.
+// The columns of the frame log: name and place of every stage time and count, and the lists of stages. The
+// log, the trace and the summary read from this one table.
 #pragma once
 
 #include <array>
+#include <bitset>
 #include <cstdint>
 #include <string_view>
 
@@ -13,6 +14,38 @@
 #include "render/antialias/antialias_stats.h"
 
 namespace tenebra::render {
+
+struct TimingColumn {
+  std::string_view name;
+  double FrameTimings::*value;
+};
+
+/// The stages in the order in which a frame runs them; their names are those of FrameTimings without the
+/// unit.
+inline constexpr std::array frame_stages{
+    TimingColumn{"evaluate", &FrameTimings::evaluate_ms},
+    TimingColumn{"raster", &FrameTimings::raster_ms},
+    TimingColumn{"readback", &FrameTimings::readback_ms},
+    TimingColumn{"points", &FrameTimings::points_ms},
+    TimingColumn{"ao_build", &FrameTimings::ao_build_ms},
+    TimingColumn{"ao", &FrameTimings::ao_ms},
+    TimingColumn{"rays", &FrameTimings::rays_ms},
+    TimingColumn{"sort", &FrameTimings::sort_ms},
+    TimingColumn{"build", &FrameTimings::build_ms},
+    TimingColumn{"traverse", &FrameTimings::traverse_ms},
+    TimingColumn{"shaft", &FrameTimings::shaft_ms},
+    TimingColumn{"init", &FrameTimings::init_ms},
+    TimingColumn{"query", &FrameTimings::query_ms},
+    TimingColumn{"irradiance", &FrameTimings::irradiance_ms},
+    TimingColumn{"tint", &FrameTimings::tint_ms},
+    TimingColumn{"writeback", &FrameTimings::writeback_ms},
+    TimingColumn{"composite", &FrameTimings::composite_ms},
+    TimingColumn{"layer", &FrameTimings::layer_ms},
+    TimingColumn{"antialias", &FrameTimings::antialias_ms},
+};
+
+/// Some of frame_stages, by their places.
+using StageSet = std::bitset<frame_stages.size()>;
 
 /// One rendered frame as it is logged.
 struct FrameRecord {
@@ -26,11 +59,7 @@ struct FrameRecord {
   double soft_error = 0;    ///< that was asked for: RenderSettings::soft.error_255; 0: exact
   double ao_error = 0;      ///< likewise, with --ao adaptive; 0: without
   std::uint64_t tries = 1;  ///< draws of this frame, the one that was kept among them
-};
-
-struct TimingColumn {
-  std::string_view name;
-  double FrameTimings::*value;
+  StageSet asked;           ///< stages that the settings ask for: stage_sets.h
 };
 
 /// A count of one of the methods.
@@ -128,28 +157,8 @@ inline constexpr std::array closing_timings{
     TimingColumn{"antialias_ms", &FrameTimings::antialias_ms},
 };
 
-/// The stages in the order in which a frame runs them; their names are those of FrameTimings without the
-/// unit.
-inline constexpr std::array frame_stages{
-    TimingColumn{"evaluate", &FrameTimings::evaluate_ms},
-    TimingColumn{"raster", &FrameTimings::raster_ms},
-    TimingColumn{"readback", &FrameTimings::readback_ms},
-    TimingColumn{"points", &FrameTimings::points_ms},
-    TimingColumn{"ao_build", &FrameTimings::ao_build_ms},
-    TimingColumn{"ao", &FrameTimings::ao_ms},
-    TimingColumn{"rays", &FrameTimings::rays_ms},
-    TimingColumn{"sort", &FrameTimings::sort_ms},
-    TimingColumn{"build", &FrameTimings::build_ms},
-    TimingColumn{"traverse", &FrameTimings::traverse_ms},
-    TimingColumn{"shaft", &FrameTimings::shaft_ms},
-    TimingColumn{"init", &FrameTimings::init_ms},
-    TimingColumn{"query", &FrameTimings::query_ms},
-    TimingColumn{"irradiance", &FrameTimings::irradiance_ms},
-    TimingColumn{"tint", &FrameTimings::tint_ms},
-    TimingColumn{"writeback", &FrameTimings::writeback_ms},
-    TimingColumn{"composite", &FrameTimings::composite_ms},
-    TimingColumn{"layer", &FrameTimings::layer_ms},
-    TimingColumn{"antialias", &FrameTimings::antialias_ms},
-};
+/// Lists of stages by name, with blanks between them, at the end of a row: those that the settings ask for
+/// and that the frame had no work for, and those that ran. The only columns that are no numbers.
+inline constexpr std::array list_columns{std::string_view("not_needed"), std::string_view("ran")};
 
 }  // namespace tenebra::render

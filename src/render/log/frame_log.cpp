@@ -5,6 +5,8 @@
 #include <algorithm>
 #include <charconv>
 
+#include "render/log/stage_sets.h"
+
 namespace tenebra::render {
 namespace {
 
@@ -44,6 +46,7 @@ std::string frame_log_header() {
   for (const auto& column : closing_timings) line.append(",").append(column.name);
   for (const auto& column : method_columns) line.append(",").append(column.name);
   for (const auto& column : estimate_columns) line.append(",").append(column.name);
+  for (const auto& column : list_columns) line.append(",").append(column);
   return line;
 }
 
@@ -54,7 +57,8 @@ std::string frame_log_row(const FrameRecord& record) {
   for (const auto& column : closing_timings) line += fmt::format(",{:.3f}", record.timings.*column.value);
   for (const auto& column : method_columns) line += fmt::format(",{}", column.value(record));
   for (const auto& column : estimate_columns) line += fmt::format(",{:.3f}", column.value(record));
-  return line;
+  const StageSet ran = stages_run(record.timings);
+  return line.append(",").append(stage_names(record.asked & ~ran)).append(",").append(stage_names(ran));
 }
 
 LogPast parse_log(std::string_view text, std::string_view header) {

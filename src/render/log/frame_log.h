@@ -13,7 +13,7 @@
 
 namespace tenebra::render {
 
-/// One thing the reader of a log must know to repeat the run: "threads", "2".
+/// A setting that the reader of a log needs to repeat the run: "threads", "2".
 struct LogSetting {
   std::string name;
   std::string value;
@@ -33,13 +33,13 @@ std::string on_one_line(std::string text);
 /// The lines above the rows.
 std::string log_head(std::span<const LogSetting> settings, std::string_view header);
 
-/// A journal: it stands under its name from the start, with what it is about first, and each row is there
-/// whole once it is added, whatever becomes of the program.
+/// A journal: it has its final name from the start, its comments come first, and each row is there whole once
+/// it is added, however the program ends.
 class FrameLog {
 public:
   /// Writes the comment lines "# name: value" and the header line, in the place of an earlier log.
   static Expected<FrameLog> create(const std::filesystem::path& path, std::span<const LogSetting> settings);
-  /// The log as it is: look at its past, then begin it anew or go on.
+  /// The log as it is: look at its past, then begin it anew or continue it.
   static Expected<FrameLog> open(const std::filesystem::path& path);
   Expected<LogPast> past() const;
   Expected<void> begin(std::span<const LogSetting> settings);

@@ -6,6 +6,8 @@
 #include <cstddef>
 #include <string>
 
+#include "render/log/stage_sets.h"
+
 namespace tenebra::render {
 namespace {
 
@@ -61,7 +63,8 @@ std::string counts_of(const FrameRecord& record) {
     text += fmt::format(",\"{}\":{}", column.name, column.value(record));
   for (const auto& column : estimate_columns)
     text += fmt::format(",\"{}\":{:.3f}", column.name, column.value(record));
-  return text;
+  return text + fmt::format(",\"{}\":\"{}\"", list_columns[0],
+                            stage_names(record.asked & ~stages_run(record.timings)));
 }
 
 /// Stages that took any time, and the frame around them: never shorter than their sum, so that slices nest.

@@ -14,7 +14,7 @@
 
 namespace tenebra::shadow {
 
-inline constexpr int packet_size = 16;  ///< rays a leaf: the two lowest levels of four, tested at once
+inline constexpr int packet_size = 16;  ///< rays in a leaf: the two lowest levels of four, tested at once
 inline constexpr int branching = 4;
 
 /// A leaf: sixteen neighbouring rays. Point i = base + q_i relative to the source's origin, q rounded to
@@ -49,8 +49,8 @@ inline constexpr float hemisphere_chord = 1.4142137f;  ///< 90 degrees, rounded 
 struct ConeTree {
   bool directional = false;
   std::vector<RayPacket> packets;
-  /// levels[0]: one node a packet; node i of level k has the children 4i..4i+3 of level k - 1. The last level
-  /// is one block with the root in lane 0.
+  /// levels[0]: one node for each packet; node i of level k has the children 4i..4i+3 of level k - 1. The
+  /// last level is one block with the root in lane 0.
   std::vector<std::vector<NodeBlock>> levels;
 
   std::size_t byte_count() const;

@@ -1,6 +1,6 @@
 // The traversal, compiled once per instruction set. The paper's breadth-first queue of (triangle, node) pairs
-// is kept as one list of triangles a node: the same pairs are tested in an order that needs memory for the
-// lists of one path only, and no two threads ever write to the same node.
+// is kept as one list of triangles for each node: the same pairs are tested in an order that needs memory for
+// the lists of one path only, and no two threads ever write to the same node.
 #include "shadow/cone_tree/traverse.h"
 
 // AVX3_DL adds instructions that these kernels have no use for; SSSE3 is too rare to build for.

@@ -14,7 +14,7 @@
 
 namespace tenebra::shadow {
 
-/// Triangles that each node was tested with: levels as in ConeTree, one count a node. Sums up to
+/// Triangles that each node was tested with: levels as in ConeTree, one count for each node. Their sum is
 /// TraceStats::nodes.
 using NodeTests = std::vector<std::vector<std::uint32_t>>;
 
@@ -35,7 +35,7 @@ struct Traversal {
   std::span<const glm::dvec3> positions;
   ContactRule contact = ContactRule::triangle_ids;
   NodeTests* node_tests = nullptr;  ///< added to if given; of the size of the tree
-  const StopFlag* stop = nullptr;   ///< if it is requested, what is left is not done
+  const StopFlag* stop = nullptr;   ///< if it is requested, the rest is not done
 };
 
 /// Places in TriangleSet::planes. A list's storage has room for one more than it holds.
@@ -44,7 +44,7 @@ struct TriangleList {
   std::size_t size = 0;
 };
 
-/// Scratch of one thread: four lists a level.
+/// Scratch of one thread: four lists for each level.
 struct TraversalScratch {
   std::vector<std::vector<std::uint32_t>> lists;
 };
@@ -64,8 +64,8 @@ struct TraversalKernels {
 TraversalKernels traversal_kernels(SimdLevel level);
 
 /// Takes the triangles at `places` through the tree on all cores. Memory is bounded: at most 65,536 triangles
-/// are under way at once, in lists of that size a level and thread. Counts do not depend on the number of
-/// threads.
+/// are in flight at once, in lists of that size for each level and thread. Counts do not depend on the number
+/// of threads.
 void traverse(const Traversal& traversal, const TraversalKernels& kernels,
               std::span<const std::uint32_t> places, std::vector<TraversalScratch>& scratch,
               TraceStats& stats);

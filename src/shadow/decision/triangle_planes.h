@@ -1,5 +1,5 @@
-// What the tracer knows of a triangle as seen from one light: four unit planes (three through the light and
-// an edge, and its own), their error bounds, and what the cone tests need.
+// A triangle as seen from one light: four unit planes (three through the light and an edge, and its own),
+// their error bounds, and what the cone tests need.
 #pragma once
 
 #include <cstdint>
@@ -11,8 +11,8 @@
 
 namespace tenebra::shadow {
 
-/// Where the rays of a light come from. Positions are taken relative to `origin`: the light, 0 for
-/// directional lights, or a point amid the rays.
+/// The source of a light's rays. Positions are taken relative to `origin`: the light, 0 for directional
+/// lights, or a point amid the rays.
 struct RaySource {
   bool directional = false;
   bool distant = false;   ///< `origin` is a point amid the rays

@@ -1,4 +1,4 @@
-// Where rays stand in the order in which they are kept: by direction, along a curve over the faces of a cube.
+// Sort keys of rays: by direction, along a curve over the faces of a cube.
 #pragma once
 
 #include <tenebra/simd_level.h>

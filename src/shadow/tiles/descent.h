@@ -1,7 +1,7 @@
-// Triangles against rays: the tree of clusters and the forest of rays, descended together. Of two nodes
-// that meet, that of the triangles is descended, beside the deepest node of rays that holds all rays it may
-// meet; where these lie much wider than the triangles, that of the rays. So the work follows the pairs that
-// come near each other: few large triangles among dense rays, or many tiny ones among sparse rays.
+// Triangles against rays: the tree of clusters and the forest of rays, descended together. Of two nodes that
+// meet, that of the triangles is descended, beside the deepest node of rays that holds all rays it may meet;
+// where these lie much wider than the triangles, that of the rays. So the work depends on the pairs that come
+// near each other: few large triangles among dense rays, or many tiny ones among sparse rays.
 #pragma once
 
 #include <tenebra/frame_timings.h>
@@ -24,7 +24,7 @@ struct Descent {
   ContactRule contact;
   bool cull_front;
   std::vector<std::array<std::uint32_t, 16>>* tile_tests;  ///< null, or counts: one per node of level 0
-  const StopFlag* stop;  ///< may be null; if it is requested, what is left is not done
+  const StopFlag* stop;  ///< may be null; if it is requested, the rest is not done
 };
 
 /// A cluster's triangles as seen from the light: planes m.p - d relative to the source's origin as in
@@ -54,7 +54,7 @@ struct DescentScratch {
   }
 };
 
-/// What a cluster's triangles do to the rays of one box. Bits of triangles.
+/// Which of a cluster's triangles block rays of one box. Bits of triangles.
 struct ClusterVerdict {
   std::uint32_t met;      ///< may block some of them
   std::uint32_t covered;  ///< block all of them, but their own

@@ -71,7 +71,7 @@ private:
   const DistantFace face_;
 };
 
-/// What a cluster's triangles do to the rays of one box on one side, by the tests that a descent makes on its
+/// Which of a cluster's triangles block rays of one box on one side, by the tests that a descent makes on its
 /// way.
 template <class Side>
 ClusterVerdict meet_on(const Side& side, const TriangleCluster& cluster, const BoxNode& boxes,

@@ -1,5 +1,5 @@
 // Boxes, triangles and tiles of points on the distant face, sixteen at a time, in float. All are true bounds:
-// what floats may be off is in them. u = 2^-24 below. Included once per target.
+// they include the errors of floats. u = 2^-24 below. Included once per target.
 #if defined(TENEBRA_DISTANT_TESTS_INL_H_) == defined(HWY_TARGET_TOGGLE)
 #ifdef TENEBRA_DISTANT_TESTS_INL_H_
 #undef TENEBRA_DISTANT_TESTS_INL_H_

@@ -1,5 +1,5 @@
 // The forest of rays while triangles descend through it: which rays are not yet blocked, and boxes that
-// follow what is left of them. Included once per target.
+// shrink to the remaining rays. Included once per target.
 #if defined(TENEBRA_LIVE_RAYS_INL_H_) == defined(HWY_TARGET_TOGGLE)
 #ifdef TENEBRA_LIVE_RAYS_INL_H_
 #undef TENEBRA_LIVE_RAYS_INL_H_

@@ -1,5 +1,5 @@
-// Positions that decisions asked for, kept for the next triangles that the same tile meets: where light
-// grazes a wall, one tile may ask for the same sixteen points thousands of times.
+// Positions that decisions needed, kept for the next triangles that the same tile meets: where light grazes a
+// wall, one tile may need the same sixteen points thousands of times.
 #pragma once
 
 #include <array>

@@ -65,8 +65,8 @@ FaceBox bounds_of(const RayNode& node);
 
 inline constexpr int ray_levels = 3;
 struct RayForest {
-  /// [0]: over tiles, patch_squares a patch as far as needed (others are empty), then those joined of loose
-  /// groups; [2]: the roots.
+  /// [0]: over tiles, patch_squares to a patch as far as needed (others are empty), then those joined of
+  /// loose groups; [2]: the roots.
   std::array<std::vector<RayNode>, ray_levels> levels;
   std::vector<std::uint8_t> faces;     ///< of each root: axis * 2, + 1 for the negative side; or distant
   std::optional<DistantFace> distant;  ///< then all roots are of that face

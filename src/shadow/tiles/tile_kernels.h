@@ -1,4 +1,4 @@
-// What is done to sixteen tiles of points, or to sixteen of the triangles they lie on, before any caster is
+// Kernels for sixteen tiles of points, or sixteen of the triangles they lie on, that run before any caster is
 // met.
 #pragma once
 

@@ -1,7 +1,7 @@
 // The variant Tiles: rays in tiles of neighbouring pixels, triangles in clusters of neighbouring triangles, a
-// tree over each, descended together. Against the paper's way it sorts thousands of squares instead of a
-// million rays, bounds them by boxes on a cube's faces (cones of rectangular section with their apex at the
-// light) instead of round cones, and looks at sixteen triangles or nodes at once. Floats alone decide
+// tree over each, descended together. Compared with the paper's method, it sorts thousands of squares instead
+// of a million rays, bounds them by boxes on a cube's faces (cones of rectangular section with their apex at
+// the light) instead of round cones, and looks at sixteen triangles or nodes at once. Floats alone decide
 // first, then planes through the light in double; the last stages, and with them the mask, are the same:
 // double, then exact signs.
 #pragma once
@@ -23,7 +23,7 @@ public:
              const ShadowLight& light, const HardShadowConfig& config, ShadowMask& mask, TraceStats& stats,
              FrameTimings& timings, const StopFlag* stop);
 
-  /// Of the last call: node tests per pixel, those of a node shared equally by the rays below it.
+  /// After a call: node tests per pixel; those of a node are divided equally among the rays below it.
   void spread_tests(int width, int height, std::vector<float>& out) const;
 
 private:

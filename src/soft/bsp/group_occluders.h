@@ -29,8 +29,8 @@ struct EdgePlane {
 };
 
 /// Occluders come in classes of size, largest first, and within a class in the order of the triangles:
-/// neighbours of a mesh then follow each other and eat up the light from one side, where an order of size
-/// alone riddles it with holes.
+/// neighbours of a mesh then follow each other and remove the light from one side, where an order by size
+/// alone would riddle it with holes.
 inline bool comes_before(int size_a, std::uint32_t triangle_a, int size_b, std::uint32_t triangle_b) {
   return size_a != size_b ? size_a > size_b : triangle_a < triangle_b;
 }
@@ -51,12 +51,12 @@ struct GroupOccluders {
   /// Triangles with points on both sides, or too near, or on the triangle itself.
   std::vector<std::uint32_t> indefinite;
   std::vector<MovingLine> lines;
-  std::vector<EdgePlane> planes;  ///< one a line
+  std::vector<EdgePlane> planes;  ///< one for each line
 };
 
-/// Sorts `candidates` into definite and indefinite occluders and sets up the lines of the former. What it
-/// leaves out blocks nothing between the group and the light (Theorem 1, with margins for the rounding of
-/// double).
+/// Sorts `candidates` into definite and indefinite occluders and sets up the lines of the former. Candidates
+/// that it leaves out block nothing between the group and the light (Theorem 1, with margins for the rounding
+/// of double).
 void set_up_occluders(const LightFrame& light, const TriangleView& triangles, const GroupFrame& group,
                       const GroupCandidates& candidates, GroupOccluders& out);
 

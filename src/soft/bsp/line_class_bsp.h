@@ -14,7 +14,7 @@
 
 namespace tenebra::soft {
 
-/// What stands where a child of a node would: a node's index, or a leaf.
+/// A child of a node: a node's index, or a leaf.
 using BspChild = std::int32_t;
 inline constexpr BspChild visible_leaf = -1;    ///< no occluder meets these lines
 inline constexpr BspChild invisible_leaf = -2;  ///< one occluder meets all of them
@@ -42,8 +42,8 @@ public:
   std::size_t bytes() const;
 
   /// Replaces the undefined leaf at `child` (the root: parent < 0) by the classes of one of its occluders and
-  /// inserts the others below (Algorithm 1, lines 31 to 35). Returns what stands there now: the undefined
-  /// leaf that stood there, and nothing has changed, if the tree might come to take more than it may.
+  /// inserts the others below (Algorithm 1, lines 31 to 35). Returns the new child. If the tree might outgrow
+  /// its bound, nothing changes and the undefined leaf is returned.
   BspChild grow(std::int32_t parent, int side);
 
   std::size_t node_count() const { return nodes_.size(); }
@@ -60,10 +60,11 @@ private:
   BspChild add_leaf(std::span<const std::uint32_t> occluders);
 
   std::vector<BspNode> nodes_;
-  std::vector<std::uint32_t> waiting_;     ///< occluders of all pending lists, one after another
-  std::vector<Range> lists_;               ///< pending lists in waiting_
-  std::vector<std::uint32_t> outside_[4];  ///< scratch of grow: what reaches the leaf outside of each line
-  std::vector<glm::dvec3> corners_;        ///< three an occluder, relative to the group's centre
+  std::vector<std::uint32_t> waiting_;  ///< occluders of all pending lists, one after another
+  std::vector<Range> lists_;            ///< pending lists in waiting_
+  std::vector<std::uint32_t>
+      outside_[4];  ///< scratch of grow: the occluders that reach outside of each line in the leaf
+  std::vector<glm::dvec3> corners_;  ///< three for each occluder, relative to the group's centre
   std::span<const Occluder> occluders_;
   std::span<const EdgePlane> planes_;
   glm::dvec3 half_{0.0};

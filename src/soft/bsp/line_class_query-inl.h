@@ -79,7 +79,7 @@ private:
     return place.parent < 0 ? bsp.root() : bsp.nodes()[place.parent].child[place.side];
   }
 
-  /// A polygon that is too large goes in halves, each with its place.
+  /// A polygon that is too large is sent down in halves, each with its place.
   SIMD_INLINE void push(std::int32_t parent, int side, const LightPolygon<T>& polygon) {
     const std::size_t before = polygons_.size();
     polygons_.push(polygon);

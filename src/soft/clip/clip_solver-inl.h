@@ -1,10 +1,10 @@
-// The visible part of the light by subtracting occluders from it: from each fragment next the one that has
-// most in common with it, so that fragments stay few, where most take something from it.
+// The visible part of the light by subtracting occluders from it: next from each fragment the occluder that
+// overlaps it most, so that fragments stay few where most occluders cut it.
 //
-// What took light from one point mostly does so from the next: those occluders are kept apart and come first.
-// Only what they leave of the light meets the others, found through the bounds of their blocks: a point in
-// full shadow under a thousand leaves never looks at most of them. The same for one point and for a packet of
-// them. Included once per target.
+// Occluders that took light from one point mostly do so from the next: these hot ones are kept apart and come
+// first. Only the light that they leave is tested against the others, through the bounds of their blocks: a
+// point in full shadow under a thousand leaves never looks at most of them. The same for one point and for a
+// packet of them. Included once per target.
 #if defined(TENEBRA_SOFT_CLIP_SOLVER_INL_H_) == defined(HWY_TARGET_TOGGLE)
 #ifdef TENEBRA_SOFT_CLIP_SOLVER_INL_H_
 #undef TENEBRA_SOFT_CLIP_SOLVER_INL_H_
@@ -74,11 +74,11 @@ public:
   }
 
 private:
-  static constexpr std::size_t few = 64;   ///< occluders that one pass subtracts from a part
-  static constexpr std::size_t ahead = 8;  ///< candidates are fetched so many before they are added
-  static constexpr std::size_t many = 48;  ///< occluders from which on it pays to keep a few apart
+  static constexpr std::size_t few = 64;   ///< most occluders that one pass subtracts from a part
+  static constexpr std::size_t ahead = 8;  ///< candidates are prefetched this many places ahead
+  static constexpr std::size_t many = 48;  ///< from this many occluders on it pays to keep a few apart
 
-  /// Asks for a candidate that will be added soon.
+  /// Prefetches a candidate that will be added soon.
   static SIMD_INLINE void expect(const Candidate& c) {
     simd::prefetch(c.corners[0]);
     simd::prefetch(c.corners[3]);
@@ -95,7 +95,7 @@ private:
     subtract_few(cold_, boxes, met, light, out);
   }
 
-  /// Puts those aside that took light from the last point; sorts out the others where they are more.
+  /// Keeps apart those that took light from the last point, and sorts the others where there are more.
   void choose_hot() {
     useful_.clear();
     for (std::size_t b = 0; b < hot_.block_count(); ++b) {
@@ -126,7 +126,7 @@ private:
     cold_.block(id / 16).lanes &= ~(1u << (id % 16));
   }
 
-  /// What the occluders that are not hot leave of `parts`.
+  /// Subtracts the occluders that are not hot from `parts`.
   void subtract_cold(const Parts& parts, Parts& out) {
     boxes_.reset(parts);
     const LightBox<T> box = boxes_.around(0, parts.size());
@@ -185,7 +185,7 @@ private:
     }
   }
 
-  /// The same for one part: a few occluders, and from the fragments that they leave the others.
+  /// The same for one part: subtracts a few occluders, and the others from the fragments that these leave.
   void subtract_long_list(const Part& part, std::size_t first, Parts& out) {
     Parts left = take();
     subtract_listed(cold_, first, first + few, part, left);
@@ -198,13 +198,13 @@ private:
     give_back(std::move(left));
   }
 
-  /// Appends what the occluders in places [first, last), at most a few, leave of `part`.
+  /// Appends `part` less the occluders in places [first, last), at most a few.
   void subtract_listed(Occluders& c, std::size_t first, std::size_t last, const Part& part, Parts& out) {
     if (first == last) return out.push(part);
     subtract_few(c, c.list.from(first), lowest_bits(last - first), part, out);
   }
 
-  /// The same for those that are not hot and a part in `box`: most only stand near it, and none is chosen.
+  /// The same for those that are not hot and a part in `box`: most are only near it, so none is chosen first.
   HWY_NOINLINE void subtract_in_order(std::size_t first, std::size_t last, const Part& part,
                                       const LightBox<T>& box, Parts& out) {
     if (first == last) return out.push(part);
@@ -219,16 +219,15 @@ private:
   /// count: 1 to 64.
   static std::uint64_t lowest_bits(std::size_t count) { return ~std::uint64_t{0} >> (64 - count); }
 
-  /// Appends what the occluders of the bits of `left` leave of `part`. Each fragment chooses for itself which
-  /// is next: the one whose box has most in common with its own takes most away, and leaves the fewest
-  /// fragments.
+  /// Appends `part` less the occluders of the bits of `left`. Each fragment chooses its own next occluder:
+  /// the one whose box overlaps its own most takes most away, and leaves the fewest fragments.
   HWY_NOINLINE void subtract_few(Occluders& c, const ShadowBoxes<T>& boxes, std::uint64_t left,
                                  const Part& part, Parts& out) {
     subtract_widest(c, boxes, left, part, out);
     subtract_todo(c, boxes, out);
   }
 
-  /// What is still to do, each with the occluders of `boxes` that are left for it.
+  /// Fragments that are not finished, each with the occluders of `boxes` that are left for it.
   SIMD_INLINE void subtract_todo(Occluders& c, const ShadowBoxes<T>& boxes, Parts& out) {
     while (!todo_.empty()) {
       const std::uint64_t left = todo_left_.back();
@@ -237,7 +236,7 @@ private:
     }
   }
 
-  /// Chooses which of the bits of `left` is first where there are more than any order serves.
+  /// Chooses the first of the bits of `left` where there are too many for any order to do.
   SIMD_INLINE void subtract_widest(Occluders& c, const ShadowBoxes<T>& boxes, std::uint64_t left,
                                    typename Sight::OwnPart part, Parts& out) {
     const bool in_order = std::popcount(left) <= Sight::any_order;
@@ -246,8 +245,8 @@ private:
     subtract_next(c, boxes, left, k, bounds, part, out);
   }
 
-  /// Subtracts occluders of the bits of `left`, first that of bit k, from `part` until one has a share in it;
-  /// for what that leaves, the others are still to do.
+  /// Subtracts occluders of the bits of `left`, first that of bit k, from `part` until one overlaps it; the
+  /// others are still to be subtracted from what that one leaves.
   SIMD_INLINE void subtract_next(Occluders& c, const ShadowBoxes<T>& boxes, std::uint64_t left, int k,
                                  const typename Sight::Bounds& bounds,
                                  std::remove_reference_t<typename Sight::OwnPart>& part, Parts& out) {
@@ -280,13 +279,13 @@ private:
   const GroupCandidates* group_ = nullptr;
   std::span<const std::uint32_t> order_;
   typename Sight::Range range_;
-  Occluders hot_;                                ///< what took light from the last points
+  Occluders hot_;                                ///< those that took light from the last points
   Occluders cold_;                               ///< all; lanes of the hot ones are idle
   std::vector<std::uint32_t> hot_ids_, useful_;  ///< ids in cold_
   BlockBounds<T> bounds_;                        ///< of cold_
   ShadowList<T> blocks_;
   bool blocks_listed_ = false;
-  PartBoxes<T> boxes_;                    ///< of what the hot ones leave
+  PartBoxes<T> boxes_;                    ///< of the parts that the hot ones leave
   Parts todo_;                            ///< parts that are still to be subtracted from
   std::vector<std::uint64_t> todo_left_;  ///< which occluders, of each
   std::vector<Parts> spare_;

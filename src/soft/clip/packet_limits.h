@@ -1,4 +1,4 @@
-// What packets of points are worth their while for.
+// Where packets of points are worth using.
 #pragma once
 
 #include <cstddef>

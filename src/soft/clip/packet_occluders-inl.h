@@ -1,5 +1,5 @@
-// Occluders as sixteen points of a group see them at once, a point a lane, and their subtraction from the
-// fragments of all these points together. Included once per target.
+// Occluders as sixteen points of a group see them at once, one point in each lane, and their subtraction from
+// the fragments of all these points together. Included once per target.
 #if defined(TENEBRA_SOFT_PACKET_OCCLUDERS_INL_H_) == defined(HWY_TARGET_TOGGLE)
 #ifdef TENEBRA_SOFT_PACKET_OCCLUDERS_INL_H_
 #undef TENEBRA_SOFT_PACKET_OCCLUDERS_INL_H_
@@ -15,7 +15,7 @@ HWY_BEFORE_NAMESPACE();
 namespace tenebra::soft::HWY_NAMESPACE {
 using namespace simd::HWY_NAMESPACE;
 
-/// Up to four lines a lane that bound a convex shadow, positive inside.
+/// Up to four lines in each lane that bound a convex shadow, positive inside.
 struct alignas(64) PacketShadow {
   int line_count = 0;
   PacketLine lines[4];
@@ -62,8 +62,9 @@ public:
     OccluderList<float, PointRange>::move_to(range_of(at));
   }
 
-  /// Subtracts an occluder from `part`: false if it has no share in it at any point. Lanes where it has leave
-  /// the part; what they keep goes to `out`, or to `rest` if others, `left` bits, are still to be subtracted.
+  /// Subtracts an occluder from `part`: false if it overlaps it at no point. Lanes where it does leave the
+  /// part; what they keep goes to `out`, or to `rest` if others, the bits of `left`, are still to be
+  /// subtracted.
   SIMD_INLINE bool subtract(std::size_t id, const PacketReach& reach, PacketPart& part,
                             const LaneIndex<float>*, std::uint64_t left, PacketParts& rest,
                             PacketParts& out) {
@@ -80,7 +81,7 @@ private:
     return bits(below(0) & below(1) & below(2) & below(3));
   }
 
-  /// No line has all of a lane of `met` on its outside.
+  /// Whether no line has all of a lane of `met` on its outside.
   HWY_NOINLINE bool cut_out(const PacketShadow& shadow, std::uint32_t met, PacketPart& part,
                             PacketParts& out) {
     const std::size_t before = out.size();

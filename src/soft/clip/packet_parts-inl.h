@@ -1,4 +1,4 @@
-// Up to sixteen points of a group, a point a lane, and the fragments of the light that they see together.
+// Up to sixteen points of a group, one in each lane, and the fragments of the light that they see together.
 // Included once per target.
 #if defined(TENEBRA_SOFT_PACKET_PARTS_INL_H_) == defined(HWY_TARGET_TOGGLE)
 #ifdef TENEBRA_SOFT_PACKET_PARTS_INL_H_
@@ -26,8 +26,8 @@ struct PacketPoints {
   double in_axes[3][packet_size] = {}, in_light[2][packet_size] = {}, reach[packet_size] = {};
   LightAxes axes;
 
-  std::uint32_t touched = 0;  ///< bits of the points from which something was taken of the light
-  bool failed = false;        ///< rounding asks for more care than is taken here
+  std::uint32_t touched = 0;  ///< bits of the points that lost some of the light
+  bool failed = false;        ///< rounding needs more care than is taken here
 
   void add(const glm::dvec3& at, std::uint32_t on, double tau) {
     for (int c = 0; c < 3; ++c) position[c][count] = at[c];

@@ -1,5 +1,5 @@
 // Convex polygons on the light's plane in lanes, one for each point of a packet, and their split by a line
-// that is another one for each point: light_polygon-inl.h turned by a quarter. Included once per target.
+// that differs from point to point: light_polygon-inl.h transposed. Included once per target.
 #if defined(TENEBRA_SOFT_PACKET_POLYGON_INL_H_) == defined(HWY_TARGET_TOGGLE)
 #ifdef TENEBRA_SOFT_PACKET_POLYGON_INL_H_
 #undef TENEBRA_SOFT_PACKET_POLYGON_INL_H_
@@ -36,7 +36,7 @@ struct alignas(64) PacketPolygon {
   int before(int k) const { return k > 0 ? k - 1 : count - 1; }
 };
 
-/// A LightLine a lane.
+/// A LightLine in each lane.
 struct alignas(64) PacketLine {
   Float16 u, v, w;
 

@@ -1,5 +1,5 @@
-// What sixteen points of a group see of the light, a point a lane: neighbours mostly see the same occluders
-// cut it in the same way. Included once per target.
+// The visible part of the light for sixteen points of a group, one in each lane: neighbours mostly see it cut
+// by the same occluders in the same way. Included once per target.
 #if defined(TENEBRA_SOFT_PACKET_SOLVER_INL_H_) == defined(HWY_TARGET_TOGGLE)
 #ifdef TENEBRA_SOFT_PACKET_SOLVER_INL_H_
 #undef TENEBRA_SOFT_PACKET_SOLVER_INL_H_
@@ -39,7 +39,7 @@ public:
   glm::dvec3 to_origin(std::size_t k) const { return {to_origin_[0][k], to_origin_[1][k], to_origin_[2][k]}; }
   glm::dvec3 normal(std::size_t k) const { return {normal_[0][k], normal_[1][k], normal_[2][k]}; }
 
-  /// Finds what the points, at least one, see of the light; false, and nothing found, where rounding asks for
+  /// Finds what the points (at least one) see of the light; false, and nothing found, where rounding needs
   /// more care than is taken here.
   HWY_NOINLINE bool solve(const LightFrame& light, const LightAxes& axes) {
     points_.place_in(axes);
@@ -59,7 +59,7 @@ public:
     }
     return !points_.failed;
   }
-  /// Nothing takes anything of the light from this point, no horizon either.
+  /// Whether nothing hides any of the light from this point, and no horizon cuts it.
   bool sees_all(std::size_t k) const { return (whole_ >> k & 1u) != 0; }
   /// Of the others: what is visible, in units of the light squared, and what it sends.
   double area(std::size_t k) const { return 0.5 * area_[k]; }
@@ -67,7 +67,7 @@ public:
   std::uint64_t fragments() const { return fragments_; }
 
 private:
-  /// A line a lane; where it cuts nothing, one that is positive everywhere.
+  /// A line in each lane; where it cuts nothing, one that is positive everywhere.
   struct Horizon {
     float u[packet_size] = {}, v[packet_size] = {}, w[packet_size] = {};
     std::uint32_t cuts = 0;
@@ -119,7 +119,7 @@ private:
     return !light_.empty();
   }
 
-  /// Leaves of a part what is above the horizons of its points.
+  /// Keeps the part above the horizons of its points.
   SIMD_INLINE void keep_above(const Horizon& horizon, PacketPart& part) {
     if ((horizon.cuts & part.live) == 0) return;
     PacketValues values = evaluate(part.polygon, horizon.line());

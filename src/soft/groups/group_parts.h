@@ -1,4 +1,4 @@
-// What groups are made with: shared by the ways of grouping.
+// Parts that both ways of grouping share.
 #pragma once
 
 #include <array>
@@ -35,7 +35,8 @@ inline std::array<std::uint8_t, 8> bytes_of(std::uint64_t set) {
   return bytes;
 }
 
-/// Of each square of 8x8 pixels one, or more where its points do not lie together; a part a row of squares.
+/// One group for each square of 8x8 pixels, or more where its points do not lie together; each row of squares
+/// is a part.
 std::vector<GroupPart> group_tiles(const Grouping& grouping);
 /// One for each triangle.
 GroupPart group_by_triangle(const Grouping& grouping);

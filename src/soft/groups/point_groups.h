@@ -23,7 +23,7 @@ struct PointGroup {
   std::uint32_t first = 0, count = 0;                    ///< range of PointGroups::pixels
   std::uint32_t first_receiver = 0, receiver_count = 0;  ///< range of PointGroups::receivers
   glm::dvec3 low{0.0}, high{0.0};                        ///< box of the points, world space, exact
-  Cell cell;                                             ///< around the points, little larger than they need
+  Cell cell;                                             ///< around the points, little larger than needed
 };
 
 /// A range of groups with the box of its points. Children follow each other; those of node 0 are the whole.
@@ -41,7 +41,7 @@ struct PointGroups {
   std::vector<std::uint32_t>
       pixels;                       ///< in the groups' ranges every active pixel once, between them nothing;
                                     ///< in a neighbourhood along a Z curve: any range lies together
-  std::vector<Receiver> receivers;  ///< group after group; each triangle once a group, ascending
+  std::vector<Receiver> receivers;  ///< group after group; each triangle once for each group, ascending
 
   std::span<const std::uint32_t> pixels_of(const PointGroup& group) const {
     return {pixels.data() + group.first, group.count};

@@ -17,7 +17,8 @@ using glm::dvec3;
 
 constexpr double infinity = std::numeric_limits<double>::infinity();
 
-/// The light sinks below the triangle's plane, or nearly so: what its points, lifted, may see of it.
+/// The light sinks below the triangle's plane, or nearly so: how much of it the triangle's lifted points may
+/// see.
 void see_lifted(const TriangleView& triangles, const ViewRays& view, const LightShape& light,
                 LitTriangle& lit) {
   const points::SmoothSurface smooth = points::smooth_surface(triangles, lit.receiver.triangle, view);

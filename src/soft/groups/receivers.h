@@ -1,5 +1,5 @@
-// The triangles on which a group's points lie, and what they say about its occluders: what lies behind a
-// receiver blocks nothing, nor does the receiver itself; and the contact rule's tolerances.
+// The triangles on which a group's points lie, and how they limit its occluders: nothing behind a receiver
+// blocks, nor does the receiver itself; and the contact rule's tolerances.
 #pragma once
 
 #include <cstdint>

@@ -12,7 +12,7 @@ namespace {
 constexpr std::uint32_t tile = 8;  // pixels a side
 static_assert(tile * tile == largest_neighbourhood);
 
-// What is known of triangles, by the id's last bits.
+// A cache of data about triangles, by the id's last bits.
 class KnownTriangles {
 public:
   const LitTriangle& operator()(const Grouping& g, std::uint32_t id) {

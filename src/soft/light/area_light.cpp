@@ -165,7 +165,7 @@ dvec2 centre_polygon(std::vector<dvec2>& polygon, double& area) {
   return centroid;
 }
 
-/// Leaves the polygon's corners and derives what hangs on them.
+/// Keeps the polygon's corners and derives everything that depends on them.
 Expected<AreaLight> finish(AreaLight light, double tau) {
   std::vector<dvec2> points;
   for (const vec3& v : light.vertices)

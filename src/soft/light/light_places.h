@@ -33,7 +33,7 @@ private:
   double area_ = 0;
 };
 
-/// What shines from such a place.
+/// The polygon that the places lie on.
 ShadowLight light_at(const AreaLight& light, const glm::vec3& place);
 
 /// Place `index` of Sobol's sequence in the unit square (Bratley and Fox 1988): of any 2^m that follow each

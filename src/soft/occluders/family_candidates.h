@@ -1,5 +1,4 @@
-// The candidates of groups that lie near each other, made ready once, and which of them are those of one
-// group.
+// The candidates of groups that lie near each other, prepared once, and which of them belong to each group.
 #pragma once
 
 #include <cstdint>
@@ -21,7 +20,7 @@ public:
   /// All of them, ascending.
   std::span<const std::uint32_t> triangles() const { return ids_; }
 
-  /// What was made of all of them, and the places in it that groups choose from.
+  /// The candidates made from all of them, and the places that groups choose from.
   void make_ready(const GroupCandidates& all, std::span<const std::uint32_t> places);
 
   /// Those of the places that hold one of the triangles of group `k`, which is `group`; a pair with either of

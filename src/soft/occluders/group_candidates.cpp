@@ -19,7 +19,7 @@ namespace tenebra::soft::HWY_NAMESPACE {
 using namespace simd::HWY_NAMESPACE;
 namespace {
 
-/// What eight triangles are to a group and its light.
+/// Eight triangles in relation to a group and its light.
 struct LaneResults {
   double corners[3][3][8];
   double plane[3][8];

@@ -84,7 +84,7 @@ public:
     OccluderList<T, GroupPoint>::move_to(at);
   }
 
-  /// Subtracts an occluder from `part`: false if it has no share in it. What is left goes to `out`, or to
+  /// Subtracts an occluder from `part`: false if it does not overlap it. What is left goes to `out`, or to
   /// `rest` if others of `ids` are still to be subtracted from it: those of the bits of `left`, from which
   /// these that only stand near the part are taken where they are few.
   SIMD_INLINE bool subtract(std::size_t id, const LightBox<T>&, const LightPolygon<T>& part,
@@ -98,7 +98,7 @@ public:
   }
 
 private:
-  /// Of so many each is tested against a part once, and not against all fragments of it (measured).
+  /// From this many on, each is tested once against a part, and not against all of its fragments (measured).
   static constexpr int few_left = 12;
 
   /// Of the bits of `left` those whose occluders no line of their own parts from `part`.

@@ -12,7 +12,8 @@ HWY_BEFORE_NAMESPACE();
 namespace tenebra::soft::HWY_NAMESPACE {
 using namespace simd::HWY_NAMESPACE;
 
-/// The plane of a shading normal through points, met with the light's plane: a line a lane, positive above.
+/// The plane of a shading normal through points, met with the light's plane: a line in each lane, positive
+/// above.
 struct HorizonLanes {
   Double8 u, v, w;
 
@@ -31,7 +32,7 @@ SIMD_INLINE HorizonLanes horizon_of(const LightFrame& light, const Pack3<Double8
           dot_unfused(normal, to_origin)};
 }
 
-/// Up to eight points, a lane each.
+/// Up to eight points, one in each lane.
 struct WholePoints {
   std::size_t count = 0;
   std::uint32_t pixels[8] = {};

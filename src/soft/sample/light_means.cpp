@@ -11,7 +11,7 @@ namespace tenebra::soft {
 
 namespace {
 
-/// What a slot has seen itself, in two halves.
+/// A slot's own tally, in two halves.
 struct Own {
   float irradiance[2], fraction;
   float mean() const { return 0.5f * (irradiance[0] + irradiance[1]); }
@@ -111,7 +111,7 @@ Around around(const SoftFrame& frame, const NearInView& near, const SampledBlock
   return out;
 }
 
-/// What `share` visible places of all spread by, if each were seen or not by itself.
+/// The spread of a visible share `share` if each place were seen independently.
 float spread_of(float share) {
   return share * (1 - share);
 }
@@ -181,8 +181,8 @@ void find_means(const SoftFrame& frame, const SampledBlocks& blocks, const Light
       moved += by * by / static_cast<float>(near.count);
     }
     noise = trust * noise + (1 - trust) * usual.at(slot, smooth[slot]);
-    // The smooth value moves by noise alone, or by more: what it smears. Both are blended for the least
-    // error.
+    // The smooth value differs by noise alone, or by more, which is blur. Both values are blended for the
+    // least error.
     const float noise_moves = noise * (1 - 2 * own_weight + noise_left);
     const float smeared = std::max(0.0f, moved - noise_moves);
     const float keep = moved > 0 ? smeared / (smeared + noise_moves) : 0.0f, give = 1 - keep;

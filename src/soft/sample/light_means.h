@@ -1,5 +1,5 @@
-// From what sampled pixels have seen to what they show: means with their neighbours on the same surface, as
-// far as these do not smear what the pixels see themselves, and how far off they may be.
+// From the tally of sampled pixels to the values that they show: means with their neighbours on the same
+// surface, as far as these do not blur what the pixels see themselves, and estimates of their errors.
 #pragma once
 
 #include <cstdint>

@@ -14,7 +14,7 @@ namespace {
 constexpr std::uint32_t most_places = 1024;  ///< of the light, for each slot; groups of more candidates than
                                              ///< are worth it end here, whatever their error
 
-/// What irradiance is compared with: the 99.9th percentile of what pixels show, of every so many of them;
+/// The reference for irradiance: the 99.9th percentile of the pixels' values, over a regular choice of them;
 /// where that is 0, the largest.
 double white_of(const SoftFrame& frame, const SampledBlocks& blocks, const LightMeans& means) {
   constexpr std::size_t enough = 1 << 16;
@@ -36,14 +36,14 @@ bool is_penumbra(float fraction) {
   return fraction > 0 && fraction < 1;
 }
 
-/// What the sampled pixels are off by.
+/// The errors of the sampled pixels.
 struct SampledErrors {
   std::vector<double> squares;       ///< of each block: sum over its pixels
   std::vector<std::uint32_t> count;  ///< of each block: pixels
   double square = 0;
   std::uint64_t pixels = 0, penumbra = 0;
 };
-/// Square of what a pixel's irradiance is off by.
+/// Square of the error of a pixel's irradiance.
 double square_of(const SoftFrame& frame, const LightMeans& means, std::size_t slot, std::uint32_t pixel) {
   const auto full = static_cast<double>(frame.out.irradiance[pixel]);
   return static_cast<double>(means.square[slot]) * full * full;
@@ -178,7 +178,7 @@ bool SoftSampler::solve(const SoftFrame& frame, const AreaLight& light, std::spa
   return true;
 }
 
-/// Before write(), which changes what they are found by.
+/// To be called before write(), which changes the data that they are found from.
 void SoftSampler::write_errors(const SoftFrame& frame, double unit, std::span<float> errors_255) const {
   if (!(unit > 0)) return;
   for (std::size_t slot = 0; slot < blocks_.pixels.size(); ++slot) {

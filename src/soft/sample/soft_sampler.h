@@ -1,6 +1,6 @@
-// Soft shadows with an error that was asked for: where exact solving costs more, pixels look at places of the
-// light by exact hard shadows, and at more of them until what they show errs by no more than that, or they
-// have looked at 1,024 in each phase.
+// Soft shadows with an allowed error: where exact solving takes longer, pixels are sampled at places on the
+// light by exact hard shadows, and at more of them until the estimated error is no larger, or each phase has
+// 1,024 places.
 #pragma once
 
 #include <array>
@@ -16,8 +16,9 @@ namespace tenebra::soft {
 /// Places on the light that pixels look at first, in each phase.
 std::uint32_t first_places(double error_255);
 
-/// Whether pixels of a group with so many candidates are sampled at so many places, or solved exactly. By
-/// counts, measured once: exact solving takes longer with each candidate, sampling with each place.
+/// Whether pixels of a group with this many candidates are sampled at this many places, or solved exactly.
+/// Decided by counts, whose weights were measured once: the time of exact solving grows with the candidates,
+/// that of sampling with the places.
 inline bool worth_sampling(std::size_t candidates, std::uint32_t places) {
   return candidates >= 64 + 6 * std::size_t{places};
 }
@@ -31,14 +32,14 @@ struct SampledGroup {
 /// Buffers kept from frame to frame.
 class SoftSampler {
 public:
-  /// Multiplies frame.out of the groups' pixels, which say what they would see with nothing in the way, by
-  /// the visible shares, and adds to `stats`, which have the pixels that were solved exactly. Groups that
-  /// would take longer so than exactly are left alone: `left` gets their numbers. `errors_255`, one for each
-  /// pixel, gets what those that stay are off by, estimated, in 1/255 of white. The bits do not depend on the
-  /// order of groups, threads or instruction set. Returns false if frame.stop was requested.
+  /// Multiplies frame.out of the groups' pixels, which hold the unoccluded light, by the visible shares, and
+  /// adds to `stats`, which have the pixels that were solved exactly. Groups that would take longer this way
+  /// than exactly are left alone: `left` gets their numbers. `errors_255`, one for each pixel, gets the
+  /// estimated errors of the others, in 1/255 of white. The bits do not depend on the order of groups,
+  /// threads or instruction set. Returns false if frame.stop was requested.
   bool solve(const SoftFrame& frame, const AreaLight& light, std::span<const SampledGroup> groups,
              SoftStats& stats, std::vector<std::uint32_t>& left, std::span<float> errors_255);
-  /// Of the last call: squares of what the pixels are off by, estimated, in 1/255 of white, summed.
+  /// After a call: the sum of the squares of the pixels' estimated errors, in 1/255 of white.
   double square_error() const { return square_error_; }
 
 private:

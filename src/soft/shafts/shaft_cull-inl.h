@@ -86,7 +86,7 @@ SIMD_INLINE std::uint32_t inside(const CullingShaft<T>& shaft, const TriangleBlo
   return lanes;
 }
 
-// Asks for the block of a reference some places on: lists of many triangles do not stay in the caches.
+// Prefetches the block of a reference some places ahead: lists of many triangles do not stay in the caches.
 SIMD_INLINE void fetch_ahead(const TriangleBlock* blocks, std::span<const BlockRef> in, std::size_t i) {
   constexpr std::size_t ahead = 4, line = 64;
   if (i + ahead >= in.size()) return;
@@ -108,7 +108,7 @@ std::size_t cull_in(const Shaft& shaft, const TriangleBlock* blocks, std::span<c
   return count;
 }
 
-// In float where its margins are next to nothing beside the light or the cell.
+// In float where its margins are negligible compared with the light or the cell.
 inline std::size_t cull(const Shaft& shaft, const TriangleBlock* blocks, std::span<const BlockRef> in,
                         BlockRef* out) {
   const Cell& cell = shaft.cell;

@@ -180,8 +180,8 @@ SIMD_INLINE Sides sides_of_centre(const Shaft& shaft, const Triangles& t) {
   return {lt_bits(zero, reduce_min(f[0], f[1], f[2])), lt_bits(most(f[0], f[1], f[2]), zero)};
 }
 
-// What lines between cell and light do about the edges, of lanes that they cross from the front (f >= 0 at
-// all edges) or from the back (f <= 0).
+// On which side of the edges lines between cell and light pass, for lanes that they cross from the front (f
+// >= 0 at all edges) or from the back (f <= 0).
 SIMD_INLINE void keep_crossed(const Shaft& shaft, const TriangleBlock& block, const Triangles& t, Sides& some,
                               Sides& every) {
   const Double8 zero = broadcast8(0.0), margin = side_margin(shaft, t);

@@ -13,7 +13,7 @@ namespace tenebra::soft {
 
 namespace {
 
-// Nodes of fewer groups hand on what they were given: a cull pays from here on (measured).
+// Nodes of fewer groups pass on their list unchanged: culling pays from here on (measured).
 constexpr std::uint32_t fewest_groups = 3;
 
 // The same for nodes of more than this part of the groups for which the last cull was: culling at each level
@@ -113,7 +113,7 @@ public:
   /// `from`: what may matter to the node, found for a node of `groups` groups.
   void decide(const GroupNode& node, const BlockList& from, std::uint32_t groups);
 
-  /// What was decided, those with most work first.
+  /// The decided groups, those with most work first.
   void hand_over();
 
 private:

@@ -39,7 +39,7 @@ struct ShaftStats {
   std::uint64_t points_lit = 0, points_dark = 0, points_mixed = 0;
   std::uint64_t candidates = 0;       ///< of mixed groups, summed
   std::uint64_t most_candidates = 0;  ///< of one group
-  double seconds = 0;                 ///< spent here, bodies left out: all threads' time, summed
+  double seconds = 0;                 ///< spent here, without the bodies: all threads' time, summed
 };
 
 /// Buffers kept from frame to frame.

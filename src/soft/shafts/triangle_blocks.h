@@ -39,7 +39,8 @@ struct BlockList {
   void compact();
 };
 
-/// All casting triangles, eight ids a block; those with two equal corners, which block nothing, are left out.
+/// All casting triangles, eight ids to a block; those with two equal corners, which block nothing, are left
+/// out.
 void gather_casters(const TriangleView& triangles, BlockList& out);
 
 }  // namespace tenebra::soft

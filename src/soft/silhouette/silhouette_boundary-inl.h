@@ -1,9 +1,10 @@
-// The border of what a silhouette leaves of a part of the light, without cutting the part: the stretches of
+// The boundary of what a silhouette leaves of a part of the light, without cutting the part: the segments of
 // the silhouette's edges and of the part's sides that have a winding of zero on one side only. Windings are
 // counted at one place of every edge, and change where others cross it. Included once per target.
 //
-// All decisions are of signs that rounding cannot change, or the border is not given and the part is to be
-// cut. Two edges meet in one and the same place for both: the border is closed but for the rounding of sums.
+// All decisions are of signs that rounding cannot change, or the boundary is not given and the part is to be
+// cut. Two edges meet in one and the same place for both: the boundary is closed but for the rounding of
+// sums.
 #if defined(TENEBRA_SOFT_SILHOUETTE_BOUNDARY_INL_H_) == defined(HWY_TARGET_TOGGLE)
 #ifdef TENEBRA_SOFT_SILHOUETTE_BOUNDARY_INL_H_
 #undef TENEBRA_SOFT_SILHOUETTE_BOUNDARY_INL_H_
@@ -12,7 +13,7 @@
 #endif
 
 #include "soft/polygon/irradiance-inl.h"
-#include "soft/silhouette/edge_stretches-inl.h"
+#include "soft/silhouette/edge_segments-inl.h"
 
 HWY_BEFORE_NAMESPACE();
 namespace tenebra::soft::HWY_NAMESPACE {
@@ -34,8 +35,8 @@ public:
       rays_.take(around, reduce_min(part.y), reduce_max(part.y), slack);
       around_ = &rays_;
     }
-    stretches_.find(edges, first, slack, part);
-    blocks_.assign(stretches_.blocks.size(), {});
+    segments_.find(edges, first, slack, part);
+    blocks_.assign(segments_.blocks.size(), {});
     least_.resize(16 * blocks_.size());
     links_.clear();
     last_link_.assign(16 * blocks_.size(), 0);
@@ -46,15 +47,15 @@ public:
   /// Bits of the edges of block b that may have light beside them: only along these the part need be cut.
   std::uint32_t kept(std::size_t b) const {
     const std::uint32_t dark = lt_bits(broadcast<Lanes>(0), load<Lanes>(&least_[16 * b])) & ~blocks_[b].level;
-    return stretches_.blocks[b].there & ~(dark & ~stretches_.blocks[b].unsure);
+    return segments_.blocks[b].there & ~(dark & ~segments_.blocks[b].unsure);
   }
 
-  /// Adds the border to `to`, counter-clockwise; false, and nothing added, where rounding might decide.
+  /// Adds the boundary to `to`, counter-clockwise; false, and nothing added, where rounding might decide.
   HWY_NOINLINE bool append_to(LightEdges& to) {
     bool doubtful = false;
-    const T winding = winding_around(*around_, slack_, stretches_.begin_u(), stretches_.begin_v(), doubtful);
+    const T winding = winding_around(*around_, slack_, segments_.begin_u(), segments_.begin_v(), doubtful);
     for (std::size_t b = 0; b < blocks_.size(); ++b)
-      doubtful |= (kept(b) & (blocks_[b].doubtful | stretches_.blocks[b].unsure)) != 0;
+      doubtful |= (kept(b) & (blocks_[b].doubtful | segments_.blocks[b].unsure)) != 0;
     if (doubtful) return false;
     const std::size_t before = to.count;
     append_sides(winding, to);
@@ -69,7 +70,7 @@ private:
   using Place = glm::dvec2;
   static constexpr std::size_t many_rays = 64;  ///< edges; to leave out some of fewer gains nothing
   struct Block {
-    T right[16];                 ///< windings to the right of the middles of stretches
+    T right[16];                 ///< windings to the right of the middles of segments
     std::uint32_t level = 0;     ///< bits of the edges without a right side: a ray runs along them
     std::uint32_t doubtful = 0;  ///< those about which rounding might decide
     std::uint32_t crossed = 0;   ///< those that others cross on the part
@@ -82,8 +83,8 @@ private:
   void count_windings(std::size_t b) {
     const SilhouetteLanes<T> e = edges_->lanes_from(first_ + 16 * b);
     const Lanes half = broadcast<Lanes>(T(0.5));
-    const Lanes u = (load<Lanes>(&stretches_.from_u[16 * b]) + load<Lanes>(&stretches_.to_u[16 * b])) * half;
-    const Lanes v = (load<Lanes>(&stretches_.from_v[16 * b]) + load<Lanes>(&stretches_.to_v[16 * b])) * half;
+    const Lanes u = (load<Lanes>(&segments_.from_u[16 * b]) + load<Lanes>(&segments_.to_u[16 * b])) * half;
+    const Lanes v = (load<Lanes>(&segments_.from_v[16 * b]) + load<Lanes>(&segments_.to_v[16 * b])) * half;
     const Windings<T> beside = windings_right_of(*around_, slack_, e.number, u, v);
     store(beside.winding, blocks_[b].right);
     store(beside.winding + min(e.winding, broadcast<Lanes>(0)) - beside.doubt, &least_[16 * b]);
@@ -94,7 +95,7 @@ private:
   /// Those of the edges of block b by others of it and behind it.
   HWY_NOINLINE void find_crossings(std::size_t b) {
     const SilhouetteEdges<T>& its = *edges_;
-    const EdgeStretches<T>& on = stretches_;
+    const EdgeSegments<T>& on = segments_;
     const SilhouetteLanes<T> e = its.lanes_from(first_ + 16 * b);
     const Lanes from_u = load<Lanes>(&on.from_u[16 * b]), from_v = load<Lanes>(&on.from_v[16 * b]);
     const Lanes to_u = load<Lanes>(&on.to_u[16 * b]), to_v = load<Lanes>(&on.to_v[16 * b]);
@@ -153,20 +154,20 @@ private:
 
   /// `winding` around the part's first vertex.
   void append_sides(T winding, LightEdges& edges) {
-    auto next = stretches_.side_changes.begin();
-    for (int k = 0; k < stretches_.sides(); ++k) {
-      Place at = stretches_.vertex(k);
-      for (; next != stretches_.side_changes.end() && next->share <= k + 1; ++next) {
+    auto next = segments_.side_changes.begin();
+    for (int k = 0; k < segments_.sides(); ++k) {
+      Place at = segments_.vertex(k);
+      for (; next != segments_.side_changes.end() && next->share <= k + 1; ++next) {
         if (winding == T(0)) push(at, next->at, edges);
         winding += next->change;
         at = next->at;
       }
-      if (winding == T(0)) push(at, stretches_.vertex(k + 1), edges);
+      if (winding == T(0)) push(at, segments_.vertex(k + 1), edges);
     }
   }
 
   void append_edges(std::size_t b, LightEdges& edges) {
-    const EdgeStretches<T>& on = stretches_;
+    const EdgeSegments<T>& on = segments_;
     const Lanes zero = broadcast<Lanes>(0), right = load<Lanes>(blocks_[b].right);
     const auto left_is_lit = eq(right + load<Lanes>(&edges_->winding[first_ + 16 * b]), zero);
     const std::uint32_t lit = kept(b) & ~blocks_[b].crossed & bits(left_is_lit | eq(right, zero));
@@ -185,7 +186,7 @@ private:
       append_crossed(16 * b + static_cast<std::size_t>(std::countr_zero(left)), edges);
   }
 
-  /// The lit stretches of an edge that others cross.
+  /// The lit segments of an edge that others cross.
   HWY_NOINLINE void append_crossed(std::size_t i, LightEdges& edges) {
     changes_.clear();
     for (std::uint32_t k = last_link_[i]; k != 0; k = links_[k - 1].before)
@@ -195,7 +196,7 @@ private:
     T right = blocks_[i / 16].right[i % 16];  // in the middle
     for (const WindingChange<T>& c : changes_)
       if (c.share < 0.5) right -= c.change;
-    Place at = stretches_.from(i);
+    Place at = segments_.from(i);
     const auto append = [&](const Place& next) {
       if (right + turns == T(0)) push(at, next, edges);
       if (right == T(0)) push(next, at, edges);
@@ -205,19 +206,19 @@ private:
       append(c.at);
       right += c.change;
     }
-    append(stretches_.to(i));
+    append(segments_.to(i));
   }
 
   /// Of edge i by edge k. The place is found the same way for both.
   WindingChange<T> crossing(std::size_t i, std::size_t k) const {
     const auto cross = [](const Place& a, const Place& b) { return a.x * b.y - a.y * b.x; };
-    const auto way = [&](std::size_t edge) { return stretches_.to(edge) - stretches_.from(edge); };
+    const auto way = [&](std::size_t edge) { return segments_.to(edge) - segments_.from(edge); };
     const std::size_t low = std::min(i, k), high = std::max(i, k);
     const double share =
-        cross(way(high), stretches_.from(low) - stretches_.from(high)) / cross(way(low), way(high));
-    const Place at = stretches_.from(low) + std::clamp(share, 0.0, 1.0) * way(low), along = way(i);
+        cross(way(high), segments_.from(low) - segments_.from(high)) / cross(way(low), way(high));
+    const Place at = segments_.from(low) + std::clamp(share, 0.0, 1.0) * way(low), along = way(i);
     const T turns = edges_->winding[first_ + k];
-    return {glm::dot(at - stretches_.from(i), along) / glm::dot(along, along), at,
+    return {glm::dot(at - segments_.from(i), along) / glm::dot(along, along), at,
             cross(way(k), along) > 0 ? turns : -turns};
   }
 
@@ -234,7 +235,7 @@ private:
   const SilhouetteEdges<T>* edges_ = nullptr;
   std::size_t first_ = 0, count_ = 0;  ///< the edges at hand
   T slack_ = 0;
-  EdgeStretches<T> stretches_;
+  EdgeSegments<T> segments_;
   std::vector<Block> blocks_;
   std::vector<T> least_;  ///< windings beside the edges, wherever rounding and crossings leave most light
   std::vector<Link> links_;

@@ -15,7 +15,7 @@ HWY_BEFORE_NAMESPACE();
 namespace tenebra::soft::HWY_NAMESPACE {
 using namespace simd::HWY_NAMESPACE;
 
-/// An edge a lane.
+/// An edge in each lane.
 template <class T>
 struct SilhouetteLanes {
   Pack<T, 16> u, v, w, from_u, from_v, to_u, to_v, winding, number;

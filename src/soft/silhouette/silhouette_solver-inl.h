@@ -1,4 +1,4 @@
-// The visible part of the light from the silhouette of meshes: its border (silhouette_boundary-inl.h), for
+// The visible part of the light from the silhouette of meshes: its boundary (silhouette_boundary-inl.h), for
 // parts with many edges strip by strip. Where rounding might decide, or a horizon is to cut what is found,
 // the light is cut along the edges that cross it, and a part that no edge crosses any more is visible if the
 // silhouette winds around it zero times. Included once per target.
@@ -44,19 +44,21 @@ public:
     crossing_light_ = crossing_.count;
   }
 
-  /// Finds the part of `light` (convex, within |u|, |v| <= 1) visible from the point: adds its border to
-  /// `border`, counter-clockwise; or where rounding might decide, or there is none, convex parts to `out`.
-  HWY_NOINLINE void query(const LightPolygon<T>& light, LightEdges* border, FragmentList<T>& out) {
+  /// Finds the part of `light` (convex, within |u|, |v| <= 1) visible from the point: adds its boundary to
+  /// `boundary`, counter-clockwise; or where rounding might decide, or there is none, convex parts to `out`.
+  HWY_NOINLINE void query(const LightPolygon<T>& light, LightEdges* boundary, FragmentList<T>& out) {
     const std::size_t first = crossing_light_;
     crossing_.make_room(first);
     keep_crossing(0, first, light, {0, 0, 1}, T(1), first);
-    find(light, first, border, out);
+    find(light, first, boundary, out);
   }
 
 private:
   using Lanes = Pack<T, 16>;
-  static constexpr std::size_t several = 4;  ///< edges; to cut along fewer is quicker than to ask first
-  static constexpr std::size_t many = 64;    ///< edges; to ask takes the square of their number
+  static constexpr std::size_t several =
+      4;  ///< edges; cutting along fewer is quicker than looking for their boundary
+  static constexpr std::size_t many =
+      64;  ///< edges; the time for a boundary grows with the square of their number
   struct MovingBlock {
     double from[3][16], to[3][16];  ///< coordinate, edge
     double winding[16];
@@ -140,23 +142,23 @@ private:
   }
 
   /// The same for a part that the crossing edges from `first` on may cross; forgets those.
-  void find(const LightPolygon<T>& part, std::size_t first, LightEdges* border, FragmentList<T>& out) {
+  void find(const LightPolygon<T>& part, std::size_t first, LightEdges* boundary, FragmentList<T>& out) {
     const std::size_t count = crossing_.count - first;
-    if (border != nullptr && count > many && reduce_max(part.y) - reduce_min(part.y) > T(1) / 16)
-      return find_in_halves(part, first, border, out);
-    if (count >= (border != nullptr ? 1 : several) && count <= many) {
-      border_.look_at(around_, crossing_, first, slack_, part);
-      if (border != nullptr && border_.append_to(*border)) {
+    if (boundary != nullptr && count > many && reduce_max(part.y) - reduce_min(part.y) > T(1) / 16)
+      return find_in_halves(part, first, boundary, out);
+    if (count >= (boundary != nullptr ? 1 : several) && count <= many) {
+      boundary_.look_at(around_, crossing_, first, slack_, part);
+      if (boundary != nullptr && boundary_.append_to(*boundary)) {
         crossing_.count = first;
         return;
       }
-      keep_bordering(first);
+      keep_bounding(first);
     }
     branch(part, first, out);
   }
 
   /// In two strips, which are as wide: rays meet the fewer edges, and the edges fewer others.
-  void find_in_halves(const LightPolygon<T>& part, std::size_t first, LightEdges* border,
+  void find_in_halves(const LightPolygon<T>& part, std::size_t first, LightEdges* boundary,
                       FragmentList<T>& out) {
     const LightLine<T> line{0, 1, (reduce_max(part.y) + reduce_min(part.y)) / -2};
     const LineValues<T> values = evaluate(part, line);
@@ -165,16 +167,16 @@ private:
     const std::size_t last = crossing_.count;
     crossing_.make_room(last - first);
     keep_crossing(first, last, above, line, T(1), last);
-    find(above, last, border, out);
+    find(above, last, boundary, out);
     keep_crossing(first, last, below, line, T(-1), first);
-    find(below, first, border, out);
+    find(below, first, boundary, out);
   }
 
   /// Forgets the crossing edges from `first` on without light beside them.
-  void keep_bordering(std::size_t first) {
+  void keep_bounding(std::size_t first) {
     const std::size_t last = std::exchange(crossing_.count, first);
     for (std::size_t i = first; i < last; i += 16)
-      crossing_.append(mask_of_bits<T, 16>(border_.kept((i - first) / 16)), crossing_.lanes_from(i));
+      crossing_.append(mask_of_bits<T, 16>(boundary_.kept((i - first) / 16)), crossing_.lanes_from(i));
   }
 
   /// Cuts `part` along the crossing edges from `first` on, and forgets those.
@@ -260,8 +262,8 @@ private:
   RayEdges<T> around_;           ///< edges that a ray from the light towards +u may cross
   SilhouetteEdges<T> crossing_;  ///< edges that may cross the light, and behind them, the parts at hand
   std::size_t crossing_light_ = 0;
-  SilhouetteBoundary<T> border_;
-  std::vector<int> signs_;  ///< one a SometimesBlocker
+  SilhouetteBoundary<T> boundary_;
+  std::vector<int> signs_;  ///< one for each SometimesBlocker
   T slack_ = 0;             ///< what rounding the corners can amount to, units of the light
 };
 

@@ -1,4 +1,4 @@
-// Solves groups of points: each is made ready and handed to the solver that suits it.
+// Solves groups of points: each is prepared and handed to the solver that suits it.
 #pragma once
 
 #include <cstdint>
@@ -28,8 +28,8 @@ public:
   void solve_together(const SoftFrame& frame, const GroupFrame& around, std::span<const GroupTask> tasks);
   /// The same for groups that nothing stands in front of.
   void solve_lit(const SoftFrame& frame, std::span<const std::span<const std::uint32_t>> groups);
-  /// Asks memory for the points of the group that is likely solved next (of many, the first), and for the
-  /// list of those `after` it.
+  /// Prefetches the points of the group that is likely to be solved next (the first of many), and the list of
+  /// those `after` it.
   static void expect(const SoftFrame& frame, std::span<const std::uint32_t> pixels,
                      std::span<const std::uint32_t> after);
 

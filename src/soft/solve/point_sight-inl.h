@@ -1,5 +1,5 @@
-// What the solvers of single points share: how a point sees the light before anything stands before it, and
-// the integrals over what it sees in the end. Included once per target.
+// What the solvers of single points share: how a point sees the unoccluded light, and the integrals over what
+// it sees in the end. Included once per target.
 #if defined(TENEBRA_SOFT_POINT_SIGHT_INL_H_) == defined(HWY_TARGET_TOGGLE)
 #ifdef TENEBRA_SOFT_POINT_SIGHT_INL_H_
 #undef TENEBRA_SOFT_POINT_SIGHT_INL_H_
@@ -114,7 +114,7 @@ PointSight sight_of(const SoftFrame& frame, const ReceiverSight<T>& receiver, st
   return sight;
 }
 
-/// What a point sees of the light: convex fragments, and edges of the border of other parts.
+/// The visible part of the light for a point: convex fragments, and edges of the boundary of other parts.
 template <class T>
 struct VisibleLight {
   FragmentList<T> fragments, scratch;

@@ -51,7 +51,7 @@ private:
     }
   }
 
-  /// Finds fragments, and where those will not be cut again, edges of the border of others.
+  /// Finds fragments, and where those will not be cut again, edges of the boundary of others.
   void find_visible(const SoftFrame& frame, const PreparedGroup& group, const PointSight& sight) {
     const GroupPoint at = group_point(group.candidates.axes, frame.points.positions[sight.pixel],
                                       receiver_.plane.id, receiver_.plane.tau);

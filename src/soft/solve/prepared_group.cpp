@@ -29,7 +29,7 @@ PreparedGroup GroupPreparer::choose(std::size_t k, const GroupTask& task) {
   return {task.frame, candidates_, silhouette_, family_.choose(k, task.frame, candidates_)};
 }
 
-/// Returns what is to be clipped. The BSP takes the candidates as they are.
+/// Returns the candidates to be clipped. The BSP takes the candidates unsorted.
 std::span<const std::uint32_t> GroupPreparer::sort_out(const SoftFrame& frame, const GroupFrame& group,
                                                        std::span<const std::uint32_t> triangles) {
   silhouette_.clear();

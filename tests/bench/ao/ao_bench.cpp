@@ -80,7 +80,7 @@ void add_scene_options(CLI::App& command, AoSceneOptions& options) {
   command
       .add_option(
           "--views", options.views,
-          fmt::format("scenes: those whose name has one of these in it, of {} [all]", fmt::join(names, ", ")))
+          fmt::format("scenes: those whose name contains one of these, of {} [all]", fmt::join(names, ", ")))
       ->type_name("TEXT,...")
       ->delimiter(',');
   command.add_option("--sizes", options.sizes, "scenes: pixels each way [512,1024; with --quick 512]")
@@ -88,10 +88,10 @@ void add_scene_options(CLI::App& command, AoSceneOptions& options) {
       ->delimiter(',')
       ->check(CLI::Range(16, 4096));
   command
-      .add_option(
-          "--truth-folder", options.truth_folder,
-          "scenes: where truths are kept, so that the next run has them at once, one file for a view, its "
-          "size and its content; '' for nowhere\n[$XDG_CACHE_HOME/tenebra/bench or ~/.cache/tenebra/bench]")
+      .add_option("--truth-folder", options.truth_folder,
+                  "scenes: where truths are kept for the next run, one file for each view, size and content; "
+                  "'' for nowhere\n"
+                  "[$XDG_CACHE_HOME/tenebra/bench or ~/.cache/tenebra/bench]")
       ->type_name("FOLDER");
   command
       .add_option("--truth-step", options.truth_step,

@@ -126,7 +126,7 @@ Expected<void> measure_clip(AoSession& session, const Footage& clip, Rows& rows,
   session.report.add({"flicker", clip.name, "field", "", "largest change near what moves", near, "1/255"});
   if (changes.undisturbed.empty())
     session.notes.push_back(
-        fmt::format("{}: no point stood still with nothing near: steadiness was not seen", clip.name));
+        fmt::format("{}: no point stood still with nothing near: steadiness was not measured", clip.name));
   return measure_held_view(session, clip.name, *scene, clip.first_frame, held_rows);
 }
 
@@ -145,10 +145,8 @@ Expected<void> measure_flicker(AoSession& session) {
     if (auto done = measure_clip(session, clip, rows, held_rows); !done) return done;
   }
   print_table("Steadiness of fields: still points from frame to frame, in 1/255", rows);
-  print_table(
-      "Steadiness of --ao adaptive: changes at pixels where nothing has changed, the camera held, in "
-      "1/255",
-      held_rows);
+  print_table("Steadiness of --ao adaptive: changes at undisturbed pixels with the camera held, in 1/255",
+              held_rows);
   return {};
 }
 

@@ -28,15 +28,15 @@ public:
 
   /// One visible pixel in each square of `stride`, at a place of its own.
   SampledTruth truth(int rays, int stride) const;
-  /// A frame (1 where it is not asked) with values at `pixels` only.
+  /// A frame with values at `pixels` only, and 1 elsewhere.
   std::vector<float> at(std::span<const std::size_t> pixels, int rays) const;
   /// A whole frame; downscale 2: at half resolution, blurred by the field's own code.
   std::vector<float> frame(int rays, int downscale, PeerMode mode = PeerMode::packets) const;
 
-  /// Cost of a frame in milliseconds without what turns it to full resolution: of one in `part` tiles, times
+  /// Time of a frame in milliseconds without the step to full resolution: of one in `part` tiles, times
   /// `part`.
   double trace_ms(int rays, int downscale, PeerMode mode, int part) const;
-  /// Cost of what turns half resolution to full.
+  /// Time of the step from half resolution to full.
   double spread_ms() const;
   double build_ms() const { return peer_.build_ms(); }
 

@@ -67,7 +67,7 @@ void tell(AoSession& session, const std::vector<std::unique_ptr<Level>>& levels)
     field.points.emplace_back(triangles, field_ms);
     embree.points.emplace_back(triangles, embree_ms);
   }
-  print_table("Figure 8: rays of the corner (256 a point) against one mesh, subdivided", rows);
+  print_table("Figure 8: rays from the corner (256 per point) against one mesh, subdivided", rows);
   session.headline.growth_1k_to_1m = growth(levels.front()->field_ms, levels.back()->field_ms);
   session.report.add_plot("figure8", curve_plot("Cost of the corner's rays", {"triangles", true},
                                                 {"time (ms)", true}, {field, embree}));

@@ -1,4 +1,4 @@
-// Steadiness of adaptive occlusion: what changes at pixels where nothing has.
+// Steadiness of adaptive occlusion: changes of value at undisturbed pixels.
 #pragma once
 
 #include <string>

@@ -90,7 +90,7 @@ Expected<void> measure_lookups(AoSession& session) {
     if (auto done = measure_object(session, object, rows, bars); !done) return done;
     names.push_back(object.name);
   }
-  print_table("Look-ups against Embree's nearest hits, a ray (x: the fastest of Embree over the field)",
+  print_table("Look-ups against Embree's nearest hits, per ray (x: the fastest of Embree over the field)",
               rows);
   session.report.add_plot("lookups", bar_plot("A ray on one thread", {"time (ns)", true}, names, bars));
   return {};

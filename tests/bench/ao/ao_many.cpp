@@ -65,7 +65,7 @@ Expected<void> measure_many(AoSession& session) {
   }
   print_table(fmt::format("Figure 8, multiple objects: frames of {} rays per point for both", rays), rows);
   session.report.add_plot("figure8_objects",
-                          curve_plot("Cost of a frame, 64 rays per point for both", {"objects", false},
+                          curve_plot("Time of a frame, 64 rays per point for both", {"objects", false},
                                      {"time (ms)", true}, {field, embree}));
   return {};
 }

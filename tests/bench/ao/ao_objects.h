@@ -39,7 +39,7 @@ Object subdivided(const Object& object, int times);
 std::filesystem::path scene_root(const std::filesystem::path& data);
 
 /// What the error tables show: a bundled object, a bundled robot's head, bunny and FlightHelmet, and a
-/// flake. What is missing is named in `notes`, a sentence each.
+/// flake. What is missing is named in `notes`, one sentence each.
 Expected<std::vector<Object>> error_objects(const std::filesystem::path& data,
                                             std::vector<std::string>& notes);
 

@@ -1,4 +1,4 @@
-// Contestants on the same rays, so timed that what else the machine does meets all alike.
+// Contestants on the same rays, timed so that other load of the machine affects all alike.
 #pragma once
 
 #include <functional>
@@ -10,8 +10,8 @@
 
 namespace tenebra::bench {
 
-/// What work costs: on one thread the processor time of the process, which other programs do not add to; on
-/// more the time on the clock. Runs from its construction.
+/// The cost of work: on one thread the processor time of the process, to which other programs add nothing; on
+/// more threads wall-clock time. Runs from its construction.
 class CostClock {
 public:
   CostClock();

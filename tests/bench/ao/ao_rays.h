@@ -1,5 +1,5 @@
-// Cosine-weighted rays and what occlusion they add up to: the measurements' own, so that contestants are
-// compared on the same rays. Shares no code with src/ao but the batch of sixteen.
+// Cosine-weighted rays and the occlusion that they add up to: the measurements' own code, so that contestants
+// are compared on the same rays. Shares no code with src/ao but the batch of sixteen.
 #pragma once
 
 #include <cstdint>

@@ -41,7 +41,7 @@ struct AoSession {
   Report report;
   AoSceneOptions scenes{};
   AoHeadline headline{};
-  std::vector<double> scene_speedups{}, exact_speedups{};  ///< one a view and size
+  std::vector<double> scene_speedups{}, exact_speedups{};  ///< one for each view and size
   std::vector<std::string> notes{};  ///< sentences: what was missing, replaced or out of bounds
   std::vector<std::pair<std::string, base::Image8>>
       pictures{};  ///< to be written as STEM_name.png beside the CSV

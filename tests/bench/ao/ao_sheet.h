@@ -22,7 +22,7 @@ public:
   /// letters of "sm", ".", "x"; others are left blank).
   void add(std::span<const float> values, const std::string& title, const std::string& caption);
 
-  /// Four cells a row; RGB.
+  /// Four cells to a row; RGB.
   base::Image8 picture() const;
 
 private:

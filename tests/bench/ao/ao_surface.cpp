@@ -72,7 +72,7 @@ Expected<void> measure_surface(AoSession& session) {
                     fmt::format("{:.2f}", noise)});
     if (object.name != "flake") keep_largest(session.headline.surface_rms_255, rms);
   }
-  print_table("On the object, hidden by itself: RMS in 1/255 over its surface", rows);
+  print_table("Occlusion of the object by itself: RMS in 1/255 over its surface", rows);
   return {};
 }
 

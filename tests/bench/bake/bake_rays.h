@@ -10,7 +10,7 @@
 
 namespace tenebra::bench {
 
-/// What is made of a texel's rays.
+/// How a texel's rays become its value.
 enum class RaySum {
   plain,  ///< the light that they bring
   scaled  ///< the part of them that arrives, times what the light gives with nothing in its way
@@ -25,7 +25,7 @@ std::vector<SampledReceiver> texel_receivers(const FrameGeometry& geometry,
 /// polygon above the receiver's plane.
 float open_irradiance(const AreaLight& light, const SampledReceiver& receiver);
 
-/// A fixed number of rays a texel.
+/// A fixed number of rays per texel.
 class BakeRays {
 public:
   /// `rays`: a power of two. Patterns are drawn here, not when tracing.

@@ -47,7 +47,7 @@ std::vector<std::string> data_sentences(const std::filesystem::path& folder) {
   const std::size_t count = files.size();
   files.resize(std::min(count, most_named));
   return {
-      fmt::format("{}: {} of BART's files are missing or others than those of the documented figures ({}{}).",
+      fmt::format("{}: {} of BART's files are missing or differ from those of the documented figures ({}{}).",
                   folder.string(), count, fmt::join(files, ", "), count > most_named ? ", ..." : "")};
 }
 

@@ -1,5 +1,5 @@
-// What a user has to know of the scenes that do not come with the program, before he takes the figures for
-// the project's.
+// What a user has to know about scenes that do not come with the program before comparing figures with the
+// project's.
 #pragma once
 
 #include <filesystem>
@@ -8,9 +8,9 @@
 
 namespace tenebra::bench {
 
-/// Sentences: that BART is not in `folder` and where it comes from, or which of its files are others than
-/// those that the documented figures were made with (tests/reference/bart.sha256; sha256sum compares them).
-/// Empty: all are there.
+/// Sentences: that BART is not in `folder` and where it comes from, or which of its files differ from those
+/// that the documented figures were made with (tests/reference/bart.sha256; sha256sum compares them). Empty:
+/// all are there.
 std::vector<std::string> data_sentences(const std::filesystem::path& folder);
 
 }  // namespace tenebra::bench

@@ -20,7 +20,7 @@ struct Instant {
   int clip = -1;  ///< -1: there is none
   double time_s = 0;
 };
-/// Frame `frame` of the first clip: its own frames where the file states them, else 30 a second.
+/// Frame `frame` of the first clip: its own frames where the file states them, else 30 per second.
 Instant frame_instant(const Scene& scene, int frame);
 
 /// Without glass: see-through materials become opaque ones, for opponents that have no colours of light.

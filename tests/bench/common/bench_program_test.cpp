@@ -182,7 +182,8 @@ TEST(BenchProgram, TradeRefusesInASentence) {
   expect_refusal({"trade", "--threads", "-1"}, "--threads: found -1, expected 0 (all cores) or more");
   expect_refusal({"trade", "--data", "/nowhere/at/all"}, "--data: /nowhere/at/all is not a folder");
   expect_refusal({"trade", "--docs", "/nowhere/at/all"}, "--docs: /nowhere/at/all is not a folder");
-  expect_refusal({"trade", "--only", "atlantis"}, "--only: found atlantis, expected hard, soft, ao, needs");
+  expect_refusal({"trade", "--only", "atlantis"},
+                 "--only: found atlantis, expected hard, soft, ao, stages, needs");
   expect_refusal({"trade", "--docs", "/proc/self"}, "cannot write /proc/self/trade.md");
 }
 
@@ -193,8 +194,8 @@ TEST(BenchProgram, TradeWritesItsPageFromBundledScenesAlone) {
   ASSERT_EQ(result.exit_code, 0) << result.errors;
   EXPECT_NE(result.output.find("robots: skipped"), std::string::npos) << result.output;
   bool found = false;
-  for (const char* name :
-       {"trade.hard_default_wrong_pixels", "trade.hard_variants_wrong_pixels", "trade.needs_differing"}) {
+  for (const char* name : {"trade.hard_default_wrong_pixels", "trade.hard_variants_wrong_pixels",
+                           "trade.stages_differing", "trade.needs_differing"}) {
     EXPECT_EQ(figure(result.output, name, found), 0) << name;
     EXPECT_TRUE(found) << name;
   }
@@ -202,12 +203,13 @@ TEST(BenchProgram, TradeWritesItsPageFromBundledScenesAlone) {
   EXPECT_TRUE(found);
   const std::string page = testing::read_text(folder / "trade.md"),
                     csv = testing::read_text(folder / "trade.csv");
-  for (const char* part : {"## Which to choose", "## Hard shadows", "## Soft shadows", "## Ambient occlusion",
-                           "## Only what a scene requires", "| default (Tiles) | "})
+  for (const char* part :
+       {"## Which to choose", "## Hard shadows", "## Soft shadows", "## Ambient occlusion",
+        "## Stages switched off alone", "## Only what a scene requires", "| default (Tiles) | "})
     EXPECT_NE(page.find(part), std::string::npos) << part;
   EXPECT_EQ(page.find("NOT the same"), std::string::npos);
   for (const char* row : {"\ntrade hard,city 150,default (Tiles),,time,", "\ntrade soft,court 60,",
-                          "\ntrade ao,city 150,", "\ntrade needs,city 150,"})
+                          "\ntrade ao,city 150,", "\ntrade stages,knot,", "\ntrade needs,city 150,"})
     EXPECT_NE(csv.find(row), std::string::npos) << row;
   for (const char* name : {"trade_hard_city_150.svg", "trade_soft_court_60.svg", "trade_ao_city_150.svg"}) {
     EXPECT_NE(page.find(name), std::string::npos) << name;
@@ -238,7 +240,7 @@ TEST(BenchData, NamesTheFilesThatAreNotThoseOfTheFigures) {
   const auto sentences = data_sentences(folder.path());
   ASSERT_EQ(sentences.size(), 1u);
   EXPECT_NE(sentences[0].find(
-                " of BART's files are missing or others than those of the documented figures (kitchen/"),
+                " of BART's files are missing or differ from those of the documented figures (kitchen/"),
             std::string::npos)
       << sentences[0];
   if (testing::bart_has_textures()) {

@@ -24,7 +24,7 @@ public:
   static Expected<SceneRenderer> create(const DrawTask& task);
 
   const DrawTask& task() const { return task_; }
-  /// Of the task's size and threads, else the library's: hard shadows, one sample a pixel.
+  /// Of the task's size and threads, else the library's: hard shadows, one sample per pixel.
   render::RenderSettings settings() const;
 
   void evaluate(int frame);

@@ -23,16 +23,17 @@ constexpr const char* footer =
     "opponent traces packets of 4, 8 or 16 primary rays and, from each, shadow rays of all lights through\n"
     "one of Embree's trees, built anew, refitted or in two levels: whatever is fastest on the view. Both\n"
     "sides shade by the same code, which is counted on both; unshaded is the ratio without it. Pictures\n"
-    "must agree but for a small share of the pixels. city_per_second: Tenebra's frames of city at\n"
-    "1024x1024. render_over_frames: the time of `tenebra render scenes/city.glb --frames 0:60 --size\n"
-    "1024x1024 --antialias 1 --terminator flat --tone none` with pictures over that without.";
+    "must agree in all but a small share of the pixels. city_per_second: Tenebra's frames per second of\n"
+    "city at 1024x1024. render_over_frames: the time of `tenebra render scenes/city.glb --frames 0:60\n"
+    "--size 1024x1024 --antialias 1 --terminator flat --tone none` with pictures over that without.";
 
 }  // namespace
 
 void add_frame_command(CLI::App& program, Run& run) {
   add_session_command<FrameSession>(
-      program, run, {"frame", "Whole frames, from a time to a picture, beside a renderer on Embree", footer},
-      parts, last_lines);
+      program, run,
+      {"frame", "Whole frames, from a time to a picture, compared with a renderer on Embree", footer}, parts,
+      last_lines);
 }
 
 }  // namespace tenebra::bench

@@ -61,7 +61,7 @@ Expected<void> measure_frame_files(FrameSession& session) {
   session.report.add({"files", "city", "tenebra", "pictures", "time", most, "ms"});
   session.report.add({"files", "city", "tenebra", "none", "time", least, "ms"});
   print_table(
-      fmt::format("tenebra render scenes/city.glb --frames {} --size {}, one sample a pixel", run.frames,
+      fmt::format("tenebra render scenes/city.glb --frames {} --size {}, one sample per pixel", run.frames,
                   run.size),
       {{"output", "ms"}, {"pictures", fmt::format("{:.0f}", most)}, {"none", fmt::format("{:.0f}", least)}});
   session.headline.render_over_frames = most / least;

@@ -48,8 +48,8 @@ Expected<void> measure(const PartsArguments& arguments, const std::string& simd)
 }
 
 constexpr const char* footer =
-    "dynamic, static: the mask of one light from visible points that are there, with the build and\n"
-    "without. whole_moved: from triangle ids to the masks of all lights of a frame whose triangles\n"
+    "dynamic, static: the mask of one light from given visible points, with and without the time to build\n"
+    "the tree. whole_moved: from triangle ids to the masks of all lights of a frame whose triangles\n"
     "moved since the frame before (points, tiles, rays, build or refit, trace; Embree at the best of\n"
     "its builds, packets of 4, 8 and 16, and both directions of rays). whole_static: the same where\n"
     "nothing moved, Embree's trees built before at medium and high quality. Over twelve frames of BART\n"
@@ -62,9 +62,9 @@ constexpr const char* footer =
 void add_hard_command(CLI::App& program, Run& run) {
   const auto simd = std::make_shared<std::string>("auto");
   CLI::App& command = add_parts_command(
-      program, run, {"hard", "Hard shadows beside Embree's rays", footer}, part_names(all_parts),
+      program, run, {"hard", "Hard shadows compared with Embree's rays", footer}, part_names(all_parts),
       [simd](const PartsArguments& arguments) { return measure(arguments, *simd); });
-  command.add_option("--simd", *simd, "Instructions that both contestants are kept to [auto]")
+  command.add_option("--simd", *simd, "Vector instructions that both contestants use [auto]")
       ->type_name("LEVEL");
 }
 

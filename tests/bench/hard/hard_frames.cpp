@@ -84,9 +84,8 @@ Expected<void> measure_hard_frames(HardSession& session) {
     std::printf("geometric means of the frames of BART: %.3f of Embree dynamic, %.3f of Embree static\n",
                 geometric_mean(ratios[i].dynamic), geometric_mean(ratios[i].still));
     std::printf(
-        "excluded from both is what they read: Embree planes of floats, Tenebra tiles of floats, made with "
-        "the "
-        "points (\"tiled\": both). With the making of the tiles counted: %.3f, %.3f\n",
+        "neither counts making what it reads: Embree planes of floats, Tenebra tiles of floats, made with "
+        "the points (\"tiled\": both). With the time to make the tiles: %.3f, %.3f\n",
         geometric_mean(ratios[i].dynamic_tiled), geometric_mean(ratios[i].still_tiled));
     session.report.add_plot(
         fmt::format("frames_{}", threads[i]),

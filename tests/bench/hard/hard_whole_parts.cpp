@@ -78,8 +78,8 @@ void report(const char* experiment, const HardView& view, const WholeTask& task,
 }
 
 Rows whole_head() {
-  return {{"frame", "lights", "moved", "E. moved", "of it built", "ratio", "E. by", "still", "E. still",
-           "ratio", "E. by", "tiles", "lit", "differing"}};
+  return {{"frame", "lights", "moved", "E. moved", "E. build", "ratio", "E. by", "still", "E. still", "ratio",
+           "E. by", "tiles", "lit", "differing"}};
 }
 std::vector<std::string> row(const HardView& view, const WholeTask& task, const WholeResult& r) {
   const auto ms = [](double value) { return fmt::format("{:.2f}", value); };

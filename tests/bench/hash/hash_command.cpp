@@ -145,8 +145,8 @@ Expected<void> run_hash(const HashArguments& arguments) {
 }  // namespace
 
 void add_hash_command(CLI::App& program, Run& run) {
-  CLI::App* command =
-      program.add_subcommand("hash", "Hashes of all that is computed, to see whether a change left it alone");
+  CLI::App* command = program.add_subcommand(
+      "hash", "Hashes of everything that is computed, to see whether a change left it alone");
   const auto arguments = std::make_shared<HashArguments>();
   command->add_option("--data", arguments->data, "Folder of the scenes that do not come with the program")
       ->type_name("FOLDER");
@@ -154,10 +154,10 @@ void add_hash_command(CLI::App& program, Run& run) {
   command->add_option("--only", arguments->only, "One scene [all]")->type_name("SCENE");
   command->add_flag("--bundled", arguments->bundled, "Only scenes that come with the program");
   command->add_flag("--quick", arguments->quick,
-                    "One frame a scene, each vector level on one thread or two, as the tests do");
+                    "One frame per scene, each vector level on one thread or two, as the tests do");
   command->add_flag("--pictures", arguments->pictures,
                     "Instead, what the whole renderer draws: depends on the graphics driver");
-  command->add_option("--scale", arguments->scale, "Pictures so many times as wide and high [1]")
+  command->add_option("--scale", arguments->scale, "Pictures this many times as wide and high [1]")
       ->type_name("N");
   command->callback([arguments, &run] { run = [=] { return run_hash(*arguments); }; });
 }

@@ -70,16 +70,16 @@ void add_sizes(const AoFindings& found, std::vector<Claim>& claims) {
     return f.bytes == static_cast<double>(f.positions) * f.side * f.side;
   });
   claims.push_back({"gaitatzes.a_byte_a_ray", "section 4",
-                    "Tables take a byte a direction, whatever the object.", verdict_of(exact),
+                    "Tables take one byte per direction, whatever the object.", verdict_of(exact),
                     fmt::format("All {} tables.", all.size())});
 }
 
 void add_bits(const AoFindings& found, std::vector<Claim>& claims) {
   const FieldCost &four = of_bits(found, 32), &byte = of_bits(found, 8), &bit = of_bits(found, 1);
-  claims.push_back({"gaitatzes.a_byte_is_enough", "Figure 4", "One byte a ray looks as four do.",
+  claims.push_back({"gaitatzes.a_byte_is_enough", "Figure 4", "One byte per ray looks the same as four.",
                     verdict_of(std::abs(byte.rms - four.rms) < 0.25),
                     fmt::format("RMS {:.2f} against {:.2f}.", byte.rms, four.rms)});
-  claims.push_back({"gaitatzes.a_bit_saves", "section 4", "One bit a direction saves 87.5 %.",
+  claims.push_back({"gaitatzes.a_bit_saves", "section 4", "One bit per direction saves 87.5 %.",
                     verdict_of(std::abs(bit.bytes / byte.bytes - 0.125) < 1e-3),
                     fmt::format("{:.2f} MB against {:.2f}.", bit.bytes / 1e6, byte.bytes / 1e6)});
   claims.push_back({"gaitatzes.a_bit_is_comparable", "Figure 7",
@@ -97,7 +97,7 @@ void add_bits(const AoFindings& found, std::vector<Claim>& claims) {
   const MixedBits& m = found.mixed;
   claims.push_back(
       {"gaitatzes.a_bit_for_far_objects", "section 4",
-       "Objects further away from the viewer do with one bit a direction: comparable results.",
+       "One bit per direction is enough for objects farther from the viewer: comparable results.",
        verdict_of(m.far_rms <= comparable * m.far_rms_8),
        fmt::format("Four near objects of 8 bits and four far ones of 1: RMS {:.2f} at the floor under far "
                    "ones, {:.2f} were these of 8 bits: {:.2f} times; {:.2f} under near ones. {:.2f} MB for "
@@ -140,7 +140,7 @@ std::vector<Claim> ao_claims(const AoFindings& found) {
   add_bits(found, claims);
   add_growth_of(found, claims);
   claims.push_back({"gaitatzes.interactive", "Figure 8", "Near real-time on a Pentium 4 and dual Xeons.",
-                    Verdict::not_here, "Other processors; `tenebra-bench ao` has frames of today."});
+                    Verdict::not_here, "Other processors; `tenebra-bench ao` has present-day frames."});
   return claims;
 }
 

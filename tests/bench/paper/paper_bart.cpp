@@ -110,14 +110,11 @@ Expected<void> measure_paper_bart(PaperSession& session) {
   section.title = bart_title;
   section.setup = fmt::format(
       "Consecutive frames, each from evaluating the scene at its time to the picture in memory, loading "
-      "apart: "
-      "{}, one sample a pixel, hard shadows of all lights, `tenebra`'s own settings otherwise. The "
-      "benchmark's "
-      "rules want the total time, the worst frame and the standard deviation, of all frames. They are for "
-      "ray "
-      "tracers: reflections are among what they ask for, and Tenebra draws none, so that the times are not "
-      "comparable with those of programs that do. Their measure of errors is for approximations: masks are "
-      "exact here.{}",
+      "apart: {}, one sample per pixel, hard shadows of all lights, otherwise `tenebra`'s own settings. The "
+      "benchmark's rules want the total time, the worst frame and the standard deviation, of all frames. "
+      "These rules are for ray tracers: they ask for reflections among other things, and Tenebra draws none, "
+      "so the times are not comparable with those of programs that do. Their measure of errors is for "
+      "approximations: here masks are exact.{}",
       session.effort == Effort::tiny ? "64x48" : "800x600",
       clips->front().scene == clip_without_bart.scene ? " BART is not here: the city stands in for it." : "");
   Rows rows{{"scene", "frames", "total s", "mean ms", "worst ms", "standard deviation ms"}};

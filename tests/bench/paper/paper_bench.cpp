@@ -88,7 +88,8 @@ void add_paper_command(CLI::App& program, Run& run) {
       ->type_name("FOLDER");
   command
       .add_option("--stride", options->stride,
-                  "Every so many frames of an animation [8, with --quick 160;\nof bart 1, with --quick 16]")
+                  "Take every Nth frame of an animation [8, with --quick 160;\n"
+                  "of bart 1, with --quick 16]")
       ->type_name("N");
 }
 

@@ -152,8 +152,8 @@ PaperSection hard_section_of(const PaperSession& session, const HardFindings& fo
   PaperSection section;
   section.title = hard_title;
   section.setup = fmt::format(
-      "Pictures of {}, the scene's first light, one ray a pixel. Figures 6 and 7: {} frames of {}. Table 2: "
-      "{} of {}. All seven variants with front-face culling, as the paper had it; rays start at the exact "
+      "Pictures of {}, the scene's first light, one ray per pixel. Figures 6 and 7: {} frames of {}. Table "
+      "2: {} of {}. All seven variants with front-face culling, as the paper had it; rays start at the exact "
       "points (the paper's from the depth buffer). Nodes are counted below the root, at which every triangle "
       "is tested once in any variant. {}Leaves hold sixteen rays, the paper's one: nodes are those above "
       "them.",

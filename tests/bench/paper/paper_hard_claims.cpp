@@ -99,11 +99,9 @@ void add_frame_160(const HardFindings& found, std::vector<Claim>& claims) {
         return a.of(Variant::precise_sorted).nodes < b.of(Variant::precise_sorted).nodes;
       });
   const std::string all = fmt::format(
-      "Below the root: Spheres {}, SpheresSorted {}, Precise {}, PreciseSorted {}; {} triangles are tested "
-      "at "
-      "the root besides. The fewest that PreciseSorted needs: {}, at frame {}. Why the paper's are so few "
-      "was not "
-      "found out: its view or its bounds may differ.",
+      "Below the root: Spheres {}, SpheresSorted {}, Precise {}, PreciseSorted {}; {} triangles are also "
+      "tested at the root. The fewest that PreciseSorted needs: {}, at frame {}. Why the paper's are so few "
+      "is not known: its view or its bounds may differ.",
       counted(nodes(Variant::spheres)), counted(nodes(Variant::spheres_sorted)),
       counted(nodes(Variant::precise)), counted(nodes(Variant::precise_sorted)), counted(at->triangles),
       counted(fewest->of(Variant::precise_sorted).nodes), fewest->frame);
@@ -185,15 +183,14 @@ void add_culling(const HardFindings& found, std::vector<Claim>& claims) {
                     fmt::format("PreciseSorted: fewer nodes on {} frames, at most {:.2f} of those without.",
                                 of_frames(fewer_nodes, all), share)});
   const ClosedMeshes& closed = found.closed;
-  claims.push_back(
-      {"olsson.front_culling_is_exact", "section 3.6",
-       "It assumes that the geometry is closed; then it loses no shadow.",
-       closed.shadowed == 0 ? Verdict::not_here : verdict_of(closed.differing == 0),
-       fmt::format("A closed knot over a closed slab, three lights: {} of {} pixels change, {} of them in "
-                   "shadow. The meshes of the scenes are open: there up to {} pixels of a mask change, {} of "
-                   "them to lit, so that Tenebra's default does not cull.",
-                   counted(closed.differing), counted(closed.pixels), counted(closed.shadowed),
-                   counted(differing), counted(lit))});
+  claims.push_back({"olsson.front_culling_is_exact", "section 3.6",
+                    "It assumes that the geometry is closed; then it loses no shadow.",
+                    closed.shadowed == 0 ? Verdict::not_here : verdict_of(closed.differing == 0),
+                    fmt::format("A closed knot over a closed slab, three lights: {} of {} pixels change, {} "
+                                "of them in shadow. The meshes of the scenes are open: there up to {} pixels "
+                                "of a mask change, {} of them to lit, so Tenebra's default does not cull.",
+                                counted(closed.differing), counted(closed.pixels), counted(closed.shadowed),
+                                counted(differing), counted(lit))});
   const std::size_t same = frames_where(all, [](const auto& f) { return f.same_masks; });
   claims.push_back({"olsson.one_answer", "sections 3 to 5", "The improvements leave the shadows as they are.",
                     verdict_of(same == all.size()),
@@ -254,14 +251,15 @@ void add_times(const HardFindings& found, std::vector<Claim>& claims) {
   const double sphere_cost = spheres_ns / std::max(spheres_nodes, 1.0),
                precise_cost = precise_ns / std::max(precise_nodes, 1.0);
   claims.push_back({"olsson.a_sphere_is_cheaper", "Figure 6(b)",
-                    "At as many nodes the simpler sphere test wins.", verdict_of(sphere_cost < precise_cost),
-                    fmt::format("{:.1f} ns of traversal a node against {:.1f} (leaves included).",
+                    "With the same number of nodes the simpler sphere test wins.",
+                    verdict_of(sphere_cost < precise_cost),
+                    fmt::format("{:.1f} ns of traversal per node against {:.1f} (leaves included).",
                                 sphere_cost, precise_cost)});
   const base::Summary overhead = base::summarize(sorting);
   claims.push_back({"olsson.sorting_costs_the_same", "Figure 6(b)",
                     "Sorting adds about the same to every frame (4 ms on their GPU).",
                     verdict_of(!sorting.empty() && overhead.percentile_99 < 2 * overhead.median),
-                    fmt::format("{:.0f} ns a ray in the median, {:.0f} at the 99th percentile; their "
+                    fmt::format("{:.0f} ns per ray in the median, {:.0f} at the 99th percentile; their "
                                 "milliseconds are not testable here.",
                                 overhead.median, overhead.percentile_99)});
   add_fastest(frames, claims);
@@ -294,10 +292,11 @@ void add_untested(std::vector<Claim>& claims) {
                     Verdict::not_here, "Their GPU and CUDA code are not here; ratios and counts are above."});
   claims.push_back({"olsson.compaction", "section 4.1",
                     "Their compaction is an order of magnitude faster than the earlier work's.",
-                    Verdict::not_here, "A kernel of GPUs: on a CPU lists of triangles take its place."});
+                    Verdict::not_here,
+                    "It is a kernel for GPUs: on a CPU lists of triangles take its place."});
   claims.push_back({"olsson.bounded_memory", "section 4.2", "Memory is bounded.", Verdict::holds,
-                    "By construction: at most 65,536 triangles are under way at once, in lists of that size "
-                    "a level and thread (src/shadow/cone_tree/traverse.h)."});
+                    "By construction: at most 65,536 triangles are in flight at once, in lists of that size "
+                    "for each level and thread (src/shadow/cone_tree/traverse.h)."});
   claims.push_back({"olsson.triangle_shadow", "Figure 4",
                     "Without separating planes the precise test can cull worse than spheres.",
                     Verdict::not_here, "No variant leaves them out."});

@@ -20,19 +20,18 @@ constexpr std::array page_parts{PagePart{hard_title, "hard"}, PagePart{soft_titl
                                 PagePart{ao_title, "ao"}, PagePart{bart_title, "bart"}};
 
 constexpr const char* page_head =
-    "# What the papers claim, and what is found here\n\n"
+    "# What the papers claim, and what is found here\n"
+    "\n"
     "Written by `tenebra-bench paper --docs docs`; edit `tests/bench/paper`, not this file. `--only PART` "
-    "writes one "
-    "section anew and leaves the others as they are.\n\n"
+    "writes one section anew and leaves the others as they are.\n"
+    "\n"
     "A claim is **true** or **false** by the figures of the run that wrote its section, or **not testable "
-    "here**, "
-    "with the reason: milliseconds on a GPU of 2011 say nothing about another machine, but ratios and counts "
-    "do. "
-    "What times decide tells times within 5 % as equal. Those that counts "
-    "decide "
-    "are held by `tests/bench/paper/paper_test.cpp`, on small pictures of the bundled scenes, where they may "
-    "differ from those below; times are in no test. Node: a test of a triangle with a node of the tree. "
-    "Other words: [vocabulary](architecture.md#vocabulary).\n\n";
+    "here**, with the reason: milliseconds on a GPU of 2011 say nothing about another machine, but ratios "
+    "and counts do. Verdicts that depend on times count times within 5 % as equal. Verdicts that depend on "
+    "counts are checked by `tests/bench/paper/paper_test.cpp`, on small pictures of the bundled scenes, "
+    "where they may differ from those below; times are in no test. Node: a test of a triangle with a node of "
+    "the tree. Other words: [vocabulary](architecture.md#vocabulary).\n"
+    "\n";
 
 /// "Made by `tenebra-bench paper --only hard --quick` on AMD EPYC, 2 cores; 2 threads."
 std::string made_by(const PaperSession& session, const char* part) {

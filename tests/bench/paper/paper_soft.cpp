@@ -142,15 +142,13 @@ PaperSection soft_section_of(const ViewChoice& choice, const SoftFindings& found
   PaperSection section;
   section.title = soft_title;
   section.setup = fmt::format(
-      "The paper's method: one BSP a visible triangle, its points asked in turn, a random occluder merged "
-      "into a leaf that is not known yet (solver `bsp`). Pictures of {}x{} (the paper's: 1280x720), lights "
-      "of "
-      "4 % of the scene's diagonal, the court its own. T-Rex, Sponza with Neptune, Conference, Soda Hall and "
-      "Bike are not here: BART's scenes and the court are in their place. A tree that comes to "
-      "{} MiB (Tenebra's own: to 4) is dropped, and the rest of its points are clipped instead (`clipped`); "
-      "the paper has no bound. Embree's "
-      "rays are stratified, its tree is built before; equal quality: RMS error over the penumbra below "
-      "{}/255. Errors in 1/255 of white.",
+      "The paper's method: one BSP for each visible triangle, queried for its points in turn, with a random "
+      "occluder merged into each leaf that is not known yet (solver `bsp`). Pictures of {}x{} (the paper's: "
+      "1280x720), lights of 4 % of the scene's diagonal, the court its own. T-Rex, Sponza with Neptune, "
+      "Conference, Soda Hall and Bike are not here: BART's scenes and the court take their place. A tree "
+      "that comes to {} MiB (Tenebra's own: to 4) is dropped, and the rest of its points are clipped instead "
+      "(`clipped`); the paper has no bound. Embree's rays are stratified, its tree is built before; equal "
+      "quality: RMS error over the penumbra below {}/255. Errors in 1/255 of white.",
       choice.width, choice.height, tree_bound_mib, equal_quality_255);
   section.claims = soft_claims(found);
   section.tables = {{"Figure 7", race_rows(found)},

@@ -85,13 +85,12 @@ void add_grouping(const std::vector<TreeView>& views, std::vector<Claim>& claims
   }
   claims.push_back(
       {"mora.neighbourhoods_would_help", "section 5.5",
-       "With very few points a triangle efficiency is lost: points should be grouped by neighbourhood.",
+       "With very few points per triangle efficiency is lost: points should be grouped by neighbourhood.",
        small == 0 ? Verdict::not_here : verdict_of(gain == small),
-       fmt::format(
-           "Half of the points lie on triangles of at most so many points; grouping by triangle makes "
-           "so many times the nodes of groups of 8x8 pixels:{} {} of {} views of fewer than {} points "
-           "gain.",
-           each, gain, small, soft::largest_neighbourhood)});
+       fmt::format("Points per triangle (half of all points lie on triangles with no more), and the nodes "
+                   "and the time of grouping by triangle over those of groups of 8x8 pixels:{} {} of {} "
+                   "views of fewer than {} points gain.",
+                   each, gain, small, soft::largest_neighbourhood)});
 }
 
 void add_costs(const SoftFindings& found, std::vector<Claim>& claims) {
@@ -102,7 +101,7 @@ void add_costs(const SoftFindings& found, std::vector<Claim>& claims) {
       {"mora.low_memory", "Figure 8", "The memory of trees is low: 16 to 21 MB with four threads.",
        verdict_of(bytes.most <= 21),
        fmt::format("{:.2f} to {:.2f} MB{}.", bytes.least, bytes.most,
-                   bounded ? fmt::format(", where trees came to {} MiB and would have grown", tree_bound_mib)
+                   bounded ? fmt::format(", where trees reached {} MiB and would have grown", tree_bound_mib)
                            : std::string())});
   const Range queries = range_of(views, [](const TreeView& v) {
     return 100 * v.paper.query_ms / std::max(v.paper.shaft_ms + v.paper.init_ms + v.paper.query_ms, 1e-9);
@@ -114,14 +113,14 @@ void add_costs(const SoftFindings& found, std::vector<Claim>& claims) {
   const Range times = range_of(views, [](const TreeView& v) { return v.anew.ms / v.kept.ms; });
   claims.push_back({"mora.coherence_pays", "Figure 8", "A tree kept from query to query makes fewer nodes.",
                     verdict_of(nodes.least > 1),
-                    fmt::format("With each query starting anew {:.1f} to {:.1f} times as many.", nodes.least,
+                    fmt::format("With each query starting anew, {:.1f} to {:.1f} times as many.", nodes.least,
                                 nodes.most)});
   claims.push_back(
       {"mora.coherence_pays_16_times", "Figure 8",
        "With each query starting anew it is 16 to 48 times slower.", verdict_of(times.least >= 16),
        fmt::format(
            "{:.2f} to {:.2f} times{}.", times.least, times.most,
-           bounded ? "; where a kept tree comes to its bound, the rest of its group is clipped" : "")});
+           bounded ? "; where a kept tree reaches its bound, the rest of its group is clipped" : "")});
   const Range choice =
       range_of(views, [](const TreeView& v) { return over(v.paper.nodes, v.largest.nodes); });
   const Range choice_time =
@@ -151,7 +150,7 @@ void add_growths(const SoftFindings& found, std::vector<Claim>& claims) {
   claims.push_back({"mora.largest_light_is_far_from_critical", "Figure 9",
                     "Even at the largest light memory is far from a problem.",
                     verdict_of(!came_to_bound(large.bytes)),
-                    fmt::format("{:.2f} MB, of at most {} MiB a tree{}.", large.bytes / megabyte_bytes,
+                    fmt::format("{:.2f} MB, of at most {} MiB per tree{}.", large.bytes / megabyte_bytes,
                                 tree_bound_mib, bound_note(large.bytes))});
   claims.push_back({"mora.faster_at_the_largest_light", "section 5.2",
                     "At the largest light 512 samples take 2.33 times as long.", Verdict::not_here,

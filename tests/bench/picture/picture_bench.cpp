@@ -25,16 +25,17 @@ constexpr const char* footer =
     "them and that of 256 samples of every pixel, of the worst view. missed_percent: pixels that are off\n"
     "by more than 16/255 in a channel at 16 samples, of the worst view. cost_N: the whole frame over that\n"
     "of one sample, geometric mean over the views of medians taken in turns. flicker_16: root mean square\n"
-    "over 30 consecutive frames of what changes from the frame before at 16 samples less what changes\n"
-    "there at 256, pixel by pixel; the worse of gallery and court, at 512x512 (256x256 with --quick).\n"
-    "Hard shadows of all lights, 1024x1024 but for flicker.";
+    "over 30 consecutive frames of the change from the frame before at 16 samples minus that at 256,\n"
+    "pixel by pixel; the worse of gallery and court, at 512x512 (256x256 with --quick). Hard shadows of\n"
+    "all lights, 1024x1024 except for flicker.";
 
 }  // namespace
 
 void add_picture_command(CLI::App& program, Run& run) {
   add_session_command<PictureSession>(
       program, run,
-      {"picture", "Anti-aliased pictures beside 256 samples per pixel: errors, costs, flicker", footer},
+      {"picture", "Anti-aliased pictures compared with 256 samples per pixel: errors, costs, flicker",
+       footer},
       parts, last_lines);
 }
 

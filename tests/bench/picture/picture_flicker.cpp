@@ -76,7 +76,7 @@ Expected<void> measure_picture_flicker(PictureSession& session) {
     }
     worst = std::max(worst, changes->of[2].flicker());
   }
-  print_table(fmt::format("{} consecutive frames at {}x{}: RMS of what changes from the frame before, 1/255",
+  print_table(fmt::format("{} consecutive frames at {}x{}: RMS change from the frame before, 1/255",
                           frames - 1, side, side),
               table);
   session.headline.flicker_16 = worst;

@@ -36,8 +36,8 @@ TEST(PictureErrors, FlickerIsWhatTheReferenceDoesNotDo) {
   EXPECT_DOUBLE_EQ(swapped.flicker(), std::sqrt(200.0 / 3));
 }
 
-/// The mean in linear light over pictures of one sample a pixel whose cameras are moved to the 256 places of
-/// the reference: what that is to be, without any anti-aliasing of the renderer but for the places.
+/// The mean in linear light over pictures of one sample per pixel whose cameras are moved to the 256 places
+/// of the reference: what that is to be, without any anti-aliasing of the renderer but for the places.
 base::Image8 mean_of_moved(PictureMaker& maker) {
   std::vector<double> sums;
   base::Image8 mean;

@@ -96,7 +96,7 @@ Expected<void> Measurement::measure(const ScenePlace& place, const Scene& scene)
 void Measurement::conclude() const {
   if (results_.empty()) return;
   print_table(
-      "Single frames beside 256 samples of every pixel (times: medians in ms of the whole frame; "
+      "Single frames compared with 256 samples of every pixel (times: medians in ms of the whole frame; "
       "refined: pixels with more than one sample)",
       table_);
   std::vector<double> cost[2];

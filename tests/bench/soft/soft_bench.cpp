@@ -153,7 +153,7 @@ Expected<void> run_soft(const SoftOptions& options) {
 }  // namespace
 
 void add_soft_command(CLI::App& program, Run& run) {
-  CLI::App* command = program.add_subcommand("soft", "Exact soft shadows beside Embree's shadow rays");
+  CLI::App* command = program.add_subcommand("soft", "Exact soft shadows compared with Embree's shadow rays");
   const auto options = std::make_shared<SoftOptions>();
   add_bench_options(*command, *options);
   command->add_option("--pictures", options->pictures, "Write Tenebra's and Embree's pictures at equal time")
@@ -164,13 +164,14 @@ void add_soft_command(CLI::App& program, Run& run) {
                    "Scenes by name: robots, museum5, kitchen, museum5x64,\ncourt, city,\ngallery")
       ->type_name("NAME");
   command->add_flag("--only-errors", options->only_errors,
-                    "Only the race at errors that users accept (--soft-error)");
+                    "Only the comparison at allowed errors (--soft-error)");
   command
       ->add_flag("--only-large", options->only_large, "Only lights of half the diagonal, and soft.large_gain")
       ->excludes("--only-errors");
   command
       ->add_option("--light-sizes", options->light_sizes,
-                   "Races under squares of these sides, too, in percent of the\nscene's diagonal: 1 10 25")
+                   "Also compare under squares of these sides, in percent of the\n"
+                   "scene's diagonal: 1 10 25")
       ->type_name("PERCENT");
   command->callback([options, &run] { run = [options] { return run_soft(*options); }; });
 }

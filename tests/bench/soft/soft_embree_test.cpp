@@ -9,6 +9,11 @@
 #include "parallel/parallel.h"
 
 namespace tenebra::bench {
+
+void PrintTo(Packing packing, std::ostream* out) {  // CTest's name of the test
+  *out << packing_name(packing);
+}
+
 namespace {
 
 /// A floor of two triangles seen from above; with a `blocker`, half of the light's side is covered for all of

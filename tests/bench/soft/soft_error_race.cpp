@@ -97,7 +97,7 @@ double ErrorRow::estimate_off() const {
 ErrorRace race_errors(const SoftView& view, int rounds, std::size_t most_rays, Report& report) {
   ErrorRing ring(view);
   ErrorRace race{view.name, 0, 0, {}};
-  progress(fmt::format("{}: errors that users accept", view.name));
+  progress(fmt::format("{}: allowed errors", view.name));
   Truth truth;
   race.exact_ms = ring.time_tenebra(0);
   truth.mask = ring.mask;
@@ -149,7 +149,7 @@ std::string error_table(const std::vector<ErrorRace>& races) {
                       fmt::format("{:.2f}", row.estimate), fmt::format("{:.0f}", row.worst),
                       fmt::format("{:.0f} %", 100 * row.sampled), fmt::format("{:.1f}", row.rays)});
   }
-  return "At errors that users accept (1/255, RMS over the penumbra)\n" + text_table(rows);
+  return "At allowed errors (1/255, RMS over the penumbra)\n" + text_table(rows);
 }
 
 std::string error_summary(const std::vector<ErrorRace>& races) {

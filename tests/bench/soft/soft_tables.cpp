@@ -55,7 +55,7 @@ std::string tree_table(const std::vector<TreeRow>& trees) {
                      fmt::format("{:.2f}", c.bytes / 1e6),
                      fmt::format("{:.1f}", 100 * c.clipped / std::max(c.clipped + c.by_tree, 1.0))});
   }
-  return "Solver bsp; tenebra-bench paper has more of it\n" + text_table(table);
+  return "Solver bsp; tenebra-bench paper says more about it\n" + text_table(table);
 }
 
 void add_contest_plots(const std::vector<Contest>& contests, Report& report) {

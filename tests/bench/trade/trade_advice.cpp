@@ -72,8 +72,10 @@ std::optional<double> ms_at_error(const TradeTable& table, const std::string& fa
 
 std::string preset_section() {
   std::string text =
-      "## Which to choose: `--quality`\n\n"
-      "Hard shadows are exact in every preset. Options that are given themselves win.\n\n"
+      "## Which to choose: `--quality`\n"
+      "\n"
+      "Hard shadows are exact in every preset. Options given explicitly win.\n"
+      "\n"
       "| preset | soft shadows | ambient occlusion (`--ao adaptive`) | with `--ao field` |\n"
       "|---|---|---|---|\n";
   for (const render::Quality quality : render::qualities) {
@@ -84,25 +86,23 @@ std::string preset_section() {
                         soft, q.ao_error, q.ao_rays, scale);
   }
   return text +
-         "\nWhat each costs and errs by stands below. While you model, animate or fly through a scene: "
-         "`fast`. "
-         "For pictures to keep: the defaults, which are `balanced`. For stills whose ambient occlusion must "
-         "be right to about a level of 255: `exact`.\n\n";
+         "\n"
+         "The cost and the error of each are given below. While you model, animate or fly through a scene: "
+         "`fast`. For final pictures: the defaults, which are `balanced`. For stills whose ambient occlusion "
+         "must be right to about one level of 255: `exact`.\n"
+         "\n";
 }
 
 std::string hard_advice(const TradeTables& tables) {
   const char* culled = "samples from depth, front faces culled";
   return fmt::format(
-      "- Leave the default: on {} of {} views no other setting that gives the exact mask is faster. The "
-      "paper's "
-      "variants give the same mask in {} times its time.\n"
+      "- Keep the default: on {} of {} views no other setting that gives the exact mask is faster. The "
+      "paper's variants give the same mask in {} times the default's time.\n"
       "- Front-face culling with samples from depth (`--samples depth`) takes {} of the default's time and "
-      "is "
-      "wrong at {} pixels: for closed meshes only. Without culling and without a bias depth samples shadow "
-      "themselves: {} wrong pixels.\n"
+      "is wrong at {} pixels: for closed meshes only. Without culling and without a bias depth samples "
+      "shadow themselves: {} wrong pixels.\n"
       "- A shadow map of 4096 is wrong at {} pixels with the best bias, one of 1024 at {}; without a bias "
-      "one of "
-      "4096 would be at {}. Drawing it is for GPUs, which were not measured; its errors stay.\n"
+      "one of 4096 would be at {}. Drawing it is for GPUs, which were not measured; its errors stay.\n"
       "- Embree's rays, which start at a bias of their own, differ at {} pixels in {} of the default's time "
       "(tree built for the frame).\n",
       fastest_exact(tables, tiles), tables.size(),
@@ -124,17 +124,15 @@ std::string soft_advice(const TradeTables& tables) {
     };
   };
   return fmt::format(
-      "- The default errs by at most {} /255 at the worst pixel; on {} of {} views no solver of ours without "
-      "an "
-      "error is faster.\n"
-      "- A penumbra that is off by less than 1/255 (RMS) takes Embree's rays {} of the exact time, behind "
-      "shafts {}; "
-      "by less than 3/255: {} and {}. Views on which so many rays were not tried are left out.\n"
+      "- The default errs by at most {} /255 at the worst pixel; on {} of {} views no other exact solver of "
+      "ours is faster.\n"
+      "- For a penumbra that is off by less than 1/255 (RMS), Embree's rays take {} of the exact time, "
+      "behind shafts {}; by less than 3/255: {} and {}. Views on which that many rays were not tried are "
+      "left out.\n"
       "- `--soft-error 4` takes {} of the exact time ({} /255 RMS, {} at the worst pixel), `--soft-error 1` "
       "{} ({} /255).\n"
       "- `--soft-points 8` takes {} of the exact time and shows eight steps in each penumbra ({} /255 RMS, "
-      "{} at the "
-      "worst pixel); 32 points {} ({} /255).\n",
+      "{} at the worst pixel); 32 points {} ({} /255).\n",
       range(tables, error(exact_soft, 3)), fastest_exact(tables, exact_soft), tables.size(),
       range(tables, against("Embree rays", 1)), range(tables, against("shafts + Embree rays", 1)),
       range(tables, against("Embree rays", 3)), range(tables, against("shafts + Embree rays", 3)),
@@ -162,21 +160,19 @@ std::string ao_advice(const TradeTables& tables) {
   };
   return fmt::format(
       "- `--ao adaptive` asked for 5, 2.5 and 1 errs by {}, {} and {} /255 RMS in {}, {} and {} ms. Embree's "
-      "rays, the fastest of their filters and resolutions that errs no more, take {}, {} and {} times as "
-      "long; "
-      "views on which so many rays were not tried are left out (`tenebra-bench ao` has more, and "
-      "interpolates).\n"
+      "rays, with the fastest of their filters and resolutions that errs no more, take {}, {} and {} times "
+      "as long; views on which that many rays were not tried are left out (`tenebra-bench ao` tries more, "
+      "and interpolates).\n"
       "- Fields answer 64 rays in {} of the time of an error of 2.5, at {} /255 RMS and {} at the worst "
       "pixel, once they and the samples are made; Embree takes {} times as long for an error as large. 256 "
       "rays leave {}: what is left is the tables' and the samples' own error.\n"
-      "- So fields are good where what moves has very many triangles (the crowd: a look-up takes as long for "
-      "any number), and samples where all stands (the kitchen), if errors of that size may show. They are "
-      "not "
-      "where many small objects are in each other's reach (robots, city: a look-up for each), where an error "
-      "has to be small or known, for one picture alone (its first frame makes them), for what deforms (rays "
-      "meet it in any case), nor for bodies that touch.\n"
+      "- So fields are good where moving objects have very many triangles (the crowd: a look-up takes the "
+      "same time for any number), and samples where nothing moves (the kitchen), if errors of that size are "
+      "acceptable. They are not good where many small objects are within each other's reach (robots, city: a "
+      "look-up for each), where an error has to be small or known, for a single picture (its first frame "
+      "makes them), for geometry that deforms (rays are cast at it in any case), nor for bodies that touch.\n"
       "- Tables: four times smaller ones (1089x1024) err by {} /255 with 64 rays, the smallest tried "
-      "(289x256) by {}, the largest (4225x4096) by {}; one bit a distance instead of eight: {}.\n",
+      "(289x256) by {}, the largest (4225x4096) by {}; one bit per distance instead of eight: {}.\n",
       range(tables, error("adaptive, error 5")), range(tables, error("adaptive, error 2.5")),
       range(tables, error("adaptive, error 1")), range(tables, time("adaptive, error 5")),
       range(tables, time("adaptive, error 2.5")), range(tables, time("adaptive, error 1")),

@@ -15,7 +15,8 @@ namespace {
 
 constexpr std::array parts{
     BenchPart<TradeSession>{"hard", measure_trade_hard}, BenchPart<TradeSession>{"soft", measure_trade_soft},
-    BenchPart<TradeSession>{"ao", measure_trade_ao}, BenchPart<TradeSession>{"needs", measure_trade_needs}};
+    BenchPart<TradeSession>{"ao", measure_trade_ao}, BenchPart<TradeSession>{"stages", measure_trade_stages},
+    BenchPart<TradeSession>{"needs", measure_trade_needs}};
 const std::span<const BenchPart<TradeSession>> all_parts(parts);
 
 /// Before minutes of measuring, not after them.

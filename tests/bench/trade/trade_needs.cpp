@@ -43,15 +43,6 @@ TracedRun trace(const HardView& view, const HardShadowConfig& config, int rounds
   return run;
 }
 
-/// Every coordinate moved by the least that can be.
-FrameGeometry nudged(FrameGeometry geometry) {
-  for (glm::vec3& p : geometry.positions) {
-    for (int axis = 0; axis < 3; ++axis)
-      p[axis] = std::nextafter(p[axis], std::numeric_limits<float>::infinity());
-  }
-  return geometry;
-}
-
 /// The clusters of triangles: what follows a frame, and what does not have to.
 void need_clusters(TradeSession& session, const HardView& view, int rounds) {
   ShadowTracer kept, shaken, fresh;
@@ -79,6 +70,10 @@ void need_sort(TradeSession& session, const HardView& view, int rounds) {
                            few.timings.rays_ms, sorted.timings.rays_ms, few.mask == sorted.mask});
   session.needs.push_back({"rays for points that the light reaches", view.name,
                            fmt::format("{} rays of {} pixels", few.stats.rays, view.frame.pixel_count())});
+  session.needs.push_back(
+      {"tests in double, and exactly, where the stage before leaves a doubt", view.name,
+       fmt::format("of {} tests of a ray with a triangle {} in double, {} exactly", few.stats.leaf_tests,
+                   few.stats.float_unknown, few.stats.double_unknown)});
   const TracedRun passes = trace(view, {.variant = Variant::precise_seatp}, rounds, two);
   const TracedRun one = trace(view, {.variant = Variant::precise_sea}, rounds, paper);
   session.needs.push_back(
@@ -127,7 +122,7 @@ Expected<void> need_lights(TradeSession& session, const Scene& original, const H
     ms[lit] = median(times);
     images[lit] = std::move(result.image);
   }
-  session.needs.push_back({"no shadow of a light that is off", view.name, "the whole frame", ms[0], ms[1],
+  session.needs.push_back({"no shadow from a light that is off", view.name, "the whole frame", ms[0], ms[1],
                            images[0] == images[1]});
   return {};
 }
@@ -159,7 +154,7 @@ void need_shafts(TradeSession& session, const SoftView& view, int rounds) {
   for (std::size_t i = 0; i < all.size(); ++i)
     same = same && (tracer.classes()[i] != static_cast<std::uint8_t>(SoftClass::dark) || all[i] == needed[i]);
   session.needs.push_back(
-      {"solvers where shafts leave a doubt", view.name,
+      {"solvers where shafts do not decide", view.name,
        fmt::format("{:.0f} % of the points (64 rays); exact: {:.0f} % lit, {:.0f} % dark",
                    100 * shafted.traced_part(), 100 * static_cast<double>(s.points_lit) / count,
                    100 * static_cast<double>(s.points_dark) / count),
@@ -177,6 +172,14 @@ void print_needs(const std::vector<NeedRow>& needs) {
 }
 
 }  // namespace
+
+FrameGeometry nudged(FrameGeometry geometry) {
+  for (glm::vec3& p : geometry.positions) {
+    for (int axis = 0; axis < 3; ++axis)
+      p[axis] = std::nextafter(p[axis], std::numeric_limits<float>::infinity());
+  }
+  return geometry;
+}
 
 Expected<void> measure_trade_needs(TradeSession& session) {
   const int rounds = session.by_effort(1, 5, 15);

@@ -6,6 +6,9 @@
 
 namespace tenebra::bench {
 
+/// Every coordinate moved by the least that can be.
+FrameGeometry nudged(FrameGeometry geometry);
+
 /// Fields only of objects that something visible can feel, built when it first does; samples of surfaces
 /// where they are seen; look-ups of what is in reach.
 Expected<void> need_fields(TradeSession& session, const std::string& name, const Scene& scene,

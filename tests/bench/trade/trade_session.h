@@ -24,12 +24,21 @@ struct NeedRow {
   std::optional<bool> same{};      ///< both gave the same bits; none: only one of them was run
 };
 
+/// A whole frame as it is, and with one stage alone switched off.
+struct StageRow {
+  std::string stage, view;
+  double ms = 0, without_ms = 0;
+  double mb = 0, without_mb = 0;  ///< that the renderer and its frames take, at most
+  std::optional<bool> same{};     ///< both gave the same bits; none: that is not promised
+};
+
 struct TradeSession : BenchSession {
   using BenchSession::BenchSession;
 
   TradeOptions trade;
   std::vector<TradeTable> tables;
   std::vector<NeedRow> needs;
+  std::vector<StageRow> stages;
   std::map<std::string, double> headline;  ///< "hard_default_wrong_pixels"; the largest of the views
   std::vector<std::string> notes;          ///< sentences
 
@@ -48,6 +57,7 @@ Expected<void> write_trade_page(const TradeSession& session);
 Expected<void> measure_trade_hard(TradeSession& session);
 Expected<void> measure_trade_soft(TradeSession& session);
 Expected<void> measure_trade_ao(TradeSession& session);
-Expected<void> measure_trade_needs(TradeSession& session);  ///< what frames do not need and do not pay for
+Expected<void> measure_trade_stages(TradeSession& session);  ///< each stage switched off alone
+Expected<void> measure_trade_needs(TradeSession& session);   ///< what frames do not need and do not pay for
 
 }  // namespace tenebra::bench

@@ -42,8 +42,8 @@ constexpr const char* footer =
     "The program beside this one, on a virtual display (Xvfb) of its own, with keys that repeat 30 times\n"
     "a second; the display's pixels are read while it draws. pictures_per_second_worst: how often the\n"
     "middle of the view changes while a key is held or the mouse drags, at 1024x1024. black_ms_worst:\n"
-    "longest time without a picture, from the window's first sign on. explain_ms: from a click to what it\n"
-    "tells. over_render: a whole frame while a key is held, over one of tenebra render; key_to_picture:\n"
+    "longest time without a picture, from the window's first sign on. explain_ms: from a click to its\n"
+    "answer. over_render: a whole frame while a key is held, over one of tenebra render; key_to_picture:\n"
     "from a single press to its whole picture on the screen, in such frames; these two with --antialias 1\n"
     "--terminator flat --tone none.";
 
@@ -51,7 +51,7 @@ constexpr const char* footer =
 
 void add_viewer_command(CLI::App& program, Run& run) {
   add_parts_command(program, run,
-                    {"viewer", "What is seen at the window, while keys are held and the mouse drags", footer},
+                    {"viewer", "What the window shows while keys are held and the mouse drags", footer},
                     part_names(all_parts), measure);
 }
 

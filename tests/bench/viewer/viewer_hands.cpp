@@ -135,7 +135,7 @@ Expected<void> measure_starts(ViewerSession& session) {
     session.report.add({"starts", view.name, "tenebra", "", "black", 1e3 * worst_s, "ms"});
     rows.push_back({view.name, fmt::format("{:.0f}", 1e3 * worst_s)});
   }
-  print_table("Until there is a picture, the longest", rows);
+  print_table("Time until there is a picture, the longest", rows);
   return {};
 }
 
@@ -160,7 +160,7 @@ Expected<void> measure_explain(ViewerSession& session) {
   }
   viewer.quit();
   if (times_ms.empty()) {
-    session.skipped.push_back("explain: skipped, a click on the picture tells nothing");
+    session.skipped.push_back("explain: skipped, a click on the picture explains nothing");
     return {};
   }
   session.headline.explain_ms = median(times_ms);

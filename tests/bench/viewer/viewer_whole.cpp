@@ -81,7 +81,7 @@ Expected<void> measure_whole(ViewerSession& session) {
   const int rounds = session.effort == Effort::full ? 3 : 1, frames = tiny ? 3 : 40;
   std::vector<double> view, render, key;
   for (int i = 0; i < rounds; ++i) {
-    progress("viewer: whole frames beside tenebra render");
+    progress("viewer: whole frames and tenebra render");
     const auto before = rendered_ms(session, scene, frames);
     if (!before) return tl::unexpected(before.error());
     WatchedViewer viewer(session.screen, session.program, scene, session.side(),

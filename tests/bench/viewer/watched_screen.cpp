@@ -109,7 +109,7 @@ Expected<void> WatchedScreen::map_pixels() {
   row_bytes_ = word(row_size);
   if (word(screen_width) != width || word(screen_height) != height || word(pixel_bits) != 32 ||
       row_bytes_ < 4 * width || begin + row_bytes_ * height > mapped_bytes_)
-    return base::fail("{}: found no screen of {}x{} with 32 bits a pixel", file, width, height);
+    return base::fail("{}: found no screen of {}x{} with 32 bits per pixel", file, width, height);
   pixels_ = bytes + begin;
   return {};
 }

@@ -95,6 +95,16 @@ TEST(LogFile, CountsUpToTheLastWholeRow) {
   EXPECT_EQ(parsed(log_text("0,0,1.5,1")).frames.size(), 0u);
 }
 
+TEST(LogFile, ReadsListsOfStages) {
+  const auto with = [](std::string_view stages) {
+    return fmt::format("frame,total_ms,not_needed,ran\n0,1.5,,{}\n", stages);
+  };
+  const auto log = parsed(with("evaluate ao_build"));
+  ASSERT_EQ(log.frames.size(), 1u);
+  EXPECT_EQ(log.frames[0].values, (std::vector<double>{0, 1.5, 0, 0}));
+  EXPECT_EQ(refusal(with("x1")), "a.csv: line 2: found 'x1' as ran, expected names of stages");
+}
+
 TEST(LogFile, NamesFileAndLineOfWhatIsNoLog) {
   EXPECT_EQ(refusal(log_text("0,0,1.5,10,1000,7\n")),
             "a.csv: line 5: found 6 values, expected the 7 of the header");

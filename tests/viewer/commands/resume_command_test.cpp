@@ -145,6 +145,21 @@ TEST(ResumeCommand, WhatWasMadeInAnotherWayIsNotTakenForDone) {
   EXPECT_NE(read_text(farm.folder / "p04.png"), old);
 }
 
+TEST(ResumeCommand, DrawsAgainWhatAnotherPatternWroteOver) {
+  const Farm farm;
+  ASSERT_EQ(farm.render("0:4", {"--log", farm.folder / "a.csv"}).exit_code, 0);
+  const auto first = farm.time_of("p00.png");
+  const std::string second = read_text(farm.folder / "p02.png"), fourth = read_text(farm.folder / "p04.png");
+  ASSERT_EQ(farm.render("2:3", {"-o", farm.folder / "p0%d.png", "--exposure", "3"}).exit_code, 0);
+  ASSERT_NE(read_text(farm.folder / "p02.png"), second);
+  write_text(farm.folder / "p04.png", fourth.substr(0, fourth.size() / 2));  // a disk that lost the rest
+  ASSERT_EQ(farm.render("0:4", {"--log", farm.folder / "a.csv", "--resume"}).exit_code, 0);
+  EXPECT_EQ(read_text(farm.folder / "p02.png"), second);
+  EXPECT_EQ(read_text(farm.folder / "p04.png"), fourth);
+  EXPECT_EQ(farm.time_of("p00.png"), first);
+  EXPECT_EQ(farm.rows("a.csv"), (std::vector<int>{0, 1, 2, 3, 4, 2, 3, 4}));
+}
+
 TEST(ResumeCommand, SkipExistingLooksForFilesAlone) {
   const Farm farm;
   ASSERT_EQ(farm.render("0:2").exit_code, 0);

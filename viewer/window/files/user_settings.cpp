@@ -68,7 +68,7 @@ Expected<UserSettings> read_settings(const fs::path& file) {
   std::error_code none;
   if (file.empty() || !fs::exists(file, none)) return UserSettings{};
   const auto refuse = [&](const std::string& what) {
-    return base::fail("settings {}: {}, expected what the window wrote there; the defaults take their place",
+    return base::fail("settings {}: {}, expected a file that the window wrote; the defaults are used",
                       file.string(), what);
   };
   if (!fs::is_regular_file(file, none)) return refuse("found no file");

@@ -140,7 +140,7 @@ std::string preview_text(const render::RenderSettings& asked, PreviewLevel level
              (drawn.ao.rays != asked.ao.rays || drawn.ao.downscale != asked.ao.downscale)) {
     add(fmt::format("{} occlusion rays", drawn.ao.rays));
   }
-  if (text.empty() && drawn.antialias != asked.antialias) add("1 sample a pixel");
+  if (text.empty() && drawn.antialias != asked.antialias) add("1 sample per pixel");
   return text;
 }
 

@@ -11,10 +11,10 @@
 
 namespace tenebra::viewer {
 
-/// From what was asked for to what costs least. Each draws the same scene, lights and camera.
+/// From the requested picture to the cheapest. Each draws the same scene, lights and camera.
 enum class PreviewMethod {
   as_asked,
-  single,  ///< one sample a pixel, as all that follow
+  single,  ///< one sample per pixel, as all that follow
   fewer,   ///< at least the errors, and at most the rays, of --quality fast
   cast,    ///< a point for each light, ambient occlusion by a few rays that are cast
   plain,   ///< a point for each light, no ambient occlusion

@@ -1,5 +1,5 @@
-// Where the animation is: driven by the wall clock, or one frame a picture. A value: the render worker plays
-// its own copy.
+// Where the animation is: driven by the wall clock, or by one frame for each picture. A value: the render
+// worker plays its own copy.
 #pragma once
 
 #include <chrono>

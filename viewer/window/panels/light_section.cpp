@@ -105,7 +105,8 @@ void edit_direction(Ui& ui, int index, LightType type, LightEdit& edit) {
   row(ui, sun ? "  From" : "  Towards", "Compass: 0 is -Z, 90 is +X. The handle in the view turns it too.");
   bool changed = ImGui::SliderFloat("##compass", &bearing.compass_deg, 0, 360, "%.1f deg");
   ui.mark(fmt::format("light.{}.compass", index));
-  row(ui, "  Height", sun ? "Of the sun above the ground." : "Above the ground; below zero it shines down.");
+  row(ui, "  Height",
+      sun ? "Height of the sun above the ground." : "Above the ground; below zero it shines down.");
   changed |= ImGui::SliderFloat("##height", &bearing.height_deg, -89.9f, 89.9f, "%.1f deg",
                                 ImGuiSliderFlags_AlwaysClamp);
   ui.mark(fmt::format("light.{}.height", index));
@@ -115,7 +116,7 @@ void edit_direction(Ui& ui, int index, LightType type, LightEdit& edit) {
 void edit_values(Ui& ui, int index, const Light& light, LightEdit& edit) {
   if (const std::string method = method_of(ui, index); !method.empty() && ui.state.settings.research) {
     row(ui, "  Traced by",
-        "What found its hard shadows in this picture: the variant, or what took its place.");
+        "The method that found its hard shadows in this picture: the variant, or its replacement.");
     ImGui::TextUnformatted(method.c_str());
   }
   row(ui, "  Colour");
@@ -132,7 +133,7 @@ void edit_values(Ui& ui, int index, const Light& light, LightEdit& edit) {
   }
   edit_light_size(ui, index, light, edit);
   row(ui, "  Moved",
-      "Away from where the animation has it, in metres. You can also drag its circle in the view.");
+      "Offset from its place in the animation, in metres. You can also drag its circle in the view.");
   ImGui::DragFloat3("##move", &edit.move.x, 0.01f * ui.state.fly_speed, 0, 0, "%.2f");
   ui.mark(fmt::format("light.{}.move", index));
 }

@@ -30,7 +30,7 @@ void share_row(Ui& ui, const char* label, const char* mark, float own, std::opti
 
 void choose_material(Ui& ui) {
   const Scene& scene = ui.state.scene->scene;
-  row(ui, "Material", "Click on a surface in the view to see which it has.");
+  row(ui, "Material", "Click on a surface in the view to see its material.");
   const int chosen = ui.state.selected_material;
   if (ImGui::BeginCombo("##material", chosen < 0 ? "choose one" : material_name(scene, chosen).c_str())) {
     for (int i = 0; i < static_cast<int>(scene.materials.size()); ++i) {

@@ -52,7 +52,7 @@ void edit_hard(Ui& ui, MethodOptions& method) {
 
 void edit_light_size(Ui& ui, MethodOptions& method) {
   row(ui, "Light size",
-      "Turns point and spot lights into rectangles; they keep their light. 0: they stay points.");
+      "Turns point and spot lights into rectangles of the same brightness. 0: they stay points.");
   LightSize size = method.light_size.value_or(LightSize{});
   float metres[2] = {size.size.x, size.size.y};
   bool changed =
@@ -84,7 +84,7 @@ void edit_light_size(Ui& ui, MethodOptions& method) {
   row(ui, "Shining",
       "point: in every direction as bright as the point; lambert: to one side, like a lamp's face.");
   choose(ui, "emission", emission_choices, method.light_emission);
-  row(ui, "Facing", "What those rectangles face: the scene's centre, or this point.");
+  row(ui, "Facing", "The rectangles face the scene's centre, or this point.");
   std::optional<glm::vec3>& facing = method.render.area_lights.facing;
   bool own = facing.has_value();
   if (ImGui::Checkbox("a point", &own)) {
@@ -122,7 +122,7 @@ void edit_soft(Ui& ui, MethodOptions& method) {
                          ImGuiSliderFlags_AlwaysClamp))
     soft.error_255 = std::round(10 * double{error}) / 10;
   ui.mark("soft error");
-  row(ui, "Points", "Replaces the light by so many points with exact hard shadows. 0: as the error says.");
+  row(ui, "Points", "Replaces the light by this many points with exact hard shadows. 0: as the error says.");
   number(ui, "soft points", method.render.soft_points, 0, 4096, 4);
 }
 
@@ -135,7 +135,8 @@ void edit_distance(Ui& ui, AoConfig& ao) {
 }
 
 void edit_error(Ui& ui, AoConfig& ao) {
-  row(ui, "Error", "Of the occlusion, RMS over the picture, in 1/255. The cost section has the estimate.");
+  row(ui, "Error",
+      "Error of the occlusion, RMS over the picture, in 1/255. The cost section has the estimate.");
   auto error = static_cast<float>(ao.error_255);
   if (ImGui::SliderFloat("##ao error", &error, 0.5f, 8.0f, "%.1f / 255", ImGuiSliderFlags_AlwaysClamp))
     ao.error_255 = std::round(10 * double{error}) / 10;
@@ -144,9 +145,9 @@ void edit_error(Ui& ui, AoConfig& ao) {
 
 void edit_ao(Ui& ui, AoConfig& ao) {
   if (ao.mode == AoMode::adaptive) return;
-  row(ui, "At", "Where it is computed; in the paper: at vertices.");
+  row(ui, "At", "Where occlusion is computed; in the paper: at vertices.");
   choose(ui, "place", place_choices, ao.place);
-  row(ui, "Rays", "Per point, weighted by the cosine.");
+  row(ui, "Rays", "Rays per point, distributed by the cosine.");
   number(ui, "ao rays", ao.rays, 1, 65536, 16);
   row(ui, "Downscale", "N computes one of N x N pixels; the others are blurred from similar ones.");
   number(ui, "ao downscale", ao.downscale, 1, 8, 1);
@@ -162,14 +163,14 @@ void edit_ao(Ui& ui, AoConfig& ao) {
   tooltip("The side of the square: 32 stands for 1024 directions.");
   row(ui, "Bits", "Per stored distance.");
   choose(ui, "bits", bit_choices, ao.bits);
-  row(ui, "Deforming", "What deforms has no field: rays meet it, or it is left out.");
+  row(ui, "Deforming", "Objects that deform have no field: rays are cast at them, or they are left out.");
   choose(ui, "deforming", deforming_choices, ao.deforming);
   row(ui, "Cache", "Folder that keeps trees, fields and surface samples for the next run.");
   bool kept = !ao.cache.empty();
   if (ImGui::Checkbox("keep fields and samples", &kept))
     ao.cache = kept ? default_cache_folder() : std::filesystem::path();
   if (kept) tooltip(ao.cache.c_str());
-  row(ui, "Memory", "Of fields and surface samples, in MB. Bodies that have no room are answered by rays.");
+  row(ui, "Memory", "Memory for fields and surface samples, in MB. For bodies without room rays are cast.");
   number(ui, "ao memory", ao.memory_mb, 1, 1000000, 64);
 }
 
@@ -187,7 +188,7 @@ std::optional<render::Quality> quality_of(const render::RenderSettings& render) 
 }
 
 void choose_quality(Ui& ui, render::RenderSettings& render) {
-  row(ui, "Quality", "What soft shadows and ambient occlusion may cost. Sets errors, rays and downscale.");
+  row(ui, "Quality", "Accuracy of soft shadows and ambient occlusion. Sets errors, rays and downscale.");
   std::array<const char*, render::qualities.size()> names;
   for (std::size_t i = 0; i < names.size(); ++i)
     names[i] = render::quality_name(render::qualities[i]).data();  // literals
@@ -237,7 +238,7 @@ void draw_scene_section(Ui& ui) {
   const std::string name = std::filesystem::path(ui.state.options.file).filename().string();
   if (ImGui::Button("Open...")) ui.actions.open_dialog = true;
   ui.mark("open");
-  tooltip("Opens a scene (Ctrl+O); the last ones stand first. A file can be dropped on the window too.");
+  tooltip("Opens a scene (Ctrl+O); recent ones come first. A file can be dropped on the window too.");
   ImGui::SameLine(0, ui.px(4));
   if (ImGui::Button("Undo")) ui.actions.undo = true;
   ui.mark("undo");
@@ -302,8 +303,8 @@ void draw_method_section(Ui& ui) {
     edit_light_size(ui, method);
   }
   row(ui, "Occlusion",
-      "Ambient occlusion: adaptive, by an error; by displacement fields of rigid objects; or by rays, to "
-      "compare with.");
+      "Ambient occlusion: adaptive, to an error; by displacement fields of rigid objects; or by rays, for "
+      "comparison.");
   choose(ui, "ao", ao_choices, method.render.ao.mode);
   if (method.render.ao.mode == AoMode::adaptive) edit_error(ui, method.render.ao);
   if (method.render.ao.mode != AoMode::none) {

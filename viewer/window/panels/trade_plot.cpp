@@ -83,7 +83,7 @@ void draw_scale(const Ui& ui, const PlotScale& scale) {
   const float top = scale.at({{}, scale.first_ms, scale.highest}).y;
   list.AddLine({scale.low.x, top}, {end.x, top}, palette::line);
   list.AddText(nullptr, font, {scale.low.x + ui.px(4), scale.low.y + ui.px(1)}, palette::dim,
-               fmt::format("error {:.2g}/255; below: ms a frame", scale.highest).c_str());
+               fmt::format("error {:.2g}/255; below: ms per frame", scale.highest).c_str());
 }
 
 /// `lit`: the point that the hand or the keyboard is at; -1: none.
@@ -143,7 +143,8 @@ void draw_result(Ui& ui, const FoundTrade& found) {
   int lit = point_under(ui, result, scale);
   if (lit >= 0) {
     const TradedSetting& setting = result.measured[static_cast<std::size_t>(lit)];
-    tooltip(fmt::format("{}\n{:.1f} ms a frame, off by {:.2f}/255 (RMS). Click: use it",
+    tooltip(fmt::format("{}\n"
+                        "{:.1f} ms per frame, off by {:.2f}/255 (RMS). Click: use it",
                         words_of(result.axes, setting.point.setting), setting.point.ms, setting.point.error)
                 .c_str());
     if (clicked) apply(ui, result, lit);
@@ -155,7 +156,8 @@ void draw_result(Ui& ui, const FoundTrade& found) {
   draw_scale(ui, scale);
   const int row = draw_rows(ui, result);
   draw_points(ui, result, scale, lit >= 0 ? lit : row);
-  if (found.subject != ui.trade_subject) dim_text("Of another view, time or method than what is shown now.");
+  if (found.subject != ui.trade_subject)
+    dim_text("Measured for another view, time or method than the present one.");
 }
 
 }  // namespace
@@ -174,8 +176,9 @@ void draw_trade_plot(Ui& ui) {
     if (ImGui::Button("Try settings on this scene (Y)", {-1, 0})) ui.actions.trade = true;
     ui.mark("trade.start");
     tooltip(
-        "Draws the present view with other samples per pixel and other errors: what each takes, and how far "
-        "its picture is off the finest's. Nothing else should be drawn meanwhile: it would take its time.");
+        "Draws the present view with other samples per pixel and other errors, and shows how long each takes "
+        "and how far its picture is from the finest. Draw nothing else meanwhile, or the times will be too "
+        "long.");
   }
   if (status.found) draw_result(ui, *status.found);
 }

@@ -51,7 +51,7 @@ void draw_buttons(Ui& ui) {
   tooltip("One frame forward (Right)");
   ImGui::SameLine(0, gap);
   if (sign_button(ui, "record", state.recording ? Sign::stop : Sign::record)) ui.actions.record = true;
-  tooltip("Writes every frame of the animation as a picture, to a new folder here; again: ends it (O)");
+  tooltip("Writes every frame of the animation as a picture, to a new folder here; click again to stop (O)");
 }
 
 void draw_speed(Ui& ui) {

@@ -10,7 +10,7 @@
 
 namespace tenebra::bench {
 
-/// What the other process is asked for.
+/// The task of the other process.
 struct FirstFrameTask {
   std::string view;  ///< one of ao_scene_names(); empty: nothing
   int size = 512;

@@ -1,4 +1,4 @@
-// The opponent's arithmetic, sixteen pixels at a time, in vector code: what is beside Embree should cost
+// The opponent's arithmetic, sixteen pixels at a time, in vector code, so that the work besides Embree costs
 // little.
 #pragma once
 

@@ -1,5 +1,4 @@
-// What an opponent with a choice of rays, filters and resolutions needs for the error that another one
-// leaves.
+// The time that an opponent with a choice of rays, filters and resolutions needs to reach another's error.
 #pragma once
 
 #include <span>

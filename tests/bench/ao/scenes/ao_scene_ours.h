@@ -24,7 +24,7 @@ struct AoSceneResult {
   double first_ms = 0;                 ///< of the first frame, with what it had to build
   double ms = 0;                       ///< median of the later ones
   AoStats stats;                       ///< of a later one
-  std::optional<double> estimate_255;  ///< the library's own word on its RMS error
+  std::optional<double> estimate_255;  ///< the library's own estimate of its RMS error
   std::vector<float> values;           ///< one for each pixel
 };
 

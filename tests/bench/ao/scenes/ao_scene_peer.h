@@ -1,6 +1,6 @@
-// The opponent: what one would write who has Embree and wants the ambient occlusion of a frame. Rays of a
-// shifted lattice in coherent packets, at every pixel or one of four; a filter over normals and planes that
-// takes their noise; and what turns half resolution to full.
+// The opponent: what you would write with Embree to get the ambient occlusion of a frame. Rays of a shifted
+// lattice in coherent packets, at every pixel or one of four; a filter over normals and planes that removes
+// their noise; and the step from half resolution to full.
 #pragma once
 
 #include <array>
@@ -12,7 +12,7 @@
 
 namespace tenebra::bench {
 
-/// What is done with traced values.
+/// How traced values are processed.
 struct PeerVariant {
   int step = 1;    ///< 2: one of 2x2 pixels is traced
   int passes = 0;  ///< of the filter, each with twice the step of the one before; at most 3

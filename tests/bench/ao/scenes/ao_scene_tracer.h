@@ -16,8 +16,8 @@ class AoSceneTracer {
 public:
   AoSceneTracer(const AoSceneView& view, TreeKind kind);
 
-  /// Has the tree follow what moved from the frame before; what that costs in milliseconds. Nothing where all
-  /// stands still.
+  /// Lets the tree follow what moved since the frame before; returns the time in milliseconds, 0 where
+  /// nothing moved.
   double follow_ms();
 
   /// Openness of a grid's pixels, to `values` as `layout` lies. On all threads.

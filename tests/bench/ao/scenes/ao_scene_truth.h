@@ -1,4 +1,4 @@
-// What the ambient light of a view truly is: thousands of rays per point, kept on disk from run to run.
+// The true ambient light of a view: thousands of rays per point, kept on disk from run to run.
 //
 // Openness of a point: the mean over directions, cosine-weighted about the shading normal, of
 // min(1, distance of the nearest hit / reach), that is one less the mean of max(0, 1 - distance / reach).
@@ -35,10 +35,10 @@ struct TruthQuestion {
 AoSceneTruth cast_truth(const TruthQuestion& question);
 
 /// The same, but what `folder` knows of the same question already is taken from there, and what is found is
-/// kept: one file of one float a pixel, "ao_NAME_WxH_KEY.truth", where KEY is a hash of the triangles, the
-/// points, the normals, the reach, the rays and the definition. So a file never answers another question, and
-/// runs with different steps share one. An empty folder: nothing is kept. What cannot be read or written is
-/// made anew.
+/// kept: one file with one float for each pixel, "ao_NAME_WxH_KEY.truth", where KEY is a hash of the
+/// triangles, the points, the normals, the reach, the rays and the definition. So a file is never used for
+/// another question, and runs with different steps share one. An empty folder: nothing is kept. What cannot
+/// be read or written is made anew.
 AoSceneTruth find_truth(const TruthQuestion& question, const std::string& name,
                         const std::filesystem::path& folder);
 

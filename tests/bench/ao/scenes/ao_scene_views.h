@@ -1,4 +1,4 @@
-// The views of whole scenes that ambient occlusion is measured on: what each contestant is given of them.
+// The views of whole scenes that ambient occlusion is measured on, as each contestant gets them.
 #pragma once
 
 #include <filesystem>

@@ -240,7 +240,7 @@ Expected<void> measure_scenes(AoSession& session) {
       if (auto done = SceneBench(session, **view).run(tables); !done) return done;
     }
   }
-  print_table("Whole scenes: errors in 1/255 against many rays per point, times of a frame", tables.ours);
+  print_table("Whole scenes: errors in 1/255 against many rays per point, times per frame", tables.ours);
   if (tables.race.size() > 1)
     print_table("Embree's filtered rays at the same RMS error; >: even the most rays leave more",
                 tables.race);

@@ -1,4 +1,4 @@
-// The stretches of a silhouette's edges on a convex part of the light, and where they cross its sides.
+// The segments of a silhouette's edges on a convex part of the light, and where they cross its sides.
 // Included once per target.
 #if defined(TENEBRA_SOFT_EDGE_STRETCHES_INL_H_) == defined(HWY_TARGET_TOGGLE)
 #ifdef TENEBRA_SOFT_EDGE_STRETCHES_INL_H_
@@ -46,13 +46,13 @@ void sort_along(std::vector<WindingChange<T>>& changes) {
 /// wider than a sixteenth: edges that run along a side, as where something next to the silhouette has been
 /// cut out, do not leave anything open. Places are on the part's own sides.
 template <class T>
-class EdgeStretches {
+class EdgeSegments {
 public:
   using Lanes = Pack<T, 16>;
 
   std::vector<T> from_u, from_v, to_u, to_v;  ///< their ends
   std::vector<T> margin;                      ///< doubt_beside the edges
-  /// Bits of a block of sixteen: edges with a stretch; and those where rounding might decide where it ends.
+  /// Bits of a block of sixteen: edges with a segment; and those where rounding might decide where it ends.
   struct Block {
     std::uint32_t there = 0, unsure = 0;
   };
@@ -142,18 +142,18 @@ private:
     return e.u * broadcast<Lanes>(u) + e.v * broadcast<Lanes>(v) + e.w;
   }
 
-  /// Lets the stretches `crosses` begin (`enters`) or end at side k.
+  /// Lets the segments `crosses` begin (`enters`) or end at side k.
   SIMD_INLINE void end_at_side(int k, const SilhouetteLanes<T>& e, std::uint32_t crosses,
-                               std::uint32_t enters, SilhouetteLanes<T>& stretches) {
+                               std::uint32_t enters, SilhouetteLanes<T>& segments) {
     const Lanes zero = broadcast<Lanes>(0), here = value_at(e, u_[k], v_[k]),
                 next = value_at(e, u_[k + 1], v_[k + 1]);
     const Lanes share = min(max(here / (here - next), zero), broadcast<Lanes>(1));
     const Lanes u = broadcast<Lanes>(u_[k]) + share * broadcast<Lanes>(u_[k + 1] - u_[k]),
                 v = broadcast<Lanes>(v_[k]) + share * broadcast<Lanes>(v_[k + 1] - v_[k]);
     const auto begins = mask_of_bits<T, 16>(enters), ends = mask_of_bits<T, 16>(crosses & ~enters);
-    stretches.from_u = select(begins, u, stretches.from_u),
-    stretches.from_v = select(begins, v, stretches.from_v);
-    stretches.to_u = select(ends, u, stretches.to_u), stretches.to_v = select(ends, v, stretches.to_v);
+    segments.from_u = select(begins, u, segments.from_u),
+    segments.from_v = select(begins, v, segments.from_v);
+    segments.to_u = select(ends, u, segments.to_u), segments.to_v = select(ends, v, segments.to_v);
     // Counter-clockwise, the side leads to the left of an edge that leaves the part.
     T shares[16], us[16], vs[16], changes[16];
     store(share, shares), store(u, us), store(v, vs);
