@@ -4,25 +4,12 @@
 
 #include "base/fail.h"
 #include "parallel/parallel.h"
-#include "render/antialias/mask_sharing.h"
 #include "render/renderer_state.h"
 
 namespace tenebra::render {
 namespace {
 
 constexpr std::uint32_t first_own = std::uint32_t{1} << 31;  // of what soft_from and hard_from hold
-
-bool has_areas(const std::vector<DrawnLight>& lights) {
-  return std::any_of(lights.begin(), lights.end(),
-                     [](const DrawnLight& light) { return light.area.has_value(); });
-}
-
-/// Whether hard shadows of pixels' centres may stand for those of samples: not with so many samples that the
-/// shadows that this misses are more than the edges that are left, nor where masks of samples are asked for.
-bool shares_masks(const RenderSettings& settings) {
-  return settings.antialias <= 4 && !settings.antialias_everywhere && !settings.mask_means &&
-         !settings.sample_masks && settings.samples == SampleSource::ids;
-}
 
 }  // namespace
 
@@ -74,7 +61,7 @@ void Renderer::State::borrow_soft(const FrameInput& input) {
 }
 
 Expected<void> Renderer::State::light_softly(const FrameInput& input, const std::vector<DrawnLight>& lights,
-                                             const RenderSettings& settings, const FrameResult& result,
+                                             const RenderSettings& settings, const SampleFrame& frame,
                                              const StopFlag* stop) {
   const TriangleView triangles = triangle_view(input.geometry);
   with_threads(settings.threads, [&] {
@@ -96,7 +83,7 @@ Expected<void> Renderer::State::light_softly(const FrameInput& input, const std:
     for (std::size_t i = 0; i < lights.size(); ++i) {
       if (!lights[i].area) continue;
       gather(irradiance[i], own_soft.irradiance[i], at_samples.irradiance[i]);
-      gather(result.masks[i].visible_fraction.pixels, own_soft.visible_fraction[i],
+      gather(frame.masks[i].visible_fraction.pixels, own_soft.visible_fraction[i],
              at_samples.visible_fraction[i]);
       if (input.geometry.see_through.empty()) continue;
       TintMask tint;
@@ -115,63 +102,20 @@ Expected<void> Renderer::State::light_softly(const FrameInput& input, const std:
   return {};
 }
 
-CentreMasks Renderer::State::centre_masks(const std::vector<DrawnLight>& lights,
-                                          const FrameResult& result) const {
-  CentreMasks centres{seen.width, seen.height, seen.ids, {}, {}};
-  for (std::size_t i = 0; i < lights.size() && i < result.masks.size(); ++i)
-    if (!lights[i].area) centres.masks.emplace_back(result.masks[i].mask.pixels);
-  if (!seen.has_layer) return centres;
-  centres.glass.resize(seen.layer.size());
-  for (std::size_t i = 0; i < seen.layer.size(); ++i) centres.glass[i] = seen.layer[i] != no_triangle;
-  for (std::size_t i = 0; i < result.masks.size(); ++i)
-    for (const std::uint32_t pixel : result.masks[i].tint.pixels) centres.glass[pixel] = 1;
-  return centres;
-}
-
-/// Whether edges can do without samples in a picture of their own: nothing asks for the samples' masks, and
-/// all lights have hard shadows, or none.
-bool Renderer::State::may_settle(const std::vector<DrawnLight>& lights, const RenderSettings& settings) {
-  return !has_areas(lights) && settings.ao.mode == AoMode::none && shares_masks(settings);
-}
-
-/// The hard shadows of samples: of centres nearby where these agree, else their own.
+/// The hard shadows of samples: of others nearby where these agree, else their own.
 Expected<void> Renderer::State::light_sparsely(const FrameInput& input, const std::vector<DrawnLight>& lights,
-                                               const RenderSettings& settings, const FrameResult& result,
+                                               const RenderSettings& settings, const EdgeTask& task,
                                                const StopFlag* stop) {
-  const TriangleView triangles = triangle_view(input.geometry);
-  const CentreMasks centres = centre_masks(lights, result);
-  with_threads(settings.threads, [&] {
-    share_masks(centres, samples, SurfaceMatch(input.geometry, input.view), shared);
-    points::compute_sample_points(shared.own_ids, shared.own_places, shared.own_slots.size(), input.view,
-                                  triangles, own_hard.points);
-  });
-  if (auto lit = light_samples(input, lights, settings, LightKinds::points, own_hard, stop); !lit) return lit;
-  const points::SampleGrid grid(shared.own_slots.size());
-  at_samples.masks.resize(lights.size());
-  at_samples.irradiance.assign(lights.size(), {});
-  at_samples.visible_fraction.assign(lights.size(), {});
-  at_samples.tints.resize(lights.size());
-  at_samples.openness.clear();
+  if (auto lit = light_edges(input, lights, settings, task, stop); !lit) return lit;
   with_threads(settings.threads, [&] {
     for (std::size_t light = 0; light < lights.size(); ++light) {
-      at_samples.tints[light].begin(0);
       ShadowMask& to = at_samples.masks[light];
-      to.clear();
       if (lights[light].area) continue;
       to.resize(samples.grid.pixels(), 0);
-      const auto& of_centres = result.masks[light].mask.pixels;
-      const ShadowMask& own = own_hard.masks[light];
       parallel::parallel_ranges(samples.count, std::size_t{1} << 14,
                                 [&](std::size_t first, std::size_t last) {
-                                  for (std::size_t i = first; i < last; ++i) {
-                                    const std::uint32_t slot = samples.slots[i], from = shared.from[slot];
-                                    if (from < MaskAgreement::unlit) to[slot] = of_centres[from];
-                                  }
-                                });
-      parallel::parallel_ranges(shared.own_slots.size(), std::size_t{1} << 14,
-                                [&](std::size_t first, std::size_t last) {
                                   for (std::size_t i = first; i < last; ++i)
-                                    to[shared.own_slots[i]] = own[grid.pixel(i)];
+                                    to[samples.slots[i]] = (edges.lit[i] >> light & 1u) != 0 ? 255 : 0;
                                 });
     }
   });
@@ -179,29 +123,29 @@ Expected<void> Renderer::State::light_sparsely(const FrameInput& input, const st
 }
 
 Expected<void> Renderer::State::light_packed(const FrameInput& input, const std::vector<DrawnLight>& lights,
-                                             const RenderSettings& settings, const FrameResult& result,
-                                             const StopFlag* stop) {
+                                             const RenderSettings& settings, const SampleFrame& frame,
+                                             std::span<const std::uint32_t> chosen, const StopFlag* stop) {
   const bool shadows = settings.shadows != ShadowMode::none && !lights.empty();
   const bool soft_too = has_areas(lights) || settings.ao.mode != AoMode::none;
-  const bool sparsely = shadows && input.geometry.see_through.empty() && shares_masks(settings);
+  const bool sparsely = shadows && input.geometry.see_through.empty() && shares_masks(lights, settings);
   if ((shadows && !sparsely) || soft_too || !samples.layer.empty()) {
     with_threads(settings.threads, [&] {
       points::compute_sample_points(samples.ids, samples.places, samples.count, input.view,
                                     triangle_view(input.geometry), at_samples.points);
     });
   }
-  if (!shadows && !soft_too) {
-    at_samples.masks.assign(lights.size(), {});
-    at_samples.irradiance = at_samples.visible_fraction = {lights.size(), std::vector<float>()};
-    at_samples.tints.assign(lights.size(), {});
-    at_samples.openness.clear();
-    return {};
-  }
   at_samples.normals.clear();
-  const auto lit = sparsely ? light_sparsely(input, lights, settings, result, stop)
-                            : light_samples(input, lights, settings, LightKinds::points, at_samples, stop);
-  if (!lit) return lit;
-  return soft_too ? light_softly(input, lights, settings, result, stop) : Expected<void>();
+  at_samples.begin(lights.size());
+  Expected<void> lit;
+  if (sparsely) {
+    const SurfaceMatch match(input.geometry, input.view);
+    const CentreShadows centres = centre_shadows(frame);
+    lit = light_sparsely(input, lights, settings, {chosen, centres, frame.offsets, further, match}, stop);
+  } else if (shadows || soft_too) {
+    lit = light_samples(input, lights, settings, LightKinds::points, at_samples, stop);
+  }
+  if (!lit || !soft_too) return lit;
+  return light_softly(input, lights, settings, frame, stop);
 }
 
 }  // namespace tenebra::render

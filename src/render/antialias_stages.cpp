@@ -83,12 +83,11 @@ Expected<void> Renderer::State::layer_packed(const FrameInput& input, const std:
 Expected<void> Renderer::State::add_edges(const FrameInput& input, const std::vector<DrawnLight>& lights,
                                           const RenderSettings& settings, const SampleFrame& frame,
                                           std::span<const std::uint32_t> chosen, std::size_t first,
-                                          std::size_t place, const FrameResult& result, SampleMeans& means,
-                                          const StopFlag* stop) {
+                                          std::size_t place, SampleMeans& means, const StopFlag* stop) {
   const auto offsets = frame.offsets.subspan(place, further.places());
   with_threads(settings.threads,
                [&] { pack_samples(chosen, seen.width, offsets, further, seen.ids, samples); });
-  if (auto lit = light_packed(input, lights, settings, result, stop); !lit) return lit;
+  if (auto lit = light_packed(input, lights, settings, frame, chosen, stop); !lit) return lit;
   const auto factors = at_samples.factors();
   const SampleLights lit{factors, at_samples.openness};
   with_threads(settings.threads, [&] {
@@ -128,7 +127,7 @@ ChosenPixels Renderer::State::choose(const FrameInput& input, const RenderSettin
   CentrePicture centre{seen.width, seen.height, seen.ids, seen.layer, result.image, {}, {}};
   for (const LightMask& mask : result.masks) centre.masks.emplace_back(mask.mask.pixels);
   for (const shade::LightFactors& light : frame.pixels.factors)
-    if (!light.tint.factors.empty()) centre.tints.push_back(light.tint.factors);
+    if (!light.tint.factors.empty()) centre.tints.push_back(light.tint);
   ChosenPixels chosen;
   with_threads(settings.threads, [&] {
     chosen = choose_pixels(centre, frame.offsets.first(further.places()), further,
@@ -137,49 +136,25 @@ ChosenPixels Renderer::State::choose(const FrameInput& input, const RenderSettin
   return chosen;
 }
 
-/// Takes those edges out of `chosen` to its end that need no shadows of their own, and lists what is shaded
-/// of them.
-void Renderer::State::settle(const FrameInput& input, const std::vector<DrawnLight>& lights,
-                             const RenderSettings& settings, const SampleFrame& frame,
-                             const FrameResult& result, ChosenPixels& chosen) {
-  settled.pixels.clear();
-  if (!may_settle(lights, settings)) return;
-  const CentreMasks centres = centre_masks(lights, result);
-  with_threads(settings.threads, [&] {
-    settle_edges(chosen.edges, centres, frame.offsets, further, SurfaceMatch(input.geometry, input.view),
-                 settled);
-  });
-  chosen.edges = settled.others;
-  chosen.edges.insert(chosen.edges.end(), settled.pixels.begin(), settled.pixels.end());
-}
-
-void Renderer::State::add_settled(const RenderSettings& settings, const SampleFrame& frame, std::size_t first,
-                                  SampleMeans& means) {
-  if (settled.pixels.empty()) return;
-  std::swap(listed, settled.listed);
-  shade_list(settings, frame.subject, frame.lighting, {frame.pixels.factors, frame.pixels.openness},
-             texture_width_px(settings.antialias));
-  with_threads(settings.threads, [&] { means.add_colors(first, listed, shaded); });
-}
-
 Expected<void> Renderer::State::add_samples(const FrameInput& input, const std::vector<DrawnLight>& lights,
                                             const RenderSettings& settings, const SampleFrame& frame,
-                                            const ChosenPixels& chosen, std::size_t place,
-                                            const FrameResult& result, SampleMeans& means,
-                                            const StopFlag* stop) {
+                                            const ChosenPixels& chosen, std::size_t shared, std::size_t place,
+                                            SampleMeans& means, const StopFlag* stop) {
   const std::size_t at_once = most_samples / further.places();
   const auto part = [&](std::span<const std::uint32_t> pixels, std::size_t i) {
     return pixels.subspan(i, std::min(at_once, pixels.size() - i));
   };
-  const std::size_t traced = chosen.edges.size() - settled.pixels.size();
-  const auto edges = std::span(chosen.edges).first(traced);
-  for (std::size_t i = 0; i < traced; i += at_once) {
+  const auto edges = std::span(chosen.edges);
+  for (std::size_t i = 0; i < shared; i += at_once) {
     if (stop_requested(stop)) return base::fail("stopped");
-    if (auto added = add_edges(input, lights, settings, frame, part(edges, i), i, place, result, means, stop);
+    if (auto added =
+            add_edges(input, lights, settings, frame, part(edges.first(shared), i), i, place, means, stop);
         !added)
       return added;
   }
-  add_settled(settings, frame, traced, means);
+  if (auto added = add_shared(input, lights, settings, frame, edges.subspan(shared), shared, means, stop);
+      !added)
+    return added;
   for (std::size_t i = 0; i < chosen.contrasts.size(); i += at_once) {
     if (stop_requested(stop)) return base::fail("stopped");
     add_contrasts(settings, frame, part(chosen.contrasts, i), chosen.edges.size() + i, means);
@@ -194,16 +169,17 @@ Expected<void> Renderer::State::antialias(const FrameInput& input, const std::ve
   base::Stopwatch watch;
   const SamplePattern pattern = sample_pattern(settings.antialias);
   ChosenPixels chosen;
+  std::size_t shared = 0;
   SampleMeans means(settings, pattern, display_of(settings), colors, result);
   for (std::size_t place = 0; place < pattern.offsets.size(); place += places_at_once) {
     const auto offsets = frame.offsets.subspan(place, std::min(places_at_once, frame.offsets.size() - place));
     if (auto found = find_sample_ids(input, settings, offsets, stop); !found) return found;
     if (place == 0) {
       chosen = choose(input, settings, frame, result);
-      settle(input, lights, settings, frame, result, chosen);
+      shared = part_edges(input, lights, settings, frame, chosen);
       with_threads(settings.threads, [&] { means.begin(chosen); });
     }
-    if (auto added = add_samples(input, lights, settings, frame, chosen, place, result, means, stop); !added)
+    if (auto added = add_samples(input, lights, settings, frame, chosen, shared, place, means, stop); !added)
       return added;
   }
   with_threads(settings.threads, [&] { means.finish(); });

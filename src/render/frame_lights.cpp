@@ -2,6 +2,7 @@
 
 #include <fmt/core.h>
 
+#include <algorithm>
 #include <numbers>
 
 #include "base/fail.h"
@@ -69,6 +70,11 @@ void add_emissive(const Scene& scene, const FrameInput& input, std::vector<Drawn
 }
 
 }  // namespace
+
+bool has_areas(const std::vector<DrawnLight>& lights) {
+  return std::any_of(lights.begin(), lights.end(),
+                     [](const DrawnLight& light) { return light.area.has_value(); });
+}
 
 bool shines_behind(const DrawnLight& light) {
   const bool narrow =

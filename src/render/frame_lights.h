@@ -17,6 +17,9 @@ struct DrawnLight {
   std::optional<AreaLight> back;  ///< shines alike in every direction: the polygon's other side
 };
 
+/// Whether one of them has an area.
+bool has_areas(const std::vector<DrawnLight>& lights);
+
 /// Whether points behind the polygon may see light: not from a spot light of less than a half-space.
 bool shines_behind(const DrawnLight& light);
 

@@ -233,7 +233,8 @@ Expected<void> Renderer::State::shade_pixels(const FrameInput& input, const std:
     return drawn;
   keep_linear(settings, result);
   const SamplePattern pattern = sample_pattern(settings.antialias);
-  return antialias(input, lights, settings, {subject, lighting, pixels, pattern.offsets}, result, stop);
+  return antialias(input, lights, settings, {subject, lighting, pixels, result.masks, pattern.offsets},
+                   result, stop);
 }
 
 void Renderer::State::keep_new(std::vector<std::string>& notes) {

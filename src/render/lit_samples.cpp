@@ -4,6 +4,15 @@
 
 namespace tenebra::render {
 
+void LitSamples::begin(std::size_t lights, std::size_t tinted) {
+  masks.assign(lights, {});
+  irradiance.assign(lights, {});
+  visible_fraction.assign(lights, {});
+  openness.clear();
+  tints.resize(lights);
+  for (LightTint& tint : tints) tint.begin(tinted);
+}
+
 std::vector<shade::LightFactors> LitSamples::factors() const {
   std::vector<shade::LightFactors> out(masks.size());
   for (std::size_t i = 0; i < masks.size(); ++i) out[i] = {masks[i], irradiance[i], tints[i].factors()};
@@ -27,6 +36,21 @@ GatheredFactors::GatheredFactors(std::span<const shade::LightFactors> from,
     gather(from[light].tint.factors, to.tint);
     to.coloured.assign(to.tint.size() / shade::TintFactors::run + 1, 1);
   }
+}
+
+GatheredFactors GatheredFactors::of_bits(std::span<const shade::LightFactors> from,
+                                         std::span<const std::uint32_t> bits) {
+  GatheredFactors out;
+  out.lights_.resize(from.size());
+  for (std::size_t light = 0; light < from.size(); ++light) {
+    if (from[light].mask.empty()) continue;
+    std::vector<std::uint8_t>& mask = out.lights_[light].mask;
+    mask.resize(bits.size());
+    parallel::parallel_ranges(bits.size(), 1 << 14, [&](std::size_t first, std::size_t last) {
+      for (std::size_t i = first; i < last; ++i) mask[i] = (bits[i] >> light & 1u) != 0 ? 255 : 0;
+    });
+  }
+  return out;
 }
 
 std::vector<shade::LightFactors> GatheredFactors::factors() const {

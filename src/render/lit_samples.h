@@ -25,6 +25,8 @@ struct LitSamples {
   std::vector<LightTint> tints;                      ///< of each light
   std::vector<float> openness;                       ///< empty without ambient occlusion
 
+  /// Of so many lights, none of which has been asked about; `tinted`: room for the tints of so many samples.
+  void begin(std::size_t lights, std::size_t tinted = 0);
   std::vector<shade::LightFactors> factors() const;
 };
 
@@ -32,9 +34,13 @@ struct LitSamples {
 class GatheredFactors {
 public:
   GatheredFactors(std::span<const shade::LightFactors> from, std::span<const std::uint32_t> samples);
+  /// Masks of those lights that have one in `from`, by LitBits of each sample (antialias/centre_shadows.h).
+  static GatheredFactors of_bits(std::span<const shade::LightFactors> from,
+                                 std::span<const std::uint32_t> bits);
   std::vector<shade::LightFactors> factors() const;
 
 private:
+  GatheredFactors() = default;
   struct OfLight {
     std::vector<std::uint8_t> mask;
     std::vector<float> irradiance;

@@ -7,11 +7,10 @@
 #include <unordered_set>
 #include <vector>
 
-#include "render/antialias/mask_sharing.h"
+#include "render/antialias/edge_samples.h"
 #include "render/antialias/pixel_choice.h"
 #include "render/antialias/sample_means.h"
 #include "render/antialias/sample_picture.h"
-#include "render/antialias/settled_edges.h"
 #include "render/antialias/shading_list.h"
 #include "render/frame_lights.h"
 #include "render/frame_raster.h"
@@ -79,8 +78,9 @@ struct Renderer::State {
   visibility::PlaceIds further{};   // what pixels see at the places of further samples
   SamplePicture samples{};
   LitSamples at_samples{}, layer_at_samples{}, own_soft{}, own_hard{};
-  MaskSharing shared{};
-  SettledEdges settled{};
+  EdgeSamples edges{};
+  std::vector<std::uint32_t> own_ids{};  // of edges.own
+  std::vector<glm::vec2> own_places{};
   std::vector<std::uint32_t> soft_from{};  // pixel of the frame; or first_own + 1 + index in own_slots
   std::vector<std::uint32_t> own_slots{};
   ShadingList listed{};
@@ -116,9 +116,9 @@ struct Renderer::State {
   /// Where samples are lit: their points, or these lifted.
   const VisiblePoints& lit_points(const FrameInput& input, const RenderSettings& settings,
                                   LitSamples& samples);
-  /// Lights that samples are lit by; `points`: without an area, and without ambient occlusion; `areas`: with
-  /// one, and with ambient occlusion.
-  enum class LightKinds { all, points, areas };
+  /// Lights that samples are lit by; `points`: without an area, and without ambient occlusion; `masks`: the
+  /// same without what see-through surfaces leave; `areas`: with one, and with ambient occlusion.
+  enum class LightKinds { all, points, masks, areas };
   /// What is left of each light at samples whose points (and, for areas and occlusion, normals) are there.
   Expected<void> light_samples(const FrameInput& input, const std::vector<DrawnLight>& lights,
                                const RenderSettings& settings, LightKinds kinds, LitSamples& at,
@@ -161,6 +161,7 @@ struct Renderer::State {
     const shade::Subject& subject;
     const shade::Lighting& lighting;
     const shade::PixelSamples& pixels;
+    std::span<const LightMask> masks;  // of each light, if there are shadows
     std::span<const glm::vec2> offsets;
   };
   /// What the picture, and the means of masks, get from further samples.
@@ -171,32 +172,40 @@ struct Renderer::State {
                                  std::span<const glm::vec2> offsets, const StopFlag* stop);
   ChosenPixels choose(const FrameInput& input, const RenderSettings& settings, const SampleFrame& frame,
                       const FrameResult& result) const;
-  /// The samples of chosen pixels at the places `place` ..., which `further` has the ids of.
+  /// The samples of chosen pixels at the places `place` ..., which `further` has the ids of; those of the
+  /// edges from `shared` on get hard shadows of their own where they have to (antialias_edges.cpp).
   Expected<void> add_samples(const FrameInput& input, const std::vector<DrawnLight>& lights,
                              const RenderSettings& settings, const SampleFrame& frame,
-                             const ChosenPixels& chosen, std::size_t place, const FrameResult& result,
+                             const ChosenPixels& chosen, std::size_t shared, std::size_t place,
                              SampleMeans& means, const StopFlag* stop);
   void add_contrasts(const RenderSettings& settings, const SampleFrame& frame,
                      std::span<const std::uint32_t> chosen, std::size_t first, SampleMeans& means);
-  void settle(const FrameInput& input, const std::vector<DrawnLight>& lights, const RenderSettings& settings,
-              const SampleFrame& frame, const FrameResult& result, ChosenPixels& chosen);
-  void add_settled(const RenderSettings& settings, const SampleFrame& frame, std::size_t first,
-                   SampleMeans& means);
-  CentreMasks centre_masks(const std::vector<DrawnLight>& lights, const FrameResult& result) const;
-  static bool may_settle(const std::vector<DrawnLight>& lights, const RenderSettings& settings);
+  CentreShadows centre_shadows(const SampleFrame& frame) const;
+  static bool shares_masks(const std::vector<DrawnLight>& lights, const RenderSettings& settings);
+  std::size_t part_edges(const FrameInput& input, const std::vector<DrawnLight>& lights,
+                         const RenderSettings& settings, const SampleFrame& frame,
+                         ChosenPixels& chosen) const;
+  /// Traces edges.own.
+  Expected<void> trace_own(const FrameInput& input, const std::vector<DrawnLight>& lights,
+                           const RenderSettings& settings, const StopFlag* stop);
+  /// The hard shadows of samples, in `edges`.
+  Expected<void> light_edges(const FrameInput& input, const std::vector<DrawnLight>& lights,
+                             const RenderSettings& settings, const EdgeTask& task, const StopFlag* stop);
+  Expected<void> add_shared(const FrameInput& input, const std::vector<DrawnLight>& lights,
+                            const RenderSettings& settings, const SampleFrame& frame,
+                            std::span<const std::uint32_t> chosen, std::size_t first, SampleMeans& means,
+                            const StopFlag* stop);
   Expected<void> add_edges(const FrameInput& input, const std::vector<DrawnLight>& lights,
                            const RenderSettings& settings, const SampleFrame& frame,
                            std::span<const std::uint32_t> chosen, std::size_t first, std::size_t place,
-                           const FrameResult& result, SampleMeans& means, const StopFlag* stop);
+                           SampleMeans& means, const StopFlag* stop);
   Expected<void> light_packed(const FrameInput& input, const std::vector<DrawnLight>& lights,
-                              const RenderSettings& settings, const FrameResult& result,
-                              const StopFlag* stop);
+                              const RenderSettings& settings, const SampleFrame& frame,
+                              std::span<const std::uint32_t> chosen, const StopFlag* stop);
   Expected<void> light_softly(const FrameInput& input, const std::vector<DrawnLight>& lights,
-                              const RenderSettings& settings, const FrameResult& result,
-                              const StopFlag* stop);
+                              const RenderSettings& settings, const SampleFrame& frame, const StopFlag* stop);
   Expected<void> light_sparsely(const FrameInput& input, const std::vector<DrawnLight>& lights,
-                                const RenderSettings& settings, const FrameResult& result,
-                                const StopFlag* stop);
+                                const RenderSettings& settings, const EdgeTask& task, const StopFlag* stop);
   void borrow_soft(const FrameInput& input);
   void shade_list(const RenderSettings& settings, const shade::Subject& subject,
                   const shade::Lighting& lighting, const SampleLights& lit, float texture_px);

@@ -65,17 +65,14 @@ const VisiblePoints& Renderer::State::lit_points(const FrameInput& input, const 
 Expected<void> Renderer::State::light_samples(const FrameInput& input, const std::vector<DrawnLight>& lights,
                                               const RenderSettings& settings, LightKinds kinds,
                                               LitSamples& samples, const StopFlag* stop) {
-  samples.masks.assign(lights.size(), {});
-  samples.irradiance.assign(lights.size(), {});
-  samples.visible_fraction.assign(lights.size(), {});
-  samples.tints.resize(lights.size());
-  const bool coloured = !input.geometry.see_through.empty();
+  const bool coloured = kinds != LightKinds::masks && !input.geometry.see_through.empty();
+  samples.begin(lights.size(), coloured ? samples.points.triangles.size() : 0);
+  const bool without_areas = kinds == LightKinds::points || kinds == LightKinds::masks;
   const VisiblePoints& lit_at = lit_points(input, settings, samples);
   for (std::size_t i = 0; i < lights.size(); ++i) {
     if (stop_requested(stop)) return base::fail("stopped");
-    samples.tints[i].begin(coloured ? samples.points.triangles.size() : 0);
     if (settings.shadows == ShadowMode::none) continue;
-    if (kinds == (lights[i].area ? LightKinds::points : LightKinds::areas)) continue;
+    if (lights[i].area ? without_areas : kinds == LightKinds::areas) continue;
     if (lights[i].area) {
       const AreaTask task{input, settings, lit_at, samples.normals, nullptr, stop};
       if (auto done = trace_area(task, lights[i], lit_side); !done) return done;
@@ -103,8 +100,7 @@ Expected<void> Renderer::State::light_samples(const FrameInput& input, const std
       return traced;
     samples.tints[i].set(found);
   }
-  samples.openness.clear();
-  if (settings.ao.mode == AoMode::none || kinds == LightKinds::points) return {};
+  if (settings.ao.mode == AoMode::none || without_areas) return {};
   Expected<void> done;
   with_threads(settings.threads, [&] {
     done = ambient.compute(scene, input.geometry, lit_at, samples.normals, settings.ao, samples.openness, {},

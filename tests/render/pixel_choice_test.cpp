@@ -31,7 +31,7 @@ protected:
     seen.begin(width, height, offsets.size(), !layer_.empty());
     seen.open_all();
     for (std::size_t k = 0; k < offsets.size(); ++k) seen.set_place(k, ids_, layer_);
-    const render::CentrePicture centre{width, height, ids_, layer_, picture_, {}, {tint_}};
+    const render::CentrePicture centre{width, height, ids_, layer_, picture_, {mask_}, {{tint_, coloured_}}};
     const ViewRays view = forward_view({0, 0, 0}, 8.0f, width, height);
     return render::choose_pixels(centre, offsets, seen, render::SurfaceMatch(geometry_, view), false);
   }
@@ -39,6 +39,7 @@ protected:
   FrameGeometry geometry_;
   std::vector<std::uint32_t> ids_ = std::vector<std::uint32_t>(pixels, 0), layer_;
   std::vector<glm::vec3> tint_ = std::vector<glm::vec3>(pixels, glm::vec3(1.0f));
+  std::vector<std::uint8_t> coloured_{1}, mask_ = std::vector<std::uint8_t>(pixels, 255);
   base::Image8 picture_{width, height, 3, std::vector<std::uint8_t>(3 * pixels, 100)};
 };
 
@@ -81,6 +82,11 @@ TEST_F(PixelChoice, ContrastsAreEdgesOnlyWhereGlassIs) {
   layer_[pixel(3, 1)] = 0;
   EXPECT_EQ(choose().edges, std::vector{pixel(3, 1)});
   EXPECT_EQ(choose().contrasts.size(), std::size_t{2 * height - 1});
+}
+
+TEST_F(PixelChoice, ShadowEdgesAreEdges) {
+  mask_[pixel(3, 1)] = 0;
+  EXPECT_EQ(choose().edges.size(), 5u) << "the dark one, beside it, above it and below it";
 }
 
 TEST_F(PixelChoice, ContrastsAreEdgesWhereLightChangesItsColour) {

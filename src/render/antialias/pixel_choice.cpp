@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cstdlib>
+#include <cstring>
 
 #include <tenebra/visible_points.h>
 #include "parallel/parallel.h"
@@ -12,6 +13,21 @@ namespace {
 constexpr std::size_t square_side = 16, block_side = 4;
 constexpr std::uint8_t is_edge = 4, tint_changes = 2, has_contrast = 1;
 constexpr std::size_t pixels_at_once = 256;  // compared
+
+/// Calls act(i) for each byte that is not 0; most are, eight at a time.
+template <class Act>
+void for_each_set(std::span<const std::uint8_t> bytes, Act act) {
+  std::size_t first = 0;
+  for (; first + 8 <= bytes.size(); first += 8) {
+    std::uint64_t all;
+    std::memcpy(&all, &bytes[first], 8);
+    if (all == 0) continue;
+    for (std::size_t i = first; i < first + 8; ++i)
+      if (bytes[i] != 0) act(i);
+  }
+  for (; first < bytes.size(); ++first)
+    if (bytes[first] != 0) act(first);
+}
 
 class Chooser {
 public:
@@ -28,11 +44,13 @@ public:
 
   std::vector<std::uint8_t> run(bool everywhere) && {
     if (everywhere) return std::vector<std::uint8_t>(chosen_.size(), is_edge);
-    parallel::parallel_ranges(height_, 16, [&](std::size_t first, std::size_t last) {
+    parallel::parallel_ranges(height_, square_side, [&](std::size_t first, std::size_t last) {
       SurfaceMatch match(match_);
+      for (std::size_t y = first; y < last; y += block_side)
+        by_geometry(y, std::min(y + block_side, last), match);
+      std::vector<std::uint8_t> differs(width_);
       for (std::size_t y = first; y < last; ++y) {
-        by_geometry(y, match);
-        by_contrast(y, match);
+        by_contrast(y, differs, match);
         by_glass(y);
       }
     });
@@ -44,27 +62,36 @@ private:
     return {static_cast<float>(pixel % width_) + 0.5f, static_cast<float>(pixel / width_) + 0.5f};
   }
 
-  /// Marks pixels of a row that see several surfaces. Four next to each other stand together in `seen`:
-  /// nearly always all samples see what the centres see.
-  void by_geometry(std::size_t y, SurfaceMatch& match) {
-    for (std::size_t x = 0; x < width_; x += 4) {
-      const visibility::PixelPlaces sees = seen_.of_pixel(static_cast<int>(x), static_cast<int>(y));
-      const std::size_t first = y * width_ + x, count = std::min<std::size_t>(4, width_ - x);
-      std::uint32_t other[4] = {};
-      const auto compare_with = [&](const std::int32_t* ids, std::span<const std::uint32_t> centres) {
-        for (std::size_t k = 0; k < seen_.places(); ++k)
-          for (std::size_t i = 0; i < count; ++i)
-            other[i] |= static_cast<std::uint32_t>(ids[16 * k + i]) ^ centres[first + i];
-      };
-      if (sees.ids != nullptr) {
-        compare_with(sees.ids, centre_.ids);
-      } else {
-        for (std::size_t i = 0; i < count; ++i) other[i] = sees.one ^ centre_.ids[first + i];
+  /// Marks pixels of a row of blocks that see several surfaces. Nearly always all samples of a block see what
+  /// the centres see.
+  void by_geometry(std::size_t top, std::size_t bottom, SurfaceMatch& match) {
+    for (std::size_t left = 0; left < width_; left += block_side) {
+      const std::size_t count = std::min(block_side, width_ - left);
+      const visibility::PixelPlaces sees = seen_.of_pixel(static_cast<int>(left), static_cast<int>(top));
+      for (std::size_t y = top; y < bottom; ++y) {
+        const std::size_t first = y * width_ + left, lane = block_side * (y - top);
+        std::uint32_t other[block_side] = {};
+        if (sees.ids != nullptr) {
+          compare_with(sees.ids + lane, &centre_.ids[first], count, other);
+        } else {
+          for (std::size_t i = 0; i < count; ++i) other[i] = sees.one ^ centre_.ids[first + i];
+        }
+        if (sees.layer_ids != nullptr)
+          compare_with(sees.layer_ids + lane, &centre_.layer[first], count, other);
+        for (std::size_t i = 0; i < count; ++i)
+          if (other[i] != 0 && sees_several(first + i, match)) chosen_[first + i] = is_edge;
       }
-      if (sees.layer_ids != nullptr) compare_with(sees.layer_ids, centre_.layer);
-      for (std::size_t i = 0; i < count; ++i)
-        if (other[i] != 0 && sees_several(first + i, match)) chosen_[first + i] = is_edge;
     }
+  }
+  /// `other`: not 0 where one of four pixels next to each other, the first `count` of which the picture has,
+  /// sees something else than its centre.
+  void compare_with(const std::int32_t* ids, const std::uint32_t* centres, std::size_t count,
+                    std::uint32_t* other) const {
+    std::uint32_t four[block_side] = {};
+    std::copy_n(centres, count, four);
+    for (std::size_t k = 0; k < seen_.places(); ++k)
+      for (std::size_t i = 0; i < block_side; ++i)
+        other[i] |= static_cast<std::uint32_t>(ids[16 * k + i]) ^ four[i];
   }
 
   bool sees_several(std::size_t pixel, SurfaceMatch& match) const {
@@ -80,29 +107,30 @@ private:
 
   /// Contrasts behind glass, or where light changes its colour, need the light of their own samples.
   void by_glass(std::size_t y) {
-    for (std::size_t i = y * width_; i < (y + 1) * width_; ++i) {
-      if (chosen_[i] >= is_edge) continue;
-      const bool contrast = (chosen_[i] & has_contrast) != 0;
-      const bool glass = (chosen_[i] & tint_changes) != 0 || has_layer(i);
-      chosen_[i] = !contrast ? 0 : glass ? is_edge : has_contrast;
-    }
+    const std::span row = std::span(chosen_).subspan(y * width_, width_);
+    for_each_set(row, [&](std::size_t x) {
+      if (row[x] >= is_edge) return;
+      const bool contrast = (row[x] & has_contrast) != 0;
+      const bool glass = (row[x] & tint_changes) != 0 || has_layer(y * width_ + x);
+      row[x] = !contrast ? 0 : glass ? is_edge : has_contrast;
+    });
   }
   bool has_layer(std::size_t i) const { return !centre_.layer.empty() && centre_.layer[i] != no_triangle; }
 
-  void by_contrast(std::size_t y, SurfaceMatch& match) {
-    std::vector<std::uint8_t> differs(width_);
+  void by_contrast(std::size_t y, std::vector<std::uint8_t>& differs, SurfaceMatch& match) {
+    const std::size_t row = y * width_;
     for (const std::ptrdiff_t dy : {-1, 1}) {
       if ((dy < 0 && y == 0) || (dy > 0 && y + 1 == height_)) continue;
-      const std::size_t other = y + static_cast<std::size_t>(dy);
-      compare(y * width_, other * width_, width_, differs.data());
-      for (std::size_t x = 0; x < width_; ++x) mark(differs[x], y * width_ + x, other * width_ + x, match);
+      const std::size_t other = (y + static_cast<std::size_t>(dy)) * width_;
+      compare(row, other, width_, differs.data());
+      for_each_set(differs, [&](std::size_t x) { mark(differs[x], row + x, other + x, match); });
     }
     if (width_ < 2) return;
-    compare(y * width_, y * width_ + 1, width_ - 1, differs.data());
-    for (std::size_t x = 0; x + 1 < width_; ++x) {
-      mark(differs[x], y * width_ + x, y * width_ + x + 1, match);
-      mark(differs[x], y * width_ + x + 1, y * width_ + x, match);
-    }
+    compare(row, row + 1, width_ - 1, differs.data());
+    for_each_set(std::span(differs).first(width_ - 1), [&](std::size_t x) {
+      mark(differs[x], row + x, row + x + 1, match);
+      mark(differs[x], row + x + 1, row + x, match);
+    });
   }
 
   /// Pixel i, which differs so from pixel j.
@@ -127,27 +155,41 @@ private:
 
   /// How pixels from `i` on differ from those from `j` on.
   void compare(std::size_t i, std::size_t j, std::size_t count, std::uint8_t* differs) const {
-    const std::uint8_t* const a = centre_.picture.pixels.data() + 3 * i;
-    const std::uint8_t* const b = centre_.picture.pixels.data() + 3 * j;
-    std::uint8_t unlike[3 * pixels_at_once];
-    for (std::size_t first = 0; first < count; first += pixels_at_once) {
-      const std::size_t most = std::min(pixels_at_once, count - first);
-      for (std::size_t k = 0; k < 3 * most; ++k) {
-        const int gap = int{a[3 * first + k]} - int{b[3 * first + k]};
-        const int size = gap < 0 ? -gap : gap;
-        unlike[k] = size > contrast_ ? has_contrast : 0;
-      }
-      for (std::size_t k = 0; k < most; ++k)
-        differs[first + k] = static_cast<std::uint8_t>(unlike[3 * k] | unlike[3 * k + 1] | unlike[3 * k + 2]);
-    }
-    // Penumbrae change slowly, and what is drawn shows where they do not: half lit is the line, so the top
-    // bit.
+    for (std::size_t first = 0; first < count; first += pixels_at_once)
+      compare_levels(i + first, j + first, std::min(pixels_at_once, count - first), differs + first);
+    compare_masks(i, j, count, differs);
+    for (const shade::TintFactors& tint : centre_.tints) compare_tints(tint, i, j, count, differs);
+  }
+  /// Penumbrae change slowly, and what is drawn shows where they do not: half lit is the line, so the top
+  /// bit.
+  void compare_masks(std::size_t i, std::size_t j, std::size_t count, std::uint8_t* differs) const {
     for (const auto mask : centre_.masks)
       for (std::size_t x = 0; x < count; ++x)
         differs[x] = static_cast<std::uint8_t>(differs[x] | ((mask[i + x] ^ mask[j + x]) >> 7 << 2));
-    for (const auto tint : centre_.tints) {
-      for (std::size_t x = 0; x < count; ++x) {
-        const glm::vec3 gap = glm::abs(tint[i + x] - tint[j + x]);
+  }
+  void compare_levels(std::size_t i, std::size_t j, std::size_t count, std::uint8_t* differs) const {
+    const std::uint8_t* const a = centre_.picture.pixels.data() + 3 * i;
+    const std::uint8_t* const b = centre_.picture.pixels.data() + 3 * j;
+    const auto contrast = static_cast<std::uint8_t>(contrast_);
+    std::uint8_t unlike[3 * pixels_at_once], any = 0;
+    for (std::size_t k = 0; k < 3 * count; ++k) {
+      const auto gap = static_cast<std::uint8_t>(std::max(a[k], b[k]) - std::min(a[k], b[k]));
+      unlike[k] = gap > contrast ? has_contrast : 0;
+      any |= unlike[k];
+    }
+    std::fill_n(differs, count, std::uint8_t{0});
+    for (std::size_t k = 0; any != 0 && k < count; ++k)
+      differs[k] = static_cast<std::uint8_t>(unlike[3 * k] | unlike[3 * k + 1] | unlike[3 * k + 2]);
+  }
+  static void compare_tints(const shade::TintFactors& tint, std::size_t i, std::size_t j, std::size_t count,
+                            std::uint8_t* differs) {
+    constexpr std::size_t run = shade::TintFactors::run;
+    for (std::size_t first = 0, end = 0; first < count; first = end) {
+      const std::size_t a = i + first, b = j + first;
+      end = std::min({count, first + run - a % run, first + run - b % run});  // of both runs
+      if (tint.coloured[a / run] == 0 && tint.coloured[b / run] == 0) continue;
+      for (std::size_t x = first; x < end; ++x) {
+        const glm::vec3 gap = glm::abs(tint.factors[i + x] - tint.factors[j + x]);
         const float size = std::max({gap.r, gap.g, gap.b});
         if (size > 0) differs[x] |= size > 0.125f ? is_edge : tint_changes;
       }
@@ -169,18 +211,18 @@ private:
 };
 
 /// Pixels of a row of squares, in order.
-void list_squares(const std::vector<std::uint8_t>& chosen, std::size_t width, std::size_t top,
+void list_squares(std::span<const std::uint8_t> chosen, std::size_t width, std::size_t top,
                   std::size_t bottom, ChosenPixels& out) {
   for (std::size_t left = 0; left < width; left += square_side) {
     const std::size_t right = std::min(left + square_side, width);
     for (std::size_t block_y = top; block_y < bottom; block_y += block_side) {
       for (std::size_t block_x = left; block_x < right; block_x += block_side) {
         for (std::size_t y = block_y; y < std::min(block_y + block_side, bottom); ++y) {
-          for (std::size_t x = block_x; x < std::min(block_x + block_side, right); ++x) {
-            const std::size_t i = y * width + x;
-            if (chosen[i] == 0) continue;
+          const std::size_t first = y * width + block_x, count = std::min(block_side, right - block_x);
+          for_each_set(chosen.subspan(first, count), [&](std::size_t x) {
+            const std::size_t i = first + x;
             (chosen[i] >= is_edge ? out.edges : out.contrasts).push_back(static_cast<std::uint32_t>(i));
-          }
+          });
         }
       }
     }

@@ -8,6 +8,7 @@
 
 #include "base/image.h"
 #include "render/antialias/surface_match.h"
+#include "shade/light_terms.h"
 #include "visibility/place_ids.h"
 
 namespace tenebra::render {
@@ -20,7 +21,7 @@ struct CentrePicture {
   std::span<const std::uint32_t> layer;  ///< see-through ones before them; empty: the frame has none
   const base::Image8& picture;
   std::vector<std::span<const std::uint8_t>> masks;  ///< of each light
-  std::vector<std::span<const glm::vec3>> tints;     ///< of each light, where something lets light through
+  std::vector<shade::TintFactors> tints;             ///< of each light, where something lets light through
 };
 
 /// Pixels that need more samples, sixteen by sixteen and four by four, so that neighbours are near each other
