@@ -228,13 +228,9 @@ void keep_hard_headline(TradeSession& session, const TradeTable& table) {
 Expected<void> measure_trade_hard(TradeSession& session) {
   auto raster = TradeRaster::create();
   if (!raster) return tl::unexpected(raster.error());
-  const std::vector<HardFrames> frames =
-      session.effort == Effort::full
-          ? std::vector<HardFrames>{{"robots", {100}},  {"museum5", {20}}, {"museum5x64", {20}},
-                                    {"kitchen", {100}}, {"city", {150}},   {"gallery", {100}},
-                                    {"court", {60}}}
-          : std::vector<HardFrames>{
-                {"robots", {100}}, {"museum5", {20}}, {"kitchen", {100}}, {"city", {150}}, {"court", {60}}};
+  std::vector<HardFrames> frames{
+      {"robots", {100}}, {"museum5", {20}}, {"kitchen", {100}}, {"city", {150}}, {"court", {60}}};
+  if (session.effort == Effort::full) frames.insert(frames.end(), {{"museum5x64", {20}}, {"gallery", {100}}});
   const PictureSize size = session.by_effort<PictureSize>({64, 64}, {}, {});
   return for_each_view(session.options, frames, size, session.skipped,
                        [&](const Scene&, const HardView& view) -> Expected<void> {
