@@ -42,6 +42,7 @@ compare_hashes() {
   qemu-aarch64 "$build/bin/tenebra-bench" hash --bundled --quick -o "$of_arm"
   differing=$(grep -v '^#' "$of_arm" | grep -vxF -f tests/reference/hashes.txt || true)
   [[ -z $differing ]] || { echo "other values than on x86:"; echo "$differing"; return 1; }
+  grep -qv '^#' "$of_arm" || { echo "tenebra-bench hash wrote no hashes"; return 1; }
   echo "$(grep -vc '^#' "$of_arm") hashes, all as on x86"
 }
 

@@ -59,6 +59,12 @@ Expected<void> Beside::run(const std::function<Expected<void>()>& job, std::chro
   Task task(job);
   auto result = task.get_future();
   thread_->change([&] { thread_->task = std::move(task); });
+  // The job works on what the caller holds: however this is left, as by a thread that Python ends, it has
+  // ended.
+  const auto wait = [](std::future<Expected<void>>* of) {
+    if (of->valid()) of->wait();
+  };
+  const std::unique_ptr<std::future<Expected<void>>, decltype(wait)> ended(&result, wait);
   while (result.wait_for(every) != std::future_status::ready) meanwhile();
   return result.get();
 }

@@ -107,7 +107,7 @@ void run_beside(Beside& beside, const Report& report, int threads, const Body& b
       with_threads(threads, [&] { out = body(work); });
       return out;
     };
-    result = beside.run(job, std::chrono::milliseconds(20), [&] {
+    const auto meanwhile = [&] {
       if (interrupted) return;
       const py::gil_scoped_acquire acquired;
       try {
@@ -118,7 +118,12 @@ void run_beside(Beside& beside, const Report& report, int threads, const Body& b
         interrupted = std::current_exception();
         work.stop.request();
       }
-    });
+    };
+    try {
+      result = beside.run(job, std::chrono::milliseconds(20), meanwhile);
+    } catch (...) {  // what the job threw: Ctrl-C goes before it
+      if (!interrupted) throw;
+    }
   }
   if (interrupted) std::rethrow_exception(interrupted);
   checked(std::move(result));

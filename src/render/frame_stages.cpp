@@ -54,7 +54,7 @@ void Renderer::State::find_points(const FrameInput& input, const std::vector<Dra
   base::Stopwatch watch;
   const bool exact = settings.samples == SampleSource::ids;
   const auto areas =
-      std::count_if(lights.begin(), lights.end(), [](const auto& light) { return light.area; });
+      std::count_if(lights.begin(), lights.end(), [](const auto& light) { return light.area.has_value(); });
   const bool others = settings.shadows != ShadowMode::none && std::ssize(lights) > areas;
   const bool traced = others || (areas > 0 && settings.soft_points > 0);
   const bool tiled = traced && settings.hard.variant == Variant::tiles;

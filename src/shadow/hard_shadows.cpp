@@ -180,8 +180,10 @@ bool ShadowTracer::trace_shadow_mask(const VisiblePoints& seen, const ViewRays& 
   shadow::generate_shadow_rays(points, view, triangles, light, source, s.set, s.keys, s.rays, s.at_light);
   s.timings.rays_ms = watch.lap_ms();
 
-  if (parts.sorted) shadow::sort_shadow_rays(points, source, config.simd, s.keys, s.rays);
-  s.timings.sort_ms = watch.lap_ms();
+  if (parts.sorted) {
+    shadow::sort_shadow_rays(points, source, config.simd, s.keys, s.rays);
+    s.timings.sort_ms = watch.lap_ms();
+  }
 
   s.tree.packets.clear();
   s.stats.triangles = s.set.casting;

@@ -4,6 +4,7 @@
 #include <tenebra/queries.h>
 #include <tenebra/threads.h>
 
+#include <algorithm>
 #include <atomic>
 #include <cstdio>
 #include <cstdlib>
@@ -17,6 +18,7 @@ namespace {
 
 struct Counted {
   std::atomic<std::size_t> calls{0}, bytes{0};
+  std::atomic<std::size_t> failing{0};  ///< the call that fails; 0: none
 };
 Counted& counted() {
   static Counted one;
@@ -25,7 +27,7 @@ Counted& counted() {
 
 void* counting(std::size_t size, std::size_t alignment) {
   Counted& to = counted();
-  ++to.calls;
+  if (++to.calls == to.failing) throw std::bad_alloc();
   to.bytes += size;
   void* const memory = alignment <= alignof(std::max_align_t)
                            ? std::malloc(size == 0 ? 1 : size)
@@ -103,6 +105,36 @@ Taken later_call(const std::function<Expected<void>()>& ask) {
 
 const ShadowLight lamp{.position = {0.2f, 0.9f, -0.3f}};
 
+TEST(Allocation, WhereOneFailsTheNextCallFindsEverythingAnew) {
+  Asked asked(500);
+  auto geometry = std::move(*Geometry::create(asked.soup.positions, asked.soup.triangles));
+  std::vector<std::uint8_t> expected(500), mask(500);
+  const auto ask = [&](PointTracer& tracer, std::vector<std::uint8_t>& out) {
+    std::fill(out.begin(), out.end(), std::uint8_t{7});
+    return tracer.hard_mask(geometry, asked.points(), lamp, {}, out).has_value();
+  };
+  std::size_t failed = 0;
+  with_threads(1, [&] {
+    ASSERT_TRUE(ask(asked.tracer, expected));
+    ASSERT_GT(std::count(expected.begin(), expected.end(), 0), 0);
+    for (std::size_t k = 1;; ++k) {
+      PointTracer tracer;
+      bool done = false;
+      counted().calls = 0, counted().failing = k;
+      try {
+        done = tracer.hard_mask(geometry, asked.points(), lamp, {}, mask).has_value();
+      } catch (const std::bad_alloc&) {
+      }
+      counted().failing = 0;
+      if (done) break;
+      ++failed;
+      ASSERT_TRUE(ask(tracer, mask)) << k;
+      ASSERT_EQ(mask, expected) << "after allocation " << k << " had failed";
+    }
+  });
+  EXPECT_GT(failed, 30u);
+}
+
 // What is left are closures of parallel loops and one small list: none grows with triangles, and none is made
 // for each point.
 TEST(Allocation, HardMasksTakeNoMemoryAfterTheFirstCall) {
@@ -110,8 +142,11 @@ TEST(Allocation, HardMasksTakeNoMemoryAfterTheFirstCall) {
     Asked asked(count);
     auto geometry = std::move(*Geometry::create(asked.soup.positions, asked.soup.triangles));
     const auto ask = [&] { return asked.tracer.hard_mask(geometry, asked.points(), lamp, {}, asked.mask); };
+    std::vector<glm::vec3> here = asked.soup.positions, there = here;
+    there.back().y += 1e-4f;
     const auto move_and_ask = [&] {
-      EXPECT_TRUE(geometry.move_vertices(asked.soup.positions));
+      std::swap(here, there);
+      EXPECT_TRUE(geometry.move_vertices(here));
       return ask();
     };
     for (const Taken& taken : {later_call(ask), later_call(move_and_ask)}) {

@@ -85,6 +85,10 @@ TEST(FrameLog, SaysWhichStagesTheSettingsAskedForAndTheFrameDidNotNeed) {
 
   EXPECT_EQ(render::stage_names(render::asked_stages({}, true)),
             "evaluate raster readback points rays build traverse tint writeback composite layer");
+  settings.soft_points = 8;
+  settings.antialias = 1;
+  EXPECT_EQ(render::stage_names(render::asked_stages(settings, false)),
+            "evaluate raster points rays build traverse tint writeback composite layer");
   settings = {};
   settings.hard.variant = Variant::precise_seatp;
   settings.see_through = SeeThrough::cast;

@@ -108,7 +108,7 @@ private:
         continue;
       }
       const auto [end, error] = std::from_chars(fields[i].begin(), fields[i].end(), value);
-      if (error != std::errc() || end != fields[i].end() || !std::isfinite(value)) {
+      if (lists || error != std::errc() || end != fields[i].end() || !std::isfinite(value)) {
         return base::fail("{}: line {}: found '{}' as {}, expected {}", log_.name, number_, shown(fields[i]),
                           log_.columns[i], lists ? "names of stages" : "a number");
       }

@@ -33,7 +33,7 @@ StageSet asked_stages(const RenderSettings& settings, bool by_gl) {
   StageSet stages = set_of({&T::evaluate_ms, &T::raster_ms, &T::composite_ms, &T::layer_ms});
   if (by_gl) stages |= set_of({&T::readback_ms});
   if (settings.shadows != ShadowMode::none) stages |= hard_stages(settings.hard.variant);
-  if (settings.shadows == ShadowMode::soft)
+  if (settings.shadows == ShadowMode::soft && settings.soft_points == 0)
     stages |= set_of({&T::shaft_ms, &T::init_ms, &T::query_ms, &T::irradiance_ms});
   if (settings.shadows != ShadowMode::none && settings.see_through == SeeThrough::tint)
     stages |= set_of({&T::tint_ms});

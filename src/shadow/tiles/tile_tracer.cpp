@@ -33,8 +33,9 @@ void TileTracer::order_roots(std::size_t roots) {
   std::iota(root_order_.begin(), root_order_.end(), 0u);
   if (root_tests_.empty()) return;
   const auto tests = [&](std::uint32_t root) { return root_tests_[root * root_tests_.size() / roots]; };
-  std::stable_sort(root_order_.begin(), root_order_.end(),
-                   [&](std::uint32_t a, std::uint32_t b) { return tests(a) > tests(b); });
+  std::sort(root_order_.begin(), root_order_.end(), [&](std::uint32_t a, std::uint32_t b) {
+    return tests(a) != tests(b) ? tests(a) > tests(b) : a < b;
+  });
 }
 
 void TileTracer::descend(const Descent& descent, SimdLevel simd, TraceStats& stats) {
@@ -42,15 +43,16 @@ void TileTracer::descend(const Descent& descent, SimdLevel simd, TraceStats& sta
   const std::size_t roots = forest_.levels[ray_levels - 1].size();
   scratch_.resize(std::max(scratch_.size(), static_cast<std::size_t>(thread_count())));
   for (DescentScratch& scratch : scratch_) scratch.begin_trace();
-  std::vector<TraceStats> parts(roots);
+  root_stats_.assign(roots, {});
   order_roots(roots);
   parallel::parallel_in_order(static_cast<int>(roots), [&](int i) {
     const std::uint32_t root = root_order_[static_cast<std::size_t>(i)];
-    kernels.descend(descent, root, scratch_[static_cast<std::size_t>(parallel::thread_index())], parts[root]);
+    kernels.descend(descent, root, scratch_[static_cast<std::size_t>(parallel::thread_index())],
+                    root_stats_[root]);
   });
   root_tests_.clear();
-  for (const TraceStats& part : parts) root_tests_.push_back(part.nodes);
-  for (const TraceStats& part : parts) stats += part;
+  for (const TraceStats& part : root_stats_) root_tests_.push_back(part.nodes);
+  for (const TraceStats& part : root_stats_) stats += part;
   // Several roots may meet a triangle.
   std::vector<std::uint32_t>& edge_on = scratch_.front().edge_on;
   for (std::size_t i = 1; i < scratch_.size(); ++i)

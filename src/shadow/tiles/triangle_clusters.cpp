@@ -130,7 +130,7 @@ void ClusterTree::find_corners(const TriangleView& t, std::size_t cluster) {
 void ClusterTree::refit(const TriangleView& t, SimdLevel simd, bool all, const StopFlag* stop) {
   if (levels_.empty()) return;
   const ClusterKernels kernels = cluster_kernels(simd);
-  std::vector<int> more_used(levels_[0].size());  // than before
+  more_used_.assign(levels_[0].size(), 0);
   parallel::parallel_ranges(levels_[0].size(), 16, [&](std::size_t first, std::size_t last) {
     if (stop_requested(stop)) return;
     for (std::size_t node = first; node < last; ++node) {
@@ -139,13 +139,13 @@ void ClusterTree::refit(const TriangleView& t, SimdLevel simd, bool all, const S
         const bool other = all || triangles_changed(c);
         if (!other && !vertices_changed(c)) continue;
         if (other) find_corners(t, c);
-        more_used[node] -= std::popcount(clusters_[c].used);
+        more_used_[node] -= std::popcount(clusters_[c].used);
         kernels.follow(positions_.data(), corners_[c], clusters_[c], levels_[0][node], c % cluster_size);
-        more_used[node] += std::popcount(clusters_[c].used);
+        more_used_[node] += std::popcount(clusters_[c].used);
       }
     }
   });
-  for (const int more : more_used) used_ += static_cast<std::uint64_t>(more);
+  for (const int more : more_used_) used_ += static_cast<std::uint64_t>(more);
   for (std::size_t k = 1; k < levels_.size(); ++k) {
     const auto& children = levels_[k - 1];
     for (std::size_t i = 0; i < children.size(); ++i)
@@ -166,12 +166,20 @@ void ClusterTree::follow(const TriangleView& t, SimdLevel simd, const StopFlag* 
 
 bool ClusterTree::update(const TriangleView& t, SimdLevel simd, const StopFlag* stop) {
   if (t.version != 0 && t.version == version_) return true;
+  version_ = 0;                                     // until all of it is there
+  const auto forget = [&] { positions_.clear(); };  // unlike any others: the next order is found anew
+  try {
+    follow(t, simd, stop);
+  } catch (...) {  // no memory
+    forget();
+    throw;
+  }
+  if (stop_requested(stop)) {
+    forget();
+    return false;
+  }
   version_ = t.version;
-  follow(t, simd, stop);
-  if (!stop_requested(stop)) return true;
-  version_ = 0;
-  positions_.clear();  // unlike any others: the next order is found anew
-  return false;
+  return true;
 }
 
 }  // namespace tenebra::shadow

@@ -72,7 +72,8 @@ private:
   std::vector<Origin> origins_;
   std::vector<std::vector<BoxNode>> levels_;
   std::uint64_t casters_ = 0;
-  std::uint64_t used_ = 0;  ///< of the casters
+  std::uint64_t used_ = 0;      ///< of the casters
+  std::vector<int> more_used_;  ///< scratch of refit: triangles in use below each node, over those before
   std::uint64_t version_ = 0;
   // What the last frame looked like.
   std::vector<glm::vec3> positions_;  ///< and one more, so that all can be read in fours of floats

@@ -102,7 +102,9 @@ TEST(LogFile, ReadsListsOfStages) {
   const auto log = parsed(with("evaluate ao_build"));
   ASSERT_EQ(log.frames.size(), 1u);
   EXPECT_EQ(log.frames[0].values, (std::vector<double>{0, 1.5, 0, 0}));
-  EXPECT_EQ(refusal(with("x1")), "a.csv: line 2: found 'x1' as ran, expected names of stages");
+  for (const char* not_a_list : {"x1", "5"})
+    EXPECT_EQ(refusal(with(not_a_list)),
+              fmt::format("a.csv: line 2: found '{}' as ran, expected names of stages", not_a_list));
 }
 
 TEST(LogFile, NamesFileAndLineOfWhatIsNoLog) {
