@@ -6,12 +6,13 @@ set -euo pipefail
 cd "$(dirname "$0")/.."
 
 folders=(base exr math parallel points scene texture cutout visibility shadow soft tint ao query shade)
-# Those that take many seconds each: exact answers for whole masks, catalogues, soups, whole frames.
+# Those that take many seconds each: exact answers for whole masks, catalogues, soups, whole frames; and parts of times,
+# which are others without optimisation.
 slow='ShadowMask\.|NodeTests|SoftCatalogue|SoftCloud|Oracle|Exact|EverySoup|StaysWholeWhenKilled|SoftMetamorphic|SoftError\.|^Sun\.(Agrees|Has)'
 slow+='|^TreeBound|^Bart|SoftPackets|ShaftFrames|NeverLeaveOut|HandOver|AreaIsThatOf|Tiles\.AreTheSame|Tiles\.WorkOut'
 slow+='|DistantFaceBounds|OfHundredsOfEdges|NearlyCoincide|SheetsOf|GivesWhatClipping|FieldAccuracy|FindsABall'
 slow+='|AdaptiveOcclusion\.(Meets|SameBits|Stops|DoesNot)|AoCatalogue|AoMemory'
-slow+='|^Places\.|EvenEmission|TexturedPanes|RunsAlong|^FieldLookup\.(Never|Gives|Takes|OneField|SeesFrom)|WhatIsDropped'
+slow+='|^Allocation\.Other|^Stop\.|^Places\.|EvenEmission|TexturedPanes|RunsAlong|^FieldLookup\.(Never|Gives|Takes|OneField|SeesFrom)|WhatIsDropped'
 slow+='|AmbientOcclusion\.(BuiltFields|Follows|Room|StopsAnd|PointsKeep|SameBits|BothLayouts|DoesNotDepend|HalfTheResolution|AtVertices)|RealScenes|DividesNoMore|ManyLarge'
 [[ -e build-debug/CMakeCache.txt ]] && first=() || first=(-DTENEBRA_UNITY=ON -DTENEBRA_FEWER_LEVELS=ON)  # as in test.sh
 cmake --preset debug -DTENEBRA_TESTS=ON "${first[@]}" -DCMAKE_COMPILE_WARNING_AS_ERROR=ON > /dev/null
