@@ -35,11 +35,12 @@ has() {
 
 # Static libraries of objects that only the linker's plugin can read need gcc's own ar and ranlib. Link-time
 # optimisation sees all files of a program at once, and so also what no single compilation can: that two of them
-# mean different things by one name. Types are compared, not speed: little optimisation and two vector levels will do.
+# mean different things by one name. Types are compared, not speed: little optimisation and two vector levels will do, and files that are compiled together
+# cannot mean different things.
 run_lto-odr() {
   has gcc-ar gcc && tools/setup.sh --tests &&
     cmake -S . -B build-lto -G Ninja -DCMAKE_BUILD_TYPE=Release -DTENEBRA_TESTS=ON \
-      -DCMAKE_CXX_FLAGS_RELEASE="-O1 -DNDEBUG" -DTENEBRA_FEWER_LEVELS=ON \
+      -DCMAKE_CXX_FLAGS_RELEASE="-O1 -DNDEBUG" -DTENEBRA_FEWER_LEVELS=ON -DTENEBRA_UNITY=ON \
       -DCMAKE_AR="$(command -v gcc-ar)" -DCMAKE_RANLIB="$(command -v gcc-ranlib)" \
       -DCMAKE_CXX_FLAGS="-flto=auto -Wodr -Werror=odr -Wlto-type-mismatch -Werror=lto-type-mismatch" > /dev/null &&
     cmake --build build-lto -j "$jobs" --target tenebra tenebra-bench &&
