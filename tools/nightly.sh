@@ -35,8 +35,8 @@ has() {
 
 # Static libraries of objects that only the linker's plugin can read need gcc's own ar and ranlib. Link-time
 # optimisation sees all files of a program at once, and so also what no single compilation can: that two of them
-# mean different things by one name. Types are compared, not speed: little optimisation and two vector levels will do, and files that are compiled together
-# cannot mean different things.
+# mean different things by one name. Types are compared, not speed: little optimisation and two vector levels will
+# do, and files that are compiled together cannot mean different things.
 run_lto-odr() {
   has gcc-ar gcc && tools/setup.sh --tests &&
     cmake -S . -B build-lto -G Ninja -DCMAKE_BUILD_TYPE=Release -DTENEBRA_TESTS=ON \
