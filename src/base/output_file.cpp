@@ -59,6 +59,16 @@ void remove_if_stale(const fs::path& path) {
   if (file && lock_in_place(file, path)) ::unlink(path.c_str());
 }
 
+/// Where a link that leads to no file leads: what is written there becomes its file. To rename over the link
+/// itself would take it away, which of /dev/stdout, where that is closed, nobody wants.
+fs::path end_of_link(fs::path path) {
+  constexpr int most_links = 40;  // as the system follows
+  std::error_code error;
+  for (int i = 0; i < most_links && fs::is_symlink(fs::symlink_status(path, error)); ++i)
+    path = path.parent_path() / fs::read_symlink(path, error);  // absolute ones replace all before them
+  return path;
+}
+
 }  // namespace
 
 void remove_stale_temporaries(const fs::path& folder) {
@@ -94,6 +104,8 @@ Expected<OutputFile> OutputFile::create(const fs::path& path) {
     std::error_code error;
     file.target_ = fs::canonical(path, error);
     if (error) return file.system_failure(error.value());
+  } else {
+    file.target_ = end_of_link(path);
   }
   if (auto opened = file.open_temporary(); !opened) return tl::unexpected(opened.error());
   if (exists)

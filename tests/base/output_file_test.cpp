@@ -242,6 +242,22 @@ TEST(OutputFile, WritesToStandardOutputWhateverThatIs) {
   EXPECT_TRUE(base::write_file("/dev/null", "text"));
 }
 
+TEST(OutputFile, ALinkThatLeadsNowhereStaysALink) {
+  const TemporaryFolder folder;
+  fs::create_symlink("there", folder / "link");
+  fs::create_symlink(folder / "link", folder / "other");
+  EXPECT_TRUE(base::write_file(folder / "other", "text"));
+  EXPECT_TRUE(fs::is_symlink(folder / "other") && fs::is_symlink(folder / "link"));
+  EXPECT_EQ(read_text(folder / "there"), "text");
+
+  // As /dev/stdout where standard output is closed.
+  fs::create_symlink("/proc/self/fd/987", folder / "closed");
+  EXPECT_FALSE(base::write_file(folder / "closed", "text"));
+  EXPECT_TRUE(fs::is_symlink(folder / "closed"));
+  fs::create_symlink("round", folder / "round");
+  EXPECT_FALSE(base::write_file(folder / "round", "text"));
+}
+
 /// Writes whole files of one letter again and again.
 [[noreturn]] void write_for_ever(const fs::path& path, char letter, std::size_t size) {
   for (;;) {
