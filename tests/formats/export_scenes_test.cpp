@@ -216,7 +216,7 @@ TEST(ExportLosses, VisibilityOfAMatrixNodeIsNamed) {
   scene.clips.push_back(clip);
   const RoundTrip trip = round_trip(scene);
   ASSERT_EQ(trip.losses.size(), 2u);
-  EXPECT_NE(trip.losses[1].find("shown always"), std::string::npos) << trip.losses[1];
+  EXPECT_NE(trip.losses[1].find("always shown"), std::string::npos) << trip.losses[1];
 }
 
 TEST(ExportLosses, VisibilityBecomesScale) {
