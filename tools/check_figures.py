@@ -3,8 +3,7 @@
 
 usage: check_figures.py [--data FOLDER] [--spread S] [--list] [WORD...]
 
-WORD: only rows with that word in them. A figure passes if the new one is within the spread of it: a factor of 1 + S
-[0.25] either way, as such ratios differ from run to run and from one processor to the next. Of figures with a range the
+WORD: only rows with that word in them. A figure passes if the new one is within a factor of 1 + S [0.25] either way. Of figures with a range the
 end is held that the program prints. The rows of `tenebra verify` took hours: here it checks a few small frames, where
 nothing may be wrong. --list: measures nothing, and fails where a row of the table has no measurement here,
 or a measurement no row. BENCH and TENEBRA name the programs (build/bin/tenebra-bench, build/bin/tenebra). All of it takes

@@ -53,12 +53,13 @@ void Renderer::State::find_points(const FrameInput& input, const std::vector<Dra
                                   const RenderSettings& settings, FrameTimings& timings) {
   base::Stopwatch watch;
   const bool exact = settings.samples == SampleSource::ids;
-  const auto areas =
-      std::count_if(lights.begin(), lights.end(), [](const auto& light) { return light.area.has_value(); });
-  const bool others = settings.shadows != ShadowMode::none && std::ssize(lights) > areas;
-  const bool traced = others || (areas > 0 && settings.soft_points > 0);
+  const bool areas = has_areas(lights);
+  const bool others =
+      settings.shadows != ShadowMode::none &&
+      std::any_of(lights.begin(), lights.end(), [](const auto& light) { return !light.area; });
+  const bool traced = others || (areas && settings.soft_points > 0);
   const bool tiled = traced && settings.hard.variant == Variant::tiles;
-  const bool shaded = areas > 0 || settings.ao.mode != AoMode::none;
+  const bool shaded = areas || settings.ao.mode != AoMode::none;
   const bool positions = shaded || !tiled || !input.geometry.see_through.empty();
   const TriangleView triangles = triangle_view(input.geometry);
   const PointLayout layout = !tiled      ? PointLayout::rows

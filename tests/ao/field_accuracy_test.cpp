@@ -182,6 +182,7 @@ void measure(const char* name, const Object& object) {
 }
 
 void measure_file(const char* name, const std::string& path) {
+  // Scans and models of others have licences of their own: they lie beside the checkout, not in it.
   if (!std::filesystem::exists(path))
     GTEST_SKIP() << path << " is missing: this scene is measured where it is there";
   const std::optional<Object> object = testing::object_of(path);

@@ -66,6 +66,7 @@ TEST(OutputFile, IsAbsentUntilCommit) {
 }
 
 TEST(OutputFile, ReportsAFullDevice) {
+  // Linux has this device, which is always full; other systems, and some containers, do not.
   if (!fs::exists("/dev/full")) GTEST_SKIP() << "this system has no /dev/full";
   expect_failure(base::write_file("/dev/full", "text"), "/dev/full", "No space left on device");
   EXPECT_TRUE(fs::is_character_file("/dev/full")) << "the device must not be replaced";
@@ -108,6 +109,7 @@ TEST(OutputFile, ReportsAFolderThatIsNotWritable) {
     if (::geteuid() == 0 && ::setuid(nobody) != 0) return skip_code;  // root may write anywhere
     return fails_with(base::write_file(folder / "locked/a.txt", "text"), "Permission denied") ? 0 : 1;
   });
+  // Permissions do not bind root, and in a user namespace of one user there is no other to become.
   if (code == skip_code) GTEST_SKIP() << "root here cannot become another user";
   EXPECT_EQ(code, 0);
   EXPECT_TRUE(fs::is_empty(folder / "locked"));
@@ -122,6 +124,7 @@ TEST(OutputFile, KeepsAReadOnlyFile) {
     if (::geteuid() == 0 && ::setuid(nobody) != 0) return skip_code;
     return fails_with(base::write_file(folder / "a.txt", "text"), "Permission denied") ? 0 : 1;
   });
+  // Permissions do not bind root, and in a user namespace of one user there is no other to become.
   if (code == skip_code) GTEST_SKIP() << "root here cannot become another user";
   EXPECT_EQ(code, 0);
   EXPECT_EQ(read_text(folder / "a.txt"), "earlier");
@@ -142,6 +145,7 @@ TEST(OutputFile, ReportsAFullFileSystem) {
     if (read_text(folder / "a.txt") != "earlier") return 4;
     return folder.names() == Names{"a.txt"} ? 0 : 5;
   });
+  // A disk can only be filled that is small: one is mounted, which needs root and a container that allows it.
   if (code == skip_code) GTEST_SKIP() << "mounting a file system is not allowed here";
   EXPECT_EQ(code, 0);
 }

@@ -174,6 +174,7 @@ class BartLooks : public ::testing::TestWithParam<Counted> {};
 
 /// The figures are those of another reader of the files.
 TEST_P(BartLooks, HaveTheTrianglesThatTheFilesSay) {
+  // BART's geometry comes with the tests; its textures are too large for that and lie beside the checkout.
   if (!testing::bart_has_textures()) GTEST_SKIP() << "BART's textures are not beside the checkout.";
   const fs::path file = testing::bart_folder() / GetParam().file;
   const auto scene = formats::import_aff(file, {});

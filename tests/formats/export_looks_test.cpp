@@ -294,6 +294,7 @@ TEST_P(ExportLooksOfScenes, ComeBack) {
   const std::string name = GetParam();
   const fs::path file =
       name.ends_with(".aff") ? testing::bart_folder() / name : fs::path(TENEBRA_SHARED_DIR) / "scenes" / name;
+  // Models of others have licences of their own: they lie beside the checkout, not in it.
   if (!fs::exists(file)) GTEST_SKIP() << "The scenes are not at " << file << ".";
   const auto scene = formats::import_scene(file);
   ASSERT_TRUE(scene.has_value()) << scene.error().message;

@@ -118,6 +118,7 @@ INSTANTIATE_TEST_SUITE_P(Whole, ExportScenes,
 
 TEST(ExportSecondReader, AcceptsTheSharedGltfFiles) {
   const fs::path shared = fs::path(TENEBRA_SHARED_DIR) / "scenes/extra/gltf";
+  // Models of others have licences of their own: they lie beside the checkout, not in it.
   if (!fs::exists(shared)) GTEST_SKIP() << "The scenes are not at " << shared << ".";
   const testing::TemporaryFolder folder;
   for (const char* name : {"BoxAnimated.glb", "CesiumMan.glb", "AnimatedMorphCube.glb", "Fox.glb",

@@ -172,6 +172,7 @@ TEST(BenchProgram, ViewerEndsWithItsFigures) {
     EXPECT_TRUE(found) << name;
     EXPECT_TRUE(skipped || value >= 0 || std::string(name) == "viewer.explain_ms") << name << ": " << value;
   }
+  // Keys are pressed in a window: that needs Xvfb and xdotool, and the bench says which of them is missing.
   if (skipped) GTEST_SKIP() << result.output.substr(result.output.find("viewer: skipped"));
   const std::string csv = testing::read_text(folder / "viewer.csv");
   for (const char* row : {"\nhands,city,tenebra,", "\nstarts,city,tenebra,", "\nwhole,city,view,"})

@@ -12,6 +12,7 @@ namespace {
 class FrameContestOfCity : public ::testing::Test {
 protected:
   void SetUp() override {
+    // Ray masks, by which the opponent leaves out what casts no shadow, are an option of Embree's build.
     if (!has_ray_masks()) GTEST_SKIP() << "this Embree was built without ray masks";
     std::unique_ptr<testing::TemporaryFolder> made;
     auto loaded = load_scene(find_scene(bench_scene("city"), {}, made));

@@ -85,6 +85,7 @@ TEST_F(HardOpponent, FindsOurMasksByEveryPacketAtEveryVectorLevel) {
 
 // What primary packets see is what a single ray sees, and what is known of it agrees with the ids.
 TEST_F(HardOpponent, SeesWhatSingleRaysSee) {
+  // Ray masks, by which the opponent leaves out what casts no shadow, are an option of Embree's build.
   if (!has_ray_masks()) GTEST_SKIP() << "this Embree was built without ray masks";
   const TreeVertices vertices(view_.frame.geometry.positions);
   const EmbreeTree tree(vertices.data(), view_.frame.triangles(), {},
