@@ -3,12 +3,23 @@
 #include <cmath>
 #include <limits>
 
+#include "bench/common/memory_meter.h"
 #include "parallel/parallel.h"
 
 namespace tenebra::bench {
 
+RTCDevice new_device(const std::string& settings) {
+  RTCDevice device = rtcNewDevice(settings.empty() ? nullptr : settings.c_str());
+  const auto count = [](void*, ssize_t bytes, bool) {
+    count_memory(bytes);
+    return true;
+  };
+  rtcSetDeviceMemoryMonitorFunction(device, count, nullptr);
+  return device;
+}
+
 EmbreeScene::EmbreeScene(const TriangleView& triangles, bool only_casters, bool robust)
-    : device_(rtcNewDevice(nullptr)), scene_(rtcNewScene(device_)) {
+    : device_(new_device()), scene_(rtcNewScene(device_)) {
   for (std::size_t i = 0; i < triangles.triangles.size(); ++i) {
     const bool casts = triangles.casts_shadow.empty() || triangles.casts_shadow[i] != 0;
     if (casts || !only_casters) ids_.push_back(static_cast<std::uint32_t>(i));

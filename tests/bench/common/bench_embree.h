@@ -2,6 +2,7 @@
 #pragma once
 
 #include <cstdint>
+#include <string>
 #include <vector>
 
 #include <tenebra/visible_points.h>
@@ -9,6 +10,9 @@
 #include "ao/cast/embree.h"
 
 namespace tenebra::bench {
+
+/// A device whose memory a MemoryMeter counts; `settings` as of rtcNewDevice.
+RTCDevice new_device(const std::string& settings = "");
 
 /// A device and one scene, built once at the highest quality (building is not measured). primID is the
 /// triangle's id in `ids`, or in the view where `ids` is empty. `robust`: rays do not pass between triangles

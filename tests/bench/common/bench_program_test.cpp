@@ -6,6 +6,7 @@
 #include <cmath>
 #include <cstdlib>
 
+#include "base/image.h"
 #include "bench/common/bench_data.h"
 #include "bench/common/bench_frame.h"
 #include "support/bart.h"
@@ -209,10 +210,19 @@ TEST(BenchProgram, TradeWritesItsPageFromBundledScenesAlone) {
         "## Stages switched off alone", "## Only what a scene requires", "| default (Tiles) | "})
     EXPECT_NE(page.find(part), std::string::npos) << part;
   EXPECT_EQ(page.find("NOT the same"), std::string::npos);
-  for (const char* row : {"\ntrade hard,city 150,default (Tiles),,time,", "\ntrade soft,court 60,",
-                          "\ntrade ao,city 150,", "\ntrade stages,knot,", "\ntrade needs,city 150,"})
+  for (const char* row :
+       {"\ntrade hard,city 150,default (Tiles),,time on 1 thread,", "\ntrade soft,court 60,",
+        "\ntrade ao,city 150,", "\ntrade stages,knot,", "\ntrade needs,city 150,"})
     EXPECT_NE(csv.find(row), std::string::npos) << row;
-  for (const char* name : {"trade_hard_city_150.svg", "trade_soft_court_60.svg", "trade_ao_city_150.svg"}) {
+  EXPECT_NE(page.find("| exact, other solvers, bsp | "), std::string::npos);
+  for (const char* name : {"trade_soft_court_60.png", "trade_ao_city_150.png"}) {
+    EXPECT_NE(page.find(name), std::string::npos) << name;
+    const auto crops = base::read_png(folder / name);
+    ASSERT_TRUE(crops) << name;
+    EXPECT_GT(crops->width, crops->height) << name;
+  }
+  for (const char* name : {"trade_hard_city_150.svg", "trade_soft_court_60.svg", "trade_ao_city_150.svg",
+                           "trade_hard_city_150_sun.svg", "trade_soft_city_150_sun.svg"}) {
     EXPECT_NE(page.find(name), std::string::npos) << name;
     EXPECT_NE(testing::read_text(folder / name).find("</svg>"), std::string::npos) << name;
   }

@@ -6,6 +6,8 @@
 #include <cassert>
 #include <cstring>
 
+#include "bench/common/bench_embree.h"
+
 namespace tenebra::bench {
 namespace {
 
@@ -77,8 +79,7 @@ bool has_ray_masks() {
 
 EmbreeTree::EmbreeTree(const glm::vec3* vertices, const TriangleView& triangles,
                        std::span<const std::uint8_t> moves, const Settings& settings)
-    : device_(rtcNewDevice(embree_settings(settings.threads, settings.simd).c_str())),
-      scene_(rtcNewScene(device_)) {
+    : device_(new_device(embree_settings(settings.threads, settings.simd))), scene_(rtcNewScene(device_)) {
   // Embree takes one tree a geometry under a tree of trees for what a scene of low quality is.
   const bool follow = follows(settings.kind);
   if (follow) rtcSetSceneFlags(scene_, RTC_SCENE_FLAG_DYNAMIC);

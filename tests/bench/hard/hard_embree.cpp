@@ -3,6 +3,7 @@
 #include <cstring>
 #include <limits>
 
+#include "bench/common/bench_embree.h"
 #include "bench/common/embree_tree.h"
 #include "math/predicates.h"
 #include "parallel/parallel.h"
@@ -89,7 +90,7 @@ PeerPoints peer_points(const HardView& view) {
 }
 
 HardPeer::HardPeer(const TriangleView& triangles, RTCBuildQuality quality, int threads, SimdLevel simd)
-    : device_(rtcNewDevice(embree_settings(threads, simd).c_str())),
+    : device_(new_device(embree_settings(threads, simd))),
       scene_(rtcNewScene(device_)),
       mesh_(rtcNewGeometry(device_, RTC_GEOMETRY_TYPE_TRIANGLE)) {
   sixteen_ = rtcGetDeviceProperty(device_, RTC_DEVICE_PROPERTY_NATIVE_RAY16_SUPPORTED) != 0;

@@ -1,5 +1,7 @@
 #include "bench/soft/soft_embree.h"
 
+#include <limits>
+
 #include "parallel/parallel.h"
 #include "points/triangle_corners.h"
 
@@ -74,6 +76,7 @@ SoftSampler::SoftSampler(const AreaLight& light, std::size_t rays, Packing packi
       packing_(packing),
       normal_(light.normal),
       area_of_a_ray_(static_cast<float>(light.area_m2 / static_cast<double>(rays))),
+      endless_(light.at_infinity),
       kernels_(packet_kernels()) {}
 
 void SoftSampler::trace(const EmbreeScene& casters, std::span<const SampledReceiver> receivers, int width,
@@ -91,6 +94,22 @@ void SoftSampler::trace(const EmbreeScene& casters, std::span<const SampledRecei
   }
 }
 
+/// Whence the light is seen as its samples lie.
+ReceiverPacket SoftSampler::aimed_from(const ReceiverPacket& from) const {
+  ReceiverPacket aimed = from;
+  if (endless_)
+    for (auto* places : {aimed.x, aimed.y, aimed.z}) std::fill_n(places, lanes, 0.0f);
+  return aimed;
+}
+
+/// Sixteen points of the light from `sample` on.
+bool SoftSampler::aim(const ReceiverPacket& from, std::size_t sample, RayPacket16& out) const {
+  const bool any = kernels_.aim(from, &samples_.x[sample], &samples_.y[sample], &samples_.z[sample],
+                                normal_.x, normal_.y, normal_.z, out);
+  if (endless_) std::fill_n(out.rays.tfar, lanes, std::numeric_limits<float>::infinity());
+  return any;
+}
+
 void SoftSampler::trace_pixels(const Job& job, std::size_t first, std::size_t last) const {
   ao::EmbreeQuery query(ao::EmbreeQuery::coherent);
   ReceiverPacket from;
@@ -102,12 +121,11 @@ void SoftSampler::trace_pixels(const Job& job, std::size_t first, std::size_t la
     if (idle(job.receivers[i])) continue;
     for (std::size_t lane = 0; lane < lanes; ++lane) put(from, lane, job.receivers[i]);
     start_rays(from, packet);
+    from = aimed_from(from);
     const std::size_t pattern = scattered(i) % samples_.pattern_count * stride;
     alignas(64) float sums[lanes] = {};
     for (std::size_t s = pattern; s < pattern + samples_.per_pattern; s += lanes) {
-      if (!kernels_.aim(from, &samples_.x[s], &samples_.y[s], &samples_.z[s], normal_.x, normal_.y, normal_.z,
-                        packet))
-        continue;
+      if (!aim(from, s, packet)) continue;
       for (std::size_t lane = samples_.per_pattern; lane < lanes; ++lane) {  // fewer points than lanes
         packet.valid[lane] = 0;
         packet.weight[lane] = 0;
@@ -139,13 +157,12 @@ void SoftSampler::trace_tiles(const Job& job, std::size_t first, std::size_t las
       any |= !idle(job.receivers[pixels[lane]]);
     }
     start_rays(from, packet);
+    from = aimed_from(from);
     const std::size_t block = scattered(tile) % (samples_.pattern_count / lanes) * samples_.per_pattern;
     alignas(64) float sums[lanes] = {};
     for (std::size_t cell = block; any && cell < block + samples_.per_pattern; ++cell) {
       const std::size_t s = cell * lanes;
-      if (!kernels_.aim(from, &samples_.x[s], &samples_.y[s], &samples_.z[s], normal_.x, normal_.y, normal_.z,
-                        packet))
-        continue;
+      if (!aim(from, s, packet)) continue;
       query.occluded16(packet.valid, job.casters, packet.rays);
       kernels_.gather(packet, sums);
     }

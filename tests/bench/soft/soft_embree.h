@@ -49,6 +49,8 @@ public:
 
 private:
   struct Job;
+  ReceiverPacket aimed_from(const ReceiverPacket& from) const;
+  bool aim(const ReceiverPacket& from, std::size_t sample, RayPacket16& out) const;
   void trace_pixels(const Job& job, std::size_t first, std::size_t last) const;
   void trace_tiles(const Job& job, std::size_t first, std::size_t last) const;
 
@@ -56,6 +58,8 @@ private:
   Packing packing_;
   glm::vec3 normal_;
   float area_of_a_ray_ = 0;
+  /// Of a sun: its points are ways from wherever a ray starts, and nothing is behind it.
+  bool endless_ = false;
   PacketKernels kernels_;
 };
 

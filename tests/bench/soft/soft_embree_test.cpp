@@ -105,6 +105,28 @@ TEST_P(Sampler, SeesTheFreePartOfAHalfCoveredLight) {
   EXPECT_NEAR(bias / static_cast<double>(seen), 0, 2e-3);
 }
 
+TEST_P(Sampler, OfASunSeesAllOfItOrWhatHidesItAtAnyDistance) {
+  FloorScene scene(true);
+  scene.light = make_sun({0, 1, 0}, 4).value();  // the blocker, four metres up, blurs its edge by 0.28 m
+  const std::vector<float> irradiance = scene.sampled(256, GetParam());
+  std::size_t lit = 0, dark = 0;
+  for (std::size_t i = 0; i < irradiance.size(); ++i) {
+    if (scene.frame.points.triangles[i] > 1) continue;  // the floor only
+    const glm::dvec3 p = scene.frame.points.positions[i];
+    if (p.x < 0.85) {
+      const double all = unoccluded(scene.light, p, glm::dvec3(scene.frame.normals[i]), {0, 1, 0}).irradiance;
+      // 16 x 16 cells of a 4-degree disc, seen under almost one angle: what varies is far below this.
+      EXPECT_NEAR(irradiance[i], all, 2e-3 * all) << "pixel " << i;
+      ++lit;
+    } else if (p.x > 1.15) {
+      EXPECT_EQ(irradiance[i], 0) << "pixel " << i;
+      ++dark;
+    }
+  }
+  EXPECT_GT(lit, 50u);
+  EXPECT_GT(dark, 20u);
+}
+
 TEST_P(Sampler, LeavesAloneWhatIsNotWanted) {
   const FloorScene scene(true);
   std::vector<std::uint8_t> wanted(scene.frame.pixel_count());

@@ -34,7 +34,7 @@ Measure error(const std::string& name, std::size_t column = 0) {
 Measure time(const std::string& name) {
   return [=](const TradeTable& t) {
     const TradePoint* p = t.find(name);
-    return p == nullptr ? std::nullopt : std::optional(p->ms);
+    return p == nullptr ? std::nullopt : std::optional(p->ms());
   };
 }
 /// Time of one setting over that of another.
@@ -42,7 +42,7 @@ Measure times(const std::string& name, const std::string& other) {
   return [=](const TradeTable& t) -> std::optional<double> {
     const TradePoint *a = t.find(name), *b = t.find(other);
     if (a == nullptr || b == nullptr) return std::nullopt;
-    return a->ms / b->ms;
+    return a->ms() / b->ms();
   };
 }
 
@@ -54,7 +54,7 @@ std::size_t fastest_exact(const TradeTables& tables, const std::string& name) {
   return static_cast<std::size_t>(std::count_if(tables.begin(), tables.end(), [&](const TradeTable* t) {
     const TradePoint* own = t->find(name);
     return own != nullptr && std::none_of(t->points.begin(), t->points.end(), [&](const TradePoint& p) {
-             return p.errors[0] <= t->none_below && p.ms < own->ms;
+             return p.errors[0] <= t->none_below && p.ms() < own->ms();
            });
   }));
 }
@@ -63,7 +63,7 @@ std::size_t fastest_exact(const TradeTables& tables, const std::string& name) {
 std::optional<double> ms_at_error(const TradeTable& table, const std::string& family, double error) {
   std::optional<double> ms;
   for (const TradePoint& p : table.points) {
-    if (p.family.starts_with(family) && p.errors[0] <= error && (!ms || p.ms < *ms)) ms = p.ms;
+    if (p.family.starts_with(family) && p.errors[0] <= error && (!ms || p.ms() < *ms)) ms = p.ms();
   }
   return ms;
 }
@@ -120,7 +120,7 @@ std::string soft_advice(const TradeTables& tables) {
       const auto ms = ms_at_error(t, family, rms);
       const TradePoint* exact = t.find(exact_soft);
       if (!ms || exact == nullptr) return std::nullopt;
-      return *ms / exact->ms;
+      return *ms / exact->ms();
     };
   };
   return fmt::format(
@@ -155,7 +155,7 @@ std::string ao_advice(const TradeTables& tables) {
       const TradePoint* p = t.find(name);
       const auto ms = p == nullptr ? std::nullopt : ms_at_error(t, "Embree rays", p->errors[0]);
       if (!ms) return std::nullopt;
-      return *ms / p->ms;
+      return *ms / p->ms();
     };
   };
   return fmt::format(

@@ -1,13 +1,17 @@
 // The trade of ambient occlusion: errors asked for, rays, tables (positions x directions x bits), resolution,
 // against Embree's rays with and without a filter.
 #include <fmt/core.h>
+#include <algorithm>
+#include <array>
 #include <cmath>
 
 #include <tenebra/ambient_occlusion.h>
 #include "bench/ao/ao_race.h"
 #include "bench/ao/scenes/ao_scene_peer.h"
 #include "bench/common/bench_scenes.h"
+#include "bench/common/memory_meter.h"
 #include "bench/trade/trade_contest.h"
+#include "bench/trade/trade_crops.h"
 #include "bench/trade/trade_session.h"
 #include "support/seeded_random.h"
 
@@ -36,6 +40,8 @@ public:
 private:
   AoConfig config(AoMode mode, int rays) const;
   Expected<void> find_truth();
+  Expected<std::vector<float>> by_many_rays(const std::vector<std::uint8_t>& kept) const;
+  Expected<TradeCrops> crops(const std::vector<TradePoint>& points);
   void add_errors();
   void add_rays();
   void add_tables(FieldLayout layout, const char* family);
@@ -64,29 +70,62 @@ AoConfig AoTrade::config(AoMode mode, int rays) const {
 Expected<void> AoTrade::find_truth() {
   const int stride = session_.by_effort(4, 8, 8);
   const auto side = static_cast<std::uint32_t>(stride);
-  VisiblePoints few = view_.now.points;
-  std::vector<std::uint8_t> kept(few.triangles.size(), 0);
+  const VisiblePoints& all = view_.now.points;
+  std::vector<std::uint8_t> kept(all.triangles.size(), 0);
   testing::Random random(13);
-  const auto width = static_cast<std::size_t>(few.width);
-  for (int y = 0; y + stride <= few.height; y += stride) {
-    for (int x = 0; x + stride <= few.width; x += stride) {
+  const auto width = static_cast<std::size_t>(all.width);
+  for (int y = 0; y + stride <= all.height; y += stride) {
+    for (int x = 0; x + stride <= all.width; x += stride) {
       const std::size_t i = (static_cast<std::size_t>(y) + random.index(side)) * width +
                             static_cast<std::size_t>(x) + random.index(side);
-      if (few.triangles[i] == no_triangle) continue;
+      if (all.triangles[i] == no_triangle) continue;
       kept[i] = 1;
       pixels_.push_back(i);
     }
   }
+  const auto open = by_many_rays(kept);
+  if (!open) return tl::unexpected(open.error());
+  for (const std::size_t i : pixels_) truth_.push_back((*open)[i]);
+  return {};
+}
+
+/// At the pixels that are kept; 1 elsewhere.
+Expected<std::vector<float>> AoTrade::by_many_rays(const std::vector<std::uint8_t>& kept) const {
+  VisiblePoints few = view_.now.points;
   for (std::size_t i = 0; i < kept.size(); ++i) {
     if (kept[i] == 0) few.triangles[i] = no_triangle;
   }
   AmbientOcclusion rays;
+  std::vector<float> open;
   if (auto done = rays.compute(view_.scene, view_.now.geometry, few, view_.now.normals,
-                               config(AoMode::rays, session_.by_effort(64, 1024, 4096)), open_);
+                               config(AoMode::rays, session_.by_effort(64, 1024, 4096)), open);
       !done)
-    return done;
-  for (const std::size_t i : pixels_) truth_.push_back(open_[i]);
-  return {};
+    return tl::unexpected(done.error());
+  return open;
+}
+
+/// Where the errors of the most inexact of them stand out, as far as the truth is known.
+Expected<TradeCrops> AoTrade::crops(const std::vector<TradePoint>& points) {
+  constexpr std::array families{"adaptive", "field", "field, half resolution"};
+  std::vector<CropPicture> pictures;
+  for (const TradePoint* chosen : crop_settings(points, families)) {
+    const auto setting = std::find_if(settings_.begin(), settings_.end(), [&](const AoSetting& s) {
+      return s.family == chosen->family && s.name == chosen->setting;
+    });
+    if (auto done = compute(setting->config); !done) return tl::unexpected(done.error());
+    pictures.push_back({chosen, open_});
+  }
+  std::vector<float> errors(view_.now.pixel_count());
+  for (std::size_t k = 0; k < pixels_.size() && !pictures.empty(); ++k)
+    errors[pixels_[k]] = pictures.back().values[pixels_[k]] - truth_[k];
+  const std::vector<float>& picture = pictures.empty() ? open_ : pictures.front().values;
+  const CropPlace place = plainest_place(errors, picture, static_cast<std::size_t>(view_.now.points.width));
+  std::vector<std::uint8_t> kept(errors.size(), 0);
+  for (std::size_t y = 0; y < place.side; ++y)
+    for (std::size_t x = 0; x < place.side; ++x) kept[place.pixel(x, y)] = 1;
+  const auto exact = by_many_rays(kept);
+  if (!exact) return tl::unexpected(exact.error());
+  return make_crops(place, *exact, pictures);
 }
 
 std::vector<double> AoTrade::errors_of(std::span<const float> open) const {
@@ -101,7 +140,7 @@ std::vector<double> AoTrade::errors_of(std::span<const float> open) const {
 
 /// What the presets of --quality ask for.
 void AoTrade::add_errors() {
-  for (const double error : {5.0, 2.5, 1.0}) {
+  for (const double error : {8.0, 5.0, 2.5, 1.0}) {
     AoConfig c = config(AoMode::adaptive, 64);
     c.error_255 = error;
     settings_.push_back({"adaptive", fmt::format("error {}", error), c});
@@ -150,16 +189,19 @@ Expected<double> AoTrade::compute(const AoConfig& config) {
   return clock.ms();
 }
 
-/// Settings that share tables, in turn; fields are built and samples cast before.
+/// Settings that share tables, in turn; fields are built and samples cast before, which takes
+/// the most memory.
 Expected<std::vector<TradePoint>> AoTrade::measure(std::span<const AoSetting> same_tables) {
+  ao_ = {}, open_ = std::vector<float>();
+  const MemoryMeter meter;
   if (const auto built = compute(same_tables[0].config); !built) return tl::unexpected(built.error());
   std::vector<Contestant> contestants;
   for (const AoSetting& setting : same_tables) {
-    contestants.push_back({setting.family, setting.name, session_.by_effort(1, 3, 5),
-                           [this, &setting] { return compute(setting.config); },
+    contestants.push_back({setting.family, setting.name, [this, &setting] { return compute(setting.config); },
                            [this] { return errors_of(open_); }});
+    contestants.back().made_mb = meter.mb();
   }
-  return take_turns(contestants);
+  return take_turns(contestants, session_.turns());
 }
 
 /// Of one to three passes of the filter (at half resolution none, too), those that err least.
@@ -177,7 +219,9 @@ PeerVariant AoTrade::best_variant(AoScenePeer& peer, int rays, int step) const {
 
 /// What one would write instead: rays alone, filtered, and filtered at one of four pixels.
 Expected<std::vector<TradePoint>> AoTrade::measure_peer() const {
+  const MemoryMeter meter;
   AoScenePeer peer(view_);
+  const double made_mb = meter.mb();
   std::vector<Contestant> contestants;
   for (const int rays : session_.by_effort<std::vector<int>>({4}, {1, 4, 16, 64, 256}, {1, 4, 16, 64, 256})) {
     const auto order = peer.faster_order(rays);
@@ -186,20 +230,20 @@ Expected<std::vector<TradePoint>> AoTrade::measure_peer() const {
         peer.set_order(order);
         return peer.follow_ms() + peer.trace_ms(rays, variant.step) + peer.finish_ms(variant);
       };
-      contestants.push_back({family, fmt::format("{} ray{}", rays, rays == 1 ? "" : "s"),
-                             rays > 16 ? 1 : session_.by_effort(1, 3, 5), run,
+      contestants.push_back({family, fmt::format("{} ray{}", rays, rays == 1 ? "" : "s"), run,
                              [this, &peer] { return errors_of(peer.picture()); }});
+      contestants.back().made_mb = made_mb;
     };
     add("Embree rays", {1, 0});
     add("Embree rays, filtered", best_variant(peer, rays, 1));
     add("Embree rays, filtered, half resolution", best_variant(peer, rays, 2));
   }
-  return take_turns(contestants);
+  return take_turns(contestants, session_.turns());
 }
 
 bool same_tables(const AoConfig& a, const AoConfig& b) {
-  return a.layout == b.layout && a.positions == b.positions && a.directions == b.directions &&
-         a.bits == b.bits;
+  return a.mode == b.mode && a.layout == b.layout && a.positions == b.positions &&
+         a.directions == b.directions && a.bits == b.bits;
 }
 
 Expected<TradeTable> AoTrade::run() {
@@ -217,6 +261,9 @@ Expected<TradeTable> AoTrade::run() {
     if (!points) return tl::unexpected(points.error());
     table.points.insert(table.points.end(), points->begin(), points->end());
   }
+  auto crops = this->crops(table.points);
+  if (!crops) return tl::unexpected(crops.error());
+  table.crops = std::move(*crops);
   const auto peer = measure_peer();
   if (!peer) return tl::unexpected(peer.error());
   table.points.insert(table.points.end(), peer->begin(), peer->end());

@@ -6,6 +6,7 @@
 #include <cstdio>
 #include <memory>
 
+#include <tenebra/threads.h>
 #include "base/fail.h"
 #include "base/output_file.h"
 #include "bench/trade/trade_session.h"
@@ -44,6 +45,21 @@ Expected<void> measure(const PartsArguments& arguments, const TradeOptions& opti
 }
 
 }  // namespace
+
+Turns TradeSession::turns() const {
+  Turns turns{{1}, by_effort(1, 3, 15), by_effort(0.0, 400.0, 4000.0)};
+  if (thread_count() > 1) turns.threads.push_back(thread_count());
+  return turns;
+}
+
+Expected<void> TradeSession::on_each_number_of_threads(const std::function<Expected<void>()>& body) const {
+  Expected<void> done;
+  for (const int threads : turns().threads) {
+    with_threads(threads, [&] { done = body(); });
+    if (!done) return done;
+  }
+  return done;
+}
 
 void TradeSession::finish(TradeTable table) {
   mark_front(table.points, table.none_below);

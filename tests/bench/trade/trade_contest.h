@@ -13,16 +13,25 @@ namespace tenebra::bench {
 /// One setting that takes part.
 struct Contestant {
   std::string family, setting;
-  int rounds = 1;
   std::function<Expected<double>()> run;        ///< once: its milliseconds
   std::function<std::vector<double>()> errors;  ///< of what the last run gave
   std::function<void()> prepare{};              ///< before each run, not timed
+  std::function<void()> forget{};  ///< before the first: gives back the memory that earlier runs have left it
+  double made_mb = 0;              ///< of what was made for it beforehand
+};
+
+/// How often each setting is run.
+struct Turns {
+  std::vector<int> threads;  ///< on so many, one after the other
+  int rounds = 1;
+  double enough_ms = 0;  ///< whose runs took so long together rests
 };
 
 /// A run that takes as long as the clock says.
 std::function<Expected<double>()> clocked(std::function<Expected<void>()> work);
 
-/// Medians of the times, largest errors of the rounds.
-Expected<std::vector<TradePoint>> take_turns(const std::vector<Contestant>& contestants);
+/// Medians of the times, largest errors of the rounds; memory of the first run, on the first number of
+/// threads.
+Expected<std::vector<TradePoint>> take_turns(const std::vector<Contestant>& contestants, const Turns& turns);
 
 }  // namespace tenebra::bench

@@ -2,12 +2,12 @@
 // that writes it.
 #include <fmt/core.h>
 #include <algorithm>
-#include <map>
 
 #include "base/machine.h"
 #include "base/output_file.h"
 #include "bench/common/bench_page.h"
 #include "bench/trade/trade_advice.h"
+#include "bench/trade/trade_pair_docs.h"
 #include "bench/trade/trade_session.h"
 #include "parallel/parallel.h"
 
@@ -22,10 +22,12 @@ std::vector<const TradeTable*> tables_of(const TradeSession& session, const std:
   return tables;
 }
 
-/// "12.5 · 3.1 · 54", time and errors `first` to `last`; the time bold on the front.
+/// "12.5 / **6.4** · 3.1 · 54", times and errors `first` to `last`; bold on the front.
 std::string cell(const TradePoint& p, std::size_t first, std::size_t last, bool with_time) {
   std::string text;
-  if (with_time) text = p.front ? fmt::format("**{}**", short_number(p.ms)) : short_number(p.ms);
+  for (std::size_t i = 0; with_time && i < p.times.size(); ++i)
+    text += fmt::format("{0}{1}{2}{1}", i == 0 ? "" : " / ", p.times[i].front ? "**" : "",
+                        short_number(p.times[i].ms));
   for (std::size_t i = first; i < last; ++i) text += (text.empty() ? "" : " · ") + short_number(p.errors[i]);
   return text;
 }
@@ -54,6 +56,41 @@ std::string settings_table(const std::vector<const TradeTable*>& tables, std::si
   return text + "\n";
 }
 
+/// "31 to 44": the settings of one family that take least and most.
+std::string memory_cell(const TradeTable& table, const std::string& family) {
+  std::vector<double> mb;
+  for (const TradePoint& p : table.points)
+    if (p.family == family) mb.push_back(p.mb);
+  if (mb.empty()) return "";
+  const auto [least, most] = std::minmax_element(mb.begin(), mb.end());
+  const std::string from = fmt::format("{:.0f}", *least), to = fmt::format("{:.0f}", *most);
+  return from == to ? from : fmt::format("{} to {}", from, to);
+}
+
+/// Families down, views across.
+std::string memory_table(const std::vector<const TradeTable*>& tables) {
+  std::string text = "| MB |", rule = "|---|";
+  std::vector<std::string> families;
+  for (const TradeTable* table : tables) {
+    text += fmt::format(" {} |", table->view);
+    rule += "---|";
+    for (const TradePoint& p : table->points)
+      if (std::find(families.begin(), families.end(), p.family) == families.end())
+        families.push_back(p.family);
+  }
+  text += "\n" + rule + "\n";
+  for (const std::string& family : families) {
+    text += fmt::format("| {} |", family);
+    for (const TradeTable* table : tables) text += fmt::format(" {} |", memory_cell(*table, family));
+    text += "\n";
+  }
+  return text + "\n";
+}
+
+constexpr const char* memory_intro =
+    "Memory, in 10^6 bytes: the most that is held at one time on one thread, from a fresh start to the first "
+    "answer, as the program counts it, with the answer and ";
+
 std::string plots(const std::vector<const TradeTable*>& tables) {
   std::string text;
   for (const TradeTable* table : tables) {
@@ -61,6 +98,22 @@ std::string plots(const std::vector<const TradeTable*>& tables) {
                         method_title(table->method), table->view);
   }
   return text + "\n";
+}
+
+/// Pictures, each with what it shows below it.
+std::string crops(const std::vector<const TradeTable*>& tables) {
+  std::string text =
+      "What errors of about 0.5, 2 and 8/255 look like, where those of the last of them stand out (the "
+      "errors given "
+      "are "
+      "those of the whole picture in the table below). The lower row: 16 times the errors.\n\n";
+  for (const TradeTable* table : tables) {
+    if (!table->crops) continue;
+    text += fmt::format("<img src=\"trade_{}.png\" alt=\"{}, {}\"/>\n\n{}, from the left: {}.\n\n",
+                        plot_name(*table), method_title(table->method), table->view, table->view,
+                        table->crops->caption);
+  }
+  return text;
 }
 
 std::string remarks(const std::vector<const TradeTable*>& tables) {
@@ -74,20 +127,23 @@ std::string remarks(const std::vector<const TradeTable*>& tables) {
 /// What measured a section, where: sections may come from different runs.
 std::string measured_by(const TradeSession& session, const char* part) {
   const int threads = session.options.threads;
-  return fmt::format("Measured by `tenebra-bench trade --only {}{}{}` on an {}: {}.\n\n", part,
+  return fmt::format("Measured by `tenebra-bench trade --only {}{}{}` on an {}.\n\n", part,
                      session.by_effort(" --tiny", " --quick", ""),
-                     threads == 0 ? "" : fmt::format(" --threads {}", threads), base::machine_description(),
-                     thread_count() == 1 ? "1 thread, processor time"
-                                         : fmt::format("{} threads, by the clock", thread_count()));
+                     threads == 0 ? "" : fmt::format(" --threads {}", threads), base::machine_description());
 }
 
 std::string head() {
   return "# What accuracy costs\n\n"
          "Written by `tenebra-bench trade --docs docs`; edit `tests/bench/trade/trade_docs.cpp` and "
          "`trade_advice.cpp`, not this file. `--only` writes single sections anew. Times in milliseconds per "
-         "frame.\n\n"
-         "A setting is on the **Pareto front** of a view, its time bold, if no other is both as fast and as "
-         "exact and better in one of the two. In the plots the front is dashed and its settings are ringed. "
+         "frame, \"12.5 / 6.4\": of one thread (processor time), and of all threads of the machine (by the "
+         "clock). Settings take turns, and each time is a median; with `--quick` of 3 runs, or of fewer "
+         "where "
+         "these took 0.4 s together, else of 15, or fewer where they took 4 s.\n\n"
+         "A setting is on the **Pareto front** of a view, its time bold, if on so many threads no other is "
+         "both "
+         "as fast and as exact and better in one of the two. Plots and the sentences beside them are of one "
+         "thread; in the plots the front is dashed and its settings are ringed. "
          "Embree's rays are given for comparison; they are not a setting of Tenebra. RMS: root of the mean "
          "square. Penumbra, shaft and other words: [vocabulary](architecture.md#vocabulary).\n\n";
 }
@@ -95,6 +151,11 @@ std::string head() {
 std::string hard_section(const TradeSession& session, const std::vector<const TradeTable*>& tables) {
   return "## Hard shadows\n\n" + measured_by(session, "hard") + plots(tables) + hard_advice(tables) +
          "\nTime (visible points included) · wrong pixels:\n\n" + settings_table(tables, 0, 1, true) +
+         memory_intro +
+         "the visible points; of shadow maps without what the rasteriser takes beside them, of Embree "
+         "without "
+         "its points in floats.\n\n" +
+         memory_table(tables) +
          "Pictures of 1024x1024, the first light. Wrong: different from the exact answer, which "
          "`PreciseSorted` gave without vector instructions. Shadow maps are cubes drawn by Tenebra's own "
          "rasteriser, on this machine on the CPU and with ids and normals beside the depth; the bias "
@@ -105,23 +166,30 @@ std::string hard_section(const TradeSession& session, const std::vector<const Tr
 }
 
 std::string soft_section(const TradeSession& session, const std::vector<const TradeTable*>& tables) {
-  return "## Soft shadows\n\n" + measured_by(session, "soft") + plots(tables) + soft_advice(tables) +
-         "\nTime · RMS error over the penumbra · its worst pixel, in 1/255 of white:\n\n" +
+  return "## Soft shadows\n\n" + measured_by(session, "soft") + plots(tables) + soft_advice(tables) + "\n" +
+         crops(tables) + "Time · RMS error over the penumbra · its worst pixel, in 1/255 of white:\n\n" +
          settings_table(tables, 0, 2, true) + "The same over the whole picture: RMS · worst pixel:\n\n" +
-         settings_table(tables, 2, 4, false) +
-         "Pictures of 1280x720; a light of 4 % of the scene's diagonal, the court its own. Errors against "
+         settings_table(tables, 2, 4, false) + memory_intro +
+         "without the visible points; of Embree with its tree and the starts of its rays.\n\n" +
+         memory_table(tables) +
+         "Pictures of 1280x720; a light of 4 % of the scene's diagonal, the court its own, and a sun 0.53 "
+         "degrees wide. Errors against "
          "the solver in double precision; up to 0.01/255 they count as none. White is the light that one "
          "pixel in a thousand exceeds; errors of the visible part of the light (`--mask FILE.pfm`) are "
-         "larger where the light is weak. `clip`: `--soft-solver`; `bsp` takes part in runs without "
-         "`--quick`. Embree's rays are stratified and drawn beforehand; its tree is not counted.\n"
+         "larger where the light is weak. `clip` and `bsp`: `--soft-solver`. Embree's rays are stratified "
+         "and drawn beforehand; its tree is not counted.\n"
          "\n" +
          remarks(tables);
 }
 
 std::string ao_section(const TradeSession& session, const std::vector<const TradeTable*>& tables) {
-  return "## Ambient occlusion\n\n" + measured_by(session, "ao") + plots(tables) + ao_advice(tables) +
-         "\nTime of a frame whose fields and samples exist · RMS error · worst pixel, in 1/255:\n\n" +
-         settings_table(tables, 0, 2, true) +
+  return "## Ambient occlusion\n\n" + measured_by(session, "ao") + plots(tables) + ao_advice(tables) + "\n" +
+         crops(tables) +
+         "Time of a frame whose fields and samples exist · RMS error · worst pixel, in 1/255:\n\n" +
+         settings_table(tables, 0, 2, true) + memory_intro +
+         "the fields and samples, which are made on all threads; without the visible points; of Embree with "
+         "its tree and the points as it reads them.\n\n" +
+         memory_table(tables) +
          "Tables are positions x directions. Errors against many rays (1,024 or more) at one pixel of 64. "
          "Embree's rays are the opponent of `tenebra-bench ao` (measuring.md): a lattice shifted from pixel "
          "to pixel in packets, with the time to update the tree, filtered by whichever of one to three "
@@ -130,92 +198,33 @@ std::string ao_section(const TradeSession& session, const std::vector<const Trad
          remarks(tables);
 }
 
-constexpr const char* stages_title = "Stages switched off alone";
-
-/// How long the frame takes without each stage, over all views.
-std::string stages_summary(const std::vector<StageRow>& stages) {
-  std::map<std::string, std::vector<double>> ratios;
-  std::vector<std::string> order;
-  for (const StageRow& s : stages) {
-    if (!ratios.contains(s.stage)) order.push_back(s.stage);
-    ratios[s.stage].push_back(s.without_ms / s.ms);
-  }
-  std::string text =
-      "| stage | time without it over time with it | saves a twentieth or more on |\n|---|---|---|\n";
-  for (const std::string& stage : order) {
-    const std::vector<double>& of = ratios[stage];
-    const auto [least, most] = std::minmax_element(of.begin(), of.end());
-    text += fmt::format("| {} | {:.2f} to {:.2f} | {} of {} views |\n", stage, *least, *most,
-                        std::count_if(of.begin(), of.end(), [](double ratio) { return ratio >= 1.05; }),
-                        of.size());
-  }
-  return text + "\n";
-}
-
-/// Time and memory as it is and without; bold where the stage makes the frame a twentieth quicker or slower.
-std::string stages_section(const TradeSession& session, const std::vector<StageRow>& stages) {
-  std::string text =
-      fmt::format("## {}\n\n{}", stages_title, measured_by(session, "stages")) +
-      "With `--quick` 256x256 pixels and medians of 3, else 1024x1024 and of 5. Whole frames by the "
-      "program's "
-      "renderer, hard shadows unless the row says otherwise: as it draws them, and with this stage alone "
-      "switched off or done in full. MB: what the renderer and its frames take. Same bits: of the picture, "
-      "where that is promised. knot: a mesh that stands still, without a light or texture of its own.\n\n" +
-      stages_summary(stages) +
-      "Early accept and the second pass run only in the paper's variants that are named after them. Bold: "
-      "more than 5 % slower or quicker without.\n\n"
-      "| stage | view | ms | without | MB | without | same bits |\n|---|---|---|---|---|---|---|\n";
-  for (const StageRow& s : stages) {
-    const bool matters = s.without_ms > 1.05 * s.ms || s.without_ms < 0.95 * s.ms;
-    text +=
-        fmt::format("| {} | {} | {} | {}{}{} | {:.0f} | {:.0f} | {} |\n", s.stage, s.view, short_number(s.ms),
-                    matters ? "**" : "", short_number(s.without_ms), matters ? "**" : "", s.mb, s.without_mb,
-                    s.same ? *s.same ? "yes" : "NOT the same bits" : "not promised");
-  }
-  return text + "\n";
-}
-
-std::string needs_section(const TradeSession& session, const std::vector<NeedRow>& needs) {
-  std::string text =
-      "## Only what a scene requires\n\n" + measured_by(session, "needs") +
-      "The cost of stages that do only what the frame needs, and what they would cost if they did all of it. "
-      "Where both were run, both gave the same bits, or the row says that they did not; rows without times "
-      "only count. (Behind shafts only the dark points are compared: at the others rays are as noisy as "
-      "without.) Tests check the same: `tests/render/needs_test.cpp`.\n"
-      "\n"
-      "| stage | view | ms | all, ms | what is left |\n"
-      "|---|---|---|---|---|\n";
-  for (const NeedRow& n : needs) {
-    const bool timed = n.all_ms > 0;
-    text += fmt::format("| {} | {} | {} | {} | {}{} |\n", n.stage, n.view,
-                        timed ? short_number(n.with_ms) : "", timed ? short_number(n.all_ms) : "", n.shrunk,
-                        n.same.value_or(true) ? "" : " (NOT the same bits)");
-  }
-  return text +
-         "\nWhere `ms` is not below `all`, the stage saves nothing on that view. Boxes, order, tiles, fields "
-         "and whole "
-         "frames are timed by the clock.\n";
-}
-
-}  // namespace
-
-Expected<void> write_trade_page(const TradeSession& session) {
-  const std::filesystem::path path = session.trade.docs / "trade.md";
-  const std::string before = read_page(path);
+std::string page_of(const TradeSession& session) {
+  const std::string before = read_page(session.trade.docs / "trade.md");
   const auto hard = tables_of(session, "hard"), soft = tables_of(session, "soft"),
              ao = tables_of(session, "ao");
   std::string page = head() + preset_section();
   page += hard.empty() ? section_of(before, "Hard shadows") : hard_section(session, hard);
   page += soft.empty() ? section_of(before, "Soft shadows") : soft_section(session, soft);
   page += ao.empty() ? section_of(before, "Ambient occlusion") : ao_section(session, ao);
-  page += session.stages.empty() ? section_of(before, stages_title) : stages_section(session, session.stages);
-  page += session.needs.empty() ? section_of(before, "Only what a scene requires")
-                                : needs_section(session, session.needs);
+  page += session.stages.empty() ? section_of(before, stages_title)
+                                 : stages_section(measured_by(session, "stages"), session.stages);
+  page += session.needs.empty() ? section_of(before, needs_title)
+                                : needs_section(measured_by(session, "needs"), session.needs);
+  return page;
+}
+
+}  // namespace
+
+Expected<void> write_trade_page(const TradeSession& session) {
+  const std::string page = page_of(session);
+  const std::filesystem::path& docs = session.trade.docs;
   for (const TradeTable& table : session.tables) {
-    const auto plot = session.trade.docs / fmt::format("trade_{}.svg", plot_name(table));
-    if (auto written = base::write_file(plot, trade_plot(table)); !written) return written;
+    const std::string stem = "trade_" + plot_name(table);
+    if (auto written = base::write_file(docs / (stem + ".svg"), trade_plot(table)); !written) return written;
+    if (!table.crops) continue;
+    if (auto written = base::write_png(docs / (stem + ".png"), table.crops->image); !written) return written;
   }
-  return base::write_file(path, page);
+  return base::write_file(docs / "trade.md", page);
 }
 
 }  // namespace tenebra::bench

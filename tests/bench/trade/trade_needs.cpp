@@ -162,10 +162,11 @@ void need_shafts(TradeSession& session, const SoftView& view, int rounds) {
 }
 
 void print_needs(const std::vector<NeedRow>& needs) {
-  std::vector<std::vector<std::string>> rows{{"stage", "view", "ms", "all, ms", "same bits", "what is left"}};
+  std::vector<std::vector<std::string>> rows{
+      {"stage", "view", "threads", "ms", "all, ms", "same bits", "what is left"}};
   for (const NeedRow& n : needs) {
     const bool timed = n.all_ms > 0;
-    rows.push_back({n.stage, n.view, timed ? short_number(n.with_ms) : "",
+    rows.push_back({n.stage, n.view, fmt::format("{}", n.threads), timed ? short_number(n.with_ms) : "",
                     timed ? short_number(n.all_ms) : "", n.same ? *n.same ? "yes" : "NO" : "", n.shrunk});
   }
   print_table("What frames need of each stage, and what all of it would cost", rows);
@@ -181,26 +182,36 @@ FrameGeometry nudged(FrameGeometry geometry) {
   return geometry;
 }
 
+namespace {
+
+Expected<void> measure_hard(TradeSession& session, const Scene& scene, const HardView& view) {
+  progress(view.name + ": what the frame needs");
+  const int rounds = session.by_effort(1, 3, 15);
+  need_clusters(session, view, rounds);
+  need_sort(session, view, rounds);
+  need_points(session, view, rounds);
+  if (auto lights = need_lights(session, scene, view, rounds); !lights) return lights;
+  return need_fields(session, view.name, scene, view.frame);
+}
+
+}  // namespace
+
 Expected<void> measure_trade_needs(TradeSession& session) {
-  const int rounds = session.by_effort(1, 5, 15);
   const std::vector<HardFrames> frames{{"robots", {100}}, {"kitchen", {100}}, {"city", {150}}};
-  auto done = for_each_view(session.options, frames, session.by_effort<PictureSize>({64, 64}, {}, {}),
-                            session.skipped, [&](const Scene& scene, const HardView& view) -> Expected<void> {
-                              progress(view.name + ": what the frame needs");
-                              need_clusters(session, view, rounds);
-                              need_sort(session, view, rounds);
-                              need_points(session, view, rounds);
-                              if (auto lights = need_lights(session, scene, view, rounds); !lights)
-                                return lights;
-                              return need_fields(session, view.name, scene, view.frame);
-                            });
+  auto done = for_each_view(
+      session.options, frames, session.by_effort<PictureSize>({64, 64}, {}, {}), session.skipped,
+      [&](const Scene& scene, const HardView& view) {
+        return session.on_each_number_of_threads([&] { return measure_hard(session, scene, view); });
+      });
   if (!done) return done;
   ViewChoice choice{.only = {"robots", "kitchen", "court"}};
   if (session.effort == Effort::tiny) choice.width = 32, choice.height = 24;
-  done = for_each_view(session.options, choice, session.skipped, [&](const SoftView& view) -> Expected<void> {
+  done = for_each_view(session.options, choice, session.skipped, [&](const SoftView& view) {
     progress(view.name + ": what soft shadows need");
-    need_shafts(session, view, session.by_effort(1, 1, 3));
-    return {};
+    return session.on_each_number_of_threads([&]() -> Expected<void> {
+      need_shafts(session, view, session.by_effort(1, 1, 3));
+      return {};
+    });
   });
   if (!done) return done;
   print_needs(session.needs);
@@ -208,8 +219,11 @@ Expected<void> measure_trade_needs(TradeSession& session) {
   for (const NeedRow& n : session.needs) {
     differing += n.same.value_or(true) ? 0 : 1;
     if (n.all_ms == 0) continue;
-    session.report.add({"trade needs", n.view, n.stage, n.shrunk, "time", n.with_ms, "ms"});
-    session.report.add({"trade needs", n.view, n.stage, n.shrunk, "time of all", n.all_ms, "ms"});
+    const auto add = [&](const char* quantity, double ms) {
+      session.report.add({"trade needs", n.view, n.stage, n.shrunk,
+                          fmt::format("{} on {}", quantity, threads_text(n.threads)), ms, "ms"});
+    };
+    add("time", n.with_ms), add("time of all", n.all_ms);
   }
   session.headline["needs_differing"] = differing;
   return {};

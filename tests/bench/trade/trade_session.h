@@ -6,8 +6,9 @@
 #include <string>
 #include <vector>
 
+#include <tenebra/threads.h>
 #include "bench/common/bench_session.h"
-#include "bench/trade/trade_table.h"
+#include "bench/trade/trade_contest.h"
 
 namespace tenebra::bench {
 
@@ -22,6 +23,7 @@ struct NeedRow {
   std::string shrunk;              ///< what the frame's own needs leave: "985370 rays of 1048576 pixels"
   double with_ms = 0, all_ms = 0;  ///< as it is; were all of it done. 0: only counted
   std::optional<bool> same{};      ///< both gave the same bits; none: only one of them was run
+  int threads = thread_count();
 };
 
 /// A whole frame as it is, and with one stage alone switched off.
@@ -30,6 +32,7 @@ struct StageRow {
   double ms = 0, without_ms = 0;
   double mb = 0, without_mb = 0;  ///< that the renderer and its frames take, at most
   std::optional<bool> same{};     ///< both gave the same bits; none: that is not promised
+  int threads = thread_count();
 };
 
 struct TradeSession : BenchSession {
@@ -42,6 +45,10 @@ struct TradeSession : BenchSession {
   std::map<std::string, double> headline;  ///< "hard_default_wrong_pixels"; the largest of the views
   std::vector<std::string> notes;          ///< sentences
 
+  /// One thread, and as many as the run may use.
+  Turns turns() const;
+  /// Calls `body` on as many threads as turns() says, one number after the other, until it fails.
+  Expected<void> on_each_number_of_threads(const std::function<Expected<void>()>& body) const;
   void keep_largest(const std::string& name, double value) {
     const auto [kept, fresh] = headline.emplace(name, value);
     if (!fresh) kept->second = std::max(kept->second, value);

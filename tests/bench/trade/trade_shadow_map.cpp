@@ -11,39 +11,31 @@ namespace {
 
 using glm::vec3;
 
-int face_of(const vec3& q) {
-  const vec3 size = glm::abs(q);
-  const int axis = size.x >= size.y && size.x >= size.z ? 0 : size.y >= size.z ? 1 : 2;
-  return axis * 2 + (q[axis] < 0 ? 1 : 0);
-}
-
 struct Lookup {
-  const CubeMap& map;
+  const DepthMap& map;
   const HardView& view;
   float bias;  // texels
 
   bool lit(std::size_t pixel, std::uint32_t id) const {
     const points::Corners c = points::corners_of(view.frame.triangles(), id);
     const vec3 n = glm::cross(c.v[1] - c.v[0], c.v[2] - c.v[0]);
-    const vec3 q = vec3(view.frame.points.positions[pixel] - glm::dvec3(map.light));
-    const float towards = -glm::dot(n, q), seen = glm::dot(n, view.frame.view.eye - c.v[0]);
+    const glm::dvec3& point = view.frame.points.positions[pixel];
+    const vec3 way = view.light.directional ? view.light.to_light : vec3(glm::dvec3(map.light) - point);
+    const float towards = glm::dot(n, way), seen = glm::dot(n, view.frame.view.eye - c.v[0]);
     if (!(towards * seen > 0)) return false;
-    const int face = face_of(q), axis = face / 2;
-    const float t = std::abs(q[axis]), half = 0.5f * static_cast<float>(map.size);
-    const auto texel = [&](float x) {
-      return std::clamp(static_cast<int>((x / t + 1) * half), 0, map.size - 1);
-    };
-    const float nearest = map.distance(face, texel(q[(axis + 1) % 3]), texel(q[(axis + 2) % 3]));
-    const float cosine = std::abs(towards) / (glm::length(n) * glm::length(q));
+    const DepthMap::Place at = map.place_of(point);
+    const auto texel = [&](float x) { return std::clamp(static_cast<int>(x), 0, map.size - 1); };
+    const float nearest = map.distance(at.face, texel(at.x), texel(at.y));
+    const float cosine = std::abs(towards) / (glm::length(n) * glm::length(way));
     const float slope =
         std::min(std::sqrt(std::max(0.0f, 1 - cosine * cosine)) / cosine, ShadowMapBias::steepest);
-    return !(nearest < t - bias * t / half * (1 + slope));
+    return !(nearest < at.t - bias * at.texel_m * (1 + slope));
   }
 };
 
 }  // namespace
 
-void shadow_from_map(const CubeMap& map, const HardView& view, ShadowMapBias bias, ShadowMask& mask) {
+void shadow_from_map(const DepthMap& map, const HardView& view, ShadowMapBias bias, ShadowMask& mask) {
   const VisiblePoints& points = view.frame.points;
   const Lookup lookup{map, view, static_cast<float>(bias.texels)};
   mask.resize(points.triangles.size());
@@ -61,7 +53,7 @@ std::size_t differing_pixels(const ShadowMask& a, const ShadowMask& b) {
   return differing;
 }
 
-ShadowMapBias best_bias(const CubeMap& map, const HardView& view, const ShadowMask& exact) {
+ShadowMapBias best_bias(const DepthMap& map, const HardView& view, const ShadowMask& exact) {
   std::vector<double> candidates{0};
   for (double texels = 1.0 / 32; texels <= 8; texels *= std::sqrt(2.0)) candidates.push_back(texels);
   ShadowMapBias best;

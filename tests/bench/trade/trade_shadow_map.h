@@ -16,13 +16,13 @@ struct ShadowMapBias {
 };
 
 /// 255 lit, 0 shadowed or facing away. On all threads.
-void shadow_from_map(const CubeMap& map, const HardView& view, ShadowMapBias bias, ShadowMask& mask);
+void shadow_from_map(const DepthMap& map, const HardView& view, ShadowMapBias bias, ShadowMask& mask);
 
 /// Pixels where the masks differ.
 std::size_t differing_pixels(const ShadowMask& a, const ShadowMask& b);
 
 /// Of many biases, none among them, the one with the fewest pixels that differ from `exact`: more than a user
 /// can hope for, who has no exact mask and one number for all frames.
-ShadowMapBias best_bias(const CubeMap& map, const HardView& view, const ShadowMask& exact);
+ShadowMapBias best_bias(const DepthMap& map, const HardView& view, const ShadowMask& exact);
 
 }  // namespace tenebra::bench

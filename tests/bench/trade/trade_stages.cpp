@@ -3,31 +3,22 @@
 #include "bench/trade/trade_stages.h"
 
 #include <fmt/core.h>
-#include <malloc.h>
-
 #include <algorithm>
 #include <array>
-#include <fstream>
+#include <numeric>
 
 #include "bench/ao/ao_objects.h"
 #include "bench/ao/ao_race.h"
 #include "bench/common/bench_frame.h"
 #include "bench/common/bench_scenes.h"
+#include "bench/common/memory_meter.h"
 #include "bench/common/scene_renderer.h"
 #include "bench/trade/trade_needs.h"
-#include "support/peak_memory.h"
 
 namespace tenebra::bench {
 namespace {
 
 constexpr float faint = 1e-30f;  // of a light: adds nothing that a picture holds, yet has to be traced
-
-/// What the program holds now, after giving back what it can, and makes its count of the most begin anew.
-std::uint64_t settled_bytes() {
-  malloc_trim(0);
-  std::ofstream("/proc/self/clear_refs") << "5" << std::flush;
-  return testing::peak_bytes();
-}
 
 Expected<render::Renderer> renderer_of(const Scene& scene) {
   auto raster = render::FrameRaster::create({.kind = render::RasterKind::cpu});
@@ -59,6 +50,7 @@ public:
   }
 
   double ms() const { return median(times_); }
+  double spent_ms() const { return std::accumulate(times_.begin(), times_.end(), 0.0); }
   const base::Image8& image() const { return result_.image; }
 
 private:
@@ -74,13 +66,14 @@ private:
   std::vector<double> times_;
 };
 
-/// What a renderer that draws so, and its frames, take beside what was held before; MB.
-Expected<double> memory_mb(const Drawing& drawing) {
-  const std::uint64_t before = settled_bytes();
+/// A drawer that has drawn once, and what it and its frames take, MB.
+Expected<Drawer> begun(const Drawing& drawing, double& mb) {
+  const MemoryMeter meter;
   auto drawer = Drawer::create(drawing);
-  if (!drawer) return tl::unexpected(drawer.error());
+  if (!drawer) return drawer;
   if (auto done = drawer->draw(); !done) return tl::unexpected(done.error());
-  return static_cast<double>(testing::peak_bytes() - before) / 1e6;
+  mb = meter.mb();
+  return drawer;
 }
 
 /// A lamp beside the lights, in the place of the first of them.
@@ -179,16 +172,16 @@ std::vector<StagePair> stage_pairs(const Scene& scene, int frame, PictureSize si
   return pairs;
 }
 
-Expected<StageRow> measure_stage(const StagePair& pair, const std::string& view, int rounds) {
-  const auto mb = memory_mb(pair.as_is), without_mb = memory_mb(pair.without);
-  if (!mb || !without_mb) return tl::unexpected((!mb ? mb : without_mb).error());
-  auto as_is = Drawer::create(pair.as_is), without = Drawer::create(pair.without);
+Expected<StageRow> measure_stage(const StagePair& pair, const std::string& view, const Turns& turns) {
+  StageRow row{pair.stage, view};
+  auto as_is = begun(pair.as_is, row.mb), without = begun(pair.without, row.without_mb);
   if (!as_is || !without) return tl::unexpected((!as_is ? as_is : without).error());
-  for (int round = 0; round < rounds; ++round) {
+  for (int round = 1; round < turns.rounds; ++round) {
+    if (as_is->spent_ms() + without->spent_ms() >= turns.enough_ms) break;
     for (Drawer* drawer : {&*as_is, &*without})
       if (auto done = drawer->draw(); !done) return tl::unexpected(done.error());
   }
-  StageRow row{pair.stage, view, as_is->ms(), without->ms(), *mb, *without_mb};
+  row.ms = as_is->ms(), row.without_ms = without->ms();
   if (pair.same_bits) row.same = as_is->image() == without->image();
   return row;
 }
@@ -210,19 +203,22 @@ Expected<void> measure_view(TradeSession& session, const Scene& scene, const std
   std::vector<Scene> others;
   const PictureSize size = session.by_effort<PictureSize>({32, 32}, {256, 256}, {1024, 1024});
   for (const StagePair& pair : stage_pairs(scene, frame, size, others)) {
-    auto row = measure_stage(pair, view, session.by_effort(1, 3, 5));
-    if (!row) return tl::unexpected(row.error());
-    session.stages.push_back(std::move(*row));
+    auto done = session.on_each_number_of_threads([&]() -> Expected<void> {
+      auto row = measure_stage(pair, view, session.turns());
+      if (row) session.stages.push_back(std::move(*row));
+      return row ? Expected<void>() : tl::unexpected(row.error());
+    });
+    if (!done) return done;
   }
   return {};
 }
 
 void print_stages(const std::vector<StageRow>& stages) {
-  Rows rows{{"stage", "view", "ms", "without, ms", "MB", "without, MB", "same bits"}};
+  Rows rows{{"stage", "view", "threads", "ms", "without, ms", "MB", "without, MB", "same bits"}};
   for (const StageRow& s : stages)
-    rows.push_back({s.stage, s.view, short_number(s.ms), short_number(s.without_ms),
-                    fmt::format("{:.0f}", s.mb), fmt::format("{:.0f}", s.without_mb),
-                    s.same ? *s.same ? "yes" : "NO" : "not promised"});
+    rows.push_back({s.stage, s.view, fmt::format("{}", s.threads), short_number(s.ms),
+                    short_number(s.without_ms), fmt::format("{:.0f}", s.mb),
+                    fmt::format("{:.0f}", s.without_mb), s.same ? *s.same ? "yes" : "NO" : "not promised"});
   print_table("Each stage switched off alone", rows);
 }
 
@@ -245,10 +241,11 @@ Expected<void> measure_trade_stages(TradeSession& session) {
   double differing = 0;
   for (const StageRow& s : session.stages) {
     differing += s.same.value_or(true) ? 0 : 1;
-    session.report.add({"trade stages", s.view, s.stage, "", "time", s.ms, "ms"});
-    session.report.add({"trade stages", s.view, s.stage, "", "time without", s.without_ms, "ms"});
-    session.report.add({"trade stages", s.view, s.stage, "", "memory", s.mb, "MB"});
-    session.report.add({"trade stages", s.view, s.stage, "", "memory without", s.without_mb, "MB"});
+    const std::string on = fmt::format("threads={}", s.threads);
+    session.report.add({"trade stages", s.view, s.stage, on, "time", s.ms, "ms"});
+    session.report.add({"trade stages", s.view, s.stage, on, "time without", s.without_ms, "ms"});
+    session.report.add({"trade stages", s.view, s.stage, on, "memory", s.mb, "MB"});
+    session.report.add({"trade stages", s.view, s.stage, on, "memory without", s.without_mb, "MB"});
   }
   session.headline["stages_differing"] = differing;
   return {};

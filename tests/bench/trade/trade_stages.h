@@ -27,7 +27,7 @@ struct StagePair {
 std::vector<StagePair> stage_pairs(const Scene& scene, int frame, PictureSize size,
                                    std::vector<Scene>& others);
 
-/// Draws both in turns.
-Expected<StageRow> measure_stage(const StagePair& pair, const std::string& view, int rounds);
+/// Draws both in turns, on the threads that the caller allows.
+Expected<StageRow> measure_stage(const StagePair& pair, const std::string& view, const Turns& turns);
 
 }  // namespace tenebra::bench

@@ -10,9 +10,11 @@
 namespace tenebra::bench {
 namespace {
 
-bool beats(const TradePoint& a, const TradePoint& b, double none_below) {
+/// On the `i`-th number of threads.
+bool beats(const TradePoint& a, const TradePoint& b, std::size_t i, double none_below) {
   const double error_a = std::max(a.errors[0], none_below), error_b = std::max(b.errors[0], none_below);
-  return a.ms <= b.ms && error_a <= error_b && (a.ms < b.ms || error_a < error_b);
+  const double ms_a = a.times[i].ms, ms_b = b.times[i].ms;
+  return ms_a <= ms_b && error_a <= error_b && (ms_a < ms_b || error_a < error_b);
 }
 
 std::string title_of(const ErrorColumn& column) {
@@ -33,8 +35,10 @@ std::string method_title(const std::string& method) {
 
 void mark_front(std::vector<TradePoint>& points, double none_below) {
   for (TradePoint& point : points) {
-    point.front = std::none_of(points.begin(), points.end(),
-                               [&](const TradePoint& other) { return beats(other, point, none_below); });
+    for (std::size_t i = 0; i < point.times.size(); ++i)
+      point.times[i].front = std::none_of(points.begin(), points.end(), [&](const TradePoint& other) {
+        return beats(other, point, i, none_below);
+      });
   }
 }
 
@@ -43,23 +47,32 @@ void add_figures(const TradeTable& table, Report& report) {
     const auto add = [&](const std::string& quantity, double value, const std::string& unit) {
       report.add({"trade " + table.method, table.view, p.family, p.setting, quantity, value, unit});
     };
-    add("time", p.ms, "ms");
+    for (const TradeTime& time : p.times)
+      add(fmt::format("time on {}", threads_text(time.threads)), time.ms, "ms");
+    add("memory", p.mb, "MB");
     for (std::size_t i = 0; i < table.columns.size(); ++i)
       add(table.columns[i].name, p.errors[i], table.columns[i].unit);
-    add("front", p.front ? 1 : 0, "");
+    for (const TradeTime& time : p.times)
+      add(fmt::format("front on {}", threads_text(time.threads)), time.front ? 1 : 0, "");
   }
 }
 
 std::string trade_text(const TradeTable& table) {
-  std::vector<std::string> head{"setting", "ms"};
+  std::vector<std::string> head{"setting"};
+  for (const TradeTime& time : table.points.front().times)
+    head.push_back(fmt::format("ms, {}", threads_text(time.threads)));
+  head.emplace_back("MB");
   for (const ErrorColumn& column : table.columns) head.push_back(title_of(column));
   std::vector<const TradePoint*> sorted;
   for (const TradePoint& p : table.points) sorted.push_back(&p);
   std::stable_sort(sorted.begin(), sorted.end(),
-                   [](const TradePoint* a, const TradePoint* b) { return a->ms < b->ms; });
+                   [](const TradePoint* a, const TradePoint* b) { return a->ms() < b->ms(); });
   std::vector<std::vector<std::string>> rows{head};
   for (const TradePoint* p : sorted) {
-    rows.push_back({(p->front ? "* " : "  ") + p->name(), short_number(p->ms)});
+    rows.push_back({p->name()});
+    for (const TradeTime& time : p->times)
+      rows.back().push_back((time.front ? "* " : "") + short_number(time.ms));
+    rows.back().push_back(short_number(p->mb));
     for (const double error : p->errors) rows.back().push_back(short_number(error));
   }
   return text_table(rows);
@@ -72,17 +85,23 @@ std::string trade_plot(const TradeTable& table) {
     auto curve =
         std::find_if(families.begin(), families.end(), [&](const Curve& c) { return c.name == p.family; });
     if (curve == families.end()) curve = families.insert(curve, Curve{p.family, {}});
-    curve->points.emplace_back(p.ms, p.errors[0]);
-    if (p.front) front.points.emplace_back(p.ms, p.errors[0]);
+    curve->points.emplace_back(p.ms(), p.errors[0]);
+    if (p.times.front().front) front.points.emplace_back(p.ms(), p.errors[0]);
   }
   std::sort(front.points.begin(), front.points.end());
   return scatter_plot(fmt::format("{}: time and error of {}", table.view, method_title(table.method)),
-                      "time (ms)", title_of(table.columns[0]), table.none_below, families, front);
+                      fmt::format("time (ms, {})", threads_text(table.points.front().times.front().threads)),
+                      title_of(table.columns[0]), table.none_below, families, front);
+}
+
+std::string threads_text(int threads) {
+  return fmt::format("{} thread{}", threads, threads == 1 ? "" : "s");
 }
 
 std::string plot_name(const TradeTable& table) {
   std::string name = fmt::format("{}_{}", table.method, table.view);
   std::replace(name.begin(), name.end(), ' ', '_');
+  std::erase(name, ',');
   return name;
 }
 

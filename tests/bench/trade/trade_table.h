@@ -2,22 +2,39 @@
 // them, and how they are told: figures, tables, plots.
 #pragma once
 
+#include <optional>
 #include <string>
 #include <vector>
 
+#include "base/image.h"
 #include "bench/common/bench_report.h"
 
 namespace tenebra::bench {
 
+/// How long a frame takes.
+struct TradeTime {
+  int threads = 1;
+  double ms = 0;
+  bool front = false;  ///< on so many threads no other is both as fast and as exact, and better in one
+};
+
 /// One setting.
 struct TradePoint {
-  std::string family;          ///< "shadow map": settings of one family are one curve
-  std::string setting;         ///< "1024": with the family a name
-  double ms = 0;               ///< a frame
-  std::vector<double> errors;  ///< one per column of the table; the first is the one of the plot
-  bool front = false;          ///< no other is both as fast and as exact, and better in one
+  std::string family;            ///< "shadow map": settings of one family are one curve
+  std::string setting;           ///< "1024": with the family a name
+  std::vector<TradeTime> times;  ///< not empty; of all points of a table on the same numbers of threads
+  std::vector<double> errors;    ///< one per column of the table; the first is the one of the plot
+  double mb = 0;                 ///< memory that it takes at most
+
+  double ms() const { return times.front().ms; }
 
   std::string name() const { return setting.empty() ? family : family + ", " + setting; }
+};
+
+/// Pieces of pictures side by side, and what they are from the left on.
+struct TradeCrops {
+  base::Image8 image;
+  std::string caption;
 };
 
 struct ErrorColumn {
@@ -33,25 +50,28 @@ struct TradeTable {
   std::vector<TradePoint> points;
   double none_below = 0;  ///< first errors up to this count as none: beneath what the method promises
   std::string remark{};   ///< what a reader of the table has to know of this view, a sentence; may be empty
+  std::optional<TradeCrops> crops{};
 
   /// The setting of that name; null where it was not measured.
   const TradePoint* find(const std::string& name) const;
 };
 
+/// "2 threads"
+std::string threads_text(int threads);
 /// "hard shadows" of "hard".
 std::string method_title(const std::string& method);
 
-/// Sets TradePoint::front by time and the first error; errors up to `none_below` are all alike.
+/// Sets TradeTime::front by time and the first error; errors up to `none_below` are all alike.
 void mark_front(std::vector<TradePoint>& points, double none_below);
 
 /// Time, errors and "front" of each setting, as experiment "trade METHOD".
 void add_figures(const TradeTable& table, Report& report);
 
-/// The settings from the fastest to the slowest; those on the front with a star.
+/// The settings from the fastest to the slowest; times on the front with a star.
 std::string trade_text(const TradeTable& table);
 
-/// Time on x, the first error on y, both logarithmic; the front is a line, what has no error lies at the
-/// foot.
+/// Time on x (of the fewest threads), the first error on y, both logarithmic; the front is a line, what has
+/// no error lies at the foot.
 std::string trade_plot(const TradeTable& table);
 /// "hard_robots_100"
 std::string plot_name(const TradeTable& table);

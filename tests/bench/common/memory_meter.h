@@ -1,0 +1,23 @@
+// What memory work takes, as the program itself counts it: all that is asked of the global operator new,
+// which memory_meter.cpp replaces, and what libraries report. So it is the same from run to run, unlike the
+// pages that the system has given.
+#pragma once
+
+#include <cstddef>
+
+namespace tenebra::bench {
+
+/// Counts memory that was had (or given back: negative) from elsewhere than operator new. From any thread.
+void count_memory(std::ptrdiff_t bytes);
+
+/// The most that was held at one time since its construction, beyond what was held then. One at a time.
+class MemoryMeter {
+public:
+  MemoryMeter();
+  double mb() const;  ///< 10^6 bytes
+
+private:
+  std::ptrdiff_t before_;
+};
+
+}  // namespace tenebra::bench
