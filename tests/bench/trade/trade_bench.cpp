@@ -47,7 +47,7 @@ Expected<void> measure(const PartsArguments& arguments, const TradeOptions& opti
 }  // namespace
 
 Turns TradeSession::turns() const {
-  Turns turns{{1}, by_effort(1, 3, 15), by_effort(0.0, 400.0, 4000.0)};
+  Turns turns{{1}, by_effort(1, 3, 15), by_effort(0.0, 250.0, 4000.0)};
   if (thread_count() > 1) turns.threads.push_back(thread_count());
   return turns;
 }

@@ -43,6 +43,7 @@ private:
   base::Image8 image_;
 };
 
+/// Large where errors are large and little else is to be seen.
 double plainness(const CropPlace& place, std::span<const float> errors, std::span<const float> picture) {
   const auto square = [](float value) { return static_cast<double>(value) * static_cast<double>(value); };
   const double level = 1.0 / 255;  // what a picture of 8 bits does not show is no step
@@ -54,7 +55,7 @@ double plainness(const CropPlace& place, std::span<const float> errors, std::spa
       steps += square(picture[i] - picture[i - 1]) + square(picture[i] - picture[i - place.width]);
     }
   }
-  return error / steps;
+  return error / std::sqrt(steps);
 }
 
 }  // namespace
@@ -109,7 +110,8 @@ TradeCrops make_crops(const CropPlace& place, std::span<const float> exact,
     sheet.put(i + 1, 1, [&](std::size_t x, std::size_t y) {
       const std::size_t pixel = place.pixel(x, y);
       const double error = std::abs(static_cast<double>(picture.values[pixel] - exact[pixel]));
-      return static_cast<std::uint8_t>(std::lround(255 * std::min(1.0, error_gain * error)));
+      // In sixteen steps: noise in more of them makes large files.
+      return static_cast<std::uint8_t>(17 * std::lround(15 * std::min(1.0, error_gain * error)));
     });
     caption +=
         fmt::format("; {}: {} /255", picture.setting->name(), short_number(picture.setting->errors[0]));

@@ -22,11 +22,11 @@ struct CropPlace {
 std::vector<const TradePoint*> crop_settings(const std::vector<TradePoint>& points,
                                              std::span<const char* const> families);
 
-/// Where `errors`, one per pixel, stand out most from `picture`: their squares have the largest sum over that
-/// of the squared steps between its pixels. A square of `side` pixels, or of fewer where the picture is
+/// Where `errors`, one per pixel, stand out most from `picture`: the largest sum of their squares over the
+/// root of that of the steps between its pixels. A square of `side` pixels, or of fewer where the picture is
 /// smaller.
 CropPlace plainest_place(std::span<const float> errors, std::span<const float> picture, std::size_t width,
-                         std::size_t side = 96);
+                         std::size_t side = 80);
 
 /// A picture by one setting. Linear values, 1 is white.
 struct CropPicture {

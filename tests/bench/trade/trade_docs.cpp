@@ -88,8 +88,8 @@ std::string memory_table(const std::vector<const TradeTable*>& tables) {
 }
 
 constexpr const char* memory_intro =
-    "Memory, in 10^6 bytes: the most that is held at one time on one thread, from a fresh start to the first "
-    "answer, as the program counts it, with the answer and ";
+    "Memory, in 10^6 bytes: the most that is held at one time on one thread, from a fresh start to the "
+    "first answer, as the program counts it, with the answer and ";
 
 std::string plots(const std::vector<const TradeTable*>& tables) {
   std::string text;
@@ -104,9 +104,7 @@ std::string plots(const std::vector<const TradeTable*>& tables) {
 std::string crops(const std::vector<const TradeTable*>& tables) {
   std::string text =
       "What errors of about 0.5, 2 and 8/255 look like, where those of the last of them stand out (the "
-      "errors given "
-      "are "
-      "those of the whole picture in the table below). The lower row: 16 times the errors.\n\n";
+      "errors given are the first of the table below). The lower row: 16 times the errors.\n\n";
   for (const TradeTable* table : tables) {
     if (!table->crops) continue;
     text += fmt::format("<img src=\"trade_{}.png\" alt=\"{}, {}\"/>\n\n{}, from the left: {}.\n\n",
@@ -135,17 +133,15 @@ std::string measured_by(const TradeSession& session, const char* part) {
 std::string head() {
   return "# What accuracy costs\n\n"
          "Written by `tenebra-bench trade --docs docs`; edit `tests/bench/trade/trade_docs.cpp` and "
-         "`trade_advice.cpp`, not this file. `--only` writes single sections anew. Times in milliseconds per "
-         "frame, \"12.5 / 6.4\": of one thread (processor time), and of all threads of the machine (by the "
-         "clock). Settings take turns, and each time is a median; with `--quick` of 3 runs, or of fewer "
-         "where "
-         "these took 0.4 s together, else of 15, or fewer where they took 4 s.\n\n"
-         "A setting is on the **Pareto front** of a view, its time bold, if on so many threads no other is "
-         "both "
-         "as fast and as exact and better in one of the two. Plots and the sentences beside them are of one "
-         "thread; in the plots the front is dashed and its settings are ringed. "
-         "Embree's rays are given for comparison; they are not a setting of Tenebra. RMS: root of the mean "
-         "square. Penumbra, shaft and other words: [vocabulary](architecture.md#vocabulary).\n\n";
+         "`trade_advice.cpp`, not this file. `--only` writes single sections anew. Times in milliseconds "
+         "per frame, \"12.5 / 6.4\": of one thread (processor time), and of all threads of the machine "
+         "(by the clock). Settings take turns, and each time is a median; with `--quick` of 3 runs, or of "
+         "fewer where these took 0.25 s together, else of 15, or fewer where they took 4 s.\n\n"
+         "A setting is on the **Pareto front** of a view, its time bold, if on so many threads no other "
+         "is both as fast and as exact and better in one of the two. Plots and the sentences beside them "
+         "are of one thread; in the plots the front is dashed and its settings are ringed. Embree's rays "
+         "are given for comparison; they are not a setting of Tenebra. RMS: root of the mean square. "
+         "Penumbra, shaft and other words: [vocabulary](architecture.md#vocabulary).\n\n";
 }
 
 std::string hard_section(const TradeSession& session, const std::vector<const TradeTable*>& tables) {
@@ -153,15 +149,14 @@ std::string hard_section(const TradeSession& session, const std::vector<const Tr
          "\nTime (visible points included) · wrong pixels:\n\n" + settings_table(tables, 0, 1, true) +
          memory_intro +
          "the visible points; of shadow maps without what the rasteriser takes beside them, of Embree "
-         "without "
-         "its points in floats.\n\n" +
+         "without its points in floats.\n\n" +
          memory_table(tables) +
-         "Pictures of 1024x1024, the first light. Wrong: different from the exact answer, which "
-         "`PreciseSorted` gave without vector instructions. Shadow maps are cubes drawn by Tenebra's own "
-         "rasteriser, on this machine on the CPU and with ids and normals beside the depth; the bias "
-         "(constant and slope-scaled, in widths of a texel) is the best of many for this view, chosen with "
-         "the exact mask, which a user does not have. Tenebra offers no tracing at half resolution.\n"
-         "\n" +
+         "Pictures of 1024x1024, the first light, or the first directional one (sun). Wrong: different "
+         "from the exact answer, which `PreciseSorted` gave without vector instructions. Shadow maps are "
+         "cubes, of a sun one map over the whole scene, drawn by Tenebra's own rasteriser, on this "
+         "machine on the CPU and with ids and normals beside the depth; the bias (constant and "
+         "slope-scaled, in widths of a texel) is the best of many for this view, chosen with the exact "
+         "mask, which a user does not have. Tenebra offers no tracing at half resolution.\n\n" +
          remarks(tables);
 }
 
@@ -172,13 +167,12 @@ std::string soft_section(const TradeSession& session, const std::vector<const Tr
          settings_table(tables, 2, 4, false) + memory_intro +
          "without the visible points; of Embree with its tree and the starts of its rays.\n\n" +
          memory_table(tables) +
-         "Pictures of 1280x720; a light of 4 % of the scene's diagonal, the court its own, and a sun 0.53 "
-         "degrees wide. Errors against "
-         "the solver in double precision; up to 0.01/255 they count as none. White is the light that one "
-         "pixel in a thousand exceeds; errors of the visible part of the light (`--mask FILE.pfm`) are "
-         "larger where the light is weak. `clip` and `bsp`: `--soft-solver`. Embree's rays are stratified "
-         "and drawn beforehand; its tree is not counted.\n"
-         "\n" +
+         "Pictures of 1280x720, with `--quick` 960x540; a light of 4 % of the scene's diagonal, the court "
+         "its own, and a sun 0.53 degrees wide. Errors against the solver in double precision; up to "
+         "0.01/255 they count as none. White is the light that one pixel in a thousand exceeds; errors of "
+         "the visible part of the light (`--mask FILE.pfm`) are larger where the light is weak. `clip` "
+         "and `bsp`: `--soft-solver`. Embree's rays are stratified and drawn beforehand; the time of its "
+         "tree is not counted.\n\n" +
          remarks(tables);
 }
 
@@ -187,14 +181,13 @@ std::string ao_section(const TradeSession& session, const std::vector<const Trad
          crops(tables) +
          "Time of a frame whose fields and samples exist · RMS error · worst pixel, in 1/255:\n\n" +
          settings_table(tables, 0, 2, true) + memory_intro +
-         "the fields and samples, which are made on all threads; without the visible points; of Embree with "
-         "its tree and the points as it reads them.\n\n" +
+         "the fields and samples, which are made on all threads; without the visible points; of Embree "
+         "with its tree and the points as it reads them.\n\n" +
          memory_table(tables) +
          "Tables are positions x directions. Errors against many rays (1,024 or more) at one pixel of 64. "
-         "Embree's rays are the opponent of `tenebra-bench ao` (measuring.md): a lattice shifted from pixel "
-         "to pixel in packets, with the time to update the tree, filtered by whichever of one to three "
-         "passes errs least.\n"
-         "\n" +
+         "Embree's rays are the opponent of `tenebra-bench ao` (measuring.md): a lattice shifted from "
+         "pixel to pixel in packets, with the time to update the tree, filtered by whichever of one to "
+         "three passes errs least.\n\n" +
          remarks(tables);
 }
 

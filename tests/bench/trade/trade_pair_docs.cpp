@@ -47,8 +47,8 @@ std::string stages_summary(const std::vector<StageRow>& stages) {
     of->values.push_back(s.without_ms / s.ms);
   }
   std::string text =
-      "| stage | threads | time without it over time with it | saves a twentieth or more on "
-      "|\n|---|---|---|---|\n";
+      "| stage | threads | time without it over time with it | saves a twentieth or more on |\n"
+      "|---|---|---|---|\n";
   for (const auto& [stage, threads, values] : all) {
     const auto [least, most] = std::minmax_element(values.begin(), values.end());
     text += fmt::format("| {} | {} | {:.2f} to {:.2f} | {} of {} views |\n", stage, threads, *least, *most,
@@ -74,15 +74,16 @@ bool all_same(const Group<Row>& group) {
 std::string stages_section(const std::string& measured_by, const std::vector<StageRow>& stages) {
   std::string text =
       fmt::format("## {}\n\n{}", stages_title, measured_by) +
-      "With `--quick` 256x256 pixels, else 1024x1024. Whole frames by the program's renderer, hard shadows "
-      "unless the row says otherwise: as it draws them, and with this stage alone switched off or done in "
-      "full. Times of one thread / of all. MB: what the renderer and its frames hold at most, on one thread. "
-      "Same bits: of the picture, where that is promised. knot: a mesh that stands still, without a light or "
-      "texture of its own.\n\n" +
+      "With `--quick` 256x256 pixels, else 1024x1024. Whole frames by the program's renderer, hard "
+      "shadows unless the row says otherwise: as it draws them, and with this stage alone switched off or "
+      "done in full. Times of one thread / of all. MB: what the renderer and its frames hold at most, on "
+      "one thread. Same bits: of the picture, where that is promised. knot: a mesh that stands still, "
+      "without a light or texture of its own.\n\n" +
       stages_summary(stages) +
       "Early accept and the second pass run only in the paper's variants that are named after them. Bold: "
       "more than 5 % slower or quicker without.\n\n"
-      "| stage | view | ms | without | MB | without | same bits |\n|---|---|---|---|---|---|---|\n";
+      "| stage | view | ms | without | MB | without | same bits |\n"
+      "|---|---|---|---|---|---|---|\n";
   for (const Group<StageRow>& group : grouped(stages)) {
     const StageRow& s = *group.front();
     text += fmt::format("| {} | {} | {} | {} | {:.0f} | {:.0f} | {} |\n", s.stage, s.view,
@@ -96,11 +97,13 @@ std::string stages_section(const std::string& measured_by, const std::vector<Sta
 std::string needs_section(const std::string& measured_by, const std::vector<NeedRow>& needs) {
   std::string text =
       fmt::format("## {}\n\n{}", needs_title, measured_by) +
-      "The cost of stages that do only what the frame needs, and what they would cost if they did all of it. "
-      "Times of one thread / of all. Where both were run, both gave the same bits, or the row says that they "
-      "did not; rows without times only count. (Behind shafts only the dark points are compared: at the "
-      "others rays are as noisy as without.) Tests check the same: `tests/render/needs_test.cpp`.\n\n"
-      "| stage | view | ms | all, ms | what is left |\n|---|---|---|---|---|\n";
+      "The cost of stages that do only what the frame needs, and what they would cost if they did all of "
+      "it. Times of one thread / of all. Where both were run, both gave the same bits, or the row says "
+      "that they did not; rows without times only count. (Behind shafts only the dark points are "
+      "compared: at the others rays are as noisy as without.) Tests check the same: "
+      "`tests/render/needs_test.cpp`.\n\n"
+      "| stage | view | ms | all, ms | what is left |\n"
+      "|---|---|---|---|---|\n";
   for (const Group<NeedRow>& group : grouped(needs)) {
     const NeedRow& n = *group.front();
     const bool timed = n.all_ms > 0;
@@ -111,8 +114,9 @@ std::string needs_section(const std::string& measured_by, const std::vector<Need
                     n.shrunk, all_same(group) ? "" : " (NOT the same bits)");
   }
   return text +
-         "\nWhere `ms` is not below `all`, the stage saves nothing on that view. Boxes, order, tiles, fields "
-         "and whole frames are timed by the clock.\n";
+         "\n"
+         "Where `ms` is not below `all`, the stage saves nothing on that view. Boxes, order, tiles, "
+         "fields and whole frames are timed by the clock.\n";
 }
 
 }  // namespace tenebra::bench

@@ -209,7 +209,7 @@ void keep_soft_headline(TradeSession& session, const TradeTable& table) {
 
 Expected<void> measure_trade_soft(TradeSession& session) {
   ViewChoice choice;
-  if (session.effort == Effort::tiny) choice.width = 32, choice.height = 24;
+  choice.width = session.by_effort(32, 960, 1280), choice.height = session.by_effort(24, 540, 720);
   return for_each_view(session.options, choice, session.skipped, [&](const SoftView& of) -> Expected<void> {
     SoftView view = of;
     if (view.sun_only) view.name += ", sun", view.light = *view.sun;
