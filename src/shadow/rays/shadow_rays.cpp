@@ -15,7 +15,7 @@ namespace {
 
 using glm::dvec3;
 
-constexpr std::uint32_t tile = 64;  // pixels a side of the squares that run in parallel
+constexpr std::uint32_t tile = 64;  // side, in pixels, of the squares that run in parallel
 
 constexpr std::uint32_t even_bits(std::uint32_t v) {
   std::uint32_t r = 0;
