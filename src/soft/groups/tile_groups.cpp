@@ -9,7 +9,7 @@ namespace tenebra::soft {
 
 namespace {
 
-constexpr std::uint32_t tile = 8;  // pixels a side
+constexpr std::uint32_t tile = 8;  // side in pixels
 static_assert(tile * tile == largest_neighbourhood);
 
 // A cache of data about triangles, by the id's last bits.
