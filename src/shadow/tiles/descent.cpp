@@ -334,7 +334,7 @@ bool RootDescent<Side>::test_triangle(const Waiting& w, const RoughRays& rough, 
   return true;
 }
 
-/// Of the lanes of `open` those that triangle i blocks: in double, then exactly.
+/// Those of the lanes `open` that triangle i blocks: in double, then exactly.
 template <class Side>
 std::uint32_t RootDescent<Side>::blocked_lanes(const RayNode& n, int slot, std::uint32_t open, int i) {
   const std::uint32_t id = cluster_->ids[i], number = n.child[slot];

@@ -133,7 +133,8 @@ void add_level(ForestScratch& s, RayForest& f, std::size_t level, std::size_t co
   });
 }
 
-/// The nodes along the curve, sixteen a parent, parents and roots of one face each. They stay where they are.
+/// Builds the two levels above the nodes, sixteen to a parent along the curve; parents and roots hold one
+/// face each. The nodes stay where they are.
 void plant(ForestScratch& s, RayForest& out) {
   radix_sort(s.node_keys.keys, s.node_keys);
   const auto& keys = s.node_keys.keys;
