@@ -123,14 +123,16 @@ const std::vector<std::string>& AmbientOcclusion::notes() const {
   return state_->notes;
 }
 
-/// Brings objects and everything that depends on them to this instant.
+/// Brings objects and everything that depends on them to this instant; not all of it if `stop` is requested.
 void AmbientOcclusion::State::find(const Scene& scene, const FrameGeometry& geometry, const AoConfig& config,
                                    const StopFlag* stop) {
   const bool kept = found && ao::move_objects(scene, geometry, objects);
   if (!kept) {
-    objects = ao::find_objects(scene, geometry);
+    found = false;
+    objects = ao::find_objects(scene, geometry, stop);
     occluders.reset(objects);
     diagonal = 0;
+    if (stop_requested(stop)) return;
     found = true;
   }
   if (config.distance_m == 0 && diagonal == 0) diagonal = scene_diagonal(scene);

@@ -81,7 +81,8 @@ Expected<void> PointTracer::soft_visibility(const Geometry& geometry, const Quer
   const std::vector<ViewRays> eyes = eyes_of(light);
 
   return query::in_portions(points, stop, progress, [&](const query::Portion& portion) -> Expected<void> {
-    if (some_apart) s.stand_ins.follow(geometry.data_, portion.count());
+    if (some_apart && !s.stand_ins.follow(geometry.data_, portion.count(), stop))
+      return base::fail("stopped");
     const TriangleView triangles = s.triangles(some_apart);
     s.begin(points, portion);
     s.eyes.assign(portion.count(), no_eye);

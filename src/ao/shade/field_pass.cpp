@@ -37,7 +37,7 @@ Expected<void> FieldPass::supply(const std::vector<GroupReport>& reports, const 
   if (auto filled = bodies.fill(samples, kernels, progress, stop); !filled) return filled;
   stats.rays_cast += (bodies.filled() - before) * SurfaceRays::rays;
   base::sort_unique(without_samples);
-  bodies.make(without_samples, occluders);
+  bodies.make(without_samples, occluders, stop);
   if (stop_requested(stop)) return base::fail("stopped");
   base::sort_unique(missing);
   return occluders.build(missing, progress);

@@ -88,6 +88,7 @@ void SoftSampler::look(const SoftFrame& frame, const LightPlaces& places,
                        std::uint32_t to) {
   Phase& p = phases_[phase];
   p.rays = 0, p.done = false;
+  if (stop_requested(frame.stop)) return;
   take_phase(frame, blocks_, chosen, phase, p.points);
   TriangleView triangles = frame.triangles;
   triangles.version = frames_;
