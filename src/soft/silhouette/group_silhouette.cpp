@@ -62,7 +62,8 @@ struct ShadowRange {
 void drop_beside_light(const GroupFrame& group, const LightAxes& axes, GroupSilhouette& silhouette) {
   const dvec3 half = axes.half_around(group.half);
   constexpr std::uint32_t dropped = ~0u;
-  std::vector<std::uint32_t> places(silhouette.edges.size(), dropped);
+  std::vector<std::uint32_t>& places = silhouette.kept;
+  places.assign(silhouette.edges.size(), dropped);
   std::uint32_t count = 0;
   for (std::size_t i = 0; i < silhouette.edges.size(); ++i) {
     const SilhouetteEdge edge = silhouette.edges[i];

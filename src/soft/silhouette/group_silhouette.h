@@ -43,6 +43,7 @@ struct GroupSilhouette {
   std::vector<SilhouetteEdge> edges;
   std::vector<SometimesBlocker> sometimes;
   std::vector<SilhouetteUse> uses;
+  std::vector<std::uint32_t> kept;  ///< room for drop_beside_light()
 
   bool empty() const { return edges.empty(); }
   void clear() {
