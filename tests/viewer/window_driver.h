@@ -200,7 +200,11 @@ private:
   const VirtualDisplay& display_;
   std::filesystem::path report_;
   std::unique_ptr<ChildProgram> program_;
+#if defined(__SANITIZE_ADDRESS__) || defined(__SANITIZE_THREAD__)
+  mutable double patience_s_ = 400;  // their frames take several times as long
+#else
   mutable double patience_s_ = 60;
+#endif
   mutable std::vector<Json> events_;
   mutable std::streamoff read_ = 0;             // of the report
   mutable std::array<int, 2> pointer_{-1, -1};  // where it was moved last
