@@ -1,6 +1,7 @@
 #include "shadow/tiles/ray_forest.h"
 
 #include <algorithm>
+#include <atomic>
 #include <bit>
 #include <cstring>
 #include <limits>
@@ -231,7 +232,7 @@ std::uint64_t write_live_rays(const RayForest& forest, int width, int height, Sh
   constexpr std::size_t grain = 256;
   const std::vector<RayNode>& nodes = forest.levels[0];
   const points::TilePixels pixel_of(width, height);
-  std::vector<std::uint64_t> parts((nodes.size() + grain - 1) / grain);
+  std::atomic<std::uint64_t> sum{0};
   parallel::parallel_ranges(nodes.size(), grain, [&](std::size_t first, std::size_t last) {
     std::uint64_t count = 0;
     for (std::size_t i = first; i < last; ++i) {
@@ -247,10 +248,8 @@ std::uint64_t write_live_rays(const RayForest& forest, int width, int height, Sh
         count += static_cast<std::uint64_t>(std::popcount(live));
       }
     }
-    parts[first / grain] = count;
+    sum.fetch_add(count, std::memory_order_relaxed);
   });
-  std::uint64_t sum = 0;
-  for (const std::uint64_t part : parts) sum += part;
   return sum;
 }
 
