@@ -1,7 +1,6 @@
 #include "shadow/tiles/ray_forest.h"
 
 #include <algorithm>
-#include <atomic>
 #include <bit>
 #include <cstring>
 #include <limits>
@@ -228,11 +227,12 @@ void build_ray_forest(const VisiblePoints& points, const points::PointTiles& til
   plant(scratch, out);
 }
 
-std::uint64_t write_live_rays(const RayForest& forest, int width, int height, ShadowMask& mask) {
+std::uint64_t write_live_rays(const RayForest& forest, int width, int height,
+                              std::vector<std::uint64_t>& parts, ShadowMask& mask) {
   constexpr std::size_t grain = 256;
   const std::vector<RayNode>& nodes = forest.levels[0];
   const points::TilePixels pixel_of(width, height);
-  std::atomic<std::uint64_t> sum{0};
+  parts.assign((nodes.size() + grain - 1) / grain, 0);
   parallel::parallel_ranges(nodes.size(), grain, [&](std::size_t first, std::size_t last) {
     std::uint64_t count = 0;
     for (std::size_t i = first; i < last; ++i) {
@@ -248,8 +248,10 @@ std::uint64_t write_live_rays(const RayForest& forest, int width, int height, Sh
         count += static_cast<std::uint64_t>(std::popcount(live));
       }
     }
-    sum.fetch_add(count, std::memory_order_relaxed);
+    parts[first / grain] = count;
   });
+  std::uint64_t sum = 0;
+  for (const std::uint64_t part : parts) sum += part;
   return sum;
 }
 

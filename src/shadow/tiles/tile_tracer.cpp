@@ -86,7 +86,7 @@ bool TileTracer::trace(const VisiblePoints& points, const ViewRays& view, const 
   timings.traverse_ms = watch.lap_ms();
 
   mask.assign(points.triangles.size(), 0);
-  const std::uint64_t live = write_live_rays(forest_, points.width, points.height, mask);
+  const std::uint64_t live = write_live_rays(forest_, points.width, points.height, live_parts_, mask);
   for (const std::uint32_t pixel : forest_.at_light) mask[pixel] = 255;
   timings.writeback_ms = watch.lap_ms();
 
