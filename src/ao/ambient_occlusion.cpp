@@ -6,6 +6,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <optional>
 
 #include "ao/adaptive/adaptive_pass.h"
 #include "ao/shade/field_pass.h"
@@ -89,7 +90,11 @@ struct AmbientOcclusion::State {
   ao::PointRays rays;
   ao::AoKernels kernels;
   std::vector<float> values;
-  std::vector<std::string> noted;  ///< deforming meshes already named
+  ao::FieldRoom field_room;
+  ao::RayRoom ray_room;
+  ao::AdaptiveOcclusion adaptive;
+  std::optional<ao::ReferenceRays> reference;  ///< of the last frame, if by rays
+  std::vector<std::string> noted;              ///< deforming meshes already named
   bool noted_memory = false;
 
   AoStats stats;
@@ -106,6 +111,7 @@ struct AmbientOcclusion::State {
   Expected<void> run(const ao::AoFrame& frame, const AoConfig& config, std::span<float> out,
                      const AoProgress& progress, const StopFlag* stop);
   Expected<void> from_rays(const ao::ReceiverSet& set, const FrameGeometry& geometry, const StopFlag* stop);
+  bool all_casters_stand(const FrameGeometry& geometry) const;
 };
 
 AmbientOcclusion::AmbientOcclusion() : state_(std::make_unique<State>()) {}
@@ -123,14 +129,17 @@ const std::vector<std::string>& AmbientOcclusion::notes() const {
   return state_->notes;
 }
 
-/// Brings objects and everything that depends on them to this instant.
+/// Brings objects and everything that depends on them to this instant; not all of it if `stop` is requested.
 void AmbientOcclusion::State::find(const Scene& scene, const FrameGeometry& geometry, const AoConfig& config,
                                    const StopFlag* stop) {
   const bool kept = found && ao::move_objects(scene, geometry, objects);
   if (!kept) {
-    objects = ao::find_objects(scene, geometry);
+    found = false;
+    reference.reset();
+    objects = ao::find_objects(scene, geometry, stop);
     occluders.reset(objects);
     diagonal = 0;
+    if (stop_requested(stop)) return;
     found = true;
   }
   if (config.distance_m == 0 && diagonal == 0) diagonal = scene_diagonal(scene);
@@ -177,13 +186,24 @@ void AmbientOcclusion::State::note_deforming(const AoConfig& config) {
   }
 }
 
+/// Then what rays meet is the same from frame to frame.
+bool AmbientOcclusion::State::all_casters_stand(const FrameGeometry& geometry) const {
+  return objects.objects.empty() &&
+         std::none_of(objects.deforming.begin(), objects.deforming.end(),
+                      [&](std::uint32_t id) { return geometry.casts_shadow[id] != 0; });
+}
+
 Expected<void> AmbientOcclusion::State::from_rays(const ao::ReceiverSet& set, const FrameGeometry& geometry,
                                                   const StopFlag* stop) {
   base::Stopwatch watch;
-  const auto reference = ao::ReferenceRays::create(triangle_view(geometry), stop);
-  if (!reference) return tl::unexpected(reference.error());
+  if (!reference || !all_casters_stand(geometry)) {
+    reference.reset();
+    auto made = ao::ReferenceRays::create(triangle_view(geometry), stop);
+    if (!made) return tl::unexpected(made.error());
+    reference = std::move(*made);
+  }
   timings.ao_build_ms += watch.lap_ms();
-  stats.points = ao::cast_receivers(set, rays, *reference, values, stop);
+  stats.points = ao::cast_receivers(set, rays, *reference, values, ray_room, stop);
   stats.rays_cast = stats.points * static_cast<std::uint64_t>(rays.rays());
   return stop_requested(stop) ? Expected<void>(base::fail("stopped")) : Expected<void>();
 }
@@ -198,8 +218,8 @@ Expected<void> AmbientOcclusion::State::run(const ao::AoFrame& frame, const AoCo
     if (config.mode == AoMode::rays) {
       done = from_rays(set, frame.geometry, stop);
     } else {
-      done = ao::FieldPass{occluders, bodies, rays, kernels, stats, timings}.run(set, part, values, progress,
-                                                                                 stop);
+      done = ao::FieldPass{occluders, bodies, rays, kernels, stats, timings, field_room}.run(
+          set, part, values, progress, stop);
     }
     if (done && part != ao::AoPart::own && !see_through.empty())
       see_through.darken(set, rays, kernels, values, stats, stop);
@@ -207,8 +227,8 @@ Expected<void> AmbientOcclusion::State::run(const ao::AoFrame& frame, const AoCo
   };
   const auto length = static_cast<float>(reach);
   if (config.mode == AoMode::adaptive) {
-    const auto error = ao::adaptive_occlusion({frame, occluders, see_through, reach, kernels},
-                                              ao::adaptive_settings(config.error_255), out, stats, stop);
+    const auto error = adaptive.compute({frame, occluders, see_through, reach, kernels},
+                                        ao::adaptive_settings(config.error_255), out, stats, stop);
     if (!error) return tl::unexpected(error.error());
     stats.error_255 = *error;
     return {};
@@ -243,6 +263,7 @@ Expected<void> AmbientOcclusion::compute(const Scene& scene, const FrameGeometry
   s.timings = {};
   if (auto checked = check(config, seen, normals); !checked) return checked;
   out.assign(seen.triangles.size(), 1.0f);
+  if (config.mode != AoMode::rays) s.reference.reset();
   if (config.mode == AoMode::none) return {};
   const VisiblePoints& points = points::with_positions(seen, triangle_view(geometry), s.positions);
   base::Stopwatch watch;

@@ -123,15 +123,18 @@ bool cut_triangle(const std::array<glm::dvec2, 3>& corners, const Region& region
     range[static_cast<std::size_t>(axis)] =
         tiles_of(region.tiling[static_cast<std::size_t>(axis)], low, high);
   }
-  if (range[0].count() * range[1].count() > most_tiles) return false;
+  if (!(range[0].count() * range[1].count() <= most_tiles)) return false;  // nor where one overflows
   if (expected_triangles(region, 0.5 * std::abs(u.x * v.y - u.y * v.x)) > static_cast<double>(most_triangles))
     return false;
   TriangleCutter cutter(triangle, order, out);
-  for (double y = range[1].first; y <= range[1].last; ++y) {
-    for (double x = range[0].first; x <= range[0].last; ++x) {
+  // By number: of a tile far away the index plus one may round to the index.
+  const auto columns = static_cast<std::size_t>(range[0].count()),
+             rows = static_cast<std::size_t>(range[1].count());
+  for (std::size_t row = 0; row < rows; ++row) {
+    for (std::size_t column = 0; column < columns; ++column) {
       Tile tile;
-      place_axis(region.tiling[0], x, 0, tile);
-      place_axis(region.tiling[1], y, 1, tile);
+      place_axis(region.tiling[0], range[0].first + static_cast<double>(column), 0, tile);
+      place_axis(region.tiling[1], range[1].first + static_cast<double>(row), 1, tile);
       cutter.add(region.tree, tile);
       if (out.whole) return true;
       if (out.triangles.size() > most_triangles) return false;

@@ -74,8 +74,7 @@ FloatEnvironment::~FloatEnvironment() {
   set_float_settings(saved_);
 }
 
-void parallel_ranges(std::size_t count, std::size_t grain,
-                     const std::function<void(std::size_t, std::size_t)>& body) {
+void parallel_ranges(std::size_t count, std::size_t grain, RangeBody body) {
   const std::size_t ranges = (count + grain - 1) / grain;
   Loop loop;
   tbb::parallel_for(std::size_t{0}, ranges, [&](std::size_t i) {
@@ -83,12 +82,12 @@ void parallel_ranges(std::size_t count, std::size_t grain,
   });
 }
 
-void parallel_tasks(int count, const std::function<void(int)>& body) {
+void parallel_tasks(int count, TaskBody body) {
   Loop loop;
   tbb::parallel_for(0, count, [&](int i) { loop.run([&] { body(i); }); });
 }
 
-void parallel_in_order(int count, const std::function<void(int)>& body) {
+void parallel_in_order(int count, TaskBody body) {
   std::atomic<int> next{0};
   parallel_tasks(std::min(count, thread_count()), [&](int) {
     for (int i = next++; i < count; i = next++) body(i);

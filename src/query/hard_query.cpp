@@ -85,7 +85,8 @@ Expected<void> PointTracer::hard_mask(const Geometry& geometry, const QueryPoint
   const bool some_apart = query::need_stand_ins(points);
 
   return query::in_portions(points, stop, progress, [&](const query::Portion& portion) -> Expected<void> {
-    if (some_apart) s.stand_ins.follow(geometry.data_, portion.count());
+    if (some_apart && !s.stand_ins.follow(geometry.data_, portion.count(), stop))
+      return base::fail("stopped");
     const TriangleView triangles = s.triangles(some_apart);
     s.begin(points, portion);
     query::each_run(portion, [&](std::size_t first, std::size_t last) {

@@ -13,8 +13,8 @@ using glm::dvec3;
 constexpr std::uint8_t no_eye = 0xff;
 
 /// The views from the light's vertices.
-std::vector<ViewRays> eyes_of(const AreaLight& light) {
-  std::vector<ViewRays> eyes(light.polygon.size());
+void find_eyes(const AreaLight& light, std::vector<ViewRays>& eyes) {
+  eyes.assign(light.polygon.size(), {});
   for (std::size_t k = 0; k < eyes.size(); ++k) {
     const glm::dvec2 at = light.polygon[k];
     if (light.at_infinity)
@@ -22,7 +22,6 @@ std::vector<ViewRays> eyes_of(const AreaLight& light) {
     else
       eyes[k].eye = light.vertices[k];
   }
-  return eyes;
 }
 
 /// The side of a triangle that the light's centre is on; 1 if on neither.
@@ -78,10 +77,12 @@ Expected<void> PointTracer::soft_visibility(const Geometry& geometry, const Quer
   if (auto checked = query::check_points(points, *geometry.data_); !checked) return checked;
   s.follow(geometry.data_);
   const bool some_apart = query::need_stand_ins(points);
-  const std::vector<ViewRays> eyes = eyes_of(light);
+  const std::vector<ViewRays>& eyes = s.light_eyes;
+  find_eyes(light, s.light_eyes);
 
   return query::in_portions(points, stop, progress, [&](const query::Portion& portion) -> Expected<void> {
-    if (some_apart) s.stand_ins.follow(geometry.data_, portion.count());
+    if (some_apart && !s.stand_ins.follow(geometry.data_, portion.count(), stop))
+      return base::fail("stopped");
     const TriangleView triangles = s.triangles(some_apart);
     s.begin(points, portion);
     s.eyes.assign(portion.count(), no_eye);

@@ -41,22 +41,25 @@ dvec3 across(const dvec3& n) {
 
 }  // namespace
 
-void StandIns::follow(const std::shared_ptr<const GeometryData>& data, std::size_t slots) {
+bool StandIns::follow(const std::shared_ptr<const GeometryData>& data, std::size_t slots,
+                      const StopFlag* stop) {
   const std::size_t room = slots == 0 ? slots_ : std::max(slots_, std::bit_ceil(slots));
-  if (whole_ && data_ == data && revision_ == data->revision && room == slots_) return;
-  whole_ = false;  // until it is rebuilt: memory may run out
+  if (whole_ && data_ == data && revision_ == data->revision && room == slots_) return true;
+  whole_ = false;  // until it is rebuilt: memory may run out, or a stop be requested
   data_ = data, revision_ = data->revision, slots_ = room;
-  rebuild();
-  whole_ = true;
+  return whole_ = rebuild(stop);
 }
 
-void StandIns::rebuild() {
+bool StandIns::rebuild(const StopFlag* stop) {
   scene_ = {};
   scene_.materials.resize(1);
-  scene_.meshes = {mesh_of(data_->positions, data_->triangles), empty_slots(slots_)};
+  scene_.meshes.push_back(mesh_of(data_->positions, data_->triangles));
+  scene_.meshes.push_back(empty_slots(slots_));
+  if (stop_requested(stop)) return false;
   scene_.nodes.resize(scene_.meshes.size());
   for (std::size_t i = 0; i < scene_.nodes.size(); ++i) scene_.nodes[i].mesh = static_cast<int>(i);
   evaluate_frame(scene_, -1, 0.0, geometry_);
+  if (stop_requested(stop)) return false;
   std::fill(geometry_.casts_shadow.begin(), geometry_.casts_shadow.end(), std::uint8_t{0});
   const auto own = geometry_.casts_shadow.begin();
   if (data_->casts_shadow.empty()) {
@@ -64,6 +67,7 @@ void StandIns::rebuild() {
   } else {
     std::copy(data_->casts_shadow.begin(), data_->casts_shadow.end(), own);
   }
+  return true;
 }
 
 void StandIns::set(std::size_t slot, const dvec3& point, const dvec3& normal, StandAt at) {

@@ -10,6 +10,7 @@
 
 #include <tenebra/frame_geometry.h>
 #include <tenebra/scene.h>
+#include <tenebra/stop_flag.h>
 #include "query/geometry_data.h"
 
 namespace tenebra::query {
@@ -20,8 +21,8 @@ enum class StandAt { point, behind };
 
 class StandIns {
 public:
-  /// Follows the geometry, with room for `slots` stand-ins at least.
-  void follow(const std::shared_ptr<const GeometryData>& data, std::size_t slots);
+  /// Follows the geometry, with room for `slots` stand-ins at least. False: `stop` was requested.
+  bool follow(const std::shared_ptr<const GeometryData>& data, std::size_t slots, const StopFlag* stop);
 
   /// Slot `slot`'s triangle, counter-clockwise seen from where `normal` (not zero) points. Its size follows
   /// the point's coordinates, so that rounding its corners to float turns it by 2^-17 at most.
@@ -34,7 +35,7 @@ public:
   const FrameGeometry& geometry() const { return geometry_; }
 
 private:
-  void rebuild();
+  bool rebuild(const StopFlag* stop);
 
   std::shared_ptr<const GeometryData> data_;
   std::uint64_t revision_ = 0;

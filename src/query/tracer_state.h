@@ -27,7 +27,8 @@ struct TracerState {
   ShadowMask mask;
   SoftMask visible;
   std::vector<float> openness;
-  std::vector<std::uint8_t> eyes;  ///< one for each point of a portion
+  std::vector<std::uint8_t> eyes;    ///< of a light, one for each point of a portion,
+  std::vector<ViewRays> light_eyes;  ///< among all of that light
 
   std::shared_ptr<const GeometryData> followed;
   std::uint64_t revision = 0;

@@ -18,7 +18,7 @@ namespace {
 
 constexpr std::uint8_t lit = 255;
 // Section 3.4: triangles that can cover a node four levels below the root go first; the tree is updated if
-// they finished at least this share of the rays.
+// they blocked at least one ray in `update_share`.
 constexpr float blocker_share = 1.0f / 256;
 constexpr std::uint64_t update_share = 16;
 

@@ -18,7 +18,7 @@ SIMD_INLINE Float16 demoted(Double8 first, Double8 second) {
 #if HWY_TARGET <= HWY_AVX3
   p.r[0] = hn::Combine(Float16::Tag(), high.r[0], low.r[0]);
 #else
-  for (int i = 0; i < low.registers; ++i) p.r[i] = low.r[i], p.r[i + low.registers] = high.r[i];
+  for (int i = 0; i < Float8::registers; ++i) p.r[i] = low.r[i], p.r[i + Float8::registers] = high.r[i];
 #endif
   return p;
 }

@@ -52,7 +52,9 @@ std::optional<SoftSolver> soft_solver_from_name(std::string_view name) {
 }
 
 struct SoftShadowTracer::State {
+  bool at_work = false;     ///< or was when memory ran out: lists may not be whole
   VisiblePoints positions;  ///< where those that are given have none
+  soft::PointGrouper grouper;
   soft::PointGroups groups;
   soft::ShaftCuller culler;
   std::vector<Worker> workers;
@@ -60,6 +62,9 @@ struct SoftShadowTracer::State {
   SimdLevel level = SimdLevel::automatic;
   std::vector<std::uint8_t> classes;
   std::vector<float> errors;
+  std::vector<soft::SampledGroup> sampled;  ///< of all threads
+  std::vector<std::uint32_t> left;          ///< groups that sampling leaves
+  std::vector<std::uint8_t> wanted;         ///< by group: one of these
   SoftStats stats;
   FrameTimings timings;
 
@@ -69,10 +74,12 @@ struct SoftShadowTracer::State {
                     Worker& worker);
   void sort_out(const soft::SoftFrame& frame, const soft::GroupDecision& decision, Worker& worker);
   void solve_mixed(const soft::SoftFrame& frame, Worker& worker);
-  bool sample(const soft::SoftFrame& frame, const AreaLight& light, std::vector<std::uint32_t>& left);
-  bool solve_left(const soft::SoftFrame& frame, const TriangleView& triangles, const AreaLight& light,
-                  std::span<const std::uint32_t> left);
+  bool sample(const soft::SoftFrame& frame, const AreaLight& light);
+  bool solve_left(const soft::SoftFrame& frame, const TriangleView& triangles, const AreaLight& light);
   void gather();
+  bool trace(const VisiblePoints& seen, std::span<const glm::vec3> normals, const ViewRays& view,
+             const TriangleView& triangles, const AreaLight& light, const SoftShadowConfig& config,
+             SoftMask& out, const StopFlag* stop);
 };
 
 void SoftShadowTracer::State::prepare(const SoftShadowConfig& config) {
@@ -164,9 +171,8 @@ void SoftShadowTracer::State::solve_mixed(const soft::SoftFrame& frame, Worker& 
   }
 }
 
-bool SoftShadowTracer::State::sample(const soft::SoftFrame& frame, const AreaLight& light,
-                                     std::vector<std::uint32_t>& left) {
-  std::vector<soft::SampledGroup> sampled;
+bool SoftShadowTracer::State::sample(const soft::SoftFrame& frame, const AreaLight& light) {
+  sampled.clear();
   for (const Worker& worker : workers)
     sampled.insert(sampled.end(), worker.sampled.begin(), worker.sampled.end());
   std::sort(sampled.begin(), sampled.end(), [](const auto& a, const auto& b) { return a.group < b.group; });
@@ -178,9 +184,9 @@ bool SoftShadowTracer::State::sample(const soft::SoftFrame& frame, const AreaLig
 
 /// Solves groups that sampling left alone, exactly. Their candidates are found once more.
 bool SoftShadowTracer::State::solve_left(const soft::SoftFrame& frame, const TriangleView& triangles,
-                                         const AreaLight& light, std::span<const std::uint32_t> left) {
+                                         const AreaLight& light) {
   if (left.empty()) return true;
-  std::vector<std::uint8_t> wanted(groups.groups.size());
+  wanted.assign(groups.groups.size(), 0);
   for (const std::uint32_t group : left) wanted[group] = 1;
   return culler.for_each_family(
       groups, triangles, light, frame.config, frame.stop,
@@ -218,36 +224,45 @@ SoftShadowTracer::SoftShadowTracer(SoftShadowTracer&&) noexcept = default;
 SoftShadowTracer& SoftShadowTracer::operator=(SoftShadowTracer&&) noexcept = default;
 SoftShadowTracer::~SoftShadowTracer() = default;
 
-// Mora et al. 2012, Algorithm 2, with groups of points in the place of visible triangles.
 bool SoftShadowTracer::trace(const VisiblePoints& seen, std::span<const glm::vec3> normals,
                              const ViewRays& view, const TriangleView& triangles, const AreaLight& light,
                              const SoftShadowConfig& config, SoftMask& out, const StopFlag* stop) {
   const parallel::FloatEnvironment ieee;
-  State& s = *state_;
-  const VisiblePoints& points = points::with_positions(seen, triangles, s.positions);
-  s.prepare(config);
-  s.clear_pixels(points, out);
+  if (state_->at_work) state_ = std::make_unique<State>();
+  state_->at_work = true;
+  const bool done = state_->trace(seen, normals, view, triangles, light, config, out, stop);
+  state_->at_work = false;
+  return done;
+}
+
+// Mora et al. 2012, Algorithm 2, with groups of points in the place of visible triangles.
+bool SoftShadowTracer::State::trace(const VisiblePoints& seen, std::span<const glm::vec3> normals,
+                                    const ViewRays& view, const TriangleView& triangles,
+                                    const AreaLight& light, const SoftShadowConfig& config, SoftMask& out,
+                                    const StopFlag* stop) {
+  const VisiblePoints& points = points::with_positions(seen, triangles, positions);
+  prepare(config);
+  clear_pixels(points, out);
   base::Stopwatch watch;
-  soft::group_points(points, view, triangles, light, config.grouping, s.groups, config.simd);
-  s.timings.shaft_ms = watch.lap_ms();
+  grouper.group(points, view, triangles, light, config.grouping, groups, config.simd);
+  timings.shaft_ms = watch.lap_ms();
 
   const soft::LightFrame frame_of_light = soft::light_frame(light);
-  const soft::SoftFrame frame{points, normals, view, triangles, frame_of_light, config, out, s.classes, stop};
-  const bool done = s.culler.for_each_family(
-      s.groups, triangles, light, config, stop, [&](std::span<const soft::GroupDecision> family, int thread) {
-        s.solve_family(frame, family, s.workers[static_cast<std::size_t>(thread)]);
+  const soft::SoftFrame frame{points, normals, view, triangles, frame_of_light, config, out, classes, stop};
+  const bool done = culler.for_each_family(
+      groups, triangles, light, config, stop, [&](std::span<const soft::GroupDecision> family, int thread) {
+        solve_family(frame, family, workers[static_cast<std::size_t>(thread)]);
       });
-  s.gather();
-  s.stats.groups = s.groups.groups.size();
-  s.errors.clear();
+  gather();
+  stats.groups = groups.groups.size();
+  errors.clear();
   if (!done || !(config.error_255 > 0)) return done;
-  s.errors.assign(points.triangles.size(), 0.0f);
-  std::vector<std::uint32_t> left;
-  if (!s.sample(frame, light, left)) return false;
-  if (!s.solve_left(frame, triangles, light, left)) return false;
-  if (!left.empty()) s.gather();
-  if (s.stats.points_penumbra > 0)
-    s.stats.error_255 = std::sqrt(s.sampler.square_error() / static_cast<double>(s.stats.points_penumbra));
+  errors.assign(points.triangles.size(), 0.0f);
+  if (!sample(frame, light)) return false;
+  if (!solve_left(frame, triangles, light)) return false;
+  if (!left.empty()) gather();
+  if (stats.points_penumbra > 0)
+    stats.error_255 = std::sqrt(sampler.square_error() / static_cast<double>(stats.points_penumbra));
   return true;
 }
 

@@ -60,6 +60,7 @@ struct MipTexture::FloatLevel {
     FloatLevel to{std::max(1, width / 2), std::max(1, height / 2), {}};
     to.values.reserve(static_cast<std::size_t>(to.width) * static_cast<std::size_t>(to.height));
     std::vector<Cover> columns;
+    columns.reserve(static_cast<std::size_t>(to.width));
     for (int x = 0; x < to.width; ++x) columns.push_back(cover_of(x, width, to.width));
     for (int y = 0; y < to.height; ++y) {
       const Cover rows = cover_of(y, height, to.height);

@@ -128,7 +128,7 @@ bool SoftTint::trace(const VisiblePoints& points, std::span<const glm::vec3> nor
   const LightReach reach = reach_of(light, tolerance, triangles, surfaces);
   SoftShadowConfig soft_config;
   soft_config.simd = config.simd;
-  soft::group_points(points, view, triangles, light, SoftGrouping::neighbourhood, all_, config.simd);
+  grouper_.group(points, view, triangles, light, SoftGrouping::neighbourhood, all_, config.simd);
   choose_groups(tree, reach, mask);
   if (level_ != config.simd) workers_.clear();
   level_ = config.simd;

@@ -79,6 +79,7 @@ private:
                    const soft::GroupDecision& decision, Worker& worker);
   void gather(TintMask& out, TintStats& stats) const;
 
+  soft::PointGrouper grouper_;
   soft::PointGroups all_, groups_;  ///< groups_: those that may see the light through something
   soft::ShaftCuller culler_;
   std::vector<Worker> workers_;

@@ -61,7 +61,7 @@ public:
     frame_ = &frame;
     task_ = &task;
     receiver_.forget();
-    clip_.reset(task.group.candidates, task.group.clipped);
+    clip_.reset(task.group.candidates, task.group.clipped, frame.soft.stop);
     if (!task.group.silhouette.empty()) silhouette_.reset(task.group.silhouette);
     for (const std::uint32_t pixel : task.pixels) {
       if (stop_requested(frame.soft.stop)) return;

@@ -7,7 +7,6 @@
 
 #include <algorithm>
 #include <atomic>
-#include <cstdio>
 #include <cstdlib>
 #include <functional>
 #include <new>
@@ -104,40 +103,77 @@ Taken later_call(const std::function<Expected<void>()>& ask) {
   return taken;
 }
 
-const ShadowLight lamp{.position = {0.2f, 0.9f, -0.3f}};
+void expect_little(const Taken& taken) {
+  EXPECT_LE(taken.calls, 20u);
+  EXPECT_LE(taken.bytes, 2048u);
+}
 
-TEST(Allocation, WhereOneFailsTheNextCallFindsEverythingAnew) {
-  Asked asked(500);
-  auto geometry = std::move(*Geometry::create(asked.soup.positions, asked.soup.triangles));
-  std::vector<std::uint8_t> expected(500), mask(500);
-  const auto ask = [&](PointTracer& tracer, std::vector<std::uint8_t>& out) {
-    std::fill(out.begin(), out.end(), std::uint8_t{7});
-    return tracer.hard_mask(geometry, asked.points(), lamp, {}, out).has_value();
-  };
+const ShadowLight lamp{.position = {0.2f, 0.9f, -0.3f}};
+AreaLight panel() {
+  return make_rectangle_light({0.1f, 0.9f, -0.2f}, {0.2f, 0, 0}, {0, 0, 0.2f}).value();
+}
+
+/// Asks, on one thread, with each allocation in turn failing (of many only some), and then again: what the
+/// first call has left behind must not show.
+void expect_whole_after_failures(
+    const std::function<Expected<void>(PointTracer&, std::span<float> out)>& ask) {
+  std::vector<float> expected(500), out(500);
   std::size_t failed = 0;
   with_threads(1, [&] {
-    ASSERT_TRUE(ask(asked.tracer, expected));
-    ASSERT_GT(std::count(expected.begin(), expected.end(), 0), 0);
-    for (std::size_t k = 1;; ++k) {
+    PointTracer first;
+    ASSERT_TRUE(ask(first, expected));
+    ASSERT_NE(*std::min_element(expected.begin(), expected.end()),
+              *std::max_element(expected.begin(), expected.end()));
+    for (std::size_t k = 1;; k += 1 + k / 128) {
       PointTracer tracer;
       bool done = false;
       counted().calls = 0, counted().failing = k;
       try {
-        done = tracer.hard_mask(geometry, asked.points(), lamp, {}, mask).has_value();
+        done = ask(tracer, out).has_value();
       } catch (const std::bad_alloc&) {
       }
       counted().failing = 0;
       if (done) break;
       ++failed;
-      ASSERT_TRUE(ask(tracer, mask)) << k;
-      ASSERT_EQ(mask, expected) << "after allocation " << k << " had failed";
+      std::fill(out.begin(), out.end(), 7.0f);
+      ASSERT_TRUE(ask(tracer, out)) << k;
+      ASSERT_EQ(out, expected) << "after allocation " << k << " had failed";
     }
   });
   EXPECT_GT(failed, 30u);
 }
 
-// What is left are closures of parallel loops and one small list: none grows with triangles, and none is made
-// for each point.
+TEST(Allocation, WhereOneFailsTheNextHardMaskIsWhole) {
+  const Asked asked(500);
+  const auto geometry = std::move(*Geometry::create(asked.soup.positions, asked.soup.triangles));
+  std::vector<std::uint8_t> mask(500);
+  expect_whole_after_failures([&](PointTracer& tracer, std::span<float> out) {
+    auto done = tracer.hard_mask(geometry, asked.points(), lamp, {}, mask);
+    if (done) std::copy(mask.begin(), mask.end(), out.begin());
+    return done;
+  });
+}
+
+TEST(Allocation, WhereOneFailsTheNextSoftShadowsAreWhole) {
+  const Asked asked(500);
+  const auto geometry = std::move(*Geometry::create(asked.soup.positions, asked.soup.triangles));
+  for (const double error : {0.0, 1.0})
+    expect_whole_after_failures([&](PointTracer& tracer, std::span<float> out) {
+      return tracer.soft_visibility(geometry, asked.points(), panel(), {.error_255 = error}, out, {});
+    });
+}
+
+TEST(Allocation, WhereOneFailsTheNextOcclusionIsWhole) {
+  const Asked asked(500);
+  const auto geometry = std::move(*Geometry::create(asked.soup.positions, asked.soup.triangles));
+  for (const AoMode mode : {AoMode::field, AoMode::adaptive})
+    expect_whole_after_failures([&](PointTracer& tracer, std::span<float> out) {
+      return tracer.ambient_occlusion(geometry, asked.points(), {.mode = mode}, out);
+    });
+}
+
+// What is left are small lists that grow with neither triangles nor points, but for a few bytes for each
+// sixteen thousand of them.
 TEST(Allocation, HardMasksTakeNoMemoryAfterTheFirstCall) {
   std::size_t triangles = 0;
   for (const auto& [count, clutter] : {std::pair<std::size_t, int>{2000, 8}, {100000, 8}, {2000, 16000}}) {
@@ -154,40 +190,60 @@ TEST(Allocation, HardMasksTakeNoMemoryAfterTheFirstCall) {
       return ask();
     };
     for (const Taken& taken : {later_call(ask), later_call(move_and_ask)}) {
-      EXPECT_LE(taken.calls, 100u);
-      EXPECT_LE(taken.bytes, 8192u);
+      expect_little(taken);
     }
   }
   EXPECT_GT(triangles, 20000u);
 }
 
-// Soft shadows make their groups anew, and ambient occlusion its samples of a picture: some bytes a point,
-// and the same in each call, so that nothing grows.
-TEST(Allocation, OtherCallsTakeTheSameEachTime) {
-  Asked asked(20000);
-  const auto geometry = std::move(*Geometry::create(asked.soup.positions, asked.soup.triangles));
-  const AreaLight area = make_rectangle_light({0.1f, 0.9f, -0.2f}, {0.2f, 0, 0}, {0, 0, 0.2f}).value();
-  const std::pair<const char*, std::function<Expected<void>()>> calls[] = {
-      {"soft",
-       [&] {
-         return asked.tracer.soft_visibility(geometry, asked.points(), area, {}, asked.first, asked.second);
-       }},
-      {"adaptive",
-       [&] {
-         return asked.tracer.ambient_occlusion(geometry, asked.points(), {.mode = AoMode::adaptive},
-                                               asked.first);
-       }},
-      {"field", [&] {
-         return asked.tracer.ambient_occlusion(geometry, asked.points(), {.mode = AoMode::field},
-                                               asked.first);
-       }}};
-  for (const auto& [name, ask] : calls) {
-    const Taken third = later_call(ask), sixth = later_call(ask);
-    EXPECT_LE(sixth.bytes, third.bytes + third.bytes / 16) << name;
-    EXPECT_LE(sixth.bytes, 200 * asked.positions.size()) << name;
-    std::printf("%-8s %zu allocations, %zu bytes a call of %zu points\n", name, sixth.calls, sixth.bytes,
-                asked.positions.size());
+/// Points and triangles: few, many points, many triangles.
+const std::pair<std::size_t, int> sizes[] = {{2000, 8}, {60000, 8}, {2000, 4000}};
+
+/// Makes Asked of each size and expects little of calls of `ask(asked, geometry)` on it.
+void expect_little_of_later(const std::function<Expected<void>(Asked&, const Geometry&)>& ask) {
+  for (const auto& [count, clutter] : sizes) {
+    SCOPED_TRACE(fmt::format("{} points, clutter {}", count, clutter));
+    Asked asked(count, clutter);
+    const auto geometry = std::move(*Geometry::create(asked.soup.positions, asked.soup.triangles));
+    expect_little(later_call([&] { return ask(asked, geometry); }));
   }
+}
+
+void expect_little_of_soft(const SoftShadowConfig& config) {
+  const AreaLight area = panel();
+  expect_little_of_later([&](Asked& asked, const Geometry& geometry) {
+    return asked.tracer.soft_visibility(geometry, asked.points(), area, config, asked.first, asked.second);
+  });
+}
+
+void expect_little_of_occlusion(AoMode mode) {
+  expect_little_of_later([mode](Asked& asked, const Geometry& geometry) {
+    return asked.tracer.ambient_occlusion(geometry, asked.points(), {.mode = mode}, asked.first);
+  });
+}
+
+TEST(Allocation, SoftShadowsTakeNoMemoryAfterTheFirstCall) {
+  expect_little_of_soft({});
+}
+
+TEST(Allocation, SoftShadowsByTrianglesTakeNoMemoryAfterTheFirstCall) {
+  expect_little_of_soft({.grouping = SoftGrouping::triangle});
+}
+
+TEST(Allocation, SoftShadowsByErrorTakeNoMemoryAfterTheFirstCall) {
+  expect_little_of_soft({.error_255 = 1});
+}
+
+TEST(Allocation, OcclusionByFieldsTakesNoMemoryAfterTheFirstCall) {
+  expect_little_of_occlusion(AoMode::field);
+}
+
+TEST(Allocation, AdaptiveOcclusionTakesNoMemoryAfterTheFirstCall) {
+  expect_little_of_occlusion(AoMode::adaptive);
+}
+
+TEST(Allocation, OcclusionByRaysTakesNoMemoryAfterTheFirstCall) {
+  expect_little_of_occlusion(AoMode::rays);
 }
 
 }  // namespace

@@ -35,7 +35,7 @@ Paired paired(const Soup& soup, const soft::GroupFrame& group) {
   std::vector<std::uint32_t> ids(soup.triangles.size());
   std::iota(ids.begin(), ids.end(), 0u);
   soft::find_candidates_kernel(SimdLevel::automatic)(soft::light_frame(light_above()), soup.view(), group,
-                                                     ids, p.candidates);
+                                                     ids, p.candidates, nullptr);
   p.places.resize(p.candidates.all.size());
   std::iota(p.places.begin(), p.places.end(), 0u);
   soft::pair_triangles(group, p.candidates, p.places);

@@ -205,8 +205,12 @@ TEST(SampledBlocks, FindEachPixelAndNoOther) {
   for (std::uint32_t i = 0; i < c.size(); ++i)
     if (c.points.triangles[i] != no_triangle && i % 5 != 2) pixels.push_back(i);
   std::vector<std::uint32_t> turned(pixels.rbegin(), pixels.rend());
-  const soft::SampledBlocks blocks = soft::sampled_blocks(frame, pixels);
-  EXPECT_EQ(blocks.pixels, soft::sampled_blocks(frame, turned).pixels);
+  soft::SampledBlocks blocks, again;
+  soft::find_blocks(frame, pixels, blocks);
+  soft::find_blocks(frame, std::span(pixels).first(pixels.size() / 3), again);  // others, before
+  soft::find_blocks(frame, turned, again);
+  EXPECT_EQ(blocks.pixels, again.pixels);
+  EXPECT_EQ(blocks.block_at, again.block_at);
   std::size_t found = 0;
   for (std::uint32_t i = 0; i < c.size(); ++i) {
     const std::uint32_t slot = blocks.slot(i);
@@ -256,7 +260,8 @@ TEST(LightMeans, OfLitPixelsAreLitBesideAnyGaps) {
     std::vector<std::uint32_t> pixels;
     for (std::uint32_t i = 0; i < c.size(); ++i)
       if (c.points.triangles[i] != no_triangle && random.unit() < 0.7) pixels.push_back(i);
-    const soft::SampledBlocks blocks = soft::sampled_blocks(frame, pixels);
+    soft::SampledBlocks blocks;
+    soft::find_blocks(frame, pixels, blocks);
     soft::LightTally tally;
     fill(blocks, width, tally);
     soft::LightMeans means;

@@ -109,7 +109,7 @@ std::vector<std::uint32_t> mesh_of(const SoftCase& c) {
 soft::GroupCandidates candidates_of(const SoftCase& c, const soft::GroupFrame& group) {
   soft::GroupCandidates candidates;
   soft::find_candidates_kernel(SimdLevel::automatic)(soft::light_frame(c.light), c.soup.view(), group,
-                                                     mesh_of(c), candidates);
+                                                     mesh_of(c), candidates, nullptr);
   return candidates;
 }
 

@@ -7,6 +7,8 @@
 #include <string>
 #include <vector>
 
+#include "support/patience.h"
+
 namespace tenebra::testing {
 
 /// Exit code of `body` in a forked child; 128 + signal if a signal ended it. The child runs no exit handlers.
@@ -30,7 +32,7 @@ public:
 
   void send(int signal) const;
   /// Waits until it ends; kills it after `timeout_s` seconds (exit code 128 + 9).
-  ProgramResult wait(double timeout_s = 120);
+  ProgramResult wait(double timeout_s = 120 * patience);
 
 private:
   pid_t child_ = -1;

@@ -14,6 +14,7 @@
 #include <sstream>
 #include <thread>
 
+#include "support/patience.h"
 #include "support/virtual_display.h"
 #include "viewer_test_scene.h"
 
@@ -200,7 +201,7 @@ private:
   const VirtualDisplay& display_;
   std::filesystem::path report_;
   std::unique_ptr<ChildProgram> program_;
-  mutable double patience_s_ = 60;
+  mutable double patience_s_ = 60 * patience;
   mutable std::vector<Json> events_;
   mutable std::streamoff read_ = 0;             // of the report
   mutable std::array<int, 2> pointer_{-1, -1};  // where it was moved last

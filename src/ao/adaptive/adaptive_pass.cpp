@@ -10,6 +10,26 @@
 #include "parallel/parallel.h"
 
 namespace tenebra::ao {
+
+struct AdaptiveOcclusion::State {
+  KeptRaySets sets;
+  PixelSurfaces surfaces;
+  LookRoom looks;
+  AuditRoom audit;
+  std::vector<Settled> settled;
+  PixelValues pixels;
+  std::vector<float> smooth, nearness, spread;
+  std::vector<float> mean_of;  ///< weight of all that went into smooth
+
+  void begin(const AdaptiveScene& scene) {
+    find_surfaces(scene.frame, scene.reach, surfaces);
+    const std::size_t count = surfaces.pixels.size();
+    settled.assign(count, Settled::none);
+    for (auto* ones : {&pixels.open, &pixels.weight, &smooth, &nearness, &mean_of}) ones->assign(count, 1.0f);
+    spread.assign(count, 0.0f);
+  }
+};
+
 namespace {
 
 /// The noise of a lattice of rays, over that of as many independent ones: about, where edges cross it.
@@ -17,19 +37,20 @@ constexpr float lattice_noise = 0.4f;
 
 class AdaptivePass {
 public:
-  AdaptivePass(const AdaptiveScene& scene, const AdaptiveSettings& settings, const StopFlag* stop)
+  /// `state`: begun.
+  AdaptivePass(const AdaptiveScene& scene, const AdaptiveSettings& settings, const StopFlag* stop,
+               AdaptiveOcclusion::State& state)
       : settings_(settings),
-        surfaces_(pixel_surfaces(scene.frame, scene.reach)),
-        looks_(scene, surfaces_, stop),
+        state_(state),
+        surfaces_(state.surfaces),
+        looks_(scene, surfaces_, stop, state.looks),
         stop_(stop),
-        settled_(surfaces_.pixels.size(), Settled::none) {
-    pixels_.open.assign(settled_.size(), 1.0f);
-    pixels_.weight.assign(settled_.size(), 1.0f);
-    smooth_.assign(settled_.size(), 1.0f);
-    nearness_.assign(settled_.size(), 1.0f);
-    spread_.assign(settled_.size(), 0.0f);
-    mean_of_.assign(settled_.size(), 1.0f);
-  }
+        settled_(state.settled),
+        pixels_(state.pixels),
+        smooth_(state.smooth),
+        nearness_(state.nearness),
+        spread_(state.spread),
+        mean_of_(state.mean_of) {}
 
   void settle();
   double meet_error();
@@ -46,13 +67,13 @@ private:
 
   AdaptiveSettings settings_;
   float trust_ = 0.3f;  ///< in neighbours: what differs by less than four times this noise is evened out
-  PixelSurfaces surfaces_;
+  AdaptiveOcclusion::State& state_;
+  const PixelSurfaces& surfaces_;
   PixelLooks looks_;
   const StopFlag* stop_;
-  std::vector<Settled> settled_;
-  PixelValues pixels_;
-  std::vector<float> smooth_, nearness_, spread_;
-  std::vector<float> mean_of_;  ///< weight of all that went into smooth_
+  std::span<Settled> settled_;
+  PixelValues& pixels_;
+  std::span<float> smooth_, nearness_, spread_, mean_of_;
 };
 
 bool AdaptivePass::speak_for(const Said& said) const {
@@ -63,7 +84,7 @@ bool AdaptivePass::speak_for(const Said& said) const {
 
 /// Pixels of the lattice of `step` that no wider one has, if they are not settled by rays.
 void AdaptivePass::settle(int step) {
-  const RaySets sets = make_ray_sets(settings_.rays);
+  const RaySets& sets = state_.sets.at(settings_.rays);
   const bool first = step == settings_.coarsest;
   looks_.look(
       step, sets,
@@ -114,7 +135,7 @@ void AdaptivePass::settle() {
 /// deviation) is expected. Each round has rays of its own.
 void AdaptivePass::look_again(float noise, int round) {
   constexpr int times = 2;  // 4, with a trust of 0.5, took more rays on court, city 150 and the near crowd
-  const RaySets sets = make_ray_sets(times * settings_.rays, round);
+  const RaySets& sets = state_.sets.at(times * settings_.rays, round);
   const float alone = lattice_noise / std::sqrt(static_cast<float>(settings_.rays));
   looks_.look(
       1, sets,
@@ -137,7 +158,8 @@ void AdaptivePass::look_again(float noise, int round) {
 double AdaptivePass::meet_error() {
   constexpr int most_rounds = 8;
   constexpr int least_rays = 256, most_rays = 2048;
-  const Audit audit(looks_, surfaces_, settled_, std::clamp(8 * settings_.rays, least_rays, most_rays));
+  const RaySets& sets = state_.sets.at(std::clamp(8 * settings_.rays, least_rays, most_rays));
+  const Audit audit(looks_, surfaces_, settled_, sets, state_.audit);
   auto noise = static_cast<float>(settings_.error_255 / 255);
   for (int round = 1;; ++round) {
     const Audit::Errors errors = audit.errors(smooth_, settled_);
@@ -162,9 +184,15 @@ AdaptiveSettings adaptive_settings(double error_255) {
   return {error_255, 256, 1};
 }
 
-Expected<double> adaptive_occlusion(const AdaptiveScene& scene, const AdaptiveSettings& settings,
-                                    std::span<float> out, AoStats& stats, const StopFlag* stop) {
-  AdaptivePass pass(scene, settings, stop);
+AdaptiveOcclusion::AdaptiveOcclusion() : state_(std::make_unique<State>()) {}
+AdaptiveOcclusion::AdaptiveOcclusion(AdaptiveOcclusion&&) noexcept = default;
+AdaptiveOcclusion& AdaptiveOcclusion::operator=(AdaptiveOcclusion&&) noexcept = default;
+AdaptiveOcclusion::~AdaptiveOcclusion() = default;
+
+Expected<double> AdaptiveOcclusion::compute(const AdaptiveScene& scene, const AdaptiveSettings& settings,
+                                            std::span<float> out, AoStats& stats, const StopFlag* stop) {
+  state_->begin(scene);
+  AdaptivePass pass(scene, settings, stop, *state_);
   pass.settle();
   const double error = pass.meet_error();
   if (pass.stopped()) return base::fail("stopped");

@@ -11,6 +11,8 @@
 // pixels with few neighbours of their kind look again, whichever errs more.
 #pragma once
 
+#include <memory>
+
 #include <tenebra/ao_config.h>
 #include <tenebra/expected.h>
 #include <tenebra/stop_flag.h>
@@ -38,9 +40,23 @@ struct AdaptiveScene {
   const AoKernels& kernels;
 };
 
-/// Fills `out` (one for each pixel; 1 where there is no receiver). Returns the estimate of its RMS error, in
-/// 1/255. The bits are the same for any number of threads. Fails with "stopped".
-Expected<double> adaptive_occlusion(const AdaptiveScene& scene, const AdaptiveSettings& settings,
-                                    std::span<float> out, AoStats& stats, const StopFlag* stop);
+/// Lists and ray patterns are kept from frame to frame.
+class AdaptiveOcclusion {
+public:
+  AdaptiveOcclusion();
+  AdaptiveOcclusion(AdaptiveOcclusion&&) noexcept;
+  AdaptiveOcclusion& operator=(AdaptiveOcclusion&&) noexcept;
+  ~AdaptiveOcclusion();
+
+  /// Fills `out` (one for each pixel; 1 where there is no receiver). Returns the estimate of its RMS error,
+  /// in 1/255. The bits are the same for any number of threads. Fails with "stopped".
+  Expected<double> compute(const AdaptiveScene& scene, const AdaptiveSettings& settings, std::span<float> out,
+                           AoStats& stats, const StopFlag* stop);
+
+  struct State;
+
+private:
+  std::unique_ptr<State> state_;
+};
 
 }  // namespace tenebra::ao

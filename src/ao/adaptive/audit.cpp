@@ -15,14 +15,17 @@ std::uint32_t hashed(std::uint32_t x) {
 
 }  // namespace
 
-Audit::Audit(PixelLooks& looks, const PixelSurfaces& surfaces, std::span<const Settled> settled, int rays) {
+Audit::Audit(PixelLooks& looks, const PixelSurfaces& surfaces, std::span<const Settled> settled,
+             const RaySets& sets, AuditRoom& room) {
   double number_of[3] = {}, judged_of[3] = {};
   for (const Settled kind : settled) ++number_of[static_cast<int>(kind)];
   const bool mixed = number_of[static_cast<int>(Settled::by_neighbours)] > 0 &&
                      number_of[static_cast<int>(Settled::by_rays)] > 0;
   const double of_each = mixed ? judged_pixels / 2 : judged_pixels;
-  std::vector<std::vector<Judged>> of_tile(static_cast<std::size_t>(looks.tiles().count()));
-  const RaySets sets = make_ray_sets(rays);
+  const auto tiles = static_cast<std::size_t>(looks.tiles().count());
+  if (room.of_tile.size() < tiles) room.of_tile.resize(tiles);
+  const auto of_tile = std::span(room.of_tile).first(tiles);
+  for (std::vector<Judged>& some : of_tile) some.clear();
   looks.look(
       1, sets,
       [&](int tile, std::vector<std::uint32_t>& pixels) {
@@ -39,14 +42,17 @@ Audit::Audit(PixelLooks& looks, const PixelSurfaces& surfaces, std::span<const S
         const int tile = y / PixelTiles::side * looks.tiles().columns + x / PixelTiles::side;
         of_tile[static_cast<std::size_t>(tile)].push_back({pixel, found.open, 0});
       });
-  for (const std::vector<Judged>& some : of_tile) judged_.insert(judged_.end(), some.begin(), some.end());
-  for (const Judged& one : judged_) ++judged_of[static_cast<int>(settled[one.pixel])];
+  std::vector<Judged>& judged = room.all;
+  judged.clear();
+  for (const std::vector<Judged>& some : of_tile) judged.insert(judged.end(), some.begin(), some.end());
+  for (const Judged& one : judged) ++judged_of[static_cast<int>(settled[one.pixel])];
   const double all =
       number_of[static_cast<int>(Settled::by_neighbours)] + number_of[static_cast<int>(Settled::by_rays)];
-  for (Judged& one : judged_) {
+  for (Judged& one : judged) {
     const int kind = static_cast<int>(settled[one.pixel]);
     one.weight = number_of[kind] / all / judged_of[kind];
   }
+  judged_ = judged;
 }
 
 double Audit::Errors::rms_255() const {

@@ -7,6 +7,8 @@
 
 namespace tenebra::ao {
 
+namespace {
+
 RaySets make_ray_sets(int rays, int round) {
   // Shifts by the two-dimensional golden ratio: any run of them is spread evenly over the square. Neighbours
   // in the picture take numbers far apart.
@@ -20,13 +22,22 @@ RaySets make_ray_sets(int rays, int round) {
   return sets;
 }
 
-NearTriangles::NearTriangles(const Occluders& occluders, const SeeThroughOccluders& see_through,
-                             const SceneObjects& objects, double reach, const AoKernels& kernels)
-    : occluders_(&occluders),
-      see_through_(&see_through),
-      kernels_(kernels),
-      reach_(static_cast<float>(reach)),
-      lift_(surface_lift(largest_coordinate(objects.standing))) {}
+}  // namespace
+
+const RaySets& KeptRaySets::at(int rays, int round) {
+  const auto found = sets_.find({rays, round});
+  if (found != sets_.end()) return found->second;
+  return sets_.emplace(std::pair(rays, round), make_ray_sets(rays, round)).first->second;
+}
+
+void NearTriangles::begin(const Occluders& occluders, const SeeThroughOccluders& see_through,
+                          const SceneObjects& objects, double reach, const AoKernels& kernels) {
+  occluders_ = &occluders;
+  see_through_ = &see_through;
+  kernels_ = kernels;
+  reach_ = static_cast<float>(reach);
+  lift_ = surface_lift(largest_coordinate(objects.standing));
+}
 
 void NearTriangles::look(std::span<const Receiver> receivers, std::span<const RayPattern* const> patterns,
                          std::span<const int> near, Openness* out, OccluderCounts& counts,

@@ -3,6 +3,9 @@
 // is built anew when they move.
 #pragma once
 
+#include <map>
+#include <utility>
+
 #include "ao/shade/occluders.h"
 #include "ao/shade/point_rays.h"
 #include "ao/shade/receiver_sets.h"
@@ -21,8 +24,15 @@ struct RaySets {
     return patterns[static_cast<std::size_t>((y & (side - 1)) * side + (x & (side - 1)))];
   }
 };
-/// `round`: others for each.
-RaySets make_ray_sets(int rays, int round = 0);
+/// Those that were asked for, kept.
+class KeptRaySets {
+public:
+  /// `round`: others for each.
+  const RaySets& at(int rays, int round = 0);
+
+private:
+  std::map<std::pair<int, int>, RaySets> sets_;  ///< by both
+};
 
 /// What a receiver's rays found.
 struct Openness {
@@ -34,8 +44,9 @@ struct Openness {
 /// For one thread.
 class NearTriangles {
 public:
-  NearTriangles(const Occluders& occluders, const SeeThroughOccluders& see_through,
-                const SceneObjects& objects, double reach, const AoKernels& kernels);
+  /// Keeps references to occluders and what is see-through until the next call.
+  void begin(const Occluders& occluders, const SeeThroughOccluders& see_through, const SceneObjects& objects,
+             double reach, const AoKernels& kernels);
 
   /// out[i] is receiver i's. `near`: what Occluders::near() gives for a box around them, with trees built;
   /// patterns: one for each receiver, of equal numbers of rays. Once `stop` is requested the others' are left
@@ -46,11 +57,11 @@ public:
 private:
   Openness openness(int rays) const;
 
-  const Occluders* occluders_;
-  const SeeThroughOccluders* see_through_;
+  const Occluders* occluders_ = nullptr;
+  const SeeThroughOccluders* see_through_ = nullptr;
   AoKernels kernels_;
-  float reach_;
-  float lift_;
+  float reach_ = 0;
+  float lift_ = 0;
   std::vector<std::uint8_t> reached_;  ///< one per occluder and receiver
   std::vector<RayBatch> batches_;
   std::vector<float> distances_;

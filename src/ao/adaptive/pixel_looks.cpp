@@ -9,33 +9,39 @@
 
 namespace tenebra::ao {
 
-PixelLooks::PixelLooks(const AdaptiveScene& scene, const PixelSurfaces& surfaces, const StopFlag* stop)
-    : scene_(scene), tiles_(surfaces.width, surfaces.height), stop_(stop) {
+PixelLooks::PixelLooks(const AdaptiveScene& scene, const PixelSurfaces& surfaces, const StopFlag* stop,
+                       LookRoom& room)
+    : scene_(scene), tiles_(surfaces.width, surfaces.height), stop_(stop), room_(room) {
   const auto count = static_cast<std::size_t>(tiles_.count());
-  near_.resize(count);
-  counts_.resize(count);
-  looks_.resize(count);
-  const NearTriangles triangles(scene.occluders, scene.see_through, scene.frame.objects, scene.reach,
-                                scene.kernels);
-  workers_.assign(static_cast<std::size_t>(thread_count()), {triangles, {}, {}, {}, {}});
+  if (room.near.size() < count) room.near.resize(count);
+  room.counts.assign(count, {});
+  room.looks.assign(count, 0);
+  room.workers.resize(std::max(room.workers.size(), static_cast<std::size_t>(thread_count())));
+  for (LookRoom::Worker& worker : room.workers)
+    worker.triangles.begin(scene.occluders, scene.see_through, scene.frame.objects, scene.reach,
+                           scene.kernels);
   find_near(surfaces);
 }
 
 /// Moving geometry is in one tree of its own where that is quickly built, else body by body.
 void PixelLooks::find_near(const PixelSurfaces& surfaces) {
+  const auto lists = std::span(room_.near).first(static_cast<std::size_t>(tiles_.count()));
   parallel::parallel_tasks(tiles_.count(), [&](int tile) {
+    std::vector<int>& near = lists[static_cast<std::size_t>(tile)];
+    near.clear();
     PointBox box;
     tiles_.each(tile, 1, [&](int x, int y) {
       const std::size_t i = surfaces.index(x, y);
       if (surfaces.pixels[i].there()) box.extend(scene_.frame.points.positions[i]);
     });
-    if (box.low.x <= box.high.x) scene_.occluders.near(box, near_[static_cast<std::size_t>(tile)]);
+    if (box.low.x <= box.high.x) scene_.occluders.near(box, near);
   });
-  std::vector<int> all;
-  for (const std::vector<int>& near : near_) all.insert(all.end(), near.begin(), near.end());
+  std::vector<int>& all = room_.all;
+  all.clear();
+  for (const std::vector<int>& near : lists) all.insert(all.end(), near.begin(), near.end());
   base::sort_unique(all);
   if (!scene_.occluders.gather_moving(all)) return scene_.occluders.build_trees(all);
-  for (std::vector<int>& near : near_) {
+  for (std::vector<int>& near : lists) {
     const bool stands = std::find(near.begin(), near.end(), Occluders::standing) != near.end();
     const bool moves = near.size() > (stands ? 1u : 0u);
     near.clear();
@@ -45,7 +51,7 @@ void PixelLooks::find_near(const PixelSurfaces& surfaces) {
   scene_.occluders.build_trees(std::array{Occluders::standing});
 }
 
-void PixelLooks::make_receivers(int step, const RaySets& sets, Worker& worker) const {
+void PixelLooks::make_receivers(int step, const RaySets& sets, LookRoom::Worker& worker) const {
   const AoFrame& frame = scene_.frame;
   worker.receivers.clear();
   worker.patterns.clear();
@@ -62,32 +68,32 @@ void PixelLooks::make_receivers(int step, const RaySets& sets, Worker& worker) c
   }
 }
 
-void PixelLooks::look(int step, const RaySets& sets, const Choice& choose, const Take& take) {
+void PixelLooks::look(int step, const RaySets& sets, Choice choose, Take take) {
   parallel::parallel_tasks(tiles_.count(), [&](int tile) {
     if (stop_requested(stop_)) return;
     const auto at = static_cast<std::size_t>(tile);
-    Worker& worker = workers_[static_cast<std::size_t>(parallel::thread_index())];
+    LookRoom::Worker& worker = room_.workers[static_cast<std::size_t>(parallel::thread_index())];
     worker.pixels.clear();
     choose(tile, worker.pixels);
     make_receivers(step, sets, worker);
     worker.found.resize(worker.receivers.size());
-    worker.triangles.look(worker.receivers, worker.patterns, near_[at], worker.found.data(), counts_[at],
-                          stop_);
+    worker.triangles.look(worker.receivers, worker.patterns, room_.near[at], worker.found.data(),
+                          room_.counts[at], stop_);
     if (stop_requested(stop_)) return;
     for (std::size_t k = 0; k < worker.receivers.size(); ++k)
       take(static_cast<std::uint32_t>(worker.receivers[k].index), worker.found[k]);
-    looks_[at] += worker.receivers.size();
+    room_.looks[at] += worker.receivers.size();
   });
 }
 
 std::uint64_t PixelLooks::rays_cast() const {
   std::uint64_t sum = 0;
-  for (const OccluderCounts& counts : counts_) sum += counts.rays_cast;
+  for (const OccluderCounts& counts : room_.counts) sum += counts.rays_cast;
   return sum;
 }
 
 std::uint64_t PixelLooks::looks() const {
-  return std::accumulate(looks_.begin(), looks_.end(), std::uint64_t{0});
+  return std::accumulate(room_.looks.begin(), room_.looks.end(), std::uint64_t{0});
 }
 
 }  // namespace tenebra::ao

@@ -1,12 +1,12 @@
 // Pixels of a frame that cast rays of their own ("look"), tile by tile: through the triangles near the tile.
 #pragma once
 
-#include <functional>
 #include <span>
 #include <vector>
 
 #include <tenebra/stop_flag.h>
 #include "ao/adaptive/adaptive_pass.h"
+#include "parallel/parallel.h"
 
 namespace tenebra::ao {
 
@@ -27,23 +27,8 @@ struct PixelTiles {
   }
 };
 
-class PixelLooks {
-public:
-  /// Finds what is near and builds its trees.
-  PixelLooks(const AdaptiveScene& scene, const PixelSurfaces& surfaces, const StopFlag* stop);
-
-  const PixelTiles& tiles() const { return tiles_; }
-  /// Which pixels of a tile look, in any order.
-  using Choice = std::function<void(int tile, std::vector<std::uint32_t>& pixels)>;
-  /// What one found.
-  using Take = std::function<void(std::uint32_t pixel, const Openness& found)>;
-  /// Tile by tile, on all threads: `choose`, rays, `take`. The patterns alternate over the lattice of `step`.
-  void look(int step, const RaySets& sets, const Choice& choose, const Take& take);
-
-  std::uint64_t rays_cast() const;
-  std::uint64_t looks() const;  ///< of all pixels
-
-private:
+/// Lists that are kept from frame to frame.
+struct LookRoom {
   struct Worker {
     NearTriangles triangles;
     std::vector<std::uint32_t> pixels;
@@ -51,16 +36,37 @@ private:
     std::vector<const RayPattern*> patterns;
     std::vector<Openness> found;
   };
+  std::vector<std::vector<int>> near;  ///< occluders, one list for each tile
+  std::vector<int> all;                ///< of all tiles
+  std::vector<OccluderCounts> counts;  ///< one for each tile
+  std::vector<std::uint64_t> looks;    ///< one for each tile
+  std::vector<Worker> workers;         ///< one for each thread
+};
+
+class PixelLooks {
+public:
+  /// Finds what is near and builds its trees. Keeps references to `room`, and to what `scene` has.
+  PixelLooks(const AdaptiveScene& scene, const PixelSurfaces& surfaces, const StopFlag* stop, LookRoom& room);
+
+  const PixelTiles& tiles() const { return tiles_; }
+  /// (tile, pixels): which pixels of a tile look, in any order.
+  using Choice = parallel::Body<int, std::vector<std::uint32_t>&>;
+  /// (pixel, found): what one found.
+  using Take = parallel::Body<std::uint32_t, const Openness&>;
+  /// Tile by tile, on all threads: `choose`, rays, `take`. The patterns alternate over the lattice of `step`.
+  void look(int step, const RaySets& sets, Choice choose, Take take);
+
+  std::uint64_t rays_cast() const;
+  std::uint64_t looks() const;  ///< of all pixels
+
+private:
   void find_near(const PixelSurfaces& surfaces);
-  void make_receivers(int step, const RaySets& sets, Worker& worker) const;
+  void make_receivers(int step, const RaySets& sets, LookRoom::Worker& worker) const;
 
   AdaptiveScene scene_;
   PixelTiles tiles_;
   const StopFlag* stop_;
-  std::vector<std::vector<int>> near_;  ///< occluders, one list for each tile
-  std::vector<OccluderCounts> counts_;  ///< one for each tile
-  std::vector<std::uint64_t> looks_;    ///< one for each tile
-  std::vector<Worker> workers_;         ///< one for each thread
+  LookRoom& room_;
 };
 
 }  // namespace tenebra::ao

@@ -6,10 +6,10 @@
 
 namespace tenebra::ao {
 
-PixelSurfaces pixel_surfaces(const AoFrame& frame, double reach) {
+void find_surfaces(const AoFrame& frame, double reach, PixelSurfaces& out) {
   const VisiblePoints& points = frame.points;
-  PixelSurfaces out{points.width, points.height, {}};
-  out.pixels.resize(points.triangles.size());
+  out.width = points.width, out.height = points.height;
+  out.pixels.assign(points.triangles.size(), {});
   glm::dvec3 origin(0.0);
   for (std::size_t i = 0; i < points.triangles.size(); ++i) {
     if (points.triangles[i] == no_triangle) continue;
@@ -24,7 +24,6 @@ PixelSurfaces pixel_surfaces(const AoFrame& frame, double reach) {
       if (std::isfinite(at.x + at.y + at.z) && square > 0.25f && square < 4.0f) out.pixels[i] = {at, normal};
     }
   });
-  return out;
 }
 
 }  // namespace tenebra::ao

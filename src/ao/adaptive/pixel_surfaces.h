@@ -39,6 +39,6 @@ struct PixelSurfaces {
   }
 };
 
-PixelSurfaces pixel_surfaces(const AoFrame& frame, double reach);
+void find_surfaces(const AoFrame& frame, double reach, PixelSurfaces& out);
 
 }  // namespace tenebra::ao

@@ -144,8 +144,18 @@ void append(const FrameGeometry& geometry, const Part& part, const dmat4& to_obj
   }
 }
 
+/// Room for a part that is appended; for many of them in steps that double.
+void make_room(const Part& part, ObjectShape& shape) {
+  const auto grow = [](auto& list, std::size_t more) {
+    if (list.size() + more > list.capacity()) list.reserve(std::max(2 * list.capacity(), list.size() + more));
+  };
+  grow(shape.positions, part.mesh->positions.size()), grow(shape.normals, part.mesh->positions.size());
+  grow(shape.triangles, part.mesh->triangles.size()), grow(shape.casts, part.mesh->triangles.size());
+}
+
 /// Appends a part of the static geometry, in world space, as the frame has it.
 void append(const FrameGeometry& geometry, const Part& part, ObjectShape& shape) {
+  make_room(part, shape);
   const auto base = static_cast<std::uint32_t>(shape.positions.size());
   const auto first = static_cast<std::uint32_t>(part.first_vertex);
   for (std::size_t v = part.first_vertex; v < part.first_vertex + part.mesh->positions.size(); ++v) {
@@ -210,14 +220,22 @@ std::uint64_t signature_of(const Scene& scene, const FrameGeometry& geometry, co
 /// Makes the objects of a scene out of its parts.
 class Finder {
 public:
-  Finder(const Scene& scene, const FrameGeometry& geometry, const NodeMotion& motion, SceneObjects& out)
-      : scene_(scene), geometry_(geometry), motion_(motion), out_(out) {}
+  Finder(const Scene& scene, const FrameGeometry& geometry, const NodeMotion& motion, const StopFlag* stop,
+         SceneObjects& out)
+      : scene_(scene), geometry_(geometry), motion_(motion), stop_(stop), out_(out) {}
 
   void run() {
     out_.owners.resize(geometry_.triangles.size());
-    for (const Part& part : parts_of(scene_)) sort_in(part);
+    for (const Part& part : parts_of(scene_)) {
+      if (stop_requested(stop_)) return;
+      sort_in(part);
+    }
+    if (stop_requested(stop_)) return;
     finish(out_.standing);
-    for (auto& [node, parts] : groups_) add_object(node, parts);
+    for (auto& [node, parts] : groups_) {
+      if (stop_requested(stop_)) return;
+      add_object(node, parts);
+    }
   }
 
 private:
@@ -310,6 +328,7 @@ private:
   const Scene& scene_;
   const FrameGeometry& geometry_;
   const NodeMotion& motion_;
+  const StopFlag* stop_;
   SceneObjects& out_;
   std::map<int, std::vector<Part>> groups_;
   std::unordered_map<std::uint64_t, int> by_source_, by_hash_;
@@ -317,11 +336,12 @@ private:
 
 }  // namespace
 
-SceneObjects find_objects(const Scene& scene, const FrameGeometry& geometry) {
+SceneObjects find_objects(const Scene& scene, const FrameGeometry& geometry, const StopFlag* stop) {
   SceneObjects objects;
   objects.motion = find_motion(scene);
   objects.signature = signature_of(scene, geometry, objects.motion);
-  Finder(scene, geometry, objects.motion, objects).run();
+  if (stop_requested(stop)) return objects;
+  Finder(scene, geometry, objects.motion, stop, objects).run();
   return objects;
 }
 

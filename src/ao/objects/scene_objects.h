@@ -11,6 +11,7 @@
 
 #include <tenebra/frame_geometry.h>
 #include <tenebra/scene.h>
+#include <tenebra/stop_flag.h>
 #include "ao/objects/node_motion.h"
 
 namespace tenebra::ao {
@@ -58,8 +59,8 @@ struct SceneObjects {
   std::uint64_t signature = 0;  ///< of all that must not change while the above is kept
 };
 
-/// Everything anew, at the instant of `geometry`.
-SceneObjects find_objects(const Scene& scene, const FrameGeometry& geometry);
+/// Everything anew, at the instant of `geometry`. Of no use if `stop` was requested.
+SceneObjects find_objects(const Scene& scene, const FrameGeometry& geometry, const StopFlag* stop = nullptr);
 
 /// Moves the objects to the instant of `geometry`. False if what stood has moved: then they have to be found
 /// anew.

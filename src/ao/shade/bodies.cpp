@@ -58,7 +58,7 @@ int Bodies::body_of(std::int32_t object, Occluders& occluders) {
   return number = static_cast<int>(bodies_.size()) - 1;
 }
 
-void Bodies::make(std::span<const int> objects, Occluders& occluders) {
+void Bodies::make(std::span<const int> objects, Occluders& occluders, const StopFlag* stop) {
   std::vector<int> chosen;
   for (const int object : objects) {
     const int body = body_of(object, occluders);
@@ -68,13 +68,13 @@ void Bodies::make(std::span<const int> objects, Occluders& occluders) {
   base::sort_unique(chosen);
   for (const int number : chosen) use(number);
   parallel::parallel_tasks(static_cast<int>(chosen.size()), [&](int i) {
-    bodies_[static_cast<std::size_t>(chosen[static_cast<std::size_t>(i)])].samples->prepare();
+    bodies_[static_cast<std::size_t>(chosen[static_cast<std::size_t>(i)])].samples->prepare(stop);
   });
   std::erase_if(chosen, [&](int number) {
     SelfOcclusion& samples = *bodies_[static_cast<std::size_t>(number)].samples;
-    return samples.ready() || !samples.lay();
+    return samples.ready() || !samples.lay(stop);
   });
-  if (!cache_.empty()) load(chosen);
+  if (!cache_.empty() && !stop_requested(stop)) load(chosen);
 }
 
 /// Those that are on disk, many at once.

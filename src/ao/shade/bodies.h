@@ -49,8 +49,8 @@ public:
   const SelfOcclusion& body(int number) const { return *bodies_[static_cast<std::size_t>(number)].samples; }
 
   /// Of `objects` (ascending, unique): with samples, those on disk among them, or, without room, by rays.
-  /// None, if a stop is requested.
-  void make(std::span<const int> objects, Occluders& occluders);
+  /// Some of them, if `stop` is requested.
+  void make(std::span<const int> objects, Occluders& occluders, const StopFlag* stop);
   /// A body is needed in this frame.
   void use(int number) { bodies_[static_cast<std::size_t>(number)].used = frame_; }
   /// Casts the rays of what is missing (ascending, unique). Fails with "stopped".

@@ -7,6 +7,16 @@
 
 namespace tenebra::ao {
 
+/// Lists that are kept from frame to frame.
+struct FieldRoom {
+  std::vector<GroupShader> shaders;  ///< one for each thread
+  std::vector<GroupReport> reports;  ///< one for each pending group, and more from before
+  std::vector<int> pending, left;    ///< groups: of this round and of the next
+  std::vector<int> own, reached;     ///< bodies and occluders that are needed
+  std::vector<int> bodies, occluders;
+  std::vector<MissingSample> samples;  ///< like these, missing
+};
+
 /// What a pass works on, and what it adds to.
 struct FieldPass {
   Occluders& occluders;
@@ -15,14 +25,15 @@ struct FieldPass {
   AoKernels kernels;
   AoStats& stats;
   FrameTimings& timings;
+  FieldRoom& room;
 
   /// Open shares, 0..1, one per receiver; 1 where there is none. Fails with "stopped".
   Expected<void> run(const ReceiverSet& set, AoPart part, std::vector<float>& values,
                      const AoProgress& progress, const StopFlag* stop);
 
 private:
-  void use(const std::vector<GroupReport>& reports, std::vector<int>& reached);
-  Expected<void> supply(const std::vector<GroupReport>& reports, const AoProgress& progress,
+  void use(std::span<const GroupReport> reports);
+  Expected<void> supply(std::span<const GroupReport> reports, const AoProgress& progress,
                         const StopFlag* stop);
 };
 

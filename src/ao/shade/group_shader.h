@@ -29,14 +29,22 @@ struct GroupReport {
   OccluderCounts counts;
   std::uint64_t points = 0;
   bool complete() const { return bodies.empty() && samples.empty() && occluders.empty(); }
+  void clear() {
+    bodies.clear(), own.clear(), samples.clear(), occluders.clear(), reached.clear();
+    counts = {};
+    points = 0;
+  }
 };
 
 /// For one thread.
 class GroupShader {
 public:
-  GroupShader(const Occluders& occluders, const Bodies& bodies, const PointRays& rays,
-              const AoKernels& kernels)
-      : occluders_(&occluders), bodies_(&bodies), rays_(&rays), kernels_(kernels) {}
+  /// Keeps references to all but the last until the next call.
+  void begin(const Occluders& occluders, const Bodies& bodies, const PointRays& rays,
+             const AoKernels& kernels) {
+    occluders_ = &occluders, bodies_ = &bodies, rays_ = &rays;
+    kernels_ = kernels;
+  }
 
   /// Open shares, 0..1, to values[receiver.index], if the report is complete; else nothing.
   void shade(const ReceiverSet& set, AoPart part, int group, std::span<float> values, GroupReport& report);
@@ -47,9 +55,9 @@ private:
   void cast_others(GroupReport& report);
   void meet_near(std::span<const std::size_t> asked, GroupReport& report);
 
-  const Occluders* occluders_;
-  const Bodies* bodies_;
-  const PointRays* rays_;
+  const Occluders* occluders_ = nullptr;
+  const Bodies* bodies_ = nullptr;
+  const PointRays* rays_ = nullptr;
   AoKernels kernels_;
   std::vector<Receiver> receivers_;
   std::vector<float> own_, others_;  ///< hidden shares, one per receiver

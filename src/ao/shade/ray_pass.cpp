@@ -1,5 +1,6 @@
 #include "ao/shade/ray_pass.h"
 
+#include <algorithm>
 #include <numeric>
 
 #include "parallel/parallel.h"
@@ -7,18 +8,14 @@
 namespace tenebra::ao {
 
 std::uint64_t cast_receivers(const ReceiverSet& set, const PointRays& rays, const ReferenceRays& reference,
-                             std::vector<float>& values, const StopFlag* stop) {
-  struct Scratch {
-    std::vector<Receiver> receivers;
-    std::vector<RayBatch> batches;
-    std::vector<float> distances;
-  };
+                             std::vector<float>& values, RayRoom& room, const StopFlag* stop) {
   values.assign(set.values(), 1.0f);
-  std::vector<Scratch> scratch(static_cast<std::size_t>(thread_count()));
-  std::vector<std::uint64_t> points(static_cast<std::size_t>(set.groups()), 0);
+  room.workers.resize(std::max(room.workers.size(), static_cast<std::size_t>(thread_count())));
+  std::vector<std::uint64_t>& points = room.points;
+  points.assign(static_cast<std::size_t>(set.groups()), 0);
   parallel::parallel_tasks(set.groups(), [&](int group) {
     if (stop_requested(stop)) return;
-    Scratch& own = scratch[static_cast<std::size_t>(parallel::thread_index())];
+    RayRoom::Worker& own = room.workers[static_cast<std::size_t>(parallel::thread_index())];
     set.receivers(group, own.receivers);
     points[static_cast<std::size_t>(group)] = own.receivers.size();
     own.batches.resize(rays.batches());

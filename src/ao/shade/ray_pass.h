@@ -8,9 +8,20 @@
 
 namespace tenebra::ao {
 
+/// Lists that are kept from frame to frame.
+struct RayRoom {
+  struct Worker {
+    std::vector<Receiver> receivers;
+    std::vector<RayBatch> batches;
+    std::vector<float> distances;
+  };
+  std::vector<Worker> workers;        ///< one for each thread
+  std::vector<std::uint64_t> points;  ///< of each group
+};
+
 /// Open shares, 0..1, one per receiver; 1 where there is none. Returns the number of receivers; ends early,
 /// with values missing, if `stop` is requested.
 std::uint64_t cast_receivers(const ReceiverSet& set, const PointRays& rays, const ReferenceRays& reference,
-                             std::vector<float>& values, const StopFlag* stop);
+                             std::vector<float>& values, RayRoom& room, const StopFlag* stop);
 
 }  // namespace tenebra::ao

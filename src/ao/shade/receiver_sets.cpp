@@ -13,6 +13,7 @@ using glm::dvec3;
 using glm::vec3;
 
 constexpr int tile = 16;
+static_assert(tile <= ReceiverMaker::most_fetched);
 
 }  // namespace
 

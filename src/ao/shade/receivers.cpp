@@ -8,18 +8,17 @@ using glm::dvec3;
 using glm::vec3;
 
 void ReceiverMaker::fetch(std::span<const std::uint32_t> triangles) {
-  fetched_.clear();
-  next_ = 0;
+  fetched_count_ = next_ = 0;
   std::uint32_t last = triangle_;
   for (const std::uint32_t id : triangles) {
     if (id == last || id >= objects_.owners.size()) continue;
     last = id;
-    fetched_.push_back({.id = id});
+    fetched_[fetched_count_++].id = id;
   }
   // One loop a step of indirection: no load waits for that of another triangle.
-  for (Fetched& f : fetched_) f.owner = objects_.owners[f.id];
-  for (Fetched& f : fetched_) look_up(f);
-  for (Fetched& f : fetched_)
+  for (Fetched& f : fetched()) f.owner = objects_.owners[f.id];
+  for (Fetched& f : fetched()) look_up(f);
+  for (Fetched& f : fetched())
     for (int k = 0; k < 3; ++k) f.at[k] = (*f.positions)[f.corners[k]];
 }
 
@@ -60,7 +59,7 @@ void ReceiverMaker::take(const Fetched& triangle) {
 bool ReceiverMaker::make(std::uint32_t triangle, const dvec3& position, const vec3& normal, Receiver& out) {
   if (triangle >= objects_.owners.size()) return false;
   if (triangle != triangle_) {
-    if (next_ == fetched_.size() || fetched_[next_].id != triangle) fetch({&triangle, 1});
+    if (next_ == fetched_count_ || fetched_[next_].id != triangle) fetch({&triangle, 1});
     take(fetched_[next_++]);
   }
   const float square = glm::dot(normal, normal);

@@ -30,8 +30,9 @@ public:
   ReceiverMaker(const FrameGeometry& geometry, const SceneObjects& objects)
       : geometry_(geometry), objects_(objects) {}
 
-  /// Prefetches the triangles of points about to be made, in their order: memory is slow, and here the waits
-  /// for many overlap instead of following each other.
+  static constexpr std::size_t most_fetched = 16;
+  /// Prefetches the triangles of points (at most that many) about to be made, in their order: memory is slow,
+  /// and here the waits for many overlap instead of following each other.
   void fetch(std::span<const std::uint32_t> triangles);
 
   /// False where there is none: no triangle, no area, no normal, or a point that is not finite.
@@ -40,19 +41,20 @@ public:
 private:
   /// A triangle in the space of its object.
   struct Fetched {
-    std::uint32_t id;
+    std::uint32_t id = 0;
     TriangleOwner owner;
-    const std::vector<glm::vec3>* positions;
-    glm::uvec3 corners;
+    const std::vector<glm::vec3>* positions = nullptr;
+    glm::uvec3 corners{0};
     glm::vec3 at[3];
   };
+  std::span<Fetched> fetched() { return {fetched_, fetched_count_}; }
   void look_up(Fetched& triangle) const;
   void take(const Fetched& triangle);
 
   const FrameGeometry& geometry_;
   const SceneObjects& objects_;
-  std::vector<Fetched> fetched_;
-  std::size_t next_ = 0;  ///< of fetched_
+  Fetched fetched_[most_fetched];
+  std::size_t fetched_count_ = 0, next_ = 0;  ///< of fetched_
   std::uint32_t triangle_ = 0xffffffffu;
   TriangleOwner owner_;
   const glm::dmat4* to_object_ = nullptr;

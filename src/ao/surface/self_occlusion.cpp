@@ -68,13 +68,16 @@ SelfOcclusion::SelfOcclusion(const ObjectShape& shape, const TriangleBvh& caster
   if (budget != nullptr) share_ = MemoryShare(*budget);
 }
 
-void SelfOcclusion::prepare() {
-  if (!laid() && !prepared_ && needed_bytes_ == 0) prepared_.emplace(shape_, reach_);
+void SelfOcclusion::prepare(const StopFlag* stop) {
+  if (laid() || prepared_ || needed_bytes_ != 0) return;
+  prepared_.emplace(shape_, reach_, stop);
+  if (stop_requested(stop)) prepared_.reset();
 }
 
-bool SelfOcclusion::lay() {
+bool SelfOcclusion::lay(const StopFlag* stop) {
   if (laid()) return true;
-  prepare();
+  prepare(stop);
+  if (stop_requested(stop)) return false;
   if (needed_bytes_ == 0) {
     const auto count = static_cast<std::uint32_t>(shape_.triangles.size());
     bool any_small = false;
@@ -84,13 +87,25 @@ bool SelfOcclusion::lay() {
   }
   refused_ = !share_.take(needed_bytes_);
   if (!refused_) {
-    if (!prepared_) prepared_.emplace(shape_, reach_);
+    if (!prepared_) prepared_.emplace(shape_, reach_, stop);
     layout_.emplace(std::move(*prepared_));
-    values_.assign(layout_->samples(), unknown);
-    sides_.resize(sides_needed_);
+    if (!make_room(stop)) drop();
   }
   prepared_.reset();
-  return !refused_;
+  return laid();
+}
+
+/// For all samples, none known. False: a stop was requested.
+bool SelfOcclusion::make_room(const StopFlag* stop) {
+  constexpr std::size_t step = std::size_t{1} << 20;
+  values_.clear();
+  values_.reserve(layout_->samples());
+  while (values_.size() < layout_->samples()) {
+    if (stop_requested(stop)) return false;
+    values_.resize(std::min(values_.size() + step, layout_->samples()), unknown);
+  }
+  sides_.resize(sides_needed_);
+  return !stop_requested(stop);
 }
 
 void SelfOcclusion::drop() {

@@ -48,9 +48,10 @@ public:
                 std::size_t cells = most_cells, MemoryBudget* budget = nullptr);
 
   /// The part of lay() that takes time, and nothing of the budget: for many bodies at once.
-  void prepare();
-  /// Makes room for samples, if there is none. False: the budget refuses, and rays answer all.
-  bool lay();
+  void prepare(const StopFlag* stop = nullptr);
+  /// Makes room for samples, if there is none. False: the budget refuses, and rays answer all; or a stop was
+  /// requested, and nothing has changed.
+  bool lay(const StopFlag* stop = nullptr);
   bool laid() const { return layout_.has_value(); }
   bool ready() const { return laid() || refused_; }
   /// Gives the room back, with all that is known.
@@ -108,6 +109,7 @@ private:
   bool cast(const std::vector<std::uint32_t>& samples, const AoKernels& kernels,
             const std::function<void(double)>& progress, const StopFlag* stop);
 
+  bool make_room(const StopFlag* stop);
   Value& value(std::uint32_t sample);
   /// What a cell is for: the frame, or what others knew.
   enum class Cell { needed, learned };

@@ -81,6 +81,35 @@ std::uint64_t corner_key(const ObjectShape& shape, std::uint32_t triangle, int c
   return key;
 }
 
+struct Corner {
+  std::uint64_t key;
+  std::uint32_t id;  // 3 x triangle + corner
+};
+
+/// All corners of a shape by their keys, then by their ids. Keys are spread evenly: sorted by their first
+/// bits at once, and then range by range, so that a stop need not wait for all.
+std::vector<Corner> sorted_corners(const ObjectShape& shape, const StopFlag* stop) {
+  constexpr int first_bits = 8;
+  constexpr std::uint32_t look_after = 1 << 14;
+  std::vector<Corner> corners(3 * shape.triangles.size()), sorted(corners.size());
+  std::vector<std::size_t> ends((1u << first_bits) + 1);
+  const auto range_of = [](const Corner& corner) { return corner.key >> (64 - first_bits); };
+  for (std::uint32_t id = 0; id < corners.size(); ++id) {
+    if (id % look_after == 0 && stop_requested(stop)) return {};
+    corners[id] = {corner_key(shape, id / 3, static_cast<int>(id % 3)), id};
+    ++ends[range_of(corners[id]) + 1];
+  }
+  for (std::size_t k = 1; k < ends.size(); ++k) ends[k] += ends[k - 1];
+  for (const Corner& corner : corners) sorted[ends[range_of(corner)]++] = corner;
+  for (std::size_t k = 0, first = 0; k + 1 < ends.size(); first = ends[k++]) {
+    if (stop_requested(stop)) return {};
+    std::sort(sorted.begin() + static_cast<std::ptrdiff_t>(first),
+              sorted.begin() + static_cast<std::ptrdiff_t>(ends[k]),
+              [](const Corner& a, const Corner& b) { return a.key != b.key ? a.key < b.key : a.id < b.id; });
+  }
+  return sorted;
+}
+
 }  // namespace
 
 vec3 face_normal(const ObjectShape& shape, std::size_t triangle) {
@@ -91,10 +120,11 @@ vec3 face_normal(const ObjectShape& shape, std::size_t triangle) {
   return square > 0 ? vec3(n / std::sqrt(square)) : vec3(0.0f);
 }
 
-SurfaceLayout::SurfaceLayout(const ObjectShape& shape, double reach)
+SurfaceLayout::SurfaceLayout(const ObjectShape& shape, double reach, const StopFlag* stop)
     : shape_(shape), spacing_(reach / wide_steps) {
-  lay_grids();
-  weld_corners();
+  lay_grids(stop);
+  if (!stop_requested(stop)) weld_corners(stop);
+  if (stop_requested(stop)) return;
   places_ = shared_.size();
   for (const std::uint32_t t : large_) {
     grids_[t].first = static_cast<std::uint32_t>(places_);
@@ -103,7 +133,7 @@ SurfaceLayout::SurfaceLayout(const ObjectShape& shape, double reach)
 }
 
 // Too many places: the spacing grows until they fit.
-void SurfaceLayout::lay_grids() {
+void SurfaceLayout::lay_grids(const StopFlag* stop) {
   grids_.assign(shape_.triangles.size(), {});
   std::vector<double> edges(shape_.triangles.size());
   for (std::size_t t = 0; t < edges.size(); ++t) edges[t] = longest_edge(shape_, t);
@@ -115,26 +145,17 @@ void SurfaceLayout::lay_grids() {
     }
     return places;
   };
-  while (count() > most_places) spacing_ *= 1.25;
+  while (!stop_requested(stop) && count() > most_places) spacing_ *= 1.25;
   for (std::size_t t = 0; t < edges.size(); ++t) {
     grids_[t].steps = steps_of(edges[t], spacing_);
     if (grids_[t].steps > 1) large_.push_back(static_cast<std::uint32_t>(t));
   }
 }
 
-void SurfaceLayout::weld_corners() {
-  struct Corner {
-    std::uint64_t key;
-    std::uint32_t id;  // 3 x triangle + corner
-  };
-  std::vector<Corner> corners;
-  corners.reserve(3 * grids_.size());
-  for (std::uint32_t t = 0; t < grids_.size(); ++t)
-    for (std::uint32_t k = 0; k < 3; ++k)
-      corners.push_back({corner_key(shape_, t, static_cast<int>(k)), 3 * t + k});
+void SurfaceLayout::weld_corners(const StopFlag* stop) {
+  const std::vector<Corner> corners = sorted_corners(shape_, stop);
+  if (stop_requested(stop)) return;
   corners_.resize(corners.size());
-  std::sort(corners.begin(), corners.end(),
-            [](const Corner& a, const Corner& b) { return a.key != b.key ? a.key < b.key : a.id < b.id; });
   for (std::size_t i = 0; i < corners.size(); ++i) {
     if (i == 0 || corners[i].key != corners[i - 1].key) shared_.push_back(corners[i].id);
     corners_[corners[i].id] = static_cast<std::uint32_t>(shared_.size() - 1);

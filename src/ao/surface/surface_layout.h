@@ -12,6 +12,7 @@
 #include <glm/glm.hpp>
 #include <vector>
 
+#include <tenebra/stop_flag.h>
 #include "ao/objects/scene_objects.h"
 
 namespace tenebra::ao {
@@ -38,8 +39,9 @@ public:
   static constexpr std::size_t most_places = std::size_t{1} << 24;  ///< two samples each, front and back
   static constexpr std::uint32_t cell_samples = 15;                 ///< of a divided cell
 
-  /// `reach`: where occlusion has fallen off to nothing, in units of the shape. Keeps a reference.
-  SurfaceLayout(const ObjectShape& shape, double reach);
+  /// `reach`: where occlusion has fallen off to nothing, in units of the shape. Keeps a reference to it. Of
+  /// no use if `stop` was requested.
+  SurfaceLayout(const ObjectShape& shape, double reach, const StopFlag* stop = nullptr);
 
   std::size_t samples() const { return 2 * places_; }
   double spacing() const { return spacing_; }  ///< of the wide grids
@@ -74,8 +76,8 @@ private:
   };
   static Cell cell(float v, float w, std::uint32_t steps);
   std::uint32_t triangle_at(std::uint32_t place) const;
-  void lay_grids();
-  void weld_corners();
+  void lay_grids(const StopFlag* stop);
+  void weld_corners(const StopFlag* stop);
 
   const ObjectShape& shape_;
   double spacing_;

@@ -18,7 +18,7 @@ namespace fs = std::filesystem;
 constexpr std::uint64_t largest_file = std::uint64_t{1} << 31;
 
 struct CloseFile {
-  void operator()(std::FILE* file) const { std::fclose(file); }
+  void operator()(std::FILE* file) const { static_cast<void>(std::fclose(file)); }
 };
 
 std::string read_whole(const fs::path& path) {
@@ -46,7 +46,7 @@ bool lies_within(const fs::path& path, const fs::path& root) {
 void check_name(std::string_view name) {
   const fs::path path{std::string(name)};
   const bool climbs = std::find(path.begin(), path.end(), fs::path("..")) != path.end();
-  if (path.is_absolute() || climbs || name.find('\0') != name.npos) {
+  if (path.is_absolute() || climbs || name.find('\0') != std::string_view::npos) {
     throw AffFailure{fmt::format("include of {}, which points out of the scene's folder", quote_word(name))};
   }
 }

@@ -30,7 +30,7 @@ glm::vec3 read_normal(AffLexer& in) {
   return length > 0.0 && std::isfinite(length) ? glm::vec3(n / length) : glm::vec3(0.0f);
 }
 
-/// Unnormalised, as the keys of animated triangles interpolate it.
+/// Not normalised: the keys of animated triangles interpolate it as written.
 glm::vec3 read_raw_normal(AffLexer& in) {
   const float x = in.real(normal_coordinate);
   const float y = in.real(normal_coordinate);
@@ -159,7 +159,7 @@ std::size_t memory_of(const Mesh& mesh) {
 }  // namespace
 
 std::uint32_t AffReader::current_material(AffLexer& in) {
-  if (!material_) {  // no scene of ours gives geometry before its first material
+  if (!material_) {  // a file may give geometry before its first material
     set_material(in, {-1.0}, Material{});
   }
   return *material_;

@@ -94,7 +94,7 @@ double AffLexer::finite_number(std::string_view text, std::string_view expected)
   const auto [end, error] = std::from_chars(digits.data(), digits.data() + digits.size(), value);
   if (end != digits.data() + digits.size()) fail(quote_word(text), expected);
   if (error == std::errc::result_out_of_range) {
-    if (digits.find("e-") == digits.npos && digits.find("E-") == digits.npos)
+    if (digits.find("e-") == std::string_view::npos && digits.find("E-") == std::string_view::npos)
       fail(quote_word(text), expected);
     value = 0;  // too small to tell from zero
   }

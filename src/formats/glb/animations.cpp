@@ -42,6 +42,7 @@ struct GlbWriter::ClipWriter {
 
   std::vector<float> delayed(const std::vector<double>& times_s) const {
     std::vector<float> times;
+    times.reserve(times_s.size());
     for (const double time : times_s) times.push_back(static_cast<float>(time + delay_s));
     return times;
   }
@@ -191,6 +192,7 @@ struct GlbWriter::ClipWriter {
     const int input = keeps ? writer.binary_.add_floats(delayed(track.times_s), 1, true) : frames_input();
     std::vector<double> numbers = keeps ? track.values : baked_values(track, false);
     std::vector<float> values;
+    values.reserve(numbers.size());
     for (const double number : numbers) values.push_back(static_cast<float>(number * factor));
     const char* how = keeps ? name_of(track.interpolation) : "LINEAR";
     const int sampler = add_sampler(input, how, values, track.components);

@@ -1,4 +1,4 @@
-// What export_glb is made of: the JSON and binary chunk being built, one method a table of the file.
+// What export_glb is made of: the JSON and binary chunk being built, one method for each table of the file.
 #pragma once
 
 #include <algorithm>

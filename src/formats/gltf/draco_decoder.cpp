@@ -65,7 +65,7 @@ void decode_by(draco::DecoderBuffer& buffer, const DracoLimits& limits, draco::M
         "and {} vertices",
         place, limits.faces, limits.vertices);
   if (!status.ok()) {
-    const std::string why = status.error_msg_string();
+    const std::string& why = status.error_msg_string();
     refuse("{}: found compressed bytes that do not decode ({}), expected a mesh of Draco", place,
            why.substr(0, why.find('\n')));
   }

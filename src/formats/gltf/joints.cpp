@@ -57,7 +57,7 @@ struct Vertex {
   }
 };
 
-/// Whether a joint carries vertex `v` twice.
+/// Whether two weights of vertex `v` that are not 0 name the same joint.
 bool repeats(const Set& first, const Set& second, const Vertex& vertex, std::size_t v) {
   const std::size_t count = second.joints.empty() ? 4 : 8;
   const auto joint = [&](std::size_t k) {

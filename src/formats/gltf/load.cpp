@@ -1,7 +1,9 @@
 // From the bytes of a file to gltf::Asset: container, schema, tinygltf, buffers.
 #include <fmt/core.h>
 #include <algorithm>
+#include <array>
 #include <set>
+#include <string_view>
 
 #include "formats/gltf/container.h"
 #include "formats/gltf/model.h"
@@ -11,7 +13,7 @@
 namespace tenebra::formats::gltf {
 namespace {
 
-const std::set<std::string> understood_extensions = {
+constexpr std::array<std::string_view, 14> understood_extensions = {
     "KHR_lights_punctual",        "EXT_lights_area",
     "KHR_mesh_quantization",      "KHR_materials_unlit",
     "KHR_node_visibility",        "KHR_materials_emissive_strength",
@@ -19,6 +21,11 @@ const std::set<std::string> understood_extensions = {
     "KHR_draco_mesh_compression", "EXT_mesh_gpu_instancing",
     "KHR_animation_pointer",      "KHR_materials_transmission",
     "EXT_texture_webp",           "KHR_materials_pbrSpecularGlossiness"};
+
+bool is_understood(std::string_view extension) {
+  return std::find(understood_extensions.begin(), understood_extensions.end(), extension) !=
+         understood_extensions.end();
+}
 
 /// Whether geometry and animation are the same without extension `name`: it is about how surfaces look, or
 /// about sound, tools and descriptions.
@@ -134,7 +141,7 @@ void check_extensions(Asset& asset) {
   auto& warnings = asset.scene.warnings;
   std::set<std::string> unread;
   for (const std::string& name : model.extensionsRequired) {
-    if (understood_extensions.contains(name)) continue;
+    if (is_understood(name)) continue;
     if (!leaves_geometry(name))
       refuse(
           "extensionsRequired: found {}, which may change the geometry and is not read; expected only "
@@ -150,7 +157,7 @@ void check_extensions(Asset& asset) {
   };
   std::string names;
   for (const std::string& name : model.extensionsUsed)
-    if (!understood_extensions.contains(name) && !is_counted(name) && unread.insert(name).second)
+    if (!is_understood(name) && !is_counted(name) && unread.insert(name).second)
       names += (names.empty() ? "" : ", ") + name;
   if (!names.empty()) warnings.push_back(fmt::format("extensionsUsed: {}: not read.", names));
 }

@@ -15,7 +15,7 @@ namespace tenebra::formats::rules {
 
 using Json = nlohmann::json;
 
-/// Breaches by rule: one sentence a rule, with the first places.
+/// Breaches by rule: one sentence for each rule, with the first places.
 class Report {
 public:
   void add(const std::string& rule, const std::string& place) {
@@ -74,7 +74,7 @@ void for_each(const Json& object, const char* name, const std::string& path, Vis
   for (std::size_t i = 0; i < table.size(); ++i) visit(table[i], fmt::format("{}{}[{}]", path, name, i));
 }
 
-// One group of rules each (gltf_rules_*.cpp).
+// One group of rules each (rules_*.cpp).
 void check_geometry_rules(const Json& root, Report& report);
 void check_tree_rules(const Json& root, Report& report);
 void check_value_rules(const Json& root, Report& report);

@@ -200,7 +200,7 @@ private:
     }
   }
 
-  /// `extras` may hold anything; what does not look like one of `fields` is none of ours.
+  /// `extras` may hold anything; what does not look like one of `fields` was written by other programs.
   static Json meaningful_extras(const Json& extras, std::span<const Field> fields) {
     Json kept = Json::object();
     if (!extras.is_object()) return kept;

@@ -25,7 +25,7 @@ bool reads_webp();
 
 /// Takes width * height pixels from `pixels_left`; throws ImportFailure where a limit is passed.
 void charge_pixels(std::uint64_t width, std::uint64_t height, std::uint64_t& pixels_left);
-/// P6 and P3, 8 or 16 bits a value, comments in the header.
+/// P6 and P3, 8 or 16 bits per value, comments in the header.
 TextureImage decode_ppm(std::string_view bytes, std::uint64_t& pixels_left);
 TextureImage decode_webp(std::string_view bytes, std::uint64_t& pixels_left);
 

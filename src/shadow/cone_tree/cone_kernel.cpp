@@ -36,7 +36,7 @@ ConeNode cone_around(const RayPacket& packet) {
   node.far = (longest * (1 + 16 * u) + 4 * u * r) * packet.reach * (1 + 4 * u);
   node.w = glm::vec3(1, 0, 0);
   node.c = 4;                            // more than any chord: bounds nothing, but is finite
-  if (!(shortest > 1e-6f)) return node;  // a ray next to the light, in a packet that is not
+  if (!(shortest > 1e-6f)) return node;  // one ray begins next to the light, others far from it
 
   const Pack3<Float16> d{p.x / length, p.y / length, p.z / length};
   const glm::vec3 centre(reduce_min(d.x) + reduce_max(d.x), reduce_min(d.y) + reduce_max(d.y),

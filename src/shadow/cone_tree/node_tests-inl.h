@@ -131,7 +131,7 @@ SIMD_INLINE NodeVerdict sphere_cone_test(const TriangleBounds& t, const Nodes& n
   const Vector4 apart{broadcast<Float4>(t.sx) - n.w.x, broadcast<Float4>(t.sy) - n.w.y,
                       broadcast<Float4>(t.sz) - n.w.z};
   const Float4 sum = n.c + broadcast<Float4>(t.sphere_chord + 8 * u);
-  // A light inside the sphere sees it everywhere.
+  // A light inside the sphere sees it in all directions: no node is rejected by them.
   const Float4 limit = sum * sum * broadcast<Float4>(t.sphere_chord < 2.0f ? 1 + 16 * u : 1e9f);
   return {n.empty | bits(lt(limit, dot(apart, apart)) | lt(n.far, broadcast<Float4>(t.sphere_near))), 0};
 }

@@ -34,13 +34,12 @@ struct OpenPairs {
 
 struct PacketVerdict {
   std::uint32_t blocked;  // certain
-  std::uint32_t open;     // neither certain
+  std::uint32_t open;     // neither certainly blocked nor certainly missed
 };
 
 // Sixteen rays of a packet against the four planes of a triangle. e0 is in double; with r >= |q| a float sum
 // differs from the exact value by at most K = 10.1 u r + rho (R + reach), or cannot have the wrong sign at
-// all
-// (|e0| > 2r). The own plane opens tau of the rays' triangles later.
+// all (|e0| > 2r). Behind the own plane a point must lie farther by tau of the rays' own triangles.
 SIMD_INLINE PacketVerdict test_packet(const RayPacket& packet, const TrianglePlanes& t, float tau) {
   double e0[4];
   four_planes(t.mx, t.my, t.mz, t.d, packet.base_x, packet.base_y, packet.base_z, e0);
@@ -79,7 +78,7 @@ void settle_open(const Traversal& s, std::size_t index, RayPacket& packet, const
   }
 }
 
-// Of `rays` those whose own triangle is not `id`.
+// Those of `rays` whose own triangle is not `id`.
 std::uint32_t without_own(const Traversal& s, std::size_t index, std::uint32_t rays, std::uint32_t id) {
   if (s.contact != ContactRule::triangle_ids) return rays;
   std::uint32_t kept = rays;

@@ -60,7 +60,7 @@ struct TraversalKernels {
   void (*descend)(const Traversal&, std::size_t level, std::size_t node, TriangleList list, TraversalScratch&,
                   TraceStats&) = nullptr;
 };
-/// `level`: one that simd_level_supported, or automatic.
+/// `level`: one for which simd_level_supported() holds, or automatic.
 TraversalKernels traversal_kernels(SimdLevel level);
 
 /// Takes the triangles at `places` through the tree on all cores. Memory is bounded: at most 65,536 triangles

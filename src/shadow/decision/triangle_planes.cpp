@@ -82,8 +82,8 @@ void set_own_plane(TrianglePlanes& t, const vec3 v[3], const dvec3& origin, doub
 
 void set_sphere(TriangleBounds& b, const vec3 v[3], const RaySource& source) {
   // The smallest sphere of a triangle: over its longest edge where it is obtuse, else its circumsphere; here
-  // the longest edge's midpoint with the distance to the far corner, at most 15 % larger and free of
-  // divisions by 0.
+  // the longest edge's midpoint with the distance to the far corner, at most 1.5 times as large (an
+  // equilateral triangle) and free of divisions by 0.
   dvec3 centre(0);
   double longest = -1;
   for (int k = 0; k < 3; ++k) {

@@ -15,7 +15,7 @@ namespace {
 
 using glm::dvec3;
 
-constexpr std::uint32_t tile = 64;  // pixels a side of the squares that run in parallel
+constexpr std::uint32_t tile = 64;  // side, in pixels, of the squares that run in parallel
 
 constexpr std::uint32_t even_bits(std::uint32_t v) {
   std::uint32_t r = 0;
@@ -108,8 +108,8 @@ bool in_reach(const dvec3& p, const ShadowLight& light) {
   return along >= light.spot_cos_outer * std::sqrt(distance2);
 }
 
-// Both tests of in_reach ask for the sign of a function that is at most so steep: 1 (range), |axis| +
-// |cosine| (cone). Doubles are off by far less than 2^-40 of what they add up.
+// Each test of in_reach takes the sign of a function whose slope is at most 1 (range) or |axis| + |cosine|
+// (cone). Doubles are off by far less than 2^-40 of what they add up.
 Reach reach_of_ball(const dvec3& centre, double radius, const ShadowLight& light) {
   if (light.directional) return Reach::all;
   const double distance = glm::length(centre);

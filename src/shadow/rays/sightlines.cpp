@@ -189,7 +189,7 @@ Meeting meeting_of(const Corners& c, const dvec3& point, const RaySource& source
   Meeting m{dot(n, math::exact_difference(c.v[0], point)),
             dot(n, source.directional ? math::exact_vector(source.light)
                                       : math::exact_difference(source.light, point))};
-  if (m.whole.sign() < 0) m = {-m.over, -m.whole};  // the sample is behind the plane: both have one sign
+  if (m.whole.sign() < 0) m = {-m.over, -m.whole};  // both have the same sign, made positive
   return m;
 }
 

@@ -14,7 +14,7 @@ namespace {
 
 using glm::vec3;
 
-// Longest edge in units of the scene's longest side: above the first, above the second, below.
+// Limits of the classes of size, for a triangle's longest edge over the scene's longest side.
 constexpr float class_limits[] = {1.0f / 16, 1.0f / 128};
 constexpr std::size_t class_count = 3, node_size = 256;
 constexpr std::uint32_t stride = 4096;  // triangles treated between two looks at the stop flag, at most
@@ -41,8 +41,9 @@ Item item_of(std::uint32_t id, const points::Corners& c) {
   return {id, is_finite(centre) ? centre : vec3(0.0f)};
 }
 
-/// Items first ... last - 1, near ones together: cut in two across their longest side, and so on, between
-/// multiples of `unit`; of `larger` ones while there are several. Until a stop is requested.
+/// Orders items first ... last - 1 so that near ones come together: cuts them in two across the longest side
+/// of their box, then each half again. Cuts lie at multiples of `unit`, or of `larger` while at least two of
+/// these remain. Ends early if a stop is requested.
 void cut_in_halves(std::vector<Item>& items, std::size_t first, std::size_t last, std::size_t unit,
                    std::size_t larger, const StopFlag* stop) {
   if (stop_requested(stop)) return;

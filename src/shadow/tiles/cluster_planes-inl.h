@@ -70,7 +70,7 @@ SIMD_INLINE Double8 certain_side(const Vector8& n, const Vector8& a, Double8 squ
   return select(lt(bound2, value * value), sign, broadcast<Double8>(0.0));
 }
 
-/// Exact sides of the lanes in `lanes` whose side is 0; returns the lanes that are 0 indeed.
+/// Exact sides of the lanes in `lanes` whose side is 0; returns the lanes that are really 0.
 inline std::uint32_t settle_sides(const TriangleCluster& c, int at, std::uint32_t lanes,
                                   const RaySource& source, double side[8]) {
   std::uint32_t edge_on = 0;

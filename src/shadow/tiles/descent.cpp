@@ -105,7 +105,7 @@ private:
   int waiting_count_ = 0;
 };
 
-// Asks for nodes that are about to be met.
+// Prefetches nodes that are about to be met.
 template <class Side>
 void RootDescent<Side>::fetch_nodes(const RayNode& n, int level, std::uint32_t slots) const {
   if ((slots & (slots - 1)) == 0) return;
@@ -190,7 +190,7 @@ void RootDescent<Side>::meet_cluster(const TriangleCluster& cluster, const RayRe
   test_waiting();
 }
 
-// The triangles of `mask` meet the box of `rays`. What children need is asked for before the first is met.
+// The triangles of `mask` meet the box of `rays`. What children need is prefetched before the first is met.
 template <class Side>
 void RootDescent<Side>::descend_cluster(const RayRef& rays, std::uint32_t mask) {
   RayNode& n = node(rays);
@@ -225,7 +225,8 @@ void RootDescent<Side>::set_up_cluster() {
     scratch_.edge_on.push_back(cluster_->ids[std::countr_zero(left)]);
 }
 
-// Few tiles look for their triangles sixteen at a time, few triangles for their tiles.
+// If the tiles are fewer, each looks for its triangles, sixteen at a time; else each triangle looks for
+// tiles.
 template <class Side>
 void RootDescent<Side>::meet_tiles(const RayRef& rays, std::uint32_t met, std::uint32_t mask) {
   if (!set_up_) set_up_cluster();
@@ -273,7 +274,7 @@ void RootDescent<Side>::by_triangles(std::uint32_t number, std::uint32_t mask) {
   if (n.live == 0) live_.retire(0, number);
 }
 
-// What is to be tested is asked for at once, and tested when it has had time to come.
+// Prefetches a tile now and tests it later, when it has had time to arrive.
 template <class Side>
 void RootDescent<Side>::put_off(std::uint32_t number, int slot, std::uint32_t triangles) {
   simd::prefetch_all(tile(node(0, number), slot));
@@ -333,7 +334,7 @@ bool RootDescent<Side>::test_triangle(const Waiting& w, const RoughRays& rough, 
   return true;
 }
 
-/// Of the lanes of `open` those that triangle i blocks: in double, then exactly.
+/// Those of the lanes `open` that triangle i blocks: in double, then exactly.
 template <class Side>
 std::uint32_t RootDescent<Side>::blocked_lanes(const RayNode& n, int slot, std::uint32_t open, int i) {
   const std::uint32_t id = cluster_->ids[i], number = n.child[slot];

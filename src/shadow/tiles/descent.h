@@ -71,7 +71,7 @@ struct DescentKernels {
   ClusterVerdict (*meet)(const TriangleCluster& cluster, const BoxNode& boxes, const RaySource& source,
                          int face, const DistantFace* distant, const FaceBox& rays, float tau) = nullptr;
 };
-/// `level`: one that simd_level_supported, or automatic.
+/// `level`: one for which simd_level_supported() holds, or automatic.
 DescentKernels descent_kernels(SimdLevel level);
 
 }  // namespace tenebra::shadow

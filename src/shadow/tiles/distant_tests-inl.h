@@ -54,16 +54,16 @@ SIMD_INLINE DistantRange sheared(const DistantRange& x, const DistantRange& z, f
           high * select_le(high, zero, n.far_inverse, n.near_inverse)};
 }
 
-/// How far u is off where x, z, S and K are off by u, as all roundings are. With A = |x| + |S z| the
-/// numerator is off by 4.1u A, q by 3.1u |K z| + u q <= u (3.1 + 4.2 q), so 1 / q by (3.1 / q + 5.2) u of
-/// itself: in all (10.4 + 3.1 / q) u A / q, with A and 1 / q themselves off by less than 2^-11. w = z / q:
-/// the same with |z|.
+/// How far the coordinate u is off where x, z, S, K and each operation have the relative error u = 2^-24.
+/// With A = |x| + |S z| the numerator is off by 4.1u A, q by 3.1u |K z| + u q <= u (3.1 + 4.2 q), so 1 / q by
+/// (3.1 / q + 5.2) u of itself: in all (10.4 + 3.1 / q) u A / q, with A and 1 / q themselves off by less than
+/// 2^-11. w = z / q: the same with |z|.
 SIMD_INLINE Float16 distant_margin(Float16 size, Float16 inverse) {
   return broadcast<Float16>(16 * u) * size * inverse * max(inverse, broadcast<Float16>(1.0f));
 }
 
-/// Puts boxes on the face from what their coordinates and 1 / q are at most; those that are not sane are
-/// `pulled` wide open.
+/// Puts boxes on the face: their ranges of u and v, widened by margins from the largest coordinates (`size`)
+/// and 1 / q. Boxes too near the light or too far away get `all`.
 SIMD_INLINE void set_boxes(const DistantRange across[2], Float16 w, const Float16 size[3], const Nearness& n,
                            const DistantFace& f, const FaceBox& all, FaceBoxes& out) {
   const Float16 depth = size[2];
@@ -81,7 +81,7 @@ SIMD_INLINE void set_boxes(const DistantRange across[2], Float16 w, const Float1
                  broadcast<Float16>(all.w));
 }
 
-/// Bits of what is not wholly behind the light: q < -1 is, for sure.
+/// Bits of the boxes that are not certainly behind the light, as those with q < -1 throughout are.
 SIMD_INLINE std::uint32_t before_light(const Nearness& n) {
   return 0xffffu & ~lt_bits(n.far_q, broadcast<Float16>(-1.0f));
 }

@@ -37,12 +37,13 @@ public:
     n.live &= ~(1u << slot);
     node(1, n.parent).wide |= 1u << n.slot;
   }
-  /// What missed all rays of a tile may have met the box only: of all points, or of rays that are blocked by
-  /// now.
+  /// Shrinks the box of a tile to its remaining rays. What missed them all may have met the box only because
+  /// it was made for all points, or for rays that are blocked by now.
   void shrink(RayNode& n, int slot) const;
-  /// What missed all children may have met the node's box only, which may be that of rays blocked by now.
+  /// Shrinks the box of a node to its remaining rays: what missed all its children may have met only the box,
+  /// which may be that of rays blocked by now.
   void tighten(const RayRef& rays) const;
-  /// A node whose rays are all blocked is met by nothing more.
+  /// Takes a node whose rays are all blocked out of its parent, and parents left empty with it.
   void retire(int level, std::uint32_t number) const;
 
 private:

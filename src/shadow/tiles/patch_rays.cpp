@@ -149,7 +149,7 @@ dvec3 PatchRays::point_of(const points::PointSquare& square, const points::Point
          dvec3(tile.qx[lane], tile.qy[lane], tile.qz[lane]);
 }
 
-/// For each receiver a Faces.
+/// Finds the Faces of each receiver.
 void PatchRays::find_facing(const points::PointPatch& patch, std::vector<std::uint8_t>& facing) const {
   facing.resize(patch.receivers.size() * 16);
   for (std::size_t b = 0; b < patch.receivers.size(); ++b) {
@@ -169,7 +169,7 @@ void PatchRays::find_facing(const points::PointPatch& patch, std::vector<std::ui
   }
 }
 
-/// Of lanes on several triangles those that face the light.
+/// Those of `lanes`, on several triangles, that face the light.
 std::uint32_t PatchRays::facing_lanes(Work& work, std::uint32_t lanes, std::uint32_t tile) const {
   std::uint32_t faced = 0, beyond = 0;
   while (lanes != 0) {
@@ -182,7 +182,7 @@ std::uint32_t PatchRays::facing_lanes(Work& work, std::uint32_t lanes, std::uint
   return faced | lanes_beyond(beyond, tile);
 }
 
-/// Of lanes of triangles that the light is beyond, those that see past them.
+/// Those of `lanes`, on triangles that the light is beyond, that see past them.
 std::uint32_t PatchRays::lanes_beyond(std::uint32_t lanes, std::uint32_t tile) const {
   if (lanes == 0) return 0;
   std::uint32_t past = 0;
@@ -226,7 +226,7 @@ std::uint32_t PatchRays::in_reach_lanes(const points::PointSquare& square, int t
   return reached;
 }
 
-/// Points of tiles with gaps are looked at more closely.
+/// Prefetches the points of tiles with gaps, which are looked at more closely.
 void PatchRays::fetch_gaps(const points::PointSquare& square) const {
   for (std::uint32_t left = square.gaps; left != 0; left &= left - 1)
     simd::prefetch_all(tiles_.tiles[square.first_tile + static_cast<std::uint32_t>(std::countr_zero(left))]);
@@ -260,7 +260,7 @@ void PatchRays::find_lanes(const points::PointSquare& square, Work& work) const 
   }
 }
 
-/// The next node, whose boxes are there, gets the square's tiles.
+/// Gives the square's tiles to the next node, whose boxes are already there.
 void PatchRays::add_node(Work& work, std::uint8_t face) const {
   const points::PointSquare& square = *work.square;
   RayNode& node = work.out.nodes[work.out.count++];

@@ -133,7 +133,8 @@ void add_level(ForestScratch& s, RayForest& f, std::size_t level, std::size_t co
   });
 }
 
-/// The nodes along the curve, sixteen a parent, parents and roots of one face each. They stay where they are.
+/// Builds the two levels above the nodes, sixteen to a parent along the curve; parents and roots hold one
+/// face each. The nodes stay where they are.
 void plant(ForestScratch& s, RayForest& out) {
   radix_sort(s.node_keys.keys, s.node_keys);
   const auto& keys = s.node_keys.keys;
@@ -226,11 +227,12 @@ void build_ray_forest(const VisiblePoints& points, const points::PointTiles& til
   plant(scratch, out);
 }
 
-std::uint64_t write_live_rays(const RayForest& forest, int width, int height, ShadowMask& mask) {
+std::uint64_t write_live_rays(const RayForest& forest, int width, int height,
+                              std::vector<std::uint64_t>& parts, ShadowMask& mask) {
   constexpr std::size_t grain = 256;
   const std::vector<RayNode>& nodes = forest.levels[0];
   const points::TilePixels pixel_of(width, height);
-  std::vector<std::uint64_t> parts((nodes.size() + grain - 1) / grain);
+  parts.assign((nodes.size() + grain - 1) / grain, 0);
   parallel::parallel_ranges(nodes.size(), grain, [&](std::size_t first, std::size_t last) {
     std::uint64_t count = 0;
     for (std::size_t i = first; i < last; ++i) {

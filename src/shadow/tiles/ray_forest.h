@@ -119,6 +119,8 @@ void build_ray_forest(const VisiblePoints& points, const points::PointTiles& til
                       const HardShadowConfig& config, ForestScratch& scratch, RayForest& out);
 
 /// 255 where rays are left; the mask is zero elsewhere. Returns their number.
-std::uint64_t write_live_rays(const RayForest& forest, int width, int height, ShadowMask& mask);
+/// `parts`: room.
+std::uint64_t write_live_rays(const RayForest& forest, int width, int height,
+                              std::vector<std::uint64_t>& parts, ShadowMask& mask);
 
 }  // namespace tenebra::shadow

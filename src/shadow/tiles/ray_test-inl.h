@@ -44,7 +44,8 @@ struct TileVerdict {
 /// Triangle i of a cluster. The points are off by 3u reach, the planes by u, products and sums by 5u of |p|
 /// (without fused ones), d by u and its difference by u more: below 12u (|p| + |d|), where |d| exceeds the
 /// triangle's reach by its tau only; if that is more than 5 (|p| + reach), the own plane is missed by far.
-/// The own plane opens tau of the rays' own triangles later. `anchored`: edges have a d, too.
+/// Behind the own plane a point must lie farther by tau of the rays' own triangles. `anchored`: edges have a
+/// d, too.
 template <bool anchored>
 SIMD_INLINE TileVerdict rough_verdict(const ClusterPlanes& c, int i, const RoughRays& rays, float tau) {
   const auto product = [&](int k) HWY_ATTR {

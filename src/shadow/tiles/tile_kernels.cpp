@@ -20,7 +20,7 @@ namespace {
 
 constexpr float u = 0x1p-24f;
 constexpr float off_the_face = 1e30f;
-// A square is a node as it stands if it is at most this many times as wide as its tiles are on the mean: 4
+// A square is a node as it stands if it is at most this many times as wide as its tiles are on average: 4
 // for a flat patch, with room for perspective and curvature.
 constexpr float coherent_extent = 8;
 

@@ -26,8 +26,9 @@ const points::PointTiles& TileTracer::tiles_of(const VisiblePoints& points, cons
   return own_tiles_;
 }
 
-// Those first that took most tests in the last call, so that no thread is left with one of them at the end:
-// roots are few. They lie in the order of a curve: the k-th of as many is about the same part of the picture.
+// The roots that took most tests in the last call go first: roots are few, and no thread should be left with
+// a long one at the end. Roots lie along a curve: the same share of the way along it is about the same part
+// of the picture in both calls.
 void TileTracer::order_roots(std::size_t roots) {
   root_order_.resize(roots);
   std::iota(root_order_.begin(), root_order_.end(), 0u);
@@ -85,7 +86,7 @@ bool TileTracer::trace(const VisiblePoints& points, const ViewRays& view, const 
   timings.traverse_ms = watch.lap_ms();
 
   mask.assign(points.triangles.size(), 0);
-  const std::uint64_t live = write_live_rays(forest_, points.width, points.height, mask);
+  const std::uint64_t live = write_live_rays(forest_, points.width, points.height, live_parts_, mask);
   for (const std::uint32_t pixel : forest_.at_light) mask[pixel] = 255;
   timings.writeback_ms = watch.lap_ms();
 

@@ -38,6 +38,7 @@ private:
   RayForest forest_;
   ForestScratch forest_scratch_;
   std::vector<DescentScratch> scratch_;
+  std::vector<std::uint64_t> live_parts_;  ///< room for write_live_rays()
   std::vector<std::uint64_t> root_tests_;  ///< of the last call, one per root
   std::vector<TraceStats> root_stats_;     ///< scratch of descend: of each root
   std::vector<std::uint32_t> root_order_;  ///< in which they are descended

@@ -33,14 +33,17 @@ class ClipSolver {
   using Occluders = typename Sight::Occluders;
 
 public:
-  /// Takes over the candidates of a group in places `order`, largest first.
-  void reset(const GroupCandidates& group, std::span<const std::uint32_t> order) {
+  /// Takes over the candidates of a group in places `order`, largest first; some of them if `stop` is
+  /// requested.
+  void reset(const GroupCandidates& group, std::span<const std::uint32_t> order, const StopFlag* stop) {
     group_ = &group;
     order_ = order;
     hot_.clear(group.heights);
     hot_ids_.clear();
     cold_.clear(group.heights);
+    cold_.make_room(order.size());
     for (std::size_t i = 0; i < order.size(); ++i) {
+      if (i % look_after == 0 && stop_requested(stop)) return;
       if (i + ahead < order.size()) expect(group.all[order[i + ahead]]);
       cold_.add(group.all[order[i]]);
     }
@@ -74,8 +77,9 @@ public:
   }
 
 private:
-  static constexpr std::size_t few = 64;   ///< most occluders that one pass subtracts from a part
-  static constexpr std::size_t ahead = 8;  ///< candidates are prefetched this many places ahead
+  static constexpr std::size_t few = 64;           ///< most occluders that one pass subtracts from a part
+  static constexpr std::size_t ahead = 8;          ///< candidates are prefetched this many places ahead
+  static constexpr std::size_t look_after = 4096;  ///< candidates, for a stop
   static constexpr std::size_t many = 48;  ///< from this many occluders on it pays to keep a few apart
 
   /// Prefetches a candidate that will be added soon.

@@ -21,8 +21,8 @@ using namespace simd::HWY_NAMESPACE;
 class PacketSolver {
 public:
   /// Takes over the candidates of a group in places `order`, largest first.
-  void reset(const GroupCandidates& group, std::span<const std::uint32_t> order) {
-    clip_.reset(group, order);
+  void reset(const GroupCandidates& group, std::span<const std::uint32_t> order, const StopFlag* stop) {
+    clip_.reset(group, order, stop);
     points_.clear();
   }
 

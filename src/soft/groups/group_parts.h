@@ -26,6 +26,18 @@ struct GroupPart {
   std::vector<PointGroup> groups;
   std::vector<Receiver> receivers;
   std::uint32_t next = 0;  ///< place of the next point in out.pixels
+  PointLanes lanes;        ///< of the points at hand
+
+  void begin(std::uint32_t place) {
+    groups.clear(), receivers.clear();
+    next = place;
+  }
+};
+
+/// Pixels by triangle, each triangle's in row order: those of triangle k end at ends[k].
+struct PixelsByTriangle {
+  std::vector<std::uint32_t> pixels, ends;
+  std::vector<std::uint8_t> active;  ///< room for a set of one triangle's
 };
 
 /// A set of 64 points, eight per byte.
@@ -36,9 +48,9 @@ inline std::array<std::uint8_t, 8> bytes_of(std::uint64_t set) {
 }
 
 /// One group for each square of 8x8 pixels, or more where its points do not lie together; each row of squares
-/// is a part.
-std::vector<GroupPart> group_tiles(const Grouping& grouping);
+/// is a part, of which there may be more from before.
+std::span<GroupPart> group_tiles(const Grouping& grouping, std::vector<GroupPart>& parts);
 /// One for each triangle.
-GroupPart group_by_triangle(const Grouping& grouping);
+void group_by_triangle(const Grouping& grouping, PixelsByTriangle& by, GroupPart& part);
 
 }  // namespace tenebra::soft

@@ -12,10 +12,10 @@ namespace tenebra::soft {
 namespace {
 
 // Takes over the groups of all parts, in the order of the tree.
-void join(std::span<GroupPart> parts, PointGroups& out) {
+void join(std::span<GroupPart> parts, std::vector<GroupKey>& keys, PointGroups& out) {
   std::size_t groups = 0, receivers = 0;
   for (const GroupPart& part : parts) groups += part.groups.size(), receivers += part.receivers.size();
-  std::vector<GroupKey> keys;
+  keys.clear();
   keys.reserve(groups);
   out.receivers.reserve(receivers);
   for (GroupPart& part : parts) {
@@ -31,20 +31,37 @@ void join(std::span<GroupPart> parts, PointGroups& out) {
 
 }  // namespace
 
-void group_points(const VisiblePoints& points, const ViewRays& view, const TriangleView& triangles,
-                  const AreaLight& light, SoftGrouping grouping, PointGroups& out, SimdLevel simd) {
+struct PointGrouper::State {
+  std::vector<GroupPart> parts;
+  std::vector<GroupKey> keys;
+  PixelsByTriangle by_triangle;
+};
+
+PointGrouper::PointGrouper() : state_(std::make_unique<State>()) {}
+PointGrouper::PointGrouper(PointGrouper&&) noexcept = default;
+PointGrouper& PointGrouper::operator=(PointGrouper&&) noexcept = default;
+PointGrouper::~PointGrouper() = default;
+
+void PointGrouper::group(const VisiblePoints& points, const ViewRays& view, const TriangleView& triangles,
+                         const AreaLight& light, SoftGrouping grouping, PointGroups& out, SimdLevel simd) {
+  State& s = *state_;
   const parallel::FloatEnvironment ieee;
   out.width = points.width;
   out.receivers.clear();
   out.pixels.resize(points.triangles.size());
   const Grouping g{points, view, triangles, LightShape(light), point_kernels(simd), out};
   if (grouping == SoftGrouping::triangle) {
-    GroupPart part = group_by_triangle(g);
-    join({&part, 1}, out);
+    if (s.parts.empty()) s.parts.resize(1);
+    group_by_triangle(g, s.by_triangle, s.parts[0]);
+    join({&s.parts[0], 1}, s.keys, out);
   } else {
-    std::vector<GroupPart> parts = group_tiles(g);
-    join(parts, out);
+    join(group_tiles(g, s.parts), s.keys, out);
   }
+}
+
+void group_points(const VisiblePoints& points, const ViewRays& view, const TriangleView& triangles,
+                  const AreaLight& light, SoftGrouping grouping, PointGroups& out, SimdLevel simd) {
+  PointGrouper().group(points, view, triangles, light, grouping, out, simd);
 }
 
 }  // namespace tenebra::soft

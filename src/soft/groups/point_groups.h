@@ -5,6 +5,7 @@
 
 #include <cstdint>
 #include <glm/glm.hpp>
+#include <memory>
 #include <span>
 #include <vector>
 
@@ -54,6 +55,23 @@ struct PointGroups {
 /// Groups the active points: those on a triangle that is not seen edge-on, in front of the light's plane, and
 /// with a part of the light on the seen side of their triangle's plane. Conservative: where double leaves
 /// either in doubt, the point is kept. The groups depend neither on threads nor on the instruction set.
+/// Buffers are kept from call to call.
+class PointGrouper {
+public:
+  PointGrouper();
+  PointGrouper(PointGrouper&&) noexcept;
+  PointGrouper& operator=(PointGrouper&&) noexcept;
+  ~PointGrouper();
+
+  void group(const VisiblePoints& points, const ViewRays& view, const TriangleView& triangles,
+             const AreaLight& light, SoftGrouping grouping, PointGroups& out,
+             SimdLevel simd = SimdLevel::automatic);
+
+private:
+  struct State;
+  std::unique_ptr<State> state_;
+};
+/// The same, once.
 void group_points(const VisiblePoints& points, const ViewRays& view, const TriangleView& triangles,
                   const AreaLight& light, SoftGrouping grouping, PointGroups& out,
                   SimdLevel simd = SimdLevel::automatic);

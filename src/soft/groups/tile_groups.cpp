@@ -9,7 +9,7 @@ namespace tenebra::soft {
 
 namespace {
 
-constexpr std::uint32_t tile = 8;  // pixels a side
+constexpr std::uint32_t tile = 8;  // side in pixels
 static_assert(tile * tile == largest_neighbourhood);
 
 // A cache of data about triangles, by the id's last bits.
@@ -28,7 +28,7 @@ private:
 // A square of the picture: point 8 y + x is its pixel (x, y).
 class Tile {
 public:
-  Tile(const Grouping& grouping, GroupPart& part) : g_(grouping), part_(part) {
+  Tile(const Grouping& grouping, GroupPart& part) : g_(grouping), part_(part), lanes_(part.lanes) {
     lanes_.resize(largest_neighbourhood);
     for (std::uint32_t i = 0; i < largest_neighbourhood; ++i) {
       lanes_.column[i] = static_cast<float>(i % tile);
@@ -57,7 +57,7 @@ private:
   const Grouping& g_;
   GroupPart& part_;
   KnownTriangles known_;
-  PointLanes lanes_;
+  PointLanes& lanes_;
   std::uint32_t first_ = 0;  // its first pixel
   std::array<std::uint32_t, largest_neighbourhood> ids_{};
   std::array<Seen, largest_neighbourhood> seen_;  // ascending
@@ -164,17 +164,18 @@ void Tile::append_group(std::uint64_t set, const PointBox& box) {
 }  // namespace
 
 // Rows of tiles run in parallel; each has room for all of its pixels.
-std::vector<GroupPart> group_tiles(const Grouping& g) {
+std::span<GroupPart> group_tiles(const Grouping& g, std::vector<GroupPart>& parts) {
   const auto width = static_cast<std::uint32_t>(g.points.width);
-  std::vector<GroupPart> parts((static_cast<std::size_t>(g.points.height) + tile - 1) / tile);
-  parallel::parallel_tasks(static_cast<int>(parts.size()), [&](int row) {
+  const std::size_t rows = (static_cast<std::size_t>(g.points.height) + tile - 1) / tile;
+  if (parts.size() < rows) parts.resize(rows);
+  parallel::parallel_tasks(static_cast<int>(rows), [&](int row) {
     GroupPart& part = parts[static_cast<std::size_t>(row)];
     const std::uint32_t top = static_cast<std::uint32_t>(row) * tile;
-    part.next = top * width;
+    part.begin(top * width);
     Tile here(g, part);
     for (std::uint32_t left = 0; left < width; left += tile) here.group(left, top);
   });
-  return parts;
+  return std::span(parts).first(rows);
 }
 
 }  // namespace tenebra::soft

@@ -7,12 +7,8 @@ namespace tenebra::soft {
 
 namespace {
 
-// Pixels by triangle, each triangle's in row order (counting sort): those of triangle k end at ends[k].
-struct PixelsByTriangle {
-  std::vector<std::uint32_t> pixels, ends;
-};
-PixelsByTriangle pixels_by_triangle(const VisiblePoints& points, std::size_t triangle_count) {
-  PixelsByTriangle by;
+// By counting.
+void sort_pixels(const VisiblePoints& points, std::size_t triangle_count, PixelsByTriangle& by) {
   by.ends.assign(triangle_count + 1, 0);
   for (const std::uint32_t id : points.triangles)
     if (id < triangle_count) ++by.ends[id + 1];
@@ -22,12 +18,12 @@ PixelsByTriangle pixels_by_triangle(const VisiblePoints& points, std::size_t tri
     const std::uint32_t id = points.triangles[i];
     if (id < triangle_count) by.pixels[by.ends[id]++] = static_cast<std::uint32_t>(i);
   }
-  return by;
 }
 
 // The active ones of a triangle's pixels, as one group.
 void append_triangle(const Grouping& g, std::span<const std::uint32_t> pixels, const LitTriangle& triangle,
-                     PointLanes& lanes, GroupPart& part) {
+                     std::vector<std::uint8_t>& set, GroupPart& part) {
+  PointLanes& lanes = part.lanes;
   const std::size_t packs = (pixels.size() + 63) / 64 * 8;
   lanes.resize(8 * packs);
   for (std::size_t i = 0; i < pixels.size(); ++i) {
@@ -35,7 +31,7 @@ void append_triangle(const Grouping& g, std::span<const std::uint32_t> pixels, c
     lanes.column[i] = static_cast<float>(pixels[i] % static_cast<std::uint32_t>(g.points.width));
     lanes.row[i] = static_cast<float>(pixels[i] / static_cast<std::uint32_t>(g.points.width));
   }
-  std::vector<std::uint8_t> set;
+  set.clear();
   PointGroup group;
   group.first = part.next;
   for (std::size_t first = 0; first < pixels.size(); first += 64) {
@@ -60,19 +56,17 @@ void append_triangle(const Grouping& g, std::span<const std::uint32_t> pixels, c
 
 }  // namespace
 
-GroupPart group_by_triangle(const Grouping& g) {
-  const PixelsByTriangle by = pixels_by_triangle(g.points, g.triangles.triangles.size());
-  GroupPart part;
-  PointLanes lanes;
+void group_by_triangle(const Grouping& g, PixelsByTriangle& by, GroupPart& part) {
+  sort_pixels(g.points, g.triangles.triangles.size(), by);
+  part.begin(0);
   std::uint32_t first = 0;
   for (std::uint32_t id = 0; id < g.triangles.triangles.size(); ++id) {
     const std::span<const std::uint32_t> pixels(by.pixels.data() + first, by.ends[id] - first);
     first = by.ends[id];
     if (pixels.empty()) continue;
     const LitTriangle triangle = lit_triangle(g.triangles, id, g.view, g.light);
-    if (triangle.light_above) append_triangle(g, pixels, triangle, lanes, part);
+    if (triangle.light_above) append_triangle(g, pixels, triangle, by.active, part);
   }
-  return part;
 }
 
 }  // namespace tenebra::soft

@@ -35,7 +35,10 @@ double angle_of(double x, double y) {
   const double low = std::min(std::abs(x), y), high = std::max(std::abs(x), y);
   if (!(high > 0)) return 0;
   double q = low / high, scale = 1;
-  for (; q > 0.2; scale *= 2) q = q / (1 + std::sqrt(1 + q * q));
+  while (q > 0.2) {
+    q = q / (1 + std::sqrt(1 + q * q));
+    scale *= 2;
+  }
   double angle = scale * series(q, -1);
   if (y > std::abs(x)) angle = 0.5 * std::numbers::pi - angle;
   return x < 0 ? std::numbers::pi - angle : angle;
@@ -44,7 +47,10 @@ double angle_of(double x, double y) {
 double artanh(double q) {
   q = std::min(q, 1 - 0x1p-52);
   double scale = 1;
-  for (; q > 0.2; scale *= 2) q = q / (1 + std::sqrt((1 - q) * (1 + q)));
+  while (q > 0.2) {
+    q = q / (1 + std::sqrt((1 - q) * (1 + q)));
+    scale *= 2;
+  }
   return scale * series(q, 1);
 }
 

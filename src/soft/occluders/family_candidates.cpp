@@ -48,7 +48,8 @@ void FamilyCandidates::make_ready(const GroupCandidates& all, std::span<const st
 }
 
 std::span<const std::uint32_t> FamilyCandidates::choose(std::size_t k, const GroupFrame& group,
-                                                        GroupCandidates& all) {
+                                                        GroupCandidates& all, const StopFlag* stop) {
+  constexpr std::size_t look_after = 4096;
   own_.resize(members_.size());
   std::size_t count = 0;
   for (const Member& member : members_) {
@@ -56,7 +57,9 @@ std::span<const std::uint32_t> FamilyCandidates::choose(std::size_t k, const Gro
     count += member.groups >> k & 1u;
   }
   decided_.clear();
-  for (const Member& member : doubtful_) {
+  for (std::size_t i = 0; i < doubtful_.size(); ++i) {
+    if (i % look_after == 0 && stop_requested(stop)) break;
+    const Member& member = doubtful_[i];
     if ((member.groups >> k & 1u) == 0) continue;
     Candidate& c = all.all[member.place];
     if (std::binary_search(group.receivers.begin(), group.receivers.end(), c.triangle)) continue;

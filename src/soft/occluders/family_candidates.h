@@ -25,8 +25,9 @@ public:
 
   /// Those of the places that hold one of the triangles of group `k`, which is `group`; a pair with either of
   /// its two. Signs that depend on the points of the family, but not on those of the group, are set in `all`
-  /// until restore().
-  std::span<const std::uint32_t> choose(std::size_t k, const GroupFrame& group, GroupCandidates& all);
+  /// until restore(). Of no use if `stop` was requested.
+  std::span<const std::uint32_t> choose(std::size_t k, const GroupFrame& group, GroupCandidates& all,
+                                        const StopFlag* stop = nullptr);
   void restore(GroupCandidates& all) const {
     for (const std::uint32_t place : decided_) all.all[place].sign = 0;
   }

@@ -33,10 +33,12 @@ class CandidateLanes {
 public:
   /// Fills `out` with those of `ids` that may block between the group's points and the light.
   void find(const LightFrame& light, const TriangleView& triangles, const GroupFrame& group,
-            std::span<const std::uint32_t> ids, GroupCandidates& out) {
+            std::span<const std::uint32_t> ids, GroupCandidates& out, const StopFlag* stop) {
+    constexpr std::size_t look_after = 8192;
     out.clear();
     out.axes = light_axes(light, group.centre);
     for (std::size_t from = 0; from < ids.size(); from += 8) {
+      if (from % look_after == 0 && stop_requested(stop)) return;
       const std::size_t count = std::min<std::size_t>(8, ids.size() - from);
       load_corners(triangles, ids.subspan(from, count));
       find_lanes(light, group, out.axes);
@@ -192,9 +194,9 @@ private:
 };
 
 void find_candidates(const LightFrame& light, const TriangleView& triangles, const GroupFrame& group,
-                     std::span<const std::uint32_t> ids, GroupCandidates& out) {
+                     std::span<const std::uint32_t> ids, GroupCandidates& out, const StopFlag* stop) {
   CandidateLanes lanes;
-  lanes.find(light, triangles, group, ids, out);
+  lanes.find(light, triangles, group, ids, out, stop);
 }
 
 }  // namespace

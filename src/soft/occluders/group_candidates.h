@@ -13,6 +13,7 @@
 #include <vector>
 
 #include <tenebra/simd_level.h>
+#include <tenebra/stop_flag.h>
 #include <tenebra/visible_points.h>
 #include "soft/light/light_frame.h"
 #include "soft/occluders/group_frame.h"
@@ -96,10 +97,11 @@ struct GroupCandidates {
 };
 
 /// Fills `out` with those of the triangles `ids` that may block between the group's points and the light, in
-/// their order. What it leaves out blocks nothing there (margins cover the rounding of double).
+/// their order. What it leaves out blocks nothing there (margins cover the rounding of double). Of no use if
+/// `stop` was requested.
 using FindCandidates = void (*)(const LightFrame& light, const TriangleView& triangles,
                                 const GroupFrame& group, std::span<const std::uint32_t> ids,
-                                GroupCandidates& out);
+                                GroupCandidates& out, const StopFlag* stop);
 FindCandidates find_candidates_kernel(SimdLevel level);
 
 }  // namespace tenebra::soft

@@ -26,14 +26,18 @@ public:
     heights_ = heights;
     count_ = 0;
   }
+  /// For so many; add() makes more where it needs it.
+  void make_room(std::size_t occluders) {
+    const std::size_t blocks = (occluders + 15) / 16;
+    if (blocks_.size() >= blocks) return;
+    boxes_.resize(blocks);
+    useful_.resize(blocks);
+    blocks_.resize(blocks);  // the last, by whose size it is known: memory may run out before
+  }
   void add(const Candidate& candidate) {
     if (count_ % 16 == 0) {
       const std::size_t blocks = count_ / 16 + 1;
-      if (blocks_.size() < blocks) {
-        blocks_.resize(2 * blocks);
-        boxes_.resize(2 * blocks);
-        useful_.resize(2 * blocks);
-      }
+      if (blocks_.size() < blocks) make_room(32 * blocks);
       OccluderBlock& block = blocks_[blocks - 1];
       block.lanes = block.indefinite = block.quads = 0;
       boxes_[blocks - 1].boxes_of = 0;

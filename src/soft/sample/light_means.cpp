@@ -11,35 +11,21 @@ namespace tenebra::soft {
 
 namespace {
 
-/// A slot's own tally, in two halves.
-struct Own {
-  float irradiance[2], fraction;
-  float mean() const { return 0.5f * (irradiance[0] + irradiance[1]); }
-  /// Square of the error of the mean, from the difference between the halves. It is a quarter of its square
-  /// for independent halves; these complete each other, and with half of that the estimate is within 1.6
-  /// times the error on the views of tenebra-bench soft (measured).
-  float noise() const {
-    const float difference = irradiance[0] - irradiance[1];
-    return 0.125f * difference * difference;
-  }
-};
-
 float share(float part, float all, float otherwise) {
   return all > 0 ? std::clamp(part / all, 0.0f, 1.0f) : otherwise;
 }
 
-std::vector<Own> own_answers(const SampledBlocks& blocks, const LightTally& tally) {
-  std::vector<Own> out(blocks.pixels.size());
+void find_own(const SampledBlocks& blocks, const LightTally& tally, std::vector<OwnAnswer>& out) {
+  out.resize(blocks.pixels.size());
   parallel::parallel_ranges(out.size(), 1 << 12, [&](std::size_t first, std::size_t last) {
     for (std::size_t slot = first; slot < last; ++slot) {
       const auto &a = tally.half[0], &b = tally.half[1];
-      Own& own = out[slot];
+      OwnAnswer& own = out[slot];
       own.fraction = share(a.seen[slot] + b.seen[slot], a.places[slot] + b.places[slot], 0);
       own.irradiance[0] = share(a.weight_seen[slot], a.weight[slot], own.fraction);
       own.irradiance[1] = share(b.weight_seen[slot], b.weight[slot], own.fraction);
     }
   });
-  return out;
 }
 
 /// One smooth surface, as far as two points of it tell that are `d` apart: normals within 18 degrees, and
@@ -120,7 +106,7 @@ float spread_of(float share) {
 /// halves of few pixels may agree by chance, and all of a block see the same places; together they tell.
 class UsualNoise {
 public:
-  UsualNoise(const SampledBlocks& blocks, const LightTally& tally, const std::vector<Own>& own,
+  UsualNoise(const SampledBlocks& blocks, const LightTally& tally, const std::vector<OwnAnswer>& own,
              const std::vector<float>& smooth)
       : tally_(tally) {
     for (std::size_t slot = 0; slot < own.size(); ++slot) {
@@ -152,8 +138,10 @@ constexpr float trust = 0.25f;  ///< in the halves of nine pixels beside the usu
 void find_means(const SoftFrame& frame, const SampledBlocks& blocks, const LightTally& tally,
                 LightMeans& out) {
   const NearInView near_in_view(frame.view);
-  const std::vector<Own> own = own_answers(blocks, tally);
-  std::vector<float> smooth(own.size());
+  find_own(blocks, tally, out.own);
+  const std::vector<OwnAnswer>& own = out.own;
+  std::vector<float>& smooth = out.smooth;
+  smooth.assign(own.size(), 0.0f);
   for (auto* values : {&out.irradiance, &out.fraction, &out.square}) values->assign(own.size(), 0.0f);
   const auto each = [&](const auto& body) {
     parallel::parallel_ranges(own.size(), 1 << 10, [&](std::size_t first, std::size_t last) {

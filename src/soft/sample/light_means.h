@@ -9,11 +9,27 @@
 
 namespace tenebra::soft {
 
+/// A slot's own tally, in two halves.
+struct OwnAnswer {
+  float irradiance[2], fraction;
+  float mean() const { return 0.5f * (irradiance[0] + irradiance[1]); }
+  /// Square of the error of the mean, from the difference between the halves. It is a quarter of its square
+  /// for independent halves; these complete each other, and with half of that the estimate is within 1.6
+  /// times the error on the views of tenebra-bench soft (measured).
+  float noise() const {
+    const float difference = irradiance[0] - irradiance[1];
+    return 0.125f * difference * difference;
+  }
+};
+
 /// One for each slot.
 struct LightMeans {
   std::vector<float> irradiance;  ///< 0..1: over what it would be with nothing in the way
   std::vector<float> fraction;    ///< 0..1: visible part, over the part above the horizon
   std::vector<float> square;      ///< estimated mean square of the error of `irradiance`
+
+  std::vector<OwnAnswer> own;  ///< on the way to the above: of each slot alone,
+  std::vector<float> smooth;   ///< and its mean with its neighbours
 };
 /// Of all slots with a pixel; those of a slot's neighbours count that are seen next to it and lie on one
 /// surface with it. `square` is statistical: it does not know what no place has seen.

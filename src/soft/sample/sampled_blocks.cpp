@@ -52,8 +52,9 @@ std::uint32_t SampledBlocks::slot(int x, int y) const {
   return pixels[slot] == no_pixel ? no_slot : slot;
 }
 
-SampledBlocks sampled_blocks(const SoftFrame& frame, std::span<const std::uint32_t> pixels) {
-  SampledBlocks out{frame.points.width, frame.points.height, {}, {}, {}, {}};
+void find_blocks(const SoftFrame& frame, std::span<const std::uint32_t> pixels, SampledBlocks& out) {
+  out.width = frame.points.width, out.height = frame.points.height;
+  out.places.clear();
   const std::uint32_t columns = out.columns(),
                       rows = (static_cast<std::uint32_t>(out.height) + block_side - 1) / block_side;
   const auto width = static_cast<std::uint32_t>(out.width);
@@ -82,7 +83,6 @@ SampledBlocks sampled_blocks(const SoftFrame& frame, std::span<const std::uint32
     for (std::size_t slot = first; slot < last; ++slot)
       if (out.pixels[slot] != no_pixel) out.surfaces[slot] = surface_at(frame, out.pixels[slot]);
   });
-  return out;
 }
 
 void take_phase(const SoftFrame& frame, const SampledBlocks& blocks, std::span<const std::uint32_t> chosen,

@@ -44,8 +44,8 @@ struct SampledBlocks {
   }
 };
 
-/// `pixels`: in any order; what is made does not depend on it.
-SampledBlocks sampled_blocks(const SoftFrame& frame, std::span<const std::uint32_t> pixels);
+/// The blocks of `pixels`: in any order; what is made does not depend on it.
+void find_blocks(const SoftFrame& frame, std::span<const std::uint32_t> pixels, SampledBlocks& out);
 
 /// Points of one phase of some blocks: slot `phase` * 16 + i of the k-th of them is sample 16 k + i of a
 /// points::SampleGrid. With tiles.

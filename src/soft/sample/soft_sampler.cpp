@@ -16,10 +16,11 @@ constexpr std::uint32_t most_places = 1024;  ///< of the light, for each slot; g
 
 /// The reference for irradiance: the 99.9th percentile of the pixels' values, over a regular choice of them;
 /// where that is 0, the largest.
-double white_of(const SoftFrame& frame, const SampledBlocks& blocks, const LightMeans& means) {
+double white_of(const SoftFrame& frame, const SampledBlocks& blocks, const LightMeans& means,
+                std::vector<float>& values) {
   constexpr std::size_t enough = 1 << 16;
   const std::size_t pixels = frame.out.irradiance.size(), step = pixels / enough + 1;
-  std::vector<float> values;
+  values.clear();
   for (std::size_t i = 0; i < pixels; i += step) {
     if (frame.points.triangles[i] == no_triangle) continue;
     const std::uint32_t slot = blocks.slot(static_cast<std::uint32_t>(i));
@@ -36,21 +37,15 @@ bool is_penumbra(float fraction) {
   return fraction > 0 && fraction < 1;
 }
 
-/// The errors of the sampled pixels.
-struct SampledErrors {
-  std::vector<double> squares;       ///< of each block: sum over its pixels
-  std::vector<std::uint32_t> count;  ///< of each block: pixels
-  double square = 0;
-  std::uint64_t pixels = 0, penumbra = 0;
-};
 /// Square of the error of a pixel's irradiance.
 double square_of(const SoftFrame& frame, const LightMeans& means, std::size_t slot, std::uint32_t pixel) {
   const auto full = static_cast<double>(frame.out.irradiance[pixel]);
   return static_cast<double>(means.square[slot]) * full * full;
 }
-SampledErrors errors_of(const SoftFrame& frame, const SampledBlocks& blocks, const LightMeans& means) {
-  SampledErrors out;
-  out.squares.resize(blocks.count()), out.count.resize(blocks.count());
+void find_errors(const SoftFrame& frame, const SampledBlocks& blocks, const LightMeans& means,
+                 SampledErrors& out) {
+  out.squares.assign(blocks.count(), 0.0), out.count.assign(blocks.count(), 0);
+  out.pixels = out.penumbra = 0;
   for (std::size_t slot = 0; slot < blocks.pixels.size(); ++slot) {
     const std::uint32_t pixel = blocks.pixels[slot];
     if (pixel == no_pixel) continue;
@@ -60,7 +55,6 @@ SampledErrors errors_of(const SoftFrame& frame, const SampledBlocks& blocks, con
     if (is_penumbra(means.fraction[slot])) ++out.penumbra;
   }
   out.square = std::accumulate(out.squares.begin(), out.squares.end(), 0.0);
-  return out;
 }
 
 /// The place, moved to the lit side of the light's plane by more than rounding may have put it behind: what
@@ -70,10 +64,9 @@ glm::vec3 before_plane(const glm::vec3& place, const LightFrame& light) {
   return glm::vec3(glm::dvec3(place) + light.weight * static_cast<double>(most) * 0x1p-21 * light.normal);
 }
 
-std::vector<std::uint32_t> pixels_of(std::span<const SampledGroup> groups) {
-  std::vector<std::uint32_t> out;
+void gather_pixels(std::span<const SampledGroup> groups, std::vector<std::uint32_t>& out) {
+  out.clear();
   for (const SampledGroup& group : groups) out.insert(out.end(), group.pixels.begin(), group.pixels.end());
-  return out;
 }
 
 }  // namespace
@@ -88,6 +81,7 @@ void SoftSampler::look(const SoftFrame& frame, const LightPlaces& places,
                        std::uint32_t to) {
   Phase& p = phases_[phase];
   p.rays = 0, p.done = false;
+  if (stop_requested(frame.stop)) return;
   take_phase(frame, blocks_, chosen, phase, p.points);
   TriangleView triangles = frame.triangles;
   triangles.version = frames_;
@@ -147,30 +141,31 @@ bool SoftSampler::solve(const SoftFrame& frame, const AreaLight& light, std::spa
   left_penumbra_ = 0;
   if (groups.empty()) return true;
   ++frames_;
-  std::vector<SampledGroup> sampled(groups.begin(), groups.end());
-  blocks_ = sampled_blocks(frame, pixels_of(groups));
+  sampled_.assign(groups.begin(), groups.end());
+  gather_pixels(groups, pixels_);
+  find_blocks(frame, pixels_, blocks_);
   tally_.start(blocks_);
   const LightPlaces places(light);
-  std::vector<std::uint32_t> chosen(blocks_.count());
-  std::iota(chosen.begin(), chosen.end(), 0u);
-  SampledErrors errors;
+  chosen_.resize(blocks_.count());
+  std::iota(chosen_.begin(), chosen_.end(), 0u);
+  SampledErrors& errors = errors_;
   const double asked = std::min(frame.config.error_255, 255.0);
   double unit = 0;
   for (std::uint32_t from = 0, to = first_places(asked);; from = to, to *= 2) {
-    if (!look(frame, places, chosen, from, to, stats)) return false;
+    if (!look(frame, places, chosen_, from, to, stats)) return false;
     find_means(frame, blocks_, tally_, means_);
-    errors = errors_of(frame, blocks_, means_);
-    unit = white_of(frame, blocks_, means_) / 255;
+    find_errors(frame, blocks_, means_, errors);
+    unit = white_of(frame, blocks_, means_, values_) / 255;
     const double error = asked * unit;
     const double allowed =
         error * error * static_cast<double>(stats.points_penumbra + left_penumbra_ + errors.penumbra);
     if (errors.square <= allowed || !(unit > 0) || to >= most_places) break;
     // Of the blocks that have looked most those look again that err by more than the mean that is allowed.
     const double much = allowed / static_cast<double>(errors.pixels);
-    leave(frame, much, 2 * to, sampled, left);
-    errors = errors_of(frame, blocks_, means_);
-    std::erase_if(chosen, [&](std::uint32_t b) { return errors.squares[b] <= much * errors.count[b]; });
-    if (chosen.empty()) break;
+    leave(frame, much, 2 * to, sampled_, left);
+    find_errors(frame, blocks_, means_, errors);
+    std::erase_if(chosen_, [&](std::uint32_t b) { return errors.squares[b] <= much * errors.count[b]; });
+    if (chosen_.empty()) break;
   }
   write_errors(frame, unit, errors_255);
   write(frame, stats);

@@ -29,6 +29,14 @@ struct SampledGroup {
   std::span<const std::uint32_t> pixels;
 };
 
+/// The errors of the sampled pixels.
+struct SampledErrors {
+  std::vector<double> squares;       ///< of each block: sum over its pixels
+  std::vector<std::uint32_t> count;  ///< of each block: pixels
+  double square = 0;
+  std::uint64_t pixels = 0, penumbra = 0;
+};
+
 /// Buffers kept from frame to frame.
 class SoftSampler {
 public:
@@ -68,6 +76,10 @@ private:
   SampledBlocks blocks_;
   LightTally tally_;
   LightMeans means_;
+  SampledErrors errors_;
+  std::vector<SampledGroup> sampled_;           ///< groups that are not left
+  std::vector<std::uint32_t> pixels_, chosen_;  ///< of all groups; blocks that look again
+  std::vector<float> values_;                   ///< of pixels, among which white is
 };
 
 }  // namespace tenebra::soft

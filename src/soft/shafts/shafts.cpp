@@ -113,8 +113,8 @@ public:
   /// `from`: what may matter to the node, found for a node of `groups` groups.
   void decide(const GroupNode& node, const BlockList& from, std::uint32_t groups);
 
-  /// The decided groups, those with most work first.
-  void hand_over();
+  /// The decided groups, those with most work first; `families`: room for them.
+  void hand_over(std::vector<Family>& families);
 
 private:
   const BlockList& narrowed(const GroupNode& node, const BlockList& from, std::uint32_t& groups,
@@ -238,12 +238,14 @@ std::uint32_t Descent::cull(const PointGroup& group, const BlockList& from, Bloc
   return dark;
 }
 
-void Descent::hand_over() {
-  std::vector<Family> families;
+void Descent::hand_over(std::vector<Family>& families) {
+  families.clear();
   for (const ThreadScratch& scratch : scratch_)
     families.insert(families.end(), scratch.families.begin(), scratch.families.end());
-  std::stable_sort(families.begin(), families.end(),
-                   [](const Family& a, const Family& b) { return a.work > b.work; });
+  std::sort(families.begin(), families.end(), [](const Family& a, const Family& b) {
+    if (a.work != b.work) return a.work > b.work;
+    return a.thread != b.thread ? a.thread < b.thread : a.begin < b.begin;
+  });
   parallel::parallel_in_order(static_cast<int>(families.size()),
                               [&](int i) { hand_over(families[static_cast<std::size_t>(i)]); });
 }
@@ -272,6 +274,7 @@ void Descent::hand_over(const Family& family) {
 struct ShaftCuller::State {
   BlockList casters;
   std::vector<ThreadScratch> scratch;
+  std::vector<Family> families;
   ShaftStats stats;
 };
 
@@ -299,7 +302,7 @@ bool ShaftCuller::for_each_family(const PointGroups& groups, const TriangleView&
   if (!groups.nodes.empty()) {
     Descent descent(groups, light, kernels, shaft_maker(config.simd), stop, body, s.scratch);
     descent.decide(groups.nodes[0], s.casters, groups.nodes[0].count);
-    descent.hand_over();
+    descent.hand_over(s.families);
   }
   for (const ThreadScratch& scratch : s.scratch) add(s.stats, scratch.stats);
   return !stop_requested(stop);

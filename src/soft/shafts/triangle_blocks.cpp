@@ -12,7 +12,8 @@ namespace tenebra::soft {
 
 namespace {
 
-// Fills blocks triangle by triangle.
+// Fills blocks triangle by triangle, and the list's first references in place: a block has no fewer triangles
+// than those that it takes them from, so that no reference is overwritten before it was read.
 class BlockWriter {
 public:
   explicit BlockWriter(BlockList& list) : list_(list) {}
@@ -24,12 +25,10 @@ public:
     lane = used_++;
     return list_.own.back();
   }
-  void close() {
-    if (used_ == 0) return;
-    TriangleBlock& b = list_.own.back();
-    for (int lane = used_; lane < block_size; ++lane) copy_lane(b, 0, b, lane);
-    list_.refs.push_back({static_cast<std::uint32_t>(list_.own.size() - 1), (1u << used_) - 1});
-    used_ = 0;
+  /// Behind the last triangle.
+  void finish() {
+    close();
+    list_.refs.resize(closed_);
   }
 
   static void copy_lane(const TriangleBlock& from, int i, TriangleBlock& to, int k) {
@@ -41,8 +40,17 @@ public:
   }
 
 private:
+  void close() {
+    if (used_ == 0) return;
+    TriangleBlock& b = list_.own.back();
+    for (int lane = used_; lane < block_size; ++lane) copy_lane(b, 0, b, lane);
+    list_.refs[closed_++] = {static_cast<std::uint32_t>(list_.own.size() - 1), (1u << used_) - 1};
+    used_ = 0;
+  }
+
   BlockList& list_;
-  int used_ = 0;
+  std::size_t closed_ = 0;  // blocks
+  int used_ = 0;            // lanes of the last
 };
 
 // Sizes of the triangles whose corners are there.
@@ -97,12 +105,11 @@ void BlockList::append_ids(std::vector<std::uint32_t>& ids) const {
 void BlockList::compact() {
   const std::size_t count = triangle_count();
   if (2 * count > block_size * refs.size()) return;
-  std::vector<BlockRef> from;
-  from.swap(refs);
   own.clear();
   own.reserve(count / block_size + 1);
   BlockWriter writer(*this);
-  for (const BlockRef& ref : from) {
+  for (std::size_t k = 0; k < refs.size(); ++k) {
+    const BlockRef ref = refs[k];
     for (std::uint32_t lanes = ref.lanes; lanes != 0; lanes &= lanes - 1) {
       const int i = std::countr_zero(lanes);
       int lane = 0;
@@ -110,7 +117,7 @@ void BlockList::compact() {
       BlockWriter::copy_lane(blocks[ref.block], i, b, lane);
     }
   }
-  writer.close();
+  writer.finish();
   blocks = own.data();
 }
 
@@ -118,13 +125,12 @@ void gather_casters(const TriangleView& triangles, BlockList& out) {
   const std::size_t count = triangles.triangles.size();
   out.own.resize((count + block_size - 1) / block_size);
   out.blocks = out.own.data();
-  std::vector<std::uint8_t> casting(out.own.size());
+  out.refs.resize(out.own.size());
   parallel::parallel_ranges(out.own.size(), 512, [&](std::size_t first, std::size_t last) {
-    for (std::size_t b = first; b < last; ++b) casting[b] = gather_block(triangles, b, out.own[b]);
+    for (std::size_t b = first; b < last; ++b)
+      out.refs[b] = {static_cast<std::uint32_t>(b), gather_block(triangles, b, out.own[b])};
   });
-  out.refs.clear();
-  for (std::size_t b = 0; b < out.own.size(); ++b)
-    if (casting[b] != 0) out.refs.push_back({static_cast<std::uint32_t>(b), casting[b]});
+  std::erase_if(out.refs, [](const BlockRef& ref) { return ref.lanes == 0; });
 }
 
 }  // namespace tenebra::soft

@@ -14,8 +14,9 @@ namespace {
 using glm::dvec3;
 using glm::vec3;
 
-constexpr std::size_t worthwhile = 32;    // triangles; fewer are subtracted one by one
-constexpr std::size_t look_after = 2048;  // triangles, and give up if hardly any edge has cancelled
+constexpr std::size_t worthwhile = 32;  // triangles; fewer are subtracted one by one
+constexpr std::size_t look_after =
+    2048;  // triangles, and give up if hardly any edge has cancelled, or a stop
 
 std::uint32_t hash_of(const vec3& v) {
   const auto word = [](float value) -> std::uint64_t {
@@ -61,7 +62,8 @@ struct ShadowRange {
 void drop_beside_light(const GroupFrame& group, const LightAxes& axes, GroupSilhouette& silhouette) {
   const dvec3 half = axes.half_around(group.half);
   constexpr std::uint32_t dropped = ~0u;
-  std::vector<std::uint32_t> places(silhouette.edges.size(), dropped);
+  std::vector<std::uint32_t>& places = silhouette.kept;
+  places.assign(silhouette.edges.size(), dropped);
   std::uint32_t count = 0;
   for (std::size_t i = 0; i < silhouette.edges.size(); ++i) {
     const SilhouetteEdge edge = silhouette.edges[i];
@@ -124,10 +126,10 @@ void SilhouetteFinder::keep_silhouette(const LightAxes& axes, GroupSilhouette& o
   for (SilhouetteUse& use : out.uses) use.edge = kept_[use.edge];
 }
 
-// Adds up the edges of what `candidates` can give; false if too few of them cancel.
+// Adds up the edges of what `candidates` can give; false if too few of them cancel, or for a stop.
 bool SilhouetteFinder::take(const LightFrame& light, const TriangleView& triangles,
                             const GroupCandidates& candidates, GroupSilhouette& out,
-                            std::vector<std::uint32_t>& rest) {
+                            std::vector<std::uint32_t>& rest, const StopFlag* stop) {
   const int facing = static_cast<int>(candidates.axes.turn);
   const int large = light_class(light, candidates.axes.centre) - 2;
   std::size_t taken = 0;
@@ -143,14 +145,14 @@ bool SilhouetteFinder::take(const LightFrame& light, const TriangleView& triangl
     const points::Corners corners = points::corners_of(triangles, c.triangle);
     add_triangle(corners.v, sometimes ? facing : static_cast<int>(c.sign),
                  sometimes ? static_cast<std::int32_t>(out.sometimes.size()) - 1 : -1, out);
-    if (++taken % look_after == 0 && 2 * left_ > 5 * taken) return false;
+    if (++taken % look_after == 0 && (2 * left_ > 5 * taken || stop_requested(stop))) return false;
   }
   return taken >= worthwhile && 5 * left_ <= 6 * taken;
 }
 
 void SilhouetteFinder::find(const LightFrame& light, const TriangleView& triangles,
                             const GroupCandidates& candidates, GroupSilhouette& out,
-                            std::vector<std::uint32_t>& rest) {
+                            std::vector<std::uint32_t>& rest, const StopFlag* stop) {
   out.clear();
   rest.clear();
   const std::size_t count = candidates.all.size();
@@ -158,7 +160,7 @@ void SilhouetteFinder::find(const LightFrame& light, const TriangleView& triangl
     edges_.clear();
     left_ = 0;
     table_.assign(std::bit_ceil(6 * count), 0);
-    if (take(light, triangles, candidates, out, rest)) return keep_silhouette(candidates.axes, out);
+    if (take(light, triangles, candidates, out, rest, stop)) return keep_silhouette(candidates.axes, out);
   }
   out.clear();
   rest.resize(count);

@@ -43,6 +43,7 @@ struct GroupSilhouette {
   std::vector<SilhouetteEdge> edges;
   std::vector<SometimesBlocker> sometimes;
   std::vector<SilhouetteUse> uses;
+  std::vector<std::uint32_t> kept;  ///< room for drop_beside_light()
 
   bool empty() const { return edges.empty(); }
   void clear() {
@@ -60,9 +61,10 @@ void drop_beside_light(const GroupFrame& group, const LightAxes& axes, GroupSilh
 class SilhouetteFinder {
 public:
   /// Fills `out` from those of `candidates` that stand between the group's points and the light, and leaves
-  /// the places of the others in `rest`. Where too few edges cancel, `out` is empty and all are left.
+  /// the places of the others in `rest`. Where too few edges cancel, `out` is empty and all are left. Of no
+  /// use if `stop` was requested.
   void find(const LightFrame& light, const TriangleView& triangles, const GroupCandidates& candidates,
-            GroupSilhouette& out, std::vector<std::uint32_t>& rest);
+            GroupSilhouette& out, std::vector<std::uint32_t>& rest, const StopFlag* stop = nullptr);
 
 private:
   struct Edge {
@@ -72,7 +74,7 @@ private:
   };
 
   bool take(const LightFrame& light, const TriangleView& triangles, const GroupCandidates& candidates,
-            GroupSilhouette& out, std::vector<std::uint32_t>& rest);
+            GroupSilhouette& out, std::vector<std::uint32_t>& rest, const StopFlag* stop);
   void add_triangle(const glm::vec3* corners, int turn, std::int32_t blocker, GroupSilhouette& out);
   Edge& edge_of(const glm::vec3& from, const glm::vec3& to, std::uint32_t hash);
   void keep_silhouette(const LightAxes& axes, GroupSilhouette& out);

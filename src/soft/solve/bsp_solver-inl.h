@@ -29,7 +29,7 @@ public:
     receiver_.forget();
     set_up_occluders(frame.light, frame.triangles, group.frame, group.candidates, occluders_);
     start_tree(frame, group);
-    clip_what_the_tree_leaves(group);
+    clip_what_the_tree_leaves(frame, group);
   }
 
   void solve(const SoftFrame& frame, const PreparedGroup& group, std::span<const std::uint32_t> pixels,
@@ -56,23 +56,24 @@ private:
     start_tree(frame, group);
     if (!was_dropped || !use_tree_) return;
     writer.answer_by(SoftClass::bsp);
-    clip_what_the_tree_leaves(group);
+    clip_what_the_tree_leaves(frame, group);
   }
-  void drop_tree(const PreparedGroup& group, PixelWriter& writer) {
+  void drop_tree(const SoftFrame& frame, const PreparedGroup& group, PixelWriter& writer) {
     note_tree(writer.stats());
     use_tree_ = false;
     writer.answer_by(SoftClass::clip);
-    clip_what_the_tree_leaves(group);
+    clip_what_the_tree_leaves(frame, group);
   }
   /// All candidates if there is no tree.
-  void clip_what_the_tree_leaves(const PreparedGroup& group) {
-    if (use_tree_) return clip(group.candidates, occluders_.indefinite);
+  void clip_what_the_tree_leaves(const SoftFrame& frame, const PreparedGroup& group) {
+    if (use_tree_) return clip(frame, group.candidates, occluders_.indefinite);
     take_all(group.candidates, all_);
-    clip(group.candidates, all_);
+    clip(frame, group.candidates, all_);
   }
-  void clip(const GroupCandidates& candidates, std::span<const std::uint32_t> places) {
+  void clip(const SoftFrame& frame, const GroupCandidates& candidates,
+            std::span<const std::uint32_t> places) {
     clipped_ = order_.sorted(candidates, places);
-    clip_.reset(candidates, clipped_);
+    clip_.reset(candidates, clipped_, frame.stop);
   }
   /// Counts a tree that is given up.
   void note_tree(SoftStats& stats) const {
@@ -103,7 +104,7 @@ private:
     const FragmentList<T>& light = receiver_.light;
     if (use_tree_ && !query_tree(light, at)) {
       visible_.clear();
-      drop_tree(group, writer);
+      drop_tree(frame, group, writer);
     }
     clip_.move_to(at);
     if (!use_tree_) return clip_all(light, visible_.fragments);

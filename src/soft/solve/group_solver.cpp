@@ -48,7 +48,7 @@ void GroupSolver::solve_together(const SoftFrame& frame, const GroupFrame& aroun
       solve(frame, tasks[k]);
       continue;
     }
-    solve_prepared(frame, preparer_.choose(k, tasks[k]), tasks[k].pixels, watch);
+    solve_prepared(frame, preparer_.choose(k, tasks[k], frame.stop), tasks[k].pixels, watch);
     preparer_.restore();
   }
 }
@@ -75,6 +75,7 @@ void GroupSolver::expect(const SoftFrame& frame, std::span<const std::uint32_t> 
 /// `watch` has seen the preparation begin.
 void GroupSolver::solve_prepared(const SoftFrame& frame, const PreparedGroup& group,
                                  std::span<const std::uint32_t> pixels, base::Stopwatch& watch) {
+  if (stop_requested(frame.stop)) return;  // it may not be whole
   Solver& solver = solver_of(frame, group);
   solver.begin(frame, group);
   times.init_ms += watch.lap_ms();

@@ -17,9 +17,9 @@ class PacketGroupSolver final : public Solver {
 public:
   explicit PacketGroupSolver(std::unique_ptr<Solver> alone) : alone_(std::move(alone)) {}
 
-  void begin(const SoftFrame&, const PreparedGroup& group) override {
+  void begin(const SoftFrame& frame, const PreparedGroup& group) override {
     receiver_.forget();
-    packet_.reset(group.candidates, group.clipped);
+    packet_.reset(group.candidates, group.clipped, frame.stop);
     alone_is_ready_ = false;
   }
 

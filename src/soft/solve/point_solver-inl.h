@@ -19,9 +19,9 @@ using namespace simd::HWY_NAMESPACE;
 template <class T>
 class PointSolver final : public Solver {
 public:
-  void begin(const SoftFrame&, const PreparedGroup& group) override {
+  void begin(const SoftFrame& frame, const PreparedGroup& group) override {
     receiver_.forget();
-    clip_.reset(group.candidates, group.clipped);
+    clip_.reset(group.candidates, group.clipped, frame.stop);
     if (!group.silhouette.empty()) silhouette_.reset(group.silhouette);
   }
 

@@ -20,28 +20,30 @@ bool GroupPreparer::prepare_family(const SoftFrame& frame, const GroupFrame& aro
   family_.clear();
   for (const GroupTask& task : tasks) family_.add(task.candidates);
   const auto clipped = sort_out(frame, around, family_.triangles());
-  if (!silhouette_.empty()) return false;
+  if (!silhouette_.empty() || stop_requested(frame.stop)) return false;
   family_.make_ready(candidates_, clipped);
   return true;
 }
 
-PreparedGroup GroupPreparer::choose(std::size_t k, const GroupTask& task) {
-  return {task.frame, candidates_, silhouette_, family_.choose(k, task.frame, candidates_)};
+PreparedGroup GroupPreparer::choose(std::size_t k, const GroupTask& task, const StopFlag* stop) {
+  return {task.frame, candidates_, silhouette_, family_.choose(k, task.frame, candidates_, stop)};
 }
 
-/// Returns the candidates to be clipped. The BSP takes the candidates unsorted.
+/// Returns the candidates to be clipped; none, if a stop is requested. The BSP takes the candidates unsorted.
 std::span<const std::uint32_t> GroupPreparer::sort_out(const SoftFrame& frame, const GroupFrame& group,
                                                        std::span<const std::uint32_t> triangles) {
   silhouette_.clear();
-  find_candidates_(frame.light, frame.triangles, group, triangles, candidates_);
-  if (frame.config.solver == SoftSolver::bsp) return {};
+  find_candidates_(frame.light, frame.triangles, group, triangles, candidates_, frame.stop);
+  if (frame.config.solver == SoftSolver::bsp || stop_requested(frame.stop)) return {};
   if (frame.config.solver == SoftSolver::automatic) {
-    finder_.find(frame.light, frame.triangles, candidates_, silhouette_, rest_);
+    finder_.find(frame.light, frame.triangles, candidates_, silhouette_, rest_, frame.stop);
+    if (stop_requested(frame.stop)) return {};
     drop_beside_light(group, candidates_.axes, silhouette_);
     pair_triangles(group, candidates_, rest_);
   } else {
     take_all(candidates_, rest_);
   }
+  if (stop_requested(frame.stop)) return {};
   return order_.sorted(candidates_, rest_);
 }
 

@@ -26,14 +26,15 @@ class GroupPreparer {
 public:
   explicit GroupPreparer(SimdLevel level) : find_candidates_(find_candidates_kernel(level)) {}
 
-  /// Valid until the next call, like all that is returned here.
+  /// Valid until the next call, like all that is returned here. Of no use if frame.stop was requested.
   PreparedGroup prepare(const SoftFrame& frame, const GroupTask& task);
 
   /// Prepares groups that lie near each other, within `around`, at once. False where their meshes have an
-  /// silhouette: then each had better have one of its own, by prepare().
+  /// silhouette: then each had better have one of its own, by prepare(). Of no use if frame.stop was
+  /// requested.
   bool prepare_family(const SoftFrame& frame, const GroupFrame& around, std::span<const GroupTask> tasks);
-  /// Group `k` of the family, until restore().
-  PreparedGroup choose(std::size_t k, const GroupTask& task);
+  /// Group `k` of the family, until restore(). Of no use if `stop` was requested.
+  PreparedGroup choose(std::size_t k, const GroupTask& task, const StopFlag* stop);
   void restore() { family_.restore(candidates_); }
 
 private:

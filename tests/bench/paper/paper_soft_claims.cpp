@@ -70,8 +70,8 @@ void add_quality(const SoftFindings& found, std::vector<Claim>& claims) {
                    faster, slower, wins, races)});
 }
 
-/// Section 5.5 speaks of very few points a triangle: where most points lie on triangles that have fewer than
-/// a neighbourhood. What is dropped before it is used again shows in the nodes.
+/// Section 5.5 speaks of very few points per triangle: where most points lie on triangles that have fewer
+/// than a neighbourhood. What is dropped before it is used again shows in the nodes.
 void add_grouping(const std::vector<TreeView>& views, std::vector<Claim>& claims) {
   const auto nodes = [](const TreeView& v) { return over(v.paper.nodes, v.neighbourhood.nodes); };
   const auto times = [](const TreeView& v) { return v.paper.ms / std::max(v.neighbourhood.ms, 1e-9); };

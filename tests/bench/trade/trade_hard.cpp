@@ -1,6 +1,8 @@
 // The trade of hard shadows: the default, the paper's variants, front-face culling, samples from the depth
 // buffer, depth cubes and Embree's rays.
 #include <fmt/format.h>
+
+#include <functional>
 #include <memory>
 
 #include "bench/common/memory_meter.h"
