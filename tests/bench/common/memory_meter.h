@@ -1,6 +1,6 @@
 // What memory work takes, as the program itself counts it: all that is asked of the global operator new,
-// which memory_meter.cpp replaces, and what libraries report. So it is the same from run to run, unlike the
-// pages that the system has given.
+// which memory_meter.cpp replaces, and what libraries report. Unlike the pages that the system has given, it
+// hardly changes from run to run: where threads share the work, by how they happen to share it.
 #pragma once
 
 #include <cstddef>
