@@ -22,7 +22,7 @@ constexpr std::uint8_t lit = 255;
 constexpr float blocker_share = 1.0f / 256;
 constexpr std::uint64_t update_share = 16;
 
-/// Table 1 of the paper.
+/// What each variant uses: Table 1 of the paper.
 struct VariantParts {
   bool spheres, sorted, early_accept, two_pass;
 };
@@ -30,7 +30,7 @@ VariantParts parts_of(Variant variant) {
   switch (variant) {
     case Variant::precise:
       return {false, false, false, false};
-    case Variant::tiles:  // where it does not apply
+    case Variant::tiles:  // for what TileTracer::trace declines
     case Variant::precise_sorted:
       return {false, true, false, false};
     case Variant::spheres:
@@ -58,7 +58,7 @@ std::uint64_t live_rays(const shadow::ConeTree& tree) {
 
 struct ShadowTracer::State {
   shadow::TileTracer tiles;
-  VisiblePoints positions;  ///< where those that are given have none
+  VisiblePoints positions;  ///< found here if the caller's points have none
   shadow::TriangleSet set;
   shadow::ShadowRays rays;
   shadow::RayKeys keys;
@@ -123,7 +123,7 @@ void ShadowTracer::State::spread_node_tests(std::size_t pixels) {
   for (std::size_t packet = 0; packet * shadow::packet_size < count; ++packet) {
     double shares = 0;
     std::size_t node = packet,
-                most = shadow::packet_size;  // rays that a node of this level holds, but for the last
+                most = shadow::packet_size;  // rays of a node of this level; the last may hold fewer
     for (const std::vector<std::uint32_t>& level : node_tests) {
       shares += static_cast<double>(level[node]) / static_cast<double>(std::min(most, count - node * most));
       node /= shadow::branching;

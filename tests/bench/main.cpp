@@ -1,4 +1,4 @@
-// tenebra-bench: what each method costs and how exact it is, beside its peers. One subcommand a method.
+// tenebra-bench: what each method costs and how exact it is, beside its peers. One subcommand per method.
 #include <cstdio>
 #include <string>
 

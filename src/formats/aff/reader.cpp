@@ -14,10 +14,10 @@ constexpr std::size_t deepest_include = 64;
 constexpr std::size_t deepest_block = 1024;
 constexpr std::size_t most_includes = 1'000'000;
 
-/// Includes may repeat a file: text read again may be this much, so that no small file takes for ever...
+/// Includes may repeat a file: text read again is limited, so that no small file takes endless time...
 constexpr std::uint64_t free_expanded_bytes = 128u << 20;
 constexpr std::uint64_t expanded_per_byte = 4;
-/// ... and what is made of it this much (import_scene.h promises 256 MiB and 20 times the files' size).
+/// ... and so is what is made of it (import_scene.h promises 256 MiB and 20 times the files' size).
 constexpr std::uint64_t free_scene_bytes = 160u << 20;
 constexpr std::uint64_t scene_per_byte = 14;
 

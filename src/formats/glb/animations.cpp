@@ -28,7 +28,7 @@ struct GlbWriter::ClipWriter {
   const Clip& clip;
   GlbJson animation = {{"name", clip.name}};
   double delay_s = 0;         ///< added to all times: glTF has none below 0
-  std::vector<float> frames;  ///< times of the frames in the file
+  std::vector<float> frames;  ///< times in the file of the frames at which values are baked
   int frames_accessor = -1;
   std::map<std::pair<int, ChannelPath>, int> sampler_of_track;
   std::map<int, int> sampler_of_mesh;
@@ -142,8 +142,8 @@ struct GlbWriter::ClipWriter {
     add_channel(sampler_for(channel), channel.node, paths[static_cast<int>(channel.path)]);
   }
 
-  /// Where the file has what a channel of a light or camera drives, and the file's numbers for one of the
-  /// scene's.
+  /// The JSON pointer to what a channel of a light or camera drives, empty if there is none, and the factor
+  /// from the scene's numbers to the file's.
   std::pair<std::string, double> pointer_of(const Channel& channel) const {
     const Node& node = scene().nodes[static_cast<std::size_t>(channel.node)];
     if (channel.path >= ChannelPath::camera_fov) {

@@ -218,8 +218,8 @@ bool bounds_are_exact(const Accessor& accessor, const std::vector<double>& value
   return true;
 }
 
-/// Compares with the declared bounds; integers as stored, floats to their precision. A difference is
-/// harmless. Returns whether there is one that the warnings do not name.
+/// Compares values with the bounds that the accessor states: integers as stored, floats to their precision.
+/// A difference is harmless. Returns whether there is one that the warnings do not name.
 bool check_bounds(Asset& asset, std::size_t index, const std::vector<double>& values) {
   const Accessor& accessor = asset.model.accessors[index];
   const std::size_t components = static_cast<std::size_t>(component_count(accessor));
@@ -268,8 +268,8 @@ int component_count(const Accessor& accessor) {
 
 void check_accessors(Asset& asset) {
   for (std::size_t i = 0; i < asset.model.bufferViews.size(); ++i) check_view(asset, i);
-  std::uint64_t most_elements =
-      20'000'000;  // a good file has fewer than bytes; overlapping views could have more
+  // Beside one element for each byte of the buffers: only overlapping views could have more.
+  std::uint64_t most_elements = 20'000'000;
   for (const std::string& buffer : asset.buffers) most_elements += buffer.size();
   Budget work(most_elements);
   std::size_t loose = 0, first_loose = 0;

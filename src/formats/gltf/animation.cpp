@@ -55,7 +55,7 @@ struct ClipBuilder {
 
   const Accessor& accessor(int i) const { return asset.model.accessors[static_cast<std::size_t>(i)]; }
 
-  /// An accessor without bytes: its zeros are no key times.
+  /// Whether an accessor has no bytes: its zeros are no key times.
   bool is_empty(int i) const { return accessor(i).bufferView < 0 && !accessor(i).sparse.isSparse; }
 
   std::vector<double> read_times(int input, const std::string& where) {

@@ -151,7 +151,7 @@ void check_extensions(Asset& asset) {
     warnings.push_back(fmt::format(
         "extensionsRequired: {} is not read; the geometry is whole, but surfaces may look different.", name));
   }
-  const auto is_counted = [&](const std::string& name) {  // and has a sentence of its own
+  const auto is_counted = [&](const std::string& name) {  // such content has a sentence of its own
     return std::any_of(asset.scene.unused.begin(), asset.scene.unused.end(),
                        [&](const UnusedContent& content) { return content.name == name; });
   };

@@ -62,7 +62,7 @@ struct MeshBuilder {
 
   void check_tangents(int i, std::size_t p) {
     if (accessor(i).type != TINYGLTF_TYPE_VEC4) return;
-    Budget kept = asset.budget;  // they are looked at and forgotten
+    Budget kept = asset.budget;  // the numbers are kept for this check only
     const std::vector<double> t = read_numbers(asset, i);
     asset.budget = kept;
     std::size_t odd = 0;

@@ -125,7 +125,7 @@ void decode_meshopt(Asset& asset) {
     auto& view = asset.model.bufferViews[i];
     const auto found = view.extensions.find(compression_name);
     if (found == view.extensions.end()) continue;
-    // Without the library the fallback does, where the file has one.
+    // Without the library the file's fallback is read, where there is one.
     if (!has_meshopt() && !asset.buffers[static_cast<std::size_t>(view.buffer)].empty()) continue;
     const Compressed compressed = read_header(asset, i, found->second);
     check_mode(compressed);

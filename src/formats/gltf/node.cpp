@@ -184,7 +184,7 @@ void leave_out(Asset& asset, Node& node, std::vector<int>& silent_mesh) {
   node.mesh = copy;
 }
 
-/// A mesh can stand at any number of nodes: the frame that is made of them must have an end.
+/// A mesh can stand at any number of nodes: the size of the frame that is made of them must be limited.
 void check_size(const Scene& scene) {
   constexpr std::size_t most = 50'000'000;
   std::size_t triangles = 0, vertices = 0;

@@ -53,7 +53,7 @@ std::size_t table_size(const Asset& asset, PointerTable table) {
   }
 }
 
-/// What one of the file's numbers is in Scene's units.
+/// The factor from the file's numbers to Scene's.
 double factor_of(const Asset& asset, const PointerTarget& target) {
   if (target.path == ChannelPath::camera_extent) return 2;  // ymag is half the height
   if (target.table != PointerTable::lights || target.path != ChannelPath::light_intensity) return 1;

@@ -86,8 +86,8 @@ std::string check_gltf_schema(std::string_view json, std::vector<std::string>& w
   replace_unknown_cameras(root, warnings);
   mark_channels_without_nodes(root);
   hide_indices_without_view(root);
-  // tinygltf fetches what stands under "buffers" by itself; under "extras" it leaves it to its caller. Images
-  // too.
+  // tinygltf fetches what stands under "buffers" and "images" by itself; what stands under "extras" it leaves
+  // to its caller.
   if (root.contains("buffers")) root["extras"]["buffers"] = std::move(root["buffers"]);
   root.erase("buffers");
   if (root.contains("images")) {

@@ -83,8 +83,8 @@ using KnownVertices = std::unordered_map<std::array<int, 3>, std::uint32_t, Hash
 struct ObjBuilder {
   const tinyobj::attrib_t& attributes;
   std::uint32_t grey;  ///< the material of faces without one
-  bool has_colors;     ///< the vertices have
-  bool textured;       ///< a material has a picture: else coordinates would only part vertices
+  bool has_colors;     ///< whether the vertices have any
+  bool textured;       ///< whether a material has a picture: else coordinates would only split vertices
   std::uint64_t work = 0;
   bool used_grey = false;
 
@@ -204,7 +204,7 @@ TextureMap map_of(const std::string& name, const tinyobj::texture_option_t& opti
 }
 
 Material read_material(const tinyobj::material_t& source, SceneImages& images) {
-  constexpr int diffuse_only = 1;  // of the MTL format's ways of lighting
+  constexpr int diffuse_only = 1;  // one of the MTL format's illumination models
   const std::string place = fmt::format("material '{}'", source.name);
   Material material;
   material.name = source.name;

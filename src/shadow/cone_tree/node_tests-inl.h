@@ -78,9 +78,9 @@ SIMD_INLINE Mask4 beyond_separating_plane(const TriangleBounds& t, const Nodes& 
   return beyond & lt(n.c, broadcast<Float4>(narrow_chord));
 }
 
-// Section 3.2, last paragraph: cones near and past 90 degrees, rounded up to 90. If all corners lie in the
-// complementary cone, which is convex, so does the triangle. Outside of the cone chords to the axis are
-// longer than c.
+// Section 3.2, last paragraph: cones near 90 degrees, which are widened to 90, and wider ones. If all corners
+// lie in the complementary cone, which is convex, the triangle does too. Outside of the cone chords to the
+// axis are longer than c.
 SIMD_INLINE std::uint32_t in_complementary_cone(const TriangleBounds& t, const Nodes& n) {
   const std::uint32_t wide = 15u & ~n.narrow;
   if (wide == 0) return 0;
@@ -108,8 +108,8 @@ SIMD_INLINE NodeVerdict precise_cone_test(const TriangleBounds& t, const Nodes& 
   const Float4 reach =
       n.far * (facing + n.c + plane_slack) * broadcast<Float4>(1 + 4 * u) + broadcast<Float4>(tiny);
   rejected = rejected | lt(reach, broadcast<Float4>(t.d[3] * (1 - 4 * u)));
-  // The plane may come near the light where the triangle does not: not in the paper, a fifth to a half of the
-  // nodes of wide unsorted cones.
+  // The plane may come nearer to the light than the triangle does. This test is not in the paper; it rejects
+  // a fifth to a half of the nodes of wide unsorted cones.
   rejected = rejected | lt(n.far, broadcast<Float4>(t.sphere_near));
   NodeVerdict v{n.empty | bits(rejected), 0};
   if (v.rejected == 15) return v;
@@ -142,7 +142,7 @@ SIMD_INLINE Float4 plane_value(const TriangleBounds& t, int k, const Nodes& n) {
   return dot(broadcast3<Float4>(t.mx[k], t.my[k], t.mz[k]), n.w) - broadcast<Float4>(t.d[k]);
 }
 
-// Coordinates near the cylinder's are of this size; every rounding is relative to it.
+// The size of coordinates at the cylinder; every rounding is relative to it.
 SIMD_INLINE Float4 cylinder_scale(const TriangleBounds& t, const Nodes& n) {
   const Float4 zero = broadcast<Float4>(0.0f);
   const auto magnitude = [&](Float4 a) HWY_ATTR { return zero - min(a, zero - a); };

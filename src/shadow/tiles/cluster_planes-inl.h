@@ -23,9 +23,9 @@ using namespace simd::HWY_NAMESPACE;
 /// Eight triangles in double.
 struct Eight {
   Vector8 p[3];     // corners, world space
-  Vector8 a[3];     // relative to the origin
+  Vector8 a[3];     // relative to the source's origin
   Double8 side;     // +1, -1; 0 where double cannot tell
-  Double8 largest;  // |coordinate| of the corners in world space
+  Double8 largest;  // of the corners' |coordinates| in world space
 };
 
 SIMD_INLINE Eight load_eight(const TriangleCluster& c, int at, const glm::dvec3& origin) {
@@ -46,8 +46,8 @@ SIMD_INLINE Vector8 ray_to(const Eight& t, int k, const RaySource& source) {
   return source.distant ? t.p[k] - broadcast8(glm::dvec3(source.light)) : t.a[k];
 }
 
-/// Stores plane `k`, turned to the side of `side`; returns the square of rho / 2^-48. 1 / 0 gives no plane
-/// and an infinite error: all is left to the exact stage.
+/// Stores plane `k`, turned to the side of `side`; returns the square of rho / 2^-48. A normal of length 0
+/// gives a plane of zeros and an infinite error: all is left to the exact stage.
 SIMD_INLINE Double8 store_plane(ClusterPlanes& out, int k, int at, const Vector8& m, Double8 side,
                                 Double8 squares, Vector8& unit) {
   const Double8 zero = broadcast<Double8>(0.0), length2 = dot(m, m);

@@ -35,7 +35,7 @@ struct Waiting {
   std::uint16_t slot, triangles;
 };
 constexpr int most_waiting = 32;
-constexpr float much_wider = 6;  // as seen from the light
+constexpr float much_wider = 6;  // times the width of the triangles' box, as seen from the light
 
 template <class Side>
 class RootDescent {
@@ -80,7 +80,8 @@ private:
   std::uint32_t cover_tiles(RayNode& n, int i, std::uint32_t met);
   void test_tile(const Waiting& w);
   bool test_triangle(const Waiting& w, const RoughRays& rough, int i);
-  /// Lanes of a slot whose points lie on a triangle, which never blocks those.
+  /// Of a slot with points on several triangles: the lanes whose points lie on triangle `id`, which never
+  /// blocks those. Where all points lie on one, by_tiles() and by_triangles() have left that one out.
   std::uint32_t own_lanes(const RayNode& n, int slot, std::uint32_t id) const {
     return n.own[slot] == no_triangle && skip_own_ ? eq_bits(tile(n, slot).id, id) : 0;
   }
@@ -89,17 +90,17 @@ private:
   const Descent& d_;
   const Side side_;
   LiveRays<Side> live_;
-  const bool skip_own_;  ///< a triangle never blocks its own points
+  const bool skip_own_;  ///< whether a triangle never blocks its own points
   const points::TilePixels pixels_;
   points::PositionFinder finder_;
   DescentScratch& scratch_;
   TraceStats& stats_;
-  // Of the cluster that is on its way down.
+  // Of the cluster that descends:
   const TriangleCluster* cluster_ = nullptr;
   FaceBox cluster_box_{};
   FaceBoxes boxes_;                 ///< of its triangles
   alignas(64) float lanes_[5][16];  ///< the same, for box_of
-  bool set_up_ = false;             ///< the scratch's planes, and the same on the face
+  bool set_up_ = false;             ///< whether the scratch's planes, and on_face_, are this cluster's
   FaceCluster on_face_;
   Waiting waiting_[most_waiting];
   int waiting_count_ = 0;
@@ -113,8 +114,8 @@ void RootDescent<Side>::fetch_nodes(const RayNode& n, int level, std::uint32_t s
   for (; slots != 0; slots &= slots - 1) simd::prefetch_all(below[n.child[std::countr_zero(slots)]]);
 }
 
-// Down to the deepest node that holds all rays which the box may meet; returns the bits of its children that
-// may have them, 0: there are none.
+// Moves `rays` down to the deepest node that holds all rays which the box may meet; returns the bits of its
+// children that may have such rays; 0: there are none.
 template <class Side>
 std::uint32_t RootDescent<Side>::narrow(RayRef& rays, const FaceBox& box) {
   for (;;) {
@@ -161,10 +162,9 @@ void RootDescent<Side>::visit(std::size_t level, std::size_t number, const RayRe
   }
 }
 
-// A node of clusters within `box`, and a node of rays that the box meets the children `met` of. Where the
-// rays lie much wider than the triangles they are descended first: triangles among sparse rays are then far
-// from nearly all of them and met by few. Else the triangles are: what is worked out for them serves all
-// rays.
+// A node of clusters within `box`, and a node of rays whose children `met` the box meets. Where the rays lie
+// much wider than the triangles, the rays are descended first: nearly all of them are far from the triangles,
+// and few are left further down. Else the triangles are: what is worked out for them serves all rays.
 template <class Side>
 void RootDescent<Side>::enter(std::size_t level, std::size_t number, const FaceBox& box, const RayRef& rays,
                               std::uint32_t met) {
@@ -190,7 +190,8 @@ void RootDescent<Side>::meet_cluster(const TriangleCluster& cluster, const RayRe
   test_waiting();
 }
 
-// The triangles of `mask` meet the box of `rays`. What children need is prefetched before the first is met.
+// The triangles of `mask` meet the box of `rays`. All children that are entered are prefetched before the
+// first is.
 template <class Side>
 void RootDescent<Side>::descend_cluster(const RayRef& rays, std::uint32_t mask) {
   RayNode& n = node(rays);
@@ -213,7 +214,7 @@ void RootDescent<Side>::descend_cluster(const RayRef& rays, std::uint32_t mask) 
   }
 }
 
-// Planes in double are not needed before a triangle's box meets a node of tiles.
+// Called when the box of a triangle first meets a node of tiles: before, no planes are needed.
 template <class Side>
 void RootDescent<Side>::set_up_cluster() {
   set_up_ = true;
@@ -225,8 +226,8 @@ void RootDescent<Side>::set_up_cluster() {
     scratch_.edge_on.push_back(cluster_->ids[std::countr_zero(left)]);
 }
 
-// If the tiles are fewer, each looks for its triangles, sixteen at a time; else each triangle looks for
-// tiles.
+// If there are no more tiles than triangles, each tile is tested with all triangles at once; else each
+// triangle with all tiles.
 template <class Side>
 void RootDescent<Side>::meet_tiles(const RayRef& rays, std::uint32_t met, std::uint32_t mask) {
   if (!set_up_) set_up_cluster();
@@ -274,7 +275,7 @@ void RootDescent<Side>::by_triangles(std::uint32_t number, std::uint32_t mask) {
   if (n.live == 0) live_.retire(0, number);
 }
 
-// Prefetches a tile now and tests it later, when it has had time to arrive.
+// Prefetches a tile and leaves its test for later, when the data has had time to arrive.
 template <class Side>
 void RootDescent<Side>::put_off(std::uint32_t number, int slot, std::uint32_t triangles) {
   simd::prefetch_all(tile(node(0, number), slot));

@@ -23,7 +23,7 @@ using namespace simd::HWY_NAMESPACE;
 /// A face of the cube, as a descent asks for it.
 class CubeSide {
 public:
-  static constexpr bool anchored = false;  ///< planes through edges have a d
+  static constexpr bool anchored = false;  ///< whether planes through edges have a d
   CubeSide(const RaySource& source, int face)
       : number_(face), face_(face_axes(face)), light_(source.light), origin_(source.origin) {}
 
@@ -48,7 +48,7 @@ private:
   const glm::dvec3 origin_;
 };
 
-/// The distant one.
+/// The distant face, as a descent asks for it.
 class DistantSide {
 public:
   static constexpr bool anchored = true;
@@ -71,8 +71,8 @@ private:
   const DistantFace face_;
 };
 
-/// Which of a cluster's triangles block rays of one box on one side, by the tests that a descent makes on its
-/// way.
+/// Which of a cluster's triangles may block rays of a box on one side, and which block all of them, by the
+/// tests that a descent makes on its way.
 template <class Side>
 ClusterVerdict meet_on(const Side& side, const TriangleCluster& cluster, const BoxNode& boxes,
                        const RaySource& source, const FaceBox& rays, float tau) {

@@ -16,8 +16,8 @@ HWY_BEFORE_NAMESPACE();
 namespace tenebra::shadow::HWY_NAMESPACE {
 using namespace simd::HWY_NAMESPACE;
 
-/// What reaches nearer to the light than this share of its distance, or is farther away than that, gets a box
-/// that meets all rays.
+/// What reaches nearer to the light than nearest_share of the light's distance, or has coordinates that add
+/// up to farthest_coordinate, gets a box that meets all rays.
 constexpr float nearest_share = 0x1p-10f, farthest_coordinate = 1e30f;
 
 /// Sixteen ranges of a coordinate relative to the face's origin. Each end is off by u of itself.
@@ -81,7 +81,7 @@ SIMD_INLINE void set_boxes(const DistantRange across[2], Float16 w, const Float1
                  broadcast<Float16>(all.w));
 }
 
-/// Bits of the boxes that are not certainly behind the light, as those with q < -1 throughout are.
+/// Bits of the boxes that are not certainly behind the light: q < -1 throughout is.
 SIMD_INLINE std::uint32_t before_light(const Nearness& n) {
   return 0xffffu & ~lt_bits(n.far_q, broadcast<Float16>(-1.0f));
 }

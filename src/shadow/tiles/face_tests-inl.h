@@ -119,7 +119,7 @@ struct FaceCluster {
   float edge_slack[16], own_slack[16];
   float d[16];            ///< rounded down
   float cover[16];        ///< d and the rays' own tolerance, rounded up
-  float cover_slack[16];  ///< with it
+  float cover_slack[16];  ///< goes with `cover`
 };
 
 SIMD_INLINE void face_cluster(const ClusterPlanes& c, const Face& face, float tau, FaceCluster& out) {

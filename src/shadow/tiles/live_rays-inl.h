@@ -31,17 +31,17 @@ public:
   const points::PointTile& tile(const RayNode& n, int slot) const { return tiles_.tiles[n.child[slot]]; }
   const points::PointBase& base(const RayNode& n, int slot) const { return tiles_.bases[n.child[slot] / 16]; }
 
-  /// All rays of a tile are blocked.
+  /// Takes a tile, whose rays are all blocked, out of its node.
   void drop(RayNode& n, int slot) const {
     n.rays[slot] = 0;
     n.live &= ~(1u << slot);
     node(1, n.parent).wide |= 1u << n.slot;
   }
-  /// Shrinks the box of a tile to its remaining rays. What missed them all may have met the box only because
-  /// it was made for all points, or for rays that are blocked by now.
+  /// Shrinks the box of a tile to its remaining rays. Called when a triangle has met the box but no ray: the
+  /// box may have been made for all points, or for rays that are blocked by now.
   void shrink(RayNode& n, int slot) const;
-  /// Shrinks the box of a node to its remaining rays: what missed all its children may have met only the box,
-  /// which may be that of rays blocked by now.
+  /// Shrinks the box of a node to its remaining rays. Called when a cluster has met the box but none of the
+  /// children: the box may be that of rays which are blocked by now.
   void tighten(const RayRef& rays) const;
   /// Takes a node whose rays are all blocked out of its parent, and parents left empty with it.
   void retire(int level, std::uint32_t number) const;

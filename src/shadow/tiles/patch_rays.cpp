@@ -16,11 +16,11 @@ namespace {
 
 using glm::dvec3;
 
-// Boxes with a larger share of a face are met by too many triangles: such squares are taken tile by tile,
-// such tiles ray by ray. Near the light pixels side by side may lie in all directions.
-// Of a distant light they do only where a picture's pixels are wide themselves.
+// Boxes with a larger share of a face are met by too many triangles: such squares are divided into tiles,
+// and tiles (with tile_share of a square's limit) into rays. Seen from a light nearby, neighbouring pixels
+// may lie in all directions; from a distant light, far apart only where the picture's pixels are wide.
 constexpr float widest_square = 1.0f / 2304, widest_distant_square = 1.0f / 256, tile_share = 1.0f / 64;
-constexpr std::ptrdiff_t fetch_ahead = 4;  // squares: the time that memory takes
+constexpr std::ptrdiff_t fetch_ahead = 4;  // squares: about as long as memory takes
 
 std::uint8_t cube_face_of(const dvec3& p) {
   const double x = std::abs(p.x), y = std::abs(p.y), z = std::abs(p.z), largest = std::max({x, y, z});
@@ -182,7 +182,7 @@ std::uint32_t PatchRays::facing_lanes(Work& work, std::uint32_t lanes, std::uint
   return faced | lanes_beyond(beyond, tile);
 }
 
-/// Those of `lanes`, on triangles that the light is beyond, that see past them.
+/// Those of `lanes` that see past their triangles; of all of these the light is beyond (Faces::beyond).
 std::uint32_t PatchRays::lanes_beyond(std::uint32_t lanes, std::uint32_t tile) const {
   if (lanes == 0) return 0;
   std::uint32_t past = 0;
@@ -211,7 +211,7 @@ Reach PatchRays::reach_of(const points::PointSquare& square) const {
 std::uint32_t PatchRays::in_reach_lanes(const points::PointSquare& square, int t, std::uint32_t lanes) const {
   const dvec3 extent(square.high[0][t] - square.low[0][t], square.high[1][t] - square.low[1][t],
                      square.high[2][t] - square.low[2][t]);
-  // Half of the diagonal, and what the roundings of q, which its square's radius bounds, add.
+  // Half of the diagonal, and the roundings of q, which the square's radius bounds.
   const double radius = 0.5 * glm::length(extent) + 0x1p-20 * double{square.base.radius};
   const dvec3 centre = centre_of(square, t) + (source_.origin - dvec3(light_.position));
   const Reach reach = reach_of_ball(centre, radius, light_);

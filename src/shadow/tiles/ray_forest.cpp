@@ -21,7 +21,7 @@ void widen(FaceBox& to, const FaceBox& by) {
   to.w = std::min(to.w, by.w), to.w1 = std::max(to.w1, by.w1);
 }
 
-// Keys: face, place on its curve, and 32 bits that say what it is the key of.
+// A key, from the highest bits on: face, place on its curve, and 32 bits that number what has the key.
 std::uint32_t place_of(std::uint64_t key) {
   return static_cast<std::uint32_t>(key);
 }
@@ -31,7 +31,7 @@ std::uint8_t face_of(std::uint64_t key) {
 std::uint64_t key_of(std::uint32_t curve, std::size_t place) {
   return static_cast<std::uint64_t>(curve) << 32 | place;
 }
-// A loose group by its patch and its place there.
+// The number of a loose group: its patch, and in the low 16 bits its place there.
 static_assert(points::patch_squares * 256 <= 0x10000);
 std::size_t loose_place(std::size_t patch, std::size_t i) {
   return patch << 16 | i;
@@ -169,7 +169,7 @@ void write_square(std::uint8_t* to, int width) {
     std::memset(to, 255, points::square_side);
 }
 
-/// The pixels of a tile by the bits of `live`, and no other: threads share tiles.
+/// Sets the pixels of a tile whose bits in `live` are set, and touches no others: threads share tiles.
 void write_tile(std::uint32_t live, std::uint8_t* to, int width) {
   if (live == 0xffffu) {
     for (std::uint32_t row = 0; row < points::tile_side; ++row, to += width)

@@ -22,7 +22,7 @@ using namespace simd::HWY_NAMESPACE;
 /// sum: each coordinate is off by at most 3u (|base| + radius), the point by 3u reach.
 struct RoughRays {
   Pack3<Float16> p;
-  float reach;  ///< >= |p|, and as above
+  float reach;  ///< >= |p|, and large enough for the bound above
 };
 
 SIMD_INLINE RoughRays rough_rays(const points::PointTile& tile, const points::PointBase& from,
@@ -37,8 +37,8 @@ SIMD_INLINE RoughRays rough_rays(const points::PointTile& tile, const points::Po
 
 /// Lanes of a tile.
 struct TileVerdict {
-  std::uint32_t near;  ///< not missed for sure
-  std::uint32_t sure;  ///< blocked for sure, of those that are near
+  std::uint32_t near;  ///< not certainly missed
+  std::uint32_t sure;  ///< certainly blocked, of those that are near
 };
 
 /// Triangle i of a cluster. The points are off by 3u reach, the planes by u, products and sums by 5u of |p|
@@ -106,7 +106,7 @@ SIMD_INLINE Aim aim_at(const LeafTriangle& t, const points::PointBase& from, con
   return aim;
 }
 
-/// Again, where the rough verdict leaves something open.
+/// A closer verdict, for where the rough one leaves something open.
 SIMD_INLINE TileVerdict fine_verdict(const ClusterPlanes& c, int i, const points::PointTile& tile,
                                      const points::PointBase& from, const glm::dvec3& origin, float tau) {
   LeafTriangle t;

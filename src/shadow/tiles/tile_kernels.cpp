@@ -24,7 +24,7 @@ constexpr float off_the_face = 1e30f;
 // for a flat patch, with room for perspective and curvature.
 constexpr float coherent_extent = 8;
 
-// The slack has room for more roundings of to_light than one.
+// The receivers' slack allows for more than one rounding of to_light.
 Facing facing(const points::ReceiverBlock& r, const FacingLight& light) {
   const Float16 scale = broadcast<Float16>(light.scale);
   const Pack3<Float16> to_light{broadcast<Float16>(light.at.x) - load<Float16>(r.ax) * scale,

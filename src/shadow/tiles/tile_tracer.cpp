@@ -11,7 +11,7 @@ namespace tenebra::shadow {
 
 namespace {
 
-constexpr std::uint64_t wide = 16;  // what one test of a node or tile looks at
+constexpr std::uint64_t wide = 16;  // boxes, triangles or points that one test looks at
 
 bool same_eye(const ViewRays& a, const ViewRays& b) {
   return a.orthographic == b.orthographic && (a.orthographic ? a.d0 == b.d0 : a.eye == b.eye);
@@ -54,7 +54,7 @@ void TileTracer::descend(const Descent& descent, SimdLevel simd, TraceStats& sta
   root_tests_.clear();
   for (const TraceStats& part : root_stats_) root_tests_.push_back(part.nodes);
   for (const TraceStats& part : root_stats_) stats += part;
-  // Several roots may meet a triangle.
+  // Several roots may have met the same triangle, which counts once.
   std::vector<std::uint32_t>& edge_on = scratch_.front().edge_on;
   for (std::size_t i = 1; i < scratch_.size(); ++i)
     edge_on.insert(edge_on.end(), scratch_[i].edge_on.begin(), scratch_[i].edge_on.end());
@@ -99,7 +99,8 @@ bool TileTracer::trace(const VisiblePoints& points, const ViewRays& view, const 
   return true;
 }
 
-// From the leaves up: rays below each node; from the roots down: the shares of all nodes above a tile.
+// From the leaves up: the rays below each node. From the roots down: each ray's share of the tests of all
+// nodes above it.
 void TileTracer::spread_tests(int width, int height, std::vector<float>& out) const {
   out.assign(static_cast<std::size_t>(width) * static_cast<std::size_t>(height), 0);
   const points::TilePixels pixel_of(width, height);

@@ -23,7 +23,7 @@ bool same_elements(std::span<const T> a, const std::vector<T>& b) {
   return a.size() == b.size() && (a.empty() || std::memcmp(a.data(), b.data(), a.size_bytes()) == 0);
 }
 
-/// Copies what differs and counts the blocks that did, before each block.
+/// Copies the blocks that differ. changed[b]: how many of them lie before block b.
 template <class T>
 void copy_changes(std::span<const T> from, std::vector<T>& to, std::vector<std::uint32_t>& changed) {
   const std::size_t blocks = (from.size() + block - 1) / block;
@@ -167,7 +167,7 @@ void ClusterTree::follow(const TriangleView& t, SimdLevel simd, const StopFlag* 
 bool ClusterTree::update(const TriangleView& t, SimdLevel simd, const StopFlag* stop) {
   if (t.version != 0 && t.version == version_) return true;
   version_ = 0;                                     // until all of it is there
-  const auto forget = [&] { positions_.clear(); };  // unlike any others: the next order is found anew
+  const auto forget = [&] { positions_.clear(); };  // equal to no frame's: the next call finds the order anew
   try {
     follow(t, simd, stop);
   } catch (...) {  // no memory

@@ -18,7 +18,7 @@ Object floor_of(float half) {
           {{0, 1, 2}, {0, 2, 3}}};
 }
 
-/// Keys of a round of 0.15 m about `place`, and of one turn.
+/// Keys of one walk on a circle of radius 0.15 m about `place`, and of one turn.
 void add_motion(Clip& clip, int node, const dvec3& place, double phase) {
   constexpr int keys = 21;
   Track walk{.components = 3}, turn{.components = 4};

@@ -13,7 +13,7 @@
 namespace tenebra::bench {
 namespace {
 
-constexpr int ray_count = 256;  // a point
+constexpr int ray_count = 256;  // per point
 constexpr std::array position_counts{289, 1089, 4225};
 constexpr std::array direction_sides{16, 32, 64, 128};
 

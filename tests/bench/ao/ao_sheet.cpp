@@ -16,7 +16,7 @@ using glm::vec3;
 constexpr int side = 144, text_height = 28, columns = 4;  // px
 constexpr int cell_width = 2 * side, cell_height = side + text_height;
 
-/// Five rows of three pixels a character.
+/// Five rows of three pixels for each character.
 constexpr std::string_view characters = "0123456789.xsm";
 constexpr std::array<std::array<std::uint8_t, 5>, 14> glyphs{{{7, 5, 5, 5, 7},
                                                               {2, 6, 2, 2, 7},

@@ -22,7 +22,7 @@ namespace {
 constexpr double error_255 = 0.5;  ///< of the goal
 constexpr std::size_t most_rays = 1024;
 
-/// A scene's samples, one a texel, in the order of `tenebra bake`, and its one light.
+/// A scene's samples, one per texel, in the order of `tenebra bake`, and its one light.
 struct MapScene {
   Scene scene;
   render::FrameInput input;

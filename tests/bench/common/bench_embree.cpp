@@ -59,7 +59,7 @@ std::vector<std::uint32_t> nearest_triangles(const TriangleView& triangles, cons
       const glm::vec3 step = x * view.dx + y * view.dy;
       const glm::vec3 from = view.orthographic ? view.eye + step : view.eye;
       const glm::vec3 along = view.orthographic ? view.d0 : view.d0 + step;
-      const float advance = std::abs(glm::dot(along, axis));  // metres along the view axis a unit of t
+      const float advance = std::abs(glm::dot(along, axis));  // metres along the view axis per unit of t
       RTCRayHit hit{};
       hit.ray = {from.x,
                  from.y,

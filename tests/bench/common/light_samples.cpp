@@ -69,7 +69,7 @@ Grid grid_of(std::size_t cells) {
   return {cells / rows, rows};
 }
 
-/// A jittered point of cell s, relative to the light's place in float's good range only if the scene is.
+/// Stores a jittered point of `cell`, rounded to float in the coordinates of the scene.
 void put(LightSamples& samples, std::size_t at, const SquareToLight& map, Grid grid, std::size_t cell,
          testing::Random& random) {
   const double u =

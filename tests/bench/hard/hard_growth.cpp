@@ -71,7 +71,7 @@ void retarget(HardView& view, PictureSize size) {
                          PointLayout::rows_and_tiles);
 }
 
-/// One series: contests, a row each, and two curves.
+/// One series: a row for each contest, and two curves.
 struct Series {
   HardSession& session;
   std::string experiment;

@@ -12,7 +12,7 @@ namespace tenebra::bench {
 namespace {
 
 constexpr int animation_frames = 800;
-constexpr int passes = 3;  // a frame's time is the least of so many, of which the others meet what else runs
+constexpr int passes = 3;  // a frame's time is the least of these: what else runs slows the others
 
 }  // namespace
 

@@ -13,7 +13,7 @@ namespace tenebra::bench {
 namespace {
 
 constexpr std::size_t finalists = 2;
-constexpr double near_first = 1.3;  // of the time of the fastest: what is tried again
+constexpr double near_first = 1.3;  // times the least time: what is within it is tried again
 
 /// A tree with one way to use it.
 struct Entrant {
@@ -98,7 +98,7 @@ private:
   std::vector<double> ours_moved_, ours_still_, tiles_ms_;
 };
 
-/// The fastest of all trees and packets: all are tried once, those that came near the first once more.
+/// The fastest (`finalists`) of all trees and packets: all are tried once, those near the fastest once more.
 std::vector<Entrant> Contest::choose(std::span<const TreeKind> kinds, bool moved) {
   const auto faster = [](const Entrant& a, const Entrant& b) { return a.least_ms < b.least_ms; };
   std::vector<Entrant> all;

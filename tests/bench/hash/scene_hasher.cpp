@@ -18,7 +18,7 @@ constexpr std::size_t most_lights = 2;      // of the scene's own; the sun comes
 constexpr glm::vec3 to_sun{0.3f, 1, 0.2f};  // for scenes without a directional light
 constexpr float light_side_percent = 2;     // of the scene's diagonal, for lights without an area
 constexpr int points_on_a_light = 5;
-constexpr int rays = 16;  // of ambient occlusion, a point
+constexpr int rays = 16;  // of ambient occlusion, per point
 constexpr int table_positions = 81, table_directions = 64;
 
 constexpr std::array variants{Variant::tiles,        Variant::precise,        Variant::precise_sorted,
@@ -95,7 +95,7 @@ void SceneHasher::hash_lights(const char* prefix, std::span<const Variant> trace
   for (std::size_t i = 0; i < std::min(most_lights, frame_.lights.size()); ++i) {
     const WorldLight& placed = frame_.lights[i];
     const Light& light = scene_.lights[static_cast<std::size_t>(placed.light)];
-    // Of other lights the variants do what they do for the first.
+    // All variants for the first light; for the others, on which they do the same, one is enough.
     hash_masks(fmt::format("{}.{}", prefix, i), render::shadow_light(light, placed),
                i == 0 ? traced : traced.first(1));
   }

@@ -16,7 +16,7 @@ namespace tenebra::bench {
 namespace {
 
 constexpr FieldLayout paper_layout = FieldLayout::positions_directions;
-constexpr int paper_rays = 256;  // a point
+constexpr int paper_rays = 256;  // per point
 constexpr std::array<int, 3> position_counts{289, 1089, 4225};
 constexpr std::array<int, 4> direction_sides{16, 32, 64, 128};
 

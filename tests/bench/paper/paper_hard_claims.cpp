@@ -14,8 +14,8 @@ using Frames = std::vector<VariantFrame>;
 
 constexpr double alike = 1.02;        // counts within 2 % are told as equal
 constexpr double time_spread = 1.05;  // times within 5 % are told as equal: the spread of one frame's
-// Where sorting leaves more than half of the nodes of Precise, the screen is coherent already. The paper
-// calls a view so that keeps 98 % of them (Table 2, the third); its other three keep at most 5 %.
+// Where sorting leaves more than half of the nodes of Precise, the screen is coherent already. The view that
+// the paper calls coherent keeps 98 % of them (Table 2, the third); its other three keep at most 5 %.
 constexpr double coherent = 0.5;
 
 std::size_t frames_where(const Frames& frames, const std::function<bool(const VariantFrame&)>& holds) {

@@ -1,4 +1,4 @@
-// Held keys and drags, on frames that take seconds and on such that do not; and until there is a picture.
+// Held keys and drags, on frames that take seconds and on faster ones; and until there is a picture.
 #include <fmt/format.h>
 
 #include <array>

@@ -20,10 +20,10 @@ namespace {
 using glm::dvec3;
 using glm::vec3;
 
-constexpr std::uint64_t definition = 1;  // with what is asked here: another definition, another number
+constexpr std::uint64_t definition = 1;  // hashed with the question: a changed definition needs a new one
 constexpr float unknown = std::numeric_limits<float>::quiet_NaN();
 
-/// FNV-1a over words of eight bytes.
+/// As FNV-1a, but over words of eight bytes, each followed by a shift.
 class ContentHash {
 public:
   template <class T>
