@@ -17,8 +17,9 @@
 
 namespace tenebra {
 
-/// Computes ambient occlusion. Keeps the fields and surface samples of one scene from frame to frame, so use
-/// one object for all frames of a scene.
+/// Computes ambient occlusion. Keeps what it has made of one scene from frame to frame: fields, surface
+/// samples and, by rays, the tree over casters that all stand still. So use one object for all frames of a
+/// scene, and another for another scene.
 class AmbientOcclusion {
 public:
   AmbientOcclusion();

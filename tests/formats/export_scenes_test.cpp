@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <filesystem>
+#include <limits>
 
 #include <tenebra/frame_geometry.h>
 #include "round_trip.h"
@@ -260,6 +261,21 @@ TEST(ExportLosses, AClipThatStartsBeforeZeroIsWrittenLater) {
   const RoundTrip trip = round_trip(scene);
   expect_loss(trip, "-2 s");
   EXPECT_LT(difference(scene, trip.back, -1, 1), 1e-7);
+}
+
+// Found by fuzzing: what was written could not be read.
+TEST(ExportGlb, TheLargestFloatComesBackAndMoreIsRefused) {
+  constexpr double largest = std::numeric_limits<float>::max();
+  Scene scene = small_scene();
+  scene.nodes[0].translation.y = -largest;
+  EXPECT_EQ(round_trip(scene).back.nodes[0].translation.y, -largest);
+  scene.nodes[0].translation.y = 4.3e116;
+  const testing::TemporaryFolder folder;
+  const auto written = formats::export_glb(scene, folder / "out.glb");
+  ASSERT_FALSE(written.has_value());
+  EXPECT_NE(written.error().message.find("/nodes/0/translation/1: found 4.3e+116"), std::string::npos)
+      << written.error().message;
+  EXPECT_TRUE(folder.names().empty());
 }
 
 TEST(ExportGlb, RefusesMoreFramesThanItCanBake) {

@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 #include <nlohmann/json.hpp>
 #include <set>
 #include <string_view>
@@ -109,7 +110,7 @@ private:
   }
 
   void check_number(const Json& value, const std::string& place) {
-    constexpr double largest_float = 3.4e38;
+    constexpr double largest_float = std::numeric_limits<float>::max();
     if (!value.is_number()) refuse("{}: found {}, expected a number", place, shorten(value));
     if (!(std::abs(value.get<double>()) <= largest_float))
       refuse("{}: found {}, expected a number that a float can hold", place, shorten(value));

@@ -15,8 +15,8 @@ using glm::dvec3;
 using glm::vec3;
 
 constexpr std::size_t worthwhile = 32;  // triangles; fewer are subtracted one by one
-constexpr std::size_t look_after =
-    2048;  // triangles, and give up if hardly any edge has cancelled, or a stop
+// Triangles between two looks whether to give up: hardly any edge has cancelled, or a stop was requested.
+constexpr std::size_t look_after = 2048;
 
 std::uint32_t hash_of(const vec3& v) {
   const auto word = [](float value) -> std::uint64_t {
