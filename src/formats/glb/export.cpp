@@ -15,18 +15,17 @@ void add_word(std::string& out, std::size_t word) {
   for (int i = 0; i < 4; ++i) out += static_cast<char>(word >> (8 * i) & 0xFF);
 }
 
-/// Whether no number in `value` is larger than any float: readers may refuse one. (JSON has no infinities.)
+/// Whether all numbers in `value` are finite and no larger than the largest float: readers refuse others.
 bool fit_floats(const GlbJson& value) {
   if (value.is_structured()) return std::all_of(value.begin(), value.end(), fit_floats);
-  if (!value.is_number_float()) return true;
-  const double size = std::abs(value.get<double>());
-  return !std::isfinite(size) || size <= static_cast<double>(std::numeric_limits<float>::max());
+  return !value.is_number_float() ||
+         std::abs(value.get<double>()) <= static_cast<double>(std::numeric_limits<float>::max());
 }
 
-[[noreturn]] void refuse_large_number(const GlbJson& root) {
+[[noreturn]] void refuse_unfit_number(const GlbJson& root) {
   const GlbJson flat = root.flatten();
   const auto first = std::find_if_not(flat.begin(), flat.end(), fit_floats);
-  refuse("{}: found {}, expected a number that a float can hold", first.key(), first->dump());
+  refuse("{}: found {}, expected a number that a float can hold", first.key(), first->get<double>());
 }
 
 }  // namespace
@@ -48,7 +47,7 @@ std::string GlbWriter::write() {
   if (!binary.empty()) root_["buffers"].push_back({{"byteLength", binary.size()}});
   for (auto table = root_.begin(); table != root_.end();)
     table = table.value().is_null() ? root_.erase(table) : std::next(table);
-  if (!fit_floats(root_)) refuse_large_number(root_);
+  if (!fit_floats(root_)) refuse_unfit_number(root_);
   std::string json = root_.dump(-1, ' ', false, GlbJson::error_handler_t::replace);
   json.resize((json.size() + 3) / 4 * 4, ' ');
   const std::size_t chunk = binary.empty() ? 0 : 8 + binary.size();
