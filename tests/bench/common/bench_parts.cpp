@@ -17,7 +17,8 @@ namespace tenebra::bench {
 void add_bench_options(CLI::App& command, BenchOptions& options) {
   command.add_option("--data", options.data, "Folder of scenes that do not come with the program")
       ->type_name("FOLDER");
-  command.add_flag("--quick", options.quick, "Fewer frames and runs: within 8 minutes on two cores");
+  command.add_flag("--quick", options.quick,
+                   "Fewer frames and runs: within a quarter of an hour on two cores");
   command.add_option("--threads", options.threads, "Threads of all contestants [0: all cores]")
       ->type_name("N");
   command.add_option("--csv", options.csv, "File for all figures; plots are written beside it")
