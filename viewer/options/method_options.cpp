@@ -103,7 +103,7 @@ void add_common(CLI::App& command, MethodOptions& options) {
       {add_value(command, quality_option, options.quality, parse_quality,
                  "Accuracy of soft shadows and ambient occlusion.\n"
                  "fast: --soft-error 4 --ao-error 5 (penumbrae off by\n"
-                 "2 to 4/255 RMS), with --ao field --ao-rays 16\n"
+                 "0 to 4/255 RMS), with --ao field --ao-rays 16\n"
                  "--ao-downscale 2 (occlusion off by 1 to 7);\n"
                  "balanced: the defaults (exact; 2.5; fields 1 to 6);\n"
                  "exact: --ao-error 1, fields --ao-rays 256 (1 to 5);\n"
