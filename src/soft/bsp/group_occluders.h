@@ -20,7 +20,7 @@ struct MovingLine {
   glm::dvec3 c[4];
 };
 
-/// The plane through the group's points and an edge in space, relative to the group's centre: the side of a
+/// The plane through a point of the group and an edge in space, relative to the group's centre: the side of a
 /// place v for the point d is normal.(v - a) - d.(along x (v - a)), positive inside the occluder.
 struct EdgePlane {
   glm::dvec3 a{0.0};
@@ -40,7 +40,7 @@ struct Occluder {
   std::uint32_t triangle = 0;
   std::uint32_t first_line = 0;
   std::uint32_t line_count = 0;  ///< 0: the light is dark for the whole group
-  int size = 0;  ///< class of the solid angle at the group's centre: its binary logarithm, rounded down
+  int size = 0;                  ///< class of the solid angle at the group's centre, as in Candidate
 };
 
 /// What the BSP is made of.
@@ -48,7 +48,8 @@ struct GroupOccluders {
   /// Triangles that shadow all points of the group from the same side, largest first (ties: by id). Lines
   /// that are positive for every point and all of the light are left out.
   std::vector<Occluder> occluders;
-  /// Triangles with points on both sides, or too near, or on the triangle itself.
+  /// Of triangles with points on both sides, or too near, or on the triangle itself: places in
+  /// GroupCandidates::all.
   std::vector<std::uint32_t> indefinite;
   std::vector<MovingLine> lines;
   std::vector<EdgePlane> planes;  ///< one for each line

@@ -30,7 +30,7 @@ struct LitTriangle {
   bool light_above = false;  ///< a part of the light may be on the seen side of the plane or, lifted, of one
                              ///< across a vertex's normal
   double level = 0;          ///< m.(v - light's centre) of the plane
-  double light_height = 0;   ///< m.(v - light's centre) of the light's lowest vertex; of a sun m.v
+  double light_height = 0;   ///< m.(v - light's centre) of the light's lowest vertex; for a sun m.v
 };
 LitTriangle lit_triangle(const TriangleView& triangles, std::uint32_t id, const ViewRays& view,
                          const LightShape& light);

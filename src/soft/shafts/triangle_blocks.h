@@ -35,7 +35,7 @@ struct BlockList {
   const TriangleBlock& block(const BlockRef& ref) const { return blocks[ref.block]; }
   std::size_t triangle_count() const;
   void append_ids(std::vector<std::uint32_t>& ids) const;
-  /// Copies the triangles in question into blocks of its own where most lanes are idle.
+  /// Copies the triangles in question into blocks of its own if at least half of the lanes are idle.
   void compact();
 };
 
