@@ -81,8 +81,8 @@ public:
             const std::function<void(double)>& progress, const StopFlag* stop);
 
   SurfaceSamples samples() const;
-  /// Adds what others, of the same shape and reach, know to a body that is laid; of their cells as many as
-  /// half of what may be divided, and as have room.
+  /// Adds the samples of `others`, of the same shape and reach, to a body that is laid; of their divided
+  /// cells at most half as many as may be divided, and as many as have room.
   void learn(const SurfaceSamples& others);
 
   double reach() const { return reach_; }

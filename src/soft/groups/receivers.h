@@ -24,7 +24,7 @@ struct Receiver {
   double limit = 0;
 };
 
-/// What a triangle is to a light, whichever points of it are seen.
+/// How a triangle lies relative to a light, whichever of its points are seen.
 struct LitTriangle {
   Receiver receiver;         ///< but for the limit
   bool light_above = false;  ///< a part of the light may be on the seen side of the plane or, lifted, of one

@@ -15,7 +15,7 @@ inline constexpr int block_size = 8;
 /// Idle lanes hold triangles that are not asked about.
 struct TriangleBlock {
   float v[3][3][block_size];  ///< corner, axis, triangle; world space
-  float largest[block_size];  ///< largest |coordinate| of each triangle: tau is sqrt(3) 2^-24 of it
+  float largest[block_size];  ///< largest |coordinate| of each triangle: tau is sqrt(3) 2^-24 times this
   float size[block_size];     ///< largest |coordinate| of its edges, rounded up
   std::uint32_t ids[block_size];
 };
