@@ -13,11 +13,14 @@ namespace {
 
 using glm::dvec3;
 
-/// Up to 14 vertices, and one more for the cut by a plane.
+/// Up to 14 vertices, and one more for the cut by a plane. Rounding makes more where that is the polygon's
+/// own plane: those are left out, as all of the polygon is seen edge-on then.
 struct Corners {
   std::array<dvec3, 16> at;
   std::size_t count = 0;
-  void add(const dvec3& corner) { at[count++] = corner; }
+  void add(const dvec3& corner) {
+    if (count < at.size()) at[count++] = corner;
+  }
   const dvec3& after(std::size_t i) const { return at[i + 1 < count ? i + 1 : 0]; }
 };
 
