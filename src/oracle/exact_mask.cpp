@@ -125,7 +125,7 @@ bool ExactShadow::blocks(std::uint32_t occluder, const glm::dvec3& point, std::u
   const bool by_ids = config_.contact == ContactRule::triangle_ids;
   if (casts_[occluder] == 0 || (by_ids && occluder == id)) return false;
   ++stats.pairs;
-  const int side = light_sides_[occluder];
+  const auto side = static_cast<int>(light_sides_[occluder]);
   const Corners triangle = corners(occluder);
   const glm::dvec3 &a = triangle.a, &b = triangle.b, &c = triangle.c;
   std::uint64_t exact = 0;
