@@ -2,7 +2,8 @@
 """Whether `tenebra trade` keeps its word: settings that it gives for --budget and --error, held against renders.
 
 usage: check_trade.py [--size WxH] VIEW...      a view: "scene.glb --frames 0:80:40 --shadows soft"
-       check_trade.py --list FILE                a view a line; # begins a comment
+       check_trade.py --list FILE [--data DIR]   a view on each line; # begins a comment; scenes are in DIR where they
+                                                 are not in the current folder (tools/trade_views.txt: twenty views)
 
 The views are printed before the first run. Budget: the time of the standard setting; with the setting given, five
 frames that were not tried (of still scenes the same one five times) take at most 10 % more in the median, and the next
@@ -133,6 +134,7 @@ def main():
     parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
     parser.add_argument("--size", default="320x180")
     parser.add_argument("--list")
+    parser.add_argument("--data", default=".")
     parser.add_argument("--errors", action="store_true", help="no times: --error alone")
     parser.add_argument("views", nargs="*")
     arguments = parser.parse_args()
@@ -140,6 +142,9 @@ def main():
     if arguments.list:
         lines += [re.sub(r"#.*", "", line).strip() for line in open(arguments.list)]
     views = [[*shlex.split(line), "--size", arguments.size] for line in lines if line]
+    for view in views:
+        if not os.path.exists(view[0]):
+            view[0] = str(pathlib.Path(arguments.data, view[0]))
     for view in views:
         print("view:", " ".join(view))
     print("view | " + ("" if arguments.errors else "seconds of trade | budget, ms | setting | took, ms (of budget) | "

@@ -174,7 +174,7 @@ struct Window {
 };
 
 Expected<Window> checked_window(const Imf::Header& header, std::uint64_t file_bytes) {
-  const Imath::Box2i box = header.dataWindow();
+  const Imath::Box2i& box = header.dataWindow();
   if (box.max.x < box.min.x || box.max.y < box.min.y) return base::fail("found an empty picture");
   const Window window{box.min.x, box.min.y,
                       static_cast<std::uint64_t>(std::int64_t{box.max.x} - box.min.x + 1),

@@ -63,7 +63,7 @@ ExactShadow::ExactShadow(const ViewRays& view, const TriangleView& triangles, co
   light_sides_.resize(count);
   casts_.resize(count);
   for (std::uint32_t id = 0; id < count; ++id) {
-    light_sides_[id] = static_cast<std::int8_t>(light_side(id));
+    light_sides_[id] = light_side(id);
     const bool flagged = triangles.casts_shadow.empty() || triangles.casts_shadow[id] != 0;
     const bool away = light_sides_[id] < 0;
     casts_[id] = light_sides_[id] != 0 && flagged && (away || !config.cull_front);

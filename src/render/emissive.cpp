@@ -100,6 +100,7 @@ std::optional<std::vector<vec3>> outline_of(const Part& part, const FrameGeometr
   const vec3 farthest[3] = {far, far, far};
   if (std::abs(area_of(hull) - total) > points::rounding_tolerance(farthest) * around) return std::nullopt;
   std::vector<vec3> outline;
+  outline.reserve(hull.size());
   for (const Corner& corner : hull) outline.push_back(corner.world);
   return outline;
 }

@@ -70,7 +70,8 @@ Expected<FrameRaster> FrameRaster::create(gl::Context context) {
   auto pass = raster::GBufferPass::create();
   if (!pass) return tl::unexpected(pass.error());
   FrameRaster result;
-  result.gl_.reset(new Gl{.context = std::move(context), .pass = std::move(*pass), .geometry = {}});
+  result.gl_ =
+      std::make_unique<Gl>(Gl{.context = std::move(context), .pass = std::move(*pass), .geometry = {}});
   return result;
 }
 

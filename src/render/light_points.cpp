@@ -49,6 +49,7 @@ struct PointsOfLight {
 std::vector<glm::vec3> points_on_light(const AreaLight& light, int count) {
   const soft::LightPlaces places(light);
   std::vector<glm::vec3> points;
+  points.reserve(static_cast<std::size_t>(count));
   for (int i = 0; i < count; ++i)
     points.push_back(places.at((i + 0.5) / count, std::fmod((i + 0.5) / std::numbers::phi, 1.0)));
   return points;

@@ -77,6 +77,7 @@ std::vector<exr::Text> texts_of(const RenderPlan& plan, std::span<const render::
     value += (value.empty() ? "" : "; ") + setting.value;
   }
   std::vector<exr::Text> texts;
+  texts.reserve(values.size());
   for (auto& [name, value] : values) texts.push_back({name, value});
   return texts;
 }

@@ -8,6 +8,7 @@
 
 #include "log/log_summary.h"
 #include "log/page_text.h"
+#include "log/ticks.h"
 
 namespace tenebra::viewer {
 namespace {
@@ -37,15 +38,6 @@ Rows rows_of(const LogFile& log) {
   return rows;
 }
 
-/// 1, 2 or 5 times a power of ten, so that about `count` of them make up `range`.
-double tick_step(double range, int count) {
-  const double rough = std::max(range, 1e-6) / count;
-  const double power = std::pow(10.0, std::floor(std::log10(rough)));
-  for (const double factor : {1.0, 2.0, 5.0})
-    if (factor * power >= rough) return factor * power;
-  return 10 * power;
-}
-
 /// From frames and milliseconds to the drawing, with the axes.
 struct Axes {
   double first = 0, last = 1;  ///< ends of the animation, half a step beyond the frames
@@ -63,19 +55,17 @@ struct Axes {
 
   std::string svg() const {
     std::string text;
-    const double step_ms = tick_step(highest_ms, 5);
-    for (double ms = 0; ms <= highest_ms * 1.001; ms += step_ms) {
+    for (const double ms : even_ticks(0, highest_ms * 1.001, tick_step(highest_ms, 5))) {
       text += fmt::format(
           "<line class=\"grid\" x1=\"{}\" x2=\"{}\" y1=\"{:.1f}\" y2=\"{:.1f}\"/>"
           "<text class=\"tick\" x=\"{}\" y=\"{:.1f}\" text-anchor=\"end\">{:.6g}</text>\n",
           left, width - right, y(ms), y(ms), left - 6, y(ms) + 4, ms);
     }
-    const double step = std::max(1.0, tick_step(last - first, 10));
-    for (double frame = step * std::ceil(first / step); frame <= last; frame += step) {
+    for (const double frame : even_ticks(first, last, std::max(1.0, tick_step(last - first, 10)))) {
       text += fmt::format(
           "<line class=\"axis\" x1=\"{0:.1f}\" x2=\"{0:.1f}\" y1=\"{1}\" y2=\"{2}\"/>"
           "<text class=\"tick\" x=\"{0:.1f}\" y=\"{3}\" text-anchor=\"middle\">{4:.0f}</text>\n",
-          x(frame), height - bottom, height - bottom + 4, height - bottom + 17, frame + 0.0);
+          x(frame), height - bottom, height - bottom + 4, height - bottom + 17, frame);
     }
     text += fmt::format("<text class=\"label\" x=\"{}\" y=\"{}\" text-anchor=\"middle\">frame</text>\n",
                         (left + width - right) / 2, height - 6);

@@ -98,6 +98,7 @@ std::string table_of(const std::vector<Run>& runs, std::vector<ColumnSummary> Lo
   for (const std::string& name : names_of(runs, columns)) {
     const bool is_time = name.ends_with("_ms");
     std::vector<const ColumnSummary*> cells;
+    cells.reserve(runs.size());
     for (const Run& run : runs) cells.push_back(found_in(run.summary.*columns, name));
     const bool has_history = std::any_of(
         cells.begin(), cells.end(), [](const ColumnSummary* c) { return c != nullptr && c->has_history; });

@@ -61,6 +61,7 @@ std::string unknown_key(CLI::App& command, const CLI::ConfigItem& item) {
 
 std::string unknown_section(const std::vector<CLI::App*>& commands, const CLI::ConfigItem& item) {
   std::vector<std::string> known;
+  known.reserve(commands.size());
   for (const CLI::App* other : commands) known.push_back(other->get_name());
   return fmt::format("found the section [{}], expected [{}]{}", fmt::join(item.parents, "."),
                      fmt::join(known, "], ["),

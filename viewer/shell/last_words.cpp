@@ -51,15 +51,15 @@ void end_by_signal(int signal) {
     print_no_memory();
     ::_exit(no_memory_code());
   }
-  std::signal(signal, SIG_DFL);
-  std::raise(signal);
+  (void)std::signal(signal, SIG_DFL);
+  (void)std::raise(signal);
 }
 
 }  // namespace
 
 void expect_crashes_without_memory() {
   memory_has_failed() = false;
-  for (const int signal : {SIGSEGV, SIGBUS, SIGABRT}) std::signal(signal, end_by_signal);
+  for (const int signal : {SIGSEGV, SIGBUS, SIGABRT}) (void)std::signal(signal, end_by_signal);
 }
 
 void set_last_words() {

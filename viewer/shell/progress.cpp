@@ -4,6 +4,7 @@
 
 #include <unistd.h>
 
+#include <cmath>
 #include <cstdio>
 #include <string>
 
@@ -15,7 +16,7 @@ namespace {
 constexpr const char* clear_line = "\r\x1b[K";
 
 std::string duration(double seconds) {
-  const int whole = static_cast<int>(seconds + 0.5);
+  const long whole = std::lround(seconds);
   if (whole < 60) return fmt::format("{} s", whole);
   if (whole < 3600) return fmt::format("{} min {:02} s", whole / 60, whole % 60);
   return fmt::format("{} h {:02} min", whole / 3600, whole / 60 % 60);
@@ -36,13 +37,13 @@ void Progress::show(int done) {
   const double seconds_a_frame = spent.count() / done;
   print_error("{}frame {} of {}, {:.0f} ms per frame, {} left", clear_line, done, frames_,
               seconds_a_frame * 1e3, duration(seconds_a_frame * (frames_ - done)));
-  std::fflush(stderr);
+  (void)std::fflush(stderr);
 }
 
 void Progress::show_building(std::string_view what, double done) {
   if (!shown_) return;
   print_error("{}{}: {:.0f} %", clear_line, what, 100.0 * done);
-  std::fflush(stderr);
+  (void)std::fflush(stderr);
 }
 
 void Progress::print_notes(const std::vector<std::string>& notes) {

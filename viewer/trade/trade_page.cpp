@@ -9,6 +9,7 @@
 #include "log/page_pictures.h"
 #include "log/page_text.h"
 #include "log/report_style.h"
+#include "log/ticks.h"
 #include "trade/trade_choice.h"
 
 namespace tenebra::viewer {
@@ -49,24 +50,17 @@ struct Axes {
 
 std::string grid_of(const Axes& axes) {
   std::string text;
-  const double rough = axes.highest / 5, power = std::pow(10.0, std::floor(std::log10(rough)));
-  const double step = rough > 5 * power   ? 10 * power
-                      : rough > 2 * power ? 5 * power
-                      : rough > power     ? 2 * power
-                                          : power;
-  for (double error = 0; error <= axes.highest; error += step)
+  for (const double error : even_ticks(0, axes.highest, tick_step(axes.highest, 5)))
     text += fmt::format(
         "<line class=\"grid\" x1=\"{}\" x2=\"{}\" y1=\"{:.1f}\" y2=\"{:.1f}\"/><text x=\"{}\" y=\"{:.1f}\" "
         "text-anchor=\"end\">{:.3g}</text>\n",
         left, width - right, axes.y(error), axes.y(error), left - 6, axes.y(error) + 4, error);
-  for (double decade = 1e-3; decade < 1e7; decade *= 10)
-    for (const double ms : {decade, 2 * decade, 5 * decade})
-      if (ms >= axes.first_ms && ms <= axes.last_ms)
-        text += fmt::format(
-            "<line class=\"grid\" x1=\"{0:.1f}\" x2=\"{0:.1f}\" y1=\"{1}\" y2=\"{2}\"/><text x=\"{0:.1f}\" "
-            "y=\"{3}\" "
-            "text-anchor=\"middle\">{4:g}</text>\n",
-            axes.x(ms), top, height - bottom, height - bottom + 16, ms);
+  for (const double ms : logarithmic_ticks(axes.first_ms, axes.last_ms))
+    text += fmt::format(
+        "<line class=\"grid\" x1=\"{0:.1f}\" x2=\"{0:.1f}\" y1=\"{1}\" y2=\"{2}\"/><text x=\"{0:.1f}\" "
+        "y=\"{3}\" "
+        "text-anchor=\"middle\">{4:g}</text>\n",
+        axes.x(ms), top, height - bottom, height - bottom + 16, ms);
   return text + fmt::format(
                     "<text class=\"label\" x=\"{}\" y=\"{}\" text-anchor=\"middle\">ms per frame</text><text "
                     "class=\"label\" x=\"{}\" y=\"{}\">error, RMS in levels of 255</text>\n",

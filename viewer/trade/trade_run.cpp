@@ -258,6 +258,7 @@ private:
       if (sum_s <= left_s) break;
     }
     std::vector<TradeSetting> settings;
+    settings.reserve(points.size());
     for (const TradePoint& point : points) settings.push_back(point.setting);
     return settings;
   }

@@ -39,9 +39,9 @@ Expected<EventReport> EventReport::create(const std::string& path) {
 
 void EventReport::line(const std::string& text) {
   if (!file_) return;
-  std::fwrite(text.data(), 1, text.size(), file_.get());
-  std::fputc('\n', file_.get());
-  std::fflush(file_.get());
+  (void)std::fwrite(text.data(), 1, text.size(), file_.get());
+  (void)std::fputc('\n', file_.get());
+  (void)std::fflush(file_.get());
 }
 
 void EventReport::opened(const std::string& file, const ScenePlan& scene) {

@@ -78,7 +78,7 @@ float scale_of(GLFWwindow* window) {
 /// Dear ImGui in a window, from its start to its end.
 class Gui {
 public:
-  Gui(GLFWwindow* window) {
+  explicit Gui(GLFWwindow* window) {
     ImGui::CreateContext();
     ImGui::GetIO().IniFilename = nullptr;
     take_events(window);

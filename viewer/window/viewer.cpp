@@ -22,7 +22,7 @@ render::RasterChoice worker_raster(const ViewOptions& options) {
 
 }  // namespace
 
-Viewer::Viewer(ViewOptions options, WindowGl& gl, EventReport report, std::function<void()> wake)
+Viewer::Viewer(ViewOptions options, WindowGl& gl, EventReport report, const std::function<void()>& wake)
     : options_(std::move(options)),
       gl_(gl),
       report_(std::move(report)),

@@ -18,7 +18,7 @@ namespace tenebra::viewer {
 class Viewer {
 public:
   /// `gl` must outlive it. `wake` is called on another thread when `update` has something to do.
-  Viewer(ViewOptions options, WindowGl& gl, EventReport report, std::function<void()> wake);
+  Viewer(ViewOptions options, WindowGl& gl, EventReport report, const std::function<void()>& wake);
 
   /// Takes what the worker has finished and asks it for what the state wants; once a turn of the loop.
   void update();

@@ -43,6 +43,7 @@ std::uint64_t cell_number(double coordinate) {
 
 RayPattern make_ray_pattern(int rays, const glm::dvec2& shift) {
   std::vector<glm::dvec2> square;
+  square.reserve(static_cast<std::size_t>(rays));
   for (int i = 0; i < rays; ++i)
     square.push_back({std::fmod((i + 0.5) / rays + shift.x, 1.0),
                       std::fmod((i + 0.5) / std::numbers::phi + shift.y, 1.0)});

@@ -132,7 +132,8 @@ void list_samples(std::span<const std::uint32_t> chosen, const SamplePicture& sa
 void list_as_centres(std::span<const std::uint32_t> chosen, int width, const StandIns& stand_ins,
                      std::span<const std::uint32_t> centre_ids, const visibility::PlaceIds& seen,
                      ShadingList& out) {
-  const auto [offsets, places, centre_counts] = stand_ins;
+  const std::span<const glm::vec2> offsets = stand_ins.offsets, places = stand_ins.places;
+  const float centre_counts = stand_ins.centre_counts;
   const std::size_t count = places.size();
   std::vector<std::size_t> nearest;  // sample of each place; offsets.size(): the centre
   for (const glm::vec2 place : places) {

@@ -45,7 +45,7 @@ public:
   /// The same vertices in the same order, bit by bit.
   bool operator==(const FragmentList& other) const {
     const auto same_bits = [](const auto& a, const auto& b) {
-      // NOLINTNEXTLINE(bugprone-suspicious-memory-comparison): as it is meant
+      // NOLINTNEXTLINE(bugprone-suspicious-memory-comparison,cert-exp42-c,cert-flp37-c): bits
       return std::memcmp(&a, &b, sizeof(a)) == 0;
     };
     const auto equal = [&](const StoredPolygon<T>& a, const StoredPolygon<T>& b) {

@@ -119,6 +119,7 @@ void draw_stages(Ui& ui, const FrameHistory& history) {
   ImDrawList& list = *ImGui::GetWindowDrawList();
   for (std::size_t i = 0; i < render::frame_stages.size(); ++i) {
     std::vector<double> values;
+    values.reserve(records.size());
     for (const render::FrameRecord& record : records)
       values.push_back(record.timings.*render::frame_stages[i].value);
     const double median = base::summarize(values).median;

@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "log/ticks.h"
 #include "window/panels/panels.h"
 
 namespace tenebra::viewer {
@@ -72,14 +73,12 @@ void draw_scale(const Ui& ui, const PlotScale& scale) {
   const ImVec2 end{scale.low.x + scale.size.x, scale.low.y + scale.size.y};
   list.AddRectFilled(scale.low, end, plot_ground, 3);
   const float font = ImGui::GetFontSize() * 0.85f;
-  for (double decade = 1e-3; decade < 1e7; decade *= 10)
-    for (const double ms : {decade, 2 * decade, 5 * decade}) {
-      if (ms <= scale.first_ms || ms >= scale.last_ms) continue;
-      const float x = scale.at({{}, ms, 0}).x;
-      list.AddLine({x, scale.low.y}, {x, end.y}, palette::line);
-      list.AddText(nullptr, font, {x + ui.px(2), end.y - font - ui.px(2)}, palette::dim,
-                   fmt::format("{:g}", ms).c_str());
-    }
+  for (const double ms : logarithmic_ticks(scale.first_ms, scale.last_ms)) {
+    const float x = scale.at({{}, ms, 0}).x;
+    list.AddLine({x, scale.low.y}, {x, end.y}, palette::line);
+    list.AddText(nullptr, font, {x + ui.px(2), end.y - font - ui.px(2)}, palette::dim,
+                 fmt::format("{:g}", ms).c_str());
+  }
   const float top = scale.at({{}, scale.first_ms, scale.highest}).y;
   list.AddLine({scale.low.x, top}, {end.x, top}, palette::line);
   list.AddText(nullptr, font, {scale.low.x + ui.px(4), scale.low.y + ui.px(1)}, palette::dim,
