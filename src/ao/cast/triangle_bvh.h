@@ -1,5 +1,6 @@
-// A ray caster over triangles: fields, surface samples and all rays of `--ao adaptive` are made with its
-// trees. Eight boxes or eight triangles are met at once.
+// Trees over triangles, and a caster of single rays through them (fan_caster.h has one for many): surface
+// samples, `--ao adaptive` and whatever has no field use such trees, and fields are made with them. Eight
+// boxes or eight triangles are met at once.
 #pragma once
 
 #include <cstdint>

@@ -1,7 +1,7 @@
 // The scene as ambient occlusion sees it: static geometry (one body in world space), objects that move (each
 // in its own space; equal ones share one shape), and triangles that deform. A node moves if a channel of any
 // clip changes it; all meshes below the deepest such ancestor move as one, so a robot's limb is one object
-// however many nodes it is modelled of.
+// however many nodes it is modelled with.
 #pragma once
 
 #include <cstdint>

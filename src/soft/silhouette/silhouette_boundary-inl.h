@@ -152,7 +152,7 @@ private:
     ++edges.count;
   }
 
-  /// `winding` around the part's first vertex.
+  /// `winding` around the place where the walk along the sides begins.
   void append_sides(T winding, LightEdges& edges) {
     auto next = segments_.side_changes.begin();
     for (int k = 0; k < segments_.sides(); ++k) {
