@@ -1,6 +1,6 @@
 // The occluders of one group of points as the BSP uses them: lines on the light's plane that move linearly
 // with the point. For a point P and an edge from a to b, the plane through the three has the normal n = (a-P)
-// x (b-a), and the side of it on which a place Q = origin + u ex + v ey of the light's plane lies is the sign
+// x (b-a). On which side of it a place Q = origin + u ex + v ey of the light's plane lies is told by the sign
 // of
 //   n.(Q-P) = (n.ex) u + (n.ey) v + n.(origin-P),
 // whose coefficients are affine in P. Relative to the group's centre and in double.
