@@ -18,7 +18,7 @@ struct LevelTable {
 };
 
 /// Levels 0 to 255, rounded to the nearest: srgb by the curve of IEC 61966-2-1, display in proportion. The
-/// thresholds are exact but for their own rounding to float. Made once; as safe as a constant.
+/// thresholds are exact but for their own rounding to float. Made once; any thread may ask.
 const LevelTable& level_table(Transfer transfer);
 
 /// The level of one value, which is clamped to 0..1; NaN gives 0.
