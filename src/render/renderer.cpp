@@ -26,7 +26,8 @@ Scene without_keyed_vertices(Scene scene) {
   return scene;
 }
 
-/// Soft shadows and ambient occlusion start from exact points on triangles.
+/// Fails on settings that exclude each other: soft shadows and ambient occlusion start from exact points on
+/// triangles.
 Expected<void> check_settings(const RenderSettings& settings) {
   const bool needs_ids = settings.shadows == ShadowMode::soft || settings.ao.mode != AoMode::none;
   if (needs_ids && settings.samples == SampleSource::depth) {
