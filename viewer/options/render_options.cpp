@@ -170,7 +170,7 @@ Expected<void> check_masks(const RenderOptions& options, bool several) {
   return {};
 }
 
-/// What goes down a pipe is gone: nothing can go on with it, and nothing else may stand between.
+/// Frames in a pipe are gone: a later run cannot continue them, and nothing else may be written between them.
 Expected<void> check_pipe(const RenderOptions& options) {
   if (options.resume || options.skip_existing)
     return base::fail("{} looks for what was written, and frames in a pipe are gone; expected files with it",

@@ -10,7 +10,7 @@
 namespace tenebra::viewer {
 namespace {
 
-/// Three channels, of `value` of what is stored.
+/// Three channels, each `value` of what is stored.
 template <class T>
 base::ImageF in_three(const base::Image<T>& image, auto value) {
   const std::size_t count = static_cast<std::size_t>(image.width) * static_cast<std::size_t>(image.height);

@@ -21,7 +21,7 @@ bool is_memory_failure(const std::exception& error);
 
 /// That memory has run out, and what bounds it.
 std::string no_memory_sentence();
-/// Tells the same without any memory.
+/// Prints the same without needing any memory.
 void print_no_memory();
 
 /// For a program that ran out of memory: another try is worth it, but under the same limit.
