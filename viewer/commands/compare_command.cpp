@@ -50,7 +50,7 @@ double decibels(double peak, double rms) {
   return rms > 0 ? 20 * std::log10(peak / rms) : std::numeric_limits<double>::infinity();
 }
 
-/// What compare says and does, of both pictures.
+/// What is printed of two pictures, and written.
 struct Comparison {
   std::string text;
   bool is_same = false;
@@ -91,7 +91,7 @@ std::size_t pixels_of(const LoadedPicture& picture) {
       picture);
 }
 
-/// PNG of both: levels. Else linear values.
+/// Levels where both are PNG, else linear values.
 Comparison compare_loaded(const LoadedPicture& a, const LoadedPicture& b, const CompareOptions& options) {
   const auto* const a_levels = std::get_if<base::Image8>(&a);
   const auto* const b_levels = std::get_if<base::Image8>(&b);
