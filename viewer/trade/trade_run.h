@@ -1,4 +1,4 @@
-// Settings tried on frames of a scene: how long they take and how far they are off.
+// Settings tried on frames of a scene: how long they take and how far off they are.
 #pragma once
 
 #include <functional>
