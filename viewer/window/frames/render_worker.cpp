@@ -13,7 +13,7 @@ using Clock = std::chrono::steady_clock;
 
 /// Pictures that may wait to be shown; more would only be late.
 constexpr std::size_t most_waiting = 2;
-// A hand that drags sees a new picture at least this often where a frame takes less; longer frames are given
+// A user who drags sees a new picture at least this often where a frame takes less; longer frames are given
 // up for the newest request.
 constexpr double least_patience_s = 0.25;
 constexpr double most_patience_s = 1.0;

@@ -1,5 +1,5 @@
-// The viewer's one other thread: loads scenes and computes pictures, so that the window never waits. It has
-// its own OpenGL context, away from the window's.
+// The viewer's thread that loads scenes and computes pictures, so that the window never waits. It has its own
+// OpenGL context, away from the window's.
 #pragma once
 
 #include <condition_variable>

@@ -1,4 +1,4 @@
-// The lights: on or off, colour, brightness, direction, place, size; new ones, and without.
+// The lights: on or off, colour, brightness, direction, place, size; adding and deleting them.
 #include <fmt/core.h>
 #include <cmath>
 

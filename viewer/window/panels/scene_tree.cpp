@@ -1,4 +1,4 @@
-// The tree of the scene's nodes: which are there, and which cast shadows.
+// The tree of the scene's nodes: which are visible, and which cast shadows.
 #include "window/panels/scene_tree.h"
 
 #include <fmt/core.h>

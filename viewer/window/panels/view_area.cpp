@@ -1,4 +1,4 @@
-// The picture in the window, and the hand on it: orbit, fly, drag a light, wipe.
+// The picture in the window, and what the mouse does in it: orbit, fly, drag a light, wipe.
 #include <fmt/core.h>
 #include <algorithm>
 #include <cmath>
@@ -44,7 +44,7 @@ void draw_labels(Ui& ui, const Stage& stage) {
     label(stage.at_pixel({0, ui.picture->a.result.image.height}, 1) + ImVec2(8, -36), "B");
 }
 
-/// What is shown is not all that was asked for yet: that is never left unsaid.
+/// Says that the picture is a preview, wherever it is one.
 void draw_preview_mark(Ui& ui, Area place) {
   if (ui.picture->preview.empty()) return;
   const std::string text = "Preview: " + ui.picture->preview;
@@ -130,7 +130,7 @@ void turn_wheel(Ui& ui, float steps) {
   zoom(ui.state.free, steps);
 }
 
-/// Whether the mouse has moved since the button went down: what makes a drag of a click.
+/// Whether the mouse has moved since the button went down: what makes a click a drag.
 bool dragged(int button) {
   constexpr float click_px = 3;
   return ImGui::GetIO().MouseDragMaxDistanceSqr[button] > click_px * click_px;
@@ -163,7 +163,7 @@ void use_hand(Ui& ui, const Stage& stage, Area area) {
     storage.SetInt(hand_id, static_cast<int>(hand));
     storage.SetInt(light_id, under.light);
     storage.SetInt(part_id, static_cast<int>(under.part));
-    // A hand in the view does not move the panel.
+    // Selecting a light in the view does not scroll the panel.
     if (hand == Hand::light) ui.state.selected_light = ui.state.shown_light = under.light;
   }
   const bool drags =
