@@ -1,5 +1,5 @@
-// Mora et al. 2012 on their own method: one lazily grown BSP a visible triangle, occluders merged in a random
-// order (Algorithms 1 and 2). What Figures 7 to 11 are made of.
+// Mora et al. 2012 on their own method: one lazily grown BSP for each visible triangle, occluders merged in a
+// random order (Algorithms 1 and 2). What Figures 7 to 11 are made of.
 #pragma once
 
 #include <optional>

@@ -11,7 +11,7 @@
 
 namespace tenebra::bench {
 
-inline constexpr std::size_t most_rays = 512;     ///< where these do not reach EQ, they count
+inline constexpr std::size_t most_rays = 512;     ///< if too few for equal quality, their time counts
 inline constexpr double equal_quality_255 = 0.5;  ///< RMSE over the penumbra, in 1/255 of white
 
 struct ContestPlan {
@@ -49,7 +49,7 @@ struct Contest {
   Packing packing = Packing::tile;
   std::vector<SampledPoint> curve;  ///< ascending rays
   SoftStats stats;
-  FrameTimings timings;  ///< of Tenebra's median-like last run: shares of shaft, init, query, irradiance
+  FrameTimings timings;                  ///< of Tenebra's last run: shares of shaft, init, query, irradiance
   std::vector<float> tenebra;            ///< irradiance
   std::vector<float> embree_equal_time;  ///< with the fewest rays that take at least as long; pictures only
   SampledPoint equal_time;               ///< what that took

@@ -22,9 +22,9 @@ struct Contestant {
 
 /// How often each setting is run.
 struct Turns {
-  std::vector<int> threads;  ///< on so many, one after the other
+  std::vector<int> threads;  ///< numbers of threads, one after the other
   int rounds = 1;
-  double enough_ms = 0;  ///< whose runs took so long together rests
+  double enough_ms = 0;  ///< a setting whose runs took this long together is not run again
 };
 
 /// A run that takes as long as the clock says.
