@@ -27,7 +27,7 @@ constexpr const char* compare_examples =
     "\n"
     "Two PNG are compared in levels of 255; all other pairs by linear values. RMS and PSNR (of 255, or of 1) "
     "cover\n"
-    "red, green and blue. FLIP is how different both look, 0 to 1, the mean over the pixels (Andersson et "
+    "red, green and blue. FLIP is how different they look, 0 to 1, the mean over the pixels (Andersson et "
     "al. 2020),\n"
     "at 67 pixels per degree; values below 0 count as 0 and values beyond 1 as 1.\n"
     "Grey counts as equal red, green and blue; a picture without alpha counts as opaque.\n"

@@ -79,7 +79,7 @@ Expected<FrameRange> parse_frame_range(const std::string& text) {
     if (range.step < 1) return refuse();
   }
   if (range.last && *range.last < range.first) {
-    return base::fail("found {}, expected an end that is not before the begin", text);
+    return base::fail("found {}, expected an end that is not before the start", text);
   }
   return range;
 }

@@ -37,7 +37,7 @@ Expected<LoadedPicture> load_picture(const std::filesystem::path& path, const st
     return LoadedPicture(std::move(*image));
   };
   if (path.extension() == ".exr") return as_picture(exr::read(path, layer));
-  if (!layer.empty()) return base::fail("--layer is of OpenEXR pictures; found {}", path.string());
+  if (!layer.empty()) return base::fail("--layer is for OpenEXR pictures; found {}", path.string());
   if (path.extension() == ".pfm") return as_picture(base::read_pfm(path));
   return as_picture(base::read_png(path));
 }

@@ -36,7 +36,7 @@ constexpr const char* methods_and_window =
     "Ctrl+Z, Ctrl+Shift+Z: undo, redo changes to the scene\n"
     "Methods\n"
     "1  2  3: no, hard, soft shadows\n"
-    "4: ambient occlusion: none, fields, rays\n"
+    "4: ambient occlusion: none, adaptive, fields, rays\n"
     "V, Shift+V: next, previous variant of the hard shadows\n"
     "X: flip A and B\n"
     "B: compare A with B\n"
