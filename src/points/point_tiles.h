@@ -119,7 +119,7 @@ void begin_point_tiles(int width, int height, const ViewRays& view, PointTiles& 
 /// their positions or, where these are missing, from their view: the same bits both ways.
 void make_point_patch(const VisiblePoints& points, const TriangleView& triangles, std::uint32_t patch,
                       PointTiles& out);
-/// All of it. `view`: the eye that saw the points.
+/// Makes the tiles of a whole picture. `view`: the eye that saw the points.
 void make_point_tiles(const VisiblePoints& points, const ViewRays& view, const TriangleView& triangles,
                       PointTiles& out);
 

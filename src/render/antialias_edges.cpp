@@ -1,5 +1,5 @@
-// The stage of anti-aliasing that lights edges with hard shadows: samples have those of others that stand for
-// them, or their own.
+// The stage of anti-aliasing that lights edges with hard shadows: samples get those of pixels' centres
+// nearby, or their own.
 #include <algorithm>
 
 #include "base/fail.h"

@@ -42,7 +42,7 @@ struct AreaSide {
 
 struct Renderer::State {
   FrameRaster raster;
-  Scene scene;  // as of without_keyed_vertices
+  Scene scene;  // as without_keyed_vertices leaves it
   shade::SurfaceTable surfaces;
   std::optional<shade::Environment> environment{};
 

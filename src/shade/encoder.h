@@ -12,7 +12,7 @@ namespace tenebra::shade {
 /// bucket holds two thresholds. Buckets are 128 to an octave: the upper bits of a float.
 struct LevelTable {
   static constexpr int shift = 16;  ///< bits of a float below its bucket
-  std::int32_t first = 0;           ///< upper bits of the least value that is told from 0
+  std::int32_t first = 0;           ///< upper bits of the least value that differs from 0
   std::vector<float> threshold;     ///< one for each bucket; infinite where it has none
   std::vector<std::int32_t> level;  ///< one for each bucket
 };

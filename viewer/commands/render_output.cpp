@@ -79,7 +79,8 @@ Expected<void> RenderOutput::open(std::vector<render::LogSetting> settings) {
   return {};
 }
 
-/// A single picture needs no list, but one that is there must not go on to say what this render changes.
+/// A single picture needs no list, but a list that is there must not go on to claim what this render makes
+/// untrue.
 Expected<void> RenderOutput::open_done_list(std::span<const render::LogSetting> identity) {
   const auto path = DoneList::path_of(options_);
   const bool wanted = options_.resume || plan_.of_several_frames;

@@ -16,7 +16,7 @@ namespace {
 constexpr int largest_count = 1'000'000;
 constexpr double half_turn_deg = 180.0;
 
-/// The whole of `text` as a number; std::from_chars knows no locale and takes no leading space.
+/// The whole of `text` as a number; std::from_chars uses no locale and takes no leading space.
 template <class Number>
 std::optional<Number> number_from(std::string_view text) {
   Number number{};

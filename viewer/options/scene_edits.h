@@ -1,4 +1,4 @@
-// What the user changes about a scene: its lights and new ones, colours of materials, which nodes are there
+// What the user changes about a scene: its lights and new ones, colours of materials, which nodes are visible
 // and cast shadows. Values beside the scene, which stays as it was imported.
 #pragma once
 

@@ -6,14 +6,14 @@
 
 namespace tenebra::viewer {
 
-/// From here on an exception that nobody catches (memory that fails while a failure is told, a thread's own)
-/// ends the program with a sentence and the exit code of no_memory_code(), and no destructor runs. Files are
-/// whole or absent all the same (OutputFile, Journal).
+/// From here on an exception that nobody catches (of memory while a failure is reported, or of a thread) ends
+/// the program with a sentence and the exit code of no_memory_code(), and no destructor runs. Files are whole
+/// or absent all the same (OutputFile, Journal).
 void set_last_words();
 
 /// Where --memory bounds a window: libraries that do not ask whether they got memory (Mesa, LLVM, Dear ImGui)
-/// crash or abort without. If memory has failed or hardly any is left, that ends the program as end of memory
-/// does.
+/// crash or abort without it. If memory has failed or hardly any is left, that ends the program as end of
+/// memory does.
 void expect_crashes_without_memory();
 
 /// Whether it says that there is no memory, or none for a thread's stack.

@@ -161,8 +161,8 @@ bool is_visible(GLFWwindow* window) {
   return glfwGetWindowAttrib(window, GLFW_VISIBLE) == GLFW_TRUE;
 }
 
-/// The window comes with its first picture, and at the latest when a scene takes long to load: then it says
-/// so.
+/// The window is shown with its first picture, or after a second if its scene takes longer to load: then it
+/// says so.
 void show_when_ready(GLFWwindow* window, const Viewer& viewer) {
   constexpr double patience_s = 1.0;
   if (!is_visible(window) && (viewer.picture() || glfwGetTime() > patience_s)) glfwShowWindow(window);
@@ -187,7 +187,7 @@ void feed_keys(const std::vector<KeyPress>& pressed) {
 #endif
 }
 
-/// After ImGui::NewFrame: keys are what the keyboard says again.
+/// After ImGui::NewFrame: keys are as the keyboard has them again.
 void release_keys(GLFWwindow* window, const std::vector<KeyPress>& pressed) {
 #if IMGUI_VERSION_NUM < 18700
   for (const KeyPress& press : pressed) {

@@ -7,7 +7,7 @@
 
 namespace tenebra::viewer {
 
-/// Steps are the moments at which the hand rested: a whole drag is one.
+/// Steps are the moments at which the user let go: a whole drag is one.
 class UndoHistory {
 public:
   static constexpr std::size_t most_steps = 200;

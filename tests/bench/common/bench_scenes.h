@@ -35,8 +35,8 @@ struct ScenePlace {
   const char* scene;
   int frame;
 };
-/// Calls `body` for each place with the scene's file, one file there at a time. Scenes that are not there are
-/// told in `skipped`. `data`: the folder of the scenes that are not ours, empty: where it lies.
+/// Calls `body` for each place with the scene's file, one file there at a time. Scenes that are missing are
+/// named in `skipped`. `data`: the folder of the scenes that are not ours, empty: where it lies.
 Expected<void> for_each_place(std::span<const ScenePlace> places, const std::filesystem::path& data,
                               std::vector<std::string>& skipped,
                               const std::function<Expected<void>(const ScenePlace&, const BenchScene&,

@@ -23,7 +23,7 @@ struct ContestPlan {
   bool pictures = false;                           ///< keep the irradiance at equal time
 };
 
-/// What so many rays per pixel give and cost.
+/// What a number of rays per pixel gives and costs.
 struct SampledPoint {
   std::size_t rays = 0;
   double rmse_255 = 0;

@@ -1,4 +1,4 @@
-// Settings measured in turn, round by round, so that what else the machine does meets all alike.
+// Settings measured in turn, round by round, so that other load of the machine affects all alike.
 #pragma once
 
 #include <functional>
