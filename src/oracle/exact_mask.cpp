@@ -63,7 +63,7 @@ ExactShadow::ExactShadow(const ViewRays& view, const TriangleView& triangles, co
   light_sides_.resize(count);
   casts_.resize(count);
   for (std::uint32_t id = 0; id < count; ++id) {
-    light_sides_[id] = static_cast<std::int8_t>(light_side(id));
+    light_sides_[id] = light_side(id);
     const bool flagged = triangles.casts_shadow.empty() || triangles.casts_shadow[id] != 0;
     const bool away = light_sides_[id] < 0;
     casts_[id] = light_sides_[id] != 0 && flagged && (away || !config.cull_front);
@@ -125,7 +125,7 @@ bool ExactShadow::blocks(std::uint32_t occluder, const glm::dvec3& point, std::u
   const bool by_ids = config_.contact == ContactRule::triangle_ids;
   if (casts_[occluder] == 0 || (by_ids && occluder == id)) return false;
   ++stats.pairs;
-  const auto side = static_cast<int>(light_sides_[occluder]);
+  const int side = light_sides_[occluder];
   const Corners triangle = corners(occluder);
   const glm::dvec3 &a = triangle.a, &b = triangle.b, &c = triangle.c;
   std::uint64_t exact = 0;

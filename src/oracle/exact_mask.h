@@ -63,8 +63,8 @@ private:
   TriangleView triangles_;
   ShadowLight light_;
   HardShadowConfig config_;
-  std::vector<std::int8_t> light_sides_;  ///< side of the triangle's plane that the light is on; 0: none
-  std::vector<std::int8_t> casts_;        ///< 1: may block
+  std::vector<int> light_sides_;    ///< side of the triangle's plane that the light is on; 0: none
+  std::vector<std::int8_t> casts_;  ///< 1: may block
   TriangleBoxes boxes_;
 };
 
