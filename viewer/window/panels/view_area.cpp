@@ -82,19 +82,19 @@ void draw_class_legend(Ui& ui, Area place) {
   ImDrawList& list = *ImGui::GetWindowDrawList();
   const ImVec2 low = place.low + ImVec2(place.size.x - ui.px(258), ui.px(8));
   const float line = ImGui::GetTextLineHeight() + ui.px(3);
-  list.AddRectFilled(low, low + ImVec2(ui.px(250), line * 7 + ui.px(14)), palette::shade, 3);
+  const auto& sizes = ui.picture->overlay.class_sizes;
+  const float height = line * static_cast<float>(sizes.size()) + ui.px(14);
+  list.AddRectFilled(low, low + ImVec2(ui.px(250), height), palette::shade, 3);
   double pixels = 0;
-  for (const std::size_t size : ui.picture->overlay.class_sizes) pixels += static_cast<double>(size);
-  for (int i = 0; i < 7; ++i) {
+  for (const std::size_t size : sizes) pixels += static_cast<double>(size);
+  for (std::size_t i = 0; i < sizes.size(); ++i) {
     const auto soft_class = static_cast<SoftClass>(i);
     const glm::u8vec3 c = class_color(soft_class);
     const ImVec2 at = low + ImVec2(ui.px(10), ui.px(7) + line * static_cast<float>(i));
     list.AddRectFilled(at + ImVec2(0, ui.px(3)), at + ImVec2(ui.px(12), ui.px(15)),
                        IM_COL32(c.r, c.g, c.b, 255), 2);
     list.AddText(at + ImVec2(ui.px(20), 0), palette::text, class_name(soft_class));
-    const double share =
-        static_cast<double>(ui.picture->overlay.class_sizes[static_cast<std::size_t>(i)]) / pixels;
-    const std::string text = fmt::format("{:.1f} %", 100 * share);
+    const std::string text = fmt::format("{:.1f} %", 100 * static_cast<double>(sizes[i]) / pixels);
     list.AddText(at + ImVec2(ui.px(230) - ImGui::CalcTextSize(text.c_str()).x, 0), palette::dim,
                  text.c_str());
   }
