@@ -77,7 +77,7 @@ double scene_diagonal(const Scene& scene) {
 }  // namespace
 
 struct AmbientOcclusion::State {
-  VisiblePoints positions;  ///< where those that are given have none
+  VisiblePoints positions;  ///< where the given points have none
   ao::SceneObjects objects;
   bool found = false;
   double diagonal = 0;  ///< of the scene; 0: not needed yet
@@ -157,7 +157,7 @@ void AmbientOcclusion::State::find(const Scene& scene, const FrameGeometry& geom
   note_deforming(config);
 }
 
-/// Of one object, samples go before its field.
+/// Of one shape, samples are dropped before its field.
 bool AmbientOcclusion::State::drop_oldest() {
   const auto samples = bodies.oldest(), field = occluders.fields().oldest();
   if (samples && (!field || *samples <= *field)) {

@@ -53,7 +53,7 @@ std::optional<SoftSolver> soft_solver_from_name(std::string_view name) {
 
 struct SoftShadowTracer::State {
   bool at_work = false;     ///< or was when memory ran out: lists may not be whole
-  VisiblePoints positions;  ///< where those that are given have none
+  VisiblePoints positions;  ///< where the given points have none
   soft::PointGrouper grouper;
   soft::PointGroups groups;
   soft::ShaftCuller culler;
@@ -124,7 +124,7 @@ void SoftShadowTracer::State::solve_family(const soft::SoftFrame& frame,
   for (std::size_t i = first_sampled; i < worker.sampled.size(); ++i)
     worker.lit.push_back(worker.sampled[i].pixels);
   const SoftStats solved = worker.solver->stats;
-  worker.solver->solve_lit(frame, worker.lit);  // as if nothing hid it
+  worker.solver->solve_lit(frame, worker.lit);  // as if nothing hid the light
   worker.solver->stats = solved;
 }
 
@@ -202,7 +202,7 @@ bool SoftShadowTracer::State::solve_left(const soft::SoftFrame& frame, const Tri
       });
 }
 
-/// The threads' counts since the last time.
+/// Adds up the threads' counts since the last call.
 void SoftShadowTracer::State::gather() {
   const double threads = std::max<double>(1, static_cast<double>(workers.size()));
   std::uint64_t tree_bytes = 0;  // a thread holds one tree at a time
@@ -235,7 +235,7 @@ bool SoftShadowTracer::trace(const VisiblePoints& seen, std::span<const glm::vec
   return done;
 }
 
-// Mora et al. 2012, Algorithm 2, with groups of points in the place of visible triangles.
+// Mora et al. 2012, Algorithm 2, with groups of points in place of visible triangles.
 bool SoftShadowTracer::State::trace(const VisiblePoints& seen, std::span<const glm::vec3> normals,
                                     const ViewRays& view, const TriangleView& triangles,
                                     const AreaLight& light, const SoftShadowConfig& config, SoftMask& out,

@@ -233,5 +233,35 @@ INSTANTIATE_TEST_SUITE_P(EveryInstructionSet, NodeTests,
                                            SimdLevel::avx512),
                          [](const auto& info) { return std::string(simd_level_name(info.param)); });
 
+// The sphere variants are not to lose by a larger sphere than the earlier work had.
+TEST(NodeBounds, TheSphereOfATriangleIsTheSmallest) {
+  Random random(23);
+  const shadow::RaySource source =
+      shadow::ray_source({.directional = true, .position = {}, .to_light = vec3(0, 0, 1)});
+  int acute = 0;
+  for (int i = 0; i < 3000; ++i) {
+    std::vector<vec3> corners(3);
+    for (vec3& corner : corners) corner = vec3(random.in_cube(1));
+    if (i == 0) corners = {{1, 0, 0}, {-0.5f, 0.8660254f, 0}, {-0.5f, -0.8660254f, 0}};
+    const std::vector<glm::uvec3> triangles{{0, 1, 2}};
+    shadow::TriangleSet set;
+    shadow::build_triangle_set({corners, triangles, {}}, ViewRays{.eye = {9, 9, 9}}, source,
+                               {.contact = ContactRule::none}, set);
+    if (set.bounds.empty()) continue;
+    std::array<double, 3> edges{};
+    for (std::size_t k = 0; k < 3; ++k)
+      edges[k] = glm::length(dvec3(corners[k]) - dvec3(corners[(k + 1) % 3]));
+    std::sort(edges.begin(), edges.end());
+    const dvec3 a = corners[0];
+    const double twice_area = glm::length(glm::cross(dvec3(corners[1]) - a, dvec3(corners[2]) - a));
+    const bool is_acute = edges[0] * edges[0] + edges[1] * edges[1] > edges[2] * edges[2];
+    const double least = is_acute ? edges[0] * edges[1] * edges[2] / (2 * twice_area) : edges[2] / 2;
+    acute += is_acute ? 1 : 0;
+    EXPECT_GE(set.bounds[0].sphere_chord, least * (1 - 1e-12)) << i;
+    EXPECT_LE(set.bounds[0].sphere_chord, least * (1 + 1e-6)) << i;
+  }
+  EXPECT_GT(acute, 300);
+}
+
 }  // namespace
 }  // namespace tenebra

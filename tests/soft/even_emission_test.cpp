@@ -152,6 +152,26 @@ TEST(EvenEmission, HasTheSameBitsForEveryLevelAndThreadCount) {
   }
 }
 
+// The light's corners lie on the horizon up to rounding, which puts them on either side of it in turn: more
+// pieces than a cut of a convex polygon has.
+TEST(EvenEmission, IsNothingForPointsInTheLightsPlane) {
+  std::mt19937 random(7);
+  std::uniform_real_distribution<float> coordinate(-1, 1);
+  const auto vector = [&] { return glm::vec3(coordinate(random), coordinate(random), coordinate(random)); };
+  for (int light = 0; light < 200; ++light) {
+    const glm::vec3 axis = glm::normalize(vector());
+    const glm::vec3 x = glm::normalize(glm::cross(axis, vector())), y = glm::cross(axis, x);
+    const AreaLight disc = make_disc_light(3.0f * vector(), x, y).value();
+    for (int place = 0; place < 1000; ++place) {
+      const double angle = 3.14 * coordinate(random), distance = 3 + coordinate(random);
+      const dvec3 at = disc.centre + distance * (std::cos(angle) * disc.ex + std::sin(angle) * disc.ey);
+      const dvec3 normal = place % 2 == 0 ? disc.normal : -disc.normal;
+      EXPECT_LT(soft::whole_irradiance(disc, at, normal), 1e-12);
+      EXPECT_LT(soft::even_irradiance(disc, at, normal), 1e-12);
+    }
+  }
+}
+
 TEST(EvenEmission, OtherPolygonsAreWeighedToo) {
   const AreaLight disc = make_disc_light({0, 2, 0}, {0.5f, 0, 0}, {0, 0, 0.5f}).value();
   Case c(disc, random_places(300, 5, 100));

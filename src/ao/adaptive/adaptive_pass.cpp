@@ -32,7 +32,7 @@ struct AdaptiveOcclusion::State {
 
 namespace {
 
-/// The noise of a lattice of rays, over that of as many independent ones: about, where edges cross it.
+/// The noise of a lattice of rays over that of as many independent ones, roughly, where edges cross it.
 constexpr float lattice_noise = 0.4f;
 
 class AdaptivePass {
@@ -66,7 +66,7 @@ private:
   float noise() const { return trust_ * lattice_noise / std::sqrt(static_cast<float>(settings_.rays)); }
 
   AdaptiveSettings settings_;
-  float trust_ = 0.3f;  ///< in neighbours: what differs by less than four times this noise is evened out
+  float trust_ = 0.3f;  ///< in neighbours: those that differ by less than four times noise() are evened out
   AdaptiveOcclusion::State& state_;
   const PixelSurfaces& surfaces_;
   PixelLooks looks_;
@@ -82,7 +82,8 @@ bool AdaptivePass::speak_for(const Said& said) const {
          said.farthest <= settings_.closeness * said.nearness;
 }
 
-/// Pixels of the lattice of `step` that no wider one has, if they are not settled by rays.
+/// Settles the pixels of the lattice of `step` that no wider one has, unless they are settled by rays
+/// already.
 void AdaptivePass::settle(int step) {
   const RaySets& sets = state_.sets.at(settings_.rays);
   const bool first = step == settings_.coarsest;
@@ -111,7 +112,7 @@ void AdaptivePass::settle(int step) {
       });
 }
 
-/// The results of rays, over the lattice of `step`.
+/// Evens out the results of rays over the lattice of `step`.
 void AdaptivePass::smooth(int step) {
   parallel::parallel_tasks(looks_.tiles().count(), [&](int tile) {
     if (stopped()) return;
@@ -131,8 +132,8 @@ void AdaptivePass::settle() {
   }
 }
 
-/// Pixels with few similar neighbours whose rays do not agree: where more noise than `noise` (a standard
-/// deviation) is expected. Each round has rays of its own.
+/// Casts more rays from pixels with few similar neighbours whose rays do not agree: where more noise than
+/// `noise` (a standard deviation) is expected. Each round has rays of its own.
 void AdaptivePass::look_again(float noise, int round) {
   constexpr int times = 2;  // 4, with a trust of 0.5, took more rays on court, city 150 and the near crowd
   const RaySets& sets = state_.sets.at(times * settings_.rays, round);

@@ -1,10 +1,11 @@
 // Ambient occlusion to an error that was asked for: rays against all triangles, few where the picture is
-// smooth and more where it is not, and a guided filter over the results.
+// smooth and more where it is not, and a filter over the results that keeps to one surface.
 //
-// Pixels are settled from coarse to fine: every fourth pixel in each direction casts rays ("looks"). In the
-// next finer lattice only those pixels look whose neighbours cannot stand in for them: too few of these lie
-// on the same surface, they differ, or something is close compared with the distance to them (as in an
-// irradiance cache: Ward, Rubinstein and Clear 1988). The others take the weighted mean.
+// Pixels are settled from coarse to fine: every fourth pixel in each direction (for small errors every
+// second, or every one) casts rays ("looks"). In the next finer lattice only those pixels look whose
+// neighbours cannot stand in for them: too few of these lie on the same surface, they differ, or something is
+// close compared with the distance to them (as in an irradiance cache: Ward, Rubinstein and Clear 1988). The
+// others take the weighted mean.
 //
 // The error is measured, not assumed: some pixels of each kind, chosen by a hash of their number, look with
 // many rays. While they show a larger error than was asked for, the neighbours have to agree more closely, or

@@ -6,7 +6,7 @@
 namespace tenebra::ao {
 namespace {
 
-constexpr float same_surface = 0.25f;  ///< alike() of those whose values are compared
+constexpr float same_surface = 0.25f;  ///< least alike() of those whose values are compared
 
 /// 1 at 0, 0 at `radius`.
 float bump(float distance, float radius) {

@@ -1,6 +1,6 @@
 // Rays of receivers through all triangles in their reach: their own body, other bodies, static and deforming
-// geometry. Of each ray the first hit counts. Objects have a tree of their own, in their own space: nothing
-// is built anew when they move.
+// geometry. Of each ray the first hit counts. What moves is in one tree that is made for each frame or, if it
+// has too many triangles for that, in a tree of each object in its own space, which is kept.
 #pragma once
 
 #include <map>
@@ -27,11 +27,11 @@ struct RaySets {
 /// Those that were asked for, kept.
 class KeptRaySets {
 public:
-  /// `round`: others for each.
+  /// Other rays for each `round`.
   const RaySets& at(int rays, int round = 0);
 
 private:
-  std::map<std::pair<int, int>, RaySets> sets_;  ///< by both
+  std::map<std::pair<int, int>, RaySets> sets_;  ///< by number of rays and round
 };
 
 /// What a receiver's rays found.

@@ -24,7 +24,7 @@ inline float alike(const PixelSurface& a, const PixelSurface& b) {
   const float turned = std::max(0.0f, glm::dot(a.normal, b.normal));
   const float off = std::max(std::abs(glm::dot(d, a.normal)), std::abs(glm::dot(d, b.normal)));
   const float t2 = turned * turned, t4 = t2 * t2, square = glm::dot(d, d);
-  // A ledge, however low: along an arc the normals' mean is across the chord.
+  // Not level where there is a ledge, however low: along an arc the mean of the normals is across the chord.
   const float rise = 4 * glm::dot(d, a.normal + b.normal);
   const float level = std::max(0.0f, 1 - rise * rise / std::max(square, 1e-20f));
   return t4 * t4 * level * std::max(0.0f, 1 - 16 * off) * std::max(0.0f, 1 - 4 * square);

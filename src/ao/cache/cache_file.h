@@ -29,7 +29,7 @@ CacheKey cache_key(std::initializer_list<std::span<const std::byte>> parts);
 struct CacheKind {
   std::array<char, 8> magic;
   std::uint32_t version;  ///< counts up whenever the same key gives other bytes, or the file has another form
-  const char* name;       ///< for sentences, and the end of the file's name
+  const char* name;       ///< for messages, and the end of the file's name
 };
 
 /// FOLDER/KEY.NAME, the key in hexadecimal.

@@ -47,7 +47,7 @@ Expected<void> save_tree(const fs::path& folder, const CacheKey& key, const Tria
 
 Expected<TriangleBvh> load_tree(const fs::path& folder, const CacheKey& key,
                                 std::span<const glm::vec3> positions, std::span<const glm::uvec3> triangles) {
-  const Sizes most{triangles.size() * bvh_width, triangles.size()};  // a node holds a triangle of its own
+  const Sizes most{triangles.size() * bvh_width, triangles.size()};  // there are no more nodes than triangles
   const auto file = CacheReader::open(folder, kind, key, sizeof(Sizes), most.bytes());
   if (!file) return tl::unexpected(file.error());
   const auto foreign = [&] {

@@ -29,7 +29,7 @@ Expected<void> save_tree(const std::filesystem::path& folder, const CacheKey& ke
 Expected<TriangleBvh> load_tree(const std::filesystem::path& folder, const CacheKey& key,
                                 std::span<const glm::vec3> positions, std::span<const glm::uvec3> triangles);
 
-/// Trees that the next process has at once.
+/// Trees that are kept on disk, so that the next process has them at once.
 struct KeptTrees {
   /// A tree of fewer triangles is built faster than it is read.
   static constexpr std::size_t least_triangles = 2048;

@@ -18,7 +18,8 @@ struct BvhOrder {
 };
 BvhOrder order_of(const TriangleBvh& bvh);
 
-/// The tree of these triangles whose order this is, bit for bit; empty if it is no tree of all of them.
+/// The tree of these triangles whose order this is, bit for bit; none if it is not the order of a tree of all
+/// of them.
 std::optional<TriangleBvh> order_triangles(std::span<const glm::vec3> positions,
                                            std::span<const glm::uvec3> triangles, const BvhOrder& order);
 

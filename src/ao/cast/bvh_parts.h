@@ -44,7 +44,7 @@ inline bool bvh_holds(std::span<const glm::vec3> positions, const glm::uvec3& t,
 }
 
 /// By how much a node's boxes are wider than what they hold: a hit that rounding puts beside its triangle
-/// still lies in the triangle's box. Four units in the last place of the tree's largest coordinate.
+/// still lies in the triangle's box. At least four units in the last place of the tree's largest coordinate.
 inline float bvh_margin(float largest_coordinate) {
   return largest_coordinate * 0x1p-21f;
 }

@@ -71,7 +71,7 @@ inline Shear shear_along(glm::vec3 d) {
 
 // Distances to the eight triangles, no_distance where there is no hit. In the plane, an edge's side is the
 // sign of a difference of two products: rounding may make it zero, never turn it over. Zero counts as inside,
-// so that neighbours leave no gap, at vertices neither.
+// so that neighbours leave no gap, not even at vertices.
 SIMD_INLINE Float8 meet_triangles(const TriangleBlock& block, const CasterRay& ray, const Shear& shear) {
   const Float8 to_x = broadcast<Float8>(shear.to_x), to_y = broadcast<Float8>(shear.to_y);
   Pack3<Float8> p[3];
@@ -83,7 +83,7 @@ SIMD_INLINE Float8 meet_triangles(const TriangleBlock& block, const CasterRay& r
   const Float8 u = p[2].x * p[1].y - p[2].y * p[1].x, v = p[0].x * p[2].y - p[0].y * p[2].x,
                w = p[1].x * p[0].y - p[1].y * p[0].x;
   const Float8 zero = broadcast<Float8>(0.0f), none = broadcast<Float8>(no_distance);
-  const Float8 scale = broadcast<Float8>(1.0f) / ((u + v) + w);  // divided by first: products stay in range
+  const Float8 scale = broadcast<Float8>(1.0f) / ((u + v) + w);  // inverted first: products stay in range
   const Float8 t =
       ((u * scale * p[0].z + v * scale * p[1].z) + w * scale * p[2].z) * broadcast<Float8>(shear.to_z);
   const auto inside = le(zero, min(u, min(v, w))) | le(max(u, max(v, w)), zero);

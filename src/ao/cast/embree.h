@@ -10,7 +10,7 @@
 
 namespace tenebra::ao {
 
-/// What Embree wants to know of rays beside the rays: made once, used for many.
+/// What Embree is told about rays besides the rays themselves: made once, used for many.
 class EmbreeQuery {
 public:
   enum Rays { incoherent, coherent };

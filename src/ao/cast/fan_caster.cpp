@@ -1,7 +1,7 @@
 // Rays from one point through a tree of triangles, four fans of sixteen at a time. With the point as the
 // origin, a ray is inside a triangle where it is on one side of the three planes through the point and the
-// edges: three products, and two triangles that share an edge leave no gap, for their planes there differ in
-// sign only.
+// edges: three dot products, and two triangles that share an edge leave no gap, for their planes there differ
+// in sign only.
 #undef HWY_TARGET_INCLUDE
 #define HWY_TARGET_INCLUDE "ao/cast/fan_caster.cpp"
 #include <hwy/foreach_target.h>
@@ -94,7 +94,7 @@ SIMD_INLINE void look_at_boxes(const BvhNode& node, const Fans& fans, Boxes& out
   const Float8 zero = broadcast<Float8>(0.0f);
   // Planes through the edges are off by 2^-22 d^2 / length of the edge, d the distance, which is at most the
   // reach: for edges of at least reach / 1024 no ray that is inside a triangle by its planes misses a box so
-  // widened. Of smaller triangles such rays may, at most that far beside the triangle, miss or meet.
+  // widened. A ray that is inside a smaller triangle only by such an error may miss its box.
   const Float8 margin = broadcast<Float8>(fans.reach * 0x1p-12f);
   Float8 square = zero;
   for (int axis = 0; axis < 3; ++axis) {
@@ -135,7 +135,7 @@ SIMD_INLINE std::uint32_t meet_boxes(const Boxes& boxes, const Fans& fans, int r
 }
 
 // Of `rays` those that may meet each of the children `near`: sixteen rays against a box or a ray against
-// eight boxes, whichever are fewer.
+// eight boxes, whichever takes fewer tests.
 SIMD_INLINE void meet_children(const Boxes& boxes, const Fans& fans, RayBits rays, std::uint32_t near,
                                RayBits* met) {
   std::fill_n(met, bvh_width, RayBits{0});
@@ -232,7 +232,7 @@ SIMD_INLINE bool meet_triangles(const EdgePlanes& planes, Fans& fans, int ray) {
   return true;
 }
 
-// A triangle at a time or a ray at a time, whichever are fewer.
+// A triangle at a time or a ray at a time, whichever takes fewer tests.
 SIMD_INLINE void meet_block(const TriangleBlock& block, Fans& fans, RayBits rays) {
   EdgePlanes planes;
   edge_planes(block, fans, planes);

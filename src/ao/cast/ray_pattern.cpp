@@ -30,7 +30,8 @@ std::uint64_t mixed(std::uint64_t z) {
   return z ^ (z >> 31);
 }
 
-/// Cell of a coordinate in cells. Shifted, so that walls at round coordinates do not lie between two cells.
+/// The number of the cell of a coordinate, which is in units of a cell. Shifted, so that walls at round
+/// coordinates do not lie between two cells.
 std::uint64_t cell_number(double coordinate) {
   constexpr double shift = 0.3819660113, most = 1e15;
   const double shifted = std::clamp(coordinate, -most, most) + shift;

@@ -21,7 +21,7 @@ struct RayPattern {
 
 /// `rays` points of a Fibonacci lattice in the square, mapped to the hemisphere; neighbours share a batch.
 /// (With 16 rays a quarter less noise than a Hammersley set, a tenth less than a lattice that starts at 0.)
-/// The lattice is shifted by `shift` in the square, around its edges.
+/// The lattice is shifted by `shift` in the square, wrapping round at its edges.
 RayPattern make_ray_pattern(int rays, const glm::dvec2& shift = glm::dvec2(0.0));
 
 /// Right-handed unit axes; z is the normal.

@@ -1,5 +1,5 @@
-// The reference: the same rays cast through all of a frame's triangles by a well-known ray caster. The only
-// file that names it is reference_rays.cpp; a build without it says so.
+// The reference: the same rays cast through all of a frame's triangles by a well-known ray caster, Embree. A
+// build without it says so.
 #pragma once
 
 #include <memory>

@@ -8,7 +8,7 @@
 
 namespace tenebra::ao {
 
-/// (4 / pi) atan(t) for |t| <= 1: odd, -1 .. 1, off by at most 6e-7. Interpolates at seven Chebyshev nodes in
+/// (4 / pi) atan(t) for |t| <= 1: odd, -1 .. 1, off by at most 7e-7. Interpolates at seven Chebyshev nodes in
 /// t^2.
 inline float octant_angle(float t) {
   const float s = t * t;

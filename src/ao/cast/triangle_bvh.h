@@ -1,4 +1,5 @@
-// A ray caster over static triangles: fields, baked occlusion and the static cache are made with it. Eight
+// Trees over triangles, and a caster of single rays through them (fan_caster.h has one for many): surface
+// samples, `--ao adaptive` and whatever has no field use such trees, and fields are made with them. Eight
 // boxes or eight triangles are met at once.
 #pragma once
 
@@ -48,8 +49,8 @@ struct TriangleBvh {
 };
 
 /// Binned surface-area heuristic, eight children to a node. Triangles with a coordinate that is not finite or
-/// beyond 1e18, an index out of range or no area are left out. The same tree on every machine, for every
-/// thread count.
+/// beyond 1e18, an index out of range or no area are left out. The same tree on every machine, for any number
+/// of threads.
 TriangleBvh build_triangle_bvh(std::span<const glm::vec3> positions, std::span<const glm::uvec3> triangles);
 /// The same; none if `stop` was requested, which is looked at every few thousand triangles.
 std::optional<TriangleBvh> build_triangle_bvh(std::span<const glm::vec3> positions,
@@ -75,8 +76,8 @@ struct CasterHit {
 struct BvhKernels {
   CasterHit (*closest)(const TriangleBvh&, const CasterRay&) = nullptr;
   bool (*any)(const TriangleBvh&, const CasterRay&) = nullptr;
-  /// distance[i] = t of the nearest hit of ray i before distance[i]; else left as it is. Made for rays that
-  /// run close together.
+  /// distance[i] = t of the nearest hit of ray i before distance[i]; else left as it is. One ray after the
+  /// other.
   void (*closest_batch)(const TriangleBvh&, const RayBatch&, float* distance) = nullptr;
 };
 BvhKernels bvh_kernels(SimdLevel level);

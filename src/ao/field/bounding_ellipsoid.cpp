@@ -64,7 +64,7 @@ Ellipsoid bounding_ellipsoid(std::span<const glm::vec3> positions, std::span<con
   }
   for (glm::dvec3& p : corners) p /= stretch;
   const Sphere sphere = small_sphere(corners, 0.5 * (low + high) / stretch);
-  // Rounding to float, there and in the look-up, keeps all corners inside.
+  // This factor keeps all corners inside when the result, and the rays of a look-up, are rounded to float.
   return {sphere.centre * stretch, sphere.radius * (1 + 0x1p-20) * stretch};
 }
 

@@ -128,7 +128,7 @@ void store_row(DisplacementField& field, std::size_t position, std::span<const f
   field.mean[position] = hits ? static_cast<float>(sum / static_cast<double>(hits)) : 0.0f;
 }
 
-// Rows of bits share bytes: packed when all rows are known, eight positions at a time.
+// Rows of bits share bytes: a thread packs eight rows at a time, which end on a byte.
 void store_bits(DisplacementField& field, std::size_t position, std::span<const float> row) {
   for (std::size_t d = 0; d < row.size(); ++d) {
     const std::size_t entry = position * row.size() + d;

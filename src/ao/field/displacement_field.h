@@ -18,14 +18,14 @@ namespace tenebra::ao {
 
 struct FieldSettings {
   FieldLayout layout = FieldLayout::chords;
-  int positions = 4225;   ///< samples on the sphere; rounded to the next smaller square
-  int directions = 1024;  ///< inward directions per position; rounded to the next smaller square
+  int positions = 4225;   ///< samples on the sphere; rounded down to a square number
+  int directions = 1024;  ///< inward directions per position; rounded down to a square number
   int bits = 8;           ///< of a stored distance: 1, 8 or 32
   friend bool operator==(const FieldSettings&, const FieldSettings&) = default;
 };
 
-/// A table of the size that settings ask for. Chords have as many exits as entries: the largest square whose
-/// square is not above positions x directions (4,225 x 1,024: 45^2 x 45^2).
+/// A table of the size that settings ask for. Chords have as many exits as entries: the largest square number
+/// whose square is not above positions x directions (4,225 x 1,024: 45^2 x 45^2).
 struct FieldShape {
   int position_side = 0;   ///< positions = side^2, cells of the octahedral map
   int direction_side = 0;  ///< directions = side^2; chords: cells of the exit
@@ -60,8 +60,9 @@ struct Ellipsoid {
   glm::dvec3 centre{0.0};
   glm::dvec3 axes{0.0};  ///< half of its extent along x, y, z
 };
-/// Within 2 % of the smallest sphere or, of those stretched with the mesh's extents (at most 4 : 1), of the
-/// smallest ellipsoid; never too small. Zero axes if there are no triangles.
+/// Measured within 2 % (the method assures 10 %) of the smallest sphere or, of those stretched with the
+/// mesh's extents (at most 4 : 1), of the smallest ellipsoid; never too small. Zero axes if there are no
+/// triangles.
 Ellipsoid bounding_ellipsoid(std::span<const glm::vec3> positions, std::span<const glm::uvec3> triangles,
                              FieldLayout layout);
 
@@ -76,7 +77,7 @@ struct DisplacementField {
   std::vector<std::uint8_t>
       table;                ///< entry (p, d) at p * directions + d; 1 bit: 1 a hit; 8 bits: 0..254 for
                             ///< -1..1, 255 no hit; 32: a float, 2 no hit. Three bytes more at the end.
-  std::vector<float> mean;  ///< 1 bit: what all hits from position p stand for; else empty
+  std::vector<float> mean;  ///< 1 bit: the mean of all hits from position p; else empty
   std::vector<std::uint32_t> close;  ///< one bit per cell of the cube around the unit sphere (near_cells.h):
                                      ///< set next to the object, at least within a quarter of `cell()`
 

@@ -117,7 +117,7 @@ struct Query {
   Chords chords;
   Answer answer;
   Truth16 inside;  // live rays that start in the unit sphere
-  bool any;        // ray is live; else nothing below is set
+  bool any;        // whether a ray is live; else `inside` and `looks` are not set
   Float16 exit;    // t where it ends
   Looks looks;
 };

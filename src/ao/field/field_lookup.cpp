@@ -21,7 +21,7 @@ bool set_rows(float rows[3][4], const glm::dmat3& linear, glm::dvec3 offset) {
 }
 
 /// At least the longest half axis of the ellipsoid that `linear` makes of the unit sphere: no eigenvalue of
-/// L^T L exceeds a row's sum (Gershgorin). Exact where the axes stay at right angles.
+/// L^T L exceeds the largest sum of a row (Gershgorin). Exact where the axes stay at right angles.
 double longest_axis(const glm::dmat3& linear) {
   const glm::dmat3 square = glm::transpose(linear) * linear;
   double largest = 0;

@@ -65,7 +65,7 @@ void mark(Grid& grid, const Corners& t) {
       for (int x = low.x; x <= high.x; ++x) grid[place({x, y, z})] = 1;
 }
 
-/// Offsets of cells with centres nearer than `radius`.
+/// Offsets of cells whose centres are at most `radius` apart.
 std::vector<glm::ivec3> ball(double radius) {
   std::vector<glm::ivec3> offsets;
   const int most = static_cast<int>(radius / cell_size);
@@ -102,7 +102,8 @@ std::vector<std::uint32_t> close_cells(std::span<const glm::vec3> positions,
     }
     if (usable) mark(grid, t);
   }
-  // A point within reach of a triangle and its cell's centre; the triangle's point and its cell's.
+  // From centre to centre: half a diagonal from a cell's centre to a point, the reach to the triangle's
+  // point, and half a diagonal to the centre of that one's cell.
   const std::vector<glm::ivec3> offsets = ball(reach + 2 * half_diagonal);
   std::vector<std::uint32_t> bits(near_words);
   for (int z = 0; z < near_side; ++z)

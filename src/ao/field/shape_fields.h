@@ -17,7 +17,7 @@
 
 namespace tenebra::ao {
 
-/// Of the triangles that cast.
+/// The shape's triangles that cast.
 std::vector<glm::uvec3> casting_triangles(const ObjectShape& shape);
 
 class ShapeFields {
@@ -46,7 +46,8 @@ public:
   Expected<const DisplacementField*> make(int shape, const TriangleBvh& casters,
                                           const FieldProgress& progress, const StopFlag* stop);
 
-  /// Of those that this frame does not need, the one to go first, by the number of its shape.
+  /// Of those that this frame does not need, the one that was used least recently, by the number of its
+  /// shape.
   std::optional<LastUse> oldest() const;
   void drop(int shape) { fields_[static_cast<std::size_t>(shape)].drop(); }
 

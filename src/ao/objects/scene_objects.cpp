@@ -17,7 +17,7 @@ using glm::dmat4;
 using glm::dvec3;
 using glm::vec3;
 
-constexpr double most_shear = 1e-3;  // an object this far from its size and right angles is still itself
+constexpr double most_shear = 1e-3;  // still rigid if this far off its size and right angles
 
 class Hash {
 public:
@@ -109,7 +109,7 @@ void place(const Pose& pose, MovingObject& object) {
     largest = std::max(largest, std::abs(square[k][0]) + std::abs(square[k][1]) + std::abs(square[k][2]));
     for (int m = 0; m < 3; ++m) off = std::max(off, std::abs(square[k][m] - (k == m ? wanted : 0)));
   }
-  object.largest_scale = std::sqrt(largest);  // no eigenvalue exceeds a row's sum
+  object.largest_scale = std::sqrt(largest);  // no eigenvalue exceeds the largest sum of a row
   object.rigid = wanted > 0 && off <= most_shear * wanted;
 }
 
@@ -169,7 +169,7 @@ void append(const FrameGeometry& geometry, const Part& part, ObjectShape& shape)
   }
 }
 
-/// A sphere about the casting triangles: that of their box's middle.
+/// A sphere about the casting triangles, around the middle of their box.
 void enclose(ObjectShape& shape) {
   const auto each_corner = [&](const auto& visit) {
     for (std::size_t t = 0; t < shape.triangles.size(); ++t) {
@@ -267,7 +267,7 @@ private:
     if (std::find(names.begin(), names.end(), shown) == names.end()) names.push_back(shown);
   }
 
-  /// From a node of the group to the object's space, by rest transforms alone: bits do not depend on the
+  /// From a node of the group to the object's space, by nodes that no clip moves: bits do not depend on the
   /// instant.
   dmat4 to_object(std::size_t node, const MovingObject& object) const {
     dmat4 matrix(1.0);

@@ -1,7 +1,7 @@
 // The scene as ambient occlusion sees it: static geometry (one body in world space), objects that move (each
 // in its own space; equal ones share one shape), and triangles that deform. A node moves if a channel of any
 // clip changes it; all meshes below the deepest such ancestor move as one, so a robot's limb is one object
-// however many nodes it is modelled of.
+// however many nodes it is modelled with.
 #pragma once
 
 #include <cstdint>
@@ -20,7 +20,7 @@ namespace tenebra::ao {
 struct ObjectShape {
   std::vector<glm::vec3> positions;
   std::vector<glm::vec3> normals;     ///< size of positions; unit, or zero: the face normal
-  std::vector<glm::uvec3> triangles;  ///< one with equal corners is not there
+  std::vector<glm::uvec3> triangles;  ///< one with three equal corners does not count
   std::vector<std::uint8_t> casts;    ///< one per triangle: occludes
   glm::vec3 center{0.0f};             ///< a sphere about the casting triangles
   float radius = 0;                   ///< 0: none casts
@@ -32,7 +32,7 @@ struct MovingObject {
   int node = -1;              ///< whose motion it shares
   int shape = -1;             ///< index into SceneObjects::shapes
   glm::dvec3 own_scale{1.0};  ///< of the node, over its largest: part of the shape
-  double scale = 1.0;         ///< metres of the world a unit of the object, when found
+  double scale = 1.0;         ///< metres in the world per unit of the object, when found
   // Of this instant:
   glm::dmat4 to_world{1.0};
   glm::dmat4 to_object{1.0};

@@ -48,7 +48,7 @@ int Bodies::body_of(std::int32_t object, Occluders& occluders) {
       shape < 0 ? objects_->standing : objects_->shapes[static_cast<std::size_t>(shape)];
   const TriangleBvh* casters = occluders.casters(shape);
   if (casters == nullptr) return -1;
-  Body body;  // there once it is whole: memory may fail before
+  Body body;  // added once it is whole: memory may run out before
   body.shape = shape;
   body.made = frame_;
   body.key = sample_key(geometry, reach);

@@ -26,15 +26,15 @@ struct MissingSample {
 class Bodies {
 public:
   explicit Bodies(MemoryBudget& budget) : budget_(&budget) {}
-  /// Keeps what is not on disk yet.
+  /// Writes what is not on disk yet.
   ~Bodies() {
     save_all([](const Body&) { return true; });
   }
   Bodies(const Bodies&) = delete;
   Bodies& operator=(const Bodies&) = delete;
 
-  /// None made yet; what was there for more than one frame is kept on disk. Keeps a reference to `objects`
-  /// until the next call.
+  /// No body is made yet; samples that were there for more than one frame are written to disk. Keeps a
+  /// reference to `objects` until the next call.
   void reset(const SceneObjects& objects, double reach);
   /// `cache`: folder that keeps samples; empty: nowhere.
   void begin_frame(std::uint64_t frame, const std::filesystem::path& cache);
@@ -48,8 +48,8 @@ public:
   int number(std::int32_t object) const { return exists(object) ? at_[index(object)] : -1; }
   const SelfOcclusion& body(int number) const { return *bodies_[static_cast<std::size_t>(number)].samples; }
 
-  /// Of `objects` (ascending, unique): with samples, those on disk among them, or, without room, by rays.
-  /// Some of them, if `stop` is requested.
+  /// Makes the bodies of `objects` (ascending, unique): with samples, those on disk among them, or, without
+  /// room, answered by rays. Some of them, if `stop` is requested.
   void make(std::span<const int> objects, Occluders& occluders, const StopFlag* stop);
   /// A body is needed in this frame.
   void use(int number) { bodies_[static_cast<std::size_t>(number)].used = frame_; }
@@ -60,7 +60,7 @@ public:
   /// one that is seen little by little is not written again for each frame.
   void save_grown();
 
-  /// Of those with samples that this frame does not need, the one to go first.
+  /// Of those with samples that this frame does not need, the one that was used least recently.
   std::optional<LastUse> oldest() const;
   void drop_oldest();
 
@@ -75,7 +75,7 @@ private:
     CacheKey key;
     std::unique_ptr<SelfOcclusion> samples;
     std::uint64_t made = 0, used = 0;  ///< frames
-    std::uint64_t saved = 0;           ///< of known() samples
+    std::uint64_t saved = 0;           ///< samples on disk, of those known()
     LastUse last_use() const { return {used, shape}; }
   };
   std::size_t index(std::int32_t object) const {

@@ -60,7 +60,9 @@ Expected<void> FieldPass::run(const ReceiverSet& set, AoPart part, std::vector<f
   constexpr int most_rounds = 8;  // bodies and occluders, three levels of samples, a cell and its samples
   for (int round = 0; !pending.empty(); ++round) {
     if (round == most_rounds)
-      return base::fail("ambient occlusion: what {} groups of points lack cannot be made", pending.size());
+      return base::fail(
+          "ambient occlusion: the fields or samples that {} groups of points need cannot be made",
+          pending.size());
     const auto reports = std::span(room.reports).first(pending.size());
     for (GroupReport& report : reports) report.clear();
     parallel::parallel_tasks(static_cast<int>(pending.size()), [&](int i) {

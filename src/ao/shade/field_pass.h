@@ -27,7 +27,7 @@ struct FieldPass {
   FrameTimings& timings;
   FieldRoom& room;
 
-  /// Open shares, 0..1, one per receiver; 1 where there is none. Fails with "stopped".
+  /// Openness, 0..1, one per receiver; 1 where there is none. Fails with "stopped".
   Expected<void> run(const ReceiverSet& set, AoPart part, std::vector<float>& values,
                      const AoProgress& progress, const StopFlag* stop);
 

@@ -1,4 +1,4 @@
-// The ambient light of a group of neighbouring receivers, from existing fields and samples; missing ones are
+// The openness of a group of neighbouring receivers, from existing fields and samples; missing ones are
 // named, to be made before the group is shaded again.
 //
 // A point is hidden by its own body (sampled on the surface once, self_occlusion.h) and by the rest, ray by
@@ -46,7 +46,7 @@ public:
     kernels_ = kernels;
   }
 
-  /// Open shares, 0..1, to values[receiver.index], if the report is complete; else nothing.
+  /// Openness, 0..1, to values[receiver.index], if the report is complete; else nothing.
   void shade(const ReceiverSet& set, AoPart part, int group, std::span<float> values, GroupReport& report);
 
 private:

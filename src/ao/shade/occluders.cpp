@@ -217,7 +217,7 @@ std::vector<std::string> Occluders::take_notes() {
   return notes;
 }
 
-/// Not where triangles are few, or what they are placed as is flat.
+/// Not where triangles are few, or where the shape was found to be placed flat.
 bool Occluders::wants_field(int number, const TriangleBvh& casters) {
   Shape& shape = shapes_[static_cast<std::size_t>(number)];
   shape.by_rays |= casters.triangles <= few_triangles;

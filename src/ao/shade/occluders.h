@@ -1,8 +1,9 @@
 // What can hide ambient light in a frame beyond the receiver's own body: rigid objects by their fields,
-// static and deforming geometry by cast rays. Made when first needed, kept while the objects stay the same.
+// static and deforming geometry by cast rays; with `--ao adaptive` everything by cast rays, the own body,
+// too. Made when first needed, kept while the objects stay the same.
 //
 // Static geometry close to moving objects (floors under feet) is met by rays that end at the reach: these are
-// exact at the contact, where tables are not. Objects of few triangles are met by rays too: their tree is a
+// exact at the contact, where tables are not. Objects of few triangles are met by rays, too: their tree is a
 // block or two.
 #pragma once
 
@@ -29,7 +30,7 @@ struct OccluderCounts {
   std::uint64_t rays_cast = 0;
 };
 
-/// Bounds of the receivers of one tile.
+/// A box around points, such as the receivers of a tile.
 struct PointBox {
   glm::dvec3 low{INFINITY};
   glm::dvec3 high{-INFINITY};
@@ -38,9 +39,9 @@ struct PointBox {
 
 class Occluders {
 public:
-  /// An object of up to this many triangles needs no field: two blocks of a tree. With 128 robots 100 took
-  /// 1.8 times as long, with 600 city 60 5.3 times, at the same error: an entry of a table is quicker than
-  /// any tree.
+  /// An object of up to this many triangles needs no field: its tree is two blocks. With a limit of 128,
+  /// robots 100 took 1.8 times as long, with 600 city 60 took 5.3 times as long, at the same error: an entry
+  /// of a table is quicker than any tree.
   static constexpr std::size_t few_triangles = 16;
   static constexpr int standing = -1, deforming = -2;  ///< beside the indices of objects
   static constexpr int moving = -3;  ///< all that moves or deforms, as gather_moving() found it
@@ -86,8 +87,8 @@ public:
   /// Makes the trees of `occluders` that are not there, until a stop is requested: what meet_triangles()
   /// needs.
   void build_trees(std::span<const int> occluders);
-  /// The same by triangles alone, the receiver's own body too. The rays run in the world and start at
-  /// `origin`: the receiver's position, lifted off its face.
+  /// Like meet(), but by triangles alone, those of the receiver's own body, too. The rays run in the world
+  /// and start at `origin`: the receiver's position, lifted off its face.
   void meet_triangles(int occluder, const Receiver& receiver, const glm::dvec3& origin,
                       std::span<const RayBatch> rays, float* distances, OccluderCounts& counts) const;
 

@@ -13,7 +13,7 @@ void PointRays::begin_frame(const SceneObjects& objects, int rays, double reach,
 }
 
 void PointRays::spread(const Receiver& receiver, RayBatch* out) const {
-  constexpr double cell = 1.0 / 256;  // of the reach: rays are turned anew
+  constexpr double cell = 1.0 / 256;  // of the reach: in each cell rays are turned by another angle
   const glm::dvec3 size = glm::abs(receiver.position);
   const float off = std::max(lift_, surface_lift(std::max({size.x, size.y, size.z})));
   const double scale = receiver.owner.object >= 0

@@ -13,8 +13,8 @@ public:
   void begin_frame(const SceneObjects& objects, int rays, double reach, const AoKernels& kernels);
 
   float reach() const { return static_cast<float>(reach_); }
-  std::size_t batches() const { return pattern_.batches.size(); }  ///< a receiver
-  int rays() const { return pattern_.rays; }                       ///< a receiver
+  std::size_t batches() const { return pattern_.batches.size(); }  ///< per receiver
+  int rays() const { return pattern_.rays; }                       ///< per receiver
   /// Batches of the receiver's rays: they belong to its place on its object, not to the camera.
   void spread(const Receiver& receiver, RayBatch* out) const;
   /// Hidden share, 0..1, by the distances of all batches; without a hit a distance is the reach.

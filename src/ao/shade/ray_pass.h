@@ -19,7 +19,7 @@ struct RayRoom {
   std::vector<std::uint64_t> points;  ///< of each group
 };
 
-/// Open shares, 0..1, one per receiver; 1 where there is none. Returns the number of receivers; ends early,
+/// Openness, 0..1, one per receiver; 1 where there is none. Returns the number of receivers; ends early,
 /// with values missing, if `stop` is requested.
 std::uint64_t cast_receivers(const ReceiverSet& set, const PointRays& rays, const ReferenceRays& reference,
                              std::vector<float>& values, RayRoom& room, const StopFlag* stop);

@@ -70,7 +70,8 @@ void PixelReceivers::spread(std::span<const float> values, std::span<float> pixe
 }
 
 /// Joint bilateral: the 4 x 4 coarse pixels around, by their distance in the picture, how far each lies off
-/// this one's tangent plane and how their normals differ. Where none resembles, the one most alike counts.
+/// this one's tangent plane and how their normals differ. Where all of them differ, the one most alike
+/// counts.
 float PixelReceivers::blurred(std::span<const float> values, int x, int y) const {
   const std::size_t here = static_cast<std::size_t>(y) * static_cast<std::size_t>(frame_.points.width) +
                            static_cast<std::size_t>(x);

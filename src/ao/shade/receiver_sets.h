@@ -1,5 +1,5 @@
-// Where ambient occlusion is computed: at the pixels, at every second one in each direction, or at the
-// vertices of visible triangles; and how the pixels get their values from there.
+// Where ambient occlusion is computed: at all pixels, at one of N x N, or at the vertices of visible
+// triangles; and how the pixels get their values from there.
 #pragma once
 
 #include <span>

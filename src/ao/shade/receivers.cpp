@@ -15,7 +15,7 @@ void ReceiverMaker::fetch(std::span<const std::uint32_t> triangles) {
     last = id;
     fetched_[fetched_count_++].id = id;
   }
-  // One loop a step of indirection: no load waits for that of another triangle.
+  // One loop for each step of indirection: no load waits for that of another triangle.
   for (Fetched& f : fetched()) f.owner = objects_.owners[f.id];
   for (Fetched& f : fetched()) look_up(f);
   for (Fetched& f : fetched())

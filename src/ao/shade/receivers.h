@@ -31,7 +31,7 @@ public:
       : geometry_(geometry), objects_(objects) {}
 
   static constexpr std::size_t most_fetched = 16;
-  /// Prefetches the triangles of points (at most that many) about to be made, in their order: memory is slow,
+  /// Loads the triangles of points (at most most_fetched) about to be made, in their order: memory is slow,
   /// and here the waits for many overlap instead of following each other.
   void fetch(std::span<const std::uint32_t> triangles);
 

@@ -17,10 +17,10 @@ constexpr Value unknown = SurfaceSamples::unknown, near_wide = 1, near_half = 2,
 constexpr int flag_bits = 3;
 constexpr float most = 8190;
 constexpr float disagreement = 0.1f;  // neighbours that differ by more have their cell divided
-constexpr double near_steps = 1.5;    // closer things make samples come closer too
+constexpr double near_steps = 1.5;    // in steps of a grid: nearer things ask for a finer one
 constexpr std::size_t fewest_cells = 8;
 
-// What is missing is a sample or
+// What is missing is a sample, by its number, or one of these, by its number and a bit:
 constexpr std::uint64_t is_side = std::uint64_t{1} << 62;  // 2 x triangle + side: a small triangle's
 constexpr std::uint64_t is_cell = std::uint64_t{1} << 63;  // a cell's division
 
@@ -31,7 +31,7 @@ struct Values {
   int any() const { return v[0] | v[1] | v[2]; }
   /// Some buried, some not.
   bool mixed() const { return ((v[0] ^ v[1]) | (v[0] ^ v[2])) & buried; }
-  /// So much that straight lines between them do not hold.
+  /// By so much that linear interpolation between them does not hold.
   bool disagree() const {
     const int spread = std::max({v[0], v[1], v[2]}) - std::min({v[0], v[1], v[2]});
     return mixed() || static_cast<float>(spread) > most * (1 << flag_bits) * disagreement;
@@ -47,7 +47,7 @@ struct Values {
   }
 };
 
-/// Inside a side of a triangle.
+/// A point inside the triangle, on this side of it.
 SurfacePoint middle_of(std::uint64_t side) {
   return {static_cast<std::uint32_t>(side / 2), 0.25f, 0.25f, side % 2 == 0};
 }
@@ -312,7 +312,8 @@ void SelfOcclusion::learn(const SurfaceSamples& others) {
   const Value* from = others.values.data();
   for (const SurfaceSamples::Run& run : others.runs)
     for (std::uint32_t i = 0; i < run.count; ++i) take(values_[run.first + i], *from++);
-  // Of cells that others divided this frame may need none: half of the room stays for those that it does.
+  // This frame may need none of the cells that others divided: half of the room is left for those that it
+  // needs.
   const std::size_t most = std::min(others.cells.size(), most_cells_ / 2);
   for (std::size_t c = 0; c < most && add_cell(others.cells[c], Cell::learned); ++c) {
     const std::size_t to = std::size_t{cells_.find(others.cells[c])} * SurfaceLayout::cell_samples;

@@ -1,12 +1,12 @@
 // How much a body that keeps its shape hides itself: sampled over its surface as points are first seen, kept
-// for good, interpolated. Serves static geometry as well as rigidly moving objects: the samples of neither
-// ever change.
+// as long as there is room, interpolated. Serves static geometry as well as rigidly moving objects: the
+// samples of neither ever change.
 //
 // Samples lie on the triangles (surface_layout.h), so nothing seeps through walls. A point takes the widest
-// grid whose samples agree and see nothing closer than its own spacing; where even the finest disagree, the
-// cell is divided. Samples that lie inside something (most rays see backs) and those in the open are never
-// mixed. A sample depends on nothing but the shape and the reach, so what is interpolated does not depend on
-// which frame, thread or process saw it first.
+// grid whose samples agree and see nothing closer than one and a half of its steps; where even the finest
+// disagree, the cell is divided. Samples that lie inside something (most rays see backs) and those in the
+// open are never mixed. A sample depends on nothing but the shape and the reach, so what is interpolated does
+// not depend on which frame, thread or process saw it first.
 #pragma once
 
 #include <cstdint>
@@ -39,7 +39,7 @@ struct SurfaceSamples {
 
 class SelfOcclusion {
 public:
-  /// The most divided cells: some 40 MiB. Where there is room for no more, rays are cast.
+  /// The most divided cells: some 35 MiB. Where there is room for no more, rays are cast.
   static constexpr std::size_t most_cells = std::size_t{1} << 19;
 
   /// `reach`: where occlusion has fallen off to nothing, in units of the shape. Keeps references to all.
@@ -81,8 +81,8 @@ public:
             const std::function<void(double)>& progress, const StopFlag* stop);
 
   SurfaceSamples samples() const;
-  /// Adds what others, of the same shape and reach, know to a body that is laid; of their cells as many as
-  /// half of what may be divided, and as have room.
+  /// Adds the samples of `others`, of the same shape and reach, to a body that is laid; of their divided
+  /// cells at most half as many as may be divided, and as many as have room.
   void learn(const SurfaceSamples& others);
 
   double reach() const { return reach_; }

@@ -12,8 +12,8 @@ namespace {
 using glm::dvec3;
 using glm::vec3;
 
-constexpr std::uint32_t refinement = 4;  // fine steps a wide one
-constexpr double wide_steps = 12;        // a reach
+constexpr std::uint32_t refinement = 4;  // fine steps in a wide one
+constexpr double wide_steps = 12;        // wide steps in a reach
 constexpr std::uint32_t cell_steps = 4;  // of a divided cell
 static_assert((cell_steps + 1) * (cell_steps + 2) / 2 == SurfaceLayout::cell_samples);
 constexpr float pull = 0.25f;  // steps towards the middle of the triangle
@@ -30,7 +30,7 @@ GridPoint grid_point(std::uint32_t index, std::uint32_t steps) {
 std::size_t grids_size(std::uint32_t steps) {
   return level_start(levels_of(steps) - 1, steps) + grid_size(steps);
 }
-/// A point of one of them.
+/// A point of one of the grids.
 struct LevelPoint {
   int level;
   std::uint32_t i, j;  ///< in steps of the level

@@ -8,20 +8,20 @@
 namespace tenebra::ao {
 
 /// How far off the surface rays start: beyond the rounding to float of the point, and of the corners of two
-/// triangles that touch (each at most sqrt(3)/2 ulp of its largest coordinate; one ulp more for the sums).
+/// triangles that touch (each at most sqrt(3)/2 ulp of its largest coordinate; as much again for the sums).
 float surface_lift(double largest_coordinate);
 double largest_coordinate(const ObjectShape& shape);
 
 class SurfaceRays {
 public:
-  static constexpr int rays = 256;  ///< a point, about its shading normal
+  static constexpr int rays = 256;  ///< per point, about its shading normal
 
   /// `reach`: where occlusion has fallen off to nothing, in units of the shape. Keeps references to both.
   SurfaceRays(const ObjectShape& shape, const TriangleBvh& casters, double reach);
 
   struct Seen {
     float occlusion = 0;  ///< 0..1
-    float nearest = 0;    ///< distance of what is hit first, at most the reach; low things are looked for
+    float nearest = 0;    ///< distance of what is hit first, by grazing rays, too; at most the reach
     bool buried = false;  ///< most rays see the back of something
   };
   Seen look(const SurfacePoint& point, const AoKernels& kernels) const;

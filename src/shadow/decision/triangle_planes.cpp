@@ -80,23 +80,39 @@ void set_own_plane(TrianglePlanes& t, const vec3 v[3], const dvec3& origin, doub
   set_plane(t, 3, unit, glm::dot(unit, dvec3(v[0]) - origin) + tau, rho);
 }
 
-void set_sphere(TriangleBounds& b, const vec3 v[3], const RaySource& source) {
-  // The smallest sphere of a triangle: over its longest edge where it is obtuse, else its circumsphere; here
-  // the longest edge's midpoint with the distance to the far corner, at most 1.5 times as large (an
-  // equilateral triangle) and free of divisions by 0.
-  dvec3 centre(0);
+/// Around a triangle's corners; rounded up.
+struct Sphere {
+  dvec3 centre;
+  double radius;
+};
+
+Sphere sphere_around(const vec3 v[3], const dvec3& centre) {
+  double radius = 0;
+  for (int k = 0; k < 3; ++k) radius = std::max(radius, glm::length(dvec3(v[k]) - centre));
+  return {centre, radius * (1 + 0x1p-40)};
+}
+
+/// The smallest, up to rounding: over the longest edge of an obtuse triangle, else through the corners. Of
+/// both centres the one nearer to its farthest corner, so a circumcentre that is lost in rounding does no
+/// harm.
+Sphere smallest_sphere(const vec3 v[3]) {
+  dvec3 middle(0);
   double longest = -1;
   for (int k = 0; k < 3; ++k) {
     const dvec3 p = v[k], q = v[(k + 1) % 3];
     const double length2 = glm::dot(p - q, p - q);
-    if (length2 > longest) {
-      longest = length2;
-      centre = 0.5 * (p + q);
-    }
+    if (length2 > longest) longest = length2, middle = 0.5 * (p + q);
   }
-  double radius = 0;
-  for (int k = 0; k < 3; ++k) radius = std::max(radius, glm::length(dvec3(v[k]) - centre));
-  radius *= 1 + 0x1p-40;
+  const Sphere over_edge = sphere_around(v, middle);
+  const dvec3 a = v[0], b = dvec3(v[1]) - a, c = dvec3(v[2]) - a, n = glm::cross(b, c);
+  if (!(glm::dot(n, n) > 0)) return over_edge;
+  const dvec3 from_a = glm::dot(c, c) * glm::cross(n, b) + glm::dot(b, b) * glm::cross(c, n);
+  const Sphere through_corners = sphere_around(v, a + from_a / (2 * glm::dot(n, n)));
+  return through_corners.radius < over_edge.radius ? through_corners : over_edge;
+}
+
+void set_sphere(TriangleBounds& b, const vec3 v[3], const RaySource& source) {
+  const auto [centre, radius] = smallest_sphere(v);
   const dvec3 c = centre - source.origin;
   if (source.directional) {
     const double height = glm::dot(c, source.travel);

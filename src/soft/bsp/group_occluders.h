@@ -1,6 +1,7 @@
 // The occluders of one group of points as the BSP uses them: lines on the light's plane that move linearly
 // with the point. For a point P and an edge from a to b, the plane through the three has the normal n = (a-P)
-// x (b-a), and a point Q = origin + u ex + v ey of the light's plane lies on its side
+// x (b-a). On which side of it a place Q = origin + u ex + v ey of the light's plane lies is told by the sign
+// of
 //   n.(Q-P) = (n.ex) u + (n.ey) v + n.(origin-P),
 // whose coefficients are affine in P. Relative to the group's centre and in double.
 #pragma once
@@ -20,7 +21,7 @@ struct MovingLine {
   glm::dvec3 c[4];
 };
 
-/// The plane through the group's points and an edge in space, relative to the group's centre: the side of a
+/// The plane through a point of the group and an edge in space, relative to the group's centre: the side of a
 /// place v for the point d is normal.(v - a) - d.(along x (v - a)), positive inside the occluder.
 struct EdgePlane {
   glm::dvec3 a{0.0};
@@ -40,7 +41,7 @@ struct Occluder {
   std::uint32_t triangle = 0;
   std::uint32_t first_line = 0;
   std::uint32_t line_count = 0;  ///< 0: the light is dark for the whole group
-  int size = 0;  ///< class of the solid angle at the group's centre: its binary logarithm, rounded down
+  int size = 0;                  ///< class of the solid angle at the group's centre, as in Candidate
 };
 
 /// What the BSP is made of.
@@ -48,7 +49,8 @@ struct GroupOccluders {
   /// Triangles that shadow all points of the group from the same side, largest first (ties: by id). Lines
   /// that are positive for every point and all of the light are left out.
   std::vector<Occluder> occluders;
-  /// Triangles with points on both sides, or too near, or on the triangle itself.
+  /// Of triangles with points on both sides, or too near, or on the triangle itself: places in
+  /// GroupCandidates::all.
   std::vector<std::uint32_t> indefinite;
   std::vector<MovingLine> lines;
   std::vector<EdgePlane> planes;  ///< one for each line

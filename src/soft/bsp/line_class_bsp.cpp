@@ -65,7 +65,7 @@ LineClassBsp::Orientation LineClassBsp::orientation(std::uint32_t line, std::uin
 
 std::uint32_t LineClassBsp::pick(Range waiting) {
   if (choice_ == OccluderChoice::largest) return 0;
-  random_ = random_ * 1664525u + 1013904223u;  // a linear congruence: the same tree in every run
+  random_ = random_ * 1664525u + 1013904223u;  // linear congruential: the same tree in every run
   return static_cast<std::uint32_t>((std::uint64_t{random_} * waiting.count) >> 32);
 }
 

@@ -33,7 +33,7 @@ class ClipSolver {
   using Occluders = typename Sight::Occluders;
 
 public:
-  /// Takes over the candidates of a group in places `order`, largest first; some of them if `stop` is
+  /// Takes over the candidates of a group in places `order`, largest first; only some of them if `stop` is
   /// requested.
   void reset(const GroupCandidates& group, std::span<const std::uint32_t> order, const StopFlag* stop) {
     group_ = &group;
@@ -50,7 +50,7 @@ public:
     if (has_many()) bounds_.find(cold_);
   }
 
-  /// The next queries are about `at`, which stays where it is.
+  /// The next queries are about `at`, which must stay where it is.
   void move_to(typename Sight::At& at) {
     range_ = range_of(at);
     if (has_many()) {
@@ -79,8 +79,8 @@ public:
 private:
   static constexpr std::size_t few = 64;           ///< most occluders that one pass subtracts from a part
   static constexpr std::size_t ahead = 8;          ///< candidates are prefetched this many places ahead
-  static constexpr std::size_t look_after = 4096;  ///< candidates, for a stop
-  static constexpr std::size_t many = 48;  ///< from this many occluders on it pays to keep a few apart
+  static constexpr std::size_t look_after = 4096;  ///< candidates between two checks for a stop
+  static constexpr std::size_t many = 48;  ///< with more occluders than this it pays to keep a few apart
 
   /// Prefetches a candidate that will be added soon.
   static SIMD_INLINE void expect(const Candidate& c) {
@@ -99,7 +99,8 @@ private:
     subtract_few(cold_, boxes, met, light, out);
   }
 
-  /// Keeps apart those that took light from the last point, and sorts the others where there are more.
+  /// Adds to the hot ones the occluders that took light from the last point; where far more are hot than took
+  /// some, starts again with those that did.
   void choose_hot() {
     useful_.clear();
     for (std::size_t b = 0; b < hot_.block_count(); ++b) {
@@ -150,8 +151,9 @@ private:
   }
 
   /// Subtracts the blocks in places [first, last) from the parts in places [begin, end) of boxes_, which lie
-  /// in `box`. The parts are sorted by halves, as in the building of a tree of boxes, until they are few for
-  /// the blocks around them, and from there on with a list of the blocks' triangles.
+  /// in `box`. The parts are sorted by halves, as in the building of a tree of boxes, while the box that is
+  /// around them meets more than four blocks for each part, and from there on with a list of the blocks'
+  /// triangles.
   void subtract_blocks(const Parts& parts, std::size_t begin, std::size_t end, const LightBox<T>& box,
                        std::size_t first, std::size_t last, Parts& out) {
     const std::size_t middle = 4 * (end - begin) < last - first ? boxes_.halve(begin, end, box) : begin;
@@ -202,7 +204,7 @@ private:
     give_back(std::move(left));
   }
 
-  /// Appends `part` less the occluders in places [first, last), at most a few.
+  /// Appends `part` less the occluders in places [first, last), at most `few`.
   void subtract_listed(Occluders& c, std::size_t first, std::size_t last, const Part& part, Parts& out) {
     if (first == last) return out.push(part);
     subtract_few(c, c.list.from(first), lowest_bits(last - first), part, out);
@@ -240,7 +242,8 @@ private:
     }
   }
 
-  /// Chooses the first of the bits of `left` where there are too many for any order to do.
+  /// Subtracts first the occluder that overlaps `part` most, or, where there are so few that any order will
+  /// do, that of the first bit of `left`.
   SIMD_INLINE void subtract_widest(Occluders& c, const ShadowBoxes<T>& boxes, std::uint64_t left,
                                    typename Sight::OwnPart part, Parts& out) {
     const bool in_order = std::popcount(left) <= Sight::any_order;
@@ -265,7 +268,7 @@ private:
     out.push(part);
   }
 
-  /// A list with anything in it, and its memory if there is one to spare.
+  /// A list with anything in it: a spare one, for its memory, if there is one.
   template <class List>
   static List take(std::vector<List>& spare) {
     if (spare.empty()) return {};
@@ -291,7 +294,7 @@ private:
   bool blocks_listed_ = false;
   PartBoxes<T> boxes_;                    ///< of the parts that the hot ones leave
   Parts todo_;                            ///< parts that are still to be subtracted from
-  std::vector<std::uint64_t> todo_left_;  ///< which occluders, of each
+  std::vector<std::uint64_t> todo_left_;  ///< for each, the occluders that are left
   std::vector<Parts> spare_;
   std::vector<PartBoxes<T>> spare_boxes_;
 };

@@ -7,7 +7,7 @@ namespace tenebra::soft {
 
 /// Leaves room in packet_vertices for what cuts add.
 inline constexpr std::size_t most_packet_light_vertices = 8;
-/// Of more, in clouds and trees, neighbours see too different fragments (measured).
+/// With more, in clouds and trees, fragments differ too much from neighbour to neighbour (measured).
 inline constexpr std::size_t most_packet_occluders = 384;
 
 }  // namespace tenebra::soft

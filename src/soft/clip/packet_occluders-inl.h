@@ -22,7 +22,7 @@ struct alignas(64) PacketShadow {
   Float16 sides[4];  ///< of a box around it, as in BlockBoxes
 };
 
-/// The boxes around an occluder's shadow, corner after corner.
+/// The boxes around an occluder's shadow, grown corner by corner.
 class PacketBox {
 public:
   explicit PacketBox(const PacketPoints& at)
@@ -54,7 +54,7 @@ private:
 
 class PacketOccluders : public OccluderList<float, PointRange> {
 public:
-  /// `at` stays where it is until the next.
+  /// `at` must stay where it is until the next call.
   void move_to(PacketPoints& at) {
     at_ = &at;
     shadow_count_ = 0;
@@ -81,7 +81,8 @@ private:
     return bits(below(0) & below(1) & below(2) & below(3));
   }
 
-  /// Whether no line has all of a lane of `met` on its outside.
+  /// Cuts the shadow out of the lanes `met` of `part`: what they keep goes to `out`. False, and nothing done,
+  /// if each of them lies outside of one of the lines.
   HWY_NOINLINE bool cut_out(const PacketShadow& shadow, std::uint32_t met, PacketPart& part,
                             PacketParts& out) {
     const std::size_t before = out.size();
@@ -181,8 +182,8 @@ struct ManyPoints {
   using Bounds = PacketReach;
   using Parts = PacketParts;
   using Occluders = PacketOccluders;
-  static constexpr bool takes_all = false;  ///< what is subtracted leaves nothing of a part where it was
-  static constexpr int any_order = 0;       ///< occluders whose order does not matter
+  static constexpr bool takes_all = false;  ///< lanes that an occluder does not overlap stay in the part
+  static constexpr int any_order = 0;       ///< most occluders whose order does not matter
 };
 
 }  // namespace tenebra::soft::HWY_NAMESPACE

@@ -27,7 +27,7 @@ struct PacketPoints {
   LightAxes axes;
 
   std::uint32_t touched = 0;  ///< bits of the points that lost some of the light
-  bool failed = false;        ///< rounding needs more care than is taken here
+  bool failed = false;        ///< rounding is too delicate, or a polygon has too many vertices
 
   void add(const glm::dvec3& at, std::uint32_t on, double tau) {
     for (int c = 0; c < 3; ++c) position[c][count] = at[c];
@@ -95,7 +95,8 @@ SIMD_INLINE void compact_large(PacketPolygon& polygon, std::uint32_t lanes) {
   if (polygon.count > large) compact(polygon, lanes);
 }
 
-/// Greatest u, -least u, greatest v, -least v of the fragments of live lanes; of others, beyond the light.
+/// Greatest u, -least u, greatest v, -least v of the fragments of live lanes; for other lanes, values beyond
+/// the light.
 struct alignas(64) PacketReach {
   Float16 side[4];
 };

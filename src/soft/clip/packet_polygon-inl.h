@@ -18,8 +18,8 @@ inline constexpr int packet_vertices = 12;  ///< of a polygon, at most
 
 using PacketTruth = Mask<float, packet_size>;
 
-/// Vertex k of the polygons in x[k] and y[k], counter-clockwise. The vertices of a lane that has fewer than
-/// `count` are repeated next to themselves.
+/// Vertex k of the polygons in x[k] and y[k], counter-clockwise. A lane with fewer vertices than `count`
+/// repeats some of them, each next to itself.
 struct alignas(64) PacketPolygon {
   int count = 0;
   Float16 x[packet_vertices], y[packet_vertices];
@@ -95,8 +95,8 @@ SIMD_INLINE PacketPoint2 crossing_of(const PacketVertex& from, const PacketVerte
   return {from.x + t * (beyond.x - from.x), from.y + t * (beyond.y - from.y)};
 }
 
-/// One side of a cut: the vertices where `kept`, and in the place of the run of others `first` and then
-/// `second`. A run of one vertex in a lane of `cut` makes room for both.
+/// One side of a cut: the vertices that are `kept`, and in place of the run of those `dropped` first `first`
+/// and then `second`. Where that run is a single vertex, in a lane of `cut`, room is made for both.
 SIMD_INLINE void replace_run(const PacketPolygon& polygon, const PacketTruth (&kept)[packet_vertices],
                              const PacketTruth (&dropped)[packet_vertices], PacketTruth cut,
                              const PacketPoint2& first, const PacketPoint2& second, PacketPolygon& out) {
@@ -124,7 +124,7 @@ SIMD_INLINE void replace_run(const PacketPolygon& polygon, const PacketTruth (&k
 
 /// Both parts of the polygons in the lanes of `cut`, which have vertices strictly on both sides; vertices on
 /// the line go with the negative side. In the other lanes, `positive` is the polygon as it was, `negative`
-/// anything. False where rounding breaks the vertices of a thin polygon in more than two runs, or there are
+/// anything. False where rounding breaks the vertices of a thin polygon into more than two runs, or there are
 /// too many.
 SIMD_INLINE bool split(const PacketPolygon& polygon, PacketValues& line, std::uint32_t cut,
                        PacketPolygon& positive, PacketPolygon& negative) {

@@ -39,8 +39,8 @@ public:
   glm::dvec3 to_origin(std::size_t k) const { return {to_origin_[0][k], to_origin_[1][k], to_origin_[2][k]}; }
   glm::dvec3 normal(std::size_t k) const { return {normal_[0][k], normal_[1][k], normal_[2][k]}; }
 
-  /// Finds what the points (at least one) see of the light; false, and nothing found, where rounding needs
-  /// more care than is taken here.
+  /// Finds what the points (at least one) see of the light; false, and nothing found, where rounding is too
+  /// delicate or a polygon gets too many vertices: then they have to be solved one by one.
   HWY_NOINLINE bool solve(const LightFrame& light, const LightAxes& axes) {
     points_.place_in(axes);
     find_sight(light, 0);
@@ -61,7 +61,7 @@ public:
   }
   /// Whether nothing hides any of the light from this point, and no horizon cuts it.
   bool sees_all(std::size_t k) const { return (whole_ >> k & 1u) != 0; }
-  /// Of the others: what is visible, in units of the light squared, and what it sends.
+  /// For the others: the visible area, in units of the light squared, and the irradiance that it sends.
   double area(std::size_t k) const { return 0.5 * area_[k]; }
   double irradiance(std::size_t k) const { return 0.5 * irradiance_[k]; }
   std::uint64_t fragments() const { return fragments_; }
@@ -141,7 +141,7 @@ private:
     for (int first = 0; first < packet_size; first += 8) add_irradiance(light, part, first);
   }
 
-  /// Of the lanes from `first` on.
+  /// For the eight lanes from `first` on.
   HWY_NOINLINE void add_area(const PacketPart& part, int first) {
     const PacketPolygon& p = part.polygon;
     const std::uint32_t live = part.live >> first & 0xffu;

@@ -10,11 +10,11 @@ namespace tenebra::soft {
 
 namespace {
 
-// Ranges of fewer groups are split by one thread.
+// Ranges of at most this many groups are split by one thread.
 constexpr std::uint32_t serial_groups = 1024;
 
-// Splits ranges of keys, and makes the nodes of the tree: a range of n groups has 2 n - 1, of which the two
-// children of the first come first, then what is below the one, then what is below the other.
+// Splits ranges of keys, and makes the nodes of the tree: a range of n groups has 2 n - 1. After the first
+// node come its two children, then what is below the one child, then what is below the other.
 class TreeBuilder {
 public:
   TreeBuilder(std::span<GroupKey> keys, PointGroups& out) : keys_(keys), out_(out) {}

@@ -8,7 +8,7 @@
 
 namespace tenebra::soft {
 
-/// A group somewhere, and about where its points are.
+/// A group, wherever it is stored, and roughly where its points are.
 struct GroupKey {
   glm::vec3 centre{0.0f};
   const PointGroup* group = nullptr;

@@ -27,7 +27,7 @@ struct PointGroup {
   Cell cell;                                             ///< around the points, little larger than needed
 };
 
-/// A range of groups with the box of its points. Children follow each other; those of node 0 are the whole.
+/// A range of groups with the box of their points. Children follow each other; node 0 holds all groups.
 struct GroupNode {
   glm::dvec3 low{0.0}, high{0.0};
   std::uint32_t first = 0, count = 0;  ///< groups
@@ -40,7 +40,7 @@ struct PointGroups {
   std::vector<GroupNode> nodes;    ///< node 0 is the root; none without groups
   std::vector<PointGroup> groups;  ///< near ones in space near in the list
   std::vector<std::uint32_t>
-      pixels;                       ///< in the groups' ranges every active pixel once, between them nothing;
+      pixels;                       ///< in the groups' ranges every active pixel once, between them anything;
                                     ///< in a neighbourhood along a Z curve: any range lies together
   std::vector<Receiver> receivers;  ///< group after group; each triangle once for each group, ascending
 

@@ -24,8 +24,8 @@ struct PointBox {
 };
 
 struct PointLanes {
-  std::vector<double> x, y, z;     ///< world space; as many as a multiple of eight
-  std::vector<float> column, row;  ///< of the picture, from anywhere
+  std::vector<double> x, y, z;     ///< world space; a multiple of eight of each
+  std::vector<float> column, row;  ///< in the picture, counted from anywhere
 
   void resize(std::size_t count) {
     for (auto* values : {&x, &y, &z}) values->resize(count);
@@ -41,14 +41,14 @@ using PointSet = std::span<const std::uint8_t>;
 struct Slices {
   static constexpr int count = 16;
   int axis = 0;
-  double low = 0, scale = 0;  ///< slice: (coordinate - low) * scale, rounded down; the last has its end, too
+  double low = 0, scale = 0;  ///< slice: (coordinate - low) * scale, rounded down; the last includes its end
 };
 
 /// The same bits on every instruction set.
 struct PointKernels {
-  /// Points, eight of a row, that are followed by others in memory.
+  /// Puts eight points, which follow each other in memory, at places `first` to first + 7.
   void (*put_eight)(const glm::dvec3* from, PointLanes& to, std::size_t first) = nullptr;
-  /// Bit k: value k of the 64.
+  /// Bit k: whether value k of the 64 is `value`.
   std::uint64_t (*equal)(const std::uint32_t* values, std::uint32_t value) = nullptr;
   /// Bit k: whether point first + k of 64 may lie in front of the light's plane.
   std::uint64_t (*in_front)(const PointLanes& points, const LightShape& light, std::size_t first) = nullptr;
@@ -57,9 +57,9 @@ struct PointKernels {
   std::uint32_t (*taken)(const PointLanes& points, PointSet set, const Slices& slices) = nullptr;
   /// Bit k: whether point k of 64 lies below the slice `end`.
   std::uint64_t (*below)(const PointLanes& points, const Slices& slices, int end) = nullptr;
-  /// A cell around points with the box low..high, whose first edges follow the picture's rows and columns:
-  /// for points of one plane it is flat, and little larger than their hull. Falls back to the box where
-  /// rows and columns have no two directions.
+  /// A cell around points with the bounds `box`, whose first two axes follow the picture's rows and columns:
+  /// for points of one plane it is flat, and little larger than their hull. Falls back to the box where rows
+  /// and columns run almost the same way.
   Cell (*fitted_cell)(const PointLanes& points, PointSet set, const PointBox& box,
                       const LightShape& light) = nullptr;
   /// The least m.(p - light.origin).

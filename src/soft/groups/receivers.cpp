@@ -17,8 +17,8 @@ using glm::dvec3;
 
 constexpr double infinity = std::numeric_limits<double>::infinity();
 
-/// The light sinks below the triangle's plane, or nearly so: how much of it the triangle's lifted points may
-/// see.
+/// The light sinks below the triangle's plane, or nearly so: finds whether points lifted off the triangle may
+/// see some of what lies there.
 void see_lifted(const TriangleView& triangles, const ViewRays& view, const LightShape& light,
                 LitTriangle& lit) {
   const points::SmoothSurface smooth = points::smooth_surface(triangles, lit.receiver.triangle, view);
@@ -70,10 +70,10 @@ LitTriangle lit_triangle(const TriangleView& triangles, std::uint32_t id, const 
   return lit;
 }
 
-// A line from P to Q meets T at X, more than tau_R off P as T must be off P's side of its plane. With h the
-// height over the receiver's plane, h(X) >= h(P) + tau_R h(Q) / |PQ|: a triangle that stays below that blocks
-// nothing (but for slivers thinner than 2^-47 of their length, whose n is rounding). Where the light sinks
-// below the receiver's horizon only lines that rise count: h(X) >= h(P).
+// A line from P to Q meets T at X, more than tau_R away from P, as P lies more than that off T's plane. With
+// h the height over the receiver's plane, h(X) >= h(P) + tau_R h(Q) / |PQ|: a triangle that stays below that
+// blocks nothing (but for slivers thinner than 2^-47 of their length, whose n is rounding). Where the light
+// sinks below the receiver's horizon only lines that rise count: h(X) >= h(P).
 Receiver receiver_of(const LitTriangle& triangle, double lowest_point, const Cell& cell,
                      const LightShape& light) {
   Receiver receiver = triangle.receiver;
@@ -81,7 +81,7 @@ Receiver receiver_of(const LitTriangle& triangle, double lowest_point, const Cel
     receiver.limit = -infinity;
     return receiver;
   }
-  // tau over sqrt(3) 2^-24: the receiver's largest |coordinate|
+  // tau / 2^-24 is sqrt(3) times the receiver's largest |coordinate|.
   const double margin =
       0x1p-46 * (cell.reach + light.place_reach() + largest(light.origin) + receiver.tau * 0x1p24);
   const double light_height = triangle.light_height - light.weight * triangle.level;

@@ -24,13 +24,13 @@ struct Receiver {
   double limit = 0;
 };
 
-/// What a triangle is to a light, whichever points of it are seen.
+/// How a triangle lies relative to a light, whichever of its points are seen.
 struct LitTriangle {
   Receiver receiver;         ///< but for the limit
   bool light_above = false;  ///< a part of the light may be on the seen side of the plane or, lifted, of one
                              ///< across a vertex's normal
   double level = 0;          ///< m.(v - light's centre) of the plane
-  double light_height = 0;   ///< m.(v - light's centre) of the light's lowest vertex; of a sun m.v
+  double light_height = 0;   ///< m.(v - light's centre) of the light's lowest vertex; for a sun m.v
 };
 LitTriangle lit_triangle(const TriangleView& triangles, std::uint32_t id, const ViewRays& view,
                          const LightShape& light);

@@ -102,11 +102,11 @@ std::uint64_t Tile::find_receivers() {
   return active;
 }
 
-// Splits where five of sixteen slices across the longest side are empty: rows of pixels evenly spaced along
-// it leave at most two, so this is a gap in depth.
+// Splits where five slices in a row, of sixteen across the longest side, are empty: rows of pixels evenly
+// spaced along it leave at most two, so this is a gap in depth.
 constexpr int slices_of_a_gap = 5;
 
-// The last slice of the first gap, or 0.
+// The fifth empty slice of the first gap, or 0.
 int gap_of(std::uint32_t taken) {
   int run = 0;
   for (int k = 0; k < Slices::count; ++k) {

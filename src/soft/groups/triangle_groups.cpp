@@ -7,7 +7,7 @@ namespace tenebra::soft {
 
 namespace {
 
-// By counting.
+// Sorts by counting.
 void sort_pixels(const VisiblePoints& points, std::size_t triangle_count, PixelsByTriangle& by) {
   by.ends.assign(triangle_count + 1, 0);
   for (const std::uint32_t id : points.triangles)

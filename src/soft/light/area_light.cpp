@@ -78,7 +78,7 @@ dvec3 mean_of(std::span<const vec3> vertices) {
   return origin + sum / static_cast<double>(vertices.size());
 }
 
-/// Sets ex along the longest edge, ey at its left.
+/// Sets ex along the longest edge and ey to its left, as seen from the front.
 void set_axes(AreaLight& light) {
   const std::size_t count = light.vertices.size();
   double longest = 0;
@@ -103,8 +103,9 @@ double distance_to_segment(const dvec2& p, const dvec2& a, const dvec2& b) {
 }
 
 /// Indices of the corners that are left when vertices on the straight line between their neighbours are
-/// dropped. Straight is what bends by 2 tau at most (a vertex and its neighbours move by tau each), measured
-/// on all vertices between the two that stay, so that many small bends do not add up.
+/// dropped. A line that bends by at most 2 tau counts as straight (a vertex and its neighbours may each be
+/// off by tau). The bend is measured at all vertices between the two that stay, so that many small bends do
+/// not add up.
 std::vector<std::size_t> corners_of(const std::vector<dvec2>& points, double tolerance) {
   std::vector<std::size_t> kept(points.size());
   for (std::size_t i = 0; i < kept.size(); ++i) kept[i] = i;
@@ -125,12 +126,12 @@ std::vector<std::size_t> corners_of(const std::vector<dvec2>& points, double tol
 
 struct Bend {
   std::size_t from, to;  ///< an edge
-  std::size_t vertex;    ///< a corner that does not lie at its left
+  std::size_t vertex;    ///< a corner that does not lie to its left
   double outside_m;
 };
 
-/// The worst corner that is not strictly at the left of an edge of others. None: every edge lies on the hull,
-/// so the polygon is its own hull, walked round once.
+/// The corner that lies farthest outside an edge of others, of those not strictly to the left of one. None:
+/// every edge lies on the hull, so the polygon is its own hull, walked round once.
 std::optional<Bend> worst_bend(const std::vector<dvec2>& points, const std::vector<std::size_t>& corners) {
   std::optional<Bend> worst;
   for (std::size_t k = 0; k < corners.size(); ++k) {
@@ -190,12 +191,12 @@ Expected<AreaLight> finish(AreaLight light, double tau) {
 
 }  // namespace
 
-// Planarity. Let every vertex lie within tau of an ideal plane, c be the mean of the vertices, n Newell's
-// sum, A its length. With heights h_j over the ideal plane, vertex i lies h_i - mean(h) - dn.(v_i - c) / A
-// off the plane through c with normal n, where dn = 1/2 sum h_j n x (v_j+1 - v_j-1). So |dn.(v_i - c)| <= tau
-// sum |e_j x (v_i - c)| over the edges e_j = 2 tau w |v_i - c|, w the width of the polygon across v_i - c. A
-// convex polygon contains c, a chord through it along v_i - c, and a point on either side of the chord, w
-// apart: A >= w |v_i - c| / 2. Hence at most (1 + 1 + 4) tau.
+// Planarity. Let every vertex lie within tau of an ideal plane, c be the mean of the vertices, A the length
+// of Newell's sum and n its unit vector. With heights h_j over the ideal plane, vertex i lies h_i - mean(h) -
+// dn.(v_i - c) / A off the plane through c with normal n, where dn = 1/2 sum h_j n x (v_j+1 - v_j-1). So
+// |dn.(v_i - c)| <= tau sum |e_j x (v_i - c)| over the edges e_j = 2 tau w |v_i - c|, w the width of the
+// polygon across v_i - c. A convex polygon contains c, a chord through it along v_i - c, and a point on
+// either side of the chord, w apart: A >= w |v_i - c| / 2. Hence at most (1 + 1 + 4) tau.
 Expected<AreaLight> make_area_light(std::span<const vec3> vertices) {
   if (vertices.size() < min_vertices || vertices.size() > max_vertices)
     return base::fail("area light: found a polygon of {} vertices, expected {} to {}", vertices.size(),
@@ -245,7 +246,8 @@ Expected<AreaLight> make_sun(vec3 to_sun, double diameter_deg) {
   if (!std::isfinite(to_sun.x) || !std::isfinite(to_sun.y) || !std::isfinite(to_sun.z) || to_sun == vec3(0))
     return base::fail("sun: found the direction ({}, {}, {}), expected finite coordinates, not all zero",
                       to_sun.x, to_sun.y, to_sun.z);
-  // The sum over its edges is off by 1e-13 of their lengths: of smaller suns by more than 1e-4 of the light.
+  // The sum over the edges is off by 1e-13 of their lengths: for smaller suns that is more than 1e-5 of the
+  // light.
   constexpr double least = 1e-6;
   if (!(diameter_deg >= least && diameter_deg <= 90))
     return base::fail("sun: found a diameter of {} degrees, expected one from {} to 90", diameter_deg, least);
@@ -256,7 +258,8 @@ Expected<AreaLight> make_sun(vec3 to_sun, double diameter_deg) {
       static_cast<float>(twelve_gon_radius * std::tan(diameter_deg * (std::numbers::pi / 360)));
   for (std::size_t i = 0; i < twelfths.size(); ++i)
     light.polygon.emplace_back(radius * twelfths[i], radius * twelfths[(i + 9) % 12]);
-  // Along the axes first: there the sum over the edges loses nothing, however small they are.
+  // The area is found with the sun along an axis: there the sum over the edges loses nothing, however small
+  // they are.
   light.ey = {0, -1, 0}, light.centre = {0, 0, 1}, light.normal = -light.centre;
   light.area_m2 = soft::whole_irradiance(light, dvec3(0), light.centre);
   const dvec3 way(to_sun);

@@ -13,16 +13,19 @@ namespace {
 
 using glm::dvec3;
 
-/// Up to 14 vertices, and one more for each of two planes.
+/// Up to 14 vertices, and one more for the cut by a plane. Rounding makes more where that is the polygon's
+/// own plane: those are left out, as all of the polygon is seen edge-on then.
 struct Corners {
   std::array<dvec3, 16> at;
   std::size_t count = 0;
-  void add(const dvec3& corner) { at[count++] = corner; }
+  void add(const dvec3& corner) {
+    if (count < at.size()) at[count++] = corner;
+  }
   const dvec3& after(std::size_t i) const { return at[i + 1 < count ? i + 1 : 0]; }
 };
 
-// Elementary functions by their series alone, so that every machine has the same bits. Both halve their
-// argument until it is at most 0.2: the first power left out is below 0.2^21 / 21 = 1e-16 of the first kept.
+// Elementary functions by their series alone, so that every machine has the same bits. Both halve the result
+// until the argument is at most 0.2: the first term left out is at most 0.2^20 / 21 = 5e-16 of the first one.
 
 double series(double q, double sign) {
   const double y = sign * q * q;
@@ -43,7 +46,7 @@ double angle_of(double x, double y) {
   if (y > std::abs(x)) angle = 0.5 * std::numbers::pi - angle;
   return x < 0 ? std::numbers::pi - angle : angle;
 }
-/// Inverse hyperbolic tangent of 0 <= q <= 1; of 1 what 1 - 2^-52 has.
+/// Inverse hyperbolic tangent of 0 <= q <= 1; for 1, its value at 1 - 2^-52.
 double artanh(double q) {
   q = std::min(q, 1 - 0x1p-52);
   double scale = 1;
@@ -54,7 +57,7 @@ double artanh(double q) {
   return scale * series(q, 1);
 }
 
-/// The light's polygon as seen from `at`, its part on the normal's side.
+/// The part of the light's polygon that lies on the normal's side of `at`, relative to `at`.
 Corners seen_above(const AreaLight& light, const dvec3& at, const dvec3& normal) {
   Corners whole, above;
   const dvec3 way = light.at_infinity ? light.centre : light.centre - at;
@@ -70,7 +73,8 @@ Corners seen_above(const AreaLight& light, const dvec3& at, const dvec3& normal)
   return above;
 }
 
-/// Of the polygon, as a fan (Van Oosterom and Strackee 1983); positive seen from the light's front.
+/// The polygon's solid angle, by a fan of triangles (Van Oosterom and Strackee 1983); positive if seen from
+/// the light's front.
 double solid_angle(const Corners& corners, const dvec3& light_normal) {
   double sum = 0;
   const dvec3 a = corners.at[0];

@@ -21,8 +21,8 @@ Vector16 load3(const float (&from)[3][EvenBlock::capacity]) {
 
 /// Gauss' rule of 3 x 3 places. n.q / |q|^3 is a derivative of the harmonic 1 / |q|, whose derivatives of
 /// order 7 are at most 7! / |q|^8 (Legendre's polynomials are at most 1), and the rule of three errs by the
-/// sixth derivative along an axis over 15750, times 1/2 as a mean over [-1, 1]. So with half axes a, b of
-/// a^2 + b^2 = 1 and the centre at distance d it is off by at most 5040 / 31500 (a^6 + b^6) / (d - 1)^8,
+/// sixth derivative along an axis over 15750, times 1/2 as a mean over [-1, 1]. So with half axes a, b, where
+/// a^2 + b^2 <= 1, and the centre at distance d it is off by at most 5040 / 31500 (a^6 + b^6) / (d - 1)^8,
 /// which from 7 on is less than 5e-6 / d^2; floats add less than 2e-6.
 std::uint32_t even_by_rule(const EvenRectangle& light, EvenBlock& block) {
   const auto number = [](float value) { return broadcast<Float16>(value); };
@@ -81,7 +81,7 @@ void EvenBlock::add(const EvenRectangle& light, std::uint32_t pixel, const Visib
                     std::span<const glm::vec3> normals) {
   const glm::dvec3 to = (light.centre - points.positions[pixel]) / light.unit_m;
   for (int c = 0; c < 3; ++c) {
-    // Whatever is no parallelogram is not far enough.
+    // A light that is no parallelogram is put at distance 0, too near for the rule.
     to_centre[c][count] = light.is_one ? static_cast<float>(to[c]) : 0.0f;
     normal[c][count] = normals[pixel][c];
   }

@@ -13,7 +13,7 @@
 
 namespace tenebra::soft {
 
-/// A parallelogram, in units of its half diagonal: the rule takes no others.
+/// A light that is a parallelogram, in units of its longer half diagonal: the rule takes no other lights.
 struct EvenRectangle {
   bool is_one = false;
   glm::dvec3 centre{0.0};

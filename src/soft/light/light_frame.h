@@ -15,11 +15,11 @@ struct LightFrame {
       normal{0.0};                  ///< ex, ey orthogonal and of one length; normal unit
   std::vector<glm::dvec2> polygon;  ///< counter-clockwise seen from the front
   double area = 0;                  ///< of the polygon, units of the light squared
-  /// The fourth, homogeneous coordinate of all its places: 1, or 0 of a sun, whose places are directions.
+  /// The fourth, homogeneous coordinate of all its places: 1, or 0 for a sun, whose places are directions.
   double weight = 1;
 
   glm::dvec3 point(glm::dvec2 at) const { return origin + at.x * ex + at.y * ey; }
-  /// From `from` to the origin; of a sun the same from everywhere.
+  /// From `from` to the origin; for a sun the same from everywhere.
   glm::dvec3 way_from(const glm::dvec3& from) const { return origin - weight * from; }
 };
 

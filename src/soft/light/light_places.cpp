@@ -9,7 +9,7 @@ namespace {
 
 using glm::dvec2;
 
-/// Where the line at `x` crosses a convex polygon: from x() to y().
+/// The chord of a convex polygon on the line at `x`: from its .x to its .y.
 dvec2 chord_at(const std::vector<dvec2>& polygon, double x) {
   dvec2 chord(INFINITY, -INFINITY);
   const auto meet = [&](double y) { chord = {std::min(chord.x, y), std::max(chord.y, y)}; };
@@ -58,7 +58,8 @@ ShadowLight light_at(const AreaLight& light, const glm::vec3& place) {
 }
 
 dvec2 sobol_place(std::uint32_t index) {
-  // Digits 0101... and 1010... are a third and two thirds, wherever they are cut off.
+  // The digits beyond those that `index` sets are 0101... or 1010...: a third or two thirds of a cell's side,
+  // wherever they begin.
   std::uint32_t x = 0x55555555u, y = 0xaaaaaaaau, column = 1u << 31, digit = 1u << 31;
   for (; index != 0; index >>= 1, digit >>= 1, column ^= column >> 1) {
     if ((index & 1u) == 0) continue;

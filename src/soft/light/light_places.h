@@ -1,4 +1,4 @@
-// Points spread over an area light.
+// Places spread over an area light.
 #pragma once
 
 #include <cstdint>
@@ -10,12 +10,13 @@
 
 namespace tenebra::soft {
 
-/// The unit square laid over the light's polygon: equal areas of it are equal areas of the light.
+/// A map of the unit square onto the light's polygon: equal areas of the square become equal areas of the
+/// light.
 class LightPlaces {
 public:
   explicit LightPlaces(const AreaLight& light);
 
-  /// `across`, `along`: 0..1. World space; of a sun a direction.
+  /// `across`, `along`: 0..1. World space; for a sun a direction.
   glm::vec3 at(double across, double along) const;
   const AreaLight& light() const { return *light_; }
   double area() const { return area_; }  ///< of the polygon, in square units of its coordinates
@@ -33,11 +34,11 @@ private:
   double area_ = 0;
 };
 
-/// The polygon that the places lie on.
+/// The light without an area at a place of `light`: a point light, or a directional one for a sun.
 ShadowLight light_at(const AreaLight& light, const glm::vec3& place);
 
-/// Place `index` of Sobol's sequence in the unit square (Bratley and Fox 1988): of any 2^m that follow each
-/// other from a multiple of 2^m on, one lies in each cell of every grid of 2^a by 2^(m-a) cells, none on an
+/// Place `index` of Sobol's sequence in the unit square (Bratley and Fox 1988): of any 2^m consecutive places
+/// that begin at a multiple of 2^m, one lies in each cell of every grid of 2^a by 2^(m-a) cells, none on an
 /// edge.
 glm::dvec2 sobol_place(std::uint32_t index);
 

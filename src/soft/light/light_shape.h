@@ -1,6 +1,6 @@
 // The light's polygon relative to its centre, as shafts and groups of points are measured against it. Places
-// have a fourth, homogeneous coordinate, the light's `weight`: q - weight * p is the way from p to q, of a
-// sun, of weight 0, the same from everywhere.
+// have a fourth, homogeneous coordinate, the light's `weight`: q - weight * p is the way from p to q; for a
+// sun, of weight 0, it is the same from everywhere.
 #pragma once
 
 #include <tenebra/area_light.h>
@@ -18,11 +18,11 @@ inline double largest(const glm::dvec3& v) {
 }
 
 /// The light's polygon relative to its centre. Vertices are known within 2^-50 (reach + |centre|), which the
-/// margins of the tests hold.
+/// margins of the tests include.
 struct LightShape {
   explicit LightShape(const AreaLight& light);
 
-  glm::dvec3 origin{0.0};  ///< the light's centre, of a sun the world's; world space
+  glm::dvec3 origin{0.0};  ///< the light's centre, for a sun the world's origin; world space
   glm::dvec3 normal{0.0};
   double weight = 1;       ///< 0: a sun; its vertices are directions, within 2^-50
   glm::dvec3 middle{0.0};  ///< of the vertices

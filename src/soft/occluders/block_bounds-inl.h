@@ -32,7 +32,7 @@ public:
     }
   }
 
-  /// The list of blocks with shadows, from its beginning on.
+  /// Fills `list`, from its beginning on, with the blocks that may shadow a part of the light.
   HWY_NOINLINE void list_at(const auto& at, ShadowList<T>& list) const {
     list.shrink(0);
     for (std::size_t from = 0; from < count_; from += 16) {

@@ -17,8 +17,8 @@ std::uint32_t size_rank(const Candidate& c, int width, std::uint32_t ranks) {
       std::clamp((largest_size - c.size) / width, 0, static_cast<int>(ranks) - 1));
 }
 
-// Where the middle of the triangle's shadow lies on the light, seen from the group's centre, along a Morton
-// curve.
+// Where the middle of the triangle's shadow lies on the light, seen from the group's centre, as a place along
+// a Morton curve.
 std::uint32_t cell_of(const Candidate& c, const LightAxes& axes) {
   double sum[3] = {};
   for (const auto& corner : c.corners)

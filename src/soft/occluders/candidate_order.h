@@ -12,9 +12,10 @@ namespace tenebra::soft {
 /// Sorts candidates by counting, in buffers of its own.
 class CandidateOrder {
 public:
-  /// `places` in GroupCandidates::all, in classes of size, largest first; where they are many, in a class by
-  /// where they stand before the light, so that sixteen in a row lie near each other. What comes first stays
-  /// so otherwise: neighbours of a mesh eat up the light from one side.
+  /// `places` in GroupCandidates::all, in classes of size, largest first; where they are many, those of a
+  /// class by where their shadows lie on the light, so that sixteen in a row lie near each other. Otherwise
+  /// their order stays: neighbours in a mesh follow each other, and take the light away from one side. Valid
+  /// until the next call.
   std::span<const std::uint32_t> sorted(const GroupCandidates& candidates,
                                         std::span<const std::uint32_t> places);
 

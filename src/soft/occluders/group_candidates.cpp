@@ -24,8 +24,8 @@ struct LaneResults {
   double corners[3][3][8];
   double plane[3][8];
   double normal[3][8], height[8], length[8], tau[8], solid_angle[8];
-  std::uint32_t never = 0, in_front = 0, behind = 0;   ///< of all points against the triangle
-  std::uint32_t light_in_front = 0, light_behind = 0;  ///< of all of the light
+  std::uint32_t never = 0, in_front = 0, behind = 0;   ///< it blocks no point; all are in front of it, behind
+  std::uint32_t light_in_front = 0, light_behind = 0;  ///< all of the light is
   std::uint32_t stands_between = 0;
 };
 
@@ -135,8 +135,8 @@ private:
           lanes_.solid_angle);
   }
 
-  /// Corners in the light's axes, and which triangles stand between: so far above the points that the
-  /// division by the height loses no more than 16 bits.
+  /// Corners in the light's axes, and which triangles stand between: below the light's plane, and so far
+  /// above the points that the division by the height loses no more than 16 bits.
   SIMD_INLINE void find_corners(const LightFrame& light, const GroupFrame& group, const LightAxes& axes,
                                 const Vector8* v, const Vector8* from) {
     const auto along = [&](const glm::dvec3& a, const Vector8& b) {

@@ -9,7 +9,7 @@
 
 namespace tenebra::soft {
 
-/// A point as a group knows it.
+/// A point relative to the centre of its group and to the light.
 struct GroupPoint {
   glm::dvec3 from_centre{0.0};  ///< world space
   glm::dvec3 in_axes{0.0};      ///< the same in the light's axes

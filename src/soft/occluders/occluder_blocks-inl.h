@@ -1,5 +1,5 @@
-// Occluders of a group in blocks of sixteen, largest first, and at one point, block by block as they are
-// asked for: the boxes of their shadows on the light's plane and their lines there. Included once per target.
+// Occluders of a group in blocks of sixteen, and the boxes around their shadows on the light's plane as a
+// point, or points of a range, see them. Included once per target.
 #if defined(TENEBRA_SOFT_OCCLUDER_BLOCKS_INL_H_) == defined(HWY_TARGET_TOGGLE)
 #ifdef TENEBRA_SOFT_OCCLUDER_BLOCKS_INL_H_
 #undef TENEBRA_SOFT_OCCLUDER_BLOCKS_INL_H_
@@ -67,9 +67,9 @@ SIMD_INLINE Wide wide(double value) {
   return broadcast<Wide>(value);
 }
 
-/// Least and greatest u (axis 0) or v (1) that a place between `low` and `high` is seen at from points of a
-/// range, where the way to the light's plane is t0 to t1 times that to the place. Linear in the point and in
-/// t: the extremes are at the ends.
+/// Widens least_at and most_at by the u (axis 0) or v (1) at which a place between `low` and `high` is seen
+/// from points of a range, where the way to the light's plane is t0 to t1 times that to the place. Linear in
+/// the point and in t: the extremes are at the ends.
 SIMD_INLINE void shadow_range(const PointRange& at, int axis, Wide low, Wide high, Wide t0, Wide t1,
                               Wide& least_at, Wide& most_at) {
   for (const double place : {at.low[axis], at.high[axis]}) {
@@ -80,7 +80,8 @@ SIMD_INLINE void shadow_range(const PointRange& at, int axis, Wide low, Wide hig
   }
 }
 
-/// Least and minus greatest values of shadows on an axis, of those without bounds at most 2.
+/// Least and minus greatest values of shadows on an axis, cut off at -2 and 2, to which shadows without
+/// bounds reach.
 struct ShadowSides {
   Wide low, minus_high;
 };
@@ -101,7 +102,7 @@ SIMD_INLINE void store_sides(Bounded bounded, const Wide (&low)[2], const Wide (
   }
 }
 
-/// Boxes of the shadows on the light's plane that a point sees. An occluder all at or below its height
+/// Boxes of the shadows on the light's plane that a point sees. An occluder wholly at or below its height
 /// shadows nothing; one that is partly so may shadow all.
 template <class T>
 HWY_NOINLINE void find_boxes(const OccluderBlock& block, const GroupPoint& at, BlockBoxes<T>& out) {
@@ -123,8 +124,8 @@ HWY_NOINLINE void find_boxes(const OccluderBlock& block, const GroupPoint& at, B
   out.lanes = block.lanes & lt_bits(zero, highest);
 }
 
-/// The same for the shadows that points of a range may see. An occluder all at or below the
-/// lowest point shadows nothing; one that is partly at or below the highest may shadow all.
+/// The same for the shadows that points of a range may see. An occluder wholly at or below the lowest point
+/// shadows nothing; one that is partly at or below the highest may shadow all.
 template <class T>
 HWY_NOINLINE void find_boxes(const OccluderBlock& block, const PointRange& at, BlockBoxes<T>& out) {
   const Wide far = wide(1e30), zero = wide(0), one = wide(1);

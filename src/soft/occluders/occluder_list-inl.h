@@ -26,13 +26,13 @@ public:
     heights_ = heights;
     count_ = 0;
   }
-  /// For so many; add() makes more where it needs it.
+  /// Makes room for so many; add() makes more where it needs it.
   void make_room(std::size_t occluders) {
     const std::size_t blocks = (occluders + 15) / 16;
     if (blocks_.size() >= blocks) return;
     boxes_.resize(blocks);
     useful_.resize(blocks);
-    blocks_.resize(blocks);  // the last, by whose size it is known: memory may run out before
+    blocks_.resize(blocks);  // last, as its size tells the room: memory may run out before
   }
   void add(const Candidate& candidate) {
     if (count_ % 16 == 0) {
@@ -48,7 +48,7 @@ public:
   }
   std::size_t count() const { return count_; }
   std::size_t block_count() const { return (count_ + 15) / 16; }
-  /// Its lanes may change before move_to(), not after it.
+  /// Its lanes may be changed before move_to(), not after it.
   OccluderBlock& block(std::size_t b) { return blocks_[b]; }
 
   /// Forgets all lists; what follows is about points of `range`.

@@ -22,7 +22,8 @@ struct BlockLines {
   std::uint64_t lines_of = 0;      ///< number of the range that they are for
 };
 
-/// 1, -1 or 0 times the lines: which side of an occluder of no certain sign blocks the point.
+/// What the lines of an occluder without a certain sign are multiplied by at a point: 1 or -1, by the side
+/// that blocks it, or 0.
 inline double sign_at(std::uint32_t triangle, const PlaneHeight& plane, const GroupPoint& at) {
   return triangle == at.receiver ? 0 : at.turn * blocking_sign(plane, at.from_centre, at.receiver_tau);
 }
@@ -42,7 +43,7 @@ SIMD_INLINE void find_eight_lines(const OccluderBlock& block, const double* sign
   const Doubles sign = load<Doubles>(signs + first);
   Lanes u[4], v[4], w[4];
   Pack3<Doubles> from = corner(0);
-  for (int k = 0; k < 4; ++k) {  // of triangles, corner 3 is corner 0, and the fourth line is none
+  for (int k = 0; k < 4; ++k) {  // a triangle has corner 0 for corner 3, and no fourth edge
     const Pack3<Doubles> to = corner(k < 3 ? k + 1 : 0);
     const Pack3<Doubles> n = cross(from, to - from);
     u[k] = narrowed<T>(n.x * sign);
@@ -77,7 +78,7 @@ HWY_NOINLINE void find_lines(const OccluderBlock& block, std::span<const PlaneHe
 template <class T>
 class PointOccluders : public OccluderList<T, GroupPoint> {
 public:
-  /// `at` stays where it is until the next.
+  /// `at` must stay where it is until the next call.
   void move_to(const GroupPoint& at) {
     at_ = &at;
     lines_.resize(HWY_MAX(lines_.size(), this->block_count()));
@@ -85,8 +86,8 @@ public:
   }
 
   /// Subtracts an occluder from `part`: false if it does not overlap it. What is left goes to `out`, or to
-  /// `rest` if others of `ids` are still to be subtracted from it: those of the bits of `left`, from which
-  /// these that only stand near the part are taken where they are few.
+  /// `rest` if others of `ids` are still to be subtracted from it: those of the bits of `left`. Where these
+  /// are few, the bits of those that only lie near the part are cleared.
   SIMD_INLINE bool subtract(std::size_t id, const LightBox<T>&, const LightPolygon<T>& part,
                             const LaneIndex<T>* ids, std::uint64_t& left, FragmentList<T>& rest,
                             FragmentList<T>& out) {
@@ -98,10 +99,10 @@ public:
   }
 
 private:
-  /// From this many on, each is tested once against a part, and not against all of its fragments (measured).
+  /// Up to this many, each is tested once against a part, and not against all of its fragments (measured).
   static constexpr int few_left = 12;
 
-  /// Of the bits of `left` those whose occluders no line of their own parts from `part`.
+  /// Of the bits of `left`, those whose occluders are not separated from `part` by one of their own lines.
   SIMD_INLINE std::uint64_t touching(const LaneIndex<T>* ids, std::uint64_t left,
                                      const LightPolygon<T>& part) {
     std::uint64_t found = 0;
@@ -138,8 +139,8 @@ struct OnePoint {
   using Bounds = LightBox<T>;
   using Parts = FragmentList<T>;
   using Occluders = PointOccluders<T>;
-  static constexpr bool takes_all = true;  ///< what is subtracted leaves nothing of a part where it was
-  static constexpr int any_order = 4;      ///< occluders whose order does not matter
+  static constexpr bool takes_all = true;  ///< subtract() takes the whole part, and lists get what it leaves
+  static constexpr int any_order = 4;      ///< most occluders whose order does not matter
 };
 
 }  // namespace tenebra::soft::HWY_NAMESPACE

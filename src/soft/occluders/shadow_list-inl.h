@@ -80,7 +80,7 @@ SIMD_INLINE Pack<T, 16> common_areas(const ShadowBoxes<T>& boxes, const LightBox
 }
 
 /// The place of the box that has most in common with `box`, the first of several, among those of the bits of
-/// `left`. Takes those that do not meet `box` from `left`; 64 if those are all.
+/// `left`. Clears the bits of those that do not meet `box`; 64 if none is left.
 template <class T>
 SIMD_INLINE int widest_of(const ShadowBoxes<T>& boxes, std::uint64_t& left, const LightBox<T>& box) {
   using Lanes = Pack<T, 16>;

@@ -29,7 +29,8 @@ struct LightEdges {
   }
 };
 
-/// atan2(s, c) / s for s > 0, in one division; relative error below 1e-13. 0 where s |(s, c)| < 1e-290.
+/// atan2(s, c) / s for s > 0, in one division; relative error below 1e-13. 0 where s times the larger of s
+/// and |c| is below about 1e-290.
 SIMD_INLINE Double8 angle_over_sine(Double8 s, Double8 c) {
   const Double8 size = abs(c);
   const Double8 low = min(s, size), high = max(s, size);
@@ -54,8 +55,8 @@ SIMD_INLINE Double8 angle_over_sine(Double8 s, Double8 c) {
   return select(none, broadcast8(0.0), angle * (below * share));
 }
 
-/// The angle that an edge `e` from `r` on subtends times the cosine between normal and the plane of point and
-/// edge (Nishita and Nakamae 1985); 0 for an edge of no length, or seen end-on.
+/// The angle that an edge `e` from `r` on subtends, times the cosine between `normal` and the normal of the
+/// plane through point and edge (Nishita and Nakamae 1985); 0 for an edge of no length, or seen end-on.
 SIMD_INLINE Double8 contour_term(const Pack3<Double8>& r, const Pack3<Double8>& e,
                                  const Pack3<Double8>& normal) {
   const Pack3<Double8> c = cross(r, e);
@@ -84,9 +85,10 @@ struct EdgeSums {
 
 /// Area and irradiance of the polygons with these edges, counter-clockwise seen from the light's front; edges
 /// that two polygons share cancel. Irradiance in Nishita and Nakamae's contour form (1985): -1/2 the sum over
-/// the edges of the angle an edge subtends times the cosine between normal and the plane of point and edge.
-/// The polygons lie above the receiver's horizon; the point not on the light's plane.
-/// The same bits on every target: each lane sums every eighth edge, and the lanes are added in one order.
+/// the edges of the angle that an edge subtends times the cosine between the receiver's normal and the normal
+/// of the plane through point and edge. Expects polygons above the receiver's horizon, and a point that is
+/// not on the light's plane. The same bits on every target: each lane sums every eighth edge, and the lanes
+/// are added in a fixed order.
 inline HWY_NOINLINE EdgeSums sum_edges(const LightEdges& edges, const LightFrame& light,
                                        const Receiver3& at) {
   const Pack3<Double8> origin = broadcast8(at.to_origin), normal = broadcast8(at.normal);

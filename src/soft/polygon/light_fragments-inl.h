@@ -19,7 +19,7 @@ HWY_BEFORE_NAMESPACE();
 namespace tenebra::soft::HWY_NAMESPACE {
 using namespace simd::HWY_NAMESPACE;
 
-/// Fragments in lists have at most this many vertices: an occluder's lines, at most four, add one each.
+/// Fragments in lists have at most this many vertices: an occluder's lines, at most four, each add one.
 inline constexpr int fragment_capacity = polygon_capacity - 5;
 
 /// A LightPolygon in memory.
@@ -59,7 +59,7 @@ public:
     std::swap(size_, other.size_);
   }
 
-  /// Halved until it fits.
+  /// A polygon of more than fragment_capacity vertices is stored as two halves.
   SIMD_INLINE void push(const LightPolygon<T>& polygon) {
     if (polygon.count > fragment_capacity) return push_halves(polygon);
     push_small(polygon);
@@ -90,8 +90,9 @@ private:
 };
 
 /// Adds what is left of `fragment` outside the shadow to `out`; false, and nothing added, if that is all of
-/// it. `sides` of the lines; all have vertices on the positive one. Cut first along the line that takes most:
-/// others may then not cross the rest any more, and fragments stay few and round.
+/// the fragment. `sides` are those of the lines, all of which have vertices of the fragment on their positive
+/// side. Cut first along the line that takes most: others may then not cross the rest any more, and fragments
+/// stay few and round.
 template <class T>
 HWY_NOINLINE bool subtract_shadow(const LightPolygon<T>& fragment, const ShadowLines<T>& lines,
                                   const LineSides<T>& sides, FragmentList<T>& out) {
@@ -146,7 +147,7 @@ void append_edges(const FragmentList<T>& fragments, LightEdges& edges) {
   for (std::size_t i = 0; i < fragments.size(); ++i) {
     const StoredPolygon<T>& p = fragments[i];
     edges.reserve(polygon_capacity);
-    T x[polygon_capacity], y[polygon_capacity];  // of the vertices behind
+    T x[polygon_capacity], y[polygon_capacity];  // of the next vertices
     store(permute(load<Lanes>(p.x), next), x);
     store(permute(load<Lanes>(p.y), next), y);
     widen(p.x, p.count, edges.u0, edges.count), widen(p.y, p.count, edges.v0, edges.count);

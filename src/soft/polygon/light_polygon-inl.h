@@ -1,6 +1,6 @@
 // Convex polygons on the light's plane, kept in vector lanes, and their split by a line: the one geometric
-// operation of both solvers (a light fragment against a plane through the point; Mora et al. 2012, section
-// 4.2). Coordinates are in units of the light (light_frame.h). Included once per target.
+// operation of the solvers (a fragment of the light against a plane through the point; Mora et al. 2012,
+// section 4.2). Coordinates are in units of the light (light_frame.h). Included once per target.
 #if defined(TENEBRA_SOFT_LIGHT_POLYGON_INL_H_) == defined(HWY_TARGET_TOGGLE)
 #ifdef TENEBRA_SOFT_LIGHT_POLYGON_INL_H_
 #undef TENEBRA_SOFT_LIGHT_POLYGON_INL_H_
@@ -22,12 +22,13 @@ inline constexpr int polygon_capacity = 16;
 template <class T>
 inline constexpr LaneIndex<T> lane_numbers[polygon_capacity] = {0, 1, 2,  3,  4,  5,  6,  7,
                                                                 8, 9, 10, 11, 12, 13, 14, 15};
-/// Behind the last vertex of a polygon of fewer than polygon_capacity follows a copy of vertex 0.
+/// The lane after each lane. The lane after the last vertex holds a copy of vertex 0, or is lane 0 if the
+/// polygon is full.
 template <class T>
 inline constexpr LaneIndex<T> next_lanes[polygon_capacity] = {1, 2,  3,  4,  5,  6,  7,  8,
                                                               9, 10, 11, 12, 13, 14, 15, 0};
 
-/// 0, 1, ... 15, and the lanes below `count`.
+/// The numbers 0 to 15, one in each lane; and the mask of the lanes below `count`.
 template <class T>
 SIMD_INLINE Pack<T, 16> counted_lanes() {
   constexpr T lanes[16] = {0, 1, 2, 3, 4, 5, 6, 7, 8, 9, 10, 11, 12, 13, 14, 15};
@@ -54,8 +55,8 @@ struct LightLine {
   T u = 0, v = 0, w = 0;
 };
 
-/// Vertices nearer to a line than this, in units of the light, count as on it: what rounding the coordinates
-/// of a vertex (below 1.5 in magnitude) and three products can amount to.
+/// Vertices nearer to a line than this, in units of the light, count as on it: it bounds what the rounding of
+/// a vertex's coordinates (below 1.5 in magnitude), of two products and of two sums amounts to.
 template <class T>
 inline constexpr T on_line = 4 * std::numeric_limits<T>::epsilon();
 
@@ -91,11 +92,11 @@ inline constexpr std::uint32_t all_lines = 15;
 template <class T>
 struct LineSides {
   std::uint32_t positive = 0, negative = 0;
-  /// Lanes k, k + 4, k + 8 and k + 12: least values for line k of some of the vertices, in units of what
-  /// counts as on it; anything where u = v = 0.
+  /// Lanes k, k + 4, k + 8 and k + 12: the least values of line k, each over some of the vertices, in units
+  /// of what counts as on the line; anything where u = v = 0.
   Pack<T, polygon_capacity> lowest;
 
-  /// Of the lines of `among`, one at least, that with a vertex farthest on its negative side.
+  /// Of the lines of `among`, at least one, the one with a vertex farthest on its negative side.
   SIMD_INLINE int deepest(std::uint32_t among) const {
     if (std::has_single_bit(among)) return std::countr_zero(among);
     T values[polygon_capacity];
@@ -157,8 +158,8 @@ HWY_NOINLINE VertexRun farthest_run(std::uint32_t set, int count, const T* value
 }
 
 /// The vertices of `set` among the lowest `count` bits as a run. Rounding can break the run of a thin polygon
-/// in pieces: then the one around the vertex farthest on the positive side; values fall from there on both
-/// sides, so that what other pieces hold lies within rounding of the line.
+/// into pieces: then it is the one around the vertex farthest on the positive side; values fall from there on
+/// both sides, so that what other pieces hold lies within rounding of the line.
 template <class T>
 SIMD_INLINE VertexRun run_of(std::uint32_t set, int count, const Pack<T, polygon_capacity>& values) {
   const std::uint32_t all = (1u << count) - 1u;
@@ -186,8 +187,8 @@ struct EdgeCrossings {
   Pack<T, polygon_capacity> x, y;
 };
 
-/// Found for all edges at once, before it is known which are crossed. Each place is seen from the end on the
-/// positive side. polygon.count < polygon_capacity.
+/// Found for all edges at once, before it is known which are crossed. Each place is computed from the edge's
+/// end with the larger value, whichever way the edge runs. polygon.count < polygon_capacity.
 template <class T>
 SIMD_INLINE EdgeCrossings<T> crossings_of(const LightPolygon<T>& polygon,
                                           const Pack<T, polygon_capacity>& values) {

@@ -1,5 +1,5 @@
-// The plane that a point lies on, as far as the light is concerned: the part of the light above it, and its
-// horizon as a line on the light's plane. Included once per target.
+// The plane that a point lies on, as far as the light is concerned: its horizon as a line on the light's
+// plane. Included once per target.
 #if defined(TENEBRA_SOFT_RECEIVER_PLANE_INL_H_) == defined(HWY_TARGET_TOGGLE)
 #ifdef TENEBRA_SOFT_RECEIVER_PLANE_INL_H_
 #undef TENEBRA_SOFT_RECEIVER_PLANE_INL_H_

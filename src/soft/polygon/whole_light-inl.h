@@ -12,8 +12,8 @@ HWY_BEFORE_NAMESPACE();
 namespace tenebra::soft::HWY_NAMESPACE {
 using namespace simd::HWY_NAMESPACE;
 
-/// The plane of a shading normal through points, met with the light's plane: a line in each lane, positive
-/// above.
+/// Where the planes across shading normals through points meet the light's plane: a line in each lane,
+/// positive above.
 struct HorizonLanes {
   Double8 u, v, w;
 
@@ -48,8 +48,9 @@ struct WholePoints {
   }
 };
 
-/// The irradiance that a whole light sends to points, its polygon above the planes that they lie on; bits of
-/// those for which this is so, as they are in front of the light, which is above their normals' horizons.
+/// The irradiance that the whole light sends to points which see all of it above the planes that they lie on.
+/// Returns the bits of the points for which the sum holds: those in front of the light, with all of it above
+/// the horizons of their shading normals.
 inline HWY_NOINLINE std::uint32_t irradiance_of_whole(const LightFrame& light, const WholePoints& at,
                                                       double* irradiance) {
   const auto lanes = [](const double(&from)[3][8]) {

@@ -28,8 +28,8 @@ void find_own(const SampledBlocks& blocks, const LightTally& tally, std::vector<
   });
 }
 
-/// One smooth surface, as far as two points of it tell that are `d` apart: normals within 18 degrees, and
-/// each in the other's plane by a tenth of what lies between them.
+/// Whether two points that are `d` apart may lie on one smooth surface: normals within 18 degrees, and each
+/// point off the other's plane by at most a tenth of the distance between them.
 bool alike(const SampledSurface& a, const SampledSurface& b, const glm::dvec3& d) {
   const double most = 0.1 * glm::length(d);
   return glm::dot(a.normal, b.normal) > 0.95f && std::abs(glm::dot(d, glm::dvec3(a.face))) <= most &&
@@ -42,7 +42,7 @@ public:
   explicit NearInView(const ViewRays& view) : eye_(view.eye), d0_(view.d0), orthographic_(view.orthographic) {
     const glm::dvec3 dx(view.dx), dy(view.dy), normal = glm::cross(dx, dy);
     const double pixel = 3 * std::max(glm::length(dx), glm::length(dy));
-    // Pixels are seen by the largest angle where the view is nearest to its plane.
+    // A pixel's angle is largest where the picture's plane is nearest to the eye.
     const double plane = orthographic_ ? 1 : std::abs(glm::dot(d0_, normal)) / glm::length(normal);
     most_ = pixel * pixel / (plane * plane);
   }
@@ -63,11 +63,11 @@ private:
 
 /// Weights of 3x3: all four phases have a quarter.
 constexpr float weights[3] = {0.25f, 0.5f, 0.25f};
-constexpr float noise_left = 0.25f;  ///< of it, in their mean: pixels of one phase look at the same places
+constexpr float noise_left = 0.25f;  ///< of it in the mean: pixels of one phase look at the same places
 constexpr float own_weight = 0.25f;
 
-/// Slots on one surface with the middle one, itself among them. Weights are multiples of 1/16, so that the
-/// mean of equal values is that value.
+/// Slots on one surface with the slot in the middle, which is one of them. Weights are multiples of 1/16, so
+/// that the mean of equal values is that value.
 struct Around {
   std::uint32_t slots[9];
   float weight[9];
@@ -97,13 +97,14 @@ Around around(const SoftFrame& frame, const NearInView& near, const SampledBlock
   return out;
 }
 
-/// The spread of a visible share `share` if each place were seen independently.
+/// The variance of one place, if each is seen with the probability `share`, independently of the others.
 float spread_of(float share) {
   return share * (1 - share);
 }
 
-/// Noise over spread, by the logarithm of the number of places: of all slots that have looked at as many. The
-/// halves of few pixels may agree by chance, and all of a block see the same places; together they tell.
+/// Noise over spread, by the logarithm of the number of places: over all slots that have looked at about as
+/// many. The halves of a few pixels may agree by chance, and all pixels of a block see the same places; all
+/// slots together tell.
 class UsualNoise {
 public:
   UsualNoise(const SampledBlocks& blocks, const LightTally& tally, const std::vector<OwnAnswer>& own,
@@ -131,7 +132,7 @@ private:
   const LightTally& tally_;
   std::array<Sum, 33> sums_{};
 };
-constexpr float trust = 0.25f;  ///< in the halves of nine pixels beside the usual noise
+constexpr float trust = 0.25f;  ///< in the halves of nine pixels; the rest is in the usual noise
 
 }  // namespace
 

@@ -31,8 +31,8 @@ struct LightMeans {
   std::vector<OwnAnswer> own;  ///< on the way to the above: of each slot alone,
   std::vector<float> smooth;   ///< and its mean with its neighbours
 };
-/// Of all slots with a pixel; those of a slot's neighbours count that are seen next to it and lie on one
-/// surface with it. `square` is statistical: it does not know what no place has seen.
+/// Of all slots with a pixel. Of a slot's neighbours those count that are seen next to it and lie on one
+/// surface with it. `square` is statistical: what no place has seen is not in it.
 void find_means(const SoftFrame& frame, const SampledBlocks& blocks, const LightTally& tally,
                 LightMeans& out);
 

@@ -10,8 +10,8 @@
 
 namespace tenebra::soft {
 
-/// Sums over places on the light, in two halves, so that their difference tells how far off they are.
-/// Weights are cos cos / r^2 over what it is about the middle of the light.
+/// Sums over places on the light, in two halves, so that their difference tells how far off they are. Weights
+/// are cos cos / r^2 times the square of the distance to the light's origin.
 struct LightTally {
   static constexpr std::size_t halves = 2;
   struct Half {

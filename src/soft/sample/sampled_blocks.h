@@ -17,8 +17,8 @@ inline constexpr std::uint32_t phases = 4, phase_slots = 16, block_slots = phase
 inline constexpr std::uint32_t block_side = 8;
 inline constexpr std::uint32_t no_slot = 0xffffffffu, no_pixel = 0xffffffffu;
 
-/// What is seen at a slot, by the light's frame: from its origin, in units of its size; to a sun, all of it
-/// at one place.
+/// What is seen at a slot. Positions are relative to the light's origin, along the world's axes, in units of
+/// the light's size; for a sun all are the same.
 struct SampledSurface {
   glm::vec3 at{0.0f};
   glm::vec3 normal{0.0f};  ///< shading; unit

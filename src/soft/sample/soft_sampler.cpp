@@ -11,8 +11,8 @@ namespace tenebra::soft {
 
 namespace {
 
-constexpr std::uint32_t most_places = 1024;  ///< of the light, for each slot; groups of more candidates than
-                                             ///< are worth it end here, whatever their error
+constexpr std::uint32_t most_places = 1024;  ///< on the light, for each slot; groups for which exact solving
+                                             ///< would still take longer end here, whatever their error
 
 /// The reference for irradiance: the 99.9th percentile of the pixels' values, over a regular choice of them;
 /// where that is 0, the largest.
@@ -75,7 +75,8 @@ std::uint32_t first_places(double error_255) {
   return std::bit_ceil(static_cast<std::uint32_t>(std::clamp(16 / error_255, 2.0, 128.0)));
 }
 
-/// Takes places `from` ... `to` - 1 of a phase, both multiples of a power of two.
+/// Looks at places `from` to `to` - 1 of a phase. Their number is a power of two that divides `from`: so
+/// these places, too, are spread evenly.
 void SoftSampler::look(const SoftFrame& frame, const LightPlaces& places,
                        std::span<const std::uint32_t> chosen, std::uint32_t phase, std::uint32_t from,
                        std::uint32_t to) {
@@ -113,8 +114,8 @@ bool SoftSampler::look(const SoftFrame& frame, const LightPlaces& places,
   return done;
 }
 
-/// Takes groups that err by more than `much`, a mean square, and that would rather be solved exactly than
-/// look at `places`, out of the blocks and of `groups`.
+/// Takes out of the blocks and of `groups` those groups whose mean square error is more than `much` and that
+/// are solved exactly in less time than it takes to look at `places`.
 void SoftSampler::leave(const SoftFrame& frame, double much, std::uint32_t places,
                         std::vector<SampledGroup>& groups, std::vector<std::uint32_t>& left) {
   std::erase_if(groups, [&](const SampledGroup& group) {
@@ -125,7 +126,7 @@ void SoftSampler::leave(const SoftFrame& frame, double much, std::uint32_t place
     if (square <= much * static_cast<double>(group.pixels.size())) return false;
     for (const std::uint32_t pixel : group.pixels) {
       const std::uint32_t slot = blocks_.slot(pixel);
-      frame.out.irradiance[pixel] *= means_.irradiance[slot];  // what white is found by until it is solved
+      frame.out.irradiance[pixel] *= means_.irradiance[slot];  // white is found by this until it is solved
       if (is_penumbra(means_.fraction[slot])) ++left_penumbra_;
       blocks_.pixels[slot] = no_pixel;
     }
@@ -160,7 +161,8 @@ bool SoftSampler::solve(const SoftFrame& frame, const AreaLight& light, std::spa
     const double allowed =
         error * error * static_cast<double>(stats.points_penumbra + left_penumbra_ + errors.penumbra);
     if (errors.square <= allowed || !(unit > 0) || to >= most_places) break;
-    // Of the blocks that have looked most those look again that err by more than the mean that is allowed.
+    // Those of the blocks that have looked at most places look again that err by more than the mean that is
+    // allowed.
     const double much = allowed / static_cast<double>(errors.pixels);
     leave(frame, much, 2 * to, sampled_, left);
     find_errors(frame, blocks_, means_, errors);

@@ -1,6 +1,6 @@
 // The shaft of a group of points and a light: the convex hull of a cell around the points and the light's
-// polygon, as planes with the hull on one side (Haines 2000); of a sun, all that its directions sweep from
-// the cell on, without an end. All coordinates are relative to the light's origin, in double.
+// polygon, as planes with the hull on one side (Haines 2000); for a sun, the endless region that its
+// directions sweep from the cell. All coordinates are relative to the light's origin, in double.
 #pragma once
 
 #include <tenebra/simd_level.h>

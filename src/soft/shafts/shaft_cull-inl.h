@@ -19,9 +19,10 @@ HWY_BEFORE_NAMESPACE();
 namespace tenebra::soft::HWY_NAMESPACE {
 using namespace simd::HWY_NAMESPACE;
 
-// A shaft in T, wider by a margin that holds the rounding of its own numbers. What is left to a block is that
-// of its triangles, with R their reach: in double 5 u R for m.v, as |m|_1 <= 1. In float (u = 2^-24) that and
-// 2 u R for v off by the light's centre and its own rounding, u R for m, u R for the sum with the limit.
+// A shaft in T, wider by a margin for the rounding of its own numbers. The rounding of a triangle, with R its
+// reach, is in the margin of the triangle's block: in double 5 u R for m.v, as |m|_1 <= 1. In float (u =
+// 2^-24) that and 2 u R for v off by the light's centre and its own rounding, u R for m, u R for the sum with
+// the limit.
 template <class T>
 struct CullingShaft {
   static constexpr bool is_float = sizeof(T) == sizeof(float);

@@ -43,7 +43,7 @@ SIMD_INLINE Triangles load_triangles(const TriangleBlock& block, const LightShap
   return t;
 }
 
-// An edge's vector from the vertices' floats, so that the light's distance costs it nothing.
+// An edge's vector from the vertices' floats: the light's distance does not make it less precise.
 SIMD_INLINE Vector8 edge(const TriangleBlock& block, int from, int to) {
   return {load_widened<Double8>(block.v[to][0]) - load_widened<Double8>(block.v[from][0]),
           load_widened<Double8>(block.v[to][1]) - load_widened<Double8>(block.v[from][1]),
@@ -64,9 +64,9 @@ SIMD_INLINE Double8 most(const Double8& a, const Double8& b, const Double8& c) {
   return max(a, max(b, c));
 }
 
-// n.(x - A) over the points and over the light (a sun: n.x), n = (B - A) x (C - A), as least and greatest
-// value, both widened by their rounding: with edges off by u, n is off by 9 u size^2 a coordinate, and n.(x -
-// A) by (27 for n + 18 a product + 18 for x + 30 for sums) u size^2 (reach_A + reach_x).
+// n.(x - A) over the points and over the light (for a sun n.x), n = (B - A) x (C - A), as least and greatest
+// value, both widened by their rounding: with edges off by u, each coordinate of n is off by 9 u size^2, and
+// n.(x - A) by (27 for n + 18 for the products + 18 for x + 30 for sums) u size^2 (reach_A + reach_x).
 struct PlaneRange {
   Double8 points_low, points_high, light_low, light_high;
   Double8 normal_length, size2;
@@ -135,7 +135,7 @@ std::size_t drop_behind(std::span<const Receiver> receivers, const LightShape& l
 // f(P, Q) = ((a - Q) x e).(P - Q), the side of the line PQ of the edge a, a + e, over cell and light: affine
 // in P and in Q, so its extremes are at the vertices (Theorem 1). With a, e, P, Q off by u it is
 //   a x e.(P - Q) - (Q x e).P: 18 products of three coordinates, each off by 14 u.
-// Of a sun, whose Q have weight 0, it is -(a x e).Q - (Q x e).P.
+// For a sun, whose Q have weight 0, it is -(a x e).Q - (Q x e).P.
 struct SideRange {
   Double8 low, high;
 };
@@ -180,8 +180,9 @@ SIMD_INLINE Sides sides_of_centre(const Shaft& shaft, const Triangles& t) {
   return {lt_bits(zero, reduce_min(f[0], f[1], f[2])), lt_bits(most(f[0], f[1], f[2]), zero)};
 }
 
-// On which side of the edges lines between cell and light pass, for lanes that they cross from the front (f
-// >= 0 at all edges) or from the back (f <= 0).
+// Tests on which side of the edges lines between cell and light pass: takes from `some` the triangles that no
+// line crosses, and from `every` those that not every line crosses, from the front (f >= 0 at all edges) or
+// from the back (f <= 0).
 SIMD_INLINE void keep_crossed(const Shaft& shaft, const TriangleBlock& block, const Triangles& t, Sides& some,
                               Sides& every) {
   const Double8 zero = broadcast8(0.0), margin = side_margin(shaft, t);
@@ -194,7 +195,8 @@ SIMD_INLINE void keep_crossed(const Shaft& shaft, const TriangleBlock& block, co
   }
 }
 
-// Of more, the edges are not worth a test: next to nothing is dropped by it, and hardly ever all.
+// With more blocks than this, testing the edges does not pay: next to nothing is dropped, and hardly ever
+// all.
 constexpr std::size_t few_blocks = 4;
 
 std::size_t drop_beside(const Shaft& shaft, ContactRange contact, const TriangleBlock* blocks,

@@ -71,9 +71,9 @@ SIMD_INLINE Vector8 light_edges(const Cell& cell, const LightShape& light, int f
   return subtract_scaled(o, t, broadcast8(light.normal));
 }
 
-// Of a sun the planes along the edges of its directions: m.q = 0 for the vertices q at one edge, less for the
-// others, all by 2^-46 |m| less, so that what rounds them (16 u |m| at most, as |q| <= sqrt 3) leaves none
-// above 0 and the plane bounds the shaft at any distance.
+// For a sun, the planes along the edges of its directions: m.q = 0 for the vertices q at one edge, less for
+// the others, all by 2^-46 |m| less, so that rounding (16 u |m| at most, as |q| <= sqrt 3) leaves none above
+// 0 and the plane bounds the shaft at any distance.
 SIMD_INLINE Vector8 sun_edges(const LightShape& light, int first) {
   const Vector8 o{load<Double8>(light.across[0] + first), load<Double8>(light.across[1] + first),
                   load<Double8>(light.across[2] + first)};
@@ -82,8 +82,8 @@ SIMD_INLINE Vector8 sun_edges(const LightShape& light, int first) {
   return subtract_scaled(o, broadcast8(0) - at_edge - margin, broadcast8(light.normal));
 }
 
-// Any m gives a valid plane: its limit is the farthest that the shaft reaches along m. Of a sun any m that
-// does not rise along its directions: the farthest then is the cell.
+// Any m gives a valid plane: its limit is the farthest that the shaft reaches along m. For a sun, any m that
+// does not rise along its directions: it is then the cell that reaches farthest.
 SIMD_INLINE void add_planes(const Vector8& m_unscaled, Shaft& shaft) {
   const Double8 size = l1_norm(m_unscaled);
   const auto there = lt(broadcast8(0x1p-900), size) & lt(size, broadcast8(0x1p900));

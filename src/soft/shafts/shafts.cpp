@@ -16,11 +16,11 @@ namespace {
 // Nodes of fewer groups pass on their list unchanged: culling pays from here on (measured).
 constexpr std::uint32_t fewest_groups = 3;
 
-// The same for nodes of more than this part of the groups for which the last cull was: culling at each level
-// of the tree would drop a third of the triangles, at every second level the half.
+// The same for nodes with more than this part of the groups that the last cull was for: a cull at each level
+// of the tree would drop only a third of the triangles, one at every second level drops half.
 constexpr double most_groups = 0.4;
 
-// Points times triangles below which a subtree is not worth sharing out.
+// Points times triangles up to which a subtree is not worth sharing out among threads.
 constexpr std::uint64_t serial_work = 1 << 16;
 
 // A thread that keeps more candidates than these, 16 MB, hands its families over before all are decided.
@@ -146,8 +146,8 @@ bool worth_sharing(const GroupNode& node, const BlockList& list) {
   return node.points * (block_size * list.refs.size() + 1) > serial_work;
 }
 
-// What of `from`, found for a node of `groups` groups, matters to this one: `from` itself or, then found for
-// groups of this one, `list`.
+// The part of `from` that matters to this node: `from` itself, which was found for a node of `groups` groups,
+// or `list`; then `groups` becomes the number of groups of this node.
 const BlockList& Descent::narrowed(const GroupNode& node, const BlockList& from, std::uint32_t& groups,
                                    BlockList& list) const {
   if (from.refs.empty() || node.count < fewest_groups || node.count > most_groups * groups) return from;

@@ -31,7 +31,7 @@ struct GroupDecision {
 /// 0..thread_count() - 1, for scratch; no other body runs with the same one meanwhile, as long as the body
 /// starts no parallel loop.
 using FamilyBody = std::function<void(std::span<const GroupDecision> family, int thread)>;
-inline constexpr std::uint32_t largest_family = 12;  ///< groups, where anything may stand before them
+inline constexpr std::uint32_t largest_family = 12;  ///< groups, unless nothing can stand in front of them
 
 /// Counts do not depend on threads.
 struct ShaftStats {
@@ -50,10 +50,11 @@ public:
   ShaftCuller& operator=(ShaftCuller&&) noexcept;
   ~ShaftCuller();
 
-  /// Calls `body` once for each family, in parallel, those with most points times candidates first. A
-  /// triangle is left out of a group's candidates only if it is certain that it blocks no line from a point
-  /// of the group to the light, by the rule of SoftShadowTracer::trace; the rest depends neither on threads
-  /// nor on the instruction set. Returns false, with some families left out, if `stop` was requested.
+  /// Calls `body` once for each family, in parallel, those with most points times candidates first as far as
+  /// memory allows. A triangle is left out of a group's candidates only if it is certain that it blocks no
+  /// line from a point of the group to the light, by the rule of SoftShadowTracer::trace; which of the others
+  /// are left out depends neither on threads nor on the instruction set. Returns false, with some families
+  /// left out, if `stop` was requested.
   bool for_each_family(const PointGroups& groups, const TriangleView& triangles, const AreaLight& light,
                        const SoftShadowConfig& config, const StopFlag* stop, const FamilyBody& body);
 

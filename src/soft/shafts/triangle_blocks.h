@@ -15,7 +15,7 @@ inline constexpr int block_size = 8;
 /// Idle lanes hold triangles that are not asked about.
 struct TriangleBlock {
   float v[3][3][block_size];  ///< corner, axis, triangle; world space
-  float largest[block_size];  ///< largest |coordinate| of each triangle: tau is sqrt(3) 2^-24 of it
+  float largest[block_size];  ///< largest |coordinate| of each triangle: tau is sqrt(3) 2^-24 times this
   float size[block_size];     ///< largest |coordinate| of its edges, rounded up
   std::uint32_t ids[block_size];
 };
@@ -35,7 +35,7 @@ struct BlockList {
   const TriangleBlock& block(const BlockRef& ref) const { return blocks[ref.block]; }
   std::size_t triangle_count() const;
   void append_ids(std::vector<std::uint32_t>& ids) const;
-  /// Copies the triangles in question into blocks of its own where most lanes are idle.
+  /// Copies the triangles in question into blocks of its own if at least half of the lanes are idle.
   void compact();
 };
 

@@ -18,8 +18,8 @@ HWY_BEFORE_NAMESPACE();
 namespace tenebra::soft::HWY_NAMESPACE {
 using namespace simd::HWY_NAMESPACE;
 
-/// Whether both ends lie on different sides of a line, as far as rounding cannot decide, by their values; and
-/// whether they might.
+/// Whether two ends lie on different sides of a line, by their values, and rounding cannot change that; and
+/// whether they may.
 template <class T>
 SIMD_INLINE Mask<T, 16> parted(Pack<T, 16> a, Pack<T, 16> b, Pack<T, 16> margin) {
   return lt(min(a, b), broadcast<Pack<T, 16>>(T(0)) - margin) & lt(margin, max(a, b));
@@ -32,7 +32,7 @@ SIMD_INLINE Mask<T, 16> maybe_parted(Pack<T, 16> a, Pack<T, 16> b, Pack<T, 16> m
 /// Where the winding changes along an edge or a side.
 template <class T>
 struct WindingChange {
-  double share;  ///< of the way along it; of sides: behind their number
+  double share;  ///< of the way along it, 0 to 1; along sides, that plus the side's number
   glm::dvec2 at;
   T change;
 };
@@ -44,7 +44,7 @@ void sort_along(std::vector<WindingChange<T>>& changes) {
 
 /// Decisions are about the part without a seam along its sides that is wider than rounding, if the part is
 /// wider than a sixteenth: edges that run along a side, as where something next to the silhouette has been
-/// cut out, do not leave anything open. Places are on the part's own sides.
+/// cut out, leave nothing undecided. Places are on the part's own sides.
 template <class T>
 class EdgeSegments {
 public:
@@ -107,7 +107,7 @@ private:
                 beside = doubt_beside(e.u, e.v, near_ - on_line<T>);
     const Lanes far_u = max(abs(e.from_u), abs(e.to_u)) + one, far_v = max(abs(e.from_v), abs(e.to_v)) + one;
     SilhouetteLanes<T> s = e;
-    Lanes left = zero;  // how often a ray from the lower end towards +u leaves the part
+    Lanes left = zero;  // sides that a ray from the lower end towards +u crosses: one from inside
     std::uint32_t unsure = 0, met = 0;
     Lanes here = value_at(e, inner_u_[0], inner_v_[0]);
     for (int k = 0; k < sides_; ++k) {

@@ -15,7 +15,7 @@ using glm::dvec3;
 using glm::vec3;
 
 constexpr std::size_t worthwhile = 32;  // triangles; fewer are subtracted one by one
-// Triangles between two looks whether to give up: hardly any edge has cancelled, or a stop was requested.
+// Triangles between two checks whether to give up: hardly any edge has cancelled, or a stop was requested.
 constexpr std::size_t look_after = 2048;
 
 std::uint32_t hash_of(const vec3& v) {
@@ -27,7 +27,7 @@ std::uint32_t hash_of(const vec3& v) {
   return static_cast<std::uint32_t>(h >> 32) ^ static_cast<std::uint32_t>(h);
 }
 
-// The solid angle of the light as Candidate::size gives it, were it seen face on.
+// The binary logarithm, rounded down, of the solid angle of the light if it were seen face on.
 int light_class(const LightFrame& light, const dvec3& point) {
   const dvec3 from = light.way_from(point);
   return std::ilogb(light.area * glm::dot(light.ex, light.ex) / glm::dot(from, from));
@@ -126,7 +126,8 @@ void SilhouetteFinder::keep_silhouette(const LightAxes& axes, GroupSilhouette& o
   for (SilhouetteUse& use : out.uses) use.edge = kept_[use.edge];
 }
 
-// Adds up the edges of what `candidates` can give; false if too few of them cancel, or for a stop.
+// Adds up the edges of those `candidates` that may be part of a silhouette; false if too few of them cancel,
+// or for a stop.
 bool SilhouetteFinder::take(const LightFrame& light, const TriangleView& triangles,
                             const GroupCandidates& candidates, GroupSilhouette& out,
                             std::vector<std::uint32_t>& rest, const StopFlag* stop) {
@@ -141,7 +142,8 @@ bool SilhouetteFinder::take(const LightFrame& light, const TriangleView& triangl
     }
     const bool sometimes = c.sign == 0;
     if (sometimes) out.sometimes.push_back({c.triangle, candidates.heights[c.height]});
-    // Where its sign is +1, the triangle is seen as (u, v) turn if the light is `facing`.
+    // Corners run counter-clockwise in (u, v) where the sign is +1. A triangle that blocks sometimes has, at
+    // a point, `facing` times its blocking_sign for a sign.
     const points::Corners corners = points::corners_of(triangles, c.triangle);
     add_triangle(corners.v, sometimes ? facing : static_cast<int>(c.sign),
                  sometimes ? static_cast<std::int32_t>(out.sometimes.size()) - 1 : -1, out);

@@ -43,7 +43,7 @@ struct GroupSilhouette {
   std::vector<SilhouetteEdge> edges;
   std::vector<SometimesBlocker> sometimes;
   std::vector<SilhouetteUse> uses;
-  std::vector<std::uint32_t> kept;  ///< room for drop_beside_light()
+  std::vector<std::uint32_t> kept;  ///< scratch of drop_beside_light()
 
   bool empty() const { return edges.empty(); }
   void clear() {
@@ -53,8 +53,9 @@ struct GroupSilhouette {
   }
 };
 
-/// Drops the edges that no ray from a place of the light towards +u meets, from any point of the group: the
-/// winding around places of the light stays. `silhouette` stands between all points and the light's plane.
+/// Drops the edges that, seen from any point of the group, no ray from a place of the light towards +u meets:
+/// the winding around places of the light stays. `silhouette` stands between all points and the light's
+/// plane.
 void drop_beside_light(const GroupFrame& group, const LightAxes& axes, GroupSilhouette& silhouette);
 
 /// Finds silhouettes, with a table of edges of its own.

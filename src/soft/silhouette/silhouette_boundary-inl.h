@@ -22,8 +22,8 @@ using namespace simd::HWY_NAMESPACE;
 template <class T>
 class SilhouetteBoundary {
 public:
-  /// Finds out about the edges from place `first` on, on a convex part of the light. They stay where they
-  /// are.
+  /// Finds out about the edges from place `first` on, on a convex part of the light. `around` and `edges`
+  /// must stay where they are.
   HWY_NOINLINE void look_at(const RayEdges<T>& around, const SilhouetteEdges<T>& edges, std::size_t first,
                             T slack, const LightPolygon<T>& part) {
     edges_ = &edges;
@@ -92,7 +92,7 @@ private:
     blocks_[b].doubtful = lt_bits(broadcast<Lanes>(0), beside.doubt) | blocks_[b].level;
   }
 
-  /// Those of the edges of block b by others of it and behind it.
+  /// Crossings of the edges of block b with later ones, of the same block and of those behind it.
   HWY_NOINLINE void find_crossings(std::size_t b) {
     const SilhouetteEdges<T>& its = *edges_;
     const EdgeSegments<T>& on = segments_;
@@ -152,7 +152,7 @@ private:
     ++edges.count;
   }
 
-  /// `winding` around the part's first vertex.
+  /// `winding` around the place where the walk along the sides begins.
   void append_sides(T winding, LightEdges& edges) {
     auto next = segments_.side_changes.begin();
     for (int k = 0; k < segments_.sides(); ++k) {
@@ -222,7 +222,7 @@ private:
             cross(way(k), along) > 0 ? turns : -turns};
   }
 
-  /// Whether the edges from place `first` on run out of every place as often as into it.
+  /// Whether the edges from place `first` on, as vectors, add up to nothing, as those of closed lines do.
   static bool is_closed(const LightEdges& edges, std::size_t first) {
     Place sum(0.0);
     for (std::size_t i = first; i < edges.count; ++i)
@@ -237,7 +237,7 @@ private:
   T slack_ = 0;
   EdgeSegments<T> segments_;
   std::vector<Block> blocks_;
-  std::vector<T> least_;  ///< windings beside the edges, wherever rounding and crossings leave most light
+  std::vector<T> least_;  ///< the least windings beside the edges that rounding and crossings allow
   std::vector<Link> links_;
   std::vector<std::uint32_t> last_link_;  ///< of every edge, or 0
   std::vector<WindingChange<T>> changes_;

@@ -45,7 +45,8 @@ public:
   }
 
   /// Finds the part of `light` (convex, within |u|, |v| <= 1) visible from the point: adds its boundary to
-  /// `boundary`, counter-clockwise; or where rounding might decide, or there is none, convex parts to `out`.
+  /// `boundary`, counter-clockwise; or, where rounding might decide, or if `boundary` is null, convex parts
+  /// to `out`.
   HWY_NOINLINE void query(const LightPolygon<T>& light, LightEdges* boundary, FragmentList<T>& out) {
     const std::size_t first = crossing_light_;
     crossing_.make_room(first);
@@ -116,7 +117,7 @@ private:
   }
 
   /// Adds the block's edges to those around the light that count, and to those that may cross the square
-  /// around it; turned to rise.
+  /// around it; all turned to rise in v.
   SIMD_INLINE void gather(const Block& block, T first) {
     const Lanes zero = broadcast<Lanes>(T(0)), one = broadcast<Lanes>(T(1)), minus = broadcast<Lanes>(T(-1));
     const Lanes u = load<Lanes>(block.u), v = load<Lanes>(block.v), w = load<Lanes>(block.w);
@@ -157,7 +158,7 @@ private:
     branch(part, first, out);
   }
 
-  /// In two strips, which are as wide: rays meet the fewer edges, and the edges fewer others.
+  /// In two strips, one above the other: a ray towards +u then meets fewer edges, and each edge fewer others.
   void find_in_halves(const LightPolygon<T>& part, std::size_t first, LightEdges* boundary,
                       FragmentList<T>& out) {
     const LightLine<T> line{0, 1, (reduce_max(part.y) + reduce_min(part.y)) / -2};
@@ -240,8 +241,8 @@ private:
     }
   }
 
-  /// How many triangles cover a part of the light that no edge crosses. Rounding can decide only where an
-  /// edge is as near to its middle, and so where the part is no wider than that.
+  /// How many triangles cover a part of the light that no edge crosses. Rounding can decide only if an edge
+  /// is within rounding of the part's middle, and so only if the part is no wider than that.
   T winding_of(const LightPolygon<T>& part) const {
     T x[polygon_capacity], y[polygon_capacity];
     store(part.x, x);
@@ -260,7 +261,7 @@ private:
   std::vector<MovingBlock> moving_;
   std::vector<Block> at_point_;
   RayEdges<T> around_;           ///< edges that a ray from the light towards +u may cross
-  SilhouetteEdges<T> crossing_;  ///< edges that may cross the light, and behind them, the parts at hand
+  SilhouetteEdges<T> crossing_;  ///< edges that may cross the light; behind them, those of the parts at hand
   std::size_t crossing_light_ = 0;
   SilhouetteBoundary<T> boundary_;
   std::vector<int> signs_;  ///< one for each SometimesBlocker

@@ -1,5 +1,5 @@
-// Points by the paper's BSP of line classes, and by clipping what has no certain side, or all if the tree
-// grows too large. Included once per target.
+// Points by the paper's BSP of line classes, and by clipping the occluders that have no certain side, or all
+// of them if the tree grows too large. Included once per target.
 #if defined(TENEBRA_SOFT_BSP_SOLVER_INL_H_) == defined(HWY_TARGET_TOGGLE)
 #ifdef TENEBRA_SOFT_BSP_SOLVER_INL_H_
 #undef TENEBRA_SOFT_BSP_SOLVER_INL_H_
@@ -49,7 +49,7 @@ private:
     use_tree_ = bsp_.reset(occluders_, frame.triangles, group.frame, frame.config.choice,
                            std::min(frame.config.tree_bytes, largest_tree_bytes));
   }
-  /// Forgets the tree for the next point, and with it that it came to its bound.
+  /// Starts a new tree for the next point, even if the last one reached its bound.
   void start_anew(const SoftFrame& frame, const PreparedGroup& group, PixelWriter& writer) {
     const bool was_dropped = !use_tree_;
     if (!was_dropped) note_tree(writer.stats());
@@ -75,7 +75,7 @@ private:
     clipped_ = order_.sorted(candidates, places);
     clip_.reset(candidates, clipped_, frame.stop);
   }
-  /// Counts a tree that is given up.
+  /// Counts a tree that is done with.
   void note_tree(SoftStats& stats) const {
     stats.tree_nodes += bsp_.node_count();
     stats.peak_tree_bytes = std::max<std::uint64_t>(stats.peak_tree_bytes, bsp_.bytes());

@@ -17,7 +17,7 @@ Solver& made(std::unique_ptr<Solver>& solver, MakeSolver make, SimdLevel level) 
   return *solver;
 }
 
-/// Cutting along a silhouette gains nothing by packets: it has lanes enough.
+/// Silhouettes gain nothing from packets: their edges fill the lanes.
 bool wants_packets(const SoftFrame& frame, const PreparedGroup& group) {
   return frame.config.solver == SoftSolver::automatic && group.silhouette.empty() &&
          group.clipped.size() <= most_packet_occluders &&
@@ -72,7 +72,7 @@ void GroupSolver::expect(const SoftFrame& frame, std::span<const std::uint32_t> 
   }
 }
 
-/// `watch` has seen the preparation begin.
+/// `watch` was started with the preparation.
 void GroupSolver::solve_prepared(const SoftFrame& frame, const PreparedGroup& group,
                                  std::span<const std::uint32_t> pixels, base::Stopwatch& watch) {
   if (stop_requested(frame.stop)) return;  // it may not be whole
@@ -84,7 +84,8 @@ void GroupSolver::solve_prepared(const SoftFrame& frame, const PreparedGroup& gr
   times.query_ms += watch.lap_ms();
 }
 
-/// Clipping was faster than the BSP on every frame measured (by 1.0 to 2 times): the BSP is there by name.
+/// Clipping was faster than the BSP on every frame measured (1.0 to 2 times): the BSP is used only if asked
+/// for by name.
 Solver& GroupSolver::solver_of(const SoftFrame& frame, const PreparedGroup& group) {
   const bool reference = frame.config.precision == SoftPrecision::reference;
   if (frame.config.solver == SoftSolver::bsp)

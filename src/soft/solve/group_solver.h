@@ -20,8 +20,8 @@ class GroupSolver {
 public:
   explicit GroupSolver(SimdLevel level);
 
-  /// Fills out's pixels of the group, some of them if frame.stop was requested. The result depends on the
-  /// group alone.
+  /// Fills out's pixels of the group, only some of them if frame.stop was requested. The result depends on
+  /// the group alone.
   void solve(const SoftFrame& frame, const GroupTask& task);
   /// The same for groups that lie near each other, within `around`, and have many candidates: these are made
   /// ready once for all.

@@ -63,7 +63,7 @@ private:
 
   ReceiverSight<double> receiver_;
   VisibleLight<double> visible_;
-  WholePoints whole_;  ///< points put aside
+  WholePoints whole_;  ///< points put aside until there are eight
 };
 
 std::unique_ptr<LitSolver> make_lit() {

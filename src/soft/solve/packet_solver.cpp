@@ -70,7 +70,7 @@ private:
   std::unique_ptr<Solver> alone_;
   bool alone_is_ready_ = false;  ///< has taken up the group
   ReceiverSight<float> receiver_;
-  WholePoints whole_;  ///< points put aside
+  WholePoints whole_;  ///< points put aside until there are eight
 };
 
 std::unique_ptr<Solver> make_packets(std::unique_ptr<Solver> alone) {

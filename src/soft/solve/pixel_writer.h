@@ -16,9 +16,9 @@ public:
   SoftStats& stats() { return stats_; }
   void answer_by(SoftClass solver) { solver_ = solver; }
 
-  /// `area` of the light is visible of `above`, what is above the horizon, and sends `irradiance`.
+  /// `area` of the light is visible, of the `above` that is above the horizon, and sends `irradiance`.
   void write(std::uint32_t pixel, double area, double irradiance, double above);
-  /// The whole light is visible. Says nothing of the solver.
+  /// The whole light is visible. Does not call count_solver().
   void write_whole(std::uint32_t pixel, double irradiance);
   /// Counts a pixel for the solver at work.
   void count_solver(std::uint32_t pixel);

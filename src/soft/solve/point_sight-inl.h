@@ -97,7 +97,7 @@ struct PointSight {
   Receiver3 at;
   double above = 0;  ///< area of the light above its receiver's plane; 0 from behind the light
   glm::dvec3 horizon{0.0};
-  bool horizon_cuts = false;  ///< that of its shading normal, the light
+  bool horizon_cuts = false;  ///< whether that of its shading normal cuts the light
 };
 
 template <class T>
@@ -125,7 +125,7 @@ struct VisibleLight {
     edges.count = 0;
   }
 
-  /// Integrates over it. Where the horizon cuts, there are fragments alone.
+  /// Integrates over it. Where the horizon cuts the light, all of it must be fragments.
   HWY_NOINLINE void integrate(const SoftFrame& frame, const PointSight& sight, PixelWriter& writer) {
     append_edges(fragments, edges);
     EdgeSums sums = sum_edges(edges, frame.light, sight.at);

@@ -42,7 +42,7 @@ private:
     visible_.clear();
     if (sight.above > 0) find_visible(frame, group, sight);
     if (sight.above > 0 && visible_.fragments == receiver_.light && !receiver_.plane.cuts_light &&
-        !sight.horizon_cuts) {  // nothing stands before it: it is finished with seven others
+        !sight.horizon_cuts) {  // nothing is hidden: it is finished with seven others
       writer.count_solver(pixel);
       whole_.add(pixel, sight.at.to_origin, sight.at.normal);
       if (whole_.full()) finish_whole(frame, whole_, writer);
@@ -70,7 +70,7 @@ private:
   SilhouetteSolver<T> silhouette_;
   ReceiverSight<T> receiver_;
   VisibleLight<T> visible_;
-  WholePoints whole_;  ///< points put aside
+  WholePoints whole_;  ///< points put aside until there are eight
 };
 
 }  // namespace tenebra::soft::HWY_NAMESPACE

@@ -29,8 +29,8 @@ public:
   /// Valid until the next call, like all that is returned here. Of no use if frame.stop was requested.
   PreparedGroup prepare(const SoftFrame& frame, const GroupTask& task);
 
-  /// Prepares groups that lie near each other, within `around`, at once. False where their meshes have an
-  /// silhouette: then each had better have one of its own, by prepare(). Of no use if frame.stop was
+  /// Prepares groups that lie near each other, within `around`, at once. False where their meshes have a
+  /// silhouette: then each is better off with one of its own, by prepare(). Of no use if frame.stop was
   /// requested.
   bool prepare_family(const SoftFrame& frame, const GroupFrame& around, std::span<const GroupTask> tasks);
   /// Group `k` of the family, until restore(). Of no use if `stop` was requested.

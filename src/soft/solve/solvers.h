@@ -15,7 +15,7 @@ class Solver {
 public:
   virtual ~Solver() = default;
 
-  /// Takes up a group, not whole if frame.stop was requested: then solve() answers nothing.
+  /// Takes up a group, perhaps not all of it if frame.stop was requested: then solve() answers nothing.
   virtual void begin(const SoftFrame& frame, const PreparedGroup& group) = 0;
   /// Answers pixels of that group; some of them if frame.stop was requested.
   virtual void solve(const SoftFrame& frame, const PreparedGroup& group,
