@@ -184,7 +184,7 @@ class ExrTest(unittest.TestCase):
         self.assertIn("(half, zip)", other.stderr.decode())
 
     def test_refusals_are_sentences(self):
-        for arguments, named in ((["-o", "a.png", "--aov", "depth"], "--aov is of OpenEXR pictures"),
+        for arguments, named in ((["-o", "a.png", "--aov", "depth"], "--aov is for OpenEXR pictures"),
                                  (["-o", "a.exr", "--aov", "dept"], "found dept, expected some of depth"),
                                  (["-o", "a.exr", "--aov", "ao"], "--aov ao needs ambient occlusion"),
                                  (["-o", "a.exr", "--aov", "visibility", "--shadows", "none"], "needs shadows"),

@@ -15,7 +15,8 @@ struct ImportOptions {
   std::string scene;  ///< glTF: which of the file's scenes, by name or number; empty: the one it shows first
   /// Where pictures are looked for that are not beside the scene.
   std::vector<std::filesystem::path> texture_paths;
-  /// Gets each file that the scene was read from, in the order of a reading of it; null: not asked for.
+  /// Gets each file that the scene was read from, in an order that is the same at each import; null: not
+  /// asked for.
   std::vector<std::filesystem::path>* files_read = nullptr;
 };
 

@@ -56,8 +56,7 @@ SIMD_INLINE Receivers8 gathered(const Receiver* receivers, std::span<const Recei
   return all;
 }
 
-// Whole numbers are compared with a sign here: the highest bit turned, they are in the order of those
-// without.
+// Lanes compare integers as signed ones: with the highest bit flipped these have the order of unsigned ones.
 void copy_ids(std::span<const std::uint32_t> ids, std::size_t count, std::uint32_t* to) {
   const auto turned = [](std::uint32_t id) { return static_cast<std::int32_t>(id ^ 0x80000000u); };
   const Int16 none = broadcast<Int16>(-1), highest = broadcast<Int16>(turned(0)),
@@ -84,7 +83,7 @@ int part_lanes(const std::uint32_t ids[tile_points], std::uint16_t parts[tile_po
   return count;
 }
 
-/// Points of eight lanes, and the bits of those that lie inside of their triangles.
+/// Points of eight lanes, and the bits of those that lie inside their triangles.
 struct Seen8 {
   Vector8 p;
   std::uint32_t inside;

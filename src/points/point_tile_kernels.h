@@ -27,13 +27,14 @@ struct PointTileKernels {
   /// Bits of the lanes whose ids are the same, by their first lanes; returns how many different ids there
   /// are.
   int (*part_lanes)(const std::uint32_t ids[tile_points], std::uint16_t parts[tile_points]) = nullptr;
-  /// The tile whose first pixel is `at`, with points on `parts` (one or more; numbers in `receivers`): what
-  /// `see` and `fill` give. False: nothing is said, as not all points lie inside of their triangles.
+  /// Does what `see` and `fill` do, for the tile whose first pixel is `at`, with points on `parts` (one or
+  /// more; numbers in `receivers`). Returns false, and writes nothing, if a point does not lie inside its
+  /// triangle.
   bool (*see_whole)(const Receiver* receivers, std::span<const ReceiverLanes> parts, const PixelRays& rays,
                     glm::uvec2 at, const glm::vec3& base, PointTile& tile, int place,
                     PointSquare& square) = nullptr;
-  /// Points of that tile. Returns the bits of those that lie inside of their triangles; the others are left
-  /// to PixelRays::point_on. The operations of the scalar code in the same order, so the same bits.
+  /// Points of that tile. Returns the bits of those that lie inside their triangles; the others are left to
+  /// PixelRays::point_on. The operations of the scalar code in the same order, so the same bits.
   std::uint32_t (*see)(const Receiver* receivers, std::span<const ReceiverLanes> parts, const PixelRays& rays,
                        glm::uvec2 at, TilePoints& out) = nullptr;
   /// Points from four rows of positions, `width` apart.
@@ -42,8 +43,8 @@ struct PointTileKernels {
   /// square.
   void (*fill)(const TilePoints& points, const glm::vec3& base, std::uint32_t lanes, PointTile& tile,
                int place, PointSquare& square) = nullptr;
-  /// Lanes of `lanes` (not 0) beyond a gap: farther from the first of them than the others by half of the
-  /// extent.
+  /// Lanes of `lanes` (not 0) beyond a gap: farther from the first of them than the others are, by half of
+  /// the largest distance.
   std::uint32_t (*beyond_gap)(const PointTile& tile, std::uint32_t lanes) = nullptr;
 };
 PointTileKernels point_tile_kernels(SimdLevel level);

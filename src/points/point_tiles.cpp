@@ -266,7 +266,8 @@ void PatchMaker::add_square(std::uint32_t x, std::uint32_t y, std::uint32_t firs
     if (kernels_.beyond_gap(tile, seen.lanes) != 0) square.gaps |= 1u << t;
   }
   if (square.filled == 0) return patch_.squares.pop_back();
-  // What leaves the range of floats is for others to look at (not NaN: max takes what is finite).
+  // A square that leaves the range of floats: its infinite radius makes hard shadows use the cone tree
+  // instead. Not NaN, of which max would take the finite operand.
   const bool finite = std::isfinite(base.x) && std::isfinite(base.y) && std::isfinite(base.z);
   square.base.radius = finite ? radius_of(square) : std::numeric_limits<float>::infinity();
   for (int k = 0; k < 3; ++k) square.base.at[k] = base[k];

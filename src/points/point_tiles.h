@@ -1,6 +1,7 @@
 // The visible points once more, as hard shadows read them: tiles of 4x4 pixels in floats relative to a point
-// nearby, boxes around them, and the triangles they lie on. No light is known here: one form serves all
-// lights. The points in double stay what counts; nothing here is farther from them than it says.
+// nearby, boxes around them, and the triangles they lie on. They depend on no light: one form serves all
+// lights. The points in double remain the ones that shadows are asked about; how far the floats are from them
+// is known.
 //
 // Sixteen tiles make a square of 16x16 pixels, whose points share a base. A tile whose points lie on several
 // triangles may straddle a gap in depth; this is noted.
@@ -45,7 +46,7 @@ struct ReceiverLanes {
 /// Sixteen tiles, boxes of q of each. Values of a tile that is not `filled` mean nothing.
 struct alignas(64) PointSquare {
   float low[3][16], high[3][16];
-  std::uint32_t own[16];       ///< id that all points lie on; no_triangle: several
+  std::uint32_t own[16];       ///< triangle that all points lie on; no_triangle: several
   std::uint16_t receiver[16];  ///< the same as a number; several_receivers
   std::uint16_t lanes[16];     ///< that have a point
   std::uint32_t first_tile;
@@ -55,7 +56,8 @@ struct alignas(64) PointSquare {
   float tau;  ///< largest rounding tolerance of the points' triangles, rounded up
 };
 
-/// Sixteen triangles that points lie on and that face the eye: points above (n, a) are before them.
+/// Sixteen triangles that points lie on and that face the eye: points on the side that n points to are before
+/// them.
 struct alignas(64) ReceiverBlock {
   float nx[16], ny[16], nz[16];  ///< unit normal to the eye's side, rounded
   float ax[16], ay[16], az[16];  ///< a corner, exact
@@ -70,7 +72,7 @@ struct PointPatch {
   std::vector<PointSquare> squares;  ///< that have points
   std::vector<ReceiverBlock> receivers;
   std::vector<ReceiverLanes> mixed;  ///< of tiles of several receivers, in the order of squares and tiles;
-                                     ///< those of a tile share its lanes out among them
+                                     ///< those of a tile divide its lanes among them
   std::uint32_t receiver_count = 0;
 };
 
@@ -117,7 +119,7 @@ void begin_point_tiles(int width, int height, const ViewRays& view, PointTiles& 
 /// their positions or, where these are missing, from their view: the same bits both ways.
 void make_point_patch(const VisiblePoints& points, const TriangleView& triangles, std::uint32_t patch,
                       PointTiles& out);
-/// All of it. `view`: the eye that saw the points.
+/// Makes the tiles of a whole picture. `view`: the eye that saw the points.
 void make_point_tiles(const VisiblePoints& points, const ViewRays& view, const TriangleView& triangles,
                       PointTiles& out);
 

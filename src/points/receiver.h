@@ -17,8 +17,9 @@ struct Receiver {
 };
 Receiver receiver_of(const TriangleView& triangles, std::uint32_t id);
 
-/// Where origin + t direction meets the triangle's plane, in the triangle: beside it, the nearest admissible
-/// weights. A ray that misses the plane (the rasteriser saw a triangle edge-on) gets the centroid.
+/// Where origin + t direction meets the triangle's plane, moved into the triangle if it lies beside: negative
+/// weights become 0, and the others are scaled to a sum of 1. A ray that misses the plane (the rasteriser saw
+/// a triangle edge-on) gets the centroid.
 glm::dvec3 visible_point(const Receiver& receiver, const glm::dvec3& origin, const glm::dvec3& direction);
 
 /// The rays of a view's pixels, in double.

@@ -1,4 +1,5 @@
-// Shading normals at visible points, interpolated as the rasteriser does, in double.
+// Shading normals at visible points: those of the vertices, interpolated linearly over the triangle, in
+// double.
 #include <cmath>
 
 #include <tenebra/visible_points.h>

@@ -19,7 +19,7 @@ constexpr double steepest = 0.5;
 // A normal is rounded to float twice, in the file and here: 2 sqrt(3)/2 2^-24, below 2^-22.
 constexpr double normal_rounding = 0x1p-22;
 
-/// Of the triangle's edges, the longest.
+/// The length of the longest edge.
 double size_of(const dvec3 (&v)[3]) {
   return std::sqrt(std::max({glm::dot(v[1] - v[0], v[1] - v[0]), glm::dot(v[2] - v[1], v[2] - v[1]),
                              glm::dot(v[0] - v[2], v[0] - v[2])}));

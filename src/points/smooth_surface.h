@@ -16,7 +16,7 @@ namespace tenebra::points {
 /// nothing where it lies above. Vertices stay where they are, and along an edge the lift follows from the
 /// edge's own vertices and normals: triangles that share them have no gap.
 struct SmoothSurface {
-  bool lifts = false;                   ///< some point of it by more than rounding amounts to
+  bool lifts = false;                   ///< some point, by more than rounding amounts to
   glm::dvec3 a{0.0}, du{0.0}, dv{0.0};  ///< weights of p: u = du.(p - a), v = dv.(p - a), 1 - u - v
   glm::dvec3 normal[3];                 ///< of the vertices, on the eye's side of the triangle
   double fall[3][2];  ///< [i][k]: how far vertex i + 1 + k lies below the plane at vertex i; < 0: above it

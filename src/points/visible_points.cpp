@@ -31,7 +31,7 @@ void compute_run(const points::Receiver& r, const points::PixelRow& row, std::si
   }
 }
 
-/// Surfaces of the triangles that rows nearby see.
+/// Smooth surfaces of the triangles that rows nearby see.
 class SmoothCache {
 public:
   const points::SmoothSurface& find(const ViewRays& view, const TriangleView& triangles, std::uint32_t id) {
@@ -112,7 +112,7 @@ void compute_visible_points(std::span<const std::uint32_t> ids, int width, int h
   if (tiled) points::begin_point_tiles(width, height, view, *out.tiles);
   const points::SquareGrid grid(width, height);
   const auto columns = static_cast<std::size_t>(width);
-  // Tiles are made of ids and positions that are still near.
+  // Tiles are made while ids and positions are still in the cache.
   parallel::parallel_tasks(static_cast<int>(grid.rows), [&](int band) {
     const auto row = static_cast<std::uint32_t>(band);
     const std::size_t top = row * points::square_side,

@@ -19,7 +19,7 @@ struct PixelRow {
 /// Code for one instruction set.
 struct VisibleRunKernels {
   /// Points of pixels x ... x + 7 on a receiver that is not flat. Returns the bits of those that lie inside
-  /// of the triangle; the others are left to be clamped.
+  /// the triangle; the others are left to be clamped.
   std::uint32_t (*eight)(const Receiver& receiver, const PixelRow& row, std::size_t x,
                          glm::dvec3 points[8]) = nullptr;
 };

@@ -11,7 +11,7 @@ namespace {
 
 bool in_range(const glm::vec3& p) {
   return std::abs(p.x) <= query::largest_coordinate && std::abs(p.y) <= query::largest_coordinate &&
-         std::abs(p.z) <= query::largest_coordinate;  // of NaN too
+         std::abs(p.z) <= query::largest_coordinate;  // false for NaN too
 }
 
 Expected<void> check_vertices(std::span<const glm::vec3> positions) {

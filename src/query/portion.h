@@ -14,9 +14,9 @@ namespace tenebra::query {
 /// Points [first, first + count), as rows of a picture or as a list.
 class Portion {
 public:
-  static constexpr std::size_t most = std::size_t{1} << 18;  ///< points, but for a picture of very long rows
+  static constexpr std::size_t most = std::size_t{1} << 18;  ///< points; more if rows are very long
 
-  /// The portion that begins with point `first` of `points`, of which there are more.
+  /// The portion that begins with point `first` of `points`, which has more than `first`.
   Portion(const QueryPoints& points, std::size_t first)
       : first_(first), columns_(static_cast<std::size_t>(points.width)), list_(0) {
     constexpr std::size_t rows_of_squares = 16;
@@ -43,7 +43,7 @@ private:
   points::SampleGrid list_;
 };
 
-/// Calls body(first, last) for runs of a portion's points, possibly at once.
+/// Calls body(first, last) for runs of a portion's points, on several threads.
 template <class Body>
 void each_run(const Portion& portion, const Body& body) {
   parallel::parallel_ranges(portion.count(), 4096, body);
@@ -56,7 +56,7 @@ void each_point(const Portion& portion, const Body& body) {
   });
 }
 
-/// Calls answer(portion), which fails or comes to its end, for portion after portion.
+/// Calls answer(portion) for one portion after the other, until one fails or all are done.
 template <class Answer>
 Expected<void> in_portions(const QueryPoints& points, const StopFlag* stop, const QueryProgress& progress,
                            const Answer& answer) {

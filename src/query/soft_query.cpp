@@ -41,7 +41,7 @@ std::uint8_t eye_on(const AreaLight& light, const std::vector<ViewRays>& eyes, c
   return no_eye;
 }
 
-/// The shading normal where some points have one.
+/// A point's shading normal, for calls in which some points have one.
 glm::vec3 shading_normal(const QueryPoints& points, std::size_t point, const AreaLight& light,
                          const TriangleView& triangles) {
   const dvec3 normal(query::normal_of(points, point));

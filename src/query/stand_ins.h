@@ -40,7 +40,7 @@ private:
   std::shared_ptr<const GeometryData> data_;
   std::uint64_t revision_ = 0;
   std::size_t slots_ = 0;
-  bool whole_ = false;  ///< all below is of these
+  bool whole_ = false;  ///< what follows is made from the above
   Scene scene_;
   FrameGeometry geometry_;
 };

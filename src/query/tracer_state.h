@@ -27,8 +27,8 @@ struct TracerState {
   ShadowMask mask;
   SoftMask visible;
   std::vector<float> openness;
-  std::vector<std::uint8_t> eyes;    ///< of a light, one for each point of a portion,
-  std::vector<ViewRays> light_eyes;  ///< among all of that light
+  std::vector<std::uint8_t> eyes;    ///< for each point of a portion, the number of its eye in light_eyes
+  std::vector<ViewRays> light_eyes;  ///< views from the vertices of a light
 
   std::shared_ptr<const GeometryData> followed;
   std::uint64_t revision = 0;
@@ -51,7 +51,7 @@ struct TracerState {
     return view;
   }
 
-  /// A portion's points, seen by no one yet.
+  /// A portion's points; which triangles they lie on is not set yet.
   void begin(const QueryPoints& points, const Portion& portion) {
     seen.width = portion.width(), seen.height = portion.height();
     seen.tiles.clear();

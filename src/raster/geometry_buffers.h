@@ -26,7 +26,7 @@ public:
   void draw_see_through() const;
 
 private:
-  gl::Buffer positions_, indices_, see_through_indices_;  ///< the triangles of the other kind are points
+  gl::Buffer positions_, indices_, see_through_indices_;  ///< triangles of the other kind have no area in it
   gl::VertexArray vertices_, see_through_;
   std::vector<glm::vec3> sent_positions_;  ///< what the buffers hold
   std::vector<glm::uvec3> sent_indices_, sent_see_through_;

@@ -1,5 +1,5 @@
-// The stage of anti-aliasing that lights edges with hard shadows: samples have those of others that stand for
-// them, or their own.
+// The stage of anti-aliasing that lights edges with hard shadows: samples get those of pixels' centres
+// nearby, or their own.
 #include <algorithm>
 
 #include "base/fail.h"
@@ -23,8 +23,9 @@ CentreShadows Renderer::State::centre_shadows(const SampleFrame& frame) const {
   return out;
 }
 
-/// Whether hard shadows of pixels' centres may stand for those of samples: not with so many samples that the
-/// shadows that this misses are more than the edges that are left, nor where masks of samples are asked for.
+/// Whether hard shadows of pixels' centres may stand for those of samples: not with more than four samples,
+/// where the shadows that this misses would weigh more than what is left at edges, nor where masks of samples
+/// are asked for.
 bool Renderer::State::shares_masks(const std::vector<DrawnLight>& lights, const RenderSettings& settings) {
   return settings.antialias <= 4 && !settings.antialias_everywhere && !settings.mask_means &&
          !settings.sample_masks && settings.samples == SampleSource::ids && lights.size() <= most_lit_bits;

@@ -9,7 +9,7 @@
 namespace tenebra::render {
 namespace {
 
-constexpr std::uint32_t first_own = std::uint32_t{1} << 31;  // of what soft_from and hard_from hold
+constexpr std::uint32_t first_own = std::uint32_t{1} << 31;  // values of soft_from below it are pixels
 
 }  // namespace
 

@@ -17,7 +17,8 @@ constexpr std::size_t places_at_once = 16;                  // whose ids are kep
 constexpr int squares_a_side = 2;                           // of pixels with a contrast
 constexpr std::size_t most_samples = std::size_t{1} << 20;  // lit and shaded at once
 
-/// Samples that were shaded, or lit, for the chosen pixels.
+/// The further samples of the chosen pixels, whether lit and shaded themselves or by others that stand for
+/// them.
 std::uint64_t sample_count(const ChosenPixels& chosen, std::size_t places) {
   return chosen.edges.size() * places + chosen.contrasts.size() * squares_a_side * squares_a_side;
 }
@@ -33,7 +34,7 @@ Expected<void> Renderer::State::find_sample_ids(const FrameInput& input, const R
   return raster.draw_places(input.geometry, input.view, offsets, wish, further, stop);
 }
 
-/// Colours of a list; with `from` numbers of what `lit` has.
+/// Colours of a list whose `from` are places in `lit`.
 void Renderer::State::shade_list(const RenderSettings& settings, const shade::Subject& subject,
                                  const shade::Lighting& lighting, const SampleLights& lit, float texture_px) {
   with_threads(settings.threads, [&] {
@@ -108,7 +109,7 @@ Expected<void> Renderer::State::add_edges(const FrameInput& input, const std::ve
   return {};
 }
 
-/// What changes quickly in what is drawn: some places in the light of their pixels' centres.
+/// Contrasts: a few places of each pixel, in the light of its centre.
 void Renderer::State::add_contrasts(const RenderSettings& settings, const SampleFrame& frame,
                                     std::span<const std::uint32_t> chosen, std::size_t first,
                                     SampleMeans& means) {

@@ -13,7 +13,8 @@ namespace {
 using glm::dvec3;
 using glm::vec3;
 
-/// Half axes of a rectangle that shines along `direction`; the first is level where that says something.
+/// Half axes of a rectangle that shines along `direction`; the first is level, or at right angles to z where
+/// `direction` is nearly vertical.
 void rectangle_axes(const dvec3& direction, glm::dvec2 size_m, vec3& half_x, vec3& half_y) {
   const bool upright = std::abs(direction.y) > 0.999 * glm::length(direction);
   const dvec3 x = glm::normalize(glm::cross(upright ? dvec3(0, 0, -1) : dvec3(0, 1, 0), direction));
@@ -36,7 +37,7 @@ glm::dvec2 point_size_m(int light, const AreaLightSettings& settings, const Scen
   return (settings.percent_of_diagonal ? 0.01 * box.diagonal_m() : 1.0) * glm::dvec2(settings.size);
 }
 
-/// Degrees; what is nearest to the light wins.
+/// Degrees: the light's own setting, else the one for all lights, else the scene's.
 float sun_diameter(const Light& light, int number, const AreaLightSettings& settings) {
   const auto index = static_cast<std::size_t>(number);
   if (index < settings.own_sun_deg.size() && settings.own_sun_deg[index]) return *settings.own_sun_deg[index];
@@ -51,7 +52,8 @@ Expected<AreaLight> rectangle_of_point(const Light& light, const WorldLight& pla
   return make_rectangle_light(placed.position, half_x, half_y);
 }
 
-/// The file's own rectangle or disc; its axes span the side away from which it shines.
+/// The file's own rectangle or disc; its first axis is turned where the two would make it shine the wrong
+/// way.
 Expected<AreaLight> placed_polygon(const Light& light, const WorldLight& placed) {
   const bool turned = glm::dot(glm::cross(placed.axis_x, placed.axis_y), placed.direction) < 0;
   const vec3 half_x = turned ? -placed.axis_x : placed.axis_x;

@@ -91,8 +91,8 @@ std::optional<std::vector<vec3>> outline_of(const Part& part, const FrameGeometr
   }
   const auto hull = convex_hull(std::move(corners));
   if (hull.size() < 3) return std::nullopt;
-  // Holes, overlaps and dents make a difference of areas; the corners' rounding makes one of at most itself
-  // times the outline's length.
+  // Holes, overlaps and dents make the areas differ; the rounding of the corners does so too, by at most its
+  // size times the outline's length.
   double around = 0;
   for (std::size_t i = 0; i < hull.size(); ++i) {
     around += glm::length(hull[(i + 1) % hull.size()].at - hull[i].at);

@@ -36,7 +36,7 @@ std::vector<Sightline> lines_to(const PixelQuestion& question, const shadow::Sam
   TriangleView triangles = casters_of(question.scene, question.geometry, light, casters);
   if (lifts_points(question.settings)) triangles.normals = question.geometry.normals;
   HardShadowConfig config = question.settings.hard;
-  if (light.area) config.cull_front = false;  // soft shadows have no such thing
+  if (light.area) config.cull_front = false;  // soft shadows do not cull by facing
   return shadow::find_sightlines(sample, question.view, triangles, targets, config);
 }
 
@@ -78,7 +78,7 @@ void explain_point(const PixelQuestion& question, const ShadedSample& shaded, co
   out.held_by_it = 1;
 }
 
-/// What is first on most ways to points of the light; of equals the smallest id.
+/// What is first on most sightlines to points of the light; of equals the smallest id.
 void explain_area(const PixelQuestion& question, const shadow::Sample& sample, const DrawnLight& light,
                   LightExplanation& out) {
   std::vector<ShadowLight> targets;
@@ -125,7 +125,7 @@ LightExplanation explain_light(const PixelQuestion& question, const ShadedSample
   const auto index = static_cast<std::size_t>(question.pixel.y) * static_cast<std::size_t>(question.width) +
                      static_cast<std::size_t>(question.pixel.x);
   out.visible_fraction = mask->visible_fraction.pixels[index];
-  // The exact fraction says more than some points do.
+  // The mask's fraction says more than a few points do.
   if (*out.visible_fraction > 0) out.sight = LightSight::lit;
   if (*out.visible_fraction == 0 && out.sight == LightSight::lit) out.sight = LightSight::blocked;
   return out;

@@ -41,13 +41,13 @@ struct LightExplanation {
   /// sample does not shine on it.
   bool faces_shading = true;
   std::optional<float> visible_fraction;  ///< of a light with an area, 0 to 1: the mask's
-  /// What is in the way: the first triangle on the way to the light; of lights with an area the one that
-  /// comes first on most of `asked` ways to points spread over it. None where every way is free.
+  /// What is in the way: the first triangle on the sightline to the light; of lights with an area the one
+  /// that is first on most of `asked` sightlines to points spread over it. None where all are free.
   std::optional<TrianglePlace> occluder;
-  glm::dvec3 met_at{0.0};  ///< where the way meets it
+  glm::dvec3 met_at{0.0};  ///< where the sightline meets it
   int asked = 1;
-  int held_by_it = 0;       ///< of these, ways on which it is first
-  glm::vec3 light_at{0.0};  ///< where the way ends; of directional lights a direction towards them
+  int held_by_it = 0;       ///< of these, sightlines on which it is first
+  glm::vec3 light_at{0.0};  ///< where the sightline ends; of directional lights a direction towards them
   bool directional = false;
 };
 

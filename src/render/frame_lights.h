@@ -20,7 +20,7 @@ struct DrawnLight {
 /// Whether one of them has an area.
 bool has_areas(const std::vector<DrawnLight>& lights);
 
-/// Whether points behind the polygon may see light: not from a spot light of less than a half-space.
+/// Whether points behind the polygon may see light: not from a spot light whose cone is a half-space or less.
 bool shines_behind(const DrawnLight& light);
 
 /// The lights of `input` that `settings` asks for, with polygons in soft mode. Lights that keep hard shadows

@@ -16,7 +16,7 @@
 namespace tenebra::render {
 
 struct FrameRaster::Gl {
-  gl::Context context;  // first: it goes last
+  gl::Context context;  // first, so that it is destroyed last
   raster::GBufferPass pass;
   raster::GeometryBuffers geometry;
   raster::GBuffer gbuffer{};

@@ -27,15 +27,15 @@ struct RasterChoice {
   gl::ContextOptions options;
 };
 
-/// Finds what pixels see, by one of the two ways; ids differ only where a pixel's centre is on an edge, but
-/// for OpenGL's rounding of vertices, and where depths tie. Keeps its buffers.
+/// Finds what pixels see, in one of two ways, whose ids differ only where a pixel's centre lies on an edge,
+/// up to OpenGL's rounding of vertices, and where depths are equal. Keeps its buffers.
 class FrameRaster {
 public:
   /// gl: by OpenGL. cpu: without any context. automatic: by OpenGL if there is a context and it draws by more
   /// than software. Fails with a sentence if there is no context, it lacks OpenGL 4.5 core or a shader does
   /// not build.
   static Expected<FrameRaster> create(const RasterChoice& choice);
-  /// By OpenGL in this context, whatever draws there. An adopted one is left as found after each draw
+  /// By OpenGL in this context, even if it is software. An adopted one is left as found after each draw
   /// (gl/kept_state.h).
   static Expected<FrameRaster> create(gl::Context context);
   FrameRaster(FrameRaster&&) noexcept;

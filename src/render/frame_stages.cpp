@@ -89,7 +89,8 @@ TriangleView Renderer::State::traced_triangles(const FrameInput& input, const Dr
                                                const RenderSettings& settings) {
   TriangleView triangles = casters_of(scene, input.geometry, light, casters);
   if (lifts_points(settings)) triangles.normals = input.geometry.normals;
-  // Lights that the same triangles cast shadows from, and further samples, find them as they were left.
+  // The same number for further samples, and for all lights with the same casters: tracers then use what they
+  // have made of these triangles.
   if (triangles.casts_shadow.data() == input.geometry.casts_shadow.data()) triangles.version = frames_begun;
   return triangles;
 }

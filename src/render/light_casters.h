@@ -10,8 +10,8 @@
 namespace tenebra::render {
 
 /// The frame's triangles with the casters of `light`: all but those of Light::left_out_nodes, and those that
-/// lie in the plane of its polygon. `storage` holds what differs from FrameGeometry::casts_shadow; keep it as
-/// long as the view.
+/// lie in the plane of its polygon. `storage` holds the casters where they differ from
+/// FrameGeometry::casts_shadow; keep it as long as the view.
 TriangleView casters_of(const Scene& scene, const FrameGeometry& geometry, const DrawnLight& light,
                         std::vector<std::uint8_t>& storage);
 

@@ -25,7 +25,8 @@ struct LitSamples {
   std::vector<LightTint> tints;                      ///< of each light
   std::vector<float> openness;                       ///< empty without ambient occlusion
 
-  /// Of so many lights, none of which has been asked about; `tinted`: room for the tints of so many samples.
+  /// Room for this many lights, of which nothing is known yet; `tinted`: and for the tints of this many
+  /// samples.
   void begin(std::size_t lights, std::size_t tinted = 0);
   std::vector<shade::LightFactors> factors() const;
 };

@@ -26,7 +26,8 @@ Scene without_keyed_vertices(Scene scene) {
   return scene;
 }
 
-/// Soft shadows and ambient occlusion start from exact points on triangles.
+/// Fails on settings that exclude each other: soft shadows and ambient occlusion start from exact points on
+/// triangles.
 Expected<void> check_settings(const RenderSettings& settings) {
   const bool needs_ids = settings.shadows == ShadowMode::soft || settings.ao.mode != AoMode::none;
   if (needs_ids && settings.samples == SampleSource::depth) {
@@ -37,9 +38,8 @@ Expected<void> check_settings(const RenderSettings& settings) {
     return base::fail("anti-aliasing: found {} samples per pixel, expected 1, 2, 4, 8 or 16",
                       settings.antialias);
   if (settings.antialias > 16 && !settings.antialias_everywhere)
-    return base::fail(
-        "anti-aliasing: {} samples per pixel are for comparisons, everywhere; expected at most 16",
-        settings.antialias);
+    return base::fail("anti-aliasing: found {} samples per pixel for some pixels only, expected at most 16",
+                      settings.antialias);
   return {};
 }
 

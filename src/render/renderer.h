@@ -99,8 +99,8 @@ struct FrameInput {
   std::vector<WorldLight> lights;
   ViewRays view;
   /// What the pixels see, where another renderer has drawn it (tenebra/host_frame.h): width * height
-  /// triangles, row 0 at the top; what is no triangle is background. Empty: it is drawn here. Needs one
-  /// sample a pixel and SampleSource::ids; nothing see-through is laid over it.
+  /// triangles, row 0 at the top; any other number is background. Empty: it is drawn here. Needs one sample
+  /// per pixel and SampleSource::ids; nothing see-through is laid over it.
   std::vector<std::uint32_t> ids{};
 };
 
@@ -111,13 +111,13 @@ struct LightMask {
       visible_fraction;      ///< soft mode: visible part of the light, 0..1 (0 or 1 of a point); else empty
   std::vector<float> nodes;  ///< hard, with RenderSettings::diagnostics: ShadowTracer::pixel_nodes
   base::ImageF error;  ///< soft, with RenderSettings::error_maps: SoftShadowTracer::errors(), 0 where exact
-  std::vector<std::uint8_t> classes;  ///< exact soft shadows: a SoftClass a pixel, for display; else empty
+  std::vector<std::uint8_t> classes;  ///< exact soft shadows: a SoftClass per pixel, to display; else empty
   TintMask tint;  ///< what see-through surfaces leave of the light's colours; the mask is of opaque casters
 
   // With RenderSettings::antialias above 1. All else here is of the pixels' centres.
   base::ImageF mean;                  ///< with mask_means: visible fraction, 0..1, mean over the samples
   std::vector<base::Image8> samples;  ///< with sample_masks: `mask` of each sample, the centre first if it
-                                      ///< counts; a pixel that needs but one has its centre's everywhere
+                                      ///< counts; a pixel that needs only one has its centre's in all
 };
 
 /// What traced a light without an area.
@@ -153,8 +153,9 @@ public:
   Renderer& operator=(Renderer&&) noexcept;
   ~Renderer();
 
-  /// One frame; `result` keeps its capacity. Fails on sizes that cannot be drawn or a lost context.
-  /// With `stop` requested from another thread it fails soon, with "stopped".
+  /// One frame; `result` keeps its capacity. Fails with a sentence on sizes that cannot be drawn, on settings
+  /// that exclude each other, and if the context is lost. With `stop` requested from another thread it fails
+  /// soon, with "stopped".
   Expected<void> render_frame(const FrameInput& input, const RenderSettings& settings, FrameResult& result,
                               const AoProgress& progress = {}, const StopFlag* stop = nullptr);
 
@@ -165,7 +166,7 @@ public:
   /// passes through or shadows are cast, stay as they were made.
   void set_materials(const std::vector<Material>& materials);
 
-  /// What stands around the scene, in place of its background and ambient light: shade/environment.h.
+  /// The surroundings of the scene, in place of its background and ambient light: shade/environment.h.
   void set_environment(const base::ImageF& picture);
 
   /// What pixel (x, y), row 0 at the top, of the last frame sees, in world space; none: background. `input`:

@@ -28,7 +28,7 @@ struct AreaTask {
   const RenderSettings& settings;
   const VisiblePoints& at;
   std::span<const glm::vec3> normals;
-  FrameResult* counts = nullptr;  ///< gets times and counts; null: nothing does
+  FrameResult* counts = nullptr;  ///< gets times and counts; null: they are dropped
   const StopFlag* stop = nullptr;
 };
 
@@ -42,7 +42,7 @@ struct AreaSide {
 
 struct Renderer::State {
   FrameRaster raster;
-  Scene scene;  // as of without_keyed_vertices
+  Scene scene;  // as without_keyed_vertices leaves it
   shade::SurfaceTable surfaces;
   std::optional<shade::Environment> environment{};
 
@@ -69,7 +69,7 @@ struct Renderer::State {
   std::vector<LightTint> tints{};  // of the drawn lights
   LitSamples layer{};
   std::vector<std::uint32_t> ids_behind{};  // the opaque samples behind the layer
-  VisiblePoints behind{};                   // they as the eye sees them, where `points` are others
+  VisiblePoints behind{};                   // their points as the eye sees them, where `points` has others
   EyeTint eye_tint{};
   TintMask passes{};
 
@@ -94,7 +94,7 @@ struct Renderer::State {
   void points_from_depth(const ViewRays& view);
   /// Visible points lifted to the smooth surfaces, and the normals of the points before.
   void find_lifted_points(const FrameInput& input, PointLayout layout, bool shaded);
-  /// Receivers and casters of one light, with normals where points are lifted. Stands until the next call.
+  /// Receivers and casters of one light, with normals where points are lifted. Valid until the next call.
   TriangleView traced_triangles(const FrameInput& input, const DrawnLight& light,
                                 const RenderSettings& settings);
   Expected<void> occlude_ambient(const FrameInput& input, const RenderSettings& settings, FrameResult& result,
@@ -108,7 +108,7 @@ struct Renderer::State {
   /// Adds the masks of all lights, one after the other.
   Expected<void> trace_lights(const FrameInput& input, const std::vector<DrawnLight>& lights,
                               const RenderSettings& settings, FrameResult& result, const StopFlag* stop);
-  /// What see-through surfaces leave of the light at samples with this mask, or of an area this irradiance.
+  /// The light's tint at samples: of those that `mask` lights, or for a light with an area `soft_lit`.
   Expected<void> trace_tint(const FrameInput& input, const DrawnLight& light, const RenderSettings& settings,
                             const VisiblePoints& at, std::span<const glm::vec3> shading_normals,
                             const ShadowMask& mask, const SoftMask& soft_lit, TintMask& out,
@@ -116,21 +116,21 @@ struct Renderer::State {
   /// Where samples are lit: their points, or these lifted.
   const VisiblePoints& lit_points(const FrameInput& input, const RenderSettings& settings,
                                   LitSamples& samples);
-  /// Lights that samples are lit by; `points`: without an area, and without ambient occlusion; `masks`: the
-  /// same without what see-through surfaces leave; `areas`: with one, and with ambient occlusion.
+  /// Which lights samples are lit by. `points`: those without an area, and no ambient occlusion; `masks`: the
+  /// same without tints; `areas`: those with an area, and ambient occlusion.
   enum class LightKinds { all, points, masks, areas };
-  /// What is left of each light at samples whose points (and, for areas and occlusion, normals) are there.
+  /// How much of each light reaches samples whose points (and, for areas and occlusion, normals) are known.
   Expected<void> light_samples(const FrameInput& input, const std::vector<DrawnLight>& lights,
                                const RenderSettings& settings, LightKinds kinds, LitSamples& at,
                                const StopFlag* stop);
   /// The visible part of an area light at points, as the settings want it.
   Expected<void> trace_visible_part(const AreaTask& task, const DrawnLight& light, SoftMask& out);
-  /// That, and what see-through surfaces leave of it.
+  /// The same, and its tint.
   Expected<void> trace_side(const AreaTask& task, const DrawnLight& light, AreaSide& out);
-  /// The same of both sides where the light shines in every direction, with the weights of that.
+  /// The same for both sides of a light that shines alike in every direction (soft/light/even_emission.h).
   Expected<void> trace_area(const AreaTask& task, const DrawnLight& light, AreaSide& out);
   void keep_linear(const RenderSettings& settings, FrameResult& result) const;
-  /// What settings.aovs asks for (aov_stages.cpp); `factors`: what is left of each light at the centres.
+  /// What settings.aovs asks for (aov_stages.cpp); `factors`: how much of each light reaches the centres.
   void fill_aovs(const FrameInput& input, const std::vector<DrawnLight>& lights,
                  const RenderSettings& settings, std::span<const shade::LightFactors> factors,
                  FrameResult& result);
@@ -138,7 +138,7 @@ struct Renderer::State {
   base::ImageF irradiance_seen(const shade::Subject& subject, const std::vector<DrawnLight>& lights,
                                const shade::PixelSamples& pixels) const;
   base::ImageF albedo_seen(const FrameInput& input, const shade::PixelSamples& pixels);
-  /// Whether further samples, or who asked for them, need the linear colours of the centres.
+  /// Whether further samples, or the caller, need the linear colours of the centres.
   static bool needs_colors(const RenderSettings& settings) {
     return settings.antialias > 1 || settings.linear || settings.linear_mean;
   }
@@ -164,7 +164,7 @@ struct Renderer::State {
     std::span<const LightMask> masks;  // of each light, if there are shadows
     std::span<const glm::vec2> offsets;
   };
-  /// What the picture, and the means of masks, get from further samples.
+  /// Adds further samples to the picture and to the means of masks.
   Expected<void> antialias(const FrameInput& input, const std::vector<DrawnLight>& lights,
                            const RenderSettings& settings, const SampleFrame& frame, FrameResult& result,
                            const StopFlag* stop);

@@ -88,7 +88,8 @@ void BlockShader::finish_stretch() {
   stretch_.count = 0;
 }
 
-/// A stretch is finished before the next run is placed: values written behind it have no meaning yet.
+/// A stretch is finished before a run that is not part of it is placed: finishing it may write up to fifteen
+/// samples behind it.
 void BlockShader::place_run(std::uint32_t id, const float* x, const float* y, std::size_t first,
                             std::size_t count) {
   const Subject& subject = frame_.subject;

@@ -31,7 +31,7 @@ public:
   /// SampleBlock::room. Ids beyond the triangles are background.
   void place(std::span<const std::uint32_t> ids, const float* x, const float* y);
 
-  /// The block's linear colours from what stands at `first` ... of the factors and the openness (empty: 1).
+  /// The block's linear colours. Its samples begin at `first` in the factors and the openness (empty: 1).
   void shade(std::span<const LightFactors> factors, std::span<const float> openness, std::size_t first);
   /// One light alone, before shadows.
   void shade_light(std::size_t light);

@@ -64,8 +64,8 @@ SIMD_INLINE Incident incident_light(const LightTerms& terms, const SampleBlock& 
   return {to_light, select(lt(zero, distance), fade_of(terms, to_light, distance), zero)};
 }
 
-/// What reaches a surface of what arrives: fade times the cosine at the surface; zero where the light is not
-/// before it.
+/// How much of the arriving light a surface receives: fade times the cosine at the surface; zero where the
+/// light is not before it.
 SIMD_INLINE Float16 received(const LightTerms& terms, const Incident& incident, const SampleBlock& b,
                              std::size_t i) {
   if (terms.by_irradiance) return incident.fade;

@@ -14,7 +14,8 @@ namespace tenebra::shade {
 /// How bright colours are fitted into 0..1. All of them are continuous.
 enum class Tone {
   none,     ///< they are cut off
-  neutral,  ///< Khronos PBR Neutral 1.0: below 0.8 - 0.04 only less the reflection of 0.04, then compressed
+  neutral,  ///< Khronos PBR Neutral 1.0: 0.04, a surface's reflection, is taken off; what is then above 0.76
+            ///< is compressed
   aces      ///< Hill's fit to ACES 1.0, reference rendering and sRGB output: film-like, darker in the shade
 };
 inline constexpr std::array tones{Tone::none, Tone::neutral, Tone::aces};
@@ -39,8 +40,8 @@ void encode_shown(const Display& display, const glm::vec3& shown_color, std::uin
 /// github.com/KhronosGroup/ToneMapping, "Khronos PBR Neutral".
 namespace neutral {
 inline constexpr float reflection = 0.04f;         ///< of dielectrics at 0 degrees, taken off
-inline constexpr float toe_end = 0.08f;            ///< least channel from which on all of it is taken off
-inline constexpr float toe = 6.25f;                ///< below, min - toe * min^2 is
+inline constexpr float toe_end = 0.08f;            ///< from this least channel on, all of it is taken off
+inline constexpr float toe = 6.25f;                ///< below, min - toe * min^2 is taken off
 inline constexpr float start = 0.8f - reflection;  ///< of compression
 inline constexpr float room = 1 - start;           ///< for all that is brighter
 inline constexpr float desaturation = 0.15f;

@@ -16,8 +16,9 @@ public:
 
   /// What is seen, and mirrored: from the copy whose pixels are as wide as the lobe.
   const Panorama& radiance() const { return radiance_; }
-  /// What a white diffuse surface with a normal in that direction shows in the open: irradiance / pi. Within
-  /// 2 % of the brightest direction's of the integral over the picture's copy of at most 64x32 pixels.
+  /// What a white diffuse surface with a normal in that direction shows in the open: irradiance / pi. It
+  /// differs from the integral over the picture's copy of at most 64x32 pixels by at most 2 % of the value in
+  /// the brightest direction.
   const Panorama& irradiance() const { return irradiance_; }
 
 private:

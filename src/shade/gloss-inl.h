@@ -38,7 +38,7 @@ SIMD_INLINE Vector16 unit(const Vector16& v) {
   return (number(1.0f) / max(sqrt(dot_unfused(v, v)), number(1e-30f))) * v;
 }
 
-/// A direction to the light that stands for all of it, and how much a GGX lobe is weakened for being wider.
+/// A direction that stands for the whole light, and the distance of the light there.
 struct Towards {
   Vector16 direction;
   Float16 distance;
@@ -115,7 +115,7 @@ SIMD_INLINE Vector16 glossy_light(const LightTerms& terms, const Incident& incid
   const Float16 lobe =
       select(lt(zero, cosine), weight * ggx_lobe(g, to.direction, half_cosine, widened), zero);
 
-  // Phong's highlight knows no cosine at the surface; irradiance has it, and so it is taken out again.
+  // Phong's highlight has no cosine at the surface; irradiance contains it, so it is divided by it again.
   const Float16 bare = terms.by_irradiance
                            ? incident.fade / max(dot_unfused(g.normal, incident.to_light), number(0.25f))
                            : incident.fade;

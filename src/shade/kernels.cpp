@@ -171,7 +171,8 @@ void encode_block(const LevelTable& table, const Display& display, const SampleB
           level);
     const std::size_t count = b.count - i < 16 ? b.count - i : 16;
     for (std::size_t k = 0; k < count; ++k) {
-      // Four bytes at once; the fourth is the next sample's, but behind the last one.
+      // Four bytes at once: the fourth is the first of the next sample, which overwrites it; the last sample
+      // has no next.
       if (i + k + 1 < b.count) {
         std::memcpy(rgb + 3 * (i + k), &level[k], 4);
       } else {

@@ -50,13 +50,14 @@ struct Kernels {
   /// Fills reflected where the surroundings are the same on all sides but for `brighter`, which smooth
   /// surfaces see more of.
   void (*reflect)(const glm::vec3& around, const glm::vec3& brighter, SampleBlock& block) = nullptr;
-  /// What stands around in the unit directions `towards`, through lobes of `roughness` (null: 0).
+  /// What is seen of the surroundings in the unit directions `towards`, through lobes of `roughness` (null:
+  /// 0).
   void (*see)(const Panorama& picture, const SampleBlock::Channel (&towards)[3], const float* roughness,
               std::size_t first, std::size_t count, SampleBlock::Channel (&out)[3]) = nullptr;
   /// The same with `irradiance` and `radiance` all around, for ambient and reflected.
   void (*surround)(const Panorama& irradiance, const Panorama& radiance, SampleBlock& block) = nullptr;
-  /// color = ambient * openness + emissive; `openness`: one for each sample, or null: all open. What
-  /// is glossy mirrors `reflected`, as open.
+  /// color = ambient * openness + emissive; `openness`: one for each sample, or null: all open. Glossy
+  /// samples also mirror `reflected`, times their openness.
   void (*begin)(const float* openness, SampleBlock& block) = nullptr;
   /// Adds a light; `factor`: one for each sample, or null: 1.
   void (*light)(const LightTerms& terms, const float* factor, SampleBlock& block) = nullptr;

@@ -50,7 +50,7 @@ struct LightTerms {
   bool by_irradiance = false;  ///< the cosine at the surface comes with the irradiance
 
   // By irradiance: the polygon, for what mirrors it.
-  glm::vec3 area_from_eye{0.0f};  ///< its centre relative to the eye; of a sun the unit way to it
+  glm::vec3 area_from_eye{0.0f};  ///< its centre relative to the eye; of a sun the unit direction to it
   float area_weight = 1;          ///< 0: a sun, seen in that direction from everywhere
   glm::vec3 area_normal{0.0f};
   glm::vec3 axis_x{0.0f}, axis_y{0.0f};  ///< unit

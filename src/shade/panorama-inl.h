@@ -45,7 +45,7 @@ struct PanoramaCorners {
   alignas(64) float across[16], down[16];
 };
 
-/// `u`, `v`: 0 to 1. Whatever they are, pixels of the level are found.
+/// `u`, `v`: 0 to 1. Whatever they are, the pixels found are in the level.
 SIMD_INLINE void find_panorama_corners(const Panorama& picture, Int16 level, Float16 u, Float16 v,
                                        PanoramaCorners& out) {
   const Int16 one = broadcast<Int16>(1), least = broadcast<Int16>(-1);

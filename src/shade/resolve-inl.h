@@ -1,4 +1,4 @@
-// Surfaces of materials with their textures, at sixteen samples: docs/materials.md has what means what.
+// Surfaces of materials with their textures, at sixteen samples: docs/materials.md explains the parameters.
 // Included once per target.
 #if defined(TENEBRA_SHADE_RESOLVE_INL_H_) == defined(HWY_TARGET_TOGGLE)
 #ifdef TENEBRA_SHADE_RESOLVE_INL_H_

@@ -31,7 +31,7 @@ struct SampleBlock {
   alignas(64) Channel roughness;     ///< GGX: the square root of its alpha; negative: Phong
   alignas(64) Channel exponent;      ///< Phong
   alignas(64) Channel to_eye[3];     ///< unit
-  alignas(64) Channel reflected[3];  ///< radiance of the surroundings in the mirrored direction, as rough
+  alignas(64) Channel reflected[3];  ///< mirrored radiance of the surroundings, blurred by roughness
 
   alignas(64) Channel color[3];  ///< the result, linear
 };

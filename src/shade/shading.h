@@ -23,8 +23,7 @@ struct Subject {
   const FrameGeometry& geometry;
   const ViewRays& view;
   const SurfaceTable& surfaces;
-  bool smooth_terminator = false;  ///< smooth triangles take light from where their shading normals point,
-                                   ///< not from before their planes alone
+  bool smooth_terminator = false;  ///< on smooth triangles light counts by shading normal, not by plane
 };
 
 struct Lighting {

@@ -36,7 +36,7 @@ struct MapUse {
 struct CoordinateRule {
   int set = 0;
   glm::dmat3x2 transform{1, 0, 0, 1, 0, 0};
-  glm::dvec2 period{0.0};  ///< what coordinates may change by unseen: 0 where the picture ends at its edges
+  glm::dvec2 period{0.0};  ///< the picture repeats after this; 0: it does not
   bool moves = false;      ///< the transform is not the identity
 };
 struct SurfaceMaps {
@@ -45,7 +45,7 @@ struct SurfaceMaps {
   bool any() const { return !rules.empty(); }
 };
 
-/// Coordinates over a triangle: at its first vertex, and what the weights of the others change them by.
+/// Coordinates over a triangle: at its first vertex, and their change towards each of the others.
 struct CoordinatePlane {
   glm::vec2 first{0.0f}, by_second{0.0f}, by_third{0.0f};
 };
@@ -76,7 +76,7 @@ public:
   /// Whether some material reflects more than diffusely.
   bool any_glossy() const { return any_glossy_; }
 
-  // Where it does, of a held material:
+  // For materials that vary; `held` as held() returns it:
   const Material& material(std::size_t held) const { return materials_[held]; }
   const SurfaceMaps& maps(std::size_t held) const { return maps_[held]; }
   const texture::MipTexture& texture(const MapUse& use) const {

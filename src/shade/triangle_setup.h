@@ -38,7 +38,7 @@ struct TriangleSetup {
 TriangleSetup set_up(const FrameGeometry& geometry, const ViewRays& view, std::uint32_t id,
                      const glm::vec2& origin);
 
-/// The setups that neighbouring rows share. What it returns stands until the next call.
+/// The setups that neighbouring rows share. What it returns is valid until the next call.
 class SetupCache {
 public:
   const TriangleSetup& find(const FrameGeometry& geometry, const ViewRays& view, std::uint32_t id,

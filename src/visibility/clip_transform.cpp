@@ -20,8 +20,8 @@ double far_parameter(const ViewRays& view, const Box& bounds, const glm::dvec3& 
       far_t = std::max(far_t, glm::dot(t_row, p - glm::dvec3(view.eye)));
     }
   }
-  // A margin for the rounding of clip coordinates; never zero, or a flat scene at the near plane had no
-  // depth.
+  // A margin for the rounding of clip coordinates; never zero, or a flat scene at the near plane would have
+  // no depth.
   return far_t + 1e-3 * std::max(far_t - near_t, 1e-3 * std::abs(near_t) + 1e-30);
 }
 

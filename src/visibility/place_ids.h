@@ -11,8 +11,8 @@ namespace tenebra::visibility {
 
 /// What one pixel sees at the places.
 struct PixelPlaces {
-  const std::int32_t* ids = nullptr;  ///< [16 place]; null: the same at all
-  std::uint32_t one = 0;              ///< what that is
+  const std::int32_t* ids = nullptr;  ///< [16 place]; null: all places see the same
+  std::uint32_t one = 0;              ///< what they see then
   const std::int32_t* layer_ids = nullptr;
 
   /// An opaque triangle, or 0xffffffff.
@@ -35,7 +35,7 @@ public:
     tiles_[tile].open[block] = -1;
     tiles_[tile].one[block] = id;
   }
-  /// Room for the ids of a block: [place][16], and as much again for the layer's, if there is one. Stands
+  /// Room for the ids of a block: [place][16], and as much again for the layer's, if there is one. Valid
   /// until the tile's next block.
   std::int32_t* open(std::size_t tile, int block);
 

@@ -36,10 +36,10 @@ struct BlockLists {
   }
 };
 
-/// What opaque records alone cover blocks with: at every place of every pixel.
+/// Blocks that a single opaque record covers, at every place of every pixel.
 struct Covers {
-  float far_depth[tile_blocks];       ///< what is seen there is nearer, or as near; 0: nothing covers it
-  std::uint32_t record[tile_blocks];  ///< the record whose that is
+  float far_depth[tile_blocks];       ///< what is seen there is at least as near; 0: nothing covers it
+  std::uint32_t record[tile_blocks];  ///< the record that covers it
 };
 
 struct PlaceTask {

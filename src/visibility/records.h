@@ -45,14 +45,14 @@ struct TriangleSetup8 {
   float value_at_box[4][8];
   float step_x[4][8];
   float step_y[4][8];
-  /// Bit k: what `Window::reach` bounds is more than 2^-15 pixels for an edge of triangle k; and: the side it
-  /// shows is not certain.
+  /// Bit k: the rounding that `Window::reach` bounds may be more than 2^-15 pixels for an edge of triangle k;
+  /// and: which side the triangle shows is not certain.
   std::uint32_t doubtful = 0;
   std::uint32_t side_unknown = 0;
   std::uint32_t back = 0;  ///< bit k: set up as showing its back (facing < 0)
 };
 
-/// Sign of an edge within 2^-13 pixels of it is for ExactCoverage to say. Derived in tile_kernels.cpp.
+/// Within 2^-13 pixels of an edge, ExactCoverage decides on which side a place is. Derived in lanes-inl.h.
 constexpr float edge_band = 0x1p-13f;
 constexpr double most_doubt = 0x1p-15;
 /// What a record's numbers are bounded by, where the sign alone counts: of edges pixels, of depths.

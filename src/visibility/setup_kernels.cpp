@@ -67,7 +67,7 @@ struct PixelRange {
 };
 PixelRange pixels_between(Float16 low, Float16 high, float margin, int size) {
   const Float16 zero = broadcast<Float16>(0.0f), most = broadcast<Float16>(static_cast<float>(size));
-  // The pixel after the one with its centre below low - margin; floor(high + margin - 0.5).
+  // The pixel after the last whose centre is below low - margin; and floor(high + margin - 0.5).
   const Float16 first = low + broadcast<Float16>(0.5f - margin),
                 last = high + broadcast<Float16>(0.5f + margin);
   return {truncate(min(max(first, zero), most)),
@@ -157,7 +157,8 @@ void set_up(const Window& window, const float (&corners)[3][3][8], const double 
   }
   const Vector8 normal = cross(q[1] - q[0], q[2] - q[0]);
   const Double8 facing = window.orthographic ? dot_unfused(d0, normal) : dot_unfused(q[0], cross(q[1], q[2]));
-  // Four products of sizes bound the twelve of differences' products; reach is |d0| in orthographic views.
+  // The products of the sizes bound those of the differences' coordinates; reach is |d0| in orthographic
+  // views.
   const Double8 side_bound = window.orthographic ? unit * reach * (size[0] + size[1]) * (size[0] + size[2])
                                                  : unit * size[0] * size[1] * size[2];
   out.side_unknown = bits(le(abs(facing), side_bound));

@@ -37,7 +37,8 @@ public:
 private:
   static constexpr int few_blocks = 6;
 
-  /// What is certain of `value` and what is not: the pixels that the triangle covers.
+  /// The pixels that the triangle covers: those of which `inside` is certain, and exact answers for the
+  /// others.
   SIMD_INLINE Mask<float, 16> decided(const Lanes& lanes, Float16 inside, int x, int y) const {
     const Float16 band = broadcast<Float16>(edge_band);
     const auto covered = lt(band, inside);

@@ -21,7 +21,7 @@ struct VisibleIds {
   ClipTransform transform;
   std::vector<std::uint32_t> ids;    ///< 0xffffffff where no opaque triangle is seen
   std::vector<float> depth;          ///< as ClipTransform says; 0 where none is seen; empty: not asked for
-  std::vector<std::uint32_t> layer;  ///< the nearest see-through triangle before those; empty: has_layer no
+  std::vector<std::uint32_t> layer;  ///< nearest see-through triangle before those; empty without any
   bool has_layer = false;            ///< the frame has see-through triangles
 };
 
@@ -43,15 +43,15 @@ public:
   /// pixel's centre meets it, its edges included: exactly, so that no ray slips between two triangles that
   /// share an edge or around a vertex, whether they are tiny, huge or reach behind the eye. Of the triangles
   /// that cover a pixel the nearest is seen, by depths in float; the smaller id where they are equal. The
-  /// bits depend on no number of threads and no instruction set. Fails on sizes that check_picture_size
-  /// refuses, on rays that span no picture and on more triangles or vertices than 2^29.
+  /// bits depend neither on the number of threads nor on the instruction set. Fails on sizes that
+  /// check_picture_size refuses, on rays that span no picture and on more triangles or vertices than 2^29.
   Expected<void> draw(const FrameGeometry& geometry, const ViewRays& view, int width, int height,
                       bool with_depth, SimdLevel simd, VisibleIds& out);
 
   /// The same at up to sixteen places of each pixel at once (from its centre, less than 0.5 each way,
   /// multiples of 1/512), in place of its centre: a triangle covers a place if the ray through it does,
-  /// exactly. Returns false, with `out` unspecified, where the triangles are too many to be held at once or
-  /// there are more places. The bits depend on nothing else either.
+  /// exactly. Returns false, with `out` unspecified, where the triangles or the places are too many to be
+  /// held at once. Threads and instruction set change no bit here either.
   Expected<bool> draw_places(const FrameGeometry& geometry, const ViewRays& view, int width, int height,
                              std::span<const glm::vec2> places, SimdLevel simd, PlaceIds& out);
 

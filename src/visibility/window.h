@@ -11,7 +11,7 @@ namespace tenebra::visibility {
 
 /// Window coordinates are in pixels, y down, the centre of pixel (x, y) at (x + 0.5, y + 0.5). With
 /// q = p - eye a position is at x = x_row.q, y = y_row.q and t = t_row.q along the ray; in perspective x and
-/// y are over t. Depths are those of ClipTransform.
+/// y are divided by t. Depths are those of ClipTransform.
 struct Window {
   Window(const ViewRays& view, const ClipTransform& transform, int width, int height);
 
@@ -30,7 +30,7 @@ struct Window {
   /// What places as floats are off by at most, in the window or just beside it; pixels.
   float margin = 0;
   /// The values of an edge through a and b (relative to the eye) at pixels of the window are off by at most
-  /// 20 u (|a| + shift) (|b| + shift) reach, with L1 norms and u = 2^-53, computed as in setup-inl.h.
+  /// 20 u (|a| + shift) (|b| + shift) reach, with L1 norms and u = 2^-53, computed as in setup_kernels.cpp.
   double reach = 0;
   double shift = 0;
 };

@@ -52,7 +52,7 @@ TEST_F(ViewWindow, FlipsEveryMethod) {
 
   const base::Image8 before = shot(session);
   std::vector<std::string> variants;
-  for (int i = 0; i < 7; ++i) {
+  for (int i = 0; i < 8; ++i) {
     const std::size_t from = session.count();
     session.key("v");
     const Json state = session.wait_for_event(from, "state");
@@ -61,7 +61,8 @@ TEST_F(ViewWindow, FlipsEveryMethod) {
     EXPECT_EQ(shot(session), before) << "the same mask by " << state["a"];
   }
   std::sort(variants.begin(), variants.end());
-  EXPECT_EQ(std::unique(variants.begin(), variants.end()) - variants.begin(), 7) << "seven variants in turn";
+  EXPECT_EQ(std::unique(variants.begin(), variants.end()) - variants.begin(), 8)
+      << "Tiles and the seven in turn";
 
   session.expect_state("overlay", "nodes", [&] { session.key("n"); });
   EXPECT_GT(session.wait_for_picture()["overlay_peak"], 0);

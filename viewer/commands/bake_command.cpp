@@ -44,7 +44,7 @@ constexpr const char* bake_examples =
     "stopped by\n"
     "a signal; files are then whole or absent.";
 
-/// A scene of one instant, apart for baking.
+/// A scene of one instant, its meshes separated for baking.
 struct Baking {
   ScenePlan plan;
   std::vector<std::filesystem::path> inputs;
@@ -114,7 +114,7 @@ Expected<Baking> prepare(const BakeOptions& options) {
   return baking;
 }
 
-/// The scene that answers, with its lights as edited; it must live as long as what is asked.
+/// The scene that is lit, with its lights and materials as edited; `light` refers to it.
 struct LitScene {
   Scene scene;
   std::optional<bake::SurfaceLight> light;
@@ -129,7 +129,7 @@ Expected<void> light_scene(const BakeOptions& options, Baking& baking, LitScene&
   return {};
 }
 
-/// Shows how far all of several portions are.
+/// Shows the progress over several portions.
 class PortionProgress {
 public:
   PortionProgress(std::size_t portions, bool quiet)
@@ -248,7 +248,7 @@ Expected<void> write_scene(const Scene& scene, const BakeOptions& options) {
   return {};
 }
 
-/// To two digits.
+/// Down to two significant digits.
 double rounded_down(double value) {
   const double unit = std::pow(10, std::floor(std::log10(value)) - 1);
   return std::floor(value / unit) * unit;

@@ -27,7 +27,7 @@ constexpr const char* compare_examples =
     "\n"
     "Two PNG are compared in levels of 255; all other pairs by linear values. RMS and PSNR (of 255, or of 1) "
     "cover\n"
-    "red, green and blue. FLIP is how different both look, 0 to 1, the mean over the pixels (Andersson et "
+    "red, green and blue. FLIP is how different they look, 0 to 1, the mean over the pixels (Andersson et "
     "al. 2020),\n"
     "at 67 pixels per degree; values below 0 count as 0 and values beyond 1 as 1.\n"
     "Grey counts as equal red, green and blue; a picture without alpha counts as opaque.\n"
@@ -50,7 +50,7 @@ double decibels(double peak, double rms) {
   return rms > 0 ? 20 * std::log10(peak / rms) : std::numeric_limits<double>::infinity();
 }
 
-/// What compare says and does, of both pictures.
+/// What is printed of two pictures, and written.
 struct Comparison {
   std::string text;
   bool is_same = false;
@@ -91,7 +91,7 @@ std::size_t pixels_of(const LoadedPicture& picture) {
       picture);
 }
 
-/// PNG of both: levels. Else linear values.
+/// Levels where both are PNG, else linear values.
 Comparison compare_loaded(const LoadedPicture& a, const LoadedPicture& b, const CompareOptions& options) {
   const auto* const a_levels = std::get_if<base::Image8>(&a);
   const auto* const b_levels = std::get_if<base::Image8>(&b);

@@ -19,8 +19,8 @@ struct DonePast {
   DoneList::Frames frames;
 };
 
-/// Lines that a kill cut short, and what another process wrote behind them, are no frames or have no hash of
-/// any files.
+/// A line that a kill cut short, with what another process wrote behind it, is no frame, or its hash is that
+/// of no files.
 DoneList::Frames frames_of(std::string_view text) {
   DoneList::Frames frames;
   for (std::size_t end = 0; (end = text.find('\n')) != std::string_view::npos; text.remove_prefix(end + 1)) {
@@ -72,7 +72,7 @@ Expected<DoneList> DoneList::open(const std::filesystem::path& path,
     if (!goes_on && file->is_alone())
       if (auto begun = file->begin(render::log_head(identity, header)); !begun)
         return tl::unexpected(begun.error());
-    // Who comes in before it is shared may begin it in another way.
+    // Another process that opens it before it is shared may begin it in another way.
     const bool shared = file->share();
     const auto now = past_of(*file);
     if (!now) return tl::unexpected(now.error());

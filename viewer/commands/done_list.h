@@ -23,8 +23,8 @@ public:
   /// ".%04d.png.done" beside the pictures, else beside the first masks; none without either.
   static std::optional<std::filesystem::path> path_of(const RenderOptions& options);
 
-  /// The list for frames made in that way. One of another way is begun anew, unless it is to be resumed or
-  /// another process adds to it: then the sentence names the setting.
+  /// The list for frames made in that way. A list of frames made in another way is begun anew, unless it is
+  /// to be resumed or another process adds to it: then it fails with the setting that differs.
   static Expected<DoneList> open(const std::filesystem::path& path,
                                  std::span<const render::LogSetting> identity, bool resume);
 

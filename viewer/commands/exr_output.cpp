@@ -35,7 +35,7 @@ private:
   std::vector<exr::Channel> channels_;
 };
 
-/// As part of a channel's name: dots would part layers.
+/// A name as part of a channel's name, in which dots separate layers.
 std::string channel_word(std::string name) {
   constexpr std::size_t longest = 100;
   for (char& c : name)
@@ -82,7 +82,7 @@ std::vector<exr::Text> texts_of(const RenderPlan& plan, std::span<const render::
   return texts;
 }
 
-/// Rows of a matrix for row vectors, of the columns that it has for column vectors.
+/// A matrix for row vectors, row by row, from the one for column vectors.
 std::array<float, 16> transposed(const glm::dmat4& columns) {
   std::array<float, 16> rows{};
   for (int r = 0; r < 4; ++r)

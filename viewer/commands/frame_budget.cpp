@@ -87,8 +87,8 @@ Expected<bool> FrameBudget::fit(const DrawRung& draw, const std::function<void()
   return true;
 }
 
-/// Of the errors `first` to `last` - 1, of which those that fit are taken to follow those that do not, the
-/// smallest that fits. False: none was found.
+/// The smallest error of `first` to `last` - 1 that fits, supposing that all larger ones fit too. False: none
+/// was found.
 Expected<bool> FrameBudget::halve(const DrawRung& draw, const std::function<void()>& keep, std::size_t first,
                                   std::size_t last) {
   bool found = false;

@@ -18,7 +18,7 @@ struct BudgetErrors {
   bool operator==(const BudgetErrors&) const = default;
 };
 
-/// What of the chosen methods has an error to choose.
+/// Which of the chosen methods have an error to choose.
 struct BudgetChoice {
   bool soft = false, ao = false;
   bool any() const { return soft || ao; }
@@ -49,7 +49,7 @@ public:
 
   FrameBudget(double budget_ms, std::size_t rungs) : budget_ms_(budget_ms), rungs_(rungs) {}
 
-  /// What was drawn last and not given up is kept by `keep`.
+  /// `keep` is called to keep what was drawn last and not given up.
   Expected<void> draw(const DrawRung& draw, const std::function<void()>& keep);
 
   std::size_t rung() const { return *rung_; }  ///< of the frame that was drawn last
@@ -79,11 +79,11 @@ private:
   double ms_ = 0;
   bool fits_ = true;
   std::vector<Try> tries_;
-  double searched_ms_ = 0;  ///< what the frame took that smaller errors were tried with last
+  double searched_ms_ = 0;  ///< what the frame took for which smaller errors were tried last
   int since_search_ = 0;    ///< frames
 };
 
-/// "0 gave up, 0.25 gave up, 0.35 took 81.2 ms", of the errors of `choice`.
+/// "--soft-error 0 given up, --soft-error 0.25 81.2 ms", with the errors of `choice`.
 std::string tries_text(const FrameBudget& budget, const std::vector<BudgetErrors>& ladder,
                        BudgetChoice choice);
 /// "--soft-error 0.5 --ao-error 0.5".

@@ -103,7 +103,7 @@ public:
     return written;
   }
 
-  /// Whether it was a file that `run` failed with.
+  /// Whether `run` failed because a file could not be written.
   bool failed_to_write() const { return failed_to_write_; }
 
   /// Of the frames that were drawn.
@@ -121,12 +121,12 @@ public:
   std::size_t frames() const { return frames_.size(); }
 
 private:
-  // Results that are still written, the one that is computed and the one that waits for room.
+  // Results that are being written, the one being computed and the one that waits for room.
   static constexpr std::size_t most_waiting = 2, results = most_waiting + 2;
 
   static bool is_stop(const Expected<void>& done) { return !done && done.error().message == "stopped"; }
 
-  /// Of the frame, its whole way with settings_ from the time to the picture; what it takes is in `result`.
+  /// Draws the frame with settings_, from its time to the picture; what that took is in `result`.
   Expected<void> draw_once(render::Renderer& renderer, const PlannedFrame& planned, Progress& progress,
                            const StopFlag& stop, render::FrameResult& result) {
     const auto begin = begun_ = Clock::now();
@@ -146,7 +146,7 @@ private:
   /// The same with the smallest errors that fit into --budget.
   Expected<void> draw_within_budget(render::Renderer& renderer, const PlannedFrame& planned,
                                     Progress& progress, render::FrameResult& result) {
-    std::vector<std::string> notes;  // each is said once, by frames that are given up too
+    std::vector<std::string> notes;  // of tries that are given up, too: each is said only once
     const auto draw = [&](std::size_t rung, double limit_ms) -> Expected<double> {
       set_errors(choice_, ladder_[rung], settings_);
       const DrawLimit limit(limit_ms, stop_.flag());

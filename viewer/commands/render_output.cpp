@@ -25,14 +25,15 @@ bool is_there(const fs::path& file) {
   return fs::exists(file, none);
 }
 
-/// Of what they hold. A file that cannot be read has another hash than any that can; it is drawn again.
+/// A hash of what files hold. One that cannot be read makes it differ from any that was listed, so that the
+/// frame is drawn again.
 std::string hash_of(const std::vector<OutputName>& files) {
   std::string hashes;
   for (const OutputName& output : files) hashes += base::file_hash(output.file).value_or("none") + "\n";
   return base::text_hash(hashes);
 }
 
-/// What a log that is gone on with does not say yet: another machine, other frames.
+/// What a log that is continued does not say yet: another machine, other frames.
 std::vector<render::LogSetting> changes(const render::LogPast& past,
                                         std::span<const render::LogSetting> settings) {
   std::vector<render::LogSetting> changed;
@@ -78,7 +79,8 @@ Expected<void> RenderOutput::open(std::vector<render::LogSetting> settings) {
   return {};
 }
 
-/// A single picture needs no list, but one that is there must not go on to say what this render changes.
+/// A single picture needs no list, but a list that is there must not go on to claim what this render makes
+/// untrue.
 Expected<void> RenderOutput::open_done_list(std::span<const render::LogSetting> identity) {
   const auto path = DoneList::path_of(options_);
   const bool wanted = options_.resume || plan_.of_several_frames;
@@ -107,7 +109,7 @@ Expected<void> RenderOutput::open_log(std::span<const render::LogSetting> settin
   return {};
 }
 
-/// By the list its files have to be those that were written; the log knows of frames alone.
+/// By the list, a frame's files must hold what was written; the log lists frames only.
 bool RenderOutput::is_done(int frame) const {
   if (!options_.skip_existing && !options_.resume) return false;
   const std::vector<OutputName> files = files_of_frame(plan_, options_, frame);
@@ -146,7 +148,8 @@ Expected<void> RenderOutput::add_row(const render::FrameRecord& record,
   return log_->add(record);
 }
 
-/// Those that are looked for to see whether a frame is there come last: the first light's mask, the picture.
+/// The picture comes last, and masks of emissive meshes, which files_of_frame leaves out, first: where the
+/// files that are looked for are there, all are.
 Expected<void> RenderOutput::write_pictures(const PlannedFrame& frame,
                                             const render::FrameResult& result) const {
   for (auto mask = result.masks.rbegin(); mask != result.masks.rend(); ++mask)

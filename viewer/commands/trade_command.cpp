@@ -63,7 +63,7 @@ struct TradeOptions {
   TradeGiven given;
 };
 
-/// Whether soft shadows have a light to be of.
+/// Whether some light has an area, or gets one.
 bool has_area_light(const RenderPlan& plan, const MethodOptions& method) {
   const render::AreaLightSettings& area = plan.settings.area_lights;
   const auto own = [](const auto& list, std::size_t i) { return i < list.size() && list[i].has_value(); };
@@ -181,7 +181,7 @@ std::vector<PlannedFrame> more_frames(const RenderPlan& plan, const TradeOptions
   return more;
 }
 
-/// What it points at are the arguments.
+/// It refers to the arguments.
 TradeRequest request_of(const TradeOptions& options, const RenderPlan& plan) {
   const SceneOptions& scene = options.render.scene;
   TradeRequest request;

@@ -205,7 +205,7 @@ Expected<void> write_report(const std::string& path, const Verification& verific
       path, path.ends_with(".json") ? verification_json(verification) : verification_text(verification));
 }
 
-/// That the report may be written, before hours of work.
+/// Fails before hours of work if the report cannot be written or would replace an input.
 Expected<void> check_report(const VerifyOptions& options, const RenderPlan& plan) {
   if (options.report.empty()) return {};
   std::vector<std::filesystem::path> inputs = plan.inputs;

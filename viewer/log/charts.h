@@ -23,8 +23,8 @@ std::string total_chart(std::span<const ChartedLog> logs);
 /// name is that of all others together.
 std::vector<std::string> charted_stages(std::span<const ChartedLog> logs);
 
-/// Milliseconds of these stages over the animation, one on the other (classes "stage0", "stage1", ... and
-/// "stage9" for the others). `worst_ms`: what the scale must hold.
+/// Milliseconds of these stages over the animation, stacked (classes "stage0", "stage1", ... and "stage9" for
+/// the others). `worst_ms`: what the scale must hold.
 std::string stage_chart(const LogFile& log, const std::vector<std::string>& stages, double worst_ms);
 
 /// The largest total of frames that open no chunk; of all frames if there are no others. Milliseconds.

@@ -45,7 +45,7 @@ std::string shown(std::string_view text) {
   return shown;
 }
 
-/// A list of stages, which stands in a row as it is: no number, and nothing that could be one gone wrong.
+/// A list of stages, which is kept as text: letters, so neither a number nor a damaged one.
 bool is_list(std::string_view text) {
   return std::all_of(text.begin(), text.end(),
                      [](char c) { return (c >= 'a' && c <= 'z') || c == '_' || c == ' '; });

@@ -1,4 +1,4 @@
-// A frame log (`render --log`) as it is read back: settings, columns, rows, and which frames began something.
+// A frame log (`render --log`) as it is read back: settings, columns, rows, and which frames open a chunk.
 #pragma once
 
 #include <cstddef>

@@ -14,7 +14,7 @@ namespace {
 namespace fs = std::filesystem;
 
 /// Means of k x k pixels, of values as they are stored; what is left over at the right and below is dropped.
-/// Grey with alpha becomes grey, which is what PNGs are written of.
+/// Grey with alpha becomes grey: PNGs are not written with both.
 base::Image8 made_small(const base::Image8& picture, int k) {
   base::Image8 small;
   small.width = std::max(picture.width / k, 1);

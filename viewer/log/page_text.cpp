@@ -7,7 +7,7 @@ namespace tenebra::viewer {
 
 std::string page_text(std::string_view text) {
   using Json = nlohmann::json;
-  // The JSON library knows what UTF-8 is: written with replacements and read back, the text is.
+  // The JSON library replaces what is not UTF-8 when it writes the text, which is then read back.
   const Json json = std::string(text);
   const std::string valid =
       Json::parse(json.dump(-1, ' ', false, Json::error_handler_t::replace)).get<std::string>();

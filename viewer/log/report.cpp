@@ -237,7 +237,7 @@ Expected<std::string> report_page(std::span<const LogFile> logs, const std::vect
           first_frames_text(runs);
   page += stages_section(runs) + pictures_section(pictures);
   page +=
-      "<h2>Counts</h2>\n" + table_of(runs, &LogSummary::counts, "a frame", 0) +
+      "<h2>Counts</h2>\n" + table_of(runs, &LogSummary::counts, "per frame", 0) +
       "<p class=\"dim\">* also depends on the frames before. None depends on the number of threads.</p>\n";
   page += settings_section(runs);
   if (!pictures.empty()) page += fmt::format("<script>{}</script>\n", report_script);

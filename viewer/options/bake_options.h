@@ -20,7 +20,7 @@ struct BakeOptions {
   BakeContent content = BakeContent::both;
   int size = 1024;                   ///< of the lightmap's sides, texels
   int per_side = 2;                  ///< samples per texel, each way
-  int rings = 16;                    ///< texels that covered borders are widened by
+  int rings = 16;                    ///< rings of texels by which covered areas are widened
   float exposure = 1;                ///< of vertex colours and PNG
   std::optional<glm::vec3> ambient;  ///< not given: the scene's
   MethodOptions method;
@@ -32,7 +32,7 @@ struct BakeOptions {
 
 void add_bake_options(CLI::App& command, BakeOptions& options);
 
-/// What single options cannot check; and the name of the map where none was given.
+/// Checks what single options cannot; names the map where no name was given.
 Expected<void> settle_bake_options(const CLI::App& command, BakeOptions& options);
 
 /// How light is computed.

@@ -28,7 +28,7 @@ void apply(CLI::Option& option, const CLI::ConfigItem& item) {
   } else if (option.get_expected_max() > 1) {
     option.add_result(item.inputs);
   } else {
-    option.add_result(fmt::format("{}", fmt::join(item.inputs, ",")));  // 0,1,0 was taken for a list
+    option.add_result(fmt::format("{}", fmt::join(item.inputs, ",")));  // the parser took 0,1,0 for a list
   }
   option.run_callback();
 }

@@ -39,7 +39,7 @@ LightEdit edit_of(const LightEdits& edits, int light);
 
 /// The lights of the scene with their colour and brightness as edited; those that are off have none.
 std::vector<Light> edited_lights(std::vector<Light> lights, const LightEdits& edits);
-/// The lights of an instant where, as large and turned as edited.
+/// The lights of an instant, moved, resized and turned as edited.
 std::vector<WorldLight> edited_lights(std::vector<WorldLight> lights, const LightEdits& edits);
 /// Sizes of the point and spot lights that have their own, for AreaLightSettings::own_size_m.
 std::vector<std::optional<glm::vec2>> edited_sizes_m(const LightEdits& edits);

@@ -273,7 +273,7 @@ void add_ao(CLI::App& command, AoConfig& ao) {
       ao_group);
 }
 
-/// The same for options of ambient occlusion that its mode does not look at.
+/// Why the mode of ambient occlusion does not look at its option `name`; empty if it does.
 std::string idle_in(AoMode mode, const std::string& name) {
   const bool of_all =
       name == "--ao" || name == "--ao-distance" || name == "--ao-deforming" || name == "--ao-cache";

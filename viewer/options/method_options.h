@@ -1,5 +1,5 @@
-// The options that choose how light is computed: shadows, their settings, ambient occlusion. `tenebra render`
-// and `tenebra view` share them.
+// The options that choose how light is computed: shadows, their settings, ambient occlusion. The commands
+// render, view and trade share them.
 #pragma once
 
 #include <array>

@@ -28,7 +28,7 @@ std::size_t distance(const std::string& a, const std::string& b) {
 }  // namespace
 
 std::string nearest_word(std::string_view word, std::span<const std::string> known) {
-  constexpr std::size_t longest = 64;  // nobody meant a word by more
+  constexpr std::size_t longest = 64;  // longer than any word that is known
   if (word.size() > longest) return "";
   std::string nearest;
   std::size_t least = std::max<std::size_t>(1, word.size() / 3) + 1;

@@ -16,7 +16,7 @@ namespace {
 constexpr int largest_count = 1'000'000;
 constexpr double half_turn_deg = 180.0;
 
-/// The whole of `text` as a number; std::from_chars knows no locale and takes no leading space.
+/// The whole of `text` as a number; std::from_chars uses no locale and takes no leading space.
 template <class Number>
 std::optional<Number> number_from(std::string_view text) {
   Number number{};
@@ -79,7 +79,7 @@ Expected<FrameRange> parse_frame_range(const std::string& text) {
     if (range.step < 1) return refuse();
   }
   if (range.last && *range.last < range.first) {
-    return base::fail("found {}, expected an end that is not before the begin", text);
+    return base::fail("found {}, expected an end that is not before the start", text);
   }
   return range;
 }

@@ -104,13 +104,14 @@ void settle_picture_options(PictureOptions& options) {
 
 Expected<void> check_picture_options(const PictureOptions& options) {
   if (options.pipe_format && !options.to_pipe)
-    return base::fail("--pipe-format is of frames in standard output; expected -o - with it");
+    return base::fail("--pipe-format is for frames in standard output; expected -o - with it");
   if (options.are_exr()) return {};
   const char* const option = options.aovs.any()    ? "--aov"
                              : options.precision   ? "--exr-type"
                              : options.compression ? "--exr-compression"
                                                    : nullptr;
-  if (option != nullptr) return base::fail("{} is of OpenEXR pictures; expected -o FILE.exr with it", option);
+  if (option != nullptr)
+    return base::fail("{} is for OpenEXR pictures; expected -o FILE.exr with it", option);
   return {};
 }
 

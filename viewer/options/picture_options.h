@@ -32,7 +32,7 @@ void add_picture_options(CLI::App& command, PictureOptions& options);
 /// Of these --aov alone, for callers that keep the pictures themselves.
 void add_aov_option(CLI::App& command, render::AovChoice& aovs);
 
-/// Whether `settings` find what `aovs` are of.
+/// Fails if `settings` do not compute what `aovs` need.
 Expected<void> check_aovs(const render::AovChoice& aovs, const render::RenderSettings& settings);
 
 /// Sets what follows from other options. To be called once all are read.

@@ -1,5 +1,5 @@
-// The options that choose how the triangle that each pixel sees is found. `tenebra render` and `tenebra view`
-// share them.
+// The options that choose how the triangle that each pixel sees is found. The commands render, view, verify
+// and trade share them.
 #pragma once
 
 #include <array>

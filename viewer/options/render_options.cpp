@@ -128,7 +128,7 @@ Expected<void> check_mask(const RenderOptions& options, const OutputPattern& mas
 Expected<void> check_sample_masks(const RenderOptions& options, bool several) {
   const auto check = [&](const std::vector<OutputPattern>& masks, const char* option) -> Expected<void> {
     if (!masks.empty() && options.method.render.antialias == 1)
-      return base::fail("{} is of several samples per pixel; expected --antialias 2, 4, 8 or 16 with it",
+      return base::fail("{} is for several samples per pixel; expected --antialias 2, 4, 8 or 16 with it",
                         option);
     for (const OutputPattern& mask : masks) {
       if (auto checked = check_mask(options, mask, option, several); !checked) return checked;
@@ -155,7 +155,7 @@ Expected<void> check_masks(const RenderOptions& options, bool several) {
   for (const OutputPattern& map : options.error_maps) {
     if (auto checked = check_mask(options, map, "--error-map", several); !checked) return checked;
     if (options.method.render.shadows != render::ShadowMode::soft || options.method.render.soft_points > 0)
-      return base::fail("--error-map {} is of soft shadows by an error; expected --shadows soft{}",
+      return base::fail("--error-map {} is for soft shadows with an error; expected --shadows soft{}",
                         map.text(), options.method.render.soft_points > 0 ? " without --soft-points" : "");
     for (const OutputPattern& other : options.masks)
       if (map.file(0) == other.file(0))
@@ -170,7 +170,7 @@ Expected<void> check_masks(const RenderOptions& options, bool several) {
   return {};
 }
 
-/// What goes down a pipe is gone: nothing can go on with it, and nothing else may stand between.
+/// Frames in a pipe are gone: a later run cannot continue them, and nothing else may be written between them.
 Expected<void> check_pipe(const RenderOptions& options) {
   if (options.resume || options.skip_existing)
     return base::fail("{} looks for what was written, and frames in a pipe are gone; expected files with it",

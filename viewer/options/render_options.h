@@ -21,7 +21,7 @@ struct RenderOptions {
 
   PictureOptions pictures;
   std::vector<OutputPattern> masks;         ///< .png or .pfm
-  std::vector<OutputPattern> mask_colours;  ///< the same, of masks times what see-through surfaces leave
+  std::vector<OutputPattern> mask_colours;  ///< the same, of masks times the tint of see-through surfaces
   std::vector<OutputPattern> mask_means;    ///< of the samples of --antialias
   std::vector<OutputPattern> mask_samples;  ///< .png: each of them
   std::vector<OutputPattern> error_maps;    ///< .png or .pfm
@@ -32,8 +32,8 @@ struct RenderOptions {
   std::optional<double> budget_ms;                             ///< of a frame
   std::optional<int> memory_mb;                                ///< of the whole program
   Chunk chunk;                                                 ///< of the frames
-  bool resume = false;         ///< what is done with the same settings is not done again
-  bool skip_existing = false;  ///< what is there is not done again, however it was made
+  bool resume = false;         ///< frames that were drawn with the same settings are not drawn again
+  bool skip_existing = false;  ///< frames whose files exist are not drawn again, however they were made
   bool quiet = false;
   std::vector<std::string> warnings;  ///< options that do nothing with the others
 };

@@ -8,10 +8,10 @@
 namespace tenebra::viewer {
 
 /// "--scene hall --no-cast glass ...": how the scene is read and dressed, without its file, moment, camera
-/// and edits. Each option whose value is not the default, a space behind each.
+/// and edits. Each option whose value is not the default, followed by a space.
 std::string dressing_arguments(const SceneOptions& options);
 
-/// The same of clip, camera and the size of pictures, as the user gave them.
+/// The same for clip, camera and the size of pictures, as the user gave them.
 std::string view_arguments(const SceneOptions& options);
 
 }  // namespace tenebra::viewer

@@ -1,4 +1,4 @@
-// What the user changes about a scene: its lights and new ones, colours of materials, which nodes are there
+// What the user changes about a scene: its lights and new ones, colours of materials, which nodes are visible
 // and cast shadows. Values beside the scene, which stays as it was imported.
 #pragma once
 
@@ -10,7 +10,7 @@
 
 namespace tenebra::viewer {
 
-/// A light that the scene does not have. Numbered on from the scene's; LightEdits change it as any other.
+/// A light that the scene does not have. Its number follows the scene's; LightEdits change it as any other.
 struct AddedLight {
   LightType type = LightType::point;
   glm::vec3 position{0.0f};
@@ -80,8 +80,8 @@ std::vector<WorldLight> unmoved_lights(const Scene& scene, const SceneEdits& edi
 std::vector<WorldLight> placed_lights(const Scene& scene, const SceneEdits& edits, int clip, double time_s);
 /// The scene's materials with their edits.
 std::vector<Material> materials_of(const Scene& scene, const SceneEdits& edits);
-/// Takes the triangles of hidden nodes out of an evaluated frame of `scene`, and of others their shadows: as
-/// if the scene had it so.
+/// Drops the triangles of hidden nodes from an evaluated frame of `scene`, and the shadows of nodes that are
+/// not to cast any, as if the scene were made so.
 void apply_node_edits(const Scene& scene, const SceneEdits& edits, FrameGeometry& geometry);
 
 }  // namespace tenebra::viewer

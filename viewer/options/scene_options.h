@@ -1,5 +1,5 @@
-// The options that choose what is looked at: scene, lights, moment, camera. `tenebra render` and `tenebra
-// view` share them.
+// The options that choose what is looked at: scene, lights, moment, camera. The commands render, view, verify
+// and trade share them.
 #pragma once
 
 #include <optional>
@@ -40,10 +40,10 @@ struct SceneOptions {
   SceneEdits edits;
 };
 
-/// Adds SCENE, --scene, --no-cast, --cast-all, --cone-sides, --transfer, --environment, --surfaces,
-/// --floor, --set-light, --add-light, --set-material, --set-node,
-/// --time, --fps, --clip and those of the camera, --size too; they are read into `options`, which must live
-/// as long. A command makes SCENE required with option_of(command, "SCENE").required().
+/// Adds SCENE, --scene, --no-cast, --cast-all, --cone-sides, --cutout-limit, --texture-path, --transfer,
+/// --environment, --surfaces, --floor, --set-light, --add-light, --set-material, --set-node, --time, --fps,
+/// --clip and those of the camera, --size too; they are read into `options`, which must live as long. A
+/// command makes SCENE required with option_of(command, "SCENE").required().
 void add_scene_options(CLI::App& command, SceneOptions& options);
 
 /// Of these SCENE, --scene, --no-cast, --cast-all, --cone-sides, --cutout-limit, --texture-path, those that

@@ -8,8 +8,9 @@ namespace tenebra::viewer {
 /// For each tone the largest of the exposures 2^(k/8), from 2^-12 to 2^6, with which at most one pixel of a
 /// hundred shows a channel above 0.95. Measured in small pictures with hard shadows of all lights, at nine
 /// times spread evenly over the whole clip, by the camera of the options; the brightest one decides. So it is
-/// a function of scene, clip, camera and --set-light alone: it is the same for every frame, in every part of
-/// a render, with every method, on every machine. 1 where nothing is seen.
+/// a function of the scene with its edits and surroundings, the clip, the camera and the picture's shape
+/// alone: it is the same for every frame, in every part of a render, with every method, on every machine. 1
+/// where nothing is seen.
 Expected<AutoExposures> meter_exposures(const ScenePlan& plan, const SceneOptions& options);
 
 }  // namespace tenebra::viewer

@@ -17,7 +17,7 @@ namespace {
 
 namespace fs = std::filesystem;
 
-/// Fails for an output that nothing can be written to in the way that open_stream says.
+/// Fails, as open_stream says, for an output that nothing can be written to.
 Expected<void> check_kind(const fs::path& output) {
   struct stat found {};
   if (::stat(output.c_str(), &found) != 0) {

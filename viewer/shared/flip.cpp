@@ -142,8 +142,8 @@ struct Filters {
   int margin = static_cast<int>(std::max(eye.front().taps.size(), features.across.size()) / 2);
 };
 
-/// Some rows of numbers, of which a picture's rows are `margin` below; what is beyond the picture is its
-/// nearest pixel.
+/// Rows of numbers: some of a picture's, with `margin` more above and below; beyond the picture they repeat
+/// its nearest pixel.
 struct Plane {
   std::size_t width = 0;
   std::vector<double> values;

@@ -10,7 +10,7 @@
 namespace tenebra::viewer {
 namespace {
 
-/// Three channels, of `value` of what is stored.
+/// Three channels, each `value` of what is stored.
 template <class T>
 base::ImageF in_three(const base::Image<T>& image, auto value) {
   const std::size_t count = static_cast<std::size_t>(image.width) * static_cast<std::size_t>(image.height);
@@ -37,7 +37,7 @@ Expected<LoadedPicture> load_picture(const std::filesystem::path& path, const st
     return LoadedPicture(std::move(*image));
   };
   if (path.extension() == ".exr") return as_picture(exr::read(path, layer));
-  if (!layer.empty()) return base::fail("--layer is of OpenEXR pictures; found {}", path.string());
+  if (!layer.empty()) return base::fail("--layer is for OpenEXR pictures; found {}", path.string());
   if (path.extension() == ".pfm") return as_picture(base::read_pfm(path));
   return as_picture(base::read_png(path));
 }

@@ -12,8 +12,8 @@ namespace tenebra::viewer {
 /// 8 bits as stored, or floats: one or three channels.
 using LoadedPicture = std::variant<base::Image8, base::ImageF>;
 
-/// By the name's end: .exr (of it `layer`, or the colours where that is empty), .pfm, else PNG. Fails with a
-/// sentence.
+/// By the end of the name: .exr (`layer` of it, or the colours where that is empty), .pfm, else PNG. Fails
+/// with a sentence.
 Expected<LoadedPicture> load_picture(const std::filesystem::path& path, const std::string& layer);
 
 /// Three channels: PNG by the curve of sRGB and without its alpha, floats as they are, one channel thrice.

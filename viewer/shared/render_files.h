@@ -12,7 +12,7 @@ namespace tenebra::viewer {
 /// out.
 std::vector<OutputName> files_of_frame(const RenderPlan& plan, const RenderOptions& options, int frame);
 
-/// Those of all frames, the log and the trace, while the plan and the options are there.
+/// Those of all frames, the log and the trace. Refers to the plan and the options.
 OutputNames files_of_render(const RenderPlan& plan, const RenderOptions& options);
 
 }  // namespace tenebra::viewer

@@ -1,5 +1,4 @@
-// A scene made ready for drawing: loaded, with its clip and camera chosen. `tenebra render` and `tenebra
-// view` share it.
+// A scene made ready for drawing: loaded, with its clip and camera chosen. All commands that draw share it.
 #pragma once
 
 #include <tenebra/additions.h>

@@ -42,7 +42,7 @@ std::size_t count_instances(const Scene& scene) {
 
 SceneSummary summarize_scene(const Scene& scene) {
   const int clip = scene.clips.empty() ? -1 : 0;
-  const double time_s = time_of_frame(scene, clip, 0, 30.0);  // frame 0 is the begin at any frame rate
+  const double time_s = time_of_frame(scene, clip, 0, 30.0);  // frame 0 is the start at any frame rate
   FrameGeometry geometry;
   evaluate_frame(scene, clip, time_s, geometry);
   SceneSummary summary;

@@ -1,5 +1,5 @@
-// Commands and their options. This stands before CLI11, whose header takes longer to compile than any file
-// that adds options: only command_line.cpp, config_file.cpp and main.cpp include it.
+// Commands and their options. They hide CLI11, whose header takes longer to compile than any file that adds
+// options: only command_line.cpp, config_file.cpp, memory_option.cpp and main.cpp include it.
 #pragma once
 
 #include <functional>

@@ -24,7 +24,7 @@ void print_error(fmt::format_string<Args...> format, Args&&... args) {
   write_text(stderr, fmt::format(format, std::forward<Args>(args)...));
 }
 
-/// What went wrong, as every failure is told: one line, "tenebra: sentence."
+/// What went wrong, as every failure is reported: one line, "tenebra: sentence."
 inline void print_failure(const std::string& sentence) {
   print_error("tenebra: {}{}\n", sentence, sentence.ends_with('.') ? "" : ".");
 }

@@ -3,7 +3,7 @@
 
 namespace tenebra::viewer::exit_codes {
 
-inline constexpr int failed = 1;             ///< would fail again: a wrong option, a scene that is not one
+inline constexpr int failed = 1;             ///< would fail again: a wrong option, a broken scene
 inline constexpr int comparison_failed = 2;  ///< `tenebra compare` says with 1 that pictures differ
 /// A file could not be written, or no memory is left: try again once there is room.
 inline constexpr int outputs_failed = 75;

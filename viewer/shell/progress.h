@@ -16,7 +16,7 @@ public:
   Progress(const Progress&) = delete;
   Progress& operator=(const Progress&) = delete;
 
-  /// `done` frames are written.
+  /// `done` of the frames are drawn.
   void show(int done);
   /// Something long that the current frame needs is being built: `done` of 0..1.
   void show_building(std::string_view what, double done);

@@ -11,7 +11,7 @@
 namespace tenebra::viewer {
 namespace {
 
-/// So that everything ends within a second: to give back a few GB takes the system some tenths.
+/// So that everything ends within a second: to give back a few GB takes the system some tenths of it.
 constexpr std::chrono::milliseconds patience{500};
 
 /// Whatever other threads do, and without their destructors: they may be blocked.

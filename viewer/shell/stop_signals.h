@@ -18,7 +18,8 @@ namespace tenebra::viewer {
 /// other threads start: they inherit what is held back.
 class StopSignals {
 public:
-  /// Where the first request counts as much as a second: nothing is written yet and nobody looks at the flag.
+  /// at_once: the first request ends the program, as a second one does later: nothing is written yet, and no
+  /// work looks at the flag.
   enum class Start { orderly, at_once };
 
   /// `timeout_s`: after this many seconds it is as if a signal came.
@@ -28,7 +29,7 @@ public:
   StopSignals(const StopSignals&) = delete;
   StopSignals& operator=(const StopSignals&) = delete;
 
-  /// Ends Start::at_once: from here on the flag is looked at.
+  /// Ends Start::at_once: from here on work looks at the flag.
   void be_orderly() { orderly_ = true; }
 
   /// The signal that asked to stop so far; 0: none.

@@ -16,7 +16,7 @@ TradeAxes axes_of(const render::RenderSettings& settings, const TradeGiven& give
 /// The time that a frame in the middle of the animation is expected to take: that of the frames that were
 /// tried, times the time spread, as those that were not may have more to draw. Milliseconds.
 double promised_ms(const TradeResult& result, const TradedSetting& setting);
-/// The error that frames are expected to keep to that were not tried: that of the worst of those that were,
+/// The error that frames which were not tried are expected to keep to: that of the worst of those that were,
 /// times the spread, and a tenth more. Levels of 255; 0 for what is the finest.
 double promised_error(const TradeResult& result, const TradedSetting& setting);
 

@@ -22,7 +22,7 @@ constexpr double spread_s = 8;  // for frames that are drawn for the spreads alo
 constexpr std::size_t least_measured = 4;
 constexpr double finest_steps = 4, own_steps = 2;  // of the progress; a setting of a sweep is one
 
-/// Makes the system's count of the most memory held begin anew. False: it does not let us.
+/// Resets the system's record of the most memory held. False: that is not allowed.
 bool forget_peak_memory() {
   std::ofstream file("/proc/self/clear_refs");
   return static_cast<bool>(file << "5" << std::flush);
@@ -103,8 +103,8 @@ public:
 
 private:
   struct Drawn {
-    std::vector<base::Image8> pictures;  ///< a frame each
-    std::vector<double> ms;              ///< a timed frame each: the median of the repeats
+    std::vector<base::Image8> pictures;  ///< one for each frame
+    std::vector<double> ms;              ///< for each timed frame the median of the repeats
     double first_ms = 0;
     double peak_mb = 0;  ///< 0: unknown
   };
@@ -163,7 +163,8 @@ private:
     return drawn;
   }
 
-  /// Of at most TradeRequest::repeats frames: slow ones are drawn fewer times, as their times differ less.
+  /// The median of at most TradeRequest::repeats draws; slow frames are drawn fewer times, as their times
+  /// differ less.
   Expected<double> median_ms(render::Renderer& renderer, const PlannedFrame& frame,
                              const render::RenderSettings& settings) {
     std::vector<double> ms;
@@ -226,7 +227,7 @@ private:
     return sweep;
   }
 
-  /// Of settings that are yet to be drawn by themselves, as the sweep has it.
+  /// How long drawing a setting by itself will take, judged by the sweep.
   double seconds_of(const TradePoint& point) const {
     const double ms = std::max(point.ms, 0.1),
                  draws = std::clamp(std::ceil(enough_ms / ms), 1.0, double(request_.repeats));

@@ -1,4 +1,4 @@
-// Settings tried on frames of a scene: how long they take and how far they are off.
+// Settings tried on frames of a scene: how long they take and how far off they are.
 #pragma once
 
 #include <functional>
@@ -52,8 +52,8 @@ struct TradeRequest {
 };
 
 /// Sweeps each axis, predicts all settings from that, and measures those that promise to be worth it, the
-/// standard one and the finest, which errors are against.
-/// `progress` gets what is done of the whole, 0..1. Fails with "stopped" soon after `stop` is requested.
+/// standard one and the finest, against which errors are measured. `progress` gets what is done of the whole,
+/// 0..1. Fails with "stopped" soon after `stop` is requested.
 Expected<TradeResult> run_trade(const TradeRequest& request, const std::function<void(double)>& progress,
                                 const StopFlag& stop);
 

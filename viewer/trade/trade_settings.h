@@ -38,7 +38,7 @@ std::vector<TradeSetting> ao_sweep(const TradeAxes& axes);
 render::RenderSettings with_setting(render::RenderSettings settings, const TradeAxes& axes,
                                     const TradeSetting& choice);
 
-/// What a setting costs and how far it is off.
+/// What a setting costs and how far off it is.
 struct TradePoint {
   TradeSetting setting;
   double ms = 0;     ///< of a frame

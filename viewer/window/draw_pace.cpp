@@ -47,7 +47,7 @@ DrawPace::Presented DrawPace::presented(Wall now) {
 }
 
 double DrawPace::sleep_s(const Stir& stir, Wall now) const {
-  // What the screen does not show yet needs no more turns than a hand can tell apart.
+  // Frames that the screen does not show yet are drawn no more often than a user could notice.
   if (is_due()) return unpresented_ && stir.hurries ? std::max(0.0, turn_s - since_drawn_s(now)) : 0;
   double sleep_s = stir.moves ? std::min(look_again_s, stir.look_again_s) : resting_sleep_s;
   if (unpresented_)

@@ -13,7 +13,7 @@ class DrawPace {
 public:
   using Wall = AnimationClock::Wall;
 
-  /// The window draws at least so many frames more: Dear ImGui takes a frame or two to settle.
+  /// The window draws at least this many more frames: Dear ImGui takes a frame or two to settle.
   void ask(int frames) { due_ = std::max(due_, frames); }
   void input_came() {
     ask(3);
@@ -27,7 +27,7 @@ public:
   bool is_due() const { return due_ > 0; }
   double since_drawn_s(Wall now) const;
 
-  /// `settles`: what the hand does is not all drawn yet.
+  /// `settles`: some of the user's input is not drawn yet.
   void begin_draw(bool settles, Wall now);
   void end_draw();
 
@@ -39,7 +39,7 @@ public:
     std::uint64_t picture = 0;  ///< number of the picture
     bool new_picture = false;   ///< for the first time
     bool newest = false;        ///< no picture has come since
-    bool inputs = false;        ///< what came of the hand's inputs, for the first time
+    bool inputs = false;        ///< the effect of new input, for the first time
   };
   Presented presented(Wall now);
 

@@ -161,8 +161,8 @@ bool is_visible(GLFWwindow* window) {
   return glfwGetWindowAttrib(window, GLFW_VISIBLE) == GLFW_TRUE;
 }
 
-/// The window comes with its first picture, and at the latest when a scene takes long to load: then it says
-/// so.
+/// The window is shown with its first picture, or after a second if its scene takes longer to load: then it
+/// says so.
 void show_when_ready(GLFWwindow* window, const Viewer& viewer) {
   constexpr double patience_s = 1.0;
   if (!is_visible(window) && (viewer.picture() || glfwGetTime() > patience_s)) glfwShowWindow(window);
@@ -175,8 +175,8 @@ void wait_for_events(GLFWwindow* window, const Viewer& viewer) {
   sleep_s > 0 ? glfwWaitEventsTimeout(sleep_s) : glfwPollEvents();
 }
 
-/// A key that came down and up again between two frames is down in one for Dear ImGui too: it works the
-/// panel.
+/// A key that was pressed and released between two frames is down in one of them for Dear ImGui too, as keys
+/// work the panel.
 void feed_keys(const std::vector<KeyPress>& pressed) {
 #if IMGUI_VERSION_NUM < 18700
   for (const KeyPress& press : pressed) {
@@ -187,7 +187,7 @@ void feed_keys(const std::vector<KeyPress>& pressed) {
 #endif
 }
 
-/// After the frame: keys are what the keyboard says again.
+/// After ImGui::NewFrame: keys are as the keyboard has them again.
 void release_keys(GLFWwindow* window, const std::vector<KeyPress>& pressed) {
 #if IMGUI_VERSION_NUM < 18700
   for (const KeyPress& press : pressed) {
@@ -213,7 +213,7 @@ void draw_frame(GLFWwindow* window, WindowGl& gl, Viewer& viewer) {
   release_keys(window, pressed);
   viewer.draw(scale_of(window), static_cast<float>(width) / static_cast<float>(units));
   ImGui::Render();
-  viewer.update();  // what the hand has changed is asked for before the screen is drawn
+  viewer.update();  // what the user has changed is requested before the screen is drawn
   if (!viewer.wants_presenting() || !is_visible(window)) return;
   gl.clear(width, height);
   ImGui_ImplOpenGL3_RenderDrawData(ImGui::GetDrawData());

@@ -1,4 +1,4 @@
-// The window itself: GLFW, its OpenGL context and Dear ImGui on it. The only place that knows GLFW.
+// The window itself: GLFW, its OpenGL context and Dear ImGui on it. The only place that uses GLFW.
 #pragma once
 
 #include "window/view_options.h"

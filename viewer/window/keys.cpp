@@ -36,7 +36,7 @@ constexpr const char* methods_and_window =
     "Ctrl+Z, Ctrl+Shift+Z: undo, redo changes to the scene\n"
     "Methods\n"
     "1  2  3: no, hard, soft shadows\n"
-    "4: ambient occlusion: none, fields, rays\n"
+    "4: ambient occlusion: none, adaptive, fields, rays\n"
     "V, Shift+V: next, previous variant of the hard shadows\n"
     "X: flip A and B\n"
     "B: compare A with B\n"
@@ -77,7 +77,7 @@ void handle_method_keys(const Ui& ui) {
   if (ui.pressed('3')) render.shadows = render::ShadowMode::soft;
   if (ui.pressed('4')) render.ao.mode = static_cast<AoMode>((static_cast<int>(render.ao.mode) + 1) % 4);
   if (ui.pressed('V', true)) {
-    constexpr int variants = 7;
+    constexpr int variants = static_cast<int>(Variant::precise_seatp) + 1;
     const int step = ui.pressed('V', true)->shift ? variants - 1 : 1;
     render.hard.variant = static_cast<Variant>((static_cast<int>(render.hard.variant) + step) % variants);
   }

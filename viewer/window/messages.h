@@ -1,4 +1,4 @@
-// Sentences that the window tells: each stands for a while in a corner of the view.
+// Sentences that the window shows, each for a while in a corner of the view.
 #pragma once
 
 #include <deque>

@@ -14,10 +14,10 @@ public:
   /// `wake` is called on another thread when there is an answer.
   explicit PixelAnswers(std::function<void()> wake) : explainer_(std::move(wake)) {}
 
-  /// About what is seen at a place of `picture`, 0 to 1; beyond it there is nothing to be asked.
+  /// About what is seen at a place of `picture`, 0 to 1; beyond it nothing is asked.
   void ask(QuestionKind kind, const std::shared_ptr<const Picture>& picture, glm::dvec2 place);
-  /// A picture from the same place, perhaps of another size, is asked the same anew; from another place there
-  /// is nothing to be told any more.
+  /// A picture from the same place, perhaps of another size, is asked the same again; a picture from another
+  /// place ends the question.
   void follow(const std::shared_ptr<const Picture>& picture);
   std::vector<Expected<PictureAnswer>> take() { return explainer_.take_answers(); }
 

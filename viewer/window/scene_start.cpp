@@ -7,7 +7,7 @@ namespace {
 
 using Wall = AnimationClock::Wall;
 
-constexpr float flight_share = 0.1f;  // of the scene's diagonal a second
+constexpr float flight_share = 0.1f;  // of the scene's diagonal per second
 
 const Clip* clip_of(const ScenePlan& plan, int clip) {
   return clip < 0 ? nullptr : &plan.scene.clips[static_cast<std::size_t>(clip)];

@@ -10,7 +10,7 @@
 namespace tenebra::viewer {
 namespace {
 
-/// What --camera and --clip find `index` by: its number, unless a name says that already.
+/// What --camera and --clip find `index` by: its number, unless that is the name of one.
 template <class Named>
 std::string number_or_name(const std::vector<Named>& list, int index) {
   const std::string number = fmt::format("{}", index);

@@ -7,7 +7,7 @@
 
 namespace tenebra::viewer {
 
-/// Steps are the moments at which the hand rested: a whole drag is one.
+/// Steps are the moments at which the user let go: a whole drag is one.
 class UndoHistory {
 public:
   static constexpr std::size_t most_steps = 200;
@@ -18,7 +18,7 @@ public:
     after_.clear();
     now_ = edits;
   }
-  /// Once a turn of the window's loop: a change is a step as soon as the hand rests.
+  /// Called once per turn of the window's loop. All changes until the hand rests are one step.
   void follow(const SceneEdits& edits, bool hand_rests) {
     if (!hand_rests || edits == now_) return;
     before_.push_back(std::move(now_));

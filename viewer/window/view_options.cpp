@@ -95,10 +95,12 @@ void add_window_options(CLI::App& command, ViewOptions& options) {
   group(add_flag(command, "--fixed-step", options.fixed_step,
                  "Show every frame, however long it takes, instead of\n"
                  "following the clock"));
-  group(add_value(command, "--preview-budget", options.preview_ms, parse_preview_budget,
-                  "Time for a picture while the hand moves, in milliseconds;\npictures that take longer are "
-                  "shown as previews first, and\nrefined when it rests. 0: no previews [80]")
-            .type_name("MS"));
+  group(
+      add_value(
+          command, "--preview-budget", options.preview_ms, parse_preview_budget,
+          "Time for a picture while you drag or hold a key, in\nmilliseconds; pictures that take longer are "
+          "shown as\npreviews first, and refined when you stop. 0: no previews\n[80]")
+          .type_name("MS"));
   group(add_choice<navigate_choices>(
       command, "--navigate", options.navigate,
       "Camera: the scene's, or one that orbits or flies\n[scene; orbit with --eye]"));

@@ -62,7 +62,7 @@ struct ViewState {
   bool panel = true;
   bool help = false;
   bool recording = false;
-  bool panel_has_keys = false;  ///< since keys_in_panel
+  bool panel_has_keys = false;  ///< the panel was given the keyboard, when keys_in_panel was set
   bool keys_in_panel = false;   ///< arrows, Space and Enter work the panel
 
   void reset_camera() {

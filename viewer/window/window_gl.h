@@ -21,7 +21,7 @@ public:
   WindowGl& operator=(WindowGl&&) noexcept;
   ~WindowGl();
 
-  void clear(int width, int height);                      ///< of the framebuffer, in the window's dark
+  void clear(int width, int height);                      ///< of the framebuffer, to the window's background
   base::Image8 read_window(int width, int height) const;  ///< RGB, row 0 at the top, of what was last drawn
 
   unsigned create_texture();

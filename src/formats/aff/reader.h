@@ -74,7 +74,8 @@ private:
   void name_missing_keys();
 
   int add_node(AffLexer& in, Node node);
-  /// Counts `bytes` of the scene; fails where the file's include directives make it larger than promised.
+  /// Counts `bytes` of the scene; fails where the file's include directives make the scene larger than
+  /// import_scene promises.
   void charge(AffLexer& in, std::size_t bytes);
 
   struct Block {

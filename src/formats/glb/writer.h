@@ -150,7 +150,7 @@ private:
   std::map<int, int> image_of_;                          ///< image of the file by that of the scene
   std::map<std::array<int, 4>, int> sampler_of_;         ///< by its four numbers in the file
   std::map<std::pair<int, int>, int> texture_of_;        ///< by image and sampler in the file
-  std::size_t skewed_ = 0;                               ///< transforms of textures that glTF cannot say
+  std::size_t skewed_ = 0;                               ///< transforms of textures that glTF cannot express
 };
 
 }  // namespace tenebra::formats

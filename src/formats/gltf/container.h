@@ -17,8 +17,8 @@ struct GltfContainer {
 /// Splits `bytes` (views into it). Throws ImportFailure on what the GLB layout forbids.
 GltfContainer split_gltf(std::string_view bytes, bool expect_glb);
 
-/// Refuses JSON too deep or too numerous for the parsers behind it: more than 64 levels, two million values
-/// or 200,000 objects. One pass, no recursion.
+/// Refuses JSON too deep, or with too many values, for the parsers behind it: more than 64 levels, two
+/// million values or 200,000 objects. One pass, no recursion.
 void check_json_size(std::string_view json);
 
 }  // namespace tenebra::formats

@@ -10,7 +10,7 @@ namespace tenebra::formats::gltf {
 
 class Textures {
 public:
-  /// Warns of images whose place or kind cannot be, used or not.
+  /// Warns of images whose place or kind is not allowed, used or not.
   Textures(Asset& asset, const std::filesystem::path& folder, SceneImages images);
 
   /// What a texture of a material is: `info` says which and by which coordinates. No map where its picture

@@ -1,4 +1,5 @@
-// Rules of the glTF specification whose breach changes nothing here: said, and read all the same.
+// Rules of the glTF specification whose breach changes nothing here: it is reported, and the file is read all
+// the same.
 #pragma once
 
 #include <nlohmann/json_fwd.hpp>

@@ -7,7 +7,7 @@ namespace tenebra::render {
 
 struct AntialiasStats {
   std::uint64_t pixels = 0;   ///< that needed more than the sample at their centre
-  std::uint64_t samples = 0;  ///< lit and shaded for them, beside the centres'
+  std::uint64_t samples = 0;  ///< of those, beside the centres; not all are lit and shaded by themselves
 };
 
 }  // namespace tenebra::render

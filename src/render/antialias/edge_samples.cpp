@@ -72,7 +72,7 @@ struct Samples {
   std::uint32_t pixel;
   Around around;
   visibility::PixelPlaces sees;
-  std::size_t first;  // its number
+  std::size_t first;  // number of its first sample
 };
 
 class Finder {
@@ -138,8 +138,8 @@ private:
     }
   }
 
-  /// Whether a place lies in a triangle of the own and two other centres that see a surface in the same
-  /// light.
+  /// Whether a place lies in a triangle between its pixel's centre and two others that all see a surface in
+  /// the same light.
   bool is_between(std::size_t surface, glm::vec2 offset) const {
     const int dx = offset.x < 0 ? -1 : 1, dy = offset.y < 0 ? -1 : 1;
     const auto as_here = [&](int place) {

@@ -22,12 +22,12 @@ struct EdgeTask {
   const SurfaceMatch& match;
 };
 
-/// What goes for pixels goes for the samples of one: where no shadow's edge is near, others stand for them.
+/// Which samples have which shadow. Where no edge of a shadow is near, samples have that of pixels' centres:
 ///
 /// - The samples of a surface that two or more of the centres of a pixel and the eight around it see, all in
 ///   the same light, are taken to be in that light.
-/// - Elsewhere those are that lie between three such centres, one of them their pixel's, which see their
-///   surface in the same light.
+/// - Elsewhere the same goes for a sample that lies between three such centres, one of them its pixel's, that
+///   see its surface in the same light.
 ///
 /// All others have shadows of their own.
 struct EdgeSamples {

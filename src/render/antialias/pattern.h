@@ -12,7 +12,8 @@ namespace tenebra::render {
 /// The samples of a pixel besides its centre. A pixel's value is the mean over them and, where it counts, the
 /// centre: a box filter one pixel wide, since the places fill the pixel evenly.
 struct SamplePattern {
-  std::span<const glm::vec2> offsets;  ///< from the centre in pixels, less than 0.5 each way, exact in 1/64
+  std::span<const glm::vec2> offsets;  ///< from the centre in pixels, less than 0.5 each way; multiples of
+                                       ///< 1/64, or of 1/512 for 256 samples
   bool centre_counts = true;
 
   std::size_t count() const { return offsets.size() + (centre_counts ? 1 : 0); }

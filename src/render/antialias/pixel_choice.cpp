@@ -14,7 +14,7 @@ constexpr std::size_t square_side = 16, block_side = 4;
 constexpr std::uint8_t is_edge = 4, tint_changes = 2, has_contrast = 1;
 constexpr std::size_t pixels_at_once = 256;  // compared
 
-/// Calls act(i) for each byte that is not 0; most are, eight at a time.
+/// Calls act(i) for each byte that is not 0. Most are 0, and these are skipped eight at a time.
 template <class Act>
 void for_each_set(std::span<const std::uint8_t> bytes, Act act) {
   std::size_t first = 0;
@@ -133,7 +133,7 @@ private:
     });
   }
 
-  /// Pixel i, which differs so from pixel j.
+  /// Marks pixel i, which differs in this way from pixel j.
   void mark(std::uint8_t differs, std::size_t i, std::size_t j, SurfaceMatch& match) {
     if ((differs & ~chosen_[i]) == 0 || chosen_[i] >= is_edge || !one_surface(i, j, match)) return;
     if (differs == has_contrast && is_ramp(i, j, match)) return;
@@ -160,8 +160,8 @@ private:
     compare_masks(i, j, count, differs);
     for (const shade::TintFactors& tint : centre_.tints) compare_tints(tint, i, j, count, differs);
   }
-  /// Penumbrae change slowly, and what is drawn shows where they do not: half lit is the line, so the top
-  /// bit.
+  /// Compares the top bits: of soft masks, whether half of the light is seen. Where a penumbra is narrow, the
+  /// picture's contrast shows it.
   void compare_masks(std::size_t i, std::size_t j, std::size_t count, std::uint8_t* differs) const {
     for (const auto mask : centre_.masks)
       for (std::size_t x = 0; x < count; ++x)

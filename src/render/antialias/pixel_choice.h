@@ -28,10 +28,10 @@ struct CentrePicture {
 /// in the lists.
 struct ChosenPixels {
   /// By geometry, without a miss: pixels whose samples do not all see one surface (SurfaceMatch). By shadow:
-  /// pixels whose mask of some light is not that of the next pixel to the right, to the left, above or below,
-  /// where both see one surface, or whose tint differs by more than an eighth. The edge of a half plane that
-  /// reaches into a pixel comes between its centre and one of those four, so only shapes thinner or rounder
-  /// than a pixel are missed.
+  /// pixels whose mask of some light differs from that of the next pixel to the right, to the left, above or
+  /// below (in soft masks: one is below half, the other is not), where both see one surface, or whose tint
+  /// differs by more than an eighth. The edge of a half plane that reaches into a pixel comes between its
+  /// centre and one of those four, so only shapes thinner or rounder than a pixel are missed.
   std::vector<std::uint32_t> edges;
   /// By contrast: other pixels whose drawn colour differs by more than least_contrast(samples) from one of
   /// those four on the same surface (textures, penumbrae, highlights), and from the continuation of a

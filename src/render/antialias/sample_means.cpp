@@ -70,7 +70,7 @@ void SampleMeans::add_colors(std::size_t first, const ShadingList& list,
         colors_[first + i] += list.centres[i] * shown(display_, centre_colors_[chosen_[first + i]]);
   });
   parallel::parallel_ranges(shaded.size(), at_once, [&](std::size_t begin, std::size_t end) {
-    // A pixel's samples stand together; those of one that began before are the range's before.
+    // A pixel's samples follow each other; they all belong to the range in which they begin.
     const auto goes_on = [&](std::size_t i) { return i > 0 && list.pixels[i] == list.pixels[i - 1]; };
     std::size_t i = begin;
     while (i < end && goes_on(i)) ++i;

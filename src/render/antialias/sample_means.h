@@ -20,8 +20,8 @@ namespace tenebra::render {
 
 /// A pixel's colour is the mean of what its samples show (each clamped by itself, so that the edge of a
 /// bright thing is smooth), before the transfer curve; its linear colour, if wanted, is the mean of theirs;
-/// its masks are means of visible fractions. All is added in one order: the bits depend on no number of
-/// threads.
+/// its masks are means of visible fractions. All is added in one order, so the bits do not depend on the
+/// number of threads.
 class SampleMeans {
 public:
   /// Works on `result`, which has what the pixels' centres show, linear in `colors`, and the lights' masks;

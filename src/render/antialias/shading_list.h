@@ -17,8 +17,8 @@ namespace tenebra::render {
 struct ShadingList {
   std::vector<std::uint32_t> ids;
   std::vector<glm::vec2> places;      ///< in the window, pixels
-  std::vector<std::uint32_t> from;    ///< where what lights it stands: a slot of the picture of samples, or a
-                                      ///< pixel of the frame
+  std::vector<std::uint32_t> from;    ///< what lights it: a slot of the picture of samples, a pixel of the
+                                      ///< frame, or LitBits (list_edges)
   std::vector<std::uint32_t> pixels;  ///< number among the chosen pixels
   std::vector<float> shares;          ///< how many samples of the pixel it stands for
   std::vector<float> centres;         ///< by chosen pixel: how many more samples its centre stands for

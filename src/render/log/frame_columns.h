@@ -68,7 +68,7 @@ struct CountColumn {
   std::uint64_t (*value)(const FrameRecord& record);
 };
 
-/// What is known of an error.
+/// An error that was asked for, or the estimate of the one that was reached.
 struct EstimateColumn {
   std::string_view name;
   double (*value)(const FrameRecord& record);
@@ -134,7 +134,8 @@ inline constexpr std::array method_columns{
     CountColumn{"soft_points_outline", [](const FrameRecord& r) { return r.soft.points_silhouette; }},
 };
 
-/// Estimates, after the counts of the methods, and what they were to be. 0 where the method has none.
+/// Errors, after the counts of the methods: estimates, then those that were asked for. 0 where the method has
+/// none.
 inline constexpr std::array estimate_columns{
     EstimateColumn{"ao_error_255", [](const FrameRecord& r) { return r.ao.error_255; }},
     EstimateColumn{"soft_error_255", [](const FrameRecord& r) { return r.soft.error_255; }},
@@ -158,7 +159,7 @@ inline constexpr std::array closing_timings{
 };
 
 /// Lists of stages by name, with blanks between them, at the end of a row: those that the settings ask for
-/// and that the frame had no work for, and those that ran. The only columns that are no numbers.
+/// and that the frame had no work for, and those that ran. The only columns that are not numbers.
 inline constexpr std::array list_columns{std::string_view("not_needed"), std::string_view("ran")};
 
 }  // namespace tenebra::render

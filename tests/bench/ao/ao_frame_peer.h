@@ -10,7 +10,7 @@
 
 namespace tenebra::bench {
 
-/// Open share at some pixels, by many rays.
+/// Openness at some pixels, by many rays.
 struct SampledTruth {
   std::vector<std::size_t> pixels;
   std::vector<float> open;

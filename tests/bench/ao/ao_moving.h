@@ -19,7 +19,7 @@ public:
 
 private:
   std::vector<bool> moves_;
-  std::vector<glm::vec3> corners_;  ///< three a moving triangle, of both frames
+  std::vector<glm::vec3> corners_;  ///< three for each moving triangle, of both frames
   std::vector<glm::uvec3> triangles_;
   std::unique_ptr<EmbreeScene> scene_;  ///< null: nothing moves
 };

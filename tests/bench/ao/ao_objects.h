@@ -24,8 +24,8 @@ Mesh mesh_of(Object object);
 /// Mesh `mesh` of a scene file, in its own space; an empty name: the whole scene at rest.
 Expected<Object> load_object(const std::filesystem::path& file, const std::string& mesh, std::string name);
 
-/// Three-dimensional snowflake: four times in turn each triangle of an icosahedron gives way to six, a
-/// tetrahedron on its middle; 20 x 6^depth triangles.
+/// Three-dimensional snowflake: `depth` times each triangle, of an icosahedron at first, gives way to six,
+/// with a tetrahedron on its middle; 20 x 6^depth triangles.
 Object make_flake(int depth);
 
 /// Closed tube along a torus knot of 2 and 3 turns; 2 x around x across triangles.

@@ -37,8 +37,8 @@ private:
   std::vector<glm::vec3> directions_;  // around +z
 };
 
-/// Any number of rays, the next that there are: distances[i] = t of the nearest hit before distances[i], else
-/// left as it is.
+/// Traces any number of rays: distances[i] becomes the t of ray i's nearest hit if that is less, else it
+/// stays.
 using Tracer = std::function<void(std::span<const ao::RayBatch>, float* distances)>;
 
 /// 1 closed .. 0 open, one per receiver, with linear fall-off to nothing at `distance`. On all threads; the

@@ -10,7 +10,7 @@
 
 namespace tenebra::bench {
 
-/// How a texel's rays become its value.
+/// How a texel's value is found from its rays.
 enum class RaySum {
   plain,  ///< the light that they bring
   scaled  ///< the part of them that arrives, times what the light gives with nothing in its way

@@ -20,14 +20,14 @@ struct BenchScene {
   std::vector<std::string> no_cast;
 };
 
-/// Of robots, museum5, kitchen, museum5x64, city, gallery and court the one of that name.
+/// The scene of that name: robots, museum5, kitchen, museum5x64, city, gallery or court.
 const BenchScene& bench_scene(const std::string& name);
 
 /// Where the scene's file is; empty: nowhere. museum5x64 is not stored: its script makes it, in a folder that
 /// goes with `made`.
 std::filesystem::path find_scene(const BenchScene& scene, const std::filesystem::path& data,
                                  std::unique_ptr<testing::TemporaryFolder>& made);
-/// What is told in the end of a scene that was not found.
+/// The sentence at the end about a scene that was not found.
 std::string skipped_sentence(const std::string& scene);
 
 /// A frame of a scene that has a name.
@@ -35,8 +35,8 @@ struct ScenePlace {
   const char* scene;
   int frame;
 };
-/// Calls `body` for each place with the scene's file, one file there at a time. Scenes that are not there are
-/// told in `skipped`. `data`: the folder of the scenes that are not ours, empty: where it lies.
+/// Calls `body` for each place with the scene's file, one file there at a time. Scenes that are missing are
+/// named in `skipped`. `data`: the folder of the scenes that are not ours, empty: where it lies.
 Expected<void> for_each_place(std::span<const ScenePlace> places, const std::filesystem::path& data,
                               std::vector<std::string>& skipped,
                               const std::function<Expected<void>(const ScenePlace&, const BenchScene&,

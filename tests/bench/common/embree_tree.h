@@ -28,7 +28,7 @@ inline constexpr TreeKind moving_trees[] = {TreeKind::rebuild, TreeKind::refit, 
 inline constexpr TreeKind still_trees[] = {TreeKind::medium, TreeKind::high};
 const char* tree_name(TreeKind kind);
 
-/// Settings of a device with so many threads, kept to the instructions of `simd`.
+/// Settings of a device with this many threads, kept to the instructions of `simd`.
 std::string embree_settings(int threads, SimdLevel simd);
 
 /// Of each vertex whether it stands elsewhere in the two frames.
@@ -59,7 +59,7 @@ public:
   /// After the vertices have moved.
   void follow();
   RTCScene get() const { return scene_; }
-  /// Whether packets of so many rays are traced as such. Embree takes wider ones for streams, which do not
+  /// Whether packets of this many rays are traced as such. Embree takes wider ones for streams, which do not
   /// know which rays are valid.
   bool takes_packets_of(int rays) const;
   /// Triangle `prim` of Embree's geometry `geometry`.

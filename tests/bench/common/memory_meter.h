@@ -7,7 +7,7 @@
 
 namespace tenebra::bench {
 
-/// Counts memory that was had (or given back: negative) from elsewhere than operator new. From any thread.
+/// Counts memory that was got (or given back: negative) from elsewhere than operator new. From any thread.
 void count_memory(std::ptrdiff_t bytes);
 
 /// The most that was held at one time since its construction, beyond what was held then. One at a time.

@@ -11,7 +11,7 @@ namespace tenebra::bench {
 
 /// How a tile's rays are handed to Embree.
 struct PacketPlan {
-  int size = 4;  ///< rays a packet: 4, 8 or 16
+  int size = 4;  ///< rays in a packet: 4, 8 or 16
   TileShape shape = TileShape::square;
   RayWay way = RayWay::to_light;  ///< of shadow rays
 };

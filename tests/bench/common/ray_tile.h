@@ -1,6 +1,5 @@
-// Sixteen pixels at a time, as somebody would write it who traces with Embree's packets: where the rays
-// through pixels meet their triangles, in float, and rays between these points and a light, both in vector
-// code.
+// Sixteen pixels at a time, as one would write it to trace with Embree's packets: where the rays through
+// pixels meet their triangles, in float, and rays between these points and a light, both in vector code.
 #pragma once
 
 #include <cstdint>

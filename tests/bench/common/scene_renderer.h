@@ -30,7 +30,7 @@ public:
   void evaluate(int frame);
   /// Of the frame evaluated last.
   render::FrameInput& input() { return input_; }
-  /// The frame evaluated last; stands until the next call.
+  /// The frame evaluated last; valid until the next call.
   Expected<const render::FrameResult*> draw(const render::RenderSettings& settings);
   const render::FrameResult& result() const { return result_; }
 

@@ -1,5 +1,5 @@
-// Tenebra's default hard shadows and Embree's on one view: time after time in turn, so that what else the
-// machine does meets both alike.
+// Tenebra's default hard shadows and Embree's on one view: timed in turn, so that other load of the machine
+// affects both alike.
 #pragma once
 
 #include "bench/common/bench_report.h"

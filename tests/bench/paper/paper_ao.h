@@ -46,7 +46,7 @@ struct FieldCost {
   int positions = 0, side = 0, bits = 8;  ///< of directions: side x side
   double bytes = 0, build_ms = 0, lookup_ms = 0;
   double rms = 0;
-  double brighter = 0;  ///< mean of what is seen less of the occlusion than there is
+  double brighter = 0;  ///< mean by which the occlusion found falls short of the truth, 1/255
 };
 struct GrowthCost {
   double triangles = 0, rays = 0, bytes = 0;

@@ -16,7 +16,7 @@ inline constexpr const char *hard_title = "Hard shadows: Olsson and Assarsson 20
 
 struct PaperOptions {
   std::filesystem::path docs;  ///< folder of papers.md and its plots; empty: none
-  int stride = 0;              ///< every so many frames of an animation; 0: by effort
+  int stride = 0;              ///< frames of an animation from one that is measured to the next; 0: by effort
 };
 
 struct PaperSession : BenchSession {

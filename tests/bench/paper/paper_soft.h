@@ -1,5 +1,5 @@
-// Mora et al. 2012 on their own method: one lazily grown BSP a visible triangle, occluders merged in a random
-// order (Algorithms 1 and 2). What Figures 7 to 11 are made of.
+// Mora et al. 2012 on their own method: one lazily grown BSP for each visible triangle, occluders merged in a
+// random order (Algorithms 1 and 2). What Figures 7 to 11 are made of.
 #pragma once
 
 #include <optional>
@@ -28,7 +28,7 @@ SoftShadowConfig mora_config();
 struct TreeView {
   std::string view;
   double triangles = 0;
-  double points_a_triangle = 0;  ///< half of the points lie on triangles that have at most so many
+  double points_a_triangle = 0;  ///< half of the points lie on triangles that have at most this many
   TreeCost paper;                ///< the paper's method on all points
   TreeCost kept, anew;           ///< on some points: as it is, and each query starting with an empty tree
   TreeCost largest;              ///< on all: the largest occluder is merged first
@@ -38,7 +38,7 @@ struct TreeView {
 /// `kept` and `anew` on one of `every` 8x8 tiles of the picture.
 TreeView measure_trees(const SoftView& view, std::size_t every);
 
-/// Figure 9: squares of 1 % of the diagonal and more; Figure 10: so many of these in a grid.
+/// Figure 9: squares of 1 % of the diagonal and more; Figure 10: a number of these in a grid.
 struct GrowthRow {
   double count = 1;  ///< of the light's area, or of lights
   TreeCost cost;     ///< of lights: summed, the largest of bytes

@@ -22,10 +22,10 @@ class PictureMaker {
 public:
   static Expected<PictureMaker> create(const DrawTask& task);
 
-  /// The first clip's frame `frame`, as the frames that follow count.
+  /// Frame `frame` of the first clip, for the pictures that follow.
   void evaluate(int frame) { renderer_.evaluate(frame); }
-  /// The picture of the frame evaluated last, its camera moved by `shift` pixels to the right and down.
-  /// Stands until the next call.
+  /// The picture of the frame evaluated last, its camera moved by `shift` pixels to the right and down. Valid
+  /// until the next call.
   Expected<const base::Image8*> draw(const Sampling& sampling, const glm::dvec2& shift = {0, 0});
   /// Of the last picture, but for evaluating the scene, in milliseconds.
   double total_ms() const { return renderer_.result().timings.total_ms; }

@@ -11,7 +11,7 @@
 
 namespace tenebra::bench {
 
-inline constexpr std::size_t most_rays = 512;     ///< where these do not reach EQ, they count
+inline constexpr std::size_t most_rays = 512;     ///< if too few for equal quality, their time counts
 inline constexpr double equal_quality_255 = 0.5;  ///< RMSE over the penumbra, in 1/255 of white
 
 struct ContestPlan {
@@ -23,7 +23,7 @@ struct ContestPlan {
   bool pictures = false;                           ///< keep the irradiance at equal time
 };
 
-/// What so many rays per pixel give and cost.
+/// What a number of rays per pixel gives and costs.
 struct SampledPoint {
   std::size_t rays = 0;
   double rmse_255 = 0;
@@ -49,7 +49,7 @@ struct Contest {
   Packing packing = Packing::tile;
   std::vector<SampledPoint> curve;  ///< ascending rays
   SoftStats stats;
-  FrameTimings timings;  ///< of Tenebra's median-like last run: shares of shaft, init, query, irradiance
+  FrameTimings timings;                  ///< of Tenebra's last run: shares of shaft, init, query, irradiance
   std::vector<float> tenebra;            ///< irradiance
   std::vector<float> embree_equal_time;  ///< with the fewest rays that take at least as long; pictures only
   SampledPoint equal_time;               ///< what that took

@@ -35,7 +35,7 @@ void put(ReceiverPacket& packet, std::size_t lane, const SampledReceiver& receiv
 /// Origins of rays that kernels aim: from the receivers on, unmasked.
 void start_rays(const ReceiverPacket& from, RayPacket16& out);
 
-/// Stratified shadow rays to one light, a fixed number a pixel.
+/// Stratified shadow rays to one light, a fixed number per pixel.
 class SoftSampler {
 public:
   /// `rays`: a power of two. Patterns are drawn here, not when tracing.
@@ -58,7 +58,7 @@ private:
   Packing packing_;
   glm::vec3 normal_;
   float area_of_a_ray_ = 0;
-  /// Of a sun: its points are ways from wherever a ray starts, and nothing is behind it.
+  /// Of a sun: its points are directions from wherever a ray starts, and nothing is behind it.
   bool endless_ = false;
   PacketKernels kernels_;
 };

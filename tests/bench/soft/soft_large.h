@@ -14,7 +14,7 @@ namespace tenebra::bench {
 /// A light of half the diagonal, exactly and at an error.
 struct LargeRow {
   std::string view;
-  double exact_ms = 0, error_ms = 0;  ///< the first frame of a tracer each: buffers are made, too
+  double exact_ms = 0, error_ms = 0;  ///< each the first frame of a tracer: buffers are made, too
   double rmse = 0, estimate = 0;      ///< at large_error_255, 1/255
   bool finite = true;                 ///< all exact values are numbers, 0 or more
 };

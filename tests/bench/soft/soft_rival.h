@@ -20,9 +20,10 @@ public:
 
   RivalSampler(const SoftView& view, const EmbreeScene& casters, std::span<const SampledReceiver> receivers);
 
-  /// Irradiance of all pixels by so many rays, a power of two from probe_rays on; points on the light are
-  /// drawn when a number is first asked for. `passes`: of the filter, 0 to 2, each over 5x5 pixels, the
-  /// second twice as far apart (Dammertz et al. 2010). On all threads; the same bits for any number of them.
+  /// Irradiance of all pixels by this many rays for each, a power of two from probe_rays on; points on the
+  /// light are drawn when a number is first asked for. `passes`: of the filter, 0 to 2, each over 5x5 pixels,
+  /// the second twice as far apart (Dammertz et al. 2010). On all threads; the same bits for any number of
+  /// them.
   void trace(std::size_t rays, int passes, std::vector<float>& irradiance);
 
 private:

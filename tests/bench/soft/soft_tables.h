@@ -31,8 +31,8 @@ struct SoftResults {
 std::string soft_tables(const SoftResults& results);
 void add_soft_plots(const SoftResults& results, Report& report);
 
-/// The lines that a script reads, "soft.eq_geomean: 7.1" and so on; nan where nothing was measured. Speed-ups
-/// over the counted views, errors over all views.
+/// The lines that a script reads, "soft.eq_geomean: 7.1" and so on; "not measured" where nothing was.
+/// Speed-ups over the counted views, errors over all views.
 std::string soft_summary(const SoftResults& results);
 
 }  // namespace tenebra::bench

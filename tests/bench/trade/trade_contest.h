@@ -1,4 +1,4 @@
-// Settings measured in turn, round by round, so that what else the machine does meets all alike.
+// Settings measured in turn, round by round, so that other load of the machine affects all alike.
 #pragma once
 
 #include <functional>
@@ -22,9 +22,9 @@ struct Contestant {
 
 /// How often each setting is run.
 struct Turns {
-  std::vector<int> threads;  ///< on so many, one after the other
+  std::vector<int> threads;  ///< numbers of threads, one after the other
   int rounds = 1;
-  double enough_ms = 0;  ///< whose runs took so long together rests
+  double enough_ms = 0;  ///< a setting whose runs took this long together is not run again
 };
 
 /// A run that takes as long as the clock says.

@@ -6,10 +6,10 @@
 
 namespace tenebra::bench {
 
-/// Every coordinate moved by the least that can be.
+/// Every coordinate moved by the smallest step of a float.
 FrameGeometry nudged(FrameGeometry geometry);
 
-/// Fields only of objects that something visible can feel, built when it first does; samples of surfaces
+/// Fields only of objects that can occlude something visible, built when they first do; samples of surfaces
 /// where they are seen; look-ups of what is in reach.
 Expected<void> need_fields(TradeSession& session, const std::string& name, const Scene& scene,
                            const BenchFrame& frame);

@@ -21,7 +21,7 @@ struct TradeOptions {
 struct NeedRow {
   std::string stage, view;
   std::string shrunk;              ///< what the frame's own needs leave: "985370 rays of 1048576 pixels"
-  double with_ms = 0, all_ms = 0;  ///< as it is; were all of it done. 0: only counted
+  double with_ms = 0, all_ms = 0;  ///< as it is, and if all of it were done; 0: only counted
   std::optional<bool> same{};      ///< both gave the same bits; none: only one of them was run
   int threads = thread_count();
 };

@@ -1,5 +1,5 @@
 // What accuracy costs: settings of one method on one view as points (time, error), the Pareto front among
-// them, and how they are told: figures, tables, plots.
+// them, and how they are presented: figures, tables, plots.
 #pragma once
 
 #include <optional>
@@ -15,7 +15,7 @@ namespace tenebra::bench {
 struct TradeTime {
   int threads = 1;
   double ms = 0;
-  bool front = false;  ///< on so many threads no other is both as fast and as exact, and better in one
+  bool front = false;  ///< on this many threads no other is both as fast and as exact, and better in one
 };
 
 /// One setting.

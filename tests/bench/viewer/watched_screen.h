@@ -1,4 +1,4 @@
-// A virtual display whose pixels are read while programs draw on it, and a hand for its keys and mouse.
+// A virtual display whose pixels are read while programs draw on it, and whose keys and mouse are operated.
 // Reading costs the programs nothing: the display's memory is mapped.
 #pragma once
 

@@ -35,8 +35,8 @@ public:
   std::optional<double> wait_for_first_picture(double patience_s);
   /// Until the picture is whole and stands still; false if it does not in `patience_s`.
   bool wait_until_whole(double patience_s);
-  /// Watches the screen while `act`, called again and again, moves; `still_s`: not counted at the begin, in
-  /// which a held key does not repeat yet.
+  /// Watches the screen while `act`, called again and again, moves; `still_s`: not counted at the start, as a
+  /// held key does not repeat yet then.
   Watched watch(double still_s, double seconds, const std::function<void(double since_s)>& act = {});
 
   /// Events of the report from number `from` on whose "event" is `name`.

@@ -47,7 +47,7 @@ TEST_F(AntialiasCommand, RefusesNumbersOfSamplesThatThereAreNot) {
 
 TEST_F(AntialiasCommand, MasksOfSamplesNeedSeveral) {
   expect_refusal({"-o", "none", "--antialias", "1", "--mask-mean", folder_ / "m.png"},
-                 "--mask-mean is of several samples per pixel; expected --antialias 2, 4, 8 or 16");
+                 "--mask-mean is for several samples per pixel; expected --antialias 2, 4, 8 or 16");
   expect_refusal({"-o", "none", "--antialias", "1", "--mask-samples", folder_ / "m.png"}, "--mask-samples");
   expect_refusal({"-o", "none", "--mask-samples", folder_ / "m.pfm"}, "expected .png");
   expect_refusal({"-o", "none", "--mask", folder_ / "m.png", "--mask-mean", folder_ / "m.png"},

@@ -10,7 +10,7 @@ namespace tenebra::viewer {
 
 /// `name`, or with a number the first that no file has.
 std::string unused_name(const std::filesystem::path& name);
-/// The first of `pattern` behind `number` that no file has; `number` becomes its own.
+/// The first name of `pattern` after `number` that no file has; `number` becomes its number.
 std::filesystem::path next_unused(const OutputPattern& pattern, int& number);
 
 }  // namespace tenebra::viewer

@@ -19,9 +19,9 @@ public:
   /// What pictures are written to; none: it is not on.
   const std::optional<OutputPattern>& files() const { return files_; }
 
-  /// From the first frame on, as --record does, to a new folder, which is given back.
+  /// From the first frame on, as --record does, to a new folder, which is returned.
   Expected<std::string> begin(ViewState& state, AnimationClock::Wall now);
-  /// The clock goes on as before `begin`. Gives back the names of the pictures.
+  /// The clock goes on as before `begin`. Returns the names of the pictures.
   std::string end(ViewState& state, AnimationClock::Wall now);
 
 private:

@@ -33,7 +33,7 @@ Expected<UserSettings> read_settings(const std::filesystem::path& file);
 /// Makes the folder; the file is whole or as it was.
 Expected<void> write_settings(const std::filesystem::path& file, const UserSettings& settings);
 
-/// The settings of one session: read at its begin, written at its end.
+/// The settings of one session: read at its start, written at its end.
 class SettingsKeeper {
 public:
   explicit SettingsKeeper(const std::string& file);  ///< as --settings has it

@@ -1,5 +1,5 @@
-// From a request to a picture: the viewer's use of the Renderer, the same as that of `tenebra render`. Knows
-// no window and no thread; everything of one FrameMaker happens on one thread.
+// From a request to a picture: the viewer's use of the Renderer, the same as that of `tenebra render`. It
+// needs neither the window nor threads: everything of one FrameMaker happens on one thread.
 #pragma once
 
 #include <memory>

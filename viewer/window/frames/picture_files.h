@@ -11,7 +11,7 @@
 
 namespace tenebra::viewer {
 
-/// Of one thread. After a failure it begins anew. What is left when it goes is written.
+/// For one thread. After a failure it begins anew. What is left when it is destroyed is written first.
 class PictureFiles {
 public:
   /// `picture` is written, after those before. Waits while two wait already. Fails with what one of those

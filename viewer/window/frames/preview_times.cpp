@@ -8,13 +8,13 @@ namespace {
 
 // Before a level has been drawn its time is guessed from one that has. Wrong guesses cost one picture: it is
 // stopped when it takes too long, and from then on its own time counts.
-constexpr double cost_of_halving = 3;  // of the divisor: four times the pixels, some work is not theirs
+constexpr double cost_of_halving = 3;  // of the divisor; four times the pixels, but not of all work
 constexpr double cost_of_method[] = {18, 10, 2.5, 3, 1};  // of PreviewMethod, beside `plain`
 
 constexpr double room = 0.8;          // of the budget, for a level finer than the last
 constexpr double newest_share = 0.5;  // of the newest time in a level's
 constexpr double first_share = 0.7;   // of the first time, in which buffers are made
-constexpr double forgetting = 0.995;  // a picture: what was too slow once is tried again after a while
+constexpr double forgetting = 0.995;  // per picture: what was too slow once is tried again after a while
 // Of the whole picture's time, for steps on the way to it: a quick one, and the last with one sample per
 // pixel.
 constexpr double refining_part = 0.2, single_part = 0.6;

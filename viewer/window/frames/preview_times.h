@@ -1,4 +1,5 @@
-// Which preview fits into the time for previews, by what the last ones took. Knows no clock: it is told.
+// Which preview fits into the time for previews, by what the last ones took. It reads no clock: times are
+// passed in.
 #pragma once
 
 #include <deque>
@@ -41,7 +42,7 @@ private:
   int last_ = -1;  // that was chosen; none yet
 };
 
-/// The times of the last few subjects: a hand that flips between two methods finds what it knew of both.
+/// The times of the last few subjects, so that those of both methods are known when a user flips between two.
 class PreviewMemory {
 public:
   PreviewTimes& of(const PreviewSubject& subject);

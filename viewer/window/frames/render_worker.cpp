@@ -13,17 +13,17 @@ using Clock = std::chrono::steady_clock;
 
 /// Pictures that may wait to be shown; more would only be late.
 constexpr std::size_t most_waiting = 2;
-// A hand that drags sees a new picture at least this often where a frame takes less; longer frames are given
+// A user who drags sees a new picture at least this often where a frame takes less; longer frames are given
 // up for the newest request.
 constexpr double least_patience_s = 0.25;
 constexpr double most_patience_s = 1.0;
 // Frames that take as long as the one before show no progress: drawing it would take their processors.
 constexpr double least_slow_s = 0.4;
 constexpr double most_slow_s = 1.0;
-// A preview that takes so many times what it may is stopped for a coarser one.
+// A preview that takes this many times what it may is stopped for a coarser one.
 constexpr double most_overrun = 2.0;
-// Requests that follow each other this closely are of a hand that moves; it rests when none has come for a
-// while. Keys that are held repeat 25 to 30 times a second.
+// Requests that follow each other this closely come from a drag or a held key, which has ended when none has
+// come for a while. Keys that are held repeat 25 to 30 times a second.
 constexpr double moving_s = 0.25;
 constexpr double rest_s = 0.06;
 // A window that is hidden brings nothing to the screen: no picture waits longer for it.
@@ -138,7 +138,7 @@ bool RenderWorker::can_draw(Wall now) const {
   return request_ && (fresh_ || request_->clock.runs()) && has_room(now);
 }
 
-/// A preview is shown, and the hand rests.
+/// A preview is shown, and no drag or held key changes it.
 bool RenderWorker::can_refine(Wall now) const {
   if (!request_ || !shown_ || fresh_ || !has_room(now)) return false;
   const bool moves = seconds(asked_ - asked_before_) < moving_s;
@@ -257,7 +257,8 @@ void RenderWorker::finish(Expected<std::shared_ptr<Picture>> made, const FrameRe
   const bool asked_still = request_ && request_->number == drawn.number;
   if (!made) {
     if (stopped && !overran_) return;
-    // A preview by a method that this build or scene lacks is no failure: the whole picture says what is.
+    // A preview by a method that this build or scene lacks is no failure: a failure of the whole picture is
+    // reported.
     if (stopped || task_.level > 0) return give_up(times, asked_still, 1e3 * seconds(now - begun_));
     results_.failures.push_back(made.error().message);
     shown_.reset();

@@ -1,5 +1,5 @@
-// The viewer's one other thread: loads scenes and computes pictures, so that the window never waits. It has
-// its own OpenGL context, away from the window's.
+// The viewer's thread that loads scenes and computes pictures, so that the window never waits. It has its own
+// OpenGL context, away from the window's.
 #pragma once
 
 #include <condition_variable>
@@ -55,8 +55,8 @@ public:
   void open(SceneOptions options);
   /// Replaces an earlier request. Where a whole picture takes longer than FrameRequest::preview_ms a preview
   /// is drawn first, and refined until it is whole as long as no newer request comes. A preview under way is
-  /// finished, so that a hand that moves sees pictures; refining stops at once. Without previews a frame
-  /// under way is finished, unless `at_once`, or it has taken longer than anyone dragging would wait.
+  /// finished, so that a user who drags sees pictures; refining stops at once. Without previews a frame under
+  /// way is finished, unless `at_once`, or it has taken longer than anyone dragging would wait.
   void request(FrameRequest request, bool at_once);
   void pick(glm::dvec2 place);  ///< asks for what is seen at a place of the last picture, 0 to 1
   void cancel();                ///< drops the request and the frame under way

@@ -65,7 +65,7 @@ Expected<TradeResult> TradeSearch::search(const FrameRequest& request) {
   trade.edits = request.edits;
   trade.view = [&](double t) { return view_of_request(request, t, size); };
   trade.axes = axes_of(request.a, {});
-  trade.aim_s = 30;  // of one who waits
+  trade.aim_s = 30;  // the user waits for it
   const auto progress = [this](double done) {
     const std::lock_guard lock(mutex_);
     status_.done = done;

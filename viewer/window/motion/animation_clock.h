@@ -14,7 +14,7 @@ class AnimationClock {
 public:
   using Wall = std::chrono::steady_clock::time_point;
 
-  /// Still, at the begin of `clip`; nullptr: a scene without animation, one frame at time 0.
+  /// Paused, at the start of `clip`; nullptr: a scene without animation, one frame at time 0.
   explicit AnimationClock(const Clip* clip = nullptr, double fps = 30.0);
 
   double start_s() const { return timing_.start_s; }
@@ -38,11 +38,11 @@ public:
   void play(Wall now);  ///< from the other end if it is over
   void pause(Wall now);
   void seek(Wall now, double time_s);
-  void set_held(Wall now, bool held);      ///< a hand holds it where it is; playing goes on when it lets go
+  void set_held(Wall now, bool held);      ///< while held it does not move, and playing goes on afterwards
   void set_speed(Wall now, double speed);  ///< clamped to -4 .. 4
   void set_loop(Wall now, bool loop);
   void set_fixed_step(Wall now, bool fixed_step);
-  void step(Wall now, int frames);  ///< to a whole frame, forwards or backwards, and still
+  void step(Wall now, int frames);  ///< to a whole frame, forwards or backwards, and pauses there
   void advance_frame();             ///< fixed step: the next picture, in the direction of the speed
 
   bool operator==(const AnimationClock& other) const;

@@ -27,7 +27,7 @@ std::string camera_arguments(const FreeCamera& camera);
 /// which have no field of view: from far enough to see as much at that point).
 FreeCamera free_camera(const ViewRays& view, int width, int height, float distance_m);
 
-/// Moves of the hand. Angles in radians; `right`, `down` as the mouse moves.
+/// Moves by the mouse and keys. Angles in radians; `right`, `down` as the mouse moves.
 void orbit(FreeCamera& camera, float right_rad, float down_rad);  ///< the eye around the target
 /// The eye and the target around any point.
 void orbit(FreeCamera& camera, float right_rad, float down_rad, glm::vec3 about);

@@ -205,8 +205,8 @@ void draw_overlay_choice(Ui& ui) {
 
 void choose_preview_time(Ui& ui) {
   row(ui, "Previews",
-      "Time for a picture while the hand moves. A picture that takes longer is shown as a preview first, and "
-      "refined when the hand rests. 0: no previews.");
+      "Time for a picture while you drag or hold a key. A picture that takes longer is shown as a preview "
+      "first, and refined when you stop. 0: no previews.");
   float ms = static_cast<float>(ui.state.preview_ms);
   if (ImGui::SliderFloat("##preview time", &ms, 0, static_cast<float>(most_preview_ms),
                          ms > 0 ? "within %.0f ms" : "none", ImGuiSliderFlags_AlwaysClamp))

@@ -13,7 +13,7 @@ constexpr ImU32 free_way = IM_COL32(255, 226, 130, 255);
 constexpr ImU32 blocked_way = IM_COL32(255, 116, 84, 255);
 constexpr float card_px = 380;
 
-/// A segment of the scene as a line in the window; nothing of what is behind the eye.
+/// A segment of the scene as a line in the window, cut where it is behind the eye.
 void line(const Ui& ui, const Stage& stage, glm::dvec3 a, glm::dvec3 b, ImU32 color, float thickness) {
   const ViewRays& view = ui.picture->view;
   glm::dvec3 from = pixel_of(view, a), to = pixel_of(view, b);
@@ -57,7 +57,7 @@ std::string material_name(const ViewState& state, int material) {
   return name.empty() ? fmt::format("material {}", material) : name;
 }
 
-/// A word that chooses what it names.
+/// A word that selects what it names when it is clicked.
 bool link(Ui& ui, const std::string& text, const std::string& mark) {
   ImGui::PushStyleColor(ImGuiCol_Text, palette::accent);
   ImGui::TextUnformatted(text.c_str());

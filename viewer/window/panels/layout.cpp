@@ -11,7 +11,7 @@ namespace tenebra::viewer {
 namespace {
 
 constexpr float panel_px = 344;
-constexpr float least_view_px = 280;  // beside the panel: there is one at 640 wide
+constexpr float least_view_px = 280;  // beside the panel, so that a window 640 wide has one
 constexpr float transport_px = 74;
 
 }  // namespace

@@ -66,7 +66,7 @@ bool near(ImVec2 a, ImVec2 b, float distance) {
   return std::hypot(a.x - b.x, a.y - b.y) < distance;
 }
 
-/// The end of an arrow along a world axis: as long for each light, shorter where it points at the eye.
+/// The end of an arrow along a world axis: equally long for all lights, shorter where it points at the eye.
 std::optional<ImVec2> arrow_at(const Ui& ui, const Stage& stage, const Anchor& anchor, int axis) {
   glm::dvec3 along(0);
   along[axis] = 1;
@@ -186,7 +186,7 @@ void move_along(Ui& ui, const Stage& stage, const WorldLight& light, int axis, I
   if (std::abs(steps) < 1e4) ui.state.light_edit(light.light).move += glm::vec3(steps * step_m * along);
 }
 
-/// The tip on the half of a ball about the light that it is on already, before or behind.
+/// Moves the tip on a sphere around the light; it stays on the half, in front or behind, that it is on.
 void aim(Ui& ui, const Anchor& anchor, const WorldLight& light, LightType type, ImVec2 pointer) {
   const glm::dmat3 axes = axes_of(ui.picture->view);
   const glm::dvec3 before = glm::transpose(axes) * tip_direction(light, type);

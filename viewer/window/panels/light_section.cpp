@@ -1,4 +1,4 @@
-// The lights: on or off, colour, brightness, direction, place, size; new ones, and without.
+// The lights: on or off, colour, brightness, direction, place, size; adding and deleting them.
 #include <fmt/core.h>
 #include <cmath>
 
@@ -69,7 +69,7 @@ std::string method_of(const Ui& ui, int index) {
   return "";
 }
 
-/// The way from a place to a light, or of a light: by compass and height, as the sun's.
+/// A direction to a light, or in which a light shines: by compass and height, as the sun's.
 struct Bearing {
   float compass_deg = 0;  ///< 0 is -Z, 90 is +X
   float height_deg = 0;   ///< above the ground, +Y up

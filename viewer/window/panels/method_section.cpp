@@ -97,7 +97,7 @@ void edit_light_size(Ui& ui, MethodOptions& method) {
   }
 }
 
-/// What soft shadows have no use for must not stay behind from the hard ones.
+/// Resets what hard shadows may have set and soft ones cannot use.
 void settle_soft(MethodOptions& method) {
   method.render.samples = render::SampleSource::ids;
   method.cull_front.reset();
@@ -174,7 +174,7 @@ void edit_ao(Ui& ui, AoConfig& ao) {
   number(ui, "ao memory", ao.memory_mb, 1, 1000000, 64);
 }
 
-/// Which preset the settings are; none where they are their own.
+/// The preset that has these settings; none if none has.
 std::optional<render::Quality> quality_of(const render::RenderSettings& render) {
   for (const render::Quality quality : render::qualities) {
     render::RenderSettings preset = render;

@@ -30,7 +30,7 @@ void enter_folder(OpenDialog& dialog, const fs::path& folder) {
   dialog.chosen = 0;
 }
 
-/// Recent files as long as nothing is typed, then what the folder has.
+/// Recent files, then what the folder has: of both, what matches the typed text.
 std::vector<Row> rows_of(const Ui& ui, const OpenDialog& dialog) {
   const std::string typed = dialog.typed.data();
   std::vector<Row> rows;

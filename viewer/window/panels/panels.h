@@ -1,5 +1,5 @@
 // The parts of the window, each drawn by one function in a file of its own. They change the state and ask for
-// actions; none touches the worker, the files or the window system.
+// actions; none touches the worker or the window system, or writes files.
 #pragma once
 
 #include "window/panels/ui.h"
@@ -22,7 +22,7 @@ Layout layout_of(const Ui& ui, ImVec2 window);
 /// Pixels that a picture has there, if its size is not fixed: half of the width side by side.
 Size picture_size(const ViewState& state, Area view, float pixels_a_unit);
 
-void draw_view(Ui& ui, const ViewTextures& textures, Area area);  ///< the picture, and the hand on it
+void draw_view(Ui& ui, const ViewTextures& textures, Area area);  ///< the picture, and the mouse in it
 void draw_transport(Ui& ui, Area area);                           ///< play, scrubber, speed
 void draw_panel(Ui& ui, Area area);                               ///< all sections below
 void draw_scene_section(Ui& ui);

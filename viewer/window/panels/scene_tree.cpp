@@ -1,4 +1,4 @@
-// The tree of the scene's nodes: which are there, and which cast shadows.
+// The tree of the scene's nodes: which are visible, and which cast shadows.
 #include "window/panels/scene_tree.h"
 
 #include <fmt/core.h>
@@ -88,7 +88,7 @@ void draw_row(Ui& ui, SceneTree& tree, const TreeRow& row) {
   const bool is_parent = !tree.children[static_cast<std::size_t>(row.node + 1)].empty();
   char& open = tree.open[static_cast<std::size_t>(row.node)];
   ImGui::PushID(row.node);
-  flag_box(ui, row.node, &NodeEdit::visible, "visible", "There, with all below it.");
+  flag_box(ui, row.node, &NodeEdit::visible, "visible", "Visible, with all below it.");
   ImGui::SameLine(0, ui.px(3));
   flag_box(ui, row.node, &NodeEdit::casts, "casts", "Casts shadows, with all below it.");
   ImGui::SameLine(0, ui.px(6) + ui.px(12) * static_cast<float>(row.depth));
@@ -138,7 +138,7 @@ void draw_tree_section(Ui& ui) {
   ImGui::SetNextItemWidth(-1);
   ImGui::InputTextWithHint("##filter", "find a node by its name", tree.filter.data(), tree.filter.size());
   ui.mark("node filter");
-  dim_text("there, casts shadows");
+  dim_text("visible, casts shadows");
   const bool moves_to = std::exchange(tree.shown_node, ui.state.selected_node) != ui.state.selected_node &&
                         ui.state.selected_node >= 0;
   if (moves_to) open_above(scene, ui.state.selected_node, tree);

@@ -34,7 +34,7 @@ inline Area half_of(Area area, bool right) {
   return {{right ? area.low.x + area.size.x - width : area.low.x, area.low.y}, {width, area.size.y}};
 }
 
-/// What is drawn of A and B where.
+/// Which parts of A and B are drawn, and where.
 class Stage {
 public:
   Stage(const Ui& ui, Area area) : ui_(ui), list_(*ImGui::GetWindowDrawList()) {
@@ -44,7 +44,7 @@ public:
     places_[1] = side_ ? fit(half_of(area, true), whole.width, whole.height) : places_[0];
   }
 
-  /// It explains A: where A is not to be seen, neither is it.
+  /// The overlay explains A: where A is not shown, neither is it.
   bool shows_overlay() const {
     const bool hides =
         both() && (ui_.state.show == CompareView::b || ui_.state.show == CompareView::difference);
@@ -75,7 +75,8 @@ public:
     const base::Image8& image = ui_.picture->a.result.image;
     return place_at(at) * glm::vec2(image.width, image.height);
   }
-  /// Of the middle of the pixel under the pointer, whose own places are left upper corners of pixels.
+  /// The place of the middle of the pixel under the pointer: pointers are at the upper left corners of
+  /// pixels.
   glm::dvec2 place_under(ImVec2 pointer) const { return place_at(pointer + ImVec2(0.5f, 0.5f)); }
   ImVec2 at_pixel(glm::dvec2 pixel, int place) const {
     const Area& area = places_[static_cast<std::size_t>(place)];

@@ -80,7 +80,7 @@ void draw_speed(Ui& ui) {
 void draw_scrubber(Ui& ui) {
   AnimationClock& clock = ui.state.clock;
   const double begin_s = clock.start_s(), end_s = clock.end_s();
-  // While it plays the scrubber shows the picture's moment; while it is held, the hand's.
+  // While the animation plays the scrubber shows the picture's moment; while it is dragged, its own.
   const auto at = now();
   double time_s = clock.time_at(at);
   if (clock.runs() && ui.picture) time_s = ui.picture->a.record.time_s;

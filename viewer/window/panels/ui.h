@@ -30,7 +30,7 @@ struct Ui {
   std::span<const KeyPress> keys;  ///< pressed since the last frame of the window
   WorkerStatus worker;
   std::string_view log;                   ///< name of the log being written, or ""
-  float scale = 1;                        ///< of the display: 1 at 96 dots an inch
+  float scale = 1;                        ///< of the display: 1 at 96 dots per inch
   const PictureAnswer* answer = nullptr;  ///< about a pixel; null: none was asked for
   TradeStatus trade{};
   std::string_view trade_subject{};  ///< of a search that began now

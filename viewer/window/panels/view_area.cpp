@@ -1,4 +1,4 @@
-// The picture in the window, and the hand on it: orbit, fly, drag a light, wipe.
+// The picture in the window, and what the mouse does in it: orbit, fly, drag a light, wipe.
 #include <fmt/core.h>
 #include <algorithm>
 #include <cmath>
@@ -44,7 +44,7 @@ void draw_labels(Ui& ui, const Stage& stage) {
     label(stage.at_pixel({0, ui.picture->a.result.image.height}, 1) + ImVec2(8, -36), "B");
 }
 
-/// What is shown is not all that was asked for yet: that is never left unsaid.
+/// Says that the picture is a preview, wherever it is one.
 void draw_preview_mark(Ui& ui, Area place) {
   if (ui.picture->preview.empty()) return;
   const std::string text = "Preview: " + ui.picture->preview;
@@ -82,19 +82,19 @@ void draw_class_legend(Ui& ui, Area place) {
   ImDrawList& list = *ImGui::GetWindowDrawList();
   const ImVec2 low = place.low + ImVec2(place.size.x - ui.px(258), ui.px(8));
   const float line = ImGui::GetTextLineHeight() + ui.px(3);
-  list.AddRectFilled(low, low + ImVec2(ui.px(250), line * 7 + ui.px(14)), palette::shade, 3);
+  const auto& sizes = ui.picture->overlay.class_sizes;
+  const float height = line * static_cast<float>(sizes.size()) + ui.px(14);
+  list.AddRectFilled(low, low + ImVec2(ui.px(250), height), palette::shade, 3);
   double pixels = 0;
-  for (const std::size_t size : ui.picture->overlay.class_sizes) pixels += static_cast<double>(size);
-  for (int i = 0; i < 7; ++i) {
+  for (const std::size_t size : sizes) pixels += static_cast<double>(size);
+  for (std::size_t i = 0; i < sizes.size(); ++i) {
     const auto soft_class = static_cast<SoftClass>(i);
     const glm::u8vec3 c = class_color(soft_class);
     const ImVec2 at = low + ImVec2(ui.px(10), ui.px(7) + line * static_cast<float>(i));
     list.AddRectFilled(at + ImVec2(0, ui.px(3)), at + ImVec2(ui.px(12), ui.px(15)),
                        IM_COL32(c.r, c.g, c.b, 255), 2);
     list.AddText(at + ImVec2(ui.px(20), 0), palette::text, class_name(soft_class));
-    const double share =
-        static_cast<double>(ui.picture->overlay.class_sizes[static_cast<std::size_t>(i)]) / pixels;
-    const std::string text = fmt::format("{:.1f} %", 100 * share);
+    const std::string text = fmt::format("{:.1f} %", 100 * static_cast<double>(sizes[i]) / pixels);
     list.AddText(at + ImVec2(ui.px(230) - ImGui::CalcTextSize(text.c_str()).x, 0), palette::dim,
                  text.c_str());
   }
@@ -130,7 +130,7 @@ void turn_wheel(Ui& ui, float steps) {
   zoom(ui.state.free, steps);
 }
 
-/// Whether the mouse has moved since the button went down: what makes a drag of a click.
+/// Whether the mouse has moved since the button went down: what makes a click a drag.
 bool dragged(int button) {
   constexpr float click_px = 3;
   return ImGui::GetIO().MouseDragMaxDistanceSqr[button] > click_px * click_px;
@@ -163,7 +163,7 @@ void use_hand(Ui& ui, const Stage& stage, Area area) {
     storage.SetInt(hand_id, static_cast<int>(hand));
     storage.SetInt(light_id, under.light);
     storage.SetInt(part_id, static_cast<int>(under.part));
-    // A hand in the view does not move the panel.
+    // Selecting a light in the view does not scroll the panel.
     if (hand == Hand::light) ui.state.selected_light = ui.state.shown_light = under.light;
   }
   const bool drags =

@@ -34,7 +34,7 @@ struct TruthQuestion {
 /// Asked of Embree, on all threads; the same bits for any number.
 AoSceneTruth cast_truth(const TruthQuestion& question);
 
-/// The same, but what `folder` knows of the same question already is taken from there, and what is found is
+/// The same, but what `folder` already holds of the same question is taken from there, and what is found is
 /// kept: one file with one float for each pixel, "ao_NAME_WxH_KEY.truth", where KEY is a hash of the
 /// triangles, the points, the normals, the reach, the rays and the definition. So a file is never used for
 /// another question, and runs with different steps share one. An empty folder: nothing is kept. What cannot
@@ -48,7 +48,7 @@ std::filesystem::path default_truth_folder();
 /// A unit normal of the triangle on the side of `normal`; zero where it has no area.
 glm::vec3 face_on_side(const TriangleView& triangles, std::uint32_t triangle, const glm::vec3& normal);
 
-/// How far off its plane a ray has to start for what is touched by rounding not to be met.
+/// How far off its plane a ray has to start so that it does not meet what only rounding makes it touch.
 float start_lift(const glm::dvec3& position, float largest_coordinate);
 /// Of the vertices that triangles have.
 float largest_coordinate(const TriangleView& triangles);
