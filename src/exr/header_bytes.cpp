@@ -1,5 +1,7 @@
 #include "exr/header_bytes.h"
 
+#include <algorithm>
+#include <array>
 #include <cstdint>
 #include <cstring>
 
@@ -32,6 +34,78 @@ tl::unexpected<Error> cut_short() {
   return base::fail("found a damaged OpenEXR picture (its header ends too soon)");
 }
 
+struct TypeSize {
+  std::string_view type;
+  std::uint32_t bytes;
+};
+/// Types of attributes whose values have one size, of which the library reads as much, whatever size is
+/// stated.
+constexpr std::array<TypeSize, 24> type_sizes{{{"box2f", 16},
+                                               {"box2i", 16},
+                                               {"chromaticities", 32},
+                                               {"compression", 1},
+                                               {"double", 8},
+                                               {"envmap", 1},
+                                               {"deepImageState", 1},
+                                               {"float", 4},
+                                               {"int", 4},
+                                               {"keycode", 28},
+                                               {"lineOrder", 1},
+                                               {"m33f", 36},
+                                               {"m33d", 72},
+                                               {"m44f", 64},
+                                               {"m44d", 128},
+                                               {"rational", 8},
+                                               {"tiledesc", 9},
+                                               {"timecode", 8},
+                                               {"v2f", 8},
+                                               {"v2i", 8},
+                                               {"v2d", 16},
+                                               {"v3f", 12},
+                                               {"v3d", 24},
+                                               {"v3i", 12}}};
+
+/// Whether channels, up to an empty name, are all of `value`.
+bool holds_channels(std::string_view value) {
+  constexpr std::size_t channel_bytes = 16;  // after its name
+  for (std::string_view name; take_name(value, name);) {
+    if (name.empty()) return value.empty();
+    if (value.size() < channel_bytes) return false;
+    value.remove_prefix(channel_bytes);
+  }
+  return false;
+}
+
+/// Whether texts, each with its size before it, are all of `value`.
+bool holds_texts(std::string_view value) {
+  while (value.size() >= 4) {
+    const std::uint32_t size = number_at(value, 0);
+    value.remove_prefix(4);
+    if (size > value.size()) return false;
+    value.remove_prefix(size);
+  }
+  return value.empty();
+}
+
+/// Width, height and four bytes for each of its pixels.
+bool holds_preview(std::string_view value) {
+  if (value.size() < 8) return false;
+  const std::uint64_t width = number_at(value, 0), height = number_at(value, 4),
+                      pixels = (value.size() - 8) / 4;
+  return (value.size() - 8) % 4 == 0 && width <= pixels && height <= pixels && width * height == pixels;
+}
+
+/// Whether the library reads just `value`: after more or less of it, it would take what follows for
+/// attributes that nobody has checked.
+bool is_whole(std::string_view type, std::string_view value) {
+  if (type == "chlist") return holds_channels(value);
+  if (type == "stringvector") return holds_texts(value);
+  if (type == "preview") return holds_preview(value);
+  const auto* const known = std::find_if(type_sizes.begin(), type_sizes.end(),
+                                         [&](const TypeSize& size) { return size.type == type; });
+  return known == type_sizes.end() || value.size() == known->bytes;
+}
+
 /// Takes the attributes of one part off `bytes`; their number.
 Expected<std::size_t> take_attributes(std::string_view& bytes) {
   for (std::size_t count = 0;; ++count) {
@@ -44,6 +118,9 @@ Expected<std::size_t> take_attributes(std::string_view& bytes) {
     if (size > bytes.size())
       return base::fail("found a damaged OpenEXR picture (an attribute of {} bytes, where {} follow)", size,
                         bytes.size());
+    if (!is_whole(type, bytes.substr(0, size)))
+      return base::fail("found a damaged OpenEXR picture (an attribute whose {} bytes are no {})", size,
+                        type);
     bytes.remove_prefix(size);
   }
 }

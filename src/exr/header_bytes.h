@@ -8,7 +8,7 @@
 namespace tenebra::exr {
 
 /// Fails with a phrase for what does not begin as an OpenEXR file does, and where an attribute states more
-/// bytes than the file has.
+/// bytes than the file has, or not as many as its value takes.
 Expected<void> check_header_bytes(std::string_view bytes);
 
 }  // namespace tenebra::exr

@@ -126,5 +126,30 @@ TEST(ExrFile, TakesNoMemoryForWhatTheFileCannotHold) {
       << long_text.error().message;
 }
 
+/// Found by fuzzing: the library reads values by their types, whatever size is stated, and took what came
+/// after the channels here for an attribute of a gigabyte.
+TEST(ExrFile, AttributesTakeTheBytesThatTheyState) {
+  const TemporaryFolder folder;
+  const std::string begin("\x76\x2f\x31\x01\x02\0\0\0", 8);
+  const auto refused = [&](const std::string& attribute, std::string_view what) {
+    const auto read = read_back(folder, begin + attribute + std::string(600, '\0'));
+    ASSERT_FALSE(read);
+    EXPECT_NE(read.error().message.find(what), std::string::npos) << read.error().message;
+  };
+  const std::string channel("R\0\1\0\0\0\0\0\0\0\1\0\0\0\1\0\0\0", 18), end(1, '\0');
+  const auto with_size = [](std::string type_and_name, int size) {
+    return type_and_name + std::string({static_cast<char>(size), 0, 0, 0});
+  };
+  const std::string channels("channels\0chlist\0", 16), window("dataWindow\0box2i\0", 17),
+      views("multiView\0stringvector\0", 23), preview("preview\0preview\0", 16);
+  refused(with_size(channels, 18 + 1 + 40) + channel + end + std::string(40, 'x'),
+          "whose 59 bytes are no chlist");
+  refused(with_size(channels, 18) + channel, "whose 18 bytes are no chlist");
+  refused(with_size(channels, 5) + "R" + end + "123", "whose 5 bytes are no chlist");
+  refused(with_size(window, 20) + std::string(20, '\0'), "whose 20 bytes are no box2i");
+  refused(with_size(views, 8) + std::string("\x10\0\0\0left", 8), "whose 8 bytes are no stringvector");
+  refused(with_size(preview, 12) + std::string("\2\0\0\0\2\0\0\0....", 12), "whose 12 bytes are no preview");
+}
+
 }  // namespace
 }  // namespace tenebra::testing
