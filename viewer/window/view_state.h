@@ -74,10 +74,11 @@ struct ViewState {
   MethodOptions& method() { return slots[static_cast<std::size_t>(active)]; }
   LightEdit& light_edit(int light) { return edits.light(light); }
   int light_count() const { return static_cast<int>(scene->scene.lights.size() + edits.added.size()); }
+  /// `light` is less than light_count().
   LightType light_type(int light) const {
     const auto& own = scene->scene.lights;
     const auto index = static_cast<std::size_t>(light);
-    return index < own.size() ? own[index].type : edits.added[index - own.size()].type;
+    return index < own.size() ? own[index].type : edits.added.at(index - own.size()).type;
   }
 };
 

@@ -33,7 +33,10 @@ glm::dvec3 tip_direction(const WorldLight& light, LightType type) {
 /// The lights as their edits place them, of those in the picture.
 std::vector<WorldLight> lights_in_view(const Ui& ui) {
   if (ui.picture->scene != ui.state.scene) return {};
-  return edited_lights(ui.picture->lights, ui.state.edits.lights);
+  std::vector<WorldLight> lights = edited_lights(ui.picture->lights, ui.state.edits.lights);
+  // Until the next picture comes, this one has a light whose adding was undone.
+  std::erase_if(lights, [&](const WorldLight& light) { return light.light >= ui.state.light_count(); });
+  return lights;
 }
 
 /// Where a light's handles are in the window; none behind the eye.
