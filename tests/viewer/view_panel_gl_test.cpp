@@ -9,6 +9,7 @@
 #include <set>
 #include <thread>
 
+#include "support/patience.h"
 #include "support/seeded_random.h"
 #include "viewer_test_scene.h"
 #include "window/viewer.h"
@@ -77,7 +78,8 @@ public:
   }
   template <class Condition>
   bool turn_until(Condition condition, double seconds = 60) {
-    const auto end = std::chrono::steady_clock::now() + std::chrono::duration<double>(seconds);
+    const auto end =
+        std::chrono::steady_clock::now() + std::chrono::duration<double>(seconds * testing::patience);
     while (!condition() && std::chrono::steady_clock::now() < end) {
       turn();
       std::this_thread::sleep_for(std::chrono::milliseconds(10));
