@@ -2,6 +2,7 @@
 
 #include <unistd.h>
 
+#include <atomic>
 #include <ctime>
 #include <initializer_list>
 #include <string_view>
@@ -16,6 +17,9 @@ constexpr std::chrono::milliseconds patience{500};
 
 /// Whatever other threads do, and without their destructors: they may be blocked.
 [[noreturn]] void end_at_once(int code) {
+  static std::atomic_flag ending;
+  if (ending.test_and_set())
+    for (;;) ::pause();  // the other thread that came here ends this one too
   const std::string_view why = code == exit_codes::timed_out
                                    ? "tenebra: stopped, as the time of --timeout is up.\n"
                                    : "tenebra: stopped at once.\n";
