@@ -12,7 +12,7 @@ slow='ShadowMask\.|NodeTests|SoftCatalogue|SoftCloud|Oracle|Exact|EverySoup|Stay
 slow+='|^TreeBound|^Bart|SoftPackets|ShaftFrames|NeverLeaveOut|HandOver|AreaIsThatOf|Tiles\.AreTheSame|Tiles\.WorkOut'
 slow+='|DistantFaceBounds|OfHundredsOfEdges|NearlyCoincide|SheetsOf|GivesWhatClipping|FieldAccuracy|FindsABall'
 slow+='|AdaptiveOcclusion\.(Meets|SameBits|Stops|DoesNot)|AoCatalogue|AoMemory'
-slow+='|^Allocation\.Other|^Stop\.|^Places\.|EvenEmission|TexturedPanes|RunsAlong|^FieldLookup\.(Never|Gives|Takes|OneField|SeesFrom)|WhatIsDropped'
+slow+='|^Allocation\.|^Stop\.|^Places\.|EvenEmission|TexturedPanes|RunsAlong|^FieldLookup\.(Never|Gives|Takes|OneField|SeesFrom)|WhatIsDropped'
 slow+='|AmbientOcclusion\.(BuiltFields|Follows|Room|StopsAnd|PointsKeep|SameBits|BothLayouts|DoesNotDepend|HalfTheResolution|AtVertices)|RealScenes|DividesNoMore|ManyLarge'
 [[ -e build-debug/CMakeCache.txt ]] && first=() || first=(-DTENEBRA_UNITY=ON -DTENEBRA_FEWER_LEVELS=ON)  # as in test.sh
 cmake --preset debug -DTENEBRA_TESTS=ON "${first[@]}" -DCMAKE_COMPILE_WARNING_AS_ERROR=ON > /dev/null
