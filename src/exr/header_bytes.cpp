@@ -101,6 +101,7 @@ bool is_whole(std::string_view type, std::string_view value) {
   if (type == "chlist") return holds_channels(value);
   if (type == "stringvector") return holds_texts(value);
   if (type == "preview") return holds_preview(value);
+  if (type == "floatvector") return value.size() % 4 == 0;
   const auto* const known = std::find_if(type_sizes.begin(), type_sizes.end(),
                                          [&](const TypeSize& size) { return size.type == type; });
   return known == type_sizes.end() || value.size() == known->bytes;

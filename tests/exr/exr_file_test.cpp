@@ -141,13 +141,15 @@ TEST(ExrFile, AttributesTakeTheBytesThatTheyState) {
     return type_and_name + std::string({static_cast<char>(size), 0, 0, 0});
   };
   const std::string channels("channels\0chlist\0", 16), window("dataWindow\0box2i\0", 17),
-      views("multiView\0stringvector\0", 23), preview("preview\0preview\0", 16);
+      views("multiView\0stringvector\0", 23), preview("preview\0preview\0", 16),
+      weights("weights\0floatvector\0", 20);
   refused(with_size(channels, 18 + 1 + 40) + channel + end + std::string(40, 'x'),
           "whose 59 bytes are no chlist");
   refused(with_size(channels, 18) + channel, "whose 18 bytes are no chlist");
   refused(with_size(channels, 5) + "R" + end + "123", "whose 5 bytes are no chlist");
   refused(with_size(window, 20) + std::string(20, '\0'), "whose 20 bytes are no box2i");
   refused(with_size(views, 8) + std::string("\x10\0\0\0left", 8), "whose 8 bytes are no stringvector");
+  refused(with_size(weights, 7) + std::string(7, '\0'), "whose 7 bytes are no floatvector");
   refused(with_size(preview, 12) + std::string("\2\0\0\0\2\0\0\0....", 12), "whose 12 bytes are no preview");
 }
 

@@ -12,10 +12,9 @@ namespace tenebra::bench {
 
 struct BenchOptions {
   std::filesystem::path
-      data;  ///< folder of scenes that are not ours; empty: where it lies beside the checkout
-  bool quick =
-      false;  ///< the same contestants on fewer frames and runs; within a quarter of an hour on two cores
-  int threads = 0;            ///< of all contestants; 0: all cores
+      data;            ///< folder of scenes that are not ours; empty: where it lies beside the checkout
+  bool quick = false;  ///< the same contestants on fewer frames and runs: within 15 minutes on two cores
+  int threads = 0;     ///< of all contestants; 0: all cores
   std::filesystem::path csv;  ///< all figures, one row for each measurement; plots lie beside it; empty: none
 };
 
