@@ -267,6 +267,11 @@ TEST(ViewPanel, TriesSettingsAndTakesTheOneThatIsClicked) {
     ASSERT_TRUE(headless.click(fmt::format("trade.point.{}", i)));
     EXPECT_EQ(antialias(), setting(i).antialias);
   }
+  const ImVec4 label = headless.viewer().marks().at("trade.label");
+  for (std::size_t i = 0; i < all.size(); ++i) {
+    const ImVec4 point = headless.viewer().marks().at(fmt::format("trade.point.{}", i));
+    EXPECT_GT(point.y - 9, label.w) << "the circle around a point that is lit stays below the label";
+  }
   ASSERT_TRUE(headless.click("trade.row.0"));
   EXPECT_EQ(antialias(), setting(0).antialias);
   EXPECT_TRUE(headless.turn_until([&] {

@@ -11,7 +11,11 @@ namespace tenebra::viewer {
 namespace {
 
 constexpr ImU32 plot_ground = IM_COL32(13, 14, 18, 255);
-constexpr float dot_px = 4.5f, reach_px = 9;
+constexpr float dot_px = 4.5f, lit_px = dot_px + 5, reach_px = 9;
+
+float label_height() {
+  return ImGui::GetFontSize() * 0.85f;
+}
 
 /// "4 samples, soft error 2, AO error 1", of what there was to choose.
 std::string words_of(const TradeAxes& axes, const TradeSetting& setting) {
@@ -25,12 +29,14 @@ std::string words_of(const TradeAxes& axes, const TradeSetting& setting) {
   return text;
 }
 
-/// Time, on a logarithmic scale, and error as places in the plot.
+/// Time, on a logarithmic scale, and error as places in the plot; above and below lies a line of text that no
+/// point, lit or not, touches.
 struct PlotScale {
-  ImVec2 low, size;
+  ImVec2 low, size, margin;
   double first_ms = HUGE_VAL, last_ms = 0, highest = 0.1;
 
-  PlotScale(const TradeResult& result, ImVec2 at, ImVec2 whole) : low(at), size(whole) {
+  PlotScale(const TradeResult& result, ImVec2 at, ImVec2 whole, ImVec2 around)
+      : low(at), size(whole), margin(around) {
     for (const TradedSetting& setting : result.measured) {
       first_ms = std::min(first_ms, setting.point.ms);
       last_ms = std::max(last_ms, setting.point.ms);
@@ -41,9 +47,8 @@ struct PlotScale {
   ImVec2 at(const TradePoint& point) const {
     const double x = std::log(std::max(point.ms, 1e-3) / first_ms) / std::log(last_ms / first_ms),
                  y = 1 - point.error / highest;
-    const float margin = size.y * 0.1f;
-    return {low.x + margin + (size.x - 2 * margin) * static_cast<float>(x),
-            low.y + margin + (size.y - 2 * margin) * static_cast<float>(y)};
+    return {low.x + margin.x + (size.x - 2 * margin.x) * static_cast<float>(x),
+            low.y + margin.y + (size.y - 2 * margin.y) * static_cast<float>(y)};
   }
 };
 
@@ -68,21 +73,24 @@ int point_under(const Ui& ui, const TradeResult& result, const PlotScale& scale)
   return nearest;
 }
 
-void draw_scale(const Ui& ui, const PlotScale& scale) {
+void draw_scale(Ui& ui, const PlotScale& scale) {
   ImDrawList& list = *ImGui::GetWindowDrawList();
   const ImVec2 end{scale.low.x + scale.size.x, scale.low.y + scale.size.y};
   list.AddRectFilled(scale.low, end, plot_ground, 3);
-  const float font = ImGui::GetFontSize() * 0.85f;
+  const float font = label_height();
+  const float top = scale.at({{}, scale.first_ms, scale.highest}).y;
+  list.AddLine({scale.low.x, top}, {end.x, top}, palette::line);
   for (const double ms : logarithmic_ticks(scale.first_ms, scale.last_ms)) {
     const float x = scale.at({{}, ms, 0}).x;
-    list.AddLine({x, scale.low.y}, {x, end.y}, palette::line);
+    list.AddLine({x, top}, {x, end.y}, palette::line);
     list.AddText(nullptr, font, {x + ui.px(2), end.y - font - ui.px(2)}, palette::dim,
                  fmt::format("{:g}", ms).c_str());
   }
-  const float top = scale.at({{}, scale.first_ms, scale.highest}).y;
-  list.AddLine({scale.low.x, top}, {end.x, top}, palette::line);
-  list.AddText(nullptr, font, {scale.low.x + ui.px(4), scale.low.y + ui.px(1)}, palette::dim,
-               fmt::format("error {:.2g}/255; below: ms per frame", scale.highest).c_str());
+  const std::string label = fmt::format("error {:.2g}/255; below: ms per frame", scale.highest);
+  const ImVec2 at{scale.low.x + ui.px(4), scale.low.y + ui.px(1)};
+  list.AddText(nullptr, font, at, palette::dim, label.c_str());
+  const float width = ImGui::GetFont()->CalcTextSizeA(font, FLT_MAX, 0, label.c_str()).x;
+  ui.marks["trade.label"] = {at.x, at.y, at.x + width, at.y + font};
 }
 
 /// `lit`: the point that the hand or the keyboard is at; -1: none.
@@ -99,12 +107,14 @@ void draw_points(const Ui& ui, const TradeResult& result, const PlotScale& scale
       list.AddCircleFilled(at, ui.px(dot_px), palette::accent);
     else
       list.AddCircle(at, ui.px(dot_px), palette::dim, 0, 1.5f);
+    const bool below = at.y - ImGui::GetFontSize() < scale.low.y + label_height() + ui.px(2);
     if (point.setting == standard(result.axes))
-      list.AddText(nullptr, ImGui::GetFontSize() * 0.85f, {at.x + ui.px(7), at.y - ImGui::GetFontSize()},
-                   palette::warning, "standard");
+      list.AddText(nullptr, label_height(),
+                   {at.x + ui.px(7), below ? at.y + ui.px(2) : at.y - ImGui::GetFontSize()}, palette::warning,
+                   "standard");
     if (is_chosen(ui, result.axes, point.setting))
       list.AddCircle(at, ui.px(dot_px + 3), palette::text, 0, 1.5f);
-    if (static_cast<int>(i) == lit) list.AddCircle(at, ui.px(dot_px + 5), palette::warning, 0, 2);
+    if (static_cast<int>(i) == lit) list.AddCircle(at, ui.px(lit_px), palette::warning, 0, 2);
   }
 }
 
@@ -134,10 +144,10 @@ int draw_rows(Ui& ui, const TradeResult& result) {
 void draw_result(Ui& ui, const FoundTrade& found) {
   const TradeResult& result = found.result;
   if (result.measured.empty()) return;
-  const ImVec2 at = ImGui::GetCursorScreenPos(), size{ImGui::GetContentRegionAvail().x, ui.px(150)};
+  const ImVec2 at = ImGui::GetCursorScreenPos(), size{ImGui::GetContentRegionAvail().x, ui.px(170)};
   ImGui::InvisibleButton("##trade plot", size);
   ui.mark("trade.plot");
-  const PlotScale scale(result, at, size);
+  const PlotScale scale(result, at, size, {ui.px(15), label_height() + ui.px(lit_px + 3)});
   const bool clicked = ImGui::IsItemClicked();
   int lit = point_under(ui, result, scale);
   if (lit >= 0) {
