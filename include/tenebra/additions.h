@@ -15,16 +15,18 @@ struct Additions {
 
 /// What add_missing_parts added.
 struct AddedParts {
-  bool camera = false;  ///< a camera that sees everything
-  bool light = false;   ///< a sun and the light of a sky
+  bool camera = false;  ///< a camera that sees everything, or stands in a closed room
+  bool light = false;   ///< a sun and the light of a sky, or a lamp and ambient light
+  bool lamp = false;    ///< the light is a lamp in a closed room
   bool floor = false;   ///< a floor to catch the shadow
 };
 
 /// Adds what a picture needs if the file lacks it, and says so in scene.warnings:
 /// - a camera from the front, nearby, that shows everything at all times of the first clip, and some of the
-///   shadow on an added floor, in pictures of its aspect ratio and wider ones;
+///   shadow on an added floor, in pictures of its aspect ratio and wider ones; or, where the scene is a
+///   closed room, one that stands in it;
 /// - a sun from the left behind the camera, with the ambient light and (unless the file states one) the
-///   background of a soft sky;
+///   background of a soft sky; in a closed room whose camera was added a lamp below the ceiling;
 /// - with that light, where nothing that faces up covers most of the ground, a floor to catch the shadow: a
 ///   flat mesh, the scene's last, as bright in the sun as the background.
 AddedParts add_missing_parts(Scene& scene, const Additions& wish = {});

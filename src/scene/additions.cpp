@@ -8,6 +8,7 @@
 #include <tenebra/frame_geometry.h>
 #include "scene/default_light.h"
 #include "scene/framing.h"
+#include "scene/room.h"
 #include "scene/view_basis.h"
 
 namespace tenebra {
@@ -32,10 +33,11 @@ void add_camera(Scene& scene, const scene::Framing& framing, bool own_shape) {
   node.rotation = glm::quat_cast(framing.basis);
   node.camera = static_cast<int>(scene.cameras.size());
   scene.cameras.push_back(camera);
-  scene.warnings.push_back(
-      fmt::format("The scene has no camera; one was added at {:.4g}, {:.4g}, {:.4g}. At the start the scene "
-                  "fills {:.0f} % of its picture.",
-                  node.translation.x, node.translation.y, node.translation.z, 100 * framing.subject_share));
+  scene.warnings.push_back(fmt::format(
+      "The scene has no camera; one was added at {:.4g}, {:.4g}, {:.4g}{}. At the start the scene "
+      "fills {:.0f} % of its picture.",
+      node.translation.x, node.translation.y, node.translation.z,
+      framing.lamp ? ", in the closed room that it is" : "", 100 * framing.subject_share));
   scene.nodes.push_back(std::move(node));
 }
 
@@ -46,23 +48,35 @@ glm::dvec3 right_of_camera(const Scene& scene) {
   return evaluate_camera(scene, first_clip(scene), first_time_s(scene), node->camera, 1, 1).dx;
 }
 
+void add_light(Scene& scene, Node node, LightType type, float intensity) {
+  node.light = static_cast<int>(scene.lights.size());
+  Light& light = scene.lights.emplace_back();
+  light.name = node.name;
+  light.type = type;
+  light.falloff = Falloff::none;
+  light.intensity = intensity;
+  scene.ambient_light = glm::vec3(scene::default_ambient);
+  if (scene.background == glm::vec3(0.0f)) scene.background = glm::vec3(scene::default_horizon);
+  scene.nodes.push_back(std::move(node));
+}
+
 void add_sun(Scene& scene, const glm::dvec3& towards) {
   Node node;
   node.name = "added sun";
   node.rotation = glm::quat_cast(scene::view_basis(-towards, {0, 1, 0}));
-  node.light = static_cast<int>(scene.lights.size());
-  Light& light = scene.lights.emplace_back();
-  light.name = "added sun";
-  light.type = LightType::directional;
-  light.falloff = Falloff::none;
-  light.intensity = scene::default_sun;
-  scene.ambient_light = glm::vec3(scene::default_ambient);
-  if (scene.background == glm::vec3(0.0f)) scene.background = glm::vec3(scene::default_horizon);
+  add_light(scene, std::move(node), LightType::directional, scene::default_sun);
   scene.warnings.push_back(
       "The scene has no light; a sun from the left behind the camera, 50 degrees high, and the light of a "
-      "soft "
-      "sky were added.");
-  scene.nodes.push_back(std::move(node));
+      "soft sky were added.");
+}
+
+/// No sun reaches into a closed room.
+void add_lamp(Scene& scene, const glm::dvec3& at) {
+  Node node;
+  node.name = "added lamp";
+  node.translation = at;
+  add_light(scene, std::move(node), LightType::point, scene::default_lamp);
+  scene.warnings.push_back("The scene has no light; a lamp below the ceiling and ambient light were added.");
 }
 
 /// Whether three quarters of the ground, under the scene and its shadow, are covered by what faces up within
@@ -160,14 +174,17 @@ AddedParts add_missing_parts(Scene& scene, const Additions& wish) {
   added.light = !is_placed(scene, &Node::light);
   if (!added.camera && !added.light) return added;
   const scene::Subject subject = scene::subject_of(scene);
-  added.floor = wish.floor && added.light && !subject.empty() && !has_floor(subject);
+  const auto room = added.camera ? scene::frame_room(subject, wish.aspect) : std::nullopt;
+  added.lamp = added.light && room;
+  added.floor = wish.floor && added.light && !room && !subject.empty() && !has_floor(subject);
   // A thousandth below: what lies flat on the ground is not in the floor's plane.
   const double floor_y = subject.low.y - 1e-3 * subject.radius_m();
   if (added.camera) {
     const auto shadow = added.floor ? std::optional(floor_y) : std::nullopt;
-    add_camera(scene, scene::frame_subject(subject, shadow, wish.aspect), !wish.aspect);
+    add_camera(scene, room ? *room : scene::frame_subject(subject, shadow, wish.aspect), !wish.aspect);
   }
-  if (!added.light) return added;
+  if (added.lamp) add_lamp(scene, *room->lamp);
+  if (!added.light || added.lamp) return added;
   const glm::dvec3 sun = scene::towards_sun(scene::compass_of(right_of_camera(scene)));
   if (added.floor) add_floor(scene, subject, floor_y, sun);
   add_sun(scene, sun);

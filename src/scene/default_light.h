@@ -7,6 +7,7 @@
 namespace tenebra::scene {
 
 inline constexpr float default_sun = 0.75f;      ///< facing it
+inline constexpr float default_lamp = 0.6f;      ///< facing the lamp of a closed room
 inline constexpr float default_ambient = 0.35f;  ///< facing up, in the open
 inline constexpr float default_horizon = 0.5f;   ///< radiance of the horizon and of the ground below
 

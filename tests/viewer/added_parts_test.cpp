@@ -76,5 +76,19 @@ TEST(AddedParts, TheLogAndInfoNameWhatIsAdded) {
   EXPECT_NE(read_text(folder / "box.csv").find("# added: camera, sun\n"), std::string::npos);
 }
 
+TEST(AddedParts, InAClosedRoomTheLightIsALamp) {
+  const TemporaryFolder folder;
+  const std::string room = folder / "room.obj";  // the box above, seen from inside
+  write_text(room,
+             "v -1 0 -1\nv 1 0 -1\nv -1 2 -1\nv 1 2 -1\nv -1 0 1\nv 1 0 1\nv -1 2 1\nv 1 2 1\n"
+             "f 2 4 3 1\nf 7 8 6 5\nf 5 6 2 1\nf 4 8 7 3\nf 3 7 5 1\nf 6 8 4 2\n");
+  const auto result = tenebra({"render", room, "--size", "80x60", "-o", folder / "room.png", "--quiet",
+                               "--log", folder / "room.csv"});
+  ASSERT_EQ(result.exit_code, 0) << result.errors;
+  const std::string log = read_text(folder / "room.csv");
+  EXPECT_NE(log.find("# added: camera, lamp\n"), std::string::npos) << log;
+  EXPECT_NE(log.find("# environment: none\n"), std::string::npos) << "no sky is seen in it";
+}
+
 }  // namespace
 }  // namespace tenebra::testing

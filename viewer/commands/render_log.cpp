@@ -33,7 +33,8 @@ std::string environment_text(const ScenePlan& plan, const SceneOptions& options)
 std::string added_text(const AddedParts& added) {
   std::string text;
   for (const auto& [is_added, name] :
-       {std::pair(added.camera, "camera"), std::pair(added.light, "sun"), std::pair(added.floor, "floor")})
+       {std::pair(added.camera, "camera"), std::pair(added.light, added.lamp ? "lamp" : "sun"),
+        std::pair(added.floor, "floor")})
     if (is_added) text += fmt::format("{}{}", text.empty() ? "" : ", ", name);
   return text.empty() ? "nothing" : text;
 }

@@ -46,7 +46,7 @@ Expected<void> apply_field_of_view(Scene& scene, int camera, const SceneOptions&
 void complete(const SceneOptions& options, ScenePlan& plan) {
   // The camera is the same whatever --size is.
   plan.added = add_missing_parts(plan.scene, {.floor = options.floor && !plan.environment, .aspect = {}});
-  if (plan.added.light && !plan.environment) plan.environment = scene::soft_sky();
+  if (plan.added.light && !plan.added.lamp && !plan.environment) plan.environment = scene::soft_sky();
 }
 
 /// Nodes may share a light: each gets its own, so that a light has the same number for --light, for
