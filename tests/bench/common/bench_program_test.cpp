@@ -162,7 +162,7 @@ TEST(BenchProgram, BakeEndsWithItsFigures) {
 TEST(BenchProgram, ViewerEndsWithItsFigures) {
   const testing::TemporaryFolder folder;
   expect_refusal({"viewer", "--only", "atlantis"},
-                 "--only: found atlantis, expected hands, starts, whole, explain");
+                 "--only: found atlantis, expected hands, starts, opens, whole, explain");
   const auto result = bench({"viewer", "--tiny", "--csv", (folder / "viewer.csv").string()});
   ASSERT_EQ(result.exit_code, 0) << result.errors;
   const bool skipped = result.output.find("viewer: skipped") != std::string::npos;
@@ -176,7 +176,8 @@ TEST(BenchProgram, ViewerEndsWithItsFigures) {
   // Keys are pressed in a window: that needs Xvfb and xdotool, and the bench says which of them is missing.
   if (skipped) GTEST_SKIP() << result.output.substr(result.output.find("viewer: skipped"));
   const std::string csv = testing::read_text(folder / "viewer.csv");
-  for (const char* row : {"\nhands,city,tenebra,", "\nstarts,city,tenebra,", "\nwhole,city,view,"})
+  for (const char* row :
+       {"\nhands,city,tenebra,", "\nstarts,city,tenebra,", "\nopens,", "\nwhole,city,view,"})
     EXPECT_NE(csv.find(row), std::string::npos) << row;
 }
 

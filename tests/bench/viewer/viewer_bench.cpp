@@ -9,7 +9,8 @@ namespace {
 
 constexpr std::array parts{
     BenchPart<ViewerSession>{"hands", measure_hands}, BenchPart<ViewerSession>{"starts", measure_starts},
-    BenchPart<ViewerSession>{"whole", measure_whole}, BenchPart<ViewerSession>{"explain", measure_explain}};
+    BenchPart<ViewerSession>{"opens", measure_opens}, BenchPart<ViewerSession>{"whole", measure_whole},
+    BenchPart<ViewerSession>{"explain", measure_explain}};
 const std::span<const BenchPart<ViewerSession>> all_parts(parts);
 
 void print_viewer_end(const ViewerHeadline& h, const std::vector<std::string>& skipped) {
@@ -42,7 +43,8 @@ constexpr const char* footer =
     "The program beside this one, on a virtual display (Xvfb) of its own, with keys that repeat 30 times\n"
     "a second; the display's pixels are read while it draws. pictures_per_second_worst: how often the\n"
     "middle of the view changes while a key is held or the mouse drags, at 1024x1024. black_ms_worst:\n"
-    "longest time without a picture, from the window's first sign on. explain_ms: from a click to its\n"
+    "longest time without a picture, from the window's first sign on, and while a file is opened in it.\n"
+    "explain_ms: from a click to its\n"
     "answer. over_render: a whole frame while a key is held, over one of tenebra render; key_to_picture:\n"
     "from a single press to its whole picture on the screen, in such frames; these two with --antialias 1\n"
     "--terminator flat --tone none.";

@@ -13,8 +13,6 @@ namespace {
 
 constexpr double repeat_s = 0.4;  // held keys repeat by then
 constexpr unsigned long key_w = 'w';
-constexpr double patience_s = 60;
-
 struct ViewCase {
   const char* name;
   const char* scene;
@@ -98,11 +96,11 @@ Expected<void> measure_hands(ViewerSession& session) {
   for (const ViewCase& view : hand_cases(session)) {
     progress(fmt::format("viewer: {}", view.name));
     WatchedViewer viewer(session.screen, session.program, file_of(view), session.side(), view.arguments);
-    const auto black_s = viewer.wait_for_first_picture(patience_s);
-    if (!black_s) return base::fail("viewer: {} shows no picture in {:g} s", view.name, patience_s);
+    const auto black_s = viewer.wait_for_first_picture(picture_patience_s);
+    if (!black_s) return base::fail("viewer: {} shows no picture in {:g} s", view.name, picture_patience_s);
     for (const Hand& hand : hands) {
-      if (!viewer.wait_until_whole(patience_s))
-        return base::fail("viewer: {} has no whole picture in {:g} s", view.name, patience_s);
+      if (!viewer.wait_until_whole(picture_patience_s))
+        return base::fail("viewer: {} has no whole picture in {:g} s", view.name, picture_patience_s);
       measure_hand(session, view, hand, viewer, rows);
     }
     viewer.quit();
@@ -125,8 +123,8 @@ Expected<void> measure_starts(ViewerSession& session) {
     double worst_s = 0;
     for (int i = 0; i < rounds; ++i) {
       WatchedViewer viewer(session.screen, session.program, file_of(view), session.side(), view.arguments);
-      const auto black_s = viewer.wait_for_first_picture(patience_s);
-      if (!black_s) return base::fail("viewer: {} shows no picture in {:g} s", view.name, patience_s);
+      const auto black_s = viewer.wait_for_first_picture(picture_patience_s);
+      if (!black_s) return base::fail("viewer: {} shows no picture in {:g} s", view.name, picture_patience_s);
       const Watched after = viewer.watch(0, 0.5);  // refining: the picture stays
       worst_s = std::max({worst_s, *black_s, after.black_s});
       viewer.quit();
@@ -143,8 +141,8 @@ Expected<void> measure_explain(ViewerSession& session) {
   progress("viewer: why is it dark");
   const ViewCase view{"court", "court.glb", {}};
   WatchedViewer viewer(session.screen, session.program, file_of(view), session.side(), view.arguments);
-  if (!viewer.wait_for_first_picture(patience_s) || !viewer.wait_until_whole(patience_s))
-    return base::fail("viewer: {} has no whole picture in {:g} s", view.name, patience_s);
+  if (!viewer.wait_for_first_picture(picture_patience_s) || !viewer.wait_until_whole(picture_patience_s))
+    return base::fail("viewer: {} has no whole picture in {:g} s", view.name, picture_patience_s);
   std::vector<double> times_ms;
   const int clicks = session.effort == Effort::tiny ? 1 : 10;
   for (int i = 0; i < clicks; ++i) {

@@ -16,6 +16,8 @@ struct ViewerHeadline {
   std::optional<double> key_to_picture;  ///< in frames of `tenebra render`
 };
 
+constexpr double picture_patience_s = 60;
+
 struct ViewerSession : BenchSession {
   ViewerSession(const PartsArguments& arguments, std::string program_file, WatchedScreen& watched)
       : BenchSession(arguments), program(std::move(program_file)), screen(watched) {}
@@ -33,6 +35,7 @@ struct ViewerSession : BenchSession {
 // The parts.
 Expected<void> measure_hands(ViewerSession& session);   ///< held keys and drags
 Expected<void> measure_starts(ViewerSession& session);  ///< until there is a picture
+Expected<void> measure_opens(ViewerSession& session);   ///< the same for a file opened in the window
 Expected<void> measure_whole(ViewerSession& session);   ///< whole frames beside `tenebra render`'s
 Expected<void> measure_explain(ViewerSession& session);
 

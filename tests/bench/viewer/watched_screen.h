@@ -19,7 +19,8 @@ struct ScreenArea {
   int left = 0, top = 0, right = 0, bottom = 0;
 };
 
-constexpr unsigned long key_right = 0xff53;  ///< keysym of X11
+// Keysyms of X11.
+constexpr unsigned long key_right = 0xff53, key_down = 0xff54, key_enter = 0xff0d, key_control = 0xffe3;
 
 /// Xvfb with real key repeat: after 250 ms, 30 times a second.
 class WatchedScreen {

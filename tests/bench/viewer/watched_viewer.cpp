@@ -82,14 +82,25 @@ bool WatchedViewer::wait_until_whole(double patience_s) {
 }
 
 Watched WatchedViewer::watch(double still_s, double seconds, const std::function<void(double)>& act) {
+  return watch_while(still_s, seconds, [&](double since_s) {
+    if (act) act(since_s);
+    return true;
+  });
+}
+
+Watched WatchedViewer::watch_until(double patience_s, const std::function<bool(double)>& ends) {
+  return watch_while(0, patience_s, [&](double since_s) { return !ends(since_s); });
+}
+
+Watched WatchedViewer::watch_while(double still_s, double seconds,
+                                   const std::function<bool(double)>& goes_on) {
   Watched watched;
   const auto begin = Clock::now();
   std::vector<std::uint8_t> shown, before;
   screen_.sample(watched_area(), shown);
   before = shown;
   double changed_s = 0, seen_s = 0, now_s = 0;
-  while ((now_s = since(begin)) < seconds) {
-    if (act) act(now_s);
+  while ((now_s = since(begin)) < seconds && goes_on(now_s)) {
     if (!is_black()) seen_s = now_s;
     watched.black_s = std::max(watched.black_s, now_s - seen_s);
     // A picture on its way to the screen is half the old one: it counts when it stands still.
@@ -125,6 +136,11 @@ std::vector<WatchedViewer::Json> WatchedViewer::events(const std::string& name, 
     if (events_[i].value("event", "") == name) found.push_back(events_[i]);
   }
   return found;
+}
+
+std::vector<WatchedViewer::Json> WatchedViewer::events_from(std::size_t from) {
+  read_events();
+  return {events_.begin() + static_cast<std::ptrdiff_t>(std::min(from, events_.size())), events_.end()};
 }
 
 std::size_t WatchedViewer::event_count() {

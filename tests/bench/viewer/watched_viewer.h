@@ -39,6 +39,11 @@ public:
   /// held key does not repeat yet then.
   Watched watch(double still_s, double seconds, const std::function<void(double since_s)>& act = {});
 
+  /// The same until `ends`, called now and then, is true, or for as long as patience lasts.
+  Watched watch_until(double patience_s, const std::function<bool(double since_s)>& ends);
+
+  /// All events of the report from number `from` on.
+  std::vector<Json> events_from(std::size_t from);
   /// Events of the report from number `from` on whose "event" is `name`.
   std::vector<Json> events(const std::string& name, std::size_t from = 0);
   std::size_t event_count();
@@ -47,6 +52,7 @@ public:
   void quit();
 
 private:
+  Watched watch_while(double still_s, double seconds, const std::function<bool(double since_s)>& goes_on);
   void read_events();
   bool is_black();
   ScreenArea watched_area() const;  ///< the middle of the picture: no mark or message lies there
