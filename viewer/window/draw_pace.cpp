@@ -27,17 +27,17 @@ void DrawPace::begin_draw(bool settles, Wall now) {
 
 void DrawPace::end_draw() {
   drawn_ = pictures_;
+  if (!unpresented_) unpresented_since_ = last_draw_;
   unpresented_ = true;
 }
 
 bool DrawPace::wants_presenting(bool wanted, bool hurries, Wall now) const {
   if (!unpresented_) return false;
-  return shown_ != drawn_ || wanted || seconds(last_present_, now) >= longest_unpresented_s || !hurries;
+  return shown_ != drawn_ || wanted || seconds(unpresented_since_, now) >= longest_unpresented_s || !hurries;
 }
 
-DrawPace::Presented DrawPace::presented(Wall now) {
+DrawPace::Presented DrawPace::presented() {
   unpresented_ = false;
-  last_present_ = now;
   Presented done;
   done.picture = drawn_;
   done.new_picture = std::exchange(shown_, drawn_) != drawn_;
@@ -51,7 +51,7 @@ double DrawPace::sleep_s(const Stir& stir, Wall now) const {
   if (is_due()) return unpresented_ && stir.hurries ? std::max(0.0, turn_s - since_drawn_s(now)) : 0;
   double sleep_s = stir.moves ? std::min(look_again_s, stir.look_again_s) : resting_sleep_s;
   if (unpresented_)
-    sleep_s = std::min(sleep_s, std::max(1e-3, longest_unpresented_s - seconds(last_present_, now)));
+    sleep_s = std::min(sleep_s, std::max(1e-3, longest_unpresented_s - seconds(unpresented_since_, now)));
   return sleep_s;
 }
 

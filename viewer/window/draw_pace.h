@@ -41,7 +41,7 @@ public:
     bool newest = false;        ///< no picture has come since
     bool inputs = false;        ///< the effect of new input, for the first time
   };
-  Presented presented(Wall now);
+  Presented presented();
 
   /// What the worker does, and what moves by itself.
   struct Stir {
@@ -59,7 +59,8 @@ private:
   std::uint64_t pictures_ = 0;
   std::uint64_t drawn_ = 0;  // of pictures_, by the last draw
   std::uint64_t shown_ = 0;  // of pictures_, on the screen
-  Wall last_draw_{}, last_present_{};
+  Wall last_draw_{};
+  Wall unpresented_since_{};  // the first draw after the last that is on the screen
 };
 
 }  // namespace tenebra::viewer

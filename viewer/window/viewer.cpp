@@ -57,7 +57,7 @@ bool Viewer::wants_presenting() const {
 }
 
 void Viewer::presented() {
-  const DrawPace::Presented done = pace_.presented(now());
+  const DrawPace::Presented done = pace_.presented();
   if (done.new_picture) report_.note("shown", fmt::format("{}", done.picture));
   if (done.newest) worker_.presented();
   if (done.inputs) report_.note("drawn", "");
