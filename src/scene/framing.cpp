@@ -272,7 +272,7 @@ double score_of(const Framing& framing, bool with_shadow, bool end_on, const Dir
   const double filled = std::min(framing.subject_share / wanted_subject, 1.0);
   const double shaded = with_shadow ? std::min(framing.shadow_share / wanted_shadow, 1.0) : 1.0;
   const double natural = end_on ? 0.6 : direction.elevation > steep_deg ? 0.8 : 1.0;
-  return natural * (filled < enough || end_on ? filled * (1 + 0.1 * shaded) : 1 + shaded);
+  return filled < enough || end_on ? natural * filled * (1 + 0.1 * shaded) : 1 + natural * shaded;
 }
 
 struct Scored {
