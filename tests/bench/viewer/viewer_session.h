@@ -16,7 +16,7 @@ struct ViewerHeadline {
   std::optional<double> key_to_picture;  ///< in frames of `tenebra render`
 };
 
-constexpr double picture_patience_s = 60;
+constexpr double picture_patience_s = 300;  ///< a whole one with soft shadows from nearby takes over a minute
 
 struct ViewerSession : BenchSession {
   ViewerSession(const PartsArguments& arguments, std::string program_file, WatchedScreen& watched)
