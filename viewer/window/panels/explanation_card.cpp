@@ -104,7 +104,7 @@ void light_row(Ui& ui, const PictureAnswer& answer, const LightExplanation& ligh
   ImGui::SameLine();
   std::string more = fmt::format("triangle {}, {:.3g} m away", light.occluder->triangle,
                                  glm::distance(light.met_at, answer.pixel.point));
-  if (light.asked > 1) more += fmt::format(", {} of {} ways", light.held_by_it, light.asked);
+  if (light.asked > 1) more += fmt::format(", {} of {} sightlines", light.held_by_it, light.asked);
   dim_text(more.c_str());
 }
 
