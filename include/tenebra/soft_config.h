@@ -53,8 +53,9 @@ struct SoftShadowConfig {
   std::size_t tree_bytes = std::size_t{4} << 20;
   /// Bytes for BSPs, candidates, and the lists of them that wait to be solved, of all threads together; none:
   /// as many as the system has. A group of points that finds no room beside those of other threads is solved
-  /// alone, once they are done, so the answers follow from this number and not from the threads. A group
-  /// whose candidates do not fit even then is the end of the frame: SoftShadowTracer::refusal().
+  /// alone, once they are done: of the BSP, what is found follows from this number and not from the threads;
+  /// of the other solvers it has the same bits as without a bound. Points whose candidates do not fit even
+  /// then are the end of the frame: SoftShadowTracer::refusal().
   std::optional<std::size_t> memory_bytes;
 };
 

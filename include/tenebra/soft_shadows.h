@@ -44,8 +44,8 @@ public:
              const TriangleView& triangles, const AreaLight& light, const SoftShadowConfig& config,
              SoftMask& out, const StopFlag* stop = nullptr);
 
-  /// Why the last call returned false although no stop was requested, in a sentence; empty if it did not. One
-  /// group of points needed more than SoftShadowConfig::memory_bytes.
+  /// Why the last call returned false although no stop was requested, in a sentence; empty if it did not.
+  /// Points that are solved together needed more than SoftShadowConfig::memory_bytes.
   const std::string& refusal() const;
   const SoftStats& stats() const;       ///< of the last call
   const FrameTimings& timings() const;  ///< of the last call: shaft_ms, init_ms, query_ms, irradiance_ms

@@ -11,6 +11,10 @@ namespace tenebra::soft {
 
 using parallel::MemoryPool;
 
+/// Lists of candidates that wait to be solved take one part in so many of SoftShadowConfig::memory_bytes; the
+/// pool has the rest.
+inline constexpr std::size_t share_of_lists = 8;
+
 /// What one thread holds of a pool: as much as its largest group so far needed, since its buffers stay as
 /// large, until release().
 class MemoryHold {

@@ -7,6 +7,7 @@
 #include "base/stopwatch.h"
 #include "parallel/parallel.h"
 #include "soft/groups/receivers.h"
+#include "soft/memory/memory_hold.h"
 #include "soft/shafts/shaft_kernels.h"
 
 namespace tenebra::soft {
@@ -24,13 +25,13 @@ constexpr double most_groups = 0.4;
 constexpr std::uint64_t serial_work = 1 << 16;
 
 // A thread that keeps more candidates than these, 16 MB, hands its families over before all are decided.
-// Where the memory is bounded, all threads together keep an eighth of it (vectors that grow hold up to three
-// times what is used).
+// Where the memory is bounded, all threads together keep their share of it (vectors that grow hold up to
+// three times what is used).
 std::size_t most_ids(const SoftShadowConfig& config) {
   constexpr std::size_t most = std::size_t{1} << 22;
   if (!config.memory_bytes) return most;
   const std::size_t threads = static_cast<std::size_t>(thread_count());
-  return std::min(most, *config.memory_bytes / 8 / (3 * sizeof(std::uint32_t) * threads));
+  return std::min(most, *config.memory_bytes / share_of_lists / (3 * sizeof(std::uint32_t) * threads));
 }
 
 // A GroupDecision whose candidates may still move, as long as others are added behind them.

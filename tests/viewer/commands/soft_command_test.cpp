@@ -230,7 +230,7 @@ TEST(SoftCommand, SaysOnceThatGroupsChangedTheirSolver) {
     std::vector<std::string> all{"render",
                                  (fs::path(TENEBRA_SCENES_DIR) / "court.glb").string(),
                                  "--size",
-                                 "48x27",
+                                 "24x14",
                                  "--frames",
                                  "60:61",
                                  "--shadows",
@@ -261,7 +261,8 @@ TEST(SoftCommand, SaysOnceThatGroupsChangedTheirSolver) {
 
   const auto refused = draw({"--soft-memory", "2"});
   EXPECT_EQ(refused.exit_code, 1);
-  EXPECT_NE(refused.errors.find("2 MB are allowed and one group of points needs at least"), std::string::npos)
+  EXPECT_NE(refused.errors.find("2 MB are allowed and points that are solved together need at least"),
+            std::string::npos)
       << refused.errors;
 }
 
