@@ -40,7 +40,7 @@ MAY_INCLUDE = {
 ROOMS = {
     "formats": ["", "gltf_check", "images", "obj", "aff", "gltf", "glb"],
     "shadow": ["decision", "rays", "cone_tree", "tiles", ""],
-    "soft": ["light", "polygon", "groups", "shafts", "occluders", "clip", "silhouette", "bsp", "solve", "sample", ""],
+    "soft": ["memory", "light", "polygon", "groups", "shafts", "occluders", "clip", "silhouette", "bsp", "solve", "sample", ""],
     "ao": ["objects", "cast", "cache", "field", "surface", "shade", "adaptive", ""],
 }
 APART = {("tiles", "cone_tree"), ("silhouette", "clip"), ("bsp", "clip"), ("bsp", "silhouette"),

@@ -47,9 +47,16 @@ struct SoftShadowConfig {
   double error_255 = 0;
   bool keep_trees = true;  ///< false: each point starts a new BSP (the paper's "modified version", Figure 8)
   SimdLevel simd = SimdLevel::automatic;  ///< which vectors; see SoftPrecision for what answers depend on
-  /// No thread's BSP takes more bytes than this, nor more than 1 GiB: a point whose query would exceed it,
-  /// and the group's points after it (with keep_trees), are clipped instead, with the same answers.
+  /// No BSP takes more bytes than this, nor more than 1 GiB or memory_bytes leaves: a point whose query would
+  /// exceed it, and the group's points after it (with keep_trees), are clipped instead, with the same
+  /// answers.
   std::size_t tree_bytes = std::size_t{4} << 20;
+  /// Bytes for BSPs, candidates, and the lists of them that wait to be solved, of all threads together; none:
+  /// as many as the system has. A group of points that finds no room beside those of other threads is solved
+  /// alone, once they are done: of the BSP, what is found follows from this number and not from the threads;
+  /// of the other solvers it has the same bits as without a bound. Points whose candidates do not fit even
+  /// then are the end of the frame: SoftShadowTracer::refusal().
+  std::optional<std::size_t> memory_bytes;
 };
 
 /// One value per pixel, row 0 at the top; zero where no triangle is seen or the light is below the horizon.
@@ -79,6 +86,7 @@ struct SoftStats {
   std::uint64_t fragments = 0;          ///< convex parts of the light handed to the integrals
   std::uint64_t tree_nodes = 0;         ///< BSP nodes made
   std::uint64_t peak_tree_bytes = 0;    ///< the most memory that all BSPs alive at one time took
+  std::uint64_t groups_changed = 0;     ///< groups with points clipped because a BSP came to its bound
 };
 /// Adds the work of another light, or of another part of one; for errors and bytes the larger counts.
 inline SoftStats& operator+=(SoftStats& to, const SoftStats& from) {
@@ -96,6 +104,7 @@ inline SoftStats& operator+=(SoftStats& to, const SoftStats& from) {
   to.fragments += from.fragments;
   to.tree_nodes += from.tree_nodes;
   to.peak_tree_bytes = std::max(to.peak_tree_bytes, from.peak_tree_bytes);
+  to.groups_changed += from.groups_changed;
   return to;
 }
 

@@ -10,6 +10,7 @@
 #include <tenebra/visible_points.h>
 #include <memory>
 #include <span>
+#include <string>
 
 namespace tenebra {
 
@@ -38,11 +39,14 @@ public:
   /// 1e-10 of their distance). With config.error_255 the irradiance of dense penumbrae may err by
   /// that, as estimated (see there). The bits are the same for any number of threads.
   ///
-  /// Returns false, with `out` unspecified, if `stop` was requested before the end.
+  /// Returns false, with `out` unspecified, if `stop` was requested before the end, or for refusal().
   bool trace(const VisiblePoints& points, std::span<const glm::vec3> normals, const ViewRays& view,
              const TriangleView& triangles, const AreaLight& light, const SoftShadowConfig& config,
              SoftMask& out, const StopFlag* stop = nullptr);
 
+  /// Why the last call returned false although no stop was requested, in a sentence; empty if it did not.
+  /// Points that are solved together needed more than SoftShadowConfig::memory_bytes.
+  const std::string& refusal() const;
   const SoftStats& stats() const;       ///< of the last call
   const FrameTimings& timings() const;  ///< of the last call: shaft_ms, init_ms, query_ms, irradiance_ms
 

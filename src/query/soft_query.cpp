@@ -110,7 +110,7 @@ Expected<void> PointTracer::soft_visibility(const Geometry& geometry, const Quer
         s.seen.triangles[pixel] = s.eyes[i] == eye ? triangle : no_triangle;
       });
       if (!s.soft.trace(s.seen, s.normals, eyes[k], triangles, light, config, s.visible, stop))
-        return base::fail("stopped");
+        return base::fail("{}", s.soft.refusal().empty() ? "stopped" : s.soft.refusal().c_str());
       query::each_point(portion, [&](std::size_t i, std::size_t pixel) {
         if (s.eyes[i] != eye && !(k == 0 && s.eyes[i] == no_eye)) return;
         if (!visible_fraction.empty())

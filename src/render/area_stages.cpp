@@ -1,4 +1,5 @@
 // The stages of a frame that only lights with an area have: one side of a light, or both.
+#include <fmt/core.h>
 #include <algorithm>
 
 #include "base/fail.h"
@@ -28,6 +29,19 @@ void add_back(const VisiblePoints& points, const AreaLight& front, const AreaSid
 
 }  // namespace
 
+void Renderer::State::note_changed_groups(const SoftShadowConfig& config,
+                                          std::vector<std::string>& notes) const {
+  if (!groups_changed) return;
+  // A tree gets less than a third of what all have together (MemoryHold::largest_tree).
+  const bool together = config.memory_bytes && *config.memory_bytes / 4 < config.tree_bytes;
+  const std::size_t most = together ? *config.memory_bytes : config.tree_bytes;
+  notes.push_back(fmt::format(
+      "Some groups of points were clipped in place of the BSP, whose trees would have outgrown {} MB "
+      "({}). The picture is the same, and the log counts the groups; a larger --soft-memory gives "
+      "trees more.",
+      most >> 20, together ? "for all that soft shadows hold" : "each"));
+}
+
 Expected<void> Renderer::State::trace_visible_part(const AreaTask& task, const DrawnLight& light,
                                                    SoftMask& out) {
   const RenderSettings& settings = task.settings;
@@ -41,7 +55,8 @@ Expected<void> Renderer::State::trace_visible_part(const AreaTask& task, const D
                : soft.trace(task.at, task.normals, task.input.view, triangles, *light.area, settings.soft,
                             out, task.stop);
   });
-  if (!done) return base::fail("stopped");
+  if (!done) return base::fail("{}", soft.refusal().empty() ? "stopped" : soft.refusal().c_str());
+  groups_changed |= settings.soft_points == 0 && soft.stats().groups_changed > 0;
   if (task.counts == nullptr) return {};
   if (settings.soft_points > 0) {
     task.counts->stats += light_points.stats();

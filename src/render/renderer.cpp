@@ -134,6 +134,7 @@ Expected<void> Renderer::render_frame(const FrameInput& given, const RenderSetti
   result.soft = {};
   result.ao = {};
   result.antialias = {};
+  s.groups_changed = false;
   FrameTimings& timings = result.timings;
   base::Stopwatch watch, whole;
   if (auto checked = check_settings(settings); !checked) return checked;
@@ -155,6 +156,7 @@ Expected<void> Renderer::render_frame(const FrameInput& given, const RenderSetti
   if (auto shaded = s.shade_pixels(input, *lights, settings, result, stop); !shaded) return shaded;
   timings.composite_ms = watch.lap_ms() - timings.layer_ms - timings.antialias_ms;
   timings.total_ms = whole.lap_ms();
+  s.note_changed_groups(settings.soft, result.notes);
   s.keep_new(result.notes);
   return {};
 }

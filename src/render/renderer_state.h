@@ -61,6 +61,7 @@ struct Renderer::State {
   std::vector<float> openness{};
   std::vector<std::vector<float>> irradiance{};  // of the drawn lights; empty without an area
   std::unordered_set<std::string> said{};        // notes of earlier frames
+  bool groups_changed = false;                   // of this frame: SoftStats::groups_changed
 
   SurfaceCoordinates coordinates{};  // of scenes with see-through surfaces
   FrameInput recast{};               // the input as RenderSettings::see_through wants it
@@ -125,7 +126,8 @@ struct Renderer::State {
                                const StopFlag* stop);
   /// The visible part of an area light at points, as the settings want it.
   Expected<void> trace_visible_part(const AreaTask& task, const DrawnLight& light, SoftMask& out);
-  /// The same, and its tint.
+  void note_changed_groups(const SoftShadowConfig& config, std::vector<std::string>& notes) const;
+  /// The visible part, and its tint.
   Expected<void> trace_side(const AreaTask& task, const DrawnLight& light, AreaSide& out);
   /// The same for both sides of a light that shines alike in every direction (soft/light/even_emission.h).
   Expected<void> trace_area(const AreaTask& task, const DrawnLight& light, AreaSide& out);

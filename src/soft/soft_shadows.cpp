@@ -1,5 +1,6 @@
 #include <tenebra/soft_shadows.h>
 
+#include <fmt/core.h>
 #include <algorithm>
 #include <cmath>
 
@@ -29,8 +30,13 @@ constexpr base::Names<SoftSolver, 3> solver_names = {{
 constexpr std::size_t many_candidates = 1024;
 static_assert(soft::largest_family <= soft::FamilyCandidates::most_groups);
 
-/// The state of one thread: its solver, the groups of the current family that need it, and the groups of all
-/// families that are sampled at places on the light in the end.
+/// How a group is solved in a later pass: not at all, as its family's candidates want it, or as it was put
+/// aside (the others of its family may be solved by now, and the bits depend on whom it is solved with).
+enum class Again : std::uint8_t { no, yes, alone, together };
+
+/// The state of one thread: its solver, the groups of the current family that need it, the groups of all
+/// families that are sampled at places on the light in the end, and those that found no memory beside
+/// others'.
 struct alignas(64) Worker {
   std::unique_ptr<soft::GroupSolver> solver;
   std::vector<std::span<const std::uint32_t>> lit;  ///< pixels of each
@@ -39,7 +45,17 @@ struct alignas(64) Worker {
   std::vector<std::vector<std::uint32_t>> receivers;       ///< of each
   std::vector<soft::GroupTask> tasks;
   std::vector<soft::SampledGroup> sampled;
+  std::vector<std::uint32_t> aside, family_aside;  ///< groups: to be solved alone, or with their family
 };
+
+std::string refusal_of(std::size_t needed, std::size_t most) {
+  const auto mb = [](std::size_t bytes) { return std::max(std::size_t{1}, bytes >> 20); };
+  const std::size_t all = needed / (soft::share_of_lists - 1) * soft::share_of_lists;
+  return fmt::format(
+      "not enough memory for soft shadows, {} MB are allowed and points that are solved together need at "
+      "least {} MB; expected a larger --soft-memory",
+      mb(most), mb(all + (std::size_t{1} << 20) - 1));
+}
 
 }  // namespace
 
@@ -57,6 +73,8 @@ struct SoftShadowTracer::State {
   soft::PointGrouper grouper;
   soft::PointGroups groups;
   soft::ShaftCuller culler;
+  soft::MemoryPool pool;
+  std::optional<std::size_t> memory_bytes;  ///< of the workers
   std::vector<Worker> workers;
   soft::SoftSampler sampler;
   SimdLevel level = SimdLevel::automatic;
@@ -64,7 +82,10 @@ struct SoftShadowTracer::State {
   std::vector<float> errors;
   std::vector<soft::SampledGroup> sampled;  ///< of all threads
   std::vector<std::uint32_t> left;          ///< groups that sampling leaves
-  std::vector<std::uint8_t> wanted;         ///< by group: one of these
+  std::vector<Again> again;                 ///< by group: of these, and of those put aside
+  bool one_by_one = false;                  ///< groups wait for each other, and each has all memory
+  std::size_t needed = 0;                   ///< by the most of them for which even that is not enough
+  std::string refusal;
   SoftStats stats;
   FrameTimings timings;
 
@@ -73,26 +94,41 @@ struct SoftShadowTracer::State {
   void solve_family(const soft::SoftFrame& frame, std::span<const soft::GroupDecision> family,
                     Worker& worker);
   void sort_out(const soft::SoftFrame& frame, const soft::GroupDecision& decision, Worker& worker);
-  void solve_mixed(const soft::SoftFrame& frame, Worker& worker);
+  void solve_mixed(const soft::SoftFrame& frame, Again how, Worker& worker);
+  void settle(bool solved, std::span<const soft::PointGroup* const> of, std::vector<std::uint32_t>& aside,
+              Worker& worker);
+  bool solve_again(const soft::SoftFrame& frame, const TriangleView& triangles, const AreaLight& light);
+  bool solve_aside(const soft::SoftFrame& frame, const TriangleView& triangles, const AreaLight& light);
   bool sample(const soft::SoftFrame& frame, const AreaLight& light);
   bool solve_left(const soft::SoftFrame& frame, const TriangleView& triangles, const AreaLight& light);
+  double threads_at_work() const {
+    return one_by_one || workers.empty() ? 1 : static_cast<double>(workers.size());
+  }
   void gather();
+  void count_shafts();
   bool trace(const VisiblePoints& seen, std::span<const glm::vec3> normals, const ViewRays& view,
              const TriangleView& triangles, const AreaLight& light, const SoftShadowConfig& config,
              SoftMask& out, const StopFlag* stop);
 };
 
 void SoftShadowTracer::State::prepare(const SoftShadowConfig& config) {
-  if (workers.size() != static_cast<std::size_t>(thread_count()) || level != config.simd) {
+  if (workers.size() != static_cast<std::size_t>(thread_count()) || level != config.simd ||
+      memory_bytes != config.memory_bytes) {
     workers.clear();
     workers.resize(static_cast<std::size_t>(thread_count()));
     level = config.simd;
+    memory_bytes = config.memory_bytes;
+    if (memory_bytes) pool.set_most(*memory_bytes - *memory_bytes / soft::share_of_lists);
   }
+  needed = 0;
+  refusal.clear();
   for (Worker& worker : workers) {
-    if (!worker.solver) worker.solver = std::make_unique<soft::GroupSolver>(level);
+    if (!worker.solver)
+      worker.solver = std::make_unique<soft::GroupSolver>(level, memory_bytes ? &pool : nullptr);
     worker.solver->stats = {};
     worker.solver->times = {};
     worker.sampled.clear();
+    worker.aside.clear(), worker.family_aside.clear();
   }
   stats = {};
   timings = {};
@@ -118,7 +154,7 @@ void SoftShadowTracer::State::solve_family(const soft::SoftFrame& frame,
   const std::size_t first_sampled = worker.sampled.size();
   for (const soft::GroupDecision& decision : family) sort_out(frame, decision, worker);
   if (!worker.lit.empty()) worker.solver->solve_lit(frame, worker.lit);
-  if (!worker.mixed.empty()) solve_mixed(frame, worker);
+  if (!worker.mixed.empty()) solve_mixed(frame, Again::yes, worker);
   if (worker.sampled.size() == first_sampled) return;
   worker.lit.clear();
   for (std::size_t i = first_sampled; i < worker.sampled.size(); ++i)
@@ -152,7 +188,7 @@ void SoftShadowTracer::State::sort_out(const soft::SoftFrame& frame, const soft:
   }
 }
 
-void SoftShadowTracer::State::solve_mixed(const soft::SoftFrame& frame, Worker& worker) {
+void SoftShadowTracer::State::solve_mixed(const soft::SoftFrame& frame, Again how, Worker& worker) {
   const std::size_t count = worker.mixed.size();
   if (worker.receivers.size() < count + 1) worker.receivers.resize(count + 1);
   std::size_t candidates = 0;
@@ -163,12 +199,29 @@ void SoftShadowTracer::State::solve_mixed(const soft::SoftFrame& frame, Worker& 
                             worker.candidates[i]});
     candidates += worker.candidates[i].size();
   }
-  if (frame.config.solver == SoftSolver::automatic && count > 1 && candidates > many_candidates * count) {
-    worker.solver->solve_together(frame, soft::frame_of(worker.mixed, groups, worker.receivers[count]),
-                                  worker.tasks);
-  } else {
-    for (const soft::GroupTask& task : worker.tasks) worker.solver->solve(frame, task);
+  const bool is_dense =
+      frame.config.solver == SoftSolver::automatic && count > 1 && candidates > many_candidates * count;
+  if (how == Again::yes ? is_dense : how == Again::together) {
+    const soft::GroupFrame around = soft::frame_of(worker.mixed, groups, worker.receivers[count]);
+    const bool solved = worker.solver->solve_together(frame, around, worker.tasks);
+    return settle(solved, worker.mixed, worker.family_aside, worker);
   }
+  for (std::size_t i = 0; i < count; ++i)
+    settle(worker.solver->solve(frame, worker.tasks[i]), {&worker.mixed[i], 1}, worker.aside, worker);
+}
+
+/// Puts groups aside for which there was no memory. Of the memory, a thread keeps no more than its part of a
+/// quarter, so that large groups of others find room.
+void SoftShadowTracer::State::settle(bool solved, std::span<const soft::PointGroup* const> of,
+                                     std::vector<std::uint32_t>& aside, Worker& worker) {
+  if (!memory_bytes) return;
+  const soft::MemoryHold& memory = worker.solver->memory();
+  if (!solved && one_by_one) needed = std::max(needed, memory.group_bytes());
+  if (!solved && !one_by_one) {
+    for (const soft::PointGroup* group : of)
+      aside.push_back(static_cast<std::uint32_t>(group - groups.groups.data()));
+  }
+  if (one_by_one || memory.bytes() > pool.most() / (4 * workers.size())) worker.solver->release();
 }
 
 bool SoftShadowTracer::State::sample(const soft::SoftFrame& frame, const AreaLight& light) {
@@ -182,29 +235,64 @@ bool SoftShadowTracer::State::sample(const soft::SoftFrame& frame, const AreaLig
   return done;
 }
 
-/// Solves groups that sampling left alone, exactly. Their candidates are found once more.
+/// Solves groups that sampling left alone, exactly.
 bool SoftShadowTracer::State::solve_left(const soft::SoftFrame& frame, const TriangleView& triangles,
                                          const AreaLight& light) {
   if (left.empty()) return true;
-  wanted.assign(groups.groups.size(), 0);
-  for (const std::uint32_t group : left) wanted[group] = 1;
-  return culler.for_each_family(
+  again.assign(groups.groups.size(), Again::no);
+  for (const std::uint32_t group : left) again[group] = Again::yes;
+  return solve_again(frame, triangles, light) && solve_aside(frame, triangles, light);
+}
+
+/// Solves groups that found no memory beside those of other threads: one (or one family) after the other, so
+/// each has all of it. False if that is not enough, or for a stop.
+bool SoftShadowTracer::State::solve_aside(const soft::SoftFrame& frame, const TriangleView& triangles,
+                                          const AreaLight& light) {
+  if (std::all_of(workers.begin(), workers.end(),
+                  [](const Worker& w) { return w.aside.empty() && w.family_aside.empty(); }))
+    return true;
+  gather();
+  again.assign(groups.groups.size(), Again::no);
+  for (Worker& worker : workers) {
+    for (const std::uint32_t group : worker.aside) again[group] = Again::alone;
+    for (const std::uint32_t group : worker.family_aside) again[group] = Again::together;
+    worker.aside.clear(), worker.family_aside.clear();
+    worker.solver->release();
+  }
+  one_by_one = true;
+  bool done = false;
+  with_threads(1, [&] { done = solve_again(frame, triangles, light); });
+  gather();
+  one_by_one = false;
+  if (done && needed > 0) refusal = refusal_of(needed, *memory_bytes);
+  return done && needed == 0;
+}
+
+/// Solves the groups of `again`, whose candidates are found once more.
+bool SoftShadowTracer::State::solve_again(const soft::SoftFrame& frame, const TriangleView& triangles,
+                                          const AreaLight& light) {
+  const bool done = culler.for_each_family(
       groups, triangles, light, frame.config, frame.stop,
       [&](std::span<const soft::GroupDecision> family, int thread) {
         Worker& worker = workers[static_cast<std::size_t>(thread)];
         worker.mixed.clear(), worker.candidates.clear();
+        Again how = Again::no;  // one for all of a family that are solved again
         for (const soft::GroupDecision& decision : family) {
-          if (wanted[static_cast<std::size_t>(decision.group - groups.groups.data())] == 0) continue;
+          const Again its = again[static_cast<std::size_t>(decision.group - groups.groups.data())];
+          if (its == Again::no) continue;
+          how = its;
           worker.mixed.push_back(decision.group);
           worker.candidates.push_back(decision.candidates);
         }
-        if (!worker.mixed.empty()) solve_mixed(frame, worker);
+        if (!worker.mixed.empty()) solve_mixed(frame, how, worker);
       });
+  count_shafts();
+  return done;
 }
 
 /// Adds up the threads' counts since the last call.
 void SoftShadowTracer::State::gather() {
-  const double threads = std::max<double>(1, static_cast<double>(workers.size()));
+  const double threads = threads_at_work();
   std::uint64_t tree_bytes = 0;  // a thread holds one tree at a time
   for (Worker& worker : workers) {
     stats += worker.solver->stats;
@@ -216,7 +304,11 @@ void SoftShadowTracer::State::gather() {
     worker.solver->times = {};
   }
   stats.peak_tree_bytes = std::max(stats.peak_tree_bytes, tree_bytes);
-  timings.shaft_ms += culler.stats().seconds * 1e3 / threads;
+}
+
+/// Adds the time of the last culling.
+void SoftShadowTracer::State::count_shafts() {
+  timings.shaft_ms += culler.stats().seconds * 1e3 / threads_at_work();
 }
 
 SoftShadowTracer::SoftShadowTracer() : state_(std::make_unique<State>()) {}
@@ -249,10 +341,12 @@ bool SoftShadowTracer::State::trace(const VisiblePoints& seen, std::span<const g
 
   const soft::LightFrame frame_of_light = soft::light_frame(light);
   const soft::SoftFrame frame{points, normals, view, triangles, frame_of_light, config, out, classes, stop};
-  const bool done = culler.for_each_family(
-      groups, triangles, light, config, stop, [&](std::span<const soft::GroupDecision> family, int thread) {
-        solve_family(frame, family, workers[static_cast<std::size_t>(thread)]);
-      });
+  bool done = culler.for_each_family(groups, triangles, light, config, stop,
+                                     [&](std::span<const soft::GroupDecision> family, int thread) {
+                                       solve_family(frame, family, workers[static_cast<std::size_t>(thread)]);
+                                     });
+  count_shafts();
+  done = done && solve_aside(frame, triangles, light);
   gather();
   stats.groups = groups.groups.size();
   errors.clear();
@@ -266,6 +360,9 @@ bool SoftShadowTracer::State::trace(const VisiblePoints& seen, std::span<const g
   return true;
 }
 
+const std::string& SoftShadowTracer::refusal() const {
+  return state_->refusal;
+}
 const SoftStats& SoftShadowTracer::stats() const {
   return state_->stats;
 }

@@ -49,6 +49,7 @@ void expect_grid(const Scene& scene, const Grid& grid) {
 }
 
 TEST(Meshopt, ReadsAttributesTrianglesAndIndices) {
+  // An optional library; files that need it are refused without it.
   if (!testing::has_meshopt()) GTEST_SKIP() << "built without meshoptimizer (package libmeshoptimizer-dev)";
   const Grid grid(30);
   for (const char* mode : {"TRIANGLES", "INDICES"})
@@ -63,6 +64,7 @@ TEST(Meshopt, ReadsAttributesTrianglesAndIndices) {
 }
 
 TEST(Meshopt, UndoesItsFilters) {
+  // An optional library; files that need it are refused without it.
   if (!testing::has_meshopt()) GTEST_SKIP() << "built without meshoptimizer (package libmeshoptimizer-dev)";
   for (const char* filter : {"OCTAHEDRAL", "EXPONENTIAL", "QUATERNION"}) {
     SCOPED_TRACE(filter);
@@ -76,6 +78,7 @@ TEST(Meshopt, UndoesItsFilters) {
 }
 
 TEST(Meshopt, RefusesWhatDoesNotFit) {
+  // An optional library; files that need it are refused without it.
   if (!testing::has_meshopt()) GTEST_SKIP() << "built without meshoptimizer (package libmeshoptimizer-dev)";
   const GltfBuilder good = testing::meshopt_file(Grid(8), "TRIANGLES", 4);
   const std::pair<const char*, Json> changes[] = {{"byteOffset", 1u << 30},
@@ -115,6 +118,7 @@ TEST(Meshopt, RefusesABomb) {
 }
 
 TEST(Draco, ReadsBothMethods) {
+  // An optional library; files that need it are refused without it.
   if (!testing::has_draco()) GTEST_SKIP() << "built without Draco (package libdraco-dev)";
   const Grid grid(30);
   for (const bool edgebreaker : {false, true}) {
@@ -128,6 +132,7 @@ TEST(Draco, ReadsBothMethods) {
 }
 
 TEST(Draco, RefusesOtherNumbersThanStated) {
+  // An optional library; files that need it are refused without it.
   if (!testing::has_draco()) GTEST_SKIP() << "built without Draco (package libdraco-dev)";
   for (const bool edgebreaker : {false, true})
     for (const int accessor : {0, 1})
@@ -161,12 +166,14 @@ void expect_mutants_survive(const GltfBuilder& good, int count) {
 }
 
 TEST(Meshopt, SurvivesBrokenData) {
+  // An optional library; files that need it are refused without it.
   if (!testing::has_meshopt()) GTEST_SKIP() << "built without meshoptimizer (package libmeshoptimizer-dev)";
   expect_mutants_survive(testing::meshopt_file(Grid(12), "TRIANGLES", 4), 500);
   expect_mutants_survive(testing::meshopt_file(Grid(12), "INDICES", 2), 500);
 }
 
 TEST(Draco, SurvivesBrokenData) {
+  // An optional library; files that need it are refused without it.
   if (!testing::has_draco()) GTEST_SKIP() << "built without Draco (package libdraco-dev)";
   expect_mutants_survive(testing::draco_file(Grid(12), false), 500);
   expect_mutants_survive(testing::draco_file(Grid(12), true), 500);
@@ -177,6 +184,7 @@ TEST(Meshopt, GivesTheFloatsOfTheUncompressedGarden) {
   const auto folder = std::filesystem::path(TENEBRA_SHARED_DIR) / "scenes/extra";
   const auto packed = folder / "malformed/edge/needs_meshopt.glb",
              plain = folder / "gltf/JapaneseBridgeGarden.glb";
+  // Models of others have licences of their own: they lie beside the checkout, not in it.
   if (!std::filesystem::exists(packed) || !std::filesystem::exists(plain))
     GTEST_SKIP() << "the folder of extra scenes is not beside the checkout";
   if (!testing::has_meshopt()) {

@@ -155,6 +155,7 @@ TEST(AnimationPointers, OfWrongFormatsAreRefused) {
 TEST(AnimationPointers, OfTheSampleOfSeventyFourAreReadOrNamed) {
   const auto path = std::filesystem::path(TENEBRA_SHARED_DIR) /
                     "scenes/extra/gltf/khronos_blender_io_24_animation_pointer/24_animation_pointer.gltf";
+  // Models of others have licences of their own: they lie beside the checkout, not in it.
   if (!std::filesystem::exists(path)) GTEST_SKIP() << "the folder of extra scenes is not beside the checkout";
   const auto scene = formats::import_gltf(path);
   ASSERT_TRUE(scene.has_value()) << scene.error().message;

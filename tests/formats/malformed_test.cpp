@@ -135,6 +135,7 @@ bool is_said(const std::vector<std::string>& sentences, const std::string& code,
 
 TEST(Malformed, EveryFileLoadsOrFailsWithASentenceThatNamesIt) {
   const auto files = models();
+  // Files from other projects' tests have licences of their own: they lie beside the checkout, not in it.
   if (files.empty()) GTEST_SKIP() << "the folder of malformed files is not beside the checkout";
   EXPECT_GE(files.size(), 108u);
   for (const fs::path& file : files) {
@@ -150,6 +151,7 @@ TEST(Malformed, EveryFileLoadsOrFailsWithASentenceThatNamesIt) {
 
 TEST(Malformed, WhatTheValidatorCallsAnErrorIsRefusedOrWarnedOfForThatReason) {
   const auto files = models();
+  // Files from other projects' tests have licences of their own: they lie beside the checkout, not in it.
   if (files.empty()) GTEST_SKIP() << "the folder of malformed files is not beside the checkout";
   int with_errors = 0, without = 0;
   for (const fs::path& file : files) {
@@ -181,10 +183,12 @@ TEST(Malformed, WhatTheValidatorCallsAnErrorIsRefusedOrWarnedOfForThatReason) {
 }
 
 TEST(Malformed, EveryFileTakesLittleTimeAndMemory) {
+  // The memory that is compared would be the sanitizer's.
 #if defined(__SANITIZE_ADDRESS__) || defined(__SANITIZE_THREAD__)
   GTEST_SKIP() << "sanitizers need memory of their own";
 #endif
   const auto files = models();
+  // Files from other projects' tests have licences of their own: they lie beside the checkout, not in it.
   if (files.empty()) GTEST_SKIP() << "the folder of malformed files is not beside the checkout";
   for (const fs::path& file : files) {
     SCOPED_TRACE(file.string());
@@ -216,6 +220,7 @@ class SharedScenes : public ::testing::TestWithParam<Good> {};
 
 TEST_P(SharedScenes, HaveTheTrianglesAndTheLengthsOfTheirReadme) {
   const fs::path path = fs::path(TENEBRA_SHARED_DIR) / "scenes/extra" / GetParam().file;
+  // Models of others have licences of their own: they lie beside the checkout, not in it.
   if (!fs::exists(path)) GTEST_SKIP() << "the folder of extra scenes is not beside the checkout";
   const auto scene = import_any(path);
   ASSERT_TRUE(scene.has_value()) << scene.error().message;

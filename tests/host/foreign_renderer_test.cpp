@@ -111,6 +111,8 @@ std::vector<std::uint32_t> own_ids(const Instant& now) {
 class ForeignRenderer : public ::testing::TestWithParam<const char*> {
 protected:
   void SetUp() override {
+    // The renderer is a GLFW program, and GLFW comes with the program that may be left out of a build.
+    // Its window needs a display; setup installs a virtual one.
     if (program == nullptr) GTEST_SKIP() << "built without the window's library, which the renderer takes";
     if (!testing::has_program("Xvfb")) GTEST_SKIP() << "Xvfb is missing: tools/setup.sh --tests";
   }

@@ -47,6 +47,7 @@ private:
 /// Draws `scene` over and over; a round that takes no more memory than the one before ends it.
 void expect_memory_stands_still(const char* file, const render::RenderSettings& settings,
                                 int frames_a_round) {
+  // A sanitizer's own memory grows from round to round.
 #if defined(__SANITIZE_ADDRESS__) || defined(__SANITIZE_THREAD__)
   GTEST_SKIP() << "sanitizers keep freed memory for a while and need memory of their own";
 #endif

@@ -136,6 +136,7 @@ void check_cluster(const Arrangement& a, const shadow::DescentKernels& kernels, 
 class DistantFaceBounds : public ::testing::TestWithParam<SimdLevel> {
 protected:
   void SetUp() override {
+    // Kernels of a vector level run only where the processor has it.
     if (!simd_level_supported(GetParam()))
       GTEST_SKIP() << "this machine lacks " << simd_level_name(GetParam());
   }

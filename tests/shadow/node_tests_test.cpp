@@ -159,6 +159,7 @@ Arrangement touching_arrangement(Random& random, double spread, bool directional
 class NodeTests : public ::testing::TestWithParam<SimdLevel> {};
 
 TEST_P(NodeTests, NeverRejectABlockerNorAcceptAGap) {
+  // Kernels of a vector level run only where the processor has it.
   if (!simd_level_supported(GetParam())) GTEST_SKIP() << "this machine lacks " << simd_level_name(GetParam());
   const shadow::TraversalKernels kernels = shadow::traversal_kernels(GetParam());
   for (const bool directional : {false, true}) {

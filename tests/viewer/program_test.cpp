@@ -278,6 +278,7 @@ TEST(Program, SaysWhenNobodyReadsItsOutput) {
 }
 
 TEST(Program, EndsInASentenceWithoutMemory) {
+  // A sanitizer reserves terabytes of addresses before main().
 #if defined(__SANITIZE_ADDRESS__) || defined(__SANITIZE_THREAD__)
   GTEST_SKIP() << "sanitizers need more address space than this test leaves";
 #endif

@@ -84,6 +84,7 @@ bool is_there() {
 }
 
 TEST(ReferenceColours, MuseumAgrees) {
+  // BART's textures are too large for the checkout, and the colours are of its textured scenes.
   if (!is_there()) GTEST_SKIP() << "BART and its reference colours are not beside the checkout";
   const base::Image8 image = drawn("museum/museum5.aff", 3.0569);
   expect_near(image, 480, 150, {208, 209, 169});
@@ -110,6 +111,7 @@ TEST(ReferenceColours, KitchenAgreesWhereNothingIsMirrored) {
 }
 
 TEST(ReferenceColours, PlainSurfacesHaveTheirFactors) {
+  // BART's textures are too large for the checkout, and the colours are of its textured scenes.
   if (!is_there()) GTEST_SKIP() << "BART and its reference colours are not beside the checkout";
   const base::Image8 full = drawn("kitchen/kitchen.aff", 0), plain = drawn("kitchen/kitchen.aff", 0, true);
   expect_near(plain, 395, 455, {54, 71, 161});

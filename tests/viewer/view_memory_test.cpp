@@ -8,6 +8,7 @@ namespace {
 class ViewMemory : public WindowTest {
 protected:
   void SetUp() override {
+    // A sanitizer reserves terabytes of addresses before main().
 #if defined(__SANITIZE_ADDRESS__) || defined(__SANITIZE_THREAD__)
     GTEST_SKIP() << "sanitizers need more memory than these tests leave";
 #endif

@@ -4,6 +4,7 @@
 
 #include <CLI/CLI.hpp>
 
+#include "options/memory_option.h"
 #include "options/method_arguments.h"
 #include "shared/picture_difference.h"
 #include "viewer_test_scene.h"
@@ -68,6 +69,18 @@ MethodOptions parsed(const std::string& text) {
   return method;
 }
 
+/// The same with --memory.
+MethodOptions settled(const std::string& text) {
+  MethodOptions method;
+  std::optional<int> memory_mb;
+  CLI::App app;
+  viewer::add_method_options(app, method);
+  viewer::add_memory_option(app, memory_mb);
+  app.parse(text);
+  viewer::settle_memory(app, memory_mb, method);
+  return method;
+}
+
 TEST(MethodArguments, GiveBackWhatTheyWereMadeFrom) {
   EXPECT_EQ(viewer::method_arguments(parsed("")), "");
   for (const char* text :
@@ -75,14 +88,26 @@ TEST(MethodArguments, GiveBackWhatTheyWereMadeFrom) {
         "--simd scalar --variant PreciseSEATP", "--samples depth --cull none", "--cull front",
         "--shadows soft --light-size 0.5x0.25 --light-facing 1,2.5,-3 --light-emission lambert "
         "--emissive-lights --soft-solver bsp "
-        "--soft-grouping triangle --soft-choice random --soft-precision reference --soft-points 12 "
-        "--soft-error 1.5",
+        "--soft-grouping triangle --soft-choice random --soft-precision reference --soft-memory 300 "
+        "--soft-points 12 --soft-error 1.5",
         "--light-size 4x4%", "--sun-size 0.53",
         "--ao field --ao-at vertices --ao-layout positions --ao-rays 7 --ao-downscale 3 --ao-distance 1.5 "
         "--ao-positions 99 "
         "--ao-directions 64 --ao-bits 1 --ao-deforming none --ao-cache none --ao-memory 100"}) {
     EXPECT_EQ(viewer::method_arguments(parsed(text)), text);
   }
+}
+
+TEST(MemoryOption, GivesSoftShadowsHalfUnlessTheyHaveTheirOwn) {
+  for (const auto& [text, soft_mb, largest_tree] :
+       {std::tuple("", 0, 4 << 20), {"--memory 300", 150, 4 << 20}, {"--memory 1", 1, 4 << 20}}) {
+    const SoftShadowConfig soft = settled(text).render.soft;
+    EXPECT_EQ(soft.memory_bytes.value_or(0), std::size_t(soft_mb) << 20) << text;
+    EXPECT_EQ(soft.tree_bytes, std::size_t(largest_tree)) << text;
+  }
+  const SoftShadowConfig own = settled("--memory 300 --soft-memory 200").render.soft;
+  EXPECT_EQ(own.memory_bytes, std::size_t{200} << 20);
+  EXPECT_GT(own.tree_bytes, std::size_t{200} << 20) << "trees of any size";
 }
 
 TEST(MethodArguments, CoverEveryMethodOption) {
@@ -98,7 +123,9 @@ TEST(MethodArguments, CoverEveryMethodOption) {
       "--emissive-lights --soft-solver "
       "bsp "
       "--soft-grouping "
-      "triangle --soft-choice random --soft-precision reference --soft-points 12 --soft-error 2 --ao rays "
+      "triangle --soft-choice random --soft-precision reference --soft-memory 9 --soft-points 12 "
+      "--soft-error 2 "
+      "--ao rays "
       "--ao-at vertices "
       "--ao-layout "
       "positions "

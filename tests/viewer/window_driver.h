@@ -211,6 +211,7 @@ private:
 class WindowTest : public ::testing::Test {
 protected:
   void SetUp() override {
+    // A window needs a display, and the hands that work it a program each; setup installs them.
     for (const char* needed : {"Xvfb", "xdotool", "import", "xrdb"})
       if (!has_program(needed)) GTEST_SKIP() << needed << " is missing: tools/setup.sh --tests";
   }

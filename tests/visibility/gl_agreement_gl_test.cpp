@@ -61,6 +61,7 @@ class GlAgreement : public ::testing::Test {
 protected:
   void SetUp() override {
     auto context = gl::Context::create(gl::ContextKind::automatic);
+    // What is compared is OpenGL's answer: without a driver there is none.
     if (!context) GTEST_SKIP() << "no OpenGL to compare with: " << context.error().message;
     context_.emplace(std::move(*context));
   }

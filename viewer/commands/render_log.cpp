@@ -56,6 +56,12 @@ std::string light_size_text(const render::AreaLightSettings& lights) {
   return fmt::format("{}x{}{}", lights.size.x, lights.size.y, lights.percent_of_diagonal ? "%" : " m");
 }
 
+/// Only the BSP's bits depend on it, so any render can be resumed with more for the others.
+std::string soft_memory_text(const SoftShadowConfig& soft) {
+  const std::string all = soft.memory_bytes ? fmt::format("{} MB", *soft.memory_bytes >> 20) : "the system's";
+  return soft_memory_mb(soft) ? all : fmt::format("{}, {} MB a tree", all, soft.tree_bytes >> 20);
+}
+
 void describe_soft(const render::RenderSettings& settings, std::vector<render::LogSetting>& list) {
   const SoftShadowConfig& soft = settings.soft;
   const render::AreaLightSettings& lights = settings.area_lights;
@@ -72,6 +78,7 @@ void describe_soft(const render::RenderSettings& settings, std::vector<render::L
        {"light_facing", lights.facing ? vector(*lights.facing) : "the scene's centre"},
        {"light_emission", choice_name(emission_choices, lights.emission)},
        {"emissive_lights", lights.emissive_quads ? "yes" : "no"}});
+  if (soft.solver == SoftSolver::bsp) list.push_back({"soft_memory", soft_memory_text(soft)});
 }
 
 void describe_ao(const AoConfig& ao, std::vector<render::LogSetting>& list) {

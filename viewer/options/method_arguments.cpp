@@ -48,6 +48,7 @@ void add_soft(Arguments& arguments, const MethodOptions& options) {
   arguments.choice("--soft-grouping", grouping_choices, soft.grouping, SoftShadowConfig{}.grouping);
   arguments.choice("--soft-choice", occluder_choices, soft.choice, SoftShadowConfig{}.choice);
   arguments.choice("--soft-precision", precision_choices, soft.precision, SoftShadowConfig{}.precision);
+  if (const auto mb = soft_memory_mb(soft)) arguments.value("--soft-memory", *mb, 0);
   arguments.value("--soft-points", options.render.soft_points, render::RenderSettings{}.soft_points);
   arguments.value("--soft-error", soft.error_255, SoftShadowConfig{}.error_255);
 }

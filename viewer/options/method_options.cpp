@@ -1,36 +1,19 @@
 #include "options/method_options.h"
 
-#include <initializer_list>
-
 #include "base/fail.h"
 #include "options/choices.h"
+#include "options/method_groups.h"
 #include "render/antialias/pattern.h"
 
 namespace tenebra::viewer {
 namespace {
 
-constexpr const char* shadow_group = "Shadows";
-constexpr const char* hard_group = "Hard shadows";
-constexpr const char* soft_group = "Soft shadows";
-constexpr const char* ao_group = "Ambient occlusion";
-constexpr int most_soft_points = 4096, most_downscale = 8;
+constexpr int most_downscale = 8;
 
 constexpr const char* quality_option = "--quality";
-constexpr const char* points_option = "--soft-points";
-constexpr const char* soft_error_option = "--soft-error";
 constexpr const char* error_option = "--ao-error";
 constexpr const char* rays_option = "--ao-rays";
 constexpr const char* downscale_option = "--ao-downscale";
-
-template <const auto& choices, class Target>
-AddedOption add_choice(CLI::App& command, const char* name, Target& target, const char* help) {
-  const auto parse = +[](const std::string& text) { return parse_choice(choices, text); };
-  return add_value(command, name, target, parse, help).type_name(choice_list(choices, "|"));
-}
-
-void set_group(std::initializer_list<AddedOption> options, const char* group) {
-  for (const AddedOption option : options) option.group(group);
-}
 
 Expected<Variant> parse_variant(const std::string& text) {
   for (int i = 0; i <= static_cast<int>(Variant::precise_seatp); ++i)
@@ -46,15 +29,6 @@ Expected<int> parse_samples(const std::string& text) {
   if (!samples || *samples > 16 || !render::is_sample_count(*samples))
     return base::fail("found {}, expected 1, 2, 4, 8 or 16 samples per pixel", text);
   return samples;
-}
-
-Expected<int> parse_points(const std::string& text) {
-  const auto points = parse_count(text);
-  if (!points || *points > most_soft_points) {
-    return base::fail("found {}, expected 1 to {} points, or 0 for the exact solution", text,
-                      most_soft_points);
-  }
-  return points;
 }
 
 Expected<int> parse_downscale(const std::string& text) {
@@ -159,68 +133,6 @@ void add_hard(CLI::App& command, MethodOptions& options) {
       hard_group);
 }
 
-/// What gives lights an area.
-void add_light_shapes(CLI::App& command, MethodOptions& options) {
-  render::AreaLightSettings& lights = options.render.area_lights;
-  const auto size = add_value(command, "--light-size", options.light_size, parse_light_size,
-                              "Turns point and spot lights into rectangles of this size,\n"
-                              "in metres, or (4%) in percent of the scene's diagonal, of\n"
-                              "the same brightness [they stay points]")
-                        .type_name("W[xH][%]");
-  const auto sun = add_value(command, "--sun-size", lights.sun_deg, parse_sun_size,
-                             "Diameter of directional lights, like 0.53, at the same\n"
-                             "brightness; 0: hard shadows [as the scene has it]")
-                       .type_name("DEGREES");
-  const auto facing =
-      add_value(command, "--light-facing", lights.facing, parse_vector,
-                "Point that those rectangles face [the scene's centre;\nspot lights: where they shine]")
-          .type_name("X,Y,Z")
-          .needs(size);
-  const auto emission = add_choice<emission_choices>(command, "--light-emission", options.light_emission,
-                                                     "How those rectangles shine. point: in every direction "
-                                                     "as\nbright as the point, so soft and hard shadows have "
-                                                     "the\nsame light; lambert: to one side, like a lamp's "
-                                                     "face,\nas bright as the point straight ahead [point]");
-  const auto emissive = add_flag(command, "--emissive-lights", lights.emissive_quads,
-                                 "Flat convex meshes with an emissive material are lights too");
-  set_group({size, sun, facing, emission, emissive}, soft_group);
-}
-
-void add_soft_solvers(CLI::App& command, SoftShadowConfig& soft) {
-  set_group(
-      {add_choice<solver_choices>(command, "--soft-solver", soft.solver,
-                                  "How the visible part of a light is found: by the paper's\nlazy BSP, by "
-                                  "clipping, or (auto) meshes by their\nsilhouettes and the rest by "
-                                  "clipping; the picture is\nthe same [auto]"),
-       add_choice<precision_choices>(command, "--soft-precision", soft.precision,
-                                     "reference: double precision throughout [fast]")},
-      soft_group);
-}
-
-void add_soft(CLI::App& command, MethodOptions& options) {
-  SoftShadowConfig& soft = options.render.soft;
-  add_light_shapes(command, options);
-  add_soft_solvers(command, soft);
-  set_group(
-      {add_choice<grouping_choices>(command, "--soft-grouping", soft.grouping,
-                                    "Points that are solved together: neighbours, or as in\nthe paper's "
-                                    "Algorithm 2 those of a triangle\n[neighbourhood]"),
-       add_choice<occluder_choices>(command, "--soft-choice", soft.choice,
-                                    "Occluder that the BSP takes next; in the paper: random\n[largest]"),
-       add_value(command, points_option, options.render.soft_points, parse_points,
-                 "Replaces each area light by N points with exact hard\n"
-                 "shadows, which leaves steps in the penumbra and no estimate\n"
-                 "of the error [0: as --soft-error says]")
-           .type_name("N"),
-       add_value(command, soft_error_option, soft.error_255, parse_soft_error,
-                 "The error aimed at, RMS over the penumbra, in 1/255 of\n"
-                 "white: dense penumbrae are sampled at as many places on\n"
-                 "the light as that takes; the log has the estimate\n"
-                 "[0: exact]")
-           .type_name("E")},
-      soft_group);
-}
-
 void add_ao(CLI::App& command, AoConfig& ao) {
   ao.cache = default_cache_folder();
   set_group(
@@ -301,7 +213,7 @@ std::string idle_for(const GivenOption& option, const render::RenderSettings& re
 void add_method_options(CLI::App& command, MethodOptions& options) {
   add_common(command, options);
   add_hard(command, options);
-  add_soft(command, options);
+  add_soft_options(command, options);
   add_ao(command, options.render.ao);
 }
 
@@ -318,15 +230,6 @@ void add_tracer_options(CLI::App& command, MethodOptions& options) {
   add_value(command, "--simd", render.hard.simd, parse_simd,
             "Vector instructions: auto, scalar, sse4, avx2, avx512 or, on\nARM, neon [auto]")
       .type_name("LEVEL");
-}
-
-void add_soft_tracer_options(CLI::App& command, MethodOptions& options) {
-  add_choice<shadow_choices>(
-      command, "--shadows", options.render.shadows,
-      "hard: masks; soft: visible fractions of lights with an area,\nmasks of the others "
-      "[hard]");
-  add_light_shapes(command, options);
-  add_soft_solvers(command, options.render.soft);
 }
 
 void settle_quality(const CLI::App& command, MethodOptions& options) {

@@ -44,6 +44,14 @@ void add_tracer_options(CLI::App& command, MethodOptions& options);
 /// --shadows, what gives lights an area, and what chooses how their visible part is found.
 void add_soft_tracer_options(CLI::App& command, MethodOptions& options);
 
+constexpr std::size_t bytes_of_mb(int mb) {
+  return static_cast<std::size_t>(mb) << 20;
+}
+/// --soft-memory: that much for soft shadows, and BSPs of any size within it.
+void set_soft_memory(int mb, SoftShadowConfig& soft);
+/// What was given to it; none: nothing.
+std::optional<int> soft_memory_mb(const SoftShadowConfig& soft);
+
 /// Sets what a given --quality stands for, but for options that `command` was given themselves: they win
 /// wherever they stand, in a file of options too. To be called once all options are read.
 void settle_quality(const CLI::App& command, MethodOptions& options);

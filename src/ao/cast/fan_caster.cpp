@@ -23,7 +23,7 @@ namespace {
 
 // Products and sums apart, never fused: the bits are the same on all targets.
 template <class P>
-SIMD_INLINE P inner(const Pack3<P>& a, const Pack3<P>& b) {
+SIMD_INLINE P dot_unfused(const Pack3<P>& a, const Pack3<P>& b) {
   return (a.x * b.x + a.y * b.y) + a.z * b.z;
 }
 SIMD_INLINE Float16 inverse(Float16 d) {
@@ -76,7 +76,7 @@ inline void start(std::span<const RayBatch> rays, const float* distance, Fans& f
     store(inverse(d.z), fans.inverted[2] + at);
     store(load<Float16>(distance + at), fans.distance + at);
     store(zero, fans.facing + at);
-    const Float16 square = inner(d, d);
+    const Float16 square = dot_unfused(d, d);
     longest = max(longest, square);
     fans.rays |= bits_of_fan(bits(lt(zero, square)), f);
   }
@@ -176,10 +176,10 @@ SIMD_INLINE void edge_planes(const TriangleBlock& block, const Fans& fans, EdgeP
     store(n[k].x, out.n[k][0]), store(n[k].y, out.n[k][1]), store(n[k].z, out.n[k][2]);
   const Pack3<Float8> normal = cross(Pack3<Float8>{p[1].x - p[0].x, p[1].y - p[0].y, p[1].z - p[0].z},
                                      Pack3<Float8>{p[2].x - p[0].x, p[2].y - p[0].y, p[2].z - p[0].z});
-  const Float8 volume = inner(normal, p[0]);
+  const Float8 volume = dot_unfused(normal, p[0]);
   store(volume, out.volume);
   const Float8 farthest = broadcast<Float8>(fans.reach * (1 + 0x1p-10f));
-  out.near = bits(le(volume * volume, farthest * farthest * inner(normal, normal)));
+  out.near = bits(le(volume * volume, farthest * farthest * dot_unfused(normal, normal)));
 }
 
 // Which rays, or triangles, are inside the planes: on one side of all three.
@@ -195,7 +195,8 @@ SIMD_INLINE bool meet_triangle(const EdgePlanes& planes, int i, Fans& fans, int 
   const Pack3<Float16> d{load<Float16>(fans.direction[0] + at), load<Float16>(fans.direction[1] + at),
                          load<Float16>(fans.direction[2] + at)};
   const auto side = [&](int edge) {
-    return inner(d, broadcast3<Float16>(planes.n[edge][0][i], planes.n[edge][1][i], planes.n[edge][2][i]));
+    return dot_unfused(d,
+                       broadcast3<Float16>(planes.n[edge][0][i], planes.n[edge][1][i], planes.n[edge][2][i]));
   };
   const Float16 u = side(0), v = side(1), w = side(2);
   const auto in = inside(u, v, w);
@@ -213,8 +214,8 @@ SIMD_INLINE bool meet_triangles(const EdgePlanes& planes, Fans& fans, int ray) {
   const Pack3<Float8> d =
       broadcast3<Float8>(fans.direction[0][ray], fans.direction[1][ray], fans.direction[2][ray]);
   const auto side = [&](int edge) {
-    return inner(d, Pack3<Float8>{load<Float8>(planes.n[edge][0]), load<Float8>(planes.n[edge][1]),
-                                  load<Float8>(planes.n[edge][2])});
+    return dot_unfused(d, Pack3<Float8>{load<Float8>(planes.n[edge][0]), load<Float8>(planes.n[edge][1]),
+                                        load<Float8>(planes.n[edge][2])});
   };
   const Float8 u = side(0), v = side(1), w = side(2);
   const auto in = inside(u, v, w);

@@ -10,24 +10,21 @@
 #include "ao/cast/sphere_maps-inl.h"
 #include "ao/field/field_chords.h"
 #include "ao/field/field_lookup.h"
-#include "simd/pack_lanes-inl.h"
+#include "simd/float16-inl.h"
 
 HWY_BEFORE_NAMESPACE();
 namespace tenebra::ao::HWY_NAMESPACE {
 using namespace simd::HWY_NAMESPACE;
 
-using Truth16 = Mask<float, 16>;
+using Mask16 = Mask<float, 16>;
 
-SIMD_INLINE Float16 inner(const Pack3<Float16>& a, const Pack3<Float16>& b) {
-  return (a.x * b.x + a.y * b.y) + a.z * b.z;
-}
 SIMD_INLINE Pack3<Float16> along(const Pack3<Float16>& a, Float16 s, const Pack3<Float16>& b) {
   return {a.x + s * b.x, a.y + s * b.y, a.z + s * b.z};
 }
 
 // The ray in unit space and its chord of the unit sphere.
 struct Chords {
-  Truth16 met;            // the line has a chord at all
+  Mask16 met;             // the line has a chord at all
   Pack3<Float16> origin;  // of the ray
   Pack3<Float16> unit;    // its direction
   Pack3<Float16> middle;  // of the chord: the point nearest to the centre; the centre where there is none
@@ -54,13 +51,13 @@ SIMD_INLINE Chords chords_of(const FieldInstance& f, const RayBatch& rays) {
   Chords c;
   c.origin =
       moved(f.unit_from_world, {load<Float16>(rays.ox), load<Float16>(rays.oy), load<Float16>(rays.oz)});
-  const Float16 square = inner(direction, direction);
+  const Float16 square = dot_unfused(direction, direction);
   c.per_unit = one / sqrt(square);
   c.unit = {direction.x * c.per_unit, direction.y * c.per_unit, direction.z * c.per_unit};
-  const Float16 ahead = zero - inner(c.origin, c.unit);
+  const Float16 ahead = zero - dot_unfused(c.origin, c.unit);
   c.at = ahead * c.per_unit;
   const Pack3<Float16> middle = along(c.origin, ahead, c.unit);
-  const Float16 half_square = one - inner(middle, middle);
+  const Float16 half_square = one - dot_unfused(middle, middle);
   c.met =
       lt(zero, half_square) & lt(broadcast<Float16>(1e-30f), square) & lt(square, broadcast<Float16>(1e30f));
   c.half = sqrt(max(half_square, zero));
@@ -96,13 +93,13 @@ SIMD_INLINE Int16 direction_cell(const FieldShape& shape, const Cell16& position
   const Pack3<Float16> a = direction_from_square(cell_point(position, shape.position_side));
   const Pack3<Float16> n{zero - a.x, zero - a.y, zero - a.z};  // inwards
   const Pack3<Float16> to{middle.x + n.x, middle.y + n.y, middle.z + n.z};
-  const Float16 scale = one / sqrt(inner(to, to));
+  const Float16 scale = one / sqrt(dot_unfused(to, to));
   // frame_around(n)
   const Float16 sign = copy_sign(one, n.z);
   const Float16 k = broadcast<Float16>(-1.0f) / (sign + n.z), b = n.x * n.y * k;
   const Pack3<Float16> x{one + sign * (n.x * n.x * k), sign * b, (zero - sign) * n.x};
   const Pack3<Float16> y{b, sign + n.y * n.y * k, zero - n.y};
-  const Square16 square = square_from_disk(inner(to, x) * scale, inner(to, y) * scale);
+  const Square16 square = square_from_disk(dot_unfused(to, x) * scale, dot_unfused(to, y) * scale);
   return cell_index(cell_of(square, shape.direction_side), shape.direction_side);
 }
 

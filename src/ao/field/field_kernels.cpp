@@ -28,7 +28,7 @@ constexpr float half_diagonal = 0.70710678f;  // of a cell, in widths
 constexpr float cast_cells = 1;               // how far close rays are cast, in cells
 
 // Bits of those rays `inside` that start close to the object.
-SIMD_INLINE std::uint32_t close_rays(const DisplacementField& field, const Chords& c, Truth16 inside) {
+SIMD_INLINE std::uint32_t close_rays(const DisplacementField& field, const Chords& c, Mask16 inside) {
   const Float16 half = broadcast<Float16>(0.5f * near_side), last = broadcast<Float16>(near_side - 1.0f);
   const auto cell = [&](Float16 x) {
     return truncate(min(max(select(inside, x, half) * half + half, broadcast<Float16>(0.0f)), last));
@@ -58,14 +58,14 @@ void cast(const FieldInstance& instance, const RayBatch& rays, std::uint32_t whi
 
 // The answer for rays from outside, and what is known of the others.
 struct Answer {
-  Truth16 live;    // rays that may still meet the object
+  Mask16 live;     // rays that may still meet the object
   Float16 start;   // from here on: 0, where the sphere begins, or as far as the ray was cast
   Float16 before;  // what was found before or by casting
 };
 
 // Rays that start close to the object are cast for one cell's width.
 SIMD_INLINE int cast_close(const FieldInstance& instance, const RayBatch& rays, const Chords& c,
-                           Truth16 inside, Answer& answer) {
+                           Mask16 inside, Answer& answer) {
   const std::uint32_t close = close_rays(*instance.field, c, inside);
   if (close == 0) return 0;
   float from[batch_size] = {}, start[batch_size], reach[batch_size], before[batch_size];
@@ -92,11 +92,11 @@ SIMD_INLINE int cast_close(const FieldInstance& instance, const RayBatch& rays, 
 // them, it is taken to lie before the first or behind the last. Else something may come before the last: it
 // is cast, or the last stands for it.
 SIMD_INLINE int between(const FieldInstance& instance, const RayBatch& rays, const Answer& answer,
-                        Truth16 behind, Float16 first, Float16 last, Float16 tolerance, Float16& found) {
+                        Mask16 behind, Float16 first, Float16 last, Float16 tolerance, Float16& found) {
   const Float16 none = broadcast<Float16>(no_distance);
   const Float16 behind_first = answer.start - first, before_last = last - answer.start;
-  const Truth16 at_first = behind & lt(behind_first, min(tolerance, before_last));
-  const Truth16 deep = behind & le(tolerance, before_last) & le(tolerance, behind_first);
+  const Mask16 at_first = behind & lt(behind_first, min(tolerance, before_last));
+  const Mask16 deep = behind & le(tolerance, before_last) & le(tolerance, behind_first);
   found = select(at_first, answer.start, select(behind, select(deep, last, none), found));
   if (instance.near == nullptr) return 0;
   const std::uint32_t which = bits(deep);
@@ -116,9 +116,9 @@ SIMD_INLINE int between(const FieldInstance& instance, const RayBatch& rays, con
 struct Query {
   Chords chords;
   Answer answer;
-  Truth16 inside;  // live rays that start in the unit sphere
-  bool any;        // whether a ray is live; else `inside` and `looks` are not set
-  Float16 exit;    // t where it ends
+  Mask16 inside;  // live rays that start in the unit sphere
+  bool any;       // whether a ray is live; else `inside` and `looks` are not set
+  Float16 exit;   // t where it ends
   Looks looks;
 };
 
@@ -156,7 +156,7 @@ SIMD_INLINE int finish(const FieldInstance& instance, const RayBatch& rays, Quer
   }
   const Float16 none = broadcast<Float16>(no_distance);
   const Float16 first = first_hit(field, c, q.looks.from_enter(), none);
-  const Truth16 behind = q.inside & lt(first, q.answer.start);
+  const Mask16 behind = q.inside & lt(first, q.answer.start);
   Float16 found = select(behind, none, max(first, q.answer.start));
   if (instance.ends == FieldEnds::both && any(behind)) {
     const Float16 tolerance = broadcast<Float16>(half_diagonal * field.cell()) * c.per_unit;

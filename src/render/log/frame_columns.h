@@ -129,6 +129,7 @@ inline constexpr std::array method_columns{
     CountColumn{"antialias_samples", [](const FrameRecord& r) { return r.antialias.samples; }},
     CountColumn{"soft_points_sampled", [](const FrameRecord& r) { return r.soft.points_sampled; }},
     CountColumn{"soft_sampled_rays", [](const FrameRecord& r) { return r.soft.sampled_rays; }},
+    CountColumn{"soft_groups_changed", [](const FrameRecord& r) { return r.soft.groups_changed; }},
     CountColumn{"tries", [](const FrameRecord& r) { return r.tries; }},
     // The old name of soft_points_silhouette, for readers of logs: goes with 0.3.
     CountColumn{"soft_points_outline", [](const FrameRecord& r) { return r.soft.points_silhouette; }},

@@ -20,7 +20,7 @@ using glm::dvec3;
 // and tiles (with tile_share of a square's limit) into rays. Seen from a light nearby, neighbouring pixels
 // may lie in all directions; from a distant light, far apart only where the picture's pixels are wide.
 constexpr float widest_square = 1.0f / 2304, widest_distant_square = 1.0f / 256, tile_share = 1.0f / 64;
-constexpr std::ptrdiff_t fetch_ahead = 4;  // squares: about as long as memory takes
+constexpr std::ptrdiff_t squares_ahead = 4;  // squares: about as long as memory takes
 
 std::uint8_t cube_face_of(const dvec3& p) {
   const double x = std::abs(p.x), y = std::abs(p.y), z = std::abs(p.z), largest = std::max({x, y, z});
@@ -227,7 +227,7 @@ std::uint32_t PatchRays::in_reach_lanes(const points::PointSquare& square, int t
 }
 
 /// Prefetches the points of tiles with gaps, which are looked at more closely.
-void PatchRays::fetch_gaps(const points::PointSquare& square) const {
+void PatchRays::prefetch_gaps(const points::PointSquare& square) const {
   for (std::uint32_t left = square.gaps; left != 0; left &= left - 1)
     simd::prefetch_all(tiles_.tiles[square.first_tile + static_cast<std::uint32_t>(std::countr_zero(left))]);
 }
@@ -350,8 +350,8 @@ void PatchRays::find(const points::PointPatch& patch, ForestScratch::Patch& out)
   work.patch = &patch;
   for (const points::PointSquare& square : patch.squares) {
     const std::ptrdiff_t after = &patch.squares.back() - &square;
-    if (after >= 2 * fetch_ahead) simd::prefetch_all(*(&square + 2 * fetch_ahead));
-    if (after >= fetch_ahead) fetch_gaps(*(&square + fetch_ahead));
+    if (after >= 2 * squares_ahead) simd::prefetch_all(*(&square + 2 * squares_ahead));
+    if (after >= squares_ahead) prefetch_gaps(*(&square + squares_ahead));
     find_lanes(square, work);
     if (work.present == 0) continue;
     out.tau = std::max(out.tau, square.tau);

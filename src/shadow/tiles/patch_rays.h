@@ -28,7 +28,7 @@ private:
   struct Work;
 
   void find_facing(const points::PointPatch& patch, std::vector<std::uint8_t>& facing) const;
-  void fetch_gaps(const points::PointSquare& square) const;
+  void prefetch_gaps(const points::PointSquare& square) const;
   void find_lanes(const points::PointSquare& square, Work& work) const;
   std::uint32_t facing_lanes(Work& work, std::uint32_t lanes, std::uint32_t tile) const;
   std::uint32_t lanes_beyond(std::uint32_t lanes, std::uint32_t tile) const;

@@ -110,6 +110,10 @@ void set_up_occluders(const LightFrame& light, const TriangleView& triangles, co
   out.indefinite.clear();
   out.lines.clear();
   out.planes.clear();
+  out.occluders.reserve(candidates.all.size());
+  out.indefinite.reserve(candidates.all.size());
+  out.lines.reserve(GroupOccluders::most_lines * candidates.all.size());
+  out.planes.reserve(GroupOccluders::most_lines * candidates.all.size());
   for (std::uint32_t place = 0; place < candidates.all.size(); ++place) {
     const Candidate& c = candidates.all[place];
     if (c.sign == 0) {

@@ -18,14 +18,16 @@ constexpr std::size_t bytes_an_occluder = 3 * sizeof(dvec3) + sizeof(std::uint32
 }  // namespace
 
 bool LineClassBsp::reset(const GroupOccluders& occluders, const TriangleView& triangles,
-                         const GroupFrame& group, OccluderChoice choice, std::size_t largest_bytes) {
+                         const GroupFrame& group, OccluderChoice choice, std::size_t largest_bytes,
+                         MemoryHold* memory) {
   nodes_.clear();
   waiting_.clear();
   lists_.clear();
   corners_.clear();
   root_ = visible_leaf;
-  if (sizeof(Range) + occluders.occluders.size() * bytes_an_occluder > largest_bytes) return false;
   largest_bytes_ = largest_bytes;
+  memory_ = memory;
+  if (!may_take(sizeof(Range) + occluders.occluders.size() * bytes_an_occluder)) return false;
   occluders_ = occluders.occluders;
   planes_ = occluders.planes;
   half_ = group.half;
@@ -94,7 +96,7 @@ BspChild LineClassBsp::grow(std::int32_t parent, int side) {
   // Each of the others may come to wait outside of every line.
   const std::size_t most_added =
       merged.line_count * (sizeof(BspNode) + sizeof(Range) + (waiting.count - 1) * sizeof(std::uint32_t));
-  if (bytes() + most_added > largest_bytes_) return leaf;
+  if (!may_take(bytes() + most_added)) return leaf;
   for (auto& list : outside_) list.clear();
   for (std::uint32_t i = 0; i < waiting.count; ++i) {
     if (i != picked) insert_below(waiting_[waiting.first + i], merged);

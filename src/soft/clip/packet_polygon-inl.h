@@ -16,7 +16,7 @@ using namespace simd::HWY_NAMESPACE;
 inline constexpr int packet_size = 16;      ///< points
 inline constexpr int packet_vertices = 12;  ///< of a polygon, at most
 
-using PacketTruth = Mask<float, packet_size>;
+using PacketMask = Mask<float, packet_size>;
 
 /// Vertex k of the polygons in x[k] and y[k], counter-clockwise. A lane with fewer vertices than `count`
 /// repeats some of them, each next to itself.
@@ -76,7 +76,7 @@ SIMD_INLINE std::uint32_t reaching(const PacketPolygon& polygon, const PacketLin
 struct PacketVertex {
   Float16 x, y, value;
 
-  SIMD_INLINE void take(PacketTruth where, const PacketPolygon& from, const PacketValues& line, int k) {
+  SIMD_INLINE void take(PacketMask where, const PacketPolygon& from, const PacketValues& line, int k) {
     x = select(where, from.x[k], x);
     y = select(where, from.y[k], y);
     value = select(where, line.value[k], value);
@@ -97,15 +97,15 @@ SIMD_INLINE PacketPoint2 crossing_of(const PacketVertex& from, const PacketVerte
 
 /// One side of a cut: the vertices that are `kept`, and in place of the run of those `dropped` first `first`
 /// and then `second`. Where that run is a single vertex, in a lane of `cut`, room is made for both.
-SIMD_INLINE void replace_run(const PacketPolygon& polygon, const PacketTruth (&kept)[packet_vertices],
-                             const PacketTruth (&dropped)[packet_vertices], PacketTruth cut,
+SIMD_INLINE void replace_run(const PacketPolygon& polygon, const PacketMask (&kept)[packet_vertices],
+                             const PacketMask (&dropped)[packet_vertices], PacketMask cut,
                              const PacketPoint2& first, const PacketPoint2& second, PacketPolygon& out) {
   const int n = polygon.count;
-  PacketTruth alone[packet_vertices];    // a run of one vertex
-  PacketTruth reached[packet_vertices];  // there was one, here or before
-  PacketTruth some = kept[0] & dropped[0];
+  PacketMask alone[packet_vertices];    // a run of one vertex
+  PacketMask reached[packet_vertices];  // there was one, here or before
+  PacketMask some = kept[0] & dropped[0];
   for (int k = 0; k < n; ++k) {
-    const PacketTruth begins = kept[polygon.before(k)] & dropped[k];
+    const PacketMask begins = kept[polygon.before(k)] & dropped[k];
     alone[k] = begins & kept[polygon.behind(k)] & cut;
     reached[k] = some = some | alone[k];
     out.x[k] = select(dropped[k], select(begins, first.x, second.x), polygon.x[k]);
@@ -129,8 +129,8 @@ SIMD_INLINE void replace_run(const PacketPolygon& polygon, const PacketTruth (&k
 SIMD_INLINE bool split(const PacketPolygon& polygon, PacketValues& line, std::uint32_t cut,
                        PacketPolygon& positive, PacketPolygon& negative) {
   if (polygon.count == packet_vertices) return false;
-  const PacketTruth parted = mask_of_bits<float, packet_size>(cut);
-  PacketTruth above[packet_vertices], below[packet_vertices];
+  const PacketMask parted = mask_of_bits<float, packet_size>(cut);
+  PacketMask above[packet_vertices], below[packet_vertices];
   for (int k = 0; k < polygon.count; ++k) {
     line.value[k] = select(parted, line.value[k], broadcast<Float16>(1e30f));
     above[k] = lt(line.near, line.value[k]);
@@ -138,10 +138,10 @@ SIMD_INLINE bool split(const PacketPolygon& polygon, PacketValues& line, std::ui
   }
   PacketVertex last_above{polygon.x[0], polygon.y[0], line.value[0]};
   PacketVertex first_below = last_above, last_below = last_above, first_above = last_above;
-  PacketTruth left = above[0] & below[0], twice = left;  // nowhere
+  PacketMask left = above[0] & below[0], twice = left;  // nowhere
   for (int k = 0; k < polygon.count; ++k) {
     const int j = polygon.before(k);
-    const PacketTruth leaves = above[j] & below[k], returns = below[j] & above[k];
+    const PacketMask leaves = above[j] & below[k], returns = below[j] & above[k];
     twice = twice | (left & leaves);
     left = left | leaves;
     last_above.take(leaves, polygon, line, j), first_below.take(leaves, polygon, line, k);
@@ -158,13 +158,13 @@ SIMD_INLINE bool split(const PacketPolygon& polygon, PacketValues& line, std::ui
 /// Takes vertices out while each lane of `lanes` has one that is repeated.
 SIMD_INLINE void compact(PacketPolygon& p, std::uint32_t lanes) {
   while (p.count > 3) {
-    PacketTruth repeated[packet_vertices];
+    PacketMask repeated[packet_vertices];
     for (int k = 0; k < p.count; ++k)
       repeated[k] = eq(p.x[k], p.x[p.behind(k)]) & eq(p.y[k], p.y[p.behind(k)]);
-    PacketTruth some = repeated[0];
+    PacketMask some = repeated[0];
     for (int k = 1; k < p.count; ++k) some = some | repeated[k];
     if ((lanes & ~bits(some)) != 0) return;
-    PacketTruth moved = repeated[0];
+    PacketMask moved = repeated[0];
     for (int k = 0; k + 1 < p.count; ++k) {
       if (k > 0) moved = moved | repeated[k];
       p.x[k] = select(moved, p.x[k + 1], p.x[k]);

@@ -12,6 +12,10 @@ constexpr int largest_size = 32;
 constexpr int column_bits = 5;
 constexpr std::uint32_t columns = 1u << column_bits, cells = columns * columns;
 
+std::size_t rank_count(std::size_t places) {
+  return places > many ? coarse_ranks * cells : size_ranks;
+}
+
 std::uint32_t size_rank(const Candidate& c, int width, std::uint32_t ranks) {
   return static_cast<std::uint32_t>(
       std::clamp((largest_size - c.size) / width, 0, static_cast<int>(ranks) - 1));
@@ -45,12 +49,17 @@ std::span<const std::uint32_t> CandidateOrder::sorted(const GroupCandidates& can
     ranks_.push_back(by_place ? size_rank(c, 4, coarse_ranks) * cells + cell_of(c, candidates.axes)
                               : size_rank(c, 1, size_ranks));
   }
-  ends_.assign((by_place ? coarse_ranks * cells : size_ranks) + 1, 0);
+  ends_.assign(rank_count(places.size()) + 1, 0);
   for (const std::uint32_t rank : ranks_) ++ends_[rank + 1];
   for (std::size_t k = 1; k < ends_.size(); ++k) ends_[k] += ends_[k - 1];
   order_.resize(places.size());
   for (std::size_t i = 0; i < places.size(); ++i) order_[ends_[ranks_[i]]++] = places[i];
   return order_;
+}
+
+std::size_t CandidateOrder::bytes_for(std::size_t places) {
+  const std::size_t ranks = 2 * places;  // that grow by push_back()
+  return (ranks + rank_count(places) + 1 + places) * sizeof(std::uint32_t);
 }
 
 }  // namespace tenebra::soft

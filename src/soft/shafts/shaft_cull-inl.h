@@ -88,7 +88,7 @@ SIMD_INLINE std::uint32_t inside(const CullingShaft<T>& shaft, const TriangleBlo
 }
 
 // Prefetches the block of a reference some places ahead: lists of many triangles do not stay in the caches.
-SIMD_INLINE void fetch_ahead(const TriangleBlock* blocks, std::span<const BlockRef> in, std::size_t i) {
+SIMD_INLINE void prefetch_ahead(const TriangleBlock* blocks, std::span<const BlockRef> in, std::size_t i) {
   constexpr std::size_t ahead = 4, line = 64;
   if (i + ahead >= in.size()) return;
   const auto* const block = reinterpret_cast<const unsigned char*>(&blocks[in[i + ahead].block]);
@@ -102,7 +102,7 @@ std::size_t cull_in(const Shaft& shaft, const TriangleBlock* blocks, std::span<c
   std::size_t count = 0;
   for (std::size_t i = 0; i < in.size(); ++i) {
     const BlockRef ref = in[i];
-    fetch_ahead(blocks, in, i);
+    prefetch_ahead(blocks, in, i);
     const std::uint32_t lanes = inside(converted, blocks[ref.block], ref.lanes);
     if (lanes != 0) out[count++] = {ref.block, lanes};
   }

@@ -7,6 +7,7 @@
 #include "base/stopwatch.h"
 #include "parallel/parallel.h"
 #include "soft/groups/receivers.h"
+#include "soft/memory/memory_hold.h"
 #include "soft/shafts/shaft_kernels.h"
 
 namespace tenebra::soft {
@@ -24,7 +25,14 @@ constexpr double most_groups = 0.4;
 constexpr std::uint64_t serial_work = 1 << 16;
 
 // A thread that keeps more candidates than these, 16 MB, hands its families over before all are decided.
-constexpr std::size_t most_ids = std::size_t{1} << 22;
+// Where the memory is bounded, all threads together keep their share of it (vectors that grow hold up to
+// three times what is used).
+std::size_t most_ids(const SoftShadowConfig& config) {
+  constexpr std::size_t most = std::size_t{1} << 22;
+  if (!config.memory_bytes) return most;
+  const std::size_t threads = static_cast<std::size_t>(thread_count());
+  return std::min(most, *config.memory_bytes / share_of_lists / (3 * sizeof(std::uint32_t) * threads));
+}
 
 // A GroupDecision whose candidates may still move, as long as others are added behind them.
 struct Decided {
@@ -100,7 +108,7 @@ void add(ShaftStats& to, const ShaftStats& from) {
 class Descent {
 public:
   Descent(const PointGroups& groups, const LightShape& light, const ShaftKernels& kernels,
-          ShaftMaker make_shaft, const StopFlag* stop, const FamilyBody& body,
+          ShaftMaker make_shaft, const StopFlag* stop, const FamilyBody& body, std::size_t most_kept,
           std::vector<ThreadScratch>& scratch)
       : groups_(groups),
         light_(light),
@@ -108,6 +116,7 @@ public:
         make_shaft_(make_shaft),
         stop_(stop),
         body_(body),
+        most_kept_(most_kept),
         scratch_(scratch) {}
 
   /// `from`: what may matter to the node, found for a node of `groups` groups.
@@ -133,6 +142,7 @@ private:
   ShaftMaker make_shaft_;
   const StopFlag* stop_;
   const FamilyBody& body_;
+  std::size_t most_kept_;  ///< candidates, by one thread
   std::vector<ThreadScratch>& scratch_;
 };
 
@@ -165,7 +175,7 @@ void Descent::decide(const GroupNode& node, const BlockList& from, std::uint32_t
   if (node.count <= largest_family || (from.refs.empty() && !worth_sharing(node, from))) {
     decide_family(node, from, groups, scratch);
     scratch.stats.seconds += watch.lap_ms() * 1e-3;
-    if (scratch.ids.size() > most_ids) hand_over_kept(scratch);
+    if (scratch.ids.size() > most_kept_) hand_over_kept(scratch);
     return;
   }
   const ListLease own(scratch);
@@ -300,7 +310,8 @@ bool ShaftCuller::for_each_family(const PointGroups& groups, const TriangleView&
   s.stats.seconds = watch.lap_ms() * 1e-3;
   const ShaftKernels kernels = shaft_kernels(config.simd);
   if (!groups.nodes.empty()) {
-    Descent descent(groups, light, kernels, shaft_maker(config.simd), stop, body, s.scratch);
+    Descent descent(groups, light, kernels, shaft_maker(config.simd), stop, body, most_ids(config),
+                    s.scratch);
     descent.decide(groups.nodes[0], s.casters, groups.nodes[0].count);
     descent.hand_over(s.families);
   }

@@ -157,9 +157,10 @@ void SilhouetteFinder::find(const LightFrame& light, const TriangleView& triangl
                             std::vector<std::uint32_t>& rest, const StopFlag* stop) {
   out.clear();
   rest.clear();
+  edges_.clear();
+  table_.clear();
   const std::size_t count = candidates.all.size();
   if (count >= worthwhile) {
-    edges_.clear();
     left_ = 0;
     table_.assign(std::bit_ceil(6 * count), 0);
     if (take(light, triangles, candidates, out, rest, stop)) return keep_silhouette(candidates.axes, out);

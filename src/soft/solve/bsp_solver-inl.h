@@ -8,6 +8,7 @@
 #endif
 
 #include <algorithm>
+#include <utility>
 
 #include "soft/bsp/line_class_query-inl.h"
 #include "soft/clip/clip_solver-inl.h"
@@ -25,8 +26,15 @@ inline constexpr std::size_t largest_tree_bytes = std::size_t{1} << 30;
 template <class T>
 class BspSolver final : public Solver {
 public:
+  /// If the tree is dropped, all candidates are clipped.
+  std::size_t bytes_for(const PreparedGroup& group) const override {
+    const std::size_t count = group.candidates.all.size();
+    return GroupOccluders::bytes_for(count) + ClipSolver<OnePoint<T>>::bytes_for(count) +
+           CandidateOrder::bytes_for(count) + count * sizeof(std::uint32_t);
+  }
   void begin(const SoftFrame& frame, const PreparedGroup& group) override {
     receiver_.forget();
+    is_counted_ = false;
     set_up_occluders(frame.light, frame.triangles, group.frame, group.candidates, occluders_);
     start_tree(frame, group);
     clip_what_the_tree_leaves(frame, group);
@@ -34,9 +42,9 @@ public:
 
   void solve(const SoftFrame& frame, const PreparedGroup& group, std::span<const std::uint32_t> pixels,
              PixelWriter& writer) override {
-    if (!use_tree_) writer.answer_by(SoftClass::clip);
+    if (!use_tree_) change_solver(writer);
     for (const std::uint32_t pixel : pixels) {
-      if (stop_requested(frame.stop)) break;
+      if (stop_requested(frame.stop) || was_refused(group)) break;
       solve_point(frame, group, pixel, writer);
       if (!frame.config.keep_trees) start_anew(frame, group, writer);
     }
@@ -45,15 +53,26 @@ public:
   }
 
 private:
+  static bool was_refused(const PreparedGroup& group) {
+    return group.memory != nullptr && group.memory->refused();
+  }
   void start_tree(const SoftFrame& frame, const PreparedGroup& group) {
-    use_tree_ = bsp_.reset(occluders_, frame.triangles, group.frame, frame.config.choice,
-                           std::min(frame.config.tree_bytes, largest_tree_bytes));
+    std::size_t largest = std::min(frame.config.tree_bytes, largest_tree_bytes);
+    if (group.memory != nullptr) largest = std::min(largest, group.memory->largest_tree());
+    use_tree_ =
+        bsp_.reset(occluders_, frame.triangles, group.frame, frame.config.choice, largest, group.memory);
+  }
+  /// From here on points are clipped; the group is counted once.
+  void change_solver(PixelWriter& writer) {
+    writer.answer_by(SoftClass::clip);
+    if (!std::exchange(is_counted_, true)) ++writer.stats().groups_changed;
   }
   /// Starts a new tree for the next point, even if the last one reached its bound.
   void start_anew(const SoftFrame& frame, const PreparedGroup& group, PixelWriter& writer) {
     const bool was_dropped = !use_tree_;
     if (!was_dropped) note_tree(writer.stats());
     start_tree(frame, group);
+    if (!use_tree_ && !was_dropped) change_solver(writer);
     if (!was_dropped || !use_tree_) return;
     writer.answer_by(SoftClass::bsp);
     clip_what_the_tree_leaves(frame, group);
@@ -61,7 +80,7 @@ private:
   void drop_tree(const SoftFrame& frame, const PreparedGroup& group, PixelWriter& writer) {
     note_tree(writer.stats());
     use_tree_ = false;
-    writer.answer_by(SoftClass::clip);
+    change_solver(writer);
     clip_what_the_tree_leaves(frame, group);
   }
   /// All candidates if there is no tree.
@@ -127,6 +146,7 @@ private:
   GroupOccluders occluders_;
   LineClassBsp bsp_;
   bool use_tree_ = false;
+  bool is_counted_ = false;  ///< the group, as one that changed its solver
   LineClassQuery<T> query_;
   CandidateOrder order_;
   std::vector<std::uint32_t> all_;

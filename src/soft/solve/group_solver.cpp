@@ -31,23 +31,48 @@ SoftClass class_of(const SoftFrame& frame, const PreparedGroup& group) {
 
 }  // namespace
 
-GroupSolver::GroupSolver(SimdLevel level) : level_(level), preparer_(level), lit_(make_lit_solver(level)) {}
+GroupSolver::GroupSolver(SimdLevel level, MemoryPool* pool)
+    : level_(level), memory_(pool), preparer_(level), lit_(make_lit_solver(level)) {}
 
-void GroupSolver::solve(const SoftFrame& frame, const GroupTask& task) {
-  base::Stopwatch watch;
-  solve_prepared(frame, preparer_.prepare(frame, task), task.pixels, watch);
+void GroupSolver::release() {
+  preparer_ = GroupPreparer(level_);
+  for (std::unique_ptr<Solver>* solver : {&points_, &packets_, &bsp_, &reference_, &reference_bsp_})
+    solver->reset();
+  memory_.release();
 }
 
-void GroupSolver::solve_together(const SoftFrame& frame, const GroupFrame& around,
-                                 std::span<const GroupTask> tasks) {
+bool GroupSolver::solve(const SoftFrame& frame, const GroupTask& task) {
+  const SoftStats before = stats;
+  memory_.begin_group();
   base::Stopwatch watch;
-  const bool together = preparer_.prepare_family(frame, around, tasks);
+  if (memory_.add_candidates(task.candidates.size() * sizeof(Candidate)))
+    solve_prepared(frame, preparer_.prepare(frame, task), task.pixels, watch);
+  if (memory_.refused()) stats = before;
+  return !memory_.refused();
+}
+
+bool GroupSolver::solve_together(const SoftFrame& frame, const GroupFrame& around,
+                                 std::span<const GroupTask> tasks) {
+  const SoftStats before = stats;
+  memory_.begin_group();
+  if (memory_.add_candidates(preparer_.begin_family(tasks) * sizeof(Candidate)))
+    solve_family(frame, around, tasks);
+  if (memory_.refused()) stats = before;
+  return !memory_.refused();
+}
+
+void GroupSolver::solve_family(const SoftFrame& frame, const GroupFrame& around,
+                               std::span<const GroupTask> tasks) {
+  base::Stopwatch watch;
+  const bool together = preparer_.prepare_family(frame, around);
   times.init_ms += watch.lap_ms();
-  for (std::size_t k = 0; k < tasks.size() && !stop_requested(frame.stop); ++k) {
+  const std::size_t of_all = memory_.group_bytes();
+  for (std::size_t k = 0; k < tasks.size() && !stop_requested(frame.stop) && !memory_.refused(); ++k) {
     if (!together) {
       solve(frame, tasks[k]);
       continue;
     }
+    memory_.back_to(of_all);
     solve_prepared(frame, preparer_.choose(k, tasks[k], frame.stop), tasks[k].pixels, watch);
     preparer_.restore();
   }
@@ -73,10 +98,12 @@ void GroupSolver::expect(const SoftFrame& frame, std::span<const std::uint32_t> 
 }
 
 /// `watch` was started with the preparation.
-void GroupSolver::solve_prepared(const SoftFrame& frame, const PreparedGroup& group,
+void GroupSolver::solve_prepared(const SoftFrame& frame, PreparedGroup group,
                                  std::span<const std::uint32_t> pixels, base::Stopwatch& watch) {
   if (stop_requested(frame.stop)) return;  // it may not be whole
   Solver& solver = solver_of(frame, group);
+  if (!memory_.add_candidates(preparer_.bytes() + solver.bytes_for(group))) return;
+  group.memory = &memory_;
   solver.begin(frame, group);
   times.init_ms += watch.lap_ms();
   PixelWriter writer(frame, class_of(frame, group), stats);

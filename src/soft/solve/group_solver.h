@@ -18,14 +18,15 @@ struct SolverTimes {
 /// Solves group after group with buffers of its own: each thread has one.
 class GroupSolver {
 public:
-  explicit GroupSolver(SimdLevel level);
+  /// `pool`: asked for memory before it is taken; null: there is no bound.
+  explicit GroupSolver(SimdLevel level, MemoryPool* pool = nullptr);
 
   /// Fills out's pixels of the group, only some of them if frame.stop was requested. The result depends on
-  /// the group alone.
-  void solve(const SoftFrame& frame, const GroupTask& task);
+  /// the group alone. False, and nothing is counted, if there was no memory.
+  bool solve(const SoftFrame& frame, const GroupTask& task);
   /// The same for groups that lie near each other, within `around`, and have many candidates: these are made
   /// ready once for all.
-  void solve_together(const SoftFrame& frame, const GroupFrame& around, std::span<const GroupTask> tasks);
+  bool solve_together(const SoftFrame& frame, const GroupFrame& around, std::span<const GroupTask> tasks);
   /// The same for groups that nothing stands in front of.
   void solve_lit(const SoftFrame& frame, std::span<const std::span<const std::uint32_t>> groups);
   /// Prefetches the points of the group that is likely to be solved next (the first of many), and the list of
@@ -33,15 +34,22 @@ public:
   static void expect(const SoftFrame& frame, std::span<const std::uint32_t> pixels,
                      std::span<const std::uint32_t> after);
 
+  /// What is held of the pool, and what the last group was to hold for its candidates.
+  const MemoryHold& memory() const { return memory_; }
+  /// Gives all of it back, with the buffers.
+  void release();
+
   SoftStats stats;
   SolverTimes times;
 
 private:
-  void solve_prepared(const SoftFrame& frame, const PreparedGroup& group,
-                      std::span<const std::uint32_t> pixels, base::Stopwatch& watch);
+  void solve_prepared(const SoftFrame& frame, PreparedGroup group, std::span<const std::uint32_t> pixels,
+                      base::Stopwatch& watch);
   Solver& solver_of(const SoftFrame& frame, const PreparedGroup& group);
+  void solve_family(const SoftFrame& frame, const GroupFrame& around, std::span<const GroupTask> tasks);
 
   SimdLevel level_;
+  MemoryHold memory_;
   GroupPreparer preparer_;
   std::unique_ptr<LitSolver> lit_;
   /// Each is made when it is first asked for.

@@ -15,13 +15,17 @@ PreparedGroup GroupPreparer::prepare(const SoftFrame& frame, const GroupTask& ta
   return {task.frame, candidates_, silhouette_, sort_out(frame, task.frame, task.candidates)};
 }
 
-bool GroupPreparer::prepare_family(const SoftFrame& frame, const GroupFrame& around,
-                                   std::span<const GroupTask> tasks) {
+std::size_t GroupPreparer::begin_family(std::span<const GroupTask> tasks) {
   family_.clear();
   for (const GroupTask& task : tasks) family_.add(task.candidates);
+  return family_.triangles().size();
+}
+
+bool GroupPreparer::prepare_family(const SoftFrame& frame, const GroupFrame& around) {
   const auto clipped = sort_out(frame, around, family_.triangles());
   if (!silhouette_.empty() || stop_requested(frame.stop)) return false;
   family_.make_ready(candidates_, clipped);
+  bytes_ += family_.bytes();
   return true;
 }
 
@@ -33,10 +37,13 @@ PreparedGroup GroupPreparer::choose(std::size_t k, const GroupTask& task, const 
 std::span<const std::uint32_t> GroupPreparer::sort_out(const SoftFrame& frame, const GroupFrame& group,
                                                        std::span<const std::uint32_t> triangles) {
   silhouette_.clear();
+  candidates_.all.reserve(triangles.size());
   find_candidates_(frame.light, frame.triangles, group, triangles, candidates_, frame.stop);
+  bytes_ = grown_bytes(candidates_.heights);
   if (frame.config.solver == SoftSolver::bsp || stop_requested(frame.stop)) return {};
   if (frame.config.solver == SoftSolver::automatic) {
     finder_.find(frame.light, frame.triangles, candidates_, silhouette_, rest_, frame.stop);
+    bytes_ += finder_.bytes() + silhouette_.bytes();
     if (stop_requested(frame.stop)) return {};
     drop_beside_light(group, candidates_.axes, silhouette_);
     pair_triangles(group, candidates_, rest_);
@@ -44,7 +51,9 @@ std::span<const std::uint32_t> GroupPreparer::sort_out(const SoftFrame& frame, c
     take_all(candidates_, rest_);
   }
   if (stop_requested(frame.stop)) return {};
-  return order_.sorted(candidates_, rest_);
+  const std::span<const std::uint32_t> sorted = order_.sorted(candidates_, rest_);
+  bytes_ += grown_bytes(rest_) + CandidateOrder::bytes_for(rest_.size());
+  return sorted;
 }
 
 }  // namespace tenebra::soft

@@ -6,6 +6,7 @@
 #include <span>
 #include <vector>
 
+#include "soft/memory/memory_hold.h"
 #include "soft/occluders/candidate_order.h"
 #include "soft/occluders/family_candidates.h"
 #include "soft/silhouette/group_silhouette.h"
@@ -19,6 +20,7 @@ struct PreparedGroup {
   const GroupCandidates& candidates;
   const GroupSilhouette& silhouette;       ///< empty where no meshes are worth one
   std::span<const std::uint32_t> clipped;  ///< places of the candidates that are clipped, largest first
+  MemoryHold* memory = nullptr;            ///< that its solver asks for room; null: no bound
 };
 
 /// Prepares one group after the other in buffers of its own.
@@ -29,13 +31,18 @@ public:
   /// Valid until the next call, like all that is returned here. Of no use if frame.stop was requested.
   PreparedGroup prepare(const SoftFrame& frame, const GroupTask& task);
 
-  /// Prepares groups that lie near each other, within `around`, at once. False where their meshes have a
+  /// Begins with groups that lie near each other: returns how many triangles they have together.
+  std::size_t begin_family(std::span<const GroupTask> tasks);
+  /// Prepares these groups, which lie within `around`, at once. False where their meshes have a
   /// silhouette: then each is better off with one of its own, by prepare(). Of no use if frame.stop was
   /// requested.
-  bool prepare_family(const SoftFrame& frame, const GroupFrame& around, std::span<const GroupTask> tasks);
+  bool prepare_family(const SoftFrame& frame, const GroupFrame& around);
   /// Group `k` of the family, until restore(). Of no use if `stop` was requested.
   PreparedGroup choose(std::size_t k, const GroupTask& task, const StopFlag* stop);
   void restore() { family_.restore(candidates_); }
+
+  /// What the last preparation holds besides the candidates themselves.
+  std::size_t bytes() const { return bytes_; }
 
 private:
   std::span<const std::uint32_t> sort_out(const SoftFrame& frame, const GroupFrame& group,
@@ -48,7 +55,14 @@ private:
   std::vector<std::uint32_t> rest_;  ///< places of the candidates that the silhouette leaves
   CandidateOrder order_;
   FamilyCandidates family_;
+  std::size_t bytes_ = 0;
 };
+
+/// What a vector holds that was filled by push_back() alone, at most.
+template <class T>
+std::size_t grown_bytes(const std::vector<T>& list) {
+  return 2 * list.size() * sizeof(T);
+}
 
 /// The places of all candidates.
 void take_all(const GroupCandidates& candidates, std::vector<std::uint32_t>& places);

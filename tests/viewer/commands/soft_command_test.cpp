@@ -224,6 +224,48 @@ TEST(SoftCommand, TakesTheSmallestErrorThatFitsTheBudget) {
       << hard.errors;
 }
 
+TEST(SoftCommand, SaysOnceThatGroupsChangedTheirSolver) {
+  const TemporaryFolder folder;
+  const auto draw = [&](std::vector<std::string> more) {
+    std::vector<std::string> all{"render",
+                                 (fs::path(TENEBRA_SCENES_DIR) / "court.glb").string(),
+                                 "--size",
+                                 "24x14",
+                                 "--frames",
+                                 "60:61",
+                                 "--shadows",
+                                 "soft",
+                                 "--light",
+                                 "0",
+                                 "--soft-solver",
+                                 "bsp",
+                                 "--light-size",
+                                 "2%",
+                                 "--antialias",
+                                 "1",
+                                 "-o",
+                                 "none",
+                                 "--log",
+                                 folder / "log.csv"};
+    all.insert(all.end(), more.begin(), more.end());
+    return tenebra(all);
+  };
+  const auto standard = draw({});
+  EXPECT_EQ(standard.exit_code, 0) << standard.errors;
+  EXPECT_GT(logged(folder / "log.csv", "soft_groups_changed"), 0);
+  const std::size_t first = standard.errors.find("clipped in place of the BSP");
+  EXPECT_NE(first, std::string::npos) << standard.errors;
+  EXPECT_EQ(standard.errors.find("clipped in place of the BSP", first + 1), std::string::npos)
+      << standard.errors;
+  EXPECT_NE(read_text(folder / "log.csv").find("soft_memory: the system's, 4 MB a tree"), std::string::npos);
+
+  const auto refused = draw({"--soft-memory", "2"});
+  EXPECT_EQ(refused.exit_code, 1);
+  EXPECT_NE(refused.errors.find("2 MB are allowed and points that are solved together need at least"),
+            std::string::npos)
+      << refused.errors;
+}
+
 TEST(SoftCommand, WritesAMapOfTheErrors) {
   const TemporaryFolder folder;
   const std::string scene = write_moving_scene(folder);

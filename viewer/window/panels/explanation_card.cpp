@@ -101,10 +101,14 @@ void light_row(Ui& ui, const PictureAnswer& answer, const LightExplanation& ligh
   ImGui::SameLine();
   if (link(ui, node_name(ui.state, light.occluder->node), fmt::format("why.occluder.{}", light.number)))
     ui.state.selected_node = light.occluder->node;
-  ImGui::SameLine();
   std::string more = fmt::format("triangle {}, {:.3g} m away", light.occluder->triangle,
                                  glm::distance(light.met_at, answer.pixel.point));
-  if (light.asked > 1) more += fmt::format(", {} of {} ways", light.held_by_it, light.asked);
+  if (light.asked > 1) {
+    more += fmt::format(", {} of {} sightlines", light.held_by_it, light.asked);
+    ImGui::SetCursorPosX(ImGui::GetCursorPosX() + line_height * 1.1f);
+  } else {
+    ImGui::SameLine();
+  }
   dim_text(more.c_str());
 }
 

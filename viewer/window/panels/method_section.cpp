@@ -103,6 +103,13 @@ void settle_soft(MethodOptions& method) {
   method.cull_front.reset();
 }
 
+/// 0: as it is without --soft-memory.
+void limit_soft_memory(int mb, SoftShadowConfig& soft) {
+  soft.memory_bytes.reset();
+  soft.tree_bytes = SoftShadowConfig{}.tree_bytes;
+  if (mb > 0) set_soft_memory(mb, soft);
+}
+
 void edit_soft(Ui& ui, MethodOptions& method) {
   SoftShadowConfig& soft = method.render.soft;
   row(ui, "Emissive", "Flat convex meshes with an emissive material are lights too.");
@@ -116,6 +123,9 @@ void edit_soft(Ui& ui, MethodOptions& method) {
   choose(ui, "occluder", occluder_choices, soft.choice);
   row(ui, "Precision", "reference: double precision throughout.");
   choose(ui, "precision", precision_choices, soft.precision);
+  row(ui, "Memory", "For BSPs of any size and candidates, in MB. 0: what the system has, and 4 for a BSP.");
+  int memory_mb = soft_memory_mb(soft).value_or(0);
+  if (number(ui, "soft memory", memory_mb, 0, 1000000, 64)) limit_soft_memory(memory_mb, soft);
   row(ui, "Error", "RMS over the penumbra, in 1/255; 0: exact. The cost section has the estimate.");
   auto error = static_cast<float>(soft.error_255);
   if (ImGui::SliderFloat("##soft error", &error, 0.0f, 8.0f, error > 0 ? "%.1f / 255" : "exact",
