@@ -66,11 +66,6 @@ dvec3 SmallView::ray_in_view(int x, int y) const {
   return {lens_.tan.x * (2 * (x + 0.5) / width_ - 1), lens_.tan.y * (1 - 2 * (y + 0.5) / height_), -1};
 }
 
-dvec3 SmallView::ray(std::size_t pixel) const {
-  const auto width = static_cast<std::size_t>(width_);
-  return lens_.basis * ray_in_view(static_cast<int>(pixel % width), static_cast<int>(pixel / width));
-}
-
 void SmallView::keep(int x, int y, double depth_m, bool front) {
   Pixel& pixel =
       pixels_[static_cast<std::size_t>(y) * static_cast<std::size_t>(width_) + static_cast<std::size_t>(x)];

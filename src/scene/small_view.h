@@ -33,8 +33,6 @@ public:
   void add(const glm::dvec3& middle, const glm::dvec2& half_m);
 
   std::span<const Pixel> pixels() const { return pixels_; }
-  /// Where the ray through a pixel's centre is at a depth of 1, seen from the eye.
-  glm::dvec3 ray(std::size_t pixel) const;
   /// Of all pixels, those that hold something; `other`: and nothing in that picture of the same size.
   double share(const SmallView* other = nullptr) const;
   /// Of the pixels that hold something, those that show a back.
