@@ -113,10 +113,13 @@ typedef struct tenebra_options {
    * be null. */
   int (*progress)(void* user, double done);
   void* user; /**< handed to progress */
+  /** Bounds the candidates and lists of soft shadows, all threads together; 0: as many as the system has. A
+   * call that needs more fails. Answers do not depend on it. */
+  uint64_t soft_memory_bytes;
 } tenebra_options;
 /** Default values. */
 #define TENEBRA_OPTIONS_INIT \
-  { sizeof(tenebra_options), 0, 0.0, 2.5, 0.0, NULL, NULL }
+  { sizeof(tenebra_options), 0, 0.0, 2.5, 0.0, NULL, NULL, 0 }
 
 /* In all calls, options may be null, which means TENEBRA_OPTIONS_INIT. */
 

@@ -188,22 +188,28 @@ class Tracer:
         return mask
 
     def soft_visibility(self, triangles: Triangles, points: Any, light: AreaLight, *, on: Any = None,
-                        normals: Any = None, sides: Any = None, error: float = 0.0, threads: int = 0,
+                        normals: Any = None, sides: Any = None, error: float = 0.0,
+                        memory_mb: Optional[int] = None, threads: int = 0,
                         progress: Progress = None) -> Tuple[np.ndarray, np.ndarray]:
         """The visible part of an area light, 0 to 1, and the irradiance that it sends onto the normal (else the
         triangle's; with neither, onto a surface parallel to the light), W/m2 for a radiance of 1: two arrays of
         float32.
 
         error: 0: exact; else the error allowed in dense penumbrae, RMS, in 1/255 of white.
+        memory_mb: bounds the candidates and lists of them (MB of 2**20 bytes), all threads together; a call that needs
+        more raises a ValueError. Answers do not depend on it. None: what the system has.
         """
         if not isinstance(light, AreaLight):
             raise TypeError(f"light: found {type(light).__name__}, expected an AreaLight")
+        if memory_mb is not None and memory_mb < 1:
+            raise ValueError(f"memory_mb: found {memory_mb}, expected 1 or more, or None")
         arrays, shape = _point_arrays(points, on, normals, sides)
+        memory_bytes = None if memory_mb is None else memory_mb << 20
         fraction, irradiance = np.empty(shape, np.float32), np.empty(shape, np.float32)
         asked = _geometry(triangles)._core
         with self._one_call:
-            self._core.soft_visibility(asked, arrays, light._core, error, fraction, irradiance, _count(threads),
-                                       progress)
+            self._core.soft_visibility(asked, arrays, light._core, error, memory_bytes, fraction, irradiance,
+                                       _count(threads), progress)
         return fraction, irradiance
 
     def ambient_occlusion(self, triangles: Triangles, points: Any, *, on: Any = None, normals: Any = None,

@@ -31,7 +31,7 @@ class PointTracer:
     def hard_mask(self, geometry: Geometry, points: PointArrays, light: ShadowLight, mask: np.ndarray, threads: int,
                   progress: Optional[Callable[[float], Any]]) -> None: ...
     def soft_visibility(self, geometry: Geometry, points: PointArrays, light: AreaLight, error: float,
-                        visible_fraction: np.ndarray, irradiance: np.ndarray, threads: int,
+                        memory_bytes: Optional[int], visible_fraction: np.ndarray, irradiance: np.ndarray, threads: int,
                         progress: Optional[Callable[[float], Any]]) -> None: ...
     def ambient_occlusion(self, geometry: Geometry, points: PointArrays, distance_m: float, error: float,
                           openness: np.ndarray, threads: int,

@@ -167,12 +167,13 @@ void hard_mask(Tracer& tracer, const Geometry& geometry, const PointArrays& poin
 }
 
 void soft_visibility(Tracer& tracer, const Geometry& geometry, const PointArrays& points,
-                     const AreaLight& light, double error, Array<float>& fraction, Array<float>& irradiance,
-                     int threads, const Report& report) {
+                     const AreaLight& light, double error, std::optional<std::size_t> memory_bytes,
+                     Array<float>& fraction, Array<float>& irradiance, int threads, const Report& report) {
   const QueryPoints query = points.query();
   const auto to_fraction = room(fraction), to_irradiance = room(irradiance);
   SoftShadowConfig config;
   config.error_255 = error;
+  config.memory_bytes = memory_bytes;
   run_beside(tracer.beside, report, threads, [&](Work& work) {
     return tracer.points.soft_visibility(geometry, query, light, config, to_fraction, to_irradiance,
                                          &work.stop, noted_in(work));

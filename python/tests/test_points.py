@@ -42,10 +42,20 @@ def test_sides_normals_and_spots():
     assert tenebra.hard_mask((POSITIONS, INDICES), [[0.1, 3, 0], [0.1, 1, 0]], near).tolist() == [255, 0]
 
 
+def crowded(**options):
+    """50,000 small triangles between the light and 64 points near one another."""
+    random = np.random.default_rng(1)
+    corners = random.uniform(-1, 1, (50000, 1, 3)) + (0, 2.5, 0) + random.normal(0, 0.01, (50000, 3, 3))
+    return tenebra.soft_visibility(corners, random.uniform(-0.1, 0.1, (64, 3)), SQUARE, **options)
+
+
 def test_soft_visibility():
     fraction, irradiance = tenebra.soft_visibility((POSITIONS, INDICES), [[0, 1, 0], [4, 1, 0], [-2, 1, 0]], SQUARE)
     assert fraction == pytest.approx([0.5, 1, 0], abs=1e-5)
     assert irradiance[1] > irradiance[2] == 0
+    with pytest.raises(ValueError, match="not enough memory for soft shadows"):
+        crowded(memory_mb=1)
+    assert (crowded(memory_mb=1000)[0] == crowded()[0]).all()
     disc = tenebra.AreaLight.disc((0, 4, 0), (1, 0, 0), (0, 0, 1))
     assert disc.vertices.shape == (12, 3) and disc.area_m2 == pytest.approx(np.pi)
 
@@ -94,6 +104,7 @@ def test_arrays_are_not_copied_twice():
     (lambda: tenebra.hard_mask((POSITIONS, INDICES), POINTS, SQUARE), TypeError, "soft_visibility"),
     (lambda: tenebra.hard_mask((POSITIONS, INDICES), POINTS, LIGHT, threads=-1), ValueError, "threads: found -1"),
     (lambda: tenebra.soft_visibility((POSITIONS, INDICES), POINTS, LIGHT), TypeError, "expected an AreaLight"),
+    (lambda: tenebra.soft_visibility((POSITIONS, INDICES), POINTS, SQUARE, memory_mb=0), ValueError, "found 0, expected 1"),
     (lambda: tenebra.AreaLight([[0, 0, 0], [1, 0, 0], [0, 1, 0], [1, 1, 0]]), ValueError, "light"),
     (lambda: tenebra.ambient_occlusion((POSITIONS, INDICES), POINTS), ValueError, "neither a triangle nor a normal"),
 ])

@@ -224,6 +224,7 @@ tenebra_status tenebra_soft_visibility(tenebra_tracer* tracer, const tenebra_geo
     if (!area) return tl::unexpected(area.error());
     SoftShadowConfig config;
     config.error_255 = q.options.soft_error;
+    if (q.options.soft_memory_bytes > 0) config.memory_bytes = q.options.soft_memory_bytes;
     const std::size_t count = q.points.positions.size();
     return tracer->tracer.soft_visibility(*q.geometry, q.points, *area, config,
                                           answers(visible_fraction, count), answers(irradiance, count),

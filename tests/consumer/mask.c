@@ -2,6 +2,7 @@
 #include <tenebra/tenebra.h>
 
 #include <math.h>
+#include <stddef.h>
 #include <stdio.h>
 #include <string.h>
 
@@ -39,6 +40,15 @@ static void ask(tenebra_tracer* tracer, const tenebra_geometry* geometry) {
   expect(tenebra_soft_visibility(tracer, geometry, &points, &area, NULL, fraction, NULL) == TENEBRA_OK,
          "fractions");
   expect(fraction[0] == 1 && fraction[1] == 0, "all of the light at the left and none at the right");
+
+  tenebra_options bounded = TENEBRA_OPTIONS_INIT;
+  bounded.soft_memory_bytes = 1;
+  expect(tenebra_soft_visibility(tracer, geometry, &points, &area, &bounded, fraction, NULL) == TENEBRA_FAILED &&
+             strstr(tenebra_tracer_error(tracer), "not enough memory for soft shadows") != NULL,
+         "a sentence on a bound of one byte");
+  bounded.struct_size = offsetof(tenebra_options, soft_memory_bytes);
+  expect(tenebra_soft_visibility(tracer, geometry, &points, &area, &bounded, fraction, NULL) == TENEBRA_OK,
+         "no bound from a caller who does not know of it");
 
   float open[2];
   tenebra_options options = TENEBRA_OPTIONS_INIT;

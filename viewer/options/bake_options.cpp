@@ -75,6 +75,10 @@ void add_light_options(CLI::App& command, BakeOptions& options) {
       add_value(command, "--soft-error", render.soft.error_255, parse_soft_error,
                 "soft: the error aimed at, in 1/255 of white [0: exact]")
           .type_name("E"),
+      add_soft_memory(command, render.soft,
+                      "soft: memory for candidates and lists of them, in MB; a\n"
+                      "light that needs more ends with a message [half of\n"
+                      "--memory, else what the system has]"),
       add_value(command, "--ao-error", render.ao.error_255, parse_positive,
                 "The error of occlusion to aim at, RMS, in 1/255 [1]")
           .type_name("E"),

@@ -45,12 +45,6 @@ void add_light_shapes(CLI::App& command, MethodOptions& options) {
 }
 
 void add_soft_solvers(CLI::App& command, SoftShadowConfig& soft) {
-  const auto read_memory = [&soft](const std::string& text) -> Expected<void> {
-    const auto mb = parse_at_least_one(text);
-    if (!mb) return tl::unexpected(mb.error());
-    set_soft_memory(*mb, soft);
-    return {};
-  };
   set_group(
       {add_choice<solver_choices>(command, "--soft-solver", soft.solver,
                                   "How the visible part of a light is found: by the paper's\nlazy BSP, by "
@@ -58,12 +52,11 @@ void add_soft_solvers(CLI::App& command, SoftShadowConfig& soft) {
                                   "clipping; the picture is\nthe same [auto]"),
        add_choice<precision_choices>(command, "--soft-precision", soft.precision,
                                      "reference: double precision throughout [fast]"),
-       add_reader(command, "--soft-memory", read_memory,
-                  "Memory for soft shadows, in MB: BSPs, which may have any\n"
-                  "size within it, candidates, and lists of them; a frame\n"
-                  "that needs more ends with a message [what the system\n"
-                  "has, and 4 for a BSP]")
-           .type_name("MB")},
+       add_soft_memory(command, soft,
+                       "Memory for soft shadows, in MB: BSPs, which may have any\n"
+                       "size within it, candidates, and lists of them; a frame\n"
+                       "that needs more ends with a message [what the system\n"
+                       "has, and 4 for a BSP]")},
       soft_group);
 }
 
@@ -100,6 +93,16 @@ void add_soft_tracer_options(CLI::App& command, MethodOptions& options) {
       "[hard]");
   add_light_shapes(command, options);
   add_soft_solvers(command, options.render.soft);
+}
+
+AddedOption add_soft_memory(CLI::App& command, SoftShadowConfig& soft, const char* help) {
+  const auto read = [&soft](const std::string& text) -> Expected<void> {
+    const auto mb = parse_at_least_one(text);
+    if (!mb) return tl::unexpected(mb.error());
+    set_soft_memory(*mb, soft);
+    return {};
+  };
+  return add_reader(command, "--soft-memory", read, help).type_name("MB");
 }
 
 void set_soft_memory(int mb, SoftShadowConfig& soft) {

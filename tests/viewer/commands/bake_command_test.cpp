@@ -99,6 +99,9 @@ TEST(BakeCommand, FailsInOneSentence) {
   says({scene, "-o", out, "--frame", "301"}, "frames 0 to 300");
   says({scene, "-o", out, "--light", "4"}, "the scene has 1 lights");
   says({scene, "-o", out, "--ambient", "-1,0,0"}, "0 or more");
+  says({TENEBRA_SCENES_DIR "/court.glb", "-o", out, "--what", "light", "--shadows", "soft", "--light-size",
+        "1", "--soft-memory", "1"},
+       "not enough memory for soft shadows");
   says({write_dark_scene(folder), "-o", out}, "found no light");
   const std::string mapped = write_mapped_scene(folder);
   says({mapped, "-o", mapped}, "mapped.glb");
