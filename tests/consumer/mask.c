@@ -41,13 +41,17 @@ static void ask(tenebra_tracer* tracer, const tenebra_geometry* geometry) {
          "fractions");
   expect(fraction[0] == 1 && fraction[1] == 0, "all of the light at the left and none at the right");
 
+  const double below_its_edge[] = {0, 0, 0};
+  tenebra_points half = TENEBRA_POINTS_INIT;
+  half.count = 1, half.positions = below_its_edge, half.triangles = on;
   tenebra_options bounded = TENEBRA_OPTIONS_INIT;
   bounded.soft_memory_bytes = 1;
-  expect(tenebra_soft_visibility(tracer, geometry, &points, &area, &bounded, fraction, NULL) == TENEBRA_FAILED &&
+  expect(tenebra_soft_visibility(tracer, geometry, &half, &area, &bounded, fraction, NULL) == TENEBRA_FAILED &&
              strstr(tenebra_tracer_error(tracer), "not enough memory for soft shadows") != NULL,
          "a sentence on a bound of one byte");
   bounded.struct_size = offsetof(tenebra_options, soft_memory_bytes);
-  expect(tenebra_soft_visibility(tracer, geometry, &points, &area, &bounded, fraction, NULL) == TENEBRA_OK,
+  expect(tenebra_soft_visibility(tracer, geometry, &half, &area, &bounded, fraction, NULL) == TENEBRA_OK &&
+             fabs(fraction[0] - 0.5) < 1e-4,
          "no bound from a caller who does not know of it");
 
   float open[2];
