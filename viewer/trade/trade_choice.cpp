@@ -6,7 +6,9 @@ namespace tenebra::viewer {
 namespace {
 
 constexpr double finest_ao_error = 0.5;
-constexpr double error_slack = 1.1;
+/// The spread is that of a coarse setting; by how much another's may exceed it was measured: 1.08 at most on
+/// the views of tools/trade_views.txt.
+constexpr double error_slack = 1.2;
 
 }  // namespace
 

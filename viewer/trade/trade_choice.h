@@ -17,7 +17,7 @@ TradeAxes axes_of(const render::RenderSettings& settings, const TradeGiven& give
 /// tried, times the time spread, as those that were not may have more to draw. Milliseconds.
 double promised_ms(const TradeResult& result, const TradedSetting& setting);
 /// The error that frames which were not tried are expected to keep to: that of the worst of those that were,
-/// times the spread, and a tenth more. Levels of 255; 0 for what is the finest.
+/// times the spread, and a fifth more. Levels of 255; 0 for what is the finest.
 double promised_error(const TradeResult& result, const TradedSetting& setting);
 
 /// The most exact setting whose frame is expected to take no longer than the budget; null: none is.
