@@ -9,7 +9,7 @@ namespace {
 
 using glm::dvec3;
 
-double size_of(const dvec3& v) {
+double l1_norm(const dvec3& v) {
   return std::abs(v.x) + std::abs(v.y) + std::abs(v.z);
 }
 
@@ -21,7 +21,7 @@ void put(const dvec3& v, double to[4]) {
 
 RayRows::RayRows(const ViewRays& view, int width, int height) {
   put(view.d0, d0), put(view.dx, dx), put(view.dy, dy);
-  longest = size_of(view.d0) + (width + 4) * size_of(view.dx) + (height + 4) * size_of(view.dy);
+  longest = l1_norm(view.d0) + (width + 4) * l1_norm(view.dx) + (height + 4) * l1_norm(view.dy);
 }
 
 // p - a = (eye - a) + t d with t s = height, so s u = (du.(eye - a)) s + height du.d, and likewise v.
@@ -39,9 +39,9 @@ SeenPlane seen_plane(const Receiver& r, const PixelRays& rays, const RayRows& ro
   };
   values_of(rays.d0, plane.at0), values_of(rays.dx, plane.dx), values_of(rays.dy, plane.dy);
   for (int i = 0; i < 4; ++i) plane.half[i] = 1.5 * (std::abs(plane.dx[i]) + std::abs(plane.dy[i]));
-  plane.normal = size_of(r.normal) * rows.longest;
-  plane.distance = size_of(eye);
-  plane.weights = size_of(r.du) + size_of(r.dv);
+  plane.normal = l1_norm(r.normal) * rows.longest;
+  plane.distance = l1_norm(eye);
+  plane.weights = l1_norm(r.du) + l1_norm(r.dv);
   plane.height_reach = std::abs(plane.height) * rows.longest;
   return plane;
 }
@@ -49,7 +49,7 @@ SeenPlane seen_plane(const Receiver& r, const PixelRays& rays, const RayRows& ro
 SquareEye square_eye(const dvec3& eye, const glm::vec3& base) {
   SquareEye square{};
   put(eye - dvec3(base), square.from_base);
-  square.rounding = 0x1p-50 * (size_of(eye) + size_of(base));
+  square.rounding = 0x1p-50 * (l1_norm(eye) + l1_norm(base));
   return square;
 }
 
