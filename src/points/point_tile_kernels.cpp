@@ -4,6 +4,7 @@
 #define HWY_TARGET_INCLUDE "points/point_tile_kernels.cpp"
 #include <hwy/foreach_target.h>
 // After foreach_target.h
+#include "points/seen_plane-inl.h"
 #include "simd/demote16-inl.h"
 #include "simd/dispatch.h"
 #include "simd/double8-inl.h"
@@ -20,9 +21,6 @@ namespace tenebra::points::HWY_NAMESPACE {
 using namespace simd::HWY_NAMESPACE;
 
 namespace {
-
-using Double4 = Pack<double, 4>;
-using Vector16 = Pack3<Float16>;
 
 Vector16 points_of(const PointTile& tile) {
   return {load<Float16>(tile.qx), load<Float16>(tile.qy), load<Float16>(tile.qz)};
@@ -162,21 +160,29 @@ SIMD_INLINE void set_bounds(const Vector16& q, int place, PointSquare& square) {
   }
 }
 
-/// q of two halves; lanes that are not in `lanes` get that of the first that is.
-SIMD_INLINE void set_points(const Vector8& upper, const Vector8& lower, const glm::vec3& base,
-                            std::uint32_t lanes, PointTile& tile, int place, PointSquare& square) {
-  const Vector8 centre = broadcast8(glm::dvec3(base)), high = upper - centre, low = lower - centre;
-  Vector16 q{demoted(high.x, low.x), demoted(high.y, low.y), demoted(high.z, low.z)};
+SIMD_INLINE Vector16 select_points(std::uint32_t lanes, const Vector16& a, const Vector16& b) {
+  const Mask<float, 16> there = mask_of_bits<float, 16>(lanes);
+  return {select(there, a.x, b.x), select(there, a.y, b.y), select(there, a.z, b.z)};
+}
+
+/// Lanes that are not in `lanes` get the q of the first that is.
+SIMD_INLINE void store_points(Vector16 q, std::uint32_t lanes, PointTile& tile, int place,
+                              PointSquare& square) {
   store(q.x, tile.qx), store(q.y, tile.qy), store(q.z, tile.qz);
   if (lanes != 0xffffu) {
     const int first = std::countr_zero(lanes);
-    const Mask<float, 16> there = mask_of_bits<float, 16>(lanes);
-    q = {select(there, q.x, broadcast<Float16>(tile.qx[first])),
-         select(there, q.y, broadcast<Float16>(tile.qy[first])),
-         select(there, q.z, broadcast<Float16>(tile.qz[first]))};
+    q = select_points(lanes, q, broadcast3<Float16>(tile.qx[first], tile.qy[first], tile.qz[first]));
     store(q.x, tile.qx), store(q.y, tile.qy), store(q.z, tile.qz);
   }
   set_bounds(q, place, square);
+}
+
+/// q of two halves.
+SIMD_INLINE void set_points(const Vector8& upper, const Vector8& lower, const glm::vec3& base,
+                            std::uint32_t lanes, PointTile& tile, int place, PointSquare& square) {
+  const Vector8 centre = broadcast8(glm::dvec3(base)), high = upper - centre, low = lower - centre;
+  store_points({demoted(high.x, low.x), demoted(high.y, low.y), demoted(high.z, low.z)}, lanes, tile, place,
+               square);
 }
 
 void fill(const TilePoints& points, const glm::vec3& base, std::uint32_t lanes, PointTile& tile, int place,
@@ -194,6 +200,37 @@ bool see_whole(const Receiver* receivers, std::span<const ReceiverLanes> parts, 
   const Seen16 seen = see_tile(receivers, parts, rays, at);
   if ((lanes.all & ~(seen.inside() & ~lanes.flat)) != 0) return false;
   set_points(seen.upper.p, seen.lower.p, base, lanes.all, tile, place, square);
+  return true;
+}
+
+bool see_plane(const SeenPlane& plane, const RayRows& rows, const SquareEye& eye, glm::uvec2 at,
+               PointTile& tile, int place, PointSquare& square, PlaneError& error) {
+  const TileMiddle middle(rows, at);
+  const Crossing crossing(plane, eye, middle);
+  if (!crossing.good || !corners_inside(plane, middle, crossing)) return false;
+  const Vector16 q = QSteps(rows, eye, plane, middle, crossing, error).all(TileLanes());
+  store(q.x, tile.qx), store(q.y, tile.qy), store(q.z, tile.qz);
+  set_bounds(q, place, square);
+  return true;
+}
+
+bool see_planes(const SeenPlane* const* planes, std::span<const ReceiverLanes> parts, const RayRows& rows,
+                const SquareEye& eye, glm::uvec2 at, PointTile& tile, int place, PointSquare& square,
+                PlaneError& error) {
+  const TileMiddle middle(rows, at);
+  const TileLanes lanes;
+  PlaneError grown = error;
+  Vector16 q = broadcast3<Float16>(0.0f, 0.0f, 0.0f);
+  std::uint32_t all = 0;
+  for (const ReceiverLanes& part : parts) {
+    const SeenPlane& plane = **planes++;
+    const Crossing crossing(plane, eye, middle);
+    if (!crossing.good || (part.lanes & ~lanes_inside(plane, middle, crossing, lanes)) != 0) return false;
+    q = select_points(part.lanes, QSteps(rows, eye, plane, middle, crossing, grown).all(lanes), q);
+    all |= part.lanes;
+  }
+  error = grown;
+  store_points(q, all, tile, place, square);
   return true;
 }
 
@@ -218,7 +255,7 @@ std::uint32_t beyond_gap(const PointTile& tile, std::uint32_t lanes) {
 }  // namespace
 
 PointTileKernels point_tile_kernels() {
-  return {copy_ids, part_lanes, see_whole, see, take, fill, beyond_gap};
+  return {copy_ids, part_lanes, see_whole, see_plane, see_planes, see, take, fill, beyond_gap};
 }
 
 }  // namespace tenebra::points::HWY_NAMESPACE

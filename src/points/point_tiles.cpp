@@ -11,6 +11,7 @@
 #include "points/contact_rule.h"
 #include "points/point_tile_kernels.h"
 #include "points/receiver.h"
+#include "points/seen_plane.h"
 #include "points/smooth_surface.h"
 #include "points/triangle_corners.h"
 
@@ -21,6 +22,9 @@ namespace {
 using glm::dvec3;
 
 constexpr std::uint16_t no_receiver = 0xfffeu;  // none, or one edge-on to the eye or without area
+
+constexpr std::uint32_t no_plane = 0xffffffffu;
+constexpr std::size_t most_planes = 3;
 
 /// >= |q| of a square's points: the farthest corner of the box around all tiles. Floats' squares in double
 /// neither overflow nor vanish; what is rounded is far below 2^-20, or the least float.
@@ -44,6 +48,7 @@ public:
       : points_(points),
         from_view_(points.positions.empty()),
         rays_(points.view),
+        rows_(points.view, points.width, points.height),
         triangles_(triangles),
         out_(out),
         patch_(patch),
@@ -88,6 +93,9 @@ private:
   void find_receivers(std::uint32_t x, std::uint32_t y, Seen& seen);
   void see(const Seen& seen, glm::uvec2 at, TilePoints& points) const;
   bool lifts(const Seen& seen) const;
+  const SeenPlane& plane_of(std::uint16_t receiver);
+  bool see_in_float(const Seen& seen, glm::uvec2 at, const SquareEye& eye, PointTile& tile, int place,
+                    PointSquare& square, PlaneError& error);
   void lift(const Seen& seen, TilePoints& points) const;
   void note_owners(const Seen& seen, int place, PointSquare& square) const;
   void note_ids(const Seen& seen, PointTile& tile) const;
@@ -95,13 +103,16 @@ private:
   const VisiblePoints& points_;
   const bool from_view_;  ///< else from positions
   const PixelRays rays_;
+  const RayRows rows_;
   const TriangleView& triangles_;
   PointTiles& out_;
   PointPatch& patch_;
   const PointTileKernels kernels_;
   const std::uint32_t width_, height_;
-  std::vector<Receiver> receivers_;    // by their numbers; from_view only
-  std::vector<SmoothSurface> smooth_;  // likewise; with normals only
+  std::vector<Receiver> receivers_;           // by their numbers; from_view only
+  std::vector<SmoothSurface> smooth_;         // likewise; with normals only
+  std::vector<std::uint32_t> plane_numbers_;  // in planes_, of receivers, or no_plane yet; from_view only
+  std::vector<SeenPlane> planes_;             // all zero, which no ray meets, of a flat receiver
   Known last_;
   std::array<Known, 4096> known_{};  // of the triangles that pixels nearby lie on
 };
@@ -140,7 +151,7 @@ std::uint16_t PatchMaker::add_receiver(std::uint32_t id) {
   block.tau[i] = static_cast<float>(rounding_tolerance(c.v)) * (1 + 0x1p-22f) + 0x1p-149f;
   block.id[i] = id;
   block.side[i] = static_cast<std::int8_t>(side);
-  if (from_view_) receivers_.push_back(r);
+  if (from_view_) receivers_.push_back(r), plane_numbers_.push_back(no_plane);
   if (from_view_ && !triangles_.normals.empty())
     smooth_.push_back(smooth_surface(triangles_, id, points_.view));
   return static_cast<std::uint16_t>(number);
@@ -238,23 +249,54 @@ void PatchMaker::lift(const Seen& seen, TilePoints& points) const {
   }
 }
 
+const SeenPlane& PatchMaker::plane_of(std::uint16_t receiver) {
+  std::uint32_t& number = plane_numbers_[receiver];
+  if (number == no_plane) {
+    number = static_cast<std::uint32_t>(planes_.size());
+    const Receiver& r = receivers_[receiver];
+    planes_.push_back(r.flat ? SeenPlane{} : seen_plane(r, rays_, rows_));
+  }
+  return planes_[number];
+}
+
+/// Makes a tile from a perspective view, if floats can. Planes of triangles that share each tile with many
+/// others would cost more than they save.
+bool PatchMaker::see_in_float(const Seen& seen, glm::uvec2 at, const SquareEye& eye, PointTile& tile,
+                              int place, PointSquare& square, PlaneError& error) {
+  if (rays_.orthographic || seen.count > most_planes) return false;
+  if (seen.parts[0].lanes == 0xffffu) {
+    const SeenPlane& plane = plane_of(seen.parts[0].receiver);
+    return kernels_.see_plane(plane, rows_, eye, at, tile, place, square, error);
+  }
+  const SeenPlane* planes[most_planes];
+  for (std::size_t i = 0; i < seen.count; ++i) plane_of(seen.parts[i].receiver);  // may move the others
+  for (std::size_t i = 0; i < seen.count; ++i) planes[i] = &plane_of(seen.parts[i].receiver);
+  return kernels_.see_planes(planes, seen.receivers(), rows_, eye, at, tile, place, square, error);
+}
+
 void PatchMaker::add_square(std::uint32_t x, std::uint32_t y, std::uint32_t first) {
   PointSquare& square = patch_.squares.emplace_back();
   square.first_tile = first;
   glm::vec3 base(0.0f);
   Seen seen;
   TilePoints points;
+  SquareEye eye{};
+  PlaneError error;
   for (std::uint32_t t = 0; t < 16; ++t) {
     const std::uint32_t tile_x = x + t % 4 * tile_side, tile_y = y + t / 4 * tile_side;
     const int place = static_cast<int>(t);
     PointTile& tile = out_.tiles[first + t];
     find_receivers(tile_x, tile_y, seen);
     if (seen.lanes == 0) continue;
+    const glm::uvec2 at(tile_x, tile_y);
     if (!from_view_ || square.filled == 0 || lifts(seen) ||
-        !kernels_.see_whole(receivers_.data(), seen.receivers(), rays_, {tile_x, tile_y}, base, tile, place,
-                            square)) {
-      see(seen, {tile_x, tile_y}, points);
-      if (square.filled == 0) base = points.at(std::countr_zero(seen.lanes));
+        !(see_in_float(seen, at, eye, tile, place, square, error) ||
+          kernels_.see_whole(receivers_.data(), seen.receivers(), rays_, at, base, tile, place, square))) {
+      see(seen, at, points);
+      if (square.filled == 0) {
+        base = points.at(std::countr_zero(seen.lanes));
+        eye = square_eye(rays_.eye, base);
+      }
       kernels_.fill(points, base, seen.lanes, tile, place, square);
     }
     square.filled |= 1u << t;
@@ -270,6 +312,7 @@ void PatchMaker::add_square(std::uint32_t x, std::uint32_t y, std::uint32_t firs
   // instead. Not NaN, of which max would take the finite operand.
   const bool finite = std::isfinite(base.x) && std::isfinite(base.y) && std::isfinite(base.z);
   square.base.radius = finite ? radius_of(square) : std::numeric_limits<float>::infinity();
+  square.base.grain = grain_of(square.base.radius, error);
   for (int k = 0; k < 3; ++k) square.base.at[k] = base[k];
   out_.bases[first / 16] = square.base;
 }

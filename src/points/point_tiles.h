@@ -25,10 +25,11 @@ inline constexpr std::uint16_t several_receivers = 0xffffu;  ///< no index of a 
 struct PointBase {
   float at[3];   ///< exact
   float radius;  ///< >= |q| of all points of the square
+  float grain;   ///< no q is off by more than 2^-24 of it; >= radius
 };
 
-/// Sixteen pixels, four rows of four. The point of lane i is base + q_i, q rounded to float. Lanes that see
-/// nothing, or a triangle edge-on, hold the q of another.
+/// Sixteen pixels, four rows of four. The point of lane i is base + q_i, q as close as PointBase::grain says.
+/// Lanes that see nothing, or a triangle edge-on, hold the q of another.
 struct alignas(64) PointTile {
   float qx[tile_points], qy[tile_points], qz[tile_points];
   std::uint32_t id[tile_points];  ///< where the square's receiver is several: of the triangle that the point
@@ -116,7 +117,8 @@ private:
 /// Makes room for the tiles of a picture; patches are then made one by one, in any order.
 void begin_point_tiles(int width, int height, const ViewRays& view, PointTiles& out);
 /// Makes patch `patch` (row of squares * row_patches + part of the row) of points whose ids are known, from
-/// their positions or, where these are missing, from their view: the same bits both ways.
+/// their positions or, where these are missing, from their view. Both ways give the same but for q, which
+/// positions give rounded and views a little less close, and what bounds q.
 void make_point_patch(const VisiblePoints& points, const TriangleView& triangles, std::uint32_t patch,
                       PointTiles& out);
 /// Makes the tiles of a whole picture. `view`: the eye that saw the points.

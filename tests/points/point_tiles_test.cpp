@@ -208,6 +208,47 @@ bool same_tiles(const points::PointTiles& a, const points::PointTiles& b) {
   return equal;
 }
 
+/// What is said of tiles made from a view: q as close to the positions `at` as the grain says, all else as in
+/// tiles made from positions. Returns how many squares are less close than rounded ones.
+std::size_t check_seen_tiles(const points::PointTiles& seen, const points::PointTiles& rounded,
+                             const VisiblePoints& at) {
+  const points::TilePixels pixel_of(at.width, at.height);
+  std::size_t coarse = 0;
+  EXPECT_EQ(seen.patches.size(), rounded.patches.size());
+  for (std::size_t i = 0; i < seen.patches.size(); ++i) {
+    const points::PointPatch &a = seen.patches[i], &b = rounded.patches[i];
+    EXPECT_EQ(a.receiver_count, b.receiver_count);
+    EXPECT_EQ(a.mixed, b.mixed);
+    EXPECT_EQ(a.squares.size(), b.squares.size());
+    for (std::size_t s = 0; s < a.squares.size(); ++s) {
+      const points::PointSquare &one = a.squares[s], &two = b.squares[s];
+      EXPECT_EQ(one.filled, two.filled);
+      EXPECT_EQ(one.gaps, two.gaps);
+      EXPECT_EQ(one.tau, two.tau);
+      EXPECT_EQ(std::memcmp(one.base.at, two.base.at, sizeof one.base.at), 0);
+      EXPECT_GE(one.base.grain, one.base.radius);
+      coarse += one.base.grain > one.base.radius ? 1 : 0;
+      for (std::uint32_t left = one.filled; left != 0; left &= left - 1) {
+        const int t = std::countr_zero(left);
+        EXPECT_EQ(one.own[t], two.own[t]);
+        EXPECT_EQ(one.receiver[t], two.receiver[t]);
+        EXPECT_EQ(one.lanes[t], two.lanes[t]);
+        const std::uint32_t number = one.first_tile + static_cast<std::uint32_t>(t);
+        const points::PointTile& tile = seen.tiles[number];
+        for (std::uint32_t lanes = one.lanes[t]; lanes != 0; lanes &= lanes - 1) {
+          const int lane = std::countr_zero(lanes);
+          const glm::dvec3 q(tile.qx[lane], tile.qy[lane], tile.qz[lane]);
+          const glm::dvec3 exact = at.positions[pixel_of(number, lane)] -
+                                   glm::dvec3(one.base.at[0], one.base.at[1], one.base.at[2]);
+          EXPECT_LE(glm::length(q - exact), u * static_cast<double>(one.base.grain) + 1e-40);
+          EXPECT_LE(glm::length(q), static_cast<double>(one.base.radius));
+        }
+      }
+    }
+  }
+  return coarse;
+}
+
 TEST(PointTiles, AreTheSameForAllThreads) {
   const TiledCase c = tiled_room(35, 130, 70);
   points::PointTiles again;
@@ -215,9 +256,11 @@ TEST(PointTiles, AreTheSameForAllThreads) {
   EXPECT_TRUE(same_tiles(again, *c.points.tiles));
 }
 
-// From ids and a view, without positions in between: the same bits, also where a rasteriser's id is that of a
-// triangle which the ray just misses, or which has no area.
+// From ids and a view, without positions in between: the same points, also where a rasteriser's id is that of
+// a triangle which the ray just misses, or which has no area; from the eye of a perspective view partly in
+// float.
 TEST(PointTiles, AreTheSameWithoutPositions) {
+  std::size_t coarse = 0;
   for (int scene = 0; scene < 24; ++scene) {
     const double scale = scene % 4 == 1 ? 1e-12 : scene % 4 == 2 ? 1e9 : 1;
     const int width = scene % 5 == 0 ? 1040 : 61 + scene, height = 37 - scene;
@@ -236,8 +279,12 @@ TEST(PointTiles, AreTheSameWithoutPositions) {
     compute_visible_points(ids, width, height, c.view, c.soup.view(), whole, PointLayout::rows_and_tiles);
     compute_visible_points(ids, width, height, c.view, c.soup.view(), bare, PointLayout::tiles);
     EXPECT_EQ(bare.triangles, whole.triangles);
-    EXPECT_TRUE(same_tiles(*bare.tiles, *whole.tiles)) << scene;
+    coarse += check_seen_tiles(*bare.tiles, *whole.tiles, whole);
+    if (c.view.orthographic) {
+      EXPECT_TRUE(same_tiles(*bare.tiles, *whole.tiles)) << scene;
+    }
   }
+  EXPECT_GT(coarse, 100u);
 }
 
 TEST(PointTiles, SeeTheSameWithAllInstructionSets) {

@@ -172,7 +172,7 @@ SIMD_INLINE TileRange tile_range(const points::PointSquare& square, const Distan
   const int axis = f.axes[k];
   const auto base =
       static_cast<float>(static_cast<double>(square.base.at[axis]) - static_cast<double>(f.origin[axis]));
-  const float size = std::abs(base) + square.base.radius;
+  const float size = std::abs(base) + square.base.grain;
   const Float16 centre = broadcast<Float16>(base), margin = broadcast<Float16>(5 * u * size);
   const DistantRange r{centre + load<Float16>(square.low[axis]) - margin,
                        centre + load<Float16>(square.high[axis]) + margin};

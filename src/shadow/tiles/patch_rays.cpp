@@ -205,14 +205,15 @@ std::uint32_t PatchRays::lanes_beyond(std::uint32_t lanes, std::uint32_t tile) c
 Reach PatchRays::reach_of(const points::PointSquare& square) const {
   if (!bounded_) return Reach::all;
   const dvec3 base(square.base.at[0], square.base.at[1], square.base.at[2]);
-  return reach_of_ball(base - dvec3(light_.position), square.base.radius, light_);
+  const double radius = double{square.base.radius} + 0x1p-23 * double{square.base.grain};
+  return reach_of_ball(base - dvec3(light_.position), radius, light_);
 }
 
 std::uint32_t PatchRays::in_reach_lanes(const points::PointSquare& square, int t, std::uint32_t lanes) const {
   const dvec3 extent(square.high[0][t] - square.low[0][t], square.high[1][t] - square.low[1][t],
                      square.high[2][t] - square.low[2][t]);
-  // Half of the diagonal, and the roundings of q, which the square's radius bounds.
-  const double radius = 0.5 * glm::length(extent) + 0x1p-20 * double{square.base.radius};
+  // Half of the diagonal, and what q is off, which the square's grain bounds.
+  const double radius = 0.5 * glm::length(extent) + 0x1p-20 * double{square.base.grain};
   const dvec3 centre = centre_of(square, t) + (source_.origin - dvec3(light_.position));
   const Reach reach = reach_of_ball(centre, radius, light_);
   if (reach != Reach::some) return reach == Reach::all ? lanes : 0;

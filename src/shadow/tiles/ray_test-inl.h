@@ -19,7 +19,7 @@ namespace tenebra::shadow::HWY_NAMESPACE {
 using namespace simd::HWY_NAMESPACE;
 
 /// The points of a tile relative to the source's origin, in float. The base is rounded, q is, and so is their
-/// sum: each coordinate is off by at most 3u (|base| + radius), the point by 3u reach.
+/// sum: each coordinate is off by at most 3u (|base| + grain), the point by 3u reach.
 struct RoughRays {
   Pack3<Float16> p;
   float reach;  ///< >= |p|, and large enough for the bound above
@@ -32,7 +32,7 @@ SIMD_INLINE RoughRays rough_rays(const points::PointTile& tile, const points::Po
   return {{broadcast<Float16>(base[0]) + load<Float16>(tile.qx),
            broadcast<Float16>(base[1]) + load<Float16>(tile.qy),
            broadcast<Float16>(base[2]) + load<Float16>(tile.qz)},
-          std::abs(base[0]) + std::abs(base[1]) + std::abs(base[2]) + 2 * from.radius};
+          std::abs(base[0]) + std::abs(base[1]) + std::abs(base[2]) + 2 * from.grain};
 }
 
 /// Lanes of a tile.
@@ -86,9 +86,9 @@ struct Aim {
   float edges_sure, own_sure;  ///< K of the float filter
 };
 
-// With r >= |q| a sum in floats is off by at most K = 10.1 u r + rho (R + reach), or cannot have the wrong
-// sign at all (|e0| > 2r); R <= |base| + r, by coordinates. An edge that points nearly at the light has a
-// large rho: the own plane, which then is what tells, has its own K.
+// With r >= |q| (the grain, 2^-24 of which q is off) a sum in floats is off by at most K = 10.1 u r + rho (R
+// + reach), or cannot have the wrong sign at all (|e0| > 2r); R <= |base| + r, by coordinates. An edge that
+// points nearly at the light has a large rho: the own plane, which then is what tells, has its own K.
 SIMD_INLINE Aim aim_at(const LeafTriangle& t, const points::PointBase& from, const glm::dvec3& origin) {
   using Double4 = Pack<double, 4>;
   double base[3];
@@ -98,9 +98,9 @@ SIMD_INLINE Aim aim_at(const LeafTriangle& t, const points::PointBase& from, con
   Aim aim;
   store(demoted(mul_add(load<Double4>(t.mz), broadcast<Double4>(base[2]), e)), aim.e0);
   const auto reach =
-      static_cast<float>(std::abs(base[0]) + std::abs(base[1]) + std::abs(base[2])) + from.radius;
+      static_cast<float>(std::abs(base[0]) + std::abs(base[1]) + std::abs(base[2])) + from.grain;
   const auto sure = [&](float rho) {
-    return (10.1f * u * from.radius + rho * (reach + t.reach)) * (1 + 32 * u) + 0x1p-122f;
+    return (10.1f * u * from.grain + rho * (reach + t.reach)) * (1 + 32 * u) + 0x1p-122f;
   };
   aim.edges_sure = sure(t.rho), aim.own_sure = sure(t.own_rho);
   return aim;

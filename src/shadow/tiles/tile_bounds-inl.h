@@ -17,7 +17,7 @@ namespace tenebra::shadow::HWY_NAMESPACE {
 using namespace simd::HWY_NAMESPACE;
 
 /// Box on a face of some lanes (not 0) of a tile, widened; false if a point is off the face. The base
-/// relative to the light is rounded by u, as q is and as their sum is: 3u (|base| + radius), 5u with the
+/// relative to the light is rounded by u, as q is and as their sum is: 3u (|base| + grain), 5u with the
 /// roundings here; so the quotient is off by (margin + face_limit margin of z) / z, by 6u for its own
 /// roundings and by 16u for those of the boxes of triangles.
 SIMD_INLINE bool bound(const points::PointTile& tile, const points::PointBase& from, std::uint32_t lanes,
@@ -31,7 +31,7 @@ SIMD_INLINE bool bound(const points::PointTile& tile, const points::PointBase& f
   for (int k = 0; k < 3; ++k) {
     const int axis = (face / 2 + 1 + k) % 3;
     const auto base = static_cast<float>(static_cast<double>(from.at[axis]) - light[axis]);
-    margins[k] = 5 * u * ((base < 0 ? -base : base) + from.radius);
+    margins[k] = 5 * u * ((base < 0 ? -base : base) + from.grain);
     p[k] =
         broadcast<Float16>(base) + select(there, load<Float16>(q[axis]), broadcast<Float16>(q[axis][first]));
   }
@@ -47,7 +47,7 @@ SIMD_INLINE bool bound(const points::PointTile& tile, const points::PointBase& f
   return box.u0 >= -face_limit && box.u1 <= face_limit && box.v0 >= -face_limit && box.v1 <= face_limit;
 }
 
-/// The same on the distant face, which holds all points. Their coordinates are off by 3u (|base| + radius).
+/// The same on the distant face, which holds all points. Their coordinates are off by 3u (|base| + grain).
 SIMD_INLINE void bound(const points::PointTile& tile, const points::PointBase& from, std::uint32_t lanes,
                        const DistantFace& f, FaceBox& box) {
   const float* const q[3] = {tile.qx, tile.qy, tile.qz};
@@ -59,7 +59,7 @@ SIMD_INLINE void bound(const points::PointTile& tile, const points::PointBase& f
     const int axis = f.axes[k];
     const auto base =
         static_cast<float>(static_cast<double>(from.at[axis]) - static_cast<double>(f.origin[axis]));
-    size[k] = std::abs(base) + from.radius;
+    size[k] = std::abs(base) + from.grain;
     p[k] =
         broadcast<Float16>(base) + select(there, load<Float16>(q[axis]), broadcast<Float16>(q[axis][first]));
   }

@@ -39,14 +39,14 @@ Facing facing(const points::ReceiverBlock& r, const FacingLight& light) {
 }
 
 /// Bounds of a coordinate of the points relative to the light. The base relative to it is rounded by u, as q
-/// is and as their sum is: 3u (|base| + radius) and, with the roundings here, 5u.
+/// is and as their sum is: 3u (|base| + grain) and, with the roundings here, 5u.
 struct Range {
   Float16 low, high;
 };
 SIMD_INLINE Range range_of(const points::PointSquare& square, const glm::dvec3& light, int axis) {
   const auto base = static_cast<float>(static_cast<double>(square.base.at[axis]) - light[axis]);
   const Float16 centre = broadcast<Float16>(base),
-                margin = broadcast<Float16>(5 * u * ((base < 0 ? -base : base) + square.base.radius));
+                margin = broadcast<Float16>(5 * u * ((base < 0 ? -base : base) + square.base.grain));
   return {centre + load<Float16>(square.low[axis]) - margin,
           centre + load<Float16>(square.high[axis]) + margin};
 }
