@@ -26,6 +26,9 @@ struct PointBase {
   float at[3];   ///< exact
   float radius;  ///< >= |q| of all points of the square
   float grain;   ///< no q is off by more than 2^-24 of it; >= radius
+
+  /// >= how far the points themselves are from the base.
+  double reach() const { return double{radius} + 0x1p-23 * double{grain}; }
 };
 
 /// Sixteen pixels, four rows of four. The point of lane i is base + q_i, q as close as PointBase::grain says.

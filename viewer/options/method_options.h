@@ -47,6 +47,7 @@ void add_soft_tracer_options(CLI::App& command, MethodOptions& options);
 constexpr std::size_t bytes_of_mb(int mb) {
   return static_cast<std::size_t>(mb) << 20;
 }
+/// Adds --soft-memory to `command`, which sets soft as set_soft_memory() does.
 AddedOption add_soft_memory(CLI::App& command, SoftShadowConfig& soft, const char* help);
 
 /// --soft-memory: that much for soft shadows, and BSPs of any size within it.

@@ -6,8 +6,8 @@ namespace tenebra::viewer {
 namespace {
 
 constexpr double finest_ao_error = 0.5;
-/// The spread is that of a coarse setting; by how much another's may exceed it was measured: 1.08 at most on
-/// the views of tools/trade_views.txt.
+/// The spread is that of a coarse setting; by how much errors of others exceeded it was measured: 1.19 times
+/// at most on the views of tools/trade_views.txt.
 constexpr double error_slack = 1.2;
 
 }  // namespace

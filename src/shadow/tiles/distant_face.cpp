@@ -22,9 +22,8 @@ Bounds bounds_of(const points::PointTiles& tiles) {
   for (const points::PointPatch& patch : tiles.patches) {
     for (const points::PointSquare& square : patch.squares) {
       const dvec3 at(square.base.at[0], square.base.at[1], square.base.at[2]);
-      const double radius = double{square.base.radius} + 0x1p-23 * double{square.base.grain};
-      b.low = glm::min(b.low, at - radius);
-      b.high = glm::max(b.high, at + radius);
+      b.low = glm::min(b.low, at - square.base.reach());
+      b.high = glm::max(b.high, at + square.base.reach());
     }
   }
   return b;

@@ -205,8 +205,7 @@ std::uint32_t PatchRays::lanes_beyond(std::uint32_t lanes, std::uint32_t tile) c
 Reach PatchRays::reach_of(const points::PointSquare& square) const {
   if (!bounded_) return Reach::all;
   const dvec3 base(square.base.at[0], square.base.at[1], square.base.at[2]);
-  const double radius = double{square.base.radius} + 0x1p-23 * double{square.base.grain};
-  return reach_of_ball(base - dvec3(light_.position), radius, light_);
+  return reach_of_ball(base - dvec3(light_.position), square.base.reach(), light_);
 }
 
 std::uint32_t PatchRays::in_reach_lanes(const points::PointSquare& square, int t, std::uint32_t lanes) const {

@@ -81,8 +81,7 @@ TEST(TradeChoice, CountsWhatFramesThatWereNotTriedHaveToDraw) {
       << "of five frames the one in the middle counts";
   result.spread = 1.5, result.time_spread = 2;
   EXPECT_EQ(viewer::promised_ms(result, result.measured[1]), 42);
-  EXPECT_DOUBLE_EQ(viewer::promised_error(result, result.measured[0]), 9)
-      << "in frames that were not tried";
+  EXPECT_DOUBLE_EQ(viewer::promised_error(result, result.measured[0]), 9) << "in frames that were not tried";
   EXPECT_DOUBLE_EQ(viewer::promised_error(result, result.measured[1]), 1.8);
   EXPECT_EQ(viewer::promised_error(result, result.measured[2]), 0);
   EXPECT_EQ(viewer::within_budget(result, 19), nullptr);
