@@ -73,9 +73,10 @@ TEST(BenchProgram, HardEndsWithItsFiguresWhereScenesAreMissing) {
     EXPECT_TRUE(std::isnan(figure(result.output, name, found))) << name;
     EXPECT_TRUE(found) << name;
   }
-  for (const char* name : {"hard.whole_moved_geomean", "hard.whole_moved_worst", "hard.whole_static_geomean",
-                           "hard.whole_static_worst", "hard.whole_first_moved_worst",
-                           "hard.whole_first_static_worst", "hard.sun_geomean", "hard.sun_worst"}) {
+  for (const char* name :
+       {"hard.whole_moved_geomean", "hard.whole_moved_worst", "hard.whole_static_geomean",
+        "hard.whole_static_worst", "hard.whole_first_moved_worst", "hard.whole_first_static_worst",
+        "hard.sun_geomean", "hard.sun_worst", "hard.cut_moved_geomean", "hard.cut_moved_worst"}) {
     EXPECT_GT(figure(result.output, name, found), 0) << "city counts: " << name;
     EXPECT_TRUE(found) << name;
   }

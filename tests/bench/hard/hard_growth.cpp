@@ -3,7 +3,6 @@
 #include <fmt/core.h>
 #include <cmath>
 
-#include "bench/common/bench_embree.h"
 #include "bench/common/bench_plot.h"
 #include "bench/hard/hard_contest.h"
 #include "bench/hard/hard_session.h"
@@ -11,32 +10,6 @@
 
 namespace tenebra::bench {
 namespace {
-
-/// Each triangle by the middles of its edges in four, in place; triangle i becomes 4 i ... 4 i + 3. Corners
-/// stay where they are; middles are rounded to float.
-void subdivide(FrameGeometry& g) {
-  std::vector<glm::uvec3> triangles;
-  std::vector<std::uint8_t> casts;
-  triangles.reserve(4 * g.triangles.size());
-  for (std::size_t i = 0; i < g.triangles.size(); ++i) {
-    const glm::uvec3 t = g.triangles[i];
-    glm::uvec3 middle;
-    for (int k = 0; k < 3; ++k) {
-      middle[k] = static_cast<std::uint32_t>(g.positions.size());
-      const glm::vec3 a = g.positions[t[k]], b = g.positions[t[(k + 1) % 3]];
-      g.positions.push_back(0.5f * a + 0.5f * b);
-    }
-    triangles.push_back({t.x, middle.x, middle.z});
-    triangles.push_back({middle.x, t.y, middle.y});
-    triangles.push_back({middle.z, middle.y, t.z});
-    triangles.push_back({middle.x, middle.y, middle.z});
-    casts.insert(casts.end(), 4, g.casts_shadow[i]);
-  }
-  g.triangles = std::move(triangles);
-  g.casts_shadow = std::move(casts);
-  for (std::uint32_t& part : g.parts) part *= 4;
-  g.normals.clear();
-}
 
 /// `count` copies in a square, a box's width and depth apart; the first stays in its place.
 FrameGeometry copies(const FrameGeometry& one, const glm::vec3& size, std::size_t count) {
@@ -62,14 +35,6 @@ struct Extent {
   }
   glm::vec3 size() const { return high - low; }
 };
-
-/// The view with other triangles: what its pixels see is found anew.
-void retarget(HardView& view, PictureSize size) {
-  BenchFrame& f = view.frame;
-  const auto ids = nearest_triangles(f.triangles(), f.view, size.width, size.height);
-  compute_visible_points(ids, size.width, size.height, f.view, f.triangles(), f.points,
-                         PointLayout::rows_and_tiles);
-}
 
 /// One series: a row for each contest, and two curves.
 struct Series {
@@ -125,7 +90,7 @@ Expected<void> grow_triangles(HardSession& session) {
                             [&](const Scene&, const HardView& first) -> Expected<void> {
                               HardView view = first;
                               for (int step = 0; step <= steps; ++step) {
-                                if (step > 0) subdivide(view.frame.geometry), retarget(view, session.size());
+                                if (step > 0) subdivide(view.frame.geometry), see_anew(view, session.size());
                                 view.name = fmt::format("kitchen 100 x{}", 1 << (2 * step));
                                 const double count =
                                     static_cast<double>(view.frame.geometry.triangles.size());
@@ -163,7 +128,7 @@ Expected<void> grow_copies(HardSession& session) {
         view.frame.view = view_of_all(all, session.size());
         view.light = {};
         view.light.position = 0.5f * (all.low + all.high) + glm::vec3(0.3f, 1.0f, 0.2f) * all.size();
-        retarget(view, session.size());
+        see_anew(view, session.size());
         view.before = {};
         view.name += ", all in view";
         series.run(view, triangles);

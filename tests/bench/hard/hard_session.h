@@ -15,6 +15,7 @@ struct HardHeadline {
   std::optional<double> whole_moved_geomean, whole_moved_worst, whole_static_geomean, whole_static_worst;
   std::optional<double> first_moved_geomean, first_moved_worst, first_static_geomean, first_static_worst;
   std::optional<double> sun_geomean, sun_worst;
+  std::optional<double> cut_moved_geomean, cut_moved_worst;
 };
 
 struct HardSession : BenchSession {
@@ -33,6 +34,7 @@ struct HardSession : BenchSession {
 Expected<void> measure_hard_frames(HardSession& session);  ///< the frames, against Embree
 Expected<void> measure_hard_whole(HardSession& session);   ///< from ids to masks, against all that Embree has
 Expected<void> measure_hard_sun(HardSession& session);     ///< the same with directional lights
+Expected<void> measure_hard_cut(HardSession& session);     ///< as whole, of triangles cut up in place
 Expected<void> measure_hard_growth(HardSession& session);  ///< resolution, triangles, copies
 Expected<void> measure_hard_variance(HardSession& session);  ///< over a whole animation
 

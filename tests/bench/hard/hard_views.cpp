@@ -2,6 +2,7 @@
 
 #include <fmt/core.h>
 
+#include "bench/common/bench_embree.h"
 #include "bench/common/bench_report.h"
 #include "bench/common/bench_scenes.h"
 #include "points/point_tiles.h"
@@ -54,6 +55,37 @@ Expected<void> for_each_view(const BenchOptions& options, const std::vector<Hard
     }
   }
   return {};
+}
+
+void subdivide(FrameGeometry& g) {
+  std::vector<glm::uvec3> triangles;
+  std::vector<std::uint8_t> casts;
+  triangles.reserve(4 * g.triangles.size());
+  for (std::size_t i = 0; i < g.triangles.size(); ++i) {
+    const glm::uvec3 t = g.triangles[i];
+    glm::uvec3 middle;
+    for (int k = 0; k < 3; ++k) {
+      middle[k] = static_cast<std::uint32_t>(g.positions.size());
+      const glm::vec3 a = g.positions[t[k]], b = g.positions[t[(k + 1) % 3]];
+      g.positions.push_back(0.5f * a + 0.5f * b);
+    }
+    triangles.push_back({t.x, middle.x, middle.z});
+    triangles.push_back({middle.x, t.y, middle.y});
+    triangles.push_back({middle.z, middle.y, t.z});
+    triangles.push_back({middle.x, middle.y, middle.z});
+    casts.insert(casts.end(), 4, g.casts_shadow[i]);
+  }
+  g.triangles = std::move(triangles);
+  g.casts_shadow = std::move(casts);
+  for (std::uint32_t& part : g.parts) part *= 4;
+  g.normals.clear();
+}
+
+void see_anew(HardView& view, PictureSize size) {
+  BenchFrame& f = view.frame;
+  const auto ids = nearest_triangles(f.triangles(), f.view, size.width, size.height);
+  compute_visible_points(ids, size.width, size.height, f.view, f.triangles(), f.points,
+                         PointLayout::rows_and_tiles);
 }
 
 }  // namespace tenebra::bench

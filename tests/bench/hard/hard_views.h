@@ -42,4 +42,10 @@ Expected<void> for_each_view(const BenchOptions& options, const std::vector<Hard
 /// Frame `number` of `scene`, its first light.
 void evaluate_hard_view(const Scene& scene, int number, PictureSize size, HardView& view);
 
+/// Each triangle by the middles of its edges in four, in place; triangle i becomes 4 i ... 4 i + 3. Corners
+/// stay where they are; middles are rounded to float.
+void subdivide(FrameGeometry& g);
+/// The view with other triangles: what its pixels see is found anew.
+void see_anew(HardView& view, PictureSize size);
+
 }  // namespace tenebra::bench

@@ -26,6 +26,16 @@ std::vector<HardFrames> whole_frames(Effort effort) {
           {"city", {30, 150, 250}}};
 }
 
+/// A scene's triangles by the middles of their edges in four, `times` times.
+struct CutFrames {
+  HardFrames frames;
+  int times;
+};
+std::vector<CutFrames> cut_frames(Effort effort) {
+  if (effort == Effort::tiny) return {{{"city", {150}}, 1}};
+  return {{{"robots", {100, 160, 400, 640}}, 2}, {{"city", {30, 150, 250}}, 1}};
+}
+
 /// The lights that a frame is drawn with, those with a place or those from a direction.
 std::vector<ShadowLight> lights_of(const Scene& scene, const HardView& view, bool directional) {
   render::FrameInput input;
@@ -105,6 +115,8 @@ public:
 
   /// All frames with their lights; frames without such a light are passed over.
   Expected<void> measure(bool directional);
+  /// All frames with their triangles cut up, with the lights that have a place.
+  Expected<void> measure_cut();
 
   WholeRatios all;    ///< with all lights of the frames
   WholeRatios first;  ///< with the first of them alone
@@ -154,6 +166,23 @@ Expected<void> Measurement::measure(bool directional) {
   return done;
 }
 
+Expected<void> Measurement::measure_cut() {
+  for (const CutFrames& cut : cut_frames(session_.effort)) {
+    const auto body = [&](const Scene& scene, const HardView& whole) -> Expected<void> {
+      HardView view = whole;
+      for (int i = 0; i < cut.times; ++i) subdivide(view.before), subdivide(view.frame.geometry);
+      see_anew(view, session_.size());
+      view.name = fmt::format("{} x{}", whole.name, 1 << (2 * cut.times));
+      one(scene, view, false);
+      return {};
+    };
+    auto done = for_each_view(session_.options, {cut.frames}, session_.size(), session_.skipped, body);
+    if (!done) return done;
+  }
+  if (!all.moved.empty()) conclude();
+  return {};
+}
+
 void Measurement::conclude() const {
   print_table(fmt::format("{}: from ids to the masks of all lights, medians in ms", experiment_), table_);
   for (const auto& [name, ratios] : {std::pair{"all lights", all}, std::pair{"first light alone", first}}) {
@@ -187,6 +216,15 @@ Expected<void> measure_hard_sun(HardSession& session) {
   if (!done || sun.all.moved.empty()) return done;
   session.headline.sun_geomean = geometric_mean(sun.all.both());
   session.headline.sun_worst = worst(sun.all.both());
+  return {};
+}
+
+Expected<void> measure_hard_cut(HardSession& session) {
+  Measurement cut(session, "cut");
+  auto done = cut.measure_cut();
+  if (!done || cut.all.moved.empty()) return done;
+  session.headline.cut_moved_geomean = geometric_mean(cut.all.moved);
+  session.headline.cut_moved_worst = worst(cut.all.moved);
   return {};
 }
 
