@@ -14,6 +14,7 @@
 #include "points/seen_plane.h"
 #include "points/smooth_surface.h"
 #include "points/triangle_corners.h"
+#include "simd/prefetch.h"
 
 namespace tenebra::points {
 
@@ -25,6 +26,7 @@ constexpr std::uint16_t no_receiver = 0xfffeu;  // none, or one edge-on to the e
 
 constexpr std::uint32_t no_plane = 0xffffffffu;
 constexpr std::size_t most_planes = 3;
+constexpr std::uint32_t many_receivers = 8;
 
 /// >= |q| of a square's points: the farthest corner of the box around all tiles. Floats' squares in double
 /// neither overflow nor vanish; what is rounded is far below 2^-20, or the least float.
@@ -60,6 +62,10 @@ public:
     patch_.receiver_count = 0;
   }
 
+  /// Where the last square added many receivers, asks memory for the corners of those of the square with its
+  /// first pixel at (x, y), of every other pixel of every other row: random reads, which take longer than the
+  /// work that follows.
+  void prefetch_corners(std::uint32_t x, std::uint32_t y);
   /// The square with its first pixel at (x, y), whose tiles are numbered from `first`.
   void add_square(std::uint32_t x, std::uint32_t y, std::uint32_t first);
 
@@ -109,6 +115,7 @@ private:
   PointPatch& patch_;
   const PointTileKernels kernels_;
   const std::uint32_t width_, height_;
+  std::uint32_t receivers_before_ = 0;        // when the last square began
   std::vector<Receiver> receivers_;           // by their numbers; from_view only
   std::vector<SmoothSurface> smooth_;         // likewise; with normals only
   std::vector<std::uint32_t> plane_numbers_;  // in planes_, of receivers, or no_plane yet; from_view only
@@ -164,6 +171,23 @@ std::uint16_t PatchMaker::receiver_of(std::uint32_t id) {
   if (known.id != id) known = {id, add_receiver(id)};
   last_ = known;
   return known.number;
+}
+
+void PatchMaker::prefetch_corners(std::uint32_t x, std::uint32_t y) {
+  const std::uint32_t added = patch_.receiver_count - receivers_before_;
+  receivers_before_ = patch_.receiver_count;
+  if (added < many_receivers) return;
+  std::uint32_t last = no_triangle;
+  for (std::uint32_t row = y; row < std::min(y + square_side, height_); row += 2) {
+    const std::uint32_t* const ids = ids_at(0, row);
+    for (std::uint32_t column = x; column < std::min(x + square_side, width_); column += 2) {
+      const std::uint32_t id = ids[column];
+      if (id == last || id >= triangles_.triangles.size()) continue;
+      last = id;
+      const glm::uvec3& t = triangles_.triangles[id];
+      for (int k = 0; k < 3; ++k) simd::prefetch(&triangles_.positions[t[k]]);
+    }
+  }
 }
 
 /// Whether all sixteen pixels, which are in the picture, see the same triangle.
@@ -332,8 +356,11 @@ void make_point_patch(const VisiblePoints& points, const TriangleView& triangles
   const SquareGrid grid(points.width, points.height);
   PatchMaker maker(points, triangles, out, out.patches[patch]);  // some 36 KB of stack
   const std::uint32_t row = patch / grid.row_patches, first = patch % grid.row_patches * patch_squares;
-  for (std::uint32_t column = first; column < std::min(first + patch_squares, grid.columns); ++column)
-    maker.add_square(column * square_side, row * square_side, (row * grid.columns + column) * 16);
+  const std::uint32_t y = row * square_side;
+  for (std::uint32_t column = first; column < std::min(first + patch_squares, grid.columns); ++column) {
+    maker.prefetch_corners((column + 1) * square_side, y);
+    maker.add_square(column * square_side, y, (row * grid.columns + column) * 16);
+  }
 }
 
 void make_point_tiles(const VisiblePoints& points, const ViewRays& view, const TriangleView& triangles,

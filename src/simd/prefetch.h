@@ -7,9 +7,11 @@
 
 namespace tenebra::simd {
 
-/// The cache line of `at`.
+/// The cache line of `at`. GCC takes a function that does nothing but prefetch for one without effect and
+/// drops the calls to it: the empty statement has an effect.
 inline void prefetch(const void* at) {
   hwy::Prefetch(static_cast<const unsigned char*>(at));
+  asm volatile("");
 }
 
 /// All cache lines of `what`.

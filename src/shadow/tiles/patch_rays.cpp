@@ -16,10 +16,11 @@ namespace {
 
 using glm::dvec3;
 
-// Boxes with a larger share of a face are met by too many triangles: such squares are divided into tiles,
-// and tiles (with tile_share of a square's limit) into rays. Seen from a light nearby, neighbouring pixels
-// may lie in all directions; from a distant light, far apart only where the picture's pixels are wide.
-constexpr float widest_square = 1.0f / 2304, widest_distant_square = 1.0f / 256, tile_share = 1.0f / 64;
+// Boxes with a larger share of a face are met by too many triangles: such squares are divided into tiles, and
+// tiles into rays. Seen from a light nearby, neighbouring pixels may lie in all directions; from a distant
+// light, far apart only where the picture's pixels are wide.
+constexpr float widest_square = 1.0f / 2304, widest_tile = widest_square / 64;
+constexpr float widest_distant_square = 1.0f / 256, widest_distant_tile = widest_distant_square / 4;
 constexpr std::ptrdiff_t squares_ahead = 4;  // squares: about as long as memory takes
 
 std::uint8_t cube_face_of(const dvec3& p) {
@@ -103,6 +104,7 @@ PatchRays::PatchRays(const VisiblePoints& points, const points::PointTiles& tile
       source_(source),
       distant_(distant),
       widest_square_(distant != nullptr ? widest_distant_square : widest_square),
+      widest_tile_(distant != nullptr ? widest_distant_tile : widest_tile),
       facing_light_(facing_light(light)),
       pixels_(points.width, points.height),
       bounded_(!light.directional && (light.range_m > 0 || light.spot_cos_outer > -1)),
@@ -319,7 +321,7 @@ void PatchRays::add_parts(Work& work, int tile) const {
                                 point_of(square, points, 31 - std::countl_zero(lanes)));
     const std::uint8_t face = face_of(centre);
     FaceBox box{};
-    if (bound(points, square.base, lanes, face, box) && area(box) <= widest_square_ * tile_share) {
+    if (bound(points, square.base, lanes, face, box) && area(box) <= widest_tile_) {
       const bool one = square.receiver[tile] != points::several_receivers;
       work.out.loose.push_back({number, one ? square.own[tile] : own_of(points, lanes),
                                 static_cast<std::uint16_t>(lanes), square.tau, box});

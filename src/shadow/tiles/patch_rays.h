@@ -53,8 +53,8 @@ private:
   const TriangleView& triangles_;
   const ShadowLight& light_;
   const RaySource& source_;
-  const DistantFace* distant_;  ///< null: the cube
-  float widest_square_;         ///< share of the face
+  const DistantFace* distant_;         ///< null: the cube
+  float widest_square_, widest_tile_;  ///< shares of the face
   FacingLight facing_light_;
   points::TilePixels pixels_;
   bool bounded_;  ///< by a cone or a range
