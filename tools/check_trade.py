@@ -7,11 +7,12 @@ usage: check_trade.py [--size WxH] VIEW...      a view: "scene.glb --frames 0:80
 
 The views are printed before the first run. Budget: the time of the standard setting; with the setting given, frames
 that were not tried (up to fifteen; of still scenes the same one) take at most 10 % more in the median, and the next
-setting of smaller error, on the same frames, takes more than the budget. Each frame is drawn fifteen times, or fewer
-where that takes half a second: in a new process the first frames take up to 1.7 times as long as later ones. A view is
-measured again, twice at most, if the standard setting's time was not the same before and after by 5 %: the machine was
-not quiet. Error: one in the middle of the front; on five frames that were not tried the picture is off the finest by no
-more. TENEBRA names the program (build/bin/tenebra). Exit code 1: a word was not kept.
+setting of smaller error, on the same frames, takes more than the budget; where trade says that nothing fits, so does
+the quickest. Each frame is drawn fifteen times, or fewer where that takes half a second: in a new process the first
+frames take up to 1.7 times as long as later ones. A view is measured again, twice at most, if the standard setting's
+time was not the same before and after by 5 %: the machine was not quiet. Error: one in the middle of the front; on five
+frames that were not tried the picture is off the finest by no more. TENEBRA names the program (build/bin/tenebra). Exit
+code 1: a word was not kept.
 """
 import argparse
 import json
@@ -40,14 +41,16 @@ def tenebra(*arguments, codes=(0,)):
 
 def trade(view, *more):
     begin = time.monotonic()
-    run = tenebra("trade", *view, *more, "--json", "--quiet")
+    run = tenebra("trade", *view, *more, "--json", "--quiet", codes=(0, 1))  # 1: nothing fits
     lines = run.stderr.strip().splitlines()
+    if not run.stdout:
+        raise RuntimeError(lines[-1])
     return json.loads(run.stdout), lines[-1] if lines else "", time.monotonic() - begin
 
 
 def chosen_options(line):
-    """The choices of the command line that trade prints, and of these the words."""
-    words = shlex.split(line)
+    """The choices of the command line that trade prints; none in a sentence that says why there is no such line."""
+    words = [] if line.startswith("tenebra: ") else shlex.split(line)
     return {words[i]: words[i + 1] for i in range(len(words) - 1) if words[i] in CHOICES}
 
 
@@ -79,14 +82,14 @@ def median_ms(view, options, frames=range(0)):
     return found["settings"][0]["frame_ms"]
 
 
-def worst_error(view, options, frames):
-    worst = 0.0
-    base = without_frames(view)
+def worst_error(line, frames):
+    """Of the pictures of a command line that trade printed."""
+    worst, command, options = 0.0, shlex.split(line)[1:], chosen_options(line)
     with tempfile.TemporaryDirectory() as folder:
         for frame in frames:
             files = [str(pathlib.Path(folder, name)) for name in ("a.png", "b.png")]
             for file, setting in zip(files, (options, {k: FINEST[k] for k in options})):
-                tenebra("render", *base, "--frames", f"{frame}:{frame}", *words_of(setting), "-o", file, "--quiet")
+                tenebra(*command[:-2 * len(options)], *words_of(setting), "--frames", f"{frame}:{frame}", "-o", file, "--quiet")
             text = tenebra("compare", *files, codes=(0, 1)).stdout
             worst = max(worst, float(re.search(r"RMS ([\d.e+-]+) of 255", text)[1]))
     return worst
@@ -99,8 +102,8 @@ def asked_error(found):
 
 
 def next_finer(found, options):
-    """The setting of the front with the next smaller error; None: there is none."""
-    error = next(s["error_255"] for s in found["settings"] if chosen_options(s["options"]) == options)
+    """The setting of the front with the next smaller error, the first after none; None: there is none."""
+    error = next((s["error_255"] for s in found["settings"] if chosen_options(s["options"]) == options), math.inf)
     finer = [s for s in found["settings"] if s["front"] and s["error_255"] < error]
     return chosen_options(max(finer, key=lambda s: s["error_255"])["options"]) if finer else None
 
@@ -115,12 +118,12 @@ def check_budget(view):
         found, line, seconds = trade(view, "--budget", f"{budget:.6g}")
         frames, options = other_frames(found["frames"]), chosen_options(line)
         finer = next_finer(found, options)
-        ms = median_ms(view, options, frames)
+        ms = median_ms(view, options, frames) if options else 0
         finer_ms = median_ms(view, finer, frames) if finer else math.inf
         drift = median_ms(view, usual) / usual_ms - 1
         if abs(drift) <= STEADY:
             break
-    cells = (f"{seconds:.0f} | {budget:.1f} ({drift:+.0%}) | {' '.join(words_of(options))} | {ms:.1f} ({ms / budget:.2f}) | "
+    cells = (f"{seconds:.0f} | {budget:.1f} ({drift:+.0%}) | {' '.join(words_of(options)) or 'none fits'} | {ms:.1f} ({ms / budget:.2f}) | "
              f"{f'{finer_ms:.1f} ({finer_ms / budget:.2f})' if finer else 'finest'}")
     return cells, ms <= 1.1 * budget and finer_ms > budget, found
 
@@ -131,7 +134,7 @@ def check(view):
     asked, frames = asked_error(found), other_frames(found["frames"], most=5)
     _, line, seconds = trade(view, "--error", f"{asked:.6g}")
     options = chosen_options(line)
-    seen = worst_error(view, options, frames)
+    seen = worst_error(line, frames)
     kept = budget_kept and seen <= asked
     print(f"{' '.join(view[0].split('/')[-1:] + view[1:])} | {cells} | {seconds:.0f} | {asked:.2f} | "
           f"{' '.join(words_of(options))} | {f'{seen:.2f}' if frames else 'still'} | {'kept' if kept else 'NOT KEPT'}",
@@ -145,7 +148,7 @@ def check_error(view):
     asked = asked_error(found)
     _, line, _ = trade(view, "--repeats", "1", "--error", f"{asked:.6g}")
     frames, options = other_frames(found["frames"], most=5), chosen_options(line)
-    seen = worst_error(view, options, frames)
+    seen = worst_error(line, frames)
     print(f"{' '.join(view[0].split('/')[-1:] + view[1:])} | {asked:.2f} | {' '.join(words_of(options))} | "
           f"{f'{seen:.2f}' if frames else 'still'} | {'kept' if seen <= asked else 'NOT KEPT'}", flush=True)
     return seen <= asked
