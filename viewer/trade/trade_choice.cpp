@@ -9,6 +9,7 @@ constexpr double finest_ao_error = 0.5;
 /// The spread is that of a coarse setting; by how much errors of others exceeded it was measured: 1.19 times
 /// at most on the views of tools/trade_views.txt.
 constexpr double error_slack = 1.2;
+constexpr double kept_up_to = 1.05;  ///< of the budget
 
 }  // namespace
 
@@ -22,21 +23,32 @@ TradeAxes axes_of(const render::RenderSettings& settings, const TradeGiven& give
   return axes;
 }
 
-double promised_ms(const TradeResult& result, const TradedSetting& setting) {
-  return setting.point.ms * result.time_spread;
-}
-
 double promised_error(const TradeResult& result, const TradedSetting& setting) {
   return setting.worst_error * result.spread * error_slack;
 }
 
-const TradedSetting* within_budget(const TradeResult& result, double budget_ms) {
-  const TradedSetting* found = nullptr;
-  for (const TradedSetting& setting : result.measured)
-    if (promised_ms(result, setting) <= budget_ms &&
-        (found == nullptr || setting.point.error < found->point.error))
-      found = &setting;
-  return found;
+Expected<TimedSetting> within_budget(const TradeResult& result, double budget_ms, const TimeSetting& time) {
+  const double limit_ms = kept_up_to * budget_ms;
+  const auto setting = [&](std::size_t i) -> const TradedSetting& {
+    return result.measured[result.front[i]];
+  };
+  std::size_t i = 0;  // the most exact that fits by the frames that were tried
+  while (i + 1 < result.front.size() && setting(i + 1).point.ms <= limit_ms) ++i;
+  auto ms = time(setting(i).point);
+  if (!ms) return tl::unexpected(ms.error());
+  const bool as_expected = *ms <= limit_ms;
+  while (*ms > limit_ms && i > 0) {
+    ms = time(setting(--i).point);
+    if (!ms) return tl::unexpected(ms.error());
+  }
+  while (as_expected && i + 1 < result.front.size()) {
+    const auto finer_ms = time(setting(i + 1).point);
+    if (!finer_ms) return tl::unexpected(finer_ms.error());
+    if (*finer_ms > limit_ms) break;
+    ms = finer_ms;
+    ++i;
+  }
+  return TimedSetting{*ms <= limit_ms ? &setting(i) : nullptr, *ms};
 }
 
 const TradedSetting* within_error(const TradeResult& result, double error) {

@@ -168,7 +168,6 @@ std::string trade_json(const TradeHeading& heading, const TradeResult& result) {
                                 {"error_255", setting.point.error},
                                 {"worst_frame_error_255", setting.worst_error},
                                 {"promised_error_255", promised_error(result, setting)},
-                                {"promised_ms", promised_ms(result, setting)},
                                 {"frames_ms", setting.frames_ms},
                                 {"frame_errors_255", setting.frame_errors},
                                 {"peak_mb", setting.peak_mb},

@@ -18,7 +18,9 @@ using Clock = std::chrono::steady_clock;
 constexpr int crop_size = 96;
 constexpr double enough_ms = 500;  // of one frame with one setting
 constexpr double slow_ms = 2000;
-constexpr double spread_s = 8;  // for frames that are drawn for the spreads alone
+constexpr double spread_s = 8;  // for frames that are drawn for the spread alone
+constexpr double timing_s = 6;  // for timing a setting on them
+constexpr std::size_t least_timed = 5;
 constexpr std::size_t least_measured = 4;
 constexpr double finest_steps = 4, own_steps = 2;  // of the progress; a setting of a sweep is one
 
@@ -97,8 +99,27 @@ public:
     result.measured.push_back(judged(finest(request_.axes), *reference, *reference, result));
     if (auto measured = measure(*sweep, *reference, result); !measured)
       return tl::unexpected(measured.error());
-    if (auto spread = measure_spreads(result); !spread) return tl::unexpected(spread.error());
+    if (auto spread = measure_spread(result); !spread) return tl::unexpected(spread.error());
     return result;
+  }
+
+  /// See time_setting.
+  Expected<double> time(const TradePoint& point) {
+    auto renderer = make_renderer();
+    if (!renderer) return tl::unexpected(renderer.error());
+    const auto& frames = request_.more_frames.empty() ? request_.frames : request_.more_frames;
+    const render::RenderSettings settings = with_setting(request_.settings, request_.axes, point.setting);
+    if (const auto first = draw_frame(*renderer, frames.front(), settings); !first) return first;
+    const std::size_t most = std::max(least_timed, frames.size()),
+                      count = std::clamp(std::size_t(timing_s / seconds_of(point, 1)), least_timed, most);
+    std::vector<double> times;
+    for (std::size_t i = 0; i < count; ++i) {
+      const auto ms = median_ms(*renderer, frames[(2 * i + 1) * frames.size() / (2 * count)], settings);
+      if (!ms) return ms;
+      times.push_back(*ms);
+      done(steps_ / double(count));
+    }
+    return base::summarize(times).median;
   }
 
 private:
@@ -227,11 +248,11 @@ private:
     return sweep;
   }
 
-  /// How long drawing a setting by itself will take, judged by the sweep.
-  double seconds_of(const TradePoint& point) const {
+  /// How long it will take to time so many frames with a setting whose frame takes about `point.ms`.
+  double seconds_of(const TradePoint& point, std::size_t frames) const {
     const double ms = std::max(point.ms, 0.1),
                  draws = std::clamp(std::ceil(enough_ms / ms), 1.0, double(request_.repeats));
-    return ms * (1 + draws * double(request_.frames.size())) / 1e3;
+    return ms * draws * double(frames) / 1e3;
   }
 
   /// The settings to be measured beside the finest: those that promise to be worth it, and the one that a
@@ -255,7 +276,8 @@ private:
     std::vector<TradePoint> points = chosen(request_.most_measured);
     for (std::size_t most = request_.most_measured; most > least_measured; points = chosen(--most)) {
       double sum_s = 0;
-      for (const TradePoint& point : points) sum_s += seconds_of(point);
+      for (const TradePoint& point : points)
+        sum_s += point.ms / 1e3 + seconds_of(point, request_.frames.size());
       if (sum_s <= left_s) break;
     }
     std::vector<TradeSetting> settings;
@@ -280,51 +302,42 @@ private:
     return {};
   }
 
-  /// What two coarse settings show of some frames.
-  struct CoarseFrames {
-    double worst_error = 0;  ///< how far they are apart, of the frame where it is most
-    double ms = 0;           ///< of the finer one: the median of the frames
-  };
-  Expected<CoarseFrames> coarse_frames(render::Renderer& renderer, std::span<const PlannedFrame> frames,
-                                       std::size_t step) {
+  /// How far two coarse settings are apart in the one of some frames where it is most.
+  Expected<double> worst_coarse_error(render::Renderer& renderer, std::span<const PlannedFrame> frames,
+                                      std::size_t step) {
     const TradeAxes& axes = request_.axes;
     const auto second = [](const auto& values) {
       return values[std::min<std::size_t>(1, values.size() - 1)];
     };
     const TradeSetting coarse = coarsest(axes),
                        finer{second(axes.antialias), second(axes.soft_errors), second(axes.ao_errors)};
-    CoarseFrames found;
-    std::vector<double> times;
+    double worst = 0;
     for (std::size_t i = step / 2; i < frames.size(); i += step) {
       const auto drawn = draw_frame(renderer, frames[i], with_setting(request_.settings, axes, coarse));
-      if (!drawn) return tl::unexpected(drawn.error());
+      if (!drawn) return drawn;
       const base::Image8 picture = result_.image;
-      const auto ms = median_ms(renderer, frames[i], with_setting(request_.settings, axes, finer));
-      if (!ms) return tl::unexpected(ms.error());
-      times.push_back(*ms);
-      found.worst_error = std::max(found.worst_error, rms_difference(picture, result_.image));
+      const auto again = draw_frame(renderer, frames[i], with_setting(request_.settings, axes, finer));
+      if (!again) return again;
+      worst = std::max(worst, rms_difference(picture, result_.image));
     }
-    found.ms = base::summarize(times).median;
-    return found;
+    return worst;
   }
 
-  /// Errors and times of all settings grow and shrink together from frame to frame: what coarse ones show
-  /// goes for all.
-  Expected<void> measure_spreads(TradeResult& result) {
+  /// Errors of all settings grow and shrink together from frame to frame: what coarse ones show goes for all.
+  Expected<void> measure_spread(TradeResult& result) {
     if (request_.more_frames.empty()) return {};
     auto renderer = make_renderer();
     if (!renderer) return tl::unexpected(renderer.error());
     const Clock::time_point begun = Clock::now();
-    const auto tried = coarse_frames(*renderer, request_.frames, 1);
+    const auto tried = worst_coarse_error(*renderer, request_.frames, 1);
     if (!tried) return tl::unexpected(tried.error());
     const double took_s = std::chrono::duration<double>(Clock::now() - begun).count(),
                  all_s = took_s * double(request_.more_frames.size()) / double(request_.frames.size());
     const std::size_t step = std::min(std::size_t(std::ceil(std::max(all_s / spread_s, 1.0))),
                                       request_.more_frames.size());  // one at least
-    const auto more = coarse_frames(*renderer, request_.more_frames, step);
+    const auto more = worst_coarse_error(*renderer, request_.more_frames, step);
     if (!more) return tl::unexpected(more.error());
-    if (tried->worst_error > 0) result.spread = std::max(1.0, more->worst_error / tried->worst_error);
-    if (tried->ms > 0) result.time_spread = more->ms / tried->ms;
+    if (*tried > 0) result.spread = std::max(1.0, *more / *tried);
     return {};
   }
 
@@ -363,6 +376,11 @@ private:
 Expected<TradeResult> run_trade(const TradeRequest& request, const std::function<void(double)>& progress,
                                 const StopFlag& stop) {
   return Trader(request, progress, stop).run();
+}
+
+Expected<double> time_setting(const TradeRequest& request, const TradePoint& point,
+                              const std::function<void(double)>& progress, const StopFlag& stop) {
+  return Trader(request, progress, stop).time(point);
 }
 
 }  // namespace tenebra::viewer

@@ -29,7 +29,6 @@ struct TradeResult {
   std::vector<TradedSetting> measured;  ///< from the quickest, not all of them on the front
   std::vector<std::size_t> front;       ///< of these
   double spread = 1;                    ///< errors of the worst frame of all, over the worst of `frames`
-  double time_spread = 1;               ///< time of a frame in the middle of all, over that of `frames`
   base::Image8 reference_crop;          ///< of the finest setting
   int crop_x = 0, crop_y = 0;           ///< where the crops are, pixels
 };
@@ -39,7 +38,7 @@ struct TradeRequest {
   const ScenePlan* scene = nullptr;
   int clip = -1;
   std::vector<PlannedFrame> frames;
-  std::vector<PlannedFrame> more_frames;  ///< for the spreads: drawn with two coarse settings alone
+  std::vector<PlannedFrame> more_frames;  ///< not tried: two coarse settings give the spread on them
   render::RenderSettings settings;        ///< what all share, and what is no choice
   render::RasterChoice raster;
   std::vector<Light> lights;  ///< the scene's, with their edits
@@ -56,5 +55,10 @@ struct TradeRequest {
 /// 0..1. Fails with "stopped" soon after `stop` is requested.
 Expected<TradeResult> run_trade(const TradeRequest& request, const std::function<void(double)>& progress,
                                 const StopFlag& stop);
+
+/// The time that a frame takes with a setting: the median of five of `more_frames` at least, of more where by
+/// `point.ms` there is time for them; without `more_frames`, of `frames`. Milliseconds.
+Expected<double> time_setting(const TradeRequest& request, const TradePoint& point,
+                              const std::function<void(double)>& progress, const StopFlag& stop);
 
 }  // namespace tenebra::viewer
