@@ -177,10 +177,12 @@ void SoftShadowTracer::State::sort_out(const soft::SoftFrame& frame, const soft:
     worker.solver->stats.points_dark += pixels.size();
   } else if (decision.kind == soft::GroupClass::lit) {
     worker.lit.push_back(pixels);
-  } else if (frame.config.error_255 > 0 &&
-             soft::worth_sampling(decision.candidates.size(), soft::first_places(frame.config.error_255))) {
+  } else if (const soft::CandidateCounts counts{static_cast<std::uint32_t>(decision.candidates.size()),
+                                                decision.from_middle};
+             frame.config.error_255 > 0 &&
+             soft::worth_sampling(counts, soft::first_places(frame.config.error_255))) {
     worker.solver->stats.candidates += decision.candidates.size();
-    worker.sampled.push_back({number, static_cast<std::uint32_t>(decision.candidates.size()), pixels});
+    worker.sampled.push_back({number, counts, pixels});
   } else {
     worker.solver->stats.candidates += decision.candidates.size();
     worker.mixed.push_back(&group);

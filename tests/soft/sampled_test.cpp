@@ -154,7 +154,7 @@ TEST(SoftError, DoesNotDependOnTheFrameBefore) {
 
 // Also those that looked at places on the light first, and would have had to look at too many.
 TEST(SoftError, LeavesWhatIsNotSampledExact) {
-  const SoftCase c = below_leaves(56, 700, 0.3);
+  const SoftCase c = below_leaves(80, 900, 0.25);
   const SoftMask exact = traced(c, SoftShadowConfig{});
   for (const double asked : {8.0, 0.5}) {
     SoftShadowTracer tracer;

@@ -21,6 +21,7 @@ namespace tenebra::testing {
 struct Given {
   soft::GroupClass kind = soft::GroupClass::lit;
   std::vector<std::uint32_t> candidates;
+  std::uint32_t from_middle = 0;
   bool operator==(const Given&) const = default;
 };
 
@@ -38,12 +39,13 @@ inline std::vector<Given> given(const GroupCase& c, const soft::PointGroups& gro
   soft::ShaftCuller culler;
   SoftShadowConfig config;
   config.simd = simd;
+  config.error_255 = 1;  // candidates are counted from the middle, too
   EXPECT_TRUE(culler.for_each_family(groups, c.soup.view(), c.light, config, nullptr,
                                      [&](std::span<const soft::GroupDecision> family, int thread) {
-                                       for (const auto& [group, kind, candidates] : family) {
+                                       for (const auto& [group, kind, candidates, from_middle] : family) {
                                          const auto i =
                                              static_cast<std::size_t>(group - groups.groups.data());
-                                         all[i] = {kind, {candidates.begin(), candidates.end()}};
+                                         all[i] = {kind, {candidates.begin(), candidates.end()}, from_middle};
                                          ++calls[i];
                                        }
                                        EXPECT_LT(thread, thread_count());

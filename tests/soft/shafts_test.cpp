@@ -122,13 +122,17 @@ TEST(Shafts, CountWhatTheyGive) {
   const soft::PointGroups groups = grouped(c);
   soft::ShaftStats stats;
   std::uint64_t points[3] = {}, numbers[3] = {}, candidates = 0, most = 0;
+  std::uint64_t in_many = 0, from_middle = 0;
   const std::vector<Given> all = given(c, groups, SimdLevel::automatic, &stats);
   for (std::size_t i = 0; i < all.size(); ++i) {
     points[static_cast<int>(all[i].kind)] += groups.groups[i].count;
     ++numbers[static_cast<int>(all[i].kind)];
     if (all[i].kind != soft::GroupClass::mixed) continue;
     candidates += all[i].candidates.size();
+    EXPECT_LE(all[i].from_middle, all[i].candidates.size());
     most = std::max<std::uint64_t>(most, all[i].candidates.size());
+    if (all[i].candidates.size() < 64) continue;
+    in_many += all[i].candidates.size(), from_middle += all[i].from_middle;
   }
   EXPECT_EQ(stats.points_lit, points[0]);
   EXPECT_EQ(stats.points_dark, points[1]);
@@ -139,6 +143,8 @@ TEST(Shafts, CountWhatTheyGive) {
   EXPECT_EQ(stats.candidates, candidates);
   EXPECT_EQ(stats.most_candidates, most);
   EXPECT_GT(candidates, 0u);
+  EXPECT_GT(from_middle, in_many / 100);
+  EXPECT_LT(from_middle, in_many) << "some of the group's are beside the middle";
   EXPECT_GT(stats.seconds, 0);
 }
 

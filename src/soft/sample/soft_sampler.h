@@ -16,16 +16,16 @@ namespace tenebra::soft {
 /// Places on the light that pixels look at first, in each phase.
 std::uint32_t first_places(double error_255);
 
-/// Whether pixels of a group with this many candidates are sampled at this many places, or solved exactly.
-/// Decided by counts, whose weights were measured once: the time of exact solving grows with the candidates,
-/// that of sampling with the places.
-inline bool worth_sampling(std::size_t candidates, std::uint32_t places) {
-  return candidates >= 64 + 6 * std::size_t{places};
-}
+/// The candidates of a group: all, and those of its middle (GroupDecision).
+struct CandidateCounts {
+  std::uint32_t all, from_middle;
+};
+/// Whether points of a group are sampled at this many places on the light, or solved exactly.
+bool worth_sampling(const CandidateCounts& candidates, std::uint32_t places);
 
 struct SampledGroup {
   std::uint32_t group;  ///< its number
-  std::uint32_t candidates;
+  CandidateCounts candidates;
   std::span<const std::uint32_t> pixels;
 };
 

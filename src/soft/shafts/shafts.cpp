@@ -24,6 +24,9 @@ constexpr double most_groups = 0.4;
 // Points times triangles up to which a subtree is not worth sharing out among threads.
 constexpr std::uint64_t serial_work = 1 << 16;
 
+// Candidates of a group from which on they are counted from its middle, too.
+constexpr std::size_t worth_counting = 64;
+
 // A thread that keeps more candidates than these, 16 MB, hands its families over before all are decided.
 // Where the memory is bounded, all threads together keep their share of it (vectors that grow hold up to
 // three times what is used).
@@ -39,6 +42,7 @@ struct Decided {
   const PointGroup* group;
   GroupClass kind;
   std::size_t ids_begin, ids_end;  ///< of its candidates, among those of the thread
+  std::uint32_t from_middle;
 };
 
 struct Family {
@@ -108,12 +112,13 @@ void add(ShaftStats& to, const ShaftStats& from) {
 class Descent {
 public:
   Descent(const PointGroups& groups, const LightShape& light, const ShaftKernels& kernels,
-          ShaftMaker make_shaft, const StopFlag* stop, const FamilyBody& body, std::size_t most_kept,
-          std::vector<ThreadScratch>& scratch)
+          ShaftMaker make_shaft, bool counts_from_middle, const StopFlag* stop, const FamilyBody& body,
+          std::size_t most_kept, std::vector<ThreadScratch>& scratch)
       : groups_(groups),
         light_(light),
         kernels_(kernels),
         make_shaft_(make_shaft),
+        counts_from_middle_(counts_from_middle),
         stop_(stop),
         body_(body),
         most_kept_(most_kept),
@@ -133,6 +138,8 @@ private:
   void decide_all(const GroupNode& node, const BlockList& from, std::uint32_t groups, ThreadScratch& scratch);
   void decide_group(const PointGroup& group, const BlockList& from, ThreadScratch& scratch);
   std::uint32_t cull(const PointGroup& group, const BlockList& from, BlockList& list) const;
+  std::uint32_t count_from_middle(const PointGroup& group, const BlockList& list,
+                                  ThreadScratch& scratch) const;
   void hand_over_kept(ThreadScratch& scratch);
   void hand_over(const Family& family);
 
@@ -140,6 +147,7 @@ private:
   const LightShape& light_;
   const ShaftKernels& kernels_;
   ShaftMaker make_shaft_;
+  bool counts_from_middle_;
   const StopFlag* stop_;
   const FamilyBody& body_;
   std::size_t most_kept_;  ///< candidates, by one thread
@@ -219,6 +227,7 @@ void Descent::decide_group(const PointGroup& group, const BlockList& from, Threa
   if (stop_requested(stop_)) return;
   const std::size_t before = scratch.ids.size();
   GroupClass kind = GroupClass::lit;
+  std::uint32_t from_middle = 0;
   if (!from.refs.empty()) {
     const ListLease list(scratch);
     const std::uint32_t dark = cull(group, from, *list);
@@ -228,9 +237,20 @@ void Descent::decide_group(const PointGroup& group, const BlockList& from, Threa
     } else {
       list->append_ids(scratch.ids);
       if (scratch.ids.size() > before) kind = GroupClass::mixed;
+      if (counts_from_middle_ && scratch.ids.size() - before >= worth_counting)
+        from_middle = count_from_middle(group, *list, scratch);
     }
   }
-  scratch.decided.push_back({&group, kind, before, scratch.ids.size()});
+  scratch.decided.push_back({&group, kind, before, scratch.ids.size(), from_middle});
+}
+
+std::uint32_t Descent::count_from_middle(const PointGroup& group, const BlockList& list,
+                                         ThreadScratch& scratch) const {
+  const ListLease left(scratch);
+  const Cell middle{group.cell.centre, {}, group.cell.slack, group.cell.reach};
+  const Shaft shaft = make_shaft_(middle, light_);
+  filter(*left, list, [&](auto... rest) { return kernels_.cull(shaft, rest...); });
+  return static_cast<std::uint32_t>(left->triangle_count());
 }
 
 // Leaves in `list` what may block a line from the group; returns the triangle that blocks all, if one does.
@@ -273,7 +293,7 @@ void Descent::hand_over(const Family& family) {
   for (std::size_t i = family.begin; i < family.end; ++i) {
     const Decided& d = from.decided[i];
     const std::span<const std::uint32_t> ids(from.ids.data() + d.ids_begin, d.ids_end - d.ids_begin);
-    own.family.push_back({d.group, d.kind, ids});
+    own.family.push_back({d.group, d.kind, ids, d.from_middle});
     count(own.family.back(), own.stats);
   }
   body_(own.family, parallel::thread_index());
@@ -310,8 +330,8 @@ bool ShaftCuller::for_each_family(const PointGroups& groups, const TriangleView&
   s.stats.seconds = watch.lap_ms() * 1e-3;
   const ShaftKernels kernels = shaft_kernels(config.simd);
   if (!groups.nodes.empty()) {
-    Descent descent(groups, light, kernels, shaft_maker(config.simd), stop, body, most_ids(config),
-                    s.scratch);
+    Descent descent(groups, light, kernels, shaft_maker(config.simd), config.error_255 > 0, stop, body,
+                    most_ids(config), s.scratch);
     descent.decide(groups.nodes[0], s.casters, groups.nodes[0].count);
     descent.hand_over(s.families);
   }

@@ -25,6 +25,9 @@ struct GroupDecision {
   const PointGroup* group;
   GroupClass kind;
   std::span<const std::uint32_t> candidates;
+  /// How many of them may block a line from the middle of the group: counted where the configuration allows
+  /// an error and there are many, else 0.
+  std::uint32_t from_middle = 0;
 };
 
 /// Takes groups that lie near each other, a family; which they are does not depend on threads. `thread`:
