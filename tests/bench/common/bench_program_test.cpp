@@ -55,7 +55,7 @@ TEST(BenchProgram, HardRefusesInASentence) {
   expect_refusal({"hard", "--data", "/nowhere/at/all"}, "--data: /nowhere/at/all is not a folder");
   expect_refusal({"hard", "--csv", "/nowhere/at/all.csv"}, "/nowhere/at/all.csv");
   expect_refusal({"hard", "--only", "atlantis"},
-                 "--only: found atlantis, expected frames, whole, sun, growth, variance");
+                 "--only: found atlantis, expected frames, whole, sun, cut, growth, variance");
 }
 
 TEST(BenchProgram, HardEndsWithItsFiguresWhereScenesAreMissing) {

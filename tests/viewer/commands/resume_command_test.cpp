@@ -213,6 +213,7 @@ TEST(ResumeCommand, OneProcessWritesALogAndOneWayOfDrawingAFolder) {
   arguments.insert(arguments.begin(), TENEBRA_PROGRAM);
   ChildProgram first(arguments);
   while (!fs::exists(farm.folder / "p01.png")) std::this_thread::sleep_for(std::chrono::milliseconds(1));
+  first.send(SIGSTOP);  // not to be at its end before the others begin
   farm.expect_refused({"--log", farm.folder / "a.csv", "--resume"}, "another process is writing it");
   farm.expect_refused({"--exposure", "2"}, "expected exposure 1, found 2");
   first.send(SIGKILL);
