@@ -273,8 +273,10 @@ bool SoftShadowTracer::State::solve_aside(const soft::SoftFrame& frame, const Tr
 /// Solves the groups of `again`, whose candidates are found once more.
 bool SoftShadowTracer::State::solve_again(const soft::SoftFrame& frame, const TriangleView& triangles,
                                           const AreaLight& light) {
+  SoftShadowConfig config = frame.config;
+  config.error_255 = 0;  // how to solve them is decided: nothing needs to be counted
   const bool done = culler.for_each_family(
-      groups, triangles, light, frame.config, frame.stop,
+      groups, triangles, light, config, frame.stop,
       [&](std::span<const soft::GroupDecision> family, int thread) {
         Worker& worker = workers[static_cast<std::size_t>(thread)];
         worker.mixed.clear(), worker.candidates.clear();

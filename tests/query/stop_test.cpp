@@ -11,6 +11,7 @@
 #include <chrono>
 #include <ctime>
 #include <functional>
+#include <limits>
 #include <optional>
 #include <thread>
 
@@ -61,9 +62,13 @@ std::optional<double> stop_ms(const Call& call, double moment_ms) {
 /// of the shortest of three: where other programs run, the one who asks may be interrupted as it does.
 double longest_stop(const Call& call) {
   constexpr int moments = 10;
-  const double begin = processors_ms();
-  EXPECT_TRUE(on_one_thread(call, nullptr).has_value());
-  const double whole = processors_ms() - begin;
+  double whole =
+      std::numeric_limits<double>::infinity();  // the shortest of three: machines change their speed
+  for (int i = 0; i < 3; ++i) {
+    const double begin = processors_ms();
+    EXPECT_TRUE(on_one_thread(call, nullptr).has_value());
+    whole = std::min(whole, processors_ms() - begin);
+  }
   double longest = 0;
   int stops = 0;
   for (int moment = 0; moment < moments; ++moment) {
@@ -73,7 +78,7 @@ double longest_stop(const Call& call) {
         least = std::min(least, *taken), ++stops;
     if (stops > 0 && least < whole) longest = std::max(longest, least);
   }
-  EXPECT_GE(stops, moments / 3) << "a shared machine may double its speed after the first call";
+  EXPECT_GT(stops, moments / 2);
   return longest / whole;
 }
 

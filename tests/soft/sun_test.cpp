@@ -225,6 +225,9 @@ TEST(Sun, KeepsAnErrorThatIsAskedFor) {
   EXPECT_GT(stats.points_sampled, 100u);
   EXPECT_LE(error, 1.3 * 3);
   EXPECT_LE(stats.error_255, 1.5 * error);
+  const SoftCase narrower = below_bodies(10, 96);
+  EXPECT_LE(error_of(narrower, traced(narrower, {.error_255 = 3}), traced(narrower, SoftShadowConfig{})),
+            1.3 * 3);
 }
 
 }  // namespace
