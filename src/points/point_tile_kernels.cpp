@@ -248,7 +248,7 @@ std::uint32_t beyond_gap(const PointTile& tile, std::uint32_t lanes) {
     nearer[k] = lt_bits(distance2, limit) & lanes;
   };
   find_nearer(4), find_nearer(5);
-  if (nearer[4] != nearer[5]) return 0;  // as most: every gap holds what lies from 4/8 to 5/8
+  if (nearer[4] != nearer[5]) return 0;  // no gap, as in most: each spans 4/8 to 5/8 of the farthest
   for (const int k : {1, 2, 3, 6, 7, 8}) find_nearer(k);
   for (int k = 1; k <= 4; ++k)
     if (nearer[k] == nearer[k + 4]) return lanes & ~nearer[k];

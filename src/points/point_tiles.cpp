@@ -26,7 +26,7 @@ constexpr std::uint16_t no_receiver = 0xfffeu;  // none, or one edge-on to the e
 
 constexpr std::uint32_t no_plane = 0xffffffffu;
 constexpr std::size_t most_planes = 3;
-constexpr std::uint32_t many_receivers = 8;
+constexpr std::uint32_t many_receivers = 8;  // in one square: scanning the next one pays from here on
 
 /// >= |q| of a square's points: the farthest corner of the box around all tiles. Floats' squares in double
 /// neither overflow nor vanish; what is rounded is far below 2^-20, or the least float.

@@ -24,7 +24,8 @@ constexpr double most_groups = 0.4;
 // Points times triangles up to which a subtree is not worth sharing out among threads.
 constexpr std::uint64_t serial_work = 1 << 16;
 
-// Candidates of a group from which on they are counted from its middle, too.
+// Candidates of a group from which on they are counted from its middle, too: worth_sampling asks for no
+// fewer.
 constexpr std::size_t worth_counting = 64;
 
 // A thread that keeps more candidates than these, 16 MB, hands its families over before all are decided.
