@@ -9,7 +9,7 @@ folders=(base exr math parallel points scene texture cutout visibility shadow so
 # Those that take many seconds each: exact answers for whole masks, catalogues, soups, whole frames; and parts of times,
 # which are others without optimisation.
 slow='ShadowMask\.|NodeTests|SoftCatalogue|SoftCloud|Oracle|Exact|EverySoup|StaysWholeWhenKilled|SoftMetamorphic|SoftError\.|^Sun\.(Agrees|Has)'
-slow+='|^TreeBound|^Bart|SoftPackets|ShaftFrames|NeverLeaveOut|HandOver|AreaIsThatOf|Tiles\.AreTheSame|Tiles\.WorkOut'
+slow+='|^TreeBound|^SoftMemory\.|HoweverFine|^Bart|SoftPackets|ShaftFrames|NeverLeaveOut|HandOver|AreaIsThatOf|Tiles\.AreTheSame|Tiles\.WorkOut'
 slow+='|DistantFaceBounds|OfHundredsOfEdges|NearlyCoincide|SheetsOf|GivesWhatClipping|FieldAccuracy|FindsABall'
 slow+='|AdaptiveOcclusion\.(Meets|SameBits|Stops|DoesNot)|AoCatalogue|AoMemory'
 slow+='|^Allocation\.|^Stop\.|^Places\.|EvenEmission|TexturedPanes|RunsAlong|^FieldLookup\.(Never|Gives|Takes|OneField|SeesFrom)|WhatIsDropped'

@@ -56,6 +56,15 @@ public:
   /// TraceStats::nodes.
   std::span<const float> pixel_nodes() const;
 
+  /// From now on both tracers use the other's tree over the triangles, of which each has one of its own else.
+  /// Then masks of the same triangles can be traced by both at the same time once follow() has been called
+  /// for one of them.
+  void share_triangles(ShadowTracer& other);
+  /// Does what the next trace_shadow_mask() of these triangles does first: makes the tree over them, or moves
+  /// the last frame's. With TriangleView::version not 0 that call finds it done. Returns false if `stop` was
+  /// requested before the end.
+  bool follow(const TriangleView& triangles, SimdLevel simd, const StopFlag* stop = nullptr);
+
 private:
   struct State;
   std::unique_ptr<State> state_;

@@ -153,6 +153,14 @@ std::span<const float> ShadowTracer::pixel_nodes() const {
   return state_->pixel_nodes;
 }
 
+void ShadowTracer::share_triangles(ShadowTracer& other) {
+  state_->tiles.share_triangles(other.state_->tiles);
+}
+bool ShadowTracer::follow(const TriangleView& triangles, SimdLevel simd, const StopFlag* stop) {
+  const parallel::FloatEnvironment ieee;
+  return state_->tiles.follow(triangles, simd, stop);
+}
+
 bool ShadowTracer::trace_shadow_mask(const VisiblePoints& seen, const ViewRays& view,
                                      const TriangleView& triangles, const ShadowLight& light,
                                      const HardShadowConfig& config, ShadowMask& mask, const StopFlag* stop) {

@@ -2,7 +2,9 @@
 // triangles, where the method does not apply, threads and instruction sets.
 
 #include <fmt/core.h>
+#include <array>
 
+#include "parallel/parallel.h"
 #include "shadow/mask_case.h"
 #include "shadow/rays/shadow_rays.h"
 #include "shadow/tiles/cluster_order.h"
@@ -72,6 +74,34 @@ TEST(Tiles, TakeTheCallersWordThatNothingMoved) {
   view.version = 8;
   tracer.trace_shadow_mask(c.points, c.view, view, c.light, {}, third);
   EXPECT_TRUE(same_mask(c, third, by_cone_tree(c)));
+}
+
+TEST(Tiles, OfSeveralTracersCanShareTheTreeOverTheTriangles) {
+  MaskCase c = room_case(75, 160, 90);
+  const std::size_t all = c.soup.triangles.size();
+  std::array<ShadowTracer, 4> tracers;
+  for (ShadowTracer& tracer : tracers) tracer.share_triangles(tracers[0]);
+  std::array<ShadowMask, 4> masks;
+  const auto light = [&](int i) { return point_light({0.3 * i - 0.5, 1.6, -0.3}); };
+  for (std::uint64_t version = 1; version <= 3; ++version) {
+    for (glm::vec3& p : c.soup.positions) p.y += p.y > 0 ? 0.05f : 0.0f;
+    c.points = view_samples(c.soup.view(), c.view, 160, 90);
+    TriangleView triangles = c.soup.view();
+    triangles.version = version;
+    ASSERT_TRUE(tracers[version].follow(triangles, SimdLevel::automatic));
+    const std::vector<std::uint8_t> none(all, 0);
+    triangles.casts_shadow = none;  // the word of the version counts, for the others too
+    parallel::parallel_tasks(4, [&](int i) {
+      const auto k = static_cast<std::size_t>(i);
+      tracers[k].trace_shadow_mask(c.points, c.view, triangles, light(i), {}, masks[k]);
+    });
+    for (int i = 0; i < 4; ++i) {
+      const auto k = static_cast<std::size_t>(i);
+      EXPECT_EQ(tracers[k].stats().triangles, all);
+      c.light = light(i);
+      EXPECT_TRUE(same_mask(c, masks[k], by_cone_tree(c)));
+    }
+  }
 }
 
 TEST(Tiles, AreTheSameForThreadsAndInstructionSets) {

@@ -60,7 +60,7 @@ void TileTracer::descend(const Descent& descent, SimdLevel simd, TraceStats& sta
     edge_on.insert(edge_on.end(), scratch_[i].edge_on.begin(), scratch_[i].edge_on.end());
   std::sort(edge_on.begin(), edge_on.end());
   const auto different = std::unique(edge_on.begin(), edge_on.end()) - edge_on.begin();
-  stats.degenerate_triangles = clusters_.without_area() + static_cast<std::uint64_t>(different);
+  stats.degenerate_triangles = clusters_->without_area() + static_cast<std::uint64_t>(different);
 }
 
 bool TileTracer::trace(const VisiblePoints& points, const ViewRays& view, const TriangleView& triangles,
@@ -76,10 +76,10 @@ bool TileTracer::trace(const VisiblePoints& points, const ViewRays& view, const 
   build_ray_forest(points, tiles, triangles, light, source, config, forest_scratch_, forest_);
   timings.rays_ms = watch.lap_ms();
   if (!forest_.in_range) return false;
-  if (!clusters_.update(triangles, config.simd, stop)) return false;
+  if (!clusters_->update(triangles, config.simd, stop)) return false;
   timings.build_ms = watch.lap_ms();
   tile_tests_.assign(config.count_pixel_nodes ? forest_.levels[0].size() : 0, {});
-  descend({clusters_, forest_, source, triangles, points, tiles, config.contact, config.cull_front,
+  descend({*clusters_, forest_, source, triangles, points, tiles, config.contact, config.cull_front,
            config.count_pixel_nodes ? &tile_tests_ : nullptr, stop},
           config.simd, stats);
   if (stop_requested(stop)) return false;
@@ -90,12 +90,12 @@ bool TileTracer::trace(const VisiblePoints& points, const ViewRays& view, const 
   for (const std::uint32_t pixel : forest_.at_light) mask[pixel] = 255;
   timings.writeback_ms = watch.lap_ms();
 
-  stats.triangles = clusters_.casters();
+  stats.triangles = clusters_->casters();
   stats.nodes *= wide;
   stats.rays = forest_.rays + forest_.at_light.size();
   stats.lit_pixels = live + forest_.at_light.size();
   stats.shadowed_pixels = stats.rays - stats.lit_pixels;
-  stats.tree_bytes = forest_.byte_count() + clusters_.byte_count();
+  stats.tree_bytes = forest_.byte_count() + clusters_->byte_count();
   return true;
 }
 

@@ -9,6 +9,7 @@
 #include <tenebra/frame_timings.h>
 #include <tenebra/hard_config.h>
 #include <tenebra/stop_flag.h>
+#include <memory>
 #include "shadow/tiles/descent.h"
 
 namespace tenebra::shadow {
@@ -23,6 +24,13 @@ public:
              const ShadowLight& light, const HardShadowConfig& config, ShadowMask& mask, TraceStats& stats,
              FrameTimings& timings, const StopFlag* stop);
 
+  void share_triangles(TileTracer& other) { clusters_ = other.clusters_; }
+  /// What trace() does first with the triangles; nothing for more than most_vertices. False: stopped.
+  bool follow(const TriangleView& triangles, SimdLevel simd, const StopFlag* stop) {
+    return triangles.positions.size() > most_vertices ? !stop_requested(stop)
+                                                      : clusters_->update(triangles, simd, stop);
+  }
+
   /// After a call: node tests per pixel; those of a node are divided equally among the rays below it.
   void spread_tests(int width, int height, std::vector<float>& out) const;
 
@@ -34,7 +42,7 @@ private:
 
   points::PointTiles own_tiles_;  ///< of points that came without
   std::vector<std::array<std::uint32_t, 16>> tile_tests_;
-  ClusterTree clusters_;
+  std::shared_ptr<ClusterTree> clusters_ = std::make_shared<ClusterTree>();
   RayForest forest_;
   ForestScratch forest_scratch_;
   std::vector<DescentScratch> scratch_;

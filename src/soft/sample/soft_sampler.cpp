@@ -87,6 +87,10 @@ std::uint32_t first_places(double error_255) {
   return std::bit_ceil(static_cast<std::uint32_t>(std::clamp(16 / error_255, 2.0, 128.0)));
 }
 
+SoftSampler::SoftSampler() {
+  for (Phase& phase : phases_) phase.tracer.share_triangles(phases_.front().tracer);
+}
+
 /// Looks at places `from` to `to` - 1 of a phase. Their number is a power of two that divides `from`: so
 /// these places, too, are spread evenly.
 void SoftSampler::look(const SoftFrame& frame, const LightPlaces& places,
@@ -96,14 +100,12 @@ void SoftSampler::look(const SoftFrame& frame, const LightPlaces& places,
   p.rays = 0, p.done = false;
   if (stop_requested(frame.stop)) return;
   take_phase(frame, blocks_, chosen, phase, p.points);
-  TriangleView triangles = frame.triangles;
-  triangles.version = frames_;
   const double size = glm::length(frame.light.ex);
   const std::uint32_t more = to - from;
   for (std::uint32_t k = 0; k < more; ++k) {
     const glm::dvec2 at = sobol_place(from * phases + phase * more + k);
     const glm::vec3 place = before_plane(places.at(at.x, at.y), frame.light);
-    if (!p.tracer.trace_shadow_mask(p.points, frame.view, triangles, light_at(places.light(), place),
+    if (!p.tracer.trace_shadow_mask(p.points, frame.view, triangles_, light_at(places.light(), place),
                                     {.simd = frame.config.simd}, p.mask, frame.stop))
       return;
     p.rays += p.tracer.stats().rays;
@@ -153,7 +155,10 @@ bool SoftSampler::solve(const SoftFrame& frame, const AreaLight& light, std::spa
   square_error_ = 0;
   left_penumbra_ = 0;
   if (groups.empty()) return true;
-  ++frames_;
+  const std::uint64_t version = triangles_.version + 1;
+  triangles_ = frame.triangles;
+  triangles_.version = version;
+  if (!phases_.front().tracer.follow(triangles_, frame.config.simd, frame.stop)) return false;
   sampled_.assign(groups.begin(), groups.end());
   gather_pixels(groups, pixels_);
   find_blocks(frame, pixels_, blocks_);

@@ -40,6 +40,8 @@ struct SampledErrors {
 /// Buffers kept from frame to frame.
 class SoftSampler {
 public:
+  SoftSampler();
+
   /// Multiplies frame.out of the groups' pixels, which hold the unoccluded light, by the visible shares, and
   /// adds to `stats`, which have the pixels that were solved exactly. Groups that would take longer this way
   /// than exactly are left alone: `left` gets their numbers. `errors_255`, one for each pixel, gets the
@@ -56,7 +58,7 @@ private:
 
   /// Of one phase: they are looked at side by side.
   struct Phase {
-    ShadowTracer tracer;
+    ShadowTracer tracer;  ///< all phases' share one tree over the triangles
     ShadowMask mask;
     VisiblePoints points;
     std::uint64_t rays = 0;
@@ -72,7 +74,7 @@ private:
   double square_error_ = 0;
   std::uint64_t left_penumbra_ = 0;  ///< pixels in penumbra of groups that were left
   std::array<Phase, phases> phases_;
-  std::uint64_t frames_ = 0;  ///< names their triangles for the tracers
+  TriangleView triangles_;  ///< of the frame, with a version
   SampledBlocks blocks_;
   LightTally tally_;
   LightMeans means_;
