@@ -2,6 +2,7 @@
 #include <cstdio>
 #include <string>
 
+#include "base/large_pages.h"
 #include "bench/common/bench_command.h"
 
 namespace {
@@ -14,6 +15,7 @@ int refuse(const std::string& sentence) {
 }  // namespace
 
 int main(int argc, char** argv) {
+  tenebra::base::restart_with_large_pages(argv);
   CLI::App program("Measures Tenebra and its peers side by side.");
   program.require_subcommand(1);
   tenebra::bench::Run run;
