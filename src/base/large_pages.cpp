@@ -3,8 +3,10 @@
 #include <unistd.h>
 
 #include <cstdlib>
+#include <filesystem>
 #include <fstream>
 #include <string>
+#include <system_error>
 
 namespace tenebra::base {
 
@@ -26,7 +28,9 @@ bool given_on_request() {
 void restart_with_large_pages(char** argv) {
   if (std::getenv("GLIBC_TUNABLES") != nullptr || std::getenv("LD_PRELOAD") != nullptr || !given_on_request())
     return;
-  if (::setenv("GLIBC_TUNABLES", "glibc.malloc.hugetlb=1", 0) == 0) ::execv("/proc/self/exe", argv);
+  std::error_code error;  // the program's own path, so that its name stays what `ps` shows
+  const std::filesystem::path program = std::filesystem::read_symlink("/proc/self/exe", error);
+  if (!error && ::setenv("GLIBC_TUNABLES", "glibc.malloc.hugetlb=1", 0) == 0) ::execv(program.c_str(), argv);
 }
 
 #else
