@@ -21,6 +21,7 @@ constexpr double slow_ms = 2000;
 constexpr double spread_s = 8;  // for frames that are drawn for the spread alone
 constexpr double timing_s = 6;  // for timing a setting on them
 constexpr std::size_t least_timed = 5;
+constexpr std::size_t still_timed = 16;  // times that a frame of a still scene is timed at most
 constexpr std::size_t least_measured = 4;
 constexpr double finest_steps = 4, own_steps = 2;  // of the progress; a setting of a sweep is one
 
@@ -107,10 +108,11 @@ public:
   Expected<double> time(const TradePoint& point) {
     auto renderer = make_renderer();
     if (!renderer) return tl::unexpected(renderer.error());
-    const auto& frames = request_.more_frames.empty() ? request_.frames : request_.more_frames;
+    const bool still = request_.more_frames.empty();
+    const auto& frames = still ? request_.frames : request_.more_frames;
     const render::RenderSettings settings = with_setting(request_.settings, request_.axes, point.setting);
     if (const auto first = draw_frame(*renderer, frames.front(), settings); !first) return first;
-    const std::size_t most = std::max(least_timed, frames.size()),
+    const std::size_t most = std::max(still ? still_timed : least_timed, frames.size()),
                       count = std::clamp(std::size_t(timing_s / seconds_of(point, 1)), least_timed, most);
     std::vector<double> times;
     for (std::size_t i = 0; i < count; ++i) {

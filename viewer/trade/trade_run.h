@@ -57,7 +57,7 @@ Expected<TradeResult> run_trade(const TradeRequest& request, const std::function
                                 const StopFlag& stop);
 
 /// The time that a frame takes with a setting: the median of five of `more_frames` at least, of more where by
-/// `point.ms` there is time for them; without `more_frames`, of `frames`. Milliseconds.
+/// `point.ms` there is time for them; without `more_frames`, of `frames`, again and again. Milliseconds.
 Expected<double> time_setting(const TradeRequest& request, const TradePoint& point,
                               const std::function<void(double)>& progress, const StopFlag& stop);
 
