@@ -10,7 +10,7 @@ set -euo pipefail
 cd "$(dirname "$0")/.."
 build=build-arm64
 suites=("$@")
-# Six to more than eight minutes each under qemu, when compiled by -O1.
+# About six to more than eight minutes each under qemu, when compiled by -O1.
 slow='TreeBound\.HoldsWithinAQuery|SoftSilhouetteBoundary\.(SilhouettesThatNearlyCoincide|OfHundredsOfEdges)'
 ((${#suites[@]})) || suites=(math points shadow soft ao hash)
 
