@@ -61,8 +61,8 @@ public:
   /// for one of them.
   void share_triangles(ShadowTracer& other);
   /// Does what the next trace_shadow_mask() of these triangles does first: makes the tree over them, or moves
-  /// the last frame's. With TriangleView::version not 0 that call finds it done. Returns false if `stop` was
-  /// requested before the end.
+  /// the last frame's, while no other tracer that shares it is at work. With TriangleView::version not 0 that
+  /// call finds it done. Returns false if `stop` was requested before the end.
   bool follow(const TriangleView& triangles, SimdLevel simd, const StopFlag* stop = nullptr);
 
 private:

@@ -10,7 +10,7 @@
 
 namespace tenebra::base {
 
-#if defined(__GLIBC__) && __GLIBC_PREREQ(2, 35)
+#ifdef __GLIBC__  // before 2.35 it ignores the setting
 
 namespace {
 

@@ -35,7 +35,7 @@ int code_of_process_with(const char* variable) {
 }
 
 bool system_waits_to_be_asked() {
-#if defined(__GLIBC__) && __GLIBC_PREREQ(2, 35)
+#ifdef __GLIBC__
   std::ifstream file("/sys/kernel/mm/transparent_hugepage/enabled");
   const std::string text{std::istreambuf_iterator<char>(file), {}};
   return text.find("[madvise]") != std::string::npos;

@@ -74,7 +74,7 @@ private:
   double square_error_ = 0;
   std::uint64_t left_penumbra_ = 0;  ///< pixels in penumbra of groups that were left
   std::array<Phase, phases> phases_;
-  TriangleView triangles_;  ///< of the frame, with a version
+  TriangleView triangles_;  ///< of the frame at hand, with a version of their own for the tracers
   SampledBlocks blocks_;
   LightTally tally_;
   LightMeans means_;
