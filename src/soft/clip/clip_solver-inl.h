@@ -41,9 +41,12 @@ public:
     hot_.clear(group.heights);
     hot_ids_.clear();
     cold_.clear(group.heights);
-    cold_.make_room(order.size());
+    cold_.reserve(order.size());
     for (std::size_t i = 0; i < order.size(); ++i) {
-      if (i % look_after == 0 && stop_requested(stop)) return;
+      if (i % look_after == 0) {
+        if (stop_requested(stop)) return;
+        cold_.make_room(std::min(order.size(), i + look_after));
+      }
       if (i + ahead < order.size()) expect(group.all[order[i + ahead]]);
       cold_.add(group.all[order[i]]);
     }

@@ -26,6 +26,11 @@ public:
     heights_ = heights;
     count_ = 0;
   }
+  /// Takes memory for so many, of which make_room() writes to what it makes room in.
+  void reserve(std::size_t occluders) {
+    const std::size_t blocks = (occluders + 15) / 16;
+    boxes_.reserve(blocks), useful_.reserve(blocks), blocks_.reserve(blocks);
+  }
   /// Makes room for so many; add() makes more where it needs it.
   void make_room(std::size_t occluders) {
     const std::size_t blocks = (occluders + 15) / 16;
