@@ -4,6 +4,8 @@
 #include <bit>
 #include <cmath>
 
+#include "base/until_stopped.h"
+
 namespace tenebra::query {
 
 namespace {
@@ -13,19 +15,32 @@ using glm::vec3;
 
 constexpr std::uint32_t corners = 3;
 
-Mesh mesh_of(const std::vector<vec3>& positions, const std::vector<glm::uvec3>& triangles) {
+/// Not all of it if `stop` is requested.
+Mesh mesh_of(const std::vector<vec3>& positions, const std::vector<glm::uvec3>& triangles,
+             const StopFlag* stop) {
   Mesh mesh;
-  mesh.positions = positions;
-  mesh.triangles = triangles;
-  mesh.materials.assign(triangles.size(), 0);
+  base::copy_until_stopped(std::span(positions), mesh.positions, stop);
+  base::copy_until_stopped(std::span(triangles), mesh.triangles, stop);
+  base::resize_until_stopped(mesh.materials, triangles.size(), stop);
   return mesh;
+}
+
+/// Gives `geometry` the sizes that the frame of `scene` needs; false if `stop` was requested.
+bool make_room(const Scene& scene, FrameGeometry& geometry, const StopFlag* stop) {
+  std::size_t vertices = 0, triangles = 0;
+  for (const Mesh& mesh : scene.meshes) vertices += mesh.positions.size(), triangles += mesh.triangles.size();
+  return base::resize_until_stopped(geometry.positions, vertices, stop) &&
+         base::resize_until_stopped(geometry.normals, vertices, stop) &&
+         base::resize_until_stopped(geometry.triangles, triangles, stop) &&
+         base::resize_until_stopped(geometry.materials, triangles, stop) &&
+         base::resize_until_stopped(geometry.casts_shadow, triangles, stop);
 }
 
 /// Room for stand-ins, of no size yet. A shape makes it a mesh that deforms.
 Mesh empty_slots(std::size_t slots) {
   std::vector<glm::uvec3> triangles;
   for (std::uint32_t i = 0; i < slots; ++i) triangles.push_back(corners * i + glm::uvec3(0, 1, 2));
-  Mesh mesh = mesh_of(std::vector<vec3>(corners * slots, vec3(0.0f)), triangles);
+  Mesh mesh = mesh_of(std::vector<vec3>(corners * slots, vec3(0.0f)), triangles, nullptr);
   mesh.shapes.push_back({0.0, mesh.positions, {}});
   return mesh;
 }
@@ -53,9 +68,9 @@ bool StandIns::follow(const std::shared_ptr<const GeometryData>& data, std::size
 bool StandIns::rebuild(const StopFlag* stop) {
   scene_ = {};
   scene_.materials.resize(1);
-  scene_.meshes.push_back(mesh_of(data_->positions, data_->triangles));
+  scene_.meshes.push_back(mesh_of(data_->positions, data_->triangles, stop));
   scene_.meshes.push_back(empty_slots(slots_));
-  if (stop_requested(stop)) return false;
+  if (stop_requested(stop) || !make_room(scene_, geometry_, stop)) return false;
   scene_.nodes.resize(scene_.meshes.size());
   for (std::size_t i = 0; i < scene_.nodes.size(); ++i) scene_.nodes[i].mesh = static_cast<int>(i);
   evaluate_frame(scene_, -1, 0.0, geometry_);

@@ -6,6 +6,7 @@
 #include <cstring>
 
 #include "ao/cast/embree.h"
+#include "base/until_stopped.h"
 
 namespace tenebra::ao {
 
@@ -33,8 +34,8 @@ bool goes_on(void* stop, double) {
   return !stop_requested(static_cast<const StopFlag*>(stop));
 }
 
-/// False if memory is short.
-bool attach(const TriangleView& triangles, RTCDevice device, RTCScene scene) {
+/// False if memory is short. Of no use if `stop` is requested.
+bool attach(const TriangleView& triangles, const StopFlag* stop, RTCDevice device, RTCScene scene) {
   std::size_t count = 0;
   for (std::size_t t = 0; t < triangles.triangles.size(); ++t) count += casts(triangles, t) ? 1 : 0;
   if (count == 0) return true;
@@ -44,11 +45,13 @@ bool attach(const TriangleView& triangles, RTCDevice device, RTCScene scene) {
   auto* indices = static_cast<std::uint32_t*>(
       rtcSetNewGeometryBuffer(mesh, RTC_BUFFER_TYPE_INDEX, 0, RTC_FORMAT_UINT3, 12, count));
   if (positions != nullptr && indices != nullptr) {
-    std::memcpy(positions, triangles.positions.data(), 12 * triangles.positions.size());
-    for (std::size_t t = 0; t < triangles.triangles.size(); ++t) {
-      if (!casts(triangles, t)) continue;
+    base::each_until_stopped(0, triangles.positions.size(), stop, [&](std::size_t v) {
+      std::memcpy(positions + 3 * v, &triangles.positions[v], 12);
+    });
+    base::each_until_stopped(0, triangles.triangles.size(), stop, [&](std::size_t t) {
+      if (!casts(triangles, t)) return;
       for (int k = 0; k < 3; ++k) *indices++ = triangles.triangles[t][k];
-    }
+    });
     rtcCommitGeometry(mesh);
     rtcAttachGeometry(scene, mesh);
   }
@@ -64,10 +67,10 @@ Expected<ReferenceRays> ReferenceRays::create(const TriangleView& triangles, con
     return base::fail("the ray caster did not start: error {}", static_cast<int>(rtcGetDeviceError(nullptr)));
   state->scene = rtcNewScene(state->device);
   rtcSetSceneFlags(state->scene, RTC_SCENE_FLAG_ROBUST);
-  if (!attach(triangles, state->device, state->scene))
+  if (!attach(triangles, stop, state->device, state->scene))
     return base::fail("the ray caster has no memory for {} triangles", triangles.triangles.size());
   rtcSetSceneProgressMonitorFunction(state->scene, goes_on, const_cast<StopFlag*>(stop));  // only read
-  rtcCommitScene(state->scene);
+  if (!stop_requested(stop)) rtcCommitScene(state->scene);
   if (stop_requested(stop)) return base::fail("stopped");
   return ReferenceRays(std::move(state));
 }

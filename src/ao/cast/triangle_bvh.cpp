@@ -6,6 +6,7 @@
 #include <utility>
 
 #include "ao/cast/bvh_parts.h"
+#include "base/until_stopped.h"
 #include "parallel/parallel.h"
 
 namespace tenebra::ao {
@@ -15,7 +16,6 @@ namespace {
 constexpr int bin_count = 16;
 constexpr int depth_to_halve = bvh_depth - 32;  ///< from here on 32 levels hold whatever is left
 constexpr std::uint32_t shared_size = 8192;  ///< items of a node whose children are made by several threads
-constexpr std::size_t stride = 4096;         ///< items treated between two looks at the stop flag, at most
 constexpr float infinity = std::numeric_limits<float>::infinity();
 
 struct Item {
@@ -60,10 +60,7 @@ private:
   /// Calls body(i) for first .. last - 1, in order, until a stop is requested.
   template <class Body>
   void each(std::size_t first, std::size_t last, const Body& body) const {
-    while (first < last && !stopped()) {
-      const std::size_t end = std::min(last, first + stride);
-      for (; first < end; ++first) body(first);
-    }
+    base::each_until_stopped(first, last, stop_, body);
   }
 
   void collect();
@@ -214,6 +211,13 @@ std::uint32_t append(const TriangleBvh& part, std::uint32_t root, TriangleBvh& t
   return moved(root);
 }
 
+/// Room for parts: a list that grows copies what it has.
+void make_room(const std::array<TriangleBvh, bvh_width>& parts, TriangleBvh& tree) {
+  std::size_t nodes = tree.nodes.size(), blocks = tree.blocks.size();
+  for (const TriangleBvh& part : parts) nodes += part.nodes.size(), blocks += part.blocks.size();
+  tree.nodes.reserve(nodes), tree.blocks.reserve(blocks);
+}
+
 /// Nodes and blocks come to lie in the order of a walk from the first child to the last, whoever makes them.
 std::uint32_t Builder::add_node(const Range& whole, int depth, TriangleBvh& tree) {
   const std::vector<Range> children = children_of(whole, depth);
@@ -227,6 +231,7 @@ std::uint32_t Builder::add_node(const Range& whole, int depth, TriangleBvh& tree
       const auto i = static_cast<std::size_t>(child);
       roots[i] = add_child(children[i], depth + 1, parts[i]);
     });
+    make_room(parts, tree);
   }
   for (std::size_t lane = 0; lane < bvh_width; ++lane) {
     if (lane >= children.size()) {

@@ -3,15 +3,17 @@
 #include <unordered_map>
 
 #include "ao/field/field_file.h"
+#include "base/until_stopped.h"
 #include "parallel/parallel.h"
 
 namespace tenebra::ao {
 
-std::vector<glm::uvec3> casting_triangles(const ObjectShape& shape) {
+std::vector<glm::uvec3> casting_triangles(const ObjectShape& shape, const StopFlag* stop) {
   std::vector<glm::uvec3> triangles;
-  for (std::size_t t = 0; t < shape.triangles.size(); ++t) {
+  triangles.reserve(shape.triangles.size());
+  base::each_until_stopped(0, shape.triangles.size(), stop, [&](std::size_t t) {
     if (shape.casts[t]) triangles.push_back(shape.triangles[t]);
-  }
+  });
   return triangles;
 }
 
@@ -83,7 +85,7 @@ Expected<const DisplacementField*> ShapeFields::make(int shape, const TriangleBv
   if (!make_room(kept)) return nullptr;
   const ObjectShape& of = (*shapes_)[static_cast<std::size_t>(shape)];
   ++built_;
-  auto built = build_field(of.positions, casting_triangles(of), casters, settings_, progress, stop);
+  auto built = build_field(of.positions, casting_triangles(of, stop), casters, settings_, progress, stop);
   if (!built) {
     kept.drop();
     return tl::unexpected(built.error());

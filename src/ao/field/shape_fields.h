@@ -17,8 +17,8 @@
 
 namespace tenebra::ao {
 
-/// The shape's triangles that cast.
-std::vector<glm::uvec3> casting_triangles(const ObjectShape& shape);
+/// The shape's triangles that cast; not all of them if `stop` is requested.
+std::vector<glm::uvec3> casting_triangles(const ObjectShape& shape, const StopFlag* stop = nullptr);
 
 class ShapeFields {
 public:

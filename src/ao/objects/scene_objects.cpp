@@ -9,6 +9,7 @@
 #include <unordered_map>
 
 #include "ao/objects/node_motion.h"
+#include "base/until_stopped.h"
 
 namespace tenebra::ao {
 namespace {
@@ -126,22 +127,23 @@ bool is_point(const glm::uvec3& t) {
   return t.x == t.y && t.y == t.z;
 }
 
-/// Appends a part's mesh as it lies in the object's space.
-void append(const FrameGeometry& geometry, const Part& part, const dmat4& to_object, ObjectShape& shape) {
+/// Appends a part's mesh as it lies in the object's space; not all of it if `stop` is requested.
+void append(const FrameGeometry& geometry, const Part& part, const dmat4& to_object, const StopFlag* stop,
+            ObjectShape& shape) {
   const Mesh& mesh = *part.mesh;
-  const auto base = static_cast<std::uint32_t>(shape.positions.size());
+  const auto first = static_cast<std::uint32_t>(shape.positions.size());
   const glm::dmat3 linear(to_object);
   const glm::dmat3 turn(glm::cross(linear[1], linear[2]), glm::cross(linear[2], linear[0]),
                         glm::cross(linear[0], linear[1]));
-  for (std::size_t v = 0; v < mesh.positions.size(); ++v) {
+  base::each_until_stopped(0, mesh.positions.size(), stop, [&](std::size_t v) {
     const vec3 p(linear * dvec3(mesh.positions[v]) + dvec3(to_object[3]));
     shape.positions.push_back(finite(p) ? p : vec3(0.0f));
     shape.normals.push_back(mesh.normals.empty() ? vec3(0.0f) : unit_or_zero(turn * dvec3(mesh.normals[v])));
-  }
-  for (std::size_t t = 0; t < mesh.triangles.size(); ++t) {
-    shape.triangles.push_back(mesh.triangles[t] + base);
+  });
+  base::each_until_stopped(0, mesh.triangles.size(), stop, [&](std::size_t t) {
+    shape.triangles.push_back(mesh.triangles[t] + first);
     shape.casts.push_back(geometry.casts_shadow[part.first_triangle + t]);
-  }
+  });
 }
 
 /// Room for a part that is appended; for many of them in steps that double.
@@ -153,29 +155,29 @@ void make_room(const Part& part, ObjectShape& shape) {
   grow(shape.triangles, part.mesh->triangles.size()), grow(shape.casts, part.mesh->triangles.size());
 }
 
-/// Appends a part of the static geometry, in world space, as the frame has it.
-void append(const FrameGeometry& geometry, const Part& part, ObjectShape& shape) {
+/// Appends a part of the static geometry, in world space, as the frame has it; likewise.
+void append(const FrameGeometry& geometry, const Part& part, const StopFlag* stop, ObjectShape& shape) {
   make_room(part, shape);
-  const auto base = static_cast<std::uint32_t>(shape.positions.size());
-  const auto first = static_cast<std::uint32_t>(part.first_vertex);
-  for (std::size_t v = part.first_vertex; v < part.first_vertex + part.mesh->positions.size(); ++v) {
-    shape.positions.push_back(geometry.positions[v]);
-    shape.normals.push_back(geometry.normals[v]);
-  }
-  for (std::size_t t = 0; t < part.mesh->triangles.size(); ++t) {
+  const auto first = static_cast<std::uint32_t>(shape.positions.size());
+  const auto of_frame = static_cast<std::uint32_t>(part.first_vertex);
+  base::each_until_stopped(0, part.mesh->positions.size(), stop, [&](std::size_t v) {
+    shape.positions.push_back(geometry.positions[part.first_vertex + v]);
+    shape.normals.push_back(geometry.normals[part.first_vertex + v]);
+  });
+  base::each_until_stopped(0, part.mesh->triangles.size(), stop, [&](std::size_t t) {
     const glm::uvec3 triangle = geometry.triangles[part.first_triangle + t];
-    shape.triangles.push_back(is_point(triangle) ? glm::uvec3(base) : triangle - first + base);
+    shape.triangles.push_back(is_point(triangle) ? glm::uvec3(first) : triangle - of_frame + first);
     shape.casts.push_back(geometry.casts_shadow[part.first_triangle + t]);
-  }
+  });
 }
 
-/// A sphere about the casting triangles, around the middle of their box.
-void enclose(ObjectShape& shape) {
+/// A sphere about the casting triangles, around the middle of their box; of any size if `stop` is requested.
+void enclose(ObjectShape& shape, const StopFlag* stop) {
   const auto each_corner = [&](const auto& visit) {
-    for (std::size_t t = 0; t < shape.triangles.size(); ++t) {
-      if (!shape.casts[t] || is_point(shape.triangles[t])) continue;
+    base::each_until_stopped(0, shape.triangles.size(), stop, [&](std::size_t t) {
+      if (!shape.casts[t] || is_point(shape.triangles[t])) return;
       for (int k = 0; k < 3; ++k) visit(shape.positions[shape.triangles[t][k]]);
-    }
+    });
   };
   vec3 low(INFINITY), high(-INFINITY);
   each_corner([&](const vec3& p) { low = glm::min(low, p), high = glm::max(high, p); });
@@ -189,8 +191,8 @@ void enclose(ObjectShape& shape) {
   shape.radius = std::nextafter(static_cast<float>(std::sqrt(square)), INFINITY);
 }
 
-void finish(ObjectShape& shape) {
-  enclose(shape);
+void finish(ObjectShape& shape, const StopFlag* stop) {
+  enclose(shape, stop);
   Hash hash;
   hash.add(shape.positions);
   hash.add(shape.normals);
@@ -231,7 +233,7 @@ public:
       sort_in(part);
     }
     if (stop_requested(stop_)) return;
-    finish(out_.standing);
+    finish(out_.standing, stop_);
     for (auto& [node, parts] : groups_) {
       if (stop_requested(stop_)) return;
       add_object(node, parts);
@@ -247,7 +249,7 @@ private:
       groups_[mover].push_back(part);
     } else {
       own(part, TriangleOwner::standing, out_.standing.triangles.size());
-      append(geometry_, part, out_.standing);
+      append(geometry_, part, stop_, out_.standing);
     }
   }
 
@@ -314,8 +316,8 @@ private:
 
   ObjectShape make_shape(const std::vector<Part>& parts, const std::vector<dmat4>& to_objects) const {
     ObjectShape shape;
-    for (std::size_t i = 0; i < parts.size(); ++i) append(geometry_, parts[i], to_objects[i], shape);
-    finish(shape);
+    for (std::size_t i = 0; i < parts.size(); ++i) append(geometry_, parts[i], to_objects[i], stop_, shape);
+    finish(shape, stop_);
     return shape;
   }
 

@@ -5,6 +5,7 @@
 #include <cmath>
 
 #include "ao/surface/surface_layout_inline.h"
+#include "base/until_stopped.h"
 
 namespace tenebra::ao {
 namespace {
@@ -90,17 +91,21 @@ struct Corner {
 /// bits at once, and then range by range, so that a stop need not wait for all.
 std::vector<Corner> sorted_corners(const ObjectShape& shape, const StopFlag* stop) {
   constexpr int first_bits = 8;
-  constexpr std::uint32_t look_after = 1 << 14;
-  std::vector<Corner> corners(3 * shape.triangles.size()), sorted(corners.size());
+  const std::size_t count = 3 * shape.triangles.size();
+  std::vector<Corner> corners, sorted;
+  corners.reserve(count);
   std::vector<std::size_t> ends((1u << first_bits) + 1);
   const auto range_of = [](const Corner& corner) { return corner.key >> (64 - first_bits); };
-  for (std::uint32_t id = 0; id < corners.size(); ++id) {
-    if (id % look_after == 0 && stop_requested(stop)) return {};
-    corners[id] = {corner_key(shape, id / 3, static_cast<int>(id % 3)), id};
-    ++ends[range_of(corners[id]) + 1];
-  }
+  base::each_until_stopped(0, count, stop, [&](std::size_t i) {
+    const auto id = static_cast<std::uint32_t>(i);
+    corners.push_back({corner_key(shape, id / 3, static_cast<int>(id % 3)), id});
+    ++ends[range_of(corners.back()) + 1];
+  });
+  if (!base::resize_until_stopped(sorted, count, stop)) return {};
   for (std::size_t k = 1; k < ends.size(); ++k) ends[k] += ends[k - 1];
-  for (const Corner& corner : corners) sorted[ends[range_of(corner)]++] = corner;
+  const bool all = base::each_until_stopped(
+      0, corners.size(), stop, [&](std::size_t i) { sorted[ends[range_of(corners[i])]++] = corners[i]; });
+  if (!all) return {};
   for (std::size_t k = 0, first = 0; k + 1 < ends.size(); first = ends[k++]) {
     if (stop_requested(stop)) return {};
     std::sort(sorted.begin() + static_cast<std::ptrdiff_t>(first),
@@ -136,7 +141,7 @@ SurfaceLayout::SurfaceLayout(const ObjectShape& shape, double reach, const StopF
 void SurfaceLayout::lay_grids(const StopFlag* stop) {
   grids_.assign(shape_.triangles.size(), {});
   std::vector<double> edges(shape_.triangles.size());
-  for (std::size_t t = 0; t < edges.size(); ++t) edges[t] = longest_edge(shape_, t);
+  base::each_until_stopped(0, edges.size(), stop, [&](std::size_t t) { edges[t] = longest_edge(shape_, t); });
   const auto count = [&] {
     std::size_t places = 0;
     for (const double edge : edges) {
@@ -146,20 +151,19 @@ void SurfaceLayout::lay_grids(const StopFlag* stop) {
     return places;
   };
   while (!stop_requested(stop) && count() > most_places) spacing_ *= 1.25;
-  for (std::size_t t = 0; t < edges.size(); ++t) {
+  base::each_until_stopped(0, edges.size(), stop, [&](std::size_t t) {
     grids_[t].steps = steps_of(edges[t], spacing_);
     if (grids_[t].steps > 1) large_.push_back(static_cast<std::uint32_t>(t));
-  }
+  });
 }
 
 void SurfaceLayout::weld_corners(const StopFlag* stop) {
   const std::vector<Corner> corners = sorted_corners(shape_, stop);
-  if (stop_requested(stop)) return;
-  corners_.resize(corners.size());
-  for (std::size_t i = 0; i < corners.size(); ++i) {
+  if (!base::resize_until_stopped(corners_, corners.size(), stop)) return;
+  base::each_until_stopped(0, corners.size(), stop, [&](std::size_t i) {
     if (i == 0 || corners[i].key != corners[i - 1].key) shared_.push_back(corners[i].id);
     corners_[corners[i].id] = static_cast<std::uint32_t>(shared_.size() - 1);
-  }
+  });
 }
 
 SampleTriple SurfaceLayout::corners(const SurfacePoint& point) const {

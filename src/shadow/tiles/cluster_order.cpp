@@ -4,6 +4,7 @@
 #include <cmath>
 #include <limits>
 
+#include "base/until_stopped.h"
 #include "parallel/parallel.h"
 #include "points/triangle_corners.h"
 #include "shadow/tiles/triangle_clusters.h"
@@ -17,7 +18,6 @@ using glm::vec3;
 // Limits of the classes of size, for a triangle's longest edge over the scene's longest side.
 constexpr float class_limits[] = {1.0f / 16, 1.0f / 128};
 constexpr std::size_t class_count = 3, node_size = 256;
-constexpr std::uint32_t stride = 4096;  // triangles treated between two looks at the stop flag, at most
 
 bool is_finite(const vec3& p) {
   return std::isfinite(p.x) && std::isfinite(p.y) && std::isfinite(p.z);
@@ -105,15 +105,17 @@ void sort_class(SizeClass& c, const StopFlag* stop) {
 void cluster_order(const TriangleView& t, std::vector<std::uint32_t>& order, const StopFlag* stop) {
   const float extent = extent_of(t);
   SizeClass classes[class_count];
+  for (SizeClass& c : classes) c.items.reserve(t.triangles.size());  // a list that grows copies what it has
   for (const Part& part : parts_in_order(t, stop)) {
     for (SizeClass& c : classes) c.begins.push_back(c.items.size());
-    for (std::uint32_t id = part.first; id < part.last; ++id) {
-      if (id % stride == 0 && stop_requested(stop)) return;
-      if (!t.casts_shadow.empty() && t.casts_shadow[id] == 0) continue;
+    base::each_until_stopped(part.first, part.last, stop, [&](std::size_t i) {
+      if (!t.casts_shadow.empty() && t.casts_shadow[i] == 0) return;
+      const auto id = static_cast<std::uint32_t>(i);
       const points::Corners c = points::corners_of(t, id);
       const float size = longest_edge(c) / extent;
       classes[size > class_limits[0] ? 0 : size > class_limits[1] ? 1 : 2].items.push_back(item_of(id, c));
-    }
+    });
+    if (stop_requested(stop)) return;
   }
   parallel::parallel_tasks(class_count, [&](int k) { sort_class(classes[k], stop); });
   if (stop_requested(stop)) return;

@@ -5,6 +5,7 @@
 #include <cstring>
 #include <limits>
 
+#include "base/until_stopped.h"
 #include "parallel/parallel.h"
 #include "points/triangle_corners.h"
 #include "shadow/tiles/cluster_kernels.h"
@@ -69,20 +70,23 @@ bool ClusterTree::same_order(const TriangleView& t) const {
 }
 
 void ClusterTree::find_order(const TriangleView& t, const StopFlag* stop) {
-  positions_.assign(t.positions.begin(), t.positions.end());
+  positions_.reserve(t.positions.size() + 1);
+  base::copy_until_stopped(t.positions, positions_, stop);
   positions_.emplace_back(0.0f);
-  triangles_.assign(t.triangles.begin(), t.triangles.end());
-  casts_.assign(t.casts_shadow.begin(), t.casts_shadow.end());
+  base::copy_until_stopped(t.triangles, triangles_, stop);
+  base::copy_until_stopped(t.casts_shadow, casts_, stop);
   parts_.assign(t.parts.begin(), t.parts.end());
   casters_ = casts_.empty() ? t.triangles.size()
                             : static_cast<std::uint64_t>(std::count_if(
                                   casts_.begin(), casts_.end(), [](auto casts) { return casts != 0; }));
-  cluster_order(t, order_, stop);
-  if (stop_requested(stop)) return;
-  clusters_.assign(order_.size() / cluster_size, {});
+  if (!stop_requested(stop)) cluster_order(t, order_, stop);
+  clusters_.clear();
   used_ = 0;
-  corners_.resize(clusters_.size());
-  origins_.resize(clusters_.size());
+  const std::size_t count = order_.size() / cluster_size;
+  base::resize_until_stopped(clusters_, count, stop);
+  base::resize_until_stopped(corners_, count, stop);
+  base::resize_until_stopped(origins_, count, stop);
+  if (stop_requested(stop)) return;
   levels_.clear();
   for (std::size_t size = clusters_.size(); size > 0; size = levels_.back().size()) {
     levels_.emplace_back((size + cluster_size - 1) / cluster_size);

@@ -2,6 +2,8 @@
 
 #include <algorithm>
 
+#include "base/until_stopped.h"
+
 namespace tenebra::soft {
 
 void FamilyCandidates::clear() {
@@ -49,7 +51,6 @@ void FamilyCandidates::make_ready(const GroupCandidates& all, std::span<const st
 
 std::span<const std::uint32_t> FamilyCandidates::choose(std::size_t k, const GroupFrame& group,
                                                         GroupCandidates& all, const StopFlag* stop) {
-  constexpr std::size_t look_after = 4096;
   own_.resize(members_.size());
   std::size_t count = 0;
   for (const Member& member : members_) {
@@ -57,15 +58,14 @@ std::span<const std::uint32_t> FamilyCandidates::choose(std::size_t k, const Gro
     count += member.groups >> k & 1u;
   }
   decided_.clear();
-  for (std::size_t i = 0; i < doubtful_.size(); ++i) {
-    if (i % look_after == 0 && stop_requested(stop)) break;
+  base::each_until_stopped(0, doubtful_.size(), stop, [&](std::size_t i) {
     const Member& member = doubtful_[i];
-    if ((member.groups >> k & 1u) == 0) continue;
+    if ((member.groups >> k & 1u) == 0) return;
     Candidate& c = all.all[member.place];
-    if (std::binary_search(group.receivers.begin(), group.receivers.end(), c.triangle)) continue;
+    if (std::binary_search(group.receivers.begin(), group.receivers.end(), c.triangle)) return;
     c.sign = all.axes.turn * certain_sign(all.heights[c.height], all.axes.centre, group);
     if (c.sign != 0) decided_.push_back(member.place);
-  }
+  });
   return {own_.data(), count};
 }
 
