@@ -10,8 +10,6 @@ set -euo pipefail
 cd "$(dirname "$0")/.."
 build=build-arm64
 suites=("$@")
-# About six to more than eight minutes each under qemu, when compiled by -O1.
-slow='TreeBound\.HoldsWithinAQuery|SoftSilhouetteBoundary\.(SilhouettesThatNearlyCoincide|OfHundredsOfEdges)'
 ((${#suites[@]})) || suites=(math points shadow soft ao hash)
 
 native=(ca-certificates g++-aarch64-linux-gnu cmake ninja-build pkg-config python3 python3-glad qemu-user
@@ -57,6 +55,6 @@ for suite in "${suites[@]}"; do
     compare_hashes
   else
     cmake --build $build -j "${JOBS:-$(nproc)}" --target "tests_$suite"
-    ctest --test-dir $build --output-on-failure -j "${JOBS:-$(nproc)}" -L "^$suite\$" -E "$slow"
+    ctest --test-dir $build --output-on-failure -j "${JOBS:-$(nproc)}" -L "^$suite\$"
   fi
 done

@@ -76,15 +76,21 @@ copy_checkout() {
     tar -C "$checkout" --null --files-from - --ignore-failed-read -c | tar -C "$root/tenebra" --no-same-owner -x
 }
 
-# In a mount and process space of its own, so that nothing is left mounted and nothing left running.
+# In a mount and process space of its own, so that nothing is left mounted and nothing left running. unshare itself ignores
+# SIGTERM; its end is the end of all within.
 run_in_root() {
+  local within
   cp --remove-destination -L /etc/resolv.conf /etc/hosts "$root/etc/"
   unshare --mount --pid --fork --kill-child bash -euc '
     mount -t proc proc "$0/proc"
     mount --rbind /dev "$0/dev"
     exec chroot "$0" /usr/bin/env -i HOME=/root PATH=/usr/sbin:/usr/bin:/sbin:/bin LANG=C.UTF-8 \
       ${http_proxy:+http_proxy="$http_proxy"} ${https_proxy:+https_proxy="$https_proxy"} \
-      bash -c "cd /tenebra && $1"' "$root" "$1"
+      bash -c "cd /tenebra && $1"' "$root" "$1" <&0 &
+  within=$!
+  trap 'kill -KILL "$within"; exit 143' TERM INT
+  wait "$within"
+  trap - TERM INT
 }
 
 read_options "$@"
