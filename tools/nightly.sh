@@ -167,13 +167,14 @@ run_viewer() {
       python3 tests/random_hands.py build-asan/bin/tenebra scenes/city.glb "${VIEWER_FRAMES:-500}" "${VIEWER_SEED:-1}" -- --size 160x120
 }
 
-# Without ccache, which would take the second folder's objects from the first.
+# Without ccache, which would take the second folder's objects from the first. As packages are built: folders as one file.
 run_same-bytes() {
   local folders one two folder program status=0
   folders=$(mktemp -d) && one=$folders/one two=$folders/two/below || return 1
   for folder in "$one" "$two"; do
     mkdir -p "$folder" && git archive HEAD | tar x -C "$folder" &&
-      cmake -S "$folder" -B "$folder/build" -G Ninja -DCMAKE_BUILD_TYPE=Release -DTENEBRA_TESTS=OFF > /dev/null &&
+      cmake -S "$folder" -B "$folder/build" -G Ninja -DCMAKE_BUILD_TYPE=Release -DTENEBRA_TESTS=OFF \
+        -DTENEBRA_UNITY=ON > /dev/null &&
       CCACHE_DISABLE=1 cmake --build "$folder/build" -j "$jobs" --target tenebra tenebra_c_api || status=1
   done
   for program in bin/tenebra libtenebra.so; do
