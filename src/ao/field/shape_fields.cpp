@@ -3,6 +3,7 @@
 #include <unordered_map>
 
 #include "ao/field/field_file.h"
+#include "base/fail.h"
 #include "base/until_stopped.h"
 #include "parallel/parallel.h"
 
@@ -84,8 +85,10 @@ Expected<const DisplacementField*> ShapeFields::make(int shape, const TriangleBv
   Kept& kept = fields_[static_cast<std::size_t>(shape)];
   if (!make_room(kept)) return nullptr;
   const ObjectShape& of = (*shapes_)[static_cast<std::size_t>(shape)];
+  const std::vector<glm::uvec3> triangles = casting_triangles(of, stop);
+  if (stop_requested(stop)) return base::fail("stopped");
   ++built_;
-  auto built = build_field(of.positions, casting_triangles(of, stop), casters, settings_, progress, stop);
+  auto built = build_field(of.positions, triangles, casters, settings_, progress, stop);
   if (!built) {
     kept.drop();
     return tl::unexpected(built.error());

@@ -207,7 +207,9 @@ const TriangleBvh* Occluders::casters(int index) {
   auto& tree = index < 0 ? standing_ : shapes_[static_cast<std::size_t>(index)].casters;
   const ObjectShape& shape =
       index < 0 ? objects_->standing : objects_->shapes[static_cast<std::size_t>(index)];
-  if (!tree) tree = trees_.make(shape.positions, casting_triangles(shape, stop_), stop_);
+  if (tree) return &*tree;
+  const std::vector<glm::uvec3> triangles = casting_triangles(shape, stop_);
+  if (!stop_requested(stop_)) tree = trees_.make(shape.positions, triangles, stop_);
   return tree ? &*tree : nullptr;
 }
 
