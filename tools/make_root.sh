@@ -88,9 +88,10 @@ run_in_root() {
       ${http_proxy:+http_proxy="$http_proxy"} ${https_proxy:+https_proxy="$https_proxy"} \
       bash -c "cd /tenebra && $1"' "$root" "$1" <&0 &
   within=$!
-  trap 'kill -KILL "$within"; exit 143' TERM INT
+  trap 'kill -KILL "$within"; exit 130' INT
+  trap 'kill -KILL "$within"; exit 143' TERM
   wait "$within"
-  trap - TERM INT
+  trap - INT TERM
 }
 
 read_options "$@"
