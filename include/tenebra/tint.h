@@ -56,7 +56,9 @@ struct TintConfig {
   ContactRule contact = ContactRule::triangle_ids;  ///< hard: the mask's
   SimdLevel simd = SimdLevel::automatic;            ///< factors do not depend on it
   bool own_irradiance = false;  ///< soft: the mask's irradiance is an estimate; find it again, exactly
-  bool same_surfaces = false;   ///< triangles and surfaces are those of the last call and have not moved
+  double error_255 =
+      0;  ///< soft: error of the irradiance that is allowed, 1/255 of white; 0: as small as it gets
+  bool same_surfaces = false;  ///< triangles and surfaces are those of the last call and have not moved
 };
 
 /// The work of the last call.
@@ -65,7 +67,7 @@ struct TintStats {
   std::uint64_t tests = 0;      ///< hard: tests of a tile of 16 samples with a triangle; soft: shadows tested
   std::uint64_t crossings = 0;  ///< hard: samples times see-through triangles between them and the light
   std::uint64_t exact = 0;      ///< hard: tests that double left open
-  std::uint64_t numeric = 0;    ///< soft: points answered by the rule of 4,096 places
+  std::uint64_t numeric = 0;    ///< soft: points answered by places of the light
   double ms = 0;                ///< wall-clock time
 };
 
@@ -100,7 +102,7 @@ public:
   /// Up to 24 triangles of constant transmittance before a point: the visible part is cut along their shadows
   /// and each piece is integrated exactly, in the precision of SoftPrecision::fast. More of them, or textures
   /// and vertex colours that vary: 4,096 places of the light, one in each cell of a 64 x 64 grid around it
-  /// (docs/see_through.md says how exact that is).
+  /// (docs/see_through.md says how exact that is), or fewer where config.error_255 allows it.
   ///
   /// The bits are the same for any number of threads. Returns false, with `out` unspecified, if `stop` was
   /// requested before the end.

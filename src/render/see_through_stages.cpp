@@ -28,6 +28,7 @@ Expected<void> Renderer::State::trace_tint(const FrameInput& input, const DrawnL
   TintConfig config;
   config.simd = settings.hard.simd;
   config.own_irradiance = settings.soft_points > 0 || settings.soft.error_255 > 0;
+  config.error_255 = settings.soft.error_255;
   config.same_surfaces = std::exchange(tint_has_surfaces, true);
   if (settings.samples == SampleSource::depth) config.contact = ContactRule::none;
   bool done = true;

@@ -1,6 +1,7 @@
 #include "tint/soft_tint.h"
 
 #include <algorithm>
+#include <cmath>
 #include <numeric>
 
 #include "parallel/parallel.h"
@@ -56,6 +57,12 @@ soft::GroupFrame frame_of(const soft::PointGroup& group, const soft::PointGroups
 }
 
 }  // namespace
+
+int grid_side_for(double error_255) {
+  int side = 64;
+  while (side > 8 && 0.5 * std::pow(side / 2, -1.5) <= 0.5 * error_255 / 255) side /= 2;
+  return side;
+}
 
 /// A ray of the sun p + t q has |q| >= 1, and no two places are farther apart than sqrt(3) times the sum of
 /// their largest coordinates. With all q times t in the box, the hull of both boxes holds it.
@@ -144,7 +151,14 @@ bool SoftTint::trace(const VisiblePoints& points, std::span<const glm::vec3> nor
   const soft::LightFrame light_frame = soft::light_frame(light);
   const soft::SoftFrame soft_frame{points,      normals, view, triangles, light_frame,
                                    soft_config, unused_, {},   stop};
-  const SoftTintFrame frame{soft_frame, mask, surfaces, tree, reach, tolerance, config.own_irradiance};
+  const SoftTintFrame frame{soft_frame,
+                            mask,
+                            surfaces,
+                            tree,
+                            reach,
+                            tolerance,
+                            config.own_irradiance,
+                            grid_side_for(config.error_255)};
   const bool done = culler_.for_each_family(groups_, triangles, light, soft_config, stop,
                                             [&](std::span<const soft::GroupDecision> family, int thread) {
                                               for (const soft::GroupDecision& decision : family)

@@ -33,6 +33,7 @@ struct SoftTintFrame {
   LightReach reach;
   double plane_tolerance = 0;  ///< metres off the light's plane that its own rounding amounts to
   bool own_irradiance = false;
+  int grid_side = 0;  ///< grid_side_for()
 };
 
 /// Points of one group, and what may stand between them and the light.
@@ -44,7 +45,11 @@ struct SoftTintTask {
 
 /// Triangles before a point from which on places are counted instead of pieces cut.
 inline constexpr std::size_t most_cut = 24;
-inline constexpr int grid_side = 64;  ///< of the cells around the light, with a place in each
+/// Cells along each side of the light's grid, with a place in each, for an error of irradiance that is
+/// allowed, in 1/255 of white. One edge of a black shadow across the light puts a factor off by 0.5 side^-1.5
+/// (RMS): some 1.2 `side` cells are cut, and of each up to half is miscounted, independently of the others.
+/// That may be half of the error.
+int grid_side_for(double error_255);
 
 /// Buffers kept from group to group.
 class SoftTintSolver {

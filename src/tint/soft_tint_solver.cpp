@@ -1,5 +1,5 @@
-// The points of a group, one by one: the light cut along the shadows of see-through triangles, or 4,096
-// places of it.
+// The points of a group, one by one: the light cut along the shadows of see-through triangles, or places of
+// it counted.
 #include "tint/soft_tint.h"
 
 #undef HWY_TARGET_INCLUDE
@@ -11,6 +11,7 @@
 #include "soft/clip/clip_solver-inl.h"
 #include "soft/silhouette/silhouette_solver-inl.h"
 #include "soft/solve/point_sight-inl.h"
+#include "tint/light_grid-inl.h"
 
 HWY_BEFORE_NAMESPACE();
 namespace tenebra {
@@ -20,6 +21,7 @@ extern template class soft::HWY_NAMESPACE::ClipSolver<
 namespace tenebra::tint::HWY_NAMESPACE {
 namespace {
 using namespace soft::HWY_NAMESPACE;
+using namespace simd::HWY_NAMESPACE;
 using glm::dvec2;
 using glm::dvec3;
 using glm::vec3;
@@ -32,7 +34,6 @@ using Polygon = LightPolygon<float>;
 using Fragments = FragmentList<float>;
 
 constexpr std::size_t few_numbers = 32;  // of a group: each point looks at all
-constexpr std::size_t places = std::size_t{grid_side} * grid_side;
 
 /// The shadow of a see-through triangle on the light: the places that are positive for all four lines.
 struct TintShadow {
@@ -40,27 +41,14 @@ struct TintShadow {
   std::uint32_t number = 0;
 };
 
-/// A box of cells of the grid.
-struct Cells {
-  int first_column = 0, last_column = -1, first_row = 0, last_row = -1;
-};
-
 class Solver final : public SoftTintSolver {
 public:
-  Solver() : at_(places), weight_(places), passed_(places) {
-    for (std::size_t i = 0; i < places; ++i) {  // Roberts's sequence in two dimensions
-      const double n = static_cast<double>(i), x = n * 0.7548776662466927, y = n * 0.5698402909980532;
-      const dvec2 within(x - std::floor(x), y - std::floor(y));
-      const dvec2 cell(static_cast<double>(i % grid_side), static_cast<double>(i / grid_side));
-      at_[i] = 2.0 / grid_side * (cell + within) - 1.0;
-    }
-  }
-
   void solve(const SoftTintFrame& frame, const SoftTintTask& task, TintMask& found,
              TintStats& stats) override {
     frame_ = &frame;
     task_ = &task;
     receiver_.forget();
+    grid_.set_side(frame.grid_side);
     clip_.reset(task.group.candidates, task.group.clipped, frame.soft.stop);
     if (!task.group.silhouette.empty()) silhouette_.reset(task.group.silhouette);
     for (const std::uint32_t pixel : task.pixels) {
@@ -220,63 +208,19 @@ private:
   // Places.
 
   vec3 by_places() {
-    std::fill(weight_.begin(), weight_.end(), 0.0);
-    std::fill(passed_.begin(), passed_.end(), vec3(1.0f));
     visible_.clear();
     for (std::size_t i = 0; i < receiver_.light.size(); ++i) {
       found_.clear();
       find_visible(loaded(receiver_.light[i]));
       for (std::size_t k = 0; k < found_.size(); ++k) visible_.push(loaded(found_[k]));
     }
-    double sum = 0;
-    for (std::size_t i = 0; i < visible_.size(); ++i) sum += weigh(visible_[i]);
+    grid_.start(visible_);
+    for (std::size_t i = 0; i < visible_.size(); ++i)
+      grid_.weigh(visible_[i], [this](Double8 x, Double8 y) { return weight_at(x, y); });
+    const double sum = grid_.total();
     if (!(sum > 0)) return by_middles();
     for (const TintShadow& shadow : shadows_) pass(shadow);
-    dvec3 light(0.0);
-    for (std::size_t i = 0; i < places; ++i)
-      if (weight_[i] > 0) light += weight_[i] * dvec3(passed_[i]);
-    return vec3(glm::clamp(light / sum, 0.0, 1.0));
-  }
-
-  static Cells cells_around(const StoredPolygon<float>& polygon) {
-    float low_x = polygon.x[0], high_x = low_x, low_y = polygon.y[0], high_y = low_y;
-    for (int k = 1; k < polygon.count; ++k) {
-      low_x = std::min(low_x, polygon.x[k]), high_x = std::max(high_x, polygon.x[k]);
-      low_y = std::min(low_y, polygon.y[k]), high_y = std::max(high_y, polygon.y[k]);
-    }
-    const auto cell = [](float at, float beyond) {
-      const float scaled = std::floor((at + beyond + 1) * (grid_side / 2));
-      return static_cast<int>(std::clamp(scaled, 0.0f, static_cast<float>(grid_side - 1)));
-    };
-    return {cell(low_x, -1e-5f), cell(high_x, 1e-5f), cell(low_y, -1e-5f), cell(high_y, 1e-5f)};
-  }
-
-  template <class Body>
-  static void for_each_place(const Cells& cells, const Body& body) {
-    for (int row = cells.first_row; row <= cells.last_row; ++row)
-      for (int column = cells.first_column; column <= cells.last_column; ++column)
-        body(static_cast<std::size_t>(row * grid_side + column));
-  }
-
-  /// Weighs the places in a visible fragment; returns the sum.
-  double weigh(const StoredPolygon<float>& fragment) {
-    double sum = 0;
-    for_each_place(cells_around(fragment), [&](std::size_t i) {
-      if (weight_[i] > 0 || !holds(fragment, at_[i])) return;
-      weight_[i] = weight_at(at_[i]);
-      sum += weight_[i];
-    });
-    return sum;
-  }
-
-  /// An edge of no length but for rounding says nothing.
-  static bool holds(const StoredPolygon<float>& polygon, const dvec2& at) {
-    for (int k = 0; k < polygon.count; ++k) {
-      const int next = k + 1 < polygon.count ? k + 1 : 0;
-      const dvec2 a(polygon.x[k], polygon.y[k]), along = dvec2(polygon.x[next], polygon.y[next]) - a;
-      if (along.x * (at.y - a.y) - along.y * (at.x - a.x) < -1e-6) return false;
-    }
-    return true;
+    return vec3(glm::clamp(grid_.passed() / sum, 0.0, 1.0));
   }
 
   dvec3 way_to(const dvec2& at) const {
@@ -294,24 +238,39 @@ private:
     return here * there / (square * square) * scale;
   }
 
+  Double8 weight_at(Double8 x, Double8 y) const {
+    const LightFrame& light = frame_->soft.light;
+    const Vector8 way = broadcast8(sight_.at.to_origin) + x * broadcast8(light.ex) + y * broadcast8(light.ey);
+    const Double8 square = dot_unfused(way, way), zero = broadcast8(0.0);
+    const Double8 here = max(zero, dot_unfused(broadcast8(sight_.at.normal), way));
+    const Double8 there = max(zero, zero - dot_unfused(broadcast8(light.normal), way));
+    return here * there / (square * square) * broadcast8(glm::dot(light.ex, light.ex));
+  }
+
   void pass(const TintShadow& shadow) {
-    Polygon rest = polygon_of<float>(frame_->soft.light.polygon);
-    for (const dvec3& line : shadow.lines) {
-      const LineValues<float> values = evaluate(rest, line_of<float>(line));
-      if (values.positive == 0) return;
-      if (values.negative == 0) continue;
-      Polygon inside, outside;
-      split(rest, values, inside, outside);
-      rest = inside;
-      if (rest.count >= polygon_capacity) break;  // what is left lies around the shadow
+    const Cells cells = cells_of(shadow);
+    if (!frame_->surfaces.varies(shadow.number))
+      return grid_.pass(shadow.lines, cells, frame_->surfaces.constant(shadow.number));
+    grid_.pass(shadow.lines, cells, [&](const dvec2& at) { return transmittance(shadow, at); });
+  }
+
+  /// Those around the places where the ways to the triangle's corners meet the light's plane; all if one does
+  /// not, or as good as in the infinite.
+  Cells cells_of(const TintShadow& shadow) const {
+    const LightFrame& light = frame_->soft.light;
+    const dvec3 &point = frame_->soft.points.positions[sight_.pixel], &to_light = sight_.at.to_origin;
+    const double height = glm::dot(light.normal, to_light), square = glm::dot(light.ex, light.ex);
+    dvec2 low(HUGE_VAL), high(-HUGE_VAL);
+    for (const vec3& v :
+         points::corners_of(frame_->soft.triangles, frame_->surfaces.ids()[shadow.number]).v) {
+      const dvec3 way = dvec3(v) - point;
+      const double times = height / glm::dot(light.normal, way);
+      if (!(times > 0 && times < 0x1p50)) return grid_.all_cells();
+      const dvec3 off = times * way - to_light;
+      const dvec2 at = dvec2(glm::dot(off, light.ex), glm::dot(off, light.ey)) / square;
+      low = glm::min(low, at), high = glm::max(high, at);
     }
-    StoredPolygon<float> around;
-    store(rest.x, around.x);
-    store(rest.y, around.y);
-    around.count = rest.count;
-    for_each_place(cells_around(around), [&](std::size_t i) {
-      if (weight_[i] > 0 && in_shadow(shadow, at_[i])) passed_[i] *= transmittance(shadow, at_[i]);
-    });
+    return grid_.cells_between(low, high);
   }
 
   static bool in_shadow(const TintShadow& shadow, const dvec2& at) {
@@ -364,9 +323,7 @@ private:
   Fragments pieces_, next_, found_, scratch_, visible_;
   std::vector<vec3> factors_, next_factors_;  ///< of each piece
   LightEdges edges_;
-  std::vector<dvec2> at_;       ///< places of the light, the same for all points
-  std::vector<double> weight_;  ///< of each place; 0: not visible
-  std::vector<vec3> passed_;
+  LightGrid grid_;
 };
 
 }  // namespace

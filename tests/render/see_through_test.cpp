@@ -177,5 +177,33 @@ TEST(SeeThroughFrames, LightThroughAPaneColoursTheFloor) {
   EXPECT_GT(coloured, 20u);
 }
 
+TEST(SeeThroughFrames, AnAllowedErrorOfSoftShadowsIsOneOfTintsToo) {
+  Scene scene = white_floor(false);
+  scene.materials.push_back(tinted());
+  Mesh mesh{.name = "pane of many quads"};
+  const float side = 2 / 24.0f;  // of a quad: more than 24 triangles are before a point
+  for (int x = 0; x < 24; ++x)
+    for (int z = 0; z < 24; ++z)
+      add_quad(mesh, {-1 + side * static_cast<float>(x), 1, 1 - side * static_cast<float>(z)}, {side, 0, 0},
+               {0, 0, -side}, 1);
+  add_mesh(scene, std::move(mesh));
+  add_light(scene, {.name = "panel", .type = LightType::area_rect, .intensity = 2, .size_m = {2, 2}},
+            {0, 5, 0}, facing_down);
+  RenderSettings settings;
+  settings.width = glass_width, settings.height = glass_height;
+  settings.shadows = render::ShadowMode::soft;
+  const FrameResult exact = draw(scene, settings);
+  settings.soft.error_255 = 12;
+  const FrameResult rough = draw(scene, settings);
+  ASSERT_EQ(exact.masks.size(), 1u);
+  const base::ImageF a = render::mask_colour(exact.masks[0]), b = render::mask_colour(rough.masks[0]);
+  ASSERT_GT(exact.masks[0].tint.pixels.size(), 300u);
+  float most = 0;
+  for (std::size_t i = 0; i < a.pixels.size(); ++i)
+    most = std::max(most, std::abs(a.pixels[i] - b.pixels[i]));
+  EXPECT_GT(most, 1 / 255.0f) << "fewer places of the light";
+  EXPECT_LT(most, 0.1f);
+}
+
 }  // namespace
 }  // namespace tenebra

@@ -7,6 +7,7 @@
 #include "parallel/parallel.h"
 #include "soft/light/light_places.h"
 #include "tint/glass_case.h"
+#include "tint/soft_tint.h"
 
 namespace tenebra::testing {
 namespace {
@@ -36,15 +37,15 @@ struct SoftAnswers {
 };
 
 SoftAnswers traced(const Glass& glass, const VisiblePoints& points, const AreaLight& light,
-                   const TintConfig& config = {}) {
+                   const TintConfig& config = {}, const ViewRays& view = above) {
   SoftAnswers a;
   SoftShadowConfig soft;
   soft.simd = config.simd;
   SoftShadowTracer shadows;
-  EXPECT_TRUE(shadows.trace(points, {}, above, glass.soup.view(), light, soft, a.mask));
+  EXPECT_TRUE(shadows.trace(points, {}, view, glass.soup.view(), light, soft, a.mask));
   TintTracer tracer;
   EXPECT_TRUE(
-      tracer.trace(points, {}, above, glass.soup.view(), glass.surfaces(), light, a.mask, config, a.tint));
+      tracer.trace(points, {}, view, glass.soup.view(), glass.surfaces(), light, a.mask, config, a.tint));
   a.stats = tracer.stats();
   return a;
 }
@@ -160,18 +161,64 @@ TEST(SoftTint, NeitherThreadsNorLevelsChangeABit) {
   Glass glass = room_with_panes();
   glass.add(sphere(4, 0.6, {-0.8, 1.6, 0.6}), pane({0.6f, 0.9f, 0.7f}, 0.8f));
   const VisiblePoints points = glass.samples(above, 24, 24);
-  const std::vector<vec3> expected = spread(traced(glass, points, ceiling).tint, points.triangles.size());
-  for (const int threads : {1, 2, 5}) {
-    SoftAnswers a;
-    with_threads(threads, [&] { a = traced(glass, points, ceiling); });
-    EXPECT_EQ(spread(a.tint, points.triangles.size()), expected) << threads;
-  }
-  for (const SimdLevel level : {SimdLevel::scalar, SimdLevel::sse4, SimdLevel::avx2, SimdLevel::avx512}) {
-    if (!simd_level_supported(level)) continue;
+  for (const double error : {0.0, 3.0, 30.0}) {
     TintConfig config;
-    config.simd = level;
-    EXPECT_EQ(spread(traced(glass, points, ceiling, config).tint, points.triangles.size()), expected)
-        << simd_level_name(level);
+    config.error_255 = error;
+    const auto found = [&] {
+      return spread(traced(glass, points, ceiling, config).tint, points.triangles.size());
+    };
+    const std::vector<vec3> expected = found();
+    for (const int threads : {1, 2, 5})
+      with_threads(threads, [&] { EXPECT_EQ(found(), expected) << threads; });
+    for (const SimdLevel level : {SimdLevel::scalar, SimdLevel::sse4, SimdLevel::avx2, SimdLevel::avx512}) {
+      if (!simd_level_supported(level)) continue;
+      config.simd = level;
+      EXPECT_EQ(found(), expected) << simd_level_name(level);
+    }
+  }
+}
+
+/// RMS over the points that a tint is for, in 1/255 of white.
+double rms_between(const SoftAnswers& a, const TintMask& other, std::size_t points) {
+  const std::vector<vec3> x = spread(a.tint, points), y = spread(other, points);
+  const double white = *std::max_element(a.mask.irradiance.begin(), a.mask.irradiance.end());
+  double sum = 0;
+  for (const std::uint32_t i : a.tint.pixels) {
+    const dvec3 off = static_cast<double>(a.mask.irradiance[i]) / white * dvec3(x[i] - y[i]);
+    sum += glm::dot(off, off) / 3;
+  }
+  return 255 * std::sqrt(sum / static_cast<double>(a.tint.pixels.size()));
+}
+
+TEST(SoftTint, AnAllowedErrorTakesFewerPlaces) {
+  for (const auto& [error, side] :
+       {std::pair(0.0, 64), {0.5, 64}, {1.0, 64}, {2.0, 32}, {4.0, 16}, {8.0, 16}, {12.0, 8}, {255.0, 8}})
+    EXPECT_EQ(tint::grid_side_for(error), side) << error;
+}
+
+TEST(SoftTint, FewerPlacesAreWithinHalfOfTheAllowedError) {
+  for (const float passes : {0.0f, 0.5f}) {  // black panes, whose edges matter most, and grey ones
+    for (const float half : {0.3f, 1.0f, 2.0f}) {
+      Glass glass;
+      glass.add(square({-4, 0, 4}, {8, 0, 0}, {0, 0, -8}), Material{});
+      glass.add(sphere(12, 0.6, {-0.8, 1.6, 0.6}), pane(vec3(passes), 1));
+      glass.add(sphere(8, 0.4, {0.9, 2.4, -0.3}), pane(vec3(passes), 1));
+      const AreaLight light = rectangle({0.1f, 5, -0.2f}, {half, 0, 0}, {0, 0, half});
+      const ViewRays fine = pinhole({0.3, 6, 5}, {0, 0, 0}, 0.4, 48, 48);
+      const VisiblePoints points = glass.samples(fine, 48, 48);
+      const SoftAnswers exact = traced(glass, points, light, {}, fine);
+      ASSERT_GT(exact.stats.numeric, 200u);
+      for (const double error : {2.0, 4.0, 12.0}) {
+        TintConfig config;
+        config.error_255 = error;
+        const double found =
+            rms_between(exact, traced(glass, points, light, config, fine).tint, points.triangles.size());
+        EXPECT_GT(found, 0);
+        EXPECT_LT(found, 0.5 * error) << "passes " << passes << ", light of half side " << half;
+        std::printf("passes %.1f, half side %.1f, error %4.1f: %.2f/255\n", double(passes), double(half),
+                    error, found);
+      }
+    }
   }
 }
 
