@@ -7,6 +7,7 @@
 
 #include "soft/light/light_places.h"
 #include "soft/sample/light_means.h"
+#include "soft/sample/soft_sampler.h"
 #include "soft/soft_case.h"
 
 namespace tenebra::testing {
@@ -323,6 +324,17 @@ TEST(LightPlaces, OfAPowerOfTwoLieOneInEachCellOfEveryGrid) {
       }
       for (const int cell : cells) EXPECT_EQ(cell, 1) << first << ' ' << a;
     }
+  }
+}
+
+// The gallery before a light of half its diagonal left groups of 4,000 to 16,000 candidates to exact solving,
+// which took 1 to 4 ms a point, sampling at 1,024 places a tenth of it.
+TEST(SoftError, OnlyGroupsOfFewCandidatesAreLeftToExactSolving) {
+  EXPECT_FALSE(soft::worth_sampling({63, 60}, 2));
+  EXPECT_FALSE(soft::worth_sampling({300, 100}, 1024));
+  for (const std::uint32_t places : {2u, 16u, 128u, 1024u}) {
+    EXPECT_TRUE(soft::worth_sampling({4000, 1500}, places)) << places;
+    EXPECT_TRUE(soft::worth_sampling({16000, 6000}, places)) << places;
   }
 }
 

@@ -71,15 +71,18 @@ void gather_pixels(std::span<const SampledGroup> groups, std::vector<std::uint32
 
 }  // namespace
 
-// Decided by counts. Their weights are microseconds of a point on one core, fitted once to the measured times
-// of groups (eight views, errors of 0.5 to 8/255). Exact solving takes longer with the candidates before one
-// point, far longer where these are leaves that leave the light in many parts: that is not known, so few
-// candidates are reason enough to solve exactly. A ray takes longer the more of the candidates are beside the
-// light at any one point: under a sun these are nearly all, and its tile meets them.
+// Decided by counts. Their weights are microseconds of a point on one core, fitted to the measured times of
+// groups (eight views, errors of 0.5 to 8/255; the square: the gallery before a light of half its diagonal).
+// Exact solving takes longer with the candidates before one point, far longer where these are leaves that
+// leave the light in many parts: that is not known, so few candidates are reason enough to solve exactly, and
+// many not to, as each of them meets the parts that the others leave. A ray takes longer the more of the
+// candidates are beside the light at any one point: under a sun these are nearly all, and its tile meets
+// them.
 bool worth_sampling(const CandidateCounts& candidates, std::uint32_t places) {
-  if (candidates.all < 64 + 6 * std::uint64_t{places}) return false;
+  if (candidates.all < 64 + 6 * std::min(places, 64u)) return false;
   const double all = candidates.all, before_light = candidates.from_middle, beside = 1 - before_light / all;
-  const double exact = 0.3 + 0.05 * before_light + 0.003 * all, ray = 0.05 + 0.6 * beside * beside;
+  const double exact = 0.3 + 0.05 * before_light + 0.0002 * before_light * before_light + 0.003 * all;
+  const double ray = 0.05 + 0.6 * beside * beside;
   return exact >= 1 + places * ray;
 }
 
