@@ -13,9 +13,11 @@ namespace {
 #if HWY_ARCH_ARM_A64
 constexpr const char* name_of_128_bits = "neon";
 constexpr std::int64_t targets_of_128_bits = HWY_NEON;
+constexpr bool has_scalar = false;  // nothing below NEON is compiled
 #else
 constexpr const char* name_of_128_bits = "sse4";
 constexpr std::int64_t targets_of_128_bits = HWY_SSE4;
+constexpr bool has_scalar = true;  // Highway's baseline: no vectors in 1.0.3, SSE2 in 1.2
 #endif
 
 constexpr base::Names<SimdLevel, 5> names = {{
@@ -48,7 +50,7 @@ bool simd_level_supported(SimdLevel level) {
     case SimdLevel::sse4:
       return has(targets_of_128_bits);
     case SimdLevel::scalar:
-      return (HWY_TARGETS & (HWY_EMU128 | HWY_SCALAR)) != 0;  // not of 64-bit ARM, which has vectors always
+      return has_scalar;
     default:
       return true;
   }
