@@ -74,8 +74,8 @@ TEST(SoftError, IsBoundedUnderLightsOfAnyShapeSizeAndPlace) {
   }
 }
 
-// Pixels that are said to err about as much do, RMS, and those that are said to be exact are. Those that are
-// said to err least are off by more, 2.3 and 2.8 times here: some have seen nothing of what is before them.
+// Pixels that are said to err about as much do, RMS (0.8 to 1.3 times), and those that are said to be exact
+// are.
 TEST(SoftError, IsToldForEachPixel) {
   for (const SoftCase& c : {below_leaves(112), below_leaves(112, 700, 0.3)}) {
     const SoftMask exact = traced(c, SoftShadowConfig{});
@@ -110,8 +110,8 @@ TEST(SoftError, IsToldForEachPixel) {
       const double ratio = std::sqrt(bucket.truth / bucket.said);
       if (bucket.pixels < 50) continue;
       ++judged;
-      EXPECT_GT(ratio, 0.5) << bucket.least;
-      EXPECT_LT(ratio, bucket.least < 2 ? 3 : 2) << bucket.least;
+      EXPECT_GT(ratio, 0.6) << bucket.least;
+      EXPECT_LT(ratio, 1.6) << bucket.least;
     }
     EXPECT_GE(judged, 2);
   }
@@ -335,6 +335,38 @@ TEST(SoftError, OnlyGroupsOfFewCandidatesAreLeftToExactSolving) {
   for (const std::uint32_t places : {2u, 16u, 128u, 1024u}) {
     EXPECT_TRUE(soft::worth_sampling({4000, 1500}, places)) << places;
     EXPECT_TRUE(soft::worth_sampling({16000, 6000}, places)) << places;
+  }
+}
+
+/// Whether two of the places lie in each cell of every grid of half as many cells.
+bool two_in_each_cell(const std::vector<glm::dvec2>& places) {
+  for (std::size_t across = 1; across <= places.size() / 2; across *= 2) {
+    const std::size_t down = places.size() / 2 / across;
+    std::vector<int> count(across * down, 0);
+    for (const glm::dvec2& at : places)
+      ++count[static_cast<std::size_t>(at.y * static_cast<double>(down)) * across +
+              static_cast<std::size_t>(at.x * static_cast<double>(across))];
+    if (std::any_of(count.begin(), count.end(), [](int n) { return n != 2; })) return false;
+  }
+  return true;
+}
+
+TEST(LightPlaces, HaveHalvesThatAreSpreadOverAllOfTheLight) {
+  for (std::uint32_t more = 2; more <= 512; more *= 2) {
+    std::array<std::vector<glm::dvec2>, 2> of_all;
+    for (std::uint32_t phase = 0; phase < soft::phases; ++phase) {
+      std::array<std::vector<glm::dvec2>, 2> halves;
+      for (std::uint32_t k = 0; k < more; ++k) {
+        const glm::dvec2 place = soft::sobol_place(more * soft::phases + phase * more + k);
+        halves[soft::half_of_place(phase, k, more)].push_back(place);
+      }
+      for (std::size_t h = 0; h < 2; ++h) {
+        EXPECT_EQ(halves[h].size(), more / 2);
+        EXPECT_TRUE(two_in_each_cell(halves[h])) << more << ' ' << phase;
+        of_all[h].insert(of_all[h].end(), halves[h].begin(), halves[h].end());
+      }
+    }
+    for (const auto& half : of_all) EXPECT_TRUE(two_in_each_cell(half)) << more;
   }
 }
 

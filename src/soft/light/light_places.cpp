@@ -1,6 +1,7 @@
 #include "soft/light/light_places.h"
 
 #include <algorithm>
+#include <bit>
 #include <cmath>
 
 namespace tenebra::soft {
@@ -66,6 +67,11 @@ dvec2 sobol_place(std::uint32_t index) {
     x ^= digit, y ^= column;
   }
   return {x * 0x1p-32, y * 0x1p-32};
+}
+
+std::size_t half_of_place(std::uint32_t phase, std::uint32_t k, std::uint32_t more) {
+  const std::uint32_t quarter = 4 * k / more;
+  return (static_cast<std::uint32_t>(std::popcount(quarter)) + phase) % 2;
 }
 
 }  // namespace tenebra::soft

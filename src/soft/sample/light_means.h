@@ -13,13 +13,7 @@ namespace tenebra::soft {
 struct OwnAnswer {
   float irradiance[2], fraction;
   float mean() const { return 0.5f * (irradiance[0] + irradiance[1]); }
-  /// Square of the error of the mean, from the difference between the halves. It is a quarter of its square
-  /// for independent halves; these complete each other, and with half of that the estimate is within 1.6
-  /// times the error on the views of tenebra-bench soft (measured).
-  float noise() const {
-    const float difference = irradiance[0] - irradiance[1];
-    return 0.125f * difference * difference;
-  }
+  float apart() const { return irradiance[0] - irradiance[1]; }
 };
 
 /// One for each slot.
@@ -28,8 +22,9 @@ struct LightMeans {
   std::vector<float> fraction;    ///< 0..1: visible part, over the part above the horizon
   std::vector<float> square;      ///< estimated mean square of the error of `irradiance`
 
-  std::vector<OwnAnswer> own;  ///< on the way to the above: of each slot alone,
-  std::vector<float> smooth;   ///< and its mean with its neighbours
+  std::vector<OwnAnswer> own;       ///< on the way to the above: of each slot alone,
+  std::vector<float> smooth;        ///< and its mean with its neighbours
+  std::vector<float> smooth_apart;  ///< how far the mean's halves are apart; -1 where it lacks a neighbour
 };
 /// Of all slots with a pixel. Of a slot's neighbours those count that are seen next to it and lie on one
 /// surface with it. `square` is statistical: what no place has seen is not in it.

@@ -112,7 +112,7 @@ void SoftSampler::look(const SoftFrame& frame, const LightPlaces& places,
                                     {.simd = frame.config.simd}, p.mask, frame.stop))
       return;
     p.rays += p.tracer.stats().rays;
-    tally_.add(frame, blocks_, chosen, phase, k < more / 2 ? 0 : 1,
+    tally_.add(frame, blocks_, chosen, phase, half_of_place(phase, k, more),
                glm::vec3((glm::dvec3(place) - frame.light.origin) / size), p.mask);
   }
   p.done = true;
