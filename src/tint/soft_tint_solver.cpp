@@ -229,15 +229,6 @@ private:
   }
 
   /// The form factor's kernel, in units of the light.
-  double weight_at(const dvec2& at) const {
-    const LightFrame& light = frame_->soft.light;
-    const dvec3 way = way_to(at);
-    const double square = glm::dot(way, way), scale = glm::dot(light.ex, light.ex);
-    const double here = std::max(0.0, glm::dot(sight_.at.normal, way));
-    const double there = std::max(0.0, -glm::dot(light.normal, way));
-    return here * there / (square * square) * scale;
-  }
-
   Double8 weight_at(Double8 x, Double8 y) const {
     const LightFrame& light = frame_->soft.light;
     const Vector8 way = broadcast8(sight_.at.to_origin) + x * broadcast8(light.ex) + y * broadcast8(light.ey);
@@ -245,6 +236,12 @@ private:
     const Double8 here = max(zero, dot_unfused(broadcast8(sight_.at.normal), way));
     const Double8 there = max(zero, zero - dot_unfused(broadcast8(light.normal), way));
     return here * there / (square * square) * broadcast8(glm::dot(light.ex, light.ex));
+  }
+
+  double weight_at(const dvec2& at) const {
+    double weights[8];
+    store(weight_at(broadcast8(at.x), broadcast8(at.y)), weights);
+    return weights[0];
   }
 
   void pass(const TintShadow& shadow) {

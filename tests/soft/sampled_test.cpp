@@ -44,20 +44,20 @@ TEST(SoftError, IsKeptAndTold) {
   }
 }
 
-// Loose triangles are off by up to twice what was asked, and a light that has them on both sides by 2.4
-// times: the halves of what a point sees agree by chance.
+// Loose triangles are off by up to 1.25 times what was asked, and a light that has them on both sides by 1.75
+// times: no place has seen some of them.
 TEST(SoftError, IsBoundedUnderLightsOfAnyShapeSizeAndPlace) {
   const std::array<glm::vec3, 5> polygon{
       glm::vec3{-1, 6, -1}, {0.6f, 6, -1.2f}, {1.4f, 6, 0}, {0, 6, 1.1f}, {-1.3f, 6, 0.2f}};
   const struct {
     const char* name;
     AreaLight light;
-    double most = 8;
+    double most = 6.5;
   } lights[] = {
       {"disc", *make_disc_light({0.4f, 6, -0.3f}, {0.8f, 0, 0}, {0, 0, 0.8f})},
       {"polygon", *make_area_light(polygon)},
       {"ceiling", square_light({0, 6, 0}, {0, 0, 0}, 10)},
-      {"among the leaves", square_light({0, 2.5, 0}, {0, 0, 0}, 1.5), 12},
+      {"among the leaves", square_light({0, 2.5, 0}, {0, 0, 0}, 1.5), 9},
       {"through the floor", *make_rectangle_light({0, 1.5f, -3}, {3, 0, 0}, {0, 4, 0})},
   };
   for (const auto& [name, light, most] : lights) {

@@ -42,10 +42,11 @@ ShadowLight light_at(const AreaLight& light, const glm::vec3& place);
 /// edge.
 glm::dvec2 sobol_place(std::uint32_t index);
 
-/// 0 or 1: the half of a phase's tally for the k-th of `more` of its places, which are, for each of four
-/// phases, `more` consecutive ones of Sobol's sequence, a power of two. Each half of a phase's 2^m places has
-/// two in each cell of every grid of 2^(m-2) cells, and so have all phases' halves 0 (or 1) together, of as
-/// many: halves differ by noise, and not, say, by what is seen from the light's left and from its right.
+/// The half, 0 or 1, of a phase's tally that the k-th of `more` of its places is in. These are consecutive
+/// ones of Sobol's sequence, a power of two, one phase's after another's. Two of a half's 2^m places lie in
+/// each cell of every grid of 2^(m-1) cells, and so do two of those that all phases have in half 0, or in
+/// half 1: the halves differ by noise, and not by what is seen, say, from the light's left and from its
+/// right.
 std::size_t half_of_place(std::uint32_t phase, std::uint32_t k, std::uint32_t more);
 
 }  // namespace tenebra::soft
