@@ -3,6 +3,8 @@
 
 #include <algorithm>
 #include <cmath>
+#include <set>
+#include <utility>
 
 #include <tenebra/stop_flag.h>
 
@@ -63,7 +65,7 @@ protected:
 
 TEST_F(TradeRun, TimesTheFrameOfAStillSceneAgainAndAgain) {
   EXPECT_EQ(timed(0.1), std::vector<double>(16, 1.0));
-  EXPECT_EQ(timed(700), std::vector<double>(8, 1.0)) << "as many as fit into six seconds";
+  EXPECT_EQ(timed(800), std::vector<double>(10, 1.0)) << "as many as fit into eight seconds";
   EXPECT_EQ(timed(1e4), std::vector<double>(5, 1.0)) << "but not fewer";
 }
 
@@ -76,6 +78,20 @@ TEST_F(TradeRun, TimesFramesThatWereNotTried) {
   request_.more_frames.resize(2);
   EXPECT_EQ(timed(0.1), (std::vector<double>{all[0], all[0], all[1], all[1], all[1]}))
       << "never fewer than five times";
+}
+
+TEST_F(TradeRun, TimesMoreFramesBeforeItTimesOneAgain) {
+  for (int i = 0; i < 16; ++i) request_.more_frames.push_back({60 + 6 * i, 2 + 0.2 * i});
+  request_.repeats = 15;
+  const auto frames = [&](double ms) {
+    const std::vector<double> drawn = timed(ms);
+    return std::pair(drawn.size(), std::set(drawn.begin(), drawn.end()).size());
+  };
+  using Counts = std::pair<std::size_t, std::size_t>;
+  EXPECT_EQ(frames(0.1), Counts(240, 16)) << "each of them fifteen times";
+  EXPECT_EQ(frames(100), Counts(80, 16)) << "each five times, in eight seconds";
+  EXPECT_EQ(frames(450), Counts(16, 16));
+  EXPECT_EQ(frames(1000), Counts(8, 8));
 }
 
 TEST_F(TradeRun, DrawsAllFramesWithTheFinestAndTheStandardSetting) {

@@ -19,7 +19,7 @@ constexpr int crop_size = 96;
 constexpr double enough_ms = 500;  // of one frame with one setting
 constexpr double slow_ms = 2000;
 constexpr double spread_s = 8;  // for frames that are drawn for the spread alone
-constexpr double timing_s = 6;  // for timing a setting on them
+constexpr double timing_s = 8;  // for timing a setting on them
 constexpr std::size_t least_timed = 5;
 constexpr std::size_t still_timed = 16;  // times that a frame of a still scene is timed at most
 constexpr std::size_t least_measured = 4;
@@ -112,11 +112,15 @@ public:
     const auto& frames = still ? request_.frames : request_.more_frames;
     const render::RenderSettings settings = with_setting(request_.settings, request_.axes, point.setting);
     if (const auto first = draw_frame(*renderer, frames.front(), settings); !first) return first;
+    // Frames differ more than draws of one: more frames before more draws of each.
+    const double draws = timing_s / std::max(point.ms / 1e3, 1e-4);  // that there is time for
     const std::size_t most = std::max(still ? still_timed : least_timed, frames.size()),
-                      count = std::clamp(std::size_t(timing_s / seconds_of(point, 1)), least_timed, most);
+                      count = std::clamp(std::size_t(draws), least_timed, most);
+    const int repeats = std::clamp(int(draws / double(count)), 1, request_.repeats);
     std::vector<double> times;
     for (std::size_t i = 0; i < count; ++i) {
-      const auto ms = median_ms(*renderer, frames[(2 * i + 1) * frames.size() / (2 * count)], settings);
+      const auto ms =
+          median_ms(*renderer, frames[(2 * i + 1) * frames.size() / (2 * count)], settings, repeats);
       if (!ms) return ms;
       times.push_back(*ms);
       done(steps_ / double(count));
@@ -177,7 +181,7 @@ private:
     const bool slow = *first > slow_ms && request_.frames.size() > 1;
     if (slow) drawn.pictures.push_back(result_.image);
     for (const PlannedFrame& frame : std::span(request_.frames).subspan(slow ? 1 : 0)) {
-      const auto ms = median_ms(*renderer, frame, settings);
+      const auto ms = median_ms(*renderer, frame, settings, request_.repeats);
       if (!ms) return tl::unexpected(ms.error());
       drawn.ms.push_back(*ms);
       drawn.pictures.push_back(result_.image);
@@ -186,13 +190,12 @@ private:
     return drawn;
   }
 
-  /// The median of at most TradeRequest::repeats draws; slow frames are drawn fewer times, as their times
-  /// differ less.
+  /// The median of at most so many draws; slow frames are drawn fewer times, as their times differ less.
   Expected<double> median_ms(render::Renderer& renderer, const PlannedFrame& frame,
-                             const render::RenderSettings& settings) {
+                             const render::RenderSettings& settings, int repeats) {
     std::vector<double> ms;
     double sum_ms = 0;
-    for (int i = 0; i < request_.repeats && sum_ms < enough_ms; ++i) {
+    for (int i = 0; i < repeats && sum_ms < enough_ms; ++i) {
       const auto took = draw_frame(renderer, frame, settings);
       if (!took) return took;
       ms.push_back(*took);
@@ -204,7 +207,7 @@ private:
   /// The middle frame with one setting: its time and, in `result_`, its picture.
   Expected<TradePoint> sweep_one(const TradeSetting& setting) {
     const auto ms = median_ms(*sweeping_, request_.frames[middle_frame()],
-                              with_setting(request_.settings, request_.axes, setting));
+                              with_setting(request_.settings, request_.axes, setting), request_.repeats);
     if (!ms) return tl::unexpected(ms.error());
     done(1);
     return TradePoint{setting, *ms, 0};
