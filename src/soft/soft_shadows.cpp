@@ -83,6 +83,7 @@ struct SoftShadowTracer::State {
   std::vector<soft::SampledGroup> sampled;  ///< of all threads
   std::vector<std::uint32_t> left;          ///< groups that sampling leaves
   std::vector<Again> again;                 ///< by group: of these, and of those put aside
+  std::vector<std::uint32_t> chosen;        ///< groups that are solved again
   bool one_by_one = false;                  ///< groups wait for each other, and each has all memory
   std::size_t needed = 0;                   ///< by the most of them for which even that is not enough
   std::string refusal;
@@ -275,6 +276,9 @@ bool SoftShadowTracer::State::solve_again(const soft::SoftFrame& frame, const Tr
                                           const AreaLight& light) {
   SoftShadowConfig config = frame.config;
   config.error_255 = 0;  // how to solve them is decided: nothing needs to be counted
+  chosen.clear();
+  for (std::uint32_t i = 0; i < again.size(); ++i)
+    if (again[i] != Again::no) chosen.push_back(i);
   const bool done = culler.for_each_family(
       groups, triangles, light, config, frame.stop,
       [&](std::span<const soft::GroupDecision> family, int thread) {
@@ -282,14 +286,13 @@ bool SoftShadowTracer::State::solve_again(const soft::SoftFrame& frame, const Tr
         worker.mixed.clear(), worker.candidates.clear();
         Again how = Again::no;  // one for all of a family that are solved again
         for (const soft::GroupDecision& decision : family) {
-          const Again its = again[static_cast<std::size_t>(decision.group - groups.groups.data())];
-          if (its == Again::no) continue;
-          how = its;
+          how = again[static_cast<std::size_t>(decision.group - groups.groups.data())];
           worker.mixed.push_back(decision.group);
           worker.candidates.push_back(decision.candidates);
         }
-        if (!worker.mixed.empty()) solve_mixed(frame, how, worker);
-      });
+        solve_mixed(frame, how, worker);
+      },
+      chosen);
   count_shafts();
   return done;
 }

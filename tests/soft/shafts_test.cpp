@@ -6,6 +6,9 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
+#include <utility>
+
 #include "soft/shaft_check.h"
 
 namespace tenebra::testing {
@@ -146,6 +149,35 @@ TEST(Shafts, CountWhatTheyGive) {
   EXPECT_GT(from_middle, in_many / 100);
   EXPECT_LT(from_middle, in_many) << "some of the group's are beside the middle";
   EXPECT_GT(stats.seconds, 0);
+}
+
+// What sampling leaves is solved exactly: only its groups go down the tree again.
+TEST(Shafts, GiveChosenGroupsWhatTheyGiveThemAmongAll) {
+  const GroupCase c = group_in_room(37, 96);
+  const soft::PointGroups groups = grouped(c);
+  const std::vector<Given> expected = given(c, groups);
+  for (const std::uint32_t step : {1u, 3u, 40u, 100000u}) {
+    std::vector<std::uint32_t> chosen;
+    for (std::uint32_t i = step / 2; i < groups.groups.size(); i += step) chosen.push_back(i);
+    std::vector<std::uint32_t> calls(groups.groups.size());
+    soft::ShaftCuller culler;
+    EXPECT_TRUE(culler.for_each_family(
+        groups, c.soup.view(), c.light, {}, nullptr,
+        [&](std::span<const soft::GroupDecision> family, int) {
+          EXPECT_FALSE(family.empty());
+          for (const soft::GroupDecision& decision : family) {
+            const auto i = static_cast<std::size_t>(decision.group - groups.groups.data());
+            ++calls[i];
+            EXPECT_EQ(decision.kind, expected[i].kind);
+            EXPECT_TRUE(std::ranges::equal(decision.candidates, expected[i].candidates));
+          }
+        },
+        chosen));
+    for (const std::uint32_t i : chosen) EXPECT_EQ(std::exchange(calls[i], 0u), 1u);
+    EXPECT_EQ(std::ranges::count(calls, 0u), std::ssize(calls)) << "a group that was not chosen";
+    const soft::ShaftStats& s = culler.stats();
+    EXPECT_EQ(s.groups_lit + s.groups_dark + s.groups_mixed, chosen.size());
+  }
 }
 
 // Points times candidates of the families, as they are handed over to one thread.

@@ -114,7 +114,8 @@ class Descent {
 public:
   Descent(const PointGroups& groups, const LightShape& light, const ShaftKernels& kernels,
           ShaftMaker make_shaft, bool counts_from_middle, const StopFlag* stop, const FamilyBody& body,
-          std::size_t most_kept, std::vector<ThreadScratch>& scratch)
+          std::optional<std::span<const std::uint32_t>> chosen, std::size_t most_kept,
+          std::vector<ThreadScratch>& scratch)
       : groups_(groups),
         light_(light),
         kernels_(kernels),
@@ -122,6 +123,7 @@ public:
         counts_from_middle_(counts_from_middle),
         stop_(stop),
         body_(body),
+        chosen_(chosen),
         most_kept_(most_kept),
         scratch_(scratch) {}
 
@@ -132,6 +134,7 @@ public:
   void hand_over(std::vector<Family>& families);
 
 private:
+  bool any_chosen(std::uint32_t first, std::uint32_t count) const;
   const BlockList& narrowed(const GroupNode& node, const BlockList& from, std::uint32_t& groups,
                             BlockList& list) const;
   void decide_family(const GroupNode& node, const BlockList& from, std::uint32_t groups,
@@ -151,6 +154,7 @@ private:
   bool counts_from_middle_;
   const StopFlag* stop_;
   const FamilyBody& body_;
+  std::optional<std::span<const std::uint32_t>> chosen_;  ///< groups, ascending
   std::size_t most_kept_;  ///< candidates, by one thread
   std::vector<ThreadScratch>& scratch_;
 };
@@ -163,6 +167,12 @@ void filter(BlockList& list, const BlockList& from, auto&& kernel) {
 
 bool worth_sharing(const GroupNode& node, const BlockList& list) {
   return node.points * (block_size * list.refs.size() + 1) > serial_work;
+}
+
+bool Descent::any_chosen(std::uint32_t first, std::uint32_t count) const {
+  if (!chosen_) return true;
+  const auto next = std::lower_bound(chosen_->begin(), chosen_->end(), first);
+  return next != chosen_->end() && *next - first < count;
 }
 
 // The part of `from` that matters to this node: `from` itself, which was found for a node of `groups` groups,
@@ -178,7 +188,7 @@ const BlockList& Descent::narrowed(const GroupNode& node, const BlockList& from,
 }
 
 void Descent::decide(const GroupNode& node, const BlockList& from, std::uint32_t groups) {
-  if (stop_requested(stop_)) return;
+  if (stop_requested(stop_) || !any_chosen(node.first, node.count)) return;
   ThreadScratch& scratch = scratch_[static_cast<std::size_t>(parallel::thread_index())];
   base::Stopwatch watch;
   if (node.count <= largest_family || (from.refs.empty() && !worth_sharing(node, from))) {
@@ -213,9 +223,10 @@ void Descent::decide_family(const GroupNode& node, const BlockList& from, std::u
 
 void Descent::decide_all(const GroupNode& node, const BlockList& from, std::uint32_t groups,
                          ThreadScratch& scratch) {
+  if (!any_chosen(node.first, node.count)) return;
   if (from.refs.empty() || node.count < fewest_groups) {
-    for (std::uint32_t i = 0; i < node.count; ++i)
-      decide_group(groups_.groups[node.first + i], from, scratch);
+    for (std::uint32_t i = node.first; i < node.first + node.count; ++i)
+      if (any_chosen(i, 1)) decide_group(groups_.groups[i], from, scratch);
     return;
   }
   const ListLease own(scratch);
@@ -319,7 +330,8 @@ const ShaftStats& ShaftCuller::stats() const {
 
 bool ShaftCuller::for_each_family(const PointGroups& groups, const TriangleView& triangles,
                                   const AreaLight& area_light, const SoftShadowConfig& config,
-                                  const StopFlag* stop, const FamilyBody& body) {
+                                  const StopFlag* stop, const FamilyBody& body,
+                                  std::optional<std::span<const std::uint32_t>> chosen) {
   State& s = *state_;
   s.stats = {};
   const parallel::FloatEnvironment ieee;
@@ -332,7 +344,7 @@ bool ShaftCuller::for_each_family(const PointGroups& groups, const TriangleView&
   const ShaftKernels kernels = shaft_kernels(config.simd);
   if (!groups.nodes.empty()) {
     Descent descent(groups, light, kernels, shaft_maker(config.simd), config.error_255 > 0, stop, body,
-                    most_ids(config), s.scratch);
+                    chosen, most_ids(config), s.scratch);
     descent.decide(groups.nodes[0], s.casters, groups.nodes[0].count);
     descent.hand_over(s.families);
   }

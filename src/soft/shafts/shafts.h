@@ -6,6 +6,7 @@
 #include <cstdint>
 #include <functional>
 #include <memory>
+#include <optional>
 #include <span>
 
 #include <tenebra/stop_flag.h>
@@ -56,10 +57,12 @@ public:
   /// Calls `body` once for each family, in parallel, those with most points times candidates first as far as
   /// memory allows. A triangle is left out of a group's candidates only if it is certain that it blocks no
   /// line from a point of the group to the light, by the rule of SoftShadowTracer::trace; which of the others
-  /// are left out depends neither on threads nor on the instruction set. Returns false, with some families
-  /// left out, if `stop` was requested.
+  /// are left out depends neither on threads nor on the instruction set. `chosen`: numbers of groups,
+  /// ascending; families hold only these, which get the candidates that they get among all. Returns false,
+  /// with some families left out, if `stop` was requested.
   bool for_each_family(const PointGroups& groups, const TriangleView& triangles, const AreaLight& light,
-                       const SoftShadowConfig& config, const StopFlag* stop, const FamilyBody& body);
+                       const SoftShadowConfig& config, const StopFlag* stop, const FamilyBody& body,
+                       std::optional<std::span<const std::uint32_t>> chosen = {});
 
   const ShaftStats& stats() const;  ///< of the last call
 
