@@ -12,6 +12,7 @@
 #include "soft/silhouette/silhouette_solver-inl.h"
 #include "soft/solve/point_sight-inl.h"
 #include "tint/light_grid-inl.h"
+#include "tint/shadows_on_light-inl.h"
 
 HWY_BEFORE_NAMESPACE();
 namespace tenebra {
@@ -33,14 +34,6 @@ using soft::SoftFrame;
 using Polygon = LightPolygon<float>;
 using Fragments = FragmentList<float>;
 
-constexpr std::size_t few_numbers = 32;  // of a group: each point looks at all
-
-/// The shadow of a see-through triangle on the light: the places that are positive for all four lines.
-struct TintShadow {
-  dvec3 lines[4];
-  std::uint32_t number = 0;
-};
-
 class Solver final : public SoftTintSolver {
 public:
   void solve(const SoftTintFrame& frame, const SoftTintTask& task, TintMask& found,
@@ -49,6 +42,7 @@ public:
     task_ = &task;
     receiver_.forget();
     grid_.set_side(frame.grid_side);
+    glass_.reset(frame, task.numbers);
     clip_.reset(task.group.candidates, task.group.clipped, frame.soft.stop);
     if (!task.group.silhouette.empty()) silhouette_.reset(task.group.silhouette);
     for (const std::uint32_t pixel : task.pixels) {
@@ -77,55 +71,12 @@ private:
     found.factors.push_back(factor);
   }
 
-  /// The task's triangles, or of many of them those that may stand between the point and the light.
-  std::span<const std::uint32_t> numbers_before(const dvec3& point) {
-    if (task_->numbers.size() <= few_numbers) return task_->numbers;
-    near_.clear();
-    frame_->tree.find(shaft_between({point, point}, frame_->reach.box_from({point, point})), near_);
-    frame_->tree.numbers_of(near_, numbers_);
-    return numbers_;
-  }
-
   /// Fills shadows_; returns whether they are few and of one transmittance each.
   bool find_shadows(const dvec3& point) {
-    shadows_.clear();
-    bool constant = true;
-    for (const std::uint32_t number : numbers_before(point)) {
-      TintShadow shadow;
-      if (!shadow_of(number, point, shadow)) continue;
-      shadows_.push_back(shadow);
-      constant &= !frame_->surfaces.varies(number);
-    }
-    return constant && shadows_.size() <= most_cut;
-  }
-
-  /// False: none falls on the light. The rule of SoftShadowTracer::trace.
-  bool shadow_of(std::uint32_t number, const dvec3& point, TintShadow& out) const {
-    const LightFrame& light = frame_->soft.light;
-    const std::uint32_t id = frame_->surfaces.ids()[number];
-    if (id == receiver_.plane.id) return false;
-    const points::Corners c = points::corners_of(frame_->soft.triangles, id);
-    const double tau = points::rounding_tolerance(c.v);
-    const dvec3 a(c.v[0]), n = glm::cross(dvec3(c.v[1]) - a, dvec3(c.v[2]) - a);
-    const double height = glm::dot(n, point - a);
-    if (!(std::abs(height) > (tau + receiver_.plane.tau) * std::sqrt(glm::dot(n, n)))) return false;
-    double off = 0;
-    for (const vec3& v : c.v) off = std::max(off, std::abs(glm::dot(light.normal, dvec3(v) - light.origin)));
-    // The face of the lamp itself; a sun has none.
-    if (!frame_->reach.at_infinity && off <= frame_->plane_tolerance + tau) return false;
-    const double side = height > 0 ? -1 : 1;
-    const dvec3 to_light = light.way_from(point);
-    for (int k = 0; k < 3; ++k) {
-      const dvec3 from = dvec3(c.v[k]) - point, to = dvec3(c.v[(k + 1) % 3]) - point;
-      out.lines[k] = side * line_of_plane(light, glm::cross(from, to), to_light);
-    }
-    out.lines[3] = side * line_of_plane(light, n, light.way_from(a));
-    out.number = number;
-    for (const dvec3& line : out.lines)
-      if (std::none_of(light.polygon.begin(), light.polygon.end(),
-                       [&](const dvec2& at) { return value(line, at) > 0; }))
-        return false;
-    return true;
+    glass_.find(*frame_, point, receiver_.plane.id, receiver_.plane.tau, shadows_);
+    return shadows_.size() <= most_cut &&
+           std::none_of(shadows_.begin(), shadows_.end(),
+                        [&](const TintShadow& shadow) { return frame_->surfaces.varies(shadow.number); });
   }
 
   static double value(const dvec3& line, const dvec2& at) { return line.x * at.x + line.y * at.y + line.z; }
@@ -245,29 +196,10 @@ private:
   }
 
   void pass(const TintShadow& shadow) {
-    const Cells cells = cells_of(shadow);
+    const Cells cells = grid_.cells_between(shadow.low, shadow.high);
     if (!frame_->surfaces.varies(shadow.number))
       return grid_.pass(shadow.lines, cells, frame_->surfaces.constant(shadow.number));
     grid_.pass(shadow.lines, cells, [&](const dvec2& at) { return transmittance(shadow, at); });
-  }
-
-  /// Those around the places where the ways to the triangle's corners meet the light's plane; all if one does
-  /// not, or as good as in the infinite.
-  Cells cells_of(const TintShadow& shadow) const {
-    const LightFrame& light = frame_->soft.light;
-    const dvec3 &point = frame_->soft.points.positions[sight_.pixel], &to_light = sight_.at.to_origin;
-    const double height = glm::dot(light.normal, to_light), square = glm::dot(light.ex, light.ex);
-    dvec2 low(HUGE_VAL), high(-HUGE_VAL);
-    for (const vec3& v :
-         points::corners_of(frame_->soft.triangles, frame_->surfaces.ids()[shadow.number]).v) {
-      const dvec3 way = dvec3(v) - point;
-      const double times = height / glm::dot(light.normal, way);
-      if (!(times > 0 && times < 0x1p50)) return grid_.all_cells();
-      const dvec3 off = times * way - to_light;
-      const dvec2 at = dvec2(glm::dot(off, light.ex), glm::dot(off, light.ey)) / square;
-      low = glm::min(low, at), high = glm::max(high, at);
-    }
-    return grid_.cells_between(low, high);
   }
 
   static bool in_shadow(const TintShadow& shadow, const dvec2& at) {
@@ -314,8 +246,7 @@ private:
   ReceiverSight<float> receiver_;
   PointSight sight_;
   GroupPoint point_;  ///< clip_ refers to it
-  std::vector<TriangleTree::Found> near_;
-  std::vector<std::uint32_t> numbers_;
+  ShadowsOnLight glass_;
   std::vector<TintShadow> shadows_;
   Fragments pieces_, next_, found_, scratch_, visible_;
   std::vector<vec3> factors_, next_factors_;  ///< of each piece
