@@ -34,6 +34,8 @@ struct Cells {
   int first_column = 0, last_column = -1, first_row = 0, last_row = -1;
 };
 
+constexpr int few_rows = 2;  ///< of eight: looked at without asking first which are reached
+
 /// Buffers kept from point to point.
 class LightGrid {
 public:
@@ -180,8 +182,9 @@ private:
     const int first = std::max(cells.first_row, first_row_), last = std::min(cells.last_row, last_row_);
     for (int row = first / 8 * 8; row <= last; row += 8)
       for (int column = cells.first_column / 8 * 8; column <= cells.last_column; column += 8) {
-        const std::uint32_t among = 0xffu << std::max(first - row, 0) & 0xffu >> std::max(row + 7 - last, 0);
-        for (std::uint32_t rows = among & rows_reached(lines, row, column); rows != 0; rows &= rows - 1)
+        std::uint32_t rows = 0xffu << std::max(first - row, 0) & 0xffu >> std::max(row + 7 - last, 0);
+        if (std::popcount(rows) > few_rows) rows &= rows_reached(lines, row, column);
+        for (; rows != 0; rows &= rows - 1)
           look_at_eight(at(row + std::countr_zero(rows), column), lines, body);
       }
   }

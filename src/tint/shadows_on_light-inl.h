@@ -44,8 +44,8 @@ public:
     for (std::size_t i = 0; i < eights_.size(); ++i) take_up(frame, i);
   }
 
-  /// Fills `out` with what falls on the light from a point of triangle `own`, whose tolerance is `own_tau`, in
-  /// the order of numbers. The rule of SoftShadowTracer::trace.
+  /// Fills `out` with what falls on the light from a point of triangle `own`, whose tolerance is `own_tau`,
+  /// in the order of numbers. The rule of SoftShadowTracer::trace.
   void find(const SoftTintFrame& frame, const glm::dvec3& point, std::uint32_t own, double own_tau,
             std::vector<TintShadow>& out) const {
     out.clear();
@@ -104,8 +104,7 @@ private:
       for (int k = 0; k < 3; ++k)
         for (int axis = 0; axis < 3; ++axis) t.corners[k][axis][lane] = static_cast<double>(c.v[k][axis]);
     }
-    const Vector8 a = load3(t.corners[0]),
-                  n = cross(load3(t.corners[1]) - a, load3(t.corners[2]) - a),
+    const Vector8 a = load3(t.corners[0]), n = cross(load3(t.corners[1]) - a, load3(t.corners[2]) - a),
                   origin = broadcast8(light_->origin);
     const Double8 zero = broadcast8(0.0);
     Double8 off = zero;
@@ -131,8 +130,8 @@ private:
     if (!any(falls)) return 0;
     const Double8 side = select(lt(zero, height), broadcast8(-1.0), broadcast8(1.0));
     for (int k = 0; k < 4; ++k) {
-      const Vector8 line = side * (k < 3 ? line_of(cross(from[k], from[(k + 1) % 3]), view.to_light)
-                                         : load3(t.plane));
+      const Vector8 line =
+          side * (k < 3 ? line_of(cross(from[k], from[(k + 1) % 3]), view.to_light) : load3(t.plane));
       auto positive = lt(zero, zero);
       for (const glm::dvec2& at : light_->polygon)
         positive = positive | lt(zero, line.x * broadcast8(at.x) + line.y * broadcast8(at.y) + line.z);
@@ -145,7 +144,8 @@ private:
 
   /// Around the places where the ways to the corners meet the light's plane; infinite where one does not, or
   /// as good as in the infinite. Returns which of them meet the light's own box.
-  simd::HWY_NAMESPACE::Mask<double, 8> find_boxes(const Vector8 (&from)[3], const View& view, Eight& out) const {
+  simd::HWY_NAMESPACE::Mask<double, 8> find_boxes(const Vector8 (&from)[3], const View& view,
+                                                  Eight& out) const {
     using namespace simd::HWY_NAMESPACE;
     const Vector8 ex = broadcast8(light_->ex), ey = broadcast8(light_->ey),
                   normal = broadcast8(light_->normal);

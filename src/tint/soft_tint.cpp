@@ -151,14 +151,8 @@ bool SoftTint::trace(const VisiblePoints& points, std::span<const glm::vec3> nor
   const soft::LightFrame light_frame = soft::light_frame(light);
   const soft::SoftFrame soft_frame{points,      normals, view, triangles, light_frame,
                                    soft_config, unused_, {},   stop};
-  const SoftTintFrame frame{soft_frame,
-                            mask,
-                            surfaces,
-                            tree,
-                            reach,
-                            tolerance,
-                            config.own_irradiance,
-                            grid_side_for(config.error_255)};
+  const SoftTintFrame frame{
+      soft_frame, mask, surfaces, reach, tolerance, config.own_irradiance, grid_side_for(config.error_255)};
   const bool done = culler_.for_each_family(groups_, triangles, light, soft_config, stop,
                                             [&](std::span<const soft::GroupDecision> family, int thread) {
                                               for (const soft::GroupDecision& decision : family)

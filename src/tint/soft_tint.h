@@ -29,7 +29,6 @@ struct SoftTintFrame {
   const soft::SoftFrame& soft;  ///< opaque casters; its `out` is not written
   const SoftMask& mask;
   const Surfaces& surfaces;
-  const TriangleTree& tree;
   LightReach reach;
   double plane_tolerance = 0;  ///< metres off the light's plane that its own rounding amounts to
   bool own_irradiance = false;

@@ -28,7 +28,6 @@ using glm::dvec3;
 using glm::vec3;
 using soft::GroupPoint;
 using soft::LightFrame;
-using soft::line_of_plane;
 using soft::SoftFrame;
 
 using Polygon = LightPolygon<float>;

@@ -155,7 +155,7 @@ private:
   const StopFlag* stop_;
   const FamilyBody& body_;
   std::optional<std::span<const std::uint32_t>> chosen_;  ///< groups, ascending
-  std::size_t most_kept_;  ///< candidates, by one thread
+  std::size_t most_kept_;                                 ///< candidates, by one thread
   std::vector<ThreadScratch>& scratch_;
 };
 

@@ -37,6 +37,8 @@ struct TreeView {
 };
 /// `kept` and `anew` on one of `every` 8x8 tiles of the picture.
 TreeView measure_trees(const SoftView& view, std::size_t every);
+/// `paper` and `neighbourhood` alone.
+TreeView measure_grouping(const SoftView& view);
 
 /// Figure 9: squares of 1 % of the diagonal and more; Figure 10: a number of these in a grid.
 struct GrowthRow {
@@ -69,6 +71,7 @@ TreeLife measure_life(const SoftView& view, std::size_t rows);
 
 struct SoftFindings {
   std::vector<TreeView> views;
+  std::vector<TreeView> small;  ///< pictures of 128x72, where those are larger: few points on each triangle
   std::string growth_view, life_view;
   std::vector<GrowthRow> areas, lights;
   SplitLight split;

@@ -72,23 +72,26 @@ void add_quality(const SoftFindings& found, std::vector<Claim>& claims) {
 
 /// Section 5.5 speaks of very few points per triangle: where most points lie on triangles that have fewer
 /// than a neighbourhood. What is dropped before it is used again shows in the nodes.
-void add_grouping(const std::vector<TreeView>& views, std::vector<Claim>& claims) {
+void add_grouping(const SoftFindings& found, std::vector<Claim>& claims) {
   const auto nodes = [](const TreeView& v) { return over(v.paper.nodes, v.neighbourhood.nodes); };
   const auto times = [](const TreeView& v) { return v.paper.ms / std::max(v.neighbourhood.ms, 1e-9); };
   std::size_t small = 0, gain = 0;
   std::string each;
-  for (const TreeView& v : views) {
-    const bool few = v.points_a_triangle < soft::largest_neighbourhood;
-    small += few ? 1 : 0, gain += few && nodes(v) > 1 ? 1 : 0;
-    each += fmt::format(" {}: {:.0f} points, {:.2f} times the nodes, {:.2f} the time{}", v.view,
-                        v.points_a_triangle, nodes(v), times(v), &v == &views.back() ? "." : ";");
+  for (const bool is_small : {false, true}) {
+    for (const TreeView& v : is_small ? found.small : found.views) {
+      const bool few = v.points_a_triangle < soft::largest_neighbourhood;
+      small += few ? 1 : 0, gain += few && nodes(v) > 1 ? 1 : 0;
+      each += fmt::format("{} {}{}: {:.0f} points, {:.2f} times the nodes, {:.2f} the time",
+                          each.empty() ? "" : ";", v.view, is_small ? " at 128x72" : "", v.points_a_triangle,
+                          nodes(v), times(v));
+    }
   }
   claims.push_back(
       {"mora.neighbourhoods_would_help", "section 5.5",
        "With very few points per triangle efficiency is lost: points should be grouped by neighbourhood.",
        small == 0 ? Verdict::not_here : verdict_of(gain == small),
        fmt::format("Points per triangle (half of all points lie on triangles with no more), and the nodes "
-                   "and the time of grouping by triangle over those of groups of 8x8 pixels:{} {} of {} "
+                   "and the time of grouping by triangle over those of groups of 8x8 pixels:{}. {} of {} "
                    "views of fewer than {} points gain.",
                    each, gain, small, soft::largest_neighbourhood)});
 }
@@ -133,7 +136,7 @@ void add_costs(const SoftFindings& found, std::vector<Claim>& claims) {
            "Random choice makes {:.2f} to {:.2f} times the nodes of the largest occluder first, which is "
            "Tenebra's default, in {:.2f} to {:.2f} times the time.",
            choice.least, choice.most, choice_time.least, choice_time.most)});
-  add_grouping(views, claims);
+  add_grouping(found, claims);
 }
 
 void add_growths(const SoftFindings& found, std::vector<Claim>& claims) {

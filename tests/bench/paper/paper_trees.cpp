@@ -138,23 +138,28 @@ SoftShadowConfig mora_config() {
   return config;
 }
 
-TreeView measure_trees(const SoftView& view, std::size_t every) {
+TreeView measure_grouping(const SoftView& view) {
   TreeView found;
   found.view = view.name;
   found.triangles = static_cast<double>(view.frame.geometry.triangles.size());
   found.points_a_triangle = points_a_triangle(view.frame.points);
+  SoftShadowConfig config = mora_config();
+  found.paper = tree_cost(view, view.frame.points, config);
+  config.grouping = SoftGrouping::neighbourhood;
+  found.neighbourhood = tree_cost(view, view.frame.points, config);
+  return found;
+}
+
+TreeView measure_trees(const SoftView& view, std::size_t every) {
+  TreeView found = measure_grouping(view);
   const VisiblePoints &all = view.frame.points, some = some_tiles(all, every);
   SoftShadowConfig config = mora_config();
-  found.paper = tree_cost(view, all, config);
   found.kept = tree_cost(view, some, config);
   config.keep_trees = false;
   found.anew = tree_cost(view, some, config);
   config = mora_config();
   config.choice = OccluderChoice::largest;
   found.largest = tree_cost(view, all, config);
-  config = mora_config();
-  config.grouping = SoftGrouping::neighbourhood;
-  found.neighbourhood = tree_cost(view, all, config);
   return found;
 }
 
