@@ -14,6 +14,7 @@
 
 #include "simd/double8-inl.h"
 #include "soft/polygon/light_fragments-inl.h"
+#include "tint/soft_tint.h"
 
 HWY_BEFORE_NAMESPACE();
 namespace tenebra::tint::HWY_NAMESPACE {
@@ -130,7 +131,8 @@ public:
     const auto cell = [this](double place) {
       return static_cast<int>(std::clamp(std::floor((place + 1) * (side_ / 2)), 0.0, side_ - 1.0));
     };
-    return {cell(low.x - 1e-5), cell(high.x + 1e-5), cell(low.y - 1e-5), cell(high.y + 1e-5)};
+    return {cell(low.x - box_slack), cell(high.x + box_slack), cell(low.y - box_slack),
+            cell(high.y + box_slack)};
   }
 
 private:

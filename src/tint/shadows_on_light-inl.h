@@ -7,8 +7,11 @@
 #define TENEBRA_TINT_SHADOWS_ON_LIGHT_INL_H_
 #endif
 
+#include <algorithm>
 #include <bit>
 #include <cmath>
+#include <cstdint>
+#include <span>
 #include <vector>
 
 #include "points/contact_rule.h"
@@ -31,7 +34,7 @@ struct TintShadow {
   std::uint32_t number = 0;
 };
 
-constexpr double box_slack = 1e-5;  ///< what rounding puts boxes off by, at most; units of the light
+constexpr std::size_t most_kept = 1 << 15;  ///< triangles of a group that are set up once, 4.5 MB
 
 /// Buffers kept from group to group.
 class ShadowsOnLight {
@@ -39,24 +42,20 @@ public:
   /// Triangles by their numbers in Surfaces, ascending.
   void reset(const SoftTintFrame& frame, std::span<const std::uint32_t> numbers) {
     light_ = &frame.soft.light;
-    numbers_ = numbers;
-    eights_.resize((numbers.size() + 7) / 8);
-    for (std::size_t i = 0; i < eights_.size(); ++i) take_up(frame, i);
+    all_ = numbers;
+    if (all_.size() <= most_kept) take_up(frame, all_);
   }
 
   /// Fills `out` with what falls on the light from a point of triangle `own`, whose tolerance is `own_tau`,
   /// in the order of numbers. The rule of SoftShadowTracer::trace.
   void find(const SoftTintFrame& frame, const glm::dvec3& point, std::uint32_t own, double own_tau,
-            std::vector<TintShadow>& out) const {
+            std::vector<TintShadow>& out) {
     out.clear();
     const View view{broadcast8(point), broadcast8(light_->way_from(point)), broadcast8(own_tau)};
-    for (std::size_t i = 0; i < eights_.size(); ++i) {
-      Eight shadows;
-      for (std::uint32_t lanes = fall(eights_[i], view, shadows); lanes != 0; lanes &= lanes - 1) {
-        const auto lane = static_cast<std::size_t>(std::countr_zero(lanes));
-        const std::uint32_t number = numbers_[8 * i + lane];
-        if (frame.surfaces.ids()[number] != own) out.push_back(shadow(shadows, lane, number));
-      }
+    for (std::size_t first = 0; first < all_.size(); first += most_kept) {
+      if (all_.size() > most_kept)
+        take_up(frame, all_.subspan(first, std::min(most_kept, all_.size() - first)));
+      find_kept(frame, view, own, out);
     }
   }
 
@@ -77,6 +76,24 @@ private:
     double box[4][8];  ///< lowest x and y, highest x and y
   };
 
+  void take_up(const SoftTintFrame& frame, std::span<const std::uint32_t> numbers) {
+    numbers_ = numbers;
+    eights_.resize((numbers.size() + 7) / 8);
+    for (std::size_t i = 0; i < eights_.size(); ++i) take_up_eight(frame, i);
+  }
+
+  void find_kept(const SoftTintFrame& frame, const View& view, std::uint32_t own,
+                 std::vector<TintShadow>& out) const {
+    for (std::size_t i = 0; i < eights_.size(); ++i) {
+      Eight shadows;
+      for (std::uint32_t lanes = fall(eights_[i], view, shadows); lanes != 0; lanes &= lanes - 1) {
+        const auto lane = static_cast<std::size_t>(std::countr_zero(lanes));
+        const std::uint32_t number = numbers_[8 * i + lane];
+        if (frame.surfaces.ids()[number] != own) out.push_back(shadow(shadows, lane, number));
+      }
+    }
+  }
+
   static Vector8 load3(const double (&rows)[3][8]) {
     using simd::HWY_NAMESPACE::load;
     return {load<Double8>(rows[0]), load<Double8>(rows[1]), load<Double8>(rows[2])};
@@ -92,8 +109,7 @@ private:
             dot_unfused(n, to_origin)};
   }
 
-  /// Fills eights_[i].
-  void take_up(const SoftTintFrame& frame, std::size_t i) {
+  void take_up_eight(const SoftTintFrame& frame, std::size_t i) {
     using namespace simd::HWY_NAMESPACE;
     Triangles& t = eights_[i];
     const std::size_t count = std::min<std::size_t>(8, numbers_.size() - 8 * i);
@@ -177,7 +193,7 @@ private:
   }
 
   const soft::LightFrame* light_ = nullptr;
-  std::span<const std::uint32_t> numbers_;
+  std::span<const std::uint32_t> all_, numbers_;  ///< numbers_: of eights_
   std::vector<Triangles> eights_;
 };
 

@@ -45,6 +45,9 @@ struct SoftTintTask {
 /// Triangles before a point from which on places are counted instead of pieces cut.
 inline constexpr std::size_t most_cut = 24;
 
+/// What rounding puts the box of a shadow on the light off by, at most; units of the light.
+inline constexpr double box_slack = 1e-5;
+
 /// Cells along each side of the light's grid, with a place in each, for an error of irradiance that is
 /// allowed, in 1/255 of white. One edge of a black shadow across the light puts a factor off by 0.5 side^-1.5
 /// (RMS): some 1.2 `side` cells are cut, and of each up to half is miscounted, independently of the others.

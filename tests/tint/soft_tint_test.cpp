@@ -157,6 +157,29 @@ TEST(SoftTint, APaneBeforeAllOfTheLightIsItsTransmittance) {
   }
 }
 
+// More triangles before each point than are kept set up for a group.
+TEST(SoftTint, APaneOfManyTrianglesIsItsTransmittance) {
+  constexpr int side = 240;
+  constexpr double step = 1.4 / side;
+  Glass glass;
+  glass.add(square({-4, 0, 4}, {8, 0, 0}, {0, 0, -8}), Material{});
+  Soup fine;
+  for (int row = 0; row < side; ++row)
+    for (int column = 0; column < side; ++column)
+      fine.quad({-0.6 + step * column, 2, 0.5 - step * row}, {step, 0, 0}, {0, 0, -step});
+  glass.add(fine, pane({0.5f, 0.25f, 0.75f}, 1));
+  const ViewRays near = pinhole({0.1, 6, 5}, {0.1, 0, -0.2}, 0.03, 4, 4);
+  const VisiblePoints points = glass.samples(near, 4, 4);
+  const SoftAnswers a = traced(glass, points, ceiling, {}, near);
+  ASSERT_EQ(a.tint.pixels.size(), 16u);
+  EXPECT_GT(a.stats.tests / 16, 1u << 15) << "shadows on the light at a point";
+  for (const vec3& f : a.tint.factors) {
+    EXPECT_NEAR(f.x, 0.5, 1e-3);
+    EXPECT_NEAR(f.y, 0.25, 1e-3);
+    EXPECT_NEAR(f.z, 0.75, 1e-3);
+  }
+}
+
 TEST(SoftTint, NeitherThreadsNorLevelsChangeABit) {
   Glass glass = room_with_panes();
   glass.add(sphere(4, 0.6, {-0.8, 1.6, 0.6}), pane({0.6f, 0.9f, 0.7f}, 0.8f));
