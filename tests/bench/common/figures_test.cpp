@@ -95,7 +95,7 @@ TEST(Figures, PapersStateTheNodesOfTheRobotsAtTheWall) {
 TEST(Figures, PapersStateWhatCoherenceIsWorthInTheMuseum) {
   const Place place = place_of("museum5 20");
   SoftView view{.name = "museum5 20"};
-  evaluate_bench_frame(place.scene, place.frame, 128, 72, view.frame);
+  evaluate_bench_frame(place.scene, place.frame, 1280, 720, view.frame);
   const auto light = square_light(view.frame, 4);
   ASSERT_TRUE(light.has_value());
   view.light = *light;
