@@ -34,8 +34,6 @@ struct TintShadow {
   std::uint32_t number = 0;
 };
 
-constexpr std::size_t most_kept = 1 << 15;  ///< triangles of a group that are set up once, 4.5 MB
-
 /// Buffers kept from group to group.
 class ShadowsOnLight {
 public:
@@ -43,7 +41,7 @@ public:
   void reset(const SoftTintFrame& frame, std::span<const std::uint32_t> numbers) {
     light_ = &frame.soft.light;
     all_ = numbers;
-    if (all_.size() <= most_kept) take_up(frame, all_);
+    if (all_.size() <= most_set_up) take_up(frame, all_);
   }
 
   /// Fills `out` with what falls on the light from a point of triangle `own`, whose tolerance is `own_tau`,
@@ -52,10 +50,10 @@ public:
             std::vector<TintShadow>& out) {
     out.clear();
     const View view{broadcast8(point), broadcast8(light_->way_from(point)), broadcast8(own_tau)};
-    for (std::size_t first = 0; first < all_.size(); first += most_kept) {
-      if (all_.size() > most_kept)
-        take_up(frame, all_.subspan(first, std::min(most_kept, all_.size() - first)));
-      find_kept(frame, view, own, out);
+    for (std::size_t first = 0; first < all_.size(); first += most_set_up) {
+      if (all_.size() > most_set_up)
+        take_up(frame, all_.subspan(first, std::min(most_set_up, all_.size() - first)));
+      find_among(frame, view, own, out);
     }
   }
 
@@ -82,8 +80,8 @@ private:
     for (std::size_t i = 0; i < eights_.size(); ++i) take_up_eight(frame, i);
   }
 
-  void find_kept(const SoftTintFrame& frame, const View& view, std::uint32_t own,
-                 std::vector<TintShadow>& out) const {
+  void find_among(const SoftTintFrame& frame, const View& view, std::uint32_t own,
+                  std::vector<TintShadow>& out) const {
     for (std::size_t i = 0; i < eights_.size(); ++i) {
       Eight shadows;
       for (std::uint32_t lanes = fall(eights_[i], view, shadows); lanes != 0; lanes &= lanes - 1) {
@@ -109,6 +107,7 @@ private:
             dot_unfused(n, to_origin)};
   }
 
+  /// Numbers 8 i to 8 i + 7.
   void take_up_eight(const SoftTintFrame& frame, std::size_t i) {
     using namespace simd::HWY_NAMESPACE;
     Triangles& t = eights_[i];

@@ -45,7 +45,12 @@ struct SoftTintTask {
 /// Triangles before a point from which on places are counted instead of pieces cut.
 inline constexpr std::size_t most_cut = 24;
 
-/// What rounding puts the box of a shadow on the light off by, at most; units of the light.
+/// Triangles before a group that are set up once for all of its points, 4.5 MB for each thread; of more,
+/// parts are set up anew for each point.
+inline constexpr std::size_t most_set_up = 1 << 15;
+
+/// Boxes of shadows on the light are widened by this, in units of the light, as their corners are rounded;
+/// one that is off by more, seen along the light's plane, loses a strip of the shadow no wider than that.
 inline constexpr double box_slack = 1e-5;
 
 /// Cells along each side of the light's grid, with a place in each, for an error of irradiance that is

@@ -186,6 +186,8 @@ Expected<void> measure_paper_soft(PaperSession& session) {
                                   [&](const SoftView& view) -> Expected<void> {
                                     progress(view.name + ": groups in a small picture");
                                     found.small.push_back(measure_grouping(view));
+                                    found.small.back().view +=
+                                        fmt::format(" at {}x{}", small.width, small.height);
                                     return {};
                                   });
         !done)

@@ -71,7 +71,7 @@ TreeLife measure_life(const SoftView& view, std::size_t rows);
 
 struct SoftFindings {
   std::vector<TreeView> views;
-  std::vector<TreeView> small;  ///< pictures of 128x72, where those are larger: few points on each triangle
+  std::vector<TreeView> small;  ///< of a full run, groupings in small pictures: few points on each triangle
   std::string growth_view, life_view;
   std::vector<GrowthRow> areas, lights;
   SplitLight split;

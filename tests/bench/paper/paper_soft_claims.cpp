@@ -77,13 +77,12 @@ void add_grouping(const SoftFindings& found, std::vector<Claim>& claims) {
   const auto times = [](const TreeView& v) { return v.paper.ms / std::max(v.neighbourhood.ms, 1e-9); };
   std::size_t small = 0, gain = 0;
   std::string each;
-  for (const bool is_small : {false, true}) {
-    for (const TreeView& v : is_small ? found.small : found.views) {
+  for (const auto* views : {&found.views, &found.small}) {
+    for (const TreeView& v : *views) {
       const bool few = v.points_a_triangle < soft::largest_neighbourhood;
       small += few ? 1 : 0, gain += few && nodes(v) > 1 ? 1 : 0;
-      each += fmt::format("{} {}{}: {:.0f} points, {:.2f} times the nodes, {:.2f} the time",
-                          each.empty() ? "" : ";", v.view, is_small ? " at 128x72" : "", v.points_a_triangle,
-                          nodes(v), times(v));
+      each += fmt::format("{} {}: {:.0f} points, {:.2f} times the nodes, {:.2f} the time",
+                          each.empty() ? "" : ";", v.view, v.points_a_triangle, nodes(v), times(v));
     }
   }
   claims.push_back(
