@@ -22,7 +22,7 @@ constexpr std::array page_parts{PagePart{hard_title, "hard"}, PagePart{soft_titl
 constexpr const char* page_head =
     "# What the papers claim, and what is found here\n"
     "\n"
-    "Written by `tenebra-bench paper --docs docs`; edit `tests/bench/paper`, not this file. `--only PART` "
+    "Written by `tenebra-bench paper --docs docs`; edit `bench/paper`, not this file. `--only PART` "
     "writes one section anew and leaves the others as they are.\n"
     "\n"
     "A claim is **true** or **false** by the figures of the run that wrote its section, or **not testable "

@@ -132,7 +132,7 @@ std::string measured_by(const TradeSession& session, const char* part) {
 
 std::string head() {
   return "# What accuracy costs\n\n"
-         "Written by `tenebra-bench trade --docs docs`; edit `tests/bench/trade/trade_docs.cpp` and "
+         "Written by `tenebra-bench trade --docs docs`; edit `bench/trade/trade_docs.cpp` and "
          "`trade_advice.cpp`, not this file. `--only` writes single sections anew. Times in milliseconds "
          "per frame, \"12.5 / 6.4\": of one thread (processor time), and of all threads of the machine "
          "(by the clock). Settings take turns, and each time is a median; with `--quick` of 3 runs, or of "
