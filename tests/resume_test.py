@@ -4,8 +4,8 @@
 usage: resume_test.py PROGRAM SCENE [KILLS]      (10 kills unless told otherwise; exit code 1 if anything differs)
 
 The moments come from a fixed seed, as parts of the time that one whole run takes. After each kill it is checked
-that pictures and masks are whole, that the log holds whole rows, and that resuming draws no more than one frame
-whose picture was there. When a render is complete the next kill begins another.
+that pictures and masks are whole, that all rows of the log but a torn last one are whole, and that resuming draws no
+more than one frame whose picture was there. When a render is complete the next kill begins another.
 """
 import pathlib
 import random
@@ -26,12 +26,13 @@ def command(program, scene, folder, *more):
 
 
 def rows_of(log):
-    """The rows of a log; fails unless all of it is whole lines of as many fields as the header has."""
-    if not log.exists() or log.stat().st_size == 0:
+    """The rows of a log; fails unless they have as many fields as the header. A kill may cut the last line short."""
+    if not log.exists():
         return []
     text = log.read_text()
-    assert text.endswith("\n"), f"{log} ends within a line"
-    lines = [line for line in text.splitlines() if not line.startswith("#")]
+    lines = [line for line in text[:text.rfind("\n") + 1].splitlines() if not line.startswith("#")]
+    if not lines:
+        return []
     for line in lines:
         assert line.count(",") == lines[0].count(","), f"{log} has the row {line}"
     return lines[1:]
@@ -50,6 +51,7 @@ def check_whole(folder, reference):
 def check_complete(folder, reference):
     check_whole(folder, reference)
     assert {file.name for file in folder.glob("*.png")} == set(reference), "an output is missing"
+    assert (folder / "frames.csv").read_text().endswith("\n"), "the log ends within a line"
     frames = sorted(int(row.split(",")[0]) for row in rows_of(folder / "frames.csv"))
     assert frames == list(range(FRAMES)), f"the log has the frames {frames}"
     left = [file.name for file in folder.glob(".tenebra-*")]

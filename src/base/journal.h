@@ -11,15 +11,14 @@
 namespace tenebra::base {
 
 /// A text file under its own name from the first line on. Each addition is written at once and is there whole
-/// or, on a full disk, not at all; what was there before stays. SIGKILL can cut an addition short, but only
-/// where a multiple of `page_bytes` lies within it. What open_stream opens (/dev/stdout, /dev/null) is
-/// written as it comes. One process at a time writes a journal, or any number do whose lines have one length:
-/// a lock says so, which ends with its holder. Failures are sentences with the path.
+/// or, on a full disk, not at all; what was there before stays. SIGKILL can cut an addition short:
+/// whoever reads or continues the file leaves out a last line without its end. What open_stream opens
+/// (/dev/stdout, /dev/null) is written as it comes. One process at a time writes a journal, or any number do
+/// whose lines have one length: a lock says so, which ends with its holder. Failures are sentences with the
+/// path.
 class Journal {
 public:
   enum class Writers { one, many };
-  /// What systems copy at a time at least, and look for a kill in between.
-  static constexpr std::size_t page_bytes = 4096;
 
   /// Opens `path`, as it is, or makes it. Fails where another process writes it that wants to be alone
   /// (`many`: for two seconds, so that it can begin), and for what open_stream refuses.
@@ -32,8 +31,6 @@ public:
 
   /// False for a stream or device, which has no past.
   bool is_file() const { return is_file_; }
-  /// Bytes in it, as far as this process knows.
-  std::size_t size() const { return size_; }
   /// What is there.
   Expected<std::string> read() const;
   /// Empties it and writes the first lines. A file that was made for it is removed if that fails.

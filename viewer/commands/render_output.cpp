@@ -111,11 +111,10 @@ Expected<void> RenderOutput::open_log(std::span<const render::LogSetting> settin
 
 /// By the list, a frame's files must hold what was written; the log lists frames only.
 bool RenderOutput::is_done(int frame) const {
-  if (!options_.skip_existing && !options_.resume) return false;
+  if (!options_.resume) return false;
   const std::vector<OutputName> files = files_of_frame(plan_, options_, frame);
   if (!std::ranges::all_of(files, [](const OutputName& output) { return is_there(output.file); }))
     return false;
-  if (options_.skip_existing) return true;
   if (done_)
     if (const auto entry = done_->frames().find(frame); entry != done_->frames().end())
       return entry->second == hash_of(files);

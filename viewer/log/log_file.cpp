@@ -75,7 +75,7 @@ public:
 private:
   void add_comment(render::LogSetting comment) {
     constexpr std::string_view changed = "from here on ";
-    if (comment.name.find_first_not_of(' ') == std::string::npos) return;  // fills a page of the disk
+    if (comment.name.find_first_not_of(' ') == std::string::npos) return;  // as logs before 0.3 have them
     if (log_.columns.empty()) return log_.settings.push_back(std::move(comment));
     if (!comment.name.starts_with(changed)) return notes_.push_back(std::move(comment));
     opens_ = true;  // another process went on

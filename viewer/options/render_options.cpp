@@ -172,9 +172,9 @@ Expected<void> check_masks(const RenderOptions& options, bool several) {
 
 /// Frames in a pipe are gone: a later run cannot continue them, and nothing else may be written between them.
 Expected<void> check_pipe(const RenderOptions& options) {
-  if (options.resume || options.skip_existing)
-    return base::fail("{} looks for what was written, and frames in a pipe are gone; expected files with it",
-                      options.resume ? "--resume" : "--skip-existing");
+  if (options.resume)
+    return base::fail(
+        "--resume looks for what was written, and frames in a pipe are gone; expected files with it");
   const auto is_stdout = [](const std::string& name) { return name == "/dev/stdout" || name == "/dev/fd/1"; };
   for (const auto& [option, name] : {std::pair("--log", options.log), std::pair("--trace", options.trace)})
     if (is_stdout(name)) return base::fail("-o - and {} {} are both standard output", option, name);
@@ -195,13 +195,9 @@ void add_progress_options(CLI::App& command, RenderOptions& options) {
             "Draw only part I of N of the frames, counted from 1, for\n"
             "N processes")
       .type_name("I/N");
-  const auto resume = add_flag(command, "--resume", options.resume,
-                               "Continue a render of the same scene, settings and program\n"
-                               "where it ended; fails if these differ");
-  add_flag(command, "--skip-existing", options.skip_existing,
-           "Leave out frames whose files exist, however they were\n"
-           "made")
-      .excludes(resume);
+  add_flag(command, "--resume", options.resume,
+           "Continue a render of the same scene, settings and program\n"
+           "where it ended; fails if these differ");
   add_value(command, "--timeout", options.timeout_s, parse_positive,
             "Stop after this many seconds, as Ctrl-C does")
       .type_name("S");
@@ -250,8 +246,6 @@ Expected<void> check_render_options(const RenderOptions& options) {
   const bool files = options.pictures.files || !options.masks.empty() || !options.mask_colours.empty() ||
                      !options.mask_means.empty() || !options.mask_samples.empty() ||
                      !options.error_maps.empty();
-  if (options.skip_existing && !files)
-    return base::fail("--skip-existing looks for pictures and masks; expected -o or --mask");
   if (options.resume && !files && options.log.empty())
     return base::fail("--resume goes by pictures, masks or the log; expected -o, --mask or --log");
   if (auto checked = check_scene_options(options.scene); !checked) return checked;

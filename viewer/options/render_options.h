@@ -32,8 +32,7 @@ struct RenderOptions {
   std::optional<double> budget_ms;                             ///< of a frame
   std::optional<int> memory_mb;                                ///< of the whole program
   Chunk chunk;                                                 ///< of the frames
-  bool resume = false;         ///< frames that were drawn with the same settings are not drawn again
-  bool skip_existing = false;  ///< frames whose files exist are not drawn again, however they were made
+  bool resume = false;  ///< frames that were drawn with the same settings are not drawn again
   bool quiet = false;
   std::vector<std::string> warnings;  ///< options that do nothing with the others
 };

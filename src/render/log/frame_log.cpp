@@ -22,15 +22,6 @@ void change(std::vector<LogSetting>& settings, std::string_view name, std::strin
   settings.push_back({std::string(name), std::string(value)});
 }
 
-/// `line` for a journal of `size` bytes, behind a comment that fills the page where it would cross its end or
-/// leave one byte, which no comment fills: so SIGKILL leaves whole lines.
-std::string within_page(std::size_t size, std::string line) {
-  const std::size_t left = base::Journal::page_bytes - size % base::Journal::page_bytes;
-  const bool fits = line.size() <= left && line.size() + 1 != left;
-  if (fits || left < 2 || line.size() > base::Journal::page_bytes) return line;
-  return "#" + std::string(left - 2, ' ') + "\n" + line;
-}
-
 }  // namespace
 
 std::string on_one_line(std::string text) {
@@ -114,11 +105,11 @@ Expected<void> FrameLog::begin(std::span<const LogSetting> settings) {
 }
 
 Expected<void> FrameLog::add(const FrameRecord& record) {
-  return file_.append(within_page(file_.size(), frame_log_row(record) + "\n"));
+  return file_.append(frame_log_row(record) + "\n");
 }
 
 Expected<void> FrameLog::comment(const LogSetting& setting) {
-  return file_.append(within_page(file_.size(), comment_line(setting)));
+  return file_.append(comment_line(setting));
 }
 
 Expected<void> FrameLog::finish() {

@@ -34,7 +34,7 @@ std::string on_one_line(std::string text);
 std::string log_head(std::span<const LogSetting> settings, std::string_view header);
 
 /// A journal: it has its final name from the start, its comments come first, and each row is there whole once
-/// it is added, however the program ends.
+/// it is added, however the program ends. A row that SIGKILL cut short while it was added is no row.
 class FrameLog {
 public:
   /// Writes the comment lines "# name: value" and the header line, in the place of an earlier log.

@@ -66,7 +66,7 @@ TEST(LogFile, ReadsWhatAResumedRenderLeaves) {
   EXPECT_EQ(first_frames(log), (std::vector<int>{0, 5}));
   EXPECT_EQ(log.settings.back().name, "machine");
   EXPECT_EQ(log.settings.back().value, "two");
-  for (const auto& frame : log.frames) EXPECT_TRUE(frame.notes.empty()) << "blank comments fill pages";
+  for (const auto& frame : log.frames) EXPECT_TRUE(frame.notes.empty()) << "blank comments say nothing";
 }
 
 TEST(LogFile, OfAFrameDrawnAgainHasTheLastRowToBeSummedUp) {

@@ -1,4 +1,4 @@
-// tenebra render --resume, --skip-existing, --chunk: what is done is not done again, and several processes
+// tenebra render --resume, --chunk: what is done is not done again, and several processes
 // share a folder. Renders that are killed: tests/resume_test.py.
 #include <gtest/gtest.h>
 
@@ -158,20 +158,6 @@ TEST(ResumeCommand, DrawsAgainWhatAnotherPatternWroteOver) {
   EXPECT_EQ(read_text(farm.folder / "p04.png"), fourth);
   EXPECT_EQ(farm.time_of("p00.png"), first);
   EXPECT_EQ(farm.rows("a.csv"), (std::vector<int>{0, 1, 2, 3, 4, 2, 3, 4}));
-}
-
-TEST(ResumeCommand, SkipExistingLooksForFilesAlone) {
-  const Farm farm;
-  ASSERT_EQ(farm.render("0:2").exit_code, 0);
-  write_text(farm.folder / "p03.png", "whatever");
-  fs::remove(farm.folder / "p01.png");
-  const auto first = farm.time_of("p00.png");
-  ASSERT_EQ(farm.render("0:4", {"--skip-existing", "--exposure", "2"}).exit_code, 0);
-  EXPECT_EQ(farm.time_of("p00.png"), first);
-  EXPECT_EQ(read_text(farm.folder / "p03.png"), "whatever");
-  EXPECT_EQ(farm.pictures().size(), 5u);
-  farm.expect_refused({"--skip-existing", "--resume"}, "--resume");
-  farm.expect_refused({"--skip-existing", "-o", "none"}, "--skip-existing");
 }
 
 TEST(ResumeCommand, ChunksHaveEachFrameOnce) {
