@@ -53,7 +53,8 @@ def main(folder):
     pages, files = folder / "pages", tracked()
     wanted = {file for file in files if file.match("docs/*.png") or file.match("docs/*.svg")}
     shutil.rmtree(folder, ignore_errors=True)
-    for page in [pathlib.Path(name) for name in PAGES] + sorted(f for f in files if f.match("docs/*.md")):
+    for page in [pathlib.Path(name) for name in PAGES] + sorted(
+            f for f in files if f.match("docs/*.md") or f.match("docs/notes/*.md")):
         to = pages / place_of(page)
         to.parent.mkdir(parents=True, exist_ok=True)
         to.write_text(translated(page, (ROOT / page).read_text(encoding="utf-8"), files, wanted), encoding="utf-8")
