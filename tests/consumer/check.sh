@@ -1,6 +1,6 @@
 #!/bin/bash
-# Does what a user of the library does, with the text of the README and docs/library.md alone: installs the library to
-# a folder of its own, copies the programs out of these pages, builds them with CMake and with pkg-config, and runs
+# Does what a user of the library does, with the text of docs/library.md alone: installs the library to
+# a folder of its own, copies the programs out of this page, builds them with CMake and with pkg-config, and runs
 # them. Each program fails if its answer is not the known one. Nothing but the public headers may be reachable.
 # usage: check.sh BUILD_FOLDER
 set -euo pipefail
@@ -28,10 +28,10 @@ extract_programs() {
   awk -v folder="$work/source/" '
     /^```/ { file = ""; first = ($0 ~ /^```(cpp|cmake)$/); next }
     first { first = 0; if ($2 ~ /\.(cpp|txt):?$/) { file = folder $2; sub(/:$/, "", file) } }
-    file != "" { print > file }' "$root/README.md" "$root/docs/library.md"
+    file != "" { print > file }' "$root/docs/library.md"
   local name
   for name in CMakeLists.txt "${programs[@]/%/.cpp}"; do
-    [[ -s $work/source/$name ]] || stop "README.md, docs/library.md: found no block of code that begins with the name $name"
+    [[ -s $work/source/$name ]] || stop "docs/library.md: found no block of code that begins with the name $name"
   done
 }
 

@@ -131,8 +131,6 @@ inline constexpr std::array method_columns{
     CountColumn{"soft_sampled_rays", [](const FrameRecord& r) { return r.soft.sampled_rays; }},
     CountColumn{"soft_groups_changed", [](const FrameRecord& r) { return r.soft.groups_changed; }},
     CountColumn{"tries", [](const FrameRecord& r) { return r.tries; }},
-    // The old name of soft_points_silhouette, for readers of logs: goes with 0.3.
-    CountColumn{"soft_points_outline", [](const FrameRecord& r) { return r.soft.points_silhouette; }},
 };
 
 /// Errors, after the counts of the methods: estimates, then those that were asked for. 0 where the method has
