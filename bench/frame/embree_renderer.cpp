@@ -41,7 +41,7 @@ EmbreeRenderer::EmbreeRenderer(const FrameTask& task, TreeKind kind, const Packe
   evaluate_at(task.scene, first, geometry_);
   tree_ = std::make_unique<EmbreeTree>(geometry_.positions.data(), triangle_view(geometry_), moving,
                                        EmbreeTree::Settings{kind, task.threads, SimdLevel::automatic, false});
-  wide_m_ = static_cast<float>(render::box_of(geometry_).diagonal_m());
+  wide_m_ = static_cast<float>(render::box_of(geometry_).diagonal());
   ids_.resize(static_cast<std::size_t>(task.width) * static_cast<std::size_t>(task.height));
 }
 

@@ -14,6 +14,7 @@
 #include "ao/shade/see_through.h"
 #include "base/fail.h"
 #include "base/stopwatch.h"
+#include "math/box.h"
 #include "parallel/parallel.h"
 #include "points/positions.h"
 
@@ -58,20 +59,16 @@ double scene_diagonal(const Scene& scene) {
   evaluate_frame(scene, scene.clips.empty() ? -1 : 0, scene.clips.empty() ? 0 : scene.clips.front().start_s,
                  frame);
   constexpr std::size_t grain = 1 << 16;
-  std::vector<ao::PointBox> boxes((frame.triangles.size() + grain - 1) / grain);
+  std::vector<math::Box<double>> boxes((frame.triangles.size() + grain - 1) / grain);
   parallel::parallel_ranges(frame.triangles.size(), grain, [&](std::size_t first, std::size_t last) {
     for (std::size_t t = first; t < last; ++t) {
       if (frame.triangles[t] == glm::uvec3(0)) continue;
-      for (int k = 0; k < 3; ++k) boxes[first / grain].extend(dvec3(frame.positions[frame.triangles[t][k]]));
+      for (int k = 0; k < 3; ++k) boxes[first / grain].add(dvec3(frame.positions[frame.triangles[t][k]]));
     }
   });
-  ao::PointBox box;
-  for (const ao::PointBox& part : boxes) {
-    box.low = glm::min(box.low, part.low);
-    box.high = glm::max(box.high, part.high);
-  }
-  const double diagonal = box.low.x <= box.high.x ? glm::length(box.high - box.low) : 0;
-  return diagonal > 0 ? diagonal : 1;
+  math::Box<double> box;
+  for (const math::Box<double>& part : boxes) box.add(part);
+  return box.diagonal() > 0 ? box.diagonal() : 1;
 }
 
 }  // namespace

@@ -19,7 +19,7 @@ public:
 
   std::size_t triangle_count() const { return triangle_count_; }
   bool has_see_through() const { return has_see_through_; }
-  const visibility::Box& bounds() const { return bounds_; }
+  const math::Box<float>& bounds() const { return bounds_; }
 
   /// All opaque triangles, or all see-through ones, in one call: gl_PrimitiveID is the triangle id.
   void draw() const;
@@ -33,7 +33,7 @@ private:
   std::vector<glm::uvec3> sorted_;  ///< scratch
   std::size_t triangle_count_ = 0;
   bool has_see_through_ = false;
-  visibility::Box bounds_;
+  math::Box<float> bounds_;
 };
 
 }  // namespace tenebra::raster

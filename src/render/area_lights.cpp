@@ -24,17 +24,17 @@ void rectangle_axes(const dvec3& direction, glm::dvec2 size_m, vec3& half_x, vec
 }
 
 dvec3 facing_direction(const Light& light, const WorldLight& placed, const AreaLightSettings& settings,
-                       const SceneBox& box) {
+                       const math::Box<double>& box) {
   if (!settings.facing && light.type == LightType::spot) return placed.direction;
   const dvec3 direction = dvec3(settings.facing.value_or(vec3(box.centre()))) - dvec3(placed.position);
   return glm::dot(direction, direction) > 0 ? direction : dvec3(0, -1, 0);
 }
 
 /// Width and height that the settings give point light `light`.
-glm::dvec2 point_size_m(int light, const AreaLightSettings& settings, const SceneBox& box) {
+glm::dvec2 point_size_m(int light, const AreaLightSettings& settings, const math::Box<double>& box) {
   const auto index = static_cast<std::size_t>(light);
   if (index < settings.own_size_m.size() && settings.own_size_m[index]) return *settings.own_size_m[index];
-  return (settings.percent_of_diagonal ? 0.01 * box.diagonal_m() : 1.0) * glm::dvec2(settings.size);
+  return (settings.percent_of_diagonal ? 0.01 * box.diagonal() : 1.0) * glm::dvec2(settings.size);
 }
 
 /// Degrees: the light's own setting, else the one for all lights, else the scene's.
@@ -45,7 +45,7 @@ float sun_diameter(const Light& light, int number, const AreaLightSettings& sett
 }
 
 Expected<AreaLight> rectangle_of_point(const Light& light, const WorldLight& placed,
-                                       const AreaLightSettings& settings, const SceneBox& box) {
+                                       const AreaLightSettings& settings, const math::Box<double>& box) {
   vec3 half_x, half_y;
   rectangle_axes(facing_direction(light, placed, settings, box), point_size_m(placed.light, settings, box),
                  half_x, half_y);
@@ -82,22 +82,18 @@ bool within(const AreaLight& light, const vec3 corners[3], double light_toleranc
 
 }  // namespace
 
-SceneBox box_of(const FrameGeometry& geometry) {
-  constexpr double huge = std::numeric_limits<double>::max();
-  SceneBox box{dvec3(huge), dvec3(-huge)};
+math::Box<double> box_of(const FrameGeometry& geometry) {
+  math::Box<double> box;
   for (const glm::uvec3& triangle : geometry.triangles) {
     if (triangle == glm::uvec3(0)) continue;  // dropped
-    for (int k = 0; k < 3; ++k) {
-      const dvec3 p(geometry.positions[triangle[k]]);
-      box.low = glm::min(box.low, p);
-      box.high = glm::max(box.high, p);
-    }
+    for (int k = 0; k < 3; ++k) box.add(dvec3(geometry.positions[triangle[k]]));
   }
   return box;
 }
 
 Expected<std::optional<AreaLight>> area_light_of(const Light& light, const WorldLight& placed,
-                                                 const AreaLightSettings& settings, const SceneBox& box) {
+                                                 const AreaLightSettings& settings,
+                                                 const math::Box<double>& box) {
   const bool is_area = light.type == LightType::area_rect || light.type == LightType::area_disk;
   const glm::dvec2 size_m = point_size_m(placed.light, settings, box);
   const bool sized = size_m.x > 0 && size_m.y > 0;

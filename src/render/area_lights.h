@@ -7,20 +7,13 @@
 #include <vector>
 
 #include <tenebra/area_light.h>
+#include "math/box.h"
 #include "render/renderer.h"
 
 namespace tenebra::render {
 
-/// Smallest box around the drawn triangles of a frame; `low` > `high` if there are none.
-struct SceneBox {
-  glm::dvec3 low{1.0};
-  glm::dvec3 high{-1.0};
-
-  bool empty() const { return low.x > high.x; }
-  glm::dvec3 centre() const { return 0.5 * (low + high); }
-  double diagonal_m() const { return empty() ? 0.0 : glm::length(high - low); }
-};
-SceneBox box_of(const FrameGeometry& geometry);
+/// Smallest box around the drawn triangles of a frame.
+math::Box<double> box_of(const FrameGeometry& geometry);
 
 /// The polygon of a light: area lights as the file has them; point and spot lights as rectangles of the
 /// settings' size, or their own, about their place, facing `settings.facing`, else along a spot's axis or
@@ -28,7 +21,8 @@ SceneBox box_of(const FrameGeometry& geometry);
 /// diameter, or their own. None where no size is given. Fails with a sentence where the polygon is none: no
 /// area, not finite.
 Expected<std::optional<AreaLight>> area_light_of(const Light& light, const WorldLight& placed,
-                                                 const AreaLightSettings& settings, const SceneBox& box);
+                                                 const AreaLightSettings& settings,
+                                                 const math::Box<double>& box);
 
 /// Whether triangle `corners` lies in the light's plane, up to the rounding of both: the quad that shows a
 /// lamp's face. In exact arithmetic it blocks nothing of that light; rounded it might hide all of it. A sun

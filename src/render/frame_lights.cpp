@@ -18,7 +18,7 @@ std::string title(const DrawnLight& drawn) {
                                   : fmt::format("light {} ({})", drawn.number, drawn.light.name);
 }
 
-void give_area(DrawnLight& drawn, const AreaLightSettings& settings, const SceneBox& box,
+void give_area(DrawnLight& drawn, const AreaLightSettings& settings, const math::Box<double>& box,
                std::vector<std::string>& notes) {
   auto area = area_light_of(drawn.light, drawn.placed, settings, box);
   if (area && *area) {
@@ -91,7 +91,7 @@ Expected<std::vector<DrawnLight>> drawn_lights(const Scene& scene, const FrameIn
     lights.push_back({number, light_at(scene, placed), placed, std::nullopt});
   }
   if (settings.shadows == ShadowMode::soft) {
-    const SceneBox box = box_of(input.geometry);
+    const math::Box<double> box = box_of(input.geometry);
     for (DrawnLight& drawn : lights) {
       std::vector<std::string> unasked;
       const bool asked = drawn.light.intensity != 0 && (settings.light < 0 || settings.light == drawn.number);

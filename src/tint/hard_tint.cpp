@@ -98,25 +98,22 @@ Shaft Worker::shaft_to_light(const Box& box) const {
 
 /// From tiles of a square. Their boxes are relative to its base, and a point's q is rounded.
 Shaft Worker::shaft_of(const points::PointSquare& square, std::uint32_t tiles) const {
-  dvec3 low(INFINITY), high(-INFINITY);
+  Box box;
   for (; tiles != 0; tiles &= tiles - 1) {
     const int i = std::countr_zero(tiles);
-    low = glm::min(low, dvec3(square.low[0][i], square.low[1][i], square.low[2][i]));
-    high = glm::max(high, dvec3(square.high[0][i], square.high[1][i], square.high[2][i]));
+    box.add({dvec3(square.low[0][i], square.low[1][i], square.low[2][i]),
+             dvec3(square.high[0][i], square.high[1][i], square.high[2][i])});
   }
   const dvec3 base(square.base.at[0], square.base.at[1], square.base.at[2]);
   const dvec3 most = glm::abs(base) + double{square.base.radius};
   const double rounding = 0x1p-22 * square.base.radius + 0x1p-50 * std::max({most.x, most.y, most.z});
-  return shaft_to_light({base + low - rounding, base + high + rounding});
+  return shaft_to_light({base + box.low - rounding, base + box.high + rounding});
 }
 
 /// From samples of the tile that is loaded.
 Shaft Worker::shaft_of_lanes(std::uint32_t lanes) const {
-  Box box{dvec3(INFINITY), dvec3(-INFINITY)};
-  for (; lanes != 0; lanes &= lanes - 1) {
-    const dvec3& point = tile_.points[std::countr_zero(lanes)];
-    box = {glm::min(box.low, point), glm::max(box.high, point)};
-  }
+  Box box;
+  for (; lanes != 0; lanes &= lanes - 1) box.add(tile_.points[std::countr_zero(lanes)]);
   return shaft_to_light(box);
 }
 

@@ -4,11 +4,11 @@
 #include <cstdint>
 #include <glm/glm.hpp>
 
+#include "math/box.h"
+
 namespace tenebra::tint {
 
-struct Box {
-  glm::dvec3 low{0.0}, high{0.0};
-};
+using Box = math::Box<double>;
 
 /// x[i] m + x[j] n <= limit within the shaft.
 struct ShaftPlane {

@@ -29,14 +29,10 @@ LightReach reach_of(const AreaLight& light, double tolerance, const TriangleView
     for (int k = 0; k < 3; ++k)
       reach.farthest =
           std::max(reach.farthest, soft::largest(triangles.positions[triangles.triangles[id][k]]));
-  const dvec3 first = light.at_infinity ? light.centre : dvec3(light.vertices[0]);
-  reach.box = {first, first};
-  const auto add = [&](const dvec3& v) {
-    reach.box = {glm::min(reach.box.low, v), glm::max(reach.box.high, v)};
-  };
-  for (const glm::vec3& v : light.vertices) add(dvec3(v));
+  if (light.at_infinity) reach.box.add(light.centre);
+  for (const glm::vec3& v : light.vertices) reach.box.add(dvec3(v));
   if (light.at_infinity)
-    for (const glm::dvec2& v : light.polygon) add(light.centre + v.x * light.ex + v.y * light.ey);
+    for (const glm::dvec2& v : light.polygon) reach.box.add(light.centre + v.x * light.ex + v.y * light.ey);
   const double wider = light.at_infinity ? 0x1p-40 : tolerance;
   reach.box.low -= wider, reach.box.high += wider;
   return reach;

@@ -10,13 +10,14 @@ namespace tenebra::visibility {
 namespace {
 
 /// t of the far plane of an orthographic view: just behind the corner of the box that is farthest along d0.
-double far_parameter(const ViewRays& view, const Box& bounds, const glm::dvec3& t_row, double near_t) {
+double far_parameter(const ViewRays& view, const math::Box<float>& bounds, const glm::dvec3& t_row,
+                     double near_t) {
   double far_t = near_t;
-  if (glm::all(glm::lessThanEqual(bounds.min, bounds.max))) {
+  if (!bounds.empty()) {
     for (int corner = 0; corner < 8; ++corner) {
-      const glm::dvec3 p((corner & 1) ? bounds.max.x : bounds.min.x,
-                         (corner & 2) ? bounds.max.y : bounds.min.y,
-                         (corner & 4) ? bounds.max.z : bounds.min.z);
+      const glm::dvec3 p((corner & 1) ? bounds.high.x : bounds.low.x,
+                         (corner & 2) ? bounds.high.y : bounds.low.y,
+                         (corner & 4) ? bounds.high.z : bounds.low.z);
       far_t = std::max(far_t, glm::dot(t_row, p - glm::dvec3(view.eye)));
     }
   }
@@ -27,18 +28,17 @@ double far_parameter(const ViewRays& view, const Box& bounds, const glm::dvec3& 
 
 }  // namespace
 
-Box bounds_of(std::span<const glm::vec3> positions) {
-  const float huge = std::numeric_limits<float>::max();
-  Box box{glm::vec3(huge), glm::vec3(-huge)};
+math::Box<float> bounds_of(std::span<const glm::vec3> positions) {
+  math::Box<float> box;
   for (const glm::vec3& p : positions) {
     if (!std::isfinite(p.x) || !std::isfinite(p.y) || !std::isfinite(p.z)) continue;
-    box.min = glm::min(box.min, p);
-    box.max = glm::max(box.max, p);
+    box.add(p);
   }
   return box;
 }
 
-Expected<ClipTransform> clip_transform(const ViewRays& view, const Box& bounds, int width, int height) {
+Expected<ClipTransform> clip_transform(const ViewRays& view, const math::Box<float>& bounds, int width,
+                                       int height) {
   const glm::dvec3 d0(view.d0), dx(view.dx), dy(view.dy);
   const glm::dvec3 axis = glm::cross(dx, dy);
   const double volume = glm::dot(d0, axis);

@@ -8,16 +8,12 @@
 
 #include <tenebra/expected.h>
 #include <tenebra/frame_geometry.h>
+#include "math/box.h"
 
 namespace tenebra::visibility {
 
-/// Smallest box around all finite positions of a frame; `min` > `max` if there are none.
-struct Box {
-  glm::vec3 min{1.0f};
-  glm::vec3 max{-1.0f};
-};
-
-Box bounds_of(std::span<const glm::vec3> positions);
+/// Smallest box around all finite positions of a frame.
+math::Box<float> bounds_of(std::span<const glm::vec3> positions);
 
 /// Of a world position p, with q = p - eye: clip coordinates are clip_from_offset * q + clip_offset, made for
 /// depth 0..1. Depth is reversed, 1 at the near plane, so that floats are dense far away where depths crowd.
@@ -31,7 +27,8 @@ struct ClipTransform {
 };
 
 /// Fails if the rays are not finite or do not span a picture (no width, height or depth).
-Expected<ClipTransform> clip_transform(const ViewRays& view, const Box& bounds, int width, int height);
+Expected<ClipTransform> clip_transform(const ViewRays& view, const math::Box<float>& bounds, int width,
+                                       int height);
 
 /// The point that pixel (x, y), row 0 at the top, sees at depth `depth` > 0: the paper's reconstruction, as
 /// exact as float depth is: too coarse to do without a bias.

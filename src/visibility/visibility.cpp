@@ -124,7 +124,7 @@ Expected<ClipTransform> checked_transform(const FrameGeometry& geometry, const V
     return base::fail("picture: found {} triangles and {} vertices, expected at most {}",
                       geometry.triangles.size(), geometry.positions.size(), max_items);
   }
-  const Box bounds = view.orthographic ? bounds_of(geometry.positions) : Box{};
+  const math::Box<float> bounds = view.orthographic ? bounds_of(geometry.positions) : math::Box<float>{};
   return clip_transform(view, bounds, width, height);
 }
 

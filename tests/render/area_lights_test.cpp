@@ -10,7 +10,7 @@ namespace {
 using glm::dvec3;
 using glm::vec3;
 
-const render::SceneBox box{dvec3(-1, 0, -1), dvec3(3, 4, 1)};
+const math::Box<double> box{dvec3(-1, 0, -1), dvec3(3, 4, 1)};
 
 void expect_near(const dvec3& found, const dvec3& expected, double slack = 1e-6) {
   for (int i = 0; i < 3; ++i) EXPECT_NEAR(found[i], expected[i], slack) << i;
@@ -96,12 +96,12 @@ TEST(AreaLights, BoxHoldsDrawnTrianglesOnly) {
   FrameGeometry geometry;
   geometry.positions = {{0, 0, 0}, {1, 0, 0}, {0, 2, 0}, {99, 99, 99}};
   geometry.triangles = {{0, 1, 2}, {0, 0, 0}};
-  const render::SceneBox found = render::box_of(geometry);
+  const math::Box<double> found = render::box_of(geometry);
   EXPECT_EQ(found.low, dvec3(0));
   EXPECT_EQ(found.high, dvec3(1, 2, 0));
   geometry.triangles = {{0, 0, 0}};
   EXPECT_TRUE(render::box_of(geometry).empty());
-  EXPECT_EQ(render::box_of(geometry).diagonal_m(), 0.0);
+  EXPECT_EQ(render::box_of(geometry).diagonal(), 0.0);
 }
 
 TEST(AreaLights, CastersInTheLightsPlaneAreLeftOut) {

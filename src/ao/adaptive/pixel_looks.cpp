@@ -29,12 +29,12 @@ void PixelLooks::find_near(const PixelSurfaces& surfaces) {
   parallel::parallel_tasks(tiles_.count(), [&](int tile) {
     std::vector<int>& near = lists[static_cast<std::size_t>(tile)];
     near.clear();
-    PointBox box;
+    math::Box<double> box;
     tiles_.each(tile, 1, [&](int x, int y) {
       const std::size_t i = surfaces.index(x, y);
-      if (surfaces.pixels[i].there()) box.extend(scene_.frame.points.positions[i]);
+      if (surfaces.pixels[i].there()) box.add(scene_.frame.points.positions[i]);
     });
-    if (box.low.x <= box.high.x) scene_.occluders.near(box, near);
+    if (!box.empty()) scene_.occluders.near(box, near);
   });
   std::vector<int>& all = room_.all;
   all.clear();

@@ -32,7 +32,7 @@ private:
   const BvhOrder& order_;
   TriangleBvh tree_;
   std::vector<std::uint32_t> first_;  ///< of each block: where its triangles begin in the order
-  std::vector<BvhBox> block_boxes_;
+  std::vector<math::Box<float>> block_boxes_;
   float largest_coordinate_ = 0;
 };
 
@@ -52,7 +52,7 @@ bool Maker::names_all() {
   parallel::parallel_ranges(triangles_.size(), grain, [&](std::size_t first, std::size_t last) {
     Part& part = parts[first / grain];
     for (std::size_t t = first; t < last; ++t) {
-      BvhBox box;
+      math::Box<float> box;
       const bool holds = bvh_holds(positions_, triangles_[t], box);
       part.all &= holds == (named[t] != 0);
       if (holds) part.largest_coordinate = std::max(part.largest_coordinate, box.largest_coordinate());
@@ -95,7 +95,7 @@ void Maker::fill_blocks() {
       for (std::uint32_t at = first_[b]; at < first_[b + 1]; ++at) {
         const std::uint32_t t = order_.triangles[at];
         set_triangle(block, at - first_[b], t, positions_, triangles_);
-        BvhBox box;
+        math::Box<float> box;
         bvh_holds(positions_, triangles_[t], box);
         block_boxes_[b].add(box);
       }
@@ -106,13 +106,13 @@ void Maker::fill_blocks() {
 /// From the last to the first: children lie behind their node.
 void Maker::fill_nodes() {
   const float margin = bvh_margin(largest_coordinate_);
-  std::vector<BvhBox> boxes(tree_.nodes.size());
+  std::vector<math::Box<float>> boxes(tree_.nodes.size());
   for (std::size_t n = tree_.nodes.size(); n-- > 0;) {
     BvhNode& node = tree_.nodes[n];
     for (std::size_t lane = 0; lane < bvh_width; ++lane) {
       if (order_.children[n * bvh_width + lane] == 0) continue;
       const std::uint32_t child = node.child[lane];
-      const BvhBox& box = (child & bvh_leaf) != 0 ? block_boxes_[child & ~bvh_leaf] : boxes[child];
+      const math::Box<float>& box = (child & bvh_leaf) != 0 ? block_boxes_[child & ~bvh_leaf] : boxes[child];
       set_child(node, lane, child, box, margin);
       boxes[n].add(box);
     }

@@ -10,28 +10,15 @@
 
 namespace tenebra::ao {
 
-struct BvhBox {
-  glm::vec3 low{std::numeric_limits<float>::infinity()};
-  glm::vec3 high{-std::numeric_limits<float>::infinity()};
-
-  void add(const BvhBox& other) {
-    low = glm::min(low, other.low);
-    high = glm::max(high, other.high);
-  }
-  /// Half of its surface, in double: squares of 1e18 stay in range.
-  double area() const {
-    if (!(low.x <= high.x)) return 0;
-    const glm::dvec3 size = glm::dvec3(high) - glm::dvec3(low);
-    return size.x * size.y + size.y * size.z + size.z * size.x;
-  }
-  float largest_coordinate() const {
-    const glm::vec3 size = glm::max(glm::abs(low), glm::abs(high));
-    return std::max({size.x, size.y, size.z});
-  }
-};
+/// Half of a box's surface, in double: squares of 1e18 stay in range.
+inline double half_area(const math::Box<float>& box) {
+  if (box.empty()) return 0;
+  const glm::dvec3 size = glm::dvec3(box.high) - glm::dvec3(box.low);
+  return size.x * size.y + size.y * size.z + size.z * size.x;
+}
 
 /// Whether a tree holds the triangle; then, in `box`, its box.
-inline bool bvh_holds(std::span<const glm::vec3> positions, const glm::uvec3& t, BvhBox& box) {
+inline bool bvh_holds(std::span<const glm::vec3> positions, const glm::uvec3& t, math::Box<float>& box) {
   constexpr float largest_coordinate = 1e18f;
   if (std::max({t.x, t.y, t.z}) >= positions.size()) return false;
   const glm::vec3 a = positions[t.x], b = positions[t.y], c = positions[t.z];
@@ -49,7 +36,8 @@ inline float bvh_margin(float largest_coordinate) {
   return largest_coordinate * 0x1p-21f;
 }
 
-inline void set_child(BvhNode& node, std::size_t lane, std::uint32_t child, const BvhBox& box, float margin) {
+inline void set_child(BvhNode& node, std::size_t lane, std::uint32_t child, const math::Box<float>& box,
+                      float margin) {
   node.child[lane] = child;
   for (int axis = 0; axis < 3; ++axis) {
     node.plane[axis][lane] = box.low[axis] - margin;

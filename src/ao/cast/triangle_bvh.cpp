@@ -19,7 +19,7 @@ constexpr std::uint32_t shared_size = 8192;  ///< items of a node whose children
 constexpr float infinity = std::numeric_limits<float>::infinity();
 
 struct Item {
-  BvhBox box;
+  math::Box<float> box;
   glm::vec3 middle;
   std::uint32_t triangle;
 };
@@ -27,7 +27,7 @@ struct Item {
 /// Items first .. last - 1 and their box.
 struct Range {
   std::uint32_t first, last;
-  BvhBox box;
+  math::Box<float> box;
   std::uint32_t size() const { return last - first; }
 };
 
@@ -49,10 +49,10 @@ public:
 
 private:
   struct Bins {
-    glm::vec3 low{infinity}, high{-infinity};  ///< of the middles
+    math::Box<float> box;  ///< of the middles
     int bin(glm::vec3 middle, int axis) const {
-      const double at = (static_cast<double>(middle[axis]) - low[axis]) /
-                        (static_cast<double>(high[axis]) - low[axis]) * bin_count;
+      const double low = box.low[axis], high = box.high[axis];
+      const double at = (static_cast<double>(middle[axis]) - low) / (high - low) * bin_count;
       return std::clamp(static_cast<int>(at), 0, bin_count - 1);
     }
   };
@@ -86,7 +86,7 @@ void Builder::collect() {
   items_.reserve(triangles_.size());
   float largest_coordinate = 0;
   each(0, triangles_.size(), [&](std::size_t i) {
-    BvhBox box;
+    math::Box<float> box;
     if (!bvh_holds(positions_, triangles_[i], box)) return;
     items_.push_back({box, 0.5f * box.low + 0.5f * box.high, static_cast<std::uint32_t>(i)});
     largest_coordinate = std::max(largest_coordinate, box.largest_coordinate());
@@ -102,18 +102,15 @@ Range Builder::range(std::uint32_t first, std::uint32_t last) const {
 
 Builder::Bins Builder::bins(const Range& range) const {
   Bins bins;
-  each(range.first, range.last, [&](std::size_t i) {
-    bins.low = glm::min(bins.low, items_[i].middle);
-    bins.high = glm::max(bins.high, items_[i].middle);
-  });
+  each(range.first, range.last, [&](std::size_t i) { bins.box.add(items_[i].middle); });
   return bins;
 }
 
 Split Builder::best_split(const Range& range, const Bins& bins) const {
   Split best;
   for (int axis = 0; axis < 3; ++axis) {
-    if (!(bins.low[axis] < bins.high[axis])) continue;
-    std::array<BvhBox, bin_count> boxes;
+    if (!(bins.box.low[axis] < bins.box.high[axis])) continue;
+    std::array<math::Box<float>, bin_count> boxes;
     std::array<std::uint32_t, bin_count> counts{};
     each(range.first, range.last, [&](std::size_t i) {
       const auto bin = static_cast<std::size_t>(bins.bin(items_[i].middle, axis));
@@ -121,10 +118,10 @@ Split Builder::best_split(const Range& range, const Bins& bins) const {
       ++counts[bin];
     });
     std::array<double, bin_count> right{};  // cost of bins i ..
-    BvhBox box;
+    math::Box<float> box;
     std::uint32_t count = 0;
     // Triangles are met eight at a time.
-    const auto cost = [&] { return box.area() * ((count + bvh_width - 1) / bvh_width); };
+    const auto cost = [&] { return half_area(box) * ((count + bvh_width - 1) / bvh_width); };
     for (std::size_t i = bin_count; i-- > 1;) {
       box.add(boxes[i]);
       count += counts[i];
@@ -182,7 +179,8 @@ std::vector<Range> Builder::children_of(const Range& whole, int depth) {
   while (children.size() < bvh_width) {
     auto widest = children.end();
     for (auto child = children.begin(); child != children.end(); ++child)
-      if (child->size() > bvh_width && (widest == children.end() || child->box.area() > widest->box.area()))
+      if (child->size() > bvh_width &&
+          (widest == children.end() || half_area(child->box) > half_area(widest->box)))
         widest = child;
     if (widest == children.end()) break;
     const auto [left, right] = divide(*widest, depth);
@@ -255,8 +253,8 @@ TriangleBvh Builder::build() {
 
 }  // namespace
 
-TriangleBvh::Box TriangleBvh::box() const {
-  Box box;
+math::Box<float> TriangleBvh::box() const {
+  math::Box<float> box;
   if (nodes.empty()) return box;
   for (int axis = 0; axis < 3; ++axis) {
     for (int i = 0; i < bvh_width; ++i) {

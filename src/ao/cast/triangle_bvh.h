@@ -13,6 +13,7 @@
 #include <tenebra/simd_level.h>
 #include <tenebra/stop_flag.h>
 #include "ao/cast/ray_batch.h"
+#include "math/box.h"
 
 namespace tenebra::ao {
 
@@ -39,11 +40,7 @@ struct TriangleBvh {
   std::vector<TriangleBlock> blocks;
   std::size_t triangles = 0;  ///< in the tree: finite ones with an area
 
-  /// Of all triangles; low beyond high: none.
-  struct Box {
-    glm::vec3 low{std::numeric_limits<float>::infinity()}, high{-std::numeric_limits<float>::infinity()};
-  };
-  Box box() const;
+  math::Box<float> box() const;  ///< of all triangles
 
   std::size_t bytes() const { return nodes.size() * sizeof(BvhNode) + blocks.size() * sizeof(TriangleBlock); }
 };

@@ -10,6 +10,7 @@
 
 #include "ao/objects/node_motion.h"
 #include "base/until_stopped.h"
+#include "math/box.h"
 
 namespace tenebra::ao {
 namespace {
@@ -179,10 +180,10 @@ void enclose(ObjectShape& shape, const StopFlag* stop) {
       for (int k = 0; k < 3; ++k) visit(shape.positions[shape.triangles[t][k]]);
     });
   };
-  vec3 low(INFINITY), high(-INFINITY);
-  each_corner([&](const vec3& p) { low = glm::min(low, p), high = glm::max(high, p); });
-  if (!(low.x <= high.x)) return;
-  shape.center = 0.5f * low + 0.5f * high;
+  math::Box<float> box;
+  each_corner([&](const vec3& p) { box.add(p); });
+  if (box.empty()) return;
+  shape.center = 0.5f * box.low + 0.5f * box.high;
   double square = 0;
   each_corner([&](const vec3& p) {
     const dvec3 away = dvec3(p) - dvec3(shape.center);

@@ -53,8 +53,8 @@ void GroupShader::find_own(GroupReport& report) {
 
 /// Leaves those of near_ that some receiver is in reach of, with a row of reached_ each.
 void GroupShader::find_near(GroupReport& report) {
-  PointBox box;
-  for (const Receiver& receiver : receivers_) box.extend(receiver.position);
+  math::Box<double> box;
+  for (const Receiver& receiver : receivers_) box.add(receiver.position);
   occluders_->near(box, near_);
   const std::size_t count = receivers_.size();
   reached_.resize(near_.size() * count);

@@ -25,19 +25,10 @@ std::vector<glm::uvec3> deforming_triangles(const SceneObjects& objects, const F
 
 /// About the middle of their box.
 Sphere sphere_around(std::span<const vec3> positions, std::span<const glm::uvec3> triangles) {
-  dvec3 low(INFINITY), high(-INFINITY);
-  for (const glm::uvec3& t : triangles) {
-    for (int k = 0; k < 3; ++k) {
-      low = glm::min(low, dvec3(positions[t[k]]));
-      high = glm::max(high, dvec3(positions[t[k]]));
-    }
-  }
-  if (!(low.x <= high.x)) return {};
-  return {0.5 * (low + high), 0.5 * glm::length(high - low)};
-}
-
-double distance_to(const PointBox& box, const dvec3& p) {
-  return glm::length(glm::max(dvec3(0.0), glm::max(box.low - p, p - box.high)));
+  math::Box<double> box;
+  for (const glm::uvec3& t : triangles)
+    for (int k = 0; k < 3; ++k) box.add(dvec3(positions[t[k]]));
+  return {box.centre(), 0.5 * box.diagonal()};
 }
 
 /// Sixteen rays moved into the space of an object; distances along them stay the same.
@@ -130,7 +121,7 @@ void Occluders::place(std::size_t index) {
   largest_radius_ = std::max(largest_radius_, placed.sphere.radius);
 }
 
-void Occluders::near(const PointBox& box, std::vector<int>& out) const {
+void Occluders::near(const math::Box<double>& box, std::vector<int>& out) const {
   out.clear();
   const auto first = std::partition_point(by_x_.begin(), by_x_.end(), [&](std::size_t i) {
     return placed_[i].sphere.centre.x < box.low.x - reach_ - largest_radius_;
@@ -138,12 +129,11 @@ void Occluders::near(const PointBox& box, std::vector<int>& out) const {
   for (auto at = first; at != by_x_.end(); ++at) {
     const Sphere& sphere = placed_[*at].sphere;
     if (sphere.centre.x > box.high.x + reach_ + largest_radius_) break;
-    if (distance_to(box, sphere.centre) < sphere.radius + reach_) out.push_back(static_cast<int>(*at));
+    if (box.distance_to(sphere.centre) < sphere.radius + reach_) out.push_back(static_cast<int>(*at));
   }
   std::sort(out.begin(), out.end());
   const auto add = [&](const Sphere& sphere, int occluder) {
-    if (sphere.radius > 0 && distance_to(box, sphere.centre) < sphere.radius + reach_)
-      out.push_back(occluder);
+    if (sphere.radius > 0 && box.distance_to(sphere.centre) < sphere.radius + reach_) out.push_back(occluder);
   };
   add(standing_sphere_, standing);
   add(deforming_sphere_, deforming);
@@ -348,8 +338,7 @@ void Occluders::meet_triangles(int occluder, const Receiver& receiver, const dve
                          ? start_on(objects_->shapes[static_cast<std::size_t>(placed.shape)],
                                     std::max(shape.lift, in_world), receiver)
                          : vec3(object.to_object * glm::dvec4(origin, 1.0));
-  const vec3 off = glm::max(vec3(0.0f), glm::max(shape.box.low - start, start - shape.box.high));
-  const double away = double{glm::length(off)} * object.largest_scale;
+  const double away = double{shape.box.distance_to(start)} * object.largest_scale;
   if (away > reach_ * (1 + 0x1p-18)) return;
   counts.rays_cast += rays.size() * batch_size;
   RayBatch there[fans_at_once];

@@ -21,6 +21,7 @@
 #include "ao/field/shape_fields.h"
 #include "ao/objects/scene_objects.h"
 #include "ao/shade/receivers.h"
+#include "math/box.h"
 
 namespace tenebra::ao {
 
@@ -28,13 +29,6 @@ namespace tenebra::ao {
 struct OccluderCounts {
   std::uint64_t lookups = 0;
   std::uint64_t rays_cast = 0;
-};
-
-/// A box around points, such as the receivers of a tile.
-struct PointBox {
-  glm::dvec3 low{INFINITY};
-  glm::dvec3 high{-INFINITY};
-  void extend(const glm::dvec3& p) { low = glm::min(low, p), high = glm::max(high, p); }
 };
 
 class Occluders {
@@ -58,7 +52,7 @@ public:
 
   /// What may come within the reach of a point in the box: objects in ascending order, then `standing`,
   /// `deforming`.
-  void near(const PointBox& box, std::vector<int>& out) const;
+  void near(const math::Box<double>& box, std::vector<int>& out) const;
   /// How a rigid body hides its own points: by samples of its surface, so that it is no occluder of theirs,
   /// or as any other does.
   enum class Itself { by_samples, counts };
@@ -106,7 +100,7 @@ private:
     std::optional<TriangleBvh> casters;
     bool by_rays = false;
     float lift = 0;  ///< surface_lift(), once there are casters
-    TriangleBvh::Box box;
+    math::Box<float> box;
   };
   struct Placed {
     int shape = -1;

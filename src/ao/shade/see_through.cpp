@@ -9,7 +9,7 @@
 namespace tenebra::ao {
 namespace {
 
-bool apart(const PointBox& a, const PointBox& b, double reach) {
+bool apart(const math::Box<double>& a, const math::Box<double>& b, double reach) {
   for (int k = 0; k < 3; ++k)
     if (a.low[k] > b.high[k] + reach || b.low[k] > a.high[k] + reach) return true;
   return false;
@@ -45,7 +45,7 @@ void SeeThroughOccluders::add_layer(int step, const std::vector<glm::uvec3>& tri
   Layer& layer = layers_.emplace_back();
   layer.opacity = static_cast<float>(step) / opacity_steps;
   for (const glm::uvec3& t : triangles)
-    for (int k = 0; k < 3; ++k) layer.box.extend(glm::dvec3(geometry.positions[t[k]]));
+    for (int k = 0; k < 3; ++k) layer.box.add(glm::dvec3(geometry.positions[t[k]]));
   layer.triangles = std::move(*tree);
 }
 
@@ -62,8 +62,8 @@ void SeeThroughOccluders::darken(const ReceiverSet& set, const PointRays& rays, 
     if (stop_requested(stop)) return;
     Scratch& own = scratch[static_cast<std::size_t>(parallel::thread_index())];
     set.receivers(group, own.receivers);
-    PointBox box;
-    for (const Receiver& receiver : own.receivers) box.extend(receiver.position);
+    math::Box<double> box;
+    for (const Receiver& receiver : own.receivers) box.add(receiver.position);
     own.batches.resize(rays.batches());
     for (const Layer& layer : layers_) {
       if (own.receivers.empty() || apart(box, layer.box, rays.reach())) continue;
@@ -82,8 +82,8 @@ void SeeThroughOccluders::darken(const ReceiverSet& set, const PointRays& rays, 
 float SeeThroughOccluders::left(const glm::dvec3& point, std::span<const RayBatch> rays, int count,
                                 float reach, const AoKernels& kernels, std::span<float> distances,
                                 OccluderCounts& counts) const {
-  PointBox box;
-  box.extend(point);
+  math::Box<double> box;
+  box.add(point);
   float open = 1;
   for (const Layer& layer : layers_) {
     if (apart(box, layer.box, reach)) continue;

@@ -37,7 +37,7 @@ private:
 
   struct Layer {
     float opacity = 0;
-    PointBox box;
+    math::Box<double> box;
     TriangleBvh triangles;
   };
   void add_layer(int step, const std::vector<glm::uvec3>& triangles, const FrameGeometry& geometry,

@@ -4,6 +4,7 @@
 #include <cmath>
 #include <limits>
 
+#include "math/box.h"
 #include "math/expansion.h"
 #include "math/l1_norm.h"
 #include "math/predicates.h"
@@ -24,27 +25,17 @@ using points::Corners;
 constexpr std::size_t triangles_a_range = 4096;
 
 /// Bounds of places, exact: floats and doubles are only compared.
-struct Box {
-  dvec3 low{std::numeric_limits<double>::infinity()};
-  dvec3 high{-std::numeric_limits<double>::infinity()};
+using Box = math::Box<double>;
 
-  void add(const dvec3& p) {
-    low = glm::min(low, p);
-    high = glm::max(high, p);
+bool misses(const Box& box, const Corners& c) {
+  for (int k = 0; k < 3; ++k) {
+    const float a = c.v[0][k], b = c.v[1][k], d = c.v[2][k];
+    if ((a < box.low[k] && b < box.low[k] && d < box.low[k]) ||
+        (a > box.high[k] && b > box.high[k] && d > box.high[k]))
+      return true;
   }
-  void add(const Box& other) {
-    add(other.low);
-    add(other.high);
-  }
-  bool misses(const Corners& c) const {
-    for (int k = 0; k < 3; ++k) {
-      const float a = c.v[0][k], b = c.v[1][k], d = c.v[2][k];
-      if ((a < low[k] && b < low[k] && d < low[k]) || (a > high[k] && b > high[k] && d > high[k]))
-        return true;
-    }
-    return false;
-  }
-};
+  return false;
+}
 
 /// Bounds of the way from a sample to a light.
 Box box_of(const dvec3& point, const RaySource& source) {
@@ -150,7 +141,7 @@ public:
 
   /// Whether triangle `c` blocks the way, exactly. The way then meets the triangle, and so do their boxes.
   bool blocks(const Corners& c, const Way& way) const {
-    if (way.box.misses(c)) return false;
+    if (misses(way.box, c)) return false;
     int edges = 0;  // the sign that the edges have so far; 0: on all of them
     for (int k = 0; k < 3; ++k) {
       const int sign = edge_sign(c, k, way.source);
@@ -270,7 +261,7 @@ std::vector<Sightline> find_sightlines(const Sample& sample, const ViewRays& vie
     for (auto id = static_cast<std::uint32_t>(begin); id < end; ++id) {
       if (!search.casts(id)) continue;
       const Corners c = points::corners_of(triangles, id);
-      if (all.misses(c) || bundle.misses(c)) continue;
+      if (misses(all, c) || bundle.misses(c)) continue;
       for (std::size_t i = 0; i < ways.size(); ++i) {
         if (ways[i].open && search.blocks(c, ways[i])) blockers[i].push_back(id);
       }

@@ -2,9 +2,9 @@
 
 #include <algorithm>
 #include <cmath>
-#include <limits>
 
 #include "base/until_stopped.h"
+#include "math/box.h"
 #include "parallel/parallel.h"
 #include "points/triangle_corners.h"
 #include "shadow/tiles/triangle_clusters.h"
@@ -25,10 +25,11 @@ bool is_finite(const vec3& p) {
 
 /// The longest side of the box around all vertices.
 float extent_of(const TriangleView& t) {
-  vec3 low{std::numeric_limits<float>::infinity()}, high{-std::numeric_limits<float>::infinity()};
+  math::Box<float> box;
   for (const vec3& p : t.positions)
-    if (is_finite(p)) low = glm::min(low, p), high = glm::max(high, p);
-  return std::max({high.x - low.x, high.y - low.y, high.z - low.z});
+    if (is_finite(p)) box.add(p);
+  const vec3 size = box.high - box.low;
+  return std::max({size.x, size.y, size.z});
 }
 
 struct Item {
@@ -50,11 +51,9 @@ void cut_in_halves(std::vector<Item>& items, std::size_t first, std::size_t last
   const std::size_t step = last - first >= 2 * larger ? larger : unit;
   const std::size_t middle = (first + (last - first) / 2 + step / 2) / step * step;
   if (middle <= first || middle >= last) return;
-  vec3 low = items[first].centre, high = low;
-  for (std::size_t i = first; i < last; ++i)
-    low = glm::min(low, items[i].centre), high = glm::max(high, items[i].centre);
-  const vec3 size = high - low;
-  const int axis = size.x >= size.y && size.x >= size.z ? 0 : size.y >= size.z ? 1 : 2;
+  math::Box<float> box;
+  for (std::size_t i = first; i < last; ++i) box.add(items[i].centre);
+  const int axis = box.longest_side();
   const auto at = [&](std::size_t i) { return items.begin() + static_cast<std::ptrdiff_t>(i); };
   std::nth_element(at(first), at(middle), at(last), [axis](const Item& a, const Item& b) {
     return a.centre[axis] != b.centre[axis] ? a.centre[axis] < b.centre[axis] : a.id < b.id;

@@ -2,7 +2,8 @@
 
 #include <algorithm>
 #include <cmath>
-#include <limits>
+
+#include "math/box.h"
 
 namespace tenebra::shadow {
 
@@ -13,17 +14,12 @@ using glm::dvec3;
 constexpr double far_enough = 16;  // times the points' extent
 constexpr double largest_extent = 1e15;
 
-struct Bounds {
-  dvec3 low{std::numeric_limits<double>::infinity()}, high{-std::numeric_limits<double>::infinity()};
-};
-
-Bounds bounds_of(const points::PointTiles& tiles) {
-  Bounds b;
+math::Box<double> bounds_of(const points::PointTiles& tiles) {
+  math::Box<double> b;
   for (const points::PointPatch& patch : tiles.patches) {
     for (const points::PointSquare& square : patch.squares) {
       const dvec3 at(square.base.at[0], square.base.at[1], square.base.at[2]);
-      b.low = glm::min(b.low, at - square.base.reach());
-      b.high = glm::max(b.high, at + square.base.reach());
+      b.add({at - square.base.reach(), at + square.base.reach()});
     }
   }
   return b;
@@ -42,8 +38,8 @@ dvec3 DistantFace::place(const dvec3& p) const {
 }
 
 std::optional<DistantFace> distant_face(const ShadowLight& light, const points::PointTiles& tiles) {
-  Bounds b = bounds_of(tiles);
-  if (!(b.low.x <= b.high.x)) b = {dvec3(0), dvec3(0)};
+  math::Box<double> b = bounds_of(tiles);
+  if (b.empty()) b = {dvec3(0), dvec3(0)};
   DistantFace f;
   f.origin = 0.5 * b.low + 0.5 * b.high;
   const dvec3 origin(f.origin), reach = glm::max(origin - b.low, b.high - origin);

@@ -49,7 +49,7 @@ private:
   static std::uint32_t split(std::span<GroupKey> keys) {
     glm::vec3 low = keys[0].centre, high = low;
     for (const GroupKey& key : keys) low = glm::min(low, key.centre), high = glm::max(high, key.centre);
-    const int axis = PointBox{low, high}.longest_side();
+    const int axis = math::Box<double>{low, high}.longest_side();
     const std::size_t half = keys.size() / 2;
     std::nth_element(
         keys.begin(), keys.begin() + static_cast<std::ptrdiff_t>(half), keys.end(),

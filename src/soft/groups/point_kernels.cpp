@@ -37,8 +37,8 @@ struct Box8 {
     low = {min(low.x, a.x), min(low.y, a.y), min(low.z, a.z)};
     high = {max(high.x, b.x), max(high.y, b.y), max(high.z, b.z)};
   }
-  SIMD_INLINE PointBox box() const {
-    PointBox b;
+  SIMD_INLINE math::Box<double> box() const {
+    math::Box<double> b;
     b.low = {reduce_min(low.x), reduce_min(low.y), reduce_min(low.z)};
     b.high = {reduce_max(high.x), reduce_max(high.y), reduce_max(high.z)};
     return b;
@@ -69,7 +69,7 @@ std::uint64_t in_front(const PointLanes& points, const LightShape& light, std::s
   return set;
 }
 
-PointBox box(const PointLanes& points, PointSet set) {
+math::Box<double> box(const PointLanes& points, PointSet set) {
   Box8 around;
   for (std::size_t i = 0; i < set.size(); ++i) around.add(lanes_of(set, i), eight_at(points, i));
   return around.box();
@@ -125,7 +125,8 @@ SIMD_INLINE Slopes slopes_of(const PointLanes& points, PointSet set, const Vecto
   return {sum_of(x_p) - reduce_add_in_order(x_sum) * mean, sum_of(y_p) - reduce_add_in_order(y_sum) * mean};
 }
 
-Cell fitted_cell(const PointLanes& points, PointSet set, const PointBox& box, const LightShape& light) {
+Cell fitted_cell(const PointLanes& points, PointSet set, const math::Box<double>& box,
+                 const LightShape& light) {
   const dvec3 base = 0.5 * (box.low + box.high);
   auto [r, c] = slopes_of(points, set, broadcast8(base));
   r /= std::sqrt(glm::dot(r, r)), c /= std::sqrt(glm::dot(c, c));
@@ -141,7 +142,7 @@ Cell fitted_cell(const PointLanes& points, PointSet set, const PointBox& box, co
     const Vector8 p = eight_at(points, i) - from;
     around.add(lanes_of(set, i), {dot_unfused(dual_r, p), dot_unfused(dual_c, p), dot_unfused(normal, p)});
   }
-  const PointBox places = around.box();
+  const math::Box<double> places = around.box();
   const dvec3 middle = 0.5 * (places.low + places.high), half = 0.5 * (places.high - places.low);
   const dvec3 size = box.high - box.low;
   Cell cell;

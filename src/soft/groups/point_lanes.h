@@ -3,25 +3,14 @@
 
 #include <cstdint>
 #include <glm/glm.hpp>
-#include <limits>
 #include <span>
 #include <vector>
 
 #include <tenebra/simd_level.h>
+#include "math/box.h"
 #include "soft/groups/cell.h"
 
 namespace tenebra::soft {
-
-struct PointBox {
-  glm::dvec3 low{std::numeric_limits<double>::infinity()}, high{-std::numeric_limits<double>::infinity()};
-
-  void add(const glm::dvec3& p) { low = glm::min(low, p), high = glm::max(high, p); }
-  /// 0, 1 or 2; the first of equals.
-  int longest_side() const {
-    const glm::dvec3 size = high - low;
-    return size.x >= size.y && size.x >= size.z ? 0 : size.y >= size.z ? 1 : 2;
-  }
-};
 
 struct PointLanes {
   std::vector<double> x, y, z;     ///< world space; a multiple of eight of each
@@ -52,7 +41,7 @@ struct PointKernels {
   std::uint64_t (*equal)(const std::uint32_t* values, std::uint32_t value) = nullptr;
   /// Bit k: whether point first + k of 64 may lie in front of the light's plane.
   std::uint64_t (*in_front)(const PointLanes& points, const LightShape& light, std::size_t first) = nullptr;
-  PointBox (*box)(const PointLanes& points, PointSet set) = nullptr;
+  math::Box<double> (*box)(const PointLanes& points, PointSet set) = nullptr;
   /// Bit k: slice k has a point.
   std::uint32_t (*taken)(const PointLanes& points, PointSet set, const Slices& slices) = nullptr;
   /// Bit k: whether point k of 64 lies below the slice `end`.
@@ -60,7 +49,7 @@ struct PointKernels {
   /// A cell around points with the bounds `box`, whose first two axes follow the picture's rows and columns:
   /// for points of one plane it is flat, and little larger than their hull. Falls back to the box where rows
   /// and columns run almost the same way.
-  Cell (*fitted_cell)(const PointLanes& points, PointSet set, const PointBox& box,
+  Cell (*fitted_cell)(const PointLanes& points, PointSet set, const math::Box<double>& box,
                       const LightShape& light) = nullptr;
   /// The least m.(p - light.origin).
   double (*lowest)(const PointLanes& points, PointSet set, const glm::dvec3& m,

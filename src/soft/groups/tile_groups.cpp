@@ -50,7 +50,7 @@ private:
   void load(std::uint32_t left, std::uint32_t top);
   std::uint64_t find_receivers();
   void append_split(std::uint64_t set);
-  void append_group(std::uint64_t set, const PointBox& box);
+  void append_group(std::uint64_t set, const math::Box<double>& box);
   std::uint32_t pixel(std::uint32_t k) const { return first_ + k / tile * width() + k % tile; }
   std::uint32_t width() const { return static_cast<std::uint32_t>(g_.points.width); }
 
@@ -117,7 +117,7 @@ int gap_of(std::uint32_t taken) {
 }
 
 void Tile::append_split(std::uint64_t set) {
-  const PointBox box = g_.kernels.box(lanes_, bytes_of(set));
+  const math::Box<double> box = g_.kernels.box(lanes_, bytes_of(set));
   const int axis = box.longest_side();
   const Slices slices{axis, box.low[axis], Slices::count / (box.high[axis] - box.low[axis])};
   const int gap = std::isfinite(slices.scale) ? gap_of(g_.kernels.taken(lanes_, bytes_of(set), slices)) : 0;
@@ -141,7 +141,7 @@ constexpr auto z_curve = [] {
   return places;
 }();
 
-void Tile::append_group(std::uint64_t set, const PointBox& box) {
+void Tile::append_group(std::uint64_t set, const math::Box<double>& box) {
   PointGroup group;
   group.first = part_.next;
   group.count = static_cast<std::uint32_t>(std::popcount(set));

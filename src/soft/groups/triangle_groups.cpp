@@ -44,7 +44,7 @@ void append_triangle(const Grouping& g, std::span<const std::uint32_t> pixels, c
   }
   group.count = part.next - group.first;
   if (group.count == 0) return;
-  const PointBox box = g.kernels.box(lanes, set);
+  const math::Box<double> box = g.kernels.box(lanes, set);
   group.low = box.low, group.high = box.high;
   group.cell = g.kernels.fitted_cell(lanes, set, box, g.light);
   group.first_receiver = static_cast<std::uint32_t>(part.receivers.size());
