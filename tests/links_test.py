@@ -8,7 +8,7 @@ import pathlib
 import re
 import sys
 
-PAGES = ["README.md", "CONTRIBUTING.md", "CHANGELOG.md", "docs/*.md", "docs/notes/*.md", "scenes/*.md"]
+PAGES = ["README.md", "CONTRIBUTING.md", "CHANGELOG.md", "SECURITY.md", "docs/*.md", "docs/notes/*.md", "scenes/*.md"]
 LINK = re.compile(r"\[[^\]]*\]\(([^()\s]+)\)")
 
 # What a reader looks for, and the file that has it.

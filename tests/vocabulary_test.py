@@ -1,5 +1,6 @@
 #!/usr/bin/env python3
-"""Holds the table of public types in docs/architecture.md to the public headers, both ways.
+"""Holds the table of public types in docs/architecture.md to the public headers, both ways, and each public type to a
+comment that says what it is.
 
 usage: vocabulary_test.py ROOT        (prints a sentence for each difference; exit code 1 if there is one)
 """
@@ -8,7 +9,8 @@ import re
 import sys
 
 HEADING = "### Public types"
-ENTRY = re.compile(r"\| \[`([\w:]+)`\]\(\.\./include/tenebra/([\w.]+)\) \| (.*?) \|")
+ENTRY = re.compile(r"\| \[[\w.]+\]\(\.\./include/tenebra/([\w.]+)\) \| (.*?) \| (.*?) \|")
+DECLARATION = r"^(?:template\b.*\n)?\s*(?:struct|class|enum(?:\s+class)?|using)\s+(?:alignas\([^)]*\)\s*)?{}\b[^;]*?[{{=]"
 TOKEN = re.compile(r"\b(?:struct|class|enum(?:\s+class)?)\s+(?:alignas\([^)]*\)\s*)?(\w+)[^;{()]*\{"
                    r"|\bnamespace\s+([\w:]*)\s*\{|\busing\s+(\w+)\s*=|\b(public|private|protected):|([{}])")
 
@@ -58,14 +60,24 @@ def public_types(text):
 
 
 def entries(page):
-    """(type, header, what it is) of each row below the heading, up to the next heading."""
+    """(type, header, what the header is about) of each type in the rows below the heading, up to the next heading."""
     table = page.split(HEADING, 1)[1].split("\n#", 1)[0]
-    return ENTRY.findall(table)
+    return [(name, header, what) for header, what, types in ENTRY.findall(table) for name in re.findall(r"`([\w:]+)`", types)]
+
+
+def is_explained(name, text):
+    """Whether `///` stands above the type's declaration, or `///<` behind it."""
+    for found in re.finditer(DECLARATION.format(name.split("::")[-1]), text, flags=re.M):
+        above = text[:found.start()].rstrip("\n").rpartition("\n")[2].strip()
+        behind = text[found.start():].lstrip("\n").partition("\n")[0]
+        if above.startswith("///") or "///<" in behind:
+            return True
+    return False
 
 
 def differences(root):
-    declared = {(name, header.name) for header in sorted((root / "include/tenebra").glob("*.h"))
-                for name in public_types(header.read_text(encoding="utf-8"))}
+    texts = {header.name: header.read_text(encoding="utf-8") for header in sorted((root / "include/tenebra").glob("*.h"))}
+    declared = {(name, header) for header, text in texts.items() for name in public_types(text)}
     page = (root / "docs/architecture.md").read_text(encoding="utf-8")
     if HEADING not in page:
         yield f"docs/architecture.md: found no heading '{HEADING}', expected the table of public types below it"
@@ -73,14 +85,16 @@ def differences(root):
     listed = entries(page)
     named = [(name, header) for name, header, _ in listed]
     for name, header in sorted(declared - set(named)):
-        yield f"include/tenebra/{header}: {name} has no entry in docs/architecture.md, expected one under Public types"
+        yield f"include/tenebra/{header}: {name} has no entry in docs/architecture.md, expected one in the header's row under Public types"
     for name, header in sorted(set(named) - declared):
         yield f"docs/architecture.md: found an entry for {name}, which include/tenebra/{header} does not declare"
     for name, header in sorted({entry for entry in named if named.count(entry) > 1}):
         yield f"docs/architecture.md: found several entries for {name} of {header}, expected one"
-    for name, _, what in listed:
-        if not what.strip():
-            yield f"docs/architecture.md: the entry for {name} does not say what it is"
+    for header in sorted({header for _, header, what in listed if not what.strip()}):
+        yield f"docs/architecture.md: the row of {header} does not say what it is about"
+    for name, header in sorted(declared):
+        if not is_explained(name, texts[header]):
+            yield f"include/tenebra/{header}: {name} has no comment (///), expected one that says what it is"
     if not declared:
         yield "include/tenebra: found no type at all, expected the public ones: is this the root of the project?"
 
@@ -97,6 +111,8 @@ def check_itself():
     expected = ["Kind", "Outer", "Outer::Inner", "Box", "Box::Seen", "Alias", "Maybe"]
     found = public_types(text)
     assert found == expected, f"found {found}, expected {expected}"
+    explained = "/// What it is.\nstruct A {};\nenum class B { a };  ///< what it is\n// No.\nstruct C {};\nclass D;\n"
+    assert [is_explained(name, explained) for name in "ABCD"] == [True, True, False, False]
 
 
 def main():

@@ -86,14 +86,6 @@ Rows race_rows(const SoftFindings& found) {
   return rows;
 }
 
-Rows growth_rows(const std::vector<GrowthRow>& growth, const char* what) {
-  Rows rows{{what, "s", "M nodes", "trees MB"}};
-  for (const GrowthRow& row : growth)
-    rows.push_back({fmt::format("{:g}", row.count), fmt::format("{:.2f}", row.cost.ms / 1000),
-                    fmt::format("{:.2f}", row.cost.nodes / 1e6), fmt::format("{:.2f}", row.cost.bytes / mb)});
-  return rows;
-}
-
 void add_growth(const std::string& name, const std::string& title, const char* x,
                 const std::vector<GrowthRow>& growth, PaperSection& section) {
   Curve time{"seconds", {}}, memory{"MB", {}};
@@ -156,10 +148,6 @@ PaperSection soft_section_of(const ViewChoice& choice, const SoftFindings& found
   section.claims = soft_claims(found);
   section.tables = {{"Figure 7", race_rows(found)},
                     {"Figure 8: cost, and what coherence and order are worth", cost_rows(found)}};
-  if (!found.growth_view.empty()) {
-    section.tables.emplace_back("Figure 9, " + found.growth_view, growth_rows(found.areas, "area"));
-    section.tables.emplace_back("Figure 10, " + found.growth_view, growth_rows(found.lights, "lights"));
-  }
   add_soft_plots_of(found, section);
   return section;
 }

@@ -22,34 +22,101 @@ std::vector<const TradeTable*> tables_of(const TradeSession& session, const std:
   return tables;
 }
 
-/// "12.5 / **6.4** · 3.1 · 54", times and errors `first` to `last`; bold on the front.
-std::string cell(const TradePoint& p, std::size_t first, std::size_t last, bool with_time) {
+/// "12.5 / **6.4** · 3.1 · 54", times and the first `errors` errors; bold on the front.
+std::string cell(const TradePoint& p, std::size_t errors) {
   std::string text;
-  for (std::size_t i = 0; with_time && i < p.times.size(); ++i)
+  for (std::size_t i = 0; i < p.times.size(); ++i)
     text += fmt::format("{0}{1}{2}{1}", i == 0 ? "" : " / ", p.times[i].front ? "**" : "",
                         short_number(p.times[i].ms));
-  for (std::size_t i = first; i < last; ++i) text += (text.empty() ? "" : " · ") + short_number(p.errors[i]);
+  for (std::size_t i = 0; i < errors; ++i) text += " · " + short_number(p.errors[i]);
   return text;
 }
 
-/// Settings down, views across.
-std::string settings_table(const std::vector<const TradeTable*>& tables, std::size_t first, std::size_t last,
-                           bool with_time) {
+/// A row of a table: a setting, or all of a family.
+struct SettingRow {
+  std::string name;
+  bool family = false;
+};
+
+bool is_ours(const TradePoint& p) {
+  return !p.family.starts_with("Embree") && !p.family.starts_with("shafts") && p.family != "shadow map";
+}
+
+/// A family of several settings, none of them on a front, is one row; of Embree and shadow maps the settings
+/// on no front are left out.
+std::vector<SettingRow> setting_rows(const std::vector<const TradeTable*>& tables) {
+  struct Setting {
+    const TradePoint* point;
+    bool front;
+  };
+  std::vector<Setting> settings;
+  for (const TradeTable* table : tables) {
+    for (const TradePoint& p : table->points) {
+      const bool front =
+          std::any_of(p.times.begin(), p.times.end(), [](const TradeTime& time) { return time.front; });
+      const auto same = std::find_if(settings.begin(), settings.end(),
+                                     [&](const Setting& s) { return s.point->name() == p.name(); });
+      if (same == settings.end())
+        settings.push_back({&p, front});
+      else
+        same->front |= front;
+    }
+  }
+  std::vector<SettingRow> rows;
+  for (const Setting& s : settings) {
+    const auto alike = [&](const Setting& other) { return other.point->family == s.point->family; };
+    const bool some_front = std::any_of(settings.begin(), settings.end(),
+                                        [&](const Setting& other) { return alike(other) && other.front; });
+    const bool several = std::count_if(settings.begin(), settings.end(), alike) > (is_ours(*s.point) ? 2 : 1);
+    if (!some_front && several) {
+      const auto listed = [&](const SettingRow& row) { return row.family && row.name == s.point->family; };
+      if (std::none_of(rows.begin(), rows.end(), listed)) rows.push_back({s.point->family, true});
+    } else if (s.front || is_ours(*s.point) || !some_front) {
+      rows.push_back({s.point->name()});
+    }
+  }
+  return rows;
+}
+
+/// "12.5 to 31.0", or one number where both are the same.
+std::string range_text(std::vector<double> values) {
+  const auto [least, most] = std::minmax_element(values.begin(), values.end());
+  const std::string from = short_number(*least), to = short_number(*most);
+  return from == to ? from : from + " to " + to;
+}
+
+/// Times on each number of threads and the first `errors` errors of all settings of a family, from the least.
+std::string family_cell(const TradeTable& table, const std::string& family, std::size_t errors) {
+  std::vector<std::vector<double>> times, wrong(errors);
+  for (const TradePoint& p : table.points) {
+    if (p.family != family) continue;
+    times.resize(p.times.size());
+    for (std::size_t i = 0; i < p.times.size(); ++i) times[i].push_back(p.times[i].ms);
+    for (std::size_t i = 0; i < errors; ++i) wrong[i].push_back(p.errors[i]);
+  }
+  std::string text;
+  for (const auto& values : times) text += (text.empty() ? "" : " / ") + range_text(values);
+  for (const auto& values : wrong)
+    if (!values.empty()) text += " · " + range_text(values);
+  return text;
+}
+
+/// Settings down, views across: times and the first `errors` errors.
+std::string settings_table(const std::vector<const TradeTable*>& tables, std::size_t errors) {
   std::string text = "| setting |", rule = "|---|";
-  std::vector<std::string> names;
   for (const TradeTable* table : tables) {
     text += fmt::format(" {} |", table->view);
     rule += "---|";
-    for (const TradePoint& p : table->points) {
-      if (std::find(names.begin(), names.end(), p.name()) == names.end()) names.push_back(p.name());
-    }
   }
   text += "\n" + rule + "\n";
-  for (const std::string& name : names) {
-    text += fmt::format("| {} |", name);
+  for (const SettingRow& row : setting_rows(tables)) {
+    text += fmt::format("| {} |", row.name);
     for (const TradeTable* table : tables) {
-      const TradePoint* p = table->find(name);
-      text += p == nullptr ? " |" : fmt::format(" {} |", cell(*p, first, last, with_time));
+      const TradePoint* p = row.family ? nullptr : table->find(row.name);
+      const std::string of_view = row.family     ? family_cell(*table, row.name, errors)
+                                  : p == nullptr ? ""
+                                                 : cell(*p, errors);
+      text += of_view.empty() ? " |" : fmt::format(" {} |", of_view);
     }
     text += "\n";
   }
@@ -140,14 +207,15 @@ std::string head() {
          "A setting is on the **Pareto front** of a view, its time bold, if on so many threads no other "
          "is both as fast and as exact and better in one of the two. Plots and the sentences beside them "
          "are of one thread; in the plots the front is dashed and its settings are ringed. Embree's rays "
-         "are given for comparison; they are not a setting of Tenebra. RMS: root of the mean square. "
+         "are given for comparison; they are not a setting of Tenebra. Of them and of shadow maps only "
+         "settings on a front are listed; a family none of whose settings is on a front stands in one row, "
+         "from its least to its most. RMS: root of the mean square. "
          "Penumbra, shaft and other words: [vocabulary](architecture.md#vocabulary).\n\n";
 }
 
 std::string hard_section(const TradeSession& session, const std::vector<const TradeTable*>& tables) {
   return "## Hard shadows\n\n" + measured_by(session, "hard") + plots(tables) + hard_advice(tables) +
-         "\nTime (visible points included) · wrong pixels:\n\n" + settings_table(tables, 0, 1, true) +
-         memory_intro +
+         "\nTime (visible points included) · wrong pixels:\n\n" + settings_table(tables, 1) + memory_intro +
          "the visible points; of shadow maps without what the rasteriser takes beside them, of Embree "
          "without its points in floats.\n\n" +
          memory_table(tables) +
@@ -156,15 +224,13 @@ std::string hard_section(const TradeSession& session, const std::vector<const Tr
          "cubes, of a sun one map over the whole scene, drawn by Tenebra's own rasteriser, on this "
          "machine on the CPU and with ids and normals beside the depth; the bias (constant and "
          "slope-scaled, in widths of a texel) is the best of many for this view, chosen with the exact "
-         "mask, which a user does not have. Tenebra offers no tracing at half resolution.\n\n" +
-         remarks(tables);
+         "mask, which a user does not have. Tenebra offers no tracing at half resolution.\n\n";
 }
 
 std::string soft_section(const TradeSession& session, const std::vector<const TradeTable*>& tables) {
   return "## Soft shadows\n\n" + measured_by(session, "soft") + plots(tables) + soft_advice(tables) + "\n" +
          crops(tables) + "Time · RMS error over the penumbra · its worst pixel, in 1/255 of white:\n\n" +
-         settings_table(tables, 0, 2, true) + "The same over the whole picture: RMS · worst pixel:\n\n" +
-         settings_table(tables, 2, 4, false) + memory_intro +
+         settings_table(tables, 2) + memory_intro +
          "without the visible points; of Embree with its tree and the starts of its rays.\n\n" +
          memory_table(tables) +
          "Pictures of 1280x720, with `--quick` 960x540; a light of 4 % of the scene's diagonal, the court "
@@ -180,7 +246,7 @@ std::string ao_section(const TradeSession& session, const std::vector<const Trad
   return "## Ambient occlusion\n\n" + measured_by(session, "ao") + plots(tables) + ao_advice(tables) + "\n" +
          crops(tables) +
          "Time of a frame whose fields and samples exist · RMS error · worst pixel, in 1/255:\n\n" +
-         settings_table(tables, 0, 2, true) + memory_intro +
+         settings_table(tables, 2) + memory_intro +
          "the fields and samples, which are made on all threads; without the visible points; of Embree "
          "with its tree and the points as it reads them.\n\n" +
          memory_table(tables) +

@@ -3,70 +3,60 @@
 #include <fmt/core.h>
 
 #include <algorithm>
+#include <map>
+#include <set>
 
 namespace tenebra::bench {
 namespace {
 
-/// The rows of one stage on one view: one for each number of threads.
+/// What was measured of one stage: a row for each view and number of threads.
 template <class Row>
-using Group = std::vector<const Row*>;
+struct StageRows {
+  std::vector<const Row*> rows;
+
+  const Row& first() const { return *rows.front(); }
+  std::size_t views() const {
+    std::set<std::string> names;
+    for (const Row* row : rows) names.insert(row->view);
+    return names.size();
+  }
+  bool all_same() const {
+    return std::all_of(rows.begin(), rows.end(), [](const Row* row) { return row->same.value_or(true); });
+  }
+};
 
 /// In the order of their first rows.
 template <class Row>
-std::vector<Group<Row>> grouped(const std::vector<Row>& rows) {
-  std::vector<Group<Row>> groups;
+std::vector<StageRows<Row>> by_stage(const std::vector<Row>& rows) {
+  std::vector<StageRows<Row>> stages;
   for (const Row& row : rows) {
-    const auto same = std::find_if(groups.begin(), groups.end(), [&](const Group<Row>& group) {
-      return group.front()->stage == row.stage && group.front()->view == row.view;
+    const auto same = std::find_if(stages.begin(), stages.end(), [&](const StageRows<Row>& stage) {
+      return stage.first().stage == row.stage;
     });
-    (same == groups.end() ? groups.emplace_back() : *same).push_back(&row);
+    (same == stages.end() ? stages.emplace_back() : *same).rows.push_back(&row);
   }
-  return groups;
+  return stages;
 }
 
-/// "9.06 / 5.21": of each number of threads.
-template <class Row, class Text>
-std::string each(const Group<Row>& group, const Text& text) {
-  std::string all;
-  for (const Row* row : group) all += (all.empty() ? "" : " / ") + text(*row);
+/// The ratios of two times over the views, by the number of threads; rows without times are left out.
+template <class Row>
+std::map<int, std::vector<double>> ratios(const StageRows<Row>& stage, double Row::*over,
+                                          double Row::*under) {
+  std::map<int, std::vector<double>> all;
+  for (const Row* row : stage.rows)
+    if (row->*under > 0) all[row->threads].push_back(row->*over / row->*under);
   return all;
 }
 
-/// How long the frame takes without each stage, over all views.
-std::string stages_summary(const std::vector<StageRow>& stages) {
-  struct Ratios {
-    std::string stage;
-    int threads;
-    std::vector<double> values;
-  };
-  std::vector<Ratios> all;
-  for (const StageRow& s : stages) {
-    auto of = std::find_if(all.begin(), all.end(),
-                           [&](const Ratios& r) { return r.stage == s.stage && r.threads == s.threads; });
-    if (of == all.end()) of = all.insert(of, {s.stage, s.threads, {}});
-    of->values.push_back(s.without_ms / s.ms);
-  }
-  std::string text =
-      "| stage | threads | time without it over time with it | saves a twentieth or more on |\n"
-      "|---|---|---|---|\n";
-  for (const auto& [stage, threads, values] : all) {
+/// "1.16 to 1.36 / 1.15 to 1.50": least and most on each number of threads.
+std::string ranges(const std::map<int, std::vector<double>>& ratios) {
+  std::string text;
+  for (const auto& [threads, values] : ratios) {
     const auto [least, most] = std::minmax_element(values.begin(), values.end());
-    text += fmt::format("| {} | {} | {:.2f} to {:.2f} | {} of {} views |\n", stage, threads, *least, *most,
-                        std::count_if(values.begin(), values.end(), [](double r) { return r >= 1.05; }),
-                        values.size());
+    const std::string from = short_number(*least), to = short_number(*most);
+    text += (text.empty() ? "" : " / ") + (from == to ? from : from + " to " + to);
   }
-  return text + "\n";
-}
-
-/// Bold where the stage makes the frame a twentieth quicker or slower.
-std::string without_text(const StageRow& s) {
-  const bool matters = s.without_ms > 1.05 * s.ms || s.without_ms < 0.95 * s.ms;
-  return fmt::format("{0}{1}{0}", matters ? "**" : "", short_number(s.without_ms));
-}
-
-template <class Row>
-bool all_same(const Group<Row>& group) {
-  return std::all_of(group.begin(), group.end(), [](const Row* row) { return row->same.value_or(true); });
+  return text;
 }
 
 }  // namespace
@@ -74,49 +64,46 @@ bool all_same(const Group<Row>& group) {
 std::string stages_section(const std::string& measured_by, const std::vector<StageRow>& stages) {
   std::string text =
       fmt::format("## {}\n\n{}", stages_title, measured_by) +
-      "With `--quick` 256x256 pixels, else 1024x1024. Whole frames by the program's renderer, hard "
-      "shadows unless the row says otherwise: as it draws them, and with this stage alone switched off or "
-      "done in full. Times of one thread / of all. MB: what the renderer and its frames hold at most, on "
-      "one thread. Same bits: of the picture, where that is promised. knot: a mesh that stands still, "
-      "without a light or texture of its own.\n\n" +
-      stages_summary(stages) +
-      "Early accept and the second pass run only in the paper's variants that are named after them. Bold: "
-      "more than 5 % slower or quicker without.\n\n"
-      "| stage | view | ms | without | MB | without | same bits |\n"
-      "|---|---|---|---|---|---|---|\n";
-  for (const Group<StageRow>& group : grouped(stages)) {
-    const StageRow& s = *group.front();
-    text += fmt::format("| {} | {} | {} | {} | {:.0f} | {:.0f} | {} |\n", s.stage, s.view,
-                        each(group, [](const StageRow& row) { return short_number(row.ms); }),
-                        each(group, without_text), s.mb, s.without_mb,
-                        s.same ? all_same(group) ? "yes" : "NOT the same bits" : "not promised");
+      "With `--quick` 256x256 pixels, else 1024x1024. Whole frames by the program's renderer, hard shadows "
+      "unless the row says otherwise: the time with this stage alone switched off or done in full, over the "
+      "time of the frame as it is drawn, on one thread / on all, least and most of the views (one is a mesh "
+      "that stands still, without a light or texture of its own). Same bits: of the picture, where that is "
+      "promised. `--csv` has the single views, with their memory.\n\n"
+      "| stage | time without it over time with it | saves a twentieth or more on | same bits |\n"
+      "|---|---|---|---|\n";
+  for (const StageRows<StageRow>& stage : by_stage(stages)) {
+    const auto all = ratios(stage, &StageRow::without_ms, &StageRow::ms);
+    const auto& of_one = all.begin()->second;
+    text += fmt::format("| {} | {} | {} of {} views | {} |\n", stage.first().stage, ranges(all),
+                        std::count_if(of_one.begin(), of_one.end(), [](double r) { return r >= 1.05; }),
+                        stage.views(),
+                        !stage.all_same()     ? "NOT the same bits"
+                        : !stage.first().same ? "not promised"
+                                              : "yes");
   }
-  return text + "\n";
+  return text +
+         "\n"
+         "Early accept and the second pass run only in the paper's variants that are named after them.\n\n";
 }
 
 std::string needs_section(const std::string& measured_by, const std::vector<NeedRow>& needs) {
   std::string text =
       fmt::format("## {}\n\n{}", needs_title, measured_by) +
-      "The cost of stages that do only what the frame needs, and what they would cost if they did all of "
-      "it. Times of one thread / of all. Where both were run, both gave the same bits, or the row says "
-      "that they did not; rows without times only count. (Behind shafts only the dark points are "
-      "compared: at the others rays are as noisy as without.) Tests check the same: "
-      "`tests/render/needs_test.cpp`.\n\n"
-      "| stage | view | ms | all, ms | what is left |\n"
-      "|---|---|---|---|---|\n";
-  for (const Group<NeedRow>& group : grouped(needs)) {
-    const NeedRow& n = *group.front();
-    const bool timed = n.all_ms > 0;
-    text +=
-        fmt::format("| {} | {} | {} | {} | {}{} |\n", n.stage, n.view,
-                    timed ? each(group, [](const NeedRow& row) { return short_number(row.with_ms); }) : "",
-                    timed ? each(group, [](const NeedRow& row) { return short_number(row.all_ms); }) : "",
-                    n.shrunk, all_same(group) ? "" : " (NOT the same bits)");
+      "The time of stages that do only what the frame needs, over what they would take if they did all of "
+      "it, on one thread / on all, least and most of the views; and what is left on one of them. Where both "
+      "were run, both gave the same bits, or the row says that they did not; rows without times only count. "
+      "(Behind shafts only the dark points are compared: at the others rays are as noisy as without.) Tests "
+      "check the same: `tests/render/needs_test.cpp`.\n\n"
+      "| stage | time over that of all of it | what is left |\n"
+      "|---|---|---|\n";
+  for (const StageRows<NeedRow>& stage : by_stage(needs)) {
+    text += fmt::format("| {} | {} | {}: {}{} |\n", stage.first().stage,
+                        ranges(ratios(stage, &NeedRow::with_ms, &NeedRow::all_ms)), stage.first().view,
+                        stage.first().shrunk, stage.all_same() ? "" : " (NOT the same bits)");
   }
   return text +
          "\n"
-         "Where `ms` is not below `all`, the stage saves nothing on that view. Boxes, order, tiles, "
-         "fields and whole frames are timed by the clock.\n";
+         "Boxes, order, tiles, fields and whole frames are timed by the clock.\n";
 }
 
 }  // namespace tenebra::bench
