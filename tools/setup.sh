@@ -40,16 +40,29 @@ as_root() {
   if ((EUID == 0)); then "$@"; else sudo "$@"; fi
 }
 
+# Another program, such as unattended upgrades, may hold apt's locks for minutes: waits for up to ten.
+update_lists() {
+  local said tries
+  for ((tries = 0; tries < 60; ++tries)); do
+    said=$(as_root env LC_ALL=C apt-get update -qq 2>&1) && return
+    [[ $said == *"Could not get lock"* || $said == *"Unable to lock"* ]] || break
+    ((tries > 0)) || echo "Waiting for another program that uses apt" >&2
+    sleep 10
+  done
+  echo "$said" >&2
+  return 1
+}
+
 missing=()
 for package in "${packages[@]}"; do
   installed "$package" || missing+=("$package")
 done
-((${#missing[@]} == 0)) || as_root apt-get update -qq
+((${#missing[@]} == 0)) || update_lists
 for package in "${where_known[@]}"; do
   if ! installed "$package" && apt-cache show "$package" &> /dev/null; then missing+=("$package"); fi
 done
 if ((${#missing[@]})); then
   echo "Installing ${missing[*]}"
   as_root env DEBIAN_FRONTEND=noninteractive \
-    apt-get install -y -qq --no-install-recommends "${missing[@]}" > /dev/null
+    apt-get -o DPkg::Lock::Timeout=600 install -y -qq --no-install-recommends "${missing[@]}" > /dev/null
 fi
